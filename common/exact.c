@@ -1,0 +1,140 @@
+/* exact.c - plane waves with one decay rate; averages by products of sinc. See exact.h.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "exact.h"
+
+#include <math.h>
+
+static void set_mode(struct exact *e, int m, double kx, double ky, double A, double s)
+{
+    e->k[m][0] = kx;
+    e->k[m][1] = ky;
+    e->A[m] = A;
+    e->s[m] = s;
+    e->K2 = kx * kx + ky * ky;
+}
+
+struct exact exact_create(const struct scene *s)
+{
+    struct exact e = {.dim = s->domain.dim, .nu = s->fluid.nu, .rho = s->fluid.rho, .U = s->initial.U};
+    const double k = 2.0 * M_PI / s->initial.L, U = s->initial.U;
+    for (int a = 0; a < 3; a++)
+        e.V[a] = s->initial.field == FIELD_REST ? 0.0 : s->initial.velocity[a];
+    if (s->initial.field == FIELD_TAYLOR_GREEN) { /* psi = U/k sin kx sin ky */
+        e.n = 2;
+        set_mode(&e, 0, k, -k, 0.5 * U / k, 0.0);
+        set_mode(&e, 1, k, k, -0.5 * U / k, 0.0);
+    } else if (s->initial.field == FIELD_TWO_MODES) { /* largest speed of the modes about U */
+        e.n = 2;
+        set_mode(&e, 0, k, 2.0 * k, 0.45 * U * s->initial.L / (3.0 * M_PI), 0.0);
+        set_mode(&e, 1, -2.0 * k, k, 0.55 * U * s->initial.L / (3.0 * M_PI), 0.0);
+    }
+    return e;
+}
+
+/* Average of cos(k.x) over a box is cos(k.xc) times this, for each side. */
+static double sinc(double a)
+{
+    return fabs(a) < 1e-4 ? 1.0 - a * a / 6.0 : sin(a) / a;
+}
+
+static double filter(double kx, double ky, const double *h)
+{
+    return sinc(0.5 * kx * h[0]) * sinc(0.5 * ky * h[1]);
+}
+
+/* p/rho = -1/4 sum_mn A_m A_n [(k_m.k_n + K^2) cos(a-b) + (K^2 - k_m.k_n) cos(a+b)] less m = n of the
+ * first term, which is the mean; a, b the phases of m, n. */
+static double pressure(const struct exact *e, const double *c, const double *h)
+{
+    double p = 0.0;
+    for (int m = 0; m < e->n; m++)
+        for (int n = 0; n < e->n; n++) {
+            const double *km = e->k[m], *kn = e->k[n];
+            const double kk = km[0] * kn[0] + km[1] * kn[1], AA = e->A[m] * e->A[n];
+            if (m != n)
+                p -= 0.25 * AA * (kk + e->K2) * cos(c[m] - c[n]) *
+                     filter(km[0] - kn[0], km[1] - kn[1], h);
+            p -= 0.25 * AA * (e->K2 - kk) * cos(c[m] + c[n]) *
+                 filter(km[0] + kn[0], km[1] + kn[1], h);
+        }
+    return e->rho * p;
+}
+
+void exact_average(const struct exact *e, const double *x, const double *h, double t, double *u,
+                   double *p, double *w)
+{
+    const double d = exp(-e->nu * e->K2 * t);
+    double c[2], v[3] = {e->V[0], e->V[1], e->V[2]}, vort = 0.0;
+    for (int m = 0; m < e->n; m++) {
+        const double *k = e->k[m];
+        c[m] = k[0] * (x[0] - e->V[0] * t) + k[1] * (x[1] - e->V[1] * t) + e->s[m];
+        const double A = e->A[m] * d * filter(k[0], k[1], h), s = sin(c[m]);
+        v[0] -= A * k[1] * s;
+        v[1] += A * k[0] * s;
+        vort += A * e->K2 * cos(c[m]);
+    }
+    for (int a = 0; u && a < 3; a++)
+        u[a] = v[a];
+    if (p)
+        *p = d * d * pressure(e, c, h);
+    if (w)
+        *w = vort;
+}
+
+void exact_point(const struct exact *e, const double *x, double t, double *u, double *p, double *w)
+{
+    const double h[3] = {0.0, 0.0, 0.0};
+    exact_average(e, x, h, t, u, p, w);
+}
+
+void exact_face(const struct exact *e, const double *x, const double *h, int a, double t, double *u)
+{
+    double side[3] = {h[0], h[1], h[2]};
+    side[a] = 0.0;
+    exact_average(e, x, side, t, u, NULL, NULL);
+}
+
+void exact_gradient(const struct exact *e, const double *x, double t, double g[3][3])
+{
+    const double d = exp(-e->nu * e->K2 * t);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++)
+            g[a][b] = 0.0;
+    for (int m = 0; m < e->n; m++) {
+        const double *k = e->k[m];
+        const double C = e->A[m] * d *
+                         cos(k[0] * (x[0] - e->V[0] * t) + k[1] * (x[1] - e->V[1] * t) + e->s[m]);
+        for (int b = 0; b < 2; b++) {
+            g[0][b] -= C * k[1] * k[b];
+            g[1][b] += C * k[0] * k[b];
+        }
+    }
+}
+
+void norm_add(struct norm *n, double w, double e, double ref)
+{
+    n->vol += w;
+    n->e1 += w * e;
+    n->e2 += w * e * e;
+    n->r2 += w * ref * ref;
+    if (fabs(e) > n->emax)
+        n->emax = fabs(e);
+}
+
+void norm_reduce(struct norm *n, int count, MPI_Comm comm)
+{
+    for (int i = 0; i < count; i++) {
+        MPI_Allreduce(MPI_IN_PLACE, &n[i].vol, 4, MPI_DOUBLE, MPI_SUM, comm);
+        MPI_Allreduce(MPI_IN_PLACE, &n[i].emax, 1, MPI_DOUBLE, MPI_MAX, comm);
+    }
+}
+
+double norm_relative_l2(const struct norm *n) { return n->r2 > 0.0 ? sqrt(n->e2 / n->r2) : 0.0; }
+double norm_rms(const struct norm *n) { return n->vol > 0.0 ? sqrt(n->e2 / n->vol) : 0.0; }
+double norm_mean(const struct norm *n) { return n->vol > 0.0 ? n->e1 / n->vol : 0.0; }
+
+double norm_rms_mean_free(const struct norm *n)
+{
+    const double m = norm_mean(n);
+    return n->vol > 0.0 ? sqrt(fmax(n->e2 / n->vol - m * m, 0.0)) : 0.0;
+}

@@ -1,0 +1,49 @@
+/* exact.h - exact solutions that start a run and measure its error.
+ * All are sums of plane waves with one decay rate, carried by a uniform velocity V:
+ *   psi = sum A_m cos(k_m.(x - V t) + s_m) exp(-nu K^2 t),  u = V + (dpsi/dy, -dpsi/dx),
+ *   p/rho = -(|u - V|^2 + K^2 psi^2)/2 less its mean,  |k_m| = K for every m,
+ * an exact solution of Navier-Stokes since all modes have the same |k|. Taylor-Green (Chiron 2017,
+ * eqs. 6.15-6.18) is the sum of k = 2 pi/L (1,-1) and (1,1); two_modes is (1,2) and (-2,1).
+ * In 3D the field is the same for all z. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_EXACT_H
+#define COMMON_EXACT_H
+
+#include "scene.h"
+
+struct exact {
+    int dim;
+    int n;         /* modes; 0: rest or uniform flow */
+    double k[2][2], A[2], s[2]; /* wave vectors 1/m, amplitudes m^2/s, phases */
+    double K2;     /* 1/m^2 */
+    double V[3];   /* m/s */
+    double nu, rho;
+    double U;      /* m/s: scale of velocity */
+};
+
+struct exact exact_create(const struct scene *s);
+/* u[3], p (mean 0), vorticity dv/dx - du/dy at x[3], t; pointers may be NULL. */
+void exact_point(const struct exact *e, const double *x, double t, double *u, double *p, double *w);
+/* The same averaged over the cell of centre x and sides h[2] (z does not matter). */
+void exact_average(const struct exact *e, const double *x, const double *h, double t, double *u,
+                   double *p, double *w);
+/* u averaged over the face of centre x, normal along axis `a' (0, 1, 2), sides h. */
+void exact_face(const struct exact *e, const double *x, const double *h, int a, double t, double *u);
+/* du/dx: g[a][b] = d u_a / d x_b at a point. */
+void exact_gradient(const struct exact *e, const double *x, double t, double g[3][3]);
+
+/* Sums that make a norm: add on each rank, then reduce; parts of a coupled job add up too. */
+struct norm {
+    double vol;  /* sum w */
+    double e1;   /* sum w e */
+    double e2;   /* sum w e^2 */
+    double r2;   /* sum w ref^2 */
+    double emax; /* max |e| */
+};
+void norm_add(struct norm *n, double w, double e, double ref);
+void norm_reduce(struct norm *n, int count, MPI_Comm comm);   /* over the ranks of comm */
+double norm_relative_l2(const struct norm *n);                /* sqrt(e2/r2) */
+double norm_rms(const struct norm *n);                        /* sqrt(e2/vol) */
+double norm_mean(const struct norm *n);                       /* e1/vol */
+double norm_rms_mean_free(const struct norm *n);              /* sqrt(e2/vol - (e1/vol)^2) */
+
+#endif

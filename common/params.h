@@ -1,0 +1,93 @@
+/* params.h - the parameter table: one row gives default, parsing, validation, --help, manual.
+ * Case files are libconfig text in SI units; vectors stand in ( ). Rank 0 reads, all ranks get
+ * the bytes. All faults are found at once, each with file, line, key and what is allowed.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_PARAMS_H
+#define COMMON_PARAMS_H
+
+#include <mpi.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+enum param_type {
+    PARAM_REAL,   /* double */
+    PARAM_INT,    /* int */
+    PARAM_BOOL,   /* bool */
+    PARAM_CHOICE, /* int: index in choices "a|b|c" */
+    PARAM_TEXT,   /* char[PARAM_TEXT_SIZE] */
+    PARAM_REALS,  /* double[3]; missing components are 0 */
+    PARAM_INTS,   /* int[3]; missing components are 1 */
+    PARAM_BOOLS,  /* bool[3]; missing components are false */
+    PARAM_BOX     /* double[2][3]: lower and upper corner */
+};
+enum { PARAM_TEXT_SIZE = 128 };
+
+struct param {
+    const char *key;
+    enum param_type type;
+    size_t offset;       /* of the member in the group's struct */
+    const char *unit;    /* SI, "-" if none */
+    const char *dflt;    /* libconfig text; NULL: the key is required */
+    double min, max;     /* of each component, both allowed; not used by bool, text, choice */
+    const char *choices; /* "a|b|c" of a PARAM_CHOICE, else NULL */
+    const char *help;
+};
+
+#define PARAM(T, m, unit, dflt, min, max, help)                                                    \
+    {#m,                                                                                           \
+     _Generic(((T *)0)->m, double: PARAM_REAL, int: PARAM_INT, bool: PARAM_BOOL,                   \
+              char *: PARAM_TEXT, double *: PARAM_REALS, int *: PARAM_INTS, bool *: PARAM_BOOLS,   \
+              double(*)[3]: PARAM_BOX),                                                            \
+     offsetof(T, m), unit, dflt, min, max, NULL, help}
+#define CHOICE(T, m, choices, dflt, help)                                                          \
+    {#m, PARAM_CHOICE, offsetof(T, m), "-", dflt, 0, 0, choices, help}
+
+/* A group of the case file, `name: { ... };', or a list of groups, `name: ( {...}, {...} );'. */
+struct param_group {
+    const char *name;
+    const char *help;
+    const struct param *rows;
+    int nrows;
+    void *target;   /* struct (or array of max structs of `stride' bytes) that the rows fill */
+    bool *present;  /* set to whether the case has the group; NULL: not wanted */
+    size_t stride;  /* 0: a plain group */
+    int max;        /* list: room in target */
+    int *count;     /* list: how many the case has */
+};
+
+/* Faults of the user's input, collected; see params_report. */
+struct faults {
+    int n;
+    char *text; /* lines "file:line: key: what"; owned */
+};
+
+struct params; /* what was read: values with their places; rank 0 holds the text */
+
+/* Reads `path' and the overrides "key=value" (value in libconfig text; -p fv.cells=(64,64)) into
+ * the targets of groups[ngroups], defaults first. Groups of the case that are in neither
+ * `groups' nor `others' (NULL-terminated names, checked by another program) are faults.
+ * Faults are added to f on rank 0 and f->n is the same on all ranks. Collective over comm. */
+struct params *params_read(MPI_Comm comm, const char *path, int noverrides,
+                           const char *const *overrides, const struct param_group *groups,
+                           int ngroups, const char *const *others, struct faults *f);
+void params_free(struct params **p);
+/* Whether the case has this group, for groups in `others' too. Same on all ranks. */
+bool params_has_group(const struct params *p, const char *group);
+/* 64-bit FNV-1a of the case as read (file, included files, overrides) but for -p output.*; same on
+ * all ranks. Two programs of a job must agree on it. */
+unsigned long long params_hash(const struct params *p);
+/* Whole text of the case with defaults filled in, plain SI, can be run again; rank 0 only, owned
+ * by the caller (mem_free). */
+char *params_text(const struct params *p);
+/* One more fault, at the place of `key' ("sph.dx") in the file; call on all ranks alike. */
+void params_fault(const struct params *p, struct faults *f, const char *key, const char *fmt, ...)
+    __attribute__((format(printf, 4, 5)));
+/* Prints the faults and their number on rank 0; returns f->n. */
+int params_report(const struct faults *f);
+/* --help [key], --params (markdown) and --template: print from the table. */
+void params_help(const struct param_group *groups, int ngroups, const char *key);
+void params_manual(const struct param_group *groups, int ngroups);
+/* The member of a group's row as text for attributes and --check: "0.01 m". Static buffer. */
+const char *params_value(const struct param *row, const void *target);
+
+#endif

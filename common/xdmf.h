@@ -1,0 +1,31 @@
+/* xdmf.h - ParaView's view of the HDF5 snapshots: one XDMF file a program, rewritten by rename
+ * after each snapshot so that it is always whole. Rank 0 only. ParaView 5.11's readers fix the form:
+ * 2D block data are 2D datasets on 2DCoRectMesh / 2DSMesh, paths are relative.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_XDMF_H
+#define COMMON_XDMF_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct xdmf; /* the list of snapshots so far */
+
+/* path: out/CASE/sph.xdmf. keep: continue the list of an existing file (restart), leaving out
+ * entries at or after t_restart. */
+struct xdmf *xdmf_create(const char *path, bool keep, double t_restart);
+void xdmf_free(struct xdmf **x); /* sets *x to NULL */
+
+/* A field of the snapshot: dataset name in the HDF5 file, 1 or 2 or 3 components. */
+struct xdmf_field {
+    const char *name;
+    int ncomp;
+};
+/* n particles, positions in dataset "position" [n][dim]. file: name of the HDF5 file, no folder. */
+void xdmf_points(struct xdmf *x, double t, const char *file, int64_t n, int dim, int nfields,
+                 const struct xdmf_field *fields);
+/* A uniform block of cells. */
+void xdmf_block(struct xdmf *x, double t, const char *file, int dim, const int *cells,
+                const double *origin, const double *spacing, int nfields,
+                const struct xdmf_field *fields);
+
+#endif
