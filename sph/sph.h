@@ -1,0 +1,122 @@
+/* sph.h - the whole state of the SPH solver and what its modules offer each other.
+ * Equations: Chiron, thesis, Ecole Centrale de Nantes 2017, chapters 1-2, cited as [2.x].
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_SPH_H
+#define SPH_SPH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "../common/run.h"
+
+enum sph_scheme { SCHEME_RIEMANN_ALE, SCHEME_RIEMANN };          /* Vila [2.86-2.89]; Leduc [2.96-2.99] */
+enum sph_limiter { LIMITER_KOREN, LIMITER_MINMOD, LIMITER_NONE };
+enum sph_transport { TRANSPORT_TVS, TRANSPORT_TVO, TRANSPORT_NONE, TRANSPORT_EULERIAN };
+enum sph_viscosity { VISCOSITY_MORRIS, VISCOSITY_MONAGHAN };
+enum sph_outer { OUTER_NONE, OUTER_EXACT, OUTER_PARTNER };
+enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
+
+struct sph_params {
+    double dx;            /* m */
+    double R_dx;          /* support radius over dx, - */
+    double c0;            /* m/s; 0: ten times the scale of velocity */
+    double gamma;         /* Tait's exponent, 7 or 1 */
+    int scheme, limiter, transport, viscosity;
+    bool low_dissipation; /* bounded Riemann dissipation (Zhang, Hu & Adams 2017) */
+    double damper;        /* acoustic damper beta, 0: off */
+    double cfl;           /* CFL_a of [2.102] */
+    double cfl_viscous;   /* CFL_v of [2.103] */
+    double box[2][3];     /* outer face of the buffer; all 0: the whole domain, no zones */
+    int outer;            /* what feeds the zones: none, exact, partner */
+    double density_limit; /* |rho/rho0 - 1| that ends the run */
+    double noise;         /* random displacement of the first lattice, in dx */
+};
+
+/* Particles of one size level. State and rates are rows of nstate doubles,
+ *   x[dim], q[dim] = m u, w (volume), m (mass),
+ * so that Runge-Kutta is one loop. Lines are what the pair loops load: 64-byte multiples, aligned;
+ * row `capacity' of lines is the dummy that pads neighbour rows (far away, volume 0).
+ *   prim  [8]:        x[dim] u[dim] w rho (2D: then p c)
+ *   slope [8 | 16]:   grad rho [dim], grad u [dim][dim] (a: component, b: direction), u0 [dim]
+ * Locals are 0 .. n-1, sorted by cell; ghosts (halo of other ranks, periodic images) n .. n+nghost-1:
+ * only prim and slope exist for them. */
+struct particles {
+    int n, nghost, capacity;
+    int nstate; /* 2 dim + 2 */
+    int nslope; /* 8 (2D) or 16 (3D) */
+    double *y, *y0, *sum, *rate; /* [capacity][nstate] state, at t_n, RK sum, time derivative */
+    double *prim;                /* [capacity+1][8] */
+    double *slope;               /* [capacity+1][nslope] */
+    int64_t *id;                 /* [capacity] unique over all ranks */
+    unsigned char *zone;         /* [capacity] enum sph_zone */
+};
+
+struct neighbours; /* cell grid and list of pairs; neighbours.h */
+struct domain;     /* partition over ranks, migration, halo; domain.h */
+struct zones;      /* transition, buffer, openings; zones.h; NULL: none */
+struct scheme;     /* what a pair interaction provides; scheme.h */
+
+struct sph {
+    struct run *run;
+    struct sph_params prm;
+    int dim;
+    double R, dx, dxD;         /* m, m, m^dim: volume of a particle at the start */
+    double rho0, nu, c0, gamma;
+    double gravity[3];
+    double lo[3], hi[3];       /* region of the particles: the domain, or sph.box */
+    bool periodic[3];          /* of that region */
+    double t;                  /* s: time of the state y; during a stage: of that stage */
+    double dt;
+    struct particles p;
+    struct neighbours *list;
+    struct domain *domain;
+    const struct scheme *scheme;
+    struct zones *zones;
+    double skin;               /* m: the list holds pairs within R + skin */
+    int64_t next_id;           /* of the next particle born on this rank: rank + k size */
+    /* of the last step, over all ranks */
+    double max_speed, max_shift, rho_min, rho_max, max_c;
+    const char *limited_by;    /* "sound" or "viscosity" */
+    double lost;               /* particles removed since the start */
+    int64_t pairs;             /* ordered pairs within R, counted once a stage, summed over stages; this rank */
+    double mass0, energy0;     /* at t = 0, for drifts */
+};
+
+/* particles.c */
+void particles_create(struct particles *p, int dim, int capacity);
+void particles_free(struct particles *p);
+/* Room for n + nghost = total lines; keeps everything. */
+void particles_reserve(struct particles *p, int total);
+/* One more particle at the end (ghosts must be gone); returns its index; the row y is the caller's. */
+int particles_add(struct particles *p, int64_t id, enum sph_zone zone);
+/* Copies particle `from' over `to' (state, id, zone). */
+void particles_copy(struct particles *p, int to, int from);
+/* Reorders state, id, zone: new i is old order[i]; n entries. */
+void particles_permute(struct particles *p, int n, const int *order);
+void particles_set(struct sph *s, int i, const double *x, const double *u, double w, double rho);
+/* prim of all locals from y (u = q/m, rho = m/w; 2D: p, c). */
+void particles_lines(struct sph *s);
+
+/* fill.c: lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
+void fill_lattice(struct sph *s);
+
+/* integrate.c: one RK4 step of at most dt_max; see program.step. */
+double integrate_step(struct sph *s, double t_stop, struct diagnosis *d);
+/* Neighbour list and halo of the present positions, then rates of y at s->t (what a stage does). */
+void integrate_prepare(struct sph *s);
+void integrate_rates(struct sph *s);
+
+/* sph_io.c, sph_errors.c */
+void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
+void sph_checkpoint(void *s, struct h5 *f);
+bool sph_restore(struct sph *s, struct h5 *f);
+void sph_finish(void *s);
+void sph_row(void *s, double *values);
+
+/* sph_coupling.c: the only file here that knows cpl.h. */
+void coupling_offer(struct run *r);         /* publishes sph.box and sph.free */
+void coupling_create(struct sph *s);        /* declares sets and fields; s->zones->eval reads the patch */
+void coupling_window_begin(void *s, double t0, double t1);
+void coupling_window_end(void *s, double t1);
+
+#endif
