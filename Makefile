@@ -1,42 +1,83 @@
-# Estran: make demo | check | all | report | stability | bench | deps | clean
+# Estran. The commands: make demo | check | all | report | stability | bench | deps | clean
+# SPDX-License-Identifier: BSD-3-Clause
 SHELL = /bin/sh
 CC = mpicc
 B = build
 VERSION = 0.1
 COMMIT := $(shell git rev-parse --short HEAD 2>/dev/null || echo unknown)
+
+# ---- what it needs, as Debian 12 packages -------------------------------------------------------------
+PACKAGES = build-essential pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi-dev hdf5-tools \
+           libhypre-dev libconfig-dev libcmocka-dev gnuplot-nox
+
+# ---- how it is built ----------------------------------------------------------------------------------
+# No -ffast-math: it gains nothing here and lets NaN pass unseen. -fno-math-errno frees sqrt.
+OPT = -O3 -march=native -fno-math-errno -fno-trapping-math -ffp-contract=fast
+WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
 HDF5_CFLAGS = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags hdf5-openmpi 2>/dev/null))
 HDF5_LIBS = $(shell pkg-config --libs hdf5-openmpi 2>/dev/null)
-OPT = -O3 -march=native -fno-math-errno -fno-trapping-math -ffp-contract=fast
-WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-CFLAGS = -std=c11 -D_GNU_SOURCE -g $(OPT) $(WARN) -Wno-psabi $(HDF5_CFLAGS) -isystem /usr/include/hypre
 SAN =
-HYPRE_LIBS = -lHYPRE
+CFLAGS = -std=c11 -D_GNU_SOURCE -g $(OPT) $(WARN) $(HDF5_CFLAGS) -isystem /usr/include/hypre $(SAN)
+LIBS = $(HDF5_LIBS) -lconfig -lm
 
-common_o = $(patsubst %.c,$(B)/%.o,$(wildcard common/*.c))
-cpl_o = $(B)/coupler/cpl_client.o $(B)/coupler/cpl_patch.o $(B)/coupler/wire.o $(B)/coupler/failure.o
-sph_o = $(patsubst %.c,$(B)/%.o,$(wildcard sph/*.c))
-fv_o = $(patsubst %.c,$(B)/%.o,$(wildcard fv/*.c))
-coupler_o = $(filter-out $(B)/coupler/cpl_%.o,$(patsubst %.c,$(B)/%.o,$(wildcard coupler/*.c)))
+objects = $(patsubst %.c,$(B)/%.o,$(wildcard $(1)/*.c))
+cpl_o = $(addprefix $(B)/coupler/,cpl_client.o cpl_patch.o wire.o failure.o handshake.o)
+mains = $(B)/sph/sph.o $(B)/fv/fv.o $(B)/coupler/coupler.o
+sph_o = $(filter-out $(mains),$(call objects,sph)) $(B)/coupler/cpl_partner.o
+fv_o = $(filter-out $(mains),$(call objects,fv)) $(B)/coupler/cpl_partner.o
+coupler_o = $(filter-out $(mains) $(cpl_o) $(B)/coupler/cpl_%,$(call objects,coupler))
 
 all: $(B)/sph $(B)/fv $(B)/coupler
 
-$(B)/sph: $(sph_o) $(B)/coupler/cpl_partner.o $(B)/libcpl.a $(B)/libcommon.a
-	$(CC) $(SAN) -o $@ $^ $(HDF5_LIBS) -lconfig -lm
-$(B)/fv: $(fv_o) $(B)/coupler/cpl_partner.o $(B)/libcpl.a $(B)/libcommon.a
-	$(CC) $(SAN) -o $@ $^ $(HYPRE_LIBS) $(HDF5_LIBS) -lconfig -lm
-$(B)/coupler: $(coupler_o) $(B)/libcommon.a
-	$(CC) $(SAN) -o $@ $^ $(HDF5_LIBS) -lconfig -lm
-$(B)/libcommon.a: $(common_o)
-	@rm -f $@; ar rcs $@ $^
+$(B)/sph: $(B)/sph/sph.o $(B)/libsph.a $(B)/libcpl.a $(B)/libcommon.a
+	$(CC) $(SAN) -o $@ $^ $(LIBS)
+$(B)/fv: $(B)/fv/fv.o $(B)/libfv.a $(B)/libcpl.a $(B)/libcommon.a
+	$(CC) $(SAN) -o $@ $^ -lHYPRE $(LIBS)
+$(B)/coupler: $(B)/coupler/coupler.o $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
+	$(CC) $(SAN) -o $@ $^ $(LIBS)
+$(B)/libcommon.a: $(call objects,common)
 $(B)/libcpl.a: $(cpl_o)
+$(B)/libsph.a: $(sph_o)
+$(B)/libfv.a: $(fv_o)
+$(B)/libcoupler.a: $(coupler_o)
+$(B)/lib%.a:
 	@rm -f $@; ar rcs $@ $^
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(SAN) -MMD -MP -c -o $@ $<
+	$(CC) $(CFLAGS) -MMD -MP -c -o $@ $<
+$(B)/common/version.o: CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
 
+# ---- tests: every tests/test_X.c is a program; tests/mock.c knows cpl.h alone -------------------------
+tests_bin = $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c tests/bench_*.c tests/toy*.c))
+$(B)/tests/mock: $(B)/tests/mock.o $(B)/libcpl.a
+	$(CC) $(SAN) -o $@ $^ -lm
+$(B)/tests/%: $(B)/tests/%.o $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
+	$(CC) $(SAN) -o $@ $< -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lHYPRE $(LIBS) -lcmocka
+tests: all $(tests_bin) $(B)/tests/mock
+asan:
+	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-O1 -march=native -fno-math-errno" \
+	    SAN="-fsanitize=address,undefined -fno-omit-frame-pointer" tests
+
+# ---- what a user types ---------------------------------------------------------------------------------
+deps:
+	@cases/deps $(PACKAGES)
+demo: deps
+	@$(MAKE) --no-print-directory -j2 all
+	@cases/demo
+check: deps
+	@$(MAKE) --no-print-directory -j2 tests
+	@$(MAKE) --no-print-directory -j2 asan
+	@tests/run $(B)
+report: all
+	@cases/report
+stability: all
+	@cases/stability
+bench: tests
+	@cases/bench $(B)
 clean:
-	rm -rf $(B)
+	rm -rf build
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
-.PHONY: all demo check report stability bench deps clean
+.SECONDARY:
+.PHONY: all tests asan deps demo check report stability bench clean

@@ -7,6 +7,7 @@
 
 #include <mpi.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "params.h"
@@ -76,6 +77,8 @@ struct program {
      * steps are shared out evenly); returns the dt done and sets d->bad (on all ranks) when the state
      * cannot be trusted. */
     double (*step)(void *s, double t_stop, struct diagnosis *d);
+    /* Coupled: longest window that suits it, s; NULL: no wish. */
+    double (*window_wish)(void *s);
     /* Coupled: before the first step of a window and after its last; NULL when never coupled. */
     void (*window_begin)(void *s, double t0, double t1);
     void (*window_end)(void *s, double t1);
@@ -112,7 +115,7 @@ struct partner {
     void (*saved)(void *ctx, int64_t window, const char *file);
     int64_t (*window_number)(void *ctx); /* of the window under way or last done */
     double (*waited)(void *ctx);         /* s spent waiting for partners */
-    /* Tells all partners why this program stops and ends the job with this code; does not return. */
+    /* (In calls: (p->fail)(...), for fail() is a macro.) Tells all partners why this program stops and ends the job with this code; does not return. */
     void (*fail)(void *ctx, int code, const char *reason);
     /* Final numbers to the coupler's summary, goodbye. */
     void (*close)(void *ctx, int code, const struct summary *final);
@@ -128,7 +131,10 @@ struct command_line {
     int noverrides;
     const char *const *overrides;
     bool check, restart, force;
+    double deadline; /* s to meet the other programs */
 };
+/* Name of a case from the path of its file. */
+void run_case_name(const char *file, char *name, size_t size);
 /* Returns -1 to go on, else the exit code (--help, --version, --params: 0; faults: 2). Faults are all
  * printed, on world rank 0 of this program name. */
 int run_command_line(struct command_line *c, int argc, char **argv, const char *name,
@@ -145,6 +151,9 @@ bool signals_stop(void);       /* this rank's flag */
 void signals_handled(void);    /* an orderly stop is under way: no deadline */
 void signals_note_path(const char *path); /* file of the death note (shared by the job's programs) */
 void signals_heard(const char *text);     /* what the handler prints when there is no note; copied */
+
+/* The lowest rank with d->bad tells all ranks; false if there is none. Collective. */
+bool run_diagnose(struct diagnosis *d, MPI_Comm comm);
 
 extern const char run_version[]; /* "0.1 (9f3c2a1)" */
 

@@ -43,7 +43,8 @@ int cpl_open(MPI_Comm world, const char *name, double deadline_s, struct cpl **c
 /* A box that partners may ask for by name ("sph.box", "sph.free"). Before cpl_meet. */
 int cpl_zone(struct cpl *c, const char *zone, const double lo[3], const double hi[3]);
 /* Compares the hash of the case, the restart window (-1: fresh start) and the number of faults that each
- * program found in its input; CPL_EINPUT on all programs if any differs or is not zero. dir: the
+ * program found in its input; CPL_EINPUT on all programs if any differs or is not zero. case_hash 0: this
+ * solver does not read the case (-p and all), so that nothing can be compared. dir: the
  * job's output folder (death note, manifest). */
 int cpl_meet(struct cpl *c, uint64_t case_hash, int64_t restart_window, int faults, const char *dir);
 /* CPL_EINPUT if nobody published it. */
@@ -79,14 +80,15 @@ int cpl_window(struct cpl *c, double *t0, double *t1, int *action, int *code);
  * their order, so results do not depend on the number of ranks), volumes (m^dim; NULL for takers). Kept
  * until the next call. */
 int cpl_move(struct cpl *c, int set, long n, const double *x, const int64_t *gid, const double *volume);
-/* Gives a field at time t: v[n ncomp] in the order of cpl_move, or of the grid's block (x fastest). dvdt: its
+/* Gives a field at time t, the start or the end of the window: v[n ncomp] in the order of cpl_move, or of the grid's block (x fastest). dvdt: its
  * time derivative, grids only, NULL: zero. */
 int cpl_put(struct cpl *c, int field, double t, long n, const double *v, const double *dvdt);
-/* Takes a mapped field at the last moved points: waits for the giver. mask[n]: 1 mapped, 0 no point
+/* Takes a mapped field at the last moved points and the window's end: waits for the giver. mask[n]: 1 mapped, 0 no point
  * within the support (v untouched); may be NULL. */
 int cpl_get(struct cpl *c, int field, long n, double *v, unsigned char *mask);
 /* Takes a grid field around the box [lo, hi] (this rank's; lo > hi: none): waits for the giver. The patch stays
- * until the next call. */
+ * until the next call. In a window the first call takes the values at its start, the second those at
+ * its end. */
 int cpl_patch_get(struct cpl *c, int field, const double lo[3], const double hi[3]);
 /* Evaluates the patch at n points x[3 n] and time t, v(t) = v + (t - t_put) dv/dt; no communication.
  * v[n ncomp]; grad[n ncomp 3] or NULL. Points outside the patch get the value of its nearest place. */
@@ -102,10 +104,16 @@ int cpl_saved(struct cpl *c, const char *file);
 
 int64_t cpl_window_number(const struct cpl *c);
 double cpl_waited(const struct cpl *c); /* s spent waiting for partners */
+double cpl_heard(const struct cpl *c);  /* s since the coupler's last message */
+/* Writes to a file descriptor why the job ends, as far as is known. The library installs no signal
+ * handlers; this is for the solver's handler of SIGTERM, which survivors of a failure get. */
+void cpl_obituary(int fd);
 const char *cpl_strerror(const struct cpl *c);
 /* Leaves a note with the reason and ends the whole job with this exit code; any rank may call. Does not return. */
 void cpl_fail(struct cpl *c, int code, const char *reason);
-/* Says goodbye; sets *c to NULL. */
+/* Says goodbye and waits for the others to do so; sets *c to NULL. Returns the exit code of the job, which is
+ * 1 on all programs when the job's results are not accepted; `code' when c is NULL or the job was
+ * refused. Before CPL_STOP it is a failure of this program. */
 int cpl_close(struct cpl **c, int code);
 
 #ifdef __cplusplus

@@ -73,14 +73,27 @@ struct sph {
     const struct scheme *scheme;
     struct zones *zones;
     double skin;               /* m: the list holds pairs within R + skin */
+    bool ready;                /* list and ghosts belong to the positions of y; whoever moves, adds or
+                                  removes particles outside a step clears it */
     int64_t next_id;           /* of the next particle born on this rank: rank + k size */
     /* of the last step, over all ranks */
     double max_speed, max_shift, rho_min, rho_max, max_c;
     const char *limited_by;    /* "sound" or "viscosity" */
+    double signal;             /* m/s: max of c + |u - u0| */
+    double drift[3], stray;    /* m/s: middle of the velocities u0, largest distance from it */
+    double dt_most;            /* s: largest next step [2.102-2.104] */
+    double max_mach;           /* since the start: |u|/c0 */
+    double fluctuation;        /* since the start: |sum m/mass0 - 1|, with zones */
     double lost;               /* particles removed since the start */
     int64_t pairs;             /* ordered pairs within R, counted once a stage, summed over stages; this rank */
-    double mass0, energy0;     /* at t = 0, for drifts */
+    int64_t pairs_now;         /* the same, of the present list */
+    double mass0, energy0, momentum0[3]; /* at t = 0, for drifts */
 };
+
+/* state.c: prm as sph_params_of gives it, copied; f: restart file, then r->t and r->step are set, or NULL.
+ * NULL: f does not fit. Collective over r->comm. */
+struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f);
+void sph_free(struct sph **s);
 
 /* particles.c */
 void particles_create(struct particles *p, int dim, int capacity);
@@ -105,8 +118,22 @@ double integrate_step(struct sph *s, double t_stop, struct diagnosis *d);
 /* Neighbour list and halo of the present positions, then rates of y at s->t (what a stage does). */
 void integrate_prepare(struct sph *s);
 void integrate_rates(struct sph *s);
+/* prim and slope of the present state, for output and errors; what is imposed from outside stays out. */
+void integrate_gradients(struct sph *s);
+/* First time step, skin and extremes from the state at t = 0. */
+void integrate_start(struct sph *s);
 
 /* sph_io.c, sph_errors.c */
+enum { SUM_MASS, SUM_VOLUME, SUM_KINETIC, SUM_ENERGY, SUM_MOMENTUM, SUM_COUNT = SUM_MOMENTUM + 3 };
+/* Sums over all particles of all ranks: kg, m^dim, J, J (kinetic, elastic, potential), kg m/s. */
+void sph_sums(const struct sph *s, double sums[SUM_COUNT]);
+/* Whether the scene has an exact solution at all times. */
+bool sph_has_exact(const struct run *r);
+/* Curl of u of a local particle, 1/s; needs slope of the present state. In 2D w[2] only. */
+void sph_vorticity(const struct sph *s, int i, double w[3]);
+/* Names of the columns that sph_row fills for this scene; returns their number, at most SPH_COLUMNS. */
+enum { SPH_COLUMNS = 16 };
+int sph_columns(const struct run *r, const char **names);
 void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void sph_checkpoint(void *s, struct h5 *f);
 bool sph_restore(struct sph *s, struct h5 *f);
@@ -116,6 +143,7 @@ void sph_row(void *s, double *values);
 /* sph_coupling.c: the only file here that knows cpl.h. */
 void coupling_offer(struct run *r);         /* publishes sph.box and sph.free */
 void coupling_create(struct sph *s);        /* declares sets and fields; s->zones->eval reads the patch */
+void coupling_free(struct sph *s);
 void coupling_window_begin(void *s, double t0, double t1);
 void coupling_window_end(void *s, double t1);
 

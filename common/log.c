@@ -1,0 +1,113 @@
+/* log.c - see log.h. The terminal may be shared by many ranks: whole lines in one write each.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "log.h"
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static struct {
+    int rank; /* of the program; -1 before log_open */
+    char program[64];
+    FILE *file;
+} state = {.rank = -1};
+
+void (*fail_hook)(const char *reason) = NULL;
+
+static int rank_now(void)
+{
+    int rank = state.rank, up = 0;
+    if (rank < 0) {
+        MPI_Initialized(&up);
+        rank = 0;
+        if (up)
+            MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    }
+    return rank;
+}
+
+void log_open(MPI_Comm comm, const char *program)
+{
+    MPI_Comm_rank(comm, &state.rank);
+    snprintf(state.program, sizeof state.program, "%s", program);
+}
+
+void log_file(const char *path)
+{
+    if (state.file)
+        fclose(state.file);
+    state.file = path && rank_now() == 0 ? fopen(path, "a") : NULL;
+    if (state.file)
+        setvbuf(state.file, NULL, _IOLBF, 0);
+}
+
+/* One write of prefix and text, ended by a newline. */
+static void say(bool terminal, bool file, const char *prefix, const char *fmt, va_list args)
+{
+    char line[8192];
+    int n = snprintf(line, sizeof line, "%s", prefix);
+    const int m = vsnprintf(line + n, sizeof line - (size_t)n - 1, fmt, args);
+    n += m < (int)sizeof line - n - 1 ? m : (int)sizeof line - n - 2;
+    if (n == 0 || line[n - 1] != '\n')
+        line[n++] = '\n';
+    line[n] = '\0';
+    if (terminal) {
+        fputs(line, stdout);
+        fflush(stdout);
+    }
+    if (file && state.file)
+        fputs(line, state.file);
+}
+
+#define SAY(terminal, file, prefix)                                                                \
+    do {                                                                                           \
+        va_list args;                                                                              \
+        va_start(args, fmt);                                                                       \
+        say(terminal, file, prefix, fmt, args);                                                    \
+        va_end(args);                                                                              \
+    } while (0)
+
+void log_say(const char *fmt, ...)
+{
+    if (rank_now() == 0)
+        SAY(true, true, "");
+}
+
+void log_quiet(const char *fmt, ...)
+{
+    if (rank_now() == 0)
+        SAY(false, true, "");
+}
+
+void log_warn(const char *fmt, ...)
+{
+    if (rank_now() == 0)
+        SAY(true, true, "warning: ");
+}
+
+void log_here(const char *fmt, ...)
+{
+    char prefix[96];
+    snprintf(prefix, sizeof prefix, "%s rank %d: ", state.program, rank_now());
+    SAY(true, true, prefix);
+}
+
+void fail_at(const char *file, int line, const char *fmt, ...)
+{
+    char reason[2048];
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(reason, sizeof reason, fmt, args);
+    va_end(args);
+    log_here("%s (%s:%d)", reason, file, line);
+    if (fail_hook)
+        fail_hook(reason);
+    int up = 0;
+    MPI_Initialized(&up);
+    if (up)
+        MPI_Abort(MPI_COMM_WORLD, 1);
+    _Exit(1);
+}

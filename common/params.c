@@ -1,0 +1,637 @@
+/* params.c - reads a case through the parameter table: rank 0 parses, all ranks get the bytes.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "params.h"
+
+#include <ctype.h>
+#include <libconfig.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "log.h"
+#include "mem.h"
+#include "params_hints.h"
+
+enum { NAMES_SIZE = 2048 };
+
+struct override {
+    const char *text; /* as given: "sph.dx=0.02"; borrowed */
+    char group[64], key[64];
+    config_t cfg;     /* holds the value as setting "value" */
+    bool used;
+};
+
+struct params {
+    char path[1024];
+    int rank, ngroups, noverrides;
+    const struct param_group *groups; /* borrowed */
+    bool read;                        /* rank 0: cfg holds a case */
+    config_t cfg;
+    struct override *overrides;
+    unsigned long long hash;
+    char names[NAMES_SIZE]; /* " sph fv ": groups the case has, the same on all ranks */
+};
+
+/* ---- faults ------------------------------------------------------------------------------------ */
+
+static void add_fault(struct faults *f, const char *place, const char *fmt, va_list args)
+{
+    char what[1024], line[2300];
+    vsnprintf(what, sizeof what, fmt, args);
+    const int n = snprintf(line, sizeof line, "%s: %s\n", place, what);
+    const size_t old = f->text ? strlen(f->text) : 0;
+    f->text = mem_grow(f->text, old, old + (size_t)n + 1, 1);
+    memcpy(f->text + old, line, (size_t)n + 1);
+    f->n++;
+}
+
+static void __attribute__((format(printf, 3, 4)))
+fault(struct faults *f, const char *place, const char *fmt, ...)
+{
+    va_list args;
+    va_start(args, fmt);
+    add_fault(f, place, fmt, args);
+    va_end(args);
+}
+
+int params_report(const struct faults *f)
+{
+    if (f->n > 0 && f->text)
+        log_say("%s%d fault%s; nothing was started. --help KEY explains a key.", f->text, f->n,
+                f->n == 1 ? "" : "s");
+    return f->n;
+}
+
+/* ---- the file ----------------------------------------------------------------------------------- */
+
+static char *read_text(const char *path)
+{
+    FILE *f = fopen(path, "rb");
+    if (!f)
+        return NULL;
+    size_t n = 0, room = 4096, got;
+    char *text = mem_new(room, 1);
+    while ((got = fread(text + n, 1, room - n - 1, f)) > 0) {
+        n += got;
+        if (room - n < 2) {
+            text = mem_grow(text, n, 2 * room, 1);
+            room *= 2;
+        }
+    }
+    fclose(f);
+    text[n] = '\0';
+    return text;
+}
+
+static unsigned long long fnv(unsigned long long h, const char *s)
+{
+    for (; *s; s++)
+        h = (h ^ (unsigned char)*s) * 1099511628211ULL;
+    return h;
+}
+
+/* Opens the case; syntax faults end the reading, with a hint from the line at fault. */
+static void read_file(struct params *p, struct faults *f)
+{
+    char *text = read_text(p->path), dir[1024], place[1300];
+    if (!text) {
+        fault(f, p->path, "no such case file, or it cannot be read");
+        return;
+    }
+    snprintf(dir, sizeof dir, "%s", p->path);
+    char *slash = strrchr(dir, '/');
+    if (slash)
+        *slash = '\0';
+    config_set_include_dir(&p->cfg, slash ? dir : ".");
+    config_set_auto_convert(&p->cfg, CONFIG_TRUE);
+    char number[64];
+    const int large = hint_long_integer(text, number, sizeof number);
+    if (large > 0) { /* libconfig would wrap it silently */
+        snprintf(place, sizeof place, "%s:%d", p->path, large);
+        fault(f, place, "%s is too large for an integer; with an L behind it, it is read whole", number);
+    }
+    if (config_read_file(&p->cfg, p->path) == CONFIG_TRUE) {
+        p->read = true;
+    } else {
+        const char *in = config_error_file(&p->cfg) ? config_error_file(&p->cfg) : p->path;
+        char hint[512];
+        const int line = hint_syntax(text, config_error_line(&p->cfg), config_error_text(&p->cfg),
+                                     hint, sizeof hint);
+        snprintf(place, sizeof place, "%s:%d", in, line);
+        fault(f, place, "%s%s%s", config_error_text(&p->cfg), *hint ? ": " : "", hint);
+    }
+    p->hash = fnv(1469598103934665603ULL, text);
+    mem_free(text);
+}
+
+/* "sph.dx=0.02" -> group, key, value; a plain word is taken as text, 64x64 as (64, 64). */
+static void read_override(struct override *o, const char *text, struct faults *f)
+{
+    char place[256], value[512], line[600];
+    const char *eq = strchr(text, '='), *dot = strchr(text, '.');
+    o->text = text;
+    config_init(&o->cfg);
+    config_set_auto_convert(&o->cfg, CONFIG_TRUE);
+    snprintf(place, sizeof place, "command line: -p %s", text);
+    if (!eq || !dot || dot > eq || dot == text || eq == dot + 1 || !eq[1] || dot - text > 60 ||
+        eq - dot > 60) {
+        fault(f, place, "GROUP.KEY=VALUE is wanted, as in sph.dx=0.01");
+        return;
+    }
+    snprintf(o->group, sizeof o->group, "%.*s", (int)(dot - text), text);
+    snprintf(o->key, sizeof o->key, "%.*s", (int)(eq - dot - 1), dot + 1);
+    int a, b, c, end = 0;
+    if (sscanf(eq + 1, "%dx%dx%d%n", &a, &b, &c, &end) == 3 && !eq[1 + end])
+        snprintf(value, sizeof value, "(%d, %d, %d)", a, b, c);
+    else if (end = 0, sscanf(eq + 1, "%dx%d%n", &a, &b, &end) == 2 && !eq[1 + end])
+        snprintf(value, sizeof value, "(%d, %d)", a, b);
+    else
+        snprintf(value, sizeof value, "%s", eq + 1);
+    snprintf(line, sizeof line, "value = %s;", value);
+    if (config_read_string(&o->cfg, line) == CONFIG_TRUE)
+        return;
+    snprintf(line, sizeof line, "value = \"%s\";", value);
+    if (config_read_string(&o->cfg, line) != CONFIG_TRUE)
+        fault(f, place, "`%s' is no value", value);
+}
+
+/* ---- values --------------------------------------------------------------------------------------- */
+
+static void set_real(const struct param *r, void *target, int k, double v)
+{
+    char *at = (char *)target + r->offset;
+    if (r->type == PARAM_INT || r->type == PARAM_CHOICE)
+        *(int *)(void *)at = (int)v;
+    else if (r->type == PARAM_INTS)
+        ((int *)(void *)at)[k] = (int)v;
+    else
+        ((double *)(void *)at)[k] = v;
+}
+
+static bool is_integer(const struct param *r)
+{
+    return r->type == PARAM_INT || r->type == PARAM_INTS;
+}
+
+static bool number_of(const config_setting_t *s, double *v)
+{
+    switch (config_setting_type(s)) {
+    case CONFIG_TYPE_INT: *v = config_setting_get_int(s); return true;
+    case CONFIG_TYPE_INT64: *v = (double)config_setting_get_int64(s); return true;
+    case CONFIG_TYPE_FLOAT: *v = config_setting_get_float(s); return true;
+    default: return false;
+    }
+}
+
+/* Reads one number into component k; what is wrong with it goes to why. */
+static bool get_number(const struct param *r, const config_setting_t *s, void *target, int k, char *why,
+                       size_t size)
+{
+    double v;
+    if (!number_of(s, &v)) {
+        snprintf(why, size, "a plain number%s%s is wanted, no text", strcmp(r->unit, "-") ? " in " : "",
+                 strcmp(r->unit, "-") ? r->unit : "");
+        return false;
+    }
+    if (is_integer(r) && (v != floor(v) || fabs(v) > 2147483647.0)) {
+        snprintf(why, size, "%g is no whole number", v);
+        return false;
+    }
+    if (!(v >= r->min && v <= r->max)) {
+        snprintf(why, size, "%g is not allowed: from %g to %g%s%s", v, r->min, r->max,
+                 strcmp(r->unit, "-") ? " " : "", strcmp(r->unit, "-") ? r->unit : "");
+        return false;
+    }
+    set_real(r, target, k, v);
+    return true;
+}
+
+static bool get_choice(const struct param *r, const config_setting_t *s, void *target, char *why,
+                       size_t size)
+{
+    const char *word = config_setting_get_string(s);
+    const size_t n = word ? strlen(word) : 0;
+    int k = 0;
+    for (const char *c = r->choices; word; k++) {
+        const char *end = strchr(c, '|');
+        const size_t m = end ? (size_t)(end - c) : strlen(c);
+        if (m == n && strncmp(c, word, n) == 0) {
+            set_real(r, target, 0, k);
+            return true;
+        }
+        if (!end)
+            break;
+        c = end + 1;
+    }
+    snprintf(why, size, "%s%s%sone of %s is wanted", word ? "`" : "", word ? word : "",
+             word ? "' is not known: " : "", r->choices);
+    return false;
+}
+
+static bool get_text(const struct param *r, const config_setting_t *s, void *target, char *why, size_t size)
+{
+    const char *word = config_setting_get_string(s);
+    if (!word || strlen(word) >= PARAM_TEXT_SIZE) {
+        snprintf(why, size, "text in quotes is wanted, at most %d characters", PARAM_TEXT_SIZE - 1);
+        return false;
+    }
+    memset((char *)target + r->offset, 0, PARAM_TEXT_SIZE);
+    memcpy((char *)target + r->offset, word, strlen(word));
+    return true;
+}
+
+static bool get_bool(const config_setting_t *s, bool *to, char *why, size_t size)
+{
+    if (config_setting_type(s) != CONFIG_TYPE_BOOL) {
+        snprintf(why, size, "true or false is wanted");
+        return false;
+    }
+    *to = config_setting_get_bool(s);
+    return true;
+}
+
+/* (a, b) or (a, b, c): components from `first' on; the rest keeps `rest'. */
+static bool get_vector(const struct param *r, const config_setting_t *s, void *target, int first, char *why,
+                       size_t size)
+{
+    const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : 0;
+    bool *flags = (bool *)(void *)((char *)target + r->offset);
+    if (config_setting_is_group(s) || n < 2 || n > 3) {
+        snprintf(why, size, "two or three %s in ( ) are wanted",
+                 r->type == PARAM_BOOLS ? "truth values" : "numbers");
+        return false;
+    }
+    for (int k = 0; k < 3; k++) {
+        const config_setting_t *c = k < n ? config_setting_get_elem(s, (unsigned)k) : NULL;
+        if (r->type == PARAM_BOOLS) {
+            flags[k] = false;
+            if (c && !get_bool(c, flags + k, why, size))
+                return false;
+        } else if (!c) {
+            set_real(r, target, first + k, r->type == PARAM_INTS ? 1.0 : 0.0);
+        } else if (!get_number(r, c, target, first + k, why, size)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool get_box(const struct param *r, const config_setting_t *s, void *target, char *why, size_t size)
+{
+    if (config_setting_is_group(s) || !config_setting_is_aggregate(s) || config_setting_length(s) != 2) {
+        snprintf(why, size, "two corners are wanted: ((x, y), (x, y))");
+        return false;
+    }
+    return get_vector(r, config_setting_get_elem(s, 0), target, 0, why, size) &&
+           get_vector(r, config_setting_get_elem(s, 1), target, 3, why, size);
+}
+
+static bool get_value(const struct param *r, const config_setting_t *s, void *target, char *why, size_t size)
+{
+    switch (r->type) {
+    case PARAM_REAL:
+    case PARAM_INT: return get_number(r, s, target, 0, why, size);
+    case PARAM_BOOL: return get_bool(s, (bool *)(void *)((char *)target + r->offset), why, size);
+    case PARAM_CHOICE: return get_choice(r, s, target, why, size);
+    case PARAM_TEXT: return get_text(r, s, target, why, size);
+    case PARAM_REALS:
+    case PARAM_INTS:
+    case PARAM_BOOLS: return get_vector(r, s, target, 0, why, size);
+    default: return get_box(r, s, target, why, size);
+    }
+}
+
+static void set_default(const struct param_group *g, const struct param *r, void *target)
+{
+    char line[512], why[256];
+    config_t c;
+    if (!r->dflt)
+        return;
+    config_init(&c);
+    config_set_auto_convert(&c, CONFIG_TRUE);
+    const bool text = r->type == PARAM_CHOICE || r->type == PARAM_TEXT;
+    snprintf(line, sizeof line, text ? "value = \"%s\";" : "value = %s;", r->dflt);
+    if (config_read_string(&c, line) != CONFIG_TRUE)
+        fail("default of %s.%s is no value: %s", g->name, r->key, r->dflt);
+    struct param any = *r; /* a default may lie outside the range: "not given" */
+    any.min = -INFINITY;
+    any.max = INFINITY;
+    if (!get_value(&any, config_lookup(&c, "value"), target, why, sizeof why))
+        fail("default of %s.%s: %s", g->name, r->key, why);
+    config_destroy(&c);
+}
+
+/* ---- groups ------------------------------------------------------------------------------------------ */
+
+static void place_of(const struct params *p, const config_setting_t *s, char *place, size_t size,
+                     const char *group, const char *key)
+{
+    const char *file = s && config_setting_source_file(s) ? config_setting_source_file(s) : p->path;
+    if (s)
+        snprintf(place, size, "%s:%u: %s.%s", file, config_setting_source_line(s), group, key);
+    else
+        snprintf(place, size, "%s: %s.%s", file, group, key);
+}
+
+static struct override *override_of(struct params *p, const char *group, const char *key)
+{
+    struct override *found = NULL;
+    for (int k = 0; k < p->noverrides; k++)
+        if (strcmp(p->overrides[k].group, group) == 0 && strcmp(p->overrides[k].key, key) == 0) {
+            found = p->overrides + k; /* the last one counts */
+            found->used = true;
+        }
+    return found;
+}
+
+static void read_row(struct params *p, const struct param_group *g, const struct param *r,
+                     const config_setting_t *group, void *target, bool overridable, struct faults *f)
+{
+    char place[1300], why[512];
+    struct override *o = overridable ? override_of(p, g->name, r->key) : NULL;
+    const config_setting_t *s = o ? config_lookup(&o->cfg, "value")
+                                  : (group ? config_setting_get_member(group, r->key) : NULL);
+    if (o && !s)
+        return; /* its fault is known */
+    if (o)
+        snprintf(place, sizeof place, "command line: -p %s: %s.%s", o->text, g->name, r->key);
+    else
+        place_of(p, s ? s : group, place, sizeof place, g->name, r->key);
+    if (!s) {
+        if (!r->dflt && group)
+            fault(f, place, "must be given: %s%s%s", r->help, strcmp(r->unit, "-") ? ", in " : "",
+                  strcmp(r->unit, "-") ? r->unit : "");
+        return;
+    }
+    if (!get_value(r, s, target, why, sizeof why))
+        fault(f, place, "%s", why);
+}
+
+static const char *nearest_key(const struct param_group *g, const char *key)
+{
+    struct hint_nearest n = hint_nearest_start(key);
+    for (int k = 0; k < g->nrows; k++)
+        hint_nearest_try(&n, g->rows[k].key);
+    return hint_nearest_word(&n);
+}
+
+static bool has_row(const struct param_group *g, const char *key)
+{
+    for (int k = 0; k < g->nrows; k++)
+        if (strcmp(g->rows[k].key, key) == 0)
+            return true;
+    return false;
+}
+
+static void find_unknown_keys(const struct params *p, const struct param_group *g,
+                              const config_setting_t *group, struct faults *f)
+{
+    char place[1300];
+    for (int k = 0; k < config_setting_length(group); k++) {
+        const config_setting_t *s = config_setting_get_elem(group, (unsigned)k);
+        const char *key = config_setting_name(s), *near;
+        if (!key || has_row(g, key))
+            continue;
+        place_of(p, s, place, sizeof place, g->name, key);
+        near = nearest_key(g, key);
+        fault(f, place, near ? "unknown key; did you mean `%s'?" : "unknown key", near);
+    }
+}
+
+static void read_plain(struct params *p, const struct param_group *g, const config_setting_t *s,
+                       struct faults *f)
+{
+    char place[1300];
+    if (s && !config_setting_is_group(s)) {
+        place_of(p, s, place, sizeof place, g->name, "");
+        fault(f, place, "a group { ... } is wanted");
+        return;
+    }
+    for (int k = 0; k < g->nrows; k++)
+        read_row(p, g, g->rows + k, s, g->target, true, f);
+    if (s)
+        find_unknown_keys(p, g, s, f);
+}
+
+static void read_list(struct params *p, const struct param_group *g, const config_setting_t *s,
+                      struct faults *f)
+{
+    char place[1300];
+    *g->count = 0;
+    if (!s)
+        return;
+    if (!config_setting_is_list(s) || config_setting_length(s) > g->max) {
+        place_of(p, s, place, sizeof place, g->name, "");
+        fault(f, place, "a list ( { ... }, { ... } ) of at most %d groups is wanted", g->max);
+        return;
+    }
+    for (int k = 0; k < config_setting_length(s); k++) {
+        const config_setting_t *e = config_setting_get_elem(s, (unsigned)k);
+        void *target = (char *)g->target + g->stride * (size_t)k;
+        if (!config_setting_is_group(e)) {
+            place_of(p, e, place, sizeof place, g->name, "");
+            fault(f, place, "element %d: a group { ... } is wanted", k + 1);
+            continue;
+        }
+        for (int r = 0; r < g->nrows; r++) {
+            set_default(g, g->rows + r, target);
+            read_row(p, g, g->rows + r, e, target, false, f);
+        }
+        find_unknown_keys(p, g, e, f);
+        *g->count = k + 1;
+    }
+}
+
+static bool known_group(const struct params *p, const char *const *others, const char *name)
+{
+    bool known = strcmp(name, "format") == 0;
+    for (int k = 0; k < p->ngroups; k++)
+        known = known || strcmp(p->groups[k].name, name) == 0;
+    for (int k = 0; others && others[k]; k++)
+        known = known || strcmp(others[k], name) == 0;
+    return known;
+}
+
+static const char *nearest_group(const struct params *p, const char *const *others, const char *name)
+{
+    struct hint_nearest n = hint_nearest_start(name);
+    for (int k = 0; k < p->ngroups; k++)
+        hint_nearest_try(&n, p->groups[k].name);
+    for (int k = 0; others && others[k]; k++)
+        hint_nearest_try(&n, others[k]);
+    return hint_nearest_word(&n);
+}
+
+static void find_unknown_groups(struct params *p, const char *const *others, struct faults *f)
+{
+    const config_setting_t *root = config_root_setting(&p->cfg);
+    char place[1300];
+    for (int k = 0; k < config_setting_length(root); k++) {
+        const config_setting_t *s = config_setting_get_elem(root, (unsigned)k);
+        const char *name = config_setting_name(s);
+        const size_t n = strlen(p->names);
+        snprintf(p->names + n, sizeof p->names - n, "%s ", name);
+        if (known_group(p, others, name))
+            continue;
+        const char *file = config_setting_source_file(s), *near = nearest_group(p, others, name);
+        snprintf(place, sizeof place, "%s:%u: %s", file ? file : p->path, config_setting_source_line(s), name);
+        fault(f, place, near ? "unknown group; did you mean `%s'?" : "unknown group", near);
+    }
+}
+
+static void find_unknown_overrides(struct params *p, const char *const *others, struct faults *f)
+{
+    char place[256];
+    for (int k = 0; k < p->noverrides; k++) {
+        struct override *o = p->overrides + k;
+        const struct param_group *g = NULL;
+        if (!*o->group)
+            continue;
+        for (int i = 0; i < p->ngroups; i++)
+            if (strcmp(p->groups[i].name, o->group) == 0)
+                g = p->groups + i;
+        char word[80];
+        snprintf(word, sizeof word, " %s ", o->group);
+        const size_t n = strlen(p->names);
+        if (!strstr(p->names, word))
+            snprintf(p->names + n, sizeof p->names - n, "%s ", o->group);
+        snprintf(place, sizeof place, "command line: -p %s: %s.%s", o->text, o->group, o->key);
+        if (!g && !known_group(p, others, o->group)) {
+            const char *near = nearest_group(p, others, o->group);
+            fault(f, place, near ? "unknown group; did you mean `%s'?" : "unknown group", near);
+        } else if (g && (g->stride || !has_row(g, o->key))) {
+            const char *near = g->stride ? NULL : nearest_key(g, o->key);
+            fault(f, place, near ? "unknown key; did you mean `%s'?" : "unknown key", near);
+        }
+        if (strcmp(o->group, "output") != 0)
+            p->hash = fnv(p->hash, o->text);
+    }
+}
+
+static void check_format(const struct params *p, struct faults *f)
+{
+    const config_setting_t *s = config_lookup(&p->cfg, "format");
+    double v;
+    char place[1300];
+    if (s && !(number_of(s, &v) && v == 1.0)) {
+        snprintf(place, sizeof place, "%s:%u: format", p->path, config_setting_source_line(s));
+        fault(f, place, "1 is wanted: this program reads format 1");
+    }
+}
+
+static void read_case(struct params *p, const char *const *texts, const char *const *others, struct faults *f)
+{
+    p->overrides = NEW(struct override, p->noverrides);
+    for (int k = 0; k < p->noverrides; k++)
+        read_override(p->overrides + k, texts[k], f);
+    read_file(p, f);
+    snprintf(p->names, sizeof p->names, " ");
+    if (!p->read)
+        return;
+    check_format(p, f);
+    find_unknown_groups(p, others, f);
+    find_unknown_overrides(p, others, f);
+    for (int k = 0; k < p->ngroups; k++) {
+        const config_setting_t *s = config_lookup(&p->cfg, p->groups[k].name);
+        if (p->groups[k].stride)
+            read_list(p, p->groups + k, s, f);
+        else
+            read_plain(p, p->groups + k, s, f);
+    }
+}
+
+struct params *params_read(MPI_Comm comm, const char *path, int noverrides,
+                           const char *const *overrides, const struct param_group *groups, int ngroups,
+                           const char *const *others, struct faults *f)
+{
+    struct params *p = NEW(struct params, 1);
+    MPI_Comm_rank(comm, &p->rank);
+    snprintf(p->path, sizeof p->path, "%s", path);
+    p->groups = groups;
+    p->ngroups = ngroups;
+    p->noverrides = p->rank == 0 ? noverrides : 0;
+    config_init(&p->cfg);
+    for (int k = 0; k < ngroups; k++)
+        for (int r = 0; r < groups[k].nrows && !groups[k].stride; r++)
+            set_default(groups + k, groups[k].rows + r, groups[k].target);
+    if (p->rank == 0)
+        read_case(p, overrides, others, f);
+    MPI_Bcast(&f->n, 1, MPI_INT, 0, comm);
+    MPI_Bcast(p->names, NAMES_SIZE, MPI_CHAR, 0, comm);
+    MPI_Bcast(&p->hash, 1, MPI_UNSIGNED_LONG_LONG, 0, comm);
+    for (int k = 0; k < ngroups; k++) {
+        const struct param_group *g = groups + k;
+        if (g->count)
+            MPI_Bcast(g->count, 1, MPI_INT, 0, comm);
+        for (int e = 0; e < (g->stride ? *g->count : 1); e++)
+            for (int r = 0; r < g->nrows; r++)
+                MPI_Bcast((char *)g->target + g->stride * (size_t)e + g->rows[r].offset,
+                          (int)param_size(g->rows + r), MPI_BYTE, 0, comm);
+        if (g->present)
+            *g->present = params_has_group(p, g->name);
+    }
+    return p;
+}
+
+void params_free(struct params **p)
+{
+    if (!*p)
+        return;
+    config_destroy(&(*p)->cfg);
+    for (int k = 0; k < (*p)->noverrides; k++)
+        config_destroy(&(*p)->overrides[k].cfg);
+    mem_free((*p)->overrides);
+    mem_free(*p);
+    *p = NULL;
+}
+
+bool params_has_group(const struct params *p, const char *group)
+{
+    char word[80];
+    snprintf(word, sizeof word, " %s ", group);
+    return strstr(p->names, word) != NULL;
+}
+
+unsigned long long params_hash(const struct params *p) { return p->hash; }
+
+void params_fault(const struct params *p, struct faults *f, const char *key, const char *fmt, ...)
+{
+    char place[1400], text[256];
+    va_list args;
+    if (p->rank > 0) {
+        f->n++;
+        return;
+    }
+    snprintf(text, sizeof text, "%s=", key);
+    const config_setting_t *s = p->read ? config_lookup(&p->cfg, key) : NULL;
+    snprintf(place, sizeof place, "%s: %s", p->path, key);
+    if (s)
+        snprintf(place, sizeof place, "%s:%u: %s",
+                 config_setting_source_file(s) ? config_setting_source_file(s) : p->path,
+                 config_setting_source_line(s), key);
+    for (int k = 0; k < p->noverrides; k++)
+        if (strncmp(p->overrides[k].text, text, strlen(text)) == 0)
+            snprintf(place, sizeof place, "command line: -p %s: %s", p->overrides[k].text, key);
+    va_start(args, fmt);
+    add_fault(f, place, fmt, args);
+    va_end(args);
+}
+
+char *params_text(const struct params *p)
+{
+    char *all = mem_new(32, 1);
+    size_t n = (size_t)snprintf(all, 32, "format = 1;\n");
+    for (int k = 0; k < p->ngroups; k++) {
+        if (!params_has_group(p, p->groups[k].name))
+            continue;
+        char *one = params_group_text(p->groups + k);
+        const size_t m = strlen(one);
+        all = mem_grow(all, n, n + m + 1, 1);
+        memcpy(all + n, one, m + 1);
+        n += m;
+        mem_free(one);
+    }
+    return all;
+}

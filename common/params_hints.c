@@ -1,0 +1,204 @@
+/* params_hints.c - see params_hints.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "params_hints.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+size_t param_size(const struct param *r)
+{
+    switch (r->type) {
+    case PARAM_REAL: return sizeof(double);
+    case PARAM_INT:
+    case PARAM_CHOICE: return sizeof(int);
+    case PARAM_BOOL: return sizeof(bool);
+    case PARAM_TEXT: return PARAM_TEXT_SIZE;
+    case PARAM_REALS: return 3 * sizeof(double);
+    case PARAM_INTS: return 3 * sizeof(int);
+    case PARAM_BOOLS: return 3 * sizeof(bool);
+    default: return 6 * sizeof(double);
+    }
+}
+
+/* Edit distance with swaps of neighbours (optimal string alignment). */
+static int distance(const char *a, const char *b)
+{
+    enum { MOST = 48 };
+    const int n = (int)strlen(a), m = (int)strlen(b);
+    int d[MOST + 1][MOST + 1];
+    if (n > MOST || m > MOST)
+        return MOST;
+    for (int i = 0; i <= n; i++)
+        d[i][0] = i;
+    for (int j = 0; j <= m; j++)
+        d[0][j] = j;
+    for (int i = 1; i <= n; i++)
+        for (int j = 1; j <= m; j++) {
+            int least = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            least = d[i - 1][j] + 1 < least ? d[i - 1][j] + 1 : least;
+            least = d[i][j - 1] + 1 < least ? d[i][j - 1] + 1 : least;
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
+                d[i - 2][j - 2] + 1 < least)
+                least = d[i - 2][j - 2] + 1;
+            d[i][j] = least;
+        }
+    return d[n][m];
+}
+
+struct hint_nearest hint_nearest_start(const char *word)
+{
+    const int most = 1 + (int)strlen(word) / 3;
+    return (struct hint_nearest){.word = word, .distance = most + 1};
+}
+
+void hint_nearest_try(struct hint_nearest *n, const char *known)
+{
+    const int d = distance(n->word, known);
+    if (d < n->distance) {
+        n->distance = d;
+        n->best = known;
+    }
+}
+
+const char *hint_nearest_word(const struct hint_nearest *n) { return n->best; }
+
+static const char *line_at(const char *text, int line, char *copy, size_t size)
+{
+    for (int k = 1; k < line && text; k++) {
+        text = strchr(text, '\n');
+        text = text ? text + 1 : NULL;
+    }
+    const size_t n = text ? strcspn(text, "\n") : 0;
+    snprintf(copy, size, "%.*s", (int)(n < size ? n : size - 1), text ? text : "");
+    copy[strcspn(copy, "#")] = '\0';
+    return copy;
+}
+
+/* Whether a number is followed by a word: a unit. */
+static bool has_unit(const char *s)
+{
+    for (const char *c = strchr(s, '='); c; c = strchr(c + 1, '=')) {
+        const char *d = c + 1 + strspn(c + 1, " \t");
+        const size_t n = strspn(d, "+-0123456789.eE");
+        const char *after = d + n + strspn(d + n, " \t");
+        if (n > 0 && isalpha((unsigned char)*after) && *after != 'L')
+            return true;
+    }
+    return false;
+}
+
+static bool has_decimal_comma(const char *s)
+{
+    for (const char *c = strchr(s, '='); c; c = strchr(c + 1, '=')) {
+        const char *d = c + 1 + strspn(c + 1, " \t"), *e = d + strspn(d, "+-0123456789");
+        if (e > d && *e == ',' && isdigit((unsigned char)e[1]))
+            return true;
+    }
+    return false;
+}
+
+/* yes, no, on, off as a bare word after = , or ( */
+static bool has_bare_word(const char *s)
+{
+    static const char *const words[] = {"yes", "no", "on", "off", "True", "False"};
+    for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
+        const char *at = strstr(s, words[k]);
+        const size_t n = strlen(words[k]);
+        for (; at; at = strstr(at + 1, words[k]))
+            if (at > s && strchr("=(, \t[", at[-1]) && !isalnum((unsigned char)at[n]))
+                return true;
+    }
+    return false;
+}
+
+static const char *slip(const char *s)
+{
+    const char *open = strchr(s, '[');
+    if (has_decimal_comma(s))
+        return "decimal numbers take a point, as in 0.01";
+    if (open && strchr(open, ','))
+        return "use ( ) for vectors: [ ] wants all numbers of one kind";
+    if (has_bare_word(s))
+        return "truth values are true and false; text stands in quotes";
+    if (has_unit(s))
+        return "numbers are plain SI, without a unit, as in 0.01";
+    return NULL;
+}
+
+/* First line of a group that is never closed; 0 if all are. */
+static int open_group(const char *text, char *name, size_t size)
+{
+    int lines[64], depth = 0, line = 1;
+    const char *start[64];
+    bool comment = false, quoted = false;
+    for (const char *c = text; *c; c++) {
+        if (*c == '\n') {
+            line++;
+            comment = false;
+        } else if (!comment && *c == '"') {
+            quoted = !quoted;
+        } else if (!quoted && *c == '#') {
+            comment = true;
+        } else if (!quoted && !comment && *c == '{' && depth < 64) {
+            start[depth] = c;
+            lines[depth++] = line;
+        } else if (!quoted && !comment && *c == '}' && depth > 0) {
+            depth--;
+        }
+    }
+    if (depth == 0)
+        return 0;
+    const char *end = start[0];
+    while (end > text && !isalpha((unsigned char)end[-1]))
+        end--;
+    const char *begin = end;
+    while (begin > text && (isalnum((unsigned char)begin[-1]) || begin[-1] == '_'))
+        begin--;
+    snprintf(name, size, "%.*s", (int)(end - begin), begin);
+    return lines[0];
+}
+
+int hint_syntax(const char *text, int line, const char *error, char *hint, size_t size)
+{
+    char copy[512], name[64];
+    *hint = '\0';
+    if (strstr(error, "include") || strstr(error, "uplicate"))
+        return line;
+    for (int k = line; k >= line - 1 && k > 0; k--) {
+        const char *what = slip(line_at(text, k, copy, sizeof copy));
+        if (what) {
+            snprintf(hint, size, "%s", what);
+            return k;
+        }
+    }
+    const int open = open_group(text, name, sizeof name);
+    if (open > 0)
+        snprintf(hint, size, "group `%s', opened at line %d, is not closed", name, open);
+    return line;
+}
+
+int hint_long_integer(const char *text, char *word, size_t size)
+{
+    int line = 1;
+    bool comment = false, quoted = false;
+    for (const char *c = text; *c; c++) {
+        if (*c == '\n') {
+            line++;
+            comment = false;
+        } else if (*c == '"' && !comment) {
+            quoted = !quoted;
+        } else if (*c == '#' && !quoted) {
+            comment = true;
+        }
+        if (comment || quoted || !isdigit((unsigned char)*c))
+            continue;
+        const size_t n = strspn(c, "0123456789");
+        const bool bare = c == text || !(isalnum((unsigned char)c[-1]) || strchr("._", c[-1]));
+        if (bare && n >= 10 && !strchr(".eEL", c[n])) {
+            snprintf(word, size, "%.*s", (int)n, c);
+            return line;
+        }
+        c += n - 1;
+    }
+    return 0;
+}

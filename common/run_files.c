@@ -1,0 +1,251 @@
+/* run_files.c - see run_files.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "run_files.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "h5.h"
+#include "log.h"
+#include "mem.h"
+#include "xdmf.h"
+
+void files_path(const struct run *r, const char *what, char *path, size_t size)
+{
+    if (r->coupled)
+        snprintf(path, size, "%s/%s-%s", r->dir, r->name, what);
+    else
+        snprintf(path, size, "%s/%s", r->dir, what);
+}
+
+static void write_clock(const struct run_files *f, struct h5 *h)
+{
+    const struct run *r = f->run;
+    h5_attribute_int(h, "format", 1);
+    h5_attribute_real(h, "time", r->t);
+    h5_attribute_int(h, "step", r->step);
+    h5_attribute_int(h, "next", f->next);
+    h5_attribute_text(h, "program", r->name);
+    h5_attribute_text(h, "version", run_version);
+    h5_attribute_text(h, "case", f->case_text);
+}
+
+void files_snapshot(struct run_files *f, const char *what)
+{
+    struct run *r = f->run;
+    char path[1400], name[300];
+    if (!r->scene.output.snapshots)
+        return;
+    if (what)
+        snprintf(name, sizeof name, "%s_%s.h5", r->name, what);
+    else
+        snprintf(name, sizeof name, "%s_%06d.h5", r->name, f->next++);
+    snprintf(path, sizeof path, "%s/%s", r->dir, name);
+    const int timer = timer_index(&r->timers, "output");
+    timer_start(&r->timers, timer);
+    struct h5 *h = h5_create(r->comm, path);
+    write_clock(f, h);
+    f->program->snapshot(f->state, h, f->xdmf, name);
+    h5_close(&h);
+    timer_stop(&r->timers, timer);
+    if (!r->coupled)
+        log_say("  output at t = %g s: %s", r->t, path);
+    else
+        log_quiet("  output at t = %g s: %s", r->t, path);
+}
+
+static void write_manifest(const struct run *r, int64_t n, const char *file)
+{
+    char path[1100], part[1110];
+    snprintf(path, sizeof path, "%s/checkpoint.txt", r->dir);
+    snprintf(part, sizeof part, "%s.part", path);
+    FILE *f = fopen(part, "w");
+    if (!f)
+        fail("cannot write %s", part);
+    fprintf(f, "step %lld\nt %.17g\n%s %s\n", (long long)n, r->t, r->name, file);
+    if (fflush(f) != 0 || fsync(fileno(f)) != 0 || fclose(f) != 0 || rename(part, path) != 0)
+        fail("cannot write %s", path);
+}
+
+void files_checkpoint(struct run_files *f, int64_t n, char *file)
+{
+    struct run *r = f->run;
+    char path[1400];
+    snprintf(file, 256, "%s-checkpoint-%lld.h5", r->name, (long long)n);
+    snprintf(path, sizeof path, "%s/%s", r->dir, file);
+    const int timer = timer_index(&r->timers, "checkpoint");
+    timer_start(&r->timers, timer);
+    struct h5 *h = h5_create_restart(r->comm, path);
+    write_clock(f, h);
+    f->program->checkpoint(f->state, h);
+    h5_close(&h);
+    if (!r->coupled && r->rank == 0) {
+        write_manifest(r, n, file);
+        snprintf(path, sizeof path, "%s/%s", r->dir, f->kept[0]);
+        if (*f->kept[0] && strcmp(f->kept[0], file) != 0)
+            unlink(path);
+        memcpy(f->kept[0], f->kept[1], sizeof f->kept[0]);
+        snprintf(f->kept[1], sizeof f->kept[1], "%s", file);
+    }
+    timer_stop(&r->timers, timer);
+    log_quiet("  restart file at t = %g s: %s", r->t, file);
+}
+
+/* Reads "window N", "NAME FILE" of the manifest. */
+static bool read_manifest(const struct run *r, int64_t *window, char *file, size_t size)
+{
+    char path[1100], line[600], key[64], value[300];
+    snprintf(path, sizeof path, "%s/checkpoint.txt", r->dir);
+    FILE *f = fopen(path, "r");
+    *window = -1;
+    *file = '\0';
+    while (f && fgets(line, sizeof line, f)) {
+        if (sscanf(line, "%63s %299s", key, value) != 2)
+            continue;
+        if (strcmp(key, "window") == 0)
+            *window = atoll(value);
+        if (strcmp(key, r->name) == 0)
+            snprintf(file, size, "%s", value);
+    }
+    if (f)
+        fclose(f);
+    return *file;
+}
+
+struct h5 *files_open_restart(struct run *r, int64_t *window)
+{
+    char file[300], path[1400];
+    int good = 0;
+    *window = -1;
+    if (r->rank == 0)
+        good = read_manifest(r, window, file, sizeof file);
+    MPI_Bcast(&good, 1, MPI_INT, 0, r->comm);
+    MPI_Bcast(window, 1, MPI_INT64_T, 0, r->comm);
+    MPI_Bcast(file, sizeof file, MPI_CHAR, 0, r->comm);
+    if (!good) {
+        log_say("--restart: %s/checkpoint.txt names no restart file of %s; run without --restart", r->dir, r->name);
+        return NULL;
+    }
+    snprintf(path, sizeof path, "%s/%s", r->dir, file);
+    struct h5 *h = h5_open(r->comm, path);
+    int64_t format = 0;
+    if (!h)
+        log_say("--restart: %s is missing or no HDF5 file", path);
+    else if (!h5_read_attribute_int(h, "format", &format) || format != 1) {
+        log_say("--restart: %s has format %lld, this program reads 1", path, (long long)format);
+        h5_close(&h);
+    }
+    return h;
+}
+
+bool files_read_clock(struct run_files *f, struct h5 *h)
+{
+    int64_t next = 0;
+    const bool all = h5_read_attribute_real(h, "time", &f->run->t) &&
+                     h5_read_attribute_int(h, "step", &f->run->step) &&
+                     h5_read_attribute_int(h, "next", &next);
+    f->next = (int)next;
+    return all;
+}
+
+void files_view(const struct run *r)
+{
+    char path[1100];
+    snprintf(path, sizeof path, "%s/view.py", r->dir);
+    FILE *f = r->rank == 0 ? fopen(path, "w") : NULL;
+    if (!f)
+        return;
+    fputs("# paraview --script=view.py: all programs of the run, coloured by vorticity\n"
+          "import os\n"
+          "from paraview.simple import *\n"
+          "here = os.path.dirname(os.path.abspath(__file__)) if '__file__' in globals() else os.getcwd()\n"
+          "view = GetActiveViewOrCreate('RenderView')\n"
+          "for name in ('fv', 'sph'):\n"
+          "    path = os.path.join(here, name + '.xdmf')\n"
+          "    if not os.path.exists(path):\n"
+          "        continue\n"
+          "    source = XDMFReader(FileNames=[path], guiName=name)\n"
+          "    shown = Show(source, view)\n"
+          "    shown.PointSize = 4\n"
+          "    kind = 'POINTS' if name == 'sph' else 'CELLS'\n"
+          "    fields = source.PointData.keys() if name == 'sph' else source.CellData.keys()\n"
+          "    if 'vorticity' in fields:\n"
+          "        ColorBy(shown, (kind, 'vorticity'))\n"
+          "GetAnimationScene().UpdateAnimationUsingDataTimeSteps()\n"
+          "ResetCamera(view)\n"
+          "Render(view)\n",
+          f);
+    fclose(f);
+}
+
+/* ---- the folder ------------------------------------------------------------------------------- */
+
+/* Whether a file belongs to a run of this program. */
+static bool is_ours(const char *file, const char *name)
+{
+    const size_t n = strlen(name);
+    static const char *const shared[] = {"summary.json", "series.csv", "checkpoint.txt", "log.txt"};
+    for (size_t k = 0; k < sizeof shared / sizeof shared[0]; k++)
+        if (strcmp(file, shared[k]) == 0)
+            return true;
+    return strncmp(file, name, n) == 0 && file[n] && strchr("_-.", file[n]);
+}
+
+static bool make_path(const char *dir)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s", dir);
+    for (char *c = path + 1; *c; c++)
+        if (*c == '/') {
+            *c = '\0';
+            mkdir(path, 0777);
+            *c = '/';
+        }
+    return mkdir(path, 0777) == 0 || errno == EEXIST;
+}
+
+static int prepare(const char *dir, const char *name, bool force, bool restart)
+{
+    DIR *d = opendir(dir);
+    int found = 0;
+    for (struct dirent *e; d && (e = readdir(d));) {
+        if (!is_ours(e->d_name, name))
+            continue;
+        found++;
+        if (force && !restart) {
+            char path[1400];
+            snprintf(path, sizeof path, "%s/%s", dir, e->d_name);
+            unlink(path);
+        }
+    }
+    if (d)
+        closedir(d);
+    if (found && !force && !restart) {
+        log_say("%s holds a run of %s already: -o DIR for another folder, --force to replace it, --restart to go on",
+                dir, name);
+        return RUN_INPUT;
+    }
+    if (!d && restart) {
+        log_say("--restart: there is no folder %s; run without --restart", dir);
+        return RUN_INPUT;
+    }
+    if (!make_path(dir)) {
+        log_say("cannot make the folder %s: %s", dir, strerror(errno));
+        return RUN_INPUT;
+    }
+    return 0;
+}
+
+int run_folder(MPI_Comm comm, const char *dir, const char *name, bool force, bool restart)
+{
+    int rank, code = 0;
+    MPI_Comm_rank(comm, &rank);
+    if (rank == 0)
+        code = prepare(dir, name, force, restart);
+    MPI_Bcast(&code, 1, MPI_INT, 0, comm);
+    return code;
+}

@@ -1,0 +1,68 @@
+/* series.c - rows of series.csv. SPDX-License-Identifier: BSD-3-Clause */
+#include "series.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "log.h"
+#include "mem.h"
+
+struct series {
+    FILE *file; /* NULL on the ranks that do not write */
+    int ncolumns;
+};
+
+/* Keeps the header and the rows up to t of an existing file. */
+static void drop_later_rows(const char *path, double t)
+{
+    char line[4096], part[1100];
+    FILE *in = fopen(path, "r"), *out = NULL;
+    snprintf(part, sizeof part, "%s.part", path);
+    if (in)
+        out = fopen(part, "w");
+    for (bool header = true; out && fgets(line, sizeof line, in); header = false)
+        if (header || atof(line) <= t * (1.0 + 1e-14))
+            fputs(line, out);
+    if (in)
+        fclose(in);
+    if (out) {
+        fclose(out);
+        rename(part, path);
+    }
+}
+
+struct series *series_create(const char *path, int ncolumns, const char *const *columns, bool keep,
+                             double t_restart)
+{
+    struct series *s = NEW(struct series, 1);
+    s->ncolumns = ncolumns;
+    if (!path)
+        return s;
+    FILE *old = keep ? fopen(path, "r") : NULL;
+    if (old) {
+        fclose(old);
+        drop_later_rows(path, t_restart);
+    }
+    s->file = fopen(path, old ? "a" : "w");
+    if (!s->file)
+        fail("cannot write %s", path);
+    setvbuf(s->file, NULL, _IOLBF, 0);
+    for (int k = 0; !old && k < ncolumns; k++)
+        fprintf(s->file, "%s%s", columns[k], k < ncolumns - 1 ? "," : "\n");
+    return s;
+}
+
+void series_row(struct series *s, const double *values)
+{
+    for (int k = 0; s->file && k < s->ncolumns; k++)
+        fprintf(s->file, "%.12g%s", values[k], k < s->ncolumns - 1 ? "," : "\n");
+}
+
+void series_free(struct series **s)
+{
+    if (*s && (*s)->file)
+        fclose((*s)->file);
+    mem_free(*s);
+    *s = NULL;
+}

@@ -1,0 +1,139 @@
+/* signals.c - a request to stop is a flag; a fault leaves a note for the other programs of the job.
+ * Open MPI 4.1 reports no error for a dead peer: survivors get SIGTERM about 1 s after it and SIGKILL 1 s
+ * later. So SIGTERM with a note on disk means that a partner failed; without one, an orderly stop is
+ * tried, and if that hangs for 0.8 s, for lack of the partner, the reason is printed and the process leaves.
+ * Handlers use only functions that are safe in them. SPDX-License-Identifier: BSD-3-Clause */
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include "log.h"
+#include "run.h"
+
+static struct {
+    char who[96];       /* "sph rank 0" */
+    char note[1100];    /* path of the death note */
+    char heard[2][256]; /* the text in use and the one being written */
+    volatile sig_atomic_t heard_now, stop, handled;
+} state;
+
+static void put(int fd, const char *s)
+{
+    const ssize_t n = write(fd, s, strlen(s));
+    (void)n;
+}
+
+/* Prints the note of whoever failed first; false if there is none. */
+static bool print_note(void)
+{
+    char text[512];
+    const int fd = *state.note ? open(state.note, O_RDONLY) : -1;
+    const ssize_t n = fd >= 0 ? read(fd, text, sizeof text - 1) : 0;
+    if (fd >= 0)
+        close(fd);
+    if (n <= 0)
+        return false;
+    text[n] = '\0';
+    put(STDOUT_FILENO, state.who);
+    put(STDOUT_FILENO, ": ends because of ");
+    put(STDOUT_FILENO, text);
+    if (text[n - 1] != '\n')
+        put(STDOUT_FILENO, "\n");
+    return true;
+}
+
+static void leave_note(const char *what)
+{
+    const int fd = *state.note ? open(state.note, O_WRONLY | O_CREAT | O_EXCL, 0644) : -1;
+    if (fd < 0)
+        return;
+    put(fd, state.who);
+    put(fd, ": ");
+    put(fd, what);
+    put(fd, "\n");
+    close(fd);
+}
+
+static void on_stop(int signal)
+{
+    const int error = errno;
+    state.stop = 1;
+    if (signal == SIGTERM && !state.handled) {
+        if (print_note())
+            _exit(RUN_PARTNER);
+        const struct itimerval soon = {.it_value = {.tv_usec = 800000}};
+        setitimer(ITIMER_REAL, &soon, NULL);
+    }
+    errno = error;
+}
+
+static void on_alarm(int signal)
+{
+    (void)signal;
+    if (state.handled)
+        return;
+    if (!print_note()) {
+        put(STDOUT_FILENO, state.who);
+        put(STDOUT_FILENO, ": the launcher ends the job and no program left a reason (killed, or out of memory?)");
+        if (*state.heard[state.heard_now]) {
+            put(STDOUT_FILENO, "; last heard: ");
+            put(STDOUT_FILENO, state.heard[state.heard_now]);
+        }
+        put(STDOUT_FILENO, "\n");
+    }
+    _exit(RUN_PARTNER);
+}
+
+static const char *fault_name(int signal)
+{
+    return signal == SIGSEGV  ? "segmentation fault"
+           : signal == SIGFPE ? "arithmetic fault"
+           : signal == SIGBUS ? "bus fault"
+                              : "abort";
+}
+
+static void on_fault(int signal)
+{
+    leave_note(fault_name(signal));
+    put(STDOUT_FILENO, state.who);
+    put(STDOUT_FILENO, ": ");
+    put(STDOUT_FILENO, fault_name(signal));
+    put(STDOUT_FILENO, "\n");
+    raise(signal); /* SA_RESETHAND: the default action now */
+}
+
+static void install(int signal, void (*handler)(int), int flags)
+{
+    struct sigaction a = {.sa_handler = handler, .sa_flags = flags};
+    sigemptyset(&a.sa_mask);
+    sigaction(signal, &a, NULL);
+}
+
+void signals_install(const char *program, int rank)
+{
+    snprintf(state.who, sizeof state.who, "%s rank %d", program, rank);
+    install(SIGINT, on_stop, SA_RESTART);
+    install(SIGTERM, on_stop, SA_RESTART);
+    install(SIGUSR1, on_stop, SA_RESTART);
+    install(SIGALRM, on_alarm, SA_RESTART);
+    static const int faults[] = {SIGSEGV, SIGFPE, SIGBUS, SIGABRT};
+    for (size_t k = 0; k < sizeof faults / sizeof faults[0]; k++)
+        install(faults[k], on_fault, (int)SA_RESETHAND | SA_NODEFER);
+    fail_hook = leave_note;
+}
+
+bool signals_stop(void) { return state.stop; }
+void signals_handled(void) { state.handled = 1; }
+
+void signals_note_path(const char *path) { snprintf(state.note, sizeof state.note, "%s", path); }
+
+void signals_heard(const char *text)
+{
+    const int next = 1 - state.heard_now;
+    snprintf(state.heard[next], sizeof state.heard[next], "%s", text);
+    state.heard_now = next;
+}

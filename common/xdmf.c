@@ -1,0 +1,156 @@
+/* xdmf.c - see xdmf.h. Each snapshot is one piece of text; the file is head, pieces, tail.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "xdmf.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "log.h"
+#include "mem.h"
+
+static const char head[] = "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
+                           "<Grid Name=\"snapshots\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+static const char tail[] = "</Grid>\n</Domain>\n</Xdmf>\n";
+
+struct xdmf {
+    char path[1100];
+    char *text; /* the pieces; owned */
+    size_t n, room;
+};
+
+static void __attribute__((format(printf, 2, 3))) add(struct xdmf *x, const char *fmt, ...)
+{
+    va_list args;
+    va_start(args, fmt);
+    const int more = vsnprintf(NULL, 0, fmt, args);
+    va_end(args);
+    if (x->n + (size_t)more + 1 > x->room) {
+        const size_t room = 2 * (x->n + (size_t)more) + 1024;
+        x->text = mem_grow(x->text, x->text ? x->n + 1 : 0, room, 1);
+        x->room = room;
+    }
+    va_start(args, fmt);
+    vsnprintf(x->text + x->n, (size_t)more + 1, fmt, args);
+    va_end(args);
+    x->n += (size_t)more;
+}
+
+/* Pieces of an existing file before t, each from its <Grid to its </Grid>. */
+static void read_pieces(struct xdmf *x, double t)
+{
+    FILE *f = fopen(x->path, "r");
+    char line[2048];
+    struct xdmf piece = {0};
+    double at = 0.0;
+    bool inside = false;
+    while (f && fgets(line, sizeof line, f)) {
+        const char *value = strstr(line, "<Time Value=\"");
+        if (strstr(line, "<Grid Name=\"at\""))
+            inside = true;
+        if (inside)
+            add(&piece, "%s", line);
+        if (value)
+            at = atof(value + 13);
+        if (inside && strstr(line, "</Grid>")) {
+            if (at < t * (1.0 - 1e-12))
+                add(x, "%s", piece.text);
+            piece.n = 0;
+            inside = false;
+        }
+    }
+    if (f)
+        fclose(f);
+    mem_free(piece.text);
+}
+
+struct xdmf *xdmf_create(const char *path, bool keep, double t_restart)
+{
+    struct xdmf *x = NEW(struct xdmf, 1);
+    snprintf(x->path, sizeof x->path, "%s", path);
+    if (keep)
+        read_pieces(x, t_restart);
+    return x;
+}
+
+void xdmf_free(struct xdmf **x)
+{
+    if (*x)
+        mem_free((*x)->text);
+    mem_free(*x);
+    *x = NULL;
+}
+
+static void rewrite(const struct xdmf *x)
+{
+    char part[1110];
+    snprintf(part, sizeof part, "%s.part", x->path);
+    FILE *f = fopen(part, "w");
+    if (!f)
+        fail("cannot write %s", part);
+    fprintf(f, "%s%s%s", head, x->text ? x->text : "", tail);
+    if (fclose(f) != 0 || rename(part, x->path) != 0)
+        fail("cannot write %s", x->path);
+}
+
+static void add_fields(struct xdmf *x, const char *center, const char *shape, const char *file, int nfields,
+                       const struct xdmf_field *fields)
+{
+    for (int k = 0; k < nfields; k++) {
+        const int c = fields[k].ncomp;
+        char comps[16] = "";
+        if (c > 1)
+            snprintf(comps, sizeof comps, " %d", c);
+        add(x,
+            "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\"><DataItem Format=\"HDF\" "
+            "NumberType=\"Float\" Precision=\"4\" Dimensions=\"%s%s\">%s:/%s</DataItem></Attribute>\n",
+            fields[k].name, c == 3 ? "Vector" : c == 1 ? "Scalar" : "Matrix", center, shape, comps, file,
+            fields[k].name);
+    }
+}
+
+void xdmf_points(struct xdmf *x, double t, const char *file, int64_t n, int dim, int nfields,
+                 const struct xdmf_field *fields)
+{
+    char shape[32];
+    snprintf(shape, sizeof shape, "%lld", (long long)n);
+    add(x, "<Grid Name=\"at\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
+    add(x, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%s\"/>\n", shape);
+    add(x,
+        "<Geometry GeometryType=\"%s\"><DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"4\" "
+        "Dimensions=\"%s %d\">%s:/position</DataItem></Geometry>\n",
+        dim == 2 ? "XY" : "XYZ", shape, dim, file);
+    add_fields(x, "Node", shape, file, nfields, fields);
+    add(x, "</Grid>\n");
+    rewrite(x);
+}
+
+void xdmf_block(struct xdmf *x, double t, const char *file, int dim, const int *cells,
+                const double *origin, const double *spacing, int nfields,
+                const struct xdmf_field *fields)
+{
+    char shape[64], nodes[64];
+    add(x, "<Grid Name=\"at\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
+    if (dim == 2) {
+        snprintf(shape, sizeof shape, "%d %d", cells[1], cells[0]);
+        snprintf(nodes, sizeof nodes, "%d %d", cells[1] + 1, cells[0] + 1);
+        add(x,
+            "<Topology TopologyType=\"2DCoRectMesh\" Dimensions=\"%s\"/>\n<Geometry "
+            "GeometryType=\"ORIGIN_DXDY\"><DataItem Format=\"XML\" Dimensions=\"2\">%.17g %.17g</DataItem>"
+            "<DataItem Format=\"XML\" Dimensions=\"2\">%.17g %.17g</DataItem></Geometry>\n",
+            nodes, origin[1], origin[0], spacing[1], spacing[0]);
+    } else {
+        snprintf(shape, sizeof shape, "%d %d %d", cells[2], cells[1], cells[0]);
+        snprintf(nodes, sizeof nodes, "%d %d %d", cells[2] + 1, cells[1] + 1, cells[0] + 1);
+        add(x,
+            "<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"%s\"/>\n<Geometry "
+            "GeometryType=\"ORIGIN_DXDYDZ\"><DataItem Format=\"XML\" Dimensions=\"3\">%.17g %.17g "
+            "%.17g</DataItem><DataItem Format=\"XML\" Dimensions=\"3\">%.17g %.17g "
+            "%.17g</DataItem></Geometry>\n",
+            nodes, origin[2], origin[1], origin[0], spacing[2], spacing[1], spacing[0]);
+    }
+    add_fields(x, "Cell", shape, file, nfields, fields);
+    add(x, "</Grid>\n");
+    rewrite(x);
+}

@@ -1,0 +1,357 @@
+/* coupler.c - main program of the coupler: meets the solvers, checks their plan, then answers messages
+ * until all have said goodbye. SPDX-License-Identifier: BSD-3-Clause */
+#include "coupler.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "../common/log.h"
+#include "../common/timer.h"
+#include "failure.h"
+
+static const double look_every = 0.25, stall_first = 60.0, default_deadline = 30.0; /* s */
+static const char help[] = "brings the solvers of a job together: fields, time windows, restart points";
+static const char *const others[] = {"sph", "fv", "walls", "bodies", NULL};
+
+static _Noreturn void broken(const char *what) { fail("%s", what); }
+static void leave_note(const char *reason) { failure_note(reason); }
+
+/* --- waiting ----------------------------------------------------------------------------------- */
+
+static void look_after_partners(void)
+{
+    char note[512];
+    if (!failure_witness())
+        return;
+    if (!failure_read(note, sizeof note))
+        snprintf(note, sizeof note, "a program of this job is gone");
+    log_here("%s", note);
+    failure_die(RUN_PARTNER, note);
+}
+
+static void tell_stall(struct coupler *c)
+{
+    char text[TEXT] = "";
+    if (c->nwindows > 0)
+        problem(text, "window %lld has been under way for %.0f s:", (long long)c->window,
+                c->stall_every);
+    for (int i = 0; i < c->nsolvers; i++)
+        if (!c->solver[i].ready)
+            problem(text, "%s is not ready yet", c->solver[i].name);
+        else if (c->solver[i].advanced < c->window)
+            problem(text, "  %s has not ended it; last heard %.1f s ago", c->solver[i].name,
+                    wire_time() - c->solver[i].heard);
+    rendezvous_waiting(c, text);
+    log_say("%s", text);
+    c->stall_every *= 2.0;
+    c->stall_at = wall_time() + c->stall_every;
+}
+
+/* What rank 0 does beside answering. */
+static void look_around(struct coupler *c)
+{
+    if (signals_stop() && !c->stopping) {
+        c->stopping = true;
+        signals_handled();
+        log_say("stopping in order: one more window, restart files, end");
+    }
+    if (wall_time() > c->stall_at)
+        tell_stall(c);
+    report_progress(c);
+}
+
+/* Next message of a peer (-1: any). */
+static struct message *await(struct coupler *c, int peer)
+{
+    struct message *m;
+    struct nap nap;
+    nap_begin(&nap);
+    while (!(m = wire_poll(&c->wire, peer))) {
+        const double now = wire_time();
+        if (now - nap.checked > look_every) {
+            nap.checked = now;
+            look_after_partners();
+        }
+        if (c->rank == 0)
+            look_around(c);
+        nap_take(&nap, WIRE_COUPLER_NAP);
+    }
+    c->idle += wire_time() - nap.since;
+    if (m->peer < c->nsolvers)
+        c->solver[m->peer].heard = wire_time();
+    return m;
+}
+
+/* --- meeting, plan ----------------------------------------------------------------------------- */
+
+static void print_problems(const char *text) { log_say("%s\nnothing was started", text); }
+
+/* False: the programs do not fit together; all have been told. */
+static bool meet(struct coupler *c, int faults)
+{
+    char text[TEXT] = "", path[1100];
+    struct message *m;
+    if (c->rank > 0) {
+        m = await(c, c->own_peer);
+        take_text(&c->wire, m, text, sizeof text);
+        message_free(&m);
+        return !text[0];
+    }
+    if (faults)
+        problem(text, "coupler: %d fault%s in its input", faults, faults > 1 ? "s" : "");
+    for (int n = 0; n < c->nsolvers; n++) {
+        m = await(c, -1);
+        if (m->head.kind != WIRE_MEET || m->peer >= c->nsolvers || c->solver[m->peer].met)
+            fail("message %d while programs meet", m->head.kind);
+        plan_take_meet(c, &c->solver[m->peer], m);
+        message_free(&m);
+    }
+    if (!faults)
+        plan_check_meet(c, text);
+    if (text[0])
+        print_problems(text);
+    snprintf(path, sizeof path, "%s/.death", c->dir);
+    (void)unlink(path); /* of an earlier run, before anybody can need it */
+    plan_answer_meet(c, text);
+    return !text[0];
+}
+
+/* Rank 0 hands on what the solvers say: every rank draws the same plan from it. */
+static void forward(struct coupler *c, const struct message *m)
+{
+    for (int r = 1; r < c->size; r++) {
+        struct pack p;
+        pack_begin(&p, WIRE_READY, m->peer, m->head.tick);
+        pack_bytes(&p, m->body, (size_t)m->head.bytes);
+        wire_send(&c->wire, c->own_peer, r, &p);
+    }
+}
+
+static bool plan(struct coupler *c)
+{
+    char text[TEXT] = "";
+    for (int n = 0; n < c->nsolvers; n++) {
+        struct message *m = await(c, c->rank == 0 ? -1 : c->own_peer);
+        const int who = c->rank == 0 ? m->peer : m->head.field;
+        if (m->head.kind != WIRE_READY || who >= c->nsolvers || c->solver[who].ready)
+            fail("message %d while programs draw their plan", m->head.kind);
+        if (c->rank == 0)
+            forward(c, m);
+        c->solver[who].restart_window = m->head.tick;
+        plan_take_ready(c, &c->solver[who], m);
+        message_free(&m);
+    }
+    plan_make_links(c, text);
+    window_divide(c, text);
+    if (text[0])
+        print_problems(text);
+    else
+        plan_describe(c);
+    if (c->rank == 0)
+        plan_answer_ready(c, text);
+    return !text[0];
+}
+
+/* --- the job ----------------------------------------------------------------------------------- */
+
+static void take_bye(struct coupler *c, struct solver *s, struct message *m)
+{
+    if (c->rank == 0 && c->action != CPL_STOP)
+        fail("%s left in window %lld, before the end", s->name, (long long)c->window);
+    const int code = (int)take_int(&c->wire, m);
+    const double waited = take_real(&c->wire, m);
+    s->code = code > s->code ? code : s->code;
+    s->waited = m->rank == 0 ? waited : s->waited;
+    s->cpu += take_real(&c->wire, m);
+    report_told(&c->wire, m, &s->told);
+    s->said_bye = ++s->byes == s->size;
+    c->over = true;
+    for (int i = 0; i < c->nsolvers; i++)
+        c->over = c->over && c->solver[i].said_bye;
+}
+
+static void answer(struct coupler *c, struct message **m)
+{
+    struct solver *s = &c->solver[(*m)->peer];
+    char text[TEXT] = "";
+    if ((*m)->peer >= c->nsolvers)
+        fail("message %d from the coupler to itself", (*m)->head.kind);
+    switch ((*m)->head.kind) {
+    case WIRE_GET:
+        rendezvous_get(c, s, *m);
+        break;
+    case WIRE_PUT:
+        rendezvous_put(c, s, m);
+        break;
+    case WIRE_ADVANCE:
+        window_advance(c, s, *m);
+        break;
+    case WIRE_SAVED:
+        checkpoint_saved(c, s, *m);
+        break;
+    case WIRE_BYE:
+        take_bye(c, s, *m);
+        break;
+    default:
+        fail("%s rank %d sent message %d out of order", s->name, (*m)->rank, (*m)->head.kind);
+    }
+    if (c->rank == 0 && rendezvous_starved(c, text))
+        fail("%s", text);
+    message_free(m);
+}
+
+static void say_doing(struct coupler *c)
+{
+    char text[128];
+    if (c->said == c->window)
+        return;
+    c->said = c->window;
+    snprintf(text, sizeof text, "in window %lld of %lld", (long long)c->window,
+             (long long)c->nwindows);
+    failure_doing(text);
+    signals_heard(text);
+}
+
+static int serve(struct coupler *c)
+{
+    rendezvous_open(c);
+    if (c->rank == 0)
+        window_announce(c);
+    while (!c->over) {
+        struct message *m = await(c, -1);
+        answer(c, &m);
+        if (c->rank == 0)
+            say_doing(c);
+    }
+    double cpu = cpu_time(), all = 0.0;
+    MPI_Reduce(&cpu, &all, 1, MPI_DOUBLE, MPI_SUM, 0, c->comm);
+    int code = c->rank == 0 ? report_summary(c, all) : 0;
+    for (int i = 0; i < c->nsolvers && c->rank == 0; i++) {
+        struct pack p;
+        pack_begin(&p, WIRE_BYE_ACK, 0, 0);
+        pack_int(&p, code);
+        wire_send_all(&c->wire, c->solver[i].peer, &p);
+    }
+    MPI_Bcast(&code, 1, MPI_INT, 0, c->comm);
+    return code;
+}
+
+static void list_solvers(struct coupler *c)
+{
+    for (int i = 0; i < c->who.nprograms; i++) {
+        const struct handshake_program *p = &c->who.program[i];
+        if (i == c->who.coupler)
+            continue;
+        struct solver *s = &c->solver[c->nsolvers++];
+        s->name = p->name;
+        s->size = p->size;
+        s->heard = wire_time();
+        s->peer = wire_add_peer(&c->wire, p->inter, p->size, p->name);
+    }
+    c->own_peer = wire_add_peer(&c->wire, c->comm, c->size, "coupler");
+}
+
+static int couple(struct coupler *c, struct faults *faults)
+{
+    char path[1100];
+    int code = RUN_INPUT;
+    c->wire.broken = broken;
+    list_solvers(c);
+    fail_hook = leave_note;
+    if (params_report(faults) == 0 &&
+        run_folder(c->comm, c->dir, "coupler", c->command->force, c->command->restart) != 0)
+        faults->n++;
+    snprintf(path, sizeof path, "%s/.death", c->dir);
+    failure_path(path);
+    signals_note_path(path);
+    if (faults->n == 0) {
+        snprintf(path, sizeof path, "%s/log.txt", c->dir);
+        log_file(path);
+    }
+    if (meet(c, faults->n) && plan(c))
+        code = serve(c);
+    while (!wire_flushed(&c->wire))
+        usleep(100);
+    failure_closed();
+    rendezvous_close(c);
+    return code;
+}
+
+static void describe(const struct coupler *c)
+{
+    const struct scene_output *o = &c->scene.output;
+    log_say("%s: %dD, to t = %g s, outputs every %g s", c->command->case_file, c->scene.domain.dim,
+            c->scene.time.end, o->every);
+    if (!c->scene.has_sph || !c->scene.has_fv) {
+        log_say("not a coupled job: it has %s", c->scene.has_sph ? "group sph only"
+                                                : c->scene.has_fv ? "group fv only"
+                                                                  : "no group sph or fv");
+        return;
+    }
+    log_say("sph and fv exchange every %d steps of sph", c->scene.coupling.steps);
+    log_say("  fv -> sph  velocity, pressure: %s, everywhere but the free zone",
+            c->scene.coupling.interpolation ? "cubic" : "linear");
+    log_say("  sph -> fv  velocity: %s, at the cells that fv leaves to sph",
+            c->scene.coupling.mapping ? "moving least squares" : "Shepard");
+    log_say("  transition %g m, buffer %g m (0: 1.25 R)", c->scene.coupling.transition,
+            c->scene.coupling.buffer);
+}
+
+static int run(struct coupler *c, const struct command_line *command)
+{
+    struct param_group groups[SCENE_GROUPS];
+    struct faults faults = {0};
+    int code = RUN_INPUT;
+    c->command = command;
+    snprintf(c->dir, sizeof c->dir, "%s", command->dir);
+    scene_groups(&c->scene, groups);
+    c->params = params_read(MPI_COMM_SELF, command->case_file, command->noverrides,
+                            command->overrides, groups, SCENE_GROUPS, others, &faults);
+    c->scene.has_sph = params_has_group(c->params, "sph");
+    c->scene.has_fv = params_has_group(c->params, "fv");
+    scene_check(&c->scene, c->params, &faults);
+    c->hash = params_hash(c->params);
+    if (command->check) {
+        code = params_report(&faults) ? RUN_INPUT : RUN_DONE;
+        if (code == RUN_DONE)
+            describe(c);
+    } else {
+        const double s = faults.n == 0 ? c->scene.coupling.deadline : default_deadline;
+        const int met = handshake(c->world, "coupler", s, &c->who);
+        c->comm = c->who.mine;
+        MPI_Comm_rank(c->comm, &c->rank);
+        MPI_Comm_size(c->comm, &c->size);
+        log_open(c->comm, "coupler");
+        signals_install("coupler", c->rank);
+        if (met != 0)
+            log_say("%s", c->who.text);
+        else
+            code = couple(c, &faults);
+    }
+    params_free(&c->params);
+    return code;
+}
+
+int main(int argc, char **argv)
+{
+    static struct coupler c; /* large */
+    struct command_line command;
+    struct scene scene;
+    struct param_group groups[SCENE_GROUPS];
+    MPI_Init(&argc, &argv);
+    scene_groups(&scene, groups);
+    c.world = MPI_COMM_WORLD;
+    c.line_every = 1.0;
+    c.stall_every = stall_first;
+    c.start = wall_time();
+    c.line_at = c.start + c.line_every;
+    c.stall_at = c.start + c.stall_every;
+    c.said = -1;
+    int code = run_command_line(&command, argc, argv, "coupler", help, groups, SCENE_GROUPS);
+    if (code < 0)
+        code = run(&c, &command);
+    MPI_Finalize();
+    return code;
+}

@@ -1,0 +1,159 @@
+/* coupler.h - the whole state of the coupler and what its modules offer each other. Its ranks know the
+ * same plan; rank 0 alone decides windows and writes files, all of them bring fields together.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COUPLER_COUPLER_H
+#define COUPLER_COUPLER_H
+
+#include <mpi.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "../common/run.h"
+#include "cpl.h"
+#include "handshake.h"
+#include "map.h"
+#include "region.h"
+#include "wire.h"
+
+enum { SETS = 16, FIELDS = 32, LINKS = 64, TEXT = 4096, TOLD = 192, KEY = 96 };
+
+/* What one program told: its last word for each key, in the order of their first mention. */
+struct told {
+    int n;
+    struct told_number {
+        char key[KEY];
+        double value;
+    } of[TOLD];
+};
+
+struct solver {
+    const char *name;
+    int size, peer; /* ranks; its place in wire */
+    bool met, ready, said_bye;
+    int64_t restart_window;
+    uint64_t hash;
+    int faults, nzones;
+    struct named_box {
+        char name[CPL_NAME];
+        double lo[3], hi[3];
+    } zone[64];
+    double t, dt_wish;
+    int nsets, nfields;
+    struct solver_set {
+        char name[CPL_NAME];
+        bool is_grid;
+        int dim;
+        double support;
+        struct cpl_grid grid;
+    } set[SETS];
+    struct solver_field {
+        char name[CPL_NAME], unit[CPL_NAME];
+        int set, ncomp, direction, how;
+        int link;           /* the one it is part of, -1: none */
+        int64_t last_tick;  /* giver: of its last put, as of its last advance */
+    } field[FIELDS];
+    int64_t advanced;       /* last window done, -1: none */
+    int byes, code;         /* ranks that said goodbye; the worst code among them */
+    double waited, cpu;     /* s; cpu summed over ranks, known at the end */
+    double heard;           /* wire_time of its last message */
+    struct told told;
+};
+
+/* A field on its way from one solver to another: rendezvous.c. */
+struct link {
+    int giver, gfield, taker, tfield; /* solver and its field */
+    bool from_grid;
+    int ncomp, dim;
+    map_points *map;
+    struct cpl_grid grid; /* of the giver */
+    double support;
+    /* what this rank has announced that it wants */
+    int generation;
+    bool moved; /* takers have moved since */
+    struct region region;
+    /* what takers asked for; by rank of the taker */
+    int64_t asked_tick;  /* -1: nothing asked */
+    int nasked, naskers; /* ranks that have asked, and how many will */
+    struct asker {
+        bool asked;
+        int moves;             /* generation of its targets */
+        long ntarget;
+        double *x;             /* [ntarget][dim] */
+        double lo[3], hi[3];   /* grids: the box wanted */
+    } *asker;
+    struct arrival {
+        int64_t tick; /* -1: nothing */
+        int n;        /* puts of the present generation */
+        double t;
+        struct message **put; /* [ranks of the giver] */
+    } in[2];          /* by tick & 1 */
+    double mapped;    /* s spent here */
+    int64_t served;
+};
+
+struct coupler {
+    MPI_Comm world, comm;
+    int rank, size;
+    struct handshake who;
+    struct wire wire;
+    int own_peer;
+    const struct command_line *command;
+    struct scene scene;
+    struct params *params;
+    uint64_t hash;
+    char dir[1024];
+    int nsolvers;
+    struct solver solver[HANDSHAKE_PROGRAMS];
+    int nlinks;
+    struct link link[LINKS];
+    /* time: window k spans [t_end k/n, t_end (k+1)/n] */
+    double t_end;
+    int64_t nwindows, window, first_window, output_every; /* window: under way */
+    int action;
+    bool stopping, over;
+    int code;
+    double start, line_at, line_every, save_wall, stall_at, stall_every;
+    double idle, bound; /* s waited; simulated time of the next checkpoint */
+    int64_t said;       /* window that failure_doing knows */
+    int64_t nsaved;     /* solvers whose restart file of `save_window' is complete */
+    int64_t save_window;
+    char saved[HANDSHAKE_PROGRAMS][256];
+};
+
+/* One more problem in a list that all programs print. */
+void problem(char *text, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+
+/* plan.c: what the programs have told about themselves. */
+void plan_take_meet(struct coupler *c, struct solver *s, struct message *m);
+void plan_take_ready(struct coupler *c, struct solver *s, struct message *m);
+void plan_check_meet(struct coupler *c, char *text);
+/* Makes the links; the problems go to text. The same on all ranks. */
+void plan_make_links(struct coupler *c, char *text);
+void plan_answer_meet(struct coupler *c, const char *text);
+void plan_answer_ready(struct coupler *c, const char *text);
+void plan_describe(const struct coupler *c);
+
+/* window.c: integer time. */
+void window_divide(struct coupler *c, char *text);
+double window_start(const struct coupler *c, int64_t k);
+void window_announce(struct coupler *c);            /* the next one, or the end */
+void window_advance(struct coupler *c, struct solver *s, struct message *m);
+
+/* rendezvous.c: fields brought together. */
+void rendezvous_open(struct coupler *c);
+void rendezvous_get(struct coupler *c, struct solver *s, struct message *m);
+void rendezvous_put(struct coupler *c, struct solver *s, struct message **m); /* may keep it */
+/* A giver has gone past what a taker waits for: text says so; false: all is well. */
+bool rendezvous_starved(const struct coupler *c, char *text);
+void rendezvous_waiting(const struct coupler *c, char *text); /* who waits for what */
+void rendezvous_close(struct coupler *c);
+
+/* checkpoint.c: a restart point exists when its manifest does. */
+void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m);
+
+/* report.c: progress lines, summary of the job, accepted or not. */
+void report_told(struct wire *w, struct message *m, struct told *t);
+void report_progress(struct coupler *c);
+int report_summary(struct coupler *c, double coupler_cpu); /* the job's exit code */
+
+#endif

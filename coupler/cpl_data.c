@@ -1,0 +1,392 @@
+/* cpl_data.c - behind cpl.h: fields given and taken. A put goes to those coupler ranks that have said what
+ * they want; it is kept as long as somebody may still ask for more of it.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cpl_client.h"
+
+static void places_release(struct places **p)
+{
+    if (*p && --(*p)->users == 0) {
+        free((*p)->x);
+        free((*p)->gid);
+        free((*p)->volume);
+        free(*p);
+    }
+    *p = NULL;
+}
+
+static void *copy(const void *from, size_t n)
+{
+    void *to = wire_alloc(n);
+    if (n)
+        memcpy(to, from, n);
+    return to;
+}
+
+static bool in_window(const struct cpl *c) { return c->state == PLANNED || c->state == IN_WINDOW; }
+
+static int check_field(struct cpl *c, int field, enum cpl_direction d, const char *call)
+{
+    if (c->error)
+        return c->error;
+    if (field < 0 || field >= c->nfields || c->field[field].direction != d)
+        return client_error(c, CPL_EORDER, "%s: number %d is not a field to %s", call, field,
+                            d == CPL_PUT ? "put" : "get");
+    if (!in_window(c))
+        return client_error(c, CPL_EORDER, "%s of %s outside of a window", call,
+                            c->field[field].name);
+    return CPL_OK;
+}
+
+/* First number that is not finite, n if all are. */
+static size_t first_bad(const double *v, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(v[i]))
+            return i;
+    return n;
+}
+
+/* --- giving ------------------------------------------------------------------------------------ */
+
+int cpl_move(struct cpl *c, int set, long n, const double *x, const int64_t *gid,
+             const double *volume)
+{
+    if (c->error)
+        return c->error;
+    if (set < 0 || set >= c->nsets || c->set[set].is_grid || n < 0 || (n > 0 && !gid && volume))
+        return client_error(c, CPL_EORDER, "cpl_move: not a set of points, or no ids");
+    struct client_set *s = &c->set[set];
+    const size_t bad = first_bad(x, 3 * (size_t)n);
+    if (bad < 3 * (size_t)n)
+        return client_error(c, CPL_EINPUT, "%s: place of point %zu on rank %d is not finite",
+                            s->name, bad / 3, c->rank);
+    places_release(&s->places);
+    struct places *p = s->places = wire_alloc(sizeof *p);
+    *p = (struct places){.users = 1, .n = n, .x = copy(x, 3 * (size_t)n * sizeof *x)};
+    if (gid)
+        p->gid = copy(gid, (size_t)n * sizeof *gid);
+    if (volume)
+        p->volume = copy(volume, (size_t)n * sizeof *volume);
+    /* takers: which share of all targets is mine decides who of the coupler maps them */
+    int64_t mine = n;
+    s->first = 0;
+    MPI_Exscan(&mine, &s->first, 1, MPI_INT64_T, MPI_SUM, c->mine);
+    if (c->rank == 0)
+        s->first = 0;
+    MPI_Allreduce(&mine, &s->total, 1, MPI_INT64_T, MPI_SUM, c->mine);
+    s->moves++;
+    return CPL_OK;
+}
+
+static void serve_points(const struct client_field *f, const struct slot *s, const struct need *d,
+                         int dim, struct pack *p)
+{
+    const struct places *at = s->places;
+    long *chosen = wire_alloc((size_t)at->n * sizeof *chosen), n = 0;
+    for (long i = 0; i < at->n; i++)
+        if (region_images(&d->region, at->x + 3 * i, NULL))
+            chosen[n++] = i;
+    const size_t nc = (size_t)f->ncomp, nd = (size_t)dim, m = (size_t)n;
+    const size_t row[4] = {nd * sizeof(double), sizeof(int64_t), sizeof(double),
+                           nc * sizeof(double)};
+    unsigned char *x = pack_room(p, m * (row[0] + row[1] + row[2] + row[3]));
+    unsigned char *gid = x + m * row[0], *volume = gid + m * row[1], *v = volume + m * row[2];
+    for (size_t k = 0; k < m; k++) {
+        const long i = chosen[k];
+        memcpy(x + k * row[0], at->x + 3 * i, row[0]);
+        memcpy(gid + k * row[1], at->gid + i, row[1]);
+        memcpy(volume + k * row[2], at->volume + i, row[2]);
+        memcpy(v + k * row[3], s->v + (size_t)i * nc, row[3]);
+    }
+    pack_head(p)->count = n;
+    free(chosen);
+}
+
+/* The cells lo <= i < hi of an asker's box that this block holds when it is shifted by whole periods. */
+static bool overlap(const struct cpl_grid *g, const struct region_box *b, const int shift[3],
+                    int lo[3], int hi[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const int by = shift[a] * g->cells[a];
+        lo[a] = g->lo[a] + by > b->lo[a] ? g->lo[a] + by : b->lo[a];
+        hi[a] = g->hi[a] + by < b->hi[a] ? g->hi[a] + by : b->hi[a];
+        if (lo[a] >= hi[a])
+            return false;
+    }
+    return true;
+}
+
+static void pack_cells(const struct client_field *f, const struct slot *s, const struct cpl_grid *g,
+                       int asker, const int lo[3], const int hi[3], const int shift[3], struct pack *p)
+{
+    const size_t nc = (size_t)f->ncomp;
+    const size_t n = (size_t)(hi[0] - lo[0]) * (size_t)(hi[1] - lo[1]) * (size_t)(hi[2] - lo[2]);
+    int64_t begin[7] = {asker, lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]};
+    pack_bytes(p, begin, sizeof begin);
+    double *to = pack_room(p, 2 * n * nc * sizeof *to); /* all that was packed is a multiple of 8 */
+    for (int k = lo[2]; k < hi[2]; k++)
+        for (int j = lo[1]; j < hi[1]; j++) {
+            const size_t kk = (size_t)(k - shift[2] * g->cells[2] - g->lo[2]);
+            const size_t jj = (size_t)(j - shift[1] * g->cells[1] - g->lo[1]);
+            const size_t ii = (size_t)(lo[0] - shift[0] * g->cells[0] - g->lo[0]);
+            size_t from = nc * ((kk * (size_t)(g->hi[1] - g->lo[1]) + jj) *
+                                    (size_t)(g->hi[0] - g->lo[0]) + ii);
+            for (size_t m = nc * (size_t)(hi[0] - lo[0]); m > 0; m--, from++) {
+                *to++ = s->v[from];
+                *to++ = s->dvdt ? s->dvdt[from] : 0.0;
+            }
+        }
+}
+
+static int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+static void serve_grid(const struct client_field *f, const struct slot *s, const struct need *d,
+                       const struct cpl_grid *g, struct pack *p)
+{
+    int64_t pieces = 0;
+    for (int i = 0; i < d->region.nboxes; i++) {
+        const struct region_box *b = &d->region.box[i];
+        int first[3], last[3], shift[3], lo[3], hi[3];
+        for (int a = 0; a < 3; a++) {
+            first[a] = g->periodic[a] ? floor_div(b->lo[a], g->cells[a]) : 0;
+            last[a] = g->periodic[a] ? floor_div(b->hi[a] - 1, g->cells[a]) : 0;
+        }
+        for (shift[2] = first[2]; shift[2] <= last[2]; shift[2]++)
+            for (shift[1] = first[1]; shift[1] <= last[1]; shift[1]++)
+                for (shift[0] = first[0]; shift[0] <= last[0]; shift[0]++)
+                    if (overlap(g, b, shift, lo, hi)) {
+                        pack_cells(f, s, g, b->asker, lo, hi, shift, p);
+                        pieces++;
+                    }
+    }
+    pack_head(p)->count = pieces;
+}
+
+static void serve(struct cpl *c, int field, struct slot *s, int rank)
+{
+    struct client_field *f = &c->field[field];
+    const struct need *d = &f->need[rank];
+    const struct client_set *set = &c->set[f->set];
+    struct pack p;
+    if (s->tick < 0 || s->served[rank] >= d->generation)
+        return;
+    pack_begin(&p, WIRE_PUT, field, s->tick);
+    pack_head(&p)->generation = d->generation;
+    pack_head(&p)->t = s->t;
+    if (set->is_grid)
+        serve_grid(f, s, d, &set->grid, &p);
+    else
+        serve_points(f, s, d, set->dim, &p);
+    wire_send(&c->wire, 0, rank, &p);
+    s->served[rank] = d->generation;
+}
+
+void client_need(struct cpl *c, struct message *m)
+{
+    const int field = m->head.field;
+    if (field < 0 || field >= c->nfields)
+        c->wire.broken("the coupler asks for a field that this program does not have");
+    struct client_field *f = &c->field[field];
+    struct need *d = &f->need[m->rank];
+    region_free(&d->region);
+    d->region = region_take(&c->wire, m);
+    d->generation = m->head.generation;
+    for (int i = 0; i < 2; i++)
+        if (f->slot[i].tick >= m->head.tick)
+            serve(c, field, &f->slot[i], m->rank);
+}
+
+/* Windows before the time t: the start of this window, or its end. */
+static int64_t tick_of(const struct cpl *c, double t)
+{
+    if (c->state == PLANNED)
+        return c->window;
+    return fabs(t - c->t0) < fabs(t - c->t1) ? c->window : c->window + 1;
+}
+
+static void clear_slot(struct slot *s)
+{
+    free(s->v);
+    free(s->dvdt);
+    free(s->served);
+    places_release(&s->places);
+    *s = (struct slot){.tick = -1};
+}
+
+int cpl_put(struct cpl *c, int field, double t, long n, const double *v, const double *dvdt)
+{
+    const int code = check_field(c, field, CPL_PUT, "cpl_put");
+    if (code != CPL_OK)
+        return code;
+    struct client_field *f = &c->field[field];
+    struct client_set *set = &c->set[f->set];
+    const struct cpl_grid *g = &set->grid;
+    long want = set->places ? set->places->n : -1;
+    if (set->is_grid)
+        want = (long)(g->hi[0] - g->lo[0]) * (g->hi[1] - g->lo[1]) * (g->hi[2] - g->lo[2]);
+    else if (want > 0 && (!set->places->volume || !set->places->gid))
+        return client_error(c, CPL_EORDER, "%s: its points have no volumes or ids", f->name);
+    if (n != want)
+        return client_error(c, CPL_EINPUT, "%s: %ld values for %ld places of %s", f->name, n, want,
+                            set->name);
+    const size_t size = (size_t)n * (size_t)f->ncomp;
+    const size_t bad = first_bad(v, size), worse = dvdt ? first_bad(dvdt, size) : size;
+    if (bad < size || worse < size)
+        return client_error(c, CPL_EINPUT, "%s: value %zu of %s on rank %d is not finite (t = %g s)",
+                            f->name, (bad < size ? bad : worse) / (size_t)f->ncomp, set->name, c->rank,
+                            t);
+    const int64_t tick = tick_of(c, t);
+    struct slot *s = &f->slot[tick & 1];
+    clear_slot(s);
+    *s = (struct slot){.tick = tick, .t = t, .v = copy(v, size * sizeof *v)};
+    if (dvdt)
+        s->dvdt = copy(dvdt, size * sizeof *dvdt);
+    s->places = set->places;
+    if (s->places)
+        s->places->users++;
+    s->served = wire_alloc((size_t)c->ncoupler * sizeof *s->served);
+    memset(s->served, 0, (size_t)c->ncoupler * sizeof *s->served);
+    f->last_tick = tick;
+    for (int r = 0; r < c->ncoupler; r++)
+        serve(c, field, s, r);
+    return CPL_OK;
+}
+
+/* --- taking ------------------------------------------------------------------------------------ */
+
+/* Targets first <= i < last of this rank that coupler rank r maps: equal shares of all targets, whatever
+ * their place; neighbours in number are mostly neighbours in space. */
+static void share(const struct cpl *c, const struct client_set *s, int r, long *first, long *last)
+{
+    const int64_t n = s->places->n;
+    const int64_t lo = s->total * r / c->ncoupler - s->first;
+    const int64_t hi = s->total * (r + 1) / c->ncoupler - s->first;
+    *first = (long)(lo < 0 ? 0 : lo > n ? n : lo);
+    *last = (long)(hi < 0 ? 0 : hi > n ? n : hi);
+}
+
+static void ask_points(struct cpl *c, int field, int64_t tick)
+{
+    struct client_field *f = &c->field[field];
+    const struct client_set *s = &c->set[f->set];
+    const bool moved = f->asked_moves != s->moves;
+    for (int r = 0; r < c->ncoupler; r++) {
+        long first, last;
+        struct pack p;
+        share(c, s, r, &first, &last);
+        pack_begin(&p, WIRE_GET, field, tick);
+        pack_head(&p)->generation = s->moves;
+        pack_head(&p)->count = moved ? last - first : -1;
+        for (long i = first; i < last && moved; i++)
+            pack_bytes(&p, s->places->x + 3 * i, (size_t)s->dim * sizeof(double));
+        wire_send(&c->wire, 0, r, &p);
+    }
+    f->asked_moves = s->moves;
+}
+
+int cpl_get(struct cpl *c, int field, long n, double *v, unsigned char *mask)
+{
+    const int code = check_field(c, field, CPL_GET, "cpl_get");
+    if (code != CPL_OK)
+        return code;
+    struct client_field *f = &c->field[field];
+    const struct client_set *s = &c->set[f->set];
+    if (f->from_grid || c->state != IN_WINDOW)
+        return client_error(c, CPL_EORDER, "cpl_get: %s comes from a grid, or no window is under way",
+                            f->name);
+    if (!s->places || n != s->places->n)
+        return client_error(c, CPL_EINPUT, "%s: %ld targets, but cpl_move placed %ld of %s", f->name, n,
+                            s->places ? s->places->n : 0, s->name);
+    const int64_t tick = c->window + 1;
+    const size_t nc = (size_t)f->ncomp;
+    char what[160];
+    snprintf(what, sizeof what, "%s of %s", f->name, f->partner);
+    ask_points(c, field, tick);
+    for (int r = 0; r < c->ncoupler; r++) {
+        long first, last;
+        share(c, s, r, &first, &last);
+        if (first == last)
+            continue;
+        struct message *m = client_await(c, WIRE_VALUES, field, tick, r, what);
+        if (!m)
+            return c->error;
+        const size_t count = (size_t)(last - first);
+        const unsigned char *values = take_view(&c->wire, m, count * nc * sizeof *v);
+        const unsigned char *there = take_view(&c->wire, m, count);
+        for (size_t i = 0; i < count; i++)
+            if (there[i])
+                memcpy(v + ((size_t)first + i) * nc, values + i * nc * sizeof *v, nc * sizeof *v);
+        if (mask)
+            memcpy(mask + first, there, count);
+        message_free(&m);
+    }
+    return CPL_OK;
+}
+
+int cpl_patch_get(struct cpl *c, int field, const double lo[3], const double hi[3])
+{
+    const int code = check_field(c, field, CPL_GET, "cpl_patch_get");
+    if (code != CPL_OK)
+        return code;
+    struct client_field *f = &c->field[field];
+    if (!f->from_grid || c->state != IN_WINDOW)
+        return client_error(c, CPL_EORDER,
+                            "cpl_patch_get: %s comes from points, or no window is under way", f->name);
+    /* once a window: the values at its start; again: those at its end */
+    const int64_t tick = f->got_tick == c->window ? c->window + 1 : c->window;
+    const int to = c->rank % c->ncoupler;
+    struct pack p;
+    pack_begin(&p, WIRE_GET, field, tick);
+    pack_bytes(&p, lo, 3 * sizeof *lo);
+    pack_bytes(&p, hi, 3 * sizeof *hi);
+    wire_send(&c->wire, 0, to, &p);
+    char what[160];
+    snprintf(what, sizeof what, "%s of %s", f->name, f->partner);
+    struct message *m = client_await(c, WIRE_VALUES, field, tick, to, what);
+    if (!m)
+        return c->error;
+    struct patch *q = &f->patch;
+    patch_clear(q);
+    *q = (struct patch){.dim = f->grid.dim, .ncomp = f->ncomp, .cubic = f->how == CPL_CUBIC};
+    q->t = m->head.t;
+    for (int a = 0; a < 3; a++) {
+        q->lo[a] = (int)take_int(&c->wire, m);
+        q->n[a] = (int)take_int(&c->wire, m) - q->lo[a];
+        q->origin[a] = f->grid.origin[a];
+        q->spacing[a] = f->grid.spacing[a];
+        q->period[a] = f->grid.periodic[a] ? f->grid.cells[a] : 0;
+    }
+    const size_t bytes = 2 * patch_size(q) * (size_t)q->ncomp * sizeof *q->v;
+    q->v = wire_alloc(bytes);
+    take_bytes(&c->wire, m, q->v, bytes);
+    patch_prepare(q);
+    f->got_tick = tick;
+    message_free(&m);
+    return CPL_OK;
+}
+
+void cpl_patch_eval(const struct cpl *c, int field, double t, long n, const double *x, double *v,
+                    double *grad)
+{
+    patch_eval(&c->field[field].patch, t, n, x, v, grad);
+}
+
+void client_free_fields(struct cpl *c)
+{
+    for (int i = 0; i < c->nfields; i++) {
+        struct client_field *f = &c->field[i];
+        for (int r = 0; r < c->ncoupler; r++)
+            region_free(&f->need[r].region);
+        free(f->need);
+        clear_slot(&f->slot[0]);
+        clear_slot(&f->slot[1]);
+        patch_clear(&f->patch);
+    }
+    for (int i = 0; i < c->nsets; i++)
+        places_release(&c->set[i].places);
+}

@@ -1,0 +1,221 @@
+/* cpl_patch.c - interpolation on a piece of a uniform grid. The dual cell, whose corners are cell
+ * centres, takes the part of the cell of [6.6]: nothing is averaged to vertices and so nothing is smoothed
+ * twice. SPDX-License-Identifier: BSD-3-Clause */
+#include "cpl_patch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDEST = 4 };
+
+size_t patch_size(const struct patch *p) { return (size_t)p->n[0] * (size_t)p->n[1] * (size_t)p->n[2]; }
+
+void patch_clear(struct patch *p)
+{
+    free(p->v);
+    *p = (struct patch){0};
+}
+
+/* u = U - h^2/24 U'' along one line of cells, U averages. Second differences of averages are exact for
+ * cubics; the ends take the one-sided form, exact for cubics too. */
+static void point_values(double *line, int n, size_t stride, double *old)
+{
+    if (n < 3)
+        return;
+    for (int i = 0; i < n; i++)
+        old[i] = line[(size_t)i * stride];
+    for (int i = 1; i < n - 1; i++)
+        line[(size_t)i * stride] -= (old[i - 1] - 2.0 * old[i] + old[i + 1]) / 24.0;
+    const double *a = old, *b = old + n - 1;
+    const double first = n > 3 ? 2.0 * a[0] - 5.0 * a[1] + 4.0 * a[2] - a[3] : a[0] - 2.0 * a[1] + a[2];
+    const double last =
+        n > 3 ? 2.0 * b[0] - 5.0 * b[-1] + 4.0 * b[-2] - b[-3] : b[0] - 2.0 * b[-1] + b[-2];
+    line[0] -= first / 24.0;
+    line[(size_t)(n - 1) * stride] -= last / 24.0;
+}
+
+void patch_prepare(struct patch *p)
+{
+    if (!p->cubic || patch_size(p) == 0)
+        return;
+    const size_t width = 2 * (size_t)p->ncomp;
+    const size_t step[3] = {width, width * (size_t)p->n[0],
+                            width * (size_t)p->n[0] * (size_t)p->n[1]};
+    int longest = p->n[0] > p->n[1] ? p->n[0] : p->n[1];
+    longest = longest > p->n[2] ? longest : p->n[2];
+    double *old = malloc((size_t)longest * sizeof *old);
+    if (!old)
+        abort();
+    for (int a = 0; a < p->dim; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3; /* the lines' two other directions */
+        for (int j = 0; j < p->n[b]; j++)
+            for (int k = 0; k < p->n[c]; k++)
+                for (size_t w = 0; w < width; w++)
+                    point_values(p->v + (size_t)j * step[b] + (size_t)k * step[c] + w, p->n[a],
+                                 step[a], old);
+    }
+    free(old);
+}
+
+/* Nodes of a stencil along one direction: first node, weights and weights of the slope (1/m). */
+struct stencil {
+    int first, m;
+    double w[WIDEST], d[WIDEST];
+};
+
+/* Cubic Lagrange on nodes -1, 0, 1, 2 at s in their units. */
+static inline void cubic_weights(struct stencil *q, double s, double per_m)
+{
+    const double a = s + 1.0, b = s, c = s - 1.0, e = s - 2.0;
+    q->w[0] = -b * c * e / 6.0;
+    q->w[1] = a * c * e / 2.0;
+    q->w[2] = -a * b * e / 2.0;
+    q->w[3] = a * b * c / 6.0;
+    q->d[0] = -(c * e + b * e + b * c) / 6.0 * per_m;
+    q->d[1] = (c * e + a * e + a * c) / 2.0 * per_m;
+    q->d[2] = -(b * e + a * e + a * b) / 2.0 * per_m;
+    q->d[3] = (b * c + a * c + a * b) / 6.0 * per_m;
+}
+
+static inline struct stencil stencil_at(const struct patch *p, int a, double x)
+{
+    struct stencil q = {.m = 1, .w = {1.0}};
+    const int n = p->n[a];
+    /* place in cells, 0 at the centre of the patch's first cell */
+    double s = (x - p->origin[a]) / p->spacing[a] - 0.5 - p->lo[a];
+    if (p->period[a] > 0)
+        s -= p->period[a] * rint((s - 0.5 * (n - 1)) / p->period[a]);
+    s = s > -0.5 ? s : -0.5; /* also catches NaN */
+    s = s < n - 0.5 ? s : n - 0.5;
+    int i = (int)floor(s);
+    if (p->cubic && n >= 4) {
+        i = i < 1 ? 1 : i > n - 3 ? n - 3 : i;
+        q.m = 4;
+        q.first = i - 1;
+        cubic_weights(&q, s - i, 1.0 / p->spacing[a]);
+    } else if (n >= 2) {
+        i = i < 0 ? 0 : i > n - 2 ? n - 2 : i;
+        q.m = 2;
+        q.first = i;
+        q.w[0] = 1.0 - (s - i);
+        q.w[1] = s - i;
+        q.d[1] = 1.0 / p->spacing[a];
+        q.d[0] = -q.d[1];
+    }
+    return q;
+}
+
+/* One point: sums along x, then y, then z. ncomp, the stencil's width and grad are constants of the
+ * callers, so that the inner loops unroll. */
+static inline __attribute__((always_inline)) void
+eval_point(const struct patch *p, const struct stencil q[3], double tau, const int ncomp,
+           const int mx, double *v, double *grad)
+{
+    double sum[4][8] = {{0}}; /* value, d/dx, d/dy, d/dz of at most 8 components */
+    const size_t width = 2 * (size_t)ncomp;
+    for (int k = 0; k < q[2].m; k++)
+        for (int j = 0; j < q[1].m; j++) {
+            const size_t row = ((size_t)(q[2].first + k) * (size_t)p->n[1] +
+                                (size_t)(q[1].first + j)) * (size_t)p->n[0] + (size_t)q[0].first;
+            const double *c = p->v + row * width;
+            const double wyz = q[1].w[j] * q[2].w[k];
+            const double dy = q[1].d[j] * q[2].w[k], dz = q[1].w[j] * q[2].d[k];
+            for (int a = 0; a < ncomp; a++) {
+                double f = 0.0, fx = 0.0;
+                for (int i = 0; i < mx; i++) {
+                    const double u = c[(size_t)i * width + 2 * (size_t)a] +
+                                     tau * c[(size_t)i * width + 2 * (size_t)a + 1];
+                    f += q[0].w[i] * u;
+                    fx += q[0].d[i] * u;
+                }
+                sum[0][a] += wyz * f;
+                sum[1][a] += wyz * fx;
+                sum[2][a] += dy * f;
+                sum[3][a] += dz * f;
+            }
+        }
+    for (int a = 0; a < ncomp; a++) {
+        v[a] = sum[0][a];
+        if (grad)
+            for (int b = 0; b < 3; b++)
+                grad[3 * a + b] = sum[1 + b][a];
+    }
+}
+
+typedef void point_body(const struct patch *p, const struct stencil q[3], double tau, double *v,
+                        double *grad);
+
+#define BODY(ncomp, mx)                                                                            \
+    static void point_##ncomp##_##mx(const struct patch *p, const struct stencil q[3], double tau, \
+                                     double *v, double *grad)                                      \
+    {                                                                                              \
+        if (grad)                                                                                  \
+            eval_point(p, q, tau, ncomp, mx, v, grad);                                             \
+        else                                                                                       \
+            eval_point(p, q, tau, ncomp, mx, v, NULL);                                             \
+    }
+BODY(1, 2)
+BODY(2, 2)
+BODY(3, 2)
+BODY(4, 2)
+BODY(1, 4)
+BODY(2, 4)
+BODY(3, 4)
+BODY(4, 4)
+
+/* Any number of components, any width: one component at a time. */
+static void point_any(const struct patch *p, const struct stencil q[3], double tau, double *v,
+                      double *grad)
+{
+    const size_t width = 2 * (size_t)p->ncomp;
+    for (int a = 0; a < p->ncomp; a++) {
+        double sum[4] = {0};
+        for (int k = 0; k < q[2].m; k++)
+            for (int j = 0; j < q[1].m; j++)
+                for (int i = 0; i < q[0].m; i++) {
+                    const size_t cell = ((size_t)(q[2].first + k) * (size_t)p->n[1] +
+                                         (size_t)(q[1].first + j)) * (size_t)p->n[0] +
+                                        (size_t)(q[0].first + i);
+                    const double *c = p->v + cell * width + 2 * (size_t)a, u = c[0] + tau * c[1];
+                    sum[0] += q[0].w[i] * q[1].w[j] * q[2].w[k] * u;
+                    sum[1] += q[0].d[i] * q[1].w[j] * q[2].w[k] * u;
+                    sum[2] += q[0].w[i] * q[1].d[j] * q[2].w[k] * u;
+                    sum[3] += q[0].w[i] * q[1].w[j] * q[2].d[k] * u;
+                }
+        v[a] = sum[0];
+        if (grad)
+            memcpy(grad + 3 * a, sum + 1, 3 * sizeof *sum);
+    }
+}
+
+static point_body *body_of(int ncomp, int width)
+{
+    static point_body *const linear[] = {point_1_2, point_2_2, point_3_2, point_4_2};
+    static point_body *const cubic[] = {point_1_4, point_2_4, point_3_4, point_4_4};
+    if (ncomp < 1 || ncomp > 4 || (width != 2 && width != 4))
+        return point_any;
+    return width == 2 ? linear[ncomp - 1] : cubic[ncomp - 1];
+}
+
+void patch_eval(const struct patch *p, double t, long n, const double *x, double *v, double *grad)
+{
+    const double tau = t - p->t;
+    const size_t nc = (size_t)p->ncomp;
+    if (n <= 0)
+        return;
+    if (patch_size(p) == 0) { /* nothing was asked for: zero, not garbage */
+        memset(v, 0, (size_t)n * nc * sizeof *v);
+        if (grad)
+            memset(grad, 0, 3 * (size_t)n * nc * sizeof *grad);
+        return;
+    }
+    const int mx = p->n[0] < 2 ? 1 : p->cubic && p->n[0] >= 4 ? 4 : 2;
+    point_body *const body = body_of(p->ncomp, mx);
+    for (size_t i = 0; i < (size_t)n; i++) {
+        const struct stencil q[3] = {stencil_at(p, 0, x[3 * i]), stencil_at(p, 1, x[3 * i + 1]),
+                                     p->dim == 3 ? stencil_at(p, 2, x[3 * i + 2])
+                                                 : (struct stencil){.m = 1, .w = {1.0}}};
+        body(p, q, tau, v + i * nc, grad ? grad + 3 * i * nc : NULL);
+    }
+}

@@ -1,0 +1,184 @@
+/* failure.c - death notes. The first to know writes the file (O_EXCL), so that the cause wins over its
+ * consequences. SPDX-License-Identifier: BSD-3-Clause */
+#include "failure.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { WATCHED = 1024, TEXT = 512, EXIT_PARTNER = 4 };
+
+/* Signal handlers and exit hooks have no argument: the one place of the library with static state. */
+static struct {
+    MPI_Comm world;
+    bool open, dying;
+    int nwatched;
+    struct watched {
+        long pid;
+        char who[96]; /* "sph rank 0 (process 4711)" */
+    } watched[WATCHED];
+    char who[80], path[1040], doing[TEXT];
+} self;
+
+/* strlen and memcpy are safe in handlers, printf is not. */
+static void append(char *text, const char *more)
+{
+    const size_t n = strlen(text), m = strlen(more), room = TEXT - 1 - n;
+    memcpy(text + n, more, m < room ? m : room);
+    text[n + (m < room ? m : room)] = '\0';
+}
+
+static void put(int fd, const char *text)
+{
+    const char *at = text;
+    for (size_t left = strlen(text); left > 0;) {
+        const ssize_t n = write(fd, at, left);
+        if (n <= 0)
+            return;
+        at += n;
+        left -= (size_t)n;
+    }
+}
+
+void failure_note(const char *text)
+{
+    if (!self.path[0])
+        return;
+    const int fd = open(self.path, O_WRONLY | O_CREAT | O_EXCL, 0644);
+    if (fd < 0)
+        return;
+    char line[TEXT] = "";
+    append(line, text);
+    append(line, "\n");
+    put(fd, line);
+    close(fd);
+}
+
+bool failure_read(char *text, int size)
+{
+    const int fd = self.path[0] ? open(self.path, O_RDONLY) : -1;
+    if (fd < 0)
+        return false;
+    const ssize_t n = read(fd, text, (size_t)size - 1);
+    close(fd);
+    text[n > 0 ? n : 0] = '\0';
+    char *end = strchr(text, '\n');
+    if (end)
+        *end = '\0';
+    return n > 0;
+}
+
+bool failure_witness(void)
+{
+    for (int i = 0; i < self.nwatched && self.open && !self.dying; i++) {
+        if (kill((pid_t)self.watched[i].pid, 0) == 0 || errno != ESRCH)
+            continue;
+        char text[TEXT] = "";
+        append(text, self.watched[i].who);
+        append(text, " is gone: killed, out of memory, or it left without a word; seen by ");
+        append(text, self.who);
+        append(text, " ");
+        append(text, self.doing);
+        failure_note(text);
+        return true;
+    }
+    return false;
+}
+
+void failure_obituary(int fd)
+{
+    char note[TEXT], text[TEXT] = "";
+    (void)failure_witness();
+    append(text, self.who);
+    append(text, ": the job ends: ");
+    if (failure_read(note, sizeof note)) {
+        append(text, note);
+    } else {
+        append(text, "no reason was left; this rank was ");
+        append(text, self.doing);
+    }
+    append(text, "\n");
+    put(fd, text);
+}
+
+void failure_path(const char *path) { snprintf(self.path, sizeof self.path, "%s", path); }
+
+void failure_doing(const char *text) { snprintf(self.doing, sizeof self.doing, "%s", text); }
+
+void failure_watch(const char *program, int rank, long pid)
+{
+    /* A process of another container may share our host name but not our process numbers. */
+    if (self.nwatched == WATCHED || pid == (long)getpid() || kill((pid_t)pid, 0) != 0)
+        return;
+    struct watched *w = &self.watched[self.nwatched++];
+    w->pid = pid;
+    snprintf(w->who, sizeof w->who, "%.40s rank %d (process %ld)", program, rank, pid);
+}
+
+static void sleep_ms(long ms)
+{
+    struct timespec t = {.tv_nsec = 1000000 * ms};
+    while (nanosleep(&t, &t) != 0 && errno == EINTR)
+        continue;
+}
+
+_Noreturn void failure_die(int code, const char *reason)
+{
+    char text[TEXT + 96], note[TEXT];
+    self.dying = true;
+    snprintf(text, sizeof text, "%s: %s", self.who, reason);
+    failure_note(text);
+    fprintf(stderr, "%s\n", text);
+    if (failure_read(note, sizeof note) && strcmp(note, text) != 0)
+        fprintf(stderr, "%s: the job ends: %s\n", self.who, note);
+    fflush(NULL);
+    sleep_ms(100);
+    MPI_Abort(self.world, code);
+    abort();
+}
+
+/* exit() without cpl_close. */
+static void at_exit(void)
+{
+    int ready = 0, over = 0;
+    MPI_Initialized(&ready);
+    MPI_Finalized(&over);
+    if (self.open && !self.dying && ready && !over) {
+        char text[TEXT] = "left without saying goodbye ";
+        append(text, self.doing);
+        failure_die(EXIT_PARTNER, text);
+    }
+}
+
+/* MPI_Finalize without cpl_close would wait for the others for ever: the deletion of an attribute of
+ * MPI_COMM_SELF is its first act. */
+static int at_finalize(MPI_Comm comm, int key, void *value, void *extra)
+{
+    (void)comm, (void)key, (void)value, (void)extra;
+    at_exit();
+    return MPI_SUCCESS;
+}
+
+void failure_open(MPI_Comm world, const char *program, int rank)
+{
+    static bool hooked;
+    self.world = world;
+    self.open = true;
+    self.nwatched = 0;
+    snprintf(self.who, sizeof self.who, "%.63s rank %d", program, rank);
+    failure_doing("before the first window");
+    if (!hooked) {
+        int key;
+        hooked = true;
+        atexit(at_exit);
+        MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, at_finalize, &key, NULL);
+        MPI_Comm_set_attr(MPI_COMM_SELF, key, NULL);
+    }
+}
+
+void failure_closed(void) { self.open = false; }

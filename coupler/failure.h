@@ -1,0 +1,32 @@
+/* failure.h - how a job ends when one of its programs fails: a note on disk says why, everybody prints
+ * it. Open MPI 4.1 reports no error for a dead peer; whoever waits therefore looks whether the
+ * processes of its own host still live. Part of libcpl.a: depends on MPI alone.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COUPLER_FAILURE_H
+#define COUPLER_FAILURE_H
+
+#include <mpi.h>
+#include <stdbool.h>
+
+/* Who this process is; from here on an exit or MPI_Finalize before failure_closed is a failure. */
+void failure_open(MPI_Comm world, const char *program, int rank);
+void failure_closed(void);
+/* A rank of a program on this host, to be looked after. */
+void failure_watch(const char *program, int rank, long pid);
+/* Where the note goes; before, there is none. */
+void failure_path(const char *path);
+/* What is going on, for the last words: "in window 12, waiting for velocity of sph". Copied. */
+void failure_doing(const char *text);
+
+/* True if a watched process is gone; the note then says so. Safe in signal handlers. */
+bool failure_witness(void);
+/* Leaves a note, unless there is one. Safe in signal handlers. */
+void failure_note(const char *text);
+/* Writes the note, or what is known instead, to a file descriptor. Safe in signal handlers. */
+void failure_obituary(int fd);
+/* The note's text; false if there is none. */
+bool failure_read(char *text, int size);
+/* Note, a line on stderr, a moment for the logs of others, MPI_Abort with this code. */
+_Noreturn void failure_die(int code, const char *reason);
+
+#endif

@@ -1,0 +1,422 @@
+/* integrate.c - time step size [2.102-2.104], classical Runge-Kutta of order 4, and the watch over
+ * what comes out of it. The list of pairs and the ghosts are made once a step; the skin covers the
+ * way that particles go within it. SPDX-License-Identifier: BSD-3-Clause */
+#include "sph.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../common/log.h"
+#include "../common/mem.h"
+#include "domain.h"
+#include "eos.h"
+#include "neighbours.h"
+#include "scheme.h"
+#include "sph_params.h"
+#include "zones.h"
+
+enum { PRIM = 8, BALANCE_EVERY = 50, COUNT_EVERY = 20 };
+
+/* Largest values over particles, then over ranks by one reduction. Minima are kept negated. */
+enum {
+    MOST_SIGNAL, /* c + |u - u0| */
+    MOST_C,
+    MOST_SHIFT, /* |u - u0| */
+    MOST_STRAY, /* |u0 - drift| */
+    MOST_U0,    /* [3] */
+    LEAST_U0 = MOST_U0 + 3,
+    MOST_SPEED = LEAST_U0 + 3,
+    MOST_RHO,
+    LEAST_RHO,
+    MOST_FAULT, /* above 1: the state cannot be trusted */
+    MOST_LOST,
+    EXTREMES
+};
+
+static void raise(double *most, double v) { *most = v > *most ? v : *most; }
+
+static void start(struct sph *s, const char *timer)
+{
+    timer_start(&s->run->timers, timer_index(&s->run->timers, timer));
+}
+
+static void stop(struct sph *s, const char *timer)
+{
+    timer_stop(&s->run->timers, timer_index(&s->run->timers, timer));
+}
+
+void integrate_prepare(struct sph *s)
+{
+    if (s->ready)
+        return;
+    start(s, "list");
+    if (s->zones)
+        zones_mark(s);
+    domain_migrate(s);
+    neighbours_sort(s);
+    particles_lines(s);
+    domain_ghosts(s);
+    neighbours_build(s);
+    stop(s, "list");
+    s->ready = true;
+}
+
+static void halo(struct sph *s, bool slopes)
+{
+    start(s, "halo");
+    domain_halo_start(s, slopes);
+    domain_halo_finish(s, slopes);
+    stop(s, "halo");
+}
+
+static void lines_and_gradients(struct sph *s)
+{
+    start(s, "update");
+    particles_lines(s);
+    stop(s, "update");
+    halo(s, false);
+    start(s, "gradients");
+    s->scheme->gradients(s);
+    stop(s, "gradients");
+}
+
+void integrate_gradients(struct sph *s)
+{
+    integrate_prepare(s);
+    lines_and_gradients(s);
+}
+
+void integrate_rates(struct sph *s)
+{
+    if (s->zones) {
+        start(s, "zones");
+        zones_stage(s);
+        stop(s, "zones");
+    }
+    lines_and_gradients(s);
+    if (s->zones) {
+        start(s, "zones");
+        zones_slopes(s);
+        stop(s, "zones");
+    }
+    halo(s, true);
+    start(s, "rates");
+    s->scheme->rates(s);
+    stop(s, "rates");
+}
+
+/* Velocities of displacement, from prim and slope: what the next step and its skin depend on. */
+static void measure_lines(const struct sph *s, double *most)
+{
+    const int dim = s->dim;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *q = s->p.prim + (size_t)PRIM * i;
+        const double *u0 = s->p.slope + (size_t)s->p.nslope * i + dim + dim * dim;
+        const double c = eos_c(q[2 * dim + 1], s->rho0, s->c0, s->gamma);
+        double shift2 = 0.0, stray2 = 0.0;
+        for (int a = 0; a < dim; a++) {
+            shift2 += (q[dim + a] - u0[a]) * (q[dim + a] - u0[a]);
+            stray2 += (u0[a] - s->drift[a]) * (u0[a] - s->drift[a]);
+            raise(most + MOST_U0 + a, u0[a]);
+            raise(most + LEAST_U0 + a, -u0[a]);
+        }
+        raise(most + MOST_C, c);
+        raise(most + MOST_SHIFT, shift2);
+        raise(most + MOST_SIGNAL, c + sqrt(shift2));
+        raise(most + MOST_STRAY, stray2);
+    }
+    most[MOST_SHIFT] = most[MOST_SHIFT] > 0.0 ? sqrt(most[MOST_SHIFT]) : 0.0;
+    most[MOST_STRAY] = most[MOST_STRAY] > 0.0 ? sqrt(most[MOST_STRAY]) : 0.0;
+}
+
+/* How far a particle is beyond its limits, as a multiple of them; not finite counts as endless. */
+static double fault_of(const struct sph *s, const double *y, double *speed, double *rho)
+{
+    const int dim = s->dim;
+    const double m = y[2 * dim + 1];
+    double u2 = 0.0, sum = 0.0;
+    for (int k = 0; k < s->p.nstate; k++)
+        sum += 0.0 * y[k];
+    for (int a = 0; a < dim; a++)
+        u2 += y[dim + a] * y[dim + a];
+    *speed = sqrt(u2) / m;
+    *rho = m / y[2 * dim];
+    if (sum != 0.0 || !isfinite(*speed) || !isfinite(*rho) || *rho <= 0.0)
+        return 1e300;
+    return fmax(fabs(*rho / s->rho0 - 1.0) / s->prm.density_limit, *speed / (0.5 * s->c0));
+}
+
+static void measure_state(const struct sph *s, double *most)
+{
+    for (int i = 0; i < s->p.n; i++) {
+        double speed, rho;
+        raise(most + MOST_FAULT, fault_of(s, s->p.y + (size_t)i * s->p.nstate, &speed, &rho));
+        raise(most + MOST_SPEED, speed);
+        raise(most + MOST_RHO, rho);
+        raise(most + LEAST_RHO, -rho);
+    }
+}
+
+static void clear(double *most)
+{
+    for (int k = 0; k < EXTREMES; k++)
+        most[k] = -1e300;
+}
+
+static void reduce(struct sph *s, double *most)
+{
+    MPI_Allreduce(MPI_IN_PLACE, most, EXTREMES, MPI_DOUBLE, MPI_MAX, s->run->comm);
+    s->signal = most[MOST_SIGNAL];
+    s->max_c = most[MOST_C];
+    s->max_shift = most[MOST_SHIFT];
+    s->stray = most[MOST_STRAY];
+    for (int a = 0; a < s->dim; a++)
+        s->drift[a] = 0.5 * (most[MOST_U0 + a] - most[LEAST_U0 + a]);
+    s->max_speed = most[MOST_SPEED];
+    s->rho_max = most[MOST_RHO];
+    s->rho_min = -most[LEAST_RHO];
+    s->max_mach = fmax(s->max_mach, s->max_speed / s->c0);
+}
+
+/* Two particles part by at most twice the stray velocity times dt; a tenth more, for it may grow.
+ */
+static void plan_next(struct sph *s)
+{
+    s->dt_most = sph_params_dt(&s->prm, s->nu, s->signal, &s->limited_by);
+    s->skin = fmin(fmax(2.2 * s->dt_most * s->stray, 0.01 * s->R), 0.15 * s->R);
+    s->ready = false;
+}
+
+void integrate_start(struct sph *s)
+{
+    s->skin = 0.05 * s->R;
+    s->ready = false;
+    integrate_gradients(s);
+    for (int pass = 0; pass < 2; pass++) { /* the second knows the drift */
+        double most[EXTREMES];
+        clear(most);
+        measure_lines(s, most);
+        measure_state(s, most);
+        reduce(s, most);
+    }
+    plan_next(s);
+}
+
+/* Steps of equal length to t_stop; the last lands on it. */
+static double choose_dt(const struct sph *s, double t_stop, bool *last)
+{
+    const double left = t_stop - s->t, n = ceil(left / s->dt_most - 1e-9);
+    *last = n <= 1.0;
+    return *last ? left : left / n;
+}
+
+/* y and the weighted sum of rates after stage k of the classical scheme. */
+static void update(struct sph *s, int k, double dt)
+{
+    static const double weight[4] = {1.0, 2.0, 2.0, 1.0}, ahead[3] = {0.5, 0.5, 1.0};
+    const size_t n = (size_t)s->p.n * s->p.nstate;
+    double *restrict y = s->p.y, *restrict sum = s->p.sum;
+    const double *restrict y0 = s->p.y0, *restrict rate = s->p.rate;
+    const double b = weight[k];
+    start(s, "update");
+    for (size_t i = 0; k == 0 && i < n; i++)
+        sum[i] = 0.0;
+    if (k < 3) {
+        const double a = ahead[k] * dt;
+        for (size_t i = 0; i < n; i++) {
+            sum[i] += b * rate[i];
+            y[i] = y0[i] + a * rate[i];
+        }
+    } else {
+        for (size_t i = 0; i < n; i++)
+            y[i] = y0[i] + dt / 6.0 * (sum[i] + rate[i]);
+    }
+    stop(s, "update");
+}
+
+/* The four stages; most gets what the last one shows of velocities. */
+static void runge_kutta(struct sph *s, double dt, double t_end, double *most)
+{
+    const double t = s->t, at[4] = {t, t + 0.5 * dt, t + 0.5 * dt, t_end};
+    memcpy(s->p.y0, s->p.y, (size_t)s->p.n * s->p.nstate * sizeof(double));
+    for (int k = 0; k < 4; k++) {
+        s->t = at[k];
+        integrate_rates(s);
+        if (k == 3)
+            measure_lines(s, most);
+        update(s, k, dt);
+    }
+}
+
+/* Particles beyond a side where nothing holds them; returns their number. */
+static int remove_lost(struct sph *s)
+{
+    const int before = s->p.n;
+    int n = 0;
+    for (int i = 0; i < before; i++) {
+        const double *y = s->p.y + (size_t)i * s->p.nstate;
+        bool inside = true;
+        for (int a = 0; a < s->dim; a++)
+            inside = inside && (s->periodic[a] || !(y[a] < s->lo[a] || y[a] > s->hi[a]));
+        if (inside)
+            particles_copy(&s->p, n++, i);
+    }
+    s->p.n = n;
+    return before - n;
+}
+
+/* What follows the stages: imposed values, births and removals. */
+static void finish_step(struct sph *s, double dt, double *most)
+{
+    if (s->zones) {
+        start(s, "zones");
+        zones_stage(s); /* buffer particles end the step with what is imposed, volumes too */
+        zones_blend(s);
+        zones_openings(s, dt);
+        stop(s, "zones");
+    } else {
+        const int lost = remove_lost(s);
+        s->lost += lost;
+        raise(most + MOST_LOST, lost);
+    }
+}
+
+static void report_lost(struct sph *s, double lost)
+{
+    double sum = s->lost;
+    if (lost <= 0.0)
+        return;
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    log_warn("t = %g s: particles left the region at an open side, %.0f since the start", s->t,
+             sum);
+}
+
+static void track_mass(struct sph *s)
+{
+    double m = 0.0;
+    for (int i = 0; i < s->p.n; i++)
+        m += s->p.y[(size_t)i * s->p.nstate + 2 * s->dim + 1];
+    MPI_Allreduce(MPI_IN_PLACE, &m, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    raise(&s->fluctuation, fabs(m / s->mass0 - 1.0));
+}
+
+static int worst_particle(const struct sph *s, double *fault)
+{
+    int worst = -1;
+    *fault = -1.0;
+    for (int i = 0; i < s->p.n; i++) {
+        double speed, rho;
+        const double f = fault_of(s, s->p.y + (size_t)i * s->p.nstate, &speed, &rho);
+        if (f > *fault) {
+            *fault = f;
+            worst = i;
+        }
+    }
+    return worst;
+}
+
+static void describe_cause(const struct sph *s, int i, struct diagnosis *d)
+{
+    const double *y = s->p.y + (size_t)i * s->p.nstate;
+    const long long id = s->p.id[i];
+    double speed, rho;
+    const double fault = fault_of(s, y, &speed, &rho), deviation = rho / s->rho0 - 1.0;
+    if (fault >= 1e300) {
+        snprintf(d->reason, sizeof d->reason,
+                 "particle %lld is not finite or has lost its mass: |u| %g m/s, w %g m^%d, rho %g "
+                 "kg/m^3",
+                 id, speed, y[2 * s->dim], s->dim, rho);
+        snprintf(d->likely, sizeof d->likely,
+                 "the step is too long: lower sph.cfl = %g or sph.cfl_viscous = %g", s->prm.cfl,
+                 s->prm.cfl_viscous);
+    } else if (speed > 0.5 * s->c0) {
+        snprintf(d->reason, sizeof d->reason, "|u| of particle %lld is %g m/s, limit c0/2 = %g m/s",
+                 id, speed, 0.5 * s->c0);
+        snprintf(d->likely, sizeof d->likely,
+                 "raise sph.c0 = %g m/s to ten times the largest speed", s->c0);
+    } else {
+        snprintf(d->reason, sizeof d->reason,
+                 "density of particle %lld is %g kg/m^3, %+.1f %% from rho0, limit %g %%", id, rho,
+                 100.0 * deviation, 100.0 * s->prm.density_limit);
+        snprintf(d->likely, sizeof d->likely,
+                 s->max_speed > 0.2 * s->c0 ? "|u| reaches %.2g c0: raise sph.c0"
+                                            : "dt is %.2g of R/c0: lower sph.cfl, or refine sph.dx",
+                 s->max_speed > 0.2 * s->c0 ? s->max_speed / s->c0 : s->dt * s->c0 / s->R);
+    }
+}
+
+static void describe_fault(const struct sph *s, int i, struct diagnosis *d)
+{
+    static const char *const zone[] = {"", ", in the transition", ", in the buffer"};
+    const double *y = s->p.y + (size_t)i * s->p.nstate;
+    d->bad = true;
+    const char *in = s->zones ? zone[s->p.zone[i]] : "";
+    if (s->dim == 2)
+        snprintf(d->where, sizeof d->where, "(%g, %g) m, rank %d%s", y[0], y[1], s->run->rank, in);
+    else
+        snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, rank %d%s", y[0], y[1], y[2],
+                 s->run->rank, in);
+    describe_cause(s, i, d);
+}
+
+/* The rank of the worst particle tells all. */
+static void diagnose(const struct sph *s, struct diagnosis *d)
+{
+    struct {
+        double fault;
+        int rank;
+    } worst = {-1.0, s->run->rank};
+    const int i = worst_particle(s, &worst.fault);
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
+    if (worst.rank == s->run->rank && i >= 0)
+        describe_fault(s, i, d);
+    MPI_Bcast(d, (int)sizeof *d, MPI_BYTE, worst.rank, s->run->comm);
+}
+
+static void judge(const struct sph *s, double fault, struct diagnosis *d)
+{
+    const double nominal = sph_params_dt(&s->prm, s->nu, s->c0, NULL);
+    if (fault > 1.0)
+        diagnose(s, d);
+    else if (!(s->dt_most >= 1e-6 * nominal)) {
+        d->bad = true;
+        snprintf(d->reason, sizeof d->reason,
+                 "the time step fell to %g s, a millionth of R/c0 is the limit", s->dt_most);
+        snprintf(d->where, sizeof d->where, "c + |u - u0| reaches %g m/s", s->signal);
+        snprintf(d->likely, sizeof d->likely,
+                 "the state has broken down before: look at the last snapshots");
+    }
+}
+
+static void count_pairs(struct sph *s)
+{
+    if (s->pairs_now == 0 || s->run->step % COUNT_EVERY == 0)
+        s->pairs_now = neighbours_pairs(s);
+    s->pairs += 4 * s->pairs_now;
+}
+
+double integrate_step(struct sph *s, double t_stop, struct diagnosis *d)
+{
+    bool last;
+    double most[EXTREMES];
+    /* A coupled run cuts anew between windows only: within one, a rank holds the patch of its part.
+     */
+    if (!s->run->coupled && s->run->step > 0 && s->run->step % BALANCE_EVERY == 0)
+        domain_balance(s, 0.1);
+    s->dt = choose_dt(s, t_stop, &last);
+    const double t_end = last ? t_stop : s->t + s->dt;
+    integrate_prepare(s);
+    count_pairs(s);
+    clear(most);
+    runge_kutta(s, s->dt, t_end, most);
+    finish_step(s, s->dt, most);
+    measure_state(s, most);
+    reduce(s, most);
+    plan_next(s);
+    report_lost(s, most[MOST_LOST]);
+    if (s->zones)
+        track_mass(s);
+    judge(s, most[MOST_FAULT], d);
+    return s->dt;
+}

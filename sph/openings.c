@@ -1,0 +1,353 @@
+/* openings.c - face masses, births and removals at the open sides; see openings.h.
+ * A face with booked mass f rho dx^D stands for a lattice whose next row is (1/2 - f) dx behind it:
+ * that is where the transport law sees neighbours beyond the open side.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "openings.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../common/mem.h"
+#include "domain.h"
+#include "eos.h"
+#include "neighbours.h"
+#include "zones.h"
+
+/* Beyond this debt a face that cannot give birth lets the mass go. */
+static const double most_debt = 1.5;
+
+struct openings *openings_create(struct sph *s)
+{
+    struct openings *o = NEW(struct openings, 1);
+    o->dim = s->dim;
+    o->dx = s->dx;
+    for (int a = 0; a < 3; a++) {
+        o->lo[a] = s->lo[a];
+        o->hi[a] = s->hi[a];
+        o->open[a] = a < s->dim && !s->periodic[a];
+        o->cells[a] = a < s->dim ? (int)lround((s->hi[a] - s->lo[a]) / s->dx) : 1;
+    }
+    for (int side = 0; side < 2 * o->dim; side++) {
+        int faces = o->open[side / 2] ? 1 : 0;
+        for (int b = 0; b < o->dim; b++)
+            faces *= b == side / 2 ? 1 : o->cells[b];
+        o->first[side + 1] = o->first[side] + faces;
+    }
+    const int n = openings_faces(o);
+    o->mass = NEW(double, n);
+    o->births = NEW(double, n);
+    o->change = NEW(double, 2 * n);
+    o->flux = NEW(double, n);
+    o->shift = NEW(double, n);
+    o->first_id = (int64_t)1 << 40; /* above those of the first filling */
+    return o;
+}
+
+void openings_free(struct openings **o)
+{
+    if (!*o)
+        return;
+    mem_free((*o)->mass);
+    mem_free((*o)->births);
+    mem_free((*o)->change);
+    mem_free((*o)->flux);
+    mem_free((*o)->shift);
+    mem_free(*o);
+    *o = NULL;
+}
+
+int openings_faces(const struct openings *o) { return o->first[2 * o->dim]; }
+
+/* Face of a side at lattice indices I (that of the side's axis does not matter); indices of open
+ * axes are clamped, of periodic ones wrapped. */
+static int face_at(const struct openings *o, int side, const int *I)
+{
+    int f = 0;
+    for (int b = o->dim - 1; b >= 0; b--) {
+        if (b == side / 2)
+            continue;
+        const int c = o->cells[b];
+        const int i = o->open[b] ? (I[b] < 0 ? 0 : I[b] >= c ? c - 1 : I[b]) : ((I[b] % c) + c) % c;
+        f = f * c + i;
+    }
+    return o->first[side] + f;
+}
+
+/* Side, centre and inward normal sign of a face. */
+static int face_place(const struct openings *o, int f, double *x)
+{
+    int side = 0;
+    while (f >= o->first[side + 1])
+        side++;
+    int k = f - o->first[side];
+    x[2] = 0.0;
+    for (int b = 0; b < o->dim; b++) {
+        if (b == side / 2) {
+            x[b] = side % 2 ? o->hi[b] : o->lo[b];
+            continue;
+        }
+        x[b] = o->lo[b] + (k % o->cells[b] + 0.5) * o->dx;
+        k /= o->cells[b];
+    }
+    return side;
+}
+
+static double inward(int side) { return side % 2 ? -1.0 : 1.0; }
+
+/* Visits the lattice places I beyond side `side' around x and adds those within reach. Axes before
+ * the side's own stay inside, so that a corner is counted once. */
+static int behind_side(const struct openings *o, int side, const double *x, double reach,
+                       double (*place)[3], int n, int max)
+{
+    const int axis = side / 2, layers = (int)ceil(reach / o->dx) + 1;
+    int lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0}, I[3];
+    for (int b = 0; b < o->dim; b++) {
+        lo[b] = (int)floor((x[b] - reach - o->lo[b]) / o->dx) - (o->open[b] && b > axis ? 1 : 0);
+        hi[b] = (int)floor((x[b] + reach - o->lo[b]) / o->dx) + (o->open[b] && b > axis ? 1 : 0);
+        if (b < axis && o->open[b]) {
+            lo[b] = lo[b] < 0 ? 0 : lo[b];
+            hi[b] = hi[b] >= o->cells[b] ? o->cells[b] - 1 : hi[b];
+        }
+    }
+    lo[axis] = side % 2 ? o->cells[axis] : -layers;
+    hi[axis] = side % 2 ? o->cells[axis] + layers - 1 : -1;
+    for (I[2] = lo[2]; I[2] <= hi[2]; I[2]++)
+        for (I[1] = lo[1]; I[1] <= hi[1]; I[1]++)
+            for (I[0] = lo[0]; I[0] <= hi[0]; I[0]++) {
+                double y[3] = {0.0, 0.0, 0.0}, r2 = 0.0;
+                for (int b = 0; b < o->dim; b++) {
+                    y[b] = o->lo[b] + (I[b] + 0.5) * o->dx;
+                    if (o->open[b] && (I[b] < 0 || I[b] >= o->cells[b]))
+                        y[b] += o->shift[face_at(o, 2 * b + (I[b] < 0 ? 0 : 1), I)];
+                    r2 += (y[b] - x[b]) * (y[b] - x[b]);
+                }
+                if (r2 < reach * reach && n < max)
+                    memcpy(place[n++], y, sizeof y);
+            }
+    return n;
+}
+
+int openings_behind(const struct openings *o, const double *x, double reach, double (*place)[3], int max)
+{
+    int n = 0;
+    for (int side = 0; side < 2 * o->dim; side++) {
+        const int a = side / 2;
+        const double d = side % 2 ? o->hi[a] - x[a] : x[a] - o->lo[a];
+        if (o->open[a] && d < reach)
+            n = behind_side(o, side, x, reach, place, n, max);
+    }
+    return n;
+}
+
+/* Particles beyond an open side give their mass to the nearest face. */
+static void remove_leavers(struct sph *s)
+{
+    struct openings *o = s->zones->openings;
+    struct particles *p = &s->p;
+    for (int i = 0; i < p->n;) {
+        const double *y = p->y + (size_t)i * p->nstate;
+        if (zones_depth(s, y) >= 0.0) {
+            i++;
+            continue;
+        }
+        int side = 0, I[3] = {0, 0, 0};
+        double most = 0.0;
+        for (int a = 0; a < o->dim; a++) {
+            I[a] = (int)floor((y[a] - o->lo[a]) / o->dx);
+            for (int k = 0; o->open[a] && k < 2; k++) {
+                const double out = k ? y[a] - o->hi[a] : o->lo[a] - y[a];
+                if (out > most) {
+                    most = out;
+                    side = 2 * a + k;
+                }
+            }
+        }
+        const double m = y[2 * o->dim + 1];
+        o->change[face_at(o, side, I)] += m;
+        o->gone_mass += m;
+        o->gone++;
+        particles_copy(p, i, --p->n);
+    }
+}
+
+/* rho u.n dx^(D-1) of the faces this rank owns [6.13], from the flow outside at the middle of the step. */
+static void add_fluxes(struct sph *s, double dt)
+{
+    struct openings *o = s->zones->openings;
+    struct zones *z = s->zones;
+    const int n = openings_faces(o), dim = o->dim;
+    const double area = s->dxD / s->dx;
+    z->n = 0;
+    zones_room(z, n);
+    for (int f = 0; f < n; f++) {
+        double x[3], in[3];
+        const int side = face_place(o, f, x);
+        memcpy(in, x, sizeof x);
+        in[side / 2] += 0.5 * o->dx * inward(side);
+        o->flux[f] = 0.0;
+        if (domain_owner(s->domain, in) != s->run->rank)
+            continue;
+        memcpy(z->x + 3 * z->n, x, sizeof x);
+        z->who[z->n++] = f;
+    }
+    zones_look(z, s->t - 0.5 * dt, false);
+    for (int k = 0; k < z->n; k++) {
+        const int f = z->who[k];
+        int side = 0;
+        while (f >= o->first[side + 1])
+            side++;
+        const double rho = eos_rho(z->p[k], s->rho0, s->c0, s->gamma);
+        o->flux[f] = rho * area * inward(side) * z->u[dim * k + side / 2];
+        o->change[f] += dt * o->flux[f];
+    }
+}
+
+/* Places near the open sides in a hash of cells of side dx, to keep births apart. */
+struct strip {
+    int n, capacity, heads;
+    double (*x)[3];
+    int *next, *head;
+};
+
+static int strip_cell(const struct strip *t, const struct openings *o, const double *x, const int *off)
+{
+    uint32_t key = 0;
+    for (int a = 0; a < o->dim; a++)
+        key = key * 73856093u + (uint32_t)((int)floor((x[a] - o->lo[a]) / o->dx) + off[a]);
+    return (int)(key % (uint32_t)t->heads);
+}
+
+static void strip_add(struct strip *t, const struct openings *o, const double *y)
+{
+    static const int here[3] = {0, 0, 0};
+    if (t->n == t->capacity) {
+        GROW(t->x, t->capacity, 2 * t->capacity);
+        GROW(t->next, t->capacity, 2 * t->capacity);
+        t->capacity *= 2;
+    }
+    for (int a = 0; a < o->dim; a++)
+        t->x[t->n][a] = y[a];
+    const int c = strip_cell(t, o, y, here);
+    t->next[t->n] = t->head[c];
+    t->head[c] = t->n++;
+}
+
+/* Locals where they are now, ghosts where the last stage saw them. */
+static struct strip strip_create(const struct sph *s)
+{
+    const struct openings *o = s->zones->openings;
+    const int room = 4 * openings_faces(o) + 64;
+    struct strip t = {.capacity = room, .heads = room, .x = mem_new((size_t)room, sizeof *t.x),
+                      .next = NEW(int, room), .head = NEW(int, room)};
+    for (int c = 0; c < t.heads; c++)
+        t.head[c] = -1;
+    for (int i = 0; i < s->p.n + s->p.nghost; i++) {
+        const double *y = i < s->p.n ? s->p.y + (size_t)i * s->p.nstate
+                                     : s->p.prim + 8 * (size_t)(s->list->n + i - s->p.n);
+        if (zones_depth(s, y) < 2.0 * s->dx)
+            strip_add(&t, o, y);
+    }
+    return t;
+}
+
+static void strip_free(struct strip *t)
+{
+    mem_free(t->x);
+    mem_free(t->next);
+    mem_free(t->head);
+}
+
+static bool crowded(const struct strip *t, const struct openings *o, const double *x)
+{
+    const double least2 = 0.25 * o->dx * o->dx;
+    int off[3] = {0, 0, 0};
+    for (off[2] = o->dim > 2 ? -1 : 0; off[2] <= (o->dim > 2 ? 1 : 0); off[2]++)
+        for (off[1] = -1; off[1] <= 1; off[1]++)
+            for (off[0] = -1; off[0] <= 1; off[0]++)
+                for (int k = t->head[strip_cell(t, o, x, off)]; k >= 0; k = t->next[k]) {
+                    double r2 = 0.0;
+                    for (int a = 0; a < o->dim; a++)
+                        r2 += (x[a] - t->x[k][a]) * (x[a] - t->x[k][a]);
+                    if (r2 < least2)
+                        return true;
+                }
+    return false;
+}
+
+static void born(struct sph *s, int f, const double *x, const double *u, double rho)
+{
+    struct openings *o = s->zones->openings;
+    const int64_t id = o->first_id + f + (int64_t)llround(o->births[f] + o->change[openings_faces(o) + f]) *
+                                             openings_faces(o);
+    const int i = particles_add(&s->p, id, ZONE_BUFFER);
+    particles_set(s, i, x, u, s->dxD, rho);
+    o->change[f] -= rho * s->dxD;
+    o->change[openings_faces(o) + f] += 1.0;
+    o->born_mass += rho * s->dxD;
+    o->born++;
+}
+
+/* A face that holds a particle's mass and lets fluid in gives birth dx/2 inside, moved on along the
+ * flow by what the step overshot. */
+static void give_birth(struct sph *s)
+{
+    struct openings *o = s->zones->openings;
+    struct zones *z = s->zones;
+    const int looked = z->n, dim = o->dim;
+    struct strip near = strip_create(s);
+    s->p.nghost = 0; /* newborn take their place */
+    for (int k = 0; k < looked; k++) {
+        const int f = z->who[k];
+        const double rho = eos_rho(z->p[k], s->rho0, s->c0, s->gamma), whole = rho * s->dxD;
+        double held = o->mass[f] + o->change[f], *u = z->u + dim * k;
+        if (held < whole || (o->flux[f] <= 0.0 && held < most_debt * whole))
+            continue;
+        double x[3];
+        const int side = face_place(o, f, x), a = side / 2;
+        const double over = fmin(held / whole - 1.0, 0.5) * s->dx, un = fabs(u[a]);
+        for (int b = 0; b < dim; b++)
+            x[b] += b == a ? inward(side) * (0.5 * s->dx + over)
+                           : (un > 0.0 ? fmax(fmin(u[b] / un, 1.0), -1.0) * over : 0.0);
+        if (crowded(&near, o, x)) {
+            o->refused++;
+            if (held > most_debt * whole)
+                o->change[f] -= held - most_debt * whole;
+            continue;
+        }
+        born(s, f, x, u, rho);
+        strip_add(&near, o, x);
+    }
+    strip_free(&near);
+}
+
+static void sum_changes(struct sph *s)
+{
+    struct openings *o = s->zones->openings;
+    const int n = openings_faces(o);
+    if (s->run->size > 1)
+        MPI_Allreduce(MPI_IN_PLACE, o->change, 2 * n, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (int f = 0; f < n; f++) {
+        o->mass[f] += o->change[f];
+        o->births[f] += o->change[n + f];
+    }
+    memset(o->change, 0, 2 * (size_t)n * sizeof(double));
+}
+
+void openings_place_lattice(struct sph *s)
+{
+    struct openings *o = s->zones->openings;
+    for (int side = 0; side < 2 * o->dim; side++)
+        for (int f = o->first[side]; f < o->first[side + 1]; f++)
+            o->shift[f] = inward(side) * s->dx *
+                          fmin(fmax(o->mass[f] / (s->rho0 * s->dxD), -1.0), most_debt);
+}
+
+void openings_step(struct sph *s, double dt)
+{
+    remove_leavers(s);
+    add_fluxes(s, dt);
+    sum_changes(s);
+    give_birth(s);
+    sum_changes(s);
+    openings_place_lattice(s);
+}

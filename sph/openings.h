@@ -1,0 +1,36 @@
+/* openings.h - the open sides of a particle region, cut into faces of side dx. The flow through a face
+ * is booked as mass; a face that holds a whole particle gives birth to it, a particle that
+ * leaves gives its mass to the nearest face (Chiron 2017, eqs. 6.13-6.14), with threshold 1 and birth
+ * dx/2 inside, the pair that keeps a lattice. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_OPENINGS_H
+#define SPH_OPENINGS_H
+
+#include "sph.h"
+
+struct openings {
+    int dim;
+    double dx, lo[3], hi[3];
+    bool open[3];   /* axes with open sides */
+    int cells[3];   /* faces along each axis */
+    int first[7];   /* of side 2a (low), 2a+1 (high); first[2 dim]: number of faces */
+    double *mass;   /* kg: booked, the same on all ranks */
+    double *births; /* since the start, the same on all ranks (numbers the newborn) */
+    double *change; /* of this step, this rank, then summed: masses, births */
+    double *flux;   /* kg/s of the faces this rank owns, 0 elsewhere: inward */
+    double *shift;  /* m: place of the incoming lattice behind each face */
+    int64_t born, gone, refused; /* on this rank */
+    double born_mass, gone_mass; /* kg */
+    int64_t first_id;
+};
+
+struct openings *openings_create(struct sph *s);
+void openings_free(struct openings **o);
+/* Removal, fluxes at s->t - dt/2, births. Collective. */
+void openings_step(struct sph *s, double dt);
+/* Places of the particles that a lattice would have behind the faces within `reach' of x; at most max. */
+int openings_behind(const struct openings *o, const double *x, double reach, double (*place)[3], int max);
+/* Where the lattice behind each face stands, from the booked masses (after a restart, too). */
+void openings_place_lattice(struct sph *s);
+int openings_faces(const struct openings *o);
+
+#endif

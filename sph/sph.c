@@ -1,0 +1,157 @@
+/* sph.c - main program of the SPH solver. SPDX-License-Identifier: BSD-3-Clause */
+#include "sph.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../common/log.h"
+#include "../coupler/cpl_partner.h"
+#include "domain.h"
+#include "sph_params.h"
+#include "zones.h"
+
+static const char *columns[SPH_COLUMNS];
+static struct program sph_program; /* its columns depend on the scene */
+
+static double lattice(const struct run *r)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    double n = 1.0;
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        n *= round((prm->box[1][a] - prm->box[0][a]) / prm->dx);
+    return n;
+}
+
+/* Bytes of a particle: rows, lines and list; the support holds theta/dx^D of them, the list 1.2
+ * times. */
+static double bytes_per_particle(const struct run *r)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    const int dim = r->scene.domain.dim;
+    const double R = prm->R_dx, theta = dim == 2 ? M_PI * R * R : 4.0 / 3.0 * M_PI * R * R * R;
+    return 8.0 * (4 * (2 * dim + 2) + 8 + (dim == 2 ? 8 : 16)) + 9.0 + 4.0 * 1.2 * theta + 40.0;
+}
+
+static void describe_scene(const struct run *r)
+{
+    static const char *const schemes[] = {"Riemann ALE (Vila)",
+                                          "Riemann without mass flux (Leduc)"};
+    static const char *const limiters[] = {"Koren", "minmod", "no limiter"};
+    static const char *const transports[] = {"whole-support shifting", "shifting of Oger",
+                                             "no shifting", "particles at rest"};
+    static const char *const outers[] = {"none", "exact solution", "partner"};
+    const struct sph_params *prm = sph_params_of(r);
+    const double *g = r->scene.fluid.gravity;
+    const bool gravity = g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0,
+               viscous = r->scene.fluid.nu > 0.0;
+    log_say("%dD, %s, %s, %s%s%s", r->scene.domain.dim, schemes[prm->scheme],
+            limiters[prm->limiter], transports[prm->transport],
+            prm->low_dissipation ? ", low dissipation" : "",
+            prm->damper > 0.0 ? ", acoustic damper" : "");
+    log_say("%s%s%s; off: walls, free surface, refinement%s%s",
+            viscous
+                ? (prm->viscosity == VISCOSITY_MORRIS ? "viscous (Morris)" : "viscous (Monaghan)")
+                : "inviscid",
+            gravity ? ", gravity" : "", sph_params_zones(r) ? ", zones and openings" : "",
+            gravity ? "" : ", gravity", sph_params_zones(r) ? "" : ", zones");
+    if (sph_params_zones(r)) {
+        double lo[3], hi[3], transition, buffer;
+        zones_widths(r, prm, &transition, &buffer);
+        zones_free_box(r, prm, lo, hi);
+        log_say("free zone (%g, %g) to (%g, %g) m, transition %g m, buffer %g m, around it: %s",
+                lo[0], lo[1], hi[0], hi[1], transition, buffer, outers[prm->outer]);
+    }
+}
+
+static void warn_of(const struct run *r)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    if (prm->cfl > 0.5)
+        log_warn(
+            "sph.cfl = %g is above 0.5, the stability bound of the Riemann schemes is about 0.55",
+            prm->cfl);
+    if (r->scene.initial.U > 0.0 && prm->c0 < 8.0 * r->scene.initial.U)
+        log_warn("sph.c0 = %g m/s is below 8 times the scale of velocity: the density will vary",
+                 prm->c0);
+    if (sph_params_zones(r)) {
+        double transition, buffer;
+        const double least = 1.25 * prm->R_dx * prm->dx * (1.0 - 1e-9);
+        zones_widths(r, prm, &transition, &buffer);
+        if (transition < least || buffer < least)
+            log_warn("transition %g m or buffer %g m is below 1.25 R = %g m", transition, buffer,
+                     least);
+    }
+}
+
+static void describe(const struct run *r)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    const char *limit;
+    const double dt = sph_params_dt(prm, r->scene.fluid.nu, prm->c0, &limit), n = lattice(r);
+    describe_scene(r);
+    log_say("%.0f particles, dx %g m, R/dx %g, c0 %g m/s; about %.0f MB", n, prm->dx, prm->R_dx,
+            prm->c0, 1e-6 * n * bytes_per_particle(r));
+    log_say("dt about %.3g s (%s), %.0f steps", dt, limit, ceil(r->scene.time.end / dt));
+    warn_of(r);
+}
+
+static void *create(struct run *r, struct h5 *f)
+{
+    sph_program.ncolumns = sph_columns(r, columns);
+    struct sph *s = sph_create(r, sph_params_of(r), f);
+    if (s && r->coupled)
+        coupling_create(s);
+    return s;
+}
+
+static void destroy(void *state)
+{
+    struct sph *s = state;
+    if (s->run->coupled)
+        coupling_free(s);
+    sph_free(&s);
+}
+
+static double step(void *s, double t_stop, struct diagnosis *d)
+{
+    return integrate_step(s, t_stop, d);
+}
+
+/* A new partition first: the patch is taken for each rank's part. */
+static void window_begin(void *state, double t0, double t1)
+{
+    domain_balance(state, 0.1);
+    coupling_window_begin(state, t0, t1);
+}
+
+static void progress(void *state, char *line, int size)
+{
+    const struct sph *s = state;
+    snprintf(line, (size_t)size, "dt %.3g s (%s)  Ma %.3f  rho %+.2f .. %+.2f %%", s->dt,
+             s->limited_by, s->max_speed / s->c0, 100.0 * (s->rho_min / s->rho0 - 1.0),
+             100.0 * (s->rho_max / s->rho0 - 1.0));
+}
+
+static const char *const others[] = {"fv", "coupler", NULL};
+
+static struct program sph_program = {.name = "sph",
+                                     .help = "weakly compressible SPH, 2D and 3D",
+                                     .groups = sph_groups,
+                                     .ngroups = SPH_GROUPS,
+                                     .other_groups = others,
+                                     .check = sph_params_check,
+                                     .describe = describe,
+                                     .offer = coupling_offer,
+                                     .create = create,
+                                     .destroy = destroy,
+                                     .step = step,
+                                     .window_begin = window_begin,
+                                     .window_end = coupling_window_end,
+                                     .columns = columns,
+                                     .row = sph_row,
+                                     .progress = progress,
+                                     .snapshot = sph_snapshot,
+                                     .checkpoint = sph_checkpoint,
+                                     .finish = sph_finish};
+
+int main(int argc, char **argv) { return run_main(argc, argv, &sph_program, &cpl_partner); }

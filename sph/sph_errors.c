@@ -1,0 +1,289 @@
+/* sph_errors.c - sums, errors against the exact solution, drifts: rows of the series and the
+ * summary. Norms are weighted with the particles' volumes and taken over the free zone.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "sph.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../common/exact.h"
+#include "../common/mem.h"
+#include "domain.h"
+#include "eos.h"
+#include "neighbours.h"
+#include "openings.h"
+#include "sph_params.h"
+#include "zones.h"
+
+enum { PRIM = 8, NORM_VELOCITY, NORM_PRESSURE, NORM_VORTICITY, FIRST_NORM = NORM_VELOCITY };
+enum { NORMS = NORM_VORTICITY - FIRST_NORM + 1 };
+
+static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
+
+/* Elastic energy per mass: integral of p/rho^2 from rho0, with r = rho/rho0. */
+static double elastic(const struct sph *s, double r)
+{
+    const double g = s->gamma, c2 = s->c0 * s->c0;
+    if (g == 1.0)
+        return c2 * (log(r) + 1.0 / r - 1.0);
+    return c2 / g * ((pow(r, g - 1.0) - 1.0) / (g - 1.0) + 1.0 / r - 1.0);
+}
+
+void sph_sums(const struct sph *s, double sums[SUM_COUNT])
+{
+    const int dim = s->dim;
+    for (int k = 0; k < SUM_COUNT; k++)
+        sums[k] = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + (size_t)i * s->p.nstate, w = y[2 * dim], m = y[2 * dim + 1];
+        double kinetic = 0.0, potential = 0.0;
+        for (int a = 0; a < dim; a++) {
+            kinetic += 0.5 * y[dim + a] * y[dim + a] / m;
+            potential -= m * s->gravity[a] * y[a];
+            sums[SUM_MOMENTUM + a] += y[dim + a];
+        }
+        sums[SUM_MASS] += m;
+        sums[SUM_VOLUME] += w;
+        sums[SUM_KINETIC] += kinetic;
+        sums[SUM_ENERGY] += kinetic + potential + m * elastic(s, m / w / s->rho0);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, s->run->comm);
+}
+
+bool sph_has_exact(const struct run *r)
+{
+    const double *g = r->scene.fluid.gravity;
+    return r->scene.initial.field != FIELD_REST && g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0;
+}
+
+/* dv/dx - du/dy; 3D: all components. From the slopes: grad u [a][b] = du_a/dx_b. */
+void sph_vorticity(const struct sph *s, int i, double w[3])
+{
+    const int dim = s->dim;
+    const double *g = s->p.slope + (size_t)i * s->p.nslope + dim;
+    w[0] = dim == 3 ? g[3 * 2 + 1] - g[3 * 1 + 2] : 0.0;
+    w[1] = dim == 3 ? g[3 * 0 + 2] - g[3 * 2 + 0] : 0.0;
+    w[2] = g[dim * 1 + 0] - g[dim * 0 + 1];
+}
+
+/* Adds one particle to the norms of velocity, pressure, vorticity. */
+static void add_errors(const struct sph *s, const struct exact *e, int i, struct norm *n)
+{
+    const int dim = s->dim;
+    const double *q = s->p.prim + (size_t)PRIM * i, w = q[2 * dim];
+    const double x[3] = {q[0], q[1], dim == 3 ? q[2] : 0.0};
+    double u[3], p, vort, omega[3];
+    exact_point(e, x, s->t, u, &p, &vort);
+    sph_vorticity(s, i, omega);
+    for (int a = 0; a < dim; a++)
+        norm_add(n, w, q[dim + a] - u[a], u[a]);
+    norm_add(n + 1, w, eos_p(q[2 * dim + 1], s->rho0, s->c0, s->gamma) - p, p);
+    for (int a = dim == 3 ? 0 : 2; a < 3; a++)
+        norm_add(n + 2, w, omega[a] - (a == 2 ? vort : 0.0), a == 2 ? vort : 0.0);
+}
+
+/* Needs prim and slope of the present state. Collective. */
+static void errors(const struct sph *s, struct norm n[NORMS])
+{
+    const struct exact e = exact_create(&s->run->scene);
+    for (int k = 0; k < NORMS; k++)
+        n[k] = (struct norm){0};
+    for (int i = 0; i < s->p.n; i++)
+        if (!s->zones || s->p.zone[i] == ZONE_FREE)
+            add_errors(s, &e, i, n);
+    norm_reduce(n, NORMS, s->run->comm);
+}
+
+/* Kinetic energy that the particles would have with the exact velocities. */
+static double exact_kinetic(const struct sph *s)
+{
+    const struct exact e = exact_create(&s->run->scene);
+    double sum = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + (size_t)i * s->p.nstate;
+        const double x[3] = {y[0], y[1], s->dim == 3 ? y[2] : 0.0};
+        double u[3];
+        exact_point(&e, x, s->t, u, NULL, NULL);
+        for (int a = 0; a < s->dim; a++)
+            sum += 0.5 * y[2 * s->dim + 1] * u[a] * u[a];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sum;
+}
+
+static double enstrophy(const struct sph *s)
+{
+    double sum = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        double w[3];
+        sph_vorticity(s, i, w);
+        sum += 0.5 * s->p.prim[(size_t)PRIM * i + 2 * s->dim] *
+               (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sum;
+}
+
+/* Smallest distance of two particles over dx; needs the list of the present places. */
+static double least_spacing(const struct sph *s)
+{
+    const struct neighbours *l = s->list;
+    double least = s->R * s->R;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *x = s->p.prim + (size_t)PRIM * i;
+        const int *j = l->j + l->start[i];
+        for (int k = 0; k < l->count[i]; k++) {
+            const double *xj = s->p.prim + (size_t)PRIM * j[k];
+            double r2 = 0.0;
+            for (int a = 0; a < s->dim; a++)
+                r2 += (x[a] - xj[a]) * (x[a] - xj[a]);
+            least = r2 < least ? r2 : least;
+        }
+    }
+    least = sqrt(least) / s->dx;
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, s->run->comm);
+    return least;
+}
+
+static double total(const struct sph *s, double v)
+{
+    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return v;
+}
+
+static double births(const struct sph *s) { return total(s, (double)s->zones->openings->born); }
+static double removals(const struct sph *s) { return total(s, (double)s->zones->openings->gone); }
+
+static const char *const columns[] = {
+    "kinetic energy [J]",   "enstrophy [m^dim/s^2]", "mass [kg]",       "momentum x [kg m/s]",
+    "momentum y [kg m/s]",  "momentum z [kg m/s]",   "max Mach [-]",    "min density [kg/m^3]",
+    "max density [kg/m^3]", "particles [-]",         "min spacing [dx]"};
+
+int sph_columns(const struct run *r, const char **names)
+{
+    int n = 0;
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
+        if (k != 5 || r->scene.domain.dim == 3)
+            names[n++] = columns[k];
+    if (sph_has_exact(r))
+        names[n++] = "error velocity l2 [-]";
+    if (sph_params_zones(r)) {
+        names[n++] = "born [-]";
+        names[n++] = "gone [-]";
+    }
+    return n;
+}
+
+void sph_row(void *state, double *values)
+{
+    struct sph *s = state;
+    double sums[SUM_COUNT];
+    integrate_gradients(s);
+    timer_start(&s->run->timers, timer_index(&s->run->timers, "output"));
+    sph_sums(s, sums);
+    *values++ = sums[SUM_KINETIC];
+    *values++ = enstrophy(s);
+    *values++ = sums[SUM_MASS];
+    for (int a = 0; a < s->dim; a++)
+        *values++ = sums[SUM_MOMENTUM + a];
+    *values++ = s->max_speed / s->c0;
+    *values++ = s->rho_min;
+    *values++ = s->rho_max;
+    *values++ = total(s, s->p.n);
+    *values++ = least_spacing(s);
+    if (sph_has_exact(s->run)) {
+        struct norm n[NORMS];
+        errors(s, n);
+        *values++ = norm_relative_l2(n);
+    }
+    if (s->zones) {
+        *values++ = births(s);
+        *values++ = removals(s);
+    }
+    timer_stop(&s->run->timers, timer_index(&s->run->timers, "output"));
+}
+
+static void summarise_norms(const struct sph *s, const struct norm *n)
+{
+    for (int k = 0; k < NORMS; k++) {
+        const double v[5] = {n[k].vol, n[k].e1, n[k].e2, n[k].r2, n[k].emax};
+        static const char *const part[5] = {"vol", "e1", "e2", "r2", "emax"};
+        for (int m = 0; m < 5; m++) {
+            char key[64];
+            snprintf(key, sizeof key, "norm.%s.%s", norm_names[k], part[m]);
+            summary_real(s->run->summary, key, v[m]);
+        }
+    }
+}
+
+static void summarise_errors(const struct sph *s)
+{
+    struct summary *to = s->run->summary;
+    struct norm n[NORMS];
+    const double U = s->run->scene.initial.U, scale = s->rho0 * U * U;
+    errors(s, n);
+    summary_real(to, "error.velocity_l2", norm_relative_l2(n));
+    summary_real(to, "error.velocity_linf", n[0].emax / U);
+    if (n[1].r2 > 0.0)
+        summary_real(to, "error.pressure_l2", norm_rms_mean_free(n + 1) / sqrt(n[1].r2 / n[1].vol));
+    summary_real(to, "error.pressure_rms", norm_rms_mean_free(n + 1) / scale);
+    summary_real(to, "error.pressure_offset", norm_mean(n + 1) / scale);
+    if (n[2].r2 > 0.0)
+        summary_real(to, "error.vorticity_l2", norm_relative_l2(n + 2));
+    if (s->run->coupled)
+        summarise_norms(s, n);
+}
+
+/* Energy: kinetic against the exact one where that is known, else all kinds against the start. */
+static void summarise_drifts(const struct sph *s)
+{
+    struct summary *to = s->run->summary;
+    double sums[SUM_COUNT], region = 1.0, p2 = 0.0, energy;
+    const double U = s->run->scene.initial.U;
+    sph_sums(s, sums);
+    for (int a = 0; a < s->dim; a++) {
+        region *= s->hi[a] - s->lo[a];
+        p2 += pow(sums[SUM_MOMENTUM + a] - s->momentum0[a], 2.0);
+    }
+    if (sph_has_exact(s->run)) {
+        const double expected = exact_kinetic(s);
+        energy = (sums[SUM_KINETIC] - expected) / expected;
+    } else {
+        energy = (sums[SUM_ENERGY] - s->energy0) / fmax(fabs(s->energy0), 0.5 * s->mass0 * U * U);
+    }
+    summary_real(to, "drift.mass", sums[SUM_MASS] / s->mass0 - 1.0);
+    summary_real(to, "drift.energy", energy);
+    summary_real(to, "drift.momentum", sqrt(p2) / (s->mass0 * U));
+    summary_real(to, "drift.volume", sums[SUM_VOLUME] / region - 1.0);
+}
+
+static double pair_rate(const struct sph *s)
+{
+    static const char *const stage[] = {"list", "gradients", "rates", "halo", "update", "zones"};
+    double time = 0.0;
+    for (size_t k = 0; k < sizeof stage / sizeof stage[0]; k++)
+        time += timer_wall(&s->run->timers, stage[k]);
+    time = total(s, time);
+    return time > 0.0 ? total(s, (double)s->pairs) / time : 0.0;
+}
+
+void sph_finish(void *state)
+{
+    struct sph *s = state;
+    struct summary *to = s->run->summary;
+    const double rate = pair_rate(s); /* before the passes below */
+    integrate_gradients(s);
+    summary_int(to, "particles", llround(total(s, s->p.n)));
+    summary_int(to, "particles_lost", llround(total(s, s->lost)));
+    if (sph_has_exact(s->run))
+        summarise_errors(s);
+    summarise_drifts(s);
+    summary_real(to, "max_mach", s->max_mach);
+    summary_real(to, "spacing.min", least_spacing(s));
+    summary_real(to, "pairs_per_s", rate);
+    if (s->zones) {
+        summary_real(to, "mass_fluctuation", s->fluctuation);
+        summary_int(to, "born", llround(births(s)));
+        summary_int(to, "gone", llround(removals(s)));
+    }
+}

@@ -1,0 +1,195 @@
+/* sph_io.c - snapshots and restart files. SPDX-License-Identifier: BSD-3-Clause */
+#include "sph.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "../common/h5.h"
+#include "../common/log.h"
+#include "../common/mem.h"
+#include "../common/xdmf.h"
+#include "domain.h"
+#include "eos.h"
+#include "sph_params.h"
+#include "zones.h"
+
+enum { PRIM = 8 };
+
+/* What particle i shows in a snapshot, v[ncomp]. */
+static void get_velocity(const struct sph *s, int i, double *v)
+{
+    for (int a = 0; a < 3; a++)
+        v[a] = a < s->dim ? s->p.prim[(size_t)PRIM * i + s->dim + a] : 0.0;
+}
+
+static void get_pressure(const struct sph *s, int i, double *v)
+{
+    *v = eos_p(s->p.prim[(size_t)PRIM * i + 2 * s->dim + 1], s->rho0, s->c0, s->gamma);
+}
+
+static void get_density(const struct sph *s, int i, double *v)
+{
+    *v = s->p.prim[(size_t)PRIM * i + 2 * s->dim + 1];
+}
+
+static void get_vorticity(const struct sph *s, int i, double *v)
+{
+    double w[3];
+    sph_vorticity(s, i, w);
+    if (s->dim == 3)
+        memcpy(v, w, sizeof w);
+    else
+        *v = w[2];
+}
+
+static void get_volume(const struct sph *s, int i, double *v)
+{
+    *v = s->p.prim[(size_t)PRIM * i + 2 * s->dim];
+}
+static void get_zone(const struct sph *s, int i, double *v) { *v = s->p.zone[i]; }
+
+/* Fields of a snapshot; ncomp 0: 1 in 2D and 3 in 3D. */
+static const struct field {
+    const char *name, *unit;
+    int ncomp;
+    void (*get)(const struct sph *s, int i, double *v);
+} fields[] = {
+    {"velocity", "m/s", 3, get_velocity},  {"pressure", "Pa", 1, get_pressure},
+    {"density", "kg/m^3", 1, get_density}, {"vorticity", "1/s", 0, get_vorticity},
+    {"volume", "m^dim", 1, get_volume},    {"zone", "-", 1, get_zone},
+};
+enum { FIELDS = sizeof fields / sizeof fields[0] };
+
+/* Whether a word stands in the list of words. */
+static bool asked(const char *list, const char *word)
+{
+    const size_t n = strlen(word);
+    for (const char *p = strstr(list, word); p; p = strstr(p + 1, word))
+        if ((p == list || strchr(" ,", p[-1])) && (p[n] == '\0' || strchr(" ,", p[n])))
+            return true;
+    return false;
+}
+
+static void write_positions(const struct sph *s, struct h5 *f, double *v)
+{
+    for (int i = 0; i < s->p.n; i++)
+        memcpy(v + (size_t)i * s->dim, s->p.prim + (size_t)PRIM * i,
+               (size_t)s->dim * sizeof(double));
+    h5_write_real(f, "position", "m", s->p.n, s->dim, v, true);
+}
+
+static int components(const struct sph *s, const struct field *k)
+{
+    return k->ncomp ? k->ncomp : s->dim == 3 ? 3 : 1;
+}
+
+static void write_field(const struct sph *s, struct h5 *f, const struct field *k, double *v)
+{
+    const int ncomp = components(s, k);
+    for (int i = 0; i < s->p.n; i++)
+        k->get(s, i, v + (size_t)i * ncomp);
+    h5_write_real(f, k->name, k->unit, s->p.n, ncomp, v, true);
+}
+
+void sph_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
+{
+    struct sph *s = state;
+    const char *list = s->run->scene.output.fields;
+    struct xdmf_field shown[FIELDS];
+    int nshown = 0;
+    integrate_gradients(s);
+    double *v = NEW(double, 3 * (size_t)s->p.n);
+    write_positions(s, f, v);
+    for (int k = 0; k < FIELDS; k++)
+        if (asked(list, fields[k].name)) {
+            write_field(s, f, fields + k, v);
+            shown[nshown++] = (struct xdmf_field){fields[k].name, components(s, fields + k)};
+        }
+    if (asked(list, "id"))
+        h5_write_int(f, "id", s->p.n, s->p.id);
+    mem_free(v);
+    int64_t all = s->p.n;
+    MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT64_T, MPI_SUM, s->run->comm);
+    if (x)
+        xdmf_points(x, s->t, file, all, s->dim, nshown, shown);
+}
+
+/* Numbers that are the same on all ranks and that the next step depends on or that are reported. */
+static const struct number {
+    const char *name;
+    size_t offset;
+} numbers[] = {
+#define NUMBER(member)                                                                             \
+    {                                                                                              \
+#member, offsetof(struct sph, member)                                                      \
+    }
+    NUMBER(skin),      NUMBER(signal),       NUMBER(dt_most),      NUMBER(stray),
+    NUMBER(drift[0]),  NUMBER(drift[1]),     NUMBER(drift[2]),     NUMBER(max_speed),
+    NUMBER(max_shift), NUMBER(max_c),        NUMBER(rho_min),      NUMBER(rho_max),
+    NUMBER(max_mach),  NUMBER(fluctuation),  NUMBER(mass0),        NUMBER(energy0),
+    NUMBER(dt),        NUMBER(momentum0[0]), NUMBER(momentum0[1]), NUMBER(momentum0[2]),
+};
+enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
+
+static double *number(struct sph *s, int k) { return (double *)((char *)s + numbers[k].offset); }
+
+void sph_checkpoint(void *state, struct h5 *f)
+{
+    struct sph *s = state;
+    const int64_t counts[2] = {s->next_id, s->pairs};
+    int64_t *zone = NEW(int64_t, s->p.n);
+    for (int i = 0; i < s->p.n; i++)
+        zone[i] = s->p.zone[i];
+    h5_write_real(f, "state", "x, m u, w, m", s->p.n, s->p.nstate, s->p.y, false);
+    h5_write_int(f, "id", s->p.n, s->p.id);
+    h5_write_int(f, "zone", s->p.n, zone);
+    h5_write_int(f, "counts", 2, counts);
+    h5_write_real(f, "lost", "-", 1, 1, &s->lost, false);
+    mem_free(zone);
+    for (int k = 0; k < NUMBERS; k++)
+        h5_attribute_real(f, numbers[k].name, *number(s, k));
+    h5_attribute_text(f, "limited_by", s->limited_by);
+    domain_save(s, f);
+    if (s->zones)
+        zones_save(s, f);
+}
+
+static bool read_particles(struct sph *s, struct h5 *f)
+{
+    const int64_t n = h5_rows(f, "state");
+    if (n < 0)
+        return false;
+    int64_t *zone = NEW(int64_t, n);
+    particles_reserve(&s->p, (int)n);
+    const bool fits = h5_read_real(f, "state", n, s->p.nstate, s->p.y) &&
+                      h5_read_int(f, "id", n, s->p.id) && h5_read_int(f, "zone", n, zone);
+    for (int64_t i = 0; fits && i < n; i++)
+        s->p.zone[i] = (unsigned char)zone[i];
+    s->p.n = fits ? (int)n : 0;
+    mem_free(zone);
+    return fits;
+}
+
+static bool read_numbers(struct sph *s, struct h5 *f)
+{
+    int64_t counts[2];
+    if (!h5_read_int(f, "counts", 2, counts) || !h5_read_real(f, "lost", 1, 1, &s->lost))
+        return false;
+    s->next_id = counts[0];
+    s->pairs = counts[1];
+    for (int k = 0; k < NUMBERS; k++)
+        if (!h5_read_attribute_real(f, numbers[k].name, number(s, k)))
+            return false;
+    sph_params_dt(&s->prm, s->nu, s->signal, &s->limited_by);
+    return true;
+}
+
+bool sph_restore(struct sph *s, struct h5 *f)
+{
+    const bool fits = read_particles(s, f) && read_numbers(s, f) && domain_load(s, f) &&
+                      (!s->zones || zones_load(s, f));
+    if (!fits)
+        log_say("the restart file is of another number of ranks or another case");
+    s->ready = false;
+    return fits;
+}

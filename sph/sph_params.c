@@ -1,0 +1,185 @@
+/* sph_params.c - parameter table of group sph. SPDX-License-Identifier: BSD-3-Clause */
+#include "sph_params.h"
+
+#include <math.h>
+
+#include "zones.h"
+
+static struct sph_params given; /* as the case has it: the target of the table */
+static bool present;
+
+#define P struct sph_params
+/* clang-format off */
+static const struct param rows[] = {
+    PARAM(P, dx, "m", NULL, 1e-9, 1e6, "initial particle spacing"),
+    PARAM(P, R_dx, "-", "4.0", 1.5, 8.0, "radius of the kernel's support over dx"),
+    PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the scale of velocity"),
+    PARAM(P, gamma, "-", "7.0", 1.0, 7.0, "exponent of the equation of state, 7 or 1"),
+    CHOICE(P, scheme, "riemann_ale|riemann", "riemann_ale", "pair interaction: ALE (Vila) or without mass flux (Leduc)"),
+    CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles"),
+    CHOICE(P, transport, "tvs|tvo|none|eulerian", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest"),
+    CHOICE(P, viscosity, "morris|monaghan", "morris", "form of the viscous term"),
+    PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)"),
+    PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure"),
+    PARAM(P, cfl, "-", "0.375", 0.001, 2.0, "dt over R/(c + |u - u0|)"),
+    PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan)"),
+    PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
+    CHOICE(P, outer, "none|exact|partner", "none", "the flow around the box; none with a box: partner when coupled, else exact"),
+    PARAM(P, density_limit, "-", "0.1", 1e-6, 10.0, "|rho/rho0 - 1| that ends the run"),
+    PARAM(P, noise, "-", "0.0", 0.0, 0.5, "random displacement of the first lattice, in dx"),
+};
+/* clang-format on */
+
+const struct param_group sph_groups[SPH_GROUPS] = {{.name = "sph",
+                                                    .help = "smoothed particle hydrodynamics",
+                                                    .rows = rows,
+                                                    .nrows = sizeof rows / sizeof rows[0],
+                                                    .target = &given,
+                                                    .present = &present}};
+
+static bool has_box(void)
+{
+    for (int a = 0; a < 3; a++)
+        if (given.box[0][a] != 0.0 || given.box[1][a] != 0.0)
+            return true;
+    return false;
+}
+
+/* Ten times the largest speed to expect, so that the density varies by about a percent [2.33-2.35].
+ */
+static double default_c0(const struct scene *c)
+{
+    const double *V = c->initial.velocity, *g = c->fluid.gravity;
+    double U = c->initial.U, gH = 0.0;
+    const double carried = sqrt(V[0] * V[0] + V[1] * V[1] + V[2] * V[2]);
+    for (int a = 0; a < c->domain.dim; a++)
+        if (!c->domain.periodic[a])
+            gH += fabs(g[a]) * (c->domain.max[a] - c->domain.min[a]);
+    if (c->initial.field == FIELD_TAYLOR_GREEN || c->initial.field == FIELD_TWO_MODES)
+        U += carried;
+    return 10.0 * fmax(fmax(U, carried), sqrt(gH));
+}
+
+static bool is_coupled(const struct run *r) { return r->scene.has_sph && r->scene.has_fv; }
+
+const struct sph_params *sph_params_of(const struct run *r)
+{
+    static struct sph_params used;
+    used = given;
+    if (used.c0 <= 0.0)
+        used.c0 = default_c0(&r->scene);
+    if (used.cfl_viscous <=
+        0.0) /* bounds of plane waves on a lattice, with margin: the sheet's table */
+        used.cfl_viscous = used.viscosity == VISCOSITY_MORRIS ? 0.09 : 0.035;
+    if (has_box() && used.outer == OUTER_NONE)
+        used.outer = is_coupled(r) ? OUTER_PARTNER : OUTER_EXACT;
+    for (int a = 0; a < 3; a++) {
+        const bool whole = !has_box() || a >= r->scene.domain.dim;
+        used.box[0][a] = whole ? r->scene.domain.min[a] : given.box[0][a];
+        used.box[1][a] = whole ? r->scene.domain.max[a] : given.box[1][a];
+    }
+    return &used;
+}
+
+void sph_params_region(const struct scene_domain *d, const struct sph_params *prm, double lo[3],
+                       double hi[3], bool periodic[3])
+{
+    const double near = 1e-6 * prm->dx;
+    for (int a = 0; a < 3; a++) {
+        lo[a] = a < d->dim ? prm->box[0][a] : 0.0;
+        hi[a] = a < d->dim ? prm->box[1][a] : 0.0;
+        periodic[a] =
+            a < d->dim && d->periodic[a] && lo[a] <= d->min[a] + near && hi[a] >= d->max[a] - near;
+    }
+}
+
+double sph_params_dt(const struct sph_params *prm, double nu, double signal,
+                     const char **limited_by)
+{
+    const double R = prm->R_dx * prm->dx;
+    const double sound = prm->cfl * R / signal;
+    const double viscous = nu > 0.0 ? prm->cfl_viscous * R * R / nu : INFINITY;
+    if (limited_by)
+        *limited_by = sound <= viscous ? "sound" : "viscosity";
+    return fmin(sound, viscous);
+}
+
+bool sph_params_zones(const struct run *r)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    double lo[3], hi[3];
+    bool periodic[3], open = false;
+    sph_params_region(&r->scene.domain, prm, lo, hi, periodic);
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        open = open || !periodic[a];
+    return open && prm->outer != OUTER_NONE;
+}
+
+/* Whether length is a whole number of dx, but for the last digits of a typed decimal. */
+static bool whole(double length, double dx)
+{
+    const double n = length / dx;
+    return fabs(n - round(n)) < 1e-6;
+}
+
+static void check_axis(const struct run *r, int a, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const double near = 1e-6 * given.dx, R = given.R_dx * given.dx;
+    static const char axes[] = "xyz";
+    double lo[3], hi[3];
+    bool periodic[3];
+    sph_params_region(d, sph_params_of(r), lo, hi, periodic);
+    const double length = hi[a] - lo[a];
+    if (length <= 0.0 || lo[a] < d->min[a] - near || hi[a] > d->max[a] + near) {
+        params_fault(r->params, f, "sph.box",
+                     "%c from %g to %g m is not inside the domain, %g to %g m", axes[a], lo[a],
+                     hi[a], d->min[a], d->max[a]);
+        return;
+    }
+    if (!whole(lo[a] - d->min[a], given.dx) || !whole(hi[a] - d->min[a], given.dx))
+        params_fault(
+            r->params, f, has_box() ? "sph.box" : "sph.dx",
+            "%c from %g to %g m: both must lie a whole number of dx = %g m from domain.min",
+            axes[a], lo[a], hi[a], given.dx);
+    if (periodic[a] && length <= 2.0 * 1.15 * R)
+        params_fault(
+            r->params, f, "sph.dx",
+            "the periodic length %g m along %c must exceed twice the reach of a particle, %g m",
+            length, axes[a], 2.0 * 1.15 * R);
+}
+
+static void check_zones(const struct run *r, struct faults *f)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    double lo[3], hi[3];
+    zones_free_box(r, prm, lo, hi);
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        if (hi[a] - lo[a] <= 0.0) {
+            params_fault(
+                r->params, f, "sph.box",
+                "twice (coupling.transition + coupling.buffer) = %g m leaves nothing of %g m",
+                prm->box[1][a] - prm->box[0][a] - (hi[a] - lo[a]), prm->box[1][a] - prm->box[0][a]);
+            return;
+        }
+}
+
+void sph_params_check(const struct run *r, struct faults *f)
+{
+    if (f->n > 0) /* values that were refused are not there to be compared */
+        return;
+    if (given.gamma != 7.0 && given.gamma != 1.0)
+        params_fault(r->params, f, "sph.gamma", "%g, must be 7 or 1", given.gamma);
+    if (given.scheme == SCHEME_RIEMANN && given.transport == TRANSPORT_EULERIAN)
+        params_fault(
+            r->params, f, "sph.transport",
+            "eulerian needs scheme \"riemann_ale\": without mass flux there is no Eulerian form");
+    if (sph_params_of(r)->c0 <= 0.0)
+        params_fault(r->params, f, "sph.c0", "must be given: the case has no scale of velocity");
+    if (given.outer == OUTER_PARTNER && !is_coupled(r))
+        params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        check_axis(r, a, f);
+    if (f->n == 0 && has_box())
+        check_zones(r, f);
+}

@@ -1,0 +1,25 @@
+/* sph_params.h - the parameters of group sph: table, faults between keys, derived defaults.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_SPH_PARAMS_H
+#define SPH_SPH_PARAMS_H
+
+#include "sph.h"
+
+enum { SPH_GROUPS = 1 };
+extern const struct param_group sph_groups[SPH_GROUPS];
+
+/* As the run uses them: c0, cfl_viscous, box and outer filled in where the case leaves them open.
+ * Borrowed until the end of the program. */
+const struct sph_params *sph_params_of(const struct run *r);
+/* Region of the particles and which of its axes are periodic. */
+void sph_params_region(const struct scene_domain *d, const struct sph_params *prm, double lo[3],
+                       double hi[3], bool periodic[3]);
+/* Whether the case has transition and buffer zones. */
+bool sph_params_zones(const struct run *r);
+void sph_params_check(const struct run *r, struct faults *f);
+/* Largest step [2.102-2.104] for signals of this speed, m/s; limited_by: NULL or gets "sound" or
+ * "viscosity". */
+double sph_params_dt(const struct sph_params *prm, double nu, double signal,
+                     const char **limited_by);
+
+#endif

@@ -1,0 +1,313 @@
+/* zones.c - what the flow outside imposes: buffer at every stage, transition after every step.
+ * Equations [6.x] of Chiron 2017; in ALE form the volume w stays a particle's own (it follows the
+ * packing) and its mass is reset to rho w, so that pressure and volume never drift apart.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "zones.h"
+
+#include <math.h>
+
+#include "../common/exact.h"
+#include "../common/h5.h"
+#include "../common/mem.h"
+#include "eos.h"
+#include "kernel.h"
+#include "neighbours.h"
+#include "openings.h"
+
+enum { BEHIND_MAX = 1024 };
+
+void zones_widths(const struct run *r, const struct sph_params *prm, double *transition, double *buffer)
+{
+    const double least = 1.25 * prm->R_dx * prm->dx; /* the sheet's rule s >= 1.25 R */
+    *transition = r->scene.coupling.transition > 0.0 ? r->scene.coupling.transition : least;
+    *buffer = r->scene.coupling.buffer > 0.0 ? r->scene.coupling.buffer : least;
+}
+
+void zones_free_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3])
+{
+    double s, b;
+    zones_widths(r, prm, &s, &b);
+    for (int a = 0; a < 3; a++) {
+        const struct scene_domain *d = &r->scene.domain;
+        const bool whole = prm->box[0][a] <= d->min[a] && prm->box[1][a] >= d->max[a];
+        const double in = whole || a >= d->dim ? 0.0 : s + b;
+        lo[a] = prm->box[0][a] + in;
+        hi[a] = prm->box[1][a] - in;
+    }
+}
+
+/* The exact solution as the flow outside; the gradient of p by central differences. */
+static void eval_exact(void *ctx, double t, int n, const double *x, double *u, double *p, double *gu,
+                       double *gp)
+{
+    const struct exact *e = ctx;
+    const int dim = e->dim;
+    const double h = 1e-5;
+    for (int i = 0; i < n; i++) {
+        double v[3], g[3][3], q[3] = {0.0, 0.0, 0.0}, lo, hi;
+        exact_point(e, x + 3 * i, t, v, p + i, NULL);
+        for (int a = 0; a < dim; a++)
+            u[dim * i + a] = v[a];
+        if (!gu)
+            continue;
+        exact_gradient(e, x + 3 * i, t, g);
+        for (int a = 0; a < dim; a++)
+            for (int b = 0; b < 3; b++)
+                gu[3 * (dim * i + a) + b] = g[a][b];
+        for (int b = 0; b < dim; b++) {
+            double y[3] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
+            y[b] += h;
+            exact_point(e, y, t, NULL, &hi, NULL);
+            y[b] -= 2.0 * h;
+            exact_point(e, y, t, NULL, &lo, NULL);
+            q[b] = (hi - lo) / (2.0 * h);
+        }
+        for (int b = 0; b < 3; b++)
+            gp[3 * i + b] = q[b];
+    }
+}
+
+struct zones *zones_create(struct sph *s)
+{
+    bool open = false;
+    for (int a = 0; a < s->dim; a++)
+        open = open || !s->periodic[a];
+    if (!open || s->prm.outer == OUTER_NONE)
+        return NULL;
+    struct zones *z = NEW(struct zones, 1);
+    zones_widths(s->run, &s->prm, &z->transition, &z->buffer);
+    z->openings = openings_create(s);
+    if (s->prm.outer == OUTER_EXACT) {
+        struct exact *e = NEW(struct exact, 1);
+        *e = exact_create(&s->run->scene);
+        z->eval = eval_exact;
+        z->ctx = e;
+    }
+    return z;
+}
+
+void zones_free(struct zones **z)
+{
+    if (!*z)
+        return;
+    openings_free(&(*z)->openings);
+    if ((*z)->eval == eval_exact)
+        mem_free((*z)->ctx);
+    mem_free((*z)->who);
+    mem_free((*z)->x);
+    mem_free((*z)->u);
+    mem_free((*z)->p);
+    mem_free((*z)->gu);
+    mem_free((*z)->gp);
+    mem_free(*z);
+    *z = NULL;
+}
+
+void zones_room(struct zones *z, int n)
+{
+    if (n <= z->capacity)
+        return;
+    n += n / 4 + 64;
+    GROW(z->who, z->capacity, n);
+    GROW(z->x, 3 * z->capacity, 3 * n);
+    GROW(z->u, 3 * z->capacity, 3 * n);
+    GROW(z->p, z->capacity, n);
+    GROW(z->gu, 9 * z->capacity, 9 * n);
+    GROW(z->gp, 3 * z->capacity, 3 * n);
+    z->capacity = n;
+}
+
+void zones_look(struct zones *z, double t, bool gradients)
+{
+    z->eval(z->ctx, t, z->n, z->x, z->u, z->p, gradients ? z->gu : NULL, gradients ? z->gp : NULL);
+}
+
+double zones_depth(const struct sph *s, const double *x)
+{
+    double d = INFINITY;
+    for (int a = 0; a < s->dim; a++)
+        if (!s->periodic[a])
+            d = fmin(d, fmin(x[a] - s->lo[a], s->hi[a] - x[a]));
+    return d;
+}
+
+void zones_mark(struct sph *s)
+{
+    const struct zones *z = s->zones;
+    for (int i = 0; i < s->p.n; i++) {
+        const double d = zones_depth(s, s->p.y + (size_t)i * s->p.nstate);
+        s->p.zone[i] = d < z->buffer                   ? ZONE_BUFFER
+                       : d < z->buffer + z->transition ? ZONE_TRANSITION
+                                                       : ZONE_FREE;
+    }
+}
+
+/* Lists the local particles of a zone with their places. */
+static void gather(struct sph *s, enum sph_zone zone)
+{
+    struct zones *z = s->zones;
+    const struct particles *p = &s->p;
+    z->n = 0;
+    for (int i = 0; i < p->n; i++) {
+        if (p->zone[i] != zone)
+            continue;
+        zones_room(z, z->n + 1);
+        const double *y = p->y + (size_t)i * p->nstate;
+        for (int a = 0; a < 3; a++)
+            z->x[3 * z->n + a] = a < s->dim ? y[a] : 0.0;
+        z->who[z->n++] = i;
+    }
+}
+
+/* Imposes u, rho at fixed w. */
+static void impose(struct sph *s, int i, const double *u, double rho)
+{
+    double *y = s->p.y + (size_t)i * s->p.nstate;
+    const int dim = s->dim;
+    const double m = rho * y[2 * dim];
+    for (int a = 0; a < dim; a++)
+        y[dim + a] = m * u[a];
+    y[2 * dim + 1] = m;
+}
+
+void zones_stage(struct sph *s)
+{
+    struct zones *z = s->zones;
+    const int dim = s->dim, nstate = s->p.nstate;
+    gather(s, ZONE_BUFFER);
+    zones_look(z, s->t, true);
+    for (int k = 0; k < z->n; k++) {
+        const int i = z->who[k];
+        double *y = s->p.y + (size_t)i * nstate;
+        /* The divergence sum is cut off by the open side: there the volume waits. */
+        if (zones_depth(s, y) < s->R)
+            y[2 * dim] = s->p.y0[(size_t)i * nstate + 2 * dim];
+        impose(s, i, z->u + dim * k, eos_rho(z->p[k], s->rho0, s->c0, s->gamma));
+    }
+}
+
+/* Crowding vector of the whole-support law over neighbours and the lattice behind the open side. */
+static void crowding(const struct sph *s, int i, double *n)
+{
+    const struct particles *p = &s->p;
+    const struct neighbours *l = s->list;
+    const int dim = s->dim;
+    const double *x = p->prim + 8 * (size_t)i, R = s->R, Wdx = kernel_w(dim, s->dx, R);
+    double place[BEHIND_MAX][3];
+    const int behind = openings_behind(s->zones->openings, x, R, place, BEHIND_MAX);
+    for (int a = 0; a < dim; a++)
+        n[a] = 0.0;
+    for (int k = 0; k < l->count[i] + behind; k++) {
+        const double *xj = k < behind ? place[k]
+                                      : p->prim + 8 * (size_t)l->j[l->start[i] + k - behind];
+        double d[3] = {0.0, 0.0, 0.0}, r2 = 0.0;
+        for (int a = 0; a < dim; a++) {
+            d[a] = x[a] - xj[a];
+            r2 += d[a] * d[a];
+        }
+        if (r2 >= R * R)
+            continue;
+        const double r = sqrt(r2), f = kernel_w(dim, r, R) / Wdx;
+        const double c = s->dxD * (1.0 + 0.2 * f * f * f * f) * kernel_dw_r(dim, r, R);
+        for (int a = 0; a < dim; a++)
+            n[a] += c * d[a];
+    }
+}
+
+/* delta = -2 U R n, at most U/4, as the pair pass has it for full supports. */
+static void shift(const struct sph *s, int i, double *delta)
+{
+    const double U = s->run->scene.initial.U;
+    double n[3], size2 = 0.0;
+    crowding(s, i, n);
+    for (int a = 0; a < s->dim; a++) {
+        delta[a] = -2.0 * U * s->R * n[a];
+        size2 += delta[a] * delta[a];
+    }
+    const double most = 0.25 * U;
+    for (int a = 0; size2 > most * most && a < s->dim; a++)
+        delta[a] *= most / sqrt(size2);
+}
+
+void zones_slopes(struct sph *s)
+{
+    const struct zones *z = s->zones;
+    const int dim = s->dim;
+    for (int k = 0; k < z->n; k++) {
+        const int i = z->who[k];
+        const double *x = s->p.prim + 8 * (size_t)i;
+        double *g = s->p.slope + (size_t)i * s->p.nslope;
+        const double c = eos_c(x[2 * dim + 1], s->rho0, s->c0, s->gamma);
+        for (int b = 0; b < dim; b++) {
+            g[b] = z->gp[3 * k + b] / (c * c);
+            for (int a = 0; a < dim; a++)
+                g[dim + dim * a + b] = z->gu[3 * (dim * k + a) + b];
+        }
+        double *u0 = g + dim + dim * dim, delta[3] = {0.0, 0.0, 0.0};
+        if (s->prm.transport == TRANSPORT_NONE || zones_depth(s, x) >= s->R)
+            continue;
+        if (s->prm.transport == TRANSPORT_TVS)
+            shift(s, i, delta);
+        for (int a = 0; a < dim; a++)
+            u0[a] = x[dim + a] + delta[a];
+    }
+}
+
+/* P <- a P_out + (1-a) P, u likewise [6.7-6.8]; a = depth into the transition over its width. */
+void zones_blend(struct sph *s)
+{
+    struct zones *z = s->zones;
+    const int dim = s->dim;
+    gather(s, ZONE_TRANSITION);
+    zones_look(z, s->t, false);
+    for (int k = 0; k < z->n; k++) {
+        const int i = z->who[k];
+        double *y = s->p.y + (size_t)i * s->p.nstate, u[3];
+        const double in = (zones_depth(s, y) - z->buffer) / z->transition;
+        const double alpha = fmin(fmax(1.0 - in, 0.0), 1.0), m = y[2 * dim + 1];
+        const double p = eos_p(m / y[2 * dim], s->rho0, s->c0, s->gamma);
+        for (int a = 0; a < dim; a++)
+            u[a] = alpha * z->u[dim * k + a] + (1.0 - alpha) * y[dim + a] / m;
+        impose(s, i, u, eos_rho(alpha * z->p[k] + (1.0 - alpha) * p, s->rho0, s->c0, s->gamma));
+        z->blended += y[2 * dim + 1] - m;
+    }
+}
+
+void zones_openings(struct sph *s, double dt) { openings_step(s, dt); }
+
+void zones_save(struct sph *s, struct h5 *f)
+{
+    const struct openings *o = s->zones->openings;
+    const int64_t rows = s->run->rank == 0 ? openings_faces(o) : 0;
+    h5_write_real(f, "faces_mass", "kg", rows, 1, o->mass, false);
+    h5_write_real(f, "faces_births", "-", rows, 1, o->births, false);
+    h5_write_real(f, "faces_flux", "kg/s", openings_faces(o), 1, o->flux, false);
+    const double booked[3] = {s->zones->blended, o->born_mass, o->gone_mass};
+    const int64_t counted[3] = {o->born, o->gone, o->refused};
+    h5_write_real(f, "zones_booked", "kg", 3, 1, booked, false);
+    h5_write_int(f, "zones_counted", 3, counted);
+}
+
+bool zones_load(struct sph *s, struct h5 *f)
+{
+    struct openings *o = s->zones->openings;
+    const int faces = openings_faces(o);
+    const int64_t rows = s->run->rank == 0 ? faces : 0;
+    double booked[3];
+    int64_t counted[3];
+    if (!h5_read_real(f, "faces_mass", rows, 1, o->mass) ||
+        !h5_read_real(f, "faces_births", rows, 1, o->births) ||
+        !h5_read_real(f, "faces_flux", faces, 1, o->flux) ||
+        !h5_read_real(f, "zones_booked", 3, 1, booked) || !h5_read_int(f, "zones_counted", 3, counted))
+        return false;
+    MPI_Bcast(o->mass, faces, MPI_DOUBLE, 0, s->run->comm);
+    MPI_Bcast(o->births, faces, MPI_DOUBLE, 0, s->run->comm);
+    s->zones->blended = booked[0];
+    o->born_mass = booked[1];
+    o->gone_mass = booked[2];
+    o->born = counted[0];
+    o->gone = counted[1];
+    o->refused = counted[2];
+    openings_place_lattice(s);
+    return true;
+}

@@ -1,0 +1,78 @@
+#!/bin/sh
+# Small coupled jobs from end to end: accuracy, independence of ranks, restart, orderly stop, killed partners.
+# SPDX-License-Identifier: BSD-3-Clause
+b=$(cd "${1:-build}" && pwd)
+root=$(cd "$(dirname "$0")/.." && pwd)
+tmp=${TEST_SCRATCH:-$(mktemp -d)}/coupled
+mkdir -p "$tmp" && cd "$tmp" || exit 1
+export ESTRAN_BUILD="$b"
+failed=0
+bad() { echo "FAIL: $*"; failed=$((failed + 1)); }
+number() { sed -n "s/.*\"$2\": *\([-+0-9.eE]*\).*/\1/p" "$1/summary.json" | head -n 1; }
+below() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && a + 0 == a && a <= b) }'; }
+close_to() { awk -v a="$1" -v b="$2" -v e="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(a != "" && b != "" && d <= e * (b < 0 ? -b : b)) }'; }
+small="-p sph.dx=0.0125 -p fv.cells=(24,24) -p time.end=0.24 -p output.every=0.12"
+job() { # DIR RANKS ARGS...
+    d=$1 n=$2
+    shift 2
+    # shellcheck disable=SC2086
+    "$root/cases/run" taylor_green -n "$n" -o "$d" $small "$@" >"$d.txt" 2>&1
+}
+same_bits() { # the last snapshots of two runs hold the same values
+    for p in sph fv; do
+        a= c=
+        for f in "$1/$p"_[0-9]*.h5; do a=$f; done
+        for f in "$2/$p"_[0-9]*.h5; do c=$f; done
+        h5diff "$a" "$c" >diff.txt 2>&1 || return 1
+    done
+}
+
+job one 1:1:1 --force || bad "the plain job ended with $?: $(tail -n 3 one.txt)"
+below "$(number one velocity_l2)" 0.03 || bad "velocity error $(number one velocity_l2), wanted at most 0.03"
+below "$(number one coupler_share)" 0.05 || bad "coupler takes $(number one coupler_share) of the job's processor time"
+
+for n in 2 3; do
+    job "coupler$n" 1:$n:1 || bad "job with $n coupler ranks ended with $?"
+    same_bits one "coupler$n" || bad "$n coupler ranks give other bits than one"
+done
+for n in 2:1:1 1:1:2 4:1:1; do
+    job "ranks$n" $n || bad "job on ranks $n ended with $?"
+    close_to "$(number "ranks$n" velocity_l2)" "$(number one velocity_l2)" 1e-6 ||
+        bad "ranks $n: velocity error $(number "ranks$n" velocity_l2), one rank each: $(number one velocity_l2)"
+done
+
+# straight through, and stopped at half time and restarted: the same bits
+job whole 2:1:1 -p output.checkpoint=0.12 || bad "job with restart files ended with $?"
+job half 2:1:1 -p output.checkpoint=0.12 -p time.end=0.12 || bad "first half ended with $?"
+job half 2:1:1 -p output.checkpoint=0.12 --restart || bad "restart ended with $?: $(tail -n 3 half.txt)"
+same_bits whole half || bad "a restarted run gives other bits: $(tail -n 2 diff.txt)"
+
+# an orderly stop: USR1 to the launcher
+"$root/cases/run" taylor_green -n 1:1:1 -o stop -p sph.dx=0.0125 -p "fv.cells=(24,24)" >stop.txt 2>&1 &
+job=$!
+sleep 3
+kill -TERM $job
+wait $job
+code=$?
+[ $code = 5 ] || bad "orderly stop ended with $code, wanted 5: $(tail -n 3 stop.txt)"
+[ -f stop/checkpoint.txt ] || bad "orderly stop left no restart file"
+grep -q stopped stop/summary.json || bad "orderly stop: no status in summary.json"
+
+# a killed partner in each role: the others end within 5 s and say so
+for role in sph coupler fv; do
+    "$root/cases/run" taylor_green -n 1:1:1 -o "kill$role" -p sph.dx=0.0125 -p "fv.cells=(24,24)" >"kill$role.txt" 2>&1 &
+    job=$!
+    sleep 2.5
+    pid=$(pgrep -f "$b/$role .*kill$role" | while read -r p; do [ "$(readlink /proc/$p/exe)" = "$b/$role" ] && echo $p; done | head -n 1)
+    start=$(date +%s%N)
+    [ -n "$pid" ] && kill -KILL "$pid" || bad "no $role to kill"
+    wait $job
+    code=$?
+    ms=$((($(date +%s%N) - start) / 1000000))
+    [ $code != 0 ] || bad "killed $role: exit code 0"
+    [ $ms -le 5000 ] || bad "killed $role: the job ended after $ms ms"
+    grep -q -i 'launcher ends\|left no\|last heard\|killed' "kill$role.txt" || bad "killed $role: no reason: $(cat "kill$role.txt")"
+done
+pgrep -f "$tmp" >/dev/null && bad "processes left over: $(pgrep -af "$tmp")"
+echo "coupled: $failed faults"
+[ $failed = 0 ]
