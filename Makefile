@@ -20,20 +20,20 @@ SAN =
 CFLAGS = -std=c11 -D_GNU_SOURCE -g $(OPT) $(WARN) $(HDF5_CFLAGS) -isystem /usr/include/hypre $(SAN)
 LIBS = $(HDF5_LIBS) -lconfig -lm
 
-objects = $(patsubst %.c,$(B)/%.o,$(wildcard $(1)/*.c))
-cpl_o = $(addprefix $(B)/coupler/,cpl_client.o cpl_patch.o wire.o failure.o handshake.o)
-mains = $(B)/sph/sph.o $(B)/fv/fv.o $(B)/coupler/coupler.o
-sph_o = $(filter-out $(mains),$(call objects,sph)) $(B)/coupler/cpl_partner.o
-fv_o = $(filter-out $(mains),$(call objects,fv)) $(B)/coupler/cpl_partner.o
-coupler_o = $(filter-out $(mains) $(cpl_o) $(B)/coupler/cpl_%,$(call objects,coupler))
+objects = $(patsubst %.c,$(B)/o/%.o,$(wildcard $(1)/*.c))
+cpl_o = $(addprefix $(B)/o/coupler/,cpl_client.o cpl_data.o cpl_patch.o wire.o failure.o handshake.o region.o)
+mains = $(B)/o/sph/sph.o $(B)/o/fv/fv.o $(B)/o/coupler/coupler.o
+sph_o = $(filter-out $(mains),$(call objects,sph)) $(B)/o/coupler/cpl_partner.o
+fv_o = $(filter-out $(mains),$(call objects,fv)) $(B)/o/coupler/cpl_partner.o
+coupler_o = $(filter-out $(mains) $(cpl_o) $(B)/o/coupler/cpl_%,$(call objects,coupler))
 
 all: $(B)/sph $(B)/fv $(B)/coupler
 
-$(B)/sph: $(B)/sph/sph.o $(B)/libsph.a $(B)/libcpl.a $(B)/libcommon.a
+$(B)/sph: $(B)/o/sph/sph.o $(B)/libsph.a $(B)/libcpl.a $(B)/libcommon.a
 	$(CC) $(SAN) -o $@ $^ $(LIBS)
-$(B)/fv: $(B)/fv/fv.o $(B)/libfv.a $(B)/libcpl.a $(B)/libcommon.a
+$(B)/fv: $(B)/o/fv/fv.o $(B)/libfv.a $(B)/libcpl.a $(B)/libcommon.a
 	$(CC) $(SAN) -o $@ $^ -lHYPRE $(LIBS)
-$(B)/coupler: $(B)/coupler/coupler.o $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
+$(B)/coupler: $(B)/o/coupler/coupler.o $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
 	$(CC) $(SAN) -o $@ $^ $(LIBS)
 $(B)/libcommon.a: $(call objects,common)
 $(B)/libcpl.a: $(cpl_o)
@@ -43,16 +43,18 @@ $(B)/libcoupler.a: $(coupler_o)
 $(B)/lib%.a:
 	@rm -f $@; ar rcs $@ $^
 
-$(B)/%.o: %.c
+$(B)/o/%.o: %.c
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) -MMD -MP -c -o $@ $<
-$(B)/common/version.o: CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
+$(B)/o/common/version.o: CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
 
 # ---- tests: every tests/test_X.c is a program; tests/mock.c knows cpl.h alone -------------------------
 tests_bin = $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c tests/bench_*.c tests/toy*.c))
-$(B)/tests/mock: $(B)/tests/mock.o $(B)/libcpl.a
+$(B)/tests/mock: $(B)/o/tests/mock.o $(B)/libcpl.a
+	@mkdir -p $(@D)
 	$(CC) $(SAN) -o $@ $^ -lm
-$(B)/tests/%: $(B)/tests/%.o $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
+$(B)/tests/%: $(B)/o/tests/%.o $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
+	@mkdir -p $(@D)
 	$(CC) $(SAN) -o $@ $< -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lHYPRE $(LIBS) -lcmocka
 tests: all $(tests_bin) $(B)/tests/mock
 asan:

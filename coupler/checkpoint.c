@@ -3,27 +3,33 @@
 #include "coupler.h"
 
 #include <stdio.h>
+#include <unistd.h>
 
 #include "../common/log.h"
 
+/* Lines "key value", which common/run_files.c reads at a restart. */
 static void write_manifest(const struct coupler *c)
 {
-    char path[1100], key[128];
-    struct summary *s = summary_create();
-    summary_text(s, "case", c->command->case_file);
-    summary_int(s, "window", c->save_window);
-    summary_real(s, "t", window_start(c, c->save_window + 1));
-    snprintf(key, sizeof key, "%016llx", (unsigned long long)c->hash);
-    summary_text(s, "case_hash", key);
-    for (int i = 0; i < c->nsolvers; i++) {
-        snprintf(key, sizeof key, "files.%s", c->solver[i].name);
-        summary_text(s, key, c->saved[i]);
+    char path[1100], new[1110];
+    snprintf(path, sizeof path, "%s/checkpoint.txt", c->dir);
+    snprintf(new, sizeof new, "%s.new", path);
+    FILE *f = fopen(new, "w");
+    bool good = f != NULL;
+    if (f) {
+        fprintf(f, "window %lld\n", (long long)c->save_window);
+        fprintf(f, "t %.17g\n", window_start(c, c->save_window + 1));
+        fprintf(f, "case_hash %016llx\n", (unsigned long long)c->hash);
+        for (int i = 0; i < c->nsolvers; i++)
+            fprintf(f, "%s %s\n", c->solver[i].name, c->saved[i]);
+        good = fflush(f) == 0 && fsync(fileno(f)) == 0;
+        good = fclose(f) == 0 && good;
     }
-    snprintf(path, sizeof path, "%s/manifest.json", c->dir);
-    summary_write(s, path);
-    summary_free(&s);
-    log_say("restart point at t = %.6g s (window %lld)", window_start(c, c->save_window + 1),
-            (long long)c->save_window);
+    if (!good || rename(new, path) != 0) {
+        log_warn("cannot write %s: no restart point at t = %.6g s", path,
+                 window_start(c, c->save_window + 1));
+        return;
+    }
+    log_say("  restart point at t = %.6g s", window_start(c, c->save_window + 1));
 }
 
 void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m)

@@ -2,16 +2,18 @@
  * until all have said goodbye. SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "../common/log.h"
+#include "../common/mem.h"
 #include "../common/timer.h"
 #include "failure.h"
 
-static const double look_every = 0.25, stall_first = 60.0, default_deadline = 30.0; /* s */
+static const double look_every = 0.25, stall_first = 60.0; /* s */
 static const char help[] = "brings the solvers of a job together: fields, time windows, restart points";
 static const char *const others[] = {"sph", "fv", "walls", "bodies", NULL};
 
@@ -27,7 +29,8 @@ static void look_after_partners(void)
         return;
     if (!failure_read(note, sizeof note))
         snprintf(note, sizeof note, "a program of this job is gone");
-    log_here("%s", note);
+    log_quiet("%s", note);
+    signals_handled(); /* this rank says it itself */
     failure_die(RUN_PARTNER, note);
 }
 
@@ -76,7 +79,7 @@ static struct message *await(struct coupler *c, int peer)
         }
         if (c->rank == 0)
             look_around(c);
-        nap_take(&nap, WIRE_COUPLER_NAP);
+        nap_take(&nap);
     }
     c->idle += wire_time() - nap.since;
     if (m->peer < c->nsolvers)
@@ -266,16 +269,16 @@ static int couple(struct coupler *c, struct faults *faults)
     snprintf(path, sizeof path, "%s/.death", c->dir);
     failure_path(path);
     signals_note_path(path);
-    if (faults->n == 0) {
+    if (meet(c, faults->n)) { /* solvers have looked into the folder: what is new now is not another run's */
         snprintf(path, sizeof path, "%s/log.txt", c->dir);
         log_file(path);
+        code = plan(c) ? serve(c) : RUN_INPUT;
     }
-    if (meet(c, faults->n) && plan(c))
-        code = serve(c);
     while (!wire_flushed(&c->wire))
         usleep(100);
     failure_closed();
     rendezvous_close(c);
+    log_file(NULL);
     return code;
 }
 
@@ -299,59 +302,78 @@ static void describe(const struct coupler *c)
             c->scene.coupling.buffer);
 }
 
-static int run(struct coupler *c, const struct command_line *command)
+/* Who else is here; false: no job, the reason is printed. */
+static bool find_partners(struct coupler *c)
 {
-    struct param_group groups[SCENE_GROUPS];
+    const int met = handshake(c->world, "coupler", c->command->deadline, &c->who);
+    c->comm = c->who.mine;
+    MPI_Comm_rank(c->comm, &c->rank);
+    MPI_Comm_size(c->comm, &c->size);
+    log_open(c->comm, "coupler");
+    signals_install("coupler", c->rank);
+    if (met != 0)
+        log_say("%s", c->who.text);
+    return met == 0;
+}
+
+static int run(struct coupler *c, const struct param_group *groups)
+{
     struct faults faults = {0};
+    const struct command_line *l = c->command;
     int code = RUN_INPUT;
-    c->command = command;
-    snprintf(c->dir, sizeof c->dir, "%s", command->dir);
-    scene_groups(&c->scene, groups);
-    c->params = params_read(MPI_COMM_SELF, command->case_file, command->noverrides,
-                            command->overrides, groups, SCENE_GROUPS, others, &faults);
+    c->comm = c->world;
+    if (!l->check && !find_partners(c))
+        return RUN_INPUT;
+    c->params = params_read(c->comm, l->case_file, l->noverrides, l->overrides, groups,
+                            SCENE_GROUPS, others, &faults);
     c->scene.has_sph = params_has_group(c->params, "sph");
     c->scene.has_fv = params_has_group(c->params, "fv");
     scene_check(&c->scene, c->params, &faults);
     c->hash = params_hash(c->params);
-    if (command->check) {
-        code = params_report(&faults) ? RUN_INPUT : RUN_DONE;
-        if (code == RUN_DONE)
-            describe(c);
-    } else {
-        const double s = faults.n == 0 ? c->scene.coupling.deadline : default_deadline;
-        const int met = handshake(c->world, "coupler", s, &c->who);
-        c->comm = c->who.mine;
-        MPI_Comm_rank(c->comm, &c->rank);
-        MPI_Comm_size(c->comm, &c->size);
-        log_open(c->comm, "coupler");
-        signals_install("coupler", c->rank);
-        if (met != 0)
-            log_say("%s", c->who.text);
-        else
-            code = couple(c, &faults);
+    if (!l->check)
+        code = couple(c, &faults);
+    else if (params_report(&faults) == 0) {
+        code = RUN_DONE;
+        describe(c);
     }
     params_free(&c->params);
+    mem_free(faults.text);
     return code;
+}
+
+/* A program of the job that is no MPI program keeps all others in MPI_Init, without a word. */
+static void not_started(int signal)
+{
+    static const char text[] = "coupler: MPI has not started within 30 s: is every program of this job "
+                               "an MPI program?\n";
+    (void)signal;
+    _exit(write(STDERR_FILENO, text, sizeof text - 1) ? RUN_INPUT : RUN_INPUT);
 }
 
 int main(int argc, char **argv)
 {
     static struct coupler c; /* large */
     struct command_line command;
-    struct scene scene;
     struct param_group groups[SCENE_GROUPS];
+    signal(SIGALRM, not_started);
+    alarm(30);
     MPI_Init(&argc, &argv);
-    scene_groups(&scene, groups);
+    alarm(0);
     c.world = MPI_COMM_WORLD;
-    c.line_every = 1.0;
-    c.stall_every = stall_first;
-    c.start = wall_time();
-    c.line_at = c.start + c.line_every;
-    c.stall_at = c.start + c.stall_every;
+    c.command = &command;
     c.said = -1;
+    c.start = wall_time();
+    c.line_every = 1.0;
+    c.line_at = c.start + c.line_every;
+    c.stall_every = stall_first;
+    c.stall_at = c.start + c.stall_every;
+    scene_groups(&c.scene, groups);
     int code = run_command_line(&command, argc, argv, "coupler", help, groups, SCENE_GROUPS);
-    if (code < 0)
-        code = run(&c, &command);
+    if (code < 0) {
+        snprintf(c.dir, sizeof c.dir, "%s", command.dir);
+        code = run(&c, groups);
+    }
+    mem_free((void *)(uintptr_t)command.overrides);
     MPI_Finalize();
     return code;
 }

@@ -61,6 +61,13 @@ static struct message *from_inbox(struct cpl *c, enum wire_kind kind, int field,
     return NULL;
 }
 
+static void at_work(const struct cpl *c)
+{
+    char doing[64];
+    snprintf(doing, sizeof doing, "at work in window %lld", (long long)c->window);
+    failure_doing(doing);
+}
+
 struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int64_t tick, int rank,
                              const char *what)
 {
@@ -77,7 +84,7 @@ struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int6
         if (!m) {
             if (partner_lost(c, &nap))
                 break;
-            nap_take(&nap, WIRE_SOLVER_NAP);
+            nap_take(&nap);
             continue;
         }
         c->heard = wire_time();
@@ -92,8 +99,7 @@ struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int6
         }
     }
     c->waited += wire_time() - nap.since;
-    snprintf(doing, sizeof doing, "at work in window %lld", (long long)c->window);
-    failure_doing(doing);
+    at_work(c);
     return found;
 }
 
@@ -338,6 +344,7 @@ int cpl_window(struct cpl *c, double *t0, double *t1, int *action, int *code)
         c->t0 = *t0;
         c->t1 = *t1;
         c->state = IN_WINDOW;
+        at_work(c);
     }
     message_free(&m);
     return CPL_OK;
@@ -455,10 +462,8 @@ int cpl_close(struct cpl **handle, int code)
         job = goodbye(c, code);
         if (job < 0)
             failure_die(4, c->text);
-    } else if (c->state >= PLANNED && c->state != LEFT) {
-        cpl_fail(c, code ? code : 4, "left before the end of the job");
     } else if (c->state != LEFT) {
-        cpl_fail(c, code ? code : 4, "left before the plan was agreed");
+        cpl_fail(c, code ? code : 4, c->text[0] ? c->text : "left before the end of the job");
     }
     failure_closed();
     client_free_fields(c);

@@ -9,8 +9,11 @@
 
 static void must(struct cpl *c, int code)
 {
-    if (code != CPL_OK)
-        cpl_fail(c, code == CPL_EINPUT ? RUN_INPUT : RUN_PARTNER, cpl_strerror(c));
+    if (code == CPL_OK)
+        return;
+    log_quiet("%s", cpl_strerror(c));
+    signals_handled(); /* cpl_fail says it itself */
+    cpl_fail(c, code == CPL_EINPUT ? RUN_INPUT : RUN_PARTNER, cpl_strerror(c));
 }
 
 /* A refused job: the coupler's list is the same for all, so all leave in order. */
@@ -72,7 +75,13 @@ static void partner_saved(void *ctx, int64_t window, const char *file)
 
 static int64_t partner_window_number(void *ctx) { return cpl_window_number(ctx); }
 static double partner_waited(void *ctx) { return cpl_waited(ctx); }
-static void partner_fail(void *ctx, int code, const char *reason) { cpl_fail(ctx, code, reason); }
+
+static void partner_fail(void *ctx, int code, const char *reason)
+{
+    signals_handled();
+    cpl_fail(ctx, code, reason);
+}
+
 
 static void partner_close(void *ctx, int code, const struct summary *final)
 {

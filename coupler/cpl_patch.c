@@ -78,28 +78,42 @@ static inline void cubic_weights(struct stencil *q, double s, double per_m)
     q->d[3] = (b * c + a * c + a * b) / 6.0 * per_m;
 }
 
+/* The place in its cell comes from the global index alone, so that all patches of a grid, whatever their
+ * first cell, give the same bits. */
 static inline struct stencil stencil_at(const struct patch *p, int a, double x)
 {
     struct stencil q = {.m = 1, .w = {1.0}};
-    const int n = p->n[a];
-    /* place in cells, 0 at the centre of the patch's first cell */
-    double s = (x - p->origin[a]) / p->spacing[a] - 0.5 - p->lo[a];
-    if (p->period[a] > 0)
-        s -= p->period[a] * rint((s - 0.5 * (n - 1)) / p->period[a]);
-    s = s > -0.5 ? s : -0.5; /* also catches NaN */
-    s = s < n - 0.5 ? s : n - 0.5;
+    const int n = p->n[a], lo = p->lo[a];
+    /* in cells, 0 at the centre of the grid's first cell; huge and NaN places become places */
+    double s = (x - p->origin[a]) / p->spacing[a] - 0.5;
+    s = s > -1e9 ? s : -1e9;
+    s = s < 1e9 ? s : 1e9;
     int i = (int)floor(s);
+    s -= i;
+    i -= lo;
+    if (p->period[a] > 0) { /* the image nearest to the middle of the patch */
+        const int turns = (int)floor((i - 0.5 * n) / p->period[a] + 0.5);
+        i -= turns * p->period[a];
+    }
+    if (i < -1 || (i == -1 && s < 0.5)) {
+        i = -1;
+        s = 0.5;
+    }
+    if (i >= n || (i == n - 1 && s > 0.5)) {
+        i = n - 1;
+        s = 0.5;
+    }
     if (p->cubic && n >= 4) {
-        i = i < 1 ? 1 : i > n - 3 ? n - 3 : i;
+        const int base = i < 1 ? 1 : i > n - 3 ? n - 3 : i;
         q.m = 4;
-        q.first = i - 1;
-        cubic_weights(&q, s - i, 1.0 / p->spacing[a]);
+        q.first = base - 1;
+        cubic_weights(&q, s + (i - base), 1.0 / p->spacing[a]);
     } else if (n >= 2) {
-        i = i < 0 ? 0 : i > n - 2 ? n - 2 : i;
+        const int base = i < 0 ? 0 : i > n - 2 ? n - 2 : i;
         q.m = 2;
-        q.first = i;
-        q.w[0] = 1.0 - (s - i);
-        q.w[1] = s - i;
+        q.first = base;
+        q.w[1] = s + (i - base);
+        q.w[0] = 1.0 - q.w[1];
         q.d[1] = 1.0 / p->spacing[a];
         q.d[0] = -q.d[1];
     }

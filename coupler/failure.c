@@ -93,6 +93,8 @@ bool failure_witness(void)
 void failure_obituary(int fd)
 {
     char note[TEXT], text[TEXT] = "";
+    if (self.dying || !self.open)
+        return; /* has said it, or has no part in the job (any more) */
     (void)failure_witness();
     append(text, self.who);
     append(text, ": the job ends: ");
@@ -129,12 +131,14 @@ static void sleep_ms(long ms)
 
 _Noreturn void failure_die(int code, const char *reason)
 {
-    char text[TEXT + 96], note[TEXT];
+    char text[TEXT], note[TEXT];
     self.dying = true;
     snprintf(text, sizeof text, "%s: %s", self.who, reason);
     failure_note(text);
-    fprintf(stderr, "%s\n", text);
-    if (failure_read(note, sizeof note) && strcmp(note, text) != 0)
+    const bool noted = failure_read(note, sizeof note);
+    if (!noted || strcmp(note, reason) != 0)
+        fprintf(stderr, "%s\n", text);
+    if (noted && strcmp(note, text) != 0)
         fprintf(stderr, "%s: the job ends: %s\n", self.who, note);
     fflush(NULL);
     sleep_ms(100);

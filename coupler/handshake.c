@@ -83,7 +83,7 @@ static struct hello *exchange(MPI_Comm world, const char *name, int rank, int si
         if (left > 0 && wire_time() - nap.since > deadline)
             too_late(world, all, heard, deadline);
         if (left > 0)
-            nap_take(&nap, WIRE_SOLVER_NAP);
+            nap_take(&nap);
     }
     /* All have spoken, so all have posted their receives. */
     MPI_Waitall(2 * size, request, MPI_STATUSES_IGNORE);

@@ -44,6 +44,8 @@ void rendezvous_close(struct coupler *c)
 {
     for (int i = 0; i < c->nlinks; i++) {
         struct link *l = &c->link[i];
+        if (!l->asker)
+            continue; /* the plan was refused */
         for (int r = 0; r < c->solver[l->taker].size; r++)
             mem_free(l->asker[r].x);
         for (int k = 0; k < 2; k++) {

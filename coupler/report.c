@@ -108,7 +108,7 @@ static struct norm *norm_named(struct norm *all, int *n, const char *name, size_
     if (*n == NORMS)
         return NULL;
     struct norm *new = &all[(*n)++];
-    *new = (struct norm){.vol = 0.0};
+    *new = (struct norm){.emax = -1.0}; /* not told */
     memcpy(new->name, name, length);
     return new;
 }
@@ -157,7 +157,8 @@ static void put_errors(const struct coupler *c, struct summary *s)
             put_number(s, "error", m->name, "_l2", rms / sqrt(m->r2 / m->vol));
         } else {
             put_number(s, "error", m->name, "_l2", sqrt(m->e2 / m->r2));
-            put_number(s, "error", m->name, "_linf", m->emax);
+            if (m->emax >= 0.0)
+                put_number(s, "error", m->name, "_linf", m->emax);
         }
     }
 }
@@ -191,6 +192,9 @@ static double put_cost(const struct coupler *c, struct summary *s, double couple
     summary_real(s, "cpu_s", cpu);
     summary_real(s, "t_end", window_start(c, c->window));
     summary_int(s, "windows", c->window - c->first_window);
+    for (int i = 0; i < c->nsolvers; i++)
+        put_number(s, "cpu_of", c->solver[i].name, "", c->solver[i].cpu);
+    put_number(s, "cpu_of", "coupler", "", coupler_cpu);
     for (int i = 0; i < c->nsolvers; i++)
         put_number(s, "wait_s", c->solver[i].name, "", c->solver[i].waited);
     put_number(s, "wait_s", "coupler", "", c->idle);

@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { WIRE_VERSION = 1, WIRE_PEERS = 16, WIRE_SOLVER_NAP = 500, WIRE_COUPLER_NAP = 200 /* us */ };
+enum { WIRE_VERSION = 1, WIRE_PEERS = 16 };
 
 /* Solver to coupler, or coupler to solver (>), in the order of a job. */
 enum wire_kind {
@@ -66,7 +66,8 @@ struct wire {
     void (*broken)(const char *what); /* a message that cannot be read: must not return */
 };
 
-/* The waiting of one call: spins for some 30 us, then sleeps longer and longer. */
+/* The waiting of one call: spins for some 30 us, then sleeps longer and longer: up to 0.2 ms, then 2 % of the
+ * time waited so far, at most 1 ms. */
 struct nap {
     double since;   /* s: when the waiting began */
     double checked; /* s: last look at whether all partners are alive */
@@ -102,6 +103,6 @@ bool wire_flushed(struct wire *w); /* moves sends along; true when all are done 
 void message_free(struct message **m);
 
 void nap_begin(struct nap *n);
-void nap_take(struct nap *n, long cap_us);
+void nap_take(struct nap *n);
 
 #endif

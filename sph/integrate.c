@@ -84,7 +84,12 @@ static void lines_and_gradients(struct sph *s)
 void integrate_gradients(struct sph *s)
 {
     integrate_prepare(s);
-    lines_and_gradients(s);
+    start(s, "output"); /* not part of any stage */
+    particles_lines(s);
+    domain_halo_start(s, false);
+    domain_halo_finish(s, false);
+    s->scheme->gradients(s);
+    stop(s, "output");
 }
 
 void integrate_rates(struct sph *s)
@@ -360,7 +365,7 @@ static void describe_fault(const struct sph *s, int i, struct diagnosis *d)
     describe_cause(s, i, d);
 }
 
-/* The rank of the worst particle tells all. */
+/* The rank of the worst particle speaks. */
 static void diagnose(const struct sph *s, struct diagnosis *d)
 {
     struct {
@@ -371,10 +376,10 @@ static void diagnose(const struct sph *s, struct diagnosis *d)
     MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
     if (worst.rank == s->run->rank && i >= 0)
         describe_fault(s, i, d);
-    MPI_Bcast(d, (int)sizeof *d, MPI_BYTE, worst.rank, s->run->comm);
+    run_diagnose(d, s->run->comm);
 }
 
-static void judge(const struct sph *s, double fault, struct diagnosis *d)
+static void judge(struct sph *s, double fault, struct diagnosis *d)
 {
     const double nominal = sph_params_dt(&s->prm, s->nu, s->c0, NULL);
     if (fault > 1.0)
@@ -387,6 +392,7 @@ static void judge(const struct sph *s, double fault, struct diagnosis *d)
         snprintf(d->likely, sizeof d->likely,
                  "the state has broken down before: look at the last snapshots");
     }
+    s->broken = d->bad;
 }
 
 static void count_pairs(struct sph *s)

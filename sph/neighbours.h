@@ -14,6 +14,8 @@ struct neighbours {
     int *tail;       /* [n] first entry of row i with j > i */
     int *j;          /* padded with the dummy row (s->p.capacity) */
     int rows_capacity;
+    double *sums;    /* rates of locals, ghosts and dummy while the symmetric pass runs */
+    int64_t sums_capacity;
     void *scratch;   /* cells and orders, owned */
 };
 

@@ -1,22 +1,22 @@
 /* scheme.h - what a pair interaction provides. Both passes run over the list of s->list with prim (and
- * slope) of locals and ghosts; 2D and 3D, with and without viscosity are constants of one body.
+ * slope) of locals and ghosts; dimension, viscosity, limiter are constants of one body each.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_SCHEME_H
 #define SPH_SCHEME_H
 
 #include "sph.h"
 
-struct scheme {
-    const char *name;
-    /* First pass (one-sided): renormalised gradients of rho and u and the transport velocity of every local
-     * particle into slope; zero slope where M is nearly singular (smallest eigenvalue < 0.2).
-     * u0 = u + shift, limited. */
-    void (*gradients)(struct sph *s);
-    /* Second pass (symmetric): p.rate of every local particle from prim and slope. */
-    void (*rates)(struct sph *s);
-};
+typedef void scheme_pass(struct sph *s);
 
-/* The scheme that the parameters name; picks the instances for dim, viscosity, limiter. */
-const struct scheme *scheme_pick(const struct sph *s);
+/* struct scheme (sph.h):
+ * gradients, first pass (one-sided): renormalised gradients of rho and u and the transport velocity of
+ * every local particle into slope; zero slope where M is nearly singular (smallest eigenvalue < 0.2);
+ * rates, second pass (symmetric): p.rate of every local particle from prim and slope. */
+
+/* The passes that the parameters of s name. */
+struct scheme scheme_pick(const struct sph *s);
+
+scheme_pass *scheme_gradients(int dim, int transport);
+scheme_pass *scheme_rates(const struct sph *s);
 
 #endif

@@ -51,10 +51,17 @@ struct particles {
     unsigned char *zone;         /* [capacity] enum sph_zone */
 };
 
+struct sph;
 struct neighbours; /* cell grid and list of pairs; neighbours.h */
 struct domain;     /* partition over ranks, migration, halo; domain.h */
 struct zones;      /* transition, buffer, openings; zones.h; NULL: none */
-struct scheme;     /* what a pair interaction provides; scheme.h */
+
+/* The two passes of a pair interaction; scheme.h. */
+struct scheme {
+    const char *name;
+    void (*gradients)(struct sph *s);
+    void (*rates)(struct sph *s);
+};
 
 struct sph {
     struct run *run;
@@ -70,11 +77,13 @@ struct sph {
     struct particles p;
     struct neighbours *list;
     struct domain *domain;
-    const struct scheme *scheme;
+    struct scheme passes;      /* what the parameters name */
+    const struct scheme *scheme; /* &passes */
     struct zones *zones;
     double skin;               /* m: the list holds pairs within R + skin */
     bool ready;                /* list and ghosts belong to the positions of y; whoever moves, adds or
                                   removes particles outside a step clears it */
+    bool broken;               /* the state cannot be trusted: no list is made of it any more */
     int64_t next_id;           /* of the next particle born on this rank: rank + k size */
     /* of the last step, over all ranks */
     double max_speed, max_shift, rho_min, rho_max, max_c;

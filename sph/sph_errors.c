@@ -267,12 +267,34 @@ static double pair_rate(const struct sph *s)
     return time > 0.0 ? total(s, (double)s->pairs) / time : 0.0;
 }
 
+static void summarise_modules(const struct sph *s)
+{
+    static const char *const schemes[] = {"riemann_ale", "riemann"};
+    static const char *const limiters[] = {"koren", "minmod", "none"};
+    static const char *const transports[] = {"tvs", "tvo", "none", "eulerian"};
+    const char *names[8];
+    int n = 0;
+    names[n++] = schemes[s->prm.scheme];
+    names[n++] = limiters[s->prm.limiter];
+    names[n++] = transports[s->prm.transport];
+    if (s->nu > 0.0)
+        names[n++] = s->prm.viscosity == VISCOSITY_MORRIS ? "morris" : "monaghan";
+    if (s->prm.low_dissipation)
+        names[n++] = "low_dissipation";
+    if (s->prm.damper > 0.0)
+        names[n++] = "damper";
+    if (s->zones)
+        names[n++] = "zones";
+    summary_texts(s->run->summary, "modules", n, names);
+}
+
 void sph_finish(void *state)
 {
     struct sph *s = state;
     struct summary *to = s->run->summary;
     const double rate = pair_rate(s); /* before the passes below */
     integrate_gradients(s);
+    summarise_modules(s);
     summary_int(to, "particles", llround(total(s, s->p.n)));
     summary_int(to, "particles_lost", llround(total(s, s->lost)));
     if (sph_has_exact(s->run))

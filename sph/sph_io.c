@@ -97,7 +97,10 @@ void sph_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
     const char *list = s->run->scene.output.fields;
     struct xdmf_field shown[FIELDS];
     int nshown = 0;
-    integrate_gradients(s);
+    if (s->broken)
+        particles_lines(s);
+    else
+        integrate_gradients(s);
     double *v = NEW(double, 3 * (size_t)s->p.n);
     write_positions(s, f, v);
     for (int k = 0; k < FIELDS; k++)
@@ -136,14 +139,13 @@ static double *number(struct sph *s, int k) { return (double *)((char *)s + numb
 void sph_checkpoint(void *state, struct h5 *f)
 {
     struct sph *s = state;
-    const int64_t counts[2] = {s->next_id, s->pairs};
     int64_t *zone = NEW(int64_t, s->p.n);
     for (int i = 0; i < s->p.n; i++)
         zone[i] = s->p.zone[i];
     h5_write_real(f, "state", "x, m u, w, m", s->p.n, s->p.nstate, s->p.y, false);
     h5_write_int(f, "id", s->p.n, s->p.id);
     h5_write_int(f, "zone", s->p.n, zone);
-    h5_write_int(f, "counts", 2, counts);
+    h5_write_int(f, "next_id", 1, &s->next_id);
     h5_write_real(f, "lost", "-", 1, 1, &s->lost, false);
     mem_free(zone);
     for (int k = 0; k < NUMBERS; k++)
@@ -172,11 +174,8 @@ static bool read_particles(struct sph *s, struct h5 *f)
 
 static bool read_numbers(struct sph *s, struct h5 *f)
 {
-    int64_t counts[2];
-    if (!h5_read_int(f, "counts", 2, counts) || !h5_read_real(f, "lost", 1, 1, &s->lost))
+    if (!h5_read_int(f, "next_id", 1, &s->next_id) || !h5_read_real(f, "lost", 1, 1, &s->lost))
         return false;
-    s->next_id = counts[0];
-    s->pairs = counts[1];
     for (int k = 0; k < NUMBERS; k++)
         if (!h5_read_attribute_real(f, numbers[k].name, number(s, k)))
             return false;

@@ -45,7 +45,8 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
     set_constants(s);
     particles_create(&s->p, s->dim, 0);
     s->list = neighbours_create();
-    s->scheme = scheme_pick(s);
+    s->passes = scheme_pick(s);
+    s->scheme = &s->passes;
     s->zones = zones_create(s);
     domain_create(s);
     if (f) {
