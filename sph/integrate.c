@@ -12,6 +12,7 @@
 #include "domain.h"
 #include "eos.h"
 #include "neighbours.h"
+#include "openings.h"
 #include "scheme.h"
 #include "sph_params.h"
 #include "zones.h"
@@ -57,6 +58,8 @@ void integrate_prepare(struct sph *s)
     neighbours_sort(s);
     particles_lines(s);
     domain_ghosts(s);
+    if (s->zones)
+        openings_ghosts(s);
     neighbours_build(s);
     stop(s, "list");
     s->ready = true;

@@ -52,6 +52,7 @@ void openings_free(struct openings **o)
     mem_free((*o)->change);
     mem_free((*o)->flux);
     mem_free((*o)->shift);
+    mem_free((*o)->ghost_x);
     mem_free(*o);
     *o = NULL;
 }
@@ -94,49 +95,96 @@ static int face_place(const struct openings *o, int f, double *x)
 
 static double inward(int side) { return side % 2 ? -1.0 : 1.0; }
 
-/* Visits the lattice places I beyond side `side' around x and adds those within reach. Axes before
- * the side's own stay inside, so that a corner is counted once. */
-static int behind_side(const struct openings *o, int side, const double *x, double reach,
-                       double (*place)[3], int n, int max)
+/* Adds one ghost at y if this rank can see it. */
+static void add_ghost(struct sph *s, const double *y, const double *lo, const double *hi, double reach)
 {
-    const int axis = side / 2, layers = (int)ceil(reach / o->dx) + 1;
-    int lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0}, I[3];
-    for (int b = 0; b < o->dim; b++) {
-        lo[b] = (int)floor((x[b] - reach - o->lo[b]) / o->dx) - (o->open[b] && b > axis ? 1 : 0);
-        hi[b] = (int)floor((x[b] + reach - o->lo[b]) / o->dx) + (o->open[b] && b > axis ? 1 : 0);
-        if (b < axis && o->open[b]) {
-            lo[b] = lo[b] < 0 ? 0 : lo[b];
-            hi[b] = hi[b] >= o->cells[b] ? o->cells[b] - 1 : hi[b];
-        }
+    struct openings *o = s->zones->openings;
+    for (int a = 0; a < o->dim; a++)
+        if (y[a] < lo[a] - reach || y[a] > hi[a] + reach)
+            return;
+    if (o->nghost == o->ghost_capacity) {
+        const int more = 2 * o->ghost_capacity + 256;
+        GROW(o->ghost_x, 3 * o->ghost_capacity, 3 * more);
+        o->ghost_capacity = more;
     }
-    lo[axis] = side % 2 ? o->cells[axis] : -layers;
-    hi[axis] = side % 2 ? o->cells[axis] + layers - 1 : -1;
-    for (I[2] = lo[2]; I[2] <= hi[2]; I[2]++)
-        for (I[1] = lo[1]; I[1] <= hi[1]; I[1]++)
-            for (I[0] = lo[0]; I[0] <= hi[0]; I[0]++) {
-                double y[3] = {0.0, 0.0, 0.0}, r2 = 0.0;
+    memcpy(o->ghost_x + 3 * (size_t)o->nghost++, y, 3 * sizeof *y);
+}
+
+/* Lattice places beyond side `side'. Axes before the side's own stay inside, so that an edge is counted
+ * once. */
+static void list_side(struct sph *s, int side, const double *lo, const double *hi, double reach)
+{
+    const struct openings *o = s->zones->openings;
+    const int axis = side / 2, layers = (int)ceil(reach / o->dx) + 2;
+    int first[3] = {0, 0, 0}, last[3] = {0, 0, 0}, I[3];
+    for (int b = 0; b < o->dim; b++) {
+        const bool inside = o->open[b] && b < axis;
+        const int i = (int)floor((lo[b] - reach - o->lo[b]) / o->dx) - 2;
+        const int j = (int)floor((hi[b] + reach - o->lo[b]) / o->dx) + 2;
+        first[b] = inside && i < 0 ? 0 : i;
+        last[b] = inside && j >= o->cells[b] ? o->cells[b] - 1 : j;
+    }
+    first[axis] = side % 2 ? o->cells[axis] : -layers;
+    last[axis] = side % 2 ? o->cells[axis] + layers - 1 : -1;
+    for (I[2] = first[2]; I[2] <= last[2]; I[2]++)
+        for (I[1] = first[1]; I[1] <= last[1]; I[1]++)
+            for (I[0] = first[0]; I[0] <= last[0]; I[0]++) {
+                double y[3] = {0.0, 0.0, 0.0};
                 for (int b = 0; b < o->dim; b++) {
                     y[b] = o->lo[b] + (I[b] + 0.5) * o->dx;
                     if (o->open[b] && (I[b] < 0 || I[b] >= o->cells[b]))
                         y[b] += o->shift[face_at(o, 2 * b + (I[b] < 0 ? 0 : 1), I)];
-                    r2 += (y[b] - x[b]) * (y[b] - x[b]);
                 }
-                if (r2 < reach * reach && n < max)
-                    memcpy(place[n++], y, sizeof y);
+                add_ghost(s, y, lo, hi, reach);
             }
-    return n;
 }
 
-int openings_behind(const struct openings *o, const double *x, double reach, double (*place)[3], int max)
+void openings_ghosts(struct sph *s)
 {
-    int n = 0;
+    struct openings *o = s->zones->openings;
+    double lo[3], hi[3];
+    const double reach = s->R + s->skin;
+    domain_bounds(s->domain, lo, hi);
+    o->nghost = 0;
     for (int side = 0; side < 2 * o->dim; side++) {
         const int a = side / 2;
-        const double d = side % 2 ? o->hi[a] - x[a] : x[a] - o->lo[a];
+        const double d = side % 2 ? o->hi[a] - hi[a] : lo[a] - o->lo[a];
         if (o->open[a] && d < reach)
-            n = behind_side(o, side, x, reach, place, n, max);
+            list_side(s, side, lo, hi, reach);
     }
-    return n;
+    o->first_ghost = s->p.nghost;
+    particles_reserve(&s->p, s->p.n + s->p.nghost + o->nghost);
+    s->p.nghost += o->nghost;
+    o->ghost_t = s->t;
+    openings_ghost_lines(s);
+}
+
+/* They drift with the flow outside within the step. */
+void openings_ghost_lines(struct sph *s)
+{
+    struct openings *o = s->zones->openings;
+    struct zones *z = s->zones;
+    const int dim = o->dim;
+    const double dt = s->t - o->ghost_t;
+    z->n = 0;
+    zones_room(z, o->nghost);
+    z->n = o->nghost;
+    memcpy(z->x, o->ghost_x, 3 * (size_t)o->nghost * sizeof *z->x);
+    zones_look(z, s->t, false);
+    for (int k = 0; k < o->nghost; k++) {
+        const size_t i = (size_t)(s->p.n + o->first_ghost + k);
+        double *line = s->p.prim + 8 * i, *g = s->p.slope + i * (size_t)s->p.nslope;
+        const double *u = z->u + (size_t)dim * k;
+        const double rho = eos_rho(z->p[k], s->rho0, s->c0, s->gamma);
+        memset(g, 0, (size_t)s->p.nslope * sizeof *g);
+        for (int a = 0; a < dim; a++) {
+            line[a] = o->ghost_x[3 * (size_t)k + a] + dt * u[a];
+            line[dim + a] = u[a];
+            g[dim + dim * dim + a] = s->prm.transport == TRANSPORT_EULERIAN ? 0.0 : u[a];
+        }
+        line[2 * dim] = s->dxD;
+        line[2 * dim + 1] = rho;
+    }
 }
 
 /* Particles beyond an open side give their mass to the nearest face. */
@@ -241,7 +289,7 @@ static struct strip strip_create(const struct sph *s)
                       .next = NEW(int, room), .head = NEW(int, room)};
     for (int c = 0; c < t.heads; c++)
         t.head[c] = -1;
-    for (int i = 0; i < s->p.n + s->p.nghost; i++) {
+    for (int i = 0; i < s->p.n + o->first_ghost; i++) {
         const double *y = i < s->p.n ? s->p.y + (size_t)i * s->p.nstate
                                      : s->p.prim + 8 * (size_t)(s->list->n + i - s->p.n);
         if (zones_depth(s, y) < 2.0 * s->dx)

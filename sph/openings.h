@@ -21,14 +21,20 @@ struct openings {
     int64_t born, gone, refused; /* on this rank */
     double born_mass, gone_mass; /* kg */
     int64_t first_id;
+    int nghost, first_ghost, ghost_capacity; /* the lattice behind the faces, last among the ghosts */
+    double *ghost_x;                         /* [nghost][3] at time ghost_t */
+    double ghost_t;
 };
 
 struct openings *openings_create(struct sph *s);
 void openings_free(struct openings **o);
 /* Removal, fluxes at s->t - dt/2, births. Collective. */
 void openings_step(struct sph *s, double dt);
-/* Places of the particles that a lattice would have behind the faces within `reach' of x; at most max. */
-int openings_behind(const struct openings *o, const double *x, double reach, double (*place)[3], int max);
+/* Adds the particles that the lattice would have behind the faces, with the flow outside, as ghosts
+ * behind those of the halo, so that supports near the open sides are whole. After domain_ghosts. */
+void openings_ghosts(struct sph *s);
+/* Their lines at s->t. */
+void openings_ghost_lines(struct sph *s);
 /* Where the lattice behind each face stands, from the booked masses (after a restart, too). */
 void openings_place_lattice(struct sph *s);
 int openings_faces(const struct openings *o);

@@ -10,11 +10,7 @@
 #include "../common/h5.h"
 #include "../common/mem.h"
 #include "eos.h"
-#include "kernel.h"
-#include "neighbours.h"
 #include "openings.h"
-
-enum { BEHIND_MAX = 1024 };
 
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition, double *buffer)
 {
@@ -173,60 +169,18 @@ static void impose(struct sph *s, int i, const double *u, double rho)
 void zones_stage(struct sph *s)
 {
     struct zones *z = s->zones;
-    const int dim = s->dim, nstate = s->p.nstate;
+    openings_ghost_lines(s);
     gather(s, ZONE_BUFFER);
     zones_look(z, s->t, true);
     for (int k = 0; k < z->n; k++) {
         const int i = z->who[k];
-        double *y = s->p.y + (size_t)i * nstate;
-        /* The divergence sum is cut off by the open side: there the volume waits. */
+        double *y = s->p.y + (size_t)i * s->p.nstate;
+        /* Births and removals change the packing by jumps that div u0 does not know: volumes that followed it
+         * there would wander. They wait until the particle is a support away from the side. */
         if (zones_depth(s, y) < s->R)
-            y[2 * dim] = s->p.y0[(size_t)i * nstate + 2 * dim];
-        impose(s, i, z->u + dim * k, eos_rho(z->p[k], s->rho0, s->c0, s->gamma));
+            y[2 * s->dim] = s->p.y0[(size_t)i * s->p.nstate + 2 * s->dim];
+        impose(s, i, z->u + s->dim * k, eos_rho(z->p[k], s->rho0, s->c0, s->gamma));
     }
-}
-
-/* Crowding vector of the whole-support law over neighbours and the lattice behind the open side. */
-static void crowding(const struct sph *s, int i, double *n)
-{
-    const struct particles *p = &s->p;
-    const struct neighbours *l = s->list;
-    const int dim = s->dim;
-    const double *x = p->prim + 8 * (size_t)i, R = s->R, Wdx = kernel_w(dim, s->dx, R);
-    double place[BEHIND_MAX][3];
-    const int behind = openings_behind(s->zones->openings, x, R, place, BEHIND_MAX);
-    for (int a = 0; a < dim; a++)
-        n[a] = 0.0;
-    for (int k = 0; k < l->count[i] + behind; k++) {
-        const double *xj = k < behind ? place[k]
-                                      : p->prim + 8 * (size_t)l->j[l->start[i] + k - behind];
-        double d[3] = {0.0, 0.0, 0.0}, r2 = 0.0;
-        for (int a = 0; a < dim; a++) {
-            d[a] = x[a] - xj[a];
-            r2 += d[a] * d[a];
-        }
-        if (r2 >= R * R)
-            continue;
-        const double r = sqrt(r2), f = kernel_w(dim, r, R) / Wdx;
-        const double c = s->dxD * (1.0 + 0.2 * f * f * f * f) * kernel_dw_r(dim, r, R);
-        for (int a = 0; a < dim; a++)
-            n[a] += c * d[a];
-    }
-}
-
-/* delta = -2 U R n, at most U/4, as the pair pass has it for full supports. */
-static void shift(const struct sph *s, int i, double *delta)
-{
-    const double U = s->run->scene.initial.U;
-    double n[3], size2 = 0.0;
-    crowding(s, i, n);
-    for (int a = 0; a < s->dim; a++) {
-        delta[a] = -2.0 * U * s->R * n[a];
-        size2 += delta[a] * delta[a];
-    }
-    const double most = 0.25 * U;
-    for (int a = 0; size2 > most * most && a < s->dim; a++)
-        delta[a] *= most / sqrt(size2);
 }
 
 void zones_slopes(struct sph *s)
@@ -243,13 +197,6 @@ void zones_slopes(struct sph *s)
             for (int a = 0; a < dim; a++)
                 g[dim + dim * a + b] = z->gu[3 * (dim * k + a) + b];
         }
-        double *u0 = g + dim + dim * dim, delta[3] = {0.0, 0.0, 0.0};
-        if (s->prm.transport == TRANSPORT_NONE || zones_depth(s, x) >= s->R)
-            continue;
-        if (s->prm.transport == TRANSPORT_TVS)
-            shift(s, i, delta);
-        for (int a = 0; a < dim; a++)
-            u0[a] = x[dim + a] + delta[a];
     }
 }
 

@@ -1,0 +1,115 @@
+/* vec_pair.h - vectors of LANES doubles for the pair loops: one lane a neighbour, on gcc's vector types.
+ * Lines of neighbours are loaded whole and transposed in registers, which beats gathers; results go
+ * back to them the same way. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_VEC_PAIR_H
+#define SPH_VEC_PAIR_H
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#ifndef LANES
+#ifdef __AVX512F__
+#define LANES 8
+#else
+#define LANES 4
+#endif
+#endif
+
+typedef double vec __attribute__((vector_size(8 * LANES), may_alias));
+typedef long long vec_bits __attribute__((vector_size(8 * LANES)));
+typedef double vec2 __attribute__((vector_size(16), may_alias));
+typedef double vec4 __attribute__((vector_size(32), may_alias));
+
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE vec vec_all(double a)
+{
+    vec v;
+    for (int l = 0; l < LANES; l++)
+        v[l] = a;
+    return v;
+}
+
+/* The loops over lanes below become single instructions. */
+INLINE vec vec_sqrt(vec a)
+{
+    vec v;
+    for (int l = 0; l < LANES; l++)
+        v[l] = sqrt(a[l]);
+    return v;
+}
+
+INLINE vec vec_max(vec a, vec b)
+{
+    vec v;
+    for (int l = 0; l < LANES; l++)
+        v[l] = a[l] > b[l] ? a[l] : b[l];
+    return v;
+}
+
+INLINE vec vec_min(vec a, vec b)
+{
+    vec v;
+    for (int l = 0; l < LANES; l++)
+        v[l] = a[l] < b[l] ? a[l] : b[l];
+    return v;
+}
+
+INLINE vec2 load2(const double *p) { return *(const vec2 *)(const void *)p; }
+
+/* Low and high half of one vector. */
+INLINE vec4 join(vec2 a, const double *p)
+{
+#ifdef __AVX__ /* the insertion takes its operand from memory; from the shuffle gcc makes two steps */
+    return __builtin_ia32_vinsertf128_pd256(__builtin_ia32_pd256_pd(a), load2(p), 1);
+#else
+    return __builtin_shufflevector(a, load2(p), 0, 1, 2, 3);
+#endif
+}
+
+/* Columns k and k+1 (k even) of the lines of LANES neighbours: line + stride * j[l]. */
+INLINE void vec_columns(const double *line, const ptrdiff_t stride, const int *j, const int k, vec *a,
+                        vec *b)
+{
+#if LANES == 4
+    const vec4 even = join(load2(line + stride * j[0] + k), line + stride * j[2] + k);
+    const vec4 odd = join(load2(line + stride * j[1] + k), line + stride * j[3] + k);
+    *a = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+    *b = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+#else
+    for (int l = 0; l < LANES; l++) {
+        (*a)[l] = line[stride * j[l] + k];
+        (*b)[l] = line[stride * j[l] + k + 1];
+    }
+#endif
+}
+
+/* Adds (a, b, c, d) of each lane to the first four entries of its row. The rows of one vector differ
+ * but for padding, whose lanes are zero. */
+INLINE void vec_add_rows(double *row, const ptrdiff_t stride, const int *j, vec a, vec b, vec c, vec d)
+{
+#if LANES == 4
+    const vec ab02 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+    const vec ab13 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const vec cd02 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+    const vec cd13 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    *(vec4 *)(void *)(row + stride * j[0]) += __builtin_shufflevector(ab02, cd02, 0, 1, 4, 5);
+    *(vec4 *)(void *)(row + stride * j[1]) += __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5);
+    *(vec4 *)(void *)(row + stride * j[2]) += __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7);
+    *(vec4 *)(void *)(row + stride * j[3]) += __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7);
+#else
+    for (int l = 0; l < LANES; l++)
+        *(vec4 *)(void *)(row + stride * j[l]) += (vec4){a[l], b[l], c[l], d[l]};
+#endif
+}
+
+INLINE double vec_sum(vec a)
+{
+    double s = 0.0;
+    for (int l = 0; l < LANES; l++)
+        s += a[l];
+    return s;
+}
+
+#endif
