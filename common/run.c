@@ -458,6 +458,8 @@ static int run_state(struct life *l, struct h5 *restart)
         const int code = r->partner->ready(r->partner_ctx, r->t, wish);
         if (code)
             return code;
+        if (l->p->first)
+            l->p->first(l->s);
     }
     const double every = r->scene.output.every;
     l->output = every > 0.0 ? (int64_t)floor(r->t / every + 1e-9) + 1 : 1;

@@ -79,6 +79,8 @@ struct program {
     double (*step)(void *s, double t_stop, struct diagnosis *d);
     /* Coupled: longest window that suits it, s; NULL: no wish. */
     double (*window_wish)(void *s);
+    /* Coupled: what a giver of fields hands over before the first window; NULL if nothing. */
+    void (*first)(void *s);
     /* Coupled: before the first step of a window and after its last; NULL when never coupled. */
     void (*window_begin)(void *s, double t0, double t1);
     void (*window_end)(void *s, double t1);

@@ -18,7 +18,7 @@ static const char help[] = "brings the solvers of a job together: fields, time w
 static const char *const others[] = {"sph", "fv", "walls", "bodies", NULL};
 
 static _Noreturn void broken(const char *what) { fail("%s", what); }
-static void leave_note(const char *reason) { failure_note(reason); }
+static void leave_note(const char *reason) { (void)failure_note(reason); }
 
 /* --- waiting ----------------------------------------------------------------------------------- */
 
@@ -56,6 +56,7 @@ static void tell_stall(struct coupler *c)
 static void look_around(struct coupler *c)
 {
     if (signals_stop() && !c->stopping) {
+        look_after_partners(); /* the launcher ends a job with the same signal when a program dies */
         c->stopping = true;
         signals_handled();
         log_say("stopping in order: one more window, restart files, end");

@@ -50,7 +50,7 @@ struct solver {
         char name[CPL_NAME], unit[CPL_NAME];
         int set, ncomp, direction, how;
         int link;           /* the one it is part of, -1: none */
-        int64_t last_tick;  /* giver: of its last put, as of its last advance */
+        int64_t last_tick;  /* giver: of its last put, as of its last advance or get */
     } field[FIELDS];
     int64_t advanced;       /* last window done, -1: none */
     int byes, code;         /* ranks that said goodbye; the worst code among them */
@@ -115,6 +115,7 @@ struct coupler {
     double start, line_at, line_every, save_wall, stall_at, stall_every;
     double idle, bound; /* s waited; simulated time of the next checkpoint */
     int64_t said;       /* window that failure_doing knows */
+    int64_t line_window; /* of the last progress line */
     int64_t nsaved;     /* solvers whose restart file of `save_window' is complete */
     int64_t save_window;
     char saved[HANDSHAKE_PROGRAMS][256];
@@ -143,7 +144,8 @@ void window_advance(struct coupler *c, struct solver *s, struct message *m);
 void rendezvous_open(struct coupler *c);
 void rendezvous_get(struct coupler *c, struct solver *s, struct message *m);
 void rendezvous_put(struct coupler *c, struct solver *s, struct message **m); /* may keep it */
-/* A giver has gone past what a taker waits for: text says so; false: all is well. */
+void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *m);
+/* A giver has gone past what a taker waits for, or they wait for each other: text says so; false: all is well. */
 bool rendezvous_starved(const struct coupler *c, char *text);
 void rendezvous_waiting(const struct coupler *c, char *text); /* who waits for what */
 void rendezvous_close(struct coupler *c);

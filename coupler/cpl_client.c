@@ -382,9 +382,7 @@ int cpl_advance(struct cpl *c, double t1, int stop)
         pack_begin(&p, WIRE_ADVANCE, 0, c->window);
         pack_int(&p, stop);
         pack_real(&p, c->waited);
-        pack_int(&p, c->nfields);
-        for (int i = 0; i < c->nfields; i++)
-            pack_int(&p, c->field[i].last_tick);
+        client_pack_ticks(c, &p);
         pack_told(c, &p);
         wire_send(&c->wire, 0, 0, &p);
     }

@@ -93,6 +93,8 @@ struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int6
                              const char *what);
 /* cpl_data.c */
 void client_need(struct cpl *c, struct message *m);
+/* What was put last: the coupler finds those who wait for nothing. */
+void client_pack_ticks(const struct cpl *c, struct pack *p);
 void client_free_fields(struct cpl *c);
 
 #endif

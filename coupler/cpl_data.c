@@ -257,6 +257,13 @@ int cpl_put(struct cpl *c, int field, double t, long n, const double *v, const d
     return CPL_OK;
 }
 
+void client_pack_ticks(const struct cpl *c, struct pack *p)
+{
+    pack_int(p, c->nfields);
+    for (int i = 0; i < c->nfields; i++)
+        pack_int(p, c->field[i].last_tick);
+}
+
 /* --- taking ------------------------------------------------------------------------------------ */
 
 /* Targets first <= i < last of this rank that coupler rank r maps: equal shares of all targets, whatever
@@ -282,6 +289,8 @@ static void ask_points(struct cpl *c, int field, int64_t tick)
         pack_begin(&p, WIRE_GET, field, tick);
         pack_head(&p)->generation = s->moves;
         pack_head(&p)->count = moved ? last - first : -1;
+        if (c->rank == 0)
+            client_pack_ticks(c, &p);
         for (long i = first; i < last && moved; i++)
             pack_bytes(&p, s->places->x + 3 * i, (size_t)s->dim * sizeof(double));
         wire_send(&c->wire, 0, r, &p);
@@ -342,6 +351,8 @@ int cpl_patch_get(struct cpl *c, int field, const double lo[3], const double hi[
     const int to = c->rank % c->ncoupler;
     struct pack p;
     pack_begin(&p, WIRE_GET, field, tick);
+    if (c->rank == 0)
+        client_pack_ticks(c, &p);
     pack_bytes(&p, lo, 3 * sizeof *lo);
     pack_bytes(&p, hi, 3 * sizeof *hi);
     wire_send(&c->wire, 0, to, &p);

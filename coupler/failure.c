@@ -16,7 +16,7 @@ enum { WATCHED = 1024, TEXT = 512, EXIT_PARTNER = 4 };
 /* Signal handlers and exit hooks have no argument: the one place of the library with static state. */
 static struct {
     MPI_Comm world;
-    bool open, dying;
+    bool open, dying, author; /* author: of a note about another's death */
     int nwatched;
     struct watched {
         long pid;
@@ -45,18 +45,26 @@ static void put(int fd, const char *text)
     }
 }
 
-void failure_note(const char *text)
+static void sleep_ms(long ms)
+{
+    struct timespec t = {.tv_nsec = 1000000 * ms};
+    while (nanosleep(&t, &t) != 0 && errno == EINTR)
+        continue;
+}
+
+bool failure_note(const char *text)
 {
     if (!self.path[0])
-        return;
+        return true;
     const int fd = open(self.path, O_WRONLY | O_CREAT | O_EXCL, 0644);
     if (fd < 0)
-        return;
+        return errno != EEXIST;
     char line[TEXT] = "";
     append(line, text);
     append(line, "\n");
     put(fd, line);
     close(fd);
+    return true;
 }
 
 bool failure_read(char *text, int size)
@@ -84,7 +92,7 @@ bool failure_witness(void)
         append(text, self.who);
         append(text, " ");
         append(text, self.doing);
-        failure_note(text);
+        self.author = failure_note(text) || self.author;
         return true;
     }
     return false;
@@ -106,6 +114,7 @@ void failure_obituary(int fd)
     }
     append(text, "\n");
     put(fd, text);
+    sleep_ms(100); /* the launcher drops what it has not read from a process that is gone */
 }
 
 void failure_path(const char *path) { snprintf(self.path, sizeof self.path, "%s", path); }
@@ -122,25 +131,25 @@ void failure_watch(const char *program, int rank, long pid)
     snprintf(w->who, sizeof w->who, "%.40s rank %d (process %ld)", program, rank, pid);
 }
 
-static void sleep_ms(long ms)
-{
-    struct timespec t = {.tv_nsec = 1000000 * ms};
-    while (nanosleep(&t, &t) != 0 && errno == EINTR)
-        continue;
-}
-
+/* Two ranks that abort at once make Open MPI 4.1 kill all others before they can say why. So the author of
+ * the note aborts, the others wait for the launcher's signal. */
 _Noreturn void failure_die(int code, const char *reason)
 {
     char text[TEXT], note[TEXT];
     self.dying = true;
     snprintf(text, sizeof text, "%s: %s", self.who, reason);
-    failure_note(text);
+    const bool first = failure_note(text) || self.author;
     const bool noted = failure_read(note, sizeof note);
     if (!noted || strcmp(note, reason) != 0)
         fprintf(stderr, "%s\n", text);
     if (noted && strcmp(note, text) != 0)
         fprintf(stderr, "%s: the job ends: %s\n", self.who, note);
     fflush(NULL);
+    if (!first) {
+        const struct timespec while_others_abort = {.tv_sec = 1};
+        if (nanosleep(&while_others_abort, NULL) != 0)
+            _exit(code);
+    }
     sleep_ms(100);
     MPI_Abort(self.world, code);
     abort();

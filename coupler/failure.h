@@ -20,8 +20,8 @@ void failure_doing(const char *text);
 
 /* True if a watched process is gone; the note then says so. Safe in signal handlers. */
 bool failure_witness(void);
-/* Leaves a note, unless there is one. Safe in signal handlers. */
-void failure_note(const char *text);
+/* Leaves a note; false if there is one already. Safe in signal handlers. */
+bool failure_note(const char *text);
 /* Writes the note, or what is known instead, to a file descriptor. Safe in signal handlers. */
 void failure_obituary(int fd);
 /* The note's text; false if there is none. */

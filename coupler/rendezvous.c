@@ -329,6 +329,8 @@ void rendezvous_get(struct coupler *c, struct solver *s, struct message *m)
              s->field[m->head.field].name, (long long)m->head.tick, (long long)l->asked_tick);
     l->asked_tick = m->head.tick;
     a->asked = true;
+    if (m->rank == 0)
+        rendezvous_take_ticks(c, s, m);
     if (l->from_grid) {
         take_bytes(&c->wire, m, a->lo, sizeof a->lo);
         take_bytes(&c->wire, m, a->hi, sizeof a->hi);
@@ -369,17 +371,56 @@ void rendezvous_put(struct coupler *c, struct solver *s, struct message **m)
 
 /* --- who waits for what ------------------------------------------------------------------------ */
 
-bool rendezvous_starved(const struct coupler *c, char *text)
+void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *m)
+{
+    const int64_t n = take_int(&c->wire, m);
+    if (n != s->nfields)
+        fail("%s speaks of %lld fields, the plan has %d", s->name, (long long)n, s->nfields);
+    for (int i = 0; i < s->nfields; i++)
+        s->field[i].last_tick = take_int(&c->wire, m);
+}
+
+/* The link on which a solver waits for values that have not been put; NULL: it does not wait. */
+static const struct link *missing(const struct coupler *c, int solver)
 {
     for (int i = 0; i < c->nlinks; i++) {
         const struct link *l = &c->link[i];
-        const struct solver *g = &c->solver[l->giver];
-        const int64_t last = g->field[l->gfield].last_tick;
-        if (l->asked_tick < 0 || g->advanced != c->window || last >= l->asked_tick)
-            continue;
-        problem(text, "%s waits for %s, but %s has ended window %lld without giving it",
-                c->solver[l->taker].name, g->field[l->gfield].name, g->name, (long long)c->window);
-        return true;
+        if (l->taker == solver && l->asker[0].asked &&
+            c->solver[l->giver].field[l->gfield].last_tick < l->asked_tick)
+            return l;
+    }
+    return NULL;
+}
+
+static bool waits_in_a_circle(const struct coupler *c, int solver, char *text)
+{
+    const struct link *l = missing(c, solver);
+    int steps = 0;
+    while (l && l->giver != solver && steps++ < c->nsolvers)
+        l = missing(c, l->giver);
+    if (!l || l->giver != solver)
+        return false;
+    for (l = missing(c, solver);; l = missing(c, l->giver)) {
+        problem(text, "%s waits in window %lld for %s of %s, which has not been given",
+                c->solver[l->taker].name, (long long)c->window,
+                c->solver[l->taker].field[l->tfield].name, c->solver[l->giver].name);
+        if (l->giver == solver)
+            return true;
+    }
+}
+
+bool rendezvous_starved(const struct coupler *c, char *text)
+{
+    for (int i = 0; i < c->nsolvers; i++) {
+        const struct link *l = missing(c, i);
+        if (l && c->solver[l->giver].advanced == c->window) {
+            problem(text, "%s waits for %s, but %s has ended window %lld without giving it",
+                    c->solver[i].name, c->solver[i].field[l->tfield].name, c->solver[l->giver].name,
+                    (long long)c->window);
+            return true;
+        }
+        if (waits_in_a_circle(c, i, text))
+            return true;
     }
     return false;
 }

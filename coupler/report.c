@@ -68,7 +68,7 @@ void report_progress(struct coupler *c)
     char line[LINE];
     const double now = wall_time(), elapsed = fmax(now - c->start, 1e-9);
     const int64_t done = c->window - c->first_window, left = c->nwindows - c->window;
-    if (now < c->line_at || done == 0)
+    if (now < c->line_at || done == 0 || c->window == c->line_window)
         return;
     const long s = lrint(elapsed / (double)done * (double)left);
     int n = print(line, 0, "%9.4g/%g s  %3.0f %%  left %ld:%02ld", window_start(c, c->window),
@@ -91,6 +91,7 @@ void report_progress(struct coupler *c)
                     : elapsed < 600.0 ? 10.0
                                       : elapsed < 3600.0 ? 30.0 : 60.0;
     c->line_at = now + c->line_every;
+    c->line_window = c->window;
 }
 
 /* --- the end ----------------------------------------------------------------------------------- */

@@ -135,9 +135,7 @@ void window_advance(struct coupler *c, struct solver *s, struct message *m)
         c->stopping = true;
     }
     s->waited = take_real(&c->wire, m);
-    const int64_t n = take_int(&c->wire, m);
-    for (int64_t i = 0; i < n; i++)
-        s->field[i].last_tick = take_int(&c->wire, m);
+    rendezvous_take_ticks(c, s, m);
     report_told(&c->wire, m, &s->told);
     for (int i = 0; i < c->nsolvers; i++)
         if (c->solver[i].advanced != c->window)

@@ -290,13 +290,17 @@ static void finish_step(struct sph *s, double dt, double *most)
     }
 }
 
+/* The first time, and whenever the number has grown tenfold. */
 static void report_lost(struct sph *s, double lost)
 {
     double sum = s->lost;
     if (lost <= 0.0)
         return;
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    log_warn("t = %g s: particles left the region at an open side, %.0f since the start", s->t,
+    if (sum < 10.0 * s->lost_said)
+        return;
+    s->lost_said = sum;
+    log_warn("t = %g s: %.0f particle(s) left the region at an open side since the start", s->t,
              sum);
 }
 

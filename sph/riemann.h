@@ -1,75 +1,56 @@
-/* riemann.h - states at the middle of a pair and the Riemann problem between them, for LANES pairs at
- * once. SPDX-License-Identifier: BSD-3-Clause */
+/* riemann.h - states of a pair and their Riemann problem, four pairs at once.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_RIEMANN_H
 #define SPH_RIEMANN_H
 
 #include "sph.h"
-#include "vec_pair.h"
+#include "vec.h"
 
-/* Moves the values left and right of a pair to its middle. s = slope . (x_j - x_i) on either side,
- * D = right - left. Without bounds the step is s/2. Both bounded forms are symmetric: the step
- * lies between 0 and D, so signs are folded away and one bound serves both sides.
- *   minmod [2.83]: 1/2 minmod(s, D)
- *   Koren: third order upwind-biased, (b + 2D)/6 with b = 2s - D the difference behind, bounded
- *   by b and D: minmod(b, (b + 2D)/6, D) */
-INLINE void reconstruct(vec *left, vec *right, vec s_left, vec s_right, const int limiter)
+/* What is added to phi_i on the way to the middle of the pair: D = phi_j - phi_i, s = grad phi_i.(x_j - x_i);
+ * to phi_j it is subtracted, with j's gradient. b = 2 s - D is the difference on the far side.
+ *   minmod [2.83]   D/2 clipped to 0 .. s/2
+ *   koren           (b + 2 D)/6, the third-order value, within 0 .. min(b, D)
+ *   none            s/2
+ * All are D/2 on a linear field, which makes both states equal there. */
+static inline __attribute__((always_inline)) vec half_step(vec D, vec s, const int limiter)
 {
-    const vec zero = vec_all(0.0), D = *right - *left;
-    if (limiter == LIMITER_NONE) {
-        *left += 0.5 * s_left;
-        *right -= 0.5 * s_right;
-        return;
-    }
-    const vec_bits sign = (vec_bits)D & (vec_bits)vec_all(-0.0);
-    const vec size = (vec)((vec_bits)D ^ sign);
-    vec l = (vec)((vec_bits)s_left ^ sign), r = (vec)((vec_bits)s_right ^ sign);
+    const vec zero = {0.0, 0.0, 0.0, 0.0};
+    if (limiter == LIMITER_NONE)
+        return 0.5 * s;
+    const mask negative = D < zero;
+    const vec size = vec_pick(negative, -D, D);
     if (limiter == LIMITER_MINMOD) {
-        l = 0.5 * vec_min(vec_max(l, zero), size);
-        r = 0.5 * vec_min(vec_max(r, zero), size);
-    } else {
-        const double third = 1.0 / 3.0;
-        const vec part = size * (0.5 * third);
-        l = vec_max(vec_min(vec_min(2.0 * l - size, third * l + part), size), zero);
-        r = vec_max(vec_min(vec_min(2.0 * r - size, third * r + part), size), zero);
+        const vec along = vec_pick(negative, -s, s);
+        const vec m = 0.5 * vec_max(vec_min(along, size), zero);
+        return vec_pick(negative, -m, m);
     }
-    *left += (vec)((vec_bits)l ^ sign);
-    *right -= (vec)((vec_bits)r ^ sign);
+    const vec b = 2.0 * s - D, along = vec_pick(negative, -b, b);
+    const vec third = (along + 2.0 * size) * (1.0 / 6.0);
+    const vec m = vec_max(vec_min(vec_min(along, third), size), zero);
+    return vec_pick(negative, -m, m);
 }
 
-/* Tait's law: p = B [(rho/rho0)^gamma - 1] and Z = rho c = Z0 (rho/rho0)^((gamma+1)/2). */
-struct tait {
-    double rho0_1; /* 1/rho0 */
-    double B, Z0;
-};
-
-INLINE void pressure(const struct tait *e, vec rho, vec *p, vec *Z, const int gamma)
+/* P and c of Tait's equation with gamma 7, by products; r = rho/rho0. */
+static inline __attribute__((always_inline)) void tait7(vec r, double B, double c0, vec *p, vec *c)
 {
-    const vec x = rho * e->rho0_1;
-    if (gamma == 1) {
-        *p = e->B * x - e->B;
-        *Z = e->Z0 * x;
-    } else {
-        const vec x2 = x * x, x3 = x2 * x, x4 = x2 * x2;
-        *p = e->B * (x4 * x3) - e->B;
-        *Z = e->Z0 * x4;
-    }
+    const vec r2 = r * r, r3 = r2 * r;
+    *p = B * (r2 * r2 * r3 - 1.0);
+    *c = c0 * r3;
 }
 
-/* What the bounds of the dissipation need: b = min(1, max(least, factor (u_i - u_j))). */
-struct dissipation {
-    double factor; /* s/m: 3/c0 (Zhang, Hu & Adams, J. Comput. Phys. 335, 2017, eq. 17) */
-    double least;  /* 1: none is left out [2.100] */
-};
-
-/* Linear Riemann problem [2.100] between states (p, Z, v) left and right of a pair; v: velocities
- * along x_j - x_i, times r as the sums have them. Gives r u_E and p_E. inverse: 1/(Z_l + Z_r). */
-INLINE void star(const struct dissipation *d, const vec p[2], const vec Z[2], const vec v[2], vec r,
-                 vec r_1, vec inverse, vec *vE, vec *pE)
+/* Linearised Riemann problem [2.100]: states l, r with Z = rho c, velocities along the line of centres,
+ * inverse = 1/(Zl + Zr). Low dissipation (Zhang, Hu & Adams, J. Comput. Phys. 335, 2017): in P only, the
+ * jump of velocity counts by min(1, 3 max(ul - ur, 0)/c0). */
+static inline __attribute__((always_inline)) void riemann(vec Zl, vec ul, vec Pl, vec Zr, vec ur, vec Pr,
+                                                          vec inverse, const bool low, double per_c0,
+                                                          vec *uE, vec *PE)
 {
-    const vec jump = (v[0] - v[1]) * r_1;
-    const vec b = vec_min(vec_max(jump * d->factor, vec_all(d->least)), vec_all(1.0));
-    *vE = (Z[0] * v[0] + Z[1] * v[1] + r * (p[0] - p[1])) * inverse;
-    *pE = (Z[1] * p[0] + Z[0] * p[1] + Z[0] * Z[1] * (b * jump)) * inverse;
+    const vec zero = {0.0, 0.0, 0.0, 0.0};
+    vec jump = ul - ur;
+    *uE = (Zl * ul + Zr * ur + Pl - Pr) * inverse;
+    if (low)
+        jump *= vec_min(vec_all(1.0), 3.0 * per_c0 * vec_max(jump, zero));
+    *PE = (Zr * Pl + Zl * Pr + Zl * Zr * jump) * inverse;
 }
 
 #endif

@@ -117,6 +117,13 @@ static double step(void *s, double t_stop, struct diagnosis *d)
     return integrate_step(s, t_stop, d);
 }
 
+/* coupling.steps nominal steps: the same after a restart, whatever the state. */
+static double window_wish(void *state)
+{
+    const struct sph *s = state;
+    return s->run->scene.coupling.steps * sph_params_dt(&s->prm, s->nu, s->c0, NULL);
+}
+
 /* A new partition first: the patch is taken for each rank's part. */
 static void window_begin(void *state, double t0, double t1)
 {
@@ -145,6 +152,7 @@ static struct program sph_program = {.name = "sph",
                                      .create = create,
                                      .destroy = destroy,
                                      .step = step,
+                                     .window_wish = window_wish,
                                      .window_begin = window_begin,
                                      .window_end = coupling_window_end,
                                      .columns = columns,

@@ -93,7 +93,7 @@ struct sph {
     double dt_most;            /* s: largest next step [2.102-2.104] */
     double max_mach;           /* since the start: |u|/c0 */
     double fluctuation;        /* since the start: |sum m/mass0 - 1|, with zones */
-    double lost;               /* particles removed since the start */
+    double lost, lost_said;    /* particles removed since the start: this rank; all, when last reported */
     int64_t pairs;             /* ordered pairs within R, counted once a stage, summed over stages; this rank */
     int64_t pairs_now;         /* the same, of the present list */
     double mass0, energy0, momentum0[3]; /* at t = 0, for drifts */

@@ -5,6 +5,7 @@
 #include "zones.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "../common/exact.h"
 #include "../common/h5.h"
@@ -115,6 +116,13 @@ void zones_room(struct zones *z, int n)
 
 void zones_look(struct zones *z, double t, bool gradients)
 {
+    if (!z->eval) { /* a partner's patch has not come: at rest */
+        memset(z->u, 0, 3 * (size_t)z->n * sizeof *z->u);
+        memset(z->p, 0, (size_t)z->n * sizeof *z->p);
+        memset(z->gu, 0, 9 * (size_t)z->n * sizeof *z->gu);
+        memset(z->gp, 0, 3 * (size_t)z->n * sizeof *z->gp);
+        return;
+    }
     z->eval(z->ctx, t, z->n, z->x, z->u, z->p, gradients ? z->gu : NULL, gradients ? z->gp : NULL);
 }
 

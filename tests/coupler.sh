@@ -87,7 +87,10 @@ job 1:1:1 fault=nan "" ""
 says 'velocity: value 0 of particles on rank 0 is not finite' "NaN in a field"
 job 1:1:1 "" "" fault=forget
 quick "a forgotten put"
-says 'sph waits for pressure, but fv has ended window 3 without giving it' "a forgotten put"
+says 'sph waits in window 3 for pressure of fv, which has not been given' "a forgotten put"
+job 1:1:1 fault=forget "" ""
+quick "a forgotten put"
+says 'fv waits for velocity, but sph has ended window 2 without giving it' "a forgotten put"
 
 # plans that do not fit are refused by all, with the whole list
 job 1:2:1 unit=knots "" "unit=bar dt=-1"

@@ -1,0 +1,316 @@
+/* forcing.c - see forcing.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "forcing.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../common/mem.h"
+
+/* Visits all cells with their ghosts. */
+#define ALL_CELLS(b, i, j, k)                                                                      \
+    for (int k = -(b)->g[2]; k < (b)->n[2] + (b)->g[2]; k++)                                       \
+        for (int j = -(b)->g[1]; j < (b)->n[1] + (b)->g[1]; j++)                                   \
+            for (int i = -(b)->g[0]; i < (b)->n[0] + (b)->g[0]; i++)
+
+static bool is_local(const struct block *b, const int *at)
+{
+    for (int a = 0; a < 3; a++)
+        if (at[a] < 0 || at[a] >= b->n[a])
+            return false;
+    return true;
+}
+
+/* 1: inside the box, 2: behind a closed side, 0: free. */
+static unsigned char kind_of(const struct block *b, const int *at, const double *lo, const double *hi)
+{
+    bool inside = true;
+    for (int a = 0; a < b->dim; a++) {
+        int i = b->lo[a] + at[a];
+        if (!b->periodic[a] && (i < 0 || i >= b->cells[a]))
+            return 2;
+        i = ((i % b->cells[a]) + b->cells[a]) % b->cells[a];
+        const double eps = 1e-9 * b->h[a], x = b->origin[a] + i * b->h[a];
+        inside = inside && x >= lo[a] - eps && x + b->h[a] <= hi[a] + eps;
+    }
+    return inside;
+}
+
+static int64_t count_kind(const struct fv *s, struct forcing *f, const double *lo, const double *hi)
+{
+    const struct block *b = &s->b;
+    int64_t forced = 0, free_cells = 0;
+    ALL_CELLS(b, i, j, k) {
+        const int at[3] = {i, j, k};
+        const int64_t c = block_at(b, i, j, k);
+        f->forced[c] = kind_of(b, at, lo, hi);
+        forced += f->forced[c] != 0;
+        free_cells += !f->forced[c] && is_local(b, at);
+    }
+    MPI_Allreduce(&free_cells, &f->free_cells, 1, MPI_INT64_T, MPI_SUM, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, &forced, 1, MPI_INT64_T, MPI_SUM, b->cart);
+    return forced;
+}
+
+/* Layers by spreading from the free cells over faces and corners; halo by way of a field. */
+static void find_layers(const struct fv *s, struct forcing *f)
+{
+    const struct block *b = &s->b;
+    double *field = block_field(b), *const fields[1] = {field};
+    for (int64_t c = 0; c < b->size; c++)
+        field[c] = f->forced[c] ? 99.0 : 0.0;
+    for (int layer = 1; layer <= NEAR; layer++) {
+        ALL_CELLS(b, i, j, k) {
+            const int64_t c = block_at(b, i, j, k);
+            if (field[c] < 99.0)
+                continue;
+            for (int dk = -(b->g[2] > 0); dk <= (b->g[2] > 0); dk++)
+                for (int dj = -1; dj <= 1; dj++)
+                    for (int di = -1; di <= 1; di++) {
+                        const int at[3] = {i + di, j + dj, k + dk};
+                        bool there = true;
+                        for (int a = 0; a < 3; a++)
+                            there = there && at[a] >= -b->g[a] && at[a] < b->n[a] + b->g[a];
+                        if (there && field[block_at(b, at[0], at[1], at[2])] == layer - 1.0)
+                            field[c] = layer;
+                    }
+        }
+        block_halo(b, 1, fields);
+    }
+    for (int64_t c = 0; c < b->size; c++)
+        f->layer[c] = field[c] < 99.0 ? (unsigned char)field[c] : 0;
+    mem_free(field);
+}
+
+static void list_cells(const struct fv *s, struct forcing *f)
+{
+    const struct block *b = &s->b;
+    f->local = NEW(int64_t, b->size);
+    f->set = NEW(int64_t, b->size);
+    f->partner = NEW(int64_t, b->size);
+    f->x = NEW(double, 3 * b->size);
+    ALL_CELLS(b, i, j, k) {
+        const int at[3] = {i, j, k};
+        const int64_t c = block_at(b, i, j, k);
+        if (!f->forced[c])
+            continue;
+        const bool local = is_local(b, at);
+        if (local)
+            f->local[f->nlocal++] = c;
+        if (f->forced[c] == 1 && local && f->layer[c] && f->from_partner)
+            f->partner[f->npartner++] = c;
+        else if ((f->forced[c] == 1 && local && f->layer[c]) || f->forced[c] == 2) {
+            block_centre(b, i, j, k, f->x + 3 * f->nset);
+            f->set[f->nset++] = c;
+        }
+    }
+    for (int a = 0; a < f->dim; a++) {
+        f->v[a] = NEW(double, f->npartner);
+        f->v_next[a] = NEW(double, f->npartner);
+        f->v_old[a] = NEW(double, f->npartner);
+    }
+}
+
+/* Faces between free and forced cells along axis a, and lines into the forced side. */
+static void list_faces(const struct fv *s, struct forcing *f, int a)
+{
+    const struct block *b = &s->b;
+    f->line[a] = NEW(int64_t, b->size);
+    f->out[a] = NEW(int64_t, b->size);
+    f->face[a] = NEW(int64_t, b->size);
+    f->sign[a] = NEW(signed char, b->size);
+    f->counts[a] = NEW(bool, b->size);
+    f->open[a] = NEW(double, b->size);
+    ALL_CELLS(b, i, j, k) {
+        const int at[3] = {i, j, k};
+        const int64_t c = block_at(b, i, j, k), d = b->stride[a];
+        if (at[a] == -b->g[a])
+            continue;
+        const bool here = f->forced[c] != 0, below = f->forced[c - d] != 0;
+        f->open[a][c] = !here && !below;
+        if (here == below)
+            continue;
+        int inner[3] = {i, j, k}; /* the free cell */
+        if (here)
+            inner[a]--;
+        f->face[a][f->nface[a]] = c;
+        f->sign[a][f->nface[a]] = here ? 1 : -1;
+        f->counts[a][f->nface[a]++] = is_local(b, inner);
+        /* four free cells inwards, two forced ones outwards within the storage */
+        const int way = here ? 1 : -1, last = inner[a] - 3 * way, far = inner[a] + 2 * way;
+        const int lo = -b->g[a], hi = b->n[a] + b->g[a] - 1;
+        if (last >= lo && last <= hi && far >= lo && far <= hi) {
+            f->line[a][f->nline[a]] = here ? c - d : c;
+            f->out[a][f->nline[a]++] = way * d;
+        }
+    }
+}
+
+struct forcing *forcing_create(const struct fv *s, const double *lo, const double *hi, bool partner)
+{
+    const struct block *b = &s->b;
+    struct forcing *f = NEW(struct forcing, 1);
+    f->dim = b->dim;
+    f->from_partner = partner;
+    f->forced = NEW(unsigned char, b->size);
+    f->layer = NEW(unsigned char, b->size);
+    if (count_kind(s, f, lo, hi) == 0) {
+        forcing_free(&f);
+        return NULL;
+    }
+    find_layers(s, f);
+    list_cells(s, f);
+    for (int a = 0; a < f->dim; a++)
+        list_faces(s, f, a);
+    return f;
+}
+
+void forcing_free(struct forcing **fp)
+{
+    struct forcing *f = *fp;
+    if (!f)
+        return;
+    mem_free(f->forced);
+    mem_free(f->layer);
+    mem_free(f->local);
+    mem_free(f->set);
+    mem_free(f->partner);
+    mem_free(f->x);
+    for (int a = 0; a < 3; a++) {
+        mem_free(f->line[a]);
+        mem_free(f->out[a]);
+        mem_free(f->face[a]);
+        mem_free(f->sign[a]);
+        mem_free(f->counts[a]);
+        mem_free(f->open[a]);
+        mem_free(f->v[a]);
+        mem_free(f->v_next[a]);
+        mem_free(f->v_old[a]);
+    }
+    mem_free(f);
+    *fp = NULL;
+}
+
+void forcing_zero(const struct forcing *f, double *q)
+{
+    for (int64_t i = 0; i < f->nlocal; i++)
+        q[f->local[i]] = 0.0;
+}
+
+/* Partner's velocity at t: linear over the window, or through the window before, too. */
+static double partner_value(const struct forcing *f, bool quadratic, int a, int64_t i, double t)
+{
+    const double T = f->t1 - f->t0, x = T > 0.0 ? (t - f->t0) / T : 0.0;
+    const double linear = f->v[a][i] + x * (f->v_next[a][i] - f->v[a][i]);
+    if (!quadratic || !f->has_old)
+        return linear;
+    const double y = (f->t0 - f->t_old) / T; /* 1 for even windows */
+    const double second = ((f->v_next[a][i] - f->v[a][i]) - (f->v[a][i] - f->v_old[a][i]) / y) / (1.0 + y);
+    return linear + x * (x - 1.0) * second;
+}
+
+void forcing_velocity(const struct fv *s, double t, double *const u[3])
+{
+    const struct forcing *f = s->forcing;
+    double v[3];
+    for (int64_t i = 0; i < f->nset; i++) {
+        exact_average(&s->exact, f->x + 3 * i, s->b.h, t, v, NULL, NULL);
+        for (int a = 0; a < f->dim; a++)
+            u[a][f->set[i]] = v[a];
+    }
+    for (int a = 0; a < f->dim; a++)
+        for (int64_t i = 0; i < f->npartner; i++)
+            u[a][f->partner[i]] = partner_value(f, s->prm.forced_order == 2, a, i, t);
+}
+
+/* Centre of the lower face of a cell given by its index. */
+static void face_centre(const struct block *b, int64_t c, int a, double *x)
+{
+    const int k = (int)(c / b->stride[2]), j = (int)(c % b->stride[2] / b->stride[1]), i = (int)(c % b->stride[1]);
+    block_centre(b, i - b->g[0], j - b->g[1], k - b->g[2], x);
+    x[a] -= 0.5 * b->h[a];
+}
+
+void forcing_fluxes(const struct fv *s, double t, double *const U[3])
+{
+    const struct forcing *f = s->forcing;
+    const struct block *b = &s->b;
+    double sums[2] = {0.0, 0.0}, volume = 1.0;
+    for (int a = 0; a < f->dim; a++)
+        volume *= b->h[a];
+    for (int a = 0; a < f->dim; a++)
+        for (int64_t i = 0; i < f->nface[a]; i++) {
+            const int64_t c = f->face[a][i], d = b->stride[a];
+            if (f->forced[c] == 2 || f->forced[c - d] == 2 || !f->from_partner) {
+                double x[3], v[3];
+                face_centre(b, c, a, x);
+                exact_face(&s->exact, x, b->h, a, t, v);
+                U[a][c] = v[a];
+            }
+            if (f->counts[a][i]) {
+                sums[0] += f->sign[a][i] * U[a][c] * volume / b->h[a];
+                sums[1] += volume / b->h[a];
+            }
+        }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+    const double excess = sums[0] / sums[1];
+    for (int a = 0; a < f->dim; a++)
+        for (int64_t i = 0; i < f->nface[a]; i++)
+            U[a][f->face[a][i]] -= f->sign[a][i] * excess;
+}
+
+void forcing_continue(const struct forcing *f, int a, bool cubic, double *q)
+{
+    for (int64_t i = 0; i < f->nline[a]; i++) {
+        double *p = q + f->line[a][i];
+        const int64_t d = f->out[a][i];
+        if (cubic) {
+            p[d] = 4.0 * p[0] - 6.0 * p[-d] + 4.0 * p[-2 * d] - p[-3 * d];
+            p[2 * d] = 4.0 * p[d] - 6.0 * p[0] + 4.0 * p[-d] - p[-2 * d];
+        } else {
+            p[d] = p[0];
+            p[2 * d] = p[-d];
+        }
+    }
+}
+
+/* A cell takes the mean of what its known lines say: cubic where three cells behind are known, else
+ * linear. */
+void forcing_extend(const struct fv *s, double *p)
+{
+    const struct forcing *f = s->forcing;
+    const struct block *b = &s->b;
+    double *const fields[1] = {p};
+    for (int layer = 1; layer <= NEAR; layer++) {
+        block_halo(b, 1, fields);
+        for (int64_t i = 0; i < f->nlocal; i++) {
+            const int64_t c = f->local[i];
+            double sum = 0.0, n = 0.0;
+            if (f->layer[c] != layer || f->forced[c] != 1)
+                continue;
+            for (int way = 0; way < 2 * f->dim; way++) {
+                const int64_t d = (way % 2 ? 1 : -1) * b->stride[way / 2];
+#define KNOWN(m) (!f->forced[c + (m) * d] || (f->layer[c + (m) * d] && f->layer[c + (m) * d] < layer))
+                if (!KNOWN(1))
+                    continue;
+                n += 1.0;
+                if (KNOWN(2) && KNOWN(3))
+                    sum += 3.0 * p[c + d] - 3.0 * p[c + 2 * d] + p[c + 3 * d];
+                else
+                    sum += p[c + d];
+#undef KNOWN
+            }
+            if (n == 0.0) { /* a corner cell: its diagonal neighbours */
+                for (int q = 0; q < 4; q++) {
+                    const int64_t d = (q % 2 ? 1 : -1) * b->stride[0] + (q / 2 ? 1 : -1) * b->stride[1];
+                    if (!f->forced[c + d] || (f->layer[c + d] && f->layer[c + d] < layer)) {
+                        sum += p[c + d];
+                        n += 1.0;
+                    }
+                }
+            }
+            if (n > 0.0)
+                p[c] = sum / n;
+        }
+    }
+    block_halo(b, 1, fields);
+}

@@ -1,0 +1,171 @@
+/* fv_errors.c - errors against exact cell averages, over the free cells; rows of the series; summary.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "fv.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../common/mem.h"
+#include "forcing.h"
+
+enum { NORMS = 3 };
+
+void fv_vorticity(const struct fv *s, double *w)
+{
+    const struct block *b = &s->b;
+    const double cx = 1.0 / (12.0 * b->h[0]), cy = 1.0 / (12.0 * b->h[1]);
+    const int64_t d = b->stride[1];
+    const double *u = s->u[0], *v = s->u[1];
+    BLOCK_ROWS(b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            w[i] = cx * (8.0 * (v[i + 1] - v[i - 1]) - (v[i + 2] - v[i - 2])) -
+                   cy * (8.0 * (u[i + d] - u[i - d]) - (u[i + 2 * d] - u[i - 2 * d]));
+}
+
+static void add_cell(const struct fv *s, int64_t c, const double *x, double volume, const double *vorticity,
+                     struct norm *n)
+{
+    double u[3], p, w;
+    exact_average(&s->exact, x, s->b.h, s->t, u, &p, &w);
+    for (int a = 0; a < s->b.dim; a++)
+        norm_add(n, volume, s->u[a][c] - u[a], u[a]);
+    norm_add(n + 1, volume, fv_pressure(s, c) - p, p);
+    norm_add(n + 2, volume, vorticity[c] - w, w);
+}
+
+static void errors(const struct fv *s, struct norm n[NORMS])
+{
+    const struct block *b = &s->b;
+    double *vorticity = block_field(b), volume = 1.0, x[3];
+    fv_vorticity(s, vorticity);
+    for (int a = 0; a < b->dim; a++)
+        volume *= b->h[a];
+    for (int k = 0; k < NORMS; k++)
+        n[k] = (struct norm){0};
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++)
+            for (int i = 0; i < b->n[0]; i++) {
+                const int64_t c = block_at(b, i, j, k);
+                if (s->forcing && s->forcing->forced[c])
+                    continue;
+                block_centre(b, i, j, k, x);
+                add_cell(s, c, x, volume, vorticity, n);
+            }
+    mem_free(vorticity);
+    norm_reduce(n, NORMS, b->cart);
+}
+
+/* Kinetic energy and the exact field's, J/kg m^dim, over the free cells. */
+static void energies(const struct fv *s, double sum[2])
+{
+    const struct block *b = &s->b;
+    double x[3], u[3], volume = 1.0;
+    sum[0] = sum[1] = 0.0;
+    for (int a = 0; a < b->dim; a++)
+        volume *= b->h[a];
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++)
+            for (int i = 0; i < b->n[0]; i++) {
+                const int64_t c = block_at(b, i, j, k);
+                if (s->forcing && s->forcing->forced[c])
+                    continue;
+                block_centre(b, i, j, k, x);
+                exact_average(&s->exact, x, b->h, s->t, u, NULL, NULL);
+                for (int a = 0; a < b->dim; a++) {
+                    sum[0] += 0.5 * volume * s->u[a][c] * s->u[a][c];
+                    sum[1] += 0.5 * volume * u[a] * u[a];
+                }
+            }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+}
+
+/* Largest divergence of the fluxes, times h: what the projection left. */
+static double largest_divergence(const struct fv *s)
+{
+    const struct block *b = &s->b;
+    double most = 0.0;
+    BLOCK_ROWS(b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            double div = 0.0;
+            if (s->forcing && s->forcing->forced[i])
+                continue;
+            for (int a = 0; a < b->dim; a++)
+                div += (s->U[a][i + b->stride[a]] - s->U[a][i]) / b->h[a];
+            most = fmax(most, fabs(div) * b->h[0]);
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, b->cart);
+    return most;
+}
+
+/* Columns: kinetic energy, largest speed, divergence, and the error if there is an exact field. */
+void fv_row(void *state, double *values)
+{
+    struct fv *s = state;
+    double sum[2];
+    energies(s, sum);
+    values[0] = s->run->scene.fluid.rho * sum[0];
+    values[1] = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
+    values[2] = largest_divergence(s);
+    if (s->has_exact) {
+        struct norm n[NORMS];
+        errors(s, n);
+        values[3] = norm_relative_l2(n);
+    }
+}
+
+static void summarise_norms(struct summary *to, const struct norm *n)
+{
+    static const char *const names[NORMS] = {"velocity", "pressure", "vorticity"};
+    static const char *const part[5] = {"vol", "e1", "e2", "r2", "emax"};
+    for (int k = 0; k < NORMS; k++) {
+        const double v[5] = {n[k].vol, n[k].e1, n[k].e2, n[k].r2, n[k].emax};
+        for (int m = 0; m < 5; m++) {
+            char key[64];
+            snprintf(key, sizeof key, "norm.%s.%s", names[k], part[m]);
+            summary_real(to, key, v[m]);
+        }
+    }
+}
+
+static void summarise_errors(const struct fv *s)
+{
+    struct summary *to = s->run->summary;
+    struct norm n[NORMS];
+    const double U = s->run->scene.initial.U, scale = s->run->scene.fluid.rho * U * U;
+    errors(s, n);
+    summary_real(to, "error.velocity_l2", norm_relative_l2(n));
+    summary_real(to, "error.velocity_linf", n[0].emax / U);
+    if (n[1].r2 > 0.0)
+        summary_real(to, "error.pressure_l2", norm_rms_mean_free(n + 1) / sqrt(n[1].r2 / n[1].vol));
+    summary_real(to, "error.pressure_rms", norm_rms_mean_free(n + 1) / scale);
+    summary_real(to, "error.pressure_offset", norm_mean(n + 1) / scale);
+    if (n[2].r2 > 0.0)
+        summary_real(to, "error.vorticity_l2", norm_relative_l2(n + 2));
+    if (s->run->coupled)
+        summarise_norms(to, n);
+}
+
+void fv_finish(void *state)
+{
+    struct fv *s = state;
+    struct run *r = s->run;
+    double sum[2], cells = 1.0, loop = 0.0;
+    static const char *const parts[] = {"operators", "convection", "viscous", "pressure"};
+    for (int a = 0; a < s->b.dim; a++)
+        cells *= s->b.cells[a];
+    for (int k = 0; k < 4; k++)
+        loop += timer_wall(&r->timers, parts[k]);
+    summary_int(r->summary, "cells", llround(cells));
+    if (s->has_exact)
+        summarise_errors(s);
+    energies(s, sum);
+    summary_real(r->summary, "drift.energy", s->has_exact && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
+    summary_real(r->summary, "divergence", largest_divergence(s));
+    summary_real(r->summary, "max_cfl", s->max_cfl);
+    const double steps = r->step > 0 ? (double)r->step : 1.0;
+    summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);
+    summary_real(r->summary, "us_per_cell_step_outside_hypre",
+                 1e6 * (loop - timer_wall(&r->timers, "pressure")) / (cells * steps));
+    summary_real(r->summary, "poisson_iterations", (double)s->iterations / steps);
+    summary_real(r->summary, "viscous_iterations", (double)s->viscous_iterations / steps);
+}

@@ -1,0 +1,146 @@
+/* fv_io.c - snapshots and restart files. SPDX-License-Identifier: BSD-3-Clause */
+#include "fv.h"
+
+#include <string.h>
+
+#include "../common/h5.h"
+#include "../common/log.h"
+#include "../common/mem.h"
+#include "../common/xdmf.h"
+#include "forcing.h"
+
+static bool wanted(const struct fv *s, const char *name)
+{
+    const char *at = strstr(s->run->scene.output.fields, name);
+    return at != NULL;
+}
+
+static int64_t local_cells(const struct block *b) { return (int64_t)b->n[0] * b->n[1] * b->n[2]; }
+
+static void write(const struct fv *s, struct h5 *f, const char *name, const char *unit, int ncomp, const double *v)
+{
+    const struct block *b = &s->b;
+    h5_write_block(f, name, unit, b->dim, b->cells, b->lo, b->hi, ncomp, v, true);
+}
+
+static void write_velocity(const struct fv *s, struct h5 *f, double *v)
+{
+    const int64_t n = local_cells(&s->b);
+    double *one = NEW(double, n);
+    memset(v, 0, 3 * (size_t)n * sizeof(double));
+    for (int a = 0; a < s->b.dim; a++) {
+        block_pack(&s->b, s->u[a], one);
+        for (int64_t i = 0; i < n; i++)
+            v[3 * i + a] = one[i];
+    }
+    mem_free(one);
+    write(s, f, "velocity", "m/s", 3, v);
+}
+
+/* Corners of the domain, for whoever draws. */
+static void write_frame(const struct fv *s, struct h5 *f)
+{
+    static const char *const lo[] = {"xmin", "ymin", "zmin"}, *const hi[] = {"xmax", "ymax", "zmax"};
+    for (int a = 0; a < s->b.dim; a++) {
+        h5_attribute_real(f, lo[a], s->b.origin[a]);
+        h5_attribute_real(f, hi[a], s->b.origin[a] + s->b.cells[a] * s->b.h[a]);
+    }
+}
+
+void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
+{
+    struct fv *s = state;
+    const struct block *b = &s->b;
+    const int64_t n = local_cells(b);
+    struct xdmf_field fields[8];
+    int nfields = 0;
+    double *v = NEW(double, 3 * n), *field = block_field(b);
+    write_frame(s, f);
+    if (wanted(s, "velocity")) {
+        write_velocity(s, f, v);
+        fields[nfields++] = (struct xdmf_field){"velocity", 3};
+    }
+    if (wanted(s, "pressure")) {
+        for (int64_t c = 0; c < b->size; c++)
+            field[c] = fv_pressure(s, c);
+        block_pack(b, field, v);
+        write(s, f, "pressure", "Pa", 1, v);
+        fields[nfields++] = (struct xdmf_field){"pressure", 1};
+    }
+    if (wanted(s, "vorticity")) {
+        fv_vorticity(s, field);
+        block_pack(b, field, v);
+        write(s, f, "vorticity", "1/s", 1, v);
+        fields[nfields++] = (struct xdmf_field){"vorticity", 1};
+    }
+    if (s->forcing) {
+        for (int64_t c = 0; c < b->size; c++)
+            field[c] = s->forcing->forced[c];
+        block_pack(b, field, v);
+        write(s, f, "forced", "-", 1, v);
+        fields[nfields++] = (struct xdmf_field){"forced", 1};
+    }
+    if (x)
+        xdmf_block(x, s->t, file, b->dim, b->cells, b->origin, b->h, nfields, fields);
+    mem_free(field);
+    mem_free(v);
+}
+
+/* All fields that a step starts from, ghosts and all: bit for bit on the same ranks. */
+static int restart_fields(struct fv *s, double **f, const char **names)
+{
+    static const char *const vector[][3] = {{"u0", "u1", "u2"}, {"U0", "U1", "U2"}, {"N0", "N1", "N2"},
+                                            {"old0", "old1", "old2"}};
+    static const char *const starts[] = {"psi0", "psi1", "psi2"};
+    int n = 0;
+    f[n] = s->p;
+    names[n++] = "p";
+    f[n] = s->p_before;
+    names[n++] = "p_before";
+    for (int a = 0; a < 3; a++) {
+        double *const all[] = {s->u[a], s->U[a], s->N[a], s->u_old[a]};
+        for (int k = 0; k < 4; k++)
+            if (all[k]) {
+                f[n] = all[k];
+                names[n++] = vector[k][a];
+            }
+        if (s->psi[a]) {
+            f[n] = s->psi[a];
+            names[n++] = starts[a];
+        }
+    }
+    return n;
+}
+
+void fv_checkpoint(void *state, struct h5 *f)
+{
+    struct fv *s = state;
+    double *fields[24];
+    const char *names[24];
+    const int n = restart_fields(s, fields, names);
+    for (int k = 0; k < n; k++)
+        h5_write_real(f, names[k], "-", s->b.size, 1, fields[k], false);
+    h5_attribute_real(f, "dt", s->dt);
+    h5_attribute_real(f, "dt_old", s->dt_old);
+    h5_attribute_real(f, "energy0", s->energy0);
+    if (s->link)
+        coupling_save(s, f);
+}
+
+bool fv_restore(struct fv *s, struct h5 *f)
+{
+    double *fields[24];
+    const char *names[24];
+    const int n = restart_fields(s, fields, names);
+    if (h5_rows(f, "p") != s->b.size) {
+        log_say("the restart file is of another grid or number of ranks");
+        return false;
+    }
+    for (int k = 0; k < n; k++)
+        if (!h5_read_real(f, names[k], s->b.size, 1, fields[k])) {
+            log_say("the restart file has no field %s of this shape", names[k]);
+            return false;
+        }
+    return h5_read_attribute_real(f, "dt", &s->dt) && h5_read_attribute_real(f, "dt_old", &s->dt_old) &&
+           h5_read_attribute_real(f, "energy0", &s->energy0) && (!s->link || coupling_load(s, f));
+}

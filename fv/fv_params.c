@@ -1,0 +1,55 @@
+/* fv_params.c - parameters of group fv. SPDX-License-Identifier: BSD-3-Clause */
+#include "fv.h"
+
+#include <math.h>
+
+static struct fv_params given;
+
+#define P struct fv_params
+/* clang-format off */
+static const struct param rows[] = {
+    PARAM(P, cells,        "-", NULL,   1, 1e6,   "cells in each direction; even, rich in factors of two"),
+    PARAM(P, cfl,          "-", "1.0",  1e-6, 1.1, "largest |u_a| dt/h; at most 1.1 (rk3), 0.7 (bdf2)"),
+    CHOICE(P, integrator, "rk3|bdf2", "rk3", "three projected stages, or two-step backward for slow flows"),
+    PARAM(P, tol_pressure, "-", "1e-2", 1e-14, 1, "of the last projection of a step, relative to its divergence"),
+    PARAM(P, tol_viscous,  "-", "0.0",  0, 1,     "of the viscous solver; 0: 1e-3, with forced cells 1e-5"),
+    PARAM(P, hole,         "m", "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "box whose cells take the exact solution; none by default"),
+    PARAM(P, forced_order, "-", "2",    1, 2,     "in time, of a partner's velocities within a window"),
+};
+/* clang-format on */
+#undef P
+
+const struct param_group fv_groups[FV_GROUPS] = {
+    {"fv", "The finite-volume solver", rows, (int)(sizeof rows / sizeof *rows), &given, NULL, 0, 0, NULL}};
+
+const struct fv_params *fv_params_of(const struct run *r)
+{
+    (void)r;
+    return &given;
+}
+
+static void check_axis(const struct run *r, int a, struct faults *f)
+{
+    static const char axes[] = "xyz";
+    const int n = given.cells[a];
+    if (n < 4)
+        params_fault(r->params, f, "fv.cells", "%d cells along %c: at least 4 are wanted", n, axes[a]);
+    if (r->scene.domain.periodic[a] && n % 2)
+        params_fault(r->params, f, "fv.cells",
+                     "%d cells along the periodic %c: an even number is wanted (the multigrid of the pressure halves it)", n,
+                     axes[a]);
+}
+
+void fv_params_check(const struct run *r, struct faults *f)
+{
+    const bool exact = r->scene.initial.field != FIELD_REST;
+    if (given.integrator == INTEGRATOR_BDF2 && given.cfl > 0.7)
+        params_fault(r->params, f, "fv.cfl", "%g: bdf2 is stable up to 0.7", given.cfl);
+    for (int a = 0; a < r->scene.domain.dim; a++) {
+        check_axis(r, a, f);
+        if (given.hole[1][a] > given.hole[0][a] && (r->coupled || !exact))
+            params_fault(r->params, f, "fv.hole", "only a lone run with an exact solution (initial.field) can fill a hole");
+    }
+    if (r->scene.fluid.gravity[0] != 0.0 || r->scene.fluid.gravity[1] != 0.0 || r->scene.fluid.gravity[2] != 0.0)
+        params_fault(r->params, f, "fluid.gravity", "this solver has no free surface to feel it: leave gravity out");
+}

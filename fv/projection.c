@@ -1,0 +1,313 @@
+/* projection.c - time steps with a projection each stage; formulas and measurements in README.md.
+ * rk3: three stages of low-storage Runge-Kutta (Spalart, Moser & Rogers 1991), convection explicit, viscosity
+ * implicit, the gradient of the step's first pressure in all stages; its pressure stands at t - dt/6.
+ * bdf2: two-step backward differences with extrapolated convection, for slow flows.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "fv.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "forcing.h"
+#include "pressure.h"
+
+static void start(struct fv *s, const char *timer) { timer_start(&s->run->timers, timer_index(&s->run->timers, timer)); }
+static void stop(struct fv *s, const char *timer) { timer_stop(&s->run->timers, timer_index(&s->run->timers, timer)); }
+
+/* div = D U over the local cells, divided by tau. */
+static void divergence(struct fv *s, double tau, double *restrict div)
+{
+    const struct block *b = &s->b;
+    for (int a = 0; a < b->dim; a++) {
+        const double w = 1.0 / (b->h[a] * tau);
+        const int64_t d = b->stride[a];
+        const double *restrict U = s->U[a];
+        BLOCK_ROWS(b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                div[i] = (a ? div[i] : 0.0) + w * (U[i + d] - U[i]);
+    }
+}
+
+static void subtract_row(double *restrict U, const double *restrict psi, int64_t d, double w,
+                         const double *restrict open, int64_t n)
+{
+    if (open)
+        for (int64_t i = 0; i < n; i++)
+            U[i] -= w * open[i] * (psi[i] - psi[i - d]);
+    else
+        for (int64_t i = 0; i < n; i++)
+            U[i] -= w * (psi[i] - psi[i - d]);
+}
+
+/* Makes u and U solenoidal: D U = 0 to the solver's tolerance, u by the fourth-order gradient. */
+static void project(struct fv *s, double t, double tau, double *psi, double tol, int most)
+{
+    const struct block *b = &s->b;
+    start(s, "operators");
+    if (s->forcing)
+        forcing_velocity(s, t, s->u);
+    block_halo(b, b->dim, s->u);
+    convection_face_velocities(s, s->u, s->U);
+    if (s->forcing)
+        forcing_fluxes(s, t, s->U);
+    divergence(s, tau, s->rhs[0]);
+    stop(s, "operators");
+    start(s, "pressure");
+    s->iterations += pressure_solve(s, psi, s->rhs[0], tol, most);
+    stop(s, "pressure");
+    start(s, "operators");
+    for (int a = 0; a < b->dim; a++) {
+        gradient(s, psi, a, CONTINUE_EVEN, s->rhs[0]);
+        BLOCK_ROWS(b, 1, c, n)
+            subtract_row(s->U[a] + c, psi + c, b->stride[a], tau / b->h[a],
+                         s->forcing ? s->forcing->open[a] + c : NULL, n);
+        double *restrict u = s->u[a];
+        const double *restrict g = s->rhs[0];
+        if (s->forcing)
+            forcing_zero(s->forcing, s->rhs[0]);
+        BLOCK_ROWS(b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                u[i] -= tau * g[i];
+    }
+    block_halo(b, b->dim, s->u);
+    stop(s, "operators");
+}
+
+/* The increment that forced cells make from one time to another, the start of all others. */
+static void start_increment(struct fv *s, double t)
+{
+    const struct block *b = &s->b;
+    for (int a = 0; a < b->dim; a++)
+        memset(s->delta[a], 0, (size_t)b->size * sizeof(double));
+    if (!s->forcing)
+        return;
+    forcing_velocity(s, t, s->delta);
+    const struct forcing *f = s->forcing;
+    for (int a = 0; a < b->dim; a++) {
+        for (int64_t i = 0; i < f->nset; i++)
+            s->delta[a][f->set[i]] -= s->u[a][f->set[i]];
+        for (int64_t i = 0; i < f->npartner; i++)
+            s->delta[a][f->partner[i]] -= s->u[a][f->partner[i]];
+    }
+}
+
+static double viscous_tolerance(const struct fv *s)
+{
+    return s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous : s->forcing ? 1e-5 : 1e-3;
+}
+
+/* u += delta with (1 - c L) delta = rhs; without viscosity delta = rhs. */
+static bool add_increment(struct fv *s, double c, double t)
+{
+    const struct block *b = &s->b;
+    bool good = true;
+    if (s->nu > 0.0) {
+        start_increment(s, t);
+        good = viscous_solve(s, c, s->delta, s->rhs, viscous_tolerance(s));
+    }
+    for (int a = 0; a < b->dim; a++) {
+        double *restrict u = s->u[a];
+        const double *restrict d = s->nu > 0.0 ? s->delta[a] : s->rhs[a];
+        BLOCK_ROWS(b, 0, at, n)
+            for (int64_t i = at; i < at + n; i++)
+                u[i] += d[i];
+    }
+    return good;
+}
+
+static void swap(double *a[3], double *b[3])
+{
+    for (int k = 0; k < 3; k++) {
+        double *t = a[k];
+        a[k] = b[k];
+        b[k] = t;
+    }
+}
+
+/* rhs = dt [(alpha+beta)(L u - Gc p) - gamma N - zeta N_old] */
+static void stage_rhs(struct fv *s, double dt, double ab, double gamma, double zeta)
+{
+    const struct block *b = &s->b;
+    for (int a = 0; a < b->dim; a++) {
+        double *restrict r = s->rhs[a];
+        const double *restrict g = s->step_p[a], *restrict N = s->N[a], *restrict M = s->N_old[a];
+        if (s->nu > 0.0)
+            viscous_apply(s, s->u[a], r);
+        else
+            memset(r, 0, (size_t)b->size * sizeof(double));
+        BLOCK_ROWS(b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                r[i] = dt * (ab * (r[i] - g[i]) - gamma * N[i] - zeta * M[i]);
+    }
+}
+
+static void pressure_gradient(struct fv *s)
+{
+    double *const fields[1] = {s->p};
+    block_halo(&s->b, 1, fields);
+    for (int a = 0; a < s->b.dim; a++)
+        gradient(s, s->p, a, CONTINUE_CUBIC, s->step_p[a]);
+}
+
+static void add_pressure(struct fv *s, const double *restrict psi)
+{
+    memcpy(s->p_before, s->p, (size_t)s->b.size * sizeof(double));
+    double *restrict p = s->p;
+    BLOCK_ROWS(&s->b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            p[i] += psi[i];
+}
+
+static bool step_rk3(struct fv *s, double dt)
+{
+    static const double alpha[3] = {29.0 / 96.0, -3.0 / 40.0, 1.0 / 6.0};
+    static const double beta[3] = {37.0 / 160.0, 5.0 / 24.0, 1.0 / 6.0};
+    static const double gamma[3] = {8.0 / 15.0, 5.0 / 12.0, 3.0 / 4.0};
+    static const double zeta[3] = {0.0, -17.0 / 60.0, -5.0 / 12.0};
+    static const double at[3] = {8.0 / 15.0, 2.0 / 3.0, 1.0};
+    const double t = s->t;
+    bool good = true;
+    start(s, "operators");
+    pressure_gradient(s);
+    stop(s, "operators");
+    for (int k = 0; k < 3; k++) {
+        const double t_stage = t + at[k] * dt, ab = alpha[k] + beta[k];
+        start(s, "convection");
+        swap(s->N, s->N_old);
+        convection(s, s->N);
+        stop(s, "convection");
+        start(s, "viscous");
+        stage_rhs(s, dt, ab, gamma[k], zeta[k]);
+        good = add_increment(s, beta[k] * dt, t_stage) && good;
+        stop(s, "viscous");
+        project(s, t_stage, ab * dt, s->psi[k], k == 2 ? s->prm.tol_pressure : 0.0, k == 2 ? 50 : 1);
+    }
+    add_pressure(s, s->psi[2]);
+    return good;
+}
+
+/* Variable step: c0 = (1+2r)/(1+r), c1 = -(1+r), c2 = r^2/(1+r), r = dt/dt_old; the first step has none before. */
+static bool step_bdf2(struct fv *s, double dt)
+{
+    const struct block *b = &s->b;
+    const bool first = !(s->dt > 0.0);
+    const double r = first ? 0.0 : dt / s->dt;
+    const double c0 = first ? 1.0 : (1.0 + 2.0 * r) / (1.0 + r), c2 = first ? 0.0 : r * r / (1.0 + r);
+    const double tau = dt / c0;
+    start(s, "operators");
+    pressure_gradient(s);
+    stop(s, "operators");
+    start(s, "convection");
+    swap(s->N, s->N_old);
+    convection(s, s->N);
+    stop(s, "convection");
+    start(s, "viscous");
+    /* increment from u^n: (1 - tau L) d = tau [L u - (1+r) N + r N_old - Gc p] + (c2/c0)(u^n - u^n-1) */
+    stage_rhs(s, tau, 1.0, 1.0 + r, -r);
+    for (int a = 0; a < b->dim; a++) {
+        double *restrict rhs = s->rhs[a], *restrict old = s->u_old[a];
+        const double *restrict u = s->u[a];
+        for (int64_t i = 0; i < b->size; i++) {
+            rhs[i] += c2 / c0 * (u[i] - old[i]);
+            old[i] = u[i];
+        }
+    }
+    const bool good = add_increment(s, tau, s->t + dt);
+    stop(s, "viscous");
+    project(s, s->t + dt, tau, s->psi[0], s->prm.tol_pressure, 50);
+    add_pressure(s, s->psi[0]);
+    return good;
+}
+
+/* Integrators by the parameter's index; each advances u, U, p by dt. */
+struct integrator {
+    const char *name;
+    bool (*step)(struct fv *s, double dt);
+};
+static const struct integrator integrators[] = {{"rk3", step_rk3}, {"bdf2", step_bdf2}};
+
+/* Largest |u_a| of the free cells, over all ranks; a value that is not finite makes it so. */
+void measure(struct fv *s)
+{
+    const struct block *b = &s->b;
+    double most[3] = {0.0, 0.0, 0.0};
+    for (int a = 0; a < b->dim; a++) {
+        double m = 0.0, sum = 0.0;
+        BLOCK_ROWS(b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                const double v = fabs(s->u[a][i]);
+                m = v > m ? v : m;
+                sum += 0.0 * s->u[a][i];
+            }
+        most[a] = sum == 0.0 ? m : INFINITY;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, most, 3, MPI_DOUBLE, MPI_MAX, b->cart);
+    memcpy(s->umax, most, sizeof most);
+}
+
+static void describe_worst(const struct fv *s, struct diagnosis *d)
+{
+    const struct block *b = &s->b;
+    int at[3] = {0, 0, 0};
+    double worst = -1.0, x[3];
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++)
+            for (int i = 0; i < b->n[0]; i++)
+                for (int a = 0; a < b->dim; a++) {
+                    const double v = fabs(s->u[a][block_at(b, i, j, k)]);
+                    if (!(v <= worst) || !isfinite(v)) {
+                        worst = isfinite(v) ? v : 1e300;
+                        at[0] = i;
+                        at[1] = j;
+                        at[2] = k;
+                    }
+                }
+    if (worst < s->u_limit)
+        return;
+    d->bad = true;
+    block_centre(b, at[0], at[1], at[2], x);
+    snprintf(d->reason, sizeof d->reason, "velocity of cell (%d, %d, %d) is %g m/s, limit %g m/s", at[0] + b->lo[0],
+             at[1] + b->lo[1], at[2] + b->lo[2], worst < 1e300 ? worst : NAN, s->u_limit);
+    snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, CFL of the step %.3g", x[0], x[1], x[2], s->max_cfl);
+    snprintf(d->likely, sizeof d->likely,
+             "the flow is finer than the cells (no dissipation is added), or fv.cfl = %g is too large", s->prm.cfl);
+}
+
+static double largest_step(const struct fv *s)
+{
+    double rate = 1e-300;
+    for (int a = 0; a < s->b.dim; a++)
+        rate = fmax(rate, s->umax[a] / s->b.h[a]);
+    return s->prm.cfl / rate;
+}
+
+double integrate(struct fv *s, double t_stop, struct diagnosis *d)
+{
+    const double left = t_stop - s->t, dt_most = largest_step(s);
+    const double n = fmax(ceil(left / dt_most - 1e-9), 1.0), dt = left / n;
+    const bool good = integrators[s->prm.integrator].step(s, dt);
+    s->t = n <= 1.0 ? t_stop : s->t + dt;
+    s->dt_old = s->dt;
+    s->dt = dt;
+    measure(s);
+    for (int a = 0; a < s->b.dim; a++)
+        s->max_cfl = fmax(s->max_cfl, s->umax[a] * dt / s->b.h[a]);
+    if (fmax(s->umax[0], fmax(s->umax[1], s->umax[2])) > s->u_limit)
+        describe_worst(s, d);
+    else if (!good) {
+        d->bad = true;
+        snprintf(d->reason, sizeof d->reason, "the viscous solver did not converge in 200 iterations");
+        snprintf(d->where, sizeof d->where, "step of %g s, nu dt/h^2 = %g", dt, s->nu * dt / (s->b.h[0] * s->b.h[0]));
+        snprintf(d->likely, sizeof d->likely, "raise fv.tol_viscous or lower fv.cfl");
+    }
+    run_diagnose(d, s->b.cart);
+    return dt;
+}
+
+/* rk3's pressure belongs to t - dt/6: carried on along the last step's change. */
+double fv_pressure(const struct fv *s, int64_t c)
+{
+    const double on = s->prm.integrator == INTEGRATOR_RK3 && s->dt > 0.0 ? 1.0 / 6.0 : 0.0;
+    return s->run->scene.fluid.rho * (s->p[c] + on * (s->p[c] - s->p_before[c]));
+}

@@ -1,0 +1,144 @@
+/* state.c - struct fv from the case's parameters, at t = 0 or from a restart file.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "fv.h"
+
+#include <HYPRE_utilities.h>
+#include <math.h>
+
+#include "../common/mem.h"
+#include "forcing.h"
+#include "pressure.h"
+
+static void make_fields(struct fv *s)
+{
+    const struct block *b = &s->b;
+    s->p = block_field(b);
+    s->p_before = block_field(b);
+    s->face = block_field(b);
+    s->flux = block_field(b);
+    if (b->dim == 3)
+        s->step_work = block_field(b);
+    for (int a = 0; a < 3; a++)
+        if (a == 0 || s->prm.integrator == INTEGRATOR_RK3)
+            s->psi[a] = block_field(b);
+    for (int a = 0; a < b->dim; a++) {
+        double **const all[] = {&s->u[a], &s->U[a], &s->N[a], &s->N_old[a], &s->rhs[a], &s->step_p[a]};
+        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+            *all[k] = block_field(b);
+        if (s->nu > 0.0) {
+            s->delta[a] = block_field(b);
+            s->work[a] = block_field(b);
+        }
+        if (s->prm.integrator == INTEGRATOR_BDF2)
+            s->u_old[a] = block_field(b);
+    }
+}
+
+/* Exact averages, in forced cells and ghosts too. */
+static void fill(struct fv *s)
+{
+    const struct block *b = &s->b;
+    double x[3], u[3], p;
+    for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
+        for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
+            for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
+                const int64_t c = block_at(b, i, j, k);
+                block_centre(b, i, j, k, x);
+                exact_average(&s->exact, x, b->h, 0.0, u, &p, NULL);
+                for (int a = 0; a < b->dim; a++)
+                    s->u[a][c] = u[a];
+                s->p[c] = s->p_before[c] = p / s->exact.rho;
+            }
+}
+
+/* Fluxes that belong to the velocities of the start; the exact field's own are solenoidal averages. */
+static void fill_fluxes(struct fv *s)
+{
+    const struct block *b = &s->b;
+    double x[3], u[3];
+    for (int a = 0; a < b->dim; a++)
+        for (int k = -(b->g[2] > 0); k < b->n[2] + (b->g[2] > 0); k++)
+            for (int j = -1; j < b->n[1] + 1; j++)
+                for (int i = -1; i < b->n[0] + 1; i++) {
+                    block_centre(b, i, j, k, x);
+                    x[a] -= 0.5 * b->h[a];
+                    exact_face(&s->exact, x, b->h, a, 0.0, u);
+                    s->U[a][block_at(b, i, j, k)] = u[a];
+                }
+}
+
+static void make_forcing(struct fv *s)
+{
+    if (s->run->coupled)
+        coupling_create(s); /* asks the partner for its free zone, makes the forcing */
+    else
+        s->forcing = forcing_create(s, s->prm.hole[0], s->prm.hole[1], false);
+}
+
+static double energy(const struct fv *s)
+{
+    double sum = 0.0;
+    for (int a = 0; a < s->b.dim; a++)
+        BLOCK_ROWS(&s->b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                sum += 0.5 * s->u[a][i] * s->u[a][i];
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    return sum;
+}
+
+struct fv *fv_create(struct run *r, struct h5 *f)
+{
+    struct fv *s = NEW(struct fv, 1);
+    const struct scene_domain *d = &r->scene.domain;
+    double length[3];
+    HYPRE_Init();
+    s->run = r;
+    s->prm = *fv_params_of(r);
+    s->nu = r->scene.fluid.nu;
+    s->t = r->t;
+    s->exact = exact_create(&r->scene);
+    s->has_exact = r->scene.initial.field != FIELD_REST;
+    for (int a = 0; a < 3; a++)
+        length[a] = d->max[a] - d->min[a];
+    block_create(&s->b, r->comm, d->dim, s->prm.cells, d->min, length, d->periodic);
+    make_fields(s);
+    fill(s);
+    fill_fluxes(s);
+    make_forcing(s);
+    s->pressure = pressure_create(s);
+    s->energy0 = energy(s);
+    measure(s);
+    const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
+    s->u_limit = 10.0 * fmax(most, fmax(r->scene.initial.U, 1e-12));
+    if (f && !fv_restore(s, f))
+        fv_free(&s);
+    else
+        measure(s);
+    return s;
+}
+
+void fv_free(struct fv **sp)
+{
+    struct fv *s = *sp;
+    if (!s)
+        return;
+    if (s->link)
+        coupling_free(s);
+    pressure_free(&s->pressure);
+    forcing_free(&s->forcing);
+    mem_free(s->p);
+    mem_free(s->p_before);
+    mem_free(s->face);
+    mem_free(s->flux);
+    mem_free(s->step_work);
+    for (int a = 0; a < 3; a++) {
+        double *const all[] = {s->u[a], s->U[a], s->N[a], s->N_old[a], s->rhs[a], s->step_p[a],
+                               s->delta[a], s->work[a], s->u_old[a], s->psi[a]};
+        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+            mem_free(all[k]);
+    }
+    block_free(&s->b);
+    HYPRE_Finalize();
+    mem_free(s);
+    *sp = NULL;
+}

@@ -1,0 +1,131 @@
+/* viscous.c - nu Lap q of cell averages, fourth order: differences of the face gradient
+ * (15 (q_0 - q_-1) - (q_1 - q_-2))/12 h; implicit part by conjugate gradients over all components at once.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "fv.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "forcing.h"
+
+static void row(const double *restrict q, const int64_t *stride, const double *c, int dim, int64_t n,
+                double *restrict out)
+{
+    const int64_t sy = stride[1];
+    if (dim == 2) {
+        const double cx = c[0], cy = c[1];
+        for (int64_t i = 0; i < n; i++)
+            out[i] = cx * (16.0 * (q[i - 1] + q[i + 1]) - (q[i - 2] + q[i + 2]) - 30.0 * q[i]) +
+                     cy * (16.0 * (q[i - sy] + q[i + sy]) - (q[i - 2 * sy] + q[i + 2 * sy]) - 30.0 * q[i]);
+        return;
+    }
+    const int64_t sz = stride[2];
+    const double cx = c[0], cy = c[1], cz = c[2];
+    for (int64_t i = 0; i < n; i++)
+        out[i] = cx * (16.0 * (q[i - 1] + q[i + 1]) - (q[i - 2] + q[i + 2]) - 30.0 * q[i]) +
+                 cy * (16.0 * (q[i - sy] + q[i + sy]) - (q[i - 2 * sy] + q[i + 2 * sy]) - 30.0 * q[i]) +
+                 cz * (16.0 * (q[i - sz] + q[i + sz]) - (q[i - 2 * sz] + q[i + 2 * sz]) - 30.0 * q[i]);
+}
+
+void viscous_apply(const struct fv *s, const double *q, double *out)
+{
+    const struct block *b = &s->b;
+    double c[3];
+    for (int a = 0; a < b->dim; a++)
+        c[a] = s->nu / (12.0 * b->h[a] * b->h[a]);
+    BLOCK_ROWS(b, 0, at, n)
+        row(q + at, b->stride, c, b->dim, n, out + at);
+}
+
+static double dot_row(const double *restrict a, const double *restrict b, int64_t n)
+{
+    double s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
+    int64_t i = 0;
+    for (; i + 4 <= n; i += 4) {
+        s0 += a[i] * b[i];
+        s1 += a[i + 1] * b[i + 1];
+        s2 += a[i + 2] * b[i + 2];
+        s3 += a[i + 3] * b[i + 3];
+    }
+    for (; i < n; i++)
+        s0 += a[i] * b[i];
+    return (s0 + s1) + (s2 + s3);
+}
+
+/* Sum over this rank's cells; forced cells hold zeros there. */
+static double dot(const struct block *b, const double *x, const double *y)
+{
+    double sum = 0.0;
+    BLOCK_ROWS(b, 0, c, n)
+        sum += dot_row(x + c, y + c, n);
+    return sum;
+}
+
+static void axpy(const struct block *b, double a, const double *restrict x, double *restrict y)
+{
+    BLOCK_ROWS(b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            y[i] += a * x[i];
+}
+
+static void xpby(const struct block *b, const double *restrict x, double beta, double *restrict y)
+{
+    BLOCK_ROWS(b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            y[i] = x[i] + beta * y[i];
+}
+
+/* out = x - c L x, zero in forced cells. */
+static void helmholtz(const struct fv *s, double c, const double *x, double *out)
+{
+    viscous_apply(s, x, out);
+    BLOCK_ROWS(&s->b, 0, at, n)
+        for (int64_t i = at; i < at + n; i++)
+            out[i] = x[i] - c * out[i];
+    if (s->forcing)
+        forcing_zero(s->forcing, out);
+}
+
+/* rhs becomes the residual, work the search direction, u_old's place is not touched; face is scratch. */
+bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const rhs[3], double tol)
+{
+    const struct block *b = &s->b;
+    const int dim = b->dim;
+    double sums[2] = {0.0, 0.0}, *const Ap[3] = {s->face, s->flux, s->step_work};
+    block_halo(b, dim, delta);
+    for (int a = 0; a < dim; a++) {
+        helmholtz(s, c, delta[a], Ap[a]);
+        if (s->forcing)
+            forcing_zero(s->forcing, rhs[a]);
+        axpy(b, -1.0, Ap[a], rhs[a]);
+        memcpy(s->work[a], rhs[a], (size_t)b->size * sizeof(double));
+        sums[0] += dot(b, rhs[a], rhs[a]);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+    double rr = sums[0];
+    const double goal = rr * tol * tol;
+    for (int it = 0; it < 200; it++) {
+        if (!(rr > goal) || rr == 0.0)
+            return rr == rr;
+        block_halo(b, dim, s->work);
+        sums[0] = 0.0;
+        for (int a = 0; a < dim; a++) {
+            helmholtz(s, c, s->work[a], Ap[a]);
+            sums[0] += dot(b, s->work[a], Ap[a]);
+        }
+        MPI_Allreduce(MPI_IN_PLACE, sums, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+        const double alpha = rr / sums[0];
+        sums[0] = 0.0;
+        for (int a = 0; a < dim; a++) {
+            axpy(b, alpha, s->work[a], delta[a]);
+            axpy(b, -alpha, Ap[a], rhs[a]);
+            sums[0] += dot(b, rhs[a], rhs[a]);
+        }
+        MPI_Allreduce(MPI_IN_PLACE, sums, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+        for (int a = 0; a < dim; a++)
+            xpby(b, rhs[a], sums[0] / rr, s->work[a]);
+        rr = sums[0];
+        s->viscous_iterations++;
+    }
+    return false;
+}
