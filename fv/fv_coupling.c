@@ -19,6 +19,8 @@ struct link {
     double *q[LEVELS];     /* [n][dim + 1] velocity and pressure at the ends of the last windows, newest first */
     double t[LEVELS];      /* s: their times */
     int levels;            /* of them known */
+    double *rate;          /* [n] Pa/s: of pressure, averaged */
+    bool rated;
     double *v, *dv, *got;  /* scratch */
     unsigned char *mask;
 };
@@ -67,14 +69,17 @@ void coupling_create(struct fv *s)
     const struct block *b = &s->b;
     double lo[3], hi[3];
     k->c = s->run->partner_ctx;
-    check(k, cpl_find_zone(k->c, "sph.free", lo, hi));
+    check(k, cpl_find_zone(k->c, "sph.given", lo, hi));
     s->forcing = forcing_create(s, lo, hi, true);
     if (!s->forcing)
-        log_warn("no cell lies wholly in the partner's free zone: fv is not forced, the coupling goes one way");
+        log_warn("no cell lies wholly in the box that sph gives, (%g, %g) to (%g, %g) m: fv is not forced, the "
+                 "coupling goes one way; refine fv.cells or lower coupling.overlap",
+                 lo[0], lo[1], hi[0], hi[1]);
     declare(s, k);
     k->n = (int64_t)b->n[0] * b->n[1] * b->n[2];
     for (int m = 0; m < LEVELS; m++)
         k->q[m] = NEW(double, k->n * (b->dim + 1));
+    k->rate = NEW(double, k->n);
     k->v = NEW(double, k->n * b->dim);
     k->dv = NEW(double, k->n * b->dim);
     const int64_t most = s->forcing ? s->forcing->npartner : 0;
@@ -87,6 +92,7 @@ void coupling_free(struct fv *s)
     struct link *k = s->link;
     for (int m = 0; m < LEVELS; m++)
         mem_free(k->q[m]);
+    mem_free(k->rate);
     mem_free(k->v);
     mem_free(k->dv);
     mem_free(k->got);
@@ -131,6 +137,18 @@ static double derivative(const struct link *k, int64_t at)
     return d0 + h * (d0 - d1) / (h + g);
 }
 
+/* Pressure answers at once to every change of the forced velocities, by the change over the window: its rate
+ * of change is noise that would come back larger. An average over windows keeps the trend. */
+static void take_rate(struct fv *s)
+{
+    struct link *k = s->link;
+    const int dim = s->b.dim;
+    const double fresh = k->rated ? 1.0 / s->run->scene.coupling.memory : 1.0;
+    for (int64_t i = 0; i < k->n; i++)
+        k->rate[i] += fresh * (derivative(k, i * (dim + 1) + dim) - k->rate[i]);
+    k->rated = true;
+}
+
 static void put(struct fv *s)
 {
     struct link *k = s->link;
@@ -141,11 +159,9 @@ static void put(struct fv *s)
             k->dv[i * dim + a] = derivative(k, i * (dim + 1) + a);
         }
     check(k, cpl_put(k->c, k->velocity, s->t, k->n, k->v, k->dv));
-    for (int64_t i = 0; i < k->n; i++) {
+    for (int64_t i = 0; i < k->n; i++)
         k->v[i] = k->q[0][i * (dim + 1) + dim];
-        k->dv[i] = derivative(k, i * (dim + 1) + dim);
-    }
-    check(k, cpl_put(k->c, k->pressure, s->t, k->n, k->v, k->dv));
+    check(k, cpl_put(k->c, k->pressure, s->t, k->n, k->v, k->rate));
 }
 
 /* A level of the exact solution before the start, so that the first windows know a derivative. */
@@ -200,6 +216,7 @@ void coupling_first(void *state)
         take_level(s);
         if (s->has_exact)
             exact_level(s, s->t, 0); /* the start's pressure, in forced cells too */
+        take_rate(s);
         if (f)
             s->forcing->t1 = s->t;
     }
@@ -235,6 +252,7 @@ void coupling_window_end(void *state, double t1)
 {
     (void)t1;
     take_level(state);
+    take_rate(state);
     put(state);
 }
 
@@ -248,6 +266,7 @@ void coupling_save(const struct fv *s, struct h5 *f)
     for (int m = 0; m < LEVELS; m++)
         h5_write_real(f, names[m], "-", k->n, s->b.dim + 1, k->q[m], false);
     h5_write_real(f, "levels", "-", 7, 1, clock, false);
+    h5_write_real(f, "rate", "Pa/s", k->n, 1, k->rate, false);
     for (int a = 0; c && a < s->b.dim; a++) {
         h5_write_real(f, v[a], "m/s", c->npartner, 1, c->v[a], false);
         h5_write_real(f, w[a], "m/s", c->npartner, 1, c->v_next[a], false);
@@ -261,7 +280,7 @@ bool coupling_load(struct fv *s, struct h5 *f)
     struct link *k = s->link;
     struct forcing *c = s->forcing;
     double clock[7];
-    bool good = h5_read_real(f, "levels", 7, 1, clock);
+    bool good = h5_read_real(f, "levels", 7, 1, clock) && h5_read_real(f, "rate", k->n, 1, k->rate);
     for (int m = 0; good && m < LEVELS; m++) {
         good = h5_read_real(f, names[m], k->n, s->b.dim + 1, k->q[m]);
         k->t[m] = clock[m];
@@ -271,6 +290,7 @@ bool coupling_load(struct fv *s, struct h5 *f)
     if (!good)
         return false;
     k->levels = (int)clock[3];
+    k->rated = true;
     if (c) {
         c->t0 = clock[4];
         c->t1 = clock[5];

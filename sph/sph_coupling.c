@@ -8,6 +8,7 @@
 #include "../common/mem.h"
 #include "../coupler/cpl.h"
 #include "domain.h"
+#include "sph_params.h"
 #include "zones.h"
 
 /* Ids of the sets and fields, and scratch for what is sent. */
@@ -29,12 +30,13 @@ static void check(const struct link *k, int code)
 
 void coupling_offer(struct run *r)
 {
-    extern const struct sph_params *sph_params_of(const struct run *r);
     const struct sph_params *prm = sph_params_of(r);
     double lo[3], hi[3];
     zones_free_box(r, prm, lo, hi);
     cpl_zone(r->partner_ctx, "sph.box", prm->box[0], prm->box[1]);
     cpl_zone(r->partner_ctx, "sph.free", lo, hi);
+    zones_given_box(r, prm, lo, hi);
+    cpl_zone(r->partner_ctx, "sph.given", lo, hi);
 }
 
 /* Values and gradients of the patch, one field after the other. */

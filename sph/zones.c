@@ -33,6 +33,18 @@ void zones_free_box(const struct run *r, const struct sph_params *prm, double lo
     }
 }
 
+void zones_given_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3])
+{
+    const double given = r->scene.coupling.overlap;
+    const double overlap = given > 0.0 ? given : 1.25 * prm->R_dx * prm->dx;
+    zones_free_box(r, prm, lo, hi);
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        if (lo[a] > prm->box[0][a] || hi[a] < prm->box[1][a]) { /* an open side */
+            lo[a] += overlap;
+            hi[a] -= overlap;
+        }
+}
+
 /* The exact solution as the flow outside; the gradient of p by central differences. */
 static void eval_exact(void *ctx, double t, int n, const double *x, double *u, double *p, double *gu,
                        double *gp)

@@ -30,6 +30,8 @@ struct zones *zones_create(struct sph *s);
 void zones_free(struct zones **z);
 /* Widths and box of the free zone from parameters alone (open sides: not s->periodic). */
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition, double *buffer);
+/* The box that partners leave to SPH: the free zone less the overlap. */
+void zones_given_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
 void zones_free_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
 /* Depth of x below the open sides of the region, m: negative outside. */
 double zones_depth(const struct sph *s, const double *x);
