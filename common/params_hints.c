@@ -162,8 +162,11 @@ int hint_syntax(const char *text, int line, const char *error, char *hint, size_
 {
     char copy[512], name[64];
     *hint = '\0';
-    if (strstr(error, "include") || strstr(error, "uplicate"))
+    if (strstr(error, "include") || strstr(error, "uplicate")) {
+        line_at(text, line, copy, sizeof copy);
+        snprintf(hint, size, "in the line `%s'", copy + strspn(copy, " \t"));
         return line;
+    }
     for (int k = line; k >= line - 1 && k > 0; k--) {
         const char *what = slip(line_at(text, k, copy, sizeof copy));
         if (what) {

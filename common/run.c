@@ -374,7 +374,7 @@ static bool accepted(const struct life *l)
         const struct scene_accept *a = l->r.scene.accept + k;
         double v = NAN;
         const bool is = summary_find(l->r.summary, a->what, &v);
-        const bool good = is && v <= a->tolerance;
+        const bool good = is && fabs(v) <= a->tolerance;
         log_say("%-10s %s %.4g (<= %g)", good ? "accepted" : "NOT MET", a->what, v, a->tolerance);
         all = all && good;
     }
@@ -514,7 +514,7 @@ static int live(struct life *l)
 int run_main(int argc, char **argv, const struct program *p, const struct partner *partner)
 {
     struct life *l = NULL;
-    MPI_Init(&argc, &argv);
+    signals_start_mpi(&argc, &argv, p->name);
     l = mem_new(1, sizeof *l);
     l->p = p;
     l->r.name = p->name;

@@ -149,6 +149,8 @@ int run_folder(MPI_Comm comm, const char *dir, const char *name, bool force, boo
  * launcher's SIGTERM is not followed by an orderly end within 0.8 s, the handler prints the death note, or
  * what was last heard of the partners, and leaves with RUN_PARTNER. */
 void signals_install(const char *program, int rank);
+/* MPI_Init within 30 s: a member of the job that is no MPI program would leave it waiting in silence. */
+void signals_start_mpi(int *argc, char ***argv, const char *program);
 bool signals_stop(void);       /* this rank's flag */
 void signals_handled(void);    /* an orderly stop is under way: no deadline */
 void signals_note_path(const char *path); /* file of the death note (shared by the job's programs) */

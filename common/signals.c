@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "log.h"
@@ -58,13 +59,22 @@ static void leave_note(const char *what)
     close(fd);
 }
 
+/* The launcher kills all others within milliseconds of the first that leaves: they need time for their
+ * last words. */
+static void leave(void)
+{
+    const struct timespec pause = {.tv_nsec = 300000000};
+    nanosleep(&pause, NULL);
+    _exit(RUN_PARTNER);
+}
+
 static void on_stop(int signal)
 {
     const int error = errno;
     state.stop = 1;
     if (signal == SIGTERM && !state.handled) {
         if (print_note())
-            _exit(RUN_PARTNER);
+            leave();
         const struct itimerval soon = {.it_value = {.tv_usec = 800000}};
         setitimer(ITIMER_REAL, &soon, NULL);
     }
@@ -85,7 +95,25 @@ static void on_alarm(int signal)
         }
         put(STDOUT_FILENO, "\n");
     }
-    _exit(RUN_PARTNER);
+    leave();
+}
+
+static void not_started(int signal)
+{
+    (void)signal;
+    put(STDOUT_FILENO, state.who);
+    put(STDOUT_FILENO, ": MPI has not started within 30 s: is every program of this job an MPI program?\n");
+    _exit(RUN_INPUT);
+}
+
+void signals_start_mpi(int *argc, char ***argv, const char *program)
+{
+    snprintf(state.who, sizeof state.who, "%s", program);
+    signal(SIGALRM, not_started);
+    alarm(30);
+    MPI_Init(argc, argv);
+    alarm(0);
+    signal(SIGALRM, SIG_DFL);
 }
 
 static const char *fault_name(int signal)

@@ -1,8 +1,7 @@
-/* coupler.c - main program of the coupler: meets the solvers, checks their plan, then answers messages
- * until all have said goodbye. SPDX-License-Identifier: BSD-3-Clause */
+/* coupler.c - main program of the coupler: meets the solvers, checks their plan, then answers
+ * messages until all have said goodbye. SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,14 +12,16 @@
 #include "../common/timer.h"
 #include "failure.h"
 
-static const double look_every = 0.25, stall_first = 60.0; /* s */
-static const char help[] = "brings the solvers of a job together: fields, time windows, restart points";
+static const double look_every = 0.05, stall_first = 60.0; /* s */
+static const char help[] =
+    "brings the solvers of a job together: fields, time windows, restart points";
 static const char *const others[] = {"sph", "fv", "walls", "bodies", NULL};
 
 static _Noreturn void broken(const char *what) { fail("%s", what); }
 static void leave_note(const char *reason) { (void)failure_note(reason); }
 
-/* --- waiting ----------------------------------------------------------------------------------- */
+/* --- waiting -----------------------------------------------------------------------------------
+ */
 
 static void look_after_partners(void)
 {
@@ -56,7 +57,8 @@ static void tell_stall(struct coupler *c)
 static void look_around(struct coupler *c)
 {
     if (signals_stop() && !c->stopping) {
-        look_after_partners(); /* the launcher ends a job with the same signal when a program dies */
+        look_after_partners(); /* the launcher ends a job with the same signal when a program dies
+                                */
         c->stopping = true;
         signals_handled();
         log_say("stopping in order: one more window, restart files, end");
@@ -88,7 +90,8 @@ static struct message *await(struct coupler *c, int peer)
     return m;
 }
 
-/* --- meeting, plan ----------------------------------------------------------------------------- */
+/* --- meeting, plan -----------------------------------------------------------------------------
+ */
 
 static void print_problems(const char *text) { log_say("%s\nnothing was started", text); }
 
@@ -158,7 +161,8 @@ static bool plan(struct coupler *c)
     return !text[0];
 }
 
-/* --- the job ----------------------------------------------------------------------------------- */
+/* --- the job -----------------------------------------------------------------------------------
+ */
 
 static void take_bye(struct coupler *c, struct solver *s, struct message *m)
 {
@@ -201,8 +205,11 @@ static void answer(struct coupler *c, struct message **m)
     default:
         fail("%s rank %d sent message %d out of order", s->name, (*m)->rank, (*m)->head.kind);
     }
-    if (c->rank == 0 && rendezvous_starved(c, text))
-        fail("%s", text);
+    if (c->rank == 0 && rendezvous_starved(c, text)) {
+        log_quiet("%s", text);
+        signals_handled();
+        failure_die(RUN_PARTNER, text);
+    }
     message_free(m);
 }
 
@@ -270,7 +277,8 @@ static int couple(struct coupler *c, struct faults *faults)
     snprintf(path, sizeof path, "%s/.death", c->dir);
     failure_path(path);
     signals_note_path(path);
-    if (meet(c, faults->n)) { /* solvers have looked into the folder: what is new now is not another run's */
+    if (meet(c, faults->n)) { /* solvers have looked into the folder: what is new now is not another
+                                 run's */
         snprintf(path, sizeof path, "%s/log.txt", c->dir);
         log_file(path);
         code = plan(c) ? serve(c) : RUN_INPUT;
@@ -289,7 +297,7 @@ static void describe(const struct coupler *c)
     log_say("%s: %dD, to t = %g s, outputs every %g s", c->command->case_file, c->scene.domain.dim,
             c->scene.time.end, o->every);
     if (!c->scene.has_sph || !c->scene.has_fv) {
-        log_say("not a coupled job: it has %s", c->scene.has_sph ? "group sph only"
+        log_say("not a coupled job: it has %s", c->scene.has_sph  ? "group sph only"
                                                 : c->scene.has_fv ? "group fv only"
                                                                   : "no group sph or fv");
         return;
@@ -343,23 +351,12 @@ static int run(struct coupler *c, const struct param_group *groups)
 }
 
 /* A program of the job that is no MPI program keeps all others in MPI_Init, without a word. */
-static void not_started(int signal)
-{
-    static const char text[] = "coupler: MPI has not started within 30 s: is every program of this job "
-                               "an MPI program?\n";
-    (void)signal;
-    _exit(write(STDERR_FILENO, text, sizeof text - 1) ? RUN_INPUT : RUN_INPUT);
-}
-
 int main(int argc, char **argv)
 {
     static struct coupler c; /* large */
     struct command_line command;
     struct param_group groups[SCENE_GROUPS];
-    signal(SIGALRM, not_started);
-    alarm(30);
-    MPI_Init(&argc, &argv);
-    alarm(0);
+    signals_start_mpi(&argc, &argv, "coupler");
     c.world = MPI_COMM_WORLD;
     c.command = &command;
     c.said = -1;

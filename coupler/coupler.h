@@ -1,5 +1,5 @@
-/* coupler.h - the whole state of the coupler and what its modules offer each other. Its ranks know the
- * same plan; rank 0 alone decides windows and writes files, all of them bring fields together.
+/* coupler.h - the whole state of the coupler and what its modules offer each other. Its ranks know
+ * the same plan; rank 0 alone decides windows and writes files, all of them bring fields together.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_COUPLER_H
 #define COUPLER_COUPLER_H
@@ -49,13 +49,13 @@ struct solver {
     struct solver_field {
         char name[CPL_NAME], unit[CPL_NAME];
         int set, ncomp, direction, how;
-        int link;           /* the one it is part of, -1: none */
-        int64_t last_tick;  /* giver: of its last put, as of its last advance or get */
+        int link;          /* the one it is part of, -1: none */
+        int64_t last_tick; /* giver: of its last put, as of its last advance or get */
     } field[FIELDS];
-    int64_t advanced;       /* last window done, -1: none */
-    int byes, code;         /* ranks that said goodbye; the worst code among them */
-    double waited, cpu;     /* s; cpu summed over ranks, known at the end */
-    double heard;           /* wire_time of its last message */
+    int64_t advanced;   /* last window done, -1: none */
+    int byes, code;     /* ranks that said goodbye; the worst code among them */
+    double waited, cpu; /* s; cpu summed over ranks, known at the end */
+    double heard;       /* wire_time of its last message */
     struct told told;
 };
 
@@ -76,18 +76,18 @@ struct link {
     int nasked, naskers; /* ranks that have asked, and how many will */
     struct asker {
         bool asked;
-        int moves;             /* generation of its targets */
+        int moves; /* generation of its targets */
         long ntarget;
-        double *x;             /* [ntarget][dim] */
-        double lo[3], hi[3];   /* grids: the box wanted */
-    } *asker;
+        double *x;           /* [ntarget][dim] */
+        double lo[3], hi[3]; /* grids: the box wanted */
+    } * asker;
     struct arrival {
         int64_t tick; /* -1: nothing */
         int n;        /* puts of the present generation */
         double t;
         struct message **put; /* [ranks of the giver] */
-    } in[2];          /* by tick & 1 */
-    double mapped;    /* s spent here */
+    } in[2];                  /* by tick & 1 */
+    double mapped;            /* s spent here */
     int64_t served;
 };
 
@@ -113,10 +113,10 @@ struct coupler {
     bool stopping, over;
     int code;
     double start, line_at, line_every, save_wall, stall_at, stall_every;
-    double idle, bound; /* s waited; simulated time of the next checkpoint */
-    int64_t said;       /* window that failure_doing knows */
+    double idle, bound;  /* s waited; simulated time of the next checkpoint */
+    int64_t said;        /* window that failure_doing knows */
     int64_t line_window; /* of the last progress line */
-    int64_t nsaved;     /* solvers whose restart file of `save_window' is complete */
+    int64_t nsaved;      /* solvers whose restart file of `save_window' is complete */
     int64_t save_window;
     char saved[HANDSHAKE_PROGRAMS][256];
 };
@@ -137,7 +137,7 @@ void plan_describe(const struct coupler *c);
 /* window.c: integer time. */
 void window_divide(struct coupler *c, char *text);
 double window_start(const struct coupler *c, int64_t k);
-void window_announce(struct coupler *c);            /* the next one, or the end */
+void window_announce(struct coupler *c); /* the next one, or the end */
 void window_advance(struct coupler *c, struct solver *s, struct message *m);
 
 /* rendezvous.c: fields brought together. */
@@ -145,7 +145,8 @@ void rendezvous_open(struct coupler *c);
 void rendezvous_get(struct coupler *c, struct solver *s, struct message *m);
 void rendezvous_put(struct coupler *c, struct solver *s, struct message **m); /* may keep it */
 void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *m);
-/* A giver has gone past what a taker waits for, or they wait for each other: text says so; false: all is well. */
+/* A giver has gone past what a taker waits for, or they wait for each other: text says so; false:
+ * all is well. */
 bool rendezvous_starved(const struct coupler *c, char *text);
 void rendezvous_waiting(const struct coupler *c, char *text); /* who waits for what */
 void rendezvous_close(struct coupler *c);

@@ -12,7 +12,7 @@
 #include "failure.h"
 #include "handshake.h"
 
-static const double look_every = 0.25; /* s between looks at whether the others live */
+static const double look_every = 0.05; /* s between looks at whether the others live */
 
 int client_error(struct cpl *c, int code, const char *fmt, ...)
 {
@@ -27,7 +27,8 @@ int client_error(struct cpl *c, int code, const char *fmt, ...)
 
 static int out_of_order(struct cpl *c, const char *call, const char *when)
 {
-    return client_error(c, CPL_EORDER, "%s belongs %s (see the order of calls in cpl.h)", call, when);
+    return client_error(c, CPL_EORDER, "%s belongs %s (see the order of calls in cpl.h)", call,
+                        when);
 }
 
 static _Noreturn void broken(const char *what) { failure_die(4, what); }
@@ -47,11 +48,13 @@ static bool partner_lost(struct cpl *c, struct nap *nap)
     return true;
 }
 
-static struct message *from_inbox(struct cpl *c, enum wire_kind kind, int field, int64_t tick, int rank)
+static struct message *from_inbox(struct cpl *c, enum wire_kind kind, int field, int64_t tick,
+                                  int rank)
 {
     for (struct message **link = &c->inbox; *link; link = &(*link)->next) {
         struct message *m = *link;
-        if (m->head.kind != kind || (field >= 0 && (m->head.field != field || m->head.tick != tick)) ||
+        if (m->head.kind != kind ||
+            (field >= 0 && (m->head.field != field || m->head.tick != tick)) ||
             (rank >= 0 && m->rank != rank))
             continue;
         *link = m->next;
@@ -103,7 +106,8 @@ struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int6
     return found;
 }
 
-/* --- meeting ----------------------------------------------------------------------------------- */
+/* --- meeting -----------------------------------------------------------------------------------
+ */
 
 int cpl_open(MPI_Comm world, const char *name, double deadline_s, struct cpl **out, MPI_Comm *mine)
 {
@@ -204,7 +208,8 @@ int cpl_find_zone(struct cpl *c, const char *zone, double lo[3], double hi[3])
     return client_error(c, CPL_EINPUT, "no program of this job has a zone `%s'", zone);
 }
 
-/* --- the plan ---------------------------------------------------------------------------------- */
+/* --- the plan ----------------------------------------------------------------------------------
+ */
 
 static int new_set(struct cpl *c, const char *name, int dim, struct client_set **s, int *id)
 {
@@ -226,7 +231,8 @@ int cpl_grid(struct cpl *c, const char *set, const struct cpl_grid *g, int *id)
     struct client_set *s = NULL;
     for (int a = 0; a < g->dim && a < 3; a++)
         if (!(g->spacing[a] > 0.0) || g->cells[a] < 1 || g->lo[a] < 0 || g->hi[a] > g->cells[a])
-            return client_error(c, CPL_EINPUT, "grid %s: spacing, cells or block of axis %d", set, a);
+            return client_error(c, CPL_EINPUT, "grid %s: spacing, cells or block of axis %d", set,
+                                a);
     const int code = new_set(c, set, g->dim, &s, id);
     if (code == CPL_OK) {
         s->is_grid = true;
@@ -322,7 +328,8 @@ int cpl_ready(struct cpl *c, double t, double dt_wish)
     return code;
 }
 
-/* --- windows ----------------------------------------------------------------------------------- */
+/* --- windows -----------------------------------------------------------------------------------
+ */
 
 int cpl_window(struct cpl *c, double *t0, double *t1, int *action, int *code)
 {
@@ -409,11 +416,14 @@ double cpl_heard(const struct cpl *c) { return wire_time() - c->heard; }
 const char *cpl_strerror(const struct cpl *c) { return c->text; }
 void cpl_obituary(int fd) { failure_obituary(fd); }
 
-/* --- the end ----------------------------------------------------------------------------------- */
+/* --- the end -----------------------------------------------------------------------------------
+ */
 
 void cpl_fail(struct cpl *c, int code, const char *reason)
 {
     char text[512];
+    if (c->error == CPL_EPARTNER)
+        failure_die(code, c->text); /* somebody else's failure: said as it was heard */
     if (c->state >= PLANNED)
         snprintf(text, sizeof text, "in window %lld: %s", (long long)c->window, reason);
     else
@@ -421,7 +431,8 @@ void cpl_fail(struct cpl *c, int code, const char *reason)
     failure_die(code, text);
 }
 
-/* Goodbye to each coupler rank, behind all that was sent to it before; the job's code comes back. */
+/* Goodbye to each coupler rank, behind all that was sent to it before; the job's code comes back.
+ */
 static int goodbye(struct cpl *c, int code)
 {
     struct timespec cpu;

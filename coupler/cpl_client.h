@@ -1,5 +1,5 @@
-/* cpl_client.h - a solver's place in a job: what cpl_client.c (life of a job) and cpl_data.c (fields) share.
- * Nothing here is public. SPDX-License-Identifier: BSD-3-Clause */
+/* cpl_client.h - a solver's place in a job: what cpl_client.c (life of a job) and cpl_data.c
+ * (fields) share. Nothing here is public. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_CPL_CLIENT_H
 #define COUPLER_CPL_CLIENT_H
 
@@ -31,7 +31,7 @@ struct client_set {
     double support;
     struct cpl_grid grid;
     struct places *places;
-    int moves;       /* number of cpl_move calls */
+    int moves;            /* number of cpl_move calls */
     int64_t first, total; /* of this rank's points among all ranks' */
 };
 
@@ -53,7 +53,7 @@ struct client_field {
     struct need {
         int generation; /* 0: nothing wanted yet */
         struct region region;
-    } *need; /* giver: [ncoupler] */
+    } * need;             /* giver: [ncoupler] */
     struct slot slot[2];  /* giver: by tick & 1 */
     int64_t last_tick;    /* giver: of the last put, -1 */
     int64_t got_tick;     /* taker: of the last patch, -1 */
@@ -88,7 +88,8 @@ struct cpl {
 /* Sets the text; returns code. */
 int client_error(struct cpl *c, int code, const char *fmt, ...)
     __attribute__((format(printf, 3, 4)));
-/* Waits for a message; serves needs meanwhile. field -1: any. NULL: a partner is gone (c->error set). */
+/* Waits for a message; serves needs meanwhile. field -1: any. NULL: a partner is gone (c->error
+ * set). */
 struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int64_t tick, int rank,
                              const char *what);
 /* cpl_data.c */

@@ -1,5 +1,5 @@
-/* cpl_data.c - behind cpl.h: fields given and taken. A put goes to those coupler ranks that have said what
- * they want; it is kept as long as somebody may still ask for more of it.
+/* cpl_data.c - behind cpl.h: fields given and taken. A put goes to those coupler ranks that have
+ * said what they want; it is kept as long as somebody may still ask for more of it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
@@ -51,7 +51,8 @@ static size_t first_bad(const double *v, size_t n)
     return n;
 }
 
-/* --- giving ------------------------------------------------------------------------------------ */
+/* --- giving ------------------------------------------------------------------------------------
+ */
 
 int cpl_move(struct cpl *c, int set, long n, const double *x, const int64_t *gid,
              const double *volume)
@@ -107,7 +108,8 @@ static void serve_points(const struct client_field *f, const struct slot *s, con
     free(chosen);
 }
 
-/* The cells lo <= i < hi of an asker's box that this block holds when it is shifted by whole periods. */
+/* The cells lo <= i < hi of an asker's box that this block holds when it is shifted by whole
+ * periods. */
 static bool overlap(const struct cpl_grid *g, const struct region_box *b, const int shift[3],
                     int lo[3], int hi[3])
 {
@@ -122,7 +124,8 @@ static bool overlap(const struct cpl_grid *g, const struct region_box *b, const 
 }
 
 static void pack_cells(const struct client_field *f, const struct slot *s, const struct cpl_grid *g,
-                       int asker, const int lo[3], const int hi[3], const int shift[3], struct pack *p)
+                       int asker, const int lo[3], const int hi[3], const int shift[3],
+                       struct pack *p)
 {
     const size_t nc = (size_t)f->ncomp;
     const size_t n = (size_t)(hi[0] - lo[0]) * (size_t)(hi[1] - lo[1]) * (size_t)(hi[2] - lo[2]);
@@ -134,8 +137,9 @@ static void pack_cells(const struct client_field *f, const struct slot *s, const
             const size_t kk = (size_t)(k - shift[2] * g->cells[2] - g->lo[2]);
             const size_t jj = (size_t)(j - shift[1] * g->cells[1] - g->lo[1]);
             const size_t ii = (size_t)(lo[0] - shift[0] * g->cells[0] - g->lo[0]);
-            size_t from = nc * ((kk * (size_t)(g->hi[1] - g->lo[1]) + jj) *
-                                    (size_t)(g->hi[0] - g->lo[0]) + ii);
+            size_t from =
+                nc *
+                ((kk * (size_t)(g->hi[1] - g->lo[1]) + jj) * (size_t)(g->hi[0] - g->lo[0]) + ii);
             for (size_t m = nc * (size_t)(hi[0] - lo[0]); m > 0; m--, from++) {
                 *to++ = s->v[from];
                 *to++ = s->dvdt ? s->dvdt[from] : 0.0;
@@ -237,9 +241,9 @@ int cpl_put(struct cpl *c, int field, double t, long n, const double *v, const d
     const size_t size = (size_t)n * (size_t)f->ncomp;
     const size_t bad = first_bad(v, size), worse = dvdt ? first_bad(dvdt, size) : size;
     if (bad < size || worse < size)
-        return client_error(c, CPL_EINPUT, "%s: value %zu of %s on rank %d is not finite (t = %g s)",
-                            f->name, (bad < size ? bad : worse) / (size_t)f->ncomp, set->name, c->rank,
-                            t);
+        return client_error(c, CPL_EINPUT,
+                            "%s: value %zu of %s on rank %d is not finite (t = %g s)", f->name,
+                            (bad < size ? bad : worse) / (size_t)f->ncomp, set->name, c->rank, t);
     const int64_t tick = tick_of(c, t);
     struct slot *s = &f->slot[tick & 1];
     clear_slot(s);
@@ -264,10 +268,11 @@ void client_pack_ticks(const struct cpl *c, struct pack *p)
         pack_int(p, c->field[i].last_tick);
 }
 
-/* --- taking ------------------------------------------------------------------------------------ */
+/* --- taking ------------------------------------------------------------------------------------
+ */
 
-/* Targets first <= i < last of this rank that coupler rank r maps: equal shares of all targets, whatever
- * their place; neighbours in number are mostly neighbours in space. */
+/* Targets first <= i < last of this rank that coupler rank r maps: equal shares of all targets,
+ * whatever their place; neighbours in number are mostly neighbours in space. */
 static void share(const struct cpl *c, const struct client_set *s, int r, long *first, long *last)
 {
     const int64_t n = s->places->n;
@@ -306,11 +311,11 @@ int cpl_get(struct cpl *c, int field, long n, double *v, unsigned char *mask)
     struct client_field *f = &c->field[field];
     const struct client_set *s = &c->set[f->set];
     if (f->from_grid || c->state != IN_WINDOW)
-        return client_error(c, CPL_EORDER, "cpl_get: %s comes from a grid, or no window is under way",
-                            f->name);
+        return client_error(c, CPL_EORDER,
+                            "cpl_get: %s comes from a grid, or no window is under way", f->name);
     if (!s->places || n != s->places->n)
-        return client_error(c, CPL_EINPUT, "%s: %ld targets, but cpl_move placed %ld of %s", f->name, n,
-                            s->places ? s->places->n : 0, s->name);
+        return client_error(c, CPL_EINPUT, "%s: %ld targets, but cpl_move placed %ld of %s",
+                            f->name, n, s->places ? s->places->n : 0, s->name);
     const int64_t tick = c->window + 1;
     const size_t nc = (size_t)f->ncomp;
     char what[160];
@@ -345,7 +350,8 @@ int cpl_patch_get(struct cpl *c, int field, const double lo[3], const double hi[
     struct client_field *f = &c->field[field];
     if (!f->from_grid || c->state != IN_WINDOW)
         return client_error(c, CPL_EORDER,
-                            "cpl_patch_get: %s comes from points, or no window is under way", f->name);
+                            "cpl_patch_get: %s comes from points, or no window is under way",
+                            f->name);
     /* once a window: the values at its start; again: those at its end */
     const int64_t tick = f->got_tick == c->window ? c->window + 1 : c->window;
     const int to = c->rank % c->ncoupler;

@@ -1,5 +1,5 @@
-/* cpl_partner.c - a coupled job as common/run.h sees it. Errors that leave no choice end the job here.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* cpl_partner.c - a coupled job as common/run.h sees it. Errors that leave no choice end the job
+ * here. SPDX-License-Identifier: BSD-3-Clause */
 #include "cpl_partner.h"
 
 #include <stdio.h>
@@ -27,7 +27,8 @@ static int refused(struct cpl *c, int code)
     return RUN_INPUT;
 }
 
-static int partner_open(MPI_Comm world, const char *name, double deadline, MPI_Comm *comm, void **ctx)
+static int partner_open(MPI_Comm world, const char *name, double deadline, MPI_Comm *comm,
+                        void **ctx)
 {
     struct cpl *c = NULL;
     const int code = cpl_open(world, name, deadline, &c, comm);
@@ -35,7 +36,8 @@ static int partner_open(MPI_Comm world, const char *name, double deadline, MPI_C
     return code == CPL_OK ? RUN_DONE : RUN_INPUT;
 }
 
-static int partner_meet(void *ctx, int faults, unsigned long long hash, int64_t window, const char *dir)
+static int partner_meet(void *ctx, int faults, unsigned long long hash, int64_t window,
+                        const char *dir)
 {
     return refused(ctx, cpl_meet(ctx, hash, window, faults, dir));
 }
@@ -81,7 +83,6 @@ static void partner_fail(void *ctx, int code, const char *reason)
     signals_handled();
     cpl_fail(ctx, code, reason);
 }
-
 
 static void partner_close(void *ctx, int code, const struct summary *final)
 {

@@ -1,6 +1,6 @@
 /* cpl_patch.c - interpolation on a piece of a uniform grid. The dual cell, whose corners are cell
- * centres, takes the part of the cell of [6.6]: nothing is averaged to vertices and so nothing is smoothed
- * twice. SPDX-License-Identifier: BSD-3-Clause */
+ * centres, takes the part of the cell of [6.6]: nothing is averaged to vertices and so nothing is
+ * smoothed twice. SPDX-License-Identifier: BSD-3-Clause */
 #include "cpl_patch.h"
 
 #include <math.h>
@@ -9,7 +9,10 @@
 
 enum { WIDEST = 4 };
 
-size_t patch_size(const struct patch *p) { return (size_t)p->n[0] * (size_t)p->n[1] * (size_t)p->n[2]; }
+size_t patch_size(const struct patch *p)
+{
+    return (size_t)p->n[0] * (size_t)p->n[1] * (size_t)p->n[2];
+}
 
 void patch_clear(struct patch *p)
 {
@@ -17,8 +20,8 @@ void patch_clear(struct patch *p)
     *p = (struct patch){0};
 }
 
-/* u = U - h^2/24 U'' along one line of cells, U averages. Second differences of averages are exact for
- * cubics; the ends take the one-sided form, exact for cubics too. */
+/* u = U - h^2/24 U'' along one line of cells, U averages. Second differences of averages are exact
+ * for cubics; the ends take the one-sided form, exact for cubics too. */
 static void point_values(double *line, int n, size_t stride, double *old)
 {
     if (n < 3)
@@ -28,7 +31,8 @@ static void point_values(double *line, int n, size_t stride, double *old)
     for (int i = 1; i < n - 1; i++)
         line[(size_t)i * stride] -= (old[i - 1] - 2.0 * old[i] + old[i + 1]) / 24.0;
     const double *a = old, *b = old + n - 1;
-    const double first = n > 3 ? 2.0 * a[0] - 5.0 * a[1] + 4.0 * a[2] - a[3] : a[0] - 2.0 * a[1] + a[2];
+    const double first =
+        n > 3 ? 2.0 * a[0] - 5.0 * a[1] + 4.0 * a[2] - a[3] : a[0] - 2.0 * a[1] + a[2];
     const double last =
         n > 3 ? 2.0 * b[0] - 5.0 * b[-1] + 4.0 * b[-2] - b[-3] : b[0] - 2.0 * b[-1] + b[-2];
     line[0] -= first / 24.0;
@@ -78,8 +82,8 @@ static inline void cubic_weights(struct stencil *q, double s, double per_m)
     q->d[3] = (b * c + a * c + a * b) / 6.0 * per_m;
 }
 
-/* The place in its cell comes from the global index alone, so that all patches of a grid, whatever their
- * first cell, give the same bits. */
+/* The place in its cell comes from the global index alone, so that all patches of a grid, whatever
+ * their first cell, give the same bits. */
 static inline struct stencil stencil_at(const struct patch *p, int a, double x)
 {
     struct stencil q = {.m = 1, .w = {1.0}};
@@ -122,16 +126,19 @@ static inline struct stencil stencil_at(const struct patch *p, int a, double x)
 
 /* One point: sums along x, then y, then z. ncomp, the stencil's width and grad are constants of the
  * callers, so that the inner loops unroll. */
-static inline __attribute__((always_inline)) void
-eval_point(const struct patch *p, const struct stencil q[3], double tau, const int ncomp,
-           const int mx, double *v, double *grad)
+static inline __attribute__((always_inline)) void eval_point(const struct patch *p,
+                                                             const struct stencil q[3], double tau,
+                                                             const int ncomp, const int mx,
+                                                             double *v, double *grad)
 {
     double sum[4][8] = {{0}}; /* value, d/dx, d/dy, d/dz of at most 8 components */
     const size_t width = 2 * (size_t)ncomp;
     for (int k = 0; k < q[2].m; k++)
         for (int j = 0; j < q[1].m; j++) {
-            const size_t row = ((size_t)(q[2].first + k) * (size_t)p->n[1] +
-                                (size_t)(q[1].first + j)) * (size_t)p->n[0] + (size_t)q[0].first;
+            const size_t row =
+                ((size_t)(q[2].first + k) * (size_t)p->n[1] + (size_t)(q[1].first + j)) *
+                    (size_t)p->n[0] +
+                (size_t)q[0].first;
             const double *c = p->v + row * width;
             const double wyz = q[1].w[j] * q[2].w[k];
             const double dy = q[1].d[j] * q[2].w[k], dz = q[1].w[j] * q[2].d[k];
@@ -188,9 +195,10 @@ static void point_any(const struct patch *p, const struct stencil q[3], double t
         for (int k = 0; k < q[2].m; k++)
             for (int j = 0; j < q[1].m; j++)
                 for (int i = 0; i < q[0].m; i++) {
-                    const size_t cell = ((size_t)(q[2].first + k) * (size_t)p->n[1] +
-                                         (size_t)(q[1].first + j)) * (size_t)p->n[0] +
-                                        (size_t)(q[0].first + i);
+                    const size_t cell =
+                        ((size_t)(q[2].first + k) * (size_t)p->n[1] + (size_t)(q[1].first + j)) *
+                            (size_t)p->n[0] +
+                        (size_t)(q[0].first + i);
                     const double *c = p->v + cell * width + 2 * (size_t)a, u = c[0] + tau * c[1];
                     sum[0] += q[0].w[i] * q[1].w[j] * q[2].w[k] * u;
                     sum[1] += q[0].d[i] * q[1].w[j] * q[2].w[k] * u;

@@ -1,5 +1,5 @@
-/* failure.c - death notes. The first to know writes the file (O_EXCL), so that the cause wins over its
- * consequences. SPDX-License-Identifier: BSD-3-Clause */
+/* failure.c - death notes. The first to know writes the file (O_EXCL), so that the cause wins over
+ * its consequences. SPDX-License-Identifier: BSD-3-Clause */
 #include "failure.h"
 
 #include <errno.h>
@@ -12,11 +12,15 @@
 #include <unistd.h>
 
 enum { WATCHED = 1024, TEXT = 512, EXIT_PARTNER = 4 };
+/* ms that a process stays after its last words: the first exit after a failure makes Open MPI 4.1
+ * kill all others within some ms, and it drops output that it has not read by then. */
+enum { LAST_WORDS = 300 };
 
-/* Signal handlers and exit hooks have no argument: the one place of the library with static state. */
+/* Signal handlers and exit hooks have no argument: the one place of the library with static state.
+ */
 static struct {
     MPI_Comm world;
-    bool open, dying, author; /* author: of a note about another's death */
+    bool open, dying;
     int nwatched;
     struct watched {
         long pid;
@@ -92,7 +96,7 @@ bool failure_witness(void)
         append(text, self.who);
         append(text, " ");
         append(text, self.doing);
-        self.author = failure_note(text) || self.author;
+        (void)failure_note(text);
         return true;
     }
     return false;
@@ -101,8 +105,12 @@ bool failure_witness(void)
 void failure_obituary(int fd)
 {
     char note[TEXT], text[TEXT] = "";
-    if (self.dying || !self.open)
-        return; /* has said it, or has no part in the job (any more) */
+    if (!self.open)
+        return; /* has no part in the job (any more) */
+    if (self.dying) {
+        sleep_ms(LAST_WORDS); /* has said it */
+        return;
+    }
     (void)failure_witness();
     append(text, self.who);
     append(text, ": the job ends: ");
@@ -114,7 +122,7 @@ void failure_obituary(int fd)
     }
     append(text, "\n");
     put(fd, text);
-    sleep_ms(100); /* the launcher drops what it has not read from a process that is gone */
+    sleep_ms(LAST_WORDS);
 }
 
 void failure_path(const char *path) { snprintf(self.path, sizeof self.path, "%s", path); }
@@ -131,26 +139,28 @@ void failure_watch(const char *program, int rank, long pid)
     snprintf(w->who, sizeof w->who, "%.40s rank %d (process %ld)", program, rank, pid);
 }
 
-/* Two ranks that abort at once make Open MPI 4.1 kill all others before they can say why. So the author of
- * the note aborts, the others wait for the launcher's signal. */
+/* Only the author of the note, if it is about itself, aborts. All others wait for the launcher's
+ * SIGTERM: it comes 1 s after a death and at once after an abort, and a second abort, like the exit
+ * of anybody, makes Open MPI 4.1 kill the rest before they can say why. */
 _Noreturn void failure_die(int code, const char *reason)
 {
     char text[TEXT], note[TEXT];
     self.dying = true;
     snprintf(text, sizeof text, "%s: %s", self.who, reason);
-    const bool first = failure_note(text) || self.author;
-    const bool noted = failure_read(note, sizeof note);
+    const bool first = failure_note(text), noted = failure_read(note, sizeof note);
     if (!noted || strcmp(note, reason) != 0)
         fprintf(stderr, "%s\n", text);
     if (noted && strcmp(note, text) != 0)
         fprintf(stderr, "%s: the job ends: %s\n", self.who, note);
     fflush(NULL);
     if (!first) {
-        const struct timespec while_others_abort = {.tv_sec = 1};
-        if (nanosleep(&while_others_abort, NULL) != 0)
+        const struct timespec launcher = {.tv_sec = 2};
+        if (nanosleep(&launcher, NULL) != 0) {
+            sleep_ms(LAST_WORDS);
             _exit(code);
+        }
     }
-    sleep_ms(100);
+    sleep_ms(LAST_WORDS / 3);
     MPI_Abort(self.world, code);
     abort();
 }
@@ -168,8 +178,8 @@ static void at_exit(void)
     }
 }
 
-/* MPI_Finalize without cpl_close would wait for the others for ever: the deletion of an attribute of
- * MPI_COMM_SELF is its first act. */
+/* MPI_Finalize without cpl_close would wait for the others for ever: the deletion of an attribute
+ * of MPI_COMM_SELF is its first act. */
 static int at_finalize(MPI_Comm comm, int key, void *value, void *extra)
 {
     (void)comm, (void)key, (void)value, (void)extra;

@@ -1,6 +1,6 @@
-/* failure.h - how a job ends when one of its programs fails: a note on disk says why, everybody prints
- * it. Open MPI 4.1 reports no error for a dead peer; whoever waits therefore looks whether the
- * processes of its own host still live. Part of libcpl.a: depends on MPI alone.
+/* failure.h - how a job ends when one of its programs fails: a note on disk says why, everybody
+ * prints it. Open MPI 4.1 reports no error for a dead peer; whoever waits therefore looks whether
+ * the processes of its own host still live. Part of libcpl.a: depends on MPI alone.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_FAILURE_H
 #define COUPLER_FAILURE_H

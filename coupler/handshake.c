@@ -1,5 +1,5 @@
-/* handshake.c - programs are told apart by name, not by place. Nothing here blocks for longer than the
- * deadline: a missing partner in a collective call would be an endless wait without a word.
+/* handshake.c - programs are told apart by name, not by place. Nothing here blocks for longer than
+ * the deadline: a missing partner in a collective call would be an endless wait without a word.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "handshake.h"
 
@@ -120,7 +120,8 @@ static void check_records(struct handshake *h, const struct hello *all, int size
 {
     for (int r = 0; r < size; r++)
         if (all[r].magic != MAGIC || all[r].version != WIRE_VERSION)
-            failure_die(EXIT_INPUT, "programs of different versions in one job: build them together");
+            failure_die(EXIT_INPUT,
+                        "programs of different versions in one job: build them together");
     if (h->nprograms == 1 && h->coupler < 0)
         return;
     if (h->coupler < 0) {
@@ -129,8 +130,9 @@ static void check_records(struct handshake *h, const struct hello *all, int size
             n += snprintf(h->text + n, sizeof h->text - (size_t)n, " %s (%d ranks)",
                           h->program[p].name, h->program[p].size);
     } else if (h->nprograms == 1) {
-        snprintf(h->text, sizeof h->text, "the coupler is alone: start solvers beside it "
-                                          "(cases/run does)");
+        snprintf(h->text, sizeof h->text,
+                 "the coupler is alone: start solvers beside it "
+                 "(cases/run does)");
     }
 }
 

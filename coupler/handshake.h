@@ -1,5 +1,5 @@
-/* handshake.h - who is in this job: every rank tells every other its program's name, within a deadline;
- * then one communicator per program and one intercommunicator per solver with "coupler".
+/* handshake.h - who is in this job: every rank tells every other its program's name, within a
+ * deadline; then one communicator per program and one intercommunicator per solver with "coupler".
  * Part of libcpl.a: depends on MPI alone. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_HANDSHAKE_H
 #define COUPLER_HANDSHAKE_H
@@ -16,13 +16,13 @@ struct handshake {
         int leader;     /* world rank of its rank 0 */
         MPI_Comm inter; /* to it: solver with coupler and coupler with solver, else MPI_COMM_NULL */
     } program[HANDSHAKE_PROGRAMS];
-    int me, coupler; /* index into program; coupler -1: none */
-    MPI_Comm mine;   /* this program's ranks */
+    int me, coupler;           /* index into program; coupler -1: none */
+    MPI_Comm mine;             /* this program's ranks */
     char text[HANDSHAKE_TEXT]; /* what is wrong */
 };
 
-/* Collective over world. 0; -2 if the programs do not make a job (h->text, the same on all). Silent ranks at
- * the deadline end the job with code 2: MPI cannot be left in order without them. */
+/* Collective over world. 0; -2 if the programs do not make a job (h->text, the same on all). Silent
+ * ranks at the deadline end the job with code 2: MPI cannot be left in order without them. */
 int handshake(MPI_Comm world, const char *name, double deadline_s, struct handshake *h);
 
 #endif

@@ -1,10 +1,10 @@
 /* map.h - values at points from the points of another cloud: what a mapping provides.
  * No MPI: the caller brings together every source within R of a target.
  *
- * Kernel: Wendland C2 of support radius R, W = C/theta (1 - q)^4 (1 + 4 q). Its second moment per direction is
- * 5/72 R^2 in 2D and R^2/15 in 3D; that of the mean over a cell of edge h is h^2/12. With R = 1.095 h (2D) or
- * 1.118 h (3D) a Shepard sum is therefore a cell average up to fourth order, where enough sources fit in.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * Kernel: Wendland C2 of support radius R, W = C/theta (1 - q)^4 (1 + 4 q). Its second moment per
+ * direction is 5/72 R^2 in 2D and R^2/15 in 3D; that of the mean over a cell of edge h is h^2/12.
+ * With R = 1.095 h (2D) or 1.118 h (3D) a Shepard sum is therefore a cell average up to fourth
+ * order, where enough sources fit in. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_MAP_H
 #define COUPLER_MAP_H
 
@@ -20,14 +20,15 @@ struct map_cloud {
     double *v;      /* [n][ncomp] */
 };
 
-/* v[ntarget][ncomp] at x[ntarget][dim]; mask 1: mapped; 0: no source within R, v is 0. Sorts the cloud. */
+/* v[ntarget][ncomp] at x[ntarget][dim]; mask 1: mapped; 0: no source within R, v is 0. Sorts the
+ * cloud. */
 typedef void map_points(int dim, double R, int ncomp, struct map_cloud *from, long ntarget,
                         const double *x, double *v, unsigned char *mask);
 
 /* sum w_j f_j W / sum w_j W: partition of unity, exact on constants, never an overshoot. */
 map_points map_shepard;
-/* Moving least squares with the basis 1, (x_j - x)/R: exact on linear functions; Shepard where sources are
- * fewer than 2 (dim + 1) or their moments have a condition number above 1e6. */
+/* Moving least squares with the basis 1, (x_j - x)/R: exact on linear functions; Shepard where
+ * sources are fewer than 2 (dim + 1) or their moments have a condition number above 1e6. */
 map_points map_mls;
 
 double map_kernel(int dim, double r, double R); /* W, 1/m^dim */

@@ -1,6 +1,6 @@
 /* map_shepard.c - Shepard and moving least squares sums on particles (Chiron 2017, 6.3).
- * Sources lie in cells of edge R, so that a target looks at 3^dim cells; those in reach are summed in the
- * order of their global number. SPDX-License-Identifier: BSD-3-Clause */
+ * Sources lie in cells of edge R, so that a target looks at 3^dim cells; those in reach are summed
+ * in the order of their global number. SPDX-License-Identifier: BSD-3-Clause */
 #include "map.h"
 
 #include <math.h>
@@ -55,11 +55,13 @@ static bool before(const struct map_cloud *c, int dim, const struct place *a, co
 }
 
 /* Merge sort: qsort has no argument for the cloud, and lists of ranks come presorted in pieces. */
-static void sort_places(const struct map_cloud *c, int dim, struct place *p, struct place *room, long n)
+static void sort_places(const struct map_cloud *c, int dim, struct place *p, struct place *room,
+                        long n)
 {
     for (long width = 1; width < n; width *= 2) {
         for (long lo = 0; lo < n; lo += 2 * width) {
-            const long mid = lo + width < n ? lo + width : n, hi = mid + width < n ? mid + width : n;
+            const long mid = lo + width < n ? lo + width : n,
+                       hi = mid + width < n ? mid + width : n;
             long i = lo, j = mid;
             for (long k = lo; k < hi; k++)
                 room[k] = i < mid && (j == hi || !before(c, dim, &p[j], &p[i])) ? p[i++] : p[j++];
@@ -104,8 +106,9 @@ static long cell_of(const struct cells *g, int dim, const double *x)
     return cell;
 }
 
-/* Cells over the box of the targets and R around it; what lies outside is counted into the outermost cells
- * and found too far there. Edges grow if the box would need more cells than there are points. */
+/* Cells over the box of the targets and R around it; what lies outside is counted into the
+ * outermost cells and found too far there. Edges grow if the box would need more cells than there
+ * are points. */
 static void make_cells(struct cells *g, int dim, double R, const struct map_cloud *c, long ntarget,
                        const double *x)
 {
@@ -245,8 +248,8 @@ static double invert(int n, double a[4][4])
     return norm * inverse;
 }
 
-/* First row of the inverse moment matrix sum w W p p^T / sum w W: the value at the target is row . sum w W p f.
- * False where Shepard must do. */
+/* First row of the inverse moment matrix sum w W p p^T / sum w W: the value at the target is row .
+ * sum w W p f. False where Shepard must do. */
 static bool mls_row(int dim, double R, const struct reach *r, const struct map_cloud *c,
                     const double *x, double row[4])
 {

@@ -1,5 +1,5 @@
-/* plan.c - what the programs say about themselves, compared before anything runs. All problems are found at
- * once and printed by all programs. SPDX-License-Identifier: BSD-3-Clause */
+/* plan.c - what the programs say about themselves, compared before anything runs. All problems are
+ * found at once and printed by all programs. SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
 #include <math.h>
@@ -22,7 +22,8 @@ void problem(char *text, const char *fmt, ...)
     va_end(args);
 }
 
-/* --- meeting ----------------------------------------------------------------------------------- */
+/* --- meeting -----------------------------------------------------------------------------------
+ */
 
 void plan_take_meet(struct coupler *c, struct solver *s, struct message *m)
 {
@@ -52,21 +53,24 @@ void plan_check_meet(struct coupler *c, char *text)
     for (int i = 0; i < c->nsolvers; i++) {
         const struct solver *s = &c->solver[i], *first = &c->solver[0];
         if (s->faults > 0)
-            problem(text, "%s: %d fault%s in its input", s->name, s->faults, s->faults > 1 ? "s" : "");
+            problem(text, "%s: %d fault%s in its input", s->name, s->faults,
+                    s->faults > 1 ? "s" : "");
         else if (s->hash != 0 && s->hash != c->hash)
-            problem(text, "%s reads another case than coupler (hash %016llx, not %016llx): give all "
-                          "programs the same file and the same -p",
+            problem(text,
+                    "%s reads another case than coupler (hash %016llx, not %016llx): give all "
+                    "programs the same file and the same -p",
                     s->name, (unsigned long long)s->hash, (unsigned long long)c->hash);
         if (s->restart_window != first->restart_window)
-            problem(text, "%s starts at window %lld, %s at window %lld: restart all from one manifest",
+            problem(text,
+                    "%s starts at window %lld, %s at window %lld: restart all from one manifest",
                     s->name, (long long)s->restart_window, first->name,
                     (long long)first->restart_window);
         for (int j = 0; j < i; j++)
             for (int a = 0; a < s->nzones; a++)
                 for (int b = 0; b < c->solver[j].nzones; b++)
                     if (strcmp(s->zone[a].name, c->solver[j].zone[b].name) == 0)
-                        problem(text, "zone %s is published by %s and by %s", s->zone[a].name, s->name,
-                                c->solver[j].name);
+                        problem(text, "zone %s is published by %s and by %s", s->zone[a].name,
+                                s->name, c->solver[j].name);
     }
 }
 
@@ -80,8 +84,7 @@ void plan_answer_meet(struct coupler *c, const char *text)
         n += c->solver[i].nzones;
     pack_int(&p, n);
     for (int i = 0; i < c->nsolvers; i++)
-        pack_bytes(&p, c->solver[i].zone,
-                   (size_t)c->solver[i].nzones * sizeof *c->solver[i].zone);
+        pack_bytes(&p, c->solver[i].zone, (size_t)c->solver[i].nzones * sizeof *c->solver[i].zone);
     for (int i = 0; i < c->nsolvers; i++) {
         struct pack copy = {0};
         pack_bytes(&copy, p.bytes, p.n);
@@ -95,7 +98,8 @@ void plan_answer_meet(struct coupler *c, const char *text)
     free(p.bytes);
 }
 
-/* --- the plan ---------------------------------------------------------------------------------- */
+/* --- the plan ----------------------------------------------------------------------------------
+ */
 
 void plan_take_ready(struct coupler *c, struct solver *s, struct message *m)
 {
@@ -130,19 +134,20 @@ void plan_take_ready(struct coupler *c, struct solver *s, struct message *m)
     s->ready = true;
 }
 
-static void check_link(const struct link *l, const struct solver *g, const struct solver *t, char *text)
+static void check_link(const struct link *l, const struct solver *g, const struct solver *t,
+                       char *text)
 {
     const struct solver_field *give = &g->field[l->gfield], *take = &t->field[l->tfield];
     const struct solver_set *from = &g->set[give->set], *to = &t->set[take->set];
     if (strcmp(give->unit, take->unit) != 0)
-        problem(text, "field %s: %s gives it in %s, %s takes it in %s", give->name, g->name, give->unit,
-                t->name, take->unit);
+        problem(text, "field %s: %s gives it in %s, %s takes it in %s", give->name, g->name,
+                give->unit, t->name, take->unit);
     if (give->ncomp != take->ncomp)
-        problem(text, "field %s: %s gives %d components, %s takes %d", give->name, g->name, give->ncomp,
-                t->name, take->ncomp);
+        problem(text, "field %s: %s gives %d components, %s takes %d", give->name, g->name,
+                give->ncomp, t->name, take->ncomp);
     if (from->dim != to->dim)
-        problem(text, "field %s: %s of %s has %d dimensions, %s of %s has %d", give->name, from->name,
-                g->name, from->dim, to->name, t->name, to->dim);
+        problem(text, "field %s: %s of %s has %d dimensions, %s of %s has %d", give->name,
+                from->name, g->name, from->dim, to->name, t->name, to->dim);
     if (to->is_grid)
         problem(text, "field %s: %s takes it on grid %s; a taker needs points", give->name, t->name,
                 to->name);
@@ -163,7 +168,8 @@ static void make_link(struct coupler *c, int g, int gf, int t, int tf, char *tex
     }
     struct link *l = &c->link[c->nlinks];
     const struct solver_field *give = &c->solver[g].field[gf], *take = &c->solver[t].field[tf];
-    const struct solver_set *from = &c->solver[g].set[give->set], *to = &c->solver[t].set[take->set];
+    const struct solver_set *from = &c->solver[g].set[give->set],
+                            *to = &c->solver[t].set[take->set];
     *l = (struct link){.giver = g,
                        .gfield = gf,
                        .taker = t,
@@ -220,8 +226,8 @@ void plan_make_links(struct coupler *c, char *text)
     for (int g = 0; g < c->nsolvers; g++)
         for (int j = 0; j < c->solver[g].nfields; j++)
             if (c->solver[g].field[j].direction == CPL_PUT && c->solver[g].field[j].link < 0)
-                problem(text, "field %s: %s gives it, but nobody takes it", c->solver[g].field[j].name,
-                        c->solver[g].name);
+                problem(text, "field %s: %s gives it, but nobody takes it",
+                        c->solver[g].field[j].name, c->solver[g].name);
 }
 
 void plan_answer_ready(struct coupler *c, const char *text)
@@ -251,8 +257,9 @@ void plan_describe(const struct coupler *c)
         const int how = c->solver[l->taker].field[l->tfield].how;
         log_say("  %-20s %s -> %s  %d x %s, %s", f->name, c->solver[l->giver].name,
                 c->solver[l->taker].name, f->ncomp, f->unit,
-                l->from_grid ? how == CPL_CUBIC ? "cubic" : "linear"
-                             : how == CPL_MLS ? "moving least squares" : "Shepard");
+                l->from_grid     ? how == CPL_CUBIC ? "cubic" : "linear"
+                : how == CPL_MLS ? "moving least squares"
+                                 : "Shepard");
     }
     log_say("  %lld windows of %.6g s", (long long)c->nwindows, c->t_end / (double)c->nwindows);
 }

@@ -29,7 +29,8 @@ static bool inside(const struct region *r, int i, int j, int k)
            j < r->lo[1] + r->n[1] && k < r->lo[2] + r->n[2];
 }
 
-/* Sets lo, n and edge so that the bit map holds the box of the targets and `reach' cells around it. */
+/* Sets lo, n and edge so that the bit map holds the box of the targets and `reach' cells around it.
+ */
 static void fit(struct region *r, double R, long n, const double *x, int reach)
 {
     double lo[3] = {0}, hi[3] = {0}, cells;
@@ -77,8 +78,8 @@ struct region region_around(int dim, double R, const double period[3], long n, c
 }
 
 void region_cells(int dim, const double origin[3], const double spacing[3], const int cells[3],
-                 const int periodic[3], const double lo[3], const double hi[3], int first[3],
-                 int last[3])
+                  const int periodic[3], const double lo[3], const double hi[3], int first[3],
+                  int last[3])
 {
     for (int a = 0; a < 3; a++) {
         first[a] = 0;

@@ -1,7 +1,7 @@
-/* rendezvous.c - fields on their way. Each coupler rank gets an equal share of the targets, tells the
- * giver's ranks around which places it needs values, and answers when all of them have put theirs.
- * Needs are announced only when they change; a resting set costs one put and one answer a window.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* rendezvous.c - fields on their way. Each coupler rank gets an equal share of the targets, tells
+ * the giver's ranks around which places it needs values, and answers when all of them have put
+ * theirs. Needs are announced only when they change; a resting set costs one put and one answer a
+ * window. SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
 #include <stdio.h>
@@ -57,7 +57,8 @@ void rendezvous_close(struct coupler *c)
     }
 }
 
-/* --- what is wanted ---------------------------------------------------------------------------- */
+/* --- what is wanted ----------------------------------------------------------------------------
+ */
 
 static long count_targets(const struct coupler *c, const struct link *l)
 {
@@ -126,8 +127,8 @@ static struct region wanted(const struct coupler *c, const struct link *l, int s
     return l->from_grid ? boxes_wanted(c, l, slack) : points_wanted(c, l, slack);
 }
 
-/* Tells the giver what is wanted, if that is more than it knows. Sets that move get some slack, so that
- * it lasts. */
+/* Tells the giver what is wanted, if that is more than it knows. Sets that move get some slack, so
+ * that it lasts. */
 static void announce(struct coupler *c, struct link *l)
 {
     const struct solver *g = &c->solver[l->giver];
@@ -152,7 +153,8 @@ static void announce(struct coupler *c, struct link *l)
     wire_send_all(&c->wire, g->peer, &p);
 }
 
-/* --- answers ----------------------------------------------------------------------------------- */
+/* --- answers -----------------------------------------------------------------------------------
+ */
 
 static const void *column(struct coupler *c, struct message *m, size_t width)
 {
@@ -239,8 +241,9 @@ static int64_t paste(double *to, const int lo[3], const int hi[3], const double 
             const int64_t i0 =
                 ((k - piece[3]) * (piece[5] - piece[2]) + (j - piece[2])) * (piece[4] - piece[1]) +
                 (first[0] - piece[1]);
-            const int64_t o0 = ((int64_t)(k - lo[2]) * (hi[1] - lo[1]) + (j - lo[1])) *
-                                   (hi[0] - lo[0]) + (first[0] - lo[0]);
+            const int64_t o0 =
+                ((int64_t)(k - lo[2]) * (hi[1] - lo[1]) + (j - lo[1])) * (hi[0] - lo[0]) +
+                (first[0] - lo[0]);
             memcpy(to + (size_t)o0 * width, from + (size_t)i0 * width,
                    (size_t)(last[0] - first[0]) * width * sizeof *to);
         }
@@ -268,8 +271,7 @@ static void answer_patch(struct coupler *c, struct link *l, const struct arrival
         for (int64_t i = 0; i < m->head.count; i++) {
             int64_t piece[7];
             take_bytes(&c->wire, m, piece, sizeof piece);
-            const int64_t n =
-                (piece[4] - piece[1]) * (piece[5] - piece[2]) * (piece[6] - piece[3]);
+            const int64_t n = (piece[4] - piece[1]) * (piece[5] - piece[2]) * (piece[6] - piece[3]);
             const double *from = take_view(&c->wire, m, (size_t)n * width * sizeof *from);
             if (piece[0] == asker)
                 filled += paste(to, lo, hi, from, piece, width);
@@ -369,7 +371,8 @@ void rendezvous_put(struct coupler *c, struct solver *s, struct message **m)
     try_answer(c, l);
 }
 
-/* --- who waits for what ------------------------------------------------------------------------ */
+/* --- who waits for what ------------------------------------------------------------------------
+ */
 
 void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *m)
 {

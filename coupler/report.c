@@ -1,5 +1,5 @@
-/* report.c - what the job tells its user: a line every few seconds, a table and summary.json at the end.
- * Numbers come from the solvers (cpl_tell); norms over parts of the flow add up here.
+/* report.c - what the job tells its user: a line every few seconds, a table and summary.json at the
+ * end. Numbers come from the solvers (cpl_tell); norms over parts of the flow add up here.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
@@ -36,9 +36,9 @@ static bool is_norm(const char *key) { return strncmp(key, "norm.", 5) == 0; }
 /* Cost and norms belong to the end of the run, not to its progress. */
 static bool in_progress_line(const char *key)
 {
-    static const char *const not[] = {"wall_s", "cpu_s", "steps", "t", "t_end", "ranks", "dim"};
-    for (size_t i = 0; i < sizeof not / sizeof *not; i++)
-        if (strcmp(key, not[i]) == 0)
+    static const char *const not [] = {"wall_s", "cpu_s", "steps", "t", "t_end", "ranks", "dim"};
+    for (size_t i = 0; i < sizeof not / sizeof *not ; i++)
+        if (strcmp(key, not [i]) == 0)
             return false;
     return !is_norm(key) && !strchr(key, '.');
 }
@@ -86,15 +86,17 @@ void report_progress(struct coupler *c)
     waiting(c, line, n, elapsed);
     log_say("%s", line);
     /* 1, 2, 5, 10, 30, 60 s apart as the run grows */
-    c->line_every = elapsed < 10.0    ? 2.0
-                    : elapsed < 60.0  ? 5.0
-                    : elapsed < 600.0 ? 10.0
-                                      : elapsed < 3600.0 ? 30.0 : 60.0;
+    c->line_every = elapsed < 10.0     ? 2.0
+                    : elapsed < 60.0   ? 5.0
+                    : elapsed < 600.0  ? 10.0
+                    : elapsed < 3600.0 ? 30.0
+                                       : 60.0;
     c->line_at = now + c->line_every;
     c->line_window = c->window;
 }
 
-/* --- the end ----------------------------------------------------------------------------------- */
+/* --- the end -----------------------------------------------------------------------------------
+ */
 
 struct norm {
     char name[KEY];
@@ -137,7 +139,8 @@ static int add_norms(const struct coupler *c, struct norm *all)
     return n;
 }
 
-static void put_number(struct summary *s, const char *group, const char *name, const char *what, double v)
+static void put_number(struct summary *s, const char *group, const char *name, const char *what,
+                       double v)
 {
     char key[2 * KEY + 32];
     snprintf(key, sizeof key, "%.63s.%.95s%.16s", group, name, what);
@@ -155,9 +158,11 @@ static void put_errors(const struct coupler *c, struct summary *s)
             const double mean = m->e1 / m->vol;
             const double rms = sqrt(fmax(m->e2 / m->vol - mean * mean, 0.0));
             put_number(s, "error", m->name, "_rms", rms);
-            put_number(s, "error", m->name, "_l2", rms / sqrt(m->r2 / m->vol));
+            if (m->r2 > 0.0)
+                put_number(s, "error", m->name, "_l2", rms / sqrt(m->r2 / m->vol));
         } else {
-            put_number(s, "error", m->name, "_l2", sqrt(m->e2 / m->r2));
+            if (m->r2 > 0.0)
+                put_number(s, "error", m->name, "_l2", sqrt(m->e2 / m->r2));
             if (m->emax >= 0.0)
                 put_number(s, "error", m->name, "_linf", m->emax);
         }
@@ -232,8 +237,8 @@ static void say_number(void *ctx, const char *key, double v)
         log_say("  %-24s %.4g", key, v);
 }
 
-static void say_end(const struct coupler *c, const struct summary *s, double cpu, double coupler_cpu,
-                    double wall)
+static void say_end(const struct coupler *c, const struct summary *s, double cpu,
+                    double coupler_cpu, double wall)
 {
     char line[LINE];
     int n = print(line, 0, "  cost  %.3g s wall, %.3g s cpu:", wall, cpu);
@@ -255,7 +260,9 @@ int report_summary(struct coupler *c, double coupler_cpu)
         if (code == RUN_DONE && c->solver[i].code > RUN_NOT_ACCEPTED)
             code = c->solver[i].code;
     summary_text(s, "status",
-                 code == RUN_DIVERGED ? "diverged" : code == RUN_STOPPED ? "stopped" : "done");
+                 code == RUN_DIVERGED  ? "diverged"
+                 : code == RUN_STOPPED ? "stopped"
+                                       : "done");
     summary_text(s, "case", c->command->case_file);
     summary_text(s, "program", "coupler");
     summary_text(s, "version", run_version);

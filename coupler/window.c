@@ -43,7 +43,8 @@ static void divide(struct coupler *c, double dt, char *text)
         if (c->output_every > 0 && whole(per_output))
             return;
     }
-    problem(text, "output.every = %g s and time.end = %g s have no common divisor: no window fits both",
+    problem(text,
+            "output.every = %g s and time.end = %g s have no common divisor: no window fits both",
             every, c->t_end);
 }
 
@@ -62,7 +63,8 @@ void window_divide(struct coupler *c, char *text)
         dt = fmin(dt, c->solver[i].dt_wish);
     c->nwindows = 1;
     divide(c, dt, text);
-    /* a restart file is written at the end of its window or counts the windows done: time tells which */
+    /* a restart file is written at the end of its window or counts the windows done: time tells
+     * which */
     int64_t start = first->restart_window > 0 ? first->restart_window : 0;
     if (first->restart_window >= 0 && !at(c, start, first->t) && at(c, start + 1, first->t))
         start++;
@@ -91,7 +93,8 @@ static int next_action(struct coupler *c)
         action |= CPL_SAVE;
         c->bound += c->scene.output.checkpoint;
     }
-    if (c->scene.output.checkpoint_wall > 0.0 && now - c->save_wall > c->scene.output.checkpoint_wall)
+    if (c->scene.output.checkpoint_wall > 0.0 &&
+        now - c->save_wall > c->scene.output.checkpoint_wall)
         action |= CPL_SAVE;
     if (action & CPL_SAVE) {
         c->save_wall = now;

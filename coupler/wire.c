@@ -1,6 +1,7 @@
 /* wire.c - messages and waiting. Measured on Open MPI 4.1.4: a blocking receive burns its core and
- * starves an oversubscribed node; probing twice and then sleeping leaves it free. A wake-up costs 10
- * (bare metal) to 35 us (virtual machine), so long waits need long naps: 1 ms takes 4 % of a core. SPDX-License-Identifier: BSD-3-Clause */
+ * starves an oversubscribed node; probing twice and then sleeping leaves it free. A wake-up costs
+ * 10 (bare metal) to 35 us (virtual machine), so long waits need long naps: 1 ms takes 4 % of a
+ * core. SPDX-License-Identifier: BSD-3-Clause */
 #include "wire.h"
 
 #include <limits.h>
@@ -12,7 +13,7 @@
 
 enum { MAGIC = 0x4c504345, TAG = 77 };
 enum { SPIN_US = 30, FIRST_NAP = 20, SHORT_NAP = 200, LONGEST_NAP = 1000 }; /* us */
-#define LONG_WAIT 0.02 /* of the time waited */
+#define LONG_WAIT 0.02                                                      /* of the time waited */
 
 struct pending {
     struct pending *next;
@@ -39,7 +40,8 @@ void *wire_grow(void *p, size_t n)
 
 void *wire_alloc(size_t n) { return wire_grow(NULL, n); }
 
-/* --- building ---------------------------------------------------------------------------------- */
+/* --- building ----------------------------------------------------------------------------------
+ */
 
 void *pack_room(struct pack *p, size_t n)
 {
@@ -81,7 +83,8 @@ void pack_text(struct pack *p, const char *text)
     pack_bytes(p, text, n);
 }
 
-/* --- reading ----------------------------------------------------------------------------------- */
+/* --- reading -----------------------------------------------------------------------------------
+ */
 
 static void broken(const struct wire *w, const char *what)
 {
@@ -141,7 +144,8 @@ void message_free(struct message **m)
     *m = NULL;
 }
 
-/* --- sending and receiving --------------------------------------------------------------------- */
+/* --- sending and receiving ---------------------------------------------------------------------
+ */
 
 int wire_add_peer(struct wire *w, MPI_Comm comm, int size, const char *name)
 {

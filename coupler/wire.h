@@ -1,5 +1,5 @@
-/* wire.h - messages between the programs of a job: a fixed header and packed bytes, point to point over
- * intercommunicators, and a way of waiting that leaves the processor to those who have work.
+/* wire.h - messages between the programs of a job: a fixed header and packed bytes, point to point
+ * over intercommunicators, and a way of waiting that leaves the processor to those who have work.
  * Part of libcpl.a: depends on MPI alone. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_WIRE_H
 #define COUPLER_WIRE_H
@@ -62,12 +62,12 @@ struct wire {
         int size;         /* ranks on the other side */
         const char *name; /* borrowed */
     } peer[WIRE_PEERS];
-    struct pending *pending; /* sends that MPI has not finished */
+    struct pending *pending;          /* sends that MPI has not finished */
     void (*broken)(const char *what); /* a message that cannot be read: must not return */
 };
 
-/* The waiting of one call: spins for some 30 us, then sleeps longer and longer: up to 0.2 ms, then 2 % of the
- * time waited so far, at most 1 ms. */
+/* The waiting of one call: spins for some 30 us, then sleeps longer and longer: up to 0.2 ms, then
+ * 2 % of the time waited so far, at most 1 ms. */
 struct nap {
     double since;   /* s: when the waiting began */
     double checked; /* s: last look at whether all partners are alive */
@@ -89,7 +89,8 @@ void pack_real(struct pack *p, double r);
 
 /* Reads past the end end the program through wire.broken. */
 void take_bytes(struct wire *w, struct message *m, void *to, size_t n);
-const void *take_view(struct wire *w, struct message *m, size_t n); /* bytes in place, any alignment */
+const void *take_view(struct wire *w, struct message *m,
+                      size_t n); /* bytes in place, any alignment */
 void take_text(struct wire *w, struct message *m, char *to, size_t size);
 int64_t take_int(struct wire *w, struct message *m);
 double take_real(struct wire *w, struct message *m);
@@ -97,7 +98,8 @@ double take_real(struct wire *w, struct message *m);
 int wire_add_peer(struct wire *w, MPI_Comm comm, int size, const char *name);
 void wire_send(struct wire *w, int peer, int rank, struct pack *p);
 void wire_send_all(struct wire *w, int peer, struct pack *p); /* to each rank of a peer */
-/* One message of this peer (-1: of any), NULL if none is there. Never blocks longer than one message takes. */
+/* One message of this peer (-1: of any), NULL if none is there. Never blocks longer than one
+ * message takes. */
 struct message *wire_poll(struct wire *w, int peer);
 bool wire_flushed(struct wire *w); /* moves sends along; true when all are done */
 void message_free(struct message **m);

@@ -59,6 +59,15 @@ void openings_free(struct openings **o)
 
 int openings_faces(const struct openings *o) { return o->first[2 * o->dim]; }
 
+double openings_held(const struct sph *s)
+{
+    const struct openings *o = s->zones->openings;
+    double sum = 0.0;
+    for (int f = 0; f < openings_faces(o); f++)
+        sum += o->mass[f];
+    return sum;
+}
+
 /* Face of a side at lattice indices I (that of the side's axis does not matter); indices of open
  * axes are clamped, of periodic ones wrapped. */
 static int face_at(const struct openings *o, int side, const int *I)

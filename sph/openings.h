@@ -38,5 +38,7 @@ void openings_ghost_lines(struct sph *s);
 /* Where the lattice behind each face stands, from the booked masses (after a restart, too). */
 void openings_place_lattice(struct sph *s);
 int openings_faces(const struct openings *o);
+/* kg: booked by all faces; the same on all ranks. */
+double openings_held(const struct sph *s);
 
 #endif

@@ -27,6 +27,7 @@ struct sph_params {
     double cfl;           /* CFL_a of [2.102] */
     double cfl_viscous;   /* CFL_v of [2.103] */
     double box[2][3];     /* outer face of the buffer; all 0: the whole domain, no zones */
+    double free[2][3];    /* instead of box: the free zone; box is the widths of the zones larger */
     int outer;            /* what feeds the zones: none, exact, partner */
     double density_limit; /* |rho/rho0 - 1| that ends the run */
     double noise;         /* random displacement of the first lattice, in dx */
@@ -92,7 +93,8 @@ struct sph {
     double drift[3], stray;    /* m/s: middle of the velocities u0, largest distance from it */
     double dt_most;            /* s: largest next step [2.102-2.104] */
     double max_mach;           /* since the start: |u|/c0 */
-    double fluctuation;        /* since the start: |sum m/mass0 - 1|, with zones */
+    double fluctuation, fluctuation_particles; /* since the start, with zones: |M/mass0 - 1|, with and without
+                                  the mass that faces hold */
     double lost, lost_said;    /* particles removed since the start: this rank; all, when last reported */
     int64_t pairs;             /* ordered pairs within R, counted once a stage, summed over stages; this rank */
     int64_t pairs_now;         /* the same, of the present list */

@@ -124,10 +124,12 @@ static double enstrophy(const struct sph *s)
     return sum;
 }
 
-/* Smallest distance of two particles over dx; needs the list of the present places. */
+/* Smallest distance of two particles over dx; needs the list of the present places. The lattice behind
+ * open sides does not count. */
 static double least_spacing(const struct sph *s)
 {
     const struct neighbours *l = s->list;
+    const int real = s->p.n + (s->zones ? s->zones->openings->first_ghost : s->p.nghost);
     double least = s->R * s->R;
     for (int i = 0; i < s->p.n; i++) {
         const double *x = s->p.prim + (size_t)PRIM * i;
@@ -137,7 +139,7 @@ static double least_spacing(const struct sph *s)
             double r2 = 0.0;
             for (int a = 0; a < s->dim; a++)
                 r2 += (x[a] - xj[a]) * (x[a] - xj[a]);
-            least = r2 < least ? r2 : least;
+            least = j[k] < real && r2 < least ? r2 : least;
         }
     }
     least = sqrt(least) / s->dx;
@@ -305,6 +307,7 @@ void sph_finish(void *state)
     summary_real(to, "pairs_per_s", rate);
     if (s->zones) {
         summary_real(to, "mass_fluctuation", s->fluctuation);
+        summary_real(to, "mass_fluctuation_particles", s->fluctuation_particles);
         summary_int(to, "born", llround(births(s)));
         summary_int(to, "gone", llround(removals(s)));
     }

@@ -24,6 +24,7 @@ static const struct param rows[] = {
     PARAM(P, cfl, "-", "0.375", 0.001, 2.0, "dt over R/(c + |u - u0|)"),
     PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan)"),
     PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
+    PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
     CHOICE(P, outer, "none|exact|partner", "none", "the flow around the box; none with a box: partner when coupled, else exact"),
     PARAM(P, density_limit, "-", "0.1", 1e-6, 10.0, "|rho/rho0 - 1| that ends the run"),
     PARAM(P, noise, "-", "0.0", 0.0, 0.5, "random displacement of the first lattice, in dx"),
@@ -37,12 +38,29 @@ const struct param_group sph_groups[SPH_GROUPS] = {{.name = "sph",
                                                     .target = &given,
                                                     .present = &present}};
 
-static bool has_box(void)
+static bool is_given(double box[2][3])
 {
     for (int a = 0; a < 3; a++)
-        if (given.box[0][a] != 0.0 || given.box[1][a] != 0.0)
+        if (box[0][a] != 0.0 || box[1][a] != 0.0)
             return true;
     return false;
+}
+
+static bool has_box(void) { return is_given(given.box) || is_given(given.free); }
+
+/* The outer box along an axis: as given, around the free zone, or the domain. */
+static void find_box(const struct run *r, struct sph_params *used, int a)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const bool around = is_given(given.free);
+    const double lo = around ? given.free[0][a] : given.box[0][a];
+    const double hi = around ? given.free[1][a] : given.box[1][a];
+    double transition = 0.0, buffer = 0.0;
+    if (around)
+        zones_widths(r, used, &transition, &buffer);
+    const bool whole = !has_box() || a >= d->dim || (lo <= d->min[a] && hi >= d->max[a]);
+    used->box[0][a] = whole ? d->min[a] : lo - (transition + buffer);
+    used->box[1][a] = whole ? d->max[a] : hi + (transition + buffer);
 }
 
 /* Ten times the largest speed to expect, so that the density varies by about a percent [2.33-2.35].
@@ -73,11 +91,8 @@ const struct sph_params *sph_params_of(const struct run *r)
         used.cfl_viscous = used.viscosity == VISCOSITY_MORRIS ? 0.09 : 0.035;
     if (has_box() && used.outer == OUTER_NONE)
         used.outer = is_coupled(r) ? OUTER_PARTNER : OUTER_EXACT;
-    for (int a = 0; a < 3; a++) {
-        const bool whole = !has_box() || a >= r->scene.domain.dim;
-        used.box[0][a] = whole ? r->scene.domain.min[a] : given.box[0][a];
-        used.box[1][a] = whole ? r->scene.domain.max[a] : given.box[1][a];
-    }
+    for (int a = 0; a < 3; a++)
+        find_box(r, &used, a);
     return &used;
 }
 
@@ -180,6 +195,8 @@ void sph_params_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
     for (int a = 0; a < r->scene.domain.dim; a++)
         check_axis(r, a, f);
+    if (is_given(given.box) && is_given(given.free))
+        params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");
     if (f->n == 0 && has_box())
         check_zones(r, f);
 }

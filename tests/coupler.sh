@@ -70,6 +70,7 @@ for how in kill segv exit abort finalize; do
     says '^coupler rank [01]: .*fv rank [01]' "fv, $how"
 done
 for how in KILL SEGV ABRT; do
+    rm -rf o
     (
         until grep -q '^2 ' o/sph.0 2>/dev/null; do sleep 0.05; done
         kill -$how "$(cat pid)"

@@ -1,5 +1,7 @@
-/* mock_fault.h - what a test can make the mock solver do wrong, and its key=value options.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* mock_fault.h - options of the mock solver, and what a test can make it do wrong. Keys: n (a
+ * side), mls, cubic, unit, hash, dt, still (never moves), end (window in which it asks for an
+ * orderly end), deadline and late (s), fault (below) at=WINDOW. SPDX-License-Identifier:
+ * BSD-3-Clause */
 #ifndef TESTS_MOCK_FAULT_H
 #define TESTS_MOCK_FAULT_H
 
@@ -23,11 +25,41 @@ static const char *option(const char *key, const char *otherwise)
     return otherwise;
 }
 
-/* fault=WHAT at=WINDOW: true if a put is to be forgotten. */
+static int number(const char *key, int otherwise)
+{
+    const char *text = option(key, NULL);
+    return text ? atoi(text) : otherwise;
+}
+
+static void read_options(char **all)
+{
+    keys = all;
+    sleep((unsigned)number("late", 0));
+}
+
+/* A refused plan: leaves in order; anything else ends the job. */
+static void must(struct cpl *c, int code)
+{
+    if (code == CPL_OK)
+        return;
+    fprintf(stderr, "%s\n", cpl_strerror(c));
+    cpl_close(&c, -code);
+    MPI_Finalize();
+    exit(-code);
+}
+
+/* SIGTERM: the launcher ends the job. Says why. */
+static void last_words(int signal)
+{
+    cpl_obituary(STDERR_FILENO);
+    _exit(128 + signal);
+}
+
+/* True if a put is to be forgotten. */
 static bool fault(struct cpl *c, double *v, long n)
 {
     const char *what = option("fault", "none");
-    if (cpl_window_number(c) != atoi(option("at", "2")))
+    if (cpl_window_number(c) != number("at", 2))
         return false;
     if (!strcmp(what, "kill"))
         raise(SIGKILL);

@@ -1,5 +1,5 @@
-/* test_map.c - sums on particles: what they keep, what they do not depend on; and the region around the
- * targets that givers are asked for. SPDX-License-Identifier: BSD-3-Clause */
+/* test_map.c - sums on particles: what they keep, what they do not depend on; and the region around
+ * the targets that givers are asked for. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include <math.h>
@@ -14,15 +14,16 @@ enum { TARGETS = 200 };
 
 static double noise(void) { return (double)rand() / RAND_MAX; }
 
-/* A disturbed lattice of n points a side over the unit box, `order': 0 as it grows, 1 backwards, else shuffled. */
+/* A disturbed lattice of n points a side over the unit box, `order': 0 as it grows, 1 backwards,
+ * else shuffled. */
 static struct map_cloud lattice(int dim, int n, double disturb, int ncomp, int order)
 {
     const long size = dim == 2 ? n * n : (long)n * n * n;
     struct map_cloud c = {.n = size,
-                          .x = NEW(double, size * dim),
+                          .x = NEW(double, size *dim),
                           .gid = NEW(int64_t, size),
                           .volume = NEW(double, size),
-                          .v = NEW(double, size * ncomp)};
+                          .v = NEW(double, size *ncomp)};
     long *at = NEW(long, size);
     for (long i = 0; i < size; i++)
         at[i] = order == 1 ? size - 1 - i : i;
@@ -65,8 +66,8 @@ static double one(const double *x) { return x[0] * 0.0 + 3.7; }
 static double linear(const double *x) { return 1.0 + 2.0 * x[0] - 0.5 * x[1] + 0.3 * x[2]; }
 static double bent(const double *x) { return sin(3.0 * x[0]) * cos(2.0 * x[1]) + x[2]; }
 
-static double worst(map_points *map, int dim, int n, double disturb, double R, double (*f)(const double *),
-                    double lo, double hi)
+static double worst(map_points *map, int dim, int n, double disturb, double R,
+                    double (*f)(const double *), double lo, double hi)
 {
     double x[3 * TARGETS], v[TARGETS], e = 0.0;
     unsigned char mask[TARGETS];
@@ -132,8 +133,8 @@ static void kernel_integrates_to_one_and_has_its_moments(void **state)
     }
 }
 
-/* Fine particles, one coarse cell: with the radius of the moment rule the sum is the cell's mean, not the value at
- * its centre. */
+/* Fine particles, one coarse cell: with the radius of the moment rule the sum is the cell's mean,
+ * not the value at its centre. */
 static void moment_rule_gives_cell_averages(void **state)
 {
     (void)state;
@@ -146,7 +147,8 @@ static void moment_rule_gives_cell_averages(void **state)
         c.volume[i] = 1.0;
     map_shepard(2, 1.0954 * h, 1, &c, 1, x, &v, &mask);
     const double centre = sin(a * x[0]) * cos(b * x[1]);
-    const double mean = centre * sin(0.5 * a * h) / (0.5 * a * h) * sin(0.5 * b * h) / (0.5 * b * h);
+    const double mean =
+        centre * sin(0.5 * a * h) / (0.5 * a * h) * sin(0.5 * b * h) / (0.5 * b * h);
     assert_true(fabs(v - mean) < 0.02 * fabs(mean - centre));
     map_cloud_free(&c);
 }

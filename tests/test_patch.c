@@ -1,6 +1,6 @@
-/* test_patch.c - a patch of a grid is exact on what it must be exact on, and its error falls with the
- * right order. Cells hold averages; functions are integrated exactly.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* test_patch.c - a patch of a grid is exact on what it must be exact on, and its error falls with
+ * the right order. Cells hold averages; functions are integrated exactly. SPDX-License-Identifier:
+ * BSD-3-Clause */
 #include "test.h"
 
 #include <math.h>
@@ -15,8 +15,8 @@ typedef double function(const double *x);
 
 static double noise(void) { return (double)rand() / RAND_MAX; }
 
-/* Averages over the cells by Gauss-Legendre with 3 points a direction: exact to degree 5. `point': values at
- * cell centres instead. */
+/* Averages over the cells by Gauss-Legendre with 3 points a direction: exact to degree 5. `point':
+ * values at cell centres instead. */
 static void fill(struct patch *p, function *f, function *dfdt, bool point)
 {
     static const double node[3] = {-0.3872983346207417, 0.0, 0.3872983346207417};
@@ -35,7 +35,8 @@ static void fill(struct patch *p, function *f, function *dfdt, bool point)
                         w *= weight[q[a]];
                         if (a < p->dim)
                             x[a] = p->origin[a] +
-                                   (p->lo[a] + c[a] + 0.5 + (point ? 0.0 : node[q[a]])) * p->spacing[a];
+                                   (p->lo[a] + c[a] + 0.5 + (point ? 0.0 : node[q[a]])) *
+                                       p->spacing[a];
                     }
                     v[0] += w * f(x);
                     v[1] += w * (dfdt ? dfdt(x) : 0.0);
@@ -59,21 +60,25 @@ static struct patch make(int dim, int n, double h, bool cubic)
 static void place(const struct patch *p, double inset, double *x)
 {
     for (int a = 0; a < 3; a++)
-        x[a] = a < p->dim ? p->origin[a] + (p->lo[a] + inset + noise() * (p->n[a] - 2.0 * inset)) * p->spacing[a]
+        x[a] = a < p->dim ? p->origin[a] + (p->lo[a] + inset + noise() * (p->n[a] - 2.0 * inset)) *
+                                               p->spacing[a]
                           : 0.0;
 }
 
-static double bilinear(const double *x) { return 1.0 - 2.0 * x[0] + 0.7 * x[1] + 3.0 * x[0] * x[1]; }
-static double trilinear(const double *x)
+static double bilinear(const double *x)
 {
-    return bilinear(x) * (1.0 + 0.4 * x[2]);
+    return 1.0 - 2.0 * x[0] + 0.7 * x[1] + 3.0 * x[0] * x[1];
 }
+static double trilinear(const double *x) { return bilinear(x) * (1.0 + 0.4 * x[2]); }
 static double cubic(const double *x)
 {
     const double a = x[0], b = x[1];
     return 1.0 + a + 2.0 * a * a - a * a * a * (1.0 - b * b * b) + 0.5 * b * b * a + b * b * b;
 }
-static double cubic3(const double *x) { return cubic(x) * (2.0 - x[2] * x[2] * (1.0 + 0.5 * x[2])); }
+static double cubic3(const double *x)
+{
+    return cubic(x) * (2.0 - x[2] * x[2] * (1.0 + 0.5 * x[2]));
+}
 static double wave(const double *x) { return sin(2.0 * M_PI * x[0]) * cos(2.0 * M_PI * x[1]); }
 
 /* Largest error over random places, of the value and of the slopes by central differences of f. */
@@ -242,7 +247,8 @@ static void thin_patches_and_many_components_work(void **state)
 {
     (void)state;
     for (int n = 1; n <= 4; n++) {
-        struct patch p = {.dim = 2, .ncomp = 5, .cubic = true, .n = {n, 5 - n, 1}, .spacing = {1, 1, 1}};
+        struct patch p = {
+            .dim = 2, .ncomp = 5, .cubic = true, .n = {n, 5 - n, 1}, .spacing = {1, 1, 1}};
         p.v = calloc(2 * 5 * patch_size(&p), sizeof *p.v);
         for (size_t i = 0; i < patch_size(&p); i++)
             for (size_t a = 0; a < 5; a++)
@@ -279,7 +285,8 @@ static void report_speed(void **state)
                 for (int m = 0; m < TIMES; m++)
                     patch_eval(&p, 0.1 * m, N, x, v, slopes ? grad : NULL);
                 clock_gettime(CLOCK_MONOTONIC, &b);
-                const double s = (double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec);
+                const double s =
+                    (double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec);
                 printf("cubic %dD, %d components%s: %.3f us a point\n", dim, ncomp,
                        slopes ? " and slopes" : "", 1e6 * s / (N * TIMES));
                 patch_clear(&p);

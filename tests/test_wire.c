@@ -1,5 +1,6 @@
-/* test_wire.c - messages arrive whole and in order, broken ones are found, waiting is cheap, and programs
- * find each other by name wherever they stand. ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
+/* test_wire.c - messages arrive whole and in order, broken ones are found, waiting is cheap, and
+ * programs find each other by name wherever they stand. ranks: 1 4. SPDX-License-Identifier:
+ * BSD-3-Clause */
 #include "test.h"
 
 #include <math.h>
@@ -138,7 +139,8 @@ static void programs_find_each_other_by_name(void **state)
     assert_int_equal(h.program[1].size, 2);
     assert_int_equal(h.program[1].leader, 1);
 
-    /* a hundred numbered messages and a large one from each solver to each coupler rank, and back */
+    /* a hundred numbered messages and a large one from each solver to each coupler rank, and back
+     */
     enum { MANY = 100, LARGE = 10000000 };
     struct wire w = {.broken = jump};
     struct pack p;

@@ -1,0 +1,27 @@
+/* test.h - cmocka and a comparison of doubles (cmocka 1.1.5 compares only as float). Tests run under MPI;
+ * an assertion must compare values that are the same on all ranks, else the others wait for ever.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef TESTS_TEST_H
+#define TESTS_TEST_H
+
+#include <math.h>
+#include <mpi.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* |a - b| <= tolerance, absolute; NaN fails. */
+#define assert_close(a, b, tolerance)                                                              \
+    do {                                                                                           \
+        const double a_ = (a), b_ = (b), e_ = (tolerance);                                         \
+        if (!(fabs(a_ - b_) <= e_))                                                                \
+            fail_msg("%s = %.17g, wanted %s = %.17g within %g", #a, a_, #b, b_, e_);               \
+    } while (0)
+
+#endif
