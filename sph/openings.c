@@ -13,7 +13,7 @@
 #include "neighbours.h"
 #include "zones.h"
 
-/* Beyond this debt a face that cannot give birth lets the mass go. */
+/* What a face that cannot give birth holds beyond this goes to its neighbours. */
 static const double most_debt = 1.5;
 
 struct openings *openings_create(struct sph *s)
@@ -344,6 +344,27 @@ static void born(struct sph *s, int f, const double *x, const double *u, double 
     o->born++;
 }
 
+/* Mass goes to the face beside f, on the same side, that holds least. */
+static void pass_on(struct openings *o, int f, double mass)
+{
+    double x[3], least = INFINITY;
+    const int side = face_place(o, f, x);
+    int to = f;
+    for (int b = 0; b < o->dim; b++)
+        for (int way = -1; b != side / 2 && way <= 1; way += 2) {
+            int I[3];
+            for (int a = 0; a < 3; a++)
+                I[a] = a < o->dim ? (int)floor((x[a] - o->lo[a]) / o->dx) + (a == b ? way : 0) : 0;
+            const int g = face_at(o, side, I);
+            if (g != f && o->mass[g] + o->change[g] < least) {
+                least = o->mass[g] + o->change[g];
+                to = g;
+            }
+        }
+    o->change[f] -= mass;
+    o->change[to] += mass;
+}
+
 /* A face that holds a particle's mass and lets fluid in gives birth dx/2 inside, moved on along the
  * flow by what the step overshot. */
 static void give_birth(struct sph *s)
@@ -368,7 +389,7 @@ static void give_birth(struct sph *s)
         if (crowded(&near, o, x)) {
             o->refused++;
             if (held > most_debt * whole)
-                o->change[f] -= held - most_debt * whole;
+                pass_on(o, f, held - most_debt * whole);
             continue;
         }
         born(s, f, x, u, rho);

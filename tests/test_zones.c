@@ -1,0 +1,139 @@
+/* test_zones.c - a region of particles inside a known flow: births and removals keep a lattice and the mass,
+ * blending follows its law. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+#include "test.h"
+
+#include "../sph/openings.h"
+#include "../sph/zones.h"
+#include "sph_case.h"
+
+/* Uniform flow through a box of the unit square or cube, no shifting. */
+static struct sph *start(struct sph_case *c, int dim, double u, double v)
+{
+    sph_case_set(c, dim, dim == 2 ? 50 : 20);
+    c->run.scene.initial.field = FIELD_UNIFORM;
+    c->run.scene.initial.velocity[0] = u;
+    c->run.scene.initial.velocity[1] = v;
+    c->prm.R_dx = dim == 2 ? 4.0 : 2.0;
+    c->prm.transport = TRANSPORT_NONE;
+    c->prm.outer = OUTER_EXACT;
+    for (int a = 0; a < dim; a++) {
+        c->prm.box[0][a] = 0.1;
+        c->prm.box[1][a] = 0.9;
+    }
+    c->s = sph_create(&c->run, &c->prm, NULL);
+    return c->s;
+}
+
+static double error_of_velocity(const struct sph *s, double u, double v)
+{
+    double most = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + (size_t)i * s->p.nstate, m = y[2 * s->dim + 1];
+        most = fmax(most, fmax(fabs(y[s->dim] / m - u), fabs(y[s->dim + 1] / m - v)));
+    }
+    return max_anywhere(most);
+}
+
+static double total_mass(const struct sph *s)
+{
+    double m = 0.0;
+    for (int i = 0; i < s->p.n; i++)
+        m += s->p.y[(size_t)i * s->p.nstate + 2 * s->dim + 1];
+    MPI_Allreduce(MPI_IN_PLACE, &m, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return m + openings_held(s);
+}
+
+/* Smallest distance of two local particles over dx. */
+static double spacing(const struct sph *s)
+{
+    double least = INFINITY;
+    for (int i = 0; i < s->p.n; i++)
+        for (int j = 0; j < i; j++) {
+            double r2 = 0.0;
+            for (int a = 0; a < s->dim; a++) {
+                const double d = s->p.y[(size_t)i * s->p.nstate + a] - s->p.y[(size_t)j * s->p.nstate + a];
+                r2 += d * d;
+            }
+            least = fmin(least, r2);
+        }
+    return -max_anywhere(-sqrt(least) / s->dx);
+}
+
+static void check_flow(int dim, double u, double v, double least, int steps)
+{
+    struct sph_case c;
+    struct sph *s = start(&c, dim, u, v);
+    const double mass = total_mass(s);
+    assert_true(sph_case_run(&c, steps, 100.0));
+    assert_true(max_anywhere((double)s->zones->openings->born) > 0.0);
+    assert_close(error_of_velocity(s, u, v), 0.0, 1e-12);
+    assert_close(total_mass(s) / mass, 1.0, 1e-11);
+    assert_true(spacing(s) > least);
+    sph_free(&c.s);
+}
+
+/* Along the lattice, births make the same lattice again, at any time step. */
+static void aligned_flow_keeps_the_lattice(void **state)
+{
+    (void)state;
+    check_flow(2, 1.0, 0.0, 1.0 - 1e-9, 60);
+    check_flow(2, 0.0, -0.7, 1.0 - 1e-9, 60);
+    check_flow(3, 1.0, 0.0, 1.0 - 1e-9, 25);
+}
+
+static void oblique_flow_leaves_no_clusters(void **state)
+{
+    (void)state;
+    check_flow(2, 0.8, 0.6, 0.5, 120);
+    check_flow(2, -0.3, 0.9, 0.5, 120);
+}
+
+/* Threshold 1 and birth dx/2 inside: one column born for each dx of travel, with the mass of a particle. */
+static void one_birth_a_face_and_spacing(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    struct sph *s = start(&c, 2, 1.0, 0.0);
+    double born = 0.0, gone = 0.0;
+    struct diagnosis d = {0};
+    while (s->t < 10.5 * s->dx) /* u = 1 */
+        integrate_step(s, 10.5 * s->dx, &d);
+    born = (double)s->zones->openings->born;
+    gone = (double)s->zones->openings->gone;
+    MPI_Allreduce(MPI_IN_PLACE, &born, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, &gone, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    assert_close(born, 10.0 * 40.0, 0.0);
+    assert_true(gone == 10.0 * 40.0 || gone == 11.0 * 40.0); /* the last column stands on the face */
+    sph_free(&c.s);
+}
+
+/* [6.7-6.8]: what is blended in is the depth into the transition over its width. */
+static void blending_follows_the_depth(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    struct sph *s = start(&c, 2, 1.0, 0.0);
+    for (int i = 0; i < s->p.n; i++)
+        s->p.y[6 * (size_t)i + 2] = 0.0; /* at rest in a moving flow */
+    zones_mark(s);
+    zones_blend(s);
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + 6 * (size_t)i, depth = zones_depth(s, y);
+        const double in = (depth - s->zones->buffer) / s->zones->transition;
+        const double want = s->p.zone[i] == ZONE_TRANSITION ? 1.0 - in : 0.0;
+        assert_close(y[2] / y[5], want, 1e-12);
+        assert_int_equal(s->p.zone[i], in < 0.0 ? ZONE_BUFFER : in < 1.0 ? ZONE_TRANSITION : ZONE_FREE);
+    }
+    sph_free(&c.s);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(aligned_flow_keeps_the_lattice), cmocka_unit_test(oblique_flow_leaves_no_clusters),
+        cmocka_unit_test(one_birth_a_face_and_spacing), cmocka_unit_test(blending_follows_the_depth)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
