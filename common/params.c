@@ -92,6 +92,22 @@ static unsigned long long fnv(unsigned long long h, const char *s)
     return h;
 }
 
+/* Hash of all that was read, included files too, as libconfig writes it down again. */
+static unsigned long long hash_of(config_t *cfg)
+{
+    char *text = NULL;
+    size_t n = 0;
+    FILE *f = open_memstream(&text, &n);
+    if (!f)
+        fail("no memory for the text of the case");
+    config_set_float_precision(cfg, 17);
+    config_write(cfg, f);
+    fclose(f);
+    const unsigned long long h = fnv(1469598103934665603ULL, text);
+    free(text);
+    return h;
+}
+
 /* Opens the case; syntax faults end the reading, with a hint from the line at fault. */
 static void read_file(struct params *p, struct faults *f)
 {
@@ -114,6 +130,7 @@ static void read_file(struct params *p, struct faults *f)
     }
     if (config_read_file(&p->cfg, p->path) == CONFIG_TRUE) {
         p->read = true;
+        p->hash = hash_of(&p->cfg);
     } else {
         const char *in = config_error_file(&p->cfg) ? config_error_file(&p->cfg) : p->path;
         char hint[512];
@@ -122,7 +139,6 @@ static void read_file(struct params *p, struct faults *f)
         snprintf(place, sizeof place, "%s:%d", in, line);
         fault(f, place, "%s%s%s", config_error_text(&p->cfg), *hint ? ": " : "", hint);
     }
-    p->hash = fnv(1469598103934665603ULL, text);
     mem_free(text);
 }
 
@@ -149,6 +165,11 @@ static void read_override(struct override *o, const char *text, struct faults *f
         snprintf(value, sizeof value, "(%d, %d)", a, b);
     else
         snprintf(value, sizeof value, "%s", eq + 1);
+    char number[64];
+    if (hint_long_integer(value, number, sizeof number)) { /* libconfig would wrap it silently */
+        fault(f, place, "%s is too large for an integer", number);
+        return;
+    }
     snprintf(line, sizeof line, "value = %s;", value);
     if (config_read_string(&o->cfg, line) == CONFIG_TRUE)
         return;
@@ -360,7 +381,7 @@ static void read_row(struct params *p, const struct param_group *g, const struct
     else
         place_of(p, s ? s : group, place, sizeof place, g->name, r->key);
     if (!s) {
-        if (!r->dflt && group)
+        if (!r->dflt && (group || params_has_group(p, g->name)))
             fault(f, place, "must be given: %s%s%s", r->help, strcmp(r->unit, "-") ? ", in " : "",
                   strcmp(r->unit, "-") ? r->unit : "");
         return;

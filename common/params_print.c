@@ -90,6 +90,19 @@ static int print_numbers(char *to, size_t size, const struct param *r, const cha
     return len + snprintf(to + len, size - (size_t)len, ")");
 }
 
+static void print_text(char *to, size_t size, const char *text)
+{
+    size_t n = 0;
+    to[n++] = '"';
+    for (; *text && n + 3 < size; text++) {
+        if (*text == '"' || *text == '\\')
+            to[n++] = '\\';
+        to[n++] = *text;
+    }
+    to[n++] = '"';
+    to[n] = '\0';
+}
+
 /* Value as libconfig text. */
 static void print_value(char *to, size_t size, const struct param *r, const void *target)
 {
@@ -99,7 +112,7 @@ static void print_value(char *to, size_t size, const struct param *r, const void
     case PARAM_REAL: snprintf(to, size, "%.17g", *(const double *)(const void *)at); break;
     case PARAM_INT: snprintf(to, size, "%d", *(const int *)(const void *)at); break;
     case PARAM_BOOL: snprintf(to, size, "%s", *(const bool *)(const void *)at ? "true" : "false"); break;
-    case PARAM_TEXT: snprintf(to, size, "\"%s\"", at); break;
+    case PARAM_TEXT: print_text(to, size, at); break;
     case PARAM_CHOICE: {
         const char *c = r->choices;
         for (index = *(const int *)(const void *)at; index > 0 && strchr(c, '|'); index--)

@@ -91,8 +91,8 @@ with sph 's/dx = 0.02/dx = 0.02; box = ((0.2, 0.2), (0.35, 0.8))/' 'sph.box: ' s
 with fv 's/cells = (16, 16)/cells = (16, 2)/' 'fv.cells: ' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); cfl = 7/' 'case.cfg:6: fv.cfl: ' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); integrator = "euler"/' 'case.cfg:6: fv.integrator: .*rk3' fv
-with coupled 's/steps = 32/steps = 0/' 'coupling.steps: ' coupler
-with coupled 's/steps = 32/steps = 32; mapping = "nearest"/' 'coupling.mapping: .*mls' coupler
+with coupled 's/steps = 32/steps = 0/' 'coupling.steps: ' coupler --check
+with coupled 's/steps = 32/steps = 32; mapping = "nearest"/' 'coupling.mapping: .*mls' coupler --check
 says "4 faults" "$b/sph" sph.cfg -o result -p sph.dx=-1 -p sph.cfll=1 -p time.end=-3 -p sph.scheme=none
 
 # the launcher

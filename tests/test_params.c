@@ -1,0 +1,79 @@
+/* test_params.c - the parameter table: defaults, values of all kinds, ranges, all faults at once.
+ * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
+#include "params_case.h"
+
+static void defaults_fill_what_is_not_given(void **state)
+{
+    (void)state;
+    sound("format = 1;\nbox: { size = 3; };\nalien: { anything = 1; };\n", NULL);
+    assert_close(box.size, 3.0, 0);
+    assert_close(box.lo[0] + 10 * box.lo[1] + 100 * box.lo[2], 21.0, 0);
+    assert_int_equal(box.count, 7);
+    assert_int_equal(box.cells[0] * box.cells[1], 16);
+    assert_int_equal(box.cells[2], 1);
+    assert_int_equal(box.kind, 1);
+    assert_true(box.on && !box.axes[0] && box.axes[1] && !box.axes[2]);
+    assert_string_equal(box.name, "plain");
+    assert_int_equal(nitems, 0);
+    assert_true(has_box);
+}
+
+static void values_of_every_kind_are_read(void **state)
+{
+    (void)state;
+    sound("box: { size = 0.25; lo = (-1, 2.5, 3); hold = ((-1, -2), (1, 2)); count = 12; cells = "
+          "(3, 5, 7);\n"
+          "  kind = \"blue\"; on = false; axes = (true, false, true); name = \"a ü b\"; };\n"
+          "items: ( { weight = 1; }, { kind = \"soft\"; } );\n",
+          NULL);
+    assert_close(box.size, 0.25, 0);
+    assert_close(box.lo[0] + 10 * box.lo[1] + 100 * box.lo[2], 324.0, 0);
+    assert_close(box.hold[0][0] + 10 * box.hold[0][1] + 100 * box.hold[0][2], -21.0, 0);
+    assert_close(box.hold[1][0] + 10 * box.hold[1][1] + 100 * box.hold[1][2], 21.0, 0);
+    assert_int_equal(box.count, 12);
+    assert_int_equal(box.cells[0] + 10 * box.cells[1] + 100 * box.cells[2], 753);
+    assert_int_equal(box.kind, 2);
+    assert_true(!box.on && box.axes[0] && !box.axes[1] && box.axes[2]);
+    assert_string_equal(box.name, "a ü b");
+    assert_int_equal(nitems, 2);
+    assert_close(items[0].weight + 10 * items[1].weight, 26.0, 0);
+    assert_int_equal(items[0].kind + 10 * items[1].kind, 1);
+}
+
+static void ends_of_a_range_are_allowed_and_no_more(void **state)
+{
+    (void)state;
+    sound("box: { size = 0.1; };", NULL);
+    sound("box: { size = 10; count = 1000000000L; };", NULL);
+    FAULTY("box: { size = 0.0999; };", 1, ":1: box.size: ", "0.1", "10", " m");
+    FAULTY("box: { size = 10.001; };", 1, ":1: box.size: ");
+    FAULTY("box: {\nsize = 1;\nlo = (0, 6); };", 1, ":3: box.lo: ", "-5");
+    FAULTY("box: { size = 1; hold = ((0, 0), (0, 9)); };", 1, "box.hold: ");
+    FAULTY("box: { size = 1; count = 1.5; };", 1, "box.count: ", "whole");
+    FAULTY("box: { size = 1; lo = (1); };", 1, "box.lo: ", "two or three");
+    FAULTY("box: { size = 1; axes = (1, 0); };", 1, "box.axes: ", "true or false");
+    FAULTY("items: ( {}, {}, {}, {} );", 1, ":1: items", "3");
+}
+
+static void all_faults_are_found_at_once(void **state)
+{
+    (void)state;
+    FAULTY("format = 2;\nbox: {\n  sise = 1;\n  kind = \"grey\";\n};\nbxo: { };\nitems: ( { weigth "
+           "= 1; } );\n",
+           6, ".cfg:1: format: ", ".cfg:3: box.sise: unknown key; did you mean `size'",
+           "box.size: must be given", ".cfg:4: box.kind: ", "red|green|blue",
+           ".cfg:6: bxo: unknown group; did you mean `box'",
+           ".cfg:7: items.weigth: unknown key; did you mean `weight'");
+    FAULTY("box: { size = 1; zzzzzzzz = 1; };", 1, "box.zzzzzzzz: unknown key");
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(defaults_fill_what_is_not_given),
+        cmocka_unit_test(values_of_every_kind_are_read),
+        cmocka_unit_test(ends_of_a_range_are_allowed_and_no_more),
+        cmocka_unit_test(all_faults_are_found_at_once),
+    };
+    RUN_PARAMS_TESTS(argc, argv, tests);
+}

@@ -1,0 +1,125 @@
+/* test_params_text.c - keys from the command line, the hash of a case, and its text, which can be
+ * read again. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
+#include "params_case.h"
+
+static void the_command_line_goes_before_the_file(void **state)
+{
+    (void)state;
+    const char *text = "box: { size = 1; kind = \"red\"; };";
+    sound(text,
+          WITH("box.size=2", "box.size=0.5", "box.cells=64x32", "box.kind=blue", "box.on=false",
+               "box.name=out of here", "box.lo=(3,4)", "box.hold=((1,1),(2,2))"));
+    assert_close(box.size, 0.5, 0); /* the last one counts */
+    assert_int_equal(box.cells[0] + 1000 * box.cells[1] + 1000000 * box.cells[2], 1032064);
+    assert_int_equal(box.kind, 2);
+    assert_false(box.on);
+    assert_string_equal(box.name, "out of here");
+    assert_close(box.lo[0] + 10 * box.lo[1], 43.0, 0);
+    assert_close(box.hold[0][0] + 10 * box.hold[1][1], 21.0, 0);
+    sound(text, WITH("box.cells=2x3x4"));
+    assert_int_equal(box.cells[0] + 10 * box.cells[1] + 100 * box.cells[2], 432);
+    sound("alien: { };", WITH("box.size=2")); /* makes the group */
+    assert_true(has_box);
+    faulty(text, WITH("box.size=99", "box.sice=1", "bix.size=1", "box", "box.=1", "alien.x=1"), 5,
+           WITH("command line: -p box.size=99: box.size: ",
+                "-p box.sice=1: box.sice: unknown key; did you mean `size'",
+                "-p bix.size=1: bix.size: unknown group; did you mean `box'", "GROUP.KEY=VALUE"));
+    faulty("alien: { };", WITH("box.count=3"), 1, WITH("box.size: must be given"));
+    faulty(text, WITH("box.count=4294967299"), 1, WITH("-p box.count=4294967299: "));
+}
+
+static unsigned long long hash(const char *text, const char *const *over)
+{
+    struct faults f;
+    struct params *p = read_case(text, over, &f);
+    unsigned long long h = params_hash(p), h0 = h;
+    MPI_Bcast(&h0, 1, MPI_UNSIGNED_LONG_LONG, 0, MPI_COMM_WORLD);
+    assert_int_equal(f.n, 0);
+    assert_true(h == h0);
+    params_free(&p);
+    mem_free(f.text);
+    return h;
+}
+
+static void the_hash_is_of_the_case_and_not_of_its_output(void **state)
+{
+    (void)state;
+    char included[sizeof path + 8];
+    snprintf(included, sizeof included, "%.*spart.inc", (int)(strrchr(path, '/') + 1 - path), path);
+    const char *a = "box: { size = 1.0000000001; };", *b = "box: { size = 1.0000000002; };";
+    const char *c = "box: {\n@include \"part.inc\"\n};";
+    assert_true(hash(a, NULL) == hash(a, NULL));
+    assert_true(hash(a, NULL) != hash(b, NULL));
+    assert_true(hash(a, NULL) != hash(a, WITH("box.size=2")));
+    assert_true(hash(a, WITH("box.size=3")) != hash(a, WITH("box.size=2")));
+    assert_true(hash(a, NULL) == hash(a, WITH("output.every=2")));
+    put(included, "size = 1.0;\n");
+    const unsigned long long one = hash(c, NULL);
+    put(included, "size = 2.0;\n");
+    assert_true(hash(c, NULL) != one); /* included text belongs to the case */
+    MPI_Barrier(MPI_COMM_WORLD);
+    unlink(included);
+}
+
+static void the_text_of_a_case_can_be_read_again(void **state)
+{
+    (void)state;
+    struct faults f;
+    struct params *p = read_case(
+        "box: { size = 0.1000000000000001; hold = ((-1, 0.3), (1, 2)); axes = (true, true);\n"
+        "  name = \"a \\\"b\\\" c\\\\d\"; };\nitems: ( { weight = 3; }, { kind = \"soft\"; } );",
+        WITH("box.cells=6x7"), &f);
+    const struct box_case wanted = box;
+    const struct item_case wanted_items[2] = {items[0], items[1]};
+    char *text = rank == 0 ? params_text(p) : NULL;
+    assert_int_equal(f.n, 0);
+    params_free(&p);
+    sound(text ? text : "", NULL);
+    assert_memory_equal(&box.size, &wanted.size, sizeof box.size);
+    assert_memory_equal(box.hold, wanted.hold, sizeof box.hold);
+    assert_memory_equal(box.lo, wanted.lo, sizeof box.lo);
+    assert_memory_equal(box.cells, wanted.cells, sizeof box.cells);
+    assert_memory_equal(box.axes, wanted.axes, sizeof box.axes);
+    assert_int_equal(box.kind, wanted.kind);
+    assert_string_equal(wanted.name, "a \"b\" c\\d");
+    assert_string_equal(box.name, wanted.name);
+    assert_int_equal(nitems, 2);
+    for (int k = 0; k < 2; k++) {
+        assert_close(items[k].weight, wanted_items[k].weight, 0);
+        assert_int_equal(items[k].kind, wanted_items[k].kind);
+    }
+    mem_free(text);
+}
+
+static void a_fault_between_keys_stands_at_its_key(void **state)
+{
+    (void)state;
+    struct faults f;
+    struct params *p = read_case("box: {\n  size = 1;\n  count = 3;\n};", WITH("box.size=2"), &f);
+    params_fault(p, &f, "box.count", "too %s", "few");
+    params_fault(p, &f, "box.size", "too small");
+    assert_int_equal(f.n, 2);
+    if (rank == 0) {
+        assert_non_null(strstr(f.text, ".cfg:3: box.count: too few\n"));
+        assert_non_null(strstr(f.text, "command line: -p box.size=2: box.size: too small\n"));
+    }
+    params_free(&p);
+    mem_free(f.text);
+    f.text = NULL;
+    p = params_read(MPI_COMM_WORLD, "there/is no/such.cfg", 0, NULL, groups, 2, others, &f);
+    assert_int_equal(f.n, 3);
+    assert_true(rank > 0 || strstr(f.text, "there/is no/such.cfg: "));
+    params_free(&p);
+    mem_free(f.text);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_command_line_goes_before_the_file),
+        cmocka_unit_test(the_hash_is_of_the_case_and_not_of_its_output),
+        cmocka_unit_test(the_text_of_a_case_can_be_read_again),
+        cmocka_unit_test(a_fault_between_keys_stands_at_its_key),
+    };
+    RUN_PARAMS_TESTS(argc, argv, tests);
+}
