@@ -92,20 +92,30 @@ static unsigned long long fnv(unsigned long long h, const char *s)
     return h;
 }
 
-/* Hash of all that was read, included files too, as libconfig writes it down again. */
-static unsigned long long hash_of(config_t *cfg)
+static bool number_of(const config_setting_t *s, double *v)
 {
-    char *text = NULL;
-    size_t n = 0;
-    FILE *f = open_memstream(&text, &n);
-    if (!f)
-        fail("no memory for the text of the case");
-    config_set_float_precision(cfg, 17);
-    config_write(cfg, f);
-    fclose(f);
-    const unsigned long long h = fnv(1469598103934665603ULL, text);
-    free(text);
-    return h;
+    switch (config_setting_type(s)) {
+    case CONFIG_TYPE_INT: *v = config_setting_get_int(s); return true;
+    case CONFIG_TYPE_INT64: *v = (double)config_setting_get_int64(s); return true;
+    case CONFIG_TYPE_FLOAT: *v = config_setting_get_float(s); return true;
+    default: return false;
+    }
+}
+
+/* Hash of a setting and all below it: names, kinds and values, whatever file they stand in. */
+static unsigned long long hash_of(unsigned long long h, const config_setting_t *s)
+{
+    char text[64] = "";
+    const char *name = config_setting_name(s), *word = config_setting_get_string(s);
+    double v;
+    if (number_of(s, &v))
+        snprintf(text, sizeof text, "%.17g", v);
+    else if (config_setting_type(s) == CONFIG_TYPE_BOOL)
+        snprintf(text, sizeof text, config_setting_get_bool(s) ? "true" : "false");
+    h = fnv(fnv(fnv(fnv(h, name ? name : ""), "="), text), word ? word : "");
+    for (int k = 0; config_setting_is_aggregate(s) && k < config_setting_length(s); k++)
+        h = fnv(hash_of(h, config_setting_get_elem(s, (unsigned)k)), ",");
+    return fnv(h, ";");
 }
 
 /* Opens the case; syntax faults end the reading, with a hint from the line at fault. */
@@ -130,7 +140,7 @@ static void read_file(struct params *p, struct faults *f)
     }
     if (config_read_file(&p->cfg, p->path) == CONFIG_TRUE) {
         p->read = true;
-        p->hash = hash_of(&p->cfg);
+        p->hash = hash_of(1469598103934665603ULL, config_root_setting(&p->cfg));
     } else {
         const char *in = config_error_file(&p->cfg) ? config_error_file(&p->cfg) : p->path;
         char hint[512];
@@ -194,16 +204,6 @@ static void set_real(const struct param *r, void *target, int k, double v)
 static bool is_integer(const struct param *r)
 {
     return r->type == PARAM_INT || r->type == PARAM_INTS;
-}
-
-static bool number_of(const config_setting_t *s, double *v)
-{
-    switch (config_setting_type(s)) {
-    case CONFIG_TYPE_INT: *v = config_setting_get_int(s); return true;
-    case CONFIG_TYPE_INT64: *v = (double)config_setting_get_int64(s); return true;
-    case CONFIG_TYPE_FLOAT: *v = config_setting_get_float(s); return true;
-    default: return false;
-    }
 }
 
 /* Reads one number into component k; what is wrong with it goes to why. */

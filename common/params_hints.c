@@ -197,7 +197,7 @@ int hint_long_integer(const char *text, char *word, size_t size)
             continue;
         const size_t n = strspn(c, "0123456789");
         const bool bare = c == text || !(isalnum((unsigned char)c[-1]) || strchr("._", c[-1]));
-        if (bare && n >= 10 && !strchr(".eEL", c[n])) {
+        if (bare && n >= 10 && (!c[n] || !strchr(".eEL", c[n]))) {
             snprintf(word, size, "%.*s", (int)n, c);
             return line;
         }

@@ -1,6 +1,7 @@
 /* fv_io.c - snapshots and restart files. SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "../common/h5.h"
@@ -17,9 +18,22 @@ static bool wanted(const struct fv *s, const char *name)
 
 static int64_t local_cells(const struct block *b) { return (int64_t)b->n[0] * b->n[1] * b->n[2]; }
 
-static void write(const struct fv *s, struct h5 *f, const char *name, const char *unit, int ncomp, const double *v)
+/* Forced cells hold what the stencils need, not a flow: no number in a picture. */
+static void blank_forced(const struct fv *s, int ncomp, double *v)
 {
     const struct block *b = &s->b;
+    for (int k = 0; s->forcing && k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++)
+            for (int i = 0; i < b->n[0]; i++, v += ncomp)
+                for (int a = 0; s->forcing->forced[block_at(b, i, j, k)] && a < ncomp; a++)
+                    v[a] = NAN;
+}
+
+static void write(const struct fv *s, struct h5 *f, const char *name, const char *unit, int ncomp, double *v)
+{
+    const struct block *b = &s->b;
+    if (*unit != '-')
+        blank_forced(s, ncomp, v);
     h5_write_block(f, name, unit, b->dim, b->cells, b->lo, b->hi, ncomp, v, true);
 }
 

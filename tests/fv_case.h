@@ -1,5 +1,5 @@
-/* fv_case.h - a small run of the finite-volume solver for the tests of its modules: Taylor-Green of Re 200
- * in the periodic unit square, 32 x 32 cells, with a case's overrides ("fv.cells=(64,64)").
+/* fv_case.h - a small run of the finite-volume solver for the tests of its modules: Taylor-Green of
+ * Re 200 in the periodic unit square, 32 x 32 cells, with a case's overrides ("fv.cells=(64,64)").
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TESTS_FV_CASE_H
 #define TESTS_FV_CASE_H
@@ -94,7 +94,8 @@ static inline double fv_case_error(const char *const *overrides, double t_stop)
 }
 
 /* The same with n cells a side and up to two more overrides behind the common ones. */
-static inline double fv_case_error_at(int n, const char *const *common, const char *more, double t_stop)
+static inline double fv_case_error_at(int n, const char *const *common, const char *more,
+                                      double t_stop)
 {
     const char *all[FV_CASE_OVERRIDES + 3];
     char cells[64];

@@ -1,5 +1,6 @@
-/* test_fv_operators.c - the finite-volume operators against averages of waves: fourth order on cells that
- * are no squares; symmetry; uniform flow; divergence after a step. SPDX-License-Identifier: BSD-3-Clause */
+/* test_fv_operators.c - the finite-volume operators against averages of waves: fourth order on
+ * cells that are no squares; symmetry; uniform flow; divergence after a step.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include "fv_case.h"
@@ -8,7 +9,8 @@
 
 enum what { VALUE, GRADIENT, LAPLACE };
 
-/* Phase k.x + 0.3 of a wave of `number' in the domain, and the factors that averaging over cells gives. */
+/* Phase k.x + 0.3 of a wave of `number' in the domain, and the factors that averaging over cells
+ * gives. */
 struct wave {
     double k[3], mean[3];
 };
@@ -43,14 +45,16 @@ static void fill_wave(const struct block *b, const struct wave *w, double *q)
 }
 
 /* Average over the lower face along a, or over the cell. */
-static double wanted(const struct block *b, const struct wave *w, const double *x, enum what what, int a)
+static double wanted(const struct block *b, const struct wave *w, const double *x, enum what what,
+                     int a)
 {
     const double cell = w->mean[0] * w->mean[1] * w->mean[2];
     double at[3] = {x[0], x[1], x[2]};
     if (what == GRADIENT)
         return -cell * w->k[a] * sin(phase(w, at));
     if (what == LAPLACE)
-        return -cell * (w->k[0] * w->k[0] + w->k[1] * w->k[1] + w->k[2] * w->k[2]) * cos(phase(w, at));
+        return -cell * (w->k[0] * w->k[0] + w->k[1] * w->k[1] + w->k[2] * w->k[2]) *
+               cos(phase(w, at));
     at[a] -= 0.5 * b->h[a];
     return cell / w->mean[a] * cos(phase(w, at));
 }
@@ -89,14 +93,16 @@ static void has_order_four(int dim, enum what what)
         for (int fine = 0; fine < 2; fine++) {
             struct fv_case c;
             fv_case_set(&c, MPI_COMM_WORLD,
-                        (const char *const[]){dims[dim - 2], cells[fine], "domain.max=(1.0,1.2,0.7)",
+                        (const char *const[]){dims[dim - 2], cells[fine],
+                                              "domain.max=(1.0,1.2,0.7)",
                                               "initial.field=\"uniform\"", NULL});
             fv_case_start(&c, NULL);
             e[fine] = error_of(c.s, what, a);
             fv_free(&c.s);
         }
         if (!(fv_case_order(e[0], e[1]) >= 3.8 && e[1] < 2e-3))
-            fail_msg("%dD operator %d axis %d: %g, %g, order %.2f", dim, what, a, e[0], e[1], fv_case_order(e[0], e[1]));
+            fail_msg("%dD operator %d axis %d: %g, %g, order %.2f", dim, what, a, e[0], e[1],
+                     fv_case_order(e[0], e[1]));
     }
 }
 
@@ -124,8 +130,8 @@ static void viscous_operator_has_order_four(void **state)
 static void fill_random(const struct fv *s, double *q)
 {
     BLOCK_ROWS(&s->b, 0, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            q[i] = (double)rand() / RAND_MAX - 0.5;
+    for (int64_t i = c; i < c + n; i++)
+        q[i] = (double)rand() / RAND_MAX - 0.5;
     if (s->forcing)
         forcing_zero(s->forcing, q);
     block_halo(&s->b, 1, &q);
@@ -135,8 +141,8 @@ static double product(const struct fv *s, const double *x, const double *y)
 {
     double sum = 0.0;
     BLOCK_ROWS(&s->b, 0, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            sum += x[i] * y[i];
+    for (int64_t i = c; i < c + n; i++)
+        sum += x[i] * y[i];
     return sum;
 }
 
@@ -173,15 +179,17 @@ static void uniform_flow_stays(void **state)
         struct fv_case c;
         double most = 0.0;
         fv_case_set(&c, MPI_COMM_WORLD,
-                    (const char *const[]){dims[q / 2], ways[q % 2], "fv.cells=(16,12,8)", "domain.max=(1.0,1.3,0.5)",
-                                          "fv.cfl=0.6", "initial.field=\"uniform\"",
-                                          q < 2 ? "initial.velocity=(0.7,-0.4)" : "initial.velocity=(0.7,-0.4,0.3)", NULL});
+                    (const char *const[]){
+                        dims[q / 2], ways[q % 2], "fv.cells=(16,12,8)", "domain.max=(1.0,1.3,0.5)",
+                        "fv.cfl=0.6", "initial.field=\"uniform\"",
+                        q < 2 ? "initial.velocity=(0.7,-0.4)" : "initial.velocity=(0.7,-0.4,0.3)",
+                        NULL});
         fv_case_start(&c, NULL);
         assert_true(fv_case_run(&c, 10, 100.0));
         for (int a = 0; a < c.s->b.dim; a++)
             BLOCK_ROWS(&c.s->b, 0, at, n)
-                for (int64_t i = at; i < at + n; i++)
-                    most = fmax(most, fabs(c.s->u[a][i] - wanted_u[a]));
+        for (int64_t i = at; i < at + n; i++)
+            most = fmax(most, fabs(c.s->u[a][i] - wanted_u[a]));
         assert_close(most, 0.0, 1e-12);
         fv_free(&c.s);
     }
@@ -192,7 +200,8 @@ static void step_leaves_no_divergence(void **state)
 {
     static const char *const cases[3][6] = {
         {"fv.cells=(32,32)", "fv.tol_pressure=1e-10", NULL},
-        {"fv.cells=(32,32)", "fv.tol_pressure=1e-10", "fv.hole=((0.3125,0.3125),(0.6875,0.6875))", NULL},
+        {"fv.cells=(32,32)", "fv.tol_pressure=1e-10", "fv.hole=((0.3125,0.3125),(0.6875,0.6875))",
+         NULL},
         {"fv.cells=(16,16,8)", "fv.tol_pressure=1e-10", "domain.dim=3", NULL}};
     (void)state;
     for (int k = 0; k < 3; k++) {
@@ -202,8 +211,8 @@ static void step_leaves_no_divergence(void **state)
         struct fv *s = fv_case_start(&c, NULL);
         for (int a = 0; a < s->b.dim; a++) {
             BLOCK_ROWS(&s->b, 0, at, n)
-                for (int64_t i = at; i < at + n; i++)
-                    s->u[a][i] += 0.1 * ((double)rand() / RAND_MAX - 0.5);
+            for (int64_t i = at; i < at + n; i++)
+                s->u[a][i] += 0.1 * ((double)rand() / RAND_MAX - 0.5);
         }
         block_halo(&s->b, s->b.dim, s->u);
         convection_face_velocities(s, s->u, s->U);
@@ -218,10 +227,12 @@ static void step_leaves_no_divergence(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(face_values_have_order_four),     cmocka_unit_test(gradient_has_order_four),
-        cmocka_unit_test(viscous_operator_has_order_four), cmocka_unit_test(viscous_operator_is_symmetric),
-        cmocka_unit_test(uniform_flow_stays),              cmocka_unit_test(step_leaves_no_divergence)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(face_values_have_order_four),
+                                       cmocka_unit_test(gradient_has_order_four),
+                                       cmocka_unit_test(viscous_operator_has_order_four),
+                                       cmocka_unit_test(viscous_operator_is_symmetric),
+                                       cmocka_unit_test(uniform_flow_stays),
+                                       cmocka_unit_test(step_leaves_no_divergence)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

@@ -1,6 +1,6 @@
-/* test_fv_orders.c - errors and orders of whole runs against exact solutions: Taylor-Green, two waves that are
- * carried along, a hole of forced cells, closed sides, three dimensions, bdf2 in time.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* test_fv_orders.c - errors and orders of whole runs against exact solutions: Taylor-Green, two
+ * waves that are carried along, a hole of forced cells, closed sides, three dimensions, bdf2 in
+ * time. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include "fv_case.h"
@@ -8,11 +8,13 @@
 #define TWO_MODES "initial.field=\"two_modes\"", "initial.velocity=(0.5,0.25)"
 
 /* Errors at 32 and 64 cells: within the limits, and the order between them. */
-static void errors_fall(const char *const *common, const char *more, double t, double most_32, double most_64,
-                        double order)
+static void errors_fall(const char *const *common, const char *more, double t, double most_32,
+                        double most_64, double order)
 {
-    const double e32 = fv_case_error_at(32, common, more, t), e64 = fv_case_error_at(64, common, more, t);
-    print_message("%s: %.3g at 32, %.3g at 64, order %.2f\n", more ? more : "plain", e32, e64, fv_case_order(e32, e64));
+    const double e32 = fv_case_error_at(32, common, more, t),
+                 e64 = fv_case_error_at(64, common, more, t);
+    print_message("%s: %.3g at 32, %.3g at 64, order %.2f\n", more ? more : "plain", e32, e64,
+                  fv_case_order(e32, e64));
     assert_true(e32 <= most_32);
     assert_true(e64 <= most_64);
     assert_true(fv_case_order(e32, e64) >= order);
@@ -21,7 +23,8 @@ static void errors_fall(const char *const *common, const char *more, double t, d
 static void taylor_green_converges(void **state)
 {
     (void)state;
-    const double e16 = fv_case_error_at(16, NULL, NULL, 1.0), e32 = fv_case_error_at(32, NULL, NULL, 1.0);
+    const double e16 = fv_case_error_at(16, NULL, NULL, 1.0),
+                 e32 = fv_case_error_at(32, NULL, NULL, 1.0);
     print_message("16: %.3g, order to 32 %.2f\n", e16, fv_case_order(e16, e32));
     assert_true(fv_case_order(e16, e32) >= 1.9);
     errors_fall(NULL, NULL, 1.0, 3e-5, 5e-6, 1.9);
@@ -36,15 +39,17 @@ static void carried_waves_converge(void **state)
 static void hole_keeps_the_order(void **state)
 {
     (void)state;
-    errors_fall((const char *const[]){TWO_MODES, NULL}, "fv.hole=((0.3125,0.3125),(0.6875,0.6875))", 1.0, 5e-3, 3.5e-4,
-                3.5);
+    errors_fall((const char *const[]){TWO_MODES, NULL}, "fv.hole=((0.3125,0.3125),(0.6875,0.6875))",
+                1.0, 5e-3, 3.5e-4, 3.5);
 }
 
+/* At half the largest step: at CFL 1 the error of time lowers the order to 3.4 (fv/README.md). */
 static void closed_sides_keep_the_order(void **state)
 {
+    const char *const common[] = {TWO_MODES, "fv.cfl=0.5", NULL};
     (void)state;
-    errors_fall((const char *const[]){TWO_MODES, NULL}, "domain.periodic=(false,false)", 1.0, 5e-3, 3.5e-4, 3.5);
-    errors_fall((const char *const[]){TWO_MODES, NULL}, "domain.periodic=(true,false)", 1.0, 5e-3, 3.5e-4, 3.5);
+    errors_fall(common, "domain.periodic=(false,false)", 1.0, 5e-3, 3.5e-4, 3.5);
+    errors_fall(common, "domain.periodic=(true,false)", 1.0, 5e-3, 3.5e-4, 3.5);
 }
 
 /* Against the same cells with a much smaller step, so that only time differs. */
@@ -56,7 +61,8 @@ static void bdf2_has_order_two(void **state)
     for (int k = 0; k < 3; k++) {
         fv_case_set(c + k, MPI_COMM_WORLD,
                     (const char *const[]){TWO_MODES, "fv.cells=(32,32)", "fv.integrator=\"bdf2\"",
-                                          "fv.tol_pressure=1e-6", "fv.tol_viscous=1e-8", cfl[k], NULL});
+                                          "fv.tol_pressure=1e-6", "fv.tol_viscous=1e-8", cfl[k],
+                                          NULL});
         fv_case_start(c + k, NULL);
         assert_true(fv_case_run(c + k, 100000, 0.5));
     }
@@ -64,8 +70,8 @@ static void bdf2_has_order_two(void **state)
     for (int k = 0; k < 2; k++)
         for (int a = 0; a < 2; a++)
             BLOCK_ROWS(&c[k].s->b, 0, at, n)
-                for (int64_t i = at; i < at + n; i++)
-                    e[k] += pow(c[k].s->u[a][i] - c[2].s->u[a][i], 2);
+    for (int64_t i = at; i < at + n; i++)
+        e[k] += pow(c[k].s->u[a][i] - c[2].s->u[a][i], 2);
     const double order = 0.5 * fv_case_order(e[0], e[1]);
     print_message("order %.2f\n", order);
     assert_true(order >= 1.8 && order < 2.5);
@@ -73,7 +79,8 @@ static void bdf2_has_order_two(void **state)
         fv_free(&c[k].s);
 }
 
-/* One layer after the other equals the 2D run; multigrid takes another path, so solves are tight. */
+/* One layer after the other equals the 2D run; multigrid takes another path, so solves are tight.
+ */
 static void plane_flow_is_the_same_in_3d(void **state)
 {
     static const char *const cells[2] = {"fv.cells=(24,24)", "fv.cells=(24,24,6)"};
@@ -83,8 +90,9 @@ static void plane_flow_is_the_same_in_3d(void **state)
     (void)state;
     for (int k = 0; k < 2; k++) {
         fv_case_set(c + k, MPI_COMM_WORLD,
-                    (const char *const[]){TWO_MODES, cells[k], dims[k], "fv.integrator=\"bdf2\"", "fv.cfl=0.5",
-                                          "fv.tol_pressure=1e-13", "fv.tol_viscous=1e-13", NULL});
+                    (const char *const[]){TWO_MODES, cells[k], dims[k], "fv.integrator=\"bdf2\"",
+                                          "fv.cfl=0.5", "fv.tol_pressure=1e-13",
+                                          "fv.tol_viscous=1e-13", NULL});
         fv_case_start(c + k, NULL);
         assert_true(fv_case_run(c + k, 8, 1.0));
     }
@@ -103,11 +111,13 @@ static void plane_flow_is_the_same_in_3d(void **state)
         fv_free(&c[k].s);
 }
 
-/* rk3's first two projections are one cycle of multigrid, which differs in 3D: the error must not. */
+/* rk3's first two projections are one cycle of multigrid, which differs in 3D: the error must not.
+ */
 static void rk3_is_as_good_in_3d(void **state)
 {
     (void)state;
-    const double flat = fv_case_error((const char *const[]){TWO_MODES, "fv.cells=(32,32)", NULL}, 0.25);
+    const double flat =
+        fv_case_error((const char *const[]){TWO_MODES, "fv.cells=(32,32)", NULL}, 0.25);
     const double solid = fv_case_error(
         (const char *const[]){TWO_MODES, "domain.dim=3", "fv.cells=(32,32,4)", NULL}, 0.25);
     print_message("2D %.3g, 3D %.3g\n", flat, solid);
@@ -117,9 +127,9 @@ static void rk3_is_as_good_in_3d(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(taylor_green_converges),      cmocka_unit_test(carried_waves_converge),
-        cmocka_unit_test(hole_keeps_the_order),        cmocka_unit_test(closed_sides_keep_the_order),
-        cmocka_unit_test(bdf2_has_order_two),          cmocka_unit_test(plane_flow_is_the_same_in_3d),
+        cmocka_unit_test(taylor_green_converges), cmocka_unit_test(carried_waves_converge),
+        cmocka_unit_test(hole_keeps_the_order),   cmocka_unit_test(closed_sides_keep_the_order),
+        cmocka_unit_test(bdf2_has_order_two),     cmocka_unit_test(plane_flow_is_the_same_in_3d),
         cmocka_unit_test(rk3_is_as_good_in_3d)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
