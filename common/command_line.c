@@ -12,16 +12,12 @@
 #include "params_hints.h"
 #include "run.h"
 
-static const struct option options[] = {{"help", optional_argument, NULL, 'h'},
-                                        {"version", no_argument, NULL, 'V'},
-                                        {"params", no_argument, NULL, 'M'},
-                                        {"check", no_argument, NULL, 'c'},
-                                        {"param", required_argument, NULL, 'p'},
-                                        {"output", required_argument, NULL, 'o'},
-                                        {"restart", no_argument, NULL, 'r'},
-                                        {"force", no_argument, NULL, 'f'},
-                                        {"deadline", required_argument, NULL, 'd'},
-                                        {NULL, 0, NULL, 0}};
+static const struct option options[] = {
+    {"help", optional_argument, NULL, 'h'},     {"version", no_argument, NULL, 'V'},
+    {"params", no_argument, NULL, 'M'},         {"check", no_argument, NULL, 'c'},
+    {"param", required_argument, NULL, 'p'},    {"output", required_argument, NULL, 'o'},
+    {"restart", no_argument, NULL, 'r'},        {"force", no_argument, NULL, 'f'},
+    {"deadline", required_argument, NULL, 'd'}, {NULL, 0, NULL, 0}};
 
 static void usage(const char *name, const char *help)
 {
@@ -37,7 +33,8 @@ static void usage(const char *name, const char *help)
            "      --help [KEY]  this text and all keys, or one key or group\n"
            "      --params      all keys as a markdown table\n"
            "      --version\n"
-           "Exit codes: 0 done, 1 done but not accepted, 2 input at fault, 3 diverged, 4 a partner failed,\n"
+           "Exit codes: 0 done, 1 done but not accepted, 2 input at fault, 3 diverged, 4 a partner "
+           "failed,\n"
            "5 stopped in order.\n\n",
            name, help, name);
 }
@@ -126,17 +123,33 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
         switch (option) {
         case 'h':
             return print_and_end(option, name, help,
-                                 optarg ? optarg : (optind < argc ? argv[optind] : NULL), groups, ngroups);
+                                 optarg ? optarg : (optind < argc ? argv[optind] : NULL), groups,
+                                 ngroups);
         case 'V':
-        case 'M': return print_and_end(option, name, help, NULL, groups, ngroups);
-        case 'c': c->check = true; break;
-        case 'p': overrides[c->noverrides++] = optarg; break;
-        case 'o': c->dir = optarg; break;
-        case 'r': c->restart = true; break;
-        case 'f': c->force = true; break;
-        case 'd': c->deadline = atof(optarg); break;
-        case ':': return refuse(name, "a value is missing behind", argv[optind - 1]);
-        default: return refuse(name, "unknown option", argv[optind - 1]);
+        case 'M':
+            return print_and_end(option, name, help, NULL, groups, ngroups);
+        case 'c':
+            c->check = true;
+            break;
+        case 'p':
+            overrides[c->noverrides++] = optarg;
+            break;
+        case 'o':
+            c->dir = optarg;
+            break;
+        case 'r':
+            c->restart = true;
+            break;
+        case 'f':
+            c->force = true;
+            break;
+        case 'd':
+            c->deadline = atof(optarg);
+            break;
+        case ':':
+            return refuse(name, "a value is missing behind", argv[optind - 1]);
+        default:
+            return refuse(name, "unknown option", argv[optind - 1]);
         }
     }
     given = optind < argc ? argv[optind] : NULL;
@@ -146,8 +159,9 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
         return refuse(name, "one case at a time; not understood:", argv[optind + 1]);
     c->case_file = find_case(given);
     if (!c->case_file) {
-        log_say("%s: there is no case %s: neither a .cfg file, nor a folder with a case.cfg, nor in cases/", name,
-                given);
+        log_say("%s: there is no case %s: neither a .cfg file, nor a folder with a case.cfg, nor "
+                "in cases/",
+                name, given);
         return RUN_INPUT;
     }
     if (!c->dir) {

@@ -15,7 +15,8 @@ static void set_mode(struct exact *e, int m, double kx, double ky, double A, dou
 
 struct exact exact_create(const struct scene *s)
 {
-    struct exact e = {.dim = s->domain.dim, .nu = s->fluid.nu, .rho = s->fluid.rho, .U = s->initial.U};
+    struct exact e = {
+        .dim = s->domain.dim, .nu = s->fluid.nu, .rho = s->fluid.rho, .U = s->initial.U};
     const double k = 2.0 * M_PI / s->initial.L, U = s->initial.U;
     for (int a = 0; a < 3; a++)
         e.V[a] = s->initial.field == FIELD_REST ? 0.0 : s->initial.velocity[a];
@@ -32,18 +33,15 @@ struct exact exact_create(const struct scene *s)
 }
 
 /* Average of cos(k.x) over a box is cos(k.xc) times this, for each side. */
-static double sinc(double a)
-{
-    return fabs(a) < 1e-4 ? 1.0 - a * a / 6.0 : sin(a) / a;
-}
+static double sinc(double a) { return fabs(a) < 1e-4 ? 1.0 - a * a / 6.0 : sin(a) / a; }
 
 static double filter(double kx, double ky, const double *h)
 {
     return sinc(0.5 * kx * h[0]) * sinc(0.5 * ky * h[1]);
 }
 
-/* p/rho = -1/4 sum_mn A_m A_n [(k_m.k_n + K^2) cos(a-b) + (K^2 - k_m.k_n) cos(a+b)] less m = n of the
- * first term, which is the mean; a, b the phases of m, n. */
+/* p/rho = -1/4 sum_mn A_m A_n [(k_m.k_n + K^2) cos(a-b) + (K^2 - k_m.k_n) cos(a+b)] less m = n of
+ * the first term, which is the mean; a, b the phases of m, n. */
 static double pressure(const struct exact *e, const double *c, const double *h)
 {
     double p = 0.0;
@@ -102,8 +100,8 @@ void exact_gradient(const struct exact *e, const double *x, double t, double g[3
             g[a][b] = 0.0;
     for (int m = 0; m < e->n; m++) {
         const double *k = e->k[m];
-        const double C = e->A[m] * d *
-                         cos(k[0] * (x[0] - e->V[0] * t) + k[1] * (x[1] - e->V[1] * t) + e->s[m]);
+        const double C =
+            e->A[m] * d * cos(k[0] * (x[0] - e->V[0] * t) + k[1] * (x[1] - e->V[1] * t) + e->s[m]);
         for (int b = 0; b < 2; b++) {
             g[0][b] -= C * k[1] * k[b];
             g[1][b] += C * k[0] * k[b];

@@ -12,12 +12,12 @@
 
 struct exact {
     int dim;
-    int n;         /* modes; 0: rest or uniform flow */
+    int n;                      /* modes; 0: rest or uniform flow */
     double k[2][2], A[2], s[2]; /* wave vectors 1/m, amplitudes m^2/s, phases */
-    double K2;     /* 1/m^2 */
-    double V[3];   /* m/s */
+    double K2;                  /* 1/m^2 */
+    double V[3];                /* m/s */
     double nu, rho;
-    double U;      /* m/s: scale of velocity */
+    double U; /* m/s: scale of velocity */
 };
 
 struct exact exact_create(const struct scene *s);
@@ -27,7 +27,8 @@ void exact_point(const struct exact *e, const double *x, double t, double *u, do
 void exact_average(const struct exact *e, const double *x, const double *h, double t, double *u,
                    double *p, double *w);
 /* u averaged over the face of centre x, normal along axis `a' (0, 1, 2), sides h. */
-void exact_face(const struct exact *e, const double *x, const double *h, int a, double t, double *u);
+void exact_face(const struct exact *e, const double *x, const double *h, int a, double t,
+                double *u);
 /* du/dx: g[a][b] = d u_a / d x_b at a point. */
 void exact_gradient(const struct exact *e, const double *x, double t, double g[3][3]);
 
@@ -40,10 +41,10 @@ struct norm {
     double emax; /* max |e| */
 };
 void norm_add(struct norm *n, double w, double e, double ref);
-void norm_reduce(struct norm *n, int count, MPI_Comm comm);   /* over the ranks of comm */
-double norm_relative_l2(const struct norm *n);                /* sqrt(e2/r2) */
-double norm_rms(const struct norm *n);                        /* sqrt(e2/vol) */
-double norm_mean(const struct norm *n);                       /* e1/vol */
-double norm_rms_mean_free(const struct norm *n);              /* sqrt(e2/vol - (e1/vol)^2) */
+void norm_reduce(struct norm *n, int count, MPI_Comm comm); /* over the ranks of comm */
+double norm_relative_l2(const struct norm *n);              /* sqrt(e2/r2) */
+double norm_rms(const struct norm *n);                      /* sqrt(e2/vol) */
+double norm_mean(const struct norm *n);                     /* e1/vol */
+double norm_rms_mean_free(const struct norm *n);            /* sqrt(e2/vol - (e1/vol)^2) */
 
 #endif

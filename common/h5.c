@@ -96,7 +96,8 @@ void h5_close(struct h5 **file)
     *file = NULL;
 }
 
-/* ---- attributes -------------------------------------------------------------------------------- */
+/* ---- attributes --------------------------------------------------------------------------------
+ */
 
 static void write_attribute(struct h5 *f, hid_t of, const char *name, hid_t type, const void *value)
 {
@@ -153,7 +154,8 @@ bool h5_read_attribute_int(struct h5 *f, const char *name, int64_t *value)
     return read_attribute(f, name, H5T_NATIVE_INT64, value);
 }
 
-/* ---- datasets ---------------------------------------------------------------------------------- */
+/* ---- datasets ----------------------------------------------------------------------------------
+ */
 
 /* Where a rank's part lies in a dataset, and its shape. */
 struct part {
@@ -183,8 +185,8 @@ static void transfer(struct h5 *f, hid_t set, const struct part *p, hid_t type, 
     H5(H5Sclose(space));
 }
 
-static void write_part(struct h5 *f, const char *name, const char *unit, const struct part *p, hid_t stored,
-                       hid_t type, const void *v)
+static void write_part(struct h5 *f, const char *name, const char *unit, const struct part *p,
+                       hid_t stored, hid_t type, const void *v)
 {
     hid_t space, set;
     H5(space = H5Screate_simple(p->rank, p->shape, NULL));

@@ -22,8 +22,9 @@ void h5_attribute_text(struct h5 *f, const char *name, const char *value);
 bool h5_read_attribute_real(struct h5 *f, const char *name, double *value);
 bool h5_read_attribute_int(struct h5 *f, const char *name, int64_t *value);
 
-/* Dataset /name[sum of n over ranks][ncomp] (rank 1 if ncomp is 1): this rank's n rows follow those of
- * the lower ranks. `unit' becomes the attribute "units". single: stored as float. n = 0 is legal. */
+/* Dataset /name[sum of n over ranks][ncomp] (rank 1 if ncomp is 1): this rank's n rows follow those
+ * of the lower ranks. `unit' becomes the attribute "units". single: stored as float. n = 0 is
+ * legal. */
 void h5_write_real(struct h5 *f, const char *name, const char *unit, int64_t n, int ncomp,
                    const double *v, bool single);
 void h5_write_int(struct h5 *f, const char *name, int64_t n, const int64_t *v);
@@ -34,8 +35,8 @@ int64_t h5_rows(struct h5 *f, const char *name);
 bool h5_read_real(struct h5 *f, const char *name, int64_t n, int ncomp, double *v);
 bool h5_read_int(struct h5 *f, const char *name, int64_t n, int64_t *v);
 
-/* Block of a dataset of shape cells[dim-1] .. cells[0] (x fastest) with ncomp components last (none if
- * 1): this rank writes its [lo, hi) from v[(hi-lo) cells, x fastest][ncomp]. */
+/* Block of a dataset of shape cells[dim-1] .. cells[0] (x fastest) with ncomp components last (none
+ * if 1): this rank writes its [lo, hi) from v[(hi-lo) cells, x fastest][ncomp]. */
 void h5_write_block(struct h5 *f, const char *name, const char *unit, int dim, const int *cells,
                     const int *lo, const int *hi, int ncomp, const double *v, bool single);
 

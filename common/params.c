@@ -19,7 +19,7 @@ enum { NAMES_SIZE = 2048 };
 struct override {
     const char *text; /* as given: "sph.dx=0.02"; borrowed */
     char group[64], key[64];
-    config_t cfg;     /* holds the value as setting "value" */
+    config_t cfg; /* holds the value as setting "value" */
     bool used;
 };
 
@@ -34,7 +34,8 @@ struct params {
     char names[NAMES_SIZE]; /* " sph fv ": groups the case has, the same on all ranks */
 };
 
-/* ---- faults ------------------------------------------------------------------------------------ */
+/* ---- faults ------------------------------------------------------------------------------------
+ */
 
 static void add_fault(struct faults *f, const char *place, const char *fmt, va_list args)
 {
@@ -64,7 +65,8 @@ int params_report(const struct faults *f)
     return f->n;
 }
 
-/* ---- the file ----------------------------------------------------------------------------------- */
+/* ---- the file -----------------------------------------------------------------------------------
+ */
 
 static char *read_text(const char *path)
 {
@@ -95,10 +97,17 @@ static unsigned long long fnv(unsigned long long h, const char *s)
 static bool number_of(const config_setting_t *s, double *v)
 {
     switch (config_setting_type(s)) {
-    case CONFIG_TYPE_INT: *v = config_setting_get_int(s); return true;
-    case CONFIG_TYPE_INT64: *v = (double)config_setting_get_int64(s); return true;
-    case CONFIG_TYPE_FLOAT: *v = config_setting_get_float(s); return true;
-    default: return false;
+    case CONFIG_TYPE_INT:
+        *v = config_setting_get_int(s);
+        return true;
+    case CONFIG_TYPE_INT64:
+        *v = (double)config_setting_get_int64(s);
+        return true;
+    case CONFIG_TYPE_FLOAT:
+        *v = config_setting_get_float(s);
+        return true;
+    default:
+        return false;
     }
 }
 
@@ -136,7 +145,8 @@ static void read_file(struct params *p, struct faults *f)
     const int large = hint_long_integer(text, number, sizeof number);
     if (large > 0) { /* libconfig would wrap it silently */
         snprintf(place, sizeof place, "%s:%d", p->path, large);
-        fault(f, place, "%s is too large for an integer; with an L behind it, it is read whole", number);
+        fault(f, place, "%s is too large for an integer; with an L behind it, it is read whole",
+              number);
     }
     if (config_read_file(&p->cfg, p->path) == CONFIG_TRUE) {
         p->read = true;
@@ -188,7 +198,8 @@ static void read_override(struct override *o, const char *text, struct faults *f
         fault(f, place, "`%s' is no value", value);
 }
 
-/* ---- values --------------------------------------------------------------------------------------- */
+/* ---- values
+ * --------------------------------------------------------------------------------------- */
 
 static void set_real(const struct param *r, void *target, int k, double v)
 {
@@ -207,13 +218,13 @@ static bool is_integer(const struct param *r)
 }
 
 /* Reads one number into component k; what is wrong with it goes to why. */
-static bool get_number(const struct param *r, const config_setting_t *s, void *target, int k, char *why,
-                       size_t size)
+static bool get_number(const struct param *r, const config_setting_t *s, void *target, int k,
+                       char *why, size_t size)
 {
     double v;
     if (!number_of(s, &v)) {
-        snprintf(why, size, "a plain number%s%s is wanted, no text", strcmp(r->unit, "-") ? " in " : "",
-                 strcmp(r->unit, "-") ? r->unit : "");
+        snprintf(why, size, "a plain number%s%s is wanted, no text",
+                 strcmp(r->unit, "-") ? " in " : "", strcmp(r->unit, "-") ? r->unit : "");
         return false;
     }
     if (is_integer(r) && (v != floor(v) || fabs(v) > 2147483647.0)) {
@@ -251,7 +262,8 @@ static bool get_choice(const struct param *r, const config_setting_t *s, void *t
     return false;
 }
 
-static bool get_text(const struct param *r, const config_setting_t *s, void *target, char *why, size_t size)
+static bool get_text(const struct param *r, const config_setting_t *s, void *target, char *why,
+                     size_t size)
 {
     const char *word = config_setting_get_string(s);
     if (!word || strlen(word) >= PARAM_TEXT_SIZE) {
@@ -274,8 +286,8 @@ static bool get_bool(const config_setting_t *s, bool *to, char *why, size_t size
 }
 
 /* (a, b) or (a, b, c): components from `first' on; the rest keeps `rest'. */
-static bool get_vector(const struct param *r, const config_setting_t *s, void *target, int first, char *why,
-                       size_t size)
+static bool get_vector(const struct param *r, const config_setting_t *s, void *target, int first,
+                       char *why, size_t size)
 {
     const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : 0;
     bool *flags = (bool *)(void *)((char *)target + r->offset);
@@ -299,9 +311,11 @@ static bool get_vector(const struct param *r, const config_setting_t *s, void *t
     return true;
 }
 
-static bool get_box(const struct param *r, const config_setting_t *s, void *target, char *why, size_t size)
+static bool get_box(const struct param *r, const config_setting_t *s, void *target, char *why,
+                    size_t size)
 {
-    if (config_setting_is_group(s) || !config_setting_is_aggregate(s) || config_setting_length(s) != 2) {
+    if (config_setting_is_group(s) || !config_setting_is_aggregate(s) ||
+        config_setting_length(s) != 2) {
         snprintf(why, size, "two corners are wanted: ((x, y), (x, y))");
         return false;
     }
@@ -309,18 +323,25 @@ static bool get_box(const struct param *r, const config_setting_t *s, void *targ
            get_vector(r, config_setting_get_elem(s, 1), target, 3, why, size);
 }
 
-static bool get_value(const struct param *r, const config_setting_t *s, void *target, char *why, size_t size)
+static bool get_value(const struct param *r, const config_setting_t *s, void *target, char *why,
+                      size_t size)
 {
     switch (r->type) {
     case PARAM_REAL:
-    case PARAM_INT: return get_number(r, s, target, 0, why, size);
-    case PARAM_BOOL: return get_bool(s, (bool *)(void *)((char *)target + r->offset), why, size);
-    case PARAM_CHOICE: return get_choice(r, s, target, why, size);
-    case PARAM_TEXT: return get_text(r, s, target, why, size);
+    case PARAM_INT:
+        return get_number(r, s, target, 0, why, size);
+    case PARAM_BOOL:
+        return get_bool(s, (bool *)(void *)((char *)target + r->offset), why, size);
+    case PARAM_CHOICE:
+        return get_choice(r, s, target, why, size);
+    case PARAM_TEXT:
+        return get_text(r, s, target, why, size);
     case PARAM_REALS:
     case PARAM_INTS:
-    case PARAM_BOOLS: return get_vector(r, s, target, 0, why, size);
-    default: return get_box(r, s, target, why, size);
+    case PARAM_BOOLS:
+        return get_vector(r, s, target, 0, why, size);
+    default:
+        return get_box(r, s, target, why, size);
     }
 }
 
@@ -344,7 +365,8 @@ static void set_default(const struct param_group *g, const struct param *r, void
     config_destroy(&c);
 }
 
-/* ---- groups ------------------------------------------------------------------------------------------ */
+/* ---- groups
+ * ------------------------------------------------------------------------------------------ */
 
 static void place_of(const struct params *p, const config_setting_t *s, char *place, size_t size,
                      const char *group, const char *key)
@@ -368,7 +390,8 @@ static struct override *override_of(struct params *p, const char *group, const c
 }
 
 static void read_row(struct params *p, const struct param_group *g, const struct param *r,
-                     const config_setting_t *group, void *target, bool overridable, struct faults *f)
+                     const config_setting_t *group, void *target, bool overridable,
+                     struct faults *f)
 {
     char place[1300], why[512];
     struct override *o = overridable ? override_of(p, g->name, r->key) : NULL;
@@ -475,7 +498,8 @@ static bool known_group(const struct params *p, const char *const *others, const
     return known;
 }
 
-static const char *nearest_group(const struct params *p, const char *const *others, const char *name)
+static const char *nearest_group(const struct params *p, const char *const *others,
+                                 const char *name)
 {
     struct hint_nearest n = hint_nearest_start(name);
     for (int k = 0; k < p->ngroups; k++)
@@ -497,7 +521,8 @@ static void find_unknown_groups(struct params *p, const char *const *others, str
         if (known_group(p, others, name))
             continue;
         const char *file = config_setting_source_file(s), *near = nearest_group(p, others, name);
-        snprintf(place, sizeof place, "%s:%u: %s", file ? file : p->path, config_setting_source_line(s), name);
+        snprintf(place, sizeof place, "%s:%u: %s", file ? file : p->path,
+                 config_setting_source_line(s), name);
         fault(f, place, near ? "unknown group; did you mean `%s'?" : "unknown group", near);
     }
 }
@@ -542,7 +567,8 @@ static void check_format(const struct params *p, struct faults *f)
     }
 }
 
-static void read_case(struct params *p, const char *const *texts, const char *const *others, struct faults *f)
+static void read_case(struct params *p, const char *const *texts, const char *const *others,
+                      struct faults *f)
 {
     p->overrides = NEW(struct override, p->noverrides);
     for (int k = 0; k < p->noverrides; k++)
@@ -564,8 +590,8 @@ static void read_case(struct params *p, const char *const *texts, const char *co
 }
 
 struct params *params_read(MPI_Comm comm, const char *path, int noverrides,
-                           const char *const *overrides, const struct param_group *groups, int ngroups,
-                           const char *const *others, struct faults *f)
+                           const char *const *overrides, const struct param_group *groups,
+                           int ngroups, const char *const *others, struct faults *f)
 {
     struct params *p = NEW(struct params, 1);
     MPI_Comm_rank(comm, &p->rank);

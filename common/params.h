@@ -34,13 +34,17 @@ struct param {
 };
 
 #define PARAM(T, m, unit, dflt, min, max, help)                                                    \
-    {#m,                                                                                           \
+    {                                                                                              \
+#m,                                                                                           \
      _Generic(((T *)0)->m, double: PARAM_REAL, int: PARAM_INT, bool: PARAM_BOOL,                   \
               char *: PARAM_TEXT, double *: PARAM_REALS, int *: PARAM_INTS, bool *: PARAM_BOOLS,   \
               double(*)[3]: PARAM_BOX),                                                            \
-     offsetof(T, m), unit, dflt, min, max, NULL, help}
+     offsetof(T, m), unit, dflt, min, max, NULL, help    \
+    }
 #define CHOICE(T, m, choices, dflt, help)                                                          \
-    {#m, PARAM_CHOICE, offsetof(T, m), "-", dflt, 0, 0, choices, help}
+    {                                                                                              \
+#m, PARAM_CHOICE, offsetof(T, m), "-", dflt, 0, 0, choices, help                           \
+    }
 
 /* A group of the case file, `name: { ... };', or a list of groups, `name: ( {...}, {...} );'. */
 struct param_group {
@@ -48,11 +52,11 @@ struct param_group {
     const char *help;
     const struct param *rows;
     int nrows;
-    void *target;   /* struct (or array of max structs of `stride' bytes) that the rows fill */
-    bool *present;  /* set to whether the case has the group; NULL: not wanted */
-    size_t stride;  /* 0: a plain group */
-    int max;        /* list: room in target */
-    int *count;     /* list: how many the case has */
+    void *target;  /* struct (or array of max structs of `stride' bytes) that the rows fill */
+    bool *present; /* set to whether the case has the group; NULL: not wanted */
+    size_t stride; /* 0: a plain group */
+    int max;       /* list: room in target */
+    int *count;    /* list: how many the case has */
 };
 
 /* Faults of the user's input, collected; see params_report. */

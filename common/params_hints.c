@@ -8,15 +8,23 @@
 size_t param_size(const struct param *r)
 {
     switch (r->type) {
-    case PARAM_REAL: return sizeof(double);
+    case PARAM_REAL:
+        return sizeof(double);
     case PARAM_INT:
-    case PARAM_CHOICE: return sizeof(int);
-    case PARAM_BOOL: return sizeof(bool);
-    case PARAM_TEXT: return PARAM_TEXT_SIZE;
-    case PARAM_REALS: return 3 * sizeof(double);
-    case PARAM_INTS: return 3 * sizeof(int);
-    case PARAM_BOOLS: return 3 * sizeof(bool);
-    default: return 6 * sizeof(double);
+    case PARAM_CHOICE:
+        return sizeof(int);
+    case PARAM_BOOL:
+        return sizeof(bool);
+    case PARAM_TEXT:
+        return PARAM_TEXT_SIZE;
+    case PARAM_REALS:
+        return 3 * sizeof(double);
+    case PARAM_INTS:
+        return 3 * sizeof(int);
+    case PARAM_BOOLS:
+        return 3 * sizeof(bool);
+    default:
+        return 6 * sizeof(double);
     }
 }
 

@@ -9,14 +9,20 @@
 static const char *kind(const struct param *r)
 {
     switch (r->type) {
-    case PARAM_BOOL: return "true|false";
-    case PARAM_CHOICE: return r->choices;
-    case PARAM_TEXT: return "text";
-    case PARAM_BOX: return "((x, y), (x, y))";
+    case PARAM_BOOL:
+        return "true|false";
+    case PARAM_CHOICE:
+        return r->choices;
+    case PARAM_TEXT:
+        return "text";
+    case PARAM_BOX:
+        return "((x, y), (x, y))";
     case PARAM_REALS:
     case PARAM_INTS:
-    case PARAM_BOOLS: return "(x, y[, z])";
-    default: return r->unit;
+    case PARAM_BOOLS:
+        return "(x, y[, z])";
+    default:
+        return r->unit;
     }
 }
 
@@ -57,11 +63,13 @@ void params_manual(const struct param_group *groups, int ngroups)
 {
     for (int k = 0; k < ngroups; k++) {
         const struct param_group *g = groups + k;
-        printf("## %s\n\n%s.\n\n| key | value | default | range | meaning |\n|---|---|---|---|---|\n", g->name,
-               g->help);
+        printf(
+            "## %s\n\n%s.\n\n| key | value | default | range | meaning |\n|---|---|---|---|---|\n",
+            g->name, g->help);
         for (int r = 0; r < g->nrows; r++) {
             const struct param *p = g->rows + r;
-            const bool numeric = p->type != PARAM_BOOL && p->type != PARAM_CHOICE && p->type != PARAM_TEXT;
+            const bool numeric =
+                p->type != PARAM_BOOL && p->type != PARAM_CHOICE && p->type != PARAM_TEXT;
             char range[80] = "";
             if (numeric)
                 snprintf(range, sizeof range, "%g .. %g", p->min, p->max);
@@ -83,9 +91,11 @@ static int print_numbers(char *to, size_t size, const struct param *r, const cha
         if (r->type == PARAM_INTS)
             len += snprintf(to + len, left, "%s%d", comma, ((const int *)(const void *)at)[k]);
         else if (r->type == PARAM_BOOLS)
-            len += snprintf(to + len, left, "%s%s", comma, ((const bool *)(const void *)at)[k] ? "true" : "false");
+            len += snprintf(to + len, left, "%s%s", comma,
+                            ((const bool *)(const void *)at)[k] ? "true" : "false");
         else
-            len += snprintf(to + len, left, "%s%.17g", comma, ((const double *)(const void *)at)[k]);
+            len +=
+                snprintf(to + len, left, "%s%.17g", comma, ((const double *)(const void *)at)[k]);
     }
     return len + snprintf(to + len, size - (size_t)len, ")");
 }
@@ -109,10 +119,18 @@ static void print_value(char *to, size_t size, const struct param *r, const void
     const char *at = (const char *)target + r->offset;
     int index, len;
     switch (r->type) {
-    case PARAM_REAL: snprintf(to, size, "%.17g", *(const double *)(const void *)at); break;
-    case PARAM_INT: snprintf(to, size, "%d", *(const int *)(const void *)at); break;
-    case PARAM_BOOL: snprintf(to, size, "%s", *(const bool *)(const void *)at ? "true" : "false"); break;
-    case PARAM_TEXT: print_text(to, size, at); break;
+    case PARAM_REAL:
+        snprintf(to, size, "%.17g", *(const double *)(const void *)at);
+        break;
+    case PARAM_INT:
+        snprintf(to, size, "%d", *(const int *)(const void *)at);
+        break;
+    case PARAM_BOOL:
+        snprintf(to, size, "%s", *(const bool *)(const void *)at ? "true" : "false");
+        break;
+    case PARAM_TEXT:
+        print_text(to, size, at);
+        break;
     case PARAM_CHOICE: {
         const char *c = r->choices;
         for (index = *(const int *)(const void *)at; index > 0 && strchr(c, '|'); index--)
@@ -127,7 +145,9 @@ static void print_value(char *to, size_t size, const struct param *r, const void
         len += print_numbers(to + len, size - (size_t)len, r, at + 3 * sizeof(double), 3);
         snprintf(to + len, size - (size_t)len, ")");
         break;
-    default: print_numbers(to, size, r, at, 3); break;
+    default:
+        print_numbers(to, size, r, at, 3);
+        break;
     }
 }
 

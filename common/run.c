@@ -28,11 +28,11 @@ struct life {
     struct run_files files;
     struct series *series;
     void *s;
-    int64_t window;         /* of the restart file */
-    double wall0, cpu0;     /* s: start of the time loop */
-    double said, every;     /* s: last progress line, and how often */
-    double saved;           /* s: wall time of the last restart file */
-    int64_t output;         /* number of the next output time */
+    int64_t window;     /* of the restart file */
+    double wall0, cpu0; /* s: start of the time loop */
+    double said, every; /* s: last progress line, and how often */
+    double saved;       /* s: wall time of the last restart file */
+    int64_t output;     /* number of the next output time */
     struct diagnosis d;
     const char *status;
 };
@@ -49,7 +49,8 @@ bool run_diagnose(struct diagnosis *d, MPI_Comm comm)
     return first < size;
 }
 
-/* ---- start ------------------------------------------------------------------------------------ */
+/* ---- start ------------------------------------------------------------------------------------
+ */
 
 static void collect_groups(struct life *l)
 {
@@ -66,18 +67,20 @@ static void check_place(struct life *l)
     r->scene.has_sph = params_has_group(l->params, "sph");
     r->scene.has_fv = params_has_group(l->params, "fv");
     if (!params_has_group(l->params, r->name))
-        params_fault(l->params, &l->faults, r->name, "the case has no group %s: it is not for this program", r->name);
+        params_fault(l->params, &l->faults, r->name,
+                     "the case has no group %s: it is not for this program", r->name);
     else if (r->scene.has_sph && r->scene.has_fv && !r->partner_ctx && !l->line.check)
         params_fault(l->params, &l->faults, r->name,
-                     "this case is a coupled job (groups sph and fv): start it with cases/run, or leave a group out");
+                     "this case is a coupled job (groups sph and fv): start it with cases/run, or "
+                     "leave a group out");
 }
 
 /* Reads and checks everything; returns the number of faults, the same on all ranks. */
 static int read_case(struct life *l)
 {
     struct run *r = &l->r;
-    l->params = params_read(r->comm, l->line.case_file, l->line.noverrides, l->line.overrides, l->groups,
-                            l->ngroups, l->p->other_groups, &l->faults);
+    l->params = params_read(r->comm, l->line.case_file, l->line.noverrides, l->line.overrides,
+                            l->groups, l->ngroups, l->p->other_groups, &l->faults);
     r->params = l->params;
     if (l->faults.n == 0)
         check_place(l);
@@ -97,9 +100,10 @@ static void banner(const struct life *l)
     MPI_Get_library_version(mpi, &n);
     mpi[strcspn(mpi, ",")] = '\0';
     H5get_libversion(&a, &b, &c);
-    (l->r.coupled ? log_quiet : log_say)("estran %s %s (%s, HDF5 %u.%u.%u), %d rank%s on a machine of %ld cores",
-                                         l->r.name, run_version, mpi, a, b, c, l->r.size,
-                                         l->r.size == 1 ? "" : "s", sysconf(_SC_NPROCESSORS_ONLN));
+    (l->r.coupled ? log_quiet : log_say)(
+        "estran %s %s (%s, HDF5 %u.%u.%u), %d rank%s on a machine of %ld cores", l->r.name,
+        run_version, mpi, a, b, c, l->r.size, l->r.size == 1 ? "" : "s",
+        sysconf(_SC_NPROCESSORS_ONLN));
     (l->r.coupled ? log_quiet : log_say)("case %s -> %s", l->r.case_name, l->r.dir);
 }
 
@@ -111,7 +115,8 @@ static int meet(struct life *l, int faults)
         return faults ? RUN_INPUT : -1;
     if (!faults && l->p->offer)
         l->p->offer(r);
-    const int code = r->partner->meet(r->partner_ctx, faults, params_hash(l->params), l->window, r->dir);
+    const int code =
+        r->partner->meet(r->partner_ctx, faults, params_hash(l->params), l->window, r->dir);
     return code ? code : -1;
 }
 
@@ -160,13 +165,15 @@ static void start_series(struct life *l)
     for (int k = 0; k < l->p->ncolumns; k++)
         columns[k + 2] = l->p->columns[k];
     files_path(r, "series.csv", path, sizeof path);
-    l->series = series_create(r->rank == 0 ? path : NULL, l->p->ncolumns + 2, columns, r->restart, r->t);
+    l->series =
+        series_create(r->rank == 0 ? path : NULL, l->p->ncolumns + 2, columns, r->restart, r->t);
     snprintf(path, sizeof path, "%s/%s.xdmf", r->dir, r->name);
     if (r->rank == 0)
         l->files.xdmf = xdmf_create(path, r->restart, r->t * (1.0 + 1e-9));
 }
 
-/* ---- while it runs ------------------------------------------------------------------------------ */
+/* ---- while it runs ------------------------------------------------------------------------------
+ */
 
 static void write_row(struct life *l)
 {
@@ -179,7 +186,8 @@ static void write_row(struct life *l)
 /* 1, 2, 5, 10, 30, 60 s apart as the run grows. */
 static void say_progress(struct life *l)
 {
-    static const double every[] = {1, 2, 5, 10, 30, 60}, until[] = {5, 20, 120, 600, 3600, INFINITY};
+    static const double every[] = {1, 2, 5, 10, 30, 60},
+                        until[] = {5, 20, 120, 600, 3600, INFINITY};
     struct run *r = &l->r;
     const double now = wall_time(), gone = now - l->wall0, done = r->t / r->scene.time.end;
     char text[512] = "";
@@ -194,8 +202,9 @@ static void say_progress(struct life *l)
     if (l->p->progress)
         l->p->progress(l->s, text, sizeof text);
     const double left = done > 0.0 ? gone * (1.0 - done) / done : 0.0;
-    (r->coupled ? log_quiet : log_say)("t %9.4g of %g s %4.0f %%  left %2d:%02d:%02d  %s", r->t, r->scene.time.end,
-                                       100.0 * done, (int)left / 3600, (int)left / 60 % 60, (int)left % 60, text);
+    (r->coupled ? log_quiet : log_say)("t %9.4g of %g s %4.0f %%  left %2d:%02d:%02d  %s", r->t,
+                                       r->scene.time.end, 100.0 * done, (int)left / 3600,
+                                       (int)left / 60 % 60, (int)left % 60, text);
 }
 
 /* One step; false when the state cannot be trusted. */
@@ -232,7 +241,8 @@ static int diverged(struct life *l)
     log_say("  likely  %s", l->d.likely);
     files_snapshot(&l->files, "diverged");
     if (r->scene.output.snapshots)
-        log_say("  files   %s/%s_diverged.h5 (the state that failed), last entry of %s.xdmf", r->dir, r->name, r->name);
+        log_say("  files   %s/%s_diverged.h5 (the state that failed), last entry of %s.xdmf",
+                r->dir, r->name, r->name);
     l->status = "diverged";
     return RUN_DIVERGED;
 }
@@ -332,7 +342,8 @@ static int loop_coupled(struct life *l)
     return code;
 }
 
-/* ---- end ------------------------------------------------------------------------------------------ */
+/* ---- end
+ * ------------------------------------------------------------------------------------------ */
 
 static double sum_over_ranks(const struct run *r, double v)
 {
@@ -395,8 +406,8 @@ static void say_end(const struct life *l)
     double cpu = 0.0;
     summary_each(r->summary, say_number, NULL);
     summary_find(r->summary, "cpu_s", &cpu);
-    log_say("cost       %.3g s wall on %d rank%s, %.3g s cpu, %lld steps", wall, r->size, r->size == 1 ? "" : "s", cpu,
-            (long long)r->step);
+    log_say("cost       %.3g s wall on %d rank%s, %.3g s cpu, %lld steps", wall, r->size,
+            r->size == 1 ? "" : "s", cpu, (long long)r->step);
     for (int k = 0; k < r->timers.n; k++)
         log_say("time       %-22s %10.3f s %5.1f %%", r->timers.of[k].name, r->timers.of[k].wall,
                 100.0 * r->timers.of[k].wall / wall);
@@ -524,7 +535,8 @@ int run_main(int argc, char **argv, const struct program *p, const struct partne
         code = 0;
         l->r.comm = MPI_COMM_WORLD;
         if (partner)
-            code = partner->open(MPI_COMM_WORLD, p->name, l->line.deadline, &l->r.comm, &l->r.partner_ctx);
+            code = partner->open(MPI_COMM_WORLD, p->name, l->line.deadline, &l->r.comm,
+                                 &l->r.partner_ctx);
         l->r.partner = l->r.partner_ctx ? partner : NULL;
         MPI_Comm_rank(l->r.comm, &l->r.rank);
         MPI_Comm_size(l->r.comm, &l->r.size);

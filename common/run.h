@@ -31,12 +31,12 @@ struct xdmf;
 struct run {
     MPI_Comm comm; /* this program's ranks */
     int rank, size;
-    const char *name;  /* "sph" */
+    const char *name; /* "sph" */
     struct scene scene;
     const struct params *params;
-    char dir[1024];    /* output folder */
+    char dir[1024]; /* output folder */
     char case_name[256];
-    bool restart;      /* state comes from the restart file */
+    bool restart; /* state comes from the restart file */
     bool coupled;
     const struct partner *partner; /* NULL when alone */
     void *partner_ctx;             /* its state (struct cpl *) */
@@ -46,8 +46,8 @@ struct run {
     int64_t step;
 };
 
-/* A diagnosis: why a run cannot go on. Filled on every rank alike (or on the culprit, then reduced by
- * run_diverged). */
+/* A diagnosis: why a run cannot go on. Filled on every rank alike (or on the culprit, then reduced
+ * by run_diverged). */
 struct diagnosis {
     bool bad;
     char reason[256]; /* "|u| of particle 48213 is 114 m/s, limit 5 m/s" */
@@ -57,25 +57,25 @@ struct diagnosis {
 
 /* What a solver provides. s is its state, made by create. */
 struct program {
-    const char *name;      /* "sph": name of its group, of its files */
-    const char *help;      /* one sentence */
+    const char *name;                 /* "sph": name of its group, of its files */
+    const char *help;                 /* one sentence */
     const struct param_group *groups; /* its own groups beside the scene's */
     int ngroups;
-    const char *const *other_groups;  /* groups that other programs check; NULL-terminated */
+    const char *const *other_groups; /* groups that other programs check; NULL-terminated */
     /* Faults that need more than one key; may be NULL. */
     void (*check)(const struct run *r, struct faults *f);
-    /* Lines of --check and of the banner: what the scene uses and leaves out, sizes, memory, time step,
-     * number of steps; through log_say. Runs on the parameters alone, before create. */
+    /* Lines of --check and of the banner: what the scene uses and leaves out, sizes, memory, time
+     * step, number of steps; through log_say. Runs on the parameters alone, before create. */
     void (*describe)(const struct run *r);
     /* Publishes what the partners must know before the plan (zones); NULL if nothing. */
     void (*offer)(struct run *r);
-    /* State at t = 0, or from the restart file f (then sets r->t and r->step before). NULL: f does not
-     * fit (reason logged). */
+    /* State at t = 0, or from the restart file f (then sets r->t and r->step before). NULL: f does
+     * not fit (reason logged). */
     void *(*create)(struct run *r, struct h5 *f);
     void (*destroy)(void *s);
-    /* One step of at most t_stop - r->t, landing on t_stop exactly when it is within reach (the last
-     * steps are shared out evenly); returns the dt done and sets d->bad (on all ranks) when the state
-     * cannot be trusted. */
+    /* One step of at most t_stop - r->t, landing on t_stop exactly when it is within reach (the
+     * last steps are shared out evenly); returns the dt done and sets d->bad (on all ranks) when
+     * the state cannot be trusted. */
     double (*step)(void *s, double t_stop, struct diagnosis *d);
     /* Coupled: longest window that suits it, s; NULL: no wish. */
     double (*window_wish)(void *s);
@@ -88,7 +88,8 @@ struct program {
     const char *const *columns;
     int ncolumns;
     void (*row)(void *s, double *values);
-    /* One progress line, without t and %: "dt 0.75 ms (sound)  Ma 0.062 ..."; rank 0's text counts. */
+    /* One progress line, without t and %: "dt 0.75 ms (sound)  Ma 0.062 ..."; rank 0's text counts.
+     */
     void (*progress)(void *s, char *line, int size);
     /* Fields of a snapshot into f and its XDMF entry (x is NULL except on rank 0). */
     void (*snapshot)(void *s, struct h5 *f, struct xdmf *x, const char *file);
@@ -100,24 +101,26 @@ struct program {
 
 /* How a program takes part in a coupled job. Every function is collective over the program. */
 struct partner {
-    /* Meets the world's programs under `name' within deadline s. *comm: this program's ranks, *ctx: NULL
-     * when no other program is there. Non-zero: the code to exit with (reason printed). */
+    /* Meets the world's programs under `name' within deadline s. *comm: this program's ranks, *ctx:
+     * NULL when no other program is there. Non-zero: the code to exit with (reason printed). */
     int (*open)(MPI_Comm world, const char *name, double deadline, MPI_Comm *comm, void **ctx);
-    /* After reading the case and program.offer: all compare the case's hash and their faults. Non-zero:
-     * the code to exit with. window: of the restart file, -1 for a fresh start. */
+    /* After reading the case and program.offer: all compare the case's hash and their faults.
+     * Non-zero: the code to exit with. window: of the restart file, -1 for a fresh start. */
     int (*meet)(void *ctx, int faults, unsigned long long hash, int64_t window, const char *dir);
-    /* After create (which declares sets and fields): the plan is checked. dt_wish: longest window. */
+    /* After create (which declares sets and fields): the plan is checked. dt_wish: longest window.
+     */
     int (*ready)(void *ctx, double t, double dt_wish);
     /* Next window. false: the end, *code says which (RUN_DONE, RUN_STOPPED or RUN_DIVERGED). */
     bool (*window)(void *ctx, double *t0, double *t1, bool *output, bool *save, int *code);
-    /* The window is done; numbers of `report' go to the coupler's progress line and summary; stop: asks
-     * for an orderly end. */
+    /* The window is done; numbers of `report' go to the coupler's progress line and summary; stop:
+     * asks for an orderly end. */
     void (*advance)(void *ctx, double t1, const struct summary *report, bool stop);
     /* A restart file of this window is complete on disk. */
     void (*saved)(void *ctx, int64_t window, const char *file);
     int64_t (*window_number)(void *ctx); /* of the window under way or last done */
     double (*waited)(void *ctx);         /* s spent waiting for partners */
-    /* (In calls: (p->fail)(...), for fail() is a macro.) Tells all partners why this program stops and ends the job with this code; does not return. */
+    /* (In calls: (p->fail)(...), for fail() is a macro.) Tells all partners why this program stops
+     * and ends the job with this code; does not return. */
     void (*fail)(void *ctx, int code, const char *reason);
     /* Final numbers to the coupler's summary, goodbye. */
     void (*close)(void *ctx, int code, const struct summary *final);
@@ -128,8 +131,8 @@ int run_main(int argc, char **argv, const struct program *p, const struct partne
 
 /* For programs that do not use run_main's loop (the coupler): the command line. */
 struct command_line {
-    const char *case_file;  /* path as given, or cases/NAME/case.cfg found from NAME */
-    const char *dir;        /* -o, or out/CASE */
+    const char *case_file; /* path as given, or cases/NAME/case.cfg found from NAME */
+    const char *dir;       /* -o, or out/CASE */
     int noverrides;
     const char *const *overrides;
     bool check, restart, force;
@@ -137,8 +140,8 @@ struct command_line {
 };
 /* Name of a case from the path of its file. */
 void run_case_name(const char *file, char *name, size_t size);
-/* Returns -1 to go on, else the exit code (--help, --version, --params: 0; faults: 2). Faults are all
- * printed, on world rank 0 of this program name. */
+/* Returns -1 to go on, else the exit code (--help, --version, --params: 0; faults: 2). Faults are
+ * all printed, on world rank 0 of this program name. */
 int run_command_line(struct command_line *c, int argc, char **argv, const char *name,
                      const char *help, const struct param_group *groups, int ngroups);
 /* Makes the folder; 0, or RUN_INPUT if it holds a run of this program already and neither force nor
@@ -146,15 +149,17 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
 int run_folder(MPI_Comm comm, const char *dir, const char *name, bool force, bool restart);
 
 /* SIGINT, SIGTERM, SIGUSR1 set a flag; SIGSEGV, SIGFPE, SIGBUS, SIGABRT leave a death note. When a
- * launcher's SIGTERM is not followed by an orderly end within 0.8 s, the handler prints the death note, or
- * what was last heard of the partners, and leaves with RUN_PARTNER. */
+ * launcher's SIGTERM is not followed by an orderly end within 0.8 s, the handler prints the death
+ * note, or what was last heard of the partners, and leaves with RUN_PARTNER. */
 void signals_install(const char *program, int rank);
-/* MPI_Init within 30 s: a member of the job that is no MPI program would leave it waiting in silence. */
+/* MPI_Init within 30 s: a member of the job that is no MPI program would leave it waiting in
+ * silence. */
 void signals_start_mpi(int *argc, char ***argv, const char *program);
-bool signals_stop(void);       /* this rank's flag */
-void signals_handled(void);    /* an orderly stop is under way: no deadline */
-void signals_note_path(const char *path); /* file of the death note (shared by the job's programs) */
-void signals_heard(const char *text);     /* what the handler prints when there is no note; copied */
+bool signals_stop(void);    /* this rank's flag */
+void signals_handled(void); /* an orderly stop is under way: no deadline */
+void signals_note_path(
+    const char *path);                /* file of the death note (shared by the job's programs) */
+void signals_heard(const char *text); /* what the handler prints when there is no note; copied */
 
 /* The lowest rank with d->bad tells all ranks; false if there is none. Collective. */
 bool run_diagnose(struct diagnosis *d, MPI_Comm comm);

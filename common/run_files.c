@@ -127,7 +127,8 @@ struct h5 *files_open_restart(struct run *r, int64_t *window)
     MPI_Bcast(window, 1, MPI_INT64_T, 0, r->comm);
     MPI_Bcast(file, sizeof file, MPI_CHAR, 0, r->comm);
     if (!good) {
-        log_say("--restart: %s/checkpoint.txt names no restart file of %s; run without --restart", r->dir, r->name);
+        log_say("--restart: %s/checkpoint.txt names no restart file of %s; run without --restart",
+                r->dir, r->name);
         return NULL;
     }
     snprintf(path, sizeof path, "%s/%s", r->dir, file);
@@ -162,7 +163,8 @@ void files_view(const struct run *r)
     fputs("# paraview --script=view.py: all programs of the run, coloured by vorticity\n"
           "import os\n"
           "from paraview.simple import *\n"
-          "here = os.path.dirname(os.path.abspath(__file__)) if '__file__' in globals() else os.getcwd()\n"
+          "here = os.path.dirname(os.path.abspath(__file__)) if '__file__' in globals() else "
+          "os.getcwd()\n"
           "view = GetActiveViewOrCreate('RenderView')\n"
           "for name in ('fv', 'sph'):\n"
           "    path = os.path.join(here, name + '.xdmf')\n"
@@ -182,7 +184,8 @@ void files_view(const struct run *r)
     fclose(f);
 }
 
-/* ---- the folder ------------------------------------------------------------------------------- */
+/* ---- the folder -------------------------------------------------------------------------------
+ */
 
 /* Whether a file belongs to a run of this program. */
 static bool is_ours(const char *file, const char *name)
@@ -225,7 +228,8 @@ static int prepare(const char *dir, const char *name, bool force, bool restart)
     if (d)
         closedir(d);
     if (found && !force && !restart) {
-        log_say("%s holds a run of %s already: -o DIR for another folder, --force to replace it, --restart to go on",
+        log_say("%s holds a run of %s already: -o DIR for another folder, --force to replace it, "
+                "--restart to go on",
                 dir, name);
         return RUN_INPUT;
     }

@@ -17,10 +17,11 @@ struct run_files {
 
 /* Writes NAME_NNNNNN.h5 (or NAME_WHAT.h5) and its XDMF entry. Collective, as all here. */
 void files_snapshot(struct run_files *f, const char *what);
-/* Writes the restart file of number n; alone: also the manifest, and keeps two. file[256]: its name. */
+/* Writes the restart file of number n; alone: also the manifest, and keeps two. file[256]: its
+ * name. */
 void files_checkpoint(struct run_files *f, int64_t n, char *file);
-/* Opens the restart file that DIR/checkpoint.txt names for this program; NULL with the reason logged.
- * *window: of the manifest, -1 if it is of a lone run. */
+/* Opens the restart file that DIR/checkpoint.txt names for this program; NULL with the reason
+ * logged. *window: of the manifest, -1 if it is of a lone run. */
 struct h5 *files_open_restart(struct run *r, int64_t *window);
 /* What a restart file holds for the run itself. */
 bool files_read_clock(struct run_files *f, struct h5 *h);

@@ -1,4 +1,5 @@
-/* scene.c - the table of the groups that every program reads. SPDX-License-Identifier: BSD-3-Clause */
+/* scene.c - the table of the groups that every program reads. SPDX-License-Identifier: BSD-3-Clause
+ */
 #include "scene.h"
 
 #include <math.h>
@@ -75,8 +76,8 @@ void scene_groups(struct scene *s, struct param_group *groups)
         {"coupling", "How the programs of a coupled job meet", ROWS(coupling_rows), &s->coupling,
          &s->has_coupling, 0, 0, NULL},
         {"output", "What is written", ROWS(output_rows), &s->output, &s->has_output, 0, 0, NULL},
-        {"accept", "List of what the result must keep for exit code 0", ROWS(accept_rows), s->accept, NULL,
-         sizeof s->accept[0], ACCEPT_MAX, &s->naccept},
+        {"accept", "List of what the result must keep for exit code 0", ROWS(accept_rows),
+         s->accept, NULL, sizeof s->accept[0], ACCEPT_MAX, &s->naccept},
     };
     memcpy(groups, all, sizeof all);
 }
@@ -87,8 +88,8 @@ static void check_domain(const struct scene *s, const struct params *p, struct f
     const struct scene_domain *d = &s->domain;
     for (int a = 0; a < d->dim && a < 3; a++)
         if (!(d->max[a] > d->min[a]))
-            params_fault(p, f, "domain.max", "%c: %g m is not above domain.min, %g m", axes[a], d->max[a],
-                         d->min[a]);
+            params_fault(p, f, "domain.max", "%c: %g m is not above domain.min, %g m", axes[a],
+                         d->max[a], d->min[a]);
     for (int a = d->dim; a < 3; a++)
         if (s->fluid.gravity[a] != 0.0 || s->initial.velocity[a] != 0.0)
             params_fault(p, f, s->fluid.gravity[a] != 0.0 ? "fluid.gravity" : "initial.velocity",
@@ -103,8 +104,10 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
     for (int a = 0; a < 2; a++) {
         const double n = (s->domain.max[a] - s->domain.min[a]) / s->initial.L;
         if (s->domain.periodic[a] && fabs(n - round(n)) > 1e-9)
-            params_fault(p, f, "initial.L", "%g m: the periodic domain holds %g wave lengths, a whole number is wanted",
-                         s->initial.L, n);
+            params_fault(
+                p, f, "initial.L",
+                "%g m: the periodic domain holds %g wave lengths, a whole number is wanted",
+                s->initial.L, n);
     }
 }
 

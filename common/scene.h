@@ -20,7 +20,7 @@ struct scene {
         double gravity[3]; /* m/s^2 */
     } fluid;
     struct scene_domain {
-        int dim;            /* 2 or 3 */
+        int dim;               /* 2 or 3 */
         double min[3], max[3]; /* m */
         bool periodic[3];
     } domain;
@@ -40,11 +40,11 @@ struct scene {
         double deadline;   /* s to meet the other programs */
     } coupling;
     struct scene_output {
-        double every;         /* s between snapshots; 0: first and last only */
-        bool snapshots;       /* write HDF5 at all */
+        double every;                 /* s between snapshots; 0: first and last only */
+        bool snapshots;               /* write HDF5 at all */
         char fields[PARAM_TEXT_SIZE]; /* "velocity pressure ..." */
-        int series;           /* steps between rows of series.csv */
-        double checkpoint;    /* s of simulated time between restart files; 0: only at a stop */
+        int series;                   /* steps between rows of series.csv */
+        double checkpoint;      /* s of simulated time between restart files; 0: only at a stop */
         double checkpoint_wall; /* s of wall time between restart files; 0: none */
     } output;
     int naccept;

@@ -24,7 +24,8 @@ void summary_texts(struct summary *s, const char *key, int n, const char *const 
 /* false if there is no such number. */
 bool summary_find(const struct summary *s, const char *key, double *v);
 /* Calls f for every number in the order of insertion. */
-void summary_each(const struct summary *s, void (*f)(void *ctx, const char *key, double v), void *ctx);
+void summary_each(const struct summary *s, void (*f)(void *ctx, const char *key, double v),
+                  void *ctx);
 /* Writes by rename. */
 void summary_write(const struct summary *s, const char *path);
 

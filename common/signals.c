@@ -1,8 +1,9 @@
 /* signals.c - a request to stop is a flag; a fault leaves a note for the other programs of the job.
- * Open MPI 4.1 reports no error for a dead peer: survivors get SIGTERM about 1 s after it and SIGKILL 1 s
- * later. So SIGTERM with a note on disk means that a partner failed; without one, an orderly stop is
- * tried, and if that hangs for 0.8 s, for lack of the partner, the reason is printed and the process leaves.
- * Handlers use only functions that are safe in them. SPDX-License-Identifier: BSD-3-Clause */
+ * Open MPI 4.1 reports no error for a dead peer: survivors get SIGTERM about 1 s after it and
+ * SIGKILL 1 s later. So SIGTERM with a note on disk means that a partner failed; without one, an
+ * orderly stop is tried, and if that hangs for 0.8 s, for lack of the partner, the reason is
+ * printed and the process leaves. Handlers use only functions that are safe in them.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -59,8 +60,8 @@ static void leave_note(const char *what)
     close(fd);
 }
 
-/* The launcher kills all others within milliseconds of the first that leaves: they need time for their
- * last words. */
+/* The launcher kills all others within milliseconds of the first that leaves: they need time for
+ * their last words. */
 static void leave(void)
 {
     const struct timespec pause = {.tv_nsec = 300000000};
@@ -88,7 +89,8 @@ static void on_alarm(int signal)
         return;
     if (!print_note()) {
         put(STDOUT_FILENO, state.who);
-        put(STDOUT_FILENO, ": the launcher ends the job and no program left a reason (killed, or out of memory?)");
+        put(STDOUT_FILENO,
+            ": the launcher ends the job and no program left a reason (killed, or out of memory?)");
         if (*state.heard[state.heard_now]) {
             put(STDOUT_FILENO, "; last heard: ");
             put(STDOUT_FILENO, state.heard[state.heard_now]);
@@ -102,7 +104,8 @@ static void not_started(int signal)
 {
     (void)signal;
     put(STDOUT_FILENO, state.who);
-    put(STDOUT_FILENO, ": MPI has not started within 30 s: is every program of this job an MPI program?\n");
+    put(STDOUT_FILENO,
+        ": MPI has not started within 30 s: is every program of this job an MPI program?\n");
     _exit(RUN_INPUT);
 }
 

@@ -1,4 +1,5 @@
-/* summary.c - summary.json: keys with dots become nested objects. SPDX-License-Identifier: BSD-3-Clause */
+/* summary.c - summary.json: keys with dots become nested objects.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "series.h"
 
 #include <math.h>
@@ -116,7 +117,8 @@ bool summary_find(const struct summary *s, const char *key, double *v)
     return false;
 }
 
-void summary_each(const struct summary *s, void (*f)(void *ctx, const char *key, double v), void *ctx)
+void summary_each(const struct summary *s, void (*f)(void *ctx, const char *key, double v),
+                  void *ctx)
 {
     for (int k = 0; k < s->n; k++)
         if (s->of[k].number)

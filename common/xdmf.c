@@ -10,8 +10,9 @@
 #include "log.h"
 #include "mem.h"
 
-static const char head[] = "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
-                           "<Grid Name=\"snapshots\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+static const char head[] =
+    "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
+    "<Grid Name=\"snapshots\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
 static const char tail[] = "</Grid>\n</Domain>\n</Xdmf>\n";
 
 struct xdmf {
@@ -94,8 +95,8 @@ static void rewrite(const struct xdmf *x)
         fail("cannot write %s", x->path);
 }
 
-static void add_fields(struct xdmf *x, const char *center, const char *shape, const char *file, int nfields,
-                       const struct xdmf_field *fields)
+static void add_fields(struct xdmf *x, const char *center, const char *shape, const char *file,
+                       int nfields, const struct xdmf_field *fields)
 {
     for (int k = 0; k < nfields; k++) {
         const int c = fields[k].ncomp;
@@ -104,9 +105,13 @@ static void add_fields(struct xdmf *x, const char *center, const char *shape, co
             snprintf(comps, sizeof comps, " %d", c);
         add(x,
             "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\"><DataItem Format=\"HDF\" "
-            "NumberType=\"Float\" Precision=\"4\" Dimensions=\"%s%s\">%s:/%s</DataItem></Attribute>\n",
-            fields[k].name, c == 3 ? "Vector" : c == 1 ? "Scalar" : "Matrix", center, shape, comps, file,
-            fields[k].name);
+            "NumberType=\"Float\" Precision=\"4\" "
+            "Dimensions=\"%s%s\">%s:/%s</DataItem></Attribute>\n",
+            fields[k].name,
+            c == 3   ? "Vector"
+            : c == 1 ? "Scalar"
+                     : "Matrix",
+            center, shape, comps, file, fields[k].name);
     }
 }
 
@@ -118,7 +123,8 @@ void xdmf_points(struct xdmf *x, double t, const char *file, int64_t n, int dim,
     add(x, "<Grid Name=\"at\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
     add(x, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%s\"/>\n", shape);
     add(x,
-        "<Geometry GeometryType=\"%s\"><DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"4\" "
+        "<Geometry GeometryType=\"%s\"><DataItem Format=\"HDF\" NumberType=\"Float\" "
+        "Precision=\"4\" "
         "Dimensions=\"%s %d\">%s:/position</DataItem></Geometry>\n",
         dim == 2 ? "XY" : "XYZ", shape, dim, file);
     add_fields(x, "Node", shape, file, nfields, fields);
@@ -137,7 +143,8 @@ void xdmf_block(struct xdmf *x, double t, const char *file, int dim, const int *
         snprintf(nodes, sizeof nodes, "%d %d", cells[1] + 1, cells[0] + 1);
         add(x,
             "<Topology TopologyType=\"2DCoRectMesh\" Dimensions=\"%s\"/>\n<Geometry "
-            "GeometryType=\"ORIGIN_DXDY\"><DataItem Format=\"XML\" Dimensions=\"2\">%.17g %.17g</DataItem>"
+            "GeometryType=\"ORIGIN_DXDY\"><DataItem Format=\"XML\" Dimensions=\"2\">%.17g "
+            "%.17g</DataItem>"
             "<DataItem Format=\"XML\" Dimensions=\"2\">%.17g %.17g</DataItem></Geometry>\n",
             nodes, origin[1], origin[0], spacing[1], spacing[0]);
     } else {

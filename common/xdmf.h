@@ -1,6 +1,6 @@
 /* xdmf.h - ParaView's view of the HDF5 snapshots: one XDMF file a program, rewritten by rename
- * after each snapshot so that it is always whole. Rank 0 only. ParaView 5.11's readers fix the form:
- * 2D block data are 2D datasets on 2DCoRectMesh / 2DSMesh, paths are relative.
+ * after each snapshot so that it is always whole. Rank 0 only. ParaView 5.11's readers fix the
+ * form: 2D block data are 2D datasets on 2DCoRectMesh / 2DSMesh, paths are relative.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_XDMF_H
 #define COMMON_XDMF_H

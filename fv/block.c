@@ -83,7 +83,8 @@ static int64_t layers(const struct block *b, double *f, int a, int first, double
 }
 
 /* One direction, one way: what leaves at `from' arrives in the ghosts at `to' of the other side. */
-static void shift(const struct block *b, int nf, double *const *f, int a, int from, int to, int dest, int source)
+static void shift(const struct block *b, int nf, double *const *f, int a, int from, int to,
+                  int dest, int source)
 {
     int rank;
     MPI_Comm_rank(b->cart, &rank);
@@ -95,8 +96,8 @@ static void shift(const struct block *b, int nf, double *const *f, int a, int fr
         const double *got = b->send;
         if (dest != rank || source != rank) {
             int64_t slab = b->size / (b->n[a] + 2 * b->g[a]) * GHOSTS * m;
-            MPI_Sendrecv(b->send, (int)count, MPI_DOUBLE, dest, 7, b->recv, (int)slab, MPI_DOUBLE, source, 7,
-                         b->cart, MPI_STATUS_IGNORE);
+            MPI_Sendrecv(b->send, (int)count, MPI_DOUBLE, dest, 7, b->recv, (int)slab, MPI_DOUBLE,
+                         source, 7, b->cart, MPI_STATUS_IGNORE);
             got = b->recv;
         }
         count = 0;

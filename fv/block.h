@@ -12,8 +12,8 @@ enum { GHOSTS = 3 };
 struct block {
     MPI_Comm cart;
     int dim;
-    int cells[3];            /* of the whole grid */
-    double origin[3], h[3];  /* m */
+    int cells[3];           /* of the whole grid */
+    double origin[3], h[3]; /* m */
     bool periodic[3];
     int lo[3], hi[3];        /* this rank: lo <= i < hi */
     int n[3];                /* hi - lo */
@@ -34,17 +34,20 @@ static inline int64_t block_at(const struct block *b, int i, int j, int k)
 }
 /* Centre of local cell (i, j, k). */
 void block_centre(const struct block *b, int i, int j, int k, double *x);
-/* Ghosts of nf fields, corners included, by one direction after the other; closed sides keep theirs. */
+/* Ghosts of nf fields, corners included, by one direction after the other; closed sides keep
+ * theirs. */
 void block_halo(const struct block *b, int nf, double *const *f);
 /* Fields without ghosts, x fastest, from and to those with. */
 void block_pack(const struct block *b, const double *f, double *packed);
 void block_unpack(const struct block *b, const double *packed, double *f);
 
-/* Rows of local cells, `more' layers of ghosts included in the active directions: c is the index of the
- * row's first cell, n its length. */
-#define BLOCK_ROWS(b, more, c, len)                                                                  \
+/* Rows of local cells, `more' layers of ghosts included in the active directions: c is the index of
+ * the row's first cell, n its length. */
+#define BLOCK_ROWS(b, more, c, len)                                                                \
     for (int k_ = (b)->g[2] ? -(more) : 0, j_; k_ < (b)->n[2] + ((b)->g[2] ? (more) : 0); k_++)    \
         for (j_ = -(more); j_ < (b)->n[1] + (more); j_++)                                          \
-            for (int64_t c = block_at(b, -(more), j_, k_), len = (b)->n[0] + 2 * (more), once_ = 1; once_; once_ = 0)
+            for (int64_t c = block_at(b, -(more), j_, k_), len = (b)->n[0] + 2 * (more),           \
+                         once_ = 1;                                                                \
+                 once_; once_ = 0)
 
 #endif

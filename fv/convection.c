@@ -1,7 +1,7 @@
 /* convection.c - fluxes of momentum by fourth-order face averages (see README.md):
  *   face value  q_f = (-q_-2 + 7 q_-1 + 7 q_0 - q_1)/12
- *   flux        F = U q_f + 1/48 (U_t+1 - U_t-1)(q_f,t+1 - q_f,t-1), once for each tangent t: the product of two
- *               face averages is not the average of the product
+ *   flux        F = U q_f + 1/48 (U_t+1 - U_t-1)(q_f,t+1 - q_f,t-1), once for each tangent t: the
+ * product of two face averages is not the average of the product
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
@@ -12,18 +12,18 @@ static void face_row(const double *restrict q, int64_t along, int64_t n, double 
         out[i] = (7.0 * (q[i - along] + q[i]) - (q[i - 2 * along] + q[i + along])) * (1.0 / 12.0);
 }
 
-/* Faces of this rank along `a': those of its cells and of one layer more on the upper side, and one layer
- * of tangential neighbours. Rows start one cell early; the last one is the upper face. */
+/* Faces of this rank along `a': those of its cells and of one layer more on the upper side, and one
+ * layer of tangential neighbours. Rows start one cell early; the last one is the upper face. */
 void convection_face_velocities(struct fv *s, double *const u[3], double *const U[3])
 {
     const struct block *b = &s->b;
     for (int a = 0; a < b->dim; a++)
-        BLOCK_ROWS(b, 1, c, n)
+        BLOCK_ROWS (b, 1, c, n)
             face_row(u[a] + c, b->stride[a], n, U[a] + c);
 }
 
-static void flux_row(const double *restrict U, const double *restrict f, const int64_t *tangent, int nt, int64_t n,
-                     double *restrict F)
+static void flux_row(const double *restrict U, const double *restrict f, const int64_t *tangent,
+                     int nt, int64_t n, double *restrict F)
 {
     for (int64_t i = 0; i < n; i++)
         F[i] = U[i] * f[i];
@@ -34,8 +34,8 @@ static void flux_row(const double *restrict U, const double *restrict f, const i
     }
 }
 
-static void add_divergence(const double *restrict F, int64_t along, double per_h, int64_t n, bool first,
-                           double *restrict N)
+static void add_divergence(const double *restrict F, int64_t along, double per_h, int64_t n,
+                           bool first, double *restrict N)
 {
     if (first)
         for (int64_t i = 0; i < n; i++)
@@ -56,15 +56,17 @@ void convection(struct fv *s, double *const N[3])
             for (int t = 0; t < b->dim; t++)
                 if (t != a)
                     tangent[nt++] = b->stride[t];
-            BLOCK_ROWS(b, 1, c, n)
+            BLOCK_ROWS (b, 1, c, n)
                 face_row(s->u[q] + c, along, n, s->face + c);
-            /* faces of the cells and the upper one: rows of n + 1, planes one more in direction a */
+            /* faces of the cells and the upper one: rows of n + 1, planes one more in direction a
+             */
             for (int k = 0; k < b->n[2] + (a == 2); k++)
                 for (int j = 0; j < b->n[1] + (a == 1); j++) {
                     const int64_t c = block_at(b, 0, j, k);
-                    flux_row(s->U[a] + c, s->face + c, tangent, nt, b->n[0] + (a == 0), s->flux + c);
+                    flux_row(s->U[a] + c, s->face + c, tangent, nt, b->n[0] + (a == 0),
+                             s->flux + c);
                 }
-            BLOCK_ROWS(b, 0, c, n)
+            BLOCK_ROWS (b, 0, c, n)
                 add_divergence(s->flux + c, along, 1.0 / b->h[a], n, a == 0, N[q] + c);
         }
 }

@@ -21,7 +21,8 @@ static bool is_local(const struct block *b, const int *at)
 }
 
 /* 1: inside the box, 2: behind a closed side, 0: free. */
-static unsigned char kind_of(const struct block *b, const int *at, const double *lo, const double *hi)
+static unsigned char kind_of(const struct block *b, const int *at, const double *lo,
+                             const double *hi)
 {
     bool inside = true;
     for (int a = 0; a < b->dim; a++) {
@@ -39,7 +40,7 @@ static int64_t count_kind(const struct fv *s, struct forcing *f, const double *l
 {
     const struct block *b = &s->b;
     int64_t forced = 0, free_cells = 0;
-    ALL_CELLS(b, i, j, k) {
+    ALL_CELLS (b, i, j, k) {
         const int at[3] = {i, j, k};
         const int64_t c = block_at(b, i, j, k);
         f->forced[c] = kind_of(b, at, lo, hi);
@@ -59,7 +60,7 @@ static void find_layers(const struct fv *s, struct forcing *f)
     for (int64_t c = 0; c < b->size; c++)
         field[c] = f->forced[c] ? 99.0 : 0.0;
     for (int layer = 1; layer <= NEAR; layer++) {
-        ALL_CELLS(b, i, j, k) {
+        ALL_CELLS (b, i, j, k) {
             const int64_t c = block_at(b, i, j, k);
             if (field[c] < 99.0)
                 continue;
@@ -88,7 +89,7 @@ static void list_cells(const struct fv *s, struct forcing *f)
     f->set = NEW(int64_t, b->size);
     f->partner = NEW(int64_t, b->size);
     f->x = NEW(double, 3 * b->size);
-    ALL_CELLS(b, i, j, k) {
+    ALL_CELLS (b, i, j, k) {
         const int at[3] = {i, j, k};
         const int64_t c = block_at(b, i, j, k);
         if (!f->forced[c])
@@ -120,7 +121,7 @@ static void list_faces(const struct fv *s, struct forcing *f, int a)
     f->sign[a] = NEW(signed char, b->size);
     f->counts[a] = NEW(bool, b->size);
     f->open[a] = NEW(double, b->size);
-    ALL_CELLS(b, i, j, k) {
+    ALL_CELLS (b, i, j, k) {
         const int at[3] = {i, j, k};
         const int64_t c = block_at(b, i, j, k), d = b->stride[a];
         if (at[a] == -b->g[a])
@@ -204,7 +205,8 @@ static double partner_value(const struct forcing *f, bool quadratic, int a, int6
     if (!quadratic || !f->has_old)
         return linear;
     const double y = (f->t0 - f->t_old) / T; /* 1 for even windows */
-    const double second = ((f->v_next[a][i] - f->v[a][i]) - (f->v[a][i] - f->v_old[a][i]) / y) / (1.0 + y);
+    const double second =
+        ((f->v_next[a][i] - f->v[a][i]) - (f->v[a][i] - f->v_old[a][i]) / y) / (1.0 + y);
     return linear + x * (x - 1.0) * second;
 }
 
@@ -225,7 +227,8 @@ void forcing_velocity(const struct fv *s, double t, double *const u[3])
 /* Centre of the lower face of a cell given by its index. */
 static void face_centre(const struct block *b, int64_t c, int a, double *x)
 {
-    const int k = (int)(c / b->stride[2]), j = (int)(c % b->stride[2] / b->stride[1]), i = (int)(c % b->stride[1]);
+    const int k = (int)(c / b->stride[2]), j = (int)(c % b->stride[2] / b->stride[1]),
+              i = (int)(c % b->stride[1]);
     block_centre(b, i - b->g[0], j - b->g[1], k - b->g[2], x);
     x[a] -= 0.5 * b->h[a];
 }
@@ -289,7 +292,7 @@ void forcing_extend(const struct fv *s, double *p)
                 continue;
             for (int way = 0; way < 2 * f->dim; way++) {
                 const int64_t d = (way % 2 ? 1 : -1) * b->stride[way / 2];
-#define KNOWN(m) (!f->forced[c + (m) * d] || (f->layer[c + (m) * d] && f->layer[c + (m) * d] < layer))
+#define KNOWN(m) (!f->forced[c + (m)*d] || (f->layer[c + (m)*d] && f->layer[c + (m)*d] < layer))
                 if (!KNOWN(1))
                     continue;
                 n += 1.0;
@@ -301,7 +304,8 @@ void forcing_extend(const struct fv *s, double *p)
             }
             if (n == 0.0) { /* a corner cell: its diagonal neighbours */
                 for (int q = 0; q < 4; q++) {
-                    const int64_t d = (q % 2 ? 1 : -1) * b->stride[0] + (q / 2 ? 1 : -1) * b->stride[1];
+                    const int64_t d =
+                        (q % 2 ? 1 : -1) * b->stride[0] + (q / 2 ? 1 : -1) * b->stride[1];
                     if (!f->forced[c + d] || (f->layer[c + d] && f->layer[c + d] < layer)) {
                         sum += p[c + d];
                         n += 1.0;

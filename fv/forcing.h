@@ -1,5 +1,5 @@
-/* forcing.h - cells whose velocity is imposed: a hole that another method fills, a box with the exact
- * solution, the cells behind closed sides. They take no part in the pressure; two layers of
+/* forcing.h - cells whose velocity is imposed: a hole that another method fills, a box with the
+ * exact solution, the cells behind closed sides. They take no part in the pressure; two layers of
  * them carry the stencils of the free cells, three those of a partner's interpolation.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_FORCING_H
@@ -11,29 +11,35 @@ enum { NEAR = 4 }; /* layers of forced cells that get values */
 
 struct forcing {
     int dim;
-    unsigned char *forced;  /* [size] 1: forced (ghosts too), 2: behind a closed side */
-    unsigned char *layer;   /* [size] of a forced cell: distance from the free ones, 1 ..; 0: deep or free */
+    unsigned char *forced; /* [size] 1: forced (ghosts too), 2: behind a closed side */
+    unsigned char
+        *layer; /* [size] of a forced cell: distance from the free ones, 1 ..; 0: deep or free */
     int64_t nlocal, *local; /* forced cells of this rank */
-    int64_t nset, *set;     /* cells that this rank gives values: local near ones, ghosts behind closed sides */
-    int64_t npartner, *partner; /* local near cells of the hole, in the order of a partner's values */
-    double *x;              /* [nset][3] centres */
+    int64_t nset,
+        *set; /* cells that this rank gives values: local near ones, ghosts behind closed sides */
+    int64_t npartner,
+        *partner; /* local near cells of the hole, in the order of a partner's values */
+    double *x;    /* [nset][3] centres */
     /* lines: the free cell next to a face of the outline, and the way out of the fluid, +-stride */
     int64_t nline[3], *line[3], *out[3];
-    /* faces of the outline: index in U, sign of the flow out of the fluid, whether this rank counts it */
+    /* faces of the outline: index in U, sign of the flow out of the fluid, whether this rank counts
+     * it */
     int64_t nface[3], *face[3];
     signed char *sign[3];
     bool *counts[3];
-    double *open[3];        /* [size] 1: both cells of the face are free */
-    int64_t free_cells;     /* of all ranks */
+    double *open[3];    /* [size] 1: both cells of the face are free */
+    int64_t free_cells; /* of all ranks */
     bool from_partner;
-    double *v[3], *v_next[3], *v_old[3]; /* [npartner] partner's velocities at t0, t1, and the window before */
+    double *v[3], *v_next[3],
+        *v_old[3]; /* [npartner] partner's velocities at t0, t1, and the window before */
     double t0, t1, t_old;
     bool has_old;
 };
 
-/* NULL if nothing is forced. partner: the box (lo, hi) is filled by a partner, else by the exact solution;
- * cells all of whose corners lie inside are forced. lo >= hi: no box. */
-struct forcing *forcing_create(const struct fv *s, const double *lo, const double *hi, bool partner);
+/* NULL if nothing is forced. partner: the box (lo, hi) is filled by a partner, else by the exact
+ * solution; cells all of whose corners lie inside are forced. lo >= hi: no box. */
+struct forcing *forcing_create(const struct fv *s, const double *lo, const double *hi,
+                               bool partner);
 void forcing_free(struct forcing **f);
 /* Zero in the forced cells of this rank. */
 void forcing_zero(const struct forcing *f, double *q);
@@ -44,7 +50,8 @@ void forcing_velocity(const struct fv *s, double t, double *const u[3]);
 void forcing_fluxes(const struct fv *s, double t, double *const U[3]);
 /* Fills two forced cells behind each line of axis a: even, or cubic as far as the grid reaches. */
 void forcing_continue(const struct forcing *f, int a, bool cubic, double *q);
-/* Extends p into the near forced cells from the free side, layer by layer, for a partner's interpolation. */
+/* Extends p into the near forced cells from the free side, layer by layer, for a partner's
+ * interpolation. */
 void forcing_extend(const struct fv *s, double *p);
 
 #endif

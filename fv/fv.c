@@ -7,16 +7,18 @@
 #include "../common/log.h"
 #include "../coupler/cpl_partner.h"
 
-static const char *const columns[] = {"kinetic energy [J]", "largest velocity [m/s]", "divergence [m/s]",
-                                      "error velocity l2 [-]"};
+static const char *const columns[] = {"kinetic energy [J]", "largest velocity [m/s]",
+                                      "divergence [m/s]", "error velocity l2 [-]"};
 static struct program fv_program; /* its columns depend on the scene */
 
 static void describe(const struct run *r)
 {
-    static const char *const integrators[] = {"rk3, three projections a step", "bdf2, one projection a step"};
+    static const char *const integrators[] = {"rk3, three projections a step",
+                                              "bdf2, one projection a step"};
     const struct fv_params *prm = fv_params_of(r);
     const struct scene_domain *d = &r->scene.domain;
-    const bool viscous = r->scene.fluid.nu > 0.0, hole = prm->hole[1][0] > prm->hole[0][0] || r->coupled;
+    const bool viscous = r->scene.fluid.nu > 0.0,
+               hole = prm->hole[1][0] > prm->hole[0][0] || r->coupled;
     double cells = 1.0, speed = 0.0, h = INFINITY;
     bool closed = false;
     for (int a = 0; a < d->dim; a++) {
@@ -30,10 +32,12 @@ static void describe(const struct run *r)
     const int fields = 4 + 6 * d->dim + (viscous ? 2 * d->dim : 0) + 4;
     log_say("%dD, fourth-order averages, %s, %s", d->dim, integrators[prm->integrator],
             closed ? "imposed velocity on the sides that are not periodic" : "periodic");
-    log_say("%s%s; off: free surface, walls, gravity%s%s", viscous ? "viscous, implicit" : "inviscid",
-            hole ? ", forced cells" : "", viscous ? "" : ", viscous solver", hole ? "" : ", forced cells");
-    log_say("%.0f cells, h %g m, dt about %.3g s (CFL %g), %.0f steps; about %.0f MB", cells, h, dt, prm->cfl,
-            isfinite(dt) ? ceil(r->scene.time.end / dt) : 1.0, 8e-6 * cells * fields + 1.0);
+    log_say("%s%s; off: free surface, walls, gravity%s%s",
+            viscous ? "viscous, implicit" : "inviscid", hole ? ", forced cells" : "",
+            viscous ? "" : ", viscous solver", hole ? "" : ", forced cells");
+    log_say("%.0f cells, h %g m, dt about %.3g s (CFL %g), %.0f steps; about %.0f MB", cells, h, dt,
+            prm->cfl, isfinite(dt) ? ceil(r->scene.time.end / dt) : 1.0,
+            8e-6 * cells * fields + 1.0);
 }
 
 static void *create(struct run *r, struct h5 *f)
@@ -54,8 +58,9 @@ static void progress(void *state, char *line, int size)
 {
     const struct fv *s = state;
     const double steps = s->run->step > 0 ? (double)s->run->step : 1.0;
-    snprintf(line, (size_t)size, "dt %.3g s  CFL %.2f  pressure %.1f its  |u| %.3g m/s", s->dt, s->max_cfl,
-             (double)s->iterations / steps, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
+    snprintf(line, (size_t)size, "dt %.3g s  CFL %.2f  pressure %.1f its  |u| %.3g m/s", s->dt,
+             s->max_cfl, (double)s->iterations / steps,
+             fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
 }
 
 static const char *const others[] = {"sph", "coupler", NULL};

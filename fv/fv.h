@@ -1,6 +1,6 @@
 /* fv.h - the whole state of the finite-volume solver.
- * Cell averages of velocity and of kinematic pressure on a uniform Cartesian block, fourth order, face
- * fluxes projected exactly each stage. SPDX-License-Identifier: BSD-3-Clause */
+ * Cell averages of velocity and of kinematic pressure on a uniform Cartesian block, fourth order,
+ * face fluxes projected exactly each stage. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_FV_H
 #define FV_FV_H
 
@@ -15,7 +15,7 @@ enum fv_integrator { INTEGRATOR_RK3, INTEGRATOR_BDF2 };
 
 struct fv_params {
     int cells[3];
-    double cfl;          /* of the largest component, U dt/h */
+    double cfl; /* of the largest component, U dt/h */
     int integrator;
     double tol_pressure; /* of the last projection of a step, relative to |div U*| */
     double tol_viscous;  /* of Helmholtz; 0: 1e-3, with forced cells 1e-5 */
@@ -35,24 +35,25 @@ struct fv {
     double nu;
     double t;
     bool has_exact;
-    double *u[3];        /* m/s: cell averages, with ghosts */
-    double *p;           /* m^2/s^2: p/rho, of the last step's end (rk3: at t - dt/6) */
-    double *p_before;    /* of the step before */
-    double *psi[3];      /* of each stage: start of the next step's solve; rk3 and bdf2 use [0..2], [0] */
-    double *U[3];        /* m/s: projected flux through the lower face of each cell */
+    double *u[3];     /* m/s: cell averages, with ghosts */
+    double *p;        /* m^2/s^2: p/rho, of the last step's end (rk3: at t - dt/6) */
+    double *p_before; /* of the step before */
+    double
+        *psi[3];  /* of each stage: start of the next step's solve; rk3 and bdf2 use [0..2], [0] */
+    double *U[3]; /* m/s: projected flux through the lower face of each cell */
     double *N[3], *N_old[3]; /* convection now and before (rk3: of a stage; bdf2: of a step) */
-    double *u_old[3];    /* bdf2 only, else NULL */
+    double *u_old[3];        /* bdf2 only, else NULL */
     double *rhs[3], *delta[3], *work[3], *step_p[3]; /* scratch: right side, increment, CG; Gc p */
     double *step_work;
     double *face, *flux; /* scratch */
     struct forcing *forcing;
     struct pressure *pressure;
     struct link *link;
-    double dt, dt_old;   /* s: last step, 0 before the first; the one before it */
-    double u_limit;      /* m/s: beyond it the run has blown up */
-    double umax[3];      /* m/s: largest |u_a| */
+    double dt, dt_old; /* s: last step, 0 before the first; the one before it */
+    double u_limit;    /* m/s: beyond it the run has blown up */
+    double umax[3];    /* m/s: largest |u_a| */
     double max_cfl;
-    int64_t iterations;  /* of the pressure solver */
+    int64_t iterations; /* of the pressure solver */
     int64_t viscous_iterations;
     double energy0;
 };
@@ -63,34 +64,38 @@ extern const struct param_group fv_groups[FV_GROUPS];
 const struct fv_params *fv_params_of(const struct run *r);
 void fv_params_check(const struct run *r, struct faults *f);
 
-/* state.c */
+/* fv_state.c */
 struct fv *fv_create(struct run *r, struct h5 *f);
 void fv_free(struct fv **s);
 
-/* convection.c: N_a = (sum over faces of F)/h, F = U q + transverse terms; needs u with ghosts and U. */
+/* convection.c: N_a = (sum over faces of F)/h, F = U q + transverse terms; needs u with ghosts and
+ * U. */
 void convection(struct fv *s, double *const N[3]);
 /* U = I(u).n on all faces that this rank's stencils see. */
 void convection_face_velocities(struct fv *s, double *const u[3], double *const U[3]);
 
 /* viscous.c: out = L q = nu Lap q in the free cells. Ghosts of q must be there. */
 void viscous_apply(const struct fv *s, const double *q, double *out);
-/* Solves (1 - c L) delta = rhs for all components by CG; delta holds the imposed values in forced cells
- * and ghosts of the boundary; `tol' relative to the first residual. false: not converged. */
-bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const rhs[3], double tol);
+/* Solves (1 - c L) delta = rhs for all components by CG; delta holds the imposed values in forced
+ * cells and ghosts of the boundary; `tol' relative to the first residual. false: not converged. */
+bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const rhs[3],
+                   double tol);
 
 /* gradient.c: cell gradient along axis a, (8 (q_1 - q_-1) - (q_2 - q_-2))/12 h, after the lines of
  * forced cells are filled by even (psi) or cubic (p) continuation. */
 enum continuation { CONTINUE_EVEN, CONTINUE_CUBIC };
 void gradient(const struct fv *s, double *q, int a, enum continuation c, double *out);
 
-/* projection.c: one step towards t_stop, see program.step; d is filled when the state cannot be trusted. */
+/* projection.c: one step towards t_stop, see program.step; d is filled when the state cannot be
+ * trusted. */
 double integrate(struct fv *s, double t_stop, struct diagnosis *d);
 void measure(struct fv *s);
 /* Pressure at s->t, in Pa. */
 double fv_pressure(const struct fv *s, int64_t c);
 
 /* fv_io.c, fv_errors.c */
-void fv_vorticity(const struct fv *s, double *w); /* dv/dx - du/dy, all local cells (with ghosts' layout) */
+void fv_vorticity(const struct fv *s,
+                  double *w); /* dv/dx - du/dy, all local cells (with ghosts' layout) */
 void fv_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void fv_checkpoint(void *s, struct h5 *f);
 bool fv_restore(struct fv *s, struct h5 *f);

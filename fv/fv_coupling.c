@@ -1,6 +1,7 @@
-/* fv_coupling.c - FV's place in a coupled job: its free zone's partner fills a hole, and takes patches of
- * velocity and pressure with their time derivatives. FV follows its partner: window_begin waits for the
- * forced velocities at the end of the window. SPDX-License-Identifier: BSD-3-Clause */
+/* fv_coupling.c - FV's place in a coupled job: its free zone's partner fills a hole, and takes
+ * patches of velocity and pressure with their time derivatives. FV follows its partner:
+ * window_begin waits for the forced velocities at the end of the window.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
 
@@ -15,13 +16,14 @@ enum { LEVELS = 3 };
 struct link {
     struct cpl *c;
     int grid, forced, velocity, pressure, imposed;
-    int64_t n;             /* local cells */
-    double *q[LEVELS];     /* [n][dim + 1] velocity and pressure at the ends of the last windows, newest first */
-    double t[LEVELS];      /* s: their times */
-    int levels;            /* of them known */
-    double *rate;          /* [n] Pa/s: of pressure, averaged */
+    int64_t n;         /* local cells */
+    double *q[LEVELS]; /* [n][dim + 1] velocity and pressure at the ends of the last windows, newest
+                          first */
+    double t[LEVELS];  /* s: their times */
+    int levels;        /* of them known */
+    double *rate;      /* [n] Pa/s: of pressure, averaged */
     bool rated;
-    double *v, *dv, *got;  /* scratch */
+    double *v, *dv, *got; /* scratch */
     unsigned char *mask;
 };
 
@@ -33,8 +35,8 @@ static void check(const struct link *k, int code)
         fail("coupling: %s", cpl_strerror(k->c));
 }
 
-/* Width of the kernel whose mean has the second moment of a cell average: sqrt(6/5) h in 2D, sqrt(5/4) h in 3D. A
- * sum over particles then gives the cell's average up to fourth order. */
+/* Width of the kernel whose mean has the second moment of a cell average: sqrt(6/5) h in 2D,
+ * sqrt(5/4) h in 3D. A sum over particles then gives the cell's average up to fourth order. */
 static double support(const struct block *b)
 {
     double h = 0.0;
@@ -72,13 +74,14 @@ void coupling_create(struct fv *s)
     check(k, cpl_find_zone(k->c, "sph.given", lo, hi));
     s->forcing = forcing_create(s, lo, hi, true);
     if (!s->forcing)
-        log_warn("no cell lies wholly in the box that sph gives, (%g, %g) to (%g, %g) m: fv is not forced, the "
+        log_warn("no cell lies wholly in the box that sph gives, (%g, %g) to (%g, %g) m: fv is not "
+                 "forced, the "
                  "coupling goes one way; refine fv.cells or lower coupling.overlap",
                  lo[0], lo[1], hi[0], hi[1]);
     declare(s, k);
     k->n = (int64_t)b->n[0] * b->n[1] * b->n[2];
     for (int m = 0; m < LEVELS; m++)
-        k->q[m] = NEW(double, k->n * (b->dim + 1));
+        k->q[m] = NEW(double, k->n *(b->dim + 1));
     k->rate = NEW(double, k->n);
     k->v = NEW(double, k->n * b->dim);
     k->dv = NEW(double, k->n * b->dim);
@@ -101,7 +104,8 @@ void coupling_free(struct fv *s)
     s->link = NULL;
 }
 
-/* Velocity and pressure now, as a new level; forced cells get a pressure continued from the free side. */
+/* Velocity and pressure now, as a new level; forced cells get a pressure continued from the free
+ * side. */
 static void take_level(struct fv *s)
 {
     struct link *k = s->link;
@@ -137,8 +141,9 @@ static double derivative(const struct link *k, int64_t at)
     return d0 + h * (d0 - d1) / (h + g);
 }
 
-/* Pressure answers at once to every change of the forced velocities, by the change over the window: its rate
- * of change is noise that would come back larger. An average over windows keeps the trend. */
+/* Pressure answers at once to every change of the forced velocities, by the change over the window:
+ * its rate of change is noise that would come back larger. An average over windows keeps the trend.
+ */
 static void take_rate(struct fv *s)
 {
     struct link *k = s->link;
@@ -195,10 +200,13 @@ void coupling_first(void *state)
     int64_t *id = NEW(int64_t, n);
     for (int64_t m = 0; m < n; m++) {
         const int64_t c = f->partner[m];
-        const int at[3] = {(int)(c % b->stride[1]) - b->g[0], (int)(c % b->stride[2] / b->stride[1]) - b->g[1],
+        const int at[3] = {(int)(c % b->stride[1]) - b->g[0],
+                           (int)(c % b->stride[2] / b->stride[1]) - b->g[1],
                            (int)(c / b->stride[2]) - b->g[2]};
         block_centre(b, at[0], at[1], at[2], x + 3 * m);
-        id[m] = (b->lo[0] + at[0]) + (int64_t)b->cells[0] * ((b->lo[1] + at[1]) + (int64_t)b->cells[1] * (b->lo[2] + at[2]));
+        id[m] =
+            (b->lo[0] + at[0]) +
+            (int64_t)b->cells[0] * ((b->lo[1] + at[1]) + (int64_t)b->cells[1] * (b->lo[2] + at[2]));
     }
     check(k, cpl_move(k->c, k->forced, n, x, id, NULL));
     mem_free(x);
@@ -262,7 +270,8 @@ void coupling_save(const struct fv *s, struct h5 *f)
     static const char *const v[] = {"v_x", "v_y", "v_z"}, *const w[] = {"w_x", "w_y", "w_z"};
     const struct link *k = s->link;
     const struct forcing *c = s->forcing;
-    const double clock[7] = {k->t[0], k->t[1], k->t[2], k->levels, c ? c->t0 : 0, c ? c->t1 : 0, c ? c->t_old : 0};
+    const double clock[7] = {k->t[0],       k->t[1],       k->t[2],         k->levels,
+                             c ? c->t0 : 0, c ? c->t1 : 0, c ? c->t_old : 0};
     for (int m = 0; m < LEVELS; m++)
         h5_write_real(f, names[m], "-", k->n, s->b.dim + 1, k->q[m], false);
     h5_write_real(f, "levels", "-", 7, 1, clock, false);
@@ -286,7 +295,8 @@ bool coupling_load(struct fv *s, struct h5 *f)
         k->t[m] = clock[m];
     }
     for (int a = 0; good && c && a < s->b.dim; a++)
-        good = h5_read_real(f, v[a], c->npartner, 1, c->v[a]) && h5_read_real(f, w[a], c->npartner, 1, c->v_next[a]);
+        good = h5_read_real(f, v[a], c->npartner, 1, c->v[a]) &&
+               h5_read_real(f, w[a], c->npartner, 1, c->v_next[a]);
     if (!good)
         return false;
     k->levels = (int)clock[3];

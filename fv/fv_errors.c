@@ -1,5 +1,5 @@
-/* fv_errors.c - errors against exact cell averages, over the free cells; rows of the series; summary.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* fv_errors.c - errors against exact cell averages, over the free cells; rows of the series;
+ * summary. SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
 #include <math.h>
@@ -16,14 +16,14 @@ void fv_vorticity(const struct fv *s, double *w)
     const double cx = 1.0 / (12.0 * b->h[0]), cy = 1.0 / (12.0 * b->h[1]);
     const int64_t d = b->stride[1];
     const double *u = s->u[0], *v = s->u[1];
-    BLOCK_ROWS(b, 0, c, n)
+    BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             w[i] = cx * (8.0 * (v[i + 1] - v[i - 1]) - (v[i + 2] - v[i - 2])) -
                    cy * (8.0 * (u[i + d] - u[i - d]) - (u[i + 2 * d] - u[i - 2 * d]));
 }
 
-static void add_cell(const struct fv *s, int64_t c, const double *x, double volume, const double *vorticity,
-                     struct norm *n)
+static void add_cell(const struct fv *s, int64_t c, const double *x, double volume,
+                     const double *vorticity, struct norm *n)
 {
     double u[3], p, w;
     exact_average(&s->exact, x, s->b.h, s->t, u, &p, &w);
@@ -84,7 +84,7 @@ static double largest_divergence(const struct fv *s)
 {
     const struct block *b = &s->b;
     double most = 0.0;
-    BLOCK_ROWS(b, 0, c, n)
+    BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++) {
             double div = 0.0;
             if (s->forcing && s->forcing->forced[i])
@@ -159,7 +159,8 @@ void fv_finish(void *state)
     if (s->has_exact)
         summarise_errors(s);
     energies(s, sum);
-    summary_real(r->summary, "drift.energy", s->has_exact && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
+    summary_real(r->summary, "drift.energy",
+                 s->has_exact && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
     summary_real(r->summary, "divergence", largest_divergence(s));
     summary_real(r->summary, "max_cfl", s->max_cfl);
     const double steps = r->step > 0 ? (double)r->step : 1.0;

@@ -29,7 +29,8 @@ static void blank_forced(const struct fv *s, int ncomp, double *v)
                     v[a] = NAN;
 }
 
-static void write(const struct fv *s, struct h5 *f, const char *name, const char *unit, int ncomp, double *v)
+static void write(const struct fv *s, struct h5 *f, const char *name, const char *unit, int ncomp,
+                  double *v)
 {
     const struct block *b = &s->b;
     if (*unit != '-')
@@ -54,7 +55,8 @@ static void write_velocity(const struct fv *s, struct h5 *f, double *v)
 /* Corners of the domain, for whoever draws. */
 static void write_frame(const struct fv *s, struct h5 *f)
 {
-    static const char *const lo[] = {"xmin", "ymin", "zmin"}, *const hi[] = {"xmax", "ymax", "zmax"};
+    static const char *const lo[] = {"xmin", "ymin", "zmin"}, *const hi[] = {"xmax", "ymax",
+                                                                             "zmax"};
     for (int a = 0; a < s->b.dim; a++) {
         h5_attribute_real(f, lo[a], s->b.origin[a]);
         h5_attribute_real(f, hi[a], s->b.origin[a] + s->b.cells[a] * s->b.h[a]);
@@ -103,8 +105,8 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
 /* All fields that a step starts from, ghosts and all: bit for bit on the same ranks. */
 static int restart_fields(struct fv *s, double **f, const char **names)
 {
-    static const char *const vector[][3] = {{"u0", "u1", "u2"}, {"U0", "U1", "U2"}, {"N0", "N1", "N2"},
-                                            {"old0", "old1", "old2"}};
+    static const char *const vector[][3] = {
+        {"u0", "u1", "u2"}, {"U0", "U1", "U2"}, {"N0", "N1", "N2"}, {"old0", "old1", "old2"}};
     static const char *const starts[] = {"psi0", "psi1", "psi2"};
     int n = 0;
     f[n] = s->p;
@@ -155,6 +157,7 @@ bool fv_restore(struct fv *s, struct h5 *f)
             log_say("the restart file has no field %s of this shape", names[k]);
             return false;
         }
-    return h5_read_attribute_real(f, "dt", &s->dt) && h5_read_attribute_real(f, "dt_old", &s->dt_old) &&
+    return h5_read_attribute_real(f, "dt", &s->dt) &&
+           h5_read_attribute_real(f, "dt_old", &s->dt_old) &&
            h5_read_attribute_real(f, "energy0", &s->energy0) && (!s->link || coupling_load(s, f));
 }

@@ -19,8 +19,9 @@ static const struct param rows[] = {
 /* clang-format on */
 #undef P
 
-const struct param_group fv_groups[FV_GROUPS] = {
-    {"fv", "The finite-volume solver", rows, (int)(sizeof rows / sizeof *rows), &given, NULL, 0, 0, NULL}};
+const struct param_group fv_groups[FV_GROUPS] = {{"fv", "The finite-volume solver", rows,
+                                                  (int)(sizeof rows / sizeof *rows), &given, NULL,
+                                                  0, 0, NULL}};
 
 const struct fv_params *fv_params_of(const struct run *r)
 {
@@ -33,11 +34,13 @@ static void check_axis(const struct run *r, int a, struct faults *f)
     static const char axes[] = "xyz";
     const int n = given.cells[a];
     if (n < 4)
-        params_fault(r->params, f, "fv.cells", "%d cells along %c: at least 4 are wanted", n, axes[a]);
+        params_fault(r->params, f, "fv.cells", "%d cells along %c: at least 4 are wanted", n,
+                     axes[a]);
     if (r->scene.domain.periodic[a] && n % 2)
         params_fault(r->params, f, "fv.cells",
-                     "%d cells along the periodic %c: an even number is wanted (the multigrid of the pressure halves it)", n,
-                     axes[a]);
+                     "%d cells along the periodic %c: an even number is wanted (the multigrid of "
+                     "the pressure halves it)",
+                     n, axes[a]);
 }
 
 void fv_params_check(const struct run *r, struct faults *f)
@@ -48,8 +51,11 @@ void fv_params_check(const struct run *r, struct faults *f)
     for (int a = 0; a < r->scene.domain.dim; a++) {
         check_axis(r, a, f);
         if (given.hole[1][a] > given.hole[0][a] && (r->coupled || !exact))
-            params_fault(r->params, f, "fv.hole", "only a lone run with an exact solution (initial.field) can fill a hole");
+            params_fault(r->params, f, "fv.hole",
+                         "only a lone run with an exact solution (initial.field) can fill a hole");
     }
-    if (r->scene.fluid.gravity[0] != 0.0 || r->scene.fluid.gravity[1] != 0.0 || r->scene.fluid.gravity[2] != 0.0)
-        params_fault(r->params, f, "fluid.gravity", "this solver has no free surface to feel it: leave gravity out");
+    if (r->scene.fluid.gravity[0] != 0.0 || r->scene.fluid.gravity[1] != 0.0 ||
+        r->scene.fluid.gravity[2] != 0.0)
+        params_fault(r->params, f, "fluid.gravity",
+                     "this solver has no free surface to feel it: leave gravity out");
 }

@@ -14,6 +14,6 @@ void gradient(const struct fv *s, double *q, int a, enum continuation how, doubl
     const struct block *b = &s->b;
     if (s->forcing)
         forcing_continue(s->forcing, a, how == CONTINUE_CUBIC, q);
-    BLOCK_ROWS(b, 0, c, n)
+    BLOCK_ROWS (b, 0, c, n)
         row(q + c, b->stride[a], 1.0 / (12.0 * b->h[a]), n, out + c);
 }

@@ -1,5 +1,6 @@
-/* pressure.c - see pressure.h. Settings of PFMG: red-black relaxation with non-Galerkin coarse operators, 5-point on
- * all levels; this pair and no wider stencil (README.md). SPDX-License-Identifier: BSD-3-Clause */
+/* pressure.c - see pressure.h. Settings of PFMG: red-black relaxation with non-Galerkin coarse
+ * operators, 5-point on all levels; this pair and no wider stencil (README.md).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "pressure.h"
 
 #include <HYPRE_struct_ls.h>
@@ -148,11 +149,11 @@ static void remove_mean(const struct fv *s, double *div)
     else
         for (int a = 0; a < b->dim; a++)
             n *= b->cells[a];
-    BLOCK_ROWS(b, 0, c, m)
+    BLOCK_ROWS (b, 0, c, m)
         for (int64_t i = c; i < c + m; i++)
             sum += div[i];
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
-    BLOCK_ROWS(b, 0, c, m)
+    BLOCK_ROWS (b, 0, c, m)
         for (int64_t i = c; i < c + m; i++)
             div[i] = sum / n - div[i]; /* the operator is -Lap */
     if (s->forcing)

@@ -1,7 +1,7 @@
 /* projection.c - time steps with a projection each stage; formulas and measurements in README.md.
- * rk3: three stages of low-storage Runge-Kutta (Spalart, Moser & Rogers 1991), convection explicit, viscosity
- * implicit, the gradient of the step's first pressure in all stages; its pressure stands at t - dt/6.
- * bdf2: two-step backward differences with extrapolated convection, for slow flows.
+ * rk3: three stages of low-storage Runge-Kutta (Spalart, Moser & Rogers 1991), convection explicit,
+ * viscosity implicit, the gradient of the step's first pressure in all stages; its pressure stands
+ * at t - dt/6. bdf2: two-step backward differences with extrapolated convection, for slow flows.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
@@ -12,8 +12,14 @@
 #include "forcing.h"
 #include "pressure.h"
 
-static void start(struct fv *s, const char *timer) { timer_start(&s->run->timers, timer_index(&s->run->timers, timer)); }
-static void stop(struct fv *s, const char *timer) { timer_stop(&s->run->timers, timer_index(&s->run->timers, timer)); }
+static void start(struct fv *s, const char *timer)
+{
+    timer_start(&s->run->timers, timer_index(&s->run->timers, timer));
+}
+static void stop(struct fv *s, const char *timer)
+{
+    timer_stop(&s->run->timers, timer_index(&s->run->timers, timer));
+}
 
 /* div = D U over the local cells, divided by tau. */
 static void divergence(struct fv *s, double tau, double *restrict div)
@@ -23,7 +29,7 @@ static void divergence(struct fv *s, double tau, double *restrict div)
         const double w = 1.0 / (b->h[a] * tau);
         const int64_t d = b->stride[a];
         const double *restrict U = s->U[a];
-        BLOCK_ROWS(b, 0, c, n)
+        BLOCK_ROWS (b, 0, c, n)
             for (int64_t i = c; i < c + n; i++)
                 div[i] = (a ? div[i] : 0.0) + w * (U[i + d] - U[i]);
     }
@@ -59,14 +65,14 @@ static void project(struct fv *s, double t, double tau, double *psi, double tol,
     start(s, "operators");
     for (int a = 0; a < b->dim; a++) {
         gradient(s, psi, a, CONTINUE_EVEN, s->rhs[0]);
-        BLOCK_ROWS(b, 1, c, n)
+        BLOCK_ROWS (b, 1, c, n)
             subtract_row(s->U[a] + c, psi + c, b->stride[a], tau / b->h[a],
                          s->forcing ? s->forcing->open[a] + c : NULL, n);
         double *restrict u = s->u[a];
         const double *restrict g = s->rhs[0];
         if (s->forcing)
             forcing_zero(s->forcing, s->rhs[0]);
-        BLOCK_ROWS(b, 0, c, n)
+        BLOCK_ROWS (b, 0, c, n)
             for (int64_t i = c; i < c + n; i++)
                 u[i] -= tau * g[i];
     }
@@ -109,7 +115,7 @@ static bool add_increment(struct fv *s, double c, double t)
     for (int a = 0; a < b->dim; a++) {
         double *restrict u = s->u[a];
         const double *restrict d = s->nu > 0.0 ? s->delta[a] : s->rhs[a];
-        BLOCK_ROWS(b, 0, at, n)
+        BLOCK_ROWS (b, 0, at, n)
             for (int64_t i = at; i < at + n; i++)
                 u[i] += d[i];
     }
@@ -136,7 +142,7 @@ static void stage_rhs(struct fv *s, double dt, double ab, double gamma, double z
             viscous_apply(s, s->u[a], r);
         else
             memset(r, 0, (size_t)b->size * sizeof(double));
-        BLOCK_ROWS(b, 0, c, n)
+        BLOCK_ROWS (b, 0, c, n)
             for (int64_t i = c; i < c + n; i++)
                 r[i] = dt * (ab * (r[i] - g[i]) - gamma * N[i] - zeta * M[i]);
     }
@@ -154,7 +160,7 @@ static void add_pressure(struct fv *s, const double *restrict psi)
 {
     memcpy(s->p_before, s->p, (size_t)s->b.size * sizeof(double));
     double *restrict p = s->p;
-    BLOCK_ROWS(&s->b, 0, c, n)
+    BLOCK_ROWS (&s->b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             p[i] += psi[i];
 }
@@ -166,7 +172,8 @@ static bool step_rk3(struct fv *s, double dt)
     static const double gamma[3] = {8.0 / 15.0, 5.0 / 12.0, 3.0 / 4.0};
     static const double zeta[3] = {0.0, -17.0 / 60.0, -5.0 / 12.0};
     static const double at[3] = {8.0 / 15.0, 2.0 / 3.0, 1.0};
-    /* one cycle mostly; but a fixed number of them diverges around a hole on some grids (50 and 54 cells) */
+    /* one cycle mostly; but a fixed number of them diverges around a hole on some grids (50 and 54
+     * cells) */
     const double first = fmin(10.0 * s->prm.tol_pressure, 0.1), t = s->t;
     bool good = true;
     start(s, "operators");
@@ -188,13 +195,15 @@ static bool step_rk3(struct fv *s, double dt)
     return good;
 }
 
-/* Variable step: c0 = (1+2r)/(1+r), c1 = -(1+r), c2 = r^2/(1+r), r = dt/dt_old; the first step has none before. */
+/* Variable step: c0 = (1+2r)/(1+r), c1 = -(1+r), c2 = r^2/(1+r), r = dt/dt_old; the first step has
+ * none before. */
 static bool step_bdf2(struct fv *s, double dt)
 {
     const struct block *b = &s->b;
     const bool first = !(s->dt > 0.0);
     const double r = first ? 0.0 : dt / s->dt;
-    const double c0 = first ? 1.0 : (1.0 + 2.0 * r) / (1.0 + r), c2 = first ? 0.0 : r * r / (1.0 + r);
+    const double c0 = first ? 1.0 : (1.0 + 2.0 * r) / (1.0 + r),
+                 c2 = first ? 0.0 : r * r / (1.0 + r);
     const double tau = dt / c0;
     start(s, "operators");
     pressure_gradient(s);
@@ -204,7 +213,8 @@ static bool step_bdf2(struct fv *s, double dt)
     convection(s, s->N);
     stop(s, "convection");
     start(s, "viscous");
-    /* increment from u^n: (1 - tau L) d = tau [L u - (1+r) N + r N_old - Gc p] + (c2/c0)(u^n - u^n-1) */
+    /* increment from u^n: (1 - tau L) d = tau [L u - (1+r) N + r N_old - Gc p] + (c2/c0)(u^n -
+     * u^n-1) */
     stage_rhs(s, tau, 1.0, 1.0 + r, -r);
     for (int a = 0; a < b->dim; a++) {
         double *restrict rhs = s->rhs[a], *restrict old = s->u_old[a];
@@ -235,7 +245,7 @@ void measure(struct fv *s)
     double most[3] = {0.0, 0.0, 0.0};
     for (int a = 0; a < b->dim; a++) {
         double m = 0.0, sum = 0.0;
-        BLOCK_ROWS(b, 0, c, n)
+        BLOCK_ROWS (b, 0, c, n)
             for (int64_t i = c; i < c + n; i++) {
                 const double v = fabs(s->u[a][i]);
                 m = v > m ? v : m;
@@ -268,11 +278,15 @@ static void describe_worst(const struct fv *s, struct diagnosis *d)
         return;
     d->bad = true;
     block_centre(b, at[0], at[1], at[2], x);
-    snprintf(d->reason, sizeof d->reason, "velocity of cell (%d, %d, %d) is %g m/s, limit %g m/s", at[0] + b->lo[0],
-             at[1] + b->lo[1], at[2] + b->lo[2], worst < 1e300 ? worst : NAN, s->u_limit);
-    snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, CFL of the step %.3g", x[0], x[1], x[2], s->max_cfl);
-    snprintf(d->likely, sizeof d->likely,
-             "the flow is finer than the cells (no dissipation is added), or fv.cfl = %g is too large", s->prm.cfl);
+    snprintf(d->reason, sizeof d->reason, "velocity of cell (%d, %d, %d) is %g m/s, limit %g m/s",
+             at[0] + b->lo[0], at[1] + b->lo[1], at[2] + b->lo[2], worst < 1e300 ? worst : NAN,
+             s->u_limit);
+    snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, CFL of the step %.3g", x[0], x[1], x[2],
+             s->max_cfl);
+    snprintf(
+        d->likely, sizeof d->likely,
+        "the flow is finer than the cells (no dissipation is added), or fv.cfl = %g is too large",
+        s->prm.cfl);
 }
 
 static double largest_step(const struct fv *s)
@@ -299,8 +313,10 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
         describe_worst(s, d);
     else if (!good) {
         d->bad = true;
-        snprintf(d->reason, sizeof d->reason, "the viscous solver did not converge in 200 iterations");
-        snprintf(d->where, sizeof d->where, "step of %g s, nu dt/h^2 = %g", dt, s->nu * dt / (s->b.h[0] * s->b.h[0]));
+        snprintf(d->reason, sizeof d->reason,
+                 "the viscous solver did not converge in 200 iterations");
+        snprintf(d->where, sizeof d->where, "step of %g s, nu dt/h^2 = %g", dt,
+                 s->nu * dt / (s->b.h[0] * s->b.h[0]));
         snprintf(d->likely, sizeof d->likely, "raise fv.tol_viscous or lower fv.cfl");
     }
     run_diagnose(d, s->b.cart);

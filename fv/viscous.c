@@ -1,6 +1,6 @@
 /* viscous.c - nu Lap q of cell averages, fourth order: differences of the face gradient
- * (15 (q_0 - q_-1) - (q_1 - q_-2))/12 h; implicit part by conjugate gradients over all components at once.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * (15 (q_0 - q_-1) - (q_1 - q_-2))/12 h; implicit part by conjugate gradients over all components
+ * at once. SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
 #include <math.h>
@@ -8,23 +8,25 @@
 
 #include "forcing.h"
 
-static void row(const double *restrict q, const int64_t *stride, const double *c, int dim, int64_t n,
-                double *restrict out)
+static void row(const double *restrict q, const int64_t *stride, const double *c, int dim,
+                int64_t n, double *restrict out)
 {
     const int64_t sy = stride[1];
     if (dim == 2) {
         const double cx = c[0], cy = c[1];
         for (int64_t i = 0; i < n; i++)
             out[i] = cx * (16.0 * (q[i - 1] + q[i + 1]) - (q[i - 2] + q[i + 2]) - 30.0 * q[i]) +
-                     cy * (16.0 * (q[i - sy] + q[i + sy]) - (q[i - 2 * sy] + q[i + 2 * sy]) - 30.0 * q[i]);
+                     cy * (16.0 * (q[i - sy] + q[i + sy]) - (q[i - 2 * sy] + q[i + 2 * sy]) -
+                           30.0 * q[i]);
         return;
     }
     const int64_t sz = stride[2];
     const double cx = c[0], cy = c[1], cz = c[2];
     for (int64_t i = 0; i < n; i++)
-        out[i] = cx * (16.0 * (q[i - 1] + q[i + 1]) - (q[i - 2] + q[i + 2]) - 30.0 * q[i]) +
-                 cy * (16.0 * (q[i - sy] + q[i + sy]) - (q[i - 2 * sy] + q[i + 2 * sy]) - 30.0 * q[i]) +
-                 cz * (16.0 * (q[i - sz] + q[i + sz]) - (q[i - 2 * sz] + q[i + 2 * sz]) - 30.0 * q[i]);
+        out[i] =
+            cx * (16.0 * (q[i - 1] + q[i + 1]) - (q[i - 2] + q[i + 2]) - 30.0 * q[i]) +
+            cy * (16.0 * (q[i - sy] + q[i + sy]) - (q[i - 2 * sy] + q[i + 2 * sy]) - 30.0 * q[i]) +
+            cz * (16.0 * (q[i - sz] + q[i + sz]) - (q[i - 2 * sz] + q[i + 2 * sz]) - 30.0 * q[i]);
 }
 
 void viscous_apply(const struct fv *s, const double *q, double *out)
@@ -33,7 +35,7 @@ void viscous_apply(const struct fv *s, const double *q, double *out)
     double c[3];
     for (int a = 0; a < b->dim; a++)
         c[a] = s->nu / (12.0 * b->h[a] * b->h[a]);
-    BLOCK_ROWS(b, 0, at, n)
+    BLOCK_ROWS (b, 0, at, n)
         row(q + at, b->stride, c, b->dim, n, out + at);
 }
 
@@ -56,21 +58,21 @@ static double dot_row(const double *restrict a, const double *restrict b, int64_
 static double dot(const struct block *b, const double *x, const double *y)
 {
     double sum = 0.0;
-    BLOCK_ROWS(b, 0, c, n)
+    BLOCK_ROWS (b, 0, c, n)
         sum += dot_row(x + c, y + c, n);
     return sum;
 }
 
 static void axpy(const struct block *b, double a, const double *restrict x, double *restrict y)
 {
-    BLOCK_ROWS(b, 0, c, n)
+    BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             y[i] += a * x[i];
 }
 
 static void xpby(const struct block *b, const double *restrict x, double beta, double *restrict y)
 {
-    BLOCK_ROWS(b, 0, c, n)
+    BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             y[i] = x[i] + beta * y[i];
 }
@@ -79,14 +81,15 @@ static void xpby(const struct block *b, const double *restrict x, double beta, d
 static void helmholtz(const struct fv *s, double c, const double *x, double *out)
 {
     viscous_apply(s, x, out);
-    BLOCK_ROWS(&s->b, 0, at, n)
+    BLOCK_ROWS (&s->b, 0, at, n)
         for (int64_t i = at; i < at + n; i++)
             out[i] = x[i] - c * out[i];
     if (s->forcing)
         forcing_zero(s->forcing, out);
 }
 
-/* rhs becomes the residual, work the search direction, u_old's place is not touched; face is scratch. */
+/* rhs becomes the residual, work the search direction, u_old's place is not touched; face is
+ * scratch. */
 bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const rhs[3], double tol)
 {
     const struct block *b = &s->b;

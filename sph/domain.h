@@ -1,6 +1,6 @@
 /* domain.h - which rank owns which part of the region: orthogonal recursive bisection, migration of
- * particles (and of other things that have a place), ghosts: halo of other ranks and periodic images.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * particles (and of other things that have a place), ghosts: halo of other ranks and periodic
+ * images. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_DOMAIN_H
 #define SPH_DOMAIN_H
 
@@ -10,8 +10,8 @@ struct domain;
 
 struct domain *domain_create(struct sph *s); /* collective over s->run->comm */
 void domain_free(struct domain **d);
-/* Cuts the region anew so that every rank has the same number of particles, if the imbalance is above
- * `tolerance' (max/mean - 1); returns whether it did. Then domain_migrate is due. */
+/* Cuts the region anew so that every rank has the same number of particles, if the imbalance is
+ * above `tolerance' (max/mean - 1); returns whether it did. Then domain_migrate is due. */
 bool domain_balance(struct sph *s, double tolerance);
 /* Rank that owns the place x (clamped into the region). */
 int domain_owner(const struct domain *d, const double *x);
@@ -19,14 +19,14 @@ int domain_owner(const struct domain *d, const double *x);
 void domain_bounds(const struct domain *d, double lo[3], double hi[3]);
 /* Wraps periodic positions and sends particles to their owners. Ghosts are gone afterwards. */
 void domain_migrate(struct sph *s);
-/* Sends items (rows of `width' doubles, place in the first dim of them) to the owners of their places;
- * returns the new number; *items is reallocated (mem_grow). Order: by sending rank, then as
+/* Sends items (rows of `width' doubles, place in the first dim of them) to the owners of their
+ * places; returns the new number; *items is reallocated (mem_grow). Order: by sending rank, then as
  * they were. */
 int domain_send_items(struct sph *s, double **items, int n, int width);
 /* Makes the ghosts: places within R + skin of this rank's part; fills prim of the ghosts. */
 void domain_ghosts(struct sph *s);
-/* Refreshes prim (positions shifted for images) or slope of the ghosts, start and finish apart so that
- * interior work can run between. */
+/* Refreshes prim (positions shifted for images) or slope of the ghosts, start and finish apart so
+ * that interior work can run between. */
 void domain_halo_start(struct sph *s, bool slopes);
 void domain_halo_finish(struct sph *s, bool slopes);
 /* Bit-for-bit restart: the cuts. */

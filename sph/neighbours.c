@@ -1,7 +1,7 @@
-/* neighbours.c - cells, sorting, the list of pairs. Locals are sorted by cell with x fastest, so that the three
- * cells of a row around a particle are one range of indices and the list comes out ascending. Ghosts
- * keep their order (the halo depends on it) and are reached through an index sorted by cell.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* neighbours.c - cells, sorting, the list of pairs. Locals are sorted by cell with x fastest, so
+ * that the three cells of a row around a particle are one range of indices and the list comes out
+ * ascending. Ghosts keep their order (the halo depends on it) and are reached through an index
+ * sorted by cell. SPDX-License-Identifier: BSD-3-Clause */
 #include "neighbours.h"
 
 #include <math.h>
@@ -15,11 +15,11 @@ enum { PRIM = 8 };
 struct cells {
     int n[3];
     double lo[3], per_edge;
-    int count;             /* cells */
-    int *start;            /* [count + 1] of the locals */
-    int *ghost_start;      /* [count + 1] */
-    int *ghost;            /* ghosts by cell */
-    int *cell, *order;     /* of each particle; scratch */
+    int count;         /* cells */
+    int *start;        /* [count + 1] of the locals */
+    int *ghost_start;  /* [count + 1] */
+    int *ghost;        /* ghosts by cell */
+    int *cell, *order; /* of each particle; scratch */
     int starts_capacity, particles_capacity;
 };
 
@@ -81,8 +81,8 @@ static void room(struct cells *c, int particles)
     }
 }
 
-/* Cells of edge R + skin or wider (far-flung spray must not cost memory) over the locals, and one more
- * around for the ghosts. */
+/* Cells of edge R + skin or wider (far-flung spray must not cost memory) over the locals, and one
+ * more around for the ghosts. */
 static void make_cells(struct sph *s, struct cells *c)
 {
     double lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0}, edge = s->R + s->skin, cells;
@@ -181,16 +181,18 @@ static void find_ranges(const struct cells *c, int dim, const int *at, struct ra
         }
 }
 
-static inline __attribute__((always_inline)) double distance2(const double *x, const double *y, const int dim)
+static inline __attribute__((always_inline)) double distance2(const double *x, const double *y,
+                                                              const int dim)
 {
     const double a = x[0] - y[0], b = x[1] - y[1], c = dim == 3 ? x[2] - y[2] : 0.0;
     return a * a + b * b + c * c;
 }
 
-/* Row of particle i: without branches, every candidate is written and the end moves on if it counts. */
-static inline __attribute__((always_inline)) int fill_row(const struct sph *s, const struct cells *c,
-                                                          const struct ranges *r, int i, double reach2,
-                                                          int *restrict row, int *tail, const int dim)
+/* Row of particle i: without branches, every candidate is written and the end moves on if it
+ * counts. */
+static inline __attribute__((always_inline)) int
+fill_row(const struct sph *s, const struct cells *c, const struct ranges *r, int i, double reach2,
+         int *restrict row, int *tail, const int dim)
 {
     const double *restrict prim = s->p.prim, *x = prim + (size_t)PRIM * i;
     int n = 0, before = 0;
@@ -240,8 +242,10 @@ static inline __attribute__((always_inline)) void build(struct sph *s, const int
                     list_room(l, used, r.most + 2 * LANES);
                     int *row = l->j + used;
                     l->start[i] = used;
-                    const int n = l->count[i] = fill_row(s, c, &r, i, reach2, row, l->tail + i, dim);
-                    for (int k = n; k < n + 2 * LANES - 1; k++) /* a vector may begin at any entry */
+                    const int n = l->count[i] =
+                        fill_row(s, c, &r, i, reach2, row, l->tail + i, dim);
+                    for (int k = n; k < n + 2 * LANES - 1;
+                         k++) /* a vector may begin at any entry */
                         row[k] = dummy;
                     used += (n + 2 * LANES - 1) / LANES * LANES;
                 }
@@ -268,6 +272,7 @@ int64_t neighbours_pairs(const struct sph *s)
     int64_t n = 0;
     for (int i = 0; i < l->n; i++)
         for (int k = 0; k < l->count[i]; k++)
-            n += distance2(s->p.prim + (size_t)PRIM * i, s->p.prim + (size_t)PRIM * l->j[l->start[i] + k], s->dim) < R2;
+            n += distance2(s->p.prim + (size_t)PRIM * i,
+                           s->p.prim + (size_t)PRIM * l->j[l->start[i] + k], s->dim) < R2;
     return n;
 }

@@ -105,7 +105,8 @@ static int face_place(const struct openings *o, int f, double *x)
 static double inward(int side) { return side % 2 ? -1.0 : 1.0; }
 
 /* Adds one ghost at y if this rank can see it. */
-static void add_ghost(struct sph *s, const double *y, const double *lo, const double *hi, double reach)
+static void add_ghost(struct sph *s, const double *y, const double *lo, const double *hi,
+                      double reach)
 {
     struct openings *o = s->zones->openings;
     for (int a = 0; a < o->dim; a++)
@@ -119,8 +120,8 @@ static void add_ghost(struct sph *s, const double *y, const double *lo, const do
     memcpy(o->ghost_x + 3 * (size_t)o->nghost++, y, 3 * sizeof *y);
 }
 
-/* Lattice places beyond side `side'. Axes before the side's own stay inside, so that an edge is counted
- * once. */
+/* Lattice places beyond side `side'. Axes before the side's own stay inside, so that an edge is
+ * counted once. */
 static void list_side(struct sph *s, int side, const double *lo, const double *hi, double reach)
 {
     const struct openings *o = s->zones->openings;
@@ -227,7 +228,8 @@ static void remove_leavers(struct sph *s)
     }
 }
 
-/* rho u.n dx^(D-1) of the faces this rank owns [6.13], from the flow outside at the middle of the step. */
+/* rho u.n dx^(D-1) of the faces this rank owns [6.13], from the flow outside at the middle of the
+ * step. */
 static void add_fluxes(struct sph *s, double dt)
 {
     struct openings *o = s->zones->openings;
@@ -266,7 +268,8 @@ struct strip {
     int *next, *head;
 };
 
-static int strip_cell(const struct strip *t, const struct openings *o, const double *x, const int *off)
+static int strip_cell(const struct strip *t, const struct openings *o, const double *x,
+                      const int *off)
 {
     uint32_t key = 0;
     for (int a = 0; a < o->dim; a++)
@@ -294,8 +297,11 @@ static struct strip strip_create(const struct sph *s)
 {
     const struct openings *o = s->zones->openings;
     const int room = 4 * openings_faces(o) + 64;
-    struct strip t = {.capacity = room, .heads = room, .x = mem_new((size_t)room, sizeof *t.x),
-                      .next = NEW(int, room), .head = NEW(int, room)};
+    struct strip t = {.capacity = room,
+                      .heads = room,
+                      .x = mem_new((size_t)room, sizeof *t.x),
+                      .next = NEW(int, room),
+                      .head = NEW(int, room)};
     for (int c = 0; c < t.heads; c++)
         t.head[c] = -1;
     for (int i = 0; i < s->p.n + o->first_ghost; i++) {
@@ -334,8 +340,9 @@ static bool crowded(const struct strip *t, const struct openings *o, const doubl
 static void born(struct sph *s, int f, const double *x, const double *u, double rho)
 {
     struct openings *o = s->zones->openings;
-    const int64_t id = o->first_id + f + (int64_t)llround(o->births[f] + o->change[openings_faces(o) + f]) *
-                                             openings_faces(o);
+    const int64_t id =
+        o->first_id + f +
+        (int64_t)llround(o->births[f] + o->change[openings_faces(o) + f]) * openings_faces(o);
     const int i = particles_add(&s->p, id, ZONE_BUFFER);
     particles_set(s, i, x, u, s->dxD, rho);
     o->change[f] -= rho * s->dxD;
@@ -416,8 +423,8 @@ void openings_place_lattice(struct sph *s)
     struct openings *o = s->zones->openings;
     for (int side = 0; side < 2 * o->dim; side++)
         for (int f = o->first[side]; f < o->first[side + 1]; f++)
-            o->shift[f] = inward(side) * s->dx *
-                          fmin(fmax(o->mass[f] / (s->rho0 * s->dxD), -1.0), most_debt);
+            o->shift[f] =
+                inward(side) * s->dx * fmin(fmax(o->mass[f] / (s->rho0 * s->dxD), -1.0), most_debt);
 }
 
 void openings_step(struct sph *s, double dt)

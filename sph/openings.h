@@ -1,7 +1,7 @@
-/* openings.h - the open sides of a particle region, cut into faces of side dx. The flow through a face
- * is booked as mass; a face that holds a whole particle gives birth to it, a particle that
- * leaves gives its mass to the nearest face (Chiron 2017, eqs. 6.13-6.14), with threshold 1 and birth
- * dx/2 inside, the pair that keeps a lattice. SPDX-License-Identifier: BSD-3-Clause */
+/* openings.h - the open sides of a particle region, cut into faces of side dx. The flow through a
+ * face is booked as mass; a face that holds a whole particle gives birth to it, a particle that
+ * leaves gives its mass to the nearest face (Chiron 2017, eqs. 6.13-6.14), with threshold 1 and
+ * birth dx/2 inside, the pair that keeps a lattice. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_OPENINGS_H
 #define SPH_OPENINGS_H
 
@@ -10,19 +10,20 @@
 struct openings {
     int dim;
     double dx, lo[3], hi[3];
-    bool open[3];   /* axes with open sides */
-    int cells[3];   /* faces along each axis */
-    int first[7];   /* of side 2a (low), 2a+1 (high); first[2 dim]: number of faces */
-    double *mass;   /* kg: booked, the same on all ranks */
-    double *births; /* since the start, the same on all ranks (numbers the newborn) */
-    double *change; /* of this step, this rank, then summed: masses, births */
-    double *flux;   /* kg/s of the faces this rank owns, 0 elsewhere: inward */
-    double *shift;  /* m: place of the incoming lattice behind each face */
+    bool open[3];                /* axes with open sides */
+    int cells[3];                /* faces along each axis */
+    int first[7];                /* of side 2a (low), 2a+1 (high); first[2 dim]: number of faces */
+    double *mass;                /* kg: booked, the same on all ranks */
+    double *births;              /* since the start, the same on all ranks (numbers the newborn) */
+    double *change;              /* of this step, this rank, then summed: masses, births */
+    double *flux;                /* kg/s of the faces this rank owns, 0 elsewhere: inward */
+    double *shift;               /* m: place of the incoming lattice behind each face */
     int64_t born, gone, refused; /* on this rank */
     double born_mass, gone_mass; /* kg */
     int64_t first_id;
-    int nghost, first_ghost, ghost_capacity; /* the lattice behind the faces, last among the ghosts */
-    double *ghost_x;                         /* [nghost][3] at time ghost_t */
+    int nghost, first_ghost,
+        ghost_capacity; /* the lattice behind the faces, last among the ghosts */
+    double *ghost_x;    /* [nghost][3] at time ghost_t */
     double ghost_t;
 };
 

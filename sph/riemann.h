@@ -6,12 +6,11 @@
 #include "sph.h"
 #include "vec.h"
 
-/* What is added to phi_i on the way to the middle of the pair: D = phi_j - phi_i, s = grad phi_i.(x_j - x_i);
- * to phi_j it is subtracted, with j's gradient. b = 2 s - D is the difference on the far side.
- *   minmod [2.83]   D/2 clipped to 0 .. s/2
- *   koren           (b + 2 D)/6, the third-order value, within 0 .. min(b, D)
- *   none            s/2
- * All are D/2 on a linear field, which makes both states equal there. */
+/* What is added to phi_i on the way to the middle of the pair: D = phi_j - phi_i, s = grad
+ * phi_i.(x_j - x_i); to phi_j it is subtracted, with j's gradient. b = 2 s - D is the difference on
+ * the far side. minmod [2.83]   D/2 clipped to 0 .. s/2 koren           (b + 2 D)/6, the
+ * third-order value, within 0 .. min(b, D) none            s/2 All are D/2 on a linear field, which
+ * makes both states equal there. */
 static inline __attribute__((always_inline)) vec half_step(vec D, vec s, const int limiter)
 {
     const vec zero = {0.0, 0.0, 0.0, 0.0};
@@ -38,12 +37,12 @@ static inline __attribute__((always_inline)) void tait7(vec r, double B, double 
     *c = c0 * r3;
 }
 
-/* Linearised Riemann problem [2.100]: states l, r with Z = rho c, velocities along the line of centres,
- * inverse = 1/(Zl + Zr). Low dissipation (Zhang, Hu & Adams, J. Comput. Phys. 335, 2017): in P only, the
- * jump of velocity counts by min(1, 3 max(ul - ur, 0)/c0). */
-static inline __attribute__((always_inline)) void riemann(vec Zl, vec ul, vec Pl, vec Zr, vec ur, vec Pr,
-                                                          vec inverse, const bool low, double per_c0,
-                                                          vec *uE, vec *PE)
+/* Linearised Riemann problem [2.100]: states l, r with Z = rho c, velocities along the line of
+ * centres, inverse = 1/(Zl + Zr). Low dissipation (Zhang, Hu & Adams, J. Comput. Phys. 335, 2017):
+ * in P only, the jump of velocity counts by min(1, 3 max(ul - ur, 0)/c0). */
+static inline __attribute__((always_inline)) void riemann(vec Zl, vec ul, vec Pl, vec Zr, vec ur,
+                                                          vec Pr, vec inverse, const bool low,
+                                                          double per_c0, vec *uE, vec *PE)
 {
     const vec zero = {0.0, 0.0, 0.0, 0.0};
     vec jump = ul - ur;

@@ -1,5 +1,5 @@
-/* scheme.h - what a pair interaction provides. Both passes run over the list of s->list with prim (and
- * slope) of locals and ghosts; dimension, viscosity, limiter are constants of one body each.
+/* scheme.h - what a pair interaction provides. Both passes run over the list of s->list with prim
+ * (and slope) of locals and ghosts; dimension, viscosity, limiter are constants of one body each.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_SCHEME_H
 #define SPH_SCHEME_H
@@ -9,9 +9,9 @@
 typedef void scheme_pass(struct sph *s);
 
 /* struct scheme (sph.h):
- * gradients, first pass (one-sided): renormalised gradients of rho and u and the transport velocity of
- * every local particle into slope; zero slope where M is nearly singular (smallest eigenvalue < 0.2);
- * rates, second pass (symmetric): p.rate of every local particle from prim and slope. */
+ * gradients, first pass (one-sided): renormalised gradients of rho and u and the transport velocity
+ * of every local particle into slope; zero slope where M is nearly singular (smallest eigenvalue <
+ * 0.2); rates, second pass (symmetric): p.rate of every local particle from prim and slope. */
 
 /* The passes that the parameters of s name. */
 struct scheme scheme_pick(const struct sph *s);

@@ -1,5 +1,5 @@
-/* scheme_gradients.c - first pass: renormalised gradients of rho and u [2.42-2.44] and the transport
- * velocity, one-sided over the whole list, from the prim lines alone.
+/* scheme_gradients.c - first pass: renormalised gradients of rho and u [2.42-2.44] and the
+ * transport velocity, one-sided over the whole list, from the prim lines alone.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
@@ -13,22 +13,23 @@ enum { PRIM = 8 };
 
 /* Sums over the neighbours of a particle; d = x_j - x_i, g = w_j |W'|/r. */
 struct sums {
-    vec M[6];       /* g d d: xx xy yy (xz yz zz) */
-    vec rho[3];     /* g (rho_j - rho_i) d */
-    vec u[3][3];    /* g (u_j - u_i) d */
-    vec crowd[3];   /* transport law */
+    vec M[6];     /* g d d: xx xy yy (xz yz zz) */
+    vec rho[3];   /* g (rho_j - rho_i) d */
+    vec u[3][3];  /* g (u_j - u_i) d */
+    vec crowd[3]; /* transport law */
 };
 
 /* Constants of the pass. */
 struct pass {
-    double R2, per_R, slope, cut;      /* slope = 20 W0/R^2 */
-    double crowd, tensile;             /* w0 20 W0/R^2; 0.2 (W0/W(dx))^4 */
-    double per_Rd, crowd_near;         /* law of Oger: 1/(2 dx); w0 20 W0(Rd)/Rd^2 Rd */
+    double R2, per_R, slope, cut; /* slope = 20 W0/R^2 */
+    double crowd, tensile;        /* w0 20 W0/R^2; 0.2 (W0/W(dx))^4 */
+    double per_Rd, crowd_near;    /* law of Oger: 1/(2 dx); w0 20 W0(Rd)/Rd^2 Rd */
 };
 
 static inline __attribute__((always_inline)) void add_four(struct sums *q, const struct sph *s,
                                                            const struct pass *c, const double *i,
-                                                           const int *j, const int dim, const int transport)
+                                                           const int *j, const int dim,
+                                                           const int transport)
 {
     const vec zero = {0.0, 0.0, 0.0, 0.0};
     vec p[PRIM], d[3], t, g, r2 = vec_all(1e-12 * c->R2);
@@ -95,8 +96,8 @@ static bool invert(const double *M, double *B, const int dim, double least)
 }
 
 /* Whole-support law: -2 U R n, at most U/4. Law of Oger [2.113]: -U n, at most |u|/4. */
-static void shift(const struct sph *s, const double *n, const double *u, double *delta, const int dim,
-                  const int transport)
+static void shift(const struct sph *s, const double *n, const double *u, double *delta,
+                  const int dim, const int transport)
 {
     const double U = s->run->scene.initial.U;
     const double factor = transport == TRANSPORT_TVS ? -2.0 * U * s->R : -U;
@@ -157,7 +158,8 @@ static struct pass constants(const struct sph *s, int dim)
                          .crowd_near = s->dxD * 20.0 * kernel_w0(dim, Rd) / Rd};
 }
 
-static inline __attribute__((always_inline)) void gradients(struct sph *s, const int dim, const int transport)
+static inline __attribute__((always_inline)) void gradients(struct sph *s, const int dim,
+                                                            const int transport)
 {
     const struct neighbours *l = s->list;
     const struct pass c = constants(s, dim);

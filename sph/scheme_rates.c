@@ -1,10 +1,10 @@
 /* scheme_rates.c - second pass: Riemann fluxes of every pair once, added to both partners.
- *   riemann_ale  Vila's ALE form [2.86-2.89]: fluxes of mass and momentum through the middle of the pair,
- *                which moves with u0; w follows div u0
- *   riemann      Leduc's form [2.96-2.99]: the middle moves with u_E, no mass flux
- * States by limited reconstruction (riemann.h). rho_E is taken from P_E along the isentrope of the mean
- * state, rho + (P_E - P)/c^2, which errs by the square of a jump. The acoustic damper adds -beta rho0 c0 R div u
- * to each particle's pressure. SPDX-License-Identifier: BSD-3-Clause */
+ *   riemann_ale  Vila's ALE form [2.86-2.89]: fluxes of mass and momentum through the middle of the
+ * pair, which moves with u0; w follows div u0 riemann      Leduc's form [2.96-2.99]: the middle
+ * moves with u_E, no mass flux States by limited reconstruction (riemann.h). rho_E is taken from
+ * P_E along the isentrope of the mean state, rho + (P_E - P)/c^2, which errs by the square of a
+ * jump. The acoustic damper adds -beta rho0 c0 R div u to each particle's pressure.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
 #include <math.h>
@@ -19,10 +19,10 @@
 enum { PRIM = 8, SLOPE_MAX = 16, SUM_MAX = 8 };
 
 struct pass {
-    double R2, per_R, slope;  /* slope = 20 W0/R^2 */
+    double R2, per_R, slope; /* slope = 20 W0/R^2 */
     double rho0, per_rho0, B, c0, per_c0, per_c02, gamma;
-    double damper;            /* beta rho0 c0 R */
-    double mu;                /* 2 mu (Morris), 2 (D+2) mu (Monaghan-Gingold), halved: areas carry the 2 */
+    double damper; /* beta rho0 c0 R */
+    double mu;     /* 2 mu (Morris), 2 (D+2) mu (Monaghan-Gingold), halved: areas carry the 2 */
     int limiter;
     bool low;
 };
@@ -32,7 +32,8 @@ struct side {
     vec x[3], u[3], w, rho, slope[SLOPE_MAX];
 };
 
-static inline __attribute__((always_inline)) void unpack(const vec *p, const vec *g, struct side *q, const int dim)
+static inline __attribute__((always_inline)) void unpack(const vec *p, const vec *g, struct side *q,
+                                                         const int dim)
 {
     for (int a = 0; a < dim; a++) {
         q->x[a] = p[a];
@@ -45,8 +46,8 @@ static inline __attribute__((always_inline)) void unpack(const vec *p, const vec
 }
 
 /* P, c of a reconstructed density. */
-static inline __attribute__((always_inline)) void state_of(const struct pass *c, vec rho, const bool stiff, vec *P,
-                                                           vec *sound)
+static inline __attribute__((always_inline)) void state_of(const struct pass *c, vec rho,
+                                                           const bool stiff, vec *P, vec *sound)
 {
     if (stiff || c->gamma == 7.0) {
         tait7(rho * c->per_rho0, c->B, c->c0, P, sound);
@@ -62,11 +63,13 @@ static inline __attribute__((always_inline)) vec dot(const vec *a, const vec *b,
     return dim == 3 ? s + a[2] * b[2] : s;
 }
 
-/* Rates of i and of its partners j: sum[0..dim-1] momentum, [dim] volume, [dim+1] mass, of i and j. */
+/* Rates of i and of its partners j: sum[0..dim-1] momentum, [dim] volume, [dim+1] mass, of i and j.
+ */
 static inline __attribute__((always_inline)) void pair(const struct pass *c, const struct side *i,
-                                                       const struct side *j, vec *to_i, vec *to_j, const int dim,
-                                                       const int scheme, const int viscosity,
-                                                       const int limiter, const bool low, const bool stiff)
+                                                       const struct side *j, vec *to_i, vec *to_j,
+                                                       const int dim, const int scheme,
+                                                       const int viscosity, const int limiter,
+                                                       const bool low, const bool stiff)
 {
     const vec zero = {0.0, 0.0, 0.0, 0.0};
     vec d[3], n[3], ul[3], ur[3], r2 = vec_all(1e-12 * c->R2);
@@ -147,8 +150,10 @@ static inline __attribute__((always_inline)) void pair(const struct pass *c, con
     }
 }
 
-/* Adds columns of four partners to their rows. A dummy may stand more than once: its row is never read. */
-static inline __attribute__((always_inline)) void scatter(double *sums, const int *j, vec *to_j, const int dim)
+/* Adds columns of four partners to their rows. A dummy may stand more than once: its row is never
+ * read. */
+static inline __attribute__((always_inline)) void scatter(double *sums, const int *j, vec *to_j,
+                                                          const int dim)
 {
     const int width = dim == 2 ? 4 : 8;
     vec_transpose(to_j, to_j + 1, to_j + 2, to_j + 3);
@@ -161,9 +166,9 @@ static inline __attribute__((always_inline)) void scatter(double *sums, const in
 }
 
 /* Sums of the row of i over its partners behind it. */
-static inline __attribute__((always_inline)) void row(struct sph *s, const struct pass *c, double *sums, int i,
-                                                      const int dim, const int scheme, const int viscosity,
-                                                      const int limiter, const bool low, const bool stiff)
+static inline __attribute__((always_inline)) void
+row(struct sph *s, const struct pass *c, double *sums, int i, const int dim, const int scheme,
+    const int viscosity, const int limiter, const bool low, const bool stiff)
 {
     const struct neighbours *l = s->list;
     const int nslope = dim == 2 ? 8 : 16, width = dim == 2 ? 4 : 8;
@@ -240,8 +245,8 @@ static void spread(struct sph *s, const double *sums, int width)
     }
 }
 
-static inline __attribute__((always_inline)) void rates(struct sph *s, const int dim, const int scheme,
-                                                        const int viscosity, const bool plain)
+static inline __attribute__((always_inline)) void
+rates(struct sph *s, const int dim, const int scheme, const int viscosity, const bool plain)
 {
     const struct pass c = constants(s);
     const int width = dim == 2 ? 4 : 8;
@@ -255,6 +260,7 @@ static inline __attribute__((always_inline)) void rates(struct sph *s, const int
     spread(s, sums, width);
 }
 
+/* clang-format off */
 #define RATES(dim, scheme, viscosity)                                                              \
     static void rates_##dim##_##scheme##_##viscosity(struct sph *s)                                \
     {                                                                                              \
@@ -265,13 +271,15 @@ static inline __attribute__((always_inline)) void rates(struct sph *s, const int
         rates(s, dim, scheme, viscosity, true);                                                    \
     }
 #define ALL(F)                                                                                     \
-    F(2, 0, 0) F(2, 0, 1) F(2, 0, 2) F(2, 1, 0) F(2, 1, 1) F(2, 1, 2) F(3, 0, 0) F(3, 0, 1)        \
-        F(3, 0, 2) F(3, 1, 0) F(3, 1, 1) F(3, 1, 2)
+    F(2, 0, 0)                                                                                     \
+    F(2, 0, 1) F(2, 0, 2) F(2, 1, 0) F(2, 1, 1) F(2, 1, 2) F(3, 0, 0) F(3, 0, 1) F(3, 0, 2)        \
+        F(3, 1, 0) F(3, 1, 1) F(3, 1, 2)
 ALL(RATES)
 
 #define ENTRY(dim, scheme, viscosity)                                                              \
     [dim - 2][scheme][viscosity] = {rates_##dim##_##scheme##_##viscosity,                          \
                                     plain_##dim##_##scheme##_##viscosity},
+/* clang-format on */
 
 scheme_pass *scheme_rates(const struct sph *s)
 {

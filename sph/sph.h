@@ -9,7 +9,7 @@
 
 #include "../common/run.h"
 
-enum sph_scheme { SCHEME_RIEMANN_ALE, SCHEME_RIEMANN };          /* Vila [2.86-2.89]; Leduc [2.96-2.99] */
+enum sph_scheme { SCHEME_RIEMANN_ALE, SCHEME_RIEMANN }; /* Vila [2.86-2.89]; Leduc [2.96-2.99] */
 enum sph_limiter { LIMITER_KOREN, LIMITER_MINMOD, LIMITER_NONE };
 enum sph_transport { TRANSPORT_TVS, TRANSPORT_TVO, TRANSPORT_NONE, TRANSPORT_EULERIAN };
 enum sph_viscosity { VISCOSITY_MORRIS, VISCOSITY_MONAGHAN };
@@ -17,10 +17,10 @@ enum sph_outer { OUTER_NONE, OUTER_EXACT, OUTER_PARTNER };
 enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
 
 struct sph_params {
-    double dx;            /* m */
-    double R_dx;          /* support radius over dx, - */
-    double c0;            /* m/s; 0: ten times the scale of velocity */
-    double gamma;         /* Tait's exponent, 7 or 1 */
+    double dx;    /* m */
+    double R_dx;  /* support radius over dx, - */
+    double c0;    /* m/s; 0: ten times the scale of velocity */
+    double gamma; /* Tait's exponent, 7 or 1 */
     int scheme, limiter, transport, viscosity;
     bool low_dissipation; /* bounded Riemann dissipation (Zhang, Hu & Adams 2017) */
     double damper;        /* acoustic damper beta, 0: off */
@@ -39,12 +39,12 @@ struct sph_params {
  * row `capacity' of lines is the dummy that pads neighbour rows (far away, volume 0).
  *   prim  [8]:        x[dim] u[dim] w rho (2D: then p c)
  *   slope [8 | 16]:   grad rho [dim], grad u [dim][dim] (a: component, b: direction), u0 [dim]
- * Locals are 0 .. n-1, sorted by cell; ghosts (halo of other ranks, periodic images) n .. n+nghost-1:
- * only prim and slope exist for them. */
+ * Locals are 0 .. n-1, sorted by cell; ghosts (halo of other ranks, periodic images) n ..
+ * n+nghost-1: only prim and slope exist for them. */
 struct particles {
     int n, nghost, capacity;
-    int nstate; /* 2 dim + 2 */
-    int nslope; /* 8 (2D) or 16 (3D) */
+    int nstate;                  /* 2 dim + 2 */
+    int nslope;                  /* 8 (2D) or 16 (3D) */
     double *y, *y0, *sum, *rate; /* [capacity][nstate] state, at t_n, RK sum, time derivative */
     double *prim;                /* [capacity+1][8] */
     double *slope;               /* [capacity+1][nslope] */
@@ -68,41 +68,42 @@ struct sph {
     struct run *run;
     struct sph_params prm;
     int dim;
-    double R, dx, dxD;         /* m, m, m^dim: volume of a particle at the start */
+    double R, dx, dxD; /* m, m, m^dim: volume of a particle at the start */
     double rho0, nu, c0, gamma;
     double gravity[3];
-    double lo[3], hi[3];       /* region of the particles: the domain, or sph.box */
-    bool periodic[3];          /* of that region */
-    double t;                  /* s: time of the state y; during a stage: of that stage */
+    double lo[3], hi[3]; /* region of the particles: the domain, or sph.box */
+    bool periodic[3];    /* of that region */
+    double t;            /* s: time of the state y; during a stage: of that stage */
     double dt;
     struct particles p;
     struct neighbours *list;
     struct domain *domain;
-    struct scheme passes;      /* what the parameters name */
+    struct scheme passes;        /* what the parameters name */
     const struct scheme *scheme; /* &passes */
     struct zones *zones;
-    double skin;               /* m: the list holds pairs within R + skin */
-    bool ready;                /* list and ghosts belong to the positions of y; whoever moves, adds or
-                                  removes particles outside a step clears it */
-    bool broken;               /* the state cannot be trusted: no list is made of it any more */
-    int64_t next_id;           /* of the next particle born on this rank: rank + k size */
+    double skin;     /* m: the list holds pairs within R + skin */
+    bool ready;      /* list and ghosts belong to the positions of y; whoever moves, adds or
+                        removes particles outside a step clears it */
+    bool broken;     /* the state cannot be trusted: no list is made of it any more */
+    int64_t next_id; /* of the next particle born on this rank: rank + k size */
     /* of the last step, over all ranks */
     double max_speed, max_shift, rho_min, rho_max, max_c;
-    const char *limited_by;    /* "sound" or "viscosity" */
-    double signal;             /* m/s: max of c + |u - u0| */
-    double drift[3], stray;    /* m/s: middle of the velocities u0, largest distance from it */
-    double dt_most;            /* s: largest next step [2.102-2.104] */
-    double max_mach;           /* since the start: |u|/c0 */
-    double fluctuation, fluctuation_particles; /* since the start, with zones: |M/mass0 - 1|, with and without
-                                  the mass that faces hold */
-    double lost, lost_said;    /* particles removed since the start: this rank; all, when last reported */
-    int64_t pairs;             /* ordered pairs within R, counted once a stage, summed over stages; this rank */
-    int64_t pairs_now;         /* the same, of the present list */
+    const char *limited_by; /* "sound" or "viscosity" */
+    double signal;          /* m/s: max of c + |u - u0| */
+    double drift[3], stray; /* m/s: middle of the velocities u0, largest distance from it */
+    double dt_most;         /* s: largest next step [2.102-2.104] */
+    double max_mach;        /* since the start: |u|/c0 */
+    double fluctuation, fluctuation_particles; /* since the start, with zones: |M/mass0 - 1|, with
+                                  and without the mass that faces hold */
+    double lost,
+        lost_said; /* particles removed since the start: this rank; all, when last reported */
+    int64_t pairs; /* ordered pairs within R, counted once a stage, summed over stages; this rank */
+    int64_t pairs_now;                   /* the same, of the present list */
     double mass0, energy0, momentum0[3]; /* at t = 0, for drifts */
 };
 
-/* state.c: prm as sph_params_of gives it, copied; f: restart file, then r->t and r->step are set, or NULL.
- * NULL: f does not fit. Collective over r->comm. */
+/* sph_state.c: prm as sph_params_of gives it, copied; f: restart file, then r->t and r->step are
+ * set, or NULL. NULL: f does not fit. Collective over r->comm. */
 struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f);
 void sph_free(struct sph **s);
 
@@ -111,7 +112,8 @@ void particles_create(struct particles *p, int dim, int capacity);
 void particles_free(struct particles *p);
 /* Room for n + nghost = total lines; keeps everything. */
 void particles_reserve(struct particles *p, int total);
-/* One more particle at the end (ghosts must be gone); returns its index; the row y is the caller's. */
+/* One more particle at the end (ghosts must be gone); returns its index; the row y is the caller's.
+ */
 int particles_add(struct particles *p, int64_t id, enum sph_zone zone);
 /* Copies particle `from' over `to' (state, id, zone). */
 void particles_copy(struct particles *p, int to, int from);
@@ -129,7 +131,8 @@ double integrate_step(struct sph *s, double t_stop, struct diagnosis *d);
 /* Neighbour list and halo of the present positions, then rates of y at s->t (what a stage does). */
 void integrate_prepare(struct sph *s);
 void integrate_rates(struct sph *s);
-/* prim and slope of the present state, for output and errors; what is imposed from outside stays out. */
+/* prim and slope of the present state, for output and errors; what is imposed from outside stays
+ * out. */
 void integrate_gradients(struct sph *s);
 /* First time step, skin and extremes from the state at t = 0. */
 void integrate_start(struct sph *s);
@@ -142,7 +145,8 @@ void sph_sums(const struct sph *s, double sums[SUM_COUNT]);
 bool sph_has_exact(const struct run *r);
 /* Curl of u of a local particle, 1/s; needs slope of the present state. In 2D w[2] only. */
 void sph_vorticity(const struct sph *s, int i, double w[3]);
-/* Names of the columns that sph_row fills for this scene; returns their number, at most SPH_COLUMNS. */
+/* Names of the columns that sph_row fills for this scene; returns their number, at most
+ * SPH_COLUMNS. */
 enum { SPH_COLUMNS = 16 };
 int sph_columns(const struct run *r, const char **names);
 void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
@@ -152,8 +156,8 @@ void sph_finish(void *s);
 void sph_row(void *s, double *values);
 
 /* sph_coupling.c: the only file here that knows cpl.h. */
-void coupling_offer(struct run *r);         /* publishes sph.box and sph.free */
-void coupling_create(struct sph *s);        /* declares sets and fields; s->zones->eval reads the patch */
+void coupling_offer(struct run *r);  /* publishes sph.box and sph.free */
+void coupling_create(struct sph *s); /* declares sets and fields; s->zones->eval reads the patch */
 void coupling_free(struct sph *s);
 void coupling_window_begin(void *s, double t0, double t1);
 void coupling_window_end(void *s, double t1);

@@ -1,6 +1,7 @@
-/* sph_coupling.c - SPH's place in a coupled job: gives its particles, takes patches of the flow outside.
- * Order of a window (Chiron 2017, 6.2): SPH runs first on the extrapolated patch, hands its particles
- * over, and takes the next patch when its partner has followed. SPDX-License-Identifier: BSD-3-Clause */
+/* sph_coupling.c - SPH's place in a coupled job: gives its particles, takes patches of the flow
+ * outside. Order of a window (Chiron 2017, 6.2): SPH runs first on the extrapolated patch, hands
+ * its particles over, and takes the next patch when its partner has followed.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
 
@@ -40,8 +41,8 @@ void coupling_offer(struct run *r)
 }
 
 /* Values and gradients of the patch, one field after the other. */
-static void eval_patch(void *ctx, double t, int n, const double *x, double *u, double *p, double *gu,
-                       double *gp)
+static void eval_patch(void *ctx, double t, int n, const double *x, double *u, double *p,
+                       double *gu, double *gp)
 {
     const struct link *k = ctx;
     cpl_patch_eval(k->c, k->patch_velocity, t, n, x, u, gu);
@@ -55,10 +56,12 @@ void coupling_create(struct sph *s)
     k->c = s->run->partner_ctx;
     k->dim = s->dim;
     check(k, cpl_points(k->c, "sph.particles", s->dim, 0.0, &k->particles));
-    check(k, cpl_field(k->c, k->particles, "sph.velocity", "m/s", s->dim, CPL_PUT, 0, &k->velocity));
+    check(k,
+          cpl_field(k->c, k->particles, "sph.velocity", "m/s", s->dim, CPL_PUT, 0, &k->velocity));
     check(k, cpl_field(k->c, k->particles, "fv.velocity", "m/s", s->dim, CPL_GET, how,
                        &k->patch_velocity));
-    check(k, cpl_field(k->c, k->particles, "fv.pressure", "Pa", 1, CPL_GET, how, &k->patch_pressure));
+    check(k,
+          cpl_field(k->c, k->particles, "fv.pressure", "Pa", 1, CPL_GET, how, &k->patch_pressure));
     s->zones->eval = eval_patch;
     s->zones->ctx = k;
 }

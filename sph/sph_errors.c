@@ -124,8 +124,8 @@ static double enstrophy(const struct sph *s)
     return sum;
 }
 
-/* Smallest distance of two particles over dx; needs the list of the present places. The lattice behind
- * open sides does not count. */
+/* Smallest distance of two particles over dx; needs the list of the present places. The lattice
+ * behind open sides does not count. */
 static double least_spacing(const struct sph *s)
 {
     const struct neighbours *l = s->list;

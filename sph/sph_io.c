@@ -126,11 +126,13 @@ static const struct number {
     {                                                                                              \
 #member, offsetof(struct sph, member)                                                      \
     }
-    NUMBER(skin),      NUMBER(signal),       NUMBER(dt_most),      NUMBER(stray),
-    NUMBER(drift[0]),  NUMBER(drift[1]),     NUMBER(drift[2]),     NUMBER(max_speed),
-    NUMBER(max_shift), NUMBER(max_c),        NUMBER(rho_min),      NUMBER(rho_max),
-    NUMBER(max_mach),  NUMBER(fluctuation), NUMBER(fluctuation_particles),  NUMBER(mass0),        NUMBER(energy0),
-    NUMBER(dt),        NUMBER(momentum0[0]), NUMBER(momentum0[1]), NUMBER(momentum0[2]),
+    NUMBER(skin),         NUMBER(signal),       NUMBER(dt_most),
+    NUMBER(stray),        NUMBER(drift[0]),     NUMBER(drift[1]),
+    NUMBER(drift[2]),     NUMBER(max_speed),    NUMBER(max_shift),
+    NUMBER(max_c),        NUMBER(rho_min),      NUMBER(rho_max),
+    NUMBER(max_mach),     NUMBER(fluctuation),  NUMBER(fluctuation_particles),
+    NUMBER(mass0),        NUMBER(energy0),      NUMBER(dt),
+    NUMBER(momentum0[0]), NUMBER(momentum0[1]), NUMBER(momentum0[2]),
 };
 enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 

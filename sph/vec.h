@@ -16,10 +16,7 @@ static inline vec vec_all(double a) { return (vec){a, a, a, a}; }
 static inline vec vec_pick(mask m, vec a, vec b) { return (vec)((m & (mask)a) | (~m & (mask)b)); }
 static inline vec vec_max(vec a, vec b) { return vec_pick(a > b, a, b); }
 static inline vec vec_min(vec a, vec b) { return vec_pick(a < b, a, b); }
-static inline vec vec_sqrt(vec a)
-{
-    return (vec){sqrt(a[0]), sqrt(a[1]), sqrt(a[2]), sqrt(a[3])};
-}
+static inline vec vec_sqrt(vec a) { return (vec){sqrt(a[0]), sqrt(a[1]), sqrt(a[2]), sqrt(a[3])}; }
 static inline double vec_sum(vec a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 static inline vec vec_load(const double *p) { return *(const vec *)(const void *)p; }
 static inline void vec_store(double *p, vec a) { *(vec *)(void *)p = a; }
@@ -37,8 +34,8 @@ static inline __attribute__((always_inline)) void vec_transpose(vec *a, vec *b, 
 }
 
 /* n columns (a multiple of 4) of the lines j[0..3], each `width' doubles long. */
-static inline __attribute__((always_inline)) void vec_columns(const double *lines, int width, const int *j,
-                                                              int n, vec *column)
+static inline __attribute__((always_inline)) void vec_columns(const double *lines, int width,
+                                                              const int *j, int n, vec *column)
 {
     const double *a = lines + (size_t)j[0] * width, *b = lines + (size_t)j[1] * width;
     const double *c = lines + (size_t)j[2] * width, *d = lines + (size_t)j[3] * width;

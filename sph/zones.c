@@ -13,7 +13,8 @@
 #include "eos.h"
 #include "openings.h"
 
-void zones_widths(const struct run *r, const struct sph_params *prm, double *transition, double *buffer)
+void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
+                  double *buffer)
 {
     const double least = 1.25 * prm->R_dx * prm->dx; /* the sheet's rule s >= 1.25 R */
     *transition = r->scene.coupling.transition > 0.0 ? r->scene.coupling.transition : least;
@@ -46,8 +47,8 @@ void zones_given_box(const struct run *r, const struct sph_params *prm, double l
 }
 
 /* The exact solution as the flow outside; the gradient of p by central differences. */
-static void eval_exact(void *ctx, double t, int n, const double *x, double *u, double *p, double *gu,
-                       double *gp)
+static void eval_exact(void *ctx, double t, int n, const double *x, double *u, double *p,
+                       double *gu, double *gp)
 {
     const struct exact *e = ctx;
     const int dim = e->dim;
@@ -195,8 +196,9 @@ void zones_stage(struct sph *s)
     for (int k = 0; k < z->n; k++) {
         const int i = z->who[k];
         double *y = s->p.y + (size_t)i * s->p.nstate;
-        /* Births and removals change the packing by jumps that div u0 does not know: volumes that followed it
-         * there would wander. They wait until the particle is a support away from the side. */
+        /* Births and removals change the packing by jumps that div u0 does not know: volumes that
+         * followed it there would wander. They wait until the particle is a support away from the
+         * side. */
         if (zones_depth(s, y) < s->R)
             y[2 * s->dim] = s->p.y0[(size_t)i * s->p.nstate + 2 * s->dim];
         impose(s, i, z->u + s->dim * k, eos_rho(z->p[k], s->rho0, s->c0, s->gamma));
@@ -265,7 +267,8 @@ bool zones_load(struct sph *s, struct h5 *f)
     if (!h5_read_real(f, "faces_mass", rows, 1, o->mass) ||
         !h5_read_real(f, "faces_births", rows, 1, o->births) ||
         !h5_read_real(f, "faces_flux", faces, 1, o->flux) ||
-        !h5_read_real(f, "zones_booked", 3, 1, booked) || !h5_read_int(f, "zones_counted", 3, counted))
+        !h5_read_real(f, "zones_booked", 3, 1, booked) ||
+        !h5_read_int(f, "zones_counted", 3, counted))
         return false;
     MPI_Bcast(o->mass, faces, MPI_DOUBLE, 0, s->run->comm);
     MPI_Bcast(o->births, faces, MPI_DOUBLE, 0, s->run->comm);

@@ -1,6 +1,6 @@
-/* zones.h - free, transition and buffer zones of a particle region inside a larger flow (Chiron 2017,
- * 6.2-6.3). The flow outside is known through a function of place and time: an exact solution or the
- * patch of a partner. Births and removals at the outer face: openings.h.
+/* zones.h - free, transition and buffer zones of a particle region inside a larger flow (Chiron
+ * 2017, 6.2-6.3). The flow outside is known through a function of place and time: an exact solution
+ * or the patch of a partner. Births and removals at the outer face: openings.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_ZONES_H
 #define SPH_ZONES_H
@@ -9,8 +9,8 @@
 
 /* u[n][dim] (m/s), p[n] (Pa) and their gradients gu[n][dim][3], gp[n][3] (NULL: not wanted) at
  * x[n][3], t. */
-typedef void zones_eval(void *ctx, double t, int n, const double *x, double *u, double *p, double *gu,
-                        double *gp);
+typedef void zones_eval(void *ctx, double t, int n, const double *x, double *u, double *p,
+                        double *gu, double *gp);
 
 struct openings;
 struct zones {
@@ -19,7 +19,7 @@ struct zones {
     void *ctx; /* borrowed */
     struct openings *openings;
     double blended; /* kg: mass that blending added on this rank since the start */
-    int n;          /* buffer or transition particles at hand, and the flow outside at their places */
+    int n; /* buffer or transition particles at hand, and the flow outside at their places */
     int capacity;
     int *who;
     double *x, *u, *p, *gu, *gp;
@@ -29,7 +29,8 @@ struct zones {
 struct zones *zones_create(struct sph *s);
 void zones_free(struct zones **z);
 /* Widths and box of the free zone from parameters alone (open sides: not s->periodic). */
-void zones_widths(const struct run *r, const struct sph_params *prm, double *transition, double *buffer);
+void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
+                  double *buffer);
 /* The box that partners leave to SPH: the free zone less the overlap. */
 void zones_given_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
 void zones_free_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
@@ -40,7 +41,8 @@ double zones_depth(const struct sph *s, const double *x);
 void zones_mark(struct sph *s);
 /* Start of a stage: buffer particles take u and p from outside at s->t; m = rho w. */
 void zones_stage(struct sph *s);
-/* After the gradients of a stage: buffer slopes from outside; transport shift near the open sides. */
+/* After the gradients of a stage: buffer slopes from outside; transport shift near the open sides.
+ */
 void zones_slopes(struct sph *s);
 /* After the RK cycle: transition particles are blended with the outside [6.7-6.8]. */
 void zones_blend(struct sph *s);

@@ -69,9 +69,9 @@ static void bdf2_has_order_two(void **state)
     double e[2] = {0.0, 0.0};
     for (int k = 0; k < 2; k++)
         for (int a = 0; a < 2; a++)
-            BLOCK_ROWS(&c[k].s->b, 0, at, n)
-    for (int64_t i = at; i < at + n; i++)
-        e[k] += pow(c[k].s->u[a][i] - c[2].s->u[a][i], 2);
+            BLOCK_ROWS (&c[k].s->b, 0, at, n)
+                for (int64_t i = at; i < at + n; i++)
+                    e[k] += pow(c[k].s->u[a][i] - c[2].s->u[a][i], 2);
     const double order = 0.5 * fv_case_order(e[0], e[1]);
     print_message("order %.2f\n", order);
     assert_true(order >= 1.8 && order < 2.5);

@@ -104,11 +104,11 @@ static void goes_on_bit_for_bit(const char *const *overrides)
     h5_close(&f);
     assert_true(fv_case_run(&one, 3, 100.0) && fv_case_run(&two, 3, 100.0));
     for (int a = 0; a < one.s->b.dim; a++)
-        BLOCK_ROWS(&one.s->b, 0, at, n)
-    for (int64_t i = at; i < at + n; i++) {
-        differ += one.s->u[a][i] != two.s->u[a][i] || one.s->U[a][i] != two.s->U[a][i];
-        differ += fv_pressure(one.s, i) != fv_pressure(two.s, i);
-    }
+        BLOCK_ROWS (&one.s->b, 0, at, n)
+            for (int64_t i = at; i < at + n; i++) {
+                differ += one.s->u[a][i] != two.s->u[a][i] || one.s->U[a][i] != two.s->U[a][i];
+                differ += fv_pressure(one.s, i) != fv_pressure(two.s, i);
+            }
     MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
     assert_int_equal(differ, 0);
     assert_true(one.s->t == two.s->t);

@@ -1,6 +1,6 @@
 /* test_h5_block.c - blocks of cells are put together whatever the ranks, x fastest; attributes; a
- * file that is being written goes by another name. ranks: 1 2 4. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * file that is being written goes by another name. ranks: 1 2 4.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include <hdf5.h>

@@ -1,6 +1,6 @@
 /* test_patch.c - a patch of a grid is exact on what it must be exact on, and its error falls with
- * the right order. Cells hold averages; functions are integrated exactly. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * the right order. Cells hold averages; functions are integrated exactly.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* test_wire.c - messages arrive whole and in order, broken ones are found, waiting is cheap, and
- * programs find each other by name wherever they stand. ranks: 1 4. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * programs find each other by name wherever they stand. ranks: 1 4.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include <math.h>

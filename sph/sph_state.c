@@ -1,4 +1,4 @@
-/* state.c - struct sph from the case's parameters, at t = 0 or from a restart file.
+/* sph_state.c - struct sph from the case's parameters, at t = 0 or from a restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph.h"
 

@@ -1,4 +1,4 @@
-/* state.c - struct fv from the case's parameters, at t = 0 or from a restart file.
+/* fv_state.c - struct fv from the case's parameters, at t = 0 or from a restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
@@ -22,7 +22,8 @@ static void make_fields(struct fv *s)
         if (a == 0 || s->prm.integrator == INTEGRATOR_RK3)
             s->psi[a] = block_field(b);
     for (int a = 0; a < b->dim; a++) {
-        double **const all[] = {&s->u[a], &s->U[a], &s->N[a], &s->N_old[a], &s->rhs[a], &s->step_p[a]};
+        double **const all[] = {&s->u[a],     &s->U[a],   &s->N[a],
+                                &s->N_old[a], &s->rhs[a], &s->step_p[a]};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             *all[k] = block_field(b);
         if (s->nu > 0.0) {
@@ -51,7 +52,8 @@ static void fill(struct fv *s)
             }
 }
 
-/* Fluxes that belong to the velocities of the start; the exact field's own are solenoidal averages. */
+/* Fluxes that belong to the velocities of the start; the exact field's own are solenoidal averages.
+ */
 static void fill_fluxes(struct fv *s)
 {
     const struct block *b = &s->b;
@@ -79,7 +81,7 @@ static double energy(const struct fv *s)
 {
     double sum = 0.0;
     for (int a = 0; a < s->b.dim; a++)
-        BLOCK_ROWS(&s->b, 0, c, n)
+        BLOCK_ROWS (&s->b, 0, c, n)
             for (int64_t i = c; i < c + n; i++)
                 sum += 0.5 * s->u[a][i] * s->u[a][i];
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->b.cart);
@@ -132,8 +134,8 @@ void fv_free(struct fv **sp)
     mem_free(s->flux);
     mem_free(s->step_work);
     for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->u[a], s->U[a], s->N[a], s->N_old[a], s->rhs[a], s->step_p[a],
-                               s->delta[a], s->work[a], s->u_old[a], s->psi[a]};
+        double *const all[] = {s->u[a],      s->U[a],     s->N[a],    s->N_old[a], s->rhs[a],
+                               s->step_p[a], s->delta[a], s->work[a], s->u_old[a], s->psi[a]};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             mem_free(all[k]);
     }
