@@ -1,5 +1,6 @@
-/* bench_pairs.c - throughput of the SPH pair passes against the arithmetic limit of the core. Run by make bench,
- * on an idle machine; processor time, best of some repeats. SPDX-License-Identifier: BSD-3-Clause */
+/* bench_pairs.c - throughput of the SPH pair passes against the arithmetic limit of the core. Run
+ * by make bench, on an idle machine; processor time, best of some repeats. SPDX-License-Identifier:
+ * BSD-3-Clause */
 #include <stdio.h>
 
 #include "../common/timer.h"
@@ -9,8 +10,8 @@
 #include "../sph/vec.h"
 #include "sph_case.h"
 
-/* Operations of a pair, counted by hand: first and second pass (default scheme, Morris), 2D and 3D; a root or a
- * division counts one. */
+/* Operations of a pair, counted by hand: first and second pass (default scheme, Morris), 2D and 3D;
+ * a root or a division counts one. */
 static const double flops[2][2] = {{57, 176}, {86, 247}};
 
 /* FMA peak of this core, GFLOP/s: ten independent chains of vectors. */
@@ -49,7 +50,8 @@ static void list(struct sph *s)
     integrate_prepare(s);
 }
 
-/* Bytes that a pair moves through the core's loads: the lines of the partner, its index, its sums. */
+/* Bytes that a pair moves through the core's loads: the lines of the partner, its index, its sums.
+ */
 static void bench(int dim, double R_dx, int cells, double peak)
 {
     struct sph_case c;
@@ -68,9 +70,11 @@ static void bench(int dim, double R_dx, int cells, double peak)
     const double t1 = best_of(5, s->scheme->gradients, s), t2 = best_of(5, s->scheme->rates, s);
     const double stage = best_of(5, integrate_rates, s) + 0.25 * t_list;
     const double *f = flops[dim - 2];
-    printf("%dD R/dx %.1f %7.0f %6.1f   %6.1f %6.1f %6.1f   %5.2f   %6.0f %6.0f   %4.1f %4.1f   %6.2f\n", dim, R_dx, n,
-           pairs / n, 1e-6 * pairs / t1, 1e-6 * pairs / t2, 1e-6 * pairs / stage, pairs / listed, 1e9 * t_list / n,
-           4.0 * listed / n, 1e-7 * f[0] * pairs / t1 / peak, 1e-7 * 0.5 * f[1] * pairs / t2 / peak, 1e-6 * n / stage);
+    printf("%dD R/dx %.1f %7.0f %6.1f   %6.1f %6.1f %6.1f   %5.2f   %6.0f %6.0f   %4.1f %4.1f   "
+           "%6.2f\n",
+           dim, R_dx, n, pairs / n, 1e-6 * pairs / t1, 1e-6 * pairs / t2, 1e-6 * pairs / stage,
+           pairs / listed, 1e9 * t_list / n, 4.0 * listed / n, 1e-7 * f[0] * pairs / t1 / peak,
+           1e-7 * 0.5 * f[1] * pairs / t2 / peak, 1e-6 * n / stage);
     sph_free(&c.s);
 }
 
@@ -79,8 +83,10 @@ int main(int argc, char **argv)
     MPI_Init(&argc, &argv);
     const double peak = fma_peak();
     printf("FMA peak of this core, measured: %.1f GFLOP/s (double, %d lanes)\n", peak, LANES);
-    printf("default scheme; M ordered pairs/s: gradients, rates, whole stage with halo, update and a quarter of list and sort\n");
-    printf("            particles  pairs    grad  rates  stage    hit   list ns  B   %% of peak  M stages/s\n");
+    printf("default scheme; M ordered pairs/s: gradients, rates, whole stage with halo, update and "
+           "a quarter of list and sort\n");
+    printf("            particles  pairs    grad  rates  stage    hit   list ns  B   %% of peak  M "
+           "stages/s\n");
     bench(2, 4.0, 100, peak);
     bench(2, 4.0, 316, peak);
     bench(3, 2.5, 22, peak);

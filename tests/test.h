@@ -1,6 +1,6 @@
-/* test.h - cmocka and a comparison of doubles (cmocka 1.1.5 compares only as float). Tests run under MPI;
- * an assertion must compare values that are the same on all ranks, else the others wait for ever.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* test.h - cmocka and a comparison of doubles (cmocka 1.1.5 compares only as float). Tests run
+ * under MPI; an assertion must compare values that are the same on all ranks, else the others wait
+ * for ever. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TESTS_TEST_H
 #define TESTS_TEST_H
 

@@ -3,7 +3,6 @@
 #include "test.h"
 
 #include "../common/exact.h"
-
 enum { POINTS = 50, PRESSURE = 3, VORTICITY = 4 };
 
 /* All of the fields, rho and nu not 1. two_modes is carried by a velocity. */

@@ -59,7 +59,9 @@ static void tait_and_its_inverse(void **state)
         for (double rho = 950.0; rho < 1060.0; rho += 10.0) {
             const double p = eos_p(rho, 1000.0, 30.0, gamma), e = 1e-3;
             assert_close(eos_rho(p, 1000.0, 30.0, gamma), rho, 1e-9 * rho);
-            const double c2 = (eos_p(rho + e, 1000.0, 30.0, gamma) - eos_p(rho - e, 1000.0, 30.0, gamma)) / (2.0 * e);
+            const double c2 =
+                (eos_p(rho + e, 1000.0, 30.0, gamma) - eos_p(rho - e, 1000.0, 30.0, gamma)) /
+                (2.0 * e);
             assert_close(eos_c(rho, 1000.0, 30.0, gamma), sqrt(c2), 1e-6 * sqrt(c2));
         }
     assert_true(isfinite(eos_rho(-1e9, 1000.0, 30.0, 7.0))); /* below any pressure of this fluid */
@@ -85,7 +87,8 @@ static void limiters_stay_within_the_pair(void **state)
         for (int limiter = LIMITER_KOREN; limiter <= LIMITER_MINMOD; limiter++) {
             const double h = half_step(vec_all(D), vec_all(s), limiter)[0];
             assert_true(h * D >= 0.0 && fabs(h) <= fabs(D));
-            if ((limiter == LIMITER_MINMOD && s * D <= 0.0) || (limiter == LIMITER_KOREN && (2.0 * s - D) * D <= 0.0))
+            if ((limiter == LIMITER_MINMOD && s * D <= 0.0) ||
+                (limiter == LIMITER_KOREN && (2.0 * s - D) * D <= 0.0))
                 assert_true(h == 0.0);
             if (limiter == LIMITER_MINMOD) { /* [2.82-2.83] as printed */
                 const double theta = s / D, clip = theta < 0.0 ? 0.0 : theta > 1.0 ? 1.0 : theta;
@@ -95,11 +98,12 @@ static void limiters_stay_within_the_pair(void **state)
     }
 }
 
-static void solve(double Zl, double ul, double Pl, double Zr, double ur, double Pr, bool low, double *uE, double *PE)
+static void solve(double Zl, double ul, double Pl, double Zr, double ur, double Pr, bool low,
+                  double *uE, double *PE)
 {
     vec u, P;
-    riemann(vec_all(Zl), vec_all(ul), vec_all(Pl), vec_all(Zr), vec_all(ur), vec_all(Pr), vec_all(1.0 / (Zl + Zr)), low,
-            0.1, &u, &P);
+    riemann(vec_all(Zl), vec_all(ul), vec_all(Pl), vec_all(Zr), vec_all(ur), vec_all(Pr),
+            vec_all(1.0 / (Zl + Zr)), low, 0.1, &u, &P);
     *uE = u[0];
     *PE = P[0];
 }
@@ -125,10 +129,12 @@ static void riemann_identities(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kernel_integrates_to_one),         cmocka_unit_test(slope_is_the_derivative),
-        cmocka_unit_test(kernel_sums_on_a_lattice),         cmocka_unit_test(tait_and_its_inverse),
-        cmocka_unit_test(all_limiters_meet_on_linear_fields), cmocka_unit_test(limiters_stay_within_the_pair),
-        cmocka_unit_test(riemann_identities)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(kernel_integrates_to_one),
+                                       cmocka_unit_test(slope_is_the_derivative),
+                                       cmocka_unit_test(kernel_sums_on_a_lattice),
+                                       cmocka_unit_test(tait_and_its_inverse),
+                                       cmocka_unit_test(all_limiters_meet_on_linear_fields),
+                                       cmocka_unit_test(limiters_stay_within_the_pair),
+                                       cmocka_unit_test(riemann_identities)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-/* test_scheme.c - both pair passes against a plain double loop written from the equations, against what they
- * must keep, and on fields for which they are exact. SPDX-License-Identifier: BSD-3-Clause */
+/* test_scheme.c - both pair passes against a plain double loop written from the equations, against
+ * what they must keep, and on fields for which they are exact. SPDX-License-Identifier:
+ * BSD-3-Clause */
 #include "test.h"
 
 #include "../sph/eos.h"
@@ -59,8 +60,8 @@ static double half(double D, double s, int limiter)
 }
 
 /* State of particle i on the way to j: rho, u, then P and c. */
-static void state_towards(const struct sph *s, int i, int j, const double *d, double *rho, double *u, double *P,
-                          double *c)
+static void state_towards(const struct sph *s, int i, int j, const double *d, double *rho,
+                          double *u, double *P, double *c)
 {
     const int dim = s->dim;
     const double *p = s->p.prim + (size_t)PRIM * i, *q = s->p.prim + (size_t)PRIM * j;
@@ -82,7 +83,8 @@ static void state_towards(const struct sph *s, int i, int j, const double *d, do
 static void add_pair(const struct sph *s, int i, int j, double *rate)
 {
     const int dim = s->dim;
-    double d[3], back[3], n[3], ul[3], ur[3], rl, rr, Pl, Pr, cl, cr, vl = 0.0, vr = 0.0, v0 = 0.0, dv0 = 0.0, vi = 0.0;
+    double d[3], back[3], n[3], ul[3], ur[3], rl, rr, Pl, Pr, cl, cr, vl = 0.0, vr = 0.0, v0 = 0.0,
+                                                                      dv0 = 0.0, vi = 0.0;
     const double r = apart(s, i, j, d), slope = -kernel_dw_r(dim, r, s->R) * r; /* |W'| */
     const double *p = s->p.prim + (size_t)PRIM * i, *q = s->p.prim + (size_t)PRIM * j;
     const double *u0i = s->p.slope + (size_t)s->p.nslope * i + dim + dim * dim;
@@ -181,7 +183,8 @@ static void gradients_are_exact_on_linear_fields(void **state)
             for (int a = 0; a < dim; a++)
                 x[a] = p[a];
             for (int a = 0; a < dim; a++)
-                p[dim + a] = 0.3 + (a + 1.0) * x[0] - 2.0 * x[1] + (dim == 3 ? 0.5 * a * x[2] : 0.0);
+                p[dim + a] =
+                    0.3 + (a + 1.0) * x[0] - 2.0 * x[1] + (dim == 3 ? 0.5 * a * x[2] : 0.0);
             p[2 * dim + 1] = 1.0 + 0.1 * x[0] + 0.2 * x[1];
         }
         s->scheme->gradients(s);
@@ -200,7 +203,8 @@ static void gradients_are_exact_on_linear_fields(void **state)
     }
 }
 
-/* On a lattice nothing is shifted; a particle moved off it is pushed back; the law's limit holds. */
+/* On a lattice nothing is shifted; a particle moved off it is pushed back; the law's limit holds.
+ */
 static void transport_restores_the_lattice(void **state)
 {
     (void)state;
@@ -212,7 +216,8 @@ static void transport_restores_the_lattice(void **state)
         integrate_gradients(s);
         for (int i = 0; i < s->p.n; i++)
             for (int a = 0; a < 2; a++)
-                assert_close(s->p.slope[8 * (size_t)i + 6 + a], s->p.prim[8 * (size_t)i + 2 + a], 1e-12);
+                assert_close(s->p.slope[8 * (size_t)i + 6 + a], s->p.prim[8 * (size_t)i + 2 + a],
+                             1e-12);
         int moved = 0; /* one in fast flow, for Oger's law is limited by |u| */
         for (int i = 0; i < s->p.n; i++)
             if (fabs(s->p.prim[8 * (size_t)i + 3]) > fabs(s->p.prim[8 * (size_t)moved + 3]))
@@ -224,7 +229,8 @@ static void transport_restores_the_lattice(void **state)
         for (int i = 0; i < s->p.n; i++) {
             const double *u = s->p.prim + 8 * (size_t)i + 2, *u0 = s->p.slope + 8 * (size_t)i + 6;
             const double size = hypot(u0[0] - u[0], u0[1] - u[1]);
-            assert_true(size <= 0.25 * (law == TRANSPORT_TVS ? 1.0 : hypot(u[0], u[1])) * (1.0 + 1e-12));
+            assert_true(size <=
+                        0.25 * (law == TRANSPORT_TVS ? 1.0 : hypot(u[0], u[1])) * (1.0 + 1e-12));
             if (s->p.id[i] == id)
                 assert_true(u0[0] - u[0] < -1e-3);
         }
@@ -263,10 +269,11 @@ static void list_holds_all_pairs_in_reach(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rates_are_those_of_the_equations),     cmocka_unit_test(pairs_keep_mass_and_momentum),
-        cmocka_unit_test(gradients_are_exact_on_linear_fields), cmocka_unit_test(transport_restores_the_lattice),
-        cmocka_unit_test(list_holds_all_pairs_in_reach)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(rates_are_those_of_the_equations),
+                                       cmocka_unit_test(pairs_keep_mass_and_momentum),
+                                       cmocka_unit_test(gradients_are_exact_on_linear_fields),
+                                       cmocka_unit_test(transport_restores_the_lattice),
+                                       cmocka_unit_test(list_holds_all_pairs_in_reach)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

@@ -1,5 +1,5 @@
-/* test_zones.c - a region of particles inside a known flow: births and removals keep a lattice and the mass,
- * blending follows its law. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+/* test_zones.c - a region of particles inside a known flow: births and removals keep a lattice and
+ * the mass, blending follows its law. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include "../sph/openings.h"
@@ -51,7 +51,8 @@ static double spacing(const struct sph *s)
         for (int j = 0; j < i; j++) {
             double r2 = 0.0;
             for (int a = 0; a < s->dim; a++) {
-                const double d = s->p.y[(size_t)i * s->p.nstate + a] - s->p.y[(size_t)j * s->p.nstate + a];
+                const double d =
+                    s->p.y[(size_t)i * s->p.nstate + a] - s->p.y[(size_t)j * s->p.nstate + a];
                 r2 += d * d;
             }
             least = fmin(least, r2);
@@ -88,7 +89,8 @@ static void oblique_flow_leaves_no_clusters(void **state)
     check_flow(2, -0.3, 0.9, 0.5, 120);
 }
 
-/* Threshold 1 and birth dx/2 inside: one column born for each dx of travel, with the mass of a particle. */
+/* Threshold 1 and birth dx/2 inside: one column born for each dx of travel, with the mass of a
+ * particle. */
 static void one_birth_a_face_and_spacing(void **state)
 {
     (void)state;
@@ -103,7 +105,8 @@ static void one_birth_a_face_and_spacing(void **state)
     MPI_Allreduce(MPI_IN_PLACE, &born, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     MPI_Allreduce(MPI_IN_PLACE, &gone, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     assert_close(born, 10.0 * 40.0, 0.0);
-    assert_true(gone == 10.0 * 40.0 || gone == 11.0 * 40.0); /* the last column stands on the face */
+    assert_true(gone == 10.0 * 40.0 ||
+                gone == 11.0 * 40.0); /* the last column stands on the face */
     sph_free(&c.s);
 }
 
@@ -122,16 +125,19 @@ static void blending_follows_the_depth(void **state)
         const double in = (depth - s->zones->buffer) / s->zones->transition;
         const double want = s->p.zone[i] == ZONE_TRANSITION ? 1.0 - in : 0.0;
         assert_close(y[2] / y[5], want, 1e-12);
-        assert_int_equal(s->p.zone[i], in < 0.0 ? ZONE_BUFFER : in < 1.0 ? ZONE_TRANSITION : ZONE_FREE);
+        assert_int_equal(s->p.zone[i], in < 0.0   ? ZONE_BUFFER
+                                       : in < 1.0 ? ZONE_TRANSITION
+                                                  : ZONE_FREE);
     }
     sph_free(&c.s);
 }
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(aligned_flow_keeps_the_lattice), cmocka_unit_test(oblique_flow_leaves_no_clusters),
-        cmocka_unit_test(one_birth_a_face_and_spacing), cmocka_unit_test(blending_follows_the_depth)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(aligned_flow_keeps_the_lattice),
+                                       cmocka_unit_test(oblique_flow_leaves_no_clusters),
+                                       cmocka_unit_test(one_birth_a_face_and_spacing),
+                                       cmocka_unit_test(blending_follows_the_depth)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
