@@ -1,6 +1,6 @@
 /* test_scheme.c - both pair passes against a plain double loop written from the equations, against
- * what they must keep, and on fields for which they are exact. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * what they must keep, and on fields for which they are exact.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include "../sph/eos.h"
