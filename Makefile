@@ -30,11 +30,14 @@ coupler_o = $(filter-out $(mains) $(cpl_o) $(B)/o/coupler/cpl_%,$(call objects,c
 all: $(B)/sph $(B)/fv $(B)/coupler
 
 $(B)/sph: $(B)/o/sph/sph.o $(B)/libsph.a $(B)/libcpl.a $(B)/libcommon.a
-	$(CC) $(SAN) -o $@ $^ $(LIBS)
+	@echo "LD $@"
+	@$(CC) $(SAN) -o $@ $^ $(LIBS)
 $(B)/fv: $(B)/o/fv/fv.o $(B)/libfv.a $(B)/libcpl.a $(B)/libcommon.a
-	$(CC) $(SAN) -o $@ $^ -lHYPRE $(LIBS)
+	@echo "LD $@"
+	@$(CC) $(SAN) -o $@ $^ -lHYPRE $(LIBS)
 $(B)/coupler: $(B)/o/coupler/coupler.o $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
-	$(CC) $(SAN) -o $@ $^ $(LIBS)
+	@echo "LD $@"
+	@$(CC) $(SAN) -o $@ $^ $(LIBS)
 $(B)/libcommon.a: $(call objects,common)
 $(B)/libcpl.a: $(cpl_o)
 $(B)/libsph.a: $(sph_o)
@@ -45,17 +48,20 @@ $(B)/lib%.a:
 
 $(B)/o/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -MMD -MP -c -o $@ $<
+	@echo "CC $@"
+	@$(CC) $(CFLAGS) -MMD -MP -c -o $@ $<
 $(B)/o/common/version.o: CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
 
 # ---- tests: every tests/test_X.c is a program; tests/mock.c knows cpl.h alone -------------------------
 tests_bin = $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c tests/bench_*.c tests/toy*.c))
 $(B)/tests/mock: $(B)/o/tests/mock.o $(B)/libcpl.a
 	@mkdir -p $(@D)
-	$(CC) $(SAN) -o $@ $^ -lm
+	@echo "LD $@"
+	@$(CC) $(SAN) -o $@ $^ -lm
 $(B)/tests/%: $(B)/o/tests/%.o $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
 	@mkdir -p $(@D)
-	$(CC) $(SAN) -o $@ $< -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lHYPRE $(LIBS) -lcmocka
+	@echo "LD $@"
+	@$(CC) $(SAN) -o $@ $< -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lHYPRE $(LIBS) -lcmocka
 tests: all $(tests_bin) $(B)/tests/mock
 asan:
 	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-O1 -march=native -fno-math-errno" \
