@@ -154,8 +154,10 @@ static void read_file(struct params *p, struct faults *f)
     } else {
         const char *in = config_error_file(&p->cfg) ? config_error_file(&p->cfg) : p->path;
         char hint[512];
-        const int line = hint_syntax(text, config_error_line(&p->cfg), config_error_text(&p->cfg),
-                                     hint, sizeof hint);
+        char *included = strcmp(in, p->path) ? read_text(in) : NULL;
+        const int line = hint_syntax(included ? included : text, config_error_line(&p->cfg),
+                                     config_error_text(&p->cfg), hint, sizeof hint);
+        mem_free(included);
         snprintf(place, sizeof place, "%s:%d", in, line);
         fault(f, place, "%s%s%s", config_error_text(&p->cfg), *hint ? ": " : "", hint);
     }
@@ -198,8 +200,7 @@ static void read_override(struct override *o, const char *text, struct faults *f
         fault(f, place, "`%s' is no value", value);
 }
 
-/* ---- values
- * --------------------------------------------------------------------------------------- */
+/* --- values --- */
 
 static void set_real(const struct param *r, void *target, int k, double v)
 {
@@ -365,8 +366,7 @@ static void set_default(const struct param_group *g, const struct param *r, void
     config_destroy(&c);
 }
 
-/* ---- groups
- * ------------------------------------------------------------------------------------------ */
+/* --- groups --- */
 
 static void place_of(const struct params *p, const config_setting_t *s, char *place, size_t size,
                      const char *group, const char *key)

@@ -40,8 +40,24 @@ static void print_row(const struct param_group *g, const struct param *r)
     printf("\n");
 }
 
+/* Nothing has this name: the nearest one that has. */
+static void print_unknown(const struct param_group *groups, int ngroups, const char *key)
+{
+    const char *dot = strrchr(key, '.');
+    struct hint_nearest n = hint_nearest_start(dot ? dot + 1 : key);
+    for (int k = 0; k < ngroups; k++) {
+        if (!dot)
+            hint_nearest_try(&n, groups[k].name);
+        for (int r = 0; r < groups[k].nrows; r++)
+            hint_nearest_try(&n, groups[k].rows[r].key);
+    }
+    const char *near = hint_nearest_word(&n);
+    printf(near ? "no key or group %s; did you mean `%s'?\n" : "no key or group %s\n", key, near);
+}
+
 void params_help(const struct param_group *groups, int ngroups, const char *key)
 {
+    bool any = false;
     for (int k = 0; k < ngroups; k++) {
         const struct param_group *g = groups + k;
         bool title = false;
@@ -53,10 +69,12 @@ void params_help(const struct param_group *groups, int ngroups, const char *key)
                 continue;
             if (!title)
                 printf("%s: %s\n", g->name, g->help);
-            title = true;
+            title = any = true;
             print_row(g, g->rows + r);
         }
     }
+    if (key && !any)
+        print_unknown(groups, ngroups, key);
 }
 
 void params_manual(const struct param_group *groups, int ngroups)

@@ -233,6 +233,58 @@ static bool stop_asked(const struct run *r)
     return stop;
 }
 
+static double sum_over_ranks(const struct run *r, double v)
+{
+    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_SUM, r->comm);
+    return v;
+}
+
+/* Largest over the ranks. Ranks may have met their timers in another order, or not at all: rank 0's
+ * names count. */
+static void summarise_timers(struct run *r)
+{
+    int n = r->timers.n;
+    MPI_Bcast(&n, 1, MPI_INT, 0, r->comm);
+    for (int k = 0; k < n; k++) {
+        char name[64] = "", key[96];
+        if (r->rank == 0)
+            snprintf(name, sizeof name, "%s", r->timers.of[k].name);
+        MPI_Bcast(name, sizeof name, MPI_CHAR, 0, r->comm);
+        double v = timer_wall(&r->timers, name);
+        MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_MAX, r->comm);
+        snprintf(key, sizeof key, "time_s.%s", name);
+        summary_real(r->summary, key, v);
+    }
+}
+
+static void summarise(struct life *l)
+{
+    struct run *r = &l->r;
+    struct summary *s = r->summary;
+    const double wall = wall_time() - l->wall0, cpu = sum_over_ranks(r, cpu_time() - l->cpu0);
+    summary_text(s, "status", l->status);
+    summary_text(s, "case", r->case_name);
+    summary_text(s, "program", r->name);
+    summary_text(s, "version", run_version);
+    summary_int(s, "ranks", r->size);
+    summary_int(s, "dim", r->scene.domain.dim);
+    summary_real(s, "wall_s", wall);
+    summary_real(s, "cpu_s", cpu);
+    summary_int(s, "steps", r->step);
+    summary_real(s, "t_end", r->t);
+    if (!l->d.bad && l->p->finish)
+        l->p->finish(l->s);
+    summarise_timers(r);
+}
+
+static void write_summary(const struct life *l)
+{
+    char path[1400];
+    files_path(&l->r, "summary.json", path, sizeof path);
+    if (l->r.rank == 0)
+        summary_write(l->r.summary, path);
+}
+
 static int diverged(struct life *l)
 {
     struct run *r = &l->r;
@@ -287,11 +339,12 @@ static int loop_alone(struct life *l)
             l->output++;
             files_snapshot(&l->files, NULL);
         }
+        const bool ends = stop && r->t < r->scene.time.end;
+        if (ends && r->t != out) /* before the restart file, which counts it */
+            files_snapshot(&l->files, NULL);
         if (wants_checkpoint(l, &save) || stop)
             files_checkpoint(&l->files, r->step, file);
-        if (stop && r->t < r->scene.time.end) {
-            if (r->t != out)
-                files_snapshot(&l->files, NULL);
+        if (ends) {
             l->status = "stopped";
             log_say("stopped on request at t = %g s; --restart goes on", r->t);
             return RUN_STOPPED;
@@ -322,6 +375,8 @@ static int loop_coupled(struct life *l)
         while (r->t < t1)
             if (!step(l, t1)) {
                 diverged(l);
+                summarise(l);
+                write_summary(l);
                 (c->fail)(r->partner_ctx, RUN_DIVERGED, l->d.reason);
             }
         if (l->p->window_end)
@@ -342,40 +397,7 @@ static int loop_coupled(struct life *l)
     return code;
 }
 
-/* ---- end
- * ------------------------------------------------------------------------------------------ */
-
-static double sum_over_ranks(const struct run *r, double v)
-{
-    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_SUM, r->comm);
-    return v;
-}
-
-static void summarise(struct life *l)
-{
-    struct run *r = &l->r;
-    struct summary *s = r->summary;
-    const double wall = wall_time() - l->wall0, cpu = sum_over_ranks(r, cpu_time() - l->cpu0);
-    summary_text(s, "status", l->status);
-    summary_text(s, "case", r->case_name);
-    summary_text(s, "program", r->name);
-    summary_text(s, "version", run_version);
-    summary_int(s, "ranks", r->size);
-    summary_int(s, "dim", r->scene.domain.dim);
-    summary_real(s, "wall_s", wall);
-    summary_real(s, "cpu_s", cpu);
-    summary_int(s, "steps", r->step);
-    summary_real(s, "t_end", r->t);
-    if (!l->d.bad && l->p->finish)
-        l->p->finish(l->s);
-    for (int k = 0; k < r->timers.n; k++) {
-        char key[96];
-        double v = r->timers.of[k].wall;
-        MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_MAX, r->comm);
-        snprintf(key, sizeof key, "time_s.%s", r->timers.of[k].name);
-        summary_real(s, key, v);
-    }
-}
+/* --- end --- */
 
 /* The case's own tolerances; an absent or non-finite value is not accepted. */
 static bool accepted(const struct life *l)
@@ -418,17 +440,18 @@ static void say_end(const struct life *l)
 static int end(struct life *l, int code)
 {
     struct run *r = &l->r;
-    char path[1400];
+    if (code == RUN_DONE && r->step % r->scene.output.series != 0)
+        write_row(l); /* the end itself */
     summarise(l);
     if (!r->coupled) {
         say_end(l);
-        const bool good = accepted(l);
-        if (code == RUN_DONE && !good)
-            code = RUN_NOT_ACCEPTED;
+        if (code == RUN_DONE && r->scene.naccept > 0) {
+            const bool good = accepted(l);
+            summary_bool(r->summary, "accepted", good);
+            code = good ? RUN_DONE : RUN_NOT_ACCEPTED;
+        }
     }
-    files_path(r, "summary.json", path, sizeof path);
-    if (r->rank == 0)
-        summary_write(r->summary, path);
+    write_summary(l);
     if (r->coupled)
         r->partner->close(r->partner_ctx, code, r->summary);
     return code;

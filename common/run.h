@@ -149,8 +149,9 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
 int run_folder(MPI_Comm comm, const char *dir, const char *name, bool force, bool restart);
 
 /* SIGINT, SIGTERM, SIGUSR1 set a flag; SIGSEGV, SIGFPE, SIGBUS, SIGABRT leave a death note. When a
- * launcher's SIGTERM is not followed by an orderly end within 0.8 s, the handler prints the death
- * note, or what was last heard of the partners, and leaves with RUN_PARTNER. */
+ * launcher's SIGTERM (there is a launcher only after signals_start_mpi) is not followed by an
+ * orderly end within 0.8 s, the handler prints the death note, or what was last heard of the
+ * partners, and leaves with RUN_PARTNER. */
 void signals_install(const char *program, int rank);
 /* MPI_Init within 30 s: a member of the job that is no MPI program would leave it waiting in
  * silence. */

@@ -187,15 +187,27 @@ void files_view(const struct run *r)
 /* ---- the folder -------------------------------------------------------------------------------
  */
 
-/* Whether a file belongs to a run of this program. */
+/* Whether a file belongs to a run of this program. --force deletes these: sph_io.c in the folder of
+ * the sources, or a case sph.cfg, must not be among them. */
 static bool is_ours(const char *file, const char *name)
 {
     const size_t n = strlen(name);
+    static const char *const own[] = {".xdmf",       ".log",          "-case.cfg",
+                                      "-series.csv", "-summary.json", "_diverged.h5"};
     static const char *const shared[] = {"summary.json", "series.csv", "checkpoint.txt", "log.txt"};
     for (size_t k = 0; k < sizeof shared / sizeof shared[0]; k++)
         if (strcmp(file, shared[k]) == 0)
             return true;
-    return strncmp(file, name, n) == 0 && file[n] && strchr("_-.", file[n]);
+    if (strncmp(file, name, n) != 0)
+        return false;
+    for (size_t k = 0; k < sizeof own / sizeof own[0]; k++)
+        if (strcmp(file + n, own[k]) == 0)
+            return true;
+    int end = 0;
+    sscanf(file + n, "_%*d.h5%n", &end);
+    if (end == 0)
+        sscanf(file + n, "-checkpoint-%*d.h5%n", &end);
+    return end > 0 && (!file[n + (size_t)end] || strcmp(file + n + end, ".part") == 0);
 }
 
 static bool make_path(const char *dir)

@@ -13,7 +13,8 @@ struct series {
     int ncolumns;
 };
 
-/* Keeps the header and the rows up to t of an existing file; they hold t in 12 digits. */
+/* Keeps the header and the rows up to t of an existing file; they hold t in 12 digits.
+ * A row that a kill cut short goes, too. */
 static void drop_later_rows(const char *path, double t)
 {
     char line[4096], part[1100];
@@ -22,7 +23,7 @@ static void drop_later_rows(const char *path, double t)
     if (in)
         out = fopen(part, "w");
     for (bool header = true; out && fgets(line, sizeof line, in); header = false)
-        if (header || atof(line) <= t * (1.0 + 1e-11))
+        if (strchr(line, '\n') && (header || atof(line) <= t * (1.0 + 1e-11)))
             fputs(line, out);
     if (in)
         fclose(in);

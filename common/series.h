@@ -19,6 +19,7 @@ struct summary *summary_create(void);
 void summary_free(struct summary **s);
 void summary_real(struct summary *s, const char *key, double v); /* non-finite: null */
 void summary_int(struct summary *s, const char *key, long long v);
+void summary_bool(struct summary *s, const char *key, bool v);
 void summary_text(struct summary *s, const char *key, const char *v);
 void summary_texts(struct summary *s, const char *key, int n, const char *const *v);
 /* false if there is no such number. */

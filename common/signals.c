@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
 #include <time.h>
@@ -20,6 +21,7 @@ static struct {
     char who[96];       /* "sph rank 0" */
     char note[1100];    /* path of the death note */
     char heard[2][256]; /* the text in use and the one being written */
+    bool launched;      /* by mpirun, which kills soon after its SIGTERM */
     volatile sig_atomic_t heard_now, stop, handled;
 } state;
 
@@ -77,7 +79,8 @@ static void on_stop(int signal)
         if (print_note())
             leave();
         const struct itimerval soon = {.it_value = {.tv_usec = 800000}};
-        setitimer(ITIMER_REAL, &soon, NULL);
+        if (state.launched)
+            setitimer(ITIMER_REAL, &soon, NULL);
     }
     errno = error;
 }
@@ -112,6 +115,8 @@ static void not_started(int signal)
 void signals_start_mpi(int *argc, char ***argv, const char *program)
 {
     snprintf(state.who, sizeof state.who, "%s", program);
+    state.launched =
+        getenv("OMPI_COMM_WORLD_RANK") != NULL; /* MPI_Init may set it for a lone process */
     signal(SIGALRM, not_started);
     alarm(30);
     MPI_Init(argc, argv);

@@ -82,6 +82,14 @@ static size_t quote(char *to, const char *v)
     return n;
 }
 
+void summary_bool(struct summary *s, const char *key, bool v)
+{
+    struct entry *e = entry(s, key);
+    e->number = false;
+    e->text = mem_new(8, 1);
+    strcpy(e->text, v ? "true" : "false");
+}
+
 void summary_text(struct summary *s, const char *key, const char *v)
 {
     struct entry *e = entry(s, key);

@@ -1,0 +1,112 @@
+#!/bin/sh
+# The life of a program, with the toy solver: output times, restart, divergence, stop, refusals, exit codes.
+# SPDX-License-Identifier: BSD-3-Clause
+b=$(cd "${1:-build}" && pwd)
+tmp=${TEST_SCRATCH:-$(mktemp -d)}/run
+mkdir -p "$tmp" && cd "$tmp" || exit 1
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+mpi="mpirun --quiet --bind-to none --oversubscribe -np 2"
+toy="$b/tests/toy"
+[ -x "$b/asan/tests/toy" ] && toy="$b/asan/tests/toy"
+failed=0
+bad() { echo "FAIL: $*"; failed=$((failed + 1)); }
+# ends CODE COMMAND...: with this exit code; output in out.txt
+ends() {
+    wanted=$1
+    shift
+    timeout -k 5 60 "$@" >out.txt 2>&1 </dev/null
+    code=$?
+    [ $code = "$wanted" ] || { bad "exit code $code, wanted $wanted: $*"; head -n 20 out.txt; }
+}
+has() { grep -q -- "$2" "$1" || { bad "$1 lacks: $2"; head -n 20 "$1"; }; }
+count() { [ "$(ls $2 2>/dev/null | wc -l)" = "$1" ] || bad "wanted $1 files $2: $(ls $2 2>/dev/null | tr '\n' ' ')"; }
+
+mkdir swing
+cat >swing/case.cfg <<'END'
+format = 1;
+time:   { end = 1.0; };
+domain: { max = (1, 1); };
+toy:    { dt = 0.007; };
+output: { every = 0.3; };
+accept: ( { what = "error.x_linf"; tolerance = 1e-12; } );
+END
+
+# t = 0, 0.3, 0.6, 0.9 and the end; the folder is named after the case
+ends 0 "$toy" swing
+count 5 'out/swing/toy_0*.h5'
+has out/swing/summary.json '"status": "done"'
+has out/swing/summary.json '"accepted": true'
+has out/swing/summary.json '"t_end": 1,*$'
+has out/swing/toy.xdmf 'Time Value="0.89999999999999991"'
+[ "$(tail -n 1 out/swing/series.csv | cut -d, -f1)" = 1 ] || bad "series.csv does not reach the end"
+[ "$(head -n 1 out/swing/series.csv)" = "t [s],dt [s],energy [J]" ] || bad "series.csv: header"
+has out/swing/log.txt 'oscillators'
+ends 0 $mpi "$toy" swing -o two
+h5diff -d 1e-12 out/swing/toy_000004.h5 two/toy_000004.h5 >/dev/null || bad "two ranks give another result"
+ends 0 "$toy" swing --check -o checked
+[ ! -e checked ] || bad "--check wrote something"
+
+# tolerances, refusals, --force, and what --force must leave alone
+sed 's/1e-12/-1/' swing/case.cfg >strict.cfg
+ends 1 "$toy" strict.cfg -p output.snapshots=false
+has out/strict/summary.json '"accepted": false'
+count 0 'out/strict/*.h5'
+ends 2 "$toy" swing
+has out.txt 'already'
+touch out/swing/toy.c out/swing/toy_io.c out/swing/toy.cfg
+ends 0 "$toy" swing --force
+count 3 'out/swing/toy.c out/swing/toy_io.c out/swing/toy.cfg'
+count 5 'out/swing/toy_0*.h5'
+ends 2 "$toy" swing --restart -o nothing
+ends 2 "$toy" swing -p toy.slwo=1
+has out.txt 'did you mean .slow'
+ends 0 "$toy" --help dt
+has out.txt 'time step'
+ends 0 "$toy" --help tyo
+has out.txt 'did you mean .toy'
+
+# straight through, and in two parts: the same bits, rows and times
+for n in 1 2; do
+    run="mpirun --quiet --bind-to none --oversubscribe -np $n $toy"
+    ends 0 $run swing -o "whole$n" -p output.checkpoint=0.45
+    ends 0 $run swing -o "parts$n" -p output.checkpoint=0.45 -p time.end=0.93
+    count 2 "parts$n/toy-checkpoint-*.h5"
+    ends 0 $run swing -o "parts$n" -p output.checkpoint=0.45 --restart
+    h5diff "whole$n/toy_000004.h5" "parts$n/toy_000004.h5" >diff.txt 2>&1 || bad "restart gives other bits: $(cat diff.txt)"
+    cmp -s "whole$n/series.csv" "parts$n/series.csv" || bad "restart gives another series.csv"
+    cmp -s "whole$n/toy.xdmf" "parts$n/toy.xdmf" || bad "restart gives another toy.xdmf"
+done
+ends 2 $mpi "$toy" swing -o parts1 --restart
+has out.txt 'another number of ranks'
+
+# divergence: a reason, a place, a last snapshot
+ends 3 $mpi "$toy" swing -o ill -p toy.bad=20
+has out.txt 'diverged at t = 0.13.* step 20: oscillator 9 is tired'
+has out.txt 'where *rank 1'
+has ill/summary.json '"status": "diverged"'
+count 1 'ill/toy_diverged.h5'
+has ill/toy.xdmf toy_diverged.h5
+
+# an orderly stop, by each signal, also in slow steps; then on to the end
+for s in INT TERM USR1; do
+    "$toy" swing -o "stop$s" -p toy.slow=1 -p toy.dt=0.05 -p output.every=0 >out.txt 2>&1 &
+    job=$!
+    for k in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+        [ -f "stop$s/series.csv" ] && break
+        sleep 0.25
+    done
+    kill -$s $job
+    wait $job
+    code=$?
+    [ $code = 5 ] || { bad "SIG$s ended with $code, wanted 5"; cat out.txt; }
+    has "stop$s/summary.json" '"status": "stopped"'
+    ends 0 "$toy" swing -o "stop$s" -p output.every=0 --restart
+    [ "$(grep -o 'toy_[0-9]*.h5:/position' "stop$s/toy.xdmf" | sort | uniq -d)" = "" ] || bad "SIG$s: a file twice in toy.xdmf"
+done
+
+# a fault of the program is named
+timeout 60 $mpi "$toy" swing -o fault -p toy.fault=5 >out.txt 2>&1 && bad "a segmentation fault ended with 0"
+has out.txt 'toy rank .: segmentation fault'
+
+echo "run: $failed faults"
+[ $failed = 0 ]
