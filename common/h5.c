@@ -96,8 +96,7 @@ void h5_close(struct h5 **file)
     *file = NULL;
 }
 
-/* ---- attributes --------------------------------------------------------------------------------
- */
+/* --- attributes --- */
 
 static void write_attribute(struct h5 *f, hid_t of, const char *name, hid_t type, const void *value)
 {
@@ -154,8 +153,7 @@ bool h5_read_attribute_int(struct h5 *f, const char *name, int64_t *value)
     return read_attribute(f, name, H5T_NATIVE_INT64, value);
 }
 
-/* ---- datasets ----------------------------------------------------------------------------------
- */
+/* --- datasets --- */
 
 /* Where a rank's part lies in a dataset, and its shape. */
 struct part {

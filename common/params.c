@@ -34,8 +34,7 @@ struct params {
     char names[NAMES_SIZE]; /* " sph fv ": groups the case has, the same on all ranks */
 };
 
-/* ---- faults ------------------------------------------------------------------------------------
- */
+/* --- faults --- */
 
 static void add_fault(struct faults *f, const char *place, const char *fmt, va_list args)
 {
@@ -65,8 +64,7 @@ int params_report(const struct faults *f)
     return f->n;
 }
 
-/* ---- the file -----------------------------------------------------------------------------------
- */
+/* --- the file --- */
 
 static char *read_text(const char *path)
 {

@@ -49,8 +49,7 @@ bool run_diagnose(struct diagnosis *d, MPI_Comm comm)
     return first < size;
 }
 
-/* ---- start ------------------------------------------------------------------------------------
- */
+/* --- start --- */
 
 static void collect_groups(struct life *l)
 {
@@ -172,8 +171,7 @@ static void start_series(struct life *l)
         l->files.xdmf = xdmf_create(path, r->restart, r->t * (1.0 + 1e-9));
 }
 
-/* ---- while it runs ------------------------------------------------------------------------------
- */
+/* --- while it runs --- */
 
 static void write_row(struct life *l)
 {

@@ -184,8 +184,7 @@ void files_view(const struct run *r)
     fclose(f);
 }
 
-/* ---- the folder -------------------------------------------------------------------------------
- */
+/* --- the folder --- */
 
 /* Whether a file belongs to a run of this program. --force deletes these: sph_io.c in the folder of
  * the sources, or a case sph.cfg, must not be among them. */

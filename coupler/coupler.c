@@ -20,8 +20,7 @@ static const char *const others[] = {"sph", "fv", "walls", "bodies", NULL};
 static _Noreturn void broken(const char *what) { fail("%s", what); }
 static void leave_note(const char *reason) { (void)failure_note(reason); }
 
-/* --- waiting -----------------------------------------------------------------------------------
- */
+/* --- waiting --- */
 
 static void look_after_partners(void)
 {
@@ -90,8 +89,7 @@ static struct message *await(struct coupler *c, int peer)
     return m;
 }
 
-/* --- meeting, plan -----------------------------------------------------------------------------
- */
+/* --- meeting, plan --- */
 
 static void print_problems(const char *text) { log_say("%s\nnothing was started", text); }
 
@@ -161,8 +159,7 @@ static bool plan(struct coupler *c)
     return !text[0];
 }
 
-/* --- the job -----------------------------------------------------------------------------------
- */
+/* --- the job --- */
 
 static void take_bye(struct coupler *c, struct solver *s, struct message *m)
 {

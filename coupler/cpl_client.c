@@ -106,8 +106,7 @@ struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int6
     return found;
 }
 
-/* --- meeting -----------------------------------------------------------------------------------
- */
+/* --- meeting --- */
 
 int cpl_open(MPI_Comm world, const char *name, double deadline_s, struct cpl **out, MPI_Comm *mine)
 {
@@ -208,8 +207,7 @@ int cpl_find_zone(struct cpl *c, const char *zone, double lo[3], double hi[3])
     return client_error(c, CPL_EINPUT, "no program of this job has a zone `%s'", zone);
 }
 
-/* --- the plan ----------------------------------------------------------------------------------
- */
+/* --- the plan --- */
 
 static int new_set(struct cpl *c, const char *name, int dim, struct client_set **s, int *id)
 {
@@ -328,8 +326,7 @@ int cpl_ready(struct cpl *c, double t, double dt_wish)
     return code;
 }
 
-/* --- windows -----------------------------------------------------------------------------------
- */
+/* --- windows --- */
 
 int cpl_window(struct cpl *c, double *t0, double *t1, int *action, int *code)
 {
@@ -416,8 +413,7 @@ double cpl_heard(const struct cpl *c) { return wire_time() - c->heard; }
 const char *cpl_strerror(const struct cpl *c) { return c->text; }
 void cpl_obituary(int fd) { failure_obituary(fd); }
 
-/* --- the end -----------------------------------------------------------------------------------
- */
+/* --- the end --- */
 
 void cpl_fail(struct cpl *c, int code, const char *reason)
 {

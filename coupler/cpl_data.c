@@ -51,8 +51,7 @@ static size_t first_bad(const double *v, size_t n)
     return n;
 }
 
-/* --- giving ------------------------------------------------------------------------------------
- */
+/* --- giving --- */
 
 int cpl_move(struct cpl *c, int set, long n, const double *x, const int64_t *gid,
              const double *volume)
@@ -268,8 +267,7 @@ void client_pack_ticks(const struct cpl *c, struct pack *p)
         pack_int(p, c->field[i].last_tick);
 }
 
-/* --- taking ------------------------------------------------------------------------------------
- */
+/* --- taking --- */
 
 /* Targets first <= i < last of this rank that coupler rank r maps: equal shares of all targets,
  * whatever their place; neighbours in number are mostly neighbours in space. */

@@ -22,8 +22,7 @@ void problem(char *text, const char *fmt, ...)
     va_end(args);
 }
 
-/* --- meeting -----------------------------------------------------------------------------------
- */
+/* --- meeting --- */
 
 void plan_take_meet(struct coupler *c, struct solver *s, struct message *m)
 {
@@ -98,8 +97,7 @@ void plan_answer_meet(struct coupler *c, const char *text)
     free(p.bytes);
 }
 
-/* --- the plan ----------------------------------------------------------------------------------
- */
+/* --- the plan --- */
 
 void plan_take_ready(struct coupler *c, struct solver *s, struct message *m)
 {

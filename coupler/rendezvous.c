@@ -57,8 +57,7 @@ void rendezvous_close(struct coupler *c)
     }
 }
 
-/* --- what is wanted ----------------------------------------------------------------------------
- */
+/* --- what is wanted --- */
 
 static long count_targets(const struct coupler *c, const struct link *l)
 {
@@ -153,8 +152,7 @@ static void announce(struct coupler *c, struct link *l)
     wire_send_all(&c->wire, g->peer, &p);
 }
 
-/* --- answers -----------------------------------------------------------------------------------
- */
+/* --- answers --- */
 
 static const void *column(struct coupler *c, struct message *m, size_t width)
 {
@@ -371,8 +369,7 @@ void rendezvous_put(struct coupler *c, struct solver *s, struct message **m)
     try_answer(c, l);
 }
 
-/* --- who waits for what ------------------------------------------------------------------------
- */
+/* --- who waits for what --- */
 
 void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *m)
 {

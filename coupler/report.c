@@ -95,8 +95,7 @@ void report_progress(struct coupler *c)
     c->line_window = c->window;
 }
 
-/* --- the end -----------------------------------------------------------------------------------
- */
+/* --- the end --- */
 
 struct norm {
     char name[KEY];

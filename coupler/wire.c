@@ -40,8 +40,7 @@ void *wire_grow(void *p, size_t n)
 
 void *wire_alloc(size_t n) { return wire_grow(NULL, n); }
 
-/* --- building ----------------------------------------------------------------------------------
- */
+/* --- building --- */
 
 void *pack_room(struct pack *p, size_t n)
 {
@@ -83,8 +82,7 @@ void pack_text(struct pack *p, const char *text)
     pack_bytes(p, text, n);
 }
 
-/* --- reading -----------------------------------------------------------------------------------
- */
+/* --- reading --- */
 
 static void broken(const struct wire *w, const char *what)
 {
@@ -144,8 +142,7 @@ void message_free(struct message **m)
     *m = NULL;
 }
 
-/* --- sending and receiving ---------------------------------------------------------------------
- */
+/* --- sending and receiving --- */
 
 int wire_add_peer(struct wire *w, MPI_Comm comm, int size, const char *name)
 {
