@@ -1,32 +1,39 @@
-/* neighbours.c - cells, sorting, the list of pairs. Locals are sorted by cell with x fastest, so
- * that the three cells of a row around a particle are one range of indices and the list comes out
- * ascending. Ghosts keep their order (the halo depends on it) and are reached through an index
- * sorted by cell. SPDX-License-Identifier: BSD-3-Clause */
+/* neighbours.c - cell grid and Verlet list. Locals are stored in the order of the cells, so what a
+ * cell finds around it is a few runs; they are copied side by side once a cell, and every particle
+ * of the cell filters that copy. SPDX-License-Identifier: BSD-3-Clause */
 #include "neighbours.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "../common/log.h"
 #include "../common/mem.h"
 #include "vec.h"
 
 enum { PRIM = 8 };
 
-struct cells {
-    int n[3];
-    double lo[3], per_edge;
-    int count;         /* cells */
-    int *start;        /* [count + 1] of the locals */
-    int *ghost_start;  /* [count + 1] */
-    int *ghost;        /* ghosts by cell */
-    int *cell, *order; /* of each particle; scratch */
-    int starts_capacity, particles_capacity;
+/* Cells [0, cells) along each axis, the outermost for ghosts only. */
+struct grid {
+    int dim, n;
+    double lo[3], edge_1; /* m, 1/m */
+    int cells[3];
+    int total;
+    int *first; /* [total + 1] first local of each cell */
+    int *ghost; /* [total + 1] first of each cell in order */
+    int *order; /* ghosts by cell */
+    int first_capacity, order_capacity;
+    int *cell; /* of each particle that is being sorted */
+    int cell_capacity;
+    /* what lies around one cell */
+    int near, near_capacity;
+    double *x[3], *r2;
+    int *id;
 };
 
 struct neighbours *neighbours_create(void)
 {
     struct neighbours *l = NEW(struct neighbours, 1);
-    l->scratch = NEW(struct cells, 1);
+    l->grid = NEW(struct grid, 1);
     return l;
 }
 
@@ -34,13 +41,16 @@ void neighbours_free(struct neighbours **l)
 {
     if (!*l)
         return;
-    struct cells *c = (*l)->scratch;
-    mem_free(c->start);
-    mem_free(c->ghost_start);
-    mem_free(c->ghost);
-    mem_free(c->cell);
-    mem_free(c->order);
-    mem_free(c);
+    struct grid *g = (*l)->grid;
+    mem_free(g->first);
+    mem_free(g->ghost);
+    mem_free(g->order);
+    mem_free(g->cell);
+    for (int a = 0; a < 3; a++)
+        mem_free(g->x[a]);
+    mem_free(g->r2);
+    mem_free(g->id);
+    mem_free(g);
     mem_free((*l)->start);
     mem_free((*l)->count);
     mem_free((*l)->tail);
@@ -50,229 +60,247 @@ void neighbours_free(struct neighbours **l)
     *l = NULL;
 }
 
-static int cell_of(const struct cells *c, int dim, const double *x)
+/* Grows an array whose contents do not matter. */
+#define ROOM(p, capacity, wanted)                                                                  \
+    do {                                                                                           \
+        if ((wanted) > (capacity)) {                                                               \
+            mem_free(p);                                                                           \
+            (capacity) = (wanted) + (wanted) / 4 + 64;                                             \
+            (p) = mem_new((size_t)(capacity), sizeof *(p));                                        \
+        }                                                                                          \
+    } while (0)
+
+static void bound_locals(const struct sph *s, double lo[3], double hi[3])
+{
+    for (int a = 0; a < s->dim; a++) {
+        lo[a] = INFINITY;
+        hi[a] = -INFINITY;
+        for (int i = 0; i < s->p.n; i++) {
+            const double x = s->p.y[(size_t)i * s->p.nstate + a];
+            lo[a] = x < lo[a] ? x : lo[a];
+            hi[a] = x > hi[a] ? x : hi[a];
+        }
+        if (!(fabs(hi[a] - lo[a]) < INFINITY)) /* none, or none that is finite */
+            lo[a] = hi[a] = 0.0;
+    }
+}
+
+/* Box of the locals in cells of the reach, with one layer more for ghosts. Should particles fly
+ * apart, cells grow instead of their number. */
+static void lay_grid(struct grid *g, const struct sph *s)
+{
+    double hi[3], edge = (1.0 + 1e-9) * (s->R + s->skin);
+    const double most = 64.0 + 8.0 * s->p.n;
+    g->dim = s->dim;
+    g->n = s->p.n;
+    bound_locals(s, g->lo, hi);
+    for (;; edge *= 1.26) {
+        double total = 1.0;
+        for (int a = 0; a < s->dim; a++)
+            total *= floor((hi[a] - g->lo[a]) / edge) + 3.0;
+        if (total <= most)
+            break;
+    }
+    g->edge_1 = 1.0 / edge;
+    g->total = 1;
+    for (int a = 0; a < 3; a++) {
+        g->cells[a] = a < s->dim ? (int)floor((hi[a] - g->lo[a]) / edge) + 3 : 1;
+        g->total *= g->cells[a];
+    }
+}
+
+/* margin 1 for locals, 0 for ghosts. What lies outside goes to the outermost cells; so does NaN. */
+static int cell_of(const struct grid *g, const double *x, int margin)
 {
     int cell = 0;
-    for (int a = dim - 1; a >= 0; a--) {
-        const double s = (x[a] - c->lo[a]) * c->per_edge;
-        const int i = s > 0.0 ? (s < c->n[a] ? (int)s : c->n[a] - 1) : 0;
-        cell = cell * c->n[a] + i;
+    for (int a = g->dim - 1; a >= 0; a--) {
+        const double c = (x[a] - g->lo[a]) * g->edge_1 + 1.0;
+        const int last = g->cells[a] - 1 - margin;
+        cell = cell * g->cells[a] + (c > margin ? c < last ? (int)c : last : margin);
     }
     return cell;
 }
 
-static void room(struct cells *c, int particles)
+/* Stable counting sort of n rows by cell: first[cell], order. */
+static void sort_rows(struct grid *g, const double *rows, int width, int n, int margin, int *first,
+                      int *order)
 {
-    if (c->count + 1 > c->starts_capacity) {
-        mem_free(c->start);
-        mem_free(c->ghost_start);
-        c->starts_capacity = 2 * c->count + 1;
-        c->start = NEW(int, c->starts_capacity);
-        c->ghost_start = NEW(int, c->starts_capacity);
+    ROOM(g->cell, g->cell_capacity, n);
+    memset(first, 0, ((size_t)g->total + 1) * sizeof *first);
+    for (int i = 0; i < n; i++) {
+        g->cell[i] = cell_of(g, rows + (size_t)i * width, margin);
+        first[g->cell[i] + 1]++;
     }
-    if (particles > c->particles_capacity) {
-        mem_free(c->cell);
-        mem_free(c->order);
-        mem_free(c->ghost);
-        c->particles_capacity = particles + particles / 4 + 16;
-        c->cell = NEW(int, c->particles_capacity);
-        c->order = NEW(int, c->particles_capacity);
-        c->ghost = NEW(int, c->particles_capacity);
-    }
-}
-
-/* Cells of edge R + skin or wider (far-flung spray must not cost memory) over the locals, and one
- * more around for the ghosts. */
-static void make_cells(struct sph *s, struct cells *c)
-{
-    double lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0}, edge = s->R + s->skin, cells;
-    for (int i = 0; i < s->p.n; i++)
-        for (int a = 0; a < s->dim; a++) {
-            const double x = s->p.y[(size_t)i * s->p.nstate + a];
-            lo[a] = i == 0 || x < lo[a] ? x : lo[a];
-            hi[a] = i == 0 || x > hi[a] ? x : hi[a];
-        }
-    for (;; edge *= 1.26) {
-        cells = 1.0;
-        for (int a = 0; a < s->dim; a++)
-            cells *= floor((hi[a] - lo[a]) / edge) + 3.0;
-        if (cells <= 8.0 * s->p.n + 1000.0)
-            break;
-    }
-    c->per_edge = 1.0 / edge;
-    c->count = 1;
-    for (int a = 0; a < 3; a++) {
-        c->n[a] = a < s->dim ? (int)floor((hi[a] - lo[a]) / edge) + 3 : 1;
-        c->lo[a] = lo[a] - edge;
-        c->count *= c->n[a];
-    }
-}
-
-/* Counting sort of n things of known cell: start of each cell, order by cell, stable. */
-static void sort(int n, const int *cell, int count, int *start, int *order)
-{
-    memset(start, 0, ((size_t)count + 1) * sizeof *start);
+    for (int c = 0; c < g->total; c++)
+        first[c + 1] += first[c];
     for (int i = 0; i < n; i++)
-        start[cell[i] + 1]++;
-    for (int k = 0; k < count; k++)
-        start[k + 1] += start[k];
-    for (int i = 0; i < n; i++)
-        order[start[cell[i]]++] = i;
-    memmove(start + 1, start, (size_t)count * sizeof *start);
-    start[0] = 0;
+        order[first[g->cell[i]]++] = i;
+    memmove(first + 1, first, (size_t)g->total * sizeof *first);
+    first[0] = 0;
 }
 
 void neighbours_sort(struct sph *s)
 {
-    struct cells *c = s->list->scratch;
-    make_cells(s, c);
-    room(c, s->p.n);
-    for (int i = 0; i < s->p.n; i++)
-        c->cell[i] = cell_of(c, s->dim, s->p.y + (size_t)i * s->p.nstate);
-    sort(s->p.n, c->cell, c->count, c->start, c->order);
-    particles_permute(&s->p, s->p.n, c->order);
+    struct grid *g = s->list->grid;
+    lay_grid(g, s);
+    int ghost_capacity = g->first_capacity;
+    ROOM(g->ghost, ghost_capacity, g->total + 1);
+    ROOM(g->first, g->first_capacity, g->total + 1);
+    ROOM(g->order, g->order_capacity, s->p.n);
+    sort_rows(g, s->p.y, s->p.nstate, s->p.n, 1, g->first, g->order);
+    particles_permute(&s->p, s->p.n, g->order);
 }
 
-static void sort_ghosts(struct sph *s, struct cells *c)
+static void near_room(struct grid *g, int n)
 {
-    room(c, s->p.nghost);
-    for (int g = 0; g < s->p.nghost; g++)
-        c->cell[g] = cell_of(c, s->dim, s->p.prim + (size_t)PRIM * (s->p.n + g));
-    sort(s->p.nghost, c->cell, c->count, c->ghost_start, c->ghost);
-}
-
-static void rows_room(struct neighbours *l, int n)
-{
-    if (n <= l->rows_capacity)
+    if (n <= g->near_capacity)
         return;
-    mem_free(l->start);
-    mem_free(l->count);
-    mem_free(l->tail);
-    l->rows_capacity = n + n / 4 + 16;
-    l->start = NEW(int64_t, l->rows_capacity + 1);
-    l->count = NEW(int, l->rows_capacity);
-    l->tail = NEW(int, l->rows_capacity);
+    int capacity = 0;
+    for (int a = 0; a < 3; a++) {
+        capacity = 0;
+        ROOM(g->x[a], capacity, n);
+    }
+    capacity = 0;
+    ROOM(g->r2, capacity, n);
+    capacity = 0;
+    ROOM(g->id, capacity, n);
+    g->near_capacity = capacity;
 }
 
-/* Ranges of the particles around a cell: rows of three cells. */
-struct ranges {
-    int n, first[9], last[9];
-    int ng, gfirst[9], glast[9];
-    int most; /* entries in all */
-};
-
-static void find_ranges(const struct cells *c, int dim, const int *at, struct ranges *r)
+static void copy_near(const struct sph *s, struct grid *g, int id)
 {
-    *r = (struct ranges){0};
-    const int x0 = at[0] > 0 ? at[0] - 1 : 0, x1 = at[0] + 1 < c->n[0] ? at[0] + 1 : c->n[0] - 1;
-    for (int z = at[2] - (dim == 3); z <= at[2] + (dim == 3); z++)
-        for (int y = at[1] - 1; y <= at[1] + 1; y++) {
-            if (y < 0 || y >= c->n[1] || z < 0 || z >= c->n[2])
-                continue;
-            const int row = (z * c->n[1] + y) * c->n[0];
-            r->first[r->n] = c->start[row + x0];
-            r->last[r->n] = c->start[row + x1 + 1];
-            r->most += r->last[r->n] - r->first[r->n];
-            r->n++;
-            r->gfirst[r->ng] = c->ghost_start[row + x0];
-            r->glast[r->ng] = c->ghost_start[row + x1 + 1];
-            r->most += r->glast[r->ng] - r->gfirst[r->ng];
-            r->ng++;
-        }
+    const double *x = s->p.prim + (ptrdiff_t)PRIM * id;
+    for (int a = 0; a < g->dim; a++)
+        g->x[a][g->near] = x[a];
+    g->id[g->near++] = id;
 }
 
-static inline __attribute__((always_inline)) double distance2(const double *x, const double *y,
-                                                              const int dim)
+/* Particles of the cells around `cell': locals in ascending order, then ghosts. */
+static void look_around(const struct sph *s, struct grid *g, int cell)
 {
-    const double a = x[0] - y[0], b = x[1] - y[1], c = dim == 3 ? x[2] - y[2] : 0.0;
-    return a * a + b * b + c * c;
+    const int nx = g->cells[0], ny = g->cells[1], layers = g->dim == 3 ? 1 : 0;
+    int rows[9], nrows = 0, most = 0;
+    for (int k = -layers; k <= layers; k++)
+        for (int j = -1; j <= 1; j++)
+            rows[nrows++] = cell - 1 + nx * (j + ny * k);
+    for (int k = 0; k < nrows; k++)
+        most +=
+            g->first[rows[k] + 3] - g->first[rows[k]] + g->ghost[rows[k] + 3] - g->ghost[rows[k]];
+    near_room(g, most + LANES);
+    g->near = 0;
+    for (int k = 0; k < nrows; k++)
+        for (int i = g->first[rows[k]]; i < g->first[rows[k] + 3]; i++)
+            copy_near(s, g, i);
+    for (int k = 0; k < nrows; k++)
+        for (int i = g->ghost[rows[k]]; i < g->ghost[rows[k] + 3]; i++)
+            copy_near(s, g, g->n + g->order[i]);
 }
 
-/* Row of particle i: without branches, every candidate is written and the end moves on if it
- * counts. */
-static inline __attribute__((always_inline)) int
-fill_row(const struct sph *s, const struct cells *c, const struct ranges *r, int i, double reach2,
-         int *restrict row, int *tail, const int dim)
+INLINE void distances(struct grid *g, const double *x, const int dim)
 {
-    const double *restrict prim = s->p.prim, *x = prim + (size_t)PRIM * i;
-    int n = 0, before = 0;
-    for (int k = 0; k < r->n; k++)
-        for (int j = r->first[k]; j < r->last[k]; j++) {
-            const int in = distance2(x, prim + (size_t)PRIM * j, dim) < reach2;
-            row[n] = j;
-            n += in & (j != i);
-            before += in & (j < i);
-        }
-    for (int k = 0; k < r->ng; k++)
-        for (int g = r->gfirst[k]; g < r->glast[k]; g++) {
-            const int j = s->p.n + c->ghost[g];
-            row[n] = j;
-            n += distance2(x, prim + (size_t)PRIM * j, dim) < reach2;
-        }
-    *tail = before;
+    const double *restrict X = g->x[0], *restrict Y = g->x[1], *restrict Z = g->x[2];
+    double *restrict r2 = g->r2;
+    const double x0 = x[0], x1 = x[1], x2 = dim == 3 ? x[2] : 0.0;
+    for (int k = 0; k < g->near; k++) {
+        const double a = X[k] - x0, b = Y[k] - x1, c = dim == 3 ? Z[k] - x2 : 0.0;
+        r2[k] = a * a + b * b + c * c;
+    }
+}
+
+/* Appends the particles from .. end-1 of the surroundings that are within reach. */
+static int append(const struct grid *g, int from, int end, double reach2, int *j)
+{
+    const double *restrict r2 = g->r2;
+    const int *restrict id = g->id;
+    int n = 0;
+    for (int k = from; k < end; k++) {
+        j[n] = id[k];
+        n += r2[k] < reach2;
+    }
     return n;
 }
 
-static void list_room(struct neighbours *l, int64_t used, int64_t more)
-{
-    if (used + more <= l->capacity)
-        return;
-    const int64_t capacity = 2 * (used + more) + 1024;
-    GROW(l->j, l->capacity, capacity);
-    l->capacity = capacity;
-}
-
-static inline __attribute__((always_inline)) void build(struct sph *s, const int dim)
+static void list_cell(struct sph *s, int cell)
 {
     struct neighbours *l = s->list;
-    struct cells *c = l->scratch;
-    const double reach2 = (s->R + s->skin) * (s->R + s->skin);
-    const int dummy = s->p.capacity;
-    struct ranges r;
-    int64_t used = 0;
-    int at[3];
-    for (at[2] = 0; at[2] < c->n[2]; at[2]++)
-        for (at[1] = 0; at[1] < c->n[1]; at[1]++)
-            for (at[0] = 0; at[0] < c->n[0]; at[0]++) {
-                const int cell = (at[2] * c->n[1] + at[1]) * c->n[0] + at[0];
-                if (c->start[cell] == c->start[cell + 1])
-                    continue;
-                find_ranges(c, dim, at, &r);
-                for (int i = c->start[cell]; i < c->start[cell + 1]; i++) {
-                    list_room(l, used, r.most + 2 * LANES);
-                    int *row = l->j + used;
-                    l->start[i] = used;
-                    const int n = l->count[i] =
-                        fill_row(s, c, &r, i, reach2, row, l->tail + i, dim);
-                    for (int k = n; k < n + 2 * LANES - 1;
-                         k++) /* a vector may begin at any entry */
-                        row[k] = dummy;
-                    used += (n + 2 * LANES - 1) / LANES * LANES;
-                }
-            }
-    l->start[l->n] = used;
+    struct grid *g = l->grid;
+    const double reach = s->R + s->skin;
+    int self = 0;
+    look_around(s, g, cell);
+    while (g->id[self] != g->first[cell])
+        self++;
+    for (int i = g->first[cell]; i < g->first[cell + 1]; i++, self++) {
+        const int64_t at = l->start[i], most = at + g->near + LANES;
+        if (most > l->capacity) {
+            const int64_t more = most + most / 2;
+            GROW(l->j, l->capacity, more);
+            l->capacity = more;
+        }
+        if (s->dim == 2)
+            distances(g, s->p.prim + (ptrdiff_t)PRIM * i, 2);
+        else
+            distances(g, s->p.prim + (ptrdiff_t)PRIM * i, 3);
+        int *j = l->j + at;
+        const int before = append(g, 0, self, reach * reach, j);
+        l->tail[i] = before;
+        l->count[i] = before + append(g, self + 1, g->near, reach * reach, j + before);
+        for (int k = 0; k < LANES - 1; k++)
+            j[l->count[i] + k] = s->p.capacity;
+        l->start[i + 1] = at + l->count[i] + LANES - 1;
+    }
 }
 
 void neighbours_build(struct sph *s)
 {
     struct neighbours *l = s->list;
-    l->n = s->p.n;
-    rows_room(l, l->n);
-    sort_ghosts(s, l->scratch);
-    if (s->dim == 2)
-        build(s, 2);
-    else
-        build(s, 3);
+    struct grid *g = l->grid;
+    const int n = s->p.n;
+    require(n == g->n); /* neighbours_sort has been here */
+    if (n + 1 > l->rows_capacity) {
+        int capacity = l->rows_capacity;
+        ROOM(l->start, capacity, n + 1);
+        capacity = l->rows_capacity;
+        ROOM(l->count, capacity, n + 1);
+        ROOM(l->tail, l->rows_capacity, n + 1);
+    }
+    l->n = n;
+    l->start[0] = 0;
+    ROOM(g->order, g->order_capacity, s->p.nghost);
+    sort_rows(g, s->p.prim + (ptrdiff_t)PRIM * n, PRIM, s->p.nghost, 0, g->ghost, g->order);
+    for (int cell = 0; cell < g->total; cell++)
+        if (g->first[cell + 1] > g->first[cell])
+            list_cell(s, cell);
+}
+
+double *neighbours_sums(struct sph *s, int width)
+{
+    struct neighbours *l = s->list;
+    const size_t used = ((size_t)s->p.n + (size_t)s->p.nghost) * (size_t)width;
+    const size_t all = ((size_t)s->p.capacity + 1) * (size_t)width;
+    if (all > l->sums_capacity) {
+        mem_free(l->sums);
+        l->sums = NEW(double, all);
+        l->sums_capacity = all;
+    }
+    memset(l->sums, 0, used * sizeof(double));
+    memset(l->sums + all - width, 0, (size_t)width * sizeof(double));
+    return l->sums;
 }
 
 int64_t neighbours_pairs(const struct sph *s)
 {
     const struct neighbours *l = s->list;
-    const double R2 = s->R * s->R;
-    int64_t n = 0;
-    for (int i = 0; i < l->n; i++)
-        for (int k = 0; k < l->count[i]; k++)
-            n += distance2(s->p.prim + (size_t)PRIM * i,
-                           s->p.prim + (size_t)PRIM * l->j[l->start[i] + k], s->dim) < R2;
-    return n;
+    int64_t pairs = 0;
+    for (int i = 0; i < l->n; i++) {
+        const double *x = s->p.prim + (ptrdiff_t)PRIM * i;
+        const int *j = l->j + l->start[i];
+        for (int k = 0; k < l->count[i]; k++) {
+            const double *xj = s->p.prim + (ptrdiff_t)PRIM * j[k];
+            double r2 = 0.0;
+            for (int a = 0; a < s->dim; a++)
+                r2 += (x[a] - xj[a]) * (x[a] - xj[a]);
+            pairs += r2 < s->R * s->R;
+        }
+    }
+    return pairs;
 }

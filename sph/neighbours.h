@@ -1,23 +1,25 @@
-/* neighbours.h - cells of edge >= R + skin, particles sorted by cell rows, list of pairs.
- * The list of i holds all j /= i (locals and ghosts) within R + skin, ascending in j, so that the
- * part with j > i is its tail. SPDX-License-Identifier: BSD-3-Clause */
+/* neighbours.h - cells of edge R + skin, particles sorted by cell rows, list of pairs.
+ * The list of i holds all j /= i (locals and ghosts) within R + skin: locals ascending, then
+ * ghosts, so that the part with j > i is its tail. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_NEIGHBOURS_H
 #define SPH_NEIGHBOURS_H
 
 #include "sph.h"
 
+struct grid; /* cells of the locals at hand */
+
 struct neighbours {
     int n;            /* rows: locals */
     int64_t capacity; /* of j */
-    int64_t
-        *start; /* [n+1] first of row i in j; rows are padded to a multiple of the vector width */
-    int *count; /* [n] entries of row i without padding */
+    int64_t *start;   /* [n+1] first of row i in j */
+    int *count; /* [n] entries of row i; behind them as many dummy rows (s->p.capacity) as a vector
+                   that begins at any entry can reach */
     int *tail;  /* [n] first entry of row i with j > i */
-    int *j;     /* padded with the dummy row (s->p.capacity) */
+    int *j;
     int rows_capacity;
-    double *sums; /* rates of locals, ghosts and dummy while the symmetric pass runs */
-    int64_t sums_capacity;
-    void *scratch; /* cells and orders, owned */
+    struct grid *grid;
+    double *sums; /* what a symmetric pass has for each line */
+    size_t sums_capacity;
 };
 
 struct neighbours *neighbours_create(void);
@@ -26,6 +28,9 @@ void neighbours_free(struct neighbours **l);
 void neighbours_sort(struct sph *s);
 /* Builds the list from prim positions of locals and ghosts with radius R + s->skin. */
 void neighbours_build(struct sph *s);
+/* [capacity + 1][width] zeros: sums of a symmetric pass, one row for each line. Borrowed until the
+ * next call. */
+double *neighbours_sums(struct sph *s, int width);
 /* Ordered pairs within R now; for the throughput figures. */
 int64_t neighbours_pairs(const struct sph *s);
 

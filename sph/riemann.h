@@ -1,55 +1,97 @@
-/* riemann.h - states of a pair and their Riemann problem, four pairs at once.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* riemann.h - states at the middle of a pair and the Riemann problem between them, for LANES pairs
+ * at once. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_RIEMANN_H
 #define SPH_RIEMANN_H
 
 #include "sph.h"
 #include "vec.h"
 
-/* What is added to phi_i on the way to the middle of the pair: D = phi_j - phi_i, s = grad
- * phi_i.(x_j - x_i); to phi_j it is subtracted, with j's gradient. b = 2 s - D is the difference on
- * the far side. minmod [2.83]   D/2 clipped to 0 .. s/2 koren           (b + 2 D)/6, the
- * third-order value, within 0 .. min(b, D) none            s/2 All are D/2 on a linear field, which
- * makes both states equal there. */
-static inline __attribute__((always_inline)) vec half_step(vec D, vec s, const int limiter)
+/* Moves the values left and right of a pair to its middle. s = slope . (x_j - x_i) on either side,
+ * D = right - left. Without bounds the step is s/2. Both bounded forms are symmetric: the step
+ * lies between 0 and D, so signs are folded away and one bound serves both sides.
+ *   minmod [2.83]: 1/2 minmod(s, D)
+ *   Koren: third order upwind-biased, (b + 2D)/6 with b = 2s - D the difference behind, bounded
+ *   by b and D: minmod(b, (b + 2D)/6, D) */
+INLINE void reconstruct(vec *left, vec *right, vec s_left, vec s_right, const int limiter)
 {
-    const vec zero = {0.0, 0.0, 0.0, 0.0};
-    if (limiter == LIMITER_NONE)
-        return 0.5 * s;
-    const mask negative = D < zero;
-    const vec size = vec_pick(negative, -D, D);
-    if (limiter == LIMITER_MINMOD) {
-        const vec along = vec_pick(negative, -s, s);
-        const vec m = 0.5 * vec_max(vec_min(along, size), zero);
-        return vec_pick(negative, -m, m);
+    const vec zero = vec_all(0.0), D = *right - *left;
+    if (limiter == LIMITER_NONE) {
+        *left += 0.5 * s_left;
+        *right -= 0.5 * s_right;
+        return;
     }
-    const vec b = 2.0 * s - D, along = vec_pick(negative, -b, b);
-    const vec third = (along + 2.0 * size) * (1.0 / 6.0);
-    const vec m = vec_max(vec_min(vec_min(along, third), size), zero);
-    return vec_pick(negative, -m, m);
+    const vec_bits sign = (vec_bits)D & (vec_bits)vec_all(-0.0);
+    const vec size = (vec)((vec_bits)D ^ sign);
+    vec l = (vec)((vec_bits)s_left ^ sign), r = (vec)((vec_bits)s_right ^ sign);
+    if (limiter == LIMITER_MINMOD) {
+        l = 0.5 * vec_min(vec_max(l, zero), size);
+        r = 0.5 * vec_min(vec_max(r, zero), size);
+    } else {
+        const double third = 1.0 / 3.0;
+        const vec part = size * (0.5 * third);
+        l = vec_max(vec_min(vec_min(2.0 * l - size, third * l + part), size), zero);
+        r = vec_max(vec_min(vec_min(2.0 * r - size, third * r + part), size), zero);
+    }
+    *left += (vec)((vec_bits)l ^ sign);
+    *right -= (vec)((vec_bits)r ^ sign);
 }
 
-/* P and c of Tait's equation with gamma 7, by products; r = rho/rho0. */
-static inline __attribute__((always_inline)) void tait7(vec r, double B, double c0, vec *p, vec *c)
+/* Tait's law [1.8-1.9] with gamma 7 or 1: p = B [(rho/rho0)^gamma - 1], Z = rho c = Z0
+ * (rho/rho0)^((gamma+1)/2). */
+struct tait {
+    double rho0_1; /* 1/rho0 */
+    double B, Z0;
+};
+
+INLINE vec pressure(const struct tait *e, vec rho, const int gamma)
 {
-    const vec r2 = r * r, r3 = r2 * r;
-    *p = B * (r2 * r2 * r3 - 1.0);
-    *c = c0 * r3;
+    const vec x = rho * e->rho0_1;
+    if (gamma == 1)
+        return e->B * x - e->B;
+    const vec x2 = x * x;
+    return e->B * (x2 * x2 * (x2 * x)) - e->B;
 }
 
-/* Linearised Riemann problem [2.100]: states l, r with Z = rho c, velocities along the line of
- * centres, inverse = 1/(Zl + Zr). Low dissipation (Zhang, Hu & Adams, J. Comput. Phys. 335, 2017):
- * in P only, the jump of velocity counts by min(1, 3 max(ul - ur, 0)/c0). */
-static inline __attribute__((always_inline)) void riemann(vec Zl, vec ul, vec Pl, vec Zr, vec ur,
-                                                          vec Pr, vec inverse, const bool low,
-                                                          double per_c0, vec *uE, vec *PE)
+INLINE vec impedance(const struct tait *e, vec rho, const int gamma)
 {
-    const vec zero = {0.0, 0.0, 0.0, 0.0};
-    vec jump = ul - ur;
-    *uE = (Zl * ul + Zr * ur + Pl - Pr) * inverse;
-    if (low)
-        jump *= vec_min(vec_all(1.0), 3.0 * per_c0 * vec_max(jump, zero));
-    *PE = (Zr * Pl + Zl * Pr + Zl * Zr * jump) * inverse;
+    const vec x = rho * e->rho0_1;
+    if (gamma == 1)
+        return e->Z0 * x;
+    const vec x2 = x * x;
+    return e->Z0 * (x2 * x2);
+}
+
+/* Bounds of the dissipation: b = min(1, max(least, factor (u_i - u_j))). */
+struct dissipation {
+    double factor; /* s/m: 3/c0 (Zhang, Hu & Adams, J. Comput. Phys. 335, 2017, eq. 17) */
+    double least;  /* 1: full dissipation, as in [2.100] */
+};
+
+/* Weights of the linear Riemann problem between particles i and j a distance r apart, from their Z
+ * = rho c. One division serves all. */
+struct weights {
+    vec r_1;   /* 1/r */
+    vec share; /* Z_i/(Z_i + Z_j) */
+    vec pull;  /* r/(Z_i + Z_j) */
+    vec push;  /* Z_i Z_j/(Z_i + Z_j)/r */
+};
+
+INLINE struct weights weigh(vec r, vec Zi, vec Zj)
+{
+    const vec sum = Zi + Zj, shared = 1.0 / (r * sum), r_1 = shared * sum, sum_1 = shared * r;
+    const vec share = Zi * sum_1;
+    return (struct weights){r_1, share, r * sum_1, share * Zj * r_1};
+}
+
+/* Star state [2.100] between p[0], v[0] at i and p[1], v[1] at j. v: velocities along x_j - x_i
+ * times r, as the sums have them; r u_E and p_E come back. The bounds are in p_E only. */
+INLINE void star(const struct dissipation *d, const struct weights *z, const vec p[2],
+                 const vec v[2], vec *vE, vec *pE)
+{
+    const vec dv = v[0] - v[1], dp = p[0] - p[1];
+    const vec b = vec_min(vec_max(dv * z->r_1 * d->factor, vec_all(d->least)), vec_all(1.0));
+    *vE = v[1] + z->share * dv + z->pull * dp;
+    *pE = p[0] - z->share * dp + z->push * (b * dv);
 }
 
 #endif

@@ -1,6 +1,6 @@
-/* scheme_gradients.c - first pass: renormalised gradients of rho and u [2.42-2.44] and the
- * transport velocity, one-sided over the whole list, from the prim lines alone.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* scheme_gradients.c - first pass over the pairs: renormalised gradients [2.42-2.44] of rho and u,
+ * and the velocity u0 at which particles are moved [2.112-2.114]. One-sided: every particle sums
+ * over its whole row of the list. SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
 #include <math.h>
@@ -9,187 +9,213 @@
 #include "neighbours.h"
 #include "vec.h"
 
-enum { PRIM = 8 };
+enum { PRIM = 8, BATCH = 16 };
 
-/* Sums over the neighbours of a particle; d = x_j - x_i, g = w_j |W'|/r. */
+struct constants {
+    double R_1, eps2; /* 1/m; m^2: keeps r > 0 */
+    double kernel;    /* |W'|/r = kernel t^3, t = 1 - r/R */
+    double W[2];      /* W/W(dx) = t^4 (W[0] - W[1] t) */
+    double near;      /* R/R_delta of the law of Oger */
+};
+
+/* Vectors of neighbours of one row between the loops that treat them. */
+struct batch {
+    int n;
+    vec d[3][BATCH]; /* x_j - x_i */
+    vec t[BATCH];    /* 1 - r/R, 0 outside */
+};
+
+/* Sums over neighbours, without the kernel's constant. */
 struct sums {
-    vec M[6];     /* g d d: xx xy yy (xz yz zz) */
-    vec rho[3];   /* g (rho_j - rho_i) d */
-    vec u[3][3];  /* g (u_j - u_i) d */
-    vec crowd[3]; /* transport law */
+    vec M[6];    /* d_a d_b: 00 01 11 02 12 22 */
+    vec rho[3];  /* (rho_j - rho_i) d_b */
+    vec u[3][3]; /* (u_j - u_i)_a d_b */
+    vec n[3];    /* crowding */
 };
 
-/* Constants of the pass. */
-struct pass {
-    double R2, per_R, slope, cut; /* slope = 20 W0/R^2 */
-    double crowd, tensile;        /* w0 20 W0/R^2; 0.2 (W0/W(dx))^4 */
-    double per_Rd, crowd_near;    /* law of Oger: 1/(2 dx); w0 20 W0(Rd)/Rd^2 Rd */
-};
-
-static inline __attribute__((always_inline)) void add_four(struct sums *q, const struct sph *s,
-                                                           const struct pass *c, const double *i,
-                                                           const int *j, const int dim,
-                                                           const int transport)
+/* Short loops instead of one: the square root is under way for several vectors at once. */
+INLINE void geometry(const struct constants *c, const double *i, const double *prim, const int *j,
+                     struct batch *near, const int dim)
 {
-    const vec zero = {0.0, 0.0, 0.0, 0.0};
-    vec p[PRIM], d[3], t, g, r2 = vec_all(1e-12 * c->R2);
-    vec_columns(s->p.prim, PRIM, j, PRIM, p);
-    for (int a = 0; a < dim; a++) {
-        d[a] = p[a] - i[a];
-        r2 += d[a] * d[a];
-    }
-    const vec r = vec_sqrt(r2);
-    t = vec_max(1.0 - r * c->per_R, zero);
-    const vec t3 = t * t * t;
-    g = c->slope * t3 * p[2 * dim];
-    const vec drho = g * (p[2 * dim + 1] - i[2 * dim + 1]);
-    for (int a = 0, k = 0; a < dim; a++) {
-        const vec ga = g * d[a];
-        for (int b = 0; b <= a; b++)
-            q->M[k++] += ga * d[b];
-        q->rho[a] += drho * d[a];
-        for (int b = 0; b < dim; b++)
-            q->u[b][a] += ga * (p[dim + b] - i[dim + b]);
-    }
-    if (transport == TRANSPORT_TVS) { /* gradW (1 + 0.2 (W/W(dx))^4) */
-        vec f = t3 * t * (1.0 + 4.0 * r * c->per_R);
-        f *= f;
-        const vec h = c->crowd * t3 * (1.0 + c->tensile * f * f);
-        for (int a = 0; a < dim; a++)
-            q->crowd[a] += h * d[a];
-    } else if (transport == TRANSPORT_TVO) {
-        const vec near = vec_max(1.0 - r * c->per_Rd, zero);
-        const vec h = c->crowd_near * near * near * near;
-        for (int a = 0; a < dim; a++)
-            q->crowd[a] += h * d[a];
+    for (int k = 0; k < near->n; k++, j += LANES) {
+        vec d[3], spare, r2 = vec_all(c->eps2);
+        vec_columns(prim, PRIM, j, 0, d, d + 1);
+        if (dim == 3)
+            vec_columns(prim, PRIM, j, 2, d + 2, &spare);
+        for (int a = 0; a < dim; a++) {
+            d[a] -= i[a];
+            r2 += d[a] * d[a];
+            near->d[a][k] = d[a];
+        }
+        near->t[k] = vec_max(1.0 - vec_sqrt(r2) * c->R_1, vec_all(0.0));
     }
 }
 
-/* Inverse of the symmetric M; false if its smallest eigenvalue is below `least' (then no slope is
- * trusted). In 3D: M - least I must be positive definite. */
-static bool invert(const double *M, double *B, const int dim, double least)
+/* Weight of x_j - x_i in the crowding vector, over w0 and the kernel's constant. */
+INLINE vec crowding(const struct constants *c, vec t, const int transport)
 {
-    const double a = M[0], b = M[1], c = M[2];
+    if (transport == TRANSPORT_TVO) { /* the kernel of radius R_delta <= R */
+        const vec q = vec_max((1.0 - c->near) + c->near * t, vec_all(0.0));
+        return q * q * q;
+    }
+    const vec t2 = t * t, t3 = t2 * t, W = t2 * t2 * (c->W[0] - c->W[1] * t), W2 = W * W;
+    return t3 + 0.2 * t3 * (W2 * W2);
+}
+
+INLINE void add(const struct constants *c, const double *i, const double *prim, const int *j,
+                const struct batch *near, struct sums *s, const int dim, const int transport)
+{
+    for (int k = 0; k < near->n; k++, j += LANES) {
+        const vec t = near->t[k];
+        vec d[3], u[3], w, rho, spare;
+        if (dim == 2) {
+            vec_columns(prim, PRIM, j, 2, u, u + 1);
+        } else {
+            vec_columns(prim, PRIM, j, 2, &spare, u);
+            vec_columns(prim, PRIM, j, 4, u + 1, u + 2);
+        }
+        vec_columns(prim, PRIM, j, 2 * dim, &w, &rho);
+        rho -= i[2 * dim + 1];
+        for (int a = 0; a < dim; a++) {
+            d[a] = near->d[a][k];
+            u[a] -= i[dim + a];
+        }
+        const vec g = t * t * t * w;
+        for (int b = 0, m = 0; b < dim; b++) {
+            const vec gd = g * d[b];
+            s->rho[b] += rho * gd;
+            for (int a = 0; a < dim; a++)
+                s->u[a][b] += u[a] * gd;
+            for (int a = 0; a <= b; a++)
+                s->M[m++] += d[a] * gd;
+        }
+        if (transport == TRANSPORT_TVS || transport == TRANSPORT_TVO) {
+            const vec weight = crowding(c, t, transport);
+            for (int a = 0; a < dim; a++)
+                s->n[a] += weight * d[a];
+        }
+    }
+}
+
+/* B = M^-1 for symmetric M with eigenvalues of at least 0.2 (M - 0.2 is positive definite), else 0.
+ */
+INLINE void invert(const double *M, double B[3][3], const int dim)
+{
+    const double least = 0.2, a = M[0] - least, b = M[1], e = M[2] - least;
     if (dim == 2) {
-        const double det = a * c - b * b;
-        const double small = 0.5 * (a + c) - sqrt(0.25 * (a - c) * (a - c) + b * b);
-        if (!(small >= least))
-            return false;
-        B[0] = c / det;
-        B[1] = B[2] = -b / det;
-        B[3] = a / det;
-        return true;
+        const bool regular = a > 0.0 && a * e > b * b;
+        const double f = regular ? 1.0 / (M[0] * M[2] - M[1] * M[1]) : 0.0;
+        B[0][0] = f * M[2];
+        B[0][1] = B[1][0] = -f * M[1];
+        B[1][1] = f * M[0];
+        return;
     }
-    const double d = M[3], e = M[4], f = M[5], p = a - least, q = c - least, r = f - least;
-    if (!(p > 0.0 && p * q - b * b > 0.0 &&
-          p * (q * r - e * e) - b * (b * r - e * d) + d * (b * e - q * d) > 0.0))
-        return false;
-    const double A00 = c * f - e * e, A01 = d * e - b * f, A02 = b * e - c * d;
-    const double per = 1.0 / (a * A00 + b * A01 + d * A02);
-    B[0] = A00 * per;
-    B[1] = B[3] = A01 * per;
-    B[2] = B[6] = A02 * per;
-    B[4] = (a * f - d * d) * per;
-    B[5] = B[7] = (b * d - a * e) * per;
-    B[8] = (a * c - b * b) * per;
-    return true;
+    const double c = M[3], h = M[4], i = M[5] - least;
+    const bool regular = a > 0.0 && a * e > b * b &&
+                         a * (e * i - h * h) - b * (b * i - h * c) + c * (b * h - e * c) > 0.0;
+    const double c00 = M[2] * M[5] - M[4] * M[4], c01 = M[3] * M[4] - M[1] * M[5];
+    const double c02 = M[1] * M[4] - M[2] * M[3];
+    const double f = regular ? 1.0 / (M[0] * c00 + M[1] * c01 + M[3] * c02) : 0.0;
+    B[0][0] = f * c00;
+    B[0][1] = B[1][0] = f * c01;
+    B[0][2] = B[2][0] = f * c02;
+    B[1][1] = f * (M[0] * M[5] - M[3] * M[3]);
+    B[1][2] = B[2][1] = f * (M[1] * M[3] - M[0] * M[4]);
+    B[2][2] = f * (M[0] * M[2] - M[1] * M[1]);
 }
 
-/* Whole-support law: -2 U R n, at most U/4. Law of Oger [2.113]: -U n, at most |u|/4. */
-static void shift(const struct sph *s, const double *n, const double *u, double *delta,
+/* out_b = sum_a v_a B_ab */
+INLINE void renormalise(double *out, const vec *v, double B[3][3], double kernel, const int dim)
+{
+    for (int b = 0; b < dim; b++) {
+        double sum = 0.0;
+        for (int a = 0; a < dim; a++)
+            sum += vec_sum(v[a]) * B[a][b];
+        out[b] = kernel * sum;
+    }
+}
+
+INLINE double oger_radius(const struct sph *s) { return 2.0 * s->dx < s->R ? 2.0 * s->dx : s->R; }
+
+/* u0 - u from the crowding vector without its constants. Whole-support law: -2 U R n, at most U/4.
+ * Law of Oger [2.113-2.114]: -U n R_delta, at most |u|/4. */
+INLINE void shift(const struct sph *s, double *delta, const double *u, const double *n,
                   const int dim, const int transport)
 {
     const double U = s->run->scene.initial.U;
-    const double factor = transport == TRANSPORT_TVS ? -2.0 * U * s->R : -U;
+    const double R = transport == TRANSPORT_TVO ? oger_radius(s) : s->R;
+    const double factor =
+        (transport == TRANSPORT_TVO ? U : 2.0 * U) * R * s->dxD * kernel_dw_r(dim, 0.0, R);
     double size2 = 0.0, u2 = 0.0;
     for (int a = 0; a < dim; a++) {
         delta[a] = factor * n[a];
         size2 += delta[a] * delta[a];
         u2 += u[a] * u[a];
     }
-    const double most2 = 0.0625 * (transport == TRANSPORT_TVS ? U * U : u2);
-    if (size2 > most2) {
-        const double cut = sqrt(most2 / size2);
+    const double most2 = 0.0625 * (transport == TRANSPORT_TVO ? u2 : U * U);
+    if (size2 > most2)
         for (int a = 0; a < dim; a++)
-            delta[a] *= cut;
-    }
+            delta[a] *= sqrt(most2 / size2);
 }
 
-/* Slopes and u0 of particle i from its sums. */
-static inline __attribute__((always_inline)) void finish(struct sph *s, int i, const struct sums *q,
-                                                         const int dim, const int transport)
+INLINE void write_slope(const struct sph *s, const struct constants *c, const struct sums *sum,
+                        int i, const int dim, const int transport)
 {
-    double *g = s->p.slope + (size_t)i * s->p.nslope, *u0 = g + dim + dim * dim;
-    const double *line = s->p.prim + (size_t)PRIM * i;
-    double M[6], B[9], n[3], delta[3] = {0.0, 0.0, 0.0};
+    const double *u = s->p.prim + (ptrdiff_t)PRIM * i + dim;
+    double *slope = s->p.slope + (ptrdiff_t)s->p.nslope * i, *u0 = slope + dim + dim * dim;
+    double M[6], B[3][3], n[3], delta[3] = {0.0, 0.0, 0.0};
     for (int k = 0; k < dim * (dim + 1) / 2; k++)
-        M[k] = vec_sum(q->M[k]);
-    const bool good = invert(M, B, dim, 0.2);
-    for (int f = 0; f <= dim; f++) { /* rho, then the components of u */
-        double raw[3];
-        for (int b = 0; b < dim; b++)
-            raw[b] = vec_sum(f == 0 ? q->rho[b] : q->u[f - 1][b]);
-        for (int a = 0; a < dim; a++) {
-            double sum = 0.0;
-            for (int b = 0; b < dim; b++)
-                sum += B[dim * a + b] * raw[b];
-            g[dim * f + a] = good ? sum : 0.0;
-        }
-    }
+        M[k] = c->kernel * vec_sum(sum->M[k]);
+    invert(M, B, dim);
+    renormalise(slope, sum->rho, B, c->kernel, dim);
+    for (int a = 0; a < dim; a++)
+        renormalise(slope + dim + dim * a, sum->u[a], B, c->kernel, dim);
     if (transport == TRANSPORT_TVS || transport == TRANSPORT_TVO) {
         for (int a = 0; a < dim; a++)
-            n[a] = vec_sum(q->crowd[a]);
-        shift(s, n, line + dim, delta, dim, transport);
+            n[a] = vec_sum(sum->n[a]);
+        shift(s, delta, u, n, dim, transport);
     }
     for (int a = 0; a < dim; a++)
-        u0[a] = transport == TRANSPORT_EULERIAN ? 0.0 : line[dim + a] + delta[a];
+        u0[a] = transport == TRANSPORT_EULERIAN ? 0.0 : u[a] + delta[a];
 }
 
-static struct pass constants(const struct sph *s, int dim)
-{
-    const double R = s->R, Rd = 2.0 * s->dx, W0 = kernel_w0(dim, R);
-    const double ratio = W0 / kernel_w(dim, s->dx, R);
-    return (struct pass){.R2 = R * R,
-                         .per_R = 1.0 / R,
-                         .slope = 20.0 * W0 / (R * R),
-                         .crowd = s->dxD * 20.0 * W0 / (R * R),
-                         .tensile = 0.2 * ratio * ratio * ratio * ratio,
-                         .per_Rd = 1.0 / Rd,
-                         .crowd_near = s->dxD * 20.0 * kernel_w0(dim, Rd) / Rd};
-}
-
-static inline __attribute__((always_inline)) void gradients(struct sph *s, const int dim,
-                                                            const int transport)
+INLINE void pass(struct sph *s, const int dim, const int transport)
 {
     const struct neighbours *l = s->list;
-    const struct pass c = constants(s, dim);
-    for (int i = 0; i < l->n; i++) {
-        const double *line = s->p.prim + (size_t)PRIM * i;
+    const double R = s->R, Wdx = kernel_w(dim, s->dx, R) / kernel_w0(dim, R);
+    const struct constants c = {.R_1 = 1.0 / R,
+                                .eps2 = 1e-12 * R * R,
+                                .kernel = -kernel_dw_r(dim, 0.0, R),
+                                .W = {5.0 / Wdx, 4.0 / Wdx},
+                                .near = R / oger_radius(s)};
+    for (int i = 0; i < s->p.n; i++) {
+        const double *own = s->p.prim + (ptrdiff_t)PRIM * i;
         const int *j = l->j + l->start[i];
-        struct sums q = {0};
-        for (int k = 0; k < l->count[i]; k += LANES)
-            add_four(&q, s, &c, line, j + k, dim, transport);
-        finish(s, i, &q, dim, transport);
+        struct sums sum = {0};
+        for (int left = (l->count[i] + LANES - 1) / LANES; left > 0; left -= BATCH) {
+            struct batch near;
+            near.n = left < BATCH ? left : BATCH;
+            geometry(&c, own, s->p.prim, j, &near, dim);
+            add(&c, own, s->p.prim, j, &near, &sum, dim, transport);
+            j += BATCH * LANES;
+        }
+        write_slope(s, &c, &sum, i, dim, transport);
     }
 }
 
-#define GRADIENTS(dim, transport)                                                                  \
-    static void gradients_##dim##_##transport(struct sph *s) { gradients(s, dim, transport); }
-GRADIENTS(2, TRANSPORT_TVS)
-GRADIENTS(2, TRANSPORT_TVO)
-GRADIENTS(2, TRANSPORT_NONE)
-GRADIENTS(2, TRANSPORT_EULERIAN)
-GRADIENTS(3, TRANSPORT_TVS)
-GRADIENTS(3, TRANSPORT_TVO)
-GRADIENTS(3, TRANSPORT_NONE)
-GRADIENTS(3, TRANSPORT_EULERIAN)
+static void pass_2_tvs(struct sph *s) { pass(s, 2, TRANSPORT_TVS); }
+static void pass_2_tvo(struct sph *s) { pass(s, 2, TRANSPORT_TVO); }
+static void pass_2_none(struct sph *s) { pass(s, 2, TRANSPORT_NONE); }
+static void pass_2_eulerian(struct sph *s) { pass(s, 2, TRANSPORT_EULERIAN); }
+static void pass_3_tvs(struct sph *s) { pass(s, 3, TRANSPORT_TVS); }
+static void pass_3_tvo(struct sph *s) { pass(s, 3, TRANSPORT_TVO); }
+static void pass_3_none(struct sph *s) { pass(s, 3, TRANSPORT_NONE); }
+static void pass_3_eulerian(struct sph *s) { pass(s, 3, TRANSPORT_EULERIAN); }
 
 scheme_pass *scheme_gradients(int dim, int transport)
 {
-    static scheme_pass *const pass[2][4] = {
-        {gradients_2_TRANSPORT_TVS, gradients_2_TRANSPORT_TVO, gradients_2_TRANSPORT_NONE,
-         gradients_2_TRANSPORT_EULERIAN},
-        {gradients_3_TRANSPORT_TVS, gradients_3_TRANSPORT_TVO, gradients_3_TRANSPORT_NONE,
-         gradients_3_TRANSPORT_EULERIAN}};
-    return pass[dim - 2][transport];
+    static scheme_pass *const passes[2][4] = {
+        {pass_2_tvs, pass_2_tvo, pass_2_none, pass_2_eulerian},
+        {pass_3_tvs, pass_3_tvo, pass_3_none, pass_3_eulerian}};
+    return passes[dim - 2][transport];
 }

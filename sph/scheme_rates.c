@@ -1,292 +1,339 @@
-/* scheme_rates.c - second pass: Riemann fluxes of every pair once, added to both partners.
- *   riemann_ale  Vila's ALE form [2.86-2.89]: fluxes of mass and momentum through the middle of the
- * pair, which moves with u0; w follows div u0 riemann      Leduc's form [2.96-2.99]: the middle
- * moves with u_E, no mass flux States by limited reconstruction (riemann.h). rho_E is taken from
- * P_E along the isentrope of the mean state, rho + (P_E - P)/c^2, which errs by the square of a
- * jump. The acoustic damper adds -beta rho0 c0 R div u to each particle's pressure.
+/* scheme_rates.c - second pass of Riemann SPH: every pair is a 1D Riemann problem along its line of
+ * centres, between states that the gradients of the first pass carry to its middle. Two schemes:
+ * ALE with mass fluxes (Vila) [2.86-2.89], and without mass fluxes (Leduc) [2.96-2.99].
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../common/mem.h"
 #include "kernel.h"
 #include "neighbours.h"
 #include "riemann.h"
+#include "sph.h"
 #include "vec.h"
 
-enum { PRIM = 8, SLOPE_MAX = 16, SUM_MAX = 8 };
+enum { PRIM = 8, VISCOSITY_OFF = 2, BATCH = 8 };
 
-struct pass {
-    double R2, per_R, slope; /* slope = 20 W0/R^2 */
-    double rho0, per_rho0, B, c0, per_c0, per_c02, gamma;
-    double damper; /* beta rho0 c0 R */
-    double mu;     /* 2 mu (Morris), 2 (D+2) mu (Monaghan-Gingold), halved: areas carry the 2 */
-    int limiter;
-    bool low;
+/* What an instance of the pass has fixed. */
+struct variant {
+    int dim, scheme, limiter, viscosity, gamma;
 };
 
-/* One particle against four: what i and its four partners need. */
-struct side {
-    vec x[3], u[3], w, rho, slope[SLOPE_MAX];
+/* Numbers of the whole pass. */
+struct constants {
+    struct tait eos;
+    struct dissipation dissipation;
+    double R_1, eps2; /* 1/m; m^2: keeps r > 0 */
+    double kernel;    /* 2 |W'|/r = kernel (1 - r/R)^3 */
+    double damper;    /* beta rho0 c0 R, Pa s */
+    double c2_1;      /* 1/c0^2 */
+    double mu;        /* Pa s, times dim + 2 for Monaghan-Gingold */
 };
 
-static inline __attribute__((always_inline)) void unpack(const vec *p, const vec *g, struct side *q,
-                                                         const int dim)
+/* The particle of a row, the same in all lanes. */
+struct own {
+    vec x[3], u[3], rho, grho[3], gu[3][3], u0[3];
+    vec w;      /* with the kernel's constant */
+    vec Z;      /* rho c */
+    vec damped; /* what the acoustic damper takes from p */
+};
+
+/* Vectors of neighbours of one row between the loops that treat them. */
+struct batch {
+    int n;
+    vec d[3][BATCH]; /* x_j - x_i */
+    vec f[BATCH];    /* 2 w_i w_j |W'|/r */
+    struct weights weights[BATCH];
+    vec rho[BATCH];                  /* of j; then the mean of both states */
+    vec D[3][BATCH];                 /* u_j - u_i */
+    vec u[2][3][BATCH], p[2][BATCH]; /* states at the middle: i's side, j's side */
+};
+
+/* What the pairs give to their first particle. */
+struct sums {
+    vec q[3], w, m;
+};
+
+static struct constants constants_of(const struct sph *s)
 {
-    for (int a = 0; a < dim; a++) {
-        q->x[a] = p[a];
-        q->u[a] = p[dim + a];
-    }
-    q->w = p[2 * dim];
-    q->rho = p[2 * dim + 1];
-    for (int k = 0; k < dim + dim * dim + dim; k++)
-        q->slope[k] = g[k];
+    return (struct constants){
+        .eos = {.rho0_1 = 1.0 / s->rho0,
+                .B = s->rho0 * s->c0 * s->c0 / s->gamma,
+                .Z0 = s->rho0 * s->c0},
+        .dissipation = {.factor = 3.0 / s->c0, .least = s->prm.low_dissipation ? 0.0 : 1.0},
+        .R_1 = 1.0 / s->R,
+        .eps2 = 1e-12 * s->R * s->R,
+        .kernel = -2.0 * kernel_dw_r(s->dim, 0.0, s->R),
+        .damper = s->prm.damper * s->rho0 * s->c0 * s->R,
+        .c2_1 = 1.0 / (s->c0 * s->c0),
+        .mu = s->rho0 * s->nu * (s->prm.viscosity == VISCOSITY_MORRIS ? 1.0 : s->dim + 2.0),
+    };
 }
 
-/* P, c of a reconstructed density. */
-static inline __attribute__((always_inline)) void state_of(const struct pass *c, vec rho,
-                                                           const bool stiff, vec *P, vec *sound)
+INLINE vec dot(const vec *a, const vec *b, const int dim)
 {
-    if (stiff || c->gamma == 7.0) {
-        tait7(rho * c->per_rho0, c->B, c->c0, P, sound);
-    } else {
-        *P = c->c0 * c->c0 * (rho - c->rho0);
-        *sound = vec_all(c->c0);
-    }
+    return dim == 2 ? a[0] * b[0] + a[1] * b[1] : a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static inline __attribute__((always_inline)) vec dot(const vec *a, const vec *b, const int dim)
+INLINE struct own load_own(const struct constants *c, const double *prim, const double *slope,
+                           const struct variant v)
 {
-    vec s = a[0] * b[0] + a[1] * b[1];
-    return dim == 3 ? s + a[2] * b[2] : s;
+    const int dim = v.dim;
+    const double *g = slope + dim, *u0 = g + dim * dim;
+    struct own i;
+    double divergence = 0.0;
+    for (int a = 0; a < dim; a++) {
+        i.x[a] = vec_all(prim[a]);
+        i.u[a] = vec_all(prim[dim + a]);
+        i.grho[a] = vec_all(slope[a]);
+        i.u0[a] = vec_all(u0[a]);
+        for (int b = 0; b < dim; b++)
+            i.gu[a][b] = vec_all(g[dim * a + b]);
+        divergence += g[dim * a + a];
+    }
+    i.w = vec_all(c->kernel * prim[2 * dim]);
+    i.rho = vec_all(prim[2 * dim + 1]);
+    i.Z = impedance(&c->eos, i.rho, v.gamma);
+    i.damped = vec_all(c->damper * divergence);
+    return i;
 }
 
-/* Rates of i and of its partners j: sum[0..dim-1] momentum, [dim] volume, [dim+1] mass, of i and j.
- */
-static inline __attribute__((always_inline)) void pair(const struct pass *c, const struct side *i,
-                                                       const struct side *j, vec *to_i, vec *to_j,
-                                                       const int dim, const int scheme,
-                                                       const int viscosity, const int limiter,
-                                                       const bool low, const bool stiff)
+/* First loop: distances, kernel, and what the Riemann problem needs of the particles themselves. */
+INLINE void geometry(const struct constants *c, const struct own *i, const double *prim,
+                     const int *j, struct batch *t, const struct variant v)
 {
-    const vec zero = {0.0, 0.0, 0.0, 0.0};
-    vec d[3], n[3], ul[3], ur[3], r2 = vec_all(1e-12 * c->R2);
-    for (int a = 0; a < dim; a++) {
-        d[a] = j->x[a] - i->x[a];
-        r2 += d[a] * d[a];
-    }
-    const vec r = vec_sqrt(r2), t = vec_max(1.0 - r * c->per_R, zero);
-    const vec g = c->slope * t * t * t * i->w * j->w; /* w_i w_j |W'|/r */
-
-    /* states on both sides of the middle */
-    const vec Dr = j->rho - i->rho;
-    const vec rl = i->rho + half_step(Dr, dot(i->slope, d, dim), limiter);
-    const vec rr = j->rho - half_step(Dr, dot(j->slope, d, dim), limiter);
-    for (int a = 0; a < dim; a++) {
-        const vec D = j->u[a] - i->u[a];
-        ul[a] = i->u[a] + half_step(D, dot(i->slope + dim * (a + 1), d, dim), limiter);
-        ur[a] = j->u[a] - half_step(D, dot(j->slope + dim * (a + 1), d, dim), limiter);
-    }
-    vec Pl, Pr, cl, cr, divi = zero, divj = zero;
-    state_of(c, rl, stiff, &Pl, &cl);
-    state_of(c, rr, stiff, &Pr, &cr);
-    for (int a = 0; a < dim; a++) {
-        divi += i->slope[dim * (a + 1) + a];
-        divj += j->slope[dim * (a + 1) + a];
-    }
-    Pl -= c->damper * divi;
-    Pr -= c->damper * divj;
-
-    /* one division serves 1/r and 1/(Zl + Zr) */
-    const vec Zl = rl * cl, Zr = rr * cr, Z = Zl + Zr, both = 1.0 / (r * Z), per_r = both * Z;
-    vec uE, PE;
-    for (int a = 0; a < dim; a++)
-        n[a] = d[a] * per_r;
-    const vec unl = dot(ul, n, dim), unr = dot(ur, n, dim);
-    riemann(Zl, unl, Pl, Zr, unr, Pr, both * r, low, c->per_c0, &uE, &PE);
-
-    const vec area = g * r, area2 = 2.0 * area; /* w_i w_j |W'| */
-    const vec *u0i = i->slope + dim + dim * dim, *u0j = j->slope + dim + dim * dim;
-    vec push = area2 * PE, viscous = zero;
-    if (viscosity == 1) /* Morris [2.31] */
-        viscous = 2.0 * c->mu * g;
-    vec along = zero;
-    if (viscosity == 2) /* Monaghan-Gingold [2.32] */
-        along = 2.0 * c->mu * g * (dot(j->u, n, dim) - dot(i->u, n, dim));
-    if (scheme == SCHEME_RIEMANN_ALE) {
-        vec u0[3], du0[3];
-        for (int a = 0; a < dim; a++) {
-            u0[a] = 0.5 * (u0i[a] + u0j[a]);
-            du0[a] = u0j[a] - u0i[a];
-        }
-        const vec rel = uE - dot(u0, n, dim);
-        const vec rhoE = 0.5 * (rl + rr) + (PE - 0.5 * (Pl + Pr)) * c->per_c02;
-        const vec flux = area2 * rhoE * rel;
-        const mask from_i = rel > zero;
-        const vec kick = uE - vec_pick(from_i, unl, unr); /* tangential part of the upwind side */
-        for (int a = 0; a < dim; a++) {
-            vec f = flux * (vec_pick(from_i, ul[a], ur[a]) + kick * n[a]) + push * n[a];
-            if (viscosity)
-                f -= viscous * (j->u[a] - i->u[a]) + along * n[a];
-            to_i[a] = -f;
-            to_j[a] = f;
-        }
-        to_i[dim] = to_j[dim] = area * dot(du0, n, dim);
-        to_i[dim + 1] = -flux;
-        to_j[dim + 1] = flux;
-    } else {
-        for (int a = 0; a < dim; a++) {
-            vec f = push * n[a];
-            if (viscosity)
-                f -= viscous * (j->u[a] - i->u[a]) + along * n[a];
-            to_i[a] = -f;
-            to_j[a] = f;
-        }
-        to_i[dim] = area2 * (uE - dot(i->u, n, dim));
-        to_j[dim] = area2 * (dot(j->u, n, dim) - uE);
-        to_i[dim + 1] = to_j[dim + 1] = zero;
-    }
-}
-
-/* Adds columns of four partners to their rows. A dummy may stand more than once: its row is never
- * read. */
-static inline __attribute__((always_inline)) void scatter(double *sums, const int *j, vec *to_j,
-                                                          const int dim)
-{
-    const int width = dim == 2 ? 4 : 8;
-    vec_transpose(to_j, to_j + 1, to_j + 2, to_j + 3);
-    for (int k = 0; k < LANES; k++) {
-        double *row = sums + (size_t)j[k] * (size_t)width;
-        vec_store(row, vec_load(row) + to_j[k]);
+    const int dim = v.dim;
+    for (int k = 0; k < t->n; k++, j += LANES) {
+        vec x[3], w, rho, spare, r2;
+        vec_columns(prim, PRIM, j, 0, x, x + 1);
         if (dim == 3)
-            row[4] += to_j[4][k];
+            vec_columns(prim, PRIM, j, 2, x + 2, &spare);
+        vec_columns(prim, PRIM, j, 2 * dim, &w, &rho);
+        for (int a = 0; a < dim; a++) {
+            x[a] -= i->x[a];
+            t->d[a][k] = x[a];
+        }
+        r2 = dot(x, x, dim) + c->eps2;
+        const vec r = vec_sqrt(r2), q = vec_max(1.0 - r * c->R_1, vec_all(0.0));
+        t->f[k] = q * q * q * (w * i->w);
+        t->rho[k] = rho;
+        t->weights[k] = weigh(r, i->Z, impedance(&c->eos, rho, v.gamma));
     }
 }
 
-/* Sums of the row of i over its partners behind it. */
-static inline __attribute__((always_inline)) void
-row(struct sph *s, const struct pass *c, double *sums, int i, const int dim, const int scheme,
-    const int viscosity, const int limiter, const bool low, const bool stiff)
+INLINE void load_slopes(const double *slope, const int *j, vec grho[3], vec gu[3][3], const int dim)
+{
+    if (dim == 2) {
+        vec_columns(slope, 8, j, 0, grho, grho + 1);
+        vec_columns(slope, 8, j, 2, gu[0], gu[0] + 1);
+        vec_columns(slope, 8, j, 4, gu[1], gu[1] + 1);
+    } else {
+        vec_columns(slope, 16, j, 0, grho, grho + 1);
+        vec_columns(slope, 16, j, 2, grho + 2, gu[0]);
+        vec_columns(slope, 16, j, 4, gu[0] + 1, gu[0] + 2);
+        vec_columns(slope, 16, j, 6, gu[1], gu[1] + 1);
+        vec_columns(slope, 16, j, 8, gu[1] + 2, gu[2]);
+        vec_columns(slope, 16, j, 10, gu[2] + 1, gu[2] + 2);
+    }
+}
+
+/* Second loop: states at the middle [2.78-2.83] of rho and the components of u, pressures of
+ * both with the acoustic damper. */
+INLINE void states(const struct constants *c, const struct own *i, const struct sph *s,
+                   const int *j, struct batch *t, const struct variant v)
+{
+    const int dim = v.dim;
+    for (int k = 0; k < t->n; k++, j += LANES) {
+        vec d[3], u[3], grho[3], gu[3][3], spare, rho[2] = {i->rho, t->rho[k]};
+        for (int a = 0; a < dim; a++)
+            d[a] = t->d[a][k];
+        load_slopes(s->p.slope, j, grho, gu, dim);
+        if (dim == 2) {
+            vec_columns(s->p.prim, PRIM, j, 2, u, u + 1);
+        } else {
+            vec_columns(s->p.prim, PRIM, j, 2, &spare, u);
+            vec_columns(s->p.prim, PRIM, j, 4, u + 1, u + 2);
+        }
+        const vec divergence = dim == 2 ? gu[0][0] + gu[1][1] : gu[0][0] + gu[1][1] + gu[2][2];
+        reconstruct(rho, rho + 1, dot(i->grho, d, dim), dot(grho, d, dim), v.limiter);
+        t->rho[k] = 0.5 * (rho[0] + rho[1]);
+        t->p[0][k] = pressure(&c->eos, rho[0], v.gamma) - i->damped;
+        t->p[1][k] = pressure(&c->eos, rho[1], v.gamma) - c->damper * divergence;
+        for (int a = 0; a < dim; a++) {
+            vec left = i->u[a], right = u[a];
+            t->D[a][k] = right - left;
+            reconstruct(&left, &right, dot(i->gu[a], d, dim), dot(gu[a], d, dim), v.limiter);
+            t->u[0][a][k] = left;
+            t->u[1][a][k] = right;
+        }
+    }
+}
+
+INLINE void load_u0(const double *slope, const int *j, vec u0[3], const int dim)
+{
+    vec spare;
+    if (dim == 2) {
+        vec_columns(slope, 8, j, 6, u0, u0 + 1);
+    } else {
+        vec_columns(slope, 16, j, 12, u0, u0 + 1);
+        vec_columns(slope, 16, j, 14, u0 + 2, &spare);
+    }
+}
+
+/* Rows of the sums: momentum, volume, mass; 8 doubles in 3D, where the mass has no place in the
+ * first four. */
+INLINE void add_to_neighbours(double *sums, const int *j, const vec *q, vec w, vec m,
+                              const struct variant v)
+{
+    if (v.dim == 2) {
+        vec_add_rows(sums, 4, j, q[0], q[1], w, m);
+        return;
+    }
+    vec_add_rows(sums, 8, j, q[0], q[1], q[2], w);
+    if (v.scheme == SCHEME_RIEMANN_ALE)
+        for (int l = 0; l < LANES; l++)
+            sums[8 * (ptrdiff_t)j[l] + 4] += m[l];
+}
+
+/* Third loop: star states and fluxes, to j as they are, to i with the opposite sign but for
+ * volumes. */
+INLINE void fluxes(const struct constants *c, const struct own *i, const struct sph *s,
+                   const int *j, const struct batch *t, double *sums, struct sums *to,
+                   const struct variant v)
+{
+    const int dim = v.dim;
+    for (int k = 0; k < t->n; k++, j += LANES) {
+        const struct weights *z = t->weights + k;
+        const vec f = t->f[k], p[2] = {t->p[0][k], t->p[1][k]};
+        vec d[3], D[3], uI[3], uJ[3], q[3], w, m = vec_all(0.0), vE, pE;
+        for (int a = 0; a < dim; a++) {
+            d[a] = t->d[a][k];
+            D[a] = t->D[a][k];
+            uI[a] = t->u[0][a][k];
+            uJ[a] = t->u[1][a][k];
+        }
+        const vec V[2] = {dot(uI, d, dim), dot(uJ, d, dim)};
+        star(&c->dissipation, z, p, V, &vE, &pE);
+        vec Q = f * pE;                        /* times d: what acts along the line of centres */
+        if (v.viscosity == VISCOSITY_MONAGHAN) /* [2.32] */
+            Q -= c->mu * f * dot(D, d, dim) * (z->r_1 * z->r_1);
+        if (v.scheme == SCHEME_RIEMANN_ALE) {
+            /* rho_E = EOS^-1(p_E) about the mean state, where the damper cancels; the tangential
+             * part of u_E is that of the side the fluid comes from. */
+            vec u0[3];
+            load_u0(s->p.slope, j, u0, dim);
+            const vec S[2] = {dot(i->u0, d, dim), dot(u0, d, dim)};
+            const vec rho = t->rho[k] + c->c2_1 * (pE - 0.5 * (p[0] + p[1]));
+            m = f * rho * (vE - 0.5 * (S[0] + S[1])); /* [2.88] */
+            const vec mI = vec_max(m, vec_all(0.0)), mJ = m - mI;
+            Q += (m * vE - mI * V[0] - mJ * V[1]) * (z->r_1 * z->r_1);
+            for (int a = 0; a < dim; a++)
+                q[a] = mI * uI[a] + mJ * uJ[a] + Q * d[a]; /* [2.89] */
+            w = 0.5 * f * (S[1] - S[0]);                   /* [2.87], the same for both */
+            to->w += w;
+        } else {
+            for (int a = 0; a < dim; a++)
+                q[a] = Q * d[a]; /* [2.99] */
+            const vec ui = dot(i->u, d, dim);
+            w = f * (ui + dot(D, d, dim) - vE); /* [2.97] */
+            to->w += f * (vE - ui);
+        }
+        if (v.viscosity == VISCOSITY_MORRIS) /* [2.31] */
+            for (int a = 0; a < dim; a++)
+                q[a] -= c->mu * f * D[a];
+        for (int a = 0; a < dim; a++)
+            to->q[a] -= q[a];
+        to->m -= m;
+        add_to_neighbours(sums, j, q, w, m, v);
+    }
+}
+
+/* Row i of the list from the first neighbour beyond i on; all others have added theirs before.
+ * Three loops instead of one: chains of dependent operations are short enough then for several
+ * vectors to be under way at once. */
+INLINE void add_row(const struct sph *s, const struct constants *c, double *sums, int i,
+                    const struct variant v)
 {
     const struct neighbours *l = s->list;
-    const int nslope = dim == 2 ? 8 : 16, width = dim == 2 ? 4 : 8;
-    const int *j = l->j + l->start[i];
-    vec p[PRIM], g[SLOPE_MAX], mine[SUM_MAX] = {{0}};
-    struct side one, four;
-    for (int k = 0; k < PRIM; k++)
-        p[k] = vec_all(s->p.prim[(size_t)PRIM * i + k]);
-    for (int k = 0; k < nslope; k++)
-        g[k] = vec_all(s->p.slope[(size_t)nslope * i + k]);
-    unpack(p, g, &one, dim);
-    for (int k = l->tail[i]; k < l->count[i]; k += LANES) {
-        vec to_i[SUM_MAX], to_j[SUM_MAX];
-        vec_columns(s->p.prim, PRIM, j + k, PRIM, p);
-        vec_columns(s->p.slope, nslope, j + k, nslope, g);
-        unpack(p, g, &four, dim);
-        pair(c, &one, &four, to_i, to_j, dim, scheme, viscosity, limiter, low, stiff);
-        for (int m = 0; m < dim + 2; m++)
-            mine[m] += to_i[m];
-        scatter(sums, j + k, to_j, dim);
+    const int dim = v.dim, nslope = dim == 2 ? 8 : 16, nsums = dim == 2 ? 4 : 8;
+    const struct own own =
+        load_own(c, s->p.prim + (ptrdiff_t)PRIM * i, s->p.slope + (ptrdiff_t)nslope * i, v);
+    const int *j = l->j + l->start[i] + l->tail[i];
+    struct sums to = {0};
+    for (int left = (l->count[i] - l->tail[i] + LANES - 1) / LANES; left > 0; left -= BATCH) {
+        struct batch t;
+        t.n = left < BATCH ? left : BATCH;
+        geometry(c, &own, s->p.prim, j, &t, v);
+        states(c, &own, s, j, &t, v);
+        fluxes(c, &own, s, j, &t, sums, &to, v);
+        j += BATCH * LANES;
     }
-    for (int m = 0; m < dim + 2; m++)
-        sums[(size_t)i * width + m] += vec_sum(mine[m]);
+    double *row = sums + (ptrdiff_t)nsums * i;
+    for (int a = 0; a < dim; a++)
+        row[a] += vec_sum(to.q[a]);
+    row[dim] += vec_sum(to.w);
+    if (v.scheme == SCHEME_RIEMANN_ALE)
+        row[dim + 1] += vec_sum(to.m);
 }
 
-static struct pass constants(const struct sph *s)
+INLINE void write_rates(struct sph *s, const double *sums, const int dim)
 {
-    const double per_c0 = 1.0 / s->c0, mu = s->rho0 * s->nu;
-    return (struct pass){.R2 = s->R * s->R,
-                         .per_R = 1.0 / s->R,
-                         .slope = 20.0 * kernel_w0(s->dim, s->R) / (s->R * s->R),
-                         .rho0 = s->rho0,
-                         .per_rho0 = 1.0 / s->rho0,
-                         .B = s->rho0 * s->c0 * s->c0 / 7.0,
-                         .c0 = s->c0,
-                         .per_c0 = per_c0,
-                         .per_c02 = per_c0 * per_c0,
-                         .gamma = s->gamma,
-                         .damper = s->prm.damper * s->rho0 * s->c0 * s->R,
-                         .mu = s->prm.viscosity == VISCOSITY_MORRIS ? mu : (s->dim + 2) * mu,
-                         .limiter = s->prm.limiter,
-                         .low = s->prm.low_dissipation};
-}
-
-/* Zeroed sums of locals, ghosts and the dummy. */
-static double *clear_sums(struct sph *s, int width)
-{
-    struct neighbours *l = s->list;
-    const int64_t n = (int64_t)(s->p.capacity + 1) * width;
-    if (n > l->sums_capacity) {
-        mem_free(l->sums);
-        l->sums = NEW(double, n);
-        l->sums_capacity = n;
-    }
-    memset(l->sums, 0, (size_t)(s->p.n + s->p.nghost) * (size_t)width * sizeof(double));
-    memset(l->sums + (size_t)s->p.capacity * (size_t)width, 0, (size_t)width * sizeof(double));
-    return l->sums;
-}
-
-/* Rows of sums to rates: x moves with u0, gravity acts on the mass. */
-static void spread(struct sph *s, const double *sums, int width)
-{
-    const int dim = s->dim, nstate = s->p.nstate;
+    const int nsums = dim == 2 ? 4 : 8, nstate = 2 * dim + 2;
     for (int i = 0; i < s->p.n; i++) {
-        double *rate = s->p.rate + (size_t)i * nstate;
-        const double *u0 = s->p.slope + (size_t)i * s->p.nslope + dim + dim * dim;
-        const double *sum = sums + (size_t)i * width, m = s->p.y[(size_t)i * nstate + 2 * dim + 1];
+        const double *row = sums + (ptrdiff_t)nsums * i, *y = s->p.y + (ptrdiff_t)nstate * i;
+        const double *u0 = s->p.slope + (ptrdiff_t)s->p.nslope * i + dim + dim * dim;
+        double *rate = s->p.rate + (ptrdiff_t)nstate * i;
         for (int a = 0; a < dim; a++) {
             rate[a] = u0[a];
-            rate[dim + a] = sum[a] + m * s->gravity[a];
+            rate[dim + a] = row[a] + y[2 * dim + 1] * s->gravity[a];
         }
-        rate[2 * dim] = sum[dim];
-        rate[2 * dim + 1] = sum[dim + 1];
+        rate[2 * dim] = row[dim];
+        rate[2 * dim + 1] = row[dim + 1];
     }
 }
 
-static inline __attribute__((always_inline)) void
-rates(struct sph *s, const int dim, const int scheme, const int viscosity, const bool plain)
+INLINE void rates(struct sph *s, const struct variant v)
 {
-    const struct pass c = constants(s);
-    const int width = dim == 2 ? 4 : 8;
-    double *sums = clear_sums(s, width);
-    for (int i = 0; i < s->list->n; i++) {
-        if (plain) /* the default states: all constants */
-            row(s, &c, sums, i, dim, scheme, viscosity, LIMITER_KOREN, true, true);
-        else
-            row(s, &c, sums, i, dim, scheme, viscosity, c.limiter, c.low, false);
-    }
-    spread(s, sums, width);
+    const struct constants c = constants_of(s);
+    double *sums = neighbours_sums(s, v.dim == 2 ? 4 : 8);
+    for (int i = 0; i < s->p.n; i++)
+        add_row(s, &c, sums, i, v);
+    write_rates(s, sums, v.dim);
 }
 
-/* clang-format off */
-#define RATES(dim, scheme, viscosity)                                                              \
-    static void rates_##dim##_##scheme##_##viscosity(struct sph *s)                                \
+/* One instance for every choice: what it leaves out costs nothing. */
+#define NAME(dim, scheme, limiter, viscosity, gamma)                                               \
+    rates_##dim##_##scheme##_##limiter##_##viscosity##_##gamma
+#define DEFINE(dim, scheme, limiter, viscosity, gamma)                                             \
+    static void NAME(dim, scheme, limiter, viscosity, gamma)(struct sph * s)                       \
     {                                                                                              \
-        rates(s, dim, scheme, viscosity, false);                                                   \
-    }                                                                                              \
-    static void plain_##dim##_##scheme##_##viscosity(struct sph *s)                                \
-    {                                                                                              \
-        rates(s, dim, scheme, viscosity, true);                                                    \
+        rates(s, (struct variant){dim, scheme, limiter, viscosity, gamma});                        \
     }
-#define ALL(F)                                                                                     \
-    F(2, 0, 0)                                                                                     \
-    F(2, 0, 1) F(2, 0, 2) F(2, 1, 0) F(2, 1, 1) F(2, 1, 2) F(3, 0, 0) F(3, 0, 1) F(3, 0, 2)        \
-        F(3, 1, 0) F(3, 1, 1) F(3, 1, 2)
-ALL(RATES)
+#define ENTRY(dim, scheme, limiter, viscosity, gamma)                                              \
+    [dim - 2][scheme][limiter][viscosity][gamma == 1] =                                            \
+        NAME(dim, scheme, limiter, viscosity, gamma),
+#define EACH_VISCOSITY(X, ...)                                                                     \
+    X(__VA_ARGS__, VISCOSITY_MORRIS, 7)                                                            \
+    X(__VA_ARGS__, VISCOSITY_MONAGHAN, 7)                                                          \
+    X(__VA_ARGS__, VISCOSITY_OFF, 7)                                                               \
+    X(__VA_ARGS__, VISCOSITY_MORRIS, 1)                                                            \
+    X(__VA_ARGS__, VISCOSITY_MONAGHAN, 1)                                                          \
+    X(__VA_ARGS__, VISCOSITY_OFF, 1)
+#define EACH_LIMITER(X, ...)                                                                       \
+    EACH_VISCOSITY(X, __VA_ARGS__, LIMITER_KOREN)                                                  \
+    EACH_VISCOSITY(X, __VA_ARGS__, LIMITER_MINMOD)                                                 \
+    EACH_VISCOSITY(X, __VA_ARGS__, LIMITER_NONE)
+#define EACH(X)                                                                                    \
+    EACH_LIMITER(X, 2, SCHEME_RIEMANN_ALE)                                                         \
+    EACH_LIMITER(X, 2, SCHEME_RIEMANN)                                                             \
+    EACH_LIMITER(X, 3, SCHEME_RIEMANN_ALE)                                                         \
+    EACH_LIMITER(X, 3, SCHEME_RIEMANN)
 
-#define ENTRY(dim, scheme, viscosity)                                                              \
-    [dim - 2][scheme][viscosity] = {rates_##dim##_##scheme##_##viscosity,                          \
-                                    plain_##dim##_##scheme##_##viscosity},
-/* clang-format on */
+EACH(DEFINE)
 
 scheme_pass *scheme_rates(const struct sph *s)
 {
-    static scheme_pass *const pass[2][2][3][2] = {ALL(ENTRY)};
-    const int viscosity = s->nu > 0.0 ? (s->prm.viscosity == VISCOSITY_MORRIS ? 1 : 2) : 0;
-    const bool plain = s->prm.limiter == LIMITER_KOREN && s->prm.low_dissipation && s->gamma == 7.0;
-    return pass[s->dim - 2][s->prm.scheme][viscosity][plain];
+    static scheme_pass *const passes[2][2][3][3][2] = {EACH(ENTRY)};
+    const int viscosity = s->nu > 0.0 ? s->prm.viscosity : VISCOSITY_OFF;
+    return passes[s->dim - 2][s->prm.scheme][s->prm.limiter][viscosity][s->gamma == 1.0];
 }
 
 struct scheme scheme_pick(const struct sph *s)

@@ -1,51 +1,117 @@
-/* vec.h - four doubles at once on gcc's vector types: no intrinsics, any machine; pair bodies are
- * written on these. Lines of four particles become columns by a transpose in registers, which beats
- * gathers on all machines tried. SPDX-License-Identifier: BSD-3-Clause */
+/* vec.h - vectors of LANES doubles for the pair loops: one lane a neighbour, on gcc's vector types.
+ * Lines of neighbours are loaded whole and transposed in registers, which beats gathers; results go
+ * back to them the same way. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_VEC_H
 #define SPH_VEC_H
 
 #include <math.h>
 #include <stddef.h>
-#include <stdint.h>
+#include <string.h>
 
-enum { LANES = 4 };
-typedef double vec __attribute__((vector_size(32)));
-typedef int64_t mask __attribute__((vector_size(32)));
+#ifndef LANES
+#ifdef __AVX512F__
+#define LANES 8
+#else
+#define LANES 4
+#endif
+#endif
 
-static inline vec vec_all(double a) { return (vec){a, a, a, a}; }
-static inline vec vec_pick(mask m, vec a, vec b) { return (vec)((m & (mask)a) | (~m & (mask)b)); }
-static inline vec vec_max(vec a, vec b) { return vec_pick(a > b, a, b); }
-static inline vec vec_min(vec a, vec b) { return vec_pick(a < b, a, b); }
-static inline vec vec_sqrt(vec a) { return (vec){sqrt(a[0]), sqrt(a[1]), sqrt(a[2]), sqrt(a[3])}; }
-static inline double vec_sum(vec a) { return (a[0] + a[1]) + (a[2] + a[3]); }
-static inline vec vec_load(const double *p) { return *(const vec *)(const void *)p; }
-static inline void vec_store(double *p, vec a) { *(vec *)(void *)p = a; }
+typedef double vec __attribute__((vector_size(8 * LANES), may_alias));
+typedef long long vec_bits __attribute__((vector_size(8 * LANES)));
+typedef double vec2 __attribute__((vector_size(16), may_alias));
+typedef double vec4 __attribute__((vector_size(32), may_alias));
 
-static inline __attribute__((always_inline)) void vec_transpose(vec *a, vec *b, vec *c, vec *d)
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE vec vec_all(double a)
 {
-    const vec t0 = __builtin_shuffle(*a, *b, (mask){0, 4, 2, 6});
-    const vec t1 = __builtin_shuffle(*a, *b, (mask){1, 5, 3, 7});
-    const vec t2 = __builtin_shuffle(*c, *d, (mask){0, 4, 2, 6});
-    const vec t3 = __builtin_shuffle(*c, *d, (mask){1, 5, 3, 7});
-    *a = __builtin_shuffle(t0, t2, (mask){0, 1, 4, 5});
-    *b = __builtin_shuffle(t1, t3, (mask){0, 1, 4, 5});
-    *c = __builtin_shuffle(t0, t2, (mask){2, 3, 6, 7});
-    *d = __builtin_shuffle(t1, t3, (mask){2, 3, 6, 7});
+    vec v;
+    for (int l = 0; l < LANES; l++)
+        v[l] = a;
+    return v;
 }
 
-/* n columns (a multiple of 4) of the lines j[0..3], each `width' doubles long. */
-static inline __attribute__((always_inline)) void vec_columns(const double *lines, int width,
-                                                              const int *j, int n, vec *column)
+/* Where the plain form compiles to several instructions though the machine has one, it is named. */
+#if LANES == 4 && defined __AVX__
+INLINE vec vec_sqrt(vec a) { return (vec)__builtin_ia32_sqrtpd256(a); }
+INLINE vec vec_max(vec a, vec b) { return (vec)__builtin_ia32_maxpd256(a, b); }
+INLINE vec vec_min(vec a, vec b) { return (vec)__builtin_ia32_minpd256(a, b); }
+#else
+INLINE vec vec_sqrt(vec a)
 {
-    const double *a = lines + (size_t)j[0] * width, *b = lines + (size_t)j[1] * width;
-    const double *c = lines + (size_t)j[2] * width, *d = lines + (size_t)j[3] * width;
-    for (int k = 0; k < n; k += 4) {
-        column[k] = vec_load(a + k);
-        column[k + 1] = vec_load(b + k);
-        column[k + 2] = vec_load(c + k);
-        column[k + 3] = vec_load(d + k);
-        vec_transpose(column + k, column + k + 1, column + k + 2, column + k + 3);
+    vec v;
+    for (int l = 0; l < LANES; l++)
+        v[l] = sqrt(a[l]);
+    return v;
+}
+INLINE vec vec_max(vec a, vec b)
+{
+    const vec_bits first = a > b;
+    return (vec)((first & (vec_bits)a) | (~first & (vec_bits)b));
+}
+INLINE vec vec_min(vec a, vec b)
+{
+    const vec_bits first = a < b;
+    return (vec)((first & (vec_bits)a) | (~first & (vec_bits)b));
+}
+#endif
+
+INLINE vec2 load2(const double *p) { return *(const vec2 *)(const void *)p; }
+
+/* Low and high half of one vector. */
+INLINE vec4 join(vec2 a, const double *p)
+{
+#ifdef __AVX__ /* the insertion takes its operand from memory; from the shuffle gcc makes two      \
+                  steps */
+    return __builtin_ia32_vinsertf128_pd256(__builtin_ia32_pd256_pd(a), load2(p), 1);
+#else
+    return __builtin_shufflevector(a, load2(p), 0, 1, 2, 3);
+#endif
+}
+
+/* Columns k and k+1 (k even) of the lines of LANES neighbours: line + stride * j[l]. */
+INLINE void vec_columns(const double *line, const ptrdiff_t stride, const int *j, const int k,
+                        vec *a, vec *b)
+{
+#if LANES == 4
+    const vec4 even = join(load2(line + stride * j[0] + k), line + stride * j[2] + k);
+    const vec4 odd = join(load2(line + stride * j[1] + k), line + stride * j[3] + k);
+    *a = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+    *b = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+#else
+    for (int l = 0; l < LANES; l++) {
+        (*a)[l] = line[stride * j[l] + k];
+        (*b)[l] = line[stride * j[l] + k + 1];
     }
+#endif
+}
+
+/* Adds (a, b, c, d) of each lane to the first four entries of its row. The rows of one vector
+ * differ but for padding, whose lanes are zero. */
+INLINE void vec_add_rows(double *row, const ptrdiff_t stride, const int *j, vec a, vec b, vec c,
+                         vec d)
+{
+#if LANES == 4
+    const vec ab02 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+    const vec ab13 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const vec cd02 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+    const vec cd13 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    *(vec4 *)(void *)(row + stride * j[0]) += __builtin_shufflevector(ab02, cd02, 0, 1, 4, 5);
+    *(vec4 *)(void *)(row + stride * j[1]) += __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5);
+    *(vec4 *)(void *)(row + stride * j[2]) += __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7);
+    *(vec4 *)(void *)(row + stride * j[3]) += __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7);
+#else
+    for (int l = 0; l < LANES; l++)
+        *(vec4 *)(void *)(row + stride * j[l]) += (vec4){a[l], b[l], c[l], d[l]};
+#endif
+}
+
+INLINE double vec_sum(vec a)
+{
+    double s = 0.0;
+    for (int l = 0; l < LANES; l++)
+        s += a[l];
+    return s;
 }
 
 #endif

@@ -101,7 +101,10 @@ static void add_pair(const struct sph *s, int i, int j, double *rate)
         dv0 += (u0j[a] - u0i[a]) * n[a];
         vi += p[dim + a] * n[a];
     }
-    const double Zl = rl * cl, Zr = rr * cr;
+    /* impedances of the particles, not of their states: the difference is of the order of the jump
+     */
+    const double Zl = p[2 * dim + 1] * eos_c(p[2 * dim + 1], s->rho0, s->c0, s->gamma);
+    const double Zr = q[2 * dim + 1] * eos_c(q[2 * dim + 1], s->rho0, s->c0, s->gamma);
     const double beta = s->prm.low_dissipation ? fmin(1.0, 3.0 * fmax(vl - vr, 0.0) / s->c0) : 1.0;
     const double uE = (Zl * vl + Zr * vr + Pl - Pr) / (Zl + Zr);
     const double PE = (Zr * Pl + Zl * Pr + beta * Zl * Zr * (vl - vr)) / (Zl + Zr);
