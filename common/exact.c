@@ -3,6 +3,7 @@
 #include "exact.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static void set_mode(struct exact *e, int m, double kx, double ky, double A, double s)
 {
@@ -135,4 +136,15 @@ double norm_rms_mean_free(const struct norm *n)
 {
     const double m = norm_mean(n);
     return n->vol > 0.0 ? sqrt(fmax(n->e2 / n->vol - m * m, 0.0)) : 0.0;
+}
+
+void norm_tell(struct summary *to, const char *name, const struct norm *n)
+{
+    static const char *const part[] = {"vol", "e1", "e2", "r2", "emax"};
+    const double v[] = {n->vol, n->e1, n->e2, n->r2, n->emax};
+    for (size_t k = 0; k < sizeof v / sizeof v[0]; k++) {
+        char key[96];
+        snprintf(key, sizeof key, "norm.%s.%s", name, part[k]);
+        summary_real(to, key, v[k]);
+    }
 }

@@ -9,6 +9,7 @@
 #define COMMON_EXACT_H
 
 #include "scene.h"
+#include "series.h"
 
 struct exact {
     int dim;
@@ -46,5 +47,8 @@ double norm_relative_l2(const struct norm *n);              /* sqrt(e2/r2) */
 double norm_rms(const struct norm *n);                      /* sqrt(e2/vol) */
 double norm_mean(const struct norm *n);                     /* e1/vol */
 double norm_rms_mean_free(const struct norm *n);            /* sqrt(e2/vol - (e1/vol)^2) */
+
+/* The sums as "norm.NAME.vol", .e1, .e2, .r2, .emax: a coupler adds them up over programs. */
+void norm_tell(struct summary *to, const char *name, const struct norm *n);
 
 #endif

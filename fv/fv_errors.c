@@ -3,7 +3,6 @@
 #include "fv.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "../common/mem.h"
 #include "forcing.h"
@@ -113,19 +112,7 @@ void fv_row(void *state, double *values)
     }
 }
 
-static void summarise_norms(struct summary *to, const struct norm *n)
-{
-    static const char *const names[NORMS] = {"velocity", "pressure", "vorticity"};
-    static const char *const part[5] = {"vol", "e1", "e2", "r2", "emax"};
-    for (int k = 0; k < NORMS; k++) {
-        const double v[5] = {n[k].vol, n[k].e1, n[k].e2, n[k].r2, n[k].emax};
-        for (int m = 0; m < 5; m++) {
-            char key[64];
-            snprintf(key, sizeof key, "norm.%s.%s", names[k], part[m]);
-            summary_real(to, key, v[m]);
-        }
-    }
-}
+static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
 
 static void summarise_errors(const struct fv *s)
 {
@@ -141,8 +128,8 @@ static void summarise_errors(const struct fv *s)
     summary_real(to, "error.pressure_offset", norm_mean(n + 1) / scale);
     if (n[2].r2 > 0.0)
         summary_real(to, "error.vorticity_l2", norm_relative_l2(n + 2));
-    if (s->run->coupled)
-        summarise_norms(to, n);
+    for (int k = 0; s->run->coupled && k < NORMS; k++)
+        norm_tell(to, norm_names[k], n + k);
 }
 
 void fv_finish(void *state)

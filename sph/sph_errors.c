@@ -4,7 +4,6 @@
 #include "sph.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "../common/exact.h"
 #include "../common/mem.h"
@@ -205,19 +204,6 @@ void sph_row(void *state, double *values)
     timer_stop(&s->run->timers, timer_index(&s->run->timers, "output"));
 }
 
-static void summarise_norms(const struct sph *s, const struct norm *n)
-{
-    for (int k = 0; k < NORMS; k++) {
-        const double v[5] = {n[k].vol, n[k].e1, n[k].e2, n[k].r2, n[k].emax};
-        static const char *const part[5] = {"vol", "e1", "e2", "r2", "emax"};
-        for (int m = 0; m < 5; m++) {
-            char key[64];
-            snprintf(key, sizeof key, "norm.%s.%s", norm_names[k], part[m]);
-            summary_real(s->run->summary, key, v[m]);
-        }
-    }
-}
-
 static void summarise_errors(const struct sph *s)
 {
     struct summary *to = s->run->summary;
@@ -232,8 +218,8 @@ static void summarise_errors(const struct sph *s)
     summary_real(to, "error.pressure_offset", norm_mean(n + 1) / scale);
     if (n[2].r2 > 0.0)
         summary_real(to, "error.vorticity_l2", norm_relative_l2(n + 2));
-    if (s->run->coupled)
-        summarise_norms(s, n);
+    for (int k = 0; s->run->coupled && k < NORMS; k++)
+        norm_tell(to, norm_names[k], n + k);
 }
 
 /* Energy: kinetic against the exact one where that is known, else all kinds against the start. */

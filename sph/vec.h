@@ -25,7 +25,7 @@ typedef double vec4 __attribute__((vector_size(32), may_alias));
 
 INLINE vec vec_all(double a)
 {
-    vec v;
+    vec v = {0.0};
     for (int l = 0; l < LANES; l++)
         v[l] = a;
     return v;
@@ -39,7 +39,7 @@ INLINE vec vec_min(vec a, vec b) { return (vec)__builtin_ia32_minpd256(a, b); }
 #else
 INLINE vec vec_sqrt(vec a)
 {
-    vec v;
+    vec v = {0.0};
     for (int l = 0; l < LANES; l++)
         v[l] = sqrt(a[l]);
     return v;
