@@ -111,12 +111,10 @@ static void list_cells(const struct fv *s, struct forcing *f)
     }
 }
 
-/* Faces between free and forced cells along axis a, and lines into the forced side. */
+/* Faces between free and forced cells along axis a. */
 static void list_faces(const struct fv *s, struct forcing *f, int a)
 {
     const struct block *b = &s->b;
-    f->line[a] = NEW(int64_t, b->size);
-    f->out[a] = NEW(int64_t, b->size);
     f->face[a] = NEW(int64_t, b->size);
     f->sign[a] = NEW(signed char, b->size);
     f->counts[a] = NEW(bool, b->size);
@@ -136,14 +134,66 @@ static void list_faces(const struct fv *s, struct forcing *f, int a)
         f->face[a][f->nface[a]] = c;
         f->sign[a][f->nface[a]] = here ? 1 : -1;
         f->counts[a][f->nface[a]++] = is_local(b, inner);
-        /* four free cells inwards, two forced ones outwards within the storage */
-        const int way = here ? 1 : -1, last = inner[a] - 3 * way, far = inner[a] + 2 * way;
-        const int lo = -b->g[a], hi = b->n[a] + b->g[a] - 1;
-        if (last >= lo && last <= hi && far >= lo && far <= hi) {
-            f->line[a][f->nline[a]] = here ? c - d : c;
-            f->out[a][f->nline[a]++] = way * d;
-        }
     }
+}
+
+/* Adds to the weights, counted from cell 0 outwards, g times the ghost `depth' = 1, 2 cells beyond
+ * the free cell at `edge', behind which `run' free cells stand in line. */
+static void spread_ghost(int edge, int run, int depth, double g, double *cubic, double *even,
+                         int way)
+{
+    static const double beyond[4][2][4] = {{{1}, {1}},
+                                           {{2, -1}, {3, -2}},
+                                           {{3, -3, 1}, {6, -8, 3}},
+                                           {{4, -6, 4, -1}, {10, -20, 15, -4}}};
+    for (int m = 0; m < run; m++)
+        cubic[REACH + way * (edge - m)] += g * beyond[run - 1][depth - 1][m];
+    even[REACH + way * (edge - (depth <= run ? depth - 1 : run - 1))] += g;
+}
+
+/* Adds what the two cells on one side of a free cell c have beyond the plain weights 8/12, -1/12.
+ * d: the step to that side, of sign `way'. False if both are free. */
+static bool add_side(const struct forcing *f, int64_t c, int64_t d, int way, double *cubic,
+                     double *even)
+{
+    static const double plain[2] = {8.0 / 12.0, -1.0 / 12.0};
+    const int edge = f->forced[c + d] ? 0 : 1;
+    int run = 1;
+    if (!f->forced[c + d] && !f->forced[c + 2 * d])
+        return false;
+    while (run < 4 && edge - run >= -REACH && !f->forced[c + (edge - run) * d])
+        run++;
+    for (int m = edge + 1; m <= 2; m++) {
+        const double g = way * plain[m - 1];
+        cubic[REACH + way * m] -= g;
+        even[REACH + way * m] -= g;
+        spread_ghost(edge, run, m - edge, g, cubic, even, way);
+    }
+    return true;
+}
+
+static void list_fixes(const struct fv *s, struct forcing *f, int a)
+{
+    const struct block *b = &s->b;
+    int64_t room = 0;
+    BLOCK_ROWS (b, 0, at, n)
+        for (int64_t c = at; c < at + n; c++) {
+            struct fix x = {.cell = c};
+            if (f->forced[c])
+                continue;
+            const bool above = add_side(f, c, b->stride[a], 1, x.cubic, x.even);
+            if (!add_side(f, c, -b->stride[a], -1, x.cubic, x.even) && !above)
+                continue;
+            for (int m = 0; m <= 2 * REACH; m++) {
+                x.cubic[m] /= b->h[a];
+                x.even[m] /= b->h[a];
+            }
+            if (f->nfix[a] == room) {
+                room = 2 * room + 64;
+                GROW(f->fix[a], f->nfix[a], room);
+            }
+            f->fix[a][f->nfix[a]++] = x;
+        }
 }
 
 struct forcing *forcing_create(const struct fv *s, const double *lo, const double *hi, bool partner)
@@ -160,8 +210,10 @@ struct forcing *forcing_create(const struct fv *s, const double *lo, const doubl
     }
     find_layers(s, f);
     list_cells(s, f);
-    for (int a = 0; a < f->dim; a++)
+    for (int a = 0; a < f->dim; a++) {
         list_faces(s, f, a);
+        list_fixes(s, f, a);
+    }
     return f;
 }
 
@@ -177,8 +229,7 @@ void forcing_free(struct forcing **fp)
     mem_free(f->partner);
     mem_free(f->x);
     for (int a = 0; a < 3; a++) {
-        mem_free(f->line[a]);
-        mem_free(f->out[a]);
+        mem_free(f->fix[a]);
         mem_free(f->face[a]);
         mem_free(f->sign[a]);
         mem_free(f->counts[a]);
@@ -261,18 +312,15 @@ void forcing_fluxes(const struct fv *s, double t, double *const U[3])
             U[a][f->face[a][i]] -= f->sign[a][i] * excess;
 }
 
-void forcing_continue(const struct forcing *f, int a, bool cubic, double *q)
+void forcing_gradient(const struct fv *s, int a, bool cubic, const double *q, double *out)
 {
-    for (int64_t i = 0; i < f->nline[a]; i++) {
-        double *p = q + f->line[a][i];
-        const int64_t d = f->out[a][i];
-        if (cubic) {
-            p[d] = 4.0 * p[0] - 6.0 * p[-d] + 4.0 * p[-2 * d] - p[-3 * d];
-            p[2 * d] = 4.0 * p[d] - 6.0 * p[0] + 4.0 * p[-d] - p[-2 * d];
-        } else {
-            p[d] = p[0];
-            p[2 * d] = p[-d];
-        }
+    const struct forcing *f = s->forcing;
+    const int64_t d = s->b.stride[a];
+    for (int64_t i = 0; i < f->nfix[a]; i++) {
+        const struct fix *x = f->fix[a] + i;
+        const double *w = (cubic ? x->cubic : x->even) + REACH, *at = q + x->cell;
+        for (int m = -REACH; m <= REACH; m++)
+            out[x->cell] += w[m] * at[m * d];
     }
 }
 

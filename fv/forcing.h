@@ -7,7 +7,17 @@
 
 #include "fv.h"
 
-enum { NEAR = 4 }; /* layers of forced cells that get values */
+enum {
+    NEAR = 4, /* layers of forced cells that get values */
+    REACH = 3 /* cells to either side in a one-sided gradient */
+};
+
+/* What the gradient of a free cell near the outline has beyond the plain form: weights of the cells
+ * from -REACH to REACH along the axis, 1/m. */
+struct fix {
+    int64_t cell;
+    double cubic[2 * REACH + 1], even[2 * REACH + 1];
+};
 
 struct forcing {
     int dim;
@@ -20,8 +30,8 @@ struct forcing {
     int64_t npartner,
         *partner; /* local near cells of the hole, in the order of a partner's values */
     double *x;    /* [nset][3] centres */
-    /* lines: the free cell next to a face of the outline, and the way out of the fluid, +-stride */
-    int64_t nline[3], *line[3], *out[3];
+    int64_t nfix[3];
+    struct fix *fix[3]; /* one-sided gradients along each axis */
     /* faces of the outline: index in U, sign of the flow out of the fluid, whether this rank counts
      * it */
     int64_t nface[3], *face[3];
@@ -48,8 +58,9 @@ void forcing_velocity(const struct fv *s, double t, double *const u[3]);
 /* Fluxes of the outline at time t: exact ones where the exact solution is imposed, else as they are
  * interpolated; then corrected evenly to no net flux. */
 void forcing_fluxes(const struct fv *s, double t, double *const U[3]);
-/* Fills two forced cells behind each line of axis a: even, or cubic as far as the grid reaches. */
-void forcing_continue(const struct forcing *f, int a, bool cubic, double *q);
+/* Adds to the gradient `out' of q along axis a what continues q into the forced cells: evenly, or
+ * by a cubic (of lower degree where fewer than four free cells stand in line). */
+void forcing_gradient(const struct fv *s, int a, bool cubic, const double *q, double *out);
 /* Extends p into the near forced cells from the free side, layer by layer, for a partner's
  * interpolation. */
 void forcing_extend(const struct fv *s, double *p);

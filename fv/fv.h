@@ -81,10 +81,10 @@ void viscous_apply(const struct fv *s, const double *q, double *out);
 bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const rhs[3],
                    double tol);
 
-/* gradient.c: cell gradient along axis a, (8 (q_1 - q_-1) - (q_2 - q_-2))/12 h, after the lines of
- * forced cells are filled by even (psi) or cubic (p) continuation. */
+/* gradient.c: cell gradient along axis a, (8 (q_1 - q_-1) - (q_2 - q_-2))/12 h; q goes on into
+ * forced cells evenly (psi) or by a cubic (p). */
 enum continuation { CONTINUE_EVEN, CONTINUE_CUBIC };
-void gradient(const struct fv *s, double *q, int a, enum continuation c, double *out);
+void gradient(const struct fv *s, const double *q, int a, enum continuation c, double *out);
 
 /* projection.c: one step towards t_stop, see program.step; d is filled when the state cannot be
  * trusted. */

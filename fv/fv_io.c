@@ -148,7 +148,9 @@ bool fv_restore(struct fv *s, struct h5 *f)
     double *fields[24];
     const char *names[24];
     const int n = restart_fields(s, fields, names);
-    if (h5_rows(f, "p") != s->b.size) {
+    int fits = h5_rows(f, "p") == s->b.size;
+    MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, s->b.cart);
+    if (!fits) {
         log_say("the restart file is of another grid or number of ranks");
         return false;
     }

@@ -77,6 +77,19 @@ static void make_forcing(struct fv *s)
         s->forcing = forcing_create(s, s->prm.hole[0], s->prm.hole[1], false);
 }
 
+/* Forced cells that never get values must not hold those of the start: the largest velocity sets
+ * the time step. */
+static void empty_hole(struct fv *s)
+{
+    const struct forcing *f = s->forcing;
+    for (int64_t c = 0; f && c < s->b.size; c++)
+        if (f->forced[c] == 1 && !f->layer[c]) {
+            s->p[c] = s->p_before[c] = 0.0;
+            for (int a = 0; a < s->b.dim; a++)
+                s->u[a][c] = s->exact.V[a];
+        }
+}
+
 static double energy(const struct fv *s)
 {
     double sum = 0.0;
@@ -107,6 +120,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     fill(s);
     fill_fluxes(s);
     make_forcing(s);
+    empty_hole(s);
     s->pressure = pressure_create(s);
     s->energy0 = energy(s);
     measure(s);

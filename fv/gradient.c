@@ -9,11 +9,11 @@ static void row(const double *restrict q, int64_t along, double c, int64_t n, do
         out[i] = c * (8.0 * (q[i + along] - q[i - along]) - (q[i + 2 * along] - q[i - 2 * along]));
 }
 
-void gradient(const struct fv *s, double *q, int a, enum continuation how, double *out)
+void gradient(const struct fv *s, const double *q, int a, enum continuation how, double *out)
 {
     const struct block *b = &s->b;
-    if (s->forcing)
-        forcing_continue(s->forcing, a, how == CONTINUE_CUBIC, q);
     BLOCK_ROWS (b, 0, c, n)
         row(q + c, b->stride[a], 1.0 / (12.0 * b->h[a]), n, out + c);
+    if (s->forcing)
+        forcing_gradient(s, a, how == CONTINUE_CUBIC, q, out);
 }

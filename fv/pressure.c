@@ -1,10 +1,11 @@
-/* pressure.c - see pressure.h. Settings of PFMG: red-black relaxation with non-Galerkin coarse
- * operators, 5-point on all levels; this pair and no wider stencil (README.md).
- * SPDX-License-Identifier: BSD-3-Clause */
+/* pressure.c - see pressure.h. The conjugate gradients are written out here: hypre's would spend a
+ * second cycle on the residual of its last iteration, and most solves take one iteration. Settings
+ * of PFMG: red-black relaxation with non-Galerkin coarse operators, 5-point on all levels; this
+ * pair and no wider stencil (README.md). SPDX-License-Identifier: BSD-3-Clause */
 #include "pressure.h"
 
 #include <HYPRE_struct_ls.h>
-#include <string.h>
+#include <math.h>
 
 #include "../common/log.h"
 #include "../common/mem.h"
@@ -24,21 +25,23 @@ struct pressure {
     HYPRE_StructStencil stencil;
     HYPRE_StructMatrix A;
     HYPRE_StructVector b, x;
-    HYPRE_StructSolver pcg, pfmg;
-    int lo[3], hi[3];
-    double *packed;
-    int64_t n;
+    HYPRE_StructSolver cycle;
+    int lo[3], hi[3];   /* this rank's cells, hypre's way: both inside */
+    int outer[2][3];    /* the same with ghosts: the box of a field */
+    double *diagonal;   /* 1/m^2: sum of 1/h^2 over the open faces */
+    double *p, *Ap, *z; /* direction, its image, residual after a cycle */
+    double free_cells;  /* of all ranks */
 };
 
 static void make_grid(const struct block *b, struct pressure *p)
 {
     int periodic[3] = {0, 0, 0};
     HYPRE(HYPRE_StructGridCreate(b->cart, b->dim, &p->grid));
-    p->n = 1;
     for (int a = 0; a < 3; a++) {
         p->lo[a] = b->lo[a];
         p->hi[a] = b->hi[a] - 1;
-        p->n *= b->n[a];
+        p->outer[0][a] = p->lo[a] - b->g[a];
+        p->outer[1][a] = p->hi[a] + b->g[a];
         periodic[a] = b->periodic[a] ? b->cells[a] : 0;
     }
     HYPRE(HYPRE_StructGridSetExtents(p->grid, p->lo, p->hi));
@@ -53,21 +56,32 @@ static void make_grid(const struct block *b, struct pressure *p)
     }
 }
 
-/* Row of a cell, -Lap: what is open passes, forced cells stand alone. */
-static void fill_row(const struct fv *s, int64_t c, double *row)
+/* A thousandth of the smallest eigenvalue, about (pi/L)^2, on the diagonal of the cycle's matrix:
+ * the problem is singular, and the coarsest level would divide the rounding error of the residual's
+ * mean by that of a zero. The iteration's own matrix has none of it. */
+static double shift(const struct block *b)
+{
+    double L = 0.0;
+    for (int a = 0; a < b->dim; a++)
+        L = fmax(L, b->cells[a] * b->h[a]);
+    return 1e-2 / (L * L);
+}
+
+/* Row of a cell, -Lap: what is open passes, forced cells stand alone. Returns the diagonal. */
+static double fill_row(const struct fv *s, int64_t c, double *row)
 {
     const struct block *b = &s->b;
     const struct forcing *f = s->forcing;
-    row[0] = 0.0;
+    double sum = 0.0;
     for (int e = 1; e <= 2 * b->dim; e++) {
         const int a = (e - 1) / 2;
         const int64_t face = (e - 1) % 2 ? c + b->stride[a] : c;
         const double w = (f ? f->open[a][face] : 1.0) / (b->h[a] * b->h[a]);
         row[e] = -w;
-        row[0] += w;
+        sum += w;
     }
-    if (row[0] == 0.0) /* forced, or free and shut in */
-        row[0] = 1.0;
+    row[0] = sum > 0.0 ? sum + shift(b) : 1.0; /* forced, or free and shut in */
+    return sum;
 }
 
 static void make_matrix(const struct fv *s, struct pressure *p)
@@ -75,11 +89,10 @@ static void make_matrix(const struct fv *s, struct pressure *p)
     const struct block *b = &s->b;
     const int m = 2 * b->dim + 1;
     int entries[7] = {0, 1, 2, 3, 4, 5, 6};
-    double *values = NEW(double, p->n *m), *row = values;
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++, row += m)
-                fill_row(s, block_at(b, i, j, k), row);
+    double *values = NEW(double, (int64_t)m * b->n[0] * b->n[1] * b->n[2]), *row = values;
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++, row += m)
+            p->diagonal[i] = fill_row(s, i, row);
     HYPRE(HYPRE_StructMatrixCreate(b->cart, p->grid, p->stencil, &p->A));
     HYPRE(HYPRE_StructMatrixInitialize(p->A));
     HYPRE(HYPRE_StructMatrixSetBoxValues(p->A, p->lo, p->hi, m, entries, values));
@@ -87,97 +100,218 @@ static void make_matrix(const struct fv *s, struct pressure *p)
     mem_free(values);
 }
 
-static void make_solver(const struct block *b, struct pressure *p)
+static void make_vector(const struct block *b, struct pressure *p, HYPRE_StructVector *v)
 {
-    HYPRE(HYPRE_StructPFMGCreate(b->cart, &p->pfmg));
-    HYPRE(HYPRE_StructPFMGSetMaxIter(p->pfmg, 1));
-    HYPRE(HYPRE_StructPFMGSetTol(p->pfmg, 0.0));
-    HYPRE(HYPRE_StructPFMGSetZeroGuess(p->pfmg));
-    HYPRE(HYPRE_StructPFMGSetRelaxType(p->pfmg, 2));
-    HYPRE(HYPRE_StructPFMGSetRAPType(p->pfmg, 1));
-    HYPRE(HYPRE_StructPFMGSetSkipRelax(p->pfmg, 1));
-    HYPRE(HYPRE_StructPFMGSetNumPreRelax(p->pfmg, 1));
-    HYPRE(HYPRE_StructPFMGSetNumPostRelax(p->pfmg, 1));
-    HYPRE(HYPRE_StructPCGCreate(b->cart, &p->pcg));
-    HYPRE(HYPRE_StructPCGSetTwoNorm(p->pcg, 1));
-    HYPRE(HYPRE_StructPCGSetPrecond(p->pcg, HYPRE_StructPFMGSolve, HYPRE_StructPFMGSetup, p->pfmg));
-    HYPRE(HYPRE_StructPCGSetup(p->pcg, p->A, p->b, p->x));
+    HYPRE(HYPRE_StructVectorCreate(b->cart, p->grid, v));
+    HYPRE(HYPRE_StructVectorInitialize(*v));
+    HYPRE(HYPRE_StructVectorAssemble(*v));
+}
+
+/* Levels of the cycle, which halves the axis of the least spacing: down to the first grid with an
+ * odd number of cells along a periodic axis. There red cells have red neighbours, and a half sweep
+ * would read what the last solve left; the last level is relaxed by Jacobi, which does not. Axes of
+ * the same spacing go together: the grids between are not relaxed. */
+static int levels(const struct block *b)
+{
+    int n[3] = {b->cells[0], b->cells[1], b->cells[2]}, count = 1;
+    double h[3] = {b->h[0], b->h[1], b->h[2]};
+    for (;;) {
+        double least = INFINITY;
+        for (int a = 0; a < b->dim; a++) {
+            if (b->periodic[a] && n[a] > 1 && n[a] % 2)
+                return count;
+            least = n[a] > 1 ? fmin(least, h[a]) : least;
+        }
+        if (least == INFINITY)
+            return count;
+        for (int a = 0; a < b->dim; a++)
+            if (n[a] > 1 && h[a] < 1.05 * least) {
+                n[a] = (n[a] + 1) / 2;
+                h[a] *= 2.0;
+                count++;
+            }
+    }
+}
+
+static void make_cycle(const struct block *b, struct pressure *p)
+{
+    HYPRE(HYPRE_StructPFMGCreate(b->cart, &p->cycle));
+    HYPRE(HYPRE_StructPFMGSetMaxIter(p->cycle, 1));
+    HYPRE(HYPRE_StructPFMGSetTol(p->cycle, 0.0));
+    HYPRE(HYPRE_StructPFMGSetZeroGuess(p->cycle));
+    HYPRE(HYPRE_StructPFMGSetMaxLevels(p->cycle, levels(b)));
+    HYPRE(HYPRE_StructPFMGSetRelaxType(p->cycle, 2));
+    HYPRE(HYPRE_StructPFMGSetRAPType(p->cycle, 1));
+    HYPRE(HYPRE_StructPFMGSetSkipRelax(p->cycle, 1));
+    HYPRE(HYPRE_StructPFMGSetNumPreRelax(p->cycle, 1));
+    HYPRE(HYPRE_StructPFMGSetNumPostRelax(p->cycle, 1));
+    HYPRE(HYPRE_StructPFMGSetup(p->cycle, p->A, p->b, p->x));
 }
 
 struct pressure *pressure_create(const struct fv *s)
 {
     const struct block *b = &s->b;
     struct pressure *p = NEW(struct pressure, 1);
+    p->diagonal = block_field(b);
+    p->p = block_field(b);
+    p->Ap = block_field(b);
+    p->z = block_field(b);
+    p->free_cells = (double)b->cells[0] * b->cells[1] * b->cells[2];
+    if (s->forcing)
+        p->free_cells = (double)s->forcing->free_cells;
     make_grid(b, p);
     make_matrix(s, p);
-    p->packed = NEW(double, p->n);
-    HYPRE(HYPRE_StructVectorCreate(b->cart, p->grid, &p->b));
-    HYPRE(HYPRE_StructVectorInitialize(p->b));
-    HYPRE(HYPRE_StructVectorCreate(b->cart, p->grid, &p->x));
-    HYPRE(HYPRE_StructVectorInitialize(p->x));
-    HYPRE(HYPRE_StructVectorSetBoxValues(p->b, p->lo, p->hi, p->packed));
-    HYPRE(HYPRE_StructVectorSetBoxValues(p->x, p->lo, p->hi, p->packed));
-    HYPRE(HYPRE_StructVectorAssemble(p->b));
-    HYPRE(HYPRE_StructVectorAssemble(p->x));
-    make_solver(b, p);
+    make_vector(b, p, &p->b);
+    make_vector(b, p, &p->x);
+    make_cycle(b, p);
     return p;
 }
 
-void pressure_free(struct pressure **p)
+void pressure_free(struct pressure **pp)
 {
-    if (!*p)
+    struct pressure *p = *pp;
+    if (!p)
         return;
-    HYPRE_StructPCGDestroy((*p)->pcg);
-    HYPRE_StructPFMGDestroy((*p)->pfmg);
-    HYPRE_StructVectorDestroy((*p)->b);
-    HYPRE_StructVectorDestroy((*p)->x);
-    HYPRE_StructMatrixDestroy((*p)->A);
-    HYPRE_StructStencilDestroy((*p)->stencil);
-    HYPRE_StructGridDestroy((*p)->grid);
-    mem_free((*p)->packed);
-    mem_free(*p);
-    *p = NULL;
+    HYPRE_StructPFMGDestroy(p->cycle);
+    HYPRE_StructVectorDestroy(p->b);
+    HYPRE_StructVectorDestroy(p->x);
+    HYPRE_StructMatrixDestroy(p->A);
+    HYPRE_StructStencilDestroy(p->stencil);
+    HYPRE_StructGridDestroy(p->grid);
+    mem_free(p->diagonal);
+    mem_free(p->p);
+    mem_free(p->Ap);
+    mem_free(p->z);
+    mem_free(p);
+    *pp = NULL;
 }
 
-/* Takes the mean out: the rows sum to zero, so must the right side. */
-static void remove_mean(const struct fv *s, double *div)
+/* q = A x, x with its ghosts; both are 0 in forced cells. */
+static void apply(const struct fv *s, const double *restrict x, double *restrict q)
 {
     const struct block *b = &s->b;
-    double sum = 0.0, n = s->forcing ? (double)s->forcing->free_cells : 1.0;
+    const double *restrict d = s->pressure->diagonal;
+    const double cx = 1.0 / (b->h[0] * b->h[0]), cy = 1.0 / (b->h[1] * b->h[1]);
+    const int64_t y = b->stride[1], z = b->stride[2];
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            q[i] = d[i] * x[i] - cx * (x[i - 1] + x[i + 1]) - cy * (x[i - y] + x[i + y]);
+    if (b->dim == 3) {
+        const double cz = 1.0 / (b->h[2] * b->h[2]);
+        BLOCK_ROWS (b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                q[i] -= cz * (x[i - z] + x[i + z]);
+    }
     if (s->forcing)
-        forcing_zero(s->forcing, div);
-    else
-        for (int a = 0; a < b->dim; a++)
-            n *= b->cells[a];
-    BLOCK_ROWS (b, 0, c, m)
-        for (int64_t i = c; i < c + m; i++)
-            sum += div[i];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
-    BLOCK_ROWS (b, 0, c, m)
-        for (int64_t i = c; i < c + m; i++)
-            div[i] = sum / n - div[i]; /* the operator is -Lap */
+        forcing_zero(s->forcing, q);
+}
+
+/* Adds sum x y and sum x of a row. */
+static void add_row(const double *restrict x, const double *restrict y, int64_t n, double *sums)
+{
+    double part[8] = {0.0};
+    int64_t i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (int m = 0; m < 4; m++) {
+            part[m] += x[i + m] * y[i + m];
+            part[4 + m] += x[i + m];
+        }
+    for (; i < n; i++) {
+        part[0] += x[i] * y[i];
+        part[4] += x[i];
+    }
+    sums[0] += (part[0] + part[1]) + (part[2] + part[3]);
+    sums[1] += (part[4] + part[5]) + (part[6] + part[7]);
+}
+
+/* sums[0] = sum x y, sums[1] = sum x, over all ranks. */
+static void add_up(const struct block *b, const double *x, const double *y, double sums[2])
+{
+    sums[0] = sums[1] = 0.0;
+    BLOCK_ROWS (b, 0, c, n)
+        add_row(x + c, y + c, n, sums);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+}
+
+/* Takes the mean over the free cells out: the rows of A sum to zero. Returns the sum of the squares
+ * then. */
+static double remove_mean(const struct fv *s, double *restrict x)
+{
+    double sums[2];
     if (s->forcing)
-        forcing_zero(s->forcing, div);
+        forcing_zero(s->forcing, x);
+    add_up(&s->b, x, x, sums);
+    const double mean = sums[1] / s->pressure->free_cells;
+    BLOCK_ROWS (&s->b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            x[i] -= mean;
+    if (s->forcing)
+        forcing_zero(s->forcing, x);
+    return fmax(sums[0] - sums[1] * mean, 0.0);
+}
+
+/* z = one cycle on r, and p = z + beta p with the beta that makes p conjugate. Returns r.z. */
+static double next_direction(const struct fv *s, double *r, double rz_last)
+{
+    struct pressure *p = s->pressure;
+    double sums[2];
+    HYPRE(HYPRE_StructVectorSetBoxValues2(p->b, p->lo, p->hi, p->outer[0], p->outer[1], r));
+    HYPRE(HYPRE_StructPFMGSolve(p->cycle, p->A, p->b, p->x));
+    HYPRE(HYPRE_StructVectorGetBoxValues2(p->x, p->lo, p->hi, p->outer[0], p->outer[1], p->z));
+    add_up(&s->b, r, p->z, sums);
+    const double beta = rz_last > 0.0 ? sums[0] / rz_last : 0.0, *restrict z = p->z;
+    double *restrict d = p->p;
+    BLOCK_ROWS (&s->b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            d[i] = z[i] + beta * d[i];
+    return sums[0];
+}
+
+/* x += alpha p, r -= alpha A p with the alpha of the smallest error. Returns r.r. */
+static double advance(const struct fv *s, double rz, double *restrict x, double *restrict r)
+{
+    struct pressure *p = s->pressure;
+    double *restrict d = p->p, *restrict Ad = p->Ap, sums[2];
+    block_halo(&s->b, 1, &p->p);
+    apply(s, p->p, p->Ap);
+    add_up(&s->b, p->p, p->Ap, sums);
+    const double alpha = rz / sums[0];
+    BLOCK_ROWS (&s->b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            x[i] += alpha * d[i];
+            r[i] -= alpha * Ad[i];
+        }
+    add_up(&s->b, r, r, sums);
+    return sums[0];
+}
+
+/* r = -div - A psi in place of div. Returns r.r. */
+static double first_residual(const struct fv *s, double *psi, double *restrict div)
+{
+    const double *restrict q = s->pressure->Ap;
+    double sums[2];
+    if (s->forcing)
+        forcing_zero(s->forcing, psi);
+    block_halo(&s->b, 1, &psi);
+    apply(s, psi, s->pressure->Ap);
+    BLOCK_ROWS (&s->b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            div[i] = -div[i] - q[i];
+    add_up(&s->b, div, div, sums);
+    return sums[0];
 }
 
 int pressure_solve(const struct fv *s, double *psi, double *div, double tol, int most)
 {
-    struct pressure *p = s->pressure;
-    int iterations;
-    double *const fields[1] = {psi};
-    remove_mean(s, div);
-    if (s->forcing)
-        forcing_zero(s->forcing, psi);
-    block_pack(&s->b, div, p->packed);
-    HYPRE(HYPRE_StructVectorSetBoxValues(p->b, p->lo, p->hi, p->packed));
-    block_pack(&s->b, psi, p->packed);
-    HYPRE(HYPRE_StructVectorSetBoxValues(p->x, p->lo, p->hi, p->packed));
-    HYPRE(HYPRE_StructPCGSetTol(p->pcg, tol));
-    HYPRE(HYPRE_StructPCGSetMaxIter(p->pcg, most));
-    HYPRE(HYPRE_StructPCGSolve(p->pcg, p->A, p->b, p->x));
-    HYPRE(HYPRE_StructPCGGetNumIterations(p->pcg, &iterations));
-    HYPRE(HYPRE_StructVectorGetBoxValues(p->x, p->lo, p->hi, p->packed));
-    block_unpack(&s->b, p->packed, psi);
-    block_halo(&s->b, 1, fields);
-    return iterations;
+    const double enough = tol * tol * remove_mean(s, div);
+    double rr = first_residual(s, psi, div), rz = 0.0;
+    int n = 0;
+    while (rr > 0.0 && (n == 0 || rr > enough) && n < most) {
+        rz = next_direction(s, div, rz);
+        rr = advance(s, rz, psi, div);
+        n++;
+    }
+    remove_mean(s, psi);
+    block_halo(&s->b, 1, &psi);
+    return n;
 }

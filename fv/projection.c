@@ -238,7 +238,7 @@ struct integrator {
 };
 static const struct integrator integrators[] = {{"rk3", step_rk3}, {"bdf2", step_bdf2}};
 
-/* Largest |u_a| of the free cells, over all ranks; a value that is not finite makes it so. */
+/* Largest |u_a| over all ranks; a value that is not finite makes it so. */
 void measure(struct fv *s)
 {
     const struct block *b = &s->b;

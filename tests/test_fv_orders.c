@@ -43,6 +43,34 @@ static void hole_keeps_the_order(void **state)
                 1.0, 5e-3, 3.5e-4, 3.5);
 }
 
+/* One, two and three free cells between a hole and the sides: continued by lower polynomials. */
+static void narrow_gaps_are_stable(void **state)
+{
+    static const char *const holes[] = {"fv.hole=((0.03,0.03),(0.97,0.97))",
+                                        "fv.hole=((0.06,0.06),(0.94,0.94))",
+                                        "fv.hole=((0.09,0.09),(0.91,0.91))"};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        const double e = fv_case_error(
+            (const char *const[]){TWO_MODES, holes[k], "domain.periodic=(false,false)", NULL}, 1.0);
+        print_message("%s: %.3g\n", holes[k], e);
+        assert_true(e < 0.1);
+    }
+}
+
+/* Cells deep in a hole hold no flow: they must not set the step of one that decays. */
+static void hole_does_not_limit_the_step(void **state)
+{
+    struct fv_case c;
+    (void)state;
+    fv_case_set(&c, MPI_COMM_WORLD,
+                (const char *const[]){"fv.hole=((0.125,0.125),(0.875,0.875))", NULL});
+    fv_case_start(&c, NULL);
+    assert_true(fv_case_run(&c, 100000, 1.0));
+    assert_true(c.s->umax[0] < 0.8 && c.s->umax[1] < 0.8);
+    fv_free(&c.s);
+}
+
 /* At half the largest step: at CFL 1 the error of time lowers the order to 3.4 (fv/README.md). */
 static void closed_sides_keep_the_order(void **state)
 {
@@ -129,6 +157,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(taylor_green_converges), cmocka_unit_test(carried_waves_converge),
         cmocka_unit_test(hole_keeps_the_order),   cmocka_unit_test(closed_sides_keep_the_order),
+        cmocka_unit_test(narrow_gaps_are_stable), cmocka_unit_test(hole_does_not_limit_the_step),
         cmocka_unit_test(bdf2_has_order_two),     cmocka_unit_test(plane_flow_is_the_same_in_3d),
         cmocka_unit_test(rk3_is_as_good_in_3d)};
     MPI_Init(&argc, &argv);
