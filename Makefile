@@ -50,8 +50,6 @@ $(B)/o/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "CC $@"
 	@$(CC) $(CFLAGS) -MMD -MP -c -o $@ $<
-# 72 instances of one long body: instrumented, they take many minutes to compile
-$(B)/o/sph/scheme_rates.o: override SAN =
 $(B)/o/common/version.o: CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
 
 # ---- tests: every tests/test_X.c is a program; tests/mock.c knows cpl.h alone -------------------------

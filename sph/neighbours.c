@@ -26,7 +26,7 @@ struct grid {
     int cell_capacity;
     /* what lies around one cell */
     int near, near_capacity;
-    double *x[3], *r2;
+    double *x[3];
     int *id;
 };
 
@@ -48,7 +48,6 @@ void neighbours_free(struct neighbours **l)
     mem_free(g->cell);
     for (int a = 0; a < 3; a++)
         mem_free(g->x[a]);
-    mem_free(g->r2);
     mem_free(g->id);
     mem_free(g);
     mem_free((*l)->start);
@@ -161,24 +160,51 @@ static void near_room(struct grid *g, int n)
         ROOM(g->x[a], capacity, n);
     }
     capacity = 0;
-    ROOM(g->r2, capacity, n);
-    capacity = 0;
     ROOM(g->id, capacity, n);
     g->near_capacity = capacity;
 }
 
-static void copy_near(const struct sph *s, struct grid *g, int id)
+/* Box of the particles of a cell. */
+struct box {
+    double lo[3], hi[3], reach2;
+};
+
+static struct box box_of(const struct sph *s, const struct grid *g, int cell)
+{
+    struct box b = {.reach2 = (s->R + s->skin) * (s->R + s->skin)};
+    for (int a = 0; a < g->dim; a++) {
+        b.lo[a] = INFINITY;
+        b.hi[a] = -INFINITY;
+        for (int i = g->first[cell]; i < g->first[cell + 1]; i++) {
+            const double x = s->p.prim[(ptrdiff_t)PRIM * i + a];
+            b.lo[a] = x < b.lo[a] ? x : b.lo[a];
+            b.hi[a] = x > b.hi[a] ? x : b.hi[a];
+        }
+    }
+    return b;
+}
+
+/* Copies a particle that is within reach of the box: written in any case, counted if so. */
+INLINE void copy_near(const struct sph *s, struct grid *g, const struct box *b, int id,
+                      const int dim)
 {
     const double *x = s->p.prim + (ptrdiff_t)PRIM * id;
-    for (int a = 0; a < g->dim; a++)
+    double r2 = 0.0;
+    for (int a = 0; a < dim; a++) {
+        const double below = b->lo[a] - x[a], above = x[a] - b->hi[a];
+        const double out = below > above ? below : above;
+        r2 += out > 0.0 ? out * out : 0.0;
         g->x[a][g->near] = x[a];
-    g->id[g->near++] = id;
+    }
+    g->id[g->near] = id;
+    g->near += r2 < b->reach2;
 }
 
 /* Particles of the cells around `cell': locals in ascending order, then ghosts. */
-static void look_around(const struct sph *s, struct grid *g, int cell)
+INLINE void look_around(const struct sph *s, struct grid *g, int cell, const int dim)
 {
-    const int nx = g->cells[0], ny = g->cells[1], layers = g->dim == 3 ? 1 : 0;
+    const struct box box = box_of(s, g, cell);
+    const int nx = g->cells[0], ny = g->cells[1], layers = dim == 3 ? 1 : 0;
     int rows[9], nrows = 0, most = 0;
     for (int k = -layers; k <= layers; k++)
         for (int j = -1; j <= 1; j++)
@@ -190,64 +216,79 @@ static void look_around(const struct sph *s, struct grid *g, int cell)
     g->near = 0;
     for (int k = 0; k < nrows; k++)
         for (int i = g->first[rows[k]]; i < g->first[rows[k] + 3]; i++)
-            copy_near(s, g, i);
+            copy_near(s, g, &box, i, dim);
     for (int k = 0; k < nrows; k++)
         for (int i = g->ghost[rows[k]]; i < g->ghost[rows[k] + 3]; i++)
-            copy_near(s, g, g->n + g->order[i]);
+            copy_near(s, g, &box, g->n + g->order[i], dim);
 }
 
-INLINE void distances(struct grid *g, const double *x, const int dim)
+/* Appends those of the surroundings from .. end-1 that are within reach of x; may look and write up
+ * to LANES - 1 entries further. */
+INLINE int append(const struct grid *g, int from, int end, const double *x, double reach2,
+                  int *restrict j, const int dim)
 {
-    const double *restrict X = g->x[0], *restrict Y = g->x[1], *restrict Z = g->x[2];
-    double *restrict r2 = g->r2;
-    const double x0 = x[0], x1 = x[1], x2 = dim == 3 ? x[2] : 0.0;
-    for (int k = 0; k < g->near; k++) {
-        const double a = X[k] - x0, b = Y[k] - x1, c = dim == 3 ? Z[k] - x2 : 0.0;
-        r2[k] = a * a + b * b + c * c;
+    typedef double near_vec __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
+    const double *X = g->x[0], *Y = g->x[1], *Z = g->x[2];
+    const int *id = g->id;
+    const vec x0 = vec_all(x[0]), x1 = vec_all(x[1]), x2 = vec_all(dim == 3 ? x[2] : 0.0);
+    const vec reach = vec_all(reach2);
+    ptrdiff_t n = 0;
+    for (ptrdiff_t k = from; k < end; k += LANES) {
+        const vec a = *(const near_vec *)(X + k) - x0, b = *(const near_vec *)(Y + k) - x1;
+        vec r2 = a * a + b * b;
+        if (dim == 3) {
+            const vec c = *(const near_vec *)(Z + k) - x2;
+            r2 += c * c;
+        }
+        unsigned near = vec_less(r2, reach);
+        if (end - k < LANES)
+            near &= (1u << (end - k)) - 1u;
+        n += vec_pack(j + n, id + k, near);
     }
+    return (int)n;
 }
 
-/* Appends the particles from .. end-1 of the surroundings that are within reach. */
-static int append(const struct grid *g, int from, int end, double reach2, int *j)
-{
-    const double *restrict r2 = g->r2;
-    const int *restrict id = g->id;
-    int n = 0;
-    for (int k = from; k < end; k++) {
-        j[n] = id[k];
-        n += r2[k] < reach2;
-    }
-    return n;
-}
-
-static void list_cell(struct sph *s, int cell)
+INLINE void list_cell(struct sph *s, int cell, const int dim)
 {
     struct neighbours *l = s->list;
     struct grid *g = l->grid;
-    const double reach = s->R + s->skin;
+    const double reach2 = (s->R + s->skin) * (s->R + s->skin);
     int self = 0;
-    look_around(s, g, cell);
+    look_around(s, g, cell, dim);
     while (g->id[self] != g->first[cell])
         self++;
     for (int i = g->first[cell]; i < g->first[cell + 1]; i++, self++) {
-        const int64_t at = l->start[i], most = at + g->near + LANES;
+        const int64_t at = l->start[i], most = at + g->near + 2 * LANES;
         if (most > l->capacity) {
             const int64_t more = most + most / 2;
             GROW(l->j, l->capacity, more);
             l->capacity = more;
         }
-        if (s->dim == 2)
-            distances(g, s->p.prim + (ptrdiff_t)PRIM * i, 2);
-        else
-            distances(g, s->p.prim + (ptrdiff_t)PRIM * i, 3);
+        const double *x = s->p.prim + (ptrdiff_t)PRIM * i;
         int *j = l->j + at;
-        const int before = append(g, 0, self, reach * reach, j);
+        const int before = append(g, 0, self, x, reach2, j, dim);
         l->tail[i] = before;
-        l->count[i] = before + append(g, self + 1, g->near, reach * reach, j + before);
+        l->count[i] = before + append(g, self + 1, g->near, x, reach2, j + before, dim);
         for (int k = 0; k < LANES - 1; k++)
             j[l->count[i] + k] = s->p.capacity;
         l->start[i + 1] = at + l->count[i] + LANES - 1;
     }
+}
+
+static void build_2d(struct sph *s)
+{
+    const struct grid *g = s->list->grid;
+    for (int cell = 0; cell < g->total; cell++)
+        if (g->first[cell + 1] > g->first[cell])
+            list_cell(s, cell, 2);
+}
+
+static void build_3d(struct sph *s)
+{
+    const struct grid *g = s->list->grid;
+    for (int cell = 0; cell < g->total; cell++)
+        if (g->first[cell + 1] > g->first[cell])
+            list_cell(s, cell, 3);
 }
 
 void neighbours_build(struct sph *s)
@@ -267,9 +308,10 @@ void neighbours_build(struct sph *s)
     l->start[0] = 0;
     ROOM(g->order, g->order_capacity, s->p.nghost);
     sort_rows(g, s->p.prim + (ptrdiff_t)PRIM * n, PRIM, s->p.nghost, 0, g->ghost, g->order);
-    for (int cell = 0; cell < g->total; cell++)
-        if (g->first[cell + 1] > g->first[cell])
-            list_cell(s, cell);
+    if (s->dim == 2)
+        build_2d(s);
+    else
+        build_3d(s);
 }
 
 double *neighbours_sums(struct sph *s, int width)

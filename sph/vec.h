@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 #ifndef LANES
 #ifdef __AVX512F__
@@ -25,7 +24,7 @@ typedef double vec4 __attribute__((vector_size(32), may_alias));
 
 INLINE vec vec_all(double a)
 {
-    vec v = {0.0};
+    vec v = {0};
     for (int l = 0; l < LANES; l++)
         v[l] = a;
     return v;
@@ -39,7 +38,7 @@ INLINE vec vec_min(vec a, vec b) { return (vec)__builtin_ia32_minpd256(a, b); }
 #else
 INLINE vec vec_sqrt(vec a)
 {
-    vec v = {0.0};
+    vec v;
     for (int l = 0; l < LANES; l++)
         v[l] = sqrt(a[l]);
     return v;
@@ -56,13 +55,47 @@ INLINE vec vec_min(vec a, vec b)
 }
 #endif
 
+/* Bit l is set where a < b. */
+INLINE unsigned vec_less(vec a, vec b)
+{
+#if LANES == 4 && defined __AVX__
+    return (unsigned)__builtin_ia32_movmskpd256((vec)(a < b));
+#else
+    unsigned bits = 0;
+    for (int l = 0; l < LANES; l++)
+        bits |= (unsigned)(a[l] < b[l]) << l;
+    return bits;
+#endif
+}
+
+/* Writes the entries of from[LANES] whose bits are set to the front of to[LANES]; returns their
+ * number. */
+INLINE int vec_pack(int *to, const int *from, unsigned bits)
+{
+#if LANES == 4
+    typedef int four __attribute__((vector_size(16), aligned(4), may_alias));
+    static const int front[16][4] __attribute__((aligned(16))) = {
+        {0, 0, 0, 0}, {0, 0, 0, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {2, 0, 0, 0}, {0, 2, 0, 0},
+        {1, 2, 0, 0}, {0, 1, 2, 0}, {3, 0, 0, 0}, {0, 3, 0, 0}, {1, 3, 0, 0}, {0, 1, 3, 0},
+        {2, 3, 0, 0}, {0, 2, 3, 0}, {1, 2, 3, 0}, {0, 1, 2, 3}};
+    *(four *)to = __builtin_shuffle(*(const four *)from, *(const four *)front[bits]);
+    return __builtin_popcount(bits);
+#else
+    int n = 0;
+    for (int l = 0; l < LANES; l++) {
+        to[n] = from[l];
+        n += bits >> l & 1;
+    }
+    return n;
+#endif
+}
+
 INLINE vec2 load2(const double *p) { return *(const vec2 *)(const void *)p; }
 
 /* Low and high half of one vector. */
 INLINE vec4 join(vec2 a, const double *p)
 {
-#ifdef __AVX__ /* the insertion takes its operand from memory; from the shuffle gcc makes two      \
-                  steps */
+#ifdef __AVX__ /* takes its operand from memory; from the shuffle gcc makes two steps */
     return __builtin_ia32_vinsertf128_pd256(__builtin_ia32_pd256_pd(a), load2(p), 1);
 #else
     return __builtin_shufflevector(a, load2(p), 0, 1, 2, 3);
@@ -79,10 +112,13 @@ INLINE void vec_columns(const double *line, const ptrdiff_t stride, const int *j
     *a = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
     *b = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
 #else
+    vec first = vec_all(0.0), second = first;
     for (int l = 0; l < LANES; l++) {
-        (*a)[l] = line[stride * j[l] + k];
-        (*b)[l] = line[stride * j[l] + k + 1];
+        first[l] = line[stride * j[l] + k];
+        second[l] = line[stride * j[l] + k + 1];
     }
+    *a = first;
+    *b = second;
 #endif
 }
 
