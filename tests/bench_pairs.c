@@ -1,6 +1,6 @@
 /* bench_pairs.c - throughput of the SPH pair passes against the arithmetic limit of the core. Run
- * by make bench, on an idle machine; processor time, best of some repeats. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * by make bench, on an idle machine; processor time, best of some repeats.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdio.h>
 
 #include "../common/timer.h"

@@ -1,5 +1,5 @@
-/* test_neighbours.c - the list against a search over all pairs. SPDX-License-Identifier:
- * BSD-3-Clause */
+/* test_neighbours.c - the list against a search over all pairs.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include <mpi.h>
