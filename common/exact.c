@@ -14,10 +14,43 @@ static void set_mode(struct exact *e, int m, double kx, double ky, double A, dou
     e->K2 = kx * kx + ky * ky;
 }
 
+bool exact_at_all_times(const struct scene *s)
+{
+    const int f = s->initial.field;
+    const double *g = s->fluid.gravity;
+    const bool driven = g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0;
+    const bool bounded = s->nbodies > 0 || s->nshapes > 0 || s->nwalls > 0;
+    if (f == FIELD_POISEUILLE || f == FIELD_COUETTE || f == FIELD_STANDING_WAVE)
+        return true;
+    return !driven && !bounded &&
+           (f == FIELD_UNIFORM || f == FIELD_TAYLOR_GREEN || f == FIELD_TWO_MODES);
+}
+
+static void set_layer(struct exact *e, const struct scene *s)
+{
+    const struct scene_domain *d = &s->domain;
+    const double level = s->initial.level < LEVEL_TOP ? s->initial.level : d->max[1];
+    e->bottom = d->min[1];
+    e->height = (e->field == FIELD_STANDING_WAVE ? level : d->max[1]) - d->min[1];
+    if (e->field == FIELD_STANDING_WAVE)
+        e->wave = wave_create(e->height, s->initial.L, -s->fluid.gravity[1], e->nu, e->rho,
+                              s->initial.amplitude);
+}
+
 struct exact exact_create(const struct scene *s)
 {
-    struct exact e = {
-        .dim = s->domain.dim, .nu = s->fluid.nu, .rho = s->fluid.rho, .U = s->initial.U};
+    struct exact e = {.dim = s->domain.dim,
+                      .nu = s->fluid.nu,
+                      .rho = s->fluid.rho,
+                      .U = s->initial.U,
+                      .field = s->initial.field,
+                      .L = s->initial.L,
+                      .W = s->fluid.central,
+                      .force = s->fluid.gravity[0]};
+    if (e.field >= FIELD_POISEUILLE) {
+        set_layer(&e, s);
+        return e;
+    }
     const double k = 2.0 * M_PI / s->initial.L, U = s->initial.U;
     for (int a = 0; a < 3; a++)
         e.V[a] = s->initial.field == FIELD_REST ? 0.0 : s->initial.velocity[a];
@@ -59,9 +92,91 @@ static double pressure(const struct exact *e, const double *c, const double *h)
     return e->rho * p;
 }
 
+/* Channel flow from rest under a body force (Poiseuille), or with the upper wall at U (Couette):
+ * the steady profile and its decaying Fourier series. */
+static void channel(const struct exact *e, double y, double t, double *u, double *w)
+{
+    const double H = e->height, z = (y - e->bottom) / H, rate = e->nu * M_PI * M_PI / (H * H);
+    const bool forced = e->field == FIELD_POISEUILLE;
+    const double scale = forced ? e->force * H * H / (2.0 * e->nu) : e->U;
+    double v = forced ? z * (1.0 - z) : z, dv = forced ? 1.0 - 2.0 * z : 1.0;
+    for (int n = 1; n < 400 && rate * n * n * t < 40.0; n += forced ? 2 : 1) {
+        const double k = M_PI * n, decay = exp(-rate * n * n * t);
+        const double a = forced ? -8.0 / (k * k * k) : 2.0 * (n % 2 ? -1.0 : 1.0) / k;
+        v += a * decay * sin(k * z);
+        dv += a * k * decay * cos(k * z);
+    }
+    *u = scale * v;
+    *w = -scale * dv / H;
+}
+
+/* Pressure of the square patch at t = 0: the Fourier series of Laplace p = 2 rho w^2, 0 on its
+ * sides. */
+static double patch_pressure(const struct exact *e, const double *x)
+{
+    const double spin = e->U / e->L, X = x[0] / e->L + 0.5, Y = x[1] / e->L + 0.5;
+    double p = 0.0;
+    for (int m = 1; m < 60; m += 2)
+        for (int n = 1; n < 60; n += 2)
+            p -= 32.0 / (M_PI * M_PI * M_PI * M_PI * m * n * (m * m + n * n)) * sin(m * M_PI * X) *
+                 sin(n * M_PI * Y);
+    return e->rho * spin * spin * e->L * e->L * p;
+}
+
+static void other_point(const struct exact *e, const double *x, double t, double *u, double *p,
+                        double *w)
+{
+    const double rate = e->U / e->L;
+    u[0] = u[1] = u[2] = *p = *w = 0.0;
+    if (e->field == FIELD_STANDING_WAVE) {
+        wave_point(&e->wave, x[0], x[1] - e->bottom - e->height, t, u, p, w);
+    } else if (e->field == FIELD_PATCH) { /* clockwise */
+        u[0] = rate * x[1];
+        u[1] = -rate * x[0];
+        *w = -2.0 * rate;
+        *p = patch_pressure(e, x);
+    } else if (e->field == FIELD_DROP) {
+        u[0] = rate * x[0];
+        u[1] = -rate * x[1];
+        *p = 0.5 * e->rho * (rate * rate + e->W * e->W) * (e->L * e->L - x[0] * x[0] - x[1] * x[1]);
+    } else {
+        channel(e, x[1], t, u, w);
+    }
+}
+
+/* By Gauss's rule of three points along x and y. */
+static void other_average(const struct exact *e, const double *x, const double *h, double t,
+                          double *u, double *p, double *w)
+{
+    static const double at[3] = {-0.3872983346207417, 0.0, 0.3872983346207417};
+    static const double weight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    const int nx = h[0] > 0.0 ? 3 : 1, ny = h[1] > 0.0 ? 3 : 1;
+    double sum[5] = {0.0};
+    for (int i = 0; i < nx; i++)
+        for (int j = 0; j < ny; j++) {
+            const double f = (nx == 3 ? weight[i] : 1.0) * (ny == 3 ? weight[j] : 1.0);
+            const double y[3] = {x[0] + (nx == 3 ? at[i] * h[0] : 0.0),
+                                 x[1] + (ny == 3 ? at[j] * h[1] : 0.0), x[2]};
+            double v[5];
+            other_point(e, y, t, v, v + 3, v + 4);
+            for (int k = 0; k < 5; k++)
+                sum[k] += f * v[k];
+        }
+    for (int a = 0; u && a < 3; a++)
+        u[a] = sum[a];
+    if (p)
+        *p = sum[3];
+    if (w)
+        *w = sum[4];
+}
+
 void exact_average(const struct exact *e, const double *x, const double *h, double t, double *u,
                    double *p, double *w)
 {
+    if (e->field >= FIELD_POISEUILLE) {
+        other_average(e, x, h, t, u, p, w);
+        return;
+    }
     const double d = exp(-e->nu * e->K2 * t);
     double c[2], v[3] = {e->V[0], e->V[1], e->V[2]}, vort = 0.0;
     for (int m = 0; m < e->n; m++) {
@@ -99,6 +214,19 @@ void exact_gradient(const struct exact *e, const double *x, double t, double g[3
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++)
             g[a][b] = 0.0;
+    if (e->field >= FIELD_POISEUILLE) { /* by differences of fourth order */
+        const double h = 1e-3 * (e->height > 0.0 ? e->height : e->L);
+        for (int b = 0; b < 2; b++)
+            for (int k = -2; k <= 2; k++) {
+                static const double weight[5] = {1.0, -8.0, 0.0, 8.0, -1.0};
+                double y[3] = {x[0], x[1], x[2]}, u[3];
+                y[b] += k * h;
+                exact_point(e, y, t, u, NULL, NULL);
+                for (int a = 0; a < 2; a++)
+                    g[a][b] += weight[k + 2] * u[a] / (12.0 * h);
+            }
+        return;
+    }
     for (int m = 0; m < e->n; m++) {
         const double *k = e->k[m];
         const double C =

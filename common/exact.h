@@ -4,12 +4,16 @@
  *   p/rho = -(|u - V|^2 + K^2 psi^2)/2 less its mean,  |k_m| = K for every m,
  * an exact solution of Navier-Stokes since all modes have the same |k|. Taylor-Green (Chiron 2017,
  * eqs. 6.15-6.18) is the sum of k = 2 pi/L (1,-1) and (1,1); two_modes is (1,2) and (-2,1).
- * In 3D the field is the same for all z. SPDX-License-Identifier: BSD-3-Clause */
+ * In 3D the field is the same for all z. Others: Poiseuille and Couette flow from rest between the
+ * y sides, the standing wave of wave.h, and two that are exact at t = 0 only: the rotating square
+ * patch and the disc under a central force (Monaghan & Rafiee 2013).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_EXACT_H
 #define COMMON_EXACT_H
 
 #include "scene.h"
 #include "series.h"
+#include "wave.h"
 
 struct exact {
     int dim;
@@ -19,7 +23,15 @@ struct exact {
     double V[3];                /* m/s */
     double nu, rho;
     double U; /* m/s: scale of velocity */
+    int field;
+    double L, W;           /* m, 1/s: of initial.L, fluid.central */
+    double bottom, height; /* m: of a channel along x; of the still layer of a wave */
+    double force;          /* m/s^2: along the channel */
+    struct wave wave;
 };
+
+/* Whether the scene's field solves the equations at all times, not only at the start. */
+bool exact_at_all_times(const struct scene *s);
 
 struct exact exact_create(const struct scene *s);
 /* u[3], p (mean 0), vorticity dv/dx - du/dy at x[3], t; pointers may be NULL. */

@@ -322,6 +322,38 @@ static bool get_box(const struct param *r, const config_setting_t *s, void *targ
            get_vector(r, config_setting_get_elem(s, 1), target, 3, why, size);
 }
 
+/* ((x, y), (x, y), ...): at most PARAM_POINTS_MAX. */
+static bool get_points(const struct param *r, const config_setting_t *s, void *target, char *why,
+                       size_t size)
+{
+    struct param_points *to = (struct param_points *)(void *)((char *)target + r->offset);
+    const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : -1;
+    to->n = 0;
+    if (config_setting_is_group(s) || n < 0 || n > PARAM_POINTS_MAX) {
+        snprintf(why, size, "at most %d points are wanted: ((x, y), (x, y), ...)",
+                 PARAM_POINTS_MAX);
+        return false;
+    }
+    for (int k = 0; k < n; k++) {
+        const config_setting_t *point = config_setting_get_elem(s, (unsigned)k);
+        double v[2] = {NAN, NAN};
+        for (int a = 0; a < 2 && config_setting_is_aggregate(point); a++) {
+            const config_setting_t *c = config_setting_get_elem(point, (unsigned)a);
+            if (c)
+                number_of(c, v + a);
+        }
+        if (!(v[0] >= r->min && v[0] <= r->max && v[1] >= r->min && v[1] <= r->max)) {
+            snprintf(why, size, "point %d: two numbers in ( ) from %g to %g are wanted", k + 1,
+                     r->min, r->max);
+            return false;
+        }
+        to->x[k][0] = v[0];
+        to->x[k][1] = v[1];
+    }
+    to->n = n;
+    return true;
+}
+
 static bool get_value(const struct param *r, const config_setting_t *s, void *target, char *why,
                       size_t size)
 {
@@ -339,6 +371,8 @@ static bool get_value(const struct param *r, const config_setting_t *s, void *ta
     case PARAM_INTS:
     case PARAM_BOOLS:
         return get_vector(r, s, target, 0, why, size);
+    case PARAM_POINTS:
+        return get_points(r, s, target, why, size);
     default:
         return get_box(r, s, target, why, size);
     }

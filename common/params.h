@@ -18,9 +18,15 @@ enum param_type {
     PARAM_REALS,  /* double[3]; missing components are 0 */
     PARAM_INTS,   /* int[3]; missing components are 1 */
     PARAM_BOOLS,  /* bool[3]; missing components are false */
-    PARAM_BOX     /* double[2][3]: lower and upper corner */
+    PARAM_BOX,    /* double[2][3]: lower and upper corner */
+    PARAM_POINTS  /* struct param_points: a list of points of the plane */
 };
-enum { PARAM_TEXT_SIZE = 128 };
+enum { PARAM_TEXT_SIZE = 128, PARAM_POINTS_MAX = 400 };
+
+struct param_points {
+    int n;
+    double x[PARAM_POINTS_MAX][2];
+};
 
 struct param {
     const char *key;
@@ -38,7 +44,7 @@ struct param {
 #m,                                                                                           \
      _Generic(((T *)0)->m, double: PARAM_REAL, int: PARAM_INT, bool: PARAM_BOOL,                   \
               char *: PARAM_TEXT, double *: PARAM_REALS, int *: PARAM_INTS, bool *: PARAM_BOOLS,   \
-              double(*)[3]: PARAM_BOX),                                                            \
+              double(*)[3]: PARAM_BOX, struct param_points: PARAM_POINTS),                                                            \
      offsetof(T, m), unit, dflt, min, max, NULL, help    \
     }
 #define CHOICE(T, m, choices, dflt, help)                                                          \

@@ -17,6 +17,8 @@ size_t param_size(const struct param *r)
         return sizeof(bool);
     case PARAM_TEXT:
         return PARAM_TEXT_SIZE;
+    case PARAM_POINTS:
+        return sizeof(struct param_points);
     case PARAM_REALS:
         return 3 * sizeof(double);
     case PARAM_INTS:

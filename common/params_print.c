@@ -17,6 +17,8 @@ static const char *kind(const struct param *r)
         return "text";
     case PARAM_BOX:
         return "((x, y), (x, y))";
+    case PARAM_POINTS:
+        return "((x, y), (x, y), ...)";
     case PARAM_REALS:
     case PARAM_INTS:
     case PARAM_BOOLS:
@@ -131,6 +133,15 @@ static void print_text(char *to, size_t size, const char *text)
     to[n] = '\0';
 }
 
+static void print_points(char *to, size_t size, const struct param_points *p)
+{
+    size_t n = (size_t)snprintf(to, size, "(");
+    for (int k = 0; k < p->n && n + 80 < size; k++)
+        n += (size_t)snprintf(to + n, size - n, "%s(%.17g, %.17g)", k ? ", " : "", p->x[k][0],
+                              p->x[k][1]);
+    snprintf(to + n, size - n, ")");
+}
+
 /* Value as libconfig text. */
 static void print_value(char *to, size_t size, const struct param *r, const void *target)
 {
@@ -163,6 +174,9 @@ static void print_value(char *to, size_t size, const struct param *r, const void
         len += print_numbers(to + len, size - (size_t)len, r, at + 3 * sizeof(double), 3);
         snprintf(to + len, size - (size_t)len, ")");
         break;
+    case PARAM_POINTS:
+        print_points(to, size, (const struct param_points *)(const void *)at);
+        break;
     default:
         print_numbers(to, size, r, at, 3);
         break;
@@ -182,20 +196,25 @@ const char *params_value(const struct param *row, const void *target)
 
 char *params_group_text(const struct param_group *g)
 {
-    const size_t room = 256 + (size_t)g->nrows * 640 * (size_t)(g->stride ? *g->count + 1 : 1);
-    char *text = mem_new(room, 1), value[512];
+    const size_t points = 80 * (size_t)PARAM_POINTS_MAX; /* the longest value */
+    size_t row = 640;
+    for (int r = 0; r < g->nrows; r++)
+        row = g->rows[r].type == PARAM_POINTS ? points : row;
+    const size_t room = 256 + (size_t)g->nrows * row * (size_t)(g->stride ? *g->count + 1 : 1);
+    char *text = mem_new(room, 1), *value = mem_new(points, 1);
     size_t n = (size_t)snprintf(text, room, "%s: %s\n", g->name, g->stride ? "(" : "{");
     for (int e = 0; e < (g->stride ? *g->count : 1); e++) {
         const void *target = (const char *)g->target + g->stride * (size_t)e;
         if (g->stride)
             n += (size_t)snprintf(text + n, room - n, "  %s{\n", e ? ", " : "");
         for (int r = 0; r < g->nrows; r++) {
-            print_value(value, sizeof value, g->rows + r, target);
+            print_value(value, points, g->rows + r, target);
             n += (size_t)snprintf(text + n, room - n, "  %s = %s;\n", g->rows[r].key, value);
         }
         if (g->stride)
             n += (size_t)snprintf(text + n, room - n, "  }\n");
     }
     snprintf(text + n, room - n, "%s;\n", g->stride ? ")" : "}");
+    mem_free(value);
     return text;
 }

@@ -3,6 +3,7 @@
 #include "scene.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define ROWS(r) (r), (int)(sizeof(r) / sizeof *(r))
@@ -18,6 +19,7 @@ static const struct param fluid_rows[] = {
     PARAM(P, rho,     "kg/m^3", "1000.0",  1e-3, 1e5,  "density"),
     PARAM(P, nu,      "m^2/s",  "0.0",     0,    1e6,  "kinematic viscosity; 0: inviscid, nothing viscous is computed"),
     PARAM(P, gravity, "m/s^2",  "(0.0, 0.0, 0.0)", -1e6, 1e6, "acceleration of gravity"),
+    PARAM(P, central, "1/s",    "0.0",     0,    1e6,  "W of the acceleration -W^2 x towards the origin"),
 };
 #undef P
 #define P struct scene_domain
@@ -30,10 +32,53 @@ static const struct param domain_rows[] = {
 #undef P
 #define P struct scene_initial
 static const struct param initial_rows[] = {
-    CHOICE(P, field, "rest|uniform|taylor_green|two_modes", "rest", "field at the start, and the exact solution after it"),
+    CHOICE(P, field, "rest|uniform|taylor_green|two_modes|poiseuille|couette|standing_wave|patch|drop", "rest", "field at the start, and the exact solution after it"),
     PARAM(P, U,        "m/s", "1.0", 0, 1e6, "scale of velocity: amplitude of the field, unit of errors"),
     PARAM(P, L,        "m",   "1.0", 1e-9, 1e9, "wave length of the field"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "uniform velocity, or the one that carries the field"),
+    PARAM(P, amplitude, "m",  "0.0", -1e6, 1e6, "amplitude of a standing wave"),
+    PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "height against gravity where p = 0; by default the top of the fluid"),
+};
+#undef P
+#define P struct scene_wall
+static const struct param wall_rows[] = {
+    CHOICE(P, side, "none|x_min|x_max|y_min|y_max|z_min|z_max", "none", "side of the domain; none: points"),
+    PARAM(P, points,   "m",   "()", -1e9, 1e9, "polyline with the fluid on its left"),
+    PARAM(P, closed,   "-",   "false", 0, 0, "join the last point with the first"),
+    CHOICE(P, kind, "slip|no_slip|inflow|outflow|absorbing", "slip", "what it does to the flow"),
+    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, or of the inflow"),
+    CHOICE(P, profile, "uniform|parabolic", "uniform", "of an inflow; parabolic: velocity is the largest one"),
+    PARAM(P, pressure, "Pa",  "0.0", -1e12, 1e12, "at an outflow"),
+};
+#undef P
+#define P struct scene_body
+static const struct param body_rows[] = {
+    PARAM(P, name,     "-",   "body", 0, 0, "its name in the outputs"),
+    PARAM(P, points,   "m",   NULL, -1e9, 1e9, "corners, clockwise"),
+    CHOICE(P, kind, "slip|no_slip", "slip", "what its surface does to the flow"),
+    PARAM(P, centre,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "centre of rotation and of moments at the start"),
+    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the centre"),
+    PARAM(P, spin,     "rad/s", "0.0", -1e6, 1e6, "rate of rotation"),
+    PARAM(P, motion,   "-",   "", 0, 0, "file beside the case with rows t, x, y, angle: displacement instead"),
+};
+#undef P
+#define P struct scene_shape
+static const struct param shape_rows[] = {
+    CHOICE(P, form, "box|polygon|disc|below", "box", "kind of region"),
+    PARAM(P, box,      "m",   "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "corners of a box"),
+    PARAM(P, points,   "m",   "()", -1e9, 1e9, "corners of a polygon"),
+    PARAM(P, centre,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "of a disc"),
+    PARAM(P, radius,   "m",   "0.0", 0, 1e9, "of a disc"),
+    PARAM(P, level,    "m",   "0.0", -1e9, 1e9, "below: height against gravity"),
+    PARAM(P, hole,     "-",   "false", 0, 0, "take the region out of earlier shapes"),
+    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "added to the field's"),
+};
+#undef P
+#define P struct scene_probe
+static const struct param probe_rows[] = {
+    PARAM(P, name, "-", NULL, 0, 0, "its name in series.csv"),
+    CHOICE(P, kind, "pressure|level", "pressure", "what it reads: pressure at a point, or the height of the surface above it"),
+    PARAM(P, at,   "m", NULL, -1e9, 1e9, "place"),
 };
 #undef P
 #define P struct scene_coupling
@@ -73,6 +118,14 @@ void scene_groups(struct scene *s, struct param_group *groups)
         {"fluid", "What flows", ROWS(fluid_rows), &s->fluid, NULL, 0, 0, NULL},
         {"domain", "Where it flows", ROWS(domain_rows), &s->domain, NULL, 0, 0, NULL},
         {"initial", "How it starts", ROWS(initial_rows), &s->initial, NULL, 0, 0, NULL},
+        {"walls", "List of walls, inlets and outlets", ROWS(wall_rows), s->walls, NULL,
+         sizeof s->walls[0], WALLS_MAX, &s->nwalls},
+        {"bodies", "List of bodies with prescribed motion", ROWS(body_rows), s->bodies, NULL,
+         sizeof s->bodies[0], BODIES_MAX, &s->nbodies},
+        {"shapes", "List of regions that hold fluid at the start; none: everywhere",
+         ROWS(shape_rows), s->shapes, NULL, sizeof s->shapes[0], SHAPES_MAX, &s->nshapes},
+        {"probes", "List of gauges in series.csv", ROWS(probe_rows), s->probes, NULL,
+         sizeof s->probes[0], PROBES_MAX, &s->nprobes},
         {"coupling", "How the programs of a coupled job meet", ROWS(coupling_rows), &s->coupling,
          &s->has_coupling, 0, 0, NULL},
         {"output", "What is written", ROWS(output_rows), &s->output, &s->has_output, 0, 0, NULL},
@@ -80,6 +133,53 @@ void scene_groups(struct scene *s, struct param_group *groups)
          s->accept, NULL, sizeof s->accept[0], ACCEPT_MAX, &s->naccept},
     };
     memcpy(groups, all, sizeof all);
+}
+
+const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side side)
+{
+    for (int k = 0; k < s->nwalls; k++)
+        if (s->walls[k].side == (int)side)
+            return s->walls + k;
+    return NULL;
+}
+
+static void check_walls(const struct scene *s, const struct params *p, struct faults *f)
+{
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        const int a = (w->side - SIDE_X_MIN) / 2;
+        char key[32];
+        snprintf(key, sizeof key, "walls.[%d]", k);
+        if (w->side == SIDE_NONE && w->points.n < 2)
+            params_fault(p, f, key, "wall %d: give a side or at least two points", k + 1);
+        else if (w->side != SIDE_NONE && w->points.n > 0)
+            params_fault(p, f, key, "wall %d: give a side or points, not both", k + 1);
+        else if (w->side != SIDE_NONE && a >= s->domain.dim)
+            params_fault(p, f, key, "wall %d: a z side in a case of 2 dimensions", k + 1);
+        else if (w->side != SIDE_NONE && s->domain.periodic[a])
+            params_fault(p, f, key, "wall %d: its side is periodic", k + 1);
+        if (w->side != SIDE_NONE && scene_wall_of(s, (enum scene_side)w->side) != w)
+            params_fault(p, f, key, "wall %d: its side has a wall already", k + 1);
+        if (w->kind >= WALL_INFLOW && w->side == SIDE_NONE)
+            params_fault(p, f, key, "wall %d: inlets and outlets lie on sides of the domain",
+                         k + 1);
+    }
+}
+
+static void check_shapes(const struct scene *s, const struct params *p, struct faults *f)
+{
+    for (int k = 0; k < s->nbodies; k++)
+        if (s->bodies[k].points.n < 3)
+            params_fault(p, f, "bodies", "body %d: three points or more are wanted", k + 1);
+    for (int k = 0; k < s->nshapes; k++) {
+        const struct scene_shape *h = s->shapes + k;
+        if (h->form == SHAPE_POLYGON && h->points.n < 3)
+            params_fault(p, f, "shapes", "shape %d: three points or more are wanted", k + 1);
+        if (h->form == SHAPE_DISC && h->radius <= 0.0)
+            params_fault(p, f, "shapes", "shape %d: the radius must be given", k + 1);
+        if (h->form == SHAPE_BOX && !(h->box[1][0] > h->box[0][0] && h->box[1][1] > h->box[0][1]))
+            params_fault(p, f, "shapes", "shape %d: the box is empty", k + 1);
+    }
 }
 
 static void check_domain(const struct scene *s, const struct params *p, struct faults *f)
@@ -121,4 +221,6 @@ void scene_check(const struct scene *s, const struct params *p, struct faults *f
         return; /* what follows needs sound values */
     check_domain(s, p, f);
     check_field(s, p, f);
+    check_walls(s, p, f);
+    check_shapes(s, p, f);
 }

@@ -7,8 +7,38 @@
 
 #include "params.h"
 
-enum initial_field { FIELD_REST, FIELD_UNIFORM, FIELD_TAYLOR_GREEN, FIELD_TWO_MODES };
-enum { ACCEPT_MAX = 16, SCENE_GROUPS = 7 };
+enum initial_field {
+    FIELD_REST,
+    FIELD_UNIFORM,
+    FIELD_TAYLOR_GREEN,
+    FIELD_TWO_MODES,
+    FIELD_POISEUILLE,
+    FIELD_COUETTE,
+    FIELD_STANDING_WAVE,
+    FIELD_PATCH,
+    FIELD_DROP
+};
+enum scene_side {
+    SIDE_NONE,
+    SIDE_X_MIN,
+    SIDE_X_MAX,
+    SIDE_Y_MIN,
+    SIDE_Y_MAX,
+    SIDE_Z_MIN,
+    SIDE_Z_MAX
+};
+enum wall_kind { WALL_SLIP, WALL_NO_SLIP, WALL_INFLOW, WALL_OUTFLOW, WALL_ABSORBING };
+enum wall_profile { PROFILE_UNIFORM, PROFILE_PARABOLIC };
+enum shape_form { SHAPE_BOX, SHAPE_POLYGON, SHAPE_DISC, SHAPE_BELOW };
+enum probe_kind { PROBE_PRESSURE, PROBE_LEVEL };
+enum {
+    ACCEPT_MAX = 16,
+    WALLS_MAX = 16,
+    BODIES_MAX = 8,
+    SHAPES_MAX = 16,
+    PROBES_MAX = 24,
+    SCENE_GROUPS = 11
+};
 
 struct scene {
     struct scene_time {
@@ -18,6 +48,7 @@ struct scene {
         double rho;        /* kg/m^3 */
         double nu;         /* m^2/s; 0: inviscid, nothing viscous is computed */
         double gravity[3]; /* m/s^2 */
+        double central;    /* 1/s: W of the acceleration -W^2 x towards the origin */
     } fluid;
     struct scene_domain {
         int dim;               /* 2 or 3 */
@@ -28,7 +59,49 @@ struct scene {
         int field;          /* enum initial_field */
         double U, L;        /* m/s, m: scales of the field; errors are relative to them */
         double velocity[3]; /* m/s: uniform velocity, or the one that carries two_modes */
+        double amplitude;   /* m: of a standing wave */
+        double level;       /* m: height against gravity where p = 0; LEVEL_TOP: the fluid's top */
     } initial;
+    /* Sides of the domain, and polylines with the fluid on their left. Sides without a wall that
+     * are not periodic: open (sph), or the exact solution (fv). */
+    struct scene_wall {
+        int side; /* enum scene_side; SIDE_NONE: points */
+        struct param_points points;
+        bool closed;        /* the last point is joined with the first */
+        int kind;           /* enum wall_kind */
+        double velocity[3]; /* m/s: of the wall along itself, or of the inflow */
+        int profile;        /* of an inflow */
+        double pressure;    /* Pa: at an outflow */
+    } walls[WALLS_MAX];
+    int nwalls;
+    /* Closed polylines that move as told, clockwise: fluid on their left. */
+    struct scene_body {
+        char name[PARAM_TEXT_SIZE];
+        struct param_points points;
+        int kind;                     /* WALL_SLIP or WALL_NO_SLIP */
+        double centre[3];             /* m: of rotation and of moments, at t = 0 */
+        double velocity[3];           /* m/s */
+        double spin;                  /* rad/s */
+        char motion[PARAM_TEXT_SIZE]; /* file of rows t, x, y, angle (s, m, m, rad); "": none */
+    } bodies[BODIES_MAX];
+    int nbodies;
+    /* Where the fluid is at the start; none: everywhere. */
+    struct scene_shape {
+        int form; /* enum shape_form */
+        double box[2][3];
+        struct param_points points;
+        double centre[3], radius; /* m */
+        double level;             /* m: below it, against gravity */
+        bool hole;                /* takes fluid of earlier shapes away */
+        double velocity[3];       /* m/s: added to the field's */
+    } shapes[SHAPES_MAX];
+    int nshapes;
+    struct scene_probe {
+        char name[PARAM_TEXT_SIZE];
+        int kind;     /* enum probe_kind */
+        double at[3]; /* m */
+    } probes[PROBES_MAX];
+    int nprobes;
     struct scene_coupling {
         int steps;         /* SPH steps in a window */
         double transition; /* m; 0: 1.25 R */
@@ -55,6 +128,11 @@ struct scene {
     bool has_coupling, has_output;
     bool has_sph, has_fv; /* groups of the solvers: both make a coupled job */
 };
+
+#define LEVEL_TOP 1e30
+
+/* The wall on a side of the domain; NULL: none. */
+const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side side);
 
 /* The table of the groups above, with s as target: fills groups[SCENE_GROUPS]. */
 void scene_groups(struct scene *s, struct param_group *groups);

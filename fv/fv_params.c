@@ -45,7 +45,7 @@ static void check_axis(const struct run *r, int a, struct faults *f)
 
 void fv_params_check(const struct run *r, struct faults *f)
 {
-    const bool exact = r->scene.initial.field != FIELD_REST;
+    const bool exact = exact_at_all_times(&r->scene);
     if (given.integrator == INTEGRATOR_BDF2 && given.cfl > 0.7)
         params_fault(r->params, f, "fv.cfl", "%g: bdf2 is stable up to 0.7", given.cfl);
     for (int a = 0; a < r->scene.domain.dim; a++) {

@@ -112,7 +112,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     s->nu = r->scene.fluid.nu;
     s->t = r->t;
     s->exact = exact_create(&r->scene);
-    s->has_exact = r->scene.initial.field != FIELD_REST;
+    s->has_exact = exact_at_all_times(&r->scene);
     for (int a = 0; a < 3; a++)
         length[a] = d->max[a] - d->min[a];
     block_create(&s->b, r->comm, d->dim, s->prm.cells, d->min, length, d->periodic);

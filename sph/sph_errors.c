@@ -49,11 +49,7 @@ void sph_sums(const struct sph *s, double sums[SUM_COUNT])
     MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
-bool sph_has_exact(const struct run *r)
-{
-    const double *g = r->scene.fluid.gravity;
-    return r->scene.initial.field != FIELD_REST && g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0;
-}
+bool sph_has_exact(const struct run *r) { return exact_at_all_times(&r->scene); }
 
 /* dv/dx - du/dy; 3D: all components. From the slopes: grad u [a][b] = du_a/dx_b. */
 void sph_vorticity(const struct sph *s, int i, double w[3])

@@ -8,14 +8,14 @@ enum what { VALUE, GRADIENT, LAPLACE };
 
 /* Phase k.x + 0.3 of a wave of `number' in the domain, and the factors that averaging over cells
  * gives. */
-struct wave {
+struct plane_wave {
     double k[3], mean[3];
 };
 
-static struct wave wave_in(const struct block *b)
+static struct plane_wave wave_in(const struct block *b)
 {
     static const int number[3] = {2, -1, 1};
-    struct wave w = {{0}, {0}};
+    struct plane_wave w = {{0}, {0}};
     for (int a = 0; a < 3; a++) {
         w.k[a] = a < b->dim ? 2.0 * M_PI * number[a] / (b->h[a] * b->cells[a]) : 0.0;
         const double x = 0.5 * w.k[a] * b->h[a];
@@ -24,12 +24,12 @@ static struct wave wave_in(const struct block *b)
     return w;
 }
 
-static double phase(const struct wave *w, const double *x)
+static double phase(const struct plane_wave *w, const double *x)
 {
     return w->k[0] * x[0] + w->k[1] * x[1] + w->k[2] * x[2] + 0.3;
 }
 
-static void fill_wave(const struct block *b, const struct wave *w, double *q)
+static void fill_wave(const struct block *b, const struct plane_wave *w, double *q)
 {
     double x[3];
     for (int k = 0; k < b->n[2]; k++)
@@ -42,8 +42,8 @@ static void fill_wave(const struct block *b, const struct wave *w, double *q)
 }
 
 /* Average over the lower face along a, or over the cell. */
-static double wanted(const struct block *b, const struct wave *w, const double *x, enum what what,
-                     int a)
+static double wanted(const struct block *b, const struct plane_wave *w, const double *x,
+                     enum what what, int a)
 {
     const double cell = w->mean[0] * w->mean[1] * w->mean[2];
     double at[3] = {x[0], x[1], x[2]};
@@ -60,7 +60,7 @@ static double wanted(const struct block *b, const struct wave *w, const double *
 static double error_of(struct fv *s, enum what what, int a)
 {
     const struct block *b = &s->b;
-    const struct wave w = wave_in(b);
+    const struct plane_wave w = wave_in(b);
     double *out = what == VALUE ? s->U[a] : s->rhs[0], most = 0.0, scale = 0.0, x[3];
     for (int c = 0; c < b->dim; c++)
         fill_wave(b, &w, s->u[c]);

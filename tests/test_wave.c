@@ -1,0 +1,123 @@
+/* test_wave.c - exact solutions with a surface or walls: the standing wave's eigenvalue, equations
+ * and boundary conditions, channels, patch and drop. SPDX-License-Identifier: BSD-3-Clause */
+#include "test.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../common/exact.h"
+
+static void eigenvalues(void **state)
+{
+    /* Collocation of the original equations (Chebyshev), H = g = 1. */
+    static const struct {
+        double kH, Re, re, im;
+    } known[] = {{0.5 * M_PI, 500.0, -0.014629189, 1.195190510}};
+    (void)state;
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
+        const struct wave w =
+            wave_create(1.0, 2.0 * M_PI / known[k].kH, 1.0, 1.0 / known[k].Re, 1.0, 0.05);
+        assert_true(fabs(creal(w.s) - known[k].re) < 2e-9);
+        assert_true(fabs(cimag(w.s) - known[k].im) < 2e-9);
+    }
+    /* Inviscid limit of the frequency, and deep water's damping 2 nu k^2 (Lamb). */
+    const struct wave deep = wave_create(10.0, 1.0, 9.81, 1e-6, 1.0, 0.01);
+    assert_true(fabs(cimag(deep.s) / sqrt(9.81 * deep.k) - 1.0) < 1e-4);
+    assert_true(fabs(-creal(deep.s) / (2e-6 * deep.k * deep.k) - 1.0) < 2e-3);
+}
+
+/* Linear momentum and continuity by differences, in the layers and between them. */
+static void wave_solves_its_equations(void **state)
+{
+    const struct wave w = wave_create(1.0, 4.0, 1.0, 1.0 / 500.0, 1.0, 0.05);
+    const double h = 1e-4, t = 0.7;
+    (void)state;
+    for (int k = 0; k < 20; k++) {
+        const double x = 0.3 + 0.07 * k, y = -0.99 + 0.05 * k;
+        double u[2], e[2], W[2], n[2], s[2], b[2], a[2], pe, pw, pn, ps, dummy;
+        wave_point(&w, x, y, t, u, &dummy, NULL);
+        wave_point(&w, x + h, y, t, e, &pe, NULL);
+        wave_point(&w, x - h, y, t, W, &pw, NULL);
+        wave_point(&w, x, y + h, t, n, &pn, NULL);
+        wave_point(&w, x, y - h, t, s, &ps, NULL);
+        wave_point(&w, x, y, t - h, b, &dummy, NULL);
+        wave_point(&w, x, y, t + h, a, &dummy, NULL);
+        assert_true(fabs(e[0] - W[0] + n[1] - s[1]) / (2.0 * h) < 1e-6);
+        for (int c = 0; c < 2; c++) {
+            const double lap = (e[c] + W[c] + n[c] + s[c] - 4.0 * u[c]) / (h * h);
+            const double dp = (c == 0 ? pe - pw : pn - ps) / (2.0 * h);
+            const double residual =
+                (a[c] - b[c]) / (2.0 * h) + dp + (c == 1 ? 1.0 : 0.0) - w.nu * lap;
+            assert_true(fabs(residual) < 2e-6);
+        }
+    }
+    double u[2], p;
+    wave_point(&w, 0.4, -1.0, 0.3, u, NULL, NULL);
+    assert_true(fabs(u[0]) < 1e-12 && fabs(u[1]) < 1e-12);
+    wave_point(&w, 0.4, 0.0, 0.0, u, &p, NULL);
+    assert_true(fabs(wave_eta(&w, 0.4, 0.0)) < 1e-12);
+}
+
+static struct scene channel(int field)
+{
+    struct scene s = {.fluid = {.rho = 1000.0, .nu = 0.1, .gravity = {0.8, 0.0, 0.0}},
+                      .domain = {.dim = 2, .max = {1.0, 1.0}, .periodic = {true}},
+                      .initial = {.field = field, .U = 1.0, .L = 1.0, .level = LEVEL_TOP}};
+    if (field != FIELD_POISEUILLE)
+        s.fluid.gravity[0] = 0.0;
+    return s;
+}
+
+static void channels(void **state)
+{
+    const double y[3] = {0.3, 0.5, 0.0}, wall[3] = {0.0, 1.0, 0.0}, h = 1e-4;
+    double u[3], before[3], after[3], above[3], below[3], w;
+    (void)state;
+    for (int field = FIELD_POISEUILLE; field <= FIELD_COUETTE; field++) {
+        const struct scene s = channel(field);
+        const struct exact e = exact_create(&s);
+        exact_point(&e, y, 1e3, u, NULL, NULL);
+        assert_true(fabs(u[0] - (field == FIELD_POISEUILLE ? 1.0 : 0.5)) < 1e-12);
+        exact_point(&e, wall, 0.4, u, NULL, NULL);
+        assert_true(fabs(u[0] - (field == FIELD_POISEUILLE ? 0.0 : 1.0)) < 1e-10);
+        exact_point(&e, y, 0.0, u, NULL, NULL);
+        assert_true(fabs(u[0]) < 2e-3); /* at rest, to the tail of the series */
+        const double at[3] = {0.0, 0.3, 0.0}, up[3] = {0.0, 0.3 + h, 0.0}, down[3] = {0.0, 0.3 - h};
+        exact_point(&e, at, 0.5, u, NULL, &w);
+        exact_point(&e, at, 0.5 - h, before, NULL, NULL);
+        exact_point(&e, at, 0.5 + h, after, NULL, NULL);
+        exact_point(&e, up, 0.5, above, NULL, NULL);
+        exact_point(&e, down, 0.5, below, NULL, NULL);
+        assert_true(fabs((after[0] - before[0]) / (2.0 * h) - s.fluid.gravity[0] -
+                         0.1 * (above[0] + below[0] - 2.0 * u[0]) / (h * h)) < 1e-5);
+        assert_true(fabs(w + (above[0] - below[0]) / (2.0 * h)) < 1e-6);
+    }
+}
+
+static void patch_and_drop(void **state)
+{
+    struct scene s = {.fluid = {.rho = 1.0, .central = 1.0},
+                      .domain = {.dim = 2},
+                      .initial = {.field = FIELD_PATCH, .U = 1.0, .L = 1.0, .level = LEVEL_TOP}};
+    const double centre[3] = {0.0, 0.0, 0.0}, side[3] = {0.5, 0.1, 0.0};
+    double u[3], p;
+    (void)state;
+    struct exact e = exact_create(&s);
+    exact_point(&e, centre, 0.0, u, &p, NULL);
+    assert_true(fabs(p + 0.1473427) < 2e-5);
+    exact_point(&e, side, 0.0, u, &p, NULL);
+    assert_true(fabs(p) < 1e-12 && fabs(u[0] - 0.1) < 1e-15 && fabs(u[1] + 0.5) < 1e-15);
+    s.initial.field = FIELD_DROP;
+    e = exact_create(&s);
+    exact_point(&e, centre, 0.0, u, &p, NULL);
+    assert_true(fabs(p - 1.0) < 1e-15);
+    assert_false(exact_at_all_times(&s));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(eigenvalues), cmocka_unit_test(wave_solves_its_equations),
+        cmocka_unit_test(channels), cmocka_unit_test(patch_and_drop)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
