@@ -36,7 +36,8 @@ struct run {
     const struct params *params;
     char dir[1024]; /* output folder */
     char case_name[256];
-    bool restart; /* state comes from the restart file */
+    char case_dir[1024]; /* folder of the case file */
+    bool restart;        /* state comes from the restart file */
     bool coupled;
     const struct partner *partner; /* NULL when alone */
     void *partner_ctx;             /* its state (struct cpl *) */

@@ -15,6 +15,8 @@
 #include "openings.h"
 #include "scheme.h"
 #include "sph_params.h"
+#include "surface.h"
+#include "walls.h"
 #include "zones.h"
 
 enum { PRIM = 8, BALANCE_EVERY = 50, COUNT_EVERY = 20 };
@@ -60,8 +62,23 @@ void integrate_prepare(struct sph *s)
     domain_ghosts(s);
     if (s->zones)
         openings_ghosts(s);
+    if (s->walls) {
+        walls_move(s, s->t);
+        if (s->walls->model->ghosts)
+            s->walls->model->ghosts(s);
+    }
     neighbours_build(s);
     stop(s, "list");
+    if (s->walls && s->walls->model->list) {
+        start(s, "walls");
+        s->walls->model->list(s);
+        stop(s, "walls");
+    }
+    if (s->surface) {
+        start(s, "surface");
+        surface_detect(s);
+        stop(s, "surface");
+    }
     s->ready = true;
 }
 
@@ -73,15 +90,51 @@ static void halo(struct sph *s, bool slopes)
     stop(s, "halo");
 }
 
+typedef void wall_hook(struct sph *s);
+
+static void at_walls(struct sph *s, wall_hook *hook)
+{
+    if (!hook)
+        return;
+    start(s, "walls");
+    hook(s);
+    stop(s, "walls");
+}
+
+/* What follows the first pass and its halo. */
+static void finish_slopes(struct sph *s)
+{
+    if (s->walls)
+        at_walls(s, s->walls->model->slopes);
+    if (s->walls || s->surface)
+        transport_finish(s);
+}
+
+/* The acceleration -W^2 x. */
+static void add_central(struct sph *s)
+{
+    const double W2 = s->central * s->central;
+    const int dim = s->dim;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + (size_t)i * s->p.nstate;
+        double *rate = s->p.rate + (size_t)i * s->p.nstate + dim;
+        for (int a = 0; a < dim; a++)
+            rate[a] -= y[2 * dim + 1] * W2 * y[a];
+    }
+}
+
 static void lines_and_gradients(struct sph *s)
 {
     start(s, "update");
     particles_lines(s);
     stop(s, "update");
     halo(s, false);
+    if (s->walls)
+        at_walls(s, s->walls->model->lines);
     start(s, "gradients");
     s->scheme->gradients(s);
     stop(s, "gradients");
+    finish_slopes(s);
 }
 
 void integrate_gradients(struct sph *s)
@@ -91,12 +144,17 @@ void integrate_gradients(struct sph *s)
     particles_lines(s);
     domain_halo_start(s, false);
     domain_halo_finish(s, false);
+    if (s->walls && s->walls->model->lines)
+        s->walls->model->lines(s);
     s->scheme->gradients(s);
+    finish_slopes(s);
     stop(s, "output");
 }
 
 void integrate_rates(struct sph *s)
 {
+    if (s->walls)
+        walls_move(s, s->t);
     if (s->zones) {
         start(s, "zones");
         zones_stage(s);
@@ -109,9 +167,15 @@ void integrate_rates(struct sph *s)
         stop(s, "zones");
     }
     halo(s, true);
+    if (s->walls)
+        at_walls(s, s->walls->model->ghost_slopes);
     start(s, "rates");
     s->scheme->rates(s);
     stop(s, "rates");
+    if (s->walls)
+        at_walls(s, s->walls->model->rates);
+    if (s->central > 0.0)
+        add_central(s);
 }
 
 /* Velocities of displacement, from prim and slope: what the next step and its skin depend on. */
@@ -274,6 +338,20 @@ static int remove_lost(struct sph *s)
     return before - n;
 }
 
+/* Particles that walls have let through: none, one hopes; returns their number. */
+static int remove_behind(struct sph *s)
+{
+    if (!s->walls || !s->walls->model->behind)
+        return 0;
+    int *who = NEW(int, s->p.n);
+    const int gone = s->walls->model->behind(s, who);
+    for (int k = gone - 1; k >= 0; k--)
+        particles_copy(&s->p, who[k], --s->p.n);
+    mem_free(who);
+    s->walls->leaked += gone;
+    return gone;
+}
+
 /* What follows the stages: imposed values, births and removals. */
 static void finish_step(struct sph *s, double dt, double *most)
 {
@@ -284,7 +362,7 @@ static void finish_step(struct sph *s, double dt, double *most)
         zones_openings(s, dt);
         stop(s, "zones");
     } else {
-        const int lost = remove_lost(s);
+        const int lost = remove_behind(s) + remove_lost(s);
         s->lost += lost;
         raise(most + MOST_LOST, lost);
     }

@@ -153,7 +153,7 @@ INLINE void shift(const struct sph *s, double *delta, const double *u, const dou
         u2 += u[a] * u[a];
     }
     const double most2 = 0.0625 * (transport == TRANSPORT_TVO ? u2 : U * U);
-    if (size2 > most2)
+    if (size2 > most2 && !s->walls && !s->surface) /* else transport.c has the last word */
         for (int a = 0; a < dim; a++)
             delta[a] *= sqrt(most2 / size2);
 }

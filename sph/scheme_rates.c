@@ -60,7 +60,7 @@ static struct constants constants_of(const struct sph *s)
         .eos = {.rho0_1 = 1.0 / s->rho0,
                 .B = s->rho0 * s->c0 * s->c0 / s->gamma,
                 .Z0 = s->rho0 * s->c0},
-        .dissipation = {.factor = 3.0 / s->c0, .least = s->prm.low_dissipation ? 0.0 : 1.0},
+        .dissipation = {.factor = 3.0 / s->c0, .least = s->prm.low_dissipation ? s->prm.dissipation : 1.0},
         .limiter = s->prm.limiter,
         .gamma = (int)s->gamma,
         .R_1 = 1.0 / s->R,

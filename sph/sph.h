@@ -14,6 +14,8 @@ enum sph_limiter { LIMITER_KOREN, LIMITER_MINMOD, LIMITER_NONE };
 enum sph_transport { TRANSPORT_TVS, TRANSPORT_TVO, TRANSPORT_NONE, TRANSPORT_EULERIAN };
 enum sph_viscosity { VISCOSITY_MORRIS, VISCOSITY_MONAGHAN };
 enum sph_outer { OUTER_NONE, OUTER_EXACT, OUTER_PARTNER };
+enum sph_walls { WALLS_NFM, WALLS_GHOSTS, WALLS_FIXED, WALLS_AUTO };
+enum sph_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
 enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
 
 struct sph_params {
@@ -23,11 +25,14 @@ struct sph_params {
     double gamma; /* Tait's exponent, 7 or 1 */
     int scheme, limiter, transport, viscosity;
     bool low_dissipation; /* bounded Riemann dissipation (Zhang, Hu & Adams 2017) */
+    double dissipation;   /* its least share then */
     double damper;        /* acoustic damper beta, 0: off */
     double cfl;           /* CFL_a of [2.102] */
     double cfl_viscous;   /* CFL_v of [2.103] */
     double box[2][3];     /* outer face of the buffer; all 0: the whole domain, no zones */
     double free[2][3];    /* instead of box: the free zone; box is the widths of the zones larger */
+    int walls;            /* enum sph_walls */
+    int surface;          /* enum sph_surface: the fluid has a free surface */
     int outer;            /* what feeds the zones: none, exact, partner */
     double density_limit; /* |rho/rho0 - 1| that ends the run */
     double noise;         /* random displacement of the first lattice, in dx */
@@ -55,6 +60,8 @@ struct particles {
 struct sph;
 struct neighbours; /* cell grid and list of pairs; neighbours.h */
 struct domain;     /* partition over ranks, migration, halo; domain.h */
+struct walls;      /* walls and bodies; walls.h; NULL: none */
+struct surface;    /* free surface; surface.h; NULL: none */
 struct zones;      /* transition, buffer, openings; zones.h; NULL: none */
 
 /* The two passes of a pair interaction; scheme.h. */
@@ -70,10 +77,10 @@ struct sph {
     int dim;
     double R, dx, dxD; /* m, m, m^dim: volume of a particle at the start */
     double rho0, nu, c0, gamma;
-    double gravity[3];
-    double lo[3], hi[3]; /* region of the particles: the domain, or sph.box */
-    bool periodic[3];    /* of that region */
-    double t;            /* s: time of the state y; during a stage: of that stage */
+    double gravity[3], central; /* m/s^2, 1/s */
+    double lo[3], hi[3];        /* region of the particles: the domain, or sph.box */
+    bool periodic[3];           /* of that region */
+    double t;                   /* s: time of the state y; during a stage: of that stage */
     double dt;
     struct particles p;
     struct neighbours *list;
@@ -81,11 +88,14 @@ struct sph {
     struct scheme passes;        /* what the parameters name */
     const struct scheme *scheme; /* &passes */
     struct zones *zones;
-    double skin;     /* m: the list holds pairs within R + skin */
-    bool ready;      /* list and ghosts belong to the positions of y; whoever moves, adds or
-                        removes particles outside a step clears it */
-    bool broken;     /* the state cannot be trusted: no list is made of it any more */
-    int64_t next_id; /* of the next particle born on this rank: rank + k size */
+    struct walls *walls;
+    struct surface *surface;
+    double halo_extra; /* m: ghosts are made this much farther than pairs reach */
+    double skin;       /* m: the list holds pairs within R + skin */
+    bool ready;        /* list and ghosts belong to the positions of y; whoever moves, adds or
+                          removes particles outside a step clears it */
+    bool broken;       /* the state cannot be trusted: no list is made of it any more */
+    int64_t next_id;   /* of the next particle born on this rank: rank + k size */
     /* of the last step, over all ranks */
     double max_speed, max_shift, rho_min, rho_max, max_c;
     const char *limited_by; /* "sound" or "viscosity" */
@@ -147,7 +157,7 @@ bool sph_has_exact(const struct run *r);
 void sph_vorticity(const struct sph *s, int i, double w[3]);
 /* Names of the columns that sph_row fills for this scene; returns their number, at most
  * SPH_COLUMNS. */
-enum { SPH_COLUMNS = 16 };
+enum { SPH_COLUMNS = 24 + PROBES_MAX + 3 * BODIES_MAX };
 int sph_columns(const struct run *r, const char **names);
 void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void sph_checkpoint(void *s, struct h5 *f);

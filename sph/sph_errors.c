@@ -11,6 +11,7 @@
 #include "eos.h"
 #include "neighbours.h"
 #include "openings.h"
+#include "probes.h"
 #include "sph_params.h"
 #include "zones.h"
 
@@ -168,7 +169,7 @@ int sph_columns(const struct run *r, const char **names)
         names[n++] = "born [-]";
         names[n++] = "gone [-]";
     }
-    return n;
+    return n + probes_columns(r, names + n);
 }
 
 void sph_row(void *state, double *values)
@@ -197,6 +198,7 @@ void sph_row(void *state, double *values)
         *values++ = births(s);
         *values++ = removals(s);
     }
+    probes_row(s, values);
     timer_stop(&s->run->timers, timer_index(&s->run->timers, "output"));
 }
 

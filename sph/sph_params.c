@@ -20,6 +20,7 @@ static const struct param rows[] = {
     CHOICE(P, transport, "tvs|tvo|none|eulerian", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest"),
     CHOICE(P, viscosity, "morris|monaghan", "morris", "form of the viscous term"),
     PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)"),
+    PARAM(P, dissipation, "-", "0.0", 0.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves"),
     PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure"),
     PARAM(P, cfl, "-", "0.375", 0.001, 2.0, "dt over R/(c + |u - u0|)"),
     PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan)"),
@@ -27,6 +28,8 @@ static const struct param rows[] = {
     PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
     CHOICE(P, outer, "none|exact|partner", "none", "the flow around the box; none with a box: partner when coupled, else exact"),
     PARAM(P, density_limit, "-", "0.1", 1e-6, 10.0, "|rho/rho0 - 1| that ends the run"),
+    CHOICE(P, walls, "nfm|ghosts|fixed_ghosts|auto", "auto", "normal flux (2D), mirrored ghosts (plane sides), fixed ghosts (2D); auto: nfm in 2D, ghosts in 3D"),
+    CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
     PARAM(P, noise, "-", "0.0", 0.0, 0.5, "random displacement of the first lattice, in dx"),
 };
 /* clang-format on */
@@ -78,6 +81,31 @@ static double default_c0(const struct scene *c)
     return 10.0 * fmax(fmax(U, carried), sqrt(gH));
 }
 
+/* Whether the fluid ends somewhere without a wall. */
+static bool has_surface(const struct scene *c)
+{
+    const int f = c->initial.field;
+    return c->nshapes > 0 || f == FIELD_STANDING_WAVE || f == FIELD_PATCH || f == FIELD_DROP;
+}
+
+static bool has_walls(const struct scene *c)
+{
+    bool any = c->nbodies > 0;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || c->walls[k].kind == WALL_SLIP || c->walls[k].kind == WALL_NO_SLIP;
+    return any;
+}
+
+static bool has_no_slip(const struct scene *c)
+{
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || c->walls[k].kind == WALL_NO_SLIP;
+    for (int k = 0; k < c->nbodies; k++)
+        any = any || c->bodies[k].kind == WALL_NO_SLIP;
+    return any;
+}
+
 static bool is_coupled(const struct run *r) { return r->scene.has_sph && r->scene.has_fv; }
 
 const struct sph_params *sph_params_of(const struct run *r)
@@ -88,7 +116,13 @@ const struct sph_params *sph_params_of(const struct run *r)
         used.c0 = default_c0(&r->scene);
     if (used.cfl_viscous <=
         0.0) /* bounds of plane waves on a lattice, with margin: the sheet's table */
-        used.cfl_viscous = used.viscosity == VISCOSITY_MORRIS ? 0.09 : 0.035;
+        used.cfl_viscous = used.viscosity != VISCOSITY_MORRIS ? 0.035
+                           : has_no_slip(&r->scene)           ? 0.05
+                                                              : 0.09;
+    if (used.walls == WALLS_AUTO)
+        used.walls = r->scene.domain.dim == 2 ? WALLS_NFM : WALLS_GHOSTS;
+    if (used.surface == SURFACE_AUTO)
+        used.surface = has_surface(&r->scene) ? SURFACE_YES : SURFACE_NO;
     if (has_box() && used.outer == OUTER_NONE)
         used.outer = is_coupled(r) ? OUTER_PARTNER : OUTER_EXACT;
     for (int a = 0; a < 3; a++)
@@ -191,6 +225,17 @@ void sph_params_check(const struct run *r, struct faults *f)
             "eulerian needs scheme \"riemann_ale\": without mass flux there is no Eulerian form");
     if (sph_params_of(r)->c0 <= 0.0)
         params_fault(r->params, f, "sph.c0", "must be given: the case has no scale of velocity");
+    const bool in_3d = r->scene.domain.dim == 3;
+    bool polylines = r->scene.nbodies > 0;
+    for (int k = 0; k < r->scene.nwalls; k++)
+        polylines = polylines || r->scene.walls[k].side == SIDE_NONE;
+    if (in_3d && has_walls(&r->scene) && (given.walls == WALLS_NFM || given.walls == WALLS_FIXED))
+        params_fault(r->params, f, "sph.walls", "in 3D: ghosts");
+    if (polylines && (in_3d || given.walls == WALLS_GHOSTS))
+        params_fault(r->params, f, "sph.walls",
+                     in_3d ? "polylines and bodies need 2 dimensions"
+                           : "mirrored ghosts need plane sides: take nfm or fixed_ghosts for "
+                             "polylines and bodies");
     if (given.outer == OUTER_PARTNER && !is_coupled(r))
         params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
     for (int a = 0; a < r->scene.domain.dim; a++)

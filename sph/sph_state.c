@@ -10,6 +10,8 @@
 #include "neighbours.h"
 #include "scheme.h"
 #include "sph_params.h"
+#include "surface.h"
+#include "walls.h"
 #include "zones.h"
 
 static void set_constants(struct sph *s)
@@ -23,6 +25,8 @@ static void set_constants(struct sph *s)
     s->nu = c->fluid.nu;
     s->c0 = s->prm.c0;
     s->gamma = s->prm.gamma;
+    s->central = c->fluid.central;
+    s->halo_extra = s->prm.walls == WALLS_FIXED && (c->nwalls > 0 || c->nbodies > 0) ? s->R : 0.0;
     memcpy(s->gravity, c->fluid.gravity, sizeof s->gravity);
     sph_params_region(&c->domain, &s->prm, s->lo, s->hi, s->periodic);
 }
@@ -49,6 +53,8 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
     s->scheme = &s->passes;
     s->zones = zones_create(s);
     domain_create(s);
+    s->walls = walls_create(s);
+    s->surface = surface_create(s);
     if (f) {
         if (!sph_restore(s, f))
             sph_free(&s);
@@ -66,6 +72,8 @@ void sph_free(struct sph **s)
         return;
     domain_free(&(*s)->domain);
     zones_free(&(*s)->zones);
+    walls_free(&(*s)->walls);
+    surface_free(&(*s)->surface);
     neighbours_free(&(*s)->list);
     particles_free(&(*s)->p);
     mem_free(*s);

@@ -1,0 +1,44 @@
+/* transport.c - bounds of the transport velocity where there are walls or a free surface; without
+ * them the first pass bounds it itself. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+
+#include "surface.h"
+
+enum { PRIM = 8 };
+
+/* Takes out the part of delta across the surface [5.14]: nothing may move it but the flow. */
+static void along_surface(const struct surface *f, int i, double *delta, int dim)
+{
+    const double *N = f->normal + (size_t)dim * i;
+    double across = 0.0;
+    for (int a = 0; a < dim; a++)
+        across += delta[a] * N[a];
+    for (int a = 0; a < dim; a++)
+        delta[a] = f->is[i] == SURFACE_ON ? 0.0 : delta[a] - across * N[a];
+}
+
+void transport_finish(struct sph *s)
+{
+    const int dim = s->dim;
+    const bool oger = s->prm.transport == TRANSPORT_TVO;
+    const double U = s->run->scene.initial.U;
+    if (!oger && s->prm.transport != TRANSPORT_TVS)
+        return;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *u = s->p.prim + (size_t)PRIM * i + dim;
+        double *u0 = s->p.slope + (size_t)s->p.nslope * i + dim + dim * dim;
+        double delta[3], size2 = 0.0, u2 = 0.0;
+        for (int a = 0; a < dim; a++)
+            delta[a] = u0[a] - u[a];
+        if (s->surface && s->surface->is[i] != SURFACE_INNER)
+            along_surface(s->surface, i, delta, dim);
+        for (int a = 0; a < dim; a++) {
+            size2 += delta[a] * delta[a];
+            u2 += u[a] * u[a];
+        }
+        const double most2 = 0.0625 * (oger ? u2 : U * U);
+        const double factor = size2 > most2 ? sqrt(most2 / size2) : 1.0;
+        for (int a = 0; a < dim; a++)
+            u0[a] = u[a] + factor * delta[a];
+    }
+}

@@ -1,0 +1,314 @@
+/* walls.c - geometry and motion of the walls; see walls.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "walls.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../common/log.h"
+#include "../common/mem.h"
+#include "sph_params.h"
+
+static void set_frame(struct segment *g)
+{
+    const double d[2] = {g->b[0] - g->a[0], g->b[1] - g->a[1]};
+    g->length = sqrt(d[0] * d[0] + d[1] * d[1]);
+    g->t[0] = d[0] / g->length;
+    g->t[1] = d[1] / g->length;
+    g->n[0] = g->t[1];
+    g->n[1] = -g->t[0];
+}
+
+static void add_segment(struct walls *w, const double *a, const double *b, bool no_slip, int body,
+                        const double *u)
+{
+    if (w->nsegments % 64 == 0)
+        GROW(w->segments, w->nsegments, w->nsegments + 64);
+    struct segment g = {.body = body, .no_slip = no_slip};
+    memcpy(g.a, a, sizeof g.a);
+    memcpy(g.b, b, sizeof g.b);
+    if (u)
+        memcpy(g.u, u, sizeof g.u);
+    set_frame(&g);
+    if (g.length > 0.0)
+        w->segments[w->nsegments++] = g;
+}
+
+/* Ends on a periodic side go on beyond it, for the images do. */
+static void extend(const struct sph *s, double *end, const double *other)
+{
+    const double d[2] = {end[0] - other[0], end[1] - other[1]};
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1]);
+    for (int a = 0; a < 2; a++)
+        if (s->periodic[a] &&
+            (fabs(end[a] - s->lo[a]) < 1e-9 * s->R || fabs(end[a] - s->hi[a]) < 1e-9 * s->R)) {
+            end[0] += 2.5 * s->R * d[0] / length;
+            end[1] += 2.5 * s->R * d[1] / length;
+            return;
+        }
+}
+
+static void add_polyline(struct sph *s, struct walls *w, const struct param_points *p, bool closed,
+                         bool no_slip, int body, const double *u)
+{
+    const int n = closed ? p->n : p->n - 1;
+    for (int k = 0; k < n; k++) {
+        double a[2], b[2];
+        memcpy(a, p->x[k], sizeof a);
+        memcpy(b, p->x[(k + 1) % p->n], sizeof b);
+        if (!closed && k == 0)
+            extend(s, a, p->x[1]);
+        if (!closed && k == n - 1)
+            extend(s, b, p->x[n - 1]);
+        add_segment(w, a, b, no_slip, body, u);
+    }
+}
+
+static bool is_wall(const struct scene_wall *w)
+{
+    return w && (w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP);
+}
+
+/* A side of a plane domain as a segment: to the corners where walls meet, else beyond. */
+static void add_side(struct sph *s, struct walls *w, const struct scene_wall *is)
+{
+    const int axis = (is->side - SIDE_X_MIN) / 2, other = 1 - axis;
+    const bool high = (is->side - SIDE_X_MIN) % 2;
+    const struct scene *c = &s->run->scene;
+    const bool low_wall = is_wall(scene_wall_of(c, SIDE_X_MIN + 2 * other));
+    const bool high_wall = is_wall(scene_wall_of(c, SIDE_X_MIN + 2 * other + 1));
+    double a[2], b[2];
+    a[axis] = b[axis] = high ? s->hi[axis] : s->lo[axis];
+    a[other] = s->lo[other] - (low_wall ? 0.0 : 2.5 * s->R);
+    b[other] = s->hi[other] + (high_wall ? 0.0 : 2.5 * s->R);
+    const bool forward = (axis == 1) != high; /* fluid on the left: bottom goes along +x */
+    add_segment(w, forward ? a : b, forward ? b : a, is->kind == WALL_NO_SLIP, -1, is->velocity);
+}
+
+static void add_plane(const struct sph *s, struct walls *w, const struct scene_wall *is)
+{
+    const int axis = (is->side - SIDE_X_MIN) / 2;
+    const bool high = (is->side - SIDE_X_MIN) % 2;
+    struct wall_plane p = {.axis = axis,
+                           .sign = high ? 1 : -1,
+                           .at = high ? s->hi[axis] : s->lo[axis],
+                           .no_slip = is->kind == WALL_NO_SLIP};
+    memcpy(p.u, is->velocity, sizeof p.u);
+    p.u[axis] = 0.0;
+    w->planes[w->nplanes++] = p;
+}
+
+int walls_read_motion(const char *path, double **rows)
+{
+    FILE *f = fopen(path, "r");
+    char line[512];
+    int n = 0;
+    double *all = NULL, v[4];
+    if (!f)
+        return -1;
+    while (fgets(line, sizeof line, f)) {
+        const int got =
+            sscanf(line, "%lf%*[ ,\t]%lf%*[ ,\t]%lf%*[ ,\t]%lf", v, v + 1, v + 2, v + 3);
+        if (line[0] == '#' || got <= 0)
+            continue;
+        if (got != 4 || (n > 0 && v[0] <= all[4 * n - 4])) {
+            mem_free(all);
+            fclose(f);
+            return 0;
+        }
+        GROW(all, 4 * n, 4 * (n + 1));
+        memcpy(all + 4 * n++, v, sizeof v);
+    }
+    fclose(f);
+    if (n > 0)
+        *rows = all;
+    return n;
+}
+
+/* Cubic through the rows with slopes of central differences: value, rate, second rate. */
+static void interpolate(const struct body *b, int column, double t, double *v, double *dv,
+                        double *ddv)
+{
+    const int n = b->nrows;
+    int k = 0;
+    if (n < 2 || t <= b->rows[0] || t >= b->rows[4 * (n - 1)]) {
+        *v = b->rows[(n < 2 || t <= b->rows[0] ? 0 : 4 * (n - 1)) + column];
+        *dv = *ddv = 0.0;
+        return;
+    }
+    while (k < n - 2 && t >= b->rows[4 * (k + 1)])
+        k++;
+    double slope[2];
+    for (int e = 0; e < 2; e++) {
+        const int lo = k + e > 0 ? k + e - 1 : 0, hi = k + e < n - 1 ? k + e + 1 : n - 1;
+        slope[e] = (b->rows[4 * hi + column] - b->rows[4 * lo + column]) /
+                   (b->rows[4 * hi] - b->rows[4 * lo]);
+    }
+    const double h = b->rows[4 * k + 4] - b->rows[4 * k], z = (t - b->rows[4 * k]) / h;
+    const double p = b->rows[4 * k + column], q = b->rows[4 * k + 4 + column];
+    const double c2 = 3.0 * (q - p) - h * (2.0 * slope[0] + slope[1]);
+    const double c3 = 2.0 * (p - q) + h * (slope[0] + slope[1]);
+    *v = p + z * (h * slope[0] + z * (c2 + z * c3));
+    *dv = slope[0] + z * (2.0 * c2 + 3.0 * z * c3) / h;
+    *ddv = (2.0 * c2 + 6.0 * z * c3) / (h * h);
+}
+
+static struct body_motion motion_at(const struct body *b, double t)
+{
+    struct body_motion m = {0};
+    if (b->nrows > 0) {
+        for (int a = 0; a < 2; a++)
+            interpolate(b, 1 + a, t, m.x + a, m.u + a, m.du + a);
+        interpolate(b, 3, t, &m.angle, &m.spin, &m.dspin);
+        return m;
+    }
+    for (int a = 0; a < 2; a++) {
+        m.u[a] = b->is->velocity[a];
+        m.x[a] = m.u[a] * t;
+    }
+    m.spin = b->is->spin;
+    m.angle = m.spin * t;
+    return m;
+}
+
+static void place(const struct body *b, const double *from, double *to)
+{
+    const double c = cos(b->now.angle), s = sin(b->now.angle);
+    const double d[2] = {from[0] - b->is->centre[0], from[1] - b->is->centre[1]};
+    to[0] = b->is->centre[0] + b->now.x[0] + c * d[0] - s * d[1];
+    to[1] = b->is->centre[1] + b->now.x[1] + s * d[0] + c * d[1];
+}
+
+void walls_move(struct sph *s, double t)
+{
+    struct walls *w = s->walls;
+    if (t == w->t)
+        return;
+    w->t = t;
+    for (int k = 0; k < w->nbodies; k++) {
+        struct body *b = w->bodies + k;
+        b->now = motion_at(b, t);
+        for (int i = b->first; i < b->first + b->n; i++) {
+            place(b, w->start[i].a, w->segments[i].a);
+            place(b, w->start[i].b, w->segments[i].b);
+            set_frame(w->segments + i);
+        }
+    }
+}
+
+void walls_velocity(const struct walls *w, const struct segment *g, const double *x, double *u,
+                    double *du)
+{
+    if (du)
+        du[0] = du[1] = 0.0;
+    if (g->body < 0) {
+        u[0] = g->u[0];
+        u[1] = g->u[1];
+        return;
+    }
+    const struct body *b = w->bodies + g->body;
+    const struct body_motion *m = &b->now;
+    const double d[2] = {x[0] - b->is->centre[0] - m->x[0], x[1] - b->is->centre[1] - m->x[1]};
+    u[0] = m->u[0] - m->spin * d[1];
+    u[1] = m->u[1] + m->spin * d[0];
+    if (du) {
+        du[0] = m->du[0] - m->dspin * d[1] - m->spin * m->spin * d[0];
+        du[1] = m->du[1] + m->dspin * d[0] - m->spin * m->spin * d[1];
+    }
+}
+
+/* The nearest segment decides; at a corner, of two that are equally near the one whose plane is
+ * farther. */
+double walls_distance(const struct walls *w, const double *x, double reach)
+{
+    double least = reach, sure = -1.0, signed_least = reach;
+    for (int k = 0; k < w->nsegments; k++) {
+        const struct segment *g = w->segments + k;
+        const double d[2] = {x[0] - g->a[0], x[1] - g->a[1]};
+        double along = d[0] * g->t[0] + d[1] * g->t[1];
+        const double height = -(d[0] * g->n[0] + d[1] * g->n[1]);
+        along = along < 0.0 ? -along : along > g->length ? along - g->length : 0.0;
+        const double r = sqrt(along * along + height * height);
+        if (r < least * (1.0 + 1e-12) && (r < least * (1.0 - 1e-12) || fabs(height) > sure)) {
+            least = r;
+            sure = fabs(height);
+            signed_least = height < 0.0 ? -r : r;
+        }
+    }
+    return signed_least;
+}
+
+static void add_bodies(struct sph *s, struct walls *w)
+{
+    const struct scene *c = &s->run->scene;
+    for (int k = 0; k < c->nbodies; k++) {
+        struct body *b = w->bodies + w->nbodies++;
+        char path[1024 + PARAM_TEXT_SIZE];
+        b->is = c->bodies + k;
+        b->first = w->nsegments;
+        add_polyline(s, w, &b->is->points, true, b->is->kind == WALL_NO_SLIP, k, NULL);
+        b->n = w->nsegments - b->first;
+        snprintf(path, sizeof path, "%s/%s", s->run->case_dir, b->is->motion);
+        if (*b->is->motion)
+            b->nrows = walls_read_motion(path, &b->rows);
+    }
+}
+
+static double largest_speed(const struct walls *w)
+{
+    double most = 0.0;
+    for (int k = 0; k < w->nsegments; k++) {
+        double u[2];
+        walls_velocity(w, w->segments + k, w->segments[k].a, u, NULL);
+        most = fmax(most, sqrt(u[0] * u[0] + u[1] * u[1]));
+    }
+    return most;
+}
+
+struct walls *walls_create(struct sph *s)
+{
+    static const struct wall_model *const models[] = {&wall_nfm, &wall_ghost,
+                                                      &wall_fixed}; /* enum sph_walls */
+    const struct scene *c = &s->run->scene;
+    int any = c->nbodies;
+    for (int k = 0; k < c->nwalls; k++)
+        any += is_wall(c->walls + k);
+    if (!any)
+        return NULL;
+    struct walls *w = NEW(struct walls, 1);
+    w->t = NAN;
+    s->walls = w;
+    for (int k = 0; k < c->nwalls; k++) {
+        const struct scene_wall *is = c->walls + k;
+        if (!is_wall(is))
+            continue;
+        if (is->side != SIDE_NONE)
+            add_plane(s, w, is);
+        if (is->side != SIDE_NONE && s->dim == 2)
+            add_side(s, w, is);
+        else if (is->side == SIDE_NONE)
+            add_polyline(s, w, &is->points, is->closed, is->kind == WALL_NO_SLIP, -1, is->velocity);
+    }
+    add_bodies(s, w);
+    w->start = NEW(struct segment, w->nsegments);
+    memcpy(w->start, w->segments, (size_t)w->nsegments * sizeof *w->start);
+    walls_move(s, s->t);
+    w->speed = largest_speed(w);
+    w->model = models[s->prm.walls];
+    w->state = w->model->create(s);
+    return w;
+}
+
+void walls_free(struct walls **w)
+{
+    if (!*w)
+        return;
+    (*w)->model->destroy((*w)->state);
+    for (int k = 0; k < (*w)->nbodies; k++)
+        mem_free((*w)->bodies[k].rows);
+    mem_free((*w)->segments);
+    mem_free((*w)->start);
+    mem_free(*w);
+    *w = NULL;
+}

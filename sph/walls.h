@@ -1,0 +1,91 @@
+/* walls.h - what bounds the fluid: polylines in the plane, sides of the domain, bodies that move as
+ * told; and what a treatment of walls provides. n is the unit normal out of the fluid everywhere;
+ * the fluid lies on the left of a segment a -> b. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_WALLS_H
+#define SPH_WALLS_H
+
+#include "sph.h"
+
+struct segment {
+    double a[2], b[2]; /* m: ends now */
+    double t[2], n[2]; /* unit tangent and normal */
+    double length;     /* m */
+    double u[2];       /* m/s: of a wall along itself (bodies: walls_velocity) */
+    int body;          /* -1: at rest */
+    bool no_slip;
+};
+
+/* A plane side of the domain, as mirrored ghosts need it. */
+struct wall_plane {
+    int axis, sign; /* n = sign e_axis */
+    double at;      /* m */
+    double u[3];    /* m/s along itself */
+    bool no_slip;
+};
+
+/* Place and velocity of a body, relative to its start. */
+struct body_motion {
+    double x[2], angle;  /* m, rad: displacement of the centre, rotation */
+    double u[2], spin;   /* m/s, rad/s */
+    double du[2], dspin; /* m/s^2, rad/s^2 */
+};
+
+struct body {
+    const struct scene_body *is;
+    int first, n; /* its segments */
+    int nrows;    /* of the motion file: t, x, y, angle */
+    double *rows;
+    struct body_motion now;
+};
+
+/* One way to make walls felt by particles, picked by name. What it does not need is NULL. */
+struct walls;
+struct wall_model {
+    const char *name;
+    void *(*create)(struct sph *s);
+    void (*destroy)(void *m);
+    void (*ghosts)(struct sph *s); /* once a step, after the halo: adds ghosts */
+    void (*list)(struct sph *s);   /* once a step, after the list of pairs */
+    void (*lines)(struct sph *s);  /* each stage: lines of the ghosts, before the first pass */
+    void (*slopes)(struct sph *s); /* each stage: after the first pass, before its halo */
+    void (*ghost_slopes)(struct sph *s); /* after the halo of slopes */
+    void (*rates)(struct sph *s);        /* after the second pass */
+    /* Adds wall terms to M[n][dim^2] and sum w gradW, g[n][dim], of the locals and divides both by
+     * gamma [4.86-4.87]. */
+    void (*moments)(struct sph *s, double *M, double *g);
+    int (*behind)(const struct sph *s, int *who); /* lists locals that are behind a wall */
+};
+extern const struct wall_model wall_ghost, wall_fixed, wall_nfm;
+
+struct walls {
+    int nsegments;
+    struct segment *segments, *start; /* now; at t = 0 */
+    int nplanes;
+    struct wall_plane planes[6];
+    int nbodies;
+    struct body bodies[BODIES_MAX];
+    double t; /* s: of `segments' */
+    const struct wall_model *model;
+    void *state;    /* of the model */
+    double speed;   /* m/s: largest of a wall */
+    int64_t leaked; /* particles found behind walls and removed; this rank */
+};
+
+/* NULL: the scene has no walls. Needs s->domain. */
+struct walls *walls_create(struct sph *s);
+void walls_free(struct walls **w);
+/* Segments and bodies at time t. */
+void walls_move(struct sph *s, double t);
+/* Velocity and acceleration of a segment's material point x, m/s and m/s^2 (du may be NULL). */
+void walls_velocity(const struct walls *w, const struct segment *g, const double *x, double *u,
+                    double *du);
+/* Distance of x to the nearest wall, negative behind it; at least -reach, at most reach. */
+double walls_distance(const struct walls *w, const double *x, double reach);
+/* Pressure that local particle i lays on the wall at x (velocity uw, normal n) [4.14], [4.30-4.32];
+ * 2D; needs slope. */
+double walls_pressure(const struct sph *s, int i, const double *x, const double *uw,
+                      const double *n);
+/* Motion file of a body: rows of four numbers, times rising. -1: no such file, 0: bad rows. */
+int walls_read_motion(const char *path, double **rows);
+
+#endif
