@@ -144,6 +144,47 @@ static void other_point(const struct exact *e, const double *x, double t, double
     }
 }
 
+/* Time in which the drop is round again, twice: its ellipse obeys
+ * dA/dt = (A^2 + W^2)(b^2 - a^2)/(a^2 + b^2), da/dt = A a, a b = const (RK4). */
+static double drop_period(const struct exact *e)
+{
+    const double W = e->W, dt = 1e-4 / W;
+    double t = 0.0, y[2] = {e->U / e->L, 1.0}; /* A, a/R */
+    do {
+        double k[2] = {0.0, 0.0}, sum[2] = {0.0, 0.0};
+        for (int stage = 0; stage < 4; stage++) {
+            const double h = stage == 0 ? 0.0 : stage == 3 ? dt : 0.5 * dt;
+            const double A = y[0] + h * k[0], a = y[1] + h * k[1], a2 = a * a, b2 = 1.0 / a2;
+            k[0] = (A * A + W * W) * (b2 - a2) / (a2 + b2);
+            k[1] = A * a;
+            for (int c = 0; c < 2; c++)
+                sum[c] += (stage == 1 || stage == 2 ? 2.0 : 1.0) * k[c];
+        }
+        const double before = y[1];
+        for (int c = 0; c < 2; c++)
+            y[c] += dt / 6.0 * sum[c];
+        if (y[1] <= 1.0)
+            return 2.0 * (t + dt * (before - 1.0) / (before - y[1]));
+        t += dt;
+    } while (t * W < 1e3);
+    return NAN;
+}
+
+bool exact_oscillation(const struct exact *e, double *period, double *rate)
+{
+    if (e->field == FIELD_STANDING_WAVE) {
+        *period = 2.0 * M_PI / cimag(e->wave.s);
+        *rate = creal(e->wave.s);
+        return true;
+    }
+    if (e->field == FIELD_DROP && e->W > 0.0) {
+        *period = drop_period(e);
+        *rate = 0.0;
+        return true;
+    }
+    return false;
+}
+
 /* By Gauss's rule of three points along x and y. */
 static void other_average(const struct exact *e, const double *x, const double *h, double t,
                           double *u, double *p, double *w)

@@ -71,6 +71,7 @@ static bool is_fluid(const struct sph *s, const double *x, double *velocity)
 {
     const struct scene *c = &s->run->scene;
     const struct scene_initial *f = &c->initial;
+    const double least = s->prm.packing > 0 ? 1e-3 * s->dx : 0.3 * s->dx;
     bool fluid = c->nshapes == 0;
     velocity[0] = velocity[1] = velocity[2] = 0.0;
     if (fluid && f->field == FIELD_STANDING_WAVE)
@@ -85,7 +86,7 @@ static bool is_fluid(const struct sph *s, const double *x, double *velocity)
             for (int a = 0; a < 3; a++)
                 velocity[a] = c->shapes[k].velocity[a];
         }
-    return fluid && (!s->walls || walls_distance(s->walls, x, INFINITY) > 0.3 * s->dx);
+    return fluid && (!s->walls || walls_distance(s->walls, x, INFINITY) > least);
 }
 
 static void add(struct sph *s, const struct exact *e, int64_t id, const double *centre)
@@ -158,6 +159,7 @@ void fill_lattice(struct sph *s)
                                      s->lo[2] + (k + 0.5) * s->dx};
                 add(s, &e, i + cells[0] * (j + cells[1] * (int64_t)k), x);
             }
+    pack_start(s, s->prm.packing);
     weigh(s);
     const int64_t all = cells[0] * cells[1] * cells[2], ranks = s->run->size;
     s->next_id = (all + ranks - 1) / ranks * ranks + s->run->rank;

@@ -1,5 +1,5 @@
-/* probes.h - gauges and the forces on bodies: columns of series.csv. SPDX-License-Identifier:
- * BSD-3-Clause */
+/* probes.h - gauges and the forces on bodies: columns of series.csv.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_PROBES_H
 #define SPH_PROBES_H
 

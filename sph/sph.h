@@ -7,9 +7,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "../common/fit.h"
 #include "../common/run.h"
 
-enum sph_scheme { SCHEME_RIEMANN_ALE, SCHEME_RIEMANN }; /* Vila [2.86-2.89]; Leduc [2.96-2.99] */
+enum sph_scheme {
+    SCHEME_RIEMANN_ALE,
+    SCHEME_RIEMANN,
+    SCHEME_AUTO
+}; /* Vila [2.86-2.89]; Leduc [2.96-2.99] */
 enum sph_limiter { LIMITER_KOREN, LIMITER_MINMOD, LIMITER_NONE };
 enum sph_transport { TRANSPORT_TVS, TRANSPORT_TVO, TRANSPORT_NONE, TRANSPORT_EULERIAN };
 enum sph_viscosity { VISCOSITY_MORRIS, VISCOSITY_MONAGHAN };
@@ -35,6 +40,7 @@ struct sph_params {
     int surface;          /* enum sph_surface: the fluid has a free surface */
     int outer;            /* what feeds the zones: none, exact, partner */
     double density_limit; /* |rho/rho0 - 1| that ends the run */
+    int packing;          /* steps; -1: as the walls need it */
     double noise;         /* random displacement of the first lattice, in dx */
 };
 
@@ -108,7 +114,8 @@ struct sph {
     double lost,
         lost_said; /* particles removed since the start: this rank; all, when last reported */
     int64_t pairs; /* ordered pairs within R, counted once a stage, summed over stages; this rank */
-    int64_t pairs_now;                   /* the same, of the present list */
+    int64_t pairs_now;     /* the same, of the present list */
+    struct fit signal_fit; /* of a standing wave or of the drop, sampled with the series */
     double mass0, energy0, momentum0[3]; /* at t = 0, for drifts */
 };
 
@@ -132,6 +139,9 @@ void particles_permute(struct particles *p, int n, const int *order);
 void particles_set(struct sph *s, int i, const double *x, const double *u, double w, double rho);
 /* prim of all locals from y (u = q/m, rho = m/w; 2D: p, c). */
 void particles_lines(struct sph *s);
+
+/* pack.c: steps of rearrangement of the first particles between walls; 0: none. Collective. */
+void pack_start(struct sph *s, int steps);
 
 /* fill.c: lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
 void fill_lattice(struct sph *s);

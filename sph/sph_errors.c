@@ -152,6 +152,55 @@ static double total(const struct sph *s, double v)
 static double births(const struct sph *s) { return total(s, (double)s->zones->openings->born); }
 static double removals(const struct sph *s) { return total(s, (double)s->zones->openings->gone); }
 
+/* What swings: the part of the momentum in the inviscid mode of the wave, or the drop's second
+ * moment. */
+static double signal_now(const struct sph *s, const struct exact *e)
+{
+    double sum = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + (size_t)i * s->p.nstate, k = e->wave.k;
+        if (e->field == FIELD_DROP) {
+            sum += y[5] * (y[0] * y[0] - y[1] * y[1]);
+            continue;
+        }
+        const double z = k * (y[1] - e->bottom);
+        sum += y[3] * sinh(z) * cos(k * y[0]) - y[2] * cosh(z) * sin(k * y[0]);
+    }
+    return total(s, sum);
+}
+
+static bool has_signal(const struct run *r)
+{
+    return r->scene.initial.field == FIELD_STANDING_WAVE || r->scene.initial.field == FIELD_DROP;
+}
+
+static void sample_signal(struct sph *s)
+{
+    const struct exact e = exact_create(&s->run->scene);
+    if (has_signal(s->run))
+        fit_add(&s->signal_fit, s->t, signal_now(s, &e));
+}
+
+/* Period and damping against the exact ones. */
+static void summarise_oscillation(struct sph *s)
+{
+    const struct exact e = exact_create(&s->run->scene);
+    double period, rate;
+    if (!has_signal(s->run) || !exact_oscillation(&e, &period, &rate))
+        return;
+    sample_signal(s);
+    const double T = fit_period(&s->signal_fit), r = fit_rate(&s->signal_fit);
+    struct summary *to = s->run->summary;
+    if (isfinite(T)) {
+        summary_real(to, "period", T);
+        summary_real(to, "error.period", fabs(T / period - 1.0));
+    }
+    if (isfinite(r)) {
+        summary_real(to, "damping", r);
+        summary_real(to, "error.damping", rate != 0.0 ? fabs(r / rate - 1.0) : fabs(r) * period);
+    }
+}
+
 static const char *const columns[] = {
     "kinetic energy [J]",   "enstrophy [m^dim/s^2]", "mass [kg]",       "momentum x [kg m/s]",
     "momentum y [kg m/s]",  "momentum z [kg m/s]",   "max Mach [-]",    "min density [kg/m^3]",
@@ -198,6 +247,7 @@ void sph_row(void *state, double *values)
         *values++ = births(s);
         *values++ = removals(s);
     }
+    sample_signal(s);
     probes_row(s, values);
     timer_stop(&s->run->timers, timer_index(&s->run->timers, "output"));
 }
@@ -285,6 +335,7 @@ void sph_finish(void *state)
     summary_int(to, "particles_lost", llround(total(s, s->lost)));
     if (sph_has_exact(s->run))
         summarise_errors(s);
+    summarise_oscillation(s);
     summarise_drifts(s);
     summary_real(to, "max_mach", s->max_mach);
     summary_real(to, "spacing.min", least_spacing(s));

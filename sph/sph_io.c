@@ -138,6 +138,35 @@ enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 
 static double *number(struct sph *s, int k) { return (double *)((char *)s + numbers[k].offset); }
 
+/* Samples of what swings, so that a restarted run fits all of them. */
+static void save_signal(const struct sph *s, struct h5 *f)
+{
+    const struct fit *g = &s->signal_fit;
+    const int n = s->run->rank == 0 ? g->n : 0;
+    double *rows = NEW(double, 2 * (size_t)g->n);
+    for (int k = 0; k < g->n; k++) {
+        rows[2 * k] = g->t[k];
+        rows[2 * k + 1] = g->v[k];
+    }
+    h5_write_real(f, "signal", "s, -", n, 2, rows, false);
+    mem_free(rows);
+}
+
+static void read_signal(struct sph *s, struct h5 *f)
+{
+    int64_t n = h5_rows(f, "signal");
+    double *rows = NEW(double, 2 * (size_t)(n > 0 ? n : 0));
+    const bool fits = n >= 0 && h5_read_real(f, "signal", n, 2, rows);
+    MPI_Bcast(&n, 1, MPI_INT64_T, 0, s->run->comm);
+    if (fits && n > 0) {
+        GROW(rows, s->run->rank == 0 ? 2 * n : 0, 2 * n);
+        MPI_Bcast(rows, 2 * (int)n, MPI_DOUBLE, 0, s->run->comm);
+        for (int64_t k = 0; k < n; k++)
+            fit_add(&s->signal_fit, rows[2 * k], rows[2 * k + 1]);
+    }
+    mem_free(rows);
+}
+
 void sph_checkpoint(void *state, struct h5 *f)
 {
     struct sph *s = state;
@@ -150,6 +179,8 @@ void sph_checkpoint(void *state, struct h5 *f)
     h5_write_int(f, "next_id", 1, &s->next_id);
     h5_write_real(f, "lost", "-", 1, 1, &s->lost, false);
     mem_free(zone);
+    if (s->signal_fit.n > 0)
+        save_signal(s, f);
     for (int k = 0; k < NUMBERS; k++)
         h5_attribute_real(f, numbers[k].name, *number(s, k));
     h5_attribute_text(f, "limited_by", s->limited_by);
@@ -189,6 +220,7 @@ bool sph_restore(struct sph *s, struct h5 *f)
 {
     const bool fits = read_particles(s, f) && read_numbers(s, f) && domain_load(s, f) &&
                       (!s->zones || zones_load(s, f));
+    read_signal(s, f);
     if (!fits)
         log_say("the restart file is of another number of ranks or another case");
     s->ready = false;

@@ -15,12 +15,12 @@ static const struct param rows[] = {
     PARAM(P, R_dx, "-", "4.0", 1.5, 8.0, "radius of the kernel's support over dx"),
     PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the scale of velocity"),
     PARAM(P, gamma, "-", "7.0", 1.0, 7.0, "exponent of the equation of state, 7 or 1"),
-    CHOICE(P, scheme, "riemann_ale|riemann", "riemann_ale", "pair interaction: ALE (Vila) or without mass flux (Leduc)"),
+    CHOICE(P, scheme, "riemann_ale|riemann|auto", "auto", "pair interaction: ALE (Vila) or without mass flux (Leduc); auto: the latter with a free surface"),
     CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles"),
     CHOICE(P, transport, "tvs|tvo|none|eulerian", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest"),
     CHOICE(P, viscosity, "morris|monaghan", "morris", "form of the viscous term"),
     PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)"),
-    PARAM(P, dissipation, "-", "0.0", 0.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves"),
+    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface, else 0"),
     PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure"),
     PARAM(P, cfl, "-", "0.375", 0.001, 2.0, "dt over R/(c + |u - u0|)"),
     PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan)"),
@@ -30,6 +30,7 @@ static const struct param rows[] = {
     PARAM(P, density_limit, "-", "0.1", 1e-6, 10.0, "|rho/rho0 - 1| that ends the run"),
     CHOICE(P, walls, "nfm|ghosts|fixed_ghosts|auto", "auto", "normal flux (2D), mirrored ghosts (plane sides), fixed ghosts (2D); auto: nfm in 2D, ghosts in 3D"),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
+    PARAM(P, packing, "-", "-1", -1, 100000, "steps of rearrangement at the start; -1: 200 with polylines or bodies, else none"),
     PARAM(P, noise, "-", "0.0", 0.0, 0.5, "random displacement of the first lattice, in dx"),
 };
 /* clang-format on */
@@ -96,6 +97,14 @@ static bool has_walls(const struct scene *c)
     return any;
 }
 
+static bool has_polylines(const struct scene *c)
+{
+    bool any = c->nbodies > 0;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || c->walls[k].side == SIDE_NONE;
+    return any;
+}
+
 static bool has_no_slip(const struct scene *c)
 {
     bool any = false;
@@ -121,8 +130,14 @@ const struct sph_params *sph_params_of(const struct run *r)
                                                               : 0.09;
     if (used.walls == WALLS_AUTO)
         used.walls = r->scene.domain.dim == 2 ? WALLS_NFM : WALLS_GHOSTS;
+    if (used.packing < 0)
+        used.packing = has_polylines(&r->scene) && used.walls == WALLS_NFM ? 200 : 0;
     if (used.surface == SURFACE_AUTO)
         used.surface = has_surface(&r->scene) ? SURFACE_YES : SURFACE_NO;
+    if (used.scheme == SCHEME_AUTO)
+        used.scheme = used.surface == SURFACE_YES ? SCHEME_RIEMANN : SCHEME_RIEMANN_ALE;
+    if (used.dissipation < 0.0)
+        used.dissipation = used.surface == SURFACE_YES ? 0.1 : 0.0;
     if (has_box() && used.outer == OUTER_NONE)
         used.outer = is_coupled(r) ? OUTER_PARTNER : OUTER_EXACT;
     for (int a = 0; a < 3; a++)
@@ -226,9 +241,7 @@ void sph_params_check(const struct run *r, struct faults *f)
     if (sph_params_of(r)->c0 <= 0.0)
         params_fault(r->params, f, "sph.c0", "must be given: the case has no scale of velocity");
     const bool in_3d = r->scene.domain.dim == 3;
-    bool polylines = r->scene.nbodies > 0;
-    for (int k = 0; k < r->scene.nwalls; k++)
-        polylines = polylines || r->scene.walls[k].side == SIDE_NONE;
+    const bool polylines = has_polylines(&r->scene);
     if (in_3d && has_walls(&r->scene) && (given.walls == WALLS_NFM || given.walls == WALLS_FIXED))
         params_fault(r->params, f, "sph.walls", "in 3D: ghosts");
     if (polylines && (in_3d || given.walls == WALLS_GHOSTS))

@@ -74,6 +74,7 @@ void sph_free(struct sph **s)
     zones_free(&(*s)->zones);
     walls_free(&(*s)->walls);
     surface_free(&(*s)->surface);
+    fit_free(&(*s)->signal_fit);
     neighbours_free(&(*s)->list);
     particles_free(&(*s)->p);
     mem_free(*s);

@@ -1,7 +1,7 @@
 /* wall_ghost.c - mirrored ghosts behind plane sides of the domain, in 2D and 3D [3.1-3.10]: every
  * line within reach of a side, ghosts of other ranks and of sides before included, so that corners
- * fill themselves. Pair fluxes stay antisymmetric: no mass passes. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * fill themselves. Pair fluxes stay antisymmetric: no mass passes.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "walls.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* wall_nfm.c - normal flux walls in 2D (Chiron 2017, chapter 4): the wall enters every sum of a
  * particle by an integral over the part of it within the support, and the Shepard factor gamma
- * makes up for what is missing. No wall particles; no particle passes. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * makes up for what is missing. No wall particles; no particle passes.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "walls.h"
 
 #include <math.h>
@@ -221,6 +221,22 @@ double walls_pressure(const struct sph *s, int i, const double *x, const double 
     return wall_pressure(s, &seen, e, uw, n);
 }
 
+/* Dividing by gamma takes from pair fluxes their antisymmetry: the mass that ALE so gains or loses
+ * near walls is given back to the particles there, in proportion to theirs. */
+static void keep_mass(struct sph *s)
+{
+    const struct nfm *m = s->walls->state;
+    double sums[2] = {0.0, 0.0};
+    for (int i = 0; i < s->p.n; i++)
+        sums[0] += s->p.rate[(size_t)STATE * i + 5];
+    for (int k = 0; k < m->n; k++)
+        sums[1] += s->p.y[(size_t)STATE * m->who[k] + 5];
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (int k = 0; k < m->n && sums[1] > 0.0; k++)
+        s->p.rate[(size_t)STATE * m->who[k] + 5] -=
+            s->p.y[(size_t)STATE * m->who[k] + 5] * sums[0] / sums[1];
+}
+
 static void rates(struct sph *s)
 {
     const struct walls *w = s->walls;
@@ -239,6 +255,8 @@ static void rates(struct sph *s)
         rate[4] = (rate[4] + i.w * to.w) * gamma_1;
         rate[5] = (rate[5] + i.w * to.m) * gamma_1;
     }
+    if (s->prm.scheme == SCHEME_RIEMANN_ALE)
+        keep_mass(s);
 }
 
 static void add_wall_moments(const struct sph *s, const struct nfm *m, int k, double *M, double *g)
@@ -278,6 +296,13 @@ static void moments(struct sph *s, double *M, double *g)
     }
 }
 
+static void gammas(struct sph *s, double *gamma)
+{
+    const struct nfm *m = s->walls->state;
+    for (int k = 0; k < m->n; k++)
+        gamma[m->who[k]] = gamma_at(s->walls, m, k, s->p.prim + (size_t)PRIM * m->who[k], s->R);
+}
+
 /* By the Shepard factor of the last stage, which counts one more behind a wall. */
 static int behind(const struct sph *s, int *who)
 {
@@ -296,4 +321,5 @@ const struct wall_model wall_nfm = {.name = "normal flux",
                                     .slopes = slopes,
                                     .rates = rates,
                                     .moments = moments,
+                                    .gammas = gammas,
                                     .behind = behind};

@@ -53,6 +53,7 @@ struct wall_model {
     /* Adds wall terms to M[n][dim^2] and sum w gradW, g[n][dim], of the locals and divides both by
      * gamma [4.86-4.87]. */
     void (*moments)(struct sph *s, double *M, double *g);
+    void (*gammas)(struct sph *s, double *gamma); /* Shepard factors of the locals near walls */
     int (*behind)(const struct sph *s, int *who); /* lists locals that are behind a wall */
 };
 extern const struct wall_model wall_ghost, wall_fixed, wall_nfm;

@@ -1,0 +1,98 @@
+/* fit.c - see fit.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "fit.h"
+
+#include <math.h>
+
+#include "mem.h"
+
+void fit_add(struct fit *f, double t, double v)
+{
+    if (f->n > 0 && t <= f->t[f->n - 1])
+        return; /* the same time twice: the last row before an output */
+    if (f->n == f->capacity) {
+        const int more = 2 * f->capacity + 256;
+        GROW(f->t, f->capacity, more);
+        GROW(f->v, f->capacity, more);
+        f->capacity = more;
+    }
+    f->t[f->n] = t;
+    f->v[f->n++] = v;
+}
+
+void fit_free(struct fit *f)
+{
+    mem_free(f->t);
+    mem_free(f->v);
+    *f = (struct fit){0};
+}
+
+/* t at which the cubic through samples k-1 .. k+2 is zero, between k and k+1: inverse
+ * interpolation.
+ */
+static double zero_after(const struct fit *f, int k)
+{
+    const int lo = k > 0 ? k - 1 : 0, hi = k + 2 < f->n ? k + 2 : f->n - 1;
+    double t = 0.0;
+    for (int i = lo; i <= hi; i++) {
+        double w = 1.0;
+        for (int j = lo; j <= hi; j++)
+            if (j != i)
+                w *= f->v[j] / (f->v[j] - f->v[i]);
+        t += w * f->t[i];
+    }
+    const double linear = f->t[k] - f->v[k] * (f->t[k + 1] - f->t[k]) / (f->v[k + 1] - f->v[k]);
+    return t >= f->t[k] && t <= f->t[k + 1] ? t : linear;
+}
+
+/* Whether v changes sign between samples k and k+1; a zero counts to the one before. */
+static int crosses(const struct fit *f, int k)
+{
+    return (f->v[k] > 0.0) != (f->v[k + 1] > 0.0) && f->v[k] != 0.0;
+}
+
+double fit_period(const struct fit *f)
+{
+    double first = 0.0, last = 0.0;
+    int zeros = 0;
+    for (int k = 0; k + 1 < f->n; k++)
+        if (crosses(f, k)) {
+            last = zero_after(f, k);
+            first = zeros++ ? first : last;
+        }
+    return zeros >= 3 ? 2.0 * (last - first) / (zeros - 1) : NAN;
+}
+
+/* Extreme of the parabola through samples k-1, k, k+1. */
+static void extreme(const struct fit *f, int k, double *t, double *v)
+{
+    const double a = f->t[k - 1] - f->t[k], b = f->t[k + 1] - f->t[k];
+    const double da = f->v[k - 1] - f->v[k], db = f->v[k + 1] - f->v[k];
+    const double c2 = (da / a - db / b) / (a - b), c1 = da / a - c2 * a;
+    const double h = c2 != 0.0 ? -0.5 * c1 / c2 : 0.0;
+    *t = f->t[k] + h;
+    *v = f->v[k] + h * (c1 + h * c2);
+}
+
+double fit_rate(const struct fit *f)
+{
+    double n = 0.0, st = 0.0, sl = 0.0, stt = 0.0, stl = 0.0;
+    int best = -1, zeros = 0;
+    for (int k = 1; k + 1 < f->n; k++) {
+        if (zeros > 0 && (best < 0 || fabs(f->v[k]) > fabs(f->v[best])))
+            best = k;
+        if (!crosses(f, k))
+            continue;
+        if (zeros++ > 0 && best > 0) {
+            double t, v;
+            extreme(f, best, &t, &v);
+            const double l = log(fabs(v));
+            n += 1.0;
+            st += t;
+            sl += l;
+            stt += t * t;
+            stl += t * l;
+        }
+        best = -1;
+    }
+    return n >= 3.0 ? (n * stl - st * sl) / (n * stt - st * st) : NAN;
+}

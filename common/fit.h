@@ -1,0 +1,19 @@
+/* fit.h - period and damping of a decaying oscillation from its samples: zeros give the period, the
+ * extremes between them the damping. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_FIT_H
+#define COMMON_FIT_H
+
+struct fit {
+    int n, capacity;
+    double *t, *v; /* s, any unit: samples, times rising */
+};
+
+void fit_add(struct fit *f, double t, double v);
+void fit_free(struct fit *f);
+/* Mean distance of zeros (by cubics through four samples) times two; NAN with fewer than three. */
+double fit_period(const struct fit *f);
+/* sigma of |extreme| ~ exp(sigma t), least squares over the extremes between zeros (parabolas
+ * through three samples); < 0 decays; NAN with fewer than three. */
+double fit_rate(const struct fit *f);
+
+#endif

@@ -1,0 +1,37 @@
+/* test_fit.c - period and damping of known oscillations. SPDX-License-Identifier: BSD-3-Clause */
+#include "test.h"
+
+#include "../common/fit.h"
+
+static void decaying_sine(void **state)
+{
+    struct fit f = {0};
+    (void)state;
+    for (int k = 0; k < 2000; k++) {
+        const double t = 0.013 * k + 0.002 * sin(k); /* steps that vary */
+        fit_add(&f, t, 3.0 * exp(-0.07 * t) * sin(1.3 * t + 0.4));
+    }
+    assert_close(fit_period(&f), 2.0 * M_PI / 1.3, 1e-6);
+    assert_close(fit_rate(&f), -0.07, 1e-5);
+    fit_free(&f);
+}
+
+static void too_short(void **state)
+{
+    struct fit f = {0};
+    (void)state;
+    assert_true(isnan(fit_period(&f)) && isnan(fit_rate(&f)));
+    for (int k = 0; k < 10; k++)
+        fit_add(&f, k, 1.0 + k);
+    fit_add(&f, 9.0, 7.0); /* not later: left out */
+    assert_int_equal(f.n, 10);
+    assert_true(isnan(fit_period(&f)) && isnan(fit_rate(&f)));
+    fit_free(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(decaying_sine),
+                                       cmocka_unit_test(too_short)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
