@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../common/mem.h"
+#include "bc.h"
 
 /* Visits all cells with their ghosts. */
 #define ALL_CELLS(b, i, j, k)                                                                      \
@@ -82,6 +83,12 @@ static void find_layers(const struct fv *s, struct forcing *f)
     mem_free(field);
 }
 
+/* Behind a wall or an opening: bc.c gives the values. */
+static bool has_bc(const struct fv *s, const int *at)
+{
+    return bc_behind(s, at, 0) || bc_behind(s, at, 1) || bc_behind(s, at, 2);
+}
+
 static void list_cells(const struct fv *s, struct forcing *f)
 {
     const struct block *b = &s->b;
@@ -99,7 +106,8 @@ static void list_cells(const struct fv *s, struct forcing *f)
             f->local[f->nlocal++] = c;
         if (f->forced[c] == 1 && local && f->layer[c] && f->from_partner)
             f->partner[f->npartner++] = c;
-        else if ((f->forced[c] == 1 && local && f->layer[c]) || f->forced[c] == 2) {
+        else if ((f->forced[c] == 1 && local && f->layer[c]) ||
+                 (f->forced[c] == 2 && !has_bc(s, at))) {
             block_centre(b, i, j, k, f->x + 3 * f->nset);
             f->set[f->nset++] = c;
         }
@@ -128,9 +136,13 @@ static void list_faces(const struct fv *s, struct forcing *f, int a)
         f->open[a][c] = !here && !below;
         if (here == below)
             continue;
-        int inner[3] = {i, j, k}; /* the free cell */
-        if (here)
-            inner[a]--;
+        int inner[3] = {i, j, k}, outer[3] = {i, j, k}; /* the free cell, the forced one */
+        (here ? inner : outer)[a]--;
+        const enum bc_kind kind = bc_behind(s, outer, a);
+        if (kind == BC_OUTFLOW) /* psi is 0 on the face, half a cell away */
+            f->open[a][c] = 2.0;
+        if (kind)
+            continue;
         f->face[a][f->nface[a]] = c;
         f->sign[a][f->nface[a]] = here ? 1 : -1;
         f->counts[a][f->nface[a]++] = is_local(b, inner);
@@ -151,10 +163,27 @@ static void spread_ghost(int edge, int run, int depth, double g, double *cubic, 
     even[REACH + way * (edge - (depth <= run ? depth - 1 : run - 1))] += g;
 }
 
+/* The same where the pressure is given, 0 on the face: p by the cubic through it, psi odd; and at a
+ * slip wall, where both are even. */
+static void spread_mirror(enum bc_kind kind, int edge, int run, int depth, double g, double *cubic,
+                          double *even, int way)
+{
+    static const double given[2][3] = {{-13.0 / 3.0, 5.0 / 3.0, -1.0 / 3.0},
+                                       {-70.0 / 3.0, 32.0 / 3.0, -7.0 / 3.0}};
+    const double sign = kind == BC_OUTFLOW ? -1.0 : 1.0;
+    const int near = REACH + way * (edge - (depth <= run ? depth - 1 : run - 1));
+    even[near] += sign * g;
+    if (kind == BC_SLIP || run < 3)
+        cubic[near] += sign * g;
+    else
+        for (int m = 0; m < 3; m++)
+            cubic[REACH + way * (edge - m)] += g * given[depth - 1][m];
+}
+
 /* Adds what the two cells on one side of a free cell c have beyond the plain weights 8/12, -1/12.
- * d: the step to that side, of sign `way'. False if both are free. */
-static bool add_side(const struct forcing *f, int64_t c, int64_t d, int way, double *cubic,
-                     double *even)
+ * d: the step to that side, of sign `way'; kind: of the boundary there. False if both are free. */
+static bool add_side(const struct forcing *f, int64_t c, int64_t d, int way, enum bc_kind kind,
+                     double *cubic, double *even)
 {
     static const double plain[2] = {8.0 / 12.0, -1.0 / 12.0};
     const int edge = f->forced[c + d] ? 0 : 1;
@@ -167,9 +196,27 @@ static bool add_side(const struct forcing *f, int64_t c, int64_t d, int way, dou
         const double g = way * plain[m - 1];
         cubic[REACH + way * m] -= g;
         even[REACH + way * m] -= g;
-        spread_ghost(edge, run, m - edge, g, cubic, even, way);
+        if (kind == BC_SLIP || kind == BC_OUTFLOW)
+            spread_mirror(kind, edge, run, m - edge, g, cubic, even, way);
+        else
+            spread_ghost(edge, run, m - edge, g, cubic, even, way);
     }
     return true;
+}
+
+/* Kind of the boundary that the two cells beside c reach, if any. */
+static enum bc_kind kind_beside(const struct fv *s, const struct forcing *f, int64_t c, int a,
+                                int way)
+{
+    const struct block *b = &s->b;
+    const int64_t row[3] = {c % b->stride[1], c % b->stride[2] / b->stride[1], c / b->stride[2]};
+    int at[3];
+    for (int q = 0; q < 3; q++)
+        at[q] = (int)row[q] - b->g[q];
+    at[a] += 2 * way;
+    if (f->forced[c + way * b->stride[a]] == 1)
+        return BC_NONE;
+    return bc_behind(s, at, a);
 }
 
 static void list_fixes(const struct fv *s, struct forcing *f, int a)
@@ -181,8 +228,9 @@ static void list_fixes(const struct fv *s, struct forcing *f, int a)
             struct fix x = {.cell = c};
             if (f->forced[c])
                 continue;
-            const bool above = add_side(f, c, b->stride[a], 1, x.cubic, x.even);
-            if (!add_side(f, c, -b->stride[a], -1, x.cubic, x.even) && !above)
+            const int64_t d = b->stride[a];
+            const bool above = add_side(f, c, d, 1, kind_beside(s, f, c, a, 1), x.cubic, x.even);
+            if (!add_side(f, c, -d, -1, kind_beside(s, f, c, a, -1), x.cubic, x.even) && !above)
                 continue;
             for (int m = 0; m <= 2 * REACH; m++) {
                 x.cubic[m] /= b->h[a];
@@ -305,8 +353,13 @@ void forcing_fluxes(const struct fv *s, double t, double *const U[3])
                 sums[1] += volume / b->h[a];
             }
         }
+    if (s->bc) {
+        if (s->bc->pressure_given)
+            return; /* the outflow takes what is too much */
+        sums[0] += s->bc->outflux;
+    }
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, b->cart);
-    const double excess = sums[0] / sums[1];
+    const double excess = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
             U[a][f->face[a][i]] -= f->sign[a][i] * excess;

@@ -23,6 +23,7 @@ struct fv_params {
     int forced_order;    /* in time, of partners' data within a window: 1 linear, 2 quadratic */
 };
 
+struct bc;       /* walls and openings; bc.h; NULL: none */
 struct forcing;  /* cells whose velocity is imposed; forcing.h; NULL: none */
 struct pressure; /* the operator in hypre; pressure.h */
 struct link;     /* place in a coupled job; fv_coupling.c; NULL alone */
@@ -45,7 +46,10 @@ struct fv {
     double *u_old[3];        /* bdf2 only, else NULL */
     double *rhs[3], *delta[3], *work[3], *step_p[3]; /* scratch: right side, increment, CG; Gc p */
     double *step_work;
-    double *face, *flux; /* scratch */
+    double *krylov[2][3]; /* scratch of the viscous solve with walls, else NULL */
+    double drive[3];      /* m/s^2: gravity along periodic axes; across, the pressure takes it */
+    double *face, *flux;  /* scratch */
+    struct bc *bc;
     struct forcing *forcing;
     struct pressure *pressure;
     struct link *link;

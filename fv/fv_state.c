@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "../common/mem.h"
+#include "bc.h"
 #include "forcing.h"
 #include "pressure.h"
 
@@ -29,6 +30,8 @@ static void make_fields(struct fv *s)
         if (s->nu > 0.0) {
             s->delta[a] = block_field(b);
             s->work[a] = block_field(b);
+            for (int k = 0; k < 2 && s->bc; k++)
+                s->krylov[k][a] = block_field(b);
         }
         if (s->prm.integrator == INTEGRATOR_BDF2)
             s->u_old[a] = block_field(b);
@@ -116,16 +119,21 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     for (int a = 0; a < 3; a++)
         length[a] = d->max[a] - d->min[a];
     block_create(&s->b, r->comm, d->dim, s->prm.cells, d->min, length, d->periodic);
+    s->bc = bc_create(s);
+    for (int a = 0; a < d->dim; a++)
+        s->drive[a] = d->periodic[a] ? r->scene.fluid.gravity[a] : 0.0;
     make_fields(s);
     fill(s);
     fill_fluxes(s);
     make_forcing(s);
     empty_hole(s);
+    bc_ghosts(s, BC_GIVEN, s->u);
+    bc_fluxes(s, s->U);
     s->pressure = pressure_create(s);
     s->energy0 = energy(s);
     measure(s);
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
-    s->u_limit = 10.0 * fmax(most, fmax(r->scene.initial.U, 1e-12));
+    s->u_limit = 10.0 * fmax(most, fmax(r->scene.initial.U, s->bc ? s->bc->speed : 1e-12));
     if (f && !fv_restore(s, f))
         fv_free(&s);
     else
@@ -142,14 +150,16 @@ void fv_free(struct fv **sp)
         coupling_free(s);
     pressure_free(&s->pressure);
     forcing_free(&s->forcing);
+    bc_free(&s->bc);
     mem_free(s->p);
     mem_free(s->p_before);
     mem_free(s->face);
     mem_free(s->flux);
     mem_free(s->step_work);
     for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->u[a],      s->U[a],     s->N[a],    s->N_old[a], s->rhs[a],
-                               s->step_p[a], s->delta[a], s->work[a], s->u_old[a], s->psi[a]};
+        double *const all[] = {s->u[a],     s->U[a],      s->N[a],         s->N_old[a],
+                               s->rhs[a],   s->step_p[a], s->delta[a],     s->work[a],
+                               s->u_old[a], s->psi[a],    s->krylov[0][a], s->krylov[1][a]};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             mem_free(all[k]);
     }

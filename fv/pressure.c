@@ -9,6 +9,7 @@
 
 #include "../common/log.h"
 #include "../common/mem.h"
+#include "bc.h"
 #include "forcing.h"
 
 /* hypre or-s all errors into one flag; "not converged" is the caller's to judge. */
@@ -31,6 +32,7 @@ struct pressure {
     double *diagonal;   /* 1/m^2: sum of 1/h^2 over the open faces */
     double *p, *Ap, *z; /* direction, its image, residual after a cycle */
     double free_cells;  /* of all ranks */
+    bool singular;      /* no side gives the pressure */
 };
 
 static void make_grid(const struct block *b, struct pressure *p)
@@ -77,7 +79,7 @@ static double fill_row(const struct fv *s, int64_t c, double *row)
         const int a = (e - 1) / 2;
         const int64_t face = (e - 1) % 2 ? c + b->stride[a] : c;
         const double w = (f ? f->open[a][face] : 1.0) / (b->h[a] * b->h[a]);
-        row[e] = -w;
+        row[e] = w <= 1.0 / (b->h[a] * b->h[a]) ? -w : 0.0; /* outflow: psi is 0 behind it */
         sum += w;
     }
     row[0] = sum > 0.0 ? sum + shift(b) : 1.0; /* forced, or free and shut in */
@@ -159,6 +161,7 @@ struct pressure *pressure_create(const struct fv *s)
     p->free_cells = (double)b->cells[0] * b->cells[1] * b->cells[2];
     if (s->forcing)
         p->free_cells = (double)s->forcing->free_cells;
+    p->singular = !s->bc || !s->bc->pressure_given;
     make_grid(b, p);
     make_matrix(s, p);
     make_vector(b, p, &p->b);
@@ -241,6 +244,8 @@ static double remove_mean(const struct fv *s, double *restrict x)
     if (s->forcing)
         forcing_zero(s->forcing, x);
     add_up(&s->b, x, x, sums);
+    if (!s->pressure->singular)
+        return sums[0];
     const double mean = sums[1] / s->pressure->free_cells;
     BLOCK_ROWS (&s->b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "bc.h"
 #include "forcing.h"
 #include "pressure.h"
 
@@ -53,10 +54,12 @@ static void project(struct fv *s, double t, double tau, double *psi, double tol,
     start(s, "operators");
     if (s->forcing)
         forcing_velocity(s, t, s->u);
+    bc_ghosts(s, BC_AHEAD, s->u);
     block_halo(b, b->dim, s->u);
     convection_face_velocities(s, s->u, s->U);
     if (s->forcing)
         forcing_fluxes(s, t, s->U);
+    bc_fluxes(s, s->U);
     divergence(s, tau, s->rhs[0]);
     stop(s, "operators");
     start(s, "pressure");
@@ -76,6 +79,7 @@ static void project(struct fv *s, double t, double tau, double *psi, double tol,
             for (int64_t i = c; i < c + n; i++)
                 u[i] -= tau * g[i];
     }
+    bc_ghosts(s, BC_GIVEN, s->u);
     block_halo(b, b->dim, s->u);
     stop(s, "operators");
 }
@@ -89,6 +93,7 @@ static void start_increment(struct fv *s, double t)
     if (!s->forcing)
         return;
     forcing_velocity(s, t, s->delta);
+    bc_increment(s, s->delta);
     const struct forcing *f = s->forcing;
     for (int a = 0; a < b->dim; a++) {
         for (int64_t i = 0; i < f->nset; i++)
@@ -138,13 +143,14 @@ static void stage_rhs(struct fv *s, double dt, double ab, double gamma, double z
     for (int a = 0; a < b->dim; a++) {
         double *restrict r = s->rhs[a];
         const double *restrict g = s->step_p[a], *restrict N = s->N[a], *restrict M = s->N_old[a];
+        const double drive = s->drive[a];
         if (s->nu > 0.0)
             viscous_apply(s, s->u[a], r);
         else
             memset(r, 0, (size_t)b->size * sizeof(double));
         BLOCK_ROWS (b, 0, c, n)
             for (int64_t i = c; i < c + n; i++)
-                r[i] = dt * (ab * (r[i] - g[i]) - gamma * N[i] - zeta * M[i]);
+                r[i] = dt * (ab * (r[i] - g[i] + drive) - gamma * N[i] - zeta * M[i]);
     }
 }
 
@@ -186,6 +192,7 @@ static bool step_rk3(struct fv *s, double dt)
         convection(s, s->N);
         stop(s, "convection");
         start(s, "viscous");
+        bc_set_slip(s, ab * dt, s->psi[k]);
         stage_rhs(s, dt, ab, gamma[k], zeta[k]);
         good = add_increment(s, beta[k] * dt, t_stage) && good;
         stop(s, "viscous");
@@ -213,6 +220,7 @@ static bool step_bdf2(struct fv *s, double dt)
     convection(s, s->N);
     stop(s, "convection");
     start(s, "viscous");
+    bc_set_slip(s, tau, s->psi[0]);
     /* increment from u^n: (1 - tau L) d = tau [L u - (1+r) N + r N_old - Gc p] + (c2/c0)(u^n -
      * u^n-1) */
     stage_rhs(s, tau, 1.0, 1.0 + r, -r);
@@ -289,11 +297,18 @@ static void describe_worst(const struct fv *s, struct diagnosis *d)
         s->prm.cfl);
 }
 
+/* Of what flows, or will soon. */
+static double speed_along(const struct fv *s, int a)
+{
+    const double U = s->run->scene.initial.U;
+    return fmax(s->umax[a], s->drive[a] != 0.0 ? U : s->bc ? s->bc->speed_along[a] : 0.0);
+}
+
 static double largest_step(const struct fv *s)
 {
     double rate = 1e-300;
     for (int a = 0; a < s->b.dim; a++)
-        rate = fmax(rate, s->umax[a] / s->b.h[a]);
+        rate = fmax(rate, speed_along(s, a) / s->b.h[a]);
     return s->prm.cfl / rate;
 }
 

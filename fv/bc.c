@@ -1,0 +1,303 @@
+/* bc.c - see bc.h. Ghosts of cell averages behind a side, q_1, q_2, q_3 inside, w the average on
+ * the side's face:
+ *   given     q_0 = 4 w - (13 q_1 - 5 q_2 + q_3)/3,  q_-1 = 16 w - (70 q_1 - 32 q_2 + 7 q_3)/3,
+ *             the cubic through them; the fourth-order face value is then w itself
+ *   mirrored  q_0 = q_1, q_-1 = q_2, or 2 w - q_1, 2 w - q_2
+ * No-slip and inflow: all components given; slip: the normal one odd, others even; outflow: even.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "bc.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../common/mem.h"
+
+/* Places of a side on this rank: tangents t0 < t1, from lo to hi; places count from -g, so that
+ * those behind other sides have their own. */
+struct side {
+    int a, t[2], lo[2], hi[2];
+    int width;  /* places along t[0] */
+    int first;  /* cell along a that touches the side */
+    int64_t in; /* step inwards */
+};
+
+static bool has_side(const struct block *b, int k)
+{
+    const int a = k / 2;
+    return a < b->dim && !b->periodic[a] && (k % 2 ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
+}
+
+/* Tangents of a lower axis have their ghosts by then: sides are filled axis by axis. */
+static struct side side_of(const struct block *b, int k, bool corners)
+{
+    struct side d = {.a = k / 2};
+    int n = 0;
+    for (int a = 0; a < 3; a++)
+        if (a != d.a)
+            d.t[n++] = a;
+    for (int m = 0; m < 2; m++) {
+        const int t = d.t[m];
+        const bool more = corners && (t < d.a);
+        d.lo[m] = more && has_side(b, 2 * t) ? -b->g[t] : 0;
+        d.hi[m] = b->n[t] + (more && has_side(b, 2 * t + 1) ? b->g[t] : 0);
+    }
+    d.width = b->n[d.t[0]] + 2 * b->g[d.t[0]];
+    d.first = k % 2 ? b->n[d.a] - 1 : 0;
+    d.in = k % 2 ? -b->stride[d.a] : b->stride[d.a];
+    return d;
+}
+
+static int64_t place(const struct block *b, const struct side *d, int i, int j)
+{
+    return (i + b->g[d->t[0]]) + (int64_t)d->width * (j + b->g[d->t[1]]);
+}
+
+static int64_t cell(const struct block *b, const struct side *d, int i, int j)
+{
+    int at[3];
+    at[d->a] = d->first;
+    at[d->t[0]] = i;
+    at[d->t[1]] = j;
+    return block_at(b, at[0], at[1], at[2]);
+}
+
+/* Visits the places of a side: m counts them, c is the cell inside. */
+#define SIDE_PLACES(b, d, i, j, m, c)                                                              \
+    for (int j = (d).lo[1]; j < (d).hi[1]; j++)                                                    \
+        for (int i = (d).lo[0]; i < (d).hi[0]; i++)                                                \
+            for (int64_t m = place(b, &(d), i, j), c = cell(b, &(d), i, j), once_ = 1; once_;      \
+                 once_ = 0)
+
+/* Average of 4 x (1 - x) over the face from x to x + h of a side of length 1. */
+static double parabola(double x, double h)
+{
+    return 2.0 * (2.0 * x + h) - 4.0 / 3.0 * (3.0 * x * x + 3.0 * x * h + h * h);
+}
+
+static double profile_at(const struct fv *s, const struct scene_wall *wall, const struct side *d,
+                         int i, int j)
+{
+    const struct block *b = &s->b;
+    const int at[2] = {i, j};
+    double f = 1.0;
+    for (int m = 0; wall->profile && m < 2; m++) {
+        const int t = d->t[m];
+        if (t < b->dim && !b->periodic[t])
+            f *= parabola((double)(b->lo[t] + at[m]) / b->cells[t], 1.0 / b->cells[t]);
+    }
+    return f;
+}
+
+static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall *wall)
+{
+    static const enum bc_kind kinds[] = {BC_NO_SLIP, BC_SLIP, BC_INFLOW, BC_OUTFLOW};
+    const struct block *b = &s->b;
+    const int k = wall->side, a = k / 2;
+    if (a >= b->dim || b->periodic[a])
+        return;
+    bc->kind[k] = kinds[wall->kind];
+    bc->pressure_given = bc->pressure_given || bc->kind[k] == BC_OUTFLOW;
+    for (int q = 0; q < b->dim && bc->kind[k] != BC_OUTFLOW; q++)
+        bc->speed_along[q] = fmax(bc->speed_along[q], fabs(wall->velocity[q]));
+    for (int q = 0; q < b->dim; q++)
+        bc->speed = fmax(bc->speed, bc->speed_along[q]);
+    double area = 1.0, face = 1.0;
+    for (int t = 0; t < b->dim; t++)
+        area *= t == a ? 1.0 : b->h[t] * b->cells[t];
+    if (bc->kind[k] == BC_NO_SLIP || bc->kind[k] == BC_SLIP)
+        bc->wall_area += area;
+    if (!has_side(b, k))
+        return;
+    const struct side d = side_of(b, k, true), inner = side_of(b, k, false);
+    bc->n[k] = (int64_t)d.width * (b->n[d.t[1]] + 2 * b->g[d.t[1]]);
+    for (int q = 0; q < b->dim; q++) {
+        bc->w[k][q] = NEW(double, bc->n[k]);
+        bc->slip[k][q] = NEW(double, bc->n[k]);
+        for (int j = -b->g[d.t[1]]; j < b->n[d.t[1]] + b->g[d.t[1]]; j++)
+            for (int i = -b->g[d.t[0]]; i < b->n[d.t[0]] + b->g[d.t[0]]; i++)
+                bc->w[k][q][place(b, &d, i, j)] = wall->velocity[q] * profile_at(s, wall, &d, i, j);
+    }
+    for (int t = 0; t < b->dim; t++)
+        face *= t == a ? 1.0 : b->h[t];
+    SIDE_PLACES(b, inner, i, j, m, c)
+    {
+        bc->outflux += (k % 2 ? face : -face) * bc->w[k][a][m];
+        (void)c;
+    }
+}
+
+struct bc *bc_create(const struct fv *s)
+{
+    const struct scene *scene = &s->run->scene;
+    if (scene->nwalls == 0)
+        return NULL;
+    struct bc *bc = NEW(struct bc, 1);
+    for (int i = 0; i < scene->nwalls; i++)
+        make_side(s, bc, scene->walls + i);
+    return bc;
+}
+
+void bc_free(struct bc **bp)
+{
+    struct bc *bc = *bp;
+    if (!bc)
+        return;
+    for (int k = 0; k < 6; k++)
+        for (int q = 0; q < 3; q++) {
+            mem_free(bc->w[k][q]);
+            mem_free(bc->slip[k][q]);
+        }
+    mem_free(bc);
+    *bp = NULL;
+}
+
+enum bc_kind bc_behind(const struct fv *s, const int *at, int a)
+{
+    const struct block *b = &s->b;
+    const int i = b->lo[a] + at[a];
+    if (!s->bc || a >= b->dim || b->periodic[a] || (i >= 0 && i < b->cells[a]))
+        return BC_NONE;
+    return s->bc->kind[2 * a + (i >= 0)];
+}
+
+static void ghosts_given(double *q, int64_t in, double w)
+{
+    q[-in] = 4.0 * w - (13.0 * q[0] - 5.0 * q[in] + q[2 * in]) / 3.0;
+    q[-2 * in] = 16.0 * w - (70.0 * q[0] - 32.0 * q[in] + 7.0 * q[2 * in]) / 3.0;
+    q[-3 * in] = q[-2 * in]; /* no stencil reads it */
+}
+
+static void ghosts_mirrored(double *q, int64_t in, double sign, double w)
+{
+    for (int m = 0; m < GHOSTS; m++)
+        q[-(m + 1) * in] = 2.0 * w + sign * q[m * in];
+}
+
+/* One component along one side. w, slip: NULL for zero. */
+static void fill(const struct block *b, int k, enum bc_kind kind, int q, const double *w,
+                 const double *slip, double *u)
+{
+    const struct side d = side_of(b, k, true);
+    const bool even = kind == BC_OUTFLOW || (kind == BC_SLIP && q != d.a);
+    SIDE_PLACES(b, d, i, j, m, c)
+    {
+        const double v = (w ? w[m] : 0.0) + (slip ? slip[m] : 0.0);
+        if (even)
+            ghosts_mirrored(u + c, d.in, 1.0, 0.0);
+        else if (kind == BC_SLIP)
+            ghosts_mirrored(u + c, d.in, -1.0, v);
+        else
+            ghosts_given(u + c, d.in, v);
+    }
+}
+
+static void fill_all(const struct fv *s, bool given, bool ahead, double *const u[3])
+{
+    const struct bc *bc = s->bc;
+    for (int k = 0; k < 2 * s->b.dim; k++)
+        for (int q = 0; q < s->b.dim && bc->n[k] > 0; q++)
+            fill(&s->b, k, bc->kind[k], q, given ? bc->w[k][q] : NULL,
+                 ahead ? bc->slip[k][q] : NULL, u[q]);
+}
+
+void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3])
+{
+    if (s->bc)
+        fill_all(s, what != BC_ZERO, what == BC_AHEAD, u);
+}
+
+void bc_increment(const struct fv *s, double *const d[3])
+{
+    if (s->bc)
+        fill_all(s, false, true, d);
+}
+
+void bc_fluxes(const struct fv *s, double *const U[3])
+{
+    const struct block *b = &s->b;
+    for (int k = 0; s->bc && k < 2 * b->dim; k++) {
+        if (s->bc->n[k] == 0 || s->bc->kind[k] == BC_OUTFLOW)
+            continue;
+        const struct side d = side_of(b, k, true);
+        const int64_t face = k % 2 ? b->stride[d.a] : 0;
+        const double *w = s->bc->w[k][d.a];
+        SIDE_PLACES(b, d, i, j, m, c)
+        U[d.a][c + face] = w[m];
+    }
+}
+
+/* psi on the side, continued evenly: (7 psi_1 - psi_2)/6; its gradient along the side by fourth
+ * order differences, again even at the ends. line: scratch of the length of a row with ghosts. */
+static void slip_row(const struct block *b, const struct side *d, int m, double tau,
+                     const double *psi, int64_t c, double *line, double *slip, int64_t step)
+{
+    const int t = d->t[m], n = b->n[t], g = b->g[t];
+    double *at = line + g;
+    for (int i = -g; i < n + g; i++) {
+        const double *q = psi + c + i * b->stride[t];
+        at[i] = (7.0 * q[0] - q[d->in]) / 6.0;
+    }
+    for (int i = 0; i < g; i++) {
+        if (has_side(b, 2 * t))
+            at[-1 - i] = at[i];
+        if (has_side(b, 2 * t + 1))
+            at[n + i] = at[n - 1 - i];
+    }
+    const double w = tau / (12.0 * b->h[t]);
+    for (int i = 0; i < n; i++)
+        slip[i * step] = w * (8.0 * (at[i + 1] - at[i - 1]) - (at[i + 2] - at[i - 2]));
+}
+
+void bc_set_slip(const struct fv *s, double tau, const double *psi)
+{
+    const struct block *b = &s->b;
+    for (int k = 0; s->bc && k < 2 * b->dim; k++) {
+        if (s->bc->n[k] == 0 || s->bc->kind[k] == BC_SLIP || s->bc->kind[k] == BC_OUTFLOW)
+            continue;
+        const struct side d = side_of(b, k, false);
+        for (int m = 0; m < 2 && d.t[m] < b->dim; m++) {
+            const int other = d.t[1 - m];
+            double *line = NEW(double, b->n[d.t[m]] + 2 * b->g[d.t[m]]);
+            for (int i = 0; i < b->n[other]; i++) {
+                const int at[2] = {m == 0 ? 0 : i, m == 0 ? i : 0};
+                slip_row(b, &d, m, tau, psi, cell(b, &d, at[0], at[1]), line,
+                         s->bc->slip[k][d.t[m]] + place(b, &d, at[0], at[1]), m == 0 ? 1 : d.width);
+            }
+            mem_free(line);
+        }
+    }
+}
+
+/* Pressure on the side by the cubic, shear by the fourth-order face gradient. */
+static void add_force(const struct fv *s, int k, double *force)
+{
+    const struct block *b = &s->b;
+    const struct side d = side_of(b, k, false);
+    const double out = k % 2 ? 1.0 : -1.0, rho = s->run->scene.fluid.rho;
+    double area = rho;
+    for (int t = 0; t < b->dim; t++)
+        area *= t == d.a ? 1.0 : b->h[t];
+    SIDE_PLACES(b, d, i, j, m, c)
+    {
+        double p[4];
+        for (int n = 0; n < 4; n++)
+            p[n] = fv_pressure(s, c + n * d.in) / rho;
+        force[d.a] += out * area * (25.0 * p[0] - 23.0 * p[1] + 13.0 * p[2] - 3.0 * p[3]) / 12.0;
+        for (int q = 0; q < b->dim; q++) {
+            const double *u = s->u[q] + c;
+            if (q != d.a)
+                force[q] += area * s->nu / (12.0 * b->h[d.a]) *
+                            (15.0 * (u[0] - u[-d.in]) - (u[d.in] - u[-2 * d.in]));
+        }
+        (void)m;
+    }
+}
+
+void bc_force(const struct fv *s, double force[3])
+{
+    memset(force, 0, 3 * sizeof(double));
+    for (int k = 0; s->bc && k < 2 * s->b.dim; k++)
+        if (s->bc->n[k] > 0 && (s->bc->kind[k] == BC_NO_SLIP || s->bc->kind[k] == BC_SLIP))
+            add_force(s, k, force);
+    MPI_Allreduce(MPI_IN_PLACE, force, 3, MPI_DOUBLE, MPI_SUM, s->b.cart);
+}

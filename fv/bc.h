@@ -1,0 +1,45 @@
+/* bc.h - physical boundaries of the block: no-slip and slip walls, inflow, outflow. Ghost averages
+ * of velocity carry the condition into all stencils; sides without a kind (periodic, or imposed
+ * from the exact solution) are not touched. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_BC_H
+#define FV_BC_H
+
+#include "fv.h"
+
+enum bc_kind { BC_NONE, BC_NO_SLIP, BC_SLIP, BC_INFLOW, BC_OUTFLOW };
+
+struct bc {
+    enum bc_kind kind[6]; /* side 2 a + (1 if upper) of axis a */
+    int64_t n[6]; /* places of a side on this rank, ghosts of its tangents included; 0: not here */
+    double *w[6][3];     /* m/s: velocity on the side, averages over faces */
+    double *slip[6][3];  /* m/s: what the next projection takes off the side's velocity */
+    bool pressure_given; /* at an outflow: the pressure problem is regular */
+    double outflux;      /* m^dim/s: through this rank's faces of walls and inflow, outwards */
+    double speed, speed_along[3]; /* m/s: largest velocity imposed, and of each component */
+    double wall_area;             /* m^(dim-1) of walls, over all ranks; 0: none */
+};
+
+enum bc_value {
+    BC_ZERO,  /* of a difference */
+    BC_GIVEN, /* of a velocity */
+    BC_AHEAD  /* of one that is still to be projected: what that takes off is added */
+};
+
+/* NULL if no side has a kind. */
+struct bc *bc_create(const struct fv *s);
+void bc_free(struct bc **b);
+/* Kind of the side behind which the cell `at' (local) lies along axis a; BC_NONE if inside. */
+enum bc_kind bc_behind(const struct fv *s, const int *at, int a);
+/* Ghost averages of the fields u along all sides that have a kind; halo first. */
+void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3]);
+/* The change on the sides from a projected velocity to one ahead of its projection, as an
+ * increment's ghosts. */
+void bc_increment(const struct fv *s, double *const d[3]);
+/* Fluxes through walls and inflow; those of outflow are left as they are. */
+void bc_fluxes(const struct fv *s, double *const U[3]);
+/* Takes note of tau grad psi along the walls, for BC_AHEAD. */
+void bc_set_slip(const struct fv *s, double tau, const double *psi);
+/* Force of the flow on all walls, N (per metre in 2D), over all ranks. */
+void bc_force(const struct fv *s, double force[3]);
+
+#endif
