@@ -90,9 +90,11 @@ static double profile_at(const struct fv *s, const struct scene_wall *wall, cons
 
 static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall *wall)
 {
-    static const enum bc_kind kinds[] = {BC_NO_SLIP, BC_SLIP, BC_INFLOW, BC_OUTFLOW};
+    static const enum bc_kind kinds[] = {BC_SLIP, BC_NO_SLIP, BC_INFLOW, BC_OUTFLOW};
     const struct block *b = &s->b;
-    const int k = wall->side, a = k / 2;
+    if (wall->side == SIDE_NONE)
+        return;
+    const int k = wall->side - SIDE_X_MIN, a = k / 2;
     if (a >= b->dim || b->periodic[a])
         return;
     bc->kind[k] = kinds[wall->kind];

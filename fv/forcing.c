@@ -187,10 +187,11 @@ static bool add_side(const struct forcing *f, int64_t c, int64_t d, int way, enu
 {
     static const double plain[2] = {8.0 / 12.0, -1.0 / 12.0};
     const int edge = f->forced[c + d] ? 0 : 1;
+    const int most = kind ? 3 : 4; /* by a cubic the pressure in a cavity's corners grows */
     int run = 1;
     if (!f->forced[c + d] && !f->forced[c + 2 * d])
         return false;
-    while (run < 4 && edge - run >= -REACH && !f->forced[c + (edge - run) * d])
+    while (run < most && edge - run >= -REACH && !f->forced[c + (edge - run) * d])
         run++;
     for (int m = edge + 1; m <= 2; m++) {
         const double g = way * plain[m - 1];

@@ -20,6 +20,7 @@ struct fv_params {
     double tol_pressure; /* of the last projection of a step, relative to |div U*| */
     double tol_viscous;  /* of Helmholtz; 0: 1e-3, with forced cells 1e-5 */
     double hole[2][3];   /* box whose cells take the exact solution; all 0: none */
+    double extrema[3];   /* m/s: known ones on the centre lines, see fv_lines.c; 0: none */
     int forced_order;    /* in time, of partners' data within a window: 1 linear, 2 quadratic */
 };
 
@@ -105,6 +106,9 @@ void fv_checkpoint(void *s, struct h5 *f);
 bool fv_restore(struct fv *s, struct h5 *f);
 void fv_finish(void *s);
 void fv_row(void *s, double *values);
+
+/* fv_lines.c: extrema on the centre lines into the summary. */
+void fv_summarise_extrema(const struct fv *s);
 
 /* fv_coupling.c: the only file here that knows cpl.h. */
 void coupling_create(struct fv *s);

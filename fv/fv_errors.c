@@ -149,6 +149,8 @@ void fv_finish(void *state)
     summary_real(r->summary, "drift.energy",
                  s->has_exact && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
     summary_real(r->summary, "divergence", largest_divergence(s));
+    if (s->prm.extrema[0] != 0.0)
+        fv_summarise_extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);
     const double steps = r->step > 0 ? (double)r->step : 1.0;
     summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);
