@@ -270,28 +270,42 @@ void bc_set_slip(const struct fv *s, double tau, const double *psi)
     }
 }
 
+/* Centre of the face at a place. */
+static void side_centre(const struct block *b, const struct side *d, int64_t m, double out,
+                        double *x)
+{
+    int at[3];
+    at[d->a] = d->first;
+    at[d->t[0]] = (int)(m % d->width) - b->g[d->t[0]];
+    at[d->t[1]] = (int)(m / d->width) - b->g[d->t[1]];
+    block_centre(b, at[0], at[1], at[2], x);
+    x[d->a] += 0.5 * out * b->h[d->a];
+}
+
 /* Pressure on the side by the cubic, shear by the fourth-order face gradient. */
 static void add_force(const struct fv *s, int k, double *force)
 {
     const struct block *b = &s->b;
     const struct side d = side_of(b, k, false);
-    const double out = k % 2 ? 1.0 : -1.0, rho = s->run->scene.fluid.rho;
-    double area = rho;
+    const double out = k % 2 ? 1.0 : -1.0, mu = s->run->scene.fluid.rho * s->nu;
+    double area = 1.0, x[3];
     for (int t = 0; t < b->dim; t++)
         area *= t == d.a ? 1.0 : b->h[t];
     SIDE_PLACES(b, d, i, j, m, c)
     {
         double p[4];
         for (int n = 0; n < 4; n++)
-            p[n] = fv_pressure(s, c + n * d.in) / rho;
-        force[d.a] += out * area * (25.0 * p[0] - 23.0 * p[1] + 13.0 * p[2] - 3.0 * p[3]) / 12.0;
+            p[n] = fv_pressure(s, c + n * d.in);
+        side_centre(b, &d, m, out, x);
+        force[d.a] += out * area *
+                      ((25.0 * p[0] - 23.0 * p[1] + 13.0 * p[2] - 3.0 * p[3]) / 12.0 +
+                       fv_still_pressure(s, x));
         for (int q = 0; q < b->dim; q++) {
             const double *u = s->u[q] + c;
             if (q != d.a)
-                force[q] += area * s->nu / (12.0 * b->h[d.a]) *
+                force[q] += area * mu / (12.0 * b->h[d.a]) *
                             (15.0 * (u[0] - u[-d.in]) - (u[d.in] - u[-2 * d.in]));
         }
-        (void)m;
     }
 }
 

@@ -47,9 +47,10 @@ struct fv {
     double *u_old[3];        /* bdf2 only, else NULL */
     double *rhs[3], *delta[3], *work[3], *step_p[3]; /* scratch: right side, increment, CG; Gc p */
     double *step_work;
-    double *krylov[2][3]; /* scratch of the viscous solve with walls, else NULL */
-    double drive[3];      /* m/s^2: gravity along periodic axes; across, the pressure takes it */
-    double *face, *flux;  /* scratch */
+    double *krylov[2][3];   /* scratch of the viscous solve with walls, else NULL */
+    double still[3], level; /* m/s^2, m: gravity across closed sides, height where it makes no p */
+    double drive[3];        /* m/s^2: gravity along periodic axes; across, the pressure takes it */
+    double *face, *flux;    /* scratch */
     struct bc *bc;
     struct forcing *forcing;
     struct pressure *pressure;
@@ -72,6 +73,8 @@ void fv_params_check(const struct run *r, struct faults *f);
 /* fv_state.c */
 struct fv *fv_create(struct run *r, struct h5 *f);
 void fv_free(struct fv **s);
+/* After u and U have been set: ghosts, limits, the pressure that goes with them. */
+void fv_start(struct fv *s);
 
 /* convection.c: N_a = (sum over faces of F)/h, F = U q + transverse terms; needs u with ghosts and
  * U. */
@@ -93,10 +96,14 @@ void gradient(const struct fv *s, const double *q, int a, enum continuation c, d
 
 /* projection.c: one step towards t_stop, see program.step; d is filled when the state cannot be
  * trusted. */
+void pressure_start(struct fv *s);
 double integrate(struct fv *s, double t_stop, struct diagnosis *d);
 void measure(struct fv *s);
 /* Pressure at s->t, in Pa. */
 double fv_pressure(const struct fv *s, int64_t c);
+/* What gravity adds to it at x: the equations hold only the rest, so that water at rest stays so.
+ */
+double fv_still_pressure(const struct fv *s, const double *x);
 
 /* fv_io.c, fv_errors.c */
 void fv_vorticity(const struct fv *s,

@@ -63,6 +63,19 @@ static void write_frame(const struct fv *s, struct h5 *f)
     }
 }
 
+static void whole_pressure(const struct fv *s, double *field)
+{
+    const struct block *b = &s->b;
+    double x[3];
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++)
+            for (int i = 0; i < b->n[0]; i++) {
+                const int64_t c = block_at(b, i, j, k);
+                block_centre(b, i, j, k, x);
+                field[c] = fv_pressure(s, c) + fv_still_pressure(s, x);
+            }
+}
+
 void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
 {
     struct fv *s = state;
@@ -77,8 +90,7 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
         fields[nfields++] = (struct xdmf_field){"velocity", 3};
     }
     if (wanted(s, "pressure")) {
-        for (int64_t c = 0; c < b->size; c++)
-            field[c] = fv_pressure(s, c);
+        whole_pressure(s, field);
         block_pack(b, field, v);
         write(s, f, "pressure", "Pa", 1, v);
         fields[nfields++] = (struct xdmf_field){"pressure", 1};

@@ -44,6 +44,27 @@ static void check_axis(const struct run *r, int a, struct faults *f)
                      n, axes[a]);
 }
 
+/* What flows in must be able to flow out; what this solver does not know. */
+static void check_openings(const struct run *r, struct faults *f)
+{
+    const struct scene *s = &r->scene;
+    bool in = false, out = false;
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        in = in || w->kind == WALL_INFLOW;
+        out = out || w->kind == WALL_OUTFLOW;
+        if (w->side == SIDE_NONE || w->kind == WALL_ABSORBING)
+            params_fault(r->params, f, "walls", "wall %d: %s is not for this solver", k + 1,
+                         w->side == SIDE_NONE ? "a polyline" : "\"absorbing\"");
+    }
+    for (int a = 0; a < s->domain.dim; a++)
+        for (int k = 0; k < 2; k++)
+            out = out || (!s->domain.periodic[a] &&
+                          !scene_wall_of(s, (enum scene_side)(SIDE_X_MIN + 2 * a + k)));
+    if (in && !out)
+        params_fault(r->params, f, "walls", "an inflow without an outflow");
+}
+
 void fv_params_check(const struct run *r, struct faults *f)
 {
     const bool exact = exact_at_all_times(&r->scene);
@@ -55,8 +76,5 @@ void fv_params_check(const struct run *r, struct faults *f)
             params_fault(r->params, f, "fv.hole",
                          "only a lone run with an exact solution (initial.field) can fill a hole");
     }
-    if (r->scene.fluid.gravity[0] != 0.0 || r->scene.fluid.gravity[1] != 0.0 ||
-        r->scene.fluid.gravity[2] != 0.0)
-        params_fault(r->params, f, "fluid.gravity",
-                     "this solver has no free surface to feel it: leave gravity out");
+    check_openings(r, f);
 }

@@ -104,6 +104,40 @@ static double energy(const struct fv *s)
     return sum;
 }
 
+static void set_limit(struct fv *s)
+{
+    const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
+    s->u_limit = 10.0 * fmax(fmax(most, s->run->scene.initial.U), s->bc ? s->bc->speed : 1e-12);
+}
+
+void fv_start(struct fv *s)
+{
+    bc_ghosts(s, BC_GIVEN, s->u);
+    block_halo(&s->b, s->b.dim, s->u);
+    bc_fluxes(s, s->U);
+    measure(s);
+    set_limit(s);
+    if (fmax(s->umax[0], fmax(s->umax[1], s->umax[2])) > 0.0)
+        pressure_start(s);
+}
+
+/* Along a periodic axis gravity drives the flow; across closed sides the pressure takes it up. */
+static void split_gravity(struct fv *s)
+{
+    const struct scene *scene = &s->run->scene;
+    double g = 0.0, top = 0.0;
+    for (int a = 0; a < scene->domain.dim; a++) {
+        const double ga = scene->fluid.gravity[a];
+        s->drive[a] = scene->domain.periodic[a] ? ga : 0.0;
+        s->still[a] = ga - s->drive[a];
+        g += s->still[a] * s->still[a];
+        top -= s->still[a] * (s->still[a] > 0.0 ? scene->domain.min[a] : scene->domain.max[a]);
+    }
+    s->level = scene->initial.level < LEVEL_TOP ? scene->initial.level
+               : g > 0.0                        ? top / sqrt(g)
+                                                : 0.0;
+}
+
 struct fv *fv_create(struct run *r, struct h5 *f)
 {
     struct fv *s = NEW(struct fv, 1);
@@ -120,20 +154,19 @@ struct fv *fv_create(struct run *r, struct h5 *f)
         length[a] = d->max[a] - d->min[a];
     block_create(&s->b, r->comm, d->dim, s->prm.cells, d->min, length, d->periodic);
     s->bc = bc_create(s);
-    for (int a = 0; a < d->dim; a++)
-        s->drive[a] = d->periodic[a] ? r->scene.fluid.gravity[a] : 0.0;
+    split_gravity(s);
     make_fields(s);
     fill(s);
     fill_fluxes(s);
     make_forcing(s);
     empty_hole(s);
     bc_ghosts(s, BC_GIVEN, s->u);
+    block_halo(&s->b, d->dim, s->u);
     bc_fluxes(s, s->U);
     s->pressure = pressure_create(s);
     s->energy0 = energy(s);
     measure(s);
-    const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
-    s->u_limit = 10.0 * fmax(most, fmax(r->scene.initial.U, s->bc ? s->bc->speed : 1e-12));
+    set_limit(s);
     if (f && !fv_restore(s, f))
         fv_free(&s);
     else

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../common/mem.h"
 #include "bc.h"
 #include "forcing.h"
 #include "pressure.h"
@@ -312,6 +313,38 @@ static double largest_step(const struct fv *s)
     return s->prm.cfl / rate;
 }
 
+/* Pressure that belongs to the velocities of the start: short steps from the same state, until
+ * their increments have made it. */
+void pressure_start(struct fv *s)
+{
+    const size_t bytes = (size_t)s->b.size * sizeof(double);
+    const double dt = 1e-3 * largest_step(s);
+    double *keep[2][3];
+    for (int a = 0; a < s->b.dim; a++) {
+        keep[0][a] = block_field(&s->b);
+        keep[1][a] = block_field(&s->b);
+        memcpy(keep[0][a], s->u[a], bytes);
+        memcpy(keep[1][a], s->U[a], bytes);
+    }
+    for (int k = 0; k < 8; k++) {
+        integrators[s->prm.integrator].step(s, dt);
+        for (int a = 0; a < s->b.dim; a++) {
+            memcpy(s->u[a], keep[0][a], bytes);
+            memcpy(s->U[a], keep[1][a], bytes);
+        }
+    }
+    for (int a = 0; a < 3; a++) {
+        if (s->psi[a])
+            memset(s->psi[a], 0, bytes);
+        if (a < s->b.dim) {
+            mem_free(keep[0][a]);
+            mem_free(keep[1][a]);
+        }
+    }
+    memcpy(s->p_before, s->p, bytes);
+    s->iterations = s->viscous_iterations = 0;
+}
+
 double integrate(struct fv *s, double t_stop, struct diagnosis *d)
 {
     const double left = t_stop - s->t, dt_most = largest_step(s);
@@ -336,6 +369,16 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
     }
     run_diagnose(d, s->b.cart);
     return dt;
+}
+
+double fv_still_pressure(const struct fv *s, const double *x)
+{
+    double g = 0.0, sum = 0.0;
+    for (int a = 0; a < s->b.dim; a++) {
+        g += s->still[a] * s->still[a];
+        sum += s->still[a] * x[a];
+    }
+    return s->run->scene.fluid.rho * (sqrt(g) * s->level + sum);
 }
 
 /* rk3's pressure belongs to t - dt/6: carried on along the last step's change. */
