@@ -99,6 +99,9 @@ static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall
         return;
     bc->kind[k] = kinds[wall->kind];
     bc->pressure_given = bc->pressure_given || bc->kind[k] == BC_OUTFLOW;
+    if (bc->kind[k] == BC_OUTFLOW)
+        bc->pressure[k] = wall->pressure / s->run->scene.fluid.rho;
+    bc->driven = bc->driven || bc->pressure[k] != 0.0;
     for (int q = 0; q < b->dim && bc->kind[k] != BC_OUTFLOW; q++)
         bc->speed_along[q] = fmax(bc->speed_along[q], fabs(wall->velocity[q]));
     for (int q = 0; q < b->dim; q++)

@@ -13,6 +13,8 @@ struct bc {
     int64_t n[6]; /* places of a side on this rank, ghosts of its tangents included; 0: not here */
     double *w[6][3];     /* m/s: velocity on the side, averages over faces */
     double *slip[6][3];  /* m/s: what the next projection takes off the side's velocity */
+    double pressure[6];  /* m^2/s^2: p/rho of an outflow, 0 elsewhere */
+    bool driven;         /* some of it not 0 */
     bool pressure_given; /* at an outflow: the pressure problem is regular */
     double outflux;      /* m^dim/s: through this rank's faces of walls and inflow, outwards */
     double speed, speed_along[3]; /* m/s: largest velocity imposed, and of each component */

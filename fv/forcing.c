@@ -163,31 +163,38 @@ static void spread_ghost(int edge, int run, int depth, double g, double *cubic, 
     even[REACH + way * (edge - (depth <= run ? depth - 1 : run - 1))] += g;
 }
 
-/* The same where the pressure is given, 0 on the face: p by the cubic through it, psi odd; and at a
+/* Boundary that the two cells beside a cell reach, if any. */
+struct beside {
+    enum bc_kind kind;
+    double pressure; /* m^2/s^2: of an outflow */
+};
+
+/* The same where the pressure is given on the face: p by the cubic through it, psi odd; and at a
  * slip wall, where both are even. */
-static void spread_mirror(enum bc_kind kind, int edge, int run, int depth, double g, double *cubic,
-                          double *even, int way)
+static void spread_mirror(const struct beside *side, int edge, int run, int depth, double g,
+                          struct fix *x, int way)
 {
     static const double given[2][3] = {{-13.0 / 3.0, 5.0 / 3.0, -1.0 / 3.0},
                                        {-70.0 / 3.0, 32.0 / 3.0, -7.0 / 3.0}};
-    const double sign = kind == BC_OUTFLOW ? -1.0 : 1.0;
+    const double sign = side->kind == BC_OUTFLOW ? -1.0 : 1.0;
     const int near = REACH + way * (edge - (depth <= run ? depth - 1 : run - 1));
-    even[near] += sign * g;
-    if (kind == BC_SLIP || run < 3)
-        cubic[near] += sign * g;
+    x->even[near] += sign * g;
+    if (side->kind == BC_SLIP || run < 3)
+        x->cubic[near] += sign * g;
     else
         for (int m = 0; m < 3; m++)
-            cubic[REACH + way * (edge - m)] += g * given[depth - 1][m];
+            x->cubic[REACH + way * (edge - m)] += g * given[depth - 1][m];
+    x->given += side->pressure * (run < 3 ? 2.0 * g : g * (depth == 1 ? 4.0 : 16.0));
 }
 
 /* Adds what the two cells on one side of a free cell c have beyond the plain weights 8/12, -1/12.
- * d: the step to that side, of sign `way'; kind: of the boundary there. False if both are free. */
-static bool add_side(const struct forcing *f, int64_t c, int64_t d, int way, enum bc_kind kind,
-                     double *cubic, double *even)
+ * d: the step to that side, of sign `way'. False if both are free. */
+static bool add_side(const struct forcing *f, int64_t c, int64_t d, int way,
+                     const struct beside *side, struct fix *x)
 {
     static const double plain[2] = {8.0 / 12.0, -1.0 / 12.0};
     const int edge = f->forced[c + d] ? 0 : 1;
-    const int most = kind ? 3 : 4; /* by a cubic the pressure in a cavity's corners grows */
+    const int most = side->kind ? 3 : 4; /* by a cubic the pressure in a cavity's corners grows */
     int run = 1;
     if (!f->forced[c + d] && !f->forced[c + 2 * d])
         return false;
@@ -195,19 +202,17 @@ static bool add_side(const struct forcing *f, int64_t c, int64_t d, int way, enu
         run++;
     for (int m = edge + 1; m <= 2; m++) {
         const double g = way * plain[m - 1];
-        cubic[REACH + way * m] -= g;
-        even[REACH + way * m] -= g;
-        if (kind == BC_SLIP || kind == BC_OUTFLOW)
-            spread_mirror(kind, edge, run, m - edge, g, cubic, even, way);
+        x->cubic[REACH + way * m] -= g;
+        x->even[REACH + way * m] -= g;
+        if (side->kind == BC_SLIP || side->kind == BC_OUTFLOW)
+            spread_mirror(side, edge, run, m - edge, g, x, way);
         else
-            spread_ghost(edge, run, m - edge, g, cubic, even, way);
+            spread_ghost(edge, run, m - edge, g, x->cubic, x->even, way);
     }
     return true;
 }
 
-/* Kind of the boundary that the two cells beside c reach, if any. */
-static enum bc_kind kind_beside(const struct fv *s, const struct forcing *f, int64_t c, int a,
-                                int way)
+static struct beside beside(const struct fv *s, const struct forcing *f, int64_t c, int a, int way)
 {
     const struct block *b = &s->b;
     const int64_t row[3] = {c % b->stride[1], c % b->stride[2] / b->stride[1], c / b->stride[2]};
@@ -216,8 +221,9 @@ static enum bc_kind kind_beside(const struct fv *s, const struct forcing *f, int
         at[q] = (int)row[q] - b->g[q];
     at[a] += 2 * way;
     if (f->forced[c + way * b->stride[a]] == 1)
-        return BC_NONE;
-    return bc_behind(s, at, a);
+        return (struct beside){BC_NONE, 0.0};
+    const enum bc_kind kind = bc_behind(s, at, a);
+    return (struct beside){kind, kind ? s->bc->pressure[2 * a + (way > 0)] : 0.0};
 }
 
 static void list_fixes(const struct fv *s, struct forcing *f, int a)
@@ -230,9 +236,11 @@ static void list_fixes(const struct fv *s, struct forcing *f, int a)
             if (f->forced[c])
                 continue;
             const int64_t d = b->stride[a];
-            const bool above = add_side(f, c, d, 1, kind_beside(s, f, c, a, 1), x.cubic, x.even);
-            if (!add_side(f, c, -d, -1, kind_beside(s, f, c, a, -1), x.cubic, x.even) && !above)
+            const struct beside above = beside(s, f, c, a, 1), below = beside(s, f, c, a, -1);
+            const bool one = add_side(f, c, d, 1, &above, &x);
+            if (!add_side(f, c, -d, -1, &below, &x) && !one)
                 continue;
+            x.given /= b->h[a];
             for (int m = 0; m <= 2 * REACH; m++) {
                 x.cubic[m] /= b->h[a];
                 x.even[m] /= b->h[a];
@@ -375,6 +383,8 @@ void forcing_gradient(const struct fv *s, int a, bool cubic, const double *q, do
         const double *w = (cubic ? x->cubic : x->even) + REACH, *at = q + x->cell;
         for (int m = -REACH; m <= REACH; m++)
             out[x->cell] += w[m] * at[m * d];
+        if (cubic)
+            out[x->cell] += x->given;
     }
 }
 

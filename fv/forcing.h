@@ -17,6 +17,7 @@ enum {
 struct fix {
     int64_t cell;
     double cubic[2 * REACH + 1], even[2 * REACH + 1];
+    double given; /* what an outflow's pressure adds to the cubic one, m/s^2 */
 };
 
 struct forcing {

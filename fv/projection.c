@@ -301,8 +301,9 @@ static void describe_worst(const struct fv *s, struct diagnosis *d)
 /* Of what flows, or will soon. */
 static double speed_along(const struct fv *s, int a)
 {
-    const double U = s->run->scene.initial.U;
-    return fmax(s->umax[a], s->drive[a] != 0.0 ? U : s->bc ? s->bc->speed_along[a] : 0.0);
+    const bool driven = s->drive[a] != 0.0 || (s->bc && s->bc->driven);
+    return fmax(fmax(s->umax[a], s->bc ? s->bc->speed_along[a] : 0.0),
+                driven ? s->run->scene.initial.U : 0.0);
 }
 
 static double largest_step(const struct fv *s)
