@@ -23,7 +23,8 @@ bool exact_at_all_times(const struct scene *s)
     if (f == FIELD_POISEUILLE || f == FIELD_COUETTE || f == FIELD_STANDING_WAVE)
         return true;
     return !driven && !bounded &&
-           (f == FIELD_UNIFORM || f == FIELD_TAYLOR_GREEN || f == FIELD_TWO_MODES);
+           (f == FIELD_UNIFORM || f == FIELD_TAYLOR_GREEN || f == FIELD_TWO_MODES ||
+            f == FIELD_BELTRAMI);
 }
 
 static void set_layer(struct exact *e, const struct scene *s)
@@ -47,6 +48,11 @@ struct exact exact_create(const struct scene *s)
                       .L = s->initial.L,
                       .W = s->fluid.central,
                       .force = s->fluid.gravity[0]};
+    if (e.field == FIELD_BELTRAMI) {
+        for (int a = 0; a < 3; a++)
+            e.V[a] = s->initial.velocity[a];
+        return e;
+    }
     if (e.field >= FIELD_POISEUILLE) {
         set_layer(&e, s);
         return e;
@@ -211,9 +217,37 @@ static void other_average(const struct exact *e, const double *x, const double *
         *w = sum[4];
 }
 
+/* u_a = U (sin k x_a-1 + cos k x_a+1), indices modulo 3: curl u = k u, so that convection is a
+ * gradient, p/rho = -|u|^2/2 less its mean. */
+static void beltrami(const struct exact *e, const double *x, const double *h, double t, double *u,
+                     double *p, double *w)
+{
+    const double k = 2.0 * M_PI / e->L, d = exp(-e->nu * k * k * t);
+    double s[3], c[3], sum = 0.0;
+    for (int a = 0; a < 3; a++) {
+        const double f = sinc(0.5 * k * h[a]), phase = k * (x[a] - e->V[a] * t);
+        s[a] = f * sin(phase);
+        c[a] = f * cos(phase);
+    }
+    for (int a = 0; a < 3; a++) {
+        const int up = (a + 1) % 3, down = (a + 2) % 3;
+        if (u)
+            u[a] = e->V[a] + d * e->U * (s[down] + c[up]);
+        sum += s[down] * c[up];
+    }
+    if (p)
+        *p = -e->rho * d * d * e->U * e->U * sum;
+    if (w)
+        *w = k * d * e->U * (s[1] + c[0]);
+}
+
 void exact_average(const struct exact *e, const double *x, const double *h, double t, double *u,
                    double *p, double *w)
 {
+    if (e->field == FIELD_BELTRAMI) {
+        beltrami(e, x, h, t, u, p, w);
+        return;
+    }
     if (e->field >= FIELD_POISEUILLE) {
         other_average(e, x, h, t, u, p, w);
         return;

@@ -4,10 +4,10 @@
  *   p/rho = -(|u - V|^2 + K^2 psi^2)/2 less its mean,  |k_m| = K for every m,
  * an exact solution of Navier-Stokes since all modes have the same |k|. Taylor-Green (Chiron 2017,
  * eqs. 6.15-6.18) is the sum of k = 2 pi/L (1,-1) and (1,1); two_modes is (1,2) and (-2,1).
- * In 3D the field is the same for all z. Others: Poiseuille and Couette flow from rest between the
- * y sides, the standing wave of wave.h, and two that are exact at t = 0 only: the rotating square
- * patch and the disc under a central force (Monaghan & Rafiee 2013).
- * SPDX-License-Identifier: BSD-3-Clause */
+ * In 3D the field is the same for all z. beltrami: the flow of Arnold, Beltrami and Childress (A =
+ * B = C = U). Others: Poiseuille and Couette flow from rest between the y sides, the standing wave
+ * of wave.h, and two that are exact at t = 0 only: the rotating square patch and the disc under a
+ * central force (Monaghan & Rafiee 2013). SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_EXACT_H
 #define COMMON_EXACT_H
 
@@ -39,7 +39,7 @@ struct exact exact_create(const struct scene *s);
 bool exact_oscillation(const struct exact *e, double *period, double *rate);
 /* u[3], p (mean 0), vorticity dv/dx - du/dy at x[3], t; pointers may be NULL. */
 void exact_point(const struct exact *e, const double *x, double t, double *u, double *p, double *w);
-/* The same averaged over the cell of centre x and sides h[2] (z does not matter). */
+/* The same averaged over the cell of centre x and sides h (z matters to beltrami alone). */
 void exact_average(const struct exact *e, const double *x, const double *h, double t, double *u,
                    double *p, double *w);
 /* u averaged over the face of centre x, normal along axis `a' (0, 1, 2), sides h. */

@@ -32,7 +32,7 @@ static const struct param domain_rows[] = {
 #undef P
 #define P struct scene_initial
 static const struct param initial_rows[] = {
-    CHOICE(P, field, "rest|uniform|taylor_green|two_modes|poiseuille|couette|standing_wave|patch|drop", "rest", "field at the start, and the exact solution after it"),
+    CHOICE(P, field, "rest|uniform|taylor_green|two_modes|poiseuille|couette|standing_wave|patch|drop|beltrami", "rest", "field at the start, and the exact solution after it"),
     PARAM(P, U,        "m/s", "1.0", 0, 1e6, "scale of velocity: amplitude of the field, unit of errors"),
     PARAM(P, L,        "m",   "1.0", 1e-9, 1e9, "wave length of the field"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "uniform velocity, or the one that carries the field"),
@@ -199,9 +199,12 @@ static void check_domain(const struct scene *s, const struct params *p, struct f
 /* A wave field repeats itself only over whole wave lengths. */
 static void check_field(const struct scene *s, const struct params *p, struct faults *f)
 {
-    if (s->initial.field != FIELD_TAYLOR_GREEN && s->initial.field != FIELD_TWO_MODES)
+    const int field = s->initial.field;
+    if (field == FIELD_BELTRAMI && s->domain.dim < 3)
+        params_fault(p, f, "initial.field", "beltrami: a field of three dimensions");
+    if (field != FIELD_TAYLOR_GREEN && field != FIELD_TWO_MODES && field != FIELD_BELTRAMI)
         return;
-    for (int a = 0; a < 2; a++) {
+    for (int a = 0; a < (field == FIELD_BELTRAMI ? 3 : 2); a++) {
         const double n = (s->domain.max[a] - s->domain.min[a]) / s->initial.L;
         if (s->domain.periodic[a] && fabs(n - round(n)) > 1e-9)
             params_fault(

@@ -16,7 +16,8 @@ enum initial_field {
     FIELD_COUETTE,
     FIELD_STANDING_WAVE,
     FIELD_PATCH,
-    FIELD_DROP
+    FIELD_DROP,
+    FIELD_BELTRAMI
 };
 enum scene_side {
     SIDE_NONE,

@@ -7,8 +7,8 @@
 #include "../common/log.h"
 #include "../coupler/cpl_partner.h"
 
-static const char *const columns[] = {"kinetic energy [J]", "largest velocity [m/s]",
-                                      "divergence [m/s]", "error velocity l2 [-]"};
+static const char *columns[8] = {"kinetic energy [J]", "largest velocity [m/s]",
+                                 "divergence [m/s]"};
 static struct program fv_program; /* its columns depend on the scene */
 
 static void describe(const struct run *r)
@@ -20,21 +20,29 @@ static void describe(const struct run *r)
     const bool viscous = r->scene.fluid.nu > 0.0,
                hole = prm->hole[1][0] > prm->hole[0][0] || r->coupled;
     double cells = 1.0, speed = 0.0, h = INFINITY;
+    const bool walls = r->scene.nwalls > 0;
     bool closed = false;
     for (int a = 0; a < d->dim; a++) {
         cells *= prm->cells[a];
         h = fmin(h, (d->max[a] - d->min[a]) / prm->cells[a]);
         speed = fmax(speed, fabs(r->scene.initial.velocity[a]));
-        closed = closed || !d->periodic[a];
+        for (int k = 0; k < 2 && !d->periodic[a]; k++)
+            closed = closed || !scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + 2 * a + k));
     }
+    for (int k = 0; k < r->scene.nwalls; k++)
+        for (int a = 0; a < d->dim; a++)
+            speed = fmax(speed, fabs(r->scene.walls[k].velocity[a]));
     speed += r->scene.initial.field > FIELD_UNIFORM ? r->scene.initial.U : 0.0;
     const double dt = speed > 0.0 ? prm->cfl * h / speed : INFINITY;
     const int fields = 4 + 6 * d->dim + (viscous ? 2 * d->dim : 0) + 4;
     log_say("%dD, fourth-order averages, %s, %s", d->dim, integrators[prm->integrator],
-            closed ? "imposed velocity on the sides that are not periodic" : "periodic");
-    log_say("%s%s; off: free surface, walls, gravity%s%s",
-            viscous ? "viscous, implicit" : "inviscid", hole ? ", forced cells" : "",
-            viscous ? "" : ", viscous solver", hole ? "" : ", forced cells");
+            closed  ? "exact velocity on sides without a wall"
+            : walls ? "walls"
+                    : "periodic");
+    log_say("%s%s%s; off: free surface%s%s%s", viscous ? "viscous, implicit" : "inviscid",
+            walls ? ", walls and openings" : "", hole ? ", forced cells" : "",
+            walls ? "" : ", walls", viscous ? "" : ", viscous solver",
+            hole ? "" : ", forced cells");
     log_say("%.0f cells, h %g m, dt about %.3g s (CFL %g), %.0f steps; about %.0f MB", cells, h, dt,
             prm->cfl, isfinite(dt) ? ceil(r->scene.time.end / dt) : 1.0,
             8e-6 * cells * fields + 1.0);
@@ -42,7 +50,13 @@ static void describe(const struct run *r)
 
 static void *create(struct run *r, struct h5 *f)
 {
-    fv_program.ncolumns = r->scene.initial.field != FIELD_REST ? 4 : 3;
+    static const char *const forces[] = {"force x [N]", "force y [N]", "force z [N]"};
+    int n = 3;
+    if (exact_at_all_times(&r->scene))
+        columns[n++] = "error velocity l2 [-]";
+    for (int a = 0; r->scene.nwalls > 0 && a < r->scene.domain.dim; a++)
+        columns[n++] = forces[a];
+    fv_program.ncolumns = n;
     return fv_create(r, f);
 }
 

@@ -20,6 +20,7 @@ struct fv_params {
     double tol_pressure; /* of the last projection of a step, relative to |div U*| */
     double tol_viscous;  /* of Helmholtz; 0: 1e-3, with forced cells 1e-5 */
     double hole[2][3];   /* box whose cells take the exact solution; all 0: none */
+    double upwind;       /* C of the bias in convection.c; 0: none, -1: 1 with walls, else none */
     double extrema[3];   /* m/s: known ones on the centre lines, see fv_lines.c; 0: none */
     int forced_order;    /* in time, of partners' data within a window: 1 linear, 2 quadratic */
 };

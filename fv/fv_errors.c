@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "../common/mem.h"
+#include "bc.h"
 #include "forcing.h"
 
 enum { NORMS = 3 };
@@ -96,7 +97,8 @@ static double largest_divergence(const struct fv *s)
     return most;
 }
 
-/* Columns: kinetic energy, largest speed, divergence, and the error if there is an exact field. */
+/* Columns: kinetic energy, largest speed, divergence, the error if there is an exact field, the
+ * force on all walls if there are walls or openings. */
 void fv_row(void *state, double *values)
 {
     struct fv *s = state;
@@ -105,10 +107,17 @@ void fv_row(void *state, double *values)
     values[0] = s->run->scene.fluid.rho * sum[0];
     values[1] = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
     values[2] = largest_divergence(s);
+    int n = 3;
     if (s->has_exact) {
-        struct norm n[NORMS];
-        errors(s, n);
-        values[3] = norm_relative_l2(n);
+        struct norm norms[NORMS];
+        errors(s, norms);
+        values[n++] = norm_relative_l2(norms);
+    }
+    if (s->bc) {
+        double force[3];
+        bc_force(s, force);
+        for (int a = 0; a < s->b.dim; a++)
+            values[n++] = force[a];
     }
 }
 

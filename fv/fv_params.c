@@ -14,6 +14,7 @@ static const struct param rows[] = {
     PARAM(P, tol_pressure, "-", "1e-2", 1e-14, 1, "of the last projection of a step, relative to its divergence"),
     PARAM(P, tol_viscous,  "-", "0.0",  0, 1,     "of the viscous solver; 0: 1e-3, with forced cells 1e-5"),
     PARAM(P, hole,         "m", "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "box whose cells take the exact solution; none by default"),
+    PARAM(P, upwind,       "-", "-1.0", -1, 1e6,   "strength of the upwind bias where the flow is finer than the cells; 0: none, -1: 1 with walls, else none"),
     PARAM(P, extrema,      "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema"),
     PARAM(P, forced_order, "-", "2",    1, 2,     "in time, of a partner's velocities within a window"),
 };

@@ -154,6 +154,8 @@ struct fv *fv_create(struct run *r, struct h5 *f)
         length[a] = d->max[a] - d->min[a];
     block_create(&s->b, r->comm, d->dim, s->prm.cells, d->min, length, d->periodic);
     s->bc = bc_create(s);
+    if (s->prm.upwind < 0.0)
+        s->prm.upwind = s->bc ? 1.0 : 0.0;
     split_gravity(s);
     make_fields(s);
     fill(s);

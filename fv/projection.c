@@ -159,6 +159,10 @@ static void pressure_gradient(struct fv *s)
 {
     double *const fields[1] = {s->p};
     block_halo(&s->b, 1, fields);
+    if (s->bc) {
+        bc_smooth(s, s->p, s->face, s->flux);
+        block_halo(&s->b, 1, fields);
+    }
     for (int a = 0; a < s->b.dim; a++)
         gradient(s, s->p, a, CONTINUE_CUBIC, s->step_p[a]);
 }

@@ -4,6 +4,7 @@
 #ifndef TESTS_FV_BC_CASE_H
 #define TESTS_FV_BC_CASE_H
 
+#include "../fv/bc.h"
 #include "fv_case.h"
 
 #define CLOSED "domain.periodic=(false,false)"
@@ -48,7 +49,7 @@ static inline void box_run(struct box_flow *f, int n, double cfl, double t)
     char cells[64], step[64];
     snprintf(cells, sizeof cells, "fv.cells=(%d,%d)", n, n);
     snprintf(step, sizeof step, "fv.cfl=%g", cfl);
-    fv_case_set(&f->c, MPI_COMM_WORLD,
+    fv_case_set(&f->c, MPI_COMM_SELF,
                 (const char *const[]){"initial.field=\"rest\"", CLOSED, cells, step, NULL});
     for (int k = SIDE_X_MIN; k <= SIDE_Y_MAX; k++)
         wall_add(&f->c, (enum scene_side)k, WALL_NO_SLIP, 0.0);
