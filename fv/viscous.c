@@ -1,7 +1,7 @@
 /* viscous.c - nu Lap q of cell averages, fourth order: differences of the face gradient
  * (15 (q_0 - q_-1) - (q_1 - q_-2))/12 h; implicit part by conjugate gradients over all components
- * at once; walls make it unsymmetric: BiCGStab (van der Vorst 1992) there. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * at once; walls make it unsymmetric: BiCGStab (van der Vorst 1992) there.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
 #include <math.h>
