@@ -7,8 +7,8 @@
 #include "../common/log.h"
 #include "../coupler/cpl_partner.h"
 
-static const char *columns[8] = {"kinetic energy [J]", "largest velocity [m/s]",
-                                 "divergence [m/s]"};
+static const char *columns[8 + PROBES_MAX] = {"kinetic energy [J]", "largest velocity [m/s]",
+                                              "divergence [m/s]"};
 static struct program fv_program; /* its columns depend on the scene */
 
 static void describe(const struct run *r)
@@ -56,7 +56,7 @@ static void *create(struct run *r, struct h5 *f)
         columns[n++] = "error velocity l2 [-]";
     for (int a = 0; r->scene.nwalls > 0 && a < r->scene.domain.dim; a++)
         columns[n++] = forces[a];
-    fv_program.ncolumns = n;
+    fv_program.ncolumns = n + fv_probe_columns(r, columns + n);
     return fv_create(r, f);
 }
 

@@ -115,6 +115,11 @@ bool fv_restore(struct fv *s, struct h5 *f);
 void fv_finish(void *s);
 void fv_row(void *s, double *values);
 
+/* fv_probes.c: the case's gauges; number of columns and their names (static), values on all ranks.
+ */
+int fv_probe_columns(const struct run *r, const char **columns);
+void fv_probe(struct fv *s, double *values);
+
 /* fv_lines.c: extrema on the centre lines into the summary. */
 void fv_summarise_extrema(const struct fv *s);
 

@@ -119,6 +119,7 @@ void fv_row(void *state, double *values)
         for (int a = 0; a < s->b.dim; a++)
             values[n++] = force[a];
     }
+    fv_probe(s, values + n);
 }
 
 static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};

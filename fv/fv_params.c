@@ -58,6 +58,9 @@ static void check_openings(const struct run *r, struct faults *f)
             params_fault(r->params, f, "walls", "wall %d: %s is not for this solver", k + 1,
                          w->side == SIDE_NONE ? "a polyline" : "\"absorbing\"");
     }
+    for (int k = 0; k < s->nprobes; k++)
+        if (s->probes[k].kind == PROBE_LEVEL)
+            params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
     for (int a = 0; a < s->domain.dim; a++)
         for (int k = 0; k < 2; k++)
             out = out || (!s->domain.periodic[a] &&
