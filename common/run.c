@@ -513,13 +513,13 @@ static int live(struct life *l)
     struct run *r = &l->r;
     struct h5 *restart = NULL;
     char path[1400];
+    const char *slash = strrchr(l->line.case_file, '/');
+    snprintf(r->case_dir, sizeof r->case_dir, "%.*s", slash ? (int)(slash - l->line.case_file) : 1,
+             slash ? l->line.case_file : ".");
     collect_groups(l);
     int faults = read_case(l);
     run_case_name(l->line.case_file, r->case_name, sizeof r->case_name);
     snprintf(r->dir, sizeof r->dir, "%s", l->line.dir);
-    const char *slash = strrchr(l->line.case_file, '/');
-    snprintf(r->case_dir, sizeof r->case_dir, "%.*s", slash ? (int)(slash - l->line.case_file) : 1,
-             slash ? l->line.case_file : ".");
     if (!faults && l->line.check) {
         l->p->describe(r);
         return RUN_DONE;

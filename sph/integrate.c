@@ -361,11 +361,10 @@ static void finish_step(struct sph *s, double dt, double *most)
         zones_blend(s);
         zones_openings(s, dt);
         stop(s, "zones");
-    } else {
-        const int lost = remove_behind(s) + remove_lost(s);
-        s->lost += lost;
-        raise(most + MOST_LOST, lost);
     }
+    const int lost = remove_behind(s) + remove_lost(s);
+    s->lost += lost;
+    raise(most + MOST_LOST, lost);
 }
 
 /* The first time, and whenever the number has grown tenfold. */

@@ -24,11 +24,12 @@ struct openings *openings_create(struct sph *s)
     for (int a = 0; a < 3; a++) {
         o->lo[a] = s->lo[a];
         o->hi[a] = s->hi[a];
-        o->open[a] = a < s->dim && !s->periodic[a];
+        o->bounded[a] = a < s->dim && !s->periodic[a];
         o->cells[a] = a < s->dim ? (int)lround((s->hi[a] - s->lo[a]) / s->dx) : 1;
     }
     for (int side = 0; side < 2 * o->dim; side++) {
-        int faces = o->open[side / 2] ? 1 : 0;
+        o->open[side] = s->open[side];
+        int faces = o->open[side] ? 1 : 0;
         for (int b = 0; b < o->dim; b++)
             faces *= b == side / 2 ? 1 : o->cells[b];
         o->first[side + 1] = o->first[side] + faces;
@@ -68,7 +69,7 @@ double openings_held(const struct sph *s)
     return sum;
 }
 
-/* Face of a side at lattice indices I (that of the side's axis does not matter); indices of open
+/* Face of a side at lattice indices I (that of the side's axis does not matter); indices of bounded
  * axes are clamped, of periodic ones wrapped. */
 static int face_at(const struct openings *o, int side, const int *I)
 {
@@ -77,7 +78,10 @@ static int face_at(const struct openings *o, int side, const int *I)
         if (b == side / 2)
             continue;
         const int c = o->cells[b];
-        const int i = o->open[b] ? (I[b] < 0 ? 0 : I[b] >= c ? c - 1 : I[b]) : ((I[b] % c) + c) % c;
+        const int i = o->bounded[b] ? (I[b] < 0    ? 0
+                                       : I[b] >= c ? c - 1
+                                                   : I[b])
+                                    : ((I[b] % c) + c) % c;
         f = f * c + i;
     }
     return o->first[side] + f;
@@ -121,18 +125,19 @@ static void add_ghost(struct sph *s, const double *y, const double *lo, const do
 }
 
 /* Lattice places beyond side `side'. Axes before the side's own stay inside, so that an edge is
- * counted once. */
+ * counted once; behind walls there are none. */
 static void list_side(struct sph *s, int side, const double *lo, const double *hi, double reach)
 {
     const struct openings *o = s->zones->openings;
     const int axis = side / 2, layers = (int)ceil(reach / o->dx) + 2;
     int first[3] = {0, 0, 0}, last[3] = {0, 0, 0}, I[3];
     for (int b = 0; b < o->dim; b++) {
-        const bool inside = o->open[b] && b < axis;
+        const bool low = o->bounded[b] && (b < axis || !o->open[2 * b]);
+        const bool high = o->bounded[b] && (b < axis || !o->open[2 * b + 1]);
         const int i = (int)floor((lo[b] - reach - o->lo[b]) / o->dx) - 2;
         const int j = (int)floor((hi[b] + reach - o->lo[b]) / o->dx) + 2;
-        first[b] = inside && i < 0 ? 0 : i;
-        last[b] = inside && j >= o->cells[b] ? o->cells[b] - 1 : j;
+        first[b] = low && i < 0 ? 0 : i;
+        last[b] = high && j >= o->cells[b] ? o->cells[b] - 1 : j;
     }
     first[axis] = side % 2 ? o->cells[axis] : -layers;
     last[axis] = side % 2 ? o->cells[axis] + layers - 1 : -1;
@@ -142,8 +147,9 @@ static void list_side(struct sph *s, int side, const double *lo, const double *h
                 double y[3] = {0.0, 0.0, 0.0};
                 for (int b = 0; b < o->dim; b++) {
                     y[b] = o->lo[b] + (I[b] + 0.5) * o->dx;
-                    if (o->open[b] && (I[b] < 0 || I[b] >= o->cells[b]))
-                        y[b] += o->shift[face_at(o, 2 * b + (I[b] < 0 ? 0 : 1), I)];
+                    const int beyond = I[b] < 0 ? 2 * b : I[b] >= o->cells[b] ? 2 * b + 1 : -1;
+                    if (beyond >= 0 && o->open[beyond])
+                        y[b] += o->shift[face_at(o, beyond, I)];
                 }
                 add_ghost(s, y, lo, hi, reach);
             }
@@ -159,7 +165,7 @@ void openings_ghosts(struct sph *s)
     for (int side = 0; side < 2 * o->dim; side++) {
         const int a = side / 2;
         const double d = side % 2 ? o->hi[a] - hi[a] : lo[a] - o->lo[a];
-        if (o->open[a] && d < reach)
+        if (o->open[side] && d < reach)
             list_side(s, side, lo, hi, reach);
     }
     o->first_ghost = s->p.nghost;
@@ -212,9 +218,9 @@ static void remove_leavers(struct sph *s)
         double most = 0.0;
         for (int a = 0; a < o->dim; a++) {
             I[a] = (int)floor((y[a] - o->lo[a]) / o->dx);
-            for (int k = 0; o->open[a] && k < 2; k++) {
+            for (int k = 0; k < 2; k++) {
                 const double out = k ? y[a] - o->hi[a] : o->lo[a] - y[a];
-                if (out > most) {
+                if (o->open[2 * a + k] && out > most) {
                     most = out;
                     side = 2 * a + k;
                 }

@@ -10,7 +10,7 @@
 struct openings {
     int dim;
     double dx, lo[3], hi[3];
-    bool open[3];                /* axes with open sides */
+    bool open[6], bounded[3];    /* sides that are open; axes that do not repeat */
     int cells[3];                /* faces along each axis */
     int first[7];                /* of side 2a (low), 2a+1 (high); first[2 dim]: number of faces */
     double *mass;                /* kg: booked, the same on all ranks */

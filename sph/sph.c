@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "../common/log.h"
 #include "../coupler/cpl_partner.h"
@@ -32,6 +33,40 @@ static double bytes_per_particle(const struct run *r)
     return 8.0 * (4 * (2 * dim + 2) + 8 + (dim == 2 ? 8 : 16)) + 9.0 + 4.0 * 1.2 * theta + 40.0;
 }
 
+/* One line of what the scene uses and what it leaves out. */
+static void describe_modules(const struct run *r, bool gravity, bool viscous)
+{
+    static const char *const walls[] = {"normal flux walls", "walls by mirrored ghosts",
+                                        "walls by fixed ghosts"};
+    const struct sph_params *prm = sph_params_of(r);
+    const bool has_walls = sph_params_walls(r);
+    const struct {
+        bool used;
+        const char *on, *off;
+    } modules[] = {
+        {viscous, prm->viscosity == VISCOSITY_MORRIS ? "viscous (Morris)" : "viscous (Monaghan)",
+         "viscosity"},
+        {gravity, "gravity", "gravity"},
+        {has_walls, walls[prm->walls], "walls"},
+        {r->scene.nbodies > 0, "bodies", "bodies"},
+        {prm->surface == SURFACE_YES, "free surface", "free surface"},
+        {sph_params_zones(r),
+         prm->outer == OUTER_SIDES ? "inlets and outlets" : "zones and openings",
+         "zones and openings"},
+        {prm->packing > 0 && has_walls, "packing", "packing"},
+        {r->scene.nprobes > 0, "gauges", "gauges"},
+        {false, "", "refinement"},
+    };
+    char text[2][256] = {"", ""};
+    for (size_t k = 0; k < sizeof modules / sizeof modules[0]; k++) {
+        char *to = text[modules[k].used ? 0 : 1];
+        const size_t n = strlen(to);
+        snprintf(to + n, sizeof text[0] - n, "%s%s", n ? ", " : "",
+                 modules[k].used ? modules[k].on : modules[k].off);
+    }
+    log_say("on: %s; off: %s", *text[0] ? text[0] : "nothing more", text[1]);
+}
+
 static void describe_scene(const struct run *r)
 {
     static const char *const schemes[] = {"Riemann ALE (Vila)",
@@ -39,7 +74,7 @@ static void describe_scene(const struct run *r)
     static const char *const limiters[] = {"Koren", "minmod", "no limiter"};
     static const char *const transports[] = {"whole-support shifting", "shifting of Oger",
                                              "no shifting", "particles at rest"};
-    static const char *const outers[] = {"none", "exact solution", "partner"};
+    static const char *const outers[] = {"none", "exact solution", "partner", "inlets and outlets"};
     const struct sph_params *prm = sph_params_of(r);
     const double *g = r->scene.fluid.gravity;
     const bool gravity = g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0,
@@ -48,12 +83,7 @@ static void describe_scene(const struct run *r)
             limiters[prm->limiter], transports[prm->transport],
             prm->low_dissipation ? ", low dissipation" : "",
             prm->damper > 0.0 ? ", acoustic damper" : "");
-    log_say("%s%s%s; off: walls, free surface, refinement%s%s",
-            viscous
-                ? (prm->viscosity == VISCOSITY_MORRIS ? "viscous (Morris)" : "viscous (Monaghan)")
-                : "inviscid",
-            gravity ? ", gravity" : "", sph_params_zones(r) ? ", zones and openings" : "",
-            gravity ? "" : ", gravity", sph_params_zones(r) ? "" : ", zones");
+    describe_modules(r, gravity, viscous);
     if (sph_params_zones(r)) {
         double lo[3], hi[3], transition, buffer;
         zones_widths(r, prm, &transition, &buffer);
@@ -89,8 +119,9 @@ static void describe(const struct run *r)
     const char *limit;
     const double dt = sph_params_dt(prm, r->scene.fluid.nu, prm->c0, &limit), n = lattice(r);
     describe_scene(r);
-    log_say("%.0f particles, dx %g m, R/dx %g, c0 %g m/s; about %.0f MB", n, prm->dx, prm->R_dx,
-            prm->c0, 1e-6 * n * bytes_per_particle(r));
+    const bool part = r->scene.nshapes > 0 || r->scene.nbodies > 0 || prm->surface == SURFACE_YES;
+    log_say("%s%.0f particles, dx %g m, R/dx %g, c0 %g m/s; about %.0f MB", part ? "at most " : "",
+            n, prm->dx, prm->R_dx, prm->c0, 1e-6 * n * bytes_per_particle(r));
     log_say("dt about %.3g s (%s), %.0f steps", dt, limit, ceil(r->scene.time.end / dt));
     warn_of(r);
 }

@@ -18,7 +18,7 @@ enum sph_scheme {
 enum sph_limiter { LIMITER_KOREN, LIMITER_MINMOD, LIMITER_NONE };
 enum sph_transport { TRANSPORT_TVS, TRANSPORT_TVO, TRANSPORT_NONE, TRANSPORT_EULERIAN };
 enum sph_viscosity { VISCOSITY_MORRIS, VISCOSITY_MONAGHAN };
-enum sph_outer { OUTER_NONE, OUTER_EXACT, OUTER_PARTNER };
+enum sph_outer { OUTER_NONE, OUTER_EXACT, OUTER_PARTNER, OUTER_SIDES };
 enum sph_walls { WALLS_NFM, WALLS_GHOSTS, WALLS_FIXED, WALLS_AUTO };
 enum sph_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
 enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
@@ -86,7 +86,8 @@ struct sph {
     double gravity[3], central; /* m/s^2, 1/s */
     double lo[3], hi[3];        /* region of the particles: the domain, or sph.box */
     bool periodic[3];           /* of that region */
-    double t;                   /* s: time of the state y; during a stage: of that stage */
+    bool open[6]; /* its sides (2a: low, 2a+1: high) where particles come and go; zones.h */
+    double t;     /* s: time of the state y; during a stage: of that stage */
     double dt;
     struct particles p;
     struct neighbours *list;

@@ -13,6 +13,7 @@
 #include "openings.h"
 #include "probes.h"
 #include "sph_params.h"
+#include "walls.h"
 #include "zones.h"
 
 enum { PRIM = 8, NORM_VELOCITY, NORM_PRESSURE, NORM_VORTICITY, FIRST_NORM = NORM_VELOCITY };
@@ -295,7 +296,8 @@ static void summarise_drifts(const struct sph *s)
 
 static double pair_rate(const struct sph *s)
 {
-    static const char *const stage[] = {"list", "gradients", "rates", "halo", "update", "zones"};
+    static const char *const stage[] = {"list",   "gradients", "rates", "halo",
+                                        "update", "zones",     "walls", "surface"};
     double time = 0.0;
     for (size_t k = 0; k < sizeof stage / sizeof stage[0]; k++)
         time += timer_wall(&s->run->timers, stage[k]);
@@ -308,7 +310,7 @@ static void summarise_modules(const struct sph *s)
     static const char *const schemes[] = {"riemann_ale", "riemann"};
     static const char *const limiters[] = {"koren", "minmod", "none"};
     static const char *const transports[] = {"tvs", "tvo", "none", "eulerian"};
-    const char *names[8];
+    const char *names[16];
     int n = 0;
     names[n++] = schemes[s->prm.scheme];
     names[n++] = limiters[s->prm.limiter];
@@ -319,6 +321,10 @@ static void summarise_modules(const struct sph *s)
         names[n++] = "low_dissipation";
     if (s->prm.damper > 0.0)
         names[n++] = "damper";
+    if (s->walls)
+        names[n++] = s->walls->model->name;
+    if (s->surface)
+        names[n++] = "free_surface";
     if (s->zones)
         names[n++] = "zones";
     summary_texts(s->run->summary, "modules", n, names);
@@ -332,6 +338,8 @@ void sph_finish(void *state)
     integrate_gradients(s);
     summarise_modules(s);
     summary_int(to, "particles", llround(total(s, s->p.n)));
+    if (s->walls)
+        summary_int(to, "particles_leaked", llround(total(s, (double)s->walls->leaked)));
     summary_int(to, "particles_lost", llround(total(s, s->lost)));
     if (sph_has_exact(s->run))
         summarise_errors(s);

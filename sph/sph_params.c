@@ -2,7 +2,10 @@
 #include "sph_params.h"
 
 #include <math.h>
+#include <stdio.h>
 
+#include "../common/mem.h"
+#include "walls.h"
 #include "zones.h"
 
 static struct sph_params given; /* as the case has it: the target of the table */
@@ -26,7 +29,7 @@ static const struct param rows[] = {
     PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan)"),
     PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
     PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
-    CHOICE(P, outer, "none|exact|partner", "none", "the flow around the box; none with a box: partner when coupled, else exact"),
+    CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
     PARAM(P, density_limit, "-", "0.1", 1e-6, 10.0, "|rho/rho0 - 1| that ends the run"),
     CHOICE(P, walls, "nfm|ghosts|fixed_ghosts|auto", "auto", "normal flux (2D), mirrored ghosts (plane sides), fixed ghosts (2D); auto: nfm in 2D, ghosts in 3D"),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
@@ -97,6 +100,14 @@ static bool has_walls(const struct scene *c)
     return any;
 }
 
+static bool has_openings(const struct scene *c)
+{
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || c->walls[k].kind >= WALL_INFLOW;
+    return any;
+}
+
 static bool has_polylines(const struct scene *c)
 {
     bool any = c->nbodies > 0;
@@ -140,6 +151,8 @@ const struct sph_params *sph_params_of(const struct run *r)
         used.dissipation = used.surface == SURFACE_YES ? 0.1 : 0.0;
     if (has_box() && used.outer == OUTER_NONE)
         used.outer = is_coupled(r) ? OUTER_PARTNER : OUTER_EXACT;
+    if (!has_box() && used.outer == OUTER_NONE && has_openings(&r->scene))
+        used.outer = OUTER_SIDES;
     for (int a = 0; a < 3; a++)
         find_box(r, &used, a);
     return &used;
@@ -168,15 +181,28 @@ double sph_params_dt(const struct sph_params *prm, double nu, double signal,
     return fmin(sound, viscous);
 }
 
+/* Among given sides, those alone with a condition of their own are open; around a box all are. */
+void sph_params_open(const struct run *r, const struct sph_params *prm, bool open[6])
+{
+    double lo[3], hi[3];
+    bool periodic[3];
+    sph_params_region(&r->scene.domain, prm, lo, hi, periodic);
+    for (int side = 0; side < 6; side++) {
+        const struct scene_wall *w = scene_wall_of(&r->scene, SIDE_X_MIN + side);
+        const bool bounded = side / 2 < r->scene.domain.dim && !periodic[side / 2];
+        open[side] = bounded && prm->outer != OUTER_NONE &&
+                     (prm->outer == OUTER_SIDES ? w && w->kind >= WALL_INFLOW
+                                                : !w || w->kind >= WALL_INFLOW);
+    }
+}
+
 bool sph_params_zones(const struct run *r)
 {
-    const struct sph_params *prm = sph_params_of(r);
-    double lo[3], hi[3];
-    bool periodic[3], open = false;
-    sph_params_region(&r->scene.domain, prm, lo, hi, periodic);
-    for (int a = 0; a < r->scene.domain.dim; a++)
-        open = open || !periodic[a];
-    return open && prm->outer != OUTER_NONE;
+    bool open[6], any = false;
+    sph_params_open(r, sph_params_of(r), open);
+    for (int side = 0; side < 6; side++)
+        any = any || open[side];
+    return any;
 }
 
 /* Whether length is a whole number of dx, but for the last digits of a typed decimal. */
@@ -228,6 +254,27 @@ static void check_zones(const struct run *r, struct faults *f)
         }
 }
 
+/* Motion files can be read and are rows of four numbers with rising times. */
+static void check_motions(const struct run *r, struct faults *f)
+{
+    for (int k = 0; k < r->scene.nbodies; k++) {
+        const char *file = r->scene.bodies[k].motion;
+        char path[1024 + PARAM_TEXT_SIZE];
+        double *motion = NULL;
+        if (!*file)
+            continue;
+        snprintf(path, sizeof path, "%s/%s", r->case_dir, file);
+        const int n = walls_read_motion(path, &motion);
+        mem_free(motion);
+        if (n <= 0)
+            params_fault(r->params, f, "bodies", "body %d: motion %s: %s", k + 1, path,
+                         n < 0 ? "no such file"
+                               : "rows of t, x, y, angle with rising times are wanted");
+    }
+}
+
+bool sph_params_walls(const struct run *r) { return has_walls(&r->scene); }
+
 void sph_params_check(const struct run *r, struct faults *f)
 {
     if (f->n > 0) /* values that were refused are not there to be compared */
@@ -240,6 +287,7 @@ void sph_params_check(const struct run *r, struct faults *f)
             "eulerian needs scheme \"riemann_ale\": without mass flux there is no Eulerian form");
     if (sph_params_of(r)->c0 <= 0.0)
         params_fault(r->params, f, "sph.c0", "must be given: the case has no scale of velocity");
+    check_motions(r, f);
     const bool in_3d = r->scene.domain.dim == 3;
     const bool polylines = has_polylines(&r->scene);
     if (in_3d && has_walls(&r->scene) && (given.walls == WALLS_NFM || given.walls == WALLS_FIXED))

@@ -16,6 +16,10 @@ void sph_params_region(const struct scene_domain *d, const struct sph_params *pr
                        double hi[3], bool periodic[3]);
 /* Whether the case has transition and buffer zones. */
 bool sph_params_zones(const struct run *r);
+bool sph_params_walls(const struct run *r); /* walls or bodies */
+/* Sides of the region where the flow outside is known: neither periodic nor walls; none without
+ * sph.outer. */
+void sph_params_open(const struct run *r, const struct sph_params *prm, bool open[6]);
 void sph_params_check(const struct run *r, struct faults *f);
 /* Largest step [2.102-2.104] for signals of this speed, m/s; limited_by: NULL or gets "sound" or
  * "viscosity". */

@@ -368,6 +368,8 @@ static void rates(struct sph *s)
 {
     const struct fixed *m = s->walls->state;
     ghost_friction(s, &m->ghosts);
+    if (s->prm.scheme == SCHEME_RIEMANN_ALE && !s->zones)
+        walls_keep_mass(s, 0, NULL);
 }
 
 static int behind(const struct sph *s, int *who)
@@ -381,7 +383,7 @@ static int behind(const struct sph *s, int *who)
     return n;
 }
 
-const struct wall_model wall_fixed = {.name = "fixed ghosts",
+const struct wall_model wall_fixed = {.name = "fixed_ghosts",
                                       .create = fixed_create,
                                       .destroy = fixed_destroy,
                                       .ghosts = ghosts,

@@ -118,9 +118,11 @@ static void rates(struct sph *s)
 {
     const struct mirror *m = s->walls->state;
     ghost_friction(s, &m->ghosts);
+    if (s->prm.scheme == SCHEME_RIEMANN_ALE && !s->zones)
+        walls_keep_mass(s, 0, NULL);
 }
 
-const struct wall_model wall_ghost = {.name = "mirrored ghosts",
+const struct wall_model wall_ghost = {.name = "mirrored_ghosts",
                                       .create = mirror_create,
                                       .destroy = mirror_destroy,
                                       .ghosts = ghosts,

@@ -221,22 +221,6 @@ double walls_pressure(const struct sph *s, int i, const double *x, const double 
     return wall_pressure(s, &seen, e, uw, n);
 }
 
-/* Dividing by gamma takes from pair fluxes their antisymmetry: the mass that ALE so gains or loses
- * near walls is given back to the particles there, in proportion to theirs. */
-static void keep_mass(struct sph *s)
-{
-    const struct nfm *m = s->walls->state;
-    double sums[2] = {0.0, 0.0};
-    for (int i = 0; i < s->p.n; i++)
-        sums[0] += s->p.rate[(size_t)STATE * i + 5];
-    for (int k = 0; k < m->n; k++)
-        sums[1] += s->p.y[(size_t)STATE * m->who[k] + 5];
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    for (int k = 0; k < m->n && sums[1] > 0.0; k++)
-        s->p.rate[(size_t)STATE * m->who[k] + 5] -=
-            s->p.y[(size_t)STATE * m->who[k] + 5] * sums[0] / sums[1];
-}
-
 static void rates(struct sph *s)
 {
     const struct walls *w = s->walls;
@@ -255,8 +239,8 @@ static void rates(struct sph *s)
         rate[4] = (rate[4] + i.w * to.w) * gamma_1;
         rate[5] = (rate[5] + i.w * to.m) * gamma_1;
     }
-    if (s->prm.scheme == SCHEME_RIEMANN_ALE)
-        keep_mass(s);
+    if (s->prm.scheme == SCHEME_RIEMANN_ALE && !s->zones)
+        walls_keep_mass(s, m->n, m->who);
 }
 
 static void add_wall_moments(const struct sph *s, const struct nfm *m, int k, double *M, double *g)
@@ -314,7 +298,7 @@ static int behind(const struct sph *s, int *who)
     return n;
 }
 
-const struct wall_model wall_nfm = {.name = "normal flux",
+const struct wall_model wall_nfm = {.name = "normal_flux_walls",
                                     .create = nfm_create,
                                     .destroy = nfm_destroy,
                                     .list = list,

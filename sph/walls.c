@@ -239,6 +239,22 @@ double walls_distance(const struct walls *w, const double *x, double reach)
     return signed_least;
 }
 
+void walls_keep_mass(struct sph *s, int n, const int *who)
+{
+    const size_t width = (size_t)s->p.nstate, mass = width - 1;
+    double sums[2] = {0.0, 0.0};
+    n = who ? n : s->p.n;
+    for (int i = 0; i < s->p.n; i++)
+        sums[0] += s->p.rate[width * i + mass];
+    for (int k = 0; k < n; k++)
+        sums[1] += s->p.y[width * (who ? who[k] : k) + mass];
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (int k = 0; k < n && sums[1] > 0.0; k++) {
+        const size_t at = width * (who ? who[k] : k) + mass;
+        s->p.rate[at] -= s->p.y[at] * sums[0] / sums[1];
+    }
+}
+
 static void add_bodies(struct sph *s, struct walls *w)
 {
     const struct scene *c = &s->run->scene;

@@ -86,6 +86,10 @@ double walls_distance(const struct walls *w, const double *x, double reach);
  * 2D; needs slope. */
 double walls_pressure(const struct sph *s, int i, const double *x, const double *uw,
                       const double *n);
+/* ALE near walls: dividing pair fluxes by gamma, or ghosts with the weight of a still column, take
+ * from them their antisymmetry. What mass they so make or lose is given back to the particles
+ * who[n] (NULL: all) in proportion to theirs. Collective. */
+void walls_keep_mass(struct sph *s, int n, const int *who);
 /* Motion file of a body: rows of four numbers, times rising. -1: no such file, 0: bad rows. */
 int walls_read_motion(const char *path, double **rows);
 

@@ -12,6 +12,7 @@
 #include "../common/mem.h"
 #include "eos.h"
 #include "openings.h"
+#include "sides.h"
 
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer)
@@ -80,9 +81,9 @@ static void eval_exact(void *ctx, double t, int n, const double *x, double *u, d
 struct zones *zones_create(struct sph *s)
 {
     bool open = false;
-    for (int a = 0; a < s->dim; a++)
-        open = open || !s->periodic[a];
-    if (!open || s->prm.outer == OUTER_NONE)
+    for (int side = 0; side < 6; side++)
+        open = open || s->open[side];
+    if (!open)
         return NULL;
     struct zones *z = NEW(struct zones, 1);
     zones_widths(s->run, &s->prm, &z->transition, &z->buffer);
@@ -93,6 +94,8 @@ struct zones *zones_create(struct sph *s)
         z->eval = eval_exact;
         z->ctx = e;
     }
+    if (s->prm.outer == OUTER_SIDES)
+        sides_create(s, z);
     return z;
 }
 
@@ -103,6 +106,8 @@ void zones_free(struct zones **z)
     openings_free(&(*z)->openings);
     if ((*z)->eval == eval_exact)
         mem_free((*z)->ctx);
+    else if ((*z)->update)
+        sides_free(*z);
     mem_free((*z)->who);
     mem_free((*z)->x);
     mem_free((*z)->u);
@@ -142,9 +147,10 @@ void zones_look(struct zones *z, double t, bool gradients)
 double zones_depth(const struct sph *s, const double *x)
 {
     double d = INFINITY;
-    for (int a = 0; a < s->dim; a++)
-        if (!s->periodic[a])
-            d = fmin(d, fmin(x[a] - s->lo[a], s->hi[a] - x[a]));
+    for (int a = 0; a < s->dim; a++) {
+        d = s->open[2 * a] ? fmin(d, x[a] - s->lo[a]) : d;
+        d = s->open[2 * a + 1] ? fmin(d, s->hi[a] - x[a]) : d;
+    }
     return d;
 }
 
@@ -190,6 +196,8 @@ static void impose(struct sph *s, int i, const double *u, double rho)
 void zones_stage(struct sph *s)
 {
     struct zones *z = s->zones;
+    if (z->update)
+        z->update(s);
     openings_ghost_lines(s);
     gather(s, ZONE_BUFFER);
     zones_look(z, s->t, true);

@@ -16,7 +16,8 @@ struct openings;
 struct zones {
     double transition, buffer; /* m: widths */
     zones_eval *eval;
-    void *ctx; /* borrowed */
+    void (*update)(struct sph *s); /* start of a stage: looks at the flow inside; NULL: no need */
+    void *ctx;                     /* borrowed */
     struct openings *openings;
     double blended; /* kg: mass that blending added on this rank since the start */
     int n; /* buffer or transition particles at hand, and the flow outside at their places */

@@ -1,0 +1,311 @@
+/* test_walls.c - walls: the analytic Shepard factor against the table of integrals, quadrature, the
+ * operators near walls, surface detection with and without wall terms, water at rest, ranks.
+ * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+#include "test.h"
+
+#include "../sph/kernel.h"
+#include "../sph/neighbours.h"
+#include "../sph/probes.h"
+#include "../sph/shepard2d.h"
+#include "../sph/surface.h"
+#include "../sph/wall_points.h"
+#include "../sph/walls.h"
+#include "sph_case.h"
+
+/* Corners of the table's walls, R = 1; returns their number. */
+static int table_walls(const char *what, double p[20][2])
+{
+    if (strstr(what, "flat")) {
+        p[0][0] = -5.0;
+        p[1][0] = 5.0;
+        p[0][1] = p[1][1] = 0.0;
+        return 2;
+    }
+    if (strstr(what, "16-gon")) {
+        for (int k = 0; k <= 16; k++) {
+            p[k][0] = cos(-k * M_PI / 8.0);
+            p[k][1] = sin(-k * M_PI / 8.0);
+        }
+        return 17;
+    }
+    const double a = (strstr(what, "270")  ? 270.0
+                      : strstr(what, "45") ? 45.0
+                                           : 90.0) *
+                     M_PI / 180.0;
+    p[0][0] = 3.0 * cos(a);
+    p[0][1] = 3.0 * sin(a);
+    p[1][0] = p[1][1] = p[2][1] = 0.0;
+    p[2][0] = 3.0;
+    return 3;
+}
+
+static double gamma_of(double p[20][2], int n, const double *x)
+{
+    double gamma = 1.0;
+    for (int k = 0; k + 1 < n; k++) {
+        const double d[2] = {p[k + 1][0] - p[k][0], p[k + 1][1] - p[k][1]}, l = hypot(d[0], d[1]);
+        const double a[2] = {p[k][0] - x[0], p[k][1] - x[1]};
+        const double along = (d[0] * a[0] + d[1] * a[1]) / l;
+        gamma += shepard_segment((d[1] * a[0] - d[0] * a[1]) / l, along, along + l);
+    }
+    return gamma;
+}
+
+static void gamma_agrees_with_the_table(void **state)
+{
+    char line[256], what[128];
+    double x[2], wanted, p[20][2], worst = 0.0;
+    int n = 0;
+    FILE *f = fopen("tests/gamma2d.csv", "r");
+    (void)state;
+    assert_non_null(f);
+    while (fgets(line, sizeof line, f)) {
+        if (sscanf(line, "%127[^,],%lf,%lf,%lf", what, x, x + 1, &wanted) != 4)
+            continue;
+        worst = fmax(worst, fabs(gamma_of(p, table_walls(what, p), x) - wanted));
+        n++;
+    }
+    fclose(f);
+    assert_true(n > 20);
+    assert_close(worst, 0.0, 1e-12);
+}
+
+/* int W ds over a flat wall, in units of R: d gamma/dd [4.92's 2D form]. */
+static double line_integral(double d)
+{
+    const double m = sqrt(1.0 - d * d), A = asinh(m / d), d2 = d * d, m3 = m * m * m;
+    const double J1 = 0.5 * (m + d2 * A), J3 = 0.25 * (m + 3.0 * d2 * J1);
+    const double J5 = (m + 5.0 * d2 * J3) / 6.0, K2 = d2 * m + m3 / 3.0;
+    const double K4 = d2 * d2 * m + 2.0 * d2 * m3 / 3.0 + m3 * m * m / 5.0;
+    return 14.0 / M_PI * (m - 10.0 * K2 + 20.0 * J3 - 15.0 * K4 + 4.0 * J5);
+}
+
+static void quadrature_is_nearly_exact(void **state)
+{
+    const struct segment g = {
+        .a = {-5.0, 0.0}, .b = {5.0, 0.0}, .t = {1.0, 0.0}, .n = {0.0, -1.0}, .length = 10.0};
+    (void)state;
+    for (double d = 0.02; d < 1.0; d += 0.07) {
+        const double x[2] = {0.3, d};
+        struct wall_point at[WALL_POINTS];
+        double sum = 0.0;
+        for (int k = wall_points(&g, x, 1.0, at) - 1; k >= 0; k--)
+            sum += at[k].weight * at[k].W;
+        assert_close(sum, line_integral(d), 5e-4 * line_integral(0.02));
+        const double h = 1e-5, g1 = gamma_of((double[20][2]){{-5, 0}, {5, 0}}, 2, x);
+        const double up[2] = {0.3, d + h};
+        assert_close((gamma_of((double[20][2]){{-5, 0}, {5, 0}}, 2, up) - g1) / h, line_integral(d),
+                     1e-3);
+    }
+}
+
+/* Box [0,1]^2 of still fluid under gravity; closed walls on all sides, or open above. */
+static void tank(struct sph_case *c, int cells, bool surface, int walls)
+{
+    sph_case_set(c, 2, cells);
+    struct scene *e = &c->run.scene;
+    e->fluid.rho = 1000.0;
+    e->fluid.nu = 0.0;
+    e->fluid.gravity[1] = -9.81;
+    e->initial.field = FIELD_REST;
+    e->initial.level = LEVEL_TOP;
+    e->domain.periodic[0] = e->domain.periodic[1] = false;
+    e->nwalls = surface ? 3 : 4;
+    for (int k = 0; k < 4; k++)
+        e->walls[k].side = SIDE_X_MIN + k;
+    if (surface) {
+        e->nshapes = 1;
+        e->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
+    }
+    c->prm.scheme = SCHEME_RIEMANN;
+    c->prm.dissipation = 0.1;
+    c->prm.surface = surface;
+    c->prm.walls = walls;
+    c->prm.c0 = 25.0;
+}
+
+static double largest_speed(const struct sph *s)
+{
+    double most = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + (size_t)i * s->p.nstate;
+        double u2 = 0.0;
+        for (int a = 0; a < s->dim; a++)
+            u2 += y[s->dim + a] * y[s->dim + a];
+        most = fmax(most, sqrt(u2) / y[2 * s->dim + 1]);
+    }
+    return max_anywhere(most);
+}
+
+static void water_at_rest_stays(void **state)
+{
+    (void)state;
+    for (int walls = WALLS_NFM; walls <= WALLS_FIXED; walls++) {
+        static const double wanted[] = {5e-3, 1e-3, 8e-3}; /* of c0; fixed ghosts: measured noise */
+        struct sph_case c;
+        tank(&c, 20, true, walls);
+        struct sph *s = sph_case_start(&c, NULL);
+        double before = s->p.n, mass = s->mass0, sums[SUM_COUNT];
+        assert_true(sph_case_run(&c, 300, 10.0));
+        MPI_Allreduce(MPI_IN_PLACE, &before, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+        sph_sums(s, sums);
+        print_message("%s: |u| %.2g c0\n", s->walls->model->name, largest_speed(s) / s->c0);
+        assert_close(before, 200.0, 0.0);
+        assert_close(sums[SUM_MASS] / mass, 1.0, 1e-12);
+        assert_true(largest_speed(s) < wanted[walls] * s->c0);
+        sph_free(&c.s);
+    }
+}
+
+/* The force on a body in still water is its weight of water, from the first evaluation on. */
+static void body_in_still_water(void **state)
+{
+    struct sph_case c;
+    double force[3];
+    (void)state;
+    tank(&c, 50, false, WALLS_NFM);
+    struct scene_body *b = c.run.scene.bodies;
+    c.run.scene.nbodies = 1;
+    b->points.n = 4;
+    memcpy(b->points.x, (double[4][2]){{0.4, 0.4}, {0.4, 0.6}, {0.6, 0.6}, {0.6, 0.4}},
+           8 * sizeof(double));
+    b->centre[0] = b->centre[1] = 0.5;
+    struct sph *s = sph_case_start(&c, NULL);
+    integrate_gradients(s);
+    probes_force(s, 0, force);
+    print_message("force %g %g N/m, moment %g N\n", force[0], force[1], force[2]);
+    assert_close(force[0], 0.0, 1e-6);
+    assert_close(force[1], 0.04 * 1000.0 * 9.81, 0.01 * 0.04 * 1000.0 * 9.81);
+    assert_close(force[2], 0.0, 1e-6);
+    sph_free(&c.s);
+}
+
+/* A closed ALE run: pair fluxes with mirrored ghosts are antisymmetric, NFM gives mass back. */
+static void mass_is_kept(void **state)
+{
+    (void)state;
+    for (int walls = WALLS_NFM; walls <= WALLS_GHOSTS; walls++) {
+        struct sph_case c;
+        double sums[SUM_COUNT];
+        tank(&c, 24, false, walls);
+        c.prm.scheme = SCHEME_RIEMANN_ALE;
+        c.prm.noise = 0.2;
+        sph_case_start(&c, NULL);
+        assert_true(sph_case_run(&c, 20, 10.0));
+        sph_sums(c.s, sums);
+        assert_close(sums[SUM_MASS] / c.s->mass0, 1.0, 1e-12);
+        sph_free(&c.s);
+    }
+}
+
+/* Flat surface: row 1 and no other; along walls nobody, with wall terms or with ghosts. */
+static void surface_is_found(void **state)
+{
+    (void)state;
+    for (int walls = WALLS_NFM; walls <= WALLS_GHOSTS; walls++)
+        for (int noise = 0; noise < 3; noise++) {
+            struct sph_case c;
+            long missed = 0, falsely = 0;
+            tank(&c, 20, true, walls);
+            c.prm.noise = 0.1 * noise;
+            struct sph *s = sph_case_start(&c, NULL);
+            integrate_prepare(s);
+            for (int i = 0; i < s->p.n; i++) {
+                const int64_t row = s->p.id[i] / 20;
+                missed += row == 9 && s->surface->is[i] != SURFACE_ON;
+                falsely += row < (noise == 0 ? 9 : 8) && s->surface->is[i] == SURFACE_ON;
+            }
+            assert_true(none_anywhere(missed));
+            assert_true(none_anywhere(falsely));
+            sph_free(&c.s);
+        }
+}
+
+static void eigenvalues(void **state)
+{
+    const double M[9] = {2.0, 0.3, 0.1, 0.3, 1.5, -0.2, 0.1, -0.2, 0.7};
+    const double lambda = surface_eigenvalue(M, 3), shift = lambda + 1e-9;
+    (void)state;
+    /* det(M - lambda) changes sign there and M - lambda is positive semidefinite */
+    const double a = M[0] - lambda, b = M[4] - lambda, c = M[8] - lambda;
+    const double det = a * (b * c - 0.04) - 0.3 * (0.3 * c + 0.02) + 0.1 * (-0.06 - 0.1 * b);
+    assert_close(det, 0.0, 1e-12);
+    assert_true(a > 0.0 && a * b - 0.09 > 0.0 && shift < 0.7);
+    assert_close(surface_eigenvalue((double[4]){2.0, 1.0, 1.0, 2.0}, 2), 1.0, 1e-15);
+}
+
+static double energy_after(int walls, MPI_Comm comm)
+{
+    struct sph_case c;
+    double sums[SUM_COUNT];
+    tank(&c, 24, true, walls);
+    c.prm.noise = 0.1;
+    c.run.comm = comm;
+    MPI_Comm_rank(comm, &c.run.rank);
+    MPI_Comm_size(comm, &c.run.size);
+    sph_case_start(&c, NULL);
+    assert_true(sph_case_run(&c, 20, 10.0));
+    sph_sums(c.s, sums);
+    sph_free(&c.s);
+    return sums[SUM_KINETIC];
+}
+
+/* A disordered tank after 20 steps, shared out over the ranks and by each rank alone. */
+static void ranks_agree(void **state)
+{
+    (void)state;
+    for (int walls = WALLS_NFM; walls <= WALLS_FIXED; walls++) {
+        const double together = energy_after(walls, MPI_COMM_WORLD);
+        const double alone = energy_after(walls, MPI_COMM_SELF);
+        assert_close(together / alone, 1.0, 1e-8);
+    }
+}
+
+/* walls_velocity is the derivative of places. */
+static void motion(void **state)
+{
+    struct sph_case c;
+    double u[2], du[2], before[2], after[2];
+    (void)state;
+    tank(&c, 20, true, WALLS_NFM);
+    struct scene_body *b = c.run.scene.bodies;
+    c.run.scene.nbodies = 1;
+    b->points.n = 3;
+    memcpy(b->points.x, (double[3][2]){{0.4, 0.7}, {0.5, 0.9}, {0.6, 0.7}}, 6 * sizeof(double));
+    b->centre[0] = 0.5;
+    b->centre[1] = 0.8;
+    b->velocity[0] = 0.2;
+    b->spin = 3.0;
+    struct sph *s = sph_case_start(&c, NULL);
+    struct walls *w = s->walls;
+    const struct segment *g = w->segments + w->bodies[0].first;
+    const double h = 1e-5;
+    walls_move(s, 0.3 - h);
+    memcpy(before, g->a, sizeof before);
+    walls_move(s, 0.3 + h);
+    memcpy(after, g->a, sizeof after);
+    walls_move(s, 0.3);
+    walls_velocity(w, g, g->a, u, du);
+    for (int a = 0; a < 2; a++) {
+        assert_close(u[a], (after[a] - before[a]) / (2.0 * h), 1e-6);
+        assert_close(du[a], (after[a] + before[a] - 2.0 * g->a[a]) / (h * h), 1e-3);
+    }
+    sph_free(&c.s);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(gamma_agrees_with_the_table),
+                                       cmocka_unit_test(quadrature_is_nearly_exact),
+                                       cmocka_unit_test(eigenvalues),
+                                       cmocka_unit_test(surface_is_found),
+                                       cmocka_unit_test(body_in_still_water),
+                                       cmocka_unit_test(motion),
+                                       cmocka_unit_test(mass_is_kept),
+                                       cmocka_unit_test(water_at_rest_stays),
+                                       cmocka_unit_test(ranks_agree)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
