@@ -338,17 +338,23 @@ static int remove_lost(struct sph *s)
     return before - n;
 }
 
-/* Particles that walls have let through: none, one hopes; returns their number. */
+/* Particles that walls have let through are put back; removed are those too far behind. Returns
+ * their number. */
 static int remove_behind(struct sph *s)
 {
-    if (!s->walls || !s->walls->model->behind)
+    int gone = 0;
+    if (!s->walls)
+        return 0;
+    walls_put_back_inside(s);
+    if (!s->walls->model->behind)
         return 0;
     int *who = NEW(int, s->p.n);
-    const int gone = s->walls->model->behind(s, who);
-    for (int k = gone - 1; k >= 0; k--)
-        particles_copy(&s->p, who[k], --s->p.n);
+    for (int k = s->walls->model->behind(s, who) - 1; k >= 0; k--)
+        if (!walls_put_back(s, who[k])) {
+            particles_copy(&s->p, who[k], --s->p.n);
+            gone++;
+        }
     mem_free(who);
-    s->walls->leaked += gone;
     return gone;
 }
 

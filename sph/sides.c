@@ -1,7 +1,6 @@
 /* sides.c - see sides.h. The flow inside is averaged in bins of width dx along each side, over a
- * band at the inner rim of the buffer; all ranks hold the same table. SPDX-License-Identifier:
- * BSD-3-Clause
- */
+ * band at the inner rim of the buffer; all ranks hold the same table.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "sides.h"
 
 #include <math.h>

@@ -339,7 +339,7 @@ void sph_finish(void *state)
     summarise_modules(s);
     summary_int(to, "particles", llround(total(s, s->p.n)));
     if (s->walls)
-        summary_int(to, "particles_leaked", llround(total(s, (double)s->walls->leaked)));
+        summary_int(to, "particles_returned", llround(total(s, (double)s->walls->returned)));
     summary_int(to, "particles_lost", llround(total(s, s->lost)));
     if (sph_has_exact(s->run))
         summarise_errors(s);

@@ -52,27 +52,6 @@ static void mitre(const struct walls *w, const struct segment *g, bool at_end, d
     m[1] = g->n[1];
 }
 
-/* Nearest point of the walls to x. */
-static int nearest(const struct walls *w, const double *x, double *foot)
-{
-    double least = INFINITY;
-    int found = 0;
-    for (int k = 0; k < w->nsegments; k++) {
-        const struct segment *g = w->segments + k;
-        const double along =
-            fmax(0.0, fmin((x[0] - g->a[0]) * g->t[0] + (x[1] - g->a[1]) * g->t[1], g->length));
-        const double p[2] = {g->a[0] + along * g->t[0], g->a[1] + along * g->t[1]};
-        const double r = hypot(x[0] - p[0], x[1] - p[1]);
-        if (r < least) {
-            least = r;
-            found = k;
-            foot[0] = p[0];
-            foot[1] = p[1];
-        }
-    }
-    return found;
-}
-
 /* Nodes of one layer behind one segment; those nearer to another wall than their depth are dropped:
  * there the copies of a thin or pointed body overlap. */
 static void lay(const struct sph *s, struct fixed *m, const struct segment *g, double depth)
@@ -92,7 +71,7 @@ static void lay(const struct sph *s, struct fixed *m, const struct segment *g, d
         struct node d = {.w = length / n * s->dx};
         for (int a = 0; a < 2; a++)
             d.x[a] = A[a] + f * (B[a] - A[a]);
-        d.segment = nearest(w, d.x, d.foot);
+        d.segment = walls_nearest(w, d.x, d.foot);
         const double r = hypot(d.x[0] - d.foot[0], d.x[1] - d.foot[1]);
         if (r < 0.9 * depth || r > s->R + s->dx)
             continue;

@@ -24,7 +24,7 @@ struct nfm {
     int *who, *first; /* [n], [n+1] */
     int *segment;     /* [first[n]] */
     int segments_capacity;
-    double *gamma; /* [n] of this stage; above 1: behind a wall */
+    double *gamma; /* [n] of this stage */
 };
 
 static void *nfm_create(struct sph *s)
@@ -101,7 +101,7 @@ static double gamma_at(const struct walls *w, const struct nfm *m, int k, const 
         const double along = g->t[0] * a[0] + g->t[1] * a[1];
         gamma += shepard_segment(g->n[0] * a[0] + g->n[1] * a[1], along, along + g->length / R);
     }
-    return gamma;
+    return gamma > 1.0 + 1e-6 ? gamma - 1.0 : gamma; /* behind a wall it counts one more */
 }
 
 /* Adds what the wall does to the crowding vector [4.89]: its surface integral of the function whose
@@ -287,13 +287,12 @@ static void gammas(struct sph *s, double *gamma)
         gamma[m->who[k]] = gamma_at(s->walls, m, k, s->p.prim + (size_t)PRIM * m->who[k], s->R);
 }
 
-/* By the Shepard factor of the last stage, which counts one more behind a wall. */
 static int behind(const struct sph *s, int *who)
 {
     const struct nfm *m = s->walls->state;
     int n = 0;
     for (int k = 0; k < m->n; k++)
-        if (m->gamma[k] > 1.0 + 1e-6)
+        if (walls_distance(s->walls, s->p.y + (size_t)STATE * m->who[k], s->R) < 0.0)
             who[n++] = m->who[k];
     return n;
 }

@@ -239,6 +239,62 @@ double walls_distance(const struct walls *w, const double *x, double reach)
     return signed_least;
 }
 
+int walls_nearest(const struct walls *w, const double *x, double *foot)
+{
+    double least = INFINITY;
+    int found = 0;
+    for (int k = 0; k < w->nsegments; k++) {
+        const struct segment *g = w->segments + k;
+        const double along =
+            fmax(0.0, fmin((x[0] - g->a[0]) * g->t[0] + (x[1] - g->a[1]) * g->t[1], g->length));
+        const double p[2] = {g->a[0] + along * g->t[0], g->a[1] + along * g->t[1]};
+        const double r = hypot(x[0] - p[0], x[1] - p[1]);
+        if (r < least) {
+            least = r;
+            found = k;
+            foot[0] = p[0];
+            foot[1] = p[1];
+        }
+    }
+    return found;
+}
+
+bool walls_put_back(struct sph *s, int i)
+{
+    const struct walls *w = s->walls;
+    double *y = s->p.y + (size_t)i * s->p.nstate, foot[2], uw[2], un = 0.0;
+    const struct segment *g = w->segments + walls_nearest(w, y, foot);
+    const double m = y[2 * s->dim + 1];
+    if (hypot(y[0] - foot[0], y[1] - foot[1]) > s->dx)
+        return false;
+    walls_velocity(w, g, foot, uw, NULL);
+    for (int a = 0; a < 2; a++)
+        un += (y[s->dim + a] / m - uw[a]) * g->n[a];
+    for (int a = 0; a < 2; a++) {
+        y[a] = foot[a] - 0.05 * s->dx * g->n[a];
+        y[s->dim + a] -= m * fmax(un, 0.0) * g->n[a];
+    }
+    s->walls->returned++;
+    return true;
+}
+
+void walls_put_back_inside(struct sph *s)
+{
+    const int dim = s->dim;
+    for (int k = 0; k < s->walls->nplanes; k++) {
+        const struct wall_plane *p = s->walls->planes + k;
+        for (int i = 0; i < s->p.n; i++) {
+            double *y = s->p.y + (size_t)i * s->p.nstate;
+            const double out = p->sign * (y[p->axis] - p->at);
+            if (!(out > 0.0) || out > s->dx)
+                continue;
+            y[p->axis] = p->at - 0.05 * s->dx * p->sign;
+            y[dim + p->axis] = p->sign * fmin(p->sign * y[dim + p->axis], 0.0);
+            s->walls->returned++;
+        }
+    }
+}
+
 void walls_keep_mass(struct sph *s, int n, const int *who)
 {
     const size_t width = (size_t)s->p.nstate, mass = width - 1;
@@ -309,10 +365,10 @@ struct walls *walls_create(struct sph *s)
     add_bodies(s, w);
     w->start = NEW(struct segment, w->nsegments);
     memcpy(w->start, w->segments, (size_t)w->nsegments * sizeof *w->start);
+    w->model = models[s->prm.walls];
+    w->state = w->model->create(s); /* of the walls as they are at t = 0 */
     walls_move(s, s->t);
     w->speed = largest_speed(w);
-    w->model = models[s->prm.walls];
-    w->state = w->model->create(s);
     return w;
 }
 

@@ -67,9 +67,9 @@ struct walls {
     struct body bodies[BODIES_MAX];
     double t; /* s: of `segments' */
     const struct wall_model *model;
-    void *state;    /* of the model */
-    double speed;   /* m/s: largest of a wall */
-    int64_t leaked; /* particles found behind walls and removed; this rank */
+    void *state;      /* of the model */
+    double speed;     /* m/s: largest of a wall */
+    int64_t returned; /* particles found behind walls and put back; this rank */
 };
 
 /* NULL: the scene has no walls. Needs s->domain. */
@@ -82,6 +82,13 @@ void walls_velocity(const struct walls *w, const struct segment *g, const double
                     double *du);
 /* Distance of x to the nearest wall, negative behind it; at least -reach, at most reach. */
 double walls_distance(const struct walls *w, const double *x, double reach);
+/* Nearest point of the walls to x; returns its segment. */
+int walls_nearest(const struct walls *w, const double *x, double *foot);
+/* Puts local particle i, found behind a wall, back to 0.05 dx before it, without the velocity that
+ * led there; false if it is farther than dx behind. */
+bool walls_put_back(struct sph *s, int i);
+/* The same for all locals beyond a side that is a wall. */
+void walls_put_back_inside(struct sph *s);
 /* Pressure that local particle i lays on the wall at x (velocity uw, normal n) [4.14], [4.30-4.32];
  * 2D; needs slope. */
 double walls_pressure(const struct sph *s, int i, const double *x, const double *uw,
