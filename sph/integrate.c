@@ -131,6 +131,8 @@ static void lines_and_gradients(struct sph *s)
     halo(s, false);
     if (s->walls)
         at_walls(s, s->walls->model->lines);
+    if (!s->scheme->gradients)
+        return;
     start(s, "gradients");
     s->scheme->gradients(s);
     stop(s, "gradients");
@@ -146,7 +148,7 @@ void integrate_gradients(struct sph *s)
     domain_halo_finish(s, false);
     if (s->walls && s->walls->model->lines)
         s->walls->model->lines(s);
-    s->scheme->gradients(s);
+    scheme_gradients(s->dim, s->prm.transport)(s);
     finish_slopes(s);
     stop(s, "output");
 }
@@ -166,7 +168,8 @@ void integrate_rates(struct sph *s)
         zones_slopes(s);
         stop(s, "zones");
     }
-    halo(s, true);
+    if (s->scheme->slopes)
+        halo(s, true);
     if (s->walls)
         at_walls(s, s->walls->model->ghost_slopes);
     start(s, "rates");

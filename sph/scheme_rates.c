@@ -4,6 +4,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
+#include <math.h>
+
+#include "eos.h"
 #include "kernel.h"
 #include "neighbours.h"
 #include "riemann.h"
@@ -57,25 +60,18 @@ struct sums {
 static struct constants constants_of(const struct sph *s)
 {
     return (struct constants){
-        .eos = {.rho0_1 = 1.0 / s->rho0,
-                .B = s->rho0 * s->c0 * s->c0 / s->gamma,
-                .Z0 = s->rho0 * s->c0},
+        .eos = tait_of(s, scheme_background(s)),
         .dissipation = {.factor = 3.0 / s->c0,
                         .least = s->prm.low_dissipation ? s->prm.dissipation : 1.0},
         .limiter = s->prm.limiter,
         .gamma = (int)s->gamma,
         .R_1 = 1.0 / s->R,
-        .eps2 = 1e-12 * s->R * s->R,
+        .eps2 = 1e-20 * s->R * s->R,
         .kernel = -2.0 * kernel_dw_r(s->dim, 0.0, s->R),
         .damper = s->prm.damper * s->rho0 * s->c0 * s->R,
         .c2_1 = 1.0 / (s->c0 * s->c0),
         .mu = s->rho0 * s->nu * (s->prm.viscosity == VISCOSITY_MORRIS ? 1.0 : s->dim + 2.0),
     };
-}
-
-INLINE vec dot(const vec *a, const vec *b, const int dim)
-{
-    return dim == 2 ? a[0] * b[0] + a[1] * b[1] : a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 INLINE struct own load_own(const struct constants *c, const double *prim, const double *slope,
@@ -116,7 +112,7 @@ INLINE void geometry(const struct constants *c, const struct own *i, const doubl
             x[a] -= i->x[a];
             t->d[a][k] = x[a];
         }
-        r2 = dot(x, x, dim) + c->eps2;
+        r2 = vec_dot(x, x, dim) + c->eps2;
         const vec r = vec_sqrt(r2), q = vec_max(1.0 - r * c->R_1, vec_all(0.0));
         t->f[k] = q * q * q * (w * i->w);
         t->rho[k] = rho;
@@ -158,14 +154,15 @@ INLINE void states(const struct constants *c, const struct own *i, const struct 
             vec_columns(s->p.prim, PRIM, j, 4, u + 1, u + 2);
         }
         const vec divergence = dim == 2 ? gu[0][0] + gu[1][1] : gu[0][0] + gu[1][1] + gu[2][2];
-        reconstruct(rho, rho + 1, dot(i->grho, d, dim), dot(grho, d, dim), c->limiter);
+        reconstruct(rho, rho + 1, vec_dot(i->grho, d, dim), vec_dot(grho, d, dim), c->limiter);
         t->rho[k] = 0.5 * (rho[0] + rho[1]);
         t->p[0][k] = pressure(&c->eos, rho[0], c->gamma) - i->damped;
         t->p[1][k] = pressure(&c->eos, rho[1], c->gamma) - c->damper * divergence;
         for (int a = 0; a < dim; a++) {
             vec left = i->u[a], right = u[a];
             t->D[a][k] = right - left;
-            reconstruct(&left, &right, dot(i->gu[a], d, dim), dot(gu[a], d, dim), c->limiter);
+            reconstruct(&left, &right, vec_dot(i->gu[a], d, dim), vec_dot(gu[a], d, dim),
+                        c->limiter);
             t->u[0][a][k] = left;
             t->u[1][a][k] = right;
         }
@@ -215,17 +212,17 @@ INLINE void fluxes(const struct constants *c, const struct own *i, const struct 
             uI[a] = t->u[0][a][k];
             uJ[a] = t->u[1][a][k];
         }
-        const vec V[2] = {dot(uI, d, dim), dot(uJ, d, dim)};
+        const vec V[2] = {vec_dot(uI, d, dim), vec_dot(uJ, d, dim)};
         star(&c->dissipation, z, p, V, &vE, &pE);
         vec Q = f * pE;                        /* times d: what acts along the line of centres */
         if (v.viscosity == VISCOSITY_MONAGHAN) /* [2.32] */
-            Q -= c->mu * f * dot(D, d, dim) * (z->r_1 * z->r_1);
+            Q -= c->mu * f * vec_dot(D, d, dim) * (z->r_1 * z->r_1);
         if (v.scheme == SCHEME_RIEMANN_ALE) {
             /* rho_E = EOS^-1(p_E) about the mean state, where the damper cancels; the tangential
              * part of u_E is that of the side the fluid comes from. */
             vec u0[3];
             load_u0(s->p.slope, j, u0, dim);
-            const vec S[2] = {dot(i->u0, d, dim), dot(u0, d, dim)};
+            const vec S[2] = {vec_dot(i->u0, d, dim), vec_dot(u0, d, dim)};
             const vec rho = t->rho[k] + c->c2_1 * (pE - 0.5 * (p[0] + p[1]));
             m = f * rho * (vE - 0.5 * (S[0] + S[1])); /* [2.88] */
             const vec mI = vec_max(m, vec_all(0.0)), mJ = m - mI;
@@ -237,8 +234,8 @@ INLINE void fluxes(const struct constants *c, const struct own *i, const struct 
         } else {
             for (int a = 0; a < dim; a++)
                 q[a] = Q * d[a]; /* [2.99] */
-            const vec ui = dot(i->u, d, dim);
-            w = f * (ui + dot(D, d, dim) - vE); /* [2.97] */
+            const vec ui = vec_dot(i->u, d, dim);
+            w = f * (ui + vec_dot(D, d, dim) - vE); /* [2.97] */
             to->w += f * (vE - ui);
         }
         if (v.viscosity == VISCOSITY_MORRIS) /* [2.31] */
@@ -331,10 +328,28 @@ scheme_pass *scheme_rates(const struct sph *s)
     return passes[s->dim - 2][s->prm.scheme][viscosity];
 }
 
+double scheme_background(const struct sph *s)
+{
+    if (!s->prm.background)
+        return 0.0;
+    double least = INFINITY;
+    for (int i = 0; i < s->p.n; i++)
+        least = fmin(least, s->p.prim[(ptrdiff_t)PRIM * i + 2 * s->dim + 1]);
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, s->run->comm);
+    return fmax(0.0, -eos_p(least, s->rho0, s->c0, s->gamma));
+}
+
 struct scheme scheme_pick(const struct sph *s)
 {
-    static const char *const names[] = {"riemann_ale", "riemann"};
-    return (struct scheme){.name = names[s->prm.scheme],
-                           .gradients = scheme_gradients(s->dim, s->prm.transport),
-                           .rates = scheme_rates(s)};
+    static const char *const names[] = {"riemann_ale", "riemann", "delta", "standard"};
+    const int scheme = s->prm.scheme, transport = s->prm.transport;
+    const bool riemann = scheme == SCHEME_RIEMANN_ALE || scheme == SCHEME_RIEMANN;
+    const bool diffusion = scheme == SCHEME_DELTA && s->prm.delta > 0.0;
+    struct scheme passes = {.name = names[scheme], .slopes = riemann || diffusion};
+    if (riemann || transport != TRANSPORT_NONE || s->walls || s->surface)
+        passes.gradients = scheme_gradients(s->dim, transport);
+    else if (diffusion)
+        passes.gradients = scheme_density_gradients(s->dim);
+    passes.rates = riemann ? scheme_rates(s) : scheme_delta_rates(s);
+    return passes;
 }

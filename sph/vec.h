@@ -142,6 +142,11 @@ INLINE void vec_add_rows(double *row, const ptrdiff_t stride, const int *j, vec 
 #endif
 }
 
+INLINE vec vec_dot(const vec *a, const vec *b, const int dim)
+{
+    return dim == 2 ? a[0] * b[0] + a[1] * b[1] : a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 INLINE double vec_sum(vec a)
 {
     double s = 0.0;

@@ -178,7 +178,7 @@ static void rates_are_the_double_loop(void **state)
         for (int v = 0; v < 2 * 3 * 3 * 2 * 2; v++) {
             choose(&t.s, v % 2, v / 2 % 3, v / 6 % 3, v / 18 % 2 ? 1.0 : 7.0, v / 36);
             t.s.passes.rates(&t.s);
-            assert_close(worst_rate(&t.s), 0.0, 1e-9);
+            assert_close(worst_rate(&t.s), 0.0, 1e-12);
         }
         toy_free(&t);
     }
