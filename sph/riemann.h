@@ -44,11 +44,14 @@ struct tait {
     double B, at0, Z0, c0;
 };
 
-static inline struct tait tait_of(const struct sph *s, double background)
+static inline struct tait tait_of(const struct sph *s)
 {
     const double B = s->rho0 * s->c0 * s->c0 / s->gamma;
-    return (struct tait){
-        .rho0_1 = 1.0 / s->rho0, .B = B, .at0 = B - background, .Z0 = s->rho0 * s->c0, .c0 = s->c0};
+    return (struct tait){.rho0_1 = 1.0 / s->rho0,
+                         .B = B,
+                         .at0 = B - s->background,
+                         .Z0 = s->rho0 * s->c0,
+                         .c0 = s->c0};
 }
 
 INLINE vec pressure(const struct tait *e, vec rho, const int gamma)

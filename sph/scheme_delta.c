@@ -55,7 +55,7 @@ static struct constants constants_of(const struct sph *s)
     const bool delta = s->prm.scheme == SCHEME_DELTA;
     const bool linear = s->nu > 0.0 && s->prm.viscosity == VISCOSITY_MONAGHAN;
     return (struct constants){
-        .eos = tait_of(s, scheme_background(s)),
+        .eos = tait_of(s),
         .gamma = (int)s->gamma,
         .R_1 = 1.0 / R,
         .eps2 = 1e-20 * R * R,
@@ -262,9 +262,10 @@ INLINE void rates(struct sph *s, const struct variant v)
 {
     const struct constants c = constants_of(s);
     double *sums = neighbours_sums(s, SUMS);
-    for (int i = 0; i < s->p.n; i++)
-        add_row(s, &c, sums, i, v);
-    write_rates(s, sums, v.dim);
+    for (int k = s->list->begin; k < s->list->end; k++)
+        add_row(s, &c, sums, s->list->order[k], v);
+    if (s->list->end == s->list->n)
+        write_rates(s, sums, v.dim);
 }
 
 #define NAME(dim, kind, viscosity) rates_##dim##_##kind##_##viscosity

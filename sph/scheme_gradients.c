@@ -201,7 +201,8 @@ INLINE void pass(struct sph *s, const int dim, const int transport, const bool v
                                 .W = {5.0 / Wdx, 4.0 / Wdx},
                                 .near = R / oger_radius(s),
                                 .smoothed = kernel_w0(dim, R)}; /* 2 eps = 1 */
-    for (int i = 0; i < s->p.n; i++) {
+    for (int k = l->begin; k < l->end; k++) {
+        const int i = l->order[k];
         const double *own = s->p.prim + (ptrdiff_t)PRIM * i;
         const int *j = l->j + l->start[i];
         struct sums sum = {0};

@@ -60,7 +60,7 @@ struct sums {
 static struct constants constants_of(const struct sph *s)
 {
     return (struct constants){
-        .eos = tait_of(s, scheme_background(s)),
+        .eos = tait_of(s),
         .dissipation = {.factor = 3.0 / s->c0,
                         .least = s->prm.low_dissipation ? s->prm.dissipation : 1.0},
         .limiter = s->prm.limiter,
@@ -296,9 +296,10 @@ INLINE void rates(struct sph *s, const struct variant v)
 {
     const struct constants c = constants_of(s);
     double *sums = neighbours_sums(s, v.dim == 2 ? 4 : 8);
-    for (int i = 0; i < s->p.n; i++)
-        add_row(s, &c, sums, i, v);
-    write_rates(s, sums, v.dim);
+    for (int k = s->list->begin; k < s->list->end; k++)
+        add_row(s, &c, sums, s->list->order[k], v);
+    if (s->list->end == s->list->n)
+        write_rates(s, sums, v.dim);
 }
 
 /* One instance for every choice: what it leaves out costs nothing. */

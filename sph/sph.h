@@ -103,6 +103,7 @@ struct sph {
     struct walls *walls;
     struct surface *surface;
     double halo_extra; /* m: ghosts are made this much farther than pairs reach */
+    double background; /* Pa: of this stage [2.105] */
     double skin;       /* m: the list holds pairs within R + skin */
     bool ready;        /* list and ghosts belong to the positions of y; whoever moves, adds or
                           removes particles outside a step clears it */

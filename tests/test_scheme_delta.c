@@ -368,6 +368,7 @@ static void background_lifts_all_pressures(void **state)
         for (int i = 0; i < s->p.n; i++)
             least = fmin(least, pressure_of(s, i));
         s->prm.background = true;
+        s->background = scheme_background(s);
         s->scheme->rates(s);
         for (int i = 0; i < s->p.n; i++) {
             double lift[3] = {0.0};
