@@ -91,11 +91,14 @@ INLINE struct own load_own(const struct constants *c, const double *prim, const 
 
 /* First loop: distances and kernel. */
 INLINE void geometry(const struct constants *c, const struct own *i, const double *prim,
-                     const int *j, struct batch *t, const struct variant v)
+                     const double *slope, const int *j, struct batch *t, const struct variant v)
 {
     const int dim = v.dim;
     for (int k = 0; k < t->n; k++, j += LANES) {
         vec x[3], w, spare;
+        if (v.diffusion && dim == 3) /* the next loop wants them */
+            for (int l = 0; l < LANES; l++)
+                __builtin_prefetch(slope + 16 * (ptrdiff_t)j[l]);
         vec_columns(prim, PRIM, j, 0, x, x + 1);
         if (dim == 3)
             vec_columns(prim, PRIM, j, 2, x + 2, &spare);
@@ -204,16 +207,14 @@ INLINE void add_row(const struct sph *s, const struct constants *c, double *sums
     for (int left = (l->count[i] - l->tail[i] + LANES - 1) / LANES; left > 0; left -= BATCH) {
         struct batch t;
         t.n = left < BATCH ? left : BATCH;
-        geometry(c, &own, s->p.prim, j, &t, v);
+        geometry(c, &own, s->p.prim, s->p.slope, j, &t, v);
         forces(c, &own, s, j, &t, sums, &to, v);
         j += BATCH * LANES;
     }
-    double *row = sums + (ptrdiff_t)SUMS * i;
-    for (int a = 0; a < dim; a++)
-        row[a] += vec_sum(to.q[a]);
-    row[dim] += vec_sum(to.w);
     if (v.diffusion)
-        row[dim] -= c->diffusion * own.rho_1[0] * vec_sum(to.diffused);
+        to.w -= c->diffusion * to.diffused * own.rho_1;
+    *(vec4 *)(void *)(sums + (ptrdiff_t)SUMS * i) +=
+        vec_sums(to.q[0], to.q[1], dim == 3 ? to.q[2] : to.w, dim == 3 ? to.w : vec_all(0.0));
 }
 
 /* Without a first pass u0 = u, which others read from the slopes. */

@@ -133,13 +133,54 @@ INLINE void invert(const double *M, double B[3][3], const int dim)
     B[2][2] = f * (M[0] * M[2] - M[1] * M[1]);
 }
 
+/* Sums over neighbours, over the lanes too. */
+struct totals {
+    double M[6], rho[3], u[3][3], n[3];
+};
+
+/* What a variant has not summed is left out by the compiler. */
+INLINE struct totals total(const struct sums *s, const int dim)
+{
+    const vec none = vec_all(0.0);
+    struct totals t;
+    if (dim == 2) {
+        const vec4 M = vec_sums(s->M[0], s->M[1], s->M[2], none);
+        const vec4 f = vec_sums(s->rho[0], s->rho[1], s->n[0], s->n[1]);
+        const vec4 u = vec_sums(s->u[0][0], s->u[0][1], s->u[1][0], s->u[1][1]);
+        for (int a = 0; a < 3; a++)
+            t.M[a] = M[a];
+        for (int a = 0; a < 2; a++) {
+            t.rho[a] = f[a];
+            t.n[a] = f[2 + a];
+            t.u[0][a] = u[a];
+            t.u[1][a] = u[2 + a];
+        }
+        return t;
+    }
+    const vec4 M = vec_sums(s->M[0], s->M[1], s->M[2], s->M[3]);
+    const vec4 rho = vec_sums(s->rho[0], s->rho[1], s->rho[2], s->M[4]);
+    const vec4 n = vec_sums(s->n[0], s->n[1], s->n[2], s->M[5]);
+    for (int a = 0; a < 4; a++)
+        t.M[a] = M[a];
+    t.M[4] = rho[3];
+    t.M[5] = n[3];
+    for (int a = 0; a < 3; a++) {
+        const vec4 u = vec_sums(s->u[a][0], s->u[a][1], s->u[a][2], none);
+        t.rho[a] = rho[a];
+        t.n[a] = n[a];
+        for (int b = 0; b < 3; b++)
+            t.u[a][b] = u[b];
+    }
+    return t;
+}
+
 /* out_b = sum_a v_a B_ab */
-INLINE void renormalise(double *out, const vec *v, double B[3][3], double kernel, const int dim)
+INLINE void renormalise(double *out, const double *v, double B[3][3], double kernel, const int dim)
 {
     for (int b = 0; b < dim; b++) {
         double sum = 0.0;
         for (int a = 0; a < dim; a++)
-            sum += vec_sum(v[a]) * B[a][b];
+            sum += v[a] * B[a][b];
         out[b] = kernel * sum;
     }
 }
@@ -172,21 +213,19 @@ INLINE void write_slope(const struct sph *s, const struct constants *c, const st
 {
     const double *u = s->p.prim + (ptrdiff_t)PRIM * i + dim;
     double *slope = s->p.slope + (ptrdiff_t)s->p.nslope * i, *u0 = slope + dim + dim * dim;
-    double M[6], B[3][3], n[3], delta[3] = {0.0, 0.0, 0.0};
+    double B[3][3], delta[3] = {0.0, 0.0, 0.0};
+    struct totals t = total(sum, dim);
     for (int k = 0; k < dim * (dim + 1) / 2; k++)
-        M[k] = c->kernel * vec_sum(sum->M[k]);
-    invert(M, B, dim);
-    renormalise(slope, sum->rho, B, c->kernel, dim);
+        t.M[k] *= c->kernel;
+    invert(t.M, B, dim);
+    renormalise(slope, t.rho, B, c->kernel, dim);
     for (int a = 0; a < dim && velocity; a++)
-        renormalise(slope + dim + dim * a, sum->u[a], B, c->kernel, dim);
-    if (transport == TRANSPORT_TVS || transport == TRANSPORT_TVO || transport == TRANSPORT_XSPH)
-        for (int a = 0; a < dim; a++)
-            n[a] = vec_sum(sum->n[a]);
+        renormalise(slope + dim + dim * a, t.u[a], B, c->kernel, dim);
     if (transport == TRANSPORT_TVS || transport == TRANSPORT_TVO)
-        shift(s, delta, u, n, dim, transport);
+        shift(s, delta, u, t.n, dim, transport);
     if (transport == TRANSPORT_XSPH)
         for (int a = 0; a < dim; a++)
-            delta[a] = c->smoothed * n[a];
+            delta[a] = c->smoothed * t.n[a];
     for (int a = 0; a < dim; a++)
         u0[a] = transport == TRANSPORT_EULERIAN ? 0.0 : u[a] + delta[a];
 }
