@@ -8,8 +8,10 @@
 
 #include "../common/h5.h"
 #include "../common/mem.h"
+#include "neighbours.h"
 
-enum { BINS = 256, PASSES = 2, PRIM = 8, TAG_COUNT = 31, TAG_LINES = 32 };
+/* WORK: of a particle besides its pairs, as a number of them: sort, list, update, row overhead. */
+enum { BINS = 256, PASSES = 2, PRIM = 8, TAG_COUNT = 31, TAG_LINES = 32, WORK = 8 };
 
 struct cut {
     int axis;
@@ -44,6 +46,7 @@ struct node {
     int first, end;
     double lo[3], hi[3];
     int *who;
+    const int *work; /* of each local particle */
     int n;
 };
 
@@ -192,7 +195,7 @@ static void cut_evenly(struct sph *s, const struct node *t)
     cut_evenly(s, &right);
 }
 
-/* Number of the node's particles in each bin of [lo, hi) along an axis, over all ranks; the first
+/* Work of the node's particles in each bin of [lo, hi) along an axis, over all ranks; the first
  * bin also counts what lies below, the last what lies above. */
 static void count_bins(const struct sph *s, const struct node *t, int axis, double lo, double hi,
                        int64_t *bins)
@@ -201,12 +204,12 @@ static void count_bins(const struct sph *s, const struct node *t, int axis, doub
     for (int k = 0; k < t->n; k++) {
         const double x = s->p.y[(size_t)t->who[k] * s->p.nstate + axis];
         const double b = floor((x - lo) / (hi - lo) * BINS);
-        bins[b < 0.0 ? 0 : b < BINS ? (int)b : BINS - 1]++;
+        bins[b < 0.0 ? 0 : b < BINS ? (int)b : BINS - 1] += t->work[t->who[k]];
     }
     MPI_Allreduce(MPI_IN_PLACE, bins, BINS, MPI_INT64_T, MPI_SUM, s->domain->comm);
 }
 
-/* Place with `share' of the node's particles below it: bins refined around the quantile. */
+/* Place with `share' of the node's work below it: bins refined around the quantile. */
 static double quantile(const struct sph *s, const struct node *t, int axis, double share)
 {
     double lo = t->lo[axis], hi = t->hi[axis];
@@ -245,7 +248,7 @@ static int split(const struct sph *s, const struct node *t, const struct cut *c)
     return n;
 }
 
-static void cut_by_count(struct sph *s, const struct node *t)
+static void cut_by_work(struct sph *s, const struct node *t)
 {
     struct domain *d = s->domain;
     if (t->end - t->first < 2)
@@ -259,8 +262,8 @@ static void cut_by_count(struct sph *s, const struct node *t)
     left.n = split(s, t, d->cuts + m - 1);
     right.who = t->who + left.n;
     right.n = t->n - left.n;
-    cut_by_count(s, &left);
-    cut_by_count(s, &right);
+    cut_by_work(s, &left);
+    cut_by_work(s, &right);
 }
 
 static struct node root(const struct domain *d)
@@ -303,26 +306,41 @@ void domain_free(struct domain **d)
     *d = NULL;
 }
 
+/* Returns the sum. */
+static int64_t find_work(const struct sph *s, int *work)
+{
+    int64_t sum = 0;
+    for (int i = 0; i < s->p.n; i++) {
+        work[i] = s->ready ? s->list->count[i] + WORK : 1;
+        sum += work[i];
+    }
+    return sum;
+}
+
 bool domain_balance(struct sph *s, double tolerance)
 {
     struct domain *d = s->domain;
-    const int64_t mine = s->p.n;
-    int64_t sum, most;
     if (d->size == 1)
         return false;
+    int *work = NEW(int, s->p.n);
+    const int64_t mine = find_work(s, work);
+    int64_t sum, most;
     MPI_Allreduce(&mine, &sum, 1, MPI_INT64_T, MPI_SUM, d->comm);
     MPI_Allreduce(&mine, &most, 1, MPI_INT64_T, MPI_MAX, d->comm);
-    if ((double)most * d->size <= (1.0 + tolerance) * (double)sum)
-        return false;
-    struct node t = root(d);
-    t.n = s->p.n;
-    t.who = NEW(int, t.n);
-    for (int i = 0; i < t.n; i++)
-        t.who[i] = i;
-    cut_by_count(s, &t);
-    mem_free(t.who);
-    cuts_changed(s);
-    return true;
+    const bool uneven = (double)most * d->size > (1.0 + tolerance) * (double)sum;
+    if (uneven) {
+        struct node t = root(d);
+        t.n = s->p.n;
+        t.work = work;
+        t.who = NEW(int, t.n);
+        for (int i = 0; i < t.n; i++)
+            t.who[i] = i;
+        cut_by_work(s, &t);
+        mem_free(t.who);
+        cuts_changed(s);
+    }
+    mem_free(work);
+    return uneven;
 }
 
 /* Sends rows to the ranks owner[i] >= 0; returns the received ones, by sending rank, then as they

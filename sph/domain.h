@@ -10,8 +10,9 @@ struct domain;
 
 struct domain *domain_create(struct sph *s); /* collective over s->run->comm */
 void domain_free(struct domain **d);
-/* Cuts the region anew so that every rank has the same number of particles, if the imbalance is
- * above `tolerance' (max/mean - 1); returns whether it did. Then domain_migrate is due. */
+/* Cuts the region anew so that every rank has the same work, if the imbalance is above `tolerance'
+ * (max/mean - 1); returns whether it did. Then domain_migrate is due. Work: pairs in the list and a
+ * constant, or particles where the list is not of the present state. */
 bool domain_balance(struct sph *s, double tolerance);
 /* Rank that owns the place x (clamped into the region). */
 int domain_owner(const struct domain *d, const double *x);

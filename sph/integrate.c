@@ -82,14 +82,6 @@ void integrate_prepare(struct sph *s)
     s->ready = true;
 }
 
-static void halo(struct sph *s, bool slopes)
-{
-    start(s, "halo");
-    domain_halo_start(s, slopes);
-    domain_halo_finish(s, slopes);
-    stop(s, "halo");
-}
-
 typedef void wall_hook(struct sph *s);
 
 static void at_walls(struct sph *s, wall_hook *hook)
@@ -99,6 +91,32 @@ static void at_walls(struct sph *s, wall_hook *hook)
     start(s, "walls");
     hook(s);
     stop(s, "walls");
+}
+
+/* A pass over the pairs: rows without ghosts while these are under way, then, when walls have seen
+ * to theirs, the others. */
+static void pass(struct sph *s, void (*rows)(struct sph *s), const char *timer, bool slopes,
+                 wall_hook *hook)
+{
+    struct neighbours *l = s->list;
+    start(s, "halo");
+    domain_halo_start(s, slopes);
+    stop(s, "halo");
+    if (l->ninner > 0) {
+        start(s, timer);
+        neighbours_rows(l, ROWS_INNER);
+        rows(s);
+        stop(s, timer);
+    }
+    start(s, "halo");
+    domain_halo_finish(s, slopes);
+    stop(s, "halo");
+    at_walls(s, hook);
+    start(s, timer);
+    neighbours_rows(l, ROWS_OUTER);
+    rows(s);
+    neighbours_rows(l, ROWS_ALL);
+    stop(s, timer);
 }
 
 /* What follows the first pass and its halo. */
@@ -123,20 +141,6 @@ static void add_central(struct sph *s)
     }
 }
 
-static void lines_and_gradients(struct sph *s)
-{
-    start(s, "update");
-    particles_lines(s);
-    stop(s, "update");
-    halo(s, false);
-    if (s->walls)
-        at_walls(s, s->walls->model->lines);
-    start(s, "gradients");
-    s->scheme->gradients(s);
-    stop(s, "gradients");
-    finish_slopes(s);
-}
-
 void integrate_gradients(struct sph *s)
 {
     integrate_prepare(s);
@@ -146,13 +150,14 @@ void integrate_gradients(struct sph *s)
     domain_halo_finish(s, false);
     if (s->walls && s->walls->model->lines)
         s->walls->model->lines(s);
-    s->scheme->gradients(s);
+    scheme_gradients(s->dim, s->prm.transport)(s);
     finish_slopes(s);
     stop(s, "output");
 }
 
 void integrate_rates(struct sph *s)
 {
+    const struct wall_model *w = s->walls ? s->walls->model : NULL;
     if (s->walls)
         walls_move(s, s->t);
     if (s->zones) {
@@ -160,20 +165,28 @@ void integrate_rates(struct sph *s)
         zones_stage(s);
         stop(s, "zones");
     }
-    lines_and_gradients(s);
+    start(s, "update");
+    particles_lines(s);
+    s->background = scheme_background(s);
+    stop(s, "update");
+    if (s->scheme->gradients) {
+        pass(s, s->scheme->gradients, "gradients", false, w ? w->lines : NULL);
+        finish_slopes(s);
+    }
     if (s->zones) {
         start(s, "zones");
         zones_slopes(s);
         stop(s, "zones");
     }
-    halo(s, true);
-    if (s->walls)
-        at_walls(s, s->walls->model->ghost_slopes);
-    start(s, "rates");
-    s->scheme->rates(s);
-    stop(s, "rates");
-    if (s->walls)
-        at_walls(s, s->walls->model->rates);
+    if (s->scheme->slopes || !s->scheme->gradients) {
+        pass(s, s->scheme->rates, "rates", s->scheme->slopes, w ? w->ghost_slopes : NULL);
+    } else {
+        start(s, "rates");
+        s->scheme->rates(s);
+        stop(s, "rates");
+    }
+    if (w)
+        at_walls(s, w->rates);
     if (s->central > 0.0)
         add_central(s);
 }
@@ -500,8 +513,10 @@ double integrate_step(struct sph *s, double t_stop, struct diagnosis *d)
     double most[EXTREMES];
     /* A coupled run cuts anew between windows only: within one, a rank holds the patch of its part.
      */
-    if (!s->run->coupled && s->run->step > 0 && s->run->step % BALANCE_EVERY == 0)
-        domain_balance(s, 0.1);
+    if (!s->run->coupled && s->run->step % BALANCE_EVERY == 0) {
+        integrate_prepare(s); /* the list tells what a particle costs */
+        domain_balance(s, 0.03);
+    }
     s->dt = choose_dt(s, t_stop, &last);
     const double t_end = last ? t_stop : s->t + s->dt;
     integrate_prepare(s);

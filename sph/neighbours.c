@@ -53,6 +53,7 @@ void neighbours_free(struct neighbours **l)
     mem_free((*l)->start);
     mem_free((*l)->count);
     mem_free((*l)->tail);
+    mem_free((*l)->order);
     mem_free((*l)->j);
     mem_free((*l)->sums);
     mem_free(*l);
@@ -291,6 +292,32 @@ static void build_3d(struct sph *s)
             list_cell(s, cell, 3);
 }
 
+/* Ghosts stand at the end of a row. */
+static bool is_inner(const struct neighbours *l, int i)
+{
+    return l->count[i] == 0 || l->j[l->start[i] + l->count[i] - 1] < l->n;
+}
+
+static void order_rows(struct neighbours *l, bool alone)
+{
+    int outer = 0;
+    l->ninner = 0;
+    for (int i = 0; i < l->n && !alone; i++)
+        l->ninner += is_inner(l, i);
+    for (int i = 0, inner = 0; i < l->n; i++)
+        if (!alone && is_inner(l, i))
+            l->order[inner++] = i;
+        else
+            l->order[l->ninner + outer++] = i;
+    neighbours_rows(l, ROWS_ALL);
+}
+
+void neighbours_rows(struct neighbours *l, enum rows which)
+{
+    l->begin = which == ROWS_OUTER ? l->ninner : 0;
+    l->end = which == ROWS_INNER ? l->ninner : l->n;
+}
+
 void neighbours_build(struct sph *s)
 {
     struct neighbours *l = s->list;
@@ -302,6 +329,8 @@ void neighbours_build(struct sph *s)
         ROOM(l->start, capacity, n + 1);
         capacity = l->rows_capacity;
         ROOM(l->count, capacity, n + 1);
+        capacity = l->rows_capacity;
+        ROOM(l->order, capacity, n + 1);
         ROOM(l->tail, l->rows_capacity, n + 1);
     }
     l->n = n;
@@ -312,6 +341,7 @@ void neighbours_build(struct sph *s)
         build_2d(s);
     else
         build_3d(s);
+    order_rows(l, s->run->size < 2);
 }
 
 double *neighbours_sums(struct sph *s, int width)
@@ -324,8 +354,10 @@ double *neighbours_sums(struct sph *s, int width)
         l->sums = NEW(double, all);
         l->sums_capacity = all;
     }
-    memset(l->sums, 0, used * sizeof(double));
-    memset(l->sums + all - width, 0, (size_t)width * sizeof(double));
+    if (l->begin == 0) {
+        memset(l->sums, 0, used * sizeof(double));
+        memset(l->sums + all - width, 0, (size_t)width * sizeof(double));
+    }
     return l->sums;
 }
 

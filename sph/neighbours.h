@@ -16,6 +16,10 @@ struct neighbours {
                    that begins at any entry can reach */
     int *tail;  /* [n] first entry of row i with j > i */
     int *j;
+    int *order;     /* [n] rows, those first whose lists hold locals only; on one rank, where ghosts
+                       are at hand at once, as they are stored */
+    int ninner;     /* how many come first; 0 on one rank */
+    int begin, end; /* places in order that a pass treats: neighbours_rows */
     int rows_capacity;
     struct grid *grid;
     double *sums; /* what a symmetric pass has for each line */
@@ -28,8 +32,12 @@ void neighbours_free(struct neighbours **l);
 void neighbours_sort(struct sph *s);
 /* Builds the list from prim positions of locals and ghosts with radius R + s->skin. */
 void neighbours_build(struct sph *s);
-/* [capacity + 1][width] zeros: sums of a symmetric pass, one row for each line. Borrowed until the
- * next call. */
+/* Which rows the next passes treat: all (after neighbours_build), or inner ones while ghosts are
+ * under way, then the outer ones. */
+enum rows { ROWS_ALL, ROWS_INNER, ROWS_OUTER };
+void neighbours_rows(struct neighbours *l, enum rows which);
+/* [capacity + 1][width]: sums of a symmetric pass, one row for each line; zeros before the first
+ * row. Borrowed until the next pass. */
 double *neighbours_sums(struct sph *s, int width);
 /* Ordered pairs within R now; for the throughput figures. */
 int64_t neighbours_pairs(const struct sph *s);

@@ -9,7 +9,6 @@
 #include "../common/mem.h"
 #include "kernel.h"
 #include "neighbours.h"
-#include "scheme.h"
 #include "surface.h"
 #include "walls.h"
 
@@ -66,12 +65,10 @@ static void set_volumes(struct sph *s)
 void pack_start(struct sph *s, int steps)
 {
     const int transport = s->prm.transport;
-    scheme_pass *const gradients = s->passes.gradients;
     const double dt = 0.05 * s->R / s->run->scene.initial.U;
     if (steps <= 0 || !s->walls)
         return;
     s->prm.transport = TRANSPORT_TVS;
-    s->passes.gradients = scheme_gradients(s->dim, TRANSPORT_TVS);
     s->skin = 0.05 * s->R;
     for (int k = 0; k < steps; k++) {
         integrate_gradients(s);
@@ -80,6 +77,5 @@ void pack_start(struct sph *s, int steps)
     integrate_gradients(s);
     set_volumes(s);
     s->prm.transport = transport;
-    s->passes.gradients = gradients;
     s->ready = false;
 }

@@ -36,20 +36,39 @@ INLINE void reconstruct(vec *left, vec *right, vec s_left, vec s_right, const in
     *right -= (vec)((vec_bits)r ^ sign);
 }
 
-/* Tait's law [1.8-1.9] with gamma 7 or 1: p = B [(rho/rho0)^gamma - 1], Z = rho c = Z0
- * (rho/rho0)^((gamma+1)/2). */
+/* Tait's law [1.8-1.9] with gamma 7 or 1: p = B (rho/rho0)^gamma - at0, Z = rho c = Z0
+ * (rho/rho0)^((gamma+1)/2). at0: B less the background pressure, which every pair then has in its
+ * mean. */
 struct tait {
     double rho0_1; /* 1/rho0 */
-    double B, Z0;
+    double B, at0, Z0, c0;
 };
+
+static inline struct tait tait_of(const struct sph *s)
+{
+    const double B = s->rho0 * s->c0 * s->c0 / s->gamma;
+    return (struct tait){.rho0_1 = 1.0 / s->rho0,
+                         .B = B,
+                         .at0 = B - s->background,
+                         .Z0 = s->rho0 * s->c0,
+                         .c0 = s->c0};
+}
 
 INLINE vec pressure(const struct tait *e, vec rho, const int gamma)
 {
     const vec x = rho * e->rho0_1;
     if (gamma == 1)
-        return e->B * x - e->B;
+        return e->B * x - e->at0;
     const vec x2 = x * x;
-    return e->B * (x2 * x2 * (x2 * x)) - e->B;
+    return e->B * (x2 * x2 * (x2 * x)) - e->at0;
+}
+
+INLINE vec sound(const struct tait *e, vec rho, const int gamma)
+{
+    const vec x = rho * e->rho0_1;
+    if (gamma == 1)
+        return vec_all(e->c0);
+    return e->c0 * (x * x * x);
 }
 
 INLINE vec impedance(const struct tait *e, vec rho, const int gamma)

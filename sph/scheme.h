@@ -16,7 +16,15 @@ typedef void scheme_pass(struct sph *s);
 /* The passes that the parameters of s name. */
 struct scheme scheme_pick(const struct sph *s);
 
+/* All slopes, whatever the scheme needs of them: for output. */
 scheme_pass *scheme_gradients(int dim, int transport);
-scheme_pass *scheme_rates(const struct sph *s);
+/* Those of rho alone, and u0 = u. */
+scheme_pass *scheme_density_gradients(int dim);
+scheme_pass *scheme_rates(const struct sph *s);       /* riemann_ale, riemann */
+scheme_pass *scheme_delta_rates(const struct sph *s); /* delta, standard */
+
+/* P_min = max(0, -min P) over all particles of all ranks [2.105], Pa; 0 if it is off. Collective
+ * over s->run->comm. */
+double scheme_background(const struct sph *s);
 
 #endif

@@ -1,6 +1,6 @@
 /* scheme_gradients.c - first pass over the pairs: renormalised gradients [2.42-2.44] of rho and u,
- * and the velocity u0 at which particles are moved [2.112-2.114]. One-sided: every particle sums
- * over its whole row of the list. SPDX-License-Identifier: BSD-3-Clause */
+ * and the velocity u0 at which particles are moved [2.106, 2.112-2.114]. One-sided: every particle
+ * sums over its whole row of the list. SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
 #include <math.h>
@@ -16,6 +16,7 @@ struct constants {
     double kernel;    /* |W'|/r = kernel t^3, t = 1 - r/R */
     double W[2];      /* W/W(dx) = t^4 (W[0] - W[1] t) */
     double near;      /* R/R_delta of the law of Oger */
+    double smoothed;  /* of X-SPH: 2 eps W(0) */
 };
 
 /* Vectors of neighbours of one row between the loops that treat them. */
@@ -63,28 +64,36 @@ INLINE vec crowding(const struct constants *c, vec t, const int transport)
 }
 
 INLINE void add(const struct constants *c, const double *i, const double *prim, const int *j,
-                const struct batch *near, struct sums *s, const int dim, const int transport)
+                const struct batch *near, struct sums *s, const int dim, const int transport,
+                const bool velocity)
 {
     for (int k = 0; k < near->n; k++, j += LANES) {
         const vec t = near->t[k];
         vec d[3], u[3], w, rho, spare;
-        if (dim == 2) {
+        if (velocity && dim == 2) {
             vec_columns(prim, PRIM, j, 2, u, u + 1);
-        } else {
+        } else if (velocity) {
             vec_columns(prim, PRIM, j, 2, &spare, u);
             vec_columns(prim, PRIM, j, 4, u + 1, u + 2);
         }
         vec_columns(prim, PRIM, j, 2 * dim, &w, &rho);
-        rho -= i[2 * dim + 1];
         for (int a = 0; a < dim; a++) {
             d[a] = near->d[a][k];
-            u[a] -= i[dim + a];
+            if (velocity)
+                u[a] -= i[dim + a];
         }
+        if (transport == TRANSPORT_XSPH) { /* [2.106] */
+            const vec t2 = t * t, W = t2 * t2 * (5.0 - 4.0 * t);
+            const vec weight = W * w * rho / (rho + i[2 * dim + 1]);
+            for (int a = 0; a < dim; a++)
+                s->n[a] += weight * u[a];
+        }
+        rho -= i[2 * dim + 1];
         const vec g = t * t * t * w;
         for (int b = 0, m = 0; b < dim; b++) {
             const vec gd = g * d[b];
             s->rho[b] += rho * gd;
-            for (int a = 0; a < dim; a++)
+            for (int a = 0; a < dim && velocity; a++)
                 s->u[a][b] += u[a] * gd;
             for (int a = 0; a <= b; a++)
                 s->M[m++] += d[a] * gd;
@@ -124,13 +133,54 @@ INLINE void invert(const double *M, double B[3][3], const int dim)
     B[2][2] = f * (M[0] * M[2] - M[1] * M[1]);
 }
 
+/* Sums over neighbours, over the lanes too. */
+struct totals {
+    double M[6], rho[3], u[3][3], n[3];
+};
+
+/* What a variant has not summed is left out by the compiler. */
+INLINE struct totals total(const struct sums *s, const int dim)
+{
+    const vec none = vec_all(0.0);
+    struct totals t;
+    if (dim == 2) {
+        const vec4 M = vec_sums(s->M[0], s->M[1], s->M[2], none);
+        const vec4 f = vec_sums(s->rho[0], s->rho[1], s->n[0], s->n[1]);
+        const vec4 u = vec_sums(s->u[0][0], s->u[0][1], s->u[1][0], s->u[1][1]);
+        for (int a = 0; a < 3; a++)
+            t.M[a] = M[a];
+        for (int a = 0; a < 2; a++) {
+            t.rho[a] = f[a];
+            t.n[a] = f[2 + a];
+            t.u[0][a] = u[a];
+            t.u[1][a] = u[2 + a];
+        }
+        return t;
+    }
+    const vec4 M = vec_sums(s->M[0], s->M[1], s->M[2], s->M[3]);
+    const vec4 rho = vec_sums(s->rho[0], s->rho[1], s->rho[2], s->M[4]);
+    const vec4 n = vec_sums(s->n[0], s->n[1], s->n[2], s->M[5]);
+    for (int a = 0; a < 4; a++)
+        t.M[a] = M[a];
+    t.M[4] = rho[3];
+    t.M[5] = n[3];
+    for (int a = 0; a < 3; a++) {
+        const vec4 u = vec_sums(s->u[a][0], s->u[a][1], s->u[a][2], none);
+        t.rho[a] = rho[a];
+        t.n[a] = n[a];
+        for (int b = 0; b < 3; b++)
+            t.u[a][b] = u[b];
+    }
+    return t;
+}
+
 /* out_b = sum_a v_a B_ab */
-INLINE void renormalise(double *out, const vec *v, double B[3][3], double kernel, const int dim)
+INLINE void renormalise(double *out, const double *v, double B[3][3], double kernel, const int dim)
 {
     for (int b = 0; b < dim; b++) {
         double sum = 0.0;
         for (int a = 0; a < dim; a++)
-            sum += vec_sum(v[a]) * B[a][b];
+            sum += v[a] * B[a][b];
         out[b] = kernel * sum;
     }
 }
@@ -159,36 +209,39 @@ INLINE void shift(const struct sph *s, double *delta, const double *u, const dou
 }
 
 INLINE void write_slope(const struct sph *s, const struct constants *c, const struct sums *sum,
-                        int i, const int dim, const int transport)
+                        int i, const int dim, const int transport, const bool velocity)
 {
     const double *u = s->p.prim + (ptrdiff_t)PRIM * i + dim;
     double *slope = s->p.slope + (ptrdiff_t)s->p.nslope * i, *u0 = slope + dim + dim * dim;
-    double M[6], B[3][3], n[3], delta[3] = {0.0, 0.0, 0.0};
+    double B[3][3], delta[3] = {0.0, 0.0, 0.0};
+    struct totals t = total(sum, dim);
     for (int k = 0; k < dim * (dim + 1) / 2; k++)
-        M[k] = c->kernel * vec_sum(sum->M[k]);
-    invert(M, B, dim);
-    renormalise(slope, sum->rho, B, c->kernel, dim);
-    for (int a = 0; a < dim; a++)
-        renormalise(slope + dim + dim * a, sum->u[a], B, c->kernel, dim);
-    if (transport == TRANSPORT_TVS || transport == TRANSPORT_TVO) {
+        t.M[k] *= c->kernel;
+    invert(t.M, B, dim);
+    renormalise(slope, t.rho, B, c->kernel, dim);
+    for (int a = 0; a < dim && velocity; a++)
+        renormalise(slope + dim + dim * a, t.u[a], B, c->kernel, dim);
+    if (transport == TRANSPORT_TVS || transport == TRANSPORT_TVO)
+        shift(s, delta, u, t.n, dim, transport);
+    if (transport == TRANSPORT_XSPH)
         for (int a = 0; a < dim; a++)
-            n[a] = vec_sum(sum->n[a]);
-        shift(s, delta, u, n, dim, transport);
-    }
+            delta[a] = c->smoothed * t.n[a];
     for (int a = 0; a < dim; a++)
         u0[a] = transport == TRANSPORT_EULERIAN ? 0.0 : u[a] + delta[a];
 }
 
-INLINE void pass(struct sph *s, const int dim, const int transport)
+INLINE void pass(struct sph *s, const int dim, const int transport, const bool velocity)
 {
     const struct neighbours *l = s->list;
     const double R = s->R, Wdx = kernel_w(dim, s->dx, R) / kernel_w0(dim, R);
     const struct constants c = {.R_1 = 1.0 / R,
-                                .eps2 = 1e-12 * R * R,
+                                .eps2 = 1e-20 * R * R,
                                 .kernel = -kernel_dw_r(dim, 0.0, R),
                                 .W = {5.0 / Wdx, 4.0 / Wdx},
-                                .near = R / oger_radius(s)};
-    for (int i = 0; i < s->p.n; i++) {
+                                .near = R / oger_radius(s),
+                                .smoothed = kernel_w0(dim, R)}; /* 2 eps = 1 */
+    for (int k = l->begin; k < l->end; k++) {
+        const int i = l->order[k];
         const double *own = s->p.prim + (ptrdiff_t)PRIM * i;
         const int *j = l->j + l->start[i];
         struct sums sum = {0};
@@ -196,26 +249,29 @@ INLINE void pass(struct sph *s, const int dim, const int transport)
             struct batch near;
             near.n = left < BATCH ? left : BATCH;
             geometry(&c, own, s->p.prim, j, &near, dim);
-            add(&c, own, s->p.prim, j, &near, &sum, dim, transport);
+            add(&c, own, s->p.prim, j, &near, &sum, dim, transport, velocity);
             j += BATCH * LANES;
         }
-        write_slope(s, &c, &sum, i, dim, transport);
+        write_slope(s, &c, &sum, i, dim, transport, velocity);
     }
 }
 
-static void pass_2_tvs(struct sph *s) { pass(s, 2, TRANSPORT_TVS); }
-static void pass_2_tvo(struct sph *s) { pass(s, 2, TRANSPORT_TVO); }
-static void pass_2_none(struct sph *s) { pass(s, 2, TRANSPORT_NONE); }
-static void pass_2_eulerian(struct sph *s) { pass(s, 2, TRANSPORT_EULERIAN); }
-static void pass_3_tvs(struct sph *s) { pass(s, 3, TRANSPORT_TVS); }
-static void pass_3_tvo(struct sph *s) { pass(s, 3, TRANSPORT_TVO); }
-static void pass_3_none(struct sph *s) { pass(s, 3, TRANSPORT_NONE); }
-static void pass_3_eulerian(struct sph *s) { pass(s, 3, TRANSPORT_EULERIAN); }
+#define LAWS(dim)                                                                                  \
+    static void tvs_##dim(struct sph *s) { pass(s, dim, TRANSPORT_TVS, true); }                    \
+    static void tvo_##dim(struct sph *s) { pass(s, dim, TRANSPORT_TVO, true); }                    \
+    static void none_##dim(struct sph *s) { pass(s, dim, TRANSPORT_NONE, true); }                  \
+    static void eulerian_##dim(struct sph *s) { pass(s, dim, TRANSPORT_EULERIAN, true); }          \
+    static void xsph_##dim(struct sph *s) { pass(s, dim, TRANSPORT_XSPH, true); }                  \
+    static void density_##dim(struct sph *s) { pass(s, dim, TRANSPORT_NONE, false); }
+
+LAWS(2)
+LAWS(3)
 
 scheme_pass *scheme_gradients(int dim, int transport)
 {
-    static scheme_pass *const passes[2][4] = {
-        {pass_2_tvs, pass_2_tvo, pass_2_none, pass_2_eulerian},
-        {pass_3_tvs, pass_3_tvo, pass_3_none, pass_3_eulerian}};
+    static scheme_pass *const passes[2][5] = {{tvs_2, tvo_2, none_2, eulerian_2, xsph_2},
+                                              {tvs_3, tvo_3, none_3, eulerian_3, xsph_3}};
     return passes[dim - 2][transport];
 }
+
+scheme_pass *scheme_density_gradients(int dim) { return dim == 2 ? density_2 : density_3; }

@@ -4,6 +4,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
+#include <math.h>
+
+#include "eos.h"
 #include "kernel.h"
 #include "neighbours.h"
 #include "riemann.h"
@@ -47,6 +50,7 @@ struct batch {
     vec rho[BATCH];                  /* of j; then the mean of both states */
     vec D[3][BATCH];                 /* u_j - u_i */
     vec u[2][3][BATCH], p[2][BATCH]; /* states at the middle: i's side, j's side */
+    vec Q[BATCH], m[2][BATCH], w[BATCH];
 };
 
 /* What the pairs give to their first particle. */
@@ -57,25 +61,18 @@ struct sums {
 static struct constants constants_of(const struct sph *s)
 {
     return (struct constants){
-        .eos = {.rho0_1 = 1.0 / s->rho0,
-                .B = s->rho0 * s->c0 * s->c0 / s->gamma,
-                .Z0 = s->rho0 * s->c0},
+        .eos = tait_of(s),
         .dissipation = {.factor = 3.0 / s->c0,
                         .least = s->prm.low_dissipation ? s->prm.dissipation : 1.0},
         .limiter = s->prm.limiter,
         .gamma = (int)s->gamma,
         .R_1 = 1.0 / s->R,
-        .eps2 = 1e-12 * s->R * s->R,
+        .eps2 = 1e-20 * s->R * s->R,
         .kernel = -2.0 * kernel_dw_r(s->dim, 0.0, s->R),
         .damper = s->prm.damper * s->rho0 * s->c0 * s->R,
         .c2_1 = 1.0 / (s->c0 * s->c0),
         .mu = s->rho0 * s->nu * (s->prm.viscosity == VISCOSITY_MORRIS ? 1.0 : s->dim + 2.0),
     };
-}
-
-INLINE vec dot(const vec *a, const vec *b, const int dim)
-{
-    return dim == 2 ? a[0] * b[0] + a[1] * b[1] : a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 INLINE struct own load_own(const struct constants *c, const double *prim, const double *slope,
@@ -103,11 +100,16 @@ INLINE struct own load_own(const struct constants *c, const double *prim, const 
 
 /* First loop: distances, kernel, and what the Riemann problem needs of the particles themselves. */
 INLINE void geometry(const struct constants *c, const struct own *i, const double *prim,
-                     const int *j, struct batch *t, const struct variant v)
+                     const double *slope, const int *j, struct batch *t, const struct variant v)
 {
     const int dim = v.dim;
     for (int k = 0; k < t->n; k++, j += LANES) {
         vec x[3], w, rho, spare, r2;
+        if (dim == 3) /* the next loops want them; in 2D they are close by already */
+            for (int l = 0; l < LANES; l++) {
+                __builtin_prefetch(slope + 16 * (ptrdiff_t)j[l]);
+                __builtin_prefetch(slope + 16 * (ptrdiff_t)j[l] + 8);
+            }
         vec_columns(prim, PRIM, j, 0, x, x + 1);
         if (dim == 3)
             vec_columns(prim, PRIM, j, 2, x + 2, &spare);
@@ -116,7 +118,7 @@ INLINE void geometry(const struct constants *c, const struct own *i, const doubl
             x[a] -= i->x[a];
             t->d[a][k] = x[a];
         }
-        r2 = dot(x, x, dim) + c->eps2;
+        r2 = vec_dot(x, x, dim) + c->eps2;
         const vec r = vec_sqrt(r2), q = vec_max(1.0 - r * c->R_1, vec_all(0.0));
         t->f[k] = q * q * q * (w * i->w);
         t->rho[k] = rho;
@@ -124,15 +126,33 @@ INLINE void geometry(const struct constants *c, const struct own *i, const doubl
     }
 }
 
-INLINE void load_slopes(const double *slope, const int *j, vec grho[3], vec gu[3][3], const int dim)
+/* Second loop: states at the middle [2.78-2.83] of rho, pressures of both. */
+INLINE void densities(const struct constants *c, const struct own *i, const double *slope,
+                      const int *j, struct batch *t, const struct variant v)
 {
+    const int dim = v.dim;
+    for (int k = 0; k < t->n; k++, j += LANES) {
+        vec d[3], g[3], spare, rho[2] = {i->rho, t->rho[k]};
+        vec_columns(slope, dim == 2 ? 8 : 16, j, 0, g, g + 1);
+        if (dim == 3)
+            vec_columns(slope, 16, j, 2, g + 2, &spare);
+        for (int a = 0; a < dim; a++)
+            d[a] = t->d[a][k];
+        reconstruct(rho, rho + 1, vec_dot(i->grho, d, dim), vec_dot(g, d, dim), c->limiter);
+        t->rho[k] = 0.5 * (rho[0] + rho[1]);
+        t->p[0][k] = pressure(&c->eos, rho[0], c->gamma) - i->damped;
+        t->p[1][k] = pressure(&c->eos, rho[1], c->gamma);
+    }
+}
+
+INLINE void load_gu(const double *slope, const int *j, vec gu[3][3], const int dim)
+{
+    vec spare;
     if (dim == 2) {
-        vec_columns(slope, 8, j, 0, grho, grho + 1);
         vec_columns(slope, 8, j, 2, gu[0], gu[0] + 1);
         vec_columns(slope, 8, j, 4, gu[1], gu[1] + 1);
     } else {
-        vec_columns(slope, 16, j, 0, grho, grho + 1);
-        vec_columns(slope, 16, j, 2, grho + 2, gu[0]);
+        vec_columns(slope, 16, j, 2, &spare, gu[0]);
         vec_columns(slope, 16, j, 4, gu[0] + 1, gu[0] + 2);
         vec_columns(slope, 16, j, 6, gu[1], gu[1] + 1);
         vec_columns(slope, 16, j, 8, gu[1] + 2, gu[2]);
@@ -140,17 +160,16 @@ INLINE void load_slopes(const double *slope, const int *j, vec grho[3], vec gu[3
     }
 }
 
-/* Second loop: states at the middle [2.78-2.83] of rho and the components of u, pressures of
- * both with the acoustic damper. */
-INLINE void states(const struct constants *c, const struct own *i, const struct sph *s,
-                   const int *j, struct batch *t, const struct variant v)
+/* Third loop: the same of the components of u, and the acoustic damper of j. */
+INLINE void velocities(const struct constants *c, const struct own *i, const struct sph *s,
+                       const int *j, struct batch *t, const struct variant v)
 {
     const int dim = v.dim;
     for (int k = 0; k < t->n; k++, j += LANES) {
-        vec d[3], u[3], grho[3], gu[3][3], spare, rho[2] = {i->rho, t->rho[k]};
+        vec d[3], u[3], gu[3][3], spare;
         for (int a = 0; a < dim; a++)
             d[a] = t->d[a][k];
-        load_slopes(s->p.slope, j, grho, gu, dim);
+        load_gu(s->p.slope, j, gu, dim);
         if (dim == 2) {
             vec_columns(s->p.prim, PRIM, j, 2, u, u + 1);
         } else {
@@ -158,14 +177,12 @@ INLINE void states(const struct constants *c, const struct own *i, const struct 
             vec_columns(s->p.prim, PRIM, j, 4, u + 1, u + 2);
         }
         const vec divergence = dim == 2 ? gu[0][0] + gu[1][1] : gu[0][0] + gu[1][1] + gu[2][2];
-        reconstruct(rho, rho + 1, dot(i->grho, d, dim), dot(grho, d, dim), c->limiter);
-        t->rho[k] = 0.5 * (rho[0] + rho[1]);
-        t->p[0][k] = pressure(&c->eos, rho[0], c->gamma) - i->damped;
-        t->p[1][k] = pressure(&c->eos, rho[1], c->gamma) - c->damper * divergence;
+        t->p[1][k] -= c->damper * divergence;
         for (int a = 0; a < dim; a++) {
             vec left = i->u[a], right = u[a];
             t->D[a][k] = right - left;
-            reconstruct(&left, &right, dot(i->gu[a], d, dim), dot(gu[a], d, dim), c->limiter);
+            reconstruct(&left, &right, vec_dot(i->gu[a], d, dim), vec_dot(gu[a], d, dim),
+                        c->limiter);
             t->u[0][a][k] = left;
             t->u[1][a][k] = right;
         }
@@ -198,61 +215,81 @@ INLINE void add_to_neighbours(double *sums, const int *j, const vec *q, vec w, v
             sums[8 * (ptrdiff_t)j[l] + 4] += m[l];
 }
 
-/* Third loop: star states and fluxes, to j as they are, to i with the opposite sign but for
- * volumes. */
-INLINE void fluxes(const struct constants *c, const struct own *i, const struct sph *s,
-                   const int *j, const struct batch *t, double *sums, struct sums *to,
-                   const struct variant v)
+/* Fourth loop: star states and what goes along the line of centres. */
+INLINE void solve(const struct constants *c, const struct own *i, const struct sph *s, const int *j,
+                  struct batch *t, const struct variant v)
 {
     const int dim = v.dim;
     for (int k = 0; k < t->n; k++, j += LANES) {
         const struct weights *z = t->weights + k;
-        const vec f = t->f[k], p[2] = {t->p[0][k], t->p[1][k]};
-        vec d[3], D[3], uI[3], uJ[3], q[3], w, m = vec_all(0.0), vE, pE;
+        const vec f = t->f[k], p[2] = {t->p[0][k], t->p[1][k]}, r2_1 = z->r_1 * z->r_1;
+        vec d[3], D[3], uI[3], uJ[3], vE, pE;
         for (int a = 0; a < dim; a++) {
             d[a] = t->d[a][k];
             D[a] = t->D[a][k];
             uI[a] = t->u[0][a][k];
             uJ[a] = t->u[1][a][k];
         }
-        const vec V[2] = {dot(uI, d, dim), dot(uJ, d, dim)};
+        const vec V[2] = {vec_dot(uI, d, dim), vec_dot(uJ, d, dim)};
         star(&c->dissipation, z, p, V, &vE, &pE);
         vec Q = f * pE;                        /* times d: what acts along the line of centres */
         if (v.viscosity == VISCOSITY_MONAGHAN) /* [2.32] */
-            Q -= c->mu * f * dot(D, d, dim) * (z->r_1 * z->r_1);
+            Q -= c->mu * f * vec_dot(D, d, dim) * r2_1;
         if (v.scheme == SCHEME_RIEMANN_ALE) {
             /* rho_E = EOS^-1(p_E) about the mean state, where the damper cancels; the tangential
              * part of u_E is that of the side the fluid comes from. */
             vec u0[3];
             load_u0(s->p.slope, j, u0, dim);
-            const vec S[2] = {dot(i->u0, d, dim), dot(u0, d, dim)};
+            const vec S[2] = {vec_dot(i->u0, d, dim), vec_dot(u0, d, dim)};
             const vec rho = t->rho[k] + c->c2_1 * (pE - 0.5 * (p[0] + p[1]));
-            m = f * rho * (vE - 0.5 * (S[0] + S[1])); /* [2.88] */
+            const vec m = f * rho * (vE - 0.5 * (S[0] + S[1])); /* [2.88] */
             const vec mI = vec_max(m, vec_all(0.0)), mJ = m - mI;
-            Q += (m * vE - mI * V[0] - mJ * V[1]) * (z->r_1 * z->r_1);
-            for (int a = 0; a < dim; a++)
-                q[a] = mI * uI[a] + mJ * uJ[a] + Q * d[a]; /* [2.89] */
-            w = 0.5 * f * (S[1] - S[0]);                   /* [2.87], the same for both */
-            to->w += w;
+            Q += (m * vE - mI * V[0] - mJ * V[1]) * r2_1;
+            t->m[0][k] = mI;
+            t->m[1][k] = mJ;
+            t->w[k] = 0.5 * f * (S[1] - S[0]); /* [2.87], the same for both */
         } else {
-            for (int a = 0; a < dim; a++)
-                q[a] = Q * d[a]; /* [2.99] */
-            const vec ui = dot(i->u, d, dim);
-            w = f * (ui + dot(D, d, dim) - vE); /* [2.97] */
-            to->w += f * (vE - ui);
+            const vec ui = vec_dot(i->u, d, dim);
+            t->w[k] = f * (ui + vec_dot(D, d, dim) - vE); /* [2.97] */
+            t->m[0][k] = f * (vE - ui);                   /* of i */
         }
-        if (v.viscosity == VISCOSITY_MORRIS) /* [2.31] */
+        t->Q[k] = Q;
+    }
+}
+
+/* Last loop: fluxes, to j as they are, to i with the opposite sign but for volumes. */
+INLINE void fluxes(const struct constants *c, const int *j, const struct batch *t, double *sums,
+                   struct sums *to, const struct variant v)
+{
+    const int dim = v.dim;
+    for (int k = 0; k < t->n; k++, j += LANES) {
+        const vec Q = t->Q[k], w = t->w[k];
+        vec q[3], m = vec_all(0.0);
+        for (int a = 0; a < dim; a++)
+            q[a] = Q * t->d[a][k]; /* [2.99] */
+        if (v.scheme == SCHEME_RIEMANN_ALE) {
+            const vec mI = t->m[0][k], mJ = t->m[1][k];
             for (int a = 0; a < dim; a++)
-                q[a] -= c->mu * f * D[a];
+                q[a] += mI * t->u[0][a][k] + mJ * t->u[1][a][k]; /* [2.89] */
+            m = mI + mJ;
+            to->w += w;
+            to->m -= m;
+        } else {
+            to->w += t->m[0][k];
+        }
+        if (v.viscosity == VISCOSITY_MORRIS) { /* [2.31] */
+            const vec f = c->mu * t->f[k];
+            for (int a = 0; a < dim; a++)
+                q[a] -= f * t->D[a][k];
+        }
         for (int a = 0; a < dim; a++)
             to->q[a] -= q[a];
-        to->m -= m;
         add_to_neighbours(sums, j, q, w, m, v);
     }
 }
 
 /* Row i of the list from the first neighbour beyond i on; all others have added theirs before.
- * Three loops instead of one: chains of dependent operations are short enough then for several
+ * Short loops instead of one: chains of dependent operations are short enough then for several
  * vectors to be under way at once. */
 INLINE void add_row(const struct sph *s, const struct constants *c, double *sums, int i,
                     const struct variant v)
@@ -266,17 +303,18 @@ INLINE void add_row(const struct sph *s, const struct constants *c, double *sums
     for (int left = (l->count[i] - l->tail[i] + LANES - 1) / LANES; left > 0; left -= BATCH) {
         struct batch t;
         t.n = left < BATCH ? left : BATCH;
-        geometry(c, &own, s->p.prim, j, &t, v);
-        states(c, &own, s, j, &t, v);
-        fluxes(c, &own, s, j, &t, sums, &to, v);
+        geometry(c, &own, s->p.prim, s->p.slope, j, &t, v);
+        densities(c, &own, s->p.slope, j, &t, v);
+        velocities(c, &own, s, j, &t, v);
+        solve(c, &own, s, j, &t, v);
+        fluxes(c, j, &t, sums, &to, v);
         j += BATCH * LANES;
     }
     double *row = sums + (ptrdiff_t)nsums * i;
-    for (int a = 0; a < dim; a++)
-        row[a] += vec_sum(to.q[a]);
-    row[dim] += vec_sum(to.w);
-    if (v.scheme == SCHEME_RIEMANN_ALE)
-        row[dim + 1] += vec_sum(to.m);
+    *(vec4 *)(void *)row +=
+        vec_sums(to.q[0], to.q[1], dim == 2 ? to.w : to.q[2], dim == 2 ? to.m : to.w);
+    if (dim == 3 && v.scheme == SCHEME_RIEMANN_ALE)
+        row[4] += vec_sum(to.m);
 }
 
 INLINE void write_rates(struct sph *s, const double *sums, const int dim)
@@ -299,9 +337,10 @@ INLINE void rates(struct sph *s, const struct variant v)
 {
     const struct constants c = constants_of(s);
     double *sums = neighbours_sums(s, v.dim == 2 ? 4 : 8);
-    for (int i = 0; i < s->p.n; i++)
-        add_row(s, &c, sums, i, v);
-    write_rates(s, sums, v.dim);
+    for (int k = s->list->begin; k < s->list->end; k++)
+        add_row(s, &c, sums, s->list->order[k], v);
+    if (s->list->end == s->list->n)
+        write_rates(s, sums, v.dim);
 }
 
 /* One instance for every choice: what it leaves out costs nothing. */
@@ -331,10 +370,28 @@ scheme_pass *scheme_rates(const struct sph *s)
     return passes[s->dim - 2][s->prm.scheme][viscosity];
 }
 
+double scheme_background(const struct sph *s)
+{
+    if (!s->prm.background)
+        return 0.0;
+    double least = INFINITY;
+    for (int i = 0; i < s->p.n; i++)
+        least = fmin(least, s->p.prim[(ptrdiff_t)PRIM * i + 2 * s->dim + 1]);
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, s->run->comm);
+    return fmax(0.0, -eos_p(least, s->rho0, s->c0, s->gamma));
+}
+
 struct scheme scheme_pick(const struct sph *s)
 {
-    static const char *const names[] = {"riemann_ale", "riemann"};
-    return (struct scheme){.name = names[s->prm.scheme],
-                           .gradients = scheme_gradients(s->dim, s->prm.transport),
-                           .rates = scheme_rates(s)};
+    static const char *const names[] = {"riemann_ale", "riemann", "delta", "standard"};
+    const int scheme = s->prm.scheme, transport = s->prm.transport;
+    const bool riemann = scheme == SCHEME_RIEMANN_ALE || scheme == SCHEME_RIEMANN;
+    const bool diffusion = scheme == SCHEME_DELTA && s->prm.delta > 0.0;
+    struct scheme passes = {.name = names[scheme], .slopes = riemann || diffusion};
+    if (riemann || transport != TRANSPORT_NONE || s->walls || s->surface)
+        passes.gradients = scheme_gradients(s->dim, transport);
+    else if (diffusion)
+        passes.gradients = scheme_density_gradients(s->dim);
+    passes.rates = riemann ? scheme_rates(s) : scheme_delta_rates(s);
+    return passes;
 }

@@ -69,20 +69,22 @@ static void describe_modules(const struct run *r, bool gravity, bool viscous)
 
 static void describe_scene(const struct run *r)
 {
-    static const char *const schemes[] = {"Riemann ALE (Vila)",
-                                          "Riemann without mass flux (Leduc)"};
+    static const char *const schemes[] = {"Riemann ALE (Vila)", "Riemann without mass flux (Leduc)",
+                                          "delta-SPH (Antuono)", "artificial viscosity"};
     static const char *const limiters[] = {"Koren", "minmod", "no limiter"};
     static const char *const transports[] = {"whole-support shifting", "shifting of Oger",
-                                             "no shifting", "particles at rest"};
+                                             "no shifting", "particles at rest", "X-SPH"};
     static const char *const outers[] = {"none", "exact solution", "partner", "inlets and outlets"};
     const struct sph_params *prm = sph_params_of(r);
     const double *g = r->scene.fluid.gravity;
     const bool gravity = g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0,
                viscous = r->scene.fluid.nu > 0.0;
-    log_say("%dD, %s, %s, %s%s%s", r->scene.domain.dim, schemes[prm->scheme],
-            limiters[prm->limiter], transports[prm->transport],
-            prm->low_dissipation ? ", low dissipation" : "",
-            prm->damper > 0.0 ? ", acoustic damper" : "");
+    const bool riemann = prm->scheme == SCHEME_RIEMANN_ALE || prm->scheme == SCHEME_RIEMANN;
+    log_say("%dD, %s%s%s, %s%s%s%s", r->scene.domain.dim, schemes[prm->scheme], riemann ? ", " : "",
+            riemann ? limiters[prm->limiter] : "", transports[prm->transport],
+            riemann && prm->low_dissipation ? ", low dissipation" : "",
+            riemann && prm->damper > 0.0 ? ", acoustic damper" : "",
+            prm->background ? ", background pressure" : "");
     describe_modules(r, gravity, viscous);
     if (sph_params_zones(r)) {
         double lo[3], hi[3], transition, buffer;

@@ -10,13 +10,16 @@
 #include "../common/fit.h"
 #include "../common/run.h"
 
-enum sph_scheme {
-    SCHEME_RIEMANN_ALE,
-    SCHEME_RIEMANN,
-    SCHEME_AUTO
-}; /* Vila [2.86-2.89]; Leduc [2.96-2.99] */
+/* Vila [2.86-2.89]; Leduc [2.96-2.99]; Antuono [2.60-2.63]; [2.47-2.50] with [2.58-2.59] */
+enum sph_scheme { SCHEME_RIEMANN_ALE, SCHEME_RIEMANN, SCHEME_DELTA, SCHEME_STANDARD, SCHEME_AUTO };
 enum sph_limiter { LIMITER_KOREN, LIMITER_MINMOD, LIMITER_NONE };
-enum sph_transport { TRANSPORT_TVS, TRANSPORT_TVO, TRANSPORT_NONE, TRANSPORT_EULERIAN };
+enum sph_transport {
+    TRANSPORT_TVS,
+    TRANSPORT_TVO,
+    TRANSPORT_NONE,
+    TRANSPORT_EULERIAN,
+    TRANSPORT_XSPH
+};
 enum sph_viscosity { VISCOSITY_MORRIS, VISCOSITY_MONAGHAN };
 enum sph_outer { OUTER_NONE, OUTER_EXACT, OUTER_PARTNER, OUTER_SIDES };
 enum sph_walls { WALLS_NFM, WALLS_GHOSTS, WALLS_FIXED, WALLS_AUTO };
@@ -32,6 +35,8 @@ struct sph_params {
     bool low_dissipation; /* bounded Riemann dissipation (Zhang, Hu & Adams 2017) */
     double dissipation;   /* its least share then */
     double damper;        /* acoustic damper beta, 0: off */
+    double alpha, delta;  /* of schemes delta and standard: [2.58, 2.62], [2.60] for R */
+    bool background;      /* pressure that lifts the least one to 0 [2.105] */
     double cfl;           /* CFL_a of [2.102] */
     double cfl_viscous;   /* CFL_v of [2.103] */
     double box[2][3];     /* outer face of the buffer; all 0: the whole domain, no zones */
@@ -73,8 +78,9 @@ struct zones;      /* transition, buffer, openings; zones.h; NULL: none */
 /* The two passes of a pair interaction; scheme.h. */
 struct scheme {
     const char *name;
-    void (*gradients)(struct sph *s);
+    void (*gradients)(struct sph *s); /* NULL: the scheme needs none */
     void (*rates)(struct sph *s);
+    bool slopes; /* the second pass loads those of neighbours, so ghosts must have them */
 };
 
 struct sph {
@@ -98,6 +104,7 @@ struct sph {
     struct walls *walls;
     struct surface *surface;
     double halo_extra; /* m: ghosts are made this much farther than pairs reach */
+    double background; /* Pa: of this stage [2.105] */
     double skin;       /* m: the list holds pairs within R + skin */
     bool ready;        /* list and ghosts belong to the positions of y; whoever moves, adds or
                           removes particles outside a step clears it */

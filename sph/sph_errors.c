@@ -307,24 +307,27 @@ static double pair_rate(const struct sph *s)
 
 static void summarise_modules(const struct sph *s)
 {
-    static const char *const schemes[] = {"riemann_ale", "riemann"};
     static const char *const limiters[] = {"koren", "minmod", "none"};
-    static const char *const transports[] = {"tvs", "tvo", "none", "eulerian"};
+    static const char *const transports[] = {"tvs", "tvo", "none", "eulerian", "xsph"};
+    const bool riemann = s->prm.scheme == SCHEME_RIEMANN_ALE || s->prm.scheme == SCHEME_RIEMANN;
     const char *names[16];
     int n = 0;
-    names[n++] = schemes[s->prm.scheme];
-    names[n++] = limiters[s->prm.limiter];
+    names[n++] = s->scheme->name;
+    if (riemann)
+        names[n++] = limiters[s->prm.limiter];
     names[n++] = transports[s->prm.transport];
     if (s->nu > 0.0)
         names[n++] = s->prm.viscosity == VISCOSITY_MORRIS ? "morris" : "monaghan";
-    if (s->prm.low_dissipation)
+    if (riemann && s->prm.low_dissipation)
         names[n++] = "low_dissipation";
-    if (s->prm.damper > 0.0)
+    if (riemann && s->prm.damper > 0.0)
         names[n++] = "damper";
     if (s->walls)
         names[n++] = s->walls->model->name;
     if (s->surface)
         names[n++] = "free_surface";
+    if (s->prm.background)
+        names[n++] = "background";
     if (s->zones)
         names[n++] = "zones";
     summary_texts(s->run->summary, "modules", n, names);

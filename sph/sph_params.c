@@ -18,13 +18,16 @@ static const struct param rows[] = {
     PARAM(P, R_dx, "-", "4.0", 1.5, 8.0, "radius of the kernel's support over dx"),
     PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the scale of velocity"),
     PARAM(P, gamma, "-", "7.0", 1.0, 7.0, "exponent of the equation of state, 7 or 1"),
-    CHOICE(P, scheme, "riemann_ale|riemann|auto", "auto", "pair interaction: ALE (Vila) or without mass flux (Leduc); auto: the latter with a free surface"),
+    CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface, else riemann_ale"),
     CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles"),
-    CHOICE(P, transport, "tvs|tvo|none|eulerian", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest"),
+    CHOICE(P, transport, "tvs|tvo|none|eulerian|xsph", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest; xsph: smoothed velocity"),
     CHOICE(P, viscosity, "morris|monaghan", "morris", "form of the viscous term"),
     PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)"),
     PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface, else 0"),
     PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure"),
+    PARAM(P, alpha, "-", "-1.0", -1.0, 1.0, "artificial viscosity of schemes delta and standard; -1: 0.01, in a viscous fluid 0"),
+    PARAM(P, delta, "-", "0.05", 0.0, 0.2, "diffusion of density of scheme delta: delta c0 R"),
+    PARAM(P, background, "-", "false", 0, 1, "background pressure that lifts the least pressure to 0; not with a free surface"),
     PARAM(P, cfl, "-", "0.375", 0.001, 2.0, "dt over R/(c + |u - u0|)"),
     PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan)"),
     PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
@@ -128,6 +131,11 @@ static bool has_no_slip(const struct scene *c)
 
 static bool is_coupled(const struct run *r) { return r->scene.has_sph && r->scene.has_fv; }
 
+static bool is_riemann(int scheme)
+{
+    return scheme == SCHEME_RIEMANN_ALE || scheme == SCHEME_RIEMANN;
+}
+
 const struct sph_params *sph_params_of(const struct run *r)
 {
     static struct sph_params used;
@@ -139,16 +147,20 @@ const struct sph_params *sph_params_of(const struct run *r)
         used.cfl_viscous = used.viscosity != VISCOSITY_MORRIS ? 0.035
                            : has_no_slip(&r->scene)           ? 0.05
                                                               : 0.09;
-    if (used.walls == WALLS_AUTO)
-        used.walls = r->scene.domain.dim == 2 ? WALLS_NFM : WALLS_GHOSTS;
-    if (used.packing < 0)
-        used.packing = has_polylines(&r->scene) && used.walls == WALLS_NFM ? 200 : 0;
     if (used.surface == SURFACE_AUTO)
         used.surface = has_surface(&r->scene) ? SURFACE_YES : SURFACE_NO;
     if (used.scheme == SCHEME_AUTO)
         used.scheme = used.surface == SURFACE_YES ? SCHEME_RIEMANN : SCHEME_RIEMANN_ALE;
+    if (used.walls == WALLS_AUTO) /* the fluxes of nfm are those of the Riemann schemes */
+        used.walls = r->scene.domain.dim == 2 && is_riemann(used.scheme) ? WALLS_NFM
+                     : has_polylines(&r->scene)                          ? WALLS_FIXED
+                                                                         : WALLS_GHOSTS;
+    if (used.packing < 0)
+        used.packing = has_polylines(&r->scene) && used.walls == WALLS_NFM ? 200 : 0;
     if (used.dissipation < 0.0)
         used.dissipation = used.surface == SURFACE_YES ? 0.1 : 0.0;
+    if (used.alpha < 0.0)
+        used.alpha = r->scene.fluid.nu > 0.0 ? 0.0 : 0.01;
     if (has_box() && used.outer == OUTER_NONE)
         used.outer = is_coupled(r) ? OUTER_PARTNER : OUTER_EXACT;
     if (!has_box() && used.outer == OUTER_NONE && has_openings(&r->scene))
@@ -281,10 +293,14 @@ void sph_params_check(const struct run *r, struct faults *f)
         return;
     if (given.gamma != 7.0 && given.gamma != 1.0)
         params_fault(r->params, f, "sph.gamma", "%g, must be 7 or 1", given.gamma);
-    if (given.scheme == SCHEME_RIEMANN && given.transport == TRANSPORT_EULERIAN)
+    if (sph_params_of(r)->scheme != SCHEME_RIEMANN_ALE && given.transport == TRANSPORT_EULERIAN)
         params_fault(
             r->params, f, "sph.transport",
             "eulerian needs scheme \"riemann_ale\": without mass flux there is no Eulerian form");
+    if (!is_riemann(sph_params_of(r)->scheme) && given.walls == WALLS_NFM && has_walls(&r->scene))
+        params_fault(r->params, f, "sph.walls", "nfm needs a Riemann scheme: take ghosts");
+    if (given.background && sph_params_of(r)->surface == SURFACE_YES)
+        params_fault(r->params, f, "sph.background", "not with a free surface");
     if (sph_params_of(r)->c0 <= 0.0)
         params_fault(r->params, f, "sph.c0", "must be given: the case has no scale of velocity");
     check_motions(r, f);

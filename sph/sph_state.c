@@ -50,12 +50,12 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
     set_constants(s);
     particles_create(&s->p, s->dim, 0);
     s->list = neighbours_create();
-    s->passes = scheme_pick(s);
-    s->scheme = &s->passes;
     s->zones = zones_create(s);
     domain_create(s);
     s->walls = walls_create(s);
     s->surface = surface_create(s);
+    s->passes = scheme_pick(s);
+    s->scheme = &s->passes;
     if (f) {
         if (!sph_restore(s, f))
             sph_free(&s);

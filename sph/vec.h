@@ -142,12 +142,32 @@ INLINE void vec_add_rows(double *row, const ptrdiff_t stride, const int *j, vec 
 #endif
 }
 
+INLINE vec vec_dot(const vec *a, const vec *b, const int dim)
+{
+    return dim == 2 ? a[0] * b[0] + a[1] * b[1] : a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 INLINE double vec_sum(vec a)
 {
     double s = 0.0;
     for (int l = 0; l < LANES; l++)
         s += a[l];
     return s;
+}
+
+/* The sums of four vectors. */
+INLINE vec4 vec_sums(vec a, vec b, vec c, vec d)
+{
+#if LANES == 4
+    const vec ab =
+        __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const vec cd =
+        __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) +
+           __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+#else
+    return (vec4){vec_sum(a), vec_sum(b), vec_sum(c), vec_sum(d)};
+#endif
 }
 
 #endif

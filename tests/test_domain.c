@@ -6,6 +6,7 @@
 
 #include "../common/mem.h"
 #include "../sph/domain.h"
+#include "../sph/neighbours.h"
 #include "sph_case.h"
 
 enum { PRIM = 8 };
@@ -244,13 +245,37 @@ static void balance_evens_out_a_crowd(void **state)
     sph_free(&c.s);
 }
 
+/* Three times as dense at one end as at the other: the list, not the number, tells the work. */
+static void balance_evens_out_the_pairs(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    start(&c, 2, 60, true);
+    for (int i = 0; i < c.s->p.n; i++) {
+        double *x = c.s->p.y + i * c.s->p.nstate;
+        *x = 0.5 * *x * (1.0 + *x);
+    }
+    integrate_prepare(c.s);
+    const bool cut = domain_balance(c.s, 0.03);
+    assert_int_equal(cut, c.run.size > 1);
+    integrate_prepare(c.s);
+    double listed = 0.0;
+    for (int i = 0; i < c.s->p.n; i++)
+        listed += c.s->list->count[i];
+    const double most = max_anywhere(listed);
+    MPI_Allreduce(MPI_IN_PLACE, &listed, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    assert_true(most <= 1.06 * listed / c.run.size);
+    sph_free(&c.s);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(particles_reach_their_owners),
                                        cmocka_unit_test(ghosts_are_all_images_within_reach),
                                        cmocka_unit_test(halo_brings_the_owners_values),
                                        cmocka_unit_test(items_reach_owners_in_order_of_senders),
-                                       cmocka_unit_test(balance_evens_out_a_crowd)};
+                                       cmocka_unit_test(balance_evens_out_a_crowd),
+                                       cmocka_unit_test(balance_evens_out_the_pairs)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

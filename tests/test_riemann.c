@@ -151,8 +151,12 @@ static void pressure_is_the_scalar_one(void **state)
     (void)state;
     const double rho0 = 1000.0, c0 = 10.0;
     for (double rho = 900.0; rho < 1100.0; rho += 7.0) {
-        const struct tait stiff = {1.0 / rho0, rho0 * c0 * c0 / 7.0, rho0 * c0};
-        const struct tait soft = {1.0 / rho0, rho0 * c0 * c0, rho0 * c0};
+        const struct tait stiff = {.rho0_1 = 1.0 / rho0,
+                                   .B = rho0 * c0 * c0 / 7.0,
+                                   .at0 = rho0 * c0 * c0 / 7.0,
+                                   .Z0 = rho0 * c0};
+        const struct tait soft = {
+            .rho0_1 = 1.0 / rho0, .B = rho0 * c0 * c0, .at0 = rho0 * c0 * c0, .Z0 = rho0 * c0};
         assert_close(pressure(&stiff, vec_all(rho), 7)[0], eos_p(rho, rho0, c0, 7.0), 1e-9);
         assert_close(pressure(&soft, vec_all(rho), 1)[0], eos_p(rho, rho0, c0, 1.0), 1e-9);
         assert_close(impedance(&stiff, vec_all(rho), 7)[0], rho * eos_c(rho, rho0, c0, 7.0), 1e-9);
