@@ -70,6 +70,19 @@ static bool is_wall(const struct scene_wall *w)
     return w && (w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP);
 }
 
+/* Whether a polyline of the case has a point here: a wall goes on. */
+static bool is_corner(const struct sph *s, const double *x)
+{
+    const struct scene *c = &s->run->scene;
+    for (int k = 0; k < c->nwalls; k++)
+        for (int i = 0; i < c->walls[k].points.n; i++) {
+            const double *p = c->walls[k].points.x[i];
+            if (fabs(p[0] - x[0]) < 1e-6 * s->dx && fabs(p[1] - x[1]) < 1e-6 * s->dx)
+                return true;
+        }
+    return false;
+}
+
 /* A side of a plane domain as a segment: to the corners where walls meet, else beyond. */
 static void add_side(struct sph *s, struct walls *w, const struct scene_wall *is)
 {
@@ -80,8 +93,10 @@ static void add_side(struct sph *s, struct walls *w, const struct scene_wall *is
     const bool high_wall = is_wall(scene_wall_of(c, SIDE_X_MIN + 2 * other + 1));
     double a[2], b[2];
     a[axis] = b[axis] = high ? s->hi[axis] : s->lo[axis];
-    a[other] = s->lo[other] - (low_wall ? 0.0 : 2.5 * s->R);
-    b[other] = s->hi[other] + (high_wall ? 0.0 : 2.5 * s->R);
+    a[other] = s->lo[other];
+    b[other] = s->hi[other];
+    a[other] -= low_wall || is_corner(s, a) ? 0.0 : 2.5 * s->R;
+    b[other] += high_wall || is_corner(s, b) ? 0.0 : 2.5 * s->R;
     const bool forward = (axis == 1) != high; /* fluid on the left: bottom goes along +x */
     add_segment(w, forward ? a : b, forward ? b : a, is->kind == WALL_NO_SLIP, -1, is->velocity);
 }
