@@ -60,6 +60,7 @@ static const struct param body_rows[] = {
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the centre"),
     PARAM(P, spin,     "rad/s", "0.0", -1e6, 1e6, "rate of rotation"),
     PARAM(P, motion,   "-",   "", 0, 0, "file beside the case with rows t, x, y, angle: displacement instead"),
+    PARAM(P, force,    "N/m", "(0.0, 0.0, 0.0)", -1e12, 1e12, "known mean force of the fluid on the first body: for error.force"),
 };
 #undef P
 #define P struct scene_shape

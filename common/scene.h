@@ -84,6 +84,7 @@ struct scene {
         double velocity[3];           /* m/s */
         double spin;                  /* rad/s */
         char motion[PARAM_TEXT_SIZE]; /* file of rows t, x, y, angle (s, m, m, rad); "": none */
+        double force[3];              /* N/m: known mean of the fluid's force; 0: not known */
     } bodies[BODIES_MAX];
     int nbodies;
     /* Where the fluid is at the start; none: everywhere. */

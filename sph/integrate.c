@@ -262,6 +262,8 @@ static void reduce(struct sph *s, double *most)
     s->rho_max = most[MOST_RHO];
     s->rho_min = -most[LEAST_RHO];
     s->max_mach = fmax(s->max_mach, s->max_speed / s->c0);
+    if (s->t >= 0.5 * s->run->scene.time.end)
+        s->mach_late = fmax(s->mach_late, s->max_speed / s->c0);
 }
 
 /* Two particles part by at most twice the stray velocity times dt; a tenth more, for it may grow.

@@ -171,6 +171,20 @@ void probes_force(struct sph *s, int which, double force[3])
     mem_free(nodes);
 }
 
+/* Rows of the series as samples, each for the time since the one before. */
+static void sample_force(struct sph *s, const double force[2])
+{
+    const double begin = fmax(s->force_t, 0.5 * s->run->scene.time.end), dt = s->t - begin;
+    s->force_t = s->t;
+    if (dt <= 0.0)
+        return;
+    s->force_time += dt;
+    for (int a = 0; a < 2; a++) {
+        s->force_sum[a] += dt * force[a];
+        s->force_sum2 += dt * force[a] * force[a];
+    }
+}
+
 void probes_row(struct sph *s, double *values)
 {
     const struct scene *c = &s->run->scene;
@@ -179,4 +193,23 @@ void probes_row(struct sph *s, double *values)
                                                      : pressure_at(s, c->probes[k].at);
     for (int k = 0; k < c->nbodies; k++, values += 3)
         probes_force(s, k, values);
+    if (c->nbodies > 0)
+        sample_force(s, values - 3 * c->nbodies);
+}
+
+void probes_summarise(const struct sph *s)
+{
+    const struct scene *c = &s->run->scene;
+    struct summary *to = s->run->summary;
+    if (c->nbodies == 0 || s->force_time <= 0.0)
+        return;
+    const double *f = c->bodies[0].force, T = s->force_time;
+    const double mean[2] = {s->force_sum[0] / T, s->force_sum[1] / T};
+    const double var = s->force_sum2 / T - mean[0] * mean[0] - mean[1] * mean[1];
+    const double size = hypot(f[0], f[1]);
+    summary_real(to, "force.x", mean[0]);
+    summary_real(to, "force.y", mean[1]);
+    summary_real(to, "force.rms", sqrt(fmax(0.0, var)));
+    if (size > 0.0)
+        summary_real(to, "error.force", hypot(mean[0] - f[0], mean[1] - f[1]) / size);
 }

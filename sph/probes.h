@@ -14,5 +14,8 @@ void probes_row(struct sph *s, double *values);
  * a point of the surface is the kernel average of what the particles lay on it [4.14]: the wall
  * terms of the particles add up to 1.39 times a constant pressure. Collective. */
 void probes_force(struct sph *s, int k, double force[3]);
+/* Mean force on the first body over the second half of the run, its fluctuation and its error
+ * against the case's, into the summary. */
+void probes_summarise(const struct sph *s);
 
 #endif

@@ -125,6 +125,10 @@ struct sph {
     int64_t pairs_now;     /* the same, of the present list */
     struct fit signal_fit; /* of a standing wave or of the drop, sampled with the series */
     double mass0, energy0, momentum0[3]; /* at t = 0, for drifts */
+    /* Force on the first body over the second half of the run: last time, length of the sampled
+     * time, integrals of F and of |F|^2. */
+    double force_t, force_time, force_sum[2], force_sum2;
+    double mach_late; /* max |u|/c0 over the second half */
 };
 
 /* sph_state.c: prm as sph_params_of gives it, copied; f: restart file, then r->t and r->step are

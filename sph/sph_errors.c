@@ -40,7 +40,7 @@ void sph_sums(const struct sph *s, double sums[SUM_COUNT])
         double kinetic = 0.0, potential = 0.0;
         for (int a = 0; a < dim; a++) {
             kinetic += 0.5 * y[dim + a] * y[dim + a] / m;
-            potential -= m * s->gravity[a] * y[a];
+            potential += m * y[a] * (0.5 * s->central * s->central * y[a] - s->gravity[a]);
             sums[SUM_MOMENTUM + a] += y[dim + a];
         }
         sums[SUM_MASS] += m;
@@ -347,8 +347,10 @@ void sph_finish(void *state)
     if (sph_has_exact(s->run))
         summarise_errors(s);
     summarise_oscillation(s);
+    probes_summarise(s);
     summarise_drifts(s);
     summary_real(to, "max_mach", s->max_mach);
+    summary_real(to, "max_mach_late", s->mach_late);
     summary_real(to, "spacing.min", least_spacing(s));
     summary_real(to, "pairs_per_s", rate);
     if (s->zones) {

@@ -91,6 +91,18 @@ static void write_field(const struct sph *s, struct h5 *f, const struct field *k
     h5_write_real(f, k->name, k->unit, s->p.n, ncomp, v, true);
 }
 
+/* What a picture needs to know: spacing and corners of the region. */
+static void write_region(const struct sph *s, struct h5 *f)
+{
+    static const char *const lo[3] = {"xmin", "ymin", "zmin"}, *const hi[3] = {"xmax", "ymax",
+                                                                               "zmax"};
+    h5_attribute_real(f, "dx", s->dx);
+    for (int a = 0; a < s->dim; a++) {
+        h5_attribute_real(f, lo[a], s->lo[a]);
+        h5_attribute_real(f, hi[a], s->hi[a]);
+    }
+}
+
 void sph_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
 {
     struct sph *s = state;
@@ -111,6 +123,7 @@ void sph_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
     if (asked(list, "id"))
         h5_write_int(f, "id", s->p.n, s->p.id);
     mem_free(v);
+    write_region(s, f);
     int64_t all = s->p.n;
     MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT64_T, MPI_SUM, s->run->comm);
     if (x)
@@ -133,6 +146,8 @@ static const struct number {
     NUMBER(max_mach),     NUMBER(fluctuation),  NUMBER(fluctuation_particles),
     NUMBER(mass0),        NUMBER(energy0),      NUMBER(dt),
     NUMBER(momentum0[0]), NUMBER(momentum0[1]), NUMBER(momentum0[2]),
+    NUMBER(force_t),      NUMBER(force_time),   NUMBER(force_sum[0]),
+    NUMBER(force_sum[1]), NUMBER(force_sum2),   NUMBER(mach_late),
 };
 enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 
