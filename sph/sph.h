@@ -47,6 +47,7 @@ struct sph_params {
     double density_limit; /* |rho/rho0 - 1| that ends the run */
     int packing;          /* steps; -1: as the walls need it */
     double noise;         /* random displacement of the first lattice, in dx */
+    double extrema[3];    /* m/s: known ones on the centre lines, see sph_lines.c; 0: none */
 };
 
 /* Particles of one size level. State and rates are rows of nstate doubles,
@@ -186,6 +187,9 @@ void sph_checkpoint(void *s, struct h5 *f);
 bool sph_restore(struct sph *s, struct h5 *f);
 void sph_finish(void *s);
 void sph_row(void *s, double *values);
+
+/* sph_lines.c: extrema on the centre lines into the summary; 2D. Collective. */
+void sph_summarise_extrema(const struct sph *s);
 
 /* sph_coupling.c: the only file here that knows cpl.h. */
 void coupling_offer(struct run *r);  /* publishes sph.box and sph.free */

@@ -348,6 +348,8 @@ void sph_finish(void *state)
         summarise_errors(s);
     summarise_oscillation(s);
     probes_summarise(s);
+    if (s->dim == 2 && s->prm.extrema[0] != 0.0)
+        sph_summarise_extrema(s);
     summarise_drifts(s);
     summary_real(to, "max_mach", s->max_mach);
     summary_real(to, "max_mach_late", s->mach_late);

@@ -38,6 +38,7 @@ static const struct param rows[] = {
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
     PARAM(P, packing, "-", "-1", -1, 100000, "steps of rearrangement at the start; -1: 200 with polylines or bodies, else none"),
     PARAM(P, noise, "-", "0.0", 0.0, 0.5, "random displacement of the first lattice, in dx"),
+    PARAM(P, extrema, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema; 2D"),
 };
 /* clang-format on */
 
