@@ -3,6 +3,7 @@
  * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
+#include "../common/h5.h"
 #include "../sph/kernel.h"
 #include "../sph/neighbours.h"
 #include "../sph/probes.h"
@@ -261,6 +262,74 @@ static void ranks_agree(void **state)
     }
 }
 
+/* A turning body in a tank (0: nfm, 2: fixed ghosts), a tank (1: mirrored ghosts), or a channel
+ * with inlet and outlet (3). */
+static void restart_scene(struct sph_case *c, int kind)
+{
+    tank(c, 24, kind < 3, kind < 3 ? kind : WALLS_NFM);
+    struct scene *e = &c->run.scene;
+    c->prm.noise = 0.1;
+    if (kind == 3) {
+        e->fluid.gravity[1] = 0.0;
+        e->walls[0].kind = WALL_INFLOW;
+        e->walls[0].velocity[0] = 1.0;
+        e->walls[1].kind = WALL_ABSORBING;
+        c->prm.outer = OUTER_SIDES;
+        e->coupling.transition = e->coupling.buffer = 5.0 / 24.0;
+    } else if (kind != WALLS_GHOSTS) {
+        e->nbodies = 1;
+        e->bodies[0].points.n = 3;
+        memcpy(e->bodies[0].points.x, (double[3][2]){{0.4, 0.4}, {0.5, 0.7}, {0.6, 0.4}},
+               6 * sizeof(double));
+        e->bodies[0].spin = 2.0;
+        e->bodies[0].centre[0] = e->bodies[0].centre[1] = 0.5;
+        c->prm.packing = kind == WALLS_NFM ? 5 : 0;
+    }
+}
+
+static double *run_scene(int kind, bool restart, int *n)
+{
+    char path[512];
+    const char *dir = getenv("TEST_SCRATCH");
+    struct sph_case c;
+    snprintf(path, sizeof path, "%s/test_walls.h5", dir ? dir : "/tmp");
+    restart_scene(&c, kind);
+    assert_non_null(sph_case_start(&c, NULL));
+    assert_true(sph_case_run(&c, 6, 100.0));
+    if (restart) {
+        struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
+        sph_checkpoint(c.s, f);
+        h5_close(&f);
+        sph_free(&c.s);
+        f = h5_open(MPI_COMM_WORLD, path);
+        sph_case_start(&c, f);
+        h5_close(&f);
+        assert_non_null(c.s);
+    }
+    assert_true(sph_case_run(&c, 6, 100.0));
+    *n = c.s->p.n * c.s->p.nstate;
+    double *y = NEW(double, *n);
+    memcpy(y, c.s->p.y, (size_t)*n * sizeof(double));
+    sph_free(&c.s);
+    return y;
+}
+
+static void restart_is_exact(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 4; kind++) {
+        int n[2];
+        double *straight = run_scene(kind, false, n), *again = run_scene(kind, true, n + 1);
+        const bool same =
+            n[0] == n[1] && memcmp(straight, again, (size_t)n[0] * sizeof(double)) == 0;
+        if (!same)
+            print_message("kind %d differs\n", kind);
+        assert_true(none_anywhere(!same));
+        mem_free(straight);
+        mem_free(again);
+    }
+}
+
 /* walls_velocity is the derivative of places. */
 static void motion(void **state)
 {
@@ -303,7 +372,8 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(motion),
                                        cmocka_unit_test(mass_is_kept),
                                        cmocka_unit_test(water_at_rest_stays),
-                                       cmocka_unit_test(ranks_agree)};
+                                       cmocka_unit_test(ranks_agree),
+                                       cmocka_unit_test(restart_is_exact)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
