@@ -16,7 +16,7 @@
 
 enum { PRIM = 8, SLOPE = 8, STATE = 6 };
 
-static const double least_gamma = 0.05;
+static const double least_gamma = 0.2; /* of corners below 72 degrees: 15 ran away with 0.1 */
 
 /* Particles near walls, and the segments near each. */
 struct nfm {
