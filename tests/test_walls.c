@@ -100,6 +100,54 @@ static void quadrature_is_nearly_exact(void **state)
     }
 }
 
+/* nu Lap u of the particles in row `row' above a no-slip wall, u_x = y^power, over the rate by a
+ * step so short that nothing moves; lattice of 1/32, R = 4 dx. */
+static double laplacian(int row, int power)
+{
+    struct sph_case c;
+    sph_case_set(&c, 2, 32);
+    struct scene *e = &c.run.scene;
+    e->fluid.nu = 1.0;
+    e->domain.periodic[1] = false;
+    e->initial.field = FIELD_REST;
+    e->nwalls = 2;
+    for (int k = 0; k < 2; k++) {
+        e->walls[k].side = SIDE_Y_MIN + k;
+        e->walls[k].kind = WALL_NO_SLIP;
+        e->walls[k].velocity[0] = k;
+    }
+    c.prm.scheme = SCHEME_RIEMANN;
+    c.prm.transport = TRANSPORT_EULERIAN;
+    c.prm.limiter = LIMITER_NONE;
+    const struct sph *s = sph_case_start(&c, NULL);
+    for (int i = 0; i < s->p.n; i++) {
+        double *y = s->p.y + (size_t)i * s->p.nstate;
+        y[2] = y[5] * pow(y[1], power);
+    }
+    assert_true(sph_case_run(&c, 1, 1e-8));
+    double most = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + (size_t)i * s->p.nstate;
+        if (fabs(y[1] - (row + 0.5) / 32.0) < 1e-6)
+            most = fmax(most, 1e3 + (y[2] / y[5] - pow(y[1], power)) / 1e-8);
+    }
+    sph_free(&c.s);
+    return max_anywhere(most) - 1e3;
+}
+
+/* The wall's share of the Laplacian, as it was worked out with exact integrals. */
+static void laplacian_at_a_wall(void **state)
+{
+    (void)state;
+    const double R = 4.0 / 32.0;
+    print_message("Lap y %.3f %.3f /R, Lap y^2 %.3f %.3f\n", laplacian(0, 1) * R,
+                  laplacian(1, 1) * R, laplacian(0, 2), laplacian(1, 2));
+    assert_close(laplacian(0, 1) * R, 0.103, 0.01);
+    assert_close(laplacian(1, 1) * R, -0.036, 0.01);
+    assert_close(laplacian(0, 2), 1.986, 0.02);
+    assert_close(laplacian(1, 2), 1.966, 0.02);
+}
+
 /* Box [0,1]^2 of still fluid under gravity; closed walls on all sides, or open above. */
 static void tank(struct sph_case *c, int cells, bool surface, int walls)
 {
@@ -370,6 +418,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(surface_is_found),
                                        cmocka_unit_test(body_in_still_water),
                                        cmocka_unit_test(motion),
+                                       cmocka_unit_test(laplacian_at_a_wall),
                                        cmocka_unit_test(mass_is_kept),
                                        cmocka_unit_test(water_at_rest_stays),
                                        cmocka_unit_test(ranks_agree),
