@@ -1,5 +1,7 @@
 /* transport.c - bounds of the transport velocity where there are walls or a free surface; without
- * them the first pass bounds it itself. SPDX-License-Identifier: BSD-3-Clause */
+ * them the first pass bounds it itself. With a surface it is |u|/4 at most: densities do not know
+ * of the shift, and a tank at rest sank by a tenth in 4000 steps with U/4.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
 #include "surface.h"
@@ -36,7 +38,7 @@ void transport_finish(struct sph *s)
             size2 += delta[a] * delta[a];
             u2 += u[a] * u[a];
         }
-        const double most2 = 0.0625 * (oger ? u2 : U * U);
+        const double most2 = 0.0625 * (oger || s->surface ? u2 : U * U);
         const double factor = size2 > most2 ? sqrt(most2 / size2) : 1.0;
         for (int a = 0; a < dim; a++)
             u0[a] = u[a] + factor * delta[a];
