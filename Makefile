@@ -8,7 +8,7 @@ COMMIT := $(shell git rev-parse --short HEAD 2>/dev/null || echo unknown)
 
 # ---- what it needs, as Debian 12 packages -------------------------------------------------------------
 PACKAGES = build-essential pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi-dev hdf5-tools \
-           libhypre-dev libconfig-dev libcmocka-dev gnuplot-nox
+           libhypre-dev libsundials-dev libconfig-dev libcmocka-dev gnuplot-nox
 
 # ---- how it is built ----------------------------------------------------------------------------------
 # No -ffast-math: it gains nothing here and lets NaN pass unseen. -fno-math-errno frees sqrt.
@@ -19,6 +19,7 @@ HDF5_LIBS = $(shell pkg-config --libs hdf5-openmpi 2>/dev/null)
 SAN =
 CFLAGS = -std=c11 -D_GNU_SOURCE -g $(OPT) $(WARN) $(HDF5_CFLAGS) -isystem /usr/include/hypre $(SAN)
 LIBS = $(HDF5_LIBS) -lconfig -lm
+FV_LIBS = -lHYPRE -lsundials_kinsol -lsundials_nvecparallel -lsundials_sunlinsolspgmr
 
 objects = $(patsubst %.c,$(B)/o/%.o,$(wildcard $(1)/*.c))
 cpl_o = $(addprefix $(B)/o/coupler/,cpl_client.o cpl_data.o cpl_patch.o wire.o failure.o handshake.o region.o)
@@ -34,7 +35,7 @@ $(B)/sph: $(B)/o/sph/sph.o $(B)/libsph.a $(B)/libcpl.a $(B)/libcommon.a
 	@$(CC) $(SAN) -o $@ $^ $(LIBS)
 $(B)/fv: $(B)/o/fv/fv.o $(B)/libfv.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
-	@$(CC) $(SAN) -o $@ $^ -lHYPRE $(LIBS)
+	@$(CC) $(SAN) -o $@ $^ $(FV_LIBS) $(LIBS)
 $(B)/coupler: $(B)/o/coupler/coupler.o $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ $(LIBS)
@@ -61,7 +62,7 @@ $(B)/tests/mock: $(B)/o/tests/mock.o $(B)/libcpl.a
 $(B)/tests/%: $(B)/o/tests/%.o $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
 	@mkdir -p $(@D)
 	@echo "LD $@"
-	@$(CC) $(SAN) -o $@ $< -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lHYPRE $(LIBS) -lcmocka
+	@$(CC) $(SAN) -o $@ $< -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(FV_LIBS) $(LIBS) -lcmocka
 tests: all $(tests_bin) $(B)/tests/mock
 asan:
 	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-O1 -march=native -fno-math-errno" \

@@ -341,37 +341,59 @@ static void face_centre(const struct block *b, int64_t c, int a, double *x)
     x[a] -= 0.5 * b->h[a];
 }
 
-void forcing_fluxes(const struct fv *s, double t, double *const U[3])
+static bool is_exact(const struct forcing *f, int64_t c, int64_t d)
+{
+    return f->forced[c] == 2 || f->forced[c - d] == 2 || !f->from_partner;
+}
+
+/* Takes the net flux out, evenly; with that of walls and inflow if given. */
+static void balance(const struct fv *s, bool given, double *const U[3])
 {
     const struct forcing *f = s->forcing;
-    const struct block *b = &s->b;
     double sums[2] = {0.0, 0.0}, volume = 1.0;
     for (int a = 0; a < f->dim; a++)
-        volume *= b->h[a];
+        volume *= s->b.h[a];
     for (int a = 0; a < f->dim; a++)
-        for (int64_t i = 0; i < f->nface[a]; i++) {
-            const int64_t c = f->face[a][i], d = b->stride[a];
-            if (f->forced[c] == 2 || f->forced[c - d] == 2 || !f->from_partner) {
-                double x[3], v[3];
-                face_centre(b, c, a, x);
-                exact_face(&s->exact, x, b->h, a, t, v);
-                U[a][c] = v[a];
-            }
+        for (int64_t i = 0; i < f->nface[a]; i++)
             if (f->counts[a][i]) {
-                sums[0] += f->sign[a][i] * U[a][c] * volume / b->h[a];
-                sums[1] += volume / b->h[a];
+                sums[0] += f->sign[a][i] * U[a][f->face[a][i]] * volume / s->b.h[a];
+                sums[1] += volume / s->b.h[a];
             }
-        }
     if (s->bc) {
         if (s->bc->pressure_given)
             return; /* the outflow takes what is too much */
-        sums[0] += s->bc->outflux;
+        sums[0] += given ? s->bc->outflux : 0.0;
     }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->b.cart);
     const double excess = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
             U[a][f->face[a][i]] -= f->sign[a][i] * excess;
+}
+
+void forcing_fluxes(const struct fv *s, double t, double *const U[3])
+{
+    const struct forcing *f = s->forcing;
+    for (int a = 0; a < f->dim; a++)
+        for (int64_t i = 0; i < f->nface[a]; i++)
+            if (is_exact(f, f->face[a][i], s->b.stride[a])) {
+                double x[3], v[3];
+                face_centre(&s->b, f->face[a][i], a, x);
+                exact_face(&s->exact, x, s->b.h, a, t, v);
+                U[a][f->face[a][i]] = v[a];
+            }
+    balance(s, true, U);
+}
+
+void forcing_fluxes_variation(const struct fv *s, double *const U[3])
+{
+    const struct forcing *f = s->forcing;
+    for (int a = 0; a < f->dim; a++)
+        for (int64_t i = 0; i < f->nface[a]; i++)
+            if (is_exact(f, f->face[a][i], s->b.stride[a]))
+                U[a][f->face[a][i]] = 0.0;
+    if (f->from_partner)
+        balance(s, false, U);
 }
 
 void forcing_gradient(const struct fv *s, int a, bool cubic, const double *q, double *out)

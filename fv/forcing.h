@@ -59,6 +59,8 @@ void forcing_velocity(const struct fv *s, double t, double *const u[3]);
 /* Fluxes of the outline at time t: exact ones where the exact solution is imposed, else as they are
  * interpolated; then corrected evenly to no net flux. */
 void forcing_fluxes(const struct fv *s, double t, double *const U[3]);
+/* How they vary with the velocity that U was interpolated from. */
+void forcing_fluxes_variation(const struct fv *s, double *const U[3]);
 /* Adds to the gradient `out' of q along axis a what continues q into the forced cells: evenly, or
  * by a cubic (of lower degree where fewer than four free cells stand in line). */
 void forcing_gradient(const struct fv *s, int a, bool cubic, const double *q, double *out);

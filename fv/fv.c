@@ -14,7 +14,7 @@ static struct program fv_program; /* its columns depend on the scene */
 static void describe(const struct run *r)
 {
     static const char *const integrators[] = {"rk3, three projections a step",
-                                              "bdf2, one projection a step"};
+                                              "bdf2, one projection a step", "newton, all at once"};
     const struct fv_params *prm = fv_params_of(r);
     const struct scene_domain *d = &r->scene.domain;
     const bool viscous = r->scene.fluid.nu > 0.0,

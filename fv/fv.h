@@ -11,7 +11,8 @@
 #include "../common/run.h"
 #include "block.h"
 
-enum fv_integrator { INTEGRATOR_RK3, INTEGRATOR_BDF2 };
+enum fv_integrator { INTEGRATOR_RK3, INTEGRATOR_BDF2, INTEGRATOR_NEWTON };
+enum fv_flux { FLUX_CENTRAL, FLUX_UPWIND };
 
 struct fv_params {
     int cells[3];
@@ -19,6 +20,10 @@ struct fv_params {
     int integrator;
     double tol_pressure; /* of the last projection of a step, relative to |div U*| */
     double tol_viscous;  /* of Helmholtz; 0: 1e-3, with forced cells 1e-5 */
+    double tol_newton;   /* of a residual, as a velocity relative to the largest */
+    int flux;            /* newton only */
+    double c0;           /* m/s: sound speed; newton only, 0: incompressible */
+    bool steady;         /* newton only: march to a steady state */
     double hole[2][3];   /* box whose cells take the exact solution; all 0: none */
     double upwind;       /* C of the bias in convection.c; 0: none, -1: 1 with walls, else none */
     double extrema[3];   /* m/s: known ones on the centre lines, see fv_lines.c; 0: none */
@@ -28,6 +33,7 @@ struct fv_params {
 struct bc;       /* walls and openings; bc.h; NULL: none */
 struct forcing;  /* cells whose velocity is imposed; forcing.h; NULL: none */
 struct pressure; /* the operator in hypre; pressure.h */
+struct newton;   /* the implicit integrator; newton.h; NULL: another one */
 struct link;     /* place in a coupled job; fv_coupling.c; NULL alone */
 
 struct fv {
@@ -45,7 +51,7 @@ struct fv {
         *psi[3];  /* of each stage: start of the next step's solve; rk3 and bdf2 use [0..2], [0] */
     double *U[3]; /* m/s: projected flux through the lower face of each cell */
     double *N[3], *N_old[3]; /* convection now and before (rk3: of a stage; bdf2: of a step) */
-    double *u_old[3];        /* bdf2 only, else NULL */
+    double *u_old[3];        /* bdf2, newton; else NULL */
     double *rhs[3], *delta[3], *work[3], *step_p[3]; /* scratch: right side, increment, CG; Gc p */
     double *step_work;
     double *krylov[2][3];   /* scratch of the viscous solve with walls, else NULL */
@@ -55,6 +61,7 @@ struct fv {
     struct bc *bc;
     struct forcing *forcing;
     struct pressure *pressure;
+    struct newton *newton;
     struct link *link;
     double dt, dt_old; /* s: last step, 0 before the first; the one before it */
     double u_limit;    /* m/s: beyond it the run has blown up */

@@ -7,6 +7,7 @@
 #include "../common/mem.h"
 #include "bc.h"
 #include "forcing.h"
+#include "newton.h"
 
 enum { NORMS = 3 };
 
@@ -142,15 +143,25 @@ static void summarise_errors(const struct fv *s)
         norm_tell(to, norm_names[k], n + k);
 }
 
+static void summarise_newton(const struct newton *w, double steps, struct summary *to)
+{
+    const double newtons = w->newtons > 0 ? (double)w->newtons : 1.0;
+    summary_real(to, "newton_iterations", (double)w->newtons / steps);
+    summary_real(to, "krylov_per_newton", (double)w->krylovs / newtons);
+    summary_real(to, "v_cycles", (double)w->cycles / steps);
+    summary_int(to, "halved_steps", w->halvings);
+    summary_real(to, "newton_residual", w->norm);
+}
+
 void fv_finish(void *state)
 {
     struct fv *s = state;
     struct run *r = s->run;
     double sum[2], cells = 1.0, loop = 0.0;
-    static const char *const parts[] = {"operators", "convection", "viscous", "pressure"};
+    static const char *const parts[] = {"operators", "convection", "viscous", "pressure", "newton"};
     for (int a = 0; a < s->b.dim; a++)
         cells *= s->b.cells[a];
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < 5; k++)
         loop += timer_wall(&r->timers, parts[k]);
     summary_int(r->summary, "cells", llround(cells));
     if (s->has_exact)
@@ -166,6 +177,8 @@ void fv_finish(void *state)
     summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);
     summary_real(r->summary, "us_per_cell_step_outside_hypre",
                  1e6 * (loop - timer_wall(&r->timers, "pressure")) / (cells * steps));
+    if (s->newton)
+        summarise_newton(s->newton, steps, r->summary);
     summary_real(r->summary, "poisson_iterations", (double)s->iterations / steps);
     summary_real(r->summary, "viscous_iterations", (double)s->viscous_iterations / steps);
 }

@@ -9,10 +9,14 @@ static struct fv_params given;
 /* clang-format off */
 static const struct param rows[] = {
     PARAM(P, cells,        "-", NULL,   1, 1e6,   "cells in each direction; even, rich in factors of two"),
-    PARAM(P, cfl,          "-", "1.0",  1e-6, 1.1, "largest |u_a| dt/h; at most 1.1 (rk3), 0.7 (bdf2)"),
-    CHOICE(P, integrator, "rk3|bdf2", "rk3", "three projected stages, or two-step backward for slow flows"),
+    PARAM(P, cfl,          "-", "1.0",  1e-6, 1e4, "largest |u_a| dt/h; at most 1.1 (rk3), 0.7 (bdf2)"),
+    CHOICE(P, integrator, "rk3|bdf2|newton", "rk3", "three projected stages, two-step backward for slow flows, fully implicit"),
     PARAM(P, tol_pressure, "-", "1e-2", 1e-14, 1, "of the last projection of a step, relative to its divergence"),
     PARAM(P, tol_viscous,  "-", "0.0",  0, 1,     "of the viscous solver; 0: 1e-3, with forced cells 1e-5"),
+    PARAM(P, tol_newton,   "-", "1e-6", 1e-14, 1, "of newton's residual, as a velocity relative to the largest"),
+    CHOICE(P, flux, "central|upwind", "central", "newton's convection: with a small dissipation, or upwind (kappa = 1/3)"),
+    PARAM(P, c0,           "m/s", "0.0", 0, 1e9,  "newton's sound speed; 0: incompressible"),
+    PARAM(P, steady,       "-", "false", 0, 1,    "newton marches to a steady state in pseudo-time; time.end: when it must be there"),
     PARAM(P, hole,         "m", "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "box whose cells take the exact solution; none by default"),
     PARAM(P, upwind,       "-", "-1.0", -1, 1e6,   "strength of the upwind bias where the flow is finer than the cells; 0: none, -1: 1 with walls, else none"),
     PARAM(P, extrema,      "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema"),
@@ -74,6 +78,12 @@ void fv_params_check(const struct run *r, struct faults *f)
     const bool exact = exact_at_all_times(&r->scene);
     if (given.integrator == INTEGRATOR_BDF2 && given.cfl > 0.7)
         params_fault(r->params, f, "fv.cfl", "%g: bdf2 is stable up to 0.7", given.cfl);
+    if (given.integrator == INTEGRATOR_RK3 && given.cfl > 1.1)
+        params_fault(r->params, f, "fv.cfl", "%g: rk3 is stable up to 1.1", given.cfl);
+    if (given.integrator != INTEGRATOR_NEWTON && given.steady)
+        params_fault(r->params, f, "fv.steady", "wants fv.integrator = \"newton\"");
+    if (given.integrator != INTEGRATOR_NEWTON && given.c0 > 0.0)
+        params_fault(r->params, f, "fv.c0", "wants fv.integrator = \"newton\"");
     for (int a = 0; a < r->scene.domain.dim; a++) {
         check_axis(r, a, f);
         if (given.hole[1][a] > given.hole[0][a] && (r->coupled || !exact))

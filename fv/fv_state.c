@@ -8,6 +8,7 @@
 #include "../common/mem.h"
 #include "bc.h"
 #include "forcing.h"
+#include "newton.h"
 #include "pressure.h"
 
 static void make_fields(struct fv *s)
@@ -33,7 +34,7 @@ static void make_fields(struct fv *s)
             for (int k = 0; k < 2 && s->bc; k++)
                 s->krylov[k][a] = block_field(b);
         }
-        if (s->prm.integrator == INTEGRATOR_BDF2)
+        if (s->prm.integrator != INTEGRATOR_RK3)
             s->u_old[a] = block_field(b);
     }
 }
@@ -166,6 +167,8 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     block_halo(&s->b, d->dim, s->u);
     bc_fluxes(s, s->U);
     s->pressure = pressure_create(s);
+    if (s->prm.integrator == INTEGRATOR_NEWTON)
+        s->newton = newton_create(s);
     s->energy0 = energy(s);
     measure(s);
     set_limit(s);
@@ -183,6 +186,7 @@ void fv_free(struct fv **sp)
         return;
     if (s->link)
         coupling_free(s);
+    newton_free(&s->newton);
     pressure_free(&s->pressure);
     forcing_free(&s->forcing);
     bc_free(&s->bc);

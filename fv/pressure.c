@@ -33,6 +33,7 @@ struct pressure {
     double *p, *Ap, *z; /* direction, its image, residual after a cycle */
     double free_cells;  /* of all ranks */
     bool singular;      /* no side gives the pressure */
+    double shift;       /* 1/m^2: on the diagonal of the cycle's matrix, beside the least one */
 };
 
 static void make_grid(const struct block *b, struct pressure *p)
@@ -70,7 +71,7 @@ static double shift(const struct block *b)
 }
 
 /* Row of a cell, -Lap: what is open passes, forced cells stand alone. Returns the diagonal. */
-static double fill_row(const struct fv *s, int64_t c, double *row)
+static double fill_row(const struct fv *s, double given, int64_t c, double *row)
 {
     const struct block *b = &s->b;
     const struct forcing *f = s->forcing;
@@ -82,7 +83,7 @@ static double fill_row(const struct fv *s, int64_t c, double *row)
         row[e] = w <= 1.0 / (b->h[a] * b->h[a]) ? -w : 0.0; /* outflow: psi is 0 behind it */
         sum += w;
     }
-    row[0] = sum > 0.0 ? sum + shift(b) : 1.0; /* forced, or free and shut in */
+    row[0] = sum > 0.0 ? sum + fmax(given, shift(b)) : 1.0; /* forced, or free and shut in */
     return sum;
 }
 
@@ -94,7 +95,7 @@ static void make_matrix(const struct fv *s, struct pressure *p)
     double *values = NEW(double, (int64_t)m * b->n[0] * b->n[1] * b->n[2]), *row = values;
     BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++, row += m)
-            p->diagonal[i] = fill_row(s, i, row);
+            p->diagonal[i] = fill_row(s, p->shift, i, row);
     HYPRE(HYPRE_StructMatrixCreate(b->cart, p->grid, p->stencil, &p->A));
     HYPRE(HYPRE_StructMatrixInitialize(p->A));
     HYPRE(HYPRE_StructMatrixSetBoxValues(p->A, p->lo, p->hi, m, entries, values));
@@ -255,14 +256,20 @@ static double remove_mean(const struct fv *s, double *restrict x)
     return fmax(sums[0] - sums[1] * mean, 0.0);
 }
 
+/* x = one cycle on r. */
+static void cycle(struct pressure *p, double *r, double *x)
+{
+    HYPRE(HYPRE_StructVectorSetBoxValues2(p->b, p->lo, p->hi, p->outer[0], p->outer[1], r));
+    HYPRE(HYPRE_StructPFMGSolve(p->cycle, p->A, p->b, p->x));
+    HYPRE(HYPRE_StructVectorGetBoxValues2(p->x, p->lo, p->hi, p->outer[0], p->outer[1], x));
+}
+
 /* z = one cycle on r, and p = z + beta p with the beta that makes p conjugate. Returns r.z. */
 static double next_direction(const struct fv *s, double *r, double rz_last)
 {
     struct pressure *p = s->pressure;
     double sums[2];
-    HYPRE(HYPRE_StructVectorSetBoxValues2(p->b, p->lo, p->hi, p->outer[0], p->outer[1], r));
-    HYPRE(HYPRE_StructPFMGSolve(p->cycle, p->A, p->b, p->x));
-    HYPRE(HYPRE_StructVectorGetBoxValues2(p->x, p->lo, p->hi, p->outer[0], p->outer[1], p->z));
+    cycle(p, r, p->z);
     add_up(&s->b, r, p->z, sums);
     const double beta = rz_last > 0.0 ? sums[0] / rz_last : 0.0, *restrict z = p->z;
     double *restrict d = p->p;
@@ -319,4 +326,29 @@ int pressure_solve(const struct fv *s, double *psi, double *div, double tol, int
     remove_mean(s, psi);
     block_halo(&s->b, 1, &psi);
     return n;
+}
+
+int pressure_cycle(const struct fv *s, double *r, double *x)
+{
+    struct pressure *p = s->pressure;
+    if (p->shift == 0.0)
+        remove_mean(s, r);
+    cycle(p, r, x);
+    if (p->shift == 0.0)
+        remove_mean(s, x);
+    else if (s->forcing)
+        forcing_zero(s->forcing, x);
+    return 1;
+}
+
+void pressure_shift(const struct fv *s, double given)
+{
+    struct pressure *p = s->pressure;
+    if (given == p->shift)
+        return;
+    p->shift = given;
+    HYPRE_StructPFMGDestroy(p->cycle);
+    HYPRE_StructMatrixDestroy(p->A);
+    make_matrix(s, p);
+    make_cycle(&s->b, p);
 }

@@ -12,5 +12,10 @@ void pressure_free(struct pressure **p);
  * with ghosts. div: local cells; its mean over the free cells is taken out. Returns the iterations.
  */
 int pressure_solve(const struct fv *s, double *psi, double *div, double tol, int most);
+/* x ~ (shift - Lap)^-1 r by one cycle, a linear map of r (both local cells, 0 in forced ones); with
+ * shift 0 means over the free cells are taken out of r and x. Returns the number of cycles. */
+int pressure_cycle(const struct fv *s, double *r, double *x);
+/* Sets the cycle's shift, 1/m^2; 0 at the start. */
+void pressure_shift(const struct fv *s, double shift);
 
 #endif

@@ -12,6 +12,7 @@
 #include "../common/mem.h"
 #include "bc.h"
 #include "forcing.h"
+#include "newton.h"
 #include "pressure.h"
 
 static void start(struct fv *s, const char *timer)
@@ -249,7 +250,8 @@ struct integrator {
     const char *name;
     bool (*step)(struct fv *s, double dt);
 };
-static const struct integrator integrators[] = {{"rk3", step_rk3}, {"bdf2", step_bdf2}};
+static const struct integrator integrators[] = {{"rk3", step_rk3},
+                                                {"bdf2", step_bdf2}}; /* and newton */
 
 /* Largest |u_a| over all ranks; a value that is not finite makes it so. */
 void measure(struct fv *s)
@@ -353,9 +355,11 @@ void pressure_start(struct fv *s)
 double integrate(struct fv *s, double t_stop, struct diagnosis *d)
 {
     const double left = t_stop - s->t, dt_most = largest_step(s);
-    const double n = fmax(ceil(left / dt_most - 1e-9), 1.0), dt = left / n;
-    const bool good = integrators[s->prm.integrator].step(s, dt);
-    s->t = n <= 1.0 ? t_stop : s->t + dt;
+    const double n = fmax(ceil(left / dt_most - 1e-9), 1.0);
+    double dt = left / n;
+    const bool good =
+        s->newton ? newton_step(s, &dt, d) : integrators[s->prm.integrator].step(s, dt);
+    s->t = n <= 1.0 && dt == left ? t_stop : s->t + dt;
     s->dt_old = s->dt;
     s->dt = dt;
     measure(s);
@@ -364,7 +368,7 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
     if (!isfinite(most) || !(most <= s->u_limit))
         describe_worst(s, d);
-    else if (!good) {
+    else if (!good && !s->newton) {
         d->bad = true;
         snprintf(d->reason, sizeof d->reason,
                  "the viscous solver did not converge in 200 iterations");

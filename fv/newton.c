@@ -1,0 +1,223 @@
+/* newton.c - implicit steps by KINSOL: Newton with line search, GMRES with newton_precond.c. A step
+ * that does not converge is halved; a steady state is marched to in pseudo-time, one Newton
+ * iteration a step, whose size grows as the residual falls (switched evolution relaxation, Mulder &
+ * van Leer 1985). SPDX-License-Identifier: BSD-3-Clause */
+#include "newton.h"
+
+#include <kinsol/kinsol.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sunlinsol/sunlinsol_spgmr.h>
+
+#include "../common/log.h"
+#include "../common/mem.h"
+#include "forcing.h"
+
+enum { KRYLOV = 60, NEWTONS = 12, HALVINGS = 6 };
+
+/* SUNDIALS' codes below zero are faults of the call, not of the numerics. */
+#define SUN(call)                                                                                  \
+    do {                                                                                           \
+        const int code_ = (int)(call);                                                             \
+        if (code_ < 0)                                                                             \
+            fail("%s: SUNDIALS code %d", #call, code_);                                            \
+    } while (0)
+
+static void start(struct fv *s, const char *timer)
+{
+    timer_start(&s->run->timers, timer_index(&s->run->timers, timer));
+}
+static void stop(struct fv *s, const char *timer)
+{
+    timer_stop(&s->run->timers, timer_index(&s->run->timers, timer));
+}
+
+/* What failed is told by newton_step, once. */
+static void no_message(int code, const char *module, const char *function, char *text, void *user)
+{
+    (void)code, (void)module, (void)function, (void)text, (void)user;
+}
+
+static void make_kinsol(struct fv *s, struct newton *w)
+{
+    w->krylov = SUNLinSol_SPGMR(w->q, SUN_PREC_RIGHT, KRYLOV, w->ctx);
+    w->kin = KINCreate(w->ctx);
+    if (!w->krylov || !w->kin)
+        fail("SUNDIALS cannot be set up");
+    SUN(KINInit(w->kin, newton_residual, w->q));
+    SUN(KINSetErrHandlerFn(w->kin, no_message, NULL));
+    SUN(KINSetUserData(w->kin, s));
+    SUN(KINSetLinearSolver(w->kin, w->krylov, NULL));
+    SUN(KINSetPreconditioner(w->kin, newton_precond_setup, newton_precond_solve));
+    SUN(KINSetJacTimesVecFn(w->kin, newton_jacobian_times));
+    SUN(KINSetEtaForm(w->kin, KIN_ETACHOICE1));
+    SUN(KINSetMaxSetupCalls(w->kin, 1));
+    SUN(KINSetScaledStepTol(w->kin, 1e-14));
+    SUN(KINSetNoMinEps(w->kin, SUNFALSE));
+}
+
+struct newton *newton_create(struct fv *s)
+{
+    struct newton *w = NEW(struct newton, 1);
+    const struct block *b = &s->b;
+    MPI_Comm comm = b->cart;
+    int64_t all;
+    w->cells = (int64_t)b->n[0] * b->n[1] * b->n[2];
+    MPI_Allreduce(&w->cells, &all, 1, MPI_INT64_T, MPI_SUM, comm);
+    SUN(SUNContext_Create(&comm, &w->ctx));
+    w->q = N_VNew_Parallel(comm, (b->dim + 1) * w->cells, (b->dim + 1) * all, w->ctx);
+    N_Vector *const same[] = {&w->q1, &w->q2, &w->uscale, &w->fscale, &w->residual};
+    for (size_t k = 0; k < sizeof same / sizeof same[0]; k++)
+        *same[k] = N_VClone(w->q);
+    double **const plain[] = {&w->v.p, &w->face, &w->dface, &w->phi, &w->div};
+    for (size_t k = 0; k < sizeof plain / sizeof plain[0]; k++)
+        *plain[k] = block_field(b);
+    for (int a = 0; a < b->dim; a++) {
+        double **const fields[] = {&w->v.u[a], &w->v.U[a], &w->v.G[a],
+                                   &w->G[a],   &w->x[a],   &w->r[a]};
+        for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
+            *fields[k] = block_field(b);
+    }
+    for (int e = 0; e <= 2 * b->dim; e++)
+        w->A[e] = block_field(b);
+    make_kinsol(s, w);
+    return w;
+}
+
+void newton_free(struct newton **wp)
+{
+    struct newton *w = *wp;
+    if (!w)
+        return;
+    KINFree(&w->kin);
+    SUNLinSolFree(w->krylov);
+    N_Vector const vectors[] = {w->q, w->q1, w->q2, w->uscale, w->fscale, w->residual};
+    for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
+        N_VDestroy(vectors[k]);
+    double *const plain[] = {w->v.p, w->face, w->dface, w->phi, w->div};
+    for (size_t k = 0; k < sizeof plain / sizeof plain[0]; k++)
+        mem_free(plain[k]);
+    for (int a = 0; a < 3; a++) {
+        double *const fields[] = {w->v.u[a], w->v.U[a], w->v.G[a], w->G[a], w->x[a], w->r[a]};
+        for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
+            mem_free(fields[k]);
+    }
+    for (int e = 0; e < 7; e++)
+        mem_free(w->A[e]);
+    SUNContext_Free(&w->ctx);
+    mem_free(w);
+    *wp = NULL;
+}
+
+/* Scales that make all entries of a residual relative velocities: R_u d/U, R_p h/U. */
+static void set_scales(struct fv *s)
+{
+    struct newton *w = s->newton;
+    const double U = w->of.U, most = fmin(s->b.h[0], s->b.h[1]);
+    double *u = N_VGetArrayPointer(w->uscale), *f = N_VGetArrayPointer(w->fscale);
+    for (int64_t i = 0; i < (s->b.dim + 1) * w->cells; i++) {
+        u[i] = i < w->cells ? 1.0 / (U * U) : 1.0 / U;
+        f[i] = i < w->cells ? most / U : w->of.d / U;
+    }
+}
+
+/* Root mean square of the scaled residual. */
+static double scaled_norm(const struct newton *w, N_Vector r) { return N_VWrmsNorm(r, w->fscale); }
+
+static void count(struct newton *w)
+{
+    long newtons = 0, krylovs = 0;
+    KINGetNumNonlinSolvIters(w->kin, &newtons);
+    KINGetNumLinIters(w->kin, &krylovs);
+    w->newtons += newtons;
+    w->krylovs += krylovs;
+}
+
+/* State and both levels before as vectors; start of the iteration by extrapolation. */
+static void set_levels(struct fv *s, double dt, double dt_old)
+{
+    struct newton *w = s->newton;
+    const double r = dt_old > 0.0 ? dt / dt_old : 0.0;
+    N_VLinearSum(1.0 + r, w->q1, -r, w->q2, w->q);
+    if (s->forcing) { /* what is imposed is part of the unknown vector, too */
+        newton_unpack(s, w->q, s->p, s->u);
+        forcing_velocity(s, w->of.t, s->u);
+        newton_pack(s, s->p, s->u, w->q);
+    }
+}
+
+/* Solves R(q) = 0; false: not converged, on all ranks alike. */
+static bool solve(struct fv *s)
+{
+    struct newton *w = s->newton;
+    SUN(KINSetNumMaxIters(w->kin, NEWTONS));
+    SUN(KINSetFuncNormTol(w->kin, s->prm.tol_newton));
+    const int code = KINSol(w->kin, w->q, KIN_LINESEARCH, w->uscale, w->fscale);
+    count(w);
+    newton_residual(w->q, w->residual, s); /* leaves u, p, U and ghosts of this q */
+    w->norm = scaled_norm(w, w->residual);
+    return code >= 0 || N_VMaxNorm(w->residual) == 0.0;
+}
+
+/* Cell of the largest scaled residual, for the diagnosis. */
+static void describe(struct fv *s, double dt, struct diagnosis *d)
+{
+    const struct block *b = &s->b;
+    struct newton *w = s->newton;
+    const double *r = N_VGetArrayPointer(w->residual), *f = N_VGetArrayPointer(w->fscale);
+    double worst = -1.0, all, x[3];
+    int64_t at = 0;
+    for (int64_t i = 0; i < (b->dim + 1) * w->cells; i++)
+        if (!(fabs(r[i] * f[i]) <= worst)) {
+            worst = isfinite(r[i]) ? fabs(r[i] * f[i]) : 1e300;
+            at = i;
+        }
+    MPI_Allreduce(&worst, &all, 1, MPI_DOUBLE, MPI_MAX, b->cart);
+    if (worst < all) /* another rank has it */
+        return;
+    const int64_t cell = at % w->cells;
+    const int i = (int)(cell % b->n[0]), j = (int)(cell / b->n[0] % b->n[1]),
+              k = (int)(cell / b->n[0] / b->n[1]);
+    block_centre(b, i, j, k, x);
+    d->bad = true;
+    snprintf(
+        d->reason, sizeof d->reason,
+        "Newton's method leaves a residual of %.3g (of velocity, relative), wanted %.3g, after "
+        "%d halvings of the step to %g s",
+        worst, s->prm.tol_newton, HALVINGS, dt);
+    snprintf(d->where, sizeof d->where, "%s of cell (%d, %d, %d) at (%g, %g, %g) m",
+             at < w->cells ? "continuity" : "momentum", i + b->lo[0], j + b->lo[1], k + b->lo[2],
+             x[0], x[1], x[2]);
+    snprintf(d->likely, sizeof d->likely,
+             "fv.cfl = %g is too large for this flow, or fv.flux = \"central\" finds it unresolved",
+             s->prm.cfl);
+}
+
+bool newton_step(struct fv *s, double *dt, struct diagnosis *d)
+{
+    struct newton *w = s->newton;
+    start(s, "newton");
+    newton_pack(s, s->p, s->u, w->q1);
+    newton_pack(s, s->p_before, s->u_old, w->q2);
+    memcpy(s->p_before, s->p, (size_t)s->b.size * sizeof(double));
+    for (int a = 0; a < s->b.dim; a++)
+        memcpy(s->u_old[a], s->u[a], (size_t)s->b.size * sizeof(double));
+    bool good = false;
+    for (int k = 0; k <= HALVINGS && !good; k++) {
+        if (k > 0) {
+            *dt *= 0.5;
+            w->halvings++;
+        }
+        w->of.t = s->t + *dt;
+        w->of.pseudo = 0.0;
+        newton_set_step(s, *dt, s->dt);
+        set_scales(s);
+        set_levels(s, *dt, s->dt);
+        good = solve(s);
+    }
+    stop(s, "newton");
+    if (!good)
+        describe(s, *dt, d);
+    return good;
+}

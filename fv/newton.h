@@ -1,0 +1,72 @@
+/* newton.h - fully implicit steps: three-point backward differences, all unknowns q = (p, u, v[,
+ * w]) at once by Newton-Krylov (KINSOL), for large steps and steady states.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_NEWTON_H
+#define FV_NEWTON_H
+
+#include <nvector/nvector_parallel.h>
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_linearsolver.h>
+
+#include "fv.h"
+
+/* A state, or a variation of one, with ghosts. */
+struct flow {
+    double *p, *u[3];
+    double *U[3]; /* through lower faces */
+    double *G[3]; /* gradient of p, m/s^2 */
+};
+
+/* What a residual depends on besides q; constant during a step. */
+struct newton_step {
+    double t;          /* s: of the new level */
+    double c0, c1, c2; /* 1/s: of the backward difference */
+    double d;          /* s: of the pressure's part in a face's flux */
+    double U;          /* m/s: scale of velocity */
+    double pseudo;     /* s/m^2: of p in the continuity of a pseudo step; 0: none */
+};
+
+struct newton {
+    SUNContext ctx;
+    void *kin; /* KINSOL's memory */
+    SUNLinearSolver krylov;
+    N_Vector q, q1,
+        q2; /* the unknown, and one and two levels before: p, u, v[, w] of local cells */
+    N_Vector uscale, fscale, residual;
+    int64_t cells; /* local */
+    struct newton_step of;
+    struct flow v;        /* variation, for J v */
+    double *G[3];         /* gradient of the state's p */
+    double *face, *dface; /* scratch */
+    double *A[7];         /* the momentum operator of the preconditioner: diagonal, -x, +x, .. */
+    double *x[3], *r[3], *phi, *div; /* its unknowns and right sides */
+    double dtau, norm; /* s, -: pseudo step; scaled residual (rms) after the last one */
+    double first_norm; /* of the first pseudo step */
+    bool steady;       /* reached */
+    int64_t newtons, krylovs, cycles, halvings; /* summed over the run */
+};
+
+struct newton *newton_create(struct fv *s);
+void newton_free(struct newton **n);
+/* One step of at most *dt s from s->t, halved as often as Newton fails (then d tells why). */
+bool newton_step(struct fv *s, double *dt, struct diagnosis *d);
+/* One step of pseudo-time towards the steady state, which counts as at most t_stop - s->t of the
+ * run's time; all of it once the state is steady. Returns that time. */
+double newton_pseudo_step(struct fv *s, double t_stop, struct diagnosis *d);
+
+/* newton_residual.c: packed vectors of local cells from and to fields with ghosts. */
+void newton_pack(const struct fv *s, const double *p, double *const u[3], N_Vector q);
+void newton_unpack(const struct fv *s, N_Vector q, double *p, double *const u[3]);
+/* Coefficients of a step of dt after one of dt_old (0: none, then one-sided). */
+void newton_set_step(struct fv *s, double dt, double dt_old);
+/* r = R(q), and out = R'(q) v at the q of the last residual. KINSOL's kinds of function: user is
+ * struct fv. */
+int newton_residual(N_Vector q, N_Vector r, void *user);
+int newton_jacobian_times(N_Vector v, N_Vector out, N_Vector q, booleantype *is_new, void *user);
+
+/* newton_precond.c: sweeps over momentum, a V-cycle for the pressure. */
+int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, void *user);
+int newton_precond_solve(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, N_Vector v,
+                         void *user);
+
+#endif

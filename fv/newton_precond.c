@@ -1,0 +1,155 @@
+/* newton_precond.c - a fixed linear map close to the inverse of the Jacobian
+ *   J = [ A  G ; D  C ]:  A ~ c0 + convection + diffusion, 5-point (7-point);
+ *   1  A u* = r_u           symmetric Gauss-Seidel sweeps
+ *   2  -Lap phi = r_p - D u*  one V-cycle; p' = A phi, for D A^-1 G ~ Lap A^-1
+ *                             (Kay, Loghin & Wathen, SIAM J. Sci. Comput. 24, 2002)
+ *   3  u' = u* - G phi
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "newton.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "forcing.h"
+#include "pressure.h"
+
+enum { SWEEPS = 4 };
+
+/* Rows of A from the fluxes of the state, first-order upwind: less of it converges faster where
+ * diffusion or time rule, and diverges where they do not. */
+static void fill_rows(struct fv *s)
+{
+    const struct block *b = &s->b;
+    struct newton *w = s->newton;
+    double *restrict diagonal = w->A[0];
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            diagonal[i] = w->of.c0;
+    for (int a = 0; a < b->dim; a++) {
+        const double *restrict U = s->U[a], half = 0.5 / b->h[a];
+        const double nu = 1.2 * s->nu / (b->h[a] * b->h[a]);
+        double *restrict lower = w->A[1 + 2 * a], *restrict upper = w->A[2 + 2 * a];
+        const int64_t d = b->stride[a];
+        BLOCK_ROWS (b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                const double below = U[i], above = U[i + d];
+                lower[i] = -half * (below + fabs(below)) - nu;
+                upper[i] = half * (above - fabs(above)) - nu;
+                diagonal[i] += half * (fabs(below) + fabs(above)) + 2.0 * nu;
+            }
+    }
+    if (s->forcing)
+        for (int64_t i = 0; i < s->forcing->nlocal; i++) {
+            const int64_t c = s->forcing->local[i];
+            diagonal[c] = 1.0;
+            for (int e = 1; e <= 2 * b->dim; e++)
+                w->A[e][c] = 0.0;
+        }
+}
+
+int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, void *user)
+{
+    struct fv *s = user;
+    (void)q, (void)uscale, (void)f, (void)fscale;
+    fill_rows(s);
+    const double a = s->prm.c0 > 0.0 ? 1.0 / (s->prm.c0 * s->prm.c0) : 0.0;
+    pressure_shift(s, (a * s->newton->of.c0 + s->newton->of.pseudo) * s->newton->of.c0);
+    return 0;
+}
+
+/* One Gauss-Seidel sweep over the local cells, up or down. */
+static void sweep(const struct fv *s, const double *restrict r, double *restrict x, bool down)
+{
+    const struct block *b = &s->b;
+    double *const *A = s->newton->A;
+    const int64_t y = b->stride[1], z = b->dim == 3 ? b->stride[2] : 0;
+    const int64_t rows = (int64_t)b->n[1] * b->n[2];
+    for (int64_t m = 0; m < rows; m++) {
+        const int64_t row = down ? rows - 1 - m : m;
+        const int64_t c = block_at(b, 0, (int)(row % b->n[1]), (int)(row / b->n[1]));
+        for (int64_t l = 0; l < b->n[0]; l++) {
+            const int64_t i = c + (down ? b->n[0] - 1 - l : l);
+            double sum = r[i] - A[1][i] * x[i - 1] - A[2][i] * x[i + 1] - A[3][i] * x[i - y] -
+                         A[4][i] * x[i + y];
+            if (z)
+                sum -= A[5][i] * x[i - z] + A[6][i] * x[i + z];
+            x[i] = sum / A[0][i];
+        }
+    }
+}
+
+/* x ~ A^-1 r for all components. */
+static void smooth(struct fv *s, double *const r[3], double *const x[3])
+{
+    const struct block *b = &s->b;
+    for (int a = 0; a < b->dim; a++)
+        memset(x[a], 0, (size_t)b->size * sizeof(double));
+    for (int k = 0; k < SWEEPS; k++) {
+        for (int a = 0; a < b->dim; a++)
+            sweep(s, r[a], x[a], k % 2);
+        block_halo(b, b->dim, x);
+    }
+}
+
+/* out = A x of one field with ghosts. */
+static void apply_rows(const struct fv *s, const double *restrict x, double *restrict out)
+{
+    const struct block *b = &s->b;
+    double *const *A = s->newton->A;
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            out[i] = A[0][i] * x[i];
+    for (int e = 1; e <= 2 * b->dim; e++) {
+        const int64_t d = (e % 2 ? -1 : 1) * b->stride[(e - 1) / 2];
+        BLOCK_ROWS (b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                out[i] += A[e][i] * x[i + d];
+    }
+}
+
+/* div -= D I(x) */
+static void subtract_divergence(struct fv *s, double *const x[3], double *restrict div)
+{
+    const struct block *b = &s->b;
+    for (int a = 0; a < b->dim; a++) {
+        const int64_t d = b->stride[a];
+        const double *restrict u = x[a], w = 0.5 / b->h[a];
+        const double *restrict open = s->forcing ? s->forcing->open[a] : NULL;
+        BLOCK_ROWS (b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                const double below = open ? open[i] : 1.0, above = open ? open[i + d] : 1.0;
+                div[i] -= w * (above * (u[i + d] + u[i]) - below * (u[i] + u[i - d]));
+            }
+    }
+}
+
+int newton_precond_solve(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, N_Vector v,
+                         void *user)
+{
+    struct fv *s = user;
+    const struct block *b = &s->b;
+    struct newton *w = s->newton;
+    const int timer = timer_index(&s->run->timers, "pressure");
+    (void)q, (void)uscale, (void)f, (void)fscale;
+    newton_unpack(s, v, w->div, w->r);
+    smooth(s, w->r, w->x);
+    subtract_divergence(s, w->x, w->div);
+    timer_start(&s->run->timers, timer);
+    w->cycles += pressure_cycle(s, w->div, w->phi);
+    timer_stop(&s->run->timers, timer);
+    block_halo(b, 1, &w->phi);
+    apply_rows(s, w->phi, w->div);
+    for (int a = 0; a < b->dim; a++) {
+        double *restrict x = w->x[a], *restrict g = w->r[a];
+        gradient(s, w->phi, a, CONTINUE_EVEN, g);
+        BLOCK_ROWS (b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                x[i] -= g[i];
+        if (s->forcing)
+            forcing_zero(s->forcing, x);
+    }
+    if (s->forcing)
+        forcing_zero(s->forcing, w->div);
+    newton_pack(s, w->div, w->x, v);
+    return 0;
+}
