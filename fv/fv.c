@@ -7,8 +7,10 @@
 #include "../common/log.h"
 #include "../coupler/cpl_partner.h"
 
-static const char *columns[8 + PROBES_MAX] = {"kinetic energy [J]", "largest velocity [m/s]",
-                                              "divergence [m/s]"};
+static const char *columns[12 + PROBES_MAX] = {"kinetic energy [J]", "largest velocity [m/s]",
+                                               "divergence [m/s]"};
+static const char *const of_newton[] = {"residual [-]", "pseudo step [s]", "newton iterations [-]",
+                                        "krylov vectors [-]"};
 static struct program fv_program; /* its columns depend on the scene */
 
 static void describe(const struct run *r)
@@ -56,6 +58,8 @@ static void *create(struct run *r, struct h5 *f)
         columns[n++] = "error velocity l2 [-]";
     for (int a = 0; r->scene.nwalls > 0 && a < r->scene.domain.dim; a++)
         columns[n++] = forces[a];
+    for (int k = 0; k < 4 && fv_params_of(r)->integrator == INTEGRATOR_NEWTON; k++)
+        columns[n++] = of_newton[k];
     fv_program.ncolumns = n + fv_probe_columns(r, columns + n);
     return fv_create(r, f);
 }

@@ -99,7 +99,8 @@ static double largest_divergence(const struct fv *s)
 }
 
 /* Columns: kinetic energy, largest speed, divergence, the error if there is an exact field, the
- * force on all walls if there are walls or openings. */
+ * force on all walls if there are walls or openings; of newton the residual, the pseudo step and the
+ * iterations so far. */
 void fv_row(void *state, double *values)
 {
     struct fv *s = state;
@@ -119,6 +120,12 @@ void fv_row(void *state, double *values)
         bc_force(s, force);
         for (int a = 0; a < s->b.dim; a++)
             values[n++] = force[a];
+    }
+    if (s->newton) {
+        values[n++] = s->newton->norm;
+        values[n++] = s->newton->dtau;
+        values[n++] = (double)s->newton->newtons;
+        values[n++] = (double)s->newton->krylovs;
     }
     fv_probe(s, values + n);
 }

@@ -9,6 +9,7 @@
 #include "../common/mem.h"
 #include "../common/xdmf.h"
 #include "forcing.h"
+#include "newton.h"
 
 static bool wanted(const struct fv *s, const char *name)
 {
@@ -151,8 +152,23 @@ void fv_checkpoint(void *state, struct h5 *f)
     h5_attribute_real(f, "dt", s->dt);
     h5_attribute_real(f, "dt_old", s->dt_old);
     h5_attribute_real(f, "energy0", s->energy0);
+    if (s->newton) {
+        h5_attribute_real(f, "dtau", s->newton->dtau);
+        h5_attribute_real(f, "residual", s->newton->norm);
+        h5_attribute_real(f, "steady", s->newton->steady);
+    }
     if (s->link)
         coupling_save(s, f);
+}
+
+static bool restore_newton(struct newton *w, struct h5 *f)
+{
+    double steady;
+    const bool there = h5_read_attribute_real(f, "dtau", &w->dtau) &&
+                       h5_read_attribute_real(f, "residual", &w->norm) &&
+                       h5_read_attribute_real(f, "steady", &steady);
+    w->steady = there && steady != 0.0;
+    return there;
 }
 
 bool fv_restore(struct fv *s, struct h5 *f)
@@ -173,5 +189,6 @@ bool fv_restore(struct fv *s, struct h5 *f)
         }
     return h5_read_attribute_real(f, "dt", &s->dt) &&
            h5_read_attribute_real(f, "dt_old", &s->dt_old) &&
-           h5_read_attribute_real(f, "energy0", &s->energy0) && (!s->link || coupling_load(s, f));
+           h5_read_attribute_real(f, "energy0", &s->energy0) &&
+           (!s->newton || restore_newton(s->newton, f)) && (!s->link || coupling_load(s, f));
 }

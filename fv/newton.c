@@ -14,7 +14,7 @@
 #include "../common/mem.h"
 #include "forcing.h"
 
-enum { KRYLOV = 60, NEWTONS = 12, HALVINGS = 6 };
+enum { KRYLOV = 60, NEWTONS = 12, HALVINGS = 6, PSEUDO_STEPS = 500, PSEUDO_FAILURES = 12 };
 
 /* SUNDIALS' codes below zero are faults of the call, not of the numerics. */
 #define SUN(call)                                                                                  \
@@ -51,7 +51,8 @@ static void make_kinsol(struct fv *s, struct newton *w)
     SUN(KINSetLinearSolver(w->kin, w->krylov, NULL));
     SUN(KINSetPreconditioner(w->kin, newton_precond_setup, newton_precond_solve));
     SUN(KINSetJacTimesVecFn(w->kin, newton_jacobian_times));
-    SUN(KINSetEtaForm(w->kin, KIN_ETACHOICE1));
+    SUN(KINSetEtaForm(w->kin, s->prm.steady ? KIN_ETACONSTANT : KIN_ETACHOICE1));
+    SUN(KINSetEtaConstValue(w->kin, 1e-2));
     SUN(KINSetMaxSetupCalls(w->kin, 1));
     SUN(KINSetScaledStepTol(w->kin, 1e-14));
     SUN(KINSetNoMinEps(w->kin, SUNFALSE));
@@ -110,7 +111,7 @@ void newton_free(struct newton **wp)
     *wp = NULL;
 }
 
-/* Scales that make all entries of a residual relative velocities: R_u d/U, R_p h/U. */
+/* Scales that make all entries of a residual relative velocities: R_u scale/U, R_p h/U. */
 static void set_scales(struct fv *s)
 {
     struct newton *w = s->newton;
@@ -118,7 +119,7 @@ static void set_scales(struct fv *s)
     double *u = N_VGetArrayPointer(w->uscale), *f = N_VGetArrayPointer(w->fscale);
     for (int64_t i = 0; i < (s->b.dim + 1) * w->cells; i++) {
         u[i] = i < w->cells ? 1.0 / (U * U) : 1.0 / U;
-        f[i] = i < w->cells ? most / U : w->of.d / U;
+        f[i] = i < w->cells ? most / U : w->of.scale / U;
     }
 }
 
@@ -161,7 +162,7 @@ static bool solve(struct fv *s)
 }
 
 /* Cell of the largest scaled residual, for the diagnosis. */
-static void describe(struct fv *s, double dt, struct diagnosis *d)
+static void describe(struct fv *s, const char *after, struct diagnosis *d)
 {
     const struct block *b = &s->b;
     struct newton *w = s->newton;
@@ -181,11 +182,10 @@ static void describe(struct fv *s, double dt, struct diagnosis *d)
               k = (int)(cell / b->n[0] / b->n[1]);
     block_centre(b, i, j, k, x);
     d->bad = true;
-    snprintf(
-        d->reason, sizeof d->reason,
-        "Newton's method leaves a residual of %.3g (of velocity, relative), wanted %.3g, after "
-        "%d halvings of the step to %g s",
-        worst, s->prm.tol_newton, HALVINGS, dt);
+    snprintf(d->reason, sizeof d->reason,
+             "Newton's method leaves a residual of %.3g (of velocity, relative), wanted %.3g, after "
+             "%s",
+             worst, s->prm.tol_newton, after);
     snprintf(d->where, sizeof d->where, "%s of cell (%d, %d, %d) at (%g, %g, %g) m",
              at < w->cells ? "continuity" : "momentum", i + b->lo[0], j + b->lo[1], k + b->lo[2],
              x[0], x[1], x[2]);
@@ -210,14 +210,78 @@ bool newton_step(struct fv *s, double *dt, struct diagnosis *d)
             w->halvings++;
         }
         w->of.t = s->t + *dt;
-        w->of.pseudo = 0.0;
         newton_set_step(s, *dt, s->dt);
         set_scales(s);
         set_levels(s, *dt, s->dt);
         good = solve(s);
     }
     stop(s, "newton");
-    if (!good)
-        describe(s, *dt, d);
+    if (!good) {
+        char after[64];
+        snprintf(after, sizeof after, "%d halvings of the step to %g s", HALVINGS, *dt);
+        describe(s, after, d);
+    }
     return good;
+}
+
+/* One Newton iteration of an Euler step of dtau; false: back at the state it began with. */
+static bool try_pseudo_step(struct fv *s)
+{
+    struct newton *w = s->newton;
+    SUN(KINSetNumMaxIters(w->kin, 1));
+    SUN(KINSetFuncNormTol(w->kin, 1e-3 * s->prm.tol_newton));
+    N_VScale(1.0, w->q1, w->q);
+    const int code = KINSol(w->kin, w->q, KIN_LINESEARCH, w->uscale, w->fscale);
+    count(w);
+    const bool good = (code >= 0 || code == KIN_MAXITER_REACHED) && isfinite(N_VMaxNorm(w->q));
+    if (!good)
+        N_VScale(1.0, w->q1, w->q);
+    N_VScale(1.0, w->q, w->q1); /* so that only the terms of the steady problem are left */
+    newton_residual(w->q, w->residual, s);
+    return good;
+}
+
+static void march(struct fv *s, struct diagnosis *d)
+{
+    struct newton *w = s->newton;
+    bool good = false;
+    w->of.t = 0.0; /* what is imposed stays as it begins */
+    newton_pack(s, s->p, s->u, w->q1);
+    for (int k = 0; k < PSEUDO_FAILURES && !good; k++) {
+        newton_set_step(s, w->dtau, 0.0);
+        set_scales(s);
+        good = try_pseudo_step(s);
+        if (!good) {
+            w->dtau *= 0.25;
+            w->halvings++;
+        }
+    }
+    const double before = w->norm;
+    w->norm = scaled_norm(w, w->residual);
+    if (!good)
+        describe(s, "a pseudo step that was cut to nothing", d);
+    w->steady = w->norm <= s->prm.tol_newton;
+    if (before > 0.0 && w->norm > 0.0)
+        w->dtau *= fmin(fmax(before / w->norm, 0.5), 10.0);
+}
+
+double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagnosis *d)
+{
+    struct newton *w = s->newton;
+    const double end = s->run->scene.time.end, left = t_stop - s->t;
+    if (w->steady)
+        return left;
+    start(s, "newton");
+    if (!(w->dtau > 0.0))
+        w->dtau = dtau;
+    memcpy(s->p_before, s->p, (size_t)s->b.size * sizeof(double));
+    march(s, d);
+    stop(s, "newton");
+    const double dt = w->steady ? left : fmin(left, end / PSEUDO_STEPS);
+    if (!d->bad && !w->steady && s->t + dt >= (1.0 - 1e-9) * end) {
+        char after[64];
+        snprintf(after, sizeof after, "%d pseudo steps", PSEUDO_STEPS);
+        describe(s, after, d);
+    }
+    return dt;
 }

@@ -22,6 +22,7 @@ struct newton_step {
     double t;          /* s: of the new level */
     double c0, c1, c2; /* 1/s: of the backward difference */
     double d;          /* s: of the pressure's part in a face's flux */
+    double scale;      /* s: makes a momentum residual a velocity */
     double U;          /* m/s: scale of velocity */
     double pseudo;     /* s/m^2: of p in the continuity of a pseudo step; 0: none */
 };
@@ -41,7 +42,6 @@ struct newton {
     double *A[7];         /* the momentum operator of the preconditioner: diagonal, -x, +x, .. */
     double *x[3], *r[3], *phi, *div; /* its unknowns and right sides */
     double dtau, norm; /* s, -: pseudo step; scaled residual (rms) after the last one */
-    double first_norm; /* of the first pseudo step */
     bool steady;       /* reached */
     int64_t newtons, krylovs, cycles, halvings; /* summed over the run */
 };
@@ -50,9 +50,10 @@ struct newton *newton_create(struct fv *s);
 void newton_free(struct newton **n);
 /* One step of at most *dt s from s->t, halved as often as Newton fails (then d tells why). */
 bool newton_step(struct fv *s, double *dt, struct diagnosis *d);
-/* One step of pseudo-time towards the steady state, which counts as at most t_stop - s->t of the
- * run's time; all of it once the state is steady. Returns that time. */
-double newton_pseudo_step(struct fv *s, double t_stop, struct diagnosis *d);
+/* One step of pseudo-time towards the steady state, the first of dtau s, then as the residual falls.
+ * It counts as a 500th of the run's time, and what is left of it passes once the state is steady.
+ * Returns that time. */
+double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagnosis *d);
 
 /* newton_residual.c: packed vectors of local cells from and to fields with ghosts. */
 void newton_pack(const struct fv *s, const double *p, double *const u[3], N_Vector q);

@@ -16,17 +16,12 @@
 
 /* ---- layout --------------------------------------------------------------------------------- */
 
-static void pack_field(const struct block *b, const double *f, double *packed)
-{
-    block_pack(b, f, packed);
-}
-
 void newton_pack(const struct fv *s, const double *p, double *const u[3], N_Vector q)
 {
     double *to = N_VGetArrayPointer(q);
-    pack_field(&s->b, p, to);
+    block_pack(&s->b, p, to);
     for (int a = 0; a < s->b.dim; a++)
-        pack_field(&s->b, u[a], to + (a + 1) * s->newton->cells);
+        block_pack(&s->b, u[a], to + (a + 1) * s->newton->cells);
 }
 
 void newton_unpack(const struct fv *s, N_Vector q, double *p, double *const u[3])
@@ -233,6 +228,8 @@ void newton_set_step(struct fv *s, double dt, double dt_old)
     for (int a = 0; a < s->b.dim; a++)
         rate += s->umax[a] / s->b.h[a] + 2.0 * s->nu / (s->b.h[a] * s->b.h[a]);
     o->d = 1.0 / (o->c0 + rate);
+    o->scale = s->prm.steady && rate > 0.0 ? 1.0 / rate : o->d;
+    o->pseudo = s->prm.steady ? o->c0 / (o->U * o->U) : 0.0;
 }
 
 /* out = a (c0 p + ..) or c0 u + .., where forced cells have none. */

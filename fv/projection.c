@@ -357,14 +357,17 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
     const double left = t_stop - s->t, dt_most = largest_step(s);
     const double n = fmax(ceil(left / dt_most - 1e-9), 1.0);
     double dt = left / n;
-    const bool good =
-        s->newton ? newton_step(s, &dt, d) : integrators[s->prm.integrator].step(s, dt);
-    s->t = n <= 1.0 && dt == left ? t_stop : s->t + dt;
+    bool good = true;
+    if (s->prm.steady)
+        dt = newton_pseudo_step(s, dt_most, t_stop, d);
+    else
+        good = s->newton ? newton_step(s, &dt, d) : integrators[s->prm.integrator].step(s, dt);
+    s->t = dt == left ? t_stop : s->t + dt;
     s->dt_old = s->dt;
     s->dt = dt;
     measure(s);
     for (int a = 0; a < s->b.dim; a++)
-        s->max_cfl = fmax(s->max_cfl, s->umax[a] * dt / s->b.h[a]);
+        s->max_cfl = fmax(s->max_cfl, s->umax[a] * (s->prm.steady ? s->newton->dtau : dt) / s->b.h[a]);
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
     if (!isfinite(most) || !(most <= s->u_limit))
         describe_worst(s, d);
