@@ -272,8 +272,7 @@ double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagn
     if (w->steady)
         return left;
     start(s, "newton");
-    if (!(w->dtau > 0.0))
-        w->dtau = dtau;
+    w->dtau = fmax(w->dtau, dtau);
     memcpy(s->p_before, s->p, (size_t)s->b.size * sizeof(double));
     march(s, d);
     stop(s, "newton");
