@@ -218,7 +218,7 @@ void bc_increment(const struct fv *s, double *const d[3])
         fill_all(s, false, true, d);
 }
 
-void bc_fluxes(const struct fv *s, double *const U[3])
+void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
 {
     const struct block *b = &s->b;
     for (int k = 0; s->bc && k < 2 * b->dim; k++) {
@@ -228,7 +228,7 @@ void bc_fluxes(const struct fv *s, double *const U[3])
         const int64_t face = k % 2 ? b->stride[d.a] : 0;
         const double *w = s->bc->w[k][d.a];
         SIDE_PLACES(b, d, i, j, m, c)
-        U[d.a][c + face] = w[m];
+        U[d.a][c + face] = what == BC_ZERO ? 0.0 : w[m];
     }
 }
 

@@ -38,7 +38,7 @@ void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3]);
  * increment's ghosts. */
 void bc_increment(const struct fv *s, double *const d[3]);
 /* Fluxes through walls and inflow; those of outflow are left as they are. */
-void bc_fluxes(const struct fv *s, double *const U[3]);
+void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
 /* Takes note of tau grad psi along the walls, for BC_AHEAD. */
 void bc_set_slip(const struct fv *s, double tau, const double *psi);
 /* Takes a zigzag out of p, which no gradient feels but the one-sided ones at the boundary do: p -=

@@ -396,16 +396,17 @@ void forcing_fluxes_variation(const struct fv *s, double *const U[3])
         balance(s, false, U);
 }
 
-void forcing_gradient(const struct fv *s, int a, bool cubic, const double *q, double *out)
+void forcing_gradient(const struct fv *s, int a, enum continuation how, const double *q,
+                      double *out)
 {
     const struct forcing *f = s->forcing;
     const int64_t d = s->b.stride[a];
     for (int64_t i = 0; i < f->nfix[a]; i++) {
         const struct fix *x = f->fix[a] + i;
-        const double *w = (cubic ? x->cubic : x->even) + REACH, *at = q + x->cell;
+        const double *w = (how == CONTINUE_EVEN ? x->even : x->cubic) + REACH, *at = q + x->cell;
         for (int m = -REACH; m <= REACH; m++)
             out[x->cell] += w[m] * at[m * d];
-        if (cubic)
+        if (how == CONTINUE_CUBIC)
             out[x->cell] += x->given;
     }
 }

@@ -63,7 +63,8 @@ void forcing_fluxes(const struct fv *s, double t, double *const U[3]);
 void forcing_fluxes_variation(const struct fv *s, double *const U[3]);
 /* Adds to the gradient `out' of q along axis a what continues q into the forced cells: evenly, or
  * by a cubic (of lower degree where fewer than four free cells stand in line). */
-void forcing_gradient(const struct fv *s, int a, bool cubic, const double *q, double *out);
+void forcing_gradient(const struct fv *s, int a, enum continuation how, const double *q,
+                      double *out);
 /* Extends p into the near forced cells from the free side, layer by layer, for a partner's
  * interpolation. */
 void forcing_extend(const struct fv *s, double *p);

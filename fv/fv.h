@@ -98,8 +98,9 @@ bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const
                    double tol);
 
 /* gradient.c: cell gradient along axis a, (8 (q_1 - q_-1) - (q_2 - q_-2))/12 h; q goes on into
- * forced cells evenly (psi) or by a cubic (p). */
-enum continuation { CONTINUE_EVEN, CONTINUE_CUBIC };
+ * forced cells evenly (psi) or by a cubic (p), which at an outflow
+ * holds the given p, or for a variation of p none. */
+enum continuation { CONTINUE_EVEN, CONTINUE_CUBIC, CONTINUE_VARIATION };
 void gradient(const struct fv *s, const double *q, int a, enum continuation c, double *out);
 
 /* projection.c: one step towards t_stop, see program.step; d is filled when the state cannot be
@@ -107,6 +108,8 @@ void gradient(const struct fv *s, const double *q, int a, enum continuation c, d
 void pressure_start(struct fv *s);
 double integrate(struct fv *s, double t_stop, struct diagnosis *d);
 void measure(struct fv *s);
+/* Largest |u_a| of what flows, or will soon. */
+double fv_speed(const struct fv *s, int a);
 /* Pressure at s->t, in Pa. */
 double fv_pressure(const struct fv *s, int64_t c);
 /* What gravity adds to it at x: the equations hold only the rest, so that water at rest stays so.

@@ -99,8 +99,8 @@ static double largest_divergence(const struct fv *s)
 }
 
 /* Columns: kinetic energy, largest speed, divergence, the error if there is an exact field, the
- * force on all walls if there are walls or openings; of newton the residual, the pseudo step and the
- * iterations so far. */
+ * force on all walls if there are walls or openings; of newton the residual, the pseudo step and
+ * the iterations so far. */
 void fv_row(void *state, double *values)
 {
     struct fv *s = state;

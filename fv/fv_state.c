@@ -115,7 +115,7 @@ void fv_start(struct fv *s)
 {
     bc_ghosts(s, BC_GIVEN, s->u);
     block_halo(&s->b, s->b.dim, s->u);
-    bc_fluxes(s, s->U);
+    bc_fluxes(s, BC_GIVEN, s->U);
     measure(s);
     set_limit(s);
     if (fmax(s->umax[0], fmax(s->umax[1], s->umax[2])) > 0.0)
@@ -165,7 +165,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     empty_hole(s);
     bc_ghosts(s, BC_GIVEN, s->u);
     block_halo(&s->b, d->dim, s->u);
-    bc_fluxes(s, s->U);
+    bc_fluxes(s, BC_GIVEN, s->U);
     s->pressure = pressure_create(s);
     if (s->prm.integrator == INTEGRATOR_NEWTON)
         s->newton = newton_create(s);

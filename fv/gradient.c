@@ -15,5 +15,5 @@ void gradient(const struct fv *s, const double *q, int a, enum continuation how,
     BLOCK_ROWS (b, 0, c, n)
         row(q + c, b->stride[a], 1.0 / (12.0 * b->h[a]), n, out + c);
     if (s->forcing)
-        forcing_gradient(s, a, how == CONTINUE_CUBIC, q, out);
+        forcing_gradient(s, a, how, q, out);
 }

@@ -182,10 +182,11 @@ static void describe(struct fv *s, const char *after, struct diagnosis *d)
               k = (int)(cell / b->n[0] / b->n[1]);
     block_centre(b, i, j, k, x);
     d->bad = true;
-    snprintf(d->reason, sizeof d->reason,
-             "Newton's method leaves a residual of %.3g (of velocity, relative), wanted %.3g, after "
-             "%s",
-             worst, s->prm.tol_newton, after);
+    snprintf(
+        d->reason, sizeof d->reason,
+        "Newton's method leaves a residual of %.3g (of velocity, relative), wanted %.3g, after "
+        "%s",
+        worst, s->prm.tol_newton, after);
     snprintf(d->where, sizeof d->where, "%s of cell (%d, %d, %d) at (%g, %g, %g) m",
              at < w->cells ? "continuity" : "momentum", i + b->lo[0], j + b->lo[1], k + b->lo[2],
              x[0], x[1], x[2]);

@@ -50,9 +50,9 @@ struct newton *newton_create(struct fv *s);
 void newton_free(struct newton **n);
 /* One step of at most *dt s from s->t, halved as often as Newton fails (then d tells why). */
 bool newton_step(struct fv *s, double *dt, struct diagnosis *d);
-/* One step of pseudo-time towards the steady state, the first of dtau s, then as the residual falls.
- * It counts as a 500th of the run's time, and what is left of it passes once the state is steady.
- * Returns that time. */
+/* One step of pseudo-time towards the steady state, the first of dtau s, then as the residual
+ * falls. It counts as a 500th of the run's time, and what is left of it passes once the state is
+ * steady. Returns that time. */
 double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagnosis *d);
 
 /* newton_residual.c: packed vectors of local cells from and to fields with ghosts. */

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "bc.h"
 #include "forcing.h"
 #include "pressure.h"
 
@@ -38,22 +39,47 @@ static void fill_rows(struct fv *s)
                 diagonal[i] += half * (fabs(below) + fabs(above)) + 2.0 * nu;
             }
     }
-    if (s->forcing)
-        for (int64_t i = 0; i < s->forcing->nlocal; i++) {
-            const int64_t c = s->forcing->local[i];
-            diagonal[c] = 1.0;
-            for (int e = 1; e <= 2 * b->dim; e++)
-                w->A[e][c] = 0.0;
-        }
+}
+
+/* What lies behind the fluid: its coupling leaves the rows, for walls and openings into the
+ * diagonal, with ghosts that are odd (walls) or even (outflow); forced cells get rows of their own.
+ */
+static void close_rows(struct fv *s)
+{
+    const struct block *b = &s->b;
+    const struct forcing *f = s->forcing;
+    double *const *A = s->newton->A;
+    for (int e = 1; f && e <= 2 * b->dim; e++) {
+        const int a = (e - 1) / 2;
+        const int64_t d = b->stride[a], face = e % 2 ? 0 : d, to = e % 2 ? -d : d;
+        BLOCK_ROWS (b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                const double open = f->open[a][i + face];
+                if (open == 1.0)
+                    continue;
+                if (s->bc && f->forced[i + to] == 2)
+                    A[0][i] += open > 1.0 ? A[e][i] : -A[e][i];
+                A[e][i] = 0.0;
+            }
+    }
+    for (int64_t i = 0; f && i < f->nlocal; i++) {
+        A[0][f->local[i]] = 1.0;
+        for (int e = 1; e <= 2 * b->dim; e++)
+            A[e][f->local[i]] = 0.0;
+    }
 }
 
 int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, void *user)
 {
     struct fv *s = user;
+    const struct newton_step *o = &s->newton->of;
+    const double L = s->b.h[0] * s->b.cells[0],
+                 a = s->prm.c0 > 0.0 ? 1.0 / (s->prm.c0 * s->prm.c0) : 0.0;
     (void)q, (void)uscale, (void)f, (void)fscale;
     fill_rows(s);
-    const double a = s->prm.c0 > 0.0 ? 1.0 / (s->prm.c0 * s->prm.c0) : 0.0;
-    pressure_shift(s, (a * s->newton->of.c0 + s->newton->of.pseudo) * s->newton->of.c0);
+    close_rows(s);
+    const double shift = (a * o->c0 + o->pseudo) * o->c0;
+    pressure_shift(s, shift * L * L > 1.0 ? shift : 0.0);
     return 0;
 }
 
@@ -87,23 +113,26 @@ static void smooth(struct fv *s, double *const r[3], double *const x[3])
     for (int k = 0; k < SWEEPS; k++) {
         for (int a = 0; a < b->dim; a++)
             sweep(s, r[a], x[a], k % 2);
+        bc_ghosts(s, BC_ZERO, x);
         block_halo(b, b->dim, x);
     }
 }
 
-/* out = A x of one field with ghosts. */
-static void apply_rows(const struct fv *s, const double *restrict x, double *restrict out)
+/* out = A_p x of a field with ghosts: A's rows with no flux through closed sides, so that their sum
+ * is c0. */
+static void apply_to_pressure(const struct fv *s, const double *restrict x, double *restrict out)
 {
     const struct block *b = &s->b;
     double *const *A = s->newton->A;
+    const double c0 = s->newton->of.c0;
     BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
-            out[i] = A[0][i] * x[i];
+            out[i] = c0 * x[i];
     for (int e = 1; e <= 2 * b->dim; e++) {
         const int64_t d = (e % 2 ? -1 : 1) * b->stride[(e - 1) / 2];
         BLOCK_ROWS (b, 0, c, n)
             for (int64_t i = c; i < c + n; i++)
-                out[i] += A[e][i] * x[i + d];
+                out[i] += A[e][i] * (x[i + d] - x[i]);
     }
 }
 
@@ -117,7 +146,8 @@ static void subtract_divergence(struct fv *s, double *const x[3], double *restri
         const double *restrict open = s->forcing ? s->forcing->open[a] : NULL;
         BLOCK_ROWS (b, 0, c, n)
             for (int64_t i = c; i < c + n; i++) {
-                const double below = open ? open[i] : 1.0, above = open ? open[i + d] : 1.0;
+                const double below = open ? fmin(open[i], 1.0) : 1.0,
+                             above = open ? fmin(open[i + d], 1.0) : 1.0;
                 div[i] -= w * (above * (u[i + d] + u[i]) - below * (u[i] + u[i - d]));
             }
     }
@@ -138,7 +168,7 @@ int newton_precond_solve(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscal
     w->cycles += pressure_cycle(s, w->div, w->phi);
     timer_stop(&s->run->timers, timer);
     block_halo(b, 1, &w->phi);
-    apply_rows(s, w->phi, w->div);
+    apply_to_pressure(s, w->phi, w->div);
     for (int a = 0; a < b->dim; a++) {
         double *restrict x = w->x[a], *restrict g = w->r[a];
         gradient(s, w->phi, a, CONTINUE_EVEN, g);

@@ -12,6 +12,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "bc.h"
 #include "forcing.h"
 
 /* ---- layout --------------------------------------------------------------------------------- */
@@ -44,17 +45,18 @@ static void fill_ghosts(struct fv *s, const struct flow *q, bool variation)
         forcing_zero(s->forcing, q->p);
     } else if (s->forcing)
         forcing_velocity(s, s->newton->of.t, q->u);
+    bc_ghosts(s, variation ? BC_ZERO : BC_GIVEN, q->u);
     block_halo(&s->b, s->b.dim + 1, fields);
 }
 
-/* U += d open [avg(G) - (p_R - p_L)/h] of a row. */
+/* U += d [avg(G) - (p_R - p_L)/h] of a row, where both cells are free. */
 static void add_pressure_flux(double *restrict U, const double *restrict p,
                               const double *restrict G, const double *restrict open, int64_t along,
                               double d, double per_h, int64_t n)
 {
     for (int64_t i = 0; i < n; i++) {
         const double e = 0.5 * (G[i - along] + G[i]) - (p[i] - p[i - along]) * per_h;
-        U[i] += d * (open ? open[i] : 1.0) * e;
+        U[i] += d * (open && open[i] != 1.0 ? 0.0 : e);
     }
 }
 
@@ -64,7 +66,7 @@ static void complete(struct fv *s, const struct flow *q, bool variation)
     const struct block *b = &s->b;
     fill_ghosts(s, q, variation);
     for (int a = 0; a < b->dim; a++) {
-        gradient(s, q->p, a, CONTINUE_CUBIC, q->G[a]);
+        gradient(s, q->p, a, variation ? CONTINUE_VARIATION : CONTINUE_CUBIC, q->G[a]);
         if (s->forcing)
             forcing_zero(s->forcing, q->G[a]);
     }
@@ -79,6 +81,7 @@ static void complete(struct fv *s, const struct flow *q, bool variation)
         forcing_fluxes_variation(s, q->U);
     else if (s->forcing)
         forcing_fluxes(s, s->newton->of.t, q->U);
+    bc_fluxes(s, variation ? BC_ZERO : BC_GIVEN, q->U);
 }
 
 /* ---- fluxes --------------------------------------------------------------------------------- */
@@ -194,13 +197,14 @@ static void apply_space(struct fv *s, const struct flow *v)
     for (int q = 0; q < b->dim; q++) {
         const double *restrict G = v ? v->G[q] : s->newton->G[q];
         double *restrict out = s->rhs[q];
+        const double drive = v ? 0.0 : s->drive[q];
         if (s->nu > 0.0)
             viscous_apply(s, v ? v->u[q] : s->u[q], out);
         else
             memset(out, 0, (size_t)b->size * sizeof(double));
         BLOCK_ROWS (b, 0, c, n)
             for (int64_t i = c; i < c + n; i++)
-                out[i] = G[i] - out[i];
+                out[i] = G[i] - out[i] - drive;
         for (int a = 0; a < b->dim; a++)
             add_convection(s, q, a, v, out);
     }
@@ -224,9 +228,11 @@ void newton_set_step(struct fv *s, double dt, double dt_old)
     o->c0 = (dt_old > 0.0 ? (1.0 + 2.0 * r) / (1.0 + r) : 1.0) / dt;
     o->c1 = (dt_old > 0.0 ? -(1.0 + r) : -1.0) / dt;
     o->c2 = (dt_old > 0.0 ? r * r / (1.0 + r) : 0.0) / dt;
-    o->U = fmax(fmax(s->umax[0], s->umax[1]), fmax(s->umax[2], 1e-3 * s->u_limit));
+    o->U = 1e-3 * s->u_limit;
     for (int a = 0; a < s->b.dim; a++)
-        rate += s->umax[a] / s->b.h[a] + 2.0 * s->nu / (s->b.h[a] * s->b.h[a]);
+        o->U = fmax(o->U, fv_speed(s, a));
+    for (int a = 0; a < s->b.dim; a++)
+        rate += fv_speed(s, a) / s->b.h[a] + 2.0 * s->nu / (s->b.h[a] * s->b.h[a]);
     o->d = 1.0 / (o->c0 + rate);
     o->scale = s->prm.steady && rate > 0.0 ? 1.0 / rate : o->d;
     o->pseudo = s->prm.steady ? o->c0 / (o->U * o->U) : 0.0;

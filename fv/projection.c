@@ -61,7 +61,7 @@ static void project(struct fv *s, double t, double tau, double *psi, double tol,
     convection_face_velocities(s, s->u, s->U);
     if (s->forcing)
         forcing_fluxes(s, t, s->U);
-    bc_fluxes(s, s->U);
+    bc_fluxes(s, BC_GIVEN, s->U);
     divergence(s, tau, s->rhs[0]);
     stop(s, "operators");
     start(s, "pressure");
@@ -304,8 +304,7 @@ static void describe_worst(const struct fv *s, struct diagnosis *d)
         s->prm.cfl);
 }
 
-/* Of what flows, or will soon. */
-static double speed_along(const struct fv *s, int a)
+double fv_speed(const struct fv *s, int a)
 {
     const bool driven = s->drive[a] != 0.0 || (s->bc && s->bc->driven);
     return fmax(fmax(s->umax[a], s->bc ? s->bc->speed_along[a] : 0.0),
@@ -316,7 +315,7 @@ static double largest_step(const struct fv *s)
 {
     double rate = 1e-300;
     for (int a = 0; a < s->b.dim; a++)
-        rate = fmax(rate, speed_along(s, a) / s->b.h[a]);
+        rate = fmax(rate, fv_speed(s, a) / s->b.h[a]);
     return s->prm.cfl / rate;
 }
 
@@ -324,6 +323,8 @@ static double largest_step(const struct fv *s)
  * their increments have made it. */
 void pressure_start(struct fv *s)
 {
+    if (s->newton) /* which has no use for the pressure before */
+        return;
     const size_t bytes = (size_t)s->b.size * sizeof(double);
     const double dt = 1e-3 * largest_step(s);
     double *keep[2][3];
@@ -367,7 +368,8 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
     s->dt = dt;
     measure(s);
     for (int a = 0; a < s->b.dim; a++)
-        s->max_cfl = fmax(s->max_cfl, s->umax[a] * (s->prm.steady ? s->newton->dtau : dt) / s->b.h[a]);
+        s->max_cfl =
+            fmax(s->max_cfl, s->umax[a] * (s->prm.steady ? s->newton->dtau : dt) / s->b.h[a]);
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
     if (!isfinite(most) || !(most <= s->u_limit))
         describe_worst(s, d);
