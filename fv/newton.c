@@ -14,7 +14,7 @@
 #include "../common/mem.h"
 #include "forcing.h"
 
-enum { KRYLOV = 60, NEWTONS = 12, HALVINGS = 6, PSEUDO_STEPS = 500, PSEUDO_FAILURES = 12 };
+enum { KRYLOV = 200, NEWTONS = 12, HALVINGS = 6, PSEUDO_STEPS = 500, PSEUDO_FAILURES = 12 };
 
 /* SUNDIALS' codes below zero are faults of the call, not of the numerics. */
 #define SUN(call)                                                                                  \
@@ -45,6 +45,7 @@ static void make_kinsol(struct fv *s, struct newton *w)
     w->kin = KINCreate(w->ctx);
     if (!w->krylov || !w->kin)
         fail("SUNDIALS cannot be set up");
+    SUN(SUNLinSol_SPGMRSetGSType(w->krylov, SUN_CLASSICAL_GS)); /* repeated where it must be */
     SUN(KINInit(w->kin, newton_residual, w->q));
     SUN(KINSetErrHandlerFn(w->kin, no_message, NULL));
     SUN(KINSetUserData(w->kin, s));
@@ -52,7 +53,7 @@ static void make_kinsol(struct fv *s, struct newton *w)
     SUN(KINSetPreconditioner(w->kin, newton_precond_setup, newton_precond_solve));
     SUN(KINSetJacTimesVecFn(w->kin, newton_jacobian_times));
     SUN(KINSetEtaForm(w->kin, s->prm.steady ? KIN_ETACONSTANT : KIN_ETACHOICE1));
-    SUN(KINSetEtaConstValue(w->kin, 1e-2));
+    SUN(KINSetEtaConstValue(w->kin, 0.1));
     SUN(KINSetMaxSetupCalls(w->kin, 1));
     SUN(KINSetScaledStepTol(w->kin, 1e-14));
     SUN(KINSetNoMinEps(w->kin, SUNFALSE));
@@ -68,6 +69,7 @@ struct newton *newton_create(struct fv *s)
     MPI_Allreduce(&w->cells, &all, 1, MPI_INT64_T, MPI_SUM, comm);
     SUN(SUNContext_Create(&comm, &w->ctx));
     w->q = N_VNew_Parallel(comm, (b->dim + 1) * w->cells, (b->dim + 1) * all, w->ctx);
+    newton_vector_sums(w->q);
     N_Vector *const same[] = {&w->q1, &w->q2, &w->uscale, &w->fscale, &w->residual};
     for (size_t k = 0; k < sizeof same / sizeof same[0]; k++)
         *same[k] = N_VClone(w->q);

@@ -24,6 +24,7 @@ struct newton_step {
     double d;          /* s: of the pressure's part in a face's flux */
     double scale;      /* s: makes a momentum residual a velocity */
     double U;          /* m/s: scale of velocity */
+    double rate;       /* 1/s: of convection and diffusion through a cell */
     double pseudo;     /* s/m^2: of p in the continuity of a pseudo step; 0: none */
 };
 
@@ -39,7 +40,7 @@ struct newton {
     struct flow v;        /* variation, for J v */
     double *G[3];         /* gradient of the state's p */
     double *face, *dface; /* scratch */
-    double *A[7];         /* the momentum operator of the preconditioner: diagonal, -x, +x, .. */
+    double *A[7];         /* the momentum operator of the preconditioner: 1/diagonal, -x, +x, .. */
     double *x[3], *r[3], *phi, *div; /* its unknowns and right sides */
     double dtau, norm; /* s, -: pseudo step; scaled residual (rms) after the last one */
     bool steady;       /* reached */
@@ -64,6 +65,9 @@ void newton_set_step(struct fv *s, double dt, double dt_old);
  * struct fv. */
 int newton_residual(N_Vector q, N_Vector r, void *user);
 int newton_jacobian_times(N_Vector v, N_Vector out, N_Vector q, booleantype *is_new, void *user);
+
+/* newton_vector.c: gives q, and what is cloned from it, faster sums. */
+void newton_vector_sums(N_Vector q);
 
 /* newton_precond.c: sweeps over momentum, a V-cycle for the pressure. */
 int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, void *user);

@@ -14,8 +14,6 @@
 #include "forcing.h"
 #include "pressure.h"
 
-enum { SWEEPS = 4 };
-
 /* Rows of A from the fluxes of the state, first-order upwind: less of it converges faster where
  * diffusion or time rule, and diverges where they do not. */
 static void fill_rows(struct fv *s)
@@ -67,6 +65,9 @@ static void close_rows(struct fv *s)
         for (int e = 1; e <= 2 * b->dim; e++)
             A[e][f->local[i]] = 0.0;
     }
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            A[0][i] = 1.0 / A[0][i];
 }
 
 int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, void *user)
@@ -83,36 +84,66 @@ int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscal
     return 0;
 }
 
-/* One Gauss-Seidel sweep over the local cells, up or down. */
-static void sweep(const struct fv *s, const double *restrict r, double *restrict x, bool down)
+/* One Gauss-Seidel sweep over a row of cells, all components at once, for they wait for the cell
+ * before; its term comes last. */
+static inline __attribute__((always_inline)) void sweep_row(const struct fv *s, double *const r[3],
+                                                            double *const x[3], int64_t c,
+                                                            const int dim, const bool down)
+{
+    double *const *A = s->newton->A;
+    const int64_t y = s->b.stride[1], z = s->b.stride[2], back = down ? 1 : -1;
+    const double *restrict first = A[down ? 2 : 1], *restrict next = A[down ? 1 : 2];
+    for (int64_t l = 0; l < s->b.n[0]; l++) {
+        const int64_t i = c + (down ? s->b.n[0] - 1 - l : l);
+        for (int a = 0; a < dim; a++) {
+            const double *restrict q = x[a];
+            double sum = r[a][i] - A[3][i] * q[i - y] - A[4][i] * q[i + y];
+            if (dim == 3)
+                sum -= A[5][i] * q[i - z] + A[6][i] * q[i + z];
+            sum = (sum - next[i] * q[i - back]) - first[i] * q[i + back];
+            x[a][i] = sum * A[0][i];
+        }
+    }
+}
+
+static void sweep(const struct fv *s, double *const r[3], double *const x[3], bool down)
 {
     const struct block *b = &s->b;
-    double *const *A = s->newton->A;
-    const int64_t y = b->stride[1], z = b->dim == 3 ? b->stride[2] : 0;
     const int64_t rows = (int64_t)b->n[1] * b->n[2];
     for (int64_t m = 0; m < rows; m++) {
         const int64_t row = down ? rows - 1 - m : m;
         const int64_t c = block_at(b, 0, (int)(row % b->n[1]), (int)(row / b->n[1]));
-        for (int64_t l = 0; l < b->n[0]; l++) {
-            const int64_t i = c + (down ? b->n[0] - 1 - l : l);
-            double sum = r[i] - A[1][i] * x[i - 1] - A[2][i] * x[i + 1] - A[3][i] * x[i - y] -
-                         A[4][i] * x[i + y];
-            if (z)
-                sum -= A[5][i] * x[i - z] + A[6][i] * x[i + z];
-            x[i] = sum / A[0][i];
-        }
+        if (b->dim == 2 && down)
+            sweep_row(s, r, x, c, 2, true);
+        else if (b->dim == 2)
+            sweep_row(s, r, x, c, 2, false);
+        else if (down)
+            sweep_row(s, r, x, c, 3, true);
+        else
+            sweep_row(s, r, x, c, 3, false);
     }
+}
+
+/* As many as a quarter of the cells that a step reaches, or that there are. */
+static int sweeps(const struct fv *s)
+{
+    const struct newton_step *o = &s->newton->of;
+    int most = 0;
+    for (int a = 0; a < s->b.dim; a++)
+        most = s->b.cells[a] > most ? s->b.cells[a] : most;
+    const int n = (int)fmin(o->rate / o->c0, most) / 4;
+    return n < 4 ? 4 : n > 32 ? 32 : n + n % 2;
 }
 
 /* x ~ A^-1 r for all components. */
 static void smooth(struct fv *s, double *const r[3], double *const x[3])
 {
     const struct block *b = &s->b;
+    const int n = sweeps(s);
     for (int a = 0; a < b->dim; a++)
         memset(x[a], 0, (size_t)b->size * sizeof(double));
-    for (int k = 0; k < SWEEPS; k++) {
-        for (int a = 0; a < b->dim; a++)
-            sweep(s, r[a], x[a], k % 2);
+    for (int k = 0; k < n; k++) {
+        sweep(s, r, x, k % 2);
         bc_ghosts(s, BC_ZERO, x);
         block_halo(b, b->dim, x);
     }

@@ -224,17 +224,17 @@ void newton_set_step(struct fv *s, double dt, double dt_old)
 {
     struct newton_step *o = &s->newton->of;
     const double r = dt_old > 0.0 ? dt / dt_old : 0.0;
-    double rate = 0.0;
     o->c0 = (dt_old > 0.0 ? (1.0 + 2.0 * r) / (1.0 + r) : 1.0) / dt;
     o->c1 = (dt_old > 0.0 ? -(1.0 + r) : -1.0) / dt;
     o->c2 = (dt_old > 0.0 ? r * r / (1.0 + r) : 0.0) / dt;
     o->U = 1e-3 * s->u_limit;
     for (int a = 0; a < s->b.dim; a++)
         o->U = fmax(o->U, fv_speed(s, a));
+    o->rate = 0.0;
     for (int a = 0; a < s->b.dim; a++)
-        rate += fv_speed(s, a) / s->b.h[a] + 2.0 * s->nu / (s->b.h[a] * s->b.h[a]);
-    o->d = 1.0 / (o->c0 + rate);
-    o->scale = s->prm.steady && rate > 0.0 ? 1.0 / rate : o->d;
+        o->rate += fv_speed(s, a) / s->b.h[a] + 2.0 * s->nu / (s->b.h[a] * s->b.h[a]);
+    o->d = 1.0 / (o->c0 + o->rate);
+    o->scale = s->prm.steady && o->rate > 0.0 ? 1.0 / o->rate : o->d;
     o->pseudo = s->prm.steady ? o->c0 / (o->U * o->U) : 0.0;
 }
 
