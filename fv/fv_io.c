@@ -156,6 +156,8 @@ void fv_checkpoint(void *state, struct h5 *f)
         h5_attribute_real(f, "dtau", s->newton->dtau);
         h5_attribute_real(f, "residual", s->newton->norm);
         h5_attribute_real(f, "steady", s->newton->steady);
+        h5_attribute_real(f, "newtons", (double)s->newton->newtons);
+        h5_attribute_real(f, "krylovs", (double)s->newton->krylovs);
     }
     if (s->link)
         coupling_save(s, f);
@@ -163,11 +165,15 @@ void fv_checkpoint(void *state, struct h5 *f)
 
 static bool restore_newton(struct newton *w, struct h5 *f)
 {
-    double steady;
+    double steady = 0.0, newtons = 0.0, krylovs = 0.0;
     const bool there = h5_read_attribute_real(f, "dtau", &w->dtau) &&
                        h5_read_attribute_real(f, "residual", &w->norm) &&
-                       h5_read_attribute_real(f, "steady", &steady);
-    w->steady = there && steady != 0.0;
+                       h5_read_attribute_real(f, "steady", &steady) &&
+                       h5_read_attribute_real(f, "newtons", &newtons) &&
+                       h5_read_attribute_real(f, "krylovs", &krylovs);
+    w->steady = steady != 0.0;
+    w->newtons = llround(newtons);
+    w->krylovs = llround(krylovs);
     return there;
 }
 

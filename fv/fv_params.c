@@ -84,6 +84,9 @@ void fv_params_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "fv.steady", "wants fv.integrator = \"newton\"");
     if (given.integrator != INTEGRATOR_NEWTON && given.c0 > 0.0)
         params_fault(r->params, f, "fv.c0", "wants fv.integrator = \"newton\"");
+    if (given.integrator != INTEGRATOR_NEWTON && given.flux != FLUX_CENTRAL)
+        params_fault(r->params, f, "fv.flux",
+                     "wants fv.integrator = \"newton\"; rk3 and bdf2 have fv.upwind");
     for (int a = 0; a < r->scene.domain.dim; a++) {
         check_axis(r, a, f);
         if (given.hole[1][a] > given.hole[0][a] && (r->coupled || !exact))

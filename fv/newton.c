@@ -192,9 +192,15 @@ static void describe(struct fv *s, const char *after, struct diagnosis *d)
     snprintf(d->where, sizeof d->where, "%s of cell (%d, %d, %d) at (%g, %g, %g) m",
              at < w->cells ? "continuity" : "momentum", i + b->lo[0], j + b->lo[1], k + b->lo[2],
              x[0], x[1], x[2]);
-    snprintf(d->likely, sizeof d->likely,
-             "fv.cfl = %g is too large for this flow, or fv.flux = \"central\" finds it unresolved",
-             s->prm.cfl);
+    if (s->prm.steady)
+        snprintf(d->likely, sizeof d->likely,
+                 "this flow may have no steady state on these cells: more cells, "
+                 "fv.flux = \"upwind\", more viscosity, or fv.steady = false");
+    else
+        snprintf(d->likely, sizeof d->likely,
+                 "fv.cfl = %g is too large for this flow, or fv.flux = \"central\" finds it "
+                 "unresolved",
+                 s->prm.cfl);
 }
 
 bool newton_step(struct fv *s, double *dt, struct diagnosis *d)
@@ -265,7 +271,7 @@ static void march(struct fv *s, struct diagnosis *d)
         describe(s, "a pseudo step that was cut to nothing", d);
     w->steady = w->norm <= s->prm.tol_newton;
     if (before > 0.0 && w->norm > 0.0)
-        w->dtau *= fmin(fmax(before / w->norm, 0.5), 10.0);
+        w->dtau *= before < 0.8 * w->norm ? 0.5 : fmin(fmax(before / w->norm, 1.0), 10.0);
 }
 
 double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagnosis *d)

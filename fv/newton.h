@@ -25,7 +25,6 @@ struct newton_step {
     double scale;      /* s: makes a momentum residual a velocity */
     double U;          /* m/s: scale of velocity */
     double rate;       /* 1/s: of convection and diffusion through a cell */
-    double pseudo;     /* s/m^2: of p in the continuity of a pseudo step; 0: none */
 };
 
 struct newton {

@@ -74,13 +74,11 @@ int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscal
 {
     struct fv *s = user;
     const struct newton_step *o = &s->newton->of;
-    const double L = s->b.h[0] * s->b.cells[0],
-                 a = s->prm.c0 > 0.0 ? 1.0 / (s->prm.c0 * s->prm.c0) : 0.0;
+    const double a = s->prm.c0 > 0.0 ? 1.0 / (s->prm.c0 * s->prm.c0) : 0.0;
     (void)q, (void)uscale, (void)f, (void)fscale;
     fill_rows(s);
     close_rows(s);
-    const double shift = (a * o->c0 + o->pseudo) * o->c0;
-    pressure_shift(s, shift * L * L > 1.0 ? shift : 0.0);
+    pressure_shift(s, a * o->c0 * o->c0);
     return 0;
 }
 

@@ -235,7 +235,6 @@ void newton_set_step(struct fv *s, double dt, double dt_old)
         o->rate += fv_speed(s, a) / s->b.h[a] + 2.0 * s->nu / (s->b.h[a] * s->b.h[a]);
     o->d = 1.0 / (o->c0 + o->rate);
     o->scale = s->prm.steady && o->rate > 0.0 ? 1.0 / o->rate : o->d;
-    o->pseudo = s->prm.steady ? o->c0 / (o->U * o->U) : 0.0;
 }
 
 /* out = a (c0 p + ..) or c0 u + .., where forced cells have none. */
@@ -283,8 +282,6 @@ int newton_residual(N_Vector qv, N_Vector rv, void *user)
     apply_space(s, NULL);
     newton_pack(s, s->face, s->rhs, rv);
     add_time(s, q, q1, q2, a, n, r);
-    for (int64_t i = 0; i < n && w->of.pseudo > 0.0; i++)
-        r[i] += w->of.pseudo * (q[i] - q1[i]);
     for (int k = 1; k <= s->b.dim; k++)
         add_time(s, q + k * n, q1 + k * n, q2 + k * n, 1.0, n, r + k * n);
     for (int k = 0; k <= s->b.dim; k++)
@@ -306,7 +303,7 @@ int newton_jacobian_times(N_Vector vv, N_Vector outv, N_Vector qv, booleantype *
     apply_space(s, &w->v);
     newton_pack(s, s->face, s->rhs, outv);
     for (int k = 0; k <= s->b.dim; k++) {
-        const double c = k == 0 ? a * w->of.c0 + w->of.pseudo : w->of.c0;
+        const double c = k == 0 ? a * w->of.c0 : w->of.c0;
         for (int64_t i = k * w->cells; i < (k + 1) * w->cells; i++)
             out[i] += c * v[i];
         clear_forced(s, out + k * w->cells);
