@@ -49,6 +49,7 @@ static const struct param wall_rows[] = {
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, or of the inflow"),
     CHOICE(P, profile, "uniform|parabolic", "uniform", "of an inflow; parabolic: velocity is the largest one"),
     PARAM(P, pressure, "Pa",  "0.0", -1e12, 1e12, "at an outflow"),
+    PARAM(P, carried,  "-",   "false", 0, 1, "at an outflow (fv): the flow leaves as it is carried, p is not given"),
 };
 #undef P
 #define P struct scene_body

@@ -73,6 +73,7 @@ struct scene {
         double velocity[3]; /* m/s: of the wall along itself, or of the inflow */
         int profile;        /* of an inflow */
         double pressure;    /* Pa: at an outflow */
+        bool carried;       /* fv: velocity of an outflow carried, instead of p given */
     } walls[WALLS_MAX];
     int nwalls;
     /* Closed polylines that move as told, clockwise: fluid on their left. */

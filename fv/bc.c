@@ -12,6 +12,7 @@
 
 #include "../common/mem.h"
 #include "forcing.h"
+#include "outflow.h"
 
 /* Places of a side on this rank: tangents t0 < t1, from lo to hi; places count from -g, so that
  * those behind other sides have their own. */
@@ -89,6 +90,28 @@ static double profile_at(const struct fv *s, const struct scene_wall *wall, cons
     return f;
 }
 
+/* Places of an outflow and the cells inside. */
+static struct outflow *make_outflow(const struct block *b, int k, int64_t places)
+{
+    const struct side d = side_of(b, k, true);
+    struct outflow *o = NEW(struct outflow, 1);
+    o->side = k;
+    o->place = NEW(int64_t, places);
+    o->cell = NEW(int64_t, places);
+    o->own = NEW(bool, places);
+    SIDE_PLACES(b, d, i, j, m, c)
+    {
+        o->place[o->n] = m;
+        o->cell[o->n] = c;
+        o->own[o->n++] = i >= 0 && i < b->n[d.t[0]] && j >= 0 && j < b->n[d.t[1]];
+    }
+    for (int q = 0; q < b->dim; q++) {
+        o->line[q] = NEW(double, 3 * o->n);
+        o->change[q] = NEW(double, places);
+    }
+    return o;
+}
+
 static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall *wall)
 {
     static const enum bc_kind kinds[] = {BC_SLIP, BC_NO_SLIP, BC_INFLOW, BC_OUTFLOW};
@@ -98,7 +121,8 @@ static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall
     const int k = wall->side - SIDE_X_MIN, a = k / 2;
     if (a >= b->dim || b->periodic[a])
         return;
-    bc->kind[k] = kinds[wall->kind];
+    bc->kind[k] = wall->carried ? BC_CARRIED : kinds[wall->kind];
+    bc->carries = bc->carries || bc->kind[k] == BC_CARRIED;
     bc->pressure_given = bc->pressure_given || bc->kind[k] == BC_OUTFLOW;
     if (bc->kind[k] == BC_OUTFLOW)
         bc->pressure[k] = wall->pressure / s->run->scene.fluid.rho;
@@ -123,6 +147,8 @@ static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall
             for (int i = -b->g[d.t[0]]; i < b->n[d.t[0]] + b->g[d.t[0]]; i++)
                 bc->w[k][q][place(b, &d, i, j)] = wall->velocity[q] * profile_at(s, wall, &d, i, j);
     }
+    if (bc->kind[k] == BC_CARRIED)
+        bc->out[k] = make_outflow(b, k, bc->n[k]);
     for (int t = 0; t < b->dim; t++)
         face *= t == a ? 1.0 : b->h[t];
     SIDE_PLACES(b, inner, i, j, m, c)
@@ -140,6 +166,7 @@ struct bc *bc_create(const struct fv *s)
     struct bc *bc = NEW(struct bc, 1);
     for (int i = 0; i < scene->nwalls; i++)
         make_side(s, bc, scene->walls + i);
+    bc->outflux_given = bc->outflux;
     return bc;
 }
 
@@ -148,11 +175,13 @@ void bc_free(struct bc **bp)
     struct bc *bc = *bp;
     if (!bc)
         return;
-    for (int k = 0; k < 6; k++)
+    for (int k = 0; k < 6; k++) {
         for (int q = 0; q < 3; q++) {
             mem_free(bc->w[k][q]);
             mem_free(bc->slip[k][q]);
         }
+        outflow_free(&bc->out[k]);
+    }
     mem_free(bc);
     *bp = NULL;
 }
@@ -197,25 +226,21 @@ static void fill(const struct block *b, int k, enum bc_kind kind, int q, const d
     }
 }
 
-static void fill_all(const struct fv *s, bool given, bool ahead, double *const u[3])
+/* What stands on a side: its velocity, or the change of it; NULL for zero. */
+static const double *side_value(const struct bc *bc, int k, int q, enum bc_value what)
 {
-    const struct bc *bc = s->bc;
-    for (int k = 0; k < 2 * s->b.dim; k++)
-        for (int q = 0; q < s->b.dim && bc->n[k] > 0; q++)
-            fill(&s->b, k, bc->kind[k], q, given ? bc->w[k][q] : NULL,
-                 ahead ? bc->slip[k][q] : NULL, u[q]);
+    if (what == BC_CHANGE)
+        return bc->out[k] ? bc->out[k]->change[q] : NULL;
+    return what == BC_ZERO ? NULL : bc->w[k][q];
 }
 
 void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3])
 {
-    if (s->bc)
-        fill_all(s, what != BC_ZERO, what == BC_AHEAD, u);
-}
-
-void bc_increment(const struct fv *s, double *const d[3])
-{
-    if (s->bc)
-        fill_all(s, false, true, d);
+    const struct bc *bc = s->bc;
+    for (int k = 0; bc && k < 2 * s->b.dim; k++)
+        for (int q = 0; q < s->b.dim && bc->n[k] > 0; q++)
+            fill(&s->b, k, bc->kind[k], q, side_value(bc, k, q, what),
+                 what == BC_AHEAD || what == BC_CHANGE ? bc->slip[k][q] : NULL, u[q]);
 }
 
 void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])

@@ -6,25 +6,31 @@
 
 #include "fv.h"
 
-enum bc_kind { BC_NONE, BC_NO_SLIP, BC_SLIP, BC_INFLOW, BC_OUTFLOW };
+enum bc_kind { BC_NONE, BC_NO_SLIP, BC_SLIP, BC_INFLOW, BC_OUTFLOW, BC_CARRIED };
+
+struct outflow; /* outflow.h */
 
 struct bc {
     enum bc_kind kind[6]; /* side 2 a + (1 if upper) of axis a */
     int64_t n[6]; /* places of a side on this rank, ghosts of its tangents included; 0: not here */
-    double *w[6][3];     /* m/s: velocity on the side, averages over faces */
-    double *slip[6][3];  /* m/s: what the next projection takes off the side's velocity */
-    double pressure[6];  /* m^2/s^2: p/rho of an outflow, 0 elsewhere */
-    bool driven;         /* some of it not 0 */
-    bool pressure_given; /* at an outflow: the pressure problem is regular */
-    double outflux;      /* m^dim/s: through this rank's faces of walls and inflow, outwards */
+    double *w[6][3];        /* m/s: velocity on the side, averages over faces */
+    double *slip[6][3];     /* m/s: what the next projection takes off the side's velocity */
+    double pressure[6];     /* m^2/s^2: p/rho of an outflow, 0 elsewhere */
+    bool driven;            /* some of it not 0 */
+    bool pressure_given;    /* at an outflow: the pressure problem is regular */
+    bool carries;           /* some outflow is of the kind BC_CARRIED */
+    struct outflow *out[6]; /* those on this rank; else NULL */
+    double outflux;         /* m^dim/s: through this rank's faces of given velocity, outwards */
+    double outflux_given;   /* its part of walls and inflow */
     double speed, speed_along[3]; /* m/s: largest velocity imposed, and of each component */
     double wall_area;             /* m^(dim-1) of walls, over all ranks; 0: none */
 };
 
 enum bc_value {
-    BC_ZERO,  /* of a difference */
-    BC_GIVEN, /* of a velocity */
-    BC_AHEAD  /* of one that is still to be projected: what that takes off is added */
+    BC_ZERO,   /* of a difference */
+    BC_GIVEN,  /* of a velocity */
+    BC_CHANGE, /* of an increment: from a projected velocity to one ahead of its projection */
+    BC_AHEAD   /* of one that is still to be projected: what that takes off is added */
 };
 
 /* NULL if no side has a kind. */
@@ -34,9 +40,6 @@ void bc_free(struct bc **b);
 enum bc_kind bc_behind(const struct fv *s, const int *at, int a);
 /* Ghost averages of the fields u along all sides that have a kind; halo first. */
 void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3]);
-/* The change on the sides from a projected velocity to one ahead of its projection, as an
- * increment's ghosts. */
-void bc_increment(const struct fv *s, double *const d[3]);
 /* Fluxes through walls and inflow; those of outflow are left as they are. */
 void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
 /* Takes note of tau grad psi along the walls, for BC_AHEAD. */

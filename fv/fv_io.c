@@ -10,6 +10,7 @@
 #include "../common/xdmf.h"
 #include "forcing.h"
 #include "newton.h"
+#include "outflow.h"
 
 static bool wanted(const struct fv *s, const char *name)
 {
@@ -159,6 +160,7 @@ void fv_checkpoint(void *state, struct h5 *f)
         h5_attribute_real(f, "newtons", (double)s->newton->newtons);
         h5_attribute_real(f, "krylovs", (double)s->newton->krylovs);
     }
+    outflow_save(s, f);
     if (s->link)
         coupling_save(s, f);
 }
@@ -196,5 +198,6 @@ bool fv_restore(struct fv *s, struct h5 *f)
     return h5_read_attribute_real(f, "dt", &s->dt) &&
            h5_read_attribute_real(f, "dt_old", &s->dt_old) &&
            h5_read_attribute_real(f, "energy0", &s->energy0) &&
-           (!s->newton || restore_newton(s->newton, f)) && (!s->link || coupling_load(s, f));
+           (!s->newton || restore_newton(s->newton, f)) && outflow_load(s, f) &&
+           (!s->link || coupling_load(s, f));
 }

@@ -58,6 +58,9 @@ static void check_openings(const struct run *r, struct faults *f)
         const struct scene_wall *w = s->walls + k;
         in = in || w->kind == WALL_INFLOW;
         out = out || w->kind == WALL_OUTFLOW;
+        if (w->carried && (w->kind != WALL_OUTFLOW || given.steady))
+            params_fault(r->params, f, "walls", "wall %d: carried is for an outflow%s", k + 1,
+                         given.steady ? " of a run in time" : "");
         if (w->side == SIDE_NONE || w->kind == WALL_ABSORBING)
             params_fault(r->params, f, "walls", "wall %d: %s is not for this solver", k + 1,
                          w->side == SIDE_NONE ? "a polyline" : "\"absorbing\"");

@@ -9,6 +9,7 @@
 #include "bc.h"
 #include "forcing.h"
 #include "newton.h"
+#include "outflow.h"
 #include "pressure.h"
 
 static void make_fields(struct fv *s)
@@ -113,6 +114,7 @@ static void set_limit(struct fv *s)
 
 void fv_start(struct fv *s)
 {
+    outflow_start(s);
     bc_ghosts(s, BC_GIVEN, s->u);
     block_halo(&s->b, s->b.dim, s->u);
     bc_fluxes(s, BC_GIVEN, s->U);
@@ -163,6 +165,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     fill_fluxes(s);
     make_forcing(s);
     empty_hole(s);
+    outflow_start(s);
     bc_ghosts(s, BC_GIVEN, s->u);
     block_halo(&s->b, d->dim, s->u);
     bc_fluxes(s, BC_GIVEN, s->U);

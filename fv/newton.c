@@ -13,6 +13,7 @@
 #include "../common/log.h"
 #include "../common/mem.h"
 #include "forcing.h"
+#include "outflow.h"
 
 enum { KRYLOV = 200, NEWTONS = 12, HALVINGS = 6, PSEUDO_STEPS = 500, PSEUDO_FAILURES = 12 };
 
@@ -213,12 +214,14 @@ bool newton_step(struct fv *s, double *dt, struct diagnosis *d)
     for (int a = 0; a < s->b.dim; a++)
         memcpy(s->u_old[a], s->u[a], (size_t)s->b.size * sizeof(double));
     bool good = false;
+    outflow_begin(s);
     for (int k = 0; k <= HALVINGS && !good; k++) {
         if (k > 0) {
             *dt *= 0.5;
             w->halvings++;
         }
         w->of.t = s->t + *dt;
+        outflow_set(s, *dt);
         newton_set_step(s, *dt, s->dt);
         set_scales(s);
         set_levels(s, *dt, s->dt);

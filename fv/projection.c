@@ -13,6 +13,7 @@
 #include "bc.h"
 #include "forcing.h"
 #include "newton.h"
+#include "outflow.h"
 #include "pressure.h"
 
 static void start(struct fv *s, const char *timer)
@@ -95,7 +96,7 @@ static void start_increment(struct fv *s, double t)
     if (!s->forcing)
         return;
     forcing_velocity(s, t, s->delta);
-    bc_increment(s, s->delta);
+    bc_ghosts(s, BC_CHANGE, s->delta);
     const struct forcing *f = s->forcing;
     for (int a = 0; a < b->dim; a++) {
         for (int64_t i = 0; i < f->nset; i++)
@@ -190,6 +191,7 @@ static bool step_rk3(struct fv *s, double dt)
     bool good = true;
     start(s, "operators");
     pressure_gradient(s);
+    outflow_begin(s);
     stop(s, "operators");
     for (int k = 0; k < 3; k++) {
         const double t_stage = t + at[k] * dt, ab = alpha[k] + beta[k];
@@ -200,6 +202,7 @@ static bool step_rk3(struct fv *s, double dt)
         start(s, "viscous");
         bc_set_slip(s, ab * dt, s->psi[k]);
         stage_rhs(s, dt, ab, gamma[k], zeta[k]);
+        outflow_set(s, at[k] * dt);
         good = add_increment(s, beta[k] * dt, t_stage) && good;
         stop(s, "viscous");
         project(s, t_stage, ab * dt, s->psi[k], k == 2 ? s->prm.tol_pressure : first, 50);
@@ -220,6 +223,7 @@ static bool step_bdf2(struct fv *s, double dt)
     const double tau = dt / c0;
     start(s, "operators");
     pressure_gradient(s);
+    outflow_begin(s);
     stop(s, "operators");
     start(s, "convection");
     swap(s->N, s->N_old);
@@ -238,6 +242,7 @@ static bool step_bdf2(struct fv *s, double dt)
             old[i] = u[i];
         }
     }
+    outflow_set(s, dt);
     const bool good = add_increment(s, tau, s->t + dt);
     stop(s, "viscous");
     project(s, s->t + dt, tau, s->psi[0], s->prm.tol_pressure, 50);
@@ -341,6 +346,7 @@ void pressure_start(struct fv *s)
             memcpy(s->U[a], keep[1][a], bytes);
         }
     }
+    outflow_start(s);
     for (int a = 0; a < 3; a++) {
         if (s->psi[a])
             memset(s->psi[a], 0, bytes);

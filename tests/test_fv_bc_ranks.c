@@ -4,20 +4,20 @@
 
 #include "fv_bc_case.h"
 
-enum flow { CAVITY, DUCT, CAVITY_3D, FLOWS };
+enum flow { CAVITY, DUCT, CARRIED, CAVITY_3D, FLOWS };
 
 static struct fv *start(struct fv_case *c, MPI_Comm comm, enum flow flow, struct h5 *f)
 {
-    const bool solid = flow == CAVITY_3D;
+    const bool solid = flow == CAVITY_3D, duct = flow == DUCT || flow == CARRIED;
     fv_case_set(c, comm,
                 (const char *const[]){CLOSED, "initial.field=\"rest\"", "fluid.nu=0.01",
                                       solid ? "domain.dim=3" : "domain.dim=2",
                                       solid ? "fv.cells=(16,12,16)" : "fv.cells=(24,26)", NULL});
     c->run.scene.domain.periodic[2] = false;
     wall_add(c, SIDE_Y_MIN, WALL_NO_SLIP, 0.0);
-    wall_add(c, SIDE_Y_MAX, WALL_NO_SLIP, flow == DUCT ? 0.0 : 1.0);
-    wall_add(c, SIDE_X_MIN, flow == DUCT ? WALL_INFLOW : WALL_NO_SLIP, flow == DUCT ? 1.0 : 0.0);
-    wall_add(c, SIDE_X_MAX, flow == DUCT ? WALL_OUTFLOW : WALL_NO_SLIP, 0.0);
+    wall_add(c, SIDE_Y_MAX, WALL_NO_SLIP, duct ? 0.0 : 1.0);
+    wall_add(c, SIDE_X_MIN, duct ? WALL_INFLOW : WALL_NO_SLIP, duct ? 1.0 : 0.0);
+    wall_add(c, SIDE_X_MAX, duct ? WALL_OUTFLOW : WALL_NO_SLIP, 0.0)->carried = flow == CARRIED;
     if (solid) {
         wall_add(c, SIDE_Z_MIN, WALL_SLIP, 0.0);
         wall_add(c, SIDE_Z_MAX, WALL_NO_SLIP, 0.0);

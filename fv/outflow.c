@@ -1,0 +1,191 @@
+/* outflow.c - see outflow.h. The velocity on a side is the one that stood U dt inside it at the
+ * step's start, by the quadratic through the face's average and those of two cells: third order,
+ * and stable at any step. SPDX-License-Identifier: BSD-3-Clause */
+#include "outflow.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../common/h5.h"
+#include "../common/mem.h"
+#include "bc.h"
+#include "forcing.h"
+
+/* Visits the sides of this kind: k, o. */
+#define OUTFLOWS(s, o)                                                                             \
+    for (int k_ = 0; (s)->bc && (s)->bc->carries && k_ < 6; k_++)                                  \
+        for (struct outflow *o = (s)->bc->out[k_]; o; o = NULL)
+
+static bool none(const struct fv *s) { return !s->bc || !s->bc->carries; }
+
+static int64_t inwards(const struct fv *s, const struct outflow *o)
+{
+    return (o->side % 2 ? -1 : 1) * s->b.stride[o->side / 2];
+}
+
+static double face_area(const struct block *b, int side)
+{
+    double area = 1.0;
+    for (int t = 0; t < b->dim; t++)
+        area *= t == side / 2 ? 1.0 : b->h[t];
+    return area;
+}
+
+/* Net flux of all sides to nothing, evenly over these; where cells are forced their fluxes are what
+ * is corrected, and a given pressure lets through what is too much. */
+static void balance(struct fv *s)
+{
+    struct bc *bc = s->bc;
+    double sums[3] = {0.0, 0.0, 0.0}; /* flux, area, forced faces */
+    OUTFLOWS(s, o)
+    {
+        const double sign = o->side % 2 ? 1.0 : -1.0, area = face_area(&s->b, o->side);
+        o->sum = 0.0;
+        for (int64_t i = 0; i < o->n; i++)
+            if (o->own[i]) {
+                o->sum += sign * area * bc->w[o->side][o->side / 2][o->place[i]];
+                sums[1] += area;
+            }
+        sums[0] += o->sum;
+    }
+    for (int a = 0; s->forcing && a < s->b.dim; a++)
+        sums[2] += (double)s->forcing->nface[a];
+    bc->outflux = bc->outflux_given + sums[0];
+    sums[0] = bc->outflux;
+    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    if (bc->pressure_given || sums[2] > 0.0 || sums[1] == 0.0)
+        return;
+    const double excess = sums[0] / sums[1];
+    OUTFLOWS(s, o)
+    {
+        const double sign = o->side % 2 ? 1.0 : -1.0;
+        for (int64_t i = 0; i < o->n; i++)
+            bc->w[o->side][o->side / 2][o->place[i]] -= sign * excess;
+        for (int64_t i = 0; i < o->n; i++)
+            bc->outflux -= o->own[i] ? excess * face_area(&s->b, o->side) : 0.0;
+    }
+}
+
+void outflow_start(struct fv *s)
+{
+    if (none(s))
+        return;
+    OUTFLOWS(s, o)
+    {
+        const int64_t in = inwards(s, o);
+        for (int q = 0; q < s->b.dim; q++)
+            for (int64_t i = 0; i < o->n; i++) {
+                const double *u = s->u[q] + o->cell[i];
+                s->bc->w[o->side][q][o->place[i]] =
+                    (11.0 * u[0] - 7.0 * u[in] + 2.0 * u[2 * in]) / 6.0;
+                o->change[q][o->place[i]] = 0.0;
+            }
+    }
+    balance(s);
+}
+
+/* Averages over the first two cells: w + b/2 + c/3 and w + 3 b/2 + 7 c/3. */
+static void take_lines(const struct fv *s, struct outflow *o)
+{
+    const int64_t in = inwards(s, o);
+    for (int q = 0; q < s->b.dim; q++)
+        for (int64_t i = 0; i < o->n; i++) {
+            const double w = s->bc->w[o->side][q][o->place[i]], *u = s->u[q] + o->cell[i];
+            double *line = o->line[q] + 3 * i;
+            line[0] = w;
+            line[2] = 0.75 * (u[in] - 3.0 * u[0] + 2.0 * w);
+            line[1] = u[in] - u[0] - 2.0 * line[2];
+        }
+}
+
+void outflow_begin(struct fv *s)
+{
+    double sums[2][6] = {{0.0}};
+    if (none(s))
+        return;
+    OUTFLOWS(s, o)
+    {
+        const double *w = s->bc->w[o->side][o->side / 2];
+        for (int64_t i = 0; i < o->n; i++)
+            if (o->own[i]) {
+                sums[0][o->side] += o->side % 2 ? w[o->place[i]] : -w[o->place[i]];
+                sums[1][o->side] += 1.0;
+            }
+        take_lines(s, o);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 12, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    OUTFLOWS(s, o)
+    o->carried = fmax(sums[0][o->side] / fmax(sums[1][o->side], 1.0), 0.0) / s->b.h[o->side / 2];
+}
+
+void outflow_set(struct fv *s, double dt)
+{
+    if (none(s))
+        return;
+    OUTFLOWS(s, o)
+    {
+        const double x = fmin(o->carried * dt, 1.5); /* the line ends at 2 */
+        for (int q = 0; q < s->b.dim; q++)
+            for (int64_t i = 0; i < o->n; i++) {
+                const double *line = o->line[q] + 3 * i;
+                double *w = s->bc->w[o->side][q] + o->place[i];
+                o->change[q][o->place[i]] = -*w;
+                *w = line[0] + x * (line[1] + x * line[2]);
+            }
+    }
+    balance(s);
+    OUTFLOWS(s, o)
+    for (int q = 0; q < s->b.dim; q++)
+        for (int64_t i = 0; i < o->n; i++)
+            o->change[q][o->place[i]] += s->bc->w[o->side][q][o->place[i]];
+}
+
+/* Sides that this rank does not touch count as rows of length 0. */
+static void each(const struct fv *s, struct h5 *f, bool save, bool *good)
+{
+    char name[32];
+    for (int k = 0; !none(s) && k < 2 * s->b.dim; k++)
+        for (int q = 0; q < s->b.dim && s->bc->kind[k] == BC_CARRIED; q++) {
+            double nothing = 0.0, *w = s->bc->n[k] > 0 ? s->bc->w[k][q] : &nothing;
+            snprintf(name, sizeof name, "outflow%d_%d", k, q);
+            if (save)
+                h5_write_real(f, name, "m/s", s->bc->n[k], 1, w, false);
+            else
+                *good = h5_read_real(f, name, s->bc->n[k], 1, w) && *good;
+        }
+}
+
+void outflow_save(const struct fv *s, struct h5 *f) { each(s, f, true, NULL); }
+
+bool outflow_load(struct fv *s, struct h5 *f)
+{
+    bool good = true;
+    each(s, f, false, &good);
+    if (!none(s)) {
+        s->bc->outflux = s->bc->outflux_given;
+        OUTFLOWS(s, o)
+        {
+            const double out = (o->side % 2 ? 1.0 : -1.0) * face_area(&s->b, o->side);
+            for (int64_t i = 0; i < o->n; i++)
+                if (o->own[i])
+                    s->bc->outflux += out * s->bc->w[o->side][o->side / 2][o->place[i]];
+        }
+    }
+    return good;
+}
+
+void outflow_free(struct outflow **op)
+{
+    struct outflow *o = *op;
+    if (!o)
+        return;
+    mem_free(o->place);
+    mem_free(o->cell);
+    mem_free(o->own);
+    for (int q = 0; q < 3; q++) {
+        mem_free(o->line[q]);
+        mem_free(o->change[q]);
+    }
+    mem_free(o);
+    *op = NULL;
+}
