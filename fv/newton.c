@@ -73,7 +73,7 @@ struct newton *newton_create(struct fv *s)
     newton_vector_sums(w->q);
     N_Vector *const same[] = {&w->q1, &w->q2, &w->uscale, &w->fscale, &w->residual};
     for (size_t k = 0; k < sizeof same / sizeof same[0]; k++)
-        *same[k] = N_VClone(w->q);
+        N_VConst(0.0, *same[k] = N_VClone(w->q)); /* 0 times an older level must be 0 */
     double **const plain[] = {&w->v.p, &w->face, &w->dface, &w->phi, &w->div};
     for (size_t k = 0; k < sizeof plain / sizeof plain[0]; k++)
         *plain[k] = block_field(b);
