@@ -69,6 +69,7 @@ void pack_start(struct sph *s, int steps)
     if (steps <= 0 || !s->walls)
         return;
     s->prm.transport = TRANSPORT_TVS;
+    s->packing = true;
     s->skin = 0.05 * s->R;
     for (int k = 0; k < steps; k++) {
         integrate_gradients(s);
@@ -76,6 +77,7 @@ void pack_start(struct sph *s, int steps)
     }
     integrate_gradients(s);
     set_volumes(s);
+    s->packing = false;
     s->prm.transport = transport;
     s->ready = false;
 }

@@ -109,6 +109,7 @@ struct sph {
     double skin;       /* m: the list holds pairs within R + skin */
     bool ready;        /* list and ghosts belong to the positions of y; whoever moves, adds or
                           removes particles outside a step clears it */
+    bool packing;      /* the first lattice is being rearranged, nothing flows */
     bool broken;       /* the state cannot be trusted: no list is made of it any more */
     int64_t next_id;   /* of the next particle born on this rank: rank + k size */
     /* of the last step, over all ranks */

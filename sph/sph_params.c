@@ -29,7 +29,7 @@ static const struct param rows[] = {
     PARAM(P, delta, "-", "0.05", 0.0, 0.2, "diffusion of density of scheme delta: delta c0 R"),
     PARAM(P, background, "-", "false", 0, 1, "background pressure that lifts the least pressure to 0; not with a free surface"),
     PARAM(P, cfl, "-", "0.375", 0.001, 2.0, "dt over R/(c + |u - u0|)"),
-    PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan)"),
+    PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan), 0.05 and less with no-slip walls"),
     PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
     PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
     CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
@@ -143,11 +143,6 @@ const struct sph_params *sph_params_of(const struct run *r)
     used = given;
     if (used.c0 <= 0.0)
         used.c0 = default_c0(&r->scene);
-    if (used.cfl_viscous <=
-        0.0) /* bounds of plane waves on a lattice, with margin: the sheet's table */
-        used.cfl_viscous = used.viscosity != VISCOSITY_MORRIS ? 0.035
-                           : has_no_slip(&r->scene)           ? 0.05
-                                                              : 0.09;
     if (used.surface == SURFACE_AUTO)
         used.surface = has_surface(&r->scene) ? SURFACE_YES : SURFACE_NO;
     if (used.scheme == SCHEME_AUTO)
@@ -156,6 +151,13 @@ const struct sph_params *sph_params_of(const struct run *r)
         used.walls = r->scene.domain.dim == 2 && is_riemann(used.scheme) ? WALLS_NFM
                      : has_polylines(&r->scene)                          ? WALLS_FIXED
                                                                          : WALLS_GHOSTS;
+    /* Bounds of plane waves on a lattice, with margin; with normal flux of a particle dx/4 from the
+     * wall, where friction alone takes 79 nu/R^2 and a lattice of dx/2 would do with 0.048. */
+    if (used.cfl_viscous <= 0.0)
+        used.cfl_viscous = has_no_slip(&r->scene) && used.walls == WALLS_NFM ? 0.025
+                           : used.viscosity != VISCOSITY_MORRIS              ? 0.035
+                           : has_no_slip(&r->scene)                          ? 0.05
+                                                                             : 0.09;
     if (used.packing < 0)
         used.packing = has_polylines(&r->scene) && used.walls == WALLS_NFM ? 200 : 0;
     if (used.dissipation < 0.0)

@@ -24,7 +24,8 @@ void transport_finish(struct sph *s)
 {
     const int dim = s->dim;
     const bool oger = s->prm.transport == TRANSPORT_TVO;
-    const bool by_own = oger || (s->surface && s->prm.scheme != SCHEME_RIEMANN_ALE);
+    const bool by_own =
+        !s->packing && (oger || (s->surface && s->prm.scheme != SCHEME_RIEMANN_ALE));
     const double U = s->run->scene.initial.U;
     if (!oger && s->prm.transport != TRANSPORT_TVS)
         return;

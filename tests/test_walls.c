@@ -410,6 +410,29 @@ static void motion(void **state)
     sph_free(&c.s);
 }
 
+/* Nothing flows yet when the first lattice is rearranged, with a free surface or without. */
+static void packing_moves_the_lattice(void **state)
+{
+    (void)state;
+    for (int surface = 0; surface <= 1; surface++) {
+        struct sph_case c;
+        double most = 0.0;
+        tank(&c, 24, surface, WALLS_NFM);
+        struct scene *e = &c.run.scene;
+        e->nbodies = 1;
+        e->bodies[0].points.n = 3;
+        memcpy(e->bodies[0].points.x, (double[3][2]){{0.4, 0.2}, {0.53, 0.4}, {0.6, 0.2}},
+               6 * sizeof(double));
+        c.prm.packing = 20;
+        struct sph *s = sph_case_start(&c, NULL);
+        for (int i = 0; i < s->p.n; i++) /* from the middle of its place on the lattice */
+            most =
+                fmax(most, fabs(remainder(s->p.y[(size_t)i * s->p.nstate] - 0.5 * s->dx, s->dx)));
+        assert_true(max_anywhere(most) > 0.05 * s->dx);
+        sph_free(&c.s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(gamma_agrees_with_the_table),
@@ -420,6 +443,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(motion),
                                        cmocka_unit_test(laplacian_at_a_wall),
                                        cmocka_unit_test(mass_is_kept),
+                                       cmocka_unit_test(packing_moves_the_lattice),
                                        cmocka_unit_test(water_at_rest_stays),
                                        cmocka_unit_test(ranks_agree),
                                        cmocka_unit_test(restart_is_exact)};
