@@ -6,6 +6,7 @@
 
 #include "../common/log.h"
 #include "../coupler/cpl_partner.h"
+#include "levelset.h"
 
 static const char *columns[12 + PROBES_MAX] = {"kinetic energy [J]", "largest velocity [m/s]",
                                                "divergence [m/s]"};
@@ -19,7 +20,7 @@ static void describe(const struct run *r)
                                               "bdf2, one projection a step", "newton, all at once"};
     const struct fv_params *prm = fv_params_of(r);
     const struct scene_domain *d = &r->scene.domain;
-    const bool viscous = r->scene.fluid.nu > 0.0,
+    const bool viscous = r->scene.fluid.nu > 0.0, water = surface_wanted(r),
                hole = prm->hole[1][0] > prm->hole[0][0] || r->coupled;
     double cells = 1.0, speed = 0.0, h = INFINITY;
     const bool walls = r->scene.nwalls > 0;
@@ -35,14 +36,18 @@ static void describe(const struct run *r)
         for (int a = 0; a < d->dim; a++)
             speed = fmax(speed, fabs(r->scene.walls[k].velocity[a]));
     speed += r->scene.initial.field > FIELD_UNIFORM ? r->scene.initial.U : 0.0;
+    const double *g = r->scene.fluid.gravity;
+    if (water) /* the speed that the shortest waves allow, see projection.c */
+        speed = fmax(speed, 2.0 * sqrt(h * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2])));
     const double dt = speed > 0.0 ? prm->cfl * h / speed : INFINITY;
     const int fields = 4 + 6 * d->dim + (viscous ? 2 * d->dim : 0) + 4;
     log_say("%dD, fourth-order averages, %s, %s", d->dim, integrators[prm->integrator],
             closed  ? "exact velocity on sides without a wall"
             : walls ? "walls"
                     : "periodic");
-    log_say("%s%s%s; off: free surface%s%s%s", viscous ? "viscous, implicit" : "inviscid",
-            walls ? ", walls and openings" : "", hole ? ", forced cells" : "",
+    log_say("%s%s%s%s; off: %s%s%s%s", viscous ? "viscous, implicit" : "inviscid",
+            water ? ", free surface (level set)" : "", walls ? ", walls and openings" : "",
+            hole ? ", forced cells" : "", water ? "coupling" : "free surface",
             walls ? "" : ", walls", viscous ? "" : ", viscous solver",
             hole ? "" : ", forced cells");
     log_say("%.0f cells, h %g m, dt about %.3g s (CFL %g), %.0f steps; about %.0f MB", cells, h, dt,
@@ -53,13 +58,20 @@ static void describe(const struct run *r)
 static void *create(struct run *r, struct h5 *f)
 {
     static const char *const forces[] = {"force x [N]", "force y [N]", "force z [N]"};
+    static const char *const reaches[] = {"water up to x [m]", "water up to y [m]",
+                                          "water up to z [m]"};
     int n = 3;
-    if (exact_at_all_times(&r->scene))
+    if (exact_at_all_times(&r->scene) && !surface_wanted(r))
         columns[n++] = "error velocity l2 [-]";
     for (int a = 0; r->scene.nwalls > 0 && a < r->scene.domain.dim; a++)
         columns[n++] = forces[a];
     for (int k = 0; k < 4 && fv_params_of(r)->integrator == INTEGRATOR_NEWTON; k++)
         columns[n++] = of_newton[k];
+    if (surface_wanted(r)) {
+        columns[n++] = "volume [m^dim]";
+        for (int a = 0; a < r->scene.domain.dim; a++)
+            columns[n++] = reaches[a];
+    }
     fv_program.ncolumns = n + fv_probe_columns(r, columns + n);
     return fv_create(r, f);
 }

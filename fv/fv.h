@@ -8,9 +8,11 @@
 #include <stdint.h>
 
 #include "../common/exact.h"
+#include "../common/fit.h"
 #include "../common/run.h"
 #include "block.h"
 
+enum fv_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
 enum fv_integrator { INTEGRATOR_RK3, INTEGRATOR_BDF2, INTEGRATOR_NEWTON };
 enum fv_flux { FLUX_CENTRAL, FLUX_UPWIND };
 
@@ -27,11 +29,13 @@ struct fv_params {
     double hole[2][3];   /* box whose cells take the exact solution; all 0: none */
     double upwind;       /* C of the bias in convection.c; 0: none, -1: 1 with walls, else none */
     double extrema[3];   /* m/s: known ones on the centre lines, see fv_lines.c; 0: none */
+    int surface;         /* enum fv_surface */
     int forced_order;    /* in time, of partners' data within a window: 1 linear, 2 quadratic */
 };
 
 struct bc;       /* walls and openings; bc.h; NULL: none */
 struct forcing;  /* cells whose velocity is imposed; forcing.h; NULL: none */
+struct surface;  /* free surface; levelset.h; NULL: none */
 struct pressure; /* the operator in hypre; pressure.h */
 struct newton;   /* the implicit integrator; newton.h; NULL: another one */
 struct link;     /* place in a coupled job; fv_coupling.c; NULL alone */
@@ -60,8 +64,10 @@ struct fv {
     double *face, *flux;    /* scratch */
     struct bc *bc;
     struct forcing *forcing;
+    struct surface *surface;
     struct pressure *pressure;
     struct newton *newton;
+    struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;
     double dt, dt_old; /* s: last step, 0 before the first; the one before it */
     double u_limit;    /* m/s: beyond it the run has blown up */
@@ -103,18 +109,22 @@ bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const
 enum continuation { CONTINUE_EVEN, CONTINUE_CUBIC, CONTINUE_VARIATION };
 void gradient(const struct fv *s, const double *q, int a, enum continuation c, double *out);
 
-/* projection.c: one step towards t_stop, see program.step; d is filled when the state cannot be
- * trusted. */
+/* projection.c: u, U and p by dt; false: a solver did not converge. */
+bool projection_step(struct fv *s, double dt);
 void pressure_start(struct fv *s);
-double integrate(struct fv *s, double t_stop, struct diagnosis *d);
-void measure(struct fv *s);
-/* Largest |u_a| of what flows, or will soon. */
-double fv_speed(const struct fv *s, int a);
 /* Pressure at s->t, in Pa. */
 double fv_pressure(const struct fv *s, int64_t c);
 /* What gravity adds to it at x: the equations hold only the rest, so that water at rest stays so.
  */
 double fv_still_pressure(const struct fv *s, const double *x);
+
+/* fv_step.c: one step towards t_stop, see program.step; d is filled when the state cannot be
+ * trusted. */
+double integrate(struct fv *s, double t_stop, struct diagnosis *d);
+double fv_largest_step(const struct fv *s);
+/* Largest |u_a| of what flows, or will soon. */
+double fv_speed(const struct fv *s, int a);
+void measure(struct fv *s);
 
 /* fv_io.c, fv_errors.c */
 void fv_vorticity(const struct fv *s,

@@ -7,6 +7,7 @@
 #include "../common/mem.h"
 #include "bc.h"
 #include "forcing.h"
+#include "levelset.h"
 #include "newton.h"
 
 enum { NORMS = 3 };
@@ -60,6 +61,11 @@ static void errors(const struct fv *s, struct norm n[NORMS])
 static void energies(const struct fv *s, double sum[2])
 {
     const struct block *b = &s->b;
+    if (s->surface) {
+        sum[0] = surface_energy(s);
+        sum[1] = 0.0;
+        return;
+    }
     double x[3], u[3], volume = 1.0;
     sum[0] = sum[1] = 0.0;
     for (int a = 0; a < b->dim; a++)
@@ -88,7 +94,7 @@ static double largest_divergence(const struct fv *s)
     BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++) {
             double div = 0.0;
-            if (s->forcing && s->forcing->forced[i])
+            if ((s->forcing && s->forcing->forced[i]) || (s->surface && s->surface->layer[i]))
                 continue;
             for (int a = 0; a < b->dim; a++)
                 div += (s->U[a][i + b->stride[a]] - s->U[a][i]) / b->h[a];
@@ -100,7 +106,7 @@ static double largest_divergence(const struct fv *s)
 
 /* Columns: kinetic energy, largest speed, divergence, the error if there is an exact field, the
  * force on all walls if there are walls or openings; of newton the residual, the pseudo step and
- * the iterations so far. */
+ * the iterations so far; volume and reach of the water. */
 void fv_row(void *state, double *values)
 {
     struct fv *s = state;
@@ -126,6 +132,11 @@ void fv_row(void *state, double *values)
         values[n++] = s->newton->dtau;
         values[n++] = (double)s->newton->newtons;
         values[n++] = (double)s->newton->krylovs;
+    }
+    if (s->surface) {
+        values[n++] = surface_volume(s, NULL);
+        for (int a = 0; a < s->b.dim; a++)
+            values[n++] = surface_reach(s, a);
     }
     fv_probe(s, values + n);
 }
@@ -165,10 +176,11 @@ void fv_finish(void *state)
     struct fv *s = state;
     struct run *r = s->run;
     double sum[2], cells = 1.0, loop = 0.0;
-    static const char *const parts[] = {"operators", "convection", "viscous", "pressure", "newton"};
+    static const char *const parts[] = {"operators", "convection", "viscous",
+                                        "pressure",  "newton",     "surface"};
     for (int a = 0; a < s->b.dim; a++)
         cells *= s->b.cells[a];
-    for (int k = 0; k < 5; k++)
+    for (int k = 0; k < 6; k++)
         loop += timer_wall(&r->timers, parts[k]);
     summary_int(r->summary, "cells", llround(cells));
     if (s->has_exact)
@@ -177,6 +189,8 @@ void fv_finish(void *state)
     summary_real(r->summary, "drift.energy",
                  s->has_exact && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
     summary_real(r->summary, "divergence", largest_divergence(s));
+    if (s->surface)
+        surface_summarise(s);
     if (s->prm.extrema[0] != 0.0)
         fv_summarise_extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);

@@ -9,6 +9,7 @@
 #include "../common/mem.h"
 #include "../common/xdmf.h"
 #include "forcing.h"
+#include "levelset.h"
 #include "newton.h"
 #include "outflow.h"
 
@@ -20,14 +21,19 @@ static bool wanted(const struct fv *s, const char *name)
 
 static int64_t local_cells(const struct block *b) { return (int64_t)b->n[0] * b->n[1] * b->n[2]; }
 
-/* Forced cells hold what the stencils need, not a flow: no number in a picture. */
-static void blank_forced(const struct fv *s, int ncomp, double *v)
+static bool idle(const struct fv *s, int64_t c)
+{
+    return (s->forcing && s->forcing->forced[c]) || (s->surface && s->surface->phi[c] >= 0.0);
+}
+
+/* Forced and dry cells hold what the stencils need, not a flow: no number in a picture. */
+static void blank_idle(const struct fv *s, int ncomp, double *v)
 {
     const struct block *b = &s->b;
-    for (int k = 0; s->forcing && k < b->n[2]; k++)
+    for (int k = 0; (s->forcing || s->surface) && k < b->n[2]; k++)
         for (int j = 0; j < b->n[1]; j++)
             for (int i = 0; i < b->n[0]; i++, v += ncomp)
-                for (int a = 0; s->forcing->forced[block_at(b, i, j, k)] && a < ncomp; a++)
+                for (int a = 0; idle(s, block_at(b, i, j, k)) && a < ncomp; a++)
                     v[a] = NAN;
 }
 
@@ -36,7 +42,7 @@ static void write(const struct fv *s, struct h5 *f, const char *name, const char
 {
     const struct block *b = &s->b;
     if (*unit != '-')
-        blank_forced(s, ncomp, v);
+        blank_idle(s, ncomp, v);
     h5_write_block(f, name, unit, b->dim, b->cells, b->lo, b->hi, ncomp, v, true);
 }
 
@@ -103,6 +109,11 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
         write(s, f, "vorticity", "1/s", 1, v);
         fields[nfields++] = (struct xdmf_field){"vorticity", 1};
     }
+    if (s->surface) {
+        block_pack(b, s->surface->phi, v);
+        h5_write_block(f, "level_set", "m", b->dim, b->cells, b->lo, b->hi, 1, v, true);
+        fields[nfields++] = (struct xdmf_field){"level_set", 1};
+    }
     if (s->forcing) {
         for (int64_t c = 0; c < b->size; c++)
             field[c] = s->forcing->forced[c];
@@ -127,6 +138,10 @@ static int restart_fields(struct fv *s, double **f, const char **names)
     names[n++] = "p";
     f[n] = s->p_before;
     names[n++] = "p_before";
+    if (s->surface) {
+        f[n] = s->surface->phi;
+        names[n++] = "phi";
+    }
     for (int a = 0; a < 3; a++) {
         double *const all[] = {s->u[a], s->U[a], s->N[a], s->u_old[a]};
         for (int k = 0; k < 4; k++)
@@ -140,6 +155,14 @@ static int restart_fields(struct fv *s, double **f, const char **names)
         }
     }
     return n;
+}
+
+enum { SURFACE_NUMBERS = 3 };
+static const char *const surface_numbers[SURFACE_NUMBERS] = {"volume0", "returned", "travelled"};
+
+static double *surface_number(struct surface *f, int k)
+{
+    return k == 0 ? &f->volume0 : k == 1 ? &f->returned : &f->travelled;
 }
 
 void fv_checkpoint(void *state, struct h5 *f)
@@ -161,6 +184,9 @@ void fv_checkpoint(void *state, struct h5 *f)
         h5_attribute_real(f, "krylovs", (double)s->newton->krylovs);
     }
     outflow_save(s, f);
+    if (s->surface)
+        for (int k = 0; k < SURFACE_NUMBERS; k++)
+            h5_attribute_real(f, surface_numbers[k], *surface_number(s->surface, k));
     if (s->link)
         coupling_save(s, f);
 }
@@ -195,6 +221,11 @@ bool fv_restore(struct fv *s, struct h5 *f)
             log_say("the restart file has no field %s of this shape", names[k]);
             return false;
         }
+    for (int k = 0; s->surface && k < SURFACE_NUMBERS; k++)
+        if (!h5_read_attribute_real(f, surface_numbers[k], surface_number(s->surface, k)))
+            return false;
+    if (s->surface)
+        surface_rebuild(s);
     return h5_read_attribute_real(f, "dt", &s->dt) &&
            h5_read_attribute_real(f, "dt_old", &s->dt_old) &&
            h5_read_attribute_real(f, "energy0", &s->energy0) &&

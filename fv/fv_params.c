@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "levelset.h"
+
 static struct fv_params given;
 
 #define P struct fv_params
@@ -20,6 +22,7 @@ static const struct param rows[] = {
     PARAM(P, hole,         "m", "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "box whose cells take the exact solution; none by default"),
     PARAM(P, upwind,       "-", "-1.0", -1, 1e6,   "strength of the upwind bias where the flow is finer than the cells; 0: none, -1: 1 with walls, else none"),
     PARAM(P, extrema,      "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema"),
+    CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: with shapes or a standing wave, alone"),
     PARAM(P, forced_order, "-", "2",    1, 2,     "in time, of a partner's velocities within a window"),
 };
 /* clang-format on */
@@ -66,7 +69,7 @@ static void check_openings(const struct run *r, struct faults *f)
                          w->side == SIDE_NONE ? "a polyline" : "\"absorbing\"");
     }
     for (int k = 0; k < s->nprobes; k++)
-        if (s->probes[k].kind == PROBE_LEVEL)
+        if (s->probes[k].kind == PROBE_LEVEL && !surface_wanted(r))
             params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
     for (int a = 0; a < s->domain.dim; a++)
         for (int k = 0; k < 2; k++)
@@ -74,6 +77,39 @@ static void check_openings(const struct run *r, struct faults *f)
                           !scene_wall_of(s, (enum scene_side)(SIDE_X_MIN + 2 * a + k)));
     if (in && !out)
         params_fault(r->params, f, "walls", "an inflow without an outflow");
+}
+
+static void check_surface(const struct run *r, struct faults *f)
+{
+    const struct scene *s = &r->scene;
+    const double *g = s->fluid.gravity;
+    if (!surface_wanted(r))
+        return;
+    if (r->coupled)
+        params_fault(r->params, f, "fv.surface", "a coupled run leaves the surface to sph");
+    if (given.integrator != INTEGRATOR_RK3)
+        params_fault(r->params, f, "fv.integrator", "with a free surface rk3 alone");
+    for (int k = 0; k < s->nwalls; k++)
+        if (s->walls[k].kind == WALL_INFLOW || s->walls[k].kind == WALL_OUTFLOW)
+            params_fault(r->params, f, "walls", "wall %d: no openings with a free surface", k + 1);
+    if (given.hole[1][0] > given.hole[0][0])
+        params_fault(r->params, f, "fv.hole", "not with a free surface");
+    if (s->fluid.central != 0.0)
+        params_fault(r->params, f, "fluid.central", "not for this solver");
+    if (s->nbodies > 0)
+        params_fault(r->params, f, "bodies", "not for this solver");
+    for (int a = 0; a < s->domain.dim; a++) {
+        if (s->domain.periodic[a])
+            continue;
+        for (int k = 0; k < 2; k++)
+            if (!scene_wall_of(s, (enum scene_side)(SIDE_X_MIN + 2 * a + k)))
+                params_fault(r->params, f, "walls",
+                             "a free surface needs all sides that are not "
+                             "periodic: %c_%s has none",
+                             "xyz"[a], k ? "max" : "min");
+    }
+    if (s->nshapes == 0 && s->initial.field == FIELD_STANDING_WAVE && g[1] == 0.0)
+        params_fault(r->params, f, "fluid.gravity", "a standing wave wants some along y");
 }
 
 void fv_params_check(const struct run *r, struct faults *f)
@@ -90,6 +126,7 @@ void fv_params_check(const struct run *r, struct faults *f)
     if (given.integrator != INTEGRATOR_NEWTON && given.flux != FLUX_CENTRAL)
         params_fault(r->params, f, "fv.flux",
                      "wants fv.integrator = \"newton\"; rk3 and bdf2 have fv.upwind");
+    check_surface(r, f);
     for (int a = 0; a < r->scene.domain.dim; a++) {
         check_axis(r, a, f);
         if (given.hole[1][a] > given.hole[0][a] && (r->coupled || !exact))

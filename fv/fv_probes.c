@@ -1,10 +1,12 @@
 /* fv_probes.c - gauges of the case in series.csv: pressure at a point, linear between the centres
- * of cells and beyond them at a wall. SPDX-License-Identifier: BSD-3-Clause */
+ * of cells and beyond them at a wall; level of the water. SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "levelset.h"
 
 /* Cell below x along axis a, so that it and the next one are cells of the grid; *weight of the
  * next. */
@@ -18,6 +20,15 @@ static int base(const struct block *b, int a, double x, double *weight)
     return b->periodic[a] ? (i % b->cells[a] + b->cells[a]) % b->cells[a] : i;
 }
 
+/* Whether the cell that x lies in is dry. */
+static bool dry_at(const struct fv *s, const int *i, const double *w)
+{
+    int at[3];
+    for (int a = 0; a < 3; a++)
+        at[a] = i[a] + (w[a] > 0.5);
+    return s->surface->layer[block_at(&s->b, at[0], at[1], at[2])] != 0;
+}
+
 /* What this rank has to say: 0 unless the lower cell is its own. */
 static double pressure_at(const struct fv *s, const double *x)
 {
@@ -29,6 +40,8 @@ static double pressure_at(const struct fv *s, const double *x)
         if (i[a] < 0 || i[a] >= b->n[a])
             return 0.0;
     }
+    if (s->surface && dry_at(s, i, w))
+        return 0.0;
     for (int m = 0; m < 1 << b->dim; m++) {
         double f = 1.0;
         int at[3];
@@ -60,6 +73,7 @@ void fv_probe(struct fv *s, double *values)
         return;
     block_halo(&s->b, 2, (double *const[]){s->p, s->p_before});
     for (int k = 0; k < scene->nprobes; k++)
-        values[k] = pressure_at(s, scene->probes[k].at);
+        values[k] = scene->probes[k].kind == PROBE_LEVEL ? surface_level(s, scene->probes[k].at)
+                                                         : pressure_at(s, scene->probes[k].at);
     MPI_Allreduce(MPI_IN_PLACE, values, scene->nprobes, MPI_DOUBLE, MPI_SUM, s->b.cart);
 }

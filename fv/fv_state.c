@@ -8,6 +8,7 @@
 #include "../common/mem.h"
 #include "bc.h"
 #include "forcing.h"
+#include "levelset.h"
 #include "newton.h"
 #include "outflow.h"
 #include "pressure.h"
@@ -32,7 +33,7 @@ static void make_fields(struct fv *s)
         if (s->nu > 0.0) {
             s->delta[a] = block_field(b);
             s->work[a] = block_field(b);
-            for (int k = 0; k < 2 && s->bc; k++)
+            for (int k = 0; k < 2 && (s->bc || s->surface); k++)
                 s->krylov[k][a] = block_field(b);
         }
         if (s->prm.integrator != INTEGRATOR_RK3)
@@ -109,6 +110,13 @@ static double energy(const struct fv *s)
 static void set_limit(struct fv *s)
 {
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
+    if (s->surface) {
+        double L = 0.0;
+        for (int a = 0; a < s->b.dim; a++)
+            L = fmax(L, s->b.cells[a] * s->b.h[a]);
+        s->u_limit = 10.0 * (most + sqrt(2.0 * s->surface->g * L) + 1e-12);
+        return;
+    }
     s->u_limit = 10.0 * fmax(fmax(most, s->run->scene.initial.U), s->bc ? s->bc->speed : 1e-12);
 }
 
@@ -152,7 +160,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     s->nu = r->scene.fluid.nu;
     s->t = r->t;
     s->exact = exact_create(&r->scene);
-    s->has_exact = exact_at_all_times(&r->scene);
+    s->has_exact = exact_at_all_times(&r->scene) && !surface_wanted(r);
     for (int a = 0; a < 3; a++)
         length[a] = d->max[a] - d->min[a];
     block_create(&s->b, r->comm, d->dim, s->prm.cells, d->min, length, d->periodic);
@@ -160,6 +168,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     if (s->prm.upwind < 0.0)
         s->prm.upwind = s->bc ? 1.0 : 0.0;
     split_gravity(s);
+    s->surface = surface_create(s);
     make_fields(s);
     fill(s);
     fill_fluxes(s);
@@ -169,6 +178,8 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     bc_ghosts(s, BC_GIVEN, s->u);
     block_halo(&s->b, d->dim, s->u);
     bc_fluxes(s, BC_GIVEN, s->U);
+    if (s->surface)
+        surface_start(s);
     s->pressure = pressure_create(s);
     if (s->prm.integrator == INTEGRATOR_NEWTON)
         s->newton = newton_create(s);
@@ -192,6 +203,8 @@ void fv_free(struct fv **sp)
     newton_free(&s->newton);
     pressure_free(&s->pressure);
     forcing_free(&s->forcing);
+    surface_free(&s->surface);
+    fit_free(&s->swing);
     bc_free(&s->bc);
     mem_free(s->p);
     mem_free(s->p_before);

@@ -6,11 +6,13 @@
 
 #include <HYPRE_struct_ls.h>
 #include <math.h>
+#include <string.h>
 
 #include "../common/log.h"
 #include "../common/mem.h"
 #include "bc.h"
 #include "forcing.h"
+#include "levelset.h"
 
 /* hypre or-s all errors into one flag; "not converged" is the caller's to judge. */
 #define HYPRE(call)                                                                                \
@@ -71,20 +73,32 @@ static double shift(const struct block *b)
 }
 
 /* Row of a cell, -Lap: what is open passes, forced cells stand alone. Returns the diagonal. */
-static double fill_row(const struct fv *s, double given, int64_t c, double *row)
+static double fill_row(const struct fv *s, const struct pressure *p, int64_t c, double *row)
 {
     const struct block *b = &s->b;
     const struct forcing *f = s->forcing;
-    double sum = 0.0;
+    double *const *open = s->surface ? s->surface->open : f ? f->open : NULL;
+    double sum = s->surface ? p->z[c] : 0.0;
     for (int e = 1; e <= 2 * b->dim; e++) {
         const int a = (e - 1) / 2;
         const int64_t face = (e - 1) % 2 ? c + b->stride[a] : c;
-        const double w = (f ? f->open[a][face] : 1.0) / (b->h[a] * b->h[a]);
+        const double w = (open ? open[a][face] : 1.0) / (b->h[a] * b->h[a]);
         row[e] = w <= 1.0 / (b->h[a] * b->h[a]) ? -w : 0.0; /* outflow: psi is 0 behind it */
         sum += w;
     }
-    row[0] = sum > 0.0 ? sum + fmax(given, shift(b)) : 1.0; /* forced, or free and shut in */
+    row[0] =
+        sum > 0.0 ? sum + fmax(p->shift, shift(b)) : 1.0; /* forced, dry, or free and shut in */
     return sum;
+}
+
+/* z = what the surface adds to the diagonal. */
+static void add_cuts(const struct fv *s, double *z)
+{
+    const struct surface *f = s->surface;
+    memset(z, 0, (size_t)s->b.size * sizeof(double));
+    for (int a = 0; a < s->b.dim; a++)
+        for (int64_t i = 0; i < f->ncut[a]; i++)
+            z[f->cut[a][i].wet] += 1.0 / (f->cut[a][i].theta * s->b.h[a] * s->b.h[a]);
 }
 
 static void make_matrix(const struct fv *s, struct pressure *p)
@@ -93,9 +107,11 @@ static void make_matrix(const struct fv *s, struct pressure *p)
     const int m = 2 * b->dim + 1;
     int entries[7] = {0, 1, 2, 3, 4, 5, 6};
     double *values = NEW(double, (int64_t)m * b->n[0] * b->n[1] * b->n[2]), *row = values;
+    if (s->surface)
+        add_cuts(s, p->z);
     BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++, row += m)
-            p->diagonal[i] = fill_row(s, p->shift, i, row);
+            p->diagonal[i] = fill_row(s, p, i, row);
     HYPRE(HYPRE_StructMatrixCreate(b->cart, p->grid, p->stencil, &p->A));
     HYPRE(HYPRE_StructMatrixInitialize(p->A));
     HYPRE(HYPRE_StructMatrixSetBoxValues(p->A, p->lo, p->hi, m, entries, values));
@@ -163,6 +179,10 @@ struct pressure *pressure_create(const struct fv *s)
     if (s->forcing)
         p->free_cells = (double)s->forcing->free_cells;
     p->singular = !s->bc || !s->bc->pressure_given;
+    if (s->surface) {
+        p->singular = p->singular && s->surface->cuts == 0;
+        p->free_cells = fmax(1.0, (double)s->surface->wet);
+    }
     make_grid(b, p);
     make_matrix(s, p);
     make_vector(b, p, &p->b);
@@ -190,6 +210,25 @@ void pressure_free(struct pressure **pp)
     *pp = NULL;
 }
 
+void pressure_rebuild(struct fv *s)
+{
+    struct pressure *p = s->pressure;
+    HYPRE_StructPFMGDestroy(p->cycle);
+    HYPRE_StructMatrixDestroy(p->A);
+    p->singular = s->surface->cuts == 0 && (!s->bc || !s->bc->pressure_given);
+    p->free_cells = fmax(1.0, (double)s->surface->wet);
+    make_matrix(s, p);
+    make_cycle(&s->b, p);
+}
+
+static void zero_idle(const struct fv *s, double *x)
+{
+    if (s->forcing)
+        forcing_zero(s->forcing, x);
+    if (s->surface)
+        surface_zero(s, x);
+}
+
 /* q = A x, x with its ghosts; both are 0 in forced cells. */
 static void apply(const struct fv *s, const double *restrict x, double *restrict q)
 {
@@ -206,8 +245,7 @@ static void apply(const struct fv *s, const double *restrict x, double *restrict
             for (int64_t i = c; i < c + n; i++)
                 q[i] -= cz * (x[i - z] + x[i + z]);
     }
-    if (s->forcing)
-        forcing_zero(s->forcing, q);
+    zero_idle(s, q);
 }
 
 /* Adds sum x y and sum x of a row. */
@@ -242,8 +280,7 @@ static void add_up(const struct block *b, const double *x, const double *y, doub
 static double remove_mean(const struct fv *s, double *restrict x)
 {
     double sums[2];
-    if (s->forcing)
-        forcing_zero(s->forcing, x);
+    zero_idle(s, x);
     add_up(&s->b, x, x, sums);
     if (!s->pressure->singular)
         return sums[0];
@@ -251,8 +288,7 @@ static double remove_mean(const struct fv *s, double *restrict x)
     BLOCK_ROWS (&s->b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             x[i] -= mean;
-    if (s->forcing)
-        forcing_zero(s->forcing, x);
+    zero_idle(s, x);
     return fmax(sums[0] - sums[1] * mean, 0.0);
 }
 
@@ -270,6 +306,8 @@ static double next_direction(const struct fv *s, double *r, double rz_last)
     struct pressure *p = s->pressure;
     double sums[2];
     cycle(p, r, p->z);
+    if (s->surface)
+        surface_zero(s, p->z);
     add_up(&s->b, r, p->z, sums);
     const double beta = rz_last > 0.0 ? sums[0] / rz_last : 0.0, *restrict z = p->z;
     double *restrict d = p->p;
@@ -302,8 +340,7 @@ static double first_residual(const struct fv *s, double *psi, double *restrict d
 {
     const double *restrict q = s->pressure->Ap;
     double sums[2];
-    if (s->forcing)
-        forcing_zero(s->forcing, psi);
+    zero_idle(s, psi);
     block_halo(&s->b, 1, &psi);
     apply(s, psi, s->pressure->Ap);
     BLOCK_ROWS (&s->b, 0, c, n)
@@ -313,10 +350,24 @@ static double first_residual(const struct fv *s, double *psi, double *restrict d
     return sums[0];
 }
 
+/* Square sum of a residual that rounding leaves: g L/h^2 in all wet cells. */
+static double least_residual(const struct fv *s)
+{
+    double L = 0.0, h = INFINITY;
+    for (int a = 0; a < s->b.dim; a++) {
+        L = fmax(L, s->b.cells[a] * s->b.h[a]);
+        h = fmin(h, s->b.h[a]);
+    }
+    const double one = 1e-15 * s->surface->g * L / (h * h);
+    return one * one * (double)s->surface->wet;
+}
+
 int pressure_solve(const struct fv *s, double *psi, double *div, double tol, int most)
 {
-    const double enough = tol * tol * remove_mean(s, div);
+    double enough = tol * tol * remove_mean(s, div);
     double rr = first_residual(s, psi, div), rz = 0.0;
+    if (s->surface) /* psi is the whole pressure: of its change */
+        enough = fmax(tol * tol * rr, least_residual(s));
     int n = 0;
     while (rr > 0.0 && (n == 0 || rr > enough) && n < most) {
         rz = next_direction(s, div, rz);

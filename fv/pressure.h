@@ -8,6 +8,8 @@
 
 struct pressure *pressure_create(const struct fv *s);
 void pressure_free(struct pressure **p);
+/* Matrix and cycle of the surface as it is now. */
+void pressure_rebuild(struct fv *s);
 /* Lap psi = div, at most `most' iterations, until the residual is tol |div|. psi: start and result,
  * with ghosts. div: local cells; its mean over the free cells is taken out. Returns the iterations.
  */

@@ -9,6 +9,7 @@
 
 #include "bc.h"
 #include "forcing.h"
+#include "levelset.h"
 
 static void row(const double *restrict q, const int64_t *stride, const double *c, int dim,
                 int64_t n, double *restrict out)
@@ -88,6 +89,8 @@ static void helmholtz(const struct fv *s, double c, const double *x, double *out
             out[i] = x[i] - c * out[i];
     if (s->forcing)
         forcing_zero(s->forcing, out);
+    if (s->surface)
+        surface_zero(s, out);
 }
 
 /* out = A x of all components, x homogeneous on the sides; sums of out.y and out.out over all
@@ -96,6 +99,8 @@ static void apply_all(const struct fv *s, double c, double *const x[3], double *
                       double *const y[3], double sums[2])
 {
     const struct block *b = &s->b;
+    if (s->surface)
+        extension_apply(s, x, EXTEND_CHANGE, 2);
     bc_ghosts(s, BC_ZERO, x);
     block_halo(b, b->dim, x);
     sums[0] = sums[1] = 0.0;
@@ -140,6 +145,8 @@ static bool bicgstab(struct fv *s, double c, double *const delta[3], double *con
             axpy(b, alpha, p[a], delta[a]);
             axpy(b, omega, r[a], delta[a]);
             axpy(b, -omega, t[a], r[a]);
+            if (s->surface)
+                surface_zero(s, r[a]);
         }
         residuals(s, r, r0, sums);
         const double beta = sums[1] / rho * alpha / omega;
@@ -166,6 +173,8 @@ bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const
         helmholtz(s, c, delta[a], Ap[a]);
         if (s->forcing)
             forcing_zero(s->forcing, rhs[a]);
+        if (s->surface)
+            surface_zero(s, rhs[a]);
         axpy(b, -1.0, Ap[a], rhs[a]);
         memcpy(s->work[a], rhs[a], (size_t)b->size * sizeof(double));
         sums[0] += dot(b, rhs[a], rhs[a]);
@@ -173,7 +182,7 @@ bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const
     MPI_Allreduce(MPI_IN_PLACE, sums, 1, MPI_DOUBLE, MPI_SUM, b->cart);
     double rr = sums[0];
     const double goal = rr * tol * tol;
-    if (s->bc)
+    if (s->bc || s->surface)
         return bicgstab(s, c, delta, rhs, rr, goal);
     for (int it = 0; it < 200; it++) {
         if (!(rr > goal) || rr == 0.0)

@@ -1,0 +1,134 @@
+/* surface_errors.c - what the water does as a whole: energy, reach, levels, period and damping of a
+ * standing wave. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <string.h>
+
+#include "../common/mem.h"
+#include "levelset.h"
+
+static double cell_volume(const struct block *b)
+{
+    double v = 1.0;
+    for (int a = 0; a < b->dim; a++)
+        v *= b->h[a];
+    return v;
+}
+
+double surface_energy(const struct fv *s)
+{
+    const struct block *b = &s->b;
+    double sum = 0.0;
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            double square = 0.0;
+            for (int a = 0; a < b->dim; a++)
+                square += s->u[a][i] * s->u[a][i];
+            sum += square > 0.0 ? 0.5 * square * surface_share(s, i) : 0.0;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+    return sum * cell_volume(b);
+}
+
+double surface_reach(const struct fv *s, int a)
+{
+    const struct block *b = &s->b;
+    const double *phi = s->surface->phi;
+    double most = -INFINITY, x[3];
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++)
+            for (int i = 0; i < b->n[0]; i++) {
+                const int64_t c = block_at(b, i, j, k);
+                const double next = phi[c + b->stride[a]];
+                if (!(phi[c] < 0.0))
+                    continue;
+                block_centre(b, i, j, k, x);
+                const double theta = next >= 0.0 ? phi[c] / (phi[c] - next) : 0.5;
+                most = fmax(most, x[a] + theta * b->h[a]);
+            }
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, b->cart);
+    return most;
+}
+
+/* Two columns (in 3D four) around x, with weights, linear between their centres. */
+double surface_level(const struct fv *s, const double *x)
+{
+    const struct block *b = &s->b;
+    const int up = b->dim - 1;
+    double sum = 0.0;
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++)
+            for (int i = 0; i < b->n[0]; i++) {
+                const int at[3] = {i, j, k};
+                double w = b->h[up];
+                for (int a = 0; a < up; a++) {
+                    const double half = 0.5, top = b->cells[a] - half;
+                    const double place =
+                        fmin(top, fmax(half, (x[a] - b->origin[a]) / b->h[a])) - half;
+                    w *= fmax(0.0, 1.0 - fabs(place - (b->lo[a] + at[a])));
+                }
+                sum += w > 0.0 ? w * surface_share(s, block_at(b, i, j, k)) : 0.0;
+            }
+    int rank;
+    MPI_Comm_rank(b->cart, &rank);
+    return sum + (rank == 0 ? b->origin[up] : 0.0);
+}
+
+/* Momentum in the inviscid mode of the wave. */
+void surface_sample(struct fv *s)
+{
+    const struct block *b = &s->b;
+    const struct wave *w = &s->exact.wave;
+    double sum = 0.0, x[3];
+    if (s->exact.field != FIELD_STANDING_WAVE)
+        return;
+    double *c = NEW(double, 2 * b->n[0]), *v = c + b->n[0];
+    for (int i = 0; i < b->n[0]; i++) {
+        block_centre(b, i, 0, 0, x);
+        c[i] = cos(w->k * x[0]);
+        v[i] = sin(w->k * x[0]);
+    }
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++) {
+            block_centre(b, 0, j, k, x);
+            const double z = w->k * (x[1] - s->exact.bottom), sh = sinh(z), ch = cosh(z);
+            for (int i = 0; i < b->n[0]; i++) {
+                const int64_t at = block_at(b, i, j, k);
+                if (s->surface->layer[at] <= 2)
+                    sum +=
+                        surface_share(s, at) * (s->u[1][at] * sh * c[i] - s->u[0][at] * ch * v[i]);
+            }
+        }
+    mem_free(c);
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+    fit_add(&s->swing, s->t, sum);
+}
+
+static void summarise_swing(struct fv *s)
+{
+    struct summary *to = s->run->summary;
+    double period, rate;
+    if (s->exact.field != FIELD_STANDING_WAVE || !exact_oscillation(&s->exact, &period, &rate))
+        return;
+    const double T = fit_period(&s->swing), r = fit_rate(&s->swing);
+    if (isfinite(T)) {
+        summary_real(to, "period", T);
+        summary_real(to, "error.period", fabs(T / period - 1.0));
+    }
+    if (isfinite(r)) {
+        summary_real(to, "damping", r);
+        summary_real(to, "error.damping", rate != 0.0 ? fabs(r / rate - 1.0) : fabs(r) * period);
+    }
+}
+
+void surface_summarise(struct fv *s)
+{
+    const struct surface *f = s->surface;
+    struct summary *to = s->run->summary;
+    const double volume = surface_volume(s, NULL);
+    summarise_swing(s);
+    summary_real(to, "largest_velocity", fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
+    summary_real(to, "drift.volume", volume / f->volume0 - 1.0);
+    summary_real(to, "volume_returned", f->returned / f->volume0);
+    summary_int(to, "reinitialisations", f->reinits);
+    summary_int(to, "steps_repeated", f->repeats);
+}

@@ -1,0 +1,139 @@
+/* surface_steps.c - the surface at the start and around a step of the velocity.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "levelset.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "bc.h"
+
+enum { REINIT_STEPS = 10 }; /* of 0.45 h each: more than what the surface has travelled */
+
+/* Velocities that shapes add to the field's. */
+static void add_velocities(struct fv *s)
+{
+    const struct block *b = &s->b;
+    bool any = false;
+    double x[3];
+    for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
+        for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
+            for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
+                const int64_t c = block_at(b, i, j, k);
+                block_centre(b, i, j, k, x);
+                const struct scene_shape *h = surface_shape(s, x);
+                for (int a = 0; h && a < b->dim; a++) {
+                    s->u[a][c] += h->velocity[a];
+                    any = any || h->velocity[a] != 0.0;
+                }
+            }
+    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_C_BOOL, MPI_LOR, b->cart);
+    if (!any)
+        return;
+    extension_apply(s, s->u, EXTEND_FREE, LAYERS);
+    bc_ghosts(s, BC_GIVEN, s->u);
+    block_halo(b, b->dim, s->u);
+    convection_face_velocities(s, s->u, s->U);
+}
+
+/* Velocity beyond the surface where it stands now, with ghosts, and the fluxes there. */
+static void carry_on(struct fv *s)
+{
+    extension_apply(s, s->u, EXTEND_SHEAR, LAYERS);
+    surface_set_pressure(s);
+    bc_ghosts(s, BC_GIVEN, s->u);
+    block_halo(&s->b, s->b.dim, s->u);
+    surface_dry_fluxes(s);
+    bc_fluxes(s, BC_GIVEN, s->U);
+}
+
+/* p = 0 at the highest water, if the case does not say where. */
+static void set_level(struct fv *s)
+{
+    const struct surface *f = s->surface;
+    double top = -INFINITY;
+    for (int a = 0; a < s->b.dim; a++)
+        for (int64_t i = 0; i < f->ncut[a]; i++)
+            top = fmax(top, f->cut[a][i].height);
+    MPI_Allreduce(MPI_IN_PLACE, &top, 1, MPI_DOUBLE, MPI_MAX, s->b.cart);
+    if (s->run->scene.initial.level < LEVEL_TOP || !isfinite(top) || f->g == 0.0)
+        return;
+    s->level += top / f->g;
+    surface_rebuild(s);
+}
+
+void surface_start(struct fv *s)
+{
+    struct surface *f = s->surface;
+    f->volume0 = surface_volume(s, NULL);
+    surface_rebuild(s);
+    set_level(s);
+    add_velocities(s);
+    carry_on(s);
+}
+
+/* What the band has not seen yet must be told before the surface comes there. */
+static void refresh(struct fv *s)
+{
+    if (s->surface->travelled > 2.0)
+        surface_reinit(s, REINIT_STEPS);
+}
+
+void surface_first_half(struct fv *s, double dt)
+{
+    surface_advance(s, 0.5 * dt);
+    refresh(s);
+    surface_rebuild(s);
+    carry_on(s);
+}
+
+void surface_second_half(struct fv *s, double dt)
+{
+    surface_advance(s, 0.5 * dt);
+    refresh(s);
+    surface_keep_volume(s);
+    surface_sample(s);
+}
+
+/* Lists the fields of the state; returns their number. */
+static int state(struct fv *s, double **f)
+{
+    int n = 0;
+    f[n++] = s->surface->phi;
+    f[n++] = s->p;
+    f[n++] = s->p_before;
+    for (int a = 0; a < 3; a++) {
+        f[n++] = s->psi[a];
+        if (a < s->b.dim) {
+            f[n++] = s->u[a];
+            f[n++] = s->U[a];
+        }
+    }
+    return n;
+}
+
+void surface_keep_state(struct fv *s)
+{
+    double *f[12];
+    const int n = state(s, f);
+    for (int k = 0; k < n; k++) {
+        if (!s->surface->before[k])
+            s->surface->before[k] = block_field(&s->b);
+        memcpy(s->surface->before[k], f[k], (size_t)s->b.size * sizeof(double));
+    }
+    s->surface->travelled_before = s->surface->travelled;
+}
+
+void surface_back(struct fv *s)
+{
+    double *f[12];
+    const int n = state(s, f);
+    for (int k = 0; k < n; k++)
+        memcpy(f[k], s->surface->before[k], (size_t)s->b.size * sizeof(double));
+    s->surface->travelled = s->surface->travelled_before;
+    s->surface->repeats++;
+}
+
+const char *surface_trouble(const struct fv *s)
+{
+    return s->surface->wet > 0 ? NULL : "no cell holds water any more";
+}

@@ -1,0 +1,379 @@
+/* test_levelset.c - a disc keeps its place and size under advection and reinitialisation; the
+ * pressure with a surface is second order; still water stays still; a wave swings as theory says;
+ * ranks change nothing but rounding, a restart nothing at all. ranks: 1 2 4.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "test.h"
+
+#include "../fv/bc.h"
+#include "../fv/levelset.h"
+#include "../fv/pressure.h"
+#include "fv_case.h"
+
+#define CLOSED "domain.periodic=(false,false,false)"
+#define SURFACE "fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED
+
+typedef double (*function)(const double *x);
+
+static struct fv *start(struct fv_case *c, MPI_Comm comm, const char *const *overrides,
+                        const struct scene_shape *shape, enum wall_kind kind)
+{
+    fv_case_set(c, comm, overrides);
+    struct scene *scene = &c->run.scene;
+    for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * scene->domain.dim; side++)
+        if (!scene->domain.periodic[(side - SIDE_X_MIN) / 2])
+            scene->walls[scene->nwalls++] = (struct scene_wall){.side = side, .kind = kind};
+    if (shape)
+        scene->shapes[scene->nshapes++] = *shape;
+    return fv_case_start(c, NULL);
+}
+
+/* A box of n cells a side with a disc of water. */
+static struct fv *disc(struct fv_case *c, int n, double x, double y, double radius)
+{
+    char cells[64];
+    snprintf(cells, sizeof cells, "fv.cells=(%d,%d)", n, n);
+    const struct scene_shape shape = {.form = SHAPE_DISC, .centre = {x, y, 0.0}, .radius = radius};
+    return start(c, MPI_COMM_WORLD, (const char *const[]){SURFACE, cells, NULL}, &shape, WALL_SLIP);
+}
+
+static void set(struct fv *s, double *field, function f)
+{
+    const struct block *b = &s->b;
+    double x[3];
+    for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
+        for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
+            for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
+                block_centre(b, i, j, k, x);
+                field[block_at(b, i, j, k)] = f(x);
+            }
+}
+
+static double most_of(double v)
+{
+    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    return v;
+}
+
+/* Largest distance of the surface on the grid's lines from the circle, m. */
+static double off_circle(const struct fv *s, double x0, double y0, double radius)
+{
+    const struct block *b = &s->b;
+    const double *phi = s->surface->phi;
+    double most = 0.0, x[3];
+    for (int j = 0; j < b->n[1]; j++)
+        for (int i = 0; i < b->n[0]; i++)
+            for (int a = 0; a < 2; a++) {
+                const int64_t c = block_at(b, i, j, 0), d = b->stride[a];
+                if ((phi[c] < 0.0) == (phi[c + d] < 0.0))
+                    continue;
+                block_centre(b, i, j, 0, x);
+                x[a] += phi[c] / (phi[c] - phi[c + d]) * b->h[a];
+                most = fmax(most, fabs(hypot(x[0] - x0, x[1] - y0) - radius));
+            }
+    return most_of(most);
+}
+
+/* Once around the middle of the box. */
+static double turned(int n)
+{
+    struct fv_case c;
+    struct fv *s = disc(&c, n, 0.5, 0.7, 0.17);
+    const double h = s->b.h[0], dt = 0.5 * h / M_PI;
+    const int steps = (int)ceil(1.0 / dt);
+    double x[3];
+    s->umax[0] = s->umax[1] = M_PI;
+    for (int j = -3; j < s->b.n[1] + 3; j++)
+        for (int i = -3; i < s->b.n[0] + 3; i++) {
+            const int64_t at = block_at(&s->b, i, j, 0);
+            block_centre(&s->b, i, j, 0, x);
+            s->u[0][at] = -2.0 * M_PI * (x[1] - 0.5);
+            s->u[1][at] = 2.0 * M_PI * (x[0] - 0.5);
+        }
+    const double volume = surface_volume(s, NULL);
+    for (int k = 0; k < steps; k++) {
+        surface_advance(s, 1.0 / steps);
+        if (s->surface->travelled > 2.0)
+            surface_reinit(s, 10);
+    }
+    const double off = off_circle(s, 0.5, 0.7, 0.17),
+                 lost = fabs(surface_volume(s, NULL) / volume - 1.0);
+    print_message("disc, %d cells: %.3g h off, volume %.3g\n", n, off / h, lost);
+    fv_free(&c.s);
+    assert_close(lost, 0.0, 2.0 * h * h);
+    return off;
+}
+
+static void disc_turns_once(void **state)
+{
+    (void)state;
+    const double coarse = turned(32), fine = turned(64);
+    assert_close(fine * 64.0, 0.0, 0.02);
+    assert_true(coarse / fine > 3.5);
+}
+
+/* Russo & Smereka's example: distance to a circle times something far from 1. */
+static double bent(const double *x)
+{
+    const double r = hypot(x[0] - 0.52, x[1] - 0.49);
+    return (r * r - 0.09) * (1.0 + 4.0 * (x[0] - 0.2) * (x[0] - 0.2) + 8.0 * x[1] * x[1]);
+}
+
+static double moved(int n)
+{
+    struct fv_case c;
+    struct fv *s = disc(&c, n, 0.52, 0.49, 0.3);
+    set(s, s->surface->phi, bent);
+    surface_ghosts(s, s->surface->phi);
+    surface_reinit(s, 100);
+    const double off = off_circle(s, 0.52, 0.49, 0.3), slope = surface_distortion(s);
+    print_message("reinit, %d cells: %.3g h off, |grad phi| - 1: %.3g\n", n, off * n, slope);
+    assert_close(slope, 0.0, 0.1);
+    fv_free(&c.s);
+    return off;
+}
+
+static void reinit_does_not_move_the_surface(void **state)
+{
+    (void)state;
+    const double coarse = moved(32), fine = moved(64);
+    assert_close(fine * 64.0, 0.0, 0.02);
+    assert_true(coarse / fine > 3.5);
+}
+
+/* Poisson with the given pressure on a circle: psi = cos(3 x) cosh(2 y) + x. */
+static double solution(const double *x) { return cos(3.0 * x[0]) * cosh(2.0 * x[1]) + x[0]; }
+
+static double off_solution(int n)
+{
+    struct fv_case c;
+    struct fv *s = disc(&c, n, 0.51, 0.48, 0.31);
+    const struct block *b = &s->b;
+    struct surface *f = s->surface;
+    double *psi = block_field(b), *div = block_field(b), x[3], most = 0.0;
+    for (int a = 0; a < 2; a++)
+        for (int64_t i = 0; i < f->ncut[a]; i++) {
+            struct cut *q = f->cut[a] + i;
+            const int64_t at = q->wet;
+            block_centre(b, (int)(at % b->stride[1]) - b->g[0], (int)(at / b->stride[1]) - b->g[1],
+                         0, x);
+            x[a] += q->up * q->theta * b->h[a];
+            q->p = solution(x);
+        }
+    for (int j = 0; j < b->n[1]; j++)
+        for (int i = 0; i < b->n[0]; i++) {
+            block_centre(b, i, j, 0, x);
+            div[block_at(b, i, j, 0)] = -5.0 * cos(3.0 * x[0]) * cosh(2.0 * x[1]);
+        }
+    surface_add_pressure(s, div);
+    pressure_solve(s, psi, div, 1e-10, 200);
+    for (int j = 0; j < b->n[1]; j++)
+        for (int i = 0; i < b->n[0]; i++) {
+            const int64_t at = block_at(b, i, j, 0);
+            block_centre(b, i, j, 0, x);
+            if (f->layer[at] == 0)
+                most = fmax(most, fabs(psi[at] - solution(x)));
+        }
+    mem_free(psi);
+    mem_free(div);
+    fv_free(&c.s);
+    return most_of(most);
+}
+
+static void pressure_is_second_order(void **state)
+{
+    (void)state;
+    const double coarse = off_solution(32), fine = off_solution(128);
+    print_message("pressure: %.3g, %.3g: order %.2f\n", coarse, fine,
+                  0.5 * fv_case_order(coarse, fine));
+    assert_true(0.5 * fv_case_order(coarse, fine) > 1.8);
+}
+
+static void still_water_stays(void **state)
+{
+    static const double slope[] = {0.0, 0.3, -1.0};
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++)
+        for (int k = 0; k < 3; k++) {
+            struct fv_case c;
+            char gravity[96];
+            /* gravity askew: the surface cuts the cells in all ways */
+            snprintf(gravity, sizeof gravity,
+                     dim == 2 ? "fluid.gravity=(%g,-9.81)" : "fluid.gravity=(%g,1.3,-9.81)",
+                     9.81 * slope[k]);
+            const struct scene_shape shape = {.form = SHAPE_BELOW, .level = k == 0 ? 0.4123 : 0.2};
+            struct fv *s = start(
+                &c, MPI_COMM_WORLD,
+                (const char *const[]){SURFACE, gravity, dim == 2 ? "domain.dim=2" : "domain.dim=3",
+                                      dim == 2 ? "fv.cells=(24,20)" : "fv.cells=(12,10,16)", NULL},
+                &shape, WALL_NO_SLIP);
+            assert_true(fv_case_run(&c, 5, 10.0));
+            print_message("still water, %dD: %.3g m/s\n", dim, s->umax[0]);
+            for (int a = 0; a < dim; a++)
+                assert_close(s->umax[a], 0.0, 1e-10);
+            fv_free(&c.s);
+        }
+}
+
+#define WAVE                                                                                       \
+    "fv.surface=\"yes\"", "initial.field=\"standing_wave\"", "initial.level=1",                    \
+        "initial.amplitude=0.01", "initial.U=0.01", "initial.L=4", "fluid.nu=2e-3",                \
+        "fluid.gravity=(0,-1)", "domain.max=(4,1.25)", "domain.periodic=(true,false)"
+
+static void wave_swings_as_theory_says(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    double period, rate;
+    struct fv *s = start(&c, MPI_COMM_WORLD, (const char *const[]){WAVE, "fv.cells=(32,40)", NULL},
+                         NULL, WALL_NO_SLIP);
+    assert_true(exact_oscillation(&s->exact, &period, &rate));
+    assert_true(fv_case_run(&c, 10000, 1.9 * period));
+    const double T = fit_period(&s->swing) / period - 1.0, r = fit_rate(&s->swing) / rate - 1.0,
+                 v = surface_volume(s, NULL) / s->surface->volume0 - 1.0;
+    print_message("wave: period %.3g, damping %.3g, volume %.3g\n", T, r, v);
+    fv_free(&c.s);
+    assert_close(T, 0.0, 0.002);
+    assert_close(r, 0.0, 0.05);
+    assert_close(v, 0.0, 1e-10);
+}
+
+enum flow { WAVES, COLUMN, COLUMN_3D, FLOWS };
+
+static struct fv *flow_start(struct fv_case *c, MPI_Comm comm, enum flow flow)
+{
+    const struct scene_shape column = {.form = SHAPE_BOX, .box = {{0, 0, 0}, {0.43, 0.61, 0.57}}};
+    if (flow == WAVES)
+        return start(c, comm, (const char *const[]){WAVE, "fv.cells=(24,20)", NULL}, NULL,
+                     WALL_NO_SLIP);
+    const bool solid = flow == COLUMN_3D;
+    return start(
+        c, comm,
+        (const char *const[]){SURFACE, solid ? "domain.dim=3" : "domain.dim=2",
+                              solid ? "fluid.gravity=(0,0,-9.81)" : "fluid.gravity=(0,-9.81)",
+                              solid ? "fv.cells=(12,8,14)" : "fv.cells=(26,24)", NULL},
+        &column, solid ? WALL_SLIP : WALL_NO_SLIP);
+}
+
+static void sums_on(MPI_Comm comm, enum flow flow, double sums[5])
+{
+    struct fv_case c;
+    struct fv *s = flow_start(&c, comm, flow);
+    const bool good = fv_case_run(&c, 8, 100.0);
+    sums[0] = good ? surface_energy(s) : NAN;
+    for (int a = 0; a < 2; a++)
+        sums[1 + a] = surface_reach(s, a);
+    sums[3] = s->umax[0];
+    sums[4] = s->t;
+    fv_free(&c.s);
+}
+
+static void ranks_agree(void **state)
+{
+    (void)state;
+    for (int flow = 0; flow < FLOWS; flow++) {
+        double alone[5], shared[5], most = 0.0;
+        sums_on(MPI_COMM_SELF, (enum flow)flow, alone);
+        sums_on(MPI_COMM_WORLD, (enum flow)flow, shared);
+        for (int k = 0; k < 5; k++) {
+            const double e = fabs(alone[k] - shared[k]) / fmax(1e-3, fabs(alone[k]));
+            most = e <= most ? most : e;
+        }
+        most = most_of(most);
+        print_message("flow %d: %.3g\n", flow, most);
+        assert_close(most, 0.0, 1e-9);
+    }
+}
+
+static void restart_is_exact(void **state)
+{
+    enum { SIZE = 1024 };
+    (void)state;
+    for (int flow = 0; flow < FLOWS; flow++) {
+        struct fv_case one, two;
+        char path[SIZE];
+        int64_t differ = 0;
+        fv_case_path(".h5", path, SIZE);
+        MPI_Bcast(path, SIZE, MPI_CHAR, 0, MPI_COMM_WORLD);
+        flow_start(&one, MPI_COMM_WORLD, (enum flow)flow);
+        assert_true(fv_case_run(&one, 5, 100.0));
+        struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
+        fv_checkpoint(one.s, f);
+        h5_close(&f);
+        f = h5_open(MPI_COMM_WORLD, path);
+        assert_non_null(f);
+        flow_start(&two, MPI_COMM_WORLD, (enum flow)flow);
+        assert_true(fv_restore(two.s, f));
+        measure(two.s);
+        h5_close(&f);
+        two.s->t = one.s->t; /* which the program takes from the file */
+        assert_true(fv_case_run(&one, 5, 100.0) && fv_case_run(&two, 5, 100.0));
+        for (int a = 0; a < one.s->b.dim; a++)
+            BLOCK_ROWS (&one.s->b, 0, at, n)
+                for (int64_t i = at; i < at + n; i++)
+                    differ += one.s->u[a][i] != two.s->u[a][i] ||
+                              one.s->surface->phi[i] != two.s->surface->phi[i] ||
+                              one.s->p[i] != two.s->p[i];
+        MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+        assert_int_equal(differ, 0);
+        fv_free(&one.s);
+        fv_free(&two.s);
+        MPI_Barrier(MPI_COMM_WORLD);
+        remove(path);
+    }
+}
+
+/* Some steps; NULL, or why the run stopped. */
+static const char *odd(const struct scene_shape *shape, int steps)
+{
+    static struct diagnosis d;
+    struct fv_case c;
+    struct fv *s =
+        start(&c, MPI_COMM_WORLD,
+              (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "fv.cells=(16,16)", NULL},
+              shape, WALL_NO_SLIP);
+    d = (struct diagnosis){0};
+    for (int k = 0; k < steps && !d.bad; k++)
+        integrate(s, 10.0, &d);
+    print_message("odd water: %.3g m/s, %d wet cells %s\n", s->umax[1], (int)s->surface->wet,
+                  d.bad ? d.reason : "");
+    assert_true(d.bad || isfinite(s->umax[0] + s->umax[1]));
+    fv_free(&c.s);
+    return d.bad ? d.reason : NULL;
+}
+
+/* A drop of a few cells, a surface through the corners of cells, a full tank; water that is finer
+ * than the cells may stop the run, but says so. */
+static void odd_water_runs_or_says_why_not(void **state)
+{
+    (void)state;
+    static const struct scene_shape runs[] = {
+        {.form = SHAPE_DISC, .centre = {0.5, 0.52, 0}, .radius = 0.1},
+        {.form = SHAPE_BELOW, .level = 0.5},
+        {.form = SHAPE_BELOW, .level = 0.53125}, /* through centres */
+        {.form = SHAPE_BOX, .box = {{0.25, 0.25, 0}, {0.75, 0.75, 0}}},
+        {.form = SHAPE_BELOW, .level = 2.0}};
+    static const struct scene_shape speck = {.form = SHAPE_DISC,
+                                             .centre = {0.5, 0.52, 0},
+                                             .radius = 0.05},
+                                    none = {.form = SHAPE_BELOW, .level = -1.0};
+    for (int k = 0; k < 5; k++)
+        assert_null(odd(runs + k, 6));
+    odd(&speck, 6);
+    assert_non_null(odd(&none, 1));
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(disc_turns_once),
+                                       cmocka_unit_test(reinit_does_not_move_the_surface),
+                                       cmocka_unit_test(pressure_is_second_order),
+                                       cmocka_unit_test(still_water_stays),
+                                       cmocka_unit_test(wave_swings_as_theory_says),
+                                       cmocka_unit_test(ranks_agree),
+                                       cmocka_unit_test(restart_is_exact),
+                                       cmocka_unit_test(odd_water_runs_or_says_why_not)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
