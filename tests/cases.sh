@@ -1,0 +1,50 @@
+#!/bin/sh
+# Small versions of the cases of SPH against their references, one line a case; tolerances are about twice
+# what was measured.
+# SPDX-License-Identifier: BSD-3-Clause
+cd "$(dirname "$0")/.." || exit 2
+b=$(cd "${1:-build}" && pwd)
+tmp=${TEST_SCRATCH:-$(mktemp -d)}/cases
+mkdir -p "$tmp" || exit 2
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+failed=0
+# value SUMMARY KEY: of "group.name" or "name"
+value() {
+    awk -v key="$2" 'BEGIN { n = split(key, k, "."); if (n == 1) { k[2] = k[1]; k[1] = "" } }
+        /": \{/ { group = $1 } /^  \}/ { group = "" }
+        $1 == "\"" k[2] "\":" && (k[1] == "" || group == "\"" k[1] "\":") { gsub(",", "", $2); print $2; exit }' "$1"
+}
+# small CASE "KEY MOST KEY MOST ..." ARGS...: |value| <= MOST
+small() {
+    name=$1 limits=$2
+    shift 2
+    start=$(date +%s)
+    timeout -k 5 60 "$b/sph" "cases/$name" -o "$tmp/$name" --force -p output.snapshots=false "$@" >"$tmp/$name.log" 2>&1
+    code=$?
+    said= bad=
+    [ $code -le 1 ] || bad=" exit code $code"
+    # shellcheck disable=SC2086
+    set -- $limits
+    while [ $# -ge 2 ] && [ -z "$bad" ]; do
+        v=$(value "$tmp/$name/summary.json" "$1")
+        said="$said  $1 $v (<= $2)"
+        awk -v v="$v" -v m="$2" 'BEGIN { exit !(v != "" && v != "null" && v <= m && v >= -m) }' || bad=" $1"
+        shift 2
+    done
+    [ -z "$bad" ] || { failed=$((failed + 1)); tail -n 5 "$tmp/$name.log"; }
+    printf '%-5s %-18s %2s s%s%s\n' "$([ -z "$bad" ] && echo ok || echo FAIL)" "$name" $(($(date +%s) - start)) "$said" "${bad:+  wrong:$bad}"
+}
+small star "error.force 0.03 force.x 1 particles_lost 0" -p sph.dx=0.05 -p time.end=1
+small still_water_sph "max_mach 3e-3 particles_lost 0 drift.mass 1e-12" -p sph.dx=0.05 -p time.end=2
+small standing_wave_sph "error.period 0.02 error.damping 2" -p sph.dx=0.08 -p 'domain.max=(4,1.28)' -p time.end=10.6
+small dam_break "particles_lost 0 drift.mass 1e-12 drift.energy 0.2" -p sph.dx=0.02 -p 'domain.max=(1.62,1.2)' -p time.end=1
+small oscillating_drop "error.period 0.01 drift.energy 0.1 drift.mass 1e-12" -p sph.dx=0.1 -p time.end=9.7
+small rotating_patch "particles_lost 0 drift.energy 0.1 drift.momentum 1e-6" -p sph.dx=0.05
+small poiseuille_sph "error.velocity_l2 0.01" -p time.end=3
+small poiseuille_sph "error.velocity_l2 0.005" -p sph.dx=0.0125 -p time.end=0.1 # dt set by friction on the walls
+# Re = 100, where 20 particles are enough: extrema of Marchi, Suero & Araki, J. Braz. Soc. Mech. Sci. Eng. 31, 2009
+small cavity_sph "error.extrema 0.3" -p sph.dx=0.05 -p time.end=15 -p fluid.nu=0.01 -p 'sph.extrema=(-0.214042,0.179573,-0.253804)'
+small still_water_3d "max_mach 3e-4 particles_lost 0" -p sph.dx=0.125 -p time.end=0.2
+small dam_break_3d "particles_lost 0 drift.energy 0.2" -p sph.dx=0.1 -p time.end=0.7
+small dam_break_complex "particles_lost 0 drift.energy 0.6" -p sph.dx=0.125 -p time.end=5
+[ $failed = 0 ]
