@@ -20,7 +20,11 @@ enum sph_transport {
     TRANSPORT_EULERIAN,
     TRANSPORT_XSPH
 };
-enum sph_viscosity { VISCOSITY_MORRIS, VISCOSITY_MONAGHAN };
+enum sph_viscosity {
+    VISCOSITY_MORRIS,
+    VISCOSITY_MONAGHAN,
+    VISCOSITY_AUTO
+}; /* auto: in cases only */
 enum sph_outer { OUTER_NONE, OUTER_EXACT, OUTER_PARTNER, OUTER_SIDES };
 enum sph_walls { WALLS_NFM, WALLS_GHOSTS, WALLS_FIXED, WALLS_AUTO };
 enum sph_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };

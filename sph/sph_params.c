@@ -21,7 +21,7 @@ static const struct param rows[] = {
     CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface, else riemann_ale"),
     CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles"),
     CHOICE(P, transport, "tvs|tvo|none|eulerian|xsph", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest; xsph: smoothed velocity"),
-    CHOICE(P, viscosity, "morris|monaghan", "morris", "form of the viscous term"),
+    CHOICE(P, viscosity, "morris|monaghan|auto", "auto", "form of the viscous term; auto: monaghan with a free surface, where it leaves no stress, else morris"),
     PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)"),
     PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface, else 0"),
     PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure"),
@@ -145,6 +145,8 @@ const struct sph_params *sph_params_of(const struct run *r)
         used.c0 = default_c0(&r->scene);
     if (used.surface == SURFACE_AUTO)
         used.surface = has_surface(&r->scene) ? SURFACE_YES : SURFACE_NO;
+    if (used.viscosity == VISCOSITY_AUTO)
+        used.viscosity = used.surface ? VISCOSITY_MONAGHAN : VISCOSITY_MORRIS;
     if (used.scheme == SCHEME_AUTO)
         used.scheme = used.surface == SURFACE_YES ? SCHEME_RIEMANN : SCHEME_RIEMANN_ALE;
     if (used.walls == WALLS_AUTO) /* the fluxes of nfm are those of the Riemann schemes */
