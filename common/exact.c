@@ -191,6 +191,16 @@ bool exact_oscillation(const struct exact *e, double *period, double *rate)
     return false;
 }
 
+double exact_signal(const struct exact *e, const double *x, const double *u)
+{
+    const double k = e->wave.k, z = k * (x[1] - e->bottom);
+    if (e->field == FIELD_DROP)
+        return x[0] * x[0] - x[1] * x[1];
+    if (e->field != FIELD_STANDING_WAVE)
+        return 0.0;
+    return u[1] * sinh(z) * cos(k * x[0]) - u[0] * cosh(z) * sin(k * x[0]);
+}
+
 /* By Gauss's rule of three points along x and y. */
 static void other_average(const struct exact *e, const double *x, const double *h, double t,
                           double *u, double *p, double *w)

@@ -37,6 +37,9 @@ struct exact exact_create(const struct scene *s);
 /* Period (s) and rate of decay (1/s, < 0) of a standing wave or of the drop (rate 0: inviscid);
  * false for other fields. */
 bool exact_oscillation(const struct exact *e, double *period, double *rate);
+/* What swings, per mass: the velocity u at x as part of the wave's inviscid mode, or the drop's
+ * second moment; 0 for other fields. */
+double exact_signal(const struct exact *e, const double *x, const double *u);
 /* u[3], p (mean 0), vorticity dv/dx - du/dy at x[3], t; pointers may be NULL. */
 void exact_point(const struct exact *e, const double *x, double t, double *u, double *p, double *w);
 /* The same averaged over the cell of centre x and sides h (z matters to beltrami alone). */

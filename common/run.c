@@ -381,6 +381,8 @@ static int loop_coupled(struct life *l)
             l->p->window_end(l->s, t1);
         struct summary *s = summary_create();
         report_progress(l, s);
+        if (l->p->tell)
+            l->p->tell(l->s, s);
         c->advance(r->partner_ctx, t1, s, stop_asked(r));
         summary_free(&s);
         if (output)

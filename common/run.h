@@ -85,6 +85,9 @@ struct program {
     /* Coupled: before the first step of a window and after its last; NULL when never coupled. */
     void (*window_begin)(void *s, double t0, double t1);
     void (*window_end)(void *s, double t1);
+    /* Coupled: sums over its own part of the flow at the end of a window, as "sum.kinetic"; the
+     * coupler adds them up. NULL: none. Collective. */
+    void (*tell)(void *s, struct summary *report);
     /* Columns of series.csv beyond "t [s]", "dt [s]", and their values (on rank 0); collective. */
     const char *const *columns;
     int ncolumns;

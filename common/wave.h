@@ -23,6 +23,9 @@ struct wave wave_create(double H, double length, double g, double nu, double rho
  * surface; pointers may be NULL. */
 void wave_point(const struct wave *w, double x, double y, double t, double *u, double *p,
                 double *vorticity);
+/* Enstrophy of the still layer, half the square of the vorticity, over the area of its bottom;
+ * m/s^2. */
+double wave_enstrophy(const struct wave *w, double t);
 double wave_eta(const struct wave *w, double x, double t);
 
 #endif

@@ -119,6 +119,7 @@ struct coupler {
     int64_t nsaved;      /* solvers whose restart file of `save_window' is complete */
     int64_t save_window;
     char saved[HANDSHAKE_PROGRAMS][256];
+    struct sums *sums; /* sums.c; NULL: nobody tells any */
 };
 
 /* One more problem in a list that all programs print. */
@@ -153,6 +154,11 @@ void rendezvous_close(struct coupler *c);
 
 /* checkpoint.c: a restart point exists when its manifest does. */
 void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m);
+
+/* sums.c: rank 0; at the end of a window, at the end of the job. */
+void sums_window(struct coupler *c);
+void sums_summarise(const struct coupler *c, struct summary *to);
+void sums_free(struct coupler *c);
 
 /* report.c: progress lines, summary of the job, accepted or not. */
 void report_told(struct wire *w, struct message *m, struct told *t);

@@ -32,6 +32,7 @@ void report_told(struct wire *w, struct message *m, struct told *t)
 }
 
 static bool is_norm(const char *key) { return strncmp(key, "norm.", 5) == 0; }
+static bool is_sum(const char *key) { return strncmp(key, "sum.", 4) == 0; }
 
 /* Cost and norms belong to the end of the run, not to its progress. */
 static bool in_progress_line(const char *key)
@@ -175,7 +176,7 @@ static void put_told(const struct coupler *c, struct summary *s)
             const struct told_number *t = &c->solver[i].told.of[k];
             if (strcmp(t->key, "mass_fluctuation") == 0)
                 summary_real(s, t->key, t->value);
-            else if (!is_norm(t->key))
+            else if (!is_norm(t->key) && !is_sum(t->key))
                 put_number(s, c->solver[i].name, t->key, "", t->value);
         }
 }
@@ -267,6 +268,7 @@ int report_summary(struct coupler *c, double coupler_cpu)
     summary_text(s, "version", run_version);
     const double cpu = put_cost(c, s, coupler_cpu, wall);
     put_errors(c, s);
+    sums_summarise(c, s);
     put_told(c, s);
     say_end(c, s, cpu, coupler_cpu, wall);
     if (code == RUN_DONE && !accepted(c, s))

@@ -144,5 +144,6 @@ void window_advance(struct coupler *c, struct solver *s, struct message *m)
         if (c->solver[i].advanced != c->window)
             return;
     c->window++;
+    sums_window(c);
     window_announce(c);
 }

@@ -70,6 +70,7 @@ struct fv {
     struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;
     double dt, dt_old; /* s: last step, 0 before the first; the one before it */
+    double partner[2][3];   /* m: box that a partner counts as its own; lo >= hi: none */
     double u_limit;    /* m/s: beyond it the run has blown up */
     double umax[3];    /* m/s: largest |u_a| */
     double max_cfl;
@@ -134,6 +135,8 @@ void fv_checkpoint(void *s, struct h5 *f);
 bool fv_restore(struct fv *s, struct h5 *f);
 void fv_finish(void *s);
 void fv_row(void *s, double *values);
+/* Sums over what no partner counts, for the coupler; see program.tell. */
+void fv_tell(void *s, struct summary *report);
 
 /* fv_probes.c: the case's gauges; number of columns and their names (static), values on all ranks.
  */

@@ -72,6 +72,7 @@ void coupling_create(struct fv *s)
     double lo[3], hi[3];
     k->c = s->run->partner_ctx;
     check(k, cpl_find_zone(k->c, "sph.given", lo, hi));
+    check(k, cpl_find_zone(k->c, "sph.free", s->partner[0], s->partner[1]));
     s->forcing = forcing_create(s, lo, hi, true);
     if (!s->forcing)
         log_warn("no cell lies wholly in the box that sph gives, (%g, %g) to (%g, %g) m: fv is not "
@@ -104,8 +105,20 @@ void coupling_free(struct fv *s)
     s->link = NULL;
 }
 
-/* Velocity and pressure now, as a new level; forced cells get a pressure continued from the free
- * side. */
+static void add_still_pressure(const struct fv *s, double *p)
+{
+    const struct block *b = &s->b;
+    double x[3];
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++)
+            for (int i = 0; i < b->n[0]; i++) {
+                block_centre(b, i, j, k, x);
+                p[block_at(b, i, j, k)] += fv_still_pressure(s, x);
+            }
+}
+
+/* Velocity and whole pressure now, as a new level; forced cells get a pressure continued from the
+ * free side. */
 static void take_level(struct fv *s)
 {
     struct link *k = s->link;
@@ -120,6 +133,7 @@ static void take_level(struct fv *s)
         p[c] = fv_pressure(s, c);
     if (s->forcing)
         forcing_extend(s, p);
+    add_still_pressure(s, p);
     for (int m = 0; m <= b->dim; m++) {
         block_pack(b, m < b->dim ? s->u[m] : p, one);
         for (int64_t i = 0; i < k->n; i++)

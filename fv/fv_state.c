@@ -41,7 +41,7 @@ static void make_fields(struct fv *s)
     }
 }
 
-/* Exact averages, in forced cells and ghosts too. */
+/* Exact averages, in forced cells and ghosts too; p less what gravity makes at rest. */
 static void fill(struct fv *s)
 {
     const struct block *b = &s->b;
@@ -54,7 +54,7 @@ static void fill(struct fv *s)
                 exact_average(&s->exact, x, b->h, 0.0, u, &p, NULL);
                 for (int a = 0; a < b->dim; a++)
                     s->u[a][c] = u[a];
-                s->p[c] = s->p_before[c] = p / s->exact.rho;
+                s->p[c] = s->p_before[c] = (p - fv_still_pressure(s, x)) / s->exact.rho;
             }
 }
 

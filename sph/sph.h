@@ -192,6 +192,8 @@ void sph_checkpoint(void *s, struct h5 *f);
 bool sph_restore(struct sph *s, struct h5 *f);
 void sph_finish(void *s);
 void sph_row(void *s, double *values);
+/* Sums over the free zone for the coupler; see program.tell. */
+void sph_tell(void *s, struct summary *report);
 
 /* sph_lines.c: extrema on the centre lines into the summary; 2D. Collective. */
 void sph_summarise_extrema(const struct sph *s);

@@ -108,13 +108,30 @@ static double exact_kinetic(const struct sph *s)
     return sum;
 }
 
-static double enstrophy(const struct sph *s)
+/* Part of a particle that is SPH's to count where a partner counts the rest: what of its square or
+ * cube lies in the free zone. */
+static double share(const struct sph *s, int i)
+{
+    const double *y = s->p.y + (size_t)i * s->p.nstate;
+    double f = 1.0;
+    for (int side = 0; s->zones && side < 2 * s->dim; side++) {
+        const int a = side / 2;
+        const double in = side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a];
+        const double rim = s->zones->buffer + s->zones->transition;
+        if (s->open[side])
+            f *= fmin(fmax((in - rim) / s->dx + 0.5, 0.0), 1.0);
+    }
+    return f;
+}
+
+/* Needs the gradients of the present state. own: only what no partner counts. */
+static double enstrophy(const struct sph *s, bool own)
 {
     double sum = 0.0;
     for (int i = 0; i < s->p.n; i++) {
         double w[3];
         sph_vorticity(s, i, w);
-        sum += 0.5 * s->p.prim[(size_t)PRIM * i + 2 * s->dim] *
+        sum += 0.5 * (own ? share(s, i) : 1.0) * s->p.prim[(size_t)PRIM * i + 2 * s->dim] *
                (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
     }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
@@ -153,21 +170,34 @@ static double total(const struct sph *s, double v)
 static double births(const struct sph *s) { return total(s, (double)s->zones->openings->born); }
 static double removals(const struct sph *s) { return total(s, (double)s->zones->openings->gone); }
 
-/* What swings: the part of the momentum in the inviscid mode of the wave, or the drop's second
- * moment. */
-static double signal_now(const struct sph *s, const struct exact *e)
+/* Momentum's part in what swings. */
+static double signal_now(const struct sph *s, const struct exact *e, bool own)
 {
+    const int dim = s->dim;
     double sum = 0.0;
     for (int i = 0; i < s->p.n; i++) {
-        const double *y = s->p.y + (size_t)i * s->p.nstate, k = e->wave.k;
-        if (e->field == FIELD_DROP) {
-            sum += y[5] * (y[0] * y[0] - y[1] * y[1]);
-            continue;
-        }
-        const double z = k * (y[1] - e->bottom);
-        sum += y[3] * sinh(z) * cos(k * y[0]) - y[2] * cosh(z) * sin(k * y[0]);
+        const double *y = s->p.y + (size_t)i * s->p.nstate, m = y[2 * dim + 1];
+        const double u[2] = {y[dim] / m, y[dim + 1] / m};
+        sum += (own ? share(s, i) : 1.0) * m * exact_signal(e, y, u);
     }
     return total(s, sum);
+}
+
+void sph_tell(void *state, struct summary *report)
+{
+    struct sph *s = state;
+    const struct exact e = exact_create(&s->run->scene);
+    const int dim = s->dim;
+    double kinetic = 0.0;
+    integrate_gradients(s);
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + (size_t)i * s->p.nstate;
+        for (int a = 0; a < dim; a++)
+            kinetic += share(s, i) * 0.5 * y[dim + a] * y[dim + a] / y[2 * dim + 1];
+    }
+    summary_real(report, "sum.kinetic", total(s, kinetic));
+    summary_real(report, "sum.enstrophy", enstrophy(s, true));
+    summary_real(report, "sum.signal", signal_now(s, &e, true));
 }
 
 static bool has_signal(const struct run *r)
@@ -179,15 +209,15 @@ static void sample_signal(struct sph *s)
 {
     const struct exact e = exact_create(&s->run->scene);
     if (has_signal(s->run))
-        fit_add(&s->signal_fit, s->t, signal_now(s, &e));
+        fit_add(&s->signal_fit, s->t, signal_now(s, &e, false));
 }
 
-/* Period and damping against the exact ones. */
+/* Period, damping and enstrophy against the exact ones; of a coupled job by the coupler. */
 static void summarise_oscillation(struct sph *s)
 {
     const struct exact e = exact_create(&s->run->scene);
     double period, rate;
-    if (!has_signal(s->run) || !exact_oscillation(&e, &period, &rate))
+    if (s->run->coupled || !has_signal(s->run) || !exact_oscillation(&e, &period, &rate))
         return;
     sample_signal(s);
     const double T = fit_period(&s->signal_fit), r = fit_rate(&s->signal_fit);
@@ -199,6 +229,13 @@ static void summarise_oscillation(struct sph *s)
     if (isfinite(r)) {
         summary_real(to, "damping", r);
         summary_real(to, "error.damping", rate != 0.0 ? fabs(r / rate - 1.0) : fabs(r) * period);
+    }
+    if (e.field == FIELD_STANDING_WAVE && s->nu > 0.0) {
+        double area = 1.0;
+        for (int a = 0; a < s->dim; a++)
+            area *= a == 1 ? 1.0 : s->hi[a] - s->lo[a];
+        summary_real(to, "error.enstrophy",
+                     fabs(enstrophy(s, false) / (area * wave_enstrophy(&e.wave, s->t)) - 1.0));
     }
 }
 
@@ -230,7 +267,7 @@ void sph_row(void *state, double *values)
     timer_start(&s->run->timers, timer_index(&s->run->timers, "output"));
     sph_sums(s, sums);
     *values++ = sums[SUM_KINETIC];
-    *values++ = enstrophy(s);
+    *values++ = enstrophy(s, false);
     *values++ = sums[SUM_MASS];
     for (int a = 0; a < s->dim; a++)
         *values++ = sums[SUM_MOMENTUM + a];

@@ -59,7 +59,8 @@ static bool is_given(double box[2][3])
 
 static bool has_box(void) { return is_given(given.box) || is_given(given.free); }
 
-/* The outer box along an axis: as given, around the free zone, or the domain. */
+/* The outer box along an axis: as given, around the free zone, or the domain. A free zone that
+ * reaches a side of the domain ends there. */
 static void find_box(const struct run *r, struct sph_params *used, int a)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -69,9 +70,9 @@ static void find_box(const struct run *r, struct sph_params *used, int a)
     double transition = 0.0, buffer = 0.0;
     if (around)
         zones_widths(r, used, &transition, &buffer);
-    const bool whole = !has_box() || a >= d->dim || (lo <= d->min[a] && hi >= d->max[a]);
-    used->box[0][a] = whole ? d->min[a] : lo - (transition + buffer);
-    used->box[1][a] = whole ? d->max[a] : hi + (transition + buffer);
+    const bool plain = !has_box() || a >= d->dim;
+    used->box[0][a] = plain || lo <= d->min[a] ? d->min[a] : lo - (transition + buffer);
+    used->box[1][a] = plain || hi >= d->max[a] ? d->max[a] : hi + (transition + buffer);
 }
 
 /* Ten times the largest speed to expect, so that the density varies by about a percent [2.33-2.35].
@@ -89,6 +90,13 @@ static double default_c0(const struct scene *c)
     return 10.0 * fmax(fmax(U, carried), sqrt(gH));
 }
 
+bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *prm, int side)
+{
+    const int a = side / 2;
+    const double near = 1e-6 * prm->dx;
+    return side % 2 ? prm->box[1][a] >= d->max[a] - near : prm->box[0][a] <= d->min[a] + near;
+}
+
 /* Whether the fluid ends somewhere without a wall. */
 static bool has_surface(const struct scene *c)
 {
@@ -96,11 +104,21 @@ static bool has_surface(const struct scene *c)
     return c->nshapes > 0 || f == FIELD_STANDING_WAVE || f == FIELD_PATCH || f == FIELD_DROP;
 }
 
-static bool has_walls(const struct scene *c)
+static bool is_wall(const struct scene_wall *w)
+{
+    return w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP;
+}
+
+/* Walls that the particles can meet: polylines, bodies, sides of the domain that the region
+ * reaches. */
+static bool has_walls(const struct scene *c, const struct sph_params *prm)
 {
     bool any = c->nbodies > 0;
-    for (int k = 0; k < c->nwalls; k++)
-        any = any || c->walls[k].kind == WALL_SLIP || c->walls[k].kind == WALL_NO_SLIP;
+    for (int k = 0; k < c->nwalls; k++) {
+        const int side = c->walls[k].side;
+        any = any || (is_wall(c->walls + k) &&
+                      (side == SIDE_NONE || sph_params_reaches(&c->domain, prm, side - SIDE_X_MIN)));
+    }
     return any;
 }
 
@@ -120,14 +138,14 @@ static bool has_polylines(const struct scene *c)
     return any;
 }
 
-static bool has_no_slip(const struct scene *c)
+static bool has_no_slip(const struct scene *c, const struct sph_params *prm)
 {
     bool any = false;
     for (int k = 0; k < c->nwalls; k++)
         any = any || c->walls[k].kind == WALL_NO_SLIP;
     for (int k = 0; k < c->nbodies; k++)
         any = any || c->bodies[k].kind == WALL_NO_SLIP;
-    return any;
+    return any && has_walls(c, prm);
 }
 
 static bool is_coupled(const struct run *r) { return r->scene.has_sph && r->scene.has_fv; }
@@ -141,6 +159,8 @@ const struct sph_params *sph_params_of(const struct run *r)
 {
     static struct sph_params used;
     used = given;
+    for (int a = 0; a < 3; a++)
+        find_box(r, &used, a);
     if (used.c0 <= 0.0)
         used.c0 = default_c0(&r->scene);
     if (used.surface == SURFACE_AUTO)
@@ -170,8 +190,6 @@ const struct sph_params *sph_params_of(const struct run *r)
         used.outer = is_coupled(r) ? OUTER_PARTNER : OUTER_EXACT;
     if (!has_box() && used.outer == OUTER_NONE && has_openings(&r->scene))
         used.outer = OUTER_SIDES;
-    for (int a = 0; a < 3; a++)
-        find_box(r, &used, a);
     return &used;
 }
 
@@ -198,18 +216,23 @@ double sph_params_dt(const struct sph_params *prm, double nu, double signal,
     return fmin(sound, viscous);
 }
 
-/* Among given sides, those alone with a condition of their own are open; around a box all are. */
+/* Among given sides, those alone with a condition of their own are open; around a box all are but
+ * those on the domain's own sides, where a partner ends too: walls, or the air above a surface. */
 void sph_params_open(const struct run *r, const struct sph_params *prm, bool open[6])
 {
+    const struct scene_domain *d = &r->scene.domain;
     double lo[3], hi[3];
     bool periodic[3];
-    sph_params_region(&r->scene.domain, prm, lo, hi, periodic);
+    sph_params_region(d, prm, lo, hi, periodic);
     for (int side = 0; side < 6; side++) {
-        const struct scene_wall *w = scene_wall_of(&r->scene, SIDE_X_MIN + side);
-        const bool bounded = side / 2 < r->scene.domain.dim && !periodic[side / 2];
-        open[side] = bounded && prm->outer != OUTER_NONE &&
-                     (prm->outer == OUTER_SIDES ? w && w->kind >= WALL_INFLOW
-                                                : !w || w->kind >= WALL_INFLOW);
+        const bool reaches = side / 2 < d->dim && sph_params_reaches(d, prm, side);
+        const struct scene_wall *w = reaches ? scene_wall_of(&r->scene, SIDE_X_MIN + side) : NULL;
+        open[side] = side / 2 < d->dim && !periodic[side / 2] && prm->outer != OUTER_NONE;
+        if (prm->outer == OUTER_SIDES)
+            open[side] = open[side] && w && w->kind >= WALL_INFLOW;
+        else if (reaches)
+            open[side] = open[side] && (!w || w->kind >= WALL_INFLOW) &&
+                         prm->outer == OUTER_EXACT && prm->surface != SURFACE_YES;
     }
 }
 
@@ -290,7 +313,7 @@ static void check_motions(const struct run *r, struct faults *f)
     }
 }
 
-bool sph_params_walls(const struct run *r) { return has_walls(&r->scene); }
+bool sph_params_walls(const struct run *r) { return has_walls(&r->scene, sph_params_of(r)); }
 
 void sph_params_check(const struct run *r, struct faults *f)
 {
@@ -302,7 +325,7 @@ void sph_params_check(const struct run *r, struct faults *f)
         params_fault(
             r->params, f, "sph.transport",
             "eulerian needs scheme \"riemann_ale\": without mass flux there is no Eulerian form");
-    if (!is_riemann(sph_params_of(r)->scheme) && given.walls == WALLS_NFM && has_walls(&r->scene))
+    if (!is_riemann(sph_params_of(r)->scheme) && given.walls == WALLS_NFM && sph_params_walls(r))
         params_fault(r->params, f, "sph.walls", "nfm needs a Riemann scheme: take ghosts");
     if (given.background && sph_params_of(r)->surface == SURFACE_YES)
         params_fault(r->params, f, "sph.background", "not with a free surface");
@@ -311,7 +334,7 @@ void sph_params_check(const struct run *r, struct faults *f)
     check_motions(r, f);
     const bool in_3d = r->scene.domain.dim == 3;
     const bool polylines = has_polylines(&r->scene);
-    if (in_3d && has_walls(&r->scene) && (given.walls == WALLS_NFM || given.walls == WALLS_FIXED))
+    if (in_3d && sph_params_walls(r) && (given.walls == WALLS_NFM || given.walls == WALLS_FIXED))
         params_fault(r->params, f, "sph.walls", "in 3D: ghosts");
     if (polylines && (in_3d || given.walls == WALLS_GHOSTS))
         params_fault(r->params, f, "sph.walls",

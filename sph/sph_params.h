@@ -14,6 +14,8 @@ const struct sph_params *sph_params_of(const struct run *r);
 /* Region of the particles and which of its axes are periodic. */
 void sph_params_region(const struct scene_domain *d, const struct sph_params *prm, double lo[3],
                        double hi[3], bool periodic[3]);
+/* Whether a side (2a: low, 2a + 1: high) of the region lies on the domain's. */
+bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *prm, int side);
 /* Whether the case has transition and buffer zones. */
 bool sph_params_zones(const struct run *r);
 bool sph_params_walls(const struct run *r); /* walls or bodies */

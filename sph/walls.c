@@ -65,9 +65,13 @@ static void add_polyline(struct sph *s, struct walls *w, const struct param_poin
     }
 }
 
-static bool is_wall(const struct scene_wall *w)
+/* A side of the domain that the region does not reach is no wall of its particles. */
+static bool is_wall(const struct sph *s, const struct scene_wall *w)
 {
-    return w && (w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP);
+    const bool is = w && (w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP);
+    return is &&
+           (w->side == SIDE_NONE ||
+            sph_params_reaches(&s->run->scene.domain, &s->prm, w->side - SIDE_X_MIN));
 }
 
 /* Whether a polyline of the case has a point here: a wall goes on. */
@@ -89,8 +93,8 @@ static void add_side(struct sph *s, struct walls *w, const struct scene_wall *is
     const int axis = (is->side - SIDE_X_MIN) / 2, other = 1 - axis;
     const bool high = (is->side - SIDE_X_MIN) % 2;
     const struct scene *c = &s->run->scene;
-    const bool low_wall = is_wall(scene_wall_of(c, SIDE_X_MIN + 2 * other));
-    const bool high_wall = is_wall(scene_wall_of(c, SIDE_X_MIN + 2 * other + 1));
+    const bool low_wall = is_wall(s, scene_wall_of(c, SIDE_X_MIN + 2 * other));
+    const bool high_wall = is_wall(s, scene_wall_of(c, SIDE_X_MIN + 2 * other + 1));
     double a[2], b[2];
     a[axis] = b[axis] = high ? s->hi[axis] : s->lo[axis];
     a[other] = s->lo[other];
@@ -360,7 +364,7 @@ struct walls *walls_create(struct sph *s)
     const struct scene *c = &s->run->scene;
     int any = c->nbodies;
     for (int k = 0; k < c->nwalls; k++)
-        any += is_wall(c->walls + k);
+        any += is_wall(s, c->walls + k);
     if (!any)
         return NULL;
     struct walls *w = NEW(struct walls, 1);
@@ -368,7 +372,7 @@ struct walls *walls_create(struct sph *s)
     s->walls = w;
     for (int k = 0; k < c->nwalls; k++) {
         const struct scene_wall *is = c->walls + k;
-        if (!is_wall(is))
+        if (!is_wall(s, is))
             continue;
         if (is->side != SIDE_NONE)
             add_plane(s, w, is);

@@ -13,6 +13,7 @@
 #include "eos.h"
 #include "openings.h"
 #include "sides.h"
+#include "sph_params.h"
 
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer)
@@ -25,13 +26,12 @@ void zones_widths(const struct run *r, const struct sph_params *prm, double *tra
 void zones_free_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3])
 {
     double s, b;
+    bool open[6];
     zones_widths(r, prm, &s, &b);
+    sph_params_open(r, prm, open);
     for (int a = 0; a < 3; a++) {
-        const struct scene_domain *d = &r->scene.domain;
-        const bool whole = prm->box[0][a] <= d->min[a] && prm->box[1][a] >= d->max[a];
-        const double in = whole || a >= d->dim ? 0.0 : s + b;
-        lo[a] = prm->box[0][a] + in;
-        hi[a] = prm->box[1][a] - in;
+        lo[a] = prm->box[0][a] + (open[2 * a] ? s + b : 0.0);
+        hi[a] = prm->box[1][a] - (open[2 * a + 1] ? s + b : 0.0);
     }
 }
 
@@ -39,12 +39,13 @@ void zones_given_box(const struct run *r, const struct sph_params *prm, double l
 {
     const double given = r->scene.coupling.overlap;
     const double overlap = given > 0.0 ? given : 1.25 * prm->R_dx * prm->dx;
+    bool open[6];
     zones_free_box(r, prm, lo, hi);
-    for (int a = 0; a < r->scene.domain.dim; a++)
-        if (lo[a] > prm->box[0][a] || hi[a] < prm->box[1][a]) { /* an open side */
-            lo[a] += overlap;
-            hi[a] -= overlap;
-        }
+    sph_params_open(r, prm, open);
+    for (int a = 0; a < r->scene.domain.dim; a++) {
+        lo[a] += open[2 * a] ? overlap : 0.0;
+        hi[a] -= open[2 * a + 1] ? overlap : 0.0;
+    }
 }
 
 /* The exact solution as the flow outside; the gradient of p by central differences. */

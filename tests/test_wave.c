@@ -114,10 +114,20 @@ static void patch_and_drop(void **state)
     assert_false(exact_at_all_times(&s));
 }
 
+/* By collocation in time and depth, t sqrt(g/H) = 0 and 34.5: the integral of w^2 over a wave. */
+static void enstrophy_of_the_layer(void **state)
+{
+    const struct wave w = wave_create(1.0, 4.0, 1.0, 1.0 / 500.0, 1.0, 0.05);
+    (void)state;
+    assert_close(8.0 * wave_enstrophy(&w, 0.0), 8.564256622 * 0.0025, 1e-6);
+    assert_close(8.0 * wave_enstrophy(&w, 34.5), 8.564256622 * 0.0025 * 0.2623700089, 1e-6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eigenvalues), cmocka_unit_test(wave_solves_its_equations),
+        cmocka_unit_test(enstrophy_of_the_layer),
         cmocka_unit_test(channels), cmocka_unit_test(patch_and_drop)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
