@@ -264,6 +264,7 @@ static void add_fluxes(struct sph *s, double dt)
         const double rho = eos_rho(z->p[k], s->rho0, s->c0, s->gamma);
         o->flux[f] = rho * area * inward(side) * z->u[dim * k + side / 2];
         o->change[f] += dt * o->flux[f];
+        o->inflow += dt * o->flux[f];
     }
 }
 

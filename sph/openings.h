@@ -19,7 +19,7 @@ struct openings {
     double *flux;                /* kg/s of the faces this rank owns, 0 elsewhere: inward */
     double *shift;               /* m: place of the incoming lattice behind each face */
     int64_t born, gone, refused; /* on this rank */
-    double born_mass, gone_mass; /* kg */
+    double born_mass, gone_mass, inflow; /* kg: since the start, this rank */
     int64_t first_id;
     int nghost, first_ghost,
         ghost_capacity; /* the lattice behind the faces, last among the ghosts */

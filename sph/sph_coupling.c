@@ -91,6 +91,7 @@ void coupling_window_begin(void *state, double t0, double t1)
     }
     check(k, cpl_patch_get(k->c, k->patch_velocity, lo, hi));
     check(k, cpl_patch_get(k->c, k->patch_pressure, lo, hi));
+    zones_gauge(s);
 }
 
 static void room(struct link *k, int n)

@@ -143,6 +143,8 @@ void zones_look(struct zones *z, double t, bool gradients)
         return;
     }
     z->eval(z->ctx, t, z->n, z->x, z->u, z->p, gradients ? z->gu : NULL, gradients ? z->gp : NULL);
+    for (int k = 0; k < z->n; k++)
+        z->p[k] += z->gauge;
 }
 
 double zones_depth(const struct sph *s, const double *x)
@@ -166,21 +168,25 @@ void zones_mark(struct sph *s)
     }
 }
 
+static void take(struct sph *s, int i)
+{
+    struct zones *z = s->zones;
+    const double *y = s->p.y + (size_t)i * s->p.nstate;
+    zones_room(z, z->n + 1);
+    for (int a = 0; a < 3; a++)
+        z->x[3 * z->n + a] = a < s->dim ? y[a] : 0.0;
+    z->who[z->n++] = i;
+}
+
 /* Lists the local particles of a zone with their places. */
 static void gather(struct sph *s, enum sph_zone zone)
 {
     struct zones *z = s->zones;
     const struct particles *p = &s->p;
     z->n = 0;
-    for (int i = 0; i < p->n; i++) {
-        if (p->zone[i] != zone)
-            continue;
-        zones_room(z, z->n + 1);
-        const double *y = p->y + (size_t)i * p->nstate;
-        for (int a = 0; a < 3; a++)
-            z->x[3 * z->n + a] = a < s->dim ? y[a] : 0.0;
-        z->who[z->n++] = i;
-    }
+    for (int i = 0; i < p->n; i++)
+        if (p->zone[i] == zone)
+            take(s, i);
 }
 
 /* Imposes u, rho at fixed w. */
@@ -231,6 +237,26 @@ void zones_slopes(struct sph *s)
     }
 }
 
+/* What the region holds beyond its start and what has flown in: blending sets pressures, and so
+ * makes mass where volumes change. Under a free surface that raises or lowers the level. A partner
+ * of constant density knows its pressure up to a constant: the one that keeps the mass is taken,
+ * ten times the weight of the missing layer. */
+void zones_gauge(struct sph *s)
+{
+    struct zones *z = s->zones;
+    const double *G = s->gravity, g = sqrt(G[0] * G[0] + G[1] * G[1] + G[2] * G[2]);
+    const struct openings *o = z->openings;
+    double sum = -o->inflow;
+    z->gauge = 0.0;
+    if (!s->surface || g == 0.0)
+        return;
+    for (int i = 0; i < s->p.n; i++)
+        sum += s->p.y[(size_t)i * s->p.nstate + 2 * s->dim + 1];
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    sum += openings_held(s) - s->mass0;
+    z->gauge = -10.0 * g * sum * s->dx / (openings_faces(o) * s->dxD);
+}
+
 /* P <- a P_out + (1-a) P, u likewise [6.7-6.8]; a = depth into the transition over its width. */
 void zones_blend(struct sph *s)
 {
@@ -260,9 +286,9 @@ void zones_save(struct sph *s, struct h5 *f)
     h5_write_real(f, "faces_mass", "kg", rows, 1, o->mass, false);
     h5_write_real(f, "faces_births", "-", rows, 1, o->births, false);
     h5_write_real(f, "faces_flux", "kg/s", openings_faces(o), 1, o->flux, false);
-    const double booked[3] = {s->zones->blended, o->born_mass, o->gone_mass};
+    const double booked[4] = {s->zones->blended, o->born_mass, o->gone_mass, o->inflow};
     const int64_t counted[3] = {o->born, o->gone, o->refused};
-    h5_write_real(f, "zones_booked", "kg", 3, 1, booked, false);
+    h5_write_real(f, "zones_booked", "kg", 4, 1, booked, false);
     h5_write_int(f, "zones_counted", 3, counted);
 }
 
@@ -271,12 +297,12 @@ bool zones_load(struct sph *s, struct h5 *f)
     struct openings *o = s->zones->openings;
     const int faces = openings_faces(o);
     const int64_t rows = s->run->rank == 0 ? faces : 0;
-    double booked[3];
+    double booked[4];
     int64_t counted[3];
     if (!h5_read_real(f, "faces_mass", rows, 1, o->mass) ||
         !h5_read_real(f, "faces_births", rows, 1, o->births) ||
         !h5_read_real(f, "faces_flux", faces, 1, o->flux) ||
-        !h5_read_real(f, "zones_booked", 3, 1, booked) ||
+        !h5_read_real(f, "zones_booked", 4, 1, booked) ||
         !h5_read_int(f, "zones_counted", 3, counted))
         return false;
     MPI_Bcast(o->mass, faces, MPI_DOUBLE, 0, s->run->comm);
@@ -284,6 +310,7 @@ bool zones_load(struct sph *s, struct h5 *f)
     s->zones->blended = booked[0];
     o->born_mass = booked[1];
     o->gone_mass = booked[2];
+    o->inflow = booked[3];
     o->born = counted[0];
     o->gone = counted[1];
     o->refused = counted[2];

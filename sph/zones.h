@@ -19,6 +19,8 @@ struct zones {
     void (*update)(struct sph *s); /* start of a stage: looks at the flow inside; NULL: no need */
     void *ctx;                     /* borrowed */
     struct openings *openings;
+    double gauge;   /* Pa: added to the pressure outside, which an incompressible partner knows up to a
+                       constant; 0 without a free surface */
     double blended; /* kg: mass that blending added on this rank since the start */
     int n; /* buffer or transition particles at hand, and the flow outside at their places */
     int capacity;
@@ -45,6 +47,8 @@ void zones_stage(struct sph *s);
 /* After the gradients of a stage: buffer slopes from outside; transport shift near the open sides.
  */
 void zones_slopes(struct sph *s);
+/* Sets the gauge by the mass of the region. Collective. */
+void zones_gauge(struct sph *s);
 /* After the RK cycle: transition particles are blended with the outside [6.7-6.8]. */
 void zones_blend(struct sph *s);
 /* After the positions moved by dt: removals, face masses, births [6.13-6.14]. Collective. */
