@@ -89,6 +89,44 @@ static bool has_bc(const struct fv *s, const int *at)
     return bc_behind(s, at, 0) || bc_behind(s, at, 1) || bc_behind(s, at, 2);
 }
 
+/* Whether a free cell has a cell of the hole within two cells along an axis. */
+static bool is_rim(const struct block *b, const struct forcing *f, int64_t c)
+{
+    bool rim = false;
+    for (int a = 0; a < b->dim; a++)
+        for (int m = -2; m <= 2; m++)
+            rim = rim || f->forced[c + m * b->stride[a]] == 1;
+    return rim && !f->forced[c];
+}
+
+static void mark_known(const struct block *b, struct forcing *f)
+{
+    double *field = block_field(b), *const fields[1] = {field};
+    for (int64_t i = 0; i < f->npartner + f->nrim; i++)
+        field[f->partner[i]] = 1.0;
+    block_halo(b, 1, fields);
+    f->known = NEW(bool, b->size);
+    for (int64_t c = 0; c < b->size; c++)
+        f->known[c] = field[c] == 1.0;
+    mem_free(field);
+}
+
+static void list_partner(const struct fv *s, struct forcing *f)
+{
+    const struct block *b = &s->b;
+    BLOCK_ROWS (b, 0, at, n)
+        for (int64_t c = at; c < at + n; c++)
+            if (is_rim(b, f, c))
+                f->partner[f->npartner + f->nrim++] = c;
+    mark_known(b, f);
+    for (int a = 0; a < f->dim; a++) {
+        f->v[a] = NEW(double, f->npartner + f->nrim);
+        f->v_next[a] = NEW(double, f->npartner + f->nrim);
+        f->v_old[a] = NEW(double, f->npartner + f->nrim);
+        f->given[a] = block_field(b);
+    }
+}
+
 static void list_cells(const struct fv *s, struct forcing *f)
 {
     const struct block *b = &s->b;
@@ -112,11 +150,8 @@ static void list_cells(const struct fv *s, struct forcing *f)
             f->set[f->nset++] = c;
         }
     }
-    for (int a = 0; a < f->dim; a++) {
-        f->v[a] = NEW(double, f->npartner);
-        f->v_next[a] = NEW(double, f->npartner);
-        f->v_old[a] = NEW(double, f->npartner);
-    }
+    if (f->from_partner)
+        list_partner(s, f);
 }
 
 /* Faces between free and forced cells along axis a. */
@@ -284,6 +319,7 @@ void forcing_free(struct forcing **fp)
     mem_free(f->local);
     mem_free(f->set);
     mem_free(f->partner);
+    mem_free(f->known);
     mem_free(f->x);
     for (int a = 0; a < 3; a++) {
         mem_free(f->fix[a]);
@@ -294,6 +330,7 @@ void forcing_free(struct forcing **fp)
         mem_free(f->v[a]);
         mem_free(f->v_next[a]);
         mem_free(f->v_old[a]);
+        mem_free(f->given[a]);
     }
     mem_free(f);
     *fp = NULL;
@@ -346,6 +383,28 @@ static bool is_exact(const struct forcing *f, int64_t c, int64_t d)
     return f->forced[c] == 2 || f->forced[c - d] == 2 || !f->from_partner;
 }
 
+/* A partner's values at t, two cells to both sides of the outline. */
+static void look_at_partner(const struct fv *s, double t)
+{
+    const struct forcing *f = s->forcing;
+    for (int a = 0; a < f->dim; a++)
+        for (int64_t i = 0; i < f->npartner + f->nrim; i++)
+            f->given[a][f->partner[i]] = partner_value(f, s->prm.forced_order == 2, a, i, t);
+    block_halo(&s->b, f->dim, f->given);
+}
+
+/* Whether the flux through the lower face of c is a partner's alone. */
+static bool is_partners(const struct forcing *f, int64_t c, int64_t d)
+{
+    return f->from_partner && f->known[c - 2 * d] && f->known[c - d] && f->known[c] &&
+           f->known[c + d];
+}
+
+static double partner_flux(const double *u, int64_t d)
+{
+    return (7.0 * (u[-d] + u[0]) - (u[-2 * d] + u[d])) / 12.0;
+}
+
 /* Takes the net flux out, evenly; with that of walls and inflow if given. */
 static void balance(const struct fv *s, bool given, double *const U[3])
 {
@@ -374,14 +433,20 @@ static void balance(const struct fv *s, bool given, double *const U[3])
 void forcing_fluxes(const struct fv *s, double t, double *const U[3])
 {
     const struct forcing *f = s->forcing;
+    if (f->from_partner)
+        look_at_partner(s, t);
     for (int a = 0; a < f->dim; a++)
-        for (int64_t i = 0; i < f->nface[a]; i++)
-            if (is_exact(f, f->face[a][i], s->b.stride[a])) {
+        for (int64_t i = 0; i < f->nface[a]; i++) {
+            const int64_t c = f->face[a][i], d = s->b.stride[a];
+            if (is_exact(f, c, d)) {
                 double x[3], v[3];
-                face_centre(&s->b, f->face[a][i], a, x);
+                face_centre(&s->b, c, a, x);
                 exact_face(&s->exact, x, s->b.h, a, t, v);
-                U[a][f->face[a][i]] = v[a];
+                U[a][c] = v[a];
+            } else if (is_partners(f, c, d)) {
+                U[a][c] = partner_flux(f->given[a] + c, d);
             }
+        }
     balance(s, true, U);
 }
 
@@ -390,7 +455,8 @@ void forcing_fluxes_variation(const struct fv *s, double *const U[3])
     const struct forcing *f = s->forcing;
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
-            if (is_exact(f, f->face[a][i], s->b.stride[a]))
+            if (is_exact(f, f->face[a][i], s->b.stride[a]) ||
+                is_partners(f, f->face[a][i], s->b.stride[a]))
                 U[a][f->face[a][i]] = 0.0;
     if (f->from_partner)
         balance(s, false, U);

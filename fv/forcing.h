@@ -28,8 +28,11 @@ struct forcing {
     int64_t nlocal, *local; /* forced cells of this rank */
     int64_t nset,
         *set; /* cells that this rank gives values: local near ones, ghosts behind closed sides */
-    int64_t npartner,
-        *partner; /* local near cells of the hole, in the order of a partner's values */
+    int64_t npartner, nrim,
+        *partner; /* in the order of a partner's values: npartner local near cells of the hole, then
+                     nrim free ones beside its outline, whose values serve the fluxes alone */
+    bool *known;  /* [size] a partner gives it, ghosts too */
+    double *given[3]; /* [size] its velocities at the time of a flux */
     double *x;    /* [nset][3] centres */
     int64_t nfix[3];
     struct fix *fix[3]; /* one-sided gradients along each axis */
@@ -42,7 +45,7 @@ struct forcing {
     int64_t free_cells; /* of all ranks */
     bool from_partner;
     double *v[3], *v_next[3],
-        *v_old[3]; /* [npartner] partner's velocities at t0, t1, and the window before */
+        *v_old[3]; /* [npartner + nrim] partner's velocities at t0, t1, and the window before */
     double t0, t1, t_old;
     bool has_old;
 };
@@ -56,8 +59,10 @@ void forcing_free(struct forcing **f);
 void forcing_zero(const struct forcing *f, double *q);
 /* Sets u in the forced cells to their values at time t. */
 void forcing_velocity(const struct fv *s, double t, double *const u[3]);
-/* Fluxes of the outline at time t: exact ones where the exact solution is imposed, else as they are
- * interpolated; then corrected evenly to no net flux. */
+/* Fluxes of the outline at time t: exact ones where the exact solution is imposed, a partner's where
+ * its values reach two cells to both sides, else as they are interpolated; then corrected evenly to
+ * no net flux. The free cells' own velocities hold the pressure of the step before: fluxes made of
+ * them would let the pressure lag. */
 void forcing_fluxes(const struct fv *s, double t, double *const U[3]);
 /* How they vary with the velocity that U was interpolated from. */
 void forcing_fluxes_variation(const struct fv *s, double *const U[3]);

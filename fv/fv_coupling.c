@@ -17,12 +17,11 @@ struct link {
     struct cpl *c;
     int grid, forced, velocity, pressure, imposed;
     int64_t n;         /* local cells */
-    double *q[LEVELS]; /* [n][dim + 1] velocity and pressure at the ends of the last windows, newest
+    double *q[LEVELS]; /* [n][dim + 1] velocity and smoothed pressure at the ends of the last windows, newest
                           first */
     double t[LEVELS];  /* s: their times */
     int levels;        /* of them known */
-    double *rate;      /* [n] Pa/s: of pressure, averaged */
-    bool rated;
+    double *rate;      /* [n] Pa/s: trend of the pressure */
     double *v, *dv, *got; /* scratch */
     unsigned char *mask;
 };
@@ -86,7 +85,7 @@ void coupling_create(struct fv *s)
     k->rate = NEW(double, k->n);
     k->v = NEW(double, k->n * b->dim);
     k->dv = NEW(double, k->n * b->dim);
-    const int64_t most = s->forcing ? s->forcing->npartner : 0;
+    const int64_t most = s->forcing ? s->forcing->npartner + s->forcing->nrim : 0;
     k->got = NEW(double, most * b->dim);
     k->mask = NEW(unsigned char, most);
 }
@@ -155,17 +154,22 @@ static double derivative(const struct link *k, int64_t at)
     return d0 + h * (d0 - d1) / (h + g);
 }
 
-/* Pressure answers at once to every change of the forced velocities, by the change over the window:
- * its rate of change is noise that would come back larger. An average over windows keeps the trend.
- */
-static void take_rate(struct fv *s)
+/* Pressure answers at once to every change of the forced velocities, by the change over the window,
+ * and the partner to the pressure a window later: as it stands, noise would come back larger.
+ * Brown's double exponential smoothing takes it away and keeps level and trend without a lag of
+ * first or second order: a lag in phase would feed waves. */
+static void smooth_pressure(struct fv *s)
 {
     struct link *k = s->link;
     const int dim = s->b.dim;
-    const double fresh = k->rated ? 1.0 / s->run->scene.coupling.memory : 1.0;
-    for (int64_t i = 0; i < k->n; i++)
-        k->rate[i] += fresh * (derivative(k, i * (dim + 1) + dim) - k->rate[i]);
-    k->rated = true;
+    const double alpha = 2.0 / (s->run->scene.coupling.memory + 1.0), h = k->t[0] - k->t[1];
+    const double level = alpha * (2.0 - alpha), trend = alpha * alpha / h;
+    for (int64_t i = 0; i < k->n; i++) {
+        const int64_t at = i * (dim + 1) + dim;
+        const double foreseen = k->q[1][at] + h * k->rate[i], e = k->q[0][at] - foreseen;
+        k->q[0][at] = foreseen + level * e;
+        k->rate[i] += trend * e;
+    }
 }
 
 static void put(struct fv *s)
@@ -209,7 +213,7 @@ void coupling_first(void *state)
     struct link *k = s->link;
     const struct block *b = &s->b;
     const struct forcing *f = s->forcing;
-    const int64_t n = f ? f->npartner : 0;
+    const int64_t n = f ? f->npartner + f->nrim : 0;
     double *x = NEW(double, 3 * n);
     int64_t *id = NEW(int64_t, n);
     for (int64_t m = 0; m < n; m++) {
@@ -238,7 +242,8 @@ void coupling_first(void *state)
         take_level(s);
         if (s->has_exact)
             exact_level(s, s->t, 0); /* the start's pressure, in forced cells too */
-        take_rate(s);
+        for (int64_t i = 0; i < k->n; i++)
+            k->rate[i] = derivative(k, i * (b->dim + 1) + b->dim);
         if (f)
             s->forcing->t1 = s->t;
     }
@@ -252,7 +257,7 @@ void coupling_window_begin(void *state, double t0, double t1)
     struct link *k = s->link;
     struct forcing *f = s->forcing;
     const int dim = s->b.dim;
-    const int64_t n = f ? f->npartner : 0;
+    const int64_t n = f ? f->npartner + f->nrim : 0;
     check(k, cpl_get(k->c, k->imposed, n, k->got, k->mask));
     if (!f)
         return;
@@ -274,7 +279,7 @@ void coupling_window_end(void *state, double t1)
 {
     (void)t1;
     take_level(state);
-    take_rate(state);
+    smooth_pressure(state);
     put(state);
 }
 
@@ -291,8 +296,8 @@ void coupling_save(const struct fv *s, struct h5 *f)
     h5_write_real(f, "levels", "-", 7, 1, clock, false);
     h5_write_real(f, "rate", "Pa/s", k->n, 1, k->rate, false);
     for (int a = 0; c && a < s->b.dim; a++) {
-        h5_write_real(f, v[a], "m/s", c->npartner, 1, c->v[a], false);
-        h5_write_real(f, w[a], "m/s", c->npartner, 1, c->v_next[a], false);
+        h5_write_real(f, v[a], "m/s", c->npartner + c->nrim, 1, c->v[a], false);
+        h5_write_real(f, w[a], "m/s", c->npartner + c->nrim, 1, c->v_next[a], false);
     }
 }
 
@@ -309,12 +314,11 @@ bool coupling_load(struct fv *s, struct h5 *f)
         k->t[m] = clock[m];
     }
     for (int a = 0; good && c && a < s->b.dim; a++)
-        good = h5_read_real(f, v[a], c->npartner, 1, c->v[a]) &&
-               h5_read_real(f, w[a], c->npartner, 1, c->v_next[a]);
+        good = h5_read_real(f, v[a], c->npartner + c->nrim, 1, c->v[a]) &&
+               h5_read_real(f, w[a], c->npartner + c->nrim, 1, c->v_next[a]);
     if (!good)
         return false;
     k->levels = (int)clock[3];
-    k->rated = true;
     if (c) {
         c->t0 = clock[4];
         c->t1 = clock[5];
