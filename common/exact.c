@@ -301,13 +301,13 @@ void exact_gradient(const struct exact *e, const double *x, double t, double g[3
             g[a][b] = 0.0;
     if (e->field >= FIELD_POISEUILLE) { /* by differences of fourth order */
         const double h = 1e-3 * (e->height > 0.0 ? e->height : e->L);
-        for (int b = 0; b < 2; b++)
+        for (int b = 0; b < e->dim; b++)
             for (int k = -2; k <= 2; k++) {
                 static const double weight[5] = {1.0, -8.0, 0.0, 8.0, -1.0};
                 double y[3] = {x[0], x[1], x[2]}, u[3];
                 y[b] += k * h;
                 exact_point(e, y, t, u, NULL, NULL);
-                for (int a = 0; a < 2; a++)
+                for (int a = 0; a < e->dim; a++)
                     g[a][b] += weight[k + 2] * u[a] / (12.0 * h);
             }
         return;

@@ -63,7 +63,7 @@ void sph_vorticity(const struct sph *s, int i, double w[3])
     w[2] = g[dim * 1 + 0] - g[dim * 0 + 1];
 }
 
-/* Adds one particle to the norms of velocity, pressure, vorticity. */
+/* Adds one particle to the norms of velocity, pressure, vorticity (in 3D its z component). */
 static void add_errors(const struct sph *s, const struct exact *e, int i, struct norm *n)
 {
     const int dim = s->dim;
@@ -75,8 +75,7 @@ static void add_errors(const struct sph *s, const struct exact *e, int i, struct
     for (int a = 0; a < dim; a++)
         norm_add(n, w, q[dim + a] - u[a], u[a]);
     norm_add(n + 1, w, eos_p(q[2 * dim + 1], s->rho0, s->c0, s->gamma) - p, p);
-    for (int a = dim == 3 ? 0 : 2; a < 3; a++)
-        norm_add(n + 2, w, omega[a] - (a == 2 ? vort : 0.0), a == 2 ? vort : 0.0);
+    norm_add(n + 2, w, omega[2] - vort, vort);
 }
 
 /* Needs prim and slope of the present state. Collective. */
