@@ -96,3 +96,10 @@ double fit_rate(const struct fit *f)
     }
     return n >= 3.0 ? (n * stl - st * sl) / (n * stt - st * st) : NAN;
 }
+
+void fit_smooth(double v, double h, double memory, double *level, double *rate)
+{
+    const double alpha = 2.0 / (memory + 1.0), foreseen = *level + h * *rate;
+    *level = foreseen + alpha * (2.0 - alpha) * (v - foreseen);
+    *rate += alpha * alpha / h * (v - foreseen);
+}

@@ -301,6 +301,8 @@ static void ask_points(struct cpl *c, int field, int64_t tick)
     f->asked_moves = s->moves;
 }
 
+/* A rank without targets waits as the others do: it may hold what the giver waits for, and hands it
+ * over here. */
 int cpl_get(struct cpl *c, int field, long n, double *v, unsigned char *mask)
 {
     const int code = check_field(c, field, CPL_GET, "cpl_get");
@@ -322,8 +324,6 @@ int cpl_get(struct cpl *c, int field, long n, double *v, unsigned char *mask)
     for (int r = 0; r < c->ncoupler; r++) {
         long first, last;
         share(c, s, r, &first, &last);
-        if (first == last)
-            continue;
         struct message *m = client_await(c, WIRE_VALUES, field, tick, r, what);
         if (!m)
             return c->error;

@@ -205,8 +205,6 @@ static void answer_points(struct coupler *c, struct link *l, const struct arriva
     for (int r = 0; r < c->solver[l->taker].size; r++) {
         const long m = l->asker[r].ntarget;
         struct pack p;
-        if (m == 0)
-            continue;
         pack_begin(&p, WIRE_VALUES, l->tfield, a->tick);
         pack_head(&p)->t = a->t;
         pack_head(&p)->count = m;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../common/fit.h"
 #include "../common/h5.h"
 #include "../common/log.h"
 #include "../common/mem.h"
@@ -17,8 +18,8 @@ struct link {
     struct cpl *c;
     int grid, forced, velocity, pressure, imposed;
     int64_t n;         /* local cells */
-    double *q[LEVELS]; /* [n][dim + 1] velocity and smoothed pressure at the ends of the last windows, newest
-                          first */
+    double *q[LEVELS]; /* [n][dim + 1] velocity and smoothed pressure at the ends of the last
+                          windows, newest first */
     double t[LEVELS];  /* s: their times */
     int levels;        /* of them known */
     double *rate;      /* [n] Pa/s: trend of the pressure */
@@ -156,19 +157,17 @@ static double derivative(const struct link *k, int64_t at)
 
 /* Pressure answers at once to every change of the forced velocities, by the change over the window,
  * and the partner to the pressure a window later: as it stands, noise would come back larger.
- * Brown's double exponential smoothing takes it away and keeps level and trend without a lag of
- * first or second order: a lag in phase would feed waves. */
+ * Smoothing takes it away; it must keep level and trend, for a lag would feed waves. */
 static void smooth_pressure(struct fv *s)
 {
     struct link *k = s->link;
     const int dim = s->b.dim;
-    const double alpha = 2.0 / (s->run->scene.coupling.memory + 1.0), h = k->t[0] - k->t[1];
-    const double level = alpha * (2.0 - alpha), trend = alpha * alpha / h;
+    const double memory = s->run->scene.coupling.memory, h = k->t[0] - k->t[1];
     for (int64_t i = 0; i < k->n; i++) {
         const int64_t at = i * (dim + 1) + dim;
-        const double foreseen = k->q[1][at] + h * k->rate[i], e = k->q[0][at] - foreseen;
-        k->q[0][at] = foreseen + level * e;
-        k->rate[i] += trend * e;
+        double level = k->q[1][at];
+        fit_smooth(k->q[0][at], h, memory, &level, k->rate + i);
+        k->q[0][at] = level;
     }
 }
 

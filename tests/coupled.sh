@@ -48,6 +48,45 @@ job half 2:1:1 -p output.checkpoint=0.12 -p time.end=0.12 || bad "first half end
 job half 2:1:1 -p output.checkpoint=0.12 --restart || bad "restart ended with $?: $(tail -n 3 half.txt)"
 same_bits whole half || bad "a restarted run gives other bits: $(tail -n 2 diff.txt)"
 
+# a free surface above, a wall below: error, level, any number of ranks, restart
+wave() { # DIR RANKS ARGS...
+    d=$1 r=$2
+    shift 2
+    "$root/cases/run" standing_wave -n "$r" -o "$d" -p "fv.cells=(16,20)" "$@" >"$d.txt" 2>&1
+    code=$?
+    [ $code -le 1 ] || bad "standing wave $d ended with $code: $(tail -n 3 "$d.txt")"
+}
+wave wave 1:1:1 -p time.end=3
+below "$(number wave velocity_l2)" 0.04 || bad "standing wave: velocity error $(number wave velocity_l2), wanted at most 0.04"
+below "$(number wave mass_fluctuation)" 0.001 || bad "standing wave: mass off by $(number wave mass_fluctuation), wanted at most 0.001"
+short="-p time.end=0.5 -p output.every=0.25 -p output.checkpoint=0.25"
+# shellcheck disable=SC2086
+{
+    wave wave1 1:1:1 $short
+    wave wave2 2:2:2 $short
+    wave wavehalf 1:1:1 $short -p time.end=0.25
+    wave wavehalf 1:1:1 $short --restart
+}
+close_to "$(number wave2 velocity_l2)" "$(number wave1 velocity_l2)" 1e-6 ||
+    bad "standing wave on 2:2:2: velocity error $(number wave2 velocity_l2), on one rank each $(number wave1 velocity_l2)"
+same_bits wave1 wavehalf || bad "standing wave: a restarted run gives other bits: $(tail -n 2 diff.txt)"
+[ "$(wc -l <wave1/series.csv)" = "$(wc -l <wavehalf/series.csv)" ] || bad "standing wave: rows of series.csv lost by a restart"
+
+# three dimensions
+cube() { # DIR RANKS ARGS...
+    d=$1 r=$2
+    shift 2
+    "$root/cases/run" beltrami -n "$r" -o "$d" -p sph.dx=0.041666666666666667 -p "fv.cells=(16,16,16)" -p output.every=0 "$@" >"$d.txt" 2>&1 ||
+        bad "beltrami $d ended with $?: $(tail -n 3 "$d.txt")"
+}
+cube cube 1:1:1 -p time.end=0.1
+below "$(number cube velocity_l2)" 0.002 || bad "beltrami: velocity error $(number cube velocity_l2), wanted at most 0.002"
+below "$(number cube mass_fluctuation)" 0.005 || bad "beltrami: mass off by $(number cube mass_fluctuation), wanted at most 0.005"
+cube cube1 1:1:1 -p time.end=0.02
+cube cube2 2:2:2 -p time.end=0.02
+close_to "$(number cube2 velocity_l2)" "$(number cube1 velocity_l2)" 1e-6 ||
+    bad "beltrami on 2:2:2: velocity error $(number cube2 velocity_l2), on one rank each $(number cube1 velocity_l2)"
+
 # an orderly stop: USR1 to the launcher
 "$root/cases/run" taylor_green -n 1:1:1 -o stop -p sph.dx=0.0125 -p "fv.cells=(24,24)" >stop.txt 2>&1 &
 job=$!

@@ -29,9 +29,25 @@ static void too_short(void **state)
     fit_free(&f);
 }
 
+/* A straight line stays one; what alternates about it shrinks as the formula says. */
+static void smoothing_has_no_lag(void **state)
+{
+    (void)state;
+    const double alpha = 0.4, part = alpha / (2.0 - alpha), left = part * (2.0 - part);
+    double level = 2.0, rate = 3.0;
+    for (int k = 1; k <= 50; k++)
+        fit_smooth(2.0 + 3.0 * 0.1 * k, 0.1, 4.0, &level, &rate);
+    assert_close(level, 17.0, 1e-12);
+    assert_close(rate, 3.0, 1e-12);
+    for (int k = 51; k <= 250; k++)
+        fit_smooth(2.0 + 3.0 * 0.1 * k + (k % 2 ? -1.0 : 1.0), 0.1, 4.0, &level, &rate);
+    assert_close(level, 77.0 + left, 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(decaying_sine),
-                                       cmocka_unit_test(too_short)};
+                                       cmocka_unit_test(too_short),
+                                       cmocka_unit_test(smoothing_has_no_lag)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -87,6 +87,7 @@ static void oblique_flow_leaves_no_clusters(void **state)
     (void)state;
     check_flow(2, 0.8, 0.6, 0.5, 120);
     check_flow(2, -0.3, 0.9, 0.5, 120);
+    check_flow(3, 0.8, 0.6, 0.45, 40);
 }
 
 /* Threshold 1 and birth dx/2 inside: one column born for each dx of travel, with the mass of a
@@ -132,12 +133,76 @@ static void blending_follows_the_depth(void **state)
     sph_free(&c.s);
 }
 
+/* A box that reaches the domain's sides: there it ends, below a surface or at a partner's wall, and
+ * only the sides inside the domain are open. */
+static void sides_of_the_domain_stay_closed(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    double lo[3], hi[3];
+    sph_case_set(&c, 2, 25);
+    struct scene *e = &c.run.scene;
+    e->domain.periodic[1] = false;
+    e->coupling.transition = e->coupling.buffer = 0.16;
+    e->coupling.overlap = 0.08;
+    e->walls[0] = (struct scene_wall){.side = SIDE_Y_MIN, .kind = WALL_NO_SLIP};
+    e->nwalls = 1;
+    c.prm.outer = OUTER_PARTNER;
+    c.prm.surface = SURFACE_YES;
+    c.prm.box[0][1] = 0.2;
+    c.prm.box[1][0] = c.prm.box[1][1] = 1.0;
+    bool open[6];
+    sph_params_open(&c.run, &c.prm, open);
+    for (int side = 0; side < 6; side++)
+        assert_int_equal(open[side], side == 2);
+    zones_free_box(&c.run, &c.prm, lo, hi);
+    assert_close(lo[1], 0.52, 1e-12);
+    assert_true(lo[0] == 0.0 && hi[0] == 1.0 && hi[1] == 1.0);
+    zones_given_box(&c.run, &c.prm, lo, hi);
+    assert_close(lo[1], 0.60, 1e-12);
+    assert_true(lo[0] == 0.0 && hi[0] == 1.0 && hi[1] == 1.0);
+    c.s = sph_create(&c.run, &c.prm, NULL);
+    assert_non_null(c.s->zones);
+    assert_null(c.s->walls); /* the wall below is the partner's */
+    sph_free(&c.s);
+    c.prm.box[0][1] = 0.0;
+    sph_params_open(&c.run, &c.prm, open);
+    assert_false(open[2]);
+}
+
+/* Mass that blending made is answered by the pressure outside, ten times its weight. */
+static void gauge_weighs_the_missing_mass(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    sph_case_set(&c, 2, 50);
+    struct scene *e = &c.run.scene;
+    e->domain.periodic[1] = false;
+    e->fluid.gravity[1] = -2.0;
+    e->initial.field = FIELD_REST;
+    e->initial.level = LEVEL_TOP;
+    c.prm.outer = OUTER_EXACT;
+    c.prm.surface = SURFACE_YES;
+    c.prm.box[0][1] = 0.2;
+    c.prm.box[1][0] = c.prm.box[1][1] = 1.0;
+    struct sph *s = c.s = sph_create(&c.run, &c.prm, NULL);
+    zones_gauge(s);
+    assert_close(s->zones->gauge, 0.0, 1e-12);
+    for (int i = 0; i < s->p.n; i++)
+        s->p.y[6 * (size_t)i + 5] *= 0.999;
+    zones_gauge(s);
+    assert_close(s->zones->gauge, 10.0 * 2.0 * 1e-3 * s->mass0, 1e-9); /* over 1 m */
+    sph_free(&c.s);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(aligned_flow_keeps_the_lattice),
                                        cmocka_unit_test(oblique_flow_leaves_no_clusters),
                                        cmocka_unit_test(one_birth_a_face_and_spacing),
-                                       cmocka_unit_test(blending_follows_the_depth)};
+                                       cmocka_unit_test(blending_follows_the_depth),
+                                       cmocka_unit_test(sides_of_the_domain_stay_closed),
+                                       cmocka_unit_test(gauge_weighs_the_missing_mass)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
