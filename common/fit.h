@@ -16,9 +16,9 @@ double fit_period(const struct fit *f);
  * through three samples); < 0 decays; NAN with fewer than three. */
 double fit_rate(const struct fit *f);
 
-/* Brown's double exponential smoothing, alpha = 2/(memory + 1): takes the value v seen h s after the
- * last one into a level and its rate. Exact for straight lines, without lag; an alternation comes
- * out (alpha/(2 - alpha)) (2 - alpha/(2 - alpha)) times as large. */
+/* Brown's double exponential smoothing, alpha = 2/(memory + 1): takes the value v seen h s after
+ * the last one into a level and its rate. Exact for straight lines, without lag; an alternation
+ * comes out (alpha/(2 - alpha)) (2 - alpha/(2 - alpha)) times as large. */
 void fit_smooth(double v, double h, double memory, double *level, double *rate);
 
 #endif

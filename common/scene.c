@@ -89,7 +89,7 @@ static const struct param coupling_rows[] = {
     PARAM(P, transition, "m", "0.0", 0, 1e6, "width of the zone where SPH is blended with FV; 0: 1.25 R"),
     PARAM(P, buffer,     "m", "0.0", 0, 1e6, "width of the zone where SPH takes FV's fields; 0: 1.25 R"),
     PARAM(P, overlap,    "m", "0.0", 0, 1e6, "width of the rim of SPH's free zone where FV is free, too; 0: 1.25 R"),
-    PARAM(P, memory,     "-", "4",   1, 1000, "windows over which FV's pressure is smoothed, level and trend"),
+    PARAM(P, memory,     "-", "10",  1, 1000, "windows over which FV's pressure is smoothed, level and trend"),
     CHOICE(P, mapping, "shepard|mls", "mls", "from particles to forced cells"),
     CHOICE(P, interpolation, "linear|cubic", "cubic", "from cells to particles"),
     PARAM(P, deadline,   "s", "30.0", 0.1, 1e6, "to meet the other programs of the job"),

@@ -33,7 +33,7 @@ struct forcing {
                      nrim free ones beside its outline, whose values serve the fluxes alone */
     bool *known;  /* [size] a partner gives it, ghosts too */
     double *given[3]; /* [size] its velocities at the time of a flux */
-    double *x;    /* [nset][3] centres */
+    double *x;        /* [nset][3] centres */
     int64_t nfix[3];
     struct fix *fix[3]; /* one-sided gradients along each axis */
     /* faces of the outline: index in U, sign of the flow out of the fluid, whether this rank counts
@@ -59,10 +59,10 @@ void forcing_free(struct forcing **f);
 void forcing_zero(const struct forcing *f, double *q);
 /* Sets u in the forced cells to their values at time t. */
 void forcing_velocity(const struct fv *s, double t, double *const u[3]);
-/* Fluxes of the outline at time t: exact ones where the exact solution is imposed, a partner's where
- * its values reach two cells to both sides, else as they are interpolated; then corrected evenly to
- * no net flux. The free cells' own velocities hold the pressure of the step before: fluxes made of
- * them would let the pressure lag. */
+/* Fluxes of the outline at time t: exact ones where the exact solution is imposed, a partner's
+ * where its values reach two cells to both sides, else as they are interpolated; then corrected
+ * evenly to no net flux. The free cells' own velocities hold the pressure of the step before:
+ * fluxes made of them would let the pressure lag. */
 void forcing_fluxes(const struct fv *s, double t, double *const U[3]);
 /* How they vary with the velocity that U was interpolated from. */
 void forcing_fluxes_variation(const struct fv *s, double *const U[3]);

@@ -69,10 +69,10 @@ struct fv {
     struct newton *newton;
     struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;
-    double dt, dt_old; /* s: last step, 0 before the first; the one before it */
-    double partner[2][3];   /* m: box that a partner counts as its own; lo >= hi: none */
-    double u_limit;    /* m/s: beyond it the run has blown up */
-    double umax[3];    /* m/s: largest |u_a| */
+    double dt, dt_old;    /* s: last step, 0 before the first; the one before it */
+    double partner[2][3]; /* m: box that a partner counts as its own; lo >= hi: none */
+    double u_limit;       /* m/s: beyond it the run has blown up */
+    double umax[3];       /* m/s: largest |u_a| */
     double max_cfl;
     int64_t iterations; /* of the pressure solver */
     int64_t viscous_iterations;

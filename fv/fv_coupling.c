@@ -17,12 +17,12 @@ enum { LEVELS = 3 };
 struct link {
     struct cpl *c;
     int grid, forced, velocity, pressure, imposed;
-    int64_t n;         /* local cells */
-    double *q[LEVELS]; /* [n][dim + 1] velocity and smoothed pressure at the ends of the last
-                          windows, newest first */
-    double t[LEVELS];  /* s: their times */
-    int levels;        /* of them known */
-    double *rate;      /* [n] Pa/s: trend of the pressure */
+    int64_t n;            /* local cells */
+    double *q[LEVELS];    /* [n][dim + 1] velocity and smoothed pressure at the ends of the last
+                             windows, newest first */
+    double t[LEVELS];     /* s: their times */
+    int levels;           /* of them known */
+    double *rate;         /* [n] Pa/s: trend of the pressure */
     double *v, *dv, *got; /* scratch */
     unsigned char *mask;
 };

@@ -116,8 +116,9 @@ static bool has_walls(const struct scene *c, const struct sph_params *prm)
     bool any = c->nbodies > 0;
     for (int k = 0; k < c->nwalls; k++) {
         const int side = c->walls[k].side;
-        any = any || (is_wall(c->walls + k) &&
-                      (side == SIDE_NONE || sph_params_reaches(&c->domain, prm, side - SIDE_X_MIN)));
+        any =
+            any || (is_wall(c->walls + k) &&
+                    (side == SIDE_NONE || sph_params_reaches(&c->domain, prm, side - SIDE_X_MIN)));
     }
     return any;
 }
@@ -288,7 +289,7 @@ static void check_zones(const struct run *r, struct faults *f)
         if (hi[a] - lo[a] <= 0.0) {
             params_fault(
                 r->params, f, "sph.box",
-                "twice (coupling.transition + coupling.buffer) = %g m leaves nothing of %g m",
+                "coupling.transition + coupling.buffer on open sides, %g m, leave nothing of %g m",
                 prm->box[1][a] - prm->box[0][a] - (hi[a] - lo[a]), prm->box[1][a] - prm->box[0][a]);
             return;
         }

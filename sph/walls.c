@@ -69,9 +69,8 @@ static void add_polyline(struct sph *s, struct walls *w, const struct param_poin
 static bool is_wall(const struct sph *s, const struct scene_wall *w)
 {
     const bool is = w && (w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP);
-    return is &&
-           (w->side == SIDE_NONE ||
-            sph_params_reaches(&s->run->scene.domain, &s->prm, w->side - SIDE_X_MIN));
+    return is && (w->side == SIDE_NONE ||
+                  sph_params_reaches(&s->run->scene.domain, &s->prm, w->side - SIDE_X_MIN));
 }
 
 /* Whether a polyline of the case has a point here: a wall goes on. */

@@ -19,8 +19,8 @@ struct zones {
     void (*update)(struct sph *s); /* start of a stage: looks at the flow inside; NULL: no need */
     void *ctx;                     /* borrowed */
     struct openings *openings;
-    double gauge;   /* Pa: added to the pressure outside, which an incompressible partner knows up to a
-                       constant; 0 without a free surface */
+    double gauge; /* Pa: added to the pressure outside, which an incompressible partner knows up to
+                     a constant; 0 without a free surface */
     double blended; /* kg: mass that blending added on this rank since the start */
     int n; /* buffer or transition particles at hand, and the flow outside at their places */
     int capacity;

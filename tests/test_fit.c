@@ -46,8 +46,7 @@ static void smoothing_has_no_lag(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(decaying_sine),
-                                       cmocka_unit_test(too_short),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(decaying_sine), cmocka_unit_test(too_short),
                                        cmocka_unit_test(smoothing_has_no_lag)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

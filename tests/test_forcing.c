@@ -1,6 +1,5 @@
-/* test_forcing.c - fluxes through the outline of a hole that a partner fills: they are the partner's,
- * of fourth order, whatever the free cells hold. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause
- */
+/* test_forcing.c - fluxes through the outline of a hole that a partner fills: of fourth order,
+ * whatever the free cells hold. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include "../fv/forcing.h"

@@ -127,7 +127,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eigenvalues), cmocka_unit_test(wave_solves_its_equations),
-        cmocka_unit_test(enstrophy_of_the_layer),
-        cmocka_unit_test(channels), cmocka_unit_test(patch_and_drop)};
+        cmocka_unit_test(enstrophy_of_the_layer), cmocka_unit_test(channels),
+        cmocka_unit_test(patch_and_drop)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
