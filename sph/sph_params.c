@@ -178,9 +178,9 @@ const struct sph_params *sph_params_of(const struct run *r)
      * wall, where friction alone takes 79 nu/R^2 and a lattice of dx/2 would do with 0.048. */
     if (used.cfl_viscous <= 0.0)
         used.cfl_viscous = has_no_slip(&r->scene, &used) && used.walls == WALLS_NFM ? 0.025
-                           : used.viscosity != VISCOSITY_MORRIS              ? 0.035
+                           : used.viscosity != VISCOSITY_MORRIS                     ? 0.035
                            : has_no_slip(&r->scene, &used)                          ? 0.05
-                                                                             : 0.09;
+                                                                                    : 0.09;
     if (used.packing < 0)
         used.packing = has_polylines(&r->scene) && used.walls == WALLS_NFM ? 200 : 0;
     if (used.dissipation < 0.0)
