@@ -118,6 +118,8 @@ double fv_pressure(const struct fv *s, int64_t c);
 /* What gravity adds to it at x: the equations hold only the rest, so that water at rest stays so.
  */
 double fv_still_pressure(const struct fv *s, const double *x);
+/* The part of it that the exact solution's pressure holds, too: all of it in a wave, else 0. */
+double fv_still_in_exact(const struct fv *s, const double *x);
 
 /* fv_step.c: one step towards t_stop, see program.step; d is filled when the state cannot be
  * trusted. */

@@ -31,7 +31,7 @@ static void add_cell(const struct fv *s, int64_t c, const double *x, double volu
     exact_average(&s->exact, x, s->b.h, s->t, u, &p, &w);
     for (int a = 0; a < s->b.dim; a++)
         norm_add(n, volume, s->u[a][c] - u[a], u[a]);
-    norm_add(n + 1, volume, fv_pressure(s, c) + fv_still_pressure(s, x) - p, p);
+    norm_add(n + 1, volume, fv_pressure(s, c) + fv_still_in_exact(s, x) - p, p);
     norm_add(n + 2, volume, vorticity[c] - w, w);
 }
 

@@ -54,7 +54,7 @@ static void fill(struct fv *s)
                 exact_average(&s->exact, x, b->h, 0.0, u, &p, NULL);
                 for (int a = 0; a < b->dim; a++)
                     s->u[a][c] = u[a];
-                s->p[c] = s->p_before[c] = (p - fv_still_pressure(s, x)) / s->exact.rho;
+                s->p[c] = s->p_before[c] = (p - fv_still_in_exact(s, x)) / s->exact.rho;
             }
 }
 

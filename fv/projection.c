@@ -332,6 +332,11 @@ double fv_still_pressure(const struct fv *s, const double *x)
     return s->run->scene.fluid.rho * (sqrt(g) * s->level + sum);
 }
 
+double fv_still_in_exact(const struct fv *s, const double *x)
+{
+    return s->exact.field == FIELD_STANDING_WAVE ? fv_still_pressure(s, x) : 0.0;
+}
+
 /* rk3's pressure belongs to t - dt/6: carried on along the last step's change. */
 double fv_pressure(const struct fv *s, int64_t c)
 {
