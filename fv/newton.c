@@ -56,6 +56,7 @@ static void make_kinsol(struct fv *s, struct newton *w)
     SUN(KINSetEtaForm(w->kin, s->prm.steady ? KIN_ETACONSTANT : KIN_ETACHOICE1));
     SUN(KINSetEtaConstValue(w->kin, 0.1));
     SUN(KINSetMaxSetupCalls(w->kin, 1));
+    SUN(KINSetMaxNewtonStep(w->kin, 1e30)); /* by default a start from rest gets no step beyond 1 */
     SUN(KINSetScaledStepTol(w->kin, 1e-14));
     SUN(KINSetNoMinEps(w->kin, SUNFALSE));
 }
@@ -245,7 +246,9 @@ static bool try_pseudo_step(struct fv *s)
     N_VScale(1.0, w->q1, w->q);
     const int code = KINSol(w->kin, w->q, KIN_LINESEARCH, w->uscale, w->fscale);
     count(w);
-    const bool good = (code >= 0 || code == KIN_MAXITER_REACHED) && isfinite(N_VMaxNorm(w->q));
+    bool good = code >= 0 || code == KIN_MAXITER_REACHED;
+    newton_residual(w->q, w->residual, s);
+    good = good && isfinite(scaled_norm(w, w->residual)); /* largest values let NaN pass */
     if (!good)
         N_VScale(1.0, w->q1, w->q);
     N_VScale(1.0, w->q, w->q1); /* so that only the terms of the steady problem are left */

@@ -74,6 +74,48 @@ static void jacobian_is_the_derivative(void **state)
     }
 }
 
+/* M (v + w) = M v + M w, else GMRES believes in residuals that are not there. */
+static void preconditioner_is_linear(void **state)
+{
+    static const char *const cells[] = {"fv.cells=(8,32)", "fv.cells=(16,12)", "fv.cells=(10,26)",
+                                        "fv.cells=(8,8)"};
+    (void)state;
+    static const char *const sides[] = {"domain.periodic=(true,false)", CLOSED,
+                                        "domain.periodic=(true,true)"};
+    for (int k = 0; k < 12; k++) {
+        struct fv_case c;
+        fv_case_set(
+            &c, MPI_COMM_SELF,
+            (const char *const[]){NEWTON, "fluid.nu=0.1", cells[k % 4], sides[k / 4], NULL});
+        if (k < 8) {
+            wall_add(&c, SIDE_Y_MIN, WALL_NO_SLIP, 0.0);
+            wall_add(&c, SIDE_Y_MAX, WALL_NO_SLIP, 0.0);
+        }
+        if (k / 4 == 1) {
+            wall_add(&c, SIDE_X_MIN, WALL_INFLOW, 1.0);
+            wall_add(&c, SIDE_X_MAX, WALL_OUTFLOW, 0.0);
+        }
+        struct fv *s = fv_case_start(&c, NULL);
+        struct newton *w = s->newton;
+        N_Vector v[3] = {N_VClone(w->q), N_VClone(w->q), N_VClone(w->q)};
+        newton_set_step(s, 0.05, 0.0);
+        newton_precond_setup(w->q, w->uscale, w->q, w->fscale, s);
+        for (int m = 0; m < 2; m++)
+            fill_random(s, v[m], (const double[]){1.0, 1.0});
+        N_VLinearSum(1.0, v[0], 1.0, v[1], v[2]);
+        for (int m = 0; m < 3; m++)
+            newton_precond_solve(w->q, w->uscale, w->q, w->fscale, v[m], s);
+        N_VLinearSum(1.0, v[0], 1.0, v[1], v[0]);
+        N_VLinearSum(1.0, v[2], -1.0, v[0], v[0]);
+        const double error = N_VMaxNorm(v[0]) / N_VMaxNorm(v[2]);
+        print_message("%s, %s: %.3g\n", cells[k % 4], sides[k / 4], error);
+        assert_true(error < 1e-12);
+        for (int m = 0; m < 3; m++)
+            N_VDestroy(v[m]);
+        fv_free(&c.s);
+    }
+}
+
 /* Exact linear solves, one iteration at a time: log r_k+1/log r_k of the relative residuals. */
 static void residual_decays_quadratically(void **state)
 {
@@ -272,6 +314,7 @@ static void steady_channels_are_exact(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(jacobian_is_the_derivative),
+                                       cmocka_unit_test(preconditioner_is_linear),
                                        cmocka_unit_test(residual_decays_quadratically),
                                        cmocka_unit_test(vectors_do_not_grow_with_the_grid),
                                        cmocka_unit_test(time_is_second_order),
