@@ -149,6 +149,21 @@ static void split_gravity(struct fv *s)
                                                 : 0.0;
 }
 
+/* Pressures at outflows drive a flow from rest as gently as they would later: p of the start is
+ * their mean, then what goes with the velocities. */
+static void meet_pressures(struct fv *s)
+{
+    double sum = 0.0, n = 0.0;
+    for (int k = 0; k < 6; k++)
+        if (s->bc->kind[k] == BC_OUTFLOW) {
+            sum += s->bc->pressure[k];
+            n += 1.0;
+        }
+    for (int64_t c = 0; c < s->b.size; c++)
+        s->p[c] = s->p_before[c] = sum / n;
+    pressure_start(s);
+}
+
 struct fv *fv_create(struct run *r, struct h5 *f)
 {
     struct fv *s = NEW(struct fv, 1);
@@ -186,6 +201,8 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     s->energy0 = energy(s);
     measure(s);
     set_limit(s);
+    if (!f && s->bc && s->bc->driven)
+        meet_pressures(s);
     if (f && !fv_restore(s, f))
         fv_free(&s);
     else

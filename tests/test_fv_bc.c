@@ -150,6 +150,22 @@ static void rest_stays_under_gravity(void **state)
     fv_free(&c.s);
 }
 
+/* No start kicks it, though p is not 0. */
+static void rest_stays_between_equal_pressures(void **state)
+{
+    struct fv_case c;
+    (void)state;
+    fv_case_set(&c, MPI_COMM_SELF, (const char *const[]){CLOSED, "initial.field=\"rest\"", NULL});
+    for (int k = SIDE_X_MIN; k <= SIDE_X_MAX; k++)
+        wall_add(&c, (enum scene_side)k, WALL_OUTFLOW, 0.0)->pressure = 1e4;
+    for (int k = SIDE_Y_MIN; k <= SIDE_Y_MAX; k++)
+        wall_add(&c, (enum scene_side)k, WALL_NO_SLIP, 0.0);
+    struct fv *s = fv_case_start(&c, NULL);
+    assert_true(fv_case_run(&c, 200, 100.0));
+    assert_close(fmax(s->umax[0], s->umax[1]), 0.0, 1e-9);
+    fv_free(&c.s);
+}
+
 /* A vortex of Gaussian stream function in a uniform flow, averages and fluxes. */
 static void vortex_fill(struct fv *s, double x0, double y0)
 {
@@ -215,6 +231,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(channels_start_as_they_should),
                                        cmocka_unit_test(ducts_are_exact),
                                        cmocka_unit_test(rest_stays_under_gravity),
+                                       cmocka_unit_test(rest_stays_between_equal_pressures),
                                        cmocka_unit_test(vortices_leave)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
