@@ -277,7 +277,7 @@ static void march(struct fv *s, struct diagnosis *d)
         describe(s, "a pseudo step that was cut to nothing", d);
     w->steady = w->norm <= s->prm.tol_newton;
     if (before > 0.0 && w->norm > 0.0)
-        w->dtau *= before < 0.8 * w->norm ? 0.5 : fmin(fmax(before / w->norm, 1.0), 10.0);
+        w->dtau *= fmin(fmax(before / w->norm, 0.5), 10.0);
 }
 
 double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagnosis *d)
