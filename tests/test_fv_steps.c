@@ -104,11 +104,37 @@ static void step_leaves_no_divergence(void **state)
     }
 }
 
+/* Energy only falls when the step changes by ten and back. */
+static void steps_may_change_tenfold(void **state)
+{
+    static const char *const ways[] = {"fv.integrator=\"rk3\"", "fv.integrator=\"bdf2\""};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct fv_case c;
+        double row[FV_CASE_ROW], last;
+        fv_case_set(
+            &c, MPI_COMM_WORLD,
+            (const char *const[]){"initial.field=\"two_modes\"", ways[k], "fv.cfl=0.5", NULL});
+        struct fv *s = fv_case_start(&c, NULL);
+        fv_row(s, row);
+        last = row[0];
+        for (int n = 0; n < 40; n++) {
+            s->prm.cfl *= n % 4 == 1 ? 0.1 : n % 4 == 3 ? 10.0 : 1.0;
+            assert_true(fv_case_run(&c, 1, 1000.0));
+            fv_row(s, row);
+            assert_true(row[0] < last);
+            last = row[0];
+        }
+        assert_true(row[3] < 0.1);
+        fv_free(&c.s);
+    }
+}
+
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(viscous_operator_is_symmetric),
-                                       cmocka_unit_test(uniform_flow_stays),
-                                       cmocka_unit_test(step_leaves_no_divergence)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(viscous_operator_is_symmetric), cmocka_unit_test(uniform_flow_stays),
+        cmocka_unit_test(step_leaves_no_divergence), cmocka_unit_test(steps_may_change_tenfold)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
