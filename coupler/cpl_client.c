@@ -91,7 +91,7 @@ struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int6
             continue;
         }
         c->heard = wire_time();
-        if (m->head.kind == WIRE_NEED) {
+        if (m->head.kind == WIRE_NEED && kind != WIRE_MET) { /* else cpl_ready looks at it */
             client_need(c, m);
             message_free(&m);
         } else {
@@ -307,7 +307,12 @@ int cpl_ready(struct cpl *c, double t, double dt_wish)
         return out_of_order(c, "cpl_ready", "once, after cpl_meet");
     if (c->rank == 0)
         send_plan(c, t, dt_wish);
-    struct message *m = client_await(c, WIRE_PLAN, -1, 0, 0, "the plan");
+    struct message *m;
+    while ((m = from_inbox(c, WIRE_NEED, -1, 0, -1))) { /* other ranks were faster than cpl_meet */
+        client_need(c, m);
+        message_free(&m);
+    }
+    m = client_await(c, WIRE_PLAN, -1, 0, 0, "the plan");
     if (!m)
         return c->error;
     const int code = verdict(c, m);
