@@ -330,6 +330,9 @@ void sph_params_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "sph.walls", "nfm needs a Riemann scheme: take ghosts");
     if (given.background && sph_params_of(r)->surface == SURFACE_YES)
         params_fault(r->params, f, "sph.background", "not with a free surface");
+    for (int k = 0; k < r->scene.nwalls; k++)
+        if (r->scene.walls[k].carried)
+            params_fault(r->params, f, "walls", "wall %d: carried is not for this solver", k + 1);
     if (sph_params_of(r)->c0 <= 0.0)
         params_fault(r->params, f, "sph.c0", "must be given: the case has no scale of velocity");
     check_motions(r, f);
