@@ -45,20 +45,19 @@ static void read_pieces(struct xdmf *x, double t)
     char line[2048];
     struct xdmf piece = {0};
     double at = 0.0;
-    bool inside = false;
+    int depth = 0;
     while (f && fgets(line, sizeof line, f)) {
         const char *value = strstr(line, "<Time Value=\"");
-        if (strstr(line, "<Grid Name=\"at\""))
-            inside = true;
-        if (inside)
+        if (strstr(line, "<Grid Name=\"at\"") || (depth > 0 && strstr(line, "<Grid ")))
+            depth++;
+        if (depth > 0)
             add(&piece, "%s", line);
         if (value)
             at = atof(value + 13);
-        if (inside && strstr(line, "</Grid>")) {
+        if (depth > 0 && strstr(line, "</Grid>") && --depth == 0) {
             if (at < t * (1.0 - 1e-12))
                 add(x, "%s", piece.text);
             piece.n = 0;
-            inside = false;
         }
     }
     if (f)
@@ -158,6 +157,48 @@ void xdmf_block(struct xdmf *x, double t, const char *file, int dim, const int *
             nodes, origin[2], origin[1], origin[0], spacing[2], spacing[1], spacing[0]);
     }
     add_fields(x, "Cell", shape, file, nfields, fields);
+    add(x, "</Grid>\n");
+    rewrite(x);
+}
+
+static void add_curved(struct xdmf *x, const char *file, int dim, int k, const int *cells,
+                       int nfields, const struct xdmf_field *fields)
+{
+    char shape[64], nodes[64];
+    if (dim == 2) {
+        snprintf(shape, sizeof shape, "%d %d", cells[1], cells[0]);
+        snprintf(nodes, sizeof nodes, "%d %d", cells[1] + 1, cells[0] + 1);
+    } else {
+        snprintf(shape, sizeof shape, "%d %d %d", cells[2], cells[1], cells[0]);
+        snprintf(nodes, sizeof nodes, "%d %d %d", cells[2] + 1, cells[1] + 1, cells[0] + 1);
+    }
+    add(x, "<Grid Name=\"block %d\" GridType=\"Uniform\">\n", k);
+    add(x,
+        "<Topology TopologyType=\"%s\" Dimensions=\"%s\"/>\n<Geometry GeometryType=\"%s\">"
+        "<DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"%s "
+        "%d\">%s:/x_%d</DataItem></Geometry>\n",
+        dim == 2 ? "2DSMesh" : "3DSMesh", nodes, dim == 2 ? "XY" : "XYZ", nodes, dim, file, k);
+    for (int q = 0; q < nfields; q++) {
+        const bool vector = fields[q].ncomp == 3;
+        add(x,
+            "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"Cell\"><DataItem Format=\"HDF\" "
+            "NumberType=\"Float\" Precision=\"4\" "
+            "Dimensions=\"%s%s\">%s:/%s_%d</DataItem></Attribute>\n",
+            fields[q].name, vector ? "Vector" : "Scalar", shape, vector ? " 3" : "", file,
+            fields[q].name, k);
+    }
+    add(x, "</Grid>\n");
+}
+
+void xdmf_curved(struct xdmf *x, double t, const char *file, int dim, int nblocks,
+                 const int (*cells)[3], int nfields, const struct xdmf_field *fields)
+{
+    add(x,
+        "<Grid Name=\"at\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time "
+        "Value=\"%.17g\"/>\n",
+        t);
+    for (int k = 0; k < nblocks; k++)
+        add_curved(x, file, dim, k + 1, cells[k], nfields, fields);
     add(x, "</Grid>\n");
     rewrite(x);
 }

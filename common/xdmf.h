@@ -27,5 +27,8 @@ void xdmf_points(struct xdmf *x, double t, const char *file, int64_t n, int dim,
 void xdmf_block(struct xdmf *x, double t, const char *file, int dim, const int *cells,
                 const double *origin, const double *spacing, int nfields,
                 const struct xdmf_field *fields);
+/* Structured blocks of any shape: vertices in datasets x_1, x_2, ..., fields in NAME_1, ... */
+void xdmf_curved(struct xdmf *x, double t, const char *file, int dim, int nblocks,
+                 const int (*cells)[3], int nfields, const struct xdmf_field *fields);
 
 #endif

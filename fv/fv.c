@@ -7,6 +7,7 @@
 #include "../common/log.h"
 #include "../coupler/cpl_partner.h"
 #include "levelset.h"
+#include "mesh_flow.h"
 
 static const char *columns[12 + PROBES_MAX] = {"kinetic energy [J]", "largest velocity [m/s]",
                                                "divergence [m/s]"};
@@ -18,6 +19,10 @@ static void describe(const struct run *r)
 {
     static const char *const integrators[] = {"rk3, three projections a step",
                                               "bdf2, one projection a step", "newton, all at once"};
+    if (mesh_block_count() > 0) {
+        mesh_describe(r);
+        return;
+    }
     const struct fv_params *prm = fv_params_of(r);
     const struct scene_domain *d = &r->scene.domain;
     const bool viscous = r->scene.fluid.nu > 0.0, water = surface_wanted(r),
@@ -55,8 +60,35 @@ static void describe(const struct run *r)
             8e-6 * cells * fields + 1.0);
 }
 
+static void destroy_mesh(void *state)
+{
+    struct mesh_flow *s = state;
+    mesh_flow_free(&s);
+}
+
+static double step_mesh(void *s, double t_stop, struct diagnosis *d)
+{
+    return mesh_integrate(s, t_stop, d);
+}
+
+/* The case has blocks: another state behind the same program. */
+static void *create_mesh(struct run *r, struct h5 *f)
+{
+    fv_program.ncolumns = mesh_columns(r, columns);
+    fv_program.destroy = destroy_mesh;
+    fv_program.step = step_mesh;
+    fv_program.row = mesh_row_values;
+    fv_program.progress = mesh_progress;
+    fv_program.snapshot = mesh_snapshot;
+    fv_program.checkpoint = mesh_checkpoint;
+    fv_program.finish = mesh_finish;
+    return mesh_flow_create(r, f);
+}
+
 static void *create(struct run *r, struct h5 *f)
 {
+    if (mesh_block_count() > 0)
+        return create_mesh(r, f);
     static const char *const forces[] = {"force x [N]", "force y [N]", "force z [N]"};
     static const char *const reaches[] = {"water up to x [m]", "water up to y [m]",
                                           "water up to z [m]"};

@@ -80,7 +80,7 @@ struct fv {
 };
 
 /* fv_params.c */
-enum { FV_GROUPS = 1 };
+enum { FV_GROUPS = 2 };
 extern const struct param_group fv_groups[FV_GROUPS];
 const struct fv_params *fv_params_of(const struct run *r);
 void fv_params_check(const struct run *r, struct faults *f);

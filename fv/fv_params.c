@@ -4,13 +4,14 @@
 #include <math.h>
 
 #include "levelset.h"
+#include "mesh.h"
 
 static struct fv_params given;
 
 #define P struct fv_params
 /* clang-format off */
 static const struct param rows[] = {
-    PARAM(P, cells,        "-", NULL,   1, 1e6,   "cells in each direction; even, rich in factors of two"),
+    PARAM(P, cells,        "-", "(0, 0, 0)", 1, 1e6, "cells in each direction; even, rich in factors of two; none with blocks"),
     PARAM(P, cfl,          "-", "1.0",  1e-6, 1e4, "largest |u_a| dt/h; at most 1.1 (rk3), 0.7 (bdf2)"),
     CHOICE(P, integrator, "rk3|bdf2|newton", "rk3", "three projected stages, two-step backward for slow flows, fully implicit"),
     PARAM(P, tol_pressure, "-", "1e-2", 1e-14, 1, "of the last projection of a step, relative to its divergence"),
@@ -30,7 +31,8 @@ static const struct param rows[] = {
 
 const struct param_group fv_groups[FV_GROUPS] = {{"fv", "The finite-volume solver", rows,
                                                   (int)(sizeof rows / sizeof *rows), &given, NULL,
-                                                  0, 0, NULL}};
+                                                  0, 0, NULL},
+                                                 MESH_GROUP};
 
 const struct fv_params *fv_params_of(const struct run *r)
 {
@@ -115,6 +117,10 @@ static void check_surface(const struct run *r, struct faults *f)
 void fv_params_check(const struct run *r, struct faults *f)
 {
     const bool exact = exact_at_all_times(&r->scene);
+    if (mesh_block_count() > 0) {
+        mesh_check(r, f);
+        return;
+    }
     if (given.integrator == INTEGRATOR_BDF2 && given.cfl > 0.7)
         params_fault(r->params, f, "fv.cfl", "%g: bdf2 is stable up to 0.7", given.cfl);
     if (given.integrator == INTEGRATOR_RK3 && given.cfl > 1.1)

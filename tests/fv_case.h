@@ -50,7 +50,8 @@ static inline void fv_case_set(struct fv_case *c, MPI_Comm comm, const char *con
     while (overrides && overrides[n])
         n++;
     scene_groups(&c->run.scene, groups);
-    groups[SCENE_GROUPS] = fv_groups[0];
+    for (int k = 0; k < FV_GROUPS; k++)
+        groups[SCENE_GROUPS + k] = fv_groups[k];
     struct params *p = params_read(comm, path, n, overrides, groups, SCENE_GROUPS + FV_GROUPS,
                                    (const char *const[]){NULL}, &faults);
     params_report(&faults);

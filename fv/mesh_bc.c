@@ -1,0 +1,371 @@
+/* mesh_bc.c - physical sides of blocks: ghosts as in bc.c, along the indices across the side.
+ * No-slip, inflow, exact: the cubic through the average w on the face and three cells; slip: the
+ * normal component mirrored oddly; outflow: evenly, with p/rho = 0 on the face. w is averaged over
+ * Gauss points of the face. SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh_flow.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../common/mem.h"
+
+struct side {
+    const struct mesh_part *p;
+    int a, k; /* axis, side of the block */
+    enum mesh_side kind;
+    int t[2], g[2], n[2]; /* tangents, their ghosts and cells */
+    int first;            /* cell along a that touches the side */
+    int64_t in;           /* step inwards */
+    int64_t face;         /* step from that cell to the face's place */
+    int64_t width;
+    double *w[3]; /* m/s */
+};
+
+struct mesh_bc {
+    int n;
+    struct side *side;
+    bool pressure_given;
+};
+
+/* Visits the places of a side with all ghosts of its tangents: m counts them, c: cell inside. */
+#define SIDE_PLACES(s, more, i, j, m, c)                                                           \
+    for (int j = -(more) * (s)->g[1]; j < (s)->n[1] + (more) * (s)->g[1]; j++)                     \
+        for (int i = -(more) * (s)->g[0]; i < (s)->n[0] + (more) * (s)->g[0]; i++)                 \
+            for (int64_t m = place(s, i, j), c = cell(s, i, j), once_ = 1; once_; once_ = 0)
+
+static int64_t place(const struct side *s, int i, int j)
+{
+    return (i + s->g[0]) + s->width * (j + s->g[1]);
+}
+
+static int64_t cell(const struct side *s, int i, int j)
+{
+    int at[3];
+    at[s->a] = s->first;
+    at[s->t[0]] = i;
+    at[s->t[1]] = j;
+    return part_at(s->p, at[0], at[1], at[2]);
+}
+
+static bool is_physical(enum mesh_side k)
+{
+    return k != MESH_OVERLAP && k != MESH_JOINED && k != MESH_PERIODIC;
+}
+
+static void add_side(struct mesh_flow *s, struct mesh_bc *bc, const struct mesh_part *p, int k)
+{
+    const struct mesh_block *b = s->m->block + p->block;
+    const int a = k / 2;
+    if (!is_physical(b->side[k]) || (k % 2 ? p->lo[a] + p->n[a] < b->n[a] : p->lo[a] > 0))
+        return;
+    struct side *d = bc->side + bc->n++;
+    *d = (struct side){.p = p, .a = a, .k = k, .kind = b->side[k]};
+    for (int t = 0, n = 0; t < 3; t++)
+        if (t != a) {
+            d->t[n] = t;
+            d->g[n] = p->g[t];
+            d->n[n++] = p->n[t];
+        }
+    d->width = d->n[0] + 2 * d->g[0];
+    d->first = k % 2 ? p->n[a] - 1 : 0;
+    d->in = k % 2 ? -p->stride[a] : p->stride[a];
+    d->face = k % 2 ? p->stride[a] : 0;
+    for (int c = 0; c < s->m->dim; c++)
+        d->w[c] = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
+}
+
+void mesh_bc_create(struct mesh_flow *s)
+{
+    const struct mesh *m = s->m;
+    struct mesh_bc *bc = s->bc = NEW(struct mesh_bc, 1);
+    bc->side = NEW(struct side, 6 * m->nparts);
+    for (int a = 0; a < m->dim; a++) /* axis by axis: corners take the values of lower axes */
+        for (int q = 0; q < m->nparts; q++)
+            for (int up = 0; up < 2; up++)
+                add_side(s, bc, m->part + q, 2 * a + up);
+    for (int k = 0; k < m->nblocks; k++)
+        for (int q = 0; q < 2 * m->dim; q++)
+            bc->pressure_given = bc->pressure_given || m->block[k].side[q] == MESH_OUTFLOW;
+    mesh_bc_time(s, s->t);
+}
+
+void mesh_bc_free(struct mesh_bc **b)
+{
+    for (int k = 0; *b && k < (*b)->n; k++)
+        for (int c = 0; c < 3; c++)
+            mem_free((*b)->side[k].w[c]);
+    if (*b)
+        mem_free((*b)->side);
+    mem_free(*b);
+    *b = NULL;
+}
+
+bool mesh_bc_pressure_given(const struct mesh_flow *s) { return s->bc->pressure_given; }
+
+bool mesh_bc_has_walls(const struct mesh *m)
+{
+    for (int k = 0; k < m->nblocks; k++)
+        for (int q = 0; q < 2 * m->dim; q++)
+            if (m->block[k].side[q] == MESH_WALL || m->block[k].side[q] == MESH_SLIP)
+                return true;
+    return false;
+}
+
+static void value_at(const struct mesh_flow *s, const struct side *d, const double *x, double t,
+                     double *w)
+{
+    const struct mesh_block_params *b = s->m->block[d->p->block].prm;
+    const double spin = d->kind == MESH_WALL && d->a == 0 ? b->spin[d->k % 2] : 0.0;
+    const bool given = b->velocity[0] != 0.0 || b->velocity[1] != 0.0 || b->velocity[2] != 0.0;
+    if (d->kind == MESH_EXACT) {
+        mesh_exact_at(s, x, t, w, NULL, NULL);
+        return;
+    }
+    for (int c = 0; c < 3; c++)
+        w[c] =
+            d->kind == MESH_INFLOW && !given ? s->run->scene.initial.velocity[c] : b->velocity[c];
+    w[0] -= spin * (x[1] - b->centre[1]);
+    w[1] += spin * (x[0] - b->centre[0]);
+}
+
+/* Gauss points of the face at a place. */
+static int face_points(const struct mesh_flow *s, const struct side *d, int i, int j,
+                       double x[4][3])
+{
+    static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
+    const int n = s->m->dim == 3 ? 4 : 2, t0 = d->t[0], t1 = d->t[1];
+    int at[3];
+    at[d->a] = d->p->lo[d->a] + d->first;
+    at[t0] = d->p->lo[t0] + i;
+    at[t1] = d->p->lo[t1] + j;
+    for (int g = 0; g < n; g++) {
+        double xi[3] = {0.0, 0.0, 0.0}, dx[3][3];
+        xi[d->a] = d->k % 2;
+        xi[t0] = gauss[g & 1];
+        xi[t1] = n == 4 ? gauss[g >> 1] : 0.0;
+        mesh_map_point(s->m->block + d->p->block, s->m->dim, at, xi, x[g], dx);
+    }
+    return n;
+}
+
+static void set_values(const struct mesh_flow *s, const struct side *d, double t)
+{
+    SIDE_PLACES(d, 1, i, j, m, c)
+    {
+        double x[4][3], sum[3] = {0.0, 0.0, 0.0}, w[3];
+        const int n = face_points(s, d, i, j, x);
+        for (int g = 0; g < n; g++) {
+            value_at(s, d, x[g], t, w);
+            for (int q = 0; q < 3; q++)
+                sum[q] += w[q] / n;
+        }
+        for (int q = 0; q < s->m->dim; q++)
+            d->w[q][m] = sum[q];
+        (void)c;
+    }
+}
+
+void mesh_bc_time(struct mesh_flow *s, double t)
+{
+    for (int k = 0; k < s->bc->n; k++) {
+        const struct side *d = s->bc->side + k;
+        if (d->kind == MESH_EXACT || t == s->t)
+            set_values(s, d, t);
+    }
+}
+
+static void given(double *q, int64_t in, double w)
+{
+    q[-in] = 4.0 * w - (13.0 * q[0] - 5.0 * q[in] + q[2 * in]) / 3.0;
+    q[-2 * in] = 16.0 * w - (70.0 * q[0] - 32.0 * q[in] + 7.0 * q[2 * in]) / 3.0;
+    q[-3 * in] = q[-2 * in];
+}
+
+static void mirrored(double *q, int64_t in, double sign)
+{
+    for (int m = 0; m < MESH_GHOSTS; m++)
+        q[-(m + 1) * in] = sign * q[m * in];
+}
+
+static void slip(const struct mesh *m, const struct side *d, int64_t c, double *const u[3])
+{
+    double S2 = 0.0;
+    for (int q = 0; q < m->dim; q++)
+        S2 += m->S[d->a][q][c + d->face] * m->S[d->a][q][c + d->face];
+    for (int l = 0; l < MESH_GHOSTS; l++) {
+        double un = 0.0;
+        for (int q = 0; q < m->dim; q++)
+            un += u[q][c + l * d->in] * m->S[d->a][q][c + d->face];
+        for (int q = 0; q < m->dim; q++)
+            u[q][c - (l + 1) * d->in] =
+                u[q][c + l * d->in] - 2.0 * un * m->S[d->a][q][c + d->face] / S2;
+    }
+}
+
+void mesh_bc_velocity(const struct mesh_flow *s, enum mesh_value what, double *const u[3])
+{
+    const struct mesh *m = s->m;
+    for (int k = 0; k < s->bc->n; k++) {
+        const struct side *d = s->bc->side + k;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            if (d->kind == MESH_SLIP)
+                slip(m, d, c, u);
+            else
+                for (int q = 0; q < m->dim; q++) {
+                    if (d->kind == MESH_OUTFLOW)
+                        mirrored(u[q] + c, d->in, 1.0);
+                    else
+                        given(u[q] + c, d->in, what == MESH_GIVEN ? d->w[q][at] : 0.0);
+                }
+        }
+    }
+}
+
+void mesh_bc_even(const struct mesh_flow *s, bool odd, double *q)
+{
+    for (int k = 0; k < s->bc->n; k++) {
+        const struct side *d = s->bc->side + k;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            mirrored(q + c, d->in, odd && d->kind == MESH_OUTFLOW ? -1.0 : 1.0);
+            (void)at;
+        }
+    }
+}
+
+void mesh_bc_pressure(const struct mesh_flow *s, double *p)
+{
+    for (int k = 0; k < s->bc->n; k++) {
+        const struct side *d = s->bc->side + k;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            double *q = p + c;
+            const int64_t in = d->in;
+            if (d->kind == MESH_OUTFLOW)
+                given(q, in, 0.0);
+            else
+                for (int l = 1; l <= MESH_GHOSTS; l++)
+                    q[-l * in] = 3.0 * (q[(1 - l) * in] - q[(2 - l) * in]) + q[(3 - l) * in];
+            (void)at;
+        }
+    }
+}
+
+void mesh_bc_fluxes(const struct mesh_flow *s, double *const U[3])
+{
+    for (int k = 0; k < s->bc->n; k++) {
+        const struct side *d = s->bc->side + k;
+        if (d->kind != MESH_WALL && d->kind != MESH_SLIP)
+            continue;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            U[d->a][c + d->face] = 0.0;
+            (void)at;
+        }
+    }
+}
+
+double mesh_bc_rate(const struct mesh_flow *s, double *speed)
+{
+    const struct mesh *m = s->m;
+    double rate = 0.0;
+    for (int k = 0; k < s->bc->n; k++) {
+        const struct side *d = s->bc->side + k;
+        SIDE_PLACES(d, 0, i, j, at, c)
+        {
+            double w2 = 0.0;
+            for (int a = 0; a < m->dim; a++) {
+                double wS = 0.0;
+                for (int q = 0; q < m->dim; q++)
+                    wS += d->w[q][at] * m->S[a][q][c + (a == d->a ? d->face : 0)];
+                rate = fmax(rate, fabs(wS) / m->V[c]);
+                w2 += d->w[a][at] * d->w[a][at];
+            }
+            *speed = fmax(*speed, sqrt(w2));
+        }
+    }
+    return rate;
+}
+
+/* Slopes across and along the face of a field with ghosts, at the place of the face. */
+static void face_slopes(const struct mesh *m, const struct side *d, int64_t f, const double *u,
+                        double *slope)
+{
+    const int64_t a = d->p->stride[d->a];
+    slope[d->a] = (15.0 * (u[f] - u[f - a]) - (u[f + a] - u[f - 2 * a])) / 12.0;
+    for (int n = 0; n < 2 && d->t[n] < m->dim; n++) {
+        double v[5];
+        const int64_t b = d->p->stride[d->t[n]];
+        for (int l = -2; l <= 2; l++) {
+            const double *q = u + f + l * b;
+            v[l + 2] = (7.0 * (q[-a] + q[0]) - (q[-2 * a] + q[a])) / 12.0;
+        }
+        slope[d->t[n]] = (8.0 * (v[3] - v[1]) - (v[4] - v[0])) / 12.0;
+    }
+}
+
+/* -p S + mu (grad u + grad u^T) S on one face, outwards of the fluid. */
+static void face_force(const struct mesh_flow *s, const struct side *d, int64_t c, int i, int j,
+                       double *force)
+{
+    const struct mesh *m = s->m;
+    const double rho = s->run->scene.fluid.rho, out = d->k % 2 ? 1.0 : -1.0;
+    const int64_t f = c + d->face, a = d->p->stride[d->a];
+    double x[3], dx[3][3], xi[3] = {0.5, 0.5, 0.5}, slope[3][3] = {{0.0}}, g[3][3] = {{0.0}};
+    int at[3];
+    at[d->a] = d->p->lo[d->a] + d->first;
+    at[d->t[0]] = d->p->lo[d->t[0]] + i;
+    at[d->t[1]] = d->p->lo[d->t[1]] + j;
+    xi[d->a] = d->k % 2;
+    mesh_map_point(m->block + d->p->block, m->dim, at, xi, x, dx);
+    const double J = mesh_determinant(dx);
+    for (int q = 0; q < m->dim; q++)
+        face_slopes(m, d, f, s->u[q], slope[q]);
+    for (int k = 0; k < m->dim; k++) /* grad xi_k = cofactors / J */
+        for (int e = 0; e < m->dim; e++) {
+            const int p = (k + 1) % 3, q = (k + 2) % 3, v = (e + 1) % 3, w = (e + 2) % 3;
+            const double dxi = (dx[p][v] * dx[q][w] - dx[p][w] * dx[q][v]) / J;
+            for (int r = 0; r < m->dim; r++)
+                g[r][e] += slope[r][k] * dxi;
+        }
+    double p[4];
+    for (int l = 0; l < 4; l++)
+        p[l] = mesh_pressure_at(s, f + (l - 2) * a);
+    const double pf = (7.0 * (p[1] + p[2]) - (p[0] + p[3])) / 12.0;
+    for (int q = 0; q < m->dim; q++) {
+        force[q] = -pf * m->S[d->a][q][f];
+        for (int e = 0; e < m->dim; e++)
+            force[q] += rho * s->nu * (g[q][e] + g[e][q]) * m->S[d->a][e][f];
+        force[q] *= -out; /* on the wall */
+    }
+    x[2] = 0.0;
+    const double *o = m->block[d->p->block].prm->centre;
+    force[3] = (x[0] - o[0]) * force[1] - (x[1] - o[1]) * force[0];
+}
+
+void mesh_bc_force(struct mesh_flow *s, double force[3], double *moment)
+{
+    double sum[4] = {0.0, 0.0, 0.0, 0.0};
+    double *both[2] = {s->p, s->p_before};
+    mesh_fill(s->m, 2, both);
+    for (int k = 0; k < 2; k++)
+        mesh_bc_pressure(s, both[k]);
+    for (int k = 0; k < s->bc->n; k++) {
+        const struct side *d = s->bc->side + k;
+        if (d->kind != MESH_WALL && d->kind != MESH_SLIP)
+            continue;
+        SIDE_PLACES(d, 0, i, j, at, c)
+        {
+            double one[4] = {0.0, 0.0, 0.0, 0.0};
+            if (s->free[c] > 0.0)
+                face_force(s, d, c, i, j, one);
+            for (int q = 0; q < 4; q++)
+                sum[q] += one[q];
+            (void)at;
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, s->m->comm);
+    memcpy(force, sum, 3 * sizeof(double));
+    *moment = sum[3];
+}

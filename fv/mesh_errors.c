@@ -1,0 +1,234 @@
+/* mesh_errors.c - rows of the series and the summary of a flow on blocks: errors against the exact
+ * field over the computed cells, forces on walls, gauges. SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh_flow.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../common/log.h"
+#include "../common/mem.h"
+#include "overset.h"
+
+enum { NORMS = 3 };
+
+static void errors(struct mesh_flow *s, struct norm n[NORMS])
+{
+    const struct mesh *m = s->m;
+    double *w = mesh_field(m);
+    mesh_vorticity(s, w);
+    for (int k = 0; k < NORMS; k++)
+        n[k] = (struct norm){0};
+    for (int q = 0; q < m->nparts; q++) {
+        const struct mesh_part *p = m->part + q;
+        int i[3];
+        for (i[2] = 0; i[2] < p->n[2]; i[2]++)
+            for (i[1] = 0; i[1] < p->n[1]; i[1]++)
+                for (i[0] = 0; i[0] < p->n[0]; i[0]++) {
+                    const int64_t c = part_at(p, i[0], i[1], i[2]);
+                    double u[3], pr, o;
+                    if (s->free[c] == 0.0)
+                        continue;
+                    mesh_exact_average(s, p, i, s->t, u, &pr, &o);
+                    for (int a = 0; a < m->dim; a++)
+                        norm_add(n, m->V[c], s->u[a][c] - u[a], u[a]);
+                    norm_add(n + 1, m->V[c], mesh_pressure_at(s, c) - pr, pr);
+                    norm_add(n + 2, m->V[c], w[c] - o, o);
+                }
+    }
+    mem_free(w);
+    norm_reduce(n, NORMS, m->comm);
+}
+
+/* Kinetic energy over the computed cells and the exact field's, J/kg m^dim. */
+static void energies(const struct mesh_flow *s, double sum[2])
+{
+    const struct mesh *m = s->m;
+    sum[0] = sum[1] = 0.0;
+    for (int q = 0; q < m->nparts; q++) {
+        const struct mesh_part *p = m->part + q;
+        int i[3];
+        for (i[2] = 0; i[2] < p->n[2]; i[2]++)
+            for (i[1] = 0; i[1] < p->n[1]; i[1]++)
+                for (i[0] = 0; i[0] < p->n[0]; i[0]++) {
+                    const int64_t c = part_at(p, i[0], i[1], i[2]);
+                    double u[3] = {0.0, 0.0, 0.0}, pr, o;
+                    if (s->free[c] == 0.0)
+                        continue;
+                    if (s->has_exact)
+                        mesh_exact_average(s, p, i, s->t, u, &pr, &o);
+                    for (int a = 0; a < m->dim; a++) {
+                        sum[0] += 0.5 * m->V[c] * s->u[a][c] * s->u[a][c];
+                        sum[1] += 0.5 * m->V[c] * u[a] * u[a];
+                    }
+                }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, m->comm);
+}
+
+/* Largest |div U|, 1/s. */
+static double largest_divergence(struct mesh_flow *s)
+{
+    static const int none[3] = {0, 0, 0};
+    double most = 0.0;
+    mesh_divergence(s, s->U, s->flux);
+    for (int q = 0; q < s->m->nparts; q++)
+        PART_ROWS (s->m->part + q, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                most = fmax(most, fabs(s->flux[i]) / s->m->V[i]);
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->m->comm);
+    return most;
+}
+
+/* Linear from the computed cells around; the finest block's. */
+static double gauge(const struct mesh_flow *s, const double *x)
+{
+    const struct mesh *m = s->m;
+    double value = 0.0, finest = INFINITY;
+    for (int k = 0; k < m->nblocks; k++) {
+        int cell[3], from[3];
+        double xi[3], w[8], sum = 0.0;
+        if (!overset_locate(m, s->search, k, x, cell, xi))
+            continue;
+        const double v = m->block[k].volume[mesh_cell(m->block + k, cell)];
+        if (v >= finest || !overset_weights(m, k, cell, xi, 1, 2, from, w))
+            continue;
+        for (int q = 0; q < 1 << m->dim; q++) {
+            int at[3] = {from[0] + (q & 1), from[1] + (q >> 1 & 1), from[2] + (q >> 2 & 1)};
+            int block = k, rank;
+            double move[3] = {0.0, 0.0, 0.0};
+            int64_t place;
+            if (!mesh_resolve(m, &block, at, move))
+                continue;
+            mesh_owner(m, block, at, &rank, &place);
+            if (rank == m->rank)
+                sum += w[q] * mesh_pressure_at(s, place);
+        }
+        finest = v;
+        value = sum;
+    }
+    return value;
+}
+
+int mesh_columns(const struct run *r, const char **columns)
+{
+    static const char *const names[] = {"kinetic energy [J]", "largest velocity [m/s]",
+                                        "divergence [1/s]"};
+    static const char *const forces[] = {"force x [N]", "force y [N]", "force z [N]"};
+    int n = 0;
+    for (int k = 0; k < 3; k++)
+        columns[n++] = names[k];
+    columns[n++] = "error velocity l2 [-]";
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        columns[n++] = forces[a];
+    columns[n++] = "moment z [Nm]";
+    return n + fv_probe_columns(r, columns + n);
+}
+
+void mesh_row_values(void *state, double *values)
+{
+    struct mesh_flow *s = state;
+    const struct scene *scene = &s->run->scene;
+    double sum[2], force[3], moment;
+    int n = 0;
+    energies(s, sum);
+    values[n++] = scene->fluid.rho * sum[0];
+    values[n++] = s->umax;
+    values[n++] = largest_divergence(s);
+    struct norm norms[NORMS];
+    if (s->has_exact)
+        errors(s, norms);
+    values[n++] = s->has_exact ? norm_relative_l2(norms) : NAN;
+    mesh_bc_force(s, force, &moment);
+    for (int a = 0; a < s->m->dim; a++)
+        values[n++] = force[a];
+    values[n++] = moment;
+    for (int k = 0; k < scene->nprobes; k++) {
+        values[n] = gauge(s, scene->probes[k].at);
+        MPI_Allreduce(MPI_IN_PLACE, values + n, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
+        n++;
+    }
+}
+
+static void summarise_errors(struct mesh_flow *s)
+{
+    struct summary *to = s->run->summary;
+    struct norm n[NORMS];
+    const double U = s->run->scene.initial.U, scale = s->run->scene.fluid.rho * U * U;
+    errors(s, n);
+    summary_real(to, "error.velocity_l2", norm_relative_l2(n));
+    summary_real(to, "error.velocity_linf", n[0].emax / U);
+    if (n[1].r2 > 0.0)
+        summary_real(to, "error.pressure_l2", norm_rms_mean_free(n + 1) / sqrt(n[1].r2 / n[1].vol));
+    summary_real(to, "error.pressure_rms", norm_rms_mean_free(n + 1) / scale);
+    if (n[2].r2 > 0.0)
+        summary_real(to, "error.vorticity_l2", norm_relative_l2(n + 2));
+}
+
+/* Torque on the walls of a ring sums to nothing when the flow is steady; each wall has 4 pi mu B.
+ */
+void mesh_finish(void *state)
+{
+    struct mesh_flow *s = state;
+    struct run *r = s->run;
+    double sum[2], loop = 0.0, force[3], moment;
+    static const char *const parts[] = {"operators", "convection", "viscous", "pressure"};
+    static const char *const names[] = {"force.x", "force.y", "force.z"};
+    for (int k = 0; k < 4; k++)
+        loop += timer_wall(&r->timers, parts[k]);
+    summary_int(r->summary, "cells", s->m->computed);
+    summary_int(r->summary, "fringe_cells", s->m->fringe_cells);
+    summary_int(r->summary, "fringe_cells_linear", s->m->linear);
+    if (s->has_exact)
+        summarise_errors(s);
+    energies(s, sum);
+    summary_real(r->summary, "drift.energy",
+                 s->has_exact && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
+    summary_real(r->summary, "divergence", largest_divergence(s));
+    if (s->m->has_fringe)
+        summary_real(r->summary, "overlap.net_flux", s->defect / fmax(s->umax, 1e-300));
+    if (mesh_bc_has_walls(s->m)) {
+        mesh_bc_force(s, force, &moment);
+        for (int a = 0; a < s->m->dim; a++)
+            summary_real(r->summary, names[a], force[a]);
+        summary_real(r->summary, "force.moment", moment);
+    }
+    summary_real(r->summary, "max_cfl", s->max_cfl);
+    const double steps = r->step > 0 ? (double)r->step : 1.0, cells = (double)s->m->computed;
+    summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);
+    summary_real(r->summary, "us_per_cell_step_outside_hypre",
+                 1e6 * (loop - timer_wall(&r->timers, "pressure")) / (cells * steps));
+    summary_real(r->summary, "poisson_iterations", (double)s->iterations / steps);
+    summary_real(r->summary, "poisson_retries", (double)s->retries);
+    summary_real(r->summary, "viscous_iterations", (double)s->viscous_iterations / steps);
+}
+
+void mesh_progress(void *state, char *line, int size)
+{
+    const struct mesh_flow *s = state;
+    const double steps = s->run->step > 0 ? (double)s->run->step : 1.0;
+    snprintf(line, (size_t)size, "dt %.3g s  CFL %.2f  pressure %.1f its  |u| %.3g m/s", s->dt,
+             s->max_cfl, (double)s->iterations / steps, s->umax);
+}
+
+void mesh_describe(const struct run *r)
+{
+    static const char *const shapes[] = {"box", "stretched box", "ring", "sheared box", "file"};
+    struct faults f = {0};
+    struct mesh *m = mesh_create(r, &f);
+    for (int k = 0; m && k < m->nblocks; k++) {
+        const struct mesh_block *b = m->block + k;
+        int64_t count[3] = {0, 0, 0};
+        for (int64_t c = 0; c < (int64_t)b->n[0] * b->n[1] * b->n[2]; c++)
+            count[b->status[c]]++;
+        log_say("block %d \"%s\": %s, %d x %d x %d cells: %lld computed, %lld interpolated, %lld "
+                "cut out",
+                k + 1, b->prm->name, shapes[b->prm->mapping], b->n[0], b->n[1], b->n[2],
+                (long long)count[0], (long long)count[1], (long long)count[2]);
+    }
+    if (m)
+        log_say("%dD, fourth-order averages, rk3, %s; %lld cells computed; about %.0f MB", m->dim,
+                r->scene.fluid.nu > 0.0 ? "viscous, implicit" : "inviscid", (long long)m->computed,
+                8e-6 * (double)m->cells * 80.0 + 1.0);
+    mesh_free(&m);
+}

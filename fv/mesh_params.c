@@ -1,0 +1,89 @@
+/* mesh_params.c - parameters of the list blocks. SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#define SIDES "overlap|joined|periodic|wall|slip|inflow|outflow|exact"
+#define P struct mesh_block_params
+/* clang-format off */
+const struct param mesh_rows_of[MESH_ROWS] = {
+    PARAM(P, name,     "-", NULL, 0, 0, "its name in outputs and messages"),
+    CHOICE(P, mapping, "box|stretched|annulus|sheared|file", "box", "shape: uniform box, box with finer cells at a place, ring (cells: outwards, around), box that leans or waves, vertices from a file"),
+    PARAM(P, cells,    "-", "(1, 1, 1)", 1, 1e6, "cells in each direction; with a file the file's own"),
+    PARAM(P, min,      "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "lower corner before the rotation; z of a ring"),
+    PARAM(P, max,      "m", "(1.0, 1.0, 1.0)", -1e9, 1e9, "upper corner"),
+    PARAM(P, centre,   "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "of the rotation, of a ring, of the spin of walls"),
+    PARAM(P, angle,    "degrees", "0.0", -360, 360, "rotation about the z axis through the centre"),
+    PARAM(P, focus,    "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "stretched: place of the finest cells, before the rotation"),
+    PARAM(P, stretch,  "-", "(0.0, 0.0, 0.0)", 0, 20, "stretched: strength in each direction, ring: the first one outwards; 0: uniform"),
+    PARAM(P, radius,   "m", "(0.5, 1.0)", 0, 1e9, "ring: inner, outer"),
+    PARAM(P, arc,      "degrees", "(0.0, 360.0)", -720, 720, "ring: first and last angle"),
+    PARAM(P, shear,    "-", "0.0", -10, 10, "sheared: dx/dy"),
+    PARAM(P, wave,     "-", "0.0", -0.15, 0.15, "sheared: displacement by sin sin, over the length of a side"),
+    PARAM(P, file,     "-", "", 0, 0, "file beside the case: .h5 (dataset x[k][j][i][dim] of vertices), else Plot3D"),
+    PARAM(P, zone,     "-", "1", 1, 1e4, "block of a Plot3D file"),
+    CHOICE(P, i_min, SIDES, "overlap", "what is behind the side where i is least"),
+    CHOICE(P, i_max, SIDES, "overlap", "what is behind the side where i is largest"),
+    CHOICE(P, j_min, SIDES, "overlap", "the same along j"),
+    CHOICE(P, j_max, SIDES, "overlap", "the same along j"),
+    CHOICE(P, k_min, SIDES, "overlap", "the same along k"),
+    CHOICE(P, k_max, SIDES, "overlap", "the same along k"),
+    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls along themselves, of its inflow"),
+    PARAM(P, spin,     "rad/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls i_min and i_max about the centre"),
+};
+/* clang-format on */
+#undef P
+
+struct mesh_block_params mesh_given[MESH_BLOCKS_MAX];
+int mesh_given_count;
+
+int mesh_block_count(void) { return mesh_given_count; }
+const struct mesh_block_params *mesh_block_params(void) { return mesh_given; }
+
+void mesh_fault(const struct run *r, struct faults *f, int block, const char *key, const char *fmt,
+                ...)
+{
+    char text[900], path[64];
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(text, sizeof text, fmt, args);
+    va_end(args);
+    snprintf(path, sizeof path, "blocks.[%d].%s", block, key);
+    params_fault(r->params, f, path, "block \"%s\": %s", mesh_given[block].name, text);
+}
+
+/* Kinds of sides that the dimension has. */
+static void check_block(const struct run *r, struct faults *f, int k)
+{
+    struct mesh_block_params *b = mesh_given + k;
+    const int dim = r->scene.domain.dim;
+    for (int a = 0; a < dim && b->mapping != MAPPING_FILE; a++)
+        if (b->cells[a] < 6)
+            mesh_fault(r, f, k, "cells", "%d cells along %c: at least 6 are wanted", b->cells[a],
+                       "ijk"[a]);
+    for (int a = 0; a < dim; a++)
+        if (b->mapping != MAPPING_FILE && (b->mapping != MAPPING_ANNULUS || a == 2) &&
+            !(b->max[a] > b->min[a]))
+            mesh_fault(r, f, k, "max", "max of %c must lie above min", "xyz"[a]);
+    if (b->mapping == MAPPING_ANNULUS && !(b->radius[1] > b->radius[0] && b->radius[0] > 0.0))
+        mesh_fault(r, f, k, "radius", "0 < inner < outer is wanted");
+    if (b->mapping == MAPPING_ANNULUS && !(b->arc[1] > b->arc[0]))
+        mesh_fault(r, f, k, "arc", "first < last is wanted");
+    if (b->mapping == MAPPING_FILE && !*b->file)
+        mesh_fault(r, f, k, "file", "the name of the file with the vertices is wanted");
+}
+
+void mesh_check(const struct run *r, struct faults *f)
+{
+    const int before = f->n;
+    if (r->coupled)
+        params_fault(r->params, f, "blocks", "a coupled job knows no blocks: use fv.cells");
+    for (int k = 0; k < mesh_given_count; k++)
+        check_block(r, f, k);
+    if (f->n > before)
+        return;
+    struct mesh *m = mesh_create(r, f);
+    mesh_free(&m);
+}
