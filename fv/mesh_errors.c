@@ -143,6 +143,9 @@ void mesh_row_values(void *state, double *values)
     for (int a = 0; a < s->m->dim; a++)
         values[n++] = force[a];
     values[n++] = moment;
+    GROW(s->history, s->nhistory, s->nhistory + 1);
+    s->history[s->nhistory][0] = s->t;
+    memcpy(s->history[s->nhistory++] + 1, force, 2 * sizeof(double));
     for (int k = 0; k < scene->nprobes; k++) {
         values[n] = gauge(s, scene->probes[k].at);
         MPI_Allreduce(MPI_IN_PLACE, values + n, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
@@ -165,8 +168,49 @@ static void summarise_errors(struct mesh_flow *s)
         summary_real(to, "error.vorticity_l2", norm_relative_l2(n + 2));
 }
 
-/* Torque on the walls of a ring sums to nothing when the flow is steady; each wall has 4 pi mu B.
- */
+/* Mean and half range of the forces over the second half of the run, frequency of the one along y
+ * by the crossings of its mean. */
+static void summarise_forces(const struct mesh_flow *s)
+{
+    struct summary *to = s->run->summary;
+    double mean[2] = {0.0, 0.0}, least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
+    double first = 0.0, last = 0.0, weight = 0.0;
+    int from = 1, crossings = 0;
+    while (from < s->nhistory && s->history[from][0] < 0.5 * s->run->scene.time.end)
+        from++;
+    if (s->nhistory - from < 8)
+        return;
+    for (int k = from; k < s->nhistory; k++) {
+        const double *a = s->history[k - 1], *b = s->history[k];
+        weight += b[0] - a[0];
+        for (int q = 0; q < 2; q++) {
+            mean[q] += 0.5 * (a[1 + q] + b[1 + q]) * (b[0] - a[0]);
+            least[q] = fmin(least[q], b[1 + q]);
+            most[q] = fmax(most[q], b[1 + q]);
+        }
+    }
+    for (int q = 0; q < 2; q++)
+        mean[q] /= weight;
+    for (int k = from; k < s->nhistory; k++) {
+        const double *a = s->history[k - 1], *b = s->history[k];
+        if (!(a[2] < mean[1] && b[2] >= mean[1]))
+            continue;
+        last = a[0] + (b[0] - a[0]) * (mean[1] - a[2]) / (b[2] - a[2]);
+        first = crossings++ == 0 ? last : first;
+    }
+    const double frequency = crossings > 1 ? (crossings - 1) / (last - first) : 0.0;
+    const double found[3] = {mean[0], 0.5 * (most[1] - least[1]), frequency};
+    static const char *const names[3] = {"error.force_x", "error.force_y", "error.frequency"};
+    summary_real(to, "force.x_mean", mean[0]);
+    summary_real(to, "force.x_amplitude", 0.5 * (most[0] - least[0]));
+    summary_real(to, "force.y_mean", mean[1]);
+    summary_real(to, "force.y_amplitude", found[1]);
+    summary_real(to, "force.frequency", frequency);
+    for (int q = 0; q < 3; q++)
+        if (s->prm.force[q] != 0.0)
+            summary_real(to, names[q], fabs(found[q] / s->prm.force[q] - 1.0));
+}
+
 void mesh_finish(void *state)
 {
     struct mesh_flow *s = state;
@@ -192,6 +236,8 @@ void mesh_finish(void *state)
         for (int a = 0; a < s->m->dim; a++)
             summary_real(r->summary, names[a], force[a]);
         summary_real(r->summary, "force.moment", moment);
+        summarise_forces(s);
+        summarise_forces(s);
     }
     summary_real(r->summary, "max_cfl", s->max_cfl);
     const double steps = r->step > 0 ? (double)r->step : 1.0, cells = (double)s->m->computed;

@@ -39,6 +39,8 @@ struct mesh_flow {
     double defect_now;
     int64_t iterations, viscous_iterations, retries;
     bool failed; /* the pressure solver */
+    int nhistory;
+    double (*history)[3]; /* t, force x, force y of each row of the series */
 };
 
 /* mesh_ops.c: all need ghosts. */

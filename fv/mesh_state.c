@@ -199,6 +199,7 @@ void mesh_flow_free(struct mesh_flow **sp)
     mesh_pressure_free(&s->pressure);
     mesh_bc_free(&s->bc);
     overset_free(&s->search);
+    mem_free(s->history);
     double *const one[] = {s->p, s->p_before, s->psi, s->flux, s->free, s->scale};
     for (size_t k = 0; k < sizeof one / sizeof one[0]; k++)
         mem_free(one[k]);
