@@ -191,10 +191,13 @@ static void summarise_forces(const struct mesh_flow *s)
     }
     for (int q = 0; q < 2; q++)
         mean[q] /= weight;
+    bool low = false; /* a crossing counts after the lower half of the range has been reached */
     for (int k = from; k < s->nhistory; k++) {
         const double *a = s->history[k - 1], *b = s->history[k];
-        if (!(a[2] < mean[1] && b[2] >= mean[1]))
+        low = low || b[2] < mean[1] - 0.25 * (most[1] - least[1]);
+        if (!low || b[2] < mean[1])
             continue;
+        low = false;
         last = a[0] + (b[0] - a[0]) * (mean[1] - a[2]) / (b[2] - a[2]);
         first = crossings++ == 0 ? last : first;
     }

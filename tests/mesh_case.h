@@ -1,0 +1,106 @@
+/* mesh_case.h - a small flow on blocks for the tests: a case with a text of its blocks.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef TESTS_MESH_CASE_H
+#define TESTS_MESH_CASE_H
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "../common/h5.h"
+#include "../common/mem.h"
+#include "../fv/mesh_flow.h"
+
+#define PERIODIC                                                                                   \
+    "i_min = \"periodic\"; i_max = \"periodic\"; j_min = \"periodic\"; j_max = \"periodic\"; "
+
+struct mesh_case {
+    struct run run;
+    struct faults faults;
+    struct params *params;
+    char path[1024];
+};
+
+/* blocks: text of the list; overrides: NULL-terminated, may be NULL. Keeps the faults. */
+static inline void mesh_case_read(struct mesh_case *c, MPI_Comm comm, const char *blocks,
+                                  const char *const *overrides)
+{
+    static const char text[] =
+        "format = 1;\n"
+        "time: { end = 1.0; };\n"
+        "fluid: { rho = 1.0; nu = 5.0e-3; };\n"
+        "domain: { dim = 2; min = (0, 0, 0); max = (1, 1, 1); periodic = (true, true, true); };\n"
+        "initial: { field = \"two_modes\"; U = 1.0; L = 1.0; velocity = (0.5, 0.25); };\n"
+        "fv: { tol_pressure = 1e-3; };\n";
+    struct param_group groups[SCENE_GROUPS + FV_GROUPS];
+    const char *dir = getenv("TEST_SCRATCH");
+    int n = 0;
+    *c = (struct mesh_case){.run = {.comm = comm, .name = "fv"}};
+    MPI_Comm_rank(comm, &c->run.rank);
+    MPI_Comm_size(comm, &c->run.size);
+    snprintf(c->path, sizeof c->path, "%s/mesh_%d.cfg", dir ? dir : P_tmpdir, (int)getpid());
+    snprintf(c->run.case_dir, sizeof c->run.case_dir, "%s", dir ? dir : P_tmpdir);
+    FILE *file = fopen(c->path, "w");
+    if (!file || fprintf(file, "%sblocks: ( %s );\n", text, blocks) < 0 || fclose(file) != 0)
+        abort();
+    while (overrides && overrides[n])
+        n++;
+    scene_groups(&c->run.scene, groups);
+    for (int k = 0; k < FV_GROUPS; k++)
+        groups[SCENE_GROUPS + k] = fv_groups[k];
+    c->params = params_read(comm, c->path, n, overrides, groups, SCENE_GROUPS + FV_GROUPS,
+                            (const char *const[]){NULL}, &c->faults);
+    c->run.params = c->params;
+    remove(c->path);
+}
+
+static inline struct mesh_flow *mesh_case_start(struct mesh_case *c, MPI_Comm comm,
+                                                const char *blocks, const char *const *overrides)
+{
+    mesh_case_read(c, comm, blocks, overrides);
+    fv_params_check(&c->run, &c->faults);
+    if (params_report(&c->faults) > 0)
+        abort();
+    return mesh_flow_create(&c->run, NULL);
+}
+
+static inline void mesh_case_end(struct mesh_case *c, struct mesh_flow **s)
+{
+    mesh_flow_free(s);
+    params_free(&c->params);
+}
+
+static inline bool mesh_case_run(struct mesh_flow *s, int steps, double t_stop)
+{
+    struct diagnosis d = {0};
+    for (int k = 0; k < steps && !d.bad && s->t < t_stop; k++) {
+        s->run->dt = mesh_integrate(s, t_stop, &d);
+        s->run->t = s->t;
+        s->run->step++;
+    }
+    if (d.bad)
+        printf("%s %s\n", d.reason, d.where);
+    return !d.bad;
+}
+
+/* Errors of velocity, pressure, vorticity at t_stop, NaN if the run failed. */
+static inline void mesh_case_errors(const char *blocks, const char *const *overrides, double t_stop,
+                                    double error[3])
+{
+    static const char *const keys[] = {"error.velocity_l2", "error.pressure_l2",
+                                       "error.vorticity_l2"};
+    struct mesh_case c;
+    struct mesh_flow *s = mesh_case_start(&c, MPI_COMM_WORLD, blocks, overrides);
+    const bool good = mesh_case_run(s, 100000, t_stop);
+    c.run.summary = summary_create();
+    mesh_finish(s);
+    for (int k = 0; k < 3; k++)
+        if (!good || !summary_find(c.run.summary, keys[k], error + k))
+            error[k] = NAN;
+    summary_free(&c.run.summary);
+    mesh_case_end(&c, &s);
+}
+
+#endif

@@ -1,0 +1,366 @@
+/* test_mesh.c - blocks of any shape: metrics, free stream, order, joined faces, files, 3D, ranks,
+ * restart. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+#include "test.h"
+
+#include "mesh_case.h"
+
+#define WAVE "name = \"a\"; mapping = \"sheared\"; wave = 0.06; " PERIODIC
+#define RING                                                                                       \
+    "name = \"ring\"; mapping = \"annulus\"; i_min = \"wall\"; i_max = \"wall\"; j_min = "         \
+    "\"joined\"; j_max = \"joined\"; radius = (0.5, 1.0); spin = (2.0, -0.5); "
+#define STREAM "initial.field=\"uniform\""
+
+/* Four blocks, the second upside down (i and j turned by half a turn). */
+static const char four[] =
+    "{ name = \"a\"; cells = (16, 16); max = (0.5, 0.5); i_min = \"periodic\"; i_max = \"joined\"; "
+    "j_min = \"periodic\"; j_max = \"joined\"; }, "
+    "{ name = \"b\"; cells = (16, 16); min = (0.5, 0.0); max = (1.0, 0.5); centre = (0.75, 0.25); "
+    "angle = 180.0; i_max = \"joined\"; i_min = \"periodic\"; j_max = \"periodic\"; j_min = "
+    "\"joined\"; }, "
+    "{ name = \"c\"; cells = (16, 16); min = (0.0, 0.5); max = (0.5, 1.0); i_min = \"periodic\"; "
+    "i_max = \"joined\"; j_min = \"joined\"; j_max = \"periodic\"; }, "
+    "{ name = \"d\"; cells = (16, 16); min = (0.5, 0.5); max = (1.0, 1.0); i_min = \"joined\"; "
+    "i_max = \"periodic\"; j_min = \"joined\"; j_max = \"periodic\"; }";
+
+static void sized(char *text, size_t size, const char *block, int nx, int ny, int nz)
+{
+    snprintf(text, size, "{ %s cells = (%d, %d, %d); }", block, nx, ny, nz);
+}
+
+/* Largest sum of face vectors of a cell over the largest of them; sum of the volumes. */
+static double open_faces(const struct mesh *m, double *volume)
+{
+    double worst = 0.0;
+    *volume = 0.0;
+    for (int q = 0; q < m->nparts; q++) {
+        const struct mesh_part *p = m->part + q;
+        for (int k = 0; k < p->n[2]; k++)
+            for (int j = 0; j < p->n[1]; j++)
+                for (int i = 0; i < p->n[0]; i++) {
+                    const int64_t c = part_at(p, i, j, k);
+                    *volume += m->V[c];
+                    for (int b = 0; b < m->dim; b++) {
+                        double sum = 0.0, most = 0.0;
+                        for (int a = 0; a < m->dim; a++) {
+                            sum += m->S[a][b][c + p->stride[a]] - m->S[a][b][c];
+                            most = fmax(most, fabs(m->S[a][b][c]));
+                        }
+                        worst = fmax(worst, fabs(sum) / most);
+                    }
+                }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, m->comm);
+    MPI_Allreduce(MPI_IN_PLACE, volume, 1, MPI_DOUBLE, MPI_SUM, m->comm);
+    return worst;
+}
+
+static void faces_of_a_cell_close(void **state)
+{
+    (void)state;
+    struct mesh_case c;
+    char text[512];
+    double volume, exact[2], e[2];
+    for (int k = 0; k < 2; k++) {
+        sized(text, sizeof text, RING, 8 << k, 32 << k, 1);
+        struct mesh_flow *s = mesh_case_start(&c, MPI_COMM_WORLD, text, NULL);
+        assert_true(open_faces(s->m, &volume) < 1e-13);
+        exact[k] = M_PI * 0.75;
+        e[k] = fabs(volume / exact[k] - 1.0);
+        mesh_case_end(&c, &s);
+    }
+    assert_true(log2(e[0] / e[1]) > 3.8);
+    snprintf(
+        text, sizeof text,
+        "{ %s max = (1.0, 1.0, 0.25); k_min = \"slip\"; k_max = \"slip\"; cells = (8, 32, 6); }",
+        RING);
+    struct mesh_flow *s =
+        mesh_case_start(&c, MPI_COMM_WORLD, text, (const char *const[]){"domain.dim=3", NULL});
+    assert_true(open_faces(s->m, &volume) < 1e-12);
+    assert_close(volume, M_PI * 0.75 * 0.25, 1e-4);
+    mesh_case_end(&c, &s);
+}
+
+/* Largest change of a uniform flow after some steps. */
+static double change_of_stream(const char *blocks, const char *const *overrides)
+{
+    struct mesh_case c;
+    double worst = 0.0;
+    struct mesh_flow *s = mesh_case_start(&c, MPI_COMM_WORLD, blocks, overrides);
+    const bool good = mesh_case_run(s, 4, 100.0);
+    for (int q = 0; q < s->m->nparts; q++) {
+        const struct mesh_part *p = s->m->part + q;
+        for (int64_t i = p->base; i < p->base + p->size; i++)
+            for (int a = 0; a < s->m->dim && s->free[i] > 0.0; a++)
+                worst = fmax(worst, fabs(s->u[a][i] - s->run->scene.initial.velocity[a]));
+    }
+    mesh_case_end(&c, &s);
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    return good ? worst : NAN;
+}
+
+static void a_uniform_flow_stays(void **state)
+{
+    (void)state;
+    char text[1024];
+    sized(text, sizeof text, WAVE, 20, 24, 1);
+    assert_true(change_of_stream(text, (const char *const[]){STREAM, NULL}) < 1e-12);
+    assert_true(change_of_stream(four, (const char *const[]){STREAM, NULL}) < 1e-12);
+    snprintf(
+        text, sizeof text,
+        "{ name = \"r\"; mapping = \"annulus\"; radius = (0.2, 0.8); stretch = (1.5, 0.0); cells = "
+        "(12, 36); j_min = \"joined\"; j_max = \"joined\"; i_min = \"exact\"; i_max = \"exact\"; "
+        "}");
+    assert_true(change_of_stream(text, (const char *const[]){STREAM, NULL}) < 1e-12);
+    snprintf(text, sizeof text,
+             "{ " WAVE "k_min = \"periodic\"; k_max = \"periodic\"; cells = (12, 10, 8); }");
+    assert_true(change_of_stream(text, (const char *const[]){STREAM, "domain.dim=3",
+                                                             "initial.velocity=(0.5,0.25,0.1)",
+                                                             NULL}) < 1e-12);
+}
+
+static void ring_flow_has_order_three_and_a_half(void **state)
+{
+    (void)state;
+    char text[512];
+    double e[2][3];
+    for (int k = 0; k < 2; k++) {
+        sized(text, sizeof text, RING, 8 << k, 32 << k, 1);
+        mesh_case_errors(text,
+                         (const char *const[]){"initial.field=\"rest\"", "fluid.nu=0.08",
+                                               "domain.periodic=(false,false)", NULL},
+                         6.0, e[k]);
+    }
+    print_message("ring: u %.2e %.2e p %.2e %.2e\n", e[0][0], e[1][0], e[0][1], e[1][1]);
+    assert_true(e[1][0] < 5e-5 && log2(e[0][0] / e[1][0]) > 3.5);
+    assert_true(log2(e[0][1] / e[1][1]) > 2.5);
+}
+
+static void waves_and_joints_keep_order_three_and_a_half(void **state)
+{
+    (void)state;
+    char text[512];
+    double e[2][3], f[3];
+    for (int k = 0; k < 2; k++) {
+        sized(text, sizeof text, WAVE, 32 << k, 32 << k, 1);
+        mesh_case_errors(text, NULL, 0.25, e[k]);
+    }
+    print_message("wave: u %.2e %.2e p %.2e %.2e\n", e[0][0], e[1][0], e[0][1], e[1][1]);
+    for (int k = 0; k < 3; k++)
+        assert_true(log2(e[0][k] / e[1][k]) > (k == 1 ? 2.5 : 3.5));
+    sized(text, sizeof text, "name = \"a\"; " PERIODIC, 32, 32, 1);
+    mesh_case_errors(text, NULL, 0.25, e[0]);
+    mesh_case_errors(four, NULL, 0.25, f);
+    assert_close(f[0] / e[0][0], 1.0, 0.02);
+}
+
+/* The same flow as fv.cells makes it: one uniform block. */
+static void one_uniform_block_is_the_plain_solver(void **state)
+{
+    (void)state;
+    struct mesh_case c;
+    char text[256];
+    sized(text, sizeof text, "name = \"a\"; " PERIODIC, 32, 32, 1);
+    const char *const tight[] = {"fv.tol_pressure=1e-10", "fv.tol_viscous=1e-10", NULL};
+    struct mesh_flow *s = mesh_case_start(&c, MPI_COMM_SELF, text, tight);
+    struct diagnosis d = {0};
+    mesh_integrate(s, 0.02, &d);
+    struct run r = c.run;
+    mesh_given_count = 0;
+    struct fv_params *prm = (struct fv_params *)(uintptr_t)fv_params_of(&r);
+    prm->cells[0] = prm->cells[1] = 32;
+    r.t = 0.0;
+    struct fv *plain = fv_create(&r, NULL);
+    double worst = 0.0;
+    integrate(plain, 0.02, &d);
+    for (int j = 0; j < 32; j++)
+        for (int i = 0; i < 32; i++)
+            for (int a = 0; a < 2; a++)
+                worst = fmax(worst, fabs(plain->u[a][block_at(&plain->b, i, j, 0)] -
+                                         s->u[a][part_at(s->m->part, i, j, 0)]));
+    fv_free(&plain);
+    mesh_case_end(&c, &s);
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    assert_true(worst < 2e-4);
+}
+
+static void sums_on(MPI_Comm comm, const char *blocks, const char *const *overrides, double *sums)
+{
+    struct mesh_case c;
+    double row[16];
+    struct mesh_flow *s = mesh_case_start(&c, comm, blocks, overrides);
+    const bool good = mesh_case_run(s, 4, 100.0);
+    mesh_row_values(s, row);
+    sums[0] = good ? row[0] : NAN;
+    sums[1] = row[1];
+    sums[2] = s->t;
+    mesh_case_end(&c, &s);
+}
+
+static void agree(const char *blocks, const char *const *overrides)
+{
+    double alone[3], shared[3], most = 0.0;
+    sums_on(MPI_COMM_SELF, blocks, overrides, alone);
+    sums_on(MPI_COMM_WORLD, blocks, overrides, shared);
+    for (int k = 0; k < 3; k++) {
+        const double e = fabs(alone[k] - shared[k]) / fmax(1.0, fabs(alone[k]));
+        most = e <= most ? most : e;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    assert_close(most, 0.0, 1e-8);
+}
+
+static void ranks_agree(void **state)
+{
+    (void)state;
+    char text[512];
+    const char *const tight[] = {"fv.tol_pressure=1e-11", "fv.tol_viscous=1e-11", NULL};
+    agree(four, tight);
+    sized(text, sizeof text, RING, 6, 30, 1);
+    agree(text, (const char *const[]){tight[0], tight[1], "initial.field=\"rest\"", NULL});
+    snprintf(text, sizeof text,
+             "{ " WAVE "k_min = \"periodic\"; k_max = \"periodic\"; cells = (12, 10, 8); }");
+    agree(text, (const char *const[]){tight[0], tight[1], "domain.dim=3", NULL});
+}
+
+static void restart_is_exact(void **state)
+{
+    (void)state;
+    struct mesh_case one, two;
+    char path[1100];
+    int64_t differ = 0;
+    struct mesh_flow *s = mesh_case_start(&one, MPI_COMM_WORLD, four, NULL);
+    snprintf(path, sizeof path, "%s.h5", one.path);
+    MPI_Bcast(path, sizeof path, MPI_CHAR, 0, MPI_COMM_WORLD);
+    assert_true(mesh_case_run(s, 3, 100.0));
+    struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
+    mesh_checkpoint(s, f);
+    h5_close(&f);
+    mesh_case_read(&two, MPI_COMM_WORLD, four, NULL);
+    two.run.t = s->t;
+    f = h5_open(MPI_COMM_WORLD, path);
+    struct mesh_flow *z = mesh_flow_create(&two.run, f);
+    h5_close(&f);
+    assert_non_null(z);
+    assert_true(mesh_case_run(s, 3, 100.0) && mesh_case_run(z, 3, 100.0));
+    for (int64_t c = 0; c < s->m->size_local; c++)
+        for (int a = 0; a < 2 && s->free[c] > 0.0; a++)
+            differ += s->u[a][c] != z->u[a][c] || s->p[c] != z->p[c];
+    MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    assert_int_equal(differ, 0);
+    mesh_case_end(&one, &s);
+    mesh_case_end(&two, &z);
+    MPI_Barrier(MPI_COMM_WORLD);
+    remove(path);
+}
+
+/* Faults of a case with these blocks, as text of rank 0. */
+static void finds(const char *blocks, const char *word)
+{
+    struct mesh_case c;
+    mesh_case_read(&c, MPI_COMM_WORLD, blocks, NULL);
+    if (c.faults.n == 0)
+        fv_params_check(&c.run, &c.faults);
+    assert_true(c.faults.n > 0);
+    if (c.run.rank == 0 && !strstr(c.faults.text, word))
+        fail_msg("'%s' is not in: %s", word, c.faults.text);
+    mem_free(c.faults.text);
+    params_free(&c.params);
+}
+
+static void faults_are_told(void **state)
+{
+    (void)state;
+    finds("{ name = \"a\"; cells = (8, 8); i_min = \"glued\"; }", "overlap");
+    finds(
+        "{ name = \"a\"; cells = (8, 8); i_min = \"joined\"; i_max = \"exact\"; j_min = \"exact\"; "
+        "j_max = \"exact\"; }",
+        "vertex by vertex");
+    finds("{ name = \"a\"; cells = (8, 8); }", "orphan");
+    finds("{ name = \"a\"; mapping = \"file\"; file = \"nowhere.xyz\"; }", "nowhere.xyz");
+    finds("{ name = \"a\"; cells = (2, 8); " PERIODIC " }", "at least 6");
+}
+
+/* Writes a waving block as Plot3D or HDF5, by rank 0. */
+static void write_file(const char *path, int form, int n, bool mirrored)
+{
+    int rank;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    double *x = NEW(double, 2 * (n + 1) * (n + 1));
+    for (int j = 0; j <= n; j++)
+        for (int i = 0; i <= n; i++) {
+            const double X = (double)i / n, Y = (double)j / n;
+            const double w = 0.06 * sin(2.0 * M_PI * X) * sin(2.0 * M_PI * Y);
+            x[2 * (i + (n + 1) * j)] = mirrored ? 1.0 - X - w : X + w;
+            x[2 * (i + (n + 1) * j) + 1] = Y + w;
+        }
+    if (form == 0) {
+        struct h5 *f = h5_create(MPI_COMM_WORLD, path);
+        h5_write_block(f, "x", "m", 2, (const int[]){n + 1, n + 1}, (const int[]){0, 0},
+                       rank == 0 ? (const int[]){n + 1, n + 1} : (const int[]){0, 0}, 2, x, false);
+        h5_close(&f);
+    } else if (rank == 0) {
+        FILE *f = fopen(path, "wb");
+        const int32_t head[3] = {1, n + 1, n + 1};
+        if (!f)
+            abort();
+        if (form == 1)
+            fprintf(f, "1\n%d %d\n", n + 1, n + 1);
+        else
+            fwrite(head, 4, 3, f);
+        for (int c = 0; c < 2; c++)
+            for (int k = 0; k < (n + 1) * (n + 1); k++)
+                if (form == 1)
+                    fprintf(f, "%.17g\n", x[2 * k + c]);
+                else
+                    fwrite(x + 2 * k + c, 8, 1, f);
+        fclose(f);
+    }
+    mem_free(x);
+    MPI_Barrier(MPI_COMM_WORLD);
+}
+
+static void blocks_come_from_files(void **state)
+{
+    (void)state;
+    static const char *const suffix[] = {"h5", "p3d", "xyz"};
+    const char *dir = getenv("TEST_SCRATCH");
+    char text[512], path[1100], name[64];
+    int id = (int)getpid();
+    double e[3], f[3];
+    MPI_Bcast(&id, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    sized(text, sizeof text, WAVE, 24, 24, 1);
+    mesh_case_errors(text, NULL, 0.1, e);
+    for (int form = 0; form < 3; form++) {
+        snprintf(name, sizeof name, "wave_%d.%s", id, suffix[form]);
+        snprintf(path, sizeof path, "%s/%s", dir ? dir : P_tmpdir, name);
+        write_file(path, form, 24, false);
+        snprintf(text, sizeof text,
+                 "{ name = \"a\"; mapping = \"file\"; file = \"%s\"; " PERIODIC " }", name);
+        mesh_case_errors(text, NULL, 0.1, f);
+        assert_close(f[0] / e[0], 1.0, 1e-3);
+        if (form == 0) {
+            write_file(path, form, 24, true);
+            finds(text, "inside out");
+        }
+        MPI_Barrier(MPI_COMM_WORLD);
+        remove(path);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(faces_of_a_cell_close),
+        cmocka_unit_test(a_uniform_flow_stays),
+        cmocka_unit_test(ring_flow_has_order_three_and_a_half),
+        cmocka_unit_test(waves_and_joints_keep_order_three_and_a_half),
+        cmocka_unit_test(one_uniform_block_is_the_plain_solver),
+        cmocka_unit_test(ranks_agree),
+        cmocka_unit_test(restart_is_exact),
+        cmocka_unit_test(faults_are_told),
+        cmocka_unit_test(blocks_come_from_files)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
