@@ -18,13 +18,16 @@ struct side {
     int64_t in;           /* step inwards */
     int64_t face;         /* step from that cell to the face's place */
     int64_t width;
-    double *w[3]; /* m/s */
+    double *w[3], *w_old[3]; /* m/s: now and before the last change of time */
+    double *slip[3];         /* m/s: what the next projection takes off */
+    double *grad_xi[2][3];   /* 1/m: of the tangents' indices on the face */
 };
 
 struct mesh_bc {
     int n;
     struct side *side;
     bool pressure_given;
+    bool set; /* values have been */
 };
 
 /* Visits the places of a side with all ghosts of its tangents: m counts them, c: cell inside. */
@@ -52,6 +55,25 @@ static bool is_physical(enum mesh_side k)
     return k != MESH_OVERLAP && k != MESH_JOINED && k != MESH_PERIODIC;
 }
 
+/* Gradients of the tangential indices at the centre of the face: cofactors / J. */
+static void set_slopes(const struct mesh_flow *s, const struct side *d, int i, int j, int64_t to)
+{
+    int at[3];
+    double xi[3] = {0.5, 0.5, 0.5}, x[3], dx[3][3];
+    at[d->a] = d->p->lo[d->a] + d->first;
+    at[d->t[0]] = d->p->lo[d->t[0]] + i;
+    at[d->t[1]] = d->p->lo[d->t[1]] + j;
+    xi[d->a] = d->k % 2;
+    mesh_map_point(s->m->block + d->p->block, s->m->dim, at, xi, x, dx);
+    const double J = mesh_determinant(dx);
+    for (int n = 0; n < 2 && d->t[n] < s->m->dim; n++)
+        for (int e = 0; e < s->m->dim; e++) {
+            const int p = (d->t[n] + 1) % 3, q = (d->t[n] + 2) % 3, v = (e + 1) % 3,
+                      w = (e + 2) % 3;
+            d->grad_xi[n][e][to] = (dx[p][v] * dx[q][w] - dx[p][w] * dx[q][v]) / J;
+        }
+}
+
 static void add_side(struct mesh_flow *s, struct mesh_bc *bc, const struct mesh_part *p, int k)
 {
     const struct mesh_block *b = s->m->block + p->block;
@@ -70,8 +92,17 @@ static void add_side(struct mesh_flow *s, struct mesh_bc *bc, const struct mesh_
     d->first = k % 2 ? p->n[a] - 1 : 0;
     d->in = k % 2 ? -p->stride[a] : p->stride[a];
     d->face = k % 2 ? p->stride[a] : 0;
-    for (int c = 0; c < s->m->dim; c++)
-        d->w[c] = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
+    for (int c = 0; c < s->m->dim; c++) {
+        double **const all[] = {&d->w[c], &d->w_old[c], &d->slip[c], &d->grad_xi[0][c],
+                                &d->grad_xi[1][c]};
+        for (int q = 0; q < 5; q++)
+            *all[q] = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
+    }
+    SIDE_PLACES(d, 1, i, j, at, c)
+    {
+        set_slopes(s, d, i, j, at);
+        (void)c;
+    }
 }
 
 void mesh_bc_create(struct mesh_flow *s)
@@ -92,8 +123,13 @@ void mesh_bc_create(struct mesh_flow *s)
 void mesh_bc_free(struct mesh_bc **b)
 {
     for (int k = 0; *b && k < (*b)->n; k++)
-        for (int c = 0; c < 3; c++)
-            mem_free((*b)->side[k].w[c]);
+        for (int c = 0; c < 3; c++) {
+            struct side *d = (*b)->side + k;
+            double *const all[] = {d->w[c], d->w_old[c], d->slip[c], d->grad_xi[0][c],
+                                   d->grad_xi[1][c]};
+            for (int q = 0; q < 5; q++)
+                mem_free(all[q]);
+        }
     if (*b)
         mem_free((*b)->side);
     mem_free(*b);
@@ -169,8 +205,48 @@ void mesh_bc_time(struct mesh_flow *s, double t)
 {
     for (int k = 0; k < s->bc->n; k++) {
         const struct side *d = s->bc->side + k;
-        if (d->kind == MESH_EXACT || t == s->t)
+        const size_t bytes = (size_t)(d->width * (d->n[1] + 2 * d->g[1])) * sizeof(double);
+        const bool changes = d->kind == MESH_EXACT && s->ring < 0;
+        for (int q = 0; q < s->m->dim; q++)
+            memcpy(d->w_old[q], d->w[q], bytes);
+        if (changes || !s->bc->set)
             set_values(s, d, t);
+        for (int q = 0; q < s->m->dim && !s->bc->set; q++)
+            memcpy(d->w_old[q], d->w[q], bytes);
+    }
+    s->bc->set = true;
+}
+
+/* tau times the gradient of psi along the side, of psi on the face, (7 psi_1 - psi_2)/6. */
+void mesh_bc_set_slip(const struct mesh_flow *s, double tau, const double *psi)
+{
+    for (int k = 0; k < s->bc->n; k++) {
+        const struct side *d = s->bc->side + k;
+        if (d->kind == MESH_SLIP || d->kind == MESH_OUTFLOW)
+            continue;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            double g[3] = {0.0, 0.0, 0.0}, gS = 0.0, S2 = 0.0;
+            const bool near = i >= -1 && i <= d->n[0] && j >= -1 && j <= d->n[1];
+            for (int n = 0; near && n < 2 && d->t[n] < s->m->dim; n++) {
+                double f[5];
+                for (int l = 0; l < 5; l++) {
+                    const double *q = psi + c + (l - 2) * d->p->stride[d->t[n]];
+                    f[l] = (7.0 * q[0] - q[d->in]) / 6.0;
+                }
+                const double slope = (8.0 * (f[3] - f[1]) - (f[4] - f[0])) / 12.0;
+                for (int e = 0; e < s->m->dim; e++)
+                    g[e] += slope * d->grad_xi[n][e][at];
+            }
+            for (int e = 0; e < s->m->dim; e++) {
+                const double S = s->m->S[d->a][e][c + d->face];
+                gS += g[e] * S;
+                S2 += S * S;
+            }
+            for (int e = 0; e < s->m->dim; e++)
+                d->slip[e][at] =
+                    near ? tau * (g[e] - gS / S2 * s->m->S[d->a][e][c + d->face]) : 0.0;
+        }
     }
 }
 
@@ -202,6 +278,21 @@ static void slip(const struct mesh *m, const struct side *d, int64_t c, double *
     }
 }
 
+static double wanted(const struct side *d, int q, int64_t at, enum mesh_value what)
+{
+    switch (what) {
+    case MESH_GIVEN:
+        return d->w[q][at];
+    case MESH_AHEAD:
+        return d->w[q][at] + d->slip[q][at];
+    case MESH_CHANGE:
+        return d->w[q][at] + d->slip[q][at] - d->w_old[q][at];
+    case MESH_ZERO:
+        break;
+    }
+    return 0.0;
+}
+
 void mesh_bc_velocity(const struct mesh_flow *s, enum mesh_value what, double *const u[3])
 {
     const struct mesh *m = s->m;
@@ -216,7 +307,7 @@ void mesh_bc_velocity(const struct mesh_flow *s, enum mesh_value what, double *c
                     if (d->kind == MESH_OUTFLOW)
                         mirrored(u[q] + c, d->in, 1.0);
                     else
-                        given(u[q] + c, d->in, what == MESH_GIVEN ? d->w[q][at] : 0.0);
+                        given(u[q] + c, d->in, wanted(d, q, at, what));
                 }
         }
     }

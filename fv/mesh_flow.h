@@ -20,12 +20,12 @@ struct mesh_flow {
     bool has_exact;
     int ring; /* block whose walls make Couette flow in a ring, the exact solution; -1: none */
     double nu, t;
-    bool uneven;             /* volumes differ: volume averages are not averages in index space */
-    double *u[3];            /* m/s */
-    double *p, *p_before;    /* m^2/s^2, as in struct fv */
-    double *start[3], *psi;  /* of each stage: start of the next solve; the stage's own */
-    double *U[3];            /* m^dim/s: through the lower face of each cell */
-    double *N[3], *N_old[3]; /* m/s^2: convection */
+    bool uneven;               /* volumes differ: volume averages are not averages in index space */
+    double *u[3];              /* m/s */
+    double *p, *p_before;      /* m^2/s^2, as in struct fv */
+    double *start[3], *psi[3]; /* of each stage: start of the next solve, psi */
+    double *U[3];              /* m^dim/s: through the lower face of each cell */
+    double *N[3], *N_old[3];   /* m/s^2: convection */
     double *rhs[3], *delta[3], *step_p[3], *work[3], *krylov[5][3]; /* scratch */
     double *face[3], *flux, *grad[3];
     double *free;  /* 1: computed, 0: not */
@@ -57,10 +57,13 @@ void mesh_smooth_pressure(struct mesh_flow *s);
 void mesh_vorticity(struct mesh_flow *s, double *w);
 
 /* mesh_bc.c */
-enum mesh_value { MESH_ZERO, MESH_GIVEN };
+/* Of a velocity; of one that is still to be projected; of the increment to that; of a difference.
+ */
+enum mesh_value { MESH_GIVEN, MESH_AHEAD, MESH_CHANGE, MESH_ZERO };
 void mesh_bc_create(struct mesh_flow *s);
 void mesh_bc_free(struct mesh_bc **b);
 void mesh_bc_time(struct mesh_flow *s, double t);
+void mesh_bc_set_slip(const struct mesh_flow *s, double tau, const double *psi);
 void mesh_bc_velocity(const struct mesh_flow *s, enum mesh_value what, double *const u[3]);
 /* Mirrored; `odd': at an outflow with its sign turned. */
 void mesh_bc_even(const struct mesh_flow *s, bool odd, double *q);
@@ -84,7 +87,7 @@ bool mesh_pressure_solve(struct mesh_flow *s, double tau, const double *div, dou
 double mesh_integrate(struct mesh_flow *s, double t_stop, struct diagnosis *d);
 void mesh_measure(struct mesh_flow *s);
 /* Divergence-free fluxes for the velocities of the start. */
-void mesh_project(struct mesh_flow *s, double t, double tau, double *start, double tol);
+void mesh_project(struct mesh_flow *s, int stage, double tau, double tol);
 double mesh_pressure_at(const struct mesh_flow *s, int64_t c); /* Pa, without what gravity makes */
 
 /* mesh_state.c */

@@ -135,16 +135,19 @@ void mesh_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
 
 static int restart_fields(struct mesh_flow *s, double **f, const char **names)
 {
-    static const char *const vector[][3] = {
-        {"u0", "u1", "u2"}, {"U0", "U1", "U2"}, {"N0", "N1", "N2"}, {"psi0", "psi1", "psi2"}};
+    static const char *const vector[][3] = {{"u0", "u1", "u2"},
+                                            {"U0", "U1", "U2"},
+                                            {"N0", "N1", "N2"},
+                                            {"psi0", "psi1", "psi2"},
+                                            {"z0", "z1", "z2"}};
     int n = 0;
     f[n] = s->p;
     names[n++] = "p";
     f[n] = s->p_before;
     names[n++] = "p_before";
     for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->u[a], s->U[a], s->N[a], s->start[a]};
-        for (int k = 0; k < 4; k++)
+        double *const all[] = {s->u[a], s->U[a], s->N[a], s->psi[a], s->start[a]};
+        for (int k = 0; k < 5; k++)
             if (all[k]) {
                 f[n] = all[k];
                 names[n++] = vector[k][a];
@@ -156,8 +159,8 @@ static int restart_fields(struct mesh_flow *s, double **f, const char **names)
 void mesh_checkpoint(void *state, struct h5 *f)
 {
     struct mesh_flow *s = state;
-    double *fields[16];
-    const char *names[16];
+    double *fields[20];
+    const char *names[20];
     const int n = restart_fields(s, fields, names);
     for (int k = 0; k < n; k++)
         h5_write_real(f, names[k], "-", s->m->size_local, 1, fields[k], false);
@@ -167,8 +170,8 @@ void mesh_checkpoint(void *state, struct h5 *f)
 
 bool mesh_restore(struct mesh_flow *s, struct h5 *f)
 {
-    double *fields[16];
-    const char *names[16];
+    double *fields[20];
+    const char *names[20];
     const int n = restart_fields(s, fields, names);
     int fits = h5_rows(f, "p") == s->m->size_local;
     MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, s->m->comm);

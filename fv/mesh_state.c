@@ -60,7 +60,7 @@ void mesh_exact_average(const struct mesh_flow *s, const struct mesh_part *p, co
 static void make_fields(struct mesh_flow *s)
 {
     const struct mesh *m = s->m;
-    double **const one[] = {&s->p, &s->p_before, &s->psi, &s->flux, &s->free, &s->scale};
+    double **const one[] = {&s->p, &s->p_before, &s->flux, &s->free, &s->scale};
     for (size_t k = 0; k < sizeof one / sizeof one[0]; k++)
         *one[k] = mesh_field(m);
     for (int a = 0; a < 3; a++) {
@@ -69,6 +69,7 @@ static void make_fields(struct mesh_flow *s)
             &s->delta[a],     &s->step_p[a],    &s->face[a],     &s->grad[a],  &s->krylov[0][a],
             &s->krylov[1][a], &s->krylov[2][a], &s->krylov[3][a]};
         s->start[a] = mesh_field(m);
+        s->psi[a] = mesh_field(m);
         for (size_t k = 0; k < sizeof all / sizeof all[0] && (a < m->dim || k == 0); k++)
             *all[k] = mesh_field(m);
     }
@@ -181,13 +182,15 @@ struct mesh_flow *mesh_flow_create(struct run *r, struct h5 *f)
     else if (f)
         mesh_measure(s);
     else
-        mesh_project(s, s->t, 1.0, s->start[2], 1e-3 * fmin(1.0, s->prm.tol_pressure));
+        mesh_project(s, 2, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
     if (s) {
         s->iterations = 0;
         mesh_measure(s);
     }
-    if (s && !f)
+    if (s && !f) {
         memset(s->start[2], 0, (size_t)s->m->size_local * sizeof(double));
+        memset(s->psi[2], 0, (size_t)s->m->size_local * sizeof(double));
+    }
     return s;
 }
 
@@ -200,12 +203,13 @@ void mesh_flow_free(struct mesh_flow **sp)
     mesh_bc_free(&s->bc);
     overset_free(&s->search);
     mem_free(s->history);
-    double *const one[] = {s->p, s->p_before, s->psi, s->flux, s->free, s->scale};
+    double *const one[] = {s->p, s->p_before, s->flux, s->free, s->scale};
     for (size_t k = 0; k < sizeof one / sizeof one[0]; k++)
         mem_free(one[k]);
     for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->u[a],     s->U[a],      s->N[a],     s->N_old[a], s->rhs[a],
-                               s->delta[a], s->step_p[a], s->start[a], s->face[a],  s->grad[a]};
+        double *const all[] = {s->u[a],   s->U[a],     s->N[a],      s->N_old[a],
+                               s->rhs[a], s->delta[a], s->step_p[a], s->start[a],
+                               s->psi[a], s->face[a],  s->grad[a]};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             mem_free(all[k]);
         for (int k = 0; k < 4; k++)

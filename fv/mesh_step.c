@@ -157,6 +157,14 @@ static void stage_rhs(struct mesh_flow *s, double dt, double ab, double gamma, d
 static bool add_increment(struct mesh_flow *s, double c)
 {
     bool good = true;
+    for (int a = 0; a < s->m->dim && s->nu > 0.0; a++)
+        memset(s->delta[a], 0, (size_t)s->m->size_local * sizeof(double));
+    if (s->nu > 0.0) /* what the sides do from one time to the next */
+        mesh_bc_velocity(s, MESH_CHANGE, s->delta);
+    for (int a = 0; a < s->m->dim && s->nu > 0.0; a++) {
+        mesh_viscous(s, s->delta[a], s->krylov[0][0]);
+        combine(s->m, s->rhs[a], 1.0, c, s->krylov[0][0]);
+    }
     const double tol = s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous : 1e-4;
     if (s->nu > 0.0)
         good = solve_viscous(s, c, tol);
@@ -165,24 +173,24 @@ static bool add_increment(struct mesh_flow *s, double c)
     return good;
 }
 
-void mesh_project(struct mesh_flow *s, double t, double tau, double *first, double tol)
+void mesh_project(struct mesh_flow *s, int stage, double tau, double tol)
 {
+    double *psi = s->psi[stage];
     const struct mesh *m = s->m;
     start(s, "operators");
-    mesh_bc_time(s, t);
-    fill_velocity(s, MESH_GIVEN, s->u);
+    fill_velocity(s, MESH_AHEAD, s->u);
     mesh_face_velocities(s, s->u, s->U);
     mesh_bc_fluxes(s, s->U);
     mesh_divergence(s, s->U, s->flux);
     stop(s, "operators");
     start(s, "pressure");
-    s->failed = !mesh_pressure_solve(s, tau, s->flux, tol, first, s->psi) || s->failed;
+    s->failed = !mesh_pressure_solve(s, tau, s->flux, tol, s->start[stage], psi) || s->failed;
     stop(s, "pressure");
     start(s, "operators");
-    mesh_halo(s->m, 1, &s->psi);
-    mesh_bc_even(s, true, s->psi);
-    mesh_subtract_psi(s, tau, s->psi, s->U);
-    mesh_gradient(s, s->psi, s->grad);
+    mesh_halo(s->m, 1, &psi);
+    mesh_bc_even(s, true, psi);
+    mesh_subtract_psi(s, tau, psi, s->U);
+    mesh_gradient(s, psi, s->grad);
     for (int a = 0; a < m->dim; a++)
         combine(m, s->u[a], 1.0, -tau, s->grad[a]);
     fill_velocity(s, MESH_GIVEN, s->u);
@@ -225,14 +233,15 @@ static bool step_rk3(struct mesh_flow *s, double dt)
         mesh_convection(s, s->N);
         stop(s, "convection");
         start(s, "viscous");
+        mesh_bc_time(s, t + rk3_at[k] * dt);
+        mesh_bc_set_slip(s, ab * dt, s->psi[k]);
         stage_rhs(s, dt, ab, rk3_gamma[k], rk3_zeta[k]);
         good = add_increment(s, rk3_beta[k] * dt) && good;
         stop(s, "viscous");
-        mesh_project(s, t + rk3_at[k] * dt, ab * dt, s->start[k],
-                     k == 2 ? last : first);
+        mesh_project(s, k, ab * dt, k == 2 ? last : first);
     }
     memcpy(s->p_before, s->p, (size_t)s->m->size_local * sizeof(double));
-    combine(s->m, s->p, 1.0, 1.0, s->psi);
+    combine(s->m, s->p, 1.0, 1.0, s->psi[2]);
     return good;
 }
 

@@ -35,6 +35,7 @@ struct overset {
     struct bins bins[MESH_BLOCKS_MAX];
     int64_t n, room;
     struct donor *donor;
+    unsigned char *flag[MESH_BLOCKS_MAX]; /* of all cells, while they are cut */
     bool periodic[3];
     double length[3];
 };
@@ -466,14 +467,15 @@ static void find_solid(const struct mesh *m, const struct overset *o, int k, uns
     mem_free(stack);
 }
 
-static bool is_covered(const struct mesh *m, const struct overset *o, int k, const double *x)
+/* Within a later block: covered, or behind a wall when that block's cell is. */
+static unsigned char cover(const struct mesh *m, const struct overset *o, int k, const double *x)
 {
     int cell[3];
     double xi[3];
-    for (int q = k + 1; q < m->nblocks; q++)
+    for (int q = m->nblocks - 1; q > k; q--)
         if (overset_locate(m, o, q, x, cell, xi))
-            return true;
-    return false;
+            return o->flag[q][mesh_cell(m->block + q, cell)] & SOLID ? SOLID : COVERED;
+    return 0;
 }
 
 /* The fringe of later blocks wants the cells around it. */
@@ -502,14 +504,14 @@ static void protect(const struct mesh *m, const struct overset *o, int k, unsign
     }
 }
 
-static void cut(struct mesh *m, const struct overset *o, int k, unsigned char *flag)
+static void cut(struct mesh *m, const struct overset *o, int k)
 {
+    unsigned char *flag = o->flag[k];
     struct mesh_block *b = m->block + k;
     const int64_t n = count_of(b);
     if (k < m->nblocks - 1) {
         for (int64_t c = 0; c < n; c++)
-            if (is_covered(m, o, k, b->centre[c]))
-                flag[c] |= COVERED;
+            flag[c] |= cover(m, o, k, b->centre[c]);
         find_solid(m, o, k, flag);
         protect(m, o, k, flag);
     }
@@ -675,9 +677,8 @@ struct overset *overset_create(const struct run *r, struct faults *f, struct mes
     }
     struct overset *o = overset_search(r, m);
     for (int k = m->nblocks - 1; k >= 0; k--) {
-        unsigned char *flag = NEW(unsigned char, count_of(m->block + k));
-        cut(m, o, k, flag);
-        mem_free(flag);
+        o->flag[k] = NEW(unsigned char, count_of(m->block + k));
+        cut(m, o, k);
     }
     for (int k = 0; k < m->nblocks; k++)
         make_fringe(m, k);
@@ -697,6 +698,7 @@ void overset_free(struct overset **op)
     for (int k = 0; k < MESH_BLOCKS_MAX; k++) {
         mem_free(o->bins[k].first);
         mem_free(o->bins[k].cell);
+        mem_free(o->flag[k]);
         for (int a = 0; a < 3; a++)
             mem_free(o->bins[k].line[a]);
     }
