@@ -444,7 +444,7 @@ void mesh_bc_force(struct mesh_flow *s, double force[3], double *moment)
         mesh_bc_pressure(s, both[k]);
     for (int k = 0; k < s->bc->n; k++) {
         const struct side *d = s->bc->side + k;
-        if (d->kind != MESH_WALL && d->kind != MESH_SLIP)
+        if (d->kind != MESH_WALL)
             continue;
         SIDE_PLACES(d, 0, i, j, at, c)
         {

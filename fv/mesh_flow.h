@@ -73,7 +73,7 @@ bool mesh_bc_pressure_given(const struct mesh_flow *s);
 /* Largest |w.S|/V at the sides, over this rank; largest speed. */
 double mesh_bc_rate(const struct mesh_flow *s, double *speed);
 bool mesh_bc_has_walls(const struct mesh *m);
-/* Forces of all walls, N (per metre in 2D), and moment about the centre of the wall's block. */
+/* Forces on all no-slip walls, N (per metre in 2D), and moment about the centre of the wall's block. */
 void mesh_bc_force(struct mesh_flow *s, double force[3], double *moment);
 
 /* mesh_pressure.c: A psi = -div/tau; div with what the overlap makes taken out evenly. */

@@ -221,7 +221,7 @@ static void pressure_gradient(struct mesh_flow *s)
  * wanted than where a cycle of PFMG takes all waves alike. */
 static bool step_rk3(struct mesh_flow *s, double dt)
 {
-    const double last = 3e-3 * s->prm.tol_pressure, first = fmin(10.0 * last, 0.1), t = s->t;
+    const double last = 0.1 * s->prm.tol_pressure, first = fmin(10.0 * last, 0.1), t = s->t;
     bool good = true;
     start(s, "operators");
     pressure_gradient(s);

@@ -35,7 +35,6 @@ struct overset {
     struct bins bins[MESH_BLOCKS_MAX];
     int64_t n, room;
     struct donor *donor;
-    unsigned char *flag[MESH_BLOCKS_MAX]; /* of all cells, while they are cut */
     bool periodic[3];
     double length[3];
 };
@@ -467,14 +466,17 @@ static void find_solid(const struct mesh *m, const struct overset *o, int k, uns
     mem_free(stack);
 }
 
-/* Within a later block: covered, or behind a wall when that block's cell is. */
+/* Within a later block: covered; in a hole of the latest one there: behind a wall. */
 static unsigned char cover(const struct mesh *m, const struct overset *o, int k, const double *x)
 {
     int cell[3];
     double xi[3];
     for (int q = m->nblocks - 1; q > k; q--)
-        if (overset_locate(m, o, q, x, cell, xi))
-            return o->flag[q][mesh_cell(m->block + q, cell)] & SOLID ? SOLID : COVERED;
+        if (overset_locate(m, o, q, x, cell, xi)) {
+            const struct mesh_block *b = m->block + q;
+            const bool hole = b->status[mesh_cell(b, cell)] == CELL_HOLE;
+            return hole && !in_overlap_layers(m, b, cell) ? SOLID : COVERED;
+        }
     return 0;
 }
 
@@ -504,9 +506,8 @@ static void protect(const struct mesh *m, const struct overset *o, int k, unsign
     }
 }
 
-static void cut(struct mesh *m, const struct overset *o, int k)
+static void cut(struct mesh *m, const struct overset *o, int k, unsigned char *flag)
 {
-    unsigned char *flag = o->flag[k];
     struct mesh_block *b = m->block + k;
     const int64_t n = count_of(b);
     if (k < m->nblocks - 1) {
@@ -677,8 +678,9 @@ struct overset *overset_create(const struct run *r, struct faults *f, struct mes
     }
     struct overset *o = overset_search(r, m);
     for (int k = m->nblocks - 1; k >= 0; k--) {
-        o->flag[k] = NEW(unsigned char, count_of(m->block + k));
-        cut(m, o, k);
+        unsigned char *flag = NEW(unsigned char, count_of(m->block + k));
+        cut(m, o, k, flag);
+        mem_free(flag);
     }
     for (int k = 0; k < m->nblocks; k++)
         make_fringe(m, k);
@@ -698,7 +700,6 @@ void overset_free(struct overset **op)
     for (int k = 0; k < MESH_BLOCKS_MAX; k++) {
         mem_free(o->bins[k].first);
         mem_free(o->bins[k].cell);
-        mem_free(o->flag[k]);
         for (int a = 0; a < 3; a++)
             mem_free(o->bins[k].line[a]);
     }

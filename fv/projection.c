@@ -14,6 +14,7 @@
 #include "levelset.h"
 #include "outflow.h"
 #include "pressure.h"
+#include "rk3.h"
 
 static void start(struct fv *s, const char *timer)
 {
@@ -204,11 +205,6 @@ static void add_pressure(struct fv *s, const double *restrict psi)
 
 static bool step_rk3(struct fv *s, double dt)
 {
-    static const double alpha[3] = {29.0 / 96.0, -3.0 / 40.0, 1.0 / 6.0};
-    static const double beta[3] = {37.0 / 160.0, 5.0 / 24.0, 1.0 / 6.0};
-    static const double gamma[3] = {8.0 / 15.0, 5.0 / 12.0, 3.0 / 4.0};
-    static const double zeta[3] = {0.0, -17.0 / 60.0, -5.0 / 12.0};
-    static const double at[3] = {8.0 / 15.0, 2.0 / 3.0, 1.0};
     /* one cycle mostly; but a fixed number of them diverges around a hole on some grids (50 and 54
      * cells) */
     const bool fresh = s->surface && !(s->dt > 0.0); /* no pressure to start from */
@@ -221,16 +217,16 @@ static bool step_rk3(struct fv *s, double dt)
     outflow_begin(s);
     stop(s, "operators");
     for (int k = 0; k < 3; k++) {
-        const double t_stage = t + at[k] * dt, ab = alpha[k] + beta[k];
+        const double t_stage = t + rk3_at[k] * dt, ab = rk3_alpha[k] + rk3_beta[k];
         start(s, "convection");
         swap(s->N, s->N_old);
         convection(s, s->N);
         stop(s, "convection");
         start(s, "viscous");
         bc_set_slip(s, ab * dt, s->psi[k]);
-        stage_rhs(s, dt, ab, gamma[k], zeta[k]);
-        outflow_set(s, at[k] * dt);
-        good = add_increment(s, beta[k] * dt, t_stage) && good;
+        stage_rhs(s, dt, ab, rk3_gamma[k], rk3_zeta[k]);
+        outflow_set(s, rk3_at[k] * dt);
+        good = add_increment(s, rk3_beta[k] * dt, t_stage) && good;
         stop(s, "viscous");
         project(s, t_stage, ab * dt, s->psi[k], k == 2 ? last : first, 50);
     }
