@@ -1,6 +1,8 @@
 /* mesh_params.c - parameters of the list blocks. SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh.h"
 
+#include "fv.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -77,9 +79,21 @@ static void check_block(const struct run *r, struct faults *f, int k)
 
 void mesh_check(const struct run *r, struct faults *f)
 {
+    const struct fv_params *prm = fv_params_of(r);
     const int before = f->n;
     if (r->coupled)
         params_fault(r->params, f, "blocks", "a coupled job knows no blocks: use fv.cells");
+    if (prm->integrator != INTEGRATOR_RK3)
+        params_fault(r->params, f, "fv.integrator", "blocks are for rk3 only");
+    if (prm->hole[1][0] > prm->hole[0][0])
+        params_fault(r->params, f, "fv.hole", "blocks know no forced cells: let a block overlap");
+    if (r->scene.nwalls > 0)
+        params_fault(r->params, f, "walls",
+                     "with blocks, walls and openings are kinds of their sides "
+                     "(blocks.i_min, ...)");
+    for (int k = 0; k < r->scene.nprobes; k++)
+        if (r->scene.probes[k].kind != PROBE_PRESSURE)
+            params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
     for (int k = 0; k < mesh_given_count; k++)
         check_block(r, f, k);
     if (f->n > before)
