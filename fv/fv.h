@@ -30,8 +30,8 @@ struct fv_params {
     double upwind;       /* C of the bias in convection.c; 0: none, -1: 1 with walls, else none */
     double extrema[3];   /* m/s: known ones on the centre lines, see fv_lines.c; 0: none */
     int surface;         /* enum fv_surface */
-    double force[3];     /* N, N, 1/s: known mean along x, amplitude along y, its frequency; 0: none */
-    int forced_order;    /* in time, of partners' data within a window: 1 linear, 2 quadratic */
+    double force[3];  /* N, N, 1/s: known mean along x, amplitude along y, its frequency; 0: none */
+    int forced_order; /* in time, of partners' data within a window: 1 linear, 2 quadratic */
 };
 
 struct bc;       /* walls and openings; bc.h; NULL: none */

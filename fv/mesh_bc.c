@@ -435,6 +435,21 @@ static void face_force(const struct mesh_flow *s, const struct side *d, int64_t 
     force[3] = (x[0] - o[0]) * force[1] - (x[1] - o[1]) * force[0];
 }
 
+double mesh_bc_net_flux(const struct mesh_flow *s)
+{
+    double sum = 0.0;
+    for (int k = 0; k < s->bc->n; k++) {
+        const struct side *d = s->bc->side + k;
+        SIDE_PLACES(d, 0, i, j, at, c)
+        {
+            sum += s->free[c] * (d->k % 2 ? 1.0 : -1.0) * s->U[d->a][c + d->face];
+            (void)at;
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
+    return sum;
+}
+
 void mesh_bc_force(struct mesh_flow *s, double force[3], double *moment)
 {
     double sum[4] = {0.0, 0.0, 0.0, 0.0};

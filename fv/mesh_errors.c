@@ -232,6 +232,8 @@ void mesh_finish(void *state)
     summary_real(r->summary, "drift.energy",
                  s->has_exact && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
     summary_real(r->summary, "divergence", largest_divergence(s));
+    if (mesh_bc_pressure_given(s))
+        s->defect = fabs(mesh_bc_net_flux(s));
     if (s->m->has_fringe)
         summary_real(r->summary, "overlap.net_flux", s->defect / fmax(s->umax, 1e-300));
     if (mesh_bc_has_walls(s->m)) {

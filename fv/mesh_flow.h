@@ -72,8 +72,11 @@ void mesh_bc_fluxes(const struct mesh_flow *s, double *const U[3]);
 bool mesh_bc_pressure_given(const struct mesh_flow *s);
 /* Largest |w.S|/V at the sides, over this rank; largest speed. */
 double mesh_bc_rate(const struct mesh_flow *s, double *speed);
+/* Through all sides of the case, outwards, over all ranks: what the overlap makes, m^dim/s. */
+double mesh_bc_net_flux(const struct mesh_flow *s);
 bool mesh_bc_has_walls(const struct mesh *m);
-/* Forces on all no-slip walls, N (per metre in 2D), and moment about the centre of the wall's block. */
+/* Forces on all no-slip walls, N (per metre in 2D), and moment about the centre of the wall's
+ * block. */
 void mesh_bc_force(struct mesh_flow *s, double force[3], double *moment);
 
 /* mesh_pressure.c: A psi = -div/tau; div with what the overlap makes taken out evenly. */
