@@ -2,6 +2,7 @@
 #include "mesh.h"
 
 #include "fv.h"
+#include "levelset.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -85,6 +86,10 @@ void mesh_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "blocks", "a coupled job knows no blocks: use fv.cells");
     if (prm->integrator != INTEGRATOR_RK3)
         params_fault(r->params, f, "fv.integrator", "blocks are for rk3 only");
+    if (prm->cfl > 1.1)
+        params_fault(r->params, f, "fv.cfl", "%g: rk3 is stable up to 1.1", prm->cfl);
+    if (surface_wanted(r))
+        params_fault(r->params, f, "fv.surface", "blocks know no free surface: use fv.cells");
     if (prm->hole[1][0] > prm->hole[0][0])
         params_fault(r->params, f, "fv.hole", "blocks know no forced cells: let a block overlap");
     if (r->scene.nwalls > 0)
