@@ -52,10 +52,12 @@ struct solver {
         int link;          /* the one it is part of, -1: none */
         int64_t last_tick; /* giver: of its last put, as of its last advance or get */
     } field[FIELDS];
-    int64_t advanced;   /* last window done, -1: none */
-    int byes, code;     /* ranks that said goodbye; the worst code among them */
-    double waited, cpu; /* s; cpu summed over ranks, known at the end */
-    double heard;       /* wire_time of its last message */
+    int64_t advanced;                      /* last window done, -1: none */
+    int byes, code;                        /* ranks that said goodbye; the worst code among them */
+    double waited, cpu;                    /* s; cpu summed over ranks, known at the end */
+    double heard;                          /* wire_time of its last message */
+    double advanced_at;                    /* wall time of its last advance */
+    double waited_for[HANDSHAKE_PROGRAMS]; /* s, of `waited', for each solver; the rest: coupler */
     struct told told;
 };
 
@@ -74,6 +76,7 @@ struct link {
     /* what takers asked for; by rank of the taker */
     int64_t asked_tick;  /* -1: nothing asked */
     int nasked, naskers; /* ranks that have asked, and how many will */
+    double asked_at;     /* wall time at which the last of them has */
     struct asker {
         bool asked;
         int moves; /* generation of its targets */

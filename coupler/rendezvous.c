@@ -305,6 +305,7 @@ static void try_answer(struct coupler *c, struct link *l)
     if (!nothing && (a->tick != l->asked_tick || a->n < c->solver[l->giver].size))
         return;
     const double start = wall_time();
+    c->solver[l->taker].waited_for[l->giver] += start - l->asked_at;
     for (int r = 0; r < c->solver[l->taker].size && l->from_grid; r++)
         if (l->asker[r].asked)
             answer_patch(c, l, a, r);
@@ -343,6 +344,7 @@ void rendezvous_get(struct coupler *c, struct solver *s, struct message *m)
     }
     if (++l->nasked < l->naskers)
         return;
+    l->asked_at = wall_time();
     if (l->moved)
         announce(c, l);
     l->moved = false;

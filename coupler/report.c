@@ -181,6 +181,31 @@ static void put_told(const struct coupler *c, struct summary *s)
         }
 }
 
+/* What a solver waited for solver j; j = nsolvers: for the coupler, mapping and messages. The
+ * coupler's clock and the solver's own may differ by a nap. */
+static double waited_for(const struct coupler *c, int i, int j)
+{
+    double all = 0.0;
+    for (int k = 0; k < c->nsolvers; k++)
+        all += k == i ? 0.0 : c->solver[i].waited_for[k];
+    const double scale = all > c->solver[i].waited ? c->solver[i].waited / all : 1.0;
+    return j < c->nsolvers ? scale * c->solver[i].waited_for[j] : c->solver[i].waited - scale * all;
+}
+
+/* "waited_for.fv.sph": s that fv waited for sph. */
+static void put_waits(const struct coupler *c, struct summary *s)
+{
+    char name[2 * CPL_NAME + 8];
+    for (int i = 0; i < c->nsolvers; i++)
+        for (int j = 0; j <= c->nsolvers; j++) {
+            if (j == i)
+                continue;
+            snprintf(name, sizeof name, "%s.%s", c->solver[i].name,
+                     j < c->nsolvers ? c->solver[j].name : "coupler");
+            put_number(s, "waited_for", name, "", waited_for(c, i, j));
+        }
+}
+
 static double put_cost(const struct coupler *c, struct summary *s, double coupler_cpu, double wall)
 {
     double cpu = coupler_cpu;
@@ -204,6 +229,7 @@ static double put_cost(const struct coupler *c, struct summary *s, double couple
     for (int i = 0; i < c->nsolvers; i++)
         put_number(s, "wait_s", c->solver[i].name, "", c->solver[i].waited);
     put_number(s, "wait_s", "coupler", "", c->idle);
+    put_waits(c, s);
     summary_real(s, "coupler_share", coupler_cpu / cpu);
     for (int i = 0; i < c->nlinks; i++)
         put_number(s, "mapping_s", c->solver[c->link[i].giver].field[c->link[i].gfield].name, "",
@@ -237,6 +263,36 @@ static void say_number(void *ctx, const char *key, double v)
         log_say("  %-24s %.4g", key, v);
 }
 
+static void say_share(char *line, int n, double waited, double wall, double cpu, int ranks)
+{
+    print(line, n, " %9.3g %6.0f %% %9.3g %6d", fmax(wall - waited, 0.0), 100.0 * waited / wall,
+          cpu, ranks);
+    log_say("%s", line);
+}
+
+/* Who waited for whom: a row per program. */
+static void say_waits(const struct coupler *c, double coupler_cpu, double wall)
+{
+    char line[LINE];
+    int n = print(line, 0, "  waited (s)");
+    for (int j = 0; j < c->nsolvers; j++)
+        n = print(line, n, "  for %-7.7s", c->solver[j].name);
+    print(line, n, "  for coupler   at work  waited       cpu  ranks");
+    log_say("%s", line);
+    for (int i = 0; i < c->nsolvers; i++) {
+        const struct solver *s = &c->solver[i];
+        n = print(line, 0, "  %-10.10s", s->name);
+        for (int j = 0; j <= c->nsolvers; j++)
+            n = j == i ? print(line, n, "  %11s", "-")
+                       : print(line, n, "  %11.3g", waited_for(c, i, j));
+        say_share(line, n, s->waited, wall, s->cpu, s->size);
+    }
+    n = print(line, 0, "  %-10.10s", "coupler");
+    for (int j = 0; j <= c->nsolvers; j++)
+        n = print(line, n, "  %11s", j < c->nsolvers ? "" : "-");
+    say_share(line, n, c->idle, wall, coupler_cpu, c->size);
+}
+
 static void say_end(const struct coupler *c, const struct summary *s, double cpu,
                     double coupler_cpu, double wall)
 {
@@ -245,9 +301,9 @@ static void say_end(const struct coupler *c, const struct summary *s, double cpu
     summary_each(s, say_number, NULL);
     for (int i = 0; i < c->nsolvers; i++)
         n = print(line, n, " %s %.1f %%", c->solver[i].name, 100.0 * c->solver[i].cpu / cpu);
-    n = print(line, n, " coupler %.1f %%;", 100.0 * coupler_cpu / cpu);
-    waiting(c, line, n, wall);
+    print(line, n, " coupler %.1f %%", 100.0 * coupler_cpu / cpu);
     log_say("%s", line);
+    say_waits(c, coupler_cpu, wall);
 }
 
 int report_summary(struct coupler *c, double coupler_cpu)

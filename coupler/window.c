@@ -140,9 +140,12 @@ void window_advance(struct coupler *c, struct solver *s, struct message *m)
     s->waited = take_real(&c->wire, m);
     rendezvous_take_ticks(c, s, m);
     report_told(&c->wire, m, &s->told);
+    s->advanced_at = wall_time();
     for (int i = 0; i < c->nsolvers; i++)
         if (c->solver[i].advanced != c->window)
             return;
+    for (int i = 0; i < c->nsolvers; i++) /* all waited for the last one */
+        c->solver[i].waited_for[s - c->solver] += s->advanced_at - c->solver[i].advanced_at;
     c->window++;
     sums_window(c);
     window_announce(c);
