@@ -63,7 +63,11 @@ $(B)/tests/%: $(B)/o/tests/%.o $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $< -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(FV_LIBS) $(LIBS) -lcmocka
-tests: all $(tests_bin) $(B)/tests/mock
+$(B)/tests/kill_at.so: tests/kill_at.c
+	@mkdir -p $(@D)
+	@echo "LD $@"
+	@$(CC) $(filter-out -MMD,$(CFLAGS)) -shared -fPIC -o $@ $< -ldl
+tests: all $(tests_bin) $(B)/tests/mock $(B)/tests/kill_at.so
 asan:
 	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-O1 -march=native -fno-math-errno" \
 	    SAN="-fsanitize=address,undefined -fno-omit-frame-pointer" tests

@@ -534,6 +534,10 @@ static int live(struct life *l)
         return code;
     }
     signals_install(r->name, r->rank);
+    if (r->coupled) { /* what the coupler calls its death notes, too */
+        snprintf(path, sizeof path, "%s/.death", r->dir);
+        signals_note_path(path);
+    }
     if (r->coupled)
         snprintf(path, sizeof path, "%s/%s.log", r->dir, r->name);
     else

@@ -8,7 +8,7 @@
 #include "../common/log.h"
 
 /* Lines "key value", which common/run_files.c reads at a restart. */
-static void write_manifest(const struct coupler *c)
+static void write_manifest(const struct coupler *c, const struct save *s)
 {
     char path[1100], new[1110];
     snprintf(path, sizeof path, "%s/checkpoint.txt", c->dir);
@@ -16,32 +16,33 @@ static void write_manifest(const struct coupler *c)
     FILE *f = fopen(new, "w");
     bool good = f != NULL;
     if (f) {
-        fprintf(f, "window %lld\n", (long long)c->save_window);
-        fprintf(f, "t %.17g\n", window_start(c, c->save_window + 1));
+        fprintf(f, "window %lld\n", (long long)s->window);
+        fprintf(f, "t %.17g\n", window_start(c, s->window + 1));
         fprintf(f, "case_hash %016llx\n", (unsigned long long)c->hash);
         for (int i = 0; i < c->nsolvers; i++)
-            fprintf(f, "%s %s\n", c->solver[i].name, c->saved[i]);
+            fprintf(f, "%s %s\n", c->solver[i].name, s->file[i]);
         good = fflush(f) == 0 && fsync(fileno(f)) == 0;
         good = fclose(f) == 0 && good;
     }
     if (!good || rename(new, path) != 0) {
         log_warn("cannot write %s: no restart point at t = %.6g s", path,
-                 window_start(c, c->save_window + 1));
+                 window_start(c, s->window + 1));
         return;
     }
-    log_say("  restart point at t = %.6g s", window_start(c, c->save_window + 1));
+    log_say("  restart point at t = %.6g s", window_start(c, s->window + 1));
 }
 
 void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m)
 {
     const int i = (int)(s - c->solver);
-    if (m->head.tick != c->save_window) {
+    struct save *const save = &c->save[m->head.tick & 1];
+    if (m->head.tick != save->window) {
         log_warn("%s saved window %lld, asked for was %lld: no restart point", s->name,
-                 (long long)m->head.tick, (long long)c->save_window);
+                 (long long)m->head.tick, (long long)save->window);
         return;
     }
-    c->nsaved += c->saved[i][0] == '\0';
-    take_text(&c->wire, m, c->saved[i], sizeof c->saved[i]);
-    if (c->nsaved == c->nsolvers)
-        write_manifest(c);
+    save->n += save->file[i][0] == '\0';
+    take_text(&c->wire, m, save->file[i], sizeof save->file[i]);
+    if (save->n == c->nsolvers)
+        write_manifest(c, save);
 }

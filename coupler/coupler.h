@@ -119,9 +119,13 @@ struct coupler {
     double idle, bound;  /* s waited; simulated time of the next checkpoint */
     int64_t said;        /* window that failure_doing knows */
     int64_t line_window; /* of the last progress line */
-    int64_t nsaved;      /* solvers whose restart file of `save_window' is complete */
-    int64_t save_window;
-    char saved[HANDSHAKE_PROGRAMS][256];
+    /* A solver tells of its restart file after it has ended the window, when the next may be under
+     * way; never two later. By window & 1. */
+    struct save {
+        int64_t window;
+        int n; /* solvers whose file is complete */
+        char file[HANDSHAKE_PROGRAMS][256];
+    } save[2];
     struct sums *sums; /* sums.c; NULL: nobody tells any */
 };
 

@@ -110,8 +110,9 @@ int cpl_saved(struct cpl *c, const char *file);
 int64_t cpl_window_number(const struct cpl *c);
 double cpl_waited(const struct cpl *c); /* s spent waiting for partners */
 double cpl_heard(const struct cpl *c);  /* s since the coupler's last message */
-/* Writes to a file descriptor why the job ends, as far as is known. The library installs no signal
- * handlers; this is for the solver's handler of SIGTERM, which survivors of a failure get. */
+/* Writes to a file descriptor why the job ends, as far as is known. The library has a handler of
+ * its own for SIGTERM only where the solver has none at cpl_open; this is for the solver's handler
+ * of SIGTERM, which survivors of a failure get. */
 void cpl_obituary(int fd);
 const char *cpl_strerror(const struct cpl *c);
 /* Leaves a note with the reason and ends the whole job with this exit code; any rank may call. Does

@@ -26,7 +26,8 @@ static struct {
         long pid;
         char who[96]; /* "sph rank 0 (process 4711)" */
     } watched[WATCHED];
-    char who[80], path[1040], doing[TEXT];
+    char who[80], path[1040], doing[TEXT],
+        seen[TEXT]; /* seen: whose death, if no note can be left */
 } self;
 
 /* strlen and memcpy are safe in handlers, printf is not. */
@@ -76,7 +77,12 @@ bool failure_read(char *text, int size)
     const int fd = self.path[0] ? open(self.path, O_RDONLY) : -1;
     if (fd < 0)
         return false;
-    const ssize_t n = read(fd, text, (size_t)size - 1);
+    ssize_t n = 0;
+    for (int tries = 0; n <= 0 && tries < 20; tries++) { /* its author may be about to write */
+        n = read(fd, text, (size_t)size - 1);
+        if (n <= 0)
+            sleep_ms(1);
+    }
     close(fd);
     text[n > 0 ? n : 0] = '\0';
     char *end = strchr(text, '\n');
@@ -97,6 +103,7 @@ bool failure_witness(void)
         append(text, " ");
         append(text, self.doing);
         (void)failure_note(text);
+        memcpy(self.seen, text, sizeof self.seen);
         return true;
     }
     return false;
@@ -111,11 +118,16 @@ void failure_obituary(int fd)
         sleep_ms(LAST_WORDS); /* has said it */
         return;
     }
-    (void)failure_witness();
+    bool noted = failure_read(note, sizeof note);
+    for (int tries = 0; !noted && !failure_witness() && tries < 20; tries++)
+        sleep_ms(10); /* who has just died may not be buried yet */
+    noted = noted || failure_read(note, sizeof note);
     append(text, self.who);
     append(text, ": the job ends: ");
-    if (failure_read(note, sizeof note)) {
+    if (noted) {
         append(text, note);
+    } else if (self.seen[0]) {
+        append(text, self.seen);
     } else {
         append(text, "no reason was left; this rank was ");
         append(text, self.doing);
@@ -187,17 +199,35 @@ static int at_finalize(MPI_Comm comm, int key, void *value, void *extra)
     return MPI_SUCCESS;
 }
 
+/* The launcher's SIGTERM while programs meet, when they have no handlers of their own yet. */
+static void on_term(int signal_number)
+{
+    const bool open = self.open;
+    failure_obituary(STDERR_FILENO);
+    if (open)
+        _exit(EXIT_PARTNER);
+    signal(signal_number, SIG_DFL);
+    raise(signal_number);
+}
+
+static void guard(void)
+{
+    struct sigaction now;
+    if (sigaction(SIGTERM, NULL, &now) == 0 && now.sa_handler == SIG_DFL)
+        signal(SIGTERM, on_term);
+}
+
 void failure_open(MPI_Comm world, const char *program, int rank)
 {
     static bool hooked;
     self.world = world;
     self.open = true;
-    self.nwatched = 0;
     snprintf(self.who, sizeof self.who, "%.63s rank %d", program, rank);
     failure_doing("before the first window");
     if (!hooked) {
         int key;
         hooked = true;
+        guard();
         atexit(at_exit);
         MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, at_finalize, &key, NULL);
         MPI_Comm_set_attr(MPI_COMM_SELF, key, NULL);

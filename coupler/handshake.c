@@ -148,6 +148,18 @@ static void connect(MPI_Comm world, struct handshake *h)
     }
 }
 
+/* Those on this host can be seen to die. */
+static void watch(const struct handshake *h, const struct hello *all, int rank, int size)
+{
+    for (int p = 0; p < h->nprograms; p++)
+        for (int r = 0, place = 0; r < size; r++)
+            if (strcmp(all[r].name, h->program[p].name) == 0) {
+                if (strcmp(all[r].host, all[rank].host) == 0)
+                    failure_watch(h->program[p].name, place, (long)all[r].pid);
+                place++;
+            }
+}
+
 int handshake(MPI_Comm world, const char *name, double deadline_s, struct handshake *h)
 {
     int rank, size;
@@ -164,19 +176,14 @@ int handshake(MPI_Comm world, const char *name, double deadline_s, struct handsh
             h->me = p;
     }
     check_records(h, all, size);
-    int mine;
+    int place = 0;
+    for (int r = 0; r < rank; r++)
+        place += strcmp(all[r].name, all[rank].name) == 0;
+    failure_open(world, name, place);
+    watch(h, all, rank, size);
     MPI_Comm_split(world, h->program[h->me].leader, rank, &h->mine);
-    MPI_Comm_rank(h->mine, &mine);
-    failure_open(world, name, mine);
     if (!h->text[0] && h->coupler >= 0)
         connect(world, h);
-    for (int p = 0; p < h->nprograms; p++)
-        for (int r = 0, place = 0; r < size; r++)
-            if (strcmp(all[r].name, h->program[p].name) == 0) {
-                if (strcmp(all[r].host, all[rank].host) == 0)
-                    failure_watch(h->program[p].name, place, (long)all[r].pid);
-                place++;
-            }
     if (h->text[0] || h->nprograms == 1)
         failure_closed();
     free(all);

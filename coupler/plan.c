@@ -59,7 +59,7 @@ void plan_check_meet(struct coupler *c, char *text)
                     "%s reads another case than coupler (hash %016llx, not %016llx): give all "
                     "programs the same file and the same -p",
                     s->name, (unsigned long long)s->hash, (unsigned long long)c->hash);
-        if (s->restart_window != first->restart_window)
+        if (s->restart_window != first->restart_window && s->faults == 0 && first->faults == 0)
             problem(text,
                     "%s starts at window %lld, %s at window %lld: restart all from one manifest",
                     s->name, (long long)s->restart_window, first->name,

@@ -98,9 +98,7 @@ static int next_action(struct coupler *c)
         action |= CPL_SAVE;
     if (action & CPL_SAVE) {
         c->save_wall = now;
-        c->save_window = c->window;
-        c->nsaved = 0;
-        memset(c->saved, 0, sizeof c->saved);
+        c->save[c->window & 1] = (struct save){.window = c->window};
     }
     return action;
 }

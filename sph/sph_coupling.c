@@ -23,8 +23,10 @@ struct link {
 
 static void check(const struct link *k, int code)
 {
-    if (code == CPL_EPARTNER || code == CPL_EINPUT)
+    if (code == CPL_EPARTNER || code == CPL_EINPUT) {
+        signals_handled(); /* cpl_fail says it */
         cpl_fail(k->c, RUN_PARTNER, cpl_strerror(k->c));
+    }
     if (code)
         fail("coupling: %s", cpl_strerror(k->c));
 }

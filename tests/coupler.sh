@@ -5,7 +5,7 @@ b=$(cd "${1:-build}" && pwd)
 tmp=${TEST_SCRATCH:-$(mktemp -d)}/coupler
 mkdir -p "$tmp" && cd "$tmp" || exit 1
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ASAN_OPTIONS=detect_leaks=0:handle_segv=0
-mpi="timeout -k 1 30 mpirun --quiet --bind-to none --oversubscribe --mca mpi_yield_when_idle 1"
+mpi="timeout -k 1 30 mpirun --quiet --bind-to none --oversubscribe --mca mpi_yield_when_idle 1 --mca btl_vader_single_copy_mechanism none"
 mock="$b/tests/mock"
 failed=0
 bad() {
