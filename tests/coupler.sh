@@ -8,6 +8,7 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ASAN_OPTIONS=de
 mpi="timeout -k 1 30 mpirun --quiet --bind-to none --oversubscribe --mca mpi_yield_when_idle 1 --mca btl_vader_single_copy_mechanism none"
 mock="$b/tests/mock"
 failed=0
+wrap= # before sph
 bad() {
     echo "FAIL: $*"
     sed 's/^/      | /' text 2>/dev/null | tail -n 12
@@ -29,7 +30,7 @@ job() {
     p=${rest%%:*} c=${rest#*:}
     began=$(date +%s%N)
     # shellcheck disable=SC2086,SC2016
-    $mpi -np "$a" "$mock" sph points o $2 : \
+    $mpi -np "$a" $wrap "$mock" sph points o $2 : \
         -np "$p" sh -c 'echo $$ >pid; exec "$@"' coupler "$b/coupler" case.cfg -o o $3 : \
         -np "$c" "$mock" fv grid o $4 >text 2>&1
     code=$?
@@ -99,6 +100,20 @@ job 1:2:1 unit=knots "" "unit=bar dt=-1"
 [ "$(grep -c 'velocity: sph gives it in knots' text)" = 3 ] || bad "wrong units: not said by all programs"
 [ "$(grep -c 'pressure: fv gives it in bar' text)" = 3 ] || bad "wrong units: the list is not complete"
 says 'asks for windows of -1 s' "wrong window"
+job 1:1:1 "unit=knots dim=3" "" ""
+[ $code = 2 ] || bad "wrong unit and dimensions: exit $code, wanted 2"
+[ "$(grep -c 'velocity: sph gives it in knots' text)" = 3 ] || bad "wrong unit beside wrong dimensions: not said by all programs"
+[ "$(grep -c 'velocity: particles of sph has 3 dimensions, targets of fv has 2' text)" = 3 ] || bad "wrong dimensions: not said by all programs"
+job 1:1:1 "unit=knots" "" "back=2"
+[ $code = 2 ] || bad "wrong direction: exit $code, wanted 2"
+[ "$(grep -c 'pressure: sph takes it, but nobody gives it' text)" = 3 ] || bad "wrong direction: not said by all programs"
+[ "$(grep -c 'velocity: sph gives it in knots' text)" = 3 ] || bad "wrong direction: the list is not complete"
+wrap="env LD_PRELOAD=$b/tests/kill_at.so KILL_AT=version" # its hello speaks another version
+job 1:1:1 "" "" ""
+wrap=
+[ $code = 2 ] || bad "another version: exit $code, wanted 2"
+quick "another version"
+says 'programs of different versions' "another version"
 job 1:1:1 hash=1 "" ""
 [ $code = 2 ] || bad "another case: exit $code, wanted 2"
 says 'sph reads another case than coupler' "another case"

@@ -41,12 +41,12 @@ static void make_plan(struct mock *s)
     g.lo[1] = s->j0, g.hi[0] = s->n, g.hi[1] = s->j1, g.periodic[0] = g.periodic[1] = 1;
     const char *unit = option("unit", s->points ? "m/s" : "Pa");
     if (s->points) {
-        must(c, cpl_points(c, "particles", 2, 0.0, &s->set));
+        must(c, cpl_points(c, "particles", number("dim", 2), 0.0, &s->set));
         must(c, cpl_field(c, s->set, "velocity", unit, 2, CPL_PUT, 0, &s->give));
         must(c, cpl_field(c, s->set, "pressure", "Pa", 1, CPL_GET, number("cubic", 0), &s->take));
     } else {
         must(c, cpl_grid(c, "cells", &g, &s->set));
-        must(c, cpl_field(c, s->set, "pressure", unit, 1, CPL_PUT, 0, &s->give));
+        must(c, cpl_field(c, s->set, "pressure", unit, 1, number("back", CPL_PUT), 0, &s->give));
         must(c, cpl_points(c, "targets", 2, 2.2 * s->h, &s->set));
         must(c, cpl_field(c, s->set, "velocity", "m/s", 2, CPL_GET, number("mls", 0), &s->take));
     }

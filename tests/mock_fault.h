@@ -1,6 +1,6 @@
 /* mock_fault.h - options of the mock solver, and what a test can make it do wrong. Keys: n (a
- * side), mls, cubic, unit, hash, dt, still (never moves), end (window in which it asks for an
- * orderly end), deadline and late (s), fault (below) at=WINDOW.
+ * side), dim, back (direction of what it gives), mls, cubic, unit, hash, dt, still (never moves),
+ * end (window in which it asks for an orderly end), deadline and late (s), fault (below) at=WINDOW.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TESTS_MOCK_FAULT_H
 #define TESTS_MOCK_FAULT_H
