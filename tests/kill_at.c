@@ -2,9 +2,8 @@
  * phase. KILL_AT: handshake (world about to be split), exchange (a message of window 2 or so
  * leaves), wait (naps for a partner in such a window), work (a reduction of its own there),
  * checkpoint (the second restart file or manifest is about to appear), end (its summary is).
- * KILL_BY: number of the
- * signal. KILL_AT=version: no signal, but a greeting of another version. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * KILL_BY: number of the signal. KILL_AT=version: no signal, but a greeting of another version.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <dlfcn.h>
 #include <mpi.h>
 #include <signal.h>
