@@ -44,7 +44,7 @@ struct mesh_block_params {
     double centre[3];      /* m: of rotation, of an annulus, of the walls' spin */
     double angle;          /* degrees about z */
     double focus[3];       /* m: where stretched cells are finest */
-    double stretch[3];     /* strength; 0: uniform */
+    double stretch[3];     /* strength; 0: uniform; < 0: finer towards both ends */
     double radius[3];      /* m: inner, outer */
     double arc[3];         /* degrees: first, last */
     double shear;          /* dx/dy */
@@ -53,6 +53,7 @@ struct mesh_block_params {
     int zone;                                     /* block of a file, from 1 */
     int i_min, i_max, j_min, j_max, k_min, k_max; /* enum mesh_side */
     double velocity[3];                           /* m/s: of walls along themselves, of an inflow */
+    int lid;        /* 0: all walls have the velocity; else the side that alone has it, from 1 */
     double spin[3]; /* rad/s: of the walls i_min, i_max about the centre */
 };
 
@@ -149,7 +150,7 @@ static inline int64_t mesh_cell(const struct mesh_block *b, const int *i)
                  once_; once_ = 0)
 
 /* mesh_params.c */
-enum { MESH_ROWS = 23 };
+enum { MESH_ROWS = 24 };
 extern const struct param mesh_rows_of[MESH_ROWS];
 extern struct mesh_block_params mesh_given[MESH_BLOCKS_MAX]; /* what the case has */
 extern int mesh_given_count;

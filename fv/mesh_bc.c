@@ -157,9 +157,11 @@ static void value_at(const struct mesh_flow *s, const struct side *d, const doub
         mesh_exact_at(s, x, t, w, NULL, NULL);
         return;
     }
+    const bool moves = d->kind == MESH_INFLOW || b->lid == 0 || b->lid == d->k + 1;
+    const double *velocity =
+        d->kind == MESH_INFLOW && !given ? s->run->scene.initial.velocity : b->velocity;
     for (int c = 0; c < 3; c++)
-        w[c] =
-            d->kind == MESH_INFLOW && !given ? s->run->scene.initial.velocity[c] : b->velocity[c];
+        w[c] = moves ? velocity[c] : 0.0;
     w[0] -= spin * (x[1] - b->centre[1]);
     w[1] += spin * (x[0] - b->centre[0]);
 }

@@ -80,21 +80,22 @@ static double largest_divergence(struct mesh_flow *s)
     return most;
 }
 
-/* Linear from the computed cells around; the finest block's. */
-static double gauge(const struct mesh_flow *s, const double *x)
+double mesh_value_at(const struct mesh_flow *s, const struct overset *o, const double *x, int width,
+                     const double *q)
 {
     const struct mesh *m = s->m;
     double value = 0.0, finest = INFINITY;
     for (int k = 0; k < m->nblocks; k++) {
         int cell[3], from[3];
-        double xi[3], w[8], sum = 0.0;
-        if (!overset_locate(m, s->search, k, x, cell, xi))
+        double xi[3], w[64], sum = 0.0;
+        if (!overset_locate(m, o, k, x, cell, xi))
             continue;
         const double v = m->block[k].volume[mesh_cell(m->block + k, cell)];
-        if (v >= finest || !overset_weights(m, k, cell, xi, 1, 2, from, w))
+        if (v >= finest || !overset_weights(m, k, cell, xi, 1, width, from, w))
             continue;
-        for (int q = 0; q < 1 << m->dim; q++) {
-            int at[3] = {from[0] + (q & 1), from[1] + (q >> 1 & 1), from[2] + (q >> 2 & 1)};
+        for (int n = 0; n < (m->dim == 3 ? width : 1) * width * width; n++) {
+            int at[3] = {from[0] + n % width, from[1] + n / width % width,
+                         from[2] + n / width / width};
             int block = k, rank;
             double move[3] = {0.0, 0.0, 0.0};
             int64_t place;
@@ -102,7 +103,7 @@ static double gauge(const struct mesh_flow *s, const double *x)
                 continue;
             mesh_owner(m, block, at, &rank, &place);
             if (rank == m->rank)
-                sum += w[q] * mesh_pressure_at(s, place);
+                sum += w[n] * (q ? q[place] : mesh_pressure_at(s, place));
         }
         finest = v;
         value = sum;
@@ -147,7 +148,7 @@ void mesh_row_values(void *state, double *values)
     s->history[s->nhistory][0] = s->t;
     memcpy(s->history[s->nhistory++] + 1, force, 2 * sizeof(double));
     for (int k = 0; k < scene->nprobes; k++) {
-        values[n] = gauge(s, scene->probes[k].at);
+        values[n] = mesh_value_at(s, s->search, scene->probes[k].at, 2, NULL);
         MPI_Allreduce(MPI_IN_PLACE, values + n, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
         n++;
     }
@@ -242,8 +243,9 @@ void mesh_finish(void *state)
             summary_real(r->summary, names[a], force[a]);
         summary_real(r->summary, "force.moment", moment);
         summarise_forces(s);
-        summarise_forces(s);
     }
+    if (s->prm.extrema[0] != 0.0)
+        mesh_summarise_extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);
     const double steps = r->step > 0 ? (double)r->step : 1.0, cells = (double)s->m->computed;
     summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);

@@ -101,6 +101,13 @@ void mesh_exact_average(const struct mesh_flow *s, const struct mesh_part *p, co
 void mesh_exact_at(const struct mesh_flow *s, const double *x, double t, double *u, double *p,
                    double *w);
 
+/* mesh_errors.c: this rank's share of the value at a place, of the finest block there; q NULL:
+ * pressure. width 2: linear, 4: cubic from averages. */
+double mesh_value_at(const struct mesh_flow *s, const struct overset *o, const double *x, int width,
+                     const double *q);
+/* fv_lines.c: extrema on the centre lines of the domain into the summary. */
+void mesh_summarise_extrema(const struct mesh_flow *s);
+
 /* mesh_io.c, mesh_errors.c: what fv.c calls */
 void mesh_describe(const struct run *r);
 int mesh_columns(const struct run *r, const char **columns);

@@ -9,11 +9,14 @@
 #include "../common/mem.h"
 #include "mesh_file.h"
 
-/* x(s) = c + K sinh(B (s - s0)) from min to max, finest at c: s in [0, 1]. */
+/* x(s) = c + K sinh(B (s - s0)) from min to max, finest at c: s in [0, 1]. B < 0: by a tanh, finest
+ * at both ends. */
 static double focused(double min, double max, double c, double B, double s)
 {
-    if (B <= 0.0)
+    if (B == 0.0)
         return min + s * (max - min);
+    if (B < 0.0)
+        return 0.5 * (min + max) + 0.5 * (max - min) * tanh(B * (2.0 * s - 1.0)) / tanh(B);
     const double f = fmin(fmax((c - min) / (max - min), 0.0), 1.0);
     const double s0 = 0.5 / B * log((1.0 + (exp(B) - 1.0) * f) / (1.0 + (exp(-B) - 1.0) * f));
     const double K = (max - min) / (sinh(B * (1.0 - s0)) + sinh(B * s0));

@@ -20,7 +20,7 @@ const struct param mesh_rows_of[MESH_ROWS] = {
     PARAM(P, centre,   "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "of the rotation, of a ring, of the spin of walls"),
     PARAM(P, angle,    "degrees", "0.0", -360, 360, "rotation about the z axis through the centre"),
     PARAM(P, focus,    "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "stretched: place of the finest cells, before the rotation"),
-    PARAM(P, stretch,  "-", "(0.0, 0.0, 0.0)", 0, 20, "stretched: strength in each direction, ring: the first one outwards; 0: uniform"),
+    PARAM(P, stretch,  "-", "(0.0, 0.0, 0.0)", -5, 20, "stretched: strength in each direction, ring: the first one outwards; 0: uniform; < 0: finer towards both ends (a tanh), whatever the focus"),
     PARAM(P, radius,   "m", "(0.5, 1.0)", 0, 1e9, "ring: inner, outer"),
     PARAM(P, arc,      "degrees", "(0.0, 360.0)", -720, 720, "ring: first and last angle"),
     PARAM(P, shear,    "-", "0.0", -10, 10, "sheared: dx/dy"),
@@ -34,6 +34,7 @@ const struct param mesh_rows_of[MESH_ROWS] = {
     CHOICE(P, k_min, SIDES, "overlap", "the same along k"),
     CHOICE(P, k_max, SIDES, "overlap", "the same along k"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls along themselves, of its inflow"),
+    CHOICE(P, lid, "all|i_min|i_max|j_min|j_max|k_min|k_max", "all", "the only one of its walls that has the velocity"),
     PARAM(P, spin,     "rad/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls i_min and i_max about the centre"),
 };
 /* clang-format on */
@@ -57,6 +58,24 @@ void mesh_fault(const struct run *r, struct faults *f, int block, const char *ke
     params_fault(r->params, f, path, "block \"%s\": %s", mesh_given[block].name, text);
 }
 
+/* A lid is a wall, and slides along itself. */
+static void check_lid(const struct run *r, struct faults *f, int k)
+{
+    const struct mesh_block_params *b = mesh_given + k;
+    const int kind[6] = {b->i_min, b->i_max, b->j_min, b->j_max, b->k_min, b->k_max};
+    const int side = b->lid - 1, a = side / 2;
+    if (b->lid == 0)
+        return;
+    if (a >= r->scene.domain.dim || kind[side] != MESH_WALL)
+        mesh_fault(r, f, k, "lid", "this side is no wall");
+    else if (b->velocity[0] == 0.0 && b->velocity[1] == 0.0 && b->velocity[2] == 0.0)
+        mesh_fault(r, f, k, "velocity", "the velocity of the lid is wanted");
+    else if (b->velocity[a] != 0.0 && b->angle == 0.0 &&
+             (b->mapping == MAPPING_BOX || b->mapping == MAPPING_STRETCHED))
+        mesh_fault(r, f, k, "velocity", "the lid moves along itself: no component along %c",
+                   "xyz"[a]);
+}
+
 /* Kinds of sides that the dimension has. */
 static void check_block(const struct run *r, struct faults *f, int k)
 {
@@ -76,6 +95,10 @@ static void check_block(const struct run *r, struct faults *f, int k)
         mesh_fault(r, f, k, "arc", "first < last is wanted");
     if (b->mapping == MAPPING_FILE && !*b->file)
         mesh_fault(r, f, k, "file", "the name of the file with the vertices is wanted");
+    if (b->mapping != MAPPING_STRETCHED && b->mapping != MAPPING_ANNULUS &&
+        (b->stretch[0] != 0.0 || b->stretch[1] != 0.0 || b->stretch[2] != 0.0))
+        mesh_fault(r, f, k, "stretch", "only the mappings stretched and annulus know it");
+    check_lid(r, f, k);
 }
 
 void mesh_check(const struct run *r, struct faults *f)

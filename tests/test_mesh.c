@@ -153,6 +153,108 @@ static void waves_and_joints_keep_order_three_and_a_half(void **state)
     assert_close(f[0] / e[0][0], 1.0, 0.02);
 }
 
+/* Couette flow between a lid and a wall, on cells finer at both: a straight profile, and a steady
+ * stress; all walls moving alike: everything moves. */
+static void a_lid_is_one_wall_alone(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{ name = \"a\"; mapping = \"stretched\"; cells = (8, 24); stretch = (0.0, -2.0); "
+        "velocity = (0.5, 0.0); %s i_min = \"periodic\"; i_max = \"periodic\"; j_min = "
+        "\"wall\"; j_max = \"wall\"; }";
+    char block[512];
+    for (int k = 0; k < 3; k++) {
+        const char *const lid[] = {"lid = \"j_max\";", "lid = \"j_min\";", ""};
+        const double slope[] = {0.5, -0.5, 0.0}, start[] = {0.0, 0.5, 0.5};
+        struct mesh_case c;
+        double worst = 0.0;
+        snprintf(block, sizeof block, text, lid[k]);
+        struct mesh_flow *s =
+            mesh_case_start(&c, MPI_COMM_WORLD, block,
+                            (const char *const[]){"initial.field=\"rest\"", "fluid.nu=0.5",
+                                                  "domain.periodic=(true,false)", NULL});
+        assert_true(mesh_case_run(s, 100000, 8.0));
+        const struct mesh_block *b = s->m->block;
+        const double *x = b->x[mesh_vertex(b, 0, 0, 0)];
+        const double first = b->x[mesh_vertex(b, 0, 1, 0)][1] - x[1];
+        const double last = b->x[mesh_vertex(b, 0, 24, 0)][1] - b->x[mesh_vertex(b, 0, 23, 0)][1];
+        const double middle = b->x[mesh_vertex(b, 0, 13, 0)][1] - b->x[mesh_vertex(b, 0, 12, 0)][1];
+        assert_close(first, last, 1e-12);
+        assert_true(middle > 3.0 * first);
+        for (int q = 0; q < s->m->nparts; q++) {
+            const struct mesh_part *p = s->m->part + q;
+            for (int j = 0; j < p->n[1]; j++) {
+                const int at[3] = {0, p->lo[1] + j, 0};
+                const double y =
+                    (4.0 * b->centre[mesh_cell(b, at)][1] + b->x[mesh_vertex(b, 0, at[1], 0)][1] +
+                     b->x[mesh_vertex(b, 0, at[1] + 1, 0)][1]) /
+                    6.0; /* average over the index */
+                worst = fmax(worst, fabs(s->u[0][part_at(p, 0, j, 0)] - start[k] - slope[k] * y));
+            }
+        }
+        MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+        print_message("lid %d: %.2e\n", k, worst);
+        assert_true(worst < 2e-4);
+        mesh_case_end(&c, &s);
+    }
+}
+
+/* Two blocks joined in the middle of a gap, each with its wall and that wall's own velocity; two
+ * rings joined likewise, each wall with its spin. */
+static void walls_of_blocks_move_on_their_own(void **state)
+{
+    (void)state;
+    struct mesh_case c;
+    double worst = 0.0;
+    struct mesh_flow *s = mesh_case_start(
+        &c, MPI_COMM_WORLD,
+        "{ name = \"low\"; cells = (8, 8); max = (1.0, 0.5); velocity = (-0.25, 0.0); i_min = "
+        "\"periodic\"; i_max = \"periodic\"; j_min = \"wall\"; j_max = \"joined\"; }, "
+        "{ name = \"high\"; cells = (8, 8); min = (0.0, 0.5); velocity = (0.75, 0.0); i_min = "
+        "\"periodic\"; i_max = \"periodic\"; j_min = \"joined\"; j_max = \"wall\"; }",
+        (const char *const[]){"initial.field=\"rest\"", "fluid.nu=0.5",
+                              "domain.periodic=(true,false)", NULL});
+    assert_true(mesh_case_run(s, 100000, 8.0));
+    for (int q = 0; q < s->m->nparts; q++) {
+        const struct mesh_part *p = s->m->part + q;
+        for (int j = 0; j < p->n[1]; j++) {
+            const double y = (p->lo[1] + j + 0.5) / 16.0 + 0.5 * p->block;
+            worst = fmax(worst, fabs(s->u[0][part_at(p, 0, j, 0)] + 0.25 - y));
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    mesh_case_end(&c, &s);
+    print_message("two walls: %.2e\n", worst);
+    assert_true(worst < 2e-4);
+    s = mesh_case_start(
+        &c, MPI_COMM_WORLD,
+        "{ name = \"in\"; mapping = \"annulus\"; cells = (8, 40); radius = (0.5, 0.75); spin = "
+        "(2.0, 0.0); i_min = \"wall\"; i_max = \"joined\"; j_min = \"joined\"; j_max = "
+        "\"joined\"; }, "
+        "{ name = \"out\"; mapping = \"annulus\"; cells = (8, 40); radius = (0.75, 1.0); spin = "
+        "(0.0, -0.5); i_min = \"joined\"; i_max = \"wall\"; j_min = \"joined\"; j_max = "
+        "\"joined\"; }",
+        (const char *const[]){"initial.field=\"rest\"", "fluid.nu=0.5",
+                              "domain.periodic=(false,false)", NULL});
+    assert_true(mesh_case_run(s, 100000, 2.0));
+    worst = 0.0;
+    for (int q = 0; q < s->m->nparts; q++) {
+        const struct mesh_part *p = s->m->part + q;
+        for (int i = 0; i < p->n[0]; i++) {
+            const int at[3] = {p->lo[0] + i, p->lo[1], 0};
+            const struct mesh_block *b = s->m->block + p->block;
+            const double *x = b->centre[mesh_cell(b, at)], r = hypot(x[0], x[1]);
+            const double exact = -4.0 / 3.0 * r + 2.5 / 3.0 / r; /* A r + B/r */
+            const int64_t m = part_at(p, i, 0, 0);
+            worst = fmax(worst, fabs((s->u[1][m] * x[0] - s->u[0][m] * x[1]) / r - exact));
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    mesh_case_end(&c, &s);
+    print_message("two rings: %.2e\n", worst);
+    assert_true(worst < 3e-3); /* an average is compared with a value */
+}
+
 /* The same flow as fv.cells makes it: one uniform block. */
 static void one_uniform_block_is_the_plain_solver(void **state)
 {
@@ -290,6 +392,14 @@ static void faults_are_told(void **state)
     finds("{ name = \"a\"; cells = (8, 8); }", "orphan");
     finds("{ name = \"a\"; mapping = \"file\"; file = \"nowhere.xyz\"; }", "nowhere.xyz");
     finds("{ name = \"a\"; cells = (2, 8); " PERIODIC " }", "at least 6");
+    finds("{ name = \"a\"; cells = (8, 8); lid = \"j_max\"; " PERIODIC " }", "no wall");
+    finds("{ name = \"a\"; cells = (8, 8); stretch = (-1.0, 0.0); " PERIODIC " }", "only the map");
+    finds("{ name = \"a\"; cells = (8, 8); lid = \"i_max\"; i_max = \"wall\"; i_min = "
+          "\"wall\"; j_min = \"wall\"; j_max = \"wall\"; }",
+          "velocity of the lid");
+    finds("{ name = \"a\"; cells = (8, 8); lid = \"i_max\"; velocity = (1.0, 0.0); i_max = "
+          "\"wall\"; i_min = \"wall\"; j_min = \"wall\"; j_max = \"wall\"; }",
+          "along itself");
 }
 
 /* Writes a waving block as Plot3D or HDF5, by rank 0. */
@@ -366,6 +476,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_uniform_flow_stays),
         cmocka_unit_test(ring_flow_has_order_three_and_a_half),
         cmocka_unit_test(waves_and_joints_keep_order_three_and_a_half),
+        cmocka_unit_test(a_lid_is_one_wall_alone),
+        cmocka_unit_test(walls_of_blocks_move_on_their_own),
         cmocka_unit_test(one_uniform_block_is_the_plain_solver),
         cmocka_unit_test(ranks_agree),
         cmocka_unit_test(restart_is_exact),
