@@ -257,7 +257,9 @@ void zones_gauge(struct sph *s)
     z->gauge = -10.0 * g * sum * s->dx / (openings_faces(o) * s->dxD);
 }
 
-/* P <- a P_out + (1-a) P, u likewise [6.7-6.8]; a = depth into the transition over its width. */
+/* P <- a P_out + (1-a) P, u likewise [6.7-6.8]; a = depth into the transition over its width, cubed
+ * for P, its cube root for u. A partner that knows u and P well answers to errors of u by 0.5, to
+ * those of P by more than 1 (coupler/README.md): u leads. */
 void zones_blend(struct sph *s)
 {
     struct zones *z = s->zones;
@@ -269,10 +271,11 @@ void zones_blend(struct sph *s)
         double *y = s->p.y + (size_t)i * s->p.nstate, u[3];
         const double in = (zones_depth(s, y) - z->buffer) / z->transition;
         const double alpha = fmin(fmax(1.0 - in, 0.0), 1.0), m = y[2 * dim + 1];
+        const double of_u = cbrt(alpha), of_p = alpha * alpha * alpha;
         const double p = eos_p(m / y[2 * dim], s->rho0, s->c0, s->gamma);
         for (int a = 0; a < dim; a++)
-            u[a] = alpha * z->u[dim * k + a] + (1.0 - alpha) * y[dim + a] / m;
-        impose(s, i, u, eos_rho(alpha * z->p[k] + (1.0 - alpha) * p, s->rho0, s->c0, s->gamma));
+            u[a] = of_u * z->u[dim * k + a] + (1.0 - of_u) * y[dim + a] / m;
+        impose(s, i, u, eos_rho(of_p * z->p[k] + (1.0 - of_p) * p, s->rho0, s->c0, s->gamma));
         z->blended += y[2 * dim + 1] - m;
     }
 }
