@@ -257,12 +257,13 @@ void zones_gauge(struct sph *s)
     z->gauge = -10.0 * g * sum * s->dx / (openings_faces(o) * s->dxD);
 }
 
-/* P <- a P_out + (1-a) P, u likewise [6.7-6.8]; a = depth into the transition over its width, cubed
- * for P, its cube root for u. A partner that knows u and P well answers to errors of u by 0.5, to
- * those of P by more than 1 (coupler/README.md): u leads. */
+/* P <- a P_out + (1-a) P, u likewise [6.7-6.8]; a = depth into the transition over its width; with
+ * a partner cubed for P, its cube root for u: it answers to errors of u by 0.5, to those of P by
+ * more than 1 (coupler/README.md), so u leads. Where sound must leave, both go together. */
 void zones_blend(struct sph *s)
 {
     struct zones *z = s->zones;
+    const bool leads = s->prm.outer == OUTER_PARTNER;
     const int dim = s->dim;
     gather(s, ZONE_TRANSITION);
     zones_look(z, s->t, false);
@@ -271,7 +272,8 @@ void zones_blend(struct sph *s)
         double *y = s->p.y + (size_t)i * s->p.nstate, u[3];
         const double in = (zones_depth(s, y) - z->buffer) / z->transition;
         const double alpha = fmin(fmax(1.0 - in, 0.0), 1.0), m = y[2 * dim + 1];
-        const double of_u = cbrt(alpha), of_p = alpha * alpha * alpha;
+        const double of_u = leads ? cbrt(alpha) : alpha,
+                     of_p = leads ? alpha * alpha * alpha : alpha;
         const double p = eos_p(m / y[2 * dim], s->rho0, s->c0, s->gamma);
         for (int a = 0; a < dim; a++)
             u[a] = of_u * z->u[dim * k + a] + (1.0 - of_u) * y[dim + a] / m;
