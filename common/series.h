@@ -18,6 +18,9 @@ struct summary;
 struct summary *summary_create(void);
 void summary_free(struct summary **s);
 void summary_real(struct summary *s, const char *key, double v); /* non-finite: null */
+/* Least u, largest and least v on a cavity's centre lines, and their largest relative deviation
+ * from the known ones. */
+void summary_extrema(struct summary *s, const double found[3], const double known[3]);
 void summary_int(struct summary *s, const char *key, long long v);
 void summary_bool(struct summary *s, const char *key, bool v);
 void summary_text(struct summary *s, const char *key, const char *v);

@@ -173,6 +173,17 @@ static void print_object(FILE *f, const struct summary *s, const char *prefix, i
     fprintf(f, "\n%*s}", 2 * depth, "");
 }
 
+void summary_extrema(struct summary *s, const double found[3], const double known[3])
+{
+    static const char *const names[3] = {"extrema.u_min", "extrema.v_max", "extrema.v_min"};
+    double worst = 0.0;
+    for (int k = 0; k < 3; k++) {
+        summary_real(s, names[k], found[k]);
+        worst = fmax(worst, fabs(found[k] / known[k] - 1.0));
+    }
+    summary_real(s, "error.extrema", worst);
+}
+
 void summary_write(const struct summary *s, const char *path)
 {
     char part[1200];

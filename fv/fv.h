@@ -122,6 +122,13 @@ double fv_still_pressure(const struct fv *s, const double *x);
 /* The part of it that the exact solution's pressure holds, too: all of it in a wave, else 0. */
 double fv_still_in_exact(const struct fv *s, const double *x);
 
+/* still.c: along a periodic axis gravity drives the flow; across closed sides the pressure takes it
+ * up, 0 at the height `level'. */
+void still_split(const struct scene *scene, double drive[3], double still[3], double *level);
+/* That pressure at x, Pa. */
+double still_pressure(const struct scene *scene, const double still[3], double level,
+                      const double *x);
+
 /* fv_step.c: one step towards t_stop, see program.step; d is filled when the state cannot be
  * trusted. */
 double integrate(struct fv *s, double t_stop, struct diagnosis *d);
@@ -131,6 +138,8 @@ double fv_speed(const struct fv *s, int a);
 void measure(struct fv *s);
 
 /* fv_io.c, fv_errors.c */
+/* Errors of velocity, pressure, vorticity into the summary. */
+void fv_summarise_norms(const struct run *r, const struct norm n[3]);
 void fv_vorticity(const struct fv *s,
                   double *w); /* dv/dx - du/dy, all local cells (with ghosts' layout) */
 void fv_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);

@@ -200,22 +200,31 @@ void fv_row(void *state, double *values)
 
 static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
 
+void fv_summarise_norms(const struct run *r, const struct norm n[3])
+{
+    const double U = r->scene.initial.U;
+    summary_real(r->summary, "error.velocity_l2", norm_relative_l2(n));
+    summary_real(r->summary, "error.velocity_linf", n[0].emax / U);
+    if (n[1].r2 > 0.0)
+        summary_real(r->summary, "error.pressure_l2",
+                     norm_rms_mean_free(n + 1) / sqrt(n[1].r2 / n[1].vol));
+    summary_real(r->summary, "error.pressure_rms",
+                 norm_rms_mean_free(n + 1) / (r->scene.fluid.rho * U * U));
+    if (n[2].r2 > 0.0)
+        summary_real(r->summary, "error.vorticity_l2", norm_relative_l2(n + 2));
+}
+
 static void summarise_errors(const struct fv *s)
 {
-    struct summary *to = s->run->summary;
+    const struct run *r = s->run;
+    const double U = r->scene.initial.U;
     struct norm n[NORMS];
-    const double U = s->run->scene.initial.U, scale = s->run->scene.fluid.rho * U * U;
     errors(s, n);
-    summary_real(to, "error.velocity_l2", norm_relative_l2(n));
-    summary_real(to, "error.velocity_linf", n[0].emax / U);
-    if (n[1].r2 > 0.0)
-        summary_real(to, "error.pressure_l2", norm_rms_mean_free(n + 1) / sqrt(n[1].r2 / n[1].vol));
-    summary_real(to, "error.pressure_rms", norm_rms_mean_free(n + 1) / scale);
-    summary_real(to, "error.pressure_offset", norm_mean(n + 1) / scale);
-    if (n[2].r2 > 0.0)
-        summary_real(to, "error.vorticity_l2", norm_relative_l2(n + 2));
-    for (int k = 0; s->run->coupled && k < NORMS; k++)
-        norm_tell(to, norm_names[k], n + k);
+    fv_summarise_norms(r, n);
+    summary_real(r->summary, "error.pressure_offset",
+                 norm_mean(n + 1) / (r->scene.fluid.rho * U * U));
+    for (int k = 0; r->coupled && k < NORMS; k++)
+        norm_tell(r->summary, norm_names[k], n + k);
 }
 
 static void summarise_newton(const struct newton *w, double steps, struct summary *to)

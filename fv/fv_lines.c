@@ -62,25 +62,13 @@ static double extremum(const double *line, int n, double sign)
     return sign * best;
 }
 
-/* Least u, largest and least v, against the known ones. */
-static void summarise(struct summary *to, const double *found, const double *known)
-{
-    static const char *const names[3] = {"extrema.u_min", "extrema.v_max", "extrema.v_min"};
-    double worst = 0.0;
-    for (int k = 0; k < 3; k++) {
-        summary_real(to, names[k], found[k]);
-        worst = fmax(worst, fabs(found[k] / known[k] - 1.0));
-    }
-    summary_real(to, "error.extrema", worst);
-}
-
 void fv_summarise_extrema(const struct fv *s)
 {
     double *const lines[2] = {line_of(s, 0, 0), line_of(s, 1, 1)};
     const double found[3] = {extremum(lines[0], s->b.cells[1], -1.0),
                              extremum(lines[1], s->b.cells[0], 1.0),
                              extremum(lines[1], s->b.cells[0], -1.0)};
-    summarise(s->run->summary, found, s->prm.extrema);
+    summary_extrema(s->run->summary, found, s->prm.extrema);
     mem_free(lines[0]);
     mem_free(lines[1]);
 }
@@ -114,6 +102,6 @@ void mesh_summarise_extrema(const struct mesh_flow *s)
     double u[2], v[2];
     search_line(s, o, 0, u);
     search_line(s, o, 1, v);
-    summarise(s->run->summary, (const double[]){u[0], v[1], v[0]}, s->prm.extrema);
+    summary_extrema(s->run->summary, (const double[]){u[0], v[1], v[0]}, s->prm.extrema);
     overset_free(&o);
 }

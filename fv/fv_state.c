@@ -132,23 +132,6 @@ void fv_start(struct fv *s)
         pressure_start(s);
 }
 
-/* Along a periodic axis gravity drives the flow; across closed sides the pressure takes it up. */
-static void split_gravity(struct fv *s)
-{
-    const struct scene *scene = &s->run->scene;
-    double g = 0.0, top = 0.0;
-    for (int a = 0; a < scene->domain.dim; a++) {
-        const double ga = scene->fluid.gravity[a];
-        s->drive[a] = scene->domain.periodic[a] ? ga : 0.0;
-        s->still[a] = ga - s->drive[a];
-        g += s->still[a] * s->still[a];
-        top -= s->still[a] * (s->still[a] > 0.0 ? scene->domain.min[a] : scene->domain.max[a]);
-    }
-    s->level = scene->initial.level < LEVEL_TOP ? scene->initial.level
-               : g > 0.0                        ? top / sqrt(g)
-                                                : 0.0;
-}
-
 /* Pressures at outflows drive a flow from rest as gently as they would later: p of the start is
  * their mean, then what goes with the velocities. */
 static void meet_pressures(struct fv *s)
@@ -182,7 +165,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     s->bc = bc_create(s);
     if (s->prm.upwind < 0.0)
         s->prm.upwind = s->bc ? 1.0 : 0.0;
-    split_gravity(s);
+    still_split(&r->scene, s->drive, s->still, &s->level);
     s->surface = surface_create(s);
     make_fields(s);
     fill(s);

@@ -156,17 +156,9 @@ void mesh_row_values(void *state, double *values)
 
 static void summarise_errors(struct mesh_flow *s)
 {
-    struct summary *to = s->run->summary;
     struct norm n[NORMS];
-    const double U = s->run->scene.initial.U, scale = s->run->scene.fluid.rho * U * U;
     errors(s, n);
-    summary_real(to, "error.velocity_l2", norm_relative_l2(n));
-    summary_real(to, "error.velocity_linf", n[0].emax / U);
-    if (n[1].r2 > 0.0)
-        summary_real(to, "error.pressure_l2", norm_rms_mean_free(n + 1) / sqrt(n[1].r2 / n[1].vol));
-    summary_real(to, "error.pressure_rms", norm_rms_mean_free(n + 1) / scale);
-    if (n[2].r2 > 0.0)
-        summary_real(to, "error.vorticity_l2", norm_relative_l2(n + 2));
+    fv_summarise_norms(s->run, n);
 }
 
 /* Mean and half range of the forces over the second half of the run, frequency of the one along y

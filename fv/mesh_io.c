@@ -77,9 +77,6 @@ static void write_field(const struct mesh_flow *s, struct h5 *f, int k, const ch
 static void whole_pressure(const struct mesh_flow *s, double *q)
 {
     const struct mesh *m = s->m;
-    double g = 0.0;
-    for (int a = 0; a < m->dim; a++)
-        g += s->still[a] * s->still[a];
     for (int r = 0; r < m->nparts; r++) {
         const struct mesh_part *p = m->part + r;
         const struct mesh_block *b = m->block + p->block;
@@ -90,10 +87,8 @@ static void whole_pressure(const struct mesh_flow *s, double *q)
                     const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
                     const double *x = b->centre[mesh_cell(b, at)];
                     const int64_t c = part_at(p, i[0], i[1], i[2]);
-                    double still = sqrt(g) * s->level;
-                    for (int a = 0; a < m->dim; a++)
-                        still += s->still[a] * x[a];
-                    q[c] = mesh_pressure_at(s, c) + s->run->scene.fluid.rho * still;
+                    q[c] = mesh_pressure_at(s, c) +
+                           still_pressure(&s->run->scene, s->still, s->level, x);
                 }
     }
 }

@@ -113,22 +113,6 @@ static void fill(struct mesh_flow *s)
     }
 }
 
-static void split_gravity(struct mesh_flow *s)
-{
-    const struct scene *scene = &s->run->scene;
-    double g = 0.0, top = 0.0;
-    for (int a = 0; a < scene->domain.dim; a++) {
-        const double ga = scene->fluid.gravity[a];
-        s->drive[a] = scene->domain.periodic[a] ? ga : 0.0;
-        s->still[a] = ga - s->drive[a];
-        g += s->still[a] * s->still[a];
-        top -= s->still[a] * (s->still[a] > 0.0 ? scene->domain.min[a] : scene->domain.max[a]);
-    }
-    s->level = scene->initial.level < LEVEL_TOP ? scene->initial.level
-               : g > 0.0                        ? top / sqrt(g)
-                                                : 0.0;
-}
-
 /* A single ring between two walls, from rest: its steady flow is known. */
 static int find_ring(const struct mesh_flow *s)
 {
@@ -163,7 +147,7 @@ struct mesh_flow *mesh_flow_create(struct run *r, struct h5 *f)
     s->has_exact = s->ring >= 0 || (exact_at_all_times(&r->scene) && sides_allow_exact(s->m));
     if (s->prm.upwind < 0.0)
         s->prm.upwind = mesh_bc_has_walls(s->m) ? 1.0 : 0.0;
-    split_gravity(s);
+    still_split(&r->scene, s->drive, s->still, &s->level);
     make_fields(s);
     fill(s);
     mesh_bc_create(s);

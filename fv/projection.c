@@ -320,12 +320,7 @@ void pressure_start(struct fv *s)
 
 double fv_still_pressure(const struct fv *s, const double *x)
 {
-    double g = 0.0, sum = 0.0;
-    for (int a = 0; a < s->b.dim; a++) {
-        g += s->still[a] * s->still[a];
-        sum += s->still[a] * x[a];
-    }
-    return s->run->scene.fluid.rho * (sqrt(g) * s->level + sum);
+    return still_pressure(&s->run->scene, s->still, s->level, x);
 }
 
 double fv_still_in_exact(const struct fv *s, const double *x)

@@ -69,17 +69,12 @@ static double extremum(const double *f, int n, double sign)
 
 void sph_summarise_extrema(const struct sph *s)
 {
-    static const char *const names[3] = {"extrema.u_min", "extrema.v_max", "extrema.v_min"};
     const int n[2] = {2 * (int)lround((s->hi[0] - s->lo[0]) / s->dx),
                       2 * (int)lround((s->hi[1] - s->lo[1]) / s->dx)};
-    double *const lines[2] = {line_of(s, 0, n[1]), line_of(s, 1, n[0])}, worst = 0.0;
+    double *const lines[2] = {line_of(s, 0, n[1]), line_of(s, 1, n[0])};
     const double found[3] = {extremum(lines[0], n[1], -1.0), extremum(lines[1], n[0], 1.0),
                              extremum(lines[1], n[0], -1.0)};
-    for (int k = 0; k < 3; k++) {
-        summary_real(s->run->summary, names[k], found[k]);
-        worst = fmax(worst, fabs(found[k] / s->prm.extrema[k] - 1.0));
-    }
-    summary_real(s->run->summary, "error.extrema", worst);
+    summary_extrema(s->run->summary, found, s->prm.extrema);
     mem_free(lines[0]);
     mem_free(lines[1]);
 }

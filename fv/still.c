@@ -1,0 +1,31 @@
+/* still.c - gravity and the pressure of water at rest, which the equations leave out.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "fv.h"
+
+#include <math.h>
+
+void still_split(const struct scene *scene, double drive[3], double still[3], double *level)
+{
+    double g = 0.0, top = 0.0;
+    for (int a = 0; a < scene->domain.dim; a++) {
+        const double ga = scene->fluid.gravity[a];
+        drive[a] = scene->domain.periodic[a] ? ga : 0.0;
+        still[a] = ga - drive[a];
+        g += still[a] * still[a];
+        top -= still[a] * (still[a] > 0.0 ? scene->domain.min[a] : scene->domain.max[a]);
+    }
+    *level = scene->initial.level < LEVEL_TOP ? scene->initial.level
+             : g > 0.0                        ? top / sqrt(g)
+                                              : 0.0;
+}
+
+double still_pressure(const struct scene *scene, const double still[3], double level,
+                      const double *x)
+{
+    double g = 0.0, sum = 0.0;
+    for (int a = 0; a < scene->domain.dim; a++) {
+        g += still[a] * still[a];
+        sum += still[a] * x[a];
+    }
+    return scene->fluid.rho * (sqrt(g) * level + sum);
+}
