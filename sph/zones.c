@@ -147,14 +147,26 @@ void zones_look(struct zones *z, double t, bool gradients)
         z->p[k] += z->gauge;
 }
 
-double zones_depth(const struct sph *s, const double *x)
+/* Depth of x below the nearest open side; which one that is. */
+static double depth_below(const struct sph *s, const double *x, int *nearest)
 {
     double d = INFINITY;
-    for (int a = 0; a < s->dim; a++) {
-        d = s->open[2 * a] ? fmin(d, x[a] - s->lo[a]) : d;
-        d = s->open[2 * a + 1] ? fmin(d, s->hi[a] - x[a]) : d;
+    *nearest = 0;
+    for (int side = 0; side < 2 * s->dim; side++) {
+        const int a = side / 2;
+        const double below = side % 2 ? s->hi[a] - x[a] : x[a] - s->lo[a];
+        if (s->open[side] && below < d) {
+            d = below;
+            *nearest = side;
+        }
     }
     return d;
+}
+
+double zones_depth(const struct sph *s, const double *x)
+{
+    int side;
+    return depth_below(s, x, &side);
 }
 
 void zones_mark(struct sph *s)
@@ -257,27 +269,39 @@ void zones_gauge(struct sph *s)
     z->gauge = -10.0 * g * sum * s->dx / (openings_faces(o) * s->dxD);
 }
 
-/* P <- a P_out + (1-a) P, u likewise [6.7-6.8]; a = depth into the transition over its width; with
- * a partner cubed for P, its cube root for u: it answers to errors of u by 0.5, to those of P by
- * more than 1 (coupler/README.md), so u leads. Where sound must leave, both go together. */
+/* Draws the state of particle k of the list to the flow outside by alpha; p in Pa, u in m/s. */
+static void draw(const struct sph *s, int k, int side, double alpha, double *p, double u[3])
+{
+    const struct zones *z = s->zones;
+    const int dim = s->dim, n = side / 2;
+    const double Z = (side % 2 ? 1.0 : -1.0) * s->rho0 * s->c0;
+    const double entering = z->p[k] - *p - Z * (z->u[dim * k + n] - u[n]);
+    for (int a = 0; a < dim; a++)
+        u[a] += a == n ? -0.5 * alpha * entering / Z : alpha * (z->u[dim * k + a] - u[a]);
+    *p += 0.5 * alpha * entering;
+}
+
+/* Of u along the sides u <- a u_out + (1-a) u [6.8], a = depth into the transition over its width;
+ * across them and of P only what enters, P - rho c u.n, n outwards: P + rho c u.n leaves as SPH
+ * made it. To blend both as in [6.7] lets the coupled programs feed vorticity, or damp
+ * (coupler/README.md). */
 void zones_blend(struct sph *s)
 {
     struct zones *z = s->zones;
-    const bool leads = s->prm.outer == OUTER_PARTNER;
     const int dim = s->dim;
     gather(s, ZONE_TRANSITION);
     zones_look(z, s->t, false);
     for (int k = 0; k < z->n; k++) {
         const int i = z->who[k];
         double *y = s->p.y + (size_t)i * s->p.nstate, u[3];
-        const double in = (zones_depth(s, y) - z->buffer) / z->transition;
+        int side;
+        const double in = (depth_below(s, y, &side) - z->buffer) / z->transition;
         const double alpha = fmin(fmax(1.0 - in, 0.0), 1.0), m = y[2 * dim + 1];
-        const double of_u = leads ? cbrt(alpha) : alpha,
-                     of_p = leads ? alpha * alpha * alpha : alpha;
-        const double p = eos_p(m / y[2 * dim], s->rho0, s->c0, s->gamma);
+        double p = eos_p(m / y[2 * dim], s->rho0, s->c0, s->gamma);
         for (int a = 0; a < dim; a++)
-            u[a] = of_u * z->u[dim * k + a] + (1.0 - of_u) * y[dim + a] / m;
-        impose(s, i, u, eos_rho(of_p * z->p[k] + (1.0 - of_p) * p, s->rho0, s->c0, s->gamma));
+            u[a] = y[dim + a] / m;
+        draw(s, k, side, alpha, &p, u);
+        impose(s, i, u, eos_rho(p, s->rho0, s->c0, s->gamma));
         z->blended += y[2 * dim + 1] - m;
     }
 }
