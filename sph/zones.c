@@ -1,6 +1,7 @@
 /* zones.c - what the flow outside imposes: buffer at every stage, transition after every step.
- * Equations [6.x] of Chiron 2017; in ALE form the volume w stays a particle's own (it follows the
- * packing) and its mass is reset to rho w, so that pressure and volume never drift apart.
+ * Equations [6.x] of Chiron 2017. Where pairs exchange mass (ALE) the volume w stays a particle's
+ * own and follows the packing; its mass is reset to rho w. Else its mass stays and w is reset:
+ * nothing else would hold w to the packing for as long as the particle is in the zone.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "zones.h"
 
@@ -201,15 +202,17 @@ static void gather(struct sph *s, enum sph_zone zone)
             take(s, i);
 }
 
-/* Imposes u, rho at fixed w. */
+/* Imposes u and rho: at fixed w where pairs exchange mass, else at fixed m. */
 static void impose(struct sph *s, int i, const double *u, double rho)
 {
     double *y = s->p.y + (size_t)i * s->p.nstate;
     const int dim = s->dim;
-    const double m = rho * y[2 * dim];
+    if (s->prm.scheme == SCHEME_RIEMANN_ALE)
+        y[2 * dim + 1] = rho * y[2 * dim];
+    else
+        y[2 * dim] = y[2 * dim + 1] / rho;
     for (int a = 0; a < dim; a++)
-        y[dim + a] = m * u[a];
-    y[2 * dim + 1] = m;
+        y[dim + a] = y[2 * dim + 1] * u[a];
 }
 
 void zones_stage(struct sph *s)
