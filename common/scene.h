@@ -111,6 +111,7 @@ struct scene {
         double buffer;     /* m; 0: 1.25 R */
         double overlap;    /* m; 0: 1.25 R: of the free zone, outside the forced cells */
         int memory;        /* windows over which FV's pressure is smoothed */
+        bool keep_mass;    /* what SPH's part gained goes out by the openings; without a surface */
         int mapping;       /* 0 shepard, 1 mls: particles to forced cells */
         int interpolation; /* 0 linear, 1 cubic: patch to particles */
         double deadline;   /* s to meet the other programs */

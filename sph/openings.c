@@ -69,6 +69,13 @@ double openings_held(const struct sph *s)
     return sum;
 }
 
+void openings_let_out(struct openings *o, double mass)
+{
+    const int n = openings_faces(o);
+    for (int f = 0; f < n; f++)
+        o->mass[f] -= mass / n;
+}
+
 /* Face of a side at lattice indices I (that of the side's axis does not matter); indices of bounded
  * axes are clamped, of periodic ones wrapped. */
 static int face_at(const struct openings *o, int side, const int *I)

@@ -39,6 +39,8 @@ void openings_ghost_lines(struct sph *s);
 /* Where the lattice behind each face stands, from the booked masses (after a restart, too). */
 void openings_place_lattice(struct sph *s);
 int openings_faces(const struct openings *o);
+/* Takes mass (kg) from all faces alike; the same on all ranks. */
+void openings_let_out(struct openings *o, double mass);
 /* kg: booked by all faces; the same on all ranks. */
 double openings_held(const struct sph *s);
 

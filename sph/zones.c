@@ -252,24 +252,33 @@ void zones_slopes(struct sph *s)
     }
 }
 
-/* What the region holds beyond its start and what has flown in: blending sets pressures, and so
- * makes mass where volumes change. Under a free surface that raises or lowers the level. A partner
- * of constant density knows its pressure up to a constant: the one that keeps the mass is taken,
- * ten times the weight of the missing layer. */
+/* kg: what the region and its faces hold beyond the start. Collective. */
+static double gained(const struct sph *s)
+{
+    double sum = 0.0;
+    for (int i = 0; i < s->p.n; i++)
+        sum += s->p.y[(size_t)i * s->p.nstate + 2 * s->dim + 1];
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sum + openings_held(s) - s->mass0;
+}
+
+/* A full box holds what it held at the start: volumes in the zones do not know it, and what they
+ * gained goes out by the faces. Under a free surface mass goes in and out with the waves; what is
+ * beyond that raises or lowers the level. A partner of constant density knows its pressure up to a
+ * constant: the one that keeps the mass is taken, ten times the weight of the missing layer. */
 void zones_gauge(struct sph *s)
 {
     struct zones *z = s->zones;
     const double *G = s->gravity, g = sqrt(G[0] * G[0] + G[1] * G[1] + G[2] * G[2]);
-    const struct openings *o = z->openings;
-    double sum = -o->inflow;
+    struct openings *o = z->openings;
+    double inflow;
     z->gauge = 0.0;
+    if (!s->surface && s->run->scene.coupling.keep_mass)
+        openings_let_out(o, gained(s));
     if (!s->surface || g == 0.0)
         return;
-    for (int i = 0; i < s->p.n; i++)
-        sum += s->p.y[(size_t)i * s->p.nstate + 2 * s->dim + 1];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    sum += openings_held(s) - s->mass0;
-    z->gauge = -10.0 * g * sum * s->dx / (openings_faces(o) * s->dxD);
+    MPI_Allreduce(&o->inflow, &inflow, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    z->gauge = -10.0 * g * (gained(s) - inflow) * s->dx / (openings_faces(o) * s->dxD);
 }
 
 /* Draws the state of particle k of the list to the flow outside by alpha; p in Pa, u in m/s. */

@@ -47,7 +47,8 @@ void zones_stage(struct sph *s);
 /* After the gradients of a stage: buffer slopes from outside; transport shift near the open sides.
  */
 void zones_slopes(struct sph *s);
-/* Sets the gauge by the mass of the region. Collective. */
+/* At an exchange with a partner: sets the gauge by the mass of the region under a surface, else
+ * lets out what it gained. Collective. */
 void zones_gauge(struct sph *s);
 /* After the RK cycle: transition particles are blended with the outside [6.7-6.8]. */
 void zones_blend(struct sph *s);
