@@ -32,10 +32,13 @@ static void set_layer(struct exact *e, const struct scene *s)
     const struct scene_domain *d = &s->domain;
     const double level = s->initial.level < LEVEL_TOP ? s->initial.level : d->max[1];
     e->bottom = d->min[1];
-    e->height = (e->field == FIELD_STANDING_WAVE ? level : d->max[1]) - d->min[1];
+    e->height = (scene_has_wave(s) ? level : d->max[1]) - d->min[1];
     if (e->field == FIELD_STANDING_WAVE)
         e->wave = wave_create(e->height, s->initial.L, -s->fluid.gravity[1], e->nu, e->rho,
                               s->initial.amplitude);
+    if (e->field == FIELD_STOKES)
+        e->stokes =
+            stokes_create(s->initial.L, -s->fluid.gravity[1], e->rho, s->initial.amplitude);
 }
 
 struct exact exact_create(const struct scene *s)
@@ -136,6 +139,8 @@ static void other_point(const struct exact *e, const double *x, double t, double
     u[0] = u[1] = u[2] = *p = *w = 0.0;
     if (e->field == FIELD_STANDING_WAVE) {
         wave_point(&e->wave, x[0], x[1] - e->bottom - e->height, t, u, p, w);
+    } else if (e->field == FIELD_STOKES) {
+        stokes_point(&e->stokes, x[0], x[1] - e->bottom - e->height, u, p);
     } else if (e->field == FIELD_PATCH) { /* clockwise */
         u[0] = rate * x[1];
         u[1] = -rate * x[0];
@@ -189,6 +194,12 @@ bool exact_oscillation(const struct exact *e, double *period, double *rate)
         return true;
     }
     return false;
+}
+
+double exact_surface(const struct exact *e, double x)
+{
+    return e->bottom + e->height +
+           (e->field == FIELD_STOKES ? stokes_eta(&e->stokes, x) : 0.0);
 }
 
 double exact_signal(const struct exact *e, const double *x, const double *u)

@@ -6,13 +6,14 @@
  * eqs. 6.15-6.18) is the sum of k = 2 pi/L (1,-1) and (1,1); two_modes is (1,2) and (-2,1).
  * In 3D the field is the same for all z. beltrami: the flow of Arnold, Beltrami and Childress (A =
  * B = C = U). Others: Poiseuille and Couette flow from rest between the y sides, the standing wave
- * of wave.h, and two that are exact at t = 0 only: the rotating square patch and the disc under a
- * central force (Monaghan & Rafiee 2013). SPDX-License-Identifier: BSD-3-Clause */
+ * of wave.h, and three that are exact at t = 0 only: the rotating square patch, the disc under a
+ * central force (Monaghan & Rafiee 2013) and the steep wave of stokes.h. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_EXACT_H
 #define COMMON_EXACT_H
 
 #include "scene.h"
 #include "series.h"
+#include "stokes.h"
 #include "wave.h"
 
 struct exact {
@@ -28,6 +29,7 @@ struct exact {
     double bottom, height; /* m: of a channel along x; of the still layer of a wave */
     double force;          /* m/s^2: along the channel */
     struct wave wave;
+    struct stokes stokes;
 };
 
 /* Whether the scene's field solves the equations at all times, not only at the start. */
@@ -37,6 +39,8 @@ struct exact exact_create(const struct scene *s);
 /* Period (s) and rate of decay (1/s, < 0) of a standing wave or of the drop (rate 0: inviscid);
  * false for other fields. */
 bool exact_oscillation(const struct exact *e, double *period, double *rate);
+/* Height of the surface over x at t = 0, m. */
+double exact_surface(const struct exact *e, double x);
 /* What swings, per mass: the velocity u at x as part of the wave's inviscid mode, or the drop's
  * second moment; 0 for other fields. */
 double exact_signal(const struct exact *e, const double *x, const double *u);

@@ -32,11 +32,11 @@ static const struct param domain_rows[] = {
 #undef P
 #define P struct scene_initial
 static const struct param initial_rows[] = {
-    CHOICE(P, field, "rest|uniform|taylor_green|two_modes|poiseuille|couette|standing_wave|patch|drop|beltrami", "rest", "field at the start, and the exact solution after it"),
+    CHOICE(P, field, "rest|uniform|taylor_green|two_modes|poiseuille|couette|standing_wave|patch|drop|beltrami|stokes", "rest", "field at the start, and the exact solution after it"),
     PARAM(P, U,        "m/s", "1.0", 0, 1e6, "scale of velocity: amplitude of the field, unit of errors"),
     PARAM(P, L,        "m",   "1.0", 1e-9, 1e9, "wave length of the field"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "uniform velocity, or the one that carries the field"),
-    PARAM(P, amplitude, "m",  "0.0", -1e6, 1e6, "amplitude of a standing wave"),
+    PARAM(P, amplitude, "m",  "0.0", -1e6, 1e6, "amplitude of a wave"),
     PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "height against gravity where p = 0; by default the top of the fluid"),
 };
 #undef P
@@ -146,6 +146,11 @@ const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side si
     return NULL;
 }
 
+bool scene_has_wave(const struct scene *s)
+{
+    return s->initial.field == FIELD_STANDING_WAVE || s->initial.field == FIELD_STOKES;
+}
+
 static void check_walls(const struct scene *s, const struct params *p, struct faults *f)
 {
     for (int k = 0; k < s->nwalls; k++) {
@@ -205,7 +210,10 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
     const int field = s->initial.field;
     if (field == FIELD_BELTRAMI && s->domain.dim < 3)
         params_fault(p, f, "initial.field", "beltrami: a field of three dimensions");
-    if (field != FIELD_TAYLOR_GREEN && field != FIELD_TWO_MODES && field != FIELD_BELTRAMI)
+    if (field == FIELD_STOKES && !(s->fluid.gravity[1] < 0.0))
+        params_fault(p, f, "fluid.gravity", "a wave wants some along -y");
+    if (field != FIELD_TAYLOR_GREEN && field != FIELD_TWO_MODES && field != FIELD_BELTRAMI &&
+        field != FIELD_STOKES)
         return;
     for (int a = 0; a < (field == FIELD_BELTRAMI ? 3 : 2); a++) {
         const double n = (s->domain.max[a] - s->domain.min[a]) / s->initial.L;

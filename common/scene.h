@@ -17,7 +17,8 @@ enum initial_field {
     FIELD_STANDING_WAVE,
     FIELD_PATCH,
     FIELD_DROP,
-    FIELD_BELTRAMI
+    FIELD_BELTRAMI,
+    FIELD_STOKES
 };
 enum scene_side {
     SIDE_NONE,
@@ -60,7 +61,7 @@ struct scene {
         int field;          /* enum initial_field */
         double U, L;        /* m/s, m: scales of the field; errors are relative to them */
         double velocity[3]; /* m/s: uniform velocity, or the one that carries two_modes */
-        double amplitude;   /* m: of a standing wave */
+        double amplitude;   /* m: of a wave */
         double level;       /* m: height against gravity where p = 0; LEVEL_TOP: the fluid's top */
     } initial;
     /* Sides of the domain, and polylines with the fluid on their left. Sides without a wall that
@@ -137,6 +138,9 @@ struct scene {
 
 /* The wall on a side of the domain; NULL: none. */
 const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side side);
+
+/* Whether the field is a wave under a surface of its own. */
+bool scene_has_wave(const struct scene *s);
 
 /* The table of the groups above, with s as target: fills groups[SCENE_GROUPS]. */
 void scene_groups(struct scene *s, struct param_group *groups);

@@ -23,7 +23,7 @@ static const struct param rows[] = {
     PARAM(P, hole,         "m", "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "box whose cells take the exact solution; none by default"),
     PARAM(P, upwind,       "-", "-1.0", -1, 1e6,   "rk3, bdf2: strength of the upwind bias where the flow is finer than the cells; 0: none, -1: 1 with walls, else none"),
     PARAM(P, extrema,      "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema"),
-    CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: with shapes or a standing wave, alone"),
+    CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: with shapes or a wave, alone"),
     PARAM(P, force,        "-", "(0.0, 0.0, 0.0)", -1e9, 1e9, "known mean of the force x on the walls of blocks, amplitude of force y (N), its frequency (1/s), over the second half of the run: for error.force"),
     PARAM(P, forced_order, "-", "2",    1, 2,     "in time, of a partner's velocities within a window"),
 };
@@ -111,8 +111,8 @@ static void check_surface(const struct run *r, struct faults *f)
                              "periodic: %c_%s has none",
                              "xyz"[a], k ? "max" : "min");
     }
-    if (s->nshapes == 0 && s->initial.field == FIELD_STANDING_WAVE && g[1] == 0.0)
-        params_fault(r->params, f, "fluid.gravity", "a standing wave wants some along y");
+    if (s->nshapes == 0 && scene_has_wave(s) && g[1] == 0.0)
+        params_fault(r->params, f, "fluid.gravity", "a wave wants some along y");
 }
 
 void fv_params_check(const struct run *r, struct faults *f)

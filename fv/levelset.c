@@ -17,7 +17,7 @@ bool surface_wanted(const struct run *r)
     const int asked = fv_params_of(r)->surface;
     if (asked != SURFACE_AUTO)
         return asked == SURFACE_YES;
-    return !r->coupled && (c->nshapes > 0 || c->initial.field == FIELD_STANDING_WAVE);
+    return !r->coupled && (c->nshapes > 0 || scene_has_wave(c));
 }
 
 static bool side_here(const struct block *b, int a, bool upper)

@@ -325,7 +325,7 @@ double fv_still_pressure(const struct fv *s, const double *x)
 
 double fv_still_in_exact(const struct fv *s, const double *x)
 {
-    return s->exact.field == FIELD_STANDING_WAVE ? fv_still_pressure(s, x) : 0.0;
+    return scene_has_wave(&s->run->scene) ? fv_still_pressure(s, x) : 0.0;
 }
 
 /* rk3's pressure belongs to t - dt/6: carried on along the last step's change. */

@@ -67,15 +67,15 @@ static bool in_shape(const struct sph *s, const struct scene_shape *h, const dou
 
 /* Whether there is fluid at x, and the velocity that its shape adds. Without shapes the field knows
  * its own. */
-static bool is_fluid(const struct sph *s, const double *x, double *velocity)
+static bool is_fluid(const struct sph *s, const struct exact *e, const double *x, double *velocity)
 {
     const struct scene *c = &s->run->scene;
     const struct scene_initial *f = &c->initial;
     const double least = s->prm.packing > 0 ? 1e-3 * s->dx : 0.3 * s->dx;
     bool fluid = c->nshapes == 0;
     velocity[0] = velocity[1] = velocity[2] = 0.0;
-    if (fluid && f->field == FIELD_STANDING_WAVE)
-        fluid = x[1] < (f->level < LEVEL_TOP ? f->level : s->hi[1]);
+    if (fluid && scene_has_wave(c))
+        fluid = x[1] < exact_surface(e, x[0]);
     if (fluid && f->field == FIELD_PATCH)
         fluid = fmax(fabs(x[0]), fabs(x[1])) < 0.5 * f->L;
     if (fluid && f->field == FIELD_DROP)
@@ -94,7 +94,7 @@ static void add(struct sph *s, const struct exact *e, int64_t id, const double *
     double x[3] = {0.0, 0.0, 0.0}, u[3], p, more[3];
     for (int a = 0; a < s->dim; a++)
         x[a] = centre[a] + (s->prm.noise > 0.0 ? s->prm.noise * s->dx * random_of(id, a) : 0.0);
-    if (!is_fluid(s, x, more))
+    if (!is_fluid(s, e, x, more))
         return;
     exact_point(e, x, 0.0, u, &p, NULL);
     for (int a = 0; a < s->dim; a++)
@@ -113,14 +113,15 @@ static double density_at_rest(const struct sph *s, double g, double d)
     return s->rho0 * pow(fmax(1.0 + 6.0 * r, 0.1), 1.0 / 6.0);
 }
 
-/* Masses under gravity: p = 0 at the given height, or on top of the fluid. A standing wave has its
- * own pressure. */
+/* Masses under gravity: p = 0 at the given height, or on top of the fluid. A wave has its own
+ * pressure. */
 static void weigh(struct sph *s)
 {
-    const struct scene_initial *f = &s->run->scene.initial;
+    const struct scene *c = &s->run->scene;
+    const struct scene_initial *f = &c->initial;
     const double *G = s->gravity, g = sqrt(G[0] * G[0] + G[1] * G[1] + G[2] * G[2]);
     double level = -INFINITY;
-    if (g == 0.0 || f->field == FIELD_STANDING_WAVE || f->field == FIELD_POISEUILLE)
+    if (g == 0.0 || scene_has_wave(c) || f->field == FIELD_POISEUILLE)
         return;
     for (int i = 0; i < s->p.n; i++) {
         double x[3] = {0.0, 0.0, 0.0};

@@ -101,7 +101,7 @@ bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *p
 static bool has_surface(const struct scene *c)
 {
     const int f = c->initial.field;
-    return c->nshapes > 0 || f == FIELD_STANDING_WAVE || f == FIELD_PATCH || f == FIELD_DROP;
+    return c->nshapes > 0 || scene_has_wave(c) || f == FIELD_PATCH || f == FIELD_DROP;
 }
 
 static bool is_wall(const struct scene_wall *w)
