@@ -37,8 +37,7 @@ static void set_layer(struct exact *e, const struct scene *s)
         e->wave = wave_create(e->height, s->initial.L, -s->fluid.gravity[1], e->nu, e->rho,
                               s->initial.amplitude);
     if (e->field == FIELD_STOKES)
-        e->stokes =
-            stokes_create(s->initial.L, -s->fluid.gravity[1], e->rho, s->initial.amplitude);
+        e->stokes = stokes_create(s->initial.L, -s->fluid.gravity[1], e->rho, s->initial.amplitude);
 }
 
 struct exact exact_create(const struct scene *s)
@@ -198,8 +197,7 @@ bool exact_oscillation(const struct exact *e, double *period, double *rate)
 
 double exact_surface(const struct exact *e, double x)
 {
-    return e->bottom + e->height +
-           (e->field == FIELD_STOKES ? stokes_eta(&e->stokes, x) : 0.0);
+    return e->bottom + e->height + (e->field == FIELD_STOKES ? stokes_eta(&e->stokes, x) : 0.0);
 }
 
 double exact_signal(const struct exact *e, const double *x, const double *u)

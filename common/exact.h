@@ -7,7 +7,8 @@
  * In 3D the field is the same for all z. beltrami: the flow of Arnold, Beltrami and Childress (A =
  * B = C = U). Others: Poiseuille and Couette flow from rest between the y sides, the standing wave
  * of wave.h, and three that are exact at t = 0 only: the rotating square patch, the disc under a
- * central force (Monaghan & Rafiee 2013) and the steep wave of stokes.h. SPDX-License-Identifier: BSD-3-Clause */
+ * central force (Monaghan & Rafiee 2013) and the steep wave of stokes.h.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_EXACT_H
 #define COMMON_EXACT_H
 

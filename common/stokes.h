@@ -9,7 +9,7 @@
 #define COMMON_STOKES_H
 
 struct stokes {
-    double k, a, omega;    /* 1/m, m, 1/s */
+    double k, a, omega;     /* 1/m, m, 1/s */
     double g, rho, highest; /* m/s^2, kg/m^3, m: of the crest */
 };
 

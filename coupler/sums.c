@@ -11,7 +11,7 @@
 #include "../common/fit.h"
 #include "../common/mem.h"
 
-enum { KINETIC, ENSTROPHY, SIGNAL, SUMS };
+enum { KINETIC, POTENTIAL, ENSTROPHY, SIGNAL, SUMS };
 
 struct sums {
     struct series *file;
@@ -19,9 +19,10 @@ struct sums {
     double now[SUMS];
 };
 
-static const char *const keys[SUMS] = {"sum.kinetic", "sum.enstrophy", "sum.signal"};
-static const char *const columns[] = {"t [s]", "kinetic energy [J]", "enstrophy [m^dim/s^2]",
-                                      "signal [-]"};
+static const char *const keys[SUMS] = {"sum.kinetic", "sum.potential", "sum.enstrophy",
+                                       "sum.signal"};
+static const char *const columns[] = {"t [s]", "kinetic energy [J]", "potential energy [J]",
+                                      "enstrophy [m^dim/s^2]", "signal [-]"};
 
 /* False if no program told this. */
 static bool add_up(const struct coupler *c, const char *key, double *sum)

@@ -121,7 +121,8 @@ void fv_tell(void *state, struct summary *report)
     const struct fv *s = state;
     const struct block *b = &s->b;
     const double rho = s->run->scene.fluid.rho;
-    double volume = 1.0, x[3], sum[3] = {0.0, 0.0, 0.0};
+    const double *g = s->run->scene.fluid.gravity;
+    double volume = 1.0, x[3], sum[4] = {0.0, 0.0, 0.0, 0.0};
     for (int a = 0; a < b->dim; a++)
         volume *= b->h[a];
     for (int k = 0; k < b->n[2]; k++)
@@ -136,8 +137,10 @@ void fv_tell(void *state, struct summary *report)
                 sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
                 sum[1] += 0.5 * part * curl_squared(s, c);
                 sum[2] += rho * part * exact_signal(&s->exact, x, u);
+                sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
             }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, b->cart);
+    summary_real(report, "sum.potential", sum[3]);
     summary_real(report, "sum.kinetic", sum[0]);
     summary_real(report, "sum.enstrophy", sum[1]);
     summary_real(report, "sum.signal", sum[2]);

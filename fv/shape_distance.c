@@ -78,7 +78,8 @@ double surface_distance(const struct fv *s, const double *x)
         far += s->b.cells[a] * s->b.h[a];
     double d = far;
     if (c->nshapes == 0)
-        d = scene_has_wave(c) && f->level < LEVEL_TOP ? x[1] - exact_surface(&s->exact, x[0]) : -far;
+        d = scene_has_wave(c) && f->level < LEVEL_TOP ? x[1] - exact_surface(&s->exact, x[0])
+                                                      : -far;
     for (int k = 0; k < c->nshapes; k++) {
         const double e = shape(s, c->shapes + k, x);
         d = c->shapes[k].hole ? fmax(d, -e) : fmin(d, e);

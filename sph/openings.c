@@ -11,6 +11,7 @@
 #include "domain.h"
 #include "eos.h"
 #include "neighbours.h"
+#include "sph_params.h"
 #include "zones.h"
 
 /* What a face that cannot give birth holds beyond this goes to its neighbours. */
@@ -36,11 +37,11 @@ struct openings *openings_create(struct sph *s)
     }
     const int n = openings_faces(o);
     o->mass = NEW(double, n);
-    o->births = NEW(double, n);
-    o->change = NEW(double, 2 * n);
+    o->change = NEW(double, n);
     o->flux = NEW(double, n);
     o->shift = NEW(double, n);
     o->first_id = (int64_t)1 << 40; /* above those of the first filling */
+    o->tick = sph_params_dt(&s->prm, s->nu, s->c0, NULL) / 64.0;
     return o;
 }
 
@@ -49,7 +50,6 @@ void openings_free(struct openings **o)
     if (!*o)
         return;
     mem_free((*o)->mass);
-    mem_free((*o)->births);
     mem_free((*o)->change);
     mem_free((*o)->flux);
     mem_free((*o)->shift);
@@ -59,6 +59,14 @@ void openings_free(struct openings **o)
 }
 
 int openings_faces(const struct openings *o) { return o->first[2 * o->dim]; }
+
+double openings_age(const struct sph *s, int64_t id)
+{
+    const struct openings *o = s->zones->openings;
+    if (id < o->first_id)
+        return s->t;
+    return s->t - o->tick * (double)((id - o->first_id) / openings_faces(o));
+}
 
 double openings_held(const struct sph *s)
 {
@@ -354,13 +362,10 @@ static bool crowded(const struct strip *t, const struct openings *o, const doubl
 static void born(struct sph *s, int f, const double *x, const double *u, double rho)
 {
     struct openings *o = s->zones->openings;
-    const int64_t id =
-        o->first_id + f +
-        (int64_t)llround(o->births[f] + o->change[openings_faces(o) + f]) * openings_faces(o);
+    const int64_t id = o->first_id + f + llround(s->t / o->tick) * openings_faces(o);
     const int i = particles_add(&s->p, id, ZONE_BUFFER);
     particles_set(s, i, x, u, s->dxD, rho);
     o->change[f] -= rho * s->dxD;
-    o->change[openings_faces(o) + f] += 1.0;
     o->born_mass += rho * s->dxD;
     o->born++;
 }
@@ -424,12 +429,10 @@ static void sum_changes(struct sph *s)
     struct openings *o = s->zones->openings;
     const int n = openings_faces(o);
     if (s->run->size > 1)
-        MPI_Allreduce(MPI_IN_PLACE, o->change, 2 * n, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    for (int f = 0; f < n; f++) {
+        MPI_Allreduce(MPI_IN_PLACE, o->change, n, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (int f = 0; f < n; f++)
         o->mass[f] += o->change[f];
-        o->births[f] += o->change[n + f];
-    }
-    memset(o->change, 0, 2 * (size_t)n * sizeof(double));
+    memset(o->change, 0, (size_t)n * sizeof(double));
 }
 
 void openings_place_lattice(struct sph *s)

@@ -14,13 +14,13 @@ struct openings {
     int cells[3];                /* faces along each axis */
     int first[7];                /* of side 2a (low), 2a+1 (high); first[2 dim]: number of faces */
     double *mass;                /* kg: booked, the same on all ranks */
-    double *births;              /* since the start, the same on all ranks (numbers the newborn) */
-    double *change;              /* of this step, this rank, then summed: masses, births */
+    double *change;              /* kg: of this step, this rank, then summed */
     double *flux;                /* kg/s of the faces this rank owns, 0 elsewhere: inward */
     double *shift;               /* m: place of the incoming lattice behind each face */
     int64_t born, gone, refused; /* on this rank */
     double born_mass, gone_mass, inflow; /* kg: since the start, this rank */
-    int64_t first_id;
+    int64_t first_id; /* the newborn's: first_id + time of birth in ticks * faces + face */
+    double tick;      /* s: far below a step */
     int nghost, first_ghost,
         ghost_capacity; /* the lattice behind the faces, last among the ghosts */
     double *ghost_x;    /* [nghost][3] at time ghost_t */
@@ -39,6 +39,8 @@ void openings_ghost_lines(struct sph *s);
 /* Where the lattice behind each face stands, from the booked masses (after a restart, too). */
 void openings_place_lattice(struct sph *s);
 int openings_faces(const struct openings *o);
+/* s since the birth of the particle with this id, or since the start. */
+double openings_age(const struct sph *s, int64_t id);
 /* Takes mass (kg) from all faces alike; the same on all ranks. */
 void openings_let_out(struct openings *o, double mass);
 /* kg: booked by all faces; the same on all ranks. */

@@ -187,14 +187,18 @@ void sph_tell(void *state, struct summary *report)
     struct sph *s = state;
     const struct exact e = exact_create(&s->run->scene);
     const int dim = s->dim;
-    double kinetic = 0.0;
+    double kinetic = 0.0, potential = 0.0;
     integrate_gradients(s);
     for (int i = 0; i < s->p.n; i++) {
         const double *y = s->p.y + (size_t)i * s->p.nstate;
-        for (int a = 0; a < dim; a++)
-            kinetic += share(s, i) * 0.5 * y[dim + a] * y[dim + a] / y[2 * dim + 1];
+        const double part = share(s, i), m = y[2 * dim + 1];
+        for (int a = 0; a < dim; a++) {
+            kinetic += part * 0.5 * y[dim + a] * y[dim + a] / m;
+            potential -= part * m * s->gravity[a] * y[a];
+        }
     }
     summary_real(report, "sum.kinetic", total(s, kinetic));
+    summary_real(report, "sum.potential", total(s, potential));
     summary_real(report, "sum.enstrophy", enstrophy(s, true));
     summary_real(report, "sum.signal", signal_now(s, &e, true));
 }

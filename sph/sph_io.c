@@ -10,6 +10,7 @@
 #include "../common/xdmf.h"
 #include "domain.h"
 #include "eos.h"
+#include "openings.h"
 #include "sph_params.h"
 #include "zones.h"
 
@@ -47,6 +48,10 @@ static void get_volume(const struct sph *s, int i, double *v)
     *v = s->p.prim[(size_t)PRIM * i + 2 * s->dim];
 }
 static void get_zone(const struct sph *s, int i, double *v) { *v = s->p.zone[i]; }
+static void get_age(const struct sph *s, int i, double *v)
+{
+    *v = s->zones ? openings_age(s, s->p.id[i]) : s->t;
+}
 
 /* Fields of a snapshot; ncomp 0: 1 in 2D and 3 in 3D. */
 static const struct field {
@@ -54,9 +59,13 @@ static const struct field {
     int ncomp;
     void (*get)(const struct sph *s, int i, double *v);
 } fields[] = {
-    {"velocity", "m/s", 3, get_velocity},  {"pressure", "Pa", 1, get_pressure},
-    {"density", "kg/m^3", 1, get_density}, {"vorticity", "1/s", 0, get_vorticity},
-    {"volume", "m^dim", 1, get_volume},    {"zone", "-", 1, get_zone},
+    {"velocity", "m/s", 3, get_velocity},
+    {"pressure", "Pa", 1, get_pressure},
+    {"density", "kg/m^3", 1, get_density},
+    {"vorticity", "1/s", 0, get_vorticity},
+    {"volume", "m^dim", 1, get_volume},
+    {"zone", "-", 1, get_zone},
+    {"age", "s", 1, get_age},
 };
 enum { FIELDS = sizeof fields / sizeof fields[0] };
 

@@ -325,7 +325,6 @@ void zones_save(struct sph *s, struct h5 *f)
     const struct openings *o = s->zones->openings;
     const int64_t rows = s->run->rank == 0 ? openings_faces(o) : 0;
     h5_write_real(f, "faces_mass", "kg", rows, 1, o->mass, false);
-    h5_write_real(f, "faces_births", "-", rows, 1, o->births, false);
     h5_write_real(f, "faces_flux", "kg/s", openings_faces(o), 1, o->flux, false);
     const double booked[4] = {s->zones->blended, o->born_mass, o->gone_mass, o->inflow};
     const int64_t counted[3] = {o->born, o->gone, o->refused};
@@ -341,13 +340,11 @@ bool zones_load(struct sph *s, struct h5 *f)
     double booked[4];
     int64_t counted[3];
     if (!h5_read_real(f, "faces_mass", rows, 1, o->mass) ||
-        !h5_read_real(f, "faces_births", rows, 1, o->births) ||
         !h5_read_real(f, "faces_flux", faces, 1, o->flux) ||
         !h5_read_real(f, "zones_booked", 4, 1, booked) ||
         !h5_read_int(f, "zones_counted", 3, counted))
         return false;
     MPI_Bcast(o->mass, faces, MPI_DOUBLE, 0, s->run->comm);
-    MPI_Bcast(o->births, faces, MPI_DOUBLE, 0, s->run->comm);
     s->zones->blended = booked[0];
     o->born_mass = booked[1];
     o->gone_mass = booked[2];

@@ -123,11 +123,41 @@ static void enstrophy_of_the_layer(void **state)
     assert_close(8.0 * wave_enstrophy(&w, 34.5), 8.564256622 * 0.0025 * 0.2623700089, 1e-6);
 }
 
+/* What stokes.h promises: a divergence-free velocity, v the surface's rate of change for a crest
+ * that travels at omega/k, no pressure on the surface, and the weight of the water far below. */
+static void stokes_wave_travels(void **state)
+{
+    const struct stokes w = stokes_create(1.0, 1.0, 1.0, 0.1);
+    const double h = 1e-5;
+    double mean = 0.0;
+    (void)state;
+    for (int i = 0; i < 64; i++) {
+        const double x = i / 64.0, first = w.a * cos(w.k * x), y = stokes_eta(&w, x);
+        double u[2], e[2], W[2], n[2], s[2], p;
+        mean += stokes_eta(&w, x);
+        stokes_point(&w, x, 0.0, u, NULL);
+        const double rate = w.omega / w.k * (w.a * cos(w.k * (x - h)) - first) / h;
+        assert_true(fabs(u[1] - rate) < 1e-4);
+        stokes_point(&w, x + h, -0.1, e, NULL);
+        stokes_point(&w, x - h, -0.1, W, NULL);
+        stokes_point(&w, x, -0.1 + h, n, NULL);
+        stokes_point(&w, x, -0.1 - h, s, NULL);
+        assert_true(fabs(e[0] - W[0] + n[1] - s[1]) / (2.0 * h) < 1e-6);
+        stokes_point(&w, x, y - 1e-9, NULL, &p);
+        assert_true(fabs(p) < 1e-7);
+        stokes_point(&w, x, -2.0, NULL, &p);
+        assert_true(fabs(p - 2.0) < 1e-4);
+    }
+    assert_true(fabs(mean) < 1e-12);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(eigenvalues), cmocka_unit_test(wave_solves_its_equations),
-        cmocka_unit_test(enstrophy_of_the_layer), cmocka_unit_test(channels),
-        cmocka_unit_test(patch_and_drop)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(eigenvalues),
+                                       cmocka_unit_test(wave_solves_its_equations),
+                                       cmocka_unit_test(stokes_wave_travels),
+                                       cmocka_unit_test(enstrophy_of_the_layer),
+                                       cmocka_unit_test(channels),
+                                       cmocka_unit_test(patch_and_drop)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
