@@ -252,6 +252,29 @@ void zones_slopes(struct sph *s)
     }
 }
 
+/* Mean of P less P_out at the rim of the free zone, R/2 deep: what a partner of constant density
+ * cannot know. Under waves it is no constant: their momentum changes the mean pressure. */
+static double level_inside(struct sph *s)
+{
+    struct zones *z = s->zones;
+    const double rim = z->buffer + z->transition;
+    double sums[2] = {0.0, 0.0};
+    z->n = 0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double d = zones_depth(s, s->p.y + (size_t)i * s->p.nstate);
+        if (d >= rim && d < rim + 0.5 * s->R)
+            take(s, i);
+    }
+    zones_look(z, s->t, false);
+    for (int k = 0; k < z->n; k++) {
+        const double *y = s->p.y + (size_t)z->who[k] * s->p.nstate, w = y[2 * s->dim];
+        sums[0] += w * (eos_p(y[2 * s->dim + 1] / w, s->rho0, s->c0, s->gamma) - z->p[k]);
+        sums[1] += w;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+}
+
 /* kg: what the region and its faces hold beyond the start. Collective. */
 static double gained(const struct sph *s)
 {
@@ -263,9 +286,10 @@ static double gained(const struct sph *s)
 }
 
 /* A full box holds what it held at the start: volumes in the zones do not know it, and what they
- * gained goes out by the faces. Under a free surface mass goes in and out with the waves; what is
- * beyond that raises or lowers the level. A partner of constant density knows its pressure up to a
- * constant: the one that keeps the mass is taken, ten times the weight of the missing layer. */
+ * gained goes out by the faces. Under a free surface mass goes in and out with the waves, and a
+ * partner of constant density knows its pressure up to a level: SPH's own is taken. Alone that
+ * would let the column drain: what the region holds beyond its start and what has flown in adds ten
+ * times the weight of the missing layer. */
 void zones_gauge(struct sph *s)
 {
     struct zones *z = s->zones;
@@ -278,7 +302,8 @@ void zones_gauge(struct sph *s)
     if (!s->surface || g == 0.0)
         return;
     MPI_Allreduce(&o->inflow, &inflow, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    z->gauge = -10.0 * g * (gained(s) - inflow) * s->dx / (openings_faces(o) * s->dxD);
+    const double layer = (gained(s) - inflow) * s->dx / (openings_faces(o) * s->dxD);
+    z->gauge = level_inside(s) - 10.0 * g * layer;
 }
 
 /* Draws the state of particle k of the list to the flow outside by alpha; p in Pa, u in m/s. */
