@@ -100,12 +100,15 @@ static void write_field(const struct sph *s, struct h5 *f, const struct field *k
     h5_write_real(f, k->name, k->unit, s->p.n, ncomp, v, true);
 }
 
-/* What a picture needs to know: spacing and corners of the region. */
+/* What a picture needs to know: spacing and corners of the region, level of the pressure outside.
+ */
 static void write_region(const struct sph *s, struct h5 *f)
 {
     static const char *const lo[3] = {"xmin", "ymin", "zmin"}, *const hi[3] = {"xmax", "ymax",
                                                                                "zmax"};
     h5_attribute_real(f, "dx", s->dx);
+    if (s->zones) /* Pa: what it adds to a partner's pressure */
+        h5_attribute_real(f, "gauge", s->zones->gauge);
     for (int a = 0; a < s->dim; a++) {
         h5_attribute_real(f, lo[a], s->lo[a]);
         h5_attribute_real(f, hi[a], s->hi[a]);
