@@ -194,10 +194,11 @@ static struct map_cloud assemble(struct coupler *c, const struct link *l, const 
     return s;
 }
 
+/* Without any target the answer is empty and needs nothing put. */
 static void answer_points(struct coupler *c, struct link *l, const struct arrival *a)
 {
     const long n = count_targets(c, l);
-    struct map_cloud cloud = assemble(c, l, a);
+    struct map_cloud cloud = n > 0 ? assemble(c, l, a) : (struct map_cloud){0};
     double *x = all_targets(c, l, n), *v = NEW(double, n * l->ncomp);
     unsigned char *mask = NEW(unsigned char, n);
     l->map(l->dim, l->support, l->ncomp, &cloud, n, x, v, mask);
@@ -205,7 +206,7 @@ static void answer_points(struct coupler *c, struct link *l, const struct arriva
     for (int r = 0; r < c->solver[l->taker].size; r++) {
         const long m = l->asker[r].ntarget;
         struct pack p;
-        pack_begin(&p, WIRE_VALUES, l->tfield, a->tick);
+        pack_begin(&p, WIRE_VALUES, l->tfield, l->asked_tick);
         pack_head(&p)->t = a->t;
         pack_head(&p)->count = m;
         pack_bytes(&p, v + at * l->ncomp, (size_t)(m * l->ncomp) * sizeof *v);
@@ -309,7 +310,7 @@ static void try_answer(struct coupler *c, struct link *l)
     for (int r = 0; r < c->solver[l->taker].size && l->from_grid; r++)
         if (l->asker[r].asked)
             answer_patch(c, l, a, r);
-    if (!l->from_grid && !nothing)
+    if (!l->from_grid)
         answer_points(c, l, a);
     for (int r = 0; r < c->solver[l->taker].size; r++)
         l->asker[r].asked = false;

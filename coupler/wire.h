@@ -67,7 +67,7 @@ struct wire {
 };
 
 /* The waiting of one call: spins for some 30 us, then sleeps longer and longer: up to 0.2 ms, then
- * 2 % of the time waited so far, at most 1 ms. */
+ * 2 % of the time waited so far, at most 10 ms. */
 struct nap {
     double since;   /* s: when the waiting began */
     double checked; /* s: last look at whether all partners are alive */

@@ -42,6 +42,11 @@ for n in 2:1:1 1:1:2 4:1:1; do
         bad "ranks $n: velocity error $(number "ranks$n" velocity_l2), one rank each: $(number one velocity_l2)"
 done
 
+# no cell lies in what SPH gives: one way, and nobody waits
+job oneway 1:1:1 --timeout 60 -p coupling.overlap=0.2 -p time.end=0.12
+grep -q 'coupling goes one way' oneway.txt || bad "one way: not said: $(tail -n 3 oneway.txt)"
+[ -f oneway/summary.json ] || bad "one way: the job did not end"
+
 # straight through, and stopped at half time and restarted: the same bits
 job whole 2:1:1 -p output.checkpoint=0.12 || bad "job with restart files ended with $?"
 job half 2:1:1 -p output.checkpoint=0.12 -p time.end=0.12 || bad "first half ended with $?"
