@@ -15,6 +15,7 @@ enum { KINETIC, POTENTIAL, ENSTROPHY, SIGNAL, SUMS };
 
 struct sums {
     struct series *file;
+    bool swings; /* its history is kept for a fit at the end */
     struct fit fit;
     double now[SUMS];
 };
@@ -50,12 +51,14 @@ void sums_window(struct coupler *c)
         char path[1100];
         snprintf(path, sizeof path, "%s/series.csv", c->dir);
         s = c->sums = NEW(struct sums, 1);
+        s->swings = c->scene.initial.field == FIELD_STANDING_WAVE;
         s->file = series_create(path, 1 + SUMS, columns, c->command->restart,
                                 window_start(c, c->window - 1));
     }
     memcpy(s->now, row + 1, sizeof s->now);
     series_row(s->file, row);
-    fit_add(&s->fit, t, s->now[SIGNAL]);
+    if (s->swings)
+        fit_add(&s->fit, t, s->now[SIGNAL]);
 }
 
 static void put_ratio(struct summary *to, const char *name, double found, double exact)
