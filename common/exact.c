@@ -33,11 +33,16 @@ static void set_layer(struct exact *e, const struct scene *s)
     const double level = s->initial.level < LEVEL_TOP ? s->initial.level : d->max[1];
     e->bottom = d->min[1];
     e->height = (scene_has_wave(s) ? level : d->max[1]) - d->min[1];
-    if (e->field == FIELD_STANDING_WAVE)
-        e->wave = wave_create(e->height, s->initial.L, -s->fluid.gravity[1], e->nu, e->rho,
-                              s->initial.amplitude);
     if (e->field == FIELD_STOKES)
         e->stokes = stokes_create(s->initial.L, -s->fluid.gravity[1], e->rho, s->initial.amplitude);
+    if (e->field != FIELD_STANDING_WAVE)
+        return;
+    const double L = s->initial.L, L_z = s->initial.L_z;
+    e->crossed = L_z > 0.0;
+    e->along[0] = e->crossed ? L_z / hypot(L, L_z) : 1.0;
+    e->along[1] = e->crossed ? L / hypot(L, L_z) : 0.0;
+    e->wave = wave_create(e->height, e->along[0] * L, -s->fluid.gravity[1], e->nu, e->rho,
+                          s->initial.amplitude);
 }
 
 struct exact exact_create(const struct scene *s)
@@ -131,13 +136,33 @@ static double patch_pressure(const struct exact *e, const double *x)
     return e->rho * spin * spin * e->L * e->L * p;
 }
 
+/* cos ax cos bz is the mean of cos(ax + bz) and cos(ax - bz): two waves that cross. */
+static void wave_at(const struct exact *e, const double *x, double t, double *u, double *p,
+                    double *w)
+{
+    const double *d = e->along, y = x[1] - e->bottom - e->height;
+    if (!e->crossed) {
+        wave_point(&e->wave, x[0], y, t, u, p, w);
+        return;
+    }
+    for (int sign = -1; sign <= 1; sign += 2) {
+        double v[2], q, r;
+        wave_point(&e->wave, d[0] * x[0] + sign * d[1] * x[2], y, t, v, &q, &r);
+        u[0] += 0.5 * d[0] * v[0];
+        u[1] += 0.5 * v[1];
+        u[2] += 0.5 * sign * d[1] * v[0];
+        *p += 0.5 * q;
+        *w += 0.5 * d[0] * r;
+    }
+}
+
 static void other_point(const struct exact *e, const double *x, double t, double *u, double *p,
                         double *w)
 {
     const double rate = e->U / e->L;
     u[0] = u[1] = u[2] = *p = *w = 0.0;
     if (e->field == FIELD_STANDING_WAVE) {
-        wave_point(&e->wave, x[0], x[1] - e->bottom - e->height, t, u, p, w);
+        wave_at(e, x, t, u, p, w);
     } else if (e->field == FIELD_STOKES) {
         stokes_point(&e->stokes, x[0], x[1] - e->bottom - e->height, u, p);
     } else if (e->field == FIELD_PATCH) { /* clockwise */
@@ -200,34 +225,42 @@ double exact_surface(const struct exact *e, double x)
     return e->bottom + e->height + (e->field == FIELD_STOKES ? stokes_eta(&e->stokes, x) : 0.0);
 }
 
+double exact_enstrophy(const struct exact *e, double area, double t)
+{
+    return (e->crossed ? 0.5 : 1.0) * area * wave_enstrophy(&e->wave, t);
+}
+
 double exact_signal(const struct exact *e, const double *x, const double *u)
 {
-    const double k = e->wave.k, z = k * (x[1] - e->bottom);
+    const double k = e->wave.k, z = k * (x[1] - e->bottom), *d = e->along;
     if (e->field == FIELD_DROP)
         return x[0] * x[0] - x[1] * x[1];
     if (e->field != FIELD_STANDING_WAVE)
         return 0.0;
-    return u[1] * sinh(z) * cos(k * x[0]) - u[0] * cosh(z) * sin(k * x[0]);
+    const double a = k * d[0] * x[0], b = e->crossed ? k * d[1] * x[2] : 0.0;
+    const double across = e->crossed ? d[1] * u[2] * cos(a) * sin(b) : 0.0;
+    return u[1] * sinh(z) * cos(a) * cos(b) - cosh(z) * (d[0] * u[0] * sin(a) * cos(b) + across);
 }
 
-/* By Gauss's rule of three points along x and y. */
+/* By Gauss's rule of three points along x and y, and along z where that matters. */
 static void other_average(const struct exact *e, const double *x, const double *h, double t,
                           double *u, double *p, double *w)
 {
     static const double at[3] = {-0.3872983346207417, 0.0, 0.3872983346207417};
     static const double weight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-    const int nx = h[0] > 0.0 ? 3 : 1, ny = h[1] > 0.0 ? 3 : 1;
+    const int n[3] = {h[0] > 0.0 ? 3 : 1, h[1] > 0.0 ? 3 : 1, e->crossed && h[2] > 0.0 ? 3 : 1};
     double sum[5] = {0.0};
-    for (int i = 0; i < nx; i++)
-        for (int j = 0; j < ny; j++) {
-            const double f = (nx == 3 ? weight[i] : 1.0) * (ny == 3 ? weight[j] : 1.0);
-            const double y[3] = {x[0] + (nx == 3 ? at[i] * h[0] : 0.0),
-                                 x[1] + (ny == 3 ? at[j] * h[1] : 0.0), x[2]};
-            double v[5];
-            other_point(e, y, t, v, v + 3, v + 4);
-            for (int k = 0; k < 5; k++)
-                sum[k] += f * v[k];
+    for (int i = 0; i < n[0] * n[1] * n[2]; i++) {
+        const int m[3] = {i % n[0], i / n[0] % n[1], i / (n[0] * n[1])};
+        double y[3] = {x[0], x[1], x[2]}, f = 1.0, v[5];
+        for (int a = 0; a < 3; a++) {
+            y[a] += n[a] == 3 ? at[m[a]] * h[a] : 0.0;
+            f *= n[a] == 3 ? weight[m[a]] : 1.0;
         }
+        other_point(e, y, t, v, v + 3, v + 4);
+        for (int k = 0; k < 5; k++)
+            sum[k] += f * v[k];
+    }
     for (int a = 0; u && a < 3; a++)
         u[a] = sum[a];
     if (p)

@@ -37,6 +37,7 @@ static const struct param initial_rows[] = {
     PARAM(P, L,        "m",   "1.0", 1e-9, 1e9, "wave length of the field"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "uniform velocity, or the one that carries the field"),
     PARAM(P, amplitude, "m",  "0.0", -1e6, 1e6, "amplitude of a wave"),
+    PARAM(P, L_z,      "m",   "0.0", 0, 1e6, "length of a standing wave along z; 0: the same for all z"),
     PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "height against gravity where p = 0; by default the top of the fluid"),
 };
 #undef P
@@ -212,6 +213,8 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
         params_fault(p, f, "initial.field", "beltrami: a field of three dimensions");
     if (field == FIELD_STOKES && !(s->fluid.gravity[1] < 0.0))
         params_fault(p, f, "fluid.gravity", "a wave wants some along -y");
+    if (s->initial.L_z > 0.0 && (field != FIELD_STANDING_WAVE || s->domain.dim < 3))
+        params_fault(p, f, "initial.L_z", "wants a standing wave in three dimensions");
     if (field != FIELD_TAYLOR_GREEN && field != FIELD_TWO_MODES && field != FIELD_BELTRAMI &&
         field != FIELD_STOKES)
         return;

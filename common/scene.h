@@ -62,6 +62,7 @@ struct scene {
         double U, L;        /* m/s, m: scales of the field; errors are relative to them */
         double velocity[3]; /* m/s: uniform velocity, or the one that carries two_modes */
         double amplitude;   /* m: of a wave */
+        double L_z;         /* m: its length along z; 0: the same for all z */
         double level;       /* m: height against gravity where p = 0; LEVEL_TOP: the fluid's top */
     } initial;
     /* Sides of the domain, and polylines with the fluid on their left. Sides without a wall that

@@ -83,7 +83,7 @@ void sums_summarise(const struct coupler *c, struct summary *to)
     for (int a = 0; a < d->dim; a++)
         area *= a == 1 ? 1.0 : d->max[a] - d->min[a];
     put_ratio(to, "enstrophy", c->sums->now[ENSTROPHY],
-              area * wave_enstrophy(&e.wave, window_start(c, c->window)));
+              exact_enstrophy(&e, area, window_start(c, c->window)));
 }
 
 void sums_free(struct coupler *c)

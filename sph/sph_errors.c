@@ -176,7 +176,7 @@ static double signal_now(const struct sph *s, const struct exact *e, bool own)
     double sum = 0.0;
     for (int i = 0; i < s->p.n; i++) {
         const double *y = s->p.y + (size_t)i * s->p.nstate, m = y[2 * dim + 1];
-        const double u[2] = {y[dim] / m, y[dim + 1] / m};
+        const double u[3] = {y[dim] / m, y[dim + 1] / m, dim == 3 ? y[dim + 2] / m : 0.0};
         sum += (own ? share(s, i) : 1.0) * m * exact_signal(e, y, u);
     }
     return total(s, sum);
@@ -238,7 +238,7 @@ static void summarise_oscillation(struct sph *s)
         for (int a = 0; a < s->dim; a++)
             area *= a == 1 ? 1.0 : s->hi[a] - s->lo[a];
         summary_real(to, "error.enstrophy",
-                     fabs(enstrophy(s, false) / (area * wave_enstrophy(&e.wave, s->t)) - 1.0));
+                     fabs(enstrophy(s, false) / exact_enstrophy(&e, area, s->t) - 1.0));
     }
 }
 

@@ -56,7 +56,7 @@ static double laplace(const struct exact *e, int what, const double *x, double t
     static const double weight[] = {-30.0, 16.0, -1.0};
     const double h = 2e-3;
     double sum = 0.0;
-    for (int a = 0; a < 2; a++)
+    for (int a = 0; a < 3; a++)
         for (int k = -2; k <= 2; k++) {
             double y[3] = {x[0], x[1], x[2]};
             y[a] += k * h;
@@ -187,6 +187,67 @@ static void averages_of_faces_balance(void **state)
     }
 }
 
+static struct exact crossed_wave(void)
+{
+    const struct scene s = {
+        .fluid = {.rho = 1.7, .nu = 0.02, .gravity = {0.0, -1.0, 0.0}},
+        .domain = {.dim = 3, .max = {2.0, 1.25, 1.5}},
+        .initial = {
+            .field = FIELD_STANDING_WAVE, .L = 4.0, .L_z = 3.0, .amplitude = 0.5, .level = 1.0}};
+    return exact_create(&s);
+}
+
+/* cos kx cos kz of the still layer 0 < y < 1: the linearised equations, no flow through the planes
+ * of symmetry, none at the bottom. */
+static void crossed_waves_solve_the_linearised_equations(void **state)
+{
+    (void)state;
+    const struct exact e = crossed_wave();
+    double x[3], t, most = 0.0, period, rate;
+    for (int i = 0; i < POINTS; i++) {
+        somewhere(x, &t);
+        x[1] = 0.5 + 0.45 * x[1];
+        assert_close(slope(&e, 0, x, t, 0) + slope(&e, 1, x, t, 1) + slope(&e, 2, x, t, 2), 0.0,
+                     1e-8);
+        assert_close(at(&e, VORTICITY, x, t), slope(&e, 1, x, t, 0) - slope(&e, 0, x, t, 1), 1e-7);
+        for (int a = 0; a < 3; a++) {
+            const double inertia = slope(&e, a, x, t, 3), weight = a == 1 ? 1.0 : 0.0;
+            assert_close(e.rho * (inertia - e.nu * laplace(&e, a, x, t) + weight) +
+                             slope(&e, PRESSURE, x, t, a),
+                         0.0, 1e-6);
+            most = fmax(most, fabs(inertia));
+            for (int n = 0; n < 3; n++) {
+                double y[3] = {x[0], x[1], x[2]};
+                y[n] = n == 0 ? 2.0 : n == 1 ? 0.0 : 1.5;
+                if (n == a)
+                    assert_close(at(&e, a, y, t), 0.0, 1e-12);
+            }
+        }
+    }
+    assert_true(most > 0.1);
+    assert_true(exact_oscillation(&e, &period, &rate));
+    assert_close(e.wave.k, 2.0 * M_PI * hypot(1.0 / 4.0, 1.0 / 3.0), 1e-12);
+}
+
+/* Midpoint rule over the symmetric piece; the vorticity has the components of x and z. */
+static void enstrophy_of_crossed_waves_is_that_of_their_vorticity(void **state)
+{
+    (void)state;
+    enum { N = 24, M = 400 };
+    const struct exact e = crossed_wave();
+    double sum = 0.0;
+    for (int i = 0; i < N * N * M; i++) {
+        const double x[3] = {2.0 * (i % N + 0.5) / N, (i / (N * N) + 0.5) / M,
+                             1.5 * (i / N % N + 0.5) / N};
+        double g[3][3];
+        exact_gradient(&e, x, 0.3, g);
+        const double w[3] = {g[2][1] - g[1][2], g[0][2] - g[2][0], g[1][0] - g[0][1]};
+        assert_close(w[1], 0.0, 1e-8);
+        sum += 0.5 * (w[0] * w[0] + w[2] * w[2]) * 3.0 / (N * N * M);
+    }
+    assert_close(exact_enstrophy(&e, 3.0, 0.3) / sum, 1.0, 1e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -195,6 +256,8 @@ int main(void)
         cmocka_unit_test(fields_solve_navier_stokes),
         cmocka_unit_test(averages_are_those_of_fine_quadrature),
         cmocka_unit_test(averages_of_faces_balance),
+        cmocka_unit_test(crossed_waves_solve_the_linearised_equations),
+        cmocka_unit_test(enstrophy_of_crossed_waves_is_that_of_their_vorticity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
