@@ -97,8 +97,7 @@ static double share(const struct fv *s, const double *x)
     return 1.0 - in;
 }
 
-/* |curl u|^2 of a cell, 1/s^2. */
-static double curl_squared(const struct fv *s, int64_t c)
+double fv_curl_squared(const struct fv *s, int64_t c)
 {
     const struct block *b = &s->b;
     double sum = 0.0;
@@ -135,7 +134,7 @@ void fv_tell(void *state, struct summary *report)
                 const double u[3] = {s->u[0][c], s->u[1][c], b->dim == 3 ? s->u[2][c] : 0.0};
                 const double part = volume * share(s, x);
                 sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-                sum[1] += 0.5 * part * curl_squared(s, c);
+                sum[1] += 0.5 * part * fv_curl_squared(s, c);
                 sum[2] += rho * part * exact_signal(&s->exact, x, u);
                 sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
             }

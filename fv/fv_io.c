@@ -84,6 +84,24 @@ static void whole_pressure(const struct fv *s, double *field)
             }
 }
 
+/* Of the exact solution, in forced cells, too, for a picture beside the other. */
+static void write_exact(const struct fv *s, struct h5 *f, double *field, double *v)
+{
+    const struct block *b = &s->b;
+    double x[3];
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++)
+            for (int i = 0; i < b->n[0]; i++) {
+                block_centre(b, i, j, k, x);
+                double *w = field + block_at(b, i, j, k);
+                exact_point(&s->exact, x, s->t, NULL, NULL, w);
+                if (scene_has_wave(&s->run->scene) && x[1] > exact_surface(&s->exact, x[0]))
+                    *w = NAN;
+            }
+    block_pack(b, field, v);
+    h5_write_block(f, "vorticity_exact", "1/s", b->dim, b->cells, b->lo, b->hi, 1, v, true);
+}
+
 void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
 {
     struct fv *s = state;
@@ -108,6 +126,10 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
         block_pack(b, field, v);
         write(s, f, "vorticity", "1/s", 1, v);
         fields[nfields++] = (struct xdmf_field){"vorticity", 1};
+    }
+    if (wanted(s, "vorticity_exact") && exact_at_all_times(&s->run->scene)) {
+        write_exact(s, f, field, v);
+        fields[nfields++] = (struct xdmf_field){"vorticity_exact", 1};
     }
     if (s->surface) {
         block_pack(b, s->surface->phi, v);

@@ -103,6 +103,19 @@ void surface_sample(struct fv *s)
     fit_add(&s->swing, s->t, sum);
 }
 
+static double enstrophy(const struct fv *s)
+{
+    const struct block *b = &s->b;
+    double sum = 0.0;
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            const double part = surface_share(s, i);
+            sum += part > 0.0 ? 0.5 * part * fv_curl_squared(s, i) : 0.0;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+    return sum * cell_volume(b);
+}
+
 static void summarise_swing(struct fv *s)
 {
     struct summary *to = s->run->summary;
@@ -117,6 +130,14 @@ static void summarise_swing(struct fv *s)
     if (isfinite(r)) {
         summary_real(to, "damping", r);
         summary_real(to, "error.damping", rate != 0.0 ? fabs(r / rate - 1.0) : fabs(r) * period);
+    }
+    if (rate != 0.0) {
+        const struct scene_domain *d = &s->run->scene.domain;
+        double area = 1.0;
+        for (int a = 0; a < d->dim; a++)
+            area *= a == 1 ? 1.0 : d->max[a] - d->min[a];
+        summary_real(to, "error.enstrophy",
+                     fabs(enstrophy(s) / exact_enstrophy(&s->exact, area, s->t) - 1.0));
     }
 }
 
