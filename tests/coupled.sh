@@ -92,6 +92,22 @@ cube cube2 2:2:2 -p time.end=0.02
 close_to "$(number cube2 velocity_l2)" "$(number cube1 velocity_l2)" 1e-6 ||
     bad "beltrami on 2:2:2: velocity error $(number cube2 velocity_l2), on one rank each $(number cube1 velocity_l2)"
 
+# a free surface in three dimensions, slip sides
+crossed() { # DIR RANKS ARGS...
+    d=$1 r=$2
+    shift 2
+    "$root/cases/run" standing_wave_3d -n "$r" -o "$d" -p "fv.cells=(16,10,16)" -p output.every=0 "$@" >"$d.txt" 2>&1
+    code=$?
+    [ $code -le 1 ] || bad "standing wave in 3D $d ended with $code: $(tail -n 3 "$d.txt")"
+}
+crossed crossed 1:1:1 -p time.end=0.6
+below "$(number crossed velocity_l2)" 0.06 || bad "standing wave in 3D: velocity error $(number crossed velocity_l2), wanted at most 0.06"
+below "$(number crossed mass_fluctuation)" 0.001 || bad "standing wave in 3D: mass off by $(number crossed mass_fluctuation), wanted at most 0.001"
+crossed crossed1 1:1:1 -p time.end=0.15
+crossed crossed2 2:2:2 -p time.end=0.15
+close_to "$(number crossed2 velocity_l2)" "$(number crossed1 velocity_l2)" 1e-6 ||
+    bad "standing wave in 3D on 2:2:2: velocity error $(number crossed2 velocity_l2), on one rank each $(number crossed1 velocity_l2)"
+
 # an orderly stop: USR1 to the launcher
 "$root/cases/run" taylor_green -n 1:1:1 -o stop -p sph.dx=0.0125 -p "fv.cells=(24,24)" >stop.txt 2>&1 &
 job=$!
