@@ -88,6 +88,7 @@ struct zones *zones_create(struct sph *s)
     if (!open)
         return NULL;
     struct zones *z = NEW(struct zones, 1);
+    z->level = NAN;
     zones_widths(s->run, &s->prm, &z->transition, &z->buffer);
     z->openings = openings_create(s);
     if (s->prm.outer == OUTER_EXACT) {
@@ -285,6 +286,10 @@ static double gained(const struct sph *s)
     return sum + openings_held(s) - s->mass0;
 }
 
+/* Windows over which the level is smoothed: one that followed at once would be a wall to the sound
+ * of impacts. */
+static const double level_memory = 10.0;
+
 /* A full box holds what it held at the start: volumes in the zones do not know it, and what they
  * gained goes out by the faces. Under a free surface mass goes in and out with the waves, and a
  * partner of constant density knows its pressure up to a level: SPH's own is taken. Alone that
@@ -303,7 +308,9 @@ void zones_gauge(struct sph *s)
         return;
     MPI_Allreduce(&o->inflow, &inflow, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     const double layer = (gained(s) - inflow) * s->dx / (openings_faces(o) * s->dxD);
-    z->gauge = level_inside(s) - 10.0 * g * layer;
+    const double level = level_inside(s);
+    z->level = isnan(z->level) ? level : z->level + (level - z->level) / level_memory;
+    z->gauge = z->level - 10.0 * g * layer;
 }
 
 /* Draws the state of particle k of the list to the flow outside by alpha; p in Pa, u in m/s. */
@@ -352,8 +359,10 @@ void zones_save(struct sph *s, struct h5 *f)
     h5_write_real(f, "faces_mass", "kg", rows, 1, o->mass, false);
     h5_write_real(f, "faces_flux", "kg/s", openings_faces(o), 1, o->flux, false);
     const double booked[4] = {s->zones->blended, o->born_mass, o->gone_mass, o->inflow};
+    const double level[1] = {s->zones->level};
     const int64_t counted[3] = {o->born, o->gone, o->refused};
     h5_write_real(f, "zones_booked", "kg", 4, 1, booked, false);
+    h5_write_real(f, "zones_level", "Pa", 1, 1, level, false);
     h5_write_int(f, "zones_counted", 3, counted);
 }
 
@@ -367,6 +376,7 @@ bool zones_load(struct sph *s, struct h5 *f)
     if (!h5_read_real(f, "faces_mass", rows, 1, o->mass) ||
         !h5_read_real(f, "faces_flux", faces, 1, o->flux) ||
         !h5_read_real(f, "zones_booked", 4, 1, booked) ||
+        !h5_read_real(f, "zones_level", 1, 1, &s->zones->level) ||
         !h5_read_int(f, "zones_counted", 3, counted))
         return false;
     MPI_Bcast(o->mass, faces, MPI_DOUBLE, 0, s->run->comm);

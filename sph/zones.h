@@ -21,6 +21,7 @@ struct zones {
     struct openings *openings;
     double gauge; /* Pa: added to the pressure outside, which an incompressible partner knows up to
                      a constant; 0 without a free surface */
+    double level; /* Pa: the smoothed part of it that SPH's own pressure gives; NAN: none yet */
     double blended; /* kg: mass that blending added on this rank since the start */
     int n; /* buffer or transition particles at hand, and the flow outside at their places */
     int capacity;
