@@ -111,7 +111,8 @@ static void one_birth_a_face_and_spacing(void **state)
     sph_free(&c.s);
 }
 
-/* [6.7-6.8]: what is blended in is the depth into the transition over its width. */
+/* [6.8]: what is blended in is the depth into the transition over its width; across a side half of
+ * it, for one of two characteristics leaves as it was. */
 static void blending_follows_the_depth(void **state)
 {
     (void)state;
@@ -124,7 +125,9 @@ static void blending_follows_the_depth(void **state)
     for (int i = 0; i < s->p.n; i++) {
         const double *y = s->p.y + 6 * (size_t)i, depth = zones_depth(s, y);
         const double in = (depth - s->zones->buffer) / s->zones->transition;
-        const double want = s->p.zone[i] == ZONE_TRANSITION ? 1.0 - in : 0.0;
+        const bool across = fmin(y[0] - s->lo[0], s->hi[0] - y[0]) <= depth;
+        const double want =
+            s->p.zone[i] == ZONE_TRANSITION ? (across ? 0.5 : 1.0) * (1.0 - in) : 0.0;
         assert_close(y[2] / y[5], want, 1e-12);
         assert_int_equal(s->p.zone[i], in < 0.0   ? ZONE_BUFFER
                                        : in < 1.0 ? ZONE_TRANSITION
