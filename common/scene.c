@@ -152,6 +152,12 @@ bool scene_has_wave(const struct scene *s)
     return s->initial.field == FIELD_STANDING_WAVE || s->initial.field == FIELD_STOKES;
 }
 
+bool scene_has_surface(const struct scene *s)
+{
+    const int f = s->initial.field;
+    return s->nshapes > 0 || scene_has_wave(s) || f == FIELD_PATCH || f == FIELD_DROP;
+}
+
 static void check_walls(const struct scene *s, const struct params *p, struct faults *f)
 {
     for (int k = 0; k < s->nwalls; k++) {

@@ -142,6 +142,8 @@ const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side si
 
 /* Whether the field is a wave under a surface of its own. */
 bool scene_has_wave(const struct scene *s);
+/* Whether the water ends somewhere without a wall. */
+bool scene_has_surface(const struct scene *s);
 
 /* The table of the groups above, with s as target: fills groups[SCENE_GROUPS]. */
 void scene_groups(struct scene *s, struct param_group *groups);

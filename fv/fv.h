@@ -163,6 +163,8 @@ void fv_summarise_extrema(const struct fv *s);
 /* fv_coupling.c: the only file here that knows cpl.h. */
 void coupling_create(struct fv *s);
 void coupling_free(struct fv *s);
+/* Pa: taken out of the pressure that went to the partner last. */
+double coupling_level(const struct fv *s);
 void coupling_first(void *s);
 void coupling_window_begin(void *s, double t0, double t1);
 void coupling_window_end(void *s, double t1);

@@ -22,6 +22,7 @@ struct link {
                              windows, newest first */
     double t[LEVELS];     /* s: their times */
     int levels;           /* of them known */
+    double level;         /* Pa: taken out of the pressure last */
     double *rate;         /* [n] Pa/s: trend of the pressure */
     double *v, *dv, *got; /* scratch */
     unsigned char *mask;
@@ -119,6 +120,43 @@ static void add_still_pressure(const struct fv *s, double *p)
             }
 }
 
+/* Place of a cell, from its index: indices from the first local one. */
+static void place_of(const struct block *b, int64_t c, int at[3])
+{
+    at[0] = (int)(c % b->stride[1]) - b->g[0];
+    at[1] = (int)(c % b->stride[2] / b->stride[1]) - b->g[1];
+    at[2] = (int)(c / b->stride[2]) - b->g[2];
+}
+
+/* Under a surface the partner knows the level of the pressure: what is smoothed and sent is what
+ * stands over its mean at the rim of the free cells. It would follow every swing of the level late.
+ */
+static void take_out_level(struct fv *s, double *q)
+{
+    struct link *k = s->link;
+    const struct block *b = &s->b;
+    const struct forcing *f = s->forcing;
+    const double *g = s->run->scene.fluid.gravity;
+    double sum[2] = {0.0, 0.0}, x[3];
+    k->level = 0.0;
+    if (!f || !scene_has_surface(&s->run->scene) || (g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0))
+        return;
+    for (int64_t m = f->npartner; m < f->npartner + f->nrim; m++) {
+        int at[3];
+        place_of(b, f->partner[m], at);
+        block_centre(b, at[0], at[1], at[2], x);
+        const int64_t i = at[0] + (int64_t)b->n[0] * (at[1] + (int64_t)b->n[1] * at[2]);
+        sum[0] += q[i * (b->dim + 1) + b->dim] - fv_still_pressure(s, x);
+        sum[1] += 1.0;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+    k->level = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
+    for (int64_t i = 0; i < k->n; i++)
+        q[i * (b->dim + 1) + b->dim] -= k->level;
+}
+
+double coupling_level(const struct fv *s) { return s->link ? s->link->level : 0.0; }
+
 /* Velocity and whole pressure now, as a new level; forced cells get a pressure continued from the
  * free side. */
 static void take_level(struct fv *s)
@@ -143,6 +181,7 @@ static void take_level(struct fv *s)
     }
     mem_free(p);
     mem_free(one);
+    take_out_level(s, k->q[0]);
 }
 
 /* Derivative at the newest level: three levels, two, or none. */
@@ -205,6 +244,7 @@ static void exact_level(struct fv *s, double t, int m)
                 k->q[m][at++] = p;
             }
     k->t[m] = t;
+    take_out_level(s, k->q[m]);
 }
 
 /* Which cells take the partner's values, once; then the first patch. */
@@ -219,9 +259,8 @@ void coupling_first(void *state)
     int64_t *id = NEW(int64_t, n);
     for (int64_t m = 0; m < n; m++) {
         const int64_t c = f->partner[m];
-        const int at[3] = {(int)(c % b->stride[1]) - b->g[0],
-                           (int)(c % b->stride[2] / b->stride[1]) - b->g[1],
-                           (int)(c / b->stride[2]) - b->g[2]};
+        int at[3];
+        place_of(b, c, at);
         block_centre(b, at[0], at[1], at[2], x + 3 * m);
         id[m] =
             (b->lo[0] + at[0]) +

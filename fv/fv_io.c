@@ -69,6 +69,8 @@ static void write_frame(const struct fv *s, struct h5 *f)
         h5_attribute_real(f, lo[a], s->b.origin[a]);
         h5_attribute_real(f, hi[a], s->b.origin[a] + s->b.cells[a] * s->b.h[a]);
     }
+    if (s->run->coupled) /* Pa: what the partner does not see of the pressure */
+        h5_attribute_real(f, "level", coupling_level(s));
 }
 
 static void whole_pressure(const struct fv *s, double *field)

@@ -97,13 +97,6 @@ bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *p
     return side % 2 ? prm->box[1][a] >= d->max[a] - near : prm->box[0][a] <= d->min[a] + near;
 }
 
-/* Whether the fluid ends somewhere without a wall. */
-static bool has_surface(const struct scene *c)
-{
-    const int f = c->initial.field;
-    return c->nshapes > 0 || scene_has_wave(c) || f == FIELD_PATCH || f == FIELD_DROP;
-}
-
 static bool is_wall(const struct scene_wall *w)
 {
     return w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP;
@@ -165,7 +158,7 @@ const struct sph_params *sph_params_of(const struct run *r)
     if (used.c0 <= 0.0)
         used.c0 = default_c0(&r->scene);
     if (used.surface == SURFACE_AUTO)
-        used.surface = has_surface(&r->scene) ? SURFACE_YES : SURFACE_NO;
+        used.surface = scene_has_surface(&r->scene) ? SURFACE_YES : SURFACE_NO;
     if (used.viscosity == VISCOSITY_AUTO)
         used.viscosity = used.surface ? VISCOSITY_MONAGHAN : VISCOSITY_MORRIS;
     if (used.scheme == SCHEME_AUTO)
