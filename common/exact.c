@@ -225,8 +225,11 @@ double exact_surface(const struct exact *e, double x)
     return e->bottom + e->height + (e->field == FIELD_STOKES ? stokes_eta(&e->stokes, x) : 0.0);
 }
 
-double exact_enstrophy(const struct exact *e, double area, double t)
+double exact_enstrophy(const struct exact *e, const double *lo, const double *hi, double t)
 {
+    double area = 1.0;
+    for (int a = 0; a < e->dim; a++)
+        area *= a == 1 ? 1.0 : hi[a] - lo[a];
     return (e->crossed ? 0.5 : 1.0) * area * wave_enstrophy(&e->wave, t);
 }
 

@@ -44,8 +44,8 @@ struct exact exact_create(const struct scene *s);
 bool exact_oscillation(const struct exact *e, double *period, double *rate);
 /* Height of the surface over x at t = 0, m. */
 double exact_surface(const struct exact *e, double x);
-/* Enstrophy of the standing wave over an area (m^2, in 2D m) of its bottom; m^dim/s^2. */
-double exact_enstrophy(const struct exact *e, double area, double t);
+/* Enstrophy of the standing wave over the bottom of the box lo..hi (m); m^dim/s^2. */
+double exact_enstrophy(const struct exact *e, const double *lo, const double *hi, double t);
 /* What swings, per mass: the velocity u at x as part of the wave's inviscid mode, or the drop's
  * second moment; 0 for other fields. */
 double exact_signal(const struct exact *e, const double *x, const double *u);

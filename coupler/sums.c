@@ -15,7 +15,6 @@ enum { KINETIC, POTENTIAL, ENSTROPHY, SIGNAL, SUMS };
 
 struct sums {
     struct series *file;
-    bool swings; /* its history is kept for a fit at the end */
     struct fit fit;
     double now[SUMS];
 };
@@ -51,13 +50,12 @@ void sums_window(struct coupler *c)
         char path[1100];
         snprintf(path, sizeof path, "%s/series.csv", c->dir);
         s = c->sums = NEW(struct sums, 1);
-        s->swings = c->scene.initial.field == FIELD_STANDING_WAVE;
         s->file = series_create(path, 1 + SUMS, columns, c->command->restart,
                                 window_start(c, c->window - 1));
     }
     memcpy(s->now, row + 1, sizeof s->now);
     series_row(s->file, row);
-    if (s->swings)
+    if (c->scene.initial.field == FIELD_STANDING_WAVE) /* its history is for a fit at the end */
         fit_add(&s->fit, t, s->now[SIGNAL]);
 }
 
@@ -75,15 +73,13 @@ void sums_summarise(const struct coupler *c, struct summary *to)
 {
     const struct exact e = exact_create(&c->scene);
     const struct scene_domain *d = &c->scene.domain;
-    double period, rate, area = 1.0;
+    double period, rate;
     if (!c->sums || e.field != FIELD_STANDING_WAVE || !exact_oscillation(&e, &period, &rate))
         return;
     put_ratio(to, "period", fit_period(&c->sums->fit), period);
     put_ratio(to, "damping", fit_rate(&c->sums->fit), rate);
-    for (int a = 0; a < d->dim; a++)
-        area *= a == 1 ? 1.0 : d->max[a] - d->min[a];
     put_ratio(to, "enstrophy", c->sums->now[ENSTROPHY],
-              exact_enstrophy(&e, area, window_start(c, c->window)));
+              exact_enstrophy(&e, d->min, d->max, window_start(c, c->window)));
 }
 
 void sums_free(struct coupler *c)

@@ -108,18 +108,6 @@ void coupling_free(struct fv *s)
     s->link = NULL;
 }
 
-static void add_still_pressure(const struct fv *s, double *p)
-{
-    const struct block *b = &s->b;
-    double x[3];
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                block_centre(b, i, j, k, x);
-                p[block_at(b, i, j, k)] += fv_still_pressure(s, x);
-            }
-}
-
 /* Place of a cell, from its index: indices from the first local one. */
 static void place_of(const struct block *b, int64_t c, int at[3])
 {
@@ -173,7 +161,7 @@ static void take_level(struct fv *s)
         p[c] = fv_pressure(s, c);
     if (s->forcing)
         forcing_extend(s, p);
-    add_still_pressure(s, p);
+    fv_add_still_pressure(s, p);
     for (int m = 0; m <= b->dim; m++) {
         block_pack(b, m < b->dim ? s->u[m] : p, one);
         for (int64_t i = 0; i < k->n; i++)

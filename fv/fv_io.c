@@ -75,15 +75,9 @@ static void write_frame(const struct fv *s, struct h5 *f)
 
 static void whole_pressure(const struct fv *s, double *field)
 {
-    const struct block *b = &s->b;
-    double x[3];
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                const int64_t c = block_at(b, i, j, k);
-                block_centre(b, i, j, k, x);
-                field[c] = fv_pressure(s, c) + fv_still_pressure(s, x);
-            }
+    for (int64_t c = 0; c < s->b.size; c++)
+        field[c] = fv_pressure(s, c);
+    fv_add_still_pressure(s, field);
 }
 
 /* Of the exact solution, in forced cells, too, for a picture beside the other. */

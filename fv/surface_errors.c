@@ -133,11 +133,8 @@ static void summarise_swing(struct fv *s)
     }
     if (rate != 0.0) {
         const struct scene_domain *d = &s->run->scene.domain;
-        double area = 1.0;
-        for (int a = 0; a < d->dim; a++)
-            area *= a == 1 ? 1.0 : d->max[a] - d->min[a];
         summary_real(to, "error.enstrophy",
-                     fabs(enstrophy(s) / exact_enstrophy(&s->exact, area, s->t) - 1.0));
+                     fabs(enstrophy(s) / exact_enstrophy(&s->exact, d->min, d->max, s->t) - 1.0));
     }
 }
 

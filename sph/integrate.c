@@ -405,10 +405,7 @@ static void report_lost(struct sph *s, double lost)
 /* Mass of the region: particles, and what the faces hold of particles that are partly in. */
 static void track_mass(struct sph *s)
 {
-    double m = 0.0;
-    for (int i = 0; i < s->p.n; i++)
-        m += s->p.y[(size_t)i * s->p.nstate + 2 * s->dim + 1];
-    MPI_Allreduce(MPI_IN_PLACE, &m, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    const double m = zones_mass(s);
     raise(&s->fluctuation_particles, fabs(m / s->mass0 - 1.0));
     raise(&s->fluctuation, fabs((m + openings_held(s)) / s->mass0 - 1.0));
 }

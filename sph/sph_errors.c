@@ -233,13 +233,9 @@ static void summarise_oscillation(struct sph *s)
         summary_real(to, "damping", r);
         summary_real(to, "error.damping", rate != 0.0 ? fabs(r / rate - 1.0) : fabs(r) * period);
     }
-    if (e.field == FIELD_STANDING_WAVE && s->nu > 0.0) {
-        double area = 1.0;
-        for (int a = 0; a < s->dim; a++)
-            area *= a == 1 ? 1.0 : s->hi[a] - s->lo[a];
+    if (e.field == FIELD_STANDING_WAVE && s->nu > 0.0)
         summary_real(to, "error.enstrophy",
-                     fabs(enstrophy(s, false) / exact_enstrophy(&e, area, s->t) - 1.0));
-    }
+                     fabs(enstrophy(s, false) / exact_enstrophy(&e, s->lo, s->hi, s->t) - 1.0));
 }
 
 static const char *const columns[] = {

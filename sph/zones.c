@@ -276,15 +276,17 @@ static double level_inside(struct sph *s)
     return sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
 }
 
-/* kg: what the region and its faces hold beyond the start. Collective. */
-static double gained(const struct sph *s)
+double zones_mass(const struct sph *s)
 {
     double sum = 0.0;
     for (int i = 0; i < s->p.n; i++)
         sum += s->p.y[(size_t)i * s->p.nstate + 2 * s->dim + 1];
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sum + openings_held(s) - s->mass0;
+    return sum;
 }
+
+/* kg: what the region and its faces hold beyond the start. Collective. */
+static double gained(const struct sph *s) { return zones_mass(s) + openings_held(s) - s->mass0; }
 
 /* Windows over which the level is smoothed: one that followed at once would be a wall to the sound
  * of impacts. */

@@ -48,6 +48,8 @@ void zones_stage(struct sph *s);
 /* After the gradients of a stage: buffer slopes from outside; transport shift near the open sides.
  */
 void zones_slopes(struct sph *s);
+/* kg: of all particles of the region. Collective. */
+double zones_mass(const struct sph *s);
 /* At an exchange with a partner: sets the gauge by the mass of the region under a surface, else
  * lets out what it gained. Collective. */
 void zones_gauge(struct sph *s);

@@ -245,7 +245,10 @@ static void enstrophy_of_crossed_waves_is_that_of_their_vorticity(void **state)
         assert_close(w[1], 0.0, 1e-8);
         sum += 0.5 * (w[0] * w[0] + w[2] * w[2]) * 3.0 / (N * N * M);
     }
-    assert_close(exact_enstrophy(&e, 3.0, 0.3) / sum, 1.0, 1e-3);
+    assert_close(
+        exact_enstrophy(&e, (const double[]){0.0, 0.0, 0.0}, (const double[]){3.0, 1.0, 1.0}, 0.3) /
+            sum,
+        1.0, 1e-3);
 }
 
 int main(void)
