@@ -97,9 +97,15 @@ double fit_rate(const struct fit *f)
     return n >= 3.0 ? (n * stl - st * sl) / (n * stt - st * st) : NAN;
 }
 
-void fit_smooth(double v, double h, double memory, double *level, double *rate)
+void fit_smooth(double v, double h, double memory, double *level, double *rate, double *scatter)
 {
     const double alpha = 2.0 / (memory + 1.0), foreseen = *level + h * *rate;
-    *level = foreseen + alpha * (2.0 - alpha) * (v - foreseen);
-    *rate += alpha * alpha / h * (v - foreseen);
+    const double most = *scatter > 0.0 ? 2.0 * *scatter : INFINITY;
+    const double off = v - foreseen, e = fmax(-most, fmin(off, most));
+    if (fabs(off) > most)
+        *scatter *= pow(fabs(off) / *scatter, 0.1);
+    else
+        *scatter += (*scatter > 0.0 ? 0.1 : 1.0) * (fabs(e) - *scatter);
+    *level = foreseen + alpha * (2.0 - alpha) * e;
+    *rate += alpha * alpha / h * e;
 }

@@ -34,19 +34,37 @@ static void smoothing_has_no_lag(void **state)
 {
     (void)state;
     const double alpha = 0.4, part = alpha / (2.0 - alpha), left = part * (2.0 - part);
-    double level = 2.0, rate = 3.0;
+    double level = 2.0, rate = 3.0, scatter = 0.0;
     for (int k = 1; k <= 50; k++)
-        fit_smooth(2.0 + 3.0 * 0.1 * k, 0.1, 4.0, &level, &rate);
+        fit_smooth(2.0 + 3.0 * 0.1 * k, 0.1, 4.0, &level, &rate, &scatter);
     assert_close(level, 17.0, 1e-12);
     assert_close(rate, 3.0, 1e-12);
     for (int k = 51; k <= 250; k++)
-        fit_smooth(2.0 + 3.0 * 0.1 * k + (k % 2 ? -1.0 : 1.0), 0.1, 4.0, &level, &rate);
+        fit_smooth(2.0 + 3.0 * 0.1 * k + (k % 2 ? -1.0 : 1.0), 0.1, 4.0, &level, &rate, &scatter);
     assert_close(level, 77.0 + left, 1e-9);
+}
+
+/* One spike of a hundred times the scatter moves the level by what two scatters would; a step of
+ * that size is followed within 40 values. */
+static void a_spike_is_no_trend(void **state)
+{
+    (void)state;
+    double level = 0.0, rate = 0.0, scatter = 0.0;
+    for (int k = 0; k < 200; k++)
+        fit_smooth(k % 2 ? 1.0 : -1.0, 0.1, 4.0, &level, &rate, &scatter);
+    const double calm = scatter, foreseen = level + 0.1 * rate;
+    assert_true(calm > 1.0 && calm < 2.0);
+    fit_smooth(100.0, 0.1, 4.0, &level, &rate, &scatter);
+    assert_close(level - foreseen, 0.4 * 1.6 * 2.0 * calm, 1e-12);
+    for (int k = 0; k < 40; k++)
+        fit_smooth(100.0, 0.1, 4.0, &level, &rate, &scatter);
+    assert_close(level, 100.0, 1.0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(decaying_sine), cmocka_unit_test(too_short),
-                                       cmocka_unit_test(smoothing_has_no_lag)};
+                                       cmocka_unit_test(smoothing_has_no_lag),
+                                       cmocka_unit_test(a_spike_is_no_trend)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
