@@ -126,6 +126,8 @@ static void finish_slopes(struct sph *s)
         at_walls(s, s->walls->model->slopes);
     if (s->walls || s->surface)
         transport_finish(s);
+    if (s->surface && s->prm.damper > 0.0 && s->prm.scheme <= SCHEME_RIEMANN)
+        surface_calm(s);
 }
 
 /* The acceleration -W^2 x. */

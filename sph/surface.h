@@ -22,6 +22,9 @@ struct surface *surface_create(struct sph *s);
 void surface_free(struct surface **f);
 /* After the list of pairs; uses slope as scratch. Collective. */
 void surface_detect(struct sph *s);
+/* Takes the divergence out of the gradients of u as far as the support lacks neighbours: lambda
+ * from 1 (none of it) to 0.75 (all). For the damper. */
+void surface_calm(struct sph *s);
 /* Smallest eigenvalue of the symmetric part of M[dim][dim]. */
 double surface_eigenvalue(const double *M, int dim);
 
