@@ -391,6 +391,10 @@ static void pass_on(struct openings *o, int f, double mass)
     o->change[to] += mass;
 }
 
+/* What a newborn may be moved on, in dx: with a half, faces at an edge gave birth on it, and
+ * rounding lost the particle. */
+static const double most_over = 0.49;
+
 /* A face that holds a particle's mass and lets fluid in gives birth dx/2 inside, moved on along the
  * flow by what the step overshot. */
 static void give_birth(struct sph *s)
@@ -408,7 +412,7 @@ static void give_birth(struct sph *s)
             continue;
         double x[3];
         const int side = face_place(o, f, x), a = side / 2;
-        const double over = fmin(held / whole - 1.0, 0.5) * s->dx, un = fabs(u[a]);
+        const double over = fmin(held / whole - 1.0, most_over) * s->dx, un = fabs(u[a]);
         for (int b = 0; b < dim; b++)
             x[b] += b == a ? inward(side) * (0.5 * s->dx + over)
                            : (un > 0.0 ? fmax(fmin(u[b] / un, 1.0), -1.0) * over : 0.0);
