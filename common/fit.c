@@ -97,15 +97,22 @@ double fit_rate(const struct fit *f)
     return n >= 3.0 ? (n * stl - st * sl) / (n * stt - st * st) : NAN;
 }
 
+/* What of the news counts, see fit_smooth. */
+static double believed(double news, double *scatter)
+{
+    const double most = *scatter > 0.0 ? 2.0 * *scatter : INFINITY;
+    if (fabs(news) > most) {
+        *scatter *= pow(fabs(news) / *scatter, 0.1);
+        return copysign(most, news);
+    }
+    *scatter += (*scatter > 0.0 ? 0.1 : 1.0) * (fabs(news) - *scatter);
+    return news;
+}
+
 void fit_smooth(double v, double h, double memory, double *level, double *rate, double *scatter)
 {
     const double alpha = 2.0 / (memory + 1.0), foreseen = *level + h * *rate;
-    const double most = *scatter > 0.0 ? 2.0 * *scatter : INFINITY;
-    const double off = v - foreseen, e = fmax(-most, fmin(off, most));
-    if (fabs(off) > most)
-        *scatter *= pow(fabs(off) / *scatter, 0.1);
-    else
-        *scatter += (*scatter > 0.0 ? 0.1 : 1.0) * (fabs(e) - *scatter);
-    *level = foreseen + alpha * (2.0 - alpha) * e;
-    *rate += alpha * alpha / h * e;
+    const double news = scatter ? believed(v - foreseen, scatter) : v - foreseen;
+    *level = foreseen + alpha * (2.0 - alpha) * news;
+    *rate += alpha * alpha / h * news;
 }

@@ -18,11 +18,11 @@ double fit_rate(const struct fit *f);
 
 /* Brown's double exponential smoothing, alpha = 2/(memory + 1): takes the value v seen h s after
  * the last one into a level and its rate. Exact for straight lines, without lag; an alternation
- * comes out (alpha/(2 - alpha)) (2 - alpha/(2 - alpha)) times as large. What lies off the
- * foreseen by more than twice its mean (*scatter, of v's unit, 0 at first) counts as twice, so that
- * one spike is no trend (after Gelper, Fried, Croux, J. Forecasting 29, 2010); *scatter then grows
- * by the tenth root of how much more it was, so that a true change is believed after some values.
- */
+ * comes out (alpha/(2 - alpha)) (2 - alpha/(2 - alpha)) times as large. Without scatter
+ * (NULL) that is all; else what lies off the foreseen by more than twice its mean (*scatter, of v's
+ * unit, 0 at first) counts as twice, so that one spike is no trend (after Gelper, Fried, Croux, J.
+ * Forecasting 29, 2010); *scatter then grows by the tenth root of how much more it was, so that a
+ * true change is believed after some values. */
 void fit_smooth(double v, double h, double memory, double *level, double *rate, double *scatter);
 
 #endif

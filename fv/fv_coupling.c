@@ -17,14 +17,14 @@ enum { LEVELS = 3 };
 struct link {
     struct cpl *c;
     int grid, forced, velocity, pressure, imposed;
-    int64_t n;            /* local cells */
-    double *q[LEVELS];    /* [n][dim + 1] velocity and smoothed pressure at the ends of the last
-                             windows, newest first */
-    double t[LEVELS];     /* s: their times */
-    int levels;           /* of them known */
-    double level;         /* Pa: taken out of the pressure last */
-    double *rate;         /* [n] Pa/s: trend of the pressure */
-    double *scatter;      /* [n] Pa: of the pressure about its trend */
+    int64_t n;         /* local cells */
+    double *q[LEVELS]; /* [n][dim + 1] velocity and smoothed pressure at the ends of the last
+                          windows, newest first */
+    double t[LEVELS];  /* s: their times */
+    int levels;        /* of them known */
+    double level;      /* Pa: taken out of the pressure last */
+    double *rate;      /* [n] Pa/s: trend of the pressure */
+    double *scatter;   /* [n] Pa: of the pressure about its trend; NULL: no surface, no impacts */
     double *v, *dv, *got; /* scratch */
     unsigned char *mask;
 };
@@ -88,7 +88,7 @@ void coupling_create(struct fv *s)
     for (int m = 0; m < LEVELS; m++)
         k->q[m] = NEW(double, k->n *(b->dim + 1));
     k->rate = NEW(double, k->n);
-    k->scatter = NEW(double, k->n);
+    k->scatter = scene_has_surface(&s->run->scene) ? NEW(double, k->n) : NULL;
     k->v = NEW(double, k->n * b->dim);
     k->dv = NEW(double, k->n * b->dim);
     const int64_t most = s->forcing ? s->forcing->npartner + s->forcing->nrim : 0;
@@ -198,7 +198,7 @@ static void smooth_pressure(struct fv *s)
     for (int64_t i = 0; i < k->n; i++) {
         const int64_t at = i * (dim + 1) + dim;
         double level = k->q[1][at];
-        fit_smooth(k->q[0][at], h, memory, &level, k->rate + i, k->scatter + i);
+        fit_smooth(k->q[0][at], h, memory, &level, k->rate + i, k->scatter ? k->scatter + i : NULL);
         k->q[0][at] = level;
     }
 }
@@ -326,7 +326,8 @@ void coupling_save(const struct fv *s, struct h5 *f)
         h5_write_real(f, names[m], "-", k->n, s->b.dim + 1, k->q[m], false);
     h5_write_real(f, "levels", "-", 7, 1, clock, false);
     h5_write_real(f, "rate", "Pa/s", k->n, 1, k->rate, false);
-    h5_write_real(f, "scatter", "Pa", k->n, 1, k->scatter, false);
+    if (k->scatter)
+        h5_write_real(f, "scatter", "Pa", k->n, 1, k->scatter, false);
     for (int a = 0; c && a < s->b.dim; a++) {
         h5_write_real(f, v[a], "m/s", c->npartner + c->nrim, 1, c->v[a], false);
         h5_write_real(f, w[a], "m/s", c->npartner + c->nrim, 1, c->v_next[a], false);
@@ -342,7 +343,7 @@ bool coupling_load(struct fv *s, struct h5 *f)
     double clock[7];
     bool good = h5_read_real(f, "levels", 7, 1, clock) &&
                 h5_read_real(f, "rate", k->n, 1, k->rate) &&
-                h5_read_real(f, "scatter", k->n, 1, k->scatter);
+                (!k->scatter || h5_read_real(f, "scatter", k->n, 1, k->scatter));
     for (int m = 0; good && m < LEVELS; m++) {
         good = h5_read_real(f, names[m], k->n, s->b.dim + 1, k->q[m]);
         k->t[m] = clock[m];
