@@ -27,7 +27,8 @@ static struct {
         char who[96]; /* "sph rank 0 (process 4711)" */
     } watched[WATCHED];
     char who[80], path[1040], doing[TEXT],
-        seen[TEXT]; /* seen: whose death, if no note can be left */
+        seen[TEXT];  /* seen: whose death, if no note can be left */
+    char absent[96]; /* whose process was not there when it was to be watched */
 } self;
 
 /* strlen and memcpy are safe in handlers, printf is not. */
@@ -129,7 +130,9 @@ void failure_obituary(int fd)
     } else if (self.seen[0]) {
         append(text, self.seen);
     } else {
-        append(text, "no reason was left; this rank was ");
+        append(text, self.absent[0] ? self.absent : "no reason was left");
+        append(text, self.absent[0] ? " was gone when programs met: killed, or out of memory" : "");
+        append(text, "; this rank was ");
         append(text, self.doing);
     }
     append(text, "\n");
@@ -143,9 +146,15 @@ void failure_doing(const char *text) { snprintf(self.doing, sizeof self.doing, "
 
 void failure_watch(const char *program, int rank, long pid)
 {
-    /* A process of another container may share our host name but not our process numbers. */
-    if (self.nwatched == WATCHED || pid == (long)getpid() || kill((pid_t)pid, 0) != 0)
+    if (self.nwatched == WATCHED || pid == (long)getpid())
         return;
+    /* A process of another container may share our host name but not our process numbers; or it
+     * died right after its first word. */
+    if (kill((pid_t)pid, 0) != 0) {
+        snprintf(self.absent, sizeof self.absent, "%.40s rank %d (process %ld)", program, rank,
+                 pid);
+        return;
+    }
     struct watched *w = &self.watched[self.nwatched++];
     w->pid = pid;
     snprintf(w->who, sizeof w->who, "%.40s rank %d (process %ld)", program, rank, pid);
