@@ -130,8 +130,9 @@ void failure_obituary(int fd)
     } else if (self.seen[0]) {
         append(text, self.seen);
     } else {
-        append(text, self.absent[0] ? self.absent : "no reason was left");
-        append(text, self.absent[0] ? " was gone when programs met: killed, or out of memory" : "");
+        append(text, self.absent);
+        append(text, self.absent[0] ? " was gone when programs met: killed, or out of memory"
+                                    : "no reason was left");
         append(text, "; this rank was ");
         append(text, self.doing);
     }
@@ -148,16 +149,15 @@ void failure_watch(const char *program, int rank, long pid)
 {
     if (self.nwatched == WATCHED || pid == (long)getpid())
         return;
-    /* A process of another container may share our host name but not our process numbers; or it
-     * died right after its first word. */
-    if (kill((pid_t)pid, 0) != 0) {
-        snprintf(self.absent, sizeof self.absent, "%.40s rank %d (process %ld)", program, rank,
-                 pid);
-        return;
-    }
-    struct watched *w = &self.watched[self.nwatched++];
+    struct watched *w = &self.watched[self.nwatched];
     w->pid = pid;
     snprintf(w->who, sizeof w->who, "%.40s rank %d (process %ld)", program, rank, pid);
+    /* A process of another container may share our host name but not our process numbers; or it
+     * died right after its first word. */
+    if (kill((pid_t)pid, 0) == 0)
+        self.nwatched++;
+    else
+        memcpy(self.absent, w->who, sizeof self.absent);
 }
 
 /* Only the author of the note, if it is about itself, aborts. All others wait for the launcher's
