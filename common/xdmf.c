@@ -131,31 +131,58 @@ void xdmf_points(struct xdmf *x, double t, const char *file, int64_t n, int dim,
     rewrite(x);
 }
 
+static void set_shape(int dim, const int *cells, char *shape, char *nodes, size_t size)
+{
+    if (dim == 2) {
+        snprintf(shape, size, "%d %d", cells[1], cells[0]);
+        snprintf(nodes, size, "%d %d", cells[1] + 1, cells[0] + 1);
+    } else {
+        snprintf(shape, size, "%d %d %d", cells[2], cells[1], cells[0]);
+        snprintf(nodes, size, "%d %d %d", cells[2] + 1, cells[1] + 1, cells[0] + 1);
+    }
+}
+
+/* Places of the vertices along each axis, written out. */
+static void add_edges(struct xdmf *x, int dim, const int *cells, const double *origin,
+                      const double *spacing, const double *edges, const char *nodes)
+{
+    add(x,
+        "<Topology TopologyType=\"%dDRectMesh\" Dimensions=\"%s\"/>\n<Geometry "
+        "GeometryType=\"%s\">",
+        dim, nodes, dim == 2 ? "VXVY" : "VXVYVZ");
+    for (int a = 0; a < dim; a++) {
+        add(x, "<DataItem Format=\"XML\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"%d\">",
+            cells[a] + 1);
+        for (int i = 0; i <= cells[a]; i++)
+            add(x, "%s%.9g", i ? " " : "", a == 1 ? edges[i] : origin[a] + i * spacing[a]);
+        add(x, "</DataItem>");
+    }
+    add(x, "</Geometry>\n");
+}
+
 void xdmf_block(struct xdmf *x, double t, const char *file, int dim, const int *cells,
-                const double *origin, const double *spacing, int nfields,
+                const double *origin, const double *spacing, const double *edges, int nfields,
                 const struct xdmf_field *fields)
 {
     char shape[64], nodes[64];
     add(x, "<Grid Name=\"at\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
-    if (dim == 2) {
-        snprintf(shape, sizeof shape, "%d %d", cells[1], cells[0]);
-        snprintf(nodes, sizeof nodes, "%d %d", cells[1] + 1, cells[0] + 1);
+    set_shape(dim, cells, shape, nodes, sizeof shape);
+    if (edges)
+        add_edges(x, dim, cells, origin, spacing, edges, nodes);
+    else if (dim == 2)
         add(x,
             "<Topology TopologyType=\"2DCoRectMesh\" Dimensions=\"%s\"/>\n<Geometry "
             "GeometryType=\"ORIGIN_DXDY\"><DataItem Format=\"XML\" Dimensions=\"2\">%.17g "
             "%.17g</DataItem>"
             "<DataItem Format=\"XML\" Dimensions=\"2\">%.17g %.17g</DataItem></Geometry>\n",
             nodes, origin[1], origin[0], spacing[1], spacing[0]);
-    } else {
-        snprintf(shape, sizeof shape, "%d %d %d", cells[2], cells[1], cells[0]);
-        snprintf(nodes, sizeof nodes, "%d %d %d", cells[2] + 1, cells[1] + 1, cells[0] + 1);
+    else
         add(x,
             "<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"%s\"/>\n<Geometry "
             "GeometryType=\"ORIGIN_DXDYDZ\"><DataItem Format=\"XML\" Dimensions=\"3\">%.17g %.17g "
             "%.17g</DataItem><DataItem Format=\"XML\" Dimensions=\"3\">%.17g %.17g "
             "%.17g</DataItem></Geometry>\n",
             nodes, origin[2], origin[1], origin[0], spacing[2], spacing[1], spacing[0]);
-    }
     add_fields(x, "Cell", shape, file, nfields, fields);
     add(x, "</Grid>\n");
     rewrite(x);
@@ -165,13 +192,7 @@ static void add_curved(struct xdmf *x, const char *file, int dim, int k, const i
                        int nfields, const struct xdmf_field *fields)
 {
     char shape[64], nodes[64];
-    if (dim == 2) {
-        snprintf(shape, sizeof shape, "%d %d", cells[1], cells[0]);
-        snprintf(nodes, sizeof nodes, "%d %d", cells[1] + 1, cells[0] + 1);
-    } else {
-        snprintf(shape, sizeof shape, "%d %d %d", cells[2], cells[1], cells[0]);
-        snprintf(nodes, sizeof nodes, "%d %d %d", cells[2] + 1, cells[1] + 1, cells[0] + 1);
-    }
+    set_shape(dim, cells, shape, nodes, sizeof shape);
     add(x, "<Grid Name=\"block %d\" GridType=\"Uniform\">\n", k);
     add(x,
         "<Topology TopologyType=\"%s\" Dimensions=\"%s\"/>\n<Geometry GeometryType=\"%s\">"

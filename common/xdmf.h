@@ -23,9 +23,10 @@ struct xdmf_field {
 /* n particles, positions in dataset "position" [n][dim]. file: name of the HDF5 file, no folder. */
 void xdmf_points(struct xdmf *x, double t, const char *file, int64_t n, int dim, int nfields,
                  const struct xdmf_field *fields);
-/* A uniform block of cells. */
+/* A block of even cells; edges: of its rows along y [cells[1] + 1] where they are of unequal
+ * height, else NULL. */
 void xdmf_block(struct xdmf *x, double t, const char *file, int dim, const int *cells,
-                const double *origin, const double *spacing, int nfields,
+                const double *origin, const double *spacing, const double *edges, int nfields,
                 const struct xdmf_field *fields);
 /* Structured blocks of any shape: vertices in datasets x_1, x_2, ..., fields in NAME_1, ... */
 void xdmf_curved(struct xdmf *x, double t, const char *file, int dim, int nblocks,

@@ -70,6 +70,11 @@ static int64_t cell(const struct block *b, const struct side *d, int i, int j)
             for (int64_t m = place(b, &(d), i, j), c = cell(b, &(d), i, j), once_ = 1; once_;      \
                  once_ = 0)
 
+static double face_area(const struct block *b, const struct side *d, int i, int j)
+{
+    return block_size(b, d->t[0], i) * block_size(b, d->t[1], j);
+}
+
 /* Average of 4 x (1 - x) over the face from x to x + h of a side of length 1. */
 static double parabola(double x, double h)
 {
@@ -84,8 +89,13 @@ static double profile_at(const struct fv *s, const struct scene_wall *wall, cons
     double f = 1.0;
     for (int m = 0; wall->profile && m < 2; m++) {
         const int t = d->t[m];
-        if (t < b->dim && !b->periodic[t])
-            f *= parabola((double)(b->lo[t] + at[m]) / b->cells[t], 1.0 / b->cells[t]);
+        if (t >= b->dim || b->periodic[t])
+            continue;
+        const double h = block_size(b, t, at[m]) / b->length[t];
+        f *=
+            parabola(t == 1 && b->rows ? (b->rows->y[at[m]] - b->origin[1]) / b->length[1] - 0.5 * h
+                                       : (b->lo[t] + at[m]) * h,
+                     h);
     }
     return f;
 }
@@ -131,9 +141,9 @@ static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall
         bc->speed_along[q] = fmax(bc->speed_along[q], fabs(wall->velocity[q]));
     for (int q = 0; q < b->dim; q++)
         bc->speed = fmax(bc->speed, bc->speed_along[q]);
-    double area = 1.0, face = 1.0;
+    double area = 1.0;
     for (int t = 0; t < b->dim; t++)
-        area *= t == a ? 1.0 : b->h[t] * b->cells[t];
+        area *= t == a ? 1.0 : b->length[t];
     if (bc->kind[k] == BC_NO_SLIP || bc->kind[k] == BC_SLIP)
         bc->wall_area += area;
     if (!has_side(b, k))
@@ -149,11 +159,9 @@ static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall
     }
     if (bc->kind[k] == BC_CARRIED)
         bc->out[k] = make_outflow(b, k, bc->n[k]);
-    for (int t = 0; t < b->dim; t++)
-        face *= t == a ? 1.0 : b->h[t];
     SIDE_PLACES(b, inner, i, j, m, c)
     {
-        bc->outflux += (k % 2 ? face : -face) * bc->w[k][a][m];
+        bc->outflux += (k % 2 ? 1.0 : -1.0) * face_area(b, &inner, i, j) * bc->w[k][a][m];
         (void)c;
     }
 }
@@ -274,9 +282,10 @@ static void slip_row(const struct block *b, const struct side *d, int m, double 
         if (has_side(b, 2 * t + 1))
             at[n + i] = at[n - 1 - i];
     }
-    const double w = tau / (12.0 * b->h[t]);
+    const struct block line_of = {
+        .stride = {1, 1, 1}, .h = {b->h[0], b->h[1], b->h[2]}, .rows = b->rows};
     for (int i = 0; i < n; i++)
-        slip[i * step] = w * (8.0 * (at[i + 1] - at[i - 1]) - (at[i + 2] - at[i - 2]));
+        slip[i * step] = tau * block_derivative(&line_of, at + i, t, i);
 }
 
 void bc_set_slip(const struct fv *s, double tau, const double *psi)
@@ -340,7 +349,7 @@ static void side_centre(const struct block *b, const struct side *d, int64_t m, 
     at[d->t[0]] = (int)(m % d->width) - b->g[d->t[0]];
     at[d->t[1]] = (int)(m / d->width) - b->g[d->t[1]];
     block_centre(b, at[0], at[1], at[2], x);
-    x[d->a] += 0.5 * out * b->h[d->a];
+    x[d->a] += 0.5 * out * block_size(b, d->a, at[d->a]);
 }
 
 /* Pressure on the side by the cubic, shear by the fourth-order face gradient. */
@@ -349,11 +358,10 @@ static void add_force(const struct fv *s, int k, double *force)
     const struct block *b = &s->b;
     const struct side d = side_of(b, k, false);
     const double out = k % 2 ? 1.0 : -1.0, mu = s->run->scene.fluid.rho * s->nu;
-    double area = 1.0, x[3];
-    for (int t = 0; t < b->dim; t++)
-        area *= t == d.a ? 1.0 : b->h[t];
+    double x[3];
     SIDE_PLACES(b, d, i, j, m, c)
     {
+        const double area = face_area(b, &d, i, j);
         double p[4];
         for (int n = 0; n < 4; n++)
             p[n] = fv_pressure(s, c + n * d.in);
@@ -364,7 +372,7 @@ static void add_force(const struct fv *s, int k, double *force)
         for (int q = 0; q < b->dim; q++) {
             const double *u = s->u[q] + c;
             if (q != d.a)
-                force[q] += area * mu / (12.0 * b->h[d.a]) *
+                force[q] += area * mu / (12.0 * block_size(b, d.a, d.first)) *
                             (15.0 * (u[0] - u[-d.in]) - (u[d.in] - u[-2 * d.in]));
         }
     }

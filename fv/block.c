@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../common/mem.h"
+#include "rows.h"
 
 void block_create(struct block *b, MPI_Comm comm, int dim, const int *cells, const double *origin,
                   const double *length, const bool *periodic)
@@ -25,7 +26,8 @@ void block_create(struct block *b, MPI_Comm comm, int dim, const int *cells, con
     for (int a = 0; a < 3; a++) {
         b->cells[a] = a < dim ? cells[a] : 1;
         b->origin[a] = a < dim ? origin[a] : 0.0;
-        b->h[a] = a < dim ? length[a] / cells[a] : 1.0;
+        b->length[a] = a < dim ? length[a] : 1.0;
+        b->h[a] = b->length[a] / b->cells[a];
         b->periodic[a] = wrap[a];
         b->lo[a] = (int)((int64_t)b->cells[a] * at[a] / dims[a]);
         b->hi[a] = (int)((int64_t)b->cells[a] * (at[a] + 1) / dims[a]);
@@ -48,6 +50,7 @@ void block_free(struct block *b)
 {
     mem_free(b->send);
     mem_free(b->recv);
+    rows_free(&b->rows);
     MPI_Comm_free(&b->cart);
 }
 
@@ -58,6 +61,15 @@ void block_centre(const struct block *b, int i, int j, int k, double *x)
     const int at[3] = {i, j, k};
     for (int a = 0; a < 3; a++)
         x[a] = a < b->dim ? b->origin[a] + (b->lo[a] + at[a] + 0.5) * b->h[a] : 0.0;
+    if (b->rows)
+        x[1] = b->rows->y[j];
+}
+
+void block_cell(const struct block *b, int i, int j, int k, double *x, double *h)
+{
+    block_centre(b, i, j, k, x);
+    for (int a = 0; a < 3; a++)
+        h[a] = block_size(b, a, a == 1 ? j : 0);
 }
 
 /* Copies GHOSTS layers along axis a, from local index `first' on, to or from packed storage. */

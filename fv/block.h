@@ -1,4 +1,5 @@
-/* block.h - a rank's part of a uniform Cartesian grid: places, storage with ghost layers, halo.
+/* block.h - a rank's part of a Cartesian grid, even or with rows of unequal height: places, storage
+ * with ghost layers, halo.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_BLOCK_H
 #define FV_BLOCK_H
@@ -9,11 +10,24 @@
 
 enum { GHOSTS = 3 };
 
+/* Rows along y, see rows.h; j counts from this rank's first one, ghosts included. */
+struct rows {
+    int even;              /* of the whole grid: the first of the even ones */
+    double *edge;          /* [cells[1] + 1] m: lower edges of all rows, and the top */
+    double *h, *y, *step;  /* m: height, centre, distance from the centre below */
+    double (*face)[4];     /* of averages j-2 ... j+1: value at the lower face */
+    double (*slope)[4];    /* 1/m: derivative there */
+    double (*gradient)[5]; /* 1/m, of averages j-2 ... j+2: average of the derivative */
+    double (*laplace)[5];  /* 1/m^2: of the second one */
+};
+
 struct block {
     MPI_Comm cart;
     int dim;
-    int cells[3];           /* of the whole grid */
-    double origin[3], h[3]; /* m */
+    int cells[3];                /* of the whole grid */
+    double origin[3], length[3]; /* m */
+    double h[3];                 /* m: size of a cell; along y with rows of the even ones */
+    struct rows *rows;           /* NULL: all rows are even */
     bool periodic[3];
     int lo[3], hi[3];        /* this rank: lo <= i < hi */
     int n[3];                /* hi - lo */
@@ -32,8 +46,42 @@ static inline int64_t block_at(const struct block *b, int i, int j, int k)
 {
     return (i + b->g[0]) + b->stride[1] * (j + b->g[1]) + b->stride[2] * (k + b->g[2]);
 }
+/* Local cell of an index. */
+static inline void block_place(const struct block *b, int64_t c, int at[3])
+{
+    at[0] = (int)(c % b->stride[1]) - b->g[0];
+    at[1] = (int)(c % b->stride[2] / b->stride[1]) - b->g[1];
+    at[2] = (int)(c / b->stride[2]) - b->g[2];
+}
+/* Size along axis a of local cells whose place along it is i. */
+static inline double block_size(const struct block *b, int a, int i)
+{
+    return a == 1 && b->rows ? b->rows->h[i] : b->h[a];
+}
+/* Distance of their centres from those below along axis a. */
+static inline double block_step(const struct block *b, int a, int i)
+{
+    return a == 1 && b->rows ? b->rows->step[i] : b->h[a];
+}
+/* m^dim, of the cells of local row j. */
+static inline double block_volume(const struct block *b, int j)
+{
+    return b->h[0] * block_size(b, 1, j) * b->h[2];
+}
 /* Centre of local cell (i, j, k). */
 void block_centre(const struct block *b, int i, int j, int k, double *x);
+/* The same and its size along each axis. */
+void block_cell(const struct block *b, int i, int j, int k, double *x, double *h);
+/* Average over the cell at q, in local row j, of the derivative along axis a, from averages. */
+static inline double block_derivative(const struct block *b, const double *q, int a, int j)
+{
+    const int64_t d = b->stride[a];
+    if (a == 1 && b->rows) {
+        const double *w = b->rows->gradient[j] + 2;
+        return (w[1] * q[d] + w[-1] * q[-d]) + (w[2] * q[2 * d] + w[-2] * q[-2 * d]) + w[0] * q[0];
+    }
+    return (8.0 * (q[d] - q[-d]) - (q[2 * d] - q[-2 * d])) / (12.0 * b->h[a]);
+}
 /* Ghosts of nf fields, corners included, by one direction after the other; closed sides keep
  * theirs. */
 void block_halo(const struct block *b, int nf, double *const *f);
@@ -42,7 +90,7 @@ void block_pack(const struct block *b, const double *f, double *packed);
 void block_unpack(const struct block *b, const double *packed, double *f);
 
 /* Rows of local cells, `more' layers of ghosts included in the active directions: c is the index of
- * the row's first cell, n its length. */
+ * the row's first cell, n its length; j_, k_ are its place. */
 #define BLOCK_ROWS(b, more, c, len)                                                                \
     for (int k_ = (b)->g[2] ? -(more) : 0, j_; k_ < (b)->n[2] + ((b)->g[2] ? (more) : 0); k_++)    \
         for (j_ = -(more); j_ < (b)->n[1] + (more); j_++)                                          \

@@ -5,6 +5,8 @@
  *   upwind bias q_f += sign(U) theta d/12, d = q_1 - 3 q_0 + 3 q_-1 - q_-2: theta = 1 is the
  * third-order upwind value. theta = min(1, C r^2), r = |d| over the sum of the differences it is
  * made of: 1 on a zigzag, O(h^2) where the flow is resolved, so that the bias is O(h^7) there
+ * With rows of unequal height the face values along y have weights of their own (rows.h); products
+ * and bias stay as they are: heights that vary smoothly change them by O(h^2) of a small term.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
@@ -15,6 +17,26 @@ static void face_row(const double *restrict q, int64_t along, int64_t n, double 
 {
     for (int64_t i = 0; i < n; i++)
         out[i] = (7.0 * (q[i - along] + q[i]) - (q[i - 2 * along] + q[i + along])) * (1.0 / 12.0);
+}
+
+/* The same with weights of its own. */
+static void weighted_row(const double *restrict q, const double *w, int64_t along, int64_t n,
+                         double *restrict out)
+{
+    const double a = w[0], b = w[1], c = w[2], d = w[3];
+    for (int64_t i = 0; i < n; i++)
+        out[i] = (b * q[i - along] + c * q[i]) + (a * q[i - 2 * along] + d * q[i + along]);
+}
+
+/* q on the lower faces along axis a of all cells and one layer more. */
+static void face_values(const struct block *b, const double *q, int a, double *out)
+{
+    if (a == 1 && b->rows)
+        BLOCK_ROWS (b, 1, c, n)
+            weighted_row(q + c, b->rows->face[j_], b->stride[a], n, out + c);
+    else
+        BLOCK_ROWS (b, 1, c, n)
+            face_row(q + c, b->stride[a], n, out + c);
 }
 
 static void bias_row(const double *restrict q, const double *restrict U, int64_t along, int64_t n,
@@ -34,8 +56,7 @@ void convection_face_velocities(struct fv *s, double *const u[3], double *const 
 {
     const struct block *b = &s->b;
     for (int a = 0; a < b->dim; a++)
-        BLOCK_ROWS (b, 1, c, n)
-            face_row(u[a] + c, b->stride[a], n, U[a] + c);
+        face_values(b, u[a], a, U[a]);
 }
 
 static void flux_row(const double *restrict U, const double *restrict f, const int64_t *tangent,
@@ -72,8 +93,7 @@ void convection(struct fv *s, double *const N[3])
             for (int t = 0; t < b->dim; t++)
                 if (t != a)
                     tangent[nt++] = b->stride[t];
-            BLOCK_ROWS (b, 1, c, n)
-                face_row(s->u[q] + c, along, n, s->face + c);
+            face_values(b, s->u[q], a, s->face);
             if (s->prm.upwind > 0.0)
                 BLOCK_ROWS (b, 1, c, n)
                     bias_row(s->u[q] + c, s->U[a] + c, along, n, s->prm.upwind, s->face + c);
@@ -86,6 +106,6 @@ void convection(struct fv *s, double *const N[3])
                              s->flux + c);
                 }
             BLOCK_ROWS (b, 0, c, n)
-                add_divergence(s->flux + c, along, 1.0 / b->h[a], n, a == 0, N[q] + c);
+                add_divergence(s->flux + c, along, 1.0 / block_size(b, a, j_), n, a == 0, N[q] + c);
         }
 }

@@ -31,8 +31,9 @@ static unsigned char kind_of(const struct block *b, const int *at, const double 
         if (!b->periodic[a] && (i < 0 || i >= b->cells[a]))
             return 2;
         i = ((i % b->cells[a]) + b->cells[a]) % b->cells[a];
-        const double eps = 1e-9 * b->h[a], x = b->origin[a] + i * b->h[a];
-        inside = inside && x >= lo[a] - eps && x + b->h[a] <= hi[a] + eps;
+        const double h = block_size(b, a, at[a]), eps = 1e-9 * h,
+                     x = a == 1 && b->rows ? b->rows->y[at[1]] - 0.5 * h : b->origin[a] + i * h;
+        inside = inside && x >= lo[a] - eps && x + h <= hi[a] + eps;
     }
     return inside;
 }
@@ -133,7 +134,6 @@ static void list_cells(const struct fv *s, struct forcing *f)
     f->local = NEW(int64_t, b->size);
     f->set = NEW(int64_t, b->size);
     f->partner = NEW(int64_t, b->size);
-    f->x = NEW(double, 3 * b->size);
     ALL_CELLS (b, i, j, k) {
         const int at[3] = {i, j, k};
         const int64_t c = block_at(b, i, j, k);
@@ -146,7 +146,6 @@ static void list_cells(const struct fv *s, struct forcing *f)
             f->partner[f->npartner++] = c;
         else if ((f->forced[c] == 1 && local && f->layer[c]) ||
                  (f->forced[c] == 2 && !has_bc(s, at))) {
-            block_centre(b, i, j, k, f->x + 3 * f->nset);
             f->set[f->nset++] = c;
         }
     }
@@ -250,10 +249,8 @@ static bool add_side(const struct forcing *f, int64_t c, int64_t d, int way,
 static struct beside beside(const struct fv *s, const struct forcing *f, int64_t c, int a, int way)
 {
     const struct block *b = &s->b;
-    const int64_t row[3] = {c % b->stride[1], c % b->stride[2] / b->stride[1], c / b->stride[2]};
     int at[3];
-    for (int q = 0; q < 3; q++)
-        at[q] = (int)row[q] - b->g[q];
+    block_place(b, c, at);
     at[a] += 2 * way;
     if (f->forced[c + way * b->stride[a]] == 1)
         return (struct beside){BC_NONE, 0.0};
@@ -275,10 +272,11 @@ static void list_fixes(const struct fv *s, struct forcing *f, int a)
             const bool one = add_side(f, c, d, 1, &above, &x);
             if (!add_side(f, c, -d, -1, &below, &x) && !one)
                 continue;
-            x.given /= b->h[a];
+            const double h = block_size(b, a, j_); /* rows near a side or a hole are even */
+            x.given /= h;
             for (int m = 0; m <= 2 * REACH; m++) {
-                x.cubic[m] /= b->h[a];
-                x.even[m] /= b->h[a];
+                x.cubic[m] /= h;
+                x.even[m] /= h;
             }
             if (f->nfix[a] == room) {
                 room = 2 * room + 64;
@@ -320,7 +318,6 @@ void forcing_free(struct forcing **fp)
     mem_free(f->set);
     mem_free(f->partner);
     mem_free(f->known);
-    mem_free(f->x);
     for (int a = 0; a < 3; a++) {
         mem_free(f->fix[a]);
         mem_free(f->face[a]);
@@ -358,9 +355,12 @@ static double partner_value(const struct forcing *f, bool quadratic, int a, int6
 void forcing_velocity(const struct fv *s, double t, double *const u[3])
 {
     const struct forcing *f = s->forcing;
-    double v[3];
+    double x[3], h[3], v[3];
     for (int64_t i = 0; i < f->nset; i++) {
-        exact_average(&s->exact, f->x + 3 * i, s->b.h, t, v, NULL, NULL);
+        int at[3];
+        block_place(&s->b, f->set[i], at);
+        block_cell(&s->b, at[0], at[1], at[2], x, h);
+        exact_average(&s->exact, x, h, t, v, NULL, NULL);
         for (int a = 0; a < f->dim; a++)
             u[a][f->set[i]] = v[a];
     }
@@ -369,13 +369,20 @@ void forcing_velocity(const struct fv *s, double t, double *const u[3])
             u[a][f->partner[i]] = partner_value(f, s->prm.forced_order == 2, a, i, t);
 }
 
-/* Centre of the lower face of a cell given by its index. */
-static void face_centre(const struct block *b, int64_t c, int a, double *x)
+/* Centre of the lower face of a cell given by its index; the cell's size. */
+static void face_centre(const struct block *b, int64_t c, int a, double *x, double *h)
 {
-    const int k = (int)(c / b->stride[2]), j = (int)(c % b->stride[2] / b->stride[1]),
-              i = (int)(c % b->stride[1]);
-    block_centre(b, i - b->g[0], j - b->g[1], k - b->g[2], x);
-    x[a] -= 0.5 * b->h[a];
+    int at[3];
+    block_place(b, c, at);
+    block_cell(b, at[0], at[1], at[2], x, h);
+    x[a] -= 0.5 * h[a];
+}
+
+static double face_area(const struct block *b, int64_t c, int a)
+{
+    int at[3];
+    block_place(b, c, at);
+    return block_volume(b, at[1]) / block_size(b, a, at[1]);
 }
 
 static bool is_exact(const struct forcing *f, int64_t c, int64_t d)
@@ -409,14 +416,13 @@ static double partner_flux(const double *u, int64_t d)
 static void balance(const struct fv *s, bool given, double *const U[3])
 {
     const struct forcing *f = s->forcing;
-    double sums[2] = {0.0, 0.0}, volume = 1.0;
-    for (int a = 0; a < f->dim; a++)
-        volume *= s->b.h[a];
+    double sums[2] = {0.0, 0.0};
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
             if (f->counts[a][i]) {
-                sums[0] += f->sign[a][i] * U[a][f->face[a][i]] * volume / s->b.h[a];
-                sums[1] += volume / s->b.h[a];
+                const double area = face_area(&s->b, f->face[a][i], a);
+                sums[0] += f->sign[a][i] * U[a][f->face[a][i]] * area;
+                sums[1] += area;
             }
     if (s->bc) {
         if (s->bc->pressure_given)
@@ -439,9 +445,9 @@ void forcing_fluxes(const struct fv *s, double t, double *const U[3])
         for (int64_t i = 0; i < f->nface[a]; i++) {
             const int64_t c = f->face[a][i], d = s->b.stride[a];
             if (is_exact(f, c, d)) {
-                double x[3], v[3];
-                face_centre(&s->b, c, a, x);
-                exact_face(&s->exact, x, s->b.h, a, t, v);
+                double x[3], h[3], v[3];
+                face_centre(&s->b, c, a, x, h);
+                exact_face(&s->exact, x, h, a, t, v);
                 U[a][c] = v[a];
             } else if (is_partners(f, c, d)) {
                 U[a][c] = partner_flux(f->given[a] + c, d);

@@ -33,7 +33,6 @@ struct forcing {
                      nrim free ones beside its outline, whose values serve the fluxes alone */
     bool *known;  /* [size] a partner gives it, ghosts too */
     double *given[3]; /* [size] its velocities at the time of a flux */
-    double *x;        /* [nset][3] centres */
     int64_t nfix[3];
     struct fix *fix[3]; /* one-sided gradients along each axis */
     /* faces of the outline: index in U, sign of the flow out of the fluid, whether this rank counts

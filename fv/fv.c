@@ -5,15 +5,32 @@
 #include <stdio.h>
 
 #include "../common/log.h"
+#include "../common/mem.h"
 #include "../coupler/cpl_partner.h"
 #include "levelset.h"
 #include "mesh_flow.h"
+#include "rows.h"
 
 static const char *columns[12 + PROBES_MAX] = {"kinetic energy [J]", "largest velocity [m/s]",
                                                "divergence [m/s]"};
 static const char *const of_newton[] = {"residual [-]", "pseudo step [s]", "newton iterations [-]",
                                         "krylov vectors [-]"};
 static struct program fv_program; /* its columns depend on the scene */
+
+static void describe_rows(const struct run *r)
+{
+    const struct fv_params *prm = fv_params_of(r);
+    const struct scene_domain *d = &r->scene.domain;
+    const int n = prm->cells[1], even = (int)prm->graded[1];
+    double *h = NEW(double, n);
+    const double ratio =
+        rows_heights(n, even, prm->graded[0] - d->min[1], d->max[1] - d->min[1], h);
+    log_say(
+        "rows: %d of %g m above y = %g m, %d below it that grow to %g m, by %.1f %% from one to "
+        "the next at most",
+        even, h[n - 1], prm->graded[0], n - even, h[0], 100.0 * (ratio - 1.0));
+    mem_free(h);
+}
 
 static void describe(const struct run *r)
 {
@@ -32,7 +49,8 @@ static void describe(const struct run *r)
     bool closed = false;
     for (int a = 0; a < d->dim; a++) {
         cells *= prm->cells[a];
-        h = fmin(h, (d->max[a] - d->min[a]) / prm->cells[a]);
+        h = fmin(h, a == 1 && prm->graded[1] > 0.0 ? (d->max[1] - prm->graded[0]) / prm->graded[1]
+                                                   : (d->max[a] - d->min[a]) / prm->cells[a]);
         speed = fmax(speed, fabs(r->scene.initial.velocity[a]));
         for (int k = 0; k < 2 && !d->periodic[a]; k++)
             closed = closed || !scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + 2 * a + k));
@@ -55,6 +73,8 @@ static void describe(const struct run *r)
             hole ? ", forced cells" : "", water ? "coupling" : "free surface",
             walls ? "" : ", walls", viscous ? "" : ", viscous solver",
             hole ? "" : ", forced cells");
+    if (prm->graded[1] > 0.0)
+        describe_rows(r);
     log_say("%.0f cells, h %g m, dt about %.3g s (CFL %g), %.0f steps; about %.0f MB", cells, h, dt,
             prm->cfl, isfinite(dt) ? ceil(r->scene.time.end / dt) : 1.0,
             8e-6 * cells * fields + 1.0);

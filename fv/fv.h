@@ -1,5 +1,5 @@
 /* fv.h - the whole state of the finite-volume solver.
- * Cell averages of velocity and of kinematic pressure on a uniform Cartesian block, fourth order,
+ * Cell averages of velocity and of kinematic pressure on a Cartesian block, fourth order,
  * face fluxes projected exactly each stage. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_FV_H
 #define FV_FV_H
@@ -26,6 +26,7 @@ struct fv_params {
     int flux;            /* newton only */
     double c0;           /* m/s: sound speed; newton only, 0: incompressible */
     bool steady;         /* newton only: march to a steady state */
+    double graded[2];    /* m, rows: see rows.h; rows 0: all even */
     double hole[2][3];   /* box whose cells take the exact solution; all 0: none */
     double upwind;       /* C of the bias in convection.c; 0: none, -1: 1 with walls, else none */
     double extrema[3];   /* m/s: known ones on the centre lines, see fv_lines.c; 0: none */

@@ -3,6 +3,7 @@
  * window_begin waits for the forced velocities at the end of the window.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../common/fit.h"
@@ -17,7 +18,8 @@ enum { LEVELS = 3 };
 struct link {
     struct cpl *c;
     int grid, forced, velocity, pressure, imposed;
-    int64_t n;         /* local cells */
+    int first;         /* local row: below it nothing is given, rows are of unequal height */
+    int64_t n;         /* local cells from there on */
     double *q[LEVELS]; /* [n][dim + 1] velocity and smoothed pressure at the ends of the last
                           windows, newest first */
     double t[LEVELS];  /* s: their times */
@@ -55,18 +57,37 @@ static void declare(struct fv *s, struct link *k)
     const int how = s->run->scene.coupling.mapping ? CPL_MLS : CPL_SHEPARD;
     struct cpl_grid g = {.dim = b->dim};
     for (int a = 0; a < 3; a++) {
-        g.origin[a] = b->origin[a];
+        const int first = a == 1 && b->rows ? b->rows->even : 0;
+        g.origin[a] = first > 0 ? b->rows->edge[first] : b->origin[a];
         g.spacing[a] = b->h[a];
-        g.cells[a] = b->cells[a];
+        g.cells[a] = b->cells[a] - first;
         g.periodic[a] = b->periodic[a];
-        g.lo[a] = b->lo[a];
-        g.hi[a] = b->hi[a];
+        g.lo[a] = b->lo[a] > first ? b->lo[a] - first : 0;
+        g.hi[a] = b->hi[a] > first ? b->hi[a] - first : 0;
     }
     check(k, cpl_grid(k->c, "fv.cells", &g, &k->grid));
     check(k, cpl_field(k->c, k->grid, "fv.velocity", "m/s", b->dim, CPL_PUT, 0, &k->velocity));
     check(k, cpl_field(k->c, k->grid, "fv.pressure", "Pa", 1, CPL_PUT, 0, &k->pressure));
     check(k, cpl_points(k->c, "fv.forced", b->dim, support(b), &k->forced));
     check(k, cpl_field(k->c, k->forced, "sph.velocity", "m/s", b->dim, CPL_GET, how, &k->imposed));
+}
+
+/* All that the partner takes must lie in even rows. */
+static void check_rows(const struct fv *s, const struct link *k)
+{
+    const struct rows *r = s->b.rows;
+    const double margin = 2.0 * s->b.h[1];
+    double lo[3], hi[3];
+    char reason[200];
+    check(k, cpl_find_zone(k->c, "sph.box", lo, hi));
+    if (lo[1] >= r->edge[r->even] + margin - 1e-9 * s->b.h[1])
+        return;
+    snprintf(reason, sizeof reason,
+             "fv.graded: even rows begin at y = %g m, sph.box at %g m: lower the first to %g m or "
+             "less, two rows below the box",
+             r->edge[r->even], lo[1], lo[1] - margin);
+    signals_handled(); /* cpl_fail says it */
+    cpl_fail(k->c, RUN_INPUT, reason);
 }
 
 void coupling_create(struct fv *s)
@@ -83,8 +104,13 @@ void coupling_create(struct fv *s)
                  "forced, the "
                  "coupling goes one way; refine fv.cells or lower coupling.overlap",
                  lo[0], lo[1], hi[0], hi[1]);
+    if (b->rows) {
+        check_rows(s, k);
+        k->first = b->rows->even - b->lo[1];
+        k->first = k->first < 0 ? 0 : k->first > b->n[1] ? b->n[1] : k->first;
+    }
     declare(s, k);
-    k->n = (int64_t)b->n[0] * b->n[1] * b->n[2];
+    k->n = (int64_t)b->n[0] * (b->n[1] - k->first) * b->n[2];
     for (int m = 0; m < LEVELS; m++)
         k->q[m] = NEW(double, k->n *(b->dim + 1));
     k->rate = NEW(double, k->n);
@@ -111,14 +137,6 @@ void coupling_free(struct fv *s)
     s->link = NULL;
 }
 
-/* Place of a cell, from its index: indices from the first local one. */
-static void place_of(const struct block *b, int64_t c, int at[3])
-{
-    at[0] = (int)(c % b->stride[1]) - b->g[0];
-    at[1] = (int)(c % b->stride[2] / b->stride[1]) - b->g[1];
-    at[2] = (int)(c / b->stride[2]) - b->g[2];
-}
-
 /* Under a surface the partner knows the level of the pressure: what is smoothed and sent is what
  * stands over its mean at the rim of the free cells. It would follow every swing of the level late.
  */
@@ -134,9 +152,10 @@ static void take_out_level(struct fv *s, double *q)
         return;
     for (int64_t m = f->npartner; m < f->npartner + f->nrim; m++) {
         int at[3];
-        place_of(b, f->partner[m], at);
+        block_place(b, f->partner[m], at);
         block_centre(b, at[0], at[1], at[2], x);
-        const int64_t i = at[0] + (int64_t)b->n[0] * (at[1] + (int64_t)b->n[1] * at[2]);
+        const int64_t i =
+            at[0] + (int64_t)b->n[0] * (at[1] - k->first + (int64_t)(b->n[1] - k->first) * at[2]);
         sum[0] += q[i * (b->dim + 1) + b->dim] - fv_still_pressure(s, x);
         sum[1] += 1.0;
     }
@@ -147,6 +166,14 @@ static void take_out_level(struct fv *s, double *q)
 }
 
 double coupling_level(const struct fv *s) { return s->link ? s->link->level : 0.0; }
+
+/* The cells of the local rows from `first' on, x fastest. */
+static void pack(const struct block *b, int first, const double *f, double *packed)
+{
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = first; j < b->n[1]; j++, packed += b->n[0])
+            memcpy(packed, f + block_at(b, 0, j, k), (size_t)b->n[0] * sizeof(double));
+}
 
 /* Velocity and whole pressure now, as a new level; forced cells get a pressure continued from the
  * free side. */
@@ -166,7 +193,7 @@ static void take_level(struct fv *s)
         forcing_extend(s, p);
     fv_add_still_pressure(s, p);
     for (int m = 0; m <= b->dim; m++) {
-        block_pack(b, m < b->dim ? s->u[m] : p, one);
+        pack(b, k->first, m < b->dim ? s->u[m] : p, one);
         for (int64_t i = 0; i < k->n; i++)
             k->q[0][i * (b->dim + 1) + m] = one[i];
     }
@@ -226,7 +253,7 @@ static void exact_level(struct fv *s, double t, int m)
     double x[3], u[3], p;
     int64_t at = 0;
     for (int kk = 0; kk < b->n[2]; kk++)
-        for (int j = 0; j < b->n[1]; j++)
+        for (int j = k->first; j < b->n[1]; j++)
             for (int i = 0; i < b->n[0]; i++) {
                 block_centre(b, i, j, kk, x);
                 exact_average(&s->exact, x, b->h, t, u, &p, NULL);
@@ -251,7 +278,7 @@ void coupling_first(void *state)
     for (int64_t m = 0; m < n; m++) {
         const int64_t c = f->partner[m];
         int at[3];
-        place_of(b, c, at);
+        block_place(b, c, at);
         block_centre(b, at[0], at[1], at[2], x + 3 * m);
         id[m] =
             (b->lo[0] + at[0]) +

@@ -15,20 +15,18 @@ enum { NORMS = 3 };
 void fv_vorticity(const struct fv *s, double *w)
 {
     const struct block *b = &s->b;
-    const double cx = 1.0 / (12.0 * b->h[0]), cy = 1.0 / (12.0 * b->h[1]);
-    const int64_t d = b->stride[1];
-    const double *u = s->u[0], *v = s->u[1];
     BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
-            w[i] = cx * (8.0 * (v[i + 1] - v[i - 1]) - (v[i + 2] - v[i - 2])) -
-                   cy * (8.0 * (u[i + d] - u[i - d]) - (u[i + 2 * d] - u[i - 2 * d]));
+            w[i] =
+                block_derivative(b, s->u[1] + i, 0, j_) - block_derivative(b, s->u[0] + i, 1, j_);
 }
 
-static void add_cell(const struct fv *s, int64_t c, const double *x, double volume,
+static void add_cell(const struct fv *s, int64_t c, const double *x, const double *h,
                      const double *vorticity, struct norm *n)
 {
+    const double volume = h[0] * h[1] * h[2];
     double u[3], p, w;
-    exact_average(&s->exact, x, s->b.h, s->t, u, &p, &w);
+    exact_average(&s->exact, x, h, s->t, u, &p, &w);
     for (int a = 0; a < s->b.dim; a++)
         norm_add(n, volume, s->u[a][c] - u[a], u[a]);
     norm_add(n + 1, volume, fv_pressure(s, c) + fv_still_in_exact(s, x) - p, p);
@@ -38,10 +36,8 @@ static void add_cell(const struct fv *s, int64_t c, const double *x, double volu
 static void errors(const struct fv *s, struct norm n[NORMS])
 {
     const struct block *b = &s->b;
-    double *vorticity = block_field(b), volume = 1.0, x[3];
+    double *vorticity = block_field(b), x[3], h[3];
     fv_vorticity(s, vorticity);
-    for (int a = 0; a < b->dim; a++)
-        volume *= b->h[a];
     for (int k = 0; k < NORMS; k++)
         n[k] = (struct norm){0};
     for (int k = 0; k < b->n[2]; k++)
@@ -50,8 +46,8 @@ static void errors(const struct fv *s, struct norm n[NORMS])
                 const int64_t c = block_at(b, i, j, k);
                 if (s->forcing && s->forcing->forced[c])
                     continue;
-                block_centre(b, i, j, k, x);
-                add_cell(s, c, x, volume, vorticity, n);
+                block_cell(b, i, j, k, x, h);
+                add_cell(s, c, x, h, vorticity, n);
             }
     mem_free(vorticity);
     norm_reduce(n, NORMS, b->cart);
@@ -66,18 +62,17 @@ static void energies(const struct fv *s, double sum[2])
         sum[1] = 0.0;
         return;
     }
-    double x[3], u[3], volume = 1.0;
+    double x[3], h[3], u[3];
     sum[0] = sum[1] = 0.0;
-    for (int a = 0; a < b->dim; a++)
-        volume *= b->h[a];
     for (int k = 0; k < b->n[2]; k++)
         for (int j = 0; j < b->n[1]; j++)
             for (int i = 0; i < b->n[0]; i++) {
                 const int64_t c = block_at(b, i, j, k);
                 if (s->forcing && s->forcing->forced[c])
                     continue;
-                block_centre(b, i, j, k, x);
-                exact_average(&s->exact, x, b->h, s->t, u, NULL, NULL);
+                block_cell(b, i, j, k, x, h);
+                const double volume = h[0] * h[1] * h[2];
+                exact_average(&s->exact, x, h, s->t, u, NULL, NULL);
                 for (int a = 0; a < b->dim; a++) {
                     sum[0] += 0.5 * volume * s->u[a][c] * s->u[a][c];
                     sum[1] += 0.5 * volume * u[a] * u[a];
@@ -87,12 +82,12 @@ static void energies(const struct fv *s, double sum[2])
 }
 
 /* Part of a cell outside the box that a partner counts. */
-static double share(const struct fv *s, const double *x)
+static double share(const struct fv *s, const double *x, const double *h)
 {
     double in = 1.0;
     for (int a = 0; a < s->b.dim; a++) {
-        const double h = s->b.h[a], lo = fmax(x[a] - 0.5 * h, s->partner[0][a]);
-        in *= fmax(fmin(x[a] + 0.5 * h, s->partner[1][a]) - lo, 0.0) / h;
+        const double lo = fmax(x[a] - 0.5 * h[a], s->partner[0][a]);
+        in *= fmax(fmin(x[a] + 0.5 * h[a], s->partner[1][a]) - lo, 0.0) / h[a];
     }
     return 1.0 - in;
 }
@@ -101,14 +96,13 @@ double fv_curl_squared(const struct fv *s, int64_t c)
 {
     const struct block *b = &s->b;
     double sum = 0.0;
+    int at[3];
+    block_place(b, c, at);
     for (int a = b->dim == 3 ? 0 : 2; a < 3; a++) { /* d_p u_q - d_q u_p */
         double w = 0.0;
         for (int k = 0; k < 2; k++) {
             const int along = (a + 1 + k) % 3, of = (a + 2 - k) % 3;
-            const double *u = s->u[of] + c;
-            const int64_t d = b->stride[along];
-            w += (k ? -1.0 : 1.0) * (8.0 * (u[d] - u[-d]) - (u[2 * d] - u[-2 * d])) /
-                 (12.0 * b->h[along]);
+            w += (k ? -1.0 : 1.0) * block_derivative(b, s->u[of] + c, along, at[1]);
         }
         sum += w * w;
     }
@@ -121,18 +115,16 @@ void fv_tell(void *state, struct summary *report)
     const struct block *b = &s->b;
     const double rho = s->run->scene.fluid.rho;
     const double *g = s->run->scene.fluid.gravity;
-    double volume = 1.0, x[3], sum[4] = {0.0, 0.0, 0.0, 0.0};
-    for (int a = 0; a < b->dim; a++)
-        volume *= b->h[a];
+    double x[3], h[3], sum[4] = {0.0, 0.0, 0.0, 0.0};
     for (int k = 0; k < b->n[2]; k++)
         for (int j = 0; j < b->n[1]; j++)
             for (int i = 0; i < b->n[0]; i++) {
                 const int64_t c = block_at(b, i, j, k);
-                block_centre(b, i, j, k, x);
+                block_cell(b, i, j, k, x, h);
                 if (s->forcing && s->forcing->forced[c])
                     continue;
                 const double u[3] = {s->u[0][c], s->u[1][c], b->dim == 3 ? s->u[2][c] : 0.0};
-                const double part = volume * share(s, x);
+                const double part = h[0] * h[1] * h[2] * share(s, x, h);
                 sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
                 sum[1] += 0.5 * part * fv_curl_squared(s, c);
                 sum[2] += rho * part * exact_signal(&s->exact, x, u);
@@ -156,7 +148,7 @@ static double largest_divergence(const struct fv *s)
             if ((s->forcing && s->forcing->forced[i]) || (s->surface && s->surface->layer[i]))
                 continue;
             for (int a = 0; a < b->dim; a++)
-                div += (s->U[a][i + b->stride[a]] - s->U[a][i]) / b->h[a];
+                div += (s->U[a][i + b->stride[a]] - s->U[a][i]) / block_size(b, a, j_);
             most = fmax(most, fabs(div) * b->h[0]);
         }
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, b->cart);

@@ -67,8 +67,11 @@ static void write_frame(const struct fv *s, struct h5 *f)
                                                                              "zmax"};
     for (int a = 0; a < s->b.dim; a++) {
         h5_attribute_real(f, lo[a], s->b.origin[a]);
-        h5_attribute_real(f, hi[a], s->b.origin[a] + s->b.cells[a] * s->b.h[a]);
+        h5_attribute_real(f, hi[a], s->b.origin[a] + s->b.length[a]);
     }
+    if (s->b.rows)
+        h5_write_real(f, "rows", "m", s->run->rank == 0 ? s->b.cells[1] + 1 : 0, 1, s->b.rows->edge,
+                      false);
     if (s->run->coupled) /* Pa: what the partner does not see of the pressure */
         h5_attribute_real(f, "level", coupling_level(s));
 }
@@ -140,7 +143,8 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
         fields[nfields++] = (struct xdmf_field){"forced", 1};
     }
     if (x)
-        xdmf_block(x, s->t, file, b->dim, b->cells, b->origin, b->h, nfields, fields);
+        xdmf_block(x, s->t, file, b->dim, b->cells, b->origin, b->h, b->rows ? b->rows->edge : NULL,
+                   nfields, fields);
     mem_free(field);
     mem_free(v);
 }

@@ -3,8 +3,10 @@
 
 #include <math.h>
 
+#include "../common/mem.h"
 #include "levelset.h"
 #include "mesh.h"
+#include "rows.h"
 
 static struct fv_params given;
 
@@ -12,6 +14,7 @@ static struct fv_params given;
 /* clang-format off */
 static const struct param rows[] = {
     PARAM(P, cells,        "-", "(0, 0, 0)", 1, 1e6, "cells in each direction; even, rich in factors of two; none with blocks"),
+    PARAM(P, graded,       "-", "(0.0, 0.0)", -1e9, 1e9, "height in m, rows: above this y that many even rows of cells, below it the others grow downwards; (0, 0): all even"),
     PARAM(P, cfl,          "-", "1.0",  1e-6, 1e4, "largest |u_a| dt/h; at most 1.1 (rk3), 0.7 (bdf2)"),
     CHOICE(P, integrator, "rk3|bdf2|newton", "rk3", "three projected stages, two-step backward for slow flows, fully implicit"),
     PARAM(P, tol_pressure, "-", "1e-2", 1e-14, 1, "of the last projection of a step, relative to its divergence"),
@@ -82,6 +85,40 @@ static void check_openings(const struct run *r, struct faults *f)
         params_fault(r->params, f, "walls", "an inflow without an outflow");
 }
 
+/* Rows of unequal height: along y, even at the top. */
+static void check_graded(const struct run *r, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const int n = given.cells[1];
+    if (given.graded[1] == 0.0)
+        return;
+    double *h = NEW(double, n > 0 ? n : 1);
+    const double ratio = rows_heights(n, (int)given.graded[1], given.graded[0] - d->min[1],
+                                      d->max[1] - d->min[1], h);
+    mem_free(h);
+    if (given.integrator == INTEGRATOR_NEWTON || surface_wanted(r) ||
+        given.hole[1][0] > given.hole[0][0] || given.extrema[0] != 0.0)
+        params_fault(r->params, f, "fv.graded",
+                     "not with newton, a level set, fv.hole or fv.extrema");
+    for (int k = 0; k < r->scene.nwalls; k++)
+        if (r->scene.walls[k].kind == WALL_INFLOW || r->scene.walls[k].kind == WALL_OUTFLOW)
+            params_fault(r->params, f, "walls", "wall %d: no openings with fv.graded", k + 1);
+    if (d->periodic[1])
+        params_fault(r->params, f, "fv.graded", "y is periodic");
+    else if (!(ratio > 0.0))
+        params_fault(
+            r->params, f, "fv.graded",
+            "no heights of rows do that: of %d rows at least %d must be left below y = %g m, "
+            "and be no lower there than above",
+            n, ROWS_BOTTOM + ROWS_GROWING, given.graded[0]);
+    else if (ratio > 1.3)
+        params_fault(r->params, f, "fv.graded",
+                     "rows grow by %.2f from one to the next: at most 1.3; more rows below y = %g "
+                     "m, or fewer "
+                     "even ones",
+                     ratio, given.graded[0]);
+}
+
 static void check_surface(const struct run *r, struct faults *f)
 {
     const struct scene *s = &r->scene;
@@ -133,6 +170,7 @@ void fv_params_check(const struct run *r, struct faults *f)
     if (given.integrator != INTEGRATOR_NEWTON && given.flux != FLUX_CENTRAL)
         params_fault(r->params, f, "fv.flux",
                      "wants fv.integrator = \"newton\"; rk3 and bdf2 have fv.upwind");
+    check_graded(r, f);
     check_surface(r, f);
     for (int a = 0; a < r->scene.domain.dim; a++) {
         check_axis(r, a, f);

@@ -8,10 +8,23 @@
 
 #include "levelset.h"
 
+/* The same among rows of unequal height. */
+static int row_below(const struct block *b, double y, double *weight)
+{
+    const double *e = b->rows->edge;
+    int i = 0;
+    while (i < b->cells[1] - 2 && 0.5 * (e[i + 1] + e[i + 2]) <= y)
+        i++;
+    *weight = (y - 0.5 * (e[i] + e[i + 1])) / (0.5 * (e[i + 2] - e[i]));
+    return i;
+}
+
 /* Cell below x along axis a, so that it and the next one are cells of the grid; *weight of the
  * next. */
 static int base(const struct block *b, int a, double x, double *weight)
 {
+    if (a == 1 && b->rows)
+        return row_below(b, x, weight);
     const double at = (x - b->origin[a]) / b->h[a] - 0.5;
     int i = (int)floor(at);
     if (!b->periodic[a])

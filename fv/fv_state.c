@@ -12,6 +12,7 @@
 #include "newton.h"
 #include "outflow.h"
 #include "pressure.h"
+#include "rows.h"
 
 static void make_fields(struct fv *s)
 {
@@ -33,7 +34,7 @@ static void make_fields(struct fv *s)
         if (s->nu > 0.0) {
             s->delta[a] = block_field(b);
             s->work[a] = block_field(b);
-            for (int k = 0; k < 2 && (s->bc || s->surface); k++)
+            for (int k = 0; k < 2 && (s->bc || s->surface || b->rows); k++)
                 s->krylov[k][a] = block_field(b);
         }
         if (s->prm.integrator != INTEGRATOR_RK3)
@@ -45,13 +46,13 @@ static void make_fields(struct fv *s)
 static void fill(struct fv *s)
 {
     const struct block *b = &s->b;
-    double x[3], u[3], p;
+    double x[3], h[3], u[3], p;
     for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
         for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
             for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
                 const int64_t c = block_at(b, i, j, k);
-                block_centre(b, i, j, k, x);
-                exact_average(&s->exact, x, b->h, 0.0, u, &p, NULL);
+                block_cell(b, i, j, k, x, h);
+                exact_average(&s->exact, x, h, 0.0, u, &p, NULL);
                 for (int a = 0; a < b->dim; a++)
                     s->u[a][c] = u[a];
                 s->p[c] = s->p_before[c] = (p - fv_still_in_exact(s, x)) / s->exact.rho;
@@ -63,14 +64,14 @@ static void fill(struct fv *s)
 static void fill_fluxes(struct fv *s)
 {
     const struct block *b = &s->b;
-    double x[3], u[3];
+    double x[3], h[3], u[3];
     for (int a = 0; a < b->dim; a++)
         for (int k = -(b->g[2] > 0); k < b->n[2] + (b->g[2] > 0); k++)
             for (int j = -1; j < b->n[1] + 1; j++)
                 for (int i = -1; i < b->n[0] + 1; i++) {
-                    block_centre(b, i, j, k, x);
-                    x[a] -= 0.5 * b->h[a];
-                    exact_face(&s->exact, x, b->h, a, 0.0, u);
+                    block_cell(b, i, j, k, x, h);
+                    x[a] -= 0.5 * h[a];
+                    exact_face(&s->exact, x, h, a, 0.0, u);
                     s->U[a][block_at(b, i, j, k)] = u[a];
                 }
 }
@@ -113,7 +114,7 @@ static void set_limit(struct fv *s)
     if (s->surface) {
         double L = 0.0;
         for (int a = 0; a < s->b.dim; a++)
-            L = fmax(L, s->b.cells[a] * s->b.h[a]);
+            L = fmax(L, s->b.length[a]);
         s->u_limit = 10.0 * (most + sqrt(2.0 * s->surface->g * L) + 1e-12);
         return;
     }
@@ -147,6 +148,16 @@ static void meet_pressures(struct fv *s)
     pressure_start(s);
 }
 
+static void make_rows(struct fv *s)
+{
+    const int n = s->b.cells[1], even = (int)s->prm.graded[1];
+    double *h = NEW(double, n);
+    if (even > 0 &&
+        rows_heights(n, even, s->prm.graded[0] - s->b.origin[1], s->b.length[1], h) > 0.0)
+        rows_create(&s->b, even, h);
+    mem_free(h);
+}
+
 struct fv *fv_create(struct run *r, struct h5 *f)
 {
     struct fv *s = NEW(struct fv, 1);
@@ -162,6 +173,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     for (int a = 0; a < 3; a++)
         length[a] = d->max[a] - d->min[a];
     block_create(&s->b, r->comm, d->dim, s->prm.cells, d->min, length, d->periodic);
+    make_rows(s);
     s->bc = bc_create(s);
     if (s->prm.upwind < 0.0)
         s->prm.upwind = s->bc ? 1.0 : 0.0;

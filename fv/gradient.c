@@ -12,8 +12,13 @@ static void row(const double *restrict q, int64_t along, double c, int64_t n, do
 void gradient(const struct fv *s, const double *q, int a, enum continuation how, double *out)
 {
     const struct block *b = &s->b;
-    BLOCK_ROWS (b, 0, c, n)
-        row(q + c, b->stride[a], 1.0 / (12.0 * b->h[a]), n, out + c);
+    if (a == 1 && b->rows)
+        BLOCK_ROWS (b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                out[i] = block_derivative(b, q + i, a, j_);
+    else
+        BLOCK_ROWS (b, 0, c, n)
+            row(q + c, b->stride[a], 1.0 / (12.0 * b->h[a]), n, out + c);
     if (s->forcing)
         forcing_gradient(s, a, how, q, out);
 }

@@ -113,6 +113,8 @@ void mesh_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "fv.cfl", "%g: rk3 is stable up to 1.1", prm->cfl);
     if (surface_wanted(r))
         params_fault(r->params, f, "fv.surface", "blocks know no free surface: use fv.cells");
+    if (prm->graded[1] > 0.0)
+        params_fault(r->params, f, "fv.graded", "not with blocks: they have maps of their own");
     if (prm->hole[1][0] > prm->hole[0][0])
         params_fault(r->params, f, "fv.hole", "blocks know no forced cells: let a block overlap");
     if (r->scene.nwalls > 0)

@@ -68,12 +68,24 @@ static double shift(const struct block *b)
 {
     double L = 0.0;
     for (int a = 0; a < b->dim; a++)
-        L = fmax(L, b->cells[a] * b->h[a]);
+        L = fmax(L, b->length[a]);
     return 1e-2 / (L * L);
 }
 
-/* Row of a cell, -Lap: what is open passes, forced cells stand alone. Returns the diagonal. */
-static double fill_row(const struct fv *s, const struct pressure *p, int64_t c, double *row)
+/* Weight of a row: its height over that of the even ones, so that the matrix is symmetric. */
+static double weight(const struct block *b, int j)
+{
+    return b->rows ? b->rows->h[j] / b->h[1] : 1.0;
+}
+
+/* -Lap times the weight: of the lower face along a of a cell in row j, 1/m^2. */
+static double coefficient(const struct block *b, int a, int j)
+{
+    return a == 1 ? 1.0 / (b->h[1] * block_step(b, 1, j)) : weight(b, j) / (b->h[a] * b->h[a]);
+}
+
+/* Row of a cell: what is open passes, forced cells stand alone. Returns the diagonal. */
+static double fill_row(const struct fv *s, const struct pressure *p, int64_t c, int j, double *row)
 {
     const struct block *b = &s->b;
     const struct forcing *f = s->forcing;
@@ -82,8 +94,9 @@ static double fill_row(const struct fv *s, const struct pressure *p, int64_t c, 
     for (int e = 1; e <= 2 * b->dim; e++) {
         const int a = (e - 1) / 2;
         const int64_t face = (e - 1) % 2 ? c + b->stride[a] : c;
-        const double w = (open ? open[a][face] : 1.0) / (b->h[a] * b->h[a]);
-        row[e] = w <= 1.0 / (b->h[a] * b->h[a]) ? -w : 0.0; /* outflow: psi is 0 behind it */
+        const double is_open = open ? open[a][face] : 1.0;
+        const double w = is_open * coefficient(b, a, j + (e == 4)); /* 4: above, along y */
+        row[e] = is_open <= 1.0 ? -w : 0.0; /* outflow: psi is 0 behind it */
         sum += w;
     }
     row[0] =
@@ -111,7 +124,7 @@ static void make_matrix(const struct fv *s, struct pressure *p)
         add_cuts(s, p->z);
     BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++, row += m)
-            p->diagonal[i] = fill_row(s, p, i, row);
+            p->diagonal[i] = fill_row(s, p, i, j_, row);
     HYPRE(HYPRE_StructMatrixCreate(b->cart, p->grid, p->stencil, &p->A));
     HYPRE(HYPRE_StructMatrixInitialize(p->A));
     HYPRE(HYPRE_StructMatrixSetBoxValues(p->A, p->lo, p->hi, m, entries, values));
@@ -126,6 +139,12 @@ static void make_vector(const struct block *b, struct pressure *p, HYPRE_StructV
     HYPRE(HYPRE_StructVectorAssemble(*v));
 }
 
+static void mean_size(const struct block *b, double h[3])
+{
+    for (int a = 0; a < 3; a++)
+        h[a] = b->length[a] / b->cells[a];
+}
+
 /* Levels of the cycle, which halves the axis of the least spacing: down to the first grid with an
  * odd number of cells along a periodic axis. There red cells have red neighbours, and a half sweep
  * would read what the last solve left; the last level is relaxed by Jacobi, which does not. Axes of
@@ -133,7 +152,8 @@ static void make_vector(const struct block *b, struct pressure *p, HYPRE_StructV
 static int levels(const struct block *b)
 {
     int n[3] = {b->cells[0], b->cells[1], b->cells[2]}, count = 1;
-    double h[3] = {b->h[0], b->h[1], b->h[2]};
+    double h[3];
+    mean_size(b, h);
     for (;;) {
         double least = INFINITY;
         for (int a = 0; a < b->dim; a++) {
@@ -178,6 +198,11 @@ static void make_cycle(const struct block *b, struct pressure *p)
     HYPRE(HYPRE_StructPFMGSetSkipRelax(p->cycle, 1));
     HYPRE(HYPRE_StructPFMGSetNumPreRelax(p->cycle, 1));
     HYPRE(HYPRE_StructPFMGSetNumPostRelax(p->cycle, 1));
+    if (b->rows) { /* which axis it halves would hang on the rows' scatter otherwise */
+        double h[3];
+        mean_size(b, h);
+        HYPRE(HYPRE_StructPFMGSetDxyz(p->cycle, h));
+    }
     HYPRE(HYPRE_StructPFMGSetup(p->cycle, p->A, p->b, p->x));
 }
 
@@ -248,17 +273,19 @@ static void apply(const struct fv *s, const double *restrict x, double *restrict
 {
     const struct block *b = &s->b;
     const double *restrict d = s->pressure->diagonal;
-    const double cx = 1.0 / (b->h[0] * b->h[0]), cy = 1.0 / (b->h[1] * b->h[1]);
     const int64_t y = b->stride[1], z = b->stride[2];
-    BLOCK_ROWS (b, 0, c, n)
+    BLOCK_ROWS (b, 0, c, n) {
+        const double cx = coefficient(b, 0, j_), low = coefficient(b, 1, j_),
+                     up = coefficient(b, 1, j_ + 1);
         for (int64_t i = c; i < c + n; i++)
-            q[i] = d[i] * x[i] - cx * (x[i - 1] + x[i + 1]) - cy * (x[i - y] + x[i + y]);
-    if (b->dim == 3) {
-        const double cz = 1.0 / (b->h[2] * b->h[2]);
-        BLOCK_ROWS (b, 0, c, n)
+            q[i] = d[i] * x[i] - cx * (x[i - 1] + x[i + 1]) - (low * x[i - y] + up * x[i + y]);
+    }
+    if (b->dim == 3)
+        BLOCK_ROWS (b, 0, c, n) {
+            const double cz = coefficient(b, 2, j_);
             for (int64_t i = c; i < c + n; i++)
                 q[i] -= cz * (x[i - z] + x[i + z]);
-    }
+        }
     zero_idle(s, q);
 }
 
@@ -369,7 +396,7 @@ static double least_residual(const struct fv *s)
 {
     double L = 0.0, h = INFINITY;
     for (int a = 0; a < s->b.dim; a++) {
-        L = fmax(L, s->b.cells[a] * s->b.h[a]);
+        L = fmax(L, s->b.length[a]);
         h = fmin(h, s->b.h[a]);
     }
     const double one = 1e-15 * s->surface->g * L / (h * h);
@@ -378,6 +405,10 @@ static double least_residual(const struct fv *s)
 
 int pressure_solve(const struct fv *s, double *psi, double *div, double tol, int most)
 {
+    if (s->b.rows)
+        BLOCK_ROWS (&s->b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                div[i] *= weight(&s->b, j_);
     double enough = tol * tol * remove_mean(s, div);
     double rr = first_residual(s, psi, div), rz = 0.0;
     if (s->surface) /* psi is the whole pressure: of its change */

@@ -25,17 +25,22 @@ static void stop(struct fv *s, const char *timer)
     timer_stop(&s->run->timers, timer_index(&s->run->timers, timer));
 }
 
+static void divide_row(const double *restrict U, int64_t d, double w, bool first, int64_t n,
+                       double *restrict div)
+{
+    for (int64_t i = 0; i < n; i++)
+        div[i] = (first ? 0.0 : div[i]) + w * (U[i + d] - U[i]);
+}
+
 /* div = D U over the local cells, divided by tau. */
 static void divergence(struct fv *s, double tau, double *restrict div)
 {
     const struct block *b = &s->b;
     for (int a = 0; a < b->dim; a++) {
-        const double w = 1.0 / (b->h[a] * tau);
         const int64_t d = b->stride[a];
         const double *restrict U = s->U[a];
         BLOCK_ROWS (b, 0, c, n)
-            for (int64_t i = c; i < c + n; i++)
-                div[i] = (a ? div[i] : 0.0) + w * (U[i + d] - U[i]);
+            divide_row(U + c, d, 1.0 / (block_size(b, a, j_) * tau), a == 0, n, div + c);
     }
 }
 
@@ -88,7 +93,7 @@ static void project(struct fv *s, double t, double tau, double *psi, double tol,
         if (s->surface)
             surface_gradient(s, a, psi, s->rhs[0]);
         BLOCK_ROWS (b, 1, c, n)
-            subtract_row(s->U[a] + c, psi + c, b->stride[a], tau / b->h[a],
+            subtract_row(s->U[a] + c, psi + c, b->stride[a], tau / block_step(b, a, j_),
                          open ? open[a] + c : NULL, n);
         double *restrict u = s->u[a];
         const double *restrict g = s->rhs[0];

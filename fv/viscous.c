@@ -1,7 +1,7 @@
 /* viscous.c - nu Lap q of cell averages, fourth order: differences of the face gradient
  * (15 (q_0 - q_-1) - (q_1 - q_-2))/12 h; implicit part by conjugate gradients over all components
- * at once; walls make it unsymmetric: BiCGStab (van der Vorst 1992) there.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * at once; walls and rows of unequal height make it unsymmetric: BiCGStab (van der Vorst 1992)
+ * there. SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
 #include <math.h>
@@ -32,14 +32,26 @@ static void row(const double *restrict q, const int64_t *stride, const double *c
             cz * (16.0 * (q[i - sz] + q[i + sz]) - (q[i - 2 * sz] + q[i + 2 * sz]) - 30.0 * q[i]);
 }
 
+/* Adds nu d2q/dy2 with the weights of a row. */
+static void add_weighted(const double *restrict q, const double *w, double nu, int64_t d, int64_t n,
+                         double *restrict out)
+{
+    const double a = nu * w[0], b = nu * w[1], c = nu * w[2], e = nu * w[3], f = nu * w[4];
+    for (int64_t i = 0; i < n; i++)
+        out[i] += (b * q[i - d] + e * q[i + d]) + (a * q[i - 2 * d] + f * q[i + 2 * d]) + c * q[i];
+}
+
 void viscous_apply(const struct fv *s, const double *q, double *out)
 {
     const struct block *b = &s->b;
     double c[3];
     for (int a = 0; a < b->dim; a++)
-        c[a] = s->nu / (12.0 * b->h[a] * b->h[a]);
-    BLOCK_ROWS (b, 0, at, n)
+        c[a] = a == 1 && b->rows ? 0.0 : s->nu / (12.0 * b->h[a] * b->h[a]);
+    BLOCK_ROWS (b, 0, at, n) {
         row(q + at, b->stride, c, b->dim, n, out + at);
+        if (b->rows)
+            add_weighted(q + at, b->rows->laplace[j_], s->nu, b->stride[1], n, out + at);
+    }
 }
 
 static double dot_row(const double *restrict a, const double *restrict b, int64_t n)
@@ -182,7 +194,7 @@ bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const
     MPI_Allreduce(MPI_IN_PLACE, sums, 1, MPI_DOUBLE, MPI_SUM, b->cart);
     double rr = sums[0];
     const double goal = rr * tol * tol;
-    if (s->bc || s->surface)
+    if (s->bc || s->surface || b->rows)
         return bicgstab(s, c, delta, rhs, rr, goal);
     for (int it = 0; it < 200; it++) {
         if (!(rr > goal) || rr == 0.0)

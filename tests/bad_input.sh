@@ -89,6 +89,9 @@ with sph 's/dx = 0.02/dx = 0.03/' 'case.cfg:6: sph.dx: ' sph
 with sph 's/dx = 0.02/dx = 0.5/' 'case.cfg:6: sph.dx: ' sph
 with sph 's/dx = 0.02/dx = 0.02; box = ((0.2, 0.2), (0.35, 0.8))/' 'sph.box: ' sph
 with fv 's/cells = (16, 16)/cells = (16, 2)/' 'fv.cells: ' fv
+with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 8)/' 'case.cfg:6: fv.graded: y is periodic' fv
+with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.9, 6)/; s/(true, true)/(true, false)/' 'fv.graded: rows grow by' fv
+with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 12)/; s/(true, true)/(true, false)/' 'fv.graded: no heights' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); cfl = 7/' 'case.cfg:6: fv.cfl: ' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); integrator = "euler"/' 'case.cfg:6: fv.integrator: .*rk3' fv
 with coupled 's/steps = 32/steps = 0/' 'coupling.steps: ' coupler --check

@@ -4,15 +4,20 @@
 
 #include "fv_bc_case.h"
 
-enum flow { CAVITY, DUCT, CARRIED, CAVITY_3D, FLOWS };
+enum flow { CAVITY, DUCT, CARRIED, CAVITY_3D, GRADED, GRADED_3D, FLOWS };
 
 static struct fv *start(struct fv_case *c, MPI_Comm comm, enum flow flow, struct h5 *f)
 {
-    const bool solid = flow == CAVITY_3D, duct = flow == DUCT || flow == CARRIED;
+    const bool solid = flow == CAVITY_3D || flow == GRADED_3D,
+               duct = flow == DUCT || flow == CARRIED;
     fv_case_set(c, comm,
                 (const char *const[]){CLOSED, "initial.field=\"rest\"", "fluid.nu=0.01",
                                       solid ? "domain.dim=3" : "domain.dim=2",
-                                      solid ? "fv.cells=(16,12,16)" : "fv.cells=(24,26)", NULL});
+                                      solid ? "fv.cells=(16,12,16)" : "fv.cells=(24,26)",
+                                      flow == GRADED      ? "fv.graded=(0.6,14)"
+                                      : flow == GRADED_3D ? "fv.graded=(0.8,4)"
+                                                          : "fv.graded=(0,0)",
+                                      NULL});
     c->run.scene.domain.periodic[2] = false;
     wall_add(c, SIDE_Y_MIN, WALL_NO_SLIP, 0.0);
     wall_add(c, SIDE_Y_MAX, WALL_NO_SLIP, duct ? 0.0 : 1.0);

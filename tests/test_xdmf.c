@@ -76,7 +76,7 @@ static void add(struct xdmf *x, int k, double t, int dim)
     char file[64];
     snprintf(file, sizeof file, "sph_%06d.h5", k);
     if (k % 2)
-        xdmf_block(x, t, file, dim, cells, origin, spacing, 3, fields);
+        xdmf_block(x, t, file, dim, cells, origin, spacing, NULL, 3, fields);
     else
         xdmf_points(x, t, file, 1000 + k, dim, 3, fields);
 }
