@@ -89,6 +89,13 @@ void block_halo(const struct block *b, int nf, double *const *f);
 void block_pack(const struct block *b, const double *f, double *packed);
 void block_unpack(const struct block *b, const double *packed, double *f);
 
+/* Visits the local cells: (i, j, k) has index c. */
+#define BLOCK_CELLS(b, i, j, k, c)                                                                 \
+    for (int k = 0; k < (b)->n[2]; k++)                                                            \
+        for (int j = 0; j < (b)->n[1]; j++)                                                        \
+            for (int i = 0; i < (b)->n[0]; i++)                                                    \
+                for (int64_t c = block_at(b, i, j, k), once_ = 1; once_; once_ = 0)
+
 /* Rows of local cells, `more' layers of ghosts included in the active directions: c is the index of
  * the row's first cell, n its length; j_, k_ are its place. */
 #define BLOCK_ROWS(b, more, c, len)                                                                \

@@ -40,15 +40,12 @@ static void errors(const struct fv *s, struct norm n[NORMS])
     fv_vorticity(s, vorticity);
     for (int k = 0; k < NORMS; k++)
         n[k] = (struct norm){0};
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                const int64_t c = block_at(b, i, j, k);
-                if (s->forcing && s->forcing->forced[c])
-                    continue;
-                block_cell(b, i, j, k, x, h);
-                add_cell(s, c, x, h, vorticity, n);
-            }
+    BLOCK_CELLS (b, i, j, k, c) {
+        if (s->forcing && s->forcing->forced[c])
+            continue;
+        block_cell(b, i, j, k, x, h);
+        add_cell(s, c, x, h, vorticity, n);
+    }
     mem_free(vorticity);
     norm_reduce(n, NORMS, b->cart);
 }
@@ -64,20 +61,17 @@ static void energies(const struct fv *s, double sum[2])
     }
     double x[3], h[3], u[3];
     sum[0] = sum[1] = 0.0;
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                const int64_t c = block_at(b, i, j, k);
-                if (s->forcing && s->forcing->forced[c])
-                    continue;
-                block_cell(b, i, j, k, x, h);
-                const double volume = h[0] * h[1] * h[2];
-                exact_average(&s->exact, x, h, s->t, u, NULL, NULL);
-                for (int a = 0; a < b->dim; a++) {
-                    sum[0] += 0.5 * volume * s->u[a][c] * s->u[a][c];
-                    sum[1] += 0.5 * volume * u[a] * u[a];
-                }
-            }
+    BLOCK_CELLS (b, i, j, k, c) {
+        if (s->forcing && s->forcing->forced[c])
+            continue;
+        block_cell(b, i, j, k, x, h);
+        const double volume = h[0] * h[1] * h[2];
+        exact_average(&s->exact, x, h, s->t, u, NULL, NULL);
+        for (int a = 0; a < b->dim; a++) {
+            sum[0] += 0.5 * volume * s->u[a][c] * s->u[a][c];
+            sum[1] += 0.5 * volume * u[a] * u[a];
+        }
+    }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, b->cart);
 }
 
@@ -116,20 +110,17 @@ void fv_tell(void *state, struct summary *report)
     const double rho = s->run->scene.fluid.rho;
     const double *g = s->run->scene.fluid.gravity;
     double x[3], h[3], sum[4] = {0.0, 0.0, 0.0, 0.0};
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                const int64_t c = block_at(b, i, j, k);
-                block_cell(b, i, j, k, x, h);
-                if (s->forcing && s->forcing->forced[c])
-                    continue;
-                const double u[3] = {s->u[0][c], s->u[1][c], b->dim == 3 ? s->u[2][c] : 0.0};
-                const double part = h[0] * h[1] * h[2] * share(s, x, h);
-                sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-                sum[1] += 0.5 * part * fv_curl_squared(s, c);
-                sum[2] += rho * part * exact_signal(&s->exact, x, u);
-                sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
-            }
+    BLOCK_CELLS (b, i, j, k, c) {
+        block_cell(b, i, j, k, x, h);
+        if (s->forcing && s->forcing->forced[c])
+            continue;
+        const double u[3] = {s->u[0][c], s->u[1][c], b->dim == 3 ? s->u[2][c] : 0.0};
+        const double part = h[0] * h[1] * h[2] * share(s, x, h);
+        sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+        sum[1] += 0.5 * part * fv_curl_squared(s, c);
+        sum[2] += rho * part * exact_signal(&s->exact, x, u);
+        sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
+    }
     MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, b->cart);
     summary_real(report, "sum.potential", sum[3]);
     summary_real(report, "sum.kinetic", sum[0]);

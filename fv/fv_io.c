@@ -30,11 +30,13 @@ static bool idle(const struct fv *s, int64_t c)
 static void blank_idle(const struct fv *s, int ncomp, double *v)
 {
     const struct block *b = &s->b;
-    for (int k = 0; (s->forcing || s->surface) && k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++, v += ncomp)
-                for (int a = 0; idle(s, block_at(b, i, j, k)) && a < ncomp; a++)
-                    v[a] = NAN;
+    if (!s->forcing && !s->surface)
+        return;
+    BLOCK_CELLS (b, i, j, k, c) {
+        for (int a = 0; idle(s, c) && a < ncomp; a++)
+            v[a] = NAN;
+        v += ncomp;
+    }
 }
 
 static void write(const struct fv *s, struct h5 *f, const char *name, const char *unit, int ncomp,
@@ -88,15 +90,13 @@ static void write_exact(const struct fv *s, struct h5 *f, double *field, double 
 {
     const struct block *b = &s->b;
     double x[3];
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                block_centre(b, i, j, k, x);
-                double *w = field + block_at(b, i, j, k);
-                exact_point(&s->exact, x, s->t, NULL, NULL, w);
-                if (scene_has_wave(&s->run->scene) && x[1] > exact_surface(&s->exact, x[0]))
-                    *w = NAN;
-            }
+    BLOCK_CELLS (b, i, j, k, c) {
+        block_centre(b, i, j, k, x);
+        double *w = field + c;
+        exact_point(&s->exact, x, s->t, NULL, NULL, w);
+        if (scene_has_wave(&s->run->scene) && x[1] > exact_surface(&s->exact, x[0]))
+            *w = NAN;
+    }
     block_pack(b, field, v);
     h5_write_block(f, "vorticity_exact", "1/s", b->dim, b->cells, b->lo, b->hi, 1, v, true);
 }

@@ -34,18 +34,16 @@ static void describe_worst(const struct fv *s, struct diagnosis *d)
     const struct block *b = &s->b;
     int at[3] = {0, 0, 0};
     double worst = -1.0, x[3];
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++)
-                for (int a = 0; a < b->dim; a++) {
-                    const double v = fabs(s->u[a][block_at(b, i, j, k)]);
-                    if (!(v <= worst) || !isfinite(v)) {
-                        worst = isfinite(v) ? v : 1e300;
-                        at[0] = i;
-                        at[1] = j;
-                        at[2] = k;
-                    }
-                }
+    BLOCK_CELLS (b, i, j, k, c)
+        for (int a = 0; a < b->dim; a++) {
+            const double v = fabs(s->u[a][c]);
+            if (!(v <= worst) || !isfinite(v)) {
+                worst = isfinite(v) ? v : 1e300;
+                at[0] = i;
+                at[1] = j;
+                at[2] = k;
+            }
+        }
     if (worst < s->u_limit) /* another rank has it */
         return;
     d->bad = true;

@@ -332,12 +332,10 @@ void fv_add_still_pressure(const struct fv *s, double *p)
 {
     const struct block *b = &s->b;
     double x[3];
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                block_centre(b, i, j, k, x);
-                p[block_at(b, i, j, k)] += fv_still_pressure(s, x);
-            }
+    BLOCK_CELLS (b, i, j, k, c) {
+        block_centre(b, i, j, k, x);
+        p[c] += fv_still_pressure(s, x);
+    }
 }
 
 double fv_still_in_exact(const struct fv *s, const double *x)

@@ -34,17 +34,14 @@ double surface_reach(const struct fv *s, int a)
     const struct block *b = &s->b;
     const double *phi = s->surface->phi;
     double most = -INFINITY, x[3];
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                const int64_t c = block_at(b, i, j, k);
-                const double next = phi[c + b->stride[a]];
-                if (!(phi[c] < 0.0))
-                    continue;
-                block_centre(b, i, j, k, x);
-                const double theta = next >= 0.0 ? phi[c] / (phi[c] - next) : 0.5;
-                most = fmax(most, x[a] + theta * b->h[a]);
-            }
+    BLOCK_CELLS (b, i, j, k, c) {
+        const double next = phi[c + b->stride[a]];
+        if (!(phi[c] < 0.0))
+            continue;
+        block_centre(b, i, j, k, x);
+        const double theta = next >= 0.0 ? phi[c] / (phi[c] - next) : 0.5;
+        most = fmax(most, x[a] + theta * b->h[a]);
+    }
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, b->cart);
     return most;
 }
@@ -55,19 +52,16 @@ double surface_level(const struct fv *s, const double *x)
     const struct block *b = &s->b;
     const int up = b->dim - 1;
     double sum = 0.0;
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                const int at[3] = {i, j, k};
-                double w = b->h[up];
-                for (int a = 0; a < up; a++) {
-                    const double half = 0.5, top = b->cells[a] - half;
-                    const double place =
-                        fmin(top, fmax(half, (x[a] - b->origin[a]) / b->h[a])) - half;
-                    w *= fmax(0.0, 1.0 - fabs(place - (b->lo[a] + at[a])));
-                }
-                sum += w > 0.0 ? w * surface_share(s, block_at(b, i, j, k)) : 0.0;
-            }
+    BLOCK_CELLS (b, i, j, k, c) {
+        const int at[3] = {i, j, k};
+        double w = b->h[up];
+        for (int a = 0; a < up; a++) {
+            const double half = 0.5, top = b->cells[a] - half;
+            const double place = fmin(top, fmax(half, (x[a] - b->origin[a]) / b->h[a])) - half;
+            w *= fmax(0.0, 1.0 - fabs(place - (b->lo[a] + at[a])));
+        }
+        sum += w > 0.0 ? w * surface_share(s, c) : 0.0;
+    }
     int rank;
     MPI_Comm_rank(b->cart, &rank);
     return sum + (rank == 0 ? b->origin[up] : 0.0);

@@ -106,4 +106,24 @@ static inline void box_free(struct box_flow *f)
     mem_free(f->p);
 }
 
+/* Error of Taylor-Green, which meets slip walls on the sides of the square, at t = 0.5. */
+static inline double box_slip_error(int n, const char *graded)
+{
+    struct fv_case c;
+    char cells[64];
+    double row[FV_CASE_ROW];
+    snprintf(cells, sizeof cells, "fv.cells=(%d,%d)", n, n);
+    fv_case_set(&c, MPI_COMM_SELF,
+                (const char *const[]){CLOSED, cells, graded, "fv.cfl=0.5", NULL});
+    for (int k = SIDE_X_MIN; k <= SIDE_Y_MAX; k++)
+        wall_add(&c, (enum scene_side)k, WALL_SLIP, 0.0);
+    fv_case_start(&c, NULL);
+    c.s->has_exact = true;
+    if (!fv_case_run(&c, 100000, 0.5))
+        abort();
+    fv_row(c.s, row);
+    fv_free(&c.s);
+    return row[3];
+}
+
 #endif

@@ -27,28 +27,11 @@ static void no_slip_walls_keep_the_order(void **state)
     }
 }
 
-/* Taylor-Green meets slip walls on the sides of the square. */
-static double slip_error(int n)
-{
-    struct fv_case c;
-    char cells[64];
-    double row[FV_CASE_ROW];
-    snprintf(cells, sizeof cells, "fv.cells=(%d,%d)", n, n);
-    fv_case_set(&c, MPI_COMM_SELF, (const char *const[]){CLOSED, cells, "fv.cfl=0.5", NULL});
-    for (int k = SIDE_X_MIN; k <= SIDE_Y_MAX; k++)
-        wall_add(&c, (enum scene_side)k, WALL_SLIP, 0.0);
-    fv_case_start(&c, NULL);
-    c.s->has_exact = true;
-    assert_true(fv_case_run(&c, 100000, 0.5));
-    fv_row(c.s, row);
-    fv_free(&c.s);
-    return row[3];
-}
-
 static void slip_walls_keep_the_order(void **state)
 {
     (void)state;
-    const double e16 = slip_error(16), e32 = slip_error(32);
+    const double e16 = box_slip_error(16, "fv.graded=(0,0)"),
+                 e32 = box_slip_error(32, "fv.graded=(0,0)");
     print_message("16: %.3g, 32: %.3g, order %.2f\n", e16, e32, fv_case_order(e16, e32));
     assert_true(e32 < 3e-5 && fv_case_order(e16, e32) >= 3.5);
 }

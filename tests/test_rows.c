@@ -86,30 +86,11 @@ static void order_is_kept(void **state)
     assert_true(e64 < 6e-4 && fv_case_order(e32, e64) >= 3.4);
 }
 
-/* Taylor-Green between slip walls. */
-static double slip_error(int n, const char *graded)
-{
-    struct fv_case c;
-    char cells[64];
-    double row[FV_CASE_ROW];
-    snprintf(cells, sizeof cells, "fv.cells=(%d,%d)", n, n);
-    fv_case_set(&c, MPI_COMM_SELF,
-                (const char *const[]){CLOSED, cells, graded, "fv.cfl=0.5", NULL});
-    for (int k = SIDE_X_MIN; k <= SIDE_Y_MAX; k++)
-        wall_add(&c, (enum scene_side)k, WALL_SLIP, 0.0);
-    fv_case_start(&c, NULL);
-    c.s->has_exact = true;
-    assert_true(fv_case_run(&c, 100000, 0.5));
-    fv_row(c.s, row);
-    fv_free(&c.s);
-    return row[3];
-}
-
 static void slip_walls_keep_the_order(void **state)
 {
     (void)state;
-    const double e24 = slip_error(24, "fv.graded=(0.6,12)"),
-                 e48 = slip_error(48, "fv.graded=(0.6,24)");
+    const double e24 = box_slip_error(24, "fv.graded=(0.6,12)"),
+                 e48 = box_slip_error(48, "fv.graded=(0.6,24)");
     print_message("24: %.3g, 48: %.3g, order %.2f\n", e24, e48, fv_case_order(e24, e48));
     assert_true(e48 < 5e-5 && fv_case_order(e24, e48) >= 3.3);
 }
