@@ -149,6 +149,13 @@ static inline int64_t mesh_cell(const struct mesh_block *b, const int *i)
                          len = (p)->n[0] + (down)[0] + (up)[0], once_ = 1;                         \
                  once_; once_ = 0)
 
+/* Visits a part's cells: i (int[3]) has place c. */
+#define PART_CELLS(p, i, c)                                                                        \
+    for ((i)[2] = 0; (i)[2] < (p)->n[2]; (i)[2]++)                                                 \
+        for ((i)[1] = 0; (i)[1] < (p)->n[1]; (i)[1]++)                                             \
+            for ((i)[0] = 0; (i)[0] < (p)->n[0]; (i)[0]++)                                         \
+                for (int64_t c = part_at(p, (i)[0], (i)[1], (i)[2]), once_ = 1; once_; once_ = 0)
+
 /* mesh_params.c */
 enum { MESH_ROWS = 24 };
 extern const struct param mesh_rows_of[MESH_ROWS];

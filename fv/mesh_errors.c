@@ -22,19 +22,16 @@ static void errors(struct mesh_flow *s, struct norm n[NORMS])
     for (int q = 0; q < m->nparts; q++) {
         const struct mesh_part *p = m->part + q;
         int i[3];
-        for (i[2] = 0; i[2] < p->n[2]; i[2]++)
-            for (i[1] = 0; i[1] < p->n[1]; i[1]++)
-                for (i[0] = 0; i[0] < p->n[0]; i[0]++) {
-                    const int64_t c = part_at(p, i[0], i[1], i[2]);
-                    double u[3], pr, o;
-                    if (s->free[c] == 0.0)
-                        continue;
-                    mesh_exact_average(s, p, i, s->t, u, &pr, &o);
-                    for (int a = 0; a < m->dim; a++)
-                        norm_add(n, m->V[c], s->u[a][c] - u[a], u[a]);
-                    norm_add(n + 1, m->V[c], mesh_pressure_at(s, c) - pr, pr);
-                    norm_add(n + 2, m->V[c], w[c] - o, o);
-                }
+        PART_CELLS (p, i, c) {
+            double u[3], pr, o;
+            if (s->free[c] == 0.0)
+                continue;
+            mesh_exact_average(s, p, i, s->t, u, &pr, &o);
+            for (int a = 0; a < m->dim; a++)
+                norm_add(n, m->V[c], s->u[a][c] - u[a], u[a]);
+            norm_add(n + 1, m->V[c], mesh_pressure_at(s, c) - pr, pr);
+            norm_add(n + 2, m->V[c], w[c] - o, o);
+        }
     }
     mem_free(w);
     norm_reduce(n, NORMS, m->comm);
@@ -48,20 +45,17 @@ static void energies(const struct mesh_flow *s, double sum[2])
     for (int q = 0; q < m->nparts; q++) {
         const struct mesh_part *p = m->part + q;
         int i[3];
-        for (i[2] = 0; i[2] < p->n[2]; i[2]++)
-            for (i[1] = 0; i[1] < p->n[1]; i[1]++)
-                for (i[0] = 0; i[0] < p->n[0]; i[0]++) {
-                    const int64_t c = part_at(p, i[0], i[1], i[2]);
-                    double u[3] = {0.0, 0.0, 0.0}, pr, o;
-                    if (s->free[c] == 0.0)
-                        continue;
-                    if (s->has_exact)
-                        mesh_exact_average(s, p, i, s->t, u, &pr, &o);
-                    for (int a = 0; a < m->dim; a++) {
-                        sum[0] += 0.5 * m->V[c] * s->u[a][c] * s->u[a][c];
-                        sum[1] += 0.5 * m->V[c] * u[a] * u[a];
-                    }
-                }
+        PART_CELLS (p, i, c) {
+            double u[3] = {0.0, 0.0, 0.0}, pr, o;
+            if (s->free[c] == 0.0)
+                continue;
+            if (s->has_exact)
+                mesh_exact_average(s, p, i, s->t, u, &pr, &o);
+            for (int a = 0; a < m->dim; a++) {
+                sum[0] += 0.5 * m->V[c] * s->u[a][c] * s->u[a][c];
+                sum[1] += 0.5 * m->V[c] * u[a] * u[a];
+            }
+        }
     }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, m->comm);
 }

@@ -62,13 +62,10 @@ static void write_field(const struct mesh_flow *s, struct h5 *f, int k, const ch
     const struct mesh_part *p = range(m, k, lo, hi);
     double *v = NEW(double, p ? (int64_t)ncomp * p->n[0] * p->n[1] * p->n[2] : 0), *to = v;
     int i[3];
-    for (i[2] = 0; p && i[2] < p->n[2]; i[2]++)
-        for (i[1] = 0; i[1] < p->n[1]; i[1]++)
-            for (i[0] = 0; i[0] < p->n[0]; i[0]++) {
-                const int64_t c = part_at(p, i[0], i[1], i[2]);
-                for (int a = 0; a < ncomp; a++)
-                    *to++ = s->free[c] == 0.0 ? NAN : q[a] ? q[a][c] : 0.0;
-            }
+    if (p)
+        PART_CELLS (p, i, c)
+            for (int a = 0; a < ncomp; a++)
+                *to++ = s->free[c] == 0.0 ? NAN : q[a] ? q[a][c] : 0.0;
     snprintf(name, sizeof name, "%s_%d", field, k + 1);
     h5_write_block(f, name, unit, m->dim, m->block[k].n, lo, hi, ncomp, v, true);
     mem_free(v);
@@ -81,15 +78,11 @@ static void whole_pressure(const struct mesh_flow *s, double *q)
         const struct mesh_part *p = m->part + r;
         const struct mesh_block *b = m->block + p->block;
         int i[3];
-        for (i[2] = 0; i[2] < p->n[2]; i[2]++)
-            for (i[1] = 0; i[1] < p->n[1]; i[1]++)
-                for (i[0] = 0; i[0] < p->n[0]; i[0]++) {
-                    const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-                    const double *x = b->centre[mesh_cell(b, at)];
-                    const int64_t c = part_at(p, i[0], i[1], i[2]);
-                    q[c] = mesh_pressure_at(s, c) +
-                           still_pressure(&s->run->scene, s->still, s->level, x);
-                }
+        PART_CELLS (p, i, c) {
+            const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+            const double *x = b->centre[mesh_cell(b, at)];
+            q[c] = mesh_pressure_at(s, c) + still_pressure(&s->run->scene, s->still, s->level, x);
+        }
     }
 }
 

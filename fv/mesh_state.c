@@ -83,24 +83,21 @@ static void fill(struct mesh_flow *s)
     for (int q = 0; q < m->nparts; q++) {
         const struct mesh_part *p = m->part + q;
         int i[3];
-        for (i[2] = 0; i[2] < p->n[2]; i[2]++)
-            for (i[1] = 0; i[1] < p->n[1]; i[1]++)
-                for (i[0] = 0; i[0] < p->n[0]; i[0]++) {
-                    const int64_t c = part_at(p, i[0], i[1], i[2]);
-                    double u[3], pr, w, diagonal = 0.0;
-                    if (m->status[c] == CELL_HOLE)
-                        continue;
-                    mesh_exact_average(s, p, i, 0.0, u, &pr, &w);
-                    for (int a = 0; a < m->dim; a++) {
-                        s->u[a][c] = at_rest ? 0.0 : u[a];
-                        diagonal += m->G[a][a][c] + m->G[a][a][c + p->stride[a]];
-                    }
-                    s->p[c] = s->p_before[c] = at_rest ? 0.0 : pr / s->run->scene.fluid.rho;
-                    s->free[c] = m->status[c] == CELL_COMPUTED;
-                    s->scale[c] = 1.25 * s->nu * diagonal / m->V[c];
-                    least = fmin(least, m->V[c]);
-                    most = fmax(most, m->V[c]);
-                }
+        PART_CELLS (p, i, c) {
+            double u[3], pr, w, diagonal = 0.0;
+            if (m->status[c] == CELL_HOLE)
+                continue;
+            mesh_exact_average(s, p, i, 0.0, u, &pr, &w);
+            for (int a = 0; a < m->dim; a++) {
+                s->u[a][c] = at_rest ? 0.0 : u[a];
+                diagonal += m->G[a][a][c] + m->G[a][a][c + p->stride[a]];
+            }
+            s->p[c] = s->p_before[c] = at_rest ? 0.0 : pr / s->run->scene.fluid.rho;
+            s->free[c] = m->status[c] == CELL_COMPUTED;
+            s->scale[c] = 1.25 * s->nu * diagonal / m->V[c];
+            least = fmin(least, m->V[c]);
+            most = fmax(most, m->V[c]);
+        }
     }
     MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m->comm);
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, m->comm);

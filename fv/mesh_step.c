@@ -283,28 +283,24 @@ static void describe_worst(const struct mesh_flow *s, struct diagnosis *d)
         const struct mesh_part *p = m->part + q;
         const struct mesh_block *b = m->block + p->block;
         int i[3];
-        for (i[2] = 0; i[2] < p->n[2]; i[2]++)
-            for (i[1] = 0; i[1] < p->n[1]; i[1]++)
-                for (i[0] = 0; i[0] < p->n[0]; i[0]++)
-                    for (int a = 0; a < m->dim; a++) {
-                        const int64_t c = part_at(p, i[0], i[1], i[2]);
-                        const double v = isfinite(s->u[a][c]) ? fabs(s->u[a][c]) : 1e300;
-                        const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-                        const double *x = b->centre[mesh_cell(b, at)];
-                        if (s->free[c] == 0.0 || v <= worst || v <= s->u_limit)
-                            continue;
-                        worst = v;
-                        d->bad = true;
-                        snprintf(
-                            d->reason, sizeof d->reason,
-                            "velocity of cell (%d, %d, %d) of block \"%s\" is %g m/s, limit %g m/s",
-                            at[0], at[1], at[2], b->prm->name, v < 1e300 ? v : NAN, s->u_limit);
-                        snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, CFL of the step %.3g",
-                                 x[0], x[1], x[2], s->max_cfl);
-                        snprintf(d->likely, sizeof d->likely,
-                                 "the flow is finer than the cells, or fv.cfl = %g is too large",
-                                 s->prm.cfl);
-                    }
+        PART_CELLS (p, i, c)
+            for (int a = 0; a < m->dim; a++) {
+                const double v = isfinite(s->u[a][c]) ? fabs(s->u[a][c]) : 1e300;
+                const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+                const double *x = b->centre[mesh_cell(b, at)];
+                if (s->free[c] == 0.0 || v <= worst || v <= s->u_limit)
+                    continue;
+                worst = v;
+                d->bad = true;
+                snprintf(d->reason, sizeof d->reason,
+                         "velocity of cell (%d, %d, %d) of block \"%s\" is %g m/s, limit %g m/s",
+                         at[0], at[1], at[2], b->prm->name, v < 1e300 ? v : NAN, s->u_limit);
+                snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, CFL of the step %.3g", x[0],
+                         x[1], x[2], s->max_cfl);
+                snprintf(d->likely, sizeof d->likely,
+                         "the flow is finer than the cells, or fv.cfl = %g is too large",
+                         s->prm.cfl);
+            }
     }
 }
 
