@@ -14,8 +14,13 @@
 #include "sph_params.h"
 #include "zones.h"
 
-/* What a face that cannot give birth holds beyond this goes to its neighbours. */
+/* What a face that cannot give birth holds beyond this goes to its neighbours; what it owes beyond
+ * this is a void that went out. */
 static const double most_debt = 1.5;
+
+/* In R/c0: how long the drain takes for what voids left. With 50 the drain of the breaking wave is
+ * some 0.02 m/s at most. */
+static const double drain_time = 50.0;
 
 struct openings *openings_create(struct sph *s)
 {
@@ -74,7 +79,7 @@ double openings_held(const struct sph *s)
     double sum = 0.0;
     for (int f = 0; f < openings_faces(o); f++)
         sum += o->mass[f];
-    return sum;
+    return sum - o->owed;
 }
 
 void openings_let_out(struct openings *o, double mass)
@@ -279,8 +284,28 @@ static void add_fluxes(struct sph *s, double dt)
         const double rho = eos_rho(z->p[k], s->rho0, s->c0, s->gamma);
         o->flux[f] = rho * area * inward(side) * z->u[dim * k + side / 2];
         o->change[f] += dt * o->flux[f];
-        o->inflow += dt * o->flux[f];
+        o->inflow += dt * (o->flux[f] + s->rho0 * area * o->drain);
     }
+    o->owed -= dt * openings_faces(o) * s->rho0 * area * o->drain;
+}
+
+/* A void that reaches an open side goes out as water: the outside knows no voids, and lets as much
+ * in elsewhere. Below it faces are booked particles that do not come. They would wait for them, one
+ * row of void after the other; what they owe beyond most_debt goes instead to one account, and
+ * leaves the region by a slow flow through all open sides. */
+static void collect_debts(struct sph *s)
+{
+    struct openings *o = s->zones->openings;
+    const double least = -most_debt * s->rho0 * s->dxD, area = s->dxD / s->dx;
+    if (!s->surface)
+        return;
+    for (int f = 0; f < openings_faces(o); f++)
+        if (o->mass[f] < least) {
+            o->owed += least - o->mass[f];
+            o->mass[f] = least;
+        }
+    o->drain =
+        o->owed / (s->rho0 * area * openings_faces(o)) * s->c0 / (drain_time * s->R); /* m/s */
 }
 
 /* Places near the open sides in a hash of cells of side dx, to keep births apart. */
@@ -439,9 +464,10 @@ static void sum_changes(struct sph *s)
     memset(o->change, 0, (size_t)n * sizeof(double));
 }
 
-void openings_place_lattice(struct sph *s)
+void openings_settle(struct sph *s)
 {
     struct openings *o = s->zones->openings;
+    collect_debts(s);
     for (int side = 0; side < 2 * o->dim; side++)
         for (int f = o->first[side]; f < o->first[side + 1]; f++)
             o->shift[f] =
@@ -455,5 +481,5 @@ void openings_step(struct sph *s, double dt)
     sum_changes(s);
     give_birth(s);
     sum_changes(s);
-    openings_place_lattice(s);
+    openings_settle(s);
 }

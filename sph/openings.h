@@ -16,6 +16,8 @@ struct openings {
     double *mass;                /* kg: booked, the same on all ranks */
     double *change;              /* kg: of this step, this rank, then summed */
     double *flux;                /* kg/s of the faces this rank owns, 0 elsewhere: inward */
+    double owed;                 /* kg: what voids that went out left to be drained; all ranks' */
+    double drain;                /* m/s: outwards, added to the flow outside */
     double *shift;               /* m: place of the incoming lattice behind each face */
     int64_t born, gone, refused; /* on this rank */
     double born_mass, gone_mass, inflow; /* kg: since the start, this rank */
@@ -36,14 +38,15 @@ void openings_step(struct sph *s, double dt);
 void openings_ghosts(struct sph *s);
 /* Their lines at s->t. */
 void openings_ghost_lines(struct sph *s);
-/* Where the lattice behind each face stands, from the booked masses (after a restart, too). */
-void openings_place_lattice(struct sph *s);
+/* From the booked masses (after a restart, too): what is to be drained, and where the lattice
+ * behind each face stands. */
+void openings_settle(struct sph *s);
 int openings_faces(const struct openings *o);
 /* s since the birth of the particle with this id, or since the start. */
 double openings_age(const struct sph *s, int64_t id);
 /* Takes mass (kg) from all faces alike; the same on all ranks. */
 void openings_let_out(struct openings *o, double mass);
-/* kg: booked by all faces; the same on all ranks. */
+/* kg: booked by all faces, less what voids left to be drained; the same on all ranks. */
 double openings_held(const struct sph *s);
 
 #endif

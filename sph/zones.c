@@ -135,6 +135,32 @@ void zones_room(struct zones *z, int n)
     z->capacity = n;
 }
 
+/* Side of the region nearest to x; *below: depth of x below it. */
+static int nearest_side(const struct openings *o, const double *x, double *below)
+{
+    int nearest = 0;
+    *below = INFINITY;
+    for (int side = 0; side < 2 * o->dim; side++) {
+        const int a = side / 2;
+        const double d = side % 2 ? o->hi[a] - x[a] : x[a] - o->lo[a];
+        if (o->open[side] && d < *below) {
+            *below = d;
+            nearest = side;
+        }
+    }
+    return nearest;
+}
+
+static void add_drain(struct zones *z)
+{
+    const struct openings *o = z->openings;
+    double below;
+    for (int k = 0; k < z->n; k++) {
+        const int side = nearest_side(o, z->x + 3 * k, &below);
+        z->u[o->dim * k + side / 2] += side % 2 ? o->drain : -o->drain;
+    }
+}
+
 void zones_look(struct zones *z, double t, bool gradients)
 {
     if (!z->eval) { /* a partner's patch has not come: at rest */
@@ -147,28 +173,15 @@ void zones_look(struct zones *z, double t, bool gradients)
     z->eval(z->ctx, t, z->n, z->x, z->u, z->p, gradients ? z->gu : NULL, gradients ? z->gp : NULL);
     for (int k = 0; k < z->n; k++)
         z->p[k] += z->gauge;
-}
-
-/* Depth of x below the nearest open side; which one that is. */
-static double depth_below(const struct sph *s, const double *x, int *nearest)
-{
-    double d = INFINITY;
-    *nearest = 0;
-    for (int side = 0; side < 2 * s->dim; side++) {
-        const int a = side / 2;
-        const double below = side % 2 ? s->hi[a] - x[a] : x[a] - s->lo[a];
-        if (s->open[side] && below < d) {
-            d = below;
-            *nearest = side;
-        }
-    }
-    return d;
+    if (z->openings->drain != 0.0)
+        add_drain(z);
 }
 
 double zones_depth(const struct sph *s, const double *x)
 {
-    int side;
-    return depth_below(s, x, &side);
+    double below;
+    nearest_side(s->zones->openings, x, &below);
+    return below;
 }
 
 void zones_mark(struct sph *s)
@@ -340,8 +353,9 @@ void zones_blend(struct sph *s)
     for (int k = 0; k < z->n; k++) {
         const int i = z->who[k];
         double *y = s->p.y + (size_t)i * s->p.nstate, u[3];
-        int side;
-        const double in = (depth_below(s, y, &side) - z->buffer) / z->transition;
+        double below;
+        const int side = nearest_side(z->openings, y, &below);
+        const double in = (below - z->buffer) / z->transition;
         const double alpha = fmin(fmax(1.0 - in, 0.0), 1.0), m = y[2 * dim + 1];
         double p = eos_p(m / y[2 * dim], s->rho0, s->c0, s->gamma);
         for (int a = 0; a < dim; a++)
@@ -361,10 +375,11 @@ void zones_save(struct sph *s, struct h5 *f)
     h5_write_real(f, "faces_mass", "kg", rows, 1, o->mass, false);
     h5_write_real(f, "faces_flux", "kg/s", openings_faces(o), 1, o->flux, false);
     const double booked[4] = {s->zones->blended, o->born_mass, o->gone_mass, o->inflow};
-    const double level[1] = {s->zones->level};
+    const double level[1] = {s->zones->level}, owed[1] = {o->owed};
     const int64_t counted[3] = {o->born, o->gone, o->refused};
     h5_write_real(f, "zones_booked", "kg", 4, 1, booked, false);
     h5_write_real(f, "zones_level", "Pa", 1, 1, level, false);
+    h5_write_real(f, "zones_owed", "kg", 1, 1, owed, false);
     h5_write_int(f, "zones_counted", 3, counted);
 }
 
@@ -379,6 +394,7 @@ bool zones_load(struct sph *s, struct h5 *f)
         !h5_read_real(f, "faces_flux", faces, 1, o->flux) ||
         !h5_read_real(f, "zones_booked", 4, 1, booked) ||
         !h5_read_real(f, "zones_level", 1, 1, &s->zones->level) ||
+        !h5_read_real(f, "zones_owed", 1, 1, &o->owed) ||
         !h5_read_int(f, "zones_counted", 3, counted))
         return false;
     MPI_Bcast(o->mass, faces, MPI_DOUBLE, 0, s->run->comm);
@@ -389,6 +405,6 @@ bool zones_load(struct sph *s, struct h5 *f)
     o->born = counted[0];
     o->gone = counted[1];
     o->refused = counted[2];
-    openings_place_lattice(s);
+    openings_settle(s);
     return true;
 }
