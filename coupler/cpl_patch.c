@@ -68,36 +68,40 @@ struct stencil {
     double w[WIDEST], d[WIDEST];
 };
 
+static const struct stencil one_cell = {.m = 1, .w = {1.0}};
+
 /* Cubic Lagrange on nodes -1, 0, 1, 2 at s in their units. */
 static inline void cubic_weights(struct stencil *q, double s, double per_m)
 {
     const double a = s + 1.0, b = s, c = s - 1.0, e = s - 2.0;
-    q->w[0] = -b * c * e / 6.0;
-    q->w[1] = a * c * e / 2.0;
-    q->w[2] = -a * b * e / 2.0;
-    q->w[3] = a * b * c / 6.0;
-    q->d[0] = -(c * e + b * e + b * c) / 6.0 * per_m;
-    q->d[1] = (c * e + a * e + a * c) / 2.0 * per_m;
-    q->d[2] = -(b * e + a * e + a * b) / 2.0 * per_m;
-    q->d[3] = (b * c + a * c + a * b) / 6.0 * per_m;
+    const double half = 0.5 * per_m, sixth = (1.0 / 6.0) * per_m;
+    q->w[0] = -b * c * e * (1.0 / 6.0);
+    q->w[1] = a * c * e * 0.5;
+    q->w[2] = -a * b * e * 0.5;
+    q->w[3] = a * b * c * (1.0 / 6.0);
+    q->d[0] = -(c * e + b * e + b * c) * sixth;
+    q->d[1] = (c * e + a * e + a * c) * half;
+    q->d[2] = -(b * e + a * e + a * b) * half;
+    q->d[3] = (b * c + a * c + a * b) * sixth;
 }
 
 /* The place in its cell comes from the global index alone, so that all patches of a grid, whatever
  * their first cell, give the same bits. */
-static inline struct stencil stencil_at(const struct patch *p, int a, double x)
+static inline void stencil_at(const struct patch *p, int a, double per_m, double x,
+                              struct stencil *q)
 {
-    struct stencil q = {.m = 1, .w = {1.0}};
     const int n = p->n[a], lo = p->lo[a];
     /* in cells, 0 at the centre of the grid's first cell; huge and NaN places become places */
-    double s = (x - p->origin[a]) / p->spacing[a] - 0.5;
+    double s = (x - p->origin[a]) * per_m - 0.5;
     s = s > -1e9 ? s : -1e9;
     s = s < 1e9 ? s : 1e9;
     int i = (int)floor(s);
     s -= i;
     i -= lo;
-    if (p->period[a] > 0) { /* the image nearest to the middle of the patch */
-        const int turns = (int)floor((i - 0.5 * n) / p->period[a] + 0.5);
-        i -= turns * p->period[a];
+    const int period = p->period[a], twice = 2 * i - n;
+    if (period > 0 && (twice >= period || twice < -period)) { /* the image nearest the middle */
+        const int turns = (int)floor((i - 0.5 * n) / period + 0.5);
+        i -= turns * period;
     }
     if (i < -1 || (i == -1 && s < 0.5)) {
         i = -1;
@@ -109,19 +113,19 @@ static inline struct stencil stencil_at(const struct patch *p, int a, double x)
     }
     if (p->cubic && n >= 4) {
         const int base = i < 1 ? 1 : i > n - 3 ? n - 3 : i;
-        q.m = 4;
-        q.first = base - 1;
-        cubic_weights(&q, s + (i - base), 1.0 / p->spacing[a]);
+        q->m = 4;
+        q->first = base - 1;
+        cubic_weights(q, s + (i - base), per_m);
     } else if (n >= 2) {
         const int base = i < 0 ? 0 : i > n - 2 ? n - 2 : i;
-        q.m = 2;
-        q.first = base;
-        q.w[1] = s + (i - base);
-        q.w[0] = 1.0 - q.w[1];
-        q.d[1] = 1.0 / p->spacing[a];
-        q.d[0] = -q.d[1];
-    }
-    return q;
+        q->m = 2;
+        q->first = base;
+        q->w[1] = s + (i - base);
+        q->w[0] = 1.0 - q->w[1];
+        q->d[1] = per_m;
+        q->d[0] = -per_m;
+    } else
+        *q = one_cell;
 }
 
 /* One point: sums along x, then y, then z. ncomp, the stencil's width and grad are constants of the
@@ -234,10 +238,13 @@ void patch_eval(const struct patch *p, double t, long n, const double *x, double
     }
     const int mx = p->n[0] < 2 ? 1 : p->cubic && p->n[0] >= 4 ? 4 : 2;
     point_body *const body = body_of(p->ncomp, mx);
+    struct stencil q[3] = {one_cell, one_cell, one_cell};
+    double per_m[3];
+    for (int a = 0; a < p->dim; a++)
+        per_m[a] = 1.0 / p->spacing[a];
     for (size_t i = 0; i < (size_t)n; i++) {
-        const struct stencil q[3] = {stencil_at(p, 0, x[3 * i]), stencil_at(p, 1, x[3 * i + 1]),
-                                     p->dim == 3 ? stencil_at(p, 2, x[3 * i + 2])
-                                                 : (struct stencil){.m = 1, .w = {1.0}}};
+        for (int a = 0; a < p->dim; a++)
+            stencil_at(p, a, per_m[a], x[3 * i + (size_t)a], q + a);
         body(p, q, tau, v + i * nc, grad ? grad + 3 * i * nc : NULL);
     }
 }
