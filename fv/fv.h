@@ -78,7 +78,6 @@ struct fv {
     double max_cfl;
     int64_t iterations; /* of the pressure solver */
     int64_t viscous_iterations;
-    double energy0;
 };
 
 /* fv_params.c */

@@ -197,7 +197,6 @@ void fv_checkpoint(void *state, struct h5 *f)
         h5_write_real(f, names[k], "-", s->b.size, 1, fields[k], false);
     h5_attribute_real(f, "dt", s->dt);
     h5_attribute_real(f, "dt_old", s->dt_old);
-    h5_attribute_real(f, "energy0", s->energy0);
     if (s->newton) {
         h5_attribute_real(f, "dtau", s->newton->dtau);
         h5_attribute_real(f, "residual", s->newton->norm);
@@ -250,7 +249,6 @@ bool fv_restore(struct fv *s, struct h5 *f)
         surface_rebuild(s);
     return h5_read_attribute_real(f, "dt", &s->dt) &&
            h5_read_attribute_real(f, "dt_old", &s->dt_old) &&
-           h5_read_attribute_real(f, "energy0", &s->energy0) &&
            (!s->newton || restore_newton(s->newton, f)) && outflow_load(s, f) &&
            (!s->link || coupling_load(s, f));
 }

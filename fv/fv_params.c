@@ -105,6 +105,8 @@ static void check_graded(const struct run *r, struct faults *f)
             params_fault(r->params, f, "walls", "wall %d: no openings with fv.graded", k + 1);
     if (d->periodic[1])
         params_fault(r->params, f, "fv.graded", "y is periodic");
+    else if (given.graded[1] != floor(given.graded[1]))
+        params_fault(r->params, f, "fv.graded", "%g is no number of rows", given.graded[1]);
     else if (!(ratio > 0.0))
         params_fault(
             r->params, f, "fv.graded",
@@ -114,8 +116,7 @@ static void check_graded(const struct run *r, struct faults *f)
     else if (ratio > 1.3)
         params_fault(r->params, f, "fv.graded",
                      "rows grow by %.2f from one to the next: at most 1.3; more rows below y = %g "
-                     "m, or fewer "
-                     "even ones",
+                     "m, or fewer even ones",
                      ratio, given.graded[0]);
 }
 

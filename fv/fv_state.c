@@ -97,17 +97,6 @@ static void empty_hole(struct fv *s)
         }
 }
 
-static double energy(const struct fv *s)
-{
-    double sum = 0.0;
-    for (int a = 0; a < s->b.dim; a++)
-        BLOCK_ROWS (&s->b, 0, c, n)
-            for (int64_t i = c; i < c + n; i++)
-                sum += 0.5 * s->u[a][i] * s->u[a][i];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->b.cart);
-    return sum;
-}
-
 static void set_limit(struct fv *s)
 {
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
@@ -193,7 +182,6 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     s->pressure = pressure_create(s);
     if (s->prm.integrator == INTEGRATOR_NEWTON)
         s->newton = newton_create(s);
-    s->energy0 = energy(s);
     measure(s);
     set_limit(s);
     if (!f && s->bc && s->bc->driven)

@@ -92,6 +92,7 @@ with fv 's/cells = (16, 16)/cells = (16, 2)/' 'fv.cells: ' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 8)/' 'case.cfg:6: fv.graded: y is periodic' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.9, 6)/; s/(true, true)/(true, false)/' 'fv.graded: rows grow by' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 12)/; s/(true, true)/(true, false)/' 'fv.graded: no heights' fv
+with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 6.5)/; s/(true, true)/(true, false)/' 'fv.graded: 6.5 is no number' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); cfl = 7/' 'case.cfg:6: fv.cfl: ' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); integrator = "euler"/' 'case.cfg:6: fv.integrator: .*rk3' fv
 with coupled 's/steps = 32/steps = 0/' 'coupling.steps: ' coupler --check
