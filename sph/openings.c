@@ -297,7 +297,7 @@ static void collect_debts(struct sph *s)
 {
     struct openings *o = s->zones->openings;
     const double least = -most_debt * s->rho0 * s->dxD, area = s->dxD / s->dx;
-    if (!s->surface)
+    if (!s->surface || s->prm.outer == OUTER_SIDES) /* an outlet's faces may stand in air */
         return;
     for (int f = 0; f < openings_faces(o); f++)
         if (o->mass[f] < least) {
