@@ -126,11 +126,16 @@ void block_halo(const struct block *b, int nf, double *const *f)
     }
 }
 
-void block_pack(const struct block *b, const double *f, double *packed)
+void block_pack_from(const struct block *b, int first, const double *f, double *packed)
 {
     for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++, packed += b->n[0])
+        for (int j = first; j < b->n[1]; j++, packed += b->n[0])
             memcpy(packed, f + block_at(b, 0, j, k), (size_t)b->n[0] * sizeof(double));
+}
+
+void block_pack(const struct block *b, const double *f, double *packed)
+{
+    block_pack_from(b, 0, f, packed);
 }
 
 void block_unpack(const struct block *b, const double *packed, double *f)

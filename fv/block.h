@@ -87,6 +87,8 @@ static inline double block_derivative(const struct block *b, const double *q, in
 void block_halo(const struct block *b, int nf, double *const *f);
 /* Fields without ghosts, x fastest, from and to those with. */
 void block_pack(const struct block *b, const double *f, double *packed);
+/* The same from the local row `first' on. */
+void block_pack_from(const struct block *b, int first, const double *f, double *packed);
 void block_unpack(const struct block *b, const double *packed, double *f);
 
 /* Visits the local cells: (i, j, k) has index c. */

@@ -142,8 +142,8 @@ void measure(struct fv *s);
 /* fv_io.c, fv_errors.c */
 /* Errors of velocity, pressure, vorticity into the summary. */
 void fv_summarise_norms(const struct run *r, const struct norm n[3]);
-/* |curl u|^2 of a cell, 1/s^2. */
-double fv_curl_squared(const struct fv *s, int64_t c);
+/* |curl u|^2 of a cell in local row j, 1/s^2. */
+double fv_curl_squared(const struct fv *s, int64_t c, int j);
 void fv_vorticity(const struct fv *s,
                   double *w); /* dv/dx - du/dy, all local cells (with ghosts' layout) */
 void fv_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);

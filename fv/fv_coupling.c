@@ -167,14 +167,6 @@ static void take_out_level(struct fv *s, double *q)
 
 double coupling_level(const struct fv *s) { return s->link ? s->link->level : 0.0; }
 
-/* The cells of the local rows from `first' on, x fastest. */
-static void pack(const struct block *b, int first, const double *f, double *packed)
-{
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = first; j < b->n[1]; j++, packed += b->n[0])
-            memcpy(packed, f + block_at(b, 0, j, k), (size_t)b->n[0] * sizeof(double));
-}
-
 /* Velocity and whole pressure now, as a new level; forced cells get a pressure continued from the
  * free side. */
 static void take_level(struct fv *s)
@@ -193,7 +185,7 @@ static void take_level(struct fv *s)
         forcing_extend(s, p);
     fv_add_still_pressure(s, p);
     for (int m = 0; m <= b->dim; m++) {
-        pack(b, k->first, m < b->dim ? s->u[m] : p, one);
+        block_pack_from(b, k->first, m < b->dim ? s->u[m] : p, one);
         for (int64_t i = 0; i < k->n; i++)
             k->q[0][i * (b->dim + 1) + m] = one[i];
     }

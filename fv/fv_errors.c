@@ -86,17 +86,15 @@ static double share(const struct fv *s, const double *x, const double *h)
     return 1.0 - in;
 }
 
-double fv_curl_squared(const struct fv *s, int64_t c)
+double fv_curl_squared(const struct fv *s, int64_t c, int j)
 {
     const struct block *b = &s->b;
     double sum = 0.0;
-    int at[3];
-    block_place(b, c, at);
     for (int a = b->dim == 3 ? 0 : 2; a < 3; a++) { /* d_p u_q - d_q u_p */
         double w = 0.0;
         for (int k = 0; k < 2; k++) {
             const int along = (a + 1 + k) % 3, of = (a + 2 - k) % 3;
-            w += (k ? -1.0 : 1.0) * block_derivative(b, s->u[of] + c, along, at[1]);
+            w += (k ? -1.0 : 1.0) * block_derivative(b, s->u[of] + c, along, j);
         }
         sum += w * w;
     }
@@ -117,7 +115,7 @@ void fv_tell(void *state, struct summary *report)
         const double u[3] = {s->u[0][c], s->u[1][c], b->dim == 3 ? s->u[2][c] : 0.0};
         const double part = h[0] * h[1] * h[2] * share(s, x, h);
         sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-        sum[1] += 0.5 * part * fv_curl_squared(s, c);
+        sum[1] += 0.5 * part * fv_curl_squared(s, c, j);
         sum[2] += rho * part * exact_signal(&s->exact, x, u);
         sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
     }

@@ -104,7 +104,7 @@ static double enstrophy(const struct fv *s)
     BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++) {
             const double part = surface_share(s, i);
-            sum += part > 0.0 ? 0.5 * part * fv_curl_squared(s, i) : 0.0;
+            sum += part > 0.0 ? 0.5 * part * fv_curl_squared(s, i, j_) : 0.0;
         }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
     return sum * cell_volume(b);

@@ -1,5 +1,5 @@
 /* test_rows.c - rows of unequal height: their heights, weights on polynomials, orders and exact
- * flows over them, water at rest. SPDX-License-Identifier: BSD-3-Clause */
+ * flows over them. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include "../fv/rows.h"
@@ -27,7 +27,7 @@ static void heights_fill_the_domain(void **state)
     assert_true(isnan(rows_heights(60, 32, -0.1, 2.5, h)));
 }
 
-/* Integral of y^n, its first derivative y^n, ... at y. */
+/* Of y^n at y: the integral (-1), itself (0), the derivative (1). */
 static double power(int n, int derivative, double y)
 {
     return derivative == -1  ? pow(y, n + 1) / (n + 1)
@@ -48,7 +48,7 @@ static void weights_are_exact_for_cubics(void **state)
     const struct rows *r = b.rows;
     for (int n = 0; n <= 3; n++)
         for (int j = 0; j < 40; j++) {
-            double q[7], value = 0.0, slope = 0.0, gradient = 0.0, laplace = 0.0;
+            double q[5], value = 0.0, slope = 0.0, gradient = 0.0, laplace = 0.0;
             const double low = r->y[j] - 0.5 * r->h[j], high = low + r->h[j];
             for (int m = -2; m <= 2; m++) {
                 const double y0 = r->y[j + m] - 0.5 * r->h[j + m], y1 = y0 + r->h[j + m];
@@ -116,8 +116,8 @@ static void channel_is_exact(void **state)
     fv_free(&c.s);
 }
 
-/* A lid over graded rows: its force is that over the same number of even ones at least. */
-static double lid_force(const char *cells, const char *graded)
+/* A lid over graded rows: its energy is that over as fine even ones. */
+static double lid_energy(const char *cells, const char *graded)
 {
     struct fv_case c;
     double row[FV_CASE_ROW];
@@ -138,9 +138,9 @@ static double lid_force(const char *cells, const char *graded)
 static void cavity_is_the_same(void **state)
 {
     (void)state;
-    const double fine = lid_force("fv.cells=(48,64)", "fv.graded=(0,0)"),
-                 graded = lid_force("fv.cells=(48,44)", "fv.graded=(0.5,32)"),
-                 even = lid_force("fv.cells=(48,44)", "fv.graded=(0,0)");
+    const double fine = lid_energy("fv.cells=(48,64)", "fv.graded=(0,0)"),
+                 graded = lid_energy("fv.cells=(48,44)", "fv.graded=(0.5,32)"),
+                 even = lid_energy("fv.cells=(48,44)", "fv.graded=(0,0)");
     print_message("energy %.6g, %.6g on graded, %.6g on even rows\n", fine, graded, even);
     assert_true(fabs(graded / fine - 1.0) < 5e-4);
 }
