@@ -14,7 +14,7 @@
 #include "mem.h"
 #include "params_hints.h"
 
-enum { NAMES_SIZE = 2048 };
+enum { NAMES_SIZE = 2048, GIVEN_SIZE = 64 };
 
 struct override {
     const char *text; /* as given: "sph.dx=0.02"; borrowed */
@@ -32,6 +32,7 @@ struct params {
     struct override *overrides;
     unsigned long long hash;
     char names[NAMES_SIZE]; /* " sph fv ": groups the case has, the same on all ranks */
+    char *given;            /* " sph.dx walls.[0].kind ": keys with values, the same on all ranks */
 };
 
 /* --- faults --- */
@@ -421,10 +422,21 @@ static struct override *override_of(struct params *p, const char *group, const c
     return found;
 }
 
-static void read_row(struct params *p, const struct param_group *g, const struct param *r,
-                     const config_setting_t *group, void *target, bool overridable,
-                     struct faults *f)
+static void mark_given(struct params *p, const char *group, int element, const char *key)
 {
+    char word[160];
+    const int n = element < 0 ? snprintf(word, sizeof word, "%s.%s ", group, key)
+                              : snprintf(word, sizeof word, "%s.[%d].%s ", group, element, key);
+    const size_t old = strlen(p->given);
+    p->given = mem_grow(p->given, old, old + (size_t)n + 1, 1);
+    memcpy(p->given + old, word, (size_t)n + 1);
+}
+
+/* element: of a list; -1: a plain group, whose keys the command line may give, too. */
+static void read_row(struct params *p, const struct param_group *g, const struct param *r,
+                     const config_setting_t *group, void *target, int element, struct faults *f)
+{
+    const bool overridable = element < 0;
     char place[1300], why[512];
     struct override *o = overridable ? override_of(p, g->name, r->key) : NULL;
     const config_setting_t *s = o ? config_lookup(&o->cfg, "value")
@@ -441,6 +453,7 @@ static void read_row(struct params *p, const struct param_group *g, const struct
                   strcmp(r->unit, "-") ? r->unit : "");
         return;
     }
+    mark_given(p, g->name, element, r->key);
     if (!get_value(r, s, target, why, sizeof why))
         fault(f, place, "%s", why);
 }
@@ -486,7 +499,7 @@ static void read_plain(struct params *p, const struct param_group *g, const conf
         return;
     }
     for (int k = 0; k < g->nrows; k++)
-        read_row(p, g, g->rows + k, s, g->target, true, f);
+        read_row(p, g, g->rows + k, s, g->target, -1, f);
     if (s)
         find_unknown_keys(p, g, s, f);
 }
@@ -513,7 +526,7 @@ static void read_list(struct params *p, const struct param_group *g, const confi
         }
         for (int r = 0; r < g->nrows; r++) {
             set_default(g, g->rows + r, target);
-            read_row(p, g, g->rows + r, e, target, false, f);
+            read_row(p, g, g->rows + r, e, target, k, f);
         }
         find_unknown_keys(p, g, e, f);
         *g->count = k + 1;
@@ -621,6 +634,17 @@ static void read_case(struct params *p, const char *const *texts, const char *co
     }
 }
 
+static void share_given(struct params *p, MPI_Comm comm)
+{
+    int n = (int)strlen(p->given) + 1;
+    MPI_Bcast(&n, 1, MPI_INT, 0, comm);
+    if (p->rank > 0) {
+        mem_free(p->given);
+        p->given = mem_new((size_t)n, 1);
+    }
+    MPI_Bcast(p->given, n, MPI_CHAR, 0, comm);
+}
+
 struct params *params_read(MPI_Comm comm, const char *path, int noverrides,
                            const char *const *overrides, const struct param_group *groups,
                            int ngroups, const char *const *others, struct faults *f)
@@ -631,6 +655,8 @@ struct params *params_read(MPI_Comm comm, const char *path, int noverrides,
     p->groups = groups;
     p->ngroups = ngroups;
     p->noverrides = p->rank == 0 ? noverrides : 0;
+    p->given = mem_new(GIVEN_SIZE, 1);
+    snprintf(p->given, GIVEN_SIZE, " ");
     config_init(&p->cfg);
     for (int k = 0; k < ngroups; k++)
         for (int r = 0; r < groups[k].nrows && !groups[k].stride; r++)
@@ -640,6 +666,7 @@ struct params *params_read(MPI_Comm comm, const char *path, int noverrides,
     MPI_Bcast(&f->n, 1, MPI_INT, 0, comm);
     MPI_Bcast(p->names, NAMES_SIZE, MPI_CHAR, 0, comm);
     MPI_Bcast(&p->hash, 1, MPI_UNSIGNED_LONG_LONG, 0, comm);
+    share_given(p, comm);
     for (int k = 0; k < ngroups; k++) {
         const struct param_group *g = groups + k;
         if (g->count)
@@ -662,6 +689,7 @@ void params_free(struct params **p)
     for (int k = 0; k < (*p)->noverrides; k++)
         config_destroy(&(*p)->overrides[k].cfg);
     mem_free((*p)->overrides);
+    mem_free((*p)->given);
     mem_free(*p);
     *p = NULL;
 }
@@ -674,6 +702,20 @@ bool params_has_group(const struct params *p, const char *group)
 }
 
 unsigned long long params_hash(const struct params *p) { return p->hash; }
+
+bool params_given(const struct params *p, const char *key)
+{
+    char word[160];
+    snprintf(word, sizeof word, " %s ", key);
+    return strstr(p->given, word) != NULL;
+}
+
+void params_unused(const struct params *p, struct faults *f, const char *key, bool used,
+                   const char *why)
+{
+    if (!used && params_given(p, key))
+        params_fault(p, f, key, "is not used: %s", why);
+}
 
 void params_fault(const struct params *p, struct faults *f, const char *key, const char *fmt, ...)
 {
@@ -705,7 +747,7 @@ char *params_text(const struct params *p)
     for (int k = 0; k < p->ngroups; k++) {
         if (!params_has_group(p, p->groups[k].name))
             continue;
-        char *one = params_group_text(p->groups + k);
+        char *one = params_group_text(p, p->groups + k);
         const size_t m = strlen(one);
         all = mem_grow(all, n, n + m + 1, 1);
         memcpy(all + n, one, m + 1);

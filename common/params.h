@@ -86,8 +86,16 @@ bool params_has_group(const struct params *p, const char *group);
 /* 64-bit FNV-1a of the case as read (file, included files, overrides) but for -p output.*; same on
  * all ranks. Two programs of a job must agree on it. */
 unsigned long long params_hash(const struct params *p);
-/* Whole text of the case with defaults filled in, plain SI, can be run again; rank 0 only, owned
- * by the caller (mem_free). */
+/* Whether the case or the command line gives a value to `key': "sph.dx", or of an element of a list
+ * (from 0) "walls.[0].velocity". Same on all ranks. */
+bool params_given(const struct params *p, const char *key);
+/* A fault where `key' is given and the run has no use for it: "is not used: WHY". A key that
+ * changes nothing is a mistake of the case, never passed over in silence. Call on all ranks alike.
+ */
+void params_unused(const struct params *p, struct faults *f, const char *key, bool used,
+                   const char *why);
+/* Whole text of the case, plain SI, can be run again: keys that are not given stand in comments
+ * with their defaults. Rank 0 only, owned by the caller (mem_free). */
 char *params_text(const struct params *p);
 /* One more fault, at the place of `key' ("sph.dx") in the file; call on all ranks alike. */
 void params_fault(const struct params *p, struct faults *f, const char *key, const char *fmt, ...)

@@ -11,7 +11,7 @@
 size_t param_size(const struct param *r);
 
 /* A group as libconfig text, plain SI; owned by the caller (mem_free). */
-char *params_group_text(const struct param_group *g);
+char *params_group_text(const struct params *p, const struct param_group *g);
 
 /* The known word with the smallest edit distance to a given one. */
 struct hint_nearest {

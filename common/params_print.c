@@ -194,7 +194,7 @@ const char *params_value(const struct param *row, const void *target)
     return text;
 }
 
-char *params_group_text(const struct param_group *g)
+char *params_group_text(const struct params *p, const struct param_group *g)
 {
     const size_t points = 80 * (size_t)PARAM_POINTS_MAX; /* the longest value */
     size_t row = 640;
@@ -208,8 +208,14 @@ char *params_group_text(const struct param_group *g)
         if (g->stride)
             n += (size_t)snprintf(text + n, room - n, "  %s{\n", e ? ", " : "");
         for (int r = 0; r < g->nrows; r++) {
+            char key[160];
+            if (g->stride)
+                snprintf(key, sizeof key, "%s.[%d].%s", g->name, e, g->rows[r].key);
+            else
+                snprintf(key, sizeof key, "%s.%s", g->name, g->rows[r].key);
             print_value(value, points, g->rows + r, target);
-            n += (size_t)snprintf(text + n, room - n, "  %s = %s;\n", g->rows[r].key, value);
+            n += (size_t)snprintf(text + n, room - n, "  %s%s = %s;\n",
+                                  params_given(p, key) ? "" : "# ", g->rows[r].key, value);
         }
         if (g->stride)
             n += (size_t)snprintf(text + n, room - n, "  }\n");

@@ -91,6 +91,32 @@ static void the_text_of_a_case_can_be_read_again(void **state)
     mem_free(text);
 }
 
+static void a_given_key_that_is_not_used_is_a_fault(void **state)
+{
+    (void)state;
+    struct faults f;
+    struct params *p = read_case("box: {\n  size = 1;\n};\nitems: ( { weight = 3; }, { kind = "
+                                 "\"soft\"; weight = 1; } );",
+                                 WITH("box.count=2"), &f);
+    assert_true(params_given(p, "box.size"));
+    assert_true(params_given(p, "box.count"));
+    assert_false(params_given(p, "box.cells"));
+    assert_false(params_given(p, "items.[0].kind"));
+    assert_true(params_given(p, "items.[1].kind"));
+    params_unused(p, &f, "box.size", true, "-");
+    params_unused(p, &f, "box.cells", false, "-");
+    assert_int_equal(f.n, 0);
+    params_unused(p, &f, "box.count", false, "nothing is counted");
+    params_unused(p, &f, "items.[1].kind", false, "all are soft");
+    assert_int_equal(f.n, 2);
+    if (rank == 0) {
+        assert_non_null(strstr(f.text, "box.count: is not used: nothing is counted\n"));
+        assert_non_null(strstr(f.text, ".cfg:4: items.[1].kind: is not used: all are soft\n"));
+    }
+    params_free(&p);
+    mem_free(f.text);
+}
+
 static void a_fault_between_keys_stands_at_its_key(void **state)
 {
     (void)state;
@@ -119,6 +145,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(the_command_line_goes_before_the_file),
         cmocka_unit_test(the_hash_is_of_the_case_and_not_of_its_output),
         cmocka_unit_test(the_text_of_a_case_can_be_read_again),
+        cmocka_unit_test(a_given_key_that_is_not_used_is_a_fault),
         cmocka_unit_test(a_fault_between_keys_stands_at_its_key),
     };
     RUN_PARAMS_TESTS(argc, argv, tests);
