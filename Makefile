@@ -22,7 +22,7 @@ LIBS = $(HDF5_LIBS) -lconfig -lm
 FV_LIBS = -lHYPRE -lsundials_kinsol -lsundials_nvecparallel -lsundials_sunlinsolspgmr
 
 objects = $(patsubst %.c,$(B)/o/%.o,$(wildcard $(1)/*.c))
-cpl_o = $(addprefix $(B)/o/coupler/,cpl_client.o cpl_data.o cpl_patch.o wire.o failure.o handshake.o region.o)
+cpl_o = $(addprefix $(B)/o/coupler/,cpl_client.o cpl_data.o cpl_patch.o wire.o alive.o failure.o handshake.o region.o)
 mains = $(B)/o/sph/sph.o $(B)/o/fv/fv.o $(B)/o/coupler/coupler.o
 sph_o = $(filter-out $(mains),$(call objects,sph)) $(B)/o/coupler/cpl_partner.o
 fv_o = $(filter-out $(mains),$(call objects,fv)) $(B)/o/coupler/cpl_partner.o

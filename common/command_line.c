@@ -17,7 +17,8 @@ static const struct option options[] = {
     {"params", no_argument, NULL, 'M'},         {"check", no_argument, NULL, 'c'},
     {"param", required_argument, NULL, 'p'},    {"output", required_argument, NULL, 'o'},
     {"restart", no_argument, NULL, 'r'},        {"force", no_argument, NULL, 'f'},
-    {"deadline", required_argument, NULL, 'd'}, {NULL, 0, NULL, 0}};
+    {"deadline", required_argument, NULL, 'd'}, {"patience", required_argument, NULL, 't'},
+    {"groups", no_argument, NULL, 'g'},         {NULL, 0, NULL, 0}};
 
 static void usage(const char *name, const char *help)
 {
@@ -30,8 +31,11 @@ static void usage(const char *name, const char *help)
            "      --restart     goes on from the last restart file in DIR\n"
            "      --force       replaces an earlier run in DIR\n"
            "      --deadline S  time to meet the other programs of a coupled job (30 s)\n"
+           "      --patience S  time without a sign of life after which a partner counts as hung "
+           "(120 s)\n"
            "      --help [KEY]  this text and all keys, or one key or group\n"
            "      --params      all keys as a markdown table\n"
+           "      --groups      names of the groups of the case, included files and all\n"
            "      --version\n"
            "Exit codes: 0 done, 1 done but not accepted, 2 input at fault, 3 diverged, 4 a partner "
            "failed,\n"
@@ -116,7 +120,7 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
     const char **overrides = mem_new((size_t)argc, sizeof *overrides);
     const char *given = NULL;
     int option;
-    *c = (struct command_line){.overrides = overrides, .deadline = 30.0};
+    *c = (struct command_line){.overrides = overrides, .deadline = 30.0, .patience = 120.0};
     opterr = 0;
     optind = 1;
     while ((option = getopt_long(argc, argv, ":hVcp:o:rf", options, NULL)) != -1) {
@@ -143,8 +147,14 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
         case 'f':
             c->force = true;
             break;
+        case 'g':
+            c->groups = true;
+            break;
         case 'd':
-            c->deadline = atof(optarg);
+        case 't':
+            if (!(atof(optarg) > 0.0))
+                return refuse(name, "a time in s above 0 is wanted, not", optarg);
+            *(option == 'd' ? &c->deadline : &c->patience) = atof(optarg);
             break;
         case ':':
             return refuse(name, "a value is missing behind", argv[optind - 1]);
@@ -164,6 +174,8 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
                 name, given);
         return RUN_INPUT;
     }
+    if (c->groups)
+        return params_list_groups(c->case_file) ? RUN_DONE : RUN_INPUT;
     if (!c->dir) {
         char case_name[256];
         run_case_name(c->case_file, case_name, sizeof case_name);

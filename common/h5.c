@@ -2,11 +2,13 @@
  * must not be missed. SPDX-License-Identifier: BSD-3-Clause */
 #include "h5.h"
 
+#include <errno.h>
 #include <hdf5.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "disk.h"
 #include "log.h"
 #include "mem.h"
 
@@ -18,10 +20,16 @@ struct h5 {
     char path[1100], part[1110];
 };
 
+/* Where the library fails to write, the disk is to blame. */
 #define H5(call)                                                                                   \
     do {                                                                                           \
-        if ((call) < 0)                                                                            \
+        if ((call) < 0) {                                                                          \
+            if (f->writing) {                                                                      \
+                errno = EIO; /* the library keeps the system's to itself */                        \
+                disk_failed(f->part);                                                              \
+            }                                                                                      \
             fail("HDF5: %s failed on %s", #call, f->path);                                         \
+        }                                                                                          \
     } while (0)
 
 static struct h5 *start(MPI_Comm comm, const char *path)
@@ -50,6 +58,7 @@ struct h5 *h5_create(MPI_Comm comm, const char *path)
     struct h5 *f = start(comm, path);
     const hid_t access = access_list(f);
     f->writing = true;
+    H5(H5Eset_auto2(H5E_DEFAULT, NULL, NULL)); /* disk_failed says it in one sentence */
     H5(f->file = H5Fcreate(f->part, H5F_ACC_TRUNC, H5P_DEFAULT, access));
     H5(H5Pclose(access));
     return f;
@@ -89,12 +98,15 @@ void h5_close(struct h5 **file)
     H5(H5Pclose(f->transfer));
     H5(H5Fclose(f->file));
     MPI_Barrier(f->comm);
-    if (f->writing && f->rank == 0 && rename(f->part, f->path) != 0)
-        fail("cannot rename %s to %s", f->part, f->path);
+    if (f->writing && f->rank == 0 &&
+        ((f->restart && !disk_seal(f->part)) || rename(f->part, f->path) != 0))
+        disk_failed(f->path);
     MPI_Barrier(f->comm);
     mem_free(f);
     *file = NULL;
 }
+
+const char *h5_path(const struct h5 *f) { return f->path; }
 
 /* --- attributes --- */
 

@@ -15,6 +15,7 @@ struct h5 *h5_create(MPI_Comm comm, const char *path);
 /* NULL if there is no such file or it is no HDF5 file. */
 struct h5 *h5_open(MPI_Comm comm, const char *path);
 void h5_close(struct h5 **f);
+const char *h5_path(const struct h5 *f);
 
 void h5_attribute_real(struct h5 *f, const char *name, double value);
 void h5_attribute_int(struct h5 *f, const char *name, int64_t value);

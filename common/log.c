@@ -95,6 +95,19 @@ void log_here(const char *fmt, ...)
     SAY(true, true, prefix);
 }
 
+static _Noreturn void leave(int code, const char *reason)
+{
+    int up = 0, size = 1;
+    if (fail_hook)
+        fail_hook(reason);
+    MPI_Initialized(&up);
+    if (up)
+        MPI_Comm_size(MPI_COMM_WORLD, &size);
+    if (size > 1)
+        MPI_Abort(MPI_COMM_WORLD, code);
+    _Exit(code);
+}
+
 void fail_at(const char *file, int line, const char *fmt, ...)
 {
     char reason[2048];
@@ -103,11 +116,16 @@ void fail_at(const char *file, int line, const char *fmt, ...)
     vsnprintf(reason, sizeof reason, fmt, args);
     va_end(args);
     log_here("%s (%s:%d)", reason, file, line);
-    if (fail_hook)
-        fail_hook(reason);
-    int up = 0;
-    MPI_Initialized(&up);
-    if (up)
-        MPI_Abort(MPI_COMM_WORLD, 1);
-    _Exit(1);
+    leave(1, reason);
+}
+
+void fail_with(int code, const char *fmt, ...)
+{
+    char reason[2048];
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(reason, sizeof reason, fmt, args);
+    va_end(args);
+    log_here("%s", reason);
+    leave(code, reason);
 }

@@ -23,7 +23,11 @@ void log_here(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 #define require(cond) ((cond) ? (void)0 : fail("required: %s", #cond))
 _Noreturn void fail_at(const char *file, int line, const char *fmt, ...)
     __attribute__((format(printf, 3, 4)));
-/* Called by fail_at before the abort (the death note of a coupled job); NULL: nothing. */
+/* The run cannot go on for a reason that lies outside of it (disk, memory): one sentence, exit
+ * code. */
+_Noreturn void fail_with(int code, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+/* Called by fail_at and fail_with before the abort (the death note of a coupled job); NULL:
+ * nothing. */
 extern void (*fail_hook)(const char *reason);
 
 #endif

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "log.h"
+#include "run.h"
 
 enum { LINE = 64 };
 static size_t held, peak; /* bytes of this process */
@@ -14,11 +15,14 @@ static size_t held, peak; /* bytes of this process */
 void *mem_new(size_t n, size_t size)
 {
     if (size && n > (SIZE_MAX / 2 - 2 * LINE) / size)
-        fail("%zu elements of %zu bytes are more than memory can hold", n, size);
+        fail_with(RUN_INPUT, "%zu elements of %zu bytes are more than memory can hold", n, size);
     const size_t bytes = (n * size + LINE - 1) / LINE * LINE + LINE;
     char *p = aligned_alloc(LINE, bytes);
     if (!p)
-        fail("out of memory: %zu bytes wanted, %zu held", bytes, held);
+        fail_with(RUN_INPUT,
+                  "out of memory: %.3g MB wanted, %.3g MB held by this rank; a coarser resolution "
+                  "or more hosts",
+                  1e-6 * (double)bytes, 1e-6 * (double)held);
     memset(p, 0, bytes);
     memcpy(p, &bytes, sizeof bytes);
     held += bytes;

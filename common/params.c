@@ -740,6 +740,29 @@ void params_fault(const struct params *p, struct faults *f, const char *key, con
     va_end(args);
 }
 
+bool params_list_groups(const char *path)
+{
+    struct params p = {.rank = 0};
+    struct faults f = {0};
+    char line[1024] = "";
+    snprintf(p.path, sizeof p.path, "%s", path);
+    config_init(&p.cfg);
+    read_file(&p, &f);
+    const config_setting_t *root = config_root_setting(&p.cfg);
+    for (int k = 0; p.read && k < config_setting_length(root); k++) {
+        const size_t n = strlen(line);
+        snprintf(line + n, sizeof line - n, "%s%s", k ? " " : "",
+                 config_setting_name(config_setting_get_elem(root, (unsigned)k)));
+    }
+    if (p.read && f.n == 0)
+        log_say("%s", line);
+    else
+        params_report(&f);
+    config_destroy(&p.cfg);
+    mem_free(f.text);
+    return p.read && f.n == 0;
+}
+
 char *params_text(const struct params *p)
 {
     char *all = mem_new(32, 1);

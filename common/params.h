@@ -94,6 +94,8 @@ bool params_given(const struct params *p, const char *key);
  */
 void params_unused(const struct params *p, struct faults *f, const char *key, bool used,
                    const char *why);
+/* Prints the names of the case's groups, on world rank 0; false: it cannot be read (then said). */
+bool params_list_groups(const char *path);
 /* Whole text of the case, plain SI, can be run again: keys that are not given stand in comments
  * with their defaults. Rank 0 only, owned by the caller (mem_free). */
 char *params_text(const struct params *p);

@@ -534,10 +534,11 @@ static int live(struct life *l)
         return code;
     }
     signals_install(r->name, r->rank);
-    if (r->coupled) { /* what the coupler calls its death notes, too */
-        snprintf(path, sizeof path, "%s/.death", r->dir);
-        signals_note_path(path);
-    }
+    snprintf(path, sizeof path, "%s/.death", r->dir); /* so the coupler calls its notes, too */
+    if (!r->coupled && r->rank == 0)
+        unlink(path); /* of an earlier run */
+    MPI_Barrier(r->comm);
+    signals_note_path(path);
     if (r->coupled)
         snprintf(path, sizeof path, "%s/%s.log", r->dir, r->name);
     else
@@ -565,8 +566,8 @@ int run_main(int argc, char **argv, const struct program *p, const struct partne
         code = 0;
         l->r.comm = MPI_COMM_WORLD;
         if (partner)
-            code = partner->open(MPI_COMM_WORLD, p->name, l->line.deadline, &l->r.comm,
-                                 &l->r.partner_ctx);
+            code = partner->open(MPI_COMM_WORLD, p->name, l->line.deadline, l->line.patience,
+                                 &l->r.comm, &l->r.partner_ctx);
         l->r.partner = l->r.partner_ctx ? partner : NULL;
         MPI_Comm_rank(l->r.comm, &l->r.rank);
         MPI_Comm_size(l->r.comm, &l->r.size);

@@ -105,9 +105,11 @@ struct program {
 
 /* How a program takes part in a coupled job. Every function is collective over the program. */
 struct partner {
-    /* Meets the world's programs under `name' within deadline s. *comm: this program's ranks, *ctx:
-     * NULL when no other program is there. Non-zero: the code to exit with (reason printed). */
-    int (*open)(MPI_Comm world, const char *name, double deadline, MPI_Comm *comm, void **ctx);
+    /* Meets the world's programs under `name' within deadline s; a partner without a sign of life
+     * for patience s ends the job. *comm: this program's ranks, *ctx: NULL when no other program is
+     * there. Non-zero: the code to exit with (reason printed). */
+    int (*open)(MPI_Comm world, const char *name, double deadline, double patience, MPI_Comm *comm,
+                void **ctx);
     /* After reading the case and program.offer: all compare the case's hash and their faults.
      * Non-zero: the code to exit with. window: of the restart file, -1 for a fresh start. */
     int (*meet)(void *ctx, int faults, unsigned long long hash, int64_t window, const char *dir);
@@ -139,8 +141,9 @@ struct command_line {
     const char *dir;       /* -o, or out/CASE */
     int noverrides;
     const char *const *overrides;
-    bool check, restart, force;
+    bool check, restart, force, groups;
     double deadline; /* s to meet the other programs */
+    double patience; /* s without a sign of life of a partner */
 };
 /* Name of a case from the path of its file. */
 void run_case_name(const char *file, char *name, size_t size);
@@ -151,14 +154,17 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
 /* Makes the folder; 0, or RUN_INPUT if it holds a run of this program already and neither force nor
  * restart is set. On force the program's old files are removed. Collective. */
 int run_folder(MPI_Comm comm, const char *dir, const char *name, bool force, bool restart);
+/* Removes the restart files of a program in its folder that come before the newest, but for the one
+ * before it. What is newer (of a window under way) stays. */
+void run_prune(const char *dir, const char *name, const char *newest, const char *older);
 
 /* SIGINT, SIGTERM, SIGUSR1 set a flag; SIGSEGV, SIGFPE, SIGBUS, SIGABRT leave a death note. When a
  * launcher's SIGTERM (there is a launcher only after signals_start_mpi) is not followed by an
  * orderly end within 0.8 s, the handler prints the death note, or what was last heard of the
  * partners, and leaves with RUN_PARTNER. */
 void signals_install(const char *program, int rank);
-/* MPI_Init within 30 s: a member of the job that is no MPI program would leave it waiting in
- * silence. */
+/* MPI_Init; what is launched with others, within 120 s: a member of the job that is no MPI program
+ * would leave it waiting in silence. A signal before signals_install leaves a word, too. */
 void signals_start_mpi(int *argc, char ***argv, const char *program);
 bool signals_stop(void);    /* this rank's flag */
 void signals_handled(void); /* an orderly stop is under way: no deadline */

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "disk.h"
 #include "h5.h"
 #include "log.h"
 #include "mem.h"
@@ -65,10 +66,10 @@ static void write_manifest(const struct run *r, int64_t n, const char *file)
     snprintf(part, sizeof part, "%s.part", path);
     FILE *f = fopen(part, "w");
     if (!f)
-        fail("cannot write %s", part);
+        disk_failed(part);
     fprintf(f, "step %lld\nt %.17g\n%s %s\n", (long long)n, r->t, r->name, file);
     if (fflush(f) != 0 || fsync(fileno(f)) != 0 || fclose(f) != 0 || rename(part, path) != 0)
-        fail("cannot write %s", path);
+        disk_failed(path);
 }
 
 void files_checkpoint(struct run_files *f, int64_t n, char *file)
@@ -85,11 +86,8 @@ void files_checkpoint(struct run_files *f, int64_t n, char *file)
     h5_close(&h);
     if (!r->coupled && r->rank == 0) {
         write_manifest(r, n, file);
-        snprintf(path, sizeof path, "%s/%s", r->dir, f->kept[0]);
-        if (*f->kept[0] && strcmp(f->kept[0], file) != 0)
-            unlink(path);
-        memcpy(f->kept[0], f->kept[1], sizeof f->kept[0]);
-        snprintf(f->kept[1], sizeof f->kept[1], "%s", file);
+        run_prune(r->dir, r->name, file, f->last);
+        snprintf(f->last, sizeof f->last, "%s", file);
     }
     timer_stop(&r->timers, timer);
     log_quiet("  restart file at t = %g s: %s", r->t, file);
@@ -132,6 +130,14 @@ struct h5 *files_open_restart(struct run *r, int64_t *window)
         return NULL;
     }
     snprintf(path, sizeof path, "%s/%s", r->dir, file);
+    good = r->rank == 0 && (access(path, R_OK) != 0 || disk_sealed(path));
+    MPI_Bcast(&good, 1, MPI_INT, 0, r->comm);
+    if (!good) {
+        log_say("--restart: %s is damaged: cut short, or a bit of it has changed; take an earlier "
+                "restart file (edit %s/checkpoint.txt) or run without --restart",
+                path, r->dir);
+        return NULL;
+    }
     struct h5 *h = h5_open(r->comm, path);
     int64_t format = 0;
     if (!h)
@@ -145,6 +151,8 @@ struct h5 *files_open_restart(struct run *r, int64_t *window)
 
 bool files_read_clock(struct run_files *f, struct h5 *h)
 {
+    const char *file = strrchr(h5_path(h), '/');
+    snprintf(f->last, sizeof f->last, "%s", file ? file + 1 : "");
     int64_t next = 0;
     const bool all = h5_read_attribute_real(h, "time", &f->run->t) &&
                      h5_read_attribute_int(h, "step", &f->run->step) &&
@@ -207,6 +215,33 @@ static bool is_ours(const char *file, const char *name)
     if (end == 0)
         sscanf(file + n, "-checkpoint-%*d.h5%n", &end);
     return end > 0 && (!file[n + (size_t)end] || strcmp(file + n + end, ".part") == 0);
+}
+
+/* Number in "NAME-checkpoint-NUMBER.h5"; -1: another file. */
+static long long checkpoint_number(const char *file, const char *name)
+{
+    const size_t n = strlen(name);
+    long long number = -1;
+    int end = 0;
+    if (strncmp(file, name, n) == 0)
+        sscanf(file + n, "-checkpoint-%lld.h5%n", &number, &end);
+    return end > 0 && !file[n + (size_t)end] ? number : -1;
+}
+
+void run_prune(const char *dir, const char *name, const char *newest, const char *older)
+{
+    const long long last = checkpoint_number(newest, name);
+    DIR *d = opendir(dir);
+    for (struct dirent *e; d && (e = readdir(d));) {
+        const long long number = checkpoint_number(e->d_name, name);
+        char path[1400];
+        if (number < 0 || number >= last || strcmp(e->d_name, older) == 0)
+            continue;
+        snprintf(path, sizeof path, "%s/%s", dir, e->d_name);
+        unlink(path);
+    }
+    if (d)
+        closedir(d);
 }
 
 static bool make_path(const char *dir)

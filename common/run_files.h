@@ -10,9 +10,9 @@ struct run_files {
     const struct program *program;
     void *state;
     struct xdmf *xdmf;
-    char *case_text;   /* rank 0; others "" */
-    int next;          /* number of the next snapshot */
-    char kept[2][256]; /* restart files on disk, older first (alone) */
+    char *case_text; /* rank 0; others "" */
+    int next;        /* number of the next snapshot */
+    char last[256];  /* the last restart file (alone) */
 };
 
 /* Writes NAME_NNNNNN.h5 (or NAME_WHAT.h5) and its XDMF entry. Collective, as all here. */

@@ -5,11 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "log.h"
+#include "disk.h"
 #include "mem.h"
 
 struct series {
     FILE *file; /* NULL on the ranks that do not write */
+    char path[1100];
     int ncolumns;
 };
 
@@ -45,12 +46,15 @@ struct series *series_create(const char *path, int ncolumns, const char *const *
         fclose(old);
         drop_later_rows(path, t_restart);
     }
+    snprintf(s->path, sizeof s->path, "%s", path);
     s->file = fopen(path, old ? "a" : "w");
     if (!s->file)
-        fail("cannot write %s", path);
+        disk_failed(path);
     setvbuf(s->file, NULL, _IOLBF, 0);
     for (int k = 0; !old && k < ncolumns; k++)
         fprintf(s->file, "%s%s", columns[k], k < ncolumns - 1 ? "," : "\n");
+    if (ferror(s->file))
+        disk_failed(path);
     return s;
 }
 
@@ -58,6 +62,8 @@ void series_row(struct series *s, const double *values)
 {
     for (int k = 0; s->file && k < s->ncolumns; k++)
         fprintf(s->file, "%.12g%s", values[k], k < s->ncolumns - 1 ? "," : "\n");
+    if (s->file && ferror(s->file))
+        disk_failed(s->path);
 }
 
 void series_free(struct series **s)

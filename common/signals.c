@@ -17,6 +17,8 @@
 #include "log.h"
 #include "run.h"
 
+enum { START = 120 }; /* s */
+
 static struct {
     char who[96];       /* "sph rank 0" */
     char note[1100];    /* path of the death note */
@@ -36,11 +38,15 @@ static bool print_note(void)
 {
     char text[512];
     const int fd = *state.note ? open(state.note, O_RDONLY) : -1;
-    const ssize_t n = fd >= 0 ? read(fd, text, sizeof text - 1) : 0;
-    if (fd >= 0)
-        close(fd);
-    if (n <= 0)
+    ssize_t n = fd >= 0 ? read(fd, text, sizeof text - 1) : 0;
+    if (fd < 0)
         return false;
+    close(fd);
+    if (n <= 0) {
+        static const char empty[] = "a rank that could write no note: a full disk?";
+        n = (ssize_t)sizeof empty - 1;
+        memcpy(text, empty, sizeof empty);
+    }
     text[n] = '\0';
     put(STDOUT_FILENO, state.who);
     put(STDOUT_FILENO, ": ends because of ");
@@ -103,12 +109,23 @@ static void on_alarm(int signal)
     leave();
 }
 
+static void stopped_early(int signal)
+{
+    (void)signal;
+    put(STDOUT_FILENO, state.who);
+    put(STDOUT_FILENO,
+        state.launched
+            ? ": the launcher ends the job before it began: a program of it was stopped or killed\n"
+            : ": stopped by a signal before the run began; nothing was written\n");
+    _exit(RUN_STOPPED);
+}
+
 static void not_started(int signal)
 {
     (void)signal;
     put(STDOUT_FILENO, state.who);
     put(STDOUT_FILENO,
-        ": MPI has not started within 30 s: is every program of this job an MPI program?\n");
+        ": MPI has not started within 120 s: is every program of this job an MPI program?\n");
     _exit(RUN_INPUT);
 }
 
@@ -117,11 +134,16 @@ void signals_start_mpi(int *argc, char ***argv, const char *program)
     snprintf(state.who, sizeof state.who, "%s", program);
     state.launched =
         getenv("OMPI_COMM_WORLD_RANK") != NULL; /* MPI_Init may set it for a lone process */
+    signal(SIGTERM, stopped_early);
+    signal(SIGINT, stopped_early);
     signal(SIGALRM, not_started);
-    alarm(30);
+    if (state.launched) /* alone, nobody can be late */
+        alarm(START);
     MPI_Init(argc, argv);
     alarm(0);
     signal(SIGALRM, SIG_DFL);
+    if (state.launched) /* programs that meet have a handler of their own (coupler/failure.c) */
+        signal(SIGTERM, SIG_DFL);
 }
 
 static const char *fault_name(int signal)

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "log.h"
+#include "disk.h"
 #include "mem.h"
 
 struct entry {
@@ -190,9 +190,9 @@ void summary_write(const struct summary *s, const char *path)
     snprintf(part, sizeof part, "%s.part", path);
     FILE *f = fopen(part, "w");
     if (!f)
-        fail("cannot write %s", part);
+        disk_failed(part);
     print_object(f, s, "", 0);
     fputs("\n", f);
     if (fclose(f) != 0 || rename(part, path) != 0)
-        fail("cannot write %s", path);
+        disk_failed(path);
 }

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "log.h"
+#include "disk.h"
 #include "mem.h"
 
 static const char head[] =
@@ -88,10 +88,10 @@ static void rewrite(const struct xdmf *x)
     snprintf(part, sizeof part, "%s.part", x->path);
     FILE *f = fopen(part, "w");
     if (!f)
-        fail("cannot write %s", part);
+        disk_failed(part);
     fprintf(f, "%s%s%s", head, x->text ? x->text : "", tail);
     if (fclose(f) != 0 || rename(part, x->path) != 0)
-        fail("cannot write %s", x->path);
+        disk_failed(x->path);
 }
 
 static void add_fields(struct xdmf *x, const char *center, const char *shape, const char *file,

@@ -3,12 +3,21 @@
 #include "coupler.h"
 
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "../common/log.h"
 
+/* Two points stay on disk, as for a program that runs alone. */
+static void prune(struct coupler *c, const struct save *s)
+{
+    for (int i = 0; i < c->nsolvers; i++)
+        run_prune(c->dir, c->solver[i].name, s->file[i], c->last.file[i]);
+    c->last = *s;
+}
+
 /* Lines "key value", which common/run_files.c reads at a restart. */
-static void write_manifest(const struct coupler *c, const struct save *s)
+static void write_manifest(struct coupler *c, const struct save *s)
 {
     char path[1100], new[1110];
     snprintf(path, sizeof path, "%s/checkpoint.txt", c->dir);
@@ -29,7 +38,22 @@ static void write_manifest(const struct coupler *c, const struct save *s)
                  window_start(c, s->window + 1));
         return;
     }
+    prune(c, s);
     log_say("  restart point at t = %.6g s", window_start(c, s->window + 1));
+}
+
+/* What an earlier part of the run left, so that it goes when two newer points are there. */
+void checkpoint_resume(struct coupler *c)
+{
+    char path[1100], line[600], name[64], file[256];
+    snprintf(path, sizeof path, "%s/checkpoint.txt", c->dir);
+    FILE *f = fopen(path, "r");
+    while (f && fgets(line, sizeof line, f))
+        for (int i = 0; i < c->nsolvers && sscanf(line, "%63s %255s", name, file) == 2; i++)
+            if (strcmp(name, c->solver[i].name) == 0)
+                memcpy(c->last.file[i], file, sizeof file);
+    if (f)
+        fclose(f);
 }
 
 void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m)

@@ -10,6 +10,7 @@
 #include "../common/log.h"
 #include "../common/mem.h"
 #include "../common/timer.h"
+#include "alive.h"
 #include "failure.h"
 
 static const double look_every = 0.05, stall_first = 60.0; /* s */
@@ -25,7 +26,7 @@ static void leave_note(const char *reason) { (void)failure_note(reason); }
 static void look_after_partners(void)
 {
     char note[512];
-    if (!failure_witness())
+    if (!failure_seen())
         return;
     if (!failure_read(note, sizeof note))
         snprintf(note, sizeof note, "a program of this job is gone");
@@ -225,6 +226,8 @@ static void say_doing(struct coupler *c)
 static int serve(struct coupler *c)
 {
     rendezvous_open(c);
+    if (c->rank == 0 && c->command->restart)
+        checkpoint_resume(c);
     if (c->rank == 0)
         window_announce(c);
     while (!c->over) {
@@ -274,6 +277,8 @@ static int couple(struct coupler *c, struct faults *faults)
     snprintf(path, sizeof path, "%s/.death", c->dir);
     failure_path(path);
     signals_note_path(path);
+    alive_patience(c->command->patience);
+    alive_begin(c->dir, "coupler", c->rank);
     if (meet(c, faults->n)) { /* solvers have looked into the folder: what is new now is not another
                                  run's */
         snprintf(path, sizeof path, "%s/log.txt", c->dir);

@@ -125,7 +125,7 @@ struct coupler {
         int64_t window;
         int n; /* solvers whose file is complete */
         char file[HANDSHAKE_PROGRAMS][256];
-    } save[2];
+    } save[2], last;   /* last: the restart point before */
     struct sums *sums; /* sums.c; NULL: nobody tells any */
 };
 
@@ -160,6 +160,7 @@ void rendezvous_waiting(const struct coupler *c, char *text); /* who waits for w
 void rendezvous_close(struct coupler *c);
 
 /* checkpoint.c: a restart point exists when its manifest does. */
+void checkpoint_resume(struct coupler *c); /* rank 0, at a restart */
 void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m);
 
 /* sums.c: rank 0; at the end of a window, at the end of the job. */

@@ -41,6 +41,11 @@ struct cpl; /* a solver's place in the job: made by cpl_open, freed by cpl_close
  * other program is there: the solver runs alone. */
 int cpl_open(MPI_Comm world, const char *name, double deadline_s, struct cpl **c, MPI_Comm *mine);
 
+/* s without a sign of life after which a partner counts as hung and ends the job (120; the same in
+ * all programs of a job); before cpl_meet. Signs come from a thread of the library, also while the
+ * solver computes. */
+void cpl_patience(struct cpl *c, double s);
+
 /* A box that partners may ask for by name ("sph.box", "sph.free"). Before cpl_meet. */
 int cpl_zone(struct cpl *c, const char *zone, const double lo[3], const double hi[3]);
 /* Compares the hash of the case, the restart window (-1: fresh start) and the number of faults that

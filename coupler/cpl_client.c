@@ -9,6 +9,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "alive.h"
 #include "failure.h"
 #include "handshake.h"
 
@@ -40,7 +41,7 @@ static bool partner_lost(struct cpl *c, struct nap *nap)
     if (now - nap->checked < look_every)
         return false;
     nap->checked = now;
-    if (!failure_witness())
+    if (!failure_seen())
         return false;
     if (!failure_read(note, sizeof note))
         snprintf(note, sizeof note, "a program of this job is gone");
@@ -137,6 +138,12 @@ int cpl_open(MPI_Comm world, const char *name, double deadline_s, struct cpl **o
     return CPL_OK;
 }
 
+void cpl_patience(struct cpl *c, double s)
+{
+    (void)c; /* of the process, like its death note */
+    alive_patience(s);
+}
+
 int cpl_zone(struct cpl *c, const char *zone, const double lo[3], const double hi[3])
 {
     if (c->state != OPENED)
@@ -170,6 +177,7 @@ int cpl_meet(struct cpl *c, uint64_t case_hash, int64_t restart_window, int faul
         return out_of_order(c, "cpl_meet", "once, after cpl_open");
     snprintf(path, sizeof path, "%s/.death", dir);
     failure_path(path);
+    alive_begin(dir, c->name, c->rank);
     if (c->rank == 0) {
         pack_begin(&p, WIRE_MEET, 0, restart_window);
         pack_int(&p, (int64_t)case_hash);

@@ -27,12 +27,13 @@ static int refused(struct cpl *c, int code)
     return RUN_INPUT;
 }
 
-static int partner_open(MPI_Comm world, const char *name, double deadline, MPI_Comm *comm,
-                        void **ctx)
+static int partner_open(MPI_Comm world, const char *name, double deadline, double patience,
+                        MPI_Comm *comm, void **ctx)
 {
     struct cpl *c = NULL;
     const int code = cpl_open(world, name, deadline, &c, comm);
     *ctx = c;
+    cpl_patience(c, patience);
     return code == CPL_OK ? RUN_DONE : RUN_INPUT;
 }
 

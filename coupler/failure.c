@@ -2,6 +2,8 @@
  * its consequences. SPDX-License-Identifier: BSD-3-Clause */
 #include "failure.h"
 
+#include "alive.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -92,6 +94,28 @@ bool failure_read(char *text, int size)
     return n > 0;
 }
 
+/* Not for signal handlers: looks at files. */
+static bool silent(char *text)
+{
+    char who[200];
+    if (!self.open || self.dying || !alive_silent(who, sizeof who))
+        return false;
+    snprintf(text, TEXT, "%.199s; seen by %s %.150s", who, self.who, self.doing);
+    return true;
+}
+
+bool failure_seen(void)
+{
+    char text[TEXT];
+    if (failure_witness())
+        return true;
+    if (!silent(text))
+        return false;
+    (void)failure_note(text);
+    memcpy(self.seen, text, sizeof self.seen);
+    return true;
+}
+
 bool failure_witness(void)
 {
     for (int i = 0; i < self.nwatched && self.open && !self.dying; i++) {
@@ -167,6 +191,7 @@ _Noreturn void failure_die(int code, const char *reason)
 {
     char text[TEXT], note[TEXT];
     self.dying = true;
+    alive_end();
     snprintf(text, sizeof text, "%s: %s", self.who, reason);
     const bool first = failure_note(text), noted = failure_read(note, sizeof note);
     if (!noted || strcmp(note, reason) != 0)
@@ -243,4 +268,8 @@ void failure_open(MPI_Comm world, const char *program, int rank)
     }
 }
 
-void failure_closed(void) { self.open = false; }
+void failure_closed(void)
+{
+    self.open = false;
+    alive_end();
+}

@@ -20,6 +20,9 @@ void failure_doing(const char *text);
 
 /* True if a watched process is gone; the note then says so. Safe in signal handlers. */
 bool failure_witness(void);
+/* The same, or a process of any host that shows no sign of life any more (alive.h). Not for signal
+ * handlers. */
+bool failure_seen(void);
 /* Leaves a note; false if there is one already. Safe in signal handlers. */
 bool failure_note(const char *text);
 /* Writes the note, or what is known instead, to a file descriptor. Safe in signal handlers. */

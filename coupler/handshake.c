@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "alive.h"
 #include "failure.h"
 #include "wire.h"
 
@@ -156,6 +157,8 @@ static void watch(const struct handshake *h, const struct hello *all, int rank, 
             if (strcmp(all[r].name, h->program[p].name) == 0) {
                 if (strcmp(all[r].host, all[rank].host) == 0)
                     failure_watch(h->program[p].name, place, (long)all[r].pid);
+                if (r != rank)
+                    alive_add(h->program[p].name, place);
                 place++;
             }
 }

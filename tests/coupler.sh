@@ -83,6 +83,13 @@ for how in KILL SEGV ABRT; do
     says '^fv rank 0: .*coupler rank 0' "coupler, $how"
 done
 
+# who is stopped is named after the patience; who is at work for longer shows signs of life
+job 1:1:1 "fault=stop patience=1" "--patience 1" "patience=1"
+[ $code = 4 ] || bad "a stopped program: exit $code, wanted 4"
+says 'sph rank 0 has shown no sign of life for [1-3] s' "a stopped program"
+job 1:1:1 "fault=sleep patience=1" "--patience 1" "patience=1"
+[ $code = 0 ] || bad "a program at work for longer than the patience: exit $code, wanted 0"
+
 # numbers that are no numbers, puts that are forgotten
 job 1:1:1 fault=nan "" ""
 [ $code = 2 ] || bad "NaN in a field: exit $code, wanted 2"

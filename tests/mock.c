@@ -94,6 +94,7 @@ int main(int argc, char **argv)
     signal(SIGTERM, last_words);
     if (cpl_open(MPI_COMM_WORLD, argv[1], number("deadline", 10), &s.c, &mine) || !s.c)
         return MPI_Finalize(), 2;
+    cpl_patience(s.c, number("patience", 120));
     MPI_Comm_rank(mine, &s.rank);
     MPI_Comm_size(mine, &size);
     s.n = number("n", 40), s.j0 = s.n * s.rank / size, s.j1 = s.n * (s.rank + 1) / size;

@@ -1,7 +1,7 @@
 /* mock_fault.h - options of the mock solver, and what a test can make it do wrong. Keys: n (a
  * side), dim, back (direction of what it gives), mls, cubic, unit, hash, dt, still (never moves),
- * end (window in which it asks for an orderly end), deadline and late (s), fault (below) at=WINDOW.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * end (window in which it asks for an orderly end), deadline, patience and late (s), fault (below)
+ * at=WINDOW. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TESTS_MOCK_FAULT_H
 #define TESTS_MOCK_FAULT_H
 
@@ -65,6 +65,8 @@ static bool fault(struct cpl *c, double *v, long n)
         raise(SIGKILL);
     if (!strcmp(what, "segv"))
         raise(SIGSEGV);
+    if (!strcmp(what, "stop"))
+        raise(SIGSTOP);
     if (!strcmp(what, "exit"))
         exit(0);
     if (!strcmp(what, "finalize"))

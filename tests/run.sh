@@ -79,6 +79,33 @@ done
 ends 2 $mpi "$toy" swing -o parts1 --restart
 has out.txt 'another number of ranks'
 
+# a restart file that is cut short or has another bit is refused; without it, one can go on from an earlier one
+ends 0 "$toy" swing -o hurt -p output.checkpoint=0.45 -p time.end=0.93
+file=hurt/$(sed -n 's/^toy //p' hurt/checkpoint.txt)
+cp "$file" whole.h5
+printf X | dd of="$file" bs=1 seek=2100 conv=notrunc 2>/dev/null
+ends 2 "$toy" swing -o hurt --restart
+has out.txt 'is damaged: cut short, or a bit of it has changed'
+head -c 3000 whole.h5 >"$file"
+ends 2 "$toy" swing -o hurt --restart
+has out.txt 'is damaged'
+cp whole.h5 "$file"
+ends 0 "$toy" swing -o hurt --restart -p output.checkpoint=0.02
+count 2 'hurt/toy-checkpoint-*.h5'
+
+# a disk that takes no more: one sentence, code 2, what was complete stays
+mkdir small # a disk of its own
+small="unshare -rm sh -c 'mount -t tmpfs -o size=24k tmpfs small && \"\$@\"' small"
+if eval "$small true" 2>/dev/null; then
+    for n in 1 2; do
+        eval "timeout 60 $small ${mpi%2}$n \$b/tests/toy swing -o small/out" >full.txt 2>&1
+        [ $? = 2 ] || bad "full disk on $n ranks: not code 2"
+        has full.txt 'cannot write small/out/.*: the disk is full; restart files that were complete'
+    done
+else
+    echo "note: no disk of one's own can be made here; the full disk is not tested"
+fi
+
 # divergence: a reason, a place, a last snapshot
 ends 3 $mpi "$toy" swing -o ill -p toy.bad=20
 has out.txt 'diverged at t = 0.13.* step 20: oscillator 9 is tired'

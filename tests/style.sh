@@ -11,7 +11,7 @@ found=$(grep -n '#include "\.\./' sph/*.[ch] fv/*.[ch] coupler/*.[ch] | grep -v 
 [ -z "$found" ] || bad "programs may share cpl.h and common/ only: $found"
 found=$(grep -l 'coupler/cpl\.h' sph/*.c fv/*.c | grep -v '_coupling\.c')
 [ -z "$found" ] || bad "only X_coupling.c knows cpl.h: $found"
-found=$(grep -l '"\.\./common/' coupler/cpl_client.c coupler/cpl_data.c coupler/cpl_patch.c coupler/wire.c coupler/failure.c coupler/handshake.c coupler/region.c)
+found=$(grep -l '"\.\./common/' coupler/cpl_client.c coupler/cpl_data.c coupler/cpl_patch.c coupler/wire.c coupler/alive.c coupler/failure.c coupler/handshake.c coupler/region.c)
 [ -z "$found" ] || bad "libcpl depends on MPI alone: $found"
 found=$(ls sph fv coupler common | grep '\.[ch]$' | sort | uniq -d)
 [ -z "$found" ] || bad "file names twice in the tree: $found"
