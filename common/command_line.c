@@ -77,6 +77,12 @@ static const char *find_case(const char *given)
     return readable(path) ? path : NULL;
 }
 
+void run_case_dir(const char *file, char *dir, size_t size)
+{
+    const char *slash = strrchr(file, '/');
+    snprintf(dir, size, "%.*s", slash ? (int)(slash - file) : 1, slash ? file : ".");
+}
+
 void run_case_name(const char *file, char *name, size_t size)
 {
     char copy[1024];

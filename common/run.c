@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "accept.h"
 #include "h5.h"
 #include "log.h"
 #include "mem.h"
@@ -86,6 +87,8 @@ static int read_case(struct life *l)
     r->coupled = r->partner_ctx || (l->line.check && r->scene.has_sph && r->scene.has_fv);
     if (l->faults.n == 0)
         scene_check(&r->scene, l->params, &l->faults);
+    if (l->faults.n == 0)
+        accept_check(&r->scene, r->case_dir, l->params, &l->faults);
     if (l->faults.n == 0 && l->p->check)
         l->p->check(r, &l->faults);
     return params_report(&l->faults);
@@ -399,21 +402,6 @@ static int loop_coupled(struct life *l)
 
 /* --- end --- */
 
-/* The case's own tolerances; an absent or non-finite value is not accepted. */
-static bool accepted(const struct life *l)
-{
-    bool all = true;
-    for (int k = 0; k < l->r.scene.naccept; k++) {
-        const struct scene_accept *a = l->r.scene.accept + k;
-        double v = NAN;
-        const bool is = summary_find(l->r.summary, a->what, &v);
-        const bool good = is && fabs(v) <= a->tolerance;
-        log_say("%-10s %s %.4g (<= %g)", good ? "accepted" : "NOT MET", a->what, v, a->tolerance);
-        all = all && good;
-    }
-    return all;
-}
-
 static void say_number(void *ctx, const char *key, double v)
 {
     (void)ctx;
@@ -446,7 +434,8 @@ static int end(struct life *l, int code)
     if (!r->coupled) {
         say_end(l);
         if (code == RUN_DONE && r->scene.naccept > 0) {
-            const bool good = accepted(l);
+            int good = r->rank == 0 && accept_judge(&r->scene, r->case_dir, r->dir, r->summary);
+            MPI_Bcast(&good, 1, MPI_INT, 0, r->comm);
             summary_bool(r->summary, "accepted", good);
             code = good ? RUN_DONE : RUN_NOT_ACCEPTED;
         }
@@ -515,9 +504,7 @@ static int live(struct life *l)
     struct run *r = &l->r;
     struct h5 *restart = NULL;
     char path[1400];
-    const char *slash = strrchr(l->line.case_file, '/');
-    snprintf(r->case_dir, sizeof r->case_dir, "%.*s", slash ? (int)(slash - l->line.case_file) : 1,
-             slash ? l->line.case_file : ".");
+    run_case_dir(l->line.case_file, r->case_dir, sizeof r->case_dir);
     collect_groups(l);
     int faults = read_case(l);
     run_case_name(l->line.case_file, r->case_name, sizeof r->case_name);

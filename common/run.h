@@ -145,7 +145,8 @@ struct command_line {
     double deadline; /* s to meet the other programs */
     double patience; /* s without a sign of life of a partner */
 };
-/* Name of a case from the path of its file. */
+/* The folder of a case's file, and the case's name. */
+void run_case_dir(const char *file, char *dir, size_t size);
 void run_case_name(const char *file, char *name, size_t size);
 /* Returns -1 to go on, else the exit code (--help, --version, --params: 0; faults: 2). Faults are
  * all printed, on world rank 0 of this program name. */

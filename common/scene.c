@@ -109,7 +109,14 @@ static const struct param output_rows[] = {
 #undef P
 #define P struct scene_accept
 static const struct param accept_rows[] = {
-    PARAM(P, what,      "-", NULL, 0, 0, "key of summary.json, as error.velocity_l2"),
+    PARAM(P, what,      "-", NULL, 0, 0, "key of summary.json, as error.velocity_l2; with a reference: column of series.csv without its unit"),
+    PARAM(P, reference, "-", "", 0, 0, "CSV file beside the case to compare the column with: t first, comments behind #"),
+    PARAM(P, column,    "-", "", 0, 0, "column of the reference; by default named like what"),
+    CHOICE(P, measure, "rms|peak|impulse|arrival", "rms", "difference over the reference's range; of the largest values, the integrals, the times of half the peak, relative"),
+    PARAM(P, from,      "s", "0.0", -1e9, 1e9, "start of the comparison"),
+    PARAM(P, to,        "s", "1e30", -1e9, 1e9, "its end; by default the end of the run or of the reference"),
+    PARAM(P, start,     "s", "0.0", -1e9, 1e9, "time of the run at which the reference's t is 0"),
+    PARAM(P, unit,      "-", "(1.0, 1.0)", -1e12, 1e12, "units of the reference: its t times the first is s, its value times the second is the column's"),
     PARAM(P, tolerance, "-", NULL, -1e300, 1e300, "largest value that is accepted"),
 };
 #undef P

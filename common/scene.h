@@ -32,6 +32,7 @@ enum scene_side {
 enum wall_kind { WALL_SLIP, WALL_NO_SLIP, WALL_INFLOW, WALL_OUTFLOW, WALL_ABSORBING };
 enum wall_profile { PROFILE_UNIFORM, PROFILE_PARABOLIC };
 enum shape_form { SHAPE_BOX, SHAPE_POLYGON, SHAPE_DISC, SHAPE_BELOW };
+enum accept_measure { ACCEPT_RMS, ACCEPT_PEAK, ACCEPT_IMPULSE, ACCEPT_ARRIVAL };
 enum probe_kind { PROBE_PRESSURE, PROBE_LEVEL };
 enum {
     ACCEPT_MAX = 16,
@@ -128,8 +129,14 @@ struct scene {
     } output;
     int naccept;
     struct scene_accept {
-        char what[PARAM_TEXT_SIZE]; /* key of summary.json: "error.velocity_l2" */
-        double tolerance;           /* accepted while the value is at most this */
+        char what[PARAM_TEXT_SIZE]; /* key of summary.json: "error.velocity_l2"; of series.csv */
+        char reference[PARAM_TEXT_SIZE]; /* CSV file beside the case; "": none */
+        char column[PARAM_TEXT_SIZE];    /* of the reference; "": named like what */
+        int measure;                     /* enum accept_measure */
+        double from, to;                 /* s: of the comparison */
+        double start;                    /* s: time of the run at which the reference's t is 0 */
+        double unit[3];   /* of the reference's times (s) and values (as in series.csv) */
+        double tolerance; /* accepted while the value is at most this */
     } accept[ACCEPT_MAX];
     bool has_coupling, has_output;
     bool has_sph, has_fv; /* groups of the solvers: both make a coupled job */

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "../common/accept.h"
 #include "../common/log.h"
 #include "../common/mem.h"
 #include "../common/timer.h"
@@ -341,6 +342,7 @@ static int run(struct coupler *c, const struct param_group *groups)
     c->scene.has_sph = params_has_group(c->params, "sph");
     c->scene.has_fv = params_has_group(c->params, "fv");
     scene_check(&c->scene, c->params, &faults);
+    accept_check(&c->scene, c->case_dir, c->params, &faults);
     c->hash = params_hash(c->params);
     if (!l->check)
         code = couple(c, &faults);
@@ -372,6 +374,7 @@ int main(int argc, char **argv)
     int code = run_command_line(&command, argc, argv, "coupler", help, groups, SCENE_GROUPS);
     if (code < 0) {
         snprintf(c.dir, sizeof c.dir, "%s", command.dir);
+        run_case_dir(command.case_file, c.case_dir, sizeof c.case_dir);
         code = run(&c, groups);
     }
     mem_free((void *)(uintptr_t)command.overrides);

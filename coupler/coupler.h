@@ -104,7 +104,7 @@ struct coupler {
     struct scene scene;
     struct params *params;
     uint64_t hash;
-    char dir[1024];
+    char dir[1024], case_dir[1024];
     int nsolvers;
     struct solver solver[HANDSHAKE_PROGRAMS];
     int nlinks;

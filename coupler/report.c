@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../common/accept.h"
 #include "../common/log.h"
 #include "../common/timer.h"
 
@@ -237,25 +238,6 @@ static double put_cost(const struct coupler *c, struct summary *s, double couple
     return cpu;
 }
 
-static bool accepted(const struct coupler *c, const struct summary *s)
-{
-    bool all = true;
-    for (int i = 0; i < c->scene.naccept; i++) {
-        const struct scene_accept *a = &c->scene.accept[i];
-        double v;
-        if (!summary_find(s, a->what, &v)) {
-            log_warn("accept: nobody told %s", a->what);
-            all = false;
-            continue;
-        }
-        const bool ok = v <= a->tolerance; /* false for NaN */
-        log_say("  %-12s %-24s %.4g (<= %g)", ok ? "accepted" : "NOT ACCEPTED", a->what, v,
-                a->tolerance);
-        all = all && ok;
-    }
-    return all;
-}
-
 static void say_number(void *ctx, const char *key, double v)
 {
     (void)ctx;
@@ -327,7 +309,7 @@ int report_summary(struct coupler *c, double coupler_cpu)
     sums_summarise(c, s);
     put_told(c, s);
     say_end(c, s, cpu, coupler_cpu, wall);
-    if (code == RUN_DONE && !accepted(c, s))
+    if (code == RUN_DONE && !accept_judge(&c->scene, c->case_dir, c->dir, s))
         code = RUN_NOT_ACCEPTED;
     snprintf(path, sizeof path, "%s/summary.json", c->dir);
     summary_write(s, path);
