@@ -14,7 +14,7 @@
 
 static const struct option options[] = {
     {"help", optional_argument, NULL, 'h'},     {"version", no_argument, NULL, 'V'},
-    {"params", no_argument, NULL, 'M'},         {"check", no_argument, NULL, 'c'},
+    {"params", no_argument, NULL, 'M'},         {"check", optional_argument, NULL, 'c'},
     {"param", required_argument, NULL, 'p'},    {"output", required_argument, NULL, 'o'},
     {"restart", no_argument, NULL, 'r'},        {"force", no_argument, NULL, 'f'},
     {"deadline", required_argument, NULL, 'd'}, {"patience", required_argument, NULL, 't'},
@@ -28,6 +28,7 @@ static void usage(const char *name, const char *help)
            "  -p, --param K=V   overrides a key of the case: -p sph.dx=0.01 -p 'fv.cells=(64,64)'\n"
            "  -o, --output DIR  where the run writes (out/CASE)\n"
            "      --check       reads and validates the case, says what it uses and costs; no run\n"
+           "      --check=picture  draws the scene as well, to DIR/PROGRAM-scene.svg\n"
            "      --restart     goes on from the last restart file in DIR\n"
            "      --force       replaces an earlier run in DIR\n"
            "      --deadline S  time to meet the other programs of a coupled job (30 s)\n"
@@ -140,6 +141,9 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
             return print_and_end(option, name, help, NULL, groups, ngroups);
         case 'c':
             c->check = true;
+            c->picture = optarg != NULL;
+            if (optarg && strcmp(optarg, "picture") != 0)
+                return refuse(name, "--check or --check=picture is wanted, not", optarg);
             break;
         case 'p':
             overrides[c->noverrides++] = optarg;

@@ -9,9 +9,11 @@
 #include <unistd.h>
 
 #include "accept.h"
+#include "disk.h"
 #include "h5.h"
 #include "log.h"
 #include "mem.h"
+#include "picture.h"
 #include "run_files.h"
 #include "xdmf.h"
 
@@ -498,6 +500,20 @@ static int run_state(struct life *l, struct h5 *restart)
     return end(l, r->coupled ? loop_coupled(l) : loop_alone(l));
 }
 
+/* The scene as the programs have understood it. */
+static void draw(const struct life *l)
+{
+    char path[1400];
+    snprintf(path, sizeof path, "%s/%s-scene.svg", l->r.dir, l->r.name);
+    if (!run_make_folder(l->r.dir))
+        disk_failed(path);
+    struct picture *p = picture_create(path, &l->r.scene);
+    if (l->p->draw)
+        l->p->draw(&l->r, p);
+    picture_close(&p);
+    log_say("picture: %s", path);
+}
+
 /* From the case to the exit code. */
 static int live(struct life *l)
 {
@@ -511,6 +527,8 @@ static int live(struct life *l)
     snprintf(r->dir, sizeof r->dir, "%s", l->line.dir);
     if (!faults && l->line.check) {
         l->p->describe(r);
+        if (l->line.picture && r->rank == 0)
+            draw(l);
         return RUN_DONE;
     }
     if (!faults)

@@ -25,6 +25,7 @@ enum run_exit {
 };
 
 struct h5;
+struct picture;
 struct xdmf;
 
 /* What every module of a program may look at; owned by run_main. */
@@ -68,6 +69,8 @@ struct program {
     /* Lines of --check and of the banner: what the scene uses and leaves out, sizes, memory, time
      * step, number of steps; through log_say. Runs on the parameters alone, before create. */
     void (*describe)(const struct run *r);
+    /* Adds zones, blocks, ... to the picture of --check=picture; NULL: nothing. Rank 0. */
+    void (*draw)(const struct run *r, struct picture *p);
     /* Publishes what the partners must know before the plan (zones); NULL if nothing. */
     void (*offer)(struct run *r);
     /* State at t = 0, or from the restart file f (then sets r->t and r->step before). NULL: f does
@@ -141,7 +144,7 @@ struct command_line {
     const char *dir;       /* -o, or out/CASE */
     int noverrides;
     const char *const *overrides;
-    bool check, restart, force, groups;
+    bool check, picture, restart, force, groups;
     double deadline; /* s to meet the other programs */
     double patience; /* s without a sign of life of a partner */
 };
@@ -157,6 +160,7 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
 int run_folder(MPI_Comm comm, const char *dir, const char *name, bool force, bool restart);
 /* Removes the restart files of a program in its folder that come before the newest, but for the one
  * before it. What is newer (of a window under way) stays. */
+bool run_make_folder(const char *dir); /* with all above it; false: errno says why */
 void run_prune(const char *dir, const char *name, const char *newest, const char *older);
 
 /* SIGINT, SIGTERM, SIGUSR1 set a flag; SIGSEGV, SIGFPE, SIGBUS, SIGABRT leave a death note. When a

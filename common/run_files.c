@@ -244,7 +244,7 @@ void run_prune(const char *dir, const char *name, const char *newest, const char
         closedir(d);
 }
 
-static bool make_path(const char *dir)
+bool run_make_folder(const char *dir)
 {
     char path[1024];
     snprintf(path, sizeof path, "%s", dir);
@@ -283,7 +283,7 @@ static int prepare(const char *dir, const char *name, bool force, bool restart)
         log_say("--restart: there is no folder %s; run without --restart", dir);
         return RUN_INPUT;
     }
-    if (!make_path(dir)) {
+    if (!run_make_folder(dir)) {
         log_say("cannot make the folder %s: %s", dir, strerror(errno));
         return RUN_INPUT;
     }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../common/log.h"
+#include "../common/picture.h"
 #include "../coupler/cpl_partner.h"
 #include "domain.h"
 #include "sph_params.h"
@@ -128,6 +129,17 @@ static void describe(const struct run *r)
     warn_of(r);
 }
 
+static void draw(const struct run *r, struct picture *p)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    double lo[3], hi[3];
+    if (!sph_params_zones(r))
+        return;
+    zones_free_box(r, prm, lo, hi);
+    picture_box(p, PICTURE_ZONE, prm->box[0], prm->box[1], "particles");
+    picture_box(p, PICTURE_ZONE, lo, hi, "free zone");
+}
+
 static void *create(struct run *r, struct h5 *f)
 {
     sph_program.ncolumns = sph_columns(r, columns);
@@ -181,6 +193,7 @@ static struct program sph_program = {.name = "sph",
                                      .other_groups = others,
                                      .check = sph_params_check,
                                      .describe = describe,
+                                     .draw = draw,
                                      .offer = coupling_offer,
                                      .create = create,
                                      .destroy = destroy,
