@@ -1,4 +1,4 @@
-# Estran. The commands: make demo | check | all | report | stability | bench | deps | clean
+# Estran. The commands: make demo | check | test-fast | properties | all | report | stability | bench | deps | clean
 # SPDX-License-Identifier: BSD-3-Clause
 SHELL = /bin/sh
 CC = mpicc
@@ -67,7 +67,11 @@ $(B)/tests/kill_at.so: tests/kill_at.c
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(CC) $(filter-out -MMD,$(CFLAGS)) -shared -fPIC -o $@ $< -ldl
-tests: all $(tests_bin) $(B)/tests/mock $(B)/tests/kill_at.so
+$(B)/tests/properties_scene: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/properties_*.c)) # knows no other code
+	@mkdir -p $(@D)
+	@echo "LD $@"
+	@cc $(SAN) -o $@ $^ -lm
+tests: all $(tests_bin) $(B)/tests/mock $(B)/tests/kill_at.so $(B)/tests/properties_scene
 asan:
 	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-O1 -march=native -fno-math-errno" \
 	    SAN="-fsanitize=address,undefined -fno-omit-frame-pointer" tests
@@ -82,6 +86,11 @@ check: deps
 	@$(MAKE) --no-print-directory -j2 tests
 	@$(MAKE) --no-print-directory -j2 asan
 	@tests/run $(B)
+test-fast: # units alone, for development
+	@$(MAKE) --no-print-directory -j2 tests
+	@FAST=1 tests/run $(B)
+properties: all $(B)/tests/properties_scene # SEED=, N= or MINUTES=, JOBS=, KEEP=
+	@tests/properties $(B)
 report: all
 	@cases/report
 stability: all
@@ -93,4 +102,4 @@ clean:
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .SECONDARY:
-.PHONY: all tests asan deps demo check report stability bench clean
+.PHONY: all tests asan deps demo check test-fast properties report stability bench clean

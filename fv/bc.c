@@ -29,8 +29,8 @@ static bool has_side(const struct block *b, int k)
     return a < b->dim && !b->periodic[a] && (k % 2 ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
 }
 
-/* Tangents of a lower axis have their ghosts by then: sides are filled axis by axis. */
-static struct side side_of(const struct block *b, int k, bool corners)
+/* Tangents of an axis filled before have their ghosts by then: sides are filled axis by axis. */
+static struct side side_of(const struct bc *bc, const struct block *b, int k, bool corners)
 {
     struct side d = {.a = k / 2};
     int n = 0;
@@ -39,7 +39,7 @@ static struct side side_of(const struct block *b, int k, bool corners)
             d.t[n++] = a;
     for (int m = 0; m < 2; m++) {
         const int t = d.t[m];
-        const bool more = corners && (t < d.a);
+        const bool more = corners && bc->turn[t] < bc->turn[d.a];
         d.lo[m] = more && has_side(b, 2 * t) ? -b->g[t] : 0;
         d.hi[m] = b->n[t] + (more && has_side(b, 2 * t + 1) ? b->g[t] : 0);
     }
@@ -101,9 +101,10 @@ static double profile_at(const struct fv *s, const struct scene_wall *wall, cons
 }
 
 /* Places of an outflow and the cells inside. */
-static struct outflow *make_outflow(const struct block *b, int k, int64_t places)
+static struct outflow *make_outflow(const struct bc *bc, const struct block *b, int k,
+                                    int64_t places)
 {
-    const struct side d = side_of(b, k, true);
+    const struct side d = side_of(bc, b, k, true);
     struct outflow *o = NEW(struct outflow, 1);
     o->side = k;
     o->place = NEW(int64_t, places);
@@ -148,7 +149,7 @@ static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall
         bc->wall_area += area;
     if (!has_side(b, k))
         return;
-    const struct side d = side_of(b, k, true), inner = side_of(b, k, false);
+    const struct side d = side_of(bc, b, k, true), inner = side_of(bc, b, k, false);
     bc->n[k] = (int64_t)d.width * (b->n[d.t[1]] + 2 * b->g[d.t[1]]);
     for (int q = 0; q < b->dim; q++) {
         bc->w[k][q] = NEW(double, bc->n[k]);
@@ -158,11 +159,30 @@ static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall
                 bc->w[k][q][place(b, &d, i, j)] = wall->velocity[q] * profile_at(s, wall, &d, i, j);
     }
     if (bc->kind[k] == BC_CARRIED)
-        bc->out[k] = make_outflow(b, k, bc->n[k]);
+        bc->out[k] = make_outflow(bc, b, k, bc->n[k]);
     SIDE_PLACES(b, inner, i, j, m, c)
     {
         bc->outflux += (k % 2 ? 1.0 : -1.0) * face_area(b, &inner, i, j) * bc->w[k][a][m];
         (void)c;
+    }
+}
+
+/* The axis whose walls slide fastest comes last, so that their ghosts go on through the corners.
+ * Cut off there by the ghosts of another wall (4 V beside a fluid at rest) they are a jet of no
+ * width between two cells, and the product term of convection drives the corners with it. */
+static void set_turns(const struct scene *scene, int dim, int turn[3])
+{
+    double speed[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < scene->nwalls; k++) {
+        const struct scene_wall *w = scene->walls + k;
+        const int a = (w->side - SIDE_X_MIN) / 2;
+        for (int q = 0; q < dim && w->side != SIDE_NONE && w->kind == WALL_NO_SLIP && a < dim; q++)
+            speed[a] = q == a ? speed[a] : fmax(speed[a], fabs(w->velocity[q]));
+    }
+    for (int a = 0; a < 3; a++) {
+        turn[a] = 0;
+        for (int t = 0; t < 3; t++)
+            turn[a] += speed[t] < speed[a] || (speed[t] == speed[a] && t < a);
     }
 }
 
@@ -172,6 +192,7 @@ struct bc *bc_create(const struct fv *s)
     if (scene->nwalls == 0)
         return NULL;
     struct bc *bc = NEW(struct bc, 1);
+    set_turns(scene, s->b.dim, bc->turn);
     for (int i = 0; i < scene->nwalls; i++)
         make_side(s, bc, scene->walls + i);
     bc->outflux_given = bc->outflux;
@@ -217,10 +238,10 @@ static void ghosts_mirrored(double *q, int64_t in, double sign, double w)
 }
 
 /* One component along one side. w, slip: NULL for zero. */
-static void fill(const struct block *b, int k, enum bc_kind kind, int q, const double *w,
-                 const double *slip, double *u)
+static void fill(const struct bc *bc, const struct block *b, int k, enum bc_kind kind, int q,
+                 const double *w, const double *slip, double *u)
 {
-    const struct side d = side_of(b, k, true);
+    const struct side d = side_of(bc, b, k, true);
     const bool even = kind == BC_OUTFLOW || (kind == BC_SLIP && q != d.a);
     SIDE_PLACES(b, d, i, j, m, c)
     {
@@ -242,13 +263,23 @@ static const double *side_value(const struct bc *bc, int k, int q, enum bc_value
     return what == BC_ZERO ? NULL : bc->w[k][q];
 }
 
+static int axis_of_turn(const struct bc *bc, int turn)
+{
+    int a = 0;
+    while (bc->turn[a] != turn)
+        a++;
+    return a;
+}
+
 void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3])
 {
     const struct bc *bc = s->bc;
-    for (int k = 0; bc && k < 2 * s->b.dim; k++)
+    for (int m = 0; bc && m < 6; m++) {
+        const int k = 2 * axis_of_turn(bc, m / 2) + m % 2;
         for (int q = 0; q < s->b.dim && bc->n[k] > 0; q++)
-            fill(&s->b, k, bc->kind[k], q, side_value(bc, k, q, what),
+            fill(bc, &s->b, k, bc->kind[k], q, side_value(bc, k, q, what),
                  what == BC_AHEAD || what == BC_CHANGE ? bc->slip[k][q] : NULL, u[q]);
+    }
 }
 
 void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
@@ -257,7 +288,7 @@ void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
     for (int k = 0; s->bc && k < 2 * b->dim; k++) {
         if (s->bc->n[k] == 0 || s->bc->kind[k] == BC_OUTFLOW)
             continue;
-        const struct side d = side_of(b, k, true);
+        const struct side d = side_of(s->bc, b, k, true);
         const int64_t face = k % 2 ? b->stride[d.a] : 0;
         const double *w = s->bc->w[k][d.a];
         SIDE_PLACES(b, d, i, j, m, c)
@@ -294,7 +325,7 @@ void bc_set_slip(const struct fv *s, double tau, const double *psi)
     for (int k = 0; s->bc && k < 2 * b->dim; k++) {
         if (s->bc->n[k] == 0 || s->bc->kind[k] == BC_SLIP || s->bc->kind[k] == BC_OUTFLOW)
             continue;
-        const struct side d = side_of(b, k, false);
+        const struct side d = side_of(s->bc, b, k, false);
         for (int m = 0; m < 2 && d.t[m] < b->dim; m++) {
             const int other = d.t[1 - m];
             double *line = NEW(double, b->n[d.t[m]] + 2 * b->g[d.t[m]]);
@@ -356,7 +387,7 @@ static void side_centre(const struct block *b, const struct side *d, int64_t m, 
 static void add_force(const struct fv *s, int k, double *force)
 {
     const struct block *b = &s->b;
-    const struct side d = side_of(b, k, false);
+    const struct side d = side_of(s->bc, b, k, false);
     const double out = k % 2 ? 1.0 : -1.0, mu = s->run->scene.fluid.rho * s->nu;
     double x[3];
     SIDE_PLACES(b, d, i, j, m, c)

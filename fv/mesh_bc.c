@@ -105,15 +105,26 @@ static void add_side(struct mesh_flow *s, struct mesh_bc *bc, const struct mesh_
     }
 }
 
+/* That of a lid comes last: its ghosts go on through the corners (set_turns in bc.c). */
+static int axis_of_turn(const struct mesh *m, int part, int turn)
+{
+    const int lid = m->block[m->part[part].block].prm->lid;
+    const int last = lid > 0 ? (lid - 1) / 2 : m->dim - 1;
+    if (turn == m->dim - 1)
+        return last;
+    return turn < last ? turn : turn + 1;
+}
+
 void mesh_bc_create(struct mesh_flow *s)
 {
     const struct mesh *m = s->m;
     struct mesh_bc *bc = s->bc = NEW(struct mesh_bc, 1);
     bc->side = NEW(struct side, 6 * m->nparts);
-    for (int a = 0; a < m->dim; a++) /* axis by axis: corners take the values of lower axes */
+    for (int turn = 0; turn < m->dim;
+         turn++) /* axis by axis: corners take the values of the first */
         for (int q = 0; q < m->nparts; q++)
             for (int up = 0; up < 2; up++)
-                add_side(s, bc, m->part + q, 2 * a + up);
+                add_side(s, bc, m->part + q, 2 * axis_of_turn(m, q, turn) + up);
     for (int k = 0; k < m->nblocks; k++)
         for (int q = 0; q < 2 * m->dim; q++)
             bc->pressure_given = bc->pressure_given || m->block[k].side[q] == MESH_OUTFLOW;

@@ -1,0 +1,30 @@
+/* properties_families.h - the kinds of random scenes. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef TESTS_PROPERTIES_FAMILIES_H
+#define TESTS_PROPERTIES_FAMILIES_H
+
+#include "properties.h"
+#include "properties_random.h"
+
+struct family {
+    const char *name;
+    double weight;
+    void (*make)(struct scene *s, struct random *r);
+};
+
+extern const struct family sph_families[], fv_families[]; /* end with an empty name */
+
+/* A box of n cells or particles of h, its corner a whole number of h from the origin. */
+void make_box(struct scene *s, struct random *r, const int *n, const double *h);
+/* A spacing of few binary digits: multiples of it are exact. */
+double make_spacing(struct random *r);
+void make_fluid(struct scene *s, struct random *r); /* rho, and nu from speed and length */
+void make_sides(struct scene *s, struct random *r, const char *kind); /* all that do not repeat */
+/* Gravity of magnitude g, in half of the scenes along -axis, else askew. */
+void make_gravity(struct scene *s, struct random *r, double g, int axis);
+void make_obstacle(struct outline *o, struct random *r, const double *centre, double radius);
+/* Time for n steps of dt, of which the run costs seconds (s) each. */
+void make_end(struct scene *s, struct random *r, double dt, double seconds);
+/* A field of waves, of n cells each, in a periodic box; returns cells to the shortest wave. */
+double make_waves(struct scene *s, struct random *r, int n, double h);
+
+#endif

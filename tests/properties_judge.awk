@@ -1,0 +1,232 @@
+# properties_judge.awk - the laws. Reads DIR/plan and what the runs left; prints a line for each law that does not hold:
+# LAW: what. Every tolerance has its reason beside it. usage: awk -v dir=DIR -f properties_judge.awk DIR/plan
+# SPDX-License-Identifier: BSD-3-Clause
+function bad(law, text) { print law ": " text; violations++ }
+function abs(x) { return x < 0 ? -x : x }
+function max(a, b) { return a > b ? a : b }
+
+$1 == "run" { runs[++nruns] = $2; program[$2] = $3 }
+$1 == "twin" {
+    twins[++ntwins] = $2
+    for (a = 0; a < 3; a++) { axis[$2, a] = $(3 + a); sign[$2, a] = $(6 + a) }
+    unit[$2, "L"] = $9; unit[$2, "U"] = $10; unit[$2, "R"] = $11
+}
+$1 == "know" { know[$2] = $2 == "family" ? $3 " " $4 " " $5 : $3 + 0 }
+
+# Exit code, words, series.csv into value[run, row, column] with names[run, column].
+function load(run,    line, n, f, i, file) {
+    file = dir "/" run ".code"
+    code[run] = (getline line < file) > 0 ? line + 0 : -1
+    close(file)
+    file = dir "/" run ".out"
+    while ((getline line < file) > 0) {
+        if (line ~ /\.cfg:[0-9]+: [a-z]+[^ ]*: / || line ~ /\.cfg: [a-z]+[^ ]*: /) refusal[run] = refusal[run] == "" ? line : refusal[run]
+        if (line ~ /diverged at|stopped|limit/ && reason[run] == "") reason[run] = line
+        if (line ~ /warning/) warned[run] = line
+    }
+    close(file)
+    file = dir "/" run "/series.csv"
+    while ((getline line < file) > 0) {
+        n = split(line, f, ",")
+        if (!columns[run]) {
+            columns[run] = n
+            for (i = 1; i <= n; i++) { names[run, i] = f[i]; at[run, f[i]] = i }
+            continue
+        }
+        rows[run]++
+        for (i = 1; i <= n; i++) {
+            if (f[i] ~ /nan|inf/ && !(run in sick)) { sick[run] = names[run, i] " at t = " f[1] }
+            value[run, rows[run], i] = f[i] + 0
+        }
+    }
+    close(file)
+    file = dir "/" run "/summary.json"
+    while ((getline line < file) > 0) {
+        present[run] = 1
+        if (line ~ /: -?(nan|inf)/ && !(run in sick)) sick[run] = line
+        gsub(/[",:]/, "", line)
+        split(line, f, " ")
+        if (!((run, f[1]) in summary)) summary[run, f[1]] = f[2]
+    }
+    close(file)
+}
+
+# What a column's unit is times; scale: what is large for it.
+function factor(name, t,    d, l, u, r) {
+    d = know["dim"]; l = unit[t, "L"]; u = unit[t, "U"]; r = unit[t, "R"]
+    if (name ~ /moment/ && name !~ /momentum/) return r * u * u * l ^ d
+    if (name ~ /\[s\]/) return l / u
+    if (name ~ /\[J\]/) return r * u * u * l ^ d
+    if (name ~ /\[m\^dim\/s\^2\]/) return u * u * l ^ (d - 2)
+    if (name ~ /\[kg\]/) return r * l ^ d
+    if (name ~ /\[kg m\/s\]/) return r * u * l ^ d
+    if (name ~ /\[kg\/m\^3\]/) return r
+    if (name ~ /\[Pa\]/) return r * u * u
+    if (name ~ /\[m\]/) return l
+    if (name ~ /\[m\/s\]/) return u
+    if (name ~ /\[1\/s\]/) return u / l
+    if (name ~ /\[N(\/m)?\]/) return r * u * u * l ^ (d - 1)
+    if (name ~ /\[m\^dim\]/) return l ^ d
+    return 1
+}
+function scale(name,    d, l, u, r, p) {
+    d = know["dim"]; l = know["length"]; u = know["speed"]; r = know["rho"]
+    p = u * u + know["gravity"] * l
+    if (name ~ /moment/ && name !~ /momentum/) return r * p * l ^ d
+    if (name ~ /\[J\]/) return know["mass"] * u * u
+    if (name ~ /\[m\^dim\/s\^2\]/) return u * u * l ^ (d - 2)
+    if (name ~ /\[kg m\/s\]/) return know["mass"] * u
+    if (name ~ /\[Pa\]/) return r * p
+    if (name ~ /\[m\]/) return l
+    if (name ~ /\[m\/s\]/) return u
+    if (name ~ /\[N(\/m)?\]/) return r * p * l ^ (d - 1)
+    if (name ~ /max Mach|error/) return 0.1
+    return 0
+}
+# The column of the twin that answers to the base's; its sign in turned.
+function answer(name, t,    a, b, letters) {
+    letters = "xyz"
+    turned = 1
+    if (match(name, / [xyz] \[/) && name !~ /water up to|moment z/) {
+        a = index(letters, substr(name, RSTART + 1, 1)) - 1
+        b = axis[t, a]
+        turned = sign[t, a]
+        return substr(name, 1, RSTART) substr(letters, b + 1, 1) substr(name, RSTART + 2)
+    }
+    if (name ~ /moment/ && name !~ /momentum/) turned = handed(t)
+    return name
+}
+function handed(t,    even) { # det of the motion
+    even = axis[t, 0] == 0 && axis[t, 1] == 1 || axis[t, 0] == 1 && axis[t, 1] == 2 || axis[t, 0] == 2 && axis[t, 1] == 0
+    return (even ? 1 : -1) * sign[t, 0] * sign[t, 1] * sign[t, 2]
+}
+# Counts and residuals say how a figure was reached, not what it is.
+function compared(name, t) {
+    if (name ~ /divergence|residual|iteration|krylov|pseudo|water up to|^watch|watch/) return 0
+    if (name ~ /\[s\]/) return 0
+    if (name ~ /^P[0-9] \[m\]/) return t == "units" || t == "ranks"
+    if (name ~ /^P[0-9] \[Pa\]/) return t != "carried"
+    # extremes jump from one particle or cell to another
+    if (name ~ /error/ && know["family"] ~ /wave|channel/) return 0 # relative to a start at rest
+    if (name ~ /min spacing|max Mach|density|error/) return t == "units"
+    return 1
+}
+# Units change by powers of two: all is equal to rounding, and rounding is the same but for sines of phases. Else sums
+# run in another order: particles follow rounding exponentially (a thousandfold in some ten steps), so early
+# rows count; cells are solved to fv.tol_pressure = 1e-2 of a step's divergence, by sweeps that know left from right.
+function tolerance(t, name) {
+    if (t == "units") return program["base"] == "coupled" ? 1e-4 : 1e-6
+    if (program["base"] == "sph") return 1e-5
+    return name ~ /force|moment|\[Pa\]/ ? 0.03 : 5e-3
+}
+function compare(t,    i, j, n, row, big, d, worst, what, name, last, s) {
+    n = rows["base"] < rows[t] ? rows["base"] : rows[t]
+    if (t == "units" && rows["base"] != rows[t]) { bad(t, rows["base"] " steps become " rows[t]); return }
+    if (t != "units" && n > 12) n = 12
+    for (i = 3; i <= columns["base"]; i++) {
+        name = names["base", i]
+        if (!compared(name, t)) continue
+        s = answer(name, t)
+        if (!((t, s) in at)) { bad(t, "no column " s); continue }
+        j = at[t, s]
+        big = scale(name)
+        worst = 0
+        for (row = 1; row <= n; row++) {
+            if (abs(value["base", row, 1] - value[t, row, 1] / factor("[s]", t)) > 1e-6 * value["base", row, 1]) {
+                if (t == "units") { bad(t, "step " row " ends at another time"); return }
+                break
+            }
+            big = max(big, abs(value["base", row, i]))
+            d = abs(value["base", row, i] - turned * value[t, row, j] / factor(name, t))
+            if (d > worst) { worst = d; what = row }
+        }
+        if (worst > tolerance(t, name) * big)
+            bad(t, sprintf("%s: off by %.2g of %.3g in row %d of %d", name, worst, big, what, rows["base"]))
+    }
+}
+# A carried flow has the same energy in its own frame, to the scheme's error: a percent or two where a wave has 12 cells.
+function compare_carried(t,    i, K0, K1, P, M, a, x, dV, own) {
+    i = at["base", "kinetic energy [J]"]
+    if (!i || (know["error"] + 0 == 0 && program["base"] != "sph")) return
+    K0 = value["base", rows["base"], i]
+    K1 = value[t, rows[t], at[t, "kinetic energy [J]"]]
+    M = know["mass"]
+    if ((("base" SUBSEP "mass [kg]") in at)) M = value["base", rows["base"], at["base", "mass [kg]"]]
+    for (a = 0; a < know["dim"]; a++) {
+        x = substr("xyz", a + 1, 1)
+        dV = know["d" x]
+        P = M * know["V" x]
+        if (("base" SUBSEP "momentum " x " [kg m/s]") in at) P = value["base", rows["base"], at["base", "momentum " x " [kg m/s]"]]
+        own += P * dV + 0.5 * M * dV * dV
+    }
+    if (abs(K1 - own - K0) > 0.05 * M * know["speed"] ^ 2)
+        bad(t, sprintf("kinetic energy %.4g J becomes %.4g J in its own frame", K0, K1 - own))
+}
+
+# How one run ended.
+function ended(run) {
+    if (code[run] == 124 || code[run] == 137) bad("ends", run " hangs")
+    else if (code[run] == 2 && refusal[run] == "") bad("refuses", run " without file, line and key")
+    else if (code[run] == 3 && reason[run] == "") bad("ends", run " diverged without a reason")
+    else if (code[run] == 3 && know["standard"]) bad("default", run " stops: " reason[run])
+    else if (code[run] != 0 && code[run] != 1 && code[run] != 2 && code[run] != 3) bad("ends", run " with exit code " code[run])
+    if (code[run] < 2 && !present[run]) bad("ends", run " without summary.json")
+    if (code[run] < 2 && (run in sick)) bad("numbers", run ": " sick[run])
+}
+function column(name) { return at["base", name] }
+function last(name) { return column(name) ? value["base", rows["base"], column(name)] : "" }
+
+function laws(    i, k, n, row, big, K0, P0, sph, top) {
+    n = rows["base"]
+    sph = program["base"] == "sph"
+    k = column("kinetic energy [J]")
+    K0 = value["base", 1, k]
+    # Sound takes up to Mach^2 = 1 % of the energy and gives it back; cells lose some, their projection is good to 1e-3.
+    if (know["unforced"] && know["gravity"] + 0 == 0 && program["base"] != "coupled")
+        for (row = 2; row <= n; row++)
+            if (value["base", row, k] > K0 * (1 + (sph ? 0.03 : 1e-3)) + 1e-6 * know["mass"] * know["speed"] ^ 2) {
+                bad("energy", sprintf("grows unforced: %.4g J, then %.4g J in row %d of %d", K0, value["base", row, k], row, n))
+                break
+            }
+    if (know["closed"] && know["gravity"] > 0 && sph && summary["base", "energy"] != "null" && know["unforced"] && summary["base", "energy"] > 0.03)
+        bad("energy", "grows by " summary["base", "energy"] " in a closed tank")
+    # Masses are moved between particles, never made.
+    if (know["closed"] && sph) {
+        if (abs(last("mass [kg]") / value["base", 1, column("mass [kg]")] - 1) > 1e-9) bad("mass", "drifts by " last("mass [kg]") / value["base", 1, column("mass [kg]")] - 1)
+        if (summary["base", "particles_lost"] + 0 > 0) bad("mass", summary["base", "particles_lost"] " particles lost")
+    }
+    if (k = column("volume [m^dim]"))
+        if (value["base", 1, k] > 0 && abs(last("volume [m^dim]") / value["base", 1, k] - 1) > 0.01)
+            bad("mass", sprintf("volume %.4g becomes %.4g", value["base", 1, k], last("volume [m^dim]")))
+    # Pairs push each other: sums cancel to rounding.
+    if (know["free_of_walls"] && sph && know["gravity"] + 0 == 0)
+        for (i = 0; i < know["dim"]; i++) {
+            k = column("momentum " substr("xyz", i + 1, 1) " [kg m/s]")
+            if (abs(value["base", n, k] - value["base", 1, k]) > 1e-8 * know["mass"] * know["speed"]) {
+                bad("momentum", sprintf("changes from %.3g to %.3g kg m/s (mass x speed %.3g)", value["base", 1, k], value["base", n, k], know["mass"] * know["speed"]))
+                break
+            }
+        }
+    # Particles settle on walls within some thousandths of c; cells are at rest to the solver's tolerance.
+    if (know["still"]) {
+        if (sph && last("max Mach [-]") > 5e-3) bad("rest", sprintf("|u| = %.2g c0 at the end", last("max Mach [-]")))
+        if (program["base"] == "fv" && last("largest velocity [m/s]") > 1e-6 * know["speed"]) bad("rest", sprintf("|u| = %.2g of %.2g m/s at the end", last("largest velocity [m/s]"), know["speed"]))
+    }
+    # Half as many cells a wave as the coarsest case of the table in README.md: ten times its error.
+    if (know["error"] > 0 && summary["base", "velocity_l2"] + 0 > know["error"] && !("base" in warned))
+        bad("error", "of " summary["base", "velocity_l2"] " without a word")
+    if (know["stream"] > 0 && abs(last("largest velocity [m/s]") / know["stream"] - 1) > 1e-4 && program["base"] == "fv")
+        bad("error", sprintf("uniform stream of %.4g m/s becomes %.4g m/s", know["stream"], last("largest velocity [m/s]")))
+}
+
+END {
+    for (r = 1; r <= nruns; r++) { load(runs[r]); ended(runs[r]) }
+    if (code["base"] < 2 && rows["base"] > 0) laws()
+    for (k = 1; k <= ntwins; k++) {
+        t = twins[k]
+        if (code[t] == code["base"] && code["base"] < 2) { if (t == "carried") compare_carried(t); else compare(t) }
+        else if (code[t] != code["base"] && !(code[t] > 100 || code["base"] > 100)) bad(t, "exit code " code["base"] " becomes " code[t] " " refusal[t] reason[t])
+    }
+    if (code["base"] == 2 && !violations) print "refused: " refusal["base"]
+    exit violations > 0
+}

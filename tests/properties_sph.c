@@ -1,0 +1,401 @@
+/* properties_sph.c - random scenes of particles. SPDX-License-Identifier: BSD-3-Clause */
+#include "properties_families.h"
+
+#include <string.h>
+
+/* Half of the scenes have a scale of velocity, as their writer knows one; c0 is the default. */
+static void settle(struct scene *s, struct random *r, int particles)
+{
+    static const char *const schemes[] = {" scheme = \"riemann\";", " scheme = \"riemann_ale\";",
+                                          " scheme = \"delta\";", " scheme = \"standard\";"};
+    double carried = 0.0, gH = 0.0;
+    s->program = SPH;
+    if (chance(r, 0.25)) {
+        const int k = whole(r, 0, 3);
+        s->sph_more = schemes[k];
+        s->standard = false;
+    }
+    for (int a = 0; a < s->dim; a++) {
+        carried += s->V[a] * s->V[a];
+        gH += s->periodic[a] ? 0.0 : fabs(s->g[a]) * (s->hi[a] - s->lo[a]);
+    }
+    const double U = s->say_U ? s->U : fmax(1.0, s->speed);
+    const double c0 = 10.0 * fmax(U + sqrt(carried), sqrt(gH)), R = 4.0 * s->dx;
+    double dt = 0.375 * R / c0;
+    if (s->nu > 0.0)
+        dt = fmin(dt, 0.03 * R * R / s->nu);
+    make_end(s, r, dt, particles * (s->dim > 2 ? 1.2e-5 : s->nwalls + s->nbodies ? 5e-6 : 3e-6));
+    s->mass = s->rho * particles * pow(s->dx, s->dim);
+}
+
+static void box_of(struct scene *s, struct random *r, int nx, int ny, int nz)
+{
+    const int n[3] = {nx, ny, nz};
+    s->dx = make_spacing(r);
+    const double h[3] = {s->dx, s->dx, s->dx};
+    make_box(s, r, n, h);
+}
+
+static void fields(struct scene *s, struct random *r)
+{
+    s->dim = chance(r, 0.2) ? 3 : 2;
+    const int n = s->dim > 2 ? whole(r, 10, 11) : whole(r, 10, 32);
+    const int wide = s->dim == 2 && chance(r, 0.3) ? 2 : 1;
+    box_of(s, r, n * wide, n, n);
+    s->speed = decades(r, 0.02, 30.0);
+    for (int a = 0; a < s->dim; a++) {
+        s->hi[a] -= s->lo[a];
+        s->lo[a] = 0.0;
+        s->periodic[a] = true;
+    }
+    const double waves = make_waves(s, r, n, s->dx);
+    make_fluid(s, r);
+    settle(s, r, n * n * wide * (s->dim > 2 ? n : 1));
+    if (waves > 12.0 && s->standard && strcmp(s->field, "rest"))
+        s->error = 0.25;
+}
+
+/* Full of water, walls all around, some with a lid. */
+static void closed(struct scene *s, struct random *r)
+{
+    s->dim = chance(r, 0.2) ? 3 : 2;
+    const int most = s->dim > 2 ? 8 : 30, nx = whole(r, 1, most), ny = whole(r, 1, most),
+              nz = s->dim > 2 ? whole(r, 1, most) : 1;
+    box_of(s, r, nx, ny, nz);
+    s->length = s->dx * fmin(nx, ny);
+    s->speed = decades(r, 0.02, 30.0);
+    make_fluid(s, r);
+    make_sides(s, r, NULL);
+    if (chance(r, 0.6))
+        make_gravity(s, r, decades(r, 0.1, 100.0), s->dim - 1);
+    s->closed = s->unforced = s->still = true;
+    if (chance(r, 0.4)) {
+        s->sides[2].kind = "no_slip";
+        s->sides[2].velocity[0] = s->speed * (chance(r, 0.5) ? 1.0 : -1.0);
+        s->unforced = s->still = false;
+    }
+    s->U = s->speed;
+    s->say_U = chance(r, 0.6) || !s->still;
+    s->mirrors = s->turns = s->shifts = true;
+    s->cycles = s->dim == 3;
+    settle(s, r, nx * ny * nz);
+}
+
+static void channel(struct scene *s, struct random *r)
+{
+    s->dim = 2;
+    const int nx = whole(r, 10, 24), ny = whole(r, 2, 24);
+    box_of(s, r, nx, ny, 1);
+    s->periodic[0] = true;
+    s->length = ny * s->dx;
+    s->speed = s->U = decades(r, 0.02, 30.0);
+    s->say_U = true;
+    s->rho = decades(r, 0.01, 5000.0);
+    s->nu = s->speed * s->length / decades(r, 0.1, 1e4);
+    make_sides(s, r, "no_slip");
+    s->L = s->length;
+    s->closed = true;
+    if (chance(r, 0.5)) {
+        s->field = "poiseuille";
+        s->g[0] = 8.0 * s->nu * s->U / (s->L * s->L);
+    } else {
+        s->field = "couette";
+        s->sides[3].velocity[0] = s->U;
+    }
+    s->shifts = true;
+    settle(s, r, nx * ny);
+}
+
+static void add_shape(struct scene *s, const char *form, double x0, double y0, double x1, double y1)
+{
+    struct shape *h = s->shapes + s->nshapes++;
+    h->form = form;
+    h->line.n = strcmp(form, "disc") ? 2 : 1;
+    h->line.x[0][0] = x0;
+    h->line.x[0][1] = y0;
+    h->line.x[0][2] = s->lo[2];
+    h->line.x[1][0] = x1;
+    h->line.x[1][1] = y1;
+    h->line.x[1][2] = s->hi[2];
+}
+
+/* Columns, beds and discs of water. Returns about how many cells of dx they fill. */
+static int put_water(struct scene *s, struct random *r, int nx, int ny)
+{
+    const double h = s->dx, *lo = s->lo;
+    const int kind = whole(r, 0, 4), w = whole(r, 1, nx), d = whole(r, 1, ny);
+    if (kind == 0) { /* a level bed */
+        add_shape(s, "box", lo[0], lo[1], s->hi[0], lo[1] + d * h);
+        return nx * d;
+    }
+    add_shape(s, "box", lo[0], lo[1], lo[0] + w * h, lo[1] + d * h);
+    int n = w * d;
+    if (kind == 1 && w < nx) { /* over a wet bed */
+        const int bed = whole(r, 1, d);
+        add_shape(s, "box", lo[0] + w * h, lo[1], s->hi[0], lo[1] + bed * h);
+        n += (nx - w) * bed;
+    } else if (kind == 2 && nx - w > 4) { /* two columns */
+        const int first = whole(r, w + 2, nx - 1), high = whole(r, 1, ny);
+        add_shape(s, "box", lo[0] + first * h, lo[1], s->hi[0], lo[1] + high * h);
+        n += (nx - first) * high;
+    } else if (kind == 3 && ny - d > 6 && s->dim == 2) { /* a disc above */
+        const double radius = h * uniform(r, 1.0, 0.4 * (ny - d));
+        s->shapes[0].line.x[1][0] = s->hi[0];
+        add_shape(s, "disc", 0.5 * (lo[0] + s->hi[0]), s->hi[1] - radius - h, 0.0, 0.0);
+        s->shapes[1].radius = radius;
+        n = nx * d;
+    }
+    return n;
+}
+
+/* Tanks as polylines: with slopes and steps, open above. */
+static void tank_walls(struct scene *s, struct random *r)
+{
+    const double *lo = s->lo, *hi = s->hi, X = hi[0] - lo[0], Y = hi[1] - lo[1];
+    const double at = lo[0] + X * uniform(r, 0.5, 0.7), high = Y * uniform(r, 0.1, 0.5);
+    struct wall *w = s->walls + s->nwalls++;
+    w->kind = one_of(r, "slip", "no_slip");
+    double x[8][2] = {{lo[0], hi[1]},
+                      {lo[0], lo[1]},
+                      {at, lo[1]},
+                      {at, lo[1] + high},
+                      {at + 0.2 * X, lo[1] + high},
+                      {at + 0.2 * X, lo[1]},
+                      {hi[0], lo[1]},
+                      {hi[0], hi[1]}};
+    const int kind = whole(r, 0, 2); /* step, triangle, slope */
+    if (kind == 1)
+        x[3][0] = x[4][0] = at + 0.1 * X;
+    for (int k = 0; k < 8; k++) {
+        if ((kind == 1 && k == 4) || (kind == 2 && k > 2 && k < 7))
+            continue;
+        w->line.x[w->line.n][0] = kind == 2 && k == 7 ? hi[0] : x[k][0];
+        w->line.x[w->line.n++][1] = x[k][1];
+    }
+}
+
+static void free_surface(struct scene *s, struct random *r)
+{
+    const int up = s->dim - 1;
+    s->speed = sqrt(9.81 * (s->hi[1] - s->lo[1]));
+    s->length = s->hi[1] - s->lo[1];
+    make_fluid(s, r);
+    (void)up;
+    make_gravity(s, r, 9.81, 1);
+    s->closed = true;
+    s->unforced = false;
+    s->U = s->speed;
+    s->say_U = chance(r, 0.5);
+    s->mirrors = s->turns = s->shifts = true;
+    s->cycles = s->dim == 3;
+}
+
+static void tank(struct scene *s, struct random *r)
+{
+    s->dim = chance(r, 0.15) ? 3 : 2;
+    const int nx = whole(r, 4, s->dim > 2 ? 16 : 60), ny = whole(r, 4, s->dim > 2 ? 12 : 40),
+              nz = s->dim > 2 ? whole(r, 3, 8) : 1;
+    box_of(s, r, nx, ny, nz);
+    free_surface(s, r);
+    const int n = put_water(s, r, nx, ny);
+    if (s->dim == 2 && chance(r, 0.35))
+        tank_walls(s, r);
+    else
+        make_sides(s, r, NULL);
+    for (int a = 0; a < s->dim && chance(r, 0.5); a++) /* open above */
+        if (!s->nwalls && s->g[a] < 0.0)
+            s->sides[2 * a + 1].kind = NULL;
+    struct probe *p = s->probes + s->nprobes++;
+    p->kind = chance(r, 0.6) ? "pressure" : "level";
+    p->at[0] = s->lo[0] + s->dx * whole(r, 0, nx);
+    p->at[1] = s->lo[1] + (p->kind[0] == 'p' ? s->dx * uniform(r, 0.0, 3.0) : 0.0);
+    p->at[2] = s->dim > 2 ? s->lo[2] + s->dx * whole(r, 0, nz) : 0.0;
+    settle(s, r, n * nz + 10);
+}
+
+/* A closed tank that leans, full or half full. */
+static void tilted(struct scene *s, struct random *r)
+{
+    s->dim = 2;
+    const int n = whole(r, 12, 40);
+    box_of(s, r, n, n, 1);
+    const double c[2] = {0.5 * (s->lo[0] + s->hi[0]), 0.5 * (s->lo[1] + s->hi[1])};
+    const double a = uniform(r, -0.8, 0.8), w = 0.33 * n * s->dx * uniform(r, 0.3, 1.0),
+                 v = 0.33 * n * s->dx;
+    const double fill = chance(r, 0.5) ? 1.0 : uniform(r, -0.5, 0.8);
+    const double corners[4][2] = {{-w, v}, {-w, -v}, {w, -v}, {w, v}};
+    free_surface(s, r);
+    struct wall *tank = s->walls + s->nwalls++;
+    struct shape *h = s->shapes + s->nshapes++;
+    tank->closed = true;
+    tank->kind = one_of(r, "slip", "no_slip");
+    h->form = "polygon";
+    for (int k = 0; k < 4; k++) {
+        const double x = corners[k][0], y = corners[k][1], z = y > 0.0 ? fill * y : y;
+        tank->line.x[k][0] = c[0] + cos(a) * x - sin(a) * y;
+        tank->line.x[k][1] = c[1] + sin(a) * x + cos(a) * y;
+        h->line.x[k][0] = c[0] + cos(a) * x - sin(a) * z;
+        h->line.x[k][1] = c[1] + sin(a) * x + cos(a) * z;
+    }
+    tank->line.n = h->line.n = 4;
+    s->still = s->unforced = fill == 1.0;
+    settle(s, r, (int)(2.0 * w * v * (1.0 + fill) / (s->dx * s->dx)) + 1);
+}
+
+/* Bodies in a full or half full tank, at rest or driven, or in a periodic box. */
+static void bodies(struct scene *s, struct random *r)
+{
+    s->dim = 2;
+    const int nx = whole(r, 16, 44), ny = whole(r, 16, 36);
+    box_of(s, r, nx, ny, 1);
+    free_surface(s, r);
+    s->unforced = true;
+    const bool full = chance(r, 0.5), open = full && chance(r, 0.4);
+    const int deep = full ? ny : whole(r, 8, ny);
+    if (open)
+        s->periodic[0] = s->periodic[1] = true;
+    for (int a = 0; a < 2 && open; a++)
+        s->g[a] = 0.0;
+    if (!full)
+        add_shape(s, "box", s->lo[0], s->lo[1], s->hi[0], s->lo[1] + deep * s->dx);
+    make_sides(s, r, NULL);
+    const int count = chance(r, 0.2) ? 2 : 1;
+    for (int k = 0; k < count; k++) {
+        struct body *b = s->bodies + s->nbodies++;
+        const double reach = s->dx * fmin(nx / count, ny), radius = reach * uniform(r, 0.1, 0.3);
+        b->centre[0] = s->lo[0] + (k + 0.5) * nx * s->dx / count + reach * uniform(r, -0.1, 0.1);
+        b->centre[1] = 0.5 * (s->lo[1] + s->hi[1]) + reach * uniform(r, -0.1, 0.1);
+        b->kind = one_of(r, "slip", "no_slip");
+        make_obstacle(&b->line, r, b->centre, radius);
+        const int motion = whole(r, 0, 2);
+        for (int a = 0; a < 2 && motion == 1; a++)
+            b->velocity[a] = 0.3 * s->speed * uniform(r, -1.0, 1.0);
+        b->spin = motion == 2 ? 0.3 * s->speed / radius * uniform(r, -1.0, 1.0) : 0.0;
+        s->unforced = s->unforced && motion == 0;
+    }
+    s->still = s->unforced && full;
+    s->say_U = s->say_U || open;
+    settle(s, r, nx * deep);
+}
+
+/* A channel with inlet and outlet, or an oblique stream through an open box. */
+static void openings(struct scene *s, struct random *r)
+{
+    s->dim = 2;
+    const int nx = whole(r, 20, 44), ny = whole(r, 12, 24);
+    box_of(s, r, nx, ny, 1);
+    s->speed = s->U = decades(r, 0.02, 30.0);
+    s->say_U = true;
+    s->length = ny * s->dx;
+    make_fluid(s, r);
+    make_sides(s, r, "slip");
+    s->field = "uniform";
+    s->V[0] = s->speed;
+    s->sides[0].kind = "inflow";
+    s->sides[1].kind = chance(r, 0.7) ? "outflow" : "absorbing";
+    s->sides[0].velocity[0] = s->speed;
+    if (chance(r, 0.3)) {
+        s->V[1] = s->sides[0].velocity[1] = s->sides[2].velocity[1] =
+            s->speed * uniform(r, 0.1, 1.0);
+        s->sides[2].velocity[0] = s->speed;
+        s->sides[2].kind = "inflow";
+        s->sides[3].kind = "outflow";
+    } else if (chance(r, 0.5)) {
+        s->sides[0].profile = "parabolic";
+        s->sides[2].kind = s->sides[3].kind = "no_slip";
+    }
+    s->mirrors = s->turns = s->shifts = true;
+    settle(s, r, nx * ny * 2);
+}
+
+static void patch_or_drop(struct scene *s, struct random *r)
+{
+    const bool drop = chance(r, 0.5);
+    const int n = whole(r, 6, 24);
+    s->dim = 2;
+    s->dx = make_spacing(r);
+    s->L = n * s->dx;
+    for (int a = 0; a < 2; a++) {
+        s->hi[a] = 3 * n * s->dx;
+        s->lo[a] = -s->hi[a];
+    }
+    s->length = s->L;
+    s->speed = s->U = decades(r, 0.02, 30.0);
+    s->say_U = true;
+    make_fluid(s, r);
+    s->field = drop ? "drop" : "patch";
+    s->central = drop ? s->U / s->L : 0.0;
+    s->closed = true;
+    s->unforced = s->turns = s->free_of_walls = !drop;
+    s->mirrors = drop;
+    settle(s, r, n * n * (drop ? 4 : 1));
+}
+
+/* Lumps of water meet in the void. */
+static void jets(struct scene *s, struct random *r)
+{
+    s->dim = chance(r, 0.15) ? 3 : 2;
+    const int most = s->dim > 2 ? 5 : 14, n = 60;
+    box_of(s, r, n, n, s->dim > 2 ? n : 1);
+    s->speed = s->U = decades(r, 0.02, 30.0);
+    s->say_U = true;
+    s->length = most * s->dx;
+    make_fluid(s, r);
+    int count = 0;
+    const int gap = whole(r, 0, 4);
+    for (int k = 0; k < 2; k++) {
+        const int w = whole(r, 1, most), h = whole(r, 1, most),
+                  d = s->dim > 2 ? whole(r, 1, most) : 1;
+        const int x = k ? 30 + gap : 30 - w, y = whole(r, 28 - h, 32), z = whole(r, 28, 32);
+        add_shape(s, "box", s->lo[0] + x * s->dx, s->lo[1] + y * s->dx, s->lo[0] + (x + w) * s->dx,
+                  s->lo[1] + (y + h) * s->dx);
+        struct shape *b = s->shapes + k;
+        b->line.x[0][2] = s->lo[2] + z * s->dx;
+        b->line.x[1][2] = s->lo[2] + (z + d) * s->dx;
+        b->velocity[0] = s->speed * (k ? -1.0 : 1.0) * uniform(r, 0.0, 1.0);
+        b->velocity[1] = s->speed * uniform(r, -0.5, 0.5);
+        count += w * h * d;
+    }
+    if (s->dim == 2)
+        s->hi[2] = s->lo[2] = 0.0;
+    s->closed = s->unforced = s->free_of_walls = s->carried = true;
+    s->mirrors = s->turns = s->shifts = true;
+    s->cycles = s->dim == 3;
+    settle(s, r, count);
+    s->end = fmin(s->end, 15.0 * s->dx / s->speed); /* nothing reaches the sides */
+}
+
+static void wave(struct scene *s, struct random *r)
+{
+    s->dim = 2;
+    const int nx = whole(r, 20, 48), ny = whole(r, 5, 16), air = whole(r, 3, 8);
+    box_of(s, r, nx, ny + air, 1);
+    s->hi[0] -= s->lo[0];
+    s->lo[0] = 0.0;
+    s->periodic[0] = true;
+    s->length = ny * s->dx;
+    s->speed = sqrt(9.81 * s->length);
+    make_fluid(s, r);
+    s->g[1] = -9.81;
+    s->field = "standing_wave";
+    s->amplitude = s->length * uniform(r, 0.01, 0.15);
+    s->U = 6.283 * s->amplitude * sqrt(9.81 / (nx * s->dx));
+    s->L = nx * s->dx;
+    s->level = s->lo[1] + s->length;
+    s->sides[2].kind = one_of(r, "slip", "no_slip");
+    s->closed = true;
+    s->shifts_by_L = false;
+    settle(s, r, nx * ny);
+}
+
+const struct family sph_families[] = {{"sph fields", 3, fields},
+                                      {"sph closed", 3, closed},
+                                      {"sph channel", 1.5, channel},
+                                      {"sph tank", 5, tank},
+                                      {"sph tilted", 2, tilted},
+                                      {"sph bodies", 4, bodies},
+                                      {"sph openings", 2, openings},
+                                      {"sph patch or drop", 1, patch_or_drop},
+                                      {"sph jets", 2, jets},
+                                      {"sph wave", 1, wave},
+                                      {NULL, 0, NULL}};
