@@ -31,11 +31,11 @@ struct life {
     struct run_files files;
     struct series *series;
     void *s;
-    int64_t window;     /* of the restart file */
-    double wall0, cpu0; /* s: start of the time loop */
-    double said, every; /* s: last progress line, and how often */
-    double saved;       /* s: wall time of the last restart file */
-    int64_t output;     /* number of the next output time */
+    int64_t window;      /* of the restart file */
+    double began, wall0; /* s: wall time at the start of the program, of the time loop */
+    double said, every;  /* s: last progress line, and how often */
+    double saved;        /* s: wall time of the last restart file */
+    int64_t output;      /* number of the next output time */
     struct diagnosis d;
     const char *status;
 };
@@ -264,7 +264,7 @@ static void summarise(struct life *l)
 {
     struct run *r = &l->r;
     struct summary *s = r->summary;
-    const double wall = wall_time() - l->wall0, cpu = sum_over_ranks(r, cpu_time() - l->cpu0);
+    const double wall = wall_time() - l->began, cpu = sum_over_ranks(r, cpu_time());
     summary_text(s, "status", l->status);
     summary_text(s, "case", r->case_name);
     summary_text(s, "program", r->name);
@@ -273,6 +273,7 @@ static void summarise(struct life *l)
     summary_int(s, "dim", r->scene.domain.dim);
     summary_real(s, "wall_s", wall);
     summary_real(s, "cpu_s", cpu);
+    summary_real(s, "start_s", l->wall0 - l->began); /* of wall_s: before the time loop */
     summary_int(s, "steps", r->step);
     summary_real(s, "t_end", r->t);
     if (!l->d.bad && l->p->finish)
@@ -414,15 +415,15 @@ static void say_number(void *ctx, const char *key, double v)
 static void say_end(const struct life *l)
 {
     const struct run *r = &l->r;
-    const double wall = wall_time() - l->wall0;
+    const double now = wall_time(), wall = now - l->began, loop = now - l->wall0;
     double cpu = 0.0;
     summary_each(r->summary, say_number, NULL);
     summary_find(r->summary, "cpu_s", &cpu);
-    log_say("cost       %.3g s wall on %d rank%s, %.3g s cpu, %lld steps", wall, r->size,
-            r->size == 1 ? "" : "s", cpu, (long long)r->step);
+    log_say("cost       %.3g s wall (start %.2g s) on %d rank%s, %.3g s cpu, %lld steps", wall,
+            wall - loop, r->size, r->size == 1 ? "" : "s", cpu, (long long)r->step);
     for (int k = 0; k < r->timers.n; k++)
         log_say("time       %-22s %10.3f s %5.1f %%", r->timers.of[k].name, r->timers.of[k].wall,
-                100.0 * r->timers.of[k].wall / wall);
+                100.0 * r->timers.of[k].wall / loop);
     if (r->scene.output.snapshots)
         log_say("look       paraview --script=%s/view.py", r->dir);
 }
@@ -493,7 +494,6 @@ static int run_state(struct life *l, struct h5 *restart)
         write_row(l);
     }
     l->wall0 = l->said = l->saved = wall_time();
-    l->cpu0 = cpu_time();
     l->every = 1.0;
     for (int k = 0; k < r->timers.n; k++)
         r->timers.of[k].wall = 0.0; /* the start is not part of the loop */
@@ -560,9 +560,11 @@ static int live(struct life *l)
 
 int run_main(int argc, char **argv, const struct program *p, const struct partner *partner)
 {
+    const double began = wall_time();
     struct life *l = NULL;
     signals_start_mpi(&argc, &argv, p->name);
     l = mem_new(1, sizeof *l);
+    l->began = began;
     l->p = p;
     l->r.name = p->name;
     collect_groups(l);

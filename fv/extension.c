@@ -91,6 +91,7 @@ struct place {
     double e[3][3];
     double depth;            /* m: of the cell over the surface */
     int n, step[STENCIL];    /* known cells around */
+    int room;                /* how many the window could hold */
     double r[STENCIL][3];    /* their places in the frame, in units of h */
     double self[3], spacing; /* the cell's own; h (m) */
 };
@@ -133,17 +134,14 @@ static void make_frame(const struct fv *s, int64_t c, struct place *p)
                      p->e[0][(a + 2) % 3] * p->e[1][(a + 1) % 3];
 }
 
-static bool known(const struct fv *s, int64_t c, int layer)
-{
-    return s->surface->layer[c] < layer && !(s->forcing && s->forcing->forced[c]);
-}
+static bool forced(const struct fv *s, int64_t c) { return s->forcing && s->forcing->forced[c]; }
 
 /* Known cells of a window of 5 cells a side, moved one cell into the water. */
 static void look_around(const struct fv *s, int64_t c, int layer, struct place *p)
 {
     const struct block *b = &s->b;
     int shift[3], d[3];
-    p->n = 0;
+    p->n = p->room = 0;
     for (int a = 0; a < 3; a++)
         shift[a] = a < b->dim ? -(int)lround(p->e[0][a] * 1.2) : 0;
     for (int k = b->dim == 3 ? -2 : 0; k <= (b->dim == 3 ? 2 : 0); k++)
@@ -158,7 +156,10 @@ static void look_around(const struct fv *s, int64_t c, int layer, struct place *
                     step += d[a] * b->stride[a];
                     x[a] = d[a] * b->h[a] + p->depth * p->e[0][a];
                 }
-                if (!known(s, c + step, layer))
+                if (forced(s, c + step))
+                    continue;
+                p->room++;
+                if (s->surface->layer[c + step] >= layer)
                     continue;
                 for (int a = 0; a < 3; a++)
                     p->r[p->n][a] =
@@ -225,6 +226,14 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
     }
 }
 
+/* A film has no slope worth knowing: a quadratic through it overshoots, each layer of dry cells
+ * more than the last, and convection feeds on it. Flat water fills 0.6 of the window, two cells
+ * 0.4. */
+static bool is_thin(const struct fv *s, const struct place *p)
+{
+    return p->n < (s->b.dim == 2 ? THIN : 3 * THIN) || 2 * p->n < p->room;
+}
+
 static void add_carry(struct fv *s, int64_t c, int layer)
 {
     struct surface *f = s->surface;
@@ -239,7 +248,7 @@ static void add_carry(struct fv *s, int64_t c, int layer)
     double *w = f->weight + f->nstencil;
     for (int k = 0; k < p.n; k++)
         f->at[f->nstencil + k] = p.step[k];
-    const bool thin = p.n < (dim == 2 ? THIN : THIN * 3); /* a film has no slope worth knowing */
+    const bool thin = is_thin(s, &p);
     const int order = fit(s, &p, thin ? 0 : layer <= 2 ? 2 : 1, layer == 1, p.self, &q);
     terms(dim, order, layer == 1, p.self, e);
     weights(&q, p.n, e, w);

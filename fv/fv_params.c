@@ -19,7 +19,7 @@ static const struct param rows[] = {
     CHOICE(P, integrator, "rk3|bdf2|newton", "rk3", "three projected stages, two-step backward for slow flows, fully implicit"),
     PARAM(P, tol_pressure, "-", "1e-2", 1e-14, 1, "of the last projection of a step, relative to its divergence"),
     PARAM(P, tol_viscous,  "-", "0.0",  0, 1,     "of the viscous solver; 0: 1e-3, with forced cells 1e-5"),
-    PARAM(P, tol_newton,   "-", "1e-6", 1e-14, 1, "of newton's residual, as a velocity relative to the largest"),
+    PARAM(P, tol_newton,   "-", "0.0",  0, 1,     "of newton's residual, as a velocity relative to the largest; 0: 1e-6, of a steady state 32/n^5, n cells a side, 1e-11 to 1e-6"),
     CHOICE(P, flux, "central|upwind", "central", "newton's convection: with a small dissipation, or upwind (kappa = 1/3)"),
     PARAM(P, c0,           "m/s", "0.0", 0, 1e9,  "newton's sound speed; 0: incompressible"),
     PARAM(P, steady,       "-", "false", 0, 1,    "newton marches to a steady state in pseudo-time; time.end: when it must be there"),

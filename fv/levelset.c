@@ -201,18 +201,21 @@ double surface_volume(const struct fv *s, double *area)
     return sums[0];
 }
 
+/* Newton's iteration; once is enough for what a smooth step loses. */
 void surface_keep_volume(struct fv *s)
 {
     struct surface *f = s->surface;
-    double area;
-    const double volume = surface_volume(s, &area);
-    if (!(area < 0.0))
-        return;
-    double d = (f->volume0 - volume) / area, most = 0.1 * largest_spacing(&s->b);
-    d = fmax(-most, fmin(most, d));
-    for (int64_t i = 0; i < s->b.size; i++)
-        f->phi[i] += d;
-    f->returned += d * area;
+    const double h = largest_spacing(&s->b), most = 0.1 * h;
+    double area, d = INFINITY;
+    for (int it = 0; it < 5 && fabs(d) > 1e-3 * h; it++) {
+        const double volume = surface_volume(s, &area);
+        if (!(area < 0.0))
+            return;
+        d = fmax(-most, fmin(most, (f->volume0 - volume) / area));
+        for (int64_t i = 0; i < s->b.size; i++)
+            f->phi[i] += d;
+        f->returned += d * area;
+    }
 }
 
 struct surface *surface_create(const struct fv *s)

@@ -238,6 +238,7 @@ void mesh_finish(void *state)
     summary_real(r->summary, "us_per_cell_step_outside_hypre",
                  1e6 * (loop - timer_wall(&r->timers, "pressure")) / (cells * steps));
     summary_real(r->summary, "poisson_iterations", (double)s->iterations / steps);
+    summary_int(r->summary, "poisson_iterations_start", s->start_iterations);
     summary_real(r->summary, "poisson_retries", (double)s->retries);
     summary_real(r->summary, "viscous_iterations", (double)s->viscous_iterations / steps);
 }

@@ -37,6 +37,7 @@ struct mesh_flow {
     double dt, dt_old, u_limit, umax, rate, max_cfl;
     double defect; /* largest |net flux that the overlap makes| over U L^(dim-1) */
     double defect_now;
+    int64_t start_iterations; /* of the pressure, before the first step */
     int64_t iterations, viscous_iterations, retries;
     bool failed; /* the pressure solver */
     int nhistory;

@@ -165,6 +165,7 @@ struct mesh_flow *mesh_flow_create(struct run *r, struct h5 *f)
     else
         mesh_project(s, 2, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
     if (s) {
+        s->start_iterations = s->iterations;
         s->iterations = 0;
         mesh_measure(s);
     }

@@ -193,7 +193,7 @@ static bool near_cell(const struct mesh *m, const struct bins *s, const struct m
     for (int64_t k = s->first[bin]; k < s->first[bin + 1]; k++) {
         const double *y = b->centre[s->cell[k]];
         double d = 0.0;
-        for (int c = 0; c < m->dim; c++)
+        for (int c = 0; c < 3; c++) /* in 2D z adds the same to all */
             d += (x[c] - y[c]) * (x[c] - y[c]);
         if (d < best) {
             best = d;

@@ -67,30 +67,53 @@ double surface_level(const struct fv *s, const double *x)
     return sum + (rank == 0 ? b->origin[up] : 0.0);
 }
 
+/* cos and sin of k x over the local cells along an axis, x from 0. */
+static void waves_along(const struct block *b, int a, double k, double *c, double *v)
+{
+    double x[3];
+    for (int i = 0; i < b->n[a]; i++) {
+        block_centre(b, a == 0 ? i : 0, 0, a == 2 ? i : 0, x);
+        c[i] = cos(k * x[a]);
+        v[i] = sin(k * x[a]);
+    }
+}
+
+/* Momentum of a row in the inviscid mode, grad of cosh kz cos ax cos bz: q has sinh, cosh of the
+ * row's height and cos, sin along z. */
+static double row_in_mode(const struct fv *s, int64_t at, const double *c, const double *v,
+                          const double q[4])
+{
+    const double *d = s->exact.along;
+    double sum = 0.0;
+    for (int i = 0; i < s->b.n[0]; i++, at++) {
+        if (s->surface->layer[at] > 2)
+            continue;
+        double m = q[2] * (s->u[1][at] * q[0] * c[i] - d[0] * s->u[0][at] * q[1] * v[i]);
+        if (s->exact.crossed)
+            m -= d[1] * s->u[2][at] * q[1] * c[i] * q[3];
+        sum += surface_share(s, at) * m;
+    }
+    return sum;
+}
+
 /* Momentum in the inviscid mode of the wave. */
 void surface_sample(struct fv *s)
 {
     const struct block *b = &s->b;
-    const struct wave *w = &s->exact.wave;
+    const struct exact *e = &s->exact;
     double sum = 0.0, x[3];
-    if (s->exact.field != FIELD_STANDING_WAVE)
+    if (e->field != FIELD_STANDING_WAVE)
         return;
-    double *c = NEW(double, 2 * b->n[0]), *v = c + b->n[0];
-    for (int i = 0; i < b->n[0]; i++) {
-        block_centre(b, i, 0, 0, x);
-        c[i] = cos(w->k * x[0]);
-        v[i] = sin(w->k * x[0]);
-    }
+    double *c = NEW(double, 2 * (b->n[0] + b->n[2])), *v = c + b->n[0], *cz = v + b->n[0],
+           *vz = cz + b->n[2];
+    waves_along(b, 0, e->wave.k * e->along[0], c, v);
+    waves_along(b, 2, e->crossed ? e->wave.k * e->along[1] : 0.0, cz, vz);
     for (int k = 0; k < b->n[2]; k++)
         for (int j = 0; j < b->n[1]; j++) {
             block_centre(b, 0, j, k, x);
-            const double z = w->k * (x[1] - s->exact.bottom), sh = sinh(z), ch = cosh(z);
-            for (int i = 0; i < b->n[0]; i++) {
-                const int64_t at = block_at(b, i, j, k);
-                if (s->surface->layer[at] <= 2)
-                    sum +=
-                        surface_share(s, at) * (s->u[1][at] * sh * c[i] - s->u[0][at] * ch * v[i]);
-            }
+            const double z = e->wave.k * (x[1] - e->bottom);
+            sum += row_in_mode(s, block_at(b, 0, j, k), c, v,
+                               (const double[]){sinh(z), cosh(z), cz[k], vz[k]});
         }
     mem_free(c);
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);

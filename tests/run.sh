@@ -46,6 +46,18 @@ h5diff -d 1e-12 out/swing/toy_000004.h5 two/toy_000004.h5 >/dev/null || bad "two
 ends 0 "$toy" swing --check -o checked
 [ ! -e checked ] || bad "--check wrote something"
 
+# cpu_s counts all from main() on, as the shell does but for loading the program; wall_s the start, too
+times >t0
+ends 0 "$toy" swing -o counted -p output.snapshots=false
+times >t1
+real() { sed -n "s/^  \"$2\": *\([-0-9.e]*\).*/\1/p" "$1"; }
+awk -v cpu="$(real counted/summary.json cpu_s)" -v wall="$(real counted/summary.json wall_s)" \
+    -v start="$(real counted/summary.json start_s)" '
+    { split($1, u, /[ms]/); split($2, s, /[ms]/); t[FILENAME] = 60 * (u[1] + s[1]) + u[2] + s[2] }
+    END { spent = t["t1"] - t["t0"]; print "cpu_s " cpu " of " spent ", wall_s " wall ", start_s " start
+          exit !(cpu > 0.4 * spent && cpu < spent + 0.03 && start > 0 && start < wall) }' t0 t1 >counts.txt ||
+    bad "what a run costs: $(cat counts.txt)"
+
 # tolerances, refusals, --force, and what --force must leave alone
 sed 's/1e-12/-1/' swing/case.cfg >strict.cfg
 ends 1 "$toy" strict.cfg -p output.snapshots=false

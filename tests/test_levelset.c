@@ -362,6 +362,61 @@ static void odd_water_runs_or_says_why_not(void **state)
     assert_non_null(odd(&none, 1));
 }
 
+/* cos cos of lengths 4 and 3 m over a no-slip bottom: half a length of each between slip sides. */
+static void crossed_waves_swing_as_theory_says(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    double period, rate;
+    fv_case_set(&c, MPI_COMM_WORLD,
+                (const char *const[]){WAVE, "domain.dim=3", "fluid.gravity=(0,-1,0)",
+                                      "domain.max=(2,1.25,1.5)", CLOSED, "initial.L_z=3",
+                                      "fv.cells=(8,40,6)", NULL});
+    struct scene *scene = &c.run.scene;
+    for (int side = SIDE_X_MIN; side <= SIDE_Z_MAX; side++)
+        scene->walls[scene->nwalls++] = (struct scene_wall){
+            .side = side, .kind = side == SIDE_Y_MIN ? WALL_NO_SLIP : WALL_SLIP};
+    struct fv *s = fv_case_start(&c, NULL);
+    assert_true(exact_oscillation(&s->exact, &period, &rate));
+    assert_true(fv_case_run(&c, 10000, 1.9 * period));
+    const double T = fit_period(&s->swing) / period - 1.0, r = fit_rate(&s->swing) / rate - 1.0;
+    print_message("crossed waves: period %.3g, damping %.3g\n", T, r);
+    fv_free(&c.s);
+    assert_close(T, 0.0, 0.002);
+    assert_close(r, 0.0, 0.05);
+}
+
+/* Columns of water that fall and hit sides, lid and each other: on coarse cells, wet bed, drop. */
+static void water_survives_impacts(void **state)
+{
+    (void)state;
+    static const struct scene_shape column = {.form = SHAPE_BOX,
+                                              .box = {{0, 0, 0}, {0.4, 0.6, 0.5}}},
+                                    bed = {.form = SHAPE_BELOW, .level = 0.1};
+    for (int k = 0; k < 2; k++) {
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_WORLD,
+                    (const char *const[]){SURFACE, "domain.dim=3", "fluid.nu=1e-6",
+                                          "fluid.gravity=(0,-9.81,0)", "domain.max=(1,1,1)",
+                                          k ? "fv.cells=(16,16,16)" : "fv.cells=(24,24,24)", NULL});
+        struct scene *scene = &c.run.scene;
+        for (int side = SIDE_X_MIN; side <= SIDE_Z_MAX; side++)
+            scene->walls[scene->nwalls++] = (struct scene_wall){.side = side, .kind = WALL_SLIP};
+        scene->shapes[scene->nshapes++] = column;
+        if (k)
+            scene->shapes[scene->nshapes++] = bed;
+        struct fv *s = fv_case_start(&c, NULL);
+        const double whole = 9.81 * s->surface->volume0 * 0.6;
+        assert_true(fv_case_run(&c, 2000, k ? 1.0 : 0.6));
+        const double v = surface_volume(s, NULL) / s->surface->volume0 - 1.0, K = surface_energy(s);
+        print_message("impact: %d steps, volume %.3g, energy %.3g of %.3g\n", (int)c.run.step, v, K,
+                      whole);
+        assert_close(v, 0.0, 1e-4);
+        assert_true(K < whole);
+        fv_free(&c.s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(disc_turns_once),
@@ -371,7 +426,9 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(wave_swings_as_theory_says),
                                        cmocka_unit_test(ranks_agree),
                                        cmocka_unit_test(restart_is_exact),
-                                       cmocka_unit_test(odd_water_runs_or_says_why_not)};
+                                       cmocka_unit_test(odd_water_runs_or_says_why_not),
+                                       cmocka_unit_test(crossed_waves_swing_as_theory_says),
+                                       cmocka_unit_test(water_survives_impacts)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

@@ -255,6 +255,26 @@ static void walls_of_blocks_move_on_their_own(void **state)
     assert_true(worst < 3e-3); /* an average is compared with a value */
 }
 
+/* A start costs a few cycles of multigrid, as many on sixteen times the cells. */
+static void a_start_is_linear_in_the_cells(void **state)
+{
+    (void)state;
+    int64_t its[2], retries = 0;
+    for (int k = 0; k < 2; k++) {
+        struct mesh_case c;
+        char text[256];
+        const int n = k ? 128 : 32;
+        sized(text, sizeof text, "name = \"a\"; " PERIODIC, n, n, 1);
+        struct mesh_flow *s = mesh_case_start(&c, MPI_COMM_WORLD, text, NULL);
+        its[k] = s->start_iterations;
+        retries += s->retries;
+        mesh_case_end(&c, &s);
+    }
+    print_message("iterations at the start: %d, %d\n", (int)its[0], (int)its[1]);
+    assert_int_equal(retries, 0);
+    assert_true(its[0] > 0 && its[1] < 2 * its[0]);
+}
+
 /* The same flow as fv.cells makes it: one uniform block. */
 static void one_uniform_block_is_the_plain_solver(void **state)
 {
@@ -478,6 +498,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(waves_and_joints_keep_order_three_and_a_half),
         cmocka_unit_test(a_lid_is_one_wall_alone),
         cmocka_unit_test(walls_of_blocks_move_on_their_own),
+        cmocka_unit_test(a_start_is_linear_in_the_cells),
         cmocka_unit_test(one_uniform_block_is_the_plain_solver),
         cmocka_unit_test(ranks_agree),
         cmocka_unit_test(restart_is_exact),
