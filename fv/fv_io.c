@@ -13,12 +13,6 @@
 #include "newton.h"
 #include "outflow.h"
 
-static bool wanted(const struct fv *s, const char *name)
-{
-    const char *at = strstr(s->run->scene.output.fields, name);
-    return at != NULL;
-}
-
 static int64_t local_cells(const struct block *b) { return (int64_t)b->n[0] * b->n[1] * b->n[2]; }
 
 static bool idle(const struct fv *s, int64_t c)
@@ -110,23 +104,23 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
     int nfields = 0;
     double *v = NEW(double, 3 * n), *field = block_field(b);
     write_frame(s, f);
-    if (wanted(s, "velocity")) {
+    if (fv_field_wanted(s->run, "velocity")) {
         write_velocity(s, f, v);
         fields[nfields++] = (struct xdmf_field){"velocity", 3};
     }
-    if (wanted(s, "pressure")) {
+    if (fv_field_wanted(s->run, "pressure")) {
         whole_pressure(s, field);
         block_pack(b, field, v);
         write(s, f, "pressure", "Pa", 1, v);
         fields[nfields++] = (struct xdmf_field){"pressure", 1};
     }
-    if (wanted(s, "vorticity")) {
+    if (fv_field_wanted(s->run, "vorticity")) {
         fv_vorticity(s, field);
         block_pack(b, field, v);
         write(s, f, "vorticity", "1/s", 1, v);
         fields[nfields++] = (struct xdmf_field){"vorticity", 1};
     }
-    if (wanted(s, "vorticity_exact") && exact_at_all_times(&s->run->scene)) {
+    if (fv_field_wanted(s->run, "vorticity_exact") && exact_at_all_times(&s->run->scene)) {
         write_exact(s, f, field, v);
         fields[nfields++] = (struct xdmf_field){"vorticity_exact", 1};
     }
