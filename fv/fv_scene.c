@@ -55,8 +55,8 @@ static void check_wall(const struct run *r, struct faults *f, int k)
 }
 
 /* Outwards through a side whose velocity is given, m^dim/s; of the exact field at the start over 32
- * faces each way. */
-static double side_flux(const struct run *r, const struct exact *e, int a, int up)
+ * faces each way. *size: the sum of its sizes is added. */
+static double side_flux(const struct run *r, const struct exact *e, int a, int up, double *size)
 {
     const struct scene_domain *d = &r->scene.domain;
     const struct scene_wall *w = wall_on(&r->scene, a, up);
@@ -72,16 +72,21 @@ static double side_flux(const struct run *r, const struct exact *e, int a, int u
     for (int t = 0; w && w->kind == WALL_INFLOW && w->profile == PROFILE_PARABOLIC && t < d->dim;
          t++)
         area *= t == a || d->periodic[t] ? 1.0 : 2.0 / 3.0;
-    if (w)
-        return w->kind == WALL_INFLOW ? (up ? 1.0 : -1.0) * area * w->velocity[a] : 0.0;
+    if (w) {
+        sum = w->kind == WALL_INFLOW ? area * w->velocity[a] : 0.0;
+        *size += fabs(sum);
+        return (up ? 1.0 : -1.0) * sum;
+    }
+    area /= n[0] * n[1] * n[2];
     for (int i = 0; i < n[0] * n[1] * n[2]; i++) {
         const int m[3] = {i % n[0], i / n[0] % n[1], i / (n[0] * n[1])};
         for (int t = 0; t < 3; t++)
             x[t] = t == a ? (up ? d->max[t] : d->min[t]) : d->min[t] + (m[t] + 0.5) * h[t];
         exact_face(e, x, h, a, 0.0, u);
-        sum += u[a];
+        sum += area * u[a];
+        *size += area * (fabs(u[0]) + fabs(u[1]) + fabs(u[2]));
     }
-    return (up ? 1.0 : -1.0) * sum * area / (n[0] * n[1] * n[2]);
+    return (up ? 1.0 : -1.0) * sum;
 }
 
 /* What flows in must be able to flow out. */
@@ -98,9 +103,7 @@ static void check_balance(const struct run *r, struct faults *f)
             const struct scene_wall *w = wall_on(s, a, up);
             given = given && !(w && w->kind == WALL_OUTFLOW);
             exact = exact || !w;
-            const double flux = side_flux(r, &e, a, up);
-            net += flux;
-            all += fabs(flux);
+            net += side_flux(r, &e, a, up, &all);
         }
     if (!given || fabs(net) <= 1e-6 * all)
         return;
