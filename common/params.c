@@ -32,7 +32,9 @@ struct params {
     struct override *overrides;
     unsigned long long hash;
     char names[NAMES_SIZE]; /* " sph fv ": groups the case has, the same on all ranks */
-    char *given;            /* " sph.dx walls.[0].kind ": keys with values, the same on all ranks */
+    /* " sph.dx walls.[0].kind ": keys with values, the same on all ranks; again as "sph.dx=" where
+     * the value is the default, as "sph.dx!" where it comes from the command line. */
+    char *given;
 };
 
 /* --- faults --- */
@@ -422,14 +424,22 @@ static struct override *override_of(struct params *p, const char *group, const c
     return found;
 }
 
-static void mark_given(struct params *p, const char *group, int element, const char *key)
+/* mark: "", "=" or "!", see struct params. */
+static void mark_given(struct params *p, const char *group, int element, const char *key,
+                       const char *mark)
 {
     char word[160];
-    const int n = element < 0 ? snprintf(word, sizeof word, "%s.%s ", group, key)
-                              : snprintf(word, sizeof word, "%s.[%d].%s ", group, element, key);
+    const int n = element < 0
+                      ? snprintf(word, sizeof word, "%s.%s%s ", group, key, mark)
+                      : snprintf(word, sizeof word, "%s.[%d].%s%s ", group, element, key, mark);
     const size_t old = strlen(p->given);
     p->given = mem_grow(p->given, old, old + (size_t)n + 1, 1);
     memcpy(p->given + old, word, (size_t)n + 1);
+}
+
+static bool same_value(const struct param *r, const void *a, const void *b)
+{
+    return r->type == PARAM_TEXT ? strcmp(a, b) == 0 : memcmp(a, b, param_size(r)) == 0;
 }
 
 /* element: of a list; -1: a plain group, whose keys the command line may give, too. */
@@ -453,9 +463,16 @@ static void read_row(struct params *p, const struct param_group *g, const struct
                   strcmp(r->unit, "-") ? r->unit : "");
         return;
     }
-    mark_given(p, g->name, element, r->key);
+    mark_given(p, g->name, element, r->key, "");
+    if (o)
+        mark_given(p, g->name, element, r->key, "!");
+    char *before = mem_new(param_size(r), 1);
+    memcpy(before, (char *)target + r->offset, param_size(r));
     if (!get_value(r, s, target, why, sizeof why))
         fault(f, place, "%s", why);
+    else if (r->dflt && same_value(r, before, (char *)target + r->offset))
+        mark_given(p, g->name, element, r->key, "=");
+    mem_free(before);
 }
 
 static const char *nearest_key(const struct param_group *g, const char *key)
@@ -703,17 +720,20 @@ bool params_has_group(const struct params *p, const char *group)
 
 unsigned long long params_hash(const struct params *p) { return p->hash; }
 
-bool params_given(const struct params *p, const char *key)
+static bool marked(const struct params *p, const char *key, const char *mark)
 {
     char word[160];
-    snprintf(word, sizeof word, " %s ", key);
+    snprintf(word, sizeof word, " %s%s ", key, mark);
     return strstr(p->given, word) != NULL;
 }
+
+bool params_given(const struct params *p, const char *key) { return marked(p, key, ""); }
+bool params_on_command_line(const struct params *p, const char *key) { return marked(p, key, "!"); }
 
 void params_unused(const struct params *p, struct faults *f, const char *key, bool used,
                    const char *why)
 {
-    if (!used && params_given(p, key))
+    if (!used && params_given(p, key) && !marked(p, key, "="))
         params_fault(p, f, key, "is not used: %s", why);
 }
 

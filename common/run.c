@@ -17,7 +17,7 @@
 #include "run_files.h"
 #include "xdmf.h"
 
-enum { GROUPS_MAX = SCENE_GROUPS + 8, COLUMNS_MAX = 64 };
+enum { GROUPS_MAX = SCENE_GROUPS + 8, COLUMNS_MAX = 128 };
 
 /* A run with what only this file needs. */
 struct life {

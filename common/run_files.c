@@ -168,25 +168,41 @@ void files_view(const struct run *r)
     FILE *f = r->rank == 0 ? fopen(path, "w") : NULL;
     if (!f)
         return;
-    fputs("# paraview --script=view.py: all programs of the run, coloured by vorticity\n"
+    fputs("# paraview --script=view.py: all programs of the run at its last time\n"
           "import os\n"
           "from paraview.simple import *\n"
           "here = os.path.dirname(os.path.abspath(__file__)) if '__file__' in globals() else "
           "os.getcwd()\n"
           "view = GetActiveViewOrCreate('RenderView')\n"
+          "sources, times = {}, []\n"
           "for name in ('fv', 'sph'):\n"
           "    path = os.path.join(here, name + '.xdmf')\n"
-          "    if not os.path.exists(path):\n"
-          "        continue\n"
-          "    source = XDMFReader(FileNames=[path], guiName=name)\n"
-          "    shown = Show(source, view)\n"
-          "    shown.PointSize = 4\n"
-          "    kind = 'POINTS' if name == 'sph' else 'CELLS'\n"
-          "    fields = source.PointData.keys() if name == 'sph' else source.CellData.keys()\n"
-          "    if 'vorticity' in fields:\n"
-          "        ColorBy(shown, (kind, 'vorticity'))\n"
+          "    if os.path.exists(path):\n"
+          "        sources[name] = XDMFReader(FileNames=[path], guiName=name)\n"
+          "        times += list(sources[name].TimestepValues)\n"
           "GetAnimationScene().UpdateAnimationUsingDataTimeSteps()\n"
-          "ResetCamera(view)\n"
+          "last = max(times) if times else 0.0\n"
+          "GetAnimationScene().AnimationTime = last\n"
+          "view.ViewTime = last\n"
+          "coloured = False\n"
+          "for name, source in sources.items():\n"
+          "    source.UpdatePipeline(last)\n"
+          "    shown = Show(source, view)\n"
+          "    points = name == 'sph'\n"
+          "    if points:\n"
+          "        shown.PointSize = 4\n"
+          "    data = source.PointData if points else source.CellData\n"
+          "    for field in ('vorticity', 'velocity', 'pressure'):\n"
+          "        if field in data.keys():\n"
+          "            ColorBy(shown, ('POINTS' if points else 'CELLS', field))\n"
+          "            shown.RescaleTransferFunctionToDataRange(coloured, False)\n"
+          "            shown.SetScalarBarVisibility(view, True)\n"
+          "            coloured = True\n"
+          "            break\n",
+          f);
+    if (r->scene.domain.dim == 2)
+        fputs("view.InteractionMode = '2D'\n", f);
+    fputs("ResetCamera(view)\n"
           "Render(view)\n",
           f);
     fclose(f);

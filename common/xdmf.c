@@ -143,14 +143,14 @@ static void set_shape(int dim, const int *cells, char *shape, char *nodes, size_
 }
 
 /* Places of the vertices along each axis, written out. */
-static void add_edges(struct xdmf *x, int dim, const int *cells, const double *origin,
-                      const double *spacing, const double *edges, const char *nodes)
+static void add_edges(struct xdmf *x, const int *cells, const double *origin, const double *spacing,
+                      const double *edges, const char *nodes)
 {
     add(x,
-        "<Topology TopologyType=\"%dDRectMesh\" Dimensions=\"%s\"/>\n<Geometry "
-        "GeometryType=\"%s\">",
-        dim, nodes, dim == 2 ? "VXVY" : "VXVYVZ");
-    for (int a = 0; a < dim; a++) {
+        "<Topology TopologyType=\"3DRectMesh\" Dimensions=\"%s\"/>\n<Geometry "
+        "GeometryType=\"VXVYVZ\">",
+        nodes);
+    for (int a = 0; a < 3; a++) {
         add(x, "<DataItem Format=\"XML\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"%d\">",
             cells[a] + 1);
         for (int i = 0; i <= cells[a]; i++)
@@ -160,22 +160,15 @@ static void add_edges(struct xdmf *x, int dim, const int *cells, const double *o
     add(x, "</Geometry>\n");
 }
 
-void xdmf_block(struct xdmf *x, double t, const char *file, int dim, const int *cells,
-                const double *origin, const double *spacing, const double *edges, int nfields,
+void xdmf_block(struct xdmf *x, double t, const char *file, const int *cells, const double *origin,
+                const double *spacing, const double *edges, int nfields,
                 const struct xdmf_field *fields)
 {
     char shape[64], nodes[64];
     add(x, "<Grid Name=\"at\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
-    set_shape(dim, cells, shape, nodes, sizeof shape);
+    set_shape(3, cells, shape, nodes, sizeof shape);
     if (edges)
-        add_edges(x, dim, cells, origin, spacing, edges, nodes);
-    else if (dim == 2)
-        add(x,
-            "<Topology TopologyType=\"2DCoRectMesh\" Dimensions=\"%s\"/>\n<Geometry "
-            "GeometryType=\"ORIGIN_DXDY\"><DataItem Format=\"XML\" Dimensions=\"2\">%.17g "
-            "%.17g</DataItem>"
-            "<DataItem Format=\"XML\" Dimensions=\"2\">%.17g %.17g</DataItem></Geometry>\n",
-            nodes, origin[1], origin[0], spacing[1], spacing[0]);
+        add_edges(x, cells, origin, spacing, edges, nodes);
     else
         add(x,
             "<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"%s\"/>\n<Geometry "
@@ -183,6 +176,22 @@ void xdmf_block(struct xdmf *x, double t, const char *file, int dim, const int *
             "%.17g</DataItem><DataItem Format=\"XML\" Dimensions=\"3\">%.17g %.17g "
             "%.17g</DataItem></Geometry>\n",
             nodes, origin[2], origin[1], origin[0], spacing[2], spacing[1], spacing[0]);
+    add_fields(x, "Cell", shape, file, nfields, fields);
+    add(x, "</Grid>\n");
+    rewrite(x);
+}
+
+void xdmf_flat(struct xdmf *x, double t, const char *file, const char *grid, const int *cells,
+               int nfields, const struct xdmf_field *fields)
+{
+    char shape[64], nodes[64];
+    add(x, "<Grid Name=\"at\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
+    set_shape(2, cells, shape, nodes, sizeof shape);
+    add(x,
+        "<Topology TopologyType=\"2DSMesh\" Dimensions=\"%s\"/>\n<Geometry GeometryType=\"XY\">"
+        "<DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"%s "
+        "2\">%s:/vertices</DataItem></Geometry>\n",
+        nodes, nodes, grid);
     add_fields(x, "Cell", shape, file, nfields, fields);
     add(x, "</Grid>\n");
     rewrite(x);

@@ -11,8 +11,8 @@
 #include "mesh_flow.h"
 #include "rows.h"
 
-static const char *columns[12 + PROBES_MAX] = {"kinetic energy [J]", "largest velocity [m/s]",
-                                               "divergence [m/s]"};
+static const char *columns[12 + 3 * MESH_BLOCKS_MAX + PROBES_MAX] = {
+    "kinetic energy [J]", "largest velocity [m/s]", "divergence [m/s]"};
 static const char *const of_newton[] = {"residual [-]", "pseudo step [s]", "newton iterations [-]",
                                         "krylov vectors [-]"};
 static struct program fv_program; /* its columns depend on the scene */

@@ -86,6 +86,15 @@ extern const struct param_group fv_groups[FV_GROUPS];
 const struct fv_params *fv_params_of(const struct run *r);
 void fv_params_check(const struct run *r, struct faults *f);
 
+/* fv_unused.c: faults of keys that this run does not use. */
+void fv_unused_check(const struct run *r, struct faults *f);
+/* Whether errors against the exact solution are measured. */
+bool fv_measures_errors(const struct run *r);
+/* Whether output.fields has this word. */
+bool fv_field_wanted(const struct run *r, const char *name);
+/* fv_scene.c: faults of a scene on a grid of cells that contradicts itself. */
+void fv_scene_check(const struct run *r, struct faults *f);
+
 /* fv_state.c */
 struct fv *fv_create(struct run *r, struct h5 *f);
 void fv_free(struct fv **s);
@@ -127,6 +136,8 @@ double fv_still_in_exact(const struct fv *s, const double *x);
 /* still.c: along a periodic axis gravity drives the flow; across closed sides the pressure takes it
  * up, 0 at the height `level'. */
 void still_split(const struct scene *scene, double drive[3], double still[3], double *level);
+/* Axis along which gravity is strongest; without gravity the last. */
+int still_upright(const struct scene *scene);
 /* That pressure at x, Pa. */
 double still_pressure(const struct scene *scene, const double still[3], double level,
                       const double *x);
@@ -142,6 +153,8 @@ void measure(struct fv *s);
 /* fv_io.c, fv_errors.c */
 /* Errors of velocity, pressure, vorticity into the summary. */
 void fv_summarise_norms(const struct run *r, const struct norm n[3]);
+/* sqrt(e2/r2); NAN where there is nothing to be relative to. */
+double fv_relative(const struct norm *n);
 /* |curl u|^2 of a cell in local row j, 1/s^2. */
 double fv_curl_squared(const struct fv *s, int64_t c, int j);
 void fv_vorticity(const struct fv *s,

@@ -159,7 +159,7 @@ void fv_row(void *state, double *values)
     if (s->has_exact) {
         struct norm norms[NORMS];
         errors(s, norms);
-        values[n++] = norm_relative_l2(norms);
+        values[n++] = fv_relative(norms);
     }
     if (s->bc) {
         double force[3];
@@ -183,18 +183,24 @@ void fv_row(void *state, double *values)
 
 static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
 
+double fv_relative(const struct norm *n) { return n->r2 > 0.0 ? norm_relative_l2(n) : NAN; }
+
+/* Relative to what does not vanish; else absent. */
 void fv_summarise_norms(const struct run *r, const struct norm n[3])
 {
     const double U = r->scene.initial.U;
-    summary_real(r->summary, "error.velocity_l2", norm_relative_l2(n));
-    summary_real(r->summary, "error.velocity_linf", n[0].emax / U);
+    if (n[0].r2 > 0.0)
+        summary_real(r->summary, "error.velocity_l2", fv_relative(n));
     if (n[1].r2 > 0.0)
         summary_real(r->summary, "error.pressure_l2",
                      norm_rms_mean_free(n + 1) / sqrt(n[1].r2 / n[1].vol));
-    summary_real(r->summary, "error.pressure_rms",
-                 norm_rms_mean_free(n + 1) / (r->scene.fluid.rho * U * U));
     if (n[2].r2 > 0.0)
-        summary_real(r->summary, "error.vorticity_l2", norm_relative_l2(n + 2));
+        summary_real(r->summary, "error.vorticity_l2", fv_relative(n + 2));
+    if (U > 0.0) {
+        summary_real(r->summary, "error.velocity_linf", n[0].emax / U);
+        summary_real(r->summary, "error.pressure_rms",
+                     norm_rms_mean_free(n + 1) / (r->scene.fluid.rho * U * U));
+    }
 }
 
 static void summarise_errors(const struct fv *s)
@@ -204,8 +210,9 @@ static void summarise_errors(const struct fv *s)
     struct norm n[NORMS];
     errors(s, n);
     fv_summarise_norms(r, n);
-    summary_real(r->summary, "error.pressure_offset",
-                 norm_mean(n + 1) / (r->scene.fluid.rho * U * U));
+    if (U > 0.0)
+        summary_real(r->summary, "error.pressure_offset",
+                     norm_mean(n + 1) / (r->scene.fluid.rho * U * U));
     for (int k = 0; r->coupled && k < NORMS; k++)
         norm_tell(r->summary, norm_names[k], n + k);
 }

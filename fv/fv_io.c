@@ -12,12 +12,7 @@
 #include "levelset.h"
 #include "newton.h"
 #include "outflow.h"
-
-static bool wanted(const struct fv *s, const char *name)
-{
-    const char *at = strstr(s->run->scene.output.fields, name);
-    return at != NULL;
-}
+#include "rows.h"
 
 static int64_t local_cells(const struct block *b) { return (int64_t)b->n[0] * b->n[1] * b->n[2]; }
 
@@ -78,6 +73,26 @@ static void write_frame(const struct fv *s, struct h5 *f)
         h5_attribute_real(f, "level", coupling_level(s));
 }
 
+/* Of a flat grid, in the first snapshot alone: they stay. */
+static const char first_snapshot[] = "fv_000000.h5";
+
+static void write_vertices(const struct fv *s, struct h5 *f)
+{
+    const struct block *b = &s->b;
+    int hi[2];
+    for (int a = 0; a < 2; a++)
+        hi[a] = b->hi[a] + (b->hi[a] == b->cells[a]);
+    double *x = NEW(double, 2 * (int64_t)(hi[0] - b->lo[0]) * (hi[1] - b->lo[1])), *to = x;
+    for (int j = b->lo[1]; j < hi[1]; j++)
+        for (int i = b->lo[0]; i < hi[0]; i++) {
+            *to++ = b->origin[0] + i * b->h[0];
+            *to++ = b->rows ? b->rows->edge[j] : b->origin[1] + j * b->h[1];
+        }
+    h5_write_block(f, "vertices", "m", 2, (const int[]){b->cells[0] + 1, b->cells[1] + 1}, b->lo,
+                   hi, 2, x, false);
+    mem_free(x);
+}
+
 static void whole_pressure(const struct fv *s, double *field)
 {
     for (int64_t c = 0; c < s->b.size; c++)
@@ -110,23 +125,25 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
     int nfields = 0;
     double *v = NEW(double, 3 * n), *field = block_field(b);
     write_frame(s, f);
-    if (wanted(s, "velocity")) {
+    if (b->dim == 2 && strcmp(file, first_snapshot) == 0)
+        write_vertices(s, f);
+    if (fv_field_wanted(s->run, "velocity")) {
         write_velocity(s, f, v);
         fields[nfields++] = (struct xdmf_field){"velocity", 3};
     }
-    if (wanted(s, "pressure")) {
+    if (fv_field_wanted(s->run, "pressure")) {
         whole_pressure(s, field);
         block_pack(b, field, v);
         write(s, f, "pressure", "Pa", 1, v);
         fields[nfields++] = (struct xdmf_field){"pressure", 1};
     }
-    if (wanted(s, "vorticity")) {
+    if (fv_field_wanted(s->run, "vorticity")) {
         fv_vorticity(s, field);
         block_pack(b, field, v);
         write(s, f, "vorticity", "1/s", 1, v);
         fields[nfields++] = (struct xdmf_field){"vorticity", 1};
     }
-    if (wanted(s, "vorticity_exact") && exact_at_all_times(&s->run->scene)) {
+    if (fv_field_wanted(s->run, "vorticity_exact") && exact_at_all_times(&s->run->scene)) {
         write_exact(s, f, field, v);
         fields[nfields++] = (struct xdmf_field){"vorticity_exact", 1};
     }
@@ -142,8 +159,10 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
         write(s, f, "forced", "-", 1, v);
         fields[nfields++] = (struct xdmf_field){"forced", 1};
     }
-    if (x)
-        xdmf_block(x, s->t, file, b->dim, b->cells, b->origin, b->h, b->rows ? b->rows->edge : NULL,
+    if (x && b->dim == 2)
+        xdmf_flat(x, s->t, file, first_snapshot, b->cells, nfields, fields);
+    else if (x)
+        xdmf_block(x, s->t, file, b->cells, b->origin, b->h, b->rows ? b->rows->edge : NULL,
                    nfields, fields);
     mem_free(field);
     mem_free(v);

@@ -58,33 +58,6 @@ static void check_axis(const struct run *r, int a, struct faults *f)
                      n, axes[a]);
 }
 
-/* What flows in must be able to flow out; what this solver does not know. */
-static void check_openings(const struct run *r, struct faults *f)
-{
-    const struct scene *s = &r->scene;
-    bool in = false, out = false;
-    for (int k = 0; k < s->nwalls; k++) {
-        const struct scene_wall *w = s->walls + k;
-        in = in || w->kind == WALL_INFLOW;
-        out = out || w->kind == WALL_OUTFLOW;
-        if (w->carried && (w->kind != WALL_OUTFLOW || given.steady))
-            params_fault(r->params, f, "walls", "wall %d: carried is for an outflow%s", k + 1,
-                         given.steady ? " of a run in time" : "");
-        if (w->side == SIDE_NONE || w->kind == WALL_ABSORBING)
-            params_fault(r->params, f, "walls", "wall %d: %s is not for this solver", k + 1,
-                         w->side == SIDE_NONE ? "a polyline" : "\"absorbing\"");
-    }
-    for (int k = 0; k < s->nprobes; k++)
-        if (s->probes[k].kind == PROBE_LEVEL && !surface_wanted(r))
-            params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
-    for (int a = 0; a < s->domain.dim; a++)
-        for (int k = 0; k < 2; k++)
-            out = out || (!s->domain.periodic[a] &&
-                          !scene_wall_of(s, (enum scene_side)(SIDE_X_MIN + 2 * a + k)));
-    if (in && !out)
-        params_fault(r->params, f, "walls", "an inflow without an outflow");
-}
-
 /* Rows of unequal height: along y, even at the top. */
 static void check_graded(const struct run *r, struct faults *f)
 {
@@ -120,42 +93,26 @@ static void check_graded(const struct run *r, struct faults *f)
                      ratio, given.graded[0]);
 }
 
-static void check_surface(const struct run *r, struct faults *f)
+/* Lines of which a quartic takes the extrema. */
+static void check_extrema(const struct run *r, struct faults *f)
 {
-    const struct scene *s = &r->scene;
-    const double *g = s->fluid.gravity;
-    if (!surface_wanted(r))
+    const double *e = given.extrema;
+    if (e[0] == 0.0)
         return;
-    if (r->coupled)
-        params_fault(r->params, f, "fv.surface", "a coupled run leaves the surface to sph");
-    if (given.integrator != INTEGRATOR_RK3)
-        params_fault(r->params, f, "fv.integrator", "with a free surface rk3 alone");
-    for (int k = 0; k < s->nwalls; k++)
-        if (s->walls[k].kind == WALL_INFLOW || s->walls[k].kind == WALL_OUTFLOW)
-            params_fault(r->params, f, "walls", "wall %d: no openings with a free surface", k + 1);
-    if (given.hole[1][0] > given.hole[0][0])
-        params_fault(r->params, f, "fv.hole", "not with a free surface");
-    if (s->fluid.central != 0.0)
-        params_fault(r->params, f, "fluid.central", "not for this solver");
-    if (s->nbodies > 0)
-        params_fault(r->params, f, "bodies", "not for this solver");
-    for (int a = 0; a < s->domain.dim; a++) {
-        if (s->domain.periodic[a])
-            continue;
-        for (int k = 0; k < 2; k++)
-            if (!scene_wall_of(s, (enum scene_side)(SIDE_X_MIN + 2 * a + k)))
-                params_fault(r->params, f, "walls",
-                             "a free surface needs all sides that are not "
-                             "periodic: %c_%s has none",
-                             "xyz"[a], k ? "max" : "min");
-    }
-    if (s->nshapes == 0 && scene_has_wave(s) && g[1] == 0.0)
-        params_fault(r->params, f, "fluid.gravity", "a wave wants some along y");
+    if (e[1] == 0.0 || e[2] == 0.0)
+        params_fault(r->params, f, "fv.extrema",
+                     "error.extrema is relative to each of them: none may be 0");
+    for (int a = 0; a < 2 && mesh_block_count() == 0; a++)
+        if (given.cells[a] < 8)
+            params_fault(r->params, f, "fv.extrema", "at least 8 cells along %c are wanted",
+                         "xy"[a]);
 }
 
 void fv_params_check(const struct run *r, struct faults *f)
 {
     const bool exact = exact_at_all_times(&r->scene);
+    fv_unused_check(r, f);
+    check_extrema(r, f);
     if (mesh_block_count() > 0) {
         mesh_check(r, f);
         return;
@@ -164,20 +121,12 @@ void fv_params_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "fv.cfl", "%g: bdf2 is stable up to 0.7", given.cfl);
     if (given.integrator == INTEGRATOR_RK3 && given.cfl > 1.1)
         params_fault(r->params, f, "fv.cfl", "%g: rk3 is stable up to 1.1", given.cfl);
-    if (given.integrator != INTEGRATOR_NEWTON && given.steady)
-        params_fault(r->params, f, "fv.steady", "wants fv.integrator = \"newton\"");
-    if (given.integrator != INTEGRATOR_NEWTON && given.c0 > 0.0)
-        params_fault(r->params, f, "fv.c0", "wants fv.integrator = \"newton\"");
-    if (given.integrator != INTEGRATOR_NEWTON && given.flux != FLUX_CENTRAL)
-        params_fault(r->params, f, "fv.flux",
-                     "wants fv.integrator = \"newton\"; rk3 and bdf2 have fv.upwind");
     check_graded(r, f);
-    check_surface(r, f);
     for (int a = 0; a < r->scene.domain.dim; a++) {
         check_axis(r, a, f);
         if (given.hole[1][a] > given.hole[0][a] && (r->coupled || !exact))
             params_fault(r->params, f, "fv.hole",
                          "only a lone run with an exact solution (initial.field) can fill a hole");
     }
-    check_openings(r, f);
+    fv_scene_check(r, f);
 }

@@ -171,6 +171,15 @@ extern int mesh_given_count;
     }
 int mesh_block_count(void);
 const struct mesh_block_params *mesh_block_params(void);
+/* A ring between two walls that the case calls Couette flow: its steady flow is known. */
+bool mesh_ring(const struct run *r);
+/* Whether one of the block's sides is of this kind. */
+bool mesh_block_has(int block, enum mesh_side kind);
+/* Velocity that a wall or an inflow of a block has at x, m/s. */
+void mesh_side_velocity(const struct run *r, const struct mesh_block_params *b, int side,
+                        enum mesh_side kind, const double *x, double *w);
+/* mesh_scene.c: faults of a scene on blocks that contradicts itself. */
+void mesh_scene_check(const struct run *r, struct faults *f, const struct mesh *m);
 /* Faults of the group blocks; makes and frees the mesh. */
 void mesh_check(const struct run *r, struct faults *f);
 void mesh_fault(const struct run *r, struct faults *f, int block, const char *key, const char *fmt,

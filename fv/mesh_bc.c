@@ -161,20 +161,10 @@ bool mesh_bc_has_walls(const struct mesh *m)
 static void value_at(const struct mesh_flow *s, const struct side *d, const double *x, double t,
                      double *w)
 {
-    const struct mesh_block_params *b = s->m->block[d->p->block].prm;
-    const double spin = d->kind == MESH_WALL && d->a == 0 ? b->spin[d->k % 2] : 0.0;
-    const bool given = b->velocity[0] != 0.0 || b->velocity[1] != 0.0 || b->velocity[2] != 0.0;
-    if (d->kind == MESH_EXACT) {
+    if (d->kind == MESH_EXACT)
         mesh_exact_at(s, x, t, w, NULL, NULL);
-        return;
-    }
-    const bool moves = d->kind == MESH_INFLOW || b->lid == 0 || b->lid == d->k + 1;
-    const double *velocity =
-        d->kind == MESH_INFLOW && !given ? s->run->scene.initial.velocity : b->velocity;
-    for (int c = 0; c < 3; c++)
-        w[c] = moves ? velocity[c] : 0.0;
-    w[0] -= spin * (x[1] - b->centre[1]);
-    w[1] += spin * (x[0] - b->centre[0]);
+    else
+        mesh_side_velocity(s->run, s->m->block[d->p->block].prm, d->k, d->kind, x, w);
 }
 
 /* Gauss points of the face at a place. */
@@ -436,7 +426,8 @@ static void face_force(const struct mesh_flow *s, const struct side *d, int64_t 
     double p[4];
     for (int l = 0; l < 4; l++)
         p[l] = mesh_pressure_at(s, f + (l - 2) * a);
-    const double pf = (7.0 * (p[1] + p[2]) - (p[0] + p[3])) / 12.0;
+    const double pf = (7.0 * (p[1] + p[2]) - (p[0] + p[3])) / 12.0 +
+                      still_pressure(&s->run->scene, s->still, s->level, x);
     for (int q = 0; q < m->dim; q++) {
         force[q] = -pf * m->S[d->a][q][f];
         for (int e = 0; e < m->dim; e++)
@@ -463,10 +454,10 @@ double mesh_bc_net_flux(const struct mesh_flow *s)
     return sum;
 }
 
-void mesh_bc_force(struct mesh_flow *s, double force[3], double *moment)
+void mesh_bc_force(struct mesh_flow *s, double (*force)[4])
 {
-    double sum[4] = {0.0, 0.0, 0.0, 0.0};
     double *both[2] = {s->p, s->p_before};
+    memset(force, 0, (size_t)s->m->nblocks * sizeof *force);
     mesh_fill(s->m, 2, both);
     for (int k = 0; k < 2; k++)
         mesh_bc_pressure(s, both[k]);
@@ -480,11 +471,9 @@ void mesh_bc_force(struct mesh_flow *s, double force[3], double *moment)
             if (s->free[c] > 0.0)
                 face_force(s, d, c, i, j, one);
             for (int q = 0; q < 4; q++)
-                sum[q] += one[q];
+                force[d->p->block][q] += one[q];
             (void)at;
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, s->m->comm);
-    memcpy(force, sum, 3 * sizeof(double));
-    *moment = sum[3];
+    MPI_Allreduce(MPI_IN_PLACE, force, 4 * s->m->nblocks, MPI_DOUBLE, MPI_SUM, s->m->comm);
 }

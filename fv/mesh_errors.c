@@ -105,11 +105,21 @@ double mesh_value_at(const struct mesh_flow *s, const struct overset *o, const d
     return value;
 }
 
+/* Blocks with no-slip walls: each of several has its own forces, too. */
+static bool has_own_forces(int k)
+{
+    int n = 0;
+    for (int b = 0; b < mesh_block_count(); b++)
+        n += mesh_block_has(b, MESH_WALL);
+    return n > 1 && mesh_block_has(k, MESH_WALL);
+}
+
 int mesh_columns(const struct run *r, const char **columns)
 {
     static const char *const names[] = {"kinetic energy [J]", "largest velocity [m/s]",
                                         "divergence [1/s]"};
     static const char *const forces[] = {"force x [N]", "force y [N]", "force z [N]"};
+    static char own[MESH_BLOCKS_MAX][3][PARAM_TEXT_SIZE + 24];
     int n = 0;
     for (int k = 0; k < 3; k++)
         columns[n++] = names[k];
@@ -117,14 +127,31 @@ int mesh_columns(const struct run *r, const char **columns)
     for (int a = 0; a < r->scene.domain.dim; a++)
         columns[n++] = forces[a];
     columns[n++] = "moment z [Nm]";
+    for (int k = 0; k < mesh_block_count(); k++)
+        for (int a = 0; a < r->scene.domain.dim && has_own_forces(k); a++) {
+            snprintf(own[k][a], sizeof own[k][a], "%s force %c [N]", mesh_block_params()[k].name,
+                     "xyz"[a]);
+            columns[n++] = own[k][a];
+        }
     return n + fv_probe_columns(r, columns + n);
+}
+
+/* On all walls; of several blocks the moments have centres of their own. */
+static void whole_force(struct mesh_flow *s, double (*of)[4], double whole[4])
+{
+    mesh_bc_force(s, of);
+    for (int q = 0; q < 4; q++) {
+        whole[q] = 0.0;
+        for (int k = 0; k < s->m->nblocks; k++)
+            whole[q] += of[k][q];
+    }
 }
 
 void mesh_row_values(void *state, double *values)
 {
     struct mesh_flow *s = state;
     const struct scene *scene = &s->run->scene;
-    double sum[2], force[3], moment;
+    double sum[2], force[4], of[MESH_BLOCKS_MAX][4];
     int n = 0;
     energies(s, sum);
     values[n++] = scene->fluid.rho * sum[0];
@@ -133,18 +160,21 @@ void mesh_row_values(void *state, double *values)
     struct norm norms[NORMS];
     if (s->has_exact)
         errors(s, norms);
-    values[n++] = s->has_exact ? norm_relative_l2(norms) : NAN;
-    mesh_bc_force(s, force, &moment);
+    values[n++] = s->has_exact ? fv_relative(norms) : NAN;
+    whole_force(s, of, force);
     for (int a = 0; a < s->m->dim; a++)
         values[n++] = force[a];
-    values[n++] = moment;
+    values[n++] = force[3];
+    for (int k = 0; k < s->m->nblocks; k++)
+        for (int a = 0; a < s->m->dim && has_own_forces(k); a++)
+            values[n++] = of[k][a];
     GROW(s->history, s->nhistory, s->nhistory + 1);
     s->history[s->nhistory][0] = s->t;
     memcpy(s->history[s->nhistory++] + 1, force, 2 * sizeof(double));
     for (int k = 0; k < scene->nprobes; k++) {
         values[n] = mesh_value_at(s, s->search, scene->probes[k].at, 2, NULL);
         MPI_Allreduce(MPI_IN_PLACE, values + n, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
-        n++;
+        values[n++] += still_pressure(scene, s->still, s->level, scene->probes[k].at);
     }
 }
 
@@ -157,7 +187,7 @@ static void summarise_errors(struct mesh_flow *s)
 
 /* Mean and half range of the forces over the second half of the run, frequency of the one along y
  * by the crossings of its mean. */
-static void summarise_forces(const struct mesh_flow *s)
+static void summarise_swing(const struct mesh_flow *s)
 {
     struct summary *to = s->run->summary;
     double mean[2] = {0.0, 0.0}, least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
@@ -201,13 +231,29 @@ static void summarise_forces(const struct mesh_flow *s)
             summary_real(to, names[q], fabs(found[q] / s->prm.force[q] - 1.0));
 }
 
+static void summarise_forces(struct mesh_flow *s)
+{
+    static const char *const names[] = {"force.x", "force.y", "force.z"};
+    double force[4], of[MESH_BLOCKS_MAX][4];
+    char key[PARAM_TEXT_SIZE + 24];
+    whole_force(s, of, force);
+    for (int a = 0; a < s->m->dim; a++)
+        summary_real(s->run->summary, names[a], force[a]);
+    summary_real(s->run->summary, "force.moment", force[3]);
+    for (int k = 0; k < s->m->nblocks; k++)
+        for (int a = 0; a < s->m->dim && has_own_forces(k); a++) {
+            snprintf(key, sizeof key, "force.%s.%c", s->m->block[k].prm->name, "xyz"[a]);
+            summary_real(s->run->summary, key, of[k][a]);
+        }
+    summarise_swing(s);
+}
+
 void mesh_finish(void *state)
 {
     struct mesh_flow *s = state;
     struct run *r = s->run;
-    double sum[2], loop = 0.0, force[3], moment;
+    double sum[2], loop = 0.0;
     static const char *const parts[] = {"operators", "convection", "viscous", "pressure"};
-    static const char *const names[] = {"force.x", "force.y", "force.z"};
     for (int k = 0; k < 4; k++)
         loop += timer_wall(&r->timers, parts[k]);
     summary_int(r->summary, "cells", s->m->computed);
@@ -221,15 +267,10 @@ void mesh_finish(void *state)
     summary_real(r->summary, "divergence", largest_divergence(s));
     if (mesh_bc_pressure_given(s))
         s->defect = fabs(mesh_bc_net_flux(s));
-    if (s->m->has_fringe)
-        summary_real(r->summary, "overlap.net_flux", s->defect / fmax(s->umax, 1e-300));
-    if (mesh_bc_has_walls(s->m)) {
-        mesh_bc_force(s, force, &moment);
-        for (int a = 0; a < s->m->dim; a++)
-            summary_real(r->summary, names[a], force[a]);
-        summary_real(r->summary, "force.moment", moment);
+    if (s->m->has_fringe && s->umax > 0.0) /* relative to the flow, if there is one */
+        summary_real(r->summary, "overlap.net_flux", s->defect / s->umax);
+    if (mesh_bc_has_walls(s->m))
         summarise_forces(s);
-    }
     if (s->prm.extrema[0] != 0.0)
         mesh_summarise_extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);

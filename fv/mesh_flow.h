@@ -18,7 +18,8 @@ struct mesh_flow {
     struct mesh *m;
     struct exact exact;
     bool has_exact;
-    int ring; /* block whose walls make Couette flow in a ring, the exact solution; -1: none */
+    int ring; /* block whose walls make Couette flow in a ring (initial.field = couette); -1: none
+               */
     double nu, t;
     bool uneven;               /* volumes differ: volume averages are not averages in index space */
     double *u[3];              /* m/s */
@@ -76,9 +77,9 @@ double mesh_bc_rate(const struct mesh_flow *s, double *speed);
 /* Through all sides of the case, outwards, over all ranks: what the overlap makes, m^dim/s. */
 double mesh_bc_net_flux(const struct mesh_flow *s);
 bool mesh_bc_has_walls(const struct mesh *m);
-/* Forces on all no-slip walls, N (per metre in 2D), and moment about the centre of the wall's
- * block. */
-void mesh_bc_force(struct mesh_flow *s, double force[3], double *moment);
+/* Forces on the no-slip walls of each block, N (per metre in 2D), and the moment about its centre.
+ */
+void mesh_bc_force(struct mesh_flow *s, double (*force)[4]);
 
 /* mesh_pressure.c: A psi = -div/tau; div with what the overlap makes taken out evenly. */
 void mesh_pressure_create(struct mesh_flow *s);

@@ -90,7 +90,6 @@ void mesh_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
 {
     struct mesh_flow *s = state;
     const struct mesh *m = s->m;
-    const char *const wanted = s->run->scene.output.fields;
     struct xdmf_field fields[4];
     int n = 0, cells[MESH_BLOCKS_MAX][3];
     double *q = mesh_field(m);
@@ -99,18 +98,18 @@ void mesh_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
         write_vertices(s, f, k);
         memcpy(cells[k], m->block[k].n, sizeof cells[k]);
     }
-    if (strstr(wanted, "velocity")) {
+    if (fv_field_wanted(s->run, "velocity")) {
         for (int k = 0; k < m->nblocks; k++)
             write_field(s, f, k, "velocity", "m/s", 3, s->u);
         fields[n++] = (struct xdmf_field){"velocity", 3};
     }
-    if (strstr(wanted, "pressure")) {
+    if (fv_field_wanted(s->run, "pressure")) {
         whole_pressure(s, q);
         for (int k = 0; k < m->nblocks; k++)
             write_field(s, f, k, "pressure", "Pa", 1, &q);
         fields[n++] = (struct xdmf_field){"pressure", 1};
     }
-    if (strstr(wanted, "vorticity")) {
+    if (fv_field_wanted(s->run, "vorticity")) {
         mesh_vorticity(s, q);
         for (int k = 0; k < m->nblocks; k++)
             write_field(s, f, k, "vorticity", "1/s", 1, &q);

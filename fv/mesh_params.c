@@ -58,7 +58,39 @@ void mesh_fault(const struct run *r, struct faults *f, int block, const char *ke
     params_fault(r->params, f, path, "block \"%s\": %s", mesh_given[block].name, text);
 }
 
-/* A lid is a wall, and slides along itself. */
+bool mesh_ring(const struct run *r)
+{
+    const struct mesh_block_params *b = mesh_given;
+    return r->scene.initial.field == FIELD_COUETTE && mesh_given_count == 1 &&
+           b->mapping == MAPPING_ANNULUS && b->i_min == MESH_WALL && b->i_max == MESH_WALL &&
+           b->j_min == MESH_JOINED && b->j_max == MESH_JOINED;
+}
+
+bool mesh_block_has(int block, enum mesh_side kind)
+{
+    const struct mesh_block_params *b = mesh_given + block;
+    const int side[6] = {b->i_min, b->i_max, b->j_min, b->j_max, b->k_min, b->k_max};
+    bool any = false;
+    for (int q = 0; q < 6; q++)
+        any = any || side[q] == (int)kind;
+    return any;
+}
+
+void mesh_side_velocity(const struct run *r, const struct mesh_block_params *b, int side,
+                        enum mesh_side kind, const double *x, double *w)
+{
+    const double spin = kind == MESH_WALL && side < 2 ? b->spin[side] : 0.0;
+    const bool given = b->velocity[0] != 0.0 || b->velocity[1] != 0.0 || b->velocity[2] != 0.0;
+    const bool moves = kind == MESH_INFLOW || b->lid == 0 || b->lid == side + 1;
+    const double *velocity =
+        kind == MESH_INFLOW && !given ? r->scene.initial.velocity : b->velocity;
+    for (int c = 0; c < 3; c++)
+        w[c] = moves ? velocity[c] : 0.0;
+    w[0] -= spin * (x[1] - b->centre[1]);
+    w[1] += spin * (x[0] - b->centre[0]);
+}
+
+/* A lid is a wall that moves. */
 static void check_lid(const struct run *r, struct faults *f, int k)
 {
     const struct mesh_block_params *b = mesh_given + k;
@@ -70,10 +102,6 @@ static void check_lid(const struct run *r, struct faults *f, int k)
         mesh_fault(r, f, k, "lid", "this side is no wall");
     else if (b->velocity[0] == 0.0 && b->velocity[1] == 0.0 && b->velocity[2] == 0.0)
         mesh_fault(r, f, k, "velocity", "the velocity of the lid is wanted");
-    else if (b->velocity[a] != 0.0 && b->angle == 0.0 &&
-             (b->mapping == MAPPING_BOX || b->mapping == MAPPING_STRETCHED))
-        mesh_fault(r, f, k, "velocity", "the lid moves along itself: no component along %c",
-                   "xyz"[a]);
 }
 
 /* Kinds of sides that the dimension has. */
@@ -95,9 +123,6 @@ static void check_block(const struct run *r, struct faults *f, int k)
         mesh_fault(r, f, k, "arc", "first < last is wanted");
     if (b->mapping == MAPPING_FILE && !*b->file)
         mesh_fault(r, f, k, "file", "the name of the file with the vertices is wanted");
-    if (b->mapping != MAPPING_STRETCHED && b->mapping != MAPPING_ANNULUS &&
-        (b->stretch[0] != 0.0 || b->stretch[1] != 0.0 || b->stretch[2] != 0.0))
-        mesh_fault(r, f, k, "stretch", "only the mappings stretched and annulus know it");
     check_lid(r, f, k);
 }
 
@@ -129,5 +154,7 @@ void mesh_check(const struct run *r, struct faults *f)
     if (f->n > before)
         return;
     struct mesh *m = mesh_create(r, f);
+    if (m)
+        mesh_scene_check(r, f, m);
     mesh_free(&m);
 }

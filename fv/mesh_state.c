@@ -78,7 +78,7 @@ static void make_fields(struct mesh_flow *s)
 static void fill(struct mesh_flow *s)
 {
     const struct mesh *m = s->m;
-    const bool at_rest = s->run->scene.initial.field == FIELD_REST;
+    const bool at_rest = s->run->scene.initial.field == FIELD_REST || s->ring >= 0;
     double least = INFINITY, most = 0.0;
     for (int q = 0; q < m->nparts; q++) {
         const struct mesh_part *p = m->part + q;
@@ -110,23 +110,6 @@ static void fill(struct mesh_flow *s)
     }
 }
 
-/* A single ring between two walls, from rest: its steady flow is known. */
-static int find_ring(const struct mesh_flow *s)
-{
-    const struct mesh_block *b = s->m->block;
-    const bool walls = b->side[0] == MESH_WALL && b->side[1] == MESH_WALL;
-    return s->m->nblocks == 1 && b->prm->mapping == MAPPING_ANNULUS && walls ? 0 : -1;
-}
-
-static bool sides_allow_exact(const struct mesh *m)
-{
-    for (int k = 0; k < m->nblocks; k++)
-        for (int q = 0; q < 2 * m->dim; q++)
-            if (m->block[k].side[q] >= MESH_WALL && m->block[k].side[q] <= MESH_OUTFLOW)
-                return false;
-    return true;
-}
-
 struct mesh_flow *mesh_flow_create(struct run *r, struct h5 *f)
 {
     struct mesh_flow *s = NEW(struct mesh_flow, 1);
@@ -140,8 +123,8 @@ struct mesh_flow *mesh_flow_create(struct run *r, struct h5 *f)
     s->m = mesh_create(r, &faults);
     if (!s->m)
         fail("the blocks were good when they were checked");
-    s->ring = find_ring(s);
-    s->has_exact = s->ring >= 0 || (exact_at_all_times(&r->scene) && sides_allow_exact(s->m));
+    s->ring = mesh_ring(r) ? 0 : -1;
+    s->has_exact = fv_measures_errors(r);
     if (s->prm.upwind < 0.0)
         s->prm.upwind = mesh_bc_has_walls(s->m) ? 1.0 : 0.0;
     still_split(&r->scene, s->drive, s->still, &s->level);

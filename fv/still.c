@@ -29,3 +29,12 @@ double still_pressure(const struct scene *scene, const double still[3], double l
     }
     return scene->fluid.rho * (sqrt(g) * level + sum);
 }
+
+int still_upright(const struct scene *scene)
+{
+    const double *g = scene->fluid.gravity;
+    int up = scene->domain.dim - 1;
+    for (int a = 0; a < scene->domain.dim; a++)
+        up = fabs(g[a]) > fabs(g[up]) ? a : up;
+    return up;
+}

@@ -27,26 +27,36 @@ struct mesh_case {
 static inline void mesh_case_read(struct mesh_case *c, MPI_Comm comm, const char *blocks,
                                   const char *const *overrides)
 {
-    static const char text[] =
-        "format = 1;\n"
-        "time: { end = 1.0; };\n"
-        "fluid: { rho = 1.0; nu = 5.0e-3; };\n"
-        "domain: { dim = 2; min = (0, 0, 0); max = (1, 1, 1); periodic = (true, true, true); };\n"
-        "initial: { field = \"two_modes\"; U = 1.0; L = 1.0; velocity = (0.5, 0.25); };\n"
-        "fv: { tol_pressure = 1e-3; };\n";
+    static const char text[] = "format = 1;\n"
+                               "time: { end = 1.0; };\n"
+                               "fluid: { rho = 1.0; nu = 5.0e-3; };\n"
+                               "domain: { dim = %d; %s };\n"
+                               "initial: { field = \"two_modes\"; U = 1.0; L = 1.0; %s };\n"
+                               "fv: { tol_pressure = 1e-3; };\n";
     struct param_group groups[SCENE_GROUPS + FV_GROUPS];
     const char *dir = getenv("TEST_SCRATCH");
-    int n = 0;
+    /* the unit square or cube if a side is periodic, else one that holds all blocks of the tests */
+    static const char *const domains[2][2] = {
+        {"min = (-2, -2); max = (2, 2);", "min = (-2, -2, -2); max = (2, 2, 2);"},
+        {"min = (0, 0); max = (1, 1); periodic = (true, true);",
+         "min = (0, 0, 0); max = (1, 1, 1); periodic = (true, true, true);"}};
+    int n = 0, dim = 2;
+    bool carried = true;
     *c = (struct mesh_case){.run = {.comm = comm, .name = "fv"}};
     MPI_Comm_rank(comm, &c->run.rank);
     MPI_Comm_size(comm, &c->run.size);
     snprintf(c->path, sizeof c->path, "%s/mesh_%d.cfg", dir ? dir : P_tmpdir, (int)getpid());
     snprintf(c->run.case_dir, sizeof c->run.case_dir, "%s", dir ? dir : P_tmpdir);
+    for (; overrides && overrides[n]; n++) {
+        dim = strcmp(overrides[n], "domain.dim=3") == 0 ? 3 : dim;
+        carried = carried && strcmp(overrides[n], "initial.field=\"rest\"") != 0 &&
+                  strcmp(overrides[n], "initial.field=\"couette\"") != 0;
+    }
+    const char *domain = domains[strstr(blocks, "periodic") != NULL][dim == 3];
     FILE *file = fopen(c->path, "w");
-    if (!file || fprintf(file, "%sblocks: ( %s );\n", text, blocks) < 0 || fclose(file) != 0)
+    if (!file || fprintf(file, text, dim, domain, carried ? "velocity = (0.5, 0.25);" : "") < 0 ||
+        fprintf(file, "blocks: ( %s );\n", blocks) < 0 || fclose(file) != 0)
         abort();
-    while (overrides && overrides[n])
-        n++;
     scene_groups(&c->run.scene, groups);
     for (int k = 0; k < FV_GROUPS; k++)
         groups[SCENE_GROUPS + k] = fv_groups[k];

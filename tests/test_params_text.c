@@ -96,7 +96,7 @@ static void a_given_key_that_is_not_used_is_a_fault(void **state)
     (void)state;
     struct faults f;
     struct params *p = read_case("box: {\n  size = 1;\n};\nitems: ( { weight = 3; }, { kind = "
-                                 "\"soft\"; weight = 1; } );",
+                                 "\"soft\"; weight = 2.5; } );",
                                  WITH("box.count=2"), &f);
     assert_true(params_given(p, "box.size"));
     assert_true(params_given(p, "box.count"));
@@ -108,7 +108,10 @@ static void a_given_key_that_is_not_used_is_a_fault(void **state)
     assert_int_equal(f.n, 0);
     params_unused(p, &f, "box.count", false, "nothing is counted");
     params_unused(p, &f, "items.[1].kind", false, "all are soft");
+    params_unused(p, &f, "items.[1].weight", false, "2.5 is the default");
     assert_int_equal(f.n, 2);
+    assert_true(params_on_command_line(p, "box.count"));
+    assert_false(params_on_command_line(p, "box.size"));
     if (rank == 0) {
         assert_non_null(strstr(f.text, "box.count: is not used: nothing is counted\n"));
         assert_non_null(strstr(f.text, ".cfg:4: items.[1].kind: is not used: all are soft\n"));

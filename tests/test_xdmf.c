@@ -76,7 +76,8 @@ static void add(struct xdmf *x, int k, double t, int dim)
     char file[64];
     snprintf(file, sizeof file, "sph_%06d.h5", k);
     if (k % 2)
-        xdmf_block(x, t, file, dim, cells, origin, spacing, NULL, 3, fields);
+        dim == 2 ? xdmf_flat(x, t, file, "sph_000001.h5", cells, 3, fields)
+                 : xdmf_block(x, t, file, cells, origin, spacing, NULL, 3, fields);
     else
         xdmf_points(x, t, file, 1000 + k, dim, 3, fields);
 }
@@ -120,9 +121,8 @@ static void entries_say_what_readers_need(void **state)
     (void)state;
     struct xdmf *x = xdmf_create(path, false, 0);
     add(x, 1, 0.1, 2);
-    assert_int_equal(count("\"2DCoRectMesh\" Dimensions=\"5 9\""), 1);
-    assert_int_equal(count(">2 1<"), 1);
-    assert_int_equal(count(">0.25 0.5<"), 1);
+    assert_int_equal(count("\"2DSMesh\" Dimensions=\"5 9\""), 1);
+    assert_int_equal(count("Dimensions=\"5 9 2\">sph_000001.h5:/vertices<"), 1);
     assert_int_equal(count("Center=\"Cell\""), 3);
     assert_int_equal(count("Dimensions=\"4 8\">sph_000001.h5:/pressure"), 1);
     assert_int_equal(count("Dimensions=\"4 8 2\">sph_000001.h5:/velocity"), 1);
@@ -134,9 +134,16 @@ static void entries_say_what_readers_need(void **state)
     assert_int_equal(count("Dimensions=\"2 4 8\">sph_000003.h5:/pressure"), 1);
     add(x, 4, 0.3, 2);
     assert_int_equal(count("NumberOfElements=\"1004\""), 1);
-    assert_int_equal(count("\"XY\""), 1);
+    assert_int_equal(count("\"XY\""), 2); /* the flat block above and the particles */
     assert_int_equal(count("Dimensions=\"1004 2\">sph_000004.h5:/position"), 1);
     assert_int_equal(count("Center=\"Node\""), 3);
+    const double edges[] = {0, 1, 3, 6, 10};
+    xdmf_block(x, 0.4, "fv_000001.h5", (const int[]){2, 4, 1}, (const double[]){-1, 0, 0},
+               (const double[]){0.5, 4, 2}, edges, 1, fields + 1);
+    assert_int_equal(count("\"3DRectMesh\" Dimensions=\"2 5 3\""), 1);
+    assert_int_equal(count("Dimensions=\"3\">-1 -0.5 0<"), 1);
+    assert_int_equal(count("Dimensions=\"5\">0 1 3 6 10<"), 1);
+    assert_int_equal(count("Dimensions=\"2\">0 2<"), 1);
     xdmf_free(&x);
 }
 
