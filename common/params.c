@@ -32,7 +32,8 @@ struct params {
     struct override *overrides;
     unsigned long long hash;
     char names[NAMES_SIZE]; /* " sph fv ": groups the case has, the same on all ranks */
-    char *given;            /* " sph.dx walls.[0].kind ": keys with values, the same on all ranks */
+    char *given;            /* " sph.dx !sph.dx sph.cfl ": keys with values, with ! those that are
+                               not the default; the same on all ranks */
 };
 
 /* --- faults --- */
@@ -422,11 +423,41 @@ static struct override *override_of(struct params *p, const char *group, const c
     return found;
 }
 
-static void mark_given(struct params *p, const char *group, int element, const char *key)
+/* Bytes that tell two values apart. */
+static size_t value_size(const struct param *r, const char *at)
+{
+    switch (r->type) {
+    case PARAM_REAL:
+        return sizeof(double);
+    case PARAM_INT:
+    case PARAM_CHOICE:
+        return sizeof(int);
+    case PARAM_BOOL:
+        return sizeof(bool);
+    case PARAM_TEXT:
+        return strlen(at) + 1;
+    case PARAM_REALS:
+        return 3 * sizeof(double);
+    case PARAM_INTS:
+        return 3 * sizeof(int);
+    case PARAM_BOOLS:
+        return 3 * sizeof(bool);
+    case PARAM_POINTS:
+        return sizeof(int) +
+               sizeof(double[2]) * (size_t)((const struct param_points *)(const void *)at)->n;
+    default:
+        return 6 * sizeof(double);
+    }
+}
+
+/* A word `group.key', with ! before it if the value is not the default. */
+static void mark_given(struct params *p, const char *mark, const char *group, int element,
+                       const char *key)
 {
     char word[160];
-    const int n = element < 0 ? snprintf(word, sizeof word, "%s.%s ", group, key)
-                              : snprintf(word, sizeof word, "%s.[%d].%s ", group, element, key);
+    const int n = element < 0
+                      ? snprintf(word, sizeof word, "%s%s.%s ", mark, group, key)
+                      : snprintf(word, sizeof word, "%s%s.[%d].%s ", mark, group, element, key);
     const size_t old = strlen(p->given);
     p->given = mem_grow(p->given, old, old + (size_t)n + 1, 1);
     memcpy(p->given + old, word, (size_t)n + 1);
@@ -453,9 +484,16 @@ static void read_row(struct params *p, const struct param_group *g, const struct
                   strcmp(r->unit, "-") ? r->unit : "");
         return;
     }
-    mark_given(p, g->name, element, r->key);
+    const char *at = (const char *)target + r->offset;
+    const size_t size = value_size(r, at);
+    char *before = mem_new(size + 1, 1);
+    memcpy(before, at, size);
     if (!get_value(r, s, target, why, sizeof why))
         fault(f, place, "%s", why);
+    mark_given(p, "", g->name, element, r->key);
+    if (value_size(r, at) != size || memcmp(before, at, size) != 0)
+        mark_given(p, "!", g->name, element, r->key);
+    mem_free(before);
 }
 
 static const char *nearest_key(const struct param_group *g, const char *key)
@@ -713,7 +751,9 @@ bool params_given(const struct params *p, const char *key)
 void params_unused(const struct params *p, struct faults *f, const char *key, bool used,
                    const char *why)
 {
-    if (!used && params_given(p, key))
+    char word[160];
+    snprintf(word, sizeof word, " !%s ", key);
+    if (!used && strstr(p->given, word))
         params_fault(p, f, key, "is not used: %s", why);
 }
 

@@ -89,9 +89,9 @@ unsigned long long params_hash(const struct params *p);
 /* Whether the case or the command line gives a value to `key': "sph.dx", or of an element of a list
  * (from 0) "walls.[0].velocity". Same on all ranks. */
 bool params_given(const struct params *p, const char *key);
-/* A fault where `key' is given and the run has no use for it: "is not used: WHY". A key that
- * changes nothing is a mistake of the case, never passed over in silence. Call on all ranks alike.
- */
+/* A fault where `key' is given, not with its default, and the run has no use for it: "is not used:
+ * WHY". A key that changes nothing is a mistake of the case, never passed over in silence; the
+ * default asks for nothing. Call on all ranks alike. */
 void params_unused(const struct params *p, struct faults *f, const char *key, bool used,
                    const char *why);
 /* Whole text of the case, plain SI, can be run again: keys that are not given stand in comments
