@@ -15,6 +15,7 @@
 #include "mem.h"
 #include "picture.h"
 #include "run_files.h"
+#include "scene_fluid.h"
 #include "xdmf.h"
 
 enum { GROUPS_MAX = SCENE_GROUPS + 8, COLUMNS_MAX = 128 };
@@ -89,6 +90,8 @@ static int read_case(struct life *l)
     r->coupled = r->partner_ctx || (l->line.check && r->scene.has_sph && r->scene.has_fv);
     if (l->faults.n == 0)
         scene_check(&r->scene, l->params, &l->faults);
+    if (l->faults.n == 0)
+        scene_orient(&r->scene);
     if (l->faults.n == 0)
         accept_check(&r->scene, r->case_dir, l->params, &l->faults);
     if (l->faults.n == 0 && l->p->check)

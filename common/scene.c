@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene_check.h"
+
 #define ROWS(r) (r), (int)(sizeof(r) / sizeof *(r))
 
 /* clang-format off */
@@ -34,7 +36,7 @@ static const struct param domain_rows[] = {
 static const struct param initial_rows[] = {
     CHOICE(P, field, "rest|uniform|taylor_green|two_modes|poiseuille|couette|standing_wave|patch|drop|beltrami|stokes", "rest", "field at the start, and the exact solution after it"),
     PARAM(P, U,        "m/s", "1.0", 0, 1e6, "scale of velocity: amplitude of the field, unit of errors"),
-    PARAM(P, L,        "m",   "1.0", 1e-9, 1e9, "wave length of the field"),
+    PARAM(P, L,        "m",   "1.0", 1e-9, 1e9, "length of the field: of a wave, side of the patch, radius of the drop, height of a channel"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "uniform velocity, or the one that carries the field"),
     PARAM(P, amplitude, "m",  "0.0", -1e6, 1e6, "amplitude of a wave"),
     PARAM(P, L_z,      "m",   "0.0", 0, 1e6, "length of a standing wave along z; 0: the same for all z"),
@@ -224,10 +226,15 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
     const int field = s->initial.field;
     if (field == FIELD_BELTRAMI && s->domain.dim < 3)
         params_fault(p, f, "initial.field", "beltrami: a field of three dimensions");
-    if (field == FIELD_STOKES && !(s->fluid.gravity[1] < 0.0))
+    if (scene_has_wave(s) && !(s->fluid.gravity[1] < 0.0))
         params_fault(p, f, "fluid.gravity", "a wave wants some along -y");
     if (s->initial.L_z > 0.0 && (field != FIELD_STANDING_WAVE || s->domain.dim < 3))
         params_fault(p, f, "initial.L_z", "wants a standing wave in three dimensions");
+    const double H = s->domain.max[1] - s->domain.min[1];
+    if ((field == FIELD_POISEUILLE || field == FIELD_COUETTE) && params_given(p, "initial.L") &&
+        fabs(s->initial.L - H) > 1e-9 * H)
+        params_fault(p, f, "initial.L", "%g m: of a channel it is the height, %g m; leave it out",
+                     s->initial.L, H);
     if (field != FIELD_TAYLOR_GREEN && field != FIELD_TWO_MODES && field != FIELD_BELTRAMI &&
         field != FIELD_STOKES)
         return;
@@ -253,4 +260,8 @@ void scene_check(const struct scene *s, const struct params *p, struct faults *f
     check_field(s, p, f);
     check_walls(s, p, f);
     check_shapes(s, p, f);
+    if (f->n)
+        return;
+    scene_check_unused(s, p, f);
+    scene_check_sense(s, p, f);
 }

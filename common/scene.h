@@ -72,6 +72,7 @@ struct scene {
         int side; /* enum scene_side; SIDE_NONE: points */
         struct param_points points;
         bool closed;        /* the last point is joined with the first */
+        bool turned;        /* by scene_orient */
         int kind;           /* enum wall_kind */
         double velocity[3]; /* m/s: of the wall along itself, or of the inflow */
         int profile;        /* of an inflow */
@@ -84,6 +85,7 @@ struct scene {
         char name[PARAM_TEXT_SIZE];
         struct param_points points;
         int kind;                     /* WALL_SLIP or WALL_NO_SLIP */
+        bool turned;                  /* by scene_orient */
         double centre[3];             /* m: of rotation and of moments, at t = 0 */
         double velocity[3];           /* m/s */
         double spin;                  /* rad/s */

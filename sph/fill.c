@@ -1,14 +1,19 @@
 /* fill.c - the first particles: a lattice at cell centres, each rank its own part, where the shapes
- * of the case have fluid and no wall is nearer than 0.3 dx; at rest under gravity with its
- * pressure. SPDX-License-Identifier: BSD-3-Clause */
+ * of the case have fluid and walls leave room for it; at rest under gravity with its pressure.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "../common/exact.h"
+#include "../common/log.h"
+#include "../common/mem.h"
+#include "../common/scene_fluid.h"
+#include "basins.h"
 #include "domain.h"
 #include "eos.h"
+#include "sph_params.h"
 #include "walls.h"
 
 /* In [-1, 1), a function of the particle alone, so the same on any number of ranks
@@ -22,85 +27,121 @@ static double random_of(int64_t id, int axis)
     return (double)(z >> 11) * 0x1p-52 - 1.0;
 }
 
-static bool in_polygon(const struct param_points *p, const double *x)
+/* In a seam: two walls that face each other are less than dx apart here. Nothing can flow there,
+ * and a particle between them would be pressed out. */
+static bool in_seam(const struct walls *w, const double *x, double dx)
 {
-    bool in = false;
-    for (int k = 0, l = p->n - 1; k < p->n; l = k++) {
-        const double *a = p->x[k], *b = p->x[l];
-        if ((a[1] > x[1]) != (b[1] > x[1]) &&
-            x[0] < a[0] + (b[0] - a[0]) * (x[1] - a[1]) / (b[1] - a[1]))
-            in = !in;
+    double foot[2];
+    const struct segment *near = w->segments + walls_nearest(w, x, foot);
+    const double d = hypot(x[0] - foot[0], x[1] - foot[1]);
+    for (int k = 0; k < w->nsegments && d < dx; k++) {
+        const struct segment *g = w->segments + k;
+        const double facing = g->n[0] * near->n[0] + g->n[1] * near->n[1];
+        const double e[2] = {x[0] - g->a[0], x[1] - g->a[1]};
+        const double before = -(e[0] * g->n[0] + e[1] * g->n[1]);
+        const double along = e[0] * g->t[0] + e[1] * g->t[1];
+        if (facing < -0.5 && before >= 0.0 && along >= 0.0 && along <= g->length &&
+            d + before < (1.0 - 1e-6) * dx)
+            return true;
     }
-    return in;
+    return false;
 }
 
-/* Height against gravity (m); without gravity y, in 3D z. */
-static double height(const struct sph *s, const double *x)
+/* Whether walls and bodies leave room for a particle at x. */
+static bool has_room(const struct sph *s, const double *x)
 {
-    const double *g = s->gravity, size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    if (size == 0.0)
-        return x[s->dim - 1];
-    return -(g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) / size;
+    const double least = s->prm.packing > 0 ? 1e-3 * s->dx : 0.3 * s->dx;
+    return !s->walls || s->walls->nsegments == 0 ||
+           (scene_is_room(&s->run->scene, x) && walls_distance(s->walls, x, INFINITY) > least &&
+            !in_seam(s->walls, x, s->dx));
 }
 
-static bool in_shape(const struct sph *s, const struct scene_shape *h, const double *x)
-{
-    bool in = true;
-    double r2 = 0.0;
-    for (int a = 0; a < s->dim; a++) {
-        const bool given =
-            a < 2 || h->box[1][a] > h->box[0][a]; /* a plane box in 3D goes through */
-        in = in && (!given || (x[a] > h->box[0][a] && x[a] < h->box[1][a]));
-        r2 += (x[a] - h->centre[a]) * (x[a] - h->centre[a]);
-    }
-    switch (h->form) {
-    case SHAPE_BOX:
-        return in;
-    case SHAPE_POLYGON:
-        return in_polygon(&h->points, x);
-    case SHAPE_DISC:
-        return r2 < h->radius * h->radius;
-    default:
-        return height(s, x) < h->level;
-    }
-}
-
-/* Whether there is fluid at x, and the velocity that its shape adds. Without shapes the field knows
- * its own. */
-static bool is_fluid(const struct sph *s, const struct exact *e, const double *x, double *velocity)
+/* Cells from the lower corner; from the upper one where only that has a wall of the domain. The
+ * last may reach out of a domain that dx does not divide. */
+static struct lattice lattice_create(const struct sph *s)
 {
     const struct scene *c = &s->run->scene;
-    const struct scene_initial *f = &c->initial;
-    const double least = s->prm.packing > 0 ? 1e-3 * s->dx : 0.3 * s->dx;
-    bool fluid = c->nshapes == 0;
-    velocity[0] = velocity[1] = velocity[2] = 0.0;
-    if (fluid && scene_has_wave(c))
-        fluid = x[1] < exact_surface(e, x[0]);
-    if (fluid && f->field == FIELD_PATCH)
-        fluid = fmax(fabs(x[0]), fabs(x[1])) < 0.5 * f->L;
-    if (fluid && f->field == FIELD_DROP)
-        fluid = x[0] * x[0] + x[1] * x[1] < f->L * f->L;
-    for (int k = 0; k < c->nshapes; k++)
-        if (in_shape(s, c->shapes + k, x)) {
-            fluid = !c->shapes[k].hole;
-            for (int a = 0; a < 3; a++)
-                velocity[a] = c->shapes[k].velocity[a];
-        }
-    return fluid && (!s->walls || walls_distance(s->walls, x, INFINITY) > least);
+    struct lattice l = {.n = {1, 1, 1}, .dx = s->dx};
+    for (int a = 0; a < s->dim; a++) {
+        const struct scene_wall *low = scene_wall_of(c, SIDE_X_MIN + 2 * a);
+        const struct scene_wall *high = scene_wall_of(c, SIDE_X_MIN + 2 * a + 1);
+        const double n = (s->hi[a] - s->lo[a]) / s->dx;
+        l.n[a] = (int)ceil(n - 1e-6);
+        l.origin[a] = high && !low && l.n[a] - n > 1e-6 ? s->hi[a] - l.n[a] * s->dx : s->lo[a];
+    }
+    l.bits = NEW(unsigned char, (size_t)(lattice_cells(&l) / 8 + 1));
+    return l;
 }
 
-static void add(struct sph *s, const struct exact *e, int64_t id, const double *centre)
+/* The range of cells that may have their centre in this rank's part. */
+static void own_cells(const struct sph *s, const struct lattice *l, const double *lo,
+                      const double *hi, int *first, int *last)
 {
-    double x[3] = {0.0, 0.0, 0.0}, u[3], p, more[3];
-    for (int a = 0; a < s->dim; a++)
-        x[a] = centre[a] + (s->prm.noise > 0.0 ? s->prm.noise * s->dx * random_of(id, a) : 0.0);
-    if (!is_fluid(s, e, x, more))
+    for (int a = 0; a < 3; a++) {
+        first[a] = 0;
+        last[a] = 1;
+        if (a >= s->dim)
+            continue;
+        first[a] = (int)fmax(0.0, floor((lo[a] - l->origin[a]) / l->dx) - 1.0);
+        last[a] = (int)fmin(l->n[a], ceil((hi[a] - l->origin[a]) / l->dx) + 1.0);
+    }
+}
+
+static void each_own_cell(struct sph *s, const struct lattice *l,
+                          void (*at)(struct sph *s, const struct lattice *l, int64_t cell,
+                                     const double *centre, void *ctx),
+                          void *ctx)
+{
+    double lo[3], hi[3];
+    int first[3], last[3];
+    domain_bounds(s->domain, lo, hi);
+    own_cells(s, l, lo, hi, first, last);
+    for (int k = first[2]; k < last[2]; k++)
+        for (int j = first[1]; j < last[1]; j++)
+            for (int i = first[0]; i < last[0]; i++) {
+                const int64_t cell = i + l->n[0] * (j + l->n[1] * (int64_t)k);
+                double x[3];
+                bool own = true;
+                lattice_place(l, cell, s->dim, x);
+                for (int a = 0; a < s->dim; a++)
+                    own = own && x[a] >= lo[a] && x[a] < hi[a];
+                if (own)
+                    at(s, l, cell, x, ctx);
+            }
+}
+
+/* Where the particle of a cell starts. */
+static void displace(const struct sph *s, int64_t cell, const double *centre, double *x)
+{
+    for (int a = 0; a < 3; a++)
+        x[a] = centre[a] +
+               (s->prm.noise > 0.0 && a < s->dim ? s->prm.noise * s->dx * random_of(cell, a) : 0.0);
+}
+
+static void mark(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
+                 void *ctx)
+{
+    const struct exact *e = ctx;
+    double x[3];
+    displace(s, cell, centre, x);
+    if (scene_is_fluid(&s->run->scene, e, x, NULL) && has_room(s, x))
+        l->bits[cell >> 3] |= (unsigned char)(1 << (cell & 7));
+}
+
+static void add(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
+                void *ctx)
+{
+    const struct exact *e = ctx;
+    double x[3], u[3], p, more[3];
+    if (!lattice_has(l, cell))
         return;
+    displace(s, cell, centre, x);
+    scene_is_fluid(&s->run->scene, e, x, more);
     exact_point(e, x, 0.0, u, &p, NULL);
     for (int a = 0; a < s->dim; a++)
         u[a] += more[a];
     particles_reserve(&s->p, s->p.n + 1);
-    const int i = particles_add(&s->p, id, ZONE_FREE);
+    const int i = particles_add(&s->p, cell, ZONE_FREE);
     particles_set(s, i, x, u, s->dxD, eos_rho(p, s->rho0, s->c0, s->gamma));
 }
 
@@ -113,55 +154,59 @@ static double density_at_rest(const struct sph *s, double g, double d)
     return s->rho0 * pow(fmax(1.0 + 6.0 * r, 0.1), 1.0 / 6.0);
 }
 
-/* Masses under gravity: p = 0 at the given height, or on top of the fluid. A wave has its own
- * pressure. */
-static void weigh(struct sph *s)
+/* Masses under gravity: p = 0 at the given height, or on top of each water. A wave and a channel
+ * have their own pressure; gravity along a periodic axis drives. */
+static void weigh(struct sph *s, const struct basins *b)
 {
     const struct scene *c = &s->run->scene;
     const struct scene_initial *f = &c->initial;
-    const double *G = s->gravity, g = sqrt(G[0] * G[0] + G[1] * G[1] + G[2] * G[2]);
-    double level = -INFINITY;
+    double still[3];
+    const double g = scene_still_gravity(c, still);
     if (g == 0.0 || scene_has_wave(c) || f->field == FIELD_POISEUILLE)
         return;
     for (int i = 0; i < s->p.n; i++) {
-        double x[3] = {0.0, 0.0, 0.0};
-        memcpy(x, s->p.y + (size_t)i * s->p.nstate, (size_t)s->dim * sizeof *x);
-        level = fmax(level, height(s, x) + 0.5 * s->dx);
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &level, 1, MPI_DOUBLE, MPI_MAX, s->run->comm);
-    level = f->level < LEVEL_TOP ? f->level : level;
-    for (int i = 0; i < s->p.n; i++) {
         double *y = s->p.y + (size_t)i * s->p.nstate, x[3] = {0.0, 0.0, 0.0};
+        double level = basins_level(b, s->p.id[i]);
+        if (isnan(level)) /* falls */
+            continue;
+        level = f->level < LEVEL_TOP ? f->level : level;
         memcpy(x, y, (size_t)s->dim * sizeof *x);
         const double m = y[2 * s->dim + 1];
-        const double more = y[2 * s->dim] * density_at_rest(s, g, level - height(s, x)) / m;
+        const double more = y[2 * s->dim] * density_at_rest(s, g, level - scene_height(c, x)) / m;
         for (int a = 0; a < s->dim; a++)
             y[s->dim + a] *= more;
         y[2 * s->dim + 1] *= more;
     }
 }
 
+static void say_pockets(const struct basins *b)
+{
+    int64_t cells;
+    double x[3];
+    const int n = basins_pockets(b, &cells, x);
+    if (n > 0)
+        log_say("%d pocket(s) that walls cut off, of %lld particle(s) together, hold no water: too "
+                "small to flow; one at (%g, %g) m",
+                n, (long long)cells, x[0], x[1]);
+}
+
 void fill_lattice(struct sph *s)
 {
-    const struct exact e = exact_create(&s->run->scene);
-    double lo[3], hi[3];
-    int first[3] = {0, 0, 0}, last[3] = {1, 1, 1};
-    int64_t cells[3] = {1, 1, 1};
-    domain_bounds(s->domain, lo, hi);
-    for (int a = 0; a < s->dim; a++) { /* the first cuts lie on lattice faces */
-        cells[a] = llround((s->hi[a] - s->lo[a]) / s->dx);
-        first[a] = (int)lround((lo[a] - s->lo[a]) / s->dx);
-        last[a] = (int)lround((hi[a] - s->lo[a]) / s->dx);
-    }
-    for (int k = first[2]; k < last[2]; k++)
-        for (int j = first[1]; j < last[1]; j++)
-            for (int i = first[0]; i < last[0]; i++) {
-                const double x[3] = {s->lo[0] + (i + 0.5) * s->dx, s->lo[1] + (j + 0.5) * s->dx,
-                                     s->lo[2] + (k + 0.5) * s->dx};
-                add(s, &e, i + cells[0] * (j + cells[1] * (int64_t)k), x);
-            }
+    struct exact e = exact_create(&s->run->scene);
+    struct lattice l = lattice_create(s);
+    const int64_t all = lattice_cells(&l), ranks = s->run->size, bytes = all / 8 + 1;
+    const int64_t chunk = (int64_t)1 << 30;
+    each_own_cell(s, &l, mark, &e);
+    for (int64_t at = 0; at < bytes; at += chunk)
+        MPI_Allreduce(MPI_IN_PLACE, l.bits + at, (int)(bytes - at < chunk ? bytes - at : chunk),
+                      MPI_UNSIGNED_CHAR, MPI_BOR, s->run->comm);
+    struct basins *b = basins_create(s, &l);
+    say_pockets(b);
+    basins_clear(b, &l);
+    each_own_cell(s, &l, add, &e);
     pack_start(s, s->prm.packing);
-    weigh(s);
-    const int64_t all = cells[0] * cells[1] * cells[2], ranks = s->run->size;
+    weigh(s, b);
+    basins_free(&b);
+    mem_free(l.bits);
     s->next_id = (all + ranks - 1) / ranks * ranks + s->run->rank;
 }

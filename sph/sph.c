@@ -68,6 +68,18 @@ static void describe_modules(const struct run *r, bool gravity, bool viscous)
     log_say("on: %s; off: %s", *text[0] ? text[0] : "nothing more", text[1]);
 }
 
+/* Lines that ran the other way. */
+static void say_turned(const struct scene *c)
+{
+    for (int k = 0; k < c->nwalls; k++)
+        if (c->walls[k].turned)
+            log_say("wall %d: its points had the fluid on their right: turned", k + 1);
+    for (int k = 0; k < c->nbodies; k++)
+        if (c->bodies[k].turned)
+            log_say("body %d (%s): its points ran counter-clockwise: turned", k + 1,
+                    c->bodies[k].name);
+}
+
 static void describe_scene(const struct run *r)
 {
     static const char *const schemes[] = {"Riemann ALE (Vila)", "Riemann without mass flux (Leduc)",
@@ -87,6 +99,7 @@ static void describe_scene(const struct run *r)
             riemann && prm->damper > 0.0 ? ", acoustic damper" : "",
             prm->background ? ", background pressure" : "");
     describe_modules(r, gravity, viscous);
+    say_turned(&r->scene);
     if (sph_params_zones(r)) {
         double lo[3], hi[3], transition, buffer;
         zones_widths(r, prm, &transition, &buffer);

@@ -2,10 +2,8 @@
 #include "sph_params.h"
 
 #include <math.h>
-#include <stdio.h>
-
-#include "../common/mem.h"
-#include "walls.h"
+#include "sph_sense.h"
+#include "sph_unused.h"
 #include "zones.h"
 
 static struct sph_params given; /* as the case has it: the target of the table */
@@ -246,6 +244,15 @@ static bool whole(double length, double dx)
     return fabs(n - round(n)) < 1e-6;
 }
 
+/* Whether the rows of particles must end on both sides of the region: where it repeats itself,
+ * opens or has a wall on both. Else the lattice ends where the fluid does. */
+static bool wants_rows(const struct run *r, int a)
+{
+    const struct scene *c = &r->scene;
+    return c->domain.periodic[a] || sph_params_zones(r) ||
+           (scene_wall_of(c, SIDE_X_MIN + 2 * a) && scene_wall_of(c, SIDE_X_MIN + 2 * a + 1));
+}
+
 static void check_axis(const struct run *r, int a, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -261,11 +268,17 @@ static void check_axis(const struct run *r, int a, struct faults *f)
                      hi[a], d->min[a], d->max[a]);
         return;
     }
-    if (!whole(lo[a] - d->min[a], given.dx) || !whole(hi[a] - d->min[a], given.dx))
+    if (has_box() && (!whole(lo[a] - d->min[a], given.dx) || !whole(hi[a] - d->min[a], given.dx)))
         params_fault(
-            r->params, f, has_box() ? "sph.box" : "sph.dx",
+            r->params, f, "sph.box",
             "%c from %g to %g m: both must lie a whole number of dx = %g m from domain.min",
             axes[a], lo[a], hi[a], given.dx);
+    else if (wants_rows(r, a) && !whole(length, given.dx))
+        params_fault(r->params, f, "sph.dx",
+                     "%g m: %c from %g to %g m is no whole number of dx, which a period, two walls "
+                     "or open sides want; %.6g and %.6g m are",
+                     given.dx, axes[a], lo[a], hi[a], length / ceil(length / given.dx),
+                     length / fmax(floor(length / given.dx), 1.0));
     if (periodic[a] && length <= 2.0 * 1.15 * R)
         params_fault(
             r->params, f, "sph.dx",
@@ -288,25 +301,6 @@ static void check_zones(const struct run *r, struct faults *f)
         }
 }
 
-/* Motion files can be read and are rows of four numbers with rising times. */
-static void check_motions(const struct run *r, struct faults *f)
-{
-    for (int k = 0; k < r->scene.nbodies; k++) {
-        const char *file = r->scene.bodies[k].motion;
-        char path[1024 + PARAM_TEXT_SIZE];
-        double *motion = NULL;
-        if (!*file)
-            continue;
-        snprintf(path, sizeof path, "%s/%s", r->case_dir, file);
-        const int n = walls_read_motion(path, &motion);
-        mem_free(motion);
-        if (n <= 0)
-            params_fault(r->params, f, "bodies", "body %d: motion %s: %s", k + 1, path,
-                         n < 0 ? "no such file"
-                               : "rows of t, x, y, angle with rising times are wanted");
-    }
-}
-
 bool sph_params_walls(const struct run *r) { return has_walls(&r->scene, sph_params_of(r)); }
 
 void sph_params_check(const struct run *r, struct faults *f)
@@ -321,14 +315,11 @@ void sph_params_check(const struct run *r, struct faults *f)
             "eulerian needs scheme \"riemann_ale\": without mass flux there is no Eulerian form");
     if (!is_riemann(sph_params_of(r)->scheme) && given.walls == WALLS_NFM && sph_params_walls(r))
         params_fault(r->params, f, "sph.walls", "nfm needs a Riemann scheme: take ghosts");
-    if (given.background && sph_params_of(r)->surface == SURFACE_YES)
-        params_fault(r->params, f, "sph.background", "not with a free surface");
     for (int k = 0; k < r->scene.nwalls; k++)
-        if (r->scene.walls[k].carried)
+        if (is_coupled(r) && r->scene.walls[k].carried)
             params_fault(r->params, f, "walls", "wall %d: carried is not for this solver", k + 1);
     if (sph_params_of(r)->c0 <= 0.0)
         params_fault(r->params, f, "sph.c0", "must be given: the case has no scale of velocity");
-    check_motions(r, f);
     const bool in_3d = r->scene.domain.dim == 3;
     const bool polylines = has_polylines(&r->scene);
     if (in_3d && sph_params_walls(r) && (given.walls == WALLS_NFM || given.walls == WALLS_FIXED))
@@ -346,4 +337,9 @@ void sph_params_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");
     if (f->n == 0 && has_box())
         check_zones(r, f);
+    sph_unused_check(r, &given, sph_params_of(r), f);
+    if (f->n > 0)
+        return;
+    sph_sense_check(r, &given, sph_params_of(r), f);
+    sph_bodies_check(r, sph_params_of(r), f);
 }

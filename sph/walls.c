@@ -172,7 +172,7 @@ static void interpolate(const struct body *b, int column, double t, double *v, d
     *ddv = (2.0 * c2 + 6.0 * z * c3) / (h * h);
 }
 
-static struct body_motion motion_at(const struct body *b, double t)
+struct body_motion walls_motion(const struct body *b, double t)
 {
     struct body_motion m = {0};
     if (b->nrows > 0) {
@@ -190,7 +190,7 @@ static struct body_motion motion_at(const struct body *b, double t)
     return m;
 }
 
-static void place(const struct body *b, const double *from, double *to)
+void walls_place(const struct body *b, const double *from, double *to)
 {
     const double c = cos(b->now.angle), s = sin(b->now.angle);
     const double d[2] = {from[0] - b->is->centre[0], from[1] - b->is->centre[1]};
@@ -206,10 +206,10 @@ void walls_move(struct sph *s, double t)
     w->t = t;
     for (int k = 0; k < w->nbodies; k++) {
         struct body *b = w->bodies + k;
-        b->now = motion_at(b, t);
+        b->now = walls_motion(b, t);
         for (int i = b->first; i < b->first + b->n; i++) {
-            place(b, w->start[i].a, w->segments[i].a);
-            place(b, w->start[i].b, w->segments[i].b);
+            walls_place(b, w->start[i].a, w->segments[i].a);
+            walls_place(b, w->start[i].b, w->segments[i].b);
             set_frame(w->segments + i);
         }
     }

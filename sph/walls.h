@@ -97,6 +97,9 @@ double walls_pressure(const struct sph *s, int i, const double *x, const double 
  * from them their antisymmetry. What mass they so make or lose is given back to the particles
  * who[n] (NULL: all) in proportion to theirs. Collective. */
 void walls_keep_mass(struct sph *s, int n, const int *who);
+/* Motion of a body at time t; place of a point of it, at `from' at t = 0, under b->now. */
+struct body_motion walls_motion(const struct body *b, double t);
+void walls_place(const struct body *b, const double *from, double *to);
 /* Motion file of a body: rows of four numbers, times rising. -1: no such file, 0: bad rows. */
 int walls_read_motion(const char *path, double **rows);
 

@@ -1,0 +1,165 @@
+/* scene_fluid.c - see scene_fluid.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "scene_fluid.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "scene_geometry.h"
+
+double scene_still_gravity(const struct scene *s, double still[3])
+{
+    double g2 = 0.0;
+    for (int a = 0; a < 3; a++) {
+        still[a] = a < s->domain.dim && !s->domain.periodic[a] ? s->fluid.gravity[a] : 0.0;
+        g2 += still[a] * still[a];
+    }
+    return sqrt(g2);
+}
+
+double scene_height(const struct scene *s, const double *x)
+{
+    double g[3];
+    const double size = scene_still_gravity(s, g);
+    if (size == 0.0)
+        return x[s->domain.dim - 1];
+    return -(g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) / size;
+}
+
+void scene_heights(const struct scene *s, double *low, double *high)
+{
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (int k = 0; k < 8; k++) {
+        double x[3] = {0.0, 0.0, 0.0};
+        for (int a = 0; a < s->domain.dim; a++)
+            x[a] = k >> a & 1 ? s->domain.max[a] : s->domain.min[a];
+        *low = fmin(*low, scene_height(s, x));
+        *high = fmax(*high, scene_height(s, x));
+    }
+}
+
+bool scene_in_shape(const struct scene *s, const struct scene_shape *h, const double *x)
+{
+    const struct line polygon = line_of(&h->points, true);
+    bool in = true;
+    double r2 = 0.0;
+    for (int a = 0; a < s->domain.dim; a++) {
+        const bool given =
+            a < 2 || h->box[1][a] > h->box[0][a]; /* a plane box in 3D goes through */
+        in = in && (!given || (x[a] > h->box[0][a] && x[a] < h->box[1][a]));
+        r2 += (x[a] - h->centre[a]) * (x[a] - h->centre[a]);
+    }
+    switch (h->form) {
+    case SHAPE_BOX:
+        return in;
+    case SHAPE_POLYGON:
+        return line_inside(&polygon, x);
+    case SHAPE_DISC:
+        return r2 < h->radius * h->radius;
+    default:
+        return scene_height(s, x) < h->level;
+    }
+}
+
+bool scene_is_fluid(const struct scene *s, const struct exact *e, const double *x, double *velocity)
+{
+    const struct scene_initial *f = &s->initial;
+    const struct scene_shape *in = NULL;
+    bool fluid = s->nshapes == 0;
+    if (fluid && scene_has_wave(s))
+        fluid = x[1] < exact_surface(e, x[0]);
+    if (fluid && f->field == FIELD_PATCH)
+        fluid = fmax(fabs(x[0]), fabs(x[1])) < 0.5 * f->L;
+    if (fluid && f->field == FIELD_DROP)
+        fluid = x[0] * x[0] + x[1] * x[1] < f->L * f->L;
+    for (int k = 0; k < s->nshapes; k++)
+        if (scene_in_shape(s, s->shapes + k, x))
+            in = s->shapes + k;
+    for (int a = 0; velocity && a < 3; a++)
+        velocity[a] = in ? in->velocity[a] : 0.0;
+    return in ? !in->hole : fluid;
+}
+
+bool scene_is_room(const struct scene *s, const double *x)
+{
+    for (int k = 0; k < s->nbodies; k++) {
+        const struct line l = line_of(&s->bodies[k].points, true);
+        if (line_inside(&l, x))
+            return false;
+    }
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct line l = line_of(&s->walls[k].points, true);
+        if (s->walls[k].closed && line_inside(&l, x) != (line_area(&l) > 0.0))
+            return false;
+    }
+    return true;
+}
+
+static bool wet(const struct scene *s, const struct exact *e, const double *x)
+{
+    for (int a = 0; a < 2; a++)
+        if (x[a] <= s->domain.min[a] || x[a] >= s->domain.max[a])
+            return false;
+    return scene_is_fluid(s, e, x, NULL);
+}
+
+/* Shares of a line's length that have fluid close by on the left and on the right. */
+static void sides_of(const struct scene *s, const struct line *l, double share[2])
+{
+    const struct exact e = exact_create(s);
+    const double whole = line_length(l), off = 1e-4 * line_size(l);
+    enum { PLACES = 400 };
+    share[0] = share[1] = 0.0;
+    for (int k = 0; k < line_segments(l); k++) {
+        const double *a = l->x[k], *b = l->x[(k + 1) % l->n];
+        const double d[2] = {b[0] - a[0], b[1] - a[1]}, length = hypot(d[0], d[1]);
+        const int n = 1 + (int)(PLACES * length / whole);
+        for (int i = 0; i < n && length > 0.0; i++)
+            for (int right = 0; right < 2; right++) {
+                const double f = (i + 0.5) / n, h = (right ? -off : off) / length;
+                const double x[3] = {a[0] + f * d[0] - h * d[1], a[1] + f * d[1] + h * d[0], 0.0};
+                share[right] += wet(s, &e, x) ? length / n / whole : 0.0;
+            }
+    }
+}
+
+/* Those of an island between two waters, or of a fillet in a corner, are equal or nearly so: a line
+ * is turned when hardly half as much of it has fluid on its left as on its right; a closed one,
+ * that may be a tank or an island in it, only if all fluid is on its right. */
+static bool is_reversed(const struct scene *s, const struct scene_wall *w)
+{
+    const struct line l = line_of(&w->points, w->closed);
+    double share[2];
+    sides_of(s, &l, share);
+    return share[0] < (w->closed ? 0.01 : 0.5) * share[1];
+}
+
+static void close_line(struct param_points *p, bool *closed)
+{
+    struct line l = line_of(p, *closed);
+    line_trim(&l);
+    p->n = l.n;
+    *closed = l.closed;
+}
+
+void scene_orient(struct scene *s)
+{
+    for (int k = 0; k < s->nbodies; k++) {
+        struct scene_body *b = s->bodies + k;
+        bool closed = true;
+        close_line(&b->points, &closed);
+        const struct line l = line_of(&b->points, true);
+        b->turned = l.n > 2 && line_area(&l) > 0.0;
+        if (b->turned)
+            points_reverse(&b->points);
+    }
+    for (int k = 0; k < s->nwalls; k++) {
+        struct scene_wall *w = s->walls + k;
+        if (w->side != SIDE_NONE || w->points.n < 2)
+            continue;
+        close_line(&w->points, &w->closed);
+        w->turned = is_reversed(s, w);
+        if (w->turned)
+            points_reverse(&w->points);
+    }
+}

@@ -1,0 +1,254 @@
+/* scene_sense.c - what is wrong with a scene whose keys are each in order: components that two
+ * dimensions do not have, lines that are none, walls that pump, water outside the domain.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scene_check.h"
+#include "scene_fluid.h"
+#include "scene_geometry.h"
+
+/* A component along an axis that the case does not have is a mistake. */
+static void check_flat(const struct scene *s, const struct params *p, struct faults *f,
+                       const char *group, int k, const char *name, const double *v)
+{
+    char key[64];
+    if (s->domain.dim == 3 || v[2] == 0.0)
+        return;
+    if (k < 0)
+        snprintf(key, sizeof key, "%s", group);
+    else
+        snprintf(key, sizeof key, "%s.[%d].%s", group, k, name);
+    params_fault(p, f, key, "z component %g in a case of 2 dimensions", v[2]);
+}
+
+static void check_components(const struct scene *s, const struct params *p, struct faults *f)
+{
+    const struct scene_domain *d = &s->domain;
+    check_flat(s, p, f, "domain.min", -1, "", d->min);
+    check_flat(s, p, f, "domain.max", -1, "", d->max);
+    if (d->dim == 2 && d->periodic[2])
+        params_fault(p, f, "domain.periodic", "z in a case of 2 dimensions");
+    for (int k = 0; k < s->nwalls; k++)
+        check_flat(s, p, f, "walls", k, "velocity", s->walls[k].velocity);
+    for (int k = 0; k < s->nbodies; k++) {
+        check_flat(s, p, f, "bodies", k, "centre", s->bodies[k].centre);
+        check_flat(s, p, f, "bodies", k, "velocity", s->bodies[k].velocity);
+        check_flat(s, p, f, "bodies", k, "force", s->bodies[k].force);
+    }
+    for (int k = 0; k < s->nshapes; k++) {
+        check_flat(s, p, f, "shapes", k, "centre", s->shapes[k].centre);
+        check_flat(s, p, f, "shapes", k, "velocity", s->shapes[k].velocity);
+        for (int b = 0; b < 2; b++)
+            check_flat(s, p, f, "shapes", k, "box", s->shapes[k].box[b]);
+    }
+    for (int k = 0; k < s->nprobes; k++)
+        check_flat(s, p, f, "probes", k, "at", s->probes[k].at);
+}
+
+/* --- lines --- */
+
+static void check_line(const struct params *p, struct faults *f, const char *group, int k,
+                       const struct param_points *points, bool closed)
+{
+    static const char *const what[] = {
+        "", "the same point twice in a row: leave one out",
+        "encloses no area: its points lie on one straight line",
+        "goes back over itself: a wall without thickness has no two sides, give it some",
+        "crosses or touches itself: order the points along the outline, or make two lines of it"};
+    struct line l = line_of(points, closed);
+    char key[64];
+    double at[2];
+    if (l.n < (closed ? 3 : 2))
+        return; /* said elsewhere */
+    line_trim(&l);
+    const enum line_fault is = line_check(&l, at);
+    snprintf(key, sizeof key, "%s.[%d].points", group, k);
+    if (is)
+        params_fault(p, f, key, "at (%g, %g) m: %s", at[0], at[1], what[is]);
+}
+
+static void check_lines(const struct scene *s, const struct params *p, struct faults *f)
+{
+    for (int k = 0; k < s->nwalls; k++)
+        if (s->walls[k].side == SIDE_NONE)
+            check_line(p, f, "walls", k, &s->walls[k].points, s->walls[k].closed);
+    for (int k = 0; k < s->nbodies; k++)
+        check_line(p, f, "bodies", k, &s->bodies[k].points, true);
+    for (int k = 0; k < s->nshapes; k++)
+        if (s->shapes[k].form == SHAPE_POLYGON)
+            check_line(p, f, "shapes", k, &s->shapes[k].points, true);
+}
+
+/* --- walls --- */
+
+/* Velocity of a wall across itself; n: unit normal of a side. */
+static void check_pumping(const struct scene *s, const struct params *p, struct faults *f, int k)
+{
+    const struct scene_wall *w = s->walls + k;
+    const double *u = w->velocity, size = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+    double across = 0.0;
+    char key[64];
+    snprintf(key, sizeof key, "walls.[%d].velocity", k);
+    if (w->side != SIDE_NONE)
+        across = fabs(u[(w->side - SIDE_X_MIN) / 2]);
+    const struct line l = line_of(&w->points, w->closed);
+    for (int i = 0; w->side == SIDE_NONE && i < line_segments(&l); i++) {
+        const double *a = l.x[i], *b = l.x[(i + 1) % l.n];
+        const double d[2] = {b[0] - a[0], b[1] - a[1]};
+        across = fmax(across, fabs(u[0] * d[1] - u[1] * d[0]) / hypot(d[0], d[1]));
+    }
+    if (across > 1e-6 * size)
+        params_fault(
+            p, f, key,
+            "%g m/s across the wall, which stays where it is: it would pump fluid through. "
+            "Give the part along it; what moves is a body, what lets in is an inflow",
+            across);
+}
+
+static void check_openings(const struct scene *s, const struct params *p, struct faults *f)
+{
+    int in = -1;
+    bool out = false;
+    for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * s->domain.dim; side++) {
+        const struct scene_wall *w = scene_wall_of(s, (enum scene_side)side);
+        if (w && w->kind == WALL_INFLOW)
+            in = (int)(w - s->walls);
+        /* what a side without a wall is, only the solver knows */
+        out = out || (w ? w->kind > WALL_INFLOW : !s->domain.periodic[(side - SIDE_X_MIN) / 2]);
+    }
+    char key[64];
+    snprintf(key, sizeof key, "walls.[%d].kind", in);
+    if (in >= 0 && !out)
+        params_fault(p, f, key,
+                     "inflow into a closed box: give another side the kind outflow or absorbing");
+}
+
+static void check_walls(const struct scene *s, const struct params *p, struct faults *f)
+{
+    for (int k = 0; k < s->nwalls; k++)
+        if (s->walls[k].kind == WALL_NO_SLIP)
+            check_pumping(s, p, f, k);
+    check_openings(s, p, f);
+}
+
+/* --- water --- */
+
+/* Box around a shape in the plane; false: it has none. */
+static bool extent(const struct scene_shape *h, double lo[2], double hi[2])
+{
+    for (int a = 0; a < 2; a++) {
+        lo[a] = h->form == SHAPE_BOX ? h->box[0][a] : h->centre[a] - h->radius;
+        hi[a] = h->form == SHAPE_BOX ? h->box[1][a] : h->centre[a] + h->radius;
+        for (int k = 0; h->form == SHAPE_POLYGON && k < h->points.n; k++) {
+            lo[a] = fmin(k ? lo[a] : INFINITY, h->points.x[k][a]);
+            hi[a] = fmax(k ? hi[a] : -INFINITY, h->points.x[k][a]);
+        }
+    }
+    return h->form != SHAPE_BELOW;
+}
+
+static void check_shape(const struct scene *s, const struct params *p, struct faults *f, int k)
+{
+    static const char axes[] = "xyz";
+    const struct scene_shape *h = s->shapes + k;
+    const struct scene_domain *d = &s->domain;
+    double lo[2], hi[2], low, high, still[3];
+    const double g = scene_still_gravity(s, still);
+    char key[64];
+    snprintf(key, sizeof key, "shapes.[%d]", k);
+    if (h->hole && k == 0)
+        params_fault(p, f, key,
+                     "a hole takes fluid out of the shapes before it, and there is none");
+    scene_heights(s, &low, &high);
+    if (h->form == SHAPE_BELOW && (h->level <= low || h->level > high + 1e-9 * (high - low)))
+        params_fault(p, f, key, "level %g m is not in the domain, whose heights are %g to %g m%s",
+                     h->level, low, high,
+                     h->level > high ? ": raise domain.max, or lower the level" : "");
+    if (!extent(h, lo, hi))
+        return;
+    for (int a = 0; a < 2; a++) {
+        const double size = 1e-6 * (d->max[a] - d->min[a]);
+        if (hi[a] <= d->min[a] || lo[a] >= d->max[a])
+            params_fault(p, f, key,
+                         "lies outside the domain: %c from %g to %g m, domain %g to %g m", axes[a],
+                         lo[a], hi[a], d->min[a], d->max[a]);
+        else if (!h->hole && s->fluid.gravity[a] <= -0.7 * g && g > 0.0 && hi[a] > d->max[a] + size)
+            params_fault(p, f, key,
+                         "its water stands above the domain: %c up to %g m, domain to %g m: raise "
+                         "domain.max, or end the shape there",
+                         axes[a], hi[a], d->max[a]);
+    }
+}
+
+/* Whether anything can ever set the fluid in motion. */
+static bool is_driven(const struct scene *s)
+{
+    bool any = s->fluid.central != 0.0 || s->initial.field != FIELD_REST || s->nbodies > 0;
+    for (int a = 0; a < 3; a++)
+        any = any || s->fluid.gravity[a] != 0.0;
+    for (int k = 0; k < s->nshapes; k++)
+        for (int a = 0; a < 3; a++)
+            any = any || s->shapes[k].velocity[a] != 0.0;
+    for (int k = 0; k < s->nwalls; k++)
+        for (int a = 0; a < 3; a++)
+            any = any || s->walls[k].velocity[a] != 0.0 || s->walls[k].kind >= WALL_INFLOW;
+    return any;
+}
+
+static void check_water(const struct scene *s, const struct params *p, struct faults *f)
+{
+    for (int k = 0; k < s->nshapes; k++)
+        check_shape(s, p, f, k);
+    if (s->nshapes > 0 && !is_driven(s))
+        params_fault(p, f, "fluid.gravity",
+                     "a free surface, and nothing that moves the fluid: give gravity, "
+                     "fluid.central, or a shape its velocity");
+    for (int a = 0; a < s->domain.dim; a++)
+        if (s->fluid.central > 0.0 && s->domain.periodic[a])
+            params_fault(p, f, "fluid.central",
+                         "its force -W^2 x jumps at a periodic side: take domain.periodic away");
+}
+
+/* --- gauges --- */
+
+static void check_probes(const struct scene *s, const struct params *p, struct faults *f)
+{
+    const struct scene_domain *d = &s->domain;
+    for (int k = 0; k < s->nprobes; k++) {
+        const struct scene_probe *g = s->probes + k;
+        const int axes = g->kind == PROBE_LEVEL ? d->dim - 1 : d->dim;
+        char key[64];
+        snprintf(key, sizeof key, "probes.[%d].at", k);
+        for (int a = 0; a < axes; a++)
+            if (g->at[a] < d->min[a] - 1e-6 * (d->max[a] - d->min[a]) ||
+                g->at[a] > d->max[a] + 1e-6 * (d->max[a] - d->min[a])) {
+                params_fault(p, f, key, "%s: %c = %g m is outside the domain, %g to %g m", g->name,
+                             "xyz"[a], g -> at[a], d -> min[a], d -> max[a]);
+                break;
+            }
+        for (int b = 0; b < s->nbodies && g->kind == PROBE_PRESSURE; b++) {
+            const struct line l = line_of(&s->bodies[b].points, true);
+            if (l.n > 2 && line_inside(&l, g->at) &&
+                line_distance(&l, g->at) > 1e-6 * line_size(&l))
+                params_fault(p, f, key, "%s is inside body %s: put it on its surface", g->name,
+                             s->bodies[b].name);
+        }
+        for (int m = 0; m < k; m++)
+            if (strcmp(g->name, s->probes[m].name) == 0)
+                params_fault(p, f, key, "%s: a gauge of this name is there already", g->name);
+    }
+}
+
+void scene_check_sense(const struct scene *s, const struct params *p, struct faults *f)
+{
+    const int before = f->n;
+    check_components(s, p, f);
+    check_lines(s, p, f);
+    if (f->n > before)
+        return; /* what follows needs sound lines */
+    check_walls(s, p, f);
+    check_water(s, p, f);
+    check_probes(s, p, f);
+}

@@ -1,0 +1,14 @@
+/* sph_sense.h - what no particles can make of a scene that is in order by itself.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_SPH_SENSE_H
+#define SPH_SPH_SENSE_H
+
+#include "sph_params.h"
+
+/* given: as the case has it; used: sph_params_of. */
+void sph_sense_check(const struct run *r, const struct sph_params *given,
+                     const struct sph_params *used, struct faults *f);
+/* sph_bodies.c: motion files, bodies that leave the domain or meet walls and each other. */
+void sph_bodies_check(const struct run *r, const struct sph_params *used, struct faults *f);
+
+#endif
