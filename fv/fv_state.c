@@ -9,6 +9,7 @@
 #include "bc.h"
 #include "forcing.h"
 #include "levelset.h"
+#include "limits.h"
 #include "newton.h"
 #include "outflow.h"
 #include "pressure.h"
@@ -100,14 +101,9 @@ static void empty_hole(struct fv *s)
 static void set_limit(struct fv *s)
 {
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
-    if (s->surface) {
-        double L = 0.0;
-        for (int a = 0; a < s->b.dim; a++)
-            L = fmax(L, s->b.length[a]);
-        s->u_limit = 10.0 * (most + sqrt(2.0 * s->surface->g * L) + 1e-12);
-        return;
-    }
-    s->u_limit = 10.0 * fmax(fmax(most, s->run->scene.initial.U), s->bc ? s->bc->speed : 1e-12);
+    s->scene_speed = limits_reference(s->run);
+    s->reference = fmax(most, s->scene_speed);
+    s->u_limit = 10.0 * s->reference;
 }
 
 void fv_start(struct fv *s)
@@ -155,6 +151,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     HYPRE_Init();
     s->run = r;
     s->prm = *fv_params_of(r);
+    s->prm.cfl = limits_cfl(&s->prm);
     s->nu = r->scene.fluid.nu;
     s->t = r->t;
     s->exact = exact_create(&r->scene);

@@ -367,14 +367,15 @@ double mesh_bc_rate(const struct mesh_flow *s, double *speed)
         const struct side *d = s->bc->side + k;
         SIDE_PLACES(d, 0, i, j, at, c)
         {
-            double w2 = 0.0;
+            double w2 = 0.0, sum = 0.0;
             for (int a = 0; a < m->dim; a++) {
                 double wS = 0.0;
                 for (int q = 0; q < m->dim; q++)
                     wS += d->w[q][at] * m->S[a][q][c + (a == d->a ? d->face : 0)];
-                rate = fmax(rate, fabs(wS) / m->V[c]);
+                sum += fabs(wS);
                 w2 += d->w[a][at] * d->w[a][at];
             }
+            rate = fmax(rate, sum / m->V[c]);
             *speed = fmax(*speed, sqrt(w2));
         }
     }

@@ -8,6 +8,7 @@
 
 #include "../common/log.h"
 #include "../common/mem.h"
+#include "limits.h"
 #include "overset.h"
 
 enum { NORMS = 3 };
@@ -246,8 +247,8 @@ void mesh_progress(void *state, char *line, int size)
 {
     const struct mesh_flow *s = state;
     const double steps = s->run->step > 0 ? (double)s->run->step : 1.0;
-    snprintf(line, (size_t)size, "dt %.3g s  CFL %.2f  pressure %.1f its  |u| %.3g m/s", s->dt,
-             s->max_cfl, (double)s->iterations / steps, s->umax);
+    snprintf(line, (size_t)size, "dt %.3g s (%s)  CFL %.2f  pressure %.1f its  |u| %.3g m/s", s->dt,
+             limit_name(s->limit), s->rate * s->dt, (double)s->iterations / steps, s->umax);
 }
 
 void mesh_describe(const struct run *r)

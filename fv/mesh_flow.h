@@ -34,7 +34,10 @@ struct mesh_flow {
     struct mesh_bc *bc;
     struct mesh_pressure *pressure;
     struct overset *search;
-    double dt, dt_old, u_limit, umax, rate, max_cfl;
+    double dt, dt_old, u_limit, reference, umax, max_cfl;
+    double rate, rise; /* 1/s, 1/s^2: see mesh_measure */
+    enum limit limit;  /* of the last step */
+    struct watches *watches;
     double defect; /* largest |net flux that the overlap makes| over U L^(dim-1) */
     double defect_now;
     int64_t iterations, viscous_iterations, retries;
@@ -70,7 +73,7 @@ void mesh_bc_even(const struct mesh_flow *s, bool odd, double *q);
 void mesh_bc_pressure(const struct mesh_flow *s, double *p);
 void mesh_bc_fluxes(const struct mesh_flow *s, double *const U[3]);
 bool mesh_bc_pressure_given(const struct mesh_flow *s);
-/* Largest |w.S|/V at the sides, over this rank; largest speed. */
+/* Largest sum over the indices of |w.S|/V at the sides, over this rank; largest speed. */
 double mesh_bc_rate(const struct mesh_flow *s, double *speed);
 /* Through all sides of the case, outwards, over all ranks: what the overlap makes, m^dim/s. */
 double mesh_bc_net_flux(const struct mesh_flow *s);

@@ -8,6 +8,7 @@
 
 #include "../common/log.h"
 #include "../common/mem.h"
+#include "limits.h"
 #include "overset.h"
 
 /* Couette flow in a ring: u_theta = A r + B/r. */
@@ -134,6 +135,7 @@ struct mesh_flow *mesh_flow_create(struct run *r, struct h5 *f)
     HYPRE_Init();
     s->run = r;
     s->prm = *fv_params_of(r);
+    s->prm.cfl = limits_cfl(&s->prm);
     s->nu = r->scene.fluid.nu;
     s->t = r->t;
     s->exact = exact_create(&r->scene);
@@ -157,7 +159,8 @@ struct mesh_flow *mesh_flow_create(struct run *r, struct h5 *f)
     double speed = 0.0;
     mesh_bc_rate(s, &speed);
     MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, s->m->comm);
-    s->u_limit = 10.0 * fmax(fmax(s->umax, r->scene.initial.U), fmax(speed, 1e-12));
+    s->reference = fmax(fmax(s->umax, speed), limits_reference(r));
+    s->u_limit = 10.0 * s->reference;
     if (f && !mesh_restore(s, f))
         mesh_flow_free(&s);
     else if (f)
