@@ -11,8 +11,9 @@
 #include "limits.h"
 #include "mesh_flow.h"
 #include "rows.h"
+#include "watches.h"
 
-static const char *columns[12 + PROBES_MAX] = {"kinetic energy [J]", "largest velocity [m/s]",
+static const char *columns[20 + PROBES_MAX] = {"kinetic energy [J]", "largest velocity [m/s]",
                                                "divergence [m/s]"};
 static const char *const of_newton[] = {"residual [-]", "pseudo step [s]", "newton iterations [-]",
                                         "krylov vectors [-]"};
@@ -90,7 +91,7 @@ static double step_mesh(void *s, double t_stop, struct diagnosis *d)
 /* The case has blocks: another state behind the same program. */
 static void *create_mesh(struct run *r, struct h5 *f)
 {
-    fv_program.ncolumns = mesh_columns(r, columns);
+    const int n = mesh_columns(r, columns);
     fv_program.destroy = destroy_mesh;
     fv_program.step = step_mesh;
     fv_program.row = mesh_row_values;
@@ -98,7 +99,9 @@ static void *create_mesh(struct run *r, struct h5 *f)
     fv_program.snapshot = mesh_snapshot;
     fv_program.checkpoint = mesh_checkpoint;
     fv_program.finish = mesh_finish;
-    return mesh_flow_create(r, f);
+    struct mesh_flow *s = mesh_flow_create(r, f);
+    fv_program.ncolumns = n + (s ? watches_columns(s->watches, columns + n) : 0);
+    return s;
 }
 
 static void *create(struct run *r, struct h5 *f)
@@ -120,8 +123,10 @@ static void *create(struct run *r, struct h5 *f)
         for (int a = 0; a < r->scene.domain.dim; a++)
             columns[n++] = reaches[a];
     }
-    fv_program.ncolumns = n + fv_probe_columns(r, columns + n);
-    return fv_create(r, f);
+    n += fv_probe_columns(r, columns + n);
+    struct fv *s = fv_create(r, f);
+    fv_program.ncolumns = n + (s ? watches_columns(s->watches, columns + n) : 0);
+    return s;
 }
 
 static void destroy(void *state)

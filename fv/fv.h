@@ -93,7 +93,7 @@ struct fv {
     enum limit limit;     /* of the last step */
     double max_cfl;
     struct watches *watches; /* watches.h */
-    int64_t iterations; /* of the pressure solver */
+    int64_t iterations;      /* of the pressure solver */
     int64_t viscous_iterations;
 };
 

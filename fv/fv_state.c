@@ -14,6 +14,7 @@
 #include "outflow.h"
 #include "pressure.h"
 #include "rows.h"
+#include "watches.h"
 
 static void make_fields(struct fv *s)
 {
@@ -181,12 +182,17 @@ struct fv *fv_create(struct run *r, struct h5 *f)
         s->newton = newton_create(s);
     measure(s);
     set_limit(s);
+    s->watches = fv_watches_create(s);
     if (!f && s->bc && s->bc->driven)
         meet_pressures(s);
     if (f && !fv_restore(s, f))
         fv_free(&s);
     else
         measure(s);
+    if (s) {
+        s->watches->sum_before = s->umax[0] + s->umax[1] + s->umax[2];
+        s->reference = fmax(s->reference, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
+    }
     return s;
 }
 
@@ -203,6 +209,7 @@ void fv_free(struct fv **sp)
     surface_free(&s->surface);
     fit_free(&s->swing);
     bc_free(&s->bc);
+    watches_free(&s->watches);
     mem_free(s->p);
     mem_free(s->p_before);
     mem_free(s->face);

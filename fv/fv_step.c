@@ -10,6 +10,7 @@
 #include "levelset.h"
 #include "limits.h"
 #include "newton.h"
+#include "watches.h"
 
 /* Largest |u_a| and sum of |u_a|/h_a over all ranks; a value that is not finite makes it so. */
 void measure(struct fv *s)
@@ -146,6 +147,7 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
     s->max_cfl = fmax(s->max_cfl, s->rate * (s->prm.steady ? s->newton->dtau : dt));
     diagnose(s, dt, before * dt, good, d);
     s->u_limit = limits_follow(&s->reference, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
-    run_diagnose(d, s->b.cart);
+    if (!run_diagnose(d, s->b.cart))
+        fv_watches_look(s, d);
     return dt;
 }

@@ -10,6 +10,7 @@
 #include "../common/mem.h"
 #include "limits.h"
 #include "overset.h"
+#include "watches.h"
 
 enum { NORMS = 3 };
 
@@ -147,6 +148,7 @@ void mesh_row_values(void *state, double *values)
         MPI_Allreduce(MPI_IN_PLACE, values + n, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
         n++;
     }
+    watches_values(s->watches, values + n);
 }
 
 static void summarise_errors(struct mesh_flow *s)
@@ -234,6 +236,7 @@ void mesh_finish(void *state)
     if (s->prm.extrema[0] != 0.0)
         mesh_summarise_extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);
+    mesh_watches_end(s);
     const double steps = r->step > 0 ? (double)r->step : 1.0, cells = (double)s->m->computed;
     summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);
     summary_real(r->summary, "us_per_cell_step_outside_hypre",

@@ -78,6 +78,8 @@ double mesh_bc_rate(const struct mesh_flow *s, double *speed);
 /* Through all sides of the case, outwards, over all ranks: what the overlap makes, m^dim/s. */
 double mesh_bc_net_flux(const struct mesh_flow *s);
 bool mesh_bc_has_walls(const struct mesh *m);
+/* What comes in through this rank's sides: energy, work of pressure and of friction, over rho. */
+double mesh_bc_power(struct mesh_flow *s);
 /* Forces on all no-slip walls, N (per metre in 2D), and moment about the centre of the wall's
  * block. */
 void mesh_bc_force(struct mesh_flow *s, double force[3], double *moment);

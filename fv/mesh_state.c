@@ -10,6 +10,7 @@
 #include "../common/mem.h"
 #include "limits.h"
 #include "overset.h"
+#include "watches.h"
 
 /* Couette flow in a ring: u_theta = A r + B/r. */
 static void ring_at(const struct mesh_flow *s, const double *x, double *u, double *p, double *w)
@@ -161,6 +162,7 @@ struct mesh_flow *mesh_flow_create(struct run *r, struct h5 *f)
     MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, s->m->comm);
     s->reference = fmax(fmax(s->umax, speed), limits_reference(r));
     s->u_limit = 10.0 * s->reference;
+    s->watches = mesh_watches_create(s);
     if (f && !mesh_restore(s, f))
         mesh_flow_free(&s);
     else if (f)
@@ -170,6 +172,8 @@ struct mesh_flow *mesh_flow_create(struct run *r, struct h5 *f)
     if (s) {
         s->iterations = 0;
         mesh_measure(s);
+        s->watches->sum_before = s->umax;
+        s->reference = fmax(s->reference, s->umax);
     }
     if (s && !f) {
         memset(s->start[2], 0, (size_t)s->m->size_local * sizeof(double));
@@ -185,6 +189,7 @@ void mesh_flow_free(struct mesh_flow **sp)
         return;
     mesh_pressure_free(&s->pressure);
     mesh_bc_free(&s->bc);
+    watches_free(&s->watches);
     overset_free(&s->search);
     mem_free(s->history);
     double *const one[] = {s->p, s->p_before, s->flux, s->free, s->scale};

@@ -10,6 +10,7 @@
 #include "../common/mem.h"
 #include "limits.h"
 #include "rk3.h"
+#include "watches.h"
 
 static const int none[3] = {0, 0, 0};
 
@@ -342,7 +343,8 @@ double mesh_integrate(struct mesh_flow *s, double t_stop, struct diagnosis *d)
                      : "a smaller fv.cfl, or a larger fv.tol_viscous (1e-4)");
     }
     s->u_limit = limits_follow(&s->reference, s->umax);
-    run_diagnose(d, s->m->comm);
+    if (!run_diagnose(d, s->m->comm))
+        mesh_watches_look(s, d);
     return dt;
 }
 
