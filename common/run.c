@@ -408,6 +408,15 @@ static int loop_coupled(struct life *l)
 
 /* --- end --- */
 
+/* What the program itself found wrong with a run that went through. */
+static bool sound(const struct life *l)
+{
+    const char *why = summary_find_text(l->r.summary, "not_accepted");
+    if (why)
+        log_warn("NOT ACCEPTED %s", why);
+    return !why;
+}
+
 static void say_number(void *ctx, const char *key, double v)
 {
     (void)ctx;
@@ -446,6 +455,8 @@ static int end(struct life *l, int code)
             code = good ? RUN_DONE : RUN_NOT_ACCEPTED;
         }
     }
+    if (code == RUN_DONE && !sound(l))
+        code = RUN_NOT_ACCEPTED;
     write_summary(l);
     if (r->coupled)
         r->partner->close(r->partner_ctx, code, r->summary);

@@ -102,7 +102,8 @@ struct program {
     void (*snapshot)(void *s, struct h5 *f, struct xdmf *x, const char *file);
     /* All that create needs to go on bit for bit (t and step are written by run). */
     void (*checkpoint)(void *s, struct h5 *f);
-    /* Errors, drifts, counts into r->summary; collective. */
+    /* Errors, drifts, counts into r->summary; collective. The text "not_accepted", if it is set,
+     * says why a run that went through is not to be trusted: it ends with RUN_NOT_ACCEPTED. */
     void (*finish)(void *s);
 };
 

@@ -27,6 +27,8 @@ void summary_text(struct summary *s, const char *key, const char *v);
 void summary_texts(struct summary *s, const char *key, int n, const char *const *v);
 /* false if there is no such number. */
 bool summary_find(const struct summary *s, const char *key, double *v);
+/* NULL if there is no such text; as JSON has it, in quotes. Borrowed. */
+const char *summary_find_text(const struct summary *s, const char *key);
 /* Calls f for every number in the order of insertion. */
 void summary_each(const struct summary *s, void (*f)(void *ctx, const char *key, double v),
                   void *ctx);

@@ -125,6 +125,14 @@ bool summary_find(const struct summary *s, const char *key, double *v)
     return false;
 }
 
+const char *summary_find_text(const struct summary *s, const char *key)
+{
+    for (int k = 0; k < s->n; k++)
+        if (!s->of[k].number && strcmp(s->of[k].key, key) == 0)
+            return s->of[k].text;
+    return NULL;
+}
+
 void summary_each(const struct summary *s, void (*f)(void *ctx, const char *key, double v),
                   void *ctx)
 {

@@ -21,8 +21,11 @@ bool watch_judge(struct watch *w, double value, double t, int64_t step, struct d
                  (long long)step);
         snprintf(d->likely, sizeof d->likely, "%s", w->likely);
     } else if (!(value <= w->warn) && !w->warned) {
-        log_warn("t = %.4g s, step %lld: %s: %.3g, sound below %.3g (the run ends at %.3g); %s", t,
-                 (long long)step, w->what, value, w->warn, w->stop, w->likely);
+        char end[48] = "";
+        if (isfinite(w->stop))
+            snprintf(end, sizeof end, " (the run ends at %.3g)", w->stop);
+        log_warn("t = %.4g s, step %lld: %s: %.3g, sound below %.3g%s; %s", t, (long long)step,
+                 w->what, value, w->warn, end, w->likely);
         w->warned = true;
     }
     return stop;

@@ -8,10 +8,12 @@
 #include "../common/mem.h"
 #include "../coupler/cpl_partner.h"
 #include "levelset.h"
+#include "limits.h"
 #include "mesh_flow.h"
 #include "rows.h"
+#include "watches.h"
 
-static const char *columns[12 + 3 * MESH_BLOCKS_MAX + PROBES_MAX] = {
+static const char *columns[20 + 3 * MESH_BLOCKS_MAX + PROBES_MAX] = {
     "kinetic energy [J]", "largest velocity [m/s]", "divergence [m/s]"};
 static const char *const of_newton[] = {"residual [-]", "pseudo step [s]", "newton iterations [-]",
                                         "krylov vectors [-]"};
@@ -44,25 +46,19 @@ static void describe(const struct run *r)
     const struct scene_domain *d = &r->scene.domain;
     const bool viscous = r->scene.fluid.nu > 0.0, water = surface_wanted(r),
                hole = prm->hole[1][0] > prm->hole[0][0] || r->coupled;
-    double cells = 1.0, speed = 0.0, h = INFINITY;
+    double cells = 1.0, h[3] = {1.0, 1.0, 1.0}, least = INFINITY;
     const bool walls = r->scene.nwalls > 0;
     bool closed = false;
     for (int a = 0; a < d->dim; a++) {
         cells *= prm->cells[a];
-        h = fmin(h, a == 1 && prm->graded[1] > 0.0 ? (d->max[1] - prm->graded[0]) / prm->graded[1]
-                                                   : (d->max[a] - d->min[a]) / prm->cells[a]);
-        speed = fmax(speed, fabs(r->scene.initial.velocity[a]));
+        h[a] = a == 1 && prm->graded[1] > 0.0 ? (d->max[1] - prm->graded[0]) / prm->graded[1]
+                                              : (d->max[a] - d->min[a]) / prm->cells[a];
+        least = fmin(least, h[a]);
         for (int k = 0; k < 2 && !d->periodic[a]; k++)
             closed = closed || !scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + 2 * a + k));
     }
-    for (int k = 0; k < r->scene.nwalls; k++)
-        for (int a = 0; a < d->dim; a++)
-            speed = fmax(speed, fabs(r->scene.walls[k].velocity[a]));
-    speed += r->scene.initial.field > FIELD_UNIFORM ? r->scene.initial.U : 0.0;
-    const double *g = r->scene.fluid.gravity;
-    if (water) /* the speed that the shortest waves allow, see projection.c */
-        speed = fmax(speed, 2.0 * sqrt(h * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2])));
-    const double dt = speed > 0.0 ? prm->cfl * h / speed : INFINITY;
+    const struct step_limit step_most = limits_estimate(r, h);
+    const double dt = fmin(step_most.dt, r->scene.time.end);
     const int fields = 4 + 6 * d->dim + (viscous ? 2 * d->dim : 0) + 4;
     log_say("%dD, fourth-order averages, %s, %s", d->dim, integrators[prm->integrator],
             closed  ? "exact velocity on sides without a wall"
@@ -75,9 +71,10 @@ static void describe(const struct run *r)
             hole ? "" : ", forced cells");
     if (prm->graded[1] > 0.0)
         describe_rows(r);
-    log_say("%.0f cells, h %g m, dt about %.3g s (CFL %g), %.0f steps; about %.0f MB", cells, h, dt,
-            prm->cfl, isfinite(dt) ? ceil(r->scene.time.end / dt) : 1.0,
-            8e-6 * cells * fields + 1.0);
+    log_say("%.0f cells, h %g m, dt about %.3g s at the start (%s, CFL %g), %.0f steps; about %.0f "
+            "MB",
+            cells, least, dt, limit_name(step_most.by), limits_cfl(prm),
+            ceil(r->scene.time.end / dt), 8e-6 * cells * fields + 1.0);
 }
 
 static void destroy_mesh(void *state)
@@ -94,7 +91,7 @@ static double step_mesh(void *s, double t_stop, struct diagnosis *d)
 /* The case has blocks: another state behind the same program. */
 static void *create_mesh(struct run *r, struct h5 *f)
 {
-    fv_program.ncolumns = mesh_columns(r, columns);
+    const int n = mesh_columns(r, columns);
     fv_program.destroy = destroy_mesh;
     fv_program.step = step_mesh;
     fv_program.row = mesh_row_values;
@@ -102,7 +99,9 @@ static void *create_mesh(struct run *r, struct h5 *f)
     fv_program.snapshot = mesh_snapshot;
     fv_program.checkpoint = mesh_checkpoint;
     fv_program.finish = mesh_finish;
-    return mesh_flow_create(r, f);
+    struct mesh_flow *s = mesh_flow_create(r, f);
+    fv_program.ncolumns = n + (s ? watches_columns(s->watches, columns + n) : 0);
+    return s;
 }
 
 static void *create(struct run *r, struct h5 *f)
@@ -124,8 +123,10 @@ static void *create(struct run *r, struct h5 *f)
         for (int a = 0; a < r->scene.domain.dim; a++)
             columns[n++] = reaches[a];
     }
-    fv_program.ncolumns = n + fv_probe_columns(r, columns + n);
-    return fv_create(r, f);
+    n += fv_probe_columns(r, columns + n);
+    struct fv *s = fv_create(r, f);
+    fv_program.ncolumns = n + (s ? watches_columns(s->watches, columns + n) : 0);
+    return s;
 }
 
 static void destroy(void *state)
@@ -140,8 +141,8 @@ static void progress(void *state, char *line, int size)
 {
     const struct fv *s = state;
     const double steps = s->run->step > 0 ? (double)s->run->step : 1.0;
-    snprintf(line, (size_t)size, "dt %.3g s  CFL %.2f  pressure %.1f its  |u| %.3g m/s", s->dt,
-             s->max_cfl, (double)s->iterations / steps,
+    snprintf(line, (size_t)size, "dt %.3g s (%s)  CFL %.2f  pressure %.1f its  |u| %.3g m/s", s->dt,
+             limit_name(s->limit), s->rate * s->dt, (double)s->iterations / steps,
              fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
 }
 

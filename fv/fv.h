@@ -15,10 +15,21 @@
 enum fv_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
 enum fv_integrator { INTEGRATOR_RK3, INTEGRATOR_BDF2, INTEGRATOR_NEWTON };
 enum fv_flux { FLUX_CENTRAL, FLUX_UPWIND };
+/* What bounds a step, see limits.h. */
+enum limit {
+    LIMIT_NONE,
+    LIMIT_FLOW,
+    LIMIT_FORCES,
+    LIMIT_OUTFLOW,
+    LIMIT_BDF2,
+    LIMIT_VISCOUS,
+    LIMIT_WAVES,
+    LIMIT_OUTPUT
+};
 
 struct fv_params {
     int cells[3];
-    double cfl; /* of the largest component, U dt/h */
+    double cfl; /* of the largest sum over the axes of |u_a| dt/h_a; 0: the integrator's own */
     int integrator;
     double tol_pressure; /* of the last projection of a step, relative to |div U*| */
     double tol_viscous;  /* of Helmholtz; 0: 1e-3, with forced cells 1e-5 */
@@ -41,6 +52,7 @@ struct surface;  /* free surface; levelset.h; NULL: none */
 struct pressure; /* the operator in hypre; pressure.h */
 struct newton;   /* the implicit integrator; newton.h; NULL: another one */
 struct link;     /* place in a coupled job; fv_coupling.c; NULL alone */
+struct watches;  /* figures that a sound run keeps small; watches.h */
 
 struct fv {
     struct run *run;
@@ -73,10 +85,15 @@ struct fv {
     struct link *link;
     double dt, dt_old;    /* s: last step, 0 before the first; the one before it */
     double partner[2][3]; /* m: box that a partner counts as its own; lo >= hi: none */
+    double scene_speed;   /* m/s: limits_reference */
+    double reference;     /* m/s: limits_follow */
     double u_limit;       /* m/s: beyond it the run has blown up */
     double umax[3];       /* m/s: largest |u_a| */
+    double rate;          /* 1/s: largest sum over the axes of |u_a|/h_a of a cell */
+    enum limit limit;     /* of the last step */
     double max_cfl;
-    int64_t iterations; /* of the pressure solver */
+    struct watches *watches; /* watches.h */
+    int64_t iterations;      /* of the pressure solver */
     int64_t viscous_iterations;
 };
 
@@ -145,7 +162,6 @@ double still_pressure(const struct scene *scene, const double still[3], double l
 /* fv_step.c: one step towards t_stop, see program.step; d is filled when the state cannot be
  * trusted. */
 double integrate(struct fv *s, double t_stop, struct diagnosis *d);
-double fv_largest_step(const struct fv *s);
 /* Largest |u_a| of what flows, or will soon. */
 double fv_speed(const struct fv *s, int a);
 void measure(struct fv *s);

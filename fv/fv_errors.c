@@ -9,6 +9,7 @@
 #include "forcing.h"
 #include "levelset.h"
 #include "newton.h"
+#include "watches.h"
 
 enum { NORMS = 3 };
 
@@ -179,6 +180,7 @@ void fv_row(void *state, double *values)
             values[n++] = surface_reach(s, a);
     }
     fv_probe(s, values + n);
+    watches_values(s->watches, values + n + s->run->scene.nprobes);
 }
 
 static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
@@ -250,6 +252,7 @@ void fv_finish(void *state)
     if (s->prm.extrema[0] != 0.0)
         fv_summarise_extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);
+    fv_watches_end(s);
     const double steps = r->step > 0 ? (double)r->step : 1.0;
     summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);
     summary_real(r->summary, "us_per_cell_step_outside_hypre",

@@ -13,6 +13,7 @@
 #include "newton.h"
 #include "outflow.h"
 #include "rows.h"
+#include "watches.h"
 
 static int64_t local_cells(const struct block *b) { return (int64_t)b->n[0] * b->n[1] * b->n[2]; }
 
@@ -223,6 +224,7 @@ void fv_checkpoint(void *state, struct h5 *f)
         h5_attribute_real(f, "newtons", (double)s->newton->newtons);
         h5_attribute_real(f, "krylovs", (double)s->newton->krylovs);
     }
+    watches_save(s->watches, f);
     outflow_save(s, f);
     if (s->surface)
         for (int k = 0; k < SURFACE_NUMBERS; k++)
@@ -266,6 +268,7 @@ bool fv_restore(struct fv *s, struct h5 *f)
             return false;
     if (s->surface)
         surface_rebuild(s);
+    watches_load(s->watches, f);
     return h5_read_attribute_real(f, "dt", &s->dt) &&
            h5_read_attribute_real(f, "dt_old", &s->dt_old) &&
            (!s->newton || restore_newton(s->newton, f)) && outflow_load(s, f) &&

@@ -5,6 +5,7 @@
 
 #include "../common/mem.h"
 #include "levelset.h"
+#include "limits.h"
 #include "mesh.h"
 #include "rows.h"
 
@@ -15,7 +16,7 @@ static struct fv_params given;
 static const struct param rows[] = {
     PARAM(P, cells,        "-", "(0, 0, 0)", 1, 1e6, "cells in each direction; even, rich in factors of two; none with blocks"),
     PARAM(P, graded,       "-", "(0.0, 0.0)", -1e9, 1e9, "height in m, rows: above this y that many even rows of cells, below it the others grow downwards; (0, 0): all even"),
-    PARAM(P, cfl,          "-", "1.0",  1e-6, 1e4, "largest |u_a| dt/h; at most 1.1 (rk3), 0.7 (bdf2)"),
+    PARAM(P, cfl,          "-", "0.0",  0, 1e4, "largest sum over the axes of |u_a| dt/h_a in a cell; at most 1.2 (rk3), 0.7 (bdf2); 0: 1.1 (rk3), 0.5 (bdf2), 1 (newton)"),
     CHOICE(P, integrator, "rk3|bdf2|newton", "rk3", "three projected stages, two-step backward for slow flows, fully implicit"),
     PARAM(P, tol_pressure, "-", "1e-2", 1e-14, 1, "of the last projection of a step, relative to its divergence"),
     PARAM(P, tol_viscous,  "-", "0.0",  0, 1,     "of the viscous solver; 0: 1e-3, with forced cells 1e-5"),
@@ -117,10 +118,7 @@ void fv_params_check(const struct run *r, struct faults *f)
         mesh_check(r, f);
         return;
     }
-    if (given.integrator == INTEGRATOR_BDF2 && given.cfl > 0.7)
-        params_fault(r->params, f, "fv.cfl", "%g: bdf2 is stable up to 0.7", given.cfl);
-    if (given.integrator == INTEGRATOR_RK3 && given.cfl > 1.1)
-        params_fault(r->params, f, "fv.cfl", "%g: rk3 is stable up to 1.1", given.cfl);
+    limits_check(r, f);
     check_graded(r, f);
     for (int a = 0; a < r->scene.domain.dim; a++) {
         check_axis(r, a, f);

@@ -9,10 +9,12 @@
 #include "bc.h"
 #include "forcing.h"
 #include "levelset.h"
+#include "limits.h"
 #include "newton.h"
 #include "outflow.h"
 #include "pressure.h"
 #include "rows.h"
+#include "watches.h"
 
 static void make_fields(struct fv *s)
 {
@@ -100,14 +102,9 @@ static void empty_hole(struct fv *s)
 static void set_limit(struct fv *s)
 {
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
-    if (s->surface) {
-        double L = 0.0;
-        for (int a = 0; a < s->b.dim; a++)
-            L = fmax(L, s->b.length[a]);
-        s->u_limit = 10.0 * (most + sqrt(2.0 * s->surface->g * L) + 1e-12);
-        return;
-    }
-    s->u_limit = 10.0 * fmax(fmax(most, s->run->scene.initial.U), s->bc ? s->bc->speed : 1e-12);
+    s->scene_speed = limits_reference(s->run);
+    s->reference = fmax(most, s->scene_speed);
+    s->u_limit = 10.0 * s->reference;
 }
 
 void fv_start(struct fv *s)
@@ -155,6 +152,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     HYPRE_Init();
     s->run = r;
     s->prm = *fv_params_of(r);
+    s->prm.cfl = limits_cfl(&s->prm);
     s->nu = r->scene.fluid.nu;
     s->t = r->t;
     s->exact = exact_create(&r->scene);
@@ -184,12 +182,17 @@ struct fv *fv_create(struct run *r, struct h5 *f)
         s->newton = newton_create(s);
     measure(s);
     set_limit(s);
+    s->watches = fv_watches_create(s);
     if (!f && s->bc && s->bc->driven)
         meet_pressures(s);
     if (f && !fv_restore(s, f))
         fv_free(&s);
     else
         measure(s);
+    if (s) {
+        s->watches->sum_before = s->umax[0] + s->umax[1] + s->umax[2];
+        s->reference = fmax(s->reference, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
+    }
     return s;
 }
 
@@ -206,6 +209,7 @@ void fv_free(struct fv **sp)
     surface_free(&s->surface);
     fit_free(&s->swing);
     bc_free(&s->bc);
+    watches_free(&s->watches);
     mem_free(s->p);
     mem_free(s->p_before);
     mem_free(s->face);

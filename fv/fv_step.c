@@ -8,28 +8,40 @@
 
 #include "bc.h"
 #include "levelset.h"
+#include "limits.h"
 #include "newton.h"
+#include "watches.h"
 
-/* Largest |u_a| over all ranks; a value that is not finite makes it so. */
+/* Largest |u_a| and sum of |u_a|/h_a over all ranks; a value that is not finite makes it so. */
 void measure(struct fv *s)
 {
     const struct block *b = &s->b;
-    double most[3] = {0.0, 0.0, 0.0};
-    for (int a = 0; a < b->dim; a++) {
-        double m = 0.0, sum = 0.0;
-        BLOCK_ROWS (b, 0, c, n)
-            for (int64_t i = c; i < c + n; i++) {
-                const double v = fabs(s->u[a][i]);
-                m = v > m ? v : m;
-                sum += 0.0 * s->u[a][i];
-            }
-        most[a] = sum == 0.0 ? m : INFINITY;
+    double most[4] = {0.0, 0.0, 0.0, 0.0};
+    int bad = 0;
+    BLOCK_ROWS (b, 0, c, n) {
+        const double w[3] = {1.0 / b->h[0], 1.0 / block_size(b, 1, j_),
+                             b->dim == 3 ? 1.0 / b->h[2] : 0.0};
+        const double *restrict u = s->u[0] + c, *restrict v = s->u[1] + c,
+                               *restrict z = s->u[b->dim == 3 ? 2 : 1] + c;
+        for (int64_t i = 0; i < n; i++) {
+            const double x = fabs(u[i]), y = fabs(v[i]), t = fabs(z[i]);
+            const double sum = x * w[0] + y * w[1] + t * w[2];
+            most[0] = x > most[0] ? x : most[0];
+            most[1] = y > most[1] ? y : most[1];
+            most[2] = t > most[2] ? t : most[2];
+            most[3] = sum > most[3] ? sum : most[3];
+            bad |= !(sum < 1e300);
+        }
     }
-    MPI_Allreduce(MPI_IN_PLACE, most, 3, MPI_DOUBLE, MPI_MAX, b->cart);
-    memcpy(s->umax, most, sizeof most);
+    for (int a = 0; bad && a < 4; a++)
+        most[a] = INFINITY;
+    MPI_Allreduce(MPI_IN_PLACE, most, 4, MPI_DOUBLE, MPI_MAX, b->cart);
+    for (int a = 0; a < 3; a++)
+        s->umax[a] = a < b->dim ? most[a] : 0.0;
+    s->rate = most[3];
 }
 
-static void describe_worst(const struct fv *s, struct diagnosis *d)
+static void describe_worst(const struct fv *s, double before, struct diagnosis *d)
 {
     const struct block *b = &s->b;
     int at[3] = {0, 0, 0};
@@ -51,48 +63,24 @@ static void describe_worst(const struct fv *s, struct diagnosis *d)
     snprintf(d->reason, sizeof d->reason, "velocity of cell (%d, %d, %d) is %g m/s, limit %g m/s",
              at[0] + b->lo[0], at[1] + b->lo[1], at[2] + b->lo[2], worst < 1e300 ? worst : NAN,
              s->u_limit);
-    snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, CFL of the step %.3g", x[0], x[1], x[2],
-             s->max_cfl);
-    snprintf(
-        d->likely, sizeof d->likely,
-        "the flow is finer than the cells (no dissipation is added), or fv.cfl = %g is too large",
-        s->prm.cfl);
+    snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, step of %g s, limited by %s", x[0], x[1],
+             x[2], s->dt, limit_name(s->limit));
+    limits_explain(&s->prm, s->limit, before, s->rate * s->dt, s->surface != NULL, d->likely,
+                   sizeof d->likely);
 }
 
 double fv_speed(const struct fv *s, int a)
 {
     const bool driven = s->drive[a] != 0.0 || (s->bc && s->bc->driven);
     return fmax(fmax(s->umax[a], s->bc ? s->bc->speed_along[a] : 0.0),
-                driven ? s->run->scene.initial.U : 0.0);
-}
-
-double fv_largest_step(const struct fv *s)
-{
-    double rate = 1e-300;
-    for (int a = 0; a < s->b.dim; a++) {
-        const double flow = fv_speed(s, a) / s->b.h[a];
-        rate = fmax(rate, flow);
-        if (s->surface) { /* waves of two cells; what falls freely, at the end of the step */
-            const double fall = s->surface->g / s->b.h[a];
-            rate = fmax(rate, fmax(2.0 * sqrt(fall), 0.5 * flow + sqrt(0.25 * flow * flow + fall)));
-        }
-    }
-    return s->prm.cfl / rate;
-}
-
-static double cfl_of(const struct fv *s, double dt)
-{
-    double cfl = 0.0;
-    for (int a = 0; a < s->b.dim; a++)
-        cfl = fmax(cfl, s->umax[a] * dt / s->b.h[a]);
-    return cfl;
+                driven ? s->scene_speed : 0.0);
 }
 
 /* The velocity of an impact is not known before it: a step that turns out too long is taken back
  * and done again in half the time. */
 static bool step_with_surface(struct fv *s, double *dt)
 {
-    const double most = 1.5 * fmax(s->prm.cfl, 0.1);
+    const double most = 1.5 * fmax(s->prm.cfl, 0.1), rate = s->rate;
     double before[3];
     bool good;
     memcpy(before, s->umax, sizeof before);
@@ -103,26 +91,28 @@ static bool step_with_surface(struct fv *s, double *dt)
         timer_stop(&s->run->timers, timer_index(&s->run->timers, "surface"));
         good = projection_step(s, *dt);
         measure(s);
-        if ((good && cfl_of(s, *dt) <= most) || tries == 8)
+        if ((good && s->rate * *dt <= most) || tries == 8)
             return good;
         surface_back(s);
         memcpy(s->umax, before, sizeof before);
+        s->rate = rate;
         *dt *= 0.5;
     }
 }
 
-static void diagnose(const struct fv *s, double dt, bool good, struct diagnosis *d)
+static void diagnose(const struct fv *s, double dt, double before, bool good, struct diagnosis *d)
 {
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
     if (!isfinite(most) || !(most <= s->u_limit)) {
-        describe_worst(s, d);
+        describe_worst(s, before, d);
     } else if (!good) {
         d->bad = true;
         snprintf(d->reason, sizeof d->reason,
                  "the viscous solver did not converge in 200 iterations");
         snprintf(d->where, sizeof d->where, "step of %g s, nu dt/h^2 = %g", dt,
                  s->nu * dt / (s->b.h[0] * s->b.h[0]));
-        snprintf(d->likely, sizeof d->likely, "raise fv.tol_viscous or lower fv.cfl");
+        snprintf(d->likely, sizeof d->likely,
+                 "a smaller step: fv.cfl below %g, or fv.tol_viscous = 1e-2", s->prm.cfl);
     } else if (s->surface && surface_trouble(s)) {
         d->bad = true;
         snprintf(d->reason, sizeof d->reason, "%s", surface_trouble(s));
@@ -133,12 +123,14 @@ static void diagnose(const struct fv *s, double dt, bool good, struct diagnosis 
 
 double integrate(struct fv *s, double t_stop, struct diagnosis *d)
 {
-    const double left = t_stop - s->t, dt_most = fv_largest_step(s);
-    const double n = fmax(ceil(left / dt_most - 1e-9), 1.0);
+    const struct step_limit most = limits_of(s);
+    const double left = t_stop - s->t, before = s->rate;
+    const double n = fmax(ceil(left / most.dt - 1e-9), 1.0);
     double dt = left / n;
     bool good = true;
+    s->limit = dt < 0.5 * most.dt ? LIMIT_OUTPUT : most.by;
     if (s->prm.steady)
-        dt = newton_pseudo_step(s, dt_most, t_stop, d);
+        dt = newton_pseudo_step(s, most.dt, t_stop, d);
     else if (s->newton)
         newton_step(s, &dt, d);
     else
@@ -152,8 +144,10 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
         surface_second_half(s, dt);
         timer_stop(&s->run->timers, timer_index(&s->run->timers, "surface"));
     }
-    s->max_cfl = fmax(s->max_cfl, cfl_of(s, s->prm.steady ? s->newton->dtau : dt));
-    diagnose(s, dt, good, d);
-    run_diagnose(d, s->b.cart);
+    s->max_cfl = fmax(s->max_cfl, s->rate * (s->prm.steady ? s->newton->dtau : dt));
+    diagnose(s, dt, before * dt, good, d);
+    s->u_limit = limits_follow(&s->reference, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
+    if (!run_diagnose(d, s->b.cart))
+        fv_watches_look(s, d);
     return dt;
 }

@@ -49,6 +49,7 @@ struct surface {
     int64_t wet, cuts;        /* over all ranks */
     double volume0, returned; /* m^dim: to be kept; put back by the shifts, all in all */
     double travelled;         /* -: cells since the last reinit */
+    double theta_least;       /* -: least distance of the surface from a wet centre, of h */
     double g;                 /* m/s^2: size of gravity */
     int64_t setups, reinits, repeats;
 };

@@ -368,14 +368,15 @@ double mesh_bc_rate(const struct mesh_flow *s, double *speed)
         const struct side *d = s->bc->side + k;
         SIDE_PLACES(d, 0, i, j, at, c)
         {
-            double w2 = 0.0;
+            double w2 = 0.0, sum = 0.0;
             for (int a = 0; a < m->dim; a++) {
                 double wS = 0.0;
                 for (int q = 0; q < m->dim; q++)
                     wS += d->w[q][at] * m->S[a][q][c + (a == d->a ? d->face : 0)];
-                rate = fmax(rate, fabs(wS) / m->V[c]);
+                sum += fabs(wS);
                 w2 += d->w[a][at] * d->w[a][at];
             }
+            rate = fmax(rate, sum / m->V[c]);
             *speed = fmax(*speed, sqrt(w2));
         }
     }
@@ -399,14 +400,13 @@ static void face_slopes(const struct mesh *m, const struct side *d, int64_t f, c
     }
 }
 
-/* -p S + mu (grad u + grad u^T) S on one face, outwards of the fluid. */
-static void face_force(const struct mesh_flow *s, const struct side *d, int64_t c, int i, int j,
-                       double *force)
+/* Place, pressure (Pa) and velocity gradient on one face. */
+static void face_state(const struct mesh_flow *s, const struct side *d, int64_t c, int i, int j,
+                       double x[3], double *pressure, double g[3][3])
 {
     const struct mesh *m = s->m;
-    const double rho = s->run->scene.fluid.rho, out = d->k % 2 ? 1.0 : -1.0;
     const int64_t f = c + d->face, a = d->p->stride[d->a];
-    double x[3], dx[3][3], xi[3] = {0.5, 0.5, 0.5}, slope[3][3] = {{0.0}}, g[3][3] = {{0.0}};
+    double dx[3][3], xi[3] = {0.5, 0.5, 0.5}, slope[3][3] = {{0.0}};
     int at[3];
     at[d->a] = d->p->lo[d->a] + d->first;
     at[d->t[0]] = d->p->lo[d->t[0]] + i;
@@ -426,8 +426,19 @@ static void face_force(const struct mesh_flow *s, const struct side *d, int64_t 
     double p[4];
     for (int l = 0; l < 4; l++)
         p[l] = mesh_pressure_at(s, f + (l - 2) * a);
-    const double pf = (7.0 * (p[1] + p[2]) - (p[0] + p[3])) / 12.0 +
-                      still_pressure(&s->run->scene, s->still, s->level, x);
+    *pressure = (7.0 * (p[1] + p[2]) - (p[0] + p[3])) / 12.0;
+}
+
+/* -p S + mu (grad u + grad u^T) S on one face, outwards of the fluid. */
+static void face_force(const struct mesh_flow *s, const struct side *d, int64_t c, int i, int j,
+                       double *force)
+{
+    const struct mesh *m = s->m;
+    const double rho = s->run->scene.fluid.rho, out = d->k % 2 ? 1.0 : -1.0;
+    const int64_t f = c + d->face;
+    double x[3], pf, g[3][3] = {{0.0}};
+    face_state(s, d, c, i, j, x, &pf, g);
+    pf += still_pressure(&s->run->scene, s->still, s->level, x);
     for (int q = 0; q < m->dim; q++) {
         force[q] = -pf * m->S[d->a][q][f];
         for (int e = 0; e < m->dim; e++)
@@ -437,6 +448,44 @@ static void face_force(const struct mesh_flow *s, const struct side *d, int64_t 
     x[2] = 0.0;
     const double *o = m->block[d->p->block].prm->centre;
     force[3] = (x[0] - o[0]) * force[1] - (x[1] - o[1]) * force[0];
+}
+
+/* Energy and pressure that flow in through one face, and friction on it, over rho. */
+static double face_power(const struct mesh_flow *s, const struct side *d, int64_t c, int i, int j)
+{
+    const struct mesh *m = s->m;
+    const double out = d->k % 2 ? 1.0 : -1.0;
+    const int64_t f = c + d->face, a = d->p->stride[d->a];
+    double x[3], pf, g[3][3] = {{0.0}}, square = 0.0, friction = 0.0;
+    face_state(s, d, c, i, j, x, &pf, g);
+    for (int q = 0; q < m->dim; q++) {
+        const double *u = s->u[q] + f;
+        const double w = (7.0 * (u[-a] + u[0]) - (u[-2 * a] + u[a])) / 12.0;
+        square += w * w;
+        for (int e = 0; e < m->dim; e++)
+            friction += s->nu * w * g[q][e] * m->S[d->a][e][f];
+    }
+    return out * (friction - s->U[d->a][f] * (0.5 * square + pf / s->run->scene.fluid.rho));
+}
+
+double mesh_bc_power(struct mesh_flow *s)
+{
+    double sum = 0.0;
+    double *both[2] = {s->p, s->p_before};
+    mesh_fill(s->m, 2, both);
+    for (int k = 0; k < 2; k++)
+        mesh_bc_pressure(s, both[k]);
+    for (int k = 0; k < s->bc->n; k++) {
+        const struct side *d = s->bc->side + k;
+        if (d->kind == MESH_SLIP)
+            continue;
+        SIDE_PLACES(d, 0, i, j, at, c)
+        {
+            sum += s->free[c] > 0.0 ? face_power(s, d, c, i, j) : 0.0;
+            (void)at;
+        }
+    }
+    return sum;
 }
 
 double mesh_bc_net_flux(const struct mesh_flow *s)

@@ -8,7 +8,9 @@
 
 #include "../common/log.h"
 #include "../common/mem.h"
+#include "limits.h"
 #include "overset.h"
+#include "watches.h"
 
 enum { NORMS = 3 };
 
@@ -176,6 +178,7 @@ void mesh_row_values(void *state, double *values)
         MPI_Allreduce(MPI_IN_PLACE, values + n, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
         values[n++] += still_pressure(scene, s->still, s->level, scene->probes[k].at);
     }
+    watches_values(s->watches, values + n);
 }
 
 static void summarise_errors(struct mesh_flow *s)
@@ -274,6 +277,7 @@ void mesh_finish(void *state)
     if (s->prm.extrema[0] != 0.0)
         mesh_summarise_extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);
+    mesh_watches_end(s);
     const double steps = r->step > 0 ? (double)r->step : 1.0, cells = (double)s->m->computed;
     summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);
     summary_real(r->summary, "us_per_cell_step_outside_hypre",
@@ -288,8 +292,8 @@ void mesh_progress(void *state, char *line, int size)
 {
     const struct mesh_flow *s = state;
     const double steps = s->run->step > 0 ? (double)s->run->step : 1.0;
-    snprintf(line, (size_t)size, "dt %.3g s  CFL %.2f  pressure %.1f its  |u| %.3g m/s", s->dt,
-             s->max_cfl, (double)s->iterations / steps, s->umax);
+    snprintf(line, (size_t)size, "dt %.3g s (%s)  CFL %.2f  pressure %.1f its  |u| %.3g m/s", s->dt,
+             limit_name(s->limit), s->rate * s->dt, (double)s->iterations / steps, s->umax);
 }
 
 void mesh_describe(const struct run *r)

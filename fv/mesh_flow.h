@@ -35,7 +35,10 @@ struct mesh_flow {
     struct mesh_bc *bc;
     struct mesh_pressure *pressure;
     struct overset *search;
-    double dt, dt_old, u_limit, umax, rate, max_cfl;
+    double dt, dt_old, u_limit, reference, umax, max_cfl;
+    double rate, rise; /* 1/s, 1/s^2: see mesh_measure */
+    enum limit limit;  /* of the last step */
+    struct watches *watches;
     double defect; /* largest |net flux that the overlap makes| over U L^(dim-1) */
     double defect_now;
     int64_t start_iterations; /* of the pressure, before the first step */
@@ -72,7 +75,7 @@ void mesh_bc_even(const struct mesh_flow *s, bool odd, double *q);
 void mesh_bc_pressure(const struct mesh_flow *s, double *p);
 void mesh_bc_fluxes(const struct mesh_flow *s, double *const U[3]);
 bool mesh_bc_pressure_given(const struct mesh_flow *s);
-/* Largest |w.S|/V at the sides, over this rank; largest speed. */
+/* Largest sum over the indices of |w.S|/V at the sides, over this rank; largest speed. */
 double mesh_bc_rate(const struct mesh_flow *s, double *speed);
 /* Through all sides of the case, outwards, over all ranks: what the overlap makes, m^dim/s. */
 double mesh_bc_net_flux(const struct mesh_flow *s);
@@ -80,6 +83,8 @@ bool mesh_bc_has_walls(const struct mesh *m);
 /* Forces on the no-slip walls of each block, N (per metre in 2D), and the moment about its centre.
  */
 void mesh_bc_force(struct mesh_flow *s, double (*force)[4]);
+/* What comes in through this rank's sides: energy, work of pressure and of friction, over rho. */
+double mesh_bc_power(struct mesh_flow *s);
 
 /* mesh_pressure.c: A psi = -div/tau; div with what the overlap makes taken out evenly. */
 void mesh_pressure_create(struct mesh_flow *s);

@@ -11,6 +11,7 @@
 #include "../common/log.h"
 #include "../common/mem.h"
 #include "../common/xdmf.h"
+#include "watches.h"
 
 /* This rank's cells of a block: [lo, hi), empty if it has none. */
 static const struct mesh_part *range(const struct mesh *m, int k, int lo[3], int hi[3])
@@ -153,6 +154,7 @@ void mesh_checkpoint(void *state, struct h5 *f)
         h5_write_real(f, names[k], "-", s->m->size_local, 1, fields[k], false);
     h5_attribute_real(f, "dt", s->dt);
     h5_attribute_real(f, "dt_old", s->dt_old);
+    watches_save(s->watches, f);
 }
 
 bool mesh_restore(struct mesh_flow *s, struct h5 *f)
@@ -171,6 +173,7 @@ bool mesh_restore(struct mesh_flow *s, struct h5 *f)
             log_say("the restart file has no field %s of this shape", names[k]);
             return false;
         }
+    watches_load(s->watches, f);
     return h5_read_attribute_real(f, "dt", &s->dt) &&
            h5_read_attribute_real(f, "dt_old", &s->dt_old);
 }

@@ -3,6 +3,7 @@
 
 #include "fv.h"
 #include "levelset.h"
+#include "limits.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -134,8 +135,7 @@ void mesh_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "blocks", "a coupled job knows no blocks: use fv.cells");
     if (prm->integrator != INTEGRATOR_RK3)
         params_fault(r->params, f, "fv.integrator", "blocks are for rk3 only");
-    if (prm->cfl > 1.1)
-        params_fault(r->params, f, "fv.cfl", "%g: rk3 is stable up to 1.1", prm->cfl);
+    limits_check(r, f);
     if (surface_wanted(r))
         params_fault(r->params, f, "fv.surface", "blocks know no free surface: use fv.cells");
     if (prm->graded[1] > 0.0)

@@ -8,7 +8,9 @@
 
 #include "../common/log.h"
 #include "../common/mem.h"
+#include "limits.h"
 #include "overset.h"
+#include "watches.h"
 
 /* Couette flow in a ring: u_theta = A r + B/r. */
 static void ring_at(const struct mesh_flow *s, const double *x, double *u, double *p, double *w)
@@ -117,6 +119,7 @@ struct mesh_flow *mesh_flow_create(struct run *r, struct h5 *f)
     HYPRE_Init();
     s->run = r;
     s->prm = *fv_params_of(r);
+    s->prm.cfl = limits_cfl(&s->prm);
     s->nu = r->scene.fluid.nu;
     s->t = r->t;
     s->exact = exact_create(&r->scene);
@@ -140,7 +143,9 @@ struct mesh_flow *mesh_flow_create(struct run *r, struct h5 *f)
     double speed = 0.0;
     mesh_bc_rate(s, &speed);
     MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, s->m->comm);
-    s->u_limit = 10.0 * fmax(fmax(s->umax, r->scene.initial.U), fmax(speed, 1e-12));
+    s->reference = fmax(fmax(s->umax, speed), limits_reference(r));
+    s->u_limit = 10.0 * s->reference;
+    s->watches = mesh_watches_create(s);
     if (f && !mesh_restore(s, f))
         mesh_flow_free(&s);
     else if (f)
@@ -151,6 +156,8 @@ struct mesh_flow *mesh_flow_create(struct run *r, struct h5 *f)
         s->start_iterations = s->iterations;
         s->iterations = 0;
         mesh_measure(s);
+        s->watches->sum_before = s->umax;
+        s->reference = fmax(s->reference, s->umax);
     }
     if (s && !f) {
         memset(s->start[2], 0, (size_t)s->m->size_local * sizeof(double));
@@ -166,6 +173,7 @@ void mesh_flow_free(struct mesh_flow **sp)
         return;
     mesh_pressure_free(&s->pressure);
     mesh_bc_free(&s->bc);
+    watches_free(&s->watches);
     overset_free(&s->search);
     mem_free(s->history);
     double *const one[] = {s->p, s->p_before, s->flux, s->free, s->scale};

@@ -8,7 +8,9 @@
 #include <string.h>
 
 #include "../common/mem.h"
+#include "limits.h"
 #include "rk3.h"
+#include "watches.h"
 
 static const int none[3] = {0, 0, 0};
 
@@ -245,37 +247,45 @@ static bool step_rk3(struct mesh_flow *s, double dt)
     return good;
 }
 
-/* Largest rate of crossing cells along an index, 1/s, and largest speed. */
+/* Largest sum over the indices of the rates of crossing cells, 1/s, and largest speed; what forces
+ * add to the rate in a second. */
 void mesh_measure(struct mesh_flow *s)
 {
     const struct mesh *m = s->m;
-    double most[2] = {0.0, 0.0}, speed = 0.0, poison = 0.0;
+    double most[3] = {0.0, 0.0, 0.0}, speed = 0.0, poison = 0.0;
     for (int q = 0; q < m->nparts; q++) {
         const struct mesh_part *p = m->part + q;
         PART_ROWS (p, none, none, c, n)
             for (int64_t i = c; i < c + n; i++) {
-                double u2 = 0.0;
+                double u2 = 0.0, rate = 0.0, rise = 0.0;
                 if (s->free[i] == 0.0)
                     continue;
                 for (int a = 0; a < m->dim; a++) {
-                    double F = 0.0;
-                    for (int k = 0; k < m->dim; k++)
-                        F += 0.5 * s->u[k][i] * (m->S[a][k][i] + m->S[a][k][i + p->stride[a]]);
-                    most[0] = fmax(most[0], fabs(F) / m->V[i]);
+                    double F = 0.0, G = 0.0;
+                    for (int k = 0; k < m->dim; k++) {
+                        const double S = 0.5 * (m->S[a][k][i] + m->S[a][k][i + p->stride[a]]);
+                        F += s->u[k][i] * S;
+                        G += s->drive[k] * S;
+                    }
+                    rate += fabs(F);
+                    rise += fabs(G);
                     u2 += s->u[a][i] * s->u[a][i];
                     poison += 0.0 * s->u[a][i];
                 }
+                most[0] = fmax(most[0], rate / m->V[i]);
                 most[1] = fmax(most[1], u2);
+                most[2] = fmax(most[2], rise / m->V[i]);
             }
     }
     most[1] = poison == 0.0 ? sqrt(most[1]) : INFINITY;
     most[0] = fmax(most[0], mesh_bc_rate(s, &speed));
-    MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, m->comm);
+    MPI_Allreduce(MPI_IN_PLACE, most, 3, MPI_DOUBLE, MPI_MAX, m->comm);
     s->rate = most[0];
     s->umax = most[1];
+    s->rise = most[2];
 }
 
-static void describe_worst(const struct mesh_flow *s, struct diagnosis *d)
+static void describe_worst(const struct mesh_flow *s, double before, struct diagnosis *d)
 {
     const struct mesh *m = s->m;
     double worst = -1.0;
@@ -295,22 +305,21 @@ static void describe_worst(const struct mesh_flow *s, struct diagnosis *d)
                 snprintf(d->reason, sizeof d->reason,
                          "velocity of cell (%d, %d, %d) of block \"%s\" is %g m/s, limit %g m/s",
                          at[0], at[1], at[2], b->prm->name, v < 1e300 ? v : NAN, s->u_limit);
-                snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, CFL of the step %.3g", x[0],
-                         x[1], x[2], s->max_cfl);
-                snprintf(d->likely, sizeof d->likely,
-                         "the flow is finer than the cells, or fv.cfl = %g is too large",
-                         s->prm.cfl);
+                snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, step of %g s, limited by %s",
+                         x[0], x[1], x[2], s->dt, limit_name(s->limit));
+                limits_explain(&s->prm, s->limit, before, s->rate * s->dt, false, d->likely,
+                               sizeof d->likely);
             }
     }
 }
 
 double mesh_integrate(struct mesh_flow *s, double t_stop, struct diagnosis *d)
 {
-    const double driven = sqrt(s->drive[0] * s->drive[0] + s->drive[1] * s->drive[1]) > 0.0
-                              ? s->run->scene.initial.U / s->run->scene.initial.L
-                              : 0.0;
-    const double left = t_stop - s->t, most = s->prm.cfl / fmax(fmax(s->rate, driven), 1e-300);
-    const double n = fmax(ceil(left / most - 1e-9), 1.0), dt = left / n;
+    const double left = t_stop - s->t, most = limits_time(s->prm.cfl, s->rate, s->rise);
+    const double n = fmax(ceil(left / most - 1e-9), 1.0), dt = left / n, before = s->rate * dt;
+    s->limit = dt < 0.5 * most            ? LIMIT_OUTPUT
+               : s->rise * most > s->rate ? LIMIT_FORCES
+                                          : LIMIT_FLOW;
     s->failed = false;
     s->defect_now = 0.0;
     const bool good = step_rk3(s, dt);
@@ -321,7 +330,7 @@ double mesh_integrate(struct mesh_flow *s, double t_stop, struct diagnosis *d)
     s->max_cfl = fmax(s->max_cfl, s->rate * dt);
     s->defect = fmax(s->defect, s->defect_now);
     if (!(s->umax <= s->u_limit))
-        describe_worst(s, d);
+        describe_worst(s, before, d);
     else if (!good || s->failed) {
         d->bad = true;
         snprintf(d->reason, sizeof d->reason,
@@ -331,9 +340,11 @@ double mesh_integrate(struct mesh_flow *s, double t_stop, struct diagnosis *d)
         snprintf(d->likely, sizeof d->likely,
                  good
                      ? "cells that are too flat or fold: look at the grid; or raise fv.tol_pressure"
-                     : "raise fv.tol_viscous or lower fv.cfl");
+                     : "a smaller fv.cfl, or a larger fv.tol_viscous (1e-4)");
     }
-    run_diagnose(d, s->m->comm);
+    s->u_limit = limits_follow(&s->reference, s->umax);
+    if (!run_diagnose(d, s->m->comm))
+        mesh_watches_look(s, d);
     return dt;
 }
 

@@ -227,7 +227,7 @@ void newton_set_step(struct fv *s, double dt, double dt_old)
     o->c0 = (dt_old > 0.0 ? (1.0 + 2.0 * r) / (1.0 + r) : 1.0) / dt;
     o->c1 = (dt_old > 0.0 ? -(1.0 + r) : -1.0) / dt;
     o->c2 = (dt_old > 0.0 ? r * r / (1.0 + r) : 0.0) / dt;
-    o->U = 1e-3 * s->u_limit;
+    o->U = 1e-2 * s->scene_speed;
     for (int a = 0; a < s->b.dim; a++)
         o->U = fmax(o->U, fv_speed(s, a));
     o->rate = 0.0;

@@ -12,6 +12,7 @@
 #include "bc.h"
 #include "forcing.h"
 #include "levelset.h"
+#include "limits.h"
 #include "outflow.h"
 #include "pressure.h"
 #include "rk3.h"
@@ -295,7 +296,7 @@ void pressure_start(struct fv *s)
     if (s->newton) /* which has no use for the pressure before */
         return;
     const size_t bytes = (size_t)s->b.size * sizeof(double);
-    const double dt = 1e-3 * fv_largest_step(s);
+    const double dt = 1e-3 * fmin(limits_of(s).dt, s->run->scene.time.end);
     double *keep[2][3];
     for (int a = 0; a < s->b.dim; a++) {
         keep[0][a] = block_field(&s->b);

@@ -1,6 +1,7 @@
 /* surface_pressure.c - p = 2 nu n.(D n) on the surface in the equations of the wet cells (ghost
  * fluid: Gibou, Fedkiw, Cheng & Kang, J. Comput. Phys. 176, 2002, symmetric): between a wet cell L
- * and a dry one the gradient is (p_I - p_L)/(theta h), theta = phi_L/(phi_L - phi_R) >= 0.01.
+ * and a dry one the gradient is (p_I - p_L)/(theta h), theta = phi_L/(phi_L - phi_R) >= 0.01,
+ * with viscosity more (surface_first_half): p_I is explicit, and 1/theta amplifies it.
  * Without gravity's part, so p_I has -(pressure at rest). SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
@@ -24,7 +25,7 @@ static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
     double at_surface[3];
     block_centre(b, at[0], at[1], at[2], at_surface);
     at_surface[a] += ((wet_here ? 0.0 : -1.0) + x.up * theta) * b->h[a];
-    x.theta = fmax(theta, 0.01);
+    x.theta = fmax(theta, fmax(f->theta_least, 0.01));
     x.height = -fv_still_pressure(s, at_surface) / s->run->scene.fluid.rho;
     if (f->ncut[a] == f->room[a]) {
         const int64_t more = 2 * f->room[a] + 256;

@@ -94,6 +94,9 @@ with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.9, 6)/; s/(true, true)
 with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 12)/; s/(true, true)/(true, false)/' 'fv.graded: no heights' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 6.5)/; s/(true, true)/(true, false)/' 'fv.graded: 6.5 is no number' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); cfl = 7/' 'case.cfg:6: fv.cfl: ' fv
+with fv 's/cells = (16, 16)/cells = (16, 16); cfl = 1.25/' 'case.cfg:6: fv.cfl: 1.25: rk3 is stable up to 1.2' fv
+with fv 's/cells = (16, 16)/cells = (16, 16); cfl = 0.8; integrator = "bdf2"/' 'fv.cfl: 0.8: bdf2 is stable up to 0.7' fv
+with fv 's/cells = (16, 16)/cells = (16, 16); integrator = "bdf2"/; s/nu = 0.005/nu = 0.0/' 'fv.integrator: bdf2 has no stable step without viscosity' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); integrator = "euler"/' 'case.cfg:6: fv.integrator: .*rk3' fv
 with coupled 's/steps = 32/steps = 0/' 'coupling.steps: ' coupler --check
 with coupled 's/steps = 32/steps = 32; mapping = "nearest"/' 'coupling.mapping: .*mls' coupler --check

@@ -18,7 +18,7 @@ struct fv_case {
     struct fv *s;
 };
 
-enum { FV_CASE_ROW = 12, FV_CASE_OVERRIDES = 12 };
+enum { FV_CASE_ROW = 24, FV_CASE_OVERRIDES = 12 };
 
 static inline void fv_case_path(const char *suffix, char *path, size_t size)
 {

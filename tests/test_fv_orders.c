@@ -20,14 +20,17 @@ static void errors_fall(const char *const *common, const char *more, double t, d
     assert_true(fv_case_order(e32, e64) >= order);
 }
 
+/* At CFL 1, as the case has it: the error of 64 cells is that of tol_viscous, which grows with dt.
+ */
 static void taylor_green_converges(void **state)
 {
+    static const char *const step[] = {"fv.cfl=1", NULL};
     (void)state;
-    const double e16 = fv_case_error_at(16, NULL, NULL, 1.0),
-                 e32 = fv_case_error_at(32, NULL, NULL, 1.0);
+    const double e16 = fv_case_error_at(16, step, NULL, 1.0),
+                 e32 = fv_case_error_at(32, step, NULL, 1.0);
     print_message("16: %.3g, order to 32 %.2f\n", e16, fv_case_order(e16, e32));
     assert_true(fv_case_order(e16, e32) >= 1.9);
-    errors_fall(NULL, NULL, 1.0, 3e-5, 5e-6, 1.9);
+    errors_fall(step, NULL, 1.0, 3e-5, 5e-6, 1.9);
 }
 
 static void carried_waves_converge(void **state)

@@ -1,0 +1,133 @@
+/* mesh_watches.c - the sums behind the watches on blocks. SPDX-License-Identifier: BSD-3-Clause */
+#include "watches.h"
+
+#include <math.h>
+
+#include "limits.h"
+#include "mesh_flow.h"
+
+static const int none[3] = {0, 0, 0};
+
+static bool has_sides(const struct mesh *m)
+{
+    for (int k = 0; k < m->nblocks; k++)
+        for (int q = 0; q < 2 * m->dim; q++)
+            if (m->block[k].side[q] >= MESH_WALL)
+                return true;
+    return false;
+}
+
+/* Where blocks overlap some of the flow counts twice, and interpolation does work: no budget. */
+struct watches *mesh_watches_create(struct mesh_flow *s)
+{
+    struct watches *w = watches_create(limits_reference(s->run), !has_sides(s->m), false);
+    w->has_energy = !s->m->has_fringe;
+    w->has_growth = true;
+    w->energy_every = 20; /* faces are mapped anew */
+    return w;
+}
+
+static struct flow_energy energy_of(struct mesh_flow *s)
+{
+    const struct mesh *m = s->m;
+    double sums[6] = {0.0};
+    for (int q = 0; q < m->nparts; q++)
+        PART_ROWS (m->part + q, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                const double w = s->free[i] * m->V[i];
+                double square = 0.0;
+                for (int a = 0; a < m->dim; a++) {
+                    sums[a] += w * s->u[a][i];
+                    square += s->u[a][i] * s->u[a][i];
+                }
+                sums[3] += 0.5 * w * square;
+                sums[4] += w;
+            }
+    if (!s->watches->periodic)
+        sums[5] = mesh_bc_power(s);
+    for (int a = 0; a < m->dim; a++)
+        sums[5] += s->drive[a] * sums[a];
+    MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, m->comm);
+    return (struct flow_energy){.kinetic = sums[3],
+                                .momentum = {sums[0], sums[1], sums[2]},
+                                .volume = sums[4],
+                                .power = sums[5]};
+}
+
+/* Fourth differences over 16, of cells whose neighbours are computed on this rank, too. All cells
+ * count alike: far ones, much larger, would drown those that matter. */
+static double squares(const struct mesh_flow *s, const double *q)
+{
+    const struct mesh *m = s->m;
+    double sum = 0.0;
+    for (int b = 0; b < m->nparts; b++)
+        for (int a = 0; a < m->dim; a++) {
+            const int64_t d = m->part[b].stride[a];
+            PART_ROWS (m->part + b, none, none, c, n)
+                for (int64_t i = c; i < c + n; i++) {
+                    const double v =
+                        (q[i - 2 * d] + q[i + 2 * d]) - 4.0 * (q[i - d] + q[i + d]) + 6.0 * q[i];
+                    const double in = s->free[i - 2 * d] * s->free[i - d] * s->free[i] *
+                                      s->free[i + d] * s->free[i + 2 * d];
+                    sum += in > 0.0 ? v * v / 256.0 : 0.0;
+                }
+        }
+    return sum;
+}
+
+static void add_moments(const struct mesh_flow *s, const double *q, double sums[3])
+{
+    const struct mesh *m = s->m;
+    for (int b = 0; b < m->nparts; b++)
+        PART_ROWS (m->part + b, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                const double w = s->free[i] > 0.0 ? 1.0 : 0.0, v = w > 0.0 ? q[i] : 0.0;
+                sums[0] += w;
+                sums[1] += w * v;
+                sums[2] += w * v * v;
+            }
+}
+
+static struct flow_waves waves_of(const struct mesh_flow *s, double *volume)
+{
+    double sums[8] = {0.0};
+    for (int a = 0; a < s->m->dim; a++) {
+        sums[6] += squares(s, s->u[a]);
+        add_moments(s, s->u[a], sums);
+    }
+    sums[7] = squares(s, s->p);
+    add_moments(s, s->p, sums + 3);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 8, MPI_DOUBLE, MPI_SUM, s->m->comm);
+    *volume = sums[3];
+    return (struct flow_waves){sums[6], sums[2], sums[7],
+                               sums[5] - sums[4] * sums[4] / fmax(sums[3], 1e-300)};
+}
+
+static void look_at_waves(struct mesh_flow *s, int64_t step, struct diagnosis *d)
+{
+    double volume;
+    const struct flow_waves v = waves_of(s, &volume);
+    watches_waves(s->watches, &v, volume, s->t, step, d);
+}
+
+void mesh_watches_end(struct mesh_flow *s)
+{
+    struct diagnosis d = {0};
+    look_at_waves(s, s->run->step, &d);
+    watches_summarise(s->watches, s->run->summary);
+}
+
+void mesh_watches_look(struct mesh_flow *s, struct diagnosis *d)
+{
+    struct watches *w = s->watches;
+    const int64_t step = s->run->step + 1;
+    timer_start(&s->run->timers, timer_index(&s->run->timers, "watches"));
+    watches_growth(w, s->umax, s->t, step, d);
+    if (watches_want_energy(w, step)) {
+        const struct flow_energy e = energy_of(s);
+        watches_energy(w, &e, s->t, step, d);
+    }
+    if (watches_want_waves(w, step))
+        look_at_waves(s, step, d);
+    timer_stop(&s->run->timers, timer_index(&s->run->timers, "watches"));
+}

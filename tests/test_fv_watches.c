@@ -1,0 +1,162 @@
+/* test_fv_watches.c - the watches tell a flow that grows, waves of two cells and water that is lost
+ * from a sound flow, with walls, openings and a surface. SPDX-License-Identifier: BSD-3-Clause */
+#include "test.h"
+
+#include "fv_bc_case.h"
+#include "mesh_case.h"
+
+#include "../fv/levelset.h"
+#include "../fv/watches.h"
+
+static void say(const char *what, const struct watches *w)
+{
+    print_message("%s: energy %.2g, waves %.2g, %.2g, growth %.3g, volume %.2g\n", what,
+                  w->energy.worst, w->velocity.worst, w->pressure.worst, w->growth.worst,
+                  w->returned.worst);
+}
+
+static void is_sound(const char *what, const struct watches *w)
+{
+    say(what, w);
+    assert_true(w->energy.worst < w->energy.warn && w->velocity.worst < w->velocity.warn);
+    assert_true(w->pressure.worst < w->pressure.warn && w->growth.worst < w->growth.warn);
+    assert_true(w->returned.worst < w->returned.warn);
+}
+
+/* At a sum of 1.6 and 2, beyond the limit of 1.262. */
+static void gained_energy_ends_a_run(void **state)
+{
+    static const double cfl[2] = {1.6, 2.0};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_SELF,
+                    (const char *const[]){"initial.field=\"two_modes\"", "fluid.nu=1e-4",
+                                          "initial.velocity=(3,3)", NULL});
+        struct fv *s = fv_case_start(&c, NULL);
+        s->prm.cfl = cfl[k];
+        assert_false(fv_case_run(&c, 1000, 1.0));
+        say("beyond the limit", s->watches);
+        assert_true(s->watches->energy.worst > s->watches->energy.stop);
+        fv_free(&c.s);
+    }
+}
+
+static void blocks_are_watched(void **state)
+{
+    static const char waving[] =
+        "{ name = \"a\"; mapping = \"sheared\"; wave = 0.06; " PERIODIC "cells = (24, 24); }";
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct mesh_case c;
+        struct mesh_flow *s =
+            mesh_case_start(&c, MPI_COMM_WORLD, waving,
+                            (const char *const[]){"initial.velocity=(3,3)", "fluid.nu=1e-4", NULL});
+        s->prm.cfl = k ? 2.2 : 1.1;
+        assert_int_equal(mesh_case_run(s, 1000, 0.5), k == 0);
+        if (k)
+            assert_true(s->watches->energy.worst > s->watches->energy.stop);
+        else
+            is_sound("blocks", s->watches);
+        mesh_case_end(&c, &s);
+    }
+}
+
+/* v = 0.1 (-1)^i needs no pressure and nothing carries it away: it stays in an inviscid flow. */
+static void waves_of_two_cells_are_seen(void **state)
+{
+    struct fv_case c;
+    (void)state;
+    fv_case_set(&c, MPI_COMM_SELF, (const char *const[]){"fluid.nu=0", NULL});
+    struct fv *s = fv_case_start(&c, NULL);
+    BLOCK_CELLS (&s->b, i, j, k, at)
+        s->u[1][at] += i % 2 ? 0.1 : -0.1;
+    fv_start(s);
+    assert_true(fv_case_run(&c, 50, 100.0));
+    say("two cells", s->watches);
+    assert_true(s->watches->velocity.worst > s->watches->velocity.warn);
+    fv_free(&c.s);
+}
+
+static void sudden_growth_is_seen(void **state)
+{
+    struct fv_case c;
+    (void)state;
+    fv_case_set(&c, MPI_COMM_SELF, NULL);
+    struct fv *s = fv_case_start(&c, NULL);
+    assert_true(fv_case_run(&c, 8, 100.0));
+    is_sound("before", s->watches);
+    for (int a = 0; a < 2; a++)
+        BLOCK_ROWS (&s->b, 3, at, n)
+            for (int64_t i = at; i < at + n; i++) {
+                s->u[a][i] *= 1.5;
+                s->U[a][i] *= 1.5;
+            }
+    assert_true(fv_case_run(&c, 1, 100.0));
+    assert_true(s->watches->growth.worst > 1.4);
+    fv_free(&c.s);
+}
+
+/* A lid, and vortices that leave through an outflow of either kind: work of walls, fluxes of energy
+ * and of pressure are in the budget. */
+static void walls_and_openings_are_in_the_budget(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_SELF,
+                    (const char *const[]){CLOSED, "fluid.nu=1e-3", "fv.cells=(32,32)",
+                                          k ? "initial.velocity=(1,0)" : "initial.field=\"rest\"",
+                                          k ? "initial.U=0.3" : "initial.U=1", NULL});
+        for (int side = SIDE_Y_MIN; side <= SIDE_Y_MAX; side++)
+            wall_add(&c, (enum scene_side)side, k ? WALL_SLIP : WALL_NO_SLIP,
+                     k == 0 && side == SIDE_Y_MAX ? 1.0 : 0.0);
+        wall_add(&c, SIDE_X_MIN, k ? WALL_INFLOW : WALL_NO_SLIP, k ? 1.0 : 0.0);
+        if (k == 0)
+            c.run.scene.walls[2].velocity[0] = 0.0;
+        wall_add(&c, SIDE_X_MAX, k ? WALL_OUTFLOW : WALL_NO_SLIP, 0.0)->carried = k == 2;
+        struct fv *s = fv_case_start(&c, NULL);
+        assert_true(fv_case_run(&c, 300, 4.0));
+        is_sound(k == 0 ? "lid" : k == 1 ? "outflow" : "convective outflow", s->watches);
+        assert_true(s->watches->has_energy);
+        fv_free(&c.s);
+    }
+}
+
+/* A film of 0.64 cells that a slope makes run off. */
+static void lost_water_is_not_accepted(void **state)
+{
+    struct fv_case c;
+    double volume = 0.0;
+    (void)state;
+    fv_case_set(&c, MPI_COMM_SELF,
+                (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED,
+                                      "fluid.gravity=(2,-9.81)", "fluid.nu=1e-6", NULL});
+    for (int side = SIDE_X_MIN; side <= SIDE_Y_MAX; side++)
+        wall_add(&c, (enum scene_side)side, WALL_SLIP, 0.0);
+    c.run.scene.shapes[c.run.scene.nshapes++] =
+        (struct scene_shape){.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, 0.02, 0}}};
+    struct fv *s = fv_case_start(&c, NULL);
+    c.run.summary = summary_create();
+    assert_true(fv_case_run(&c, 1000, 0.6));
+    say("film", s->watches);
+    fv_watches_end(s);
+    assert_true(summary_find(c.run.summary, "watch.volume_returned", &volume) && volume > 0.05);
+    assert_non_null(summary_find_text(c.run.summary, "not_accepted"));
+    summary_free(&c.run.summary);
+    fv_free(&c.s);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(gained_energy_ends_a_run),
+                                       cmocka_unit_test(blocks_are_watched),
+                                       cmocka_unit_test(waves_of_two_cells_are_seen),
+                                       cmocka_unit_test(sudden_growth_is_seen),
+                                       cmocka_unit_test(walls_and_openings_are_in_the_budget),
+                                       cmocka_unit_test(lost_water_is_not_accepted)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
