@@ -174,7 +174,7 @@ static void find_peers(struct domain *d, double reach)
 static void cuts_changed(struct sph *s)
 {
     make_boxes(s->domain);
-    find_peers(s->domain, 1.16 * s->R + s->halo_extra);
+    find_peers(s->domain, 1.16 * s->R);
     s->ready = false;
 }
 
@@ -536,7 +536,7 @@ static void exchange_counts(struct domain *d)
 void domain_ghosts(struct sph *s)
 {
     struct domain *d = s->domain;
-    const double reach = s->R + s->skin + s->halo_extra;
+    const double reach = s->R + s->skin;
     int *near = NEW(int, s->p.n), first = s->p.n;
     const int nnear = near_sides(s, reach, near);
     for (int k = 0; k < d->npeers; k++)

@@ -1,5 +1,5 @@
-/* ghost_lines.h - what mirrored and fixed ghosts have in common: the state behind a wall from a
- * state before it [3.1-3.10], and the friction of no-slip walls.
+/* ghost_lines.h - lines of mirrored ghosts: the state behind a wall from a state before it
+ * [3.1-3.10], and the friction of no-slip walls.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_GHOST_LINES_H
 #define SPH_GHOST_LINES_H

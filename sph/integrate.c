@@ -11,6 +11,7 @@
 #include "../common/mem.h"
 #include "domain.h"
 #include "eos.h"
+#include "forces.h"
 #include "neighbours.h"
 #include "openings.h"
 #include "scheme.h"
@@ -332,6 +333,8 @@ static void runge_kutta(struct sph *s, double dt, double t_end, double *most)
     for (int k = 0; k < 4; k++) {
         s->t = at[k];
         integrate_rates(s);
+        if (s->walls)
+            forces_stage(s, k, dt);
         if (k == 3)
             measure_lines(s, most);
         update(s, k, dt);
@@ -388,6 +391,8 @@ static void finish_step(struct sph *s, double dt, double *most)
     const int lost = remove_behind(s) + remove_lost(s);
     s->lost += lost;
     raise(most + MOST_LOST, lost);
+    if (s->walls)
+        forces_step(s, dt);
 }
 
 /* The first time, and whenever the number has grown tenfold. */

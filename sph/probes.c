@@ -7,6 +7,7 @@
 
 #include "../common/mem.h"
 #include "eos.h"
+#include "forces.h"
 #include "kernel.h"
 #include "walls.h"
 
@@ -83,7 +84,7 @@ static double level_at(struct sph *s, const double *at)
 
 /* Points of a body's surface, dx/2 apart or closer, and what particles say there. */
 struct node {
-    double x[2], n[2], length, u[2];
+    double x[2], n[2], length, u[2], du[2];
     double W, P, shear[2];
     bool no_slip;
 };
@@ -103,10 +104,21 @@ static int lay_nodes(const struct sph *s, const struct body *b, struct node **no
             }
             d->length = g->length / pieces;
             d->no_slip = g->no_slip;
-            walls_velocity(s->walls, g, d->x, d->u, NULL);
+            walls_velocity(s->walls, g, d->x, d->u, d->du);
         }
     }
     return n;
+}
+
+/* Pressure at the wall of a particle's own, carried there as in a fluid that goes with the wall: at
+ * a surface no less than its own or none, so that the air does not suck. */
+static double carried_pressure(const struct sph *s, const double *q, const double *e,
+                               const double *acceleration)
+{
+    const double p = eos_p(q[5], s->rho0, s->c0, s->gamma);
+    const double more =
+        (s->gravity[0] - acceleration[0]) * e[0] + (s->gravity[1] - acceleration[1]) * e[1];
+    return s->surface ? fmax(p + q[5] * more, fmin(p, 0.0)) : p + q[5] * more;
 }
 
 static void ask_particle(const struct sph *s, int i, struct node *d)
@@ -119,7 +131,7 @@ static void ask_particle(const struct sph *s, int i, struct node *d)
     const double W = q[4] * kernel_w(2, sqrt(r2), s->R);
     const double un = (q[2] - d->u[0]) * d->n[0] + (q[3] - d->u[1]) * d->n[1];
     d->W += W;
-    d->P += W * walls_pressure(s, i, d->x, d->u, d->n);
+    d->P += W * carried_pressure(s, q, e, d->du);
     for (int a = 0; a < 2 && d->no_slip; a++)
         d->shear[a] +=
             W * s->rho0 * s->nu * (q[2 + a] - d->u[a] - un * d->n[a]) / fmax(away, 0.25 * s->dx);
@@ -137,7 +149,7 @@ static void bounds(const struct node *nodes, int n, double lo[2], double hi[2])
     }
 }
 
-void probes_force(struct sph *s, int which, double force[3])
+void probes_average(struct sph *s, int which, double force[3])
 {
     const struct body *b = s->walls->bodies + which;
     struct node *nodes = NULL;
@@ -159,9 +171,11 @@ void probes_force(struct sph *s, int which, double force[3])
     force[0] = force[1] = force[2] = 0.0;
     for (int k = 0; k < n; k++) {
         const double *v = sums + 4 * (size_t)k, *x = nodes[k].x;
+        const double W =
+            fmax(v[0], 0.4); /* a wet plane has 1/2; of few particles the sum is theirs */
         double f[2];
         for (int a = 0; a < 2; a++)
-            f[a] = v[0] > 0.0 ? nodes[k].length * (v[1] * nodes[k].n[a] + v[2 + a]) / v[0] : 0.0;
+            f[a] = nodes[k].length * (v[1] * nodes[k].n[a] + v[2 + a]) / W;
         force[0] += f[0];
         force[1] += f[1];
         force[2] += (x[0] - b->is->centre[0] - b->now.x[0]) * f[1] -
@@ -171,18 +185,24 @@ void probes_force(struct sph *s, int which, double force[3])
     mem_free(nodes);
 }
 
-/* Rows of the series as samples, each for the time since the one before. */
-static void sample_force(struct sph *s, const double force[2])
+void probes_force(struct sph *s, int k, double force[3])
 {
-    const double begin = fmax(s->force_t, 0.5 * s->run->scene.time.end), dt = s->t - begin;
-    s->force_t = s->t;
+    if (!forces_of(s, k, force))
+        probes_average(s, k, force);
+}
+
+/* The second opinion on the first body, by rows, each for the time since the one before. */
+static void sample_average(struct sph *s)
+{
+    const double begin = fmax(s->average_t, 0.5 * s->run->scene.time.end), dt = s->t - begin;
+    double force[3];
+    s->average_t = s->t;
     if (dt <= 0.0)
         return;
-    s->force_time += dt;
-    for (int a = 0; a < 2; a++) {
-        s->force_sum[a] += dt * force[a];
-        s->force_sum2 += dt * force[a] * force[a];
-    }
+    probes_average(s, 0, force);
+    s->average_time += dt;
+    for (int a = 0; a < 2; a++)
+        s->average_sum[a] += dt * force[a];
 }
 
 void probes_row(struct sph *s, double *values)
@@ -194,22 +214,5 @@ void probes_row(struct sph *s, double *values)
     for (int k = 0; k < c->nbodies; k++, values += 3)
         probes_force(s, k, values);
     if (c->nbodies > 0)
-        sample_force(s, values - 3 * c->nbodies);
-}
-
-void probes_summarise(const struct sph *s)
-{
-    const struct scene *c = &s->run->scene;
-    struct summary *to = s->run->summary;
-    if (c->nbodies == 0 || s->force_time <= 0.0)
-        return;
-    const double *f = c->bodies[0].force, T = s->force_time;
-    const double mean[2] = {s->force_sum[0] / T, s->force_sum[1] / T};
-    const double var = s->force_sum2 / T - mean[0] * mean[0] - mean[1] * mean[1];
-    const double size = hypot(f[0], f[1]);
-    summary_real(to, "force.x", mean[0]);
-    summary_real(to, "force.y", mean[1]);
-    summary_real(to, "force.rms", sqrt(fmax(0.0, var)));
-    if (size > 0.0)
-        summary_real(to, "error.force", hypot(mean[0] - f[0], mean[1] - f[1]) / size);
+        sample_average(s);
 }

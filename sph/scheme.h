@@ -23,6 +23,10 @@ scheme_pass *scheme_density_gradients(int dim);
 scheme_pass *scheme_rates(const struct sph *s);       /* riemann_ale, riemann */
 scheme_pass *scheme_delta_rates(const struct sph *s); /* delta, standard */
 
+/* Adds to the rates of particle i what delta and standard take along with the shift, and no pair
+ * has. */
+void scheme_take_along(const struct sph *s, int i, double *rate);
+
 /* P_min = max(0, -min P) over all particles of all ranks [2.105], Pa; 0 if it is off. Collective
  * over s->run->comm. */
 double scheme_background(const struct sph *s);

@@ -243,6 +243,8 @@ INLINE void take_along(const struct sph *s, int i, double *rate, const int dim)
     }
 }
 
+void scheme_take_along(const struct sph *s, int i, double *rate) { take_along(s, i, rate, s->dim); }
+
 INLINE void write_rates(struct sph *s, const double *sums, const int dim)
 {
     const int nstate = 2 * dim + 2, transport = s->prm.transport;

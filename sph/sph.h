@@ -26,7 +26,7 @@ enum sph_viscosity {
     VISCOSITY_AUTO
 }; /* auto: in cases only */
 enum sph_outer { OUTER_NONE, OUTER_EXACT, OUTER_PARTNER, OUTER_SIDES };
-enum sph_walls { WALLS_NFM, WALLS_GHOSTS, WALLS_FIXED, WALLS_AUTO };
+enum sph_walls { WALLS_NFM, WALLS_GHOSTS, WALLS_AUTO };
 enum sph_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
 enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
 
@@ -108,7 +108,6 @@ struct sph {
     struct zones *zones;
     struct walls *walls;
     struct surface *surface;
-    double halo_extra; /* m: ghosts are made this much farther than pairs reach */
     double background; /* Pa: of this stage [2.105] */
     double skin;       /* m: the list holds pairs within R + skin */
     bool ready;        /* list and ghosts belong to the positions of y; whoever moves, adds or
@@ -131,9 +130,11 @@ struct sph {
     int64_t pairs_now;     /* the same, of the present list */
     struct fit signal_fit; /* of a standing wave or of the drop, sampled with the series */
     double mass0, energy0, momentum0[3]; /* at t = 0, for drifts */
-    /* Force on the first body over the second half of the run: last time, length of the sampled
-     * time, integrals of F and of |F|^2. */
-    double force_t, force_time, force_sum[2], force_sum2;
+    /* Force on the first body over the second half of the run: length of the sampled time,
+     * integrals of F and of |F|^2; the same from the averaged wall pressure, of rows: last time,
+     * length, integral of F. */
+    double force_time, force_sum[2], force_sum2;
+    double average_t, average_time, average_sum[2];
     double mach_late; /* max |u|/c0 over the second half */
 };
 

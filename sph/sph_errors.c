@@ -9,6 +9,7 @@
 #include "../common/mem.h"
 #include "domain.h"
 #include "eos.h"
+#include "forces.h"
 #include "neighbours.h"
 #include "openings.h"
 #include "probes.h"
@@ -383,7 +384,8 @@ void sph_finish(void *state)
     if (sph_has_exact(s->run))
         summarise_errors(s);
     summarise_oscillation(s);
-    probes_summarise(s);
+    if (s->walls)
+        forces_summarise(s);
     if (s->dim == 2 && s->prm.extrema[0] != 0.0)
         sph_summarise_extrema(s);
     summarise_drifts(s);

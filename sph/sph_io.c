@@ -10,6 +10,7 @@
 #include "../common/xdmf.h"
 #include "domain.h"
 #include "eos.h"
+#include "forces.h"
 #include "openings.h"
 #include "sph_params.h"
 #include "zones.h"
@@ -151,15 +152,16 @@ static const struct number {
     {                                                                                              \
 #member, offsetof(struct sph, member)                                                      \
     }
-    NUMBER(skin),         NUMBER(signal),       NUMBER(dt_most),
-    NUMBER(stray),        NUMBER(drift[0]),     NUMBER(drift[1]),
-    NUMBER(drift[2]),     NUMBER(max_speed),    NUMBER(max_shift),
-    NUMBER(max_c),        NUMBER(rho_min),      NUMBER(rho_max),
-    NUMBER(max_mach),     NUMBER(fluctuation),  NUMBER(fluctuation_particles),
-    NUMBER(mass0),        NUMBER(energy0),      NUMBER(dt),
-    NUMBER(momentum0[0]), NUMBER(momentum0[1]), NUMBER(momentum0[2]),
-    NUMBER(force_t),      NUMBER(force_time),   NUMBER(force_sum[0]),
-    NUMBER(force_sum[1]), NUMBER(force_sum2),   NUMBER(mach_late),
+    NUMBER(skin),         NUMBER(signal),         NUMBER(dt_most),
+    NUMBER(stray),        NUMBER(drift[0]),       NUMBER(drift[1]),
+    NUMBER(drift[2]),     NUMBER(max_speed),      NUMBER(max_shift),
+    NUMBER(max_c),        NUMBER(rho_min),        NUMBER(rho_max),
+    NUMBER(max_mach),     NUMBER(fluctuation),    NUMBER(fluctuation_particles),
+    NUMBER(mass0),        NUMBER(energy0),        NUMBER(dt),
+    NUMBER(momentum0[0]), NUMBER(momentum0[1]),   NUMBER(momentum0[2]),
+    NUMBER(force_time),   NUMBER(force_sum[0]),   NUMBER(force_sum[1]),
+    NUMBER(force_sum2),   NUMBER(mach_late),      NUMBER(average_t),
+    NUMBER(average_time), NUMBER(average_sum[0]), NUMBER(average_sum[1]),
 };
 enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 
@@ -214,6 +216,8 @@ void sph_checkpoint(void *state, struct h5 *f)
     domain_save(s, f);
     if (s->zones)
         zones_save(s, f);
+    if (s->walls)
+        forces_save(s, f);
 }
 
 static bool read_particles(struct sph *s, struct h5 *f)
@@ -246,7 +250,7 @@ static bool read_numbers(struct sph *s, struct h5 *f)
 bool sph_restore(struct sph *s, struct h5 *f)
 {
     const bool fits = read_particles(s, f) && read_numbers(s, f) && domain_load(s, f) &&
-                      (!s->zones || zones_load(s, f));
+                      (!s->zones || zones_load(s, f)) && (!s->walls || forces_load(s, f));
     read_signal(s, f);
     if (!fits)
         log_say("the restart file is of another number of ranks or another case");

@@ -21,7 +21,7 @@ static const struct param rows[] = {
     CHOICE(P, transport, "tvs|tvo|none|eulerian|xsph", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest; xsph: smoothed velocity"),
     CHOICE(P, viscosity, "morris|monaghan|auto", "auto", "form of the viscous term; auto: monaghan with a free surface, where it leaves no stress, else morris"),
     PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)"),
-    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface, else 0"),
+    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface and where walls carry the weight of a fluid that fills its room, else 0"),
     PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure"),
     PARAM(P, alpha, "-", "-1.0", -1.0, 1.0, "artificial viscosity of schemes delta and standard; -1: 0.01, in a viscous fluid 0"),
     PARAM(P, delta, "-", "0.05", 0.0, 0.2, "diffusion of density of scheme delta: delta c0 R"),
@@ -32,7 +32,7 @@ static const struct param rows[] = {
     PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
     CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
     PARAM(P, density_limit, "-", "0.1", 1e-6, 10.0, "|rho/rho0 - 1| that ends the run"),
-    CHOICE(P, walls, "nfm|ghosts|fixed_ghosts|auto", "auto", "normal flux (2D), mirrored ghosts (plane sides), fixed ghosts (2D); auto: nfm in 2D, ghosts in 3D"),
+    CHOICE(P, walls, "nfm|ghosts|auto", "auto", "normal flux (2D, any polyline; not with scheme standard), mirrored ghosts (plane sides); auto: nfm in 2D, ghosts in 3D and where schemes delta and standard meet no polyline"),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
     PARAM(P, packing, "-", "-1", -1, 100000, "steps of rearrangement at the start; -1: 200 with polylines or bodies, else none"),
     PARAM(P, noise, "-", "0.0", 0.0, 0.5, "random displacement of the first lattice, in dx"),
@@ -130,6 +130,17 @@ static bool has_polylines(const struct scene *c)
     return any;
 }
 
+/* A fluid whose weight walls carry: what keeps it at rest is the balance of p and g at each
+ * particle, whose errors stir it unless pairs dissipate (2e-3 c0 -> 4e-4 c0 in cases/star). Weight
+ * along a periodic axis drives a flow instead. */
+static bool hangs(const struct scene *c, const struct sph_params *prm)
+{
+    bool weight = false;
+    for (int a = 0; a < c->domain.dim; a++)
+        weight = weight || (c->fluid.gravity[a] != 0.0 && !c->domain.periodic[a]);
+    return weight && has_walls(c, prm) && !has_openings(c) && !has_box();
+}
+
 static bool has_no_slip(const struct scene *c, const struct sph_params *prm)
 {
     bool any = false;
@@ -161,10 +172,11 @@ const struct sph_params *sph_params_of(const struct run *r)
         used.viscosity = used.surface ? VISCOSITY_MONAGHAN : VISCOSITY_MORRIS;
     if (used.scheme == SCHEME_AUTO)
         used.scheme = used.surface == SURFACE_YES ? SCHEME_RIEMANN : SCHEME_RIEMANN_ALE;
-    if (used.walls == WALLS_AUTO) /* the fluxes of nfm are those of the Riemann schemes */
-        used.walls = r->scene.domain.dim == 2 && is_riemann(used.scheme) ? WALLS_NFM
-                     : has_polylines(&r->scene)                          ? WALLS_FIXED
-                                                                         : WALLS_GHOSTS;
+    if (used.walls == WALLS_AUTO) /* delta without polylines: as it is known */
+        used.walls =
+            r->scene.domain.dim == 2 && (is_riemann(used.scheme) || has_polylines(&r->scene))
+                ? WALLS_NFM
+                : WALLS_GHOSTS;
     /* Bounds of plane waves on a lattice, with margin; with normal flux of a particle dx/4 from the
      * wall, where friction alone takes 79 nu/R^2 and a lattice of dx/2 would do with 0.048. */
     if (used.cfl_viscous <= 0.0)
@@ -175,7 +187,7 @@ const struct sph_params *sph_params_of(const struct run *r)
     if (used.packing < 0)
         used.packing = has_polylines(&r->scene) && used.walls == WALLS_NFM ? 200 : 0;
     if (used.dissipation < 0.0)
-        used.dissipation = used.surface == SURFACE_YES ? 0.1 : 0.0;
+        used.dissipation = used.surface == SURFACE_YES || hangs(&r->scene, &used) ? 0.1 : 0.0;
     if (used.alpha < 0.0)
         used.alpha = r->scene.fluid.nu > 0.0 ? 0.0 : 0.01;
     if (has_box() && used.outer == OUTER_NONE)
@@ -307,28 +319,29 @@ void sph_params_check(const struct run *r, struct faults *f)
 {
     if (f->n > 0) /* values that were refused are not there to be compared */
         return;
+    const bool in_3d = r->scene.domain.dim == 3, polylines = has_polylines(&r->scene);
     if (given.gamma != 7.0 && given.gamma != 1.0)
         params_fault(r->params, f, "sph.gamma", "%g, must be 7 or 1", given.gamma);
     if (sph_params_of(r)->scheme != SCHEME_RIEMANN_ALE && given.transport == TRANSPORT_EULERIAN)
         params_fault(
             r->params, f, "sph.transport",
             "eulerian needs scheme \"riemann_ale\": without mass flux there is no Eulerian form");
-    if (!is_riemann(sph_params_of(r)->scheme) && given.walls == WALLS_NFM && sph_params_walls(r))
-        params_fault(r->params, f, "sph.walls", "nfm needs a Riemann scheme: take ghosts");
+    if (sph_params_of(r)->scheme == SCHEME_STANDARD && sph_params_of(r)->walls == WALLS_NFM &&
+        sph_params_walls(r) && !in_3d)
+        params_fault(r->params, f, "sph.scheme",
+                     "standard has no dissipation of density and diverges at normal flux walls, "
+                     "which polylines and bodies need: take riemann, riemann_ale or delta");
     for (int k = 0; k < r->scene.nwalls; k++)
         if (is_coupled(r) && r->scene.walls[k].carried)
             params_fault(r->params, f, "walls", "wall %d: carried is not for this solver", k + 1);
     if (sph_params_of(r)->c0 <= 0.0)
         params_fault(r->params, f, "sph.c0", "must be given: the case has no scale of velocity");
-    const bool in_3d = r->scene.domain.dim == 3;
-    const bool polylines = has_polylines(&r->scene);
-    if (in_3d && sph_params_walls(r) && (given.walls == WALLS_NFM || given.walls == WALLS_FIXED))
+    if (in_3d && sph_params_walls(r) && given.walls == WALLS_NFM)
         params_fault(r->params, f, "sph.walls", "in 3D: ghosts");
     if (polylines && (in_3d || given.walls == WALLS_GHOSTS))
         params_fault(r->params, f, "sph.walls",
                      in_3d ? "polylines and bodies need 2 dimensions"
-                           : "mirrored ghosts need plane sides: take nfm or fixed_ghosts for "
-                             "polylines and bodies");
+                           : "mirrored ghosts need plane sides: take nfm for polylines and bodies");
     if (given.outer == OUTER_PARTNER && !is_coupled(r))
         params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
     for (int a = 0; a < r->scene.domain.dim; a++)

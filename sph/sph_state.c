@@ -26,7 +26,6 @@ static void set_constants(struct sph *s)
     s->c0 = s->prm.c0;
     s->gamma = s->prm.gamma;
     s->central = c->fluid.central;
-    s->halo_extra = s->prm.walls == WALLS_FIXED && (c->nwalls > 0 || c->nbodies > 0) ? s->R : 0.0;
     memcpy(s->gravity, c->fluid.gravity, sizeof s->gravity);
     sph_params_open(s->run, &s->prm, s->open);
     sph_params_region(&c->domain, &s->prm, s->lo, s->hi, s->periodic);

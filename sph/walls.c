@@ -8,6 +8,7 @@
 
 #include "../common/log.h"
 #include "../common/mem.h"
+#include "forces.h"
 #include "sph_params.h"
 
 static void set_frame(struct segment *g)
@@ -236,25 +237,29 @@ void walls_velocity(const struct walls *w, const struct segment *g, const double
     }
 }
 
-/* The nearest segment decides; at a corner, of two that are equally near the one whose plane is
- * farther. */
+struct wall_side wall_side_none(double reach) { return (struct wall_side){reach, reach, -1.0}; }
+
+void wall_side_add(struct wall_side *to, const struct segment *g, const double *x)
+{
+    const double d[2] = {x[0] - g->a[0], x[1] - g->a[1]};
+    const double height = -(d[0] * g->n[0] + d[1] * g->n[1]);
+    double along = d[0] * g->t[0] + d[1] * g->t[1];
+    along = along < 0.0 ? -along : along > g->length ? along - g->length : 0.0;
+    const double r = sqrt(along * along + height * height);
+    if (r < to->least * (1.0 + 1e-12) &&
+        (r < to->least * (1.0 - 1e-12) || fabs(height) > to->sure)) {
+        to->least = r;
+        to->sure = fabs(height);
+        to->distance = height < 0.0 ? -r : r;
+    }
+}
+
 double walls_distance(const struct walls *w, const double *x, double reach)
 {
-    double least = reach, sure = -1.0, signed_least = reach;
-    for (int k = 0; k < w->nsegments; k++) {
-        const struct segment *g = w->segments + k;
-        const double d[2] = {x[0] - g->a[0], x[1] - g->a[1]};
-        double along = d[0] * g->t[0] + d[1] * g->t[1];
-        const double height = -(d[0] * g->n[0] + d[1] * g->n[1]);
-        along = along < 0.0 ? -along : along > g->length ? along - g->length : 0.0;
-        const double r = sqrt(along * along + height * height);
-        if (r < least * (1.0 + 1e-12) && (r < least * (1.0 - 1e-12) || fabs(height) > sure)) {
-            least = r;
-            sure = fabs(height);
-            signed_least = height < 0.0 ? -r : r;
-        }
-    }
-    return signed_least;
+    struct wall_side side = wall_side_none(reach);
+    for (int k = 0; k < w->nsegments; k++)
+        wall_side_add(&side, w->segments + k, x);
+    return side.distance;
 }
 
 int walls_nearest(const struct walls *w, const double *x, double *foot)
@@ -288,10 +293,13 @@ bool walls_put_back(struct sph *s, int i)
     walls_velocity(w, g, foot, uw, NULL);
     for (int a = 0; a < 2; a++)
         un += (y[s->dim + a] / m - uw[a]) * g->n[a];
+    double impulse[2];
     for (int a = 0; a < 2; a++) {
         y[a] = foot[a] - 0.05 * s->dx * g->n[a];
-        y[s->dim + a] -= m * fmax(un, 0.0) * g->n[a];
+        impulse[a] = m * fmax(un, 0.0) * g->n[a];
+        y[s->dim + a] -= impulse[a];
     }
+    forces_hit(s->walls, g->body, foot, impulse);
     s->walls->returned++;
     return true;
 }
@@ -306,8 +314,12 @@ void walls_put_back_inside(struct sph *s)
             const double out = p->sign * (y[p->axis] - p->at);
             if (!(out > 0.0) || out > s->dx)
                 continue;
+            double impulse[3] = {0.0, 0.0, 0.0};
+            impulse[p->axis] = p->sign * fmax(p->sign * y[dim + p->axis], 0.0);
             y[p->axis] = p->at - 0.05 * s->dx * p->sign;
-            y[dim + p->axis] = p->sign * fmin(p->sign * y[dim + p->axis], 0.0);
+            y[dim + p->axis] -= impulse[p->axis];
+            if (dim == 2)
+                forces_hit(s->walls, -1, y, impulse);
             s->walls->returned++;
         }
     }
@@ -358,8 +370,7 @@ static double largest_speed(const struct walls *w)
 
 struct walls *walls_create(struct sph *s)
 {
-    static const struct wall_model *const models[] = {&wall_nfm, &wall_ghost,
-                                                      &wall_fixed}; /* enum sph_walls */
+    static const struct wall_model *const models[] = {&wall_nfm, &wall_ghost}; /* enum sph_walls */
     const struct scene *c = &s->run->scene;
     int any = c->nbodies;
     for (int k = 0; k < c->nwalls; k++)

@@ -56,7 +56,16 @@ struct wall_model {
     void (*gammas)(struct sph *s, double *gamma); /* Shepard factors of the locals near walls */
     int (*behind)(const struct sph *s, int *who); /* lists locals that are behind a wall */
 };
-extern const struct wall_model wall_ghost, wall_fixed, wall_nfm;
+extern const struct wall_model wall_ghost, wall_nfm;
+
+/* What the fluid gives to each body, and last to the walls at rest; forces.h. */
+struct wall_forces {
+    double stage[BODIES_MAX + 1][3];   /* N/m, N/m, N: in the stage under way; this rank */
+    double step[BODIES_MAX + 1][3];    /* N s/m, N s/m, N s: in the step under way; this rank */
+    double now[BODIES_MAX + 1][3];     /* N/m, N/m, N: mean over the last step; all ranks */
+    double impulse[BODIES_MAX + 1][3]; /* N s/m, ..: since the start; all ranks */
+    bool credited, known;              /* the model tells; a step is over */
+};
 
 struct walls {
     int nsegments;
@@ -67,8 +76,9 @@ struct walls {
     struct body bodies[BODIES_MAX];
     double t; /* s: of `segments' */
     const struct wall_model *model;
-    void *state;      /* of the model */
-    double speed;     /* m/s: largest of a wall */
+    void *state;  /* of the model */
+    double speed; /* m/s: largest of a wall */
+    struct wall_forces forces;
     int64_t returned; /* particles found behind walls and put back; this rank */
 };
 
@@ -80,6 +90,13 @@ void walls_move(struct sph *s, double t);
 /* Velocity and acceleration of a segment's material point x, m/s and m/s^2 (du may be NULL). */
 void walls_velocity(const struct walls *w, const struct segment *g, const double *x, double *u,
                     double *du);
+/* The nearest of the segments that were added, negative behind it; at a corner, of two that are
+ * equally near, the one whose plane is farther. */
+struct wall_side {
+    double distance, least, sure;
+};
+struct wall_side wall_side_none(double reach);
+void wall_side_add(struct wall_side *to, const struct segment *g, const double *x);
 /* Distance of x to the nearest wall, negative behind it; at least -reach, at most reach. */
 double walls_distance(const struct walls *w, const double *x, double reach);
 /* Nearest point of the walls to x; returns its segment. */
@@ -89,10 +106,6 @@ int walls_nearest(const struct walls *w, const double *x, double *foot);
 bool walls_put_back(struct sph *s, int i);
 /* The same for all locals beyond a side that is a wall. */
 void walls_put_back_inside(struct sph *s);
-/* Pressure that local particle i lays on the wall at x (velocity uw, normal n) [4.14], [4.30-4.32];
- * 2D; needs slope. */
-double walls_pressure(const struct sph *s, int i, const double *x, const double *uw,
-                      const double *n);
 /* ALE near walls: dividing pair fluxes by gamma, or ghosts with the weight of a still column, take
  * from them their antisymmetry. What mass they so make or lose is given back to the particles
  * who[n] (NULL: all) in proportion to theirs. Collective. */

@@ -1,4 +1,4 @@
-/* test_walls.c - walls: the analytic Shepard factor against the table of integrals, quadrature, the
+/* test_walls.c - walls: integrals in closed form against the table and quadrature, the
  * operators near walls, surface detection with and without wall terms, water at rest, ranks.
  * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
@@ -7,9 +7,8 @@
 #include "../sph/kernel.h"
 #include "../sph/neighbours.h"
 #include "../sph/probes.h"
-#include "../sph/shepard2d.h"
 #include "../sph/surface.h"
-#include "../sph/wall_points.h"
+#include "../sph/wall_moments.h"
 #include "../sph/walls.h"
 #include "sph_case.h"
 
@@ -47,7 +46,7 @@ static double gamma_of(double p[20][2], int n, const double *x)
         const double d[2] = {p[k + 1][0] - p[k][0], p[k + 1][1] - p[k][1]}, l = hypot(d[0], d[1]);
         const double a[2] = {p[k][0] - x[0], p[k][1] - x[1]};
         const double along = (d[0] * a[0] + d[1] * a[1]) / l;
-        gamma += shepard_segment((d[1] * a[0] - d[0] * a[1]) / l, along, along + l);
+        gamma += wall_moments((d[1] * a[0] - d[0] * a[1]) / l, along, along + l, 0.1).gamma;
     }
     return gamma;
 }
@@ -81,22 +80,56 @@ static double line_integral(double d)
     return 14.0 / M_PI * (m - 10.0 * K2 + 20.0 * J3 - 15.0 * K4 + 4.0 * J5);
 }
 
-static void quadrature_is_nearly_exact(void **state)
+/* Against Simpson's rule, for walls at random; and sums over the pieces of a wall are the wall's.
+ */
+static void moments_are_integrals(void **state)
 {
-    const struct segment g = {
-        .a = {-5.0, 0.0}, .b = {5.0, 0.0}, .t = {1.0, 0.0}, .n = {0.0, -1.0}, .length = 10.0};
+    enum { POINTS = 2000, WALLS = 300 };
+    (void)state;
+    srand(7);
+    for (int k = 0; k < WALLS; k++) {
+        const double d = 1e-3 + rand() / (double)RAND_MAX, q = 0.125;
+        const double from = 2.4 * rand() / RAND_MAX - 1.2, to = from + 2.0 * rand() / RAND_MAX;
+        const double half = sqrt(fmax(0.0, 1.0 - d * d));
+        const double a = fmax(from, -half), b = fmin(to, half);
+        const struct wall_moments m = wall_moments(d, from, to, q);
+        double sum[3] = {0.0}, parts[4] = {0.0};
+        for (int j = 0; j <= POINTS && b > a; j++) {
+            const double y = a + (b - a) * j / POINTS, r = hypot(d, y);
+            const double W = kernel_w(2, r, 1.0) * (b - a) / (3.0 * POINTS) *
+                             (j == 0 || j == POINTS ? 1.0
+                              : j % 2               ? 4.0
+                                                    : 2.0);
+            sum[0] += W;
+            sum[1] += W * y;
+            sum[2] += W * fmin(1.0, q * q / (r * r));
+        }
+        assert_close(m.W, sum[0], 1e-8);
+        assert_close(m.W * m.along, sum[1], 1e-8);
+        assert_close(m.W * m.near, sum[2], 1e-4); /* a kink at r = q */
+        for (int j = 0; j < 5; j++) {
+            const double l = (to - from) / 5.0;
+            const struct wall_moments p = wall_moments(d, from + j * l, from + (j + 1) * l, q);
+            parts[0] += p.W;
+            parts[1] += p.W * p.along;
+            parts[2] += p.W * p.near;
+            parts[3] += p.gamma;
+        }
+        assert_close(parts[0], m.W, 1e-10);
+        assert_close(parts[1], m.W * m.along, 1e-10);
+        assert_close(parts[2], m.W * m.near, 1e-10);
+        assert_close(parts[3], m.gamma, 1e-10);
+    }
+}
+
+/* W is the derivative of gamma over a plane. */
+static void gamma_rises_with_the_wall(void **state)
+{
     (void)state;
     for (double d = 0.02; d < 1.0; d += 0.07) {
-        const double x[2] = {0.3, d};
-        struct wall_point at[WALL_POINTS];
-        double sum = 0.0;
-        for (int k = wall_points(&g, x, 1.0, at) - 1; k >= 0; k--)
-            sum += at[k].weight * at[k].W;
-        assert_close(sum, line_integral(d), 5e-4 * line_integral(0.02));
-        const double h = 1e-5, g1 = gamma_of((double[20][2]){{-5, 0}, {5, 0}}, 2, x);
-        const double up[2] = {0.3, d + h};
-        assert_close((gamma_of((double[20][2]){{-5, 0}, {5, 0}}, 2, up) - g1) / h, line_integral(d),
-                     1e-3);
+        const double h = 1e-5, g1 = wall_moments(d, -5.0, 5.0, 0.1).gamma;
+        assert_close(wall_moments(d, -5.0, 5.0, 0.1).W, line_integral(d), 1e-10);
+        assert_close((wall_moments(d + h, -5.0, 5.0, 0.1).gamma - g1) / h, line_integral(d), 1e-3);
     }
 }
 
@@ -189,8 +222,8 @@ static double largest_speed(const struct sph *s)
 static void water_at_rest_stays(void **state)
 {
     (void)state;
-    for (int walls = WALLS_NFM; walls <= WALLS_FIXED; walls++) {
-        static const double wanted[] = {5e-3, 1e-3, 8e-3}; /* of c0; fixed ghosts: measured noise */
+    for (int walls = WALLS_NFM; walls <= WALLS_GHOSTS; walls++) {
+        static const double wanted[] = {1e-3, 1e-3}; /* of c0 */
         struct sph_case c;
         tank(&c, 20, true, walls);
         struct sph *s = sph_case_start(&c, NULL);
@@ -303,21 +336,21 @@ static double energy_after(int walls, MPI_Comm comm)
 static void ranks_agree(void **state)
 {
     (void)state;
-    for (int walls = WALLS_NFM; walls <= WALLS_FIXED; walls++) {
+    for (int walls = WALLS_NFM; walls <= WALLS_GHOSTS; walls++) {
         const double together = energy_after(walls, MPI_COMM_WORLD);
         const double alone = energy_after(walls, MPI_COMM_SELF);
         assert_close(together / alone, 1.0, 1e-8);
     }
 }
 
-/* A turning body in a tank (0: nfm, 2: fixed ghosts), a tank (1: mirrored ghosts), or a channel
- * with inlet and outlet (3). */
+/* A turning body in a tank (0: nfm), a tank (1: mirrored ghosts), or a channel with inlet and
+ * outlet (2). */
 static void restart_scene(struct sph_case *c, int kind)
 {
-    tank(c, 24, kind < 3, kind < 3 ? kind : WALLS_NFM);
+    tank(c, 24, kind < 2, kind < 2 ? kind : WALLS_NFM);
     struct scene *e = &c->run.scene;
     c->prm.noise = 0.1;
-    if (kind == 3) {
+    if (kind == 2) {
         e->fluid.gravity[1] = 0.0;
         e->walls[0].kind = WALL_INFLOW;
         e->walls[0].velocity[0] = 1.0;
@@ -331,7 +364,7 @@ static void restart_scene(struct sph_case *c, int kind)
                6 * sizeof(double));
         e->bodies[0].spin = 2.0;
         e->bodies[0].centre[0] = e->bodies[0].centre[1] = 0.5;
-        c->prm.packing = kind == WALLS_NFM ? 5 : 0;
+        c->prm.packing = 5;
     }
 }
 
@@ -365,7 +398,7 @@ static double *run_scene(int kind, bool restart, int *n)
 static void restart_is_exact(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < 4; kind++) {
+    for (int kind = 0; kind < 3; kind++) {
         int n[2];
         double *straight = run_scene(kind, false, n), *again = run_scene(kind, true, n + 1);
         const bool same =
@@ -436,7 +469,8 @@ static void packing_moves_the_lattice(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(gamma_agrees_with_the_table),
-                                       cmocka_unit_test(quadrature_is_nearly_exact),
+                                       cmocka_unit_test(moments_are_integrals),
+                                       cmocka_unit_test(gamma_rises_with_the_wall),
                                        cmocka_unit_test(eigenvalues),
                                        cmocka_unit_test(surface_is_found),
                                        cmocka_unit_test(body_in_still_water),
