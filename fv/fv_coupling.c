@@ -27,7 +27,7 @@ struct link {
     double level;      /* Pa: taken out of the pressure last */
     double *rate;      /* [n] Pa/s: trend of the pressure */
     double *scatter;   /* [n] Pa: of the pressure about its trend; NULL: no surface, no impacts */
-    double *v, *dv, *got; /* scratch */
+    double *v, *dv, *ddv, *got; /* scratch */
     unsigned char *mask;
 };
 
@@ -117,6 +117,7 @@ void coupling_create(struct fv *s)
     k->scatter = scene_has_surface(&s->run->scene) ? NEW(double, k->n) : NULL;
     k->v = NEW(double, k->n * b->dim);
     k->dv = NEW(double, k->n * b->dim);
+    k->ddv = NEW(double, k->n * b->dim);
     const int64_t most = s->forcing ? s->forcing->npartner + s->forcing->nrim : 0;
     k->got = NEW(double, most * b->dim);
     k->mask = NEW(unsigned char, most);
@@ -131,6 +132,7 @@ void coupling_free(struct fv *s)
     mem_free(k->scatter);
     mem_free(k->v);
     mem_free(k->dv);
+    mem_free(k->ddv);
     mem_free(k->got);
     mem_free(k->mask);
     mem_free(k);
@@ -194,16 +196,19 @@ static void take_level(struct fv *s)
     take_out_level(s, k->q[0]);
 }
 
-/* Derivative at the newest level: three levels, two, or none. */
-static double derivative(const struct link *k, int64_t at)
+/* Derivative and half the second one at the newest level: of the parabola through three levels, of
+ * the line through two, or none. */
+static double derivative(const struct link *k, int64_t at, double *bend)
 {
+    *bend = 0.0;
     if (k->levels < 2)
         return 0.0;
     const double h = k->t[0] - k->t[1], d0 = (k->q[0][at] - k->q[1][at]) / h;
     if (k->levels < 3)
         return d0;
     const double g = k->t[1] - k->t[2], d1 = (k->q[1][at] - k->q[2][at]) / g;
-    return d0 + h * (d0 - d1) / (h + g);
+    *bend = (d0 - d1) / (h + g);
+    return d0 + h * *bend;
 }
 
 /* Pressure answers at once to every change of the forced velocities, by the change over the window,
@@ -229,9 +234,10 @@ static void put(struct fv *s)
     for (int64_t i = 0; i < k->n; i++)
         for (int a = 0; a < dim; a++) {
             k->v[i * dim + a] = k->q[0][i * (dim + 1) + a];
-            k->dv[i * dim + a] = derivative(k, i * (dim + 1) + a);
+            k->dv[i * dim + a] = derivative(k, i * (dim + 1) + a, k->ddv + i * dim + a);
         }
-    check(k, cpl_put(k->c, k->velocity, s->t, k->n, k->v, k->dv));
+    check(k, cpl_put_course(k->c, k->velocity, s->t, k->n, 3,
+                            (const double *const[]){k->v, k->dv, k->ddv}));
     for (int64_t i = 0; i < k->n; i++)
         k->v[i] = k->q[0][i * (dim + 1) + dim];
     check(k, cpl_put(k->c, k->pressure, s->t, k->n, k->v, k->rate));
@@ -280,7 +286,8 @@ void coupling_first(void *state)
     mem_free(x);
     mem_free(id);
     if (!s->run->restart) {
-        const double before = 1e-3;
+        const double before = s->exact.U > 0.0 ? 1e-3 * s->exact.L / s->exact.U : 1e-3;
+        double bend;
         for (int m = 0; f && m < b->dim; m++)
             for (int64_t i = 0; i < n; i++)
                 f->v_next[m][i] = s->u[m][f->partner[i]];
@@ -293,7 +300,7 @@ void coupling_first(void *state)
         if (s->has_exact)
             exact_level(s, s->t, 0); /* the start's pressure, in forced cells too */
         for (int64_t i = 0; i < k->n; i++)
-            k->rate[i] = derivative(k, i * (b->dim + 1) + b->dim);
+            k->rate[i] = derivative(k, i * (b->dim + 1) + b->dim, &bend);
         if (f)
             s->forcing->t1 = s->t;
     }
