@@ -95,13 +95,15 @@ void coupling_create(struct fv *s)
                  "coupling goes one way; refine fv.cells or lower coupling.overlap",
                  lo[0], lo[1], hi[0], hi[1]);
     int first = 0; /* row */
+    double memory[3];
     if (b->rows) {
         check_rows(s, k);
         first = b->rows->even - b->lo[1];
         first = first < 0 ? 0 : first > b->n[1] ? b->n[1] : first;
     }
     declare(s, k);
-    k->course = course_create(s, first);
+    check(k, cpl_find_zone(k->c, "sph.memory", memory, memory));
+    k->course = course_create(s, first, (int)memory[0]);
     const int64_t most = s->forcing ? s->forcing->npartner + s->forcing->nrim : 0;
     k->got = NEW(double, most * b->dim);
     k->mask = NEW(unsigned char, most);
@@ -182,8 +184,6 @@ void coupling_first(void *state)
             start_forced(s, before);
         course_start(s, k->course, before);
     }
-    if (!k->course->tried)
-        put(s);
 }
 
 /* The partner's velocities at t1; cells that it does not reach keep theirs. */
@@ -196,10 +196,8 @@ void coupling_window_begin(void *state, double t0, double t1)
     const int64_t n = f ? f->npartner + f->nrim : 0;
     if (f)
         forcing_shift(f, t0, t1);
-    if (k->course->tried) {
-        course_try(s, k->course, t1);
-        put(s);
-    }
+    course_try(s, k->course, t1);
+    put(s);
     check(k, cpl_get(k->c, k->imposed, n, k->got, k->mask));
     for (int a = 0; f && a < dim; a++)
         for (int64_t i = 0; i < n; i++)
@@ -211,8 +209,6 @@ void coupling_window_end(void *state, double t1)
     (void)t1;
     struct fv *s = state;
     course_take(s, s->link->course);
-    if (!s->link->course->tried)
-        put(s);
 }
 
 static const char *const forced_names[3][3] = {

@@ -8,22 +8,21 @@
 #include "../common/h5.h"
 #include "../common/mem.h"
 
-struct course *course_create(const struct fv *s, int first)
+struct course *course_create(const struct fv *s, int first, int memory)
 {
     struct course *c = NEW(struct course, 1);
     const struct block *b = &s->b;
     c->first = first;
     c->dim = b->dim;
-    c->memory = s->run->scene.coupling.memory;
+    c->memory = memory;
     c->n = (int64_t)b->n[0] * (b->n[1] - first) * b->n[2];
     for (int m = 0; m < COURSE_LEVELS; m++)
         c->q[m] = NEW(double, c->n *(b->dim + 1));
     for (int m = 0; m < COURSE_TERMS; m++)
         c->term[m] = NEW(double, c->n * b->dim);
-    if (c->memory == 0) {
-        c->tried = NEW(double, c->n *(b->dim + 1));
-        c->kept = kept_create(s);
-    } else {
+    c->tried = NEW(double, c->n *(b->dim + 1));
+    c->kept = kept_create(s);
+    if (c->memory > 1) {
         c->rate = NEW(double, c->n);
         c->scatter = scene_has_surface(&s->run->scene) ? NEW(double, c->n) : NULL;
     }
@@ -106,8 +105,8 @@ static void shift(struct course *c, double t)
 }
 
 /* Pressure answers at once to every change of the forced velocities, by the change over the window,
- * and a partner that extrapolates it a window later: as it stands, noise would come back larger.
- * Smoothing takes it away; it must keep level and trend, for a lag would feed waves. */
+ * and a partner to that a window later: where what comes back is larger than what went, smoothing
+ * must take it away; it must keep level and trend, for a lag would feed waves. */
 static void smooth_pressure(struct course *c)
 {
     const double h = c->t[0] - c->t[1];
@@ -125,7 +124,7 @@ void course_take(struct fv *s, struct course *c)
     shift(c, s->t);
     c->level = look(s, c, c->q[0]);
     c->t_tried = -INFINITY;
-    if (c->memory > 0)
+    if (c->rate)
         smooth_pressure(c);
 }
 
@@ -225,7 +224,7 @@ int course_velocity(struct course *c)
     return n + 1;
 }
 
-/* A straight line: to what the trial found, along the smoothed trend, or from the level before. */
+/* A straight line: to what the trial found, or from the level before; smoothed along its trend. */
 int course_pressure(struct course *c)
 {
     const double *q[COURSE_LEVELS];

@@ -9,6 +9,7 @@
 #include "../coupler/cpl_partner.h"
 #include "domain.h"
 #include "sph_params.h"
+#include "windows.h"
 #include "zones.h"
 
 static const char *columns[SPH_COLUMNS];
@@ -125,6 +126,8 @@ static void describe(const struct run *r)
     log_say("%s%.0f particles, dx %g m, R/dx %g, c0 %g m/s; about %.0f MB", part ? "at most " : "",
             n, prm->dx, prm->R_dx, prm->c0, 1e-6 * n * bytes_per_particle(r));
     log_say("dt about %.3g s (%s), %.0f steps", dt, limit, ceil(r->scene.time.end / dt));
+    if (r->coupled)
+        windows_describe(r, prm);
     warn_of(r);
 }
 
@@ -150,11 +153,17 @@ static double step(void *s, double t_stop, struct diagnosis *d)
     return integrate_step(s, t_stop, d);
 }
 
-/* coupling.steps nominal steps: the same after a restart, whatever the state. */
+static void check(const struct run *r, struct faults *f)
+{
+    sph_params_check(r, f);
+    if (f->n == 0 && r->coupled)
+        coupling_check(r, f);
+}
+
 static double window_wish(void *state)
 {
     const struct sph *s = state;
-    return s->run->scene.coupling.steps * sph_params_dt(&s->prm, s->nu, s->c0, NULL);
+    return windows_choose(s->run, &s->prm).T;
 }
 
 /* A new partition first: the patch is taken for each rank's part. */
@@ -179,7 +188,7 @@ static struct program sph_program = {.name = "sph",
                                      .groups = sph_groups,
                                      .ngroups = SPH_GROUPS,
                                      .other_groups = others,
-                                     .check = sph_params_check,
+                                     .check = check,
                                      .describe = describe,
                                      .offer = coupling_offer,
                                      .create = create,

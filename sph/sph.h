@@ -199,7 +199,8 @@ void sph_tell(void *s, struct summary *report);
 void sph_summarise_extrema(const struct sph *s);
 
 /* sph_coupling.c: the only file here that knows cpl.h. */
-void coupling_offer(struct run *r);  /* publishes sph.box and sph.free */
+void coupling_check(const struct run *r, struct faults *f); /* coupling_check.c */
+void coupling_offer(struct run *r);                         /* publishes sph.box and sph.free */
 void coupling_create(struct sph *s); /* declares sets and fields; s->zones->eval reads the patch */
 void coupling_free(struct sph *s);
 void coupling_window_begin(void *s, double t0, double t1);

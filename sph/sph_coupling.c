@@ -10,6 +10,7 @@
 #include "../coupler/cpl.h"
 #include "domain.h"
 #include "sph_params.h"
+#include "windows.h"
 #include "zones.h"
 
 /* Ids of the sets and fields, and scratch for what is sent. */
@@ -40,6 +41,9 @@ void coupling_offer(struct run *r)
     cpl_zone(r->partner_ctx, "sph.free", lo, hi);
     zones_given_box(r, prm, lo, hi);
     cpl_zone(r->partner_ctx, "sph.given", lo, hi);
+    /* a number that travels as a box: windows over which pressure is smoothed */
+    const double memory[3] = {windows_choose(r, prm).memory, 0.0, 0.0};
+    cpl_zone(r->partner_ctx, "sph.memory", memory, memory);
 }
 
 /* Values and gradients of the patch, one field after the other. */
