@@ -8,6 +8,7 @@
 #include "../common/log.h"
 #include "../coupler/cpl_partner.h"
 #include "domain.h"
+#include "overlap.h"
 #include "sph_params.h"
 #include "windows.h"
 #include "zones.h"
@@ -133,7 +134,10 @@ static void describe(const struct run *r)
 
 static void *create(struct run *r, struct h5 *f)
 {
-    sph_program.ncolumns = sph_columns(r, columns);
+    int n = sph_columns(r, columns);
+    for (int k = 0; k < OVERLAP_COLUMNS && r->coupled; k++)
+        columns[n++] = overlap_columns[k];
+    sph_program.ncolumns = n;
     struct sph *s = sph_create(r, sph_params_of(r), f);
     if (s && r->coupled)
         coupling_create(s);
@@ -148,9 +152,14 @@ static void destroy(void *state)
     sph_free(&s);
 }
 
-static double step(void *s, double t_stop, struct diagnosis *d)
+static struct overlap *watched(const struct sph *s) { return s->zones ? s->zones->watched : NULL; }
+
+static double step(void *state, double t_stop, struct diagnosis *d)
 {
-    return integrate_step(s, t_stop, d);
+    struct sph *s = state;
+    if (watched(s))
+        overlap_judge(s, d);
+    return d->bad ? 0.0 : integrate_step(s, t_stop, d);
 }
 
 static void check(const struct run *r, struct faults *f)
@@ -181,6 +190,30 @@ static void progress(void *state, char *line, int size)
              100.0 * (s->rho_max / s->rho0 - 1.0));
 }
 
+static void row(void *state, double *values)
+{
+    struct sph *s = state;
+    sph_row(s, values);
+    if (watched(s))
+        overlap_row(watched(s), values + sph_program.ncolumns - OVERLAP_COLUMNS);
+}
+
+static void finish(void *state)
+{
+    struct sph *s = state;
+    sph_finish(s);
+    if (watched(s))
+        overlap_summary(watched(s), s->run->summary);
+}
+
+static void tell(void *state, struct summary *report)
+{
+    struct sph *s = state;
+    sph_tell(s, report);
+    if (watched(s))
+        overlap_tell(watched(s), report);
+}
+
 static const char *const others[] = {"fv", "coupler", NULL};
 
 static struct program sph_program = {.name = "sph",
@@ -197,12 +230,12 @@ static struct program sph_program = {.name = "sph",
                                      .window_wish = window_wish,
                                      .window_begin = window_begin,
                                      .window_end = coupling_window_end,
-                                     .tell = sph_tell,
+                                     .tell = tell,
                                      .columns = columns,
-                                     .row = sph_row,
+                                     .row = row,
                                      .progress = progress,
                                      .snapshot = sph_snapshot,
                                      .checkpoint = sph_checkpoint,
-                                     .finish = sph_finish};
+                                     .finish = finish};
 
 int main(int argc, char **argv) { return run_main(argc, argv, &sph_program, &cpl_partner); }

@@ -9,6 +9,7 @@
 #include "../common/mem.h"
 #include "../coupler/cpl.h"
 #include "domain.h"
+#include "overlap.h"
 #include "sph_params.h"
 #include "windows.h"
 #include "zones.h"
@@ -70,11 +71,13 @@ void coupling_create(struct sph *s)
           cpl_field(k->c, k->particles, "fv.pressure", "Pa", 1, CPL_GET, how, &k->patch_pressure));
     s->zones->eval = eval_patch;
     s->zones->ctx = k;
+    s->zones->watched = overlap_create(s);
 }
 
 void coupling_free(struct sph *s)
 {
     struct link *k = s->zones->ctx;
+    overlap_free(&s->zones->watched);
     mem_free(k->x);
     mem_free(k->u);
     mem_free(k->w);
@@ -98,6 +101,7 @@ void coupling_window_begin(void *state, double t0, double t1)
     check(k, cpl_patch_get(k->c, k->patch_velocity, lo, hi));
     check(k, cpl_patch_get(k->c, k->patch_pressure, lo, hi));
     zones_gauge(s);
+    overlap_look(s);
 }
 
 static void room(struct link *k, int n)

@@ -88,6 +88,7 @@ static void scales(const struct run *r, const struct sph_params *prm, struct win
         const double g = fabs(c->fluid.gravity[down]), H = depth_of(c, down);
         const double k = 2.0 * M_PI / c->initial.L * (c->initial.L_z > 0.0 ? M_SQRT2 : 1.0);
         w->omega = scene_has_wave(c) ? sqrt(g * k * tanh(k * H)) : sqrt(g / H);
+        w->weight = g * fmin(H, w->L);
         if (!scene_has_wave(c))
             w->U = fmax(w->U, sqrt(g * H));
     }

@@ -11,6 +11,7 @@ struct windows {
     int steps, memory; /* nominal steps in it; windows over which p outside is smoothed, 1: none */
     const char *limit; /* what sets T */
     double U, L;       /* m/s, m: scales of the flow */
+    double weight;     /* m^2/s^2: g times depth or L under a surface, else 0 */
     double omega;      /* 1/s: of the waves; 0: none */
     double T_most;     /* s: T that accuracy allows, by the flow and by the waves */
     double mass;       /* m: added mass of the partner's region at the side, per area and rho */
