@@ -141,17 +141,18 @@ static void start_forced(struct fv *s, double before)
     f->t1 = s->t;
     f->t0 = s->t - before;
     f->t_old = s->t - 2.0 * before;
-    f->levels = s->has_exact ? 3 : 1;
+    const bool past = exact_has_past(&s->exact) && s->has_exact;
+    f->levels = past ? 3 : 1;
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         int at[3];
         block_place(b, f->partner[i], at);
         block_centre(b, at[0], at[1], at[2], x);
         for (int m = 0; m < 3; m++) {
             double *const *v = m == 0 ? f->v_next : m == 1 ? f->v : f->v_old;
-            if (m > 0 && s->has_exact)
+            if (m > 0 && past)
                 exact_average(&s->exact, x, b->h, s->t - m * before, u, NULL, NULL);
             for (int a = 0; a < b->dim; a++)
-                v[a][i] = m > 0 && s->has_exact ? u[a] : s->u[a][f->partner[i]];
+                v[a][i] = m > 0 && past ? u[a] : s->u[a][f->partner[i]];
         }
     }
 }

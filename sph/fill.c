@@ -65,9 +65,8 @@ static bool in_shape(const struct sph *s, const struct scene_shape *h, const dou
     }
 }
 
-/* Whether there is fluid at x, and the velocity that its shape adds. Without shapes the field knows
- * its own. */
-static bool is_fluid(const struct sph *s, const struct exact *e, const double *x, double *velocity)
+/* Without shapes the field knows its own. */
+bool fill_is_fluid(const struct sph *s, const struct exact *e, const double *x, double *velocity)
 {
     const struct scene *c = &s->run->scene;
     const struct scene_initial *f = &c->initial;
@@ -94,7 +93,7 @@ static void add(struct sph *s, const struct exact *e, int64_t id, const double *
     double x[3] = {0.0, 0.0, 0.0}, u[3], p, more[3];
     for (int a = 0; a < s->dim; a++)
         x[a] = centre[a] + (s->prm.noise > 0.0 ? s->prm.noise * s->dx * random_of(id, a) : 0.0);
-    if (!is_fluid(s, e, x, more))
+    if (!fill_is_fluid(s, e, x, more))
         return;
     exact_point(e, x, 0.0, u, &p, NULL);
     for (int a = 0; a < s->dim; a++)

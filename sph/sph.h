@@ -161,7 +161,10 @@ void particles_lines(struct sph *s);
 /* pack.c: steps of rearrangement of the first particles between walls; 0: none. Collective. */
 void pack_start(struct sph *s, int steps);
 
-/* fill.c: lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
+/* fill.c: whether there is fluid at x at the start, and the velocity that its shape adds. */
+struct exact;
+bool fill_is_fluid(const struct sph *s, const struct exact *e, const double *x, double *velocity);
+/* lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
 void fill_lattice(struct sph *s);
 
 /* integrate.c: one RK4 step of at most dt_max; see program.step. */
