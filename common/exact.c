@@ -220,6 +220,11 @@ bool exact_oscillation(const struct exact *e, double *period, double *rate)
     return false;
 }
 
+bool exact_has_past(const struct exact *e)
+{
+    return e->field != FIELD_POISEUILLE && e->field != FIELD_COUETTE;
+}
+
 double exact_surface(const struct exact *e, double x)
 {
     return e->bottom + e->height + (e->field == FIELD_STOKES ? stokes_eta(&e->stokes, x) : 0.0);

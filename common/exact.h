@@ -38,6 +38,9 @@ struct exact {
 /* Whether the scene's field solves the equations at all times, not only at the start. */
 bool exact_at_all_times(const struct scene *s);
 
+/* Whether it holds before t = 0, too: not where the flow is started from rest. */
+bool exact_has_past(const struct exact *e);
+
 struct exact exact_create(const struct scene *s);
 /* Period (s) and rate of decay (1/s, < 0) of a standing wave or of the drop (rate 0: inviscid);
  * false for other fields. */

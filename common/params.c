@@ -720,6 +720,34 @@ bool params_has_group(const struct params *p, const char *group)
 
 unsigned long long params_hash(const struct params *p) { return p->hash; }
 
+/* The value of `key' on rank 0: of the command line, of the case, or NULL. */
+static const config_setting_t *value_of(const struct params *p, const char *key)
+{
+    for (int k = p->noverrides - 1; p->rank == 0 && k >= 0; k--) {
+        const struct override *o = p->overrides + k;
+        char whole[160];
+        snprintf(whole, sizeof whole, "%s.%s", o->group, o->key);
+        if (strcmp(whole, key) == 0)
+            return config_lookup(&o->cfg, "value");
+    }
+    return p->read ? config_lookup(&p->cfg, key) : NULL;
+}
+
+bool params_peek(const struct params *p, MPI_Comm comm, const char *key, double v[3])
+{
+    const config_setting_t *s = value_of(p, key);
+    int n = 0;
+    v[0] = v[1] = v[2] = 0.0;
+    if (s && number_of(s, v))
+        n = 1;
+    for (int k = 0; s && config_setting_is_aggregate(s) && k < 3 && k < config_setting_length(s);
+         k++)
+        n += number_of(config_setting_get_elem(s, (unsigned)k), v + k);
+    MPI_Bcast(v, 3, MPI_DOUBLE, 0, comm);
+    MPI_Bcast(&n, 1, MPI_INT, 0, comm);
+    return n > 0;
+}
+
 static bool marked(const struct params *p, const char *key, const char *mark)
 {
     char word[160];

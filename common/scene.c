@@ -88,11 +88,11 @@ static const struct param probe_rows[] = {
 #undef P
 #define P struct scene_coupling
 static const struct param coupling_rows[] = {
-    PARAM(P, steps,      "-", "32",  1, 100000, "SPH steps in a window between two exchanges"),
+    PARAM(P, steps,      "-", "0",   0, 100000, "SPH steps in a window between two exchanges; 0: as many as the flow bears"),
     PARAM(P, transition, "m", "0.0", 0, 1e6, "width of the zone where SPH is blended with FV; 0: 1.25 R"),
     PARAM(P, buffer,     "m", "0.0", 0, 1e6, "width of the zone where SPH takes FV's fields; 0: 1.25 R"),
     PARAM(P, overlap,    "m", "0.0", 0, 1e6, "width of the rim of SPH's free zone where FV is free, too; 0: 1.25 R"),
-    PARAM(P, memory,     "-", "10",  1, 1000, "windows over which FV's pressure is smoothed, level and trend"),
+    PARAM(P, memory,     "-", "0",   0, 1000, "windows over which FV's pressure is smoothed, level and trend; 1: none; 0: as many as the gain of the loop wants"),
     PARAM(P, keep_mass,  "-", "true", 0, 0, "SPH's part without a surface: what its mass gained in a window goes out by the openings in the next"),
     CHOICE(P, mapping, "shepard|mls", "mls", "from particles to forced cells"),
     CHOICE(P, interpolation, "linear|cubic", "cubic", "from cells to particles"),

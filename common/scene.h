@@ -111,11 +111,11 @@ struct scene {
     } probes[PROBES_MAX];
     int nprobes;
     struct scene_coupling {
-        int steps;         /* SPH steps in a window */
+        int steps;         /* SPH steps in a window; 0: automatic */
         double transition; /* m; 0: 1.25 R */
         double buffer;     /* m; 0: 1.25 R */
         double overlap;    /* m; 0: 1.25 R: of the free zone, outside the forced cells */
-        int memory;        /* windows over which FV's pressure is smoothed */
+        int memory;        /* windows over which FV's pressure is smoothed; 0: automatic */
         bool keep_mass;    /* what SPH's part gained goes out by the openings; without a surface */
         int mapping;       /* 0 shepard, 1 mls: particles to forced cells */
         int interpolation; /* 0 linear, 1 cubic: patch to particles */

@@ -306,7 +306,10 @@ static void describe(const struct coupler *c)
                                                                   : "no group sph or fv");
         return;
     }
-    log_say("sph and fv exchange every %d steps of sph", c->scene.coupling.steps);
+    if (c->scene.coupling.steps > 0)
+        log_say("sph and fv exchange every %d steps of sph", c->scene.coupling.steps);
+    else
+        log_say("sph and fv exchange as often as sph finds that the flow wants");
     log_say("  fv -> sph  velocity, pressure: %s, everywhere but the free zone",
             c->scene.coupling.interpolation ? "cubic" : "linear");
     log_say("  sph -> fv  velocity: %s, at the cells that fv leaves to sph",

@@ -21,7 +21,11 @@
 extern "C" {
 #endif
 
-enum { CPL_VERSION = 1, CPL_NAME = 64 };
+enum {
+    CPL_VERSION = 2,
+    CPL_NAME = 64,
+    CPL_TERMS = 4 /* in time, of a grid's field */
+};
 enum cpl_error {
     CPL_OK = 0,
     CPL_EINPUT = -2,   /* the case, the plan or the call is at fault */
@@ -91,6 +95,10 @@ int cpl_move(struct cpl *c, int set, long n, const double *x, const int64_t *gid
 /* Gives a field at time t, the start or the end of the window: v[n ncomp] in the order of cpl_move,
  * or of the grid's block (x fastest). dvdt: its time derivative, grids only, NULL: zero. */
 int cpl_put(struct cpl *c, int field, double t, long n, const double *v, const double *dvdt);
+/* The same of a grid with its course in time: v(t') = sum of term[k] (t' - t)^k over k < nterms, at
+ * most CPL_TERMS; term[0] the values. */
+int cpl_put_course(struct cpl *c, int field, double t, long n, int nterms,
+                   const double *const term[]);
 /* Takes a mapped field at the last moved points and the window's end: waits for the giver. mask[n]:
  * 1 mapped, 0 no point within the support (v untouched); may be NULL. */
 int cpl_get(struct cpl *c, int field, long n, double *v, unsigned char *mask);
@@ -98,9 +106,8 @@ int cpl_get(struct cpl *c, int field, long n, double *v, unsigned char *mask);
  * patch stays until the next call. In a window the first call takes the values at its start, the
  * second those at its end. */
 int cpl_patch_get(struct cpl *c, int field, const double lo[3], const double hi[3]);
-/* Evaluates the patch at n points x[3 n] and time t, v(t) = v + (t - t_put) dv/dt; no
- * communication. v[n ncomp]; grad[n ncomp 3] or NULL. Points outside the patch get the value of its
- * nearest place. */
+/* Evaluates the patch at n points x[3 n] and time t; no communication. v[n ncomp]; grad[n ncomp 3]
+ * or NULL. Points outside the patch get the value of its nearest place. */
 void cpl_patch_eval(const struct cpl *c, int field, double t, long n, const double *x, double *v,
                     double *grad);
 /* Number for the coupler's progress line and summary, sent with the next advance or close. Sums of

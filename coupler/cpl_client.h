@@ -39,7 +39,7 @@ struct client_set {
 struct slot {
     int64_t tick; /* -1: none */
     double t;
-    double *v, *dvdt;
+    double *v[CPL_TERMS]; /* grids: terms in time; NULL: zero */
     struct places *places;
     int *served; /* [ncoupler] generation of the region that was answered */
 };

@@ -101,7 +101,7 @@ static void serve_points(const struct client_field *f, const struct slot *s, con
         memcpy(x + k * row[0], at->x + 3 * i, row[0]);
         memcpy(gid + k * row[1], at->gid + i, row[1]);
         memcpy(volume + k * row[2], at->volume + i, row[2]);
-        memcpy(v + k * row[3], s->v + (size_t)i * nc, row[3]);
+        memcpy(v + k * row[3], s->v[0] + (size_t)i * nc, row[3]);
     }
     pack_head(p)->count = n;
     free(chosen);
@@ -130,7 +130,8 @@ static void pack_cells(const struct client_field *f, const struct slot *s, const
     const size_t n = (size_t)(hi[0] - lo[0]) * (size_t)(hi[1] - lo[1]) * (size_t)(hi[2] - lo[2]);
     int64_t begin[7] = {asker, lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]};
     pack_bytes(p, begin, sizeof begin);
-    double *to = pack_room(p, 2 * n * nc * sizeof *to); /* all that was packed is a multiple of 8 */
+    double *to =
+        pack_room(p, CPL_TERMS * n * nc * sizeof *to); /* all that was packed is a multiple of 8 */
     for (int k = lo[2]; k < hi[2]; k++)
         for (int j = lo[1]; j < hi[1]; j++) {
             const size_t kk = (size_t)(k - shift[2] * g->cells[2] - g->lo[2]);
@@ -139,10 +140,9 @@ static void pack_cells(const struct client_field *f, const struct slot *s, const
             size_t from =
                 nc *
                 ((kk * (size_t)(g->hi[1] - g->lo[1]) + jj) * (size_t)(g->hi[0] - g->lo[0]) + ii);
-            for (size_t m = nc * (size_t)(hi[0] - lo[0]); m > 0; m--, from++) {
-                *to++ = s->v[from];
-                *to++ = s->dvdt ? s->dvdt[from] : 0.0;
-            }
+            for (size_t m = nc * (size_t)(hi[0] - lo[0]); m > 0; m--, from++)
+                for (int term = 0; term < CPL_TERMS; term++)
+                    *to++ = s->v[term] ? s->v[term][from] : 0.0;
         }
 }
 
@@ -214,14 +214,20 @@ static int64_t tick_of(const struct cpl *c, double t)
 
 static void clear_slot(struct slot *s)
 {
-    free(s->v);
-    free(s->dvdt);
+    for (int k = 0; k < CPL_TERMS; k++)
+        free(s->v[k]);
     free(s->served);
     places_release(&s->places);
     *s = (struct slot){.tick = -1};
 }
 
 int cpl_put(struct cpl *c, int field, double t, long n, const double *v, const double *dvdt)
+{
+    return cpl_put_course(c, field, t, n, dvdt ? 2 : 1, (const double *const[]){v, dvdt});
+}
+
+int cpl_put_course(struct cpl *c, int field, double t, long n, int nterms,
+                   const double *const term[])
 {
     const int code = check_field(c, field, CPL_PUT, "cpl_put");
     if (code != CPL_OK)
@@ -234,21 +240,26 @@ int cpl_put(struct cpl *c, int field, double t, long n, const double *v, const d
         want = (long)(g->hi[0] - g->lo[0]) * (g->hi[1] - g->lo[1]) * (g->hi[2] - g->lo[2]);
     else if (want > 0 && (!set->places->volume || !set->places->gid))
         return client_error(c, CPL_EORDER, "%s: its points have no volumes or ids", f->name);
+    if (nterms < 1 || nterms > (set->is_grid ? CPL_TERMS : 1))
+        return client_error(c, CPL_EORDER, "%s: %d terms in time, %s can have %d", f->name, nterms,
+                            set->name, set->is_grid ? CPL_TERMS : 1);
     if (n != want)
         return client_error(c, CPL_EINPUT, "%s: %ld values for %ld places of %s", f->name, n, want,
                             set->name);
     const size_t size = (size_t)n * (size_t)f->ncomp;
-    const size_t bad = first_bad(v, size), worse = dvdt ? first_bad(dvdt, size) : size;
-    if (bad < size || worse < size)
+    size_t bad = size;
+    for (int k = 0; k < nterms && bad == size; k++)
+        bad = first_bad(term[k], size);
+    if (bad < size)
         return client_error(c, CPL_EINPUT,
                             "%s: value %zu of %s on rank %d is not finite (t = %g s)", f->name,
-                            (bad < size ? bad : worse) / (size_t)f->ncomp, set->name, c->rank, t);
+                            bad / (size_t)f->ncomp, set->name, c->rank, t);
     const int64_t tick = tick_of(c, t);
     struct slot *s = &f->slot[tick & 1];
     clear_slot(s);
-    *s = (struct slot){.tick = tick, .t = t, .v = copy(v, size * sizeof *v)};
-    if (dvdt)
-        s->dvdt = copy(dvdt, size * sizeof *dvdt);
+    *s = (struct slot){.tick = tick, .t = t};
+    for (int k = 0; k < nterms; k++)
+        s->v[k] = copy(term[k], size * sizeof *term[k]);
     s->places = set->places;
     if (s->places)
         s->places->users++;
@@ -376,7 +387,7 @@ int cpl_patch_get(struct cpl *c, int field, const double lo[3], const double hi[
         q->spacing[a] = f->grid.spacing[a];
         q->period[a] = f->grid.periodic[a] ? f->grid.cells[a] : 0;
     }
-    const size_t bytes = 2 * patch_size(q) * (size_t)q->ncomp * sizeof *q->v;
+    const size_t bytes = CPL_TERMS * patch_size(q) * (size_t)q->ncomp * sizeof *q->v;
     q->v = wire_alloc(bytes);
     take_bytes(&c->wire, m, q->v, bytes);
     patch_prepare(q);

@@ -17,6 +17,8 @@ size_t patch_size(const struct patch *p)
 void patch_clear(struct patch *p)
 {
     free(p->v);
+    free(p->now);
+    free(p->now_at);
     *p = (struct patch){0};
 }
 
@@ -39,11 +41,9 @@ static void point_values(double *line, int n, size_t stride, double *old)
     line[(size_t)(n - 1) * stride] -= last / 24.0;
 }
 
-void patch_prepare(struct patch *p)
+static void make_points(struct patch *p)
 {
-    if (!p->cubic || patch_size(p) == 0)
-        return;
-    const size_t width = 2 * (size_t)p->ncomp;
+    const size_t width = CPL_TERMS * (size_t)p->ncomp;
     const size_t step[3] = {width, width * (size_t)p->n[0],
                             width * (size_t)p->n[0] * (size_t)p->n[1]};
     int longest = p->n[0] > p->n[1] ? p->n[0] : p->n[1];
@@ -60,6 +60,33 @@ void patch_prepare(struct patch *p)
                                  step[a], old);
     }
     free(old);
+}
+
+void patch_prepare(struct patch *p)
+{
+    const size_t n = patch_size(p) * (size_t)p->ncomp;
+    if (n == 0)
+        return;
+    if (p->cubic)
+        make_points(p);
+    p->now = malloc(n * sizeof *p->now);
+    p->now_at = malloc(sizeof *p->now_at);
+    if (!p->now || !p->now_at)
+        abort();
+    p->now_at[0] = NAN;
+}
+
+/* All cells at the time t, by Horner: there are fewer of them than of points that look. */
+static void move_to(const struct patch *p, double t)
+{
+    const size_t n = patch_size(p) * (size_t)p->ncomp;
+    const double tau = t - p->t, *restrict v = p->v;
+    double *restrict now = p->now;
+    if (p->now_at[0] == t)
+        return;
+    for (size_t i = 0; i < n; i++, v += CPL_TERMS)
+        now[i] = v[0] + tau * (v[1] + tau * (v[2] + tau * v[3]));
+    p->now_at[0] = t;
 }
 
 /* Nodes of a stencil along one direction: first node, weights and weights of the slope (1/m). */
@@ -131,26 +158,25 @@ static inline void stencil_at(const struct patch *p, int a, double per_m, double
 /* One point: sums along x, then y, then z. ncomp, the stencil's width and grad are constants of the
  * callers, so that the inner loops unroll. */
 static inline __attribute__((always_inline)) void eval_point(const struct patch *p,
-                                                             const struct stencil q[3], double tau,
+                                                             const struct stencil q[3],
                                                              const int ncomp, const int mx,
                                                              double *v, double *grad)
 {
     double sum[4][8] = {{0}}; /* value, d/dx, d/dy, d/dz of at most 8 components */
-    const size_t width = 2 * (size_t)ncomp;
+    const size_t width = (size_t)ncomp;
     for (int k = 0; k < q[2].m; k++)
         for (int j = 0; j < q[1].m; j++) {
             const size_t row =
                 ((size_t)(q[2].first + k) * (size_t)p->n[1] + (size_t)(q[1].first + j)) *
                     (size_t)p->n[0] +
                 (size_t)q[0].first;
-            const double *c = p->v + row * width;
+            const double *c = p->now + row * width;
             const double wyz = q[1].w[j] * q[2].w[k];
             const double dy = q[1].d[j] * q[2].w[k], dz = q[1].w[j] * q[2].d[k];
             for (int a = 0; a < ncomp; a++) {
                 double f = 0.0, fx = 0.0;
                 for (int i = 0; i < mx; i++) {
-                    const double u = c[(size_t)i * width + 2 * (size_t)a] +
-                                     tau * c[(size_t)i * width + 2 * (size_t)a + 1];
+                    const double u = c[(size_t)i * width + (size_t)a];
                     f += q[0].w[i] * u;
                     fx += q[0].d[i] * u;
                 }
@@ -168,17 +194,16 @@ static inline __attribute__((always_inline)) void eval_point(const struct patch 
     }
 }
 
-typedef void point_body(const struct patch *p, const struct stencil q[3], double tau, double *v,
-                        double *grad);
+typedef void point_body(const struct patch *p, const struct stencil q[3], double *v, double *grad);
 
 #define BODY(ncomp, mx)                                                                            \
-    static void point_##ncomp##_##mx(const struct patch *p, const struct stencil q[3], double tau, \
-                                     double *v, double *grad)                                      \
+    static void point_##ncomp##_##mx(const struct patch *p, const struct stencil q[3], double *v,  \
+                                     double *grad)                                                 \
     {                                                                                              \
         if (grad)                                                                                  \
-            eval_point(p, q, tau, ncomp, mx, v, grad);                                             \
+            eval_point(p, q, ncomp, mx, v, grad);                                                  \
         else                                                                                       \
-            eval_point(p, q, tau, ncomp, mx, v, NULL);                                             \
+            eval_point(p, q, ncomp, mx, v, NULL);                                                  \
     }
 BODY(1, 2)
 BODY(2, 2)
@@ -190,10 +215,9 @@ BODY(3, 4)
 BODY(4, 4)
 
 /* Any number of components, any width: one component at a time. */
-static void point_any(const struct patch *p, const struct stencil q[3], double tau, double *v,
-                      double *grad)
+static void point_any(const struct patch *p, const struct stencil q[3], double *v, double *grad)
 {
-    const size_t width = 2 * (size_t)p->ncomp;
+    const size_t width = (size_t)p->ncomp;
     for (int a = 0; a < p->ncomp; a++) {
         double sum[4] = {0};
         for (int k = 0; k < q[2].m; k++)
@@ -203,7 +227,7 @@ static void point_any(const struct patch *p, const struct stencil q[3], double t
                         ((size_t)(q[2].first + k) * (size_t)p->n[1] + (size_t)(q[1].first + j)) *
                             (size_t)p->n[0] +
                         (size_t)(q[0].first + i);
-                    const double *c = p->v + cell * width + 2 * (size_t)a, u = c[0] + tau * c[1];
+                    const double u = p->now[cell * width + (size_t)a];
                     sum[0] += q[0].w[i] * q[1].w[j] * q[2].w[k] * u;
                     sum[1] += q[0].d[i] * q[1].w[j] * q[2].w[k] * u;
                     sum[2] += q[0].w[i] * q[1].d[j] * q[2].w[k] * u;
@@ -226,7 +250,6 @@ static point_body *body_of(int ncomp, int width)
 
 void patch_eval(const struct patch *p, double t, long n, const double *x, double *v, double *grad)
 {
-    const double tau = t - p->t;
     const size_t nc = (size_t)p->ncomp;
     if (n <= 0)
         return;
@@ -236,6 +259,7 @@ void patch_eval(const struct patch *p, double t, long n, const double *x, double
             memset(grad, 0, 3 * (size_t)n * nc * sizeof *grad);
         return;
     }
+    move_to(p, t);
     const int mx = p->n[0] < 2 ? 1 : p->cubic && p->n[0] >= 4 ? 4 : 2;
     point_body *const body = body_of(p->ncomp, mx);
     struct stencil q[3] = {one_cell, one_cell, one_cell};
@@ -245,6 +269,6 @@ void patch_eval(const struct patch *p, double t, long n, const double *x, double
     for (size_t i = 0; i < (size_t)n; i++) {
         for (int a = 0; a < p->dim; a++)
             stencil_at(p, a, per_m[a], x[3 * i + (size_t)a], q + a);
-        body(p, q, tau, v + i * nc, grad ? grad + 3 * i * nc : NULL);
+        body(p, q, v + i * nc, grad ? grad + 3 * i * nc : NULL);
     }
 }

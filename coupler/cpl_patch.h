@@ -8,6 +8,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "cpl.h"
+
 struct patch {
     int dim, ncomp;
     bool cubic;
@@ -15,11 +17,13 @@ struct patch {
     double origin[3], spacing[3]; /* of the grid, m */
     int period[3];                /* cells; 0: not periodic */
     double t;                     /* s: time of v */
-    double *v;                    /* [cell, x fastest][ncomp][2]: value and its time derivative */
+    double *v;                    /* [cell, x fastest][ncomp][CPL_TERMS]: terms in time */
+    double *now; /* [cell][ncomp] at the time now_at[0]: evaluations of a stage share it */
+    double *now_at;
 };
 
 size_t patch_size(const struct patch *p); /* cells */
-/* Cubic: turns the cell averages in v into values at cell centres. Once, after v is filled. */
+/* Once, after v is filled. Cubic: turns the cell averages in v into values at cell centres. */
 void patch_prepare(struct patch *p);
 /* v[n ncomp], grad[n ncomp 3] (or NULL) at x[3 n] and time t. Outside the patch: as at its nearest
  * place. */

@@ -252,7 +252,7 @@ static void answer_patch(struct coupler *c, struct link *l, const struct arrival
     int lo[3], hi[3];
     struct pack p;
     int64_t filled = 0;
-    const size_t width = 2 * (size_t)l->ncomp;
+    const size_t width = CPL_TERMS * (size_t)l->ncomp;
     box_of(l, &l->asker[asker], lo, hi);
     const int64_t cells = (int64_t)(hi[0] - lo[0]) * (hi[1] - lo[1]) * (hi[2] - lo[2]);
     pack_begin(&p, WIRE_VALUES, l->tfield, a->tick);

@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { WIRE_VERSION = 1, WIRE_PEERS = 16 };
+enum { WIRE_VERSION = 2, WIRE_PEERS = 16 };
 
 /* Solver to coupler, or coupler to solver (>), in the order of a job. */
 enum wire_kind {

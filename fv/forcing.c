@@ -344,12 +344,33 @@ static double partner_value(const struct forcing *f, bool quadratic, int a, int6
 {
     const double T = f->t1 - f->t0, x = T > 0.0 ? (t - f->t0) / T : 0.0;
     const double linear = f->v[a][i] + x * (f->v_next[a][i] - f->v[a][i]);
-    if (!quadratic || !f->has_old)
+    if (!quadratic || f->levels < 3)
         return linear;
     const double y = (f->t0 - f->t_old) / T; /* 1 for even windows */
     const double second =
         ((f->v_next[a][i] - f->v[a][i]) - (f->v[a][i] - f->v_old[a][i]) / y) / (1.0 + y);
     return linear + x * (x - 1.0) * second;
+}
+
+void forcing_shift(struct forcing *f, double t0, double t1)
+{
+    const double h = t0 - f->t0, g = f->t0 - f->t_old, T = t1 - t0;
+    for (int a = 0; a < f->dim; a++) {
+        double *oldest = f->v_old[a], *v = f->v_next[a], *old = f->v[a];
+        for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
+            const double d0 = f->levels > 1 ? (v[i] - old[i]) / h : 0.0;
+            const double d1 = f->levels > 2 ? (old[i] - oldest[i]) / g : d0;
+            const double bend = f->levels > 2 ? (d0 - d1) / (h + g) : 0.0;
+            oldest[i] = v[i] + T * (d0 + (T + h) * bend);
+        }
+        f->v_old[a] = old;
+        f->v[a] = v;
+        f->v_next[a] = oldest;
+    }
+    f->t_old = f->t0;
+    f->t0 = t0;
+    f->t1 = t1;
+    f->levels = f->levels < 3 ? f->levels + 1 : 3;
 }
 
 void forcing_velocity(const struct fv *s, double t, double *const u[3])

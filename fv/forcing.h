@@ -45,8 +45,8 @@ struct forcing {
     bool from_partner;
     double *v[3], *v_next[3],
         *v_old[3]; /* [npartner + nrim] partner's velocities at t0, t1, and the window before */
-    double t0, t1, t_old;
-    bool has_old;
+    double t0, t1, t_old; /* s */
+    int levels;           /* of them known, the newest first: v_next, v, v_old */
 };
 
 /* NULL if nothing is forced. partner: the box (lo, hi) is filled by a partner, else by the exact
@@ -56,6 +56,10 @@ struct forcing *forcing_create(const struct fv *s, const double *lo, const doubl
 void forcing_free(struct forcing **f);
 /* Zero in the forced cells of this rank. */
 void forcing_zero(const struct forcing *f, double *q);
+/* The next window, t0 to t1, begins: v_next is v now, and its new values are those of the last
+ * windows extrapolated, by a parabola as soon as there are three. A cubic would feed noise back
+ * where the loop's gain is half of what parabolas bear. */
+void forcing_shift(struct forcing *f, double t0, double t1);
 /* Sets u in the forced cells to their values at time t. */
 void forcing_velocity(const struct fv *s, double t, double *const u[3]);
 /* Fluxes of the outline at time t: exact ones where the exact solution is imposed, a partner's

@@ -83,6 +83,7 @@ struct fv {
     struct newton *newton;
     struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;
+    bool predicts; /* its steps will be taken back: nothing in them is to be judged or counted */
     double dt, dt_old;    /* s: last step, 0 before the first; the one before it */
     double partner[2][3]; /* m: box that a partner counts as its own; lo >= hi: none */
     double scene_speed;   /* m/s: limits_reference */
@@ -178,6 +179,9 @@ void fv_vorticity(const struct fv *s,
 void fv_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void fv_checkpoint(void *s, struct h5 *f);
 bool fv_restore(struct fv *s, struct h5 *f);
+/* The fields that a step starts from, and their names: their number. */
+enum { FV_RESTART_FIELDS = 24 };
+int fv_restart_fields(const struct fv *s, double **f, const char **names);
 void fv_finish(void *s);
 void fv_row(void *s, double *values);
 /* Sums over what no partner counts, for the coupler; see program.tell. */
@@ -190,6 +194,13 @@ void fv_probe(struct fv *s, double *values);
 
 /* fv_lines.c: extrema on the centre lines into the summary. */
 void fv_summarise_extrema(const struct fv *s);
+
+/* fv_keep.c: a copy of the state, to take steps back. */
+struct kept;
+struct kept *kept_create(const struct fv *s);
+void kept_free(struct kept **k);
+void kept_take(struct kept *k, struct fv *s);
+void kept_put_back(struct kept *k, struct fv *s);
 
 /* fv_coupling.c: the only file here that knows cpl.h. */
 void coupling_create(struct fv *s);

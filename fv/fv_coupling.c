@@ -1,33 +1,23 @@
 /* fv_coupling.c - FV's place in a coupled job: its free zone's partner fills a hole, and takes
- * patches of velocity and pressure with their time derivatives. FV follows its partner:
- * window_begin waits for the forced velocities at the end of the window.
+ * patches of velocity and pressure with their course in time. In window_begin FV tells what it
+ * expects of the window (fv_course.h), then waits for the forced velocities at its end.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "../common/fit.h"
 #include "../common/h5.h"
 #include "../common/log.h"
 #include "../common/mem.h"
 #include "../coupler/cpl.h"
 #include "forcing.h"
-
-enum { LEVELS = 3 };
+#include "fv_course.h"
 
 struct link {
     struct cpl *c;
     int grid, forced, velocity, pressure, imposed;
-    int first;         /* local row: below it nothing is given, rows are of unequal height */
-    int64_t n;         /* local cells from there on */
-    double *q[LEVELS]; /* [n][dim + 1] velocity and smoothed pressure at the ends of the last
-                          windows, newest first */
-    double t[LEVELS];  /* s: their times */
-    int levels;        /* of them known */
-    double level;      /* Pa: taken out of the pressure last */
-    double *rate;      /* [n] Pa/s: trend of the pressure */
-    double *scatter;   /* [n] Pa: of the pressure about its trend; NULL: no surface, no impacts */
-    double *v, *dv, *got; /* scratch */
+    struct course *course;
+    double *got; /* scratch */
     unsigned char *mask;
 };
 
@@ -104,19 +94,16 @@ void coupling_create(struct fv *s)
                  "forced, the "
                  "coupling goes one way; refine fv.cells or lower coupling.overlap",
                  lo[0], lo[1], hi[0], hi[1]);
+    int first = 0; /* row */
+    double memory[3];
     if (b->rows) {
         check_rows(s, k);
-        k->first = b->rows->even - b->lo[1];
-        k->first = k->first < 0 ? 0 : k->first > b->n[1] ? b->n[1] : k->first;
+        first = b->rows->even - b->lo[1];
+        first = first < 0 ? 0 : first > b->n[1] ? b->n[1] : first;
     }
     declare(s, k);
-    k->n = (int64_t)b->n[0] * (b->n[1] - k->first) * b->n[2];
-    for (int m = 0; m < LEVELS; m++)
-        k->q[m] = NEW(double, k->n *(b->dim + 1));
-    k->rate = NEW(double, k->n);
-    k->scatter = scene_has_surface(&s->run->scene) ? NEW(double, k->n) : NULL;
-    k->v = NEW(double, k->n * b->dim);
-    k->dv = NEW(double, k->n * b->dim);
+    check(k, cpl_find_zone(k->c, "sph.memory", memory, memory));
+    k->course = course_create(s, first, (int)memory[0]);
     const int64_t most = s->forcing ? s->forcing->npartner + s->forcing->nrim : 0;
     k->got = NEW(double, most * b->dim);
     k->mask = NEW(unsigned char, most);
@@ -125,136 +112,49 @@ void coupling_create(struct fv *s)
 void coupling_free(struct fv *s)
 {
     struct link *k = s->link;
-    for (int m = 0; m < LEVELS; m++)
-        mem_free(k->q[m]);
-    mem_free(k->rate);
-    mem_free(k->scatter);
-    mem_free(k->v);
-    mem_free(k->dv);
+    course_free(&k->course);
     mem_free(k->got);
     mem_free(k->mask);
     mem_free(k);
     s->link = NULL;
 }
 
-/* Under a surface the partner knows the level of the pressure: what is smoothed and sent is what
- * stands over its mean at the rim of the free cells. It would follow every swing of the level late.
- */
-static void take_out_level(struct fv *s, double *q)
-{
-    struct link *k = s->link;
-    const struct block *b = &s->b;
-    const struct forcing *f = s->forcing;
-    const double *g = s->run->scene.fluid.gravity;
-    double sum[2] = {0.0, 0.0}, x[3];
-    k->level = 0.0;
-    if (!f || !scene_has_surface(&s->run->scene) || (g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0))
-        return;
-    for (int64_t m = f->npartner; m < f->npartner + f->nrim; m++) {
-        int at[3];
-        block_place(b, f->partner[m], at);
-        block_centre(b, at[0], at[1], at[2], x);
-        const int64_t i =
-            at[0] + (int64_t)b->n[0] * (at[1] - k->first + (int64_t)(b->n[1] - k->first) * at[2]);
-        sum[0] += q[i * (b->dim + 1) + b->dim] - fv_still_pressure(s, x);
-        sum[1] += 1.0;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, b->cart);
-    k->level = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
-    for (int64_t i = 0; i < k->n; i++)
-        q[i * (b->dim + 1) + b->dim] -= k->level;
-}
-
-double coupling_level(const struct fv *s) { return s->link ? s->link->level : 0.0; }
-
-/* Velocity and whole pressure now, as a new level; forced cells get a pressure continued from the
- * free side. */
-static void take_level(struct fv *s)
-{
-    struct link *k = s->link;
-    const struct block *b = &s->b;
-    double *oldest = k->q[LEVELS - 1], *one = NEW(double, k->n), *p = block_field(b);
-    memmove(k->q + 1, k->q, (LEVELS - 1) * sizeof *k->q);
-    memmove(k->t + 1, k->t, (LEVELS - 1) * sizeof *k->t);
-    k->q[0] = oldest;
-    k->t[0] = s->t;
-    k->levels = k->levels < LEVELS ? k->levels + 1 : LEVELS;
-    for (int64_t c = 0; c < b->size; c++)
-        p[c] = fv_pressure(s, c);
-    if (s->forcing)
-        forcing_extend(s, p);
-    fv_add_still_pressure(s, p);
-    for (int m = 0; m <= b->dim; m++) {
-        block_pack_from(b, k->first, m < b->dim ? s->u[m] : p, one);
-        for (int64_t i = 0; i < k->n; i++)
-            k->q[0][i * (b->dim + 1) + m] = one[i];
-    }
-    mem_free(p);
-    mem_free(one);
-    take_out_level(s, k->q[0]);
-}
-
-/* Derivative at the newest level: three levels, two, or none. */
-static double derivative(const struct link *k, int64_t at)
-{
-    if (k->levels < 2)
-        return 0.0;
-    const double h = k->t[0] - k->t[1], d0 = (k->q[0][at] - k->q[1][at]) / h;
-    if (k->levels < 3)
-        return d0;
-    const double g = k->t[1] - k->t[2], d1 = (k->q[1][at] - k->q[2][at]) / g;
-    return d0 + h * (d0 - d1) / (h + g);
-}
-
-/* Pressure answers at once to every change of the forced velocities, by the change over the window,
- * and the partner to the pressure a window later: as it stands, noise would come back larger.
- * Smoothing takes it away; it must keep level and trend, for a lag would feed waves. */
-static void smooth_pressure(struct fv *s)
-{
-    struct link *k = s->link;
-    const int dim = s->b.dim;
-    const double memory = s->run->scene.coupling.memory, h = k->t[0] - k->t[1];
-    for (int64_t i = 0; i < k->n; i++) {
-        const int64_t at = i * (dim + 1) + dim;
-        double level = k->q[1][at];
-        fit_smooth(k->q[0][at], h, memory, &level, k->rate + i, k->scatter ? k->scatter + i : NULL);
-        k->q[0][at] = level;
-    }
-}
+double coupling_level(const struct fv *s) { return s->link ? s->link->course->level : 0.0; }
 
 static void put(struct fv *s)
 {
     struct link *k = s->link;
-    const int dim = s->b.dim;
-    for (int64_t i = 0; i < k->n; i++)
-        for (int a = 0; a < dim; a++) {
-            k->v[i * dim + a] = k->q[0][i * (dim + 1) + a];
-            k->dv[i * dim + a] = derivative(k, i * (dim + 1) + a);
-        }
-    check(k, cpl_put(k->c, k->velocity, s->t, k->n, k->v, k->dv));
-    for (int64_t i = 0; i < k->n; i++)
-        k->v[i] = k->q[0][i * (dim + 1) + dim];
-    check(k, cpl_put(k->c, k->pressure, s->t, k->n, k->v, k->rate));
+    struct course *c = k->course;
+    const double *const *term = (const double *const *)c->term;
+    int n = course_velocity(c);
+    check(k, cpl_put_course(k->c, k->velocity, s->t, c->n, n, term));
+    n = course_pressure(c);
+    check(k, cpl_put_course(k->c, k->pressure, s->t, c->n, n, term));
 }
 
-/* A level of the exact solution before the start, so that the first windows know a derivative. */
-static void exact_level(struct fv *s, double t, int m)
+/* Forced values of the start, and before it where an exact solution knows them. */
+static void start_forced(struct fv *s, double before)
 {
-    struct link *k = s->link;
     const struct block *b = &s->b;
-    double x[3], u[3], p;
-    int64_t at = 0;
-    for (int kk = 0; kk < b->n[2]; kk++)
-        for (int j = k->first; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                block_centre(b, i, j, kk, x);
-                exact_average(&s->exact, x, b->h, t, u, &p, NULL);
-                for (int a = 0; a < b->dim; a++)
-                    k->q[m][at++] = u[a];
-                k->q[m][at++] = p;
-            }
-    k->t[m] = t;
-    take_out_level(s, k->q[m]);
+    struct forcing *f = s->forcing;
+    double x[3], u[3];
+    f->t1 = s->t;
+    f->t0 = s->t - before;
+    f->t_old = s->t - 2.0 * before;
+    const bool past = exact_has_past(&s->exact) && s->has_exact;
+    f->levels = past ? 3 : 1;
+    for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
+        int at[3];
+        block_place(b, f->partner[i], at);
+        block_centre(b, at[0], at[1], at[2], x);
+        for (int m = 0; m < 3; m++) {
+            double *const *v = m == 0 ? f->v_next : m == 1 ? f->v : f->v_old;
+            if (m > 0 && past)
+                exact_average(&s->exact, x, b->h, s->t - m * before, u, NULL, NULL);
+            for (int a = 0; a < b->dim; a++)
+                v[a][i] = m > 0 && past ? u[a] : s->u[a][f->partner[i]];
+        }
+    }
 }
 
 /* Which cells take the partner's values, once; then the first patch. */
@@ -280,24 +180,11 @@ void coupling_first(void *state)
     mem_free(x);
     mem_free(id);
     if (!s->run->restart) {
-        const double before = 1e-3;
-        for (int m = 0; f && m < b->dim; m++)
-            for (int64_t i = 0; i < n; i++)
-                f->v_next[m][i] = s->u[m][f->partner[i]];
-        if (s->has_exact) {
-            exact_level(s, s->t - 2.0 * before, 1);
-            exact_level(s, s->t - before, 0);
-            k->levels = 2;
-        }
-        take_level(s);
-        if (s->has_exact)
-            exact_level(s, s->t, 0); /* the start's pressure, in forced cells too */
-        for (int64_t i = 0; i < k->n; i++)
-            k->rate[i] = derivative(k, i * (b->dim + 1) + b->dim);
+        const double before = s->exact.U > 0.0 ? 1e-3 * s->exact.L / s->exact.U : 1e-3;
         if (f)
-            s->forcing->t1 = s->t;
+            start_forced(s, before);
+        course_start(s, k->course, before);
     }
-    put(s);
 }
 
 /* The partner's velocities at t1; cells that it does not reach keep theirs. */
@@ -308,75 +195,60 @@ void coupling_window_begin(void *state, double t0, double t1)
     struct forcing *f = s->forcing;
     const int dim = s->b.dim;
     const int64_t n = f ? f->npartner + f->nrim : 0;
+    if (f)
+        forcing_shift(f, t0, t1);
+    course_try(s, k->course, t1);
+    put(s);
     check(k, cpl_get(k->c, k->imposed, n, k->got, k->mask));
-    if (!f)
-        return;
-    for (int a = 0; a < dim; a++) {
-        double *oldest = f->v_old[a];
-        f->v_old[a] = f->v[a];
-        f->v[a] = f->v_next[a];
-        f->v_next[a] = oldest;
+    for (int a = 0; f && a < dim; a++)
         for (int64_t i = 0; i < n; i++)
             f->v_next[a][i] = k->mask[i] ? k->got[dim * i + a] : f->v[a][i];
-    }
-    f->has_old = f->t1 > f->t0;
-    f->t_old = f->t0;
-    f->t0 = t0;
-    f->t1 = t1;
 }
 
 void coupling_window_end(void *state, double t1)
 {
     (void)t1;
-    take_level(state);
-    smooth_pressure(state);
-    put(state);
+    struct fv *s = state;
+    course_take(s, s->link->course);
+}
+
+static const char *const forced_names[3][3] = {
+    {"v_x", "v_y", "v_z"}, {"w_x", "w_y", "w_z"}, {"o_x", "o_y", "o_z"}};
+
+static double *forced_at(const struct forcing *f, int m, int a)
+{
+    return m == 0 ? f->v[a] : m == 1 ? f->v_next[a] : f->v_old[a];
 }
 
 void coupling_save(const struct fv *s, struct h5 *f)
 {
-    static const char *const names[] = {"level0", "level1", "level2"};
-    static const char *const v[] = {"v_x", "v_y", "v_z"}, *const w[] = {"w_x", "w_y", "w_z"};
-    const struct link *k = s->link;
     const struct forcing *c = s->forcing;
-    const double clock[7] = {k->t[0],       k->t[1],       k->t[2],         k->levels,
-                             c ? c->t0 : 0, c ? c->t1 : 0, c ? c->t_old : 0};
-    for (int m = 0; m < LEVELS; m++)
-        h5_write_real(f, names[m], "-", k->n, s->b.dim + 1, k->q[m], false);
-    h5_write_real(f, "levels", "-", 7, 1, clock, false);
-    h5_write_real(f, "rate", "Pa/s", k->n, 1, k->rate, false);
-    if (k->scatter)
-        h5_write_real(f, "scatter", "Pa", k->n, 1, k->scatter, false);
-    for (int a = 0; c && a < s->b.dim; a++) {
-        h5_write_real(f, v[a], "m/s", c->npartner + c->nrim, 1, c->v[a], false);
-        h5_write_real(f, w[a], "m/s", c->npartner + c->nrim, 1, c->v_next[a], false);
-    }
+    course_save(s->link->course, f);
+    if (!c)
+        return;
+    const double clock[4] = {c->t0, c->t1, c->t_old, c->levels};
+    h5_write_real(f, "forced_levels", "-", 4, 1, clock, false);
+    for (int m = 0; m < 3; m++)
+        for (int a = 0; a < s->b.dim; a++)
+            h5_write_real(f, forced_names[m][a], "m/s", c->npartner + c->nrim, 1,
+                          forced_at(c, m, a), false);
 }
 
 bool coupling_load(struct fv *s, struct h5 *f)
 {
-    static const char *const names[] = {"level0", "level1", "level2"};
-    static const char *const v[] = {"v_x", "v_y", "v_z"}, *const w[] = {"w_x", "w_y", "w_z"};
-    struct link *k = s->link;
     struct forcing *c = s->forcing;
-    double clock[7];
-    bool good = h5_read_real(f, "levels", 7, 1, clock) &&
-                h5_read_real(f, "rate", k->n, 1, k->rate) &&
-                (!k->scatter || h5_read_real(f, "scatter", k->n, 1, k->scatter));
-    for (int m = 0; good && m < LEVELS; m++) {
-        good = h5_read_real(f, names[m], k->n, s->b.dim + 1, k->q[m]);
-        k->t[m] = clock[m];
-    }
-    for (int a = 0; good && c && a < s->b.dim; a++)
-        good = h5_read_real(f, v[a], c->npartner + c->nrim, 1, c->v[a]) &&
-               h5_read_real(f, w[a], c->npartner + c->nrim, 1, c->v_next[a]);
-    if (!good)
-        return false;
-    k->levels = (int)clock[3];
-    if (c) {
-        c->t0 = clock[4];
-        c->t1 = clock[5];
-        c->t_old = clock[6];
-    }
-    return true;
+    double clock[4];
+    bool good = course_load(s->link->course, f);
+    if (!c || !good)
+        return good;
+    good = h5_read_real(f, "forced_levels", 4, 1, clock);
+    for (int m = 0; m < 3; m++)
+        for (int a = 0; a < s->b.dim; a++)
+            good = good && h5_read_real(f, forced_names[m][a], c->npartner + c->nrim, 1,
+                                        forced_at(c, m, a));
+    c->t0 = clock[0];
+    c->t1 = clock[1];
+    c->t_old = clock[2];
+    c->levels = (int)clock[3];
+    return good;
 }

@@ -170,7 +170,7 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
 }
 
 /* All fields that a step starts from, ghosts and all: bit for bit on the same ranks. */
-static int restart_fields(struct fv *s, double **f, const char **names)
+int fv_restart_fields(const struct fv *s, double **f, const char **names)
 {
     static const char *const vector[][3] = {
         {"u0", "u1", "u2"}, {"U0", "U1", "U2"}, {"N0", "N1", "N2"}, {"old0", "old1", "old2"}};
@@ -210,9 +210,9 @@ static double *surface_number(struct surface *f, int k)
 void fv_checkpoint(void *state, struct h5 *f)
 {
     struct fv *s = state;
-    double *fields[24];
-    const char *names[24];
-    const int n = restart_fields(s, fields, names);
+    double *fields[FV_RESTART_FIELDS];
+    const char *names[FV_RESTART_FIELDS];
+    const int n = fv_restart_fields(s, fields, names);
     for (int k = 0; k < n; k++)
         h5_write_real(f, names[k], "-", s->b.size, 1, fields[k], false);
     h5_attribute_real(f, "dt", s->dt);
@@ -249,9 +249,9 @@ static bool restore_newton(struct newton *w, struct h5 *f)
 
 bool fv_restore(struct fv *s, struct h5 *f)
 {
-    double *fields[24];
-    const char *names[24];
-    const int n = restart_fields(s, fields, names);
+    double *fields[FV_RESTART_FIELDS];
+    const char *names[FV_RESTART_FIELDS];
+    const int n = fv_restart_fields(s, fields, names);
     int fits = h5_rows(f, "p") == s->b.size;
     MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, s->b.cart);
     if (!fits) {

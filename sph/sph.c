@@ -9,7 +9,9 @@
 #include "../common/picture.h"
 #include "../coupler/cpl_partner.h"
 #include "domain.h"
+#include "overlap.h"
 #include "sph_params.h"
+#include "windows.h"
 #include "zones.h"
 
 static const char *columns[SPH_COLUMNS];
@@ -138,6 +140,8 @@ static void describe(const struct run *r)
     log_say("%s%.0f particles, dx %g m, R/dx %g, c0 %g m/s; about %.0f MB", part ? "at most " : "",
             n, prm->dx, prm->R_dx, prm->c0, 1e-6 * n * bytes_per_particle(r));
     log_say("dt about %.3g s (%s), %.0f steps", dt, limit, ceil(r->scene.time.end / dt));
+    if (r->coupled)
+        windows_describe(r, prm);
     warn_of(r);
 }
 
@@ -154,7 +158,10 @@ static void draw(const struct run *r, struct picture *p)
 
 static void *create(struct run *r, struct h5 *f)
 {
-    sph_program.ncolumns = sph_columns(r, columns);
+    int n = sph_columns(r, columns);
+    for (int k = 0; k < OVERLAP_COLUMNS && r->coupled; k++)
+        columns[n++] = overlap_columns[k];
+    sph_program.ncolumns = n;
     struct sph *s = sph_create(r, sph_params_of(r), f);
     if (s && r->coupled)
         coupling_create(s);
@@ -169,16 +176,27 @@ static void destroy(void *state)
     sph_free(&s);
 }
 
-static double step(void *s, double t_stop, struct diagnosis *d)
+static struct overlap *watched(const struct sph *s) { return s->zones ? s->zones->watched : NULL; }
+
+static double step(void *state, double t_stop, struct diagnosis *d)
 {
-    return integrate_step(s, t_stop, d);
+    struct sph *s = state;
+    if (watched(s))
+        overlap_judge(s, d);
+    return d->bad ? 0.0 : integrate_step(s, t_stop, d);
 }
 
-/* coupling.steps nominal steps: the same after a restart, whatever the state. */
+static void check(const struct run *r, struct faults *f)
+{
+    sph_params_check(r, f);
+    if (f->n == 0 && r->coupled)
+        coupling_check(r, f);
+}
+
 static double window_wish(void *state)
 {
     const struct sph *s = state;
-    return s->run->scene.coupling.steps * sph_params_dt(&s->prm, s->nu, s->c0, NULL);
+    return windows_choose(s->run, &s->prm).T;
 }
 
 /* A new partition first: the patch is taken for each rank's part. */
@@ -196,6 +214,30 @@ static void progress(void *state, char *line, int size)
              100.0 * (s->rho_max / s->rho0 - 1.0));
 }
 
+static void row(void *state, double *values)
+{
+    struct sph *s = state;
+    sph_row(s, values);
+    if (watched(s))
+        overlap_row(watched(s), values + sph_program.ncolumns - OVERLAP_COLUMNS);
+}
+
+static void finish(void *state)
+{
+    struct sph *s = state;
+    sph_finish(s);
+    if (watched(s))
+        overlap_summary(watched(s), s->run->summary);
+}
+
+static void tell(void *state, struct summary *report)
+{
+    struct sph *s = state;
+    sph_tell(s, report);
+    if (watched(s))
+        overlap_tell(watched(s), report);
+}
+
 static const char *const others[] = {"fv", "coupler", NULL};
 
 static struct program sph_program = {.name = "sph",
@@ -203,7 +245,7 @@ static struct program sph_program = {.name = "sph",
                                      .groups = sph_groups,
                                      .ngroups = SPH_GROUPS,
                                      .other_groups = others,
-                                     .check = sph_params_check,
+                                     .check = check,
                                      .describe = describe,
                                      .draw = draw,
                                      .offer = coupling_offer,
@@ -213,12 +255,12 @@ static struct program sph_program = {.name = "sph",
                                      .window_wish = window_wish,
                                      .window_begin = window_begin,
                                      .window_end = coupling_window_end,
-                                     .tell = sph_tell,
+                                     .tell = tell,
                                      .columns = columns,
-                                     .row = sph_row,
+                                     .row = row,
                                      .progress = progress,
                                      .snapshot = sph_snapshot,
                                      .checkpoint = sph_checkpoint,
-                                     .finish = sph_finish};
+                                     .finish = finish};
 
 int main(int argc, char **argv) { return run_main(argc, argv, &sph_program, &cpl_partner); }

@@ -162,7 +162,9 @@ void particles_lines(struct sph *s);
 /* pack.c: steps of rearrangement of the first particles between walls; 0: none. Collective. */
 void pack_start(struct sph *s, int steps);
 
-/* fill.c: lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
+/* fill.c: whether there is fluid at x at the start, and the velocity that its shape adds. */
+struct exact;
+/* lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
 void fill_lattice(struct sph *s);
 
 /* integrate.c: one RK4 step of at most dt_max; see program.step. */
@@ -186,7 +188,7 @@ bool sph_has_exact(const struct run *r);
 void sph_vorticity(const struct sph *s, int i, double w[3]);
 /* Names of the columns that sph_row fills for this scene; returns their number, at most
  * SPH_COLUMNS. */
-enum { SPH_COLUMNS = 24 + PROBES_MAX + 3 * BODIES_MAX };
+enum { SPH_COLUMNS = 28 + PROBES_MAX + 3 * BODIES_MAX };
 int sph_columns(const struct run *r, const char **names);
 void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void sph_checkpoint(void *s, struct h5 *f);
@@ -200,7 +202,8 @@ void sph_tell(void *s, struct summary *report);
 void sph_summarise_extrema(const struct sph *s);
 
 /* sph_coupling.c: the only file here that knows cpl.h. */
-void coupling_offer(struct run *r);  /* publishes sph.box and sph.free */
+void coupling_check(const struct run *r, struct faults *f); /* coupling_check.c */
+void coupling_offer(struct run *r);                         /* publishes sph.box and sph.free */
 void coupling_create(struct sph *s); /* declares sets and fields; s->zones->eval reads the patch */
 void coupling_free(struct sph *s);
 void coupling_window_begin(void *s, double t0, double t1);

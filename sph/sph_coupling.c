@@ -9,7 +9,9 @@
 #include "../common/mem.h"
 #include "../coupler/cpl.h"
 #include "domain.h"
+#include "overlap.h"
 #include "sph_params.h"
+#include "windows.h"
 #include "zones.h"
 
 /* Ids of the sets and fields, and scratch for what is sent. */
@@ -40,6 +42,9 @@ void coupling_offer(struct run *r)
     cpl_zone(r->partner_ctx, "sph.free", lo, hi);
     zones_given_box(r, prm, lo, hi);
     cpl_zone(r->partner_ctx, "sph.given", lo, hi);
+    /* a number that travels as a box: windows over which pressure is smoothed */
+    const double memory[3] = {windows_choose(r, prm).memory, 0.0, 0.0};
+    cpl_zone(r->partner_ctx, "sph.memory", memory, memory);
 }
 
 /* Values and gradients of the patch, one field after the other. */
@@ -66,11 +71,13 @@ void coupling_create(struct sph *s)
           cpl_field(k->c, k->particles, "fv.pressure", "Pa", 1, CPL_GET, how, &k->patch_pressure));
     s->zones->eval = eval_patch;
     s->zones->ctx = k;
+    s->zones->watched = overlap_create(s);
 }
 
 void coupling_free(struct sph *s)
 {
     struct link *k = s->zones->ctx;
+    overlap_free(&s->zones->watched);
     mem_free(k->x);
     mem_free(k->u);
     mem_free(k->w);
@@ -94,6 +101,7 @@ void coupling_window_begin(void *state, double t0, double t1)
     check(k, cpl_patch_get(k->c, k->patch_velocity, lo, hi));
     check(k, cpl_patch_get(k->c, k->patch_pressure, lo, hi));
     zones_gauge(s);
+    overlap_look(s);
 }
 
 static void room(struct link *k, int n)

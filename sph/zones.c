@@ -36,10 +36,15 @@ void zones_free_box(const struct run *r, const struct sph_params *prm, double lo
     }
 }
 
-void zones_given_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3])
+double zones_overlap(const struct run *r, const struct sph_params *prm)
 {
     const double given = r->scene.coupling.overlap;
-    const double overlap = given > 0.0 ? given : 1.25 * prm->R_dx * prm->dx;
+    return given > 0.0 ? given : 1.25 * prm->R_dx * prm->dx;
+}
+
+void zones_given_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3])
+{
+    const double overlap = zones_overlap(r, prm);
     bool open[6];
     zones_free_box(r, prm, lo, hi);
     sph_params_open(r, prm, open);
@@ -90,6 +95,7 @@ struct zones *zones_create(struct sph *s)
     struct zones *z = NEW(struct zones, 1);
     z->level = NAN;
     zones_widths(s->run, &s->prm, &z->transition, &z->buffer);
+    z->overlap = zones_overlap(s->run, &s->prm);
     z->openings = openings_create(s);
     if (s->prm.outer == OUTER_EXACT) {
         struct exact *e = NEW(struct exact, 1);
@@ -195,7 +201,7 @@ void zones_mark(struct sph *s)
     }
 }
 
-static void take(struct sph *s, int i)
+void zones_list(struct sph *s, int i)
 {
     struct zones *z = s->zones;
     const double *y = s->p.y + (size_t)i * s->p.nstate;
@@ -213,7 +219,7 @@ static void gather(struct sph *s, enum sph_zone zone)
     z->n = 0;
     for (int i = 0; i < p->n; i++)
         if (p->zone[i] == zone)
-            take(s, i);
+            zones_list(s, i);
 }
 
 /* Imposes u and rho: at fixed w where pairs exchange mass, else at fixed m. */
@@ -277,7 +283,7 @@ static double level_inside(struct sph *s)
     for (int i = 0; i < s->p.n; i++) {
         const double d = zones_depth(s, s->p.y + (size_t)i * s->p.nstate);
         if (d >= rim && d < rim + 0.5 * s->R)
-            take(s, i);
+            zones_list(s, i);
     }
     zones_look(z, s->t, false);
     for (int k = 0; k < z->n; k++) {

@@ -13,12 +13,15 @@ typedef void zones_eval(void *ctx, double t, int n, const double *x, double *u, 
                         double *gu, double *gp);
 
 struct openings;
+struct overlap;
 struct zones {
     double transition, buffer; /* m: widths */
+    double overlap;            /* m: of the rim of the free zone where a partner is free, too */
     zones_eval *eval;
     void (*update)(struct sph *s); /* start of a stage: looks at the flow inside; NULL: no need */
     void *ctx;                     /* borrowed */
     struct openings *openings;
+    struct overlap *watched; /* overlap.h; NULL without a partner */
     double gauge; /* Pa: added to the pressure outside, which an incompressible partner knows up to
                      a constant; 0 without a free surface */
     double level; /* Pa: the smoothed part of it that SPH's own pressure gives; NAN: none yet */
@@ -35,6 +38,7 @@ void zones_free(struct zones **z);
 /* Widths and box of the free zone from parameters alone (open sides: not s->periodic). */
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer);
+double zones_overlap(const struct run *r, const struct sph_params *prm);
 /* The box that partners leave to SPH: the free zone less the overlap. */
 void zones_given_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
 void zones_free_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
@@ -59,6 +63,8 @@ void zones_blend(struct sph *s);
 void zones_openings(struct sph *s, double dt);
 /* Fills u, p (and gradients) of z->who[0..n-1] at places z->x. */
 void zones_look(struct zones *z, double t, bool gradients);
+/* Adds local particle i to that list. */
+void zones_list(struct sph *s, int i);
 void zones_room(struct zones *z, int n);
 
 void zones_save(struct sph *s, struct h5 *f);

@@ -21,11 +21,11 @@ static void fill(struct patch *p, function *f, function *dfdt, bool point)
 {
     static const double node[3] = {-0.3872983346207417, 0.0, 0.3872983346207417};
     static const double weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
-    p->v = malloc(2 * patch_size(p) * sizeof *p->v);
+    p->v = calloc(CPL_TERMS * patch_size(p), sizeof *p->v);
     double *v = p->v;
     for (int k = 0; k < p->n[2]; k++)
         for (int j = 0; j < p->n[1]; j++)
-            for (int i = 0; i < p->n[0]; i++, v += 2) {
+            for (int i = 0; i < p->n[0]; i++, v += CPL_TERMS) {
                 const int c[3] = {i, j, k};
                 v[0] = v[1] = 0.0;
                 for (int m = 0; m < 27; m++) {
@@ -165,8 +165,10 @@ static void linear_is_the_printed_formula(void **state)
     struct patch p = make(2, 2, 0.25, false);
     p.n[1] = 2;
     fill(&p, wave, NULL, true);
+    patch_prepare(&p);
     for (int m = 0; m < 100; m++) {
-        const double f11 = p.v[0], f21 = p.v[2], f12 = p.v[4], f22 = p.v[6];
+        const double f11 = p.v[0], f21 = p.v[CPL_TERMS], f12 = p.v[2 * CPL_TERMS],
+                     f22 = p.v[3 * CPL_TERMS];
         const double x1 = p.origin[0] + (p.lo[0] + 0.5) * p.spacing[0], x2 = x1 + p.spacing[0];
         const double y1 = p.origin[1] + (p.lo[1] + 0.5) * p.spacing[1], y2 = y1 + p.spacing[1];
         const double x[3] = {x1 + noise() * (x2 - x1), y1 + noise() * (y2 - y1), 0.0};
@@ -249,10 +251,10 @@ static void thin_patches_and_many_components_work(void **state)
     for (int n = 1; n <= 4; n++) {
         struct patch p = {
             .dim = 2, .ncomp = 5, .cubic = true, .n = {n, 5 - n, 1}, .spacing = {1, 1, 1}};
-        p.v = calloc(2 * 5 * patch_size(&p), sizeof *p.v);
+        p.v = calloc(CPL_TERMS * 5 * patch_size(&p), sizeof *p.v);
         for (size_t i = 0; i < patch_size(&p); i++)
             for (size_t a = 0; a < 5; a++)
-                p.v[2 * (5 * i + a)] = 3.0 + (double)a;
+                p.v[CPL_TERMS * (5 * i + a)] = 3.0 + (double)a;
         patch_prepare(&p);
         const double x[3] = {0.7, 0.6, 0.0};
         double v[5], grad[15];
@@ -267,6 +269,29 @@ static void thin_patches_and_many_components_work(void **state)
     assert_true(v == 0.0);
 }
 
+/* All points of a stage share one time; another time, another course. */
+static void values_follow_a_cubic_in_time(void **state)
+{
+    (void)state;
+    struct patch p = make(2, 6, 0.1, true);
+    fill(&p, cubic, cubic, false);
+    for (size_t i = 0; i < patch_size(&p); i++) {
+        p.v[CPL_TERMS * i + 2] = -2.0 * p.v[CPL_TERMS * i];
+        p.v[CPL_TERMS * i + 3] = 5.0 * p.v[CPL_TERMS * i];
+    }
+    patch_prepare(&p);
+    for (int m = 0; m < 50; m++) {
+        const double tau = noise() - 0.5, course = 1.0 + tau * (1.0 + tau * (-2.0 + 5.0 * tau));
+        double x[3], v[2];
+        place(&p, 0.0, x);
+        patch_eval(&p, p.t + tau, 1, x, v, NULL);
+        patch_eval(&p, p.t + tau, 1, x, v + 1, NULL);
+        assert_true(fabs(v[0] - course * cubic(x)) < 1e-11);
+        assert_true(v[0] == v[1]);
+    }
+    patch_clear(&p);
+}
+
 static void report_speed(void **state)
 {
     (void)state;
@@ -278,9 +303,10 @@ static void report_speed(void **state)
                 struct patch p = make(dim, 40, 0.025, true);
                 struct timespec a, b;
                 p.ncomp = ncomp;
-                p.v = calloc(2 * (size_t)ncomp * patch_size(&p), sizeof *p.v);
+                p.v = calloc(CPL_TERMS * (size_t)ncomp * patch_size(&p), sizeof *p.v);
                 for (int i = 0; i < N; i++)
                     place(&p, 0.0, x + 3 * i);
+                patch_prepare(&p);
                 clock_gettime(CLOCK_MONOTONIC, &a);
                 for (int m = 0; m < TIMES; m++)
                     patch_eval(&p, 0.1 * m, N, x, v, slopes ? grad : NULL);
@@ -304,6 +330,7 @@ int main(void)
         cmocka_unit_test(periodic_patches_find_every_image),
         cmocka_unit_test(bits_do_not_depend_on_the_patch),
         cmocka_unit_test(thin_patches_and_many_components_work),
+        cmocka_unit_test(values_follow_a_cubic_in_time),
         cmocka_unit_test(report_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

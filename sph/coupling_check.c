@@ -1,0 +1,227 @@
+/* coupling_check.c - scenes that a coupled job cannot do, found before it starts: FV fills all that
+ * lies around SPH's box, without a surface, a body or a polyline, and both need the rim where they
+ * overlap. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../common/exact.h"
+#include "../common/mem.h"
+#include "../common/scene_fluid.h"
+#include "sph_params.h"
+#include "walls.h"
+#include "windows.h"
+#include "zones.h"
+
+static const char axes[] = "xyz";
+
+/* Visits the lattice of spacing dx over the box lo .. hi until f says so; *x: where. */
+typedef bool visit(const void *ctx, const double *x);
+static bool find(int dim, double dx, const double *lo, const double *hi, visit *f, const void *ctx,
+                 double *x)
+{
+    int n[3] = {1, 1, 1};
+    for (int a = 0; a < dim; a++)
+        n[a] = (int)fmax(round((hi[a] - lo[a]) / dx), 1.0);
+    for (int k = 0; k < n[2]; k++)
+        for (int j = 0; j < n[1]; j++)
+            for (int i = 0; i < n[0]; i++) {
+                const int at[3] = {i, j, k};
+                for (int a = 0; a < 3; a++)
+                    x[a] = a < dim ? lo[a] + (at[a] + 0.5) * (hi[a] - lo[a]) / n[a] : 0.0;
+                if (f(ctx, x))
+                    return true;
+            }
+    return false;
+}
+
+struct water {
+    const struct scene *scene;
+    double dx;
+    struct exact exact;
+    double free[2][3]; /* the free zone, where a surface may be */
+};
+
+static bool is_wet(const struct water *w, const double *x)
+{
+    return scene_is_fluid(w->scene, &w->exact, x, NULL);
+}
+
+static bool dry_outside(const void *ctx, const double *x)
+{
+    const struct water *w = ctx;
+    bool inside = true;
+    for (int a = 0; a < w->scene->domain.dim; a++)
+        inside = inside && x[a] > w->free[0][a] && x[a] < w->free[1][a];
+    return !inside && !is_wet(w, x);
+}
+
+static bool wet(const void *ctx, const double *x) { return is_wet(ctx, x); }
+
+/* FV's flow has no surface: all that is not SPH's free zone must be water at the start. */
+static void check_water(const struct run *r, const struct water *w, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    double x[3];
+    if (scene_has_surface(&r->scene) && find(d->dim, w->dx, d->min, d->max, dry_outside, w, x))
+        params_fault(
+            r->params, f, "sph.box",
+            "at (%g, %g, %g) m there is no water: outside of sph's free zone, (%g, %g, %g) "
+            "to (%g, %g, %g) m, fv knows of no surface; let the box reach the sides and "
+            "the top of the domain, and set its bottom, transition and buffer below the "
+            "lowest water",
+            x[0], x[1], x[2], w->free[0][0], w->free[0][1], w->free[0][2], w->free[1][0],
+            w->free[1][1], w->free[1][2]);
+}
+
+/* Where the box reaches the domain's side, SPH ends: at a wall, above the water, or in a period
+ * that it spans. */
+static void check_side(const struct run *r, const struct sph_params *prm, const struct water *w,
+                       int side, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const struct scene_wall *wall = scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + side));
+    const int a = side / 2;
+    double lo[3], hi[3], x[3];
+    if (!sph_params_reaches(d, prm, side))
+        return;
+    if (d->periodic[a]) {
+        if (!sph_params_reaches(d, prm, side ^ 1))
+            params_fault(
+                r->params, f, "sph.box",
+                "it ends on the periodic %c side at %g m, where fv goes on: span the whole "
+                "period, or leave the side by a cell of fv at least",
+                axes[a], side % 2 ? d->max[a] : d->min[a]);
+        return;
+    }
+    if (wall && wall->kind < WALL_INFLOW)
+        return;
+    memcpy(lo, prm->box[0], sizeof lo);
+    memcpy(hi, prm->box[1], sizeof hi);
+    if (side % 2)
+        lo[a] = hi[a] - prm->dx;
+    else
+        hi[a] = lo[a] + prm->dx;
+    if (wall || find(d->dim, prm->dx, lo, hi, wet, w, x))
+        params_fault(r->params, f, "sph.box",
+                     "it reaches the %c side at %g m, %s: in a coupled job that is fv's; give the "
+                     "side a wall, or end the box before it",
+                     axes[a], side % 2 ? d->max[a] : d->min[a],
+                     wall ? "an inlet or outlet" : "which has no wall");
+}
+
+/* Displacement (m) and angle (rad) of a body at t; rows of a motion file or NULL. */
+static void move(const struct scene_body *b, int n, const double *rows, double t, double *by)
+{
+    by[0] = b->velocity[0] * t;
+    by[1] = b->velocity[1] * t;
+    by[2] = b->spin * t;
+    if (n <= 0)
+        return;
+    int k = 0;
+    while (k + 1 < n - 1 && rows[4 * (k + 1)] <= t)
+        k++;
+    const double *p = rows + 4 * k, *q = n > 1 ? p + 4 : p;
+    const double x = n > 1 ? fmin(fmax((t - p[0]) / (q[0] - p[0]), 0.0), 1.0) : 0.0;
+    for (int m = 0; m < 3; m++)
+        by[m] = p[1 + m] + x * (q[1 + m] - p[1 + m]);
+}
+
+/* First time at which a corner of the body leaves the box by an open side, INFINITY: never. */
+static double leaves(const struct run *r, const struct scene_body *b, double box[2][3],
+                     const bool *open)
+{
+    enum { TIMES = 500 };
+    char path[1024 + PARAM_TEXT_SIZE];
+    double *rows = NULL, when = INFINITY;
+    snprintf(path, sizeof path, "%s/%s", r->case_dir, b->motion);
+    const int n = *b->motion ? walls_read_motion(path, &rows) : 0;
+    for (int k = 0; k <= TIMES && when == INFINITY; k++) {
+        const double t = r->scene.time.end * k / TIMES;
+        double by[3];
+        move(b, n, rows, t, by);
+        const double c = cos(by[2]), s = sin(by[2]);
+        for (int i = 0; i < b->points.n; i++) {
+            const double x = b->points.x[i][0] - b->centre[0], y = b->points.x[i][1] - b->centre[1];
+            const double at[2] = {b->centre[0] + by[0] + c * x - s * y,
+                                  b->centre[1] + by[1] + s * x + c * y};
+            for (int a = 0; a < 2; a++)
+                if ((open[2 * a] && at[a] < box[0][a]) || (open[2 * a + 1] && at[a] > box[1][a]))
+                    when = t;
+        }
+    }
+    mem_free(rows);
+    return when;
+}
+
+/* FV knows of no body: it must stay where SPH gives the flow. */
+static void check_bodies(const struct run *r, const struct sph_params *prm, struct faults *f)
+{
+    double given[2][3];
+    bool open[6];
+    zones_given_box(r, prm, given[0], given[1]);
+    sph_params_open(r, prm, open);
+    for (int k = 0; k < r->scene.nbodies; k++) {
+        const struct scene_body *b = r->scene.bodies + k;
+        char key[32];
+        const double when = leaves(r, b, given, open);
+        snprintf(key, sizeof key, "bodies.[%d]", k);
+        if (when < INFINITY)
+            params_fault(r->params, f, key,
+                         "body `%s' is outside of (%g, %g) to (%g, %g) m at t = %.4g s: fv, which "
+                         "knows of no body, takes that from sph alone; enlarge sph.box, or lower "
+                         "coupling.overlap, time.end or the body's way",
+                         b->name, given[0][0], given[0][1], given[1][0], given[1][1], when);
+    }
+}
+
+/* Whether a cell of edges lo + i h lies wholly between a and b. */
+static bool holds_cell(double lo, double h, double a, double b)
+{
+    return lo + (ceil((a - lo) / h - 1e-9) + 1.0) * h <= b + 1e-9 * h;
+}
+
+/* FV must be told something: a cell at least whose corners all lie where SPH gives the flow. */
+static void check_cells(const struct run *r, const struct sph_params *prm, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    double cells[3], graded[3], given[2][3];
+    zones_given_box(r, prm, given[0], given[1]);
+    if (!params_peek(r->params, r->comm, "fv.cells", cells))
+        return; /* blocks: another fault */
+    params_peek(r->params, r->comm, "fv.graded", graded);
+    for (int a = 0; a < d->dim; a++) {
+        const bool rows = a == 1 && graded[1] > 0.0;
+        const double lo = rows ? graded[0] : d->min[a];
+        const double h = (d->max[a] - lo) / (rows ? graded[1] : cells[a]);
+        if (!(h > 0.0) || holds_cell(lo, h, given[0][a], given[1][a]))
+            continue;
+        params_fault(r->params, f, "coupling.overlap",
+                     "no cell of fv (%g m along %c) lies wholly in %g to %g m, what sph gives: fv "
+                     "would learn nothing of sph; refine fv.cells, enlarge sph.box, or lower "
+                     "coupling.overlap, transition and buffer",
+                     h, axes[a], given[0][a], given[1][a]);
+        return;
+    }
+}
+
+void coupling_check(const struct run *r, struct faults *f)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    if (!sph_params_zones(r)) {
+        params_fault(r->params, f, "sph.box",
+                     "no side of it lies in fv's flow: the programs would never meet; make it "
+                     "smaller than the domain, or leave out group fv");
+        return;
+    }
+    struct water w = {.scene = &r->scene, .dx = prm->dx, .exact = exact_create(&r->scene)};
+    zones_free_box(r, prm, w.free[0], w.free[1]);
+    for (int side = 0; side < 2 * r->scene.domain.dim; side++)
+        check_side(r, prm, &w, side, f);
+    if (f->n == 0)
+        check_water(r, &w, f);
+    check_bodies(r, prm, f);
+    if (f->n == 0)
+        check_cells(r, prm, f);
+    windows_check(r, prm, f);
+}

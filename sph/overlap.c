@@ -1,0 +1,157 @@
+/* overlap.c - see overlap.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "overlap.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../common/log.h"
+#include "../common/mem.h"
+#include "eos.h"
+#include "openings.h"
+#include "surface.h"
+#include "windows.h"
+#include "zones.h"
+
+const char *const overlap_columns[OVERLAP_COLUMNS] = {
+    "overlap velocity [-]", "overlap pressure [-]", "surface in the zones [-]"};
+
+struct overlap *overlap_create(const struct sph *s)
+{
+    struct overlap *o = NEW(struct overlap, 1);
+    const struct windows w = windows_choose(s->run, &s->prm);
+    static const char mend[] =
+        "the programs drift apart: set coupling.steps and coupling.memory to 0, widen "
+        "coupling.overlap, or move sph.box so that its open sides lie in calmer flow";
+    o->U = w.U;
+    o->p = s->rho0 * fmax(w.U * w.U, w.weight);
+    o->velocity = (struct watch){
+        .key = "overlap_velocity",
+        .what = "velocities of sph and fv where both are free, difference over the flow's scale",
+        .likely = mend,
+        .warn = 0.1,
+        .stop = 0.3};
+    o->pressure = (struct watch){
+        .key = "overlap_pressure",
+        .what = "pressures of sph and fv where both are free, difference over the flow's scale",
+        .likely = mend,
+        .warn = 0.2,
+        .stop = 0.5};
+    o->dry = (struct watch){
+        .key = "surface_in_zones",
+        .what = "share of the open sides in front of which a free surface lies in the transition",
+        .likely =
+            "fv knows of no surface: move the open sides of sph.box deeper into the water, or "
+            "make coupling.transition and coupling.buffer thinner",
+        .warn = 0.02,
+        .stop = 0.1};
+    return o;
+}
+
+void overlap_free(struct overlap **o)
+{
+    mem_free(*o);
+    *o = NULL;
+}
+
+/* Particles of the free zone's rim, where the partner is free, too; all ranks of SPH know it. */
+static bool in_rim(const struct sph *s, const double *y)
+{
+    const struct zones *z = s->zones;
+    const double depth = zones_depth(s, y), edge = z->transition + z->buffer;
+    return depth >= edge && depth < edge + z->overlap;
+}
+
+/* Sums over the rim: w, w |du|^2, w dp, w dp^2. */
+static void compare(struct sph *s, double sums[4])
+{
+    struct zones *z = s->zones;
+    const int dim = s->dim;
+    z->n = 0;
+    for (int i = 0; i < s->p.n; i++)
+        if (in_rim(s, s->p.y + (size_t)i * s->p.nstate))
+            zones_list(s, i);
+    zones_look(z, s->t, false);
+    for (int k = 0; k < z->n; k++) {
+        const double *y = s->p.y + (size_t)z->who[k] * s->p.nstate, w = y[2 * dim];
+        const double m = y[2 * dim + 1];
+        const double dp = eos_p(m / w, s->rho0, s->c0, s->gamma) - z->p[k];
+        for (int a = 0; a < dim; a++) {
+            const double du = y[dim + a] / m - z->u[dim * k + a];
+            sums[1] += w * du * du;
+        }
+        sums[0] += w;
+        sums[2] += w * dp;
+        sums[3] += w * dp * dp;
+    }
+}
+
+/* Particles on a surface in transition and buffer, and the place of one of them. */
+static double on_surface(const struct sph *s, double *where)
+{
+    double n = 0.0;
+    for (int i = 0; s->surface && i < s->p.n; i++)
+        if (s->surface->is[i] == SURFACE_ON && s->p.zone[i] != ZONE_FREE) {
+            n += 1.0;
+            memcpy(where, s->p.y + (size_t)i * s->p.nstate, (size_t)s->dim * sizeof *where);
+        }
+    return n;
+}
+
+void overlap_look(struct sph *s)
+{
+    struct overlap *o = s->zones->watched;
+    double sums[5] = {0.0, 0.0, 0.0, 0.0, 0.0}, where[3] = {0.0, 0.0, 0.0};
+    compare(s, sums);
+    sums[4] = s->t > 0.0 ? on_surface(s, where) : 0.0; /* before the first step none is known */
+    struct {
+        double n;
+        int rank;
+    } most = {sums[4], s->run->rank};
+    MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    if (sums[4] > 0.0) {
+        MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
+        MPI_Bcast(where, 3, MPI_DOUBLE, most.rank, s->run->comm);
+    }
+    const double n = sums[0] > 0.0 ? sums[0] : 1.0, mean = sums[2] / n;
+    o->du = sqrt(sums[1] / n) / o->U;
+    o->dp = sqrt(fmax(sums[3] / n - mean * mean, 0.0)) / o->p;
+    o->on = sums[4] / openings_faces(s->zones->openings);
+    memcpy(o->where, where, sizeof where);
+    o->fresh = true;
+}
+
+void overlap_judge(struct sph *s, struct diagnosis *d)
+{
+    struct overlap *o = s->zones->watched;
+    if (!o->fresh)
+        return;
+    o->fresh = false;
+    if (watch_judge(&o->dry, o->on, s->t, s->run->step, d))
+        snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, t = %.4g s", o->where[0], o->where[1],
+                 o->where[2], s->t);
+    watch_judge(&o->velocity, o->du, s->t, s->run->step, d);
+    watch_judge(&o->pressure, o->dp, s->t, s->run->step, d);
+}
+
+void overlap_row(const struct overlap *o, double *values)
+{
+    values[0] = o->du;
+    values[1] = o->dp;
+    values[2] = o->on;
+}
+
+void overlap_summary(const struct overlap *o, struct summary *to)
+{
+    watch_summary(&o->velocity, to);
+    watch_summary(&o->pressure, to);
+    watch_summary(&o->dry, to);
+}
+
+void overlap_tell(const struct overlap *o, struct summary *to)
+{
+    if (o->du > 0.5 * o->velocity.warn)
+        summary_real(to, "du", o->du);
+    if (o->dp > 0.5 * o->pressure.warn)
+        summary_real(to, "dp", o->dp);
+}
