@@ -1,0 +1,281 @@
+/* scene_speed.c - the largest velocity that a scene lets expect; see scene_speed.h.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "scene_speed.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "exact.h"
+
+static double size_of(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+static double extent(const struct scene *s, int a) { return s->domain.max[a] - s->domain.min[a]; }
+
+/* Amplitude of the field, without what carries it. */
+static double field_speed(const struct scene *s)
+{
+    const struct scene_initial *f = &s->initial;
+    double period, rate;
+    switch (f->field) {
+    case FIELD_TAYLOR_GREEN:
+    case FIELD_TWO_MODES:
+    case FIELD_COUETTE:
+    case FIELD_PATCH:
+        return f->U;
+    case FIELD_DROP:
+        return fmax(f->U, s->fluid.central * f->L);
+    case FIELD_BELTRAMI:
+        return sqrt(6.0) * f->U; /* where all sines and cosines are sqrt(1/2) */
+    case FIELD_STANDING_WAVE:
+    case FIELD_STOKES: {
+        const struct exact e = exact_create(s);
+        if (f->field == FIELD_STOKES) /* a breaking crest overtakes the wave */
+            return e.stokes.omega / e.stokes.k;
+        return exact_oscillation(&e, &period, &rate) ? 2.0 * M_PI / period * fabs(f->amplitude)
+                                                     : 0.0;
+    }
+    default:
+        return 0.0;
+    }
+}
+
+/* The field and what shapes add to it. */
+static double first_speed(const struct scene *s)
+{
+    const struct scene_initial *f = &s->initial;
+    const bool carried = f->field == FIELD_UNIFORM || f->field == FIELD_TAYLOR_GREEN ||
+                         f->field == FIELD_TWO_MODES || f->field == FIELD_BELTRAMI;
+    double more = 0.0;
+    for (int k = 0; k < s->nshapes; k++)
+        more = fmax(more, s->shapes[k].hole ? 0.0 : size_of(s->shapes[k].velocity));
+    return field_speed(s) + (carried ? size_of(f->velocity) : 0.0) + more;
+}
+
+/* Area (in 2D length) of a side of the domain. */
+static double area(const struct scene *s, int side)
+{
+    double A = 1.0;
+    for (int a = 0; a < s->domain.dim; a++)
+        A *= a == (side - SIDE_X_MIN) / 2 ? 1.0 : extent(s, a);
+    return A;
+}
+
+/* What comes in leaves by the outlets, in a profile whose largest velocity is 3/2 of the mean. */
+static double inflow_speed(const struct scene *s)
+{
+    double speed = 0.0, rate = 0.0, out = 0.0;
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        const double u = size_of(w->velocity);
+        if (w->kind == WALL_INFLOW) {
+            speed = fmax(speed, u);
+            rate += area(s, w->side) * u * (w->profile == PROFILE_PARABOLIC ? 2.0 / 3.0 : 1.0);
+        } else if (w->kind > WALL_INFLOW) {
+            out += area(s, w->side);
+        }
+    }
+    return out > 0.0 ? fmax(speed, 1.5 * rate / out) : speed;
+}
+
+static double wall_speed(const struct scene *s)
+{
+    double speed = 0.0;
+    for (int k = 0; k < s->nwalls; k++)
+        if (s->walls[k].kind < WALL_INFLOW)
+            speed = fmax(speed, size_of(s->walls[k].velocity));
+    return speed;
+}
+
+static double body_speed(const struct scene *s)
+{
+    double speed = 0.0;
+    for (int k = 0; k < s->nbodies; k++) {
+        const struct scene_body *b = s->bodies + k;
+        double reach = 0.0;
+        for (int i = 0; i < b->points.n; i++)
+            reach = fmax(reach,
+                         hypot(b->points.x[i][0] - b->centre[0], b->points.x[i][1] - b->centre[1]));
+        if (!*b->motion)
+            speed = fmax(speed, size_of(b->velocity) + fabs(b->spin) * reach);
+    }
+    return speed;
+}
+
+/* Gravity along the axes that are not periodic. */
+static double weight(const struct scene *s, double g[3])
+{
+    for (int a = 0; a < 3; a++)
+        g[a] = a < s->domain.dim && !s->domain.periodic[a] ? s->fluid.gravity[a] : 0.0;
+    return size_of(g);
+}
+
+/* Range of heights against gravity of a box cut to the domain; axes without extent go through. */
+static void heights(const struct scene *s, const double *g, const double *lo, const double *hi,
+                    double range[2])
+{
+    const double size = size_of(g);
+    range[0] = range[1] = 0.0;
+    for (int a = 0; a < s->domain.dim; a++) {
+        const bool whole = !(hi[a] > lo[a]);
+        const double l = whole ? s->domain.min[a] : fmax(lo[a], s->domain.min[a]);
+        const double h = whole ? s->domain.max[a] : fmin(hi[a], s->domain.max[a]);
+        range[0] += fmin(-g[a] * l, -g[a] * h) / size;
+        range[1] += fmax(-g[a] * l, -g[a] * h) / size;
+    }
+}
+
+static double shape_top(const struct scene *s, const double *g, const struct scene_shape *h)
+{
+    double lo[3] = {0.0}, hi[3] = {0.0}, range[2];
+    if (h->form == SHAPE_BELOW)
+        return h->level;
+    for (int a = 0; a < 3 && h->form == SHAPE_DISC; a++) {
+        lo[a] = h->centre[a] - h->radius;
+        hi[a] = h->centre[a] + h->radius;
+    }
+    if (h->form == SHAPE_BOX) {
+        memcpy(lo, h->box[0], sizeof lo);
+        memcpy(hi, h->box[1], sizeof hi);
+    }
+    for (int k = 0; h->form == SHAPE_POLYGON && k < h->points.n; k++)
+        for (int a = 0; a < 2; a++) {
+            lo[a] = k ? fmin(lo[a], h->points.x[k][a]) : h->points.x[k][a];
+            hi[a] = k ? fmax(hi[a], h->points.x[k][a]) : h->points.x[k][a];
+        }
+    heights(s, g, lo, hi, range);
+    return range[1];
+}
+
+/* Depth of the water and the height that it can fall. */
+static void find_fall(const struct scene *s, double *depth, double *fall)
+{
+    static const double none[3] = {0.0};
+    double g[3], range[2], top = -INFINITY;
+    bool still = true;
+    *depth = *fall = 0.0;
+    if (weight(s, g) == 0.0)
+        return;
+    heights(s, g, none, none, range);
+    if (scene_has_wave(s)) {
+        const double level = s->initial.level < LEVEL_TOP ? s->initial.level : range[1];
+        *depth = fmin(level + fabs(s->initial.amplitude), range[1]) - range[0];
+        *fall = 2.0 * fabs(s->initial.amplitude);
+        return;
+    }
+    *depth = range[1] - range[0];
+    for (int k = 0; k < s->nshapes; k++) {
+        still = still && s->shapes[k].form == SHAPE_BELOW && !s->shapes[k].hole;
+        if (!s->shapes[k].hole)
+            top = fmax(top, shape_top(s, g, s->shapes + k));
+    }
+    if (s->nshapes > 0)
+        *depth = fmax(fmin(top, range[1]) - range[0], 0.0);
+    for (int k = 0; k < s->nwalls; k++) /* it can run out */
+        still = still && s->walls[k].kind < WALL_OUTFLOW;
+    if (scene_has_surface(s) || !still)
+        *fall = still && s->nshapes > 0 ? 0.0 : *depth;
+}
+
+static bool has_friction(const struct scene *s)
+{
+    bool any = false;
+    for (int k = 0; k < s->nwalls; k++)
+        any = any || s->walls[k].kind == WALL_NO_SLIP;
+    for (int k = 0; k < s->nbodies; k++)
+        any = any || s->bodies[k].kind == WALL_NO_SLIP;
+    return any;
+}
+
+/* What an acceleration makes of fluid at rest within the run, at most the steady flow that friction
+ * on walls allows: a h^2/(8 nu) between two planes h apart, a h^2/(2 nu) over one. */
+static double driven(const struct scene *s, double a)
+{
+    double h = INFINITY, gap = INFINITY;
+    for (int b = 0; b < s->domain.dim; b++) {
+        const struct scene_wall *lo = scene_wall_of(s, SIDE_X_MIN + 2 * b);
+        const struct scene_wall *hi = scene_wall_of(s, SIDE_X_MIN + 2 * b + 1);
+        h = s->domain.periodic[b] ? h : fmin(h, extent(s, b));
+        if (lo && hi && lo->kind == WALL_NO_SLIP && hi->kind == WALL_NO_SLIP)
+            gap = fmin(gap, extent(s, b));
+    }
+    double steady = INFINITY;
+    if (s->fluid.nu > 0.0 && gap < INFINITY)
+        steady = a * gap * gap / (8.0 * s->fluid.nu);
+    else if (s->fluid.nu > 0.0 && has_friction(s) && h < INFINITY)
+        steady = a * h * h / (2.0 * s->fluid.nu);
+    return fmin(a * s->time.end, steady);
+}
+
+/* Body force along periodic axes, where nothing holds against it. */
+static double driven_speed(const struct scene *s)
+{
+    double a2 = 0.0;
+    for (int a = 0; a < s->domain.dim; a++)
+        a2 += s->domain.periodic[a] ? pow(s->fluid.gravity[a], 2.0) : 0.0;
+    return a2 > 0.0 ? driven(s, sqrt(a2)) : 0.0;
+}
+
+/* Largest pressure of the outlets, and what their difference accelerates. */
+static double outlet_speed(const struct scene *s, double *pressure)
+{
+    double lo = INFINITY, hi = -INFINITY, length = 0.0;
+    for (int k = 0; k < s->nwalls; k++)
+        if (s->walls[k].kind >= WALL_OUTFLOW) {
+            lo = fmin(lo, s->walls[k].pressure / s->fluid.rho);
+            hi = fmax(hi, s->walls[k].pressure / s->fluid.rho);
+        }
+    *pressure = hi >= lo ? fmax(fabs(lo), fabs(hi)) : 0.0;
+    if (!(hi > lo))
+        return 0.0;
+    for (int a = 0; a < s->domain.dim; a++)
+        length = fmax(length, extent(s, a));
+    return fmin(sqrt(2.0 * (hi - lo)), driven(s, (hi - lo) / length));
+}
+
+static void take(struct scene_speed *v, double speed, const char *from)
+{
+    if (!(speed > v->speed))
+        return;
+    v->speed = speed;
+    v->from = from;
+}
+
+/* A scene in which nothing moves needs a scale all the same: what its static pressure would make of
+ * a jet; without any, the domain crossed once in the run. */
+static void take_still(const struct scene *s, struct scene_speed *v)
+{
+    double length = 0.0;
+    v->moves = v->speed > 0.0;
+    if (v->moves)
+        return;
+    for (int a = 0; a < s->domain.dim; a++)
+        length = fmax(length, extent(s, a));
+    take(v, sqrt(v->pressure), "the static pressure: nothing moves");
+    take(v, v->speed > 0.0 ? 0.0 : length / s->time.end,
+         "the domain's length over time.end: nothing moves");
+}
+
+struct scene_speed scene_speed_of(const struct scene *s, double file)
+{
+    struct scene_speed v = {.from = ""};
+    double depth, fall, g[3], central = 0.0, pressure;
+    const double first = first_speed(s), size = weight(s, g);
+    find_fall(s, &depth, &fall);
+    for (int a = 0; a < s->domain.dim && s->nshapes > 0;
+         a++) /* falls to the origin from a corner */
+        central += pow(fmax(fabs(s->domain.min[a]), fabs(s->domain.max[a])), 2.0);
+    take(&v, first, "the flow at the start");
+    take(&v, inflow_speed(s), "the inflow");
+    take(&v, wall_speed(s), "the moving walls");
+    take(&v, fmax(body_speed(s), file), "the moving bodies");
+    take(&v, driven_speed(s), "the body force along periodic axes");
+    take(&v, outlet_speed(s, &pressure), "the pressures of the outlets");
+    take(&v, s->fluid.central * sqrt(central), "the central force");
+    v.pressure = fmax(size * depth, pressure);
+    if (fall > 0.0)
+        take(&v, sqrt(2.0 * size * fall + v.speed * v.speed), "the fall of the water");
+    take_still(s, &v);
+    return v;
+}
+
+double scene_reference_speed(const struct scene *s) { return scene_speed_of(s, 0.0).speed; }
