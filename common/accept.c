@@ -105,7 +105,7 @@ void accept_check(const struct scene *s, const char *case_dir, const struct para
 {
     for (int k = 0; k < s->naccept; k++) {
         const struct scene_accept *a = s->accept + k;
-        static const char *const with[] = {"column", "measure", "from", "to", "start", "unit"};
+        static const char *const with[] = {"column", "measure", "from", "until", "start", "unit"};
         char key[64], path[1024 + PARAM_TEXT_SIZE];
         for (int i = 0; i < 6; i++) {
             snprintf(key, sizeof key, "accept.[%d].%s", k, with[i]);
@@ -168,7 +168,7 @@ static double compare(const struct scene_accept *a, const char *case_dir, const 
             series_of(run, table_column(run, a->what), room[0], 0.0, (const double[]){1.0, 1.0});
         const struct accept_series of_ref =
             series_of(ref, table_column(ref, column_of(a)), room[1], a->start, a->unit);
-        d = accept_distance(a->measure, of_run, of_ref, a->from, a->to);
+        d = accept_distance(a->measure, of_run, of_ref, a->from, a->until);
         mem_free(room[0]);
         mem_free(room[1]);
     }

@@ -116,7 +116,7 @@ static const struct param accept_rows[] = {
     PARAM(P, column,    "-", "", 0, 0, "column of the reference; by default named like what"),
     CHOICE(P, measure, "rms|peak|impulse|arrival", "rms", "difference over the reference's range; of the largest values, the integrals, the times of half the peak, relative"),
     PARAM(P, from,      "s", "0.0", -1e9, 1e9, "start of the comparison"),
-    PARAM(P, to,        "s", "1e30", -1e9, 1e9, "its end; by default the end of the run or of the reference"),
+    PARAM(P, until,     "s", "1e30", -1e9, 1e9, "its end; by default the end of the run or of the reference"),
     PARAM(P, start,     "s", "0.0", -1e9, 1e9, "time of the run at which the reference's t is 0"),
     PARAM(P, unit,      "-", "(1.0, 1.0)", -1e12, 1e12, "units of the reference: its t times the first is s, its value times the second is the column's"),
     PARAM(P, tolerance, "-", NULL, -1e300, 1e300, "largest value that is accepted"),

@@ -135,7 +135,7 @@ struct scene {
         char reference[PARAM_TEXT_SIZE]; /* CSV file beside the case; "": none */
         char column[PARAM_TEXT_SIZE];    /* of the reference; "": named like what */
         int measure;                     /* enum accept_measure */
-        double from, to;                 /* s: of the comparison */
+        double from, until;              /* s: of the comparison */
         double start;                    /* s: time of the run at which the reference's t is 0 */
         double unit[3];   /* of the reference's times (s) and values (as in series.csv) */
         double tolerance; /* accepted while the value is at most this */
