@@ -121,6 +121,9 @@ void fv_params_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "fv.cfl", "%g: bdf2 is stable up to 0.7", given.cfl);
     if (given.integrator == INTEGRATOR_RK3 && given.cfl > 1.1)
         params_fault(r->params, f, "fv.cfl", "%g: rk3 is stable up to 1.1", given.cfl);
+    if (given.upwind < 0.0 && given.upwind != -1.0)
+        params_fault(r->params, f, "fv.upwind", "%g: 0 or more, or -1 for what suits the scene",
+                     given.upwind);
     check_graded(r, f);
     for (int a = 0; a < r->scene.domain.dim; a++) {
         check_axis(r, a, f);

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -122,7 +123,8 @@ static bool nothing_carried(const struct run *r, int k)
     const int f = r->scene.initial.field;
     bool inflow = false;
     for (int b = 0; b < mesh_block_count(); b++)
-        inflow = inflow || (mesh_block_has(b, MESH_INFLOW) && !is_set(mesh_block_params()[b].velocity));
+        inflow =
+            inflow || (mesh_block_has(b, MESH_INFLOW) && !is_set(mesh_block_params()[b].velocity));
     return (void)k, !inflow && (f == FIELD_REST || (f >= FIELD_POISEUILLE && f != FIELD_BELTRAMI));
 }
 
@@ -154,16 +156,26 @@ static bool no_pictures(const struct run *r, int k)
 /* --- groups of this solver --- */
 
 static bool no_rows(const struct run *r, int k) { return (void)k, fv_params_of(r)->graded[1] == 0; }
+static bool graded_of_three(const struct run *r, int k)
+{
+    return (void)k, fv_params_of(r)->graded[2] != 0.0;
+}
 static bool no_extrema(const struct run *r, int k)
 {
     return (void)k, fv_params_of(r)->extrema[0] == 0.0;
 }
+/* Cells that lie wholly in the box are forced. */
 static bool no_hole(const struct run *r, int k)
 {
     const struct fv_params *p = fv_params_of(r);
+    const struct scene_domain *d = &r->scene.domain;
     bool empty = false;
-    for (int a = 0; a < r->scene.domain.dim; a++)
-        empty = empty || !(p->hole[1][a] > p->hole[0][a]);
+    for (int a = 0; a < d->dim; a++) {
+        const double h = (d->max[a] - d->min[a]) / p->cells[a];
+        const double first = fmax(ceil((p->hole[0][a] - d->min[a]) / h - 1e-9), 0.0),
+                     last = fmin(floor((p->hole[1][a] - d->min[a]) / h + 1e-9), p->cells[a]);
+        empty = empty || !(last > first);
+    }
     return (void)k, empty;
 }
 static bool no_forces(const struct run *r, int k)
@@ -267,6 +279,7 @@ static const struct rule rules[] = {
     {"output.fields",     no_pictures,       "output.snapshots = false", true},
     {"fv.cells",          blocks,            "each block has cells of its own", false},
     {"fv.graded",         no_rows,           "the number of even rows is 0", false},
+    {"fv.graded", graded_of_three, "there are two numbers, a height and a number of rows: the third is too much", false},
     {"fv.tol_pressure",   is_newton,         "newton solves for all unknowns at once: see fv.tol_newton", false},
     {"fv.tol_viscous",    is_newton,         "newton solves for all unknowns at once: see fv.tol_newton", false},
     {"fv.tol_viscous",    inviscid,          "fluid.nu = 0: there is no viscous solver", false},
@@ -274,7 +287,7 @@ static const struct rule rules[] = {
     {"fv.flux",           not_newton,        "it wants fv.integrator = \"newton\"; rk3 and bdf2 have fv.upwind", false},
     {"fv.c0",             not_newton,        "it wants fv.integrator = \"newton\"", false},
     {"fv.steady",         not_newton,        "it wants fv.integrator = \"newton\"", false},
-    {"fv.hole",           no_hole,           "the box is empty", false},
+    {"fv.hole",           no_hole,           "no cell lies wholly in the box", false},
     {"fv.upwind",         is_newton,         "newton has fv.flux", false},
     {"fv.extrema",        no_extrema,        "the first of them is 0", false},
     {"fv.force",          no_forces,         "no block has a side that is a \"wall\"", false},
