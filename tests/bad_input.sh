@@ -148,30 +148,30 @@ with basin 's/16);/16); integrator = "newton"; upwind = 0.5;/' 'fv.upwind: is no
 with basin 's/16);/16); integrator = "newton"; tol_pressure = 1e-3;/' 'fv.tol_pressure: is not used' fv
 with basin 's/nu = 0.01/nu = 0.0/; s/16);/16); tol_viscous = 1e-5;/' 'fv.tol_viscous: is not used' fv
 with basin 's/16);/16); force = (1.0, 0.0, 0.0);/' 'fv.force: is not used' fv
-with basin 's/max = (1, 1)/max = (1, 1, 1)/' 'domain.max: is not used: a third component' fv
+with basin 's/max = (1, 1)/max = (1, 1, 1)/' 'domain.max: .*component' fv
 with block 's/fv:      {/& cells = (16, 16);/' 'fv.cells: is not used' fv
 with block 's/16);/16); arc = (0, 90);/' 'blocks.\[0\].arc: is not used' fv
 with block 's/16);/16); focus = (0.5, 0.5);/' 'blocks.\[0\].focus: is not used' fv
 with block 's/16);/16); spin = (0, 0, 1);/' 'blocks.\[0\].spin: is not used' fv
-with basin 's/"x_min"; kind = "no_slip";/"x_min"; kind = "inflow"; velocity = (1, 0);/' 'an inflow without an outflow: 1 m' fv
-with block 's/i_min = "wall"/i_min = "inflow"; velocity = (1, 0); lid = "j_max"/' 'an inflow without an outflow: 1 m' fv
+with basin 's/"x_min"; kind = "no_slip";/"x_min"; kind = "inflow"; velocity = (1, 0);/' 'an inflow without an outflow: 1 m\|inflow into a closed box' fv
+with block 's/i_min = "wall"/i_min = "inflow"; velocity = (1, 0); lid = "j_max"/' 'an inflow without an outflow: 1 m\|inflow into a closed box' fv
 with basin 's/"x_min"; kind = "no_slip";/"x_min"; kind = "inflow"; velocity = (0, 1);/; s/"x_max"; kind = "no_slip"/"x_max"; kind = "outflow"/' 'nothing flows in' fv
-with basin 's/"x_min"; kind = "no_slip";/& velocity = (1, 0);/' 'would pump fluid through it' fv
+with basin 's/"x_min"; kind = "no_slip";/& velocity = (1, 0);/' 'would pump fluid through' fv
 with block 's/16);/16); velocity = (1, 0);/' 'would pump fluid through itself' fv
 with basin 's/nu = 0.01/& ; gravity = (1, 0)/; s/x_m\([a-z]*\)"; kind = "no_slip"/x_m\1"; kind = "outflow"/g' 'two outflows at different heights' fv
 with block 's/nu = 0.01/& ; gravity = (1, 0)/; s/i_m\([a-z]*\) = "wall"/i_m\1 = "outflow"/g' 'two outflows at different heights' fv
 with block 's/min = (0, 0)/min = (0.1, 0)/' 'reaches out of the domain' fv
-with basin 's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/' 'lies outside the domain along x' fv
+with basin 's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/' 'outside the domain' fv
 with block 's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/' 'no block has computed cells' fv
 with basin 's/^fv:/initial: { field = "poiseuille"; };\n&/' 'a channel along x' fv
 with basin 's/^fv:/initial: { field = "patch"; };\n&/' 'is for sph' fv
 with basin 's/16);/16); extrema = (0.1, 0.0, 0.1);/' 'fv.extrema: .*none may be 0' fv
 with basin 's/(16, 16)/(2, 1)/' '1 cells along y: at least 4' fv
 with block 's/(16, 16)/(1, 2)/' '2 cells along j: at least 6' fv
-with tank 's/gravity = (0, -9.81)/rho = 2.0/' 'a free surface wants gravity' fv
-with tank 's/(0.5, 0.5)/(0.5, 1.5)/' 'its water reaches above the domain' fv
-with tank 's/box = ((0, 0), (0.5, 0.5))/box = ((2, 0), (3, 0.5))/' 'it lies outside the domain along x' fv
-with tank 's/form.*}/form = "below"; level = 2.0; }/' 'its level, 2 m, lies outside the domain' fv
+with tank 's/gravity = (0, -9.81)/rho = 2.0/' 'a free surface.* gravity' fv
+with tank 's/(0.5, 0.5)/(0.5, 1.5)/' 'its water .* above the domain' fv
+with tank 's/box = ((0, 0), (0.5, 0.5))/box = ((2, 0), (3, 0.5))/' 'lies outside the domain' fv
+with tank 's/form.*}/form = "below"; level = 2.0; }/' 'level,* 2 m.* the domain' fv
 with tank 's/"x_max";/"x_max"; kind = "outflow";/' 'no openings with a free surface' fv
 with tank 's/^shapes.*/initial: { field = "standing_wave"; amplitude = 0.6; L = 2.0; level = 0.5; };/' 'the crest of the wave' fv
 with tank 's/^shapes.*/initial: { field = "standing_wave"; amplitude = 0.1; L = 3.0; level = 0.5; };/' 'must stand at crests or troughs' fv
