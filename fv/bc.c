@@ -353,10 +353,14 @@ static void side_centre(const struct block *b, const struct side *d, int64_t m, 
     x[d->a] += 0.5 * out * block_size(b, d->a, at[d->a]);
 }
 
-/* Whether the cell holds no water. */
+/* Whether the cell holds no water; whether none stands at the wall, beyond the cell's centre. */
 static bool is_dry(const struct fv *s, int64_t c)
 {
     return s->surface && s->surface->layer[c] != 0;
+}
+static bool is_dry_wall(const struct fv *s, int64_t c, int64_t in)
+{
+    return is_dry(s, c) || (s->surface && 3.0 * s->surface->phi[c] > s->surface->phi[c + in]);
 }
 
 /* Pressure on the side by the cubic, shear by the fourth-order face gradient. A dry wall feels
@@ -372,7 +376,7 @@ static void add_force(const struct fv *s, int k, double *force)
         const double area = face_area(b, &d, i, j);
         double p[4];
         bool deep = true;
-        if (is_dry(s, c))
+        if (is_dry_wall(s, c, d.in))
             continue;
         for (int n = 1; n < 4; n++)
             deep = deep && !is_dry(s, c + n * d.in);

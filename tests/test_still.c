@@ -94,6 +94,31 @@ static void walls_under_a_free_surface_feel_the_water_alone(void **state)
     assert_close(row[8], 1000 * 9.81 * 0.7, 1e-6);
 }
 
+/* The level is a height against gravity, whichever way that points. */
+static void levels_stand_against_gravity(void **state)
+{
+    (void)state;
+    static const char *const walls =
+        "walls: ( { side = \"x_min\"; }, { side = \"x_max\"; }, { side = \"y_min\"; }, { side = "
+        "\"y_max\"; }, { side = \"z_min\"; }, { side = \"z_max\"; } );\n"
+        "probes: ( { name = \"h\"; kind = \"level\"; at = (0.5, 0.5, 0.5); } );\n"
+        "fv: { cells = (8, 8, 8); };\n";
+    static const double wanted[4] = {0.2, 0.2, 0.2, 0.8};
+    static const char *const gravity[4] = {"(-1, 0, 0)", "(0, -1, 0)", "(0, 0, -1)", "(0, 1, 0)"};
+    for (int k = 0; k < 4; k++) {
+        double row[COLUMNS] = {0};
+        char text[2048];
+        snprintf(
+            text, sizeof text,
+            "format = 1;\ntime: { end = 0.1; };\ndomain: { dim = 3; min = (0, 0, 0); max = (1, "
+            "1, 1); };\nfluid: { gravity = %s; };\nshapes: ( { form = \"below\"; level = %g; } "
+            ");\n%s",
+            gravity[k], k == 3 ? -0.8 : 0.2, walls);
+        row_of(text, row, NULL);
+        assert_close(row[10], wanted[k], 1e-9);
+    }
+}
+
 static void blocks_know_the_whole_pressure(void **state)
 {
     (void)state;
@@ -117,6 +142,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cells_know_the_whole_pressure),
         cmocka_unit_test(walls_under_a_free_surface_feel_the_water_alone),
+        cmocka_unit_test(levels_stand_against_gravity),
         cmocka_unit_test(blocks_know_the_whole_pressure),
     };
     const char *dir = getenv("TEST_SCRATCH");
