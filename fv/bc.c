@@ -12,6 +12,7 @@
 
 #include "../common/mem.h"
 #include "forcing.h"
+#include "levelset.h"
 #include "outflow.h"
 
 /* Places of a side on this rank: tangents t0 < t1, from lo to hi; places count from -g, so that
@@ -383,7 +384,18 @@ static void side_centre(const struct block *b, const struct side *d, int64_t m, 
     x[d->a] += 0.5 * out * block_size(b, d->a, at[d->a]);
 }
 
-/* Pressure on the side by the cubic, shear by the fourth-order face gradient. */
+/* Whether the cell holds no water; whether none stands at the wall, beyond the cell's centre. */
+static bool is_dry(const struct fv *s, int64_t c)
+{
+    return s->surface && s->surface->layer[c] != 0;
+}
+static bool is_dry_wall(const struct fv *s, int64_t c, int64_t in)
+{
+    return is_dry(s, c) || (s->surface && 3.0 * s->surface->phi[c] > s->surface->phi[c + in]);
+}
+
+/* Pressure on the side by the cubic, shear by the fourth-order face gradient. A dry wall feels
+ * nothing; beside one that is wet the cell's own pressure counts. */
 static void add_force(const struct fv *s, int k, double *force)
 {
     const struct block *b = &s->b;
@@ -394,8 +406,13 @@ static void add_force(const struct fv *s, int k, double *force)
     {
         const double area = face_area(b, &d, i, j);
         double p[4];
+        bool deep = true;
+        if (is_dry_wall(s, c, d.in))
+            continue;
+        for (int n = 1; n < 4; n++)
+            deep = deep && !is_dry(s, c + n * d.in);
         for (int n = 0; n < 4; n++)
-            p[n] = fv_pressure(s, c + n * d.in);
+            p[n] = fv_pressure(s, deep ? c + n * d.in : c);
         side_centre(b, &d, m, out, x);
         force[d.a] += out * area *
                       ((25.0 * p[0] - 23.0 * p[1] + 13.0 * p[2] - 3.0 * p[3]) / 12.0 +

@@ -37,7 +37,7 @@ struct fv_params {
     int flux;            /* newton only */
     double c0;           /* m/s: sound speed; newton only, 0: incompressible */
     bool steady;         /* newton only: march to a steady state */
-    double graded[2];    /* m, rows: see rows.h; rows 0: all even */
+    double graded[3];    /* m, rows: see rows.h; rows 0: all even */
     double hole[2][3];   /* box whose cells take the exact solution; all 0: none */
     double upwind;       /* C of the bias in convection.c; 0: none, -1: 1 with walls, else none */
     double extrema[3];   /* m/s: known ones on the centre lines, see fv_lines.c; 0: none */

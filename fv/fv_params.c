@@ -119,6 +119,9 @@ void fv_params_check(const struct run *r, struct faults *f)
         return;
     }
     limits_check(r, f);
+    if (given.upwind < 0.0 && given.upwind != -1.0)
+        params_fault(r->params, f, "fv.upwind", "%g: 0 or more, or -1 for what suits the scene",
+                     given.upwind);
     check_graded(r, f);
     for (int a = 0; a < r->scene.domain.dim; a++) {
         check_axis(r, a, f);

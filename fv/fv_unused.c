@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -105,15 +106,17 @@ static bool no_scale(const struct run *r, int k)
     const int f = r->scene.initial.field;
     const bool scaled = f == FIELD_TAYLOR_GREEN || f == FIELD_TWO_MODES || f == FIELD_COUETTE ||
                         f == FIELD_PATCH || f == FIELD_DROP || f == FIELD_BELTRAMI;
-    return (void)k, !scaled && !fv_measures_errors(r) && !gravity_drives(r);
+    return (void)k, !scaled && !fv_measures_errors(r);
 }
 
+/* Of a channel it is the height: one that says so says what is. */
 static bool no_length(const struct run *r, int k)
 {
     const int f = r->scene.initial.field;
-    const bool scaled =
-        f == FIELD_REST || f == FIELD_UNIFORM || f == FIELD_POISEUILLE || f == FIELD_COUETTE;
-    return scaled && !(blocks(r, k) && gravity_drives(r));
+    const double H = r->scene.domain.max[1] - r->scene.domain.min[1];
+    const bool channel = f == FIELD_POISEUILLE || f == FIELD_COUETTE;
+    return (void)k, f == FIELD_REST || f == FIELD_UNIFORM ||
+                        (channel && fabs(r->scene.initial.L - H) > 1e-9 * H);
 }
 
 /* An inflow of a block that gives no velocity has that of the start. */
@@ -122,7 +125,8 @@ static bool nothing_carried(const struct run *r, int k)
     const int f = r->scene.initial.field;
     bool inflow = false;
     for (int b = 0; b < mesh_block_count(); b++)
-        inflow = inflow || (mesh_block_has(b, MESH_INFLOW) && !is_set(mesh_block_params()[b].velocity));
+        inflow =
+            inflow || (mesh_block_has(b, MESH_INFLOW) && !is_set(mesh_block_params()[b].velocity));
     return (void)k, !inflow && (f == FIELD_REST || (f >= FIELD_POISEUILLE && f != FIELD_BELTRAMI));
 }
 
@@ -154,16 +158,26 @@ static bool no_pictures(const struct run *r, int k)
 /* --- groups of this solver --- */
 
 static bool no_rows(const struct run *r, int k) { return (void)k, fv_params_of(r)->graded[1] == 0; }
+static bool graded_of_three(const struct run *r, int k)
+{
+    return (void)k, fv_params_of(r)->graded[2] != 0.0;
+}
 static bool no_extrema(const struct run *r, int k)
 {
     return (void)k, fv_params_of(r)->extrema[0] == 0.0;
 }
+/* Cells that lie wholly in the box are forced. */
 static bool no_hole(const struct run *r, int k)
 {
     const struct fv_params *p = fv_params_of(r);
+    const struct scene_domain *d = &r->scene.domain;
     bool empty = false;
-    for (int a = 0; a < r->scene.domain.dim; a++)
-        empty = empty || !(p->hole[1][a] > p->hole[0][a]);
+    for (int a = 0; a < d->dim; a++) {
+        const double h = (d->max[a] - d->min[a]) / p->cells[a];
+        const double first = fmax(ceil((p->hole[0][a] - d->min[a]) / h - 1e-9), 0.0),
+                     last = fmin(floor((p->hole[1][a] - d->min[a]) / h + 1e-9), p->cells[a]);
+        empty = empty || !(last > first);
+    }
     return (void)k, empty;
 }
 static bool no_forces(const struct run *r, int k)
@@ -267,6 +281,7 @@ static const struct rule rules[] = {
     {"output.fields",     no_pictures,       "output.snapshots = false", true},
     {"fv.cells",          blocks,            "each block has cells of its own", false},
     {"fv.graded",         no_rows,           "the number of even rows is 0", false},
+    {"fv.graded", graded_of_three, "there are two numbers, a height and a number of rows: the third is too much", false},
     {"fv.tol_pressure",   is_newton,         "newton solves for all unknowns at once: see fv.tol_newton", false},
     {"fv.tol_viscous",    is_newton,         "newton solves for all unknowns at once: see fv.tol_newton", false},
     {"fv.tol_viscous",    inviscid,          "fluid.nu = 0: there is no viscous solver", false},
@@ -274,7 +289,7 @@ static const struct rule rules[] = {
     {"fv.flux",           not_newton,        "it wants fv.integrator = \"newton\"; rk3 and bdf2 have fv.upwind", false},
     {"fv.c0",             not_newton,        "it wants fv.integrator = \"newton\"", false},
     {"fv.steady",         not_newton,        "it wants fv.integrator = \"newton\"", false},
-    {"fv.hole",           no_hole,           "the box is empty", false},
+    {"fv.hole",           no_hole,           "no cell lies wholly in the box", false},
     {"fv.upwind",         is_newton,         "newton has fv.flux", false},
     {"fv.extrema",        no_extrema,        "the first of them is 0", false},
     {"fv.force",          no_forces,         "no block has a side that is a \"wall\"", false},

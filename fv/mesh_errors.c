@@ -296,6 +296,51 @@ void mesh_progress(void *state, char *line, int size)
              limit_name(s->limit), s->rate * s->dt, (double)s->iterations / steps, s->umax);
 }
 
+/* Least distance of opposite faces of a computed cell, m, about: volume over the largest face. */
+static double least_height(const struct mesh *m)
+{
+    double least = INFINITY;
+    for (int q = 0; q < m->nparts; q++) {
+        const struct mesh_part *p = m->part + q;
+        int i[3];
+        PART_CELLS (p, i, c)
+            for (int a = 0; a < m->dim && m->status[c] == CELL_COMPUTED; a++) {
+                const double S[3] = {m->S[a][0][c], m->S[a][1][c], m->dim == 3 ? m->S[a][2][c] : 0};
+                least = fmin(least, m->V[c] / sqrt(S[0] * S[0] + S[1] * S[1] + S[2] * S[2]));
+            }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m->comm);
+    return least;
+}
+
+/* What the sides are, and what the run uses and leaves out. */
+static void describe_scene(const struct run *r, const struct mesh *m)
+{
+    static const char *const kinds[] = {"overlap", "joined", "periodic", "walls",
+                                        "slip",    "inflow", "outflow",  "exact velocity"};
+    const bool viscous = r->scene.fluid.nu > 0.0, walls = mesh_bc_has_walls(m);
+    const double *g = r->scene.fluid.gravity;
+    const bool heavy = g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0;
+    char sides[160] = "";
+    for (int kind = MESH_OVERLAP; kind <= MESH_EXACT; kind++) {
+        bool any = false;
+        for (int k = 0; k < m->nblocks; k++)
+            for (int q = 0; q < 2 * m->dim; q++)
+                any = any || (int)m->block[k].side[q] == kind;
+        const size_t n = strlen(sides);
+        if (any)
+            snprintf(sides + n, sizeof sides - n, "%s%s", n ? ", " : "", kinds[kind]);
+    }
+    log_say("%dD, fourth-order averages, rk3, three projections a step; sides: %s", m->dim, sides);
+    log_say("%s%s%s%s; off: free surface, forced cells, coupling%s%s%s%s",
+            viscous ? "viscous, implicit" : "inviscid", walls ? ", walls" : "",
+            m->has_fringe ? ", interpolation where blocks overlap" : "", heavy ? ", gravity" : "",
+            viscous ? "" : ", viscous solver", walls ? "" : ", walls",
+            m->has_fringe ? "" : ", interpolation", heavy ? "" : ", gravity");
+    log_say("%s", fv_measures_errors(r) ? "errors against the exact solution"
+                                        : "no exact solution to measure errors by");
+}
+
 void mesh_describe(const struct run *r)
 {
     static const char *const shapes[] = {"box", "stretched box", "ring", "sheared box", "file"};
@@ -311,9 +356,10 @@ void mesh_describe(const struct run *r)
                 k + 1, b->prm->name, shapes[b->prm->mapping], b->n[0], b->n[1], b->n[2],
                 (long long)count[0], (long long)count[1], (long long)count[2]);
     }
-    if (m)
-        log_say("%dD, fourth-order averages, rk3, %s; %lld cells computed; about %.0f MB", m->dim,
-                r->scene.fluid.nu > 0.0 ? "viscous, implicit" : "inviscid", (long long)m->computed,
-                8e-6 * (double)m->cells * 80.0 + 1.0);
+    if (m) {
+        describe_scene(r, m);
+        log_say("%lld cells computed, the flattest %.3g m high; about %.0f MB",
+                (long long)m->computed, least_height(m), 8e-6 * (double)m->cells * 80.0 + 1.0);
+    }
     mesh_free(&m);
 }

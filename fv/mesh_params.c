@@ -122,6 +122,13 @@ static void check_block(const struct run *r, struct faults *f, int k)
         mesh_fault(r, f, k, "radius", "0 < inner < outer is wanted");
     if (b->mapping == MAPPING_ANNULUS && !(b->arc[1] > b->arc[0]))
         mesh_fault(r, f, k, "arc", "first < last is wanted");
+    bool stretched = false;
+    for (int a = 0; a < dim; a++)
+        stretched = stretched || b->stretch[a] != 0.0;
+    if (b->mapping == MAPPING_STRETCHED && !stretched)
+        mesh_fault(r, f, k, "mapping", "\"stretched\" without a stretch is a \"box\"");
+    if (b->mapping == MAPPING_SHEARED && b->shear == 0.0 && b->wave == 0.0)
+        mesh_fault(r, f, k, "mapping", "\"sheared\" without a shear or a wave is a \"box\"");
     if (b->mapping == MAPPING_FILE && !*b->file)
         mesh_fault(r, f, k, "file", "the name of the file with the vertices is wanted");
     check_lid(r, f, k);

@@ -46,25 +46,26 @@ double surface_reach(const struct fv *s, int a)
     return most;
 }
 
-/* Two columns (in 3D four) around x, with weights, linear between their centres. */
+/* Two columns along gravity (in 3D four) around x, with weights, linear between their centres. */
 double surface_level(const struct fv *s, const double *x)
 {
     const struct block *b = &s->b;
-    const int up = b->dim - 1;
+    const int up = still_upright(&s->run->scene);
+    const bool down = s->run->scene.fluid.gravity[up] > 0.0; /* the water hangs at the upper end */
     double sum = 0.0;
     BLOCK_CELLS (b, i, j, k, c) {
         const int at[3] = {i, j, k};
         double w = b->h[up];
-        for (int a = 0; a < up; a++) {
+        for (int a = 0; a < b->dim; a++) {
             const double half = 0.5, top = b->cells[a] - half;
             const double place = fmin(top, fmax(half, (x[a] - b->origin[a]) / b->h[a])) - half;
-            w *= fmax(0.0, 1.0 - fabs(place - (b->lo[a] + at[a])));
+            w *= a == up ? 1.0 : fmax(0.0, 1.0 - fabs(place - (b->lo[a] + at[a])));
         }
         sum += w > 0.0 ? w * surface_share(s, c) : 0.0;
     }
     int rank;
     MPI_Comm_rank(b->cart, &rank);
-    return sum + (rank == 0 ? b->origin[up] : 0.0);
+    return (down ? -sum : sum) + (rank == 0 ? b->origin[up] + (down ? b->length[up] : 0.0) : 0.0);
 }
 
 /* cos and sin of k x over the local cells along an axis, x from 0. */

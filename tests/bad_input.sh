@@ -102,6 +102,83 @@ with coupled 's/steps = 32/steps = 0/' 'coupling.steps: ' coupler --check
 with coupled 's/steps = 32/steps = 32; mapping = "nearest"/' 'coupling.mapping: .*mls' coupler --check
 says "4 faults" "$b/sph" sph.cfg -o result -p sph.dx=-1 -p sph.cfll=1 -p time.end=-3 -p sph.scheme=none
 
+# fv: keys that a run does not use, scenes that contradict themselves
+cat >basin.cfg <<'END'
+format = 1;
+time:    { end = 0.1; };
+fluid:   { rho = 1.0; nu = 0.01; };
+domain:  { dim = 2; min = (0, 0); max = (1, 1); };
+walls:   ( { side = "x_min"; kind = "no_slip"; }, { side = "x_max"; kind = "no_slip"; },
+           { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "no_slip"; } );
+fv:      { cells = (16, 16); };
+END
+cat >block.cfg <<'END'
+format = 1;
+time:    { end = 0.1; };
+fluid:   { rho = 1.0; nu = 0.01; };
+domain:  { dim = 2; min = (0, 0); max = (1, 1); };
+blocks:  ( { name = "a"; cells = (16, 16); i_min = "wall"; i_max = "wall"; j_min = "wall"; j_max = "wall"; } );
+fv:      { };
+END
+cat >tank.cfg <<'END'
+format = 1;
+time:    { end = 0.1; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (1, 1); };
+shapes:  ( { form = "box"; box = ((0, 0), (0.5, 0.5)); } );
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+fv:      { cells = (16, 16); };
+END
+for sound in basin block tank; do # or the faults below could come from something else
+    "$b/fv" $sound.cfg --check >out.txt 2>&1 || { echo "FAIL: $sound.cfg is refused: $(head -n 1 out.txt)"; failed=$((failed + 1)); }
+done
+with basin 's/nu = 0.01/nu = 0.01; central = 1.0/' 'case.cfg:3: fluid.central: is not used' fv
+with basin 's/^fv:/initial: { amplitude = 0.1; };\n&/' 'initial.amplitude: is not used' fv
+with basin 's/^fv:/initial: { U = 2.0; };\n&/' 'initial.U: is not used' fv
+with basin 's/^fv:/initial: { L = 2.0; };\n&/' 'initial.L: is not used' fv
+with basin 's/^fv:/initial: { velocity = (1, 0); };\n&/' 'initial.velocity: is not used' fv
+with basin 's/^fv:/initial: { level = 2.0; };\n&/' 'initial.level: is not used' fv
+with basin 's/^fv:/bodies: ( { points = ((0.4, 0.4), (0.4, 0.6), (0.6, 0.6)); } );\n&/' 'bodies.*: is not used' fv
+with basin 's/^fv:/shapes: ( { box = ((0, 0), (0.5, 0.5)); velocity = (1, 0); } );\n&/; s/16);/16); surface = "no";/' 'shapes.*: is not used' fv
+with basin 's/^fv:/coupling: { steps = 8; };\n&/' 'coupling.steps: is not used' fv
+with basin 's/^fv:/output: { snapshots = false; fields = "velocity"; };\n&/' 'output.fields: is not used' fv
+with basin 's/^fv:/output: { fields = "velocity zone"; };\n&/' 'output.fields: zone: ' fv
+with basin 's/"x_min"; kind = "no_slip";/& profile = "parabolic";/' 'case.cfg:5: walls.\[0\].profile: is not used' fv
+with basin 's/"x_min"; kind = "no_slip";/& pressure = 1.0;/' 'walls.\[0\].pressure: is not used' fv
+with basin 's/"x_min"; kind = "no_slip";/"x_min"; kind = "slip"; velocity = (0, 1);/' 'walls.\[0\].velocity: is not used' fv
+with basin 's/16);/16); tol_newton = 1e-8;/' 'fv.tol_newton: is not used' fv
+with basin 's/16);/16); integrator = "newton"; upwind = 0.5;/' 'fv.upwind: is not used' fv
+with basin 's/16);/16); integrator = "newton"; tol_pressure = 1e-3;/' 'fv.tol_pressure: is not used' fv
+with basin 's/nu = 0.01/nu = 0.0/; s/16);/16); tol_viscous = 1e-5;/' 'fv.tol_viscous: is not used' fv
+with basin 's/16);/16); force = (1.0, 0.0, 0.0);/' 'fv.force: is not used' fv
+with basin 's/max = (1, 1)/max = (1, 1, 1)/' 'domain.max: .*component' fv
+with block 's/fv:      {/& cells = (16, 16);/' 'fv.cells: is not used' fv
+with block 's/16);/16); arc = (0, 90);/' 'blocks.\[0\].arc: is not used' fv
+with block 's/16);/16); focus = (0.5, 0.5);/' 'blocks.\[0\].focus: is not used' fv
+with block 's/16);/16); spin = (0, 0, 1);/' 'blocks.\[0\].spin: is not used' fv
+with basin 's/"x_min"; kind = "no_slip";/"x_min"; kind = "inflow"; velocity = (1, 0);/' 'an inflow without an outflow: 1 m\|inflow into a closed box' fv
+with block 's/i_min = "wall"/i_min = "inflow"; velocity = (1, 0); lid = "j_max"/' 'an inflow without an outflow: 1 m\|inflow into a closed box' fv
+with basin 's/"x_min"; kind = "no_slip";/"x_min"; kind = "inflow"; velocity = (0, 1);/; s/"x_max"; kind = "no_slip"/"x_max"; kind = "outflow"/' 'nothing flows in' fv
+with basin 's/"x_min"; kind = "no_slip";/& velocity = (1, 0);/' 'would pump fluid through' fv
+with block 's/16);/16); velocity = (1, 0);/' 'would pump fluid through itself' fv
+with basin 's/nu = 0.01/& ; gravity = (1, 0)/; s/x_m\([a-z]*\)"; kind = "no_slip"/x_m\1"; kind = "outflow"/g' 'two outflows at different heights' fv
+with block 's/nu = 0.01/& ; gravity = (1, 0)/; s/i_m\([a-z]*\) = "wall"/i_m\1 = "outflow"/g' 'two outflows at different heights' fv
+with block 's/min = (0, 0)/min = (0.1, 0)/' 'reaches out of the domain' fv
+with basin 's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/' 'outside the domain' fv
+with block 's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/' 'no block has computed cells' fv
+with basin 's/^fv:/initial: { field = "poiseuille"; };\n&/' 'a channel along x' fv
+with basin 's/^fv:/initial: { field = "patch"; };\n&/' 'is for sph' fv
+with basin 's/16);/16); extrema = (0.1, 0.0, 0.1);/' 'fv.extrema: .*none may be 0' fv
+with basin 's/(16, 16)/(2, 1)/' '1 cells along y: at least 4' fv
+with block 's/(16, 16)/(1, 2)/' '2 cells along j: at least 6' fv
+with tank 's/gravity = (0, -9.81)/rho = 2.0/' 'a free surface.* gravity' fv
+with tank 's/(0.5, 0.5)/(0.5, 1.5)/' 'its water .* above the domain' fv
+with tank 's/box = ((0, 0), (0.5, 0.5))/box = ((2, 0), (3, 0.5))/' 'lies outside the domain' fv
+with tank 's/form.*}/form = "below"; level = 2.0; }/' 'level,* 2 m.* the domain' fv
+with tank 's/"x_max";/"x_max"; kind = "outflow";/' 'no openings with a free surface' fv
+with tank 's/^shapes.*/initial: { field = "standing_wave"; amplitude = 0.6; L = 2.0; level = 0.5; };/' 'the crest of the wave' fv
+with tank 's/^shapes.*/initial: { field = "standing_wave"; amplitude = 0.1; L = 3.0; level = 0.5; };/' 'must stand at crests or troughs' fv
+
 # the launcher
 says "no case" "$root/cases/run" nowhere
 says "unknown option" "$root/cases/run" taylor_green --fast
