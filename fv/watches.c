@@ -7,6 +7,7 @@
 
 #include "../common/h5.h"
 #include "../common/mem.h"
+#include "limits.h"
 
 enum { WATCHES = 5 };
 
@@ -58,7 +59,7 @@ static const struct watch *watch_of(const struct watches *w, int k)
     return has[k] ? all[k] : NULL;
 }
 
-struct watches *watches_create(double speed, bool periodic, bool surface)
+struct watches *watches_create(const struct run *r, bool periodic, bool surface)
 {
     struct watches *w = NEW(struct watches, 1);
     struct watch *const all[WATCHES] = {&w->energy, &w->velocity, &w->pressure, &w->growth,
@@ -67,12 +68,15 @@ struct watches *watches_create(double speed, bool periodic, bool surface)
         *all[k] = kinds[k];
     if (surface)
         w->velocity.warn = SPRAY;
-    w->speed = speed;
+    double L = INFINITY;
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        L = fmin(L, r->scene.domain.max[a] - r->scene.domain.min[a]);
+    w->speed = limits_reference(r);
+    w->damping = 10.0 * r->scene.fluid.nu / (L * L);
     w->periodic = periodic;
     w->has_surface = surface;
     w->energy_every = 10;
     w->waves_every = 50;
-    w->t = NAN;
     return w;
 }
 
@@ -93,17 +97,19 @@ bool watches_want_waves(const struct watches *w, int64_t step)
 }
 
 /* What a gain is measured by: the energy there is. A flow that swings between energy of motion and
- * of height has the largest that it had of either; one between walls or openings at least what its
- * scene's velocity makes: a sudden start, whose layers are thinner than a cell, has no budget to
- * the percent of the little energy of its first steps. */
-static double scale_of(const struct watches *w, const struct flow_energy *e, double energy)
+ * of height has the largest that it had of either. One between walls or openings has at least what
+ * its scene's velocity makes, for a sudden start, whose layers are thinner than a cell, has no
+ * budget to the percent of the little energy of its first steps; and what viscosity turns over in
+ * those steps, whose pressure is not known to the percent of that either. */
+static double scale_of(const struct watches *w, const struct flow_energy *e, double energy,
+                       double time)
 {
     const double whole = 0.5 * e->volume * w->speed * w->speed;
     if (w->periodic)
         return fmax(energy, 1e-6 * whole);
     if (w->has_surface)
         return fmax(fmax(w->kinetic_most, w->work_most - w->work_least), 1e-9 * whole);
-    return fmax(energy, whole);
+    return fmax(energy, whole) * (1.0 + w->damping * time);
 }
 
 /* In a periodic domain the energy about the mean flow, which no force even in space changes; else
@@ -114,15 +120,16 @@ void watches_energy(struct watches *w, const struct flow_energy *e, double t, in
     double energy = e->kinetic;
     for (int a = 0; w->periodic && a < 3; a++)
         energy -= 0.5 * e->momentum[a] * e->momentum[a] / e->volume;
-    if (w->looks++ > 0 && !w->periodic)
-        w->work += 0.5 * (t - w->t) * (w->power + e->power);
+    const double since = w->looks++ > 0 ? t - w->t : 0.0;
+    if (!w->periodic)
+        w->work += 0.5 * since * (w->power + e->power);
     w->power = e->power;
     w->t = t;
     w->work_least = fmin(w->work_least, w->work);
     w->work_most = fmax(w->work_most, w->work);
     w->kinetic_most = fmax(w->kinetic_most, e->kinetic);
     const double gain = watch_budget_gain(&w->budget, step, energy - w->work);
-    const double scale = scale_of(w, e, energy);
+    const double scale = scale_of(w, e, energy, since * WATCH_STEPS / w->energy_every);
     if (!w->has_surface || step >= WATCH_STEPS) /* no scale yet */
         watch_judge(&w->energy, scale > 0.0 ? gain / scale : gain, t, step, d);
 }
