@@ -254,6 +254,31 @@ void mesh_progress(void *state, char *line, int size)
              limit_name(s->limit), s->rate * s->dt, (double)s->iterations / steps, s->umax);
 }
 
+/* Speed of the scene and of the blocks' sides across the smallest cell. */
+static void describe_step(const struct run *r, const struct mesh *m)
+{
+    static const int none[3] = {0, 0, 0};
+    double h = INFINITY, speed = limits_reference(r);
+    for (int q = 0; q < m->nparts; q++)
+        PART_ROWS (m->part + q, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                for (int a = 0; a < m->dim && m->status[i] == CELL_COMPUTED; a++)
+                    h = fmin(h, m->V[i] / sqrt(m->S[a][0][i] * m->S[a][0][i] +
+                                               m->S[a][1][i] * m->S[a][1][i] +
+                                               (m->dim == 3 ? pow(m->S[a][2][i], 2) : 0.0)));
+    MPI_Allreduce(MPI_IN_PLACE, &h, 1, MPI_DOUBLE, MPI_MIN, m->comm);
+    for (int k = 0; k < m->nblocks; k++) {
+        const struct mesh_block_params *b = m->block[k].prm;
+        speed = fmax(speed, hypot(hypot(b->velocity[0], b->velocity[1]), b->velocity[2]));
+        for (int side = 0; side < 2 && b->mapping == MAPPING_ANNULUS; side++)
+            speed = fmax(speed, fabs(b->spin[side]) * b->radius[side]);
+    }
+    const double cfl = limits_cfl(fv_params_of(r));
+    log_say(
+        "smallest cell %g m across, dt about %.3g s if the fastest flow crosses it (%s, CFL %g)", h,
+        cfl * h / speed, limit_name(LIMIT_FLOW), cfl);
+}
+
 void mesh_describe(const struct run *r)
 {
     static const char *const shapes[] = {"box", "stretched box", "ring", "sheared box", "file"};
@@ -273,5 +298,7 @@ void mesh_describe(const struct run *r)
         log_say("%dD, fourth-order averages, rk3, %s; %lld cells computed; about %.0f MB", m->dim,
                 r->scene.fluid.nu > 0.0 ? "viscous, implicit" : "inviscid", (long long)m->computed,
                 8e-6 * (double)m->cells * 80.0 + 1.0);
+    if (m)
+        describe_step(r, m);
     mesh_free(&m);
 }

@@ -19,13 +19,10 @@ enum { WATCHES = 5 };
 static const struct watch kinds[WATCHES] = {
     {.key = "energy_gain",
      .what = "kinetic energy gained beyond what came in, over 100 steps",
-     .likely = "the time step or the cells do not hold this flow: fv.cfl at half its value tells "
-               "which; else more cells, more viscosity, or fv.upwind = 1",
      .warn = 0.01,
      .stop = 0.10},
     {.key = "odd_even_velocity",
      .what = "velocity in waves of two cells, over all of it",
-     .likely = "the flow is finer than the cells: more cells, or fv.upwind = 1",
      .warn = 0.05,
      .stop = INFINITY},
     {.key = "odd_even_pressure",
@@ -59,13 +56,33 @@ static const struct watch *watch_of(const struct watches *w, int k)
     return has[k] ? all[k] : NULL;
 }
 
-struct watches *watches_create(const struct run *r, bool periodic, bool surface)
+/* A bias is no advice where there is one already; newton has another than the others. */
+static void advise(struct watches *w, const struct fv_params *p)
+{
+#define FINER "the flow is finer than the cells: more cells or viscosity"
+#define EITHER                                                                                     \
+    "fv.cfl at half its value tells whether the step or the cells are too large for this flow; "   \
+    "more cells or viscosity"
+    static const char *const finer[] = {FINER, FINER ", or fv.upwind = 1",
+                                        FINER ", or fv.flux = \"upwind\""};
+    static const char *const either[] = {EITHER, EITHER ", or fv.upwind = 1",
+                                         EITHER ", or fv.flux = \"upwind\""};
+    int k = p->upwind > 0.0 ? 0 : 1;
+    if (p->integrator == INTEGRATOR_NEWTON)
+        k = p->flux == FLUX_UPWIND ? 0 : 2;
+    w->energy.likely = either[k];
+    w->velocity.likely = finer[k];
+}
+
+struct watches *watches_create(const struct run *r, const struct fv_params *p, bool periodic,
+                               bool surface)
 {
     struct watches *w = NEW(struct watches, 1);
     struct watch *const all[WATCHES] = {&w->energy, &w->velocity, &w->pressure, &w->growth,
                                         &w->returned};
     for (int k = 0; k < WATCHES; k++)
         *all[k] = kinds[k];
+    advise(w, p);
     if (surface)
         w->velocity.warn = SPRAY;
     double L = INFINITY;

@@ -33,7 +33,9 @@ struct watches {
     double sum_before; /* m/s: of the largest velocities, a step ago */
 };
 
-struct watches *watches_create(const struct run *r, bool periodic, bool surface);
+/* p: as the run uses them. */
+struct watches *watches_create(const struct run *r, const struct fv_params *p, bool periodic,
+                               bool surface);
 void watches_free(struct watches **w);
 /* Whether this step is one to look at. */
 bool watches_want_energy(const struct watches *w, int64_t step);
