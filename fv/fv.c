@@ -71,10 +71,11 @@ static void describe(const struct run *r)
             hole ? "" : ", forced cells");
     if (prm->graded[1] > 0.0)
         describe_rows(r);
-    log_say("%.0f cells, h %g m, dt about %.3g s at the start (%s, CFL %g), %.0f steps; about %.0f "
-            "MB",
-            cells, least, dt, limit_name(step_most.by), limits_cfl(prm),
-            ceil(r->scene.time.end / dt), 8e-6 * cells * fields + 1.0);
+    log_say(
+        "%.0f cells, h %g m, dt about %.3g s at the start (%s, CFL %g), %.0f steps at that; about "
+        "%.0f MB",
+        cells, least, dt, limit_name(step_most.by), limits_cfl(prm), ceil(r->scene.time.end / dt),
+        8e-6 * cells * fields + 1.0);
 }
 
 static void destroy_mesh(void *state)

@@ -12,28 +12,39 @@
 #include "newton.h"
 #include "watches.h"
 
+/* Largest |u_a| and sum of |u_a| w_a of a row of cells (in 2D the third is one of the others). A
+ * value that is not finite makes the sum infinite. */
+static void measure_row(const double *restrict u, const double *restrict v,
+                        const double *restrict w, const double *weight, int64_t n, double *most)
+{
+    double x = 0.0, y = 0.0, z = 0.0, all = 0.0;
+    int64_t bad = 0;
+    for (int64_t i = 0; i < n; i++) {
+        const double a = fabs(u[i]), b = fabs(v[i]), c = fabs(w[i]);
+        const double sum = a * weight[0] + b * weight[1] + c * weight[2];
+        x = a > x ? a : x;
+        y = b > y ? b : y;
+        z = c > z ? c : z;
+        all = sum > all ? sum : all;
+        bad |= sum < 1e300 ? 0 : 1;
+    }
+    most[0] = fmax(most[0], x);
+    most[1] = fmax(most[1], y);
+    most[2] = fmax(most[2], z);
+    most[3] = bad ? INFINITY : fmax(most[3], all);
+}
+
 /* Largest |u_a| and sum of |u_a|/h_a over all ranks; a value that is not finite makes it so. */
 void measure(struct fv *s)
 {
     const struct block *b = &s->b;
     double most[4] = {0.0, 0.0, 0.0, 0.0};
-    int bad = 0;
     BLOCK_ROWS (b, 0, c, n) {
-        const double w[3] = {1.0 / b->h[0], 1.0 / block_size(b, 1, j_),
-                             b->dim == 3 ? 1.0 / b->h[2] : 0.0};
-        const double *restrict u = s->u[0] + c, *restrict v = s->u[1] + c,
-                               *restrict z = s->u[b->dim == 3 ? 2 : 1] + c;
-        for (int64_t i = 0; i < n; i++) {
-            const double x = fabs(u[i]), y = fabs(v[i]), t = fabs(z[i]);
-            const double sum = x * w[0] + y * w[1] + t * w[2];
-            most[0] = x > most[0] ? x : most[0];
-            most[1] = y > most[1] ? y : most[1];
-            most[2] = t > most[2] ? t : most[2];
-            most[3] = sum > most[3] ? sum : most[3];
-            bad |= !(sum < 1e300);
-        }
+        const double weight[3] = {1.0 / b->h[0], 1.0 / block_size(b, 1, j_),
+                                  b->dim == 3 ? 1.0 / b->h[2] : 0.0};
+        measure_row(s->u[0] + c, s->u[1] + c, s->u[b->dim == 3 ? 2 : 1] + c, weight, n, most);
     }
-    for (int a = 0; bad && a < 4; a++)
+    for (int a = 0; a < 3 && !(most[3] < INFINITY); a++)
         most[a] = INFINITY;
     MPI_Allreduce(MPI_IN_PLACE, most, 4, MPI_DOUBLE, MPI_MAX, b->cart);
     for (int a = 0; a < 3; a++)
@@ -130,7 +141,7 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
     bool good = true;
     s->limit = dt < 0.5 * most.dt ? LIMIT_OUTPUT : most.by;
     if (s->prm.steady)
-        dt = newton_pseudo_step(s, most.dt, t_stop, d);
+        dt = newton_pseudo_step(s, fmin(most.dt, s->run->scene.time.end), t_stop, d);
     else if (s->newton)
         newton_step(s, &dt, d);
     else

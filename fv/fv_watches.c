@@ -22,7 +22,7 @@ struct watches *fv_watches_create(const struct fv *s)
 {
     const bool filled = s->run->coupled || s->prm.hole[1][0] > s->prm.hole[0][0];
     struct watches *w =
-        watches_create(s->scene_speed, all_periodic(s) && !s->surface, s->surface != NULL);
+        watches_create(s->run, &s->prm, all_periodic(s) && !s->surface, s->surface != NULL);
     const bool moved = s->surface && s->bc && s->bc->speed > 0.0; /* friction at a moving wall */
     w->has_energy = !filled && !moved && !s->prm.steady && s->prm.c0 == 0.0;
     if (s->surface) /* whose steps are long beside the swing of short waves' work, and dear */

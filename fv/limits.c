@@ -13,7 +13,6 @@
 
 #include "bc.h"
 #include "levelset.h"
-#include "outflow.h"
 
 #define RK3_CFL 1.1      /* default */
 #define RK3_MOST 1.2     /* refused above */
@@ -21,7 +20,7 @@
 #define BDF2_CFL 0.5
 #define BDF2_MOST 0.7
 #define NEWTON_CFL 1.0   /* of accuracy: it is stable at any */
-#define OUTFLOW_CFL 0.5  /* where the velocity of an outflow is carried explicitly */
+#define OUTFLOW_CFL 0.5  /* of the whole flow, which a carried outflow meets in time: measured */
 #define VISCOUS_MOST 1.0 /* nu dt/h^2 where a surface's normal stress is explicit */
 #define WAVES 0.5        /* dt of sqrt(h/g), h of the smallest cell */
 
@@ -235,8 +234,8 @@ struct step_limit limits_of(const struct fv *s)
     const struct scene *scene = &s->run->scene;
     const double rate = fmax(s->rate, imposed_rate(scene, h));
     struct step_limit l = bulk_limit(scene, cfl, rate, s->surface != NULL, h);
-    if (s->prm.integrator != INTEGRATOR_NEWTON)
-        lower(&l, limits_time(fmin(cfl, OUTFLOW_CFL), outflow_rate(s), 0.0), LIMIT_OUTFLOW);
+    if (s->bc && s->bc->carries && s->prm.integrator != INTEGRATOR_NEWTON)
+        lower(&l, limits_time(fmin(cfl, OUTFLOW_CFL), rate, 0.0), LIMIT_OUTFLOW);
     if (s->prm.integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(rate, Re), LIMIT_BDF2);
     return l;

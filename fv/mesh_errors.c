@@ -341,6 +341,23 @@ static void describe_scene(const struct run *r, const struct mesh *m)
                                         : "no exact solution to measure errors by");
 }
 
+/* Speed of the scene and of the blocks' sides across the smallest cell. */
+static void describe_step(const struct run *r, const struct mesh *m)
+{
+    double speed = limits_reference(r);
+    for (int k = 0; k < m->nblocks; k++) {
+        const struct mesh_block_params *b = m->block[k].prm;
+        speed = fmax(speed, hypot(hypot(b->velocity[0], b->velocity[1]), b->velocity[2]));
+        for (int side = 0; side < 2 && b->mapping == MAPPING_ANNULUS; side++)
+            speed = fmax(speed, fabs(b->spin[side]) * b->radius[side]);
+    }
+    const double cfl = limits_cfl(fv_params_of(r)), h = least_height(m);
+    log_say("%lld cells computed, the flattest %.3g m high; about %.0f MB", (long long)m->computed,
+            h, 8e-6 * (double)m->cells * 80.0 + 1.0);
+    log_say("dt about %.3g s if the fastest flow crosses the flattest cell (%s, CFL %g)",
+            cfl * h / speed, limit_name(LIMIT_FLOW), cfl);
+}
+
 void mesh_describe(const struct run *r)
 {
     static const char *const shapes[] = {"box", "stretched box", "ring", "sheared box", "file"};
@@ -358,8 +375,7 @@ void mesh_describe(const struct run *r)
     }
     if (m) {
         describe_scene(r, m);
-        log_say("%lld cells computed, the flattest %.3g m high; about %.0f MB",
-                (long long)m->computed, least_height(m), 8e-6 * (double)m->cells * 80.0 + 1.0);
+        describe_step(r, m);
     }
     mesh_free(&m);
 }

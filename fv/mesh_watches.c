@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "limits.h"
 #include "mesh_flow.h"
 
 static const int none[3] = {0, 0, 0};
@@ -20,7 +19,7 @@ static bool has_sides(const struct mesh *m)
 /* Where blocks overlap some of the flow counts twice, and interpolation does work: no budget. */
 struct watches *mesh_watches_create(struct mesh_flow *s)
 {
-    struct watches *w = watches_create(limits_reference(s->run), !has_sides(s->m), false);
+    struct watches *w = watches_create(s->run, &s->prm, !has_sides(s->m), false);
     w->has_energy = !s->m->has_fringe;
     w->has_growth = true;
     w->energy_every = 20; /* faces are mapped anew */

@@ -168,13 +168,13 @@ static void set_levels(struct fv *s, double dt, double dt_old)
 }
 
 /* KINSOL stops without an error, too, where its steps become nothing: that is converged only where
- * the residual says so. */
+ * the residual says so, or is what rounding leaves. */
 static bool is_small(const struct fv *s)
 {
     const struct newton *w = s->newton;
     N_Vector scaled = w->uscale; /* set anew before the next solve */
     N_VProd(w->residual, w->fscale, scaled);
-    return N_VMaxNorm(scaled) <= 10.0 * s->prm.tol_newton;
+    return N_VMaxNorm(scaled) <= fmax(10.0 * s->prm.tol_newton, 1e-9);
 }
 
 /* Solves R(q) = 0; false: not converged, on all ranks alike. */

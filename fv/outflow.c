@@ -118,22 +118,6 @@ void outflow_begin(struct fv *s)
     o->carried = fmax(sums[0][o->side] / fmax(sums[1][o->side], 1.0), 0.0) / s->b.h[o->side / 2];
 }
 
-double outflow_rate(const struct fv *s)
-{
-    double most = 0.0;
-    if (none(s))
-        return 0.0;
-    OUTFLOWS(s, o)
-    for (int64_t i = 0; i < o->n; i++) {
-        double rate = 0.0;
-        for (int a = 0; a < s->b.dim; a++)
-            rate += fabs(s->u[a][o->cell[i]]) / s->b.h[a];
-        most = fmax(most, rate);
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->b.cart);
-    return most;
-}
-
 void outflow_set(struct fv *s, double dt)
 {
     if (none(s))

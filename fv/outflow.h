@@ -23,9 +23,6 @@ struct outflow {
 void outflow_start(struct fv *s);
 /* Before a step: takes note of the flow inside. Collective, as the next. */
 void outflow_begin(struct fv *s);
-/* Cells a second, the largest sum over the axes, that the flow beside these sides crosses. Over all
- * ranks, as the others. */
-double outflow_rate(const struct fv *s);
 /* Velocity on the sides dt after outflow_begin, of as much net flux as the other sides leave. */
 void outflow_set(struct fv *s, double dt);
 void outflow_save(const struct fv *s, struct h5 *f);

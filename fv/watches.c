@@ -7,6 +7,7 @@
 
 #include "../common/h5.h"
 #include "../common/mem.h"
+#include "limits.h"
 
 enum { WATCHES = 5 };
 
@@ -18,14 +19,11 @@ enum { WATCHES = 5 };
 static const struct watch kinds[WATCHES] = {
     {.key = "energy_gain",
      .what = "kinetic energy gained beyond what came in, over 100 steps",
-     .likely = "the time step or the cells do not hold this flow: fv.cfl at half its value tells "
-               "which; else more cells, more viscosity, or fv.upwind = 1",
      .warn = 0.01,
      .stop = 0.10},
     {.key = "odd_even_velocity",
      .what = "velocity in waves of two cells, over all of it",
-     .likely = "the flow is finer than the cells: more cells, or fv.upwind = 1",
-     .warn = 0.05,
+     .warn = 0.04,
      .stop = INFINITY},
     {.key = "odd_even_pressure",
      .what = "pressure in waves of two cells, over all of it (at least rho u^2/20)",
@@ -58,21 +56,44 @@ static const struct watch *watch_of(const struct watches *w, int k)
     return has[k] ? all[k] : NULL;
 }
 
-struct watches *watches_create(double speed, bool periodic, bool surface)
+/* A bias is no advice where there is one already; newton has another than the others. */
+static void advise(struct watches *w, const struct fv_params *p)
+{
+#define FINER "the flow is finer than the cells: more cells or viscosity"
+#define EITHER                                                                                     \
+    "fv.cfl at half its value tells whether the step or the cells are too large for this flow; "   \
+    "more cells or viscosity"
+    static const char *const finer[] = {FINER, FINER ", or fv.upwind = 1",
+                                        FINER ", or fv.flux = \"upwind\""};
+    static const char *const either[] = {EITHER, EITHER ", or fv.upwind = 1",
+                                         EITHER ", or fv.flux = \"upwind\""};
+    int k = p->upwind > 0.0 ? 0 : 1;
+    if (p->integrator == INTEGRATOR_NEWTON)
+        k = p->flux == FLUX_UPWIND ? 0 : 2;
+    w->energy.likely = either[k];
+    w->velocity.likely = finer[k];
+}
+
+struct watches *watches_create(const struct run *r, const struct fv_params *p, bool periodic,
+                               bool surface)
 {
     struct watches *w = NEW(struct watches, 1);
     struct watch *const all[WATCHES] = {&w->energy, &w->velocity, &w->pressure, &w->growth,
                                         &w->returned};
     for (int k = 0; k < WATCHES; k++)
         *all[k] = kinds[k];
+    advise(w, p);
     if (surface)
         w->velocity.warn = SPRAY;
-    w->speed = speed;
+    double L = INFINITY;
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        L = fmin(L, r->scene.domain.max[a] - r->scene.domain.min[a]);
+    w->speed = limits_reference(r);
+    w->damping = 10.0 * r->scene.fluid.nu / (L * L);
     w->periodic = periodic;
     w->has_surface = surface;
     w->energy_every = 10;
     w->waves_every = 50;
-    w->t = NAN;
     return w;
 }
 
@@ -93,17 +114,19 @@ bool watches_want_waves(const struct watches *w, int64_t step)
 }
 
 /* What a gain is measured by: the energy there is. A flow that swings between energy of motion and
- * of height has the largest that it had of either; one between walls or openings at least what its
- * scene's velocity makes: a sudden start, whose layers are thinner than a cell, has no budget to
- * the percent of the little energy of its first steps. */
-static double scale_of(const struct watches *w, const struct flow_energy *e, double energy)
+ * of height has the largest that it had of either. One between walls or openings has at least what
+ * its scene's velocity makes, for a sudden start, whose layers are thinner than a cell, has no
+ * budget to the percent of the little energy of its first steps; and what viscosity turns over in
+ * those steps, whose pressure is not known to the percent of that either. */
+static double scale_of(const struct watches *w, const struct flow_energy *e, double energy,
+                       double time)
 {
     const double whole = 0.5 * e->volume * w->speed * w->speed;
     if (w->periodic)
         return fmax(energy, 1e-6 * whole);
     if (w->has_surface)
         return fmax(fmax(w->kinetic_most, w->work_most - w->work_least), 1e-9 * whole);
-    return fmax(energy, whole);
+    return fmax(energy, whole) * (1.0 + w->damping * time);
 }
 
 /* In a periodic domain the energy about the mean flow, which no force even in space changes; else
@@ -114,15 +137,16 @@ void watches_energy(struct watches *w, const struct flow_energy *e, double t, in
     double energy = e->kinetic;
     for (int a = 0; w->periodic && a < 3; a++)
         energy -= 0.5 * e->momentum[a] * e->momentum[a] / e->volume;
-    if (w->looks++ > 0 && !w->periodic)
-        w->work += 0.5 * (t - w->t) * (w->power + e->power);
+    const double since = w->looks++ > 0 ? t - w->t : 0.0;
+    if (!w->periodic)
+        w->work += 0.5 * since * (w->power + e->power);
     w->power = e->power;
     w->t = t;
     w->work_least = fmin(w->work_least, w->work);
     w->work_most = fmax(w->work_most, w->work);
     w->kinetic_most = fmax(w->kinetic_most, e->kinetic);
     const double gain = watch_budget_gain(&w->budget, step, energy - w->work);
-    const double scale = scale_of(w, e, energy);
+    const double scale = scale_of(w, e, energy, since * WATCH_STEPS / w->energy_every);
     if (!w->has_surface || step >= WATCH_STEPS) /* no scale yet */
         watch_judge(&w->energy, scale > 0.0 ? gain / scale : gain, t, step, d);
 }

@@ -26,13 +26,16 @@ struct watches {
     int energy_every, waves_every; /* steps */
     struct watch_budget budget;
     double speed;          /* m/s: of the scene */
+    double damping;        /* 1/s: of the slowest wave by viscosity, pi^2 nu/L^2 */
     double work, power, t; /* m^(dim+2)/s^2, of the last look, its time */
     double work_least, work_most, kinetic_most;
     int looks;
     double sum_before; /* m/s: of the largest velocities, a step ago */
 };
 
-struct watches *watches_create(double speed, bool periodic, bool surface);
+/* p: as the run uses them. */
+struct watches *watches_create(const struct run *r, const struct fv_params *p, bool periodic,
+                               bool surface);
 void watches_free(struct watches **w);
 /* Whether this step is one to look at. */
 bool watches_want_energy(const struct watches *w, int64_t step);
