@@ -118,20 +118,31 @@ static void displace(const struct sph *s, int64_t cell, const double *centre, do
                (s->prm.noise > 0.0 && a < s->dim ? s->prm.noise * s->dx * random_of(cell, a) : 0.0);
 }
 
+/* What the cells are looked through with. */
+struct look {
+    struct exact exact;
+    int64_t wet, taken; /* cells with fluid by the shapes; of these behind walls or in bodies */
+};
+
 static void mark(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
                  void *ctx)
 {
-    const struct exact *e = ctx;
+    struct look *k = ctx;
     double x[3];
     displace(s, cell, centre, x);
-    if (scene_is_fluid(&s->run->scene, e, x, NULL) && has_room(s, x))
+    if (!scene_is_fluid(&s->run->scene, &k->exact, x, NULL))
+        return;
+    k->wet++;
+    if (!has_room(s, x))
+        k->taken++;
+    else
         l->bits[cell >> 3] |= (unsigned char)(1 << (cell & 7));
 }
 
 static void add(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
                 void *ctx)
 {
-    const struct exact *e = ctx;
+    const struct exact *e = &((struct look *)ctx)->exact;
     double x[3], u[3], p, more[3];
     if (!lattice_has(l, cell))
         return;
@@ -190,20 +201,33 @@ static void say_pockets(const struct basins *b)
                 n, (long long)cells, x[0], x[1]);
 }
 
+/* A tank whose lines run the wrong way, or a body around the fluid, leave hardly any. */
+static void warn_of_taken(const struct sph *s, const struct look *k)
+{
+    long long n[2] = {k->wet, k->taken};
+    MPI_Allreduce(MPI_IN_PLACE, n, 2, MPI_LONG_LONG, MPI_SUM, s->run->comm);
+    if (2 * n[1] > n[0])
+        log_warn(
+            "walls and bodies take %lld of %lld particles that the shapes give: do their points "
+            "run the right way (fluid on the left, bodies clockwise)?",
+            n[1], n[0]);
+}
+
 void fill_lattice(struct sph *s)
 {
-    struct exact e = exact_create(&s->run->scene);
+    struct look look = {.exact = exact_create(&s->run->scene)};
     struct lattice l = lattice_create(s);
     const int64_t all = lattice_cells(&l), ranks = s->run->size, bytes = all / 8 + 1;
     const int64_t chunk = (int64_t)1 << 30;
-    each_own_cell(s, &l, mark, &e);
+    each_own_cell(s, &l, mark, &look);
     for (int64_t at = 0; at < bytes; at += chunk)
         MPI_Allreduce(MPI_IN_PLACE, l.bits + at, (int)(bytes - at < chunk ? bytes - at : chunk),
                       MPI_UNSIGNED_CHAR, MPI_BOR, s->run->comm);
+    warn_of_taken(s, &look);
     struct basins *b = basins_create(s, &l);
     say_pockets(b);
     basins_clear(b, &l);
-    each_own_cell(s, &l, add, &e);
+    each_own_cell(s, &l, add, &look);
     pack_start(s, s->prm.packing);
     weigh(s, b);
     basins_free(&b);
