@@ -47,6 +47,17 @@ static bool in_seam(const struct walls *w, const double *x, double dx)
     return false;
 }
 
+void fill_clear_seams(struct sph *s)
+{
+    for (int i = 0; i < s->p.n && s->walls->nsegments > 0;)
+        if (in_seam(s->walls, s->p.y + (size_t)i * s->p.nstate, s->dx)) {
+            particles_copy(&s->p, i, --s->p.n);
+            s->ready = false;
+        } else {
+            i++;
+        }
+}
+
 /* Whether walls and bodies leave room for a particle at x. */
 static bool has_room(const struct sph *s, const double *x)
 {
