@@ -182,7 +182,7 @@ static void weigh(struct sph *s, const struct basins *b)
 {
     const struct scene *c = &s->run->scene;
     const struct scene_initial *f = &c->initial;
-    double still[3];
+    double still[3], off = 0.0;
     const double g = scene_still_gravity(c, still);
     if (g == 0.0 || scene_has_wave(c) || f->field == FIELD_POISEUILLE)
         return;
@@ -191,6 +191,7 @@ static void weigh(struct sph *s, const struct basins *b)
         double level = basins_level(b, s->p.id[i]);
         if (isnan(level)) /* falls */
             continue;
+        off = f->level < LEVEL_TOP ? fmax(off, fabs(f->level - level)) : 0.0;
         level = f->level < LEVEL_TOP ? f->level : level;
         memcpy(x, y, (size_t)s->dim * sizeof *x);
         const double m = y[2 * s->dim + 1];
@@ -199,6 +200,11 @@ static void weigh(struct sph *s, const struct basins *b)
             y[s->dim + a] *= more;
         y[2 * s->dim + 1] *= more;
     }
+    MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPI_DOUBLE, MPI_MAX, s->run->comm);
+    if (s->surface && off > s->dx)
+        log_warn("initial.level = %g m is %g m off the level of a free surface, which starts with "
+                 "%.3g Pa: leave it out",
+                 f->level, off, s->rho0 * g * off);
 }
 
 static void say_pockets(const struct basins *b)

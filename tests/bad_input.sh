@@ -161,6 +161,7 @@ with tank 's/(1.2, 0.4), (1.2, 0.2)/(2.2, 0.4), (2.2, 0.2)/' 'case.cfg:8: bodies
 with tank 's/"b"/"b"; velocity = (2, 0)/' 'bodies.\[0\]: .*leaves the domain across x at (.*t = 0.4' sph
 with tank 's/"b"/"b"; centre = (1.5, 0.3); spin = 3.0/' 'bodies.\[0\]: .*leaves the domain across y' sph
 with sph 's/^sph:/bodies: ( { points = ((0.9, 0.2), (0.9, 0.4), (1.1, 0.4), (1.1, 0.2)); } );\nsph:/' 'bodies.\[0\]: .*periodic side x' sph
+with coupled 's/^sph:/bodies: ( { velocity = (30, 0); points = ((0.45, 0.45), (0.45, 0.55), (0.55, 0.55), (0.55, 0.45)); } );\nsph:/; s/dx = 0.02/dx = 0.01; c0 = 100.0/' 'bodies.\[0\]: .*leaves the free zone' sph --check
 with tank 's/^bodies:  (/bodies: ( { name = "c"; points = ((1.1, 0.3), (1.1, 0.45), (1.4, 0.45), (1.4, 0.3)); },/' 'overlaps with body 1 (c)' sph
 with tank 's/^bodies:  (/bodies: ( { name = "c"; points = ((1.22, 0.2), (1.22, 0.4), (1.4, 0.4), (1.4, 0.2)); },/' 'bodies: a gap of 0.02 m between .* close it' sph
 with tank 's/(1.2, 0.4), (1.2, 0.2)/(1.98, 0.4), (1.98, 0.2)/' 'a gap of 0.02 m' sph
@@ -189,6 +190,8 @@ with tank 's/at = (1, 0.1)/at = (1, 0.1); kind = "level"/; s/(0, -9.81)/(1, -9.8
 with tank 's/max = (2, 1)/max = (2, 1, 3)/' 'domain.max: z component 3' sph
 with tank 's/U = 3.0/U = 0.0/' 'case.cfg:5: initial.U: 0 m' sph
 with tank 's/(0, -9.81)/(0, -9.81); central = 1.0/; s/max = (2, 1)/max = (2, 1); periodic = (true, false)/; s/^walls.*/walls: ( { side = "y_min"; } );/' 'fluid.central: .*periodic' sph
+with tank 's/at = (1, 0.1)/at = (1.9, 0.9)/; s/^walls.*/walls: ( { closed = true; points = ((0, 0), (1.5, 0), (1.5, 1), (0, 1)); } );/' 'probes.\[0\].at: p is behind wall 1' sph
+with tank 's/^walls:   (/walls: ( { points = ((3, 0), (4, 0.3)); },/' 'walls.\[0\].points: is not used: .*outside' sph
 # open sides
 with channel 's/{ side = "x_max"; kind = "outflow"; }/{ side = "x_max"; }/' 'walls.\[0\].kind: inflow into a closed box' sph
 with channel 's/^sph:/shapes: ( { box = ((0, 0), (2, 0.5)); } );\nsph:/' 'walls.\[0\].kind: inlets and outlets do not know .*surface' sph

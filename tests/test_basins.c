@@ -206,6 +206,50 @@ static void a_tilted_tank_has_one_level(void **state)
     }
 }
 
+/* The wet bed again, turned by quarters, and in 3D with gravity along any axis. */
+static void heads_know_no_axes(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 10; k++) {
+        const int dim = k < 4 ? 2 : 3, up = k < 4 ? k / 2 : (k - 4) / 2, along = up == 0 ? 1 : 0;
+        const double sense = k % 2 ? 1.0 : -1.0; /* of gravity */
+        struct sph_case c;
+        struct scene *s = tank(&c, 1.0, 20);
+        double most = 0.0;
+        s->domain.dim = dim;
+        c.prm.R_dx = dim == 2 ? 4.0 : 2.5;
+        c.prm.walls = WALLS_GHOSTS;
+        s->nwalls = 2 * dim;
+        memset(s->fluid.gravity, 0, sizeof s->fluid.gravity);
+        s->fluid.gravity[up] = sense * g;
+        for (int a = 0; a < dim; a++) {
+            s->domain.max[a] = 1.0;
+            s->domain.periodic[a] = false;
+            s->walls[2 * a].side = SIDE_X_MIN + 2 * a;
+            s->walls[2 * a + 1].side = SIDE_X_MAX + 2 * a;
+        }
+        s->nshapes = 2;
+        for (int q = 0; q < 2; q++) {
+            double(*box)[3] = s->shapes[q].box;
+            const double head = q ? 0.2 : 0.6;
+            for (int a = 0; a < dim; a++)
+                box[1][a] = 1.0;
+            box[q ? 0 : 1][along] = 0.5;
+            box[sense > 0.0 ? 0 : 1][up] = sense > 0.0 ? 1.0 - head : head;
+        }
+        sph_case_start(&c, NULL);
+        for (int i = 0; i < c.s->p.n; i++) {
+            const double *y = c.s->p.y + (size_t)i * c.s->p.nstate;
+            const double depth = (y[along] < 0.5 ? 0.6 : 0.2) - (sense > 0.0 ? 1.0 - y[up] : y[up]);
+            const double p = eos_p(y[2 * dim + 1] / y[2 * dim], rho, c.s->c0, c.s->gamma);
+            most = fmax(most, fabs(p / (rho * g) - depth));
+        }
+        assert_int_equal(count(c.s), (dim == 2 ? 1 : 20) * 10 * (12 + 4));
+        assert_close(max_anywhere(most), 0.0, 1e-4);
+        sph_free(&c.s);
+    }
+}
+
 static double nothing(const double *x, double L)
 {
     (void)x;
@@ -297,6 +341,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_full_closed_tank_stands_under_its_lid),
         cmocka_unit_test(what_falls_has_no_weight),
         cmocka_unit_test(a_tilted_tank_has_one_level),
+        cmocka_unit_test(heads_know_no_axes),
         cmocka_unit_test(gravity_along_a_period_lets_no_pressure_rise),
         cmocka_unit_test(seams_stay_dry),
         cmocka_unit_test(pockets_are_dropped),

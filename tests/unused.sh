@@ -136,7 +136,7 @@ sph: { dx = 0.1; c0 = 30.0; packing = 5; };' ;;
     box) echo 'fluid: { rho = 1.0; nu = 0.01; };
 domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, true); };
 initial: { field = "uniform"; velocity = (1, 0.5); };
-sph: { dx = 0.05; R_dx = 2.0; box = ((-0.8, -0.8), (0.8, 0.8)); };' ;;
+sph: { dx = 0.04; R_dx = 2.0; box = ((-0.8, -0.8), (0.8, 0.8)); };' ;;
     channel) echo 'fluid: { rho = 1.0; nu = 0.01; };
 domain: { dim = 2; min = (-1, -1); max = (1, 1); };
 initial: { field = "uniform"; velocity = (1, 0); };
@@ -182,6 +182,13 @@ try() { # MODE KEY VALUE
     key=$2 value=$3
     case $mode:$key in
     dam:sph.surface | cube:sph.surface | wave:sph.surface | drop:sph.surface | lines:sph.surface) value=no ;;
+    lines:sph.scheme) value=delta ;;
+    wave:sph.viscosity | lines:sph.viscosity) value=morris ;; # monaghan is what auto takes there
+    delta:sph.surface) return ;; # looked for, and not found in a full box
+    cube:domain.dim) value=2 ;;
+    wave:domain.periodic) value='(false,false)' ;;
+    box:sph.outer) return ;; # the word for what a box takes by itself
+    box:domain.*) return ;; # what a box in an exact solution must lie in, no more
     body:sph.background) return ;; # lifts negative pressures: there are none in a tank at rest
     esac
     cp base.cfg case.cfg
