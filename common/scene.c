@@ -40,13 +40,13 @@ static const struct param initial_rows[] = {
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "uniform velocity, or the one that carries the field"),
     PARAM(P, amplitude, "m",  "0.0", -1e6, 1e6, "amplitude of a wave"),
     PARAM(P, L_z,      "m",   "0.0", 0, 1e6, "length of a standing wave along z; 0: the same for all z"),
-    PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "height against gravity where p = 0; by default the top of the fluid"),
+    PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "height against gravity where p = 0; by default the top of each water"),
 };
 #undef P
 #define P struct scene_wall
 static const struct param wall_rows[] = {
     CHOICE(P, side, "none|x_min|x_max|y_min|y_max|z_min|z_max", "none", "side of the domain; none: points"),
-    PARAM(P, points,   "m",   "()", -1e9, 1e9, "polyline with the fluid on its left"),
+    PARAM(P, points,   "m",   "()", -1e9, 1e9, "polyline with the fluid on its left (turned, and said, where it plainly is on the other side)"),
     PARAM(P, closed,   "-",   "false", 0, 0, "join the last point with the first"),
     CHOICE(P, kind, "slip|no_slip|inflow|outflow|absorbing", "slip", "what it does to the flow"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, or of the inflow"),
@@ -58,7 +58,7 @@ static const struct param wall_rows[] = {
 #define P struct scene_body
 static const struct param body_rows[] = {
     PARAM(P, name,     "-",   "body", 0, 0, "its name in the outputs"),
-    PARAM(P, points,   "m",   NULL, -1e9, 1e9, "corners, clockwise"),
+    PARAM(P, points,   "m",   NULL, -1e9, 1e9, "corners in order, clockwise (turned, and said, if not)"),
     CHOICE(P, kind, "slip|no_slip", "slip", "what its surface does to the flow"),
     PARAM(P, centre,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "centre of rotation and of moments at the start"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the centre"),

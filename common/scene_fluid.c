@@ -123,15 +123,37 @@ static void sides_of(const struct scene *s, const struct line *l, double share[2
     }
 }
 
-/* Those of an island between two waters, or of a fillet in a corner, are equal or nearly so: a line
- * is turned when hardly half as much of it has fluid on its left as on its right; a closed one,
- * that may be a tank or an island in it, only if all fluid is on its right. */
-static bool is_reversed(const struct scene *s, const struct scene_wall *w)
+/* Whether walls stand around wall k: sides of the domain, or a larger closed line. */
+static bool is_enclosed(const struct scene *s, int k)
 {
+    const struct line l = line_of(&s->walls[k].points, true);
+    bool any = false;
+    for (int m = 0; m < s->nwalls; m++) {
+        const struct scene_wall *w = s->walls + m;
+        const struct line o = line_of(&w->points, true);
+        any = any || (w->side != SIDE_NONE && w->kind < WALL_INFLOW) ||
+              (m != k && w->closed && line_inside(&o, l.x[0]) &&
+               fabs(line_area(&o)) > fabs(line_area(&l)));
+    }
+    return any;
+}
+
+/* An open line is turned when hardly half as much of it has fluid on its left as on its right:
+ * those of an island between two waters, or of a fillet in a corner, are equal or nearly so. A
+ * closed one may be a tank in which the shapes let water go on through its walls, or an island: it
+ * is turned if all fluid is on its right, or if it is a tank by its sense, with water around,
+ * inside other walls: an island. */
+static bool is_reversed(const struct scene *s, int k)
+{
+    const struct scene_wall *w = s->walls + k;
     const struct line l = line_of(&w->points, w->closed);
     double share[2];
     sides_of(s, &l, share);
-    return share[0] < (w->closed ? 0.01 : 0.5) * share[1];
+    if (!w->closed)
+        return share[0] < 0.5 * share[1];
+    if (share[0] > 0.01 && share[1] > 0.01)
+        return line_area(&l) > 0.0 && is_enclosed(s, k);
+    return share[0] < share[1];
 }
 
 static void close_line(struct param_points *p, bool *closed)
@@ -158,7 +180,7 @@ void scene_orient(struct scene *s)
         if (w->side != SIDE_NONE || w->points.n < 2)
             continue;
         close_line(&w->points, &w->closed);
-        w->turned = is_reversed(s, w);
+        w->turned = is_reversed(s, k);
         if (w->turned)
             points_reverse(&w->points);
     }

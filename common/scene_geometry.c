@@ -142,6 +142,20 @@ static bool boxes_apart(const double *a, const double *b, const double *c, const
     return false;
 }
 
+/* Whether all points lie on one straight line, through the first and the one farthest from it. */
+static bool is_straight(const struct line *l)
+{
+    const double *a = l->x[0], *b = a;
+    for (int k = 1; k < l->n; k++)
+        if (hypot(l->x[k][0] - a[0], l->x[k][1] - a[1]) > hypot(b[0] - a[0], b[1] - a[1]))
+            b = l->x[k];
+    const double size = hypot(b[0] - a[0], b[1] - a[1]);
+    for (int k = 1; k < l->n; k++)
+        if (fabs(turn(a, b, l->x[k])) > 1e-6 * size * size)
+            return false;
+    return true;
+}
+
 enum line_fault line_check(const struct line *l, double at[2])
 {
     const double small = rounding * line_size(l);
@@ -153,7 +167,7 @@ enum line_fault line_check(const struct line *l, double at[2])
             return LINE_REPEATED;
         }
     memcpy(at, l->x[0], 2 * sizeof *at);
-    if (l->closed && fabs(line_area(l)) <= 1e-6 * small / rounding * line_length(l))
+    if (l->closed && is_straight(l))
         return LINE_FLAT;
     for (int k = 0; k + (l->closed ? 0 : 1) < n; k++)
         if (folds(start_of(l, k), end_of(l, k), end_of(l, (k + 1) % l->n))) {

@@ -47,6 +47,17 @@ static bool in_seam(const struct walls *w, const double *x, double dx)
     return false;
 }
 
+void fill_clear_seams(struct sph *s)
+{
+    for (int i = 0; i < s->p.n && s->walls->nsegments > 0;)
+        if (in_seam(s->walls, s->p.y + (size_t)i * s->p.nstate, s->dx)) {
+            particles_copy(&s->p, i, --s->p.n);
+            s->ready = false;
+        } else {
+            i++;
+        }
+}
+
 /* Whether walls and bodies leave room for a particle at x. */
 static bool has_room(const struct sph *s, const double *x)
 {
@@ -118,20 +129,31 @@ static void displace(const struct sph *s, int64_t cell, const double *centre, do
                (s->prm.noise > 0.0 && a < s->dim ? s->prm.noise * s->dx * random_of(cell, a) : 0.0);
 }
 
+/* What the cells are looked through with. */
+struct look {
+    struct exact exact;
+    int64_t wet, taken; /* cells with fluid by the shapes; of these behind walls or in bodies */
+};
+
 static void mark(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
                  void *ctx)
 {
-    const struct exact *e = ctx;
+    struct look *k = ctx;
     double x[3];
     displace(s, cell, centre, x);
-    if (scene_is_fluid(&s->run->scene, e, x, NULL) && has_room(s, x))
+    if (!scene_is_fluid(&s->run->scene, &k->exact, x, NULL))
+        return;
+    k->wet++;
+    if (!has_room(s, x))
+        k->taken++;
+    else
         l->bits[cell >> 3] |= (unsigned char)(1 << (cell & 7));
 }
 
 static void add(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
                 void *ctx)
 {
-    const struct exact *e = ctx;
+    const struct exact *e = &((struct look *)ctx)->exact;
     double x[3], u[3], p, more[3];
     if (!lattice_has(l, cell))
         return;
@@ -160,7 +182,7 @@ static void weigh(struct sph *s, const struct basins *b)
 {
     const struct scene *c = &s->run->scene;
     const struct scene_initial *f = &c->initial;
-    double still[3];
+    double still[3], off = 0.0;
     const double g = scene_still_gravity(c, still);
     if (g == 0.0 || scene_has_wave(c) || f->field == FIELD_POISEUILLE)
         return;
@@ -169,6 +191,7 @@ static void weigh(struct sph *s, const struct basins *b)
         double level = basins_level(b, s->p.id[i]);
         if (isnan(level)) /* falls */
             continue;
+        off = f->level < LEVEL_TOP ? fmax(off, fabs(f->level - level)) : 0.0;
         level = f->level < LEVEL_TOP ? f->level : level;
         memcpy(x, y, (size_t)s->dim * sizeof *x);
         const double m = y[2 * s->dim + 1];
@@ -177,6 +200,11 @@ static void weigh(struct sph *s, const struct basins *b)
             y[s->dim + a] *= more;
         y[2 * s->dim + 1] *= more;
     }
+    MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPI_DOUBLE, MPI_MAX, s->run->comm);
+    if (s->surface && off > s->dx)
+        log_warn("initial.level = %g m is %g m off the level of a free surface, which starts with "
+                 "%.3g Pa: leave it out",
+                 f->level, off, s->rho0 * g * off);
 }
 
 static void say_pockets(const struct basins *b)
@@ -190,20 +218,33 @@ static void say_pockets(const struct basins *b)
                 n, (long long)cells, x[0], x[1]);
 }
 
+/* A tank whose lines run the wrong way, or a body around the fluid, leave hardly any. */
+static void warn_of_taken(const struct sph *s, const struct look *k)
+{
+    long long n[2] = {k->wet, k->taken};
+    MPI_Allreduce(MPI_IN_PLACE, n, 2, MPI_LONG_LONG, MPI_SUM, s->run->comm);
+    if (2 * n[1] > n[0])
+        log_warn(
+            "walls and bodies take %lld of %lld particles that the shapes give: do their points "
+            "run the right way (fluid on the left, bodies clockwise)?",
+            n[1], n[0]);
+}
+
 void fill_lattice(struct sph *s)
 {
-    struct exact e = exact_create(&s->run->scene);
+    struct look look = {.exact = exact_create(&s->run->scene)};
     struct lattice l = lattice_create(s);
     const int64_t all = lattice_cells(&l), ranks = s->run->size, bytes = all / 8 + 1;
     const int64_t chunk = (int64_t)1 << 30;
-    each_own_cell(s, &l, mark, &e);
+    each_own_cell(s, &l, mark, &look);
     for (int64_t at = 0; at < bytes; at += chunk)
         MPI_Allreduce(MPI_IN_PLACE, l.bits + at, (int)(bytes - at < chunk ? bytes - at : chunk),
                       MPI_UNSIGNED_CHAR, MPI_BOR, s->run->comm);
+    warn_of_taken(s, &look);
     struct basins *b = basins_create(s, &l);
     say_pockets(b);
     basins_clear(b, &l);
-    each_own_cell(s, &l, add, &e);
+    each_own_cell(s, &l, add, &look);
     pack_start(s, s->prm.packing);
     weigh(s, b);
     basins_free(&b);

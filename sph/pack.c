@@ -74,6 +74,8 @@ void pack_start(struct sph *s, int steps)
     for (int k = 0; k < steps; k++) {
         integrate_gradients(s);
         move(s, dt);
+        if (k == steps / 2 || k == steps - 1)
+            fill_clear_seams(s);
     }
     integrate_gradients(s);
     set_volumes(s);

@@ -166,6 +166,8 @@ void pack_start(struct sph *s, int steps);
 struct exact;
 /* lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
 void fill_lattice(struct sph *s);
+/* Takes out the locals that packing has pressed into seams of walls narrower than dx. */
+void fill_clear_seams(struct sph *s);
 
 /* integrate.c: one RK4 step of at most dt_max; see program.step. */
 double integrate_step(struct sph *s, double t_stop, struct diagnosis *d);

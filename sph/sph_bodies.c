@@ -10,6 +10,7 @@
 #include "../common/scene_geometry.h"
 #include "sph_sense.h"
 #include "walls.h"
+#include "zones.h"
 
 enum { LEAST_TIMES = 20, MOST_TIMES = 2000 };
 
@@ -205,42 +206,57 @@ static void place_bodies(const struct scene *c, struct body *bodies, double t,
     }
 }
 
-/* What is wrong at one time; true: something. */
-static bool check_places(const struct run *r, const struct bound *all, int n, double t,
-                         struct faults *f)
+/* A corner outside the room that a body may have: the free zone of the particles. */
+static bool check_room(const struct run *r, const struct sph_params *used, const struct bound *b,
+                       const char *when, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
-    char what[64];
+    const struct line *l = &b->line;
+    const double small = 1e-6 * line_size(l);
+    double lo[3], hi[3];
+    zones_free_box(r, used, lo, hi);
+    for (int i = 0; i < l->n; i++)
+        for (int a = 0; a < 2; a++) {
+            const double x = l->x[i][a];
+            const bool leaves = x < d->min[a] - small || x > d->max[a] + small;
+            char key[64];
+            if (x >= lo[a] - small && x <= hi[a] + small)
+                continue;
+            snprintf(key, sizeof key, "bodies.[%d]", b->body);
+            params_fault(r->params, f, key, "%s %s %c at (%g, %g) m, %s: %s", b->name,
+                         !leaves          ? "leaves the free zone of the particles across"
+                         : d->periodic[a] ? "crosses the periodic side"
+                                          : "leaves the domain across",
+                         "xy"[a], l -> x[i][0], l -> x[i][1], when,
+                         !leaves ? "only there it is known; make sph.box larger"
+                         : d->periodic[a]
+                             ? "a body has no image there; shift the domain, or make it larger"
+                             : "make the domain larger, or the motion smaller");
+            return false;
+        }
+    return true;
+}
+
+/* What is wrong at one time; true: something. */
+static bool check_places(const struct run *r, const struct sph_params *used,
+                         const struct bound *all, int n, double t, struct faults *f)
+{
+    char when[64];
     double at[2];
     const int before = f->n;
-    snprintf(what, sizeof what, t > 0.0 ? "at t = %g s" : "at the start", t);
+    snprintf(when, sizeof when, t > 0.0 ? "at t = %g s" : "at the start", t);
     for (int k = 0; k < r->scene.nbodies; k++) {
-        const struct line *l = &all[k].line;
-        for (int i = 0; i < l->n; i++)
-            for (int a = 0; a < 2; a++)
-                if (l->x[i][a] < d->min[a] - 1e-6 * line_size(l) ||
-                    l->x[i][a] > d->max[a] + 1e-6 * line_size(l)) {
-                    char key[64], place[96];
-                    snprintf(key, sizeof key, "bodies.[%d]", k);
-                    snprintf(place, sizeof place, "(%g, %g) m, %s", l->x[i][0], l->x[i][1], what);
-                    params_fault(r->params, f, key,
-                                 d->periodic[a]
-                                     ? "%s crosses the periodic side %c at %s: a body has no image "
-                                       "there; shift the domain, or make it larger"
-                                     : "%s leaves the domain across %c at %s: make the domain "
-                                       "larger, or the motion smaller",
-                                 all[k].name, "xy"[a], place);
-                    return true;
-                }
+        if (!check_room(r, used, all + k, when, f))
+            return true;
         for (int m = 0; m < n; m++) {
             char words[96];
             if (m == k || (all[m].body >= 0 && m > k))
                 continue;
             snprintf(words, sizeof words, "%s %s", all[m].body < 0 ? "cuts" : "overlaps with",
                      all[m].name);
-            if (all[m].body >= 0 ? line_overlaps(l, &all[m].line, at)
-                                 : line_pierces(l, &all[m].line, at))
-                fault_at(r, f, all + k, words, at, what);
+            if (all[m].body >= 0 ? line_overlaps(&all[k].line, &all[m].line, at)
+                                 : line_pierces(&all[k].line, &all[m].line, at))
+                fault_at(r, f, all + k, words, at, when);
         }
     }
     return f->n > before;
@@ -271,7 +287,7 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
     for (int i = 0; sound && i <= times; i++) {
         const double t = times ? c->time.end * i / times : 0.0;
         place_bodies(c, bodies, t, now);
-        if (check_places(r, all, n, t, f))
+        if (check_places(r, used, all, n, t, f))
             break;
     }
     for (int k = 0; k < c->nbodies; k++)

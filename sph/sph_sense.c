@@ -7,6 +7,7 @@
 
 #include "../common/exact.h"
 #include "../common/scene_fluid.h"
+#include "../common/scene_geometry.h"
 
 static const char *const side_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
@@ -190,6 +191,23 @@ static void check_gauges(const struct run *r, struct faults *f)
     }
 }
 
+/* Gauges behind closed walls, where no fluid ever is; those on a wall may lie a little behind. */
+static void check_hidden(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    for (int k = 0; k < c->nprobes; k++)
+        for (int m = 0; m < c->nwalls; m++) {
+            const struct line l = line_of(&c->walls[m].points, true);
+            const double *at = c->probes[k].at;
+            char key[64];
+            snprintf(key, sizeof key, "probes.[%d].at", k);
+            if (c->probes[k].kind == PROBE_PRESSURE && c->walls[m].closed &&
+                line_inside(&l, at) != (line_area(&l) > 0.0) && line_distance(&l, at) > used->dx)
+                params_fault(r->params, f, key, "%s is behind wall %d: put it before it",
+                             c->probes[k].name, m + 1);
+        }
+}
+
 void sph_sense_check(const struct run *r, const struct sph_params *given,
                      const struct sph_params *used, struct faults *f)
 {
@@ -201,6 +219,7 @@ void sph_sense_check(const struct run *r, const struct sph_params *given,
     if (given->extrema[0] == 0.0 && (given->extrema[1] != 0.0 || given->extrema[2] != 0.0))
         params_fault(r->params, f, "sph.extrema", "the first is 0: give all three");
     check_box(r, given, used, f);
+    check_hidden(r, used, f);
     if (c->has_fv)
         return; /* the flow around is the partner's */
     check_openings(r, used, f);

@@ -3,6 +3,7 @@
  * shared groups may be the partner's. SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_unused.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -117,6 +118,23 @@ static const struct {
     {"coupling.deadline", COUPLED, "the case has one program: there is nobody to meet"},
 };
 
+/* Whether a polyline comes near the region of the particles. */
+static bool is_near(const struct scene *c, const struct sph_params *used,
+                    const struct param_points *p)
+{
+    bool near = true;
+    for (int a = 0; a < 2; a++) {
+        double lo = INFINITY, hi = -INFINITY;
+        for (int k = 0; k < p->n; k++) {
+            lo = fmin(lo, p->x[k][a]);
+            hi = fmax(hi, p->x[k][a]);
+        }
+        near = near && (c->domain.periodic[a] ||
+                        (lo <= used->box[1][a] + used->dx && hi >= used->box[0][a] - used->dx));
+    }
+    return near;
+}
+
 static void check_wall(const struct run *r, const struct sph_params *used, const bool *has, int k,
                        struct faults *f)
 {
@@ -126,6 +144,9 @@ static void check_wall(const struct run *r, const struct sph_params *used, const
     char key[64];
     snprintf(key, sizeof key, "walls.[%d].side", k);
     params_unused(r->params, f, key, !beyond, "sph.box does not reach this side");
+    snprintf(key, sizeof key, "walls.[%d].points", k);
+    params_unused(r->params, f, key, w->side != SIDE_NONE || is_near(&r->scene, used, &w->points),
+                  "it lies outside the region of the particles");
     snprintf(key, sizeof key, "walls.[%d].kind", k);
     params_unused(r->params, f, key, w->kind != WALL_NO_SLIP || has[VISCOUS],
                   "without viscosity (fluid.nu) nothing sticks to a wall: give slip");

@@ -178,6 +178,116 @@ with tank 's/form.*}/form = "below"; level = 2.0; }/' 'level,* 2 m.* the domain'
 with tank 's/"x_max";/"x_max"; kind = "outflow";/' 'no openings with a free surface' fv
 with tank 's/^shapes.*/initial: { field = "standing_wave"; amplitude = 0.6; L = 2.0; level = 0.5; };/' 'the crest of the wave' fv
 with tank 's/^shapes.*/initial: { field = "standing_wave"; amplitude = 0.1; L = 3.0; level = 0.5; };/' 'must stand at crests or troughs' fv
+# --- particles: what a run has no use for, and what contradicts itself ---
+cat >tank.cfg <<'END'
+format = 1;
+time:    { end = 0.5; };
+fluid:   { rho = 1000.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (2, 1); };
+initial: { U = 3.0; };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "below"; level = 0.5; } );
+bodies:  ( { name = "b"; points = ((0.8, 0.2), (0.8, 0.4), (1.2, 0.4), (1.2, 0.2)); } );
+probes:  ( { name = "p"; at = (1, 0.1); } );
+sph:     { dx = 0.05; c0 = 30.0; };
+END
+cat >channel.cfg <<'END'
+format = 1;
+time:    { end = 0.01; };
+fluid:   { rho = 1.0; nu = 0.01; };
+domain:  { dim = 2; min = (0, 0); max = (2, 1); };
+initial: { field = "uniform"; velocity = (1, 0); };
+walls:   ( { side = "x_min"; kind = "inflow"; velocity = (1, 0); },
+           { side = "x_max"; kind = "outflow"; },
+           { side = "y_min"; }, { side = "y_max"; } );
+sph:     { dx = 0.05; R_dx = 2.0; };
+END
+# keys without use
+with tank 's/U = 3.0/U = 3.0; velocity = (1, 0)/' 'case.cfg:5: initial.velocity: is not used: ' sph
+with tank 's/U = 3.0/U = 3.0; L = 2.0/' 'case.cfg:5: initial.L: is not used: ' sph
+with tank 's/U = 3.0/U = 3.0; amplitude = 0.1/' 'case.cfg:5: initial.amplitude: is not used: ' sph
+with tank 's/c0 = 30.0/c0 = 30.0; delta = 0.1/' 'case.cfg:10: sph.delta: is not used: ' sph
+with tank 's/c0 = 30.0/c0 = 30.0; scheme = "delta"; limiter = "minmod"/' 'sph.limiter: is not used: ' sph
+with tank 's/c0 = 30.0/c0 = 30.0; alpha = 0.1/' 'sph.alpha: is not used: ' sph
+with tank 's/c0 = 30.0/c0 = 30.0; background = true/' 'sph.background: is not used: ' sph
+with tank 's/c0 = 30.0/c0 = 30.0; viscosity = "morris"/' 'sph.viscosity: is not used: ' sph
+with tank 's/c0 = 30.0/c0 = 30.0; low_dissipation = false; dissipation = 0.3/' 'sph.dissipation: is not used: ' sph
+with tank 's/c0 = 30.0/c0 = 30.0; outer = "sides"/' 'sph.outer: is not used: ' sph
+with sph 's/dx = 0.02/dx = 0.02; packing = 9/' 'case.cfg:6: sph.packing: is not used: ' sph
+with sph 's/dx = 0.02/dx = 0.02; walls = "ghosts"/' 'case.cfg:6: sph.walls: is not used: ' sph
+with sph 's/every = 0.01/every = 0.01; }; coupling: { steps = 9/' 'coupling.steps: is not used: ' sph
+with sph 's/every = 0.01/every = 0.01; }; coupling: { buffer = 0.1/' 'coupling.buffer: is not used: ' sph
+with sph 's/every = 0.01/fields = "velocity presure"/' 'case.cfg:7: output.fields: .*presure.*pressure' sph
+with sph 's/L = 1.0/L = 1.0; level = 0.5/' 'initial.level: is not used: ' sph
+with tank 's/"x_min"/"x_min"; velocity = (0, 1)/' 'case.cfg:6: walls.\[0\].velocity: is not used: ' sph
+with tank 's/"x_min"/"x_min"; pressure = 10.0/' 'walls.\[0\].pressure: is not used: ' sph
+with tank 's/"x_min"/"x_min"; profile = "parabolic"/' 'walls.\[0\].profile: is not used: ' sph
+with tank 's/"x_min"/"x_min"; kind = "no_slip"/' 'walls.\[0\].kind: is not used: .*fluid.nu' sph
+with tank 's/"x_min"/"x_min"; closed = true/' 'walls.\[0\].closed: is not used: ' sph
+with tank 's/level = 0.5/level = 0.5; radius = 0.3/' 'case.cfg:7: shapes.\[0\].radius: is not used: ' sph
+with tank 's/level = 0.5/level = 0.5; box = ((0, 0), (1, 1))/' 'shapes.\[0\].box: is not used: ' sph
+with channel 's/"outflow"/"outflow"; carried = true/' 'walls.\[1\].carried: is not used: ' sph
+with channel 's/"outflow"/"outflow"; velocity = (1, 0)/' 'walls.\[1\].velocity: is not used: ' sph
+with channel 's/kind = "inflow"/kind = "inflow"; pressure = 3.0/' 'walls.\[0\].pressure: is not used: ' sph
+# lines
+with tank 's/(1.2, 0.4), (1.2, 0.2)/(1.2, 0.2), (1.2, 0.4)/' 'case.cfg:8: bodies.\[0\].points: at (1, 0.3) m: crosses' sph
+with tank 's/(1.2, 0.4),/(1.2, 0.4), (1.2, 0.4),/' 'bodies.\[0\].points: at (1.2, 0.4) m: .*twice' sph
+with tank 's/(0.8, 0.4), (1.2, 0.4), (1.2, 0.2)/(1, 0.2), (1.2, 0.2)/' 'bodies.\[0\].points: .*no area' sph
+with tank 's/(1.2, 0.2))/(1.2, 0.2), (1.2, 0.3))/' 'bodies.\[0\].points: .*goes back' sph
+with tank 's/points = ((0.8, 0.2), .*; }/points = ((0.8, 0.2), (0.9, 0.4)); }/' 'three points' sph
+# bodies and walls
+with tank 's/(1.2, 0.4), (1.2, 0.2)/(2.2, 0.4), (2.2, 0.2)/' 'case.cfg:8: bodies.\[0\]: .*leaves the domain' sph
+with tank 's/"b"/"b"; velocity = (2, 0)/' 'bodies.\[0\]: .*leaves the domain across x at (.*t = 0.4' sph
+with tank 's/"b"/"b"; centre = (1.5, 0.3); spin = 3.0/' 'bodies.\[0\]: .*leaves the domain across y' sph
+with sph 's/^sph:/bodies: ( { points = ((0.9, 0.2), (0.9, 0.4), (1.1, 0.4), (1.1, 0.2)); } );\nsph:/' 'bodies.\[0\]: .*periodic side x' sph
+with coupled 's/^sph:/bodies: ( { velocity = (30, 0); points = ((0.45, 0.45), (0.45, 0.55), (0.55, 0.55), (0.55, 0.45)); } );\nsph:/; s/dx = 0.02/dx = 0.01; c0 = 100.0/' 'bodies.\[0\]: .*leaves the free zone' sph --check
+with tank 's/^bodies:  (/bodies: ( { name = "c"; points = ((1.1, 0.3), (1.1, 0.45), (1.4, 0.45), (1.4, 0.3)); },/' 'overlaps with body 1 (c)' sph
+with tank 's/^bodies:  (/bodies: ( { name = "c"; points = ((1.22, 0.2), (1.22, 0.4), (1.4, 0.4), (1.4, 0.2)); },/' 'bodies: a gap of 0.02 m between .* close it' sph
+with tank 's/(1.2, 0.4), (1.2, 0.2)/(1.98, 0.4), (1.98, 0.2)/' 'a gap of 0.02 m' sph
+with tank 's/^walls:   (/walls: ( { points = ((1, 0), (1, 0.3)); },/' 'body 1 (b) cuts wall 1' sph
+with tank 's/"b"/"b"; velocity = (20, 0)/; s/end = 0.5/end = 0.01/' 'half the speed of sound.*raise sph.c0' sph
+with channel 's/"y_min"; }/"y_min"; kind = "no_slip"; velocity = (0, 1); }/' 'walls.\[2\].velocity: 1 m.s across the wall' sph
+printf '0 0 0 0\n0.2 0 0 0\n0.2 0.1 0 0\n' >motion.txt
+with tank 's/"b"/"b"; motion = "motion.txt"/' 'bodies.\[0\].motion: .*rising times' sph
+printf '0 0 0 0\n0.2 nan 0 0\n1 0 0 0\n' >motion.txt
+with tank 's/"b"/"b"; motion = "motion.txt"/' 'bodies.\[0\].motion: row 2 .*not a number' sph
+printf '0 0 0 0\n0.2 0.1 0 0\n' >motion.txt
+with tank 's/"b"/"b"; motion = "motion.txt"/' 'bodies.\[0\].motion: .*0 to 0.2 s, the run goes from 0 to 0.5' sph
+printf '0 0 0 0\n0.2 0 0 0\n0.201 0.4 0 0\n1 0.4 0 0\n' >motion.txt
+with tank 's/"b"/"b"; motion = "motion.txt"/' 'bodies.\[0\].motion: jumps at t = 0.2 s, row 3' sph
+with tank 's/"b"/"b"; motion = "nothing.txt"/' 'case.cfg:8: bodies.\[0\].motion: .*no such file' sph
+# water, gauges
+with tank 's/level = 0.5/level = 1.5/' 'case.cfg:7: shapes.\[0\]: level 1.5 m is not in the domain' sph
+with tank 's/form = "below"; level = 0.5/box = ((0, 0), (1, 1.2))/' 'shapes.\[0\]: .*above the domain' sph
+with tank 's/form = "below"; level = 0.5/form = "disc"; centre = (5, 5); radius = 0.5/' 'shapes.\[0\]: lies outside' sph
+with tank 's/level = 0.5/level = 0.5; hole = true/' 'shapes.\[0\]: a hole' sph
+with tank 's/gravity = (0, -9.81)/nu = 0.0/; /^bodies/d' 'fluid.gravity: .*nothing that moves' sph
+with tank 's/at = (1, 0.1)/at = (1, -0.1)/' 'case.cfg:9: probes.\[0\].at: p: y = -0.1 m is outside' sph
+with tank 's/at = (1, 0.1)/at = (1, 0.3)/' 'probes.\[0\].at: p is inside body b' sph
+with tank 's/at = (1, 0.1); }/at = (1, 0.1); }, { name = "p"; at = (1.5, 0.1); }/' 'probes.\[1\].at: p: a gauge of this name' sph
+with tank 's/at = (1, 0.1)/at = (1, 0.1); kind = "level"/; s/(0, -9.81)/(1, -9.81)/' 'probes.\[0\].kind: p: level gauges read' sph
+with tank 's/max = (2, 1)/max = (2, 1, 3)/' 'domain.max: z component 3' sph
+with tank 's/U = 3.0/U = 0.0/' 'case.cfg:5: initial.U: 0 m' sph
+with tank 's/(0, -9.81)/(0, -9.81); central = 1.0/; s/max = (2, 1)/max = (2, 1); periodic = (true, false)/; s/^walls.*/walls: ( { side = "y_min"; } );/' 'fluid.central: .*periodic' sph
+with tank 's/at = (1, 0.1)/at = (1.9, 0.9)/; s/^walls.*/walls: ( { closed = true; points = ((0, 0), (1.5, 0), (1.5, 1), (0, 1)); } );/' 'probes.\[0\].at: p is behind wall 1' sph
+with tank 's/^walls:   (/walls: ( { points = ((3, 0), (4, 0.3)); },/' 'walls.\[0\].points: is not used: .*outside' sph
+# open sides
+with channel 's/{ side = "x_max"; kind = "outflow"; }/{ side = "x_max"; }/' 'walls.\[0\].kind: inflow into a closed box' sph
+with channel 's/^sph:/shapes: ( { box = ((0, 0), (2, 0.5)); } );\nsph:/' 'walls.\[0\].kind: inlets and outlets do not know .*surface' sph
+with channel 's/nu = 0.01/nu = 0.01; gravity = (0, -9.81)/' 'walls.\[1\].pressure: .*9.81 Pa more' sph
+with channel 's/"inflow"; velocity = (1, 0)/"outflow"/; s/nu = 0.01/gravity = (1, 0)/' 'fluid.gravity: .*open ends x_min and x_max.*differ by 2 Pa' sph
+with channel 's/{ side = "y_max"; }/{ side = "y_min"; }/' 'walls.\[3\]: .*has a wall already' sph
+with channel 's/, { side = "y_max"; }//' 'domain: .*up to its side y_max' sph
+with sph 's/nu = 0.005/gravity = (1, 0)/' 'fluid.gravity: 1 m.s^2 along the periodic x' sph
+# the box of the particles
+with sph 's/dx = 0.02/dx = 0.02; box = ((0, 0.2), (0.6, 0.8))/' 'case.cfg:6: sph.box: ends on the periodic side x_min' sph
+with coupled 's/box = .*));/free = ((-0.1, 0.4), (0.6, 0.6));/' 'sph.free: x from -0.1' sph --check
+sed 's/^sph:.*/sph: { dx = 0.02; R_dx = 2.0; c0 = 30.0; box = ((0.5, 0.2), (1.5, 1)); };\nfv: { cells = (16, 16); };/; /^bodies/d' tank.cfg >part.cfg
+with part 's/dx/dx/' 'sph.box: ends at x = 0.5 m under a free surface' sph --check
+with part 's/(0.5, 0.2), (1.5, 1)/(0, 0.2), (2, 0.8)/' 'sph.box: must hold the free surface: .*y_max' sph --check
+with tank 's/^sph:.*/sph: { dx = 0.02; R_dx = 2.0; box = ((0.5, 0), (1.5, 1)); };/; /^bodies/d; /^shapes/d; s/^walls.*/walls: ( { side = "y_min"; } );/' 'sph.outer: no exact solution' sph
+# rows of particles
+with tank 's/max = (2, 1)/max = (2.01, 1)/' 'case.cfg:10: sph.dx: .*0.0490244 and 0.05025 m are' sph
 
 # the launcher
 says "no case" "$root/cases/run" nowhere

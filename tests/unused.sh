@@ -1,0 +1,237 @@
+#!/bin/sh
+# No key is passed over in silence: in small scenes of every kind each key of the table is set to
+# another value; the run is refused (exit code 2), or what it writes differs. A key of sph --params
+# that has no value below is a failure, too. usage: tests/unused.sh [BUILD] [MODE...]; by default some
+# modes, "all" for each. SPDX-License-Identifier: BSD-3-Clause
+b=$(cd "${1:-build}" && pwd)
+[ $# -gt 0 ] && shift
+tmp=$(mktemp -d "${TMPDIR:-/tmp}/unused.XXXXXX")
+trap 'rm -rf "$tmp"' EXIT
+cd "$tmp" || exit 1
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+failed=0 passed=0 refused=0
+
+# Plain groups: what each key is set to. In lists: the first wall, body, shape, probe.
+values='
+time.end 0.043
+fluid.rho 700
+fluid.nu 0.02
+fluid.gravity (0.3,-7)
+fluid.central 2
+domain.dim 3
+domain.min (-1.2,-0.8)
+domain.max (1.2,1.2)
+domain.periodic (true,false)
+initial.field couette
+initial.U 1.7
+initial.L 0.7
+initial.velocity (0.1,0.2)
+initial.amplitude 0.03
+initial.L_z 0.5
+initial.level 0.9
+coupling.steps 7
+coupling.transition 0.15
+coupling.buffer 0.15
+coupling.overlap 0.15
+coupling.memory 3
+coupling.keep_mass false
+coupling.mapping shepard
+coupling.interpolation linear
+coupling.deadline 7
+output.every 0.003
+output.snapshots true
+output.series 2
+output.checkpoint 0.002
+sph.dx 0.05
+sph.R_dx 3
+sph.c0 17
+sph.gamma 1
+sph.scheme standard
+sph.limiter minmod
+sph.transport none
+sph.viscosity monaghan
+sph.low_dissipation false
+sph.dissipation 0.4
+sph.damper 0.4
+sph.alpha 0.05
+sph.delta 0.1
+sph.background true
+sph.cfl 0.2
+sph.cfl_viscous 0.0002
+sph.box ((-1,-1),(1,0.5))
+sph.free ((-1,-1),(1,0.5))
+sph.outer exact
+sph.density_limit 1e-6
+sph.walls fixed_ghosts
+sph.surface yes
+sph.packing 7
+sph.noise 0.1
+sph.extrema (-0.3,0.2,-0.2)
+walls.side x_max
+walls.points ((-1,-0.5),(1,-0.5))
+walls.closed true
+walls.kind no_slip
+walls.velocity (0.2,0)
+walls.profile "parabolic"
+walls.pressure 100.0
+walls.carried true
+bodies.name "other"
+bodies.points ((-0.3,-0.4),(-0.3,-0.1),(0.2,-0.1),(0.2,-0.4))
+bodies.kind "no_slip"
+bodies.centre (0.1,0.1)
+bodies.velocity (0.1,0)
+bodies.spin 0.5
+bodies.motion "nowhere.txt"
+bodies.force (3,4)
+shapes.form "disc"
+shapes.box ((-1,-1),(0.3,0.2))
+shapes.points ((-1,-1),(1,-1),(0,0.5))
+shapes.centre (0.1,0.1)
+shapes.radius 0.5
+shapes.level 0.3
+shapes.hole true
+shapes.velocity (0.2,0)
+probes.name "other"
+probes.kind "level"
+probes.at (0.2,-0.7)
+'
+# Where a run is written (checkpoint_wall: by the clock; fields: in snapshots, which are off here; tests/bad_input.sh has
+# the words of it), and what judges it.
+exceptions='output.checkpoint_wall output.fields accept.what accept.tolerance'
+
+head='format = 1;
+time:    { end = 0.04; };
+output:  { series = 1; snapshots = false; };'
+box='domain:  { dim = 2; min = (-1, -1); max = (1, 1); };
+walls: ( { side = "y_min"; #walls
+ }, { side = "x_min"; }, { side = "x_max"; }, { side = "y_max"; } );'
+open='domain:  { dim = 2; min = (-1, -1); max = (1, 1); };
+walls: ( { side = "y_min"; #walls
+ }, { side = "x_min"; }, { side = "x_max"; } );'
+probe='probes: ( { name = "p"; at = (0.1, -0.9); #probes
+ } );'
+scene() {
+    case $1 in
+    vortices) echo 'fluid: { rho = 1.0; nu = 0.01; };
+domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, true); };
+initial: { field = "taylor_green"; U = 1.0; L = 2.0; };
+sph: { dx = 0.1; };' ;;
+    delta) echo 'fluid: { rho = 1.0; };
+domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, true); };
+initial: { field = "taylor_green"; U = 1.0; L = 2.0; };
+sph: { dx = 0.1; scheme = "delta"; };' ;;
+    dam) echo "$open
+$probe"'
+fluid: { rho = 1000.0; gravity = (0, -9.81); };
+initial: { U = 3.0; };
+shapes: ( { form = "box"; box = ((-1, -1), (0, 0)); #shapes
+ } );
+sph: { dx = 0.1; c0 = 30.0; };' ;;
+    body) echo "$box"'
+fluid: { rho = 1000.0; gravity = (0, -9.81); nu = 0.01; };
+initial: { U = 3.0; };
+bodies: ( { name = "b"; points = ((-0.2, -0.2), (-0.2, 0.2), (0.2, 0.2), (0.2, -0.2)); #bodies
+ } );
+sph: { dx = 0.1; c0 = 30.0; packing = 5; };' ;;
+    box) echo 'fluid: { rho = 1.0; nu = 0.01; };
+domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, true); };
+initial: { field = "uniform"; velocity = (1, 0.5); };
+sph: { dx = 0.04; R_dx = 2.0; box = ((-0.8, -0.8), (0.8, 0.8)); };' ;;
+    channel) echo 'fluid: { rho = 1.0; nu = 0.01; };
+domain: { dim = 2; min = (-1, -1); max = (1, 1); };
+initial: { field = "uniform"; velocity = (1, 0); };
+walls: ( { side = "x_min"; kind = "inflow"; velocity = (1, 0); #walls
+ }, { side = "x_max"; kind = "outflow"; }, { side = "y_min"; }, { side = "y_max"; } );
+sph: { dx = 0.1; R_dx = 2.0; };' ;;
+    cube) echo 'fluid: { rho = 1000.0; gravity = (0, 0, -9.81); };
+domain: { dim = 3; min = (-1, -1, -1); max = (1, 1, 1); };
+walls: ( { side = "z_min"; #walls
+ }, { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+initial: { U = 3.0; };
+shapes: ( { form = "below"; level = 0.0; #shapes
+ } );
+sph: { dx = 0.2; R_dx = 2.5; c0 = 30.0; };' ;;
+    wave) echo 'fluid: { rho = 1.0; nu = 0.002; gravity = (0, -1); };
+domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, false); };
+walls: ( { side = "y_min"; kind = "no_slip"; #walls
+ } );
+initial: { field = "standing_wave"; U = 0.1; L = 2.0; amplitude = 0.05; level = 0.0; };
+sph: { dx = 0.1; c0 = 10.0; };' ;;
+    drop) echo 'fluid: { rho = 1.0; central = 1.0; };
+domain: { dim = 2; min = (-1, -1); max = (1, 1); };
+initial: { field = "drop"; L = 0.5; };
+sph: { dx = 0.1; };' ;;
+    lines) echo 'fluid: { rho = 1000.0; nu = 0.01; gravity = (0, -9.81); };
+domain: { dim = 2; min = (-1, -1); max = (1, 1); };
+initial: { U = 3.0; };
+walls: ( { points = ((-1, 1), (-1, -1), (0.5, -1), (1, -0.5), (1, 1)); kind = "no_slip"; #walls
+ } );
+shapes: ( { form = "below"; level = 0.0; #shapes
+ } );
+sph: { dx = 0.1; c0 = 30.0; scheme = "standard"; walls = "fixed_ghosts"; };' ;;
+    esac
+    echo "$head"
+}
+
+# What a run leaves behind, without times and names.
+trace() {
+    (cd "$1" 2>/dev/null && ls | grep -v '^log.txt$' | sort && cat series.csv &&
+        sed '/"time_s"/,/}/d; /_s":/d; /"modules"/d; /"version"/d; /"case"/d' summary.json)
+}
+try() { # MODE KEY VALUE
+    key=$2 value=$3
+    case $mode:$key in
+    dam:sph.surface | cube:sph.surface | wave:sph.surface | drop:sph.surface | lines:sph.surface) value=no ;;
+    lines:sph.scheme) value=delta ;;
+    wave:sph.viscosity | lines:sph.viscosity) value=morris ;; # monaghan is what auto takes there
+    delta:sph.surface) return ;; # looked for, and not found in a full box
+    cube:domain.dim) value=2 ;;
+    wave:domain.periodic) value='(false,false)' ;;
+    box:sph.outer) return ;; # the word for what a box takes by itself
+    box:domain.*) return ;; # what a box in an exact solution must lie in, no more
+    body:sph.background) return ;; # lifts negative pressures: there are none in a tank at rest
+    esac
+    cp base.cfg case.cfg
+    case $key in
+    walls.* | bodies.* | shapes.* | probes.*)
+        group=${key%%.*} name=${key#*.}
+        grep -q "#$group" base.cfg || return
+        case $value in [a-z]_[a-z]* | no_slip) value="\"$value\"" ;; esac
+        sed "/#$group/{s/\\([{;] *\\)$name = [^;]*;/\\1/; s/#$group/ $name = $value; #/;}" base.cfg >case.cfg
+        set -- ;;
+    *) set -- -p "$key=$value" ;;
+    esac
+    rm -rf out
+    timeout 60 "$b/sph" case.cfg -o out "$@" >out.txt 2>&1 </dev/null
+    code=$?
+    if grep -q 'syntax error' out.txt; then
+        echo "FAIL: $mode: $key = $value: the test's own case is no case" && failed=$((failed + 1))
+    elif [ $code = 2 ]; then
+        refused=$((refused + 1))
+    elif trace out | cmp -s - base.txt; then
+        echo "FAIL: $mode: $key = $value is accepted and changes nothing" && failed=$((failed + 1))
+    else
+        passed=$((passed + 1))
+    fi
+}
+
+known=$(echo "$values" | awk 'NF { print $1 }')
+for key in $("$b/sph" --params | sed -n 's/^| `\([a-z_A-Z0-9]*\.[a-zA-Z_0-9]*\)` .*/\1/p'); do
+    case " $exceptions " in *" $key "*) continue ;; esac
+    echo "$known" | grep -qx "$key" || { echo "FAIL: no other value is known for $key: add it here"; failed=$((failed + 1)); }
+done
+[ "${1:-}" = all ] && set -- vortices delta dam body box channel cube wave drop lines
+[ $# -gt 0 ] || set -- delta dam channel body
+for mode; do
+    scene "$mode" >base.cfg
+    rm -rf base
+    timeout 60 "$b/sph" base.cfg -o base >out.txt 2>&1 </dev/null || { echo "FAIL: $mode does not run"; cat out.txt; failed=$((failed + 1)); }
+    trace base >base.txt
+    while read -r key value; do
+        [ -z "$key" ] || try "$mode" "$key" "$value"
+    done <<END
+$values
+END
+done
+echo "unused: $refused refused, $passed change the run, $failed neither"
+[ $failed = 0 ]
