@@ -198,7 +198,7 @@ static void tank(struct scene *s, struct random *r)
     box_of(s, r, nx, ny, nz);
     free_surface(s, r);
     const int n = put_water(s, r, nx, ny);
-    if (s->dim == 2 && chance(r, 0.35))
+    if (s->dim == 2 && s->g[1] < 0.0 && chance(r, 0.35)) /* they are open above */
         tank_walls(s, r);
     else
         make_sides(s, r, NULL);
@@ -304,6 +304,7 @@ static void openings(struct scene *s, struct random *r)
         s->sides[0].profile = "parabolic";
         s->sides[2].kind = s->sides[3].kind = "no_slip";
     }
+    s->stream = !s->sides[0].profile;
     s->mirrors = s->turns = s->shifts = true;
     settle(s, r, nx * ny * 2);
 }
