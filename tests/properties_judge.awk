@@ -152,7 +152,7 @@ function compare_carried(t,    i, K0, K1, P, M, a, x, dV, own) {
     K0 = value["base", rows["base"], i]
     K1 = value[t, rows[t], at[t, "kinetic energy [J]"]]
     M = know["mass"]
-    if ((("base" SUBSEP "mass [kg]") in at)) M = value["base", rows["base"], at["base", "mass [kg]"]]
+    if (("base" SUBSEP "mass [kg]") in at) M = value["base", rows["base"], at["base", "mass [kg]"]]
     for (a = 0; a < know["dim"]; a++) {
         x = substr("xyz", a + 1, 1)
         dV = know["d" x]
@@ -174,7 +174,7 @@ function ended(run) {
     if (code[run] < 2 && !present[run]) bad("ends", run " without summary.json")
     if (code[run] < 2 && (run in sick)) bad("numbers", run ": " sick[run])
 }
-function column(name) { return at["base", name] }
+function column(name) { return ("base" SUBSEP name) in at ? at["base", name] : 0 }
 function last(name) { return column(name) ? value["base", rows["base"], column(name)] : "" }
 
 function laws(    i, k, n, row, big, K0, P0, sph, top) {
