@@ -171,8 +171,8 @@ static void add_box(struct scene *s, double x1, double y1, double z1)
     struct shape *h = s->shapes + s->nshapes++;
     h->form = "box";
     h->line.n = 2;
-    for (int a = 0; a < 3; a++) /* on beyond the walls */
-        h->line.x[0][a] = s->lo[a] - 8.0 * s->dx;
+    for (int a = 0; a < 3; a++) /* on beyond the walls, but not above */
+        h->line.x[0][a] = s->lo[a] - (s->g[a] > 0.0 ? 0.0 : 8.0 * s->dx);
     h->line.x[1][0] = x1;
     h->line.x[1][1] = y1;
     h->line.x[1][2] = z1;
