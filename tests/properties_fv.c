@@ -176,6 +176,9 @@ static void add_box(struct scene *s, double x1, double y1, double z1)
     h->line.x[1][0] = x1;
     h->line.x[1][1] = y1;
     h->line.x[1][2] = z1;
+    for (int a = 0; a < s->dim; a++)
+        if (s->g[a] < 0.0)
+            h->line.x[1][a] = fmin(h->line.x[1][a], s->hi[a]);
 }
 
 /* Water under a level set: columns, beds, discs. */
