@@ -74,7 +74,7 @@ static void fields(struct scene *s, struct random *r)
         s->cells[1] = even(r, 4, 2 * n);
     make_fluid(s, r);
     settle(s, r, integrator(s, r, true));
-    if (waves > 12.0 && s->cells[1] >= n && !strstr(s->fv_more, "newton"))
+    if (waves > 12.0 && s->cells[1] >= n && !strstr(s->fv_more, "newton") && make_lasting(s))
         s->error = 0.1;
 }
 
@@ -307,7 +307,7 @@ static void block_fields(struct scene *s, struct random *r)
     }
     settle(s, r, 6.0);
     s->mirrors = s->turns = s->turns_half = s->shifts_by_L = false;
-    if (waves > 12.0)
+    if (waves > 12.0 && make_lasting(s))
         s->error = 0.1;
 }
 
@@ -383,7 +383,7 @@ static void coupled(struct scene *s, struct random *r)
     s->mass = s->rho * n * n * s->dx * s->dx;
     s->closed = s->free_of_walls = s->still = false;
     s->mirrors = s->turns = s->turns_half = s->shifts = s->shifts_by_L = false;
-    s->error = strcmp(s->field, "rest") ? 0.25 : 0.0;
+    s->error = strcmp(s->field, "rest") && make_lasting(s) ? 0.25 : 0.0;
 }
 
 const struct family fv_families[] = {{"fv fields", 4, fields},

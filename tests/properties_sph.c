@@ -51,7 +51,7 @@ static void fields(struct scene *s, struct random *r)
     const double waves = make_waves(s, r, n, s->dx);
     make_fluid(s, r);
     settle(s, r, n * n * wide * (s->dim > 2 ? n : 1));
-    if (waves > 12.0 && s->standard && strcmp(s->field, "rest"))
+    if (waves > 12.0 && s->standard && strcmp(s->field, "rest") && make_lasting(s))
         s->error = 0.25;
 }
 
@@ -204,7 +204,7 @@ static void tank(struct scene *s, struct random *r)
         make_sides(s, r, NULL);
     for (int a = 0; a < s->dim && chance(r, 0.5); a++) /* open above */
         if (!s->nwalls && s->g[a] < 0.0)
-            s->sides[2 * a + 1].kind = NULL;
+            s->sides[2 * a + 1].kind = NULL, s->closed = fabs(s->g[a]) > 9.8;
     struct probe *p = s->probes + s->nprobes++;
     p->kind = chance(r, 0.6) ? "pressure" : "level";
     p->at[0] = s->lo[0] + s->dx * whole(r, 0, nx);
