@@ -41,7 +41,7 @@ static int even(struct random *r, int lo, int hi) { return 2 * whole(r, lo / 2, 
 static double integrator(struct scene *s, struct random *r, bool newton)
 {
     const double at = uniform(r, 0.0, 1.0);
-    if (at < 0.2) {
+    if (at < 0.2 && s->nu > 0.0) {
         s->fv_more = " integrator = \"bdf2\"; cfl = 0.5;";
         return 1.0;
     }

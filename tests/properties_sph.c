@@ -3,6 +3,16 @@
 
 #include <string.h>
 
+/* Without viscosity walls are slip walls. */
+static void nothing_sticks(struct scene *s)
+{
+    for (int k = 0; k < 6; k++)
+        if (s->sides[k].kind && !strcmp(s->sides[k].kind, "no_slip"))
+            s->sides[k].kind = "slip";
+    for (int k = 0; k < LISTS; k++)
+        s->walls[k].kind = s->bodies[k].kind = "slip";
+}
+
 /* Half of the scenes have a scale of velocity, as their writer knows one; c0 is the default. */
 static void settle(struct scene *s, struct random *r, int particles)
 {
@@ -10,6 +20,8 @@ static void settle(struct scene *s, struct random *r, int particles)
                                           " scheme = \"delta\";", " scheme = \"standard\";"};
     double carried = 0.0, gH = 0.0;
     s->program = SPH;
+    if (s->nu == 0.0)
+        nothing_sticks(s);
     if (chance(r, 0.25)) {
         const int k = whole(r, 0, 3);
         s->sph_more = schemes[k];
@@ -71,6 +83,7 @@ static void closed(struct scene *s, struct random *r)
     s->closed = s->unforced = s->still = true;
     if (chance(r, 0.4)) {
         s->sides[2].kind = "no_slip";
+        s->nu = fmax(s->nu, 1e-6 * s->speed * s->length);
         s->sides[2].velocity[0] = s->speed * (chance(r, 0.5) ? 1.0 : -1.0);
         s->unforced = s->still = false;
     }
