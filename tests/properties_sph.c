@@ -219,7 +219,9 @@ static void tank(struct scene *s, struct random *r)
         if (!s->nwalls && s->g[a] < 0.0)
             s->sides[2 * a + 1].kind = NULL, s->closed = fabs(s->g[a]) > 9.8;
     struct probe *p = s->probes + s->nprobes++;
-    p->kind = chance(r, 0.6) ? "pressure" : "level";
+    const bool upright = s->dim == 2 && s->g[0] == 0.0; /* a gauge of levels wants that */
+    p->kind = !upright || chance(r, 0.6) ? "pressure" : "level";
+    s->turns = s->turns && p->kind[0] == 'p';
     p->at[0] = s->lo[0] + s->dx * whole(r, 0, nx);
     p->at[1] = s->lo[1] + (p->kind[0] == 'p' ? s->dx * uniform(r, 0.0, 3.0) : 0.0);
     p->at[2] = s->dim > 2 ? s->lo[2] + s->dx * whole(r, 0, nz) : 0.0;
