@@ -122,7 +122,8 @@ static bool nothing_carried(const struct run *r, int k)
     const int f = r->scene.initial.field;
     bool inflow = false;
     for (int b = 0; b < mesh_block_count(); b++)
-        inflow = inflow || (mesh_block_has(b, MESH_INFLOW) && !is_set(mesh_block_params()[b].velocity));
+        inflow =
+            inflow || (mesh_block_has(b, MESH_INFLOW) && !is_set(mesh_block_params()[b].velocity));
     return (void)k, !inflow && (f == FIELD_REST || (f >= FIELD_POISEUILLE && f != FIELD_BELTRAMI));
 }
 
