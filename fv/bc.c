@@ -428,6 +428,7 @@ static void add_force(const struct fv *s, int k, double *force)
 
 void bc_force(const struct fv *s, double force[3])
 {
+    block_halo(&s->b, 2, (double *const[]){s->p, s->p_before}); /* a rank may have three rows */
     memset(force, 0, 3 * sizeof(double));
     for (int k = 0; s->bc && k < 2 * s->b.dim; k++)
         if (s->bc->n[k] > 0 && (s->bc->kind[k] == BC_NO_SLIP || s->bc->kind[k] == BC_SLIP))

@@ -172,6 +172,8 @@ void measure(struct fv *s);
 void fv_summarise_norms(const struct run *r, const struct norm n[3]);
 /* sqrt(e2/r2); NAN where there is nothing to be relative to. */
 double fv_relative(const struct norm *n);
+/* The same of velocity for series.csv, relative to initial.U where the solution is at rest. */
+double fv_velocity_error(const struct run *r, const struct norm *n);
 /* |curl u|^2 of a cell in local row j, 1/s^2. */
 double fv_curl_squared(const struct fv *s, int64_t c, int j);
 void fv_vorticity(const struct fv *s,

@@ -160,7 +160,7 @@ void fv_row(void *state, double *values)
     if (s->has_exact) {
         struct norm norms[NORMS];
         errors(s, norms);
-        values[n++] = fv_relative(norms);
+        values[n++] = fv_velocity_error(s->run, norms);
     }
     if (s->bc) {
         double force[3];
@@ -186,6 +186,12 @@ void fv_row(void *state, double *values)
 static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
 
 double fv_relative(const struct norm *n) { return n->r2 > 0.0 ? norm_relative_l2(n) : NAN; }
+
+double fv_velocity_error(const struct run *r, const struct norm *n)
+{
+    const double U = r->scene.initial.U;
+    return n->r2 > 0.0 || U <= 0.0 ? norm_relative_l2(n) : norm_rms(n) / U;
+}
 
 /* Relative to what does not vanish; else absent. */
 void fv_summarise_norms(const struct run *r, const struct norm n[3])

@@ -125,7 +125,8 @@ int mesh_columns(const struct run *r, const char **columns)
     int n = 0;
     for (int k = 0; k < 3; k++)
         columns[n++] = names[k];
-    columns[n++] = "error velocity l2 [-]";
+    if (fv_measures_errors(r))
+        columns[n++] = "error velocity l2 [-]";
     for (int a = 0; a < r->scene.domain.dim; a++)
         columns[n++] = forces[a];
     columns[n++] = "moment z [Nm]";
@@ -160,9 +161,10 @@ void mesh_row_values(void *state, double *values)
     values[n++] = s->umax;
     values[n++] = largest_divergence(s);
     struct norm norms[NORMS];
-    if (s->has_exact)
+    if (s->has_exact) {
         errors(s, norms);
-    values[n++] = s->has_exact ? fv_relative(norms) : NAN;
+        values[n++] = fv_velocity_error(s->run, norms);
+    }
     whole_force(s, of, force);
     for (int a = 0; a < s->m->dim; a++)
         values[n++] = force[a];

@@ -27,4 +27,7 @@ void make_end(struct scene *s, struct random *r, double dt, double seconds);
 /* A field of waves, of n cells each, in a periodic box; returns cells to the shortest wave. */
 double make_waves(struct scene *s, struct random *r, int n, double h);
 
+/* Whether the waves are still there at the end, to measure an error by. */
+bool make_lasting(const struct scene *s);
+
 #endif

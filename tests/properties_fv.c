@@ -41,7 +41,7 @@ static int even(struct random *r, int lo, int hi) { return 2 * whole(r, lo / 2, 
 static double integrator(struct scene *s, struct random *r, bool newton)
 {
     const double at = uniform(r, 0.0, 1.0);
-    if (at < 0.2) {
+    if (at < 0.2 && s->nu > 0.0) {
         s->fv_more = " integrator = \"bdf2\"; cfl = 0.5;";
         return 1.0;
     }
@@ -74,7 +74,7 @@ static void fields(struct scene *s, struct random *r)
         s->cells[1] = even(r, 4, 2 * n);
     make_fluid(s, r);
     settle(s, r, integrator(s, r, true));
-    if (waves > 12.0 && s->cells[1] >= n && !strstr(s->fv_more, "newton"))
+    if (waves > 12.0 && s->cells[1] >= n && !strstr(s->fv_more, "newton") && make_lasting(s))
         s->error = 0.1;
 }
 
@@ -171,11 +171,14 @@ static void add_box(struct scene *s, double x1, double y1, double z1)
     struct shape *h = s->shapes + s->nshapes++;
     h->form = "box";
     h->line.n = 2;
-    for (int a = 0; a < 3; a++) /* on beyond the walls */
-        h->line.x[0][a] = s->lo[a] - 8.0 * s->dx;
+    for (int a = 0; a < 3; a++) /* on beyond the walls, but not above */
+        h->line.x[0][a] = s->lo[a] - (s->g[a] > 0.0 ? 0.0 : 8.0 * s->dx);
     h->line.x[1][0] = x1;
     h->line.x[1][1] = y1;
     h->line.x[1][2] = z1;
+    for (int a = 0; a < s->dim; a++)
+        if (s->g[a] < 0.0)
+            h->line.x[1][a] = fmin(h->line.x[1][a], s->hi[a]);
 }
 
 /* Water under a level set: columns, beds, discs. */
@@ -304,7 +307,7 @@ static void block_fields(struct scene *s, struct random *r)
     }
     settle(s, r, 6.0);
     s->mirrors = s->turns = s->turns_half = s->shifts_by_L = false;
-    if (waves > 12.0)
+    if (waves > 12.0 && make_lasting(s))
         s->error = 0.1;
 }
 
@@ -380,7 +383,7 @@ static void coupled(struct scene *s, struct random *r)
     s->mass = s->rho * n * n * s->dx * s->dx;
     s->closed = s->free_of_walls = s->still = false;
     s->mirrors = s->turns = s->turns_half = s->shifts = s->shifts_by_L = false;
-    s->error = strcmp(s->field, "rest") ? 0.25 : 0.0;
+    s->error = strcmp(s->field, "rest") && make_lasting(s) ? 0.25 : 0.0;
 }
 
 const struct family fv_families[] = {{"fv fields", 4, fields},

@@ -102,9 +102,10 @@ function handed(t,    even) { # det of the motion
 }
 # Counts and residuals say how a figure was reached, not what it is.
 function compared(name, t) {
-    if (name ~ /divergence|residual|iteration|krylov|pseudo|water up to|^watch|watch/) return 0
+    if (name ~ /divergence|put back|residual|iteration|krylov|pseudo|water up to|^watch|watch/) return 0
     if (name ~ /\[s\]/) return 0
     if (name ~ /^P[0-9] \[m\]/) return t == "units" || t == "ranks"
+    if (name ~ /moment z/) return t == "units" || t == "ranks" # about the origin
     if (name ~ /^P[0-9] \[Pa\]/) return t != "carried"
     # extremes jump from one particle or cell to another
     if (name ~ /error/ && know["family"] ~ /wave|channel/) return 0 # relative to a start at rest
@@ -151,7 +152,7 @@ function compare_carried(t,    i, K0, K1, P, M, a, x, dV, own) {
     K0 = value["base", rows["base"], i]
     K1 = value[t, rows[t], at[t, "kinetic energy [J]"]]
     M = know["mass"]
-    if ((("base" SUBSEP "mass [kg]") in at)) M = value["base", rows["base"], at["base", "mass [kg]"]]
+    if (("base" SUBSEP "mass [kg]") in at) M = value["base", rows["base"], at["base", "mass [kg]"]]
     for (a = 0; a < know["dim"]; a++) {
         x = substr("xyz", a + 1, 1)
         dV = know["d" x]
@@ -173,7 +174,7 @@ function ended(run) {
     if (code[run] < 2 && !present[run]) bad("ends", run " without summary.json")
     if (code[run] < 2 && (run in sick)) bad("numbers", run ": " sick[run])
 }
-function column(name) { return at["base", name] }
+function column(name) { return ("base" SUBSEP name) in at ? at["base", name] : 0 }
 function last(name) { return column(name) ? value["base", rows["base"], column(name)] : "" }
 
 function laws(    i, k, n, row, big, K0, P0, sph, top) {
@@ -182,7 +183,7 @@ function laws(    i, k, n, row, big, K0, P0, sph, top) {
     k = column("kinetic energy [J]")
     K0 = value["base", 1, k]
     # Sound takes up to Mach^2 = 1 % of the energy and gives it back; cells lose some, their projection is good to 1e-3.
-    if (know["unforced"] && know["gravity"] + 0 == 0 && program["base"] != "coupled")
+    if (know["unforced"] && !know["still"] && know["gravity"] + 0 == 0 && program["base"] != "coupled")
         for (row = 2; row <= n; row++)
             if (value["base", row, k] > K0 * (1 + (sph ? 0.03 : 1e-3)) + 1e-6 * know["mass"] * know["speed"] ^ 2) {
                 bad("energy", sprintf("grows unforced: %.4g J, then %.4g J in row %d of %d", K0, value["base", row, k], row, n))
@@ -212,9 +213,18 @@ function laws(    i, k, n, row, big, K0, P0, sph, top) {
         if (sph && last("max Mach [-]") > 5e-3) bad("rest", sprintf("|u| = %.2g c0 at the end", last("max Mach [-]")))
         if (program["base"] == "fv" && last("largest velocity [m/s]") > 1e-6 * know["speed"]) bad("rest", sprintf("|u| = %.2g of %.2g m/s at the end", last("largest velocity [m/s]"), know["speed"]))
     }
+    # A uniform stream is its own solution (particles: 1 % by sound; their number changes by whole rows).
     # Half as many cells a wave as the coarsest case of the table in README.md: ten times its error.
     if (know["error"] > 0 && summary["base", "velocity_l2"] + 0 > know["error"] && !("base" in warned))
         bad("error", "of " summary["base", "velocity_l2"] " without a word")
+    k = column("kinetic energy [J]")
+    i = column("mass [kg]")
+    if (know["stream"] > 0 && sph)
+        for (row = 2; row <= n; row++)
+            if (abs(value["base", row, k] / K0 * value["base", 1, i] / value["base", row, i] - 1) > 0.02) {
+                bad("error", sprintf("uniform stream: energy a mass changes by %.2g in row %d of %d", value["base", row, k] / K0 * value["base", 1, i] / value["base", row, i] - 1, row, n))
+                break
+            }
     if (know["stream"] > 0 && abs(last("largest velocity [m/s]") / know["stream"] - 1) > 1e-4 && program["base"] == "fv")
         bad("error", sprintf("uniform stream of %.4g m/s becomes %.4g m/s", know["stream"], last("largest velocity [m/s]")))
 }

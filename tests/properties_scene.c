@@ -100,6 +100,12 @@ double make_waves(struct scene *s, struct random *r, int n, double h)
     return !strcmp(s->field, "two_modes") ? n / 2.236 : n;
 }
 
+bool make_lasting(const struct scene *s)
+{
+    const double k = 6.283 / s->L; /* the shortest waves of two_modes: 5 k^2 */
+    return !strcmp(s->field, "uniform") || s->nu * 5.0 * k * k * s->end < 1.0;
+}
+
 /* --- twins --- */
 
 struct twins {

@@ -3,6 +3,16 @@
 
 #include <string.h>
 
+/* Without viscosity walls are slip walls. */
+static void nothing_sticks(struct scene *s)
+{
+    for (int k = 0; k < 6; k++)
+        if (s->sides[k].kind && !strcmp(s->sides[k].kind, "no_slip"))
+            s->sides[k].kind = "slip";
+    for (int k = 0; k < LISTS; k++)
+        s->walls[k].kind = s->bodies[k].kind = "slip";
+}
+
 /* Half of the scenes have a scale of velocity, as their writer knows one; c0 is the default. */
 static void settle(struct scene *s, struct random *r, int particles)
 {
@@ -10,6 +20,8 @@ static void settle(struct scene *s, struct random *r, int particles)
                                           " scheme = \"delta\";", " scheme = \"standard\";"};
     double carried = 0.0, gH = 0.0;
     s->program = SPH;
+    if (s->nu == 0.0)
+        nothing_sticks(s);
     if (chance(r, 0.25)) {
         const int k = whole(r, 0, 3);
         s->sph_more = schemes[k];
@@ -51,7 +63,7 @@ static void fields(struct scene *s, struct random *r)
     const double waves = make_waves(s, r, n, s->dx);
     make_fluid(s, r);
     settle(s, r, n * n * wide * (s->dim > 2 ? n : 1));
-    if (waves > 12.0 && s->standard && strcmp(s->field, "rest"))
+    if (waves > 12.0 && s->standard && strcmp(s->field, "rest") && make_lasting(s))
         s->error = 0.25;
 }
 
@@ -71,6 +83,7 @@ static void closed(struct scene *s, struct random *r)
     s->closed = s->unforced = s->still = true;
     if (chance(r, 0.4)) {
         s->sides[2].kind = "no_slip";
+        s->nu = fmax(s->nu, 1e-6 * s->speed * s->length);
         s->sides[2].velocity[0] = s->speed * (chance(r, 0.5) ? 1.0 : -1.0);
         s->unforced = s->still = false;
     }
@@ -198,15 +211,17 @@ static void tank(struct scene *s, struct random *r)
     box_of(s, r, nx, ny, nz);
     free_surface(s, r);
     const int n = put_water(s, r, nx, ny);
-    if (s->dim == 2 && chance(r, 0.35))
+    if (s->dim == 2 && s->g[1] < 0.0 && chance(r, 0.35)) /* they are open above */
         tank_walls(s, r);
     else
         make_sides(s, r, NULL);
     for (int a = 0; a < s->dim && chance(r, 0.5); a++) /* open above */
         if (!s->nwalls && s->g[a] < 0.0)
-            s->sides[2 * a + 1].kind = NULL;
+            s->sides[2 * a + 1].kind = NULL, s->closed = fabs(s->g[a]) > 9.8;
     struct probe *p = s->probes + s->nprobes++;
-    p->kind = chance(r, 0.6) ? "pressure" : "level";
+    const bool upright = s->dim == 2 && s->g[0] == 0.0; /* a gauge of levels wants that */
+    p->kind = !upright || chance(r, 0.6) ? "pressure" : "level";
+    s->turns = s->turns && p->kind[0] == 'p';
     p->at[0] = s->lo[0] + s->dx * whole(r, 0, nx);
     p->at[1] = s->lo[1] + (p->kind[0] == 'p' ? s->dx * uniform(r, 0.0, 3.0) : 0.0);
     p->at[2] = s->dim > 2 ? s->lo[2] + s->dx * whole(r, 0, nz) : 0.0;
@@ -304,6 +319,7 @@ static void openings(struct scene *s, struct random *r)
         s->sides[0].profile = "parabolic";
         s->sides[2].kind = s->sides[3].kind = "no_slip";
     }
+    s->stream = !s->sides[0].profile;
     s->mirrors = s->turns = s->shifts = true;
     settle(s, r, nx * ny * 2);
 }

@@ -318,7 +318,7 @@ static void write_block(const struct block *b, int dim, FILE *f)
         fprintf(f, " angle = %.17g;", b->angle);
     if (!is_zero(b->stretch)) {
         vector(f, "stretch", b->stretch, dim);
-        if (!ring)
+        if (!ring && (b->stretch[0] > 0.0 || b->stretch[1] > 0.0))
             vector(f, "focus", b->focus, dim);
     }
     if (b->shear != 0.0)
@@ -375,9 +375,21 @@ static void write_solvers(const struct scene *s, FILE *f)
         fprintf(f, "coupling: { steps = %d; };\n", s->steps);
 }
 
+/* A key that a run does not use is a fault of its case. */
+static bool has_scale(const struct scene *s)
+{
+    const bool none = !strcmp(s->field, "rest") || !strcmp(s->field, "uniform");
+    return s->program == FV ? !none && strcmp(s->field, "standing_wave") : !none || s->say_U;
+}
+
+static bool has_length(const struct scene *s)
+{
+    return strcmp(s->field, "rest") && strcmp(s->field, "uniform") &&
+           (s->program != FV || (strcmp(s->field, "poiseuille") && strcmp(s->field, "couette")));
+}
+
 void scene_write(const struct scene *s, FILE *f)
 {
-    const bool fields = strcmp(s->field, "rest") && strcmp(s->field, "uniform");
     fprintf(f, "format = 1;\ntime: { end = %.17g; };\nfluid: { rho = %.17g;", s->end, s->rho);
     if (s->nu > 0.0)
         fprintf(f, " nu = %.17g;", s->nu);
@@ -392,9 +404,9 @@ void scene_write(const struct scene *s, FILE *f)
             s->periodic[1] ? "true" : "false");
     fprintf(f, s->dim > 2 ? ", %s); };\n" : "); };\n", s->periodic[2] ? "true" : "false");
     fprintf(f, "initial: { field = \"%s\";", s->field);
-    if (fields || s->say_U)
+    if (has_scale(s))
         fprintf(f, " U = %.17g;", s->U);
-    if (fields)
+    if (has_length(s))
         fprintf(f, " L = %.17g;", s->L);
     if (!is_zero(s->V))
         vector(f, "velocity", s->V, s->dim);
