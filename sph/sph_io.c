@@ -160,6 +160,7 @@ static const struct number {
     NUMBER(momentum0[0]), NUMBER(momentum0[1]), NUMBER(momentum0[2]),
     NUMBER(force_t),      NUMBER(force_time),   NUMBER(force_sum[0]),
     NUMBER(force_sum[1]), NUMBER(force_sum2),   NUMBER(mach_late),
+    NUMBER(shift_speed),
 };
 enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 
@@ -211,6 +212,7 @@ void sph_checkpoint(void *state, struct h5 *f)
     for (int k = 0; k < NUMBERS; k++)
         h5_attribute_real(f, numbers[k].name, *number(s, k));
     h5_attribute_text(f, "limited_by", s->limited_by);
+    sph_watch_save(s, f);
     domain_save(s, f);
     if (s->zones)
         zones_save(s, f);
@@ -245,8 +247,8 @@ static bool read_numbers(struct sph *s, struct h5 *f)
 
 bool sph_restore(struct sph *s, struct h5 *f)
 {
-    const bool fits = read_particles(s, f) && read_numbers(s, f) && domain_load(s, f) &&
-                      (!s->zones || zones_load(s, f));
+    const bool fits = read_particles(s, f) && read_numbers(s, f) && sph_watch_load(s, f) &&
+                      domain_load(s, f) && (!s->zones || zones_load(s, f));
     read_signal(s, f);
     if (!fits)
         log_say("the restart file is of another number of ranks or another case");

@@ -33,7 +33,7 @@ static const struct param rows[] = {
     PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
     PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
     CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
-    PARAM(P, density_limit, "-", "0.1", 1e-6, 10.0, "|rho/rho0 - 1| that ends the run"),
+    PARAM(P, density_limit, "-", "0.0", 0.0, 10.0, "|rho/rho0 - 1| that ends the run; 0: 0.1, compression at rest and twice the largest Mach number so far, at most 0.5"),
     CHOICE(P, walls, "nfm|ghosts|fixed_ghosts|auto", "auto", "normal flux (2D), mirrored ghosts (plane sides), fixed ghosts (2D); auto: nfm in 2D, ghosts in 3D"),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
     PARAM(P, packing, "-", "-1", -1, 100000, "steps of rearrangement at the start; -1: 200 with polylines or bodies, else none"),

@@ -56,6 +56,7 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
     s->surface = surface_create(s);
     s->passes = scheme_pick(s);
     s->scheme = &s->passes;
+    sph_watch_create(s);
     if (f) {
         if (!sph_restore(s, f))
             sph_free(&s);
@@ -76,6 +77,7 @@ void sph_free(struct sph **s)
     walls_free(&(*s)->walls);
     surface_free(&(*s)->surface);
     fit_free(&(*s)->signal_fit);
+    sph_watch_free(*s);
     neighbours_free(&(*s)->list);
     particles_free(&(*s)->p);
     mem_free(*s);

@@ -26,7 +26,7 @@ void transport_finish(struct sph *s)
     const bool oger = s->prm.transport == TRANSPORT_TVO;
     const bool by_own =
         !s->packing && (oger || (s->surface && s->prm.scheme != SCHEME_RIEMANN_ALE));
-    const double U = s->run->scene.initial.U;
+    const double U = s->shift_speed;
     if (!oger && s->prm.transport != TRANSPORT_TVS)
         return;
     for (int i = 0; i < s->p.n; i++) {

@@ -123,7 +123,7 @@ static void add_crowding(const struct sph *s, const struct walls *w, const struc
             sum[1] += at[l].weight * G * g->n[1];
         }
     }
-    const double factor = (oger ? 1.0 : 2.0) * s->run->scene.initial.U * R;
+    const double factor = (oger ? 1.0 : 2.0) * s->shift_speed * R;
     const double gamma = fmax(m->gamma[k], least_gamma);
     for (int a = 0; a < 2; a++)
         u0[a] = u[a] + (u0[a] - u[a] - factor * sum[a]) / gamma;
