@@ -244,8 +244,12 @@ static void sample(struct sph *s)
 
 void sph_watch_stage(struct sph *s, bool first, double weight)
 {
-    if (first && s->watch.due)
+    if (first && s->watch.due) {
+        struct timers *timers = &s->run->timers;
+        timer_start(timers, timer_index(timers, "watch"));
         sample(s);
+        timer_stop(timers, timer_index(timers, "watch"));
+    }
     s->watch.wall_work += weight * s->watch.wall_power;
 }
 
