@@ -26,9 +26,10 @@ enum { PRIM = 8, BALANCE_EVERY = 50, COUNT_EVERY = 20 };
 enum {
     MOST_SIGNAL, /* c + |u - u0| */
     MOST_C,
-    MOST_SHIFT, /* |u - u0| */
-    MOST_STRAY, /* |u0 - drift| */
-    MOST_U0,    /* [3] */
+    MOST_SHIFT,    /* |u - u0| */
+    MOST_STRAY,    /* |u0 - drift| */
+    MOST_RELATIVE, /* |u - drift| */
+    MOST_U0,       /* [3] */
     LEAST_U0 = MOST_U0 + 3,
     MOST_SPEED = LEAST_U0 + 3,
     MOST_RHO,
@@ -188,8 +189,11 @@ void integrate_rates(struct sph *s)
         s->scheme->rates(s);
         stop(s, "rates");
     }
-    if (w)
+    if (w) {
+        sph_watch_before_walls(s);
         at_walls(s, w->rates);
+        sph_watch_after_walls(s);
+    }
     if (s->central > 0.0)
         add_central(s);
 }
@@ -202,10 +206,11 @@ static void measure_lines(const struct sph *s, double *most)
         const double *q = s->p.prim + (size_t)PRIM * i;
         const double *u0 = s->p.slope + (size_t)s->p.nslope * i + dim + dim * dim;
         const double c = eos_c(q[2 * dim + 1], s->rho0, s->c0, s->gamma);
-        double shift2 = 0.0, stray2 = 0.0;
+        double shift2 = 0.0, stray2 = 0.0, relative2 = 0.0;
         for (int a = 0; a < dim; a++) {
             shift2 += (q[dim + a] - u0[a]) * (q[dim + a] - u0[a]);
             stray2 += (u0[a] - s->drift[a]) * (u0[a] - s->drift[a]);
+            relative2 += (q[dim + a] - s->drift[a]) * (q[dim + a] - s->drift[a]);
             raise(most + MOST_U0 + a, u0[a]);
             raise(most + LEAST_U0 + a, -u0[a]);
         }
@@ -213,33 +218,19 @@ static void measure_lines(const struct sph *s, double *most)
         raise(most + MOST_SHIFT, shift2);
         raise(most + MOST_SIGNAL, c + sqrt(shift2));
         raise(most + MOST_STRAY, stray2);
+        raise(most + MOST_RELATIVE, relative2);
     }
-    most[MOST_SHIFT] = most[MOST_SHIFT] > 0.0 ? sqrt(most[MOST_SHIFT]) : 0.0;
-    most[MOST_STRAY] = most[MOST_STRAY] > 0.0 ? sqrt(most[MOST_STRAY]) : 0.0;
-}
-
-/* How far a particle is beyond its limits, as a multiple of them; not finite counts as endless. */
-static double fault_of(const struct sph *s, const double *y, double *speed, double *rho)
-{
-    const int dim = s->dim;
-    const double m = y[2 * dim + 1];
-    double u2 = 0.0, sum = 0.0;
-    for (int k = 0; k < s->p.nstate; k++)
-        sum += 0.0 * y[k];
-    for (int a = 0; a < dim; a++)
-        u2 += y[dim + a] * y[dim + a];
-    *speed = sqrt(u2) / m;
-    *rho = m / y[2 * dim];
-    if (sum != 0.0 || !isfinite(*speed) || !isfinite(*rho) || *rho <= 0.0)
-        return 1e300;
-    return fmax(fabs(*rho / s->rho0 - 1.0) / s->prm.density_limit, *speed / (0.5 * s->c0));
+    for (int k = 0; k < 3; k++) {
+        static const int squared[3] = {MOST_SHIFT, MOST_STRAY, MOST_RELATIVE};
+        most[squared[k]] = most[squared[k]] > 0.0 ? sqrt(most[squared[k]]) : 0.0;
+    }
 }
 
 static void measure_state(const struct sph *s, double *most)
 {
     for (int i = 0; i < s->p.n; i++) {
         double speed, rho;
-        raise(most + MOST_FAULT, fault_of(s, s->p.y + (size_t)i * s->p.nstate, &speed, &rho));
+        raise(most + MOST_FAULT, sph_fault_of(s, s->p.y + (size_t)i * s->p.nstate, &speed, &rho));
         raise(most + MOST_SPEED, speed);
         raise(most + MOST_RHO, rho);
         raise(most + LEAST_RHO, -rho);
@@ -264,6 +255,8 @@ static void reduce(struct sph *s, double *most)
     s->max_speed = most[MOST_SPEED];
     s->rho_max = most[MOST_RHO];
     s->rho_min = -most[LEAST_RHO];
+    const double speed = s->walls ? s->max_speed : most[MOST_RELATIVE];
+    s->shift_speed = fmin(fmax(s->shift_speed, fmax(speed, s->shift_least)), 0.2 * s->c0);
     s->max_mach = fmax(s->max_mach, s->max_speed / s->c0);
     if (s->t >= 0.5 * s->run->scene.time.end)
         s->mach_late = fmax(s->mach_late, s->max_speed / s->c0);
@@ -282,9 +275,11 @@ void integrate_start(struct sph *s)
 {
     s->skin = 0.05 * s->R;
     s->ready = false;
-    integrate_gradients(s);
-    for (int pass = 0; pass < 2; pass++) { /* the second knows the drift */
+    for (int pass = 0; pass < 3; pass++) { /* the second knows the drift, the third the shift */
         double most[EXTREMES];
+        if (pass == 1)
+            s->shift_speed = 0.0; /* of the drift alone */
+        integrate_gradients(s);
         clear(most);
         measure_lines(s, most);
         measure_state(s, most);
@@ -335,6 +330,7 @@ static void runge_kutta(struct sph *s, double dt, double t_end, double *most)
         integrate_rates(s);
         if (s->walls)
             forces_stage(s, k, dt);
+        sph_watch_stage(s, k == 0, dt / 6.0 * (k == 0 || k == 3 ? 1.0 : 2.0));
         if (k == 3)
             measure_lines(s, most);
         update(s, k, dt);
@@ -353,6 +349,8 @@ static int remove_lost(struct sph *s)
             inside = inside && (s->periodic[a] || !(y[a] < s->lo[a] || y[a] > s->hi[a]));
         if (inside)
             particles_copy(&s->p, n++, i);
+        else
+            sph_watch_removed(s, i);
     }
     s->p.n = n;
     return before - n;
@@ -371,6 +369,7 @@ static int remove_behind(struct sph *s)
     int *who = NEW(int, s->p.n);
     for (int k = s->walls->model->behind(s, who) - 1; k >= 0; k--)
         if (!walls_put_back(s, who[k])) {
+            sph_watch_removed(s, who[k]);
             particles_copy(&s->p, who[k], --s->p.n);
             gone++;
         }
@@ -417,84 +416,11 @@ static void track_mass(struct sph *s)
     raise(&s->fluctuation, fabs((m + openings_held(s)) / s->mass0 - 1.0));
 }
 
-static int worst_particle(const struct sph *s, double *fault)
-{
-    int worst = -1;
-    *fault = -1.0;
-    for (int i = 0; i < s->p.n; i++) {
-        double speed, rho;
-        const double f = fault_of(s, s->p.y + (size_t)i * s->p.nstate, &speed, &rho);
-        if (f > *fault) {
-            *fault = f;
-            worst = i;
-        }
-    }
-    return worst;
-}
-
-static void describe_cause(const struct sph *s, int i, struct diagnosis *d)
-{
-    const double *y = s->p.y + (size_t)i * s->p.nstate;
-    const long long id = s->p.id[i];
-    double speed, rho;
-    const double fault = fault_of(s, y, &speed, &rho), deviation = rho / s->rho0 - 1.0;
-    if (fault >= 1e300) {
-        snprintf(d->reason, sizeof d->reason,
-                 "particle %lld is not finite or has lost its mass: |u| %g m/s, w %g m^%d, rho %g "
-                 "kg/m^3",
-                 id, speed, y[2 * s->dim], s->dim, rho);
-        snprintf(d->likely, sizeof d->likely,
-                 "the step is too long: lower sph.cfl = %g or sph.cfl_viscous = %g", s->prm.cfl,
-                 s->prm.cfl_viscous);
-    } else if (speed > 0.5 * s->c0) {
-        snprintf(d->reason, sizeof d->reason, "|u| of particle %lld is %g m/s, limit c0/2 = %g m/s",
-                 id, speed, 0.5 * s->c0);
-        snprintf(d->likely, sizeof d->likely,
-                 "raise sph.c0 = %g m/s to ten times the largest speed", s->c0);
-    } else {
-        snprintf(d->reason, sizeof d->reason,
-                 "density of particle %lld is %g kg/m^3, %+.1f %% from rho0, limit %g %%", id, rho,
-                 100.0 * deviation, 100.0 * s->prm.density_limit);
-        snprintf(d->likely, sizeof d->likely,
-                 s->max_speed > 0.2 * s->c0 ? "|u| reaches %.2g c0: raise sph.c0"
-                                            : "dt is %.2g of R/c0: lower sph.cfl, or refine sph.dx",
-                 s->max_speed > 0.2 * s->c0 ? s->max_speed / s->c0 : s->dt * s->c0 / s->R);
-    }
-}
-
-static void describe_fault(const struct sph *s, int i, struct diagnosis *d)
-{
-    static const char *const zone[] = {"", ", in the transition", ", in the buffer"};
-    const double *y = s->p.y + (size_t)i * s->p.nstate;
-    d->bad = true;
-    const char *in = s->zones ? zone[s->p.zone[i]] : "";
-    if (s->dim == 2)
-        snprintf(d->where, sizeof d->where, "(%g, %g) m, rank %d%s", y[0], y[1], s->run->rank, in);
-    else
-        snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, rank %d%s", y[0], y[1], y[2],
-                 s->run->rank, in);
-    describe_cause(s, i, d);
-}
-
-/* The rank of the worst particle speaks. */
-static void diagnose(const struct sph *s, struct diagnosis *d)
-{
-    struct {
-        double fault;
-        int rank;
-    } worst = {-1.0, s->run->rank};
-    const int i = worst_particle(s, &worst.fault);
-    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
-    if (worst.rank == s->run->rank && i >= 0)
-        describe_fault(s, i, d);
-    run_diagnose(d, s->run->comm);
-}
-
 static void judge(struct sph *s, double fault, struct diagnosis *d)
 {
     const double nominal = sph_params_dt(&s->prm, s->nu, s->c0, NULL);
     if (fault > 1.0)
-        diagnose(s, d);
+        sph_fault_diagnose(s, d);
     else if (!(s->dt_most >= 1e-6 * nominal)) {
         d->bad = true;
         snprintf(d->reason, sizeof d->reason,
@@ -503,6 +429,10 @@ static void judge(struct sph *s, double fault, struct diagnosis *d)
         snprintf(d->likely, sizeof d->likely,
                  "the state has broken down before: look at the last snapshots");
     }
+    if (!d->bad)
+        sph_watch_judge(s, d);
+    else if (s->run->summary)
+        sph_watch_summarise(s);
     s->broken = d->bad;
 }
 
@@ -517,12 +447,14 @@ double integrate_step(struct sph *s, double t_stop, struct diagnosis *d)
 {
     bool last;
     double most[EXTREMES];
+    const double wall = wall_time(), cpu = cpu_time();
     /* A coupled run cuts anew between windows only: within one, a rank holds the patch of its part.
      */
     if (!s->run->coupled && s->run->step % BALANCE_EVERY == 0) {
         integrate_prepare(s); /* the list tells what a particle costs */
         domain_balance(s, 0.03);
     }
+    sph_watch_begin(s);
     s->dt = choose_dt(s, t_stop, &last);
     const double t_end = last ? t_stop : s->t + s->dt;
     integrate_prepare(s);
@@ -537,5 +469,7 @@ double integrate_step(struct sph *s, double t_stop, struct diagnosis *d)
     if (s->zones)
         track_mass(s);
     judge(s, most[MOST_FAULT], d);
+    s->wall_s += wall_time() - wall;
+    s->cpu_s += cpu_time() - cpu;
     return s->dt;
 }

@@ -65,11 +65,12 @@ static void set_volumes(struct sph *s)
 void pack_start(struct sph *s, int steps)
 {
     const int transport = s->prm.transport;
-    const double dt = 0.05 * s->R / s->run->scene.initial.U;
+    const double U = 0.1 * s->c0, dt = 0.05 * s->R / U; /* whatever U is, it cancels */
     if (steps <= 0 || !s->walls)
         return;
     s->prm.transport = TRANSPORT_TVS;
     s->packing = true;
+    s->shift_speed = U;
     s->skin = 0.05 * s->R;
     for (int k = 0; k < steps; k++) {
         integrate_gradients(s);
@@ -80,6 +81,7 @@ void pack_start(struct sph *s, int steps)
     integrate_gradients(s);
     set_volumes(s);
     s->packing = false;
+    s->shift_speed = 0.0;
     s->prm.transport = transport;
     s->ready = false;
 }

@@ -113,13 +113,19 @@ static void describe_scene(const struct run *r)
 static void warn_of(const struct run *r)
 {
     const struct sph_params *prm = sph_params_of(r);
-    if (prm->cfl > 0.5)
-        log_warn(
-            "sph.cfl = %g is above 0.5, the stability bound of the Riemann schemes is about 0.55",
-            prm->cfl);
-    if (r->scene.initial.U > 0.0 && prm->c0 < 8.0 * r->scene.initial.U)
-        log_warn("sph.c0 = %g m/s is below 8 times the scale of velocity: the density will vary",
-                 prm->c0);
+    const struct scene_speed v = sph_params_speed(r);
+    const double bound = sph_params_cfl_bound(prm, r->scene.domain.dim);
+    if (prm->cfl > 0.85 * bound)
+        log_warn("sph.cfl = %g is close to the stability bound of this scheme, %g", prm->cfl,
+                 bound);
+    if (v.moves && prm->c0 < 8.0 * v.speed)
+        log_warn("sph.c0 = %g m/s is below 8 times the %.3g m/s that the scene lets expect (%s): "
+                 "the density will vary by %.2g %% and more; raise it to %.3g m/s",
+                 prm->c0, v.speed, v.from, 100.0 * pow(v.speed / prm->c0, 2.0), 10.0 * v.speed);
+    else if (prm->c0 * prm->c0 < 30.0 * v.pressure)
+        log_warn("sph.c0 = %g m/s: the static pressure alone compresses by %.2g %%; raise it to "
+                 "%.3g m/s",
+                 prm->c0, 100.0 * v.pressure / (prm->c0 * prm->c0), 10.0 * sqrt(v.pressure));
     if (sph_params_zones(r)) {
         double transition, buffer;
         const double least = 1.25 * prm->R_dx * prm->dx * (1.0 - 1e-9);
@@ -139,6 +145,9 @@ static void describe(const struct run *r)
     const bool part = r->scene.nshapes > 0 || r->scene.nbodies > 0 || prm->surface == SURFACE_YES;
     log_say("%s%.0f particles, dx %g m, R/dx %g, c0 %g m/s; about %.0f MB", part ? "at most " : "",
             n, prm->dx, prm->R_dx, prm->c0, 1e-6 * n * bytes_per_particle(r));
+    const struct scene_speed v = sph_params_speed(r);
+    log_say("speed to expect %.3g m/s: %s; c0 is %.3g times that", v.speed, v.from,
+            prm->c0 / v.speed);
     log_say("dt about %.3g s (%s), %.0f steps", dt, limit, ceil(r->scene.time.end / dt));
     if (r->coupled)
         windows_describe(r, prm);

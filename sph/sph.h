@@ -9,6 +9,7 @@
 
 #include "../common/fit.h"
 #include "../common/run.h"
+#include "sph_watch.h"
 
 /* Vila [2.86-2.89]; Leduc [2.96-2.99]; Antuono [2.60-2.63]; [2.47-2.50] with [2.58-2.59] */
 enum sph_scheme { SCHEME_RIEMANN_ALE, SCHEME_RIEMANN, SCHEME_DELTA, SCHEME_STANDARD, SCHEME_AUTO };
@@ -33,7 +34,7 @@ enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
 struct sph_params {
     double dx;    /* m */
     double R_dx;  /* support radius over dx, - */
-    double c0;    /* m/s; 0: ten times the scale of velocity */
+    double c0;    /* m/s; 0: ten times the speed that the scene lets expect */
     double gamma; /* Tait's exponent, 7 or 1 */
     int scheme, limiter, transport, viscosity;
     bool low_dissipation; /* bounded Riemann dissipation (Zhang, Hu & Adams 2017) */
@@ -48,7 +49,7 @@ struct sph_params {
     int walls;            /* enum sph_walls */
     int surface;          /* enum sph_surface: the fluid has a free surface */
     int outer;            /* what feeds the zones: none, exact, partner */
-    double density_limit; /* |rho/rho0 - 1| that ends the run */
+    double density_limit; /* |rho/rho0 - 1| that ends the run; 0: as the flow has it */
     int packing;          /* steps; -1: as the walls need it */
     double noise;         /* random displacement of the first lattice, in dx */
     double extrema[3];    /* m/s: known ones on the centre lines, see sph_lines.c; 0: none */
@@ -119,6 +120,9 @@ struct sph {
     double max_speed, max_shift, rho_min, rho_max, max_c;
     const char *limited_by; /* "sound" or "viscosity" */
     double signal;          /* m/s: max of c + |u - u0| */
+    double shift_speed; /* m/s: U of the laws of shifting: largest |u|, without walls relative to
+                           the drift */
+    double shift_least; /* m/s: with walls, what the scene lets expect of it; 0: nothing moves */
     double drift[3], stray; /* m/s: middle of the velocities u0, largest distance from it */
     double dt_most;         /* s: largest next step [2.102-2.104] */
     double max_mach;        /* since the start: |u|/c0 */
@@ -136,6 +140,8 @@ struct sph {
     double force_time, force_sum[2], force_sum2;
     double average_t, average_time, average_sum[2];
     double mach_late; /* max |u|/c0 over the second half */
+    struct sph_watch watch;
+    double wall_s, cpu_s; /* s: of all steps; this rank */
 };
 
 /* sph_state.c: prm as sph_params_of gives it, copied; f: restart file, then r->t and r->step are
@@ -184,6 +190,8 @@ void integrate_start(struct sph *s);
 enum { SUM_MASS, SUM_VOLUME, SUM_KINETIC, SUM_ENERGY, SUM_MOMENTUM, SUM_COUNT = SUM_MOMENTUM + 3 };
 /* Sums over all particles of all ranks: kg, m^dim, J, J (kinetic, elastic, potential), kg m/s. */
 void sph_sums(const struct sph *s, double sums[SUM_COUNT]);
+/* J of one row of the state: all kinds, and the kinetic one. */
+double sph_energy(const struct sph *s, const double *y, double *kinetic);
 /* Whether the scene has an exact solution at all times. */
 bool sph_has_exact(const struct run *r);
 /* Curl of u of a local particle, 1/s; needs slope of the present state. In 2D w[2] only. */

@@ -22,15 +22,6 @@ enum { NORMS = NORM_VORTICITY - FIRST_NORM + 1 };
 
 static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
 
-/* Elastic energy per mass: integral of p/rho^2 from rho0, with r = rho/rho0. */
-static double elastic(const struct sph *s, double r)
-{
-    const double g = s->gamma, c2 = s->c0 * s->c0;
-    if (g == 1.0)
-        return c2 * (log(r) + 1.0 / r - 1.0);
-    return c2 / g * ((pow(r, g - 1.0) - 1.0) / (g - 1.0) + 1.0 / r - 1.0);
-}
-
 void sph_sums(const struct sph *s, double sums[SUM_COUNT])
 {
     const int dim = s->dim;
@@ -38,16 +29,13 @@ void sph_sums(const struct sph *s, double sums[SUM_COUNT])
         sums[k] = 0.0;
     for (int i = 0; i < s->p.n; i++) {
         const double *y = s->p.y + (size_t)i * s->p.nstate, w = y[2 * dim], m = y[2 * dim + 1];
-        double kinetic = 0.0, potential = 0.0;
-        for (int a = 0; a < dim; a++) {
-            kinetic += 0.5 * y[dim + a] * y[dim + a] / m;
-            potential += m * y[a] * (0.5 * s->central * s->central * y[a] - s->gravity[a]);
+        double kinetic;
+        sums[SUM_ENERGY] += sph_energy(s, y, &kinetic);
+        for (int a = 0; a < dim; a++)
             sums[SUM_MOMENTUM + a] += y[dim + a];
-        }
         sums[SUM_MASS] += m;
         sums[SUM_VOLUME] += w;
         sums[SUM_KINETIC] += kinetic;
-        sums[SUM_ENERGY] += kinetic + potential + m * elastic(s, m / w / s->rho0);
     }
     MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
@@ -250,6 +238,7 @@ int sph_columns(const struct run *r, const char **names)
     for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
         if (k != 5 || r->scene.domain.dim == 3)
             names[n++] = columns[k];
+    n += sph_watch_columns(r, names + n);
     if (sph_has_exact(r))
         names[n++] = "error velocity l2 [-]";
     if (sph_params_zones(r)) {
@@ -276,6 +265,7 @@ void sph_row(void *state, double *values)
     *values++ = s->rho_max;
     *values++ = total(s, s->p.n);
     *values++ = least_spacing(s);
+    values = sph_watch_row(s, values);
     if (sph_has_exact(s->run)) {
         struct norm n[NORMS];
         errors(s, n);
@@ -313,7 +303,8 @@ static void summarise_drifts(const struct sph *s)
 {
     struct summary *to = s->run->summary;
     double sums[SUM_COUNT], region = 1.0, p2 = 0.0, energy;
-    const double U = s->run->scene.initial.U;
+    const bool given = !s->run->params || params_given(s->run->params, "initial.U");
+    const double U = given ? s->run->scene.initial.U : s->watch.reference;
     sph_sums(s, sums);
     for (int a = 0; a < s->dim; a++) {
         region *= s->hi[a] - s->lo[a];
@@ -331,6 +322,7 @@ static void summarise_drifts(const struct sph *s)
     summary_real(to, "drift.volume", sums[SUM_VOLUME] / region - 1.0);
 }
 
+/* Pairs over the processor time of the stages: a loaded machine counts for nothing. */
 static double pair_rate(const struct sph *s)
 {
     static const char *const stage[] = {"list",   "gradients", "rates", "halo",
@@ -339,6 +331,7 @@ static double pair_rate(const struct sph *s)
     for (size_t k = 0; k < sizeof stage / sizeof stage[0]; k++)
         time += timer_wall(&s->run->timers, stage[k]);
     time = total(s, time);
+    time *= total(s, s->cpu_s) / fmax(total(s, s->wall_s), 1e-300);
     return time > 0.0 ? total(s, (double)s->pairs) / time : 0.0;
 }
 
@@ -393,6 +386,7 @@ void sph_finish(void *state)
     summary_real(to, "max_mach_late", s->mach_late);
     summary_real(to, "spacing.min", least_spacing(s));
     summary_real(to, "pairs_per_s", rate);
+    sph_watch_summarise(s);
     if (s->zones) {
         summary_real(to, "mass_fluctuation", s->fluctuation);
         summary_real(to, "mass_fluctuation_particles", s->fluctuation_particles);

@@ -162,6 +162,7 @@ static const struct number {
     NUMBER(force_time),   NUMBER(force_sum[0]),   NUMBER(force_sum[1]),
     NUMBER(force_sum2),   NUMBER(mach_late),      NUMBER(average_t),
     NUMBER(average_time), NUMBER(average_sum[0]), NUMBER(average_sum[1]),
+    NUMBER(shift_speed),
 };
 enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 
@@ -213,6 +214,7 @@ void sph_checkpoint(void *state, struct h5 *f)
     for (int k = 0; k < NUMBERS; k++)
         h5_attribute_real(f, numbers[k].name, *number(s, k));
     h5_attribute_text(f, "limited_by", s->limited_by);
+    sph_watch_save(s, f);
     domain_save(s, f);
     if (s->zones)
         zones_save(s, f);
@@ -249,8 +251,9 @@ static bool read_numbers(struct sph *s, struct h5 *f)
 
 bool sph_restore(struct sph *s, struct h5 *f)
 {
-    const bool fits = read_particles(s, f) && read_numbers(s, f) && domain_load(s, f) &&
-                      (!s->zones || zones_load(s, f)) && (!s->walls || forces_load(s, f));
+    const bool fits = read_particles(s, f) && read_numbers(s, f) && sph_watch_load(s, f) &&
+                      domain_load(s, f) && (!s->zones || zones_load(s, f)) &&
+                      (!s->walls || forces_load(s, f));
     read_signal(s, f);
     if (!fits)
         log_say("the restart file is of another number of ranks or another case");

@@ -2,8 +2,12 @@
 #include "sph_params.h"
 
 #include <math.h>
+#include <stdio.h>
+
+#include "../common/mem.h"
 #include "sph_sense.h"
 #include "sph_unused.h"
+#include "walls.h"
 #include "zones.h"
 
 static struct sph_params given; /* as the case has it: the target of the table */
@@ -14,7 +18,7 @@ static bool present;
 static const struct param rows[] = {
     PARAM(P, dx, "m", NULL, 1e-9, 1e6, "initial particle spacing"),
     PARAM(P, R_dx, "-", "4.0", 1.5, 8.0, "radius of the kernel's support over dx"),
-    PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the scale of velocity"),
+    PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the largest speed that the scene lets expect, and density within 1 % at rest"),
     PARAM(P, gamma, "-", "7.0", 1.0, 7.0, "exponent of the equation of state, 7 or 1"),
     CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface, else riemann_ale"),
     CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles"),
@@ -31,7 +35,7 @@ static const struct param rows[] = {
     PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
     PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
     CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
-    PARAM(P, density_limit, "-", "0.1", 1e-6, 10.0, "|rho/rho0 - 1| that ends the run"),
+    PARAM(P, density_limit, "-", "0.0", 0.0, 10.0, "|rho/rho0 - 1| that ends the run; 0: 0.1, compression at rest and twice the largest Mach number so far, at most 0.5"),
     CHOICE(P, walls, "nfm|ghosts|auto", "auto", "normal flux (2D, any polyline; not with scheme standard), mirrored ghosts (plane sides); auto: nfm in 2D, ghosts in 3D and where schemes delta and standard meet no polyline"),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
     PARAM(P, packing, "-", "-1", -1, 100000, "steps of rearrangement at the start; -1: 200 with polylines or bodies, else none"),
@@ -73,19 +77,39 @@ static void find_box(const struct run *r, struct sph_params *used, int a)
     used->box[1][a] = plain || hi >= d->max[a] ? d->max[a] : hi + (transition + buffer);
 }
 
-/* Ten times the largest speed to expect, so that the density varies by about a percent [2.33-2.35].
- */
-static double default_c0(const struct scene *c)
+/* Largest speed in a motion file; its body's corners turn with it. */
+static double file_speed(const struct run *r, const struct scene_body *b)
 {
-    const double *V = c->initial.velocity, *g = c->fluid.gravity;
-    double U = c->initial.U, gH = 0.0;
-    const double carried = sqrt(V[0] * V[0] + V[1] * V[1] + V[2] * V[2]);
-    for (int a = 0; a < c->domain.dim; a++)
-        if (!c->domain.periodic[a])
-            gH += fabs(g[a]) * (c->domain.max[a] - c->domain.min[a]);
-    if (c->initial.field == FIELD_TAYLOR_GREEN || c->initial.field == FIELD_TWO_MODES)
-        U += carried;
-    return 10.0 * fmax(fmax(U, carried), sqrt(gH));
+    char path[1024 + PARAM_TEXT_SIZE];
+    double *motion = NULL, reach = 0.0, speed = 0.0;
+    snprintf(path, sizeof path, "%s/%s", r->case_dir, b->motion);
+    const int n = walls_read_motion(path, &motion);
+    for (int i = 0; i < b->points.n; i++)
+        reach =
+            fmax(reach, hypot(b->points.x[i][0] - b->centre[0], b->points.x[i][1] - b->centre[1]));
+    for (int k = 1; k < n; k++) {
+        const double *p = motion + 4 * (k - 1), *q = p + 4, dt = q[0] - p[0];
+        speed = fmax(speed, (hypot(q[1] - p[1], q[2] - p[2]) + reach * fabs(q[3] - p[3])) / dt);
+    }
+    mem_free(motion);
+    return speed;
+}
+
+struct scene_speed sph_params_speed(const struct run *r)
+{
+    double most = 0.0;
+    for (int k = 0; k < r->scene.nbodies; k++)
+        if (*r->scene.bodies[k].motion)
+            most = fmax(most, file_speed(r, r->scene.bodies + k));
+    return scene_speed_of(&r->scene, most);
+}
+
+/* Ten times the largest speed to expect, so that the density varies by about a percent [2.33-2.35];
+ * by no more where the fluid is at rest, p/(rho c0^2) <= 0.01. */
+static double default_c0(const struct run *r)
+{
+    const struct scene_speed v = sph_params_speed(r);
+    return 10.0 * fmax(v.speed, sqrt(v.pressure));
 }
 
 bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *prm, int side)
@@ -165,7 +189,7 @@ const struct sph_params *sph_params_of(const struct run *r)
     for (int a = 0; a < 3; a++)
         find_box(r, &used, a);
     if (used.c0 <= 0.0)
-        used.c0 = default_c0(&r->scene);
+        used.c0 = default_c0(r);
     if (used.surface == SURFACE_AUTO)
         used.surface = scene_has_surface(&r->scene) ? SURFACE_YES : SURFACE_NO;
     if (used.viscosity == VISCOSITY_AUTO)
@@ -315,6 +339,36 @@ static void check_zones(const struct run *r, struct faults *f)
 
 bool sph_params_walls(const struct run *r) { return has_walls(&r->scene, sph_params_of(r)); }
 
+/* Measured on Taylor-Green flow, tanks at rest and dam breaks, R/dx 4 in 2D and 2.5 in 3D: the
+ * Riemann schemes gain energy from 0.7 and 0.6 on, the central ones from 1.2. */
+double sph_params_cfl_bound(const struct sph_params *prm, int dim)
+{
+    return !is_riemann(prm->scheme) ? 1.2 : dim == 2 ? 0.65 : 0.55;
+}
+
+double sph_params_viscous_bound(const struct run *r, const struct sph_params *prm)
+{
+    return prm->viscosity != VISCOSITY_MORRIS                       ? 0.04
+           : has_no_slip(&r->scene, prm) && prm->walls == WALLS_NFM ? 0.048
+                                                                    : 0.1;
+}
+
+/* A step beyond the bounds of the scheme ends in noise or in nothing. */
+static void check_steps(const struct run *r, struct faults *f)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    const double R = prm->R_dx * prm->dx, nu = r->scene.fluid.nu;
+    const double bound = sph_params_cfl_bound(prm, r->scene.domain.dim);
+    const double viscous = sph_params_viscous_bound(r, prm);
+    if (prm->cfl > bound)
+        params_fault(r->params, f, "sph.cfl", "%g is unstable with this scheme: at most %g",
+                     prm->cfl, bound);
+    if (sph_params_dt(prm, nu, prm->c0, NULL) * nu > 1.001 * viscous * R * R)
+        params_fault(r->params, f, "sph.cfl_viscous",
+                     "%g is unstable with this viscous term and these walls: at most %g",
+                     prm->cfl_viscous, viscous);
+}
+
 void sph_params_check(const struct run *r, struct faults *f)
 {
     if (f->n > 0) /* values that were refused are not there to be compared */
@@ -335,7 +389,8 @@ void sph_params_check(const struct run *r, struct faults *f)
         if (is_coupled(r) && r->scene.walls[k].carried)
             params_fault(r->params, f, "walls", "wall %d: carried is not for this solver", k + 1);
     if (sph_params_of(r)->c0 <= 0.0)
-        params_fault(r->params, f, "sph.c0", "must be given: the case has no scale of velocity");
+        params_fault(r->params, f, "sph.c0", "must be given: the scene has no scale of velocity");
+    check_steps(r, f);
     if (in_3d && sph_params_walls(r) && given.walls == WALLS_NFM)
         params_fault(r->params, f, "sph.walls", "in 3D: ghosts");
     if (polylines && (in_3d || given.walls == WALLS_GHOSTS))

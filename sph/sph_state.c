@@ -24,6 +24,9 @@ static void set_constants(struct sph *s)
     s->rho0 = c->fluid.rho;
     s->nu = c->fluid.nu;
     s->c0 = s->prm.c0;
+    const struct scene_speed expected = sph_params_speed(s->run);
+    if (expected.moves && sph_params_walls(s->run))
+        s->shift_least = fmin(expected.speed, 0.2 * s->c0);
     s->gamma = s->prm.gamma;
     s->central = c->fluid.central;
     memcpy(s->gravity, c->fluid.gravity, sizeof s->gravity);
@@ -55,6 +58,7 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
     s->surface = surface_create(s);
     s->passes = scheme_pick(s);
     s->scheme = &s->passes;
+    sph_watch_create(s);
     if (f) {
         if (!sph_restore(s, f))
             sph_free(&s);
@@ -75,6 +79,7 @@ void sph_free(struct sph **s)
     walls_free(&(*s)->walls);
     surface_free(&(*s)->surface);
     fit_free(&(*s)->signal_fit);
+    sph_watch_free(*s);
     neighbours_free(&(*s)->list);
     particles_free(&(*s)->p);
     mem_free(*s);

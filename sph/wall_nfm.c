@@ -95,7 +95,7 @@ static void add_crowding(const struct sph *s, const struct nfm *m, int k)
             sum[a] += G * s->walls->segments[t->segment].n[a];
     }
     const double R = oger ? fmin(2.0 * s->dx, s->R) : s->R;
-    const double factor = (oger ? 1.0 : 2.0) * s->run->scene.initial.U * R;
+    const double factor = (oger ? 1.0 : 2.0) * s->shift_speed * R;
     const double gamma = fmax(l->gamma[k], least_gamma);
     for (int a = 0; a < 2; a++)
         u0[a] = u[a] + (u0[a] - u[a] - factor * sum[a]) / gamma;
@@ -158,7 +158,10 @@ static struct given flux(const struct sph *s, const struct wall_touch *t, const 
         drift += (i->u[a] - i->u0[a]) * g->n[a];
     }
     const double m = ale ? i->rho * drift : 0.0;
-    const double near = is_riemann(s) ? t->near : 1.0; /* pairs of delta are too calm without it */
+    /* Of bodies alone: a wave along a wall gains energy, or a cavity blows up, without it (damping
+     * of a standing wave of 16 particles a depth off by 13 instead of 0.3 %); pairs of delta are
+     * too calm without it. */
+    const double near = is_riemann(s) && g->body >= 0 ? t->near : 1.0;
     const double P = i->p + wall_pressure(s, i, t->e, near, uw, g->n) - 2.0 * i->damped;
     struct given to = {.w = t->W * across, .m = -t->W * m};
     for (int a = 0; a < 2; a++)

@@ -33,7 +33,6 @@ static inline void toy_create(struct toy *t, int dim, int cells, double R_dx, do
     struct sph *s = &t->s;
     s->run = &t->run;
     s->prm = (struct sph_params){.R_dx = R_dx, .low_dissipation = true, .damper = 0.2};
-    t->run.scene.initial.U = 1.0;
     s->dim = dim;
     s->dx = s->prm.dx = 1.0 / cells;
     s->R = R_dx * s->dx;
@@ -41,6 +40,7 @@ static inline void toy_create(struct toy *t, int dim, int cells, double R_dx, do
     s->rho0 = 1000.0;
     s->nu = 1e-3;
     s->c0 = s->prm.c0 = 10.0;
+    s->shift_speed = 1.0;
     s->gamma = s->prm.gamma = 7.0;
     s->skin = 0.05 * s->R;
     particles_create(&s->p, dim, 0);

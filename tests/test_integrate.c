@@ -115,7 +115,7 @@ static void steps_are_shared_out_evenly(void **state)
 static void a_broken_state_is_found_and_placed(void **state)
 {
     (void)state;
-    static const char *const reason[] = {"not finite", "particle", "density of particle"};
+    static const char *const reason[] = {"not finite", "particle", "density of a particle"};
     for (int kind = 0; kind < 3; kind++) {
         struct sph_case c;
         struct diagnosis d = {0};

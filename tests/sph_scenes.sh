@@ -1,0 +1,93 @@
+#!/bin/sh
+# Scenes as a newcomer writes them, on defaults: c0, limits and steps follow from the scene. They run through
+# without a warning, in any units; where the case sets what cannot work, the diagnosis names the remedy,
+# alike on any number of ranks. SPDX-License-Identifier: BSD-3-Clause
+b=$(cd "${1:-build}" && pwd)
+tmp=${TEST_SCRATCH:-$(mktemp -d)}/sph_scenes
+mkdir -p "$tmp" && cd "$tmp" || exit 2
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+failed=0
+bad() { # WHAT LOG
+    failed=$((failed + 1))
+    { echo "FAIL: $1"; tail -n 6 "$2"; } >&2
+}
+# scene NAME END DX DOMAIN GRAVITY WALLS SHAPES [MORE]: writes NAME.cfg
+scene() {
+    cat >"$1.cfg" <<END
+format = 1;
+time:   { end = $2; };
+fluid:  { gravity = $5; };
+domain: { $4 };
+walls:  ( $6 );
+shapes: ( $7 );
+${8}
+sph:    { dx = $3; };
+output: { snapshots = false; };
+END
+}
+# runs NAME [ARGS]: exit 0, every value finite, no warning but of particles that leave
+runs() {
+    name=$1
+    shift
+    timeout -k 5 60 "$b/sph" "$name.cfg" -o "$name" --force "$@" >"$name.txt" 2>&1 || { bad "$name $*: exit code $?" "$name.txt"; return; }
+    grep '^warning' "$name.txt" | grep -qv 'left the region' && bad "$name $*: warns" "$name.txt"
+    grep -q '"energy_gain"' "$name/summary.json" || bad "$name $*: its energy is not watched" "$name.txt"
+}
+value() { awk -v key="\"$2\":" '$1 == key { gsub(",", "", $2); print $2; exit }' "$1/summary.json"; }
+
+# a square of water into a corner, a column over an obstacle, jets, a drop into a pool, a film, a moving body
+scene corner 1 0.04 'min = (-2, 0); max = (0, 2);' '(0, 0)' '{ side = "x_max"; }, { side = "y_min"; }' \
+    '{ form = "box"; box = ((-0.9, 0.3), (-0.3, 0.9)); velocity = (1, -1); }'
+scene oblique 0.7 0.04 'max = (2, 2);' '(0, 0)' '{ side = "x_min"; }, { side = "y_min"; }' \
+    '{ form = "box"; box = ((0.3, 0.8), (1.3, 1.2)); velocity = (-1.8, -0.8); }'
+scene jets 0.6 0.05 'min = (-2, -2); max = (2, 2);' '(0, 0)' '' \
+    '{ form = "box"; box = ((-1.2, -0.2), (-0.2, 0.2)); velocity = (2, 0); }, { form = "box"; box = ((0.2, -0.2), (1.2, 0.2)); velocity = (-2, 0); }'
+scene pool 0.7 0.05 'max = (2, 1.4);' '(0, -9.81)' '{ side = "x_min"; }, { side = "y_min"; }, { side = "x_max"; }' \
+    '{ form = "below"; level = 0.4; }, { form = "disc"; centre = (1, 1.1); radius = 0.16; }'
+scene film 0.6 0.04 'max = (0.8, 0.6); periodic = (true, false);' '(1, -9)' '{ side = "y_min"; kind = "no_slip"; }' \
+    '{ form = "box"; box = ((0, 0), (0.8, 0.3)); }'
+scene column 1 0.04 'max = (2, 1.2);' '(0, -9.81)' \
+    '{ points = ((0, 1.2), (0, 0), (1.2, 0), (1.35, 0.2), (1.5, 0), (2, 0), (2, 1.2)); kind = "no_slip"; }' \
+    '{ form = "box"; box = ((0, 0), (0.5, 0.6)); }'
+scene paddle 0.6 0.04 'max = (1, 1.04);' '(0, 0)' '{ side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; }' '' \
+    'bodies: ( { spin = 1.5; centre = (0.5, 0.5); points = ((0.3, 0.46), (0.3, 0.54), (0.7, 0.54), (0.7, 0.46)); } );'
+for name in corner oblique jets pool film column paddle; do runs $name; done
+runs corner -p 'sph.scheme="riemann_ale"'
+runs jets -p 'sph.scheme="delta"'
+
+# the same column a thousand times smaller and larger: the same steps, the same Mach number
+for k in 0.001 1 1000; do
+    at() { for x in "$@"; do awk -v x="$x" -v k=$k 'BEGIN { printf "%.9g ", x * k }'; done; }
+    # shellcheck disable=SC2046
+    set -- $(at 4 3.04 1 2 0.08)
+    end=$(awk -v k=$k 'BEGIN { printf "%.9g", 1.2 * sqrt(k) }')
+    scene "units$k" "$end" "$5" "max = ($1, $2);" '(0, -9.81)' '{ side = "x_min"; }, { side = "y_min"; }, { side = "x_max"; }' \
+        "{ form = \"box\"; box = ((0, 0), ($3, $4)); }"
+    runs "units$k"
+    echo "$(value "units$k" steps) $(value "units$k" max_mach | cut -c 1-6)"
+done >units.txt
+[ "$(sort -u units.txt | wc -l)" = 1 ] || bad "a column in other units is another flow" units.txt
+
+# c0 too low: the remedy is c0, the place is the same on any number of ranks
+for n in 1 2 4; do
+    timeout -k 5 60 mpirun --oversubscribe -np $n "$b/sph" column.cfg -o low --force -p sph.c0=3.0 >low$n.txt 2>&1
+    [ $? = 3 ] || bad "c0 too low on $n ranks: not stopped" low$n.txt
+    grep -q 'likely .*raise it to 34.3 m/s' low$n.txt || bad "c0 too low on $n ranks: another remedy" low$n.txt
+    grep -A 2 'diverged at' low$n.txt >low$n.said
+done
+for n in 2 4; do
+    cmp -s low1.said low$n.said || bad "c0 too low: $n ranks differ" low$n.said
+done
+grep -q '"mach"' low/summary.json || bad "a run that failed does not tell its watches" low4.txt
+
+# steps beyond the bound
+refused() { # ARGS: the step is beyond the bound
+    "$b/sph" jets.cfg -o never "$@" >cfl.txt 2>&1
+    code=$?
+    grep -q "is unstable with this" cfl.txt || code="$code and other words"
+    [ "$code" = 2 ] || bad "$* is not refused: exit code $code" cfl.txt
+}
+refused -p sph.cfl=0.7
+refused -p sph.cfl=1.3 -p 'sph.scheme="delta"'
+refused -p sph.cfl_viscous=0.2 -p fluid.nu=10
+[ $failed = 0 ] && echo "all scenes run"
