@@ -120,9 +120,8 @@ struct sph {
     double max_speed, max_shift, rho_min, rho_max, max_c;
     const char *limited_by; /* "sound" or "viscosity" */
     double signal;          /* m/s: max of c + |u - u0| */
-    double shift_speed; /* m/s: U of the laws of shifting: largest |u|, without walls relative to
-                           the drift */
-    double shift_least; /* m/s: with walls, what the scene lets expect of it; 0: nothing moves */
+    double shift_speed;     /* m/s: U of the laws of shifting: largest |u| so far, without walls
+                               relative to the drift; with walls at least nu/R */
     double drift[3], stray; /* m/s: middle of the velocities u0, largest distance from it */
     double dt_most;         /* s: largest next step [2.102-2.104] */
     double max_mach;        /* since the start: |u|/c0 */

@@ -7,6 +7,7 @@
 #include "../common/mem.h"
 #include "sph_sense.h"
 #include "sph_unused.h"
+#include "wall_thin.h"
 #include "walls.h"
 #include "zones.h"
 
@@ -369,6 +370,26 @@ static void check_steps(const struct run *r, struct faults *f)
                      prm->cfl_viscous, viscous);
 }
 
+/* Beyond 0.7 R the kernel is as good as nothing: a wall of 3 dx (R = 4 dx) between two levels is
+ * tight, one of 2 dx lets particles through. */
+static void check_thin(const struct run *r, struct faults *f)
+{
+    const double dx = given.dx, needed = 0.7 * given.R_dx * dx;
+    struct wall_thin t;
+    if (wall_thin_solid(&r->scene, needed, &t))
+        params_fault(r->params, f, "sph.dx",
+                     "%s are %.3g m apart at (%g, %g) with fluid on either side: particles "
+                     "see each other through less than 0.7 sph.R_dx sph.dx = %.3g m and leak. Take "
+                     "sph.dx = %.2g or less, or make it thicker",
+                     t.what, t.width, t.at[0], t.at[1], needed, dx * t.width / needed);
+    if (wall_thin_gap(&r->scene, dx, &t))
+        params_fault(r->params, f, "sph.dx",
+                     "%s are %.3g m apart at (%g, %g): a gap narrower than sph.dx holds "
+                     "no particle, and nothing presses there. Close it, or take sph.dx = %.2g or "
+                     "less",
+                     t.what, t.width, t.at[0], t.at[1], 0.5 * t.width);
+}
+
 void sph_params_check(const struct run *r, struct faults *f)
 {
     if (f->n > 0) /* values that were refused are not there to be compared */
@@ -401,6 +422,8 @@ void sph_params_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
     for (int a = 0; a < r->scene.domain.dim; a++)
         check_axis(r, a, f);
+    if (!in_3d && sph_params_walls(r))
+        check_thin(r, f);
     if (is_given(given.box) && is_given(given.free))
         params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");
     if (f->n == 0 && has_box())

@@ -24,9 +24,6 @@ static void set_constants(struct sph *s)
     s->rho0 = c->fluid.rho;
     s->nu = c->fluid.nu;
     s->c0 = s->prm.c0;
-    const struct scene_speed expected = sph_params_speed(s->run);
-    if (expected.moves && sph_params_walls(s->run))
-        s->shift_least = fmin(expected.speed, 0.2 * s->c0);
     s->gamma = s->prm.gamma;
     s->central = c->fluid.central;
     memcpy(s->gravity, c->fluid.gravity, sizeof s->gravity);

@@ -108,12 +108,12 @@ static void measure(const struct segment *g, const double *x, double R, double q
     t->height = g->n[0] * d[0] + g->n[1] * d[1];
     t->from = g->t[0] * d[0] + g->t[1] * d[1];
     const struct wall_moments m =
-        wall_moments(t->height / R, t->from / R, (t->from + g->length) / R, q / R);
+        wall_moments(t->height / R, t->from / R, (t->from + g->length) / R);
     t->gamma = m.gamma;
     t->W = m.W / R;
-    t->near = m.near;
     for (int a = 0; a < 2; a++)
         t->e[a] = m.along * R * g->t[a] + t->height * g->n[a];
+    t->near = fmin(1.0, q * q / (t->e[0] * t->e[0] + t->e[1] * t->e[1]));
 }
 
 void wall_list_measure(const struct sph *s, struct wall_list *l)

@@ -12,7 +12,7 @@ struct wall_touch {
     double gamma;        /* -: its part of the Shepard factor less one */
     double W;            /* 1/m: int W ds; 0: beyond the support */
     double e[2];         /* m: from the particle to the centre of that weight */
-    double near;         /* -: mean of min(1, (q/r)^2), q = dx/2 */
+    double near;         /* -: min(1, (dx/2)^2/e^2) */
     double from, height; /* m: of the segment's start from the foot of the particle, of the particle
                             over the segment's line */
 };

@@ -1,7 +1,7 @@
 /* wall_moments.h - integrals of Wendland's C2 kernel over the part of a straight wall within the
- * support, in closed form: what the wall takes from the Shepard factor [4.52-4.59], its weight, its
- * centre, and how near it is. One angle and one logarithm, the rest are polynomials. Lengths in
- * units of R. SPDX-License-Identifier: BSD-3-Clause */
+ * support, in closed form: what the wall takes from the Shepard factor [4.52-4.59], its weight and
+ * its centre. One angle and one logarithm, the rest are polynomials. Lengths in units of R.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_WALL_MOMENTS_H
 #define SPH_WALL_MOMENTS_H
 
@@ -12,7 +12,6 @@ struct wall_moments {
                      wall, angle/(2 pi) in a corner; behind a wall one more */
     double W;     /* 1/R: int W ds; 0: out of reach */
     double along; /* R: int W y ds / W, y counted from the foot of x along the wall */
-    double near;  /* -: int W min(1, (q/r)^2) ds / W */
 };
 
 /* The piece from a to b (counted from the foot) of a line at distance d > 0: int r^k ds, int y^k ds
@@ -51,14 +50,6 @@ static inline double wall_weight(const struct wall_piece *p, double d2)
             15.0 * (d2 * d2 * p->Y1 + 2.0 * d2 * p->Y3 + p->Y5) + 4.0 * p->J5);
 }
 
-/* int W/r^2 */
-static inline double wall_nearness(const struct wall_piece *p, double d)
-{
-    return 7.0 / M_PI *
-           (p->angle / d - 10.0 * p->Y1 + 20.0 * p->J1 - 15.0 * (d * d * p->Y1 + p->Y3) +
-            4.0 * p->J3);
-}
-
 /* int_r^1 W s ds: W y = -d/dy of it */
 static inline double wall_ring(double r)
 {
@@ -77,26 +68,9 @@ static inline double wall_shepard(double y, double r, double d)
     return d * y * (radial - plain);
 }
 
-/* int W min(1, (q/r)^2) over a wall nearer than q: W less the pieces beyond q, and what these have
- * of it. */
-static inline double wall_near(const struct wall_piece *p, double d, double q, double W)
-{
-    const double half = sqrt(q * q - d * d);
-    const double lo = fmin(p->b, -half), hi = fmax(p->a, half);
-    double sum = W;
-    for (int side = 0; side < 2; side++) {
-        const double a = side ? hi : p->a, b = side ? p->b : lo;
-        if (b <= a)
-            continue;
-        const struct wall_piece beyond = wall_piece(d, a, b);
-        sum += q * q * wall_nearness(&beyond, d) - wall_weight(&beyond, d * d);
-    }
-    return sum;
-}
-
 /* Of a straight wall whose line is at `distance' from x (> 0 on the fluid side) and that goes from
  * `from' to `to' along it, counted from the foot of x. */
-static inline struct wall_moments wall_moments(double distance, double from, double to, double q)
+static inline struct wall_moments wall_moments(double distance, double from, double to)
 {
     const double d = fmax(fabs(distance), 1e-12);
     if (d >= 1.0)
@@ -111,11 +85,9 @@ static inline struct wall_moments wall_moments(double distance, double from, dou
                          (12.0 * M_PI);
     if (!(W > 0.0)) /* of the last digits, at the rim of the support */
         return (struct wall_moments){.gamma = distance >= -1e-9 ? gamma : -gamma};
-    const double near = d >= q ? q * q * wall_nearness(&p, d) : wall_near(&p, d, q, W);
     return (struct wall_moments){.gamma = distance >= -1e-9 ? gamma : -gamma,
                                  .W = W,
-                                 .along = (wall_ring(p.ra) - wall_ring(p.rb)) / W,
-                                 .near = fmin(fmax(near / W, 0.0), 1.0)};
+                                 .along = (wall_ring(p.ra) - wall_ring(p.rb)) / W};
 }
 
 #endif

@@ -72,7 +72,7 @@ static double crowding(const struct sph *s, const struct nfm *m, const struct wa
     const struct segment *g = s->walls->segments + t->segment;
     if (s->prm.transport == TRANSPORT_TVO) {
         const double R = fmin(2.0 * s->dx, s->R);
-        return wall_moments(t->height / R, t->from / R, (t->from + g->length) / R, 1.0).W / R;
+        return wall_moments(t->height / R, t->from / R, (t->from + g->length) / R).W / R;
     }
     const double out = fmax(0.0, fmax(t->from, -t->from - g->length));
     const double at = RATIOS * fmin(hypot(t->height, out) / s->R, 1.0);
@@ -144,6 +144,14 @@ static double wall_pressure(const struct sph *s, const struct seen *i, const dou
 
 static bool is_riemann(const struct sph *s) { return s->prm.scheme <= SCHEME_RIEMANN; }
 
+/* Whether the wave to a segment counts in full: pairs of delta are too calm without it, and over a
+ * no-slip bottom it costs nothing, but the damping of a standing wave errs by 4.6 % instead of 0.4
+ * % without (H/dx = 25). */
+static bool whole_wave(const struct sph *s, const struct segment *g)
+{
+    return !is_riemann(s) || (g->no_slip && g->body < 0);
+}
+
 /* One segment: pressure, volume, friction, and for ALE what runs with u - u0 [4.26-4.29]. */
 static struct given flux(const struct sph *s, const struct wall_touch *t, const struct seen *i)
 {
@@ -158,10 +166,7 @@ static struct given flux(const struct sph *s, const struct wall_touch *t, const 
         drift += (i->u[a] - i->u0[a]) * g->n[a];
     }
     const double m = ale ? i->rho * drift : 0.0;
-    /* Of bodies alone: a wave along a wall gains energy, or a cavity blows up, without it (damping
-     * of a standing wave of 16 particles a depth off by 13 instead of 0.3 %); pairs of delta are
-     * too calm without it. */
-    const double near = is_riemann(s) && g->body >= 0 ? t->near : 1.0;
+    const double near = whole_wave(s, g) ? 1.0 : t->near;
     const double P = i->p + wall_pressure(s, i, t->e, near, uw, g->n) - 2.0 * i->damped;
     struct given to = {.w = t->W * across, .m = -t->W * m};
     for (int a = 0; a < 2; a++)

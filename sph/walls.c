@@ -50,15 +50,27 @@ static void extend(const struct sph *s, double *end, const double *other)
         }
 }
 
+/* Whether a polyline goes straight on at b, so that how a straight wall is cut changes nothing. */
+static bool goes_on(const double *a, const double *b, const double *c)
+{
+    const double d[2] = {b[0] - a[0], b[1] - a[1]}, e[2] = {c[0] - b[0], c[1] - b[1]};
+    const double turn = d[0] * e[1] - d[1] * e[0], along = d[0] * e[0] + d[1] * e[1];
+    return along > 0.0 && fabs(turn) < 1e-9 * along;
+}
+
 static void add_polyline(struct sph *s, struct walls *w, const struct param_points *p, bool closed,
                          bool no_slip, int body, const double *u)
 {
     const int n = closed ? p->n : p->n - 1;
+    double a[2], b[2];
     for (int k = 0; k < n; k++) {
-        double a[2], b[2];
-        memcpy(a, p->x[k], sizeof a);
-        memcpy(b, p->x[(k + 1) % p->n], sizeof b);
-        if (!closed && k == 0)
+        const double *from = p->x[k], *to = p->x[(k + 1) % p->n], *next = p->x[(k + 2) % p->n];
+        if (k == 0 || !goes_on(p->x[k - 1], from, to))
+            memcpy(a, from, sizeof a);
+        memcpy(b, to, sizeof b);
+        if (k < n - 1 && goes_on(from, to, next))
+            continue;
+        if (!closed && a[0] == p->x[0][0] && a[1] == p->x[0][1])
             extend(s, a, p->x[1]);
         if (!closed && k == n - 1)
             extend(s, b, p->x[n - 1]);
