@@ -60,22 +60,29 @@ void sph_watch_create(struct sph *s)
     w->reference = v.speed;
     w->rest = v.pressure / (s->c0 * s->c0);
     w->budget_closed = is_closed(s->run, &s->prm);
-    snprintf(w->remedy[0], sizeof w->remedy[0],
+    snprintf(w->remedy[REMEDY_C0], sizeof w->remedy[REMEDY_C0],
              "sph.c0 = %.4g m/s is too low for this flow: raise it to ten times the largest speed",
              s->c0);
-    snprintf(w->remedy[1], sizeof w->remedy[1],
+    snprintf(w->remedy[REMEDY_DX], sizeof w->remedy[REMEDY_DX],
              "refine sph.dx = %.4g m, lower sph.cfl = %.3g, or raise sph.c0 = %.4g m/s", s->dx,
              s->prm.cfl, s->c0);
+    snprintf(w->remedy[REMEDY_WALLS], sizeof w->remedy[REMEDY_WALLS],
+             "particles pass the walls and are put back: refine sph.dx = %.4g m, or try another "
+             "sph.walls",
+             s->dx);
+    snprintf(w->remedy[REMEDY_SCHEME], sizeof w->remedy[REMEDY_SCHEME],
+             "this scheme damps too little: take a Riemann scheme, or refine sph.dx = %.4g m",
+             s->dx);
     w->of[SPH_WATCH_MACH] = (struct watch){.key = "mach",
                                            .what = "largest |u| over the speed of sound",
-                                           .likely = w->remedy[0],
+                                           .likely = w->remedy[REMEDY_C0],
                                            .warn = 0.3,
                                            .stop = 1.0};
     w->of[SPH_WATCH_ENERGY] =
         (struct watch){.key = "energy_gain",
                        .what = "energy that the flow gained from nowhere in 100 steps, over its "
                                "kinetic energy and 5 % of that of the reference speed",
-                       .likely = w->remedy[1],
+                       .likely = w->remedy[REMEDY_DX],
                        .warn = moves(&s->run->scene) ? 0.03 : 0.01,
                        .stop = 0.1};
     w->of[SPH_WATCH_PAIRED] = (struct watch){.key = "paired",
@@ -87,7 +94,7 @@ void sph_watch_create(struct sph *s)
     w->of[SPH_WATCH_PUT_BACK] =
         (struct watch){.key = "put_back",
                        .what = "share of particles put back from behind walls in 100 steps",
-                       .likely = "the walls do not hold: refine sph.dx, or try another sph.walls",
+                       .likely = w->remedy[REMEDY_WALLS],
                        .warn = 0.5,
                        .stop = 5.0};
 }
@@ -260,6 +267,17 @@ void sph_watch_removed(struct sph *s, int i)
     s->watch.removed += isfinite(e) ? e : 0.0;
 }
 
+/* What is measured beside the gain tells where it comes from. */
+static const char *energy_remedy(const struct sph *s)
+{
+    const struct sph_watch *w = &s->watch;
+    if (w->of[SPH_WATCH_PUT_BACK].now > 0.01)
+        return w->remedy[REMEDY_WALLS];
+    if (w->of[SPH_WATCH_MACH].now > 0.3)
+        return w->remedy[REMEDY_C0];
+    return w->remedy[s->prm.scheme <= SCHEME_RIEMANN ? REMEDY_DX : REMEDY_SCHEME];
+}
+
 static void judge_energy(struct sph *s, double t, const double *sums, struct diagnosis *d)
 {
     struct sph_watch *w = &s->watch;
@@ -273,6 +291,7 @@ static void judge_energy(struct sph *s, double t, const double *sums, struct dia
     w->walls[step / SPH_WATCH_EVERY % HISTORY] = fabs(sums[WALL_WORK]);
     for (int k = 0; k < HISTORY; k++)
         scale += 5.0 * w->walls[k];
+    w->of[SPH_WATCH_ENERGY].likely = energy_remedy(s);
     watch_judge(w->of + SPH_WATCH_ENERGY, scale > 0.0 ? gain / scale : 0.0, t, step, d);
 }
 
@@ -286,13 +305,13 @@ static void judge_sample(struct sph *s, double t, struct diagnosis *d)
     sums[SPH_WATCH_SUMS] = s->p.n;
     MPI_Allreduce(MPI_IN_PLACE, sums, SPH_WATCH_SUMS + 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     const double all = fmax(sums[SPH_WATCH_SUMS], 1.0);
-    if (w->budget_closed)
-        judge_energy(s, t, sums, d);
     if (s->walls) {
         double *before = w->put_back + sample % HISTORY;
         watch_judge(w->of + SPH_WATCH_PUT_BACK, (sums[PUT_BACK] - *before) / all, t, step, d);
         *before = sums[PUT_BACK];
     }
+    if (w->budget_closed)
+        judge_energy(s, t, sums, d);
     if (step % SPH_WATCH_PAIRS == 0)
         watch_judge(w->of + SPH_WATCH_PAIRED, sums[PAIRED] / all, t, step, d);
 }
@@ -305,6 +324,8 @@ void sph_watch_judge(struct sph *s, struct diagnosis *d)
     if (w->due && !d->bad)
         judge_sample(s, t, d);
     w->due = false;
+    if (d->bad)
+        sph_fault_place(s, d);
     if (d->bad && s->run->summary)
         sph_watch_summarise(s);
 }
