@@ -11,6 +11,7 @@
 struct sph;
 struct h5;
 struct run;
+struct scene;
 
 enum sph_watch_remedy { REMEDY_C0, REMEDY_DX, REMEDY_WALLS, REMEDY_SCHEME };
 enum sph_watch_kind { SPH_WATCH_MACH, SPH_WATCH_ENERGY, SPH_WATCH_PAIRED, SPH_WATCH_PUT_BACK };
@@ -41,6 +42,8 @@ void sph_watch_create(struct sph *s);
 void sph_watch_free(struct sph *s);
 /* At the start of a step: whether it takes a sample. */
 void sph_watch_begin(struct sph *s);
+/* wall_work.c: whether walls or bodies of the scene move. */
+bool sph_watch_moves(const struct scene *c);
 /* Around the walls' part of the rates. */
 void sph_watch_before_walls(struct sph *s);
 void sph_watch_after_walls(struct sph *s);
