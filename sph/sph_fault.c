@@ -215,6 +215,13 @@ static void describe_cause(const struct sph *s, const struct culprit *c, const s
                  s->dx, s->prm.cfl);
 }
 
+void sph_fault_place(struct sph *s, struct diagnosis *d)
+{
+    const struct culprit c = find_worst(s);
+    const struct place p = survey(s, &c);
+    describe_where(s, &c, &p, d);
+}
+
 void sph_fault_diagnose(struct sph *s, struct diagnosis *d)
 {
     const struct culprit c = find_worst(s);

@@ -33,24 +33,11 @@ enum { ENERGY, KINETIC, POWER, WALL_WORK, REMOVED, PUT_BACK, PAIRED };
 
 static const double near_pair = 0.1; /* dx: closer than that two particles are one */
 
-static bool moves(const struct scene *c)
-{
-    bool any = false;
-    for (int k = 0; k < c->nbodies; k++) {
-        const struct scene_body *b = c->bodies + k;
-        any = any || b->velocity[0] != 0.0 || b->velocity[1] != 0.0 || b->spin != 0.0 || *b->motion;
-    }
-    for (int k = 0; k < c->nwalls; k++)
-        for (int a = 0; a < 3; a++)
-            any = any || c->walls[k].velocity[a] != 0.0;
-    return any;
-}
-
 /* Whether all work that is done on the flow can be told. */
 static bool is_closed(const struct run *r, const struct sph_params *prm)
 {
     return !r->coupled && prm->outer == OUTER_NONE &&
-           (!moves(&r->scene) || prm->walls == WALLS_NFM);
+           (!sph_watch_moves(&r->scene) || prm->walls == WALLS_NFM);
 }
 
 void sph_watch_create(struct sph *s)
@@ -60,23 +47,30 @@ void sph_watch_create(struct sph *s)
     w->reference = v.speed;
     w->rest = v.pressure / (s->c0 * s->c0);
     w->budget_closed = is_closed(s->run, &s->prm);
-    snprintf(w->remedy[0], sizeof w->remedy[0],
+    snprintf(w->remedy[REMEDY_C0], sizeof w->remedy[REMEDY_C0],
              "sph.c0 = %.4g m/s is too low for this flow: raise it to ten times the largest speed",
              s->c0);
-    snprintf(w->remedy[1], sizeof w->remedy[1],
+    snprintf(w->remedy[REMEDY_DX], sizeof w->remedy[REMEDY_DX],
              "refine sph.dx = %.4g m, lower sph.cfl = %.3g, or raise sph.c0 = %.4g m/s", s->dx,
              s->prm.cfl, s->c0);
+    snprintf(w->remedy[REMEDY_WALLS], sizeof w->remedy[REMEDY_WALLS],
+             "particles pass the walls and are put back: refine sph.dx = %.4g m, or try another "
+             "sph.walls",
+             s->dx);
+    snprintf(w->remedy[REMEDY_SCHEME], sizeof w->remedy[REMEDY_SCHEME],
+             "this scheme damps too little: take a Riemann scheme, or refine sph.dx = %.4g m",
+             s->dx);
     w->of[SPH_WATCH_MACH] = (struct watch){.key = "mach",
                                            .what = "largest |u| over the speed of sound",
-                                           .likely = w->remedy[0],
+                                           .likely = w->remedy[REMEDY_C0],
                                            .warn = 0.3,
                                            .stop = 1.0};
     w->of[SPH_WATCH_ENERGY] =
         (struct watch){.key = "energy_gain",
                        .what = "energy that the flow gained from nowhere in 100 steps, over its "
                                "kinetic energy and 5 % of that of the reference speed",
-                       .likely = w->remedy[1],
-                       .warn = moves(&s->run->scene) ? 0.03 : 0.01,
+                       .likely = w->remedy[REMEDY_DX],
+                       .warn = sph_watch_moves(&s->run->scene) ? 0.03 : 0.01,
                        .stop = 0.1};
     w->of[SPH_WATCH_PAIRED] = (struct watch){.key = "paired",
                                              .what = "share of particles within 0.1 dx of another",
@@ -87,7 +81,7 @@ void sph_watch_create(struct sph *s)
     w->of[SPH_WATCH_PUT_BACK] =
         (struct watch){.key = "put_back",
                        .what = "share of particles put back from behind walls in 100 steps",
-                       .likely = "the walls do not hold: refine sph.dx, or try another sph.walls",
+                       .likely = w->remedy[REMEDY_WALLS],
                        .warn = 0.5,
                        .stop = 5.0};
 }
@@ -98,81 +92,6 @@ void sph_watch_begin(struct sph *s)
 {
     struct sph_watch *w = &s->watch;
     w->due = s->run->step % SPH_WATCH_EVERY == 0;
-}
-
-void sph_watch_before_walls(struct sph *s)
-{
-    struct sph_watch *w = &s->watch;
-    w->wall_power = 0.0;
-    if (!w->budget_closed || !s->walls || !moves(&s->run->scene))
-        return;
-    mem_free(w->rate);
-    w->rate = NEW(double, (size_t)s->p.n * s->dim);
-    for (int i = 0; i < s->p.n; i++)
-        memcpy(w->rate + (size_t)i * s->dim, s->p.rate + (size_t)i * s->p.nstate + s->dim,
-               (size_t)s->dim * sizeof(double));
-}
-
-/* Smallest box around body k. */
-static void box_of(const struct walls *w, const struct body *b, double lo[2], double hi[2])
-{
-    lo[0] = lo[1] = INFINITY;
-    hi[0] = hi[1] = -INFINITY;
-    for (int k = b->first; k < b->first + b->n; k++)
-        for (int a = 0; a < 2; a++) {
-            lo[a] = fmin(lo[a], w->segments[k].a[a]);
-            hi[a] = fmax(hi[a], w->segments[k].a[a]);
-        }
-}
-
-/* Whether a wall without body that moves along itself is within R of x. */
-static bool slides(const struct sph *s, const struct segment *g, const double *x)
-{
-    const double d[2] = {x[0] - g->a[0], x[1] - g->a[1]};
-    const double along = d[0] * g->t[0] + d[1] * g->t[1];
-    return g->body < 0 && (g->u[0] != 0.0 || g->u[1] != 0.0) && along > 0.0 && along < g->length &&
-           fabs(d[0] * g->n[0] + d[1] * g->n[1]) < s->R;
-}
-
-/* What walls in motion do to a particle at x with the force f: a body's as if x were on it, which
- * for normal forces is the same. */
-static double power_at(const struct sph *s, double (*boxes)[2][2], const double *x, const double *f)
-{
-    const struct walls *w = s->walls;
-    for (int k = 0; k < w->nbodies; k++) {
-        const struct body *b = w->bodies + k;
-        const struct body_motion *m = &b->now;
-        const double d[2] = {x[0] - b->is->centre[0] - m->x[0], x[1] - b->is->centre[1] - m->x[1]};
-        bool near = true;
-        for (int a = 0; a < 2; a++)
-            near = near && x[a] > boxes[k][0][a] - s->R && x[a] < boxes[k][1][a] + s->R;
-        if (near)
-            return f[0] * (m->u[0] - m->spin * d[1]) + f[1] * (m->u[1] + m->spin * d[0]);
-    }
-    for (int k = 0; k < w->nsegments; k++)
-        if (slides(s, w->segments + k, x))
-            return f[0] * w->segments[k].u[0] + f[1] * w->segments[k].u[1];
-    return 0.0;
-}
-
-/* Walls with momentum to give are of 2 dimensions. */
-void sph_watch_after_walls(struct sph *s)
-{
-    struct sph_watch *w = &s->watch;
-    double boxes[BODIES_MAX][2][2];
-    if (!w->rate)
-        return;
-    for (int k = 0; k < s->walls->nbodies; k++)
-        box_of(s->walls, s->walls->bodies + k, boxes[k][0], boxes[k][1]);
-    for (int i = 0; i < s->p.n; i++) {
-        const double *y = s->p.y + (size_t)i * s->p.nstate;
-        const double *rate = s->p.rate + (size_t)i * s->p.nstate + 2;
-        const double f[2] = {rate[0] - w->rate[2 * i], rate[1] - w->rate[2 * i + 1]};
-        if (f[0] != 0.0 || f[1] != 0.0)
-            w->wall_power += power_at(s, boxes, y, f);
-    }
-    mem_free(w->rate);
-    w->rate = NULL;
 }
 
 /* Elastic energy per mass: integral of p/rho^2 from rho0, with r = rho/rho0. */
@@ -260,6 +179,17 @@ void sph_watch_removed(struct sph *s, int i)
     s->watch.removed += isfinite(e) ? e : 0.0;
 }
 
+/* What is measured beside the gain tells where it comes from. */
+static const char *energy_remedy(const struct sph *s)
+{
+    const struct sph_watch *w = &s->watch;
+    if (w->of[SPH_WATCH_PUT_BACK].now > 0.01)
+        return w->remedy[REMEDY_WALLS];
+    if (w->of[SPH_WATCH_MACH].now > 0.3)
+        return w->remedy[REMEDY_C0];
+    return w->remedy[s->prm.scheme <= SCHEME_RIEMANN ? REMEDY_DX : REMEDY_SCHEME];
+}
+
 static void judge_energy(struct sph *s, double t, const double *sums, struct diagnosis *d)
 {
     struct sph_watch *w = &s->watch;
@@ -273,6 +203,7 @@ static void judge_energy(struct sph *s, double t, const double *sums, struct dia
     w->walls[step / SPH_WATCH_EVERY % HISTORY] = fabs(sums[WALL_WORK]);
     for (int k = 0; k < HISTORY; k++)
         scale += 5.0 * w->walls[k];
+    w->of[SPH_WATCH_ENERGY].likely = energy_remedy(s);
     watch_judge(w->of + SPH_WATCH_ENERGY, scale > 0.0 ? gain / scale : 0.0, t, step, d);
 }
 
@@ -286,13 +217,13 @@ static void judge_sample(struct sph *s, double t, struct diagnosis *d)
     sums[SPH_WATCH_SUMS] = s->p.n;
     MPI_Allreduce(MPI_IN_PLACE, sums, SPH_WATCH_SUMS + 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     const double all = fmax(sums[SPH_WATCH_SUMS], 1.0);
-    if (w->budget_closed)
-        judge_energy(s, t, sums, d);
     if (s->walls) {
         double *before = w->put_back + sample % HISTORY;
         watch_judge(w->of + SPH_WATCH_PUT_BACK, (sums[PUT_BACK] - *before) / all, t, step, d);
         *before = sums[PUT_BACK];
     }
+    if (w->budget_closed)
+        judge_energy(s, t, sums, d);
     if (step % SPH_WATCH_PAIRS == 0)
         watch_judge(w->of + SPH_WATCH_PAIRED, sums[PAIRED] / all, t, step, d);
 }
@@ -305,6 +236,8 @@ void sph_watch_judge(struct sph *s, struct diagnosis *d)
     if (w->due && !d->bad)
         judge_sample(s, t, d);
     w->due = false;
+    if (d->bad)
+        sph_fault_place(s, d);
     if (d->bad && s->run->summary)
         sph_watch_summarise(s);
 }

@@ -11,17 +11,19 @@
 struct sph;
 struct h5;
 struct run;
+struct scene;
 
+enum sph_watch_remedy { REMEDY_C0, REMEDY_DX, REMEDY_WALLS, REMEDY_SCHEME };
 enum sph_watch_kind { SPH_WATCH_MACH, SPH_WATCH_ENERGY, SPH_WATCH_PAIRED, SPH_WATCH_PUT_BACK };
 /* Energies are taken every SPH_WATCH_EVERY steps, distances every SPH_WATCH_PAIRS. */
 enum { SPH_WATCHES = 4, SPH_WATCH_EVERY = 10, SPH_WATCH_PAIRS = 50, SPH_WATCH_SUMS = 7 };
 
 struct sph_watch {
     struct watch of[SPH_WATCHES];
-    char remedy[2][160];
-    bool budget_closed; /* all work done on the flow is known, so that its energy is judged */
-    double reference;   /* m/s: largest speed that the scene lets expect */
-    double rest;        /* static pressure over rho0 c0^2: compression at rest */
+    char remedy[4][160]; /* by enum sph_watch_remedy */
+    bool budget_closed;  /* all work done on the flow is known, so that its energy is judged */
+    double reference;    /* m/s: largest speed that the scene lets expect */
+    double rest;         /* static pressure over rho0 c0^2: compression at rest */
     struct watch_budget budget;
     double work;           /* J: done on the flow from outside since the start, all ranks */
     double power, power_t; /* W, s: at the last sample */
@@ -40,6 +42,8 @@ void sph_watch_create(struct sph *s);
 void sph_watch_free(struct sph *s);
 /* At the start of a step: whether it takes a sample. */
 void sph_watch_begin(struct sph *s);
+/* wall_work.c: whether walls or bodies of the scene move. */
+bool sph_watch_moves(const struct scene *c);
 /* Around the walls' part of the rates. */
 void sph_watch_before_walls(struct sph *s);
 void sph_watch_after_walls(struct sph *s);
@@ -66,5 +70,7 @@ double sph_fault_density_limit(const struct sph *s); /* |rho/rho0 - 1| */
 /* Names the worst particle of all ranks by its place, and the cause by what is measured there; the
  * same on any number of ranks. y0 must be the state before the step. Collective. */
 void sph_fault_diagnose(struct sph *s, struct diagnosis *d);
+/* The place alone, of the particle that is nearest to its limits. Collective. */
+void sph_fault_place(struct sph *s, struct diagnosis *d);
 
 #endif
