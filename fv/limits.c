@@ -263,7 +263,7 @@ void limits_explain(const struct fv_params *p, enum limit by, double before, dou
         snprintf(text, size,
                  "the flow grew within the step, from %.2g to %.2g cells (sum over the axes): %s",
                  before, after,
-                 surface ? "an impact finer than the cells; more cells, or fv.cfl below 0.6"
+                 surface ? "an impact, or water thinner than the cells: more cells"
                          : "what drives it begins suddenly, or it is finer than the cells; "
                            "fv.cfl below 0.6 tells which");
     else
