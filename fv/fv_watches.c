@@ -1,5 +1,5 @@
-/* fv_watches.c - the sums behind the watches on the uniform grid. SPDX-License-Identifier:
- * BSD-3-Clause */
+/* fv_watches.c - the sums behind the watches on the uniform grid.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "watches.h"
 
 #include <math.h>

@@ -146,14 +146,7 @@ double limits_follow(double *reference, double most)
 
 /* --- the step --- */
 
-static double least_size(const struct block *b, int a)
-{
-    double h = b->h[a];
-    for (int j = 0; a == 1 && b->rows && j < b->n[1]; j++)
-        h = fmin(h, b->rows->h[j]);
-    return h;
-}
-
+/* Rows of unequal height grow downwards: b->h is the least one, the lowest row the largest. */
 static double largest_size(const struct block *b, int a)
 {
     return a == 1 && b->rows ? (b->rows->edge[1] - b->rows->edge[0]) : b->h[a];
@@ -228,7 +221,7 @@ struct step_limit limits_of(const struct fv *s)
     const double cfl = s->prm.cfl;
     double h[3] = {1.0, 1.0, 1.0}, Re = 0.0;
     for (int a = 0; a < s->b.dim; a++) {
-        h[a] = least_size(&s->b, a);
+        h[a] = s->b.h[a];
         Re = fmax(Re, fv_speed(s, a) * largest_size(&s->b, a) / fmax(s->nu, 1e-300));
     }
     const struct scene *scene = &s->run->scene;
@@ -270,7 +263,7 @@ void limits_explain(const struct fv_params *p, enum limit by, double before, dou
         snprintf(text, size,
                  "the flow grew within the step, from %.2g to %.2g cells (sum over the axes): %s",
                  before, after,
-                 surface ? "an impact finer than the cells; more cells, or fv.cfl below 0.6"
+                 surface ? "an impact, or water thinner than the cells: more cells"
                          : "what drives it begins suddenly, or it is finer than the cells; "
                            "fv.cfl below 0.6 tells which");
     else

@@ -16,11 +16,16 @@ static bool has_sides(const struct mesh *m)
     return false;
 }
 
-/* Where blocks overlap some of the flow counts twice, and interpolation does work: no budget. */
+/* Where blocks overlap a strip of the flow counts twice, and interpolation does work: ten times the
+ * levels. */
 struct watches *mesh_watches_create(struct mesh_flow *s)
 {
     struct watches *w = watches_create(s->run, &s->prm, !has_sides(s->m), false);
-    w->has_energy = !s->m->has_fringe;
+    w->has_energy = true;
+    if (s->m->has_fringe) {
+        w->energy.warn *= 10.0;
+        w->energy.stop *= 10.0;
+    }
     w->has_growth = true;
     w->energy_every = 20; /* faces are mapped anew */
     return w;
