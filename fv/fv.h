@@ -75,6 +75,7 @@ struct fv {
     double partner[2][3]; /* m: box that a partner counts as its own; lo >= hi: none */
     double u_limit;       /* m/s: beyond it the run has blown up */
     double umax[3];       /* m/s: largest |u_a| */
+    double fastest;       /* m/s: of them in the rows of the series */
     double max_cfl;
     int64_t iterations; /* of the pressure solver */
     int64_t viscous_iterations;
@@ -153,8 +154,8 @@ void measure(struct fv *s);
 /* fv_io.c, fv_errors.c */
 /* Errors of velocity, pressure, vorticity into the summary. */
 void fv_summarise_norms(const struct run *r, const struct norm n[3]);
-/* sqrt(e2/r2); NAN where there is nothing to be relative to. */
-double fv_relative(const struct norm *n);
+/* Error relative to the exact field, to U where that vanishes, as a channel from rest at t = 0. */
+double fv_relative(const struct norm *n, double U);
 /* |curl u|^2 of a cell in local row j, 1/s^2. */
 double fv_curl_squared(const struct fv *s, int64_t c, int j);
 void fv_vorticity(const struct fv *s,

@@ -123,7 +123,8 @@ int mesh_columns(const struct run *r, const char **columns)
     int n = 0;
     for (int k = 0; k < 3; k++)
         columns[n++] = names[k];
-    columns[n++] = "error velocity l2 [-]";
+    if (fv_measures_errors(r))
+        columns[n++] = "error velocity l2 [-]";
     for (int a = 0; a < r->scene.domain.dim; a++)
         columns[n++] = forces[a];
     columns[n++] = "moment z [Nm]";
@@ -156,11 +157,13 @@ void mesh_row_values(void *state, double *values)
     energies(s, sum);
     values[n++] = scene->fluid.rho * sum[0];
     values[n++] = s->umax;
+    s->fastest = fmax(s->fastest, s->umax);
     values[n++] = largest_divergence(s);
-    struct norm norms[NORMS];
-    if (s->has_exact)
+    if (s->has_exact) {
+        struct norm norms[NORMS];
         errors(s, norms);
-    values[n++] = s->has_exact ? fv_relative(norms) : NAN;
+        values[n++] = fv_relative(norms, scene->initial.U);
+    }
     whole_force(s, of, force);
     for (int a = 0; a < s->m->dim; a++)
         values[n++] = force[a];
@@ -274,6 +277,8 @@ void mesh_finish(void *state)
     if (s->prm.extrema[0] != 0.0)
         mesh_summarise_extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);
+    if (r->scene.initial.U > 0.0)
+        summary_real(r->summary, "max_speed_over_U", s->fastest / r->scene.initial.U);
     const double steps = r->step > 0 ? (double)r->step : 1.0, cells = (double)s->m->computed;
     summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);
     summary_real(r->summary, "us_per_cell_step_outside_hypre",

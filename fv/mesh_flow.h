@@ -36,7 +36,8 @@ struct mesh_flow {
     struct mesh_pressure *pressure;
     struct overset *search;
     double dt, dt_old, u_limit, umax, rate, max_cfl;
-    double defect; /* largest |net flux that the overlap makes| over U L^(dim-1) */
+    double fastest; /* m/s: umax in the rows of the series */
+    double defect;  /* largest |net flux that the overlap makes| over U L^(dim-1) */
     double defect_now;
     int64_t iterations, viscous_iterations, retries;
     bool failed; /* the pressure solver */

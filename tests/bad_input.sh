@@ -131,7 +131,6 @@ for sound in basin block tank; do # or the faults below could come from somethin
 done
 with basin 's/nu = 0.01/nu = 0.01; central = 1.0/' 'case.cfg:3: fluid.central: is not used' fv
 with basin 's/^fv:/initial: { amplitude = 0.1; };\n&/' 'initial.amplitude: is not used' fv
-with basin 's/^fv:/initial: { U = 2.0; };\n&/' 'initial.U: is not used' fv
 with basin 's/^fv:/initial: { L = 2.0; };\n&/' 'initial.L: is not used' fv
 with basin 's/^fv:/initial: { velocity = (1, 0); };\n&/' 'initial.velocity: is not used' fv
 with basin 's/^fv:/initial: { level = 2.0; };\n&/' 'initial.level: is not used' fv
