@@ -49,6 +49,7 @@ struct fv {
     struct exact exact;
     double nu;
     double t;
+    double fastest; /* m/s: largest |u_a| in the rows of the series */
     bool has_exact;
     double *u[3];     /* m/s: cell averages, with ghosts */
     double *p;        /* m^2/s^2: p/rho, of the last step's end (rk3: at t - dt/6) */
@@ -75,7 +76,6 @@ struct fv {
     double partner[2][3]; /* m: box that a partner counts as its own; lo >= hi: none */
     double u_limit;       /* m/s: beyond it the run has blown up */
     double umax[3];       /* m/s: largest |u_a| */
-    double fastest;       /* m/s: of them in the rows of the series */
     double max_cfl;
     int64_t iterations; /* of the pressure solver */
     int64_t viscous_iterations;
@@ -154,8 +154,10 @@ void measure(struct fv *s);
 /* fv_io.c, fv_errors.c */
 /* Errors of velocity, pressure, vorticity into the summary. */
 void fv_summarise_norms(const struct run *r, const struct norm n[3]);
-/* Error relative to the exact field, to U where that vanishes, as a channel from rest at t = 0. */
-double fv_relative(const struct norm *n, double U);
+/* sqrt(e2/r2); NAN where there is nothing to be relative to. */
+double fv_relative(const struct norm *n);
+/* The same of velocity for series.csv, relative to initial.U where the solution is at rest. */
+double fv_velocity_error(const struct run *r, const struct norm *n);
 /* |curl u|^2 of a cell in local row j, 1/s^2. */
 double fv_curl_squared(const struct fv *s, int64_t c, int j);
 void fv_vorticity(const struct fv *s,

@@ -160,7 +160,7 @@ void fv_row(void *state, double *values)
     if (s->has_exact) {
         struct norm norms[NORMS];
         errors(s, norms);
-        values[n++] = fv_relative(norms, s->run->scene.initial.U);
+        values[n++] = fv_velocity_error(s->run, norms);
     }
     if (s->bc) {
         double force[3];
@@ -184,9 +184,12 @@ void fv_row(void *state, double *values)
 
 static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
 
-double fv_relative(const struct norm *n, double U)
+double fv_relative(const struct norm *n) { return n->r2 > 0.0 ? norm_relative_l2(n) : NAN; }
+
+double fv_velocity_error(const struct run *r, const struct norm *n)
 {
-    return n->r2 > 0.0 ? norm_relative_l2(n) : norm_rms(n) / U;
+    const double U = r->scene.initial.U;
+    return n->r2 > 0.0 || U <= 0.0 ? norm_relative_l2(n) : norm_rms(n) / U;
 }
 
 /* Relative to what does not vanish; else absent. */
@@ -194,15 +197,17 @@ void fv_summarise_norms(const struct run *r, const struct norm n[3])
 {
     const double U = r->scene.initial.U;
     if (n[0].r2 > 0.0)
-        summary_real(r->summary, "error.velocity_l2", norm_relative_l2(n));
+        summary_real(r->summary, "error.velocity_l2", fv_relative(n));
     if (n[1].r2 > 0.0)
         summary_real(r->summary, "error.pressure_l2",
                      norm_rms_mean_free(n + 1) / sqrt(n[1].r2 / n[1].vol));
     if (n[2].r2 > 0.0)
-        summary_real(r->summary, "error.vorticity_l2", norm_relative_l2(n + 2));
-    summary_real(r->summary, "error.velocity_linf", n[0].emax / U);
-    summary_real(r->summary, "error.pressure_rms",
-                 norm_rms_mean_free(n + 1) / (r->scene.fluid.rho * U * U));
+        summary_real(r->summary, "error.vorticity_l2", fv_relative(n + 2));
+    if (U > 0.0) {
+        summary_real(r->summary, "error.velocity_linf", n[0].emax / U);
+        summary_real(r->summary, "error.pressure_rms",
+                     norm_rms_mean_free(n + 1) / (r->scene.fluid.rho * U * U));
+    }
 }
 
 static void summarise_errors(const struct fv *s)
@@ -212,8 +217,9 @@ static void summarise_errors(const struct fv *s)
     struct norm n[NORMS];
     errors(s, n);
     fv_summarise_norms(r, n);
-    summary_real(r->summary, "error.pressure_offset",
-                 norm_mean(n + 1) / (r->scene.fluid.rho * U * U));
+    if (U > 0.0)
+        summary_real(r->summary, "error.pressure_offset",
+                     norm_mean(n + 1) / (r->scene.fluid.rho * U * U));
     for (int k = 0; r->coupled && k < NORMS; k++)
         norm_tell(r->summary, norm_names[k], n + k);
 }
@@ -240,6 +246,8 @@ void fv_finish(void *state)
     for (int k = 0; k < 6; k++)
         loop += timer_wall(&r->timers, parts[k]);
     summary_int(r->summary, "cells", llround(cells));
+    if (r->scene.initial.U > 0.0)
+        summary_real(r->summary, "max_speed_over_U", s->fastest / r->scene.initial.U);
     if (s->has_exact)
         summarise_errors(s);
     energies(s, sum);
@@ -251,8 +259,6 @@ void fv_finish(void *state)
     if (s->prm.extrema[0] != 0.0)
         fv_summarise_extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);
-    if (r->scene.initial.U > 0.0)
-        summary_real(r->summary, "max_speed_over_U", s->fastest / r->scene.initial.U);
     const double steps = r->step > 0 ? (double)r->step : 1.0;
     summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);
     summary_real(r->summary, "us_per_cell_step_outside_hypre",

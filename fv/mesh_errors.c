@@ -159,10 +159,10 @@ void mesh_row_values(void *state, double *values)
     values[n++] = s->umax;
     s->fastest = fmax(s->fastest, s->umax);
     values[n++] = largest_divergence(s);
+    struct norm norms[NORMS];
     if (s->has_exact) {
-        struct norm norms[NORMS];
         errors(s, norms);
-        values[n++] = fv_relative(norms, scene->initial.U);
+        values[n++] = fv_velocity_error(s->run, norms);
     }
     whole_force(s, of, force);
     for (int a = 0; a < s->m->dim; a++)
@@ -260,6 +260,8 @@ void mesh_finish(void *state)
     for (int k = 0; k < 4; k++)
         loop += timer_wall(&r->timers, parts[k]);
     summary_int(r->summary, "cells", s->m->computed);
+    if (r->scene.initial.U > 0.0)
+        summary_real(r->summary, "max_speed_over_U", s->fastest / r->scene.initial.U);
     summary_int(r->summary, "fringe_cells", s->m->fringe_cells);
     summary_int(r->summary, "fringe_cells_linear", s->m->linear);
     if (s->has_exact)
@@ -277,8 +279,6 @@ void mesh_finish(void *state)
     if (s->prm.extrema[0] != 0.0)
         mesh_summarise_extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);
-    if (r->scene.initial.U > 0.0)
-        summary_real(r->summary, "max_speed_over_U", s->fastest / r->scene.initial.U);
     const double steps = r->step > 0 ? (double)r->step : 1.0, cells = (double)s->m->computed;
     summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);
     summary_real(r->summary, "us_per_cell_step_outside_hypre",
