@@ -161,7 +161,7 @@ with basin 's/nu = 0.01/& ; gravity = (1, 0)/; s/x_m\([a-z]*\)"; kind = "no_slip
 with block 's/nu = 0.01/& ; gravity = (1, 0)/; s/i_m\([a-z]*\) = "wall"/i_m\1 = "outflow"/g' 'two outflows at different heights' fv
 with block 's/min = (0, 0)/min = (0.1, 0)/' 'reaches out of the domain' fv
 with basin 's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/' 'outside the domain' fv
-with block 's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/' 'no block has computed cells' fv
+with block 's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/' 'no block has computed cells\|outside the domain' fv
 with basin 's/^fv:/initial: { field = "poiseuille"; };\n&/' 'a channel along x' fv
 with basin 's/^fv:/initial: { field = "patch"; };\n&/' 'is for sph' fv
 with basin 's/16);/16); extrema = (0.1, 0.0, 0.1);/' 'fv.extrema: .*none may be 0' fv
