@@ -61,6 +61,7 @@ struct fv {
     struct exact exact;
     double nu;
     double t;
+    double fastest; /* m/s: largest |u_a| in the rows of the series */
     bool has_exact;
     double *u[3];     /* m/s: cell averages, with ghosts */
     double *p;        /* m^2/s^2: p/rho, of the last step's end (rk3: at t - dt/6) */

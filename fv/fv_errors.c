@@ -155,6 +155,7 @@ void fv_row(void *state, double *values)
     energies(s, sum);
     values[0] = s->run->scene.fluid.rho * sum[0];
     values[1] = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
+    s->fastest = fmax(s->fastest, values[1]);
     values[2] = largest_divergence(s);
     int n = 3;
     if (s->has_exact) {
@@ -247,6 +248,8 @@ void fv_finish(void *state)
     for (int k = 0; k < 6; k++)
         loop += timer_wall(&r->timers, parts[k]);
     summary_int(r->summary, "cells", llround(cells));
+    if (r->scene.initial.U > 0.0)
+        summary_real(r->summary, "max_speed_over_U", s->fastest / r->scene.initial.U);
     if (s->has_exact)
         summarise_errors(s);
     energies(s, sum);

@@ -112,7 +112,13 @@ static void check_extrema(const struct run *r, struct faults *f)
 void fv_params_check(const struct run *r, struct faults *f)
 {
     const bool exact = exact_at_all_times(&r->scene);
+    const int field = r->scene.initial.field;
     fv_unused_check(r, f);
+    if (r->scene.initial.U == 0.0 &&
+        (fv_measures_errors(r) || field == FIELD_TAYLOR_GREEN || field == FIELD_TWO_MODES ||
+         field == FIELD_BELTRAMI || field == FIELD_COUETTE))
+        params_fault(r->params, f, "initial.U",
+                     "0: the field would be none, and errors are relative to it");
     check_extrema(r, f);
     if (mesh_block_count() > 0) {
         mesh_check(r, f);

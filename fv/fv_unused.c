@@ -101,14 +101,6 @@ static bool surface_of_shapes(const struct run *r, int k)
 
 static bool no_wave(const struct run *r, int k) { return (void)k, !scene_has_wave(&r->scene); }
 
-static bool no_scale(const struct run *r, int k)
-{
-    const int f = r->scene.initial.field;
-    const bool scaled = f == FIELD_TAYLOR_GREEN || f == FIELD_TWO_MODES || f == FIELD_COUETTE ||
-                        f == FIELD_PATCH || f == FIELD_DROP || f == FIELD_BELTRAMI;
-    return (void)k, !scaled && !fv_measures_errors(r);
-}
-
 /* Of a channel it is the height: one that says so says what is. */
 static bool no_length(const struct run *r, int k)
 {
@@ -251,7 +243,6 @@ static const struct rule rules[] = {
     {"fluid.gravity",     gravity_unseen,    "no direction along it is periodic, and nothing shows the pressure: no wall, no probe, no snapshot of it", true},
     {"fluid.central",     always,            "the finite volumes know no central force", false},
     {"domain.periodic",   no_periodic_side,  "no side of the blocks is \"periodic\"", false},
-    {"initial.U",         no_scale,          "the field has no scale of velocity, and no error is measured by one", true},
     {"initial.L",         no_length,         "the field has no length", true},
     {"initial.velocity",  nothing_carried,   "the field is not carried along: initial.field = \"uniform\" for a uniform stream", true},
     {"initial.amplitude", no_wave,           "initial.field is no wave", false},

@@ -159,6 +159,7 @@ void mesh_row_values(void *state, double *values)
     energies(s, sum);
     values[n++] = scene->fluid.rho * sum[0];
     values[n++] = s->umax;
+    s->fastest = fmax(s->fastest, s->umax);
     values[n++] = largest_divergence(s);
     struct norm norms[NORMS];
     if (s->has_exact) {
@@ -262,6 +263,8 @@ void mesh_finish(void *state)
     for (int k = 0; k < 4; k++)
         loop += timer_wall(&r->timers, parts[k]);
     summary_int(r->summary, "cells", s->m->computed);
+    if (r->scene.initial.U > 0.0)
+        summary_real(r->summary, "max_speed_over_U", s->fastest / r->scene.initial.U);
     summary_int(r->summary, "fringe_cells", s->m->fringe_cells);
     summary_int(r->summary, "fringe_cells_linear", s->m->linear);
     if (s->has_exact)

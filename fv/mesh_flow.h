@@ -21,6 +21,7 @@ struct mesh_flow {
     int ring; /* block whose walls make Couette flow in a ring (initial.field = couette); -1: none
                */
     double nu, t;
+    double fastest;            /* m/s: umax in the rows of the series */
     bool uneven;               /* volumes differ: volume averages are not averages in index space */
     double *u[3];              /* m/s */
     double *p, *p_before;      /* m^2/s^2, as in struct fv */

@@ -134,7 +134,6 @@ for sound in basin block tank; do # or the faults below could come from somethin
 done
 with basin 's/nu = 0.01/nu = 0.01; central = 1.0/' 'case.cfg:3: fluid.central: is not used' fv
 with basin 's/^fv:/initial: { amplitude = 0.1; };\n&/' 'initial.amplitude: is not used' fv
-with basin 's/^fv:/initial: { U = 2.0; };\n&/' 'initial.U: is not used' fv
 with basin 's/^fv:/initial: { L = 2.0; };\n&/' 'initial.L: is not used' fv
 with basin 's/^fv:/initial: { velocity = (1, 0); };\n&/' 'initial.velocity: is not used' fv
 with basin 's/^fv:/initial: { level = 2.0; };\n&/' 'initial.level: is not used' fv
@@ -165,7 +164,7 @@ with basin 's/nu = 0.01/& ; gravity = (1, 0)/; s/x_m\([a-z]*\)"; kind = "no_slip
 with block 's/nu = 0.01/& ; gravity = (1, 0)/; s/i_m\([a-z]*\) = "wall"/i_m\1 = "outflow"/g' 'two outflows at different heights' fv
 with block 's/min = (0, 0)/min = (0.1, 0)/' 'reaches out of the domain' fv
 with basin 's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/' 'outside the domain' fv
-with block 's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/' 'no block has computed cells' fv
+with block 's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/' 'no block has computed cells\|outside the domain' fv
 with basin 's/^fv:/initial: { field = "poiseuille"; };\n&/' 'a channel along x' fv
 with basin 's/^fv:/initial: { field = "patch"; };\n&/' 'is for sph' fv
 with basin 's/16);/16); extrema = (0.1, 0.0, 0.1);/' 'fv.extrema: .*none may be 0' fv

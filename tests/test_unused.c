@@ -30,8 +30,9 @@ static const struct {
     const char *name, *text;
 } scenes[] = {
     {"periodic, rk3", HEAD ROUND MODES "fluid: { nu = 0.005; };\nfv: { cells = (12, 12); };\n"},
-    {"inviscid, bdf2",
-     HEAD ROUND MODES "fv: { cells = (12, 12); integrator = \"bdf2\"; cfl = 0.5; };\n"},
+    {"inviscid", HEAD ROUND MODES "fv: { cells = (12, 12); cfl = 0.6; };\n"},
+    {"bdf2", HEAD ROUND MODES
+     "fluid: { nu = 0.005; };\nfv: { cells = (12, 12); integrator = \"bdf2\"; cfl = 0.4; };\n"},
     {"hole", HEAD ROUND MODES
      "fluid: { nu = 0.005; };\nfv: { cells = (16, 16); hole = ((0.3, 0.3), (0.7, 0.7)); };\n"},
     {"exact sides", HEAD SQUARE MODES "fluid: { nu = 0.005; };\nfv: { cells = (12, 12); };\n"},
@@ -83,7 +84,7 @@ static const struct {
     {"beltrami",
      HEAD "domain: { dim = 3; min = (0, 0, 0); max = (1, 1, 1); periodic = (true, true, true); };\n"
           "initial: { field = \"beltrami\"; velocity = (0.5, 0.25, 0.125); };\n"
-          "fluid: { nu = 0.01; };\nfv: { cells = (8, 8, 8); };\n"},
+          "fluid: { nu = 0.1; };\nfv: { cells = (8, 8, 8); };\n"},
     {"ring",
      HEAD "domain: { dim = 2; min = (-1, -1); max = (1, 1); };\nfluid: { nu = 0.05; };\n"
           "initial: { field = \"couette\"; };\nblocks: ( { name = \"ring\"; mapping = \"annulus\"; "
