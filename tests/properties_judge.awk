@@ -120,7 +120,7 @@ function tolerance(t, name) {
     if (program["base"] == "sph") return 1e-5
     return name ~ /force|moment|\[Pa\]/ ? 0.05 : 0.02
 }
-function compare(t,    i, j, n, row, big, d, worst, what, name, last, s) {
+function compare(t,    i, j, from, n, row, big, d, worst, what, name, last, s) {
     n = rows["base"] < rows[t] ? rows["base"] : rows[t]
     if (t == "units" && rows["base"] != rows[t]) { bad(t, rows["base"] " steps become " rows[t]); return }
     if (t != "units" && n > 12) n = 12
@@ -132,7 +132,9 @@ function compare(t,    i, j, n, row, big, d, worst, what, name, last, s) {
         j = at[t, s]
         big = scale(name)
         worst = 0
-        for (row = 1; row <= n; row++) {
+        # a sudden start is an impulse, rho U L over the step, of which the tolerance of the pressure leaves noise for some steps
+        from = program["base"] == "fv" && t != "units" && t != "ranks" && name ~ /force|moment|\[Pa\]/ ? 8 : 1
+        for (row = from; row <= n; row++) {
             if (abs(value["base", row, 1] - value[t, row, 1] / factor("[s]", t)) > 1e-6 * value["base", row, 1]) {
                 if (t == "units") { bad(t, "step " row " ends at another time"); return }
                 break
