@@ -49,7 +49,7 @@ static const struct param wall_rows[] = {
     PARAM(P, points,   "m",   "()", -1e9, 1e9, "polyline with the fluid on its left (turned, and said, where it plainly is on the other side)"),
     PARAM(P, closed,   "-",   "false", 0, 0, "join the last point with the first"),
     CHOICE(P, kind, "slip|no_slip|inflow|outflow|absorbing", "slip", "what it does to the flow"),
-    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, or of the inflow"),
+    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, of the inflow, of the far flow that an absorbing side meets"),
     CHOICE(P, profile, "uniform|parabolic", "uniform", "of an inflow; parabolic: velocity is the largest one"),
     PARAM(P, pressure, "Pa",  "0.0", -1e12, 1e12, "at an outflow"),
     PARAM(P, carried,  "-",   "false", 0, 1, "at an outflow (fv): the flow leaves as it is carried, p is not given"),

@@ -10,10 +10,11 @@ static void conditions(const struct wave *w, double complex s, double complex a[
 {
     const double k = w->k, ch = cosh(k * w->H), sh = sinh(k * w->H);
     const double complex m = csqrt(k * k + s / w->nu), e = cexp(-m * w->H), n = m * m + k * k;
-    const double complex gs = w->g / s;
+    const double per_speed = sqrt(k / w->g); /* pivots are the same in all units */
+    const double complex gs = w->g / s * per_speed, drag = 2.0 * w->nu * per_speed;
     const double complex row[4][4] = {
         {2.0 * k * k / n, 0.0, 1.0, e},
-        {gs, s / k + 2.0 * w->nu * k, gs + 2.0 * w->nu * m, (gs - 2.0 * w->nu * m) * e},
+        {gs, s / k * per_speed + drag * k, gs + drag * m, (gs - drag * m) * e},
         {ch, -sh, e, 1.0},
         {-k * sh / m, k * ch / m, e, -1.0}};
     for (int i = 0; i < 4; i++)

