@@ -15,10 +15,13 @@
 
 struct link {
     struct cpl *c;
-    int grid, forced, velocity, pressure, imposed;
+    int grid, forced, velocity, pressure, imposed, seen;
     struct course *course;
     double *got; /* scratch */
+    double *p;   /* Pa: the partner's at the end of the window, where mask is 1 */
     unsigned char *mask;
+    double
+        datum; /* Pa: the partner's pressure over ours, its mean over the rim of the free cells */
 };
 
 static void check(const struct link *k, int code)
@@ -60,6 +63,7 @@ static void declare(struct fv *s, struct link *k)
     check(k, cpl_field(k->c, k->grid, "fv.pressure", "Pa", 1, CPL_PUT, 0, &k->pressure));
     check(k, cpl_points(k->c, "fv.forced", b->dim, support(b), &k->forced));
     check(k, cpl_field(k->c, k->forced, "sph.velocity", "m/s", b->dim, CPL_GET, how, &k->imposed));
+    check(k, cpl_field(k->c, k->forced, "sph.pressure", "Pa", 1, CPL_GET, how, &k->seen));
 }
 
 /* All that the partner takes must lie in even rows. */
@@ -89,11 +93,12 @@ void coupling_create(struct fv *s)
     check(k, cpl_find_zone(k->c, "sph.given", lo, hi));
     check(k, cpl_find_zone(k->c, "sph.free", s->partner[0], s->partner[1]));
     s->forcing = forcing_create(s, lo, hi, true);
-    if (!s->forcing)
-        log_warn("no cell lies wholly in the box that sph gives, (%g, %g) to (%g, %g) m: fv is not "
-                 "forced, the "
-                 "coupling goes one way; refine fv.cells or lower coupling.overlap",
-                 lo[0], lo[1], hi[0], hi[1]);
+    if (!s->forcing) {
+        signals_handled(); /* cpl_fail says it */
+        cpl_fail(k->c, RUN_INPUT,
+                 "no cell of fv lies wholly in the box that sph gives: refine fv.cells, enlarge "
+                 "sph.box or lower coupling.overlap");
+    }
     int first = 0; /* row */
     double memory[3];
     if (b->rows) {
@@ -106,6 +111,7 @@ void coupling_create(struct fv *s)
     k->course = course_create(s, first, (int)memory[0]);
     const int64_t most = s->forcing ? s->forcing->npartner + s->forcing->nrim : 0;
     k->got = NEW(double, most * b->dim);
+    k->p = NEW(double, most);
     k->mask = NEW(unsigned char, most);
 }
 
@@ -114,12 +120,32 @@ void coupling_free(struct fv *s)
     struct link *k = s->link;
     course_free(&k->course);
     mem_free(k->got);
+    mem_free(k->p);
     mem_free(k->mask);
     mem_free(k);
     s->link = NULL;
 }
 
-double coupling_level(const struct fv *s) { return s->link ? s->link->course->level : 0.0; }
+double coupling_datum(const struct fv *s) { return s->link ? s->link->datum : 0.0; }
+
+/* A flow of constant density knows its pressure up to a constant: the partner has it. */
+static void find_datum(struct fv *s)
+{
+    struct link *k = s->link;
+    const struct forcing *f = s->forcing;
+    double sum[2] = {0.0, 0.0}, x[3];
+    for (int64_t i = f->npartner; i < f->npartner + f->nrim; i++) {
+        int at[3];
+        if (!k->mask[i])
+            continue;
+        block_place(&s->b, f->partner[i], at);
+        block_centre(&s->b, at[0], at[1], at[2], x);
+        sum[0] += k->p[i] - fv_pressure(s, f->partner[i]) - fv_still_pressure(s, x);
+        sum[1] += 1.0;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    k->datum = sum[1] > 0.0 ? sum[0] / sum[1] : k->datum;
+}
 
 static void put(struct fv *s)
 {
@@ -200,6 +226,7 @@ void coupling_window_begin(void *state, double t0, double t1)
     course_try(s, k->course, t1);
     put(s);
     check(k, cpl_get(k->c, k->imposed, n, k->got, k->mask));
+    check(k, cpl_get(k->c, k->seen, n, k->p, NULL));
     for (int a = 0; f && a < dim; a++)
         for (int64_t i = 0; i < n; i++)
             f->v_next[a][i] = k->mask[i] ? k->got[dim * i + a] : f->v[a][i];
@@ -210,6 +237,8 @@ void coupling_window_end(void *state, double t1)
     (void)t1;
     struct fv *s = state;
     course_take(s, s->link->course);
+    if (s->forcing)
+        find_datum(s);
 }
 
 static const char *const forced_names[3][3] = {
@@ -224,6 +253,7 @@ void coupling_save(const struct fv *s, struct h5 *f)
 {
     const struct forcing *c = s->forcing;
     course_save(s->link->course, f);
+    h5_attribute_real(f, "datum", s->link->datum);
     if (!c)
         return;
     const double clock[4] = {c->t0, c->t1, c->t_old, c->levels};
@@ -238,7 +268,8 @@ bool coupling_load(struct fv *s, struct h5 *f)
 {
     struct forcing *c = s->forcing;
     double clock[4];
-    bool good = course_load(s->link->course, f);
+    bool good =
+        course_load(s->link->course, f) && h5_read_attribute_real(f, "datum", &s->link->datum);
     if (!c || !good)
         return good;
     good = h5_read_real(f, "forced_levels", 4, 1, clock);

@@ -75,7 +75,7 @@ static void check_openings(const struct run *r, struct faults *f)
                          w->side == SIDE_NONE ? "a polyline" : "\"absorbing\"");
     }
     for (int k = 0; k < s->nprobes; k++)
-        if (s->probes[k].kind == PROBE_LEVEL && !surface_wanted(r))
+        if (s->probes[k].kind == PROBE_LEVEL && !surface_wanted(r) && !r->coupled)
             params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
     for (int a = 0; a < s->domain.dim; a++)
         for (int k = 0; k < 2; k++)
