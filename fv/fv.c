@@ -11,7 +11,7 @@
 #include "mesh_flow.h"
 #include "rows.h"
 
-static const char *columns[12 + PROBES_MAX] = {"kinetic energy [J]", "largest velocity [m/s]",
+static const char *columns[13 + PROBES_MAX] = {"kinetic energy [J]", "largest velocity [m/s]",
                                                "divergence [m/s]"};
 static const char *const of_newton[] = {"residual [-]", "pseudo step [s]", "newton iterations [-]",
                                         "krylov vectors [-]"};
@@ -124,7 +124,10 @@ static void *create(struct run *r, struct h5 *f)
         for (int a = 0; a < r->scene.domain.dim; a++)
             columns[n++] = reaches[a];
     }
-    fv_program.ncolumns = n + fv_probe_columns(r, columns + n);
+    n += fv_probe_columns(r, columns + n);
+    if (r->coupled)
+        columns[n++] = "unmapped cells [-]";
+    fv_program.ncolumns = n;
     return fv_create(r, f);
 }
 
@@ -134,7 +137,28 @@ static void destroy(void *state)
     fv_free(&s);
 }
 
-static double step(void *s, double t_stop, struct diagnosis *d) { return integrate(s, t_stop, d); }
+static double step(void *state, double t_stop, struct diagnosis *d)
+{
+    struct fv *s = state;
+    if (s->link)
+        coupling_judge(s, d);
+    return d->bad ? 0.0 : integrate(s, t_stop, d);
+}
+
+static void row(void *state, double *values)
+{
+    fv_row(state, values);
+    if (((struct fv *)state)->link)
+        values[fv_program.ncolumns - 1] = coupling_unmapped(state);
+}
+
+static void finish(void *state)
+{
+    struct fv *s = state;
+    fv_finish(s);
+    if (s->link)
+        coupling_summary(s, s->run->summary);
+}
 
 static void progress(void *state, char *line, int size)
 {
@@ -162,10 +186,10 @@ static struct program fv_program = {.name = "fv",
                                     .window_end = coupling_window_end,
                                     .tell = fv_tell,
                                     .columns = columns,
-                                    .row = fv_row,
+                                    .row = row,
                                     .progress = progress,
                                     .snapshot = fv_snapshot,
                                     .checkpoint = fv_checkpoint,
-                                    .finish = fv_finish};
+                                    .finish = finish};
 
 int main(int argc, char **argv) { return run_main(argc, argv, &fv_program, &cpl_partner); }

@@ -9,6 +9,7 @@
 #include "../common/h5.h"
 #include "../common/log.h"
 #include "../common/mem.h"
+#include "../common/watch.h"
 #include "../coupler/cpl.h"
 #include "forcing.h"
 #include "fv_course.h"
@@ -20,8 +21,10 @@ struct link {
     double *got; /* scratch */
     double *p;   /* Pa: the partner's at the end of the window, where mask is 1 */
     unsigned char *mask;
-    double
-        datum; /* Pa: the partner's pressure over ours, its mean over the rim of the free cells */
+    double datum; /* Pa: the partner's pressure over ours, mean over the rim of the free cells */
+    struct watch unmapped; /* share of the cells that fluxes look at which the partner left out */
+    double missing;        /* now */
+    double where[3];       /* m: one of them */
 };
 
 static void check(const struct link *k, int code)
@@ -112,6 +115,14 @@ void coupling_create(struct fv *s)
     const int64_t most = s->forcing ? s->forcing->npartner + s->forcing->nrim : 0;
     k->got = NEW(double, most * b->dim);
     k->p = NEW(double, most);
+    k->unmapped = (struct watch){
+        .key = "unmapped_cells",
+        .what = "share of the cells at sph's edge that hold no particle of sph",
+        .likely = "its surface or a void has come to where fv looks: set the open sides of sph.box "
+                  "deeper into the water, or lower coupling.overlap; cells of fv finer than sph.dx "
+                  "want coarser fv.cells",
+        .warn = 0.01,
+        .stop = 0.1};
     k->mask = NEW(unsigned char, most);
 }
 
@@ -213,6 +224,54 @@ void coupling_first(void *state)
     }
 }
 
+/* Cells without a particle near them keep their values. Two layers of the hole and the rim make the
+ * fluxes of its outline: there it matters. */
+static void count_missing(struct fv *s)
+{
+    struct link *k = s->link;
+    const struct forcing *f = s->forcing;
+    struct {
+        double n;
+        int rank;
+    } most = {0.0, s->run->rank};
+    double sum[2] = {0.0, 0.0};
+    for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
+        const int64_t c = f->partner[i];
+        if (f->layer[c] > 2)
+            continue;
+        sum[1] += 1.0;
+        if (!k->mask[i]) {
+            int at[3];
+            block_place(&s->b, c, at);
+            block_centre(&s->b, at[0], at[1], at[2], k->where);
+            sum[0] += 1.0;
+        }
+    }
+    most.n = sum[0];
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    if (sum[0] > 0.0) {
+        MPI_Comm_rank(s->b.cart, &most.rank);
+        MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->b.cart);
+        MPI_Bcast(k->where, 3, MPI_DOUBLE, most.rank, s->b.cart);
+    }
+    k->missing = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
+}
+
+void coupling_judge(struct fv *s, struct diagnosis *d)
+{
+    struct link *k = s->link;
+    if (watch_judge(&k->unmapped, k->missing, s->t, s->run->step, d))
+        snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, t = %.4g s", k->where[0], k->where[1],
+                 k->where[2], s->t);
+}
+
+double coupling_unmapped(const struct fv *s) { return s->link->missing; }
+
+void coupling_summary(const struct fv *s, struct summary *to)
+{
+    watch_summary(&s->link->unmapped, to);
+}
+
 /* The partner's velocities at t1; cells that it does not reach keep theirs. */
 void coupling_window_begin(void *state, double t0, double t1)
 {
@@ -227,6 +286,8 @@ void coupling_window_begin(void *state, double t0, double t1)
     put(s);
     check(k, cpl_get(k->c, k->imposed, n, k->got, k->mask));
     check(k, cpl_get(k->c, k->seen, n, k->p, NULL));
+    if (f)
+        count_missing(s);
     for (int a = 0; f && a < dim; a++)
         for (int64_t i = 0; i < n; i++)
             f->v_next[a][i] = k->mask[i] ? k->got[dim * i + a] : f->v[a][i];
