@@ -6,6 +6,7 @@
 
 #include "../common/fit.h"
 #include "../common/h5.h"
+#include "../common/log.h"
 #include "../common/mem.h"
 
 struct course *course_create(const struct fv *s, int first, int memory)
@@ -170,6 +171,11 @@ void course_try(struct fv *s, struct course *c, double t1)
     c->t_tried = d.bad ? -INFINITY : t1;
     if (!d.bad)
         look(s, c, c->tried);
+    else if (!c->failed)
+        log_warn("t = %.4g s: fv cannot try the window to %.4g s (%s): sph gets what the windows "
+                 "before say; lower coupling.steps",
+                 c->t[0], t1, d.reason);
+    c->failed = c->failed || d.bad;
     s->predicts = false;
     kept_put_back(c->kept, s);
 }

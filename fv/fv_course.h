@@ -26,6 +26,7 @@ struct course {
     double *rate;               /* [n] Pa/s: trend of the smoothed pressure; NULL: not smoothed */
     double *scatter;            /* [n] Pa: about its trend; NULL: no surface, no impacts */
     double *term[COURSE_TERMS]; /* [n][dim] of velocity; after course_pressure of pressure */
+    bool failed;                /* a trial has */
     struct kept *kept;
 };
 

@@ -144,13 +144,21 @@ static void find_gain(const struct run *r, const struct sph_params *prm, struct 
 
 double windows_smoothed(int memory) { return (2.0 * memory - 1.0) / ((double)memory * memory); }
 
-/* Least memory m with G (2 m - 1)/m^2 below the limit. */
+/* Least memory m with G (2 m - 1)/m^2 below the limit; two windows smooth next to nothing. */
 static int memory_for(double gain)
 {
     if (gain <= gain_raw)
         return 1;
-    const double g = gain / gain_smoothed;
-    return (int)ceil(g + sqrt(g * g - g));
+    const double g = fmax(gain / gain_smoothed, 1.0);
+    return (int)fmax(ceil(g + sqrt(g * g - g)), 3.0);
+}
+
+/* Windows tile the time between outputs: they are shorter than what was asked for. */
+static double tiled(const struct scene *c, double T)
+{
+    const double every = c->output.every, end = c->time.end;
+    const double span = every > 0.0 && every < end ? every : end;
+    return span / ceil(span / T * (1.0 - 1e-9));
 }
 
 static void shorten(struct windows *w, double T, const char *limit)
@@ -178,7 +186,7 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
     w.steps = c->steps > 0 ? c->steps : (int)fmax(floor(w.T / dt * (1.0 + 1e-9)), 1.0);
     w.limit = c->steps > 0 ? "coupling.steps" : w.limit;
     w.T = w.steps * dt;
-    w.gain = w.mass / (prm->c0 * w.T);
+    w.gain = w.mass / (prm->c0 * tiled(&r->scene, w.T));
     w.memory = c->memory > 0 ? c->memory : memory_for(w.gain);
     return w;
 }
