@@ -67,12 +67,17 @@ static double depth_of(const struct scene *c, int a)
     return fmin(top, c->domain.max[a]) - floor;
 }
 
+static bool is_given(const struct run *r, const char *key)
+{
+    return r->params && params_given(r->params, key); /* a test has a scene without a case */
+}
+
 static void scales(const struct run *r, const struct sph_params *prm, struct windows *w)
 {
     const struct scene *c = &r->scene;
     const int field = c->initial.field, down = axis_of_gravity(c);
     const double carried = length_of(c->initial.velocity);
-    const bool own = field != FIELD_REST || params_given(r->params, "initial.U");
+    const bool own = field != FIELD_REST || is_given(r, "initial.U");
     const bool periodic_field = scene_has_wave(c) || field == FIELD_TAYLOR_GREEN ||
                                 field == FIELD_TWO_MODES || field == FIELD_BELTRAMI;
     w->U = own ? c->initial.U : 0.0;
@@ -82,7 +87,7 @@ static void scales(const struct run *r, const struct sph_params *prm, struct win
     w->L = INFINITY;
     for (int a = 0; a < c->domain.dim; a++)
         w->L = fmin(w->L, prm->box[1][a] - prm->box[0][a]);
-    if (periodic_field || params_given(r->params, "initial.L"))
+    if (periodic_field || is_given(r, "initial.L"))
         w->L = c->initial.L;
     if (down >= 0 && scene_has_surface(c)) {
         const double g = fabs(c->fluid.gravity[down]), H = depth_of(c, down);

@@ -41,6 +41,7 @@ done
 
 # scenes without a place for the coupling
 refuses "no cell of fv in what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p coupling.overlap=0.2
+refuses "cells wider than what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p 'fv.cells=(4,4)'
 refuses "sph everywhere" 'no side of it lies in fv' taylor_green -p 'sph.free=((0,0),(1,1))'
 refuses "a box that ends on a periodic side" 'ends on the periodic x side' taylor_green -p 'sph.free=((0,0.3),(0.6,0.7))'
 cat >basin.cfg <<'CASE'
