@@ -35,8 +35,8 @@ struct overlap *overlap_create(const struct sph *s)
         .key = "overlap_pressure",
         .what = "pressures of sph and fv where both are free, difference over the flow's scale",
         .likely = mend,
-        .warn = 0.2,
-        .stop = 0.5};
+        .warn = 0.25,
+        .stop = w.weight > 0.0 ? 0.5 : 1.0}; /* rho U^2 is little beside the noise of rho c0 u */
     o->dry = (struct watch){
         .key = "surface_in_zones",
         .what = "share of the open sides in front of which a free surface lies in the transition",

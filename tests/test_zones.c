@@ -291,7 +291,7 @@ static void the_overlap_is_watched(void **state)
     d = judge(s);
     assert_true(d.bad && strstr(d.reason, "velocities of sph and fv"));
     exact = exact_create(e);
-    exact.rho *= 5.0;
+    exact.rho *= 9.0;
     d = judge(s);
     assert_true(d.bad && strstr(d.reason, "pressures of sph and fv"));
     exact = exact_create(e);
