@@ -416,7 +416,7 @@ static void add_force(const struct fv *s, int k, double *force)
         side_centre(b, &d, m, out, x);
         force[d.a] += out * area *
                       ((25.0 * p[0] - 23.0 * p[1] + 13.0 * p[2] - 3.0 * p[3]) / 12.0 +
-                       fv_still_pressure(s, x));
+                       fv_still_pressure(s, x) + coupling_datum(s));
         for (int q = 0; q < b->dim; q++) {
             const double *u = s->u[q] + c;
             if (q != d.a)

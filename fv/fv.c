@@ -13,7 +13,7 @@
 #include "rows.h"
 #include "watches.h"
 
-static const char *columns[20 + 3 * MESH_BLOCKS_MAX + PROBES_MAX] = {
+static const char *columns[21 + 3 * MESH_BLOCKS_MAX + PROBES_MAX] = {
     "kinetic energy [J]", "largest velocity [m/s]", "divergence [m/s]"};
 static const char *const of_newton[] = {"residual [-]", "pseudo step [s]", "newton iterations [-]",
                                         "krylov vectors [-]"};
@@ -126,7 +126,10 @@ static void *create(struct run *r, struct h5 *f)
     }
     n += fv_probe_columns(r, columns + n);
     struct fv *s = fv_create(r, f);
-    fv_program.ncolumns = n + (s ? watches_columns(s->watches, columns + n) : 0);
+    n += s ? watches_columns(s->watches, columns + n) : 0;
+    if (r->coupled)
+        columns[n++] = "unmapped cells [-]";
+    fv_program.ncolumns = n;
     return s;
 }
 
@@ -136,7 +139,28 @@ static void destroy(void *state)
     fv_free(&s);
 }
 
-static double step(void *s, double t_stop, struct diagnosis *d) { return integrate(s, t_stop, d); }
+static double step(void *state, double t_stop, struct diagnosis *d)
+{
+    struct fv *s = state;
+    if (s->link)
+        coupling_judge(s, d);
+    return d->bad ? 0.0 : integrate(s, t_stop, d);
+}
+
+static void row(void *state, double *values)
+{
+    fv_row(state, values);
+    if (((struct fv *)state)->link)
+        values[fv_program.ncolumns - 1] = coupling_unmapped(state);
+}
+
+static void finish(void *state)
+{
+    struct fv *s = state;
+    fv_finish(s);
+    if (s->link)
+        coupling_summary(s, s->run->summary);
+}
 
 static void progress(void *state, char *line, int size)
 {
@@ -164,10 +188,10 @@ static struct program fv_program = {.name = "fv",
                                     .window_end = coupling_window_end,
                                     .tell = fv_tell,
                                     .columns = columns,
-                                    .row = fv_row,
+                                    .row = row,
                                     .progress = progress,
                                     .snapshot = fv_snapshot,
                                     .checkpoint = fv_checkpoint,
-                                    .finish = fv_finish};
+                                    .finish = finish};
 
 int main(int argc, char **argv) { return run_main(argc, argv, &fv_program, &cpl_partner); }

@@ -208,8 +208,12 @@ void kept_put_back(struct kept *k, struct fv *s);
 /* fv_coupling.c: the only file here that knows cpl.h. */
 void coupling_create(struct fv *s);
 void coupling_free(struct fv *s);
-/* Pa: taken out of the pressure that went to the partner last. */
-double coupling_level(const struct fv *s);
+/* Pa: to be added to the pressure for the partner's level; 0 alone. */
+double coupling_datum(const struct fv *s);
+/* Fills d where the partner has left out too many cells; share of them; worst one. */
+void coupling_judge(struct fv *s, struct diagnosis *d);
+double coupling_unmapped(const struct fv *s);
+void coupling_summary(const struct fv *s, struct summary *to);
 void coupling_first(void *s);
 void coupling_window_begin(void *s, double t0, double t1);
 void coupling_window_end(void *s, double t1);

@@ -9,16 +9,22 @@
 #include "../common/h5.h"
 #include "../common/log.h"
 #include "../common/mem.h"
+#include "../common/watch.h"
 #include "../coupler/cpl.h"
 #include "forcing.h"
 #include "fv_course.h"
 
 struct link {
     struct cpl *c;
-    int grid, forced, velocity, pressure, imposed;
+    int grid, forced, velocity, pressure, imposed, seen;
     struct course *course;
     double *got; /* scratch */
+    double *p;   /* Pa: the partner's at the end of the window, where mask is 1 */
     unsigned char *mask;
+    double datum; /* Pa: the partner's pressure over ours, mean over the rim of the free cells */
+    struct watch unmapped; /* share of the cells that fluxes look at which the partner left out */
+    double missing;        /* now */
+    double where[3];       /* m: one of them */
 };
 
 static void check(const struct link *k, int code)
@@ -60,6 +66,7 @@ static void declare(struct fv *s, struct link *k)
     check(k, cpl_field(k->c, k->grid, "fv.pressure", "Pa", 1, CPL_PUT, 0, &k->pressure));
     check(k, cpl_points(k->c, "fv.forced", b->dim, support(b), &k->forced));
     check(k, cpl_field(k->c, k->forced, "sph.velocity", "m/s", b->dim, CPL_GET, how, &k->imposed));
+    check(k, cpl_field(k->c, k->forced, "sph.pressure", "Pa", 1, CPL_GET, how, &k->seen));
 }
 
 /* All that the partner takes must lie in even rows. */
@@ -89,11 +96,12 @@ void coupling_create(struct fv *s)
     check(k, cpl_find_zone(k->c, "sph.given", lo, hi));
     check(k, cpl_find_zone(k->c, "sph.free", s->partner[0], s->partner[1]));
     s->forcing = forcing_create(s, lo, hi, true);
-    if (!s->forcing)
-        log_warn("no cell lies wholly in the box that sph gives, (%g, %g) to (%g, %g) m: fv is not "
-                 "forced, the "
-                 "coupling goes one way; refine fv.cells or lower coupling.overlap",
-                 lo[0], lo[1], hi[0], hi[1]);
+    if (!s->forcing) {
+        signals_handled(); /* cpl_fail says it */
+        cpl_fail(k->c, RUN_INPUT,
+                 "no cell of fv lies wholly in the box that sph gives: refine fv.cells, enlarge "
+                 "sph.box or lower coupling.overlap");
+    }
     int first = 0; /* row */
     double memory[3];
     if (b->rows) {
@@ -106,6 +114,15 @@ void coupling_create(struct fv *s)
     k->course = course_create(s, first, (int)memory[0]);
     const int64_t most = s->forcing ? s->forcing->npartner + s->forcing->nrim : 0;
     k->got = NEW(double, most * b->dim);
+    k->p = NEW(double, most);
+    k->unmapped = (struct watch){
+        .key = "unmapped_cells",
+        .what = "share of the cells at sph's edge that hold no particle of sph",
+        .likely = "its surface or a void has come to where fv looks: set the open sides of sph.box "
+                  "deeper into the water, or lower coupling.overlap; cells of fv finer than sph.dx "
+                  "want coarser fv.cells",
+        .warn = 0.01,
+        .stop = 0.1};
     k->mask = NEW(unsigned char, most);
 }
 
@@ -114,12 +131,32 @@ void coupling_free(struct fv *s)
     struct link *k = s->link;
     course_free(&k->course);
     mem_free(k->got);
+    mem_free(k->p);
     mem_free(k->mask);
     mem_free(k);
     s->link = NULL;
 }
 
-double coupling_level(const struct fv *s) { return s->link ? s->link->course->level : 0.0; }
+double coupling_datum(const struct fv *s) { return s->link ? s->link->datum : 0.0; }
+
+/* A flow of constant density knows its pressure up to a constant: the partner has it. */
+static void find_datum(struct fv *s)
+{
+    struct link *k = s->link;
+    const struct forcing *f = s->forcing;
+    double sum[2] = {0.0, 0.0}, x[3];
+    for (int64_t i = f->npartner; i < f->npartner + f->nrim; i++) {
+        int at[3];
+        if (!k->mask[i])
+            continue;
+        block_place(&s->b, f->partner[i], at);
+        block_centre(&s->b, at[0], at[1], at[2], x);
+        sum[0] += k->p[i] - fv_pressure(s, f->partner[i]) - fv_still_pressure(s, x);
+        sum[1] += 1.0;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    k->datum = sum[1] > 0.0 ? sum[0] / sum[1] : k->datum;
+}
 
 static void put(struct fv *s)
 {
@@ -187,6 +224,54 @@ void coupling_first(void *state)
     }
 }
 
+/* Cells without a particle near them keep their values. Two layers of the hole and the rim make the
+ * fluxes of its outline: there it matters. */
+static void count_missing(struct fv *s)
+{
+    struct link *k = s->link;
+    const struct forcing *f = s->forcing;
+    struct {
+        double n;
+        int rank;
+    } most = {0.0, s->run->rank};
+    double sum[2] = {0.0, 0.0};
+    for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
+        const int64_t c = f->partner[i];
+        if (f->layer[c] > 2)
+            continue;
+        sum[1] += 1.0;
+        if (!k->mask[i]) {
+            int at[3];
+            block_place(&s->b, c, at);
+            block_centre(&s->b, at[0], at[1], at[2], k->where);
+            sum[0] += 1.0;
+        }
+    }
+    most.n = sum[0];
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    if (sum[0] > 0.0) {
+        MPI_Comm_rank(s->b.cart, &most.rank);
+        MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->b.cart);
+        MPI_Bcast(k->where, 3, MPI_DOUBLE, most.rank, s->b.cart);
+    }
+    k->missing = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
+}
+
+void coupling_judge(struct fv *s, struct diagnosis *d)
+{
+    struct link *k = s->link;
+    if (watch_judge(&k->unmapped, k->missing, s->t, s->run->step, d))
+        snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, t = %.4g s", k->where[0], k->where[1],
+                 k->where[2], s->t);
+}
+
+double coupling_unmapped(const struct fv *s) { return s->link->missing; }
+
+void coupling_summary(const struct fv *s, struct summary *to)
+{
+    watch_summary(&s->link->unmapped, to);
+}
+
 /* The partner's velocities at t1; cells that it does not reach keep theirs. */
 void coupling_window_begin(void *state, double t0, double t1)
 {
@@ -200,6 +285,9 @@ void coupling_window_begin(void *state, double t0, double t1)
     course_try(s, k->course, t1);
     put(s);
     check(k, cpl_get(k->c, k->imposed, n, k->got, k->mask));
+    check(k, cpl_get(k->c, k->seen, n, k->p, NULL));
+    if (f)
+        count_missing(s);
     for (int a = 0; f && a < dim; a++)
         for (int64_t i = 0; i < n; i++)
             f->v_next[a][i] = k->mask[i] ? k->got[dim * i + a] : f->v[a][i];
@@ -210,6 +298,8 @@ void coupling_window_end(void *state, double t1)
     (void)t1;
     struct fv *s = state;
     course_take(s, s->link->course);
+    if (s->forcing)
+        find_datum(s);
 }
 
 static const char *const forced_names[3][3] = {
@@ -224,6 +314,7 @@ void coupling_save(const struct fv *s, struct h5 *f)
 {
     const struct forcing *c = s->forcing;
     course_save(s->link->course, f);
+    h5_attribute_real(f, "datum", s->link->datum);
     if (!c)
         return;
     const double clock[4] = {c->t0, c->t1, c->t_old, c->levels};
@@ -238,7 +329,8 @@ bool coupling_load(struct fv *s, struct h5 *f)
 {
     struct forcing *c = s->forcing;
     double clock[4];
-    bool good = course_load(s->link->course, f);
+    bool good =
+        course_load(s->link->course, f) && h5_read_attribute_real(f, "datum", &s->link->datum);
     if (!c || !good)
         return good;
     good = h5_read_real(f, "forced_levels", 4, 1, clock);

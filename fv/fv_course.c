@@ -6,6 +6,7 @@
 
 #include "../common/fit.h"
 #include "../common/h5.h"
+#include "../common/log.h"
 #include "../common/mem.h"
 
 struct course *course_create(const struct fv *s, int first, int memory)
@@ -47,16 +48,15 @@ void course_free(struct course **cp)
 }
 
 /* Under a surface the partner knows the level of the pressure: what it is told is what stands over
- * its mean at the rim of the free cells, which would follow every swing of the level late. Returns
- * what was taken out. */
-static double take_out_level(const struct fv *s, const struct course *c, double *q)
+ * its mean at the rim of the free cells, which would follow every swing of the level late. */
+static void take_out_level(const struct fv *s, const struct course *c, double *q)
 {
     const struct block *b = &s->b;
     const struct forcing *f = s->forcing;
     const double *g = s->run->scene.fluid.gravity;
     double sum[2] = {0.0, 0.0}, x[3];
     if (!f || !scene_has_surface(&s->run->scene) || (g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0))
-        return 0.0;
+        return;
     for (int64_t m = f->npartner; m < f->npartner + f->nrim; m++) {
         int at[3];
         block_place(b, f->partner[m], at);
@@ -70,12 +70,10 @@ static double take_out_level(const struct fv *s, const struct course *c, double 
     const double level = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
     for (int64_t i = 0; i < c->n; i++)
         q[i * (b->dim + 1) + b->dim] -= level;
-    return level;
 }
 
-/* Velocity and whole pressure now; forced cells get a pressure continued from the free side.
- * Returns the level taken out. */
-static double look(struct fv *s, const struct course *c, double *q)
+/* Velocity and whole pressure now; forced cells get a pressure continued from the free side. */
+static void look(struct fv *s, const struct course *c, double *q)
 {
     const struct block *b = &s->b;
     double *one = NEW(double, c->n), *p = block_field(b);
@@ -91,7 +89,7 @@ static double look(struct fv *s, const struct course *c, double *q)
     }
     mem_free(p);
     mem_free(one);
-    return take_out_level(s, c, q);
+    take_out_level(s, c, q);
 }
 
 static void shift(struct course *c, double t)
@@ -122,7 +120,7 @@ static void smooth_pressure(struct course *c)
 void course_take(struct fv *s, struct course *c)
 {
     shift(c, s->t);
-    c->level = look(s, c, c->q[0]);
+    look(s, c, c->q[0]);
     c->t_tried = -INFINITY;
     if (c->rate)
         smooth_pressure(c);
@@ -142,7 +140,7 @@ static void exact_level(struct fv *s, struct course *c, double t, double *q)
                     q[at++] = u[a];
                 q[at++] = p;
             }
-    c->level = take_out_level(s, c, q);
+    take_out_level(s, c, q);
 }
 
 void course_start(struct fv *s, struct course *c, double before)
@@ -154,7 +152,7 @@ void course_start(struct fv *s, struct course *c, double before)
         if (s->has_exact) /* in forced cells, too */
             exact_level(s, c, c->t[0], c->q[0]);
         else
-            c->level = look(s, c, c->q[0]);
+            look(s, c, c->q[0]);
     }
     for (int64_t i = 0; i < c->n && c->rate && c->levels > 1; i++) {
         const int64_t at = i * (c->dim + 1) + c->dim;
@@ -173,6 +171,11 @@ void course_try(struct fv *s, struct course *c, double t1)
     c->t_tried = d.bad ? -INFINITY : t1;
     if (!d.bad)
         look(s, c, c->tried);
+    else if (!c->failed)
+        log_warn("t = %.4g s: fv cannot try the window to %.4g s (%s): sph gets what the windows "
+                 "before say; lower coupling.steps",
+                 c->t[0], t1, d.reason);
+    c->failed = c->failed || d.bad;
     s->predicts = false;
     kept_put_back(c->kept, s);
 }
@@ -243,10 +246,10 @@ static const char *const names[] = {"level0", "level1", "level2"};
 
 void course_save(const struct course *c, struct h5 *f)
 {
-    const double clock[COURSE_LEVELS + 2] = {c->t[0], c->t[1], c->t[2], c->levels, c->level};
+    const double clock[COURSE_LEVELS + 1] = {c->t[0], c->t[1], c->t[2], c->levels};
     for (int m = 0; m < COURSE_LEVELS; m++)
         h5_write_real(f, names[m], "-", c->n, c->dim + 1, c->q[m], false);
-    h5_write_real(f, "levels", "-", COURSE_LEVELS + 2, 1, clock, false);
+    h5_write_real(f, "levels", "-", COURSE_LEVELS + 1, 1, clock, false);
     if (c->rate)
         h5_write_real(f, "rate", "Pa/s", c->n, 1, c->rate, false);
     if (c->scatter)
@@ -255,8 +258,8 @@ void course_save(const struct course *c, struct h5 *f)
 
 bool course_load(struct course *c, struct h5 *f)
 {
-    double clock[COURSE_LEVELS + 2];
-    bool good = h5_read_real(f, "levels", COURSE_LEVELS + 2, 1, clock) &&
+    double clock[COURSE_LEVELS + 1];
+    bool good = h5_read_real(f, "levels", COURSE_LEVELS + 1, 1, clock) &&
                 (!c->rate || h5_read_real(f, "rate", c->n, 1, c->rate)) &&
                 (!c->scatter || h5_read_real(f, "scatter", c->n, 1, c->scatter));
     for (int m = 0; good && m < COURSE_LEVELS; m++) {
@@ -266,7 +269,7 @@ bool course_load(struct course *c, struct h5 *f)
     if (!good)
         return false;
     c->levels = (int)clock[COURSE_LEVELS];
-    c->level = clock[COURSE_LEVELS + 1];
+
     c->t_tried = -INFINITY;
     return true;
 }

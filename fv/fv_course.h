@@ -23,10 +23,10 @@ struct course {
     double t[COURSE_LEVELS];    /* s: their times */
     double t_tried;             /* s; before t[0]: not known */
     int levels;                 /* of them known */
-    double level;               /* Pa: taken out of the pressure last */
     double *rate;               /* [n] Pa/s: trend of the smoothed pressure; NULL: not smoothed */
     double *scatter;            /* [n] Pa: about its trend; NULL: no surface, no impacts */
     double *term[COURSE_TERMS]; /* [n][dim] of velocity; after course_pressure of pressure */
+    bool failed;                /* a trial has */
     struct kept *kept;
 };
 

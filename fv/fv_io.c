@@ -70,8 +70,8 @@ static void write_frame(const struct fv *s, struct h5 *f)
     if (s->b.rows)
         h5_write_real(f, "rows", "m", s->run->rank == 0 ? s->b.cells[1] + 1 : 0, 1, s->b.rows->edge,
                       false);
-    if (s->run->coupled) /* Pa: what the partner does not see of the pressure */
-        h5_attribute_real(f, "level", coupling_level(s));
+    if (s->run->coupled) /* Pa: what the pressures below have of the partner's level */
+        h5_attribute_real(f, "datum", coupling_datum(s));
 }
 
 /* Of a flat grid, in the first snapshot alone: they stay. */
@@ -97,7 +97,7 @@ static void write_vertices(const struct fv *s, struct h5 *f)
 static void whole_pressure(const struct fv *s, double *field)
 {
     for (int64_t c = 0; c < s->b.size; c++)
-        field[c] = fv_pressure(s, c);
+        field[c] = fv_pressure(s, c) + coupling_datum(s);
     fv_add_still_pressure(s, field);
 }
 

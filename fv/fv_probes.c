@@ -65,18 +65,27 @@ static double pressure_at(const struct fv *s, const double *x)
         }
         sum += f * fv_pressure(s, block_at(b, at[0], at[1], at[2]));
     }
-    return sum + fv_still_pressure(s, x);
+    return sum + fv_still_pressure(s, x) + coupling_datum(s);
+}
+
+/* A partner has the surface. */
+static bool is_mine(const struct run *r, int k)
+{
+    return r->scene.probes[k].kind == PROBE_PRESSURE || !r->coupled;
 }
 
 int fv_probe_columns(const struct run *r, const char **columns)
 {
     static char names[PROBES_MAX][PARAM_TEXT_SIZE + 8];
-    for (int k = 0; k < r->scene.nprobes; k++) {
-        snprintf(names[k], sizeof names[k], "%s [%s]", r->scene.probes[k].name,
-                 r->scene.probes[k].kind == PROBE_PRESSURE ? "Pa" : "m");
-        columns[k] = names[k];
-    }
-    return r->scene.nprobes;
+    int n = 0;
+    for (int k = 0; k < r->scene.nprobes; k++)
+        if (is_mine(r, k)) {
+            snprintf(names[n], sizeof names[n], "%s [%s]", r->scene.probes[k].name,
+                     r->scene.probes[k].kind == PROBE_PRESSURE ? "Pa" : "m");
+            columns[n] = names[n];
+            n++;
+        }
+    return n;
 }
 
 void fv_probe(struct fv *s, double *values)
@@ -85,8 +94,11 @@ void fv_probe(struct fv *s, double *values)
     if (scene->nprobes == 0)
         return;
     block_halo(&s->b, 2, (double *const[]){s->p, s->p_before});
+    int n = 0;
     for (int k = 0; k < scene->nprobes; k++)
-        values[k] = scene->probes[k].kind == PROBE_LEVEL ? surface_level(s, scene->probes[k].at)
-                                                         : pressure_at(s, scene->probes[k].at);
-    MPI_Allreduce(MPI_IN_PLACE, values, scene->nprobes, MPI_DOUBLE, MPI_SUM, s->b.cart);
+        if (is_mine(s->run, k))
+            values[n++] = scene->probes[k].kind == PROBE_LEVEL
+                              ? surface_level(s, scene->probes[k].at)
+                              : pressure_at(s, scene->probes[k].at);
+    MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, s->b.cart);
 }

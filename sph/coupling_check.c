@@ -39,7 +39,7 @@ struct water {
     const struct scene *scene;
     double dx;
     struct exact exact;
-    double free[2][3]; /* the free zone, where a surface may be */
+    double free[2][3]; /* where a surface may be: beyond the cells that fv looks at */
 };
 
 static bool is_wet(const struct water *w, const double *x)
@@ -64,14 +64,13 @@ static void check_water(const struct run *r, const struct water *w, struct fault
     const struct scene_domain *d = &r->scene.domain;
     double x[3];
     if (scene_has_surface(&r->scene) && find(d->dim, w->dx, d->min, d->max, dry_outside, w, x))
-        params_fault(
-            r->params, f, "sph.box",
-            "at (%g, %g, %g) m there is no water: outside of sph's free zone, (%g, %g, %g) "
-            "to (%g, %g, %g) m, fv knows of no surface; let the box reach the sides and "
-            "the top of the domain, and set its bottom, transition and buffer below the "
-            "lowest water",
-            x[0], x[1], x[2], w->free[0][0], w->free[0][1], w->free[0][2], w->free[1][0],
-            w->free[1][1], w->free[1][2]);
+        params_fault(r->params, f, "sph.box",
+                     "at (%g, %g, %g) m there is no water: outside of (%g, %g, %g) to (%g, %g, %g) "
+                     "m, what fv takes from sph, it knows of no surface; let the box reach the "
+                     "sides and the top of the domain, set its bottom lower, or make transition, "
+                     "buffer and overlap thinner, or fv.cells finer",
+                     x[0], x[1], x[2], w->free[0][0], w->free[0][1], w->free[0][2], w->free[1][0],
+                     w->free[1][1], w->free[1][2]);
 }
 
 /* Where the box reaches the domain's side, SPH ends: at a wall, above the water, or in a period
@@ -205,6 +204,26 @@ static void check_cells(const struct run *r, const struct sph_params *prm, struc
     }
 }
 
+/* The part of the given box that fv does not look at: two cells within it. */
+static void find_hidden(const struct run *r, const struct sph_params *prm, double box[2][3])
+{
+    const struct scene_domain *d = &r->scene.domain;
+    double cells[3], graded[3];
+    bool open[6];
+    zones_given_box(r, prm, box[0], box[1]);
+    sph_params_open(r, prm, open);
+    params_peek(r->params, r->comm, "fv.cells", cells);
+    params_peek(r->params, r->comm, "fv.graded", graded);
+    for (int a = 0; a < d->dim; a++) {
+        const bool rows = a == 1 && graded[1] > 0.0;
+        const double h = rows           ? (d->max[a] - graded[0]) / graded[1]
+                         : cells[a] > 0 ? (d->max[a] - d->min[a]) / cells[a]
+                                        : 0.0;
+        box[0][a] += open[2 * a] ? 2.0 * h : 0.0;
+        box[1][a] -= open[2 * a + 1] ? 2.0 * h : 0.0;
+    }
+}
+
 void coupling_check(const struct run *r, struct faults *f)
 {
     const struct sph_params *prm = sph_params_of(r);
@@ -215,7 +234,7 @@ void coupling_check(const struct run *r, struct faults *f)
         return;
     }
     struct water w = {.scene = &r->scene, .dx = prm->dx, .exact = exact_create(&r->scene)};
-    zones_free_box(r, prm, w.free[0], w.free[1]);
+    find_hidden(r, prm, w.free);
     for (int side = 0; side < 2 * r->scene.domain.dim; side++)
         check_side(r, prm, &w, side, f);
     if (f->n == 0)

@@ -29,14 +29,14 @@ struct overlap *overlap_create(const struct sph *s)
         .key = "overlap_velocity",
         .what = "velocities of sph and fv where both are free, difference over the flow's scale",
         .likely = mend,
-        .warn = 0.1,
-        .stop = 0.3};
+        .warn = 0.15,
+        .stop = 0.4};
     o->pressure = (struct watch){
         .key = "overlap_pressure",
         .what = "pressures of sph and fv where both are free, difference over the flow's scale",
         .likely = mend,
-        .warn = 0.2,
-        .stop = 0.5};
+        .warn = 0.25,
+        .stop = w.weight > 0.0 ? 0.5 : 1.0}; /* rho U^2 is little beside the noise of rho c0 u */
     o->dry = (struct watch){
         .key = "surface_in_zones",
         .what = "share of the open sides in front of which a free surface lies in the transition",
@@ -86,24 +86,25 @@ static void compare(struct sph *s, double sums[4])
     }
 }
 
-/* Particles on a surface in transition and buffer, and the place of one of them. */
-static double on_surface(const struct sph *s, double *where)
+void overlap_find_surface(struct sph *s)
 {
-    double n = 0.0;
-    for (int i = 0; s->surface && i < s->p.n; i++)
+    struct overlap *o = s->zones->watched;
+    if (!o->asks || !s->surface)
+        return;
+    o->asks = false;
+    o->found = 0.0;
+    for (int i = 0; i < s->p.n; i++)
         if (s->surface->is[i] == SURFACE_ON && s->p.zone[i] != ZONE_FREE) {
-            n += 1.0;
-            memcpy(where, s->p.y + (size_t)i * s->p.nstate, (size_t)s->dim * sizeof *where);
+            o->found += 1.0;
+            memcpy(o->where, s->p.y + (size_t)i * s->p.nstate, (size_t)s->dim * sizeof *o->where);
         }
-    return n;
 }
 
 void overlap_look(struct sph *s)
 {
     struct overlap *o = s->zones->watched;
-    double sums[5] = {0.0, 0.0, 0.0, 0.0, 0.0}, where[3] = {0.0, 0.0, 0.0};
+    double sums[5] = {0.0, 0.0, 0.0, 0.0, o->found};
     compare(s, sums);
-    sums[4] = s->t > 0.0 ? on_surface(s, where) : 0.0; /* before the first step none is known */
     struct {
         double n;
         int rank;
@@ -111,14 +112,13 @@ void overlap_look(struct sph *s)
     MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, s->run->comm);
     if (sums[4] > 0.0) {
         MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
-        MPI_Bcast(where, 3, MPI_DOUBLE, most.rank, s->run->comm);
+        MPI_Bcast(o->where, 3, MPI_DOUBLE, most.rank, s->run->comm);
     }
     const double n = sums[0] > 0.0 ? sums[0] : 1.0, mean = sums[2] / n;
     o->du = sqrt(sums[1] / n) / o->U;
     o->dp = sqrt(fmax(sums[3] / n - mean * mean, 0.0)) / o->p;
     o->on = sums[4] / openings_faces(s->zones->openings);
-    memcpy(o->where, where, sizeof where);
-    o->fresh = true;
+    o->fresh = o->asks = true;
 }
 
 void overlap_judge(struct sph *s, struct diagnosis *d)
@@ -130,8 +130,13 @@ void overlap_judge(struct sph *s, struct diagnosis *d)
     if (watch_judge(&o->dry, o->on, s->t, s->run->step, d))
         snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, t = %.4g s", o->where[0], o->where[1],
                  o->where[2], s->t);
+    const bool was_bad = d->bad;
     watch_judge(&o->velocity, o->du, s->t, s->run->step, d);
     watch_judge(&o->pressure, o->dp, s->t, s->run->step, d);
+    if (d->bad && !was_bad)
+        snprintf(d->where, sizeof d->where,
+                 "the rim of the free zone, %g m wide, t = %.4g s, step %lld", s->zones->overlap,
+                 s->t, (long long)s->run->step);
 }
 
 void overlap_row(const struct overlap *o, double *values)

@@ -15,11 +15,15 @@ struct overlap {
     double U, p;       /* m/s, Pa: scales */
     bool fresh;        /* looked at since it was judged last */
     double du, dp, on; /* of the last look */
-    double where[3];   /* m: a particle on a surface in the zones */
+    bool asks;         /* for the surface, once a window */
+    double found;      /* particles of this rank on a surface in transition and buffer */
+    double where[3];   /* m: one of them */
 };
 
 struct overlap *overlap_create(const struct sph *s);
 void overlap_free(struct overlap **o);
+/* In a stage, when the surface has been detected. */
+void overlap_find_surface(struct sph *s);
 /* Compares SPH with the patch at s->t. Collective. */
 void overlap_look(struct sph *s);
 /* Fills d where the run cannot be trusted. */

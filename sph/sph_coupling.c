@@ -9,6 +9,7 @@
 #include "../common/mem.h"
 #include "../coupler/cpl.h"
 #include "domain.h"
+#include "eos.h"
 #include "overlap.h"
 #include "sph_params.h"
 #include "windows.h"
@@ -17,8 +18,8 @@
 /* Ids of the sets and fields, and scratch for what is sent. */
 struct link {
     struct cpl *c;
-    int dim, particles, velocity, patch_velocity, patch_pressure;
-    double *x, *u, *w;
+    int dim, particles, velocity, pressure, patch_velocity, patch_pressure;
+    double *x, *u, *p, *w;
     int64_t *id;
     int capacity;
 };
@@ -65,6 +66,7 @@ void coupling_create(struct sph *s)
     check(k, cpl_points(k->c, "sph.particles", s->dim, 0.0, &k->particles));
     check(k,
           cpl_field(k->c, k->particles, "sph.velocity", "m/s", s->dim, CPL_PUT, 0, &k->velocity));
+    check(k, cpl_field(k->c, k->particles, "sph.pressure", "Pa", 1, CPL_PUT, 0, &k->pressure));
     check(k, cpl_field(k->c, k->particles, "fv.velocity", "m/s", s->dim, CPL_GET, how,
                        &k->patch_velocity));
     check(k,
@@ -80,6 +82,7 @@ void coupling_free(struct sph *s)
     overlap_free(&s->zones->watched);
     mem_free(k->x);
     mem_free(k->u);
+    mem_free(k->p);
     mem_free(k->w);
     mem_free(k->id);
     mem_free(k);
@@ -112,6 +115,7 @@ static void room(struct link *k, int n)
     k->capacity = n + n / 4;
     GROW(k->x, 3 * old, 3 * k->capacity);
     GROW(k->u, k->dim * old, k->dim * k->capacity);
+    GROW(k->p, old, k->capacity);
     GROW(k->w, old, k->capacity);
     GROW(k->id, old, k->capacity);
 }
@@ -133,9 +137,11 @@ void coupling_window_end(void *state, double t1)
             k->x[3 * n + a] = a < dim ? y[a] : 0.0;
         for (int a = 0; a < dim; a++)
             k->u[dim * n + a] = y[dim + a] / y[2 * dim + 1];
+        k->p[n] = eos_p(y[2 * dim + 1] / y[2 * dim], s->rho0, s->c0, s->gamma);
         k->w[n] = y[2 * dim];
         k->id[n++] = s->p.id[i];
     }
     check(k, cpl_move(k->c, k->particles, n, k->x, k->id, k->w));
     check(k, cpl_put(k->c, k->velocity, t1, n, k->u, NULL));
+    check(k, cpl_put(k->c, k->pressure, t1, n, k->p, NULL));
 }

@@ -67,12 +67,17 @@ static double depth_of(const struct scene *c, int a)
     return fmin(top, c->domain.max[a]) - floor;
 }
 
+static bool is_given(const struct run *r, const char *key)
+{
+    return r->params && params_given(r->params, key); /* a test has a scene without a case */
+}
+
 static void scales(const struct run *r, const struct sph_params *prm, struct windows *w)
 {
     const struct scene *c = &r->scene;
     const int field = c->initial.field, down = axis_of_gravity(c);
     const double carried = length_of(c->initial.velocity);
-    const bool own = field != FIELD_REST || params_given(r->params, "initial.U");
+    const bool own = field != FIELD_REST || is_given(r, "initial.U");
     const bool periodic_field = scene_has_wave(c) || field == FIELD_TAYLOR_GREEN ||
                                 field == FIELD_TWO_MODES || field == FIELD_BELTRAMI;
     w->U = own ? c->initial.U : 0.0;
@@ -82,7 +87,7 @@ static void scales(const struct run *r, const struct sph_params *prm, struct win
     w->L = INFINITY;
     for (int a = 0; a < c->domain.dim; a++)
         w->L = fmin(w->L, prm->box[1][a] - prm->box[0][a]);
-    if (periodic_field || params_given(r->params, "initial.L"))
+    if (periodic_field || is_given(r, "initial.L"))
         w->L = c->initial.L;
     if (down >= 0 && scene_has_surface(c)) {
         const double g = fabs(c->fluid.gravity[down]), H = depth_of(c, down);
@@ -144,13 +149,21 @@ static void find_gain(const struct run *r, const struct sph_params *prm, struct 
 
 double windows_smoothed(int memory) { return (2.0 * memory - 1.0) / ((double)memory * memory); }
 
-/* Least memory m with G (2 m - 1)/m^2 below the limit. */
+/* Least memory m with G (2 m - 1)/m^2 below the limit; two windows smooth next to nothing. */
 static int memory_for(double gain)
 {
     if (gain <= gain_raw)
         return 1;
-    const double g = gain / gain_smoothed;
-    return (int)ceil(g + sqrt(g * g - g));
+    const double g = fmax(gain / gain_smoothed, 1.0);
+    return (int)fmax(ceil(g + sqrt(g * g - g)), 3.0);
+}
+
+/* Windows tile the time between outputs: they are shorter than what was asked for. */
+static double tiled(const struct scene *c, double T)
+{
+    const double every = c->output.every, end = c->time.end;
+    const double span = every > 0.0 && every < end ? every : end;
+    return span / ceil(span / T * (1.0 - 1e-9));
 }
 
 static void shorten(struct windows *w, double T, const char *limit)
@@ -178,7 +191,7 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
     w.steps = c->steps > 0 ? c->steps : (int)fmax(floor(w.T / dt * (1.0 + 1e-9)), 1.0);
     w.limit = c->steps > 0 ? "coupling.steps" : w.limit;
     w.T = w.steps * dt;
-    w.gain = w.mass / (prm->c0 * w.T);
+    w.gain = w.mass / (prm->c0 * tiled(&r->scene, w.T));
     w.memory = c->memory > 0 ? c->memory : memory_for(w.gain);
     return w;
 }

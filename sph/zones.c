@@ -13,6 +13,7 @@
 #include "../common/mem.h"
 #include "eos.h"
 #include "openings.h"
+#include "overlap.h"
 #include "sides.h"
 #include "sph_params.h"
 
@@ -240,6 +241,8 @@ void zones_stage(struct sph *s)
     struct zones *z = s->zones;
     if (z->update)
         z->update(s);
+    if (z->watched)
+        overlap_find_surface(s);
     openings_ghost_lines(s);
     gather(s, ZONE_BUFFER);
     zones_look(z, s->t, true);

@@ -2,7 +2,10 @@
  * the mass, blending follows its law. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
+#include "../common/exact.h"
 #include "../sph/openings.h"
+#include "../sph/overlap.h"
+#include "../sph/surface.h"
 #include "../sph/zones.h"
 #include "sph_case.h"
 
@@ -233,6 +236,79 @@ static void what_voids_left_is_drained(void **state)
     sph_free(&c.s);
 }
 
+static void as_sph(void *ctx, double t, int n, const double *x, double *u, double *p, double *gu,
+                   double *gp)
+{
+    const struct exact *e = ctx;
+    double v[3];
+    (void)gu;
+    (void)gp;
+    for (int i = 0; i < n; i++) {
+        exact_point(e, x + 3 * i, t, v, p + i, NULL);
+        for (int a = 0; a < e->dim; a++)
+            u[e->dim * i + a] = v[a];
+    }
+}
+
+static struct diagnosis judge(struct sph *s)
+{
+    struct diagnosis d = {0};
+    overlap_find_surface(s);
+    overlap_look(s);
+    overlap_judge(s, &d);
+    return d;
+}
+
+/* The overlap is sound where both flows agree; another velocity, another pressure and a surface in
+ * the zones end the run, each by its name. */
+static void the_overlap_is_watched(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    sph_case_set(&c, 2, 25);
+    struct scene *e = &c.run.scene;
+    e->coupling.transition = e->coupling.buffer = 0.16;
+    e->coupling.overlap = 0.2;
+    e->domain.periodic[1] = false;
+    c.prm.outer = OUTER_PARTNER;
+    c.prm.surface = SURFACE_YES;
+    c.prm.box[0][0] = 0.0;
+    c.prm.box[1][0] = c.prm.box[1][1] = 1.0;
+    c.prm.box[0][1] = 0.12;
+    struct sph *s = c.s = sph_create(&c.run, &c.prm, NULL);
+    struct zones *z = s->zones;
+    struct exact exact = exact_create(e);
+    integrate_prepare(s);
+    z->watched = overlap_create(s);
+    z->eval = as_sph;
+    z->ctx = &exact;
+    struct diagnosis d = judge(s);
+    assert_false(d.bad);
+    assert_true(z->watched->du < 1e-12 && z->watched->dp < 1e-3);
+    exact.U *= 2.0;
+    exact.A[0] *= 2.0;
+    exact.A[1] *= 2.0;
+    d = judge(s);
+    assert_true(d.bad && strstr(d.reason, "velocities of sph and fv"));
+    exact = exact_create(e);
+    exact.rho *= 9.0;
+    d = judge(s);
+    assert_true(d.bad && strstr(d.reason, "pressures of sph and fv"));
+    exact = exact_create(e);
+    for (int i = 0; i < s->p.n; i++)
+        s->surface->is[i] = s->p.zone[i] == ZONE_FREE ? SURFACE_ON : SURFACE_INNER;
+    z->watched->asks = true;
+    assert_false(judge(s).bad); /* a surface in the free zone is none of FV's */
+    for (int i = 0; i < s->p.n; i++)
+        s->surface->is[i] = s->p.zone[i] == ZONE_TRANSITION ? SURFACE_ON : SURFACE_INNER;
+    z->watched->asks = true;
+    d = judge(s);
+    assert_true(d.bad && strstr(d.reason, "free surface lies in the transition"));
+    overlap_free(&z->watched);
+    z->eval = NULL;
+    sph_free(&c.s);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -242,7 +318,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(blending_follows_the_depth),
         cmocka_unit_test(sides_of_the_domain_stay_closed),
         cmocka_unit_test(gauge_is_the_level_inside_and_weighs_the_missing_mass),
-        cmocka_unit_test(what_voids_left_is_drained)};
+        cmocka_unit_test(what_voids_left_is_drained),
+        cmocka_unit_test(the_overlap_is_watched)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

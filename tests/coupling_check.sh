@@ -1,0 +1,76 @@
+#!/bin/sh
+# What --check says of coupled cases: windows and memory that the flow wants, scenes that are refused, each with its
+# reason. Nothing runs. SPDX-License-Identifier: BSD-3-Clause
+b=$(cd "${1:-build}" && pwd)
+root=$(cd "$(dirname "$0")/.." && pwd)
+tmp=${TEST_SCRATCH:-$(mktemp -d)}/coupling_check
+mkdir -p "$tmp" && cd "$tmp" || exit 1
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+failed=0
+bad() { echo "FAIL: $*"; failed=$((failed + 1)); }
+look() { # CASE ARGS...
+    case=$1
+    shift
+    [ -f "$case" ] || case=$root/cases/$case/case.cfg
+    "$b/sph" "$case" --check "$@" >text 2>&1
+    code=$?
+}
+accepts() { look "$@"; [ $code = 0 ] || bad "$*: refused: $(tail -n 2 text)"; }
+says() { grep -q -- "$1" text || bad "$what: no line like \"$1\": $(tail -n 2 text)"; }
+refuses() { # WHAT REASON CASE ARGS...
+    what=$1 reason=$2
+    shift 2
+    look "$@"
+    [ $code = 2 ] || bad "$what: exit $code, wanted 2"
+    says "$reason"
+}
+what=windows
+accepts taylor_green -p coupling.steps=0
+says 'windows of 20 steps, 0.03 s, by the flow: U T/L = 0.030'
+accepts taylor_green -p coupling.steps=0 -p 'initial.velocity=(0.8,0.6)' -p sph.c0=10 # twice the speed
+says 'windows of 10 steps, 0.015 s, by the flow'
+accepts standing_wave -p coupling.steps=0 -p coupling.memory=0
+says 'by the waves'
+accepts taylor_green -p coupling.steps=50
+says 'times what this flow wants'
+refuses "windows too long" 'nothing can be foreseen' taylor_green -p coupling.steps=150
+refuses "windows too short for their memory" 'is unstable above' standing_wave -p coupling.steps=1 -p coupling.memory=1
+for case in taylor_green uniform_flow standing_wave standing_wave_3d breaking_wave beltrami; do
+    accepts $case
+done
+
+# scenes without a place for the coupling
+refuses "no cell of fv in what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p coupling.overlap=0.2
+refuses "cells wider than what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p 'fv.cells=(4,4)'
+refuses "sph everywhere" 'no side of it lies in fv' taylor_green -p 'sph.free=((0,0),(1,1))'
+refuses "a box that ends on a periodic side" 'ends on the periodic x side' taylor_green -p 'sph.free=((0,0.3),(0.6,0.7))'
+cat >basin.cfg <<'CASE'
+format = 1;
+time:    { end = 1.6; };
+fluid:   { rho = 1000.0; nu = 1.0e-6; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (2, 1.2); };
+initial: { field = "rest"; U = 3.13; };
+shapes:  ( { box = ((0, 0), (2, 0.6)); } );
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+sph:     { dx = 0.02; box = ((0, 0.1), (2, 1.2)); };
+fv:      { cells = (64, 40); };
+CASE
+accepts basin.cfg
+refuses "a surface in the transition" 'there is no water' basin.cfg -p 'sph.box=((0,0.44),(2,1.2))'
+refuses "a part of the width under a surface" 'there is no water' basin.cfg -p 'sph.box=((0.5,0.1),(1.5,1.2))'
+sed '/x_max/s/, { side = "x_max"; }//' basin.cfg >open.cfg
+refuses "a side without a wall" 'which has no wall' open.cfg
+cat >body.cfg <<'CASE'
+format = 1;
+time:    { end = 1.6; };
+fluid:   { rho = 1.0; nu = 1.0e-2; };
+domain:  { dim = 2; min = (0, 0); max = (2, 1); periodic = (true, true); };
+initial: { field = "rest"; U = 1.0; };
+bodies:  ( { name = "plate"; centre = (1, 0.5); velocity = (0.4, 0.0); points = ((0.9,0.45),(0.9,0.55),(1.1,0.55),(1.1,0.45)); kind = "no_slip"; } );
+sph:     { dx = 0.02; box = ((0.5, 0), (1.5, 1)); };
+fv:      { cells = (64, 32); };
+CASE
+refuses "a body that leaves the box" "body .plate' is outside of" body.cfg
+accepts body.cfg -p time.end=0.2
+echo "coupling_check: $failed faults"
+[ $failed = 0 ]
