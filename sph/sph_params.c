@@ -423,8 +423,7 @@ void sph_params_check(const struct run *r, struct faults *f)
     for (int a = 0; a < r->scene.domain.dim; a++)
         check_axis(r, a, f);
     if (!in_3d && sph_params_walls(r))
-        check_thin(r, f);
-    if (is_given(given.box) && is_given(given.free))
+        if (is_given(given.box) && is_given(given.free))
         params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");
     if (f->n == 0 && has_box())
         check_zones(r, f);
@@ -433,4 +432,6 @@ void sph_params_check(const struct run *r, struct faults *f)
         return;
     sph_sense_check(r, &given, sph_params_of(r), f);
     sph_bodies_check(r, sph_params_of(r), f);
+    if (f->n == 0)
+        check_thin(r, f);
 }
