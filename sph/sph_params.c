@@ -32,7 +32,7 @@ static const struct param rows[] = {
     PARAM(P, delta, "-", "0.05", 0.0, 0.2, "diffusion of density of scheme delta: delta c0 R"),
     PARAM(P, background, "-", "false", 0, 1, "background pressure that lifts the least pressure to 0; not with a free surface"),
     PARAM(P, cfl, "-", "0.375", 0.001, 2.0, "dt over R/(c + |u - u0|)"),
-    PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan), 0.05 and less with no-slip walls"),
+    PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan), with no-slip walls 0.05 to 0.012"),
     PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
     PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
     CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
@@ -183,6 +183,36 @@ static bool is_riemann(int scheme)
     return scheme == SCHEME_RIEMANN_ALE || scheme == SCHEME_RIEMANN;
 }
 
+/* No-slip walls that meet: a particle in the corner rubs at both. */
+static bool has_no_slip_corner(const struct scene *c, const struct sph_params *prm)
+{
+    bool any = false, axis[3] = {false, false, false};
+    for (int k = 0; k < c->nwalls; k++) {
+        const struct scene_wall *w = c->walls + k;
+        if (w->kind == WALL_NO_SLIP && w->side == SIDE_NONE)
+            any = true;
+        else if (w->kind == WALL_NO_SLIP &&
+                 sph_params_reaches(&c->domain, prm, w->side - SIDE_X_MIN))
+            axis[(w->side - SIDE_X_MIN) / 2] = true;
+    }
+    for (int k = 0; k < c->nbodies; k++)
+        any = any || c->bodies[k].kind == WALL_NO_SLIP;
+    return any || axis[0] + axis[1] + axis[2] > 1;
+}
+
+/* Bounds of plane waves on a lattice, with margin. With normal flux a particle dx/4 from a wall
+ * rubs at it with 79 nu/R^2 beside what the lattice has (nu/R^2 times 2.75 over its bound, on the
+ * negative axis of the Runge-Kutta scheme, which ends at 2.785). */
+static double default_cfl_viscous(const struct scene *c, const struct sph_params *prm)
+{
+    const double lattice = prm->viscosity != VISCOSITY_MORRIS ? 0.035 : 0.09;
+    if (!has_no_slip(c, prm))
+        return lattice;
+    if (prm->walls == WALLS_NFM)
+        return 2.75 / (79.0 * (has_no_slip_corner(c, prm) ? 2 : 1) + 2.75 / lattice);
+    return fmin(lattice, 0.05);
+}
+
 const struct sph_params *sph_params_of(const struct run *r)
 {
     static struct sph_params used;
@@ -202,13 +232,8 @@ const struct sph_params *sph_params_of(const struct run *r)
             r->scene.domain.dim == 2 && (is_riemann(used.scheme) || has_polylines(&r->scene))
                 ? WALLS_NFM
                 : WALLS_GHOSTS;
-    /* Bounds of plane waves on a lattice, with margin; with normal flux of a particle dx/4 from the
-     * wall, where friction alone takes 79 nu/R^2 and a lattice of dx/2 would do with 0.048. */
     if (used.cfl_viscous <= 0.0)
-        used.cfl_viscous = has_no_slip(&r->scene, &used) && used.walls == WALLS_NFM ? 0.025
-                           : used.viscosity != VISCOSITY_MORRIS                     ? 0.035
-                           : has_no_slip(&r->scene, &used)                          ? 0.05
-                                                                                    : 0.09;
+        used.cfl_viscous = default_cfl_viscous(&r->scene, &used);
     if (used.packing < 0)
         used.packing = has_polylines(&r->scene) && used.walls == WALLS_NFM ? 200 : 0;
     if (used.dissipation < 0.0)

@@ -103,7 +103,8 @@ double make_waves(struct scene *s, struct random *r, int n, double h)
 bool make_lasting(const struct scene *s)
 {
     const double k = 6.283 / s->L; /* the shortest waves of two_modes: 5 k^2 */
-    return !strcmp(s->field, "uniform") || s->nu * 5.0 * k * k * s->end < 1.0;
+    return !strcmp(s->field, "uniform") ||
+           (s->nu * 5.0 * k * k * s->end < 1.0 && s->end * s->speed < s->L);
 }
 
 /* --- twins --- */
@@ -159,7 +160,7 @@ static void units(struct twins *t)
     do { /* a gravity that the table allows */
         l = ldexp(1.0, whole(&t->r, -10, 10));
         u = ldexp(1.0, whole(&t->r, -10, 10));
-    } while (u * u / l > 1e3 || u * l > 1e4);
+    } while (u * u / l > 1e3 || u * l * fmax(1.0, s.nu) > 1e4);
     double d = ldexp(1.0, whole(&t->r, -10, 10));
     while (s.rho * d < 2e-3)
         d *= 2.0;
