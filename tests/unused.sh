@@ -57,7 +57,7 @@ sph.alpha 0.05
 sph.delta 0.1
 sph.background true
 sph.cfl 0.2
-sph.cfl_viscous 0.0002
+sph.cfl_viscous 0.0001
 sph.box ((-1,-1),(1,0.5))
 sph.free ((-1,-1),(1,0.5))
 sph.outer exact
@@ -183,8 +183,10 @@ try() { # MODE KEY VALUE
     case $mode:$key in
     dam:sph.surface | cube:sph.surface | wave:sph.surface | drop:sph.surface | lines:sph.surface) value=no ;;
     lines:sph.scheme) value=delta ;;
+    lines:sph.walls) value=ghosts ;;
     wave:sph.viscosity | lines:sph.viscosity) value=morris ;; # monaghan is what auto takes there
     delta:sph.surface) return ;; # looked for, and not found in a full box
+    wave:walls.kind | lines:walls.kind) value='"slip"' ;;
     cube:domain.dim) value=2 ;;
     wave:domain.periodic) value='(false,false)' ;;
     box:sph.outer) return ;; # the word for what a box takes by itself
