@@ -1,5 +1,5 @@
-/* sph_unused.h - keys that a run of particles would pass over. SPDX-License-Identifier:
- * BSD-3-Clause */
+/* sph_unused.h - keys that a run of particles would pass over.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_SPH_UNUSED_H
 #define SPH_SPH_UNUSED_H
 

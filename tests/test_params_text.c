@@ -120,6 +120,28 @@ static void a_given_key_that_is_not_used_is_a_fault(void **state)
     mem_free(f.text);
 }
 
+static void the_default_asks_for_nothing(void **state)
+{
+    (void)state;
+    struct faults f;
+    struct params *p =
+        read_case("box: { size = 1; lo = (1, 2); cells = (4, 4); kind = \"green\"; on "
+                  "= true; axes = (false, true); name = \"plain\"; };\n"
+                  "items: ( { weight = 2.5; kind = \"soft\"; } );",
+                  WITH("box.count=7"), &f);
+    static const char *const same[] = {"box.lo",   "box.cells", "box.kind",  "box.on",
+                                       "box.axes", "box.name",  "box.count", "items.[0].weight"};
+    for (int k = 0; k < 8; k++) {
+        assert_true(params_given(p, same[k]));
+        params_unused(p, &f, same[k], false, "-");
+    }
+    assert_int_equal(f.n, 0);
+    params_unused(p, &f, "items.[0].kind", false, "-");
+    assert_int_equal(f.n, 1);
+    params_free(&p);
+    mem_free(f.text);
+}
+
 static void a_fault_between_keys_stands_at_its_key(void **state)
 {
     (void)state;
@@ -149,6 +171,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(the_hash_is_of_the_case_and_not_of_its_output),
         cmocka_unit_test(the_text_of_a_case_can_be_read_again),
         cmocka_unit_test(a_given_key_that_is_not_used_is_a_fault),
+        cmocka_unit_test(the_default_asks_for_nothing),
         cmocka_unit_test(a_fault_between_keys_stands_at_its_key),
     };
     RUN_PARAMS_TESTS(argc, argv, tests);

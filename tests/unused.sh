@@ -57,12 +57,12 @@ sph.alpha 0.05
 sph.delta 0.1
 sph.background true
 sph.cfl 0.2
-sph.cfl_viscous 0.0002
+sph.cfl_viscous 0.0001
 sph.box ((-1,-1),(1,0.5))
 sph.free ((-1,-1),(1,0.5))
 sph.outer exact
 sph.density_limit 1e-6
-sph.walls fixed_ghosts
+sph.walls ghosts
 sph.surface yes
 sph.packing 7
 sph.noise 0.1
@@ -97,7 +97,7 @@ probes.at (0.2,-0.7)
 '
 # Where a run is written (checkpoint_wall: by the clock; fields: in snapshots, which are off here; tests/bad_input.sh has
 # the words of it), and what judges it.
-exceptions='output.checkpoint_wall output.fields accept.what accept.tolerance'
+exceptions='output.checkpoint_wall output.fields'
 
 head='format = 1;
 time:    { end = 0.04; };
@@ -166,9 +166,9 @@ domain: { dim = 2; min = (-1, -1); max = (1, 1); };
 initial: { U = 3.0; };
 walls: ( { points = ((-1, 1), (-1, -1), (0.5, -1), (1, -0.5), (1, 1)); kind = "no_slip"; #walls
  } );
-shapes: ( { form = "below"; level = 0.0; #shapes
+shapes: ( { form = "below"; level = 0.8; #shapes
  } );
-sph: { dx = 0.1; c0 = 30.0; scheme = "standard"; walls = "fixed_ghosts"; };' ;;
+sph: { dx = 0.1; c0 = 30.0; scheme = "delta"; };' ;;
     esac
     echo "$head"
 }
@@ -182,9 +182,10 @@ try() { # MODE KEY VALUE
     key=$2 value=$3
     case $mode:$key in
     dam:sph.surface | cube:sph.surface | wave:sph.surface | drop:sph.surface | lines:sph.surface) value=no ;;
-    lines:sph.scheme) value=delta ;;
+    cube:sph.walls) value=nfm ;;
     wave:sph.viscosity | lines:sph.viscosity) value=morris ;; # monaghan is what auto takes there
     delta:sph.surface) return ;; # looked for, and not found in a full box
+    wave:walls.kind | lines:walls.kind) value='"slip"' ;;
     cube:domain.dim) value=2 ;;
     wave:domain.periodic) value='(false,false)' ;;
     box:sph.outer) return ;; # the word for what a box takes by itself
@@ -218,6 +219,7 @@ try() { # MODE KEY VALUE
 known=$(echo "$values" | awk 'NF { print $1 }')
 for key in $("$b/sph" --params | sed -n 's/^| `\([a-z_A-Z0-9]*\.[a-zA-Z_0-9]*\)` .*/\1/p'); do
     case " $exceptions " in *" $key "*) continue ;; esac
+    case $key in accept.*) continue ;; esac
     echo "$known" | grep -qx "$key" || { echo "FAIL: no other value is known for $key: add it here"; failed=$((failed + 1)); }
 done
 [ "${1:-}" = all ] && set -- vortices delta dam body box channel cube wave drop lines
