@@ -44,13 +44,13 @@ scene jets 0.6 0.05 'min = (-2, -2); max = (2, 2);' '(0, 0)' '' \
     '{ form = "box"; box = ((-1.2, -0.2), (-0.2, 0.2)); velocity = (2, 0); }, { form = "box"; box = ((0.2, -0.2), (1.2, 0.2)); velocity = (-2, 0); }'
 scene pool 0.7 0.05 'max = (2, 1.4);' '(0, -9.81)' '{ side = "x_min"; }, { side = "y_min"; }, { side = "x_max"; }' \
     '{ form = "below"; level = 0.4; }, { form = "disc"; centre = (1, 1.1); radius = 0.16; }'
-scene film 0.6 0.04 'max = (0.8, 0.6); periodic = (true, false);' '(1, -9)' '{ side = "y_min"; kind = "no_slip"; }' \
+scene film 0.6 0.04 'max = (0.8, 0.6); periodic = (true, false);' '(1, -9)' '{ side = "y_min"; }' \
     '{ form = "box"; box = ((0, 0), (0.8, 0.3)); }'
 scene column 1 0.04 'max = (2, 1.2);' '(0, -9.81)' \
-    '{ points = ((0, 1.2), (0, 0), (1.2, 0), (1.35, 0.2), (1.5, 0), (2, 0), (2, 1.2)); kind = "no_slip"; }' \
+    '{ points = ((0, 1.2), (0, 0), (1.2, 0), (1.35, 0.2), (1.5, 0), (2, 0), (2, 1.2)); }' \
     '{ form = "box"; box = ((0, 0), (0.5, 0.6)); }'
 scene paddle 0.6 0.04 'max = (1, 1.04);' '(0, 0)' '{ side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; }' '' \
-    'bodies: ( { spin = 1.5; centre = (0.5, 0.5); points = ((0.3, 0.46), (0.3, 0.54), (0.7, 0.54), (0.7, 0.46)); } );'
+    'bodies: ( { spin = 1.5; centre = (0.5, 0.5); points = ((0.3, 0.44), (0.3, 0.56), (0.7, 0.56), (0.7, 0.44)); } );'
 for name in corner oblique jets pool film column paddle; do runs $name; done
 runs corner -p 'sph.scheme="riemann_ale"'
 runs jets -p 'sph.scheme="delta"'
