@@ -95,7 +95,7 @@ with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 12)/; s/(true, true
 with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 6.5)/; s/(true, true)/(true, false)/' 'fv.graded: 6.5 is no number' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); cfl = 7/' 'case.cfg:6: fv.cfl: ' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); integrator = "euler"/' 'case.cfg:6: fv.integrator: .*rk3' fv
-with coupled 's/steps = 32/steps = 0/' 'coupling.steps: ' coupler --check
+with coupled 's/steps = 32/steps = -1/' 'coupling.steps: ' coupler --check
 with coupled 's/steps = 32/steps = 32; mapping = "nearest"/' 'coupling.mapping: .*mls' coupler --check
 says "4 faults" "$b/sph" sph.cfg -o result -p sph.dx=-1 -p sph.cfll=1 -p time.end=-3 -p sph.scheme=none
 
