@@ -121,8 +121,8 @@ void coupling_create(struct fv *s)
         .likely = "its surface or a void has come to where fv looks: set the open sides of sph.box "
                   "deeper into the water, or lower coupling.overlap; cells of fv finer than sph.dx "
                   "want coarser fv.cells",
-        .warn = 0.01,
-        .stop = 0.1};
+        .warn = 0.05,
+        .stop = 0.25};
     k->mask = NEW(unsigned char, most);
 }
 

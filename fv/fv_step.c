@@ -155,10 +155,13 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
         surface_second_half(s, dt);
         timer_stop(&s->run->timers, timer_index(&s->run->timers, "surface"));
     }
-    s->max_cfl = fmax(s->max_cfl, s->rate * (s->prm.steady ? s->newton->dtau : dt));
     diagnose(s, dt, before * dt, good, d);
+    const bool failed = run_diagnose(d, s->b.cart);
+    if (s->predicts)
+        return dt;
+    s->max_cfl = fmax(s->max_cfl, s->rate * (s->prm.steady ? s->newton->dtau : dt));
     s->u_limit = limits_follow(&s->reference, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
-    if (!run_diagnose(d, s->b.cart))
+    if (!failed)
         fv_watches_look(s, d);
     return dt;
 }

@@ -15,31 +15,35 @@
 
 static const char axes[] = "xyz";
 
-/* Visits the lattice of spacing dx over the box lo .. hi until f says so; *x: where. */
-typedef bool visit(const void *ctx, const double *x);
-static bool find(int dim, double dx, const double *lo, const double *hi, visit *f, const void *ctx,
-                 double *x)
+/* Points of the lattice of spacing dx over the box lo .. hi that f holds of; *x: the last one. */
+typedef bool test(const void *ctx, const double *x);
+static double count(int dim, double dx, const double *lo, const double *hi, test *f,
+                    const void *ctx, double *x)
 {
     int n[3] = {1, 1, 1};
+    double found = 0.0;
     for (int a = 0; a < dim; a++)
         n[a] = (int)fmax(round((hi[a] - lo[a]) / dx), 1.0);
     for (int k = 0; k < n[2]; k++)
         for (int j = 0; j < n[1]; j++)
             for (int i = 0; i < n[0]; i++) {
                 const int at[3] = {i, j, k};
-                for (int a = 0; a < 3; a++)
-                    x[a] = a < dim ? lo[a] + (at[a] + 0.5) * (hi[a] - lo[a]) / n[a] : 0.0;
-                if (f(ctx, x))
-                    return true;
+                double y[3] = {0.0, 0.0, 0.0};
+                for (int a = 0; a < dim; a++)
+                    y[a] = lo[a] + (at[a] + 0.5) * (hi[a] - lo[a]) / n[a];
+                if (!f(ctx, y))
+                    continue;
+                found += 1.0;
+                memcpy(x, y, sizeof y);
             }
-    return false;
+    return found;
 }
 
 struct water {
     const struct scene *scene;
     double dx;
     struct exact exact;
-    double free[2][3]; /* where a surface may be: beyond the cells that fv looks at */
+    double given[2][3], hidden[2][3]; /* what SPH gives, and of it what fv does not look at */
 };
 
 static bool is_wet(const struct water *w, const double *x)
@@ -47,30 +51,54 @@ static bool is_wet(const struct water *w, const double *x)
     return scene_is_fluid(w->scene, &w->exact, x, NULL);
 }
 
+static bool is_inside(const struct water *w, const double box[2][3], const double *x)
+{
+    bool inside = true;
+    for (int a = 0; a < w->scene->domain.dim; a++)
+        inside = inside && x[a] > box[0][a] && x[a] < box[1][a];
+    return inside;
+}
+
 static bool dry_outside(const void *ctx, const double *x)
 {
     const struct water *w = ctx;
-    bool inside = true;
-    for (int a = 0; a < w->scene->domain.dim; a++)
-        inside = inside && x[a] > w->free[0][a] && x[a] < w->free[1][a];
-    return !inside && !is_wet(w, x);
+    return !is_inside(w, w->given, x) && !is_wet(w, x);
+}
+
+static bool in_edge(const void *ctx, const double *x)
+{
+    const struct water *w = ctx;
+    return is_inside(w, w->given, x) && !is_inside(w, w->hidden, x);
+}
+
+static bool dry_in_edge(const void *ctx, const double *x)
+{
+    return in_edge(ctx, x) && !is_wet(ctx, x);
 }
 
 static bool wet(const void *ctx, const double *x) { return is_wet(ctx, x); }
 
-/* FV's flow has no surface: all that is not SPH's free zone must be water at the start. */
+/* FV's flow has no surface: all that SPH does not give must be water at the start, and most of what
+ * FV takes from it; the troughs of steep waves may reach there. */
 static void check_water(const struct run *r, const struct water *w, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
-    double x[3];
-    if (scene_has_surface(&r->scene) && find(d->dim, w->dx, d->min, d->max, dry_outside, w, x))
-        params_fault(r->params, f, "sph.box",
-                     "at (%g, %g, %g) m there is no water: outside of (%g, %g, %g) to (%g, %g, %g) "
-                     "m, what fv takes from sph, it knows of no surface; let the box reach the "
-                     "sides and the top of the domain, set its bottom lower, or make transition, "
-                     "buffer and overlap thinner, or fv.cells finer",
-                     x[0], x[1], x[2], w->free[0][0], w->free[0][1], w->free[0][2], w->free[1][0],
-                     w->free[1][1], w->free[1][2]);
+    const double dx = w->dx;
+    double x[3] = {0.0, 0.0, 0.0};
+    if (!scene_has_surface(&r->scene))
+        return;
+    const bool outside = count(d->dim, dx, d->min, d->max, dry_outside, w, x) > 0.0;
+    if (!outside && count(d->dim, dx, d->min, d->max, dry_in_edge, w, x) <=
+                        0.5 * count(d->dim, dx, d->min, d->max, in_edge, w, (double[3]){0.0}))
+        return;
+    const double(*box)[3] = outside ? w->given : w->hidden;
+    params_fault(r->params, f, "sph.box",
+                 "at (%g, %g, %g) m there is no water: outside of (%g, %g, %g) to (%g, %g, %g) m, "
+                 "what fv takes from sph, it knows of no surface; let the box reach the sides and "
+                 "the top of the domain, set its bottom lower, or make transition, buffer and "
+                 "overlap thinner, or fv.cells finer",
+                 x[0], x[1], x[2], box[0][0], box[0][1], box[0][2], box[1][0], box[1][1],
+                 box[1][2]);
 }
 
 /* Where the box reaches the domain's side, SPH ends: at a wall, above the water, or in a period
@@ -101,7 +129,7 @@ static void check_side(const struct run *r, const struct sph_params *prm, const 
         lo[a] = hi[a] - prm->dx;
     else
         hi[a] = lo[a] + prm->dx;
-    if (wall || find(d->dim, prm->dx, lo, hi, wet, w, x))
+    if (wall || count(d->dim, prm->dx, lo, hi, wet, w, x) > 0.0)
         params_fault(r->params, f, "sph.box",
                      "it reaches the %c side at %g m, %s: in a coupled job that is fv's; give the "
                      "side a wall, or end the box before it",
@@ -234,7 +262,8 @@ void coupling_check(const struct run *r, struct faults *f)
         return;
     }
     struct water w = {.scene = &r->scene, .dx = prm->dx, .exact = exact_create(&r->scene)};
-    find_hidden(r, prm, w.free);
+    zones_given_box(r, prm, w.given[0], w.given[1]);
+    find_hidden(r, prm, w.hidden);
     for (int side = 0; side < 2 * r->scene.domain.dim; side++)
         check_side(r, prm, &w, side, f);
     if (f->n == 0)

@@ -16,6 +16,10 @@
 const char *const overlap_columns[OVERLAP_COLUMNS] = {
     "overlap velocity [-]", "overlap pressure [-]", "surface in the zones [-]"};
 
+/* Windows over which differences are averaged: sound of an impact or of a sudden start, up to rho
+ * c0 U, passes through SPH alone and is no fault. */
+static const double several = 10.0;
+
 struct overlap *overlap_create(const struct sph *s)
 {
     struct overlap *o = NEW(struct overlap, 1);
@@ -35,8 +39,8 @@ struct overlap *overlap_create(const struct sph *s)
         .key = "overlap_pressure",
         .what = "pressures of sph and fv where both are free, difference over the flow's scale",
         .likely = mend,
-        .warn = 0.25,
-        .stop = w.weight > 0.0 ? 0.5 : 1.0}; /* rho U^2 is little beside the noise of rho c0 u */
+        .warn = w.weight > 0.0 ? 0.25 : 0.1 * s->c0 / w.U,
+        .stop = w.weight > 0.0 ? 0.5 : 0.3 * s->c0 / w.U}; /* rho U^2 is little beside the noise */
     o->dry = (struct watch){
         .key = "surface_in_zones",
         .what = "share of the open sides in front of which a free surface lies in the transition",
@@ -118,6 +122,8 @@ void overlap_look(struct sph *s)
     o->du = sqrt(sums[1] / n) / o->U;
     o->dp = sqrt(fmax(sums[3] / n - mean * mean, 0.0)) / o->p;
     o->on = sums[4] / openings_faces(s->zones->openings);
+    o->du_mean += (o->du - o->du_mean) / several;
+    o->dp_mean += (o->dp - o->dp_mean) / several;
     o->fresh = o->asks = true;
 }
 
@@ -131,8 +137,8 @@ void overlap_judge(struct sph *s, struct diagnosis *d)
         snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, t = %.4g s", o->where[0], o->where[1],
                  o->where[2], s->t);
     const bool was_bad = d->bad;
-    watch_judge(&o->velocity, o->du, s->t, s->run->step, d);
-    watch_judge(&o->pressure, o->dp, s->t, s->run->step, d);
+    watch_judge(&o->velocity, o->du_mean, s->t, s->run->step, d);
+    watch_judge(&o->pressure, o->dp_mean, s->t, s->run->step, d);
     if (d->bad && !was_bad)
         snprintf(d->where, sizeof d->where,
                  "the rim of the free zone, %g m wide, t = %.4g s, step %lld", s->zones->overlap,

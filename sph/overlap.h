@@ -11,13 +11,14 @@ enum { OVERLAP_COLUMNS = 3 };
 
 struct overlap {
     struct watch velocity, pressure; /* rms of the differences over the scales below */
-    struct watch dry;  /* share of the transition's faces above which lies a surface */
-    double U, p;       /* m/s, Pa: scales */
-    bool fresh;        /* looked at since it was judged last */
-    double du, dp, on; /* of the last look */
-    bool asks;         /* for the surface, once a window */
-    double found;      /* particles of this rank on a surface in transition and buffer */
-    double where[3];   /* m: one of them */
+    struct watch dry;        /* share of the transition's faces above which lies a surface */
+    double U, p;             /* m/s, Pa: scales */
+    bool fresh;              /* looked at since it was judged last */
+    double du, dp, on;       /* of the last look */
+    double du_mean, dp_mean; /* over some windows: what is judged */
+    bool asks;               /* for the surface, once a window */
+    double found;            /* particles of this rank on a surface in transition and buffer */
+    double where[3];         /* m: one of them */
 };
 
 struct overlap *overlap_create(const struct sph *s);

@@ -126,6 +126,16 @@ static double mass_at(const struct run *r, const struct sph_params *prm, const b
     const double k = lateral(r, prm, open, a);
     const bool walled = scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + side)) != NULL;
     const double beyond = side % 2 ? d->max[a] - prm->box[1][a] : prm->box[0][a] - d->min[a];
+    /* The box spans the flow: what lies beyond can move as a whole, half of a period to each side.
+     */
+    bool spans = !walled;
+    for (int b = 0; b < d->dim; b++)
+        spans = spans && (b == a || (!open[2 * b] && !open[2 * b + 1]));
+    if (spans) {
+        const double width = prm->box[1][a] - prm->box[0][a];
+        return fmax(exp(-k * D) / k,
+                    d->periodic[a] ? 0.5 * (d->max[a] - d->min[a] - width) : beyond);
+    }
     if (!walled || k * (beyond + D) > 20.0)
         return exp(-k * D) / k;
     return cosh(k * beyond) / sinh(k * (beyond + D)) / k;

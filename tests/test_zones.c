@@ -253,9 +253,14 @@ static void as_sph(void *ctx, double t, int n, const double *x, double *u, doubl
 static struct diagnosis judge(struct sph *s)
 {
     struct diagnosis d = {0};
-    overlap_find_surface(s);
-    overlap_look(s);
-    overlap_judge(s, &d);
+    s->zones->watched->du_mean = s->zones->watched->dp_mean = 0.0;
+    for (int window = 0; window < 40; window++) { /* what passes soon is no fault */
+        overlap_find_surface(s);
+        overlap_look(s);
+        overlap_judge(s, &d);
+        if (window == 0)
+            assert_null(strstr(d.reason, "where both are free"));
+    }
     return d;
 }
 
@@ -291,7 +296,7 @@ static void the_overlap_is_watched(void **state)
     d = judge(s);
     assert_true(d.bad && strstr(d.reason, "velocities of sph and fv"));
     exact = exact_create(e);
-    exact.rho *= 9.0;
+    exact.rho *= 60.0;
     d = judge(s);
     assert_true(d.bad && strstr(d.reason, "pressures of sph and fv"));
     exact = exact_create(e);
