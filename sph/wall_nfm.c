@@ -145,7 +145,7 @@ static double wall_pressure(const struct sph *s, const struct seen *i, const dou
 static bool is_riemann(const struct sph *s) { return s->prm.scheme <= SCHEME_RIEMANN; }
 
 /* Whether the wave to a segment counts in full: pairs of delta are too calm without it, and over a
- * no-slip bottom it costs nothing, but the damping of a standing wave errs by 4.6 % instead of 0.4
+ * no-slip bottom it costs nothing, but the damping of a standing wave errs by 4.6 % instead of 0.1
  * % without (H/dx = 25). */
 static bool whole_wave(const struct sph *s, const struct segment *g)
 {

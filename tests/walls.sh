@@ -1,0 +1,67 @@
+#!/bin/sh
+# Walls and bodies as a case has them: a wedge that enters water, schemes and the walls they can take, walls that are
+# too thin. SPDX-License-Identifier: BSD-3-Clause
+b=$(cd "${1:-build}" && pwd)
+tmp=${TEST_SCRATCH:-$(mktemp -d)}/walls
+mkdir -p "$tmp" && cd "$tmp" || exit 1
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+failed=0
+bad() { echo "FAIL: $*"; failed=$((failed + 1)); }
+number() { sed -n "s/.*\"$2\": *\([-+0-9.eE]*\).*/\1/p" "$1/summary.json" | head -n 1; }
+holds() { awk "BEGIN { exit !($1) }"; }
+
+# 30 degrees at constant speed, no gravity: F = 14.02 rho V^3 t of both sides (similarity solution; Zhao & Faltinsen,
+# J. Fluid Mech. 246, 1993: 14.14). The slope does not depend on where in its first dx the entry begins.
+cat >wedge.cfg <<'END'
+format = 1;
+time:    { end = 0.07; };
+fluid:   { rho = 1000.0; };
+domain:  { dim = 2; min = (-0.7, -0.5); max = (0.7, 0.3); };
+initial: { field = "rest"; U = 1.0; };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "box"; box = ((-0.7, -0.5), (0.7, 0)); } );
+bodies:  ( { name = "wedge"; velocity = (0, -1); points = ((0, 0), (-0.4, 0.23094), (0.4, 0.23094)); } );
+sph:     { dx = 0.01; c0 = 50.0; };
+output:  { series = 1; snapshots = false; };
+END
+timeout 60 "$b/sph" wedge.cfg -o wedge --force >log.txt 2>&1 || bad "wedge ended with $?: $(tail -n 3 log.txt)"
+slope=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /force y/) k = i; next }
+    $1 > 0.025 { n++; t += $1; f += $k; tt += $1 * $1; tf += $1 * $k }
+    END { print (n * tf - t * f) / (n * tt - t * t) / 14020 }' wedge/series.csv)
+holds "$slope > 0.85 && $slope < 1.15" || bad "wedge: dF/dt is $slope of the similarity solution, wanted within 15 %"
+[ "$(number wedge particles_returned)" = 0 ] || bad "wedge: $(number wedge particles_returned) particles put back"
+defect=$(number wedge defect)
+holds "$defect < 1e-10" || bad "wedge: momentum off by $defect"
+
+# a tank with an oblique floor and a wall between two levels, 3 dx thick; delta takes normal flux walls, standard none
+cat >tank.cfg <<'END'
+format = 1;
+time:    { end = 0.5; };
+fluid:   { rho = 1000.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (1, 1); };
+initial: { field = "rest"; U = 2.21; };
+walls:   ( { points = ((0, 1), (0, 0), (0.4, 0), (0.4, 0.9), (0.55, 0.9), (0.55, 0), (1, 0), (1, 1)); } );
+shapes:  ( { form = "box"; box = ((0, 0), (0.4, 0.6)); }, { form = "box"; box = ((0.55, 0), (1, 0.3)); } );
+sph:     { dx = 0.05; c0 = 30.0; };
+output:  { series = 10; snapshots = false; };
+END
+for scheme in delta riemann; do
+    timeout 60 "$b/sph" tank.cfg -o tank --force -p sph.scheme=$scheme >log.txt 2>&1 || bad "$scheme ended with $?"
+    holds "$(number tank particles_returned) + $(number tank particles_lost) == 0" || bad "$scheme: particles through walls"
+done
+# refuses WORDS ARGS...
+refuses() {
+    words=$1
+    shift
+    timeout 20 "$b/sph" "$@" -o none >log.txt 2>&1
+    [ $? = 2 ] || bad "$* is not refused"
+    grep -q "$words" log.txt || bad "$*: no word of: $words"
+}
+refuses "sph.scheme: standard .* take riemann" tank.cfg -p sph.scheme=standard
+refuses "sph.walls: .*fixed_ghosts" tank.cfg -p sph.walls=fixed_ghosts
+sed 's/0\.55/0.5/g' tank.cfg >thin.cfg
+refuses "faces of wall 1 are 0.1 m apart at (0.45, " thin.cfg
+sed 's/^sph:/bodies: ( { name = "block"; points = ((0.1, 0.02), (0.1, 0.2), (0.35, 0.2), (0.35, 0.02)); } );\nsph:/' tank.cfg >gap.cfg
+refuses "wall 1 and body 1 (block) are 0.02 m apart" gap.cfg
+echo "walls: wedge $slope, momentum $defect, $failed faults"
+[ $failed = 0 ]
