@@ -102,7 +102,7 @@ function handed(t,    even) { # det of the motion
 }
 # Counts and residuals say how a figure was reached, not what it is.
 function compared(name, t) {
-    if (name ~ /divergence|put back|residual|iteration|krylov|pseudo|water up to|^watch|watch/) return 0
+    if (name ~ /divergence|put back|gain|paired|odd-even|growth|residual|iteration|krylov|pseudo|water up to|^watch|watch/) return 0
     if (name ~ /\[s\]/) return 0
     if (name ~ /^P[0-9] \[m\]/) return t == "units" || t == "ranks"
     if (name ~ /moment z/) return t == "units" || t == "ranks" # about the origin
