@@ -33,11 +33,26 @@ enum { ENERGY, KINETIC, POWER, WALL_WORK, REMOVED, PUT_BACK, PAIRED };
 
 static const double near_pair = 0.1; /* dx: closer than that two particles are one */
 
+/* Whether some particle feels a wall that slides and the one across at once: their forces are one
+ * sum. */
+static bool is_slit(const struct scene *c, const struct sph_params *prm)
+{
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++) {
+        const struct scene_wall *w = c->walls + k;
+        const int a = (w->side - SIDE_X_MIN) / 2;
+        const double *u = w->velocity;
+        if (w->side != SIDE_NONE && (u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0))
+            any = any || c->domain.max[a] - c->domain.min[a] < 2.0 * prm->R_dx * prm->dx;
+    }
+    return any;
+}
+
 /* Whether all work that is done on the flow can be told. */
 static bool is_closed(const struct run *r, const struct sph_params *prm)
 {
     return !r->coupled && prm->outer == OUTER_NONE &&
-           (!sph_watch_moves(&r->scene) || prm->walls == WALLS_NFM);
+           (!sph_watch_moves(&r->scene) || prm->walls == WALLS_NFM) && !is_slit(&r->scene, prm);
 }
 
 void sph_watch_create(struct sph *s)
