@@ -449,7 +449,7 @@ void sph_params_check(const struct run *r, struct faults *f)
         check_axis(r, a, f);
     if (!in_3d && sph_params_walls(r))
         if (is_given(given.box) && is_given(given.free))
-        params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");
+            params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");
     if (f->n == 0 && has_box())
         check_zones(r, f);
     sph_unused_check(r, &given, sph_params_of(r), f);
