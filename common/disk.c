@@ -3,6 +3,7 @@
 #include "disk.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,19 +14,26 @@
 #include "mem.h"
 #include "run.h"
 
-enum { CHUNK = 1 << 20, WORDS = 2 };
+enum { CHUNK = 1 << 20, WORDS = 2, SPARE = 1 << 16 /* bytes: what the library adds */ };
 static const uint64_t MARK = 0x314c414553545345u; /* "ESTSEAL1" */
 
-void disk_failed(const char *path)
+/* Bytes that are free where a path is, infinite if that cannot be told. */
+static double free_bytes(const char *path)
 {
-    char dir[1200], reason[160];
+    char dir[1200];
     struct statvfs v;
-    snprintf(reason, sizeof reason, "%s", errno ? strerror(errno) : "no reason is known");
     snprintf(dir, sizeof dir, "%s", path);
     char *slash = strrchr(dir, '/');
     if (slash)
         *slash = '\0';
-    if (statvfs(slash ? dir : ".", &v) == 0 && (double)v.f_bavail * (double)v.f_frsize < 1e6)
+    return statvfs(slash ? dir : ".", &v) == 0 ? (double)v.f_bavail * (double)v.f_frsize : INFINITY;
+}
+
+void disk_failed(const char *path)
+{
+    char reason[160];
+    snprintf(reason, sizeof reason, "%s", errno ? strerror(errno) : "no reason is known");
+    if (free_bytes(path) < 1e6)
         snprintf(reason, sizeof reason, "the disk is full");
     if (strlen(path) > 5 && strcmp(path + strlen(path) - 5, ".part") == 0) {
         const int gone = truncate(path, 0); /* room for last words, though it is still open */
@@ -34,6 +42,14 @@ void disk_failed(const char *path)
     }
     fail_with(RUN_INPUT, "cannot write %s: %s; restart files that were complete before are intact",
               path, reason);
+}
+
+void disk_room(const char *path, double bytes)
+{
+    if (free_bytes(path) >= bytes + SPARE)
+        return;
+    errno = ENOSPC;
+    disk_failed(path);
 }
 
 /* Sum of n bytes read from f, eight at a time (multiply and rotate, so that the place counts). */

@@ -204,8 +204,12 @@ static void write_part(struct h5 *f, const char *name, const char *unit, const s
     if (unit)
         write_text(f, set, "units", unit);
     bool any = true;
-    for (int k = 0; k < p->rank; k++)
+    double bytes = (double)H5Tget_size(stored);
+    for (int k = 0; k < p->rank; k++) {
         any = any && p->shape[k] > 0;
+        bytes *= (double)p->shape[k];
+    }
+    disk_room(f->part, bytes);
     if (any)
         transfer(f, set, p, type, (void *)(uintptr_t)v, true);
     H5(H5Dclose(set));

@@ -509,6 +509,7 @@ static int run_state(struct life *l, struct h5 *restart)
     }
     l->wall0 = l->said = l->saved = wall_time();
     l->every = 1.0;
+    signals_started();
     for (int k = 0; k < r->timers.n; k++)
         r->timers.of[k].wall = 0.0; /* the start is not part of the loop */
     return end(l, r->coupled ? loop_coupled(l) : loop_alone(l));

@@ -161,6 +161,10 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
 int run_folder(MPI_Comm comm, const char *dir, const char *name, bool force, bool restart);
 /* Removes the restart files of a program in its folder that come before the newest, but for the one
  * before it. What is newer (of a window under way) stays. */
+/* A fault at `key' if n units (particles, cells), bytes in all, are more than this program's ranks
+ * can count or their hosts can hold. Collective. */
+void run_check_memory(const struct run *r, struct faults *f, const char *key, double n,
+                      const char *unit, double bytes);
 bool run_make_folder(const char *dir); /* with all above it; false: errno says why */
 void run_prune(const char *dir, const char *name, const char *newest, const char *older);
 
@@ -174,6 +178,8 @@ void signals_install(const char *program, int rank);
 void signals_start_mpi(int *argc, char ***argv, const char *program);
 bool signals_stop(void);    /* this rank's flag */
 void signals_handled(void); /* an orderly stop is under way: no deadline */
+void signals_started(void); /* the time loop looks at signals_stop from now on; before, a signal
+                               ends a program that runs alone at once */
 void signals_note_path(
     const char *path);                /* file of the death note (shared by the job's programs) */
 void signals_heard(const char *text); /* what the handler prints when there is no note; copied */

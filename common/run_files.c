@@ -208,6 +208,28 @@ void files_view(const struct run *r)
     fclose(f);
 }
 
+/* Ranks of a host share its memory; the hosts are taken to be alike. */
+void run_check_memory(const struct run *r, struct faults *f, const char *key, double n,
+                      const char *unit, double bytes)
+{
+    MPI_Comm host;
+    int here = 1;
+    MPI_Comm_split_type(r->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host);
+    MPI_Comm_size(host, &here);
+    MPI_Comm_free(&host);
+    double room = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    MPI_Allreduce(MPI_IN_PLACE, &room, 1, MPI_DOUBLE, MPI_MIN, r->comm);
+    MPI_Allreduce(MPI_IN_PLACE, &here, 1, MPI_INT, MPI_MAX, r->comm);
+    const double need = bytes * here / r->size;
+    if (n / r->size > 1e9)
+        params_fault(r->params, f, key, "%.3g %s are too many for %d rank%s: at most 1e9 each", n,
+                     unit, r->size, r->size == 1 ? "" : "s");
+    else if (need > room)
+        params_fault(r->params, f, key,
+                     "%.3g %s need about %.3g GB on a machine of %.3g GB: coarser, or more hosts",
+                     n, unit, 1e-9 * need, 1e-9 * room);
+}
+
 /* --- the folder --- */
 
 /* Whether a file belongs to a run of this program. --force deletes these: sph_io.c in the folder of

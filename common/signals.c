@@ -24,7 +24,7 @@ static struct {
     char note[1100];    /* path of the death note */
     char heard[2][256]; /* the text in use and the one being written */
     bool launched;      /* by mpirun, which kills soon after its SIGTERM */
-    volatile sig_atomic_t heard_now, stop, handled;
+    volatile sig_atomic_t heard_now, stop, handled, started;
 } state;
 
 static void put(int fd, const char *s)
@@ -77,9 +77,22 @@ static void leave(void)
     _exit(RUN_PARTNER);
 }
 
+static void stopped_early(int signal)
+{
+    (void)signal;
+    put(STDOUT_FILENO, state.who);
+    put(STDOUT_FILENO,
+        state.launched
+            ? ": the launcher ends the job before it began: a program of it was stopped or killed\n"
+            : ": stopped by a signal before the first step\n");
+    _exit(RUN_STOPPED);
+}
+
 static void on_stop(int signal)
 {
     const int error = errno;
+    if (!state.started && !state.launched)
+        stopped_early(signal);
     state.stop = 1;
     if (signal == SIGTERM && !state.handled) {
         if (print_note())
@@ -109,17 +122,6 @@ static void on_alarm(int signal)
     leave();
 }
 
-static void stopped_early(int signal)
-{
-    (void)signal;
-    put(STDOUT_FILENO, state.who);
-    put(STDOUT_FILENO,
-        state.launched
-            ? ": the launcher ends the job before it began: a program of it was stopped or killed\n"
-            : ": stopped by a signal before the run began; nothing was written\n");
-    _exit(RUN_STOPPED);
-}
-
 static void not_started(int signal)
 {
     (void)signal;
@@ -142,8 +144,10 @@ void signals_start_mpi(int *argc, char ***argv, const char *program)
     MPI_Init(argc, argv);
     alarm(0);
     signal(SIGALRM, SIG_DFL);
-    if (state.launched) /* programs that meet have a handler of their own (coupler/failure.c) */
+    if (state.launched) { /* programs that meet have handlers of their own (coupler/failure.c) */
         signal(SIGTERM, SIG_DFL);
+        signal(SIGINT, SIG_DFL);
+    }
 }
 
 static const char *fault_name(int signal)
@@ -186,6 +190,7 @@ void signals_install(const char *program, int rank)
 
 bool signals_stop(void) { return state.stop; }
 void signals_handled(void) { state.handled = 1; }
+void signals_started(void) { state.started = 1; }
 
 void signals_note_path(const char *path) { snprintf(state.note, sizeof state.note, "%s", path); }
 

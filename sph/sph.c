@@ -5,8 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../common/exact.h"
+#include "../common/forecast.h"
 #include "../common/log.h"
 #include "../common/picture.h"
+#include "../common/scene_fluid.h"
 #include "../coupler/cpl_partner.h"
 #include "domain.h"
 #include "overlap.h"
@@ -17,22 +20,48 @@
 static const char *columns[SPH_COLUMNS];
 static struct program sph_program; /* its columns depend on the scene */
 
+/* Part of the region that is fluid at the start, by a few thousand samples; walls and bodies not
+ * taken off. */
+static double share_of_fluid(const struct run *r, const struct sph_params *prm)
+{
+    const int dim = r->scene.domain.dim, m = dim == 2 ? 96 : 24;
+    const struct exact e = exact_create(&r->scene);
+    int in = 0;
+    for (int k = 0; k < (dim == 3 ? m : 1); k++)
+        for (int j = 0; j < m; j++)
+            for (int i = 0; i < m; i++) {
+                const int at[3] = {i, j, k};
+                double x[3] = {0.0, 0.0, 0.0};
+                for (int a = 0; a < dim; a++)
+                    x[a] = prm->box[0][a] + (at[a] + 0.5) / m * (prm->box[1][a] - prm->box[0][a]);
+                in += scene_is_fluid(&r->scene, &e, x, NULL);
+            }
+    return in / pow(m, dim);
+}
+
+/* About how many particles the run will have. */
 static double lattice(const struct run *r)
 {
     const struct sph_params *prm = sph_params_of(r);
-    double n = 1.0;
+    double n = share_of_fluid(r, prm);
     for (int a = 0; a < r->scene.domain.dim; a++)
         n *= round((prm->box[1][a] - prm->box[0][a]) / prm->dx);
     return n;
+}
+
+/* Particles within the support of one. */
+static double pairs_of_particle(const struct run *r)
+{
+    const double R = sph_params_of(r)->R_dx;
+    return r->scene.domain.dim == 2 ? M_PI * R * R : 4.0 / 3.0 * M_PI * R * R * R;
 }
 
 /* Bytes of a particle: rows, lines and list; the support holds theta/dx^D of them, the list 1.2
  * times. */
 static double bytes_per_particle(const struct run *r)
 {
-    const struct sph_params *prm = sph_params_of(r);
     const int dim = r->scene.domain.dim;
-    const double R = prm->R_dx, theta = dim == 2 ? M_PI * R * R : 4.0 / 3.0 * M_PI * R * R * R;
+    const double theta = pairs_of_particle(r);
     return 8.0 * (4 * (2 * dim + 2) + 8 + (dim == 2 ? 8 : 16)) + 9.0 + 4.0 * 1.2 * theta + 40.0;
 }
 
@@ -142,13 +171,14 @@ static void describe(const struct run *r)
     const char *limit;
     const double dt = sph_params_dt(prm, r->scene.fluid.nu, prm->c0, &limit), n = lattice(r);
     describe_scene(r);
-    const bool part = r->scene.nshapes > 0 || r->scene.nbodies > 0 || prm->surface == SURFACE_YES;
-    log_say("%s%.0f particles, dx %g m, R/dx %g, c0 %g m/s; about %.0f MB", part ? "at most " : "",
-            n, prm->dx, prm->R_dx, prm->c0, 1e-6 * n * bytes_per_particle(r));
+    log_say("about %.0f particles, dx %g m, R/dx %g, c0 %g m/s; %.0f MB", n, prm->dx, prm->R_dx,
+            prm->c0, 1e-6 * n * bytes_per_particle(r));
     const struct scene_speed v = sph_params_speed(r);
     log_say("speed to expect %.3g m/s: %s; c0 is %.3g times that", v.speed, v.from,
             prm->c0 / v.speed);
-    log_say("dt about %.3g s (%s), %.0f steps", dt, limit, ceil(r->scene.time.end / dt));
+    const double steps = ceil(r->scene.time.end / dt);
+    log_say("dt about %.3g s (%s), %.0f steps", dt, limit, steps);
+    forecast_say("sph", r->scene.domain.dim, n * pairs_of_particle(r), steps);
     if (r->coupled)
         windows_describe(r, prm);
     warn_of(r);
@@ -200,6 +230,10 @@ static void check(const struct run *r, struct faults *f)
     sph_params_check(r, f);
     if (f->n == 0 && r->coupled)
         coupling_check(r, f);
+    if (f->n == 0) {
+        const double n = lattice(r);
+        run_check_memory(r, f, "sph.dx", n, "particles", n * bytes_per_particle(r));
+    }
 }
 
 static double window_wish(void *state)
