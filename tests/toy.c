@@ -50,9 +50,9 @@ static void describe(const struct run *r)
 static void *create(struct run *r, struct h5 *f)
 {
     const int64_t mine = params.n / r->size + (r->rank < params.n % r->size);
-    const int64_t n = f ? h5_rows(f, "x") : mine;
+    const int64_t n = f ? h5_share(f, "x") : mine;
     if (n < 0) {
-        log_say("toy: the restart file is of another number of ranks");
+        log_say("toy: the restart file has no oscillators");
         return NULL;
     }
     struct toy *s = NEW(struct toy, 1);
