@@ -13,6 +13,7 @@
 #include "forces.h"
 #include "openings.h"
 #include "sph_params.h"
+#include "surface.h"
 #include "zones.h"
 
 enum { PRIM = 8 };
@@ -191,6 +192,27 @@ static void read_signal(struct sph *s, struct h5 *f)
     mem_free(rows);
 }
 
+/* Who lies on a surface: windows begin with what the last step has found. */
+static void save_surface(const struct sph *s, struct h5 *f)
+{
+    int64_t *is = NEW(int64_t, s->p.n);
+    for (int i = 0; i < s->p.n && i < s->surface->capacity; i++)
+        is[i] = s->surface->is[i];
+    h5_write_int(f, "surface", s->p.n, is);
+    mem_free(is);
+}
+
+static bool read_surface(struct sph *s, struct h5 *f)
+{
+    int64_t *is = NEW(int64_t, s->p.n);
+    const bool fits = h5_read_int(f, "surface", s->p.n, is);
+    surface_room(s->surface, s->p.n, s->dim);
+    for (int i = 0; fits && i < s->p.n; i++)
+        s->surface->is[i] = (unsigned char)is[i];
+    mem_free(is);
+    return fits;
+}
+
 void sph_checkpoint(void *state, struct h5 *f)
 {
     struct sph *s = state;
@@ -203,6 +225,8 @@ void sph_checkpoint(void *state, struct h5 *f)
     h5_write_int(f, "next_id", 1, &s->next_id);
     h5_write_real(f, "lost", "-", 1, 1, &s->lost, false);
     mem_free(zone);
+    if (s->surface)
+        save_surface(s, f);
     if (s->signal_fit.n > 0)
         save_signal(s, f);
     for (int k = 0; k < NUMBERS; k++)
@@ -293,6 +317,8 @@ static const char *missing(struct sph *s, struct h5 *f)
         return "watches";
     if (!domain_load(s, f))
         return "partition";
+    if (s->surface && !read_surface(s, f))
+        return "classes of a free surface";
     if (s->zones && !zones_load(s, f))
         return "open sides";
     if (s->walls && !forces_load(s, f))

@@ -13,6 +13,7 @@
 #include "../common/mem.h"
 #include "eos.h"
 #include "openings.h"
+#include "overlap.h"
 #include "sides.h"
 #include "sph_params.h"
 
@@ -387,6 +388,8 @@ void zones_save(struct sph *s, struct h5 *f)
     h5_write_real(f, "zones_level", "Pa", 1, 1, level, false);
     h5_write_real(f, "zones_owed", "kg", 1, 1, owed, false);
     h5_write_int(f, "zones_counted", 3, counted);
+    if (s->zones->watched)
+        overlap_save(s->zones->watched, f);
 }
 
 /* Counts of all ranks; on another number of ranks the first gets them. */
