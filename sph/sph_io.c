@@ -202,15 +202,15 @@ static void save_surface(const struct sph *s, struct h5 *f)
     mem_free(is);
 }
 
-static bool read_surface(struct sph *s, struct h5 *f)
+/* None where the file does not say. */
+static void read_surface(struct sph *s, struct h5 *f)
 {
     int64_t *is = NEW(int64_t, s->p.n);
-    const bool fits = h5_read_int(f, "surface", s->p.n, is);
+    h5_read_int(f, "surface", s->p.n, is);
     surface_room(s->surface, s->p.n, s->dim);
-    for (int i = 0; fits && i < s->p.n; i++)
+    for (int i = 0; i < s->p.n; i++)
         s->surface->is[i] = (unsigned char)is[i];
     mem_free(is);
-    return fits;
 }
 
 void sph_checkpoint(void *state, struct h5 *f)
@@ -317,8 +317,6 @@ static const char *missing(struct sph *s, struct h5 *f)
         return "watches";
     if (!domain_load(s, f))
         return "partition";
-    if (s->surface && !read_surface(s, f))
-        return "classes of a free surface";
     if (s->zones && !zones_load(s, f))
         return "open sides";
     if (s->walls && !forces_load(s, f))
@@ -337,6 +335,8 @@ bool sph_restore(struct sph *s, struct h5 *f)
                 lacks);
     else if (lacks)
         log_say("the restart file has no %s that fit this case", lacks);
+    if (s->surface)
+        read_surface(s, f);
     read_signal(s, f);
     s->ready = false;
     return !lacks;
