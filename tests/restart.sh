@@ -62,3 +62,25 @@ walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
 shapes:  ( { form = "box"; box = ((0, 0), (0.6, 0.3)); } );
 sph:     { dx = 0.02; c0 = 30.0; };
 END
+
+# series.csv has 12 digits: 1e-9 leaves rounding three orders of magnitude to grow by
+family dam kinetic 1e-9 2 "1 3" 0.1 dam.cfg
+family sloshing kinetic 1e-9 2 "1 3" 0.2 sloshing_fv
+family outflow kinetic 1e-9 2 "1 3" 0.1 "$root/cases/stress/outflow_fv.cfg"
+# the default tolerance of the pressure alone moves the fifth digit of the divergence
+family blocks kinetic 1e-9 2 "1 3" 0.1 taylor_green_blocks -p fv.tol_pressure=1e-11 -p fv.tol_viscous=1e-11
+family coupled kinetic 1e-9 2:1:1 "1:2:2 3:1:1" 0.08 taylor_green -p sph.dx=0.0125 -p "fv.cells=(24,24)"
+family wave kinetic 1e-9 2:1:1 "2:1:1 1:2:2 3:1:3" 0.5 standing_wave -p "fv.cells=(16,20)"
+
+# a run of another case: what differs, and from what
+refuses() { # SAYS ARGS...
+    says=$1
+    shift
+    "$root/cases/run" "$@" --restart >out.txt 2>&1 && bad "went on: $*"
+    grep -q "$says" out.txt || { bad "lacks: $says"; tail -n 5 out.txt; }
+}
+refuses 'sph.dx = 0.02.* in the file, 0.04.* here' dam.cfg -o dam-half -n 1 -p sph.dx=0.04
+refuses 'is of 64 x 16 x 1 cells, the case of 32 x 16 x 1' "$root/cases/stress/outflow_fv.cfg" -o outflow-half -n 1 -p "fv.cells=(32,16)"
+
+echo "restart: $failed faults"
+[ $failed = 0 ]
