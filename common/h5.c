@@ -17,6 +17,7 @@ struct h5 {
     int rank, size;
     hid_t file, transfer;
     bool writing, restart;
+    int ranks; /* that wrote it */
     char path[1100], part[1110];
 };
 
@@ -68,6 +69,8 @@ struct h5 *h5_create_restart(MPI_Comm comm, const char *path)
 {
     struct h5 *f = h5_create(comm, path);
     f->restart = true;
+    f->ranks = f->size;
+    h5_attribute_int(f, "ranks", f->ranks);
     return f;
 }
 
@@ -87,6 +90,9 @@ struct h5 *h5_open(MPI_Comm comm, const char *path)
     const hid_t access = access_list(f);
     H5(f->file = H5Fopen(path, H5F_ACC_RDONLY, access));
     H5(H5Pclose(access));
+    int64_t ranks = 0;
+    h5_read_attribute_int(f, "ranks", &ranks);
+    f->ranks = (int)ranks;
     return f;
 }
 
@@ -107,6 +113,7 @@ void h5_close(struct h5 **file)
 }
 
 const char *h5_path(const struct h5 *f) { return f->path; }
+int h5_ranks(const struct h5 *f) { return f->ranks; }
 
 /* --- attributes --- */
 
@@ -163,6 +170,20 @@ bool h5_read_attribute_real(struct h5 *f, const char *name, double *value)
 bool h5_read_attribute_int(struct h5 *f, const char *name, int64_t *value)
 {
     return read_attribute(f, name, H5T_NATIVE_INT64, value);
+}
+
+char *h5_read_attribute_text(struct h5 *f, const char *name)
+{
+    hid_t a, type;
+    if (H5Aexists(f->file, name) <= 0)
+        return NULL;
+    H5(a = H5Aopen(f->file, name, H5P_DEFAULT));
+    H5(type = H5Aget_type(a));
+    char *text = mem_new(H5Tget_size(type) + 1, 1);
+    H5(H5Aread(a, type, text));
+    H5(H5Tclose(type));
+    H5(H5Aclose(a));
+    return text;
 }
 
 /* --- datasets --- */
@@ -273,25 +294,36 @@ void h5_write_block(struct h5 *f, const char *name, const char *unit, int dim, c
     write_part(f, name, unit, &p, single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, v);
 }
 
-static bool read_rows(struct h5 *f, const char *name, const struct part *p, hid_t type, void *v)
+/* Rank of a dataset and its shape; 0: there is no such dataset. */
+static int shape_of(struct h5 *f, const char *name, hsize_t shape[4])
 {
     hid_t set, space;
-    hsize_t shape[4] = {0};
+    memset(shape, 0, 4 * sizeof *shape);
     if (H5Lexists(f->file, name, H5P_DEFAULT) <= 0)
-        return false;
+        return 0;
     H5(set = H5Dopen2(f->file, name, H5P_DEFAULT));
     H5(space = H5Dget_space(set));
     const int rank = H5Sget_simple_extent_ndims(space);
-    bool fits = rank == p->rank;
-    if (fits)
+    if (rank > 0 && rank <= 4)
         H5Sget_simple_extent_dims(space, shape, NULL);
-    for (int k = 0; fits && k < rank; k++)
-        fits = shape[k] == p->shape[k];
     H5(H5Sclose(space));
-    if (fits && p->shape[0] > 0)
-        transfer(f, set, p, type, v, false);
     H5(H5Dclose(set));
-    return fits;
+    return rank <= 4 ? rank : 0;
+}
+
+static bool read_rows(struct h5 *f, const char *name, const struct part *p, hid_t type, void *v)
+{
+    hid_t set;
+    hsize_t shape[4];
+    bool fits = shape_of(f, name, shape) == p->rank;
+    for (int k = 0; fits && k < p->rank; k++)
+        fits = shape[k] == p->shape[k];
+    if (!fits || p->shape[0] == 0)
+        return fits;
+    H5(set = H5Dopen2(f->file, name, H5P_DEFAULT));
+    transfer(f, set, p, type, v, false);
+    H5(H5Dclose(set));
+    return true;
 }
 
 int64_t h5_rows(struct h5 *f, const char *name)
@@ -301,6 +333,17 @@ int64_t h5_rows(struct h5 *f, const char *name)
     snprintf(rows, sizeof rows, "%s_rows", name);
     const struct part p = rows_part(f, 1, 1);
     return read_rows(f, rows, &p, H5T_NATIVE_INT64, &n) ? n : -1;
+}
+
+int64_t h5_share(struct h5 *f, const char *name)
+{
+    hsize_t shape[4];
+    if (f->ranks == 0 || f->ranks == f->size)
+        return h5_rows(f, name);
+    if (shape_of(f, name, shape) == 0)
+        return -1;
+    const int64_t n = (int64_t)shape[0];
+    return n * (f->rank + 1) / f->size - n * f->rank / f->size;
 }
 
 bool h5_read_real(struct h5 *f, const char *name, int64_t n, int ncomp, double *v)
@@ -313,4 +356,95 @@ bool h5_read_int(struct h5 *f, const char *name, int64_t n, int64_t *v)
 {
     const struct part p = rows_part(f, n, 1);
     return read_rows(f, name, &p, H5T_NATIVE_INT64, v);
+}
+
+static bool read_at(struct h5 *f, const char *name, int64_t first, int64_t n, int ncomp, hid_t type,
+                    void *v)
+{
+    struct part p = {.rank = ncomp > 1 ? 2 : 1, .empty = n == 0};
+    hsize_t shape[4];
+    int fits = shape_of(f, name, shape) == p.rank && (hsize_t)(first + n) <= shape[0];
+    MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, f->comm);
+    p.shape[0] = shape[0];
+    p.first[0] = (hsize_t)first;
+    p.count[0] = (hsize_t)n;
+    p.shape[1] = p.count[1] = (hsize_t)ncomp;
+    return fits && read_rows(f, name, &p, type, v);
+}
+
+bool h5_read_real_at(struct h5 *f, const char *name, int64_t first, int64_t n, int ncomp, double *v)
+{
+    return read_at(f, name, first, n, ncomp, H5T_NATIVE_DOUBLE, v);
+}
+
+bool h5_read_int_at(struct h5 *f, const char *name, int64_t first, int64_t n, int64_t *v)
+{
+    return read_at(f, name, first, n, 1, H5T_NATIVE_INT64, v);
+}
+
+static void *read_all(struct h5 *f, const char *name, int ncomp, hid_t type, int64_t *n)
+{
+    hsize_t shape[4];
+    *n = shape_of(f, name, shape) > 0 ? (int64_t)shape[0] : -1;
+    if (*n < 0)
+        return NULL;
+    void *v = mem_new((size_t)(*n * ncomp), 8);
+    if (read_at(f, name, 0, *n, ncomp, type, v))
+        return v;
+    mem_free(v);
+    return NULL;
+}
+
+double *h5_read_all_real(struct h5 *f, const char *name, int ncomp, int64_t *n)
+{
+    return read_all(f, name, ncomp, H5T_NATIVE_DOUBLE, n);
+}
+
+int64_t *h5_read_all_int(struct h5 *f, const char *name, int64_t *n)
+{
+    return read_all(f, name, 1, H5T_NATIVE_INT64, n);
+}
+
+/* Sums if `sums', else the first rank's. */
+static bool read_each(struct h5 *f, const char *name, int n, double *v, bool sums)
+{
+    if (f->ranks == 0 || f->ranks == f->size)
+        return h5_read_real(f, name, n, 1, v);
+    int64_t all;
+    double *rows = h5_read_all_real(f, name, 1, &all);
+    const bool fits = rows && all == (int64_t)n * f->ranks;
+    memset(v, 0, (size_t)n * sizeof *v);
+    for (int64_t k = 0; fits && k < (sums ? all : n); k++)
+        v[k % n] += sums && f->rank > 0 ? 0.0 : rows[k];
+    mem_free(rows);
+    return fits;
+}
+
+bool h5_read_same(struct h5 *f, const char *name, int n, double *v)
+{
+    return read_each(f, name, n, v, false);
+}
+
+bool h5_read_parts(struct h5 *f, const char *name, int n, double *v)
+{
+    return read_each(f, name, n, v, true);
+}
+
+int64_t *h5_first_rows(struct h5 *f, const char *name)
+{
+    char rows[256];
+    int64_t n;
+    snprintf(rows, sizeof rows, "%s_rows", name);
+    int64_t *first = h5_read_all_int(f, rows, &n), before = 0;
+    if (!first || n != f->ranks) {
+        mem_free(first);
+        return NULL;
+    }
+    GROW(first, n, n + 1);
+    for (int64_t r = 0; r <= n; r++) {
+        const int64_t of = first[r];
+        first[r] = before;
+        before += of;
+    }
+    return first;
 }

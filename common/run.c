@@ -486,6 +486,8 @@ static int run_state(struct life *l, struct h5 *restart)
     r->restart = restart != NULL;
     l->s = l->p->create(r, restart);
     l->files.state = l->s;
+    if (!l->s && restart)
+        files_tell_difference(&l->files, restart);
     h5_close(&restart);
     if (!l->s) {
         if (r->coupled)

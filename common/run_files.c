@@ -161,6 +161,53 @@ bool files_read_clock(struct run_files *f, struct h5 *h)
     return all;
 }
 
+/* A case's text, as params_text writes it, key by key. */
+struct keys {
+    const char *text; /* what follows */
+    char group[64], key[64], value[400];
+};
+
+/* The next "key = value;", defaults too, but of time and output, which a restart may change. False
+ * at the end. */
+static bool next_key(struct keys *k)
+{
+    char line[500];
+    for (const char *end; (end = strchr(k->text, '\n')); k->text = end + 1) {
+        k->text += strspn(k->text, " #");
+        snprintf(line, sizeof line, "%.*s", end > k->text ? (int)(end - k->text) : 0, k->text);
+        char group[sizeof k->group], open;
+        if (sscanf(line, "%63[^:= ]: %c", group, &open) == 2 && (open == '{' || open == '(')) {
+            memcpy(k->group, group, sizeof group);
+            continue;
+        }
+        if (strcmp(k->group, "time") == 0 || strcmp(k->group, "output") == 0)
+            continue;
+        if (sscanf(line, "%63[^= ] = %399[^;];", k->key, k->value) == 2) {
+            k->text = end + 1;
+            return true;
+        }
+    }
+    return false;
+}
+
+void files_tell_difference(const struct run_files *f, struct h5 *h)
+{
+    char *text = h5_read_attribute_text(h, "case");
+    struct keys then = {.text = text ? text : ""}, now = {.text = f->case_text};
+    for (int told = 0; told < 5 && next_key(&then) && next_key(&now);) {
+        if (strcmp(then.group, now.group) != 0 || strcmp(then.key, now.key) != 0) {
+            log_say("  the case differs in %s", now.group); /* in the length of a list */
+            break;
+        }
+        if (strcmp(then.value, now.value) == 0)
+            continue;
+        log_say("  the case differs: %s.%s = %s in the file, %s here", now.group, now.key,
+                then.value, now.value);
+        told++;
+    }
+    mem_free(text);
+}
+
 void files_view(const struct run *r)
 {
     char path[1100];

@@ -25,6 +25,9 @@ void files_checkpoint(struct run_files *f, int64_t n, char *file);
 struct h5 *files_open_restart(struct run *r, int64_t *window);
 /* What a restart file holds for the run itself. */
 bool files_read_clock(struct run_files *f, struct h5 *h);
+/* Names the keys in which the case of a restart file differs from this one; those of time and
+ * output may. */
+void files_tell_difference(const struct run_files *f, struct h5 *h);
 void files_view(const struct run *r);
 /* out/CASE/NAME-WHAT when coupled, out/CASE/WHAT alone. */
 void files_path(const struct run *r, const char *what, char *path, size_t size);

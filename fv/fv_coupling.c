@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../common/h5.h"
@@ -13,6 +14,7 @@
 #include "../coupler/cpl.h"
 #include "forcing.h"
 #include "fv_course.h"
+#include "layout.h"
 
 struct link {
     struct cpl *c;
@@ -194,6 +196,15 @@ static void start_forced(struct fv *s, double before)
     }
 }
 
+/* Number in the whole grid of a cell with this local index. */
+static int64_t number_of(const struct block *b, int64_t c)
+{
+    int at[3];
+    block_place(b, c, at);
+    return (b->lo[0] + at[0]) +
+           (int64_t)b->cells[0] * ((b->lo[1] + at[1]) + (int64_t)b->cells[1] * (b->lo[2] + at[2]));
+}
+
 /* Which cells take the partner's values, once; then the first patch. */
 void coupling_first(void *state)
 {
@@ -209,9 +220,7 @@ void coupling_first(void *state)
         int at[3];
         block_place(b, c, at);
         block_centre(b, at[0], at[1], at[2], x + 3 * m);
-        id[m] =
-            (b->lo[0] + at[0]) +
-            (int64_t)b->cells[0] * ((b->lo[1] + at[1]) + (int64_t)b->cells[1] * (b->lo[2] + at[2]));
+        id[m] = number_of(b, c);
     }
     check(k, cpl_move(k->c, k->forced, n, x, id, NULL));
     mem_free(x);
@@ -313,16 +322,87 @@ static double *forced_at(const struct forcing *f, int m, int a)
 void coupling_save(const struct fv *s, struct h5 *f)
 {
     const struct forcing *c = s->forcing;
-    course_save(s->link->course, f);
+    course_save(s, s->link->course, f);
     h5_attribute_real(f, "datum", s->link->datum);
     if (!c)
         return;
     const double clock[4] = {c->t0, c->t1, c->t_old, c->levels};
+    const int64_t n = c->npartner + c->nrim;
+    int64_t *number = NEW(int64_t, n);
+    for (int64_t i = 0; i < n; i++)
+        number[i] = number_of(&s->b, c->partner[i]);
+    h5_write_int(f, "forced_cells", n, number);
+    mem_free(number);
     h5_write_real(f, "forced_levels", "-", 4, 1, clock, false);
     for (int m = 0; m < 3; m++)
         for (int a = 0; a < s->b.dim; a++)
-            h5_write_real(f, forced_names[m][a], "m/s", c->npartner + c->nrim, 1,
-                          forced_at(c, m, a), false);
+            h5_write_real(f, forced_names[m][a], "m/s", n, 1, forced_at(c, m, a), false);
+}
+
+struct numbered {
+    int64_t number, row;
+};
+
+static int by_number(const void *a, const void *b)
+{
+    const int64_t x = ((const struct numbered *)a)->number,
+                  y = ((const struct numbered *)b)->number;
+    return (x > y) - (x < y);
+}
+
+/* Rows of the forced cells in a file of another number of ranks: row[i] of partner[i]; false if one
+ * is not there. */
+static bool find_rows(const struct fv *s, struct h5 *f, int64_t *row)
+{
+    const struct forcing *c = s->forcing;
+    int64_t n;
+    int64_t *number = h5_read_all_int(f, "forced_cells", &n);
+    struct numbered *all = mem_new((size_t)(number ? n : 0), sizeof *all);
+    int good = number != NULL;
+    for (int64_t k = 0; number && k < n; k++)
+        all[k] = (struct numbered){number[k], k};
+    if (number)
+        qsort(all, (size_t)n, sizeof *all, by_number);
+    for (int64_t i = 0; good && i < c->npartner + c->nrim; i++) {
+        const struct numbered key = {number_of(&s->b, c->partner[i]), 0};
+        const struct numbered *at = bsearch(&key, all, (size_t)n, sizeof *all, by_number);
+        good = at != NULL;
+        row[i] = at ? at->row : 0;
+    }
+    mem_free(all);
+    mem_free(number);
+    MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, s->b.cart);
+    return good;
+}
+
+static bool gather_forced(const struct fv *s, struct h5 *f)
+{
+    const struct forcing *c = s->forcing;
+    int64_t *row = NEW(int64_t, c->npartner + c->nrim), n;
+    bool good = find_rows(s, f, row);
+    for (int k = 0; good && k < 3 * s->b.dim; k++) {
+        double *to = forced_at(c, k / s->b.dim, k % s->b.dim);
+        double *all = h5_read_all_real(f, forced_names[k / s->b.dim][k % s->b.dim], 1, &n);
+        good = all != NULL;
+        for (int64_t i = 0; good && i < c->npartner + c->nrim; i++)
+            to[i] = all[row[i]];
+        mem_free(all);
+    }
+    mem_free(row);
+    return good;
+}
+
+static bool load_forced(const struct fv *s, struct h5 *f)
+{
+    const struct forcing *c = s->forcing;
+    bool good = true;
+    if (!layout_same_ranks(f, s->run->size))
+        return gather_forced(s, f);
+    for (int m = 0; m < 3; m++)
+        for (int a = 0; a < s->b.dim; a++)
+            good = good && h5_read_real(f, forced_names[m][a], c->npartner + c->nrim, 1,
+                                        forced_at(c, m, a));
+    return good;
 }
 
 bool coupling_load(struct fv *s, struct h5 *f)
@@ -330,14 +410,10 @@ bool coupling_load(struct fv *s, struct h5 *f)
     struct forcing *c = s->forcing;
     double clock[4];
     bool good =
-        course_load(s->link->course, f) && h5_read_attribute_real(f, "datum", &s->link->datum);
+        course_load(s, s->link->course, f) && h5_read_attribute_real(f, "datum", &s->link->datum);
     if (!c || !good)
         return good;
-    good = h5_read_real(f, "forced_levels", 4, 1, clock);
-    for (int m = 0; m < 3; m++)
-        for (int a = 0; a < s->b.dim; a++)
-            good = good && h5_read_real(f, forced_names[m][a], c->npartner + c->nrim, 1,
-                                        forced_at(c, m, a));
+    good = h5_read_same(f, "forced_levels", 4, clock) && load_forced(s, f);
     c->t0 = clock[0];
     c->t1 = clock[1];
     c->t_old = clock[2];

@@ -8,6 +8,7 @@
 #include "../common/h5.h"
 #include "../common/log.h"
 #include "../common/mem.h"
+#include "layout.h"
 
 struct course *course_create(const struct fv *s, int first, int memory)
 {
@@ -244,9 +245,21 @@ int course_pressure(struct course *c)
 
 static const char *const names[] = {"level0", "level1", "level2"};
 
-void course_save(const struct course *c, struct h5 *f)
+/* The cells that it tells of: those above the uneven rows, without ghosts. */
+static struct box box_of(const struct fv *s, const struct course *c)
+{
+    struct box x = layout_block(&s->b);
+    x.lo[1] += c->first;
+    x.n[1] -= c->first;
+    x.g[0] = x.g[1] = x.g[2] = 0;
+    return x;
+}
+
+void course_save(const struct fv *s, const struct course *c, struct h5 *f)
 {
     const double clock[COURSE_LEVELS + 1] = {c->t[0], c->t[1], c->t[2], c->levels};
+    const struct box mine = box_of(s, c);
+    layout_save(f, "course", 1, &mine);
     for (int m = 0; m < COURSE_LEVELS; m++)
         h5_write_real(f, names[m], "-", c->n, c->dim + 1, c->q[m], false);
     h5_write_real(f, "levels", "-", COURSE_LEVELS + 1, 1, clock, false);
@@ -256,16 +269,28 @@ void course_save(const struct course *c, struct h5 *f)
         h5_write_real(f, "scatter", "Pa", c->n, 1, c->scatter, false);
 }
 
-bool course_load(struct course *c, struct h5 *f)
+/* l: of another number of ranks. */
+static bool load(const struct fv *s, const struct course *c, struct h5 *f, const struct layout *l,
+                 const char *name, int ncomp, double *to)
 {
+    const struct box mine = box_of(s, c);
+    return l ? layout_read(l, f, name, ncomp, &mine, s->b.periodic, to)
+             : h5_read_real(f, name, c->n, ncomp, to);
+}
+
+bool course_load(const struct fv *s, struct course *c, struct h5 *f)
+{
+    const bool same = layout_same_ranks(f, s->run->size);
+    struct layout *l = same ? NULL : layout_load(f, "course");
     double clock[COURSE_LEVELS + 1];
-    bool good = h5_read_real(f, "levels", COURSE_LEVELS + 1, 1, clock) &&
-                (!c->rate || h5_read_real(f, "rate", c->n, 1, c->rate)) &&
-                (!c->scatter || h5_read_real(f, "scatter", c->n, 1, c->scatter));
+    bool good = (same || l) && h5_read_same(f, "levels", COURSE_LEVELS + 1, clock) &&
+                (!c->rate || load(s, c, f, l, "rate", 1, c->rate)) &&
+                (!c->scatter || load(s, c, f, l, "scatter", 1, c->scatter));
     for (int m = 0; good && m < COURSE_LEVELS; m++) {
-        good = h5_read_real(f, names[m], c->n, c->dim + 1, c->q[m]);
+        good = load(s, c, f, l, names[m], c->dim + 1, c->q[m]);
         c->t[m] = clock[m];
     }
+    layout_free(&l);
     if (!good)
         return false;
     c->levels = (int)clock[COURSE_LEVELS];

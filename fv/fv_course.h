@@ -42,7 +42,7 @@ void course_try(struct fv *s, struct course *c, double t1);
 /* Fills c->term with what a partner shall get; returns the number of terms. */
 int course_velocity(struct course *c);
 int course_pressure(struct course *c);
-void course_save(const struct course *c, struct h5 *f);
-bool course_load(struct course *c, struct h5 *f);
+void course_save(const struct fv *s, const struct course *c, struct h5 *f);
+bool course_load(const struct fv *s, struct course *c, struct h5 *f);
 
 #endif

@@ -9,6 +9,7 @@
 #include "../common/mem.h"
 #include "../common/xdmf.h"
 #include "forcing.h"
+#include "layout.h"
 #include "levelset.h"
 #include "newton.h"
 #include "outflow.h"
@@ -213,6 +214,8 @@ void fv_checkpoint(void *state, struct h5 *f)
     double *fields[FV_RESTART_FIELDS];
     const char *names[FV_RESTART_FIELDS];
     const int n = fv_restart_fields(s, fields, names);
+    const struct box mine = layout_block(&s->b);
+    layout_save(f, "layout", 1, &mine);
     for (int k = 0; k < n; k++)
         h5_write_real(f, names[k], "-", s->b.size, 1, fields[k], false);
     h5_attribute_real(f, "dt", s->dt);
@@ -247,30 +250,64 @@ static bool restore_newton(struct newton *w, struct h5 *f)
     return there;
 }
 
-bool fv_restore(struct fv *s, struct h5 *f)
+/* Fields with their ghosts: bit for bit on the same ranks, else gathered. */
+static bool restore_fields(struct fv *s, struct h5 *f, const struct layout *l)
 {
     double *fields[FV_RESTART_FIELDS];
     const char *names[FV_RESTART_FIELDS];
     const int n = fv_restart_fields(s, fields, names);
-    int fits = h5_rows(f, "p") == s->b.size;
-    MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, s->b.cart);
-    if (!fits) {
-        log_say("the restart file is of another grid or number of ranks");
-        return false;
-    }
+    const struct box mine = layout_block(&s->b);
+    const bool same = layout_same_ranks(f, s->run->size);
     for (int k = 0; k < n; k++)
-        if (!h5_read_real(f, names[k], s->b.size, 1, fields[k])) {
-            log_say("the restart file has no field %s of this shape", names[k]);
+        if (!(same ? h5_read_real(f, names[k], s->b.size, 1, fields[k])
+                   : layout_read(l, f, names[k], 1, &mine, s->b.periodic, fields[k]))) {
+            log_say("the restart file has no field %s of this shape: was it written by another "
+                    "integrator (fv.integrator), or without a free surface?",
+                    names[k]);
             return false;
         }
+    return true;
+}
+
+static bool restore_grid(struct fv *s, struct h5 *f)
+{
+    struct layout *l = layout_load(f, "layout");
+    bool fits = false;
+    int same = h5_rows(f, "p") == s->b.size;
+    MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_MIN, s->b.cart);
+    if (!l && !same)
+        log_say(
+            "the restart file is of another grid or another number of ranks, and of an age that "
+            "does not say which");
+    else
+        fits = (!l || layout_fits(l, 0, s->b.cells)) && restore_fields(s, f, l);
+    layout_free(&l);
+    return fits;
+}
+
+/* Says what is not there. */
+static bool there(bool good, const char *what)
+{
+    if (!good)
+        log_say("the restart file has no %s that fits this case", what);
+    return good;
+}
+
+bool fv_restore(struct fv *s, struct h5 *f)
+{
+    if (!restore_grid(s, f))
+        return false;
     for (int k = 0; s->surface && k < SURFACE_NUMBERS; k++)
-        if (!h5_read_attribute_real(f, surface_numbers[k], surface_number(s->surface, k)))
+        if (!there(h5_read_attribute_real(f, surface_numbers[k], surface_number(s->surface, k)),
+                   surface_numbers[k]))
             return false;
     if (s->surface)
         surface_rebuild(s);
     watches_load(s->watches, f);
-    return h5_read_attribute_real(f, "dt", &s->dt) &&
-           h5_read_attribute_real(f, "dt_old", &s->dt_old) &&
-           (!s->newton || restore_newton(s->newton, f)) && outflow_load(s, f) &&
-           (!s->link || coupling_load(s, f));
+    return there(h5_read_attribute_real(f, "dt", &s->dt) &&
+                     h5_read_attribute_real(f, "dt_old", &s->dt_old),
+                 "time step") &&
+           there(!s->newton || restore_newton(s->newton, f), "state of Newton's method") &&
+           there(outflow_load(s, f), "velocity of an outflow") &&
+           there(!s->link || coupling_load(s, f), "past of the coupling");
 }

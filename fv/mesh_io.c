@@ -11,6 +11,7 @@
 #include "../common/log.h"
 #include "../common/mem.h"
 #include "../common/xdmf.h"
+#include "layout.h"
 #include "watches.h"
 
 /* This rank's cells of a block: [lo, hi), empty if it has none. */
@@ -144,12 +145,31 @@ static int restart_fields(struct mesh_flow *s, double **f, const char **names)
     return n;
 }
 
+/* This rank's part of a block, empty if it has none. */
+static struct box box_of(const struct mesh *m, int k)
+{
+    struct box x = {.grid = k};
+    int lo[3], hi[3];
+    const struct mesh_part *p = range(m, k, lo, hi);
+    if (p) {
+        memcpy(x.lo, p->lo, sizeof x.lo);
+        memcpy(x.n, p->n, sizeof x.n);
+        memcpy(x.g, p->g, sizeof x.g);
+        x.base = p->base;
+    }
+    return x;
+}
+
 void mesh_checkpoint(void *state, struct h5 *f)
 {
     struct mesh_flow *s = state;
     double *fields[20];
     const char *names[20];
     const int n = restart_fields(s, fields, names);
+    struct box part[MESH_BLOCKS_MAX];
+    for (int k = 0; k < s->m->nblocks; k++)
+        part[k] = box_of(s->m, k);
+    layout_save(f, "layout", s->m->nblocks, part);
     for (int k = 0; k < n; k++)
         h5_write_real(f, names[k], "-", s->m->size_local, 1, fields[k], false);
     h5_attribute_real(f, "dt", s->dt);
@@ -157,22 +177,56 @@ void mesh_checkpoint(void *state, struct h5 *f)
     watches_save(s->watches, f);
 }
 
-bool mesh_restore(struct mesh_flow *s, struct h5 *f)
+/* A field of all blocks; ghosts behind their sides are those that were beside the same cells. */
+static bool gather(const struct mesh *m, const struct layout *l, struct h5 *f, const char *name,
+                   double *q)
+{
+    static const bool wraps[3] = {false, false, false};
+    bool good = true;
+    for (int k = 0; good && k < m->nblocks; k++) {
+        const struct box mine = box_of(m, k);
+        good = layout_read(l, f, name, 1, &mine, wraps, q + mine.base);
+    }
+    return good;
+}
+
+static bool restore_fields(struct mesh_flow *s, struct h5 *f, const struct layout *l)
 {
     double *fields[20];
     const char *names[20];
     const int n = restart_fields(s, fields, names);
-    int fits = h5_rows(f, "p") == s->m->size_local;
-    MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, s->m->comm);
-    if (!fits) {
-        log_say("the restart file is of other blocks or another number of ranks");
-        return false;
-    }
+    const bool same = layout_same_ranks(f, s->m->size);
     for (int k = 0; k < n; k++)
-        if (!h5_read_real(f, names[k], s->m->size_local, 1, fields[k])) {
+        if (!(same ? h5_read_real(f, names[k], s->m->size_local, 1, fields[k])
+                   : gather(s->m, l, f, names[k], fields[k]))) {
             log_say("the restart file has no field %s of this shape", names[k]);
             return false;
         }
+    return true;
+}
+
+static bool restore_blocks(struct mesh_flow *s, struct h5 *f)
+{
+    struct layout *l = layout_load(f, "layout");
+    int fits = h5_rows(f, "p") == s->m->size_local;
+    MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, s->m->comm);
+    if (!l && !fits)
+        log_say(
+            "the restart file is of other blocks or another number of ranks, and of an age that "
+            "does not say which");
+    else
+        fits = 1;
+    for (int k = 0; l && fits && k < s->m->nblocks; k++)
+        fits = layout_fits(l, k, s->m->block[k].n);
+    fits = fits && restore_fields(s, f, l);
+    layout_free(&l);
+    return fits;
+}
+
+bool mesh_restore(struct mesh_flow *s, struct h5 *f)
+{
+    if (!restore_blocks(s, f))
+        return false;
     watches_load(s->watches, f);
     return h5_read_attribute_real(f, "dt", &s->dt) &&
            h5_read_attribute_real(f, "dt_old", &s->dt_old);

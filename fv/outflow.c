@@ -10,6 +10,7 @@
 #include "../common/mem.h"
 #include "bc.h"
 #include "forcing.h"
+#include "layout.h"
 
 /* Visits the sides of this kind: k, o. */
 #define OUTFLOWS(s, o)                                                                             \
@@ -140,27 +141,53 @@ void outflow_set(struct fv *s, double dt)
             o->change[q][o->place[i]] += s->bc->w[o->side][q][o->place[i]];
 }
 
-/* Sides that this rank does not touch count as rows of length 0. */
-static void each(const struct fv *s, struct h5 *f, bool save, bool *good)
+/* This rank's places of a side: a box one cell thick. */
+static struct box box_of(const struct fv *s, int k)
+{
+    struct box x = layout_block(&s->b);
+    x.grid = k;
+    x.lo[k / 2] = x.g[k / 2] = 0;
+    x.n[k / 2] = s->bc->n[k] > 0;
+    return x;
+}
+
+/* Sides that this rank does not touch count as rows of length 0. l: of another number of ranks. */
+static void each(const struct fv *s, struct h5 *f, bool save, const struct layout *l, bool *good)
 {
     char name[32];
     for (int k = 0; !none(s) && k < 2 * s->b.dim; k++)
         for (int q = 0; q < s->b.dim && s->bc->kind[k] == BC_CARRIED; q++) {
             double nothing = 0.0, *w = s->bc->n[k] > 0 ? s->bc->w[k][q] : &nothing;
+            const struct box mine = box_of(s, k);
             snprintf(name, sizeof name, "outflow%d_%d", k, q);
             if (save)
                 h5_write_real(f, name, "m/s", s->bc->n[k], 1, w, false);
+            else if (l)
+                *good = layout_read(l, f, name, 1, &mine, s->b.periodic, w) && *good;
             else
                 *good = h5_read_real(f, name, s->bc->n[k], 1, w) && *good;
         }
 }
 
-void outflow_save(const struct fv *s, struct h5 *f) { each(s, f, true, NULL); }
+void outflow_save(const struct fv *s, struct h5 *f)
+{
+    struct box side[6];
+    if (none(s))
+        return;
+    for (int k = 0; k < 2 * s->b.dim; k++)
+        side[k] = box_of(s, k);
+    layout_save(f, "sides", 2 * s->b.dim, side);
+    each(s, f, true, NULL, NULL);
+}
 
 bool outflow_load(struct fv *s, struct h5 *f)
 {
-    bool good = true;
-    each(s, f, false, &good);
+    const bool same = layout_same_ranks(f, s->run->size);
+    struct layout *l = same || none(s) ? NULL : layout_load(f, "sides");
+    bool good = same || none(s) || l;
+    if (good)
+        each(s, f, false, l, &good);
+    layout_free(&l);
     if (!none(s)) {
         s->bc->outflux = s->bc->outflux_given;
         OUTFLOWS(s, o)

@@ -610,18 +610,20 @@ void domain_save(const struct sph *s, struct h5 *f)
     mem_free(rows);
 }
 
+/* Those of another number of ranks say nothing: cuts by the particles at hand. */
 bool domain_load(struct sph *s, struct h5 *f)
 {
     struct domain *d = s->domain;
-    double *rows = NEW(double, 2 * d->size);
-    const bool fits =
-        h5_rows(f, "cuts") >= 0 && h5_read_real(f, "cuts", d->rank == 0 ? d->size : 0, 2, rows);
-    if (fits) {
-        MPI_Bcast(rows, 2 * d->size, MPI_DOUBLE, 0, d->comm);
+    int64_t n;
+    double *rows = h5_read_all_real(f, "cuts", 2, &n);
+    if (rows && n == d->size) {
         for (int k = 0; k < d->size - 1; k++)
             d->cuts[k] = (struct cut){(int)rows[2 * k], rows[2 * k + 1]};
         cuts_changed(s);
+    } else if (rows) {
+        s->ready = false;
+        domain_balance(s, -1.0);
     }
     mem_free(rows);
-    return fits;
+    return rows != NULL;
 }

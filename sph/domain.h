@@ -30,7 +30,7 @@ void domain_ghosts(struct sph *s);
  * that interior work can run between. */
 void domain_halo_start(struct sph *s, bool slopes);
 void domain_halo_finish(struct sph *s, bool slopes);
-/* Bit-for-bit restart: the cuts. */
+/* Bit-for-bit restart: the cuts; after the particles. On another number of ranks new ones. */
 void domain_save(const struct sph *s, struct h5 *f);
 bool domain_load(struct sph *s, struct h5 *f);
 

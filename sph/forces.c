@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../common/h5.h"
+#include "../common/mem.h"
 
 enum { REST = BODIES_MAX, SIDES = BODIES_MAX + 1 };
 
@@ -96,16 +97,15 @@ void forces_save(const struct sph *s, struct h5 *f)
 bool forces_load(struct sph *s, struct h5 *f)
 {
     struct wall_forces *w = &s->walls->forces;
-    const int64_t n = h5_rows(f, "forces");
-    double row[SAVED];
-    if (n < 0 || n > 1 || !h5_read_real(f, "forces", n, SAVED, row))
-        return false;
-    w->known = n == 1;
-    if (w->known) {
-        memcpy(w->now, row, sizeof w->now);
-        memcpy(w->impulse, row + 3 * SIDES, sizeof w->impulse);
+    int64_t n;
+    double *rows = h5_read_all_real(f, "forces", SAVED, &n);
+    w->known = rows && n > 0;
+    if (w->known) { /* all ranks hold the same */
+        memcpy(w->now, rows, sizeof w->now);
+        memcpy(w->impulse, rows + 3 * SIDES, sizeof w->impulse);
     }
-    return true;
+    mem_free(rows);
+    return rows != NULL;
 }
 
 /* Mean of the first body's force, its fluctuation, its error. */

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../common/h5.h"
 #include "../common/log.h"
 #include "../common/mem.h"
 #include "eos.h"
@@ -143,6 +144,31 @@ void overlap_judge(struct sph *s, struct diagnosis *d)
         snprintf(d->where, sizeof d->where,
                  "the rim of the free zone, %g m wide, t = %.4g s, step %lld", s->zones->overlap,
                  s->t, (long long)s->run->step);
+}
+
+enum { KEPT = 2 }; /* of a watch */
+
+void overlap_save(const struct overlap *o, struct h5 *f)
+{
+    const struct watch *of[3] = {&o->velocity, &o->pressure, &o->dry};
+    double v[3 * KEPT];
+    for (int k = 0; k < 3; k++) {
+        v[KEPT * k] = of[k]->worst;
+        v[KEPT * k + 1] = of[k]->warned;
+    }
+    h5_write_real(f, "overlap", "-", 3 * KEPT, 1, v, false);
+}
+
+void overlap_load(struct overlap *o, struct h5 *f)
+{
+    struct watch *of[3] = {&o->velocity, &o->pressure, &o->dry};
+    double v[3 * KEPT];
+    if (!h5_read_same(f, "overlap", 3 * KEPT, v))
+        return;
+    for (int k = 0; k < 3; k++) {
+        of[k]->worst = v[KEPT * k];
+        of[k]->warned = v[KEPT * k + 1] != 0.0;
+    }
 }
 
 void overlap_row(const struct overlap *o, double *values)

@@ -35,5 +35,8 @@ void overlap_row(const struct overlap *o, double *values);
 void overlap_summary(const struct overlap *o, struct summary *to);
 /* For the progress line of the job, as soon as they have grown. */
 void overlap_tell(const struct overlap *o, struct summary *to);
+/* For a restart: the worst so far. */
+void overlap_save(const struct overlap *o, struct h5 *f);
+void overlap_load(struct overlap *o, struct h5 *f);
 
 #endif

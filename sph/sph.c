@@ -204,6 +204,8 @@ static void *create(struct run *r, struct h5 *f)
     struct sph *s = sph_create(r, sph_params_of(r), f);
     if (s && r->coupled)
         coupling_create(s);
+    if (s && f && r->coupled)
+        overlap_load(s->zones->watched, f);
     return s;
 }
 

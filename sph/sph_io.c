@@ -13,6 +13,7 @@
 #include "forces.h"
 #include "openings.h"
 #include "sph_params.h"
+#include "surface.h"
 #include "zones.h"
 
 enum { PRIM = 8 };
@@ -184,17 +185,32 @@ static void save_signal(const struct sph *s, struct h5 *f)
 
 static void read_signal(struct sph *s, struct h5 *f)
 {
-    int64_t n = h5_rows(f, "signal");
-    double *rows = NEW(double, 2 * (size_t)(n > 0 ? n : 0));
-    const bool fits = n >= 0 && h5_read_real(f, "signal", n, 2, rows);
-    MPI_Bcast(&n, 1, MPI_INT64_T, 0, s->run->comm);
-    if (fits && n > 0) {
-        GROW(rows, s->run->rank == 0 ? 2 * n : 0, 2 * n);
-        MPI_Bcast(rows, 2 * (int)n, MPI_DOUBLE, 0, s->run->comm);
-        for (int64_t k = 0; k < n; k++)
-            fit_add(&s->signal_fit, rows[2 * k], rows[2 * k + 1]);
-    }
+    int64_t n;
+    double *rows = h5_read_all_real(f, "signal", 2, &n);
+    for (int64_t k = 0; rows && k < n; k++)
+        fit_add(&s->signal_fit, rows[2 * k], rows[2 * k + 1]);
     mem_free(rows);
+}
+
+/* Who lies on a surface: windows begin with what the last step has found. */
+static void save_surface(const struct sph *s, struct h5 *f)
+{
+    int64_t *is = NEW(int64_t, s->p.n);
+    for (int i = 0; i < s->p.n && i < s->surface->capacity; i++)
+        is[i] = s->surface->is[i];
+    h5_write_int(f, "surface", s->p.n, is);
+    mem_free(is);
+}
+
+/* None where the file does not say. */
+static void read_surface(struct sph *s, struct h5 *f)
+{
+    int64_t *is = NEW(int64_t, s->p.n);
+    h5_read_int(f, "surface", s->p.n, is);
+    surface_room(s->surface, s->p.n, s->dim);
+    for (int i = 0; i < s->p.n; i++)
+        s->surface->is[i] = (unsigned char)is[i];
+    mem_free(is);
 }
 
 void sph_checkpoint(void *state, struct h5 *f)
@@ -209,11 +225,14 @@ void sph_checkpoint(void *state, struct h5 *f)
     h5_write_int(f, "next_id", 1, &s->next_id);
     h5_write_real(f, "lost", "-", 1, 1, &s->lost, false);
     mem_free(zone);
+    if (s->surface)
+        save_surface(s, f);
     if (s->signal_fit.n > 0)
         save_signal(s, f);
     for (int k = 0; k < NUMBERS; k++)
         h5_attribute_real(f, numbers[k].name, *number(s, k));
     h5_attribute_text(f, "limited_by", s->limited_by);
+    write_region(s, f);
     sph_watch_save(s, f);
     domain_save(s, f);
     if (s->zones)
@@ -224,7 +243,7 @@ void sph_checkpoint(void *state, struct h5 *f)
 
 static bool read_particles(struct sph *s, struct h5 *f)
 {
-    const int64_t n = h5_rows(f, "state");
+    const int64_t n = h5_share(f, "state");
     if (n < 0)
         return false;
     int64_t *zone = NEW(int64_t, n);
@@ -238,9 +257,22 @@ static bool read_particles(struct sph *s, struct h5 *f)
     return fits;
 }
 
+/* The next id of this rank: its own, or on another number of ranks above all of theirs. */
+static bool read_next_id(struct sph *s, struct h5 *f)
+{
+    const int64_t size = s->run->size, rank = s->run->rank;
+    int64_t n, most = 0;
+    int64_t *all = h5_read_all_int(f, "next_id", &n);
+    for (int64_t k = 0; all && k < n; k++)
+        most = all[k] > most ? all[k] : most;
+    s->next_id = all && n == size ? all[rank] : (most + size) / size * size + rank;
+    mem_free(all);
+    return all != NULL;
+}
+
 static bool read_numbers(struct sph *s, struct h5 *f)
 {
-    if (!h5_read_int(f, "next_id", 1, &s->next_id) || !h5_read_real(f, "lost", 1, 1, &s->lost))
+    if (!read_next_id(s, f) || !h5_read_parts(f, "lost", 1, &s->lost))
         return false;
     for (int k = 0; k < NUMBERS; k++)
         if (!h5_read_attribute_real(f, numbers[k].name, number(s, k)))
@@ -249,14 +281,63 @@ static bool read_numbers(struct sph *s, struct h5 *f)
     return true;
 }
 
+/* What the file is of: spacing and region. Says what differs. */
+static bool same_region(const struct sph *s, struct h5 *f)
+{
+    const struct corner {
+        const char *name;
+        double now;
+    } wanted[] = {{"dx", s->dx},      {"xmin", s->lo[0]}, {"xmax", s->hi[0]}, {"ymin", s->lo[1]},
+                  {"ymax", s->hi[1]}, {"zmin", s->lo[2]}, {"zmax", s->hi[2]}};
+    double any;
+    const bool solid = h5_read_attribute_real(f, "zmin", &any);
+    if (h5_read_attribute_real(f, "dx", &any) && solid != (s->dim == 3)) {
+        log_say("the restart file is of %d dimensions, the case of %d", solid ? 3 : 2, s->dim);
+        return false;
+    }
+    for (int k = 0; k < 1 + 2 * s->dim; k++) {
+        double then;
+        if (h5_read_attribute_real(f, wanted[k].name, &then) && then != wanted[k].now) {
+            log_say("the restart file is of another case: %s = %.10g m, here %.10g m",
+                    wanted[k].name, then, wanted[k].now);
+            return false;
+        }
+    }
+    return true;
+}
+
+/* What the file lacks, NULL: nothing. */
+static const char *missing(struct sph *s, struct h5 *f)
+{
+    if (!read_particles(s, f))
+        return "particles";
+    if (!read_numbers(s, f))
+        return "numbers of the run";
+    if (!sph_watch_load(s, f))
+        return "watches";
+    if (!domain_load(s, f))
+        return "partition";
+    if (s->zones && !zones_load(s, f))
+        return "open sides";
+    if (s->walls && !forces_load(s, f))
+        return "forces on walls";
+    return NULL;
+}
+
 bool sph_restore(struct sph *s, struct h5 *f)
 {
-    const bool fits = read_particles(s, f) && read_numbers(s, f) && sph_watch_load(s, f) &&
-                      domain_load(s, f) && (!s->zones || zones_load(s, f)) &&
-                      (!s->walls || forces_load(s, f));
+    if (!same_region(s, f))
+        return false;
+    const char *lacks = missing(s, f);
+    if (lacks && h5_ranks(f) == 0)
+        log_say("the restart file is of another number of ranks, or has no %s that fit this case: "
+                "files of this age are read by the number of ranks that wrote them",
+                lacks);
+    else if (lacks)
+        log_say("the restart file has no %s that fit this case", lacks);
+    if (s->surface)
+        read_surface(s, f);
     read_signal(s, f);
-    if (!fits)
-        log_say("the restart file is of another number of ranks or another case");
     s->ready = false;
-    return fits;
+    return !lacks;
 }

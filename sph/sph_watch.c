@@ -338,9 +338,13 @@ void sph_watch_save(const struct sph *s, struct h5 *f)
 
 bool sph_watch_load(struct sph *s, struct h5 *f)
 {
-    double v[KEPT];
-    if (h5_rows(f, "watch") != KEPT || !h5_read_real(f, "watch", KEPT, 1, v))
+    double v[KEPT], parts[KEPT];
+    if (!h5_read_same(f, "watch", KEPT, v) || !h5_read_parts(f, "watch", KEPT, parts))
         return false;
+    flatten(&s->watch, parts, true);
+    const double removed = s->watch.removed, wall_work = s->watch.wall_work;
     flatten(&s->watch, v, true);
+    s->watch.removed = removed;
+    s->watch.wall_work = wall_work;
     return true;
 }

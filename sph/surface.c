@@ -37,7 +37,7 @@ void surface_free(struct surface **f)
     *f = NULL;
 }
 
-static void room(struct surface *f, int n, int dim)
+void surface_room(struct surface *f, int n, int dim)
 {
     if (n <= f->capacity)
         return;
@@ -231,7 +231,7 @@ static void find_near(struct sph *s, struct surface *f)
 void surface_detect(struct sph *s)
 {
     struct surface *f = s->surface;
-    room(f, s->p.n, s->dim);
+    surface_room(f, s->p.n, s->dim);
     moments(s, f);
     for (int i = 0; i < s->p.n; i++)
         classify(s, f, i);

@@ -20,6 +20,8 @@ struct surface {
 /* NULL: no free surface in the scene. */
 struct surface *surface_create(struct sph *s);
 void surface_free(struct surface **f);
+/* Room for n locals. */
+void surface_room(struct surface *f, int n, int dim);
 /* After the list of pairs; uses slope as scratch. Collective. */
 void surface_detect(struct sph *s);
 /* Takes the divergence out of the gradients of u as far as the support lacks neighbours: lambda

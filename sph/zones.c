@@ -390,23 +390,41 @@ void zones_save(struct sph *s, struct h5 *f)
     h5_write_real(f, "zones_level", "Pa", 1, 1, level, false);
     h5_write_real(f, "zones_owed", "kg", 1, 1, owed, false);
     h5_write_int(f, "zones_counted", 3, counted);
+    if (s->zones->watched)
+        overlap_save(s->zones->watched, f);
+}
+
+/* Counts of all ranks; on another number of ranks the first gets them. */
+static bool load_counts(struct sph *s, struct h5 *f, int64_t counted[3])
+{
+    int64_t n;
+    int64_t *all = h5_read_all_int(f, "zones_counted", &n);
+    const bool same = n == 3 * s->run->size, fits = all && n % 3 == 0;
+    const int64_t first = same ? 3 * s->run->rank : 0, end = same ? first + 3 : n;
+    for (int k = 0; k < 3; k++)
+        counted[k] = 0;
+    for (int64_t k = first; fits && k < end && (same || s->run->rank == 0); k++)
+        counted[k % 3] += all[k];
+    mem_free(all);
+    return fits;
 }
 
 bool zones_load(struct sph *s, struct h5 *f)
 {
     struct openings *o = s->zones->openings;
     const int faces = openings_faces(o);
-    const int64_t rows = s->run->rank == 0 ? faces : 0;
     double booked[4];
-    int64_t counted[3];
-    if (!h5_read_real(f, "faces_mass", rows, 1, o->mass) ||
-        !h5_read_real(f, "faces_flux", faces, 1, o->flux) ||
-        !h5_read_real(f, "zones_booked", 4, 1, booked) ||
-        !h5_read_real(f, "zones_level", 1, 1, &s->zones->level) ||
-        !h5_read_real(f, "zones_owed", 1, 1, &o->owed) ||
-        !h5_read_int(f, "zones_counted", 3, counted))
+    int64_t counted[3], n;
+    double *mass = h5_read_all_real(f, "faces_mass", 1, &n);
+    const bool same_faces = mass && n == faces;
+    if (same_faces)
+        memcpy(o->mass, mass, (size_t)faces * sizeof *mass);
+    mem_free(mass);
+    if (!same_faces || !h5_read_parts(f, "faces_flux", faces, o->flux) ||
+        !h5_read_parts(f, "zones_booked", 4, booked) ||
+        !h5_read_same(f, "zones_level", 1, &s->zones->level) ||
+        !h5_read_same(f, "zones_owed", 1, &o->owed) || !load_counts(s, f, counted))
         return false;
-    MPI_Bcast(o->mass, faces, MPI_DOUBLE, 0, s->run->comm);
     s->zones->blended = booked[0];
     o->born_mass = booked[1];
     o->gone_mass = booked[2];

@@ -91,7 +91,7 @@ ends 0 "$toy" --help tyo
 has out.txt 'did you mean .toy'
 
 # straight through, and in two parts: the same bits, rows and times
-for n in 1 2; do
+for n in 1 2 3; do
     run="mpirun --quiet --bind-to none --oversubscribe -np $n $toy"
     ends 0 $run swing -o "whole$n" -p output.checkpoint=0.45
     ends 0 $run swing -o "parts$n" -p output.checkpoint=0.45 -p time.end=0.93
@@ -101,8 +101,16 @@ for n in 1 2; do
     cmp -s "whole$n/series.csv" "parts$n/series.csv" || bad "restart gives another series.csv"
     cmp -s "whole$n/toy.xdmf" "parts$n/toy.xdmf" || bad "restart gives another toy.xdmf"
 done
-ends 2 $mpi "$toy" swing -o parts1 --restart
-has out.txt 'another number of ranks'
+
+# a restart file is read by any number of ranks; one of another case is refused with the key that differs
+for n in 1 3; do
+    run="mpirun --quiet --bind-to none --oversubscribe -np $n $toy"
+    ends 0 $mpi "$toy" swing -o "moved$n" -p output.checkpoint=0.45 -p time.end=0.93
+    ends 0 $run swing -o "moved$n" -p output.checkpoint=0.45 --restart
+    h5diff "whole$n/toy_000004.h5" "moved$n/toy_000004.h5" >diff.txt 2>&1 || bad "restart from 2 to $n ranks: $(cat diff.txt)"
+done
+ends 2 "$toy" swing -o moved1 --restart -p toy.n=11
+has out.txt 'the case differs: toy.n = 10 in the file, 11 here'
 
 # a restart file that is cut short or has another bit is refused; without it, one can go on from an earlier one
 ends 0 "$toy" swing -o hurt -p output.checkpoint=0.45 -p time.end=0.93

@@ -1,5 +1,5 @@
-/* test_fv_ranks.c - the number of ranks changes nothing but rounding; a restart changes nothing at
- * all. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+/* test_fv_ranks.c - the number of ranks changes nothing but rounding, that of a restart, too; on
+ * the same ranks it changes nothing at all. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include "fv_case.h"
@@ -9,13 +9,9 @@
 
 enum { SUMS = 5 }; /* energy, largest speed, error, sums of u and of x-weighted u */
 
-static void sums_on(MPI_Comm comm, const char *const *overrides, double *sums)
+static void take_sums(struct fv *s, bool good, double *sums)
 {
-    struct fv_case c;
     double row[FV_CASE_ROW], x[3];
-    fv_case_set(&c, comm, overrides);
-    struct fv *s = fv_case_start(&c, NULL);
-    const bool good = fv_case_run(&c, 6, 100.0);
     fv_row(s, row);
     sums[0] = good ? row[0] : NAN;
     sums[1] = row[1];
@@ -30,21 +26,35 @@ static void sums_on(MPI_Comm comm, const char *const *overrides, double *sums)
                 sums[4] +=
                     sin(7.0 * x[0] + 5.0 * x[1] + 3.0 * x[2]) * s->u[0][at] + x[0] * s->u[1][at];
             }
-    MPI_Allreduce(MPI_IN_PLACE, sums + 3, 2, MPI_DOUBLE, MPI_SUM, comm);
+    MPI_Allreduce(MPI_IN_PLACE, sums + 3, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+}
+
+static void sums_on(MPI_Comm comm, const char *const *overrides, double *sums)
+{
+    struct fv_case c;
+    fv_case_set(&c, comm, overrides);
+    fv_case_start(&c, NULL);
+    take_sums(c.s, fv_case_run(&c, 6, 100.0), sums);
     fv_free(&c.s);
 }
 
-static void agree(const char *const *overrides)
+static void assert_same_sums(const double *a, const double *b)
 {
-    double alone[SUMS], shared[SUMS], most = 0.0;
-    sums_on(MPI_COMM_SELF, overrides, alone);
-    sums_on(MPI_COMM_WORLD, overrides, shared);
+    double most = 0.0;
     for (int k = 0; k < SUMS; k++) {
-        const double e = fabs(alone[k] - shared[k]) / fmax(1.0, fabs(alone[k]));
+        const double e = fabs(a[k] - b[k]) / fmax(1.0, fabs(a[k]));
         most = e <= most ? most : e;
     }
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     assert_close(most, 0.0, 1e-9);
+}
+
+static void agree(const char *const *overrides)
+{
+    double alone[SUMS], shared[SUMS];
+    sums_on(MPI_COMM_SELF, overrides, alone);
+    sums_on(MPI_COMM_WORLD, overrides, shared);
+    assert_same_sums(alone, shared);
 }
 
 static void ranks_agree_in_2d(void **state)
@@ -133,12 +143,96 @@ static void restart_is_exact(void **state)
         (const char *const[]){TWO_MODES, "fv.integrator=\"bdf2\"", "fv.cfl=0.5", NULL});
 }
 
+/* 3 steps on these ranks and a restart file, then 3 more: their sums. */
+static void write_on(MPI_Comm comm, const char *const *overrides, const char *path, double *sums)
+{
+    struct fv_case c;
+    fv_case_set(&c, comm, overrides);
+    fv_case_start(&c, NULL);
+    bool good = fv_case_run(&c, 3, 100.0);
+    struct h5 *f = h5_create_restart(comm, path);
+    h5_attribute_real(f, "t", c.run.t);
+    fv_checkpoint(c.s, f);
+    h5_close(&f);
+    good = fv_case_run(&c, 3, 100.0) && good;
+    take_sums(c.s, good, sums);
+    fv_free(&c.s);
+}
+
+static void go_on_on(MPI_Comm comm, const char *const *overrides, const char *path, double *sums)
+{
+    struct fv_case c;
+    fv_case_set(&c, comm, overrides);
+    struct h5 *f = h5_open(comm, path);
+    assert_non_null(f);
+    assert_true(h5_read_attribute_real(f, "t", &c.run.t));
+    c.run.step = 3;
+    assert_non_null(fv_case_start(&c, f));
+    h5_close(&f);
+    take_sums(c.s, fv_case_run(&c, 3, 100.0), sums);
+    fv_free(&c.s);
+}
+
+/* Written by all, read by one, and the other way. */
+static void goes_on_on_others(const char *const *overrides)
+{
+    enum { SIZE = 1024 };
+    char path[SIZE];
+    int rank;
+    double straight[SUMS], restarted[SUMS];
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    restart_path(path, SIZE);
+    write_on(MPI_COMM_WORLD, overrides, path, straight);
+    go_on_on(MPI_COMM_SELF, overrides, path, restarted);
+    assert_same_sums(straight, restarted);
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (rank == 0)
+        write_on(MPI_COMM_SELF, overrides, path, straight);
+    MPI_Bcast(straight, SUMS, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+    go_on_on(MPI_COMM_WORLD, overrides, path, restarted);
+    assert_same_sums(straight, restarted);
+    MPI_Barrier(MPI_COMM_WORLD);
+    remove(path);
+}
+
+static void other_ranks_go_on(void **state)
+{
+    (void)state;
+    goes_on_on_others((const char *const[]){TWO_MODES, HOLE, NULL});
+    goes_on_on_others((const char *const[]){TWO_MODES, "domain.periodic=(false,true)", NULL});
+    goes_on_on_others(
+        (const char *const[]){TWO_MODES, "fv.integrator=\"bdf2\"", "fv.cfl=0.5", NULL});
+    goes_on_on_others(
+        (const char *const[]){TWO_MODES, "domain.dim=3", "fv.cells=(16,16,12)", NULL});
+}
+
+/* A file of another grid says which one. */
+static void another_grid_is_refused(void **state)
+{
+    enum { SIZE = 1024 };
+    (void)state;
+    char path[SIZE];
+    double sums[SUMS];
+    struct fv_case c;
+    restart_path(path, SIZE);
+    write_on(MPI_COMM_WORLD, (const char *const[]){TWO_MODES, NULL}, path, sums);
+    fv_case_set(&c, MPI_COMM_SELF, (const char *const[]){TWO_MODES, "fv.cells=(36,32)", NULL});
+    struct h5 *f = h5_open(MPI_COMM_SELF, path);
+    assert_null(fv_case_start(&c, f));
+    h5_close(&f);
+    MPI_Barrier(MPI_COMM_WORLD);
+    remove(path);
+}
+
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ranks_agree_in_2d), cmocka_unit_test(ranks_agree_with_a_hole),
-        cmocka_unit_test(ranks_agree_with_closed_sides), cmocka_unit_test(ranks_agree_in_3d),
-        cmocka_unit_test(restart_is_exact)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(ranks_agree_in_2d),
+                                       cmocka_unit_test(ranks_agree_with_a_hole),
+                                       cmocka_unit_test(ranks_agree_with_closed_sides),
+                                       cmocka_unit_test(ranks_agree_in_3d),
+                                       cmocka_unit_test(restart_is_exact),
+                                       cmocka_unit_test(other_ranks_go_on),
+                                       cmocka_unit_test(another_grid_is_refused)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

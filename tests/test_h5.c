@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "../common/h5.h"
+#include "../common/mem.h"
 
 enum { MOST = 16 };
 
@@ -175,6 +176,68 @@ static void no_rows_at_all_are_legal(void **state)
     h5_close(&f);
 }
 
+/* Ranks that did not write it: shares cover all rows once, any range comes back, parts of a sum are
+ * summed, what all hold alike is not. */
+static void other_ranks_read_it_too(void **state)
+{
+    (void)state;
+    int64_t first, wanted = 0, n;
+    double part[2] = {1.0 + rank, 7.0}, same[2];
+    (void)rows(&first);
+    for (int r = 0; r < size; r++)
+        wanted += (int64_t[]){3, 0, 5, 6}[r % 4];
+    struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
+    write_rows(f, 2, false);
+    h5_write_real(f, "part", "-", 2, 1, part, false);
+    h5_close(&f);
+    f = h5_open(MPI_COMM_SELF, path);
+    bool good = h5_ranks(f) == size && h5_share(f, "id") == wanted && h5_share(f, "none") == -1;
+    double *v = h5_read_all_real(f, "velocity", 2, &n);
+    good = good && v && n == wanted;
+    for (int64_t i = 0; good && i < n; i++)
+        good = v[2 * i] == value(i, 0) && v[2 * i + 1] == value(i, 1);
+    mem_free(v);
+    int64_t *starts = h5_first_rows(f, "id"), id[2];
+    good = good && starts && starts[0] == 0 && starts[size] == wanted && starts[rank] == first &&
+           h5_read_int_at(f, "id", 1, 2, id) && id[1] == 14 - ((int64_t)1 << 40) &&
+           !h5_read_int_at(f, "id", wanted, 2, id);
+    mem_free(starts);
+    good = good && h5_read_same(f, "part", 2, same) && same[0] == 1.0 && same[1] == 7.0;
+    good = good && h5_read_parts(f, "part", 2, part) && part[0] == 0.5 * size * (size + 1) &&
+           part[1] == 7.0 * size;
+    h5_close(&f);
+    assert_true(all(good));
+}
+
+/* One rank wrote it, all read it: even shares in the order of the ranks. */
+static void shares_are_even(void **state)
+{
+    (void)state;
+    enum { ROWS = 10 };
+    double v[ROWS];
+    struct h5 *f = NULL;
+    for (int i = 0; i < ROWS; i++)
+        v[i] = value(i, 0);
+    if (rank == 0) {
+        f = h5_create_restart(MPI_COMM_SELF, path);
+        h5_write_real(f, "x", "m", ROWS, 1, v, false);
+        h5_close(&f);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    f = h5_open(MPI_COMM_WORLD, path);
+    const int64_t n = h5_share(f, "x");
+    int64_t first = 0, sum = n;
+    MPI_Exscan(&n, &first, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    first = rank > 0 ? first : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    bool good = sum == ROWS && n >= ROWS / size && n <= ROWS / size + 1;
+    good = h5_read_real(f, "x", n, 1, v) && good;
+    for (int64_t i = 0; good && i < n; i++)
+        good = v[i] == value(first + i, 0);
+    h5_close(&f);
+    assert_true(all(good));
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -182,6 +245,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(single_storage_keeps_24_bits),
         cmocka_unit_test(shape_order_and_unit_are_what_readers_expect),
         cmocka_unit_test(restart_files_know_the_rows_of_each_rank),
+        cmocka_unit_test(other_ranks_read_it_too),
+        cmocka_unit_test(shares_are_even),
         cmocka_unit_test(what_does_not_fit_is_refused),
         cmocka_unit_test(no_rows_at_all_are_legal),
     };

@@ -50,9 +50,11 @@ static void describe(const struct run *r)
 static void *create(struct run *r, struct h5 *f)
 {
     const int64_t mine = params.n / r->size + (r->rank < params.n % r->size);
-    const int64_t n = f ? h5_rows(f, "x") : mine;
-    if (n < 0) {
-        log_say("toy: the restart file is of another number of ranks");
+    const int64_t n = f ? h5_share(f, "x") : mine;
+    int64_t all = n;
+    MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT64_T, MPI_SUM, r->comm);
+    if (all != params.n) {
+        log_say("toy: the restart file has %lld oscillators", (long long)all);
         return NULL;
     }
     struct toy *s = NEW(struct toy, 1);

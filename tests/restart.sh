@@ -1,0 +1,86 @@
+#!/bin/sh
+# A restart file is read by any number of ranks: a run that was written on some and went on on others ends where the
+# straight run does, but for rounding and its growth.
+# SPDX-License-Identifier: BSD-3-Clause
+b=$(cd "${1:-build}" && pwd)
+root=$(cd "$(dirname "$0")/.." && pwd)
+tmp=${TEST_SCRATCH:-$(mktemp -d)}/restart
+mkdir -p "$tmp" && cd "$tmp" || exit 1
+export ESTRAN_BUILD="$b"
+failed=0
+bad() { echo "FAIL: $*"; failed=$((failed + 1)); }
+# ends CODE COMMAND...: with at most this exit code (1: done, not accepted, as short runs of coarse cases are)
+ends() {
+    most=$1
+    shift
+    timeout -k 5 120 "$@" >out.txt 2>&1 </dev/null
+    code=$?
+    [ $code -le "$most" ] && return 0
+    bad "exit code $code: $*"
+    tail -n 5 out.txt
+    return 1
+}
+# the last value of a column of series.csv, by its name
+last() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) if (index($k, name) == 1) c = k } END { print $c }' "$1"; }
+# agree STRAIGHT RESTARTED COLUMN TOLERANCE WHAT
+agree() {
+    awk -v a="$(last "$1" "$3")" -v b="$(last "$2" "$3")" -v e="$4" -v what="$5" 'BEGIN {
+        d = a - b; d = d < 0 ? -d : d; s = b < 0 ? -b : b
+        print what ": " d / (s > 0 ? s : 1) " relative, wanted " e
+        exit !(a != "" && b != "" && a + 0 == a && s > 0 && d <= e * s) }' ||
+        bad "$5: $3 is $(last "$2" "$3"), in the straight run $(last "$1" "$3")"
+}
+# family NAME COLUMN TOLERANCE "WRITERS" "READERS ..." END CASE ARGS...: a straight run to END on the writers, half of
+# it, and the rest on each of the readers
+family() {
+    name=$1 column=$2 tolerance=$3 writers=$4 readers=$5 end=$6
+    shift 6
+    half=$(awk -v t="$end" 'BEGIN { print t / 2 }')
+    every="-p output.checkpoint=$half -p output.every=$half -p output.snapshots=false"
+    rm -rf "$name" "$name"-*
+    # shellcheck disable=SC2086
+    ends 1 "$root/cases/run" "$@" $every -n "$writers" -o "$name" -p "time.end=$end" || return
+    # shellcheck disable=SC2086
+    ends 1 "$root/cases/run" "$@" $every -n "$writers" -o "$name-half" -p "time.end=$half" || return
+    series=series.csv
+    [ -f "$name/series.csv" ] || series=fv-series.csv
+    for n in $readers; do
+        cp -r "$name-half" "$name-$n"
+        # shellcheck disable=SC2086
+        ends 1 "$root/cases/run" "$@" $every -n "$n" -o "$name-$n" -p "time.end=$end" --restart &&
+            agree "$name/$series" "$name-$n/$series" "$column" "$tolerance" "$name, $writers to $n"
+    done
+}
+
+cat >dam.cfg <<'END'
+format = 1;
+time:    { end = 0.2; };
+fluid:   { rho = 1000.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (1.2, 0.8); };
+initial: { field = "rest"; U = 1.7; };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "box"; box = ((0, 0), (0.6, 0.3)); } );
+sph:     { dx = 0.02; c0 = 30.0; };
+END
+
+# series.csv has 12 digits: 1e-9 leaves rounding three orders of magnitude to grow by
+family dam kinetic 1e-9 2 "1 3" 0.1 dam.cfg
+family sloshing kinetic 1e-9 2 "1 3" 0.2 sloshing_fv
+family outflow kinetic 1e-9 2 "1 3" 0.1 "$root/cases/stress/outflow_fv.cfg"
+# the default tolerance of the pressure alone moves the fifth digit of the divergence
+family blocks kinetic 1e-9 2 "1 3" 0.1 taylor_green_blocks -p fv.tol_pressure=1e-11 -p fv.tol_viscous=1e-11
+family coupled kinetic 1e-9 2:1:1 "1:2:2 3:1:1" 0.08 taylor_green -p sph.dx=0.0125 -p "fv.cells=(24,24)"
+family wave kinetic 1e-9 2:1:1 "2:1:1 1:2:2 3:1:3" 0.5 standing_wave -p "fv.cells=(16,20)"
+
+# a run of another case: what differs, and from what
+refuses() { # SAYS ARGS...
+    says=$1
+    shift
+    "$root/cases/run" "$@" --restart >out.txt 2>&1 && bad "went on: $*"
+    grep -q "$says" out.txt || { bad "lacks: $says"; tail -n 5 out.txt; }
+}
+refuses 'sph.dx = 0.02.* in the file, 0.04.* here' dam.cfg -o dam-half -n 1 -p sph.dx=0.04
+refuses 'is of 64 x 16 x 1 cells, the case of 32 x 16 x 1' "$root/cases/stress/outflow_fv.cfg" -o outflow-half -n 1 -p "fv.cells=(32,16)"
+
+echo "restart: $failed faults"
+[ $failed = 0 ]
