@@ -148,7 +148,9 @@ with basin 's/"x_min"; kind = "no_slip";/"x_min"; kind = "slip"; velocity = (0, 
 with basin 's/16);/16); tol_newton = 1e-8;/' 'fv.tol_newton: is not used' fv
 with basin 's/16);/16); integrator = "newton"; upwind = 0.5;/' 'fv.upwind: is not used' fv
 with basin 's/16);/16); integrator = "newton"; tol_pressure = 1e-3;/' 'fv.tol_pressure: is not used' fv
-with basin 's/nu = 0.01/nu = 0.0/; s/16);/16); tol_viscous = 1e-5;/' 'fv.tol_viscous: is not used' fv
+with basin 's/nu = 0.01/nu = 0.0/' 'case.cfg:5: walls.\[0\]: .*nothing sticks to a wall' fv
+with block 's/nu = 0.01/nu = 0.0/' 'blocks.\[0\].i_min: .*nothing sticks to a wall' fv
+with basin 's/nu = 0.01/nu = 0.0/; s/no_slip/slip/g; s/16);/16); tol_viscous = 1e-5;/' 'fv.tol_viscous: is not used' fv
 with basin 's/16);/16); force = (1.0, 0.0, 0.0);/' 'fv.force: is not used' fv
 with basin 's/max = (1, 1)/max = (1, 1, 1)/' 'domain.max: .*component' fv
 with block 's/fv:      {/& cells = (16, 16);/' 'fv.cells: is not used' fv
