@@ -193,6 +193,10 @@ void fv_row(void *s, double *values);
 /* Sums over what no partner counts, for the coupler; see program.tell. */
 void fv_tell(void *s, struct summary *report);
 
+/* fv_draw.c: see program.draw. */
+struct picture;
+void fv_draw(const struct run *r, struct picture *p);
+
 /* fv_probes.c: the case's gauges; number of columns and their names (static), values on all ranks.
  */
 int fv_probe_columns(const struct run *r, const char **columns);

@@ -132,6 +132,9 @@ END
 for sound in basin block tank; do # or the faults below could come from something else
     "$b/fv" $sound.cfg --check >out.txt 2>&1 || { echo "FAIL: $sound.cfg is refused: $(head -n 1 out.txt)"; failed=$((failed + 1)); }
 done
+# the picture of blocks has their names and what their sides are
+"$b/fv" block.cfg --check=picture -o drawn >out.txt 2>&1 && grep -q '>a<' drawn/fv-scene.svg && grep -q 'no-slip wall' drawn/fv-scene.svg &&
+    grep -q 'run time' out.txt || { echo "FAIL: block.cfg is not drawn, or without its forecast"; failed=$((failed + 1)); }
 with basin 's/nu = 0.01/nu = 0.01; central = 1.0/' 'case.cfg:3: fluid.central: is not used' fv
 with basin 's/^fv:/initial: { amplitude = 0.1; };\n&/' 'initial.amplitude: is not used' fv
 with basin 's/^fv:/initial: { L = 2.0; };\n&/' 'initial.L: is not used' fv
