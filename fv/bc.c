@@ -139,8 +139,10 @@ static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall
     if (bc->kind[k] == BC_OUTFLOW)
         bc->pressure[k] = wall->pressure / s->run->scene.fluid.rho;
     bc->driven = bc->driven || bc->pressure[k] != 0.0;
-    for (int q = 0; q < b->dim && bc->kind[k] != BC_OUTFLOW; q++)
+    for (int q = 0; q < b->dim && bc->kind[k] != BC_OUTFLOW; q++) {
         bc->speed_along[q] = fmax(bc->speed_along[q], fabs(wall->velocity[q]));
+        bc->slides[k] = bc->slides[k] || (bc->kind[k] == BC_NO_SLIP && wall->velocity[q] != 0.0);
+    }
     for (int q = 0; q < b->dim; q++)
         bc->speed = fmax(bc->speed, bc->speed_along[q]);
     double area = 1.0;

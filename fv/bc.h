@@ -13,6 +13,7 @@ struct outflow; /* outflow.h */
 struct bc {
     int turn[3];          /* of the axes, when sides are filled: 0 first */
     enum bc_kind kind[6]; /* side 2 a + (1 if upper) of axis a */
+    bool slides[6];       /* a wall that moves along itself */
     int64_t n[6]; /* places of a side on this rank, ghosts of its tangents included; 0: not here */
     double *w[6][3];        /* m/s: velocity on the side, averages over faces */
     double *slip[6][3];     /* m/s: what the next projection takes off the side's velocity */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../common/forecast.h"
 #include "../common/log.h"
 #include "../common/mem.h"
 #include "../coupler/cpl_partner.h"
@@ -76,6 +77,8 @@ static void describe(const struct run *r)
         "%.0f MB",
         cells, least, dt, limit_name(step_most.by), limits_cfl(prm), ceil(r->scene.time.end / dt),
         8e-6 * cells * fields + 1.0);
+    if (prm->integrator != INTEGRATOR_NEWTON && !water) /* what the figures were measured with */
+        forecast_say("fv", d->dim, cells, ceil(r->scene.time.end / dt));
 }
 
 static void destroy_mesh(void *state)
@@ -180,6 +183,7 @@ static struct program fv_program = {.name = "fv",
                                     .other_groups = others,
                                     .check = fv_params_check,
                                     .describe = describe,
+                                    .draw = fv_draw,
                                     .create = create,
                                     .destroy = destroy,
                                     .step = step,

@@ -126,6 +126,9 @@ void convection(struct fv *s, double *const N[3]);
 /* U = I(u).n on all faces that this rank's stencils see. */
 void convection_face_velocities(struct fv *s, double *const u[3], double *const U[3]);
 
+/* Values on faces along a, behind walls that slide: as products along their tangents want them. */
+void convection_beside_walls(const struct fv *s, int a, double *f);
+
 /* viscous.c: out = L q = nu Lap q in the free cells. Ghosts of q must be there. */
 void viscous_apply(const struct fv *s, const double *q, double *out);
 /* Solves (1 - c L) delta = rhs for all components by CG; delta holds the imposed values in forced
@@ -189,6 +192,10 @@ void fv_finish(void *s);
 void fv_row(void *s, double *values);
 /* Sums over what no partner counts, for the coupler; see program.tell. */
 void fv_tell(void *s, struct summary *report);
+
+/* fv_draw.c: see program.draw. */
+struct picture;
+void fv_draw(const struct run *r, struct picture *p);
 
 /* fv_probes.c: the case's gauges; number of columns and their names (static), values on all ranks.
  */

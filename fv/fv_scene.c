@@ -35,6 +35,10 @@ static void check_wall(const struct run *r, struct faults *f, int k)
         wall_fault(r, f, k, "carried is for an outflow");
     else if (w->carried && steady)
         wall_fault(r, f, k, "carried is for an outflow of a run in time");
+    if (w->kind == WALL_NO_SLIP && !(r->scene.fluid.nu > 0.0))
+        wall_fault(r, f, k,
+                   "without viscosity (fluid.nu) nothing sticks to a wall: kind = \"slip\", or a "
+                   "viscosity");
     if (w->side == SIDE_NONE)
         return;
     const int a = (w->side - SIDE_X_MIN) / 2;

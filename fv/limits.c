@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../common/scene_speed.h"
 #include "bc.h"
 #include "levelset.h"
 
@@ -65,38 +66,12 @@ static void lower(struct step_limit *l, double dt, enum limit by)
 
 /* --- the scene --- */
 
-/* |g| over the extent of the domain along it, m^2/s^2: half the square of the speed of what falls
- * through it. */
-static double fall(const struct scene *s)
-{
-    double sum = 0.0;
-    for (int a = 0; a < s->domain.dim; a++)
-        sum += fabs(s->fluid.gravity[a]) * (s->domain.max[a] - s->domain.min[a]);
-    return sum;
-}
-
 static double size_of(const double *v, int dim)
 {
     double sum = 0.0;
     for (int a = 0; a < dim; a++)
         sum += v[a] * v[a];
     return sqrt(sum);
-}
-
-/* What every solver knows of a scene. */
-static double scene_speed(const struct scene *s)
-{
-    const int dim = s->domain.dim;
-    double most = size_of(s->initial.velocity, dim);
-    if (s->initial.field > FIELD_UNIFORM && !scene_has_wave(s))
-        most += s->initial.U;
-    for (int k = 0; k < s->nwalls; k++)
-        most = fmax(most, size_of(s->walls[k].velocity, dim));
-    for (int k = 0; k < s->nbodies; k++)
-        most = fmax(most, size_of(s->bodies[k].velocity, dim));
-    for (int k = 0; k < s->nshapes; k++)
-        most = fmax(most, size_of(s->shapes[k].velocity, dim));
-    return scene_has_surface(s) ? fmax(most, sqrt(2.0 * fall(s))) : most;
 }
 
 static double length_of(const struct scene *s)
@@ -119,23 +94,18 @@ static double pressure_difference(const struct scene *s)
     return most > least ? most - least : 0.0;
 }
 
-/* Where gravity drives a flow through a periodic domain: no faster than it falls through it, or
- * than viscosity lets it between walls as far apart as the domain is long. */
-static double driven_speed(const struct scene *s)
-{
-    double drive[3], still[3], level;
-    still_split(s, drive, still, &level);
-    const double g = size_of(drive, s->domain.dim), L = length_of(s);
-    const double nu = s->fluid.nu;
-    return fmin(sqrt(2.0 * g * L), nu > 0.0 ? g * L * L / (8.0 * nu) : INFINITY);
-}
-
+/* The scene's own where something moves or can fall: nothing does without a surface, where the
+ * pressure takes gravity across sides; or what enters through blocks' sides. */
 double limits_reference(const struct run *r)
 {
     const struct scene *s = &r->scene;
-    const double flows =
-        fmax(fmax(scene_speed(s), driven_speed(s)), sqrt(2.0 * pressure_difference(s)));
-    return fmax(flows, 1e-3 * length_of(s) / s->time.end);
+    struct scene held = *s;
+    for (int a = 0; a < s->domain.dim && !scene_has_surface(s); a++)
+        held.fluid.gravity[a] = s->domain.periodic[a] ? s->fluid.gravity[a] : 0.0;
+    const struct scene_speed v = scene_speed_of(&held, 0.0);
+    const double flows = v.moves || scene_has_surface(s) ? v.speed : 0.0;
+    return fmax(fmax(flows, size_of(s->initial.velocity, s->domain.dim)),
+                1e-3 * length_of(s) / s->time.end);
 }
 
 double limits_follow(double *reference, double most)

@@ -13,6 +13,7 @@ struct side {
     const struct mesh_part *p;
     int a, k; /* axis, side of the block */
     enum mesh_side kind;
+    bool slides;          /* a wall that moves along itself */
     int t[2], g[2], n[2]; /* tangents, their ghosts and cells */
     int first;            /* cell along a that touches the side */
     int64_t in;           /* step inwards */
@@ -187,7 +188,7 @@ static int face_points(const struct mesh_flow *s, const struct side *d, int i, i
     return n;
 }
 
-static void set_values(const struct mesh_flow *s, const struct side *d, double t)
+static void set_values(const struct mesh_flow *s, struct side *d, double t)
 {
     SIDE_PLACES(d, 1, i, j, m, c)
     {
@@ -198,8 +199,10 @@ static void set_values(const struct mesh_flow *s, const struct side *d, double t
             for (int q = 0; q < 3; q++)
                 sum[q] += w[q] / n;
         }
-        for (int q = 0; q < s->m->dim; q++)
+        for (int q = 0; q < s->m->dim; q++) {
             d->w[q][m] = sum[q];
+            d->slides = d->slides || (d->kind == MESH_WALL && sum[q] != 0.0);
+        }
         (void)c;
     }
 }
@@ -207,7 +210,7 @@ static void set_values(const struct mesh_flow *s, const struct side *d, double t
 void mesh_bc_time(struct mesh_flow *s, double t)
 {
     for (int k = 0; k < s->bc->n; k++) {
-        const struct side *d = s->bc->side + k;
+        struct side *d = s->bc->side + k;
         const size_t bytes = (size_t)(d->width * (d->n[1] + 2 * d->g[1])) * sizeof(double);
         const bool changes = d->kind == MESH_EXACT && s->ring < 0;
         for (int q = 0; q < s->m->dim; q++)
@@ -357,6 +360,20 @@ void mesh_bc_fluxes(const struct mesh_flow *s, double *const U[3])
             U[d->a][c + d->face] = 0.0;
             (void)at;
         }
+    }
+}
+
+void mesh_bc_beside_walls(const struct mesh_flow *s, const struct mesh_part *p, int a, double *f)
+{
+    for (int k = 0; k < s->bc->n; k++) {
+        const struct side *d = s->bc->side + k;
+        if (d->p != p || d->a == a || !d->slides)
+            continue;
+        for (int j = 0; j < d->n[1] + (d->t[1] == a); j++)
+            for (int i = 0; i < d->n[0] + (d->t[0] == a); i++) {
+                double *q = f + cell(d, i, j);
+                q[-d->in] = 4.0 * (q[0] + q[2 * d->in]) - 6.0 * q[d->in] - q[3 * d->in];
+            }
     }
 }
 

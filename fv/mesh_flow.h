@@ -75,6 +75,8 @@ void mesh_bc_velocity(const struct mesh_flow *s, enum mesh_value what, double *c
 void mesh_bc_even(const struct mesh_flow *s, bool odd, double *q);
 void mesh_bc_pressure(const struct mesh_flow *s, double *p);
 void mesh_bc_fluxes(const struct mesh_flow *s, double *const U[3]);
+/* See convection_beside_walls; of one part. */
+void mesh_bc_beside_walls(const struct mesh_flow *s, const struct mesh_part *p, int a, double *f);
 bool mesh_bc_pressure_given(const struct mesh_flow *s);
 /* Largest sum over the indices of |w.S|/V at the sides, over this rank; largest speed. */
 double mesh_bc_rate(const struct mesh_flow *s, double *speed);

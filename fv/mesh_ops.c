@@ -117,6 +117,8 @@ void mesh_convection(struct mesh_flow *s, double *const N[3])
     const struct mesh *m = s->m;
     for (int q = 0; q < m->nparts; q++) {
         const struct mesh_part *p = m->part + q;
+        for (int a = 0; a < m->dim; a++)
+            mesh_bc_beside_walls(s, p, a, s->U[a]);
         for (int k = 0; k < m->dim; k++) {
             for (int a = 0; a < m->dim; a++) {
                 int64_t tangent[2];
@@ -128,6 +130,7 @@ void mesh_convection(struct mesh_flow *s, double *const N[3])
                     PART_ROWS (p, down, up, c, n)
                         bias_row(s->u[k] + c, s->U[a] + c, p->stride[a], n, s->prm.upwind,
                                  s->face[0] + c);
+                mesh_bc_beside_walls(s, p, a, s->face[0]);
                 layers(m->dim, a, 0, down, up);
                 PART_ROWS (p, down, up, c, n)
                     product_row(s->U[a] + c, s->face[0] + c, tangent, nt, n, true, s->flux + c);

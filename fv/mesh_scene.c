@@ -112,6 +112,10 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
                     "and its velocity has a part of %.0f %% across; name one wall by lid, or "
                     "make an \"inflow\"",
                     100.0 * t.worst);
+            if (kind == MESH_WALL && !(r->scene.fluid.nu > 0.0))
+                mesh_fault(r, f, k, sides[side],
+                           "without viscosity (fluid.nu) nothing sticks to a wall: \"slip\", or a "
+                           "viscosity");
             if (kind == MESH_INFLOW && !(t.most > 0.0))
                 mesh_fault(r, f, k, sides[side],
                            "an inflow without a velocity across it: nothing flows in");

@@ -82,6 +82,8 @@ static void complete(struct fv *s, const struct flow *q, bool variation)
     else if (s->forcing)
         forcing_fluxes(s, s->newton->of.t, q->U);
     bc_fluxes(s, variation ? BC_ZERO : BC_GIVEN, q->U);
+    for (int a = 0; a < b->dim; a++)
+        convection_beside_walls(s, a, q->U[a]);
 }
 
 /* ---- fluxes --------------------------------------------------------------------------------- */
@@ -174,6 +176,9 @@ static void add_convection(struct fv *s, int q, int a, const struct flow *v, dou
         if (v)
             face_row(v->u[q] + c, along, n, w->dface + c);
     }
+    convection_beside_walls(s, a, w->face);
+    if (v)
+        convection_beside_walls(s, a, w->dface);
     for (int k = 0; k < b->n[2] + (a == 2); k++)
         for (int j = 0; j < b->n[1] + (a == 1); j++) {
             const int64_t c = block_at(b, 0, j, k), n = b->n[0] + (a == 0);

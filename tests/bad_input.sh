@@ -132,6 +132,9 @@ END
 for sound in basin block tank; do # or the faults below could come from something else
     "$b/fv" $sound.cfg --check >out.txt 2>&1 || { echo "FAIL: $sound.cfg is refused: $(head -n 1 out.txt)"; failed=$((failed + 1)); }
 done
+# the picture of blocks has their names and what their sides are
+"$b/fv" block.cfg --check=picture -o drawn >out.txt 2>&1 && grep -q '>a<' drawn/fv-scene.svg && grep -q 'no-slip wall' drawn/fv-scene.svg &&
+    grep -q 'run time' out.txt || { echo "FAIL: block.cfg is not drawn, or without its forecast"; failed=$((failed + 1)); }
 with basin 's/nu = 0.01/nu = 0.01; central = 1.0/' 'case.cfg:3: fluid.central: is not used' fv
 with basin 's/^fv:/initial: { amplitude = 0.1; };\n&/' 'initial.amplitude: is not used' fv
 with basin 's/^fv:/initial: { L = 2.0; };\n&/' 'initial.L: is not used' fv
@@ -148,7 +151,9 @@ with basin 's/"x_min"; kind = "no_slip";/"x_min"; kind = "slip"; velocity = (0, 
 with basin 's/16);/16); tol_newton = 1e-8;/' 'fv.tol_newton: is not used' fv
 with basin 's/16);/16); integrator = "newton"; upwind = 0.5;/' 'fv.upwind: is not used' fv
 with basin 's/16);/16); integrator = "newton"; tol_pressure = 1e-3;/' 'fv.tol_pressure: is not used' fv
-with basin 's/nu = 0.01/nu = 0.0/; s/16);/16); tol_viscous = 1e-5;/' 'fv.tol_viscous: is not used' fv
+with basin 's/nu = 0.01/nu = 0.0/' 'case.cfg:5: walls.\[0\]: .*nothing sticks to a wall' fv
+with block 's/nu = 0.01/nu = 0.0/' 'blocks.\[0\].i_min: .*nothing sticks to a wall' fv
+with basin 's/nu = 0.01/nu = 0.0/; s/no_slip/slip/g; s/16);/16); tol_viscous = 1e-5;/' 'fv.tol_viscous: is not used' fv
 with basin 's/16);/16); force = (1.0, 0.0, 0.0);/' 'fv.force: is not used' fv
 with basin 's/max = (1, 1)/max = (1, 1, 1)/' 'domain.max: .*component' fv
 with block 's/fv:      {/& cells = (16, 16);/' 'fv.cells: is not used' fv

@@ -4,12 +4,26 @@
 
 #include <string.h>
 
+/* Whether fluid sticks to a wall, which wants viscosity. */
+static bool sticks(const struct scene *s)
+{
+    bool any = false;
+    for (int k = 0; k < 6; k++) {
+        any = any || (s->sides[k].kind && !strcmp(s->sides[k].kind, "no_slip"));
+        for (int b = 0; b < BLOCKS; b++)
+            any = any || (s->blocks[b].sides[k] && !strcmp(s->blocks[b].sides[k], "wall"));
+    }
+    return any;
+}
+
 /* cost: of a cell and step, in us. */
 static void settle(struct scene *s, struct random *r, double cost)
 {
     double h = 1e300, V = s->speed, gH = 0.0;
     int cells = 1;
     s->program = FV;
+    if (s->nu == 0.0 && sticks(s))
+        s->nu = 1e-6 * s->speed * s->length;
     for (int a = 0; a < s->dim; a++) {
         h = fmin(h, (s->hi[a] - s->lo[a]) / s->cells[a]);
         V = fmax(V, fabs(s->V[a]));

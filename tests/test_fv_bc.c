@@ -116,7 +116,8 @@ static void ducts_are_exact(void **state)
 }
 
 /* From rest on cells that see nothing of the boundary layer yet: what a lid drags does not depend
- * on its side, to the tolerance of the projections. */
+ * on its side, to the tolerance of the projections, and is what Stokes' layer holds, 2 sqrt(nu
+ * t/pi) a metre and lid speed, to a quarter: it piles up before the end of the lid. */
 static void lids_drag_alike_on_all_sides(void **state)
 {
     double speed[4];
@@ -134,8 +135,7 @@ static void lids_drag_alike_on_all_sides(void **state)
         speed[k] = s->umax[1 - k / 2];
         print_message("lid on side %d: %.4g m/s along it\n", k, speed[k]);
         assert_close(speed[k], speed[0], 0.02 * speed[0]);
-        /* Stokes' layer, 2 sqrt(nu t/pi) over the cell; some is gathered at the end of the lid */
-        assert_true(speed[k] < 2.0 * 2.0 * sqrt(1e-4 * 1.0 / M_PI) * 16.0);
+        assert_close(speed[k] / (2.0 * sqrt(1e-4 / M_PI) * 16.0), 1.0, 0.25);
         fv_free(&c.s);
     }
 }

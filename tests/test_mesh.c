@@ -198,6 +198,23 @@ static void a_lid_is_one_wall_alone(void **state)
     }
 }
 
+/* See lids_drag_alike_on_all_sides in test_fv_bc.c. */
+static void a_lid_drags_what_its_layer_holds(void **state)
+{
+    struct mesh_case c;
+    (void)state;
+    struct mesh_flow *s = mesh_case_start(
+        &c, MPI_COMM_WORLD,
+        "{ name = \"a\"; mapping = \"box\"; cells = (16, 16); velocity = (0.0, -1.0); lid = "
+        "\"i_max\"; i_min = \"wall\"; i_max = \"wall\"; j_min = \"wall\"; j_max = \"wall\"; }",
+        (const char *const[]){"initial.field=\"rest\"", "fluid.nu=1e-4",
+                              "domain.periodic=(false,false)", NULL});
+    assert_true(mesh_case_run(s, 100, 1.0));
+    print_message("lid: %.4g m/s\n", s->umax);
+    assert_close(s->umax / (2.0 * sqrt(1e-4 / M_PI) * 16.0), 1.0, 0.25);
+    mesh_case_end(&c, &s);
+}
+
 /* Two blocks joined in the middle of a gap, each with its wall and that wall's own velocity; two
  * rings joined likewise, each wall with its spin. */
 static void walls_of_blocks_move_on_their_own(void **state)
@@ -496,6 +513,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(ring_flow_has_order_three_and_a_half),
         cmocka_unit_test(waves_and_joints_keep_order_three_and_a_half),
         cmocka_unit_test(a_lid_is_one_wall_alone),
+        cmocka_unit_test(a_lid_drags_what_its_layer_holds),
         cmocka_unit_test(walls_of_blocks_move_on_their_own),
         cmocka_unit_test(a_start_is_linear_in_the_cells),
         cmocka_unit_test(one_uniform_block_is_the_plain_solver),
