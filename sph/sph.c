@@ -126,6 +126,10 @@ static void warn_of(const struct run *r)
         log_warn("sph.c0 = %g m/s: the static pressure alone compresses by %.2g %%; raise it to "
                  "%.3g m/s",
                  prm->c0, 100.0 * v.pressure / (prm->c0 * prm->c0), 10.0 * sqrt(v.pressure));
+    else if (prm->c0 * prm->c0 < 30.0 * v.viscous)
+        log_warn("sph.c0 = %g m/s: friction alone (nu U/L) compresses by %.2g %%; raise it to "
+                 "%.3g m/s",
+                 prm->c0, 100.0 * v.viscous / (prm->c0 * prm->c0), 10.0 * sqrt(v.viscous));
     if (sph_params_zones(r)) {
         double transition, buffer;
         const double least = 1.25 * prm->R_dx * prm->dx * (1.0 - 1e-9);
