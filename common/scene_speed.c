@@ -206,13 +206,20 @@ static double driven(const struct scene *s, double a)
     return fmin(a * s->time.end, steady);
 }
 
-/* Body force along periodic axes, where nothing holds against it. */
-static double driven_speed(const struct scene *s)
+/* Size of the body force along periodic axes. */
+static double driving_force(const struct scene *s)
 {
     double a2 = 0.0;
     for (int a = 0; a < s->domain.dim; a++)
         a2 += s->domain.periodic[a] ? pow(s->fluid.gravity[a], 2.0) : 0.0;
-    return a2 > 0.0 ? driven(s, sqrt(a2)) : 0.0;
+    return sqrt(a2);
+}
+
+/* Body force along periodic axes, where nothing holds against it. */
+static double driven_speed(const struct scene *s)
+{
+    const double a = driving_force(s);
+    return a > 0.0 ? driven(s, a) : 0.0;
 }
 
 /* Largest pressure of the outlets, and what their difference accelerates. */
@@ -230,6 +237,74 @@ static double outlet_speed(const struct scene *s, double *pressure)
     for (int a = 0; a < s->domain.dim; a++)
         length = fmax(length, extent(s, a));
     return fmin(sqrt(2.0 * (hi - lo)), driven(s, (hi - lo) / length));
+}
+
+/* --- slow viscous flow --- */
+
+/* What stands in the fluid. */
+static bool has_obstacles(const struct scene *s)
+{
+    bool any = s->nbodies > 0;
+    for (int k = 0; k < s->nwalls; k++)
+        any = any || s->walls[k].side == SIDE_NONE;
+    return any;
+}
+
+/* Shortest length over which the velocity varies: between walls or openings, across a body, of a
+ * field that repeats itself (1/k); INFINITY: none. */
+static double shortest(const struct scene *s)
+{
+    const struct scene_initial *f = &s->initial;
+    const bool waves =
+        f->field == FIELD_TAYLOR_GREEN || f->field == FIELD_TWO_MODES || f->field == FIELD_BELTRAMI;
+    double least = waves ? f->L / (2.0 * M_PI) : INFINITY;
+    for (int a = 0; a < s->domain.dim; a++)
+        least = fmin(least, s->domain.periodic[a] ? INFINITY : extent(s, a));
+    for (int k = 0; k < s->nbodies; k++)
+        for (int a = 0; a < 2; a++) {
+            const struct param_points *p = &s->bodies[k].points;
+            double lo = INFINITY, hi = -INFINITY;
+            for (int i = 0; i < p->n; i++) {
+                lo = fmin(lo, p->x[i][a]);
+                hi = fmax(hi, p->x[i][a]);
+            }
+            least = hi > lo ? fmin(least, hi - lo) : least;
+        }
+    return least;
+}
+
+/* Whether the velocity jumps along a no-slip wall: a lid that meets another wall, a stream or a
+ * uniform inflow that meets one at once, a body that starts. */
+static bool has_jumps(const struct scene *s)
+{
+    const bool stream = s->initial.field == FIELD_UNIFORM && size_of(s->initial.velocity) > 0.0;
+    bool jumps = stream && has_friction(s);
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        for (int a = 0; a < s->domain.dim; a++)
+            jumps = jumps ||
+                    (w->kind == WALL_NO_SLIP && w->velocity[a] != 0.0 && !s->domain.periodic[a]);
+        jumps =
+            jumps || (w->kind == WALL_INFLOW && w->profile != PROFILE_PARABOLIC && has_friction(s));
+    }
+    for (int k = 0; k < s->nbodies; k++) {
+        const struct scene_body *b = s->bodies + k;
+        jumps = jumps || (b->kind == WALL_NO_SLIP &&
+                          (size_of(b->velocity) > 0.0 || b->spin != 0.0 || *b->motion));
+    }
+    return jumps;
+}
+
+/* Pressures of slow flow (Morris, Fox & Zhu 1997): nu U/L, and F L where something stands in the
+ * way of a body force. Where the velocity jumps nu U/r, r the distance (Taylor 1962), to whatever
+ * the run resolves. */
+static double viscous_pressure(const struct scene *s, double U, double spacing)
+{
+    const double L = shortest(s);
+    if (!(s->fluid.nu > 0.0 && L < INFINITY))
+        return 0.0;
+    const double least = spacing > 0.0 && has_jumps(s) ? fmin(L, spacing) : L;
+    return fmax(s->fluid.nu * U / least, has_obstacles(s) ? driving_force(s) * L : 0.0);
 }
 
 static void take(struct scene_speed *v, double speed, const char *from)
@@ -255,7 +330,7 @@ static void take_still(const struct scene *s, struct scene_speed *v)
          "the domain's length over time.end: nothing moves");
 }
 
-struct scene_speed scene_speed_of(const struct scene *s, double file)
+struct scene_speed scene_speed_of(const struct scene *s, double file, double spacing)
 {
     struct scene_speed v = {.from = ""};
     double depth, fall, g[3], central = 0.0, pressure;
@@ -272,10 +347,11 @@ struct scene_speed scene_speed_of(const struct scene *s, double file)
     take(&v, outlet_speed(s, &pressure), "the pressures of the outlets");
     take(&v, s->fluid.central * sqrt(central), "the central force");
     v.pressure = fmax(size * depth, pressure);
+    v.viscous = viscous_pressure(s, v.speed, spacing); /* a fall makes no more than its weight */
     if (fall > 0.0)
         take(&v, sqrt(2.0 * size * fall + v.speed * v.speed), "the fall of the water");
     take_still(s, &v);
     return v;
 }
 
-double scene_reference_speed(const struct scene *s) { return scene_speed_of(s, 0.0).speed; }
+double scene_reference_speed(const struct scene *s) { return scene_speed_of(s, 0.0, 0.0).speed; }

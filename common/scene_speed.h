@@ -8,6 +8,7 @@
 struct scene_speed {
     double speed;     /* m/s: largest to expect, > 0 */
     double pressure;  /* m^2/s^2: largest static p/rho: hydrostatic, or given at an outflow */
+    double viscous;   /* m^2/s^2: largest p/rho that friction makes in slow flow */
     const char *from; /* what sets the speed: "the fall of the water" */
     bool moves;       /* false: nothing in the scene moves; the speed is sqrt(pressure), or the
                          domain's length over the run's time */
@@ -18,8 +19,9 @@ struct scene_speed {
  * to the domain's lowest, of wave crests to the troughs, none where all water lies below one level;
  * body forces along periodic axes and pressure differences of openings, as far as run time,
  * viscosity and Bernoulli's equation let them. file: largest speed of bodies that follow a motion
- * file, m/s; 0: none. */
-struct scene_speed scene_speed_of(const struct scene *s, double file);
+ * file, m/s; 0: none. spacing: the least length that a run resolves, m, which bounds pressures in
+ * corners; 0: not known. */
+struct scene_speed scene_speed_of(const struct scene *s, double file, double spacing);
 
 /* Its speed alone, m/s; motion files count as rest. */
 double scene_reference_speed(const struct scene *s);

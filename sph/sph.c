@@ -139,11 +139,29 @@ static void describe_scene(const struct run *r)
     }
 }
 
+/* Two rows between walls have no particle that is not a wall's neighbour: a full tank of 2 dx stirs
+ * at 8e-3 c0 where one of 3 dx and more stays below 2e-3. */
+static void warn_narrow(const struct run *r, const struct sph_params *prm)
+{
+    const struct scene *c = &r->scene;
+    for (int a = 0; a < c->domain.dim; a++) {
+        const struct scene_wall *lo = scene_wall_of(c, SIDE_X_MIN + 2 * a);
+        const struct scene_wall *hi = scene_wall_of(c, SIDE_X_MIN + 2 * a + 1);
+        const double length = c->domain.max[a] - c->domain.min[a];
+        if (lo && hi && lo->kind < WALL_INFLOW && hi->kind < WALL_INFLOW && length < 2.5 * prm->dx)
+            log_warn("%.0f particle%s between the walls along %c, %g m: the flow there is noise; "
+                     "take sph.dx = %.3g m or less",
+                     length / prm->dx, length < 1.5 * prm->dx ? "" : "s", "xyz"[a], length,
+                     0.25 * length);
+    }
+}
+
 static void warn_of(const struct run *r)
 {
     const struct sph_params *prm = sph_params_of(r);
     const struct scene_speed v = sph_params_speed(r);
     const double bound = sph_params_cfl_bound(prm, r->scene.domain.dim);
+    warn_narrow(r, prm);
     if (prm->cfl > 0.85 * bound)
         log_warn("sph.cfl = %g is close to the stability bound of this scheme, %g", prm->cfl,
                  bound);
@@ -155,6 +173,10 @@ static void warn_of(const struct run *r)
         log_warn("sph.c0 = %g m/s: the static pressure alone compresses by %.2g %%; raise it to "
                  "%.3g m/s",
                  prm->c0, 100.0 * v.pressure / (prm->c0 * prm->c0), 10.0 * sqrt(v.pressure));
+    else if (prm->c0 * prm->c0 < 30.0 * v.viscous)
+        log_warn("sph.c0 = %g m/s: friction alone (nu U/L) compresses by %.2g %%; raise it to "
+                 "%.3g m/s",
+                 prm->c0, 100.0 * v.viscous / (prm->c0 * prm->c0), 10.0 * sqrt(v.viscous));
     if (sph_params_zones(r)) {
         double transition, buffer;
         const double least = 1.25 * prm->R_dx * prm->dx * (1.0 - 1e-9);

@@ -34,7 +34,7 @@ double sph_fault_density_limit(const struct sph *s)
 {
     if (s->prm.density_limit > 0.0)
         return s->prm.density_limit;
-    return fmin(0.1 + s->watch.rest + 2.0 * s->max_mach, 0.5);
+    return fmin(0.1 + fmax(s->watch.rest, s->watch.friction) + 2.0 * s->max_mach, 0.5);
 }
 
 double sph_fault_of(const struct sph *s, const double *y, double *speed, double *rho)
@@ -188,6 +188,12 @@ static void describe_cause(const struct sph *s, const struct culprit *c, const s
                  "sph.c0 = %.4g m/s is too low: raise it to %.3g m/s, ten times the speed that the "
                  "scene makes",
                  s->c0, 10.0 * expected);
+    else if (s->watch.friction > 0.03)
+        snprintf(
+            d->likely, n,
+            "sph.c0 = %.4g m/s is too low: friction compresses this slow flow by %.2g %%; raise "
+            "it to %.3g m/s",
+            s->c0, 100.0 * s->watch.friction, 10.0 * s->c0 * sqrt(s->watch.friction));
     else if (s->prm.density_limit > 0.0 && c->speed <= fastest * s->c0 && c->fault < 1e300)
         snprintf(d->likely, n,
                  "sph.density_limit = %.3g is tight: impacts at Mach %.2g compress by as much; "

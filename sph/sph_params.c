@@ -19,7 +19,7 @@ static bool present;
 static const struct param rows[] = {
     PARAM(P, dx, "m", NULL, 1e-9, 1e6, "initial particle spacing"),
     PARAM(P, R_dx, "-", "4.0", 1.5, 8.0, "radius of the kernel's support over dx"),
-    PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the largest speed that the scene lets expect, and density within 1 % at rest"),
+    PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the largest speed that the scene lets expect, and density within 1 % at rest and in slow viscous flow"),
     PARAM(P, gamma, "-", "7.0", 1.0, 7.0, "exponent of the equation of state, 7 or 1"),
     CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface, else riemann_ale"),
     CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles"),
@@ -102,15 +102,15 @@ struct scene_speed sph_params_speed(const struct run *r)
     for (int k = 0; k < r->scene.nbodies; k++)
         if (*r->scene.bodies[k].motion)
             most = fmax(most, file_speed(r, r->scene.bodies + k));
-    return scene_speed_of(&r->scene, most);
+    return scene_speed_of(&r->scene, most, given.dx);
 }
 
 /* Ten times the largest speed to expect, so that the density varies by about a percent [2.33-2.35];
- * by no more where the fluid is at rest, p/(rho c0^2) <= 0.01. */
+ * by no more where the fluid is at rest or creeps, p/(rho c0^2) <= 0.01. */
 static double default_c0(const struct run *r)
 {
     const struct scene_speed v = sph_params_speed(r);
-    return 10.0 * fmax(v.speed, sqrt(v.pressure));
+    return 10.0 * fmax(v.speed, sqrt(fmax(v.pressure, v.viscous)));
 }
 
 bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *prm, int side)

@@ -5,9 +5,10 @@
  * they give to each particle times their velocity there, by the weights of the stages. What is left
  * over may only fall. A gain is measured by the kinetic energy and a twentieth of what the scene
  * lets expect, M (U^2 + p/rho)/20: a tank at rest has its hydrostatic scale, so that noise of 1e-3
- * sqrt(g H) is no alarm and a flow of sqrt(g H)/30 that nothing drives is. The work of moving walls
- * is known to some percent only, for the division by gamma is theirs, too: five times its size is
- * added to the scale, and the warning comes at 3 % instead of 1 %.
+ * sqrt(g H) is no alarm and a flow of sqrt(g H)/30 that nothing drives is. A flow that creeps has
+ * the elastic energy of its pressures, M p^2/(rho c0)^2, beside. The work of moving walls is known
+ * to some percent only, for the division by gamma is theirs, too: five times its size is added to
+ * the scale, and the warning comes at 3 % instead of 1 %.
  *
  * Not judged: openings and partners, which carry energy in and out, and moving walls made of
  * ghosts, whose forces are not told from those of particles. */
@@ -61,6 +62,7 @@ void sph_watch_create(struct sph *s)
     const struct scene_speed v = sph_params_speed(s->run);
     w->reference = v.speed;
     w->rest = v.pressure / (s->c0 * s->c0);
+    w->friction = v.viscous / (s->c0 * s->c0);
     w->budget_closed = is_closed(s->run, &s->prm);
     snprintf(w->remedy[REMEDY_C0], sizeof w->remedy[REMEDY_C0],
              "sph.c0 = %.4g m/s is too low for this flow: raise it to ten times the largest speed",
@@ -214,7 +216,7 @@ static void judge_energy(struct sph *s, double t, const double *sums, struct dia
     w->power_t = t;
     const double gain = watch_budget_gain(&w->budget, step, sums[ENERGY] - w->work);
     const double U2 = w->reference * w->reference + w->rest * s->c0 * s->c0;
-    double scale = sums[KINETIC] + 0.05 * s->mass0 * U2;
+    double scale = sums[KINETIC] + s->mass0 * (0.05 * U2 + pow(w->friction * s->c0, 2.0));
     w->walls[step / SPH_WATCH_EVERY % HISTORY] = fabs(sums[WALL_WORK]);
     for (int k = 0; k < HISTORY; k++)
         scale += 5.0 * w->walls[k];

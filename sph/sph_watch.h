@@ -24,6 +24,7 @@ struct sph_watch {
     bool budget_closed;  /* all work done on the flow is known, so that its energy is judged */
     double reference;    /* m/s: largest speed that the scene lets expect */
     double rest;         /* static pressure over rho0 c0^2: compression at rest */
+    double friction;     /* the same of the pressures of slow viscous flow */
     struct watch_budget budget;
     double work;           /* J: done on the flow from outside since the start, all ranks */
     double power, power_t; /* W, s: at the last sample */

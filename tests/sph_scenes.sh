@@ -80,6 +80,26 @@ for n in 2 4; do
 done
 grep -q '"mach"' low/summary.json || bad "a run that failed does not tell its watches" low4.txt
 
+# a lid at Re 0.1: friction's pressure sets c0, so that density stays within some percent; a given c0 that is too low is told
+cat >lid.cfg <<'END'
+format = 1;
+time:    { end = 0.005; };
+fluid:   { rho = 1000.0; nu = 10.0; };
+domain:  { dim = 2; max = (1, 1); };
+initial: { field = "rest"; };
+walls:   ( { side = "x_min"; kind = "no_slip"; }, { side = "x_max"; kind = "no_slip"; }, { side = "y_min"; kind = "no_slip"; },
+           { side = "y_max"; kind = "no_slip"; velocity = (1, 0); } );
+sph:     { dx = 0.1; };
+output:  { series = 1; snapshots = false; };
+END
+runs lid
+awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /max density/) k = i; next } $k > m { m = $k } END { exit !(m > 1000 && m < 1030) }' \
+    lid/series.csv || bad "creeping lid: density off by more than 3 %" lid.txt
+"$b/sph" lid.cfg --check -p sph.c0=10 >lid.txt 2>&1
+grep -q '^warning: sph.c0 = 10 m/s: friction alone .* raise it to 100 m/s' lid.txt || bad "creeping lid: c0 too low without a word" lid.txt
+"$b/sph" lid.cfg --check -p sph.dx=0.5 >lid.txt 2>&1
+grep -q '^warning: 2 particles between the walls along x' lid.txt || bad "two particles across: no word" lid.txt
+
 # steps beyond the bound
 refused() { # ARGS: the step is beyond the bound
     "$b/sph" jets.cfg -o never "$@" >cfl.txt 2>&1

@@ -62,6 +62,8 @@ refuses "sph.walls: .*fixed_ghosts" tank.cfg -p sph.walls=fixed_ghosts
 sed 's/0\.55/0.5/g' tank.cfg >thin.cfg
 refuses "faces of wall 1 are 0.1 m apart at (0.45, " thin.cfg
 sed 's/^sph:/bodies: ( { name = "block"; points = ((0.1, 0.02), (0.1, 0.2), (0.35, 0.2), (0.35, 0.02)); } );\nsph:/' tank.cfg >gap.cfg
-refuses "wall 1 and body 1 (block) are 0.02 m apart" gap.cfg
+refuses "a gap of 0.02 m between body 1 (block) and wall 1" gap.cfg
+sed 's/^sph:/bodies: ( { name = "block"; points = ((0.06, 0), (0.06, 0.2), (0.35, 0.2), (0.35, 0.02), (0.12, 0.02), (0.12, 0)); } );\nsph:/' tank.cfg >foot.cfg
+refuses "wall 1 and body 1 (block) are 0.02 m apart" foot.cfg # it touches elsewhere
 echo "walls: wedge $slope, momentum $defect, $failed faults"
 [ $failed = 0 ]
