@@ -72,8 +72,21 @@ with sph 's/dx = 0.02;/dx = 0.02; dx = 0.03;/' 'case.cfg:6: .*dx' sph
 with sph 's/dx = 0.02; };/dx = 0.02;/' 'not closed' sph
 with sph 's/^format.*/@include "nothing.cfg"/' 'nothing.cfg' sph
 with sph 's/every = 0.01/series = 3000000000/' 'case.cfg:7: .*3000000000' sph
+with sph 's/time:  /time /' 'case.cfg:2: .*takes : or =' sph
+with sph 's/"taylor_green"/taylor_green/' 'case.cfg:5: .*text stands in quotes' sph
+with sph 's/"taylor_green"/"taylor_green/' 'case.cfg:5: .*quote .*not closed' sph
+with sph 's/^sph:.*/walls: ( { side = "y_min"; }, );\nsph: { dx = 0.02; };/' 'case.cfg:6: .*none after the last' sph
+with sph 's/^sph:.*/walls: ( { side = "y_min"; } { side = "y_max"; } );\nsph: { dx = 0.02; };/' 'case.cfg:6: .*comma is missing' sph
+with sph 's/^sph:.*/walls: { { side = "y_min"; } };\nsph: { dx = 0.02; };/' 'case.cfg:6: .*list in ( )' sph
+with sph 's/^sph:.*/walls: { side = "y_min"; };\nsph: { dx = 0.02; };/' 'case.cfg:6: walls: a list' sph
+printf '\000\001\002' >binary.cfg
+says "binary.cfg: is no text" "$b/sph" binary.cfg -o result
+printf '\377\376f\000' >wide.cfg
+says "wide.cfg: .*UTF-16.*save it as UTF-8" "$b/sph" wide.cfg -o result
 
 # keys
+with sph 's/dx = 0.02/Dx = 0.02/' 'sph.Dx: .*did you mean .*dx' sph
+with sph 's/end = 0.01/end = 0.01; nu = 0.1/' 'time.nu: .*known in group .fluid' sph
 with sph 's/dx = 0.02/dx = 0.02; shceme = "riemann"/' 'case.cfg:6: sph.shceme: .*did you mean .*scheme' sph
 with sph 's/^output:/outptu:/' 'outptu: .*did you mean .*output' sph
 with sph 's/dx = 0.02; //' 'sph.dx: ' sph
@@ -294,6 +307,20 @@ says "unknown option" "$root/cases/run" taylor_green --fast
 says "SPH:COUPLER:FV" "$root/cases/run" "$tmp/coupled.cfg" -n 3
 printf 'format = 1;\n' >empty.cfg
 says "neither" "$root/cases/run" "$tmp/empty.cfg"
+mkdir folder
+says "folder is a folder without a case.cfg" "$root/cases/run" folder
+
+# what is no fault: a mark of UTF-8, ends of lines of other systems, tabs, all on one line
+{ printf '\357\273\277'; sed 's/$/\r/; s/ /\t/g' sph.cfg; } >marked.cfg
+tr '\n' ' ' <sph.cfg >line.cfg
+for c in marked line; do
+    if "$b/sph" $c.cfg --check >out.txt 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAIL: $c.cfg is refused: $(head -n 3 out.txt)"
+    fi
+done
 
 # nothing is overwritten
 "$b/sph" sph.cfg -o kept >/dev/null 2>&1 || { echo "FAIL: the sound case does not run"; failed=$((failed + 1)); }
