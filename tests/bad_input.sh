@@ -291,7 +291,14 @@ with channel 's/"inflow"; velocity = (1, 0)/"outflow"/; s/nu = 0.01/gravity = (1
 with channel 's/{ side = "y_max"; }/{ side = "y_min"; }/' 'walls.\[3\]: .*has a wall already' sph
 with channel 's/, { side = "y_max"; }//' 'domain: .*up to its side y_max' sph
 with sph 's/nu = 0.005/gravity = (1, 0)/' 'fluid.gravity: 1 m.s^2 along the periodic x' sph
+# water around a line or a body, up to sides that hold nothing
+island='s/^walls.*/walls: ( { closed = true; points = ((0.5, 0.2), (0.5, 0.8), (1.5, 0.8), (1.5, 0.2)); } );/; /^bodies/d'
+with tank "$island" 'case.cfg:6: walls.\[0\].points: clockwise, .*counter-clockwise' sph
+with tank "$island; /^shapes/d" 'walls.\[0\].points: clockwise' sph
+with tank '/^walls/d; /^shapes/d' 'domain: .*up to its side x_min' sph
 # the box of the particles
+with coupled 's/(0.2, 0.2), (0.8, 0.8)/(0.21, 0.2), (0.8, 0.8)/' 'sph.box: x from 0.21 .*as 0.2' sph --check
+with coupled 's/(0.2, 0.2), (0.8, 0.8)/(0.4, 0.4), (0.6, 0.6)/' 'sph.box: .*leave nothing .*larger' sph --check
 with sph 's/dx = 0.02/dx = 0.02; box = ((0, 0.2), (0.6, 0.8))/' 'case.cfg:6: sph.box: ends on the periodic side x_min' sph
 with coupled 's/box = .*));/free = ((-0.1, 0.4), (0.6, 0.6));/' 'sph.free: x from -0.1' sph --check
 sed 's/^sph:.*/sph: { dx = 0.02; R_dx = 2.0; c0 = 30.0; box = ((0.5, 0.2), (1.5, 1)); };\nfv: { cells = (16, 16); };/; /^bodies/d' tank.cfg >part.cfg
@@ -305,6 +312,8 @@ with tank 's/max = (2, 1)/max = (2.01, 1)/' 'case.cfg:10: sph.dx: .*0.0490244 an
 says "no case" "$root/cases/run" nowhere
 says "unknown option" "$root/cases/run" taylor_green --fast
 says "SPH:COUPLER:FV" "$root/cases/run" "$tmp/coupled.cfg" -n 3
+says "a rank at least" "$root/cases/run" "$tmp/coupled.cfg" -n 2:0:1
+says "a rank at least" "$root/cases/run" "$tmp/sph.cfg" -n 0
 printf 'format = 1;\n' >empty.cfg
 says "neither" "$root/cases/run" "$tmp/empty.cfg"
 mkdir folder
