@@ -69,7 +69,8 @@ int params_report(const struct faults *f)
 
 /* --- the file --- */
 
-static char *read_text(const char *path)
+/* The bytes of a file and a 0 behind them; n (may be NULL): their number. */
+static char *read_text(const char *path, size_t *bytes)
 {
     FILE *f = fopen(path, "rb");
     if (!f)
@@ -85,8 +86,13 @@ static char *read_text(const char *path)
     }
     fclose(f);
     text[n] = '\0';
+    if (bytes)
+        *bytes = n;
     return text;
 }
+
+/* Some editors begin a file with a mark of UTF-8, which libconfig takes for a value. */
+static bool has_mark(const char *text) { return strncmp(text, "\xef\xbb\xbf", 3) == 0; }
 
 static unsigned long long fnv(unsigned long long h, const char *s)
 {
@@ -131,9 +137,16 @@ static unsigned long long hash_of(unsigned long long h, const config_setting_t *
 /* Opens the case; syntax faults end the reading, with a hint from the line at fault. */
 static void read_file(struct params *p, struct faults *f)
 {
-    char *text = read_text(p->path), dir[1024], place[1300];
+    size_t bytes = 0;
+    char *text = read_text(p->path, &bytes), dir[1024], place[1300];
     if (!text) {
         fault(f, p->path, "no such case file, or it cannot be read");
+        return;
+    }
+    const char *no_text = hint_no_text(text, bytes);
+    if (no_text) {
+        fault(f, p->path, "%s", no_text);
+        mem_free(text);
         return;
     }
     snprintf(dir, sizeof dir, "%s", p->path);
@@ -149,13 +162,14 @@ static void read_file(struct params *p, struct faults *f)
         fault(f, place, "%s is too large for an integer; with an L behind it, it is read whole",
               number);
     }
-    if (config_read_file(&p->cfg, p->path) == CONFIG_TRUE) {
+    if ((has_mark(text) ? config_read_string(&p->cfg, text + 3)
+                        : config_read_file(&p->cfg, p->path)) == CONFIG_TRUE) {
         p->read = true;
         p->hash = hash_of(1469598103934665603ULL, config_root_setting(&p->cfg));
     } else {
         const char *in = config_error_file(&p->cfg) ? config_error_file(&p->cfg) : p->path;
         char hint[512];
-        char *included = strcmp(in, p->path) ? read_text(in) : NULL;
+        char *included = strcmp(in, p->path) ? read_text(in, NULL) : NULL;
         const int line = hint_syntax(included ? included : text, config_error_line(&p->cfg),
                                      config_error_text(&p->cfg), hint, sizeof hint);
         mem_free(included);
@@ -407,10 +421,12 @@ static void place_of(const struct params *p, const config_setting_t *s, char *pl
                      const char *group, const char *key)
 {
     const char *file = s && config_setting_source_file(s) ? config_setting_source_file(s) : p->path;
+    const char *dot = *key ? "." : "";
     if (s)
-        snprintf(place, size, "%s:%u: %s.%s", file, config_setting_source_line(s), group, key);
+        snprintf(place, size, "%s:%u: %s%s%s", file, config_setting_source_line(s), group, dot,
+                 key);
     else
-        snprintf(place, size, "%s: %s.%s", file, group, key);
+        snprintf(place, size, "%s: %s%s%s", file, group, dot, key);
 }
 
 static struct override *override_of(struct params *p, const char *group, const char *key)
@@ -491,6 +507,19 @@ static bool has_row(const struct param_group *g, const char *key)
     return false;
 }
 
+/* The only group that has such a key; NULL if none has, or several. */
+static const struct param_group *group_with(const struct params *p, const char *key)
+{
+    const struct param_group *home = NULL;
+    for (int k = 0; k < p->ngroups; k++)
+        if (has_row(p->groups + k, key)) {
+            if (home)
+                return NULL;
+            home = p->groups + k;
+        }
+    return home;
+}
+
 static void find_unknown_keys(const struct params *p, const struct param_group *g,
                               const config_setting_t *group, struct faults *f)
 {
@@ -501,8 +530,12 @@ static void find_unknown_keys(const struct params *p, const struct param_group *
         if (!key || has_row(g, key))
             continue;
         place_of(p, s, place, sizeof place, g->name, key);
+        const struct param_group *home = group_with(p, key);
         near = nearest_key(g, key);
-        fault(f, place, near ? "unknown key; did you mean `%s'?" : "unknown key", near);
+        if (!near && home)
+            fault(f, place, "unknown key; it is known in group `%s'", home->name);
+        else
+            fault(f, place, near ? "unknown key; did you mean `%s'?" : "unknown key", near);
     }
 }
 

@@ -30,7 +30,12 @@ size_t param_size(const struct param *r)
     }
 }
 
-/* Edit distance with swaps of neighbours (optimal string alignment). */
+static bool same_letter(char a, char b)
+{
+    return tolower((unsigned char)a) == tolower((unsigned char)b);
+}
+
+/* Edit distance with swaps of neighbours (optimal string alignment); capitals count as small. */
 static int distance(const char *a, const char *b)
 {
     enum { MOST = 48 };
@@ -44,11 +49,11 @@ static int distance(const char *a, const char *b)
         d[0][j] = j;
     for (int i = 1; i <= n; i++)
         for (int j = 1; j <= m; j++) {
-            int least = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            int least = d[i - 1][j - 1] + !same_letter(a[i - 1], b[j - 1]);
             least = d[i - 1][j] + 1 < least ? d[i - 1][j] + 1 : least;
             least = d[i][j - 1] + 1 < least ? d[i][j - 1] + 1 : least;
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
-                d[i - 2][j - 2] + 1 < least)
+            if (i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) &&
+                same_letter(a[i - 2], b[j - 1]) && d[i - 2][j - 2] + 1 < least)
                 least = d[i - 2][j - 2] + 1;
             d[i][j] = least;
         }
@@ -121,6 +126,59 @@ static bool has_bare_word(const char *s)
     return false;
 }
 
+static const char OPEN_QUOTE[] = "a quote \" is opened and not closed";
+
+static const char *after_blanks(const char *s) { return s + strspn(s, " \t\r"); }
+
+/* The first mark, of those in a, whose next one is of those in b; quoted text is passed over. */
+static bool has_marks(const char *s, const char *a, const char *b)
+{
+    bool quoted = false;
+    for (; *s; s++) {
+        quoted = quoted != (*s == '"');
+        const char next = *after_blanks(s + 1);
+        if (!quoted && strchr(a, *s) && next && strchr(b, next))
+            return true;
+    }
+    return false;
+}
+
+static bool has_open_quote(const char *s)
+{
+    int n = 0;
+    for (; *s; s++)
+        n += *s == '"';
+    return n % 2 == 1;
+}
+
+/* side = x_min: a word that is no truth value and stands in no quotes. */
+static bool has_bare_text(const char *s)
+{
+    bool quoted = false;
+    for (const char *c = s; *c; c++) {
+        quoted = quoted != (*c == '"');
+        if (quoted || !strchr("=:", *c))
+            continue;
+        const char *word = after_blanks(c + 1);
+        const size_t n = strcspn(word, " \t\r;,}");
+        const bool truth =
+            (n == 4 && strncmp(word, "true", 4) == 0) || (n == 5 && strncmp(word, "false", 5) == 0);
+        if (isalpha((unsigned char)*word) && !truth)
+            return true;
+    }
+    return false;
+}
+
+/* time { ... }: a name whose group or list follows without a mark between. */
+static bool has_no_colon(const char *s)
+{
+    const char *name = after_blanks(s), *end = name;
+    while (isalnum((unsigned char)*end) || *end == '_')
+        end++;
+    return end > name && isalpha((unsigned char)*name) && *after_blanks(end) &&
+           strchr("{(", *after_blanks(end));
+}
+
 static const char *slip(const char *s)
 {
     const char *open = strchr(s, '[');
@@ -132,6 +190,18 @@ static const char *slip(const char *s)
         return "truth values are true and false; text stands in quotes";
     if (has_unit(s))
         return "numbers are plain SI, without a unit, as in 0.01";
+    if (has_open_quote(s))
+        return OPEN_QUOTE;
+    if (has_bare_text(s))
+        return "text stands in quotes, as in kind = \"slip\"";
+    if (has_no_colon(s))
+        return "a name takes : or = before what it holds, as in time: { end = 1.0; };";
+    if (has_marks(s, ",", ")}],;"))
+        return "a comma stands between two values, none after the last";
+    if (has_marks(s, "})", "{("))
+        return "a comma is missing between two elements, as in ( { ... }, { ... } )";
+    if (has_marks(s, "{", "{"))
+        return "several groups are a list in ( ), as in walls: ( { ... }, { ... } );";
     return NULL;
 }
 
@@ -184,10 +254,26 @@ int hint_syntax(const char *text, int line, const char *error, char *hint, size_
             return k;
         }
     }
+    for (int k = 1; k <= line; k++) /* one that swallows the lines below it */
+        if (has_open_quote(line_at(text, k, copy, sizeof copy))) {
+            snprintf(hint, size, "%s", OPEN_QUOTE);
+            return k;
+        }
     const int open = open_group(text, name, sizeof name);
     if (open > 0)
         snprintf(hint, size, "group `%s', opened at line %d, is not closed", name, open);
     return line;
+}
+
+const char *hint_no_text(const char *text, size_t n)
+{
+    const unsigned char *b = (const unsigned char *)text;
+    if (n > 1 && ((b[0] == 0xff && b[1] == 0xfe) || (b[0] == 0xfe && b[1] == 0xff)))
+        return "is text in UTF-16: save it as UTF-8";
+    for (size_t k = 0; k < n; k++)
+        if (b[k] < ' ' && !strchr("\t\n\v\f\r", b[k] ? b[k] : 'x'))
+            return "is no text: a case is a text file in UTF-8";
+    return NULL;
 }
 
 int hint_long_integer(const char *text, char *word, size_t size)

@@ -24,6 +24,8 @@ const char *hint_nearest_word(const struct hint_nearest *n); /* NULL if none is 
 
 /* Line of a syntax fault (libconfig may name a later one) and a remedy by the looks of it. */
 int hint_syntax(const char *text, int line, const char *error, char *hint, size_t size);
+/* Why n bytes are no text that can be read; NULL if they may be. */
+const char *hint_no_text(const char *text, size_t n);
 /* Line of the first integer of ten digits or more without L, copied to word; 0 if there is none. */
 int hint_long_integer(const char *text, char *word, size_t size);
 

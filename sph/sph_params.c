@@ -333,8 +333,11 @@ static void check_axis(const struct run *r, int a, struct faults *f)
     if (has_box() && (!whole(lo[a] - d->min[a], given.dx) || !whole(hi[a] - d->min[a], given.dx)))
         params_fault(
             r->params, f, "sph.box",
-            "%c from %g to %g m: both must lie a whole number of dx = %g m from domain.min",
-            axes[a], lo[a], hi[a], given.dx);
+            "%c from %g to %g m: both must lie a whole number of dx = %g m from domain.min, as %g "
+            "and %g m do",
+            axes[a], lo[a], hi[a], given.dx,
+            d->min[a] + given.dx * round((lo[a] - d->min[a]) / given.dx),
+            d->min[a] + given.dx * floor((hi[a] - d->min[a]) / given.dx + 1e-6));
     else if (wants_rows(r, a) && !whole(length, given.dx))
         params_fault(r->params, f, "sph.dx",
                      "%g m: %c from %g to %g m is no whole number of dx, which a period, two walls "
@@ -357,7 +360,8 @@ static void check_zones(const struct run *r, struct faults *f)
         if (hi[a] - lo[a] <= 0.0) {
             params_fault(
                 r->params, f, "sph.box",
-                "coupling.transition + coupling.buffer on open sides, %g m, leave nothing of %g m",
+                "coupling.transition + coupling.buffer on open sides, %g m, leave nothing of "
+                "%g m; make the box larger, or sph.dx finer",
                 prm->box[1][a] - prm->box[0][a] - (hi[a] - lo[a]), prm->box[1][a] - prm->box[0][a]);
             return;
         }

@@ -90,12 +90,62 @@ static void check_openings(const struct run *r, const struct sph_params *used, s
         check_ends(r, a, f);
 }
 
+/* A closed line whose fluid is around it. */
+static bool is_island(const struct scene_wall *w)
+{
+    const struct line l = line_of(&w->points, true);
+    return w->side == SIDE_NONE && w->closed && line_area(&l) < 0.0;
+}
+
+/* Lines that may hold the fluid in the domain: all but islands. */
+static bool has_tank(const struct scene *c)
+{
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || (c->walls[k].side == SIDE_NONE && !is_island(c->walls + k));
+    return any;
+}
+
+/* Whether the shapes let water go on through a closed line: the middle of a face, a little inside.
+ */
+static bool has_water_inside(const struct scene *c, const struct scene_wall *w)
+{
+    const struct exact e = exact_create(c);
+    const struct line l = line_of(&w->points, true);
+    bool any = false;
+    for (int i = 0; i < line_segments(&l); i++) {
+        const double *a = l.x[i], *b = l.x[(i + 1) % l.n], off = 1e-3;
+        const double x[3] = {0.5 * (a[0] + b[0]) + off * (b[1] - a[1]),
+                             0.5 * (a[1] + b[1]) - off * (b[0] - a[0]), 0.0};
+        any = any || scene_is_fluid(c, &e, x, NULL);
+    }
+    return any;
+}
+
+/* Water inside and around a closed line that runs clockwise, and nothing else that holds it: meant
+ * is a tank, but nothing in the scene says so. */
+static void check_islands(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    bool held = has_tank(c) || used->outer == OUTER_EXACT || used->outer == OUTER_PARTNER;
+    char key[64];
+    for (int side = 0; side < 2 * c->domain.dim; side++)
+        held = held || c->domain.periodic[side / 2] || scene_wall_of(c, SIDE_X_MIN + side);
+    for (int k = 0; k < c->nwalls && !held; k++)
+        if (is_island(c->walls + k) && has_water_inside(c, c->walls + k)) {
+            snprintf(key, sizeof key, "walls.[%d].points", k);
+            params_fault(r->params, f, key,
+                         "clockwise, so its fluid is outside, where no wall and no period holds "
+                         "it: the corners of a tank run counter-clockwise");
+        }
+}
+
 /* Fluid that fills the domain up to a side where nothing is. */
 static void check_bare(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;
     if (used->outer == OUTER_EXACT || used->outer == OUTER_PARTNER ||
-        used->surface == SURFACE_YES || has_polylines(c))
+        used->surface == SURFACE_YES || has_tank(c))
         return;
     for (int side = 0; side < 2 * c->domain.dim; side++)
         if (!c->domain.periodic[side / 2] && !scene_wall_of(c, SIDE_X_MIN + side))
@@ -223,7 +273,10 @@ void sph_sense_check(const struct run *r, const struct sph_params *given,
     if (c->has_fv)
         return; /* the flow around is the partner's */
     check_openings(r, used, f);
-    check_bare(r, used, f);
+    const int before = f->n;
+    check_islands(r, used, f);
+    if (f->n == before)
+        check_bare(r, used, f);
     check_falls(r, used, f);
     check_outer(r, used, f);
     check_gauges(r, f);

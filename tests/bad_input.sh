@@ -72,8 +72,21 @@ with sph 's/dx = 0.02;/dx = 0.02; dx = 0.03;/' 'case.cfg:6: .*dx' sph
 with sph 's/dx = 0.02; };/dx = 0.02;/' 'not closed' sph
 with sph 's/^format.*/@include "nothing.cfg"/' 'nothing.cfg' sph
 with sph 's/every = 0.01/series = 3000000000/' 'case.cfg:7: .*3000000000' sph
+with sph 's/time:  /time /' 'case.cfg:2: .*takes : or =' sph
+with sph 's/"taylor_green"/taylor_green/' 'case.cfg:5: .*text stands in quotes' sph
+with sph 's/"taylor_green"/"taylor_green/' 'case.cfg:5: .*quote .*not closed' sph
+with sph 's/^sph:.*/walls: ( { side = "y_min"; }, );\nsph: { dx = 0.02; };/' 'case.cfg:6: .*none after the last' sph
+with sph 's/^sph:.*/walls: ( { side = "y_min"; } { side = "y_max"; } );\nsph: { dx = 0.02; };/' 'case.cfg:6: .*comma is missing' sph
+with sph 's/^sph:.*/walls: { { side = "y_min"; } };\nsph: { dx = 0.02; };/' 'case.cfg:6: .*list in ( )' sph
+with sph 's/^sph:.*/walls: { side = "y_min"; };\nsph: { dx = 0.02; };/' 'case.cfg:6: walls: a list' sph
+printf '\000\001\002' >binary.cfg
+says "binary.cfg: is no text" "$b/sph" binary.cfg -o result
+printf '\377\376f\000' >wide.cfg
+says "wide.cfg: .*UTF-16.*save it as UTF-8" "$b/sph" wide.cfg -o result
 
 # keys
+with sph 's/dx = 0.02/Dx = 0.02/' 'sph.Dx: .*did you mean .*dx' sph
+with sph 's/end = 0.01/end = 0.01; nu = 0.1/' 'time.nu: .*known in group .fluid' sph
 with sph 's/dx = 0.02/dx = 0.02; shceme = "riemann"/' 'case.cfg:6: sph.shceme: .*did you mean .*scheme' sph
 with sph 's/^output:/outptu:/' 'outptu: .*did you mean .*output' sph
 with sph 's/dx = 0.02; //' 'sph.dx: ' sph
@@ -283,7 +296,14 @@ with channel 's/"inflow"; velocity = (1, 0)/"outflow"/; s/nu = 0.01/gravity = (1
 with channel 's/{ side = "y_max"; }/{ side = "y_min"; }/' 'walls.\[3\]: .*has a wall already' sph
 with channel 's/, { side = "y_max"; }//' 'domain: .*up to its side y_max' sph
 with sph 's/nu = 0.005/gravity = (1, 0)/' 'fluid.gravity: 1 m.s^2 along the periodic x' sph
+# water around a line or a body, up to sides that hold nothing
+island='s/^walls.*/walls: ( { closed = true; points = ((0.5, 0.2), (0.5, 0.8), (1.5, 0.8), (1.5, 0.2)); } );/; /^bodies/d'
+with tank "$island" 'case.cfg:6: walls.\[0\].points: clockwise, .*counter-clockwise' sph
+with tank "$island; /^shapes/d" 'walls.\[0\].points: clockwise' sph
+with tank '/^walls/d; /^shapes/d' 'domain: .*up to its side x_min' sph
 # the box of the particles
+with coupled 's/(0.2, 0.2), (0.8, 0.8)/(0.21, 0.2), (0.8, 0.8)/' 'sph.box: x from 0.21 .*as 0.2' sph --check
+with coupled 's/(0.2, 0.2), (0.8, 0.8)/(0.4, 0.4), (0.6, 0.6)/' 'sph.box: .*leave nothing .*larger' sph --check
 with sph 's/dx = 0.02/dx = 0.02; box = ((0, 0.2), (0.6, 0.8))/' 'case.cfg:6: sph.box: ends on the periodic side x_min' sph
 with coupled 's/box = .*));/free = ((-0.1, 0.4), (0.6, 0.6));/' 'sph.free: x from -0.1' sph --check
 sed 's/^sph:.*/sph: { dx = 0.02; R_dx = 2.0; c0 = 30.0; box = ((0.5, 0.2), (1.5, 1)); };\nfv: { cells = (16, 16); };/; /^bodies/d' tank.cfg >part.cfg
@@ -297,8 +317,24 @@ with tank 's/max = (2, 1)/max = (2.01, 1)/' 'case.cfg:10: sph.dx: .*0.0490244 an
 says "no case" "$root/cases/run" nowhere
 says "unknown option" "$root/cases/run" taylor_green --fast
 says "SPH:COUPLER:FV" "$root/cases/run" "$tmp/coupled.cfg" -n 3
+says "a rank at least" "$root/cases/run" "$tmp/coupled.cfg" -n 2:0:1
+says "a rank at least" "$root/cases/run" "$tmp/sph.cfg" -n 0
 printf 'format = 1;\n' >empty.cfg
 says "neither" "$root/cases/run" "$tmp/empty.cfg"
+mkdir folder
+says "folder is a folder without a case.cfg" "$root/cases/run" folder
+
+# what is no fault: a mark of UTF-8, ends of lines of other systems, tabs, all on one line
+{ printf '\357\273\277'; sed 's/$/\r/; s/ /\t/g' sph.cfg; } >marked.cfg
+tr '\n' ' ' <sph.cfg >line.cfg
+for c in marked line; do
+    if "$b/sph" $c.cfg --check >out.txt 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAIL: $c.cfg is refused: $(head -n 3 out.txt)"
+    fi
+done
 
 # nothing is overwritten
 "$b/sph" sph.cfg -o kept >/dev/null 2>&1 || { echo "FAIL: the sound case does not run"; failed=$((failed + 1)); }
