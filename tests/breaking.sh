@@ -18,6 +18,8 @@ code=$? # 1: as coarse as this the particles alone keep their mass within 1.2 %,
 [ $code -le 1 ] || bad "ended with $code: $(tail -n 3 log.txt)"
 missed=$(sed -n 's/^.*NOT MET  *\([^ ]*\) .*/\1/p; s/^.*NOT ACCEPTED //p' log.txt | grep -v '^sph.mass_fluctuation_particles$')
 [ -z "$missed" ] || bad "not met: $missed"
+wanted=$([ $code = 0 ] && echo true || echo false)
+grep -q "^  \"accepted\": $wanted" out/summary.json || bad "ended with $code, but summary.json does not say accepted: $wanted"
 [ "$(number out particles_lost)" = 0 ] || bad "particles lost: $(number out particles_lost)"
 holds "$(number out mass_fluctuation) < 0.001" || bad "mass of the particles off by $(number out mass_fluctuation), wanted below 0.001"
 energy() { awk -F, -v n="$1" 'n == "first" && NR == 2 { print $2 + $3 } { e = $2 + $3 } END { if (n == "last") print e }' out/series.csv; }
