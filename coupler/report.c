@@ -309,8 +309,11 @@ int report_summary(struct coupler *c, double coupler_cpu)
     sums_summarise(c, s);
     put_told(c, s);
     say_end(c, s, cpu, coupler_cpu, wall);
-    if (code == RUN_DONE && !accept_judge(&c->scene, c->case_dir, c->dir, s))
-        code = RUN_NOT_ACCEPTED;
+    if (code == RUN_DONE && c->scene.naccept > 0) {
+        const bool good = accept_judge(&c->scene, c->case_dir, c->dir, s);
+        summary_bool(s, "accepted", good);
+        code = good ? RUN_DONE : RUN_NOT_ACCEPTED;
+    }
     snprintf(path, sizeof path, "%s/summary.json", c->dir);
     summary_write(s, path);
     summary_free(&s);

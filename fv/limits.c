@@ -102,7 +102,7 @@ double limits_reference(const struct run *r)
     struct scene held = *s;
     for (int a = 0; a < s->domain.dim && !scene_has_surface(s); a++)
         held.fluid.gravity[a] = s->domain.periodic[a] ? s->fluid.gravity[a] : 0.0;
-    const struct scene_speed v = scene_speed_of(&held, 0.0);
+    const struct scene_speed v = scene_speed_of(&held, 0.0, 0.0);
     const double flows = v.moves || scene_has_surface(s) ? v.speed : 0.0;
     return fmax(fmax(flows, size_of(s->initial.velocity, s->domain.dim)),
                 1e-3 * length_of(s) / s->time.end);
