@@ -43,7 +43,7 @@ done
 refuses "no cell of fv in what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p coupling.overlap=0.2
 refuses "cells wider than what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p 'fv.cells=(4,4)'
 refuses "sph everywhere" 'no side of it lies in fv' taylor_green -p 'sph.free=((0,0),(1,1))'
-refuses "a box that ends on a periodic side" 'ends on the periodic x side' taylor_green -p 'sph.free=((0,0.3),(0.6,0.7))'
+refuses "a box that ends on a periodic side" 'ends on the periodic side x_min' taylor_green -p 'sph.free=((0,0.3),(0.6,0.7))'
 cat >basin.cfg <<'CASE'
 format = 1;
 time:    { end = 1.6; };
@@ -57,7 +57,7 @@ fv:      { cells = (64, 40); };
 CASE
 accepts basin.cfg
 refuses "a surface in the transition" 'there is no water' basin.cfg -p 'sph.box=((0,0.44),(2,1.2))'
-refuses "a part of the width under a surface" 'there is no water' basin.cfg -p 'sph.box=((0.5,0.1),(1.5,1.2))'
+refuses "a part of the width under a surface" 'ends at x = 0.5 m under a free surface' basin.cfg -p 'sph.box=((0.5,0.1),(1.5,1.2))'
 sed '/x_max/s/, { side = "x_max"; }//' basin.cfg >open.cfg
 refuses "a side without a wall" 'which has no wall' open.cfg
 cat >body.cfg <<'CASE'
@@ -70,7 +70,7 @@ bodies:  ( { name = "plate"; centre = (1, 0.5); velocity = (0.4, 0.0); points = 
 sph:     { dx = 0.02; box = ((0.5, 0), (1.5, 1)); };
 fv:      { cells = (64, 32); };
 CASE
-refuses "a body that leaves the box" "body .plate' is outside of" body.cfg
+refuses "a body that leaves the box" "leaves the free zone of the particles across x" body.cfg
 accepts body.cfg -p time.end=0.2
 echo "coupling_check: $failed faults"
 [ $failed = 0 ]
