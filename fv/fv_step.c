@@ -158,7 +158,7 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
     s->max_cfl = fmax(s->max_cfl, s->rate * (s->prm.steady ? s->newton->dtau : dt));
     diagnose(s, dt, before * dt, good, d);
     s->u_limit = limits_follow(&s->reference, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
-    if (!run_diagnose(d, s->b.cart))
+    if (!run_diagnose(d, s->b.cart) && !s->predicts)
         fv_watches_look(s, d);
     return dt;
 }
