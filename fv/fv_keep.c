@@ -9,7 +9,7 @@
 
 struct kept {
     double *fields[FV_RESTART_FIELDS];
-    double t, dt, dt_old, umax[3], rate;
+    double t, dt, dt_old, umax[3], rate, fastest, reference, u_limit, max_cfl;
     enum limit limit;
     int64_t iterations, viscous_iterations;
     double *w[6][3], outflux; /* velocities of outflows that are carried */
@@ -70,7 +70,11 @@ static void carry(struct fv *s, struct kept *k, bool back)
     CARRY(k->dt_old, s->dt_old);
     CARRY(k->umax, s->umax);
     CARRY(k->rate, s->rate);
+    CARRY(k->fastest, s->fastest);
+    CARRY(k->reference, s->reference);
+    CARRY(k->u_limit, s->u_limit);
     CARRY(k->limit, s->limit);
+    CARRY(k->max_cfl, s->max_cfl);
     CARRY(k->iterations, s->iterations);
     CARRY(k->viscous_iterations, s->viscous_iterations);
     if (s->newton) {

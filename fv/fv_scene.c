@@ -296,6 +296,10 @@ static void check_channel(const struct run *r, struct faults *f)
     }
 }
 
+/* k a of the steepest standing wave, whose height is 0.218 of its length (Penney & Price, Phil.
+ * Trans. R. Soc. A 244, 1952). */
+#define STANDING_MOST 0.68
+
 static void check_wave(const struct run *r, struct faults *f)
 {
     const struct scene *s = &r->scene;
@@ -312,6 +316,14 @@ static void check_wave(const struct run *r, struct faults *f)
         params_fault(r->params, f, "fluid.gravity", "a wave wants some along -y, and no other");
     if (s->initial.amplitude == 0.0)
         params_fault(r->params, f, "initial.amplitude", "a wave wants one");
+    const double steep =
+        fabs(s->initial.amplitude) * hypot(2.0 * M_PI / L[0], L[2] > 0.0 ? 2.0 * M_PI / L[2] : 0.0);
+    if (standing && steep > STANDING_MOST)
+        params_fault(
+            r->params, f, "initial.amplitude",
+            "%g m: k a = %.3g, and no standing wave is steeper than %g: less amplitude, or "
+            "a longer wave",
+            s->initial.amplitude, steep, STANDING_MOST);
     if (!(s->initial.level > d->min[1] && s->initial.level < d->max[1]))
         params_fault(r->params, f, "initial.level",
                      "a wave wants its still level, between %g and %g m", d->min[1], d->max[1]);

@@ -27,7 +27,8 @@ struct watches *mesh_watches_create(struct mesh_flow *s)
         w->energy.stop *= 10.0;
     }
     w->has_growth = true;
-    w->energy_every = 20; /* faces are mapped anew */
+    w->energy_every = 20;                    /* faces are mapped anew */
+    w->speed = fmax(w->speed, s->reference); /* of walls and openings of blocks, too */
     return w;
 }
 

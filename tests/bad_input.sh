@@ -148,6 +148,7 @@ done
 # the picture of blocks has their names and what their sides are
 "$b/fv" block.cfg --check=picture -o drawn >out.txt 2>&1 && grep -q '>a<' drawn/fv-scene.svg && grep -q 'no-slip wall' drawn/fv-scene.svg &&
     grep -q 'run time' out.txt || { echo "FAIL: block.cfg is not drawn, or without its forecast"; failed=$((failed + 1)); }
+with basin 's/nu = 0.01/& ; gravity = (0, -9.81)/; s/^fv:/initial: { field = "standing_wave"; L = 1.0; level = 0.7; amplitude = 0.2; };\n&/' 'initial.amplitude: .*k a = 1.26' fv
 with basin 's/nu = 0.01/nu = 0.01; central = 1.0/' 'case.cfg:3: fluid.central: is not used' fv
 with basin 's/^fv:/initial: { amplitude = 0.1; };\n&/' 'initial.amplitude: is not used' fv
 with basin 's/^fv:/initial: { L = 2.0; };\n&/' 'initial.L: is not used' fv

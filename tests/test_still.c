@@ -74,7 +74,7 @@ static void cells_know_the_whole_pressure(void **state)
     assert_close(row[4], -1000 * 9.81 * 4, 1e-6); /* the lid feels nothing, the floor the weight */
     assert_close(row[5], 1000 * 9.81 * 1.5, 1e-6);
     row_of(HEAD "initial: { level = 2; };\n" /* under pressure: the lid feels 1 m of water */
-                "fluid: { rho = 1000; gravity = (0, -9.81); };\n" CELLS,
+                "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\n" CELLS,
            row, NULL);
     assert_close(row[4], -1000 * 9.81 * 4, 1e-6);
     assert_close(row[5], 1000 * 9.81 * 2.5, 1e-6);
@@ -86,7 +86,7 @@ static void walls_under_a_free_surface_feel_the_water_alone(void **state)
     (void)state;
     double row[COLUMNS] = {0};
     row_of(HEAD
-           "fluid: { rho = 1000; gravity = (0, -9.81); };\nshapes: ( { form = \"below\"; level "
+           "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\nshapes: ( { form = \"below\"; level "
            "= 0.2; } );\n" CELLS,
            row, NULL);
     assert_close(row[3], 0.0, 1e-6);
