@@ -80,6 +80,12 @@ for n in 2 4; do
 done
 grep -q '"mach"' low/summary.json || bad "a run that failed does not tell its watches" low4.txt
 
+# a star that starts at once in a full tank: its work against the weight of the water is known
+scene star 0.16 0.1 'max = (4, 3);' '(0, -9.81)' '{ side = "x_min"; }, { side = "y_min"; }, { side = "x_max"; }, { side = "y_max"; }' '' \
+    'bodies: ( { name = "star"; velocity = (-0.3, -1.1); points = ((2.42, 2.24), (2.71, 1.85), (3.2, 1.86), (3, 1.42), (3.26, 1), (2.77, 0.95),
+                (2.55, 0.52), (2.26, 0.91), (1.77, 0.9), (1.97, 1.34), (1.71, 1.76), (2.19, 1.81)); } );'
+runs star -p fluid.nu=0.001
+
 # creeping water that leans into a corner of slip walls
 scene creep 2 0.90625 'max = (29, 9.0625);' '(-4.5427783941475974, -8.6947837501381109)' '{ side = "x_min"; }, { side = "y_min"; }, { side = "y_max"; }' \
     '{ form = "box"; box = ((0, 0), (29, 2.71875)); }, { form = "disc"; centre = (14.5, 5.96894454); radius = 2.1873; }'
