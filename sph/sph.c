@@ -149,10 +149,9 @@ static void warn_narrow(const struct run *r, const struct sph_params *prm)
         const struct scene_wall *hi = scene_wall_of(c, SIDE_X_MIN + 2 * a + 1);
         const double length = c->domain.max[a] - c->domain.min[a];
         if (lo && hi && lo->kind < WALL_INFLOW && hi->kind < WALL_INFLOW && length < 2.5 * prm->dx)
-            log_warn("%.0f particle%s between the walls along %c, %g m: the flow there is noise; "
-                     "take sph.dx = %.3g m or less",
-                     length / prm->dx, length < 1.5 * prm->dx ? "" : "s", "xyz"[a], length,
-                     0.25 * length);
+            log_warn("2 particles between the walls along %c, %g m: the flow there is noise; take "
+                     "sph.dx = %.3g m or less",
+                     "xyz"[a], length, 0.25 * length);
     }
 }
 

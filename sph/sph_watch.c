@@ -1,8 +1,9 @@
 /* sph_watch.c - see sph_watch.h. SPDX-License-Identifier: BSD-3-Clause
  *
  * Energy: kinetic, elastic and potential (gravity across bounded axes, central force). Outside work
- * is that of a body force along periodic axes, g.sum(m u), and of moving walls: the momentum that
- * they give to each particle times their velocity there, by the weights of the stages. What is left
+ * is that of a body force along periodic axes, g.sum(m u), and of moving walls: of bodies the force
+ * that the fluid loses to them, of walls that slide the momentum that they give to each particle,
+ * times their velocity there, by the weights of the stages. What is left
  * over may only fall. A gain is measured by the kinetic energy and a twentieth of what the scene
  * lets expect, M (U^2 + p/rho)/20: a tank at rest has its hydrostatic scale, so that noise of 1e-3
  * sqrt(g H) is no alarm and a flow of sqrt(g H)/30 that nothing drives is. A flow that creeps has

@@ -80,6 +80,17 @@ for n in 2 4; do
 done
 grep -q '"mach"' low/summary.json || bad "a run that failed does not tell its watches" low4.txt
 
+# a star that starts at once in a full tank: its work against the weight of the water is known
+scene star 0.16 0.1 'max = (4, 3);' '(0, -9.81)' '{ side = "x_min"; }, { side = "y_min"; }, { side = "x_max"; }, { side = "y_max"; }' '' \
+    'bodies: ( { name = "star"; velocity = (-0.3, -1.1); points = ((2.42, 2.24), (2.71, 1.85), (3.2, 1.86), (3, 1.42), (3.26, 1), (2.77, 0.95),
+                (2.55, 0.52), (2.26, 0.91), (1.77, 0.9), (1.97, 1.34), (1.71, 1.76), (2.19, 1.81)); } );'
+runs star -p fluid.nu=0.001
+
+# creeping water that leans into a corner of slip walls
+scene creep 2 0.90625 'max = (29, 9.0625);' '(-4.5427783941475974, -8.6947837501381109)' '{ side = "x_min"; }, { side = "y_min"; }, { side = "y_max"; }' \
+    '{ form = "box"; box = ((0, 0), (29, 2.71875)); }, { form = "disc"; centre = (14.5, 5.96894454); radius = 2.1873; }'
+runs creep -p fluid.nu=100
+
 # a lid at Re 0.1: friction's pressure sets c0, so that density stays within some percent; a given c0 that is too low is told
 cat >lid.cfg <<'END'
 format = 1;
@@ -99,6 +110,8 @@ awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /max density/) k = i; next
 grep -q '^warning: sph.c0 = 10 m/s: friction alone .* raise it to 100 m/s' lid.txt || bad "creeping lid: c0 too low without a word" lid.txt
 "$b/sph" lid.cfg --check -p sph.dx=0.5 >lid.txt 2>&1
 grep -q '^warning: 2 particles between the walls along x' lid.txt || bad "two particles across: no word" lid.txt
+"$b/sph" lid.cfg --check -p sph.dx=1 >lid.txt 2>&1
+grep -q 'sph.dx: 1 m: one particle has no room between the walls along x' lid.txt || bad "one particle across: no word" lid.txt
 
 # steps beyond the bound
 refused() { # ARGS: the step is beyond the bound
