@@ -3,6 +3,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,6 +115,20 @@ static bool read_manifest(const struct run *r, int64_t *window, char *file, size
     return *file;
 }
 
+/* A restart file of a later time than the run's end leaves nothing to do; closes it. */
+static bool ends_before(const struct run *r, struct h5 *h)
+{
+    const double end = r->scene.time.end;
+    double t = 0.0;
+    if (!h5_read_attribute_real(h, "time", &t) || t <= end * (1.0 + 1e-9))
+        return false;
+    log_say("--restart: %s stands at t = %g s, after time.end = %g s: raise time.end, or run "
+            "without --restart",
+            h5_path(h), t, end);
+    h5_close(&h);
+    return true;
+}
+
 struct h5 *files_open_restart(struct run *r, int64_t *window)
 {
     char file[300], path[1400];
@@ -146,7 +161,7 @@ struct h5 *files_open_restart(struct run *r, int64_t *window)
         log_say("--restart: %s has format %lld, this program reads 1", path, (long long)format);
         h5_close(&h);
     }
-    return h;
+    return h && ends_before(r, h) ? NULL : h;
 }
 
 bool files_read_clock(struct run_files *f, struct h5 *h)
@@ -342,29 +357,48 @@ bool run_make_folder(const char *dir)
     return mkdir(path, 0777) == 0 || errno == EEXIST;
 }
 
-static int prepare(const char *dir, const char *name, bool force, bool restart)
+/* Number of files of a run of this name in a folder, which are removed if so wished. */
+static int find_ours(const char *dir, const char *name, bool removed)
 {
     DIR *d = opendir(dir);
     int found = 0;
     for (struct dirent *e; d && (e = readdir(d));) {
+        char path[1400];
         if (!is_ours(e->d_name, name))
             continue;
         found++;
-        if (force && !restart) {
-            char path[1400];
-            snprintf(path, sizeof path, "%s/%s", dir, e->d_name);
+        snprintf(path, sizeof path, "%s/%s", dir, e->d_name);
+        if (removed)
             unlink(path);
-        }
     }
     if (d)
         closedir(d);
+    return found;
+}
+
+/* Whether another process has the folder. If not, this one has it until it ends, however it does:
+ * the descriptor stays open, and the system drops its lock. Where there are no locks, no folder is
+ * taken. */
+static bool is_taken(const char *dir, const char *name)
+{
+    char path[1400];
+    snprintf(path, sizeof path, "%s/.%s.lock", dir, name);
+    const int at = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    return at >= 0 && fcntl(at, F_SETLK, &whole) != 0 && (errno == EACCES || errno == EAGAIN);
+}
+
+static int prepare(const char *dir, const char *name, bool force, bool restart)
+{
+    const bool there = access(dir, F_OK) == 0;
+    const int found = find_ours(dir, name, false);
     if (found && !force && !restart) {
         log_say("%s holds a run of %s already: -o DIR for another folder, --force to replace it, "
                 "--restart to go on",
                 dir, name);
         return RUN_INPUT;
     }
-    if (!d && restart) {
+    if (!there && restart) {
         log_say("--restart: there is no folder %s; run without --restart", dir);
         return RUN_INPUT;
     }
@@ -372,6 +406,12 @@ static int prepare(const char *dir, const char *name, bool force, bool restart)
         log_say("cannot make the folder %s: %s", dir, strerror(errno));
         return RUN_INPUT;
     }
+    if (is_taken(dir, name)) {
+        log_say("a run of %s is at work in %s: stop it, or -o DIR for another folder", name, dir);
+        return RUN_INPUT;
+    }
+    if (force && !restart)
+        find_ours(dir, name, true);
     return 0;
 }
 

@@ -112,6 +112,18 @@ done
 ends 2 "$toy" swing -o moved1 --restart -p toy.n=11
 has out.txt 'the case differs: toy.n = 10 in the file, 11 here'
 
+# a restart file of a time after the end; a folder in which a run is at work, which --force spares
+ends 2 "$toy" swing -o parts1 --restart -p time.end=0.1
+has out.txt 'stands at t = .* after time.end = 0.1 s'
+"$toy" swing -o busy -p time.end=1e6 -p output.every=1e6 -p toy.dt=1e-5 >busy.txt 2>&1 &
+busy=$!
+for n in 1 2 3 4 5 6 7 8 9 10; do [ -e busy/log.txt ] || sleep 1; done
+ends 2 "$toy" swing -o busy --force
+has out.txt 'a run of toy is at work in busy'
+kill "$busy"
+wait "$busy"
+ends 0 "$toy" swing -o busy --force
+
 # a restart file that is cut short or has another bit is refused; without it, one can go on from an earlier one
 ends 0 "$toy" swing -o hurt -p output.checkpoint=0.45 -p time.end=0.93
 file=hurt/$(sed -n 's/^toy //p' hurt/checkpoint.txt)
