@@ -26,6 +26,11 @@ struct watches *mesh_watches_create(struct mesh_flow *s)
         w->energy.warn *= 10.0;
         w->energy.stop *= 10.0;
     }
+    for (int k = 0; k < s->m->nblocks; k++)
+        for (int side = 0; side < 2 * s->m->dim; side++)
+            if (s->m->block[k].side[side] == MESH_INFLOW ||
+                s->m->block[k].side[side] == MESH_OUTFLOW)
+                watches_open(w);
     w->has_growth = true;
     w->energy_every = 20;                    /* faces are mapped anew */
     w->speed = fmax(w->speed, s->reference); /* of walls and openings of blocks, too */

@@ -36,6 +36,7 @@ struct watches {
 /* p: as the run uses them. */
 struct watches *watches_create(const struct run *r, const struct fv_params *p, bool periodic,
                                bool surface);
+void watches_open(struct watches *w); /* the flow has inlets or outlets */
 void watches_free(struct watches **w);
 /* Whether this step is one to look at. */
 bool watches_want_energy(const struct watches *w, int64_t step);
