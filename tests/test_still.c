@@ -85,9 +85,9 @@ static void walls_under_a_free_surface_feel_the_water_alone(void **state)
 {
     (void)state;
     double row[COLUMNS] = {0};
-    row_of(HEAD
-           "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\nshapes: ( { form = \"below\"; level "
-           "= 0.2; } );\n" CELLS,
+    row_of(HEAD "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\nshapes: ( { form = "
+                "\"below\"; level "
+                "= 0.2; } );\n" CELLS,
            row, NULL);
     assert_close(row[3], 0.0, 1e-6);
     assert_close(row[4], -1000 * 9.81 * 2 * 1.2, 1e-6);
