@@ -259,6 +259,8 @@ int hint_syntax(const char *text, int line, const char *error, char *hint, size_
             snprintf(hint, size, "%s", OPEN_QUOTE);
             return k;
         }
+    if (strncmp(text, "\xef\xbb\xbf", 3) == 0)
+        snprintf(hint, size, "an included file begins with a mark of UTF-8: save it without");
     const int open = open_group(text, name, sizeof name);
     if (open > 0)
         snprintf(hint, size, "group `%s', opened at line %d, is not closed", name, open);

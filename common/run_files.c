@@ -348,13 +348,20 @@ bool run_make_folder(const char *dir)
 {
     char path[1024];
     snprintf(path, sizeof path, "%s", dir);
+    int why = 0; /* of the first folder above that cannot be made: the last one only misses it */
     for (char *c = path + 1; *c; c++)
         if (*c == '/') {
             *c = '\0';
-            mkdir(path, 0777);
+            if (mkdir(path, 0777) != 0 && errno != EEXIST && !why)
+                why = errno;
+            if (access(path, F_OK) == 0)
+                why = 0;
             *c = '/';
         }
-    return mkdir(path, 0777) == 0 || errno == EEXIST;
+    if (mkdir(path, 0777) == 0 || errno == EEXIST)
+        return true;
+    errno = errno == ENOENT && why ? why : errno;
+    return false;
 }
 
 /* Number of files of a run of this name in a folder, which are removed if so wished. */

@@ -25,9 +25,14 @@ struct overlap *overlap_create(const struct sph *s)
 {
     struct overlap *o = NEW(struct overlap, 1);
     const struct windows w = windows_choose(s->run, &s->prm);
-    static const char mend[] =
-        "the programs drift apart: set coupling.steps and coupling.memory to 0, widen "
-        "coupling.overlap, or move sph.box so that its open sides lie in calmer flow";
+    const struct scene_coupling *c = &s->run->scene.coupling;
+    const char *mend =
+        c->steps || c->memory
+            ? "the programs drift apart: set coupling.steps and coupling.memory to 0, widen "
+              "coupling.overlap, or move sph.box so that its open sides lie in calmer flow"
+            : "the programs drift apart: start the flow by initial.field, where an inlet would "
+              "start it at once, widen coupling.overlap, or move sph.box so that its open sides "
+              "lie in calmer flow";
     o->U = w.U;
     o->p = s->rho0 * fmax(w.U * w.U, w.weight);
     o->velocity = (struct watch){

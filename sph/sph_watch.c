@@ -57,6 +57,15 @@ static bool is_closed(const struct run *r, const struct sph_params *prm)
            (!sph_watch_moves(&r->scene) || prm->walls == WALLS_NFM) && !is_slit(&r->scene, prm);
 }
 
+static const char *clump_remedy(const struct sph_params *prm)
+{
+    if (prm->transport != TRANSPORT_TVS)
+        return "particles clump: set sph.transport = \"tvs\"";
+    if (prm->scheme != SCHEME_RIEMANN && prm->scheme != SCHEME_RIEMANN_ALE)
+        return "particles clump: take a Riemann scheme";
+    return "particles clump, as in sheets of few particles: refine sph.dx";
+}
+
 void sph_watch_create(struct sph *s)
 {
     struct sph_watch *w = &s->watch;
@@ -92,8 +101,7 @@ void sph_watch_create(struct sph *s)
                        .stop = 0.1};
     w->of[SPH_WATCH_PAIRED] = (struct watch){.key = "paired",
                                              .what = "share of particles within 0.1 dx of another",
-                                             .likely = "particles clump: set sph.transport = "
-                                                       "\"tvs\", or take a Riemann scheme",
+                                             .likely = clump_remedy(&s->prm),
                                              .warn = 0.4,
                                              .stop = 0.9};
     w->of[SPH_WATCH_PUT_BACK] =

@@ -83,6 +83,8 @@ printf '\000\001\002' >binary.cfg
 says "binary.cfg: is no text" "$b/sph" binary.cfg -o result
 printf '\377\376f\000' >wide.cfg
 says "wide.cfg: .*UTF-16.*save it as UTF-8" "$b/sph" wide.cfg -o result
+{ printf '\357\273\277'; grep '^fluid' sph.cfg; } >part.inc
+with sph 's/^fluid.*/@include "part.inc"/' 'part.inc:1: .*mark of UTF-8' sph
 
 # keys
 with sph 's/dx = 0.02/Dx = 0.02/' 'sph.Dx: .*did you mean .*dx' sph
@@ -324,6 +326,14 @@ printf 'format = 1;\n' >empty.cfg
 says "neither" "$root/cases/run" "$tmp/empty.cfg"
 mkdir folder
 says "folder is a folder without a case.cfg" "$root/cases/run" folder
+
+# folders and files of others, where root can become another user
+chmod 755 .
+if [ "$(id -u)" = 0 ] && setpriv --reuid=65534 --clear-groups test -r sph.cfg 2>/dev/null; then
+    cp sph.cfg mine.cfg && chmod 600 mine.cfg
+    says "result/deep: Permission denied" setpriv --reuid=65534 --clear-groups "$b/sph" sph.cfg -o result/deep
+    says "mine.cfg cannot be read: no permission" setpriv --reuid=65534 --clear-groups "$root/cases/run" mine.cfg
+fi
 
 # what is no fault: a mark of UTF-8, ends of lines of other systems, tabs, all on one line
 { printf '\357\273\277'; sed 's/$/\r/; s/ /\t/g' sph.cfg; } >marked.cfg
