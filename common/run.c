@@ -486,7 +486,7 @@ static int run_state(struct life *l, struct h5 *restart)
     r->restart = restart != NULL;
     l->s = l->p->create(r, restart);
     l->files.state = l->s;
-    if (!l->s && restart)
+    if (restart) /* of another case: why it does not fit, or what has changed on the way */
         files_tell_difference(&l->files, restart);
     h5_close(&restart);
     if (!l->s) {
