@@ -1,22 +1,52 @@
 /* block.c - see block.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "block.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "../common/mem.h"
 #include "rows.h"
 
+static bool is_wide(const int *cells, const int *dims)
+{
+    bool wide = true;
+    for (int a = 0; a < 3; a++)
+        wide = wide && (dims[a] == 1 || cells[a] / dims[a] >= LEAST);
+    return wide;
+}
+
+/* Ranks along each axis: as MPI shares them out, rows whole as long as there are other directions
+ * to cut (x is the fastest index); where that leaves a rank fewer cells than stencils reach, the
+ * split with the least surface that does not. */
+bool block_split(int size, int dim, const int *cells, int dims[3])
+{
+    const int n[3] = {cells[0], dim > 1 ? cells[1] : 1, dim > 2 ? cells[2] : 1};
+    double least = INFINITY;
+    dims[0] = size <= cells[dim - 1] / GHOSTS || dim == 1 ? 1 : 0;
+    dims[1] = dim > 1 ? 0 : 1;
+    dims[2] = dim > 2 ? 0 : 1;
+    MPI_Dims_create(size, 3, dims);
+    if (is_wide(n, dims))
+        return true;
+    for (int i = 1; i <= size; i++)
+        for (int j = 1; size % i == 0 && j <= size / i; j++) {
+            const int d[3] = {i, j, size / i / j};
+            const double cut = (double)i / n[0] + (double)j / n[1] + (double)d[2] / n[2];
+            if (size / i % j != 0 || (dim < 3 && d[2] > 1) || !is_wide(n, d) || cut >= least)
+                continue;
+            least = cut;
+            memcpy(dims, d, sizeof d);
+        }
+    return isfinite(least);
+}
+
 void block_create(struct block *b, MPI_Comm comm, int dim, const int *cells, const double *origin,
                   const double *length, const bool *periodic)
 {
-    int size, rank, dims[3] = {0, 0, 0}, wrap[3] = {0, 0, 0}, at[3] = {0, 0, 0};
+    int size, rank, dims[3], wrap[3] = {0, 0, 0}, at[3] = {0, 0, 0};
     *b = (struct block){.dim = dim};
     MPI_Comm_size(comm, &size);
-    /* rows stay whole as long as there are directions to cut: x is the fastest index */
-    dims[0] = size <= cells[dim - 1] / GHOSTS || dim == 1 ? 1 : 0;
-    for (int a = dim; a < 3; a++)
-        dims[a] = 1;
-    MPI_Dims_create(size, 3, dims);
+    (void)block_split(size, dim, cells, dims);
     for (int a = 0; a < dim; a++)
         wrap[a] = periodic[a];
     MPI_Cart_create(comm, 3, dims, wrap, 0, &b->cart);

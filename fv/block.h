@@ -37,6 +37,11 @@ struct block {
     double *send, *recv;     /* scratch of the halo */
 };
 
+/* Ranks along each axis for `size' ranks; false: they cannot be shared out so that each has at
+ * least LEAST cells along each axis that is cut, as its ghosts want (then some split).
+ */
+enum { LEAST = 3 };
+bool block_split(int size, int dim, const int *cells, int dims[3]);
 void block_create(struct block *b, MPI_Comm comm, int dim, const int *cells, const double *origin,
                   const double *length, const bool *periodic);
 void block_free(struct block *b);

@@ -129,6 +129,12 @@ void fv_params_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "fv.upwind", "%g: 0 or more, or -1 for what suits the scene",
                      given.upwind);
     check_graded(r, f);
+    int dims[3];
+    if (f->n == 0 && !block_split(r->size, r->scene.domain.dim, given.cells, dims))
+        params_fault(r->params, f, "fv.cells",
+                     "%d ranks cannot share them so that each has %d along each axis that is cut: "
+                     "fewer ranks, or more cells",
+                     r->size, LEAST);
     for (int a = 0; a < r->scene.domain.dim; a++) {
         check_axis(r, a, f);
         if (given.hole[1][a] > given.hole[0][a] && (r->coupled || !exact))

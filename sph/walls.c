@@ -405,7 +405,8 @@ struct walls *walls_create(struct sph *s)
     }
     add_bodies(s, w);
     w->start = NEW(struct segment, w->nsegments);
-    memcpy(w->start, w->segments, (size_t)w->nsegments * sizeof *w->start);
+    if (w->nsegments > 0)
+        memcpy(w->start, w->segments, (size_t)w->nsegments * sizeof *w->start);
     w->model = models[s->prm.walls];
     w->state = w->model->create(s); /* of the walls as they are at t = 0 */
     walls_move(s, s->t);
