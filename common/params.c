@@ -13,6 +13,7 @@
 #include "log.h"
 #include "mem.h"
 #include "params_hints.h"
+#include "params_value.h"
 
 enum { NAMES_SIZE = 2048, GIVEN_SIZE = 64 };
 
@@ -101,30 +102,13 @@ static unsigned long long fnv(unsigned long long h, const char *s)
     return h;
 }
 
-static bool number_of(const config_setting_t *s, double *v)
-{
-    switch (config_setting_type(s)) {
-    case CONFIG_TYPE_INT:
-        *v = config_setting_get_int(s);
-        return true;
-    case CONFIG_TYPE_INT64:
-        *v = (double)config_setting_get_int64(s);
-        return true;
-    case CONFIG_TYPE_FLOAT:
-        *v = config_setting_get_float(s);
-        return true;
-    default:
-        return false;
-    }
-}
-
 /* Hash of a setting and all below it: names, kinds and values, whatever file they stand in. */
 static unsigned long long hash_of(unsigned long long h, const config_setting_t *s)
 {
     char text[64] = "";
     const char *name = config_setting_name(s), *word = config_setting_get_string(s);
     double v;
-    if (number_of(s, &v))
+    if (param_number(s, &v))
         snprintf(text, sizeof text, "%.17g", v);
     else if (config_setting_type(s) == CONFIG_TYPE_BOOL)
         snprintf(text, sizeof text, config_setting_get_bool(s) ? "true" : "false");
@@ -215,206 +199,6 @@ static void read_override(struct override *o, const char *text, struct faults *f
         fault(f, place, "`%s' is no value", value);
 }
 
-/* --- values --- */
-
-static void set_real(const struct param *r, void *target, int k, double v)
-{
-    char *at = (char *)target + r->offset;
-    if (r->type == PARAM_INT || r->type == PARAM_CHOICE)
-        *(int *)(void *)at = (int)v;
-    else if (r->type == PARAM_INTS)
-        ((int *)(void *)at)[k] = (int)v;
-    else
-        ((double *)(void *)at)[k] = v;
-}
-
-static bool is_integer(const struct param *r)
-{
-    return r->type == PARAM_INT || r->type == PARAM_INTS;
-}
-
-/* Reads one number into component k; what is wrong with it goes to why. */
-static bool get_number(const struct param *r, const config_setting_t *s, void *target, int k,
-                       char *why, size_t size)
-{
-    double v;
-    if (!number_of(s, &v)) {
-        snprintf(why, size, "a plain number%s%s is wanted, no text",
-                 strcmp(r->unit, "-") ? " in " : "", strcmp(r->unit, "-") ? r->unit : "");
-        return false;
-    }
-    if (is_integer(r) && (v != floor(v) || fabs(v) > 2147483647.0)) {
-        snprintf(why, size, "%g is no whole number", v);
-        return false;
-    }
-    if (!(v >= r->min && v <= r->max)) {
-        snprintf(why, size, "%g is not allowed: from %g to %g%s%s", v, r->min, r->max,
-                 strcmp(r->unit, "-") ? " " : "", strcmp(r->unit, "-") ? r->unit : "");
-        return false;
-    }
-    set_real(r, target, k, v);
-    return true;
-}
-
-static bool get_choice(const struct param *r, const config_setting_t *s, void *target, char *why,
-                       size_t size)
-{
-    const char *word = config_setting_get_string(s);
-    const size_t n = word ? strlen(word) : 0;
-    int k = 0;
-    for (const char *c = r->choices; word; k++) {
-        const char *end = strchr(c, '|');
-        const size_t m = end ? (size_t)(end - c) : strlen(c);
-        if (m == n && strncmp(c, word, n) == 0) {
-            set_real(r, target, 0, k);
-            return true;
-        }
-        if (!end)
-            break;
-        c = end + 1;
-    }
-    snprintf(why, size, "%s%s%sone of %s is wanted", word ? "`" : "", word ? word : "",
-             word ? "' is not known: " : "", r->choices);
-    return false;
-}
-
-static bool get_text(const struct param *r, const config_setting_t *s, void *target, char *why,
-                     size_t size)
-{
-    const char *word = config_setting_get_string(s);
-    if (!word || strlen(word) >= PARAM_TEXT_SIZE) {
-        snprintf(why, size, "text in quotes is wanted, at most %d characters", PARAM_TEXT_SIZE - 1);
-        return false;
-    }
-    memset((char *)target + r->offset, 0, PARAM_TEXT_SIZE);
-    memcpy((char *)target + r->offset, word, strlen(word));
-    return true;
-}
-
-static bool get_bool(const config_setting_t *s, bool *to, char *why, size_t size)
-{
-    if (config_setting_type(s) != CONFIG_TYPE_BOOL) {
-        snprintf(why, size, "true or false is wanted");
-        return false;
-    }
-    *to = config_setting_get_bool(s);
-    return true;
-}
-
-/* (a, b) or (a, b, c): components from `first' on; the rest keeps `rest'. */
-static bool get_vector(const struct param *r, const config_setting_t *s, void *target, int first,
-                       char *why, size_t size)
-{
-    const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : 0;
-    bool *flags = (bool *)(void *)((char *)target + r->offset);
-    if (config_setting_is_group(s) || n < 2 || n > 3) {
-        snprintf(why, size, "two or three %s in ( ) are wanted",
-                 r->type == PARAM_BOOLS ? "truth values" : "numbers");
-        return false;
-    }
-    for (int k = 0; k < 3; k++) {
-        const config_setting_t *c = k < n ? config_setting_get_elem(s, (unsigned)k) : NULL;
-        if (r->type == PARAM_BOOLS) {
-            flags[k] = false;
-            if (c && !get_bool(c, flags + k, why, size))
-                return false;
-        } else if (!c) {
-            set_real(r, target, first + k, r->type == PARAM_INTS ? 1.0 : 0.0);
-        } else if (!get_number(r, c, target, first + k, why, size)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static bool get_box(const struct param *r, const config_setting_t *s, void *target, char *why,
-                    size_t size)
-{
-    if (config_setting_is_group(s) || !config_setting_is_aggregate(s) ||
-        config_setting_length(s) != 2) {
-        snprintf(why, size, "two corners are wanted: ((x, y), (x, y))");
-        return false;
-    }
-    return get_vector(r, config_setting_get_elem(s, 0), target, 0, why, size) &&
-           get_vector(r, config_setting_get_elem(s, 1), target, 3, why, size);
-}
-
-/* ((x, y), (x, y), ...): at most PARAM_POINTS_MAX. */
-static bool get_points(const struct param *r, const config_setting_t *s, void *target, char *why,
-                       size_t size)
-{
-    struct param_points *to = (struct param_points *)(void *)((char *)target + r->offset);
-    const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : -1;
-    to->n = 0;
-    if (config_setting_is_group(s) || n < 0 || n > PARAM_POINTS_MAX) {
-        snprintf(why, size, "at most %d points are wanted: ((x, y), (x, y), ...)",
-                 PARAM_POINTS_MAX);
-        return false;
-    }
-    for (int k = 0; k < n; k++) {
-        const config_setting_t *point = config_setting_get_elem(s, (unsigned)k);
-        double v[2] = {NAN, NAN};
-        for (int a = 0; a < 2 && config_setting_is_aggregate(point); a++) {
-            const config_setting_t *c = config_setting_get_elem(point, (unsigned)a);
-            if (c)
-                number_of(c, v + a);
-        }
-        if (!(v[0] >= r->min && v[0] <= r->max && v[1] >= r->min && v[1] <= r->max)) {
-            snprintf(why, size, "point %d: two numbers in ( ) from %g to %g are wanted", k + 1,
-                     r->min, r->max);
-            return false;
-        }
-        to->x[k][0] = v[0];
-        to->x[k][1] = v[1];
-    }
-    to->n = n;
-    return true;
-}
-
-static bool get_value(const struct param *r, const config_setting_t *s, void *target, char *why,
-                      size_t size)
-{
-    switch (r->type) {
-    case PARAM_REAL:
-    case PARAM_INT:
-        return get_number(r, s, target, 0, why, size);
-    case PARAM_BOOL:
-        return get_bool(s, (bool *)(void *)((char *)target + r->offset), why, size);
-    case PARAM_CHOICE:
-        return get_choice(r, s, target, why, size);
-    case PARAM_TEXT:
-        return get_text(r, s, target, why, size);
-    case PARAM_REALS:
-    case PARAM_INTS:
-    case PARAM_BOOLS:
-        return get_vector(r, s, target, 0, why, size);
-    case PARAM_POINTS:
-        return get_points(r, s, target, why, size);
-    default:
-        return get_box(r, s, target, why, size);
-    }
-}
-
-static void set_default(const struct param_group *g, const struct param *r, void *target)
-{
-    char line[512], why[256];
-    config_t c;
-    if (!r->dflt)
-        return;
-    config_init(&c);
-    config_set_auto_convert(&c, CONFIG_TRUE);
-    const bool text = r->type == PARAM_CHOICE || r->type == PARAM_TEXT;
-    snprintf(line, sizeof line, text ? "value = \"%s\";" : "value = %s;", r->dflt);
-    if (config_read_string(&c, line) != CONFIG_TRUE)
-        fail("default of %s.%s is no value: %s", g->name, r->key, r->dflt);
-    struct param any = *r; /* a default may lie outside the range: "not given" */
-    any.min = -INFINITY;
-    any.max = INFINITY;
-    if (!get_value(&any, config_lookup(&c, "value"), target, why, sizeof why))
-        fail("default of %s.%s: %s", g->name, r->key, why);
-    config_destroy(&c);
-}
-
 /* --- groups --- */
 
 static void place_of(const struct params *p, const config_setting_t *s, char *place, size_t size,
@@ -484,7 +268,7 @@ static void read_row(struct params *p, const struct param_group *g, const struct
         mark_given(p, g->name, element, r->key, "!");
     char *before = mem_new(param_size(r), 1);
     memcpy(before, (char *)target + r->offset, param_size(r));
-    if (!get_value(r, s, target, why, sizeof why))
+    if (!param_read(r, s, target, why, sizeof why))
         fault(f, place, "%s", why);
     else if (r->dflt && same_value(r, before, (char *)target + r->offset))
         mark_given(p, g->name, element, r->key, "=");
@@ -575,7 +359,7 @@ static void read_list(struct params *p, const struct param_group *g, const confi
             continue;
         }
         for (int r = 0; r < g->nrows; r++) {
-            set_default(g, g->rows + r, target);
+            param_default(g, g->rows + r, target);
             read_row(p, g, g->rows + r, e, target, k, f);
         }
         find_unknown_keys(p, g, e, f);
@@ -656,7 +440,7 @@ static void check_format(const struct params *p, struct faults *f)
     const config_setting_t *s = config_lookup(&p->cfg, "format");
     double v;
     char place[1300];
-    if (s && !(number_of(s, &v) && v == 1.0)) {
+    if (s && !(param_number(s, &v) && v == 1.0)) {
         snprintf(place, sizeof place, "%s:%u: format", p->path, config_setting_source_line(s));
         fault(f, place, "1 is wanted: this program reads format 1");
     }
@@ -710,7 +494,7 @@ struct params *params_read(MPI_Comm comm, const char *path, int noverrides,
     config_init(&p->cfg);
     for (int k = 0; k < ngroups; k++)
         for (int r = 0; r < groups[k].nrows && !groups[k].stride; r++)
-            set_default(groups + k, groups[k].rows + r, groups[k].target);
+            param_default(groups + k, groups[k].rows + r, groups[k].target);
     if (p->rank == 0)
         read_case(p, overrides, others, f);
     MPI_Bcast(&f->n, 1, MPI_INT, 0, comm);
@@ -771,11 +555,11 @@ bool params_peek(const struct params *p, MPI_Comm comm, const char *key, double 
     const config_setting_t *s = value_of(p, key);
     int n = 0;
     v[0] = v[1] = v[2] = 0.0;
-    if (s && number_of(s, v))
+    if (s && param_number(s, v))
         n = 1;
     for (int k = 0; s && config_setting_is_aggregate(s) && k < 3 && k < config_setting_length(s);
          k++)
-        n += number_of(config_setting_get_elem(s, (unsigned)k), v + k);
+        n += param_number(config_setting_get_elem(s, (unsigned)k), v + k);
     MPI_Bcast(v, 3, MPI_DOUBLE, 0, comm);
     MPI_Bcast(&n, 1, MPI_INT, 0, comm);
     return n > 0;
