@@ -2,10 +2,10 @@
  * them the first pass bounds it itself. Where densities do not know of the shift (all but ALE) it
  * is |u|/4 at most with a surface: a tank at rest sank by a tenth in 4000 steps with U/4. Else, and
  * in ALE, where a tank blew up after 1e4 steps with |u|/4, it is a quarter of U, but of the largest
- * |u| or of what viscosity calms (nu/R) where these are less: with U/4 the crowding left over in
- * corners stirs water at rest for ever, for there u = shift is a steady state (closed tanks: 1.5e-3
- * c0 -> 1e-4 c0; without mass flux they diverged). Not for delta and standard, which need the shift
- * to keep their order: 4e-4 c0 with U/4, 5e-3 without.
+ * |u| or of what viscosity calms (nu/R) where these are less and there is no surface: with U/4 the
+ * crowding left over in corners stirs water at rest for ever, for there u = shift is a steady state
+ * (closed tanks: 1.5e-3 c0 -> 1e-4 c0; without mass flux they diverged). Not for delta and
+ * standard, which need the shift to keep their order: 4e-4 c0 with U/4, 5e-3 without.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
@@ -31,7 +31,7 @@ void transport_finish(struct sph *s)
     const bool by_own =
         !s->packing && (oger || (s->surface && s->prm.scheme != SCHEME_RIEMANN_ALE));
     const double now = fmax(s->max_speed, s->nu / s->R);
-    const bool bounded = !s->packing && s->walls && s->prm.scheme <= SCHEME_RIEMANN;
+    const bool bounded = !s->packing && s->walls && !s->surface && s->prm.scheme <= SCHEME_RIEMANN;
     const double U = bounded ? fmin(s->shift_speed, now) : s->shift_speed;
     if (!oger && s->prm.transport != TRANSPORT_TVS)
         return;
