@@ -227,11 +227,6 @@ enum bc_kind bc_behind(const struct fv *s, const int *at, int a)
     return s->bc->kind[2 * a + (i >= 0)];
 }
 
-bool bc_is_no_slip(const struct fv *s, int k)
-{
-    return s->bc && s->bc->n[k] > 0 && s->bc->kind[k] == BC_NO_SLIP;
-}
-
 static void ghosts_given(double *q, int64_t in, double w)
 {
     q[-in] = 4.0 * w - (13.0 * q[0] - 5.0 * q[in] + q[2 * in]) / 3.0;

@@ -40,8 +40,6 @@ struct bc *bc_create(const struct fv *s);
 void bc_free(struct bc **b);
 /* Kind of the side behind which the cell `at' (local) lies along axis a; BC_NONE if inside. */
 enum bc_kind bc_behind(const struct fv *s, const int *at, int a);
-/* Whether side k has a no-slip wall on this rank. */
-bool bc_is_no_slip(const struct fv *s, int k);
 /* Ghost averages of the fields u along all sides that have a kind; halo first. */
 void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3]);
 /* Fluxes through walls and inflow; those of outflow are left as they are. */

@@ -547,7 +547,6 @@ void basins_clear(const struct basins *b, struct lattice *l)
 }
 
 double basins_level(const struct basins *b, int64_t cell) { return run_at(b, cell)->level; }
-int basins_waters(const struct basins *b) { return b->waters; }
 
 int basins_pockets(const struct basins *b, int64_t *cells, double *where)
 {

@@ -26,7 +26,6 @@ void basins_free(struct basins **b);
 /* Takes from the lattice the pockets that walls cut off, too small to flow. */
 void basins_clear(const struct basins *b, struct lattice *l);
 int basins_pockets(const struct basins *b, int64_t *cells, double *where); /* one place, m */
-int basins_waters(const struct basins *b); /* parts that hang together, without pockets */
 /* Height against gravity where p = 0 for the water of this cell, m; NAN: it falls freely. */
 double basins_level(const struct basins *b, int64_t cell);
 

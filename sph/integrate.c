@@ -255,8 +255,8 @@ static void reduce(struct sph *s, double *most)
     s->max_speed = most[MOST_SPEED];
     s->rho_max = most[MOST_RHO];
     s->rho_min = -most[LEAST_RHO];
-    /* 0.1 c0 is the speed that a sound speed is chosen for: at walls shifting needs that much, or a
-     * tank at rest blows up after 4e4 steps of ALE; transport_finish bounds what comes of it. */
+    /* 0.1 c0 is the speed that a sound speed is chosen for; transport_finish bounds what comes of
+     * it at walls. */
     const double speed = s->walls ? fmax(s->max_speed, s->nu / s->R) : most[MOST_RELATIVE];
     const bool bounded = s->walls && s->prm.scheme <= SCHEME_RIEMANN;
     s->shift_speed =
