@@ -1,4 +1,4 @@
-# Estran. The commands: make demo | check | test-fast | properties | all | report | stability | bench | deps | clean
+# Estran. The commands: make demo | check | test-fast | properties | all | report | stability | bench | deps | install | clean
 # SPDX-License-Identifier: BSD-3-Clause
 SHELL = /bin/sh
 CC = mpicc
@@ -8,7 +8,7 @@ COMMIT := $(shell git rev-parse --short HEAD 2>/dev/null || echo unknown)
 
 # ---- what it needs, as Debian 12 packages -------------------------------------------------------------
 PACKAGES = build-essential pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi-dev hdf5-tools \
-           libhypre-dev libsundials-dev libconfig-dev libcmocka-dev gnuplot-nox
+           libhypre-dev libsundials-dev libconfig-dev libcmocka-dev gnuplot-nox libassimp-dev
 
 # ---- how it is built ----------------------------------------------------------------------------------
 # No -ffast-math: it gains nothing here and lets NaN pass unseen. -fno-math-errno frees sqrt.
@@ -19,26 +19,36 @@ HDF5_LIBS = $(shell pkg-config --libs hdf5-openmpi 2>/dev/null)
 SAN =
 CFLAGS = -std=c11 -D_GNU_SOURCE -g $(OPT) $(WARN) $(HDF5_CFLAGS) -isystem /usr/include/hypre $(SAN)
 LIBS = $(HDF5_LIBS) -lconfig -lm
+# Reads meshes; without it they are refused.
+ASSIMP_LIBS = $(strip $(shell pkg-config --libs assimp 2>/dev/null))
 FV_LIBS = -lHYPRE -lsundials_kinsol -lsundials_nvecparallel -lsundials_sunlinsolspgmr
 
-objects = $(patsubst %.c,$(B)/o/%.o,$(wildcard $(1)/*.c))
-cpl_o = $(addprefix $(B)/o/coupler/,cpl_client.o cpl_data.o cpl_patch.o wire.o alive.o failure.o handshake.o region.o)
+objects = $(patsubst %.c,$(B)/o/%.o,$(wildcard $(1)/*.c $(1)/*/*.c))
+cpl_o = $(call objects,coupler/client) $(call objects,coupler/transport)
 mains = $(B)/o/sph/sph.o $(B)/o/fv/fv.o $(B)/o/coupler/coupler.o
 sph_o = $(filter-out $(mains),$(call objects,sph)) $(B)/o/coupler/cpl_partner.o
 fv_o = $(filter-out $(mains),$(call objects,fv)) $(B)/o/coupler/cpl_partner.o
-coupler_o = $(filter-out $(mains) $(cpl_o) $(B)/o/coupler/cpl_%,$(call objects,coupler))
+soname := libcpl.so.$(shell sed -n 's/^ *CPL_VERSION = \([0-9]*\),.*/\1/p' coupler/cpl.h)
+coupler_o = $(call objects,coupler/server) $(call objects,coupler/mapping)
 
-all: $(B)/sph $(B)/fv $(B)/coupler
+all: $(B)/sph $(B)/fv $(B)/coupler $(B)/$(soname)
 
 $(B)/sph: $(B)/o/sph/sph.o $(B)/libsph.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
-	@$(CC) $(SAN) -o $@ $^ $(LIBS)
+	@$(CC) $(SAN) -o $@ $^ $(ASSIMP_LIBS) $(LIBS)
 $(B)/fv: $(B)/o/fv/fv.o $(B)/libfv.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ $(FV_LIBS) $(LIBS)
 $(B)/coupler: $(B)/o/coupler/coupler.o $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ $(LIBS)
+$(B)/$(soname): $(patsubst $(B)/o/%,$(B)/pic/%,$(cpl_o)) coupler/cpl.map
+	@echo "LD $@"
+	@$(CC) $(SAN) -shared -Wl,-soname,$(soname) -Wl,--version-script=coupler/cpl.map -o $@ $(filter %.o,$^) -lm
+# what others link: one object that shows cpl_... alone, so that no other name of ours meets one of theirs
+$(B)/public/libcpl.a: $(cpl_o)
+	@mkdir -p $(@D)
+	@rm -f $@; ld -r -o $(@D)/cpl.o $^ && objcopy --wildcard --keep-global-symbol='cpl_*' $(@D)/cpl.o && ar rcs $@ $(@D)/cpl.o
 $(B)/libcommon.a: $(call objects,common)
 $(B)/libcpl.a: $(cpl_o)
 $(B)/libsph.a: $(sph_o)
@@ -51,18 +61,30 @@ $(B)/o/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "CC $@"
 	@$(CC) $(CFLAGS) -MMD -MP -c -o $@ $<
+ifneq ($(ASSIMP_LIBS),)
+$(B)/o/common/trimesh_read.o: CFLAGS += -DHAVE_ASSIMP $(patsubst -I%,-isystem %,$(shell pkg-config --cflags assimp))
+endif
+$(B)/pic/%.o: %.c
+	@mkdir -p $(@D)
+	@echo "CC $@"
+	@$(CC) $(CFLAGS) -fPIC -MMD -MP -c -o $@ $<
 $(B)/o/common/version.o: CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
 
-# ---- tests: every tests/test_X.c is a program; tests/mock.c knows cpl.h alone -------------------------
+# ---- tests: every tests/test_X.c is a program; tests/mock*.c know cpl.h alone -------------------------
 tests_bin = $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c tests/bench_*.c tests/toy*.c))
-$(B)/tests/mock: $(B)/o/tests/mock.o $(B)/libcpl.a
+$(B)/tests/mock $(B)/tests/mock_any $(B)/tests/mock_calls: $(B)/tests/%: $(B)/o/tests/%.o $(B)/libcpl.a
+	@mkdir -p $(@D)
+	@echo "LD $@"
+	@$(CC) $(SAN) -o $@ $^ -lm
+$(B)/o/coupler/examples/%.o: CFLAGS += -Icoupler
+$(B)/tests/heat: $(B)/o/coupler/examples/heat.o $(B)/public/libcpl.a # as an outsider would
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ -lm
 $(B)/tests/%: $(B)/o/tests/%.o $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
 	@mkdir -p $(@D)
 	@echo "LD $@"
-	@$(CC) $(SAN) -o $@ $< -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(FV_LIBS) $(LIBS) -lcmocka
+	@$(CC) $(SAN) -o $@ $< -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(FV_LIBS) $(ASSIMP_LIBS) $(LIBS) -lcmocka
 $(B)/tests/kill_at.so: tests/kill_at.c
 	@mkdir -p $(@D)
 	@echo "LD $@"
@@ -71,7 +93,7 @@ $(B)/tests/properties_scene: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/properti
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@cc $(SAN) -o $@ $^ -lm
-tests: all $(tests_bin) $(B)/tests/mock $(B)/tests/kill_at.so $(B)/tests/properties_scene
+tests: all $(tests_bin) $(B)/tests/mock $(B)/tests/mock_any $(B)/tests/mock_calls $(B)/tests/heat $(B)/tests/kill_at.so $(B)/tests/properties_scene
 asan:
 	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-O1 -march=native -fno-math-errno" \
 	    SAN="-fsanitize=address,undefined -fno-omit-frame-pointer" tests
@@ -100,6 +122,32 @@ bench: tests
 clean:
 	rm -rf build
 
+# ---- make install: prefix=/usr/local, DESTDIR= (for packages) --------------------------------------------
+prefix = /usr/local
+bindir = $(prefix)/bin
+libdir = $(prefix)/lib
+includedir = $(prefix)/include
+datadir = $(prefix)/share/estran
+D = $(DESTDIR)
+case_files = $(filter-out %.png %.svg,$(wildcard cases/*/*.*)) cases/run cases/tune cases/job.slurm
+install: all $(B)/public/libcpl.a
+	@install -d $(D)$(bindir) $(D)$(libdir)/pkgconfig $(D)$(includedir) $(D)$(datadir)/python $(D)$(datadir)/examples
+	@install $(B)/sph $(B)/fv $(B)/coupler $(D)$(bindir)
+	@install -m 644 coupler/cpl.h $(D)$(includedir)
+	@install -m 644 $(B)/public/libcpl.a $(D)$(libdir)
+	@install $(B)/$(soname) $(D)$(libdir) && ln -sf $(soname) $(D)$(libdir)/libcpl.so
+	@install -m 644 coupler/python/estran.py $(D)$(datadir)/python
+	@install -m 644 coupler/examples/* $(D)$(datadir)/examples
+	@for f in $(case_files); do install -D -m $$([ -x $$f ] && echo 755 || echo 644) $$f $(D)$(datadir)/$$f || exit 1; done
+	@printf '#!/bin/sh\nESTRAN_BUILD=$${ESTRAN_BUILD:-%s} exec %s/cases/run "$$@"\n' $(bindir) $(datadir) >$(D)$(bindir)/estran-run
+	@chmod 755 $(D)$(bindir)/estran-run
+	@printf 'prefix=%s\nlibdir=%s\nincludedir=%s\n\nName: cpl\nDescription: %s\nVersion: %s\nLibs: -L$${libdir} -lcpl\nLibs.private: -lm -lpthread\nCflags: -I$${includedir}\n' \
+	    $(prefix) $(libdir) $(includedir) 'client library of the Estran coupler (compile and link with mpicc)' $(VERSION) >$(D)$(libdir)/pkgconfig/cpl.pc
+	@echo "installed below $(D)$(prefix); as a shared library: ldconfig, or LD_LIBRARY_PATH=$(libdir)"
+uninstall:
+	rm -f $(addprefix $(D)$(bindir)/,sph fv coupler estran-run) $(addprefix $(D)$(libdir)/,libcpl.a libcpl.so $(soname) pkgconfig/cpl.pc) $(D)$(includedir)/cpl.h
+	rm -rf $(D)$(datadir)
+
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .SECONDARY:
-.PHONY: all tests asan deps demo check test-fast properties report stability bench clean
+.PHONY: install uninstall all tests asan deps demo check test-fast properties report stability bench clean

@@ -242,6 +242,9 @@ static bool same_value(const struct param *r, const void *a, const void *b)
     return r->type == PARAM_TEXT ? strcmp(a, b) == 0 : memcmp(a, b, param_size(r)) == 0;
 }
 
+static void read_inner(struct params *p, const char *path, const struct param *r,
+                       const config_setting_t *s, void *target, struct faults *f);
+
 /* element: of a list; -1: a plain group, whose keys the command line may give, too. */
 static void read_row(struct params *p, const struct param_group *g, const struct param *r,
                      const config_setting_t *group, void *target, int element, struct faults *f)
@@ -258,7 +261,7 @@ static void read_row(struct params *p, const struct param_group *g, const struct
     else
         place_of(p, s ? s : group, place, sizeof place, g->name, r->key);
     if (!s) {
-        if (!r->dflt && (group || params_has_group(p, g->name)))
+        if (!r->dflt && r->type != PARAM_LIST && (group || params_has_group(p, g->name)))
             fault(f, place, "must be given: %s%s%s", r->help, strcmp(r->unit, "-") ? ", in " : "",
                   strcmp(r->unit, "-") ? r->unit : "");
         return;
@@ -266,6 +269,15 @@ static void read_row(struct params *p, const struct param_group *g, const struct
     mark_given(p, g->name, element, r->key, "");
     if (o)
         mark_given(p, g->name, element, r->key, "!");
+    if (r->type == PARAM_LIST) {
+        char path[160];
+        if (element < 0)
+            snprintf(path, sizeof path, "%s.%s", g->name, r->key);
+        else
+            snprintf(path, sizeof path, "%s.[%d].%s", g->name, element, r->key);
+        read_inner(p, path, r, s, target, f);
+        return;
+    }
     char *before = mem_new(param_size(r), 1);
     memcpy(before, (char *)target + r->offset, param_size(r));
     if (!param_read(r, s, target, why, sizeof why))
@@ -364,6 +376,38 @@ static void read_list(struct params *p, const struct param_group *g, const confi
         }
         find_unknown_keys(p, g, e, f);
         *g->count = k + 1;
+    }
+}
+
+/* Groups within a group are read as a group of their own, "bodies.[0].motion". */
+static void read_inner(struct params *p, const char *path, const struct param *r,
+                       const config_setting_t *s, void *target, struct faults *f)
+{
+    const struct param_list *l = r->list;
+    int *count = (int *)(void *)((char *)target + r->offset);
+    struct param_group g = {.name = path,
+                            .rows = l->rows,
+                            .nrows = l->nrows,
+                            .target = (char *)target + r->offset + l->first,
+                            .stride = l->stride,
+                            .max = l->max,
+                            .count = count};
+    const bool plain = l->plain && config_setting_type(s) == CONFIG_TYPE_STRING;
+    for (int k = 0; plain && k < l->nrows; k++)
+        if (strcmp(l->rows[k].key, l->plain) == 0) {
+            char why[512], place[1300];
+            place_of(p, s, place, sizeof place, path, "");
+            mark_given(p, path, 0, l->plain, "");
+            if (!param_read(l->rows + k, s, g.target, why, sizeof why))
+                fault(f, place, "%s", why);
+            *count = 1;
+        }
+    if (!plain && l->max == 1) {
+        g.stride = 0;
+        *count = 1;
+        read_plain(p, &g, s, f);
+    } else if (!plain) {
+        read_list(p, &g, s, f);
     }
 }
 

@@ -10,22 +10,52 @@
 #include <stddef.h>
 
 enum param_type {
-    PARAM_REAL,   /* double */
-    PARAM_INT,    /* int */
-    PARAM_BOOL,   /* bool */
-    PARAM_CHOICE, /* int: index in choices "a|b|c" */
-    PARAM_TEXT,   /* char[PARAM_TEXT_SIZE] */
-    PARAM_REALS,  /* double[3]; missing components are 0 */
-    PARAM_INTS,   /* int[3]; missing components are 1 */
-    PARAM_BOOLS,  /* bool[3]; missing components are false */
-    PARAM_BOX,    /* double[2][3]: lower and upper corner */
-    PARAM_POINTS  /* struct param_points: a list of points of the plane */
+    PARAM_REAL,    /* double */
+    PARAM_INT,     /* int */
+    PARAM_BOOL,    /* bool */
+    PARAM_CHOICE,  /* int: index in choices "a|b|c" */
+    PARAM_TEXT,    /* char[PARAM_TEXT_SIZE] */
+    PARAM_REALS,   /* double[3]; missing components are 0 */
+    PARAM_INTS,    /* int[3]; missing components are 1 */
+    PARAM_BOOLS,   /* bool[3]; missing components are false */
+    PARAM_BOX,     /* double[2][3]: lower and upper corner */
+    PARAM_POINTS,  /* struct param_points: a list of points of the plane */
+    PARAM_PLACES,  /* struct param_places: a list of points in space */
+    PARAM_TURN,    /* double[3]; a plain number is the third: a turn in the plane */
+    PARAM_NUMBERS, /* struct param_numbers: a number, or a list of them */
+    PARAM_LIST     /* groups within the group: see struct param_list */
 };
-enum { PARAM_TEXT_SIZE = 128, PARAM_POINTS_MAX = 400 };
+enum {
+    PARAM_TEXT_SIZE = 128,
+    PARAM_POINTS_MAX = 400,
+    PARAM_NUMBERS_MAX = 6,
+    PARAM_PLACES_MAX = 16
+};
 
 struct param_points {
     int n;
     double x[PARAM_POINTS_MAX][2];
+};
+
+struct param_places {
+    int n;
+    double x[PARAM_PLACES_MAX][3];
+};
+
+struct param_numbers {
+    int n;
+    double v[PARAM_NUMBERS_MAX];
+};
+
+/* A list of groups within a group, `lines = ( {...}, {...} );', or with max = 1 one group,
+ * `hinge = {...};'. The member is a struct whose first member is an int, how many there are, and
+ * whose array of max structs of `stride' bytes starts at `first'. */
+struct param_list {
+    const struct param *rows;
+    int nrows;
+    size_t stride, first;
+    int max;
+    const char *plain; /* key of the one group that a plain text stands for; NULL: none */
 };
 
 struct param {
@@ -37,6 +67,7 @@ struct param {
     double min, max;     /* of each component, both allowed; not used by bool, text, choice */
     const char *choices; /* "a|b|c" of a PARAM_CHOICE, else NULL */
     const char *help;
+    const struct param_list *list; /* of a PARAM_LIST, else NULL */
 };
 
 #define PARAM(T, m, unit, dflt, min, max, help)                                                    \
@@ -44,12 +75,21 @@ struct param {
 #m,                                                                                           \
      _Generic(((T *)0)->m, double: PARAM_REAL, int: PARAM_INT, bool: PARAM_BOOL,                   \
               char *: PARAM_TEXT, double *: PARAM_REALS, int *: PARAM_INTS, bool *: PARAM_BOOLS,   \
-              double(*)[3]: PARAM_BOX, struct param_points: PARAM_POINTS),                                                            \
-     offsetof(T, m), unit, dflt, min, max, NULL, help    \
+              double(*)[3]: PARAM_BOX, struct param_points: PARAM_POINTS,                          \
+              struct param_numbers: PARAM_NUMBERS, struct param_places: PARAM_PLACES),                                                            \
+     offsetof(T, m), unit, dflt, min, max, NULL, help, NULL    \
     }
 #define CHOICE(T, m, choices, dflt, help)                                                          \
     {                                                                                              \
-#m, PARAM_CHOICE, offsetof(T, m), "-", dflt, 0, 0, choices, help                           \
+#m, PARAM_CHOICE, offsetof(T, m), "-", dflt, 0, 0, choices, help, NULL                     \
+    }
+#define TURN(T, m, unit, dflt, min, max, help)                                                     \
+    {                                                                                              \
+#m, PARAM_TURN, offsetof(T, m), unit, dflt, min, max, NULL, help, NULL                     \
+    }
+#define LIST(T, m, rows, help)                                                                     \
+    {                                                                                              \
+#m, PARAM_LIST, offsetof(T, m), "-", NULL, 0, 0, NULL, help, rows                          \
     }
 
 /* A group of the case file, `name: { ... };', or a list of groups, `name: ( {...}, {...} );'. */
@@ -87,7 +127,7 @@ bool params_has_group(const struct params *p, const char *group);
  * all ranks. Two programs of a job must agree on it. */
 unsigned long long params_hash(const struct params *p);
 /* Whether the case or the command line gives a value to `key': "sph.dx", or of an element of a list
- * (from 0) "walls.[0].velocity". Same on all ranks. */
+ * (from 0) "walls.[0].velocity", "bodies.[0].motion.[1].period". Same on all ranks. */
 bool params_given(const struct params *p, const char *key);
 /* Whether it is the command line that does. */
 bool params_on_command_line(const struct params *p, const char *key);

@@ -19,12 +19,19 @@ size_t param_size(const struct param *r)
         return PARAM_TEXT_SIZE;
     case PARAM_POINTS:
         return sizeof(struct param_points);
+    case PARAM_PLACES:
+        return sizeof(struct param_places);
     case PARAM_REALS:
+    case PARAM_TURN:
         return 3 * sizeof(double);
+    case PARAM_NUMBERS:
+        return sizeof(struct param_numbers);
     case PARAM_INTS:
         return 3 * sizeof(int);
     case PARAM_BOOLS:
         return 3 * sizeof(bool);
+    case PARAM_LIST:
+        return r->list->first + r->list->stride * (size_t)r->list->max;
     default:
         return 6 * sizeof(double);
     }

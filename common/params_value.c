@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "log.h"
+#include "params_hints.h"
 
 bool param_number(const config_setting_t *s, double *v)
 {
@@ -147,36 +148,77 @@ static bool get_box(const struct param *r, const config_setting_t *s, void *targ
            get_vector(r, config_setting_get_elem(s, 1), target, 3, why, size);
 }
 
-/* ((x, y), (x, y), ...): at most PARAM_POINTS_MAX. */
+/* One point of a list: as many finite numbers as it has components. */
+static bool get_point(const struct param *r, const config_setting_t *s, int dim, double *v)
+{
+    const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : 0;
+    for (int a = 0; a < dim; a++) {
+        const config_setting_t *c = a < n ? config_setting_get_elem(s, (unsigned)a) : NULL;
+        if (!c || !param_number(c, v + a) || !(v[a] >= r->min && v[a] <= r->max))
+            return false;
+    }
+    return true;
+}
+
+/* ((x, y), (x, y), ...): at most PARAM_POINTS_MAX; with three components PARAM_PLACES_MAX. */
 static bool get_points(const struct param *r, const config_setting_t *s, void *target, char *why,
                        size_t size)
 {
-    struct param_points *to = (struct param_points *)(void *)((char *)target + r->offset);
+    const bool plane = r->type == PARAM_POINTS;
+    const int dim = plane ? 2 : 3, most = plane ? PARAM_POINTS_MAX : PARAM_PLACES_MAX;
+    struct param_points *points = (struct param_points *)(void *)((char *)target + r->offset);
+    struct param_places *places = (struct param_places *)(void *)((char *)target + r->offset);
     const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : -1;
-    to->n = 0;
-    if (config_setting_is_group(s) || n < 0 || n > PARAM_POINTS_MAX) {
-        snprintf(why, size, "at most %d points are wanted: ((x, y), (x, y), ...)",
-                 PARAM_POINTS_MAX);
+    int *count = plane ? &points->n : &places->n;
+    *count = 0;
+    if (config_setting_is_group(s) || n < 0 || n > most) {
+        snprintf(why, size, "at most %d points are wanted: ((x, y%s), ...)", most,
+                 plane ? "" : ", z");
         return false;
     }
     for (int k = 0; k < n; k++) {
-        const config_setting_t *point = config_setting_get_elem(s, (unsigned)k);
-        double v[2] = {NAN, NAN};
-        for (int a = 0; a < 2 && config_setting_is_aggregate(point); a++) {
-            const config_setting_t *c = config_setting_get_elem(point, (unsigned)a);
-            if (c)
-                param_number(c, v + a);
-        }
-        if (!(v[0] >= r->min && v[0] <= r->max && v[1] >= r->min && v[1] <= r->max)) {
-            snprintf(why, size, "point %d: two numbers in ( ) from %g to %g are wanted", k + 1,
-                     r->min, r->max);
+        double *v = plane ? points->x[k] : places->x[k];
+        if (!get_point(r, config_setting_get_elem(s, (unsigned)k), dim, v)) {
+            snprintf(why, size, "point %d: %s numbers in ( ) from %g to %g are wanted", k + 1,
+                     plane ? "two" : "three", r->min, r->max);
             return false;
         }
-        to->x[k][0] = v[0];
-        to->x[k][1] = v[1];
     }
-    to->n = n;
+    *count = n;
     return true;
+}
+
+/* A number, or (a, b, ...): at most PARAM_NUMBERS_MAX. */
+static bool get_numbers(const struct param *r, const config_setting_t *s, void *target, char *why,
+                        size_t size)
+{
+    struct param_numbers *to = (struct param_numbers *)(void *)((char *)target + r->offset);
+    const bool many = config_setting_is_aggregate(s) && !config_setting_is_group(s);
+    struct param one = *r;
+    one.type = PARAM_REALS;
+    one.offset += offsetof(struct param_numbers, v);
+    memset(to, 0, sizeof *to);
+    if (many && config_setting_length(s) > PARAM_NUMBERS_MAX) {
+        snprintf(why, size, "at most %d numbers in ( ) are wanted", PARAM_NUMBERS_MAX);
+        return false;
+    }
+    to->n = many ? config_setting_length(s) : 1;
+    for (int k = 0; k < to->n; k++)
+        if (!get_number(&one, many ? config_setting_get_elem(s, (unsigned)k) : s, target, k, why,
+                        size))
+            return false;
+    return true;
+}
+
+static bool get_turn(const struct param *r, const config_setting_t *s, void *target, char *why,
+                     size_t size)
+{
+    double v;
+    if (!param_number(s, &v))
+        return get_vector(r, s, target, 0, why, size);
+    set_real(r, target, 0, 0.0);
+    set_real(r, target, 1, 0.0);
+    return get_number(r, s, target, 2, why, size);
 }
 
 bool param_read(const struct param *r, const config_setting_t *s, void *target, char *why,
@@ -196,7 +238,12 @@ bool param_read(const struct param *r, const config_setting_t *s, void *target, 
     case PARAM_INTS:
     case PARAM_BOOLS:
         return get_vector(r, s, target, 0, why, size);
+    case PARAM_TURN:
+        return get_turn(r, s, target, why, size);
+    case PARAM_NUMBERS:
+        return get_numbers(r, s, target, why, size);
     case PARAM_POINTS:
+    case PARAM_PLACES:
         return get_points(r, s, target, why, size);
     default:
         return get_box(r, s, target, why, size);
@@ -207,6 +254,14 @@ void param_default(const struct param_group *g, const struct param *r, void *tar
 {
     char line[512], why[256];
     config_t c;
+    if (r->type == PARAM_LIST) {
+        char *list = (char *)target + r->offset;
+        memset(list, 0, param_size(r));
+        for (int k = 0; k < r->list->max; k++)
+            for (int i = 0; i < r->list->nrows; i++)
+                param_default(g, r->list->rows + i, list + r->list->first + r->list->stride * k);
+        return;
+    }
     if (!r->dflt)
         return;
     config_init(&c);

@@ -16,6 +16,7 @@
 #include "picture.h"
 #include "run_files.h"
 #include "scene_fluid.h"
+#include "scene_mesh.h"
 #include "xdmf.h"
 
 enum { GROUPS_MAX = SCENE_GROUPS + 8, COLUMNS_MAX = 128 };
@@ -78,6 +79,17 @@ static void check_place(struct life *l)
                      "leave a group out");
 }
 
+/* A coupled job has a program that knows none. */
+static void read_meshes(struct life *l)
+{
+    struct run *r = &l->r;
+    if (l->p->meshes && !r->coupled)
+        l->p->meshes(&r->scene, r->case_dir, l->params, r->comm, &l->faults);
+    else
+        scene_meshes_refuse(&r->scene, l->params, "surfaces of triangles are for sph alone, in 3D",
+                            &l->faults);
+}
+
 /* Reads and checks everything; returns the number of faults, the same on all ranks. */
 static int read_case(struct life *l)
 {
@@ -92,6 +104,8 @@ static int read_case(struct life *l)
         scene_check(&r->scene, l->params, &l->faults);
     if (l->faults.n == 0)
         scene_orient(&r->scene);
+    if (l->faults.n == 0)
+        read_meshes(l);
     if (l->faults.n == 0)
         accept_check(&r->scene, r->case_dir, l->params, &l->faults);
     if (l->faults.n == 0 && l->p->check)
@@ -472,6 +486,7 @@ static void free_life(struct life *l)
     xdmf_free(&l->files.xdmf);
     mem_free(l->files.case_text);
     summary_free(&l->r.summary);
+    scene_meshes_free(&l->r.scene);
     params_free(&l->params);
     mem_free(l->faults.text);
     log_file(NULL);

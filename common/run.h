@@ -64,6 +64,10 @@ struct program {
     const struct param_group *groups; /* its own groups beside the scene's */
     int ngroups;
     const char *const *other_groups; /* groups that other programs check; NULL-terminated */
+    /* Reads the meshes that the scene names (scene_meshes_read); NULL: the program knows none, and
+     * a case that has some is refused. */
+    void (*meshes)(struct scene *s, const char *case_dir, const struct params *p, MPI_Comm comm,
+                   struct faults *f);
     /* Faults that need more than one key; may be NULL. */
     void (*check)(const struct run *r, struct faults *f);
     /* Lines of --check and of the banner: what the scene uses and leaves out, sizes, memory, time
@@ -183,6 +187,8 @@ void signals_started(void); /* the time loop looks at signals_stop from now on; 
 void signals_note_path(
     const char *path);                /* file of the death note (shared by the job's programs) */
 void signals_heard(const char *text); /* what the handler prints when there is no note; copied */
+void signals_hint(
+    const char *text); /* what it adds at a SIGTERM of the launcher: "" nothing; copied */
 
 /* The lowest rank with d->bad tells all ranks; false if there is none. Collective. */
 bool run_diagnose(struct diagnosis *d, MPI_Comm comm);

@@ -47,13 +47,12 @@ void files_snapshot(struct run_files *f, const char *what)
     else
         snprintf(name, sizeof name, "%s_%06d.h5", r->name, f->next++);
     snprintf(path, sizeof path, "%s/%s", r->dir, name);
-    const int timer = timer_index(&r->timers, "output");
-    timer_start(&r->timers, timer);
+    timer_start(&r->timers, "output");
     struct h5 *h = h5_create(r->comm, path);
     write_clock(f, h);
     f->program->snapshot(f->state, h, f->xdmf, name);
     h5_close(&h);
-    timer_stop(&r->timers, timer);
+    timer_stop(&r->timers, "output");
     if (!r->coupled)
         log_say("  output at t = %g s: %s", r->t, path);
     else
@@ -79,8 +78,7 @@ void files_checkpoint(struct run_files *f, int64_t n, char *file)
     char path[1400];
     snprintf(file, 256, "%s-checkpoint-%lld.h5", r->name, (long long)n);
     snprintf(path, sizeof path, "%s/%s", r->dir, file);
-    const int timer = timer_index(&r->timers, "checkpoint");
-    timer_start(&r->timers, timer);
+    timer_start(&r->timers, "checkpoint");
     struct h5 *h = h5_create_restart(r->comm, path);
     write_clock(f, h);
     f->program->checkpoint(f->state, h);
@@ -90,7 +88,7 @@ void files_checkpoint(struct run_files *f, int64_t n, char *file)
         run_prune(r->dir, r->name, file, f->last);
         snprintf(f->last, sizeof f->last, "%s", file);
     }
-    timer_stop(&r->timers, timer);
+    timer_stop(&r->timers, "checkpoint");
     log_quiet("  restart file at t = %g s: %s", r->t, file);
 }
 
@@ -262,6 +260,13 @@ void files_view(const struct run *r)
           "            coloured = True\n"
           "            break\n",
           f);
+    if (r->scene.domain.dim == 3)
+        fputs("path = os.path.join(here, 'sph_walls.xdmf')\n"
+              "if os.path.exists(path):\n"
+              "    walls = XDMFReader(FileNames=[path], guiName='walls')\n"
+              "    shown = Show(walls, view)\n"
+              "    shown.Opacity = 0.3\n",
+              f);
     if (r->scene.domain.dim == 2)
         fputs("view.InteractionMode = '2D'\n", f);
     fputs("ResetCamera(view)\n"
@@ -299,8 +304,8 @@ void run_check_memory(const struct run *r, struct faults *f, const char *key, do
 static bool is_ours(const char *file, const char *name)
 {
     const size_t n = strlen(name);
-    static const char *const own[] = {".xdmf",       ".log",          "-case.cfg",
-                                      "-series.csv", "-summary.json", "_diverged.h5"};
+    static const char *const own[] = {".xdmf",         ".log",         "-case.cfg", "-series.csv",
+                                      "-summary.json", "_diverged.h5", "_walls.h5", "_walls.xdmf"};
     static const char *const shared[] = {"summary.json", "series.csv", "checkpoint.txt", "log.txt"};
     for (size_t k = 0; k < sizeof shared / sizeof shared[0]; k++)
         if (strcmp(file, shared[k]) == 0)

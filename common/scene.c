@@ -41,6 +41,7 @@ static const struct param initial_rows[] = {
     PARAM(P, amplitude, "m",  "0.0", -1e6, 1e6, "amplitude of a wave"),
     PARAM(P, L_z,      "m",   "0.0", 0, 1e6, "length of a standing wave along z; 0: the same for all z"),
     PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "height against gravity where p = 0; by default the top of each water"),
+    PARAM(P, seed,     "m",   "()", -1e9, 1e9, "points in the fluid, where meshes leave it open which of the rooms that they part hold it; sph in 3D"),
 };
 #undef P
 #define P struct scene_wall
@@ -48,6 +49,10 @@ static const struct param wall_rows[] = {
     CHOICE(P, side, "none|x_min|x_max|y_min|y_max|z_min|z_max", "none", "side of the domain; none: points"),
     PARAM(P, points,   "m",   "()", -1e9, 1e9, "polyline with the fluid on its left (turned, and said, where it plainly is on the other side)"),
     PARAM(P, closed,   "-",   "false", 0, 0, "join the last point with the first"),
+    SURFACE_ROWS(P),
+    CHOICE(P, fluid_side, "auto|inside|outside|sheet", "auto", "of a mesh: where the fluid is; sheet: where its normals come from; auto: where the shapes have it"),
+    PARAM(P, flip,     "-",   "false", 0, 0, "turn the normals of an open mesh: they point out of the fluid"),
+    PARAM(P, thin,     "-",   "false", 0, 0, "of a mesh: the fluid on one side does not see that on the other through it; for walls thinner than the support"),
     CHOICE(P, kind, "slip|no_slip|inflow|outflow|absorbing", "slip", "what it does to the flow"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, of the inflow, of the far flow that an absorbing side meets"),
     CHOICE(P, profile, "uniform|parabolic", "uniform", "of an inflow; parabolic: velocity is the largest one"),
@@ -55,23 +60,12 @@ static const struct param wall_rows[] = {
     PARAM(P, carried,  "-",   "false", 0, 1, "at an outflow (fv): the flow leaves as it is carried, p is not given"),
 };
 #undef P
-#define P struct scene_body
-static const struct param body_rows[] = {
-    PARAM(P, name,     "-",   "body", 0, 0, "its name in the outputs"),
-    PARAM(P, points,   "m",   NULL, -1e9, 1e9, "corners in order, clockwise (turned, and said, if not)"),
-    CHOICE(P, kind, "slip|no_slip", "slip", "what its surface does to the flow"),
-    PARAM(P, centre,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "centre of rotation and of moments at the start"),
-    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the centre"),
-    PARAM(P, spin,     "rad/s", "0.0", -1e6, 1e6, "rate of rotation"),
-    PARAM(P, motion,   "-",   "", 0, 0, "file beside the case with rows t, x, y, angle: displacement instead"),
-    PARAM(P, force,    "N/m", "(0.0, 0.0, 0.0)", -1e12, 1e12, "known mean force of the fluid on the first body: for error.force"),
-};
-#undef P
 #define P struct scene_shape
 static const struct param shape_rows[] = {
-    CHOICE(P, form, "box|polygon|disc|below", "box", "kind of region"),
+    CHOICE(P, form, "box|polygon|disc|below|mesh", "box", "kind of region; mesh: inside of a closed one, 3D"),
     PARAM(P, box,      "m",   "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "corners of a box"),
     PARAM(P, points,   "m",   "()", -1e9, 1e9, "corners of a polygon"),
+    SURFACE_ROWS(P),
     PARAM(P, centre,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "of a disc"),
     PARAM(P, radius,   "m",   "0.0", 0, 1e9, "of a disc"),
     PARAM(P, level,    "m",   "0.0", -1e9, 1e9, "below: height against gravity"),
@@ -133,8 +127,8 @@ void scene_groups(struct scene *s, struct param_group *groups)
         {"initial", "How it starts", ROWS(initial_rows), &s->initial, NULL, 0, 0, NULL},
         {"walls", "List of walls, inlets and outlets", ROWS(wall_rows), s->walls, NULL,
          sizeof s->walls[0], WALLS_MAX, &s->nwalls},
-        {"bodies", "List of bodies with prescribed motion", ROWS(body_rows), s->bodies, NULL,
-         sizeof s->bodies[0], BODIES_MAX, &s->nbodies},
+        {"bodies", "List of bodies with prescribed motion", scene_body_rows, scene_body_nrows,
+         s->bodies, NULL, sizeof s->bodies[0], BODIES_MAX, &s->nbodies},
         {"shapes", "List of regions that hold fluid at the start; none: everywhere",
          ROWS(shape_rows), s->shapes, NULL, sizeof s->shapes[0], SHAPES_MAX, &s->nshapes},
         {"probes", "List of gauges in series.csv", ROWS(probe_rows), s->probes, NULL,
@@ -174,10 +168,11 @@ static void check_walls(const struct scene *s, const struct params *p, struct fa
         const int a = (w->side - SIDE_X_MIN) / 2;
         char key[32];
         snprintf(key, sizeof key, "walls.[%d]", k);
-        if (w->side == SIDE_NONE && w->points.n < 2)
-            params_fault(p, f, key, "wall %d: give a side or at least two points", k + 1);
-        else if (w->side != SIDE_NONE && w->points.n > 0)
-            params_fault(p, f, key, "wall %d: give a side or points, not both", k + 1);
+        const bool mesh = *w->surface.mesh != '\0';
+        if (w->side == SIDE_NONE && w->points.n < 2 && !mesh)
+            params_fault(p, f, key, "wall %d: give a side, a mesh or at least two points", k + 1);
+        else if ((w->side != SIDE_NONE) + (w->points.n > 0) + mesh > 1)
+            params_fault(p, f, key, "wall %d: give one of side, points and mesh", k + 1);
         else if (w->side != SIDE_NONE && a >= s->domain.dim)
             params_fault(p, f, key, "wall %d: a z side in a case of 2 dimensions", k + 1);
         else if (w->side != SIDE_NONE && s->domain.periodic[a])
@@ -193,14 +188,19 @@ static void check_walls(const struct scene *s, const struct params *p, struct fa
 static void check_shapes(const struct scene *s, const struct params *p, struct faults *f)
 {
     for (int k = 0; k < s->nbodies; k++)
-        if (s->bodies[k].points.n < 3)
-            params_fault(p, f, "bodies", "body %d: three points or more are wanted", k + 1);
+        if (s->bodies[k].points.n > 0 && *s->bodies[k].surface.mesh)
+            params_fault(p, f, "bodies", "body %d: give points or a mesh, not both", k + 1);
+        else if (s->bodies[k].points.n < 3 && !*s->bodies[k].surface.mesh)
+            params_fault(p, f, "bodies", "body %d: three points or more are wanted%s", k + 1,
+                         s->domain.dim == 3 ? ", or a mesh" : "");
     for (int k = 0; k < s->nshapes; k++) {
         const struct scene_shape *h = s->shapes + k;
         if (h->form == SHAPE_POLYGON && h->points.n < 3)
             params_fault(p, f, "shapes", "shape %d: three points or more are wanted", k + 1);
         if (h->form == SHAPE_DISC && h->radius <= 0.0)
             params_fault(p, f, "shapes", "shape %d: the radius must be given", k + 1);
+        if (h->form == SHAPE_MESH && !*h->surface.mesh)
+            params_fault(p, f, "shapes", "shape %d: its mesh must be given", k + 1);
         if (h->form == SHAPE_BOX && !(h->box[1][0] > h->box[0][0] && h->box[1][1] > h->box[0][1]))
             params_fault(p, f, "shapes", "shape %d: the box is empty", k + 1);
     }

@@ -6,6 +6,8 @@
 #include <stdbool.h>
 
 #include "params.h"
+#include "scene_body.h"
+#include "scene_surface.h"
 
 enum initial_field {
     FIELD_REST,
@@ -31,7 +33,8 @@ enum scene_side {
 };
 enum wall_kind { WALL_SLIP, WALL_NO_SLIP, WALL_INFLOW, WALL_OUTFLOW, WALL_ABSORBING };
 enum wall_profile { PROFILE_UNIFORM, PROFILE_PARABOLIC };
-enum shape_form { SHAPE_BOX, SHAPE_POLYGON, SHAPE_DISC, SHAPE_BELOW };
+enum shape_form { SHAPE_BOX, SHAPE_POLYGON, SHAPE_DISC, SHAPE_BELOW, SHAPE_MESH };
+enum fluid_side { FLUID_AUTO, FLUID_INSIDE, FLUID_OUTSIDE, FLUID_SHEET };
 enum accept_measure { ACCEPT_RMS, ACCEPT_PEAK, ACCEPT_IMPULSE, ACCEPT_ARRIVAL };
 enum probe_kind { PROBE_PRESSURE, PROBE_LEVEL };
 enum {
@@ -65,12 +68,16 @@ struct scene {
         double amplitude;   /* m: of a wave */
         double L_z;         /* m: its length along z; 0: the same for all z */
         double level;       /* m: height against gravity where p = 0; LEVEL_TOP: the fluid's top */
+        struct param_places seed; /* m: points that are known to be fluid */
     } initial;
-    /* Sides of the domain, and polylines with the fluid on their left. Sides without a wall that
-     * are not periodic: open (sph), or the exact solution (fv). */
+    /* Sides of the domain, polylines with the fluid on their left, and meshes. Sides without a wall
+     * that are not periodic: open (sph), or the exact solution (fv). */
     struct scene_wall {
-        int side; /* enum scene_side; SIDE_NONE: points */
+        int side; /* enum scene_side; SIDE_NONE: points or a mesh */
         struct param_points points;
+        struct scene_surface surface; /* 3D: triangles of a file */
+        int fluid_side;               /* enum fluid_side: of that */
+        bool flip, thin;
         bool closed;        /* the last point is joined with the first */
         bool turned;        /* by scene_orient */
         int kind;           /* enum wall_kind */
@@ -80,24 +87,14 @@ struct scene {
         bool carried;       /* fv: velocity of an outflow carried, instead of p given */
     } walls[WALLS_MAX];
     int nwalls;
-    /* Closed polylines that move as told, clockwise: fluid on their left. */
-    struct scene_body {
-        char name[PARAM_TEXT_SIZE];
-        struct param_points points;
-        int kind;                     /* WALL_SLIP or WALL_NO_SLIP */
-        bool turned;                  /* by scene_orient */
-        double centre[3];             /* m: of rotation and of moments, at t = 0 */
-        double velocity[3];           /* m/s */
-        double spin;                  /* rad/s */
-        char motion[PARAM_TEXT_SIZE]; /* file of rows t, x, y, angle (s, m, m, rad); "": none */
-        double force[3];              /* N/m: known mean of the fluid's force; 0: not known */
-    } bodies[BODIES_MAX];
+    struct scene_body bodies[BODIES_MAX]; /* scene_body.h */
     int nbodies;
     /* Where the fluid is at the start; none: everywhere. */
     struct scene_shape {
         int form; /* enum shape_form */
         double box[2][3];
         struct param_points points;
+        struct scene_surface surface;
         double centre[3], radius; /* m */
         double level;             /* m: below it, against gravity */
         bool hole;                /* takes fluid of earlier shapes away */
@@ -141,7 +138,8 @@ struct scene {
         double tolerance; /* accepted while the value is at most this */
     } accept[ACCEPT_MAX];
     bool has_coupling, has_output;
-    bool has_sph, has_fv; /* groups of the solvers: both make a coupled job */
+    bool has_sph, has_fv;        /* groups of the solvers: both make a coupled job */
+    struct scene_meshes *meshes; /* what the files of surfaces hold; scene_mesh.h; NULL: none */
 };
 
 #define LEVEL_TOP 1e30

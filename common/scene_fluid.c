@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene_geometry.h"
+#include "scene_mesh.h"
 
 double scene_still_gravity(const struct scene *s, double still[3])
 {
@@ -56,6 +57,10 @@ bool scene_in_shape(const struct scene *s, const struct scene_shape *h, const do
         return line_inside(&polygon, x);
     case SHAPE_DISC:
         return r2 < h->radius * h->radius;
+    case SHAPE_MESH: {
+        const struct scene_mesh *m = scene_mesh_of(s, MESH_SHAPE, (int)(h - s->shapes));
+        return m && scene_mesh_holds(m, x);
+    }
     default:
         return scene_height(s, x) < h->level;
     }

@@ -28,6 +28,27 @@ double line_area(const struct line *l)
     return 0.5 * sum;
 }
 
+/* Green's theorem, side by side (Eberly 2002), about the first point. */
+void line_moments(const struct line *l, double *area, double centre[2], double *polar)
+{
+    double A = 0.0, C[2] = {0.0, 0.0}, J = 0.0;
+    const double *o = l->x[0];
+    for (int k = 0; k < l->n; k++) {
+        const double a[2] = {start_of(l, k)[0] - o[0], start_of(l, k)[1] - o[1]};
+        const double b[2] = {end_of(l, k)[0] - o[0], end_of(l, k)[1] - o[1]};
+        const double cross = a[0] * b[1] - a[1] * b[0];
+        A += 0.5 * cross;
+        for (int i = 0; i < 2; i++) {
+            C[i] += cross * (a[i] + b[i]) / 6.0;
+            J += cross * (a[i] * a[i] + a[i] * b[i] + b[i] * b[i]) / 12.0;
+        }
+    }
+    *area = fabs(A);
+    *polar = fabs(J) - (C[0] * C[0] + C[1] * C[1]) / fabs(A);
+    for (int i = 0; i < 2; i++)
+        centre[i] = o[i] + C[i] / A;
+}
+
 double line_length(const struct line *l)
 {
     double sum = 0.0;

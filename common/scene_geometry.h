@@ -18,6 +18,9 @@ struct line line_of(const struct param_points *p, bool closed);
 int line_segments(const struct line *l);
 /* Area inside a closed line, m^2: positive if it runs counter-clockwise. */
 double line_area(const struct line *l);
+/* Area > 0 inside a closed line, its centre, and its polar second moment about that, m^2, m, m^4.
+ */
+void line_moments(const struct line *l, double *area, double centre[2], double *polar);
 double line_length(const struct line *l);
 /* Largest extent, m. */
 double line_size(const struct line *l);

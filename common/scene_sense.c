@@ -146,7 +146,7 @@ static bool extent(const struct scene_shape *h, double lo[2], double hi[2])
             hi[a] = fmax(k ? hi[a] : -INFINITY, h->points.x[k][a]);
         }
     }
-    return h->form != SHAPE_BELOW;
+    return h->form != SHAPE_BELOW && h->form != SHAPE_MESH; /* the file is not read yet */
 }
 
 static void check_shape(const struct scene *s, const struct params *p, struct faults *f, int k)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "exact.h"
+#include "scene_mesh.h"
 
 static double size_of(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
@@ -86,17 +87,41 @@ static double wall_speed(const struct scene *s)
     return speed;
 }
 
+/* What it turns about; that of a free body of given density follows from its outline, and the
+ * middle is near enough. */
+static void body_centre(const struct scene_body *b, const struct scene_mesh *mesh, double centre[3])
+{
+    memcpy(centre, b->centre, sizeof b->centre);
+    if (!b->free || b->mass > 0.0)
+        return;
+    for (int a = 0; a < 3; a++) {
+        double lo = mesh ? mesh->lo[a] : INFINITY, hi = mesh ? mesh->hi[a] : -INFINITY;
+        for (int i = 0; a < 2 && i < b->points.n; i++) {
+            lo = fmin(lo, b->points.x[i][a]);
+            hi = fmax(hi, b->points.x[i][a]);
+        }
+        centre[a] = hi >= lo ? 0.5 * (lo + hi) : 0.0;
+    }
+}
+
 static double body_speed(const struct scene *s)
 {
     double speed = 0.0;
     for (int k = 0; k < s->nbodies; k++) {
         const struct scene_body *b = s->bodies + k;
-        double reach = 0.0;
+        const struct scene_mesh *mesh = scene_mesh_of(s, MESH_BODY, k);
+        double reach = 0.0, centre[3];
+        body_centre(b, mesh, centre);
         for (int i = 0; i < b->points.n; i++)
-            reach = fmax(reach,
-                         hypot(b->points.x[i][0] - b->centre[0], b->points.x[i][1] - b->centre[1]));
-        if (!*b->motion)
-            speed = fmax(speed, size_of(b->velocity) + fabs(b->spin) * reach);
+            reach =
+                fmax(reach, hypot(b->points.x[i][0] - centre[0], b->points.x[i][1] - centre[1]));
+        for (int i = 0; mesh && i < 8; i++) {
+            const double d[3] = {(i & 1 ? mesh->hi : mesh->lo)[0] - centre[0],
+                                 (i & 2 ? mesh->hi : mesh->lo)[1] - centre[1],
+                                 (i & 4 ? mesh->hi : mesh->lo)[2] - centre[2]};
+            reach = fmax(reach, size_of(d));
+        }
+        speed = fmax(speed, size_of(b->velocity) + size_of(b->spin) * reach);
     }
     return speed;
 }
@@ -133,6 +158,11 @@ static double shape_top(const struct scene *s, const double *g, const struct sce
         lo[a] = h->centre[a] - h->radius;
         hi[a] = h->centre[a] + h->radius;
     }
+    const struct scene_mesh *mesh = scene_mesh_of(s, MESH_SHAPE, (int)(h - s->shapes));
+    if (mesh) {
+        memcpy(lo, mesh->lo, sizeof lo);
+        memcpy(hi, mesh->hi, sizeof hi);
+    }
     if (h->form == SHAPE_BOX) {
         memcpy(lo, h->box[0], sizeof lo);
         memcpy(hi, h->box[1], sizeof hi);
@@ -146,16 +176,34 @@ static double shape_top(const struct scene *s, const double *g, const struct sce
     return range[1];
 }
 
+/* Box around the meshes that hold the fluid, where no side of the domain does; else no extent. */
+static void room_of(const struct scene *s, double lo[3], double hi[3])
+{
+    bool sides = !s->meshes, any = false;
+    for (int k = 0; k < s->nwalls; k++)
+        sides = sides || s->walls[k].side != SIDE_NONE;
+    for (int k = 0; !sides && k < s->meshes->n; k++) {
+        const struct scene_mesh *m = s->meshes->of + k;
+        if (m->owner != MESH_WALL || m->fluid_side != FLUID_INSIDE)
+            continue;
+        for (int a = 0; a < 3; a++) {
+            lo[a] = any ? fmin(lo[a], m->lo[a]) : m->lo[a];
+            hi[a] = any ? fmax(hi[a], m->hi[a]) : m->hi[a];
+        }
+        any = true;
+    }
+}
+
 /* Depth of the water and the height that it can fall. */
 static void find_fall(const struct scene *s, double *depth, double *fall)
 {
-    static const double none[3] = {0.0};
-    double g[3], range[2], top = -INFINITY;
+    double g[3], range[2], top = -INFINITY, lo[3] = {0.0}, hi[3] = {0.0};
     bool still = true;
     *depth = *fall = 0.0;
     if (weight(s, g) == 0.0)
         return;
-    heights(s, g, none, none, range);
+    room_of(s, lo, hi);
+    heights(s, g, lo, hi, range);
     if (scene_has_wave(s)) {
         const double level = s->initial.level < LEVEL_TOP ? s->initial.level : range[1];
         *depth = fmin(level + fabs(s->initial.amplitude), range[1]) - range[0];
@@ -270,6 +318,11 @@ static double shortest(const struct scene *s)
             }
             least = hi > lo ? fmin(least, hi - lo) : least;
         }
+    for (int k = 0; s->meshes && k < s->meshes->n; k++) {
+        const struct scene_mesh *m = s->meshes->of + k;
+        for (int a = 0; a < 3 && m->owner != MESH_SHAPE; a++)
+            least = m->mesh.closed ? fmin(least, m->hi[a] - m->lo[a]) : least;
+    }
     return least;
 }
 
@@ -289,8 +342,8 @@ static bool has_jumps(const struct scene *s)
     }
     for (int k = 0; k < s->nbodies; k++) {
         const struct scene_body *b = s->bodies + k;
-        jumps = jumps || (b->kind == WALL_NO_SLIP &&
-                          (size_of(b->velocity) > 0.0 || b->spin != 0.0 || *b->motion));
+        jumps = jumps || (b->kind == WALL_NO_SLIP && (size_of(b->velocity) > 0.0 ||
+                                                      size_of(b->spin) > 0.0 || b->motion.n > 0));
     }
     return jumps;
 }

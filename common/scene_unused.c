@@ -2,6 +2,7 @@
  * table of key, the choices that use it, and why others do not.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_check.h"
+#include "scene_mesh.h"
 
 #include <stdio.h>
 
@@ -28,6 +29,8 @@ static void check_initial(const struct scene *s, const struct params *p, struct 
          "only the fields standing_wave and stokes have a wave"},
         {"initial.L_z", BIT(FIELD_STANDING_WAVE), "only the field standing_wave has it"},
     };
+    params_unused(p, f, "initial.seed", scene_has_meshes(s),
+                  "no mesh parts the room: the shapes say where the fluid is");
     for (size_t k = 0; !params_has_group(p, "blocks") && k < sizeof rows / sizeof rows[0]; k++)
         params_unused(p, f, rows[k].key, rows[k].fields & BIT(s->initial.field), rows[k].why);
 }
@@ -36,16 +39,39 @@ static void check_initial(const struct scene *s, const struct params *p, struct 
 static void check_key(const struct params *p, struct faults *f, const char *group, int k,
                       const char *name, bool used, const char *why)
 {
-    char key[64];
+    char key[128];
     snprintf(key, sizeof key, "%s.[%d].%s", group, k, name);
     params_unused(p, f, key, used, why);
+}
+
+/* Where a surface comes from, and what may be done to it on the way; used: it is a mesh's place. */
+static void check_surface(const struct scene *s, const struct params *p, struct faults *f,
+                          const char *group, int k, const struct scene_surface *is, bool used,
+                          const char *why)
+{
+    static const char *const keys[] = {"scale", "rotate", "translate", "weld"};
+    char key[64];
+    snprintf(key, sizeof key, "%s.[%d].mesh", group, k);
+    if (*is->mesh && s->domain.dim == 2)
+        params_fault(p, f, key,
+                     "a surface of triangles bounds a fluid of 3 dimensions: in the "
+                     "plane give points");
+    check_key(p, f, group, k, "mesh", used, why);
+    for (int i = 0; i < 4; i++)
+        check_key(p, f, group, k, keys[i], used && *is->mesh, "no mesh is given");
 }
 
 static void check_wall(const struct scene *s, const struct params *p, struct faults *f, int k)
 {
     const struct scene_wall *w = s->walls + k;
     const bool opening = w->kind >= WALL_INFLOW, out = w->kind == WALL_OUTFLOW;
-    check_key(p, f, "walls", k, "closed", w->side == SIDE_NONE, "a side of the domain has no ends");
+    const bool mesh = *w->surface.mesh != '\0';
+    check_key(p, f, "walls", k, "closed", w->side == SIDE_NONE && !mesh,
+              mesh ? "a mesh is closed or not" : "a side of the domain has no ends");
+    check_surface(s, p, f, "walls", k, &w->surface, true, "");
+    check_key(p, f, "walls", k, "fluid_side", mesh, "it is of a mesh");
+    check_key(p, f, "walls", k, "flip", mesh, "it turns the normals of a mesh: turn the points");
+    check_key(p, f, "walls", k, "thin", mesh, "it is of a mesh");
     check_key(p, f, "walls", k, "velocity", w->kind != WALL_SLIP && (!out || w->carried),
               out ? "at an outflow the pressure is given, the velocity is found"
                   : "the fluid slips: a slip wall drags nothing along; no_slip does");
@@ -56,13 +82,71 @@ static void check_wall(const struct scene *s, const struct params *p, struct fau
     check_key(p, f, "walls", k, "carried", out, "only an outflow can be");
 }
 
+/* Terms of a motion. */
+static void check_motion(const struct scene *s, const struct params *p, struct faults *f, int k)
+{
+    const struct scene_motions *all = &s->bodies[k].motion;
+    char group[48];
+    snprintf(group, sizeof group, "bodies.[%d].motion", k);
+    for (int i = 0; i < all->n; i++) {
+        const int kind = all->of[i].kind;
+        const bool file = kind == MOTION_FILE, sine = kind == MOTION_HARMONIC;
+        const bool power = kind == MOTION_POLYNOMIAL;
+        check_key(p, f, group, i, "file", file, "the kind of this term is not file");
+        check_key(p, f, group, i, "axis", !file, "the columns of a file say what moves");
+        check_key(p, f, group, i, "amplitude", sine, "only a harmonic term has it");
+        check_key(p, f, group, i, "period", sine, "only a harmonic term has it");
+        check_key(p, f, group, i, "phase", sine, "only a harmonic term has it");
+        check_key(p, f, group, i, "coefficients", power, "only a polynomial has them");
+        check_key(p, f, group, i, "from", power, "only a polynomial has it");
+        check_key(p, f, group, i, "until", power, "only a polynomial has it");
+    }
+}
+
+/* What forces need. */
+static void check_free(const struct scene *s, const struct params *p, struct faults *f, int k)
+{
+    static const char *const only[] = {"density", "mass",  "inertia", "lock",
+                                       "release", "load",  "torque",  "force_rule",
+                                       "lines",   "hinge", "slider",  "contact"};
+    const struct scene_body *b = s->bodies + k;
+    char group[48];
+    for (size_t i = 0; i < sizeof only / sizeof only[0]; i++)
+        check_key(p, f, "bodies", k, only[i], b->free,
+                  "no force moves this body: it wants free = true");
+    if (!b->free)
+        return;
+    check_key(p, f, "bodies", k, "inertia", b->density <= 0.0, "the density gives it");
+    check_key(p, f, "bodies", k, "centre", b->density <= 0.0,
+              "the density gives it: give mass, centre and inertia instead");
+    check_key(p, f, "bodies", k, "lock", b->hinge.n == 0, "a hinge leaves one rotation alone");
+    check_key(p, f, "bodies", k, "velocity", b->hinge.n == 0,
+              "a hinge lets the body turn alone: give spin");
+    snprintf(group, sizeof group, "bodies.[%d].lines", k);
+    for (int i = 0; i < b->lines.n; i++)
+        check_key(p, f, group, i, "length", b->lines.of[i].stiffness > 0.0,
+                  "a line without stiffness has no length of its own");
+    snprintf(group, sizeof group, "bodies.[%d].hinge.axis", k);
+    params_unused(p, f, group, s->domain.dim == 3, "in 2 dimensions it is z");
+    snprintf(group, sizeof group, "bodies.[%d].hinge.at_rest", k);
+    params_unused(p, f, group, b->hinge.n > 0 && b->hinge.of[0].stiffness > 0.0,
+                  "a hinge without stiffness has none");
+}
+
 static void check_body(const struct scene *s, const struct params *p, struct faults *f, int k)
 {
-    const bool moved = s->bodies[k].motion[0] != '\0';
-    check_key(p, f, "bodies", k, "velocity", !moved, "the file of motion says how the body moves");
-    check_key(p, f, "bodies", k, "spin", !moved, "the file of motion says how the body turns");
+    const struct scene_body *b = s->bodies + k;
+    bool file = false;
+    for (int i = 0; i < b->motion.n; i++)
+        file = file || b->motion.of[i].kind == MOTION_FILE;
+    check_key(p, f, "bodies", k, "velocity", !file, "the file of motion says how the body moves");
+    check_key(p, f, "bodies", k, "spin", !file, "the file of motion says how the body turns");
+    check_surface(s, p, f, "bodies", k, &b->surface, true, "");
+    check_key(p, f, "bodies", k, "thin", *b->surface.mesh, "it is of a mesh");
     check_key(p, f, "bodies", k, "force", k == 0,
               "error.force is that of the first body: put this one first");
+    check_motion(s, p, f, k);
+    check_free(s, p, f, k);
 }
 
 static void check_shape(const struct scene *s, const struct params *p, struct faults *f, int k)
@@ -70,6 +154,7 @@ static void check_shape(const struct scene *s, const struct params *p, struct fa
     const struct scene_shape *h = s->shapes + k;
     check_key(p, f, "shapes", k, "box", h->form == SHAPE_BOX, "the form is not box");
     check_key(p, f, "shapes", k, "points", h->form == SHAPE_POLYGON, "the form is not polygon");
+    check_surface(s, p, f, "shapes", k, &h->surface, h->form == SHAPE_MESH, "the form is not mesh");
     check_key(p, f, "shapes", k, "centre", h->form == SHAPE_DISC, "the form is not disc");
     check_key(p, f, "shapes", k, "radius", h->form == SHAPE_DISC, "the form is not disc");
     check_key(p, f, "shapes", k, "level", h->form == SHAPE_BELOW, "the form is not below");

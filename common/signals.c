@@ -22,6 +22,7 @@ enum { START = 120 }; /* s */
 static struct {
     char who[96];       /* "sph rank 0" */
     char note[1100];    /* path of the death note */
+    char hint[300];     /* where to look when a launcher ends the job and nobody here knows why */
     char heard[2][256]; /* the text in use and the one being written */
     bool launched;      /* by mpirun, which kills soon after its SIGTERM */
     volatile sig_atomic_t heard_now, stop, handled, started;
@@ -54,6 +55,15 @@ static bool print_note(void)
     if (text[n - 1] != '\n')
         put(STDOUT_FILENO, "\n");
     return true;
+}
+
+static void print_hint(void)
+{
+    put(STDOUT_FILENO, state.who);
+    put(STDOUT_FILENO, ": the launcher ends the job; if nobody has stopped it, ");
+    put(STDOUT_FILENO, state.hint);
+    put(STDOUT_FILENO, "\n");
+    *state.hint = '\0'; /* once */
 }
 
 static void leave_note(const char *what)
@@ -97,6 +107,8 @@ static void on_stop(int signal)
     if (signal == SIGTERM && !state.handled) {
         if (print_note())
             leave();
+        if (*state.hint && state.launched)
+            print_hint();
         const struct itimerval soon = {.it_value = {.tv_usec = 800000}};
         if (state.launched)
             setitimer(ITIMER_REAL, &soon, NULL);
@@ -144,7 +156,7 @@ void signals_start_mpi(int *argc, char ***argv, const char *program)
     MPI_Init(argc, argv);
     alarm(0);
     signal(SIGALRM, SIG_DFL);
-    if (state.launched) { /* programs that meet have handlers of their own (coupler/failure.c) */
+    if (state.launched) { /* programs that meet have handlers of their own (coupler: failure.c) */
         signal(SIGTERM, SIG_DFL);
         signal(SIGINT, SIG_DFL);
     }
@@ -193,6 +205,8 @@ void signals_handled(void) { state.handled = 1; }
 void signals_started(void) { state.started = 1; }
 
 void signals_note_path(const char *path) { snprintf(state.note, sizeof state.note, "%s", path); }
+
+void signals_hint(const char *text) { snprintf(state.hint, sizeof state.hint, "%s", text); }
 
 void signals_heard(const char *text)
 {

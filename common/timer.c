@@ -24,22 +24,23 @@ static int find(const struct timers *t, const char *name)
     return i;
 }
 
-int timer_index(struct timers *t, const char *name)
+static struct timer *timer_of(struct timers *t, const char *name)
 {
     const int i = find(t, name);
     if (i == t->n) {
         require(t->n < TIMER_MAX);
         t->of[t->n++] = (struct timer){.name = name};
     }
-    return i;
+    return t->of + i;
 }
 
-void timer_start(struct timers *t, int i) { t->of[i].start = wall_time(); }
+void timer_start(struct timers *t, const char *name) { timer_of(t, name)->start = wall_time(); }
 
-void timer_stop(struct timers *t, int i)
+void timer_stop(struct timers *t, const char *name)
 {
-    t->of[i].wall += wall_time() - t->of[i].start;
-    t->of[i].calls++;
+    struct timer *of = timer_of(t, name);
+    of->wall += wall_time() - of->start;
+    of->calls++;
 }
 
 double timer_wall(const struct timers *t, const char *name)

@@ -16,11 +16,9 @@ struct timers {
     } of[TIMER_MAX];
 };
 
-/* Index of the timer of this name; made at the first call. Keep the index: start and stop are
- * cheap. */
-int timer_index(struct timers *t, const char *name);
-void timer_start(struct timers *t, int i);
-void timer_stop(struct timers *t, int i);
+/* The timer of this name is made at the first start. */
+void timer_start(struct timers *t, const char *name);
+void timer_stop(struct timers *t, const char *name);
 double timer_wall(const struct timers *t, const char *name); /* s; 0 if there is none */
 double wall_time(void);                                      /* s, monotonic */
 double cpu_time(void); /* s of processor time of this process, all its threads */

@@ -232,3 +232,47 @@ void xdmf_curved(struct xdmf *x, double t, const char *file, int dim, int nblock
     add(x, "</Grid>\n");
     rewrite(x);
 }
+
+void xdmf_surfaces(struct xdmf *x, double t, int n, const struct xdmf_surface *of)
+{
+    add(x,
+        "<Grid Name=\"at\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time "
+        "Value=\"%.17g\"/>\n",
+        t);
+    for (int k = 0; k < n; k++)
+        add(x,
+            "<Grid Name=\"%s\" GridType=\"Uniform\">\n<Topology TopologyType=\"Triangle\" "
+            "NumberOfElements=\"%d\"><DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"8\" "
+            "Dimensions=\"%lld\">%s:/%s</DataItem></Topology>\n<Geometry GeometryType=\"XYZ\">"
+            "<DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"4\" Dimensions=\"%d "
+            "3\">%s:/%s</DataItem></Geometry>\n</Grid>\n",
+            of[k].name, of[k].ntriangles, 3LL * of[k].ntriangles, of[k].triangles_file,
+            of[k].triangles, of[k].nvertices, of[k].vertices_file, of[k].vertices);
+    add(x, "</Grid>\n");
+    rewrite(x);
+}
+
+void xdmf_outlines(struct xdmf *x, double t, const char *file, int nlines, const char *const *names,
+                   const int *n)
+{
+    add(x,
+        "<Grid Name=\"at\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time "
+        "Value=\"%.17g\"/>\n",
+        t);
+    for (int k = 0; k < nlines; k++) {
+        add(x,
+            "<Grid Name=\"%s\" GridType=\"Uniform\">\n<Topology TopologyType=\"Polyline\" "
+            "NumberOfElements=\"1\" NodesPerElement=\"%d\"><DataItem Format=\"XML\" "
+            "NumberType=\"Int\" Dimensions=\"1 %d\">",
+            names[k], n[k] + 1, n[k] + 1);
+        for (int i = 0; i <= n[k]; i++)
+            add(x, "%d ", i % n[k]);
+        add(x,
+            "</DataItem></Topology>\n<Geometry GeometryType=\"XY\"><DataItem Format=\"HDF\" "
+            "NumberType=\"Float\" Precision=\"4\" Dimensions=\"%d 2\">%s:/outline_%d</DataItem>"
+            "</Geometry>\n</Grid>\n",
+            n[k], file, k + 1);
+    }
+    add(x, "</Grid>\n");
+    rewrite(x);
+}

@@ -37,5 +37,15 @@ void xdmf_flat(struct xdmf *x, double t, const char *file, const char *grid, con
 /* Structured blocks of any shape: vertices in datasets x_1, x_2, ..., fields in NAME_1, ... */
 void xdmf_curved(struct xdmf *x, double t, const char *file, int dim, int nblocks,
                  const int (*cells)[3], int nfields, const struct xdmf_field *fields);
+/* Surfaces of triangles: vertices [nvertices][3] of one file, 3 ntriangles indices of another. */
+struct xdmf_surface {
+    const char *name, *vertices_file, *triangles_file;
+    char vertices[80], triangles[80]; /* names of the datasets */
+    int nvertices, ntriangles;
+};
+void xdmf_surfaces(struct xdmf *x, double t, int n, const struct xdmf_surface *of);
+/* Closed lines in the plane: line k has n[k] corners in dataset "outline_K", K from 1. */
+void xdmf_outlines(struct xdmf *x, double t, const char *file, int nlines, const char *const *names,
+                   const int *n);
 
 #endif

@@ -1,6 +1,6 @@
 /* coupler.c - main program of the coupler: meets the solvers, checks their plan, then answers
  * messages until all have said goodbye. SPDX-License-Identifier: BSD-3-Clause */
-#include "coupler.h"
+#include "server/coupler.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,13 +11,12 @@
 #include "../common/log.h"
 #include "../common/mem.h"
 #include "../common/timer.h"
-#include "alive.h"
-#include "failure.h"
+#include "transport/alive.h"
+#include "transport/failure.h"
 
 static const double look_every = 0.05, stall_first = 60.0; /* s */
 static const char help[] =
     "brings the solvers of a job together: fields, time windows, restart points";
-static const char *const others[] = {"sph", "fv", "walls", "bodies", NULL};
 
 static _Noreturn void broken(const char *what) { fail("%s", what); }
 static void leave_note(const char *reason) { (void)failure_note(reason); }
@@ -204,7 +203,7 @@ static void answer(struct coupler *c, struct message **m)
     default:
         fail("%s rank %d sent message %d out of order", s->name, (*m)->rank, (*m)->head.kind);
     }
-    if (c->rank == 0 && rendezvous_starved(c, text)) {
+    if ((c->rank == 0 && rendezvous_starved(c, text)) || rendezvous_skipped(c, text)) {
         log_quiet("%s", text);
         signals_handled();
         failure_die(RUN_PARTNER, text);
@@ -295,44 +294,51 @@ static int couple(struct coupler *c, struct faults *faults)
     return code;
 }
 
-static void describe(const struct coupler *c)
+/* How sph and fv meet, by the case that they share. */
+static void describe_scene(const struct coupler *c)
 {
-    const struct scene_output *o = &c->scene.output;
-    log_say("%s: %dD, to t = %g s, outputs every %g s", c->command->case_file, c->scene.domain.dim,
-            c->scene.time.end, o->every);
-    if (!c->scene.has_sph || !c->scene.has_fv) {
-        log_say("not a coupled job: it has %s", c->scene.has_sph  ? "group sph only"
-                                                : c->scene.has_fv ? "group fv only"
-                                                                  : "no group sph or fv");
-        return;
-    }
-    if (c->scene.coupling.steps > 0)
-        log_say("sph and fv exchange every %d steps of sph", c->scene.coupling.steps);
+    const struct scene_coupling *k = &c->scene.coupling;
+    if (k->steps > 0)
+        log_say("sph and fv exchange every %d steps of sph", k->steps);
     else
         log_say("sph and fv exchange as often as sph finds that the flow wants");
     log_say("  fv -> sph  velocity, pressure: %s, everywhere but the free zone",
-            c->scene.coupling.interpolation ? "cubic" : "linear");
+            k->interpolation ? "cubic" : "linear");
     log_say("  sph -> fv  velocity: %s, at the cells that fv leaves to sph",
-            c->scene.coupling.mapping ? "moving least squares" : "Shepard");
-    log_say("  transition %g m, buffer %g m (0: 1.25 R)", c->scene.coupling.transition,
-            c->scene.coupling.buffer);
+            k->mapping ? "moving least squares" : "Shepard");
+    log_say("  transition %g m, buffer %g m (0: 1.25 R)", k->transition, k->buffer);
+}
+
+static void describe(const struct coupler *c)
+{
+    log_say("%s: t = %g to %g s, outputs every %g s", c->command->case_file, c->job.start,
+            c->scene.time.end, c->scene.output.every);
+    if (c->job.programs[0])
+        log_say("programs: %s; they declare their fields when they start", c->job.programs);
+    else if (c->scene.has_sph && c->scene.has_fv)
+        describe_scene(c);
+    else if (c->job.shared)
+        log_say("not a coupled job: it has group %s only", c->scene.has_sph ? "sph" : "fv");
+    else
+        log_say("programs: any; they declare their fields when they start");
 }
 
 /* Who else is here; false: no job, the reason is printed. */
 static bool find_partners(struct coupler *c)
 {
-    const int met = handshake(c->world, "coupler", c->command->deadline, &c->who);
+    const int met = handshake(c->world, "coupler", c->command->deadline, CPL_VERSION, &c->who);
     c->comm = c->who.mine;
     MPI_Comm_rank(c->comm, &c->rank);
     MPI_Comm_size(c->comm, &c->size);
     log_open(c->comm, "coupler");
     signals_install("coupler", c->rank);
+    signals_hint(failure_hint());
     if (met != 0)
         log_say("%s", c->who.text);
     return met == 0;
 }
 
-static int run(struct coupler *c, const struct param_group *groups)
+static int run(struct coupler *c)
 {
     struct faults faults = {0};
     const struct command_line *l = c->command;
@@ -340,11 +346,7 @@ static int run(struct coupler *c, const struct param_group *groups)
     c->comm = c->world;
     if (!l->check && !find_partners(c))
         return RUN_INPUT;
-    c->params = params_read(c->comm, l->case_file, l->noverrides, l->overrides, groups,
-                            SCENE_GROUPS, others, &faults);
-    c->scene.has_sph = params_has_group(c->params, "sph");
-    c->scene.has_fv = params_has_group(c->params, "fv");
-    scene_check(&c->scene, c->params, &faults);
+    c->params = job_read(&c->job, &c->scene, c->comm, l, l->check ? NULL : &c->who, &faults);
     accept_check(&c->scene, c->case_dir, c->params, &faults);
     c->hash = params_hash(c->params);
     if (!l->check)
@@ -363,7 +365,7 @@ int main(int argc, char **argv)
 {
     static struct coupler c; /* large */
     struct command_line command;
-    struct param_group groups[SCENE_GROUPS];
+    struct param_group groups[JOB_GROUPS];
     signals_start_mpi(&argc, &argv, "coupler");
     c.world = MPI_COMM_WORLD;
     c.command = &command;
@@ -373,12 +375,12 @@ int main(int argc, char **argv)
     c.line_at = c.start + c.line_every;
     c.stall_every = stall_first;
     c.stall_at = c.start + c.stall_every;
-    scene_groups(&c.scene, groups);
-    int code = run_command_line(&command, argc, argv, "coupler", help, groups, SCENE_GROUPS);
+    job_groups(&c.job, &c.scene, groups);
+    int code = run_command_line(&command, argc, argv, "coupler", help, groups, JOB_GROUPS);
     if (code < 0) {
         snprintf(c.dir, sizeof c.dir, "%s", command.dir);
         run_case_dir(command.case_file, c.case_dir, sizeof c.case_dir);
-        code = run(&c, groups);
+        code = run(&c);
     }
     mem_free((void *)(uintptr_t)command.overrides);
     MPI_Finalize();

@@ -1,14 +1,15 @@
 /* cpl.h - what a solver calls to take part in a coupled job.
- * The only header that a third-party solver needs; link with libcpl.a and MPI. tests/mock.c is the
- * smallest complete solver.
+ * The only header that a third-party solver needs; link with -lcpl and MPI. coupler/README.md has a
+ * page "your solver in ten calls", coupler/examples/ a plain partner.
  *
- * All calls are collective over the solver's communicator, but cpl_fail, cpl_waited,
- * cpl_window_number and cpl_patch_eval. Lengths are in m, times in s. The caller keeps its arrays,
- * the library copies. n = 0 is legal on any rank. Calls return 0 or a negative enum cpl_error;
- * cpl_strerror says what, where and how to mend. After CPL_EPARTNER every further call returns it
- * at once.
+ * All calls are collective over the solver's communicator, but cpl_fail, cpl_waited, cpl_heard,
+ * cpl_window_number, cpl_version, cpl_strerror, cpl_cell and cpl_patch_eval. Lengths are in m,
+ * times in s. The caller keeps its arrays, the library copies. n = 0 is legal on any rank, on all
+ * of them, too. Calls return 0 or a negative enum cpl_error; cpl_strerror says what, where and how
+ * to mend. After CPL_EPARTNER every further call returns it at once. Nothing is cut short: names of
+ * CPL_NAME bytes and more, or more sets and fields than fit, are refused.
  *
- * Order: open, zone ..., meet, find_zone ..., grid/points/field ..., ready,
+ * Order: open, zone ..., meet, find_zone ..., grid/points/period/field ..., ready,
  *        then per window: window, [move, put, get, patch_get] ..., advance; at last close.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_CPL_H
@@ -22,9 +23,9 @@ extern "C" {
 #endif
 
 enum {
-    CPL_VERSION = 2,
-    CPL_NAME = 64,
-    CPL_TERMS = 4 /* in time, of a grid's field */
+    CPL_VERSION = 3, /* of this header: programs, library and coupler must have the same */
+    CPL_NAME = 64,   /* bytes of a name, the closing zero among them */
+    CPL_TERMS = 4    /* in time */
 };
 enum cpl_error {
     CPL_OK = 0,
@@ -34,16 +35,38 @@ enum cpl_error {
 };
 /* What a window asks for, bits. */
 enum { CPL_RUN = 1, CPL_OUTPUT = 2, CPL_SAVE = 4, CPL_STOP = 8 };
-enum cpl_direction { CPL_PUT = 1, CPL_GET = 2 };
-enum cpl_mapping { CPL_SHEPARD, CPL_MLS };        /* points to points */
+/* A field that is put must have a taker, unless CPL_OPTIONAL is added. */
+enum cpl_direction { CPL_PUT = 1, CPL_GET = 2, CPL_OPTIONAL = 4 };
+/* Points to points, within the support radius of the taker's set. Consistent: what the taker gets
+ * is a mean of what is around it (constants are kept, by CPL_MLS linear functions, too).
+ * With CPL_CONSERVATIVE added, its transpose: each giver's value (a force, a mass: something that
+ * adds up) is dealt out to the taker's points around it by weights whose sum is 1, so the sum over
+ * all points is kept to rounding; a giver without a taker in reach gives all to the nearest one. */
+enum cpl_mapping { CPL_SHEPARD, CPL_MLS, CPL_NEAREST, CPL_CONSERVATIVE = 16 };
 enum cpl_interpolation { CPL_LINEAR, CPL_CUBIC }; /* grid to anywhere */
+/* Which values a read is made of. A put holds them at one time, the start or the end of a window,
+ * with a polynomial in time around it where the giver has one. */
+enum cpl_when {
+    CPL_START,  /* those of the window's start, followed in time: waits for nobody's window */
+    CPL_END,    /* those of its end: waits until the giver has done the window */
+    CPL_BETWEEN /* the straight line between the two */
+};
 
 struct cpl; /* a solver's place in the job: made by cpl_open, freed by cpl_close */
 
+/* The library's CPL_VERSION. */
+int cpl_version(void);
+/* cpl_open for those who cannot include this header: `version' is the one they were written for. */
+int cpl_open_as(int version, MPI_Comm world, const char *name, double deadline_s, struct cpl **c,
+                MPI_Comm *mine);
 /* Meets all ranks of `world' within `deadline_s'. Programs are told apart by `name', not by place.
  * *mine: the ranks of this name (belongs to the library). *c is NULL, and all is well, when no
  * other program is there: the solver runs alone. */
-int cpl_open(MPI_Comm world, const char *name, double deadline_s, struct cpl **c, MPI_Comm *mine);
+static inline int cpl_open(MPI_Comm world, const char *name, double deadline_s, struct cpl **c,
+                           MPI_Comm *mine)
+{
+    return cpl_open_as(CPL_VERSION, world, name, deadline_s, c, mine);
+}
 
 /* s without a sign of life after which a partner counts as hung and ends the job (120; the same in
  * all programs of a job); before cpl_meet. Signs come from a thread of the library, also while the
@@ -74,49 +97,71 @@ int cpl_grid(struct cpl *c, const char *set, const struct cpl_grid *g, int *id);
 /* A cloud of points. support: radius in m of the kernel in which points of another cloud are
  * gathered for this one (0 if this set only gives). */
 int cpl_points(struct cpl *c, const char *set, int dim, double support, int *id);
-/* A field of a set. Who gives and who takes is matched by the field's name; unit and ncomp must
- * agree. From a grid it arrives as a patch (cpl_patch_get), from points mapped to the taker's
- * points (cpl_get). For CPL_GET: mapping (points) or interpolation (grid). */
-int cpl_field(struct cpl *c, int set, const char *name, const char *unit, int ncomp,
-              enum cpl_direction d, int how, int *id);
-/* The plan is checked by the coupler: all problems at once, printed by all programs. dt_wish: the
- * longest window this solver wants (INFINITY: no wish). A giver of grid fields puts their first
- * values after this and before the first cpl_window. */
+/* Points and their distances repeat themselves by period[a] m in direction a (0: not). Of the
+ * taker's set, or the giver's, or of the coupler's case (coupler.period, domain.periodic). */
+int cpl_period(struct cpl *c, int set, const double period[3]);
+/* A field of a set: 1 to 64 components. One set of one program gives it, any number of sets of
+ * others take it: matched by the field's name; unit and ncomp must agree. From a grid it arrives as
+ * a patch (cpl_patch_get), from points mapped to the taker's points (cpl_get). d: cpl_direction;
+ * how: for CPL_GET, cpl_mapping (points) or cpl_interpolation (grid). */
+int cpl_field(struct cpl *c, int set, const char *name, const char *unit, int ncomp, int d, int how,
+              int *id);
+/* The plan is checked by the coupler: all problems at once, printed by all programs. t: where this
+ * solver starts, the same in all. dt_wish: the longest window it wants (INFINITY: no wish). A giver
+ * of grid fields puts their first values after this and before the first cpl_window. */
 int cpl_ready(struct cpl *c, double t, double dt_wish);
 
 /* The next window [t0, t1] and its action; CPL_STOP: there is none, *code is the job's exit code (0
  * done, 3 diverged, 5 stopped on request). */
 int cpl_window(struct cpl *c, double *t0, double *t1, int *action, int *code);
 /* New places of a set's points on this rank: x[3 n], ids that are unique over all ranks (sums run
- * in their order, so results do not depend on the number of ranks), volumes (m^dim; NULL for
- * takers). Kept until the next call. */
+ * in their order, so results do not depend on the number of ranks), volumes (m^dim): their weight
+ * as givers, and as takers of a conservative mapping (NULL: all alike). Takers of consistent ones
+ * need neither (NULL). Kept until the next call. */
 int cpl_move(struct cpl *c, int set, long n, const double *x, const int64_t *gid,
              const double *volume);
+/* The same for general cells, held by their centroids and volumes. In 2D polygons of nvertex[i] >=
+ * 3 corners in order; in 3D tetrahedra (4), pyramids (5), wedges (6) and hexahedra (8) in VTK's
+ * order. x: the corners, 3 numbers each, cell after cell. CPL_EINPUT for a cell without volume. */
+int cpl_move_cells(struct cpl *c, int set, long n, const int *nvertex, const double *x,
+                   const int64_t *gid);
+/* Centroid and volume of one such cell; volume 0: none. */
+void cpl_cell(int dim, int nvertex, const double *x, double centroid[3], double *volume);
 /* Gives a field at time t, the start or the end of the window: v[n ncomp] in the order of cpl_move,
- * or of the grid's block (x fastest). dvdt: its time derivative, grids only, NULL: zero. */
+ * or of the grid's block (x fastest). dvdt: its time derivative, NULL: zero. Once at each time, in
+ * their order: the end of a window is the start of the next. */
 int cpl_put(struct cpl *c, int field, double t, long n, const double *v, const double *dvdt);
-/* The same of a grid with its course in time: v(t') = sum of term[k] (t' - t)^k over k < nterms, at
- * most CPL_TERMS; term[0] the values. */
+/* The same with its course in time: v(t') = sum of term[k] (t' - t)^k over k < nterms, at most
+ * CPL_TERMS; term[0] the values. nterms must be the same on all ranks. */
 int cpl_put_course(struct cpl *c, int field, double t, long n, int nterms,
                    const double *const term[]);
-/* Takes a mapped field at the last moved points and the window's end: waits for the giver. mask[n]:
- * 1 mapped, 0 no point within the support (v untouched); may be NULL. */
+/* Takes a mapped field at the last moved points and a time t of the window. mask[n]: 1 mapped, 0 no
+ * point within the support (v untouched); may be NULL. Of points that have moved in the window
+ * CPL_BETWEEN joins what was mapped from the old places and from the new ones. */
+int cpl_get_at(struct cpl *c, int field, enum cpl_when when, double t, long n, double *v,
+               unsigned char *mask);
+/* The same with CPL_END at the window's end. */
 int cpl_get(struct cpl *c, int field, long n, double *v, unsigned char *mask);
-/* Takes a grid field around the box [lo, hi] (this rank's; lo > hi: none): waits for the giver. The
- * patch stays until the next call. In a window the first call takes the values at its start, the
- * second those at its end. */
+/* Takes a grid field around the box [lo, hi] (this rank's; lo > hi: none); cpl_patch_eval then
+ * knows it at any time. The patch stays until the next call. */
+int cpl_patch_get_at(struct cpl *c, int field, enum cpl_when when, const double lo[3],
+                     const double hi[3]);
+/* The same: in a window the first call with CPL_START, the second with CPL_END. */
 int cpl_patch_get(struct cpl *c, int field, const double lo[3], const double hi[3]);
 /* Evaluates the patch at n points x[3 n] and time t; no communication. v[n ncomp]; grad[n ncomp 3]
  * or NULL. Points outside the patch get the value of its nearest place. */
 void cpl_patch_eval(const struct cpl *c, int field, double t, long n, const double *x, double *v,
                     double *grad);
 /* Number for the coupler's progress line and summary, sent with the next advance or close. Sums of
- * norms "norm.velocity.e2" add up over programs. Rank 0's value counts. */
+ * norms "norm.velocity.e2" add up over programs. Rank 0's value counts; a key has at most 95 bytes,
+ * a program 192 keys. */
 int cpl_tell(struct cpl *c, const char *key, double value);
 /* The window is done. stop: asks for an orderly end of the job. */
 int cpl_advance(struct cpl *c, double t1, int stop);
-/* A restart file of the current window is complete; the manifest is written when all have said so.
- */
+/* A restart file (a name of at most 255 bytes, without spaces) of the current window is complete.
+ * The manifest DIR/checkpoint.txt is written when all have said so: lines "window N", "t T",
+ * "PROGRAM FILE". To go on from there: the coupler with --restart, cpl_meet with N, cpl_ready with
+ * T. */
 int cpl_saved(struct cpl *c, const char *file);
 
 int64_t cpl_window_number(const struct cpl *c);

@@ -6,6 +6,7 @@
 
 #include "../common/log.h"
 #include "cpl.h"
+#include "transport/failure.h"
 
 static void must(struct cpl *c, int code)
 {
@@ -34,6 +35,7 @@ static int partner_open(MPI_Comm world, const char *name, double deadline, doubl
     const int code = cpl_open(world, name, deadline, &c, comm);
     *ctx = c;
     cpl_patience(c, patience);
+    signals_hint(failure_hint());
     return code == CPL_OK ? RUN_DONE : RUN_INPUT;
 }
 

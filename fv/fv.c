@@ -8,16 +8,22 @@
 #include "../common/log.h"
 #include "../common/mem.h"
 #include "../coupler/cpl_partner.h"
-#include "levelset.h"
-#include "limits.h"
-#include "mesh_flow.h"
-#include "rows.h"
-#include "watches.h"
+#include "boundary/blocked.h"
+#include "surface/levelset.h"
+#include "time/newton.h"
+#include "watch/limits.h"
+#include "output/mesh_output.h"
+#include "fv.h"
+#include "grid/mesh.h"
+#include "grid/rows.h"
+#include "watch/watches.h"
+#include "case/fv_case.h"
+#include "time/steps.h"
+#include "output/output.h"
+#include "coupling/fv_link.h"
 
-static const char *columns[21 + 3 * MESH_BLOCKS_MAX + PROBES_MAX] = {
-    "kinetic energy [J]", "largest velocity [m/s]", "divergence [m/s]"};
-static const char *const of_newton[] = {"residual [-]", "pseudo step [s]", "newton iterations [-]",
-                                        "krylov vectors [-]"};
+/* Those of rows, forces and watches at most, blocks and gauges. */
+static const char *columns[40 + 3 * MESH_BLOCKS_MAX + 3 * BLOCKED_MAX + PROBES_MAX];
 static struct program fv_program; /* its columns depend on the scene */
 
 static void describe_rows(const struct run *r)
@@ -70,6 +76,7 @@ static void describe(const struct run *r)
             hole ? ", forced cells" : "", water ? "coupling" : "free surface",
             walls ? "" : ", walls", viscous ? "" : ", viscous solver",
             hole ? "" : ", forced cells");
+    blocked_describe(r);
     if (prm->graded[1] > 0.0)
         describe_rows(r);
     log_say(
@@ -81,53 +88,9 @@ static void describe(const struct run *r)
         forecast_say("fv", d->dim, cells, ceil(r->scene.time.end / dt));
 }
 
-static void destroy_mesh(void *state)
-{
-    struct mesh_flow *s = state;
-    mesh_flow_free(&s);
-}
-
-static double step_mesh(void *s, double t_stop, struct diagnosis *d)
-{
-    return mesh_integrate(s, t_stop, d);
-}
-
-/* The case has blocks: another state behind the same program. */
-static void *create_mesh(struct run *r, struct h5 *f)
-{
-    const int n = mesh_columns(r, columns);
-    fv_program.destroy = destroy_mesh;
-    fv_program.step = step_mesh;
-    fv_program.row = mesh_row_values;
-    fv_program.progress = mesh_progress;
-    fv_program.snapshot = mesh_snapshot;
-    fv_program.checkpoint = mesh_checkpoint;
-    fv_program.finish = mesh_finish;
-    struct mesh_flow *s = mesh_flow_create(r, f);
-    fv_program.ncolumns = n + (s ? watches_columns(s->watches, columns + n) : 0);
-    return s;
-}
-
 static void *create(struct run *r, struct h5 *f)
 {
-    if (mesh_block_count() > 0)
-        return create_mesh(r, f);
-    static const char *const forces[] = {"force x [N]", "force y [N]", "force z [N]"};
-    static const char *const reaches[] = {"water up to x [m]", "water up to y [m]",
-                                          "water up to z [m]"};
-    int n = 3;
-    if (exact_at_all_times(&r->scene) && !surface_wanted(r))
-        columns[n++] = "error velocity l2 [-]";
-    for (int a = 0; r->scene.nwalls > 0 && a < r->scene.domain.dim; a++)
-        columns[n++] = forces[a];
-    for (int k = 0; k < 4 && fv_params_of(r)->integrator == INTEGRATOR_NEWTON; k++)
-        columns[n++] = of_newton[k];
-    if (surface_wanted(r)) {
-        columns[n++] = "volume [m^dim]";
-        for (int a = 0; a < r->scene.domain.dim; a++)
-            columns[n++] = reaches[a];
-    }
-    n += fv_probe_columns(r, columns + n);
+    int n = fv_columns(r, columns);
     struct fv *s = fv_create(r, f);
     n += s ? watches_columns(s->watches, columns + n) : 0;
     if (r->coupled)

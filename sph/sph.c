@@ -10,18 +10,21 @@
 #include "../common/log.h"
 #include "../common/picture.h"
 #include "../common/scene_fluid.h"
+#include "../common/scene_mesh.h"
 #include "../coupler/cpl_partner.h"
-#include "domain.h"
-#include "overlap.h"
+#include "parallel/domain.h"
+#include "coupling/overlap.h"
 #include "sph_params.h"
-#include "windows.h"
-#include "zones.h"
+#include "case/sph_sense.h"
+#include "coupling/windows.h"
+#include "open_boundaries/zones.h"
+#include "pairs/vec.h"
 
 static const char *columns[SPH_COLUMNS];
 static struct program sph_program; /* its columns depend on the scene */
 
-/* Part of the region that is fluid at the start, by a few thousand samples; walls and bodies not
- * taken off. */
+/* Part of the region that is fluid at the start, by a few thousand samples; of walls and bodies
+ * meshes alone are taken off. */
 static double share_of_fluid(const struct run *r, const struct sph_params *prm)
 {
     const int dim = r->scene.domain.dim, m = dim == 2 ? 96 : 24;
@@ -34,7 +37,7 @@ static double share_of_fluid(const struct run *r, const struct sph_params *prm)
                 double x[3] = {0.0, 0.0, 0.0};
                 for (int a = 0; a < dim; a++)
                     x[a] = prm->box[0][a] + (at[a] + 0.5) / m * (prm->box[1][a] - prm->box[0][a]);
-                in += scene_is_fluid(&r->scene, &e, x, NULL);
+                in += scene_matter(&r->scene, &e, x) == MATTER_FLUID;
             }
     return in / pow(m, dim);
 }
@@ -56,13 +59,15 @@ static double pairs_of_particle(const struct run *r)
     return r->scene.domain.dim == 2 ? M_PI * R * R : 4.0 / 3.0 * M_PI * R * R * R;
 }
 
-/* Bytes of a particle: rows, lines and list; the support holds theta/dx^D of them, the list 1.2
- * times. */
+/* Bytes of a particle: rows, lines, surface and places of the list, with room to grow; entries of
+ * the list, 1.1 times what the support holds, and what pads them. */
 static double bytes_per_particle(const struct run *r)
 {
-    const int dim = r->scene.domain.dim;
-    const double theta = pairs_of_particle(r);
-    return 8.0 * (4 * (2 * dim + 2) + 8 + (dim == 2 ? 8 : 16)) + 9.0 + 4.0 * 1.2 * theta + 40.0;
+    const struct sph_params *prm = sph_params_of(r);
+    const int dim = r->scene.domain.dim, rows = prm->integrator == INTEGRATOR_RK4 ? 4 : 3;
+    const int surface = prm->surface == SURFACE_YES ? 2 * dim + dim * dim + 1 : 0;
+    const double line = 8.0 * (rows * (2 * dim + 2) + 8 + (dim == 2 ? 8 : 16) + surface) + 10.0;
+    return 1.12 * (line + 25.0) + 4.0 * 1.1 * (1.1 * pairs_of_particle(r) + LANES);
 }
 
 /* One line of what the scene uses and what it leaves out. */
@@ -84,7 +89,7 @@ static void describe_modules(const struct run *r, bool gravity, bool viscous)
         {sph_params_zones(r),
          prm->outer == OUTER_SIDES ? "inlets and outlets" : "zones and openings",
          "zones and openings"},
-        {prm->packing > 0 && has_walls, "packing", "packing"},
+        {prm->packing > 0, "packing", "packing"},
         {r->scene.nprobes > 0, "gauges", "gauges"},
         {false, "", "refinement"},
     };
@@ -161,6 +166,7 @@ static void warn_of(const struct run *r)
     const struct scene_speed v = sph_params_speed(r);
     const double bound = sph_params_cfl_bound(prm, r->scene.domain.dim);
     warn_narrow(r, prm);
+    sph_meshes_warn(r, prm);
     if (prm->cfl > 0.85 * bound)
         log_warn("sph.cfl = %g is close to the stability bound of this scheme, %g", prm->cfl,
                  bound);
@@ -192,6 +198,7 @@ static void describe(const struct run *r)
     const char *limit;
     const double dt = sph_params_dt(prm, r->scene.fluid.nu, prm->c0, &limit), n = lattice(r);
     describe_scene(r);
+    scene_meshes_say(&r->scene);
     log_say("about %.0f particles, dx %g m, R/dx %g, c0 %g m/s; %.0f MB", n, prm->dx, prm->R_dx,
             prm->c0, 1e-6 * n * bytes_per_particle(r));
     const struct scene_speed v = sph_params_speed(r);
@@ -311,6 +318,7 @@ static struct program sph_program = {.name = "sph",
                                      .groups = sph_groups,
                                      .ngroups = SPH_GROUPS,
                                      .other_groups = others,
+                                     .meshes = scene_meshes_read,
                                      .check = check,
                                      .describe = describe,
                                      .draw = draw,

@@ -9,7 +9,8 @@
 
 #include "../common/fit.h"
 #include "../common/run.h"
-#include "sph_watch.h"
+#include "particles/particles.h"
+#include "watch/sph_watch.h"
 
 /* Vila [2.86-2.89]; Leduc [2.96-2.99]; Antuono [2.60-2.63]; [2.47-2.50] with [2.58-2.59] */
 enum sph_scheme { SCHEME_RIEMANN_ALE, SCHEME_RIEMANN, SCHEME_DELTA, SCHEME_STANDARD, SCHEME_AUTO };
@@ -28,8 +29,9 @@ enum sph_viscosity {
 }; /* auto: in cases only */
 enum sph_outer { OUTER_NONE, OUTER_EXACT, OUTER_PARTNER, OUTER_SIDES };
 enum sph_walls { WALLS_NFM, WALLS_GHOSTS, WALLS_AUTO };
+enum sph_integrals { INTEGRALS_CLOSED, INTEGRALS_CLIPPED, INTEGRALS_CENTROIDS };
+enum sph_integrator { INTEGRATOR_RK4, INTEGRATOR_J3, INTEGRATOR_AUTO }; /* time/runge_kutta.h */
 enum sph_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
-enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
 
 struct sph_params {
     double dx;    /* m */
@@ -42,11 +44,14 @@ struct sph_params {
     double damper;        /* acoustic damper beta, 0: off */
     double alpha, delta;  /* of schemes delta and standard: [2.58, 2.62], [2.60] for R */
     bool background;      /* pressure that lifts the least one to 0 [2.105] */
+    int integrator;       /* enum sph_integrator */
     double cfl;           /* CFL_a of [2.102] */
     double cfl_viscous;   /* CFL_v of [2.103] */
     double box[2][3];     /* outer face of the buffer; all 0: the whole domain, no zones */
     double free[2][3];    /* instead of box: the free zone; box is the widths of the zones larger */
     int walls;            /* enum sph_walls */
+    int wall_integrals;   /* enum sph_integrals */
+    int wall_squares;     /* along each side, of clipped ones */
     int surface;          /* enum sph_surface: the fluid has a free surface */
     int outer;            /* what feeds the zones: none, exact, partner */
     double density_limit; /* |rho/rho0 - 1| that ends the run; 0: as the flow has it */
@@ -55,30 +60,12 @@ struct sph_params {
     double extrema[3];    /* m/s: known ones on the centre lines, see sph_lines.c; 0: none */
 };
 
-/* Particles of one size level. State and rates are rows of nstate doubles,
- *   x[dim], q[dim] = m u, w (volume), m (mass),
- * so that Runge-Kutta is one loop. Lines are what the pair loops load: 64-byte multiples, aligned;
- * row `capacity' of lines is the dummy that pads neighbour rows (far away, volume 0).
- *   prim  [8]:        x[dim] u[dim] w rho (2D: then p c)
- *   slope [8 | 16]:   grad rho [dim], grad u [dim][dim] (a: component, b: direction), u0 [dim]
- * Locals are 0 .. n-1, sorted by cell; ghosts (halo of other ranks, periodic images) n ..
- * n+nghost-1: only prim and slope exist for them. */
-struct particles {
-    int n, nghost, capacity;
-    int nstate;                  /* 2 dim + 2 */
-    int nslope;                  /* 8 (2D) or 16 (3D) */
-    double *y, *y0, *sum, *rate; /* [capacity][nstate] state, at t_n, RK sum, time derivative */
-    double *prim;                /* [capacity+1][8] */
-    double *slope;               /* [capacity+1][nslope] */
-    int64_t *id;                 /* [capacity] unique over all ranks */
-    unsigned char *zone;         /* [capacity] enum sph_zone */
-};
-
 struct sph;
 struct neighbours; /* cell grid and list of pairs; neighbours.h */
 struct domain;     /* partition over ranks, migration, halo; domain.h */
 struct walls;      /* walls and bodies; walls.h; NULL: none */
 struct surface;    /* free surface; surface.h; NULL: none */
+struct stages;     /* scheme in time; time/runge_kutta.h */
 struct zones;      /* transition, buffer, openings; zones.h; NULL: none */
 
 /* The two passes of a pair interaction; scheme.h. */
@@ -106,19 +93,22 @@ struct sph {
     struct domain *domain;
     struct scheme passes;        /* what the parameters name */
     const struct scheme *scheme; /* &passes */
+    const struct stages *stages; /* borrowed for ever */
     struct zones *zones;
     struct walls *walls;
     struct surface *surface;
     double background; /* Pa: of this stage [2.105] */
     double skin;       /* m: the list holds pairs within R + skin */
+    double skin_most;  /* m: what ghosts are prepared for, and half a period has room for */
     bool ready;        /* list and ghosts belong to the positions of y; whoever moves, adds or
                           removes particles outside a step clears it */
+    bool sloped;       /* prim and slope, too, and the next stage may take them as they are */
     bool packing;      /* the first lattice is being rearranged, nothing flows */
     bool broken;       /* the state cannot be trusted: no list is made of it any more */
     int64_t next_id;   /* of the next particle born on this rank: rank + k size */
     /* of the last step, over all ranks */
     double max_speed, max_shift, rho_min, rho_max, max_c;
-    const char *limited_by; /* "sound" or "viscosity" */
+    const char *limited_by; /* "sound", "viscosity" or "speed" */
     double signal;          /* m/s: max of c + |u - u0| */
     double shift_speed;     /* m/s: U of the laws of shifting: largest |u| so far, without walls
                                relative to the drift; with walls at least nu/R */
@@ -133,11 +123,12 @@ struct sph {
     int64_t pairs_now;     /* the same, of the present list */
     struct fit signal_fit; /* of a standing wave or of the drop, sampled with the series */
     double mass0, energy0, momentum0[3]; /* at t = 0, for drifts */
+    double volume0;                      /* m^dim: of a closed room, kept; 0: not closed */
     /* Force on the first body over the second half of the run: length of the sampled time,
      * integrals of F and of |F|^2; the same from the averaged wall pressure, of rows: last time,
      * length, integral of F. */
-    double force_time, force_sum[2], force_sum2;
-    double average_t, average_time, average_sum[2];
+    double force_time, force_sum[3], force_sum2;
+    double average_t, average_time, average_sum[3];
     double mach_late; /* max |u|/c0 over the second half */
     struct sph_watch watch;
     double wall_s, cpu_s; /* s: of all steps; this rank */
@@ -148,21 +139,9 @@ struct sph {
 struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f);
 void sph_free(struct sph **s);
 
-/* particles.c */
-void particles_create(struct particles *p, int dim, int capacity);
-void particles_free(struct particles *p);
-/* Room for n + nghost = total lines; keeps everything. */
-void particles_reserve(struct particles *p, int total);
-/* One more particle at the end (ghosts must be gone); returns its index; the row y is the caller's.
- */
-int particles_add(struct particles *p, int64_t id, enum sph_zone zone);
-/* Copies particle `from' over `to' (state, id, zone). */
-void particles_copy(struct particles *p, int to, int from);
-/* Reorders state, id, zone: new i is old order[i]; n entries. */
-void particles_permute(struct particles *p, int n, const int *order);
-void particles_set(struct sph *s, int i, const double *x, const double *u, double w, double rho);
-/* prim of all locals from y (u = q/m, rho = m/w; 2D: p, c). */
-void particles_lines(struct sph *s);
+/* volume.c: at the start, of a fluid of this volume; after the stages of every step. Collective. */
+void volume_remember(struct sph *s, double volume);
+void volume_keep(struct sph *s);
 
 /* pack.c: steps of rearrangement of the first particles between walls; 0: none. Collective. */
 void pack_start(struct sph *s, int steps);
@@ -174,7 +153,7 @@ void fill_lattice(struct sph *s);
 /* Takes out the locals that packing has pressed into seams of walls narrower than dx. */
 void fill_clear_seams(struct sph *s);
 
-/* integrate.c: one RK4 step of at most dt_max; see program.step. */
+/* integrate.c: one step of at most dt_max; see program.step. */
 double integrate_step(struct sph *s, double t_stop, struct diagnosis *d);
 /* Neighbour list and halo of the present positions, then rates of y at s->t (what a stage does). */
 void integrate_prepare(struct sph *s);
@@ -197,7 +176,7 @@ bool sph_has_exact(const struct run *r);
 void sph_vorticity(const struct sph *s, int i, double w[3]);
 /* Names of the columns that sph_row fills for this scene; returns their number, at most
  * SPH_COLUMNS. */
-enum { SPH_COLUMNS = 28 + PROBES_MAX + 3 * BODIES_MAX };
+enum { SPH_COLUMNS = 28 + PROBES_MAX + 32 * BODIES_MAX };
 int sph_columns(const struct run *r, const char **names);
 void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void sph_checkpoint(void *s, struct h5 *f);

@@ -150,6 +150,24 @@ done
 # the picture of blocks has their names and what their sides are
 "$b/fv" block.cfg --check=picture -o drawn >out.txt 2>&1 && grep -q '>a<' drawn/fv-scene.svg && grep -q 'no-slip wall' drawn/fv-scene.svg &&
     grep -q 'run time' out.txt || { echo "FAIL: block.cfg is not drawn, or without its forecast"; failed=$((failed + 1)); }
+# boxes that are cut out
+box() { # WORDS EDIT: basin with a box
+    with basin "s/^fv:/blocked: ( { name = \"b\"; min = (0.25, 0); max = (0.5, 0.5); } );\n&/; $2" "$1" fv
+}
+box 'blocked.\[0\].max: box "b": from 0.5 to 0.5 m along x it is no whole cell' 's/min = (0.25, 0)/min = (0.5, 0)/'
+box 'blocked.\[0\].min: box "b": it lies outside the domain along y' 's/max = (0.5, 0.5)/max = (0.5, -0.5)/'
+box 'box "b": only 2 cells along x are left' 's/min = (0.25, 0)/min = (0.125, 0)/'
+box 'box "b": only 2 cells along y are left' 's/max = (0.5, 0.5)/max = (0.5, 0.9)/'
+box 'blocked: the boxes cut the domain into parts' 's/max = (0.5, 0.5)/max = (0.5, 1)/'
+box 'blocked: nothing is left' 's/min = (0.25, 0)/min = (0, 0)/; s/max = (0.5, 0.5)/max = (1, 1)/'
+box 'blocked.\[0\].kind: box "b": without viscosity' 's/nu = 0.01/nu = 0.0/; s/no_slip/slip/g; s/"b";/"b"; kind = "no_slip";/'
+box 'blocked.\[0\].min: box "b": it stands on the wall y_min, which moves' 's/"y_min";/"y_min"; velocity = (1, 0);/'
+box 'blocked.\[0\].min: box "b": it stands on the side y_min, which is no wall' 's/"y_min"; kind = "no_slip";/"y_min"; kind = "outflow";/'
+box 'probes.\[0\].at: probe "p" lies in the box "b"' 's/^walls:/probes: ( { name = "p"; at = (0.3, 0.2); } );\n&/'
+box 'blocked: not with newton' 's/16);/16); integrator = "newton";/'
+box 'initial.field: its solution knows no boxes' 's/^walls:/initial: { field = "two_modes"; U = 1.0; L = 1.0; };\n&/'
+with block 's/^fv:/blocked: ( { name = "b"; min = (0.25, 0); max = (0.5, 0.5); } );\n&/' 'blocked: not with blocks' fv
+with tank 's/max = (1, 1)/max = (1000, 1)/; s/(0.5, 0.5)/(500, 0.5)/' 'fv.cells: cells 1000 times as long as high' fv
 with basin 's/nu = 0.01/& ; gravity = (0, -9.81)/; s/^fv:/initial: { field = "standing_wave"; L = 1.0; level = 0.7; amplitude = 0.2; };\n&/' 'initial.amplitude: .*k a = 1.26' fv
 with basin 's/nu = 0.01/nu = 0.01; central = 1.0/' 'case.cfg:3: fluid.central: is not used' fv
 with basin 's/^fv:/initial: { amplitude = 0.1; };\n&/' 'initial.amplitude: is not used' fv
@@ -195,7 +213,7 @@ with tank 's/gravity = (0, -9.81)/rho = 2.0/' 'a free surface.* gravity' fv
 with tank 's/(0.5, 0.5)/(0.5, 1.5)/' 'its water .* above the domain' fv
 with tank 's/box = ((0, 0), (0.5, 0.5))/box = ((2, 0), (3, 0.5))/' 'lies outside the domain' fv
 with tank 's/form.*}/form = "below"; level = 2.0; }/' 'level,* 2 m.* the domain' fv
-with tank 's/"x_max";/"x_max"; kind = "outflow";/' 'no openings with a free surface' fv
+with tank 's/"y_min";/"y_min"; kind = "outflow";/' 'water would fall out of it' fv
 with tank 's/^shapes.*/initial: { field = "standing_wave"; amplitude = 0.6; L = 2.0; level = 0.5; };/' 'the crest of the wave' fv
 with tank 's/^shapes.*/initial: { field = "standing_wave"; amplitude = 0.1; L = 3.0; level = 0.5; };/' 'must stand at crests or troughs' fv
 # --- particles: what a run has no use for, and what contradicts itself ---
@@ -233,7 +251,7 @@ with tank 's/c0 = 30.0/c0 = 30.0; background = true/' 'sph.background: is not us
 with tank 's/c0 = 30.0/c0 = 30.0; viscosity = "morris"/' 'sph.viscosity: is not used: ' sph
 with tank 's/c0 = 30.0/c0 = 30.0; low_dissipation = false; dissipation = 0.3/' 'sph.dissipation: is not used: ' sph
 with tank 's/c0 = 30.0/c0 = 30.0; outer = "sides"/' 'sph.outer: is not used: ' sph
-with sph 's/dx = 0.02/dx = 0.02; packing = 9/' 'case.cfg:6: sph.packing: is not used: ' sph
+with sph 's/dx = 0.02/dx = 0.02; noise = 0.0; packing = 9/' 'case.cfg:6: sph.packing: is not used: ' sph
 with sph 's/dx = 0.02/dx = 0.02; walls = "ghosts"/' 'case.cfg:6: sph.walls: is not used: ' sph
 with sph 's/every = 0.01/every = 0.01; }; coupling: { steps = 9/' 'coupling.steps: is not used: ' sph
 with sph 's/every = 0.01/every = 0.01; }; coupling: { buffer = 0.1/' 'coupling.buffer: is not used: ' sph
@@ -276,6 +294,48 @@ with tank 's/"b"/"b"; motion = "motion.txt"/' 'bodies.\[0\].motion: .*0 to 0.2 s
 printf '0 0 0 0\n0.2 0 0 0\n0.201 0.4 0 0\n1 0.4 0 0\n' >motion.txt
 with tank 's/"b"/"b"; motion = "motion.txt"/' 'bodies.\[0\].motion: jumps at t = 0.2 s, row 3' sph
 with tank 's/"b"/"b"; motion = "nothing.txt"/' 'case.cfg:8: bodies.\[0\].motion: .*no such file' sph
+# moved by forces: tank's body with "b" replaced
+free='"b"; free = true'
+with tank 's/"b"/"b"; density = 500.0/' 'bodies.\[0\].density: is not used: .*free = true' sph
+with tank 's/"b"/"b"; lock = "x"/' 'bodies.\[0\].lock: is not used: .*free = true' sph
+with tank "s/\"b\"/$free/" 'bodies.\[0\].mass: .*density, or mass, centre and inertia' sph
+with tank "s/\"b\"/$free; mass = 3.0/" 'bodies.\[0\].mass: with mass goes inertia' sph
+with tank "s/\"b\"/$free; mass = 3.0; inertia = -1.0/" 'bodies.\[0\].mass: with mass goes inertia, a number above 0' sph
+with tank "s/\"b\"/$free; mass = 3.0; density = 500.0/" 'bodies.\[0\].density: density or mass, not both' sph
+with tank "s/\"b\"/$free; density = 500.0; inertia = 1.0/" 'bodies.\[0\].inertia: is not used' sph
+with tank "s/\"b\"/$free; density = 500.0; centre = (1, 0.3)/" 'bodies.\[0\].centre: is not used' sph
+with tank "s/\"b\"/$free; density = 500.0; lock = \"x ry\"/" 'bodies.\[0\].lock: words of x y rz' sph
+with tank "s/\"b\"/$free; density = 500.0; lock = \"x, y rz\"/" 'bodies.\[0\].lock: all degrees are locked' sph
+with tank "s/\"b\"/$free; density = 500.0; lock = \"x\"; hinge = { at = (1, 0.5); }/" 'bodies.\[0\].lock: is not used: a hinge' sph
+with tank "s/\"b\"/$free; density = 500.0; slider = { axis = (0, 0); }/" 'bodies.\[0\].slider.axis: a direction' sph
+with tank "s/\"b\"/$free; density = 500.0; slider = { axis = (0, 1); }; lock = \"y\"/" 'slider: .*take x, y, z out of lock' sph
+with tank "s/\"b\"/$free; density = 500.0; slider = { axis = (0, 1); }; hinge = { at = (1, 0.5); }/" 'a hinge or a slider' sph
+with tank "s/\"b\"/$free; density = 500.0; hinge = { stiffness = 3.0; }/" 'bodies.\[0\].hinge.at: must be given' sph
+with tank "s/\"b\"/$free; density = 500.0; hinge = { at = (1, 0.5); stiffnes = 3.0; }/" 'bodies.\[0\].hinge.stiffnes: .*did you mean .stiffness' sph
+with tank "s/\"b\"/$free; density = 500.0; hinge = { at = (1, 0.5); stiffness = 1e9; }/" 'bodies.\[0\].hinge: stiffness 1e+09 is too large .* at most' sph
+with tank "s/\"b\"/$free; density = 500.0; lines = ( { from = (1, 0.4); to = (1, 0.9); stiffness = 1e9; } )/" 'bodies.\[0\].lines.\[0\]: stiffness 1e+09 is too large .* at most' sph
+with tank "s/\"b\"/$free; density = 500.0; lines = ( { from = (1, 0.4); to = (1, 0.9); damping = 1e9; } )/" 'lines.\[0\]: damping 1e+09 is too large .* at most' sph
+with tank "s/\"b\"/$free; density = 500.0; lines = ( { from = (1, 0.4); to = (1, 0.9); } )/" 'lines.\[0\]: without stiffness and damping' sph
+with tank "s/\"b\"/$free; density = 500.0; lines = ( { from = (1, 0.4); to = (1, 0.4); stiffness = 3.0; } )/" 'lines.\[0\]: from and to are one place' sph
+with tank "s/\"b\"/$free; density = 500.0; lines = ( { from = (1, 0.4); to = (1, 0.9); stiffness = 3.0; body = \"c\"; } )/" 'lines.\[0\]: body .c. is none of this case' sph
+with tank "s/\"b\"/$free; density = 500.0; motion = ( { kind = \"harmonic\"; axis = \"y\"; amplitude = 0.01; period = 0.2; } )/" 'bodies.\[0\].motion.\[0\]: forces move y, too: add it to lock' sph
+with tank "s/\"b\"/$free; density = 500.0; release = -1.0/" 'bodies.release: -1 is not allowed' sph
+with tank "s/\"b\"/$free; density = 500.0/; s/c0 = 30.0/c0 = 30.0; walls = \"ghosts\"/" 'sph.walls: ' sph
+with tank "s/\"b\"/$free; density = 500.0/; s/(0.8, 0.2), (0.8, 0.4), (1.2, 0.4), (1.2, 0.2)/(1.59, 0.2), (1.59, 0.4), (1.99, 0.4), (1.99, 0.2)/" 'bodies.\[0\]: .*starts in contact with wall .*move it away' sph
+with tank "s/\"b\"/$free; density = 500.0/; s/^bodies:  (/bodies: ( { name = \"c\"; points = ((1.21, 0.2), (1.21, 0.4), (1.4, 0.4), (1.4, 0.2)); },/" 'starts in contact with body 1 (c)' sph
+with tank "s/\"b\"/$free; density = 500.0/; s/^walls:   (/walls: ( { points = ((1, 0), (1, 0.3)); },/" 'body 1 (b) cuts wall 1' sph
+with tank 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "x"; amplitude = 0.1; } )/' 'motion.\[0\]: a harmonic term wants amplitude and period' sph
+with tank 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "z"; amplitude = 0.1; period = 1.0; } )/' 'motion.\[0\]: axis z in a case of 2 dimensions' sph
+with tank 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "w"; amplitude = 0.1; period = 1.0; } )/' 'motion.axis: .*one of x|y|z|rx|ry|rz' sph
+with tank 's/"b"/"b"; motion = ( { kind = "harmonic"; amplitude = 0.1; period = 1.0; coefficients = (1, 2); } )/' 'motion.\[0\].coefficients: is not used' sph
+with tank 's/"b"/"b"; motion = ( { kind = "polynomial"; coefficients = (0, 0.1); from = 0.2; until = 0.1; } )/' 'motion.\[0\]: it ends at 0.1 s' sph
+with tank 's/"b"/"b"; motion = ( { kind = "polynomial"; coefficients = (0, 9); } )/; s/end = 0.5/end = 0.01/; s/c0 = 30.0/c0 = 10.0/' 'half the speed of sound' sph
+with tank 's/"b"/"b"; motion = ( { axis = "y"; } )/' 'bodies.\[0\].motion: .* wants the file' sph
+with tank 's/"b"/"b"; spin = (1, 0, 0)/' 'bodies.\[0\].spin: in 2 dimensions a number' sph
+printf '0 0 0 0\n0.1 0.001 0 0\n0.2 0.002 0 0\n0.205 0.1 0 0\n0.3 0.101 0 0\n1 0.11 0 0\n' >motion.txt
+with tank 's/"b"/"b"; motion = "motion.txt"/; s/c0 = 30.0;//' 'bodies.\[0\].motion: jumps at t = 0.2 s, row 4: 0.098 m in 0.005 s' sph
+printf '0 0 0 0\n0.1 0.4 0 0\n1 0.4 0 0\n' >motion.txt
+with tank 's/"b"/"b"; motion = "motion.txt"/' 'bodies.\[0\].motion: jumps .*a tenth of the speed of sound' sph
 # water, gauges
 with tank 's/level = 0.5/level = 1.5/' 'case.cfg:7: shapes.\[0\]: level 1.5 m is not in the domain' sph
 with tank 's/form = "below"; level = 0.5/box = ((0, 0), (1, 1.2))/' 'shapes.\[0\]: .*above the domain' sph
@@ -326,6 +386,104 @@ printf 'format = 1;\n' >empty.cfg
 says "neither" "$root/cases/run" "$tmp/empty.cfg"
 mkdir folder
 says "folder is a folder without a case.cfg" "$root/cases/run" folder
+
+# meshes: files of boxes, some of them broken
+stl() { # LOW HIGH [faces left out: xm xp ym yp zm zp] [1: normals out, -1: in]
+    awk -v lo="$1" -v hi="$2" -v drop="$3" -v sense="${4:-1}" -f "$root/tests/stl.awk"
+}
+all="xm xp ym yp zm zp"
+stl "0.3 0.3 0.2" "0.7 0.7 0.6" >solid.stl
+stl "0.3 0.3 0.2" "0.7 0.7 0.6" "" -1 >inside_out.stl
+stl "0.3 0.3 0.2" "0.7 0.7 0.6" zp >open.stl
+stl "0.3 0.3 0.2" "0.7 0.7 0.6" "$all" >none.stl
+stl "300 300 200" "700 700 600" >mm.stl
+stl "5230456 300 200" "5230457 301 201" >far.stl
+stl "0.3 0.3 0.2" "nan 0.7 0.6" >not_finite.stl
+stl "0.3 0.3 0.2" "0.7 0.7 0.204" >sheet_metal.stl
+stl "0.5 0.3 0.2" "0.5 0.7 0.6" "xp ym yp zm zp" >plate.stl
+stl "0.3 0.3 0.2" "0.32 0.32 0.22" >crumb.stl
+{ stl "0.2 0.3 0.2" "0.4 0.7 0.6"; stl "0.41 0.31 0.21" "0.8 0.7 0.6"; stl "0.7 0.6 0.5" "0.9 0.9 0.9"; } >three.stl
+awk 'function at(i, up, q) { q = 6.283185307 * i / 200; return "vertex " 0.5 + 0.2 * cos(q) " " 0.5 + 0.2 * sin(q) " " 0.3 + 0.02 * up }
+    function tri(a, b, c) { print "facet normal 0 0 0\nouter loop\n" a "\n" b "\n" c "\nendloop\nendfacet" }
+    BEGIN { print "solid drum" # without lids: short edges alone
+        for (k = 0; k < 200; k++) { tri(at(k, 0), at(k + 1, 0), at(k + 1, 1)); tri(at(k, 0), at(k + 1, 1), at(k, 1)) }
+        print "endsolid drum" }' >drum.stl
+: >empty.stl
+cat >mesh.cfg <<'END'
+format = 1;
+time:    { end = 0.01; };
+fluid:   { rho = 1000.0; gravity = (0, 0, -9.81); };
+domain:  { dim = 3; min = (0, 0, 0); max = (1, 1, 1); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; }, { side = "z_min"; },
+           { mesh = "solid.stl"; } );
+shapes:  ( { form = "below"; level = 0.8; } );
+sph:     { dx = 0.05; R_dx = 2.5; };
+END
+# tells BASE EDIT WORDS...: a case that is accepted, and what --check says of it
+tells() {
+    sed "$2" "$1.cfg" >case.cfg
+    base=$1 edit=$2
+    shift 2
+    "$b/sph" case.cfg --check >out.txt 2>&1
+    code=$?
+    for words in "$@"; do
+        if [ $code = 0 ] && grep -q -- "$words" out.txt; then
+            passed=$((passed + 1))
+        else
+            failed=$((failed + 1))
+            echo "FAIL: exit code $code of --check, wanted the words: $words ($base, $edit)"
+            sed 's/^/      | /' out.txt | head -n 12
+        fi
+    done
+}
+if "$b/sph" mesh.cfg --check 2>&1 | grep -q 'built without a reader'; then
+    echo "note: this build has no reader of meshes: their faults are not looked at"
+else
+    tells mesh 's/^$//' 'mesh solid: 12 triangles, closed, volume 0.064 m^3, fluid outside'
+    tells mesh 's/solid.stl/inside_out.stl/' 'mesh inside_out: 1 of its 1 part(s) inside out in the file: turned' 'fluid outside'
+    tells mesh 's/solid.stl/three.stl/' 'mesh three: 36 triangles in 3 parts' 'triangles pierce others, the first at' \
+        'face others across less than 2 dx'
+    tells mesh 's/dx = 0.05/dx = 0.1/; s/solid.stl/drum.stl/' 'edges of 0.0.* finer than the particles'
+    tells mesh 's/solid.stl"/&; weld = 0.01/' 'weld = 0.01 m is more than sph.dx.100'
+    with mesh 's/solid.stl/nothing.stl/' 'case.cfg:6: walls.\[5\].mesh: nothing.stl: there is no such file' sph
+    with mesh 's/solid.stl/empty.stl/' 'walls.\[5\].mesh: empty.stl: .*nothing in it' sph
+    with mesh 's/solid.stl/none.stl/' 'walls.\[5\].mesh: none.stl: ' sph
+    with mesh 's/solid.stl/mesh.cfg/' 'mesh.cfg: a file of STL, OBJ or PLY is wanted' sph
+    with mesh 's/solid.stl/not_finite.stl/' 'not_finite.stl: .*not finite' sph
+    with mesh 's/solid.stl/far.stl/' 'far.stl: its coordinates reach 5.23.*e+06 .*Shift it to the origin' sph
+    with mesh 's/solid.stl/mm.stl/' 'mm.stl lies outside the domain: .*scale = 0.001' sph
+    with mesh 's/solid.stl/crumb.stl/' 'crumb.stl is 0.02 m in size, less than sph.dx' sph
+    with mesh 's/solid.stl/sheet_metal.stl/' 'sheet_metal.stl is 0.004 m thick at triangle .*thin = true' sph
+    with mesh 's/^shapes/bodies: ( { mesh = "open.stl"; } );\n&/; s/,$/);/; /solid.stl/d' 'bodies.\[0\].mesh: open.stl: a body must be closed, and 4 edges .*part 1 at triangle' sph
+    with mesh 's/form = "below"; level = 0.8/form = "mesh"; mesh = "open.stl"/' 'shapes.\[0\].mesh: open.stl: a shape must be closed' sph
+    with mesh 's/form = "below"; level = 0.8/form = "mesh"/' 'shape 1: its mesh must be given' sph
+    with mesh 's/solid.stl"/&; points = ((0, 0), (1, 1))/' 'wall 6: give one of side, points and mesh' sph
+    with mesh 's/"solid.stl"/"open.stl"; kind = "no_slip"; velocity = (1, 0, 0)/; s/rho = 1000.0/& ; nu = 1e-3/' 'walls.\[5\].velocity: .*across the wall' sph
+    with mesh 's/mesh = "solid.stl"/side = "z_max"; scale = 2.0/' 'walls.\[5\].scale: is not used' sph
+    with mesh 's/mesh = "solid.stl"/side = "z_max"; thin = true/' 'walls.\[5\].thin: is not used' sph
+    with mesh 's/mesh = "solid.stl"/side = "z_max"/; s/^sph/initial: { seed = ((0.5, 0.5, 0.1)); };\n&/' 'initial.seed: is not used' sph
+    with mesh 's/sph: .*/sph: { dx = 0.05; walls = "ghosts"; };/' 'sph.walls: mirrored ghosts need plane sides' sph
+    with mesh 's/^sph/probes: ( { name = "p"; at = (0.5, 0.5, 0.4); } );\n&/' 'probes.\[0\].at: p is behind the surface solid.stl' sph
+    with mesh 's/sph: .*/fv: { cells = (16, 16, 16); };/' 'walls.\[5\].mesh: surfaces of triangles are for sph alone' fv
+    with sph 's/^sph:/walls: ( { mesh = "solid.stl"; } );\n&/' 'walls.\[0\].mesh: a surface of triangles bounds a fluid of 3 dimensions' sph
+    with mesh 's/mesh = "solid.stl"/points = ((0, 0), (1, 1))/' 'walls and bodies of points need 2 dimensions: in space give a mesh' sph
+    with mesh 's/{ side = "y_max"; }, //; s/^shapes.*//' 'domain: the fluid fills it up to its side y_max, which is open' sph
+    # what only filling finds
+    for edit in 's/solid.stl/plate.stl/' 's/^sph/initial: { seed = ((0.5, 0.5, 0.9)); };\n&/'; do
+        sed "$edit" mesh.cfg >case.cfg
+        "$b/sph" case.cfg -o filled --force >out.txt 2>&1
+        if [ $? = 2 ] && grep -q 'thin = true\|initial.seed (0.5, 0.5, 0.9) m: no fluid is there' out.txt; then
+            passed=$((passed + 1))
+        else
+            failed=$((failed + 1))
+            echo "FAIL: filling accepts $edit: $(tail -n 2 out.txt)"
+        fi
+    done
+    # and what is none: the plate as a thin wall, in the picture
+    sed 's/solid.stl"/plate.stl"; thin = true/' mesh.cfg >case.cfg
+    "$b/sph" case.cfg --check=picture -o seen >out.txt 2>&1 && grep -q 'section at y' seen/sph-scene.svg ||
+        { echo "FAIL: the scene with a plate is not drawn: $(tail -n 2 out.txt)"; failed=$((failed + 1)); }
+fi
 
 # folders and files of others, where root can become another user
 chmod 755 .

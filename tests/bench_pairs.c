@@ -4,10 +4,11 @@
 #include <stdio.h>
 
 #include "../common/timer.h"
-#include "../sph/domain.h"
-#include "../sph/neighbours.h"
-#include "../sph/scheme.h"
-#include "../sph/vec.h"
+#include "../sph/parallel/domain.h"
+#include "../sph/pairs/neighbours.h"
+#include "../sph/pairs/scheme.h"
+#include "../sph/pairs/vec.h"
+#include "../sph/time/runge_kutta.h"
 #include "sph_case.h"
 
 enum { LEAN, DELTA, DELTA_PLUS, DEFAULT, THESIS, KINDS };
@@ -123,11 +124,11 @@ static void bench(int dim, double R_dx, int cells, int kind)
     const double pairs = (double)neighbours_pairs(s), n = s->p.n;
     const double t_list = best_of(7, list, s);
     const double t1 = best_of(7, s->scheme->gradients, s), t2 = best_of(7, s->scheme->rates, s);
-    const double stage = best_of(7, integrate_rates, s) + 0.25 * t_list;
+    const double stage = best_of(7, integrate_rates, s) + t_list / s->stages->n;
     printf("%dD %3.1f %-8s%8.0f %6.1f %5.2f %8.0f", dim, R_dx, k->name, n, pairs / n,
            pairs / entries(s), 1e9 * t_list / n);
     printf(" %7.1f %7.1f %7.1f %7.2f", t1 > 0.0 ? 1e-6 * pairs / t1 : 0.0, 1e-6 * pairs / t2,
-           1e-6 * pairs / stage, 0.25e-6 * n / stage);
+           1e-6 * pairs / stage, 1e-6 * n / (s->stages->n * stage));
     for (int pass = 0; pass < 2; pass++)
         printf(" %4.0f %4.0f", k->bytes[dim - 2][pass], k->flops[dim - 2][pass]);
     share_of_peak(k->flops[dim - 2][0], pairs, t1);
@@ -160,18 +161,50 @@ static void sizes(int dim, double R_dx, int few, int many, int kind)
            100.0 * (b / a - 1.0));
 }
 
-/* What a particle takes: rows, lines, sums, id, zone, entries of sort and list. */
+/* What a particle takes of all that is held. */
 static void memory(int dim, double R_dx, int cells)
 {
     struct sph_case c;
+    const size_t before = mem_held();
     const struct sph *s = start(&c, dim, R_dx, cells, DEFAULT);
-    const struct particles *p = &s->p;
-    const double row = 8.0 * (4 * p->nstate + 8 + p->nslope) + 9.0 + 8.0 * (dim == 2 ? 4 : 8);
-    const double rest = 8.0 + 3 * 4.0 + 2 * 4.0;
-    const double held = (p->capacity * row + s->list->rows_capacity * rest) / p->n;
-    printf("%dD %3.1f %8d particles: %.0f bytes each, ghosts and room to grow included; list %.0f, "
-           "of which %.0f used\n",
-           dim, R_dx, p->n, held, 4.0 * (double)s->list->capacity / p->n, 4.0 * entries(s) / p->n);
+    const double n = s->p.n, list = 4.0 * (double)s->list->capacity / n;
+    printf("%dD %3.1f %8.0f particles: %.0f bytes each, ghosts and room to grow included, and %.0f "
+           "of list, of which %.0f used\n",
+           dim, R_dx, n, (double)(mem_held() - before) / n - list, list, 4.0 * entries(s) / n);
+    sph_free(&c.s);
+}
+
+/* A column that collapses between three walls, rows of a series every second step: what is left of
+ * the throughput in a whole run, with surface, walls, watches, list and output. */
+static void whole_run(int cells, int steps)
+{
+    struct sph_case c;
+    double values[SPH_COLUMNS];
+    sph_case_set(&c, 2, cells);
+    struct scene *e = &c.run.scene;
+    e->fluid.rho = 1000.0;
+    e->fluid.nu = 0.0;
+    e->fluid.gravity[1] = -9.81;
+    e->initial.field = FIELD_REST;
+    e->initial.level = LEVEL_TOP;
+    e->domain.periodic[0] = e->domain.periodic[1] = false;
+    e->nwalls = 3;
+    for (int k = 0; k < 3; k++)
+        e->walls[k].side = SIDE_X_MIN + k;
+    e->nshapes = 1;
+    e->shapes[0] = (struct scene_shape){.form = SHAPE_BOX, .box = {{0.0, 0.0}, {0.5, 0.5}}};
+    c.prm.scheme = SCHEME_RIEMANN;
+    c.prm.surface = SURFACE_YES;
+    c.prm.dissipation = 0.1;
+    c.prm.c0 = 45.0;
+    struct sph *s = sph_case_start(&c, NULL);
+    const double t = cpu_time();
+    for (int k = 0; k < steps; k += 2) {
+        sph_case_run(&c, 2, 1e9);
+        sph_row(s, values);
+    }
+    printf("whole run of a falling column, %d particles, %d steps: %.1f M pairs/s\n", s->p.n, steps,
+           1e-6 * (double)s->pairs / (cpu_time() - t));
     sph_free(&c.s);
 }
 
@@ -181,8 +214,8 @@ int main(int argc, char **argv)
     printf("FMA peak of this core, measured: %.1f GFLOP/s (double, %d lanes)\n", fma_peak(), LANES);
     for (int k = 0; k < KINDS; k++)
         printf("  %-8s %s\n", kinds[k].name, kinds[k].is);
-    printf("M ordered pairs/s of first pass, second pass, whole stage (halo, update, a quarter of "
-           "list and sort); M particle-steps/s;\n"
+    printf("M ordered pairs/s of first pass, second pass, whole stage (halo, update, list and "
+           "sort over its stages); M particle-steps/s;\n"
            "bytes, operations of an ordered pair in the first pass, of a pair in the second; %% of "
            "the peak, measured anew\n"
            "R/dx            particles  pairs   hit  list ns   first  second   stage   steps   B  "
@@ -195,6 +228,7 @@ int main(int argc, char **argv)
     memory(2, 4.0, 316);
     memory(3, 2.5, 58);
     memory(3, 4.0, 40);
+    whole_run(120, 600);
     sizes(2, 4.0, 100, 1000, LEAN);
     sizes(2, 4.0, 100, 1000, DEFAULT);
     sizes(3, 2.5, 22, 100, DEFAULT);

@@ -90,6 +90,12 @@ says 'sph rank 0 has shown no sign of life for [1-3] s' "a stopped program"
 job 1:1:1 "fault=sleep patience=1" "--patience 1" "patience=1"
 [ $code = 0 ] || bad "a program at work for longer than the patience: exit $code, wanted 0"
 
+# who writes on another disk, and shows no sign there, is not taken for dead
+rm -rf o elsewhere && mkdir elsewhere
+# shellcheck disable=SC2086
+$mpi -np 1 "$mock" sph points elsewhere fault=sleep patience=1 : -np 1 "$b/coupler" case.cfg -o o --patience 1 \
+    : -np 1 "$mock" fv grid o patience=1 >text 2>&1 || bad "folders on two disks: exit $?"
+
 # numbers that are no numbers, puts that are forgotten
 job 1:1:1 fault=nan "" ""
 [ $code = 2 ] || bad "NaN in a field: exit $code, wanted 2"

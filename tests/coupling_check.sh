@@ -26,9 +26,9 @@ refuses() { # WHAT REASON CASE ARGS...
 }
 what=windows
 accepts taylor_green -p coupling.steps=0
-says 'windows of 20 steps, 0.03 s, by the flow: U T/L = 0.030'
+says 'windows of 15 steps, 0.03 s, by the flow: U T/L = 0.030'
 accepts taylor_green -p coupling.steps=0 -p 'initial.velocity=(0.8,0.6)' -p sph.c0=10 # twice the speed
-says 'windows of 10 steps, 0.015 s, by the flow'
+says 'windows of 7 steps, 0.014 s, by the flow'
 accepts standing_wave -p coupling.steps=0 -p coupling.memory=0
 says 'by the waves'
 accepts taylor_green -p coupling.steps=50

@@ -4,8 +4,11 @@
 #ifndef TESTS_FV_BC_CASE_H
 #define TESTS_FV_BC_CASE_H
 
-#include "../fv/bc.h"
+#include "../fv/boundary/bc.h"
 #include "fv_case.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/boundary/still.h"
+#include "../fv/output/output.h"
 
 #define CLOSED "domain.periodic=(false,false)"
 

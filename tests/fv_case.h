@@ -12,6 +12,9 @@
 #include "../common/h5.h"
 #include "../common/mem.h"
 #include "../fv/fv.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/time/steps.h"
+#include "../fv/output/output.h"
 
 struct fv_case {
     struct run run;

@@ -22,6 +22,18 @@ struct item_case {
     double weight;
     int kind;
 };
+struct part {
+    double x;
+    char file[PARAM_TEXT_SIZE];
+};
+struct tree_case {
+    double turn[3];
+    struct param_numbers powers;
+    struct parts {
+        int n;
+        struct part of[3];
+    } parts, root;
+};
 
 #define P struct box_case
 static const struct param box_rows[] = {
@@ -43,26 +55,52 @@ static const struct param item_rows[] = {
 };
 #undef P
 
+#define P struct part
+static const struct param part_rows[] = {
+    PARAM(P, x, "m", "0.5", 0, 9, "place of a part"),
+    PARAM(P, file, "-", "", 0, 0, "of a part"),
+};
+#undef P
+static const struct param_list parts_list = {
+    part_rows, 2, sizeof(struct part), offsetof(struct parts, of), 3, "file"};
+static const struct param_list root_list = {
+    part_rows, 2, sizeof(struct part), offsetof(struct parts, of), 1, NULL};
+#define P struct tree_case
+static const struct param tree_rows[] = {
+    TURN(P, turn, "rad", "0.0", -9, 9, "of a tree"),
+    PARAM(P, powers, "-", "0.0", -9, 9, "of a tree"),
+    LIST(P, parts, &parts_list, "parts of a tree"),
+    LIST(P, root, &root_list, "root of a tree"),
+};
+#undef P
+
 static struct box_case box;
+static struct tree_case trees[2];
+static int ntrees;
 static struct item_case items[ITEMS];
 static int nitems;
 static bool has_box;
 static const struct param_group groups[] = {
     {"box", "A box", box_rows, sizeof box_rows / sizeof *box_rows, &box, &has_box, 0, 0, NULL},
     {"items", "Items", item_rows, 2, items, NULL, sizeof items[0], ITEMS, &nitems},
+    {"trees", "Trees", tree_rows, 4, trees, NULL, sizeof trees[0], 2, &ntrees},
 };
 static const char *const others[] = {"alien", "output", NULL};
 static char path[512];
 static int rank;
 
+static inline void put_alone(const char *to, const char *text)
+{
+    FILE *f = fopen(to, "w");
+    assert_non_null(f);
+    fputs(text, f);
+    fclose(f);
+}
+
 static inline void put(const char *to, const char *text)
 {
-    if (rank == 0) {
-        FILE *f = fopen(to, "w");
-        assert_non_null(f);
-        fputs(text, f);
-        fclose(f);
-    }
+    if (rank == 0)
+        put_alone(to, text);
     MPI_Barrier(MPI_COMM_WORLD);
 }
 
@@ -76,7 +114,7 @@ static inline struct params *read_case(const char *text, const char *const *over
     memset(items, 0, sizeof items);
     *f = (struct faults){0};
     put(path, text);
-    struct params *p = params_read(MPI_COMM_WORLD, path, n, over, groups, 2, others, f);
+    struct params *p = params_read(MPI_COMM_WORLD, path, n, over, groups, 3, others, f);
     MPI_Barrier(MPI_COMM_WORLD);
     return p;
 }

@@ -29,9 +29,14 @@ struct wall { /* a polyline */
 };
 
 struct body {
-    struct outline line;
+    struct outline line; /* or corners of triangles */
     const char *kind;
     double centre[3], velocity[3], spin;
+    double turning[3]; /* spin in space */
+    bool free;
+    double density;
+    bool stl, thin; /* its mesh, else obj; its key */
+    int ntriangles, triangle[12][3];
 };
 
 struct shape {
@@ -71,6 +76,7 @@ struct scene {
     struct probe probes[LISTS];
     struct block blocks[BLOCKS];
     double dx, c0; /* m, m/s; c0 0: default */
+    bool even;     /* a lattice without noise at the start */
     const char *sph_more, *fv_more;
     double box[2][3]; /* m: SPH's part of a coupled job */
     int cells[3];
@@ -82,6 +88,7 @@ struct scene {
     double speed, length; /* scales */
     bool standard;        /* all settings that could make it unstable are the defaults */
     bool closed;          /* nothing flows in or out */
+    bool open_above;      /* but what splashes over the sides */
     bool unforced;        /* no work is done on the fluid */
     bool free_of_walls;   /* momentum changes by gravity alone */
     bool still;           /* must stay at rest */
@@ -99,6 +106,8 @@ struct motion {
 
 void scene_move(struct scene *s, const struct motion *m);
 void scene_scale(struct scene *s, double length, double speed, double density);
-void scene_write(const struct scene *s, FILE *f);
+/* Meshes are beside the case, which has a name. */
+void scene_write(const struct scene *s, const char *name, FILE *f);
+void scene_write_meshes(const struct scene *s, const char *dir, const char *name);
 
 #endif

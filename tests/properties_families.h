@@ -30,4 +30,12 @@ double make_waves(struct scene *s, struct random *r, int n, double h);
 /* Whether the waves are still there at the end, to measure an error by. */
 bool make_lasting(const struct scene *s);
 
+/* Of particles: a box of so many, scales and gravity of a tank, when to end, and what else. */
+void make_particles(struct scene *s, struct random *r, int nx, int ny, int nz);
+void make_tank(struct scene *s, struct random *r);
+void settle_particles(struct scene *s, struct random *r, int particles);
+
+void make_floating(struct scene *s, struct random *r);
+void make_solid(struct scene *s, struct random *r);
+
 #endif

@@ -88,6 +88,8 @@ static void fields(struct scene *s, struct random *r)
         s->cells[1] = even(r, 4, 2 * n);
     make_fluid(s, r);
     settle(s, r, integrator(s, r, true));
+    if (waves < 6.0 && strcmp(s->field, "rest") && strcmp(s->field, "uniform"))
+        s->standard = s->unforced = false; /* means of four cells a wave hold 2/3 of its energy */
     if (waves > 12.0 && s->cells[1] >= n && !strstr(s->fv_more, "newton") && make_lasting(s))
         s->error = 0.1;
 }

@@ -8,7 +8,7 @@ function max(a, b) { return a > b ? a : b }
 $1 == "run" { runs[++nruns] = $2; program[$2] = $3 }
 $1 == "twin" {
     twins[++ntwins] = $2
-    for (a = 0; a < 3; a++) { axis[$2, a] = $(3 + a); sign[$2, a] = $(6 + a) }
+    for (a = 0; a < 3; a++) { axis[$2, a] = $(3 + a); sign[$2, a] = $(6 + a); shift[$2, a] = $(12 + a) }
     unit[$2, "L"] = $9; unit[$2, "U"] = $10; unit[$2, "R"] = $11
 }
 $1 == "know" { know[$2] = $2 == "family" ? $3 " " $4 " " $5 : $3 + 0 }
@@ -22,7 +22,7 @@ function load(run,    line, n, f, i, file) {
     while ((getline line < file) > 0) {
         if (line ~ /\.cfg:[0-9]+: [a-z]+[^ ]*: / || line ~ /\.cfg: [a-z]+[^ ]*: /) refusal[run] = refusal[run] == "" ? line : refusal[run]
         if (line ~ /diverged at|stopped|limit/ && reason[run] == "") reason[run] = line
-        if (line ~ /warning/) warned[run] = line
+        if (line ~ /warning/) warned[run] = warned[run] line
     }
     close(file)
     file = dir "/" run "/series.csv"
@@ -65,6 +65,7 @@ function factor(name, t,    d, l, u, r) {
     if (name ~ /\[m\]/) return l
     if (name ~ /\[m\/s\]/) return u
     if (name ~ /\[1\/s\]/) return u / l
+    if (name ~ /\[rad\/s\]/) return u / l
     if (name ~ /\[N(\/m)?\]/) return r * u * u * l ^ (d - 1)
     if (name ~ /\[m\^dim\]/) return l ^ d
     return 1
@@ -78,22 +79,29 @@ function scale(name,    d, l, u, r, p) {
     if (name ~ /\[kg m\/s\]/) return know["mass"] * u
     if (name ~ /\[Pa\]/) return r * p
     if (name ~ /\[m\]/) return l
+    if (name ~ /\[rad\/s\]/) return u / l
+    if (name ~ /\[rad\]/) return 1
     if (name ~ /\[m\/s\]/) return u
     if (name ~ /\[N(\/m)?\]/) return r * p * l ^ (d - 1)
     if (name ~ /max Mach|error/) return 0.1
     return 0
 }
-# The column of the twin that answers to the base's; its sign in turned.
-function answer(name, t,    a, b, letters) {
-    letters = "xyz"
+# The column of the twin that answers to the base's; its sign in turned, what to add to it in moved. Bodies show places,
+# velocities u v w, and what turns with the hand: rotations rx ry rz, spins ox oy oz, moments; in the plane angle and spin.
+function answer(name, t,    a, b, letters, place) {
     turned = 1
-    if (match(name, / [xyz] \[/) && name !~ /water up to|moment z/) {
-        a = index(letters, substr(name, RSTART + 1, 1)) - 1
+    moved = 0
+    if (name ~ /^b[0-9] (angle|spin) /) turned = handed(t)
+    if (name ~ /^b[0-9]/ && name ~ / [ro][xyz] \[/ || name ~ /moment/ && name !~ /momentum/) turned = handed(t)
+    letters = name ~ /^b[0-9] [uvw] \[/ ? "uvw" : "xyz"
+    if (match(name, letters == "uvw" ? " [uvw] [[]" : " [ro]?[xyz] [[]") && name !~ /water up to|^moment z/) {
+        place = RSTART + RLENGTH - 3
+        a = index(letters, substr(name, place, 1)) - 1
         b = axis[t, a]
-        turned = sign[t, a]
-        return substr(name, 1, RSTART) substr(letters, b + 1, 1) substr(name, RSTART + 2)
+        turned *= sign[t, a]
+        if (name ~ /^b[0-9] [xyz] \[m\]/) moved = shift[t, b]
+        return substr(name, 1, place - 1) substr(letters, b + 1, 1) substr(name, place + 1)
     }
-    if (name ~ /moment/ && name !~ /momentum/) turned = handed(t)
     return name
 }
 function handed(t,    even) { # det of the motion
@@ -105,7 +113,7 @@ function compared(name, t) {
     if (name ~ /divergence|put back|gain|paired|odd-even|growth|residual|iteration|krylov|pseudo|water up to|^watch|watch/) return 0
     if (name ~ /\[s\]/) return 0
     if (name ~ /^P[0-9] \[m\]/) return t == "units" || t == "ranks"
-    if (name ~ /moment z/) return t == "units" || t == "ranks" # about the origin
+    if (name ~ /^moment z/) return t == "units" || t == "ranks" # about the origin
     if (name ~ /^P[0-9] \[Pa\]/) return t != "carried"
     # extremes jump from one particle or cell to another
     if (name ~ /error/ && know["family"] ~ /wave|channel/) return 0 # relative to a start at rest
@@ -117,7 +125,8 @@ function compared(name, t) {
 # rows count; cells are solved to fv.tol_pressure = 1e-2 of a step's divergence, by sweeps that know left from right.
 function tolerance(t, name) {
     if (t == "units") return program["base"] == "coupled" ? 1e-4 : 1e-6
-    if (program["base"] == "sph") return 1e-5
+    # A side in space is two triangles with a flux each, and neither mirrors nor turns move its diagonal: sph/NOTES.md.
+    if (program["base"] == "sph") return know["dim"] == 3 && (t == "mirror" || t == "turn") ? 1e-3 : 1e-5
     return name ~ /force|moment|\[Pa\]/ ? 0.05 : 0.02
 }
 function compare(t,    i, j, from, n, row, big, d, worst, what, name, last, s) {
@@ -140,7 +149,7 @@ function compare(t,    i, j, from, n, row, big, d, worst, what, name, last, s) {
                 break
             }
             big = max(big, abs(value["base", row, i]))
-            d = abs(value["base", row, i] - turned * value[t, row, j] / factor(name, t))
+            d = abs(value["base", row, i] - turned * (value[t, row, j] - moved) / factor(name, t))
             if (d > worst) { worst = d; what = row }
         }
         if (worst > tolerance(t, name) * big)
@@ -179,7 +188,7 @@ function ended(run) {
 function column(name) { return ("base" SUBSEP name) in at ? at["base", name] : 0 }
 function last(name) { return column(name) ? value["base", rows["base"], column(name)] : "" }
 
-function laws(    i, k, n, row, big, K0, P0, sph, top) {
+function laws(    i, k, n, row, K0, sph, lost, drift) {
     n = rows["base"]
     sph = program["base"] == "sph"
     k = column("kinetic energy [J]")
@@ -195,8 +204,11 @@ function laws(    i, k, n, row, big, K0, P0, sph, top) {
         bad("energy", "grows by " summary["base", "energy"] " in a closed tank")
     # Masses are moved between particles, never made.
     if (know["closed"] && sph) {
-        if (abs(last("mass [kg]") / value["base", 1, column("mass [kg]")] - 1) > 1e-9) bad("mass", "drifts by " last("mass [kg]") / value["base", 1, column("mass [kg]")] - 1)
-        if (summary["base", "particles_lost"] + 0 > 0) bad("mass", summary["base", "particles_lost"] " particles lost")
+        lost = summary["base", "particles_lost"] / value["base", 1, column("particles [-]")]
+        drift = last("mass [kg]") / value["base", 1, column("mass [kg]")] - 1 + lost
+        if (abs(drift) > 1e-9 + 0.1 * lost) bad("mass", "drifts by " drift) # densities differ by some percent
+        if (lost > 0 && warned["base"] !~ /left the region/) bad("mass", "particles are lost without a word")
+        if (lost > 0 && !know["open_above"]) bad("mass", summary["base", "particles_lost"] " particles lost")
     }
     if (k = column("volume [m^dim]"))
         if (value["base", 1, k] > 0 && abs(last("volume [m^dim]") / value["base", 1, k] - 1) > 0.01)

@@ -1,7 +1,7 @@
 /* properties_scene.c - from a seed a random scene, its twins and what must hold between them.
  * usage: properties_scene SEED DIR: writes DIR/base.cfg, twins DIR/LAW.cfg, and DIR/plan with
  *     run NAME PROGRAM RANKS             what to run
- *     twin LAW NAME axes signs L U rho   columns of the twin against those of the base
+ *     twin LAW axes signs L U rho shift  columns of the twin against those of the base
  *     know KEY VALUE                     what the laws of the base alone need to know
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "properties_families.h"
@@ -127,8 +127,9 @@ static void write_case(const struct twins *t, const char *name, const struct sce
         exit(2);
     }
     fprintf(f, "# %s\n", s->family);
-    scene_write(s, f);
+    scene_write(s, name, f);
     fclose(f);
+    scene_write_meshes(s, t->dir, name);
     fprintf(t->plan, "run %s %s %d\n", name, programs[s->program], s->ranks);
 }
 
@@ -140,7 +141,10 @@ static void plan_twin(const struct twins *t, const char *law, const struct motio
         fprintf(t->plan, " %d", m->axis[a]);
     for (int a = 0; a < 3; a++)
         fprintf(t->plan, " %g", m->sign[a]);
-    fprintf(t->plan, " %.17g %.17g %.17g\n", l, u, d);
+    fprintf(t->plan, " %.17g %.17g %.17g", l, u, d);
+    for (int a = 0; a < 3; a++)
+        fprintf(t->plan, " %.17g", m->t[a]);
+    fprintf(t->plan, "\n");
 }
 
 static const struct motion stay = {{0, 1, 2}, {1, 1, 1}, {0, 0, 0}};
@@ -266,12 +270,10 @@ static void know(const struct twins *t)
     const struct {
         const char *name;
         bool is;
-    } facts[] = {{"standard", s->standard},
-                 {"closed", s->closed},
-                 {"unforced", s->unforced},
-                 {"free_of_walls", s->free_of_walls},
-                 {"still", s->still}};
-    for (int k = 0; k < 5; k++)
+    } facts[] = {{"standard", s->standard},           {"closed", s->closed},
+                 {"open_above", s->open_above},       {"unforced", s->unforced},
+                 {"free_of_walls", s->free_of_walls}, {"still", s->still}};
+    for (int k = 0; k < 6; k++)
         fprintf(t->plan, "know %s %d\n", facts[k].name, facts[k].is);
     fprintf(t->plan, "know stream %.17g\n", s->stream ? fmax(fabs(s->V[0]), fabs(s->V[1])) : 0.0);
     fprintf(t->plan, "know gravity %.17g\n",

@@ -14,7 +14,7 @@ static void nothing_sticks(struct scene *s)
 }
 
 /* Half of the scenes have a scale of velocity, as their writer knows one; c0 is the default. */
-static void settle(struct scene *s, struct random *r, int particles)
+void settle_particles(struct scene *s, struct random *r, int particles)
 {
     static const char *const schemes[] = {" scheme = \"riemann\";", " scheme = \"riemann_ale\";",
                                           " scheme = \"delta\";", " scheme = \"standard\";"};
@@ -40,7 +40,7 @@ static void settle(struct scene *s, struct random *r, int particles)
     s->mass = s->rho * particles * pow(s->dx, s->dim);
 }
 
-static void box_of(struct scene *s, struct random *r, int nx, int ny, int nz)
+void make_particles(struct scene *s, struct random *r, int nx, int ny, int nz)
 {
     const int n[3] = {nx, ny, nz};
     s->dx = make_spacing(r);
@@ -48,12 +48,24 @@ static void box_of(struct scene *s, struct random *r, int nx, int ny, int nz)
     make_box(s, r, n, h);
 }
 
+/* Vortices start from noise, which neither mirrors nor turns; half of them go without. */
+static void noise_of(struct scene *s, struct random *r)
+{
+    if (!strcmp(s->field, "rest") || !strcmp(s->field, "uniform"))
+        return;
+    s->even = chance(r, 0.5);
+    s->mirrors = s->mirrors && s->even;
+    s->turns = s->turns && s->even;
+    s->turns_half = s->turns_half && s->even;
+    s->cycles = s->cycles && s->even;
+}
+
 static void fields(struct scene *s, struct random *r)
 {
     s->dim = chance(r, 0.2) ? 3 : 2;
     const int n = s->dim > 2 ? whole(r, 10, 11) : whole(r, 10, 32);
     const int wide = s->dim == 2 && chance(r, 0.3) ? 2 : 1;
-    box_of(s, r, n * wide, n, n);
+    make_particles(s, r, n * wide, n, n);
     s->speed = decades(r, 0.02, 30.0);
     for (int a = 0; a < s->dim; a++) {
         s->hi[a] -= s->lo[a];
@@ -62,9 +74,10 @@ static void fields(struct scene *s, struct random *r)
     }
     const double waves = make_waves(s, r, n, s->dx);
     make_fluid(s, r);
-    settle(s, r, n * n * wide * (s->dim > 2 ? n : 1));
+    settle_particles(s, r, n * n * wide * (s->dim > 2 ? n : 1));
     if (waves > 12.0 && s->standard && strcmp(s->field, "rest") && make_lasting(s))
         s->error = 0.25;
+    noise_of(s, r);
 }
 
 /* Full of water, walls all around, some with a lid. */
@@ -73,7 +86,7 @@ static void closed(struct scene *s, struct random *r)
     s->dim = chance(r, 0.2) ? 3 : 2;
     const int most = s->dim > 2 ? 8 : 30, nx = whole(r, 1, most), ny = whole(r, 1, most),
               nz = s->dim > 2 ? whole(r, 1, most) : 1;
-    box_of(s, r, nx, ny, nz);
+    make_particles(s, r, nx, ny, nz);
     s->length = s->dx * fmin(nx, ny);
     s->speed = decades(r, 0.02, 30.0);
     make_fluid(s, r);
@@ -91,14 +104,14 @@ static void closed(struct scene *s, struct random *r)
     s->say_U = chance(r, 0.6) || !s->still;
     s->mirrors = s->turns = s->shifts = true;
     s->cycles = s->dim == 3;
-    settle(s, r, nx * ny * nz);
+    settle_particles(s, r, nx * ny * nz);
 }
 
 static void channel(struct scene *s, struct random *r)
 {
     s->dim = 2;
     const int nx = whole(r, 10, 24), ny = whole(r, 2, 24);
-    box_of(s, r, nx, ny, 1);
+    make_particles(s, r, nx, ny, 1);
     s->periodic[0] = true;
     s->length = ny * s->dx;
     s->speed = s->U = decades(r, 0.02, 30.0);
@@ -116,7 +129,7 @@ static void channel(struct scene *s, struct random *r)
         s->sides[3].velocity[0] = s->U;
     }
     s->shifts = true;
-    settle(s, r, nx * ny);
+    settle_particles(s, r, nx * ny);
 }
 
 static void add_shape(struct scene *s, const char *form, double x0, double y0, double x1, double y1)
@@ -187,13 +200,11 @@ static void tank_walls(struct scene *s, struct random *r)
     }
 }
 
-static void free_surface(struct scene *s, struct random *r)
+void make_tank(struct scene *s, struct random *r)
 {
-    const int up = s->dim - 1;
     s->speed = sqrt(9.81 * (s->hi[1] - s->lo[1]));
     s->length = s->hi[1] - s->lo[1];
     make_fluid(s, r);
-    (void)up;
     make_gravity(s, r, 9.81, 1);
     s->closed = true;
     s->unforced = false;
@@ -208,8 +219,8 @@ static void tank(struct scene *s, struct random *r)
     s->dim = chance(r, 0.15) ? 3 : 2;
     const int nx = whole(r, 4, s->dim > 2 ? 16 : 60), ny = whole(r, 4, s->dim > 2 ? 12 : 40),
               nz = s->dim > 2 ? whole(r, 3, 8) : 1;
-    box_of(s, r, nx, ny, nz);
-    free_surface(s, r);
+    make_particles(s, r, nx, ny, nz);
+    make_tank(s, r);
     const int n = put_water(s, r, nx, ny);
     if (s->dim == 2 && s->g[1] < 0.0 && chance(r, 0.35)) /* they are open above */
         tank_walls(s, r);
@@ -218,6 +229,9 @@ static void tank(struct scene *s, struct random *r)
     for (int a = 0; a < s->dim && chance(r, 0.5); a++) /* open above */
         if (!s->nwalls && s->g[a] < 0.0)
             s->sides[2 * a + 1].kind = NULL, s->closed = fabs(s->g[a]) > 9.8;
+    s->open_above = s->nwalls > 0;
+    for (int a = 0; a < s->dim && !s->nwalls; a++)
+        s->open_above = s->open_above || !s->sides[2 * a + 1].kind;
     struct probe *p = s->probes + s->nprobes++;
     const bool upright = s->dim == 2 && s->g[0] == 0.0; /* a gauge of levels wants that */
     p->kind = !upright || chance(r, 0.6) ? "pressure" : "level";
@@ -225,7 +239,7 @@ static void tank(struct scene *s, struct random *r)
     p->at[0] = s->lo[0] + s->dx * whole(r, 0, nx);
     p->at[1] = s->lo[1] + (p->kind[0] == 'p' ? s->dx * uniform(r, 0.0, 3.0) : 0.0);
     p->at[2] = s->dim > 2 ? s->lo[2] + s->dx * whole(r, 0, nz) : 0.0;
-    settle(s, r, n * nz + 10);
+    settle_particles(s, r, n * nz + 10);
 }
 
 /* A closed tank that leans, full or half full. */
@@ -233,13 +247,13 @@ static void tilted(struct scene *s, struct random *r)
 {
     s->dim = 2;
     const int n = whole(r, 12, 40);
-    box_of(s, r, n, n, 1);
+    make_particles(s, r, n, n, 1);
     const double c[2] = {0.5 * (s->lo[0] + s->hi[0]), 0.5 * (s->lo[1] + s->hi[1])};
     const double a = uniform(r, -0.8, 0.8), w = 0.33 * n * s->dx * uniform(r, 0.3, 1.0),
                  v = 0.33 * n * s->dx;
     const double fill = chance(r, 0.5) ? 1.0 : uniform(r, -0.5, 0.8);
     const double corners[4][2] = {{-w, v}, {-w, -v}, {w, -v}, {w, v}};
-    free_surface(s, r);
+    make_tank(s, r);
     struct wall *tank = s->walls + s->nwalls++;
     struct shape *h = s->shapes + s->nshapes++;
     tank->closed = true;
@@ -254,16 +268,16 @@ static void tilted(struct scene *s, struct random *r)
     }
     tank->line.n = h->line.n = 4;
     s->still = s->unforced = fill == 1.0;
-    settle(s, r, (int)(2.0 * w * v * (1.0 + fill) / (s->dx * s->dx)) + 1);
+    settle_particles(s, r, (int)(2.0 * w * v * (1.0 + fill) / (s->dx * s->dx)) + 1);
 }
 
 /* Bodies in a full or half full tank, at rest or driven, or in a periodic box. */
-static void bodies(struct scene *s, struct random *r)
+static void driven(struct scene *s, struct random *r)
 {
     s->dim = 2;
     const int nx = whole(r, 16, 44), ny = whole(r, 16, 36);
-    box_of(s, r, nx, ny, 1);
-    free_surface(s, r);
+    make_particles(s, r, nx, ny, 1);
+    make_tank(s, r);
     s->unforced = true;
     const bool full = chance(r, 0.5), open = full && chance(r, 0.4);
     const int deep = full ? ny : whole(r, 8, ny);
@@ -290,7 +304,16 @@ static void bodies(struct scene *s, struct random *r)
     }
     s->still = s->unforced && full;
     s->say_U = s->say_U || open;
-    settle(s, r, nx * deep);
+    settle_particles(s, r, nx * deep);
+}
+
+static void bodies(struct scene *s, struct random *r)
+{
+    void (*const make[])(struct scene *, struct random *) = {driven, make_floating, make_solid};
+    static const char *const names[] = {"sph bodies", "sph floating", "sph solid"};
+    const int k = whole(r, 0, 2);
+    s->family = names[k];
+    make[k](s, r);
 }
 
 /* A channel with inlet and outlet, or an oblique stream through an open box. */
@@ -298,7 +321,7 @@ static void openings(struct scene *s, struct random *r)
 {
     s->dim = 2;
     const int nx = whole(r, 20, 44), ny = whole(r, 12, 24);
-    box_of(s, r, nx, ny, 1);
+    make_particles(s, r, nx, ny, 1);
     s->speed = s->U = decades(r, 0.02, 30.0);
     s->say_U = true;
     s->length = ny * s->dx;
@@ -324,7 +347,7 @@ static void openings(struct scene *s, struct random *r)
     }
     s->stream = !s->sides[0].profile;
     s->mirrors = s->turns = s->shifts = true;
-    settle(s, r, nx * ny * 2);
+    settle_particles(s, r, nx * ny * 2);
 }
 
 static void patch_or_drop(struct scene *s, struct random *r)
@@ -347,7 +370,7 @@ static void patch_or_drop(struct scene *s, struct random *r)
     s->closed = true;
     s->unforced = s->turns = s->free_of_walls = !drop;
     s->mirrors = drop;
-    settle(s, r, n * n * (drop ? 4 : 1));
+    settle_particles(s, r, n * n * (drop ? 4 : 1));
 }
 
 /* Lumps of water meet in the void. */
@@ -355,7 +378,7 @@ static void jets(struct scene *s, struct random *r)
 {
     s->dim = chance(r, 0.15) ? 3 : 2;
     const int most = s->dim > 2 ? 5 : 14, n = 60;
-    box_of(s, r, n, n, s->dim > 2 ? n : 1);
+    make_particles(s, r, n, n, s->dim > 2 ? n : 1);
     s->speed = s->U = decades(r, 0.02, 30.0);
     s->say_U = true;
     s->length = most * s->dx;
@@ -380,7 +403,7 @@ static void jets(struct scene *s, struct random *r)
     s->closed = s->unforced = s->free_of_walls = s->carried = true;
     s->mirrors = s->turns = s->shifts = true;
     s->cycles = s->dim == 3;
-    settle(s, r, count);
+    settle_particles(s, r, count);
     s->end = fmin(s->end, 15.0 * s->dx / s->speed); /* nothing reaches the sides */
 }
 
@@ -388,7 +411,7 @@ static void wave(struct scene *s, struct random *r)
 {
     s->dim = 2;
     const int nx = whole(r, 20, 48), ny = whole(r, 5, 16), air = whole(r, 3, 8);
-    box_of(s, r, nx, ny + air, 1);
+    make_particles(s, r, nx, ny + air, 1);
     s->hi[0] -= s->lo[0];
     s->lo[0] = 0.0;
     s->periodic[0] = true;
@@ -404,7 +427,7 @@ static void wave(struct scene *s, struct random *r)
     s->sides[2].kind = one_of(r, "slip", "no_slip");
     s->closed = true;
     s->shifts_by_L = false;
-    settle(s, r, nx * ny);
+    settle_particles(s, r, nx * ny);
 }
 
 const struct family sph_families[] = {{"sph fields", 3, fields},

@@ -55,6 +55,18 @@ static void outline(const struct motion *m, struct outline *o)
     }
 }
 
+/* A mirror turns triangles round. */
+static void mesh(const struct motion *m, struct body *b)
+{
+    for (int k = 0; k < b->line.n; k++)
+        place(m, b->line.x[k]);
+    for (int k = 0; sign_of(m) < 0.0 && k < b->ntriangles; k++) {
+        const int second = b->triangle[k][1];
+        b->triangle[k][1] = b->triangle[k][2];
+        b->triangle[k][2] = second;
+    }
+}
+
 static void sides(const struct motion *m, struct scene *s)
 {
     struct side old[6];
@@ -96,9 +108,15 @@ void scene_move(struct scene *s, const struct motion *m)
         outline(m, &s->walls[k].line);
     for (int k = 0; k < s->nbodies; k++) {
         struct body *b = s->bodies + k;
-        outline(m, &b->line);
+        if (b->ntriangles > 0)
+            mesh(m, b);
+        else
+            outline(m, &b->line);
         place(m, b->centre);
         turn(m, b->velocity);
+        turn(m, b->turning);
+        for (int a = 0; a < 3; a++)
+            b->turning[a] = b->turning[a] * sign_of(m) + 0.0;
         b->spin *= sign_of(m);
     }
     for (int k = 0; k < s->nshapes; k++) {
@@ -130,7 +148,7 @@ static void times(double *v, int n, double factor)
         v[a] *= factor;
 }
 
-static void scale_lists(struct scene *s, double l, double u)
+static void scale_lists(struct scene *s, double l, double u, double d)
 {
     for (int k = 0; k < s->nwalls; k++)
         times(s->walls[k].line.x[0], 3 * s->walls[k].line.n, l);
@@ -140,6 +158,8 @@ static void scale_lists(struct scene *s, double l, double u)
         times(b->centre, 3, l);
         times(b->velocity, 3, u);
         b->spin *= u / l;
+        times(b->turning, 3, u / l);
+        b->density *= d;
     }
     for (int k = 0; k < s->nshapes; k++) {
         struct shape *h = s->shapes + k;
@@ -181,7 +201,7 @@ void scene_scale(struct scene *s, double l, double u, double d)
         times(s->sides[k].velocity, 3, u);
         s->sides[k].pressure *= d * u * u;
     }
-    scale_lists(s, l, u);
+    scale_lists(s, l, u, d);
     s->dx *= l;
     s->c0 *= u;
     times(s->box[0], 6, l);
@@ -252,17 +272,26 @@ static void write_walls(const struct scene *s, FILE *f)
     fprintf(f, " );\n");
 }
 
-static void write_bodies(const struct scene *s, FILE *f)
+static void write_bodies(const struct scene *s, const char *name, FILE *f)
 {
     for (int k = 0; k < s->nbodies; k++) {
         const struct body *b = s->bodies + k;
         fprintf(f, "%s{ name = \"b%d\"; kind = \"%s\";", k ? ",\n  " : "bodies: ( ", k, b->kind);
-        vector(f, "centre", b->centre, 2);
+        if (b->free)
+            fprintf(f, " free = true; density = %.17g;", b->density);
+        else
+            vector(f, "centre", b->centre, s->dim);
         if (!is_zero(b->velocity))
-            vector(f, "velocity", b->velocity, 2);
+            vector(f, "velocity", b->velocity, s->dim);
+        if (!is_zero(b->turning))
+            vector(f, "spin", b->turning, 3);
         if (b->spin != 0.0)
             fprintf(f, " spin = %.17g;", b->spin);
-        points(f, "points", &b->line, 2);
+        if (b->ntriangles > 0)
+            fprintf(f, " mesh = \"%s.b%d.%s\";%s", name, k, b->stl ? "stl" : "obj",
+                    b->thin ? " thin = true;" : "");
+        else
+            points(f, "points", &b->line, 2);
         fprintf(f, " }");
     }
     fprintf(f, s->nbodies ? " );\n" : "");
@@ -346,6 +375,8 @@ static void write_solvers(const struct scene *s, FILE *f)
         fprintf(f, "sph: { dx = %.17g;", s->dx);
         if (s->c0 > 0.0)
             fprintf(f, " c0 = %.17g;", s->c0);
+        if (s->even)
+            fprintf(f, " noise = 0.0;");
         fprintf(f, "%s", s->sph_more);
         if (s->program == COUPLED) {
             const struct outline o = {2,
@@ -388,7 +419,7 @@ static bool has_length(const struct scene *s)
            (s->program != FV || (strcmp(s->field, "poiseuille") && strcmp(s->field, "couette")));
 }
 
-void scene_write(const struct scene *s, FILE *f)
+void scene_write(const struct scene *s, const char *name, FILE *f)
 {
     fprintf(f, "format = 1;\ntime: { end = %.17g; };\nfluid: { rho = %.17g;", s->end, s->rho);
     if (s->nu > 0.0)
@@ -416,7 +447,7 @@ void scene_write(const struct scene *s, FILE *f)
         fprintf(f, " level = %.17g;", s->level);
     fprintf(f, " };\n");
     write_walls(s, f);
-    write_bodies(s, f);
+    write_bodies(s, name, f);
     write_shapes(s, f);
     write_solvers(s, f);
     fprintf(f, "output: { snapshots = false; series = 1; };\n");

@@ -72,6 +72,24 @@ family blocks kinetic 1e-9 2 "1 3" 0.1 taylor_green_blocks -p fv.tol_pressure=1e
 family coupled kinetic 1e-9 2:1:1 "1:2:2 3:1:1" 0.08 taylor_green -p sph.dx=0.0125 -p "fv.cells=(24,24)"
 family wave kinetic 1e-9 2:1:1 "2:1:1 1:2:2 3:1:3" 0.5 standing_wave -p "fv.cells=(16,20)"
 
+# meshes: a column of water in a tank without lid, an obstacle; the restart file knows its meshes
+awk -v lo="0 0 0" -v hi="1 0.4 0.6" -v drop=zp -f "$root/tests/stl.awk" >tank.stl
+awk -v lo="0.62 0.13 0" -v hi="0.78 0.27 0.17" -v drop=zm -f "$root/tests/stl.awk" >block.stl
+cat >meshes.cfg <<'END'
+format = 1;
+time:    { end = 0.1; };
+fluid:   { rho = 1000.0; gravity = (0, 0, -9.81); };
+domain:  { dim = 3; min = (0, 0, 0); max = (1, 0.4, 0.6); };
+walls:   ( { mesh = "tank.stl"; }, { mesh = "block.stl"; flip = true; fluid_side = "outside"; } );
+shapes:  ( { box = ((0, 0, 0), (0.5, 0.4, 0.3)); } );
+sph:     { dx = 0.05; R_dx = 2.5; };
+END
+if "$b/sph" meshes.cfg --check 2>&1 | grep -q 'built without a reader'; then
+    echo "note: this build has no reader of meshes: runs between them are not restarted"
+else
+    family meshes kinetic 1e-9 2 "1 2 3" 0.1 meshes.cfg
+fi
+
 # a run of another case: what differs, and from what
 refuses() { # SAYS ARGS...
     says=$1
@@ -81,6 +99,10 @@ refuses() { # SAYS ARGS...
 }
 refuses 'sph.dx = 0.02.* in the file, 0.04.* here' dam.cfg -o dam-half -n 1 -p sph.dx=0.04
 refuses 'is of 64 x 16 x 1 cells, the case of 32 x 16 x 1' "$root/cases/stress/outflow_fv.cfg" -o outflow-half -n 1 -p "fv.cells=(32,16)"
+if [ -d meshes-half ]; then
+    awk -v lo="0.62 0.13 0" -v hi="0.78 0.27 0.18" -v drop=zm -f "$root/tests/stl.awk" >block.stl
+    refuses 'of another mesh block: its file, or scale' meshes.cfg -o meshes-half -n 1
+fi
 
 echo "restart: $failed faults"
 [ $failed = 0 ]

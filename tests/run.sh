@@ -87,7 +87,7 @@ ends 2 "$toy" swing -p toy.slwo=1
 has out.txt 'did you mean .slow'
 ends 0 "$toy" --help dt
 has out.txt 'time step'
-ends 0 "$toy" --help tyo
+ends 0 "$toy" --help tooy
 has out.txt 'did you mean .toy'
 
 # straight through, and in two parts: the same bits, rows and times

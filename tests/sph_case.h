@@ -39,7 +39,8 @@ static inline void sph_case_set(struct sph_case *c, int dim, int cells)
                                  .gamma = 7.0,
                                  .low_dissipation = true,
                                  .damper = 0.2,
-                                 .cfl = 0.375,
+                                 .integrator = INTEGRATOR_J3,
+                                 .cfl = dim == 2 ? 0.5 : 0.45,
                                  .cfl_viscous = 0.09,
                                  .density_limit = 0.1};
 }

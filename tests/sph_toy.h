@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "../common/mem.h"
-#include "../sph/neighbours.h"
-#include "../sph/scheme.h"
+#include "../sph/pairs/neighbours.h"
+#include "../sph/pairs/scheme.h"
 #include "../sph/sph.h"
 
 struct toy {

@@ -4,8 +4,8 @@
 #include "test.h"
 
 #include "../common/scene_fluid.h"
-#include "../sph/eos.h"
-#include "../sph/walls.h"
+#include "../sph/particles/eos.h"
+#include "../sph/walls/walls.h"
 #include "sph_case.h"
 
 static const double g = 9.81, rho = 1000.0;

@@ -5,11 +5,9 @@
 #include <stdlib.h>
 
 #include "../common/mem.h"
-#include "../sph/domain.h"
-#include "../sph/neighbours.h"
+#include "../sph/parallel/domain.h"
+#include "../sph/pairs/neighbours.h"
 #include "sph_case.h"
-
-enum { PRIM = 8 };
 
 /* Deterministic number in [0, 1). */
 static double noise(int64_t k)

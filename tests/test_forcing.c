@@ -2,8 +2,10 @@
  * whatever the free cells hold. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../fv/forcing.h"
+#include "../fv/boundary/forcing.h"
 #include "fv_case.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/operators/operators.h"
 
 static void fill_partner(const struct fv *s, struct forcing *f)
 {

@@ -3,7 +3,13 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
+#include <string.h>
+
 #include "fv_bc_case.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/operators/operators.h"
+#include "../fv/boundary/still.h"
+#include "../fv/output/output.h"
 
 static void no_slip_walls_keep_the_order(void **state)
 {
@@ -153,7 +159,7 @@ static void rest_stays_under_gravity(void **state)
     assert_close(s->umax[0] + s->umax[1], 0.0, 1e-300);
     assert_close(fv_still_pressure(s, (const double[]){0.5, 0.25, 0.0}), 0.75 * 9.81, 1e-12);
     double force[3];
-    bc_force(s, force);
+    fv_wall_force(s, force);
     assert_close(force[1], -9.81, 1e-12); /* weight of the water */
     fv_free(&c.s);
 }
@@ -231,6 +237,52 @@ static void vortices_leave(void **state)
     }
 }
 
+/* (1 - c L) x = r between walls of all kinds, from a thousandth of a cell to fifty of them: to the
+ * tolerance that is asked, in as many passes as the bounds of the spectrum say. */
+static void viscous_solve_keeps_its_word(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        struct fv_case c;
+        double *out[2], sums[2] = {0.0, 0.0};
+        const double reach = 1e-3 * pow(10.0, k); /* c nu/h^2 */
+        fv_case_set(&c, MPI_COMM_SELF,
+                    (const char *const[]){"initial.field=\"rest\"",
+                                          k % 2 ? "domain.periodic=(true,false)" : CLOSED,
+                                          "fluid.nu=0.1", "fv.cells=(24,36)", NULL});
+        for (int side = k % 2 ? SIDE_Y_MIN : SIDE_X_MIN; side <= SIDE_Y_MAX; side++)
+            wall_add(&c, (enum scene_side)side, side == SIDE_X_MAX ? WALL_SLIP : WALL_NO_SLIP, 0.0);
+        struct fv *s = fv_case_start(&c, NULL);
+        const double h = s->b.h[1], cc = reach * h * h / s->nu;
+        for (int a = 0; a < 2; a++) {
+            out[a] = block_field(&s->b);
+            memset(s->delta[a], 0, (size_t)s->b.size * sizeof(double));
+            BLOCK_CELLS (&s->b, i, j, kk, at)
+                s->rhs[a][at] = out[a][at] = sin(1.0 + 7.3 * i * i + 3.1 * j * (a + 1) + kk);
+        }
+        s->viscous_iterations = 0;
+        assert_true(viscous_solve(s, cc, s->delta, s->rhs, 1e-8));
+        bc_ghosts(s, BC_ZERO, s->delta);
+        block_halo(&s->b, 2, s->delta);
+        for (int a = 0; a < 2; a++) {
+            viscous_apply(s, s->delta[a], s->rhs[a]);
+            BLOCK_CELLS (&s->b, i, j, kk, at) {
+                const double left = out[a][at] - s->delta[a][at] + cc * s->rhs[a][at];
+                sums[0] += left * left;
+                sums[1] += out[a][at] * out[a][at];
+            }
+            mem_free(out[a]);
+        }
+        const double kappa = 1.0 + reach * 7.8 * (1.0 + 24.0 * 24.0 / (36.0 * 36.0));
+        print_message("c nu/h^2 = %g: residual %.2g, %d passes\n", reach, sqrt(sums[0] / sums[1]),
+                      (int)s->viscous_iterations);
+        assert_true(sqrt(sums[0] / sums[1]) <= 1e-8);
+        assert_true((double)s->viscous_iterations <=
+                    4.0 + log(2e9) / acosh((kappa + 1.0) / (kappa - 1.0)));
+        fv_free(&c.s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(no_slip_walls_keep_the_order),
@@ -241,7 +293,8 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(lids_drag_alike_on_all_sides),
                                        cmocka_unit_test(rest_stays_under_gravity),
                                        cmocka_unit_test(rest_stays_between_equal_pressures),
-                                       cmocka_unit_test(vortices_leave)};
+                                       cmocka_unit_test(vortices_leave),
+                                       cmocka_unit_test(viscous_solve_keeps_its_word)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

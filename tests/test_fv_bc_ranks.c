@@ -3,6 +3,9 @@
 #include "test.h"
 
 #include "fv_bc_case.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/boundary/still.h"
+#include "../fv/output/output.h"
 
 enum flow { CAVITY, DUCT, CARRIED, CAVITY_3D, GRADED, GRADED_3D, FLOWS };
 

@@ -3,6 +3,8 @@
 #include "test.h"
 
 #include "fv_case.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/operators/operators.h"
 
 enum what { VALUE, GRADIENT, LAPLACE };
 

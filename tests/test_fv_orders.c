@@ -4,6 +4,7 @@
 #include "test.h"
 
 #include "fv_case.h"
+#include "../fv/case/fv_case.h"
 
 #define TWO_MODES "initial.field=\"two_modes\"", "initial.velocity=(0.5,0.25)"
 

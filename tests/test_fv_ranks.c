@@ -3,6 +3,9 @@
 #include "test.h"
 
 #include "fv_case.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/boundary/still.h"
+#include "../fv/output/output.h"
 
 #define TWO_MODES "initial.field=\"two_modes\"", "initial.velocity=(0.5,0.25)"
 #define HOLE "fv.hole=((0.3125,0.3125),(0.6875,0.6875))"

@@ -4,7 +4,10 @@
 
 #include "fv_case.h"
 
-#include "../fv/forcing.h"
+#include "../fv/boundary/forcing.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/operators/operators.h"
+#include "../fv/output/output.h"
 
 static void fill_random(const struct fv *s, double *q)
 {

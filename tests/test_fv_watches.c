@@ -5,8 +5,9 @@
 #include "fv_bc_case.h"
 #include "mesh_case.h"
 
-#include "../fv/levelset.h"
-#include "../fv/watches.h"
+#include "../fv/surface/levelset.h"
+#include "../fv/watch/watches.h"
+#include "../fv/case/fv_case.h"
 
 static void say(const char *what, const struct watches *w)
 {
@@ -49,7 +50,7 @@ static void blocks_are_watched(void **state)
     (void)state;
     for (int k = 0; k < 2; k++) {
         struct mesh_case c;
-        struct mesh_flow *s =
+        struct fv *s =
             mesh_case_start(&c, MPI_COMM_WORLD, waving,
                             (const char *const[]){"initial.velocity=(3,3)", "fluid.nu=1e-4", NULL});
         s->prm.cfl = k ? 2.2 : 1.1;

@@ -5,10 +5,13 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../fv/bc.h"
-#include "../fv/levelset.h"
-#include "../fv/pressure.h"
+#include "../fv/boundary/bc.h"
+#include "../fv/surface/levelset.h"
+#include "../fv/poisson/pressure.h"
 #include "fv_case.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/time/steps.h"
+#include "../fv/output/output.h"
 
 #define CLOSED "domain.periodic=(false,false,false)"
 #define SURFACE "fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED
@@ -215,27 +218,152 @@ static void still_water_stays(void **state)
         }
 }
 
+/* A wedge of 45 degrees: its foot on the bottom, not where it is half a cell above. */
+static void reach_is_that_on_the_wall(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    const struct scene_shape wedge = {
+        .form = SHAPE_POLYGON,
+        .points = {.n = 3, .x = {{-2.0, -1.0}, {1.713, -1.0}, {-2.0, 2.713}}}};
+    struct fv *s = start(&c, MPI_COMM_WORLD,
+                         (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "domain.dim=2",
+                                               "fv.cells=(16,16)", NULL},
+                         &wedge, WALL_SLIP);
+    assert_close(surface_reach(s, 0), 0.713, 0.05 / 16.0);
+    assert_close(surface_reach(s, 1), 0.713, 0.05 / 16.0);
+    fv_free(&c.s);
+}
+
 #define WAVE                                                                                       \
     "fv.surface=\"yes\"", "initial.field=\"standing_wave\"", "initial.level=1",                    \
         "initial.amplitude=0.01", "initial.U=0.01", "initial.L=4", "fluid.nu=2e-3",                \
         "fluid.gravity=(0,-1)", "domain.max=(4,1.25)", "domain.periodic=(true,false)"
+
+/* The surface through graded rows, upright and askew. */
+static void still_water_stays_on_graded_rows(void **state)
+{
+    static const double slope[] = {0.0, 0.3};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct fv_case c;
+        char gravity[96];
+        snprintf(gravity, sizeof gravity, "fluid.gravity=(%g,-9.81)", 9.81 * slope[k]);
+        const struct scene_shape shape = {.form = SHAPE_BELOW, .level = 0.4123};
+        struct fv *s = start(
+            &c, MPI_COMM_WORLD,
+            (const char *const[]){SURFACE, gravity, "fv.cells=(24,20)", "fv.graded=(0.75,7)", NULL},
+            &shape, WALL_NO_SLIP);
+        const double volume = surface_volume(s, NULL);
+        if (k == 0)
+            assert_close(volume, 0.4123, 1e-3);
+        assert_true(fv_case_run(&c, 5, 10.0));
+        print_message("still water on graded rows: %.3g m/s, volume %.6g\n", s->umax[0], volume);
+        for (int a = 0; a < 2; a++)
+            assert_close(s->umax[a], 0.0, 1e-10);
+        fv_free(&c.s);
+    }
+}
+
+/* A disc that is carried down through rows that grow, with a uniform velocity: it stays a disc of
+ * its size. */
+static void disc_sinks_through_graded_rows(void **state)
+{
+    struct fv_case c;
+    double x[3], area, worst = 0.0;
+    (void)state;
+    const struct scene_shape shape = {
+        .form = SHAPE_DISC, .centre = {0.5, 0.75, 0.0}, .radius = 0.15};
+    struct fv *s =
+        start(&c, MPI_COMM_WORLD,
+              (const char *const[]){SURFACE, "fv.cells=(64,48)", "fv.graded=(0.7,24)", NULL},
+              &shape, WALL_SLIP);
+    const double before = surface_volume(s, &area), dt = 0.005;
+    assert_close(before, M_PI * 0.15 * 0.15, 2e-3);
+    s->umax[1] = 1.0;
+    for (int k = 0; k < 80; k++) { /* by 0.4 */
+        for (int64_t i = 0; i < s->b.size; i++)
+            s->u[1][i] = -1.0;
+        surface_advance(s, dt);
+        if (k % 10 == 9)
+            surface_reinit(s, 10);
+    }
+    BLOCK_CELLS (&s->b, i, j, k, at) {
+        block_centre(&s->b, i, j, k, x);
+        const double r = hypot(x[0] - 0.5, x[1] - 0.35) - 0.15;
+        worst = fabs(r) < s->b.h[0] ? fmax(worst, fabs(s->surface->phi[at] - r)) : worst;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    const double after = surface_volume(s, &area);
+    const double lowest = s->b.rows->edge[1] - s->b.rows->edge[0];
+    print_message("disc: %.3g rows off, volume %.3g\n", worst / lowest, after / before - 1.0);
+    assert_true(worst < 0.1 * lowest);
+    assert_close(after, before, 5e-3);
+    fv_free(&c.s);
+}
+
+/* A current from an inlet to an outlet, whose water stands at the level: uniform, it stays; from
+ * rest it swings, and what is there is what was, and came in, and went out. */
+static void currents_pass_openings(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) { /* uniform; from rest; uniform over graded rows */
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_WORLD,
+                    (const char *const[]){
+                        "fv.surface=\"yes\"", CLOSED, "fluid.gravity=(0,-9.81)", "fv.cells=(40,24)",
+                        k == 2 ? "fv.graded=(0.6,12)" : "fv.graded=(0,0)", "domain.max=(2,1)",
+                        "fluid.nu=1e-4", "initial.level=0.5",
+                        k == 1 ? "initial.field=\"rest\"" : "initial.field=\"uniform\"",
+                        k == 1 ? "initial.U=0.1" : "initial.velocity=(0.5,0)", NULL});
+        const double U = k == 1 ? 0.1 : 0.5;
+        const struct scene_wall walls[] = {
+            {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {U, 0.0, 0.0}},
+            {.side = SIDE_X_MAX, .kind = WALL_OUTFLOW},
+            {.side = SIDE_Y_MIN, .kind = WALL_SLIP},
+            {.side = SIDE_Y_MAX, .kind = WALL_SLIP}};
+        memcpy(c.run.scene.walls, walls, sizeof walls);
+        c.run.scene.nwalls = 4;
+        c.run.scene.shapes[c.run.scene.nshapes++] =
+            (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
+        struct fv *s = fv_case_start(&c, NULL);
+        const double before = surface_volume(s, NULL);
+        assert_true(fv_case_run(&c, 10000, k == 1 ? 4.0 : 1.0));
+        const double after = surface_volume(s, NULL), passed = s->surface->passed;
+        print_message("current: %.6g m/s, volume %.6g to %.6g, passed %.4g, put back %.3g\n",
+                      s->umax[0], before, after, passed, s->surface->returned);
+        assert_close(before, 1.0, 1e-6);
+        const double exact = k == 2 ? 1e-3 : 1e-9; /* distance is rebuilt to h^2 on graded rows */
+        assert_true(k == 1 || fabs(s->umax[0] - U) + fabs(s->umax[1]) < exact);
+        assert_true(k == 1 || fabs(passed - 0.5) < exact);
+        assert_close(after, s->surface->volume0, 1e-6);
+        assert_true(fabs(after - 1.0) < 0.05 && fabs(s->surface->returned) < 0.01 * passed);
+        fv_free(&c.s);
+    }
+}
 
 static void wave_swings_as_theory_says(void **state)
 {
     (void)state;
     struct fv_case c;
     double period, rate;
-    struct fv *s = start(&c, MPI_COMM_WORLD, (const char *const[]){WAVE, "fv.cells=(32,40)", NULL},
-                         NULL, WALL_NO_SLIP);
-    assert_true(exact_oscillation(&s->exact, &period, &rate));
-    assert_true(fv_case_run(&c, 10000, 1.9 * period));
-    const double T = fit_period(&s->swing) / period - 1.0, r = fit_rate(&s->swing) / rate - 1.0,
-                 v = surface_volume(s, NULL) / s->surface->volume0 - 1.0;
-    print_message("wave: period %.3g, damping %.3g, volume %.3g\n", T, r, v);
-    fv_free(&c.s);
-    assert_close(T, 0.0, 0.002);
-    assert_close(r, 0.0, 0.05);
-    assert_close(v, 0.0, 1e-10);
+    for (int graded = 0; graded < 2;
+         graded++) { /* there the layer at the bottom, which damps, is coarse */
+        struct fv *s =
+            start(&c, MPI_COMM_WORLD,
+                  (const char *const[]){WAVE, "fv.cells=(32,40)",
+                                        graded ? "fv.graded=(1.1,8)" : "fv.graded=(0,0)", NULL},
+                  NULL, WALL_NO_SLIP);
+        assert_true(exact_oscillation(&s->exact, &period, &rate));
+        assert_true(fv_case_run(&c, 10000, 1.9 * period));
+        const double T = fit_period(&s->swing) / period - 1.0, r = fit_rate(&s->swing) / rate - 1.0,
+                     v = surface_volume(s, NULL) / s->surface->volume0 - 1.0;
+        print_message("wave: period %.3g, damping %.3g, volume %.3g\n", T, r, v);
+        fv_free(&c.s);
+        assert_close(T, 0.0, 0.002);
+        assert_true(graded || fabs(r) < 0.05);
+        assert_close(v, 0.0, 1e-10);
+    }
 }
 
 enum flow { WAVES, COLUMN, COLUMN_3D, FLOWS };
@@ -443,12 +571,65 @@ static void water_survives_impacts(void **state)
     }
 }
 
+/* Water in a corner of a box of flat cells, its axes put on by `way'; most gets |u| along those of
+ * the first. */
+static void collapse(int dim, int way, double *most)
+{
+    static const int n[3] = {16, 10, 6};
+    static const double box[3] = {0.43, 0.61, 0.57}, g[3] = {0.0, -9.81, 0.0};
+    const int count = dim == 2 ? 2 : 3;
+    struct fv_case c;
+    struct scene_shape column = {.form = SHAPE_BOX};
+    double turned[3] = {0.0};
+    int cells[3] = {1, 1, 1};
+    char text[2][96];
+    for (int a = 0; a < count; a++) {
+        const int to = (a + way) % count;
+        cells[to] = n[a];
+        turned[to] = g[a];
+        column.box[1][to] = box[a];
+    }
+    snprintf(text[0], sizeof text[0], dim == 2 ? "fv.cells=(%d,%d)" : "fv.cells=(%d,%d,%d)",
+             cells[0], cells[1], cells[2]);
+    snprintf(text[1], sizeof text[1],
+             dim == 2 ? "fluid.gravity=(%g,%g)" : "fluid.gravity=(%g,%g,%g)", turned[0], turned[1],
+             turned[2]);
+    struct fv *s = start(&c, MPI_COMM_WORLD,
+                         (const char *const[]){SURFACE, text[0], text[1], "fv.tol_pressure=1e-9",
+                                               dim == 2 ? "domain.dim=2" : "domain.dim=3", NULL},
+                         &column, WALL_SLIP);
+    assert_true(fv_case_run(&c, 5, 10.0));
+    for (int a = 0; a < count; a++)
+        most[a] = most_of(s->umax[(a + way) % count]);
+    fv_free(&c.s);
+}
+
+/* No axis comes before another, where cells are not cubes either. */
+static void axes_are_alike(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        double base[3], other[3];
+        collapse(dim, 0, base);
+        for (int way = 1; way < dim; way++) {
+            collapse(dim, way, other);
+            for (int a = 0; a < dim; a++)
+                assert_close(other[a], base[a], 1e-6 * base[1]);
+        }
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(disc_turns_once),
                                        cmocka_unit_test(reinit_does_not_move_the_surface),
                                        cmocka_unit_test(pressure_is_second_order),
                                        cmocka_unit_test(still_water_stays),
+                                       cmocka_unit_test(axes_are_alike),
+                                       cmocka_unit_test(reach_is_that_on_the_wall),
+                                       cmocka_unit_test(still_water_stays_on_graded_rows),
+                                       cmocka_unit_test(disc_sinks_through_graded_rows),
+                                       cmocka_unit_test(currents_pass_openings),
                                        cmocka_unit_test(wave_swings_as_theory_says),
                                        cmocka_unit_test(ranks_agree),
                                        cmocka_unit_test(restart_is_exact),

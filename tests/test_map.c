@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "../common/mem.h"
-#include "../coupler/map.h"
-#include "../coupler/region.h"
+#include "../coupler/mapping/map.h"
+#include "../coupler/transport/region.h"
 
 enum { TARGETS = 200 };
 
@@ -264,6 +264,130 @@ static void cells_of_a_box_have_their_margin(void **state)
     assert_int_equal(last[1], 13);
     region_cells(2, origin, h, cells, open, lo, none, first, last);
     assert_int_equal(first[0], last[0]);
+    /* without end: all there is, once round where it is periodic */
+    const double from[3] = {-INFINITY, -1e300, 0.0}, to[3] = {INFINITY, 1e300, 0.0};
+    region_cells(2, origin, h, cells, closed, from, to, first, last);
+    assert_int_equal(first[0], 0);
+    assert_int_equal(last[1], 10);
+    region_cells(2, origin, h, cells, open, from, to, first, last);
+    assert_int_equal(last[0] - first[0], 10 + 2 * 3 + 1);
+}
+
+static void nearest_takes_the_nearest_and_of_equals_the_lowest_id(void **state)
+{
+    (void)state;
+    double x[3 * TARGETS], v[TARGETS];
+    unsigned char mask[TARGETS];
+    for (int dim = 2; dim <= 3; dim++) {
+        struct map_cloud c = lattice(dim, 9, 0.5, 1, 2);
+        set_values(&c, dim, bent);
+        targets(dim, -0.1, 1.1, x);
+        map_nearest(dim, 0.3, 1, &c, TARGETS, x, v, mask);
+        for (int i = 0; i < TARGETS; i++) {
+            double least = INFINITY, value = 0.0;
+            for (long j = 0; j < c.n; j++) {
+                double r2 = 0.0;
+                for (int d = 0; d < dim; d++)
+                    r2 += pow(c.x[j * dim + d] - x[i * dim + d], 2);
+                value = r2 < least ? c.v[j] : value;
+                least = fmin(r2, least);
+            }
+            assert_int_equal(mask[i], least < 0.09);
+            assert_true(v[i] == (least < 0.09 ? value : 0.0));
+        }
+        map_cloud_free(&c);
+    }
+    struct map_cloud two = lattice(2, 2, 0.0, 1, 0);
+    const double middle[2] = {0.5, 0.5};
+    for (long i = 0; i < two.n; i++)
+        two.v[i] = (double)two.gid[i];
+    map_nearest(2, 2.0, 1, &two, 1, middle, v, mask);
+    assert_true(v[0] == 5.0);
+    map_cloud_free(&two);
+}
+
+/* sum_i g_i (D s)_i = sum_j s_j (C g)_j: dealing out is the transpose of gathering. */
+static void dealing_is_the_transpose_of_a_consistent_mapping(void **state)
+{
+    (void)state;
+    map_points *const gather[] = {map_shepard, map_mls, map_nearest};
+    const enum map_dealing deal[] = {MAP_DEAL_SHEPARD, MAP_DEAL_MLS, MAP_DEAL_NEAREST};
+    const double open[3] = {0.0, 0.0, 0.0};
+    for (int dim = 2; dim <= 3; dim++)
+        for (int k = 0; k < 3; k++) {
+            double x[3 * TARGETS], back[TARGETS], dealt[1000], left = 0.0, right = 0.0;
+            unsigned char mask[TARGETS];
+            struct map_cloud t = lattice(dim, dim == 2 ? 20 : 9, 0.5, 1, 0), s = {.n = TARGETS};
+            set_values(&t, dim, bent);
+            targets(dim, 0.0, 1.0, x);
+            s.x = NEW(double, TARGETS *dim);
+            s.gid = NEW(int64_t, TARGETS);
+            s.volume = NEW(double, TARGETS);
+            s.v = NEW(double, TARGETS);
+            memcpy(s.x, x, (size_t)(TARGETS * dim) * sizeof *x);
+            for (int j = 0; j < TARGETS; j++) {
+                s.gid[j] = j;
+                s.volume[j] = 1.0;
+                s.v[j] = cos(3.0 * j);
+            }
+            assert_true(t.n <= 1000);
+            map_deal(deal[k], dim, 0.3, 1, open, &t, &s, 0, t.n, dealt);
+            double total = 0.0, given = 0.0;
+            for (long i = 0; i < t.n; i++) {
+                left += t.v[i] * dealt[i];
+                total += dealt[i];
+            }
+            gather[k](dim, 0.3, 1, &t, TARGETS, x, back, mask);
+            for (int j = 0; j < TARGETS; j++) {
+                assert_int_equal(mask[j], 1);
+                right += cos(3.0 * j) * back[j];
+                given += cos(3.0 * j);
+            }
+            assert_close(left, right, 1e-11);
+            assert_close(total, given, 1e-12);
+            map_cloud_free(&t);
+            map_cloud_free(&s);
+        }
+}
+
+/* The share of a part of the targets is the same, bit by bit, as in the whole; nothing is lost by
+ * sources far from all targets, nor over a periodic side. */
+static void dealing_loses_nothing_and_knows_no_ranks(void **state)
+{
+    (void)state;
+    const double period[3] = {1.0, 0.0, 0.0};
+    for (int k = 0; k < 3; k++) {
+        double whole[100], part[100], sum = 0.0, wanted = 0.0;
+        struct map_cloud t = lattice(2, 10, 0.3, 1, 0), s = lattice(2, 25, 0.9, 1, 0);
+        set_values(&s, 2, bent);
+        for (long i = 0; i < s.n; i++) {
+            s.x[2 * i + 1] *= 4.0; /* most of them beyond the targets */
+            wanted += s.v[i];
+        }
+        map_deal((enum map_dealing)k, 2, 0.15, 1, period, &t, &s, 0, t.n, whole);
+        for (long i = 0; i < t.n; i++)
+            sum += whole[i];
+        assert_close(sum, wanted, 1e-11);
+        map_deal((enum map_dealing)k, 2, 0.15, 1, period, &t, &s, 33, 71, part);
+        assert_memory_equal(part, whole + 33, 38 * sizeof *part);
+        /* one source at the right side: half of it goes to the left one */
+        struct map_cloud one = {.n = 1};
+        one.x = NEW(double, 2), one.gid = NEW(int64_t, 1);
+        one.volume = NEW(double, 1), one.v = NEW(double, 1);
+        one.x[0] = 1.0, one.x[1] = 0.55, one.v[0] = 1.0;
+        map_cloud_free(&t);
+        t = lattice(2, 10, 0.0, 1, 0);
+        for (long i = 0; i < t.n; i++)
+            t.volume[i] = 0.01;
+        map_deal((enum map_dealing)k, 2, 0.15, 1, period, &t, &one, 0, t.n, whole);
+        double west = 0.0;
+        for (long i = 0; i < t.n; i++)
+            west += t.x[2 * i] < 0.5 ? whole[i] : 0.0;
+        assert_close(west, k == 2 ? rint(west) : 0.5, 1e-12);
+        map_cloud_free(&one);
+        map_cloud_free(&t);
+        map_cloud_free(&s);
+    }
 }
 
 int main(void)
@@ -277,6 +401,9 @@ int main(void)
         cmocka_unit_test(order_of_sources_leaves_no_trace),
         cmocka_unit_test(empty_places_are_masked),
         cmocka_unit_test(mls_falls_back_where_points_lie_on_a_line),
+        cmocka_unit_test(nearest_takes_the_nearest_and_of_equals_the_lowest_id),
+        cmocka_unit_test(dealing_is_the_transpose_of_a_consistent_mapping),
+        cmocka_unit_test(dealing_loses_nothing_and_knows_no_ranks),
         cmocka_unit_test(regions_hold_what_is_within_reach),
         cmocka_unit_test(cells_of_a_box_have_their_margin),
     };

@@ -4,7 +4,10 @@
 
 #include "mesh_case.h"
 
-#include "../fv/watches.h"
+#include "../fv/watch/watches.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/time/steps.h"
+#include "../fv/output/output.h"
 
 #define WAVE "name = \"a\"; mapping = \"sheared\"; wave = 0.06; " PERIODIC
 #define RING                                                                                       \
@@ -35,7 +38,7 @@ static double open_faces(const struct mesh *m, double *volume)
     double worst = 0.0;
     *volume = 0.0;
     for (int q = 0; q < m->nparts; q++) {
-        const struct mesh_part *p = m->part + q;
+        const struct part *p = m->part + q;
         for (int k = 0; k < p->n[2]; k++)
             for (int j = 0; j < p->n[1]; j++)
                 for (int i = 0; i < p->n[0]; i++) {
@@ -64,7 +67,7 @@ static void faces_of_a_cell_close(void **state)
     double volume, exact[2], e[2];
     for (int k = 0; k < 2; k++) {
         sized(text, sizeof text, RING, 8 << k, 32 << k, 1);
-        struct mesh_flow *s = mesh_case_start(&c, MPI_COMM_WORLD, text, NULL);
+        struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, text, NULL);
         assert_true(open_faces(s->m, &volume) < 1e-13);
         exact[k] = M_PI * 0.75;
         e[k] = fabs(volume / exact[k] - 1.0);
@@ -75,7 +78,7 @@ static void faces_of_a_cell_close(void **state)
         text, sizeof text,
         "{ %s max = (1.0, 1.0, 0.25); k_min = \"slip\"; k_max = \"slip\"; cells = (8, 32, 6); }",
         RING);
-    struct mesh_flow *s =
+    struct fv *s =
         mesh_case_start(&c, MPI_COMM_WORLD, text, (const char *const[]){"domain.dim=3", NULL});
     assert_true(open_faces(s->m, &volume) < 1e-12);
     assert_close(volume, M_PI * 0.75 * 0.25, 1e-4);
@@ -87,10 +90,10 @@ static double change_of_stream(const char *blocks, const char *const *overrides)
 {
     struct mesh_case c;
     double worst = 0.0;
-    struct mesh_flow *s = mesh_case_start(&c, MPI_COMM_WORLD, blocks, overrides);
+    struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, blocks, overrides);
     const bool good = mesh_case_run(s, 4, 100.0);
     for (int q = 0; q < s->m->nparts; q++) {
-        const struct mesh_part *p = s->m->part + q;
+        const struct part *p = s->m->part + q;
         for (int64_t i = p->base; i < p->base + p->size; i++)
             for (int a = 0; a < s->m->dim && s->free[i] > 0.0; a++)
                 worst = fmax(worst, fabs(s->u[a][i] - s->run->scene.initial.velocity[a]));
@@ -170,7 +173,7 @@ static void a_lid_is_one_wall_alone(void **state)
         struct mesh_case c;
         double worst = 0.0;
         snprintf(block, sizeof block, text, lid[k]);
-        struct mesh_flow *s =
+        struct fv *s =
             mesh_case_start(&c, MPI_COMM_WORLD, block,
                             (const char *const[]){"initial.field=\"rest\"", "fluid.nu=0.5",
                                                   "domain.periodic=(true,false)", NULL});
@@ -183,7 +186,7 @@ static void a_lid_is_one_wall_alone(void **state)
         assert_close(first, last, 1e-12);
         assert_true(middle > 3.0 * first);
         for (int q = 0; q < s->m->nparts; q++) {
-            const struct mesh_part *p = s->m->part + q;
+            const struct part *p = s->m->part + q;
             for (int j = 0; j < p->n[1]; j++) {
                 const int at[3] = {0, p->lo[1] + j, 0};
                 const double y =
@@ -205,15 +208,15 @@ static void a_lid_drags_what_its_layer_holds(void **state)
 {
     struct mesh_case c;
     (void)state;
-    struct mesh_flow *s = mesh_case_start(
+    struct fv *s = mesh_case_start(
         &c, MPI_COMM_WORLD,
         "{ name = \"a\"; mapping = \"box\"; cells = (16, 16); velocity = (0.0, -1.0); lid = "
         "\"i_max\"; i_min = \"wall\"; i_max = \"wall\"; j_min = \"wall\"; j_max = \"wall\"; }",
         (const char *const[]){"initial.field=\"rest\"", "fluid.nu=1e-4",
                               "domain.periodic=(false,false)", NULL});
     assert_true(mesh_case_run(s, 100, 1.0));
-    print_message("lid: %.4g m/s\n", s->umax);
-    assert_close(s->umax / (2.0 * sqrt(1e-4 / M_PI) * 16.0), 1.0, 0.25);
+    print_message("lid: %.4g m/s\n", s->umax[0]);
+    assert_close(s->umax[0] / (2.0 * sqrt(1e-4 / M_PI) * 16.0), 1.0, 0.25);
     assert_close(s->watches->speed, 1.0, 1e-12); /* the lid's: the scene knows no sides of blocks */
     mesh_case_end(&c, &s);
 }
@@ -225,7 +228,7 @@ static void walls_of_blocks_move_on_their_own(void **state)
     (void)state;
     struct mesh_case c;
     double worst = 0.0;
-    struct mesh_flow *s = mesh_case_start(
+    struct fv *s = mesh_case_start(
         &c, MPI_COMM_WORLD,
         "{ name = \"low\"; cells = (8, 8); max = (1.0, 0.5); velocity = (-0.25, 0.0); i_min = "
         "\"periodic\"; i_max = \"periodic\"; j_min = \"wall\"; j_max = \"joined\"; }, "
@@ -235,7 +238,7 @@ static void walls_of_blocks_move_on_their_own(void **state)
                               "domain.periodic=(true,false)", NULL});
     assert_true(mesh_case_run(s, 100000, 8.0));
     for (int q = 0; q < s->m->nparts; q++) {
-        const struct mesh_part *p = s->m->part + q;
+        const struct part *p = s->m->part + q;
         for (int j = 0; j < p->n[1]; j++) {
             const double y = (p->lo[1] + j + 0.5) / 16.0 + 0.5 * p->block;
             worst = fmax(worst, fabs(s->u[0][part_at(p, 0, j, 0)] + 0.25 - y));
@@ -258,7 +261,7 @@ static void walls_of_blocks_move_on_their_own(void **state)
     assert_true(mesh_case_run(s, 100000, 2.0));
     worst = 0.0;
     for (int q = 0; q < s->m->nparts; q++) {
-        const struct mesh_part *p = s->m->part + q;
+        const struct part *p = s->m->part + q;
         for (int i = 0; i < p->n[0]; i++) {
             const int at[3] = {p->lo[0] + i, p->lo[1], 0};
             const struct mesh_block *b = s->m->block + p->block;
@@ -284,7 +287,7 @@ static void a_start_is_linear_in_the_cells(void **state)
         char text[256];
         const int n = k ? 128 : 32;
         sized(text, sizeof text, "name = \"a\"; " PERIODIC, n, n, 1);
-        struct mesh_flow *s = mesh_case_start(&c, MPI_COMM_WORLD, text, NULL);
+        struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, text, NULL);
         its[k] = s->start_iterations;
         retries += s->retries;
         mesh_case_end(&c, &s);
@@ -302,9 +305,9 @@ static void one_uniform_block_is_the_plain_solver(void **state)
     char text[256];
     sized(text, sizeof text, "name = \"a\"; " PERIODIC, 32, 32, 1);
     const char *const tight[] = {"fv.tol_pressure=1e-10", "fv.tol_viscous=1e-10", NULL};
-    struct mesh_flow *s = mesh_case_start(&c, MPI_COMM_SELF, text, tight);
+    struct fv *s = mesh_case_start(&c, MPI_COMM_SELF, text, tight);
     struct diagnosis d = {0};
-    mesh_integrate(s, 0.02, &d);
+    integrate(s, 0.02, &d);
     struct run r = c.run;
     mesh_given_count = 0;
     struct fv_params *prm = (struct fv_params *)(uintptr_t)fv_params_of(&r);
@@ -328,9 +331,9 @@ static void sums_on(MPI_Comm comm, const char *blocks, const char *const *overri
 {
     struct mesh_case c;
     double row[16];
-    struct mesh_flow *s = mesh_case_start(&c, comm, blocks, overrides);
+    struct fv *s = mesh_case_start(&c, comm, blocks, overrides);
     const bool good = mesh_case_run(s, 4, 100.0);
-    mesh_row_values(s, row);
+    fv_row(s, row);
     sums[0] = good ? row[0] : NAN;
     sums[1] = row[1];
     sums[2] = s->t;
@@ -368,17 +371,17 @@ static void goes_on_bit_for_bit(const char *blocks, const char *const *overrides
     struct mesh_case one, two;
     char path[1100];
     int64_t differ = 0;
-    struct mesh_flow *s = mesh_case_start(&one, MPI_COMM_WORLD, blocks, overrides);
+    struct fv *s = mesh_case_start(&one, MPI_COMM_WORLD, blocks, overrides);
     snprintf(path, sizeof path, "%s.h5", one.path);
     MPI_Bcast(path, sizeof path, MPI_CHAR, 0, MPI_COMM_WORLD);
     assert_true(mesh_case_run(s, 3, 100.0));
     struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
-    mesh_checkpoint(s, f);
+    fv_checkpoint(s, f);
     h5_close(&f);
     mesh_case_read(&two, MPI_COMM_WORLD, blocks, overrides);
     two.run.t = s->t;
     f = h5_open(MPI_COMM_WORLD, path);
-    struct mesh_flow *z = mesh_flow_create(&two.run, f);
+    struct fv *z = fv_create(&two.run, f);
     h5_close(&f);
     assert_non_null(z);
     assert_true(mesh_case_run(s, 3, 100.0) && mesh_case_run(z, 3, 100.0));
@@ -399,11 +402,51 @@ static void restart_is_exact(void **state)
     char text[512];
     sized(text, sizeof text, RING, 8, 32, 1);
     goes_on_bit_for_bit(four, NULL);
+    goes_on_bit_for_bit(four, (const char *const[]){"fv.integrator=\"bdf2\"", NULL});
+    goes_on_bit_for_bit(four, (const char *const[]){"fv.integrator=\"newton\"", NULL});
     goes_on_bit_for_bit(text, (const char *const[]){"initial.field=\"rest\"", NULL});
     goes_on_bit_for_bit(
         "{ name = \"a\"; mapping = \"sheared\"; wave = 0.05; cells = (20, 20); i_min "
         "= \"exact\"; i_max = \"exact\"; j_min = \"exact\"; j_max = \"exact\"; }",
         (const char *const[]){"domain.periodic=(false,false)", NULL});
+}
+
+/* Upright boxes of one size have shorter sums, which are the same. */
+static void even_parts_are_computed_alike(void **state)
+{
+    double worst = 0.0;
+    struct mesh_case one, two;
+    (void)state;
+    struct fv *s = mesh_case_start(&one, MPI_COMM_WORLD, four, NULL),
+              *z = mesh_case_start(&two, MPI_COMM_WORLD, four, NULL);
+    int even = 0;
+    for (int q = 0; q < s->nparts; q++) {
+        even += s->part[q].kind == PART_EVEN;
+        z->m->part[q].kind = PART_CURVED;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &even, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+    assert_true(even > 0); /* the block that is upside down is none of them */
+    assert_true(mesh_case_run(s, 3, 100.0) && mesh_case_run(z, 3, 100.0));
+    for (int64_t c = 0; c < s->m->size_local; c++)
+        for (int a = 0; a < 2 && s->free[c] > 0.0; a++)
+            worst = fmax(worst, fabs(s->u[a][c] - z->u[a][c]));
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    print_message("%.3g m/s apart\n", worst);
+    assert_true(worst < 1e-10);
+    mesh_case_end(&one, &s);
+    mesh_case_end(&two, &z);
+}
+
+/* Errors of the cells are left as the steps shrink, whatever the integrator. */
+static void bdf2_agrees_with_rk3_in_short_steps(void **state)
+{
+    double rk3[3], bdf2[3];
+    (void)state;
+    mesh_case_errors(four, (const char *const[]){"fv.cfl=0.2", NULL}, 0.1, rk3);
+    mesh_case_errors(four, (const char *const[]){"fv.cfl=0.2", "fv.integrator=\"bdf2\"", NULL}, 0.1,
+                     bdf2);
+    print_message("velocity: rk3 %.4g, bdf2 %.4g\n", rk3[0], bdf2[0]);
+    assert_close(bdf2[0], rk3[0], 0.02);
 }
 
 /* Faults of a case with these blocks, as text of rank 0. */
@@ -522,6 +565,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(one_uniform_block_is_the_plain_solver),
         cmocka_unit_test(ranks_agree),
         cmocka_unit_test(restart_is_exact),
+        cmocka_unit_test(bdf2_agrees_with_rk3_in_short_steps),
+        cmocka_unit_test(even_parts_are_computed_alike),
         cmocka_unit_test(faults_are_told),
         cmocka_unit_test(blocks_come_from_files)};
     MPI_Init(&argc, &argv);

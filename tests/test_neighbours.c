@@ -4,10 +4,8 @@
 
 #include <mpi.h>
 
-#include "../sph/vec.h"
+#include "../sph/pairs/vec.h"
 #include "sph_toy.h"
-
-enum { PRIM = 8 };
 
 static double distance2(const struct sph *s, int i, int j)
 {

@@ -2,8 +2,10 @@
  * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../fv/overset.h"
+#include "../fv/grid/overset.h"
 #include "mesh_case.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/output/output.h"
 
 /* A box over the periodic square, turned by 30 degrees. */
 static void turned(char *text, size_t size, int n)
@@ -40,7 +42,7 @@ static void search_finds_places(void **state)
     for (int k = 0; k < 3; k++) {
         struct mesh_case c;
         int wrong = 0;
-        struct mesh_flow *s = mesh_case_start(
+        struct fv *s = mesh_case_start(
             &c, MPI_COMM_WORLD, blocks[k],
             (const char *const[]){"initial.field=\"rest\"",
                                   k == 1 ? NULL : "domain.periodic=(false,false)", NULL});
@@ -71,12 +73,12 @@ static void linear_fields_are_exact(void **state)
     char text[1024];
     double worst = 0.0;
     turned(text, sizeof text, 32);
-    struct mesh_flow *s = mesh_case_start(&c, MPI_COMM_WORLD, text, NULL);
+    struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, text, NULL);
     const struct mesh *m = s->m;
     double *q = mesh_field(m);
     for (int pass = 0; pass < 2; pass++) {
         for (int r = 0; r < m->nparts; r++) {
-            const struct mesh_part *p = m->part + r;
+            const struct part *p = m->part + r;
             const struct mesh_block *b = m->block + p->block;
             for (int j = 0; j < p->n[1]; j++)
                 for (int i = 0; i < p->n[0]; i++) {
@@ -104,7 +106,7 @@ static void holes_are_cut(void **state)
 {
     (void)state;
     struct mesh_case c;
-    struct mesh_flow *s = mesh_case_start(
+    struct fv *s = mesh_case_start(
         &c, MPI_COMM_WORLD, ring,
         (const char *const[]){"initial.field=\"uniform\"", "domain.periodic=(false,false)", NULL});
     const struct mesh_block *b = s->m->block;
@@ -129,8 +131,8 @@ static void a_uniform_flow_crosses(void **state)
     char text[1024];
     double worst = 0.0;
     turned(text, sizeof text, 32);
-    struct mesh_flow *s = mesh_case_start(&c, MPI_COMM_WORLD, text,
-                                          (const char *const[]){"initial.field=\"uniform\"", NULL});
+    struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, text,
+                                   (const char *const[]){"initial.field=\"uniform\"", NULL});
     const bool good = mesh_case_run(s, 5, 100.0);
     for (int64_t i = 0; i < s->m->size_local; i++)
         for (int a = 0; a < 2 && s->free[i] > 0.0; a++)
@@ -161,11 +163,11 @@ static double energy_on(MPI_Comm comm, const char *text)
 {
     struct mesh_case c;
     double row[16];
-    struct mesh_flow *s = mesh_case_start(
+    struct fv *s = mesh_case_start(
         &c, comm, text,
         (const char *const[]){"fv.tol_pressure=1e-11", "fv.tol_viscous=1e-11", NULL});
     const bool good = mesh_case_run(s, 4, 100.0);
-    mesh_row_values(s, row);
+    fv_row(s, row);
     mesh_case_end(&c, &s);
     return good ? row[0] + row[1] : NAN;
 }

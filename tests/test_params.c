@@ -55,6 +55,46 @@ static void ends_of_a_range_are_allowed_and_no_more(void **state)
     FAULTY("items: ( {}, {}, {}, {} );", 1, ":1: items", "3");
 }
 
+/* Lists of groups within a group, one group within it, and a text for a list of one. */
+static void groups_within_groups(void **state)
+{
+    struct faults f;
+    (void)state;
+    struct params *p =
+        read_case("trees: ( { turn = 2; powers = (1, 2, 3); parts = ( { x = 3; }, {} ); "
+                  "root = { x = 4; }; }, { turn = (1, 2, 3); powers = 7; parts = \"a b\"; } );\n",
+                  NULL, &f);
+    assert_int_equal(f.n, 0);
+    assert_close(trees[0].turn[0] + trees[0].turn[1] + 10 * trees[0].turn[2], 20.0, 0);
+    assert_close(trees[1].turn[0] + 10 * trees[1].turn[1] + 100 * trees[1].turn[2], 321.0, 0);
+    assert_int_equal(trees[0].powers.n * 10 + trees[1].powers.n, 31);
+    assert_close(trees[0].powers.v[2] + trees[1].powers.v[0], 10.0, 0);
+    assert_int_equal(trees[0].parts.n * 10 + trees[1].parts.n, 21);
+    assert_close(trees[0].parts.of[0].x + 10 * trees[0].parts.of[1].x, 8.0, 0);
+    assert_int_equal(trees[0].root.n * 10 + trees[1].root.n, 10);
+    assert_close(trees[0].root.of[0].x, 4.0, 0);
+    assert_string_equal(trees[1].parts.of[0].file, "a b");
+    assert_true(params_given(p, "trees.[0].parts.[0].x"));
+    assert_false(params_given(p, "trees.[0].parts.[1].x"));
+    assert_true(params_given(p, "trees.[0].root.x"));
+    const struct tree_case before = trees[0];
+    char *text = rank == 0 ? params_text(p) : NULL;
+    params_free(&p);
+    if (rank == 0)
+        put_alone(path, text); /* what is written can be read */
+    MPI_Barrier(MPI_COMM_WORLD);
+    p = params_read(MPI_COMM_WORLD, path, 0, NULL, groups, 3, others, &f);
+    if (f.n)
+        fail_msg("%s in %s", f.text, text);
+    assert_true(memcmp(&before, &trees[0], sizeof before) == 0);
+    params_free(&p);
+    mem_free(text);
+    FAULTY("trees: ( { parts = ( { y = 3; } ); } );", 1, "trees.[0].parts.y: unknown key");
+    FAULTY("trees: ( { parts = ( { x = 10; } ); } );", 1, "trees.[0].parts.x: 10 is not allowed");
+    FAULTY("trees: ( { parts = ( {}, {}, {}, {} ); } );", 1, "trees.[0].parts: ", "at most 3");
+    FAULTY("trees: ( { root = ( {} ); } );", 1, "trees.[0].root: a group");
+}
+
 static void all_faults_are_found_at_once(void **state)
 {
     (void)state;
@@ -73,6 +113,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(defaults_fill_what_is_not_given),
         cmocka_unit_test(values_of_every_kind_are_read),
         cmocka_unit_test(ends_of_a_range_are_allowed_and_no_more),
+        cmocka_unit_test(groups_within_groups),
         cmocka_unit_test(all_faults_are_found_at_once),
     };
     RUN_PARAMS_TESTS(argc, argv, tests);

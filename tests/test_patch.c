@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "../coupler/cpl_patch.h"
-#include "../coupler/region.h"
+#include "../coupler/client/cpl_patch.h"
+#include "../coupler/transport/region.h"
 
 typedef double function(const double *x);
 

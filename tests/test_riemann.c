@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../sph/eos.h"
-#include "../sph/riemann.h"
+#include "../sph/particles/eos.h"
+#include "../sph/pairs/riemann.h"
 
 static const struct dissipation full = {.factor = 0.3, .least = 1.0};
 static const struct dissipation low = {.factor = 0.3, .least = 0.0}; /* c0 = 10 m/s */
@@ -72,11 +72,11 @@ static void states_of(double *left, double *right, double s_left, double s_right
     vec l = vec_all(*left), r = vec_all(*right);
     const vec sl = vec_all(s_left), sr = vec_all(s_right);
     if (limiter == LIMITER_KOREN)
-        reconstruct(&l, &r, sl, sr, LIMITER_KOREN);
+        reconstruct(&l, &r, sl, sr, LIMITER_KOREN, 0.0);
     else if (limiter == LIMITER_MINMOD)
-        reconstruct(&l, &r, sl, sr, LIMITER_MINMOD);
+        reconstruct(&l, &r, sl, sr, LIMITER_MINMOD, 0.0);
     else
-        reconstruct(&l, &r, sl, sr, LIMITER_NONE);
+        reconstruct(&l, &r, sl, sr, LIMITER_NONE, 0.0);
     *left = l[0];
     *right = r[LANES - 1];
 }
@@ -98,7 +98,7 @@ static void linear_fields_meet_in_the_middle(void **state)
 static double step(double D, double s, int limiter)
 {
     if (limiter == LIMITER_NONE)
-        return 0.5 * s;
+        return (2.0 * s + D) / 6.0;
     if (limiter == LIMITER_MINMOD) {
         const double t = s / D;
         return 0.5 * (fmin(0.0, fmax(1.0, t)) + fmax(0.0, fmin(1.0, t))) * D;
@@ -130,6 +130,30 @@ static void koren_is_third_order(void **state)
     states_of(&left, &right, s, 1.0 + curvature, LIMITER_KOREN);
     assert_close(left, (2.0 * s + D) / 6.0, 1e-15);
     assert_close(right, D - (2.0 * (1.0 + curvature) + D) / 6.0, 1e-15);
+}
+
+/* Both sides of a parabola meet wherever its extremum is, and pass the bounds by no more than the
+ * slack. */
+static void slack_keeps_extrema_smooth(void **state)
+{
+    (void)state;
+    const double a = 0.3, slack = 0.2;
+    for (double x = -1.0; x <= 0.0; x += 0.1) { /* f = a x^2 at x and x + 1 */
+        vec left = vec_all(a * x * x), right = vec_all(a * (x + 1.0) * (x + 1.0));
+        const vec sl = vec_all(2.0 * a * x), sr = vec_all(2.0 * a * (x + 1.0));
+        reconstruct(&left, &right, sl, sr, LIMITER_KOREN, slack);
+        assert_close(left[0], right[0], 1e-15);
+    }
+    for (double s = -5.0; s <= 5.0; s += 0.1) {
+        vec left = vec_all(-1.0), right = vec_all(2.0);
+        vec up = left, down = left, over = left + 1e-13, under = left - 1e-13;
+        reconstruct(&up, &over, vec_all(s), vec_all(s), LIMITER_KOREN, slack);
+        reconstruct(&down, &under, vec_all(s), vec_all(s), LIMITER_KOREN, slack);
+        assert_close(up[0], down[0], 1e-12); /* no step where the difference changes its sign */
+        reconstruct(&left, &right, vec_all(s), vec_all(-s), LIMITER_KOREN, slack);
+        assert_true(left[0] >= -1.0 - slack && left[0] <= 2.0 + slack);
+        assert_true(right[0] >= -1.0 - slack && right[0] <= 2.0 + slack);
+    }
 }
 
 static void no_bounded_state_overshoots(void **state)
@@ -173,6 +197,7 @@ int main(void)
                                        cmocka_unit_test(linear_fields_meet_in_the_middle),
                                        cmocka_unit_test(limiters_are_the_printed_ones),
                                        cmocka_unit_test(koren_is_third_order),
+                                       cmocka_unit_test(slack_keeps_extrema_smooth),
                                        cmocka_unit_test(no_bounded_state_overshoots),
                                        cmocka_unit_test(pressure_is_the_scalar_one)};
     return cmocka_run_group_tests(tests, NULL, NULL);

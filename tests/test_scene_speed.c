@@ -115,10 +115,17 @@ static void walls_bodies_and_inlets_count(void **state)
     s.nbodies = 1;
     s.bodies[0].points.n = 1;
     s.bodies[0].points.x[0][0] = 0.5;
-    s.bodies[0].spin = -2.0;
+    s.bodies[0].spin[2] = -2.0;
     s.bodies[0].velocity[1] = 1.0;
     assert_close(scene_reference_speed(&s), 2.0, 1e-12);
     assert_close(scene_speed_of(&s, 7.0, 0.0).speed, 7.0, 1e-12);
+    /* a free body turns about its own middle, wherever it is */
+    s.bodies[0].free = true;
+    s.bodies[0].density = 500.0;
+    s.bodies[0].points.n = 2;
+    s.bodies[0].points.x[0][0] = 30.0;
+    s.bodies[0].points.x[1][0] = 33.0;
+    assert_close(scene_reference_speed(&s), 4.0, 1e-12);
 }
 
 static void a_force_along_a_periodic_axis_meets_friction_or_the_end(void **state)

@@ -5,11 +5,11 @@
 
 #include <mpi.h>
 
-#include "../sph/eos.h"
-#include "../sph/kernel.h"
+#include "../sph/particles/eos.h"
+#include "../sph/pairs/kernel.h"
 #include "sph_toy.h"
 
-enum { PRIM = 8, OFF = 2 };
+enum { OFF = 2 };
 
 static const double *prim_of(const struct sph *s, int i) { return s->p.prim + PRIM * i; }
 static const double *slope_of(const struct sph *s, int i) { return s->p.slope + s->p.nslope * i; }

@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include "../common/h5.h"
-#include "../sph/openings.h"
-#include "../sph/zones.h"
+#include "../sph/open_boundaries/openings.h"
+#include "../sph/open_boundaries/zones.h"
 #include "sph_case.h"
 
 static double *run_on(MPI_Comm comm, int dim, int cells, int steps, int n)

@@ -20,14 +20,15 @@ static void a_sound_flow_gains_nothing(void **state)
     sph_free(&c.s);
 }
 
-/* Twice the bound of the Riemann schemes. */
+/* Beyond the bound of the Riemann schemes; strict bounds hold the densities meanwhile. */
 static void an_unstable_step_is_ended_by_its_energy(void **state)
 {
     (void)state;
     struct sph_case c;
     struct diagnosis d = {0};
     sph_case_set(&c, 2, 24);
-    c.prm.cfl = 1.0;
+    c.prm.cfl = 0.85;
+    c.prm.limiter = LIMITER_MINMOD;
     c.prm.density_limit = 0.0;
     sph_case_start(&c, NULL);
     for (int k = 0; k < 400 && !d.bad; k++) {

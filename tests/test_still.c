@@ -6,7 +6,12 @@
 #include <unistd.h>
 
 #include "../common/mem.h"
-#include "../fv/mesh_flow.h"
+#include "../fv/output/mesh_output.h"
+#include "../fv/fv.h"
+#include "../fv/grid/mesh.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/time/steps.h"
+#include "../fv/output/output.h"
 
 enum { COLUMNS = 40 };
 
@@ -49,11 +54,11 @@ static void row_of(const char *text, double *row, const char **columns)
     fv_params_check(&run, &f);
     assert_int_equal(params_report(&f), 0);
     if (mesh_block_count() > 0) {
-        struct mesh_flow *s = mesh_flow_create(&run, NULL);
-        mesh_integrate(s, 0.1, &d);
-        mesh_columns(&run, columns);
-        mesh_row_values(s, row);
-        mesh_flow_free(&s);
+        struct fv *s = fv_create(&run, NULL);
+        integrate(s, 0.1, &d);
+        fv_columns(&run, columns);
+        fv_row(s, row);
+        fv_free(&s);
     } else {
         struct fv *s = fv_create(&run, NULL);
         integrate(s, 0.1, &d);

@@ -6,8 +6,14 @@
 #include <unistd.h>
 
 #include "../common/mem.h"
-#include "../fv/mesh_flow.h"
-#include "../fv/levelset.h"
+#include "../fv/output/mesh_output.h"
+#include "../fv/fv.h"
+#include "../fv/grid/mesh.h"
+#include "../fv/surface/levelset.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/time/steps.h"
+#include "../fv/boundary/still.h"
+#include "../fv/output/output.h"
 
 enum { STEPS = 4, SEEN_MAX = 4096, TEXT_MAX = 4096, CANDIDATES = 12 };
 
@@ -71,6 +77,12 @@ static const struct {
      "((0.6, 0.1), (0.9, 0.1), (0.75, 0.5)); } );\n"
      "probes: ( { name = \"p\"; at = (0.2, 0.05); }, { name = \"h\"; kind = \"level\"; at = (0.2, "
      "0); } );\nfv: { cells = (16, 16); };\n" FOUR_WALLS("slip", "")},
+    {"boxes", HEAD SQUARE
+     "fluid: { nu = 0.01; gravity = (0, -9.81); };\n"
+     "shapes: ( { box = ((0, 0), (0.5, 0.6)); } );\n"
+     "initial: { field = \"uniform\"; velocity = (0.3, 0.1); };\n"
+     "blocked: ( { name = \"a\"; min = (0.25, 0); max = (0.5, 0.25); kind = \"no_slip\"; } );\n"
+     "fv: { cells = (16, 16); };\n" FOUR_WALLS("slip", "")},
     {"standing wave",
      HEAD "domain: { dim = 2; min = (0, 0); max = (4, 1.25); periodic = (true, false); };\n"
           "fluid: { nu = 2e-3; gravity = (0, -1); };\ninitial: { field = \"standing_wave\"; L = 4; "
@@ -123,6 +135,7 @@ static const struct {
     {"output", "run.c writes the files; the state does not know"},
     {"accept", "judged by run.c at the end"},
     {"probes.name", "a heading in series.csv"},
+    {"blocked.name", "a heading in series.csv, in messages"},
     {"blocks.name", "a heading in series.csv, in messages"},
     {"fv.force", "wants eight rows in the second half of the run"},
     {"fv.surface", "\"no\" repeats what auto finds in a scene without water"},
@@ -239,16 +252,16 @@ static void run_cells(struct run *r, struct seen *seen)
 
 static void run_blocks(struct run *r, struct seen *seen)
 {
-    struct mesh_flow *s = mesh_flow_create(r, NULL);
+    struct fv *s = fv_create(r, NULL);
     struct diagnosis d = {0};
     for (int k = 0; k < STEPS && s->t < r->scene.time.end && !d.bad; k++) {
         double row[64];
-        r->dt = mesh_integrate(s, r->scene.time.end, &d);
+        r->dt = integrate(s, r->scene.time.end, &d);
         r->t = s->t;
         r->step++;
         for (int q = 0; q < 64; q++)
             row[q] = NAN;
-        mesh_row_values(s, row);
+        fv_row(s, row);
         see(seen, "t", s->t);
         for (int q = 0; q < 64; q++)
             see(seen, "row", row[q]);
@@ -256,8 +269,8 @@ static void run_blocks(struct run *r, struct seen *seen)
     const double foot[3] = {0.1, 0.1, 0.1};
     see_fields(seen, s->u, s->p, s->m->size_local,
                still_pressure(&r->scene, s->still, s->level, foot));
-    mesh_finish(s);
-    mesh_flow_free(&s);
+    fv_finish(s);
+    fv_free(&s);
 }
 
 static struct run run;
@@ -361,6 +374,13 @@ static int candidates(const struct param *row, const void *at, char value[][200]
         break;
     case PARAM_POINTS:
         snprintf(value[n++], 200, "((0.61, 0.12), (0.9, 0.1), (0.75, 0.45))");
+        break;
+    case PARAM_TURN: /* fv, whose scenes these are, knows no bodies */
+    case PARAM_NUMBERS:
+    case PARAM_LIST:
+        break;
+    case PARAM_PLACES:
+        snprintf(value[n++], 200, "((0.61, 0.12, 0.1))");
         break;
     }
     return n;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../sph/wall_thin.h"
+#include "../sph/walls/wall_thin.h"
 
 /* Points turned by an angle; in reverse order if backwards. */
 static void set_points(struct param_points *p, int n, double x[][2], double angle, bool backwards)

@@ -4,12 +4,12 @@
 #include "test.h"
 
 #include "../common/h5.h"
-#include "../sph/kernel.h"
-#include "../sph/neighbours.h"
-#include "../sph/probes.h"
-#include "../sph/surface.h"
-#include "../sph/wall_moments.h"
-#include "../sph/walls.h"
+#include "../sph/pairs/kernel.h"
+#include "../sph/pairs/neighbours.h"
+#include "../sph/output/probes.h"
+#include "../sph/surface/surface.h"
+#include "../sph/walls/wall_moments.h"
+#include "../sph/walls/walls.h"
 #include "sph_case.h"
 
 /* Corners of the table's walls, R = 1; returns their number. */
@@ -239,7 +239,6 @@ static void water_at_rest_stays(void **state)
 static void body_in_still_water(void **state)
 {
     struct sph_case c;
-    double force[3];
     (void)state;
     tank(&c, 50, false, WALLS_NFM);
     struct scene_body *b = c.run.scene.bodies;
@@ -250,11 +249,11 @@ static void body_in_still_water(void **state)
     b->centre[0] = b->centre[1] = 0.5;
     struct sph *s = sph_case_start(&c, NULL);
     integrate_gradients(s);
-    probes_force(s, 0, force);
-    print_message("force %g %g N/m, moment %g N\n", force[0], force[1], force[2]);
-    assert_close(force[0], 0.0, 1e-6);
-    assert_close(force[1], 0.04 * 1000.0 * 9.81, 0.01 * 0.04 * 1000.0 * 9.81);
-    assert_close(force[2], 0.0, 1e-6);
+    const struct force f = probes_force(s, 0);
+    print_message("force %g %g N/m, moment %g N\n", f.F[0], f.F[1], f.M[2]);
+    assert_close(f.F[0], 0.0, 1e-6);
+    assert_close(f.F[1], 0.04 * 1000.0 * 9.81, 0.01 * 0.04 * 1000.0 * 9.81);
+    assert_close(f.M[2], 0.0, 1e-6);
     sph_free(&c.s);
 }
 
@@ -287,7 +286,7 @@ static void surface_is_found(void **state)
             tank(&c, 20, true, walls);
             c.prm.noise = 0.1 * noise;
             struct sph *s = sph_case_start(&c, NULL);
-            integrate_prepare(s);
+            integrate_gradients(s);
             for (int i = 0; i < s->p.n; i++) {
                 const int64_t row = s->p.id[i] / 20;
                 missed += row == 9 && s->surface->is[i] != SURFACE_ON;
@@ -358,7 +357,7 @@ static void restart_scene(struct sph_case *c, int kind)
         e->bodies[0].points.n = 3;
         memcpy(e->bodies[0].points.x, (double[3][2]){{0.4, 0.4}, {0.5, 0.7}, {0.6, 0.4}},
                6 * sizeof(double));
-        e->bodies[0].spin = 2.0;
+        e->bodies[0].spin[2] = 2.0;
         e->bodies[0].centre[0] = e->bodies[0].centre[1] = 0.5;
         c->prm.packing = 5;
     }
@@ -421,7 +420,7 @@ static void motion(void **state)
     b->centre[0] = 0.5;
     b->centre[1] = 0.8;
     b->velocity[0] = 0.2;
-    b->spin = 3.0;
+    b->spin[2] = 3.0;
     struct sph *s = sph_case_start(&c, NULL);
     struct walls *w = s->walls;
     const struct segment *g = w->segments + w->bodies[0].first;

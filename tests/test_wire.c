@@ -12,9 +12,10 @@
 #include <string.h>
 #include <time.h>
 
-#include "../coupler/failure.h"
-#include "../coupler/handshake.h"
-#include "../coupler/wire.h"
+#include "../coupler/cpl.h"
+#include "../coupler/transport/failure.h"
+#include "../coupler/transport/handshake.h"
+#include "../coupler/transport/wire.h"
 
 static jmp_buf back;
 static void jump(const char *what)
@@ -66,6 +67,33 @@ static void what_is_packed_is_taken(void **state)
     take_text(&w, m, text, sizeof text);
     assert_string_equal(text, "");
     message_free(&m);
+    assert_true(wire_flushed(&w));
+}
+
+/* Messages above 1 GiB travel in pieces; here in pieces of 1000 bytes, between others. */
+static void long_messages_arrive_in_pieces(void **state)
+{
+    (void)state;
+    struct wire w = to_myself();
+    struct pack p;
+    w.piece = 1000;
+    const size_t length[] = {0, 999, 1000, 1001, 123456, 8, 2000, 40000};
+    for (size_t k = 0; k < sizeof length / sizeof *length; k++) {
+        pack_begin(&p, WIRE_PUT, (int)k, 0);
+        unsigned char *to = pack_room(&p, length[k]);
+        for (size_t i = 0; i < length[k]; i++)
+            to[i] = (unsigned char)(i * 7 + k);
+        wire_send(&w, 0, 0, &p);
+    }
+    for (size_t k = 0; k < sizeof length / sizeof *length; k++) {
+        struct message *m = await(&w);
+        assert_int_equal(m->head.field, k);
+        assert_int_equal(m->head.bytes, length[k]);
+        for (size_t i = 0; i < length[k]; i++)
+            assert_int_equal(m->body[i], (unsigned char)(i * 7 + k));
+        message_free(&m);
+    }
+    (void)wire_flushed(&w); /* the pieces, then the memory that they shared */
     assert_true(wire_flushed(&w));
 }
 
@@ -128,7 +156,7 @@ static void programs_find_each_other_by_name(void **state)
     struct handshake h;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
-    assert_int_equal(handshake(MPI_COMM_WORLD, names[rank % 4], 10.0, &h), 0);
+    assert_int_equal(handshake(MPI_COMM_WORLD, names[rank % 4], 10.0, CPL_VERSION, &h), 0);
     failure_closed();
     assert_int_equal(h.nprograms, size == 1 ? 1 : 3);
     if (size == 1)
@@ -175,6 +203,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_packed_is_taken),
+        cmocka_unit_test(long_messages_arrive_in_pieces),
         cmocka_unit_test(a_message_shorter_than_it_says_is_found),
         cmocka_unit_test(a_foreign_message_is_found),
         cmocka_unit_test(waiting_leaves_the_processor_alone),

@@ -3,10 +3,10 @@
 #include "test.h"
 
 #include "../common/exact.h"
-#include "../sph/openings.h"
-#include "../sph/overlap.h"
-#include "../sph/surface.h"
-#include "../sph/zones.h"
+#include "../sph/open_boundaries/openings.h"
+#include "../sph/coupling/overlap.h"
+#include "../sph/surface/surface.h"
+#include "../sph/open_boundaries/zones.h"
 #include "sph_case.h"
 
 /* Uniform flow through a box of the unit square or cube, no shifting. */

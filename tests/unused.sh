@@ -4,6 +4,7 @@
 # that has no value below is a failure, too. usage: tests/unused.sh [BUILD] [MODE...]; by default some
 # modes, "all" for each. SPDX-License-Identifier: BSD-3-Clause
 b=$(cd "${1:-build}" && pwd)
+root=$(cd "$(dirname "$0")/.." && pwd)
 [ $# -gt 0 ] && shift
 tmp=$(mktemp -d "${TMPDIR:-/tmp}/unused.XXXXXX")
 trap 'rm -rf "$tmp"' EXIT
@@ -29,6 +30,7 @@ initial.velocity (0.1,0.2)
 initial.amplitude 0.03
 initial.L_z 0.5
 initial.level 0.9
+initial.seed ((0.9,0.9,0.9))
 coupling.steps 7
 coupling.transition 0.15
 coupling.buffer 0.15
@@ -56,6 +58,7 @@ sph.damper 0.4
 sph.alpha 0.05
 sph.delta 0.1
 sph.background true
+sph.integrator rk4
 sph.cfl 0.2
 sph.cfl_viscous 0.0001
 sph.box ((-1,-1),(1,0.5))
@@ -63,6 +66,8 @@ sph.free ((-1,-1),(1,0.5))
 sph.outer exact
 sph.density_limit 1e-6
 sph.walls ghosts
+sph.wall_integrals clipped
+sph.wall_squares 3
 sph.surface yes
 sph.packing 7
 sph.noise 0.1
@@ -75,7 +80,21 @@ walls.velocity (0.2,0)
 walls.profile "parabolic"
 walls.pressure 100.0
 walls.carried true
+walls.mesh "other.stl"
+walls.scale 0.9
+walls.rotate (0,0,20)
+walls.translate (0.05,0,0)
+walls.weld 5
+walls.fluid_side "outside"
+walls.flip true
+walls.thin true
 bodies.name "other"
+bodies.mesh "other.stl"
+bodies.scale 0.9
+bodies.rotate (0,0,20)
+bodies.translate (0.05,0,0)
+bodies.weld 5
+bodies.thin true
 bodies.points ((-0.3,-0.4),(-0.3,-0.1),(0.2,-0.1),(0.2,-0.4))
 bodies.kind "no_slip"
 bodies.centre (0.1,0.1)
@@ -83,12 +102,56 @@ bodies.velocity (0.1,0)
 bodies.spin 0.5
 bodies.motion "nowhere.txt"
 bodies.force (3,4)
+bodies.free true
+bodies.density 700
+bodies.mass 7
+bodies.inertia 7
+bodies.lock "y"
+bodies.release 0.01
+bodies.force_rule "average"
+bodies.load (3,4)
+bodies.torque 5
+bodies.lines ({from=(-0.2,0.2);to=(-0.2,0.8);damping=3.0;})
+bodies.hinge {at=(0.5,0.1);}
+bodies.slider {axis=(1,1);}
+bodies.contact {gap=2.0;}
+bodies.motion.kind "polynomial"
+bodies.motion.file "nowhere.txt"
+bodies.motion.axis "y"
+bodies.motion.amplitude 0.02
+bodies.motion.period 0.2
+bodies.motion.phase 0.3
+bodies.motion.coefficients (1,2)
+bodies.motion.from 0.01
+bodies.motion.until 0.02
+bodies.motion.ramp 0.02
+bodies.lines.from (0.2,0.2)
+bodies.lines.to (0.2,0.7)
+bodies.lines.body "b"
+bodies.lines.stiffness 300
+bodies.lines.length 0.3
+bodies.lines.damping 30
+bodies.lines.pull_only true
+bodies.hinge.at (0.3,0.2)
+bodies.hinge.axis (0,1,1)
+bodies.hinge.stiffness 300
+bodies.hinge.damping 30
+bodies.hinge.at_rest 0.4
+bodies.slider.axis (1,1)
+bodies.contact.restitution 0.6
+bodies.contact.friction 0.6
+bodies.contact.gap 2.0
 shapes.form "disc"
 shapes.box ((-1,-1),(0.3,0.2))
 shapes.points ((-1,-1),(1,-1),(0,0.5))
 shapes.centre (0.1,0.1)
 shapes.radius 0.5
 shapes.level 0.3
+shapes.mesh "other.stl"
+shapes.scale 0.7
+shapes.rotate (0,20,0)
+shapes.translate (0.3,0,0)
+shapes.weld 5
 shapes.hole true
 shapes.velocity (0.2,0)
 probes.name "other"
@@ -133,6 +196,36 @@ initial: { U = 3.0; };
 bodies: ( { name = "b"; points = ((-0.2, -0.2), (-0.2, 0.2), (0.2, 0.2), (0.2, -0.2)); #bodies
  } );
 sph: { dx = 0.1; c0 = 30.0; packing = 5; };' ;;
+    float) echo "$box"'
+fluid: { rho = 1000.0; gravity = (0, -9.81); nu = 0.01; };
+initial: { U = 3.0; };
+shapes: ( { form = "below"; level = 0.0; } );
+bodies: ( { name = "b"; points = ((-0.2, -0.2), (-0.2, 0.2), (0.2, 0.2), (0.2, -0.2)); free = true; density = 600.0; lock = "x"; #bodies
+ motion = ( { kind = "harmonic"; axis = "x"; amplitude = 0.01; period = 0.1; #motion
+ } );
+ lines = ( { from = (-0.2, 0.2); to = (-0.2, 0.8); stiffness = 200.0; length = 0.65; #lines
+ } );
+ } );
+sph: { dx = 0.1; c0 = 30.0; packing = 5; };' ;;
+    hinge) echo "$box"'
+fluid: { rho = 1000.0; gravity = (0, -9.81); nu = 0.01; };
+initial: { U = 3.0; };
+shapes: ( { form = "below"; level = 0.0; } );
+bodies: ( { name = "b"; points = ((-0.2, -0.2), (-0.2, 0.2), (0.2, 0.2), (0.2, -0.2)); free = true; density = 600.0; #bodies
+ hinge = { at = (0.5, 0.1); stiffness = 200.0; #hinge
+ };
+ } );
+sph: { dx = 0.1; c0 = 30.0; packing = 5; };' ;;
+    touch) echo "$box"'
+fluid: { rho = 1000.0; nu = 0.01; };
+initial: { U = 3.0; };
+bodies: ( { name = "b"; points = ((-0.2, -0.89), (-0.2, -0.5), (0.2, -0.5), (0.2, -0.89)); free = true; density = 600.0; velocity = (0.5, -2.0); #bodies
+ slider = { axis = (0, 1); #slider
+ };
+ contact = { restitution = 0.3; #contact
+ };
+ }, { name = "c"; points = ((0.5, 0.5), (0.5, 0.8), (0.8, 0.8), (0.8, 0.5)); free = true; mass = 50.0; inertia = 3.0; centre = (0.65, 0.65); } );
+sph: { dx = 0.1; c0 = 30.0; packing = 5; };' ;;
     box) echo 'fluid: { rho = 1.0; nu = 0.01; };
 domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, true); };
 initial: { field = "uniform"; velocity = (1, 0.5); };
@@ -151,6 +244,16 @@ initial: { U = 3.0; };
 shapes: ( { form = "below"; level = 0.0; #shapes
  } );
 sph: { dx = 0.2; R_dx = 2.5; c0 = 30.0; };' ;;
+    mesh) echo 'fluid: { rho = 1000.0; gravity = (0, 0, -9.81); nu = 0.01; };
+domain: { dim = 3; min = (-1, -1, -1); max = (1, 1, 1); };
+walls: ( { mesh = "tank.stl"; #walls
+ } );
+bodies: ( { mesh = "cube.stl"; #bodies
+ } );
+initial: { U = 3.0; };
+shapes: ( { form = "mesh"; mesh = "water.stl"; #shapes
+ } );
+sph: { dx = 0.2; R_dx = 2.5; c0 = 30.0; packing = 3; };' ;;
     wave) echo 'fluid: { rho = 1.0; nu = 0.002; gravity = (0, -1); };
 domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, false); };
 walls: ( { side = "y_min"; kind = "no_slip"; #walls
@@ -181,21 +284,28 @@ trace() {
 try() { # MODE KEY VALUE
     key=$2 value=$3
     case $mode:$key in
-    dam:sph.surface | cube:sph.surface | wave:sph.surface | drop:sph.surface | lines:sph.surface) value=no ;;
+    float:bodies.free | hinge:bodies.free | touch:bodies.free) value=false ;;
+    float:bodies.contact | hinge:bodies.contact) return ;; # they touch nothing
+    float:sph.surface | hinge:sph.surface | mesh:sph.surface | dam:sph.surface | cube:sph.surface | wave:sph.surface | drop:sph.surface | lines:sph.surface) value=no ;;
     cube:sph.walls) value=nfm ;;
-    wave:sph.viscosity | lines:sph.viscosity) value=morris ;; # monaghan is what auto takes there
+    float:sph.viscosity | hinge:sph.viscosity | mesh:sph.viscosity | wave:sph.viscosity | lines:sph.viscosity) value=morris ;; # monaghan is what auto takes there
     delta:sph.surface) return ;; # looked for, and not found in a full box
     wave:walls.kind | lines:walls.kind) value='"slip"' ;;
     cube:domain.dim) value=2 ;;
     wave:domain.periodic) value='(false,false)' ;;
     box:sph.outer) return ;; # the word for what a box takes by itself
     box:domain.*) return ;; # what a box in an exact solution must lie in, no more
+    touch:bodies.contact.friction) return ;; # a slider does not slip
+    mesh:domain.dim) value=2 ;;
+    mesh:sph.packing) value=0 ;;
+    mesh:bodies.thin) return ;; # it is thicker than what particles see
     body:sph.background) return ;; # lifts negative pressures: there are none in a tank at rest
     esac
     cp base.cfg case.cfg
     case $key in
     walls.* | bodies.* | shapes.* | probes.*)
-        group=${key%%.*} name=${key#*.}
+        group=${key%.*} name=${key##*.}
+        group=${group##*.}
         grep -q "#$group" base.cfg || return
         case $value in [a-z]_[a-z]* | no_slip) value="\"$value\"" ;; esac
         sed "/#$group/{s/\\([{;] *\\)$name = [^;]*;/\\1/; s/#$group/ $name = $value; #/;}" base.cfg >case.cfg
@@ -217,13 +327,18 @@ try() { # MODE KEY VALUE
 }
 
 known=$(echo "$values" | awk 'NF { print $1 }')
-for key in $("$b/sph" --params | sed -n 's/^| `\([a-z_A-Z0-9]*\.[a-zA-Z_0-9]*\)` .*/\1/p'); do
+for key in $("$b/sph" --params | sed -n 's/^| `\([a-z_A-Z0-9]*\.[a-zA-Z_0-9.]*\)` .*/\1/p'); do
     case " $exceptions " in *" $key "*) continue ;; esac
     case $key in accept.*) continue ;; esac
     echo "$known" | grep -qx "$key" || { echo "FAIL: no other value is known for $key: add it here"; failed=$((failed + 1)); }
 done
-[ "${1:-}" = all ] && set -- vortices delta dam body box channel cube wave drop lines
-[ $# -gt 0 ] || set -- delta dam channel body
+[ "${1:-}" = all ] && set -- vortices delta dam body float hinge touch box channel cube mesh wave drop lines
+[ $# -gt 0 ] || set -- delta dam channel body float hinge touch mesh
+for solid in "tank -0.8 0.8 zp" "cube -0.3 0.1" "other -0.5 0.3" "water -1 0.5"; do # NAME LOW HIGH [open face]
+    echo "$solid" | while read -r name low high open; do
+        awk -v lo="$low $low $low" -v hi="$high $high $high" -v drop="$open" -f "$root/tests/stl.awk" >"$name.stl"
+    done
+done
 for mode; do
     scene "$mode" >base.cfg
     rm -rf base

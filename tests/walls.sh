@@ -14,7 +14,7 @@ holds() { awk "BEGIN { exit !($1) }"; }
 # J. Fluid Mech. 246, 1993: 14.14). The slope does not depend on where in its first dx the entry begins.
 cat >wedge.cfg <<'END'
 format = 1;
-time:    { end = 0.07; };
+time:    { end = 0.1; };
 fluid:   { rho = 1000.0; };
 domain:  { dim = 2; min = (-0.7, -0.5); max = (0.7, 0.3); };
 initial: { field = "rest"; U = 1.0; };

@@ -1,0 +1,119 @@
+/* scene_body.c - keys of bodies. SPDX-License-Identifier: BSD-3-Clause */
+#include "scene_body.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#define ROWS(r) (r), (int)(sizeof(r) / sizeof *(r))
+#define AXES "x|y|z|rx|ry|rz"
+
+/* clang-format off */
+#define P struct scene_motion
+static const struct param motion_rows[] = {
+    CHOICE(P, kind, "file|harmonic|polynomial", "file", "kind of motion"),
+    PARAM(P, file,      "-",   "", 0, 0, "rows t, x, y, angle; in 3D t, x, y, z, rx, ry, rz (rotation vector): displacement from the start"),
+    CHOICE(P, axis, AXES, "y", "displacement along it, or rotation about it, through the centre"),
+    PARAM(P, amplitude, "m or rad", "0.0", -1e9, 1e9, "of A sin(2 pi t/period + phase)"),
+    PARAM(P, period,    "s",   "0.0", 0, 1e9, "of that"),
+    PARAM(P, phase,     "rad", "0.0", -1e9, 1e9, "of that"),
+    PARAM(P, coefficients, "m/s^k or rad/s^k", "0.0", -1e12, 1e12, "c0 + c1 t + c2 t^2 + .. up to the fifth power, t from `from' on"),
+    PARAM(P, from,      "s",   "0.0", 0, 1e9, "start of the polynomial; before, and after `until', its value there holds"),
+    PARAM(P, until,     "s",   "1e9", 0, 1e9, "its end"),
+    PARAM(P, ramp,      "s",   "0.0", 0, 1e9, "the term grows from nothing within this time, velocity and acceleration without jumps"),
+};
+#undef P
+#define P struct scene_line
+static const struct param line_rows[] = {
+    PARAM(P, from,      "m",     NULL, -1e9, 1e9, "point of the body at the start"),
+    PARAM(P, to,        "m",     NULL, -1e9, 1e9, "anchor, or point of the other body at the start"),
+    PARAM(P, body,      "-",     "", 0, 0, "name of the other body; by default the anchor is fixed in space"),
+    PARAM(P, stiffness, "N/m",   "0.0", 0, 1e15, "force over elongation (in 2D per metre of width)"),
+    PARAM(P, length,    "m",     "-1.0", 0, 1e9, "without force; by default that of the start"),
+    PARAM(P, damping,   "N s/m", "0.0", 0, 1e15, "force over the rate of its length (in 2D per metre of width)"),
+    PARAM(P, pull_only, "-",     "false", 0, 0, "a mooring line: it cannot push"),
+};
+#undef P
+#define P struct scene_hinge
+static const struct param hinge_rows[] = {
+    PARAM(P, at,        "m",      NULL, -1e9, 1e9, "a point of its axis, fixed in space"),
+    PARAM(P, axis,      "-",      "(0.0, 0.0, 1.0)", -1e9, 1e9, "direction, in 3D"),
+    PARAM(P, stiffness, "N m",    "0.0", 0, 1e15, "moment over angle (in 2D per metre of width)"),
+    PARAM(P, damping,   "N m s",  "0.0", 0, 1e15, "moment over angular velocity (in 2D per metre of width)"),
+    PARAM(P, at_rest,   "rad",    "0.0", -1e3, 1e3, "angle from the start at which the spring is slack"),
+};
+#undef P
+#define P struct scene_slider
+static const struct param slider_rows[] = {
+    PARAM(P, axis, "-", NULL, -1e9, 1e9, "direction in which alone the centre moves"),
+};
+#undef P
+#define P struct scene_contact
+static const struct param contact_rows[] = {
+    PARAM(P, restitution, "-",  "0.3", 0.01, 1.0, "speed after over speed before"),
+    PARAM(P, friction,    "-",  "0.3", 0, 100, "Coulomb's coefficient"),
+    PARAM(P, gap,         "dx", "1.0", 0.1, 4.0, "distance that it holds, in sph.dx: a row of particles stays between"),
+};
+#undef P
+
+#define INNER(T, r, max, plain) {ROWS(r), sizeof(((T *)0)->of[0]), offsetof(T, of), max, plain}
+static const struct param_list motions = INNER(struct scene_motions, motion_rows, MOTIONS_MAX, "file");
+static const struct param_list lines = INNER(struct scene_lines, line_rows, LINES_MAX, NULL);
+static const struct param_list hinges = INNER(struct scene_hinges, hinge_rows, 1, NULL);
+static const struct param_list sliders = INNER(struct scene_sliders, slider_rows, 1, NULL);
+static const struct param_list contacts = INNER(struct scene_contacts, contact_rows, 1, NULL);
+
+#define P struct scene_body
+const struct param scene_body_rows[] = {
+    PARAM(P, name,     "-",   "body", 0, 0, "its name in the outputs"),
+    PARAM(P, points,   "m",   "()", -1e9, 1e9, "corners in order, clockwise (turned, and said, if not)"),
+    SURFACE_ROWS(P),
+    PARAM(P, thin,     "-",   "false", 0, 0, "of a mesh: fluid on either side does not see that on the other through it"),
+    CHOICE(P, kind, "slip|no_slip", "slip", "what its surface does to the flow"),
+    PARAM(P, centre,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "centre of rotation and of moments at the start; of a free body with mass: its mass centre"),
+    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the centre; of a free body: at the start"),
+    TURN(P, spin,      "rad/s", "0.0", -1e6, 1e6, "rate of rotation (3D: vector); of a free body: at the start"),
+    LIST(P, motion, &motions, "motion as told, its terms add up; a plain text: one file"),
+    PARAM(P, force,    "N/m", "(0.0, 0.0, 0.0)", -1e12, 1e12, "known mean force of the fluid on the first body: for error.force"),
+    PARAM(P, free,     "-",      "false", 0, 0, "moved by the forces on it"),
+    PARAM(P, density,  "kg/m^3", "0.0", 0, 1e9, "of a free body, uniform: gives mass, centre and inertia"),
+    PARAM(P, mass,     "kg",     "0.0", 0, 1e15, "of a free body, instead of density (in 2D per metre of width)"),
+    PARAM(P, inertia,  "kg m^2", "0.0", -1e15, 1e15, "with mass: about the centre; 2D: one number (per metre), 3D: (xx, yy, zz) or (xx, yy, zz, xy, yz, zx), the latter as sums of - m x y"),
+    PARAM(P, lock,     "-",      "", 0, 0, "of a free body: degrees that forces do not move, as in \"x rz\"; motion and velocity drive them"),
+    PARAM(P, release,  "s",      "0.0", 0, 1e9, "a free body is held until then"),
+    CHOICE(P, force_rule, "conserving|average", "conserving", "force on a free body: momentum that the fluid loses, or kernel averages of pressure and friction"),
+    PARAM(P, load,     "N",      "(0.0, 0.0, 0.0)", -1e15, 1e15, "constant force on a free body beside its weight (in 2D per metre of width)"),
+    TURN(P, torque,    "N m",    "0.0", -1e15, 1e15, "constant moment on a free body (in 2D per metre of width)"),
+    LIST(P, lines, &lines, "springs, dampers and mooring lines of a free body"),
+    LIST(P, hinge, &hinges, "axis fixed in space about which alone a free body turns"),
+    LIST(P, slider, &sliders, "line along which alone a free body's centre moves"),
+    LIST(P, contact, &contacts, "of a free body with walls and other bodies"),
+};
+#undef P
+/* clang-format on */
+const int scene_body_nrows = sizeof scene_body_rows / sizeof scene_body_rows[0];
+
+bool scene_body_moves(const struct scene_body *b)
+{
+    bool any = b->free || b->motion.n > 0;
+    for (int a = 0; a < 3; a++)
+        any = any || b->velocity[a] != 0.0 || b->spin[a] != 0.0;
+    return any;
+}
+
+int scene_body_locked(const char *lock, int dim)
+{
+    static const char *const words[BODY_AXES] = {"x", "y", "z", "rx", "ry", "rz"};
+    int degrees = 0;
+    for (const char *at = lock; *(at += strspn(at, " ,"));) {
+        const size_t n = strcspn(at, " ,");
+        int found = -1;
+        for (int k = 0; k < BODY_AXES; k++)
+            if (strlen(words[k]) == n && strncmp(at, words[k], n) == 0)
+                found = k;
+        if (found < 0 || (dim == 2 && found != AXIS_X && found != AXIS_Y && found != AXIS_RZ))
+            return -1;
+        degrees |= 1 << found;
+        at += n;
+    }
+    return degrees;
+}

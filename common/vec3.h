@@ -1,0 +1,44 @@
+/* vec3.h - inline vectors of three components. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_VEC3_H
+#define COMMON_VEC3_H
+
+#include <math.h>
+
+static inline double vec3_dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline double vec3_length(const double *a) { return sqrt(vec3_dot(a, a)); }
+
+/* c may be a or b. */
+static inline void vec3_cross(const double *a, const double *b, double *c)
+{
+    const double d[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                         a[0] * b[1] - a[1] * b[0]};
+    for (int k = 0; k < 3; k++)
+        c[k] = d[k];
+}
+
+static inline void vec3_add(double *to, double f, const double *a) /* to += f a */
+{
+    for (int k = 0; k < 3; k++)
+        to[k] += f * a[k];
+}
+
+static inline void vec3_from(const double *a, const double *b, double *d) /* d = b - a */
+{
+    for (int k = 0; k < 3; k++)
+        d[k] = b[k] - a[k];
+}
+
+/* Makes a unit vector of a, returns its length; 0 stays 0. */
+static inline double vec3_unit(double *a)
+{
+    const double length = vec3_length(a);
+    for (int k = 0; k < 3 && length > 0.0; k++)
+        a[k] /= length;
+    return length;
+}
+
+#endif

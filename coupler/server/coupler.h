@@ -1,0 +1,185 @@
+/* coupler.h - the whole state of the coupler and what its modules offer each other. Its ranks know
+ * the same plan; rank 0 alone decides windows and writes files, all of them bring fields together.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COUPLER_COUPLER_H
+#define COUPLER_COUPLER_H
+
+#include <mpi.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "../../common/run.h"
+#include "../cpl.h"
+#include "../transport/handshake.h"
+#include "../mapping/map.h"
+#include "../transport/region.h"
+#include "../transport/wire.h"
+#include "job.h"
+
+enum { TEXT = 4096 };
+
+/* What one program told: its last word for each key, in the order of their first mention. */
+struct told {
+    int n;
+    bool full; /* and said so */
+    struct told_number {
+        char key[TOLD_KEY];
+        double value;
+    } of[TOLD_KEYS];
+};
+
+struct solver {
+    const char *name;
+    int size, peer; /* ranks; its place in wire */
+    bool met, ready, said_bye;
+    int64_t restart_window;
+    uint64_t hash;
+    int faults, nzones;
+    struct named_box {
+        char name[CPL_NAME];
+        double lo[3], hi[3];
+    } zone[LIMIT_ZONES];
+    double t, dt_wish;
+    int nsets, nfields;
+    struct solver_set {
+        char name[CPL_NAME];
+        bool is_grid;
+        int dim;
+        double support, period[3];
+        struct cpl_grid grid;
+    } set[LIMIT_SETS];
+    struct solver_field {
+        char name[CPL_NAME], unit[CPL_NAME];
+        int set, ncomp, direction, how;
+        int link;                         /* taker: its link, -1: none */
+        int ntakers, taker[LIMIT_TAKERS]; /* giver: the links of its takers */
+        int64_t last_tick; /* giver: of its last put, as of its last advance or get */
+    } field[LIMIT_FIELDS];
+    int64_t advanced;                      /* last window done, -1: none */
+    int byes, code;                        /* ranks that said goodbye; the worst code among them */
+    double waited, cpu;                    /* s; cpu summed over ranks, known at the end */
+    double heard;                          /* wire_time of its last message */
+    double advanced_at;                    /* wall time of its last advance */
+    double waited_for[HANDSHAKE_PROGRAMS]; /* s, of `waited', for each solver; the rest: coupler */
+    struct told told;
+};
+
+/* A field on its way from one solver to another: rendezvous.c. */
+struct link {
+    int giver, gfield, taker, tfield; /* solver and its field */
+    bool from_grid;
+    int ncomp, dim;
+    int number;            /* among the takers of the giver's field */
+    map_points *map;       /* consistent mappings; NULL: */
+    enum map_dealing deal; /* conservative ones */
+    struct cpl_grid grid;  /* of the giver */
+    double support, period[3];
+    /* what this rank has announced that it wants */
+    int generation;
+    bool moved; /* takers have moved since */
+    struct region region;
+    /* what takers asked for; by rank of the taker */
+    int64_t asked_tick;  /* -1: nothing asked */
+    int nasked, naskers; /* ranks that have asked, and how many will */
+    double asked_at;     /* wall time at which the last of them has */
+    struct asker {
+        bool asked;
+        long ntarget; /* conservative mappings: all of this rank, not only our share */
+        double *x;    /* [ntarget][dim] */
+        int64_t *gid; /* conservative mappings */
+        double *volume;
+        double lo[3], hi[3]; /* grids: the box wanted */
+    } * asker;
+    struct arrival {
+        int64_t tick; /* -1: nothing */
+        int n;        /* puts of the present generation */
+        double t;
+        struct message **put; /* [ranks of the giver] */
+    } in[2];                  /* by tick & 1 */
+    double mapped;            /* s spent here */
+    int64_t served;
+};
+
+struct coupler {
+    MPI_Comm world, comm;
+    int rank, size;
+    struct handshake who;
+    struct wire wire;
+    int own_peer;
+    const struct command_line *command;
+    struct job job;
+    struct scene scene; /* of a case that all programs share; else what a case leaves out */
+    struct params *params;
+    uint64_t hash;
+    char dir[1024], case_dir[1024];
+    int nsolvers;
+    struct solver solver[HANDSHAKE_PROGRAMS];
+    int nlinks;
+    struct link link[LIMIT_LINKS];
+    /* time: window k of n spans k/n to (k+1)/n of the way from t_start to t_end */
+    double t_start, t_end;
+    int64_t nwindows, window, first_window, output_every; /* window: under way */
+    int action;
+    bool stopping, over;
+    int code;
+    double start, line_at, line_every, save_wall, stall_at, stall_every;
+    double idle, bound;  /* s waited; simulated time of the next checkpoint */
+    int64_t said;        /* window that failure_doing knows */
+    int64_t line_window; /* of the last progress line */
+    /* A solver tells of its restart file after it has ended the window, when the next may be under
+     * way; never two later. By window & 1. */
+    struct save {
+        int64_t window;
+        int n; /* solvers whose file is complete */
+        char file[HANDSHAKE_PROGRAMS][SAVED_NAME];
+    } save[2], last;   /* last: the restart point before */
+    struct sums *sums; /* sums.c; NULL: nobody tells any */
+};
+
+/* One more problem in a list that all programs print. */
+void problem(char *text, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+
+/* plan.c: what the programs have told about themselves. */
+void plan_take_meet(struct coupler *c, struct solver *s, struct message *m);
+void plan_take_ready(struct coupler *c, struct solver *s, struct message *m);
+void plan_check_meet(struct coupler *c, char *text);
+/* Makes the links; the problems go to text. The same on all ranks. */
+void plan_make_links(struct coupler *c, char *text);
+void plan_answer_meet(struct coupler *c, const char *text);
+void plan_answer_ready(struct coupler *c, const char *text);
+void plan_describe(const struct coupler *c);
+
+/* window.c: integer time. */
+void window_divide(struct coupler *c, char *text);
+double window_start(const struct coupler *c, int64_t k);
+void window_announce(struct coupler *c); /* the next one, or the end */
+void window_advance(struct coupler *c, struct solver *s, struct message *m);
+
+/* rendezvous.c: fields brought together. */
+void rendezvous_open(struct coupler *c);
+void rendezvous_get(struct coupler *c, struct solver *s, struct message *m);
+void rendezvous_put(struct coupler *c, struct solver *s, struct message **m); /* may keep it */
+void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *m);
+/* A giver has gone past what a taker waits for, or they wait for each other: text says so; false:
+ * all is well. */
+bool rendezvous_starved(const struct coupler *c, char *text);
+/* Rank by rank: a taker asks for values of a time at which its giver has put none. */
+bool rendezvous_skipped(const struct coupler *c, char *text);
+void rendezvous_waiting(const struct coupler *c, char *text); /* who waits for what */
+void rendezvous_close(struct coupler *c);
+
+/* checkpoint.c: a restart point exists when its manifest does. */
+void checkpoint_resume(struct coupler *c); /* rank 0, at a restart */
+void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m);
+
+/* sums.c: rank 0; at the end of a window, at the end of the job. */
+void sums_window(struct coupler *c);
+void sums_summarise(const struct coupler *c, struct summary *to);
+void sums_free(struct coupler *c);
+
+/* report.c: progress lines, summary of the job, accepted or not. */
+void report_told(struct wire *w, struct message *m, struct told *t);
+void report_progress(struct coupler *c);
+int report_summary(struct coupler *c, double coupler_cpu); /* the job's exit code */
+
+#endif

@@ -1,0 +1,93 @@
+/* sums.c - sums over the whole flow at the end of every window, each program adding its own part:
+ * series.csv of the job, and what an oscillation with an exact solution shows at the end.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "coupler.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/exact.h"
+#include "../../common/fit.h"
+#include "../../common/mem.h"
+
+enum { KINETIC, POTENTIAL, ENSTROPHY, SIGNAL, SUMS };
+
+struct sums {
+    struct series *file;
+    struct fit fit;
+    double now[SUMS];
+};
+
+static const char *const keys[SUMS] = {"sum.kinetic", "sum.potential", "sum.enstrophy",
+                                       "sum.signal"};
+static const char *const columns[] = {"t [s]", "kinetic energy [J]", "potential energy [J]",
+                                      "enstrophy [m^dim/s^2]", "signal [-]"};
+
+/* False if no program told this. */
+static bool add_up(const struct coupler *c, const char *key, double *sum)
+{
+    bool any = false;
+    *sum = 0.0;
+    for (int i = 0; i < c->nsolvers; i++)
+        for (int k = 0; k < c->solver[i].told.n; k++)
+            if (strcmp(c->solver[i].told.of[k].key, key) == 0) {
+                *sum += c->solver[i].told.of[k].value;
+                any = true;
+            }
+    return any;
+}
+
+void sums_window(struct coupler *c)
+{
+    const double t = window_start(c, c->window);
+    struct sums *s = c->sums;
+    double row[1 + SUMS] = {t};
+    for (int k = 0; k < SUMS; k++)
+        if (!add_up(c, keys[k], row + 1 + k))
+            return;
+    if (!s) {
+        char path[1100];
+        snprintf(path, sizeof path, "%s/series.csv", c->dir);
+        s = c->sums = NEW(struct sums, 1);
+        s->file = series_create(path, 1 + SUMS, columns, c->command->restart,
+                                window_start(c, c->window - 1));
+    }
+    memcpy(s->now, row + 1, sizeof s->now);
+    series_row(s->file, row);
+    if (c->scene.initial.field == FIELD_STANDING_WAVE) /* its history is for a fit at the end */
+        fit_add(&s->fit, t, s->now[SIGNAL]);
+}
+
+static void put_ratio(struct summary *to, const char *name, double found, double exact)
+{
+    char key[64];
+    if (!isfinite(found))
+        return;
+    summary_real(to, name, found);
+    snprintf(key, sizeof key, "error.%s", name);
+    summary_real(to, key, fabs(found / exact - 1.0));
+}
+
+void sums_summarise(const struct coupler *c, struct summary *to)
+{
+    const struct exact e = exact_create(&c->scene);
+    const struct scene_domain *d = &c->scene.domain;
+    double period, rate;
+    if (!c->sums || e.field != FIELD_STANDING_WAVE || !exact_oscillation(&e, &period, &rate))
+        return;
+    put_ratio(to, "period", fit_period(&c->sums->fit), period);
+    put_ratio(to, "damping", fit_rate(&c->sums->fit), rate);
+    put_ratio(to, "enstrophy", c->sums->now[ENSTROPHY],
+              exact_enstrophy(&e, d->min, d->max, window_start(c, c->window)));
+}
+
+void sums_free(struct coupler *c)
+{
+    if (!c->sums)
+        return;
+    series_free(&c->sums->file);
+    fit_free(&c->sums->fit);
+    mem_free(c->sums);
+    c->sums = NULL;
+}

@@ -1,0 +1,93 @@
+/* waiting.c - who waits for what: givers that have gone past what a taker waits for, takers that
+ * wait for each other, values of a time that nobody has put. SPDX-License-Identifier: BSD-3-Clause
+ */
+#include "coupler.h"
+
+#include "../../common/log.h"
+
+void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *m)
+{
+    const int64_t n = take_int(&c->wire, m);
+    if (n != s->nfields)
+        fail("%s speaks of %lld fields, the plan has %d", s->name, (long long)n, s->nfields);
+    for (int i = 0; i < s->nfields; i++)
+        s->field[i].last_tick = take_int(&c->wire, m);
+}
+
+/* The link on which a solver waits for values that have not been put; NULL: it does not wait. */
+static const struct link *missing(const struct coupler *c, int solver)
+{
+    for (int i = 0; i < c->nlinks; i++) {
+        const struct link *l = &c->link[i];
+        if (l->taker == solver && l->asker[0].asked &&
+            c->solver[l->giver].field[l->gfield].last_tick < l->asked_tick)
+            return l;
+    }
+    return NULL;
+}
+
+static bool waits_in_a_circle(const struct coupler *c, int solver, char *text)
+{
+    const struct link *l = missing(c, solver);
+    int steps = 0;
+    while (l && l->giver != solver && steps++ < c->nsolvers)
+        l = missing(c, l->giver);
+    if (!l || l->giver != solver)
+        return false;
+    for (l = missing(c, solver);; l = missing(c, l->giver)) {
+        problem(text, "%s waits in window %lld for %s of %s, which has not been given",
+                c->solver[l->taker].name, (long long)c->window,
+                c->solver[l->taker].field[l->tfield].name, c->solver[l->giver].name);
+        if (l->giver == solver)
+            return true;
+    }
+}
+
+bool rendezvous_starved(const struct coupler *c, char *text)
+{
+    for (int i = 0; i < c->nsolvers; i++) {
+        const struct link *l = missing(c, i);
+        if (l && c->solver[l->giver].advanced == c->window) {
+            problem(text, "%s waits for %s, but %s has ended window %lld without giving it",
+                    c->solver[i].name, c->solver[i].field[l->tfield].name, c->solver[l->giver].name,
+                    (long long)c->window);
+            return true;
+        }
+        if (waits_in_a_circle(c, i, text))
+            return true;
+    }
+    return false;
+}
+
+bool rendezvous_skipped(const struct coupler *c, char *text)
+{
+    for (int i = 0; i < c->nlinks; i++) {
+        const struct link *l = &c->link[i];
+        const struct solver *g = &c->solver[l->giver];
+        if (l->asked_tick < 0 || l->nasked < l->naskers)
+            continue;
+        const struct arrival *a = &l->in[l->asked_tick & 1], *b = &l->in[(l->asked_tick + 1) & 1];
+        for (int r = 0; r < g->size; r++) {
+            const bool there = a->tick == l->asked_tick && a->put[r];
+            if (there || b->tick <= l->asked_tick || !b->put[r])
+                continue;
+            problem(text,
+                    "%s wants %s of %s as it was at the start of window %lld, but %s has put none "
+                    "there: before the first window, values are put after cpl_ready",
+                    c->solver[l->taker].name, g->field[l->gfield].name, g->name,
+                    (long long)l->asked_tick, g->name);
+            return true;
+        }
+    }
+    return false;
+}
+
+void rendezvous_waiting(const struct coupler *c, char *text)
+{
+    for (int i = 0; i < c->nlinks; i++) {
+        const struct link *l = &c->link[i];
+        if (l->nasked > 0)
+            problem(text, "  %s waits for %s of %s", c->solver[l->taker].name,
+                    c->solver[l->taker].field[l->tfield].name, c->solver[l->giver].name);
+    }
+}

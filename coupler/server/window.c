@@ -1,0 +1,154 @@
+/* window.c - integer time. All windows of a job are equal and known by number: window k spans
+ * k/n to (k+1)/n of the job's time, and all programs get the same two doubles.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "coupler.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/log.h"
+#include "../../common/timer.h"
+
+static const double same_time = 1e-9; /* relative */
+static const int64_t longest_search = 1000000;
+
+double window_start(const struct coupler *c, int64_t k)
+{
+    const double span = c->t_end - c->t_start;
+    return k == c->nwindows ? c->t_end : c->t_start + span * (double)k / (double)c->nwindows;
+}
+
+static bool whole(double x) { return fabs(x - rint(x)) <= same_time * fmax(1.0, fabs(x)); }
+
+/* The fewest windows, none longer than dt, that end at each output time and at the end. */
+static void divide(struct coupler *c, double dt, char *text)
+{
+    const double every = c->scene.output.every, span = c->t_end - c->t_start;
+    const bool outputs = every > 0.0 && every < span;
+    if (!(dt > 0.0)) {
+        problem(text, "a program asks for windows of %g s", dt);
+        return;
+    }
+    const double least = ceil(span / fmin(dt, outputs ? every : span) * (1.0 - same_time));
+    if (least > 1e15) {
+        problem(text, "windows of %g s are too short for a run of %g s", dt, span);
+        return;
+    }
+    c->nwindows = least < 1.0 ? 1 : (int64_t)least;
+    c->output_every = c->nwindows;
+    if (!outputs)
+        return;
+    for (int64_t tries = 0; tries < longest_search; tries++, c->nwindows++) {
+        const double per_output = (double)c->nwindows * every / span;
+        c->output_every = (int64_t)rint(per_output);
+        if (c->output_every > 0 && whole(per_output))
+            return;
+    }
+    problem(text,
+            "output.every = %g s and time.end = %g s have no common divisor: no window fits both",
+            every, span);
+}
+
+static bool at(const struct coupler *c, int64_t window, double t)
+{
+    const double dt = (c->t_end - c->t_start) / (double)c->nwindows;
+    return fabs(window_start(c, window) - t) <= 1e-6 * dt + same_time * fabs(c->t_end);
+}
+
+void window_divide(struct coupler *c, char *text)
+{
+    const struct solver *first = &c->solver[0];
+    double dt = c->job.window > 0.0 ? c->job.window : INFINITY;
+    c->t_start = c->job.start;
+    c->t_end = c->scene.time.end;
+    for (int i = 0; i < c->nsolvers; i++)
+        dt = fmin(dt, c->solver[i].dt_wish);
+    c->nwindows = 1;
+    divide(c, dt, text);
+    /* a restart file is written at the end of its window or counts the windows done: time tells
+     * which */
+    int64_t start = first->restart_window > 0 ? first->restart_window : 0;
+    if (first->restart_window >= 0 && !at(c, start, first->t) && at(c, start + 1, first->t))
+        start++;
+    for (int i = 0; i < c->nsolvers; i++)
+        if (!at(c, start, c->solver[i].t))
+            problem(text,
+                    "%s starts at t = %.9g s, but window %lld of %lld starts at %.9g s "
+                    "(coupler.start: another start)",
+                    c->solver[i].name, c->solver[i].t, (long long)start, (long long)c->nwindows,
+                    window_start(c, start));
+    c->first_window = c->window = start;
+    for (int i = 0; i < c->nsolvers; i++)
+        c->solver[i].advanced = start - 1;
+    c->save_wall = wall_time();
+    const double every = c->scene.output.checkpoint;
+    c->bound = every > 0.0 ? every * (floor(first->t / every + same_time) + 1.0) : INFINITY;
+}
+
+static int next_action(struct coupler *c)
+{
+    const double t1 = window_start(c, c->window + 1), now = wall_time();
+    int action = CPL_RUN;
+    if ((c->window + 1) % c->output_every == 0 || c->window + 1 == c->nwindows || c->stopping)
+        action |= CPL_OUTPUT;
+    if (c->stopping)
+        action |= CPL_SAVE;
+    if (t1 >= c->bound - same_time * fabs(c->t_end)) {
+        action |= CPL_SAVE;
+        c->bound += c->scene.output.checkpoint;
+    }
+    if (c->scene.output.checkpoint_wall > 0.0 &&
+        now - c->save_wall > c->scene.output.checkpoint_wall)
+        action |= CPL_SAVE;
+    if (action & CPL_SAVE) {
+        c->save_wall = now;
+        c->save[c->window & 1] = (struct save){.window = c->window};
+    }
+    return action;
+}
+
+void window_announce(struct coupler *c)
+{
+    const bool done = c->window >= c->nwindows;
+    const bool stop = c->stopping && (c->action & CPL_SAVE) && c->window > c->first_window;
+    struct pack p;
+    if (done || stop) {
+        c->code = done ? RUN_DONE : RUN_STOPPED;
+        c->action = CPL_STOP;
+    } else {
+        c->action = next_action(c);
+    }
+    for (int i = 0; i < c->nsolvers; i++) {
+        pack_begin(&p, WIRE_WINDOW, 0, c->window);
+        pack_int(&p, c->action);
+        pack_int(&p, c->code);
+        pack_real(&p, window_start(c, c->window));
+        pack_real(&p, done ? c->t_end : window_start(c, c->window + 1));
+        wire_send_all(&c->wire, c->solver[i].peer, &p);
+    }
+    c->stall_at = wall_time() + c->stall_every;
+}
+
+void window_advance(struct coupler *c, struct solver *s, struct message *m)
+{
+    if (m->head.tick != c->window || s->advanced == c->window)
+        fail("%s ends window %lld, but window %lld is under way", s->name, (long long)m->head.tick,
+             (long long)c->window);
+    s->advanced = m->head.tick;
+    if (take_int(&c->wire, m) && !c->stopping) {
+        log_say("%s asks for an orderly end", s->name);
+        c->stopping = true;
+    }
+    s->waited = take_real(&c->wire, m);
+    rendezvous_take_ticks(c, s, m);
+    report_told(&c->wire, m, &s->told);
+    s->advanced_at = wall_time();
+    for (int i = 0; i < c->nsolvers; i++)
+        if (c->solver[i].advanced != c->window)
+            return;
+    for (int i = 0; i < c->nsolvers; i++) /* all waited for the last one */
+        c->solver[i].waited_for[s - c->solver] += s->advanced_at - c->solver[i].advanced_at;
+    c->window++;
+    sums_window(c);
+    window_announce(c);
+}

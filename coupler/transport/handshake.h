@@ -1,0 +1,30 @@
+/* handshake.h - who is in this job: every rank tells every other its program's name, within a
+ * deadline; then one communicator per program and one intercommunicator per solver with "coupler".
+ * Part of libcpl.a: depends on MPI alone. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COUPLER_HANDSHAKE_H
+#define COUPLER_HANDSHAKE_H
+
+#include <mpi.h>
+
+enum { HANDSHAKE_NAME = 64, HANDSHAKE_PROGRAMS = 32, HANDSHAKE_TEXT = 2048 };
+
+struct handshake {
+    int nprograms; /* in the order of their names, so that places in mpirun do not matter */
+    struct handshake_program {
+        char name[HANDSHAKE_NAME];
+        int size;
+        int leader;     /* world rank of its rank 0 */
+        MPI_Comm inter; /* to it: solver with coupler and coupler with solver, else MPI_COMM_NULL */
+    } program[HANDSHAKE_PROGRAMS];
+    int me, coupler;           /* index into program; coupler -1: none */
+    MPI_Comm mine;             /* this program's ranks */
+    char text[HANDSHAKE_TEXT]; /* what is wrong */
+};
+
+/* Collective over world. version: of cpl.h, that this program was written for. 0; -2 if the
+ * programs do not make a job (h->text, the same on all). Silent ranks at the deadline end the job
+ * with code 2: MPI cannot be left in order without them. */
+int handshake(MPI_Comm world, const char *name, double deadline_s, int version,
+              struct handshake *h);
+
+#endif

@@ -1,0 +1,46 @@
+/* region.h - the part of a giver's data that a coupler rank wants. Givers send nothing else, and it
+ * is sent anew only when targets leave it. Points: cells of space around the targets. Grids: boxes
+ * of cells, one per asking rank. Part of libcpl.a: no MPI. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COUPLER_REGION_H
+#define COUPLER_REGION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct wire;
+struct message;
+struct pack;
+
+struct region {
+    int dim;
+    int all; /* every point, wherever it lies; no images */
+    /* Points: a bit map over cells i <= (x - 0)/edge < i + 1; period 0: not periodic. */
+    double edge, period[3]; /* m */
+    int lo[3], n[3];
+    unsigned char *wanted; /* [n[2]][n[1]][n[0]] */
+    /* Grids: boxes lo <= i < hi in the unwrapped index space. */
+    int nboxes;
+    struct region_box {
+        int asker, lo[3], hi[3];
+    } * box;
+};
+
+/* Cells that hold any point within R of the targets x[n][dim], and `slack' cells more. */
+struct region region_around(int dim, double R, const double period[3], long n, const double *x,
+                            int slack);
+/* Cells first <= i < last that a patch needs to be evaluated in the box [lo, hi]: those of the box
+ * and three more on each side, which cubic stencils and their averages want; where the grid is not
+ * periodic only those that exist. An empty box (lo > hi) gives no cells. */
+void region_cells(int dim, const double origin[3], const double spacing[3], const int cells[3],
+                  const int periodic[3], const double lo[3], const double hi[3], int first[3],
+                  int last[3]);
+/* Whether a holds all of b (both of points, with the same R, or both of grids). */
+bool region_holds(const struct region *a, const struct region *b);
+/* Number of images of a point (itself, periodic ones) in the region; their places, or NULL: 0 or 1.
+ */
+int region_images(const struct region *r, const double *x, double image[27][3]);
+void region_pack(struct pack *p, const struct region *r);
+struct region region_take(struct wire *w, struct message *m);
+void region_free(struct region *r);
+
+#endif

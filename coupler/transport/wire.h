@@ -1,0 +1,117 @@
+/* wire.h - messages between the programs of a job: a fixed header and packed bytes, point to point
+ * over intercommunicators, and a way of waiting that leaves the processor to those who have work.
+ * Part of libcpl.a: depends on MPI alone. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COUPLER_WIRE_H
+#define COUPLER_WIRE_H
+
+#include <mpi.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { WIRE_VERSION = 3, WIRE_PEERS = 40 };
+
+/* What a program, or a job, can have; more is refused. */
+enum { LIMIT_SETS = 32, LIMIT_FIELDS = 64, LIMIT_TAKERS = 32, LIMIT_LINKS = 256, LIMIT_ZONES = 64 };
+enum { TOLD_KEYS = 192, TOLD_KEY = 96, SAVED_NAME = 256 }; /* bytes with the closing zero */
+
+/* Solver to coupler, or coupler to solver (>), in the order of a job. */
+enum wire_kind {
+    WIRE_MEET = 1, /* hash, restart window, faults, zones */
+    WIRE_MET,      /* > accepted, or all problems; all zones */
+    WIRE_READY,    /* sets and fields, time, longest window */
+    WIRE_PLAN,     /* > accepted, or all problems; where fields come from */
+    WIRE_WINDOW,   /* > number, start, end, action */
+    WIRE_GET,      /* wants a field at a tick: new places or box, if they changed */
+    WIRE_NEED,     /* > from now on, values in this region are wanted */
+    WIRE_PUT,      /* values in that region */
+    WIRE_VALUES,   /* > the answer to WIRE_GET */
+    WIRE_ADVANCE,  /* window done, told numbers, stop wanted */
+    WIRE_SAVED,    /* restart file complete */
+    WIRE_BYE,      /* last message to each coupler rank */
+    WIRE_BYE_ACK,  /* > exit code of the job */
+    WIRE_KINDS
+};
+
+struct wire_head {
+    uint32_t magic;
+    uint16_t version, kind;
+    int32_t field;      /* the solver's own number of the field */
+    int32_t generation; /* of the region that a put answers, of the places that values belong to */
+    int32_t taker;      /* needs and puts: which of the field's takers, from 0 */
+    int32_t terms;      /* puts and values: coefficients in time of each component, from 1 */
+    int64_t tick;       /* number of windows before the time of the values, or of the window */
+    int64_t count;      /* items */
+    int64_t bytes;      /* of the body */
+    double t;           /* s */
+};
+
+/* A message under construction; wire_send takes its memory. */
+struct pack {
+    unsigned char *bytes; /* header first */
+    size_t n, capacity;
+};
+
+/* A message received: next unread byte of the body at body[at]. Freed by message_free. */
+struct message {
+    struct message *next;
+    int peer, rank; /* which communicator, rank in its remote group */
+    struct wire_head head;
+    unsigned char *memory, *body; /* the body lies behind the header */
+    size_t at;
+};
+
+struct wire {
+    int npeers;
+    struct wire_peer {
+        MPI_Comm comm;
+        int size;         /* ranks on the other side */
+        const char *name; /* borrowed */
+    } peer[WIRE_PEERS];
+    struct pending *pending;          /* sends that MPI has not finished */
+    size_t piece;                     /* bytes; longer messages travel in pieces. 0: 1 GiB */
+    void (*broken)(const char *what); /* a message that cannot be read: must not return */
+};
+
+/* The waiting of one call: spins for some 30 us, then sleeps longer and longer: up to 0.2 ms, then
+ * 2 % of the time waited so far, at most 10 ms. */
+struct nap {
+    double since;   /* s: when the waiting began */
+    double checked; /* s: last look at whether all partners are alive */
+    long us;
+};
+
+double wire_time(void); /* s, monotonic */
+/* malloc, realloc that end the program when there is no memory; n = 0 is legal. */
+void *wire_alloc(size_t n);
+void *wire_grow(void *p, size_t n);
+
+void pack_begin(struct pack *p, enum wire_kind kind, int field, int64_t tick);
+struct wire_head *pack_head(struct pack *p); /* valid until the next pack_... */
+void pack_bytes(struct pack *p, const void *from, size_t n);
+void *pack_room(struct pack *p, size_t n); /* n bytes to be filled at once */
+void pack_text(struct pack *p, const char *text);
+void pack_int(struct pack *p, int64_t i);
+void pack_real(struct pack *p, double r);
+
+/* Reads past the end end the program through wire.broken. */
+void take_bytes(struct wire *w, struct message *m, void *to, size_t n);
+const void *take_view(struct wire *w, struct message *m,
+                      size_t n); /* bytes in place, any alignment */
+void take_text(struct wire *w, struct message *m, char *to, size_t size);
+int64_t take_int(struct wire *w, struct message *m);
+double take_real(struct wire *w, struct message *m);
+
+int wire_add_peer(struct wire *w, MPI_Comm comm, int size, const char *name);
+void wire_send(struct wire *w, int peer, int rank, struct pack *p);
+void wire_send_all(struct wire *w, int peer, struct pack *p); /* to each rank of a peer */
+/* One message of this peer (-1: of any), NULL if none is there. Never blocks longer than one
+ * message takes. */
+struct message *wire_poll(struct wire *w, int peer);
+bool wire_flushed(struct wire *w); /* moves sends along; true when all are done */
+void message_free(struct message **m);
+
+void nap_begin(struct nap *n);
+void nap_take(struct nap *n);
+
+#endif

@@ -1,0 +1,438 @@
+/* bc.c - see bc.h. Ghosts of cell averages behind a side, q_1, q_2, q_3 inside, w the average on
+ * the side's face:
+ *   given     q_0 = 4 w - (13 q_1 - 5 q_2 + q_3)/3,  q_-1 = 16 w - (70 q_1 - 32 q_2 + 7 q_3)/3,
+ *             the cubic through them; the fourth-order face value is then w itself
+ *   mirrored  q_0 = q_1, q_-1 = q_2, or 2 w - q_1, 2 w - q_2
+ * No-slip and inflow: all components given; slip: the normal one odd, others even; outflow: even.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "bc.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "blocked.h"
+
+/* Places of a side on this rank: tangents t0 < t1, from lo to hi; places count from -g, so that
+ * those behind other sides have their own. */
+struct side {
+    int a, t[2], lo[2], hi[2];
+    int width;  /* places along t[0] */
+    int first;  /* cell along a that touches the side */
+    int64_t in; /* step inwards */
+};
+
+static bool has_side(const struct block *b, int k)
+{
+    const int a = k / 2;
+    return a < b->dim && !b->periodic[a] && (k % 2 ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
+}
+
+/* Tangents of an axis filled before have their ghosts by then: sides are filled axis by axis. */
+static struct side side_of(const struct bc *bc, const struct block *b, int k, bool corners)
+{
+    struct side d = {.a = k / 2};
+    int n = 0;
+    for (int a = 0; a < 3; a++)
+        if (a != d.a)
+            d.t[n++] = a;
+    for (int m = 0; m < 2; m++) {
+        const int t = d.t[m];
+        const bool more = corners && bc->turn[t] < bc->turn[d.a];
+        d.lo[m] = more && has_side(b, 2 * t) ? -b->g[t] : 0;
+        d.hi[m] = b->n[t] + (more && has_side(b, 2 * t + 1) ? b->g[t] : 0);
+    }
+    d.width = b->n[d.t[0]] + 2 * b->g[d.t[0]];
+    d.first = k % 2 ? b->n[d.a] - 1 : 0;
+    d.in = k % 2 ? -b->stride[d.a] : b->stride[d.a];
+    return d;
+}
+
+static int64_t place(const struct block *b, const struct side *d, int i, int j)
+{
+    return (i + b->g[d->t[0]]) + (int64_t)d->width * (j + b->g[d->t[1]]);
+}
+
+static int64_t cell(const struct block *b, const struct side *d, int i, int j)
+{
+    int at[3];
+    at[d->a] = d->first;
+    at[d->t[0]] = i;
+    at[d->t[1]] = j;
+    return block_at(b, at[0], at[1], at[2]);
+}
+
+/* Visits the places of a side: m counts them, c is the cell inside. */
+#define SIDE_PLACES(b, d, i, j, m, c)                                                              \
+    for (int j = (d).lo[1]; j < (d).hi[1]; j++)                                                    \
+        for (int i = (d).lo[0]; i < (d).hi[0]; i++)                                                \
+            for (int64_t m = place(b, &(d), i, j), c = cell(b, &(d), i, j), once_ = 1; once_;      \
+                 once_ = 0)
+
+static double face_area(const struct block *b, const struct side *d, int i, int j)
+{
+    return block_size(b, d->t[0], i) * block_size(b, d->t[1], j);
+}
+
+/* Average of 4 x (1 - x) over the face from x to x + h of a side of length 1. */
+static double parabola(double x, double h)
+{
+    return 2.0 * (2.0 * x + h) - 4.0 / 3.0 * (3.0 * x * x + 3.0 * x * h + h * h);
+}
+
+static double profile_at(const struct fv *s, const struct scene_wall *wall, const struct side *d,
+                         int i, int j)
+{
+    const struct block *b = &s->b;
+    const int at[2] = {i, j};
+    double f = 1.0;
+    for (int m = 0; wall->profile && m < 2; m++) {
+        const int t = d->t[m];
+        if (t >= b->dim || b->periodic[t])
+            continue;
+        const double h = block_size(b, t, at[m]) / b->length[t];
+        f *=
+            parabola(t == 1 && b->rows ? (b->rows->y[at[m]] - b->origin[1]) / b->length[1] - 0.5 * h
+                                       : (b->lo[t] + at[m]) * h,
+                     h);
+    }
+    return f;
+}
+
+/* Places of an outflow and the cells inside. */
+static struct outflow *make_outflow(const struct bc *bc, const struct block *b, int k,
+                                    int64_t places)
+{
+    const struct side d = side_of(bc, b, k, true);
+    struct outflow *o = NEW(struct outflow, 1);
+    o->side = k;
+    o->place = NEW(int64_t, places);
+    o->cell = NEW(int64_t, places);
+    o->own = NEW(bool, places);
+    o->area = NEW(double, places);
+    SIDE_PLACES(b, d, i, j, m, c)
+    {
+        o->place[o->n] = m;
+        o->cell[o->n] = c;
+        o->area[o->n] = face_area(b, &d, i, j);
+        o->own[o->n++] = i >= 0 && i < b->n[d.t[0]] && j >= 0 && j < b->n[d.t[1]];
+    }
+    for (int q = 0; q < b->dim; q++) {
+        o->line[q] = NEW(double, 3 * o->n);
+        o->change[q] = NEW(double, places);
+    }
+    return o;
+}
+
+static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall *wall)
+{
+    static const enum bc_kind kinds[] = {BC_SLIP, BC_NO_SLIP, BC_INFLOW, BC_OUTFLOW};
+    const struct block *b = &s->b;
+    if (wall->side == SIDE_NONE)
+        return;
+    const int k = wall->side - SIDE_X_MIN, a = k / 2;
+    if (a >= b->dim || b->periodic[a])
+        return;
+    bc->kind[k] = wall->carried ? BC_CARRIED : kinds[wall->kind];
+    bc->carries = bc->carries || bc->kind[k] == BC_CARRIED;
+    bc->pressure_given = bc->pressure_given || bc->kind[k] == BC_OUTFLOW;
+    if (bc->kind[k] == BC_OUTFLOW)
+        bc->pressure[k] = wall->pressure / s->run->scene.fluid.rho;
+    bc->driven = bc->driven || bc->pressure[k] != 0.0;
+    for (int q = 0; q < b->dim && bc->kind[k] != BC_OUTFLOW; q++) {
+        bc->speed_along[q] = fmax(bc->speed_along[q], fabs(wall->velocity[q]));
+        bc->slides[k] = bc->slides[k] || (bc->kind[k] == BC_NO_SLIP && wall->velocity[q] != 0.0);
+    }
+    for (int q = 0; q < b->dim; q++)
+        bc->speed = fmax(bc->speed, bc->speed_along[q]);
+    double area = 1.0;
+    for (int t = 0; t < b->dim; t++)
+        area *= t == a ? 1.0 : b->length[t];
+    if (bc->kind[k] == BC_NO_SLIP || bc->kind[k] == BC_SLIP)
+        bc->wall_area += area;
+    if (!has_side(b, k))
+        return;
+    const struct side d = side_of(bc, b, k, true), inner = side_of(bc, b, k, false);
+    bc->n[k] = (int64_t)d.width * (b->n[d.t[1]] + 2 * b->g[d.t[1]]);
+    for (int q = 0; q < b->dim; q++) {
+        bc->w[k][q] = NEW(double, bc->n[k]);
+        bc->slip[k][q] = NEW(double, bc->n[k]);
+        for (int j = -b->g[d.t[1]]; j < b->n[d.t[1]] + b->g[d.t[1]]; j++)
+            for (int i = -b->g[d.t[0]]; i < b->n[d.t[0]] + b->g[d.t[0]]; i++)
+                bc->w[k][q][place(b, &d, i, j)] = wall->velocity[q] * profile_at(s, wall, &d, i, j);
+    }
+    if (bc->kind[k] == BC_CARRIED)
+        bc->out[k] = make_outflow(bc, b, k, bc->n[k]);
+    SIDE_PLACES(b, inner, i, j, m, c)
+    {
+        bc->outflux += (k % 2 ? 1.0 : -1.0) * face_area(b, &inner, i, j) * bc->w[k][a][m];
+        (void)c;
+    }
+}
+
+/* The axis whose walls slide fastest comes last, so that their ghosts go on through the corners.
+ * Cut off there by the ghosts of another wall (4 V beside a fluid at rest) they are a jet of no
+ * width between two cells, and the product term of convection drives the corners with it. */
+static void set_turns(const struct scene *scene, int dim, int turn[3])
+{
+    double speed[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < scene->nwalls; k++) {
+        const struct scene_wall *w = scene->walls + k;
+        const int a = (w->side - SIDE_X_MIN) / 2;
+        for (int q = 0; q < dim && w->side != SIDE_NONE && w->kind == WALL_NO_SLIP && a < dim; q++)
+            speed[a] = q == a ? speed[a] : fmax(speed[a], fabs(w->velocity[q]));
+    }
+    for (int a = 0; a < 3; a++) {
+        turn[a] = 0;
+        for (int t = 0; t < 3; t++)
+            turn[a] += speed[t] < speed[a] || (speed[t] == speed[a] && t < a);
+    }
+}
+
+static void free_outflow(struct outflow *o)
+{
+    if (!o)
+        return;
+    mem_free(o->place);
+    mem_free(o->cell);
+    mem_free(o->own);
+    mem_free(o->area);
+    for (int q = 0; q < 3; q++) {
+        mem_free(o->line[q]);
+        mem_free(o->change[q]);
+    }
+    mem_free(o);
+}
+
+struct bc *bc_create(const struct fv *s)
+{
+    const struct scene *scene = &s->run->scene;
+    if (scene->nwalls == 0)
+        return NULL;
+    struct bc *bc = NEW(struct bc, 1);
+    set_turns(scene, s->b.dim, bc->turn);
+    for (int i = 0; i < scene->nwalls; i++)
+        make_side(s, bc, scene->walls + i);
+    bc->outflux_given = bc->outflux;
+    return bc;
+}
+
+void bc_free(struct bc **bp)
+{
+    struct bc *bc = *bp;
+    if (!bc)
+        return;
+    for (int k = 0; k < 6; k++) {
+        for (int q = 0; q < 3; q++) {
+            mem_free(bc->w[k][q]);
+            mem_free(bc->slip[k][q]);
+        }
+        free_outflow(bc->out[k]);
+    }
+    mem_free(bc);
+    *bp = NULL;
+}
+
+enum bc_kind bc_behind(const struct fv *s, const int *at, int a)
+{
+    const struct block *b = &s->b;
+    const int i = b->lo[a] + at[a];
+    if (!s->bc || a >= b->dim || b->periodic[a] || (i >= 0 && i < b->cells[a]))
+        return BC_NONE;
+    return s->bc->kind[2 * a + (i >= 0)];
+}
+
+static void ghosts_given(double *q, int64_t in, double w)
+{
+    q[-in] = 4.0 * w - (13.0 * q[0] - 5.0 * q[in] + q[2 * in]) / 3.0;
+    q[-2 * in] = 16.0 * w - (70.0 * q[0] - 32.0 * q[in] + 7.0 * q[2 * in]) / 3.0;
+    q[-3 * in] = q[-2 * in]; /* no stencil reads it */
+}
+
+static void ghosts_mirrored(double *q, int64_t in, double sign, double w)
+{
+    for (int m = 0; m < GHOSTS; m++)
+        q[-(m + 1) * in] = 2.0 * w + sign * q[m * in];
+}
+
+/* One component along one side. w, slip: NULL for zero. */
+static void fill(const struct bc *bc, const struct block *b, int k, enum bc_kind kind, int q,
+                 const double *w, const double *slip, double *u)
+{
+    const struct side d = side_of(bc, b, k, true);
+    const bool even = kind == BC_OUTFLOW || (kind == BC_SLIP && q != d.a);
+    SIDE_PLACES(b, d, i, j, m, c)
+    {
+        const double v = (w ? w[m] : 0.0) + (slip ? slip[m] : 0.0);
+        if (even)
+            ghosts_mirrored(u + c, d.in, 1.0, 0.0);
+        else if (kind == BC_SLIP)
+            ghosts_mirrored(u + c, d.in, -1.0, v);
+        else
+            ghosts_given(u + c, d.in, v);
+    }
+}
+
+/* What stands on a side: its velocity, or the change of it; NULL for zero. */
+static const double *side_value(const struct bc *bc, int k, int q, enum bc_value what)
+{
+    if (what == BC_CHANGE)
+        return bc->out[k] ? bc->out[k]->change[q] : NULL;
+    return what == BC_ZERO ? NULL : bc->w[k][q];
+}
+
+static int axis_of_turn(const struct bc *bc, int turn)
+{
+    int a = 0;
+    while (bc->turn[a] != turn)
+        a++;
+    return a;
+}
+
+void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3])
+{
+    const struct bc *bc = s->bc;
+    for (int m = 0; bc && m < 6; m++) {
+        const int k = 2 * axis_of_turn(bc, m / 2) + m % 2;
+        for (int q = 0; q < s->b.dim && bc->n[k] > 0; q++)
+            fill(bc, &s->b, k, bc->kind[k], q, side_value(bc, k, q, what),
+                 what == BC_AHEAD || what == BC_CHANGE ? bc->slip[k][q] : NULL, u[q]);
+    }
+}
+
+/* Along a side whose places are given; of a difference. */
+static void fill_zero(const struct bc *bc, const struct block *b, int k, int q,
+                      const struct side *d, double *u)
+{
+    const enum bc_kind kind = bc->kind[k];
+    SIDE_PLACES(b, *d, i, j, m, c)
+    {
+        (void)m;
+        if (kind == BC_OUTFLOW || (kind == BC_SLIP && q != d->a))
+            ghosts_mirrored(u + c, d->in, 1.0, 0.0);
+        else if (kind == BC_SLIP)
+            ghosts_mirrored(u + c, d->in, -1.0, 0.0);
+        else
+            ghosts_given(u + c, d->in, 0.0);
+    }
+}
+
+void bc_slab_ghosts(const struct fv *s, int q, int j, double *u)
+{
+    const struct block *b = &s->b;
+    const int last = b->dim - 1;
+    for (int k = 0; k < 2 * last; k++) {
+        const int a = k / 2;
+        int n = b->n[a];
+        if (s->bc && s->bc->n[k] > 0) {
+            struct side d = side_of(s->bc, b, k, false);
+            const int m = d.t[0] == last ? 0 : 1;
+            d.lo[m] = j;
+            d.hi[m] = j + 1;
+            fill_zero(s->bc, b, k, q, &d, u);
+        } else if (b->periodic[a]) {
+            const int64_t e = b->stride[a];
+            const int t = 1 - a, rows = b->dim == 3 ? b->n[t] : 1;
+            for (int i = 0; i < rows; i++) {
+                int at[3] = {0, 0, 0};
+                at[last] = j;
+                at[t] = b->dim == 3 ? i : at[t];
+                double *row = u + block_at(b, at[0], at[1], at[2]);
+                for (int g = 1; g <= GHOSTS; g++)
+                    if (k % 2)
+                        row[(n - 1 + g) * e] = row[(g - 1) * e];
+                    else
+                        row[-g * e] = row[(n - g) * e];
+            }
+        }
+    }
+}
+
+void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u)
+{
+    const int k = 2 * (s->b.dim - 1) + upper;
+    if (!s->bc || s->bc->n[k] == 0)
+        return;
+    const struct side d = side_of(s->bc, &s->b, k, false);
+    fill_zero(s->bc, &s->b, k, q, &d, u);
+}
+
+void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
+{
+    const struct block *b = &s->b;
+    for (int k = 0; s->bc && k < 2 * b->dim; k++) {
+        if (s->bc->n[k] == 0 || s->bc->kind[k] == BC_OUTFLOW)
+            continue;
+        const struct side d = side_of(s->bc, b, k, true);
+        const int64_t face = k % 2 ? b->stride[d.a] : 0;
+        const double *w = s->bc->w[k][d.a];
+        SIDE_PLACES(b, d, i, j, m, c)
+        U[d.a][c + face] = what == BC_ZERO ? 0.0 : w[m];
+    }
+}
+
+/* v[0 .. 4]: five values of a line around `at', that of cell c, even where a box begins. */
+static void line_beside_box(const struct fv *s, const double *at, int64_t c, int64_t d, double *v)
+{
+    const unsigned char *box = s->blocked->box + c;
+    for (int m = -2; m <= 2; m++)
+        v[2 + m] = at[m];
+    for (int way = -1; way <= 1; way += 2)
+        if (box[way * d]) {
+            v[2 + way] = at[0];
+            v[2 + 2 * way] = at[-way];
+        } else if (box[2 * way * d]) {
+            v[2 + 2 * way] = at[way];
+        }
+}
+
+/* psi on the side, continued evenly: (7 psi_1 - psi_2)/6; its gradient along the side by fourth
+ * order differences, again even at the ends. line: scratch of the length of a row with ghosts. */
+static void slip_row(const struct fv *s, const struct side *d, int m, double tau, const double *psi,
+                     int64_t c, double *line, double *slip, int64_t step)
+{
+    const struct block *b = &s->b;
+    const int t = d->t[m], n = b->n[t], g = b->g[t];
+    double *at = line + g;
+    for (int i = -g; i < n + g; i++) {
+        const double *q = psi + c + i * b->stride[t];
+        at[i] = (7.0 * q[0] - q[d->in]) / 6.0;
+    }
+    for (int i = 0; i < g; i++) {
+        if (has_side(b, 2 * t))
+            at[-1 - i] = at[i];
+        if (has_side(b, 2 * t + 1))
+            at[n + i] = at[n - 1 - i];
+    }
+    const struct block line_of = {
+        .stride = {1, 1, 1}, .h = {b->h[0], b->h[1], b->h[2]}, .rows = b->rows};
+    for (int i = 0; i < n; i++)
+        slip[i * step] = tau * block_derivative(&line_of, at + i, t, i);
+    for (int i = 0; s->blocked && i < n; i++) {
+        double v[5];
+        line_beside_box(s, at + i, c + i * b->stride[t], b->stride[t], v);
+        slip[i * step] = is_blocked(s, c + i * b->stride[t])
+                             ? 0.0
+                             : tau * block_derivative(&line_of, v + 2, t, i);
+    }
+}
+
+void bc_set_slip(const struct fv *s, double tau, const double *psi)
+{
+    const struct block *b = &s->b;
+    for (int k = 0; s->bc && k < 2 * b->dim; k++) {
+        if (s->bc->n[k] == 0 || s->bc->kind[k] == BC_SLIP || s->bc->kind[k] == BC_OUTFLOW)
+            continue;
+        const struct side d = side_of(s->bc, b, k, false);
+        for (int m = 0; m < 2 && d.t[m] < b->dim; m++) {
+            const int other = d.t[1 - m];
+            double *line = NEW(double, b->n[d.t[m]] + 2 * b->g[d.t[m]]);
+            for (int i = 0; i < b->n[other]; i++) {
+                const int at[2] = {m == 0 ? 0 : i, m == 0 ? i : 0};
+                slip_row(s, &d, m, tau, psi, cell(b, &d, at[0], at[1]), line,
+                         s->bc->slip[k][d.t[m]] + place(b, &d, at[0], at[1]), m == 0 ? 1 : d.width);
+            }
+            mem_free(line);
+        }
+    }
+}

@@ -1,0 +1,66 @@
+/* bc.h - physical boundaries of the block: no-slip and slip walls, inflow, outflow. Ghost averages
+ * of velocity carry the condition into all stencils; sides without a kind (periodic, or imposed
+ * from the exact solution) are not touched. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_BC_H
+#define FV_BC_H
+
+#include "../fv.h"
+
+enum bc_kind { BC_NONE, BC_NO_SLIP, BC_SLIP, BC_INFLOW, BC_OUTFLOW, BC_CARRIED };
+
+/* A side through which the flow leaves as it is carried; outflow.h. */
+struct outflow {
+    int side;            /* as in bc.h */
+    int64_t n;           /* places on this rank */
+    int64_t *place;      /* in the side's arrays */
+    int64_t *cell;       /* inside */
+    bool *own;           /* its face is one of this rank's, once */
+    double *area;        /* m^(dim-1): of its face */
+    double *line[3];     /* [3 n]: the step's first velocity inwards, w + b x + c x^2, x in cells */
+    double *change[3];   /* [places of the side] m/s: of w at the last outflow_set */
+    double carried, sum; /* cells a second; m^dim/s outwards on this rank */
+};
+
+struct bc {
+    int turn[3];          /* of the axes, when sides are filled: 0 first */
+    enum bc_kind kind[6]; /* side 2 a + (1 if upper) of axis a */
+    bool slides[6];       /* a wall that moves along itself */
+    int64_t n[6]; /* places of a side on this rank, ghosts of its tangents included; 0: not here */
+    double *w[6][3];        /* m/s: velocity on the side, averages over faces */
+    double *slip[6][3];     /* m/s: what the next projection takes off the side's velocity */
+    double pressure[6];     /* m^2/s^2: p/rho of an outflow, 0 elsewhere */
+    bool driven;            /* some of it not 0 */
+    bool pressure_given;    /* at an outflow: the pressure problem is regular */
+    bool carries;           /* some outflow is of the kind BC_CARRIED */
+    struct outflow *out[6]; /* those on this rank; else NULL */
+    double outflux;         /* m^dim/s: through this rank's faces of given velocity, outwards */
+    double outflux_given;   /* its part of walls and inflow */
+    double speed, speed_along[3]; /* m/s: largest velocity imposed, and of each component */
+    double wall_area;             /* m^(dim-1) of walls, over all ranks; 0: none */
+};
+
+enum bc_value {
+    BC_ZERO,   /* of a difference */
+    BC_GIVEN,  /* of a velocity */
+    BC_CHANGE, /* of an increment: from a projected velocity to one ahead of its projection */
+    BC_AHEAD   /* of one that is still to be projected: what that takes off is added */
+};
+
+/* NULL if no side has a kind. */
+struct bc *bc_create(const struct fv *s);
+void bc_free(struct bc **b);
+/* Kind of the side behind which the cell `at' (local) lies along axis a; BC_NONE if inside. */
+enum bc_kind bc_behind(const struct fv *s, const int *at, int a);
+/* Ghost averages of the fields u along all sides that have a kind; halo first. */
+void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3]);
+/* The same of a difference (BC_ZERO) u of component q, in slab j across the last axis, without
+ * corners: ghosts along the other axes, whole on this rank; and those of the ends of the last axis.
+ */
+void bc_slab_ghosts(const struct fv *s, int q, int j, double *u);
+void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u);
+/* Fluxes through walls and inflow; those of outflow are left as they are. */
+void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
+/* Takes note of tau grad psi along the walls, for BC_AHEAD. */
+void bc_set_slip(const struct fv *s, double tau, const double *psi);
+
+#endif

@@ -1,0 +1,163 @@
+/* blocked.c - see blocked.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "blocked.h"
+
+#include "../../common/mem.h"
+
+/* Number of the box in which a cell of the whole grid lies, from 1; 0: none. Behind closed sides as
+ * before them. */
+static unsigned char box_of(const struct block *b, const int (*cells)[2][3], int n,
+                            const int *global)
+{
+    int i[3];
+    for (int a = 0; a < 3; a++) {
+        const int m = b->cells[a];
+        i[a] = b->periodic[a]   ? (global[a] % m + m) % m
+               : global[a] < 0  ? 0
+               : global[a] >= m ? m - 1
+                                : global[a];
+    }
+    for (int k = n - 1; k >= 0; k--) {
+        bool in = true;
+        for (int a = 0; a < b->dim; a++)
+            in = in && i[a] >= cells[k][0][a] && i[a] < cells[k][1][a];
+        if (in)
+            return (unsigned char)(k + 1);
+    }
+    return 0;
+}
+
+static void mark(const struct fv *s, struct blocked *w)
+{
+    const struct block *b = &s->b;
+    int cells[BLOCKED_MAX][2][3];
+    const int n = blocked_count();
+    for (int k = 0; k < n; k++)
+        blocked_cells(s->run, k, cells[k][0], cells[k][1]);
+    w->box = NEW(unsigned char, b->size);
+    for (int64_t c = 0; c < b->size; c++) {
+        int at[3];
+        block_place(b, c, at);
+        for (int a = 0; a < 3; a++)
+            at[a] += b->lo[a];
+        w->box[c] = box_of(b, (const int(*)[2][3])cells, n, at);
+    }
+}
+
+/* Free cells from c on along the step d, at most 3 of the `most' that are there; *box: what ends
+ * them. */
+static int count_free(const struct blocked *w, int64_t c, int64_t d, int most, int *box)
+{
+    int n = 0;
+    while (n < 3 && n < most && !w->box[c + (n + 1) * d])
+        n++;
+    *box = n < 3 && n < most ? w->box[c + (n + 1) * d] - 1 : -1;
+    return n < most ? n : 3;
+}
+
+/* Cells of this rank, one layer around, and the first beyond the upper end along a. */
+static void list_near(const struct block *b, struct blocked *w, int a)
+{
+    w->near[a] = NEW(struct near_box, b->size);
+    for (int k = b->g[2] ? -1 : 0; k < b->n[2] + (b->g[2] ? 1 : 0); k++)
+        for (int j = -1; j < b->n[1] + 1; j++)
+            for (int i = -1; i < b->n[0] + 1; i++) {
+                const int at[3] = {i, j, k};
+                struct near_box x = {.cell = block_at(b, i, j, k), .own = true};
+                if (w->box[x.cell])
+                    continue;
+                for (int t = 0; t < 3; t++)
+                    x.own = x.own && at[t] >= 0 && at[t] < b->n[t];
+                for (int up = 0; up < 2; up++)
+                    x.free[up] =
+                        count_free(w, x.cell, up ? b->stride[a] : -b->stride[a],
+                                   up ? b->n[a] + GHOSTS - 1 - at[a] : at[a] + GHOSTS, x.box + up);
+                if (x.free[0] < 3 || x.free[1] < 3)
+                    w->near[a][w->nnear[a]++] = x;
+            }
+    w->slip[a] = mem_new((size_t)w->nnear[a] + 1, sizeof *w->slip[a]);
+}
+
+static void list_beside(const struct block *b, struct blocked *w, int a, int t)
+{
+    const int64_t d = b->stride[a], e = b->stride[t];
+    w->beside[a][t] = NEW(struct beside_box, b->size);
+    for (int k = 0; k < b->n[2] + (a == 2); k++)
+        for (int j = 0; j < b->n[1] + (a == 1); j++)
+            for (int i = 0; i < b->n[0] + (a == 0); i++) {
+                const int64_t c = block_at(b, i, j, k);
+                if (w->box[c] || w->box[c - d])
+                    continue;
+                const bool up = w->box[c + e] && w->box[c + e - d],
+                           down = w->box[c - e] && w->box[c - e - d];
+                if (up || down)
+                    w->beside[a][t][w->nbeside[a][t]++] =
+                        (struct beside_box){.face = c,
+                                            .in = up ? -e : e,
+                                            .box = w->box[up ? c + e : c - e] - 1,
+                                            .both = up && down};
+            }
+}
+
+struct blocked *blocked_create(const struct fv *s)
+{
+    const struct block *b = &s->b;
+    if (blocked_count() == 0)
+        return NULL;
+    struct blocked *w = NEW(struct blocked, 1);
+    mark(s, w);
+    for (int a = 0; a < b->dim; a++) {
+        list_near(b, w, a);
+        for (int t = 0; t < b->dim; t++)
+            if (t != a)
+                list_beside(b, w, a, t);
+    }
+    return w;
+}
+
+void blocked_free(struct blocked **wp)
+{
+    struct blocked *w = *wp;
+    if (!w)
+        return;
+    mem_free(w->box);
+    for (int a = 0; a < 3; a++) {
+        mem_free(w->near[a]);
+        mem_free(w->slip[a]);
+        for (int t = 0; t < 3; t++)
+            mem_free(w->beside[a][t]);
+    }
+    mem_free(w);
+    *wp = NULL;
+}
+
+enum blocked_ghost blocked_rule(int box, int q, int a)
+{
+    if (box < 0 || q < 0)
+        return GHOST_EVEN;
+    if (blocked_params(box)->kind == WALL_NO_SLIP)
+        return GHOST_NO_SLIP;
+    return q == a ? GHOST_ODD : GHOST_EVEN;
+}
+
+double blocked_ghost(const double *q, int64_t in, int depth, enum blocked_ghost rule)
+{
+    if (rule != GHOST_NO_SLIP)
+        return (rule == GHOST_ODD ? -1.0 : 1.0) * q[(depth - 1) * in];
+    return depth == 1 ? -(13.0 * q[0] - 5.0 * q[in] + q[2 * in]) / 3.0
+                      : -(70.0 * q[0] - 32.0 * q[in] + 7.0 * q[2 * in]) / 3.0;
+}
+
+void blocked_line(const struct near_box *x, const double *q, int64_t d, int reach,
+                  const enum blocked_ghost rule[2], double *v)
+{
+    const double *at = q + x->cell;
+    for (int up = 0; up < 2; up++) {
+        const int64_t out = up ? d : -d;
+        for (int m = 1; m <= reach; m++)
+            v[up ? m : -m] =
+                m <= x->free[up] || x->box[up] < 0
+                    ? at[m * out]
+                    : blocked_ghost(at + x->free[up] * out, -out, m - x->free[up], rule[up]);
+    }
+    v[0] = at[0];
+}

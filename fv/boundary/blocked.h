@@ -1,0 +1,101 @@
+/* blocked.h - boxes of cells that are cut out of an even grid: solid bodies at rest, whose faces
+ * are no-slip or slip walls. Their cells take no part (forcing.h); beside them stencils go on by
+ * the ghosts of bc.c, which belong to a cell and an axis: behind an edge, or in a thin box, one
+ * cell stands for several ghosts. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_BLOCKED_H
+#define FV_BLOCKED_H
+
+#include "../fv.h"
+
+enum { BLOCKED_MAX = 16, BLOCKED_GAP = 3 }; /* boxes of a case; cells that a ghost is made of */
+
+/* Of the case. */
+struct blocked_params {
+    char name[PARAM_TEXT_SIZE];
+    double min[3], max[3]; /* m */
+    int kind;              /* WALL_SLIP or WALL_NO_SLIP */
+};
+
+enum blocked_ghost { GHOST_EVEN, GHOST_ODD, GHOST_NO_SLIP };
+
+/* A free cell near a box along an axis. */
+struct near_box {
+    int64_t cell;
+    int free[2]; /* cells that follow below and above, at most 3 */
+    int box[2];  /* that ends them, where they are fewer */
+    bool own;    /* of this rank, no ghost */
+};
+
+/* A face between free cells beside which, along t, a box lies. */
+struct beside_box {
+    int64_t face, in; /* index in U; step away from the box */
+    int box;
+    bool both; /* on both sides */
+};
+
+struct blocked {
+    unsigned char *box; /* [size] 0: free, else 1 + the box's number; ghosts as the cells before */
+    int64_t nnear[3];
+    struct near_box *near[3];
+    double (*slip[3])[2][3]; /* m/s: what the next projection takes off the velocity on a box behind
+                                a cell, below and above; as bc.h has it */
+    int64_t nbeside[3][3];
+    struct beside_box *beside[3][3]; /* faces along a, boxes along t */
+};
+
+/* case/blocked_params.c: the case's boxes, their number, and cells lo <= i < hi of the whole grid,
+ * to the nearest faces. */
+int blocked_count(void);
+const struct blocked_params *blocked_params(int k);
+void blocked_cells(const struct run *r, int k, int lo[3], int hi[3]);
+void blocked_check(const struct run *r, struct faults *f);
+/* Says where boxes stand that are not made of whole cells. */
+void blocked_describe(const struct run *r);
+enum { BLOCKED_ROWS = 4 };
+extern const struct param blocked_rows[BLOCKED_ROWS];
+extern struct blocked_params blocked_given[BLOCKED_MAX];
+extern int blocked_given_count;
+#define BLOCKED_GROUP                                                                              \
+    {                                                                                              \
+        "blocked", "Boxes that are cut out of fv.cells: bodies at rest", blocked_rows,             \
+            BLOCKED_ROWS, blocked_given, NULL, sizeof blocked_given[0], BLOCKED_MAX,               \
+            &blocked_given_count                                                                   \
+    }
+
+/* NULL if the case has none. */
+struct blocked *blocked_create(const struct fv *s);
+void blocked_free(struct blocked **w);
+
+/* What stands behind a box's face for component q along axis a (q < 0: of a scalar). */
+enum blocked_ghost blocked_rule(int box, int q, int a);
+/* v[-reach .. reach] around the cell along the step d, with ghosts behind boxes. */
+void blocked_line(const struct near_box *x, const double *q, int64_t d, int reach,
+                  const enum blocked_ghost rule[2], double *v);
+/* The ghost behind a box of which q is the first free cell and `in' the step away from it. */
+double blocked_ghost(const double *q, int64_t in, int depth, enum blocked_ghost rule);
+
+static inline bool is_blocked(const struct fv *s, int64_t c)
+{
+    return s->blocked && s->blocked->box[c];
+}
+/* q of the neighbour of c, or its own where a box is. */
+static inline double blocked_beside(const struct fv *s, const double *q, int64_t c, int64_t d)
+{
+    return is_blocked(s, c + d) ? q[c] : q[c + d];
+}
+/* v[-2 .. 2] of a scalar that is even behind boxes. */
+static inline void blocked_even_line(const struct fv *s, const double *q, int64_t c, int64_t d,
+                                     double *v)
+{
+    for (int m = -2; m <= 2; m++)
+        v[m] = q[c + m * d];
+    for (int way = -1; way <= 1 && s->blocked; way += 2)
+        if (s->blocked->box[c + way * d]) {
+            v[way] = v[0];
+            v[2 * way] = q[c - way * d];
+        } else if (s->blocked->box[c + 2 * way * d]) {
+            v[2 * way] = q[c + way * d];
+        }
+}
+
+#endif

@@ -1,0 +1,84 @@
+/* forcing.h - cells whose velocity is imposed: a hole that another method fills, a box with the
+ * exact solution, the cells behind closed sides. They take no part in the pressure; two layers of
+ * them carry the stencils of the free cells, three those of a partner's interpolation.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_FORCING_H
+#define FV_FORCING_H
+
+#include "../fv.h"
+
+enum {
+    NEAR = 4, /* layers of forced cells that get values */
+    REACH = 3 /* cells to either side in a one-sided gradient */
+};
+
+/* How a field goes on into forced cells: evenly (psi), by a cubic (p), or as a variation of p. */
+enum continuation { CONTINUE_EVEN, CONTINUE_CUBIC, CONTINUE_VARIATION };
+
+/* What the gradient of a free cell near the outline has beyond the plain form: weights of the cells
+ * from -REACH to REACH along the axis, 1/m. */
+struct fix {
+    int64_t cell;
+    double cubic[2 * REACH + 1], even[2 * REACH + 1];
+    double given; /* what an outflow's pressure adds to the cubic one, m/s^2 */
+};
+
+struct forcing {
+    int dim;
+    unsigned char *forced; /* [size] 1: forced (ghosts too), 2: behind a closed side, 3: in a box */
+    unsigned char
+        *layer; /* [size] of a forced cell: distance from the free ones, 1 ..; 0: deep or free */
+    int64_t nlocal, *local; /* forced cells of this rank */
+    int64_t nset,
+        *set; /* cells that this rank gives values: local near ones, ghosts behind closed sides */
+    int64_t npartner, nrim,
+        *partner; /* in the order of a partner's values: npartner local near cells of the hole, then
+                     nrim free ones beside its outline, whose values serve the fluxes alone */
+    bool *known;  /* [size] a partner gives it, ghosts too */
+    double *given[3]; /* [size] its velocities at the time of a flux */
+    int64_t nfix[3];
+    struct fix *fix[3]; /* one-sided gradients along each axis */
+    /* faces of the outline: index in U, sign of the flow out of the fluid, whether this rank counts
+     * it */
+    int64_t nface[3], *face[3];
+    signed char *sign[3];
+    bool *counts[3];
+    double *open[3];    /* [size] 1: both cells of the face are free */
+    int64_t free_cells; /* of all ranks */
+    bool from_partner;
+    bool imposed; /* some rank gives cells the exact velocity */
+    double *v[3], *v_next[3],
+        *v_old[3]; /* [npartner + nrim] partner's velocities at t0, t1, and the window before */
+    double t0, t1, t_old; /* s */
+    int levels;           /* of them known, the newest first: v_next, v, v_old */
+};
+
+/* NULL if nothing is forced. partner: the box (lo, hi) is filled by a partner, else by the exact
+ * solution; cells all of whose corners lie inside are forced. lo >= hi: no box. */
+struct forcing *forcing_create(const struct fv *s, const double *lo, const double *hi,
+                               bool partner);
+void forcing_free(struct forcing **f);
+/* Zero in the forced cells of this rank. */
+void forcing_zero(const struct forcing *f, double *q);
+/* The next window, t0 to t1, begins: v_next is v now, and its new values are those of the last
+ * windows extrapolated, by a parabola as soon as there are three. A cubic would feed noise back
+ * where the loop's gain is half of what parabolas bear. */
+void forcing_shift(struct forcing *f, double t0, double t1);
+/* Sets u in the forced cells to their values at time t. */
+void forcing_velocity(const struct fv *s, double t, double *const u[3]);
+/* Fluxes of the outline at time t: exact ones where the exact solution is imposed, a partner's
+ * where its values reach two cells to both sides, else as they are interpolated; then corrected
+ * evenly to no net flux. The free cells' own velocities hold the pressure of the step before:
+ * fluxes made of them would let the pressure lag. */
+void forcing_fluxes(const struct fv *s, double t, double *const U[3]);
+/* How they vary with the velocity that U was interpolated from. */
+void forcing_fluxes_variation(const struct fv *s, double *const U[3]);
+/* Adds to the gradient `out' of q along axis a what continues q into the forced cells: evenly, or
+ * by a cubic (of lower degree where fewer than four free cells stand in line). */
+void forcing_gradient(const struct fv *s, int a, enum continuation how, const double *q,
+                      double *out);
+/* Extends p into the near forced cells from the free side, layer by layer, for a partner's
+ * interpolation. */
+void forcing_extend(const struct fv *s, double *p);
+
+#endif

@@ -1,0 +1,38 @@
+/* mesh_bc.h - physical sides of blocks, and the exact solution there.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_MESH_BC_H
+#define FV_MESH_BC_H
+
+#include "../grid/mesh.h"
+#include "bc.h"
+
+/* mesh_bc.c */
+void mesh_bc_create(struct fv *s);
+void mesh_bc_free(struct mesh_bc **b);
+void mesh_bc_time(struct fv *s, double t);
+void mesh_bc_set_slip(const struct fv *s, double tau, const double *psi);
+void mesh_bc_velocity(const struct fv *s, enum bc_value what, double *const u[3]);
+/* Mirrored; `odd': at an outflow with its sign turned. */
+void mesh_bc_even(const struct fv *s, bool odd, double *q);
+void mesh_bc_pressure(const struct fv *s, double *p);
+void mesh_bc_fluxes(const struct fv *s, double *const U[3]);
+/* See convection_beside_walls; of one part. */
+void mesh_bc_beside_walls(const struct fv *s, const struct part *p, int a, double *f);
+bool mesh_bc_pressure_given(const struct fv *s);
+/* Largest sum over the indices of |w.S|/V at the sides, over this rank; largest speed. */
+double mesh_bc_rate(const struct fv *s, double *speed);
+/* Through all sides of the case, outwards, over all ranks: what the overlap makes, m^dim/s. */
+double mesh_bc_net_flux(const struct fv *s);
+bool mesh_bc_has_walls(const struct mesh *m);
+/* Forces on the no-slip walls of each block, N (per metre in 2D), and the moment about its centre.
+ */
+void mesh_bc_force(struct fv *s, double (*force)[4]);
+/* What comes in through this rank's sides: energy, work of pressure and of friction, over rho. */
+double mesh_bc_power(struct fv *s);
+
+/* mesh_exact.c: the exact solution, averaged over a cell or at a place. */
+void mesh_exact_average(const struct fv *s, const struct part *p, const int *i, double t, double *u,
+                        double *pressure, double *w);
+void mesh_exact_at(const struct fv *s, const double *x, double t, double *u, double *p, double *w);
+
+#endif

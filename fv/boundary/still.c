@@ -1,0 +1,68 @@
+/* still.c - gravity and the pressure of water at rest, which the equations leave out.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../fv.h"
+#include "still.h"
+
+#include <math.h>
+
+void still_split(const struct scene *scene, double drive[3], double still[3], double *level)
+{
+    double g = 0.0, top = 0.0;
+    for (int a = 0; a < scene->domain.dim; a++) {
+        const double ga = scene->fluid.gravity[a];
+        drive[a] = scene->domain.periodic[a] ? ga : 0.0;
+        still[a] = ga - drive[a];
+        g += still[a] * still[a];
+        top -= still[a] * (still[a] > 0.0 ? scene->domain.min[a] : scene->domain.max[a]);
+    }
+    *level = scene->initial.level < LEVEL_TOP ? scene->initial.level
+             : g > 0.0                        ? top / sqrt(g)
+                                              : 0.0;
+}
+
+double still_pressure(const struct scene *scene, const double still[3], double level,
+                      const double *x)
+{
+    double g = 0.0, sum = 0.0;
+    for (int a = 0; a < scene->domain.dim; a++) {
+        g += still[a] * still[a];
+        sum += still[a] * x[a];
+    }
+    return scene->fluid.rho * (sqrt(g) * level + sum);
+}
+
+int still_upright(const struct scene *scene)
+{
+    const double *g = scene->fluid.gravity;
+    int up = scene->domain.dim - 1;
+    for (int a = 0; a < scene->domain.dim; a++)
+        up = fabs(g[a]) > fabs(g[up]) ? a : up;
+    return up;
+}
+
+double fv_still_pressure(const struct fv *s, const double *x)
+{
+    return still_pressure(&s->run->scene, s->still, s->level, x);
+}
+
+void fv_add_still_pressure(const struct fv *s, double *p)
+{
+    const struct block *b = &s->b;
+    double x[3];
+    BLOCK_CELLS (b, i, j, k, c) {
+        block_centre(b, i, j, k, x);
+        p[c] += fv_still_pressure(s, x);
+    }
+}
+
+double fv_still_in_exact(const struct fv *s, const double *x)
+{
+    return scene_has_wave(&s->run->scene) ? fv_still_pressure(s, x) : 0.0;
+}
+
+/* rk3's pressure belongs to t - dt/6: carried on along the last step's change. */
+double fv_pressure(const struct fv *s, int64_t c)
+{
+    const double on = s->prm.integrator == INTEGRATOR_RK3 && s->dt > 0.0 ? 1.0 / 6.0 : 0.0;
+    return s->run->scene.fluid.rho * (s->p[c] + on * (s->p[c] - s->p_before[c]));
+}

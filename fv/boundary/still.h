@@ -1,0 +1,27 @@
+/* still.h - pressure: what gravity makes of it at rest is no part of the equations.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_STILL_H
+#define FV_STILL_H
+
+#include "../fv.h"
+
+/* Pressure at s->t, in Pa. */
+double fv_pressure(const struct fv *s, int64_t c);
+/* What gravity adds to it at x: the equations hold only the rest, so that water at rest stays so.
+ */
+double fv_still_pressure(const struct fv *s, const double *x);
+/* Adds it to a field, in the local cells. */
+void fv_add_still_pressure(const struct fv *s, double *p);
+/* The part of it that the exact solution's pressure holds, too: all of it in a wave, else 0. */
+double fv_still_in_exact(const struct fv *s, const double *x);
+
+/* still.c: along a periodic axis gravity drives the flow; across closed sides the pressure takes it
+ * up, 0 at the height `level'. */
+void still_split(const struct scene *scene, double drive[3], double still[3], double *level);
+/* Axis along which gravity is strongest; without gravity the last. */
+int still_upright(const struct scene *scene);
+/* That pressure at x, Pa. */
+double still_pressure(const struct scene *scene, const double still[3], double level,
+                      const double *x);
+
+#endif

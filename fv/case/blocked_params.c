@@ -1,0 +1,309 @@
+/* blocked_params.c - the list blocked: boxes that are cut out of the grid, and what is wrong with
+ * them. SPDX-License-Identifier: BSD-3-Clause */
+#include "../boundary/blocked.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../grid/mesh.h"
+#include "../surface/levelset.h"
+
+#define P struct blocked_params
+/* clang-format off */
+const struct param blocked_rows[BLOCKED_ROWS] = {
+    PARAM(P, name, "-", NULL, 0, 0, "its name in outputs and messages"),
+    PARAM(P, min,  "m", NULL, -1e9, 1e9, "lower corner; corners go to the nearest faces of cells"),
+    PARAM(P, max,  "m", NULL, -1e9, 1e9, "upper corner"),
+    CHOICE(P, kind, "slip|no_slip", "slip", "what its faces do to the flow"),
+};
+/* clang-format on */
+#undef P
+
+struct blocked_params blocked_given[BLOCKED_MAX];
+int blocked_given_count;
+
+int blocked_count(void) { return blocked_given_count; }
+const struct blocked_params *blocked_params(int k) { return blocked_given + k; }
+
+static double spacing(const struct run *r, int a)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    return (d->max[a] - d->min[a]) / fv_params_of(r)->cells[a];
+}
+
+void blocked_cells(const struct run *r, int k, int lo[3], int hi[3])
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const struct blocked_params *p = blocked_given + k;
+    for (int a = 0; a < 3; a++) {
+        const int n = fv_params_of(r)->cells[a];
+        lo[a] = 0;
+        hi[a] = 1;
+        if (a >= d->dim)
+            continue;
+        lo[a] = (int)lround(fmin(fmax((p->min[a] - d->min[a]) / spacing(r, a), 0.0), n));
+        hi[a] = (int)lround(fmin(fmax((p->max[a] - d->min[a]) / spacing(r, a), 0.0), n));
+    }
+}
+
+static void fault(const struct run *r, struct faults *f, int k, const char *key, const char *fmt,
+                  ...) __attribute__((format(printf, 5, 6)));
+static void fault(const struct run *r, struct faults *f, int k, const char *key, const char *fmt,
+                  ...)
+{
+    char text[400], path[64];
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(text, sizeof text, fmt, args);
+    va_end(args);
+    snprintf(path, sizeof path, "blocked.[%d].%s", k, key);
+    params_fault(r->params, f, path, "box \"%s\": %s", blocked_given[k].name, text);
+}
+
+void blocked_describe(const struct run *r)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    for (int k = 0; k < blocked_given_count; k++) {
+        int lo[3], hi[3];
+        char text[200] = "";
+        double off = 0.0;
+        blocked_cells(r, k, lo, hi);
+        for (int a = 0; a < d->dim; a++) {
+            const double h = spacing(r, a), x = d->min[a] + lo[a] * h, y = d->min[a] + hi[a] * h;
+            off = fmax(off, fabs(fmax(blocked_given[k].min[a], d->min[a]) - x) / h);
+            off = fmax(off, fabs(fmin(blocked_given[k].max[a], d->max[a]) - y) / h);
+            const size_t n = strlen(text);
+            snprintf(text + n, sizeof text - n, "%s%g to %g", a ? " x " : "", x, y);
+        }
+        log_say("box \"%s\": %s m%s", blocked_given[k].name, text,
+                off > 1e-6 ? ", the nearest faces of cells" : "");
+    }
+}
+
+/* --- a coarse grid whose lines are the faces of all boxes --- */
+
+struct coarse {
+    int n[3], edge[3][2 * BLOCKED_MAX + 2]; /* cells of the whole grid */
+    int *box;                               /* 0 free, else 1 + number */
+};
+
+static int coarse_at(const struct coarse *g, int i, int j, int k)
+{
+    return i + g->n[0] * (j + g->n[1] * k);
+}
+
+static void add_edge(struct coarse *g, int a, int at)
+{
+    int m = g->n[a] + 1;
+    for (int i = 0; i < m; i++)
+        if (g->edge[a][i] == at)
+            return;
+    while (m > 0 && g->edge[a][m - 1] > at) {
+        g->edge[a][m] = g->edge[a][m - 1];
+        m--;
+    }
+    g->edge[a][m] = at;
+    g->n[a]++;
+}
+
+static struct coarse make_coarse(const struct run *r)
+{
+    struct coarse g = {.n = {0, 0, 0}};
+    int lo[BLOCKED_MAX][3], hi[BLOCKED_MAX][3];
+    for (int a = 0; a < 3; a++) {
+        g.edge[a][0] = 0;
+        add_edge(&g, a, a < r->scene.domain.dim ? fv_params_of(r)->cells[a] : 1);
+    }
+    for (int k = 0; k < blocked_given_count; k++) {
+        blocked_cells(r, k, lo[k], hi[k]);
+        for (int a = 0; a < 3; a++) {
+            add_edge(&g, a, lo[k][a]);
+            add_edge(&g, a, hi[k][a]);
+        }
+    }
+    g.box = NEW(int, g.n[0] * g.n[1] * g.n[2]);
+    for (int c = 0; c < g.n[0] * g.n[1] * g.n[2]; c++) {
+        const int i[3] = {c % g.n[0], c / g.n[0] % g.n[1], c / (g.n[0] * g.n[1])};
+        for (int k = 0; k < blocked_given_count; k++) {
+            bool in = true;
+            for (int a = 0; a < 3; a++)
+                in = in && g.edge[a][i[a]] >= lo[k][a] && g.edge[a][i[a]] < hi[k][a];
+            g.box[c] = in ? k + 1 : g.box[c];
+        }
+    }
+    return g;
+}
+
+/* Ghosts are made of three cells: so wide at least must be what lies between a box and another, or
+ * a side. */
+static void check_gaps(const struct run *r, const struct coarse *g, int a, struct faults *f)
+{
+    const int t = a == 0 ? 1 : 0, q = a == 2 ? 1 : 2;
+    const bool periodic = a < r->scene.domain.dim && r->scene.domain.periodic[a];
+    bool told[BLOCKED_MAX] = {false};
+    int i[3];
+    for (i[q] = 0; i[q] < g->n[q]; i[q]++)
+        for (i[t] = 0; i[t] < g->n[t]; i[t]++) {
+            int from = periodic ? -1 : 0, box = 0; /* where free cells begin, after which box */
+            for (int m = 0; m < (periodic ? 2 : 1) * g->n[a] + 1; m++) {
+                const bool end = !periodic && m == g->n[a];
+                i[a] = m % g->n[a];
+                const int at = g->edge[a][i[a]] + m / g->n[a] * g->edge[a][g->n[a]];
+                const int here = end ? 0 : g->box[coarse_at(g, i[0], i[1], i[2])];
+                if (!here && !end)
+                    continue;
+                const int k = here ? here - 1 : box - 1;
+                if (k >= 0 && from >= 0 && at - from > 0 && at - from < BLOCKED_GAP && !told[k]) {
+                    fault(r, f, k, "min",
+                          "only %d cells along %c are left between it and what is next: at least "
+                          "%d, or none; more cells (fv.cells)",
+                          at - from, "xyz"[a], BLOCKED_GAP);
+                    told[k] = true;
+                }
+                from = at + (end ? 0 : g->edge[a][i[a] + 1] - g->edge[a][i[a]]);
+                box = here;
+            }
+        }
+}
+
+/* Without a surface the pressure of each region counts from a level of its own. */
+static void check_whole(const struct run *r, const struct coarse *g, struct faults *f)
+{
+    const int n = g->n[0] * g->n[1] * g->n[2], step[3] = {1, g->n[0], g->n[0] * g->n[1]};
+    int *queue = NEW(int, n), head = 0, tail = 0, left = 0;
+    for (int c = 0; c < n && tail == 0; c++)
+        if (!g->box[c]) {
+            g->box[c] = -1;
+            queue[tail++] = c;
+        }
+    while (head < tail) {
+        const int c = queue[head++], i[3] = {c % g->n[0], c / g->n[0] % g->n[1], c / step[2]};
+        for (int way = 0; way < 6; way++) {
+            const int a = way / 2, m = g->n[a];
+            int to = i[a] + (way % 2 ? 1 : -1);
+            if ((to < 0 || to >= m) && !(a < r->scene.domain.dim && r->scene.domain.periodic[a]))
+                continue;
+            to = c + ((to + m) % m - i[a]) * step[a];
+            if (g->box[to] == 0) {
+                g->box[to] = -1;
+                queue[tail++] = to;
+            }
+        }
+    }
+    for (int c = 0; c < n; c++)
+        left += g->box[c] == 0;
+    if (tail == 0)
+        params_fault(r->params, f, "blocked", "nothing is left of the domain");
+    else if (left > 0 && !surface_wanted(r))
+        params_fault(r->params, f, "blocked",
+                     "the boxes cut the domain into parts that do not meet: each would want a "
+                     "pressure of its own; run them one by one, or leave a gap of %d cells",
+                     BLOCKED_GAP);
+    mem_free(queue);
+}
+
+/* --- one box --- */
+
+static void check_sides(const struct run *r, int k, const int *lo, const int *hi, struct faults *f)
+{
+    const struct scene *s = &r->scene;
+    for (int side = 0; side < 2 * s->domain.dim; side++) {
+        const int a = side / 2;
+        const struct scene_wall *w = scene_wall_of(s, (enum scene_side)(SIDE_X_MIN + side));
+        if (s->domain.periodic[a] || !(side % 2 ? hi[a] == fv_params_of(r)->cells[a] : lo[a] == 0))
+            continue;
+        bool moves = false;
+        for (int q = 0; w && q < 3; q++)
+            moves = moves || w->velocity[q] != 0.0;
+        if (!w || w->kind > WALL_NO_SLIP)
+            fault(r, f, k, side % 2 ? "max" : "min",
+                  "it stands on the side %c_%s, which is no wall: leave %d cells between, or give "
+                  "it a wall",
+                  "xyz"[a], side % 2 ? "max" : "min", BLOCKED_GAP);
+        else if (moves && w->kind == WALL_NO_SLIP)
+            fault(r, f, k, side % 2 ? "max" : "min",
+                  "it stands on the wall %c_%s, which moves along: leave %d cells between",
+                  "xyz"[a], side % 2 ? "max" : "min", BLOCKED_GAP);
+    }
+}
+
+static bool check_box(const struct run *r, int k, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const struct blocked_params *p = blocked_given + k;
+    const int before = f->n;
+    int lo[3], hi[3];
+    blocked_cells(r, k, lo, hi);
+    for (int a = 0; a < d->dim; a++)
+        if (!(p->max[a] > d->min[a] && p->min[a] < d->max[a]))
+            fault(r, f, k, "min", "it lies outside the domain along %c", "xyz"[a]);
+        else if (hi[a] <= lo[a])
+            fault(r, f, k, "max",
+                  "from %g to %g m along %c it is no whole cell: cells are %g m there", p->min[a],
+                  p->max[a], "xyz"[a], spacing(r, a));
+    if (p->kind == WALL_NO_SLIP && !(r->scene.fluid.nu > 0.0))
+        fault(r, f, k, "kind",
+              "without viscosity (fluid.nu) nothing sticks to it: kind = \"slip\", or a viscosity");
+    for (int q = 0; q < k; q++)
+        if (strcmp(p->name, blocked_given[q].name) == 0)
+            fault(r, f, k, "name", "another box has this name");
+    if (f->n == before)
+        check_sides(r, k, lo, hi, f);
+    for (int q = 0; q < r->scene.nprobes; q++) {
+        const struct scene_probe *g = r->scene.probes + q;
+        char key[32];
+        bool in = g->kind == PROBE_PRESSURE;
+        for (int a = 0; a < d->dim; a++)
+            in = in && g->at[a] > p->min[a] + 1e-9 && g->at[a] < p->max[a] - 1e-9;
+        snprintf(key, sizeof key, "probes.[%d].at", q);
+        if (in)
+            params_fault(r->params, f, key, "probe \"%s\" lies in the box \"%s\"", g->name,
+                         p->name);
+    }
+    return f->n == before;
+}
+
+/* What knows no boxes. */
+static void check_mode(const struct run *r, struct faults *f)
+{
+    const struct fv_params *prm = fv_params_of(r);
+    const int field = r->scene.initial.field;
+    if (mesh_block_count() > 0)
+        params_fault(r->params, f, "blocked",
+                     "not with blocks: leave them out there, and give their sides kinds");
+    if (r->coupled)
+        params_fault(r->params, f, "blocked", "a coupled job knows no boxes: use bodies");
+    if (prm->integrator == INTEGRATOR_NEWTON)
+        params_fault(r->params, f, "blocked", "not with newton: fv.integrator = \"rk3\"");
+    if (prm->graded[1] > 0.0)
+        params_fault(r->params, f, "blocked", "not with rows of unequal height (fv.graded)");
+    if (prm->hole[1][0] > prm->hole[0][0])
+        params_fault(r->params, f, "blocked", "not with fv.hole");
+    if (field != FIELD_REST && field != FIELD_UNIFORM)
+        params_fault(r->params, f, "initial.field",
+                     "its solution knows no boxes: \"rest\" or \"uniform\" with blocked");
+}
+
+void blocked_check(const struct run *r, struct faults *f)
+{
+    const int before = f->n;
+    bool good = true;
+    if (blocked_given_count == 0)
+        return;
+    check_mode(r, f);
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        good = good && fv_params_of(r)->cells[a] > 0;
+    for (int k = 0; k < blocked_given_count && f->n == before && good; k++)
+        good = check_box(r, k, f);
+    if (f->n > before || !good)
+        return;
+    struct coarse g = make_coarse(r);
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        check_gaps(r, &g, a, f);
+    check_whole(r, &g, f);
+    mem_free(g.box);
+}

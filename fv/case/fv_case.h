@@ -1,0 +1,26 @@
+/* fv_case.h - a run from its case: faults of the case, the state at the start or from a restart
+ * file. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_CASE_H
+#define FV_CASE_H
+
+#include "../fv.h"
+
+/* fv_params.c */
+void fv_params_check(const struct run *r, struct faults *f);
+
+/* fv_unused.c: faults of keys that this run does not use. */
+void fv_unused_check(const struct run *r, struct faults *f);
+/* fv_scene.c: faults of a scene on a grid of cells that contradicts itself. */
+void fv_scene_check(const struct run *r, struct faults *f);
+
+/* fv_state.c, mesh_state.c */
+struct fv *fv_create(struct run *r, struct h5 *f);
+void fv_free(struct fv **s);
+/* What blocks add to fv_create and fv_free. */
+void mesh_state_create(struct fv *s);
+void mesh_state_start(struct fv *s);
+void mesh_state_free(struct fv *s);
+/* After u and U have been set: ghosts, limits, the pressure that goes with them. */
+void fv_start(struct fv *s);
+
+#endif

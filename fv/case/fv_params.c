@@ -1,0 +1,148 @@
+/* fv_params.c - parameters of group fv. SPDX-License-Identifier: BSD-3-Clause */
+#include "../fv.h"
+
+#include <math.h>
+
+#include "../../common/mem.h"
+#include "../boundary/blocked.h"
+#include "../surface/levelset.h"
+#include "../watch/limits.h"
+#include "../grid/mesh.h"
+#include "../grid/rows.h"
+#include "fv_case.h"
+#include "../boundary/still.h"
+
+static struct fv_params given;
+
+#define P struct fv_params
+/* clang-format off */
+static const struct param rows[] = {
+    PARAM(P, cells,        "-", "(0, 0, 0)", 1, 1e6, "cells in each direction; even, rich in factors of two; none with blocks"),
+    PARAM(P, graded,       "-", "(0.0, 0.0)", -1e9, 1e9, "height in m, rows: above this y that many even rows of cells, below it the others grow downwards; (0, 0): all even"),
+    PARAM(P, cfl,          "-", "0.0",  0, 1e4, "largest sum over the axes of |u_a| dt/h_a in a cell; at most 1.2 (rk3), 0.7 (bdf2); 0: 1.1 (rk3), 0.5 (bdf2), 1 (newton)"),
+    CHOICE(P, integrator, "rk3|bdf2|newton", "rk3", "three projected stages, two-step backward for slow flows, fully implicit"),
+    PARAM(P, tol_pressure, "-", "1e-2", 1e-14, 1, "of the last projection of a step, relative to its divergence"),
+    PARAM(P, tol_viscous,  "-", "0.0",  0, 1,     "of the viscous solver; 0: 1e-3, with forced cells 1e-5"),
+    PARAM(P, tol_newton,   "-", "0.0",  0, 1,     "of newton's residual, as a velocity relative to the largest; 0: 1e-6, of a steady state 32/n^5, n cells a side, 1e-11 to 1e-6"),
+    CHOICE(P, flux, "central|upwind", "central", "newton's convection: with a small dissipation, or upwind (kappa = 1/3)"),
+    PARAM(P, c0,           "m/s", "0.0", 0, 1e9,  "newton's sound speed; 0: incompressible"),
+    PARAM(P, steady,       "-", "false", 0, 1,    "newton marches to a steady state in pseudo-time; time.end: when it must be there"),
+    PARAM(P, hole,         "m", "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "box whose cells take the exact solution; none by default"),
+    PARAM(P, upwind,       "-", "-1.0", -1, 1e6,   "rk3, bdf2: strength of the upwind bias where the flow is finer than the cells; 0: none, -1: 1 with walls, else none"),
+    PARAM(P, extrema,      "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema"),
+    CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: with shapes or a wave, alone"),
+    PARAM(P, force,        "-", "(0.0, 0.0, 0.0)", -1e9, 1e9, "known mean of the force x on the walls of blocks, amplitude of force y (N), its frequency (1/s), over the second half of the run: for error.force"),
+    PARAM(P, forced_order, "-", "2",    1, 2,     "in time, of a partner's velocities within a window"),
+};
+/* clang-format on */
+#undef P
+
+const struct param_group fv_groups[FV_GROUPS] = {{"fv", "The finite-volume solver", rows,
+                                                  (int)(sizeof rows / sizeof *rows), &given, NULL,
+                                                  0, 0, NULL},
+                                                 MESH_GROUP,
+                                                 BLOCKED_GROUP};
+
+const struct fv_params *fv_params_of(const struct run *r)
+{
+    (void)r;
+    return &given;
+}
+
+static void check_axis(const struct run *r, int a, struct faults *f)
+{
+    static const char axes[] = "xyz";
+    const int n = given.cells[a];
+    if (n < 4)
+        params_fault(r->params, f, "fv.cells", "%d cells along %c: at least 4 are wanted", n,
+                     axes[a]);
+    if (r->scene.domain.periodic[a] && n % 2)
+        params_fault(r->params, f, "fv.cells",
+                     "%d cells along the periodic %c: an even number is wanted (the multigrid of "
+                     "the pressure halves it)",
+                     n, axes[a]);
+}
+
+/* Rows of unequal height: along y, even at the top. */
+static void check_graded(const struct run *r, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const int n = given.cells[1];
+    if (given.graded[1] == 0.0)
+        return;
+    double *h = NEW(double, n > 0 ? n : 1);
+    const double ratio = rows_heights(n, (int)given.graded[1], given.graded[0] - d->min[1],
+                                      d->max[1] - d->min[1], h);
+    mem_free(h);
+    if (surface_wanted(r) && still_upright(&r->scene) != 1)
+        params_fault(r->params, f, "fv.graded",
+                     "with a free surface gravity must act along y, as the rows lie");
+    if (given.hole[1][0] > given.hole[0][0] || given.extrema[0] != 0.0)
+        params_fault(r->params, f, "fv.graded", "not with fv.hole or fv.extrema");
+    if (d->periodic[1])
+        params_fault(r->params, f, "fv.graded", "y is periodic");
+    else if (given.graded[1] != floor(given.graded[1]))
+        params_fault(r->params, f, "fv.graded", "%g is no number of rows", given.graded[1]);
+    else if (!(ratio > 0.0))
+        params_fault(
+            r->params, f, "fv.graded",
+            "no heights of rows do that: of %d rows at least %d must be left below y = %g m, "
+            "and be no lower there than above",
+            n, ROWS_BOTTOM + ROWS_GROWING, given.graded[0]);
+    else if (ratio > 1.3)
+        params_fault(r->params, f, "fv.graded",
+                     "rows grow by %.2f from one to the next: at most 1.3; more rows below y = %g "
+                     "m, or fewer even ones",
+                     ratio, given.graded[0]);
+}
+
+/* Lines of which a quartic takes the extrema. */
+static void check_extrema(const struct run *r, struct faults *f)
+{
+    const double *e = given.extrema;
+    if (e[0] == 0.0)
+        return;
+    if (e[1] == 0.0 || e[2] == 0.0)
+        params_fault(r->params, f, "fv.extrema",
+                     "error.extrema is relative to each of them: none may be 0");
+    for (int a = 0; a < 2 && mesh_block_count() == 0; a++)
+        if (given.cells[a] < 8)
+            params_fault(r->params, f, "fv.extrema", "at least 8 cells along %c are wanted",
+                         "xy"[a]);
+}
+
+void fv_params_check(const struct run *r, struct faults *f)
+{
+    const bool exact = exact_at_all_times(&r->scene);
+    const int field = r->scene.initial.field;
+    fv_unused_check(r, f);
+    if (r->scene.initial.U == 0.0 &&
+        (fv_measures_errors(r) || field == FIELD_TAYLOR_GREEN || field == FIELD_TWO_MODES ||
+         field == FIELD_BELTRAMI || field == FIELD_COUETTE))
+        params_fault(r->params, f, "initial.U",
+                     "0: the field would be none, and errors are relative to it");
+    check_extrema(r, f);
+    blocked_check(r, f);
+    if (mesh_block_count() > 0) {
+        mesh_check(r, f);
+        return;
+    }
+    limits_check(r, f);
+    if (given.upwind < 0.0 && given.upwind != -1.0)
+        params_fault(r->params, f, "fv.upwind", "%g: 0 or more, or -1 for what suits the scene",
+                     given.upwind);
+    check_graded(r, f);
+    int dims[3];
+    if (f->n == 0 && !block_split(r->size, r->scene.domain.dim, given.cells, dims))
+        params_fault(r->params, f, "fv.cells",
+                     "%d ranks cannot share them so that each has %d along each axis that is cut: "
+                     "fewer ranks, or more cells",
+                     r->size, LEAST);
+    for (int a = 0; a < r->scene.domain.dim; a++) {
+        check_axis(r, a, f);
+        if (given.hole[1][a] > given.hole[0][a] && (r->coupled || !exact))
+            params_fault(r->params, f, "fv.hole",
+                         "only a lone run with an exact solution (initial.field) can fill a hole");
+    }
+    fv_scene_check(r, f);
+}

@@ -1,0 +1,279 @@
+/* fv_state.c - struct fv from the case's parameters, at t = 0 or from a restart file.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../fv.h"
+
+#include <HYPRE_utilities.h>
+#include <math.h>
+
+#include "../../common/mem.h"
+#include "../boundary/bc.h"
+#include "../boundary/blocked.h"
+#include "../operators/blocked_cells.h"
+#include "../boundary/forcing.h"
+#include "../surface/levelset.h"
+#include "../watch/limits.h"
+#include "../time/newton.h"
+#include "../time/stages.h"
+#include "../boundary/outflow.h"
+#include "../fv.h"
+#include "../grid/mesh.h"
+#include "../poisson/pressure.h"
+#include "../grid/rows.h"
+#include "../watch/watches.h"
+#include "fv_case.h"
+#include "../time/steps.h"
+#include "../boundary/still.h"
+#include "../output/output.h"
+#include "../coupling/fv_link.h"
+
+static void make_fields(struct fv *s)
+{
+    const struct block *b = &s->b;
+    s->p = block_field(b);
+    s->p_before = block_field(b);
+    s->face = block_field(b);
+    s->flux = block_field(b);
+    if (b->dim == 3)
+        s->step_work = block_field(b);
+    for (int a = 0; a < 3; a++)
+        if (a == 0 || s->prm.integrator == INTEGRATOR_RK3)
+            s->psi[a] = block_field(b);
+    for (int a = 0; a < b->dim; a++) {
+        double **const all[] = {&s->u[a],     &s->U[a],   &s->N[a],
+                                &s->N_old[a], &s->rhs[a], &s->step_p[a]};
+        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+            *all[k] = block_field(b);
+        if (s->nu > 0.0) {
+            s->delta[a] = block_field(b);
+            s->work[a] = block_field(b);
+            for (int k = 0; k < 2 && (s->bc || s->surface || s->blocked || b->rows); k++)
+                s->krylov[k][a] = block_field(b);
+        }
+        if (s->prm.integrator != INTEGRATOR_RK3)
+            s->u_old[a] = block_field(b);
+    }
+}
+
+/* Exact averages, in forced cells and ghosts too; p less what gravity makes at rest. */
+static void fill(struct fv *s)
+{
+    const struct block *b = &s->b;
+    double x[3], h[3], u[3], p;
+    for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
+        for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
+            for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
+                const int64_t c = block_at(b, i, j, k);
+                block_cell(b, i, j, k, x, h);
+                exact_average(&s->exact, x, h, 0.0, u, &p, NULL);
+                for (int a = 0; a < b->dim; a++)
+                    s->u[a][c] = u[a];
+                s->p[c] = s->p_before[c] = (p - fv_still_in_exact(s, x)) / s->exact.rho;
+            }
+}
+
+/* Fluxes that belong to the velocities of the start; the exact field's own are solenoidal averages.
+ */
+static void fill_fluxes(struct fv *s)
+{
+    const struct block *b = &s->b;
+    double x[3], h[3], u[3];
+    for (int a = 0; a < b->dim; a++)
+        for (int k = -(b->g[2] > 0); k < b->n[2] + (b->g[2] > 0); k++)
+            for (int j = -1; j < b->n[1] + 1; j++)
+                for (int i = -1; i < b->n[0] + 1; i++) {
+                    block_cell(b, i, j, k, x, h);
+                    x[a] -= 0.5 * h[a];
+                    exact_face(&s->exact, x, h, a, 0.0, u);
+                    s->U[a][block_at(b, i, j, k)] = u[a];
+                }
+}
+
+static void make_forcing(struct fv *s)
+{
+    if (s->run->coupled)
+        coupling_create(s); /* asks the partner for its free zone, makes the forcing */
+    else
+        s->forcing = forcing_create(s, s->prm.hole[0], s->prm.hole[1], false);
+}
+
+/* Forced cells that never get values must not hold those of the start: the largest velocity sets
+ * the time step. */
+static void empty_hole(struct fv *s)
+{
+    const struct forcing *f = s->forcing;
+    for (int64_t c = 0; f && c < s->b.size; c++)
+        if (f->forced[c] == 1 && !f->layer[c]) {
+            s->p[c] = s->p_before[c] = 0.0;
+            for (int a = 0; a < s->b.dim; a++)
+                s->u[a][c] = s->exact.V[a];
+        }
+}
+
+/* Nothing flows in boxes, nor through them. */
+static void empty_boxes(struct fv *s)
+{
+    for (int a = 0; s->blocked && a < s->b.dim; a++) {
+        blocked_zero(s, s->u[a]);
+        blocked_zero(s, s->p);
+        blocked_zero(s, s->p_before);
+        for (int64_t c = s->b.stride[a]; c < s->b.size; c++)
+            if (s->blocked->box[c] || s->blocked->box[c - s->b.stride[a]])
+                s->U[a][c] = 0.0;
+    }
+}
+
+static void set_limit(struct fv *s)
+{
+    const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
+    s->scene_speed = limits_reference(s->run);
+    s->reference = fmax(most, s->scene_speed);
+    s->u_limit = 10.0 * s->reference;
+}
+
+void fv_start(struct fv *s)
+{
+    outflow_start(s);
+    bc_ghosts(s, BC_GIVEN, s->u);
+    block_halo(&s->b, s->b.dim, s->u);
+    bc_fluxes(s, BC_GIVEN, s->U);
+    measure(s);
+    set_limit(s);
+    if (fmax(s->umax[0], fmax(s->umax[1], s->umax[2])) > 0.0)
+        pressure_start(s);
+}
+
+/* Pressures at outflows drive a flow from rest as gently as they would later: p of the start is
+ * their mean, then what goes with the velocities. */
+static void meet_pressures(struct fv *s)
+{
+    double sum = 0.0, n = 0.0;
+    for (int k = 0; k < 6; k++)
+        if (s->bc->kind[k] == BC_OUTFLOW) {
+            sum += s->bc->pressure[k];
+            n += 1.0;
+        }
+    for (int64_t c = 0; c < s->b.size; c++)
+        s->p[c] = s->p_before[c] = sum / n;
+    pressure_start(s);
+}
+
+static void make_rows(struct fv *s)
+{
+    const int n = s->b.cells[1], even = (int)s->prm.graded[1];
+    double *h = NEW(double, n);
+    if (even > 0 &&
+        rows_heights(n, even, s->prm.graded[0] - s->b.origin[1], s->b.length[1], h) > 0.0)
+        block_set_rows(&s->b, even, h);
+    mem_free(h);
+}
+
+/* The uniform grid, or one of graded rows. */
+static void create_grid(struct fv *s)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    double length[3];
+    for (int a = 0; a < 3; a++)
+        length[a] = d->max[a] - d->min[a];
+    s->has_exact = fv_measures_errors(s->run);
+    block_create(&s->b, s->run->comm, d->dim, s->prm.cells, d->min, length, d->periodic);
+    make_rows(s);
+    s->dim = d->dim;
+    s->comm = s->b.cart;
+    s->size = s->b.size;
+    s->whole = block_part(&s->b);
+    s->nparts = 1;
+    s->part = &s->whole;
+    s->stages = &even_stages;
+    s->ring = -1;
+    s->blocked = blocked_create(s);
+    s->bc = bc_create(s);
+    if (s->prm.upwind < 0.0)
+        s->prm.upwind = s->bc || s->blocked ? 1.0 : 0.0;
+    s->surface = surface_create(s);
+    make_fields(s);
+    fill(s);
+    fill_fluxes(s);
+    make_forcing(s);
+    empty_hole(s);
+    empty_boxes(s);
+    outflow_start(s);
+    bc_ghosts(s, BC_GIVEN, s->u);
+    block_halo(&s->b, d->dim, s->u);
+    bc_fluxes(s, BC_GIVEN, s->U);
+    if (s->surface)
+        surface_start(s);
+    s->pressure = pressure_create(s);
+    if (s->prm.integrator == INTEGRATOR_NEWTON)
+        s->newton = newton_create(s);
+    measure(s);
+    set_limit(s);
+    s->watches = fv_watches_create(s);
+}
+
+struct fv *fv_create(struct run *r, struct h5 *f)
+{
+    struct fv *s = NEW(struct fv, 1);
+    const bool blocks = mesh_block_count() > 0;
+    HYPRE_Init();
+    s->run = r;
+    s->prm = *fv_params_of(r);
+    s->prm.cfl = limits_cfl(&s->prm);
+    s->nu = r->scene.fluid.nu;
+    s->t = r->t;
+    s->exact = exact_create(&r->scene);
+    still_split(&r->scene, s->drive, s->still, &s->level);
+    if (blocks)
+        mesh_state_create(s);
+    else
+        create_grid(s);
+    if (f && !fv_restore(s, f)) {
+        fv_free(&s);
+        return NULL;
+    }
+    if (!f && blocks)
+        mesh_state_start(s);
+    else if (!f && s->bc && s->bc->driven)
+        meet_pressures(s);
+    measure(s);
+    s->watches->sum_before = s->umax[0] + s->umax[1] + s->umax[2];
+    s->reference = fmax(s->reference, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
+    return s;
+}
+
+void fv_free(struct fv **sp)
+{
+    struct fv *s = *sp;
+    if (!s)
+        return;
+    if (s->link)
+        coupling_free(s);
+    newton_free(&s->newton);
+    pressure_free(&s->pressure);
+    forcing_free(&s->forcing);
+    blocked_free(&s->blocked);
+    surface_free(&s->surface);
+    fit_free(&s->swing);
+    bc_free(&s->bc);
+    watches_free(&s->watches);
+    double *const one[] = {s->p,    s->p_before, s->m ? NULL : s->face, s->flux, s->step_work,
+                           s->free, s->scale};
+    for (size_t k = 0; k < sizeof one / sizeof one[0]; k++)
+        mem_free(one[k]);
+    for (int a = 0; a < 3; a++) {
+        double *const all[] = {s->u[a],     s->U[a],      s->N[a],     s->N_old[a],
+                               s->rhs[a],   s->step_p[a], s->delta[a], s->work[a],
+                               s->u_old[a], s->psi[a],    s->start[a], s->faces[a]};
+        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+            mem_free(all[k]);
+        for (int k = 0; k < 4; k++)
+            mem_free(s->krylov[k][a]);
+    }
+    mem_free(s->history);
+    if (s->m)
+        mesh_state_free(s);
+    else
+        block_free(&s->b);
+    HYPRE_Finalize();
+    mem_free(s);
+    *sp = NULL;
+}

@@ -1,0 +1,184 @@
+/* mesh_params.c - parameters of the list blocks. SPDX-License-Identifier: BSD-3-Clause */
+#include "../grid/mesh.h"
+
+#include "../fv.h"
+#include "../surface/levelset.h"
+#include "../watch/limits.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#define SIDES "overlap|joined|periodic|wall|slip|inflow|outflow|exact"
+#define P struct mesh_block_params
+/* clang-format off */
+const struct param mesh_rows_of[MESH_ROWS] = {
+    PARAM(P, name,     "-", NULL, 0, 0, "its name in outputs and messages"),
+    CHOICE(P, mapping, "box|stretched|annulus|sheared|file", "box", "shape: uniform box, box with finer cells at a place, ring (cells: outwards, around), box that leans or waves, vertices from a file"),
+    PARAM(P, cells,    "-", "(1, 1, 1)", 1, 1e6, "cells in each direction; with a file the file's own"),
+    PARAM(P, min,      "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "lower corner before the rotation; z of a ring"),
+    PARAM(P, max,      "m", "(1.0, 1.0, 1.0)", -1e9, 1e9, "upper corner"),
+    PARAM(P, centre,   "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "of the rotation, of a ring, of the spin of walls"),
+    PARAM(P, angle,    "degrees", "0.0", -360, 360, "rotation about the z axis through the centre"),
+    PARAM(P, focus,    "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "stretched: place of the finest cells, before the rotation"),
+    PARAM(P, stretch,  "-", "(0.0, 0.0, 0.0)", -5, 20, "stretched: strength in each direction, ring: the first one outwards; 0: uniform; < 0: finer towards both ends (a tanh), whatever the focus"),
+    PARAM(P, radius,   "m", "(0.5, 1.0)", 0, 1e9, "ring: inner, outer"),
+    PARAM(P, arc,      "degrees", "(0.0, 360.0)", -720, 720, "ring: first and last angle"),
+    PARAM(P, shear,    "-", "0.0", -10, 10, "sheared: dx/dy"),
+    PARAM(P, wave,     "-", "0.0", -0.15, 0.15, "sheared: displacement by sin sin, over the length of a side"),
+    PARAM(P, file,     "-", "", 0, 0, "file beside the case: .h5 (dataset x[k][j][i][dim] of vertices), else Plot3D"),
+    PARAM(P, zone,     "-", "1", 1, 1e4, "block of a Plot3D file"),
+    CHOICE(P, i_min, SIDES, "overlap", "what is behind the side where i is least; overlap on a side of the domain: its entry of walls, if it has one"),
+    CHOICE(P, i_max, SIDES, "overlap", "what is behind the side where i is largest"),
+    CHOICE(P, j_min, SIDES, "overlap", "the same along j"),
+    CHOICE(P, j_max, SIDES, "overlap", "the same along j"),
+    CHOICE(P, k_min, SIDES, "overlap", "the same along k"),
+    CHOICE(P, k_max, SIDES, "overlap", "the same along k"),
+    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls along themselves, of its inflow"),
+    CHOICE(P, lid, "all|i_min|i_max|j_min|j_max|k_min|k_max", "all", "the only one of its walls that has the velocity"),
+    PARAM(P, spin,     "rad/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls i_min and i_max about the centre"),
+};
+/* clang-format on */
+#undef P
+
+struct mesh_block_params mesh_given[MESH_BLOCKS_MAX];
+int mesh_given_count;
+
+int mesh_block_count(void) { return mesh_given_count; }
+const struct mesh_block_params *mesh_block_params(void) { return mesh_given; }
+
+void mesh_fault(const struct run *r, struct faults *f, int block, const char *key, const char *fmt,
+                ...)
+{
+    char text[900], path[64];
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(text, sizeof text, fmt, args);
+    va_end(args);
+    snprintf(path, sizeof path, "blocks.[%d].%s", block, key);
+    params_fault(r->params, f, path, "block \"%s\": %s", mesh_given[block].name, text);
+}
+
+bool mesh_ring(const struct run *r)
+{
+    const struct mesh_block_params *b = mesh_given;
+    return r->scene.initial.field == FIELD_COUETTE && mesh_given_count == 1 &&
+           b->mapping == MAPPING_ANNULUS && b->i_min == MESH_WALL && b->i_max == MESH_WALL &&
+           b->j_min == MESH_JOINED && b->j_max == MESH_JOINED;
+}
+
+bool mesh_block_has(int block, enum mesh_side kind)
+{
+    const struct mesh_block_params *b = mesh_given + block;
+    const int side[6] = {b->i_min, b->i_max, b->j_min, b->j_max, b->k_min, b->k_max};
+    bool any = false;
+    for (int q = 0; q < 6; q++)
+        any = any || side[q] == (int)kind;
+    return any;
+}
+
+/* A lid is a wall that moves. */
+static void check_lid(const struct run *r, struct faults *f, int k)
+{
+    const struct mesh_block_params *b = mesh_given + k;
+    const int kind[6] = {b->i_min, b->i_max, b->j_min, b->j_max, b->k_min, b->k_max};
+    const int side = b->lid - 1, a = side / 2;
+    if (b->lid == 0)
+        return;
+    if (a >= r->scene.domain.dim || kind[side] != MESH_WALL)
+        mesh_fault(r, f, k, "lid", "this side is no wall");
+    else if (b->velocity[0] == 0.0 && b->velocity[1] == 0.0 && b->velocity[2] == 0.0)
+        mesh_fault(r, f, k, "velocity", "the velocity of the lid is wanted");
+}
+
+/* Kinds of sides that the dimension has. */
+static void check_block(const struct run *r, struct faults *f, int k)
+{
+    struct mesh_block_params *b = mesh_given + k;
+    const int dim = r->scene.domain.dim;
+    for (int a = 0; a < dim && b->mapping != MAPPING_FILE; a++)
+        if (b->cells[a] < 6)
+            mesh_fault(r, f, k, "cells", "%d cells along %c: at least 6 are wanted", b->cells[a],
+                       "ijk"[a]);
+    for (int a = 0; a < dim; a++)
+        if (b->mapping != MAPPING_FILE && (b->mapping != MAPPING_ANNULUS || a == 2) &&
+            !(b->max[a] > b->min[a]))
+            mesh_fault(r, f, k, "max", "max of %c must lie above min", "xyz"[a]);
+    if (b->mapping == MAPPING_ANNULUS && !(b->radius[1] > b->radius[0] && b->radius[0] > 0.0))
+        mesh_fault(r, f, k, "radius", "0 < inner < outer is wanted");
+    if (b->mapping == MAPPING_ANNULUS && !(b->arc[1] > b->arc[0]))
+        mesh_fault(r, f, k, "arc", "first < last is wanted");
+    bool stretched = false;
+    for (int a = 0; a < dim; a++)
+        stretched = stretched || b->stretch[a] != 0.0;
+    if (b->mapping == MAPPING_STRETCHED && !stretched)
+        mesh_fault(r, f, k, "mapping", "\"stretched\" without a stretch is a \"box\"");
+    if (b->mapping == MAPPING_SHEARED && b->shear == 0.0 && b->wave == 0.0)
+        mesh_fault(r, f, k, "mapping", "\"sheared\" without a shear or a wave is a \"box\"");
+    if (b->mapping == MAPPING_FILE && !*b->file)
+        mesh_fault(r, f, k, "file", "the name of the file with the vertices is wanted");
+    check_lid(r, f, k);
+}
+
+static void check_wall(const struct run *r, struct faults *f, int k)
+{
+    const struct scene_wall *w = r->scene.walls + k;
+    char key[32];
+    snprintf(key, sizeof key, "walls.[%d]", k);
+    if (w->side == SIDE_NONE)
+        params_fault(r->params, f, key,
+                     "walls within the domain are a block's sides here (blocks.i_min = \"wall\")");
+    else if (w->carried)
+        params_fault(r->params, f, key,
+                     "a carried outflow is for fv.cells: on blocks its pressure is given");
+}
+
+/* A wall of the scene that no block has is a mistake. */
+static void check_taken(const struct run *r, struct faults *f, const struct mesh *m)
+{
+    for (int w = 0; w < r->scene.nwalls; w++) {
+        bool taken = false;
+        char key[32];
+        for (int k = 0; k < m->nblocks; k++)
+            for (int side = 0; side < 2 * m->dim; side++)
+                taken = taken || m->block[k].wall[side] == r->scene.walls + w;
+        snprintf(key, sizeof key, "walls.[%d]", w);
+        if (!taken)
+            params_fault(r->params, f, key,
+                         "is not used: no side of a block that has no kind of its own lies wholly "
+                         "on this side of the "
+                         "domain");
+    }
+}
+
+void mesh_check(const struct run *r, struct faults *f)
+{
+    const struct fv_params *prm = fv_params_of(r);
+    const int before = f->n;
+    if (r->coupled)
+        params_fault(r->params, f, "blocks", "a coupled job knows no blocks: use fv.cells");
+    if (prm->c0 > 0.0)
+        params_fault(r->params, f, "fv.c0", "the pressure of blocks knows no sound");
+    limits_check(r, f);
+    if (surface_wanted(r))
+        params_fault(r->params, f, "fv.surface", "blocks know no free surface: use fv.cells");
+    if (prm->graded[1] > 0.0)
+        params_fault(r->params, f, "fv.graded", "not with blocks: they have maps of their own");
+    if (prm->hole[1][0] > prm->hole[0][0])
+        params_fault(r->params, f, "fv.hole", "blocks know no forced cells: let a block overlap");
+    for (int k = 0; k < r->scene.nwalls; k++)
+        check_wall(r, f, k);
+    for (int k = 0; k < r->scene.nprobes; k++)
+        if (r->scene.probes[k].kind != PROBE_PRESSURE)
+            params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
+    for (int k = 0; k < mesh_given_count; k++)
+        check_block(r, f, k);
+    if (f->n > before)
+        return;
+    struct mesh *m = mesh_create(r, f);
+    if (m) {
+        check_taken(r, f, m);
+        mesh_scene_check(r, f, m);
+    }
+    mesh_free(&m);
+}

@@ -1,0 +1,205 @@
+/* mesh_scene.c - what contradicts itself in a scene on blocks: refused with the reason before
+ * anything runs. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdio.h>
+
+#include "../../common/exact.h"
+#include "../fv.h"
+#include "../grid/mesh.h"
+#include "../grid/overset.h"
+
+static const char *const sides[] = {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};
+
+/* A face of a side: the cell inside, the area outwards (m^(dim-1)) and the centre. */
+struct face {
+    int cell[3];
+    double S[3], x[3];
+};
+
+static struct face face_at(const struct mesh *m, const struct mesh_block *b, int side, int p, int q)
+{
+    const int a = side / 2, t[2] = {(a + 1) % 3, (a + 2) % 3};
+    const double out = side % 2 ? 1.0 : -1.0;
+    double e[2][3] = {{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}};
+    struct face f = {{0, 0, 0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    int v[3];
+    v[a] = side % 2 ? b->n[a] : 0;
+    v[t[0]] = f.cell[t[0]] = p;
+    v[t[1]] = f.cell[t[1]] = q;
+    f.cell[a] = side % 2 ? b->n[a] - 1 : 0;
+    for (int n = 0; n < 2; n++) { /* edges through the middle of the face */
+        const int along = t[n], across = t[1 - n];
+        for (int c = 0; c < 3 && along < m->dim; c++) {
+            double sum = 0.0;
+            for (int k = 0; k < (across < m->dim ? 2 : 1); k++) {
+                int lo[3] = {v[0], v[1], v[2]}, hi[3];
+                lo[across] += k;
+                for (int d = 0; d < 3; d++)
+                    hi[d] = lo[d] + (d == along);
+                const double *x = b->x[mesh_vertex(b, lo[0], lo[1], lo[2])],
+                             *y = b->x[mesh_vertex(b, hi[0], hi[1], hi[2])];
+                sum += (y[c] - x[c]) / (across < m->dim ? 2.0 : 1.0);
+                f.x[c] += n == (t[0] < m->dim ? 0 : 1)
+                              ? 0.5 * (x[c] + y[c]) / (across < m->dim ? 2.0 : 1.0)
+                              : 0.0;
+            }
+            e[n][c] = sum;
+        }
+    }
+    for (int c = 0; c < 3; c++)
+        f.S[c] =
+            out * (e[0][(c + 1) % 3] * e[1][(c + 2) % 3] - e[0][(c + 2) % 3] * e[1][(c + 1) % 3]);
+    return f;
+}
+
+/* What a side does, over its computed cells. */
+struct total {
+    double flux, most; /* m^dim/s: outwards, sum of the sizes */
+    double worst;      /* -: largest |w.S|/(|w| |S|) */
+    double height;     /* m^2/s^2: least and most of -g.x */
+    double height_most;
+    bool any;
+};
+
+static struct total sum_side(const struct run *r, const struct mesh *m, int k, int side,
+                             const struct exact *e)
+{
+    const struct mesh_block *b = m->block + k;
+    const int a = side / 2, p1 = b->n[(a + 1) % 3], q1 = b->n[(a + 2) % 3];
+    struct total sum = {.height = INFINITY, .height_most = -INFINITY};
+    for (int q = 0; q < q1; q++)
+        for (int p = 0; p < p1; p++) {
+            const struct face f = face_at(m, b, side, p, q);
+            double w[3] = {0.0, 0.0, 0.0}, wS = 0.0, w2 = 0.0, S2 = 0.0, height = 0.0;
+            if (b->status[mesh_cell(b, f.cell)] != CELL_COMPUTED)
+                continue;
+            if (b->side[side] == MESH_EXACT)
+                exact_point(e, f.x, 0.0, w, NULL, NULL);
+            else if (b->side[side] == MESH_WALL || b->side[side] == MESH_INFLOW)
+                mesh_side_velocity(r, b, side, f.x, w);
+            for (int c = 0; c < m->dim; c++) {
+                wS += w[c] * f.S[c];
+                w2 += w[c] * w[c];
+                S2 += f.S[c] * f.S[c];
+                height -= r->scene.domain.periodic[c] ? 0.0 : r->scene.fluid.gravity[c] * f.x[c];
+            }
+            sum.any = true;
+            sum.flux += wS;
+            sum.most += fabs(wS);
+            sum.worst = fmax(sum.worst, w2 > 0.0 ? fabs(wS) / sqrt(w2 * S2) : 0.0);
+            sum.height = fmin(sum.height, height);
+            sum.height_most = fmax(sum.height_most, height);
+        }
+    return sum;
+}
+
+/* Walls move along themselves; what flows in must be able to flow out, and not fall. */
+static void check_sides(const struct run *r, struct faults *f, const struct mesh *m)
+{
+    const struct exact e = exact_create(&r->scene);
+    double net = 0.0, all = 0.0, least = INFINITY, most = -INFINITY, size = 0.0;
+    bool out = false, in = false, exact = false;
+    for (int k = 0; k < m->nblocks; k++)
+        for (int side = 0; side < 2 * m->dim; side++) {
+            const enum mesh_side kind = m->block[k].side[side];
+            const struct total t = sum_side(r, m, k, side, &e);
+            if (!t.any)
+                continue;
+            if (kind == MESH_WALL && t.worst > 0.01)
+                mesh_fault(
+                    r, f, k, sides[side],
+                    "the wall would pump fluid through itself: it moves along itself alone, "
+                    "and its velocity has a part of %.0f %% across; name one wall by lid, or "
+                    "make an \"inflow\"",
+                    100.0 * t.worst);
+            if (kind == MESH_WALL && !(r->scene.fluid.nu > 0.0))
+                mesh_fault(r, f, k, sides[side],
+                           "without viscosity (fluid.nu) nothing sticks to a wall: \"slip\", or a "
+                           "viscosity");
+            if (kind == MESH_INFLOW && !(t.most > 0.0))
+                mesh_fault(r, f, k, sides[side],
+                           "an inflow without a velocity across it: nothing flows in");
+            if (kind == MESH_OUTFLOW) {
+                least = fmin(least, 0.5 * (t.height + t.height_most));
+                most = fmax(most, 0.5 * (t.height + t.height_most));
+            }
+            out = out || kind == MESH_OUTFLOW;
+            in = in || kind == MESH_INFLOW;
+            exact = exact || kind == MESH_EXACT;
+            net += kind == MESH_INFLOW || kind == MESH_EXACT ? t.flux : 0.0;
+            all += kind == MESH_INFLOW || kind == MESH_EXACT ? t.most : 0.0;
+        }
+    for (int a = 0; a < m->dim; a++)
+        size += fabs(r->scene.fluid.gravity[a]) * (r->scene.domain.max[a] - r->scene.domain.min[a]);
+    if (most - least > 1e-9 * size)
+        params_fault(
+            r->params, f, "fluid.gravity",
+            "two outflows at different heights: the flow would fall from one to the other, "
+            "and this solver leaves gravity across sides to the pressure; make that "
+            "direction periodic, or give one of them as an \"inflow\"");
+    if (!out && fabs(net) > (exact ? 0.01 : 1e-6) * all)
+        params_fault(r->params, f, "blocks",
+                     "an %s without an outflow: %g m^%d/s more flow %s, and no side is an "
+                     "\"outflow\"",
+                     in ? "inflow" : "exact side", fabs(net), m->dim,
+                     net < 0.0 ? "in than out" : "out than in");
+}
+
+/* The domain is what periods, levels and centre lines are taken from. */
+static void check_extent(const struct run *r, struct faults *f, const struct mesh *m)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    for (int k = 0; k < m->nblocks; k++) {
+        const struct mesh_block *b = m->block + k;
+        double beyond = 0.0, at[3] = {0.0, 0.0, 0.0};
+        int i[3];
+        for (i[2] = 0; i[2] <= (m->dim == 3 ? b->n[2] : 0); i[2]++)
+            for (i[1] = 0; i[1] <= b->n[1]; i[1]++)
+                for (i[0] = 0; i[0] <= b->n[0]; i[0]++) {
+                    const double *x = b->x[mesh_vertex(b, i[0], i[1], i[2])];
+                    for (int a = 0; a < m->dim; a++) {
+                        const double L = d->max[a] - d->min[a],
+                                     out = fmax(d->min[a] - x[a], x[a] - d->max[a]) / L;
+                        if (d->periodic[a] || !(out > beyond))
+                            continue;
+                        beyond = out;
+                        for (int c = 0; c < m->dim; c++)
+                            at[c] = x[c];
+                    }
+                }
+        if (beyond > 1e-6)
+            mesh_fault(r, f, k, "name", "it reaches out of the domain, to (%g, %g, %g) m", at[0],
+                       at[1], at[2]);
+    }
+}
+
+static void check_probes(const struct run *r, struct faults *f, const struct mesh *m)
+{
+    if (r->scene.nprobes == 0)
+        return;
+    struct overset *o = overset_search(r, m);
+    for (int k = 0; k < r->scene.nprobes; k++) {
+        const struct scene_probe *p = r->scene.probes + k;
+        bool found = false;
+        char key[32];
+        for (int b = 0; b < m->nblocks; b++) {
+            int cell[3], from[3];
+            double xi[3], w[64];
+            found = found || (overset_locate(m, o, b, p->at, cell, xi) &&
+                              overset_weights(m, b, cell, xi, 1, 2, from, w));
+        }
+        snprintf(key, sizeof key, "probes.[%d].at", k);
+        if (!found)
+            params_fault(r->params, f, key,
+                         "probe \"%s\": no block has computed cells around (%g, %g, %g) m", p->name,
+                         p->at[0], p->at[1], p->at[2]);
+    }
+    overset_free(&o);
+}
+
+void mesh_scene_check(const struct run *r, struct faults *f, const struct mesh *m)
+{
+    check_sides(r, f, m);
+    check_extent(r, f, m);
+    check_probes(r, f, m);
+}

@@ -1,0 +1,162 @@
+/* mesh_state.c - the state of a flow on blocks, at t = 0 or from a restart file.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../boundary/mesh_bc.h"
+#include "../poisson/mesh_pressure.h"
+#include "../output/mesh_output.h"
+#include "../fv.h"
+#include "../grid/mesh.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../watch/limits.h"
+#include "../grid/overset.h"
+#include "../time/newton.h"
+#include "../time/stages.h"
+#include "../watch/watches.h"
+#include "fv_case.h"
+#include "../time/steps.h"
+
+static void make_fields(struct fv *s)
+{
+    const struct mesh *m = s->m;
+    double **const one[] = {&s->p, &s->p_before, &s->flux, &s->free, &s->scale};
+    for (size_t k = 0; k < sizeof one / sizeof one[0]; k++)
+        *one[k] = mesh_field(m);
+    for (int a = 0; a < 3; a++) {
+        double **const all[] = {&s->u[a],         &s->U[a],         &s->N[a],
+                                &s->N_old[a],     &s->rhs[a],       &s->delta[a],
+                                &s->step_p[a],    &s->faces[a],     &s->krylov[0][a],
+                                &s->krylov[1][a], &s->krylov[2][a], &s->krylov[3][a]};
+        s->start[a] = mesh_field(m);
+        s->psi[a] = mesh_field(m);
+        for (size_t k = 0; k < sizeof all / sizeof all[0] && (a < m->dim || k == 0); k++)
+            *all[k] = mesh_field(m);
+        if (s->prm.integrator != INTEGRATOR_RK3 && a < m->dim)
+            s->u_old[a] = mesh_field(m);
+    }
+    s->face = s->faces[0];
+}
+
+static void fill(struct fv *s)
+{
+    const struct mesh *m = s->m;
+    const bool at_rest = s->run->scene.initial.field == FIELD_REST || s->ring >= 0;
+    double least = INFINITY, most = 0.0;
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *p = m->part + q;
+        int i[3];
+        PART_CELLS (p, i, c) {
+            double u[3], pr, w, diagonal = 0.0;
+            if (m->status[c] == CELL_HOLE)
+                continue;
+            mesh_exact_average(s, p, i, 0.0, u, &pr, &w);
+            for (int a = 0; a < m->dim; a++) {
+                s->u[a][c] = at_rest ? 0.0 : u[a];
+                diagonal += m->G[a][a][c] + m->G[a][a][c + p->stride[a]];
+            }
+            s->p[c] = s->p_before[c] = at_rest ? 0.0 : pr / s->run->scene.fluid.rho;
+            s->free[c] = m->status[c] == CELL_COMPUTED;
+            s->scale[c] = 1.25 * s->nu * diagonal / m->V[c];
+            least = fmin(least, m->V[c]);
+            most = fmax(most, m->V[c]);
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m->comm);
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, m->comm);
+    s->uneven = most > (1.0 + 1e-9) * least;
+    for (int q = 0; q < m->nparts; q++) { /* no number in a ghost is a NaN or a zero volume */
+        const struct part *p = m->part + q;
+        for (int64_t c = p->base; c < p->base + p->size; c++)
+            if (!(m->V[c] > 0.0))
+                m->V[c] = 1.0;
+    }
+}
+
+/* The mean of the pressures at outflows; false: all of them are 0. */
+static bool mean_pressure(const struct fv *s, double *mean)
+{
+    double sum = 0.0, n = 0.0, size = 0.0;
+    for (int k = 0; k < s->run->scene.nwalls; k++)
+        if (s->run->scene.walls[k].kind == WALL_OUTFLOW) {
+            sum += s->run->scene.walls[k].pressure / s->run->scene.fluid.rho;
+            size += fabs(s->run->scene.walls[k].pressure);
+            n += 1.0;
+        }
+    *mean = n > 0.0 ? sum / n : 0.0;
+    return size > 0.0;
+}
+
+/* Pressures at outflows drive a flow from rest as gently as they would later. */
+static void meet_pressures(struct fv *s)
+{
+    double mean;
+    if (!mean_pressure(s, &mean))
+        return;
+    for (int64_t c = 0; c < s->size; c++)
+        s->p[c] = s->p_before[c] = mean;
+    pressure_start(s);
+}
+
+/* Divergence-free fluxes for the velocities of the start. */
+void mesh_state_start(struct fv *s)
+{
+    projection(s, s->t, 2, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
+    s->start_iterations = s->iterations;
+    s->iterations = 0;
+    memset(s->start[2], 0, (size_t)s->size * sizeof(double));
+    memset(s->psi[2], 0, (size_t)s->size * sizeof(double));
+    measure(s);
+    meet_pressures(s);
+}
+
+void mesh_state_create(struct fv *s)
+{
+    struct faults faults = {0};
+    struct run *r = s->run;
+    s->m = mesh_create(r, &faults);
+    if (!s->m)
+        fail("the blocks were good when they were checked");
+    s->dim = s->m->dim;
+    s->comm = s->m->comm;
+    s->size = s->m->size_local;
+    s->nparts = s->m->nparts;
+    s->part = s->m->part;
+    s->stages = &block_stages;
+    s->ring = mesh_ring(r) ? 0 : -1;
+    s->has_exact = fv_measures_errors(r);
+    if (s->prm.upwind < 0.0)
+        s->prm.upwind = mesh_bc_has_walls(s->m) ? 1.0 : 0.0;
+    if (s->prm.integrator == INTEGRATOR_NEWTON) {
+        s->prm.upwind = 0.0;
+        s->dissipation = newton_dissipation(s);
+    }
+    make_fields(s);
+    fill(s);
+    mesh_bc_create(s);
+    mesh_pressure_create(s);
+    if (r->scene.nprobes > 0)
+        s->search = overset_search(r, s->m);
+    mesh_fill(s->m, s->m->dim, s->u);
+    mesh_bc_velocity(s, BC_GIVEN, s->u);
+    measure(s);
+    double speed = 0.0;
+    mesh_bc_rate(s, &speed);
+    MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, s->comm);
+    s->scene_speed = fmax(speed, limits_reference(r));
+    s->reference = fmax(s->umax[0], s->scene_speed);
+    s->u_limit = 10.0 * s->reference;
+    if (s->prm.integrator == INTEGRATOR_NEWTON)
+        s->newton = newton_create(s);
+    s->watches = mesh_watches_create(s);
+}
+
+void mesh_state_free(struct fv *s)
+{
+    mesh_pressure_free(&s->poisson);
+    mesh_bc_free(&s->sides);
+    overset_free(&s->search);
+    mesh_free(&s->m);
+}

@@ -1,0 +1,302 @@
+/* fv_course.c - see fv_course.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "fv_course.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/fit.h"
+#include "../../common/h5.h"
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../grid/layout.h"
+#include "../time/steps.h"
+#include "../boundary/still.h"
+
+struct course *course_create(const struct fv *s, int first, int memory)
+{
+    struct course *c = NEW(struct course, 1);
+    const struct block *b = &s->b;
+    c->first = first;
+    c->dim = b->dim;
+    c->memory = memory;
+    c->n = (int64_t)b->n[0] * (b->n[1] - first) * b->n[2];
+    for (int m = 0; m < COURSE_LEVELS; m++)
+        c->q[m] = NEW(double, c->n *(b->dim + 1));
+    for (int m = 0; m < COURSE_TERMS; m++)
+        c->term[m] = NEW(double, c->n * b->dim);
+    c->tried = NEW(double, c->n *(b->dim + 1));
+    c->kept = kept_create(s);
+    if (c->memory > 1) {
+        c->rate = NEW(double, c->n);
+        c->scatter = scene_has_surface(&s->run->scene) ? NEW(double, c->n) : NULL;
+    }
+    return c;
+}
+
+void course_free(struct course **cp)
+{
+    struct course *c = *cp;
+    if (!c)
+        return;
+    for (int m = 0; m < COURSE_LEVELS; m++)
+        mem_free(c->q[m]);
+    for (int m = 0; m < COURSE_TERMS; m++)
+        mem_free(c->term[m]);
+    mem_free(c->tried);
+    mem_free(c->rate);
+    mem_free(c->scatter);
+    kept_free(&c->kept);
+    mem_free(c);
+    *cp = NULL;
+}
+
+/* Under a surface the partner knows the level of the pressure: what it is told is what stands over
+ * its mean at the rim of the free cells, which would follow every swing of the level late. */
+static void take_out_level(const struct fv *s, const struct course *c, double *q)
+{
+    const struct block *b = &s->b;
+    const struct forcing *f = s->forcing;
+    const double *g = s->run->scene.fluid.gravity;
+    double sum[2] = {0.0, 0.0}, x[3];
+    if (!f || !scene_has_surface(&s->run->scene) || (g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0))
+        return;
+    for (int64_t m = f->npartner; m < f->npartner + f->nrim; m++) {
+        int at[3];
+        block_place(b, f->partner[m], at);
+        block_centre(b, at[0], at[1], at[2], x);
+        const int64_t i =
+            at[0] + (int64_t)b->n[0] * (at[1] - c->first + (int64_t)(b->n[1] - c->first) * at[2]);
+        sum[0] += q[i * (b->dim + 1) + b->dim] - fv_still_pressure(s, x);
+        sum[1] += 1.0;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+    const double level = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
+    for (int64_t i = 0; i < c->n; i++)
+        q[i * (b->dim + 1) + b->dim] -= level;
+}
+
+/* Velocity and whole pressure now; forced cells get a pressure continued from the free side. */
+static void look(struct fv *s, const struct course *c, double *q)
+{
+    const struct block *b = &s->b;
+    double *one = NEW(double, c->n), *p = block_field(b);
+    for (int64_t i = 0; i < b->size; i++)
+        p[i] = fv_pressure(s, i);
+    if (s->forcing)
+        forcing_extend(s, p);
+    fv_add_still_pressure(s, p);
+    for (int m = 0; m <= b->dim; m++) {
+        block_pack_from(b, c->first, m < b->dim ? s->u[m] : p, one);
+        for (int64_t i = 0; i < c->n; i++)
+            q[i * (b->dim + 1) + m] = one[i];
+    }
+    mem_free(p);
+    mem_free(one);
+    take_out_level(s, c, q);
+}
+
+static void shift(struct course *c, double t)
+{
+    double *oldest = c->q[COURSE_LEVELS - 1];
+    memmove(c->q + 1, c->q, (COURSE_LEVELS - 1) * sizeof *c->q);
+    memmove(c->t + 1, c->t, (COURSE_LEVELS - 1) * sizeof *c->t);
+    c->q[0] = oldest;
+    c->t[0] = t;
+    c->levels = c->levels < COURSE_LEVELS ? c->levels + 1 : COURSE_LEVELS;
+}
+
+/* Pressure answers at once to every change of the forced velocities, by the change over the window,
+ * and a partner to that a window later: where what comes back is larger than what went, smoothing
+ * must take it away; it must keep level and trend, for a lag would feed waves. */
+static void smooth_pressure(struct course *c)
+{
+    const double h = c->t[0] - c->t[1];
+    for (int64_t i = 0; i < c->n; i++) {
+        const int64_t at = i * (c->dim + 1) + c->dim;
+        double level = c->q[1][at];
+        fit_smooth(c->q[0][at], h, c->memory, &level, c->rate + i,
+                   c->scatter ? c->scatter + i : NULL);
+        c->q[0][at] = level;
+    }
+}
+
+void course_take(struct fv *s, struct course *c)
+{
+    shift(c, s->t);
+    look(s, c, c->q[0]);
+    c->t_tried = -INFINITY;
+    if (c->rate)
+        smooth_pressure(c);
+}
+
+static void exact_level(struct fv *s, struct course *c, double t, double *q)
+{
+    const struct block *b = &s->b;
+    double x[3], u[3], p;
+    int64_t at = 0;
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = c->first; j < b->n[1]; j++)
+            for (int i = 0; i < b->n[0]; i++) {
+                block_centre(b, i, j, k, x);
+                exact_average(&s->exact, x, b->h, t, u, &p, NULL);
+                for (int a = 0; a < b->dim; a++)
+                    q[at++] = u[a];
+                q[at++] = p;
+            }
+    take_out_level(s, c, q);
+}
+
+void course_start(struct fv *s, struct course *c, double before)
+{
+    c->t_tried = -INFINITY;
+    const bool past = exact_has_past(&s->exact) && s->has_exact;
+    for (int m = past ? COURSE_LEVELS - 1 : 0; m >= 0; m--) {
+        shift(c, s->t - m * before);
+        if (s->has_exact) /* in forced cells, too */
+            exact_level(s, c, c->t[0], c->q[0]);
+        else
+            look(s, c, c->q[0]);
+    }
+    for (int64_t i = 0; i < c->n && c->rate && c->levels > 1; i++) {
+        const int64_t at = i * (c->dim + 1) + c->dim;
+        c->rate[i] = (c->q[0][at] - c->q[1][at]) / before;
+    }
+}
+
+/* A trial that fails says nothing of the true window: then the past must do. */
+void course_try(struct fv *s, struct course *c, double t1)
+{
+    struct diagnosis d = {0};
+    kept_take(c->kept, s);
+    s->predicts = true;
+    while (s->t < t1 && !d.bad)
+        integrate(s, t1, &d);
+    c->t_tried = d.bad ? -INFINITY : t1;
+    if (!d.bad)
+        look(s, c, c->tried);
+    else if (!c->failed)
+        log_warn("t = %.4g s: fv cannot try the window to %.4g s (%s): sph gets what the windows "
+                 "before say; lower coupling.steps",
+                 c->t[0], t1, d.reason);
+    c->failed = c->failed || d.bad;
+    s->predicts = false;
+    kept_put_back(c->kept, s);
+}
+
+/* The polynomial through the newest level and up to three others, value f[j] at x[j] s after it:
+ * f0 + x r(x), r through (f[j] - f0)/x[j] in Newton's form. */
+static void expand(double f0, int n, const double *x, const double *f, double *term)
+{
+    double r[3] = {0.0, 0.0, 0.0};
+    for (int j = 0; j < n; j++)
+        r[j] = (f[j] - f0) / x[j];
+    const double d12 = n > 1 ? (r[1] - r[0]) / (x[1] - x[0]) : 0.0;
+    const double d23 = n > 2 ? (r[2] - r[1]) / (x[2] - x[1]) : 0.0;
+    const double d = n > 2 ? (d23 - d12) / (x[2] - x[0]) : 0.0;
+    term[0] = f0;
+    term[1] = r[0] - (n > 1 ? d12 * x[0] : 0.0) + (n > 2 ? d * x[0] * x[1] : 0.0);
+    term[2] = d12 - (n > 2 ? d * (x[0] + x[1]) : 0.0);
+    term[3] = d;
+}
+
+/* The levels beside the newest: the one tried, then those before. */
+static int others(const struct course *c, const double **q, double *x)
+{
+    int n = 0;
+    if (c->t_tried > c->t[0]) {
+        x[n] = c->t_tried - c->t[0];
+        q[n++] = c->tried;
+    }
+    for (int m = 1; m < c->levels; m++) {
+        x[n] = c->t[m] - c->t[0];
+        q[n++] = c->q[m];
+    }
+    return n;
+}
+
+int course_velocity(struct course *c)
+{
+    const double *q[COURSE_LEVELS];
+    double x[COURSE_LEVELS], f[COURSE_LEVELS], term[COURSE_TERMS];
+    const int n = others(c, q, x);
+    for (int64_t i = 0; i < c->n; i++)
+        for (int a = 0; a < c->dim; a++) {
+            const int64_t at = i * (c->dim + 1) + a;
+            for (int j = 0; j < n; j++)
+                f[j] = q[j][at];
+            expand(c->q[0][at], n, x, f, term);
+            for (int m = 0; m < COURSE_TERMS; m++)
+                c->term[m][i * c->dim + a] = term[m];
+        }
+    return n + 1;
+}
+
+/* A straight line: to what the trial found, or from the level before; smoothed along its trend. */
+int course_pressure(struct course *c)
+{
+    const double *q[COURSE_LEVELS];
+    double x[COURSE_LEVELS];
+    const int n = others(c, q, x);
+    for (int64_t i = 0; i < c->n; i++) {
+        const int64_t at = i * (c->dim + 1) + c->dim;
+        c->term[0][i] = c->q[0][at];
+        c->term[1][i] = c->rate ? c->rate[i] : n > 0 ? (q[0][at] - c->q[0][at]) / x[0] : 0.0;
+    }
+    return 2;
+}
+
+static const char *const names[] = {"level0", "level1", "level2"};
+
+/* The cells that it tells of: those above the uneven rows, without ghosts. */
+static struct box box_of(const struct fv *s, const struct course *c)
+{
+    struct box x = layout_block(&s->b);
+    x.lo[1] += c->first;
+    x.n[1] -= c->first;
+    x.g[0] = x.g[1] = x.g[2] = 0;
+    return x;
+}
+
+void course_save(const struct fv *s, const struct course *c, struct h5 *f)
+{
+    const double clock[COURSE_LEVELS + 1] = {c->t[0], c->t[1], c->t[2], c->levels};
+    const struct box mine = box_of(s, c);
+    layout_save(f, "course", 1, &mine);
+    for (int m = 0; m < COURSE_LEVELS; m++)
+        h5_write_real(f, names[m], "-", c->n, c->dim + 1, c->q[m], false);
+    h5_write_real(f, "levels", "-", COURSE_LEVELS + 1, 1, clock, false);
+    if (c->rate)
+        h5_write_real(f, "rate", "Pa/s", c->n, 1, c->rate, false);
+    if (c->scatter)
+        h5_write_real(f, "scatter", "Pa", c->n, 1, c->scatter, false);
+}
+
+/* l: of another number of ranks. */
+static bool load(const struct fv *s, const struct course *c, struct h5 *f, const struct layout *l,
+                 const char *name, int ncomp, double *to)
+{
+    const struct box mine = box_of(s, c);
+    return l ? layout_read(l, f, name, ncomp, &mine, s->b.periodic, to)
+             : h5_read_real(f, name, c->n, ncomp, to);
+}
+
+bool course_load(const struct fv *s, struct course *c, struct h5 *f)
+{
+    const bool same = layout_same_ranks(f, s->run->size);
+    struct layout *l = same ? NULL : layout_load(f, "course");
+    double clock[COURSE_LEVELS + 1];
+    bool good = (same || l) && h5_read_same(f, "levels", COURSE_LEVELS + 1, clock) &&
+                (!c->rate || load(s, c, f, l, "rate", 1, c->rate)) &&
+                (!c->scatter || load(s, c, f, l, "scatter", 1, c->scatter));
+    for (int m = 0; good && m < COURSE_LEVELS; m++) {
+        good = load(s, c, f, l, names[m], c->dim + 1, c->q[m]);
+        c->t[m] = clock[m];
+    }
+    layout_free(&l);
+    if (!good)
+        return false;
+    c->levels = (int)clock[COURSE_LEVELS];
+
+    c->t_tried = -INFINITY;
+    return true;
+}

@@ -1,0 +1,49 @@
+/* fv_course.h - what a partner is told of FV's fields: velocity and pressure of the cells, and how
+ * they go on in time. FV tries the next window with forced cells that it extrapolates, looks, and
+ * takes the window back; a partner then interpolates where it would extrapolate. Where the loop of
+ * the two has too much gain, the pressure of past windows is smoothed and extrapolated instead.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_COURSE_H
+#define FV_COURSE_H
+
+#include "../boundary/forcing.h"
+#include "../fv.h"
+#include "../time/steps.h"
+
+enum {
+    COURSE_LEVELS = 3, /* ends of windows that are remembered */
+    COURSE_TERMS = 4   /* of velocity in time */
+};
+
+struct course {
+    int first;                  /* local row: below it nothing is given, rows are uneven */
+    int64_t n;                  /* local cells from there on */
+    int dim, memory;            /* windows over which the pressure is smoothed; 1: none */
+    double *q[COURSE_LEVELS];   /* [n][dim + 1] velocity, pressure; newest first */
+    double *tried;              /* the same at the end of the next window */
+    double t[COURSE_LEVELS];    /* s: their times */
+    double t_tried;             /* s; before t[0]: not known */
+    int levels;                 /* of them known */
+    double *rate;               /* [n] Pa/s: trend of the smoothed pressure; NULL: not smoothed */
+    double *scatter;            /* [n] Pa: about its trend; NULL: no surface, no impacts */
+    double *term[COURSE_TERMS]; /* [n][dim] of velocity; after course_pressure of pressure */
+    bool failed;                /* a trial has */
+    struct kept *kept;
+};
+
+/* first: local row from which on cells are given. */
+struct course *course_create(const struct fv *s, int first, int memory);
+void course_free(struct course **c);
+/* At the start: the state now, and two levels before it of an exact solution, `before' s apart. */
+void course_start(struct fv *s, struct course *c, double before);
+/* The state now, as a new level. */
+void course_take(struct fv *s, struct course *c);
+/* Tries to reach t1 with the forcing as it stands; the state is as before afterwards. */
+void course_try(struct fv *s, struct course *c, double t1);
+/* Fills c->term with what a partner shall get; returns the number of terms. */
+int course_velocity(struct course *c);
+int course_pressure(struct course *c);
+void course_save(const struct fv *s, const struct course *c, struct h5 *f);
+bool course_load(const struct fv *s, struct course *c, struct h5 *f);
+
+#endif

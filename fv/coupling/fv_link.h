@@ -1,0 +1,23 @@
+/* fv_link.h - a partner in the same job.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_LINK_H
+#define FV_LINK_H
+
+#include "../fv.h"
+
+/* fv_coupling.c: the only file here that knows cpl.h. */
+void coupling_create(struct fv *s);
+void coupling_free(struct fv *s);
+/* Pa: to be added to the pressure for the partner's level; 0 alone. */
+double coupling_datum(const struct fv *s);
+/* Fills d where the partner has left out too many cells; share of them; worst one. */
+void coupling_judge(struct fv *s, struct diagnosis *d);
+double coupling_unmapped(const struct fv *s);
+void coupling_summary(const struct fv *s, struct summary *to);
+void coupling_first(void *s);
+void coupling_window_begin(void *s, double t0, double t1);
+void coupling_window_end(void *s, double t1);
+void coupling_save(const struct fv *s, struct h5 *f);
+bool coupling_load(struct fv *s, struct h5 *f);
+
+#endif

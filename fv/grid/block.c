@@ -1,0 +1,186 @@
+/* block.c - see block.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "block.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+
+static bool is_wide(const int *cells, const int *dims)
+{
+    bool wide = true;
+    for (int a = 0; a < 3; a++)
+        wide = wide && (dims[a] == 1 || cells[a] / dims[a] >= LEAST);
+    return wide;
+}
+
+/* Ranks along each axis: as MPI shares them out, rows whole as long as there are other directions
+ * to cut (x is the fastest index); where that leaves a rank fewer cells than stencils reach, the
+ * split with the least surface that does not. */
+bool block_split(int size, int dim, const int *cells, int dims[3])
+{
+    const int n[3] = {cells[0], dim > 1 ? cells[1] : 1, dim > 2 ? cells[2] : 1};
+    double least = INFINITY;
+    dims[0] = size <= cells[dim - 1] / GHOSTS || dim == 1 ? 1 : 0;
+    dims[1] = dim > 1 ? 0 : 1;
+    dims[2] = dim > 2 ? 0 : 1;
+    MPI_Dims_create(size, 3, dims);
+    if (is_wide(n, dims))
+        return true;
+    for (int i = 1; i <= size; i++)
+        for (int j = 1; size % i == 0 && j <= size / i; j++) {
+            const int d[3] = {i, j, size / i / j};
+            const double cut = (double)i / n[0] + (double)j / n[1] + (double)d[2] / n[2];
+            if (size / i % j != 0 || (dim < 3 && d[2] > 1) || !is_wide(n, d) || cut >= least)
+                continue;
+            least = cut;
+            memcpy(dims, d, sizeof d);
+        }
+    return isfinite(least);
+}
+
+void block_create(struct block *b, MPI_Comm comm, int dim, const int *cells, const double *origin,
+                  const double *length, const bool *periodic)
+{
+    int size, rank, dims[3], wrap[3] = {0, 0, 0}, at[3] = {0, 0, 0};
+    *b = (struct block){.dim = dim};
+    MPI_Comm_size(comm, &size);
+    (void)block_split(size, dim, cells, dims);
+    for (int a = 0; a < dim; a++)
+        wrap[a] = periodic[a];
+    MPI_Cart_create(comm, 3, dims, wrap, 0, &b->cart);
+    MPI_Comm_rank(b->cart, &rank);
+    MPI_Cart_coords(b->cart, rank, 3, at);
+    b->size = 1;
+    for (int a = 0; a < 3; a++) {
+        b->cells[a] = a < dim ? cells[a] : 1;
+        b->origin[a] = a < dim ? origin[a] : 0.0;
+        b->length[a] = a < dim ? length[a] : 1.0;
+        b->h[a] = b->length[a] / b->cells[a];
+        b->periodic[a] = wrap[a];
+        b->lo[a] = (int)((int64_t)b->cells[a] * at[a] / dims[a]);
+        b->hi[a] = (int)((int64_t)b->cells[a] * (at[a] + 1) / dims[a]);
+        b->n[a] = b->hi[a] - b->lo[a];
+        b->g[a] = a < dim ? GHOSTS : 0;
+        b->stride[a] = b->size;
+        b->size *= b->n[a] + 2 * b->g[a];
+        MPI_Cart_shift(b->cart, a, 1, b->below + a, b->above + a);
+    }
+    int64_t slab = 0;
+    for (int a = 0; a < dim; a++) {
+        const int64_t s = b->size / (b->n[a] + 2 * b->g[a]) * GHOSTS;
+        slab = s > slab ? s : slab;
+    }
+    b->send = NEW(double, 4 * slab);
+    b->recv = NEW(double, 4 * slab);
+}
+
+void block_set_rows(struct block *b, int even, const double *h)
+{
+    b->rows = rows_create(b->cells[1], even, b->origin[1], h, b->lo[1], b->n[1]);
+    b->h[1] = h[b->cells[1] - 1];
+}
+
+void block_free(struct block *b)
+{
+    mem_free(b->send);
+    mem_free(b->recv);
+    rows_free(&b->rows);
+    MPI_Comm_free(&b->cart);
+}
+
+struct part block_part(const struct block *b)
+{
+    struct part p = {.kind = b->rows ? PART_CURVED : PART_EVEN, .size = b->size};
+    for (int a = 0; a < 3; a++) {
+        p.lo[a] = b->lo[a];
+        p.n[a] = b->n[a];
+        p.g[a] = b->g[a];
+        p.stride[a] = b->stride[a];
+    }
+    return p;
+}
+
+double *block_field(const struct block *b) { return NEW(double, b->size); }
+
+void block_centre(const struct block *b, int i, int j, int k, double *x)
+{
+    const int at[3] = {i, j, k};
+    for (int a = 0; a < 3; a++)
+        x[a] = a < b->dim ? b->origin[a] + (b->lo[a] + at[a] + 0.5) * b->h[a] : 0.0;
+    if (b->rows)
+        x[1] = b->rows->y[j];
+}
+
+void block_cell(const struct block *b, int i, int j, int k, double *x, double *h)
+{
+    block_centre(b, i, j, k, x);
+    for (int a = 0; a < 3; a++)
+        h[a] = block_size(b, a, a == 1 ? j : 0);
+}
+
+/* Copies GHOSTS layers along axis a, from local index `first' on, to or from packed storage. */
+static int64_t layers(const struct block *b, double *f, int a, int first, double *packed, bool pack)
+{
+    int lo[3], hi[3];
+    int64_t m = 0;
+    for (int d = 0; d < 3; d++) {
+        lo[d] = d == a ? first : -b->g[d];
+        hi[d] = d == a ? first + GHOSTS : b->n[d] + b->g[d];
+    }
+    for (int k = lo[2]; k < hi[2]; k++)
+        for (int j = lo[1]; j < hi[1]; j++) {
+            double *row = f + block_at(b, lo[0], j, k);
+            const size_t bytes = (size_t)(hi[0] - lo[0]) * sizeof(double);
+            if (pack)
+                memcpy(packed + m, row, bytes);
+            else
+                memcpy(row, packed + m, bytes);
+            m += hi[0] - lo[0];
+        }
+    return m;
+}
+
+/* One direction, one way: what leaves at `from' arrives in the ghosts at `to' of the other side. */
+static void shift(const struct block *b, int nf, double *const *f, int a, int from, int to,
+                  int dest, int source)
+{
+    int rank;
+    MPI_Comm_rank(b->cart, &rank);
+    for (int q = 0; q < nf; q += 4) {
+        const int m = nf - q < 4 ? nf - q : 4;
+        int64_t count = 0;
+        for (int k = 0; k < m && dest != MPI_PROC_NULL; k++)
+            count += layers(b, f[q + k], a, from, b->send + count, true);
+        const double *got = b->send;
+        if (dest != rank || source != rank) {
+            int64_t slab = b->size / (b->n[a] + 2 * b->g[a]) * GHOSTS * m;
+            MPI_Sendrecv(b->send, (int)count, MPI_DOUBLE, dest, 7, b->recv, (int)slab, MPI_DOUBLE,
+                         source, 7, b->cart, MPI_STATUS_IGNORE);
+            got = b->recv;
+        }
+        count = 0;
+        for (int k = 0; k < m && source != MPI_PROC_NULL; k++)
+            count += layers(b, f[q + k], a, to, (double *)(uintptr_t)(got + count), false);
+    }
+}
+
+void block_halo(const struct block *b, int nf, double *const *f)
+{
+    for (int a = 0; a < b->dim; a++) {
+        shift(b, nf, f, a, 0, b->n[a], b->below[a], b->above[a]);
+        shift(b, nf, f, a, b->n[a] - GHOSTS, -GHOSTS, b->above[a], b->below[a]);
+    }
+}
+
+void block_pack_from(const struct block *b, int first, const double *f, double *packed)
+{
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = first; j < b->n[1]; j++, packed += b->n[0])
+            memcpy(packed, f + block_at(b, 0, j, k), (size_t)b->n[0] * sizeof(double));
+}
+
+void block_pack(const struct block *b, const double *f, double *packed)
+{
+    block_pack_from(b, 0, f, packed);
+}

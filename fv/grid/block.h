@@ -1,0 +1,118 @@
+/* block.h - a rank's part of a Cartesian grid, even or with rows of unequal height: places, storage
+ * with ghost layers, halo.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_BLOCK_H
+#define FV_BLOCK_H
+
+#include <mpi.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "part.h"
+#include "rows.h"
+
+struct block {
+    MPI_Comm cart;
+    int dim;
+    int cells[3];                /* of the whole grid */
+    double origin[3], length[3]; /* m */
+    double h[3];                 /* m: size of a cell; along y with rows of the even ones */
+    struct rows *rows;           /* NULL: all rows are even */
+    bool periodic[3];
+    int lo[3], hi[3];        /* this rank: lo <= i < hi */
+    int n[3];                /* hi - lo */
+    int g[3];                /* ghost layers: GHOSTS, 0 beyond dim */
+    int64_t stride[3], size; /* of a field with its ghosts */
+    int below[3], above[3];  /* neighbours' ranks, MPI_PROC_NULL at a closed side */
+    double *send, *recv;     /* scratch of the halo */
+};
+
+/* Ranks along each axis for `size' ranks; false: they cannot be shared out so that each has at
+ * least LEAST cells along each axis that is cut, as its ghosts want (then some split).
+ */
+enum { LEAST = 3 };
+bool block_split(int size, int dim, const int *cells, int dims[3]);
+void block_create(struct block *b, MPI_Comm comm, int dim, const int *cells, const double *origin,
+                  const double *length, const bool *periodic);
+/* Gives it rows of these heights, b->cells[1] of them, the upper `even' ones alike; b->h[1] is
+ * their height then. */
+void block_set_rows(struct block *b, int even, const double *h);
+void block_free(struct block *b);
+double *block_field(const struct block *b);
+struct part block_part(const struct block *b);
+/* Index of local cell (i, j, k), counted from 0 at lo; ghosts are negative or beyond n. */
+static inline int64_t block_at(const struct block *b, int i, int j, int k)
+{
+    return (i + b->g[0]) + b->stride[1] * (j + b->g[1]) + b->stride[2] * (k + b->g[2]);
+}
+/* Local cell of an index. */
+static inline void block_place(const struct block *b, int64_t c, int at[3])
+{
+    at[0] = (int)(c % b->stride[1]) - b->g[0];
+    at[1] = (int)(c % b->stride[2] / b->stride[1]) - b->g[1];
+    at[2] = (int)(c / b->stride[2]) - b->g[2];
+}
+/* Size along axis a of local cells whose place along it is i. */
+static inline double block_size(const struct block *b, int a, int i)
+{
+    return a == 1 && b->rows ? b->rows->h[i] : b->h[a];
+}
+/* Distance of their centres from those below along axis a. */
+static inline double block_step(const struct block *b, int a, int i)
+{
+    return a == 1 && b->rows ? b->rows->step[i] : b->h[a];
+}
+/* m: derivative of the centres' place along axis a with respect to the index. */
+static inline double block_scale(const struct block *b, int a, int i)
+{
+    return a == 1 && b->rows ? b->rows->scale[i] : b->h[a];
+}
+/* Local row of a cell. */
+static inline int block_row(const struct block *b, int64_t c)
+{
+    return (int)(c % b->stride[2] / b->stride[1]) - b->g[1];
+}
+/* m^dim, of the cells of local row j. */
+static inline double block_volume(const struct block *b, int j)
+{
+    return b->h[0] * block_size(b, 1, j) * b->h[2];
+}
+/* Centre of local cell (i, j, k). */
+void block_centre(const struct block *b, int i, int j, int k, double *x);
+/* The same and its size along each axis. */
+void block_cell(const struct block *b, int i, int j, int k, double *x, double *h);
+/* Average over the cell at q, in local row j, of the derivative along axis a, from averages. */
+static inline double block_derivative(const struct block *b, const double *q, int a, int j)
+{
+    const int64_t d = b->stride[a];
+    if (a == 1 && b->rows) {
+        const double *w = b->rows->gradient[j] + 2;
+        return (w[1] * q[d] + w[-1] * q[-d]) + (w[2] * q[2 * d] + w[-2] * q[-2 * d]) + w[0] * q[0];
+    }
+    return (8.0 * (q[d] - q[-d]) - (q[2 * d] - q[-2 * d])) / (12.0 * b->h[a]);
+}
+/* Ghosts of nf fields, corners included, by one direction after the other; closed sides keep
+ * theirs. */
+void block_halo(const struct block *b, int nf, double *const *f);
+/* Fields without ghosts, x fastest, from those with. */
+void block_pack(const struct block *b, const double *f, double *packed);
+/* The same from the local row `first' on. */
+void block_pack_from(const struct block *b, int first, const double *f, double *packed);
+
+/* Visits the local cells: (i, j, k) has index c. */
+#define BLOCK_CELLS(b, i, j, k, c)                                                                 \
+    for (int k = 0; k < (b)->n[2]; k++)                                                            \
+        for (int j = 0; j < (b)->n[1]; j++)                                                        \
+            for (int i = 0; i < (b)->n[0]; i++)                                                    \
+                for (int64_t c = block_at(b, i, j, k), once_ = 1; once_; once_ = 0)
+
+/* Rows of local cells, `more' layers of ghosts included in the active directions: c is the index of
+ * the row's first cell, n its length; j_, k_ are its place. */
+#define BLOCK_ROWS(b, more, c, len)                                                                \
+    for (int k_ = (b)->g[2] ? -(more) : 0, j_; k_ < (b)->n[2] + ((b)->g[2] ? (more) : 0); k_++)    \
+        for (j_ = -(more); j_ < (b)->n[1] + (more); j_++)                                          \
+            for (int64_t c = block_at(b, -(more), j_, k_), len = (b)->n[0] + 2 * (more),           \
+                         once_ = 1;                                                                \
+                 once_; once_ = 0)
+
+#endif

@@ -1,0 +1,214 @@
+/* mesh.h - structured blocks of any shape that are joined face to face or overlap: places, metrics,
+ * what each cell is, and the exchange of values between them.
+ * Every rank knows the vertices of all blocks and what each cell is; fields are local: a rank's
+ * parts of blocks, each with ghosts, one behind the other in one array.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_MESH_H
+#define FV_MESH_H
+
+#include <mpi.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "../../common/run.h"
+#include "part.h"
+
+enum {
+    MESH_BLOCKS_MAX = 16,
+    MESH_GHOSTS = 3,  /* layers of cells */
+    MESH_VERTICES = 5 /* layers of vertices behind the sides */
+};
+enum mesh_mapping {
+    MAPPING_BOX,
+    MAPPING_STRETCHED,
+    MAPPING_ANNULUS,
+    MAPPING_SHEARED,
+    MAPPING_FILE
+};
+enum mesh_side {
+    MESH_OVERLAP,
+    MESH_JOINED,
+    MESH_PERIODIC,
+    MESH_WALL,
+    MESH_SLIP,
+    MESH_INFLOW,
+    MESH_OUTFLOW,
+    MESH_EXACT
+};
+enum mesh_status { CELL_COMPUTED, CELL_FRINGE, CELL_HOLE };
+
+struct mesh_block_params {
+    char name[PARAM_TEXT_SIZE];
+    int mapping;
+    int cells[3];
+    double min[3], max[3]; /* m: of a box before its rotation; z of an annulus */
+    double centre[3];      /* m: of rotation, of an annulus, of the walls' spin */
+    double angle;          /* degrees about z */
+    double focus[3];       /* m: where stretched cells are finest */
+    double stretch[3];     /* strength; 0: uniform; < 0: finer towards both ends */
+    double radius[3];      /* m: inner, outer */
+    double arc[3];         /* degrees: first, last */
+    double shear;          /* dx/dy */
+    double wave;           /* displacement over the sides' lengths */
+    char file[PARAM_TEXT_SIZE];
+    int zone;                                     /* block of a file, from 1 */
+    int i_min, i_max, j_min, j_max, k_min, k_max; /* enum mesh_side */
+    double velocity[3];                           /* m/s: of walls along themselves, of an inflow */
+    int lid;        /* 0: all walls have the velocity; else the side that alone has it, from 1 */
+    double spin[3]; /* rad/s: of the walls i_min, i_max about the centre */
+};
+
+/* Doubled indices X (vertex i: 2 i, cell i: 2 i + 1) behind a joined side are the neighbour's
+ * X'[axis[a]] = sign[a] X[a] + shift[a]; its places come here by adding `move'. */
+struct mesh_join {
+    int block; /* -1: none */
+    int axis[3], sign[3], shift[3];
+    double move[3];
+};
+
+struct mesh_block {
+    const struct mesh_block_params *prm;
+    int n[3];         /* cells */
+    int v0[3], nv[3]; /* vertices: first index, number with ghosts */
+    double (*x)[3];   /* m: vertices with ghosts */
+    enum mesh_side side[6];
+    const struct scene_wall
+        *wall[6]; /* of the scene, on whose side of the domain this one lies; NULL: none */
+    struct mesh_join join[6];
+    double (*centre)[3];   /* m: of the real cells */
+    double *volume;        /* m^dim: of the real cells */
+    unsigned char *status; /* of the real cells */
+    int cut;               /* axis along which ranks share it */
+    int *first;            /* of each rank, and one more: rows along `cut' */
+};
+
+/* Values that go from places of one rank to places of another; weights NULL: copies. */
+struct mesh_exchange {
+    int npeers, *peer;
+    int64_t *first_in, *first_out; /* of each peer, and one more */
+    int64_t *in;                   /* places that receive */
+    int64_t *out;                  /* places that give: with weights the first of a stencil */
+    int width;                     /* of a stencil: width^dim values; 1: copies */
+    double *weight;                /* width^dim a value */
+    int *part;                     /* of the giving stencils */
+    double *send, *recv;           /* room for `room' fields */
+    int room;
+};
+
+/* A cell of the fringe on this rank and the linear interpolation that is its row of the matrix. */
+struct mesh_fringe {
+    int64_t place;
+    int block, cell[3];
+    int donor, from[3]; /* lowest of the 2^dim cells, perhaps behind a joined side */
+    double weight[8];
+};
+
+struct mesh {
+    MPI_Comm comm;
+    int rank, size, dim;
+    int nblocks;
+    struct mesh_block block[MESH_BLOCKS_MAX];
+    int nparts;
+    struct part part[MESH_BLOCKS_MAX];
+    int64_t size_local;   /* of a field */
+    int64_t cells;        /* of all blocks */
+    int64_t computed;     /* of all blocks */
+    int64_t fringe_cells; /* of all blocks */
+    int64_t linear;       /* of these, by linear interpolation alone */
+    bool has_fringe;
+    int64_t nfringe;
+    struct mesh_fringe *fringes;
+    double *S[3][3];       /* m^(dim-1): of the lower face along a, component */
+    double *G[3][3];       /* S_a.S_b/J, averages over the lower face along a */
+    double *V;             /* m^dim */
+    double *open[3];       /* 1: psi passes the lower face; 0: it does not */
+    unsigned char *status; /* with ghosts: CELL_HOLE behind sides that are no cells */
+    struct mesh_exchange halo, fringe;
+};
+
+static inline int64_t mesh_cell(const struct mesh_block *b, const int *i)
+{
+    return i[0] + (int64_t)b->n[0] * (i[1] + (int64_t)b->n[1] * i[2]);
+}
+
+/* mesh_params.c */
+enum { MESH_ROWS = 24 };
+extern const struct param mesh_rows_of[MESH_ROWS];
+extern struct mesh_block_params mesh_given[MESH_BLOCKS_MAX]; /* what the case has */
+extern int mesh_given_count;
+#define MESH_GROUP                                                                                 \
+    {                                                                                              \
+        "blocks",                                                                                  \
+            "Structured blocks instead of fv.cells, joined or overlapping; later ones cover "      \
+            "earlier ones",                                                                        \
+            mesh_rows_of, MESH_ROWS, mesh_given, NULL, sizeof mesh_given[0], MESH_BLOCKS_MAX,      \
+            &mesh_given_count                                                                      \
+    }
+int mesh_block_count(void);
+const struct mesh_block_params *mesh_block_params(void);
+/* A ring between two walls that the case calls Couette flow: its steady flow is known. */
+bool mesh_ring(const struct run *r);
+/* Whether one of the block's sides is of this kind. */
+bool mesh_block_has(int block, enum mesh_side kind);
+/* Velocity that a wall or an inflow of a block has at x, m/s. */
+void mesh_side_velocity(const struct run *r, const struct mesh_block *b, int side, const double *x,
+                        double *w);
+/* mesh_scene.c: faults of a scene on blocks that contradicts itself. */
+void mesh_scene_check(const struct run *r, struct faults *f, const struct mesh *m);
+/* Faults of the group blocks; makes and frees the mesh. */
+void mesh_check(const struct run *r, struct faults *f);
+void mesh_fault(const struct run *r, struct faults *f, int block, const char *key, const char *fmt,
+                ...) __attribute__((format(printf, 5, 6)));
+
+/* mesh_create.c: NULL if there are faults. Collective. */
+struct mesh *mesh_create(const struct run *r, struct faults *f);
+void mesh_free(struct mesh **m);
+double *mesh_field(const struct mesh *m);
+/* Rank and place there of a real cell. */
+void mesh_owner(const struct mesh *m, int block, const int *cell, int *rank, int64_t *place);
+/* Number of a real cell's row among all rows, ordered by ranks; first and number of a rank's. */
+int64_t mesh_row(const struct mesh *m, int block, const int *cell);
+void mesh_rows(const struct mesh *m, int rank, int64_t *first, int64_t *n);
+
+/* mesh_map.c: vertices of a block with all layers behind sides; false: a fault was added. */
+bool mesh_map_vertices(const struct run *r, struct faults *f, int block, struct mesh_block *b);
+/* Place and derivatives dx[a][c] = d x_c / d xi_a at xi (0 to 1) of a cell, also behind sides. */
+void mesh_map_point(const struct mesh_block *b, int dim, const int *cell, const double *xi,
+                    double *x, double dx[3][3]);
+double mesh_determinant(double dx[3][3]);
+static inline int64_t mesh_vertex(const struct mesh_block *b, int i, int j, int k)
+{
+    return (i - b->v0[0]) +
+           (int64_t)b->nv[0] * ((j - b->v0[1]) + (int64_t)b->nv[1] * (k - b->v0[2]));
+}
+
+/* mesh_walls.c: sides that have no kind of their own and lie on a side of the domain take its wall.
+ */
+void mesh_take_walls(const struct run *r, struct mesh *m);
+
+/* mesh_join.c: finds the faces that meet, sets the vertices behind them. */
+bool mesh_join_blocks(const struct run *r, struct faults *f, struct mesh *m);
+/* The real cell at indices that may lie behind joined sides; move: to be added to its places.
+ * false: behind another kind of side. */
+bool mesh_resolve(const struct mesh *m, int *block, int *cell, double *move);
+
+/* mesh_metrics.c: of the local parts. */
+void mesh_metrics(struct mesh *m);
+
+/* mesh_halo.c */
+struct mesh_request { /* a place wants a value */
+    int rank;         /* that gives */
+    int block;        /* of the giver */
+    int64_t in, out;
+    const double *weight;
+};
+void mesh_exchange_create(struct mesh *m, struct mesh_exchange *x, int width, int64_t n,
+                          const struct mesh_request *request);
+void mesh_exchange_free(struct mesh_exchange *x);
+void mesh_exchange(const struct mesh *m, struct mesh_exchange *x, int nf, double *const *f);
+void mesh_halo_create(struct mesh *m);
+/* Ghosts behind joined sides and between ranks, and the fringe. */
+void mesh_fill(struct mesh *m, int nf, double *const *f);
+void mesh_halo(struct mesh *m, int nf, double *const *f);
+
+#endif

@@ -1,0 +1,239 @@
+/* mesh_file.c - see mesh_file.h. Plot3D: [number of blocks,] ni nj [nk] of each, then x of all
+ * vertices, y, [z] of each block, as text, as a stream of 4-byte integers and 8- or 4-byte reals,
+ * or the same in Fortran's records; which of these is told by the length of the file.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh_file.h"
+
+#include <ctype.h>
+#include <hdf5.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+
+static double *read_hdf5(const char *path, int dim, int *cells)
+{
+    hsize_t shape[4] = {0};
+    double *x = NULL;
+    hid_t file = -1, set = -1, space = -1;
+    H5E_BEGIN_TRY
+    {
+        file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+        set = file < 0 ? -1 : H5Dopen2(file, "x", H5P_DEFAULT);
+        space = set < 0 ? -1 : H5Dget_space(set);
+        if (space >= 0 && H5Sget_simple_extent_ndims(space) == dim + 1 &&
+            H5Sget_simple_extent_dims(space, shape, NULL) > 0 && shape[dim] == (hsize_t)dim) {
+            int64_t n = dim;
+            for (int a = 0; a < dim; a++) {
+                cells[a] = (int)shape[dim - 1 - a] - 1;
+                n *= cells[a] + 1;
+            }
+            x = NEW(double, n);
+            if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, x) < 0) {
+                mem_free(x);
+                x = NULL;
+            }
+        }
+        if (space >= 0)
+            H5Sclose(space);
+        if (set >= 0)
+            H5Dclose(set);
+        if (file >= 0)
+            H5Fclose(file);
+    }
+    H5E_END_TRY
+    return x;
+}
+
+/* A file as one list of numbers: text, or binary in one of the forms. */
+struct numbers {
+    int64_t n;
+    double *v;
+};
+
+static struct numbers read_text(const char *bytes)
+{
+    struct numbers s = {0};
+    int64_t room = 0;
+    char *end;
+    for (const char *at = bytes;; at = end) {
+        const double v = strtod(at, &end);
+        if (end == at)
+            return s;
+        if (s.n == room)
+            GROW(s.v, s.n, room = 2 * room + 1024);
+        s.v[s.n++] = v;
+        while (isspace((unsigned char)*end) || *end == ',')
+            end++;
+    }
+}
+
+static int int_at(const char *bytes, int64_t at)
+{
+    int32_t v;
+    memcpy(&v, bytes + at, 4);
+    return v;
+}
+
+/* Takes Fortran's record marks out; false: there are none. */
+static bool join_records(char *bytes, int64_t *n)
+{
+    int64_t from = 0, to = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (from = to = 0; from < *n;) {
+            const int64_t m = *n - from >= 8 ? int_at(bytes, from) : -1;
+            if (pass == 0 && (m < 0 || from + m + 8 > *n || int_at(bytes, from + 4 + m) != m))
+                return false;
+            if (pass == 1 && m > 0)
+                memmove(bytes + to, bytes + from + 4, m > 0 ? (size_t)m : 0);
+            to += m;
+            from += m + 8;
+        }
+    *n = to;
+    return true;
+}
+
+/* Tries header and sizes against the length: nb blocks (0: no count), axes in the header. */
+static int64_t vertices_before(const double *head, int64_t nhead, bool counted, int axes, int zone,
+                               int *shape, int64_t *all, int64_t *header)
+{
+    const int nb = counted ? (nhead > 0 ? (int)head[0] : 0) : 1;
+    int64_t before = 0;
+    *all = 0;
+    *header = counted + (int64_t)nb * axes;
+    if (nb < 1 || nb > 10000 || *header > nhead || zone > nb)
+        return -1;
+    for (int b = 0; b < nb; b++) {
+        int64_t n = 1;
+        for (int a = 0; a < axes; a++) {
+            const double m = head[counted + b * axes + a];
+            if (!(m >= 1.0 && m < 1e7))
+                return -1;
+            n *= (int64_t)m;
+            if (b == zone - 1)
+                shape[a] = (int)m;
+        }
+        if (b < zone - 1)
+            before += n;
+        *all += n;
+    }
+    return before;
+}
+
+static double real_at(const char *bytes, int64_t k, int size)
+{
+    double v;
+    float s;
+    if (size == 8) {
+        memcpy(&v, bytes + 8 * k, 8);
+        return v;
+    }
+    memcpy(&s, bytes + 4 * k, 4);
+    return s;
+}
+
+/* size: bytes of a real, 0: text in `s'. */
+static double *try_form(const struct numbers *s, const char *bytes, int64_t n, int size,
+                        bool counted, int axes, int zone, int dim, int *cells)
+{
+    int shape[3] = {1, 1, 1};
+    int64_t all, header;
+    const int64_t before = vertices_before(s->v, s->n, counted, axes, zone, shape, &all, &header);
+    if (before < 0 || (dim == 2 && shape[2] != 1) || (dim == 3 && axes == 2))
+        return NULL;
+    if (size == 0 ? s->n != header + all * axes : n != 4 * header + size * all * axes)
+        return NULL;
+    const int64_t m = (int64_t)shape[0] * shape[1] * shape[2];
+    double *x = NEW(double, m *dim);
+    for (int c = 0; c < dim; c++)
+        for (int64_t k = 0; k < m; k++) {
+            const int64_t at = before * axes + c * m + k;
+            x[dim * k + c] = size ? real_at(bytes + 4 * header, at, size) : s->v[header + at];
+        }
+    for (int a = 0; a < dim; a++)
+        cells[a] = shape[a] - 1;
+    return x;
+}
+
+static double *try_forms(const struct numbers *s, const char *bytes, int64_t n, bool text, int zone,
+                         int dim, int *cells)
+{
+    for (int k = 0; k < 8; k++) {
+        const int size = text ? 0 : k & 1 ? 4 : 8;
+        double *x = try_form(s, bytes, n, size, !(k & 2), k & 4 ? 3 : dim, zone, dim, cells);
+        if (x)
+            return x;
+    }
+    return NULL;
+}
+
+static double *read_plot3d(const char *path, int zone, int dim, int *cells)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return NULL;
+    fseek(file, 0, SEEK_END);
+    int64_t n = ftell(file);
+    rewind(file);
+    char *bytes = NEW(char, n + 1);
+    n = (int64_t)fread(bytes, 1, (size_t)n, file);
+    fclose(file);
+    bool text = true;
+    for (int64_t k = 0; k < n && k < 200; k++)
+        text = text && (isprint((unsigned char)bytes[k]) || isspace((unsigned char)bytes[k]));
+    struct numbers s = {0};
+    if (text)
+        s = read_text(bytes);
+    else {
+        join_records(bytes, &n);
+        s.n = n / 4 < 30001 ? n / 4 : 30001;
+        s.v = NEW(double, s.n);
+        for (int64_t k = 0; k < s.n; k++)
+            s.v[k] = int_at(bytes, 4 * k);
+    }
+    double *x = try_forms(&s, bytes, n, text, zone, dim, cells);
+    mem_free(s.v);
+    mem_free(bytes);
+    return x;
+}
+
+double *mesh_file_read(const struct run *r, struct faults *f, int block,
+                       const struct mesh_block_params *p, int *cells)
+{
+    const int dim = r->scene.domain.dim;
+    char path[1400];
+    double *x = NULL;
+    int good = 0;
+    snprintf(path, sizeof path, "%s%s%s", *p->file == '/' ? "" : r->case_dir,
+             *p->file == '/' || !*r->case_dir ? "" : "/", p->file);
+    if (r->rank == 0) {
+        const size_t m = strlen(p->file);
+        x = m > 3 && strcmp(p->file + m - 3, ".h5") == 0 ? read_hdf5(path, dim, cells)
+                                                         : read_plot3d(path, p->zone, dim, cells);
+        good = x != NULL;
+    }
+    MPI_Bcast(&good, 1, MPI_INT, 0, r->comm);
+    MPI_Bcast(cells, 3, MPI_INT, 0, r->comm);
+    if (!good) {
+        mesh_fault(r, f, block, "file",
+                   "%s holds no vertices of %dD blocks (HDF5: dataset x[k][j][i][%d]; else Plot3D "
+                   "with a zone %d)",
+                   path, dim, dim, p->zone);
+        return NULL;
+    }
+    int64_t n = dim;
+    for (int a = 0; a < dim; a++) {
+        n *= cells[a] + 1;
+        if (cells[a] < 6) {
+            mesh_fault(r, f, block, "file", "%d cells along %c: at least 6 are wanted", cells[a],
+                       "ijk"[a]);
+            mem_free(x);
+            return NULL;
+        }
+    }
+    if (r->rank > 0)
+        x = NEW(double, n);
+    MPI_Bcast(x, (int)n, MPI_DOUBLE, 0, r->comm);
+    return x;
+}

@@ -1,0 +1,207 @@
+/* mesh_halo.c - values that go from cells to ghosts and to the fringe: who wants what is told once,
+ * then one message each way between two ranks. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "mesh.h"
+
+static int stencil(const struct mesh *m, const struct mesh_exchange *x)
+{
+    return m->dim == 3 ? x->width * x->width * x->width : x->width * x->width;
+}
+
+/* Requests in the order of the ranks that give. */
+static void sort_requests(struct mesh *m, struct mesh_exchange *x, int64_t n,
+                          const struct mesh_request *request, int *count, int64_t *out,
+                          double *weight, int *part)
+{
+    const int width = stencil(m, x);
+    int64_t *at = NEW(int64_t, m->size + 1);
+    for (int64_t k = 0; k < n; k++)
+        count[request[k].rank]++;
+    for (int q = 0; q < m->size; q++)
+        at[q + 1] = at[q] + count[q];
+    for (int64_t k = 0; k < n; k++) {
+        const int64_t to = at[request[k].rank]++;
+        x->in[to] = request[k].in;
+        out[to] = request[k].out;
+        part[to] = request[k].block;
+        if (request[k].weight)
+            memcpy(weight + to * width, request[k].weight, (size_t)width * sizeof(double));
+    }
+    mem_free(at);
+}
+
+static void offsets(int size, const int *count, int times, int *scaled, int *offset)
+{
+    int sum = 0;
+    for (int q = 0; q < size; q++) {
+        scaled[q] = count[q] * times;
+        offset[q] = sum;
+        sum += scaled[q];
+    }
+}
+
+static void swap(const struct mesh *m, const int *wanted, const int *given, int times, void *from,
+                 void *to, MPI_Datatype type)
+{
+    int *at = NEW(int, 4 * m->size);
+    offsets(m->size, wanted, times, at, at + m->size);
+    offsets(m->size, given, times, at + 2 * m->size, at + 3 * m->size);
+    MPI_Alltoallv(from, at, at + m->size, type, to, at + 2 * m->size, at + 3 * m->size, type,
+                  m->comm);
+    mem_free(at);
+}
+
+void mesh_exchange_create(struct mesh *m, struct mesh_exchange *x, int width, int64_t n,
+                          const struct mesh_request *request)
+{
+    int *wanted = NEW(int, m->size), *given = NEW(int, m->size);
+    int64_t *out = NEW(int64_t, n), total = 0;
+    int *part = NEW(int, n);
+    x->width = width;
+    const int w = stencil(m, x);
+    double *weight = NEW(double, width > 1 ? n * w : 0);
+    x->in = NEW(int64_t, n);
+    sort_requests(m, x, n, request, wanted, out, weight, part);
+    MPI_Alltoall(wanted, 1, MPI_INT, given, 1, MPI_INT, m->comm);
+    for (int q = 0; q < m->size; q++) {
+        total += given[q];
+        x->npeers += wanted[q] > 0 || given[q] > 0;
+    }
+    x->out = NEW(int64_t, total);
+    x->part = NEW(int, total);
+    x->weight = width > 1 ? NEW(double, total *w) : NULL;
+    swap(m, wanted, given, 1, out, x->out, MPI_INT64_T);
+    swap(m, wanted, given, 1, part, x->part, MPI_INT);
+    for (int64_t k = 0; k < total; k++) /* of a block: of this rank's part */
+        for (int p = 0, block = x->part[k]; p < m->nparts; p++)
+            if (m->part[p].block == block)
+                x->part[k] = p;
+    if (width > 1)
+        swap(m, wanted, given, w, weight, x->weight, MPI_DOUBLE);
+    x->peer = NEW(int, x->npeers);
+    x->first_in = NEW(int64_t, x->npeers + 1);
+    x->first_out = NEW(int64_t, x->npeers + 1);
+    int k = 0;
+    for (int q = 0; q < m->size; q++)
+        if (wanted[q] > 0 || given[q] > 0) {
+            x->peer[k] = q;
+            x->first_in[k + 1] = x->first_in[k] + wanted[q];
+            x->first_out[k + 1] = x->first_out[k] + given[q];
+            k++;
+        }
+    mem_free(wanted);
+    mem_free(given);
+    mem_free(out);
+    mem_free(part);
+    mem_free(weight);
+}
+
+void mesh_exchange_free(struct mesh_exchange *x)
+{
+    mem_free(x->peer);
+    mem_free(x->first_in);
+    mem_free(x->first_out);
+    mem_free(x->in);
+    mem_free(x->out);
+    mem_free(x->weight);
+    mem_free(x->part);
+    mem_free(x->send);
+    mem_free(x->recv);
+}
+
+static double interpolate(const struct part *p, int width, bool solid, const double *w,
+                          const double *q)
+{
+    double sum = 0.0;
+    for (int k = 0; k < (solid ? width : 1); k++)
+        for (int j = 0; j < width; j++)
+            for (int i = 0; i < width; i++)
+                sum += *w++ * q[i + j * p->stride[1] + k * p->stride[2]];
+    return sum;
+}
+
+static double value(const struct mesh *m, const struct mesh_exchange *x, int64_t k, const double *f)
+{
+    if (x->width == 1)
+        return f[x->out[k]];
+    return interpolate(m->part + x->part[k], x->width, m->dim == 3, x->weight + k * stencil(m, x),
+                       f + x->out[k]);
+}
+
+/* First pass all sends are made from the old values: a place that gives may also receive. */
+void mesh_exchange(const struct mesh *m, struct mesh_exchange *x, int nf, double *const *f)
+{
+    const int64_t nin = x->first_in[x->npeers], nout = x->first_out[x->npeers];
+    MPI_Request *requests = NEW(MPI_Request, 2 * x->npeers);
+    int n = 0;
+    if (x->room < nf) {
+        x->send = mem_grow(x->send, 0, (size_t)(nout * nf), sizeof(double));
+        x->recv = mem_grow(x->recv, 0, (size_t)(nin * nf), sizeof(double));
+        x->room = nf;
+    }
+    for (int q = 0; q < x->npeers; q++)
+        if (x->peer[q] != m->rank && x->first_in[q + 1] > x->first_in[q])
+            MPI_Irecv(x->recv + nf * x->first_in[q],
+                      (int)(nf * (x->first_in[q + 1] - x->first_in[q])), MPI_DOUBLE, x->peer[q], 0,
+                      m->comm, requests + n++);
+    for (int64_t k = 0; k < nout; k++)
+        for (int c = 0; c < nf; c++)
+            x->send[nf * k + c] = value(m, x, k, f[c]);
+    for (int q = 0; q < x->npeers; q++) {
+        const int64_t count = x->first_out[q + 1] - x->first_out[q];
+        if (x->peer[q] == m->rank)
+            memcpy(x->recv + nf * x->first_in[q], x->send + nf * x->first_out[q],
+                   (size_t)(nf * count) * sizeof(double));
+        else if (count > 0)
+            MPI_Isend(x->send + nf * x->first_out[q], (int)(nf * count), MPI_DOUBLE, x->peer[q], 0,
+                      m->comm, requests + n++);
+    }
+    MPI_Waitall(n, requests, MPI_STATUSES_IGNORE);
+    for (int64_t k = 0; k < nin; k++)
+        for (int c = 0; c < nf; c++)
+            f[c][x->in[k]] = x->recv[nf * k + c];
+    mem_free(requests);
+}
+
+static bool is_own(const struct part *p, const int *i)
+{
+    return i[0] >= 0 && i[0] < p->n[0] && i[1] >= 0 && i[1] < p->n[1] && i[2] >= 0 &&
+           i[2] < p->n[2];
+}
+
+void mesh_halo_create(struct mesh *m)
+{
+    struct mesh_request *request = NEW(struct mesh_request, m->size_local);
+    int64_t n = 0;
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *p = m->part + q;
+        int i[3];
+        for (i[2] = -p->g[2]; i[2] < p->n[2] + p->g[2]; i[2]++)
+            for (i[1] = -p->g[1]; i[1] < p->n[1] + p->g[1]; i[1]++)
+                for (i[0] = -p->g[0]; i[0] < p->n[0] + p->g[0]; i[0]++) {
+                    int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]}, k = p->block;
+                    double move[3] = {0.0, 0.0, 0.0};
+                    if (is_own(p, i) || !mesh_resolve(m, &k, at, move))
+                        continue;
+                    struct mesh_request *r = request + n++;
+                    *r = (struct mesh_request){.in = part_at(p, i[0], i[1], i[2])};
+                    mesh_owner(m, k, at, &r->rank, &r->out);
+                }
+    }
+    mesh_exchange_create(m, &m->halo, 1, n, request);
+    mem_free(request);
+}
+
+void mesh_halo(struct mesh *m, int nf, double *const *f) { mesh_exchange(m, &m->halo, nf, f); }
+
+void mesh_fill(struct mesh *m, int nf, double *const *f)
+{
+    mesh_exchange(m, &m->halo, nf, f);
+    if (!m->has_fringe)
+        return;
+    mesh_exchange(m, &m->fringe, nf, f);
+    mesh_exchange(m, &m->halo, nf, f);
+}

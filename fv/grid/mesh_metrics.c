@@ -1,0 +1,214 @@
+/* mesh_metrics.c - face vectors, volumes and the metric tensor on the faces of the local parts.
+ * Face vectors telescope: in 2D they are differences of vertices, in 3D sums over edges of
+ * 1/2 int x cross dx, each edge the cubic through its line of vertices. So the six of a cell sum to
+ * zero and a uniform flow stays. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <string.h>
+
+#include "mesh.h"
+
+static const double gauss2[2] = {0.2113248654051871, 0.7886751345948129};
+static const double gauss3[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
+static const double weight3[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+
+static const double *vertex(const struct mesh_block *b, const int *i)
+{
+    return b->x[mesh_vertex(b, i[0], i[1], i[2])];
+}
+
+/* 1/2 int (x - o) cross dx along the edge from vertex i on along axis a. */
+static void edge(const struct mesh_block *b, const int *i, int a, double *e)
+{
+    const double *o = vertex(b, (int[3]){0, 0, 0});
+    int at[3] = {i[0], i[1], i[2]};
+    const double *v[4];
+    for (int m = 0; m < 4; m++) {
+        const int most = b->v0[a] + b->nv[a] - 1;
+        at[a] = i[a] - 1 + m;
+        at[a] = at[a] < b->v0[a] ? b->v0[a] : at[a] > most ? most : at[a];
+        v[m] = vertex(b, at);
+    }
+    e[0] = e[1] = e[2] = 0.0;
+    for (int g = 0; g < 3; g++) {
+        const double s = gauss3[g];
+        const double w[4] = {-s * (s - 1.0) * (s - 2.0) / 6.0,
+                             (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0,
+                             -(s + 1.0) * s * (s - 2.0) / 2.0, (s + 1.0) * s * (s - 1.0) / 6.0};
+        const double d[4] = {-(3.0 * s * s - 6.0 * s + 2.0) / 6.0,
+                             (3.0 * s * s - 4.0 * s - 1.0) / 2.0,
+                             -(3.0 * s * s - 2.0 * s - 2.0) / 2.0, (3.0 * s * s - 1.0) / 6.0};
+        double x[3] = {0.0, 0.0, 0.0}, dx[3] = {0.0, 0.0, 0.0};
+        for (int m = 0; m < 4; m++)
+            for (int c = 0; c < 3; c++) {
+                x[c] += w[m] * (v[m][c] - o[c]);
+                dx[c] += d[m] * v[m][c];
+            }
+        for (int c = 0; c < 3; c++) {
+            const int p = (c + 1) % 3, q = (c + 2) % 3;
+            e[c] += 0.5 * weight3[g] * (x[p] * dx[q] - x[q] * dx[p]);
+        }
+    }
+}
+
+/* Vector of the lower face along a of cell i. */
+static void face_vector(const struct mesh_block *b, int dim, const int *i, int a, double *S)
+{
+    int up[3] = {i[0], i[1], i[2]};
+    S[0] = S[1] = S[2] = 0.0;
+    if (dim == 2) {
+        up[1 - a]++;
+        const double *x = vertex(b, i), *y = vertex(b, up);
+        S[0] = a == 0 ? y[1] - x[1] : x[1] - y[1];
+        S[1] = a == 0 ? x[0] - y[0] : y[0] - x[0];
+        return;
+    }
+    const int p = (a + 1) % 3, q = (a + 2) % 3;
+    double e[4][3];
+    edge(b, i, p, e[0]);
+    edge(b, i, q, e[3]);
+    up[p]++;
+    edge(b, up, q, e[1]);
+    up[p]--;
+    up[q]++;
+    edge(b, up, p, e[2]);
+    for (int c = 0; c < 3; c++)
+        S[c] = e[0][c] + e[1][c] - e[2][c] - e[3][c];
+}
+
+/* Cofactors: vectors of the faces of a unit of index, S_a . dx_b = J delta_ab. */
+static void cofactors(double d[3][3], double S[3][3])
+{
+    for (int a = 0; a < 3; a++)
+        for (int c = 0; c < 3; c++) {
+            const int p = (a + 1) % 3, q = (a + 2) % 3, u = (c + 1) % 3, v = (c + 2) % 3;
+            S[a][c] = d[p][u] * d[q][v] - d[p][v] * d[q][u];
+        }
+}
+
+/* S_a.S_b/J averaged over the lower face along a: slopes from the maps of both sides. */
+static void face_tensor(const struct mesh_block *b, int dim, const int *i, int a, double *G)
+{
+    int below[3] = {i[0], i[1], i[2]}, t[2] = {2, 2}, nt = 0;
+    below[a]--;
+    for (int k = 0; k < dim; k++)
+        if (k != a)
+            t[nt++] = k;
+    G[0] = G[1] = G[2] = 0.0;
+    for (int g = 0; g < (nt == 2 ? 4 : 2); g++) {
+        double xi[3] = {0.0, 0.0, 0.0}, x[3], d[3][3], e[3][3], S[3][3];
+        xi[t[0]] = gauss2[g & 1];
+        if (nt == 2)
+            xi[t[1]] = gauss2[g >> 1];
+        mesh_map_point(b, dim, i, xi, x, d);
+        xi[a] = 1.0;
+        mesh_map_point(b, dim, below, xi, x, e);
+        for (int k = 0; k < 3; k++)
+            for (int c = 0; c < 3; c++)
+                d[k][c] = 0.5 * (d[k][c] + e[k][c]);
+        cofactors(d, S);
+        const double w = 1.0 / ((nt == 2 ? 4.0 : 2.0) * mesh_determinant(d));
+        for (int k = 0; k < dim; k++)
+            for (int c = 0; c < dim; c++)
+                G[k] += w * S[a][c] * S[k][c];
+    }
+    double most = 0.0;
+    for (int k = 0; k < dim; k++)
+        most = fmax(most, fabs(G[k]));
+    for (int k = 0; k < dim; k++)
+        if (fabs(G[k]) < 1e-12 * most)
+            G[k] = 0.0;
+}
+
+static double volume(const struct mesh_block *b, int dim, const int *i)
+{
+    double v = 0.0;
+    for (int g = 0; g < (dim == 3 ? 27 : 9); g++) {
+        const int q[3] = {g % 3, g / 3 % 3, g / 9};
+        double x[3], d[3][3];
+        mesh_map_point(b, dim, i, (double[3]){gauss3[q[0]], gauss3[q[1]], gauss3[q[2]]}, x, d);
+        v += weight3[q[0]] * weight3[q[1]] * (dim == 3 ? weight3[q[2]] : 1.0) * mesh_determinant(d);
+    }
+    return v;
+}
+
+static bool is_closed(enum mesh_side s)
+{
+    return s == MESH_WALL || s == MESH_SLIP || s == MESH_INFLOW || s == MESH_EXACT;
+}
+
+static void part_metrics(struct mesh *m, const struct part *p)
+{
+    const struct mesh_block *b = m->block + p->block;
+    const int G = MESH_GHOSTS;
+    const int down[3] = {p->g[0], p->g[1], p->g[2]};
+    int i[3];
+    for (i[2] = -down[2]; i[2] < p->n[2] + down[2]; i[2]++)
+        for (i[1] = -down[1]; i[1] < p->n[1] + down[1]; i[1]++)
+            for (i[0] = -down[0]; i[0] < p->n[0] + down[0]; i[0]++) {
+                const int64_t c = part_at(p, i[0], i[1], i[2]);
+                const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+                bool near = true;
+                for (int a = 0; a < m->dim; a++)
+                    near = near && at[a] >= -G + 1 && at[a] <= b->n[a] + G - 1;
+                m->V[c] = near ? volume(b, m->dim, at) : 1.0;
+                for (int a = 0; a < m->dim; a++) {
+                    double S[3], g[3] = {0.0, 0.0, 0.0};
+                    face_vector(b, m->dim, at, a, S);
+                    if (near)
+                        face_tensor(b, m->dim, at, a, g);
+                    for (int k = 0; k < m->dim; k++) {
+                        m->S[a][k][c] = S[k];
+                        m->G[a][k][c] = g[k];
+                    }
+                    m->open[a][c] = (at[a] == 0 && is_closed(b->side[2 * a])) ||
+                                            (at[a] == b->n[a] && is_closed(b->side[2 * a + 1]))
+                                        ? 0.0
+                                        : 1.0;
+                }
+            }
+}
+
+/* Whether the metrics of a cell and its lower faces are those of the first cell, upright. */
+static bool is_like(const struct mesh *m, int64_t first, int64_t c)
+{
+    bool like = fabs(m->V[c] - m->V[first]) < 1e-10 * m->V[first];
+    for (int a = 0; a < m->dim; a++)
+        for (int k = 0; k < m->dim; k++) {
+            const double S = k == a ? m->S[a][a][first] : 0.0, G = k == a ? m->G[a][a][first] : 0.0;
+            like = like && m->S[a][a][first] > 0.0 &&
+                   fabs(m->S[a][k][c] - S) < 1e-10 * m->S[a][a][first] &&
+                   fabs(m->G[a][k][c] - G) < 1e-10 * m->G[a][a][first];
+        }
+    return like;
+}
+
+/* By the metrics, not by the mapping: joined to other cells the places between vertices bend. */
+static enum part_kind kind_of(const struct mesh *m, const struct part *p)
+{
+    int down[3], up[3];
+    for (int a = 0; a < 3; a++) {
+        down[a] = a < m->dim;
+        up[a] = 2 * (a < m->dim);
+    }
+    PART_ROWS (p, down, up, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            if (!is_like(m, part_at(p, 0, 0, 0), i))
+                return PART_CURVED;
+    return PART_EVEN;
+}
+
+void mesh_metrics(struct mesh *m)
+{
+    for (int a = 0; a < m->dim; a++) {
+        m->open[a] = mesh_field(m);
+        for (int k = 0; k < m->dim; k++) {
+            m->S[a][k] = mesh_field(m);
+            m->G[a][k] = mesh_field(m);
+        }
+    }
+    m->V = mesh_field(m);
+    for (int k = 0; k < m->nparts; k++) {
+        part_metrics(m, m->part + k);
+        m->part[k].kind = kind_of(m, m->part + k);
+    }
+}

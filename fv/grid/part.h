@@ -1,0 +1,40 @@
+/* part.h - what a rank has of a block of cells: their places in the fields.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_PART_H
+#define FV_PART_H
+
+#include <stdint.h>
+
+/* A rank's part of a block. Cell (i, j, k), counted from 0 at lo: see part_at. */
+/* EVEN: all cells are the same box, upright along the axes. */
+enum part_kind { PART_CURVED, PART_EVEN };
+
+struct part {
+    enum part_kind kind;
+    int block;
+    int lo[3], n[3];
+    int g[3]; /* layers of ghosts; 0 beyond dim */
+    int64_t base, stride[3], size;
+};
+
+static inline int64_t part_at(const struct part *p, int i, int j, int k)
+{
+    return p->base + (i + p->g[0]) + p->stride[1] * (j + p->g[1]) + p->stride[2] * (k + p->g[2]);
+}
+/* Rows of a part's cells; `down' and `up' layers (int[3]) more: c is the place of the row's first
+ * cell, len its length. */
+#define PART_ROWS(p, down, up, c, len)                                                             \
+    for (int k_ = -(down)[2], j_; k_ < (p)->n[2] + (up)[2]; k_++)                                  \
+        for (j_ = -(down)[1]; j_ < (p)->n[1] + (up)[1]; j_++)                                      \
+            for (int64_t c = part_at(p, -(down)[0], j_, k_),                                       \
+                         len = (p)->n[0] + (down)[0] + (up)[0], once_ = 1;                         \
+                 once_; once_ = 0)
+
+/* Visits a part's cells: i (int[3]) has place c. */
+#define PART_CELLS(p, i, c)                                                                        \
+    for ((i)[2] = 0; (i)[2] < (p)->n[2]; (i)[2]++)                                                 \
+        for ((i)[1] = 0; (i)[1] < (p)->n[1]; (i)[1]++)                                             \
+            for ((i)[0] = 0; (i)[0] < (p)->n[0]; (i)[0]++)                                         \
+                for (int64_t c = part_at(p, (i)[0], (i)[1], (i)[2]), once_ = 1; once_; once_ = 0)
+
+#endif

@@ -1,0 +1,36 @@
+/* rows.h - rows of cells of unequal height along y: even ones at the top, where a partner or a
+ * surface needs them, growing ones below. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_ROWS_H
+#define FV_ROWS_H
+
+enum {
+    GHOSTS = 3,      /* layers of cells around those of a rank */
+    ROWS_BOTTOM = 4, /* rows at the bottom that are as high as the lowest: one-sided forms there are
+                        those of even cells */
+    ROWS_GROWING = 4 /* at least, between them and the even ones */
+};
+
+/* Heights of n rows, from the lowest on, over the `length' of the domain: the upper `even' ones
+ * share what is above `above' (m from the bottom), the others grow downwards by a smooth step of
+ * the logarithm. Returns the largest ratio of two neighbours; NAN: no heights do that, h is not
+ * set. */
+double rows_heights(int n, int even, double above, double length, double *h);
+
+/* j counts from this rank's first one, ghosts included. */
+struct rows {
+    int even;      /* of the whole grid: the first of the even ones */
+    double *edge;  /* [cells[1] + 1] m: lower edges of all rows, and the top */
+    double *scale; /* m: derivative of y with respect to the row: goes with differences over rows */
+    double *h, *y, *step;  /* m: height, centre, distance from the centre below */
+    double (*face)[4];     /* of averages j-2 ... j+1: value at the lower face */
+    double (*slope)[4];    /* 1/m: derivative there */
+    double (*gradient)[5]; /* 1/m, of averages j-2 ... j+2: average of the derivative */
+    double (*laplace)[5];  /* 1/m^2: of the second one */
+};
+
+/* Of a grid whose n rows have these heights from the bottom on, those of a rank: its own `own' ones
+ * from the lo-th on. */
+struct rows *rows_create(int n, int even, double bottom, const double *h, int lo, int own);
+void rows_free(struct rows **r);
+
+#endif

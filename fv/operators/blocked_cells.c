@@ -1,0 +1,186 @@
+/* blocked_cells.c - see blocked_cells.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "blocked_cells.h"
+
+#include <math.h>
+
+#include "../boundary/forcing.h"
+#include "../surface/levelset.h"
+
+static void rules(const struct near_box *x, int q, int a, enum blocked_ghost rule[2])
+{
+    for (int up = 0; up < 2; up++)
+        rule[up] = blocked_rule(x->box[up], q, a);
+}
+
+/* On the lower face of v[0]; with the bias of convection.c. */
+static double face_value(const double *v, double U, double C)
+{
+    const double plain = (7.0 * (v[-1] + v[0]) - (v[-2] + v[1])) / 12.0;
+    const double a = v[-1] - v[-2], b = v[0] - v[-1], c = v[1] - v[0], d = a - 2.0 * b + c;
+    const double r = fabs(d) / (fabs(a) + 2.0 * fabs(b) + fabs(c) + 1e-300);
+    return C > 0.0 ? plain + copysign(fmin(1.0, C * r * r) / 12.0, U) * d : plain;
+}
+
+/* On the face of a box behind the free cell at q. */
+static double wall_value(const double *q, int64_t in, enum blocked_ghost rule)
+{
+    return rule == GHOST_EVEN ? (7.0 * q[0] - q[in]) / 6.0 : 0.0;
+}
+
+void blocked_faces(const struct fv *s, int q, int a, const double *u, const double *U, double C,
+                   double *face)
+{
+    const struct blocked *w = s->blocked;
+    const int64_t d = s->b.stride[a];
+    for (int64_t k = 0; k < w->nnear[a]; k++) {
+        const struct near_box *x = w->near[a] + k;
+        const int64_t c = x->cell;
+        enum blocked_ghost rule[2];
+        double v[5];
+        rules(x, q, a, rule);
+        if (x->free[0] == 0)
+            face[c] = wall_value(u + c, d, rule[0]);
+        else if (x->free[0] < 2 || x->free[1] < 1) {
+            blocked_line(x, u, d, 2, rule, v + 2);
+            face[c] = face_value(v + 2, C > 0.0 ? U[c] : 0.0, C);
+        }
+        if (x->free[1] == 0)
+            face[c + d] = wall_value(u + c, -d, rule[1]);
+    }
+}
+
+void blocked_face_velocities(const struct fv *s, double *const u[3], double *const U[3],
+                             bool only_dry)
+{
+    const struct blocked *w = s->blocked;
+    const unsigned char *layer = only_dry ? s->surface->layer : NULL;
+    for (int a = 0; a < s->b.dim; a++) {
+        const int64_t d = s->b.stride[a];
+        for (int64_t k = 0; k < w->nnear[a]; k++) {
+            const struct near_box *x = w->near[a] + k;
+            const int64_t c = x->cell;
+            enum blocked_ghost rule[2];
+            double v[5];
+            rules(x, a, a, rule);
+            if (x->free[0] == 0)
+                U[a][c] = 0.0;
+            else if ((x->free[0] < 2 || x->free[1] < 1) && (!layer || (layer[c] && layer[c - d]))) {
+                blocked_line(x, u[a], d, 2, rule, v + 2);
+                U[a][c] = face_value(v + 2, 0.0, 0.0);
+            }
+            if (x->free[1] == 0)
+                U[a][c + d] = 0.0;
+        }
+    }
+}
+
+/* What the product along t is beside a box, less what it was with the numbers within the box. */
+static double product(const struct beside_box *x, const double *U, const double *f,
+                      enum blocked_ghost of_U, enum blocked_ghost of_f)
+{
+    const double *V = U + x->face, *g = f + x->face;
+    const int64_t in = x->in;
+    const double was = (V[in] - V[-in]) * (g[in] - g[-in]);
+    if (x->both)
+        return -was;
+    return (V[in] - blocked_ghost(V, in, 1, of_U)) * (g[in] - blocked_ghost(g, in, 1, of_f)) - was;
+}
+
+void blocked_fluxes(const struct fv *s, int q, int a, const double *U, const double *face,
+                    double *F)
+{
+    const struct blocked *w = s->blocked;
+    const int64_t d = s->b.stride[a];
+    for (int t = 0; t < s->b.dim; t++)
+        for (int64_t k = 0; k < w->nbeside[a][t]; k++) {
+            const struct beside_box *x = w->beside[a][t] + k;
+            F[x->face] +=
+                product(x, U, face, blocked_rule(x->box, a, t), blocked_rule(x->box, q, t)) / 48.0;
+        }
+    for (int64_t k = 0; k < w->nnear[a]; k++) {
+        const struct near_box *x = w->near[a] + k;
+        if (x->free[0] == 0)
+            F[x->cell] = 0.0;
+        if (x->free[1] == 0)
+            F[x->cell + d] = 0.0;
+    }
+}
+
+void blocked_viscous(const struct fv *s, int q, const double *u, double *out)
+{
+    const struct blocked *w = s->blocked;
+    for (int a = 0; a < s->b.dim; a++) {
+        const int64_t d = s->b.stride[a];
+        const double c = s->nu / (12.0 * s->b.h[a] * s->b.h[a]);
+        for (int64_t k = 0; k < w->nnear[a]; k++) {
+            const struct near_box *x = w->near[a] + k;
+            const double *at = u + x->cell;
+            enum blocked_ghost rule[2];
+            double v[5];
+            if (!x->own || (x->free[0] > 1 && x->free[1] > 1))
+                continue;
+            rules(x, q, a, rule);
+            blocked_line(x, u, d, 2, rule, v + 2);
+            out[x->cell] += c * (16.0 * ((v[1] - at[-d]) + (v[3] - at[d])) -
+                                 ((v[0] - at[-2 * d]) + (v[4] - at[2 * d])));
+        }
+    }
+}
+
+void blocked_zero(const struct fv *s, double *q)
+{
+    for (int64_t c = 0; c < s->b.size; c++)
+        q[c] = s->blocked->box[c] ? 0.0 : q[c];
+}
+
+/* psi on the face beside the cell m cells along the step e from c, (7 psi_1 - psi_2)/6; even behind
+ * boxes and closed sides. */
+static double on_face(const struct fv *s, const double *psi, int64_t c, int64_t in, int64_t e,
+                      int m)
+{
+    const unsigned char *solid = s->forcing->forced;
+    const int way = m < 0 ? -1 : 1;
+    int at = 0, left = m * way;
+    for (; left > 0 && !solid[c + (at + way) * e]; left--)
+        at += way;
+    if (left > 0)
+        at -= way * (left - 1);
+    const double *p = psi + c + at * e;
+    return solid[c + at * e + in] ? p[0] : (7.0 * p[0] - p[in]) / 6.0;
+}
+
+void blocked_set_slip(const struct fv *s, double tau, const double *psi)
+{
+    const struct blocked *w = s->blocked;
+    for (int a = 0; a < s->b.dim; a++)
+        for (int64_t k = 0; k < w->nnear[a]; k++)
+            for (int up = 0; up < 2 && w->near[a][k].own; up++) {
+                const struct near_box *x = w->near[a] + k;
+                const int64_t in = up ? -s->b.stride[a] : s->b.stride[a];
+                if (x->free[up] > 1 || blocked_params(x->box[up])->kind != WALL_NO_SLIP)
+                    continue;
+                const int64_t c = x->cell + (x->free[up] ? -in : 0); /* the one at the face */
+                for (int q = 0; q < s->b.dim; q++) {
+                    double v[5];
+                    for (int m = -2; m <= 2; m++)
+                        v[2 + m] = q == a ? 0.0 : on_face(s, psi, c, in, s->b.stride[q], m);
+                    w->slip[a][k][up][q] =
+                        tau * (8.0 * (v[3] - v[1]) - (v[4] - v[0])) / (12.0 * s->b.h[q]);
+                }
+            }
+}
+
+/* Ghosts of a value w on the face have 4 w and 16 w more (blocked_ghost). */
+void blocked_add_slip(const struct fv *s, int q, double *out)
+{
+    const struct blocked *w = s->blocked;
+    for (int a = 0; a < s->b.dim; a++) {
+        const double c = s->nu / (12.0 * s->b.h[a] * s->b.h[a]);
+        for (int64_t k = 0; k < w->nnear[a]; k++)
+            for (int up = 0; up < 2 && w->near[a][k].own; up++)
+                if (w->near[a][k].free[up] < 2)
+                    out[w->near[a][k].cell] +=
+                        c * w->slip[a][k][up][q] *
+                        (w->near[a][k].free[up] == 0 ? 16.0 * 4.0 - 16.0 : -4.0);
+    }
+}

@@ -1,0 +1,24 @@
+/* mesh_ops.h - operators on curvilinear cells. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_MESH_OPS_H
+#define FV_MESH_OPS_H
+
+#include "../fv.h"
+#include "../grid/mesh.h"
+
+/* mesh_ops.c: all need ghosts. */
+void mesh_face_velocities(struct fv *s, double *const u[3], double *const U[3]);
+void mesh_convection(struct fv *s, double *const N[3]);
+void mesh_gradient(struct fv *s, const double *q, double *const g[3]);
+void mesh_viscous(struct fv *s, const double *q, double *out);
+/* Solves (1 - c L) delta = rhs, both without what sides add, from delta = 0; false: not converged.
+ */
+bool mesh_viscous_solve(struct fv *s, double c, double tol);
+void mesh_divergence(const struct fv *s, double *const U[3], double *div); /* m^dim/s */
+/* U -= tau times the flux of psi, as the pressure matrix has it. */
+void mesh_subtract_psi(struct fv *s, double tau, const double *psi, double *const U[3]);
+/* q -= what makes an average over volume one over indices; q with ghosts, work: scratch. */
+void mesh_to_index(const struct fv *s, double *q, double *work);
+void mesh_smooth_pressure(struct fv *s);
+void mesh_vorticity(struct fv *s, double *w);
+
+#endif

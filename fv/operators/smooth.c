@@ -1,0 +1,36 @@
+/* smooth.c - see smooth_odd_even in fv.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "../boundary/forcing.h"
+#include "../fv.h"
+#include "operators.h"
+
+/* d = third difference of p over the lower face of each cell, 0 where it leaves the fluid. */
+static void third_difference(const double *restrict p, const double *restrict open, int64_t along,
+                             int64_t n, double *restrict d)
+{
+    for (int64_t i = 0; i < n; i++) {
+        const bool inside = open[i - along] == 1.0 && open[i] == 1.0 && open[i + along] == 1.0;
+        d[i] = inside ? p[i + along] - p[i - 2 * along] - 3.0 * (p[i] - p[i - along]) : 0.0;
+    }
+}
+
+void smooth_odd_even(const struct fv *s, double *p, double *d, double *sum)
+{
+    const struct block *b = &s->b;
+    const double w = 0.1 / 64.0;
+    for (int a = 0; a < b->dim; a++) {
+        const int64_t along = b->stride[a];
+        for (int k = a == 2 ? -1 : 0; k < b->n[2] + (a == 2 ? 2 : 0); k++)
+            for (int j = a == 1 ? -1 : 0; j < b->n[1] + (a == 1 ? 2 : 0); j++) {
+                const int64_t c = block_at(b, a == 0 ? -1 : 0, j, k);
+                third_difference(p + c, s->forcing->open[a] + c, along, b->n[0] + (a == 0 ? 3 : 0),
+                                 d + c);
+            }
+        BLOCK_ROWS (b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                sum[i] = (a ? sum[i] : 0.0) + d[i - along] - d[i + 2 * along] -
+                         3.0 * (d[i] - d[i + along]);
+    }
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            p[i] -= w * sum[i];
+}

@@ -1,0 +1,171 @@
+/* fv_probes.c - gauges of the case in series.csv: pressure at a point, linear between the centres
+ * of cells and beyond them at a wall; level of the water. SPDX-License-Identifier: BSD-3-Clause */
+#include "../fv.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../boundary/blocked.h"
+#include "../surface/levelset.h"
+#include "../boundary/still.h"
+#include "output.h"
+#include "../coupling/fv_link.h"
+
+/* The same among rows of unequal height. */
+static int row_below(const struct block *b, double y, double *weight)
+{
+    const double *e = b->rows->edge;
+    int i = 0;
+    while (i < b->cells[1] - 2 && 0.5 * (e[i + 1] + e[i + 2]) <= y)
+        i++;
+    *weight = (y - 0.5 * (e[i] + e[i + 1])) / (0.5 * (e[i + 2] - e[i]));
+    return i;
+}
+
+/* Cell below x along axis a, so that it and the next one are cells of the grid; *weight of the
+ * next. */
+static int base(const struct block *b, int a, double x, double *weight)
+{
+    if (a == 1 && b->rows)
+        return row_below(b, x, weight);
+    const double at = (x - b->origin[a]) / b->h[a] - 0.5;
+    int i = (int)floor(at);
+    if (!b->periodic[a])
+        i = i < 0 ? 0 : i > b->cells[a] - 2 ? b->cells[a] - 2 : i;
+    *weight = at - i;
+    return b->periodic[a] ? (i % b->cells[a] + b->cells[a]) % b->cells[a] : i;
+}
+
+/* Whether the cell that x lies in is dry. */
+static bool dry_at(const struct fv *s, const int *i, const double *w)
+{
+    int at[3];
+    for (int a = 0; a < 3; a++)
+        at[a] = i[a] + (w[a] > 0.5);
+    return s->surface->layer[block_at(&s->b, at[0], at[1], at[2])] != 0;
+}
+
+/* Whether no fluid is there: in a box, behind a closed side. */
+static bool is_solid(const struct fv *s, const int *at)
+{
+    const struct block *b = &s->b;
+    for (int a = 0; a < b->dim; a++)
+        if (!b->periodic[a] && (b->lo[a] + at[a] < 0 || b->lo[a] + at[a] >= b->cells[a]))
+            return true;
+    return is_blocked(s, block_at(b, at[0], at[1], at[2]));
+}
+
+/* A gauge that lies in a box, whose faces went to those of cells, belongs to the given face that is
+ * next: the first free cell there. */
+static void leave_box(const struct fv *s, const double *x, int *host)
+{
+    const int box = s->blocked->box[block_at(&s->b, host[0], host[1], host[2])] - 1;
+    double nearest = INFINITY;
+    int axis = 0, way = 1;
+    for (int a = 0; a < s->b.dim && box >= 0; a++)
+        for (int up = 0; up < 2; up++) {
+            const double *face = up ? blocked_params(box)->max : blocked_params(box)->min;
+            int to[3] = {host[0], host[1], host[2]};
+            to[a] += up ? 1 : -1;
+            if (is_solid(s, to) || !(fabs(face[a] - x[a]) < nearest))
+                continue;
+            nearest = fabs(face[a] - x[a]);
+            axis = a;
+            way = up ? 1 : -1;
+        }
+    if (nearest < INFINITY)
+        host[axis] += way;
+}
+
+/* The two cells along each axis: free ones, where a box is next beyond it two on this side. */
+static void look_past_boxes(const struct fv *s, const double *x, int *i, double *w)
+{
+    const struct block *b = &s->b;
+    int host[3];
+    for (int a = 0; a < 3; a++)
+        host[a] = i[a] + (a < b->dim && w[a] > 0.5);
+    leave_box(s, x, host);
+    for (int a = 0; a < b->dim; a++) {
+        const double at = (x[a] - b->origin[a]) / b->h[a] - 0.5 - b->lo[a];
+        const bool up = at >= host[a];
+        int to[3] = {host[0], host[1], host[2]};
+        to[a] += up ? 1 : -1;
+        i[a] = host[a] - (up == is_solid(s, to));
+        w[a] = at - i[a];
+    }
+}
+
+/* A corner of the cells around may still lie in a box: the host's value there. */
+static double pressure_of(const struct fv *s, const int *at, const int *i, const double *w)
+{
+    if (!is_blocked(s, block_at(&s->b, at[0], at[1], at[2])))
+        return fv_pressure(s, block_at(&s->b, at[0], at[1], at[2]));
+    int host[3];
+    for (int a = 0; a < 3; a++)
+        host[a] = i[a] + (a < s->b.dim && w[a] > 0.5);
+    return fv_pressure(s, block_at(&s->b, host[0], host[1], host[2]));
+}
+
+/* What this rank has to say: 0 unless the lower cell is its own. */
+static double pressure_at(const struct fv *s, const double *x)
+{
+    const struct block *b = &s->b;
+    int i[3] = {0, 0, 0};
+    double w[3] = {0.0, 0.0, 0.0}, sum = 0.0;
+    for (int a = 0; a < b->dim; a++) {
+        i[a] = base(b, a, x[a], w + a) - b->lo[a];
+        if (i[a] < 0 || i[a] >= b->n[a])
+            return 0.0;
+    }
+    if (s->blocked)
+        look_past_boxes(s, x, i, w);
+    if (s->surface && dry_at(s, i, w))
+        return 0.0;
+    for (int m = 0; m < 1 << b->dim; m++) {
+        double f = 1.0;
+        int at[3];
+        for (int a = 0; a < 3; a++) {
+            const int up = m >> a & 1;
+            at[a] = i[a] + up;
+            f *= up ? w[a] : 1.0 - w[a];
+        }
+        sum += f * pressure_of(s, at, i, w);
+    }
+    return sum + fv_still_pressure(s, x) + coupling_datum(s);
+}
+
+/* A partner has the surface. */
+static bool is_mine(const struct run *r, int k)
+{
+    return r->scene.probes[k].kind == PROBE_PRESSURE || !r->coupled;
+}
+
+int fv_probe_columns(const struct run *r, const char **columns)
+{
+    static char names[PROBES_MAX][PARAM_TEXT_SIZE + 8];
+    int n = 0;
+    for (int k = 0; k < r->scene.nprobes; k++)
+        if (is_mine(r, k)) {
+            snprintf(names[n], sizeof names[n], "%s [%s]", r->scene.probes[k].name,
+                     r->scene.probes[k].kind == PROBE_PRESSURE ? "Pa" : "m");
+            columns[n] = names[n];
+            n++;
+        }
+    return n;
+}
+
+void fv_probe(struct fv *s, double *values)
+{
+    const struct scene *scene = &s->run->scene;
+    if (scene->nprobes == 0)
+        return;
+    block_halo(&s->b, 2, (double *const[]){s->p, s->p_before});
+    int n = 0;
+    for (int k = 0; k < scene->nprobes; k++)
+        if (is_mine(s->run, k))
+            values[n++] = scene->probes[k].kind == PROBE_LEVEL
+                              ? surface_level(s, scene->probes[k].at)
+                              : pressure_at(s, scene->probes[k].at);
+    MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, s->b.cart);
+}

@@ -1,0 +1,155 @@
+/* fv_report.c - rows of the series and the summary. SPDX-License-Identifier: BSD-3-Clause */
+#include "report.h"
+
+#include <math.h>
+
+#include "../boundary/blocked.h"
+#include "../grid/mesh.h"
+#include "../surface/levelset.h"
+#include "../time/newton.h"
+#include "../watch/watches.h"
+#include "output.h"
+
+static const struct report *report_of(const struct fv *s)
+{
+    return s->m ? &block_report : &even_report;
+}
+
+static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
+
+static double relative(const struct norm *n) { return n->r2 > 0.0 ? norm_relative_l2(n) : NAN; }
+
+static double velocity_error(const struct run *r, const struct norm *n)
+{
+    const double U = r->scene.initial.U;
+    return n->r2 > 0.0 || U <= 0.0 ? norm_relative_l2(n) : norm_rms(n) / U;
+}
+
+/* Relative to what does not vanish; else absent. */
+static void summarise_norms(const struct run *r, const struct norm n[3])
+{
+    const double U = r->scene.initial.U;
+    if (n[0].r2 > 0.0)
+        summary_real(r->summary, "error.velocity_l2", relative(n));
+    if (n[1].r2 > 0.0)
+        summary_real(r->summary, "error.pressure_l2",
+                     norm_rms_mean_free(n + 1) / sqrt(n[1].r2 / n[1].vol));
+    if (n[2].r2 > 0.0)
+        summary_real(r->summary, "error.vorticity_l2", relative(n + 2));
+    if (U > 0.0) {
+        summary_real(r->summary, "error.velocity_linf", n[0].emax / U);
+        summary_real(r->summary, "error.pressure_rms",
+                     norm_rms_mean_free(n + 1) / (r->scene.fluid.rho * U * U));
+    }
+}
+
+static void summarise_errors(struct fv *s)
+{
+    const struct run *r = s->run;
+    const double U = r->scene.initial.U;
+    struct norm n[NORMS];
+    report_of(s)->errors(s, n);
+    summarise_norms(r, n);
+    if (U > 0.0)
+        summary_real(r->summary, "error.pressure_offset",
+                     norm_mean(n + 1) / (r->scene.fluid.rho * U * U));
+    for (int k = 0; r->coupled && k < NORMS; k++)
+        norm_tell(r->summary, norm_names[k], n + k);
+}
+
+/* Kinetic energy, largest speed, divergence, the error if there is an exact field, forces on walls;
+ * what newton and a free surface add; gauges. */
+int fv_columns(const struct run *r, const char **columns)
+{
+    static const char *const reaches[] = {"water up to x [m]", "water up to y [m]",
+                                          "water up to z [m]"};
+    const struct report *of = mesh_block_count() > 0 ? &block_report : &even_report;
+    int n = 0;
+    columns[n++] = "kinetic energy [J]";
+    columns[n++] = "largest velocity [m/s]";
+    columns[n++] = of->divergence;
+    if (fv_measures_errors(r))
+        columns[n++] = "error velocity l2 [-]";
+    n += of->force_columns(r, columns + n);
+    n += newton_columns(r, columns + n);
+    if (surface_wanted(r)) {
+        columns[n++] = "volume [m^dim]";
+        for (int a = 0; a < r->scene.domain.dim; a++)
+            columns[n++] = reaches[a];
+    }
+    n += fv_blocked_columns(r, columns + n);
+    return n + fv_probe_columns(r, columns + n);
+}
+
+void fv_row(void *state, double *values)
+{
+    struct fv *s = state;
+    const struct report *of = report_of(s);
+    double sum[2];
+    int n = 3;
+    of->energies(s, sum);
+    values[0] = s->run->scene.fluid.rho * sum[0];
+    values[1] = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
+    s->fastest = fmax(s->fastest, values[1]);
+    values[2] = of->largest_divergence(s);
+    if (s->has_exact) {
+        struct norm norms[NORMS];
+        of->errors(s, norms);
+        values[n++] = velocity_error(s->run, norms);
+    }
+    n += of->forces(s, values + n);
+    n += newton_values(s->newton, values + n);
+    if (s->surface) {
+        values[n++] = surface_volume(s, NULL);
+        for (int a = 0; a < s->dim; a++)
+            values[n++] = surface_reach(s, a);
+    }
+    if (s->blocked) {
+        fv_blocked_forces(s, values + n);
+        n += blocked_count() * s->dim;
+    }
+    of->probes(s, values + n);
+    watches_values(s->watches, values + n + s->run->scene.nprobes);
+}
+
+static void summarise_cost(const struct fv *s, double cells)
+{
+    static const char *const parts[] = {"operators", "convection", "viscous",
+                                        "pressure",  "newton",     "surface"};
+    struct run *r = s->run;
+    double loop = 0.0;
+    for (int k = 0; k < 6; k++)
+        loop += timer_wall(&r->timers, parts[k]);
+    const double steps = r->step > 0 ? (double)r->step : 1.0;
+    summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);
+    summary_real(r->summary, "us_per_cell_step_outside_hypre",
+                 1e6 * (loop - timer_wall(&r->timers, "pressure")) / (cells * steps));
+    if (s->newton)
+        newton_summarise(s->newton, steps, r->summary);
+    summary_real(r->summary, "poisson_iterations", (double)s->iterations / steps);
+    summary_real(r->summary, "viscous_iterations", (double)s->viscous_iterations / steps);
+}
+
+void fv_finish(void *state)
+{
+    struct fv *s = state;
+    struct run *r = s->run;
+    const struct report *of = report_of(s);
+    const double cells = of->cells(s);
+    double sum[2];
+    summary_int(r->summary, "cells", llround(cells));
+    if (r->scene.initial.U > 0.0)
+        summary_real(r->summary, "max_speed_over_U", s->fastest / r->scene.initial.U);
+    if (s->has_exact)
+        summarise_errors(s);
+    of->energies(s, sum);
+    summary_real(r->summary, "drift.energy",
+                 s->has_exact && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
+    summary_real(r->summary, "divergence", of->largest_divergence(s));
+    of->summarise(s);
+    if (s->prm.extrema[0] != 0.0)
+        of->extrema(s);
+    summary_real(r->summary, "max_cfl", s->max_cfl);
+    of->end_watches(s);
+    summarise_cost(s, cells);
+}

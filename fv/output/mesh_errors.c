@@ -1,0 +1,360 @@
+/* mesh_errors.c - rows of the series and the summary of a flow on blocks: errors against the exact
+ * field over the computed cells, forces on walls, gauges. SPDX-License-Identifier: BSD-3-Clause */
+#include "../boundary/mesh_bc.h"
+#include "../operators/mesh_ops.h"
+#include "mesh_output.h"
+#include "report.h"
+#include "../fv.h"
+#include "../grid/mesh.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/forecast.h"
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../watch/limits.h"
+#include "../grid/overset.h"
+#include "../watch/watches.h"
+#include "../boundary/still.h"
+
+static void errors(struct fv *s, struct norm n[NORMS])
+{
+    const struct mesh *m = s->m;
+    double *w = mesh_field(m);
+    mesh_vorticity(s, w);
+    for (int k = 0; k < NORMS; k++)
+        n[k] = (struct norm){0};
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *p = m->part + q;
+        int i[3];
+        PART_CELLS (p, i, c) {
+            double u[3], pr, o;
+            if (s->free[c] == 0.0)
+                continue;
+            mesh_exact_average(s, p, i, s->t, u, &pr, &o);
+            for (int a = 0; a < m->dim; a++)
+                norm_add(n, m->V[c], s->u[a][c] - u[a], u[a]);
+            norm_add(n + 1, m->V[c], fv_pressure(s, c) - pr, pr);
+            norm_add(n + 2, m->V[c], w[c] - o, o);
+        }
+    }
+    mem_free(w);
+    norm_reduce(n, NORMS, m->comm);
+}
+
+/* Kinetic energy over the computed cells and the exact field's, J/kg m^dim. */
+static void energies(struct fv *s, double sum[2])
+{
+    const struct mesh *m = s->m;
+    sum[0] = sum[1] = 0.0;
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *p = m->part + q;
+        int i[3];
+        PART_CELLS (p, i, c) {
+            double u[3] = {0.0, 0.0, 0.0}, pr, o;
+            if (s->free[c] == 0.0)
+                continue;
+            if (s->has_exact)
+                mesh_exact_average(s, p, i, s->t, u, &pr, &o);
+            for (int a = 0; a < m->dim; a++) {
+                sum[0] += 0.5 * m->V[c] * s->u[a][c] * s->u[a][c];
+                sum[1] += 0.5 * m->V[c] * u[a] * u[a];
+            }
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, m->comm);
+}
+
+/* Largest |div U|, 1/s. */
+static double largest_divergence(struct fv *s)
+{
+    static const int none[3] = {0, 0, 0};
+    double most = 0.0;
+    mesh_divergence(s, s->U, s->flux);
+    for (int q = 0; q < s->m->nparts; q++)
+        PART_ROWS (s->m->part + q, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                most = fmax(most, fabs(s->flux[i]) / s->m->V[i]);
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->m->comm);
+    return most;
+}
+
+double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int width,
+                     const double *q)
+{
+    const struct mesh *m = s->m;
+    double value = 0.0, finest = INFINITY;
+    for (int k = 0; k < m->nblocks; k++) {
+        int cell[3], from[3];
+        double xi[3], w[64], sum = 0.0;
+        if (!overset_locate(m, o, k, x, cell, xi))
+            continue;
+        const double v = m->block[k].volume[mesh_cell(m->block + k, cell)];
+        if (v >= finest || !overset_weights(m, k, cell, xi, 1, width, from, w))
+            continue;
+        for (int n = 0; n < (m->dim == 3 ? width : 1) * width * width; n++) {
+            int at[3] = {from[0] + n % width, from[1] + n / width % width,
+                         from[2] + n / width / width};
+            int block = k, rank;
+            double move[3] = {0.0, 0.0, 0.0};
+            int64_t place;
+            if (!mesh_resolve(m, &block, at, move))
+                continue;
+            mesh_owner(m, block, at, &rank, &place);
+            if (rank == m->rank)
+                sum += w[n] * (q ? q[place] : fv_pressure(s, place));
+        }
+        finest = v;
+        value = sum;
+    }
+    return value;
+}
+
+/* Blocks with no-slip walls of their own: each has its own forces, too, where there are others. */
+static bool has_own_forces(const struct run *r, int k)
+{
+    int n = 0;
+    for (int w = 0; w < r->scene.nwalls; w++)
+        n += r->scene.walls[w].kind == WALL_NO_SLIP;
+    for (int b = 0; b < mesh_block_count(); b++)
+        n += mesh_block_has(b, MESH_WALL);
+    return n > 1 && mesh_block_has(k, MESH_WALL);
+}
+
+static int force_columns(const struct run *r, const char **columns)
+{
+    static const char *const forces[] = {"force x [N]", "force y [N]", "force z [N]"};
+    static char own[MESH_BLOCKS_MAX][3][PARAM_TEXT_SIZE + 24];
+    int n = 0;
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        columns[n++] = forces[a];
+    columns[n++] = "moment z [Nm]";
+    for (int k = 0; k < mesh_block_count(); k++)
+        for (int a = 0; a < r->scene.domain.dim && has_own_forces(r, k); a++) {
+            snprintf(own[k][a], sizeof own[k][a], "%s force %c [N]", mesh_block_params()[k].name,
+                     "xyz"[a]);
+            columns[n++] = own[k][a];
+        }
+    return n;
+}
+
+/* On all walls; of several blocks the moments have centres of their own. */
+static void whole_force(struct fv *s, double (*of)[4], double whole[4])
+{
+    mesh_bc_force(s, of);
+    for (int q = 0; q < 4; q++) {
+        whole[q] = 0.0;
+        for (int k = 0; k < s->m->nblocks; k++)
+            whole[q] += of[k][q];
+    }
+}
+
+static int forces(struct fv *s, double *values)
+{
+    double force[4], of[MESH_BLOCKS_MAX][4];
+    int n = 0;
+    whole_force(s, of, force);
+    for (int a = 0; a < s->dim; a++)
+        values[n++] = force[a];
+    values[n++] = force[3];
+    for (int k = 0; k < s->m->nblocks; k++)
+        for (int a = 0; a < s->dim && has_own_forces(s->run, k); a++)
+            values[n++] = of[k][a];
+    GROW(s->history, s->nhistory, s->nhistory + 1);
+    s->history[s->nhistory][0] = s->t;
+    memcpy(s->history[s->nhistory++] + 1, force, 2 * sizeof(double));
+    return n;
+}
+
+static void probes(struct fv *s, double *values)
+{
+    const struct scene *scene = &s->run->scene;
+    for (int k = 0; k < scene->nprobes; k++)
+        values[k] = mesh_value_at(s, s->search, scene->probes[k].at, 2, NULL);
+    MPI_Allreduce(MPI_IN_PLACE, values, scene->nprobes, MPI_DOUBLE, MPI_SUM, s->comm);
+    for (int k = 0; k < scene->nprobes; k++)
+        values[k] += still_pressure(scene, s->still, s->level, scene->probes[k].at);
+}
+
+/* Mean and half range of the forces over the second half of the run, frequency of the one along y
+ * by the crossings of its mean. */
+static void summarise_swing(const struct fv *s)
+{
+    struct summary *to = s->run->summary;
+    double mean[2] = {0.0, 0.0}, least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
+    double first = 0.0, last = 0.0, weight = 0.0;
+    int from = 1, crossings = 0;
+    while (from < s->nhistory && s->history[from][0] < 0.5 * s->run->scene.time.end)
+        from++;
+    if (s->nhistory - from < 8)
+        return;
+    for (int k = from; k < s->nhistory; k++) {
+        const double *a = s->history[k - 1], *b = s->history[k];
+        weight += b[0] - a[0];
+        for (int q = 0; q < 2; q++) {
+            mean[q] += 0.5 * (a[1 + q] + b[1 + q]) * (b[0] - a[0]);
+            least[q] = fmin(least[q], b[1 + q]);
+            most[q] = fmax(most[q], b[1 + q]);
+        }
+    }
+    for (int q = 0; q < 2; q++)
+        mean[q] /= weight;
+    bool low = false; /* a crossing counts after the lower half of the range has been reached */
+    for (int k = from; k < s->nhistory; k++) {
+        const double *a = s->history[k - 1], *b = s->history[k];
+        low = low || b[2] < mean[1] - 0.25 * (most[1] - least[1]);
+        if (!low || b[2] < mean[1])
+            continue;
+        low = false;
+        last = a[0] + (b[0] - a[0]) * (mean[1] - a[2]) / (b[2] - a[2]);
+        first = crossings++ == 0 ? last : first;
+    }
+    const double frequency = crossings > 1 ? (crossings - 1) / (last - first) : 0.0;
+    const double found[3] = {mean[0], 0.5 * (most[1] - least[1]), frequency};
+    static const char *const names[3] = {"error.force_x", "error.force_y", "error.frequency"};
+    summary_real(to, "force.x_mean", mean[0]);
+    summary_real(to, "force.x_amplitude", 0.5 * (most[0] - least[0]));
+    summary_real(to, "force.y_mean", mean[1]);
+    summary_real(to, "force.y_amplitude", found[1]);
+    summary_real(to, "force.frequency", frequency);
+    for (int q = 0; q < 3; q++)
+        if (s->prm.force[q] != 0.0)
+            summary_real(to, names[q], fabs(found[q] / s->prm.force[q] - 1.0));
+}
+
+static void summarise_forces(struct fv *s)
+{
+    static const char *const names[] = {"force.x", "force.y", "force.z"};
+    double force[4], of[MESH_BLOCKS_MAX][4];
+    char key[PARAM_TEXT_SIZE + 24];
+    whole_force(s, of, force);
+    for (int a = 0; a < s->m->dim; a++)
+        summary_real(s->run->summary, names[a], force[a]);
+    summary_real(s->run->summary, "force.moment", force[3]);
+    for (int k = 0; k < s->m->nblocks; k++)
+        for (int a = 0; a < s->m->dim && has_own_forces(s->run, k); a++) {
+            snprintf(key, sizeof key, "force.%s.%c", s->m->block[k].prm->name, "xyz"[a]);
+            summary_real(s->run->summary, key, of[k][a]);
+        }
+    summarise_swing(s);
+}
+
+static void summarise(struct fv *s)
+{
+    struct summary *to = s->run->summary;
+    summary_int(to, "fringe_cells", s->m->fringe_cells);
+    summary_int(to, "fringe_cells_linear", s->m->linear);
+    if (mesh_bc_pressure_given(s))
+        s->defect = fabs(mesh_bc_net_flux(s));
+    if (s->m->has_fringe && s->umax[0] > 0.0) /* relative to the flow, if there is one */
+        summary_real(to, "overlap.net_flux", s->defect / s->umax[0]);
+    if (mesh_bc_has_walls(s->m))
+        summarise_forces(s);
+    summary_int(to, "poisson_iterations_start", s->start_iterations);
+    summary_real(to, "poisson_retries", (double)s->retries);
+}
+
+static double cells_of(const struct fv *s) { return (double)s->m->computed; }
+
+const struct report block_report = {.divergence = "divergence [1/s]",
+                                    .energies = energies,
+                                    .errors = errors,
+                                    .largest_divergence = largest_divergence,
+                                    .cells = cells_of,
+                                    .force_columns = force_columns,
+                                    .forces = forces,
+                                    .probes = probes,
+                                    .summarise = summarise,
+                                    .extrema = mesh_summarise_extrema,
+                                    .end_watches = mesh_watches_end};
+
+/* Least distance of opposite faces of a computed cell, m, about: volume over the largest face. */
+static double least_height(const struct mesh *m)
+{
+    double least = INFINITY;
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *p = m->part + q;
+        int i[3];
+        PART_CELLS (p, i, c)
+            for (int a = 0; a < m->dim && m->status[c] == CELL_COMPUTED; a++) {
+                const double S[3] = {m->S[a][0][c], m->S[a][1][c], m->dim == 3 ? m->S[a][2][c] : 0};
+                least = fmin(least, m->V[c] / sqrt(S[0] * S[0] + S[1] * S[1] + S[2] * S[2]));
+            }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m->comm);
+    return least;
+}
+
+/* What the sides are, and what the run uses and leaves out. */
+static void describe_scene(const struct run *r, const struct mesh *m)
+{
+    static const char *const kinds[] = {"overlap", "joined", "periodic", "walls",
+                                        "slip",    "inflow", "outflow",  "exact velocity"};
+    const bool viscous = r->scene.fluid.nu > 0.0, walls = mesh_bc_has_walls(m);
+    const double *g = r->scene.fluid.gravity;
+    const bool heavy = g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0;
+    char sides[160] = "";
+    for (int kind = MESH_OVERLAP; kind <= MESH_EXACT; kind++) {
+        bool any = false;
+        for (int k = 0; k < m->nblocks; k++)
+            for (int q = 0; q < 2 * m->dim; q++)
+                any = any || (int)m->block[k].side[q] == kind;
+        const size_t n = strlen(sides);
+        if (any)
+            snprintf(sides + n, sizeof sides - n, "%s%s", n ? ", " : "", kinds[kind]);
+    }
+    log_say("%dD, fourth-order averages, rk3, three projections a step; sides: %s", m->dim, sides);
+    log_say("%s%s%s%s; off: free surface, forced cells, coupling%s%s%s%s",
+            viscous ? "viscous, implicit" : "inviscid", walls ? ", walls" : "",
+            m->has_fringe ? ", interpolation where blocks overlap" : "", heavy ? ", gravity" : "",
+            viscous ? "" : ", viscous solver", walls ? "" : ", walls",
+            m->has_fringe ? "" : ", interpolation", heavy ? "" : ", gravity");
+    log_say("%s", fv_measures_errors(r) ? "errors against the exact solution"
+                                        : "no exact solution to measure errors by");
+}
+
+/* Of a cell and step, over that of the uniform grid: the cavity on 48 x 48 cells. */
+#define BLOCK_COST 3.6
+
+/* Speed of the scene and of the blocks' sides across the smallest cell. */
+static void describe_step(const struct run *r, const struct mesh *m)
+{
+    double speed = limits_reference(r);
+    for (int k = 0; k < m->nblocks; k++) {
+        const struct mesh_block_params *b = m->block[k].prm;
+        speed = fmax(speed, hypot(hypot(b->velocity[0], b->velocity[1]), b->velocity[2]));
+        for (int side = 0; side < 2 && b->mapping == MAPPING_ANNULUS; side++)
+            speed = fmax(speed, fabs(b->spin[side]) * b->radius[side]);
+    }
+    const double cfl = limits_cfl(fv_params_of(r)), h = least_height(m);
+    log_say("%lld cells computed, the flattest %.3g m high; about %.0f MB", (long long)m->computed,
+            h, 8e-6 * (double)m->cells * 80.0 + 1.0);
+    log_say("dt about %.3g s if the fastest flow crosses the flattest cell (%s, CFL %g)",
+            cfl * h / speed, limit_name(LIMIT_FLOW), cfl);
+    forecast_say("fv", m->dim, BLOCK_COST * (double)m->computed,
+                 ceil(r->scene.time.end * speed / (cfl * h)));
+}
+
+void mesh_describe(const struct run *r)
+{
+    static const char *const shapes[] = {"box", "stretched box", "ring", "sheared box", "file"};
+    struct faults f = {0};
+    struct mesh *m = mesh_create(r, &f);
+    for (int k = 0; m && k < m->nblocks; k++) {
+        const struct mesh_block *b = m->block + k;
+        int64_t count[3] = {0, 0, 0};
+        for (int64_t c = 0; c < (int64_t)b->n[0] * b->n[1] * b->n[2]; c++)
+            count[b->status[c]]++;
+        log_say("block %d \"%s\": %s, %d x %d x %d cells: %lld computed, %lld interpolated, %lld "
+                "cut out",
+                k + 1, b->prm->name, shapes[b->prm->mapping], b->n[0], b->n[1], b->n[2],
+                (long long)count[0], (long long)count[1], (long long)count[2]);
+    }
+    if (m) {
+        describe_scene(r, m);
+        describe_step(r, m);
+    }
+    mesh_free(&m);
+}

@@ -1,0 +1,20 @@
+/* mesh_output.h - errors, forces, gauges, snapshots and restart files on blocks.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_MESH_OUTPUT_H
+#define FV_MESH_OUTPUT_H
+
+#include "../fv.h"
+#include "../grid/mesh.h"
+
+/* mesh_errors.c: this rank's share of the value at a place, of the finest block there; q NULL:
+ * pressure. width 2: linear, 4: cubic from averages. */
+double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int width,
+                     const double *q);
+/* fv_lines.c: extrema on the centre lines of the domain into the summary. */
+void mesh_summarise_extrema(const struct fv *s);
+
+/* mesh_io.c, mesh_errors.c */
+void mesh_describe(const struct run *r);
+void mesh_snapshot(struct fv *s, struct h5 *f, struct xdmf *x, const char *file);
+
+#endif

@@ -1,0 +1,43 @@
+/* output.h - series, summary, gauges, snapshots, restart files, pictures of a case.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_OUTPUT_H
+#define FV_OUTPUT_H
+
+#include "../fv.h"
+
+/* fv_io.c, fv_errors.c */
+/* |curl u|^2 of a cell in local row j, 1/s^2. */
+double fv_curl_squared(const struct fv *s, int64_t c, int j);
+void fv_vorticity(const struct fv *s,
+                  double *w); /* dv/dx - du/dy, all local cells (with ghosts' layout) */
+void fv_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
+void fv_checkpoint(void *s, struct h5 *f);
+bool fv_restore(struct fv *s, struct h5 *f);
+/* fv_report.c: columns of the series, all but those of watches, and their (static) names. */
+int fv_columns(const struct run *r, const char **columns);
+void fv_row(void *s, double *values);
+void fv_finish(void *s);
+/* Sums over what no partner counts, for the coupler; see program.tell. */
+void fv_tell(void *s, struct summary *report);
+
+/* fv_draw.c: see program.draw. */
+struct picture;
+void fv_draw(const struct run *r, struct picture *p);
+
+/* fv_probes.c: the case's gauges; number of columns and their names (static), values on all ranks.
+ */
+int fv_probe_columns(const struct run *r, const char **columns);
+void fv_probe(struct fv *s, double *values);
+
+/* fv_forces.c: force of the flow on all walls, N (per metre in 2D), over all ranks. */
+void fv_wall_force(const struct fv *s, double force[3]);
+
+/* fv_blocked.c: forces on boxes that are cut out; number of columns and their names (static). */
+int fv_blocked_columns(const struct run *r, const char **columns);
+void fv_blocked_forces(const struct fv *s, double *values);
+void fv_summarise_blocked(const struct fv *s);
+
+/* fv_lines.c: extrema on the centre lines into the summary. */
+void fv_summarise_extrema(const struct fv *s);
+
+#endif

@@ -1,0 +1,27 @@
+/* report.h - what the series and the summary hold, on each kind of cells.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_REPORT_H
+#define FV_REPORT_H
+
+#include "../fv.h"
+
+enum { NORMS = 3 }; /* velocity, pressure, vorticity */
+
+struct report {
+    const char *divergence; /* name of its column */
+    /* Kinetic energy over the free cells, and the exact field's, J/kg m^dim. */
+    void (*energies)(struct fv *s, double sum[2]);
+    void (*errors)(struct fv *s, struct norm n[NORMS]);
+    double (*largest_divergence)(struct fv *s);
+    double (*cells)(const struct fv *s); /* that are computed, of all ranks */
+    /* Forces on walls: number of columns and their (static) names; values, as many. */
+    int (*force_columns)(const struct run *r, const char **columns);
+    int (*forces)(struct fv *s, double *values);
+    void (*probes)(struct fv *s, double *values);
+    void (*summarise)(struct fv *s); /* what this kind alone has */
+    void (*extrema)(const struct fv *s);
+    void (*end_watches)(struct fv *s);
+};
+extern const struct report even_report, block_report;
+
+#endif

@@ -1,0 +1,202 @@
+/* surface_errors.c - what the water does as a whole: energy, reach, levels, period and damping of a
+ * standing wave. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../boundary/blocked.h"
+#include "../surface/levelset.h"
+#include "../boundary/still.h"
+#include "output.h"
+
+double surface_energy(const struct fv *s)
+{
+    const struct block *b = &s->b;
+    double sum = 0.0;
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            double square = 0.0;
+            for (int a = 0; a < b->dim; a++)
+                square += s->u[a][i] * s->u[a][i];
+            sum += square > 0.0 ? 0.5 * square * surface_share(s, i) * block_volume(b, j_) : 0.0;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+    return sum;
+}
+
+/* Where along a the water ends that is in cell c, m from its centre; the end must be within `most'
+ * cells. NAN: it is not. */
+static double end_of_water(const struct fv *s, int64_t c, int a, int most)
+{
+    const double *phi = s->surface->phi;
+    const int64_t d = s->b.stride[a];
+    int m = 0;
+    while (m < most && phi[c + m * d] < 0.0 && !is_blocked(s, c + (m + 1) * d))
+        m++;
+    if (m > 0 && phi[c + m * d] >= 0.0)
+        return (m - 1 + phi[c + (m - 1) * d] / (phi[c + (m - 1) * d] - phi[c + m * d])) * s->b.h[a];
+    return NAN;
+}
+
+/* The same on the wall that cell (i, j, k) touches across a: the foot of a tongue lies before its
+ * end half a cell higher, by as much as that lies before the one in the next row. */
+static double foot_of_water(const struct fv *s, const int *at, int64_t c, int a)
+{
+    const struct block *b = &s->b;
+    const double end = end_of_water(s, c, a, 1);
+    double more = 0.0;
+    for (int t = 0; t < b->dim && isfinite(end); t++)
+        for (int up = 0; up < 2; up++) {
+            const int64_t in = up ? -b->stride[t] : b->stride[t];
+            if (t == a || b->periodic[t] || b->lo[t] + at[t] != (up ? b->cells[t] - 1 : 0))
+                continue;
+            double next = NAN;
+            for (int m = 0; m <= 2 && !isfinite(next); m++)
+                next = end_of_water(s, c + in - m * b->stride[a], a, 1) - m * b->h[a];
+            more = fmax(more, isfinite(next) ? fmin(0.5 * (end - next), b->h[a]) : b->h[a]);
+        }
+    return end + more;
+}
+
+double surface_reach(const struct fv *s, int a)
+{
+    const struct block *b = &s->b;
+    const double *phi = s->surface->phi;
+    double most = -INFINITY, x[3];
+    BLOCK_CELLS (b, i, j, k, c) {
+        if (!(phi[c] < 0.0))
+            continue;
+        block_centre(b, i, j, k, x);
+        const double next = phi[c + b->stride[a]];
+        double end = foot_of_water(s, (const int[]){i, j, k}, c, a);
+        if (a == 1 && b->rows)
+            end = (next >= 0.0 ? phi[c] / (phi[c] - next) : 0.5) * block_step(b, a, j + 1);
+        most = fmax(most, x[a] + (isfinite(end) ? end : 0.5 * b->h[a]));
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, b->cart);
+    return most;
+}
+
+/* Two columns along gravity (in 3D four) around x, with weights, linear between their centres. */
+double surface_level(const struct fv *s, const double *x)
+{
+    const struct block *b = &s->b;
+    const int up = still_upright(&s->run->scene);
+    const bool down = s->run->scene.fluid.gravity[up] > 0.0; /* the water hangs at the upper end */
+    double sum = 0.0;
+    BLOCK_CELLS (b, i, j, k, c) {
+        const int at[3] = {i, j, k};
+        double w = block_size(b, up, j);
+        for (int a = 0; a < b->dim; a++) {
+            const double half = 0.5, top = b->cells[a] - half;
+            const double place = fmin(top, fmax(half, (x[a] - b->origin[a]) / b->h[a])) - half;
+            w *= a == up ? 1.0 : fmax(0.0, 1.0 - fabs(place - (b->lo[a] + at[a])));
+        }
+        sum += w > 0.0 ? w * surface_share(s, c) : 0.0;
+    }
+    int rank;
+    MPI_Comm_rank(b->cart, &rank);
+    return (down ? -sum : sum) + (rank == 0 ? b->origin[up] + (down ? b->length[up] : 0.0) : 0.0);
+}
+
+/* cos and sin of k x over the local cells along an axis, x from 0. */
+static void waves_along(const struct block *b, int a, double k, double *c, double *v)
+{
+    double x[3];
+    for (int i = 0; i < b->n[a]; i++) {
+        block_centre(b, a == 0 ? i : 0, 0, a == 2 ? i : 0, x);
+        c[i] = cos(k * x[a]);
+        v[i] = sin(k * x[a]);
+    }
+}
+
+/* Momentum of a row in the inviscid mode, grad of cosh kz cos ax cos bz: q has sinh, cosh of the
+ * row's height and cos, sin along z. */
+static double row_in_mode(const struct fv *s, int64_t at, const double *c, const double *v,
+                          const double q[4])
+{
+    const double *d = s->exact.along;
+    double sum = 0.0;
+    for (int i = 0; i < s->b.n[0]; i++, at++) {
+        if (s->surface->layer[at] > 2)
+            continue;
+        double m = q[2] * (s->u[1][at] * q[0] * c[i] - d[0] * s->u[0][at] * q[1] * v[i]);
+        if (s->exact.crossed)
+            m -= d[1] * s->u[2][at] * q[1] * c[i] * q[3];
+        sum += surface_share(s, at) * m;
+    }
+    return sum;
+}
+
+/* Momentum in the inviscid mode of the wave. */
+void surface_sample(struct fv *s)
+{
+    const struct block *b = &s->b;
+    const struct exact *e = &s->exact;
+    double sum = 0.0, x[3];
+    if (e->field != FIELD_STANDING_WAVE)
+        return;
+    double *c = NEW(double, 2 * (b->n[0] + b->n[2])), *v = c + b->n[0], *cz = v + b->n[0],
+           *vz = cz + b->n[2];
+    waves_along(b, 0, e->wave.k * e->along[0], c, v);
+    waves_along(b, 2, e->crossed ? e->wave.k * e->along[1] : 0.0, cz, vz);
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++) {
+            block_centre(b, 0, j, k, x);
+            const double z = e->wave.k * (x[1] - e->bottom);
+            sum += block_size(b, 1, j) / b->h[1] *
+                   row_in_mode(s, block_at(b, 0, j, k), c, v,
+                               (const double[]){sinh(z), cosh(z), cz[k], vz[k]});
+        }
+    mem_free(c);
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+    fit_add(&s->swing, s->t, sum);
+}
+
+static double enstrophy(const struct fv *s)
+{
+    const struct block *b = &s->b;
+    double sum = 0.0;
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            const double part = surface_share(s, i);
+            sum += part > 0.0 ? 0.5 * part * fv_curl_squared(s, i, j_) * block_volume(b, j_) : 0.0;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+    return sum;
+}
+
+static void summarise_swing(struct fv *s)
+{
+    struct summary *to = s->run->summary;
+    double period, rate;
+    if (s->exact.field != FIELD_STANDING_WAVE || !exact_oscillation(&s->exact, &period, &rate))
+        return;
+    const double T = fit_period(&s->swing), r = fit_rate(&s->swing);
+    if (isfinite(T)) {
+        summary_real(to, "period", T);
+        summary_real(to, "error.period", fabs(T / period - 1.0));
+    }
+    if (isfinite(r)) {
+        summary_real(to, "damping", r);
+        summary_real(to, "error.damping", rate != 0.0 ? fabs(r / rate - 1.0) : fabs(r) * period);
+    }
+    if (rate != 0.0) {
+        const struct scene_domain *d = &s->run->scene.domain;
+        summary_real(to, "error.enstrophy",
+                     fabs(enstrophy(s) / exact_enstrophy(&s->exact, d->min, d->max, s->t) - 1.0));
+    }
+}
+
+void surface_summarise(struct fv *s)
+{
+    const struct surface *f = s->surface;
+    struct summary *to = s->run->summary;
+    const double volume = surface_volume(s, NULL);
+    summarise_swing(s);
+    summary_real(to, "largest_velocity", fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
+    summary_real(to, "drift.volume", volume / f->volume0 - 1.0);
+    summary_real(to, "volume_returned", f->returned / f->volume0);
+    summary_int(to, "reinitialisations", f->reinits);
+    summary_int(to, "steps_repeated", f->repeats);
+}

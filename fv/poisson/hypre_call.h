@@ -1,0 +1,18 @@
+/* hypre_call.h - calls of hypre, which or-s all errors into one flag; "not converged" is the
+ * caller's to judge. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_HYPRE_CALL_H
+#define FV_HYPRE_CALL_H
+
+#include <HYPRE_utilities.h>
+
+#include "../../common/log.h"
+
+#define HYPRE(call)                                                                                \
+    do {                                                                                           \
+        (void)(call);                                                                              \
+        HYPRE_ClearError(HYPRE_ERROR_CONV);                                                        \
+        if (HYPRE_GetError())                                                                      \
+            fail("%s: hypre error %d", #call, (int)HYPRE_GetError());                              \
+    } while (0)
+
+#endif

@@ -1,0 +1,455 @@
+/* pressure.c - see pressure.h. The conjugate gradients are written out here: hypre's would spend a
+ * second cycle on the residual of its last iteration, and most solves take one iteration. Settings
+ * of PFMG: red-black relaxation with non-Galerkin coarse operators, 5-point on all levels; this
+ * pair and no wider stencil (README.md). SPDX-License-Identifier: BSD-3-Clause */
+#include "pressure.h"
+
+#include <HYPRE_struct_ls.h>
+#include <math.h>
+#include <string.h>
+
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "hypre_call.h"
+#include "../boundary/bc.h"
+#include "../boundary/forcing.h"
+#include "../surface/levelset.h"
+
+struct pressure {
+    HYPRE_StructGrid grid;
+    HYPRE_StructStencil stencil;
+    HYPRE_StructMatrix A;
+    HYPRE_StructVector b, x;
+    HYPRE_StructSolver cycle;
+    int lo[3], hi[3];   /* this rank's cells, hypre's way: both inside */
+    int outer[2][3];    /* the same with ghosts: the box of a field */
+    double *diagonal;   /* 1/m^2: sum of 1/h^2 over the open faces */
+    double *p, *Ap, *z; /* direction, its image, residual after a cycle */
+    double free_cells;  /* of all ranks */
+    bool singular;      /* no side gives the pressure */
+    double shift;       /* 1/m^2: on the diagonal of the cycle's matrix, beside the least one */
+};
+
+static void make_grid(const struct block *b, struct pressure *p)
+{
+    int periodic[3] = {0, 0, 0};
+    HYPRE(HYPRE_StructGridCreate(b->cart, b->dim, &p->grid));
+    for (int a = 0; a < 3; a++) {
+        p->lo[a] = b->lo[a];
+        p->hi[a] = b->hi[a] - 1;
+        p->outer[0][a] = p->lo[a] - b->g[a];
+        p->outer[1][a] = p->hi[a] + b->g[a];
+        periodic[a] = b->periodic[a] ? b->cells[a] : 0;
+    }
+    HYPRE(HYPRE_StructGridSetExtents(p->grid, p->lo, p->hi));
+    HYPRE(HYPRE_StructGridSetPeriodic(p->grid, periodic));
+    HYPRE(HYPRE_StructGridAssemble(p->grid));
+    HYPRE(HYPRE_StructStencilCreate(b->dim, 2 * b->dim + 1, &p->stencil));
+    for (int e = 0; e <= 2 * b->dim; e++) {
+        int offset[3] = {0, 0, 0};
+        if (e > 0)
+            offset[(e - 1) / 2] = (e - 1) % 2 ? 1 : -1;
+        HYPRE(HYPRE_StructStencilSetElement(p->stencil, e, offset));
+    }
+}
+
+/* A thousandth of the smallest eigenvalue, about (pi/L)^2, on the diagonal of the cycle's matrix:
+ * the problem is singular, and the coarsest level would divide the rounding error of the residual's
+ * mean by that of a zero. The iteration's own matrix has none of it. */
+static double shift(const struct block *b)
+{
+    double L = 0.0;
+    for (int a = 0; a < b->dim; a++)
+        L = fmax(L, b->length[a]);
+    return 1e-2 / (L * L);
+}
+
+/* Weight of a row: its height over that of the even ones, so that the matrix is symmetric. */
+static double weight(const struct block *b, int j)
+{
+    return b->rows ? b->rows->h[j] / b->h[1] : 1.0;
+}
+
+/* -Lap times the weight: of the lower face along a of a cell in row j, 1/m^2. */
+static double coefficient(const struct block *b, int a, int j)
+{
+    return a == 1 ? 1.0 / (b->h[1] * block_step(b, 1, j)) : weight(b, j) / (b->h[a] * b->h[a]);
+}
+
+/* Row of a cell: what is open passes, forced cells stand alone. Returns the diagonal. */
+static double fill_row(const struct fv *s, const struct pressure *p, int64_t c, int j, double *row)
+{
+    const struct block *b = &s->b;
+    const struct forcing *f = s->forcing;
+    double *const *open = s->surface ? s->surface->open : f ? f->open : NULL;
+    double sum = s->surface ? p->z[c] : 0.0;
+    for (int e = 1; e <= 2 * b->dim; e++) {
+        const int a = (e - 1) / 2;
+        const int64_t face = (e - 1) % 2 ? c + b->stride[a] : c;
+        const double is_open = open ? open[a][face] : 1.0;
+        const double w = is_open * coefficient(b, a, j + (e == 4)); /* 4: above, along y */
+        row[e] = is_open <= 1.0 ? -w : 0.0; /* outflow: psi is 0 behind it */
+        sum += w;
+    }
+    row[0] = sum > 0.0 ? sum + fmax(p->shift * weight(b, j), shift(b))
+                       : 1.0; /* forced, dry, or free and shut in */
+    return sum;
+}
+
+/* What a cut face adds to the diagonal of the weighted row, 1/m^2. */
+static double cut_coefficient(const struct block *b, const struct cut *x)
+{
+    const double weight_of = b->rows ? weight(b, block_row(b, x->wet)) : 1.0;
+    return weight_of / (x->theta * x->step * x->size);
+}
+
+/* z = what the surface adds to the diagonal. */
+static void add_cuts(const struct fv *s, double *z)
+{
+    const struct surface *f = s->surface;
+    memset(z, 0, (size_t)s->b.size * sizeof(double));
+    for (int a = 0; a < s->b.dim; a++)
+        for (int64_t i = 0; i < f->ncut[a]; i++)
+            z[f->cut[a][i].wet] += cut_coefficient(&s->b, f->cut[a] + i);
+}
+
+static void make_matrix(const struct fv *s, struct pressure *p)
+{
+    const struct block *b = &s->b;
+    const int m = 2 * b->dim + 1;
+    int entries[7] = {0, 1, 2, 3, 4, 5, 6};
+    double *values = NEW(double, (int64_t)m * b->n[0] * b->n[1] * b->n[2]), *row = values;
+    if (s->surface)
+        add_cuts(s, p->z);
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++, row += m)
+            p->diagonal[i] = fill_row(s, p, i, j_, row);
+    HYPRE(HYPRE_StructMatrixCreate(b->cart, p->grid, p->stencil, &p->A));
+    HYPRE(HYPRE_StructMatrixInitialize(p->A));
+    HYPRE(HYPRE_StructMatrixSetBoxValues(p->A, p->lo, p->hi, m, entries, values));
+    HYPRE(HYPRE_StructMatrixAssemble(p->A));
+    mem_free(values);
+}
+
+static void make_vector(const struct block *b, struct pressure *p, HYPRE_StructVector *v)
+{
+    HYPRE(HYPRE_StructVectorCreate(b->cart, p->grid, v));
+    HYPRE(HYPRE_StructVectorInitialize(*v));
+    HYPRE(HYPRE_StructVectorAssemble(*v));
+}
+
+static void mean_size(const struct block *b, double h[3])
+{
+    for (int a = 0; a < 3; a++)
+        h[a] = b->length[a] / b->cells[a];
+}
+
+/* Levels of the cycle, which halves the axis of the least spacing: down to the first grid with an
+ * odd number of cells along a periodic axis. There red cells have red neighbours, and a half sweep
+ * would read what the last solve left; the last level is relaxed by Jacobi, which does not. Axes of
+ * the same spacing go together: the grids between are not relaxed. */
+static int levels(const struct block *b)
+{
+    int n[3] = {b->cells[0], b->cells[1], b->cells[2]}, count = 1;
+    double h[3];
+    mean_size(b, h);
+    for (;;) {
+        double least = INFINITY;
+        for (int a = 0; a < b->dim; a++) {
+            if (b->periodic[a] && n[a] > 1 && n[a] % 2)
+                return count;
+            least = n[a] > 1 ? fmin(least, h[a]) : least;
+        }
+        if (least == INFINITY)
+            return count;
+        for (int a = 0; a < b->dim; a++)
+            if (n[a] > 1 && h[a] < 1.05 * least) {
+                n[a] = (n[a] + 1) / 2;
+                h[a] *= 2.0;
+                count++;
+            }
+    }
+}
+
+/* Red-black in boxes with closed sides and in periodic ones of even sides; else weighted Jacobi:
+ * the coarsest grids have one cell along a periodic axis and more along another then, a cell is its
+ * own neighbour, and red and black again read what the last solve left. */
+static int relaxation(const struct block *b)
+{
+    bool closed = true, even = true;
+    for (int a = 0; a < b->dim; a++) {
+        closed = closed && !b->periodic[a];
+        even = even && b->periodic[a] && b->cells[a] == b->cells[0] &&
+               fabs(b->h[a] / b->h[0] - 1.0) < 1e-9;
+    }
+    return closed || even ? 2 : 1;
+}
+
+static void make_cycle(const struct block *b, struct pressure *p)
+{
+    HYPRE(HYPRE_StructPFMGCreate(b->cart, &p->cycle));
+    HYPRE(HYPRE_StructPFMGSetMaxIter(p->cycle, 1));
+    HYPRE(HYPRE_StructPFMGSetTol(p->cycle, 0.0));
+    HYPRE(HYPRE_StructPFMGSetZeroGuess(p->cycle));
+    HYPRE(HYPRE_StructPFMGSetMaxLevels(p->cycle, levels(b)));
+    HYPRE(HYPRE_StructPFMGSetRelaxType(p->cycle, relaxation(b)));
+    HYPRE(HYPRE_StructPFMGSetRAPType(p->cycle, 1));
+    HYPRE(HYPRE_StructPFMGSetSkipRelax(p->cycle, 1));
+    HYPRE(HYPRE_StructPFMGSetNumPreRelax(p->cycle, 1));
+    HYPRE(HYPRE_StructPFMGSetNumPostRelax(p->cycle, 1));
+    if (b->rows) { /* which axis it halves would hang on the rows' scatter otherwise */
+        double h[3];
+        mean_size(b, h);
+        HYPRE(HYPRE_StructPFMGSetDxyz(p->cycle, h));
+    }
+    HYPRE(HYPRE_StructPFMGSetup(p->cycle, p->A, p->b, p->x));
+}
+
+struct pressure *pressure_create(const struct fv *s)
+{
+    const struct block *b = &s->b;
+    struct pressure *p = NEW(struct pressure, 1);
+    p->diagonal = block_field(b);
+    p->p = block_field(b);
+    p->Ap = block_field(b);
+    p->z = block_field(b);
+    p->free_cells = (double)b->cells[0] * b->cells[1] * b->cells[2];
+    if (s->forcing)
+        p->free_cells = (double)s->forcing->free_cells;
+    p->singular = !s->bc || !s->bc->pressure_given;
+    if (s->surface) {
+        p->singular = p->singular && s->surface->cuts == 0;
+        p->free_cells = fmax(1.0, (double)s->surface->wet);
+    }
+    make_grid(b, p);
+    make_matrix(s, p);
+    make_vector(b, p, &p->b);
+    make_vector(b, p, &p->x);
+    make_cycle(b, p);
+    return p;
+}
+
+void pressure_free(struct pressure **pp)
+{
+    struct pressure *p = *pp;
+    if (!p)
+        return;
+    HYPRE_StructPFMGDestroy(p->cycle);
+    HYPRE_StructVectorDestroy(p->b);
+    HYPRE_StructVectorDestroy(p->x);
+    HYPRE_StructMatrixDestroy(p->A);
+    HYPRE_StructStencilDestroy(p->stencil);
+    HYPRE_StructGridDestroy(p->grid);
+    mem_free(p->diagonal);
+    mem_free(p->p);
+    mem_free(p->Ap);
+    mem_free(p->z);
+    mem_free(p);
+    *pp = NULL;
+}
+
+void pressure_rebuild(struct fv *s)
+{
+    struct pressure *p = s->pressure;
+    HYPRE_StructPFMGDestroy(p->cycle);
+    HYPRE_StructMatrixDestroy(p->A);
+    p->singular = s->surface->cuts == 0 && (!s->bc || !s->bc->pressure_given);
+    p->free_cells = fmax(1.0, (double)s->surface->wet);
+    make_matrix(s, p);
+    make_cycle(&s->b, p);
+}
+
+static void zero_idle(const struct fv *s, double *x)
+{
+    if (s->forcing)
+        forcing_zero(s->forcing, x);
+    if (s->surface)
+        surface_zero(s, x);
+}
+
+/* q = A x, x with its ghosts; both are 0 in forced cells. */
+static void apply(const struct fv *s, const double *restrict x, double *restrict q)
+{
+    const struct block *b = &s->b;
+    const double *restrict d = s->pressure->diagonal;
+    const int64_t y = b->stride[1], z = b->stride[2];
+    BLOCK_ROWS (b, 0, c, n) {
+        const double cx = coefficient(b, 0, j_), low = coefficient(b, 1, j_),
+                     up = coefficient(b, 1, j_ + 1);
+        for (int64_t i = c; i < c + n; i++)
+            q[i] = d[i] * x[i] - cx * (x[i - 1] + x[i + 1]) - (low * x[i - y] + up * x[i + y]);
+    }
+    if (b->dim == 3)
+        BLOCK_ROWS (b, 0, c, n) {
+            const double cz = coefficient(b, 2, j_);
+            for (int64_t i = c; i < c + n; i++)
+                q[i] -= cz * (x[i - z] + x[i + z]);
+        }
+    zero_idle(s, q);
+}
+
+/* Adds sum x y and sum x of a row. */
+static void add_row(const double *restrict x, const double *restrict y, int64_t n, double *sums)
+{
+    double part[8] = {0.0};
+    int64_t i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (int m = 0; m < 4; m++) {
+            part[m] += x[i + m] * y[i + m];
+            part[4 + m] += x[i + m];
+        }
+    for (; i < n; i++) {
+        part[0] += x[i] * y[i];
+        part[4] += x[i];
+    }
+    sums[0] += (part[0] + part[1]) + (part[2] + part[3]);
+    sums[1] += (part[4] + part[5]) + (part[6] + part[7]);
+}
+
+/* sums[0] = sum x y, sums[1] = sum x, over all ranks. */
+static void add_up(const struct block *b, const double *x, const double *y, double sums[2])
+{
+    sums[0] = sums[1] = 0.0;
+    BLOCK_ROWS (b, 0, c, n)
+        add_row(x + c, y + c, n, sums);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+}
+
+/* Takes the mean over the free cells out: the rows of A sum to zero. Returns the sum of the squares
+ * then. */
+static double remove_mean(const struct fv *s, double *restrict x)
+{
+    double sums[2];
+    zero_idle(s, x);
+    add_up(&s->b, x, x, sums);
+    if (!s->pressure->singular)
+        return sums[0];
+    const double mean = sums[1] / s->pressure->free_cells;
+    BLOCK_ROWS (&s->b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            x[i] -= mean;
+    zero_idle(s, x);
+    return fmax(sums[0] - sums[1] * mean, 0.0);
+}
+
+/* x = one cycle on r. */
+static void cycle(struct pressure *p, double *r, double *x)
+{
+    HYPRE(HYPRE_StructVectorSetBoxValues2(p->b, p->lo, p->hi, p->outer[0], p->outer[1], r));
+    HYPRE(HYPRE_StructPFMGSolve(p->cycle, p->A, p->b, p->x));
+    HYPRE(HYPRE_StructVectorGetBoxValues2(p->x, p->lo, p->hi, p->outer[0], p->outer[1], x));
+}
+
+/* z = one cycle on r, and p = z + beta p with the beta that makes p conjugate. Returns r.z. */
+static double next_direction(const struct fv *s, double *r, double rz_last)
+{
+    struct pressure *p = s->pressure;
+    double sums[2];
+    cycle(p, r, p->z);
+    if (s->surface)
+        surface_zero(s, p->z);
+    add_up(&s->b, r, p->z, sums);
+    const double beta = rz_last > 0.0 ? sums[0] / rz_last : 0.0, *restrict z = p->z;
+    double *restrict d = p->p;
+    BLOCK_ROWS (&s->b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            d[i] = z[i] + beta * d[i];
+    return sums[0];
+}
+
+/* x += alpha p, r -= alpha A p with the alpha of the smallest error. Returns r.r. */
+static double advance(const struct fv *s, double rz, double *restrict x, double *restrict r)
+{
+    struct pressure *p = s->pressure;
+    double *restrict d = p->p, *restrict Ad = p->Ap, sums[2];
+    block_halo(&s->b, 1, &p->p);
+    apply(s, p->p, p->Ap);
+    add_up(&s->b, p->p, p->Ap, sums);
+    const double alpha = rz / sums[0];
+    BLOCK_ROWS (&s->b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            x[i] += alpha * d[i];
+            r[i] -= alpha * Ad[i];
+        }
+    add_up(&s->b, r, r, sums);
+    return sums[0];
+}
+
+/* r = -div - A psi in place of div. Returns r.r. */
+static double first_residual(const struct fv *s, double *psi, double *restrict div)
+{
+    const double *restrict q = s->pressure->Ap;
+    double sums[2];
+    zero_idle(s, psi);
+    block_halo(&s->b, 1, &psi);
+    apply(s, psi, s->pressure->Ap);
+    BLOCK_ROWS (&s->b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            div[i] = -div[i] - q[i];
+    add_up(&s->b, div, div, sums);
+    return sums[0];
+}
+
+/* Square sum of a residual that rounding leaves: g L/h^2 in all wet cells. */
+static double least_residual(const struct fv *s)
+{
+    double L = 0.0, h = INFINITY;
+    for (int a = 0; a < s->b.dim; a++) {
+        L = fmax(L, s->b.length[a]);
+        h = fmin(h, s->b.h[a]);
+    }
+    const double one = 1e-15 * s->surface->g * L / (h * h);
+    return one * one * (double)s->surface->wet;
+}
+
+static void weight_rows(const struct block *b, double *r)
+{
+    if (b->rows)
+        BLOCK_ROWS (b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                r[i] *= weight(b, j_);
+}
+
+int pressure_solve(const struct fv *s, double *psi, double *div, double tol, int most)
+{
+    weight_rows(&s->b, div);
+    double enough = tol * tol * remove_mean(s, div);
+    double rr = first_residual(s, psi, div), rz = 0.0;
+    if (s->surface) /* psi is the whole pressure: of its change */
+        enough = fmax(tol * tol * rr, least_residual(s));
+    int n = 0;
+    while (rr > 0.0 && (n == 0 || rr > enough) && n < most) {
+        rz = next_direction(s, div, rz);
+        rr = advance(s, rz, psi, div);
+        n++;
+    }
+    remove_mean(s, psi);
+    block_halo(&s->b, 1, &psi);
+    return n;
+}
+
+int pressure_cycle(const struct fv *s, double *r, double *x)
+{
+    struct pressure *p = s->pressure;
+    weight_rows(&s->b, r);
+    if (p->shift == 0.0)
+        remove_mean(s, r);
+    cycle(p, r, x);
+    if (p->shift == 0.0)
+        remove_mean(s, x);
+    else if (s->forcing)
+        forcing_zero(s->forcing, x);
+    return 1;
+}
+
+void pressure_shift(const struct fv *s, double given)
+{
+    struct pressure *p = s->pressure;
+    if (given == p->shift)
+        return;
+    p->shift = given;
+    HYPRE_StructPFMGDestroy(p->cycle);
+    HYPRE_StructMatrixDestroy(p->A);
+    make_matrix(s, p);
+    make_cycle(&s->b, p);
+}

@@ -1,0 +1,403 @@
+/* extension.c - velocity of dry cells near the surface, layer by layer, by weighted least squares
+ * over the known cells around: quadratic about the foot point in the first layer, whose normal
+ * derivative is corrected to no shear stress, t.(G + G^T) n = 0; quadratic in the second, linear
+ * further out. Weights depend on phi alone and are made once a step.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "levelset.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../boundary/blocked.h"
+#include "../boundary/forcing.h"
+#include "lanes.h"
+
+enum { TERMS = 10, STENCIL = 128, THIN = 9 }; /* 125 cells and what fills up the last lanes */
+
+/* Normal equations of a fit over a stencil. */
+struct least_squares {
+    int m;                    /* terms */
+    double A[TERMS][TERMS];   /* then its factor, A = L L^T */
+    double b[TERMS][STENCIL]; /* terms at the cells */
+    double w[STENCIL];
+};
+
+static bool factor(struct least_squares *q)
+{
+    for (int i = 0; i < q->m; i++) {
+        const double whole = q->A[i][i];
+        for (int j = 0; j <= i; j++) {
+            double sum = q->A[i][j];
+            for (int k = 0; k < j; k++)
+                sum -= q->A[i][k] * q->A[j][k];
+            if (i != j)
+                q->A[i][j] = sum / q->A[j][j];
+            else if (sum > 1e-6 * whole)
+                q->A[i][i] = sqrt(sum);
+            else
+                return false;
+        }
+    }
+    return true;
+}
+
+/* n is a multiple of LANES. */
+static bool prepare(struct least_squares *q, int n)
+{
+    double wb[STENCIL];
+    for (int i = 0; i < q->m; i++) {
+        for (int p = 0; p < n; p++)
+            wb[p] = q->w[p] * q->b[i][p];
+        for (int j = 0; j <= i; j++)
+            q->A[i][j] = lanes_dot(wb, q->b[j], n);
+    }
+    return n >= q->m && factor(q);
+}
+
+/* Weights of the cells in the functional e of the fit. */
+static void weights(const struct least_squares *q, int n, const double *e, double *restrict out)
+{
+    double y[TERMS];
+    for (int i = 0; i < q->m; i++) {
+        y[i] = e[i];
+        for (int k = 0; k < i; k++)
+            y[i] -= q->A[i][k] * y[k];
+        y[i] /= q->A[i][i];
+    }
+    for (int i = q->m - 1; i >= 0; i--) {
+        for (int k = i + 1; k < q->m; k++)
+            y[i] -= q->A[k][i] * y[k];
+        y[i] /= q->A[i][i];
+    }
+    for (int p = 0; p < n; p++)
+        out[p] = 0.0;
+    for (int i = 0; i < q->m; i++)
+        for (int p = 0; p < n; p++)
+            out[p] += q->b[i][p] * y[i];
+    for (int p = 0; p < n; p++)
+        out[p] *= q->w[p];
+}
+
+/* A dry cell under work: frame e[0] = normal, e[1], e[2] tangents; origin: foot point. */
+struct place {
+    double e[3][3];
+    double depth;            /* m: of the cell over the surface */
+    int n, step[STENCIL];    /* known cells around; the last one again fills up the lanes */
+    int known;               /* of them not again */
+    int room;                /* how many the window could hold */
+    double r[3][STENCIL];    /* their places in the frame, in units of h */
+    double self[3], spacing; /* the cell's own; mean h (m), no axis before another */
+};
+
+/* 1, then the dim coordinates r (from `skip' on: a normal one left out), then their products, at n
+ * places; the number of terms. */
+static int terms(int dim, int order, bool skip, const double (*r)[STENCIL], int n,
+                 double (*b)[STENCIL])
+{
+    int m = 0;
+    for (int k = 0; k < n; k++)
+        b[0][k] = 1.0;
+    m++;
+    for (int a = skip ? 1 : 0; a < dim && order > 0; a++)
+        memcpy(b[m++], r[a], (size_t)n * sizeof(double));
+    for (int a = 0; a < dim && order > 1; a++)
+        for (int c = a; c < dim; c++, m++)
+            for (int k = 0; k < n; k++)
+                b[m][k] = r[a][k] * r[c][k];
+    return m;
+}
+
+/* The same at one place. */
+static void terms_at(int dim, int order, bool skip, const double *r, double *e)
+{
+    double at[3][STENCIL], b[TERMS][STENCIL];
+    for (int a = 0; a < 3; a++)
+        at[a][0] = r[a];
+    const int m = terms(dim, order, skip, (const double(*)[STENCIL])at, 1, b);
+    for (int i = 0; i < m; i++)
+        e[i] = b[i][0];
+}
+
+static void make_frame(const struct fv *s, int64_t c, struct place *p)
+{
+    const struct block *b = &s->b;
+    const double *q = s->surface->phi + c;
+    const int row = block_row(b, c);
+    double size = 0.0, n[3] = {0.0, 0.0, 0.0};
+    for (int a = 0; a < b->dim; a++) {
+        n[a] = (blocked_beside(s, s->surface->phi, c, b->stride[a]) -
+                blocked_beside(s, s->surface->phi, c, -b->stride[a])) /
+               (block_step(b, a, row) + block_step(b, a, row + 1));
+        size += n[a] * n[a];
+    }
+    size = sqrt(size);
+    if (!(size > 1e-3)) { /* no direction: a ridge of phi */
+        n[0] = n[2] = 0.0;
+        n[1] = size = 1.0;
+    }
+    p->depth = fmax(0.0, q[0]) / fmax(size, 0.2);
+    memset(p->e, 0, sizeof p->e);
+    for (int a = 0; a < 3; a++)
+        p->e[0][a] = n[a] / size;
+    if (b->dim == 2) {
+        p->e[1][0] = -p->e[0][1];
+        p->e[1][1] = p->e[0][0];
+        return;
+    }
+    int least = 0;
+    for (int a = 1; a < 3; a++)
+        least = fabs(p->e[0][a]) < fabs(p->e[0][least]) ? a : least;
+    double norm = 0.0;
+    for (int a = 0; a < 3; a++) {
+        p->e[1][a] = (a == least) - p->e[0][least] * p->e[0][a];
+        norm += p->e[1][a] * p->e[1][a];
+    }
+    for (int a = 0; a < 3; a++)
+        p->e[1][a] /= sqrt(norm);
+    for (int a = 0; a < 3; a++)
+        p->e[2][a] = p->e[0][(a + 1) % 3] * p->e[1][(a + 2) % 3] -
+                     p->e[0][(a + 2) % 3] * p->e[1][(a + 1) % 3];
+}
+
+/* Cells of the window (its corner at `corner' from the cell c) that are reached from c over faces
+ * within it: water beyond a thin box is none of this cell's. False: no box is near, all are. */
+static bool look_past_boxes(const struct fv *s, int64_t c, const int *corner, bool *seen)
+{
+    const struct block *b = &s->b;
+    const int deep = b->dim == 3 ? 5 : 1, n = 25 * deep, width[3] = {1, 5, 25};
+    int64_t cell[125];
+    int queue[125], head = 0, tail = 0;
+    bool near = false;
+    for (int m = 0; m < n; m++) {
+        cell[m] = c + corner[0] + m % 5 + (corner[1] + m / 5 % 5) * b->stride[1] +
+                  (corner[2] + m / 25) * b->stride[2];
+        near = near || is_blocked(s, cell[m]);
+        seen[m] = cell[m] == c;
+        if (seen[m])
+            queue[tail++] = m;
+    }
+    while (near && head < tail) {
+        const int m = queue[head++], at[3] = {m % 5, m / 5 % 5, m / 25};
+        for (int way = 0; way < 2 * b->dim; way++) {
+            const int a = way / 2, to = m + (way % 2 ? width[a] : -width[a]);
+            if (way % 2 ? at[a] == 4 : at[a] == 0)
+                continue;
+            if (!seen[to] && !s->forcing->forced[cell[to]]) {
+                seen[to] = true;
+                queue[tail++] = to;
+            }
+        }
+    }
+    return near;
+}
+
+/* Known cells of a window of 5 cells a side, moved one cell into the water. */
+static void look_around(const struct fv *s, int64_t c, int layer, struct place *p)
+{
+    const struct block *b = &s->b;
+    const unsigned char *known = s->surface->layer + c,
+                        *out = s->forcing ? s->forcing->forced + c : NULL;
+    const int deep = b->dim == 3 ? 2 : 0;
+    const double per = 1.0 / p->spacing, *y = b->rows ? b->rows->y + block_row(b, c) : NULL;
+    int shift[3], n = 0;
+    p->room = 0;
+    for (int a = 0; a < 3; a++)
+        shift[a] = a < b->dim ? -(int)lround(p->e[0][a] * 1.2) : 0;
+    const int corner[3] = {shift[0] - 2, shift[1] - 2, shift[2] - deep};
+    bool seen[125], *const some = s->blocked && look_past_boxes(s, c, corner, seen) ? seen : NULL;
+    for (int k = -deep; k <= deep; k++)
+        for (int j = -2; j <= 2; j++) {
+            const int row = 5 * (j + 2 + 5 * (k + deep));
+            const int step =
+                (int)(shift[0] - 2 + (j + shift[1]) * b->stride[1] + (k + shift[2]) * b->stride[2]);
+            double x[3], r[3];
+            x[0] = (shift[0] - 2) * b->h[0] + p->depth * p->e[0][0];
+            x[1] = (y ? y[shift[1] + j] - y[0] : (shift[1] + j) * b->h[1]) + p->depth * p->e[0][1];
+            x[2] = deep ? (shift[2] + k) * b->h[2] + p->depth * p->e[0][2] : 0.0;
+            for (int a = 0; a < 3; a++)
+                r[a] = (x[0] * p->e[a][0] + x[1] * p->e[a][1] + x[2] * p->e[a][2]) * per;
+            for (int i = 0; i < 5; i++) { /* kept without a branch: n goes on if it is known */
+                const bool there = !(out && out[step + i]) && !(some && !some[row + i]);
+                p->room += there;
+                for (int a = 0; a < 3; a++)
+                    p->r[a][n] = r[a] + i * p->e[a][0] * (b->h[0] * per);
+                p->step[n] = step + i;
+                n += there && known[step + i] < layer;
+            }
+        }
+    p->known = n;
+    for (; n % LANES; n++) {
+        p->step[n] = p->step[p->known - 1];
+        for (int a = 0; a < 3; a++)
+            p->r[a][n] = p->r[a][p->known - 1];
+    }
+    p->n = n;
+    p->self[0] = p->depth / p->spacing;
+    p->self[1] = p->self[2] = 0.0;
+}
+
+/* The best fit that the cells allow, of at most this order; the order done. */
+static int fit(const struct fv *s, const struct place *p, int order, bool skip, const double *from,
+               struct least_squares *q)
+{
+    for (int k = 0; k < p->n; k++) {
+        double r2 = 0.25;
+        for (int a = 0; a < s->b.dim; a++)
+            r2 += (p->r[a][k] - from[a]) * (p->r[a][k] - from[a]);
+        q->w[k] = 1.0 / (r2 * r2);
+    }
+    for (int k = p->known; k < p->n; k++)
+        q->w[k] = 0.0;
+    for (;; order--) {
+        q->m = terms(s->b.dim, order, skip, p->r, p->n, q->b);
+        if ((p->known >= q->m && prepare(q, p->n)) || order == 0)
+            return order;
+    }
+}
+
+/* Room for n more weights (and dim n of a gradient). */
+static void make_room(struct surface *f, int64_t n, int64_t ngrad)
+{
+    if (f->nstencil + n > f->stencil_room) {
+        const int64_t more = 2 * f->stencil_room + 4096;
+        GROW(f->at, f->nstencil, more);
+        GROW(f->weight, f->nstencil, more);
+        f->stencil_room = more;
+    }
+    if (f->ngrad + ngrad > f->grad_room) {
+        const int64_t more = 2 * f->grad_room + 8192;
+        GROW(f->grad, f->ngrad, more);
+        f->grad_room = more;
+    }
+}
+
+/* Gradient at the foot point by a quadratic without condition, from the frame to the axes. */
+static void gradient_weights(const struct fv *s, const struct place *p, double *grad)
+{
+    static const double origin[3] = {0.0, 0.0, 0.0};
+    struct least_squares q;
+    const int dim = s->b.dim;
+    double e[TERMS] = {0.0}, w[3][STENCIL];
+    memset(grad, 0, sizeof(double) * (size_t)(dim * p->n));
+    if (fit(s, p, 2, false, origin, &q) == 0)
+        return;
+    for (int r = 0; r < dim; r++) {
+        e[1 + r] = 1.0 / p->spacing;
+        weights(&q, p->n, e, w[r]);
+        e[1 + r] = 0.0;
+        for (int a = 0; a < dim; a++)
+            for (int k = 0; k < p->n; k++)
+                grad[a * p->n + k] += w[r][k] * p->e[r][a];
+    }
+}
+
+/* A film has no slope worth knowing: a quadratic through it overshoots, each layer of dry cells
+ * more than the last, and convection feeds on it. Flat water fills 0.6 of the window, two cells
+ * 0.4. */
+static bool is_thin(const struct fv *s, const struct place *p)
+{
+    return p->known < (s->b.dim == 2 ? THIN : 3 * THIN) || 2 * p->known < p->room;
+}
+
+static void add_carry(struct fv *s, int64_t c, int layer)
+{
+    struct surface *f = s->surface;
+    const int dim = s->b.dim;
+    const double *h = s->b.h;
+    struct place p = {.spacing = dim == 2 ? sqrt(h[0] * h[1]) : cbrt(h[0] * h[1] * h[2])};
+    struct least_squares q;
+    double e[TERMS];
+    make_frame(s, c, &p);
+    look_around(s, c, layer, &p);
+    make_room(f, STENCIL, (int64_t)dim * STENCIL);
+    struct carry x = {.cell = c, .first = (int)f->nstencil, .n = p.n, .first_grad = (int)f->ngrad};
+    double *w = f->weight + f->nstencil;
+    for (int k = 0; k < p.n; k++)
+        f->at[f->nstencil + k] = p.step[k];
+    const bool thin = is_thin(s, &p);
+    const int order = fit(s, &p, thin ? 0 : layer <= 2 ? 2 : 1, layer == 1, p.self, &q);
+    terms_at(dim, order, layer == 1, p.self, e);
+    weights(&q, p.n, e, w);
+    f->nstencil += p.n;
+    memcpy(x.n3, p.e[0], sizeof x.n3);
+    if (layer == 1 && !thin) {
+        gradient_weights(s, &p, f->grad + f->ngrad);
+        f->ngrad += (int64_t)dim * p.n;
+        x.slope = p.self[0];
+        for (int k = 0; k < p.n; k++)
+            x.slope -= w[k] * p.r[0][k];
+        x.slope *= p.spacing;
+        x.has_slope = true;
+    }
+    if (f->ncarry[layer] == f->carry_room[layer]) {
+        const int64_t more = 2 * f->carry_room[layer] + 256;
+        GROW(f->carry[layer], f->ncarry[layer], more);
+        f->carry_room[layer] = more;
+    }
+    f->carry[layer][f->ncarry[layer]++] = x;
+}
+
+/* least = the least of q and its neighbours along the stride, for a row. */
+static void least_row(const double *restrict q, int64_t d, int64_t n, double *restrict least)
+{
+    for (int64_t i = 0; i < n; i++) {
+        const double a = q[i - d] < q[i + d] ? q[i - d] : q[i + d];
+        least[i] = a < q[i] ? a : q[i];
+    }
+}
+
+static void next_layer_row(const double *restrict least, const double *restrict wall, double layer,
+                           int64_t n, double *restrict field)
+{
+    for (int64_t i = 0; i < n; i++)
+        field[i] = field[i] == DEEP && wall[i] == 0.0 && least[i] == layer - 1.0 ? layer : field[i];
+}
+
+/* Layers by spreading over faces and corners from the wet cells, along one axis after the other;
+ * cells behind closed sides and forced ones do not count. */
+static void find_layers(struct fv *s)
+{
+    struct surface *f = s->surface;
+    const struct block *b = &s->b;
+    const bool deep = b->dim == 3;
+    double *field = f->rate, *wall = f->kept, *x = s->face, *xy = s->flux;
+    for (int64_t c = 0; c < b->size; c++) {
+        wall[c] = s->forcing && s->forcing->forced[c] ? 1.0 : 0.0;
+        field[c] = f->phi[c] < 0.0 && wall[c] == 0.0 ? 0.0 : DEEP;
+    }
+    for (int l = 1; l <= LAYERS; l++) {
+        block_halo(b, 1, &field);
+        BLOCK_ROWS (b, 1, c, n)
+            least_row(field + c, 1, n, x + c);
+        for (int k = deep ? -1 : 0; k < b->n[2] + (deep ? 1 : 0); k++)
+            for (int j = 0; j < b->n[1]; j++)
+                least_row(x + block_at(b, 0, j, k), b->stride[1], b->n[0],
+                          xy + block_at(b, 0, j, k));
+        if (deep)
+            BLOCK_ROWS (b, 0, c, n)
+                least_row(xy + c, b->stride[2], n, x + c);
+        BLOCK_ROWS (b, 0, c, n)
+            next_layer_row((deep ? x : xy) + c, wall + c, l, n, field + c);
+    }
+    block_halo(b, 1, &field);
+    for (int64_t c = 0; c < b->size; c++)
+        f->layer[c] = (unsigned char)field[c];
+}
+
+void extension_build(struct fv *s)
+{
+    struct surface *f = s->surface;
+    find_layers(s);
+    f->nstencil = f->ngrad = f->ndeep = 0;
+    for (int l = 0; l <= LAYERS; l++)
+        f->ncarry[l] = 0;
+    BLOCK_ROWS (&s->b, 0, at, n)
+        for (int64_t c = at; c < at + n; c++) {
+            const int l = f->layer[c];
+            if (l >= 1 && l <= LAYERS)
+                add_carry(s, c, l);
+            else if (l == DEEP)
+                f->deep[f->ndeep++] = c;
+        }
+}

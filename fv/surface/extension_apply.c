@@ -1,0 +1,146 @@
+/* extension_apply.c - values of dry cells near the surface by the stencils of extension.c, layer by
+ * layer. SPDX-License-Identifier: BSD-3-Clause */
+#include "levelset.h"
+
+#include <math.h>
+
+#include "lanes.h"
+
+enum { STENCIL = 128 };
+
+/* What the cells of a stencil hold. */
+struct around {
+    double v[3][STENCIL];
+};
+
+static void look(const struct surface *f, const struct carry *x, int dim, double *const *u,
+                 struct around *r)
+{
+    const int *at = f->at + x->first;
+    for (int q = 0; q < dim; q++) {
+        const double *from = u[q] + x->cell;
+        for (int k = 0; k < x->n; k++)
+            r->v[q][k] = from[at[k]];
+    }
+}
+
+/* No more than half as much again beyond what the stencil has, nothing far from the water. */
+static double within(const double *v, int n, int layer, double value)
+{
+    double low, high;
+    lanes_bounds(v, n, &low, &high);
+    const double more = layer <= 2 ? 0.5 * (high - low) : 0.0;
+    return fmax(low - more, fmin(high + more, value));
+}
+
+/* Normal derivatives of the components for a cell of the first layer; n.(D n) to stress. */
+static void normal_slopes(const struct fv *s, const struct carry *x, const struct around *r,
+                          enum extend how, double *slope)
+{
+    const struct surface *f = s->surface;
+    const int dim = s->b.dim;
+    const double *grad = f->grad + x->first_grad;
+    double G[3][3], normal = 0.0;
+    for (int q = 0; q < dim; q++) {
+        slope[q] = 0.0;
+        for (int a = 0; a < dim; a++) {
+            G[q][a] = lanes_dot(grad + a * x->n, r->v[q], x->n);
+            slope[q] += G[q][a] * x->n3[a];
+        }
+        normal += slope[q] * x->n3[q];
+    }
+    if (how == EXTEND_FREE)
+        return;
+    if (how == EXTEND_SHEAR)
+        f->stress[x->cell] = normal;
+    for (int q = 0; q < dim; q++) { /* G n - P (G + G^T) n = n (n.G n) - P G^T n */
+        double other = 0.0;
+        for (int a = 0; a < dim; a++)
+            other += G[a][q] * x->n3[a];
+        slope[q] = 2.0 * normal * x->n3[q] - other;
+    }
+}
+
+/* No more than a quarter faster than what is around: bounds on components alone let a rough
+ * surface overshoot in each layer anew, to three times the water's speed beside a breaking front.
+ * A wave's velocity grows by exp(2 pi/n) over a cell, n cells a length: all of 28 and more pass. */
+static void slow_down(int dim, const struct around *r, int n, double u[3])
+{
+    double own = 0.0, least, most, square[STENCIL];
+    for (int k = 0; k < n; k++)
+        square[k] = r->v[0][k] * r->v[0][k];
+    for (int q = 1; q < dim; q++)
+        for (int k = 0; k < n; k++)
+            square[k] += r->v[q][k] * r->v[q][k];
+    for (int q = 0; q < dim; q++)
+        own += u[q] * u[q];
+    lanes_bounds(square, n, &least, &most);
+    if (own <= 1.25 * 1.25 * most)
+        return;
+    for (int q = 0; q < dim; q++)
+        u[q] *= 1.25 * sqrt(most / own);
+}
+
+static void carry_velocity(const struct fv *s, const struct carry *x, int layer, enum extend how,
+                           double *const u[3])
+{
+    const struct surface *f = s->surface;
+    const int dim = s->b.dim;
+    const bool clip = how != EXTEND_CHANGE;
+    double slope[3] = {0.0, 0.0, 0.0}, own[3] = {0.0, 0.0, 0.0};
+    struct around r;
+    look(f, x, dim, u, &r);
+    if (x->has_slope)
+        normal_slopes(s, x, &r, how, slope);
+    else if (layer == 1 && how == EXTEND_SHEAR)
+        f->stress[x->cell] = 0.0;
+    for (int q = 0; q < dim && x->n > 0; q++) {
+        own[q] = x->slope * slope[q] + lanes_dot(f->weight + x->first, r.v[q], x->n);
+        if (clip)
+            own[q] = within(r.v[q], x->n, layer, own[q]);
+    }
+    if (clip && layer <= 2 && x->n > 0)
+        slow_down(dim, &r, x->n, own);
+    for (int q = 0; q < dim; q++)
+        u[q][x->cell] = own[q];
+}
+
+void extension_apply(const struct fv *s, double *const u[3], enum extend how, int layers)
+{
+    const struct surface *f = s->surface;
+    const struct block *b = &s->b;
+    for (int64_t i = 0; i < f->ndeep; i++)
+        for (int q = 0; q < b->dim; q++)
+            u[q][f->deep[i]] = 0.0;
+    for (int l = 1; l <= layers; l++) {
+        block_halo(b, b->dim, u);
+        for (int64_t i = 0; i < f->ncarry[l]; i++)
+            carry_velocity(s, f->carry[l] + i, l, how, u);
+    }
+}
+
+/* Normal derivative of one field from the weights of its gradient. */
+static double slope_of(const struct surface *f, const struct carry *x, int dim, const double *v)
+{
+    double slope = 0.0;
+    for (int a = 0; a < dim && x->has_slope; a++)
+        slope += x->n3[a] * lanes_dot(f->grad + x->first_grad + a * x->n, v, x->n);
+    return slope;
+}
+
+void extension_scalar(const struct fv *s, double *q)
+{
+    const struct surface *f = s->surface;
+    struct around r;
+    for (int l = 1; l <= 2; l++) {
+        block_halo(&s->b, 1, &q);
+        for (int64_t i = 0; i < f->ncarry[l]; i++) {
+            const struct carry *x = f->carry[l] + i;
+            look(f, x, 1, &q, &r);
+            const double v = lanes_dot(f->weight + x->first, r.v[0], x->n) +
+                             x->slope * slope_of(f, x, s->b.dim, r.v[0]);
+            q[x->cell] = x->n > 0 ? within(r.v[0], x->n, l, v) : 0.0;
+        }
+    }
+    block_halo(&s->b, 1, &q);
+}

@@ -1,0 +1,42 @@
+/* lanes.h - sums and bounds over short lists whose lengths are multiples of LANES: partial results
+ * side by side, for vector registers (strict order of summation would forbid them).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_LANES_H
+#define FV_LANES_H
+
+enum { LANES = 8 };
+
+static inline double lanes_sum(const double p[LANES])
+{
+    return ((p[0] + p[1]) + (p[2] + p[3])) + ((p[4] + p[5]) + (p[6] + p[7]));
+}
+
+static inline double lanes_dot(const double *restrict a, const double *restrict b, int n)
+{
+    double part[LANES] = {0.0};
+    for (int k = 0; k < n; k += LANES)
+        for (int m = 0; m < LANES; m++)
+            part[m] += a[k + m] * b[k + m];
+    return lanes_sum(part);
+}
+
+/* Least and largest of a; n > 0. */
+static inline void lanes_bounds(const double *restrict a, int n, double *low, double *high)
+{
+    double l[LANES], h[LANES];
+    for (int m = 0; m < LANES; m++)
+        l[m] = h[m] = a[m];
+    for (int k = LANES; k < n; k += LANES)
+        for (int m = 0; m < LANES; m++) {
+            l[m] = a[k + m] < l[m] ? a[k + m] : l[m];
+            h[m] = a[k + m] > h[m] ? a[k + m] : h[m];
+        }
+    *low = l[0];
+    *high = h[0];
+    for (int m = 1; m < LANES; m++) {
+        *low = l[m] < *low ? l[m] : *low;
+        *high = h[m] > *high ? h[m] : *high;
+    }
+}
+
+#endif

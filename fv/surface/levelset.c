@@ -1,0 +1,291 @@
+/* levelset.c - phi_t + u.grad phi = 0: WENO5 (weno.c) in a
+ * band around the surface, SSP-RK3 (Shu & Osher 1988); volume by planes in the cells.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "levelset.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../boundary/bc.h"
+#include "../boundary/blocked.h"
+#include "weno.h"
+
+enum { BAND = 5 }; /* cells on either side of the surface that are advected */
+
+bool surface_wanted(const struct run *r)
+{
+    const struct scene *c = &r->scene;
+    const int asked = fv_params_of(r)->surface;
+    if (asked != SURFACE_AUTO)
+        return asked == SURFACE_YES;
+    return !r->coupled && (c->nshapes > 0 || scene_has_wave(c));
+}
+
+static bool side_here(const struct block *b, int a, bool upper)
+{
+    return !b->periodic[a] && (upper ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
+}
+
+void surface_ghosts(const struct fv *s, double *phi)
+{
+    const struct block *b = &s->b;
+    block_halo(b, 1, &phi);
+    for (int a = 0; a < b->dim; a++)
+        for (int upper = 0; upper < 2; upper++) {
+            if (!side_here(b, a, upper))
+                continue;
+            const int64_t out = upper ? b->stride[a] : -b->stride[a];
+            int lo[3], hi[3];
+            for (int t = 0; t < 3; t++) {
+                lo[t] = t == a ? (upper ? b->n[a] - 1 : 0) : -b->g[t];
+                hi[t] = t == a ? lo[t] + 1 : b->n[t] + b->g[t];
+            }
+            for (int k = lo[2]; k < hi[2]; k++)
+                for (int j = lo[1]; j < hi[1]; j++)
+                    for (int i = lo[0]; i < hi[0]; i++) {
+                        double *q = phi + block_at(b, i, j, k);
+                        for (int m = 1; m <= GHOSTS; m++)
+                            q[m * out] = q[(1 - m) * out];
+                    }
+        }
+}
+
+/* Of the cells of local row j. */
+static double largest_spacing(const struct block *b, int j)
+{
+    double h = 0.0;
+    for (int a = 0; a < b->dim; a++)
+        h = fmax(h, block_size(b, a, j));
+    return h;
+}
+
+/* The next run of cells in a row, behind the n from *from on, that are less than the band off the
+ * surface; false: there is none. */
+static bool next_run(const double *phi, double band, int64_t end, int64_t *from, int64_t *n)
+{
+    int64_t i = *from + *n;
+    while (i < end && !(fabs(phi[i]) < band))
+        i++;
+    *from = i;
+    while (i < end && fabs(phi[i]) < band)
+        i++;
+    *n = i - *from;
+    return *n > 0;
+}
+
+/* In place of what a stencil that ends at a box gave: phi is even there. Boxes have even rows. */
+static void rate_beside_boxes(const struct fv *s, const double *phi, double *rate)
+{
+    const double band = BAND * largest_spacing(&s->b, 0);
+    static const enum blocked_ghost even[2] = {GHOST_EVEN, GHOST_EVEN};
+    for (int a = 0; a < s->b.dim; a++)
+        for (int64_t k = 0; k < s->blocked->nnear[a]; k++) {
+            const struct near_box *x = s->blocked->near[a] + k;
+            const int64_t c = x->cell, d = s->b.stride[a];
+            double v[7], was = 0.0, is = 0.0;
+            if (!x->own || !(fabs(phi[c]) < band))
+                continue;
+            blocked_line(x, phi, d, 3, even, v + 3);
+            weno_advect(phi + c, s->u[a] + c, d, 1.0 / s->b.h[a], 1, &was);
+            weno_advect(v + 3, s->u[a] + c, 1, 1.0 / s->b.h[a], 1, &is);
+            rate[c] += is - was;
+        }
+}
+
+static void rate_of(const struct fv *s, const double *phi, double *rate)
+{
+    const struct block *b = &s->b;
+    BLOCK_ROWS (b, 0, c, n) {
+        const double band = BAND * largest_spacing(b, j_);
+        memset(rate + c, 0, (size_t)n * sizeof(double));
+        for (int64_t from = c, m = 0; next_run(phi, band, c + n, &from, &m);)
+            for (int a = 0; a < b->dim; a++)
+                weno_advect(phi + from, s->u[a] + from, b->stride[a], 1.0 / block_scale(b, a, j_),
+                            m, rate + from);
+    }
+    if (s->blocked)
+        rate_beside_boxes(s, phi, rate);
+}
+
+/* q = w p + (1 - w)(q + dt rate) */
+static void blend(const struct block *b, double w, const double *p, double dt, const double *rate,
+                  double *q)
+{
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            q[i] = w * p[i] + (1.0 - w) * (q[i] + dt * rate[i]);
+}
+
+/* One step of SSP-RK3. */
+static void advance(struct fv *s, double dt)
+{
+    static const double w[3] = {0.0, 0.75, 1.0 / 3.0};
+    struct surface *f = s->surface;
+    memcpy(f->phi_new, f->phi, (size_t)s->b.size * sizeof(double));
+    for (int k = 0; k < 3; k++) {
+        rate_of(s, f->phi_new, f->rate);
+        blend(&s->b, w[k], f->phi, dt, f->rate, f->phi_new);
+        surface_ghosts(s, f->phi_new);
+    }
+    double *t = f->phi;
+    f->phi = f->phi_new;
+    f->phi_new = t;
+}
+
+void surface_advance(struct fv *s, double dt)
+{
+    double cfl = 0.0;
+    for (int a = 0; a < s->b.dim; a++)
+        cfl += s->umax[a] * dt / s->b.h[a];
+    s->surface->travelled += cfl;
+    const int n = cfl > 0.5 ? (int)ceil(2.0 * cfl) : 1;
+    for (int k = 0; k < n; k++)
+        advance(s, dt / n);
+}
+
+/* Share of the unit cube where n.x < alpha, n >= 0 (Scardovelli & Zaleski 2000): inclusion and
+ * exclusion of the corners. */
+static double share_below(int dim, const double *n, double alpha)
+{
+    double sum = 0.0, scale = 1.0;
+    for (int a = 0; a < dim; a++)
+        scale *= n[a] * (a + 1);
+    for (int m = 0; m < 1 << dim; m++) {
+        double rest = alpha, sign = 1.0, power = 1.0;
+        for (int a = 0; a < dim; a++)
+            if (m >> a & 1) {
+                rest -= n[a];
+                sign = -sign;
+            }
+        for (int a = 0; a < dim && rest > 0.0; a++)
+            power *= rest;
+        sum += rest > 0.0 ? sign * power : 0.0;
+    }
+    return fmin(1.0, fmax(0.0, sum / scale));
+}
+
+/* Height of a cell over the mean distance to those above and below. */
+static double across_row(const struct block *b, int64_t c)
+{
+    const int j = block_row(b, c);
+    return 2.0 * b->rows->h[j] / (b->rows->step[j] + b->rows->step[j + 1]);
+}
+
+static double share_at(const struct fv *s, int64_t c, double shift)
+{
+    const struct block *b = &s->b;
+    const double *q = s->surface->phi + c;
+    double n[3], sum = 0.0, alpha;
+    for (int a = 0; a < b->dim; a++) {
+        n[a] = 0.5 * fabs(blocked_beside(s, s->surface->phi, c, b->stride[a]) -
+                          blocked_beside(s, s->surface->phi, c, -b->stride[a]));
+        if (a == 1 && b->rows)
+            n[a] *= across_row(b, c);
+        sum += n[a];
+    }
+    if (fabs(q[0] + shift) >= 0.5 * sum * 1.01)
+        return q[0] + shift < 0.0;
+    double whole = 0.0;
+    for (int a = 0; a < b->dim; a++) {
+        n[a] = fmax(n[a], 1e-3 * sum); /* the formula divides by it */
+        whole += n[a];
+    }
+    alpha = 0.5 * whole - (q[0] + shift);
+    return share_below(b->dim, n, alpha);
+}
+
+double surface_share(const struct fv *s, int64_t c) { return share_at(s, c, 0.0); }
+
+double surface_volume(const struct fv *s, double *area)
+{
+    const struct block *b = &s->b;
+    double sums[2] = {0.0, 0.0};
+    BLOCK_ROWS (b, 0, c, n) {
+        const double h = largest_spacing(b, j_), e = 1e-4 * h, volume = block_volume(b, j_);
+        for (int64_t i = c; i < c + n; i++) {
+            if (fabs(s->surface->phi[i]) > 3.0 * h) {
+                sums[0] += s->surface->phi[i] < 0.0 ? volume : 0.0;
+                continue;
+            }
+            sums[0] += volume * share_at(s, i, 0.0);
+            sums[1] += volume * (share_at(s, i, e) - share_at(s, i, -e)) / (2.0 * e);
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+    if (area)
+        *area = sums[1];
+    return sums[0];
+}
+
+/* Newton's iteration; once is enough for what a smooth step loses. */
+void surface_keep_volume(struct fv *s)
+{
+    struct surface *f = s->surface;
+    const double h = fmax(s->b.h[0], fmax(s->b.h[1], s->b.dim == 3 ? s->b.h[2] : 0.0)),
+                 most = 0.1 * h;
+    double area, d = INFINITY;
+    for (int it = 0; it < 5 && fabs(d) > 1e-3 * h; it++) {
+        const double volume = surface_volume(s, &area);
+        if (!(area < 0.0))
+            return;
+        d = fmax(-most, fmin(most, (f->volume0 - volume) / area));
+        for (int64_t i = 0; i < s->b.size; i++)
+            f->phi[i] += d;
+        f->returned += d * area;
+    }
+}
+
+struct surface *surface_create(const struct fv *s)
+{
+    const struct block *b = &s->b;
+    if (!surface_wanted(s->run))
+        return NULL;
+    struct surface *f = NEW(struct surface, 1);
+    double **const fields[] = {&f->phi, &f->phi_new, &f->rate, &f->kept, &f->stress};
+    const double *g = s->run->scene.fluid.gravity;
+    double x[3];
+    for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
+        *fields[k] = block_field(b);
+    for (int a = 0; a < b->dim; a++)
+        f->open[a] = block_field(b);
+    f->layer = NEW(unsigned char, b->size);
+    f->deep = NEW(int64_t, b->size);
+    f->g = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
+        for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
+            for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
+                block_centre(b, i, j, k, x);
+                f->phi[block_at(b, i, j, k)] =
+                    is_blocked(s, block_at(b, i, j, k)) ? surface_far(s) : surface_distance(s, x);
+            }
+    surface_ghosts(s, f->phi);
+    return f;
+}
+
+void surface_free(struct surface **fp)
+{
+    struct surface *f = *fp;
+    if (!f)
+        return;
+    mem_free(f->phi);
+    mem_free(f->phi_new);
+    mem_free(f->rate);
+    mem_free(f->kept);
+    mem_free(f->stress);
+    mem_free(f->layer);
+    mem_free(f->deep);
+    mem_free(f->at);
+    mem_free(f->weight);
+    mem_free(f->grad);
+    for (int a = 0; a < 3; a++) {
+        mem_free(f->open[a]);
+        mem_free(f->cut[a]);
+    }
+    for (int k = 0; k < 12; k++)
+        mem_free(f->before[k]);
+    for (int l = 0; l <= LAYERS; l++)
+        mem_free(f->carry[l]);
+    mem_free(f);
+    *fp = NULL;
+}

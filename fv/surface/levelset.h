@@ -1,0 +1,145 @@
+/* levelset.h - free surface of one phase: phi < 0 in water, the air is empty and at p = 0. Cells
+ * whose centre is wet are computed; dry ones near the surface carry the velocity on, so that all
+ * stencils go on across it. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_LEVELSET_H
+#define FV_LEVELSET_H
+
+#include "../fv.h"
+
+enum {
+    LAYERS = 6,   /* of dry cells that carry a velocity, for the advection of phi */
+    STENCILS = 2, /* of them that stencils of wet cells reach */
+    DEEP = 99     /* layer of dry cells further off */
+};
+
+/* A face between a wet and a dry cell. */
+struct cut {
+    int64_t wet, dry, face; /* cells, index in U */
+    double theta;           /* -: distance of the surface from the wet centre, of step */
+    double step, size;      /* m: between the two centres; the wet cell's along the axis */
+    double height;          /* m^2/s^2: -(pressure at rest)/rho there */
+    double p;               /* m^2/s^2: p/rho on the surface */
+    double up;              /* 1 if the dry cell is the upper one, else -1 */
+};
+
+/* How a dry cell near the surface gets its value: weights of the cells in its stencil. */
+struct carry {
+    int64_t cell;
+    int first, n;   /* place in the lists below */
+    int first_grad; /* layer 1: place of the gradient's weights, dim each */
+    double n3[3];   /* layer 1: normal, out of the water */
+    bool has_slope; /* layer 1, unless the water is thin */
+    double slope;   /* weight of the normal derivative */
+};
+
+struct surface {
+    double *phi, *phi_new, *rate; /* m, m, m/s */
+    double *kept;                 /* scratch of reinit */
+    double *before[12];           /* state at the start of a step, see surface_keep_state */
+    double travelled_before;
+    double *stress;       /* 1/s: n.(D n) of dry cells beside the water */
+    unsigned char *layer; /* 0: wet; 1 .. LAYERS; DEEP */
+    double *open[3];      /* 1: both cells of the face are wet and free */
+    int64_t ncut[3], room[3];
+    struct cut *cut[3];
+    int64_t ncarry[LAYERS + 1], carry_room[LAYERS + 1];
+    struct carry *carry[LAYERS + 1];
+    int64_t nstencil, stencil_room, ngrad, grad_room;
+    int *at; /* step from the cell to those of its stencil */
+    double *weight, *grad;
+    int64_t ndeep, *deep;     /* local cells */
+    int64_t wet, cuts;        /* over all ranks */
+    double volume0, returned; /* m^dim: to be kept, with what has come in through openings; put back
+                                 by the shifts, all in all */
+    double passed;            /* m^dim: through openings, in and out */
+    double travelled;         /* -: cells since the last reinit */
+    double theta_least;       /* -: least distance of the surface from a wet centre, of h */
+    double g;                 /* m/s^2: size of gravity */
+    int64_t setups, reinits, repeats;
+};
+
+/* Whether the scene has a surface that fv computes. */
+bool surface_wanted(const struct run *r);
+
+/* levelset.c */
+struct surface *surface_create(const struct fv *s);
+void surface_free(struct surface **w);
+/* Ghosts of a level set: halo, and mirrored beyond closed sides. */
+void surface_ghosts(const struct fv *s, double *phi);
+/* phi by dt with u as it is. */
+void surface_advance(struct fv *s, double dt);
+/* Moves phi evenly to the volume of the start. */
+void surface_keep_volume(struct fv *s);
+/* m^dim of water; *area: its change with phi, < 0. Over all ranks. */
+double surface_volume(const struct fv *s, double *area);
+/* Share of a cell below phi = 0, by the plane through its centre. */
+double surface_share(const struct fv *s, int64_t c);
+
+/* Further off (m) than any cell can be: phi within boxes that are cut out, which are no water. */
+static inline double surface_far(const struct fv *s)
+{
+    return s->b.length[0] + s->b.length[1] + s->b.length[2];
+}
+
+/* shape_distance.c: signed distance (m) of the scene's water at the start. */
+double surface_distance(const struct fv *s, const double *x);
+/* The shape that the water at x belongs to; NULL: none. */
+const struct scene_shape *surface_shape(const struct fv *s, const double *x);
+
+/* reinit.c */
+void surface_reinit(struct fv *s, int steps);
+/* Largest | |grad phi| - 1 | within two cells of the surface. */
+double surface_distortion(const struct fv *s);
+
+/* extension.c: layers and stencils of the present phi; u of dry cells, layers 1 .. n. */
+void extension_build(struct fv *s);
+enum extend {
+    EXTEND_FREE,  /* goes on as it comes */
+    EXTEND_SHEAR, /* no shear stress at the surface; takes note of the normal one */
+    EXTEND_CHANGE /* the same for an increment: takes no note */
+};
+void extension_apply(const struct fv *s, double *const u[3], enum extend how, int layers);
+/* The same for one field, layers 1 and 2. */
+void extension_scalar(const struct fv *s, double *q);
+
+/* surface_pressure.c */
+/* Wet cells, cut faces and stencils of the present phi; pressure_rebuild then. */
+void surface_rebuild(struct fv *s);
+/* p/rho on the cut faces with the viscous stress of the last extension. */
+void surface_set_pressure(struct fv *s);
+void surface_zero(const struct fv *s, double *q); /* in dry cells of this rank */
+/* div -= what the surface's pressure adds to Lap psi. */
+void surface_add_pressure(const struct fv *s, double *div);
+/* U of cut faces by the pressure there, of dry faces anew from u. */
+void surface_fluxes(const struct fv *s, double tau, const double *psi);
+void surface_dry_fluxes(const struct fv *s);
+/* Gradient of psi along a in cells whose stencil leaves the water: mean of the faces'. */
+void surface_gradient(const struct fv *s, int a, const double *psi, double *out);
+
+/* surface_steps.c */
+/* Velocities, fluxes and cuts of the start. */
+void surface_start(struct fv *s);
+/* Around a step of u: the surface stands at half time in it, so that both swing without loss
+ * (leapfrog: phi and u take turns). */
+void surface_first_half(struct fv *s, double dt);
+void surface_second_half(struct fv *s, double dt);
+/* What a step starts from, kept to go back to it. */
+void surface_keep_state(struct fv *s);
+void surface_back(struct fv *s);
+/* Why the run cannot go on; NULL if it can. */
+const char *surface_trouble(const struct fv *s);
+
+/* surface_errors.c */
+/* Kinetic energy of the water, J/kg m^dim, over all ranks. */
+double surface_energy(const struct fv *s);
+/* Farthest water along axis a, m, over all ranks. */
+double surface_reach(const struct fv *s, int a);
+/* Height of the water at x: of that in the column of cells there, on top of the bottom. This
+ * rank's part of it. */
+double surface_level(const struct fv *s, const double *x);
+/* Takes a sample of what swings in a standing wave; period and damping, volume and counts into the
+ * summary. */
+void surface_sample(struct fv *s);
+void surface_summarise(struct fv *s);
+
+#endif

@@ -1,0 +1,282 @@
+/* reinit.c - phi_tau + S(phi_0)(|grad phi| - 1) = 0 to the steady state in a band (Godunov's
+ * Hamiltonian, RK2). Beside the surface, differences towards it end at its place on the axis, by
+ * the quadratic through phi_0, which pins it (Russo & Smereka, J. Comput. Phys. 163, 2000; Min &
+ * Gibou, J. Comput. Phys. 225, 2007); where the slope there is good already, phi is left alone,
+ * which pins it better still. WENO5 elsewhere. SPDX-License-Identifier: BSD-3-Clause */
+#include "levelset.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../boundary/blocked.h"
+#include "weno.h"
+
+enum { WIDTH = 8 };             /* cells on either side of the surface that are worked on */
+static const double good = 0.1; /* | |grad phi| - 1 | of cells beside the surface that stay as is */
+
+/* A run of cells of the band along x. */
+struct strip {
+    int64_t cell, n;
+    int row;     /* local */
+    double dtau; /* m: pseudo step of those that are no spots */
+};
+
+/* A cell of the band between which and a neighbour the surface passes. */
+struct spot {
+    int64_t cell;
+    double sign, dtau;  /* -, m */
+    double reach[3][2]; /* m: way to the surface along each axis, down and up; 0: none */
+};
+
+struct band {
+    int64_t nstrips, nspots;
+    struct strip *strips;
+    struct spot *spots;
+};
+
+static double minmod(double a, double b) { return a * b <= 0.0 ? 0.0 : fabs(a) < fabs(b) ? a : b; }
+
+/* Second difference of q at the cell (not divided). */
+static double bend(const double *q, int64_t d) { return q[d] - 2.0 * q[0] + q[-d]; }
+
+/* Share of the step d after which the quadratic through q is 0; q[0] and q[d] differ in sign. */
+static double crossing(const double *q, int64_t d)
+{
+    const double c = minmod(bend(q, d), bend(q + d, d)), fall = q[0] - q[d];
+    if (fabs(c) < 1e-12 * fabs(fall))
+        return q[0] / fall;
+    const double e = 0.5 * c - q[0] - q[d], root = sqrt(fmax(0.0, e * e - 4.0 * q[0] * q[d]));
+    const double t = 0.5 + (fall - copysign(root, fall)) / c;
+    return t > 0.0 && t < 1.0 ? t : q[0] / fall;
+}
+
+static double slope_of(const struct fv *s, const double *phi, int64_t c, int j)
+{
+    const struct block *b = &s->b;
+    double sum = 0.0;
+    for (int a = 0; a < b->dim; a++) {
+        const double d =
+            (blocked_beside(s, phi, c, b->stride[a]) - blocked_beside(s, phi, c, -b->stride[a])) /
+            (block_step(b, a, j) + block_step(b, a, j + 1));
+        sum += d * d;
+    }
+    return sqrt(sum);
+}
+
+static double pseudo_cfl(const struct block *b) { return b->dim == 3 ? 0.3 : 0.45; }
+
+static struct spot look(const struct fv *s, const double *phi, int64_t c)
+{
+    const struct block *b = &s->b;
+    const int j = block_row(b, c);
+    struct spot x = {.cell = c, .sign = phi[c] < 0.0 ? -1.0 : 1.0, .dtau = INFINITY};
+    for (int a = 0; a < b->dim; a++) {
+        x.dtau = fmin(x.dtau, block_size(b, a, j));
+        double v[5];
+        blocked_even_line(s, phi, c, b->stride[a], v + 2);
+        for (int up = 0; up < 2; up++) {
+            const int d = up ? 1 : -1;
+            if ((v[2] < 0.0) == (v[2 + d] < 0.0))
+                continue;
+            x.reach[a][up] = fmax(1e-6, crossing(v + 2, d)) * block_step(b, a, j + up);
+            x.dtau = fmin(x.dtau, x.reach[a][up]);
+        }
+    }
+    x.dtau *= pseudo_cfl(b);
+    if (fabs(slope_of(s, phi, c, j) - 1.0) < good)
+        x.dtau = 0.0;
+    return x;
+}
+
+/* Second derivative along axis a at a cell in row j, whose neighbours stand d away in q, 1/m. */
+static double bend_at(const struct block *b, const double *q, int64_t d, int a, int j)
+{
+    if (a != 1 || !b->rows)
+        return bend(q, d) / (b->h[a] * b->h[a]);
+    const double low = b->rows->step[j], up = b->rows->step[j + 1];
+    return 2.0 * ((q[d] - q[0]) / up - (q[0] - q[-d]) / low) / (up + low);
+}
+
+/* One-sided derivatives beside the surface: second-order ENO, or to the surface itself. */
+static void slopes_beside(const struct fv *s, const double *phi, const struct spot *x, int a,
+                          double d[2])
+{
+    const struct block *b = &s->b;
+    const int j = block_row(b, x->cell);
+    double v[5], *const q = v + 2;
+    blocked_even_line(s, phi, x->cell, b->stride[a], q);
+    for (int up = 0; up < 2; up++) {
+        const int step = up ? 1 : -1;
+        const double c = minmod(bend_at(b, q, 1, a, j), bend_at(b, q + step, 1, a, j + step));
+        const double reach = x->reach[a][up] > 0.0 ? x->reach[a][up] : block_step(b, a, j + up);
+        const double far = x->reach[a][up] > 0.0 ? 0.0 : q[step];
+        d[up] = (up ? 1.0 : -1.0) * ((far - q[0]) / reach - 0.5 * reach * c);
+    }
+}
+
+static double size_beside(const struct fv *s, const double *phi, const struct spot *x)
+{
+    double sum = 0.0, d[2];
+    for (int a = 0; a < s->b.dim; a++) {
+        slopes_beside(s, phi, x, a, d);
+        const double in = fmax(0.0, x->sign * d[0]), out = fmin(0.0, x->sign * d[1]);
+        sum += fmax(in * in, out * out);
+    }
+    return sqrt(sum);
+}
+
+/* In place of the squares of slopes whose stencils end at a box: phi is even there. */
+static void squares_beside_boxes(const struct fv *s, const double *phi, const double *old,
+                                 double *sum)
+{
+    static const enum blocked_ghost even[2] = {GHOST_EVEN, GHOST_EVEN};
+    for (int a = 0; a < s->b.dim; a++)
+        for (int64_t k = 0; k < s->blocked->nnear[a]; k++) {
+            const struct near_box *x = s->blocked->near[a] + k;
+            const int64_t c = x->cell, d = s->b.stride[a];
+            double v[7], was = 0.0, is = 0.0;
+            if (!x->own)
+                continue;
+            blocked_line(x, phi, d, 3, even, v + 3);
+            weno_add_square(phi + c, old + c, d, 1.0 / s->b.h[a], 1, &was);
+            weno_add_square(v + 3, old + c, 1, 1.0 / s->b.h[a], 1, &is);
+            sum[c] = fmax(0.0, sum[c] + is - was);
+        }
+}
+
+/* rate = change of phi over a pseudo step; old: phi at its start, which has the sign of all. */
+static void rates(const struct fv *s, const double *phi, const double *old, const struct band *w,
+                  double *rate)
+{
+    const struct block *b = &s->b;
+    for (int64_t k = 0; k < w->nstrips; k++) {
+        const int64_t c = w->strips[k].cell, n = w->strips[k].n;
+        memset(rate + c, 0, (size_t)n * sizeof(double));
+        for (int a = 0; a < b->dim; a++)
+            weno_add_square(phi + c, old + c, b->stride[a],
+                            1.0 / block_scale(b, a, w->strips[k].row), n, rate + c);
+    }
+    if (s->blocked)
+        squares_beside_boxes(s, phi, old, rate);
+    for (int64_t k = 0; k < w->nstrips; k++) {
+        const int64_t c = w->strips[k].cell, n = w->strips[k].n;
+        const double dtau = w->strips[k].dtau;
+        for (int64_t i = c; i < c + n; i++)
+            rate[i] = (old[i] < 0.0 ? -dtau : dtau) * (1.0 - sqrt(rate[i]));
+    }
+    for (int64_t k = 0; k < w->nspots; k++) {
+        const struct spot *x = w->spots + k;
+        rate[x->cell] = x->dtau > 0.0 ? x->dtau * x->sign * (1.0 - size_beside(s, phi, x)) : 0.0;
+    }
+}
+
+static bool beside_surface(const struct fv *s, const double *phi, int64_t c)
+{
+    for (int a = 0; a < s->b.dim; a++)
+        for (int way = -1; way <= 1; way += 2)
+            if ((phi[c] < 0.0) != (blocked_beside(s, phi, c, way * s->b.stride[a]) < 0.0))
+                return !is_blocked(s, c);
+    return false;
+}
+
+/* mark = 1 within WIDTH cells of the surface, whatever phi says there: it may be old. */
+static void mark_band(const struct fv *s, double *mark)
+{
+    const struct block *b = &s->b;
+    memset(mark, 0, (size_t)b->size * sizeof(double));
+    BLOCK_ROWS (b, 0, c, len)
+        for (int64_t i = c; i < c + len; i++)
+            mark[i] = beside_surface(s, s->surface->phi, i);
+    for (int k = 1; k < WIDTH; k++)
+        for (int a = 0; a < b->dim; a++) {
+            const int64_t d = b->stride[a];
+            double *const next = s->surface->kept;
+            block_halo(b, 1, &mark);
+            BLOCK_ROWS (b, 0, c, len)
+                for (int64_t i = c; i < c + len; i++)
+                    next[i] = fmax(mark[i], fmax(mark[i - d], mark[i + d]));
+            BLOCK_ROWS (b, 0, c, len)
+                memcpy(mark + c, next + c, (size_t)len * sizeof(double));
+        }
+}
+
+static double least_size(const struct block *b, int j)
+{
+    double least = INFINITY;
+    for (int a = 0; a < b->dim; a++)
+        least = fmin(least, block_size(b, a, j));
+    return least;
+}
+
+/* The band's cells; all others are at least as far off as it is wide. */
+static void list_band(struct fv *s, struct band *w)
+{
+    const struct block *b = &s->b;
+    double *phi = s->surface->phi, *mark = s->surface->phi_new, far = INFINITY;
+    for (int a = 0; a < b->dim; a++)
+        far = fmin(far, b->h[a]);
+    far *= WIDTH - 1;
+    mark_band(s, mark);
+    BLOCK_ROWS (b, 0, c, len)
+        for (int64_t i = c; i < c + len; i++)
+            if (mark[i] == 0.0 || is_blocked(s, i))
+                phi[i] = copysign(fmax(far, fabs(phi[i])), phi[i]);
+    surface_ghosts(s, phi);
+    BLOCK_ROWS (b, 0, c, len)
+        for (int64_t i = c; i < c + len; i++) {
+            if (!(mark[i] > 0.0) || is_blocked(s, i))
+                continue;
+            if (i == c || !(mark[i - 1] > 0.0) || is_blocked(s, i - 1))
+                w->strips[w->nstrips++] =
+                    (struct strip){.cell = i, .row = j_, .dtau = pseudo_cfl(b) * least_size(b, j_)};
+            w->strips[w->nstrips - 1].n++;
+            if (beside_surface(s, phi, i))
+                w->spots[w->nspots++] = look(s, phi, i);
+        }
+}
+
+void surface_reinit(struct fv *s, int steps)
+{
+    struct surface *f = s->surface;
+    const struct block *b = &s->b;
+    const int64_t cells = (int64_t)b->n[0] * b->n[1] * b->n[2];
+    struct band w = {.strips = NEW(struct strip, cells), .spots = NEW(struct spot, cells)};
+    list_band(s, &w);
+    double *restrict phi = f->phi, *restrict old = f->kept, *restrict rate = f->rate;
+    for (int it = 0; it < steps; it++) {
+        memcpy(old, phi, (size_t)b->size * sizeof(double));
+        rates(s, phi, old, &w, rate);
+        for (int64_t k = 0; k < w.nstrips; k++)
+            for (int64_t i = w.strips[k].cell; i < w.strips[k].cell + w.strips[k].n; i++)
+                phi[i] += rate[i];
+        surface_ghosts(s, phi);
+        rates(s, phi, old, &w, rate);
+        for (int64_t k = 0; k < w.nstrips; k++)
+            for (int64_t i = w.strips[k].cell; i < w.strips[k].cell + w.strips[k].n; i++) {
+                const double q = 0.5 * (old[i] + phi[i] + rate[i]);
+                phi[i] = (q < 0.0) == (old[i] < 0.0) ? q : old[i]; /* the surface stays */
+            }
+        surface_ghosts(s, phi);
+    }
+    mem_free(w.strips);
+    mem_free(w.spots);
+    f->travelled = 0.0;
+    f->reinits++;
+}
+
+double surface_distortion(const struct fv *s)
+{
+    const struct block *b = &s->b;
+    const double *phi = s->surface->phi;
+    double most = 0.0, h = 0.0;
+    for (int a = 0; a < b->dim; a++)
+        h = fmax(h, b->h[a]);
+    BLOCK_ROWS (b, 0, c, len)
+        for (int64_t i = c; i < c + len; i++) {
+            if (fabs(phi[i]) < 2.0 * h)
+                most = fmax(most, fabs(slope_of(s, phi, i, j_) - 1.0));
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, b->cart);
+    return most;
+}

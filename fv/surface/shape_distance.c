@@ -1,0 +1,121 @@
+/* shape_distance.c - signed distance of the scene's water at the start, < 0 inside: shapes one
+ * after the other, unions by the least, holes by the largest.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "levelset.h"
+
+#include <math.h>
+
+#include "../boundary/blocked.h"
+
+/* Height against gravity (m); without gravity y, in 3D z. */
+static double height(const struct fv *s, const double *x)
+{
+    const double *g = s->run->scene.fluid.gravity;
+    const double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    if (size == 0.0)
+        return x[s->b.dim - 1];
+    return -(g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) / size;
+}
+
+/* Whether what is half a cell beyond a side of the water, seen from x, is a box that is cut out. */
+static bool is_wall(const struct fv *s, const double *x, int a, double side, double out)
+{
+    const struct block *b = &s->b;
+    if (!s->blocked)
+        return false;
+    for (int k = 0; k < blocked_count(); k++) {
+        int lo[3], hi[3];
+        bool in = true;
+        blocked_cells(s->run, k, lo, hi);
+        for (int t = 0; t < b->dim; t++) {
+            const double y = t == a ? side + 0.5 * out * b->h[a] : x[t];
+            const double at = (y - b->origin[t]) / b->h[t];
+            in = in && at > lo[t] && at < hi[t];
+        }
+        if (in)
+            return true;
+    }
+    return false;
+}
+
+/* Sides of the box that lie on or beyond the domain's, or beside a box that is cut out, are walls,
+ * not surface. */
+static double box(const struct fv *s, const struct scene_shape *h, const double *x)
+{
+    double out2 = 0.0, in = -INFINITY;
+    for (int a = 0; a < s->b.dim; a++) {
+        const double low = s->b.origin[a], high = low + s->b.length[a], eps = 1e-6 * s->b.h[a];
+        if (a == 2 && !(h->box[1][a] > h->box[0][a]))
+            continue; /* a plane box in 3D goes through */
+        double d = -INFINITY;
+        if (h->box[0][a] > low + eps && !is_wall(s, x, a, h->box[0][a], -1.0))
+            d = h->box[0][a] - x[a];
+        if (h->box[1][a] < high - eps && !is_wall(s, x, a, h->box[1][a], 1.0))
+            d = fmax(d, x[a] - h->box[1][a]);
+        in = fmax(in, d);
+        out2 += d > 0.0 ? d * d : 0.0;
+    }
+    return out2 > 0.0 ? sqrt(out2) : in;
+}
+
+static double polygon(const struct param_points *p, const double *x)
+{
+    double least = INFINITY;
+    bool in = false;
+    for (int k = 0, l = p->n - 1; k < p->n; l = k++) {
+        const double *a = p->x[k], *b = p->x[l];
+        const double e[2] = {b[0] - a[0], b[1] - a[1]}, r[2] = {x[0] - a[0], x[1] - a[1]};
+        const double ee = e[0] * e[0] + e[1] * e[1];
+        const double m = ee > 0.0 ? fmin(1.0, fmax(0.0, (e[0] * r[0] + e[1] * r[1]) / ee)) : 0.0;
+        least = fmin(least, hypot(r[0] - m * e[0], r[1] - m * e[1]));
+        if ((a[1] > x[1]) != (b[1] > x[1]) &&
+            x[0] < a[0] + (b[0] - a[0]) * (x[1] - a[1]) / (b[1] - a[1]))
+            in = !in;
+    }
+    return in ? -least : least;
+}
+
+static double shape(const struct fv *s, const struct scene_shape *h, const double *x)
+{
+    double r2 = 0.0;
+    for (int a = 0; a < s->b.dim; a++)
+        r2 += (x[a] - h->centre[a]) * (x[a] - h->centre[a]);
+    switch (h->form) {
+    case SHAPE_BOX:
+        return box(s, h, x);
+    case SHAPE_POLYGON:
+        return polygon(&h->points, x);
+    case SHAPE_DISC:
+        return sqrt(r2) - h->radius;
+    default:
+        return height(s, x) - h->level;
+    }
+}
+
+double surface_distance(const struct fv *s, const double *x)
+{
+    const struct scene *c = &s->run->scene;
+    const struct scene_initial *f = &c->initial;
+    double far = 0.0;
+    for (int a = 0; a < s->b.dim; a++)
+        far += s->b.length[a];
+    double d = far;
+    if (c->nshapes == 0)
+        d = scene_has_wave(c) && f->level < LEVEL_TOP ? x[1] - exact_surface(&s->exact, x[0])
+                                                      : -far;
+    for (int k = 0; k < c->nshapes; k++) {
+        const double e = shape(s, c->shapes + k, x);
+        d = c->shapes[k].hole ? fmax(d, -e) : fmin(d, e);
+    }
+    return fmax(-far, fmin(far, d));
+}
+
+const struct scene_shape *surface_shape(const struct fv *s, const double *x)
+{
+    const struct scene *c = &s->run->scene;
+    const struct scene_shape *last = NULL;
+    for (int k = 0; k < c->nshapes; k++)
+        if (shape(s, c->shapes + k, x) < 0.0)
+            last = c->shapes[k].hole ? NULL : c->shapes + k;
+    return last;
+}

@@ -1,0 +1,181 @@
+/* surface_pressure.c - p = 2 nu n.(D n) on the surface in the equations of the wet cells (ghost
+ * fluid: Gibou, Fedkiw, Cheng & Kang, J. Comput. Phys. 176, 2002, symmetric): between a wet cell L
+ * and a dry one the gradient is (p_I - p_L)/(theta h), theta = phi_L/(phi_L - phi_R) >= 0.01,
+ * with viscosity more (surface_first_half): p_I is explicit, and 1/theta amplifies it.
+ * Without gravity's part, so p_I has -(pressure at rest). SPDX-License-Identifier: BSD-3-Clause */
+#include "levelset.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../boundary/forcing.h"
+#include "../boundary/still.h"
+
+static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
+{
+    struct surface *f = s->surface;
+    const struct block *b = &s->b;
+    const int64_t face = block_at(b, at[0], at[1], at[2]), d = b->stride[a];
+    struct cut x = {.face = face,
+                    .wet = wet_here ? face : face - d,
+                    .dry = wet_here ? face - d : face,
+                    .up = wet_here ? -1.0 : 1.0};
+    const double theta = f->phi[x.wet] / (f->phi[x.wet] - f->phi[x.dry]);
+    double at_surface[3];
+    block_centre(b, at[0], at[1], at[2], at_surface);
+    x.step = block_step(b, a, at[1]);
+    x.size = block_size(b, a, wet_here ? at[1] : at[1] - (a == 1));
+    at_surface[a] += ((wet_here ? 0.0 : -1.0) + x.up * theta) * x.step;
+    x.theta = fmax(theta, fmax(f->theta_least, 0.01));
+    x.height = -fv_still_pressure(s, at_surface) / s->run->scene.fluid.rho;
+    if (f->ncut[a] == f->room[a]) {
+        const int64_t more = 2 * f->room[a] + 256;
+        GROW(f->cut[a], f->ncut[a], more);
+        f->room[a] = more;
+    }
+    f->cut[a][f->ncut[a]++] = x;
+}
+
+/* Faces of local cells and of one layer around. */
+static void find_cuts(struct fv *s, int a)
+{
+    struct surface *f = s->surface;
+    const struct block *b = &s->b;
+    const int more = 1, deep = b->g[2] ? 1 : 0;
+    f->ncut[a] = 0;
+    for (int k = -deep; k < b->n[2] + deep; k++)
+        for (int j = -more; j < b->n[1] + more; j++)
+            for (int i = -more; i < b->n[0] + more; i++) {
+                const int64_t c = block_at(b, i, j, k);
+                const double free = s->forcing ? s->forcing->open[a][c] : 1.0;
+                const bool here = f->layer[c] == 0, below = f->layer[c - b->stride[a]] == 0;
+                f->open[a][c] = (here && below) || free == 2.0 ? free : 0.0;
+                if (free == 2.0 && !here && !below)
+                    f->open[a][c] = 0.0;
+                if (free == 1.0 && here != below)
+                    add_cut(s, a, (const int[3]){i, j, k}, here);
+            }
+}
+
+static void count(struct fv *s)
+{
+    struct surface *f = s->surface;
+    int64_t n[2] = {0, 0};
+    BLOCK_ROWS (&s->b, 0, c, len)
+        for (int64_t i = c; i < c + len; i++)
+            n[0] += f->layer[i] == 0;
+    for (int a = 0; a < s->b.dim; a++)
+        n[1] += f->ncut[a];
+    MPI_Allreduce(MPI_IN_PLACE, n, 2, MPI_INT64_T, MPI_SUM, s->b.cart);
+    f->wet = n[0];
+    f->cuts = n[1];
+}
+
+void surface_rebuild(struct fv *s)
+{
+    struct surface *f = s->surface;
+    extension_build(s);
+    for (int a = 0; a < s->b.dim; a++)
+        find_cuts(s, a);
+    count(s);
+    f->setups++;
+}
+
+void surface_set_pressure(struct fv *s)
+{
+    struct surface *f = s->surface;
+    if (s->nu > 0.0)
+        block_halo(&s->b, 1, &f->stress);
+    for (int a = 0; a < s->b.dim; a++)
+        for (int64_t i = 0; i < f->ncut[a]; i++) {
+            struct cut *x = f->cut[a] + i;
+            x->p = x->height + 2.0 * s->nu * f->stress[x->dry];
+        }
+}
+
+void surface_zero(const struct fv *s, double *q)
+{
+    const unsigned char *layer = s->surface->layer;
+    BLOCK_ROWS (&s->b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            q[i] = layer[i] ? 0.0 : q[i];
+}
+
+void surface_add_pressure(const struct fv *s, double *div)
+{
+    const struct surface *f = s->surface;
+    for (int a = 0; a < s->b.dim; a++)
+        for (int64_t i = 0; i < f->ncut[a]; i++) {
+            const struct cut *x = f->cut[a] + i;
+            div[x->wet] -= x->p / (x->theta * x->step * x->size);
+        }
+}
+
+static double cut_gradient(const struct cut *x, const double *psi)
+{
+    return x->up * (x->p - psi[x->wet]) / (x->theta * x->step);
+}
+
+void surface_fluxes(const struct fv *s, double tau, const double *psi)
+{
+    const struct surface *f = s->surface;
+    for (int a = 0; a < s->b.dim; a++)
+        for (int64_t i = 0; i < f->ncut[a]; i++)
+            s->U[a][f->cut[a][i].face] -= tau * cut_gradient(f->cut[a] + i, psi);
+}
+
+void surface_dry_fluxes(const struct fv *s)
+{
+    const unsigned char *layer = s->surface->layer;
+    for (int a = 0; a < s->b.dim; a++) {
+        const int64_t d = s->b.stride[a];
+        const double *u = s->u[a];
+        BLOCK_ROWS (&s->b, 1, c, n) {
+            static const double even[4] = {-1.0 / 12.0, 7.0 / 12.0, 7.0 / 12.0, -1.0 / 12.0};
+            const double *w = a == 1 && s->b.rows ? s->b.rows->face[j_] : even;
+            for (int64_t i = c; i < c + n; i++)
+                if (layer[i] && layer[i - d])
+                    s->U[a][i] =
+                        (w[1] * u[i - d] + w[2] * u[i]) + (w[0] * u[i - 2 * d] + w[3] * u[i + d]);
+        }
+    }
+}
+
+/* Gradient on the faces along a. */
+static void face_gradient(const struct fv *s, int a, const double *psi, double *out)
+{
+    const struct surface *f = s->surface;
+    const int64_t d = s->b.stride[a];
+    BLOCK_ROWS (&s->b, 1, c, n) {
+        const double w = 1.0 / block_step(&s->b, a, j_);
+        for (int64_t i = c; i < c + n; i++) {
+            out[i] = f->open[a][i] * w * (psi[i] - psi[i - d]);
+            if (f->open[a][i] == 2.0) /* outflow: psi is 0 on the face */
+                out[i] = 2.0 * w * (s->forcing->forced[i] ? -psi[i - d] : psi[i]);
+        }
+    }
+    for (int64_t i = 0; i < f->ncut[a]; i++)
+        out[f->cut[a][i].face] = cut_gradient(f->cut[a] + i, psi);
+}
+
+static bool dry_water_side(const struct fv *s, int64_t c)
+{
+    return s->surface->layer[c] && !(s->forcing && s->forcing->forced[c]);
+}
+
+void surface_gradient(const struct fv *s, int a, const double *psi, double *out)
+{
+    const struct surface *f = s->surface;
+    const int64_t d = s->b.stride[a];
+    double *F = f->rate;
+    face_gradient(s, a, psi, F);
+    BLOCK_ROWS (&s->b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            if (f->layer[i])
+                out[i] = 0.0;
+            else if (dry_water_side(s, i - d) || dry_water_side(s, i + d) ||
+                     dry_water_side(s, i - 2 * d) || dry_water_side(s, i + 2 * d))
+                out[i] = 0.5 * (F[i] + F[i + d]);
+        }
+}

@@ -1,0 +1,219 @@
+/* block_stages.c - stages on structured blocks of any shape that are joined or overlap.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../boundary/mesh_bc.h"
+#include "../operators/mesh_ops.h"
+#include "../poisson/mesh_pressure.h"
+#include "../fv.h"
+#include "../grid/mesh.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../watch/limits.h"
+#include "stages.h"
+
+static const int none[3] = {0, 0, 0};
+
+static void pressure_gradient(struct fv *s)
+{
+    mesh_fill(s->m, 1, &s->p);
+    if (s->prm.upwind > 0.0 || s->m->has_fringe) {
+        mesh_smooth_pressure(s);
+        mesh_fill(s->m, 1, &s->p);
+    }
+    mesh_bc_pressure(s, s->p);
+    mesh_gradient(s, s->p, s->step_p);
+}
+
+static void set_slip(struct fv *s, double tau, const double *psi) { mesh_bc_set_slip(s, tau, psi); }
+
+static void begin_sides(struct fv *s) { (void)s; }
+
+static void set_sides(struct fv *s, double t, double dt)
+{
+    (void)dt;
+    mesh_bc_time(s, t);
+}
+
+static void ghosts(struct fv *s, enum bc_value what, double *const u[3])
+{
+    mesh_fill(s->m, s->dim, u);
+    mesh_bc_velocity(s, what, u);
+}
+
+static void finish_rhs(struct fv *s)
+{
+    for (int a = 0; a < s->dim; a++)
+        FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        s->rhs[a][i] *= s->free[i];
+    if (!s->uneven)
+        return;
+    mesh_fill(s->m, s->dim, s->rhs);
+    for (int a = 0; a < s->dim; a++) {
+        mesh_bc_even(s, false, s->rhs[a]);
+        mesh_to_index(s, s->rhs[a], s->flux);
+    }
+}
+
+static void viscous(struct fv *s, int q, double *out) { mesh_viscous(s, s->u[q], out); }
+
+static bool solve_viscous(struct fv *s, double c, double t, double scale)
+{
+    (void)t;
+    (void)scale;
+    for (int a = 0; a < s->dim; a++)
+        memset(s->delta[a], 0, (size_t)s->size * sizeof(double));
+    mesh_bc_velocity(s, BC_CHANGE, s->delta); /* what the sides do from one time to the next */
+    for (int a = 0; a < s->dim; a++) {
+        double *restrict L = s->krylov[0][0];
+        mesh_viscous(s, s->delta[a], L);
+        FLOW_ROWS(s, at, n)
+        for (int64_t i = at; i < at + n; i++)
+            s->rhs[a][i] += c * L[i];
+    }
+    return mesh_viscous_solve(s, c, s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous : 1e-4);
+}
+
+static void predict_fluxes(struct fv *s, double t)
+{
+    (void)t;
+    ghosts(s, BC_AHEAD, s->u);
+    mesh_face_velocities(s, s->u, s->U);
+    mesh_bc_fluxes(s, s->U);
+}
+
+static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
+{
+    double *psi = s->psi[stage];
+    mesh_divergence(s, s->U, s->flux);
+    const bool good = mesh_pressure_solve(s, tau, s->flux, tol, s->start[stage], psi);
+    mesh_halo(s->m, 1, &psi);
+    mesh_bc_even(s, true, psi);
+    return good;
+}
+
+static void correct_fluxes(struct fv *s, double tau, double *psi)
+{
+    mesh_subtract_psi(s, tau, psi, s->U);
+    mesh_gradient(s, psi, s->rhs);
+}
+
+static void fill_velocity(struct fv *s) { ghosts(s, BC_GIVEN, s->u); }
+
+/* Largest sum over the indices of the rates of crossing cells, 1/s, and largest speed; what forces
+ * add to the rate in a second. */
+/* m/s^2: of differences of pressure between sides. */
+static double push_of(const struct fv *s)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    double L = INFINITY;
+    for (int a = 0; a < s->dim; a++)
+        L = fmin(L, d->max[a] - d->min[a]);
+    return limits_pressure_difference(&s->run->scene) / L;
+}
+
+static void measure_blocks(struct fv *s)
+{
+    const double push = push_of(s);
+    const struct mesh *m = s->m;
+    double most[4] = {0.0}, speed = 0.0, poison = 0.0;
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *p = m->part + q;
+        PART_ROWS (p, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                double u2 = 0.0, rate = 0.0, rise = 0.0, least = INFINITY;
+                if (s->free[i] == 0.0)
+                    continue;
+                for (int a = 0; a < m->dim; a++) {
+                    double F = 0.0, G = 0.0, S2 = 0.0;
+                    for (int k = 0; k < m->dim; k++) {
+                        const double S = 0.5 * (m->S[a][k][i] + m->S[a][k][i + p->stride[a]]);
+                        F += s->u[k][i] * S;
+                        G += s->drive[k] * S;
+                        S2 += S * S;
+                    }
+                    rate += fabs(F);
+                    rise += fabs(G) + push * sqrt(S2);
+                    least = fmin(least, S2);
+                    u2 += s->u[a][i] * s->u[a][i];
+                    poison += 0.0 * s->u[a][i];
+                }
+                most[0] = fmax(most[0], rate / m->V[i]);
+                most[1] = fmax(most[1], u2);
+                most[2] = fmax(most[2], rise / m->V[i]);
+                most[3] = fmax(most[3], sqrt(u2 / least) * m->V[i]);
+            }
+    }
+    most[1] = poison == 0.0 ? sqrt(most[1]) : INFINITY;
+    most[0] = fmax(most[0], mesh_bc_rate(s, &speed));
+    MPI_Allreduce(MPI_IN_PLACE, most, 4, MPI_DOUBLE, MPI_MAX, m->comm);
+    s->rate = most[0];
+    s->umax[0] = most[1];
+    s->rise = most[2];
+    s->Re = most[3] / fmax(s->nu, 1e-300);
+}
+
+static void find_worst(const struct fv *s, double before, struct diagnosis *d)
+{
+    const struct mesh *m = s->m;
+    double worst = -1.0;
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *p = m->part + q;
+        const struct mesh_block *b = m->block + p->block;
+        int i[3];
+        PART_CELLS (p, i, c)
+            for (int a = 0; a < m->dim; a++) {
+                const double v = isfinite(s->u[a][c]) ? fabs(s->u[a][c]) : 1e300;
+                const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+                const double *x = b->centre[mesh_cell(b, at)];
+                if (s->free[c] == 0.0 || v <= worst || v <= s->u_limit)
+                    continue;
+                worst = v;
+                d->bad = true;
+                snprintf(d->reason, sizeof d->reason,
+                         "velocity of cell (%d, %d, %d) of block \"%s\" is %g m/s, limit %g m/s",
+                         at[0], at[1], at[2], b->prm->name, v < 1e300 ? v : NAN, s->u_limit);
+                snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, step of %g s, limited by %s",
+                         x[0], x[1], x[2], s->dt, limit_name(s->limit));
+                limits_explain(&s->prm, s->limit, before, s->rate * s->dt, false, d->likely,
+                               sizeof d->likely);
+            }
+    }
+}
+
+static void place(const struct fv *s, int64_t c, char *text, size_t size)
+{
+    for (int q = 0; q < s->nparts; q++) {
+        const struct part *p = s->part + q;
+        const struct mesh_block *b = s->m->block + p->block;
+        int i[3];
+        PART_CELLS (p, i, at)
+            if (at == c) {
+                const int cell[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+                const double *x = b->centre[mesh_cell(b, cell)];
+                snprintf(text, size, "cell (%d, %d, %d) of block \"%s\" at (%g, %g, %g) m", cell[0],
+                         cell[1], cell[2], b->prm->name, x[0], x[1], x[2]);
+            }
+    }
+}
+
+/* The residual says little about waves as long as the grid, which make forces: a smaller one is
+ * wanted than where a cycle of PFMG takes all waves alike. */
+const struct stages block_stages = {.tolerance = 0.1,
+                                    .pressure_gradient = pressure_gradient,
+                                    .set_slip = set_slip,
+                                    .begin_sides = begin_sides,
+                                    .set_sides = set_sides,
+                                    .convection = mesh_convection,
+                                    .viscous = viscous,
+                                    .finish_rhs = finish_rhs,
+                                    .solve_viscous = solve_viscous,
+                                    .predict_fluxes = predict_fluxes,
+                                    .solve_pressure = solve_pressure,
+                                    .correct_fluxes = correct_fluxes,
+                                    .fill_velocity = fill_velocity,
+                                    .measure = measure_blocks,
+                                    .find_worst = find_worst,
+                                    .place = place};

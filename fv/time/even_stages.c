@@ -1,0 +1,246 @@
+/* even_stages.c - stages on a uniform grid and on graded rows, with forced cells and a free
+ * surface. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../boundary/forcing.h"
+#include "../boundary/outflow.h"
+#include "../operators/blocked_cells.h"
+#include "../poisson/pressure.h"
+#include "../surface/levelset.h"
+#include "../watch/limits.h"
+#include "stages.h"
+#include "../operators/operators.h"
+
+static void pressure_gradient(struct fv *s)
+{
+    double *const fields[1] = {s->p};
+    block_halo(&s->b, 1, fields);
+    if (s->bc || s->blocked) {
+        smooth_odd_even(s, s->p, s->face, s->flux);
+        block_halo(&s->b, 1, fields);
+    }
+    for (int a = 0; a < s->dim; a++)
+        gradient(s, s->p, a, CONTINUE_CUBIC, s->step_p[a]);
+}
+
+static void set_slip(struct fv *s, double tau, const double *psi)
+{
+    bc_set_slip(s, tau, psi);
+    if (s->blocked)
+        blocked_set_slip(s, tau, psi);
+}
+
+static void set_sides(struct fv *s, double t, double dt)
+{
+    (void)t; /* their velocities are constant, but of what is carried out */
+    outflow_set(s, dt);
+}
+
+static void viscous(struct fv *s, int q, double *out)
+{
+    viscous_apply(s, s->u[q], out);
+    if (s->blocked)
+        blocked_viscous(s, q, s->u[q], out);
+}
+
+/* The increment that forced cells make from one time to another, the start of all others: `scale'
+ * times the last stage's. */
+static void start_increment(struct fv *s, double t, double scale)
+{
+    for (int a = 0; a < s->dim; a++)
+        for (int64_t i = 0; i < s->size; i++)
+            s->delta[a][i] = scale != 0.0 ? scale * s->delta[a][i] : 0.0;
+    if (!s->forcing)
+        return;
+    for (int a = 0; a < s->dim && scale != 0.0; a++)
+        forcing_zero(s->forcing, s->delta[a]);
+    forcing_velocity(s, t, s->delta);
+    bc_ghosts(s, BC_CHANGE, s->delta);
+    const struct forcing *f = s->forcing;
+    for (int a = 0; a < s->dim; a++) {
+        for (int64_t i = 0; i < f->nset; i++)
+            s->delta[a][f->set[i]] -= s->u[a][f->set[i]];
+        for (int64_t i = 0; i < f->npartner; i++)
+            s->delta[a][f->partner[i]] -= s->u[a][f->partner[i]];
+    }
+}
+
+static bool solve_viscous(struct fv *s, double c, double t, double scale)
+{
+    const double tol = s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous : s->forcing ? 1e-5 : 1e-3;
+    start_increment(s, t, viscous_keeps_increment(s) ? scale : 0.0);
+    return viscous_solve(s, c, s->delta, s->rhs, tol);
+}
+
+static void predict_fluxes(struct fv *s, double t)
+{
+    if (s->forcing)
+        forcing_velocity(s, t, s->u);
+    if (s->surface)
+        extension_apply(s, s->u, EXTEND_FREE, STENCILS);
+    for (int a = 0; s->blocked && a < s->dim; a++)
+        blocked_zero(s, s->u[a]);
+    bc_ghosts(s, BC_AHEAD, s->u);
+    block_halo(&s->b, s->dim, s->u);
+    convection_face_velocities(s, s->u, s->U);
+    if (s->forcing)
+        forcing_fluxes(s, t, s->U);
+    bc_fluxes(s, BC_GIVEN, s->U);
+}
+
+static void divide_row(const double *restrict U, int64_t d, double w, bool first, int64_t n,
+                       double *restrict div)
+{
+    for (int64_t i = 0; i < n; i++)
+        div[i] = (first ? 0.0 : div[i]) + w * (U[i + d] - U[i]);
+}
+
+/* div = D U over the local cells, divided by tau. */
+static void divergence(struct fv *s, double tau, double *restrict div)
+{
+    const struct block *b = &s->b;
+    for (int a = 0; a < b->dim; a++) {
+        const int64_t d = b->stride[a];
+        const double *restrict U = s->U[a];
+        BLOCK_ROWS (b, 0, c, n)
+            divide_row(U + c, d, 1.0 / (block_size(b, a, j_) * tau), a == 0, n, div + c);
+    }
+}
+
+static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
+{
+    divergence(s, tau, s->rhs[0]);
+    if (s->surface)
+        surface_add_pressure(s, s->rhs[0]);
+    s->iterations += pressure_solve(s, s->psi[stage], s->rhs[0], tol, 50);
+    return true; /* the watches see what is left */
+}
+
+static void subtract_row(double *restrict U, const double *restrict psi, int64_t d, double w,
+                         const double *restrict open, int64_t n)
+{
+    if (open)
+        for (int64_t i = 0; i < n; i++)
+            U[i] -= w * open[i] * (psi[i] - psi[i - d]);
+    else
+        for (int64_t i = 0; i < n; i++)
+            U[i] -= w * (psi[i] - psi[i - d]);
+}
+
+static void correct_fluxes(struct fv *s, double tau, double *psi)
+{
+    const struct block *b = &s->b;
+    double *const *open = s->surface ? s->surface->open : s->forcing ? s->forcing->open : NULL;
+    for (int a = 0; a < b->dim; a++) {
+        gradient(s, psi, a, CONTINUE_EVEN, s->rhs[a]);
+        if (s->surface)
+            surface_gradient(s, a, psi, s->rhs[a]);
+        if (s->forcing)
+            forcing_zero(s->forcing, s->rhs[a]);
+        BLOCK_ROWS (b, 1, c, n)
+            subtract_row(s->U[a] + c, psi + c, b->stride[a], tau / block_step(b, a, j_),
+                         open ? open[a] + c : NULL, n);
+    }
+}
+
+static void fill_velocity(struct fv *s)
+{
+    bc_ghosts(s, BC_GIVEN, s->u);
+    block_halo(&s->b, s->dim, s->u);
+}
+
+/* Largest |u_a| and sum of |u_a| w_a of a row of cells (in 2D the third is one of the others). A
+ * value that is not finite makes the sum infinite. */
+static void measure_row(const double *restrict u, const double *restrict v,
+                        const double *restrict w, const double *weight, int64_t n, double *most)
+{
+    double x = 0.0, y = 0.0, z = 0.0, all = 0.0;
+    int64_t bad = 0;
+    for (int64_t i = 0; i < n; i++) {
+        const double a = fabs(u[i]), b = fabs(v[i]), c = fabs(w[i]);
+        const double sum = a * weight[0] + b * weight[1] + c * weight[2];
+        x = a > x ? a : x;
+        y = b > y ? b : y;
+        z = c > z ? c : z;
+        all = sum > all ? sum : all;
+        bad |= sum < 1e300 ? 0 : 1;
+    }
+    most[0] = fmax(most[0], x);
+    most[1] = fmax(most[1], y);
+    most[2] = fmax(most[2], z);
+    most[3] = bad ? INFINITY : fmax(most[3], all);
+}
+
+static void measure_even(struct fv *s)
+{
+    const struct block *b = &s->b;
+    double most[4] = {0.0, 0.0, 0.0, 0.0};
+    BLOCK_ROWS (b, 0, c, n) {
+        const double weight[3] = {1.0 / b->h[0], 1.0 / block_size(b, 1, j_),
+                                  b->dim == 3 ? 1.0 / b->h[2] : 0.0};
+        measure_row(s->u[0] + c, s->u[1] + c, s->u[b->dim == 3 ? 2 : 1] + c, weight, n, most);
+    }
+    for (int a = 0; a < 3 && !(most[3] < INFINITY); a++)
+        most[a] = INFINITY;
+    MPI_Allreduce(MPI_IN_PLACE, most, 4, MPI_DOUBLE, MPI_MAX, b->cart);
+    for (int a = 0; a < 3; a++)
+        s->umax[a] = a < b->dim ? most[a] : 0.0;
+    s->rate = most[3];
+}
+
+static void find_worst(const struct fv *s, double before, struct diagnosis *d)
+{
+    const struct block *b = &s->b;
+    int at[3] = {0, 0, 0};
+    double worst = -1.0, x[3];
+    BLOCK_CELLS (b, i, j, k, c)
+        for (int a = 0; a < b->dim; a++) {
+            const double v = fabs(s->u[a][c]);
+            if (!(v <= worst) || !isfinite(v)) {
+                worst = isfinite(v) ? v : 1e300;
+                at[0] = i;
+                at[1] = j;
+                at[2] = k;
+            }
+        }
+    if (worst < s->u_limit) /* another rank has it */
+        return;
+    d->bad = true;
+    block_centre(b, at[0], at[1], at[2], x);
+    snprintf(d->reason, sizeof d->reason, "velocity of cell (%d, %d, %d) is %g m/s, limit %g m/s",
+             at[0] + b->lo[0], at[1] + b->lo[1], at[2] + b->lo[2], worst < 1e300 ? worst : NAN,
+             s->u_limit);
+    snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, step of %g s, limited by %s", x[0], x[1],
+             x[2], s->dt, limit_name(s->limit));
+    limits_explain(&s->prm, s->limit, before, s->rate * s->dt, s->surface != NULL, d->likely,
+                   sizeof d->likely);
+}
+
+static void place(const struct fv *s, int64_t c, char *text, size_t size)
+{
+    const struct block *b = &s->b;
+    int at[3];
+    double x[3];
+    block_place(b, c, at);
+    block_centre(b, at[0], at[1], at[2], x);
+    snprintf(text, size, "cell (%d, %d, %d) at (%g, %g, %g) m", at[0] + b->lo[0], at[1] + b->lo[1],
+             at[2] + b->lo[2], x[0], x[1], x[2]);
+}
+
+const struct stages even_stages = {.tolerance = 1.0,
+                                   .pressure_gradient = pressure_gradient,
+                                   .set_slip = set_slip,
+                                   .begin_sides = outflow_begin,
+                                   .set_sides = set_sides,
+                                   .convection = convection,
+                                   .viscous = viscous,
+                                   .solve_viscous = solve_viscous,
+                                   .predict_fluxes = predict_fluxes,
+                                   .solve_pressure = solve_pressure,
+                                   .correct_fluxes = correct_fluxes,
+                                   .fill_velocity = fill_velocity,
+                                   .measure = measure_even,
+                                   .find_worst = find_worst,
+                                   .place = place};

@@ -1,0 +1,131 @@
+/* fv_keep.c - a copy of all that a step starts from, so that steps can be taken back: what a
+ * restart file holds, in memory. SPDX-License-Identifier: BSD-3-Clause */
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../boundary/bc.h"
+#include "../surface/levelset.h"
+#include "../fv.h"
+#include "newton.h"
+#include "../operators/operators.h"
+#include "steps.h"
+
+/* All fields that a step starts from, ghosts and all: bit for bit on the same ranks. */
+int fv_restart_fields(const struct fv *s, double **f, const char **names)
+{
+    static const char *const vector[][3] = {{"u0", "u1", "u2"},
+                                            {"U0", "U1", "U2"},
+                                            {"N0", "N1", "N2"},
+                                            {"old0", "old1", "old2"},
+                                            {"step0", "step1", "step2"}};
+    static const char *const starts[][3] = {{"psi0", "psi1", "psi2"}, {"z0", "z1", "z2"}};
+    int n = 0;
+    f[n] = s->p;
+    names[n++] = "p";
+    f[n] = s->p_before;
+    names[n++] = "p_before";
+    if (s->surface) {
+        f[n] = s->surface->phi;
+        names[n++] = "phi";
+    }
+    for (int a = 0; a < 3; a++) {
+        double *const all[] = {s->u[a], s->U[a], s->N[a], s->u_old[a],
+                               viscous_keeps_increment(s) ? s->delta[a] : NULL};
+        for (int k = 0; k < 5; k++)
+            if (all[k]) {
+                f[n] = all[k];
+                names[n++] = vector[k][a];
+            }
+        double *const of_solves[] = {s->psi[a], s->start[a]};
+        for (int k = 0; k < 2; k++)
+            if (of_solves[k]) {
+                f[n] = of_solves[k];
+                names[n++] = starts[k][a];
+            }
+    }
+    return n;
+}
+
+struct kept {
+    double *fields[FV_RESTART_FIELDS];
+    double t, dt, dt_old, umax[3], rate, fastest, reference, u_limit, max_cfl;
+    enum limit limit;
+    int64_t iterations, viscous_iterations;
+    double *w[6][3], outflux; /* velocities of outflows that are carried */
+    double dtau, norm;        /* of newton */
+    int64_t newtons, krylovs, cycles, halvings;
+};
+
+struct kept *kept_create(const struct fv *s)
+{
+    struct kept *k = NEW(struct kept, 1);
+    double *fields[FV_RESTART_FIELDS];
+    const char *names[FV_RESTART_FIELDS];
+    const int n = fv_restart_fields(s, fields, names);
+    for (int i = 0; i < n; i++)
+        k->fields[i] = NEW(double, s->size);
+    for (int side = 0; s->bc && side < 2 * s->dim; side++)
+        for (int a = 0; a < s->dim && s->bc->kind[side] == BC_CARRIED; a++)
+            k->w[side][a] = NEW(double, s->bc->n[side]);
+    return k;
+}
+
+void kept_free(struct kept **kp)
+{
+    struct kept *k = *kp;
+    if (!k)
+        return;
+    for (int i = 0; i < FV_RESTART_FIELDS; i++)
+        mem_free(k->fields[i]);
+    for (int side = 0; side < 6; side++)
+        for (int a = 0; a < 3; a++)
+            mem_free(k->w[side][a]);
+    mem_free(k);
+    *kp = NULL;
+}
+
+static void copy(void *kept, void *now, size_t bytes, bool back)
+{
+    if (bytes > 0)
+        memcpy(back ? now : kept, back ? kept : now, bytes);
+}
+
+/* Both ways: into the copy, or `back'. */
+static void carry(struct fv *s, struct kept *k, bool back)
+{
+    double *fields[FV_RESTART_FIELDS];
+    const char *names[FV_RESTART_FIELDS];
+    const int n = fv_restart_fields(s, fields, names);
+#define CARRY(kept, now) copy(&(kept), &(now), sizeof(now), back)
+    for (int i = 0; i < n; i++)
+        copy(k->fields[i], fields[i], (size_t)s->size * sizeof(double), back);
+    for (int side = 0; s->bc && side < 2 * s->dim; side++)
+        for (int a = 0; a < s->dim && k->w[side][a]; a++)
+            copy(k->w[side][a], s->bc->w[side][a], (size_t)s->bc->n[side] * sizeof(double), back);
+    if (s->bc)
+        CARRY(k->outflux, s->bc->outflux);
+    CARRY(k->t, s->t);
+    CARRY(k->dt, s->dt);
+    CARRY(k->dt_old, s->dt_old);
+    CARRY(k->umax, s->umax);
+    CARRY(k->rate, s->rate);
+    CARRY(k->fastest, s->fastest);
+    CARRY(k->reference, s->reference);
+    CARRY(k->u_limit, s->u_limit);
+    CARRY(k->limit, s->limit);
+    CARRY(k->max_cfl, s->max_cfl);
+    CARRY(k->iterations, s->iterations);
+    CARRY(k->viscous_iterations, s->viscous_iterations);
+    if (s->newton) {
+        CARRY(k->dtau, s->newton->dtau);
+        CARRY(k->norm, s->newton->norm);
+        CARRY(k->newtons, s->newton->newtons);
+        CARRY(k->krylovs, s->newton->krylovs);
+        CARRY(k->cycles, s->newton->cycles);
+        CARRY(k->halvings, s->newton->halvings);
+    }
+#undef CARRY
+}
+
+void kept_take(struct kept *k, struct fv *s) { carry(s, k, false); }
+void kept_put_back(struct kept *k, struct fv *s) { carry(s, k, true); }

@@ -1,0 +1,146 @@
+/* fv_step.c - size of a step, what it may not do, and the surface around it.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "stages.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../boundary/bc.h"
+#include "../boundary/outflow.h"
+#include "../surface/levelset.h"
+#include "../watch/limits.h"
+#include "newton.h"
+#include "../watch/watches.h"
+#include "steps.h"
+
+void measure(struct fv *s) { s->stages->measure(s); }
+
+/* The velocity of an impact is not known before it: a step that turns out too long is taken back
+ * and done again in half the time. */
+static bool step_with_surface(struct fv *s, double *dt)
+{
+    const double most = 1.5 * fmax(s->prm.cfl, 0.1), rate = s->rate;
+    double before[3];
+    bool good;
+    memcpy(before, s->umax, sizeof before);
+    surface_keep_state(s);
+    for (int tries = 0;; tries++) {
+        timer_start(&s->run->timers, "surface");
+        surface_first_half(s, *dt);
+        timer_stop(&s->run->timers, "surface");
+        good = projection_step(s, *dt);
+        measure(s);
+        if ((good && s->rate * *dt <= most) || tries == 8)
+            return good;
+        surface_back(s);
+        memcpy(s->umax, before, sizeof before);
+        s->rate = rate;
+        *dt *= 0.5;
+    }
+}
+
+static void diagnose(const struct fv *s, double dt, double before, bool good, struct diagnosis *d)
+{
+    const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
+    if (!isfinite(most) || !(most <= s->u_limit)) {
+        s->stages->find_worst(s, before, d);
+    } else if (!good) {
+        d->bad = true;
+        snprintf(d->reason, sizeof d->reason,
+                 "the viscous solver did not converge in 200 iterations");
+        snprintf(d->where, sizeof d->where, "step of %g s, viscosity %g m^2/s", dt, s->nu);
+        snprintf(d->likely, sizeof d->likely,
+                 "a smaller step: fv.cfl below %g, or a larger fv.tol_viscous", s->prm.cfl);
+    } else if (s->failed) {
+        d->bad = true;
+        snprintf(d->reason, sizeof d->reason,
+                 "the pressure solver did not converge, nor did the safer one");
+        snprintf(d->where, sizeof d->where, "step of %g s", dt);
+        snprintf(d->likely, sizeof d->likely,
+                 "cells that are too flat or fold: look at the grid; or raise fv.tol_pressure");
+    } else if (s->surface && surface_trouble(s)) {
+        d->bad = true;
+        snprintf(d->reason, sizeof d->reason, "%s", surface_trouble(s));
+        snprintf(d->where, sizeof d->where, "all cells, after a step of %g s", dt);
+        snprintf(d->likely, sizeof d->likely,
+                 s->surface->wet > 0 ? "no side is an \"outflow\""
+                                     : "it has all left, or is finer than the cells");
+    }
+}
+
+/* Pressure that belongs to the velocities of the start: short steps from the same state, until
+ * their increments have made it. */
+void pressure_start(struct fv *s)
+{
+    if (s->newton) /* which has no use for the pressure before */
+        return;
+    const size_t bytes = (size_t)s->size * sizeof(double);
+    const double dt = 1e-3 * fmin(limits_of(s).dt, s->run->scene.time.end);
+    double *keep[2][3];
+    for (int a = 0; a < s->dim; a++) {
+        keep[0][a] = NEW(double, s->size);
+        keep[1][a] = NEW(double, s->size);
+        memcpy(keep[0][a], s->u[a], bytes);
+        memcpy(keep[1][a], s->U[a], bytes);
+    }
+    for (int k = 0; k < 8; k++) {
+        projection_step(s, dt);
+        for (int a = 0; a < s->dim; a++) {
+            memcpy(s->u[a], keep[0][a], bytes);
+            memcpy(s->U[a], keep[1][a], bytes);
+        }
+    }
+    if (!s->m)
+        outflow_start(s);
+    for (int a = 0; a < 3; a++) {
+        if (s->psi[a])
+            memset(s->psi[a], 0, bytes);
+        if (a < s->dim) {
+            mem_free(keep[0][a]);
+            mem_free(keep[1][a]);
+        }
+    }
+    memcpy(s->p_before, s->p, bytes);
+    s->iterations = s->viscous_iterations = 0;
+}
+
+double integrate(struct fv *s, double t_stop, struct diagnosis *d)
+{
+    const struct step_limit most = limits_of(s);
+    const double left = t_stop - s->t, before = s->rate;
+    const double n = fmax(ceil(left / most.dt - 1e-9), 1.0);
+    double dt = left / n;
+    bool good = true;
+    s->failed = false;
+    s->defect_now = 0.0;
+    s->limit = dt < 0.5 * most.dt ? LIMIT_OUTPUT : most.by;
+    if (s->prm.steady)
+        dt = newton_pseudo_step(s, fmin(most.dt, s->run->scene.time.end), t_stop, d);
+    else if (s->newton)
+        newton_step(s, &dt, d);
+    else
+        good = s->surface ? step_with_surface(s, &dt) : projection_step(s, dt);
+    s->t = dt == left ? t_stop : s->t + dt;
+    s->dt_old = s->dt;
+    s->dt = dt;
+    measure(s);
+    if (s->surface) {
+        timer_start(&s->run->timers, "surface");
+        surface_second_half(s, dt);
+        timer_stop(&s->run->timers, "surface");
+    }
+    diagnose(s, dt, before * dt, good, d);
+    const bool failed = run_diagnose(d, s->comm);
+    if (s->predicts)
+        return dt;
+    s->max_cfl = fmax(s->max_cfl, s->rate * (s->prm.steady ? s->newton->dtau : dt));
+    s->u_limit = limits_follow(&s->reference, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
+    s->defect = fmax(s->defect, s->defect_now);
+    if (!failed && s->m)
+        mesh_watches_look(s, d);
+    else if (!failed)
+        fv_watches_look(s, d);
+    return dt;
+}

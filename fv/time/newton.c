@@ -1,0 +1,327 @@
+/* newton.c - implicit steps by KINSOL: Newton with line search, GMRES with newton_precond.c. A step
+ * that does not converge is halved; a steady state is marched to in pseudo-time, one Newton
+ * iteration a step, whose size grows as the residual falls (switched evolution relaxation, Mulder &
+ * van Leer 1985). SPDX-License-Identifier: BSD-3-Clause */
+#include "newton.h"
+
+#include <kinsol/kinsol.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sunlinsol/sunlinsol_spgmr.h>
+
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../boundary/forcing.h"
+#include "stages.h"
+
+enum { KRYLOV = 200, NEWTONS = 12, HALVINGS = 6, PSEUDO_STEPS = 500, PSEUDO_FAILURES = 12 };
+
+/* SUNDIALS' codes below zero are faults of the call, not of the numerics. */
+#define SUN(call)                                                                                  \
+    do {                                                                                           \
+        const int code_ = (int)(call);                                                             \
+        if (code_ < 0)                                                                             \
+            fail("%s: SUNDIALS code %d", #call, code_);                                            \
+    } while (0)
+
+static void start(struct fv *s, const char *timer) { timer_start(&s->run->timers, timer); }
+static void stop(struct fv *s, const char *timer) { timer_stop(&s->run->timers, timer); }
+
+/* What failed is told by newton_step, once. */
+static void no_message(int code, const char *module, const char *function, char *text, void *user)
+{
+    (void)code, (void)module, (void)function, (void)text, (void)user;
+}
+
+static void make_kinsol(struct fv *s, struct newton *w)
+{
+    w->krylov = SUNLinSol_SPGMR(w->q, SUN_PREC_RIGHT, KRYLOV, w->ctx);
+    w->kin = KINCreate(w->ctx);
+    if (!w->krylov || !w->kin)
+        fail("SUNDIALS cannot be set up");
+    SUN(SUNLinSol_SPGMRSetGSType(w->krylov, SUN_CLASSICAL_GS)); /* repeated where it must be */
+    SUN(KINInit(w->kin, newton_residual, w->q));
+    SUN(KINSetErrHandlerFn(w->kin, no_message, NULL));
+    SUN(KINSetUserData(w->kin, s));
+    SUN(KINSetLinearSolver(w->kin, w->krylov, NULL));
+    SUN(KINSetPreconditioner(w->kin, newton_precond_setup, newton_precond_solve));
+    if (w->cells_of->evaluate_variation)
+        SUN(KINSetJacTimesVecFn(w->kin, newton_jacobian_times));
+    SUN(KINSetEtaForm(w->kin, s->prm.steady ? KIN_ETACONSTANT : KIN_ETACHOICE1));
+    SUN(KINSetEtaConstValue(w->kin, 0.1));
+    SUN(KINSetMaxSetupCalls(w->kin, 1));
+    SUN(KINSetMaxNewtonStep(w->kin, 1e30)); /* by default a start from rest gets no step beyond 1 */
+    SUN(KINSetScaledStepTol(w->kin, 1e-14));
+    SUN(KINSetNoMinEps(w->kin, SUNFALSE));
+}
+
+/* Residual that leaves an error well below that of the cells. In time 1e-6 a step is; a steady
+ * residual in cells' velocities, r, leaves an error of up to r T U/h, T the time in which the flow
+ * forgets (50 L/U in a cavity at Re 1000): with h^4 for the cells' error, r ~ h^5. */
+static double tolerance(const struct fv *s, double all)
+{
+    if (s->prm.tol_newton > 0.0)
+        return s->prm.tol_newton;
+    const double side = pow(all, 1.0 / s->dim);
+    return s->prm.steady ? fmax(1e-11, fmin(1e-6, 32.0 * pow(side, -5.0))) : 1e-6;
+}
+
+static int longest_row(const struct fv *s)
+{
+    int most = 0;
+    for (int q = 0; q < s->nparts; q++)
+        for (int a = 0; a < s->dim; a++)
+            most = s->part[q].n[a] > most ? s->part[q].n[a] : most;
+    for (int a = 0; !s->m && a < s->dim; a++)
+        most = s->b.cells[a] > most ? s->b.cells[a] : most;
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_INT, MPI_MAX, s->comm);
+    return most;
+}
+
+struct newton *newton_create(struct fv *s)
+{
+    struct newton *w = NEW(struct newton, 1);
+    MPI_Comm comm = s->comm;
+    int64_t all;
+    w->cells_of = s->m ? &newton_blocks : &newton_even;
+    w->longest = longest_row(s);
+    for (int q = 0; q < s->nparts; q++)
+        w->cells += (int64_t)s->part[q].n[0] * s->part[q].n[1] * s->part[q].n[2];
+    MPI_Allreduce(&w->cells, &all, 1, MPI_INT64_T, MPI_SUM, comm);
+    s->prm.tol_newton = tolerance(s, (double)all);
+    SUN(SUNContext_Create(&comm, &w->ctx));
+    w->q = N_VNew_Parallel(comm, (s->dim + 1) * w->cells, (s->dim + 1) * all, w->ctx);
+    newton_vector_sums(w->q);
+    N_Vector *const same[] = {&w->q1, &w->q2, &w->uscale, &w->fscale, &w->residual};
+    for (size_t k = 0; k < sizeof same / sizeof same[0]; k++)
+        N_VConst(0.0, *same[k] = N_VClone(w->q)); /* 0 times an older level must be 0 */
+    double **const plain[] = {&w->v.p, &w->face, &w->dface, &w->phi, &w->div, &w->d};
+    for (size_t k = 0; k < sizeof plain / sizeof plain[0]; k++)
+        *plain[k] = NEW(double, s->size);
+    for (int a = 0; a < s->dim; a++) {
+        double **const fields[] = {&w->v.u[a], &w->v.U[a], &w->v.G[a],
+                                   &w->G[a],   &w->x[a],   &w->r[a]};
+        for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
+            *fields[k] = NEW(double, s->size);
+    }
+    for (int e = 0; e <= 2 * s->dim; e++)
+        w->A[e] = NEW(double, s->size);
+    make_kinsol(s, w);
+    return w;
+}
+
+void newton_free(struct newton **wp)
+{
+    struct newton *w = *wp;
+    if (!w)
+        return;
+    KINFree(&w->kin);
+    SUNLinSolFree(w->krylov);
+    N_Vector const vectors[] = {w->q, w->q1, w->q2, w->uscale, w->fscale, w->residual};
+    for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
+        N_VDestroy(vectors[k]);
+    double *const plain[] = {w->v.p, w->face, w->dface, w->phi, w->div, w->d};
+    for (size_t k = 0; k < sizeof plain / sizeof plain[0]; k++)
+        mem_free(plain[k]);
+    for (int a = 0; a < 3; a++) {
+        double *const fields[] = {w->v.u[a], w->v.U[a], w->v.G[a], w->G[a], w->x[a], w->r[a]};
+        for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
+            mem_free(fields[k]);
+    }
+    for (int e = 0; e < 7; e++)
+        mem_free(w->A[e]);
+    SUNContext_Free(&w->ctx);
+    mem_free(w);
+    *wp = NULL;
+}
+
+/* Root mean square of the scaled residual. */
+static double scaled_norm(const struct newton *w, N_Vector r) { return N_VWrmsNorm(r, w->fscale); }
+
+static void count(struct newton *w)
+{
+    long newtons = 0, krylovs = 0;
+    KINGetNumNonlinSolvIters(w->kin, &newtons);
+    KINGetNumLinIters(w->kin, &krylovs);
+    w->newtons += newtons;
+    w->krylovs += krylovs;
+}
+
+/* State and both levels before as vectors; start of the iteration by extrapolation. */
+static void set_levels(struct fv *s, double dt, double dt_old)
+{
+    struct newton *w = s->newton;
+    const double r = dt_old > 0.0 ? dt / dt_old : 0.0;
+    N_VLinearSum(1.0 + r, w->q1, -r, w->q2, w->q);
+    if (s->forcing) { /* what is imposed is part of the unknown vector, too */
+        newton_unpack(s, w->q, s->p, s->u);
+        forcing_velocity(s, w->of.t, s->u);
+        newton_pack(s, s->p, s->u, w->q);
+    }
+}
+
+/* KINSOL stops without an error, too, where its steps become nothing: that is converged only where
+ * the residual says so, or is what rounding leaves. */
+static bool is_small(const struct fv *s)
+{
+    const struct newton *w = s->newton;
+    N_Vector scaled = w->uscale; /* set anew before the next solve */
+    N_VProd(w->residual, w->fscale, scaled);
+    return N_VMaxNorm(scaled) <= fmax(10.0 * s->prm.tol_newton, 1e-9);
+}
+
+/* Solves R(q) = 0; false: not converged, on all ranks alike. */
+static bool solve(struct fv *s)
+{
+    struct newton *w = s->newton;
+    SUN(KINSetNumMaxIters(w->kin, NEWTONS));
+    SUN(KINSetFuncNormTol(w->kin, s->prm.tol_newton));
+    const int code = KINSol(w->kin, w->q, KIN_LINESEARCH, w->uscale, w->fscale);
+    count(w);
+    newton_residual(w->q, w->residual, s); /* leaves u, p, U and ghosts of this q */
+    w->norm = scaled_norm(w, w->residual);
+    return code == KIN_SUCCESS || code == KIN_INITIAL_GUESS_OK ||
+           (code == KIN_STEP_LT_STPTOL && is_small(s)) || N_VMaxNorm(w->residual) == 0.0;
+}
+
+/* Place in the fields of a cell of the packed vectors. */
+static int64_t cell_of(const struct fv *s, int64_t k)
+{
+    FLOW_ROWS(s, c, n)
+    {
+        if (k < n)
+            return c + k;
+        k -= n;
+    }
+    return 0;
+}
+
+/* Cell of the largest scaled residual, for the diagnosis. */
+static void describe(struct fv *s, const char *after, struct diagnosis *d)
+{
+    struct newton *w = s->newton;
+    const double *r = N_VGetArrayPointer(w->residual), *f = N_VGetArrayPointer(w->fscale);
+    double worst = -1.0, all;
+    int64_t at = 0;
+    for (int64_t i = 0; i < (s->dim + 1) * w->cells; i++)
+        if (!(fabs(r[i] * f[i]) <= worst)) {
+            worst = isfinite(r[i]) ? fabs(r[i] * f[i]) : 1e300;
+            at = i;
+        }
+    MPI_Allreduce(&worst, &all, 1, MPI_DOUBLE, MPI_MAX, s->comm);
+    if (worst < all) /* another rank has it */
+        return;
+    char place[128];
+    s->stages->place(s, cell_of(s, at % w->cells), place, sizeof place);
+    d->bad = true;
+    snprintf(
+        d->reason, sizeof d->reason,
+        "Newton's method leaves a residual of %.3g (of velocity, relative), wanted %.3g, after "
+        "%s",
+        worst, s->prm.tol_newton, after);
+    snprintf(d->where, sizeof d->where, "%s of %s", at < w->cells ? "continuity" : "momentum",
+             place);
+    if (s->prm.steady)
+        snprintf(d->likely, sizeof d->likely,
+                 "this flow may have no steady state on these cells: more cells, "
+                 "fv.flux = \"upwind\", more viscosity, or fv.steady = false");
+    else
+        snprintf(d->likely, sizeof d->likely,
+                 "fv.cfl = %g is too large for this flow, or fv.flux = \"central\" finds it "
+                 "unresolved",
+                 s->prm.cfl);
+}
+
+bool newton_step(struct fv *s, double *dt, struct diagnosis *d)
+{
+    struct newton *w = s->newton;
+    start(s, "newton");
+    newton_pack(s, s->p, s->u, w->q1);
+    newton_pack(s, s->p_before, s->u_old, w->q2);
+    memcpy(s->p_before, s->p, (size_t)s->size * sizeof(double));
+    for (int a = 0; a < s->dim; a++)
+        memcpy(s->u_old[a], s->u[a], (size_t)s->size * sizeof(double));
+    bool good = false;
+    s->stages->begin_sides(s);
+    for (int k = 0; k <= HALVINGS && !good; k++) {
+        if (k > 0) {
+            *dt *= 0.5;
+            w->halvings++;
+        }
+        w->of.t = s->t + *dt;
+        s->stages->set_sides(s, w->of.t, *dt);
+        newton_set_step(s, *dt, s->dt);
+        set_levels(s, *dt, s->dt);
+        good = solve(s);
+    }
+    stop(s, "newton");
+    if (!good) {
+        char after[64];
+        snprintf(after, sizeof after, "%d halvings of the step to %g s", HALVINGS, *dt);
+        describe(s, after, d);
+    }
+    return good;
+}
+
+/* One Newton iteration of an Euler step of dtau; false: back at the state it began with. */
+static bool try_pseudo_step(struct fv *s)
+{
+    struct newton *w = s->newton;
+    SUN(KINSetNumMaxIters(w->kin, 1));
+    SUN(KINSetFuncNormTol(w->kin, 1e-3 * s->prm.tol_newton));
+    N_VScale(1.0, w->q1, w->q);
+    const int code = KINSol(w->kin, w->q, KIN_LINESEARCH, w->uscale, w->fscale);
+    count(w);
+    bool good = code >= 0 || code == KIN_MAXITER_REACHED;
+    newton_residual(w->q, w->residual, s);
+    good = good && isfinite(scaled_norm(w, w->residual)); /* largest values let NaN pass */
+    if (!good)
+        N_VScale(1.0, w->q1, w->q);
+    N_VScale(1.0, w->q, w->q1); /* so that only the terms of the steady problem are left */
+    newton_residual(w->q, w->residual, s);
+    return good;
+}
+
+static void march(struct fv *s, struct diagnosis *d)
+{
+    struct newton *w = s->newton;
+    bool good = false;
+    w->of.t = 0.0; /* what is imposed stays as it begins */
+    newton_pack(s, s->p, s->u, w->q1);
+    for (int k = 0; k < PSEUDO_FAILURES && !good; k++) {
+        newton_set_step(s, w->dtau, 0.0);
+        good = try_pseudo_step(s);
+        if (!good) {
+            w->dtau *= 0.25;
+            w->halvings++;
+        }
+    }
+    const double before = w->norm;
+    w->norm = scaled_norm(w, w->residual);
+    if (!good)
+        describe(s, "a pseudo step that was cut to nothing", d);
+    w->steady = w->norm <= s->prm.tol_newton;
+    if (before > 0.0 && w->norm > 0.0)
+        w->dtau *= fmin(fmax(before / w->norm, 0.5), 10.0);
+}
+
+double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagnosis *d)
+{
+    struct newton *w = s->newton;
+    const double end = s->run->scene.time.end, left = t_stop - s->t;
+    if (w->steady)
+        return left;
+    start(s, "newton");
+    w->dtau = fmax(w->dtau, dtau);
+    memcpy(s->p_before, s->p, (size_t)s->size * sizeof(double));
+    march(s, d);
+    stop(s, "newton");
+    const double dt = w->steady ? left : fmin(left, end / PSEUDO_STEPS);
+    if (!d->bad && !w->steady && s->t + dt >= (1.0 - 1e-9) * end) {
+        char after[64];
+        snprintf(after, sizeof after, "%d pseudo steps", PSEUDO_STEPS);
+        describe(s, after, d);
+    }
+    return dt;
+}

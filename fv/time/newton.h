@@ -1,0 +1,109 @@
+/* newton.h - fully implicit steps: three-point backward differences, all unknowns q = (p, u, v[,
+ * w]) at once by Newton-Krylov (KINSOL), for large steps and steady states.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_NEWTON_H
+#define FV_NEWTON_H
+
+#include <nvector/nvector_parallel.h>
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_linearsolver.h>
+
+#include "../fv.h"
+#include "../operators/operators.h"
+
+/* A state, or a variation of one, with ghosts. */
+struct flow {
+    double *p, *u[3];
+    double *U[3]; /* through lower faces */
+    double *G[3]; /* gradient of p, m/s^2 */
+};
+
+/* What a residual depends on besides q; constant during a step. */
+struct newton_step {
+    double t;          /* s: of the new level */
+    double c0, c1, c2; /* 1/s: of the backward difference */
+    double d;          /* s: of the pressure's part in a face's flux */
+    double scale;      /* s: makes a momentum residual a velocity */
+    double U;          /* m/s: scale of velocity */
+    double rate;       /* 1/s: of convection and diffusion through a cell */
+};
+
+/* What the equations are made of on each kind of cells; sides and given cells of a variation are 0.
+ */
+struct newton_cells {
+    /* Rates and local scales of the step's start; called by newton_set_step. */
+    void (*set_rates)(struct fv *s);
+    /* s->face = D U, s->rhs = D F + G p - nu L u - g, of the state, with its ghosts. */
+    void (*evaluate)(struct fv *s);
+    /* The same along the variation w->v; NULL: by difference quotients. */
+    void (*evaluate_variation)(struct fv *s);
+    /* Rows A of the preconditioner from the fluxes of the state. */
+    void (*fill_rows)(struct fv *s);
+    void (*fill_ghosts)(struct fv *s, double *const x[3]);
+    /* div -= D I(x) */
+    void (*subtract_divergence)(struct fv *s, double *const x[3], double *div);
+    /* phi ~ (shift - Lap)^-1 div by one cycle, with ghosts. */
+    void (*cycle)(struct fv *s, double *div, double *phi);
+    void (*gradient)(struct fv *s, const double *phi, double *const g[3]);
+    /* Zero where nothing is solved for. */
+    void (*clear)(const struct fv *s, double *q);
+};
+extern const struct newton_cells newton_even, newton_blocks;
+
+struct newton {
+    const struct newton_cells *cells_of;
+    SUNContext ctx;
+    void *kin; /* KINSOL's memory */
+    SUNLinearSolver krylov;
+    N_Vector q, q1,
+        q2; /* the unknown, and one and two levels before: p, u, v[, w] of local cells */
+    N_Vector uscale, fscale, residual;
+    int64_t cells; /* local */
+    int longest;   /* of all rows of cells along an index */
+    struct newton_step of;
+    struct flow v;        /* variation, for J v */
+    double *G[3];         /* gradient of the state's p */
+    double *face, *dface; /* scratch */
+    double *d;            /* s: of.d of each cell; blocks */
+    double *A[7];         /* the momentum operator of the preconditioner: 1/diagonal, -x, +x, .. */
+    double *x[3], *r[3], *phi, *div; /* its unknowns and right sides */
+    double dtau, norm; /* s, -: pseudo step; scaled residual (rms) after the last one */
+    bool steady;       /* reached */
+    int64_t newtons, krylovs, cycles, halvings; /* summed over the run */
+};
+
+struct newton *newton_create(struct fv *s);
+void newton_free(struct newton **n);
+/* One step of at most *dt s from s->t, halved as often as Newton fails (then d tells why). */
+bool newton_step(struct fv *s, double *dt, struct diagnosis *d);
+/* One step of pseudo-time towards the steady state, the first of dtau s, then as the residual
+ * falls. It counts as a 500th of the run's time, and what is left of it passes once the state is
+ * steady. Returns that time. */
+double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagnosis *d);
+
+/* newton_residual.c: packed vectors of local cells from and to fields with ghosts. */
+void newton_pack(const struct fv *s, const double *p, double *const u[3], N_Vector q);
+void newton_unpack(const struct fv *s, N_Vector q, double *p, double *const u[3]);
+/* Coefficients of a step of dt after one of dt_old (0: none, then one-sided). */
+void newton_set_step(struct fv *s, double dt, double dt_old);
+/* r = R(q), and out = R'(q) v at the q of the last residual. KINSOL's kinds of function: user is
+ * struct fv. */
+int newton_residual(N_Vector q, N_Vector r, void *user);
+int newton_jacobian_times(N_Vector v, N_Vector out, N_Vector q, booleantype *is_new, void *user);
+
+/* newton_report.c: their number; w NULL: none. */
+int newton_columns(const struct run *r, const char **columns);
+int newton_values(const struct newton *w, double *values);
+void newton_summarise(const struct newton *w, double steps, struct summary *to);
+
+double newton_dissipation(const struct fv *s);
+
+/* newton_vector.c: gives q, and what is cloned from it, faster sums. */
+void newton_vector_sums(N_Vector q);
+
+/* newton_precond.c: sweeps over momentum, a V-cycle for the pressure. */
+int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, void *user);
+int newton_precond_solve(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, N_Vector v,
+                         void *user);
+
+#endif

@@ -1,0 +1,216 @@
+/* newton_blocks.c - the equations of newton.h on blocks: the operators of mesh_ops.h, averages over
+ * indices. Where no side gives the pressure, the mean of the divergence is taken out of the
+ * continuity: interpolated fluxes do not sum to zero. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <string.h>
+
+#include "../boundary/mesh_bc.h"
+#include "../operators/mesh_ops.h"
+#include "../poisson/mesh_pressure.h"
+#include "newton.h"
+#include "stages.h"
+
+/* Rate at which a cell is crossed and diffused through, 1/s. */
+static double rate_of(const struct fv *s, int64_t c, const int64_t *stride)
+{
+    double sum = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        sum += 0.5 * (fabs(s->U[a][c]) + fabs(s->U[a][c + stride[a]])) +
+               s->nu * (s->m->G[a][a][c] + s->m->G[a][a][c + stride[a]]);
+    return sum / s->m->V[c];
+}
+
+static void set_rates(struct fv *s)
+{
+    struct newton *w = s->newton;
+    struct newton_step *o = &w->of;
+    double *u = N_VGetArrayPointer(w->uscale), *f = N_VGetArrayPointer(w->fscale);
+    int64_t k = 0;
+    o->U = fmax(s->umax[0], s->scene_speed);
+    o->rate = 0.0;
+    for (int64_t c = 0; c < s->size; c++)
+        w->d[c] = 1.0 / o->c0;
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++, k++) {
+        const double rate = s->free[i] > 0.0 ? rate_of(s, i, p_->stride) : 0.0;
+        const double h = pow(s->m->V[i], 1.0 / s->dim);
+        const double scale = s->prm.steady && rate > 0.0 ? 1.0 / rate : 1.0 / (o->c0 + rate);
+        o->rate = fmax(o->rate, rate);
+        w->d[i] = 1.0 / (o->c0 + rate);
+        u[k] = 1.0 / (o->U * o->U);
+        f[k] = h / o->U;
+        for (int a = 1; a <= s->dim; a++) {
+            u[k + a * w->cells] = 1.0 / o->U;
+            f[k + a * w->cells] = scale / o->U;
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &o->rate, 1, MPI_DOUBLE, MPI_MAX, s->comm);
+    mesh_fill(s->m, 1, &w->d);
+}
+
+/* U += d [avg(G p).S - flux of p] of the faces between cells, the second as the pressure matrix has
+ * it. */
+static void add_pressure_flux(struct fv *s)
+{
+    const struct mesh *m = s->m;
+    double *const *G = s->newton->G, *const *E = s->rhs, *d = s->newton->d;
+    for (int a = 0; a < s->dim; a++)
+        memset(E[a], 0, (size_t)s->size * sizeof(double));
+    mesh_subtract_psi(s, 1.0, s->p, E);
+    for (int a = 0; a < s->dim; a++)
+        for (int q = 0; q < s->nparts; q++) {
+            const struct part *p = s->part + q;
+            const int64_t below = p->stride[a];
+            int down[3], up[3];
+            for (int k = 0; k < 3; k++)
+                down[k] = up[k] = k < s->dim && k != a;
+            up[a] = 1;
+            PART_ROWS (p, down, up, c, n)
+                for (int64_t i = c; i < c + n; i++) {
+                    double mean = 0.0;
+                    if (m->open[a][i] != 1.0 || m->status[i] == CELL_HOLE ||
+                        m->status[i - below] == CELL_HOLE)
+                        continue;
+                    for (int k = 0; k < s->dim; k++)
+                        mean += 0.5 * (G[k][i] + G[k][i - below]) * m->S[a][k][i];
+                    s->U[a][i] += 0.5 * (d[i] + d[i - below]) * (mean + E[a][i]);
+                }
+        }
+}
+
+/* Ghosts, gradient of p, fluxes of the state. */
+static void complete(struct fv *s)
+{
+    mesh_fill(s->m, s->dim, s->u);
+    mesh_bc_velocity(s, BC_GIVEN, s->u);
+    mesh_fill(s->m, 1, &s->p);
+    mesh_bc_pressure(s, s->p);
+    mesh_gradient(s, s->p, s->newton->G);
+    mesh_fill(s->m, s->dim, s->newton->G);
+    mesh_face_velocities(s, s->u, s->U);
+    add_pressure_flux(s);
+    mesh_bc_fluxes(s, s->U);
+}
+
+static void clear(const struct fv *s, double *q)
+{
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        q[i] = s->free[i] > 0.0 ? q[i] : 0.0;
+}
+
+/* q -= its mean over the volumes, if no side gives the pressure: what the overlap makes. */
+static void remove_mean(struct fv *s, double *q)
+{
+    double sums[2] = {0.0, 0.0};
+    if (mesh_bc_pressure_given(s))
+        return;
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++) {
+        const double V = s->free[i] > 0.0 ? s->m->V[i] : 0.0;
+        sums[0] += V > 0.0 ? V * q[i] : 0.0;
+        sums[1] += V;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        q[i] -= sums[0] / sums[1];
+}
+
+static void per_volume(const struct fv *s, double *q)
+{
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        q[i] /= s->m->V[i];
+}
+
+static void evaluate(struct fv *s)
+{
+    struct newton *w = s->newton;
+    complete(s);
+    mesh_convection(s, s->N);
+    for (int a = 0; a < s->dim; a++) {
+        if (s->nu > 0.0)
+            mesh_viscous(s, s->u[a], s->delta[a]);
+        FLOW_ROWS(s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            s->rhs[a][i] = s->N[a][i] + w->G[a][i] - s->delta[a][i] - s->drive[a];
+    }
+    s->stages->finish_rhs(s);
+    mesh_divergence(s, s->U, s->face);
+    per_volume(s, s->face);
+    remove_mean(s, s->face);
+}
+
+/* First-order upwind, as on even cells; what lies behind closed sides goes into the diagonal, with
+ * ghosts that are odd (walls) or even (outflow). Cells that are not computed get rows of their own.
+ */
+static void fill_rows(struct fv *s)
+{
+    const struct mesh *m = s->m;
+    double *const *A = s->newton->A;
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++) {
+        A[0][i] = s->newton->of.c0;
+        for (int e = 1; e <= 2 * s->dim; e++) {
+            const int a = (e - 1) / 2;
+            const int64_t d = p_->stride[a], face = e % 2 ? i : i + d, to = e % 2 ? i - d : i + d;
+            const double in = e % 2 ? s->U[a][face] : -s->U[a][face];
+            const double w = (0.5 * (in + fabs(in)) + 1.2 * s->nu * m->G[a][a][face]) / m->V[i];
+            const bool inside = m->status[to] != CELL_HOLE;
+            A[e][i] = s->free[i] > 0.0 && inside ? -w : 0.0;
+            A[0][i] += inside ? w : m->open[a][face] == 1.0 ? 0.0 : 2.0 * w;
+        }
+        A[0][i] = s->free[i] > 0.0 ? A[0][i] : 1.0;
+    }
+}
+
+static void fill_ghosts(struct fv *s, double *const x[3])
+{
+    mesh_fill(s->m, s->dim, x);
+    mesh_bc_velocity(s, BC_ZERO, x);
+}
+
+static void subtract_divergence(struct fv *s, double *const x[3], double *div)
+{
+    const struct mesh *m = s->m;
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++) {
+        double sum = 0.0;
+        for (int a = 0; a < s->dim; a++) {
+            const int64_t d = p_->stride[a];
+            for (int k = 0; k < s->dim; k++) {
+                const double *u = x[k] + i;
+                sum += m->S[a][k][i + d] * (u[d] + u[0]) *
+                           (m->status[i + d] == CELL_HOLE && m->open[a][i + d] != 1.0 ? 0.0 : 0.5) -
+                       m->S[a][k][i] * (u[0] + u[-d]) *
+                           (m->status[i - d] == CELL_HOLE && m->open[a][i] != 1.0 ? 0.0 : 0.5);
+            }
+        }
+        div[i] -= s->free[i] > 0.0 ? sum / m->V[i] : 0.0;
+    }
+}
+
+static void cycle(struct fv *s, double *div, double *phi)
+{
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        div[i] *= s->free[i] * s->m->V[i];
+    mesh_pressure_cycle(s, div, phi);
+    mesh_halo(s->m, 1, &phi);
+    mesh_bc_even(s, true, phi);
+}
+
+static void gradient_of(struct fv *s, const double *phi, double *const g[3])
+{
+    mesh_gradient(s, phi, g);
+}
+
+const struct newton_cells newton_blocks = {.set_rates = set_rates,
+                                           .evaluate = evaluate,
+                                           .fill_rows = fill_rows,
+                                           .fill_ghosts = fill_ghosts,
+                                           .subtract_divergence = subtract_divergence,
+                                           .cycle = cycle,
+                                           .gradient = gradient_of,
+                                           .clear = clear};

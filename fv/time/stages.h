@@ -1,0 +1,48 @@
+/* stages.h - what a stage of a time step is made of, on each kind of cells: the integrators know
+ * nothing of grids. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_STAGES_H
+#define FV_STAGES_H
+
+#include "../boundary/bc.h"
+#include "../fv.h"
+#include "../operators/operators.h"
+#include "steps.h"
+
+struct stages {
+    double tolerance; /* of the last projection of a step, over fv.tol_pressure */
+    /* step_p = grad p of the step's start, p without its odd-even mode. */
+    void (*pressure_gradient)(struct fv *s);
+    /* What the next projection will take off the velocity of the sides. */
+    void (*set_slip)(struct fv *s, double tau, const double *psi);
+    /* Takes note of the flow at the sides before a step; conditions dt later, at t. */
+    void (*begin_sides)(struct fv *s);
+    void (*set_sides)(struct fv *s, double t, double dt);
+    /* Ghosts and given cells must be there for the next two. */
+    void (*convection)(struct fv *s, double *const N[3]);
+    void (*viscous)(struct fv *s, int q, double *out);
+    /* Right sides: averages over volumes become those over indices; NULL: they are. */
+    void (*finish_rhs)(struct fv *s);
+    /* delta with (1 - c L) delta = rhs, what is given at time t; it may start from `scale' times
+     * the delta of the stage before (0: there is none). false: not converged. */
+    bool (*solve_viscous)(struct fv *s, double c, double t, double scale);
+    /* U of u ahead of its projection, at time t. */
+    void (*predict_fluxes)(struct fv *s, double t);
+    /* psi[stage], with ghosts, of the fluxes U; false: not converged. */
+    bool (*solve_pressure)(struct fv *s, int stage, double tau, double tol);
+    /* U less tau times the flux of psi; rhs = grad psi. */
+    void (*correct_fluxes)(struct fv *s, double tau, double *psi);
+    /* Ghosts of the projected velocity. */
+    void (*fill_velocity)(struct fv *s);
+    void (*measure)(struct fv *s);
+    /* Fills d with the fastest cell, if this rank has it. */
+    void (*find_worst)(const struct fv *s, double before, struct diagnosis *d);
+    /* "cell (i, j, k) at (x, y, z) m" */
+    void (*place)(const struct fv *s, int64_t c, char *text, size_t size);
+};
+
+extern const struct stages even_stages, block_stages;
+
+/* projection.c: makes u and U solenoidal; psi[stage] is the start and the result. */
+void projection(struct fv *s, double t, int stage, double tau, double tol);
+
+#endif

@@ -1,0 +1,267 @@
+/* limits.c - see limits.h.
+ * rk3: the convective terms are stable while the sum over the axes of |u_a| dt/h_a is below
+ * sqrt(3)/1.372 = 1.262 in every cell: the stability limit of the scheme on the imaginary axis over
+ * the largest modified wave number of fourth-order differences, (8 sin x - sin 2x)/6.
+ * bdf2: extrapolated convection amplifies every wave a little, which viscosity must outweigh; the
+ * linear limit of the sum is close to 0.9 Re^(-1/3), Re = |u| h/nu of a cell (0.42, 0.20, 0.097 at
+ * 10, 100, 1000), and 0 without viscosity.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "limits.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../../common/scene_speed.h"
+#include "../boundary/bc.h"
+#include "../surface/levelset.h"
+#include "../boundary/still.h"
+
+#define RK3_CFL 1.1      /* default */
+#define RK3_MOST 1.2     /* refused above */
+#define RK3_LINEAR 1.262 /* stable to here */
+#define BDF2_CFL 0.5
+#define BDF2_MOST 0.7
+#define NEWTON_CFL 1.0   /* of accuracy: it is stable at any */
+#define OUTFLOW_CFL 0.5  /* of the whole flow, which a carried outflow meets in time: measured */
+#define VISCOUS_MOST 1.0 /* nu dt/h^2 where a surface's normal stress is explicit */
+#define WAVES 0.5        /* dt of sqrt(h/g), h of the smallest cell */
+
+const char *limit_name(enum limit by)
+{
+    static const char *const names[] = {"nothing", "flow",      "forces", "outflow",
+                                        "bdf2",    "viscosity", "waves",  "output"};
+    return names[by];
+}
+
+double limits_cfl(const struct fv_params *p)
+{
+    static const double own[] = {RK3_CFL, BDF2_CFL, NEWTON_CFL};
+    return p->cfl > 0.0 ? p->cfl : own[p->integrator];
+}
+
+void limits_check(const struct run *r, struct faults *f)
+{
+    const struct fv_params *p = fv_params_of(r);
+    const bool bdf2 = p->integrator == INTEGRATOR_BDF2;
+    const double most = bdf2 ? BDF2_MOST : RK3_MOST;
+    if (p->integrator != INTEGRATOR_NEWTON && p->cfl > most)
+        params_fault(r->params, f, "fv.cfl",
+                     "%g: %s is stable up to %g (of the sum over the axes of |u_a| dt/h_a)", p->cfl,
+                     bdf2 ? "bdf2" : "rk3", most);
+    if (bdf2 && r->scene.fluid.nu == 0.0)
+        params_fault(r->params, f, "fv.integrator",
+                     "bdf2 has no stable step without viscosity: rk3, or fluid.nu > 0");
+}
+
+double limits_time(double cfl, double rate, double rise)
+{
+    const double sum = rate + sqrt(rate * rate + 4.0 * cfl * rise);
+    return sum > 0.0 ? 2.0 * cfl / sum : INFINITY;
+}
+
+static void lower(struct step_limit *l, double dt, enum limit by)
+{
+    if (dt < l->dt)
+        *l = (struct step_limit){dt, by};
+}
+
+/* --- the scene --- */
+
+static double size_of(const double *v, int dim)
+{
+    double sum = 0.0;
+    for (int a = 0; a < dim; a++)
+        sum += v[a] * v[a];
+    return sqrt(sum);
+}
+
+static double length_of(const struct scene *s)
+{
+    double L = 0.0;
+    for (int a = 0; a < s->domain.dim; a++)
+        L = fmax(L, s->domain.max[a] - s->domain.min[a]);
+    return L;
+}
+
+/* Pressures at openings, the largest difference over rho; 0 where one side alone is open. */
+double limits_pressure_difference(const struct scene *s)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (int k = 0; k < s->nwalls; k++)
+        if (s->walls[k].kind == WALL_OUTFLOW && !s->walls[k].carried) {
+            least = fmin(least, s->walls[k].pressure / s->fluid.rho);
+            most = fmax(most, s->walls[k].pressure / s->fluid.rho);
+        }
+    return most > least ? most - least : 0.0;
+}
+
+/* The scene's own where something moves or can fall: nothing does without a surface, where the
+ * pressure takes gravity across sides; or what enters through blocks' sides. */
+double limits_reference(const struct run *r)
+{
+    const struct scene *s = &r->scene;
+    struct scene held = *s;
+    for (int a = 0; a < s->domain.dim && !scene_has_surface(s); a++)
+        held.fluid.gravity[a] = s->domain.periodic[a] ? s->fluid.gravity[a] : 0.0;
+    const struct scene_speed v = scene_speed_of(&held, 0.0, 0.0);
+    const double flows = v.moves || scene_has_surface(s) ? v.speed : 0.0;
+    return fmax(fmax(flows, size_of(s->initial.velocity, s->domain.dim)),
+                1e-3 * length_of(s) / s->time.end);
+}
+
+double limits_follow(double *reference, double most)
+{
+    *reference = fmax(*reference, fmin(most, 1.02 * *reference));
+    return 10.0 * *reference;
+}
+
+/* --- the step --- */
+
+/* Rows of unequal height grow downwards: b->h is the least one, the lowest row the largest. */
+static double largest_size(const struct block *b, int a)
+{
+    return a == 1 && b->rows ? (b->rows->edge[1] - b->rows->edge[0]) : b->h[a];
+}
+
+/* Cells a second that walls, openings and pressures will make the fluid beside them cross. */
+static double imposed_rate(const struct scene *s, const double *h)
+{
+    double most = 0.0;
+    for (int k = 0; k < s->nwalls; k++) {
+        double rate = 0.0;
+        for (int a = 0; a < s->domain.dim; a++)
+            rate += fabs(s->walls[k].velocity[a]) / h[a];
+        most = fmax(most, rate);
+    }
+    if (s->initial.field == FIELD_POISEUILLE) /* starts from rest */
+        most = fmax(most, s->initial.U / h[0]);
+    return most;
+}
+
+/* What forces add to that in a second, 1/s^2: gravity where it moves the fluid, differences of
+ * pressure between sides. */
+static double rise_of(const struct scene *s, bool surface, const double *h)
+{
+    double drive[3], still[3], level, sum = 0.0;
+    still_split(s, drive, still, &level);
+    for (int a = 0; a < s->domain.dim; a++) {
+        const double L = s->domain.max[a] - s->domain.min[a];
+        sum += fabs(surface ? s->fluid.gravity[a] : drive[a]) / h[a] +
+               limits_pressure_difference(s) / (L * h[a]);
+    }
+    return sum;
+}
+
+static double viscous_time(double nu, const double *h, int dim)
+{
+    double least = INFINITY;
+    for (int a = 0; a < dim; a++)
+        least = fmin(least, h[a]);
+    return nu > 0.0 ? VISCOUS_MOST * least * least / nu : INFINITY;
+}
+
+static void lower_surface(struct step_limit *l, const struct scene *s, double cfl, const double *h)
+{
+    double shortest = INFINITY; /* waves of two cells */
+    for (int a = 0; a < s->domain.dim; a++)
+        shortest = fmin(shortest, h[a]);
+    const double g = size_of(s->fluid.gravity, s->domain.dim);
+    lower(l, g > 0.0 ? WAVES * fmin(cfl, 1.0) * sqrt(shortest / g) : INFINITY, LIMIT_WAVES);
+    lower(l, viscous_time(s->fluid.nu, h, s->domain.dim), LIMIT_VISCOUS);
+}
+
+/* Convection by two steps' extrapolation, at cell Reynolds number Re. */
+static double bdf2_time(double rate, double Re)
+{
+    return rate > 0.0 ? 0.8 / (cbrt(Re) * rate) : INFINITY;
+}
+
+static struct step_limit bulk_limit(const struct scene *s, double cfl, double rate, bool surface,
+                                    const double *h)
+{
+    const double rise = rise_of(s, surface, h), dt = limits_time(cfl, rate, rise);
+    struct step_limit l = {INFINITY, LIMIT_NONE};
+    lower(&l, dt, rise * dt > rate ? LIMIT_FORCES : LIMIT_FLOW);
+    if (surface)
+        lower_surface(&l, s, cfl, h);
+    return l;
+}
+
+/* Of cells of any shape: as the state was measured. */
+static struct step_limit limit_on_blocks(const struct fv *s)
+{
+    const double dt = limits_time(s->prm.cfl, s->rate, s->rise);
+    struct step_limit l = {dt, s->rise * dt > s->rate ? LIMIT_FORCES : LIMIT_FLOW};
+    if (s->prm.integrator == INTEGRATOR_BDF2)
+        lower(&l, bdf2_time(s->rate, s->Re), LIMIT_BDF2);
+    return l;
+}
+
+double fv_speed(const struct fv *s, int a)
+{
+    const bool driven = s->drive[a] != 0.0 || (s->bc && s->bc->driven);
+    return fmax(fmax(s->umax[a], s->bc ? s->bc->speed_along[a] : 0.0),
+                driven ? s->scene_speed : 0.0);
+}
+
+struct step_limit limits_of(const struct fv *s)
+{
+    if (s->m)
+        return limit_on_blocks(s);
+    const double cfl = s->prm.cfl;
+    double h[3] = {1.0, 1.0, 1.0}, Re = 0.0;
+    for (int a = 0; a < s->b.dim; a++) {
+        h[a] = s->b.h[a];
+        Re = fmax(Re, fv_speed(s, a) * largest_size(&s->b, a) / fmax(s->nu, 1e-300));
+    }
+    const struct scene *scene = &s->run->scene;
+    const double rate = fmax(s->rate, imposed_rate(scene, h));
+    struct step_limit l = bulk_limit(scene, cfl, rate, s->surface != NULL, h);
+    if (s->bc && s->bc->carries && s->prm.integrator != INTEGRATOR_NEWTON)
+        lower(&l, limits_time(fmin(cfl, OUTFLOW_CFL), rate, 0.0), LIMIT_OUTFLOW);
+    if (s->prm.integrator == INTEGRATOR_BDF2)
+        lower(&l, bdf2_time(rate, Re), LIMIT_BDF2);
+    return l;
+}
+
+struct step_limit limits_estimate(const struct run *r, const double *h)
+{
+    const struct scene *s = &r->scene;
+    const struct fv_params *p = fv_params_of(r);
+    double rate = 0.0, shortest = INFINITY, longest = 0.0;
+    for (int a = 0; a < s->domain.dim; a++) {
+        rate += fabs(s->initial.velocity[a]) / h[a];
+        shortest = fmin(shortest, h[a]);
+        longest = fmax(longest, h[a]);
+    }
+    if (s->initial.field > FIELD_UNIFORM && !scene_has_wave(s))
+        rate += s->initial.U / shortest;
+    rate = fmax(rate, imposed_rate(s, h));
+    struct step_limit l = bulk_limit(s, limits_cfl(p), rate, surface_wanted(r), h);
+    for (int k = 0; k < s->nwalls; k++)
+        if (s->walls[k].carried && p->integrator != INTEGRATOR_NEWTON)
+            lower(&l, limits_time(OUTFLOW_CFL, rate, 0.0), LIMIT_OUTFLOW);
+    if (p->integrator == INTEGRATOR_BDF2)
+        lower(&l, bdf2_time(rate, limits_reference(r) * longest / s->fluid.nu), LIMIT_BDF2);
+    return l;
+}
+
+void limits_explain(const struct fv_params *p, enum limit by, double before, double after,
+                    bool surface, char *text, size_t size)
+{
+    if (p->integrator != INTEGRATOR_NEWTON && after > RK3_LINEAR && after > 1.2 * before)
+        snprintf(text, size,
+                 "the flow grew within the step, from %.2g to %.2g cells (sum over the axes): %s",
+                 before, after,
+                 surface ? "an impact, or water thinner than the cells: more cells"
+                         : "what drives it begins suddenly, or it is finer than the cells; "
+                           "fv.cfl below 0.6 tells which");
+    else
+        snprintf(text, size,
+                 "the flow is finer than the cells: more cells or viscosity%s; the step was within "
+                 "its limits (%s, %.2g cells)",
+                 p->integrator == INTEGRATOR_NEWTON ? ", or fv.flux = \"upwind\""
+                 : p->upwind > 0.0                  ? ""
+                                                    : ", or fv.upwind = 1",
+                 limit_name(by), before);
+}

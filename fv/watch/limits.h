@@ -1,0 +1,44 @@
+/* limits.h - what bounds a time step: crossing cells, forces that will speed the flow up, an
+ * outflow, viscosity and waves of a free surface; and the velocity that a scene will have.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_LIMITS_H
+#define FV_LIMITS_H
+
+#include "../fv.h"
+
+struct step_limit {
+    double dt; /* s */
+    enum limit by;
+};
+
+/* In a sentence: "flow", "outflow", "viscosity", "waves". */
+const char *limit_name(enum limit by);
+/* fv.cfl, or where it is 0 the integrator's own. */
+double limits_cfl(const struct fv_params *p);
+/* Faults of fv.cfl, and of bdf2 without viscosity. */
+void limits_check(const struct run *r, struct faults *f);
+/* Time in which a flow that crosses `rate' cells a second, and `rise' more each second, crosses
+ * cfl of them, s. */
+double limits_time(double cfl, double rate, double rise);
+/* Largest |u_a| of what flows, or will soon. */
+double fv_speed(const struct fv *s, int a);
+struct step_limit limits_of(const struct fv *s);
+/* The same before the start, for --check: cells of size h[3]. */
+struct step_limit limits_estimate(const struct run *r, const double *h);
+
+/* m^2/s^2: of p/rho between outflows. */
+double limits_pressure_difference(const struct scene *s);
+
+/* m/s: largest velocity of the scene that is known before the run: of the initial field, walls,
+ * openings and shapes, of what falls, of what pressures and gravity along periodic axes drive; at
+ * least a thousandth of the domain in the run's time, so that it is never 0. */
+double limits_reference(const struct run *r);
+/* The running flow's own: follows the largest velocity by at most 2 % a step, so that a flow may
+ * grow, but not blow up; returns the limit, 10 times it. */
+double limits_follow(double *reference, double most);
+/* Why a run may have blown up whose last step crossed `before' cells at its start, `after' at its
+ * end, and what to do. */
+void limits_explain(const struct fv_params *p, enum limit by, double before, double after,
+                    bool surface, char *text, size_t size);
+
+#endif

@@ -1,0 +1,145 @@
+/* mesh_watches.c - the sums behind the watches on blocks. SPDX-License-Identifier: BSD-3-Clause */
+#include "watches.h"
+
+#include <math.h>
+
+#include "../boundary/mesh_bc.h"
+#include "../fv.h"
+#include "../grid/mesh.h"
+
+static const int none[3] = {0, 0, 0};
+
+static bool has_sides(const struct mesh *m)
+{
+    for (int k = 0; k < m->nblocks; k++)
+        for (int q = 0; q < 2 * m->dim; q++)
+            if (m->block[k].side[q] >= MESH_WALL)
+                return true;
+    return false;
+}
+
+/* Where blocks overlap a strip of the flow counts twice, and interpolation does work: ten times the
+ * levels. */
+struct watches *mesh_watches_create(struct fv *s)
+{
+    struct watches *w = watches_create(s->run, &s->prm, !has_sides(s->m), false);
+    if (s->m->has_fringe) {
+        w->energy.warn *= 10.0;
+        w->energy.stop *= 10.0;
+    }
+    for (int k = 0; k < s->m->nblocks; k++)
+        for (int side = 0; side < 2 * s->m->dim; side++)
+            if (s->m->block[k].side[side] == MESH_INFLOW ||
+                s->m->block[k].side[side] == MESH_OUTFLOW)
+                watches_open(w);
+    w->has_energy = !s->prm.steady;
+    w->has_growth = !s->newton;
+    w->energy_every = 20;                    /* faces are mapped anew */
+    w->speed = fmax(w->speed, s->reference); /* of walls and openings of blocks, too */
+    return w;
+}
+
+static struct flow_energy energy_of(struct fv *s)
+{
+    const struct mesh *m = s->m;
+    double sums[6] = {0.0};
+    for (int q = 0; q < m->nparts; q++)
+        PART_ROWS (m->part + q, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                const double w = s->free[i] * m->V[i];
+                double square = 0.0;
+                for (int a = 0; a < m->dim; a++) {
+                    sums[a] += w * s->u[a][i];
+                    square += s->u[a][i] * s->u[a][i];
+                }
+                sums[3] += 0.5 * w * square;
+                sums[4] += w;
+            }
+    if (!s->watches->periodic)
+        sums[5] = mesh_bc_power(s);
+    for (int a = 0; a < m->dim; a++)
+        sums[5] += s->drive[a] * sums[a];
+    MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, m->comm);
+    return (struct flow_energy){.kinetic = sums[3],
+                                .momentum = {sums[0], sums[1], sums[2]},
+                                .volume = sums[4],
+                                .power = sums[5]};
+}
+
+/* Fourth differences over 16, of cells whose neighbours are computed on this rank, too. All cells
+ * count alike: far ones, much larger, would drown those that matter. */
+static double squares(const struct fv *s, const double *q)
+{
+    const struct mesh *m = s->m;
+    double sum = 0.0;
+    for (int b = 0; b < m->nparts; b++)
+        for (int a = 0; a < m->dim; a++) {
+            const int64_t d = m->part[b].stride[a];
+            PART_ROWS (m->part + b, none, none, c, n)
+                for (int64_t i = c; i < c + n; i++) {
+                    const double v =
+                        (q[i - 2 * d] + q[i + 2 * d]) - 4.0 * (q[i - d] + q[i + d]) + 6.0 * q[i];
+                    const double in = s->free[i - 2 * d] * s->free[i - d] * s->free[i] *
+                                      s->free[i + d] * s->free[i + 2 * d];
+                    sum += in > 0.0 ? v * v / 256.0 : 0.0;
+                }
+        }
+    return sum;
+}
+
+static void add_moments(const struct fv *s, const double *q, double sums[3])
+{
+    const struct mesh *m = s->m;
+    for (int b = 0; b < m->nparts; b++)
+        PART_ROWS (m->part + b, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                const double w = s->free[i] > 0.0 ? 1.0 : 0.0, v = w > 0.0 ? q[i] : 0.0;
+                sums[0] += w;
+                sums[1] += w * v;
+                sums[2] += w * v * v;
+            }
+}
+
+static struct flow_waves waves_of(const struct fv *s, double *volume)
+{
+    double sums[8] = {0.0};
+    for (int a = 0; a < s->m->dim; a++) {
+        sums[6] += squares(s, s->u[a]);
+        add_moments(s, s->u[a], sums);
+    }
+    sums[7] = squares(s, s->p);
+    add_moments(s, s->p, sums + 3);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 8, MPI_DOUBLE, MPI_SUM, s->m->comm);
+    *volume = sums[3];
+    return (struct flow_waves){sums[6], sums[2], sums[7],
+                               sums[5] - sums[4] * sums[4] / fmax(sums[3], 1e-300)};
+}
+
+static void look_at_waves(struct fv *s, int64_t step, struct diagnosis *d)
+{
+    double volume;
+    const struct flow_waves v = waves_of(s, &volume);
+    watches_waves(s->watches, &v, volume, s->t, step, d);
+}
+
+void mesh_watches_end(struct fv *s)
+{
+    struct diagnosis d = {0};
+    look_at_waves(s, s->run->step, &d);
+    watches_summarise(s->watches, s->run->summary);
+}
+
+void mesh_watches_look(struct fv *s, struct diagnosis *d)
+{
+    struct watches *w = s->watches;
+    const int64_t step = s->run->step + 1;
+    timer_start(&s->run->timers, "watches");
+    watches_growth(w, s->umax[0], s->t, step, d);
+    if (watches_want_energy(w, step)) {
+        const struct flow_energy e = energy_of(s);
+        watches_energy(w, &e, s->t, step, d);
+    }
+    if (watches_want_waves(w, step))
+        look_at_waves(s, step, d);
+    timer_stop(&s->run->timers, "watches");
+}

@@ -1,0 +1,229 @@
+/* watches.c - see watches.h; levels and what they were measured against: README.md.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "watches.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/h5.h"
+#include "../../common/mem.h"
+#include "limits.h"
+
+enum { WATCHES = 5 };
+
+/* Of a surface, whose jets and films are thinner than cells: waves of two cells, over the flow. */
+#define SPRAY 0.10
+/* Of the volume: from here on the run is not accepted. */
+#define RETURNED_MOST 0.05
+
+static const struct watch kinds[WATCHES] = {
+    {.key = "energy_gain",
+     .what = "kinetic energy gained beyond what came in, over 100 steps",
+     .warn = 0.01,
+     .stop = 0.10},
+    {.key = "odd_even_velocity",
+     .what = "velocity in waves of two cells, over all of it",
+     .warn = 0.04,
+     .stop = INFINITY},
+    {.key = "odd_even_pressure",
+     .what = "pressure in waves of two cells, over all of it (at least rho u^2/20)",
+     .likely = "the flow is finer than the cells: more cells; pressures near there are not to be "
+               "trusted",
+     .warn = 0.20,
+     .stop = INFINITY},
+    {.key = "growth",
+     .what = "largest velocity over that of the step before",
+     .likely = "what drives the flow begins suddenly, or it is unstable: fv.cfl at half its value "
+               "tells which",
+     .warn = 1.25,
+     .stop = INFINITY},
+    {.key = "volume_returned",
+     .what = "volume that the level set lost and got back elsewhere",
+     .likely = "water thinner than a cell: more cells",
+     .warn = 0.01,
+     .stop = INFINITY}};
+
+static const char *const names[WATCHES] = {"energy gain [-]", "odd-even velocity [-]",
+                                           "odd-even pressure [-]", "growth [-]",
+                                           "volume put back [-]"};
+
+/* The k-th watch; NULL: this scene has it not. */
+static const struct watch *watch_of(const struct watches *w, int k)
+{
+    const struct watch *const all[WATCHES] = {&w->energy, &w->velocity, &w->pressure, &w->growth,
+                                              &w->returned};
+    const bool has[WATCHES] = {w->has_energy, true, true, w->has_growth, w->has_surface};
+    return has[k] ? all[k] : NULL;
+}
+
+/* A bias is no advice where there is one already; newton has another than the others. */
+static void advise(struct watches *w, const struct fv_params *p)
+{
+#define FINER "the flow is finer than the cells: more cells or viscosity"
+#define EITHER                                                                                     \
+    "fv.cfl at half its value tells whether the step or the cells are too large for this flow; "   \
+    "more cells or viscosity"
+    static const char *const finer[] = {FINER, FINER ", or fv.upwind = 1",
+                                        FINER ", or fv.flux = \"upwind\""};
+    static const char *const either[] = {EITHER, EITHER ", or fv.upwind = 1",
+                                         EITHER ", or fv.flux = \"upwind\""};
+    int k = p->upwind > 0.0 ? 0 : 1;
+    if (p->integrator == INTEGRATOR_NEWTON)
+        k = p->flux == FLUX_UPWIND ? 0 : 2;
+    w->energy.likely = either[k];
+    w->velocity.likely = finer[k];
+}
+
+/* Where a flow starts against openings the pressure is singular in corners, and its work there is
+ * known to some tenths of the kinetic energy only: a warning at ten times the level, no end. */
+void watches_open(struct watches *w)
+{
+    w->energy.warn = 0.1;
+    w->energy.stop = INFINITY;
+}
+
+struct watches *watches_create(const struct run *r, const struct fv_params *p, bool periodic,
+                               bool surface)
+{
+    struct watches *w = NEW(struct watches, 1);
+    struct watch *const all[WATCHES] = {&w->energy, &w->velocity, &w->pressure, &w->growth,
+                                        &w->returned};
+    for (int k = 0; k < WATCHES; k++)
+        *all[k] = kinds[k];
+    advise(w, p);
+    if (surface)
+        w->velocity.warn = SPRAY;
+    for (int k = 0; k < r->scene.nwalls; k++)
+        if (r->scene.walls[k].kind >= WALL_INFLOW)
+            watches_open(w);
+    double L = INFINITY;
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        L = fmin(L, r->scene.domain.max[a] - r->scene.domain.min[a]);
+    w->speed = limits_reference(r);
+    w->damping = 10.0 * r->scene.fluid.nu / (L * L);
+    w->periodic = periodic;
+    w->has_surface = surface;
+    w->energy_every = 10;
+    w->waves_every = 50;
+    return w;
+}
+
+void watches_free(struct watches **w)
+{
+    mem_free(*w);
+    *w = NULL;
+}
+
+bool watches_want_energy(const struct watches *w, int64_t step)
+{
+    return w->has_energy && step % w->energy_every == 0;
+}
+
+bool watches_want_waves(const struct watches *w, int64_t step)
+{
+    return step % w->waves_every == 0;
+}
+
+/* What a gain is measured by: the energy there is. A flow that swings between energy of motion and
+ * of height has the largest that it had of either. One between walls or openings has at least what
+ * its scene's velocity makes, for a sudden start, whose layers are thinner than a cell, has no
+ * budget to the percent of the little energy of its first steps; and what viscosity turns over in
+ * those steps, whose pressure is not known to the percent of that either. */
+static double scale_of(const struct watches *w, const struct flow_energy *e, double energy,
+                       double time)
+{
+    const double whole = 0.5 * e->volume * w->speed * w->speed;
+    if (w->periodic)
+        return fmax(energy, 1e-6 * whole);
+    if (w->has_surface)
+        return fmax(fmax(w->kinetic_most, w->work_most - w->work_least), 1e-9 * whole);
+    return fmax(energy, whole) * (1.0 + w->damping * time);
+}
+
+/* In a periodic domain the energy about the mean flow, which no force even in space changes; else
+ * all of it less the work of sides and gravity, by the trapezoidal rule between looks. */
+void watches_energy(struct watches *w, const struct flow_energy *e, double t, int64_t step,
+                    struct diagnosis *d)
+{
+    double energy = e->kinetic;
+    for (int a = 0; w->periodic && a < 3; a++)
+        energy -= 0.5 * e->momentum[a] * e->momentum[a] / e->volume;
+    const double since = w->looks++ > 0 ? t - w->t : 0.0;
+    if (!w->periodic)
+        w->work += 0.5 * since * (w->power + e->power);
+    w->power = e->power;
+    w->t = t;
+    w->work_least = fmin(w->work_least, w->work);
+    w->work_most = fmax(w->work_most, w->work);
+    w->kinetic_most = fmax(w->kinetic_most, e->kinetic);
+    const double gain = watch_budget_gain(&w->budget, step, energy - w->work);
+    const double scale = scale_of(w, e, energy, since * WATCH_STEPS / w->energy_every);
+    if (!w->has_surface || step >= WATCH_STEPS) /* no scale yet */
+        watch_judge(&w->energy, scale > 0.0 ? gain / scale : gain, t, step, d);
+}
+
+/* Over the flow's root mean square; of pressure over its own about the mean, or a twentieth of the
+ * mean of u^2 where pressure hardly varies. */
+void watches_waves(struct watches *w, const struct flow_waves *v, double volume, double t,
+                   int64_t step, struct diagnosis *d)
+{
+    const double all = fmax(v->velocity_all, 1e-4 * volume * w->speed * w->speed),
+                 dynamic = 0.05 * all / fmax(volume, 1e-300);
+    watch_judge(&w->velocity, sqrt(v->velocity / fmax(all, 1e-300)), t, step, d);
+    watch_judge(&w->pressure,
+                sqrt(v->pressure / fmax(fmax(v->pressure_all, volume * dynamic * dynamic), 1e-300)),
+                t, step, d);
+}
+
+void watches_growth(struct watches *w, double sum, double t, int64_t step, struct diagnosis *d)
+{
+    const double before = fmax(w->sum_before, 0.1 * w->speed);
+    if (w->has_growth && step > 6)
+        watch_judge(&w->growth, sum / before, t, step, d);
+    w->sum_before = sum;
+}
+
+int watches_columns(const struct watches *w, const char **columns)
+{
+    int n = 0;
+    for (int k = 0; k < WATCHES; k++)
+        if (watch_of(w, k))
+            columns[n++] = names[k];
+    return n;
+}
+
+int watches_values(const struct watches *w, double *values)
+{
+    int n = 0;
+    for (int k = 0; k < WATCHES; k++)
+        if (watch_of(w, k))
+            values[n++] = watch_of(w, k)->now;
+    return n;
+}
+
+void watches_summarise(const struct watches *w, struct summary *to)
+{
+    for (int k = 0; k < WATCHES; k++)
+        if (watch_of(w, k))
+            watch_summary(watch_of(w, k), to);
+    if (w->has_surface && !(w->returned.worst < RETURNED_MOST))
+        summary_text(to, "not_accepted",
+                     "5 % of the volume or more was lost by the level set and put back elsewhere: "
+                     "more cells");
+}
+
+void watches_save(struct watches *w, struct h5 *f)
+{
+    for (int k = 0; k < WATCHES; k++)
+        if (watch_of(w, k))
+            h5_attribute_real(f, watch_of(w, k)->key, watch_of(w, k)->worst);
+}
+
+void watches_load(struct watches *w, struct h5 *f)
+{
+    struct watch *const all[WATCHES] = {&w->energy, &w->velocity, &w->pressure, &w->growth,
+                                        &w->returned};
+    for (int k = 0; k < WATCHES; k++)
+        if (watch_of(w, k))
+            h5_read_attribute_real(f, all[k]->key, &all[k]->worst);
+}

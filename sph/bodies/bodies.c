@@ -1,0 +1,204 @@
+/* bodies.c - see bodies.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "bodies.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "../sph_params.h"
+#include "../rigid/body_impedance.h"
+#include "../rigid/body_math.h"
+
+/* --- the start --- */
+
+/* The integrand is of second order in the place: the middles of the edges have it exactly. */
+static void add_triangle(const struct body *b, int k, double along, double across,
+                         struct impedance *z)
+{
+    const int *v = b->mesh->vertex[k];
+    double n[3];
+    const double third = trimesh_normal(b->mesh, k, n) / 3.0;
+    for (int e = 0; e < 3; e++) {
+        double arm[3] = {-b->centre[0], -b->centre[1], -b->centre[2]};
+        vec3_add(arm, 0.5, b->mesh->x[v[e]]);
+        vec3_add(arm, 0.5, b->mesh->x[v[(e + 1) % 3]]);
+        impedance_add(z, arm, n, along * third, across * third);
+    }
+}
+
+/* Wet all over; friction by the least distance that it counts with. */
+static double stopping_rate(const struct sph *s, const struct body *b)
+{
+    const double along = s->rho0 * s->c0, rub = s->rho0 * s->nu / (0.25 * s->dx);
+    struct impedance z = {{{0.0}}};
+    for (int k = b->first; k < b->first + b->n; k++) {
+        const struct segment *g = s->walls->segments + k;
+        const int pieces = (int)ceil(g->length / s->dx);
+        const double length = g->length / pieces, n[3] = {g->n[0], g->n[1], 0.0};
+        for (int i = 0; i < pieces; i++) {
+            double arm[3] = {0.0, 0.0, 0.0};
+            for (int a = 0; a < 2; a++)
+                arm[a] = g->a[a] + (i + 0.5) * length * g->t[a] - b->centre[a] - b->now.x[a];
+            impedance_add(&z, arm, n, along * length, g->no_slip ? rub * length : 0.0);
+        }
+    }
+    for (int k = 0; b->mesh && k < b->mesh->ntriangles; k++)
+        add_triangle(b, k, along, b->is->kind == WALL_NO_SLIP ? rub : 0.0, &z);
+    return impedance_rate(&z, b);
+}
+
+void bodies_create(struct sph *s)
+{
+    struct walls *w = s->walls;
+    const double dt = sph_params_dt(&s->prm, s->nu, s->c0, NULL);
+    if (!w)
+        return;
+    for (int k = 0; k < w->nbodies; k++)
+        if (w->bodies[k].free) {
+            w->bodies[k].free->lambda = stopping_rate(s, w->bodies + k);
+            body_lines_slack(w->bodies + k);
+        }
+    w->dt_contact = fmin(dt, bodies_dt(s));
+}
+
+double bodies_dt(const struct sph *s)
+{
+    double dt = INFINITY;
+    for (int k = 0; s->walls && k < s->walls->nbodies; k++)
+        if (s->walls->bodies[k].free)
+            dt = fmin(dt, 2.0 / s->walls->bodies[k].free->lambda);
+    return dt;
+}
+
+/* --- a step --- */
+
+void bodies_begin(struct sph *s)
+{
+    for (int k = 0; s->walls && k < s->walls->nbodies; k++) {
+        struct body *b = s->walls->bodies + k;
+        if (!b->free)
+            continue;
+        b->free->held = s->t < b->is->release * (1.0 - 1e-12);
+        memcpy(b->free->y0, b->free->y, sizeof b->free->y0);
+        memset(b->free->sum, 0, sizeof b->free->sum);
+    }
+}
+
+/* What the fluid gives to each body in this stage: [N], [N m]. */
+static void fluid_loads(struct sph *s, double weight, double (*loads)[6])
+{
+    struct walls *w = s->walls;
+    struct force given[BODIES_MAX];
+    const int n = BODIES_MAX * (int)(sizeof *given / sizeof(double));
+    const bool root = s->run->rank == 0;
+    memcpy(given, w->forces.stage, sizeof given);
+    /* the same bits on all ranks, whatever a reduction to all would do */
+    MPI_Reduce(root ? MPI_IN_PLACE : (void *)given, given, n, MPI_DOUBLE, MPI_SUM, 0, s->run->comm);
+    MPI_Bcast(given, n, MPI_DOUBLE, 0, s->run->comm);
+    for (int k = 0; k < w->nbodies; k++) {
+        struct body *b = w->bodies + k;
+        if (!b->free)
+            continue;
+        memcpy(loads[k], given[k].F, sizeof given[k].F);
+        memcpy(loads[k] + 3, given[k].M, sizeof given[k].M);
+        if (b->is->force_rule == FORCE_AVERAGE) {
+            const struct force by = body_average(s, k);
+            memcpy(loads[k], by.F, sizeof by.F);
+            memcpy(loads[k] + 3, by.M, sizeof by.M);
+        }
+        vec3_add(b->free->impulse[0], weight, given[k].F);
+        vec3_add(b->free->impulse[1], weight, loads[k]);
+        b->free->size += weight * vec3_length(given[k].F);
+        memcpy(b->free->force, loads[k], sizeof b->free->force);
+    }
+}
+
+void bodies_stage(struct sph *s, double weight)
+{
+    struct walls *w = s->walls;
+    double loads[BODIES_MAX][6];
+    if (!w || !w->any_free)
+        return;
+    memset(loads, 0, sizeof loads);
+    fluid_loads(s, weight, loads);
+    for (int k = 0; k < w->nbodies; k++)
+        if (w->bodies[k].free) {
+            memset(w->bodies[k].free->contact, 0, sizeof w->bodies[k].free->contact);
+            body_lines_add(&s->run->scene, w->bodies, k, loads);
+        }
+    body_contacts_add(s, loads);
+    for (int k = 0; k < w->nbodies; k++) {
+        struct body *b = w->bodies + k;
+        if (!b->free)
+            continue;
+        vec3_add(loads[k], b->free->mass, s->gravity);
+        vec3_add(loads[k], 1.0, b->is->load);
+        vec3_add(loads[k] + 3, 1.0, b->is->torque);
+        body_rates(b, loads[k], loads[k] + 3);
+    }
+}
+
+void bodies_advance(struct sph *s, double ahead, double weight, bool last)
+{
+    for (int k = 0; s->walls && k < s->walls->nbodies; k++) {
+        struct body_free *f = s->walls->bodies[k].free;
+        for (int i = 0; f && i < BODY_STATE; i++) {
+            f->sum[i] += weight * f->rate[i];
+            f->y[i] = f->y0[i] + (last ? f->sum[i] : ahead * f->rate[i]);
+        }
+    }
+}
+
+/* --- after it --- */
+
+/* Particles that were put back from behind a body have left their impulse. */
+static void take_hits(struct sph *s)
+{
+    struct walls *w = s->walls;
+    for (int k = 0; k < w->nbodies; k++) {
+        const struct force *hit = w->forces.hit + k;
+        if (w->bodies[k].free && w->bodies[k].is->force_rule == FORCE_CONSERVING)
+            body_hit(w->bodies + k, hit->F, hit->M);
+    }
+}
+
+static void say_out(const struct sph *s, const struct body *b, const double *x, int axis,
+                    struct diagnosis *d)
+{
+    d->bad = true;
+    snprintf(d->reason, sizeof d->reason, "body %s leaves the region of the particles",
+             b->is->name);
+    snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, across %c", x[0], x[1],
+             s->dim == 3 ? x[2] : 0.0, "xyz"[axis]);
+    snprintf(d->likely, sizeof d->likely, "%s",
+             s->periodic[axis] ? "a body has no image across a periodic side: walls there, or a "
+                                 "larger domain"
+                               : "a larger domain, or walls that hold it");
+}
+
+/* A body that leaves the domain, or is no longer a number. */
+static void judge(const struct sph *s, const struct body *b, struct diagnosis *d)
+{
+    const int n = b->mesh ? b->mesh->nvertices : b->is->points.n;
+    for (int k = 0; k < n && !d->bad; k++) {
+        double x[3] = {0.0, 0.0, 0.0};
+        body_place(b, b->mesh ? b->mesh->x[k] : b->is->points.x[k], x);
+        for (int a = 0; a < s->dim && !d->bad; a++)
+            if (!(x[a] >= s->lo[a] && x[a] <= s->hi[a]))
+                say_out(s, b, x, a, d);
+    }
+}
+
+void bodies_finish(struct sph *s, struct diagnosis *d)
+{
+    if (!s->walls || !s->walls->any_free)
+        return;
+    take_hits(s);
+    memset(s->walls->forces.hit, 0, sizeof s->walls->forces.hit);
+    for (int k = 0; k < s->walls->nbodies; k++) {
+        struct body *b = s->walls->bodies + k;
+        if (!b->free)
+            continue;
+        body_finish(b);
+        judge(s, b, d);
+    }
+}

@@ -1,0 +1,247 @@
+/* body_average.c - the force on a body by kernel averages of pressure and friction over its
+ * surface. SPDX-License-Identifier: BSD-3-Clause */
+#include "bodies.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../../common/vec3.h"
+#include "../pairs/kernel.h"
+#include "../particles/eos.h"
+
+/* What particles say at a point of the surface. */
+struct said {
+    double W, P, shear[3];
+};
+enum { SAID = sizeof(struct said) / sizeof(double) };
+
+/* Points of a body's surface, dx/2 apart or closer. */
+struct node {
+    double x[3], n[3], u[3], du[3], area; /* area: 2D length */
+    bool no_slip;
+    struct said said;
+};
+
+/* Nodes of a body; in 3D those of triangle t of mesh m are first[m][t] .. first[m][t + 1] - 1. */
+struct nodes {
+    int n, capacity;
+    struct node *node;
+    int **first;
+};
+
+static struct node *add_node(struct nodes *to)
+{
+    if (to->n == to->capacity) {
+        const int more = 2 * to->capacity + 256;
+        GROW(to->node, to->capacity, more);
+        to->capacity = more;
+    }
+    struct node *d = to->node + to->n++;
+    memset(d, 0, sizeof *d);
+    return d;
+}
+
+static void lay_segment(const struct sph *s, const struct segment *g, struct nodes *to)
+{
+    const int pieces = (int)ceil(g->length / (0.5 * s->dx));
+    for (int i = 0; i < pieces; i++) {
+        struct node *d = add_node(to);
+        for (int a = 0; a < 2; a++) {
+            d->x[a] = g->a[a] + (i + 0.5) / pieces * g->length * g->t[a];
+            d->n[a] = g->n[a];
+        }
+        d->area = g->length / pieces;
+        d->no_slip = g->no_slip;
+        walls_velocity(s->walls, g, d->x, d->u, d->du);
+    }
+}
+
+/* Halved across its longest edge until that is short enough; a node in the middle of each part. */
+static void lay_part(const struct sph *s, const struct wall_mesh *m, const double *const v[3],
+                     const double *n, struct nodes *to)
+{
+    double e[3][3], length[3];
+    for (int i = 0; i < 3; i++) {
+        vec3_from(v[i], v[(i + 1) % 3], e[i]);
+        length[i] = vec3_length(e[i]);
+    }
+    const int first = length[0] >= length[1] ? 0 : 1, a = length[first] >= length[2] ? first : 2;
+    if (length[a] > 0.5 * s->dx) {
+        const double *const before = v[(a + 1) % 3], *const apex = v[(a + 2) % 3];
+        double mid[3];
+        for (int c = 0; c < 3; c++)
+            mid[c] = v[a][c] + 0.5 * e[a][c];
+        lay_part(s, m, (const double *const[3]){v[a], mid, apex}, n, to);
+        lay_part(s, m, (const double *const[3]){mid, before, apex}, n, to);
+        return;
+    }
+    struct node *d = add_node(to);
+    double own[3], twice[3];
+    for (int c = 0; c < 3; c++)
+        own[c] = (v[0][c] + v[1][c] + v[2][c]) / 3.0;
+    vec3_cross(e[0], e[1], twice);
+    wall_mesh_to_world(m, own, d->x);
+    wall_mesh_turn_to_world(m, n, d->n);
+    d->area = 0.5 * vec3_length(twice);
+    d->no_slip = m->no_slip;
+    wall_mesh_velocity(s->walls, m, d->x, d->u, d->du);
+}
+
+static void lay_triangle(const struct sph *s, const struct wall_mesh *m, int triangle,
+                         struct nodes *to)
+{
+    const int *v = m->mesh.vertex[triangle];
+    double n[3];
+    trimesh_normal(&m->mesh, triangle, n);
+    lay_part(s, m, (const double *const[3]){m->mesh.x[v[0]], m->mesh.x[v[1]], m->mesh.x[v[2]]}, n,
+             to);
+}
+
+static struct nodes lay_nodes(const struct sph *s, int body)
+{
+    const struct walls *w = s->walls;
+    const struct body *b = w->bodies + body;
+    struct nodes to = {.n = 0};
+    for (int k = b->first; s->dim == 2 && k < b->first + b->n; k++)
+        lay_segment(s, w->segments + k, &to);
+    to.first = NEW(int *, w->nmeshes);
+    for (int k = 0; k < w->nmeshes; k++) {
+        const struct wall_mesh *m = w->meshes + k;
+        if (m->body != body)
+            continue;
+        to.first[k] = NEW(int, m->mesh.ntriangles + 1);
+        for (int t = 0; t < m->mesh.ntriangles; t++) {
+            to.first[k][t] = to.n;
+            lay_triangle(s, m, t, &to);
+        }
+        to.first[k][m->mesh.ntriangles] = to.n;
+    }
+    return to;
+}
+
+static void free_nodes(const struct sph *s, struct nodes *nodes)
+{
+    for (int k = 0; k < s->walls->nmeshes; k++)
+        mem_free(nodes->first[k]);
+    mem_free(nodes->first);
+    mem_free(nodes->node);
+}
+
+/* Pressure at the wall of a particle's own, carried there as in a fluid that goes with the wall: at
+ * a surface no less than its own or none, so that the air does not suck. */
+static double carried_pressure(const struct sph *s, const double *q, const double *e,
+                               const double *acceleration)
+{
+    const double rho = q[at_rho(s->dim)], p = eos_p(rho, s->rho0, s->c0, s->gamma);
+    double more = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        more += (s->gravity[a] - acceleration[a]) * e[a];
+    return s->surface ? fmax(p + rho * more, fmin(p, 0.0)) : p + rho * more;
+}
+
+static void ask_particle(const struct sph *s, int i, struct node *d)
+{
+    const int dim = s->dim;
+    const double *q = prim_line(&s->p, i), *u = q + dim;
+    double e[3], r2 = 0.0, away = 0.0, un = 0.0;
+    for (int a = 0; a < dim; a++) {
+        e[a] = d->x[a] - q[a];
+        r2 += e[a] * e[a];
+        away += e[a] * d->n[a];
+        un += (u[a] - d->u[a]) * d->n[a];
+    }
+    if (r2 >= s->R * s->R || away <= 0.0) /* not from the other side of a thin body */
+        return;
+    const double W = q[at_volume(dim)] * kernel_w(dim, sqrt(r2), s->R);
+    d->said.W += W;
+    d->said.P += W * carried_pressure(s, q, e, d->du);
+    for (int a = 0; a < dim && d->no_slip; a++)
+        d->said.shear[a] +=
+            W * s->rho0 * s->nu * (u[a] - d->u[a] - un * d->n[a]) / fmax(away, 0.25 * s->dx);
+}
+
+static void ask_all(const struct sph *s, struct nodes *nodes)
+{
+    double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
+    for (int k = 0; k < nodes->n; k++)
+        for (int a = 0; a < 2; a++) {
+            lo[a] = fmin(lo[a], nodes->node[k].x[a] - s->R);
+            hi[a] = fmax(hi[a], nodes->node[k].x[a] + s->R);
+        }
+    for (int i = 0; i < s->p.n; i++) {
+        const double *x = prim_line(&s->p, i);
+        const bool near = x[0] > lo[0] && x[0] < hi[0] && x[1] > lo[1] && x[1] < hi[1];
+        for (int k = 0; near && k < nodes->n; k++)
+            ask_particle(s, i, nodes->node + k);
+    }
+}
+
+/* The tree tells which triangles are near a particle. */
+static void ask_mesh(const struct sph *s, const struct wall_mesh *m, const int *first,
+                     struct nodes *nodes)
+{
+    int most = 64, *who = NEW(int, most);
+    for (int i = 0; i < s->p.n; i++) {
+        double own[3], lo[3], hi[3];
+        wall_mesh_to_own(m, prim_line(&s->p, i), own);
+        for (int a = 0; a < 3; a++) {
+            lo[a] = own[a] - s->R;
+            hi[a] = own[a] + s->R;
+        }
+        int found = tree_box(m->tree, lo, hi, most, who);
+        if (found > most) {
+            GROW(who, most, 2 * found);
+            most = 2 * found;
+            found = tree_box(m->tree, lo, hi, most, who);
+        }
+        for (int k = 0; k < found; k++)
+            for (int j = first[who[k]]; j < first[who[k] + 1]; j++)
+                ask_particle(s, i, nodes->node + j);
+    }
+    mem_free(who);
+}
+
+static void sum_over_ranks(const struct sph *s, struct nodes *nodes)
+{
+    struct said *sums = NEW(struct said, nodes->n);
+    for (int k = 0; k < nodes->n; k++)
+        sums[k] = nodes->node[k].said;
+    MPI_Allreduce(MPI_IN_PLACE, sums, SAID * nodes->n, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (int k = 0; k < nodes->n; k++)
+        nodes->node[k].said = sums[k];
+    mem_free(sums);
+}
+
+/* A wet plane has W = 1/2; of few particles the sum is theirs. */
+static void add_force(const struct sph *s, const struct body *b, const struct node *d,
+                      struct force *to)
+{
+    double f[3] = {0.0}, arm[3] = {0.0}, moment[3];
+    for (int a = 0; a < s->dim; a++) {
+        f[a] = d->area * (d->said.P * d->n[a] + d->said.shear[a]) / fmax(d->said.W, 0.4);
+        arm[a] = d->x[a] - body_centre(b, a);
+    }
+    vec3_cross(arm, f, moment);
+    for (int a = 0; a < 3; a++) {
+        to->F[a] += f[a];
+        to->M[a] += moment[a];
+    }
+}
+
+struct force body_average(struct sph *s, int which)
+{
+    const struct walls *w = s->walls;
+    struct nodes nodes = lay_nodes(s, which);
+    struct force force = {0};
+    if (s->dim == 2)
+        ask_all(s, &nodes);
+    for (int k = 0; k < w->nmeshes; k++)
+        if (w->meshes[k].body == which)
+            ask_mesh(s, w->meshes + k, nodes.first[k], &nodes);
+    sum_over_ranks(s, &nodes);
+    for (int k = 0; k < nodes.n; k++)
+        add_force(s, w->bodies + which, nodes.node + k, &force);
+    free_nodes(s, &nodes);
+    return force;
+}

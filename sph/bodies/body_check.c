@@ -1,0 +1,344 @@
+/* body_check.c - see body_check.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "body_check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../../common/scene_mesh.h"
+#include "../../common/scene_fluid.h"
+#include "../sph_params.h"
+#include "bodies.h"
+#include "../rigid/body_math.h"
+
+enum { KEY = 96 };
+
+static const char *key_of(char *key, int k, const char *rest)
+{
+    snprintf(key, KEY, "bodies.[%d]%s", k, rest);
+    return key;
+}
+
+/* --- motion --- */
+
+static double distance(const double *a, const double *b, int columns, double reach)
+{
+    const int dim = columns == 4 ? 2 : 3;
+    double way = 0.0, turn = 0.0;
+    for (int c = 1; c < columns; c++)
+        *(c <= dim ? &way : &turn) += (b[c] - a[c]) * (b[c] - a[c]);
+    return sqrt(way) + reach * sqrt(turn);
+}
+
+/* A step between two rows that is over at once, and nothing of the kind before and after. */
+static bool jumps(const struct body_term *t, int columns, int i, double reach, double dx)
+{
+    double v[3] = {0.0, 0.0, 0.0}, h[3] = {0.0, 0.0, 0.0};
+    for (int e = -1; e <= 1; e++)
+        if (i + e >= 1 && i + e < t->n) {
+            const double *b = t->rows + (ptrdiff_t)columns * (i + e), *a = b - columns;
+            h[1 + e] = b[0] - a[0];
+            v[1 + e] = distance(a, b, columns, reach) / h[1 + e];
+        }
+    return v[1] * h[1] > dx && v[1] > 10.0 * fmax(v[0], v[2]) && h[1] < 0.2 * fmax(h[0], h[2]);
+}
+
+static void check_rows(const struct run *r, const struct sph_params *used, const char *key,
+                       const struct body *b, const struct body_term *t, struct faults *f)
+{
+    const int columns = b->drive.columns;
+    const double end = r->scene.time.end, *rows = t->rows,
+                 *last = rows + (ptrdiff_t)columns * (t->n - 1);
+    for (int i = 0; i < columns * t->n; i++)
+        if (!isfinite(rows[i])) {
+            params_fault(r->params, f, key, "row %d of the file is not a number", i / columns + 1);
+            return;
+        }
+    if (rows[0] > 0.0 || last[0] < end * (1.0 - 1e-9))
+        params_fault(r->params, f, key,
+                     "the file has t = %g to %g s, the run goes from 0 to %g s: the body would %s",
+                     rows[0], last[0], end,
+                     rows[0] > 0.0 ? "start with a jerk" : "stop with a jerk");
+    for (int i = 1; i < t->n; i++) {
+        const double *p = rows + (ptrdiff_t)columns * (i - 1), *q = p + columns;
+        const double way = distance(p, q, columns, b->reach), speed = way / (q[0] - p[0]);
+        if (p[0] >= end)
+            return;
+        if (speed > 0.1 * used->c0 * (1.0 + 1e-6) && params_given(r->params, "sph.c0")) {
+            params_fault(r->params, f, key,
+                         "jumps at t = %g s, row %d: %g m/s, above a tenth of the speed of sound, "
+                         "%g m/s: rows between, or a higher sph.c0",
+                         p[0], i + 1, speed, 0.1 * used->c0);
+            return;
+        }
+        if (jumps(t, columns, i, b->reach, used->dx)) {
+            params_fault(r->params, f, key,
+                         "jumps at t = %g s, row %d: %g m in %g s, more than ten times as fast as "
+                         "before and after: rows between are missing",
+                         p[0], i + 1, way, q[0] - p[0]);
+            return;
+        }
+    }
+}
+
+static void check_file(const struct run *r, const struct sph_params *used, const char *key,
+                       const struct body *b, const struct body_term *t, struct faults *f)
+{
+    if (!*t->is->file)
+        params_fault(r->params, f, key, "body %s: a term of kind file wants the file's name",
+                     b->is->name);
+    else if (t->n <= 0)
+        params_fault(r->params, f, key, "body %s: motion %s/%s: %s", b->is->name, r->case_dir,
+                     t->is->file,
+                     t->n < 0      ? "no such file"
+                     : b->dim == 2 ? "rows of t, x, y, angle with rising times are wanted"
+                                   : "rows of t, x, y, z, rx, ry, rz with rising times are "
+                                     "wanted");
+    else
+        check_rows(r, used, key, b, t, f);
+}
+
+/* Whether forces move this degree. */
+static bool is_open(const struct scene_body *b, int dim, int axis)
+{
+    const int locked = scene_body_locked(b->lock, dim);
+    return b->free && (b->hinge.n > 0 || locked < 0 || !(locked >> axis & 1));
+}
+
+static void check_term(const struct run *r, const struct sph_params *used, int k, int i,
+                       const struct body *b, struct faults *f)
+{
+    static const char *const names[BODY_AXES] = {"x", "y", "z", "rx", "ry", "rz"};
+    const struct body_term *t = b->drive.term + i;
+    const struct scene_motion *m = t->is;
+    const int dim = b->dim, axis = m->axis;
+    char key[KEY], rest[32];
+    snprintf(rest, sizeof rest, ".motion.[%d]", i);
+    key_of(key, k, rest);
+    if (!params_given(r->params, key) && m->kind == MOTION_FILE) {
+        snprintf(rest, sizeof rest, ".motion");
+        key_of(key, k, rest);
+    }
+    if (m->kind == MOTION_FILE) {
+        check_file(r, used, key, b, t, f);
+        for (int a = 0; a < BODY_AXES && t->n > 0; a++)
+            for (int row = 0; row < t->n && (dim == 3 || a < 2 || a == AXIS_RZ); row++) {
+                const int column = dim == 2 && a == AXIS_RZ ? 3 : a + 1;
+                if (is_open(b->is, dim, a) &&
+                    t->rows[(ptrdiff_t)b->drive.columns * row + column] != 0.0) {
+                    params_fault(r->params, f, key,
+                                 "the file moves %s, which forces move, too: add it to lock, or "
+                                 "have zeros there",
+                                 names[a]);
+                    break;
+                }
+            }
+        return;
+    }
+    if (dim == 2 && (axis == AXIS_Z || axis == AXIS_RX || axis == AXIS_RY))
+        params_fault(r->params, f, key, "axis %s in a case of 2 dimensions", names[axis]);
+    else if (is_open(b->is, dim, axis))
+        params_fault(r->params, f, key, "forces move %s, too: add it to lock, or leave this out",
+                     names[axis]);
+    if (m->kind == MOTION_HARMONIC && (m->period <= 0.0 || m->amplitude == 0.0))
+        params_fault(r->params, f, key, "a harmonic term wants amplitude and period, not 0");
+    if (m->kind == MOTION_POLYNOMIAL && m->until <= m->from)
+        params_fault(r->params, f, key, "it ends at %g s (until), before its start at %g s (from)",
+                     m->until, m->from);
+}
+
+/* --- free bodies --- */
+
+static void check_degrees(const struct run *r, int k, int dim, struct faults *f)
+{
+    const struct scene_body *b = r->scene.bodies + k;
+    const int locked = scene_body_locked(b->lock, dim);
+    const int turns = (locked >> AXIS_RX & 1) + (locked >> AXIS_RY & 1) + (locked >> AXIS_RZ & 1);
+    char key[KEY];
+    if (locked < 0) {
+        params_fault(r->params, f, key_of(key, k, ".lock"),
+                     "words of %s are wanted, as in \"x %s\"",
+                     dim == 2 ? "x y rz" : "x y z rx ry rz", dim == 2 ? "rz" : "rx ry");
+        return;
+    }
+    if (dim == 3 && turns == 1)
+        params_fault(
+            r->params, f, key_of(key, k, ".lock"),
+            "one rotation alone cannot be locked: lock two (the body turns about the third "
+            "axis), all three or none");
+    for (int a = 0; a < 3 && dim == 3 && turns == 2; a++)
+        if (b->spin[a] != 0.0 && locked >> (AXIS_RX + a) & 1)
+            params_fault(r->params, f, key_of(key, k, ".spin"),
+                         "about a locked axis beside a free one: only three locked rotations can "
+                         "be driven");
+    for (int i = 0; i < b->motion.n && dim == 3 && turns == 2; i++)
+        if (b->motion.of[i].kind != MOTION_FILE && b->motion.of[i].axis >= AXIS_RX)
+            params_fault(r->params, f, key_of(key, k, ".motion"),
+                         "about a locked axis beside a free one: only three locked rotations can "
+                         "be driven");
+    if (locked == (dim == 2 ? 1 << AXIS_X | 1 << AXIS_Y | 1 << AXIS_RZ : (1 << BODY_AXES) - 1))
+        params_fault(r->params, f, key_of(key, k, ".lock"),
+                     "all degrees are locked: leave out free and mass, it moves as told");
+    if (b->slider.n > 0 && locked & (1 << AXIS_X | 1 << AXIS_Y | 1 << AXIS_Z))
+        params_fault(r->params, f, key_of(key, k, ".slider"),
+                     "a slider leaves one way: take x, y, z out of lock");
+    if (b->slider.n > 0 && b->hinge.n > 0)
+        params_fault(r->params, f, key_of(key, k, ".slider"), "a hinge or a slider, not both");
+    if (b->slider.n > 0 &&
+        (vec3_length(b->slider.of[0].axis) == 0.0 || (dim == 2 && b->slider.of[0].axis[2] != 0.0)))
+        params_fault(r->params, f, key_of(key, k, ".slider.axis"),
+                     "a direction of the case's %d dimensions is wanted", dim);
+    if (b->hinge.n > 0 && dim == 3 && vec3_length(b->hinge.of[0].axis) == 0.0)
+        params_fault(r->params, f, key_of(key, k, ".hinge.axis"), "a direction is wanted, not 0");
+    if (b->hinge.n > 0 && b->motion.n > 0)
+        params_fault(r->params, f, key_of(key, k, ".motion"),
+                     "a hinge holds the body: nothing of it moves as told");
+}
+
+/* Largest stiffness and damping that a step of dt follows: sqrt(k/M) dt <= 0.2, beyond which the
+ * stages of a step feed an oscillation by more than 1e-4 a period; d dt/M <= 1. */
+static void check_spring(const struct run *r, const char *key, double M, double dt, double k,
+                         double d, const char *unit, struct faults *f)
+{
+    const double most = 0.04 * M / (dt * dt);
+    if (k > most)
+        params_fault(r->params, f, key,
+                     "stiffness %g is too large for steps of %.3g s: at most %.3g %s", k, dt,
+                     0.99 * most, unit);
+    if (d > M / dt)
+        params_fault(r->params, f, key,
+                     "damping %g is too large for steps of %.3g s: at most %.3g %s s", d, dt,
+                     0.99 * M / dt, unit);
+}
+
+static void check_line(const struct run *r, int k, int i, const struct body *b, double dt,
+                       struct faults *f)
+{
+    const struct scene_line *l = b->is->lines.of + i;
+    const int other = body_line_other(&r->scene, l);
+    double arm[3], e[3];
+    char key[KEY], rest[32];
+    snprintf(rest, sizeof rest, ".lines.[%d]", i);
+    key_of(key, k, rest);
+    for (int a = 0; a < 3; a++) {
+        arm[a] = l->from[a] - b->centre[a];
+        e[a] = l->to[a] - l->from[a];
+    }
+    if (b->dim == 2 && (l->from[2] != 0.0 || l->to[2] != 0.0))
+        params_fault(r->params, f, key, "z component in a case of 2 dimensions");
+    if (*l->body && (other < 0 || other == k))
+        params_fault(r->params, f, key, "body `%s' is %s", l->body,
+                     other < 0 ? "none of this case" : "this one: a line goes to another");
+    if (l->stiffness <= 0.0 && l->damping <= 0.0)
+        params_fault(r->params, f, key, "without stiffness and damping it does nothing");
+    if (vec3_length(e) <= 0.0) {
+        params_fault(r->params, f, key, "from and to are one place: it has no direction");
+        return;
+    }
+    for (int a = 0; a < 3; a++)
+        e[a] /= vec3_length(
+            (double[]){l->to[0] - l->from[0], l->to[1] - l->from[1], l->to[2] - l->from[2]});
+    const double M = body_effective_mass(b, arm, e);
+    check_spring(r, key, isfinite(M) ? M : b->free->mass, dt, l->stiffness, l->damping, "N/m", f);
+}
+
+static void check_free(const struct run *r, const struct sph_params *used, int k,
+                       const struct body *b, struct faults *f)
+{
+    const struct scene_body *is = b->is;
+    struct body_mass m;
+    char why[256], key[KEY];
+    double dt = sph_params_dt(used, r->scene.fluid.nu, used->c0, NULL);
+    if (used->walls != WALLS_NFM)
+        params_fault(r->params, f, key_of(key, k, ".free"),
+                     "only normal flux walls (sph.walls = \"nfm\") give forces that move a body");
+    if (!body_mass_of(is, b->mesh, b->dim, &m, why, sizeof why)) {
+        params_fault(r->params, f, key_of(key, k, is->density > 0.0 ? ".density" : ".mass"), "%s",
+                     why);
+        return;
+    }
+    if (b->dim == 2 && (is->load[2] != 0.0 || is->torque[0] != 0.0 || is->torque[1] != 0.0))
+        params_fault(r->params, f, key_of(key, k, is->load[2] != 0.0 ? ".load" : ".torque"),
+                     "out of the plane in a case of 2 dimensions");
+    const int before = f->n;
+    check_degrees(r, k, b->dim, f);
+    if (f->n > before)
+        return;
+    for (int i = 0; i < is->lines.n; i++)
+        check_line(r, k, i, b, dt, f);
+    if (is->hinge.n > 0)
+        check_spring(r, key_of(key, k, ".hinge"), b->free->J, dt, is->hinge.of[0].stiffness,
+                     is->hinge.of[0].damping, "N m", f);
+}
+
+static void check_names(const struct run *r, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    for (int k = 0; k < c->nbodies; k++)
+        for (int m = 0; m < k; m++)
+            if (strcmp(c->bodies[k].name, c->bodies[m].name) == 0 &&
+                (scene_body_moves(c->bodies + k) || scene_body_moves(c->bodies + m))) {
+                char key[KEY];
+                params_fault(r->params, f, key_of(key, k, ".name"),
+                             "`%s' is body %d already: moving bodies want names of their own",
+                             c->bodies[k].name, m + 1);
+            }
+}
+
+void body_check(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    const int dim = c->domain.dim;
+    check_names(r, f);
+    for (int k = 0; k < c->nbodies; k++) {
+        struct body b;
+        char key[KEY];
+        body_create(&b, c->bodies + k, scene_body_mesh(c, k), dim, r->case_dir);
+        if (dim == 2 && (c->bodies[k].spin[0] != 0.0 || c->bodies[k].spin[1] != 0.0))
+            params_fault(r->params, f, key_of(key, k, ".spin"),
+                         "in 2 dimensions a number, about z");
+        for (int i = 0; i < b.drive.nterms; i++)
+            check_term(r, used, k, i, &b, f);
+        if (c->bodies[k].free)
+            check_free(r, used, k, &b, f);
+        body_destroy(&b);
+    }
+}
+
+/* --- speeds --- */
+
+/* Fall through the air above the water, and what weight and buoyancy make of a body in it. */
+static double fall_of(const struct scene *c, const struct body *b)
+{
+    double still[3], low, high;
+    const double g = scene_still_gravity(c, still);
+    if (!b->free || g == 0.0)
+        return 0.0;
+    scene_heights(c, &low, &high);
+    const double base = fmax(scene_height(c, b->centre) - b->reach - low, 0.0);
+    double air = c->nshapes > 0 ? base : 0.0; /* above the highest water below a level */
+    for (int k = 0; k < c->nshapes; k++)
+        if (c->shapes[k].form == SHAPE_BELOW && !c->shapes[k].hole)
+            air = fmin(air, fmax(scene_height(c, b->centre) - b->reach - c->shapes[k].level, 0.0));
+    const double size = b->dim == 2 ? b->free->mass / (c->fluid.rho * b->reach)
+                                    : b->free->mass / (c->fluid.rho * b->reach * b->reach);
+    const double in_water = fmin(fmax(2.0 * b->reach, size), fmax(base, 2.0 * b->reach));
+    return sqrt(2.0 * g * (air + 0.5 * in_water));
+}
+
+double body_speeds(const struct scene *c, const char *dir)
+{
+    double most = 0.0;
+    for (int k = 0; k < c->nbodies; k++) {
+        struct body b;
+        if (!scene_body_moves(c->bodies + k))
+            continue;
+        body_create(&b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, dir);
+        const double told = body_drive_speed(&b.drive, b.reach, c->time.end);
+        const double start =
+            b.free ? vec3_length(b.now.u) + b.reach * vec3_length(b.now.omega) : 0.0;
+        most = fmax(most, hypot(fmax(told, start), fall_of(c, &b)));
+        body_destroy(&b);
+    }
+    return most;
+}

@@ -1,0 +1,185 @@
+/* body_output.c - what moving bodies show: columns of the series, the summary, the restart file.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/h5.h"
+#include "../../common/mem.h"
+#include "bodies.h"
+#include "../rigid/body_math.h"
+
+enum { MOTION_COLUMNS = 12, TEXT = PARAM_TEXT_SIZE + 24 };
+
+/* Place, rotation, velocity, spin, in this order; those of the plane are marked. */
+static const struct {
+    const char *name, *unit;
+    bool flat;
+} shown[MOTION_COLUMNS] = {{"x", "m", true},       {"y", "m", true},       {"z", "m", false},
+                           {"rx", "rad", false},   {"ry", "rad", false},   {"angle", "rad", true},
+                           {"u", "m/s", true},     {"v", "m/s", true},     {"w", "m/s", false},
+                           {"ox", "rad/s", false}, {"oy", "rad/s", false}, {"spin", "rad/s", true}};
+
+int bodies_columns(const struct run *r, int k, const char **names)
+{
+    static char text[BODIES_MAX][MOTION_COLUMNS + LINES_MAX + 1][TEXT];
+    const struct scene_body *b = r->scene.bodies + k;
+    const bool solid = r->scene.domain.dim == 3;
+    char(*at)[TEXT] = text[k];
+    int n = 0;
+    if (!scene_body_moves(b))
+        return 0;
+    for (int i = 0; i < MOTION_COLUMNS; i++) {
+        const char *name = solid && i == 5 ? "rz" : solid && i == 11 ? "oz" : shown[i].name;
+        if (solid || shown[i].flat)
+            snprintf(at[n++], TEXT, "%s %s [%s]", b->name, name, shown[i].unit);
+    }
+    for (int i = 0; i < b->lines.n; i++)
+        snprintf(at[n++], TEXT, "%s line %d [%s]", b->name, i + 1, solid ? "N" : "N/m");
+    if (b->free)
+        snprintf(at[n++], TEXT, "%s contact [%s]", b->name, solid ? "N" : "N/m");
+    for (int i = 0; i < n; i++)
+        names[i] = at[i];
+    return n;
+}
+
+/* The centre's place is that in space. */
+static void motion_of(const struct body *b, double v[MOTION_COLUMNS])
+{
+    for (int a = 0; a < 3; a++) {
+        v[a] = b->centre[a] + b->now.x[a];
+        v[3 + a] = b->now.r[a];
+        v[6 + a] = b->now.u[a];
+        v[9 + a] = b->now.omega[a];
+    }
+}
+
+double *bodies_row(const struct sph *s, int k, double *values)
+{
+    const struct body *b = s->walls->bodies + k;
+    double v[MOTION_COLUMNS];
+    if (!scene_body_moves(b->is))
+        return values;
+    motion_of(b, v);
+    for (int i = 0; i < MOTION_COLUMNS; i++)
+        if (s->dim == 3 || shown[i].flat)
+            *values++ = v[i];
+    for (int i = 0; i < b->is->lines.n && b->free; i++)
+        *values++ = b->free->tension[i];
+    if (b->free)
+        *values++ = vec3_length(b->free->contact);
+    return values;
+}
+
+/* --- summary --- */
+
+static void put(struct summary *to, const struct body *b, const char *what, double v)
+{
+    char key[PARAM_TEXT_SIZE + 48];
+    snprintf(key, sizeof key, "body.%s.%s", b->is->name, what);
+    for (char *c = key + 5; *c; c++)
+        if (*c == ' ')
+            *c = '_';
+    summary_real(to, key, v);
+}
+
+static void summarise_free(const struct sph *s, int k)
+{
+    const struct body *b = s->walls->bodies + k;
+    const struct body_free *f = b->free;
+    struct summary *to = s->run->summary;
+    double kinetic, lost[3];
+    const double energy = body_energy(b, s->gravity, &kinetic);
+    put(to, b, "mass", f->mass);
+    put(to, b, "inertia", f->inertia[2][2]);
+    put(to, b, "kinetic", kinetic);
+    put(to, b, "potential", energy - kinetic);
+    put(to, b, "springs", body_lines_energy(&s->run->scene, s->walls->bodies, k));
+    put(to, b, "stopping_rate", f->lambda);
+    for (int a = 0; a < 3; a++)
+        lost[a] = f->impulse[1][a] - f->impulse[0][a];
+    if (f->size > 0.0)
+        put(to, b, "momentum_defect", vec3_length(lost) / f->size);
+}
+
+void bodies_summarise(const struct sph *s)
+{
+    for (int k = 0; s->walls && k < s->walls->nbodies; k++) {
+        const struct body *b = s->walls->bodies + k;
+        double v[MOTION_COLUMNS];
+        if (!scene_body_moves(b->is))
+            continue;
+        motion_of(b, v);
+        for (int i = 0; i < MOTION_COLUMNS; i++)
+            if (s->dim == 3 || shown[i].flat)
+                put(s->run->summary, b,
+                    s->dim == 3 && i == 5    ? "rz"
+                    : s->dim == 3 && i == 11 ? "oz"
+                                             : shown[i].name,
+                    v[i]);
+        if (b->free)
+            summarise_free(s, k);
+    }
+}
+
+/* --- restart --- */
+
+/* The last rates belong to it: averaged forces carry pressures with them. */
+enum { KEPT = 2 * BODY_STATE + 6 + LINES_MAX + 3 + 7 };
+
+static void flatten(const struct body_free *f, double *v)
+{
+    memcpy(v, f->y, sizeof f->y);
+    memcpy(v += BODY_STATE, f->rate, sizeof f->rate);
+    memcpy(v += BODY_STATE, f->force, sizeof f->force);
+    memcpy(v += 6, f->tension, sizeof f->tension);
+    memcpy(v += LINES_MAX, f->contact, sizeof f->contact);
+    memcpy(v += 3, f->impulse, sizeof f->impulse);
+    v[6] = f->size;
+}
+
+static void take(struct body_free *f, const double *v)
+{
+    memcpy(f->y, v, sizeof f->y);
+    memcpy(f->rate, v += BODY_STATE, sizeof f->rate);
+    memcpy(f->force, v += BODY_STATE, sizeof f->force);
+    memcpy(f->tension, v += 6, sizeof f->tension);
+    memcpy(f->contact, v += LINES_MAX, sizeof f->contact);
+    memcpy(f->impulse, v += 3, sizeof f->impulse);
+    f->size = v[6];
+}
+
+void bodies_save(const struct sph *s, struct h5 *f)
+{
+    double *rows = NEW(double, KEPT *BODIES_MAX);
+    int n = 0;
+    for (int k = 0; k < s->walls->nbodies; k++)
+        if (s->walls->bodies[k].free)
+            flatten(s->walls->bodies[k].free, rows + (size_t)KEPT * n++);
+    h5_write_real(f, "bodies", "state of free bodies", s->run->rank == 0 ? n : 0, KEPT, rows,
+                  false);
+    mem_free(rows);
+    h5_write_real(f, "contacts", "m/s", s->run->rank == 0 ? BODIES_MAX : 0, BODIES_MAX + 1,
+                  &s->walls->approach[0][0], false);
+}
+
+bool bodies_load(struct sph *s, struct h5 *f)
+{
+    int64_t n;
+    int at = 0, wanted = 0;
+    for (int k = 0; k < s->walls->nbodies; k++)
+        wanted += s->walls->bodies[k].free != NULL;
+    if (wanted == 0)
+        return true;
+    double *rows = h5_read_all_real(f, "bodies", KEPT, &n);
+    for (int k = 0; rows && n == wanted && k < s->walls->nbodies; k++)
+        if (s->walls->bodies[k].free)
+            take(s->walls->bodies[k].free, rows + (size_t)KEPT * at++);
+    const bool fits = rows && n == wanted;
+    mem_free(rows);
+    rows = h5_read_all_real(f, "contacts", BODIES_MAX + 1, &n);
+    if (rows && n == BODIES_MAX)
+        memcpy(s->walls->approach, rows, sizeof s->walls->approach);
+    mem_free(rows);
+    walls_move(s, s->t);
+    return fits;
+}

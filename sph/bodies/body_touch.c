@@ -1,0 +1,144 @@
+/* body_touch.c - corners of one polyline against another. SPDX-License-Identifier: BSD-3-Clause */
+#include "body_touch.h"
+
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../rigid/body_math.h"
+
+struct box {
+    double lo[2], hi[2];
+};
+
+static struct box box_of(const struct walls *w, int first, int n, double more)
+{
+    struct box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (int k = first; k < first + n; k++)
+        for (int a = 0; a < 2; a++) {
+            b.lo[a] = fmin(b.lo[a], w->segments[k].a[a] - more);
+            b.hi[a] = fmax(b.hi[a], w->segments[k].a[a] + more);
+        }
+    return b;
+}
+
+static bool meets(const struct box *b, const struct segment *g)
+{
+    bool any = true;
+    for (int a = 0; a < 2; a++)
+        any = any && fmin(g->a[a], g->b[a]) <= b->hi[a] && fmax(g->a[a], g->b[a]) >= b->lo[a];
+    return any;
+}
+
+static bool holds(const struct box *b, const double *x)
+{
+    return x[0] >= b->lo[0] && x[0] <= b->hi[0] && x[1] >= b->lo[1] && x[1] <= b->hi[1];
+}
+
+/* Segments of a body, or those at rest. */
+static bool belongs(const struct segment *g, int body) { return g->body == body; }
+
+static void range(const struct walls *w, int body, int *first, int *end)
+{
+    *first = body < 0 ? 0 : w->bodies[body].first;
+    *end = body < 0 ? w->nsegments : *first + w->bodies[body].n;
+}
+
+/* Signed distance of x to what body has within reach, its nearest point and the normal there. */
+static double nearest(const struct walls *w, int body, const double *x, double reach, double *out)
+{
+    struct wall_side side = wall_side_none(reach);
+    double least = INFINITY, foot[2] = {0.0, 0.0};
+    const struct segment *found = NULL;
+    int first, end;
+    range(w, body, &first, &end);
+    for (int k = first; k < end; k++) {
+        const struct segment *g = w->segments + k;
+        if (!belongs(g, body))
+            continue;
+        const double along =
+            fmax(0.0, fmin((x[0] - g->a[0]) * g->t[0] + (x[1] - g->a[1]) * g->t[1], g->length));
+        const double p[2] = {g->a[0] + along * g->t[0], g->a[1] + along * g->t[1]};
+        const double r = hypot(x[0] - p[0], x[1] - p[1]);
+        if (r > reach)
+            continue;
+        wall_side_add(&side, g, x);
+        if (r < least) {
+            least = r;
+            found = g;
+            memcpy(foot, p, sizeof foot);
+        }
+    }
+    if (!found)
+        return INFINITY;
+    const double d = side.distance;
+    for (int a = 0; a < 2; a++)
+        out[a] = fabs(d) > 1e-9 * reach ? (x[a] - foot[a]) / d : -found->n[a];
+    out[2] = 0.0;
+    return d;
+}
+
+static void velocity_of(const struct walls *w, int body, const double *x, double *u)
+{
+    u[0] = u[1] = u[2] = 0.0;
+    if (body >= 0)
+        body_velocity(w->bodies + body, x, u);
+}
+
+void pair_add(const struct walls *w, struct pair *p, const double *x, const double *out,
+              double depth, bool mine)
+{
+    double other[3];
+    if (p->n == p->capacity) {
+        GROW(p->touch, p->capacity, 2 * p->capacity + 8);
+        p->capacity = 2 * p->capacity + 8;
+    }
+    struct touch *t = p->touch + p->n++;
+    *t = (struct touch){.depth = depth, .mine = mine};
+    memcpy(t->x, x, (size_t)w->bodies[p->a].dim * sizeof *x);
+    memcpy(t->out, out, sizeof t->out);
+    velocity_of(w, mine ? p->a : p->b, x, t->u);
+    velocity_of(w, mine ? p->b : p->a, x, other);
+    vec3_add(t->u, -1.0, other);
+}
+
+/* Corners of one line that are nearer to the other than gap. */
+static void find_corners(const struct walls *w, struct pair *p, const struct box *near, double gap,
+                         bool mine)
+{
+    const int of = mine ? p->a : p->b, against = mine ? p->b : p->a;
+    int first, end;
+    range(w, of, &first, &end);
+    for (int k = first; k < end; k++) {
+        const struct segment *g = w->segments + k;
+        double out[3];
+        if (!belongs(g, of))
+            continue;
+        for (int e = 0; e < (of < 0 ? 2 : 1); e++) { /* lines at rest may be open */
+            const double *x = e ? g->b : g->a;
+            const double d = holds(near, x) ? nearest(w, against, x, 4.0 * gap, out) : INFINITY;
+            if (d < gap)
+                pair_add(w, p, x, out, gap - d, mine);
+        }
+    }
+}
+
+/* Whether anything of b comes near a's box. */
+static bool any_near(const struct walls *w, const struct pair *p, const struct box *near)
+{
+    int first, end;
+    bool any = false;
+    range(w, p->b, &first, &end);
+    for (int k = first; k < end && !any; k++)
+        any = belongs(w->segments + k, p->b) && meets(near, w->segments + k);
+    return any;
+}
+
+void pair_find2(const struct walls *w, struct pair *p, double gap)
+{
+    const struct box everywhere = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
+    const struct box near = box_of(w, w->bodies[p->a].first, w->bodies[p->a].n, gap);
+    if (!any_near(w, p, &near))
+        return;
+    find_corners(w, p, &everywhere, gap, true);
+    find_corners(w, p, &near, gap, false);
+}

@@ -1,0 +1,28 @@
+/* body_touch.h - where two bodies, or a body and walls at rest, touch.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_BODY_TOUCH_H
+#define SPH_BODY_TOUCH_H
+
+#include "../walls/walls.h"
+
+/* One corner of one near the other. */
+struct touch {
+    double x[3], out[3]; /* place; unit normal out of what is touched */
+    double depth, u[3];  /* m; m/s of the corner's body relative to what it touches */
+    bool mine;           /* the corner belongs to the first of the pair */
+};
+
+struct pair {
+    int a, b; /* bodies; b = -1: walls at rest */
+    int n, capacity;
+    struct touch *touch;
+};
+
+/* A corner (mine: of a) at x that is `depth' nearer than contact holds. */
+void pair_add(const struct walls *w, struct pair *p, const double *x, const double *out,
+              double depth, bool mine);
+/* Adds all corners nearer than gap: of polylines, of meshes (body_touch3.c). */
+void pair_find2(const struct walls *w, struct pair *p, double gap);
+void pair_find3(const struct walls *w, struct pair *p, double gap);
+
+#endif

@@ -1,0 +1,73 @@
+/* body_touch3.c - vertices of one surface of triangles against another: flat faces meet at the
+ * vertices of one of them. Not seen: two edges that cross. SPDX-License-Identifier: BSD-3-Clause */
+#include <string.h>
+
+#include "../rigid/body_math.h"
+#include "body_touch.h"
+
+static bool is_near(const struct walls *w, int body, const double *x, double more)
+{
+    const struct body *b = w->bodies + body;
+    double d[3];
+    for (int a = 0; a < 3; a++)
+        d[a] = x[a] - body_centre(b, a);
+    return vec3_length(d) < b->reach + more;
+}
+
+/* A vertex at x against one mesh. */
+static void try_vertex(const struct walls *w, struct pair *p, const struct wall_mesh *m,
+                       const double *x, double gap, bool mine)
+{
+    double own[3], foot[3], out[3];
+    wall_mesh_to_own(m, x, own);
+    const struct tree_foot f = tree_nearest(m->tree, own, 4.0 * gap);
+    if (f.triangle < 0 || f.rim || !(f.distance < gap))
+        return;
+    wall_mesh_to_world(m, f.foot, foot);
+    wall_mesh_turn_to_world(m, f.n, out); /* into what is touched */
+    for (int a = 0; a < 3; a++)
+        out[a] = fabs(f.distance) > 1e-9 * gap ? (x[a] - foot[a]) / f.distance : -out[a];
+    pair_add(w, p, x, out, gap - f.distance, mine);
+}
+
+static void find_vertices(const struct walls *w, struct pair *p, double gap, bool mine)
+{
+    const int of = mine ? p->a : p->b, against = mine ? p->b : p->a;
+    for (int i = 0; i < w->nmeshes; i++) {
+        const struct wall_mesh *m = w->meshes + i;
+        for (int k = 0; m->body == of && k < m->mesh.nvertices; k++) {
+            double x[3];
+            wall_mesh_to_world(m, m->mesh.x[k], x);
+            if (!is_near(w, p->a, x, gap) || (p->b >= 0 && !is_near(w, p->b, x, gap)))
+                continue;
+            for (int j = 0; j < w->nmeshes; j++)
+                if (w->meshes[j].body == against)
+                    try_vertex(w, p, w->meshes + j, x, gap, mine);
+        }
+    }
+}
+
+/* Whether anything of b comes within the sphere around a. */
+static bool any_near(const struct walls *w, const struct pair *p, double gap)
+{
+    const struct body *a = w->bodies + p->a;
+    bool any = false;
+    for (int j = 0; j < w->nmeshes && !any; j++) {
+        const struct wall_mesh *m = w->meshes + j;
+        const double centre[3] = {body_centre(a, 0), body_centre(a, 1), body_centre(a, 2)};
+        double own[3];
+        if (m->body != p->b)
+            continue;
+        wall_mesh_to_own(m, centre, own);
+        any = tree_nearest(m->tree, own, a->reach + gap).triangle >= 0;
+    }
+    return any;
+}
+
+void pair_find3(const struct walls *w, struct pair *p, double gap)
+{
+    if (!any_near(w, p, gap))
+        return;
+    find_vertices(w, p, gap, true);
+    find_vertices(w, p, gap, false);
+}

@@ -1,0 +1,443 @@
+/* sph_bodies.c - bodies and walls of a scene as particles meet them: gaps that none can enter,
+ * bodies that overlap, pierce walls or leave the domain, now or later, files of motion that a run
+ * cannot follow. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../../common/scene_mesh.h"
+#include "../../common/scene_fluid.h"
+#include "../../common/scene_geometry.h"
+#include "../../common/scene_mesh.h"
+#include "../case/sph_sense.h"
+#include "../walls/walls.h"
+#include "body_check.h"
+#include "../open_boundaries/zones.h"
+
+enum { VERTICES = 2000, LEAST_TIMES = 20, MOST_TIMES = 2000 };
+
+/* A line of the scene that particles meet. */
+struct bound {
+    struct line line;
+    char name[64];
+    int body;       /* -1: a wall */
+    double x[2][2]; /* of a side */
+};
+
+enum { BOUNDS_MAX = WALLS_MAX + BODIES_MAX };
+
+static void side_ends(const struct scene_domain *d, int side, double x[2][2])
+{
+    const int a = side / 2, b = 1 - a;
+    x[0][a] = x[1][a] = side % 2 ? d->max[a] : d->min[a];
+    x[0][b] = d->min[b];
+    x[1][b] = d->max[b];
+}
+
+static int find_bounds(const struct scene *c, const struct sph_params *used, struct bound *all)
+{
+    int n = 0;
+    for (int k = 0; k < c->nbodies; k++, n++) {
+        all[n].line = line_of(&c->bodies[k].points, true);
+        all[n].body = k;
+        snprintf(all[n].name, sizeof all[n].name, "body %d (%.40s)", k + 1, c->bodies[k].name);
+    }
+    for (int k = 0; k < c->nwalls; k++) {
+        const struct scene_wall *w = c->walls + k;
+        const int side = w->side - SIDE_X_MIN;
+        if (w->kind >= WALL_INFLOW || (side >= 0 && !sph_params_reaches(&c->domain, used, side)))
+            continue;
+        all[n].body = -1;
+        snprintf(all[n].name, sizeof all[n].name, "wall %d", k + 1);
+        if (side >= 0)
+            side_ends(&c->domain, side, all[n].x);
+        all[n].line = side >= 0 ? (struct line){2, (const double(*)[2])all[n].x, false}
+                                : line_of(&w->points, w->closed);
+        n++;
+    }
+    return n;
+}
+
+/* --- gaps --- */
+
+/* Nearest point of a line to x; side: > 0 if x is on its left, 0 beyond an end. */
+static void foot_of(const struct line *l, const double *x, double foot[2], double *side)
+{
+    double least = INFINITY;
+    for (int k = 0; k < line_segments(l); k++) {
+        const double *a = l->x[k], *b = l->x[(k + 1) % l->n];
+        const double d[2] = {b[0] - a[0], b[1] - a[1]}, e[2] = {x[0] - a[0], x[1] - a[1]};
+        const double along = (d[0] * e[0] + d[1] * e[1]) / (d[0] * d[0] + d[1] * d[1]);
+        const double z = fmax(0.0, fmin(1.0, along));
+        const double p[2] = {a[0] + z * d[0], a[1] + z * d[1]};
+        const double r = hypot(x[0] - p[0], x[1] - p[1]);
+        if (r < least) {
+            const bool end = !l->closed && ((k == 0 && along <= 0.0) ||
+                                            (k == line_segments(l) - 1 && along >= 1.0));
+            least = r;
+            memcpy(foot, p, sizeof p);
+            *side = end ? 0.0 : d[0] * e[1] - d[1] * e[0];
+        }
+    }
+}
+
+/* Whether the middle of the gap at x lies where fluid could be: behind no wall. */
+static bool is_wet(const struct scene *c, const struct bound *A, const struct bound *B,
+                   const double *x)
+{
+    double p[2], q[2], left[2];
+    foot_of(&A->line, x, p, left);
+    foot_of(&B->line, x, q, left + 1);
+    const double mid[3] = {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.0};
+    foot_of(&A->line, mid, p, left);
+    foot_of(&B->line, mid, q, left + 1);
+    bool in = scene_is_room(c, mid);
+    for (int a = 0; a < 2; a++)
+        in = in && mid[a] > c->domain.min[a] && mid[a] < c->domain.max[a];
+    const bool side_a = A->line.x == (const double(*)[2])A->x;
+    const bool side_b = B->line.x == (const double(*)[2])B->x;
+    return in && (side_a || left[0] >= 0.0) && (side_b || left[1] >= 0.0);
+}
+
+static void fault_at(const struct run *r, struct faults *f, const struct bound *b, const char *what,
+                     const double *at, const char *other)
+{
+    char key[64];
+    snprintf(key, sizeof key, "bodies.[%d]", b->body);
+    params_fault(r->params, f, b->body < 0 ? "walls" : key, "%s %s %s at (%g, %g) m", b->name, what,
+                 other, at[0], at[1]);
+}
+
+static bool is_free(const struct scene *c, const struct bound *b)
+{
+    return b->body >= 0 && c->bodies[b->body].free;
+}
+
+/* Contact must not push from the start. */
+static void check_contacts(const struct run *r, const struct sph_params *used,
+                           const struct bound *all, int n, struct faults *f)
+{
+    for (int k = 0; k < r->scene.nbodies; k++)
+        for (int m = 0; m < n; m++) {
+            const struct scene_body *b = r->scene.bodies + k;
+            const double gap =
+                (b->contact.n > 0 ? b->contact.of[0].gap : 1.0) * used->dx * (1.0 - 1e-6);
+            double at[2] = {0.0, 0.0};
+            char key[64];
+            if (m == k || !b->free || (is_free(&r->scene, all + m) && m > k))
+                continue;
+            const double d = line_gap(&all[k].line, &all[m].line, at);
+            snprintf(key, sizeof key, "bodies.[%d]", k);
+            if (d < gap)
+                params_fault(r->params, f, key,
+                             "%s starts in contact with %s: %g m apart at (%g, %g) m, where "
+                             "contact holds %g m (contact.gap): move it away by that",
+                             all[k].name, all[m].name, d, at[0], at[1], gap);
+        }
+}
+
+/* --- meshes --- */
+
+/* A vertex of a body outside the domain; true: said. */
+static bool check_domain(const struct run *r, int k, const double *x, const char *when,
+                         struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    for (int a = 0; a < 3; a++) {
+        char key[64];
+        if (x[a] >= d->min[a] && x[a] <= d->max[a])
+            continue;
+        snprintf(key, sizeof key, "bodies.[%d]", k);
+        params_fault(
+            r->params, f, key, "%s %s %c at (%g, %g, %g) m, %s: %s", r->scene.bodies[k].name,
+            d->periodic[a] ? "crosses the periodic side" : "leaves the domain across", "xyz"[a],
+            x[0], x[1], x[2], when,
+            d -> periodic[a] ? "a body has no image there; shift the domain, or make it larger"
+                             : "make the domain larger, or the motion smaller");
+        return true;
+    }
+    return false;
+}
+
+/* Distance of x to the nearest wall of the domain's sides and its place in the scene's words. */
+static double side_distance(const struct scene *c, const double *x, char *what, size_t size)
+{
+    double least = INFINITY;
+    for (int side = 0; side < 6; side++) {
+        const struct scene_wall *w = scene_wall_of(c, SIDE_X_MIN + side);
+        const int a = side / 2;
+        const double d = side % 2 ? c->domain.max[a] - x[a] : x[a] - c->domain.min[a];
+        if (w && w->kind <= WALL_NO_SLIP && d < least) {
+            least = d;
+            snprintf(what, size, "wall %d", (int)(w - c->walls) + 1);
+        }
+    }
+    return least;
+}
+
+/* Vertices of free body k against a mesh, those of the mesh against the body: nearest of all. */
+static double mesh_distance(const struct scene_mesh *m, const struct scene_mesh *n, double reach,
+                            double at[3])
+{
+    double least = INFINITY;
+    for (int e = 0; e < 2; e++) {
+        const struct scene_mesh *of = e ? n : m, *against = e ? m : n;
+        for (int i = 0; i < of->mesh.nvertices; i++) {
+            const struct tree_foot t = tree_nearest(against->tree, of->mesh.x[i], reach);
+            if (t.triangle < 0 || t.rim || t.distance >= least)
+                continue;
+            least = t.distance;
+            memcpy(at, of->mesh.x[i], 3 * sizeof *at);
+        }
+    }
+    return least;
+}
+
+static void fault_contact(const struct run *r, int k, const char *other, double d, double gap,
+                          const double *at, struct faults *f)
+{
+    const char *name = r->scene.bodies[k].name;
+    char key[64];
+    snprintf(key, sizeof key, "bodies.[%d]", k);
+    if (d < 0.0)
+        params_fault(r->params, f, key, "%s reaches %g m into %s at (%g, %g, %g) m: move it away",
+                     name, -d, other, at[0], at[1], at[2]);
+    else
+        params_fault(r->params, f, key,
+                     "%s starts in contact with %s: %g m apart at (%g, %g, %g) m, where contact "
+                     "holds %g m (contact.gap): move it away by that",
+                     name, other, d, at[0], at[1], at[2], gap);
+}
+
+/* A free body in 3D against sides, walls and other bodies at the start. */
+static void check_start3(const struct run *r, const struct sph_params *used, int k,
+                         struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    const struct scene_body *b = c->bodies + k;
+    const struct scene_mesh *m = scene_mesh_of(c, MESH_BODY, k);
+    const double gap = (b->contact.n > 0 ? b->contact.of[0].gap : 1.0) * used->dx * (1.0 - 1e-6);
+    double at[3] = {0.0, 0.0, 0.0}, size = 0.0;
+    char what[96];
+    for (int a = 0; a < 3; a++)
+        size = fmax(size, m->hi[a] - m->lo[a]);
+    for (int i = 0; i < m->mesh.nvertices; i++) {
+        const double d = side_distance(c, m->mesh.x[i], what, sizeof what);
+        if (d < gap) {
+            fault_contact(r, k, what, d, gap, m->mesh.x[i], f);
+            return;
+        }
+    }
+    for (int j = 0; j < c->meshes->n; j++) {
+        const struct scene_mesh *n = c->meshes->of + j;
+        if (n == m || n->owner == MESH_SHAPE ||
+            (n->owner == MESH_BODY && c->bodies[n->index].free && n->index > k))
+            continue;
+        const double d = mesh_distance(m, n, fmax(size, gap), at);
+        snprintf(what, sizeof what, "%s", n->name);
+        if (d < gap)
+            fault_contact(r, k, what, d, gap, at, f);
+    }
+}
+
+/* Bodies of triangles along their motion. */
+static void check_meshes(const struct run *r, const struct sph_params *used, struct body *bodies,
+                         int times, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    for (int k = 0; k < c->nbodies; k++) {
+        const struct trimesh *m = bodies[k].mesh;
+        const int before = f->n, most = bodies[k].free ? 0 : times < 200 ? times : 200;
+        for (int i = 0; m && i <= most && f->n == before; i++) {
+            const double t = most ? c->time.end * i / most : 0.0;
+            char when[64];
+            snprintf(when, sizeof when, t > 0.0 ? "at t = %g s" : "at the start", t);
+            body_move(bodies + k, t);
+            for (int v = 0; v < m->nvertices && f->n == before; v++) {
+                double x[3];
+                body_place(bodies + k, m->x[v], x);
+                check_domain(r, k, x, when, f);
+            }
+        }
+        if (m && bodies[k].free && f->n == before)
+            check_start3(r, used, k, f);
+    }
+}
+
+static void check_gaps(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    struct bound all[BOUNDS_MAX];
+    const int n = find_bounds(&r->scene, used, all);
+    for (int k = 0; k < n; k++)
+        for (int m = 0; m < k; m++) {
+            double at[2] = {0.0, 0.0};
+            if (is_free(&r->scene, all + k) || is_free(&r->scene, all + m))
+                continue; /* it closes and opens */
+            const double gap = line_gap(&all[k].line, &all[m].line, at);
+            if (gap > 1e-3 * used->dx && gap < (1.0 - 1e-6) * used->dx &&
+                is_wet(&r->scene, all + k, all + m, at))
+                params_fault(r->params, f, all[k].body < 0 && all[m].body < 0 ? "walls" : "bodies",
+                             "a gap of %g m between %s and %s at (%g, %g) m, where no particle of "
+                             "%g m fits: close it, or refine sph.dx",
+                             gap, all[m].name, all[k].name, at[0], at[1], used->dx);
+        }
+}
+
+/* --- motion --- */
+
+static void place_bodies(const struct scene *c, struct body *bodies, double t,
+                         struct param_points *now)
+{
+    for (int k = 0; k < c->nbodies; k++) {
+        body_move(bodies + k, t);
+        now[k].n = c->bodies[k].points.n;
+        for (int i = 0; i < now[k].n; i++)
+            body_place(bodies + k, c->bodies[k].points.x[i], now[k].x[i]);
+    }
+}
+
+/* A corner outside the room that a body may have: the free zone of the particles. */
+static bool check_room(const struct run *r, const struct sph_params *used, const struct bound *b,
+                       const char *when, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const struct line *l = &b->line;
+    const double small = 1e-6 * line_size(l);
+    double lo[3], hi[3];
+    zones_free_box(r, used, lo, hi);
+    for (int i = 0; i < l->n; i++)
+        for (int a = 0; a < 2; a++) {
+            const double x = l->x[i][a];
+            const bool leaves = x < d->min[a] - small || x > d->max[a] + small;
+            char key[64];
+            if (x >= lo[a] - small && x <= hi[a] + small)
+                continue;
+            snprintf(key, sizeof key, "bodies.[%d]", b->body);
+            params_fault(r->params, f, key, "%s %s %c at (%g, %g) m, %s: %s", b->name,
+                         !leaves          ? "leaves the free zone of the particles across"
+                         : d->periodic[a] ? "crosses the periodic side"
+                                          : "leaves the domain across",
+                         "xy"[a], l -> x[i][0], l -> x[i][1], when,
+                         !leaves ? "only there it is known; make sph.box larger"
+                         : d->periodic[a]
+                             ? "a body has no image there; shift the domain, or make it larger"
+                             : "make the domain larger, or the motion smaller");
+            return false;
+        }
+    return true;
+}
+
+/* What is wrong at one time; true: something. */
+static bool check_places(const struct run *r, const struct sph_params *used,
+                         const struct bound *all, int n, double t, struct faults *f)
+{
+    char when[64];
+    double at[2];
+    const int before = f->n;
+    snprintf(when, sizeof when, t > 0.0 ? "at t = %g s" : "at the start", t);
+    for (int k = 0; k < r->scene.nbodies; k++) {
+        if (t > 0.0 && r->scene.bodies[k].free)
+            continue; /* goes where forces take it, and is watched there */
+        if (!check_room(r, used, all + k, when, f))
+            return true;
+        for (int m = 0; m < n; m++) {
+            char words[96];
+            if (t > 0.0 && all[m].body >= 0 && r->scene.bodies[all[m].body].free)
+                continue;
+            if (m == k || (all[m].body >= 0 && m > k))
+                continue;
+            snprintf(words, sizeof words, "%s %s", all[m].body < 0 ? "cuts" : "overlaps with",
+                     all[m].name);
+            if (all[m].body >= 0 ? line_overlaps(&all[k].line, &all[m].line, at)
+                                 : line_pierces(&all[k].line, &all[m].line, at))
+                fault_at(r, f, all + k, words, at, when);
+        }
+    }
+    return f->n > before;
+}
+
+/* In 3D: vertices of a mesh beyond a side of the domain that is a wall. */
+static bool check_vertices(const struct run *r, const struct body *b, double t, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const struct trimesh *m = &b->is->mesh->mesh;
+    const int stride = 1 + m->nvertices / VERTICES;
+    for (int v = 0; v < m->nvertices; v += stride) {
+        double x[3];
+        body_place(b, m->x[v], x);
+        for (int side = 0; side < 6; side++) {
+            const int a = side / 2;
+            const struct scene_wall *w = scene_wall_of(&r->scene, (enum scene_side)(side + 1));
+            const double out = side % 2 ? x[a] - d->max[a] : d->min[a] - x[a];
+            if (!w || w->kind >= WALL_INFLOW || out <= 1e-6 * (d->max[a] - d->min[a]))
+                continue;
+            params_fault(r->params, f, "bodies",
+                         "body %s goes through the side %c_%s at t = %.3g s, (%g, %g, %g) m",
+                         b->is->name, "xyz"[a], side % 2 ? "max" : "min", t, x[0], x[1], x[2]);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool check_solids(const struct run *r, struct body *bodies, double t, struct faults *f)
+{
+    bool any = false;
+    for (int k = 0; k < r->scene.nbodies; k++) {
+        body_move(bodies + k, t);
+        any = (bodies[k].is->mesh && check_vertices(r, bodies + k, t, f)) || any;
+    }
+    return any;
+}
+
+void sph_bodies_check(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    struct body bodies[BODIES_MAX];
+    struct param_points *now = NEW(struct param_points, BODIES_MAX);
+    struct bound all[BOUNDS_MAX];
+    double speed = 0.0;
+    const int before = f->n;
+    body_check(r, used, f);
+    if (f->n > before) {
+        mem_free(now);
+        return;
+    }
+    for (int k = 0; k < c->nbodies; k++)
+        body_create(bodies + k, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, r->case_dir);
+    const bool plane = c->domain.dim == 2;
+    const int n = plane ? find_bounds(c, used, all) : 0;
+    for (int k = 0; k < c->nbodies && plane; k++) {
+        all[k].line = line_of(&c->bodies[k].points, true);
+        all[k].line.x = (const double(*)[2])now[k].x;
+    }
+    for (int k = 0; k < c->nbodies; k++)
+        speed = fmax(speed, body_drive_speed(&bodies[k].drive, bodies[k].reach, c->time.end));
+    if (speed > 0.5 * used->c0)
+        params_fault(r->params, f, "bodies",
+                     "a body moves at %g m/s, above half the speed of sound, %g m/s: raise sph.c0",
+                     speed, 0.5 * used->c0);
+    const double wanted = fmin(2.0 * speed * c->time.end / used->dx, MOST_TIMES);
+    const int times = speed > 0.0 ? (int)fmax(wanted, LEAST_TIMES) : 0;
+    for (int i = 0; i <= times && plane; i++) {
+        const double t = times ? c->time.end * i / times : 0.0;
+        if (c->domain.dim == 3) {
+            if (check_solids(r, bodies, t, f))
+                break;
+            continue;
+        }
+        place_bodies(c, bodies, t, now);
+        if (check_places(r, used, all, n, t, f))
+            break;
+    }
+    if (f->n == before && plane)
+        check_contacts(r, used, all, n, f);
+    if (!plane)
+        check_meshes(r, used, bodies, times, f);
+    for (int k = 0; k < c->nbodies; k++)
+        body_destroy(bodies + k);
+    mem_free(now);
+    if (plane)
+        check_gaps(r, used, f);
+}

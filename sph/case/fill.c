@@ -1,0 +1,301 @@
+/* fill.c - the first particles: a lattice at cell centres, each rank its own part, where the shapes
+ * of the case have fluid and walls leave room for it; at rest under gravity with its pressure.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../sph.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/exact.h"
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../../common/scene_fluid.h"
+#include "basins.h"
+#include "rooms.h"
+#include "../parallel/domain.h"
+#include "../particles/eos.h"
+#include "../sph_params.h"
+#include "../walls/walls.h"
+
+/* In [-1, 1), a function of the particle alone, so the same on any number of ranks
+ * (splitmix64: Steele, Lea & Flood, OOPSLA 2014). */
+static double random_of(int64_t id, int axis)
+{
+    uint64_t z = ((uint64_t)id * 3 + (uint64_t)axis + 1) * 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    z ^= z >> 31;
+    return (double)(z >> 11) * 0x1p-52 - 1.0;
+}
+
+/* In a seam: two walls that face each other are less than dx apart here. Nothing can flow there,
+ * and a particle between them would be pressed out. */
+static bool in_seam(const struct walls *w, const double *x, double dx)
+{
+    double foot[2];
+    const struct segment *near = w->segments + walls_nearest(w, x, foot);
+    const double d = hypot(x[0] - foot[0], x[1] - foot[1]);
+    for (int k = 0; k < w->nsegments && d < dx; k++) {
+        const struct segment *g = w->segments + k;
+        const double facing = g->n[0] * near->n[0] + g->n[1] * near->n[1];
+        const double e[2] = {x[0] - g->a[0], x[1] - g->a[1]};
+        const double before = -(e[0] * g->n[0] + e[1] * g->n[1]);
+        const double along = e[0] * g->t[0] + e[1] * g->t[1];
+        if (facing < -0.5 && before >= 0.0 && along >= 0.0 && along <= g->length &&
+            d + before < (1.0 - 1e-6) * dx)
+            return true;
+    }
+    return false;
+}
+
+void fill_clear_seams(struct sph *s)
+{
+    for (int i = 0; i < s->p.n && s->walls->nsegments > 0;)
+        if (in_seam(s->walls, state_row(&s->p, s->p.y, i), s->dx)) {
+            particles_copy(&s->p, i, --s->p.n);
+            s->ready = false;
+        } else {
+            i++;
+        }
+}
+
+/* Whether walls and bodies leave room for a particle at x. */
+static bool has_room(const struct sph *s, const double *x)
+{
+    if (rooms_parted(s))
+        return rooms_have_place(s, x);
+    const double least = s->prm.packing > 0 ? 1e-3 * s->dx : 0.3 * s->dx;
+    return !s->walls || s->walls->nsegments == 0 ||
+           (scene_is_room(&s->run->scene, x) && walls_distance(s->walls, x, INFINITY) > least &&
+            !in_seam(s->walls, x, s->dx));
+}
+
+/* Cells from the lower corner; from the upper one where only that has a wall of the domain. The
+ * last may reach out of a domain that dx does not divide. */
+static struct lattice lattice_create(const struct sph *s)
+{
+    const struct scene *c = &s->run->scene;
+    struct lattice l = {.n = {1, 1, 1}, .dx = s->dx};
+    for (int a = 0; a < s->dim; a++) {
+        const struct scene_wall *low = scene_wall_of(c, SIDE_X_MIN + 2 * a);
+        const struct scene_wall *high = scene_wall_of(c, SIDE_X_MIN + 2 * a + 1);
+        const double n = (s->hi[a] - s->lo[a]) / s->dx;
+        l.n[a] = (int)ceil(n - 1e-6);
+        l.origin[a] = high && !low && l.n[a] - n > 1e-6 ? s->hi[a] - l.n[a] * s->dx : s->lo[a];
+    }
+    l.bits = NEW(unsigned char, (size_t)(lattice_cells(&l) / 8 + 1));
+    return l;
+}
+
+/* The range of cells that may have their centre in this rank's part. */
+static void own_cells(const struct sph *s, const struct lattice *l, const double *lo,
+                      const double *hi, int *first, int *last)
+{
+    for (int a = 0; a < 3; a++) {
+        first[a] = 0;
+        last[a] = 1;
+        if (a >= s->dim)
+            continue;
+        first[a] = (int)fmax(0.0, floor((lo[a] - l->origin[a]) / l->dx) - 1.0);
+        last[a] = (int)fmin(l->n[a], ceil((hi[a] - l->origin[a]) / l->dx) + 1.0);
+    }
+}
+
+static void each_own_cell(struct sph *s, const struct lattice *l,
+                          void (*at)(struct sph *s, const struct lattice *l, int64_t cell,
+                                     const double *centre, void *ctx),
+                          void *ctx)
+{
+    double lo[3], hi[3];
+    int first[3], last[3];
+    domain_bounds(s->domain, lo, hi);
+    own_cells(s, l, lo, hi, first, last);
+    for (int k = first[2]; k < last[2]; k++)
+        for (int j = first[1]; j < last[1]; j++)
+            for (int i = first[0]; i < last[0]; i++) {
+                const int64_t cell = i + l->n[0] * (j + l->n[1] * (int64_t)k);
+                double x[3];
+                bool own = true;
+                lattice_place(l, cell, s->dim, x);
+                for (int a = 0; a < s->dim; a++)
+                    own = own && x[a] >= lo[a] && x[a] < hi[a];
+                if (own)
+                    at(s, l, cell, x, ctx);
+            }
+}
+
+/* Where the particle of a cell starts. */
+static void displace(const struct sph *s, int64_t cell, const double *centre, double *x)
+{
+    for (int a = 0; a < 3; a++)
+        x[a] = centre[a] +
+               (s->prm.noise > 0.0 && a < s->dim ? s->prm.noise * s->dx * random_of(cell, a) : 0.0);
+}
+
+static void cut_links(const struct sph *s, struct lattice *l)
+{
+    double lo[3], hi[3];
+    int first[3], last[3];
+    domain_bounds(s->domain, lo, hi);
+    own_cells(s, l, lo, hi, first, last);
+    rooms_cut_links(s, l, first, last);
+    for (int a = 0; a < 3; a++)
+        lattice_share(l, l->cut[a], s->run->comm);
+}
+
+/* What the cells are looked through with. */
+struct look {
+    struct exact exact;
+    int64_t wet, taken; /* cells with fluid by the shapes; of these behind walls or in bodies */
+};
+
+static void mark(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
+                 void *ctx)
+{
+    struct look *k = ctx;
+    double x[3];
+    displace(s, cell, centre, x);
+    if (!scene_is_fluid(&s->run->scene, &k->exact, x, NULL))
+        return;
+    k->wet++;
+    if (!has_room(s, x))
+        k->taken++;
+    else
+        lattice_set(l->bits, cell);
+}
+
+static void add(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
+                void *ctx)
+{
+    const struct exact *e = &((struct look *)ctx)->exact;
+    double x[3], u[3], p, more[3];
+    if (!lattice_has(l, cell))
+        return;
+    displace(s, cell, centre, x);
+    scene_is_fluid(&s->run->scene, e, x, more);
+    exact_point(e, x, 0.0, u, &p, NULL);
+    for (int a = 0; a < s->dim; a++)
+        u[a] += more[a];
+    particles_reserve(&s->p, s->p.n + 1);
+    const int i = particles_add(&s->p, cell, ZONE_FREE);
+    particles_set(s, i, x, u, s->dxD, eos_rho(p, s->rho0, s->c0, s->gamma));
+}
+
+/* Velocity and pressure of the first field where packing has moved a particle to. */
+static void refresh(struct sph *s, const struct exact *e)
+{
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i), w = y[at_volume(s->dim)];
+        double x[3] = {0.0, 0.0, 0.0}, u[3], p, more[3];
+        memcpy(x, y, (size_t)s->dim * sizeof *x);
+        if (!scene_is_fluid(&s->run->scene, e, x, more)) /* beyond its shape: stays as it was */
+            continue;
+        exact_point(e, x, 0.0, u, &p, NULL);
+        for (int a = 0; a < s->dim; a++)
+            u[a] += more[a];
+        particles_set(s, i, x, u, w, eos_rho(p, s->rho0, s->c0, s->gamma));
+    }
+}
+
+/* Density of a fluid at rest at depth d: the exact column of the equation of state. */
+static double density_at_rest(const struct sph *s, double g, double d)
+{
+    const double r = g * d / (s->c0 * s->c0);
+    if (s->gamma == 1.0)
+        return s->rho0 * exp(r);
+    return s->rho0 * pow(fmax(1.0 + 6.0 * r, 0.1), 1.0 / 6.0);
+}
+
+/* Masses under gravity: p = 0 at the given height, or on top of each water. A wave and a channel
+ * have their own pressure; gravity along a periodic axis drives. */
+static void weigh(struct sph *s, const struct basins *b)
+{
+    const struct scene *c = &s->run->scene;
+    const struct scene_initial *f = &c->initial;
+    double still[3], off = 0.0;
+    const double g = scene_still_gravity(c, still);
+    if (g == 0.0 || scene_has_wave(c) || f->field == FIELD_POISEUILLE)
+        return;
+    for (int i = 0; i < s->p.n; i++) {
+        double *y = state_row(&s->p, s->p.y, i), x[3] = {0.0, 0.0, 0.0};
+        double level = basins_level(b, s->p.id[i]);
+        if (isnan(level)) /* falls */
+            continue;
+        off = f->level < LEVEL_TOP ? fmax(off, fabs(f->level - level)) : 0.0;
+        level = f->level < LEVEL_TOP ? f->level : level;
+        memcpy(x, y, (size_t)s->dim * sizeof *x);
+        const double m = y[at_mass(s->dim)];
+        const double more =
+            y[at_volume(s->dim)] * density_at_rest(s, g, level - scene_height(c, x)) / m;
+        for (int a = 0; a < s->dim; a++)
+            y[s->dim + a] *= more;
+        y[at_mass(s->dim)] *= more;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPI_DOUBLE, MPI_MAX, s->run->comm);
+    if (s->surface && off > s->dx)
+        log_warn("initial.level = %g m is %g m off the level of a free surface, which starts with "
+                 "%.3g Pa: leave it out",
+                 f->level, off, s->rho0 * g * off);
+}
+
+static void say_rooms(const struct basins *b)
+{
+    int wet, dry;
+    basins_rooms(b, &wet, &dry);
+    if (dry > 0)
+        log_say("meshes part the water of the shapes in %d rooms: %d hold(s) fluid", wet + dry,
+                wet);
+    if (wet == 0)
+        log_warn("no room on the fluid's side of the meshes holds any water: see walls.fluid_side, "
+                 "walls.flip and initial.seed");
+}
+
+static void say_pockets(const struct basins *b)
+{
+    int64_t cells;
+    double x[3];
+    const int n = basins_pockets(b, &cells, x);
+    if (n > 0)
+        log_say("%d pocket(s) that walls cut off, of %lld particle(s) together, hold no water: too "
+                "small to flow; one at (%g, %g) m",
+                n, (long long)cells, x[0], x[1]);
+}
+
+/* A tank whose lines run the wrong way, or a body around the fluid, leave hardly any. */
+static void warn_of_taken(const struct sph *s, const struct look *k)
+{
+    long long n[2] = {k->wet, k->taken};
+    MPI_Allreduce(MPI_IN_PLACE, n, 2, MPI_LONG_LONG, MPI_SUM, s->run->comm);
+    if (2 * n[1] > n[0])
+        log_warn(
+            "walls and bodies take %lld of %lld particles that the shapes give: do their points "
+            "run the right way (fluid on the left, bodies clockwise)?",
+            n[1], n[0]);
+}
+
+void fill_lattice(struct sph *s)
+{
+    struct look look = {.exact = exact_create(&s->run->scene)};
+    struct lattice l = lattice_create(s);
+    const int64_t all = lattice_cells(&l), ranks = s->run->size;
+    each_own_cell(s, &l, mark, &look);
+    lattice_share(&l, l.bits, s->run->comm);
+    const bool parted = rooms_parted(s);
+    if (parted)
+        cut_links(s, &l);
+    else
+        warn_of_taken(s, &look);
+    struct basins *b = basins_create(s, &l);
+    if (parted)
+        say_rooms(b);
+    say_pockets(b);
+    basins_clear(b, &l);
+    each_own_cell(s, &l, add, &look);
+    pack_start(s, s->prm.packing);
+    if (s->prm.packing > 0)
+        refresh(s, &look.exact);
+    weigh(s, b);
+    basins_free(&b);
+    lattice_free(&l);
+    s->next_id = (all + ranks - 1) / ranks * ranks + s->run->rank;
+}

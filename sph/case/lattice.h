@@ -1,0 +1,53 @@
+/* lattice.h - the cells of the first particles: which are filled, which neighbours a wall parts.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_LATTICE_H
+#define SPH_LATTICE_H
+
+#include "../sph.h"
+
+/* Cells of side dx, filled or not; cell (i, j, k) has the number i + n[0] (j + n[1] k). */
+struct lattice {
+    int n[3];
+    double origin[3], dx; /* m: lower corner of the first cell */
+    unsigned char *bits;  /* of all ranks: one a cell */
+    unsigned char
+        *cut[3]; /* one a cell: a mesh parts it from the next along the axis; NULL: none */
+};
+
+int64_t lattice_cells(const struct lattice *l);
+void lattice_indices(const struct lattice *l, int64_t cell, int *ic);
+int64_t lattice_cell(const struct lattice *l, const int *ic);
+/* Centre of cell ic, which may lie beside the lattice, and of a cell by its number. */
+void lattice_centre(const struct lattice *l, const int *ic, int dim, double *x);
+void lattice_place(const struct lattice *l, int64_t cell, int dim, double *x);
+/* The cell that holds x, -1: none. */
+int64_t lattice_find(const struct lattice *l, int dim, const double *x);
+/* The cell next to ic along an axis, around a period; false: the lattice ends here. */
+bool lattice_next(const struct lattice *l, const int *ic, int axis, const bool *periodic, int *jc);
+void lattice_free(struct lattice *l);
+/* Bits of all ranks together. Collective. */
+void lattice_share(const struct lattice *l, unsigned char *bits, MPI_Comm comm);
+
+static inline bool lattice_bit(const unsigned char *bits, int64_t cell)
+{
+    return bits[cell >> 3] >> (cell & 7) & 1;
+}
+static inline void lattice_set(unsigned char *bits, int64_t cell)
+{
+    bits[cell >> 3] |= (unsigned char)(1 << (cell & 7));
+}
+static inline void lattice_clear(unsigned char *bits, int64_t cell)
+{
+    bits[cell >> 3] &= (unsigned char)~(1 << (cell & 7));
+}
+static inline bool lattice_has(const struct lattice *l, int64_t cell)
+{
+    return lattice_bit(l->bits, cell);
+}
+/* Whether a mesh parts a cell from the next one along an axis. */
+static inline bool lattice_is_cut(const struct lattice *l, int64_t cell, int axis)
+{
+    return l->cut[axis] && lattice_bit(l->cut[axis], cell);
+}
+
+#endif

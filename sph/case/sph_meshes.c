@@ -1,0 +1,230 @@
+/* sph_meshes.c - surfaces of triangles as particles of this spacing meet them: too small, too fine,
+ * too coarse, thinner than the particles' reach, gauges behind them; see sph_sense.h.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/exact.h"
+#include "../../common/log.h"
+#include "../../common/scene_fluid.h"
+#include "../../common/scene_mesh.h"
+#include "../../common/vec3.h"
+#include "sph_sense.h"
+
+enum { RAYS = 20000 }; /* about so many triangles of a mesh are looked at */
+
+static const char *file_of(const struct scene *c, const struct scene_mesh *m)
+{
+    return scene_surface_of(c, m->owner, m->index)->mesh;
+}
+
+static bool is_thin(const struct scene *c, const struct scene_mesh *m)
+{
+    return m->owner == MESH_WALL ? c->walls[m->index].thin : c->bodies[m->index].thin;
+}
+
+static void check_size(const struct run *r, const struct scene_mesh *m, double dx, struct faults *f)
+{
+    double size = 0.0;
+    for (int a = 0; a < 3; a++)
+        size = fmax(size, m->hi[a] - m->lo[a]);
+    if (size < dx)
+        params_fault(r->params, f, m->key,
+                     "%s is %.3g m in size, less than sph.dx = %g m: no particle sees it. Is its "
+                     "scale right? Else take sph.dx = %.2g or less",
+                     file_of(&r->scene, m), size, dx, 0.25 * size);
+}
+
+/* --- thickness and gaps --- */
+
+/* Whether there is fluid at x at the start. */
+static bool is_wet(const struct scene *c, const struct exact *e, const double *x)
+{
+    for (int a = 0; a < 3; a++)
+        if (x[a] <= c->domain.min[a] || x[a] >= c->domain.max[a])
+            return false;
+    return scene_is_fluid(c, e, x, NULL);
+}
+
+/* What a ray from the middle of a triangle along its normal (way 1: through the solid, -1: through
+ * the fluid) meets within reach: a face, of this mesh or another, that looks the other way. */
+struct facing {
+    bool any;
+    double width, from[3], to[3], n[3];
+};
+
+static struct facing look_across(const struct scene_meshes *all, const struct scene_mesh *m, int t,
+                                 int way, double reach)
+{
+    struct facing f = {.any = false};
+    const struct scene_mesh *met = NULL;
+    const double off = 1e-6 * reach;
+    double end[3], other[3], least = INFINITY;
+    trimesh_middle(&m->mesh, t, f.from);
+    trimesh_normal(&m->mesh, t, f.n);
+    for (int a = 0; a < 3; a++) {
+        f.from[a] += way * off * f.n[a];
+        end[a] = f.from[a] + way * reach * f.n[a];
+    }
+    for (int k = 0; k < all->n; k++) {
+        double at;
+        if (all->of[k].owner == MESH_SHAPE || !tree_crosses(all->of[k].tree, f.from, end, &at) ||
+            at >= least)
+            continue;
+        least = at;
+        met = all->of + k;
+    }
+    if (!met)
+        return f;
+    for (int a = 0; a < 3; a++)
+        f.to[a] = f.from[a] + least * (end[a] - f.from[a]);
+    const struct tree_foot hit = tree_nearest(met->tree, f.to, off);
+    if (hit.triangle < 0)
+        return f;
+    trimesh_normal(&met->mesh, hit.triangle, other);
+    f.any = vec3_dot(other, f.n) < -0.5;
+    f.width = least * reach + off;
+    return f;
+}
+
+/* A solid thinner than `reach' with fluid on either side. (An open surface has its fluid on one; a
+ * sheet in the midst of the water is found by filling.) */
+static bool is_seen_through(const struct scene *c, const struct exact *e,
+                            const struct scene_mesh *m, int t, double reach, struct facing *f)
+{
+    const double off = 1e-3 * reach;
+    double x[3], y[3];
+    *f = look_across(c->meshes, m, t, 1, reach);
+    for (int a = 0; a < 3 && f->any; a++) {
+        x[a] = f->from[a] - off * f->n[a];
+        y[a] = f->to[a] + off * f->n[a];
+    }
+    return f->any && is_wet(c, e, x) && is_wet(c, e, y);
+}
+
+/* The kernel is as good as nothing beyond 0.7 R. */
+static void check_thin(const struct run *r, const struct scene_mesh *m,
+                       const struct sph_params *used, struct faults *f)
+{
+    const struct exact e = exact_create(&r->scene);
+    const double reach = 0.7 * used->R_dx * used->dx;
+    const int stride = 1 + m->mesh.ntriangles / RAYS;
+    for (int t = 0; t < m->mesh.ntriangles && !is_thin(&r->scene, m); t += stride) {
+        struct facing is;
+        if (!is_seen_through(&r->scene, &e, m, t, reach, &is))
+            continue;
+        params_fault(r->params, f, m->key,
+                     "%s is %.3g m thick at triangle %d, (%g, %g, %g) m, with fluid on either "
+                     "side: particles see each other through less than 0.7 sph.R_dx sph.dx = %.3g "
+                     "m. Give it thin = true, or make it thicker%s",
+                     file_of(&r->scene, m), is.width, t + 1, is.from[0], is.from[1], is.from[2],
+                     reach, !m->mesh.closed ? "; if one side is dry, say so by the shapes" : "");
+        return;
+    }
+}
+
+/* --- gauges --- */
+
+static void check_probes(const struct run *r, const struct scene_mesh *m, double dx,
+                         struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    for (int k = 0; k < c->nprobes && m->mesh.closed; k++) {
+        const struct scene_probe *g = c->probes + k;
+        const double least = m->owner == MESH_BODY ? 1e-6 * dx : dx;
+        char key[64];
+        if (g->kind != PROBE_PRESSURE || scene_mesh_holds(m, g->at) ||
+            fabs(tree_nearest(m->tree, g->at, INFINITY).distance) <= least)
+            continue;
+        snprintf(key, sizeof key, "probes.[%d].at", k);
+        params_fault(r->params, f, key, "%s is behind the surface %s: put it before it", g->name,
+                     file_of(c, m));
+    }
+}
+
+/* --- all --- */
+
+void sph_meshes_check(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    for (int k = 0; c->meshes && k < c->meshes->n; k++) {
+        const struct scene_mesh *m = c->meshes->of + k;
+        check_size(r, m, used->dx, f);
+        if (m->owner == MESH_SHAPE || f->n > 0)
+            continue;
+        check_thin(r, m, used, f);
+        check_probes(r, m, used->dx, f);
+    }
+}
+
+/* Gaps that no particle enters: the share of the triangles that face another across less than dx.
+ */
+static void warn_gaps(const struct run *r, const struct scene_mesh *m, double dx)
+{
+    const struct exact e = exact_create(&r->scene);
+    const int stride = 1 + m->mesh.ntriangles / RAYS;
+    struct facing first = {.any = false};
+    int n = 0;
+    for (int t = 0; t < m->mesh.ntriangles; t += stride) {
+        const struct facing is = look_across(r->scene.meshes, m, t, -1, 2.0 * dx);
+        double x[3];
+        for (int a = 0; a < 3; a++)
+            x[a] = 0.5 * (is.from[a] + is.to[a]);
+        if (!is.any || is.width < 1e-3 * dx || !is_wet(&r->scene, &e, x))
+            continue;
+        first = n++ == 0 ? is : first;
+    }
+    if (n > 0)
+        log_warn("mesh %s: %d of the triangles looked at face others across less than 2 dx = "
+                 "%.3g m of fluid, the first %.3g m apart at (%g, %g, %g) m: one row of particles "
+                 "or none, a flow there is noise. Take sph.dx = %.2g or less, or close the gap",
+                 m->name, n, 2.0 * dx, first.width, first.from[0], first.from[1], first.from[2],
+                 0.25 * first.width);
+}
+
+/* Surfaces that pierce each other. */
+static void warn_pairs(const struct run *r)
+{
+    const struct scene_meshes *all = r->scene.meshes;
+    for (int k = 0; k < all->n; k++)
+        for (int q = 0; q < k; q++) {
+            const struct scene_mesh *a = all->of + k, *b = all->of + q;
+            int first;
+            double x[3];
+            if (a->owner == MESH_SHAPE || b->owner == MESH_SHAPE)
+                continue;
+            const int n = trimesh_crossings(&a->mesh, b->tree, &b->mesh, r->comm, &first);
+            if (n == 0)
+                continue;
+            trimesh_middle(&a->mesh, first, x);
+            log_warn("meshes %s and %s pierce each other at (%g, %g, %g) m (%d triangles): what "
+                     "they share counts twice for particles near by. Unite them before export",
+                     a->name, b->name, x[0], x[1], x[2], n);
+        }
+}
+
+void sph_meshes_warn(const struct run *r, const struct sph_params *used)
+{
+    const struct scene *c = &r->scene;
+    const double dx = used->dx;
+    for (int k = 0; c->meshes && k < c->meshes->n; k++) {
+        const struct scene_mesh *m = c->meshes->of + k;
+        if (m->owner == MESH_SHAPE)
+            continue;
+        if (m->sizes.mean < 0.3 * dx)
+            log_warn("mesh %s: edges of %.3g m on average, finer than the particles (sph.dx = %g "
+                     "m): it costs time and adds nothing. Coarsen it to about %.2g m",
+                     m->name, m->sizes.mean, dx, dx);
+        if (m->sizes.sagitta > 0.1 * dx)
+            log_warn("mesh %s: its facets leave a smooth surface by up to %.2g m = %.2g dx; if it "
+                     "stands for one, refine it",
+                     m->name, m->sizes.sagitta, m->sizes.sagitta / dx);
+        if (scene_surface_of(c, m->owner, m->index)->weld > 0.01 * dx)
+            log_warn("mesh %s: weld = %g m is more than sph.dx/100: it may close what is open",
+                     m->name, scene_surface_of(c, m->owner, m->index)->weld);
+        warn_gaps(r, m, dx);
+    }
+    if (c->meshes)
+        warn_pairs(r);
+}

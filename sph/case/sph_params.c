@@ -1,0 +1,535 @@
+/* sph_params.c - parameter table of group sph. SPDX-License-Identifier: BSD-3-Clause */
+#include "../sph_params.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../../common/mem.h"
+#include "../time/runge_kutta.h"
+#include "sph_sense.h"
+#include "sph_unused.h"
+#include "../walls/wall_thin.h"
+#include "../bodies/body_check.h"
+#include "../open_boundaries/zones.h"
+
+static struct sph_params given; /* as the case has it: the target of the table */
+static bool present;
+
+#define P struct sph_params
+/* clang-format off */
+static const struct param rows[] = {
+    PARAM(P, dx, "m", NULL, 1e-9, 1e6, "initial particle spacing"),
+    PARAM(P, R_dx, "-", "4.0", 1.5, 8.0, "radius of the kernel's support over dx"),
+    PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the largest speed that the scene lets expect, and density within 1 % at rest and in slow viscous flow"),
+    PARAM(P, gamma, "-", "7.0", 1.0, 7.0, "exponent of the equation of state, 7 or 1"),
+    CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface, else riemann_ale"),
+    CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles"),
+    CHOICE(P, transport, "tvs|tvo|none|eulerian|xsph", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest; xsph: smoothed velocity"),
+    CHOICE(P, viscosity, "morris|monaghan|auto", "auto", "form of the viscous term; auto: monaghan with a free surface, where it leaves no stress, else morris"),
+    PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)"),
+    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface and where walls carry the weight of a fluid that fills its room, else 0"),
+    PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure"),
+    PARAM(P, alpha, "-", "-1.0", -1.0, 1.0, "artificial viscosity of schemes delta and standard; -1: 0.01, in a viscous fluid 0"),
+    PARAM(P, delta, "-", "0.05", 0.0, 0.2, "diffusion of density of scheme delta: delta c0 R"),
+    PARAM(P, background, "-", "false", 0, 1, "background pressure that lifts the least pressure to 0; not with a free surface"),
+    CHOICE(P, integrator, "rk4|j3|auto", "auto", "scheme in time: classical Runge-Kutta; three stages for the spectrum of the pair interaction, order 2; auto: j3"),
+    PARAM(P, cfl, "-", "0.0", 0.0, 2.0, "dt over R/(c + |u - u0|); 0: j3 0.5, in 3D 0.45; rk4 0.375"),
+    PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan), with no-slip walls 0.05 to 0.012; j3 of the Riemann schemes 1.18 times that"),
+    PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
+    PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
+    CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
+    PARAM(P, density_limit, "-", "0.0", 0.0, 10.0, "|rho/rho0 - 1| that ends the run; 0: 0.1, compression at rest and twice the largest Mach number so far, at most 0.5"),
+    CHOICE(P, walls, "nfm|ghosts|auto", "auto", "normal flux (any polyline or mesh; not with scheme standard), mirrored ghosts (plane sides); auto: nfm, but ghosts where schemes delta and standard meet no polyline or mesh"),
+    CHOICE(P, wall_integrals, "closed|clipped|centroids", "closed", "integrals over triangles of walls: in closed form; for comparison by squares that are clipped, or a point a triangle"),
+    PARAM(P, wall_squares, "-", "6", 1, 100, "of clipped integrals: squares along each side of what the support has of a plane"),
+    CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
+    PARAM(P, packing, "-", "-1", -1, 100000, "steps of rearrangement at the start; -1: 200 with polylines or bodies, with meshes up to 40 as long as they help, 40 with noise, else none"),
+    PARAM(P, noise, "-", "-1.0", -1.0, 0.5, "random displacement of the first lattice, in dx; -1: 0.3 where vortices fill a periodic domain, for a lattice that they shear breaks up in rows, else 0"),
+    PARAM(P, extrema, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema; 2D"),
+};
+/* clang-format on */
+
+const struct param_group sph_groups[SPH_GROUPS] = {{.name = "sph",
+                                                    .help = "smoothed particle hydrodynamics",
+                                                    .rows = rows,
+                                                    .nrows = sizeof rows / sizeof rows[0],
+                                                    .target = &given,
+                                                    .present = &present}};
+
+static bool is_given(double box[2][3])
+{
+    for (int a = 0; a < 3; a++)
+        if (box[0][a] != 0.0 || box[1][a] != 0.0)
+            return true;
+    return false;
+}
+
+static bool has_box(void) { return is_given(given.box) || is_given(given.free); }
+
+/* The outer box along an axis: as given, around the free zone, or the domain. A free zone that
+ * reaches a side of the domain ends there. */
+static void find_box(const struct run *r, struct sph_params *used, int a)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const bool around = is_given(given.free);
+    const double lo = around ? given.free[0][a] : given.box[0][a];
+    const double hi = around ? given.free[1][a] : given.box[1][a];
+    double transition = 0.0, buffer = 0.0;
+    if (around)
+        zones_widths(r, used, &transition, &buffer);
+    const bool plain = !has_box() || a >= d->dim;
+    used->box[0][a] = plain || lo <= d->min[a] ? d->min[a] : lo - (transition + buffer);
+    used->box[1][a] = plain || hi >= d->max[a] ? d->max[a] : hi + (transition + buffer);
+}
+
+struct scene_speed sph_params_speed(const struct run *r)
+{
+    const double most = body_speeds(&r->scene, r->case_dir);
+    return scene_speed_of(&r->scene, most, given.dx);
+}
+
+/* Ten times the largest speed to expect, so that the density varies by about a percent [2.33-2.35];
+ * by no more where the fluid is at rest or creeps, p/(rho c0^2) <= 0.01. */
+static double default_c0(const struct run *r)
+{
+    const struct scene_speed v = sph_params_speed(r);
+    return 10.0 * fmax(v.speed, sqrt(fmax(v.pressure, v.viscous)));
+}
+
+bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *prm, int side)
+{
+    const int a = side / 2;
+    const double near = 1e-6 * prm->dx;
+    return side % 2 ? prm->box[1][a] >= d->max[a] - near : prm->box[0][a] <= d->min[a] + near;
+}
+
+static bool is_wall(const struct scene_wall *w)
+{
+    return w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP;
+}
+
+/* Walls that the particles can meet: polylines, bodies, sides of the domain that the region
+ * reaches. */
+static bool has_walls(const struct scene *c, const struct sph_params *prm)
+{
+    bool any = c->nbodies > 0;
+    for (int k = 0; k < c->nwalls; k++) {
+        const int side = c->walls[k].side;
+        any =
+            any || (is_wall(c->walls + k) &&
+                    (side == SIDE_NONE || sph_params_reaches(&c->domain, prm, side - SIDE_X_MIN)));
+    }
+    return any;
+}
+
+static bool has_openings(const struct scene *c)
+{
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || c->walls[k].kind >= WALL_INFLOW;
+    return any;
+}
+
+/* Walls and bodies that are more than sides of the domain: polylines, meshes. */
+static bool has_polylines(const struct scene *c)
+{
+    bool any = c->nbodies > 0;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || c->walls[k].side == SIDE_NONE;
+    return any;
+}
+
+static bool has_points(const struct scene *c)
+{
+    bool any = false;
+    for (int k = 0; k < c->nbodies; k++)
+        any = any || c->bodies[k].points.n > 0;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || c->walls[k].points.n > 0;
+    return any;
+}
+
+/* A fluid whose weight walls carry: what keeps it at rest is the balance of p and g at each
+ * particle, whose errors stir it unless pairs dissipate (2e-3 c0 -> 4e-4 c0 in cases/star). Weight
+ * along a periodic axis drives a flow instead. */
+static bool hangs(const struct scene *c, const struct sph_params *prm)
+{
+    bool weight = false;
+    for (int a = 0; a < c->domain.dim; a++)
+        weight = weight || (c->fluid.gravity[a] != 0.0 && !c->domain.periodic[a]);
+    return weight && has_walls(c, prm) && !has_openings(c) && !has_box();
+}
+
+static bool has_no_slip(const struct scene *c, const struct sph_params *prm)
+{
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || c->walls[k].kind == WALL_NO_SLIP;
+    for (int k = 0; k < c->nbodies; k++)
+        any = any || c->bodies[k].kind == WALL_NO_SLIP;
+    return any && has_walls(c, prm);
+}
+
+static bool is_coupled(const struct run *r) { return r->scene.has_sph && r->scene.has_fv; }
+
+static bool is_riemann(int scheme)
+{
+    return scheme == SCHEME_RIEMANN_ALE || scheme == SCHEME_RIEMANN;
+}
+
+/* No-slip walls that meet: a particle in the corner rubs at both. */
+static bool has_no_slip_corner(const struct scene *c, const struct sph_params *prm)
+{
+    bool any = false, axis[3] = {false, false, false};
+    for (int k = 0; k < c->nwalls; k++) {
+        const struct scene_wall *w = c->walls + k;
+        if (w->kind == WALL_NO_SLIP && w->side == SIDE_NONE)
+            any = true;
+        else if (w->kind == WALL_NO_SLIP &&
+                 sph_params_reaches(&c->domain, prm, w->side - SIDE_X_MIN))
+            axis[(w->side - SIDE_X_MIN) / 2] = true;
+    }
+    for (int k = 0; k < c->nbodies; k++)
+        any = any || c->bodies[k].kind == WALL_NO_SLIP;
+    return any || axis[0] + axis[1] + axis[2] > 1;
+}
+
+static bool has_nfm(const struct scene *c, const struct sph_params *prm)
+{
+    return prm->walls == WALLS_NFM && has_walls(c, prm);
+}
+
+/* Length of the stable part of the negative axis, over that of RK4. */
+static double viscous_axis(const struct sph_params *prm)
+{
+    const struct stages *rk4 = stages_of(INTEGRATOR_RK4, prm->scheme);
+    return stages_of(prm->integrator, prm->scheme)->real_axis / rk4->real_axis;
+}
+
+/* The acoustic damper lengthens the spectrum of the Riemann schemes on the real axis, with the
+ * dissipation of velocity in full as (4.7 + 8.5 damper) c/R: what is left of the steps of 0.2. */
+static double damped_share(const struct sph_params *prm)
+{
+    return is_riemann(prm->scheme) ? fmin(1.0, 6.4 / (4.7 + 8.5 * prm->damper)) : 1.0;
+}
+
+/* See sph_params_cfl_bound. */
+static double default_cfl(const struct sph_params *prm, int dim)
+{
+    const double free = prm->integrator == INTEGRATOR_RK4 ? 0.375 : dim == 2 ? 0.5 : 0.45;
+    return damped_share(prm) * free;
+}
+
+/* Whether the Riemann schemes correct Morris's term by gradients, see scheme_rates.c. */
+static bool sharpens_friction(const struct scene *c, const struct sph_params *prm)
+{
+    return is_riemann(prm->scheme) && prm->surface != SURFACE_YES && !has_walls(c, prm);
+}
+
+/* Bounds of plane waves on a lattice, with margin; of Monaghan's term beside normal flux walls,
+ * where water that runs up a corner crowds: measured. With normal flux a particle dx/4 from a wall
+ * rubs at it with 79 nu/R^2 beside what the lattice has (nu/R^2 times 2.75 over its bound, on the
+ * negative axis of RK4, which ends at 2.785; other schemes in time in proportion). */
+static double default_cfl_viscous(const struct scene *c, const struct sph_params *prm)
+{
+    const bool monaghan = prm->viscosity != VISCOSITY_MORRIS;
+    const double lattice = monaghan ? 0.035 : sharpens_friction(c, prm) ? 0.068 : 0.09;
+    const double axis = viscous_axis(prm);
+    if (!has_no_slip(c, prm))
+        return axis * (monaghan && has_nfm(c, prm) ? 0.026 : lattice);
+    if (prm->walls == WALLS_NFM)
+        return axis * 2.75 / (79.0 * (has_no_slip_corner(c, prm) ? 2 : 1) + 2.75 / lattice);
+    return axis * fmin(lattice, 0.05);
+}
+
+/* Vortices alone, from a given instant on: a lattice breaks up within a tenth of a turn, in rows
+ * along the axes of strain, and what that does to velocities stays (Re 1000, L/dx = 64: 0.93
+ * instead of 0.42 %; with 0.02 dx instead of 0.3 0.48 %). Walls want rows along them. */
+static bool shears_lattice(const struct run *r, const struct sph_params *prm)
+{
+    const struct scene *c = &r->scene;
+    const int f = c->initial.field;
+    bool periodic = true;
+    for (int a = 0; a < c->domain.dim; a++)
+        periodic = periodic && c->domain.periodic[a];
+    return periodic && !has_walls(c, prm) && prm->surface == SURFACE_NO &&
+           (prm->transport == TRANSPORT_TVS || prm->transport == TRANSPORT_TVO) &&
+           (f == FIELD_TAYLOR_GREEN || f == FIELD_TWO_MODES || f == FIELD_BELTRAMI);
+}
+
+const struct sph_params *sph_params_of(const struct run *r)
+{
+    static struct sph_params used;
+    used = given;
+    for (int a = 0; a < 3; a++)
+        find_box(r, &used, a);
+    if (used.c0 <= 0.0)
+        used.c0 = default_c0(r);
+    if (used.surface == SURFACE_AUTO)
+        used.surface = scene_has_surface(&r->scene) ? SURFACE_YES : SURFACE_NO;
+    if (used.viscosity == VISCOSITY_AUTO)
+        used.viscosity = used.surface ? VISCOSITY_MONAGHAN : VISCOSITY_MORRIS;
+    if (used.scheme == SCHEME_AUTO)
+        used.scheme = used.surface == SURFACE_YES ? SCHEME_RIEMANN : SCHEME_RIEMANN_ALE;
+    if (used.walls == WALLS_AUTO) /* delta without polylines: as it is known */
+        used.walls = is_riemann(used.scheme) || has_polylines(&r->scene) ? WALLS_NFM : WALLS_GHOSTS;
+    if (used.integrator == INTEGRATOR_AUTO)
+        used.integrator = INTEGRATOR_J3;
+    if (used.cfl <= 0.0)
+        used.cfl = default_cfl(&used, r->scene.domain.dim);
+    if (used.cfl_viscous <= 0.0)
+        used.cfl_viscous = default_cfl_viscous(&r->scene, &used);
+    if (used.dissipation < 0.0)
+        used.dissipation = used.surface == SURFACE_YES || hangs(&r->scene, &used) ? 0.1 : 0.0;
+    if (used.alpha < 0.0)
+        used.alpha = r->scene.fluid.nu > 0.0 ? 0.0 : 0.01;
+    if (has_box() && used.outer == OUTER_NONE)
+        used.outer = is_coupled(r) ? OUTER_PARTNER : OUTER_EXACT;
+    if (!has_box() && used.outer == OUTER_NONE && has_openings(&r->scene))
+        used.outer = OUTER_SIDES;
+    if (used.noise < 0.0)
+        used.noise = shears_lattice(r, &used) ? 0.3 : 0.0;
+    if (used.packing < 0)
+        used.packing = has_polylines(&r->scene) && used.walls == WALLS_NFM
+                           ? (r->scene.domain.dim == 3 ? 40 : 200)
+                       : used.noise > 0.0 ? 40
+                                          : 0;
+    return &used;
+}
+
+void sph_params_region(const struct scene_domain *d, const struct sph_params *prm, double lo[3],
+                       double hi[3], bool periodic[3])
+{
+    const double near = 1e-6 * prm->dx;
+    for (int a = 0; a < 3; a++) {
+        lo[a] = a < d->dim ? prm->box[0][a] : 0.0;
+        hi[a] = a < d->dim ? prm->box[1][a] : 0.0;
+        periodic[a] =
+            a < d->dim && d->periodic[a] && lo[a] <= d->min[a] + near && hi[a] >= d->max[a] - near;
+    }
+}
+
+double sph_params_dt(const struct sph_params *prm, double nu, double signal,
+                     const char **limited_by)
+{
+    const double R = prm->R_dx * prm->dx;
+    const double sound = prm->cfl * R / signal;
+    const double viscous = nu > 0.0 ? prm->cfl_viscous * R * R / nu : INFINITY;
+    if (limited_by)
+        *limited_by = sound <= viscous ? "sound" : "viscosity";
+    return fmin(sound, viscous);
+}
+
+/* Among given sides, those alone with a condition of their own are open; around a box all are but
+ * those on the domain's own sides, where a partner ends too: walls, or the air above a surface. */
+void sph_params_open(const struct run *r, const struct sph_params *prm, bool open[6])
+{
+    const struct scene_domain *d = &r->scene.domain;
+    double lo[3], hi[3];
+    bool periodic[3];
+    sph_params_region(d, prm, lo, hi, periodic);
+    for (int side = 0; side < 6; side++) {
+        const bool reaches = side / 2 < d->dim && sph_params_reaches(d, prm, side);
+        const struct scene_wall *w = reaches ? scene_wall_of(&r->scene, SIDE_X_MIN + side) : NULL;
+        open[side] = side / 2 < d->dim && !periodic[side / 2] && prm->outer != OUTER_NONE;
+        if (prm->outer == OUTER_SIDES)
+            open[side] = open[side] && w && w->kind >= WALL_INFLOW;
+        else if (reaches)
+            open[side] = open[side] && (!w || w->kind >= WALL_INFLOW) &&
+                         prm->outer == OUTER_EXACT && prm->surface != SURFACE_YES;
+    }
+}
+
+bool sph_params_zones(const struct run *r)
+{
+    bool open[6], any = false;
+    sph_params_open(r, sph_params_of(r), open);
+    for (int side = 0; side < 6; side++)
+        any = any || open[side];
+    return any;
+}
+
+/* Whether length is a whole number of dx, but for the last digits of a typed decimal. */
+static bool whole(double length, double dx)
+{
+    const double n = length / dx;
+    return fabs(n - round(n)) < 1e-6;
+}
+
+/* Whether the rows of particles must end on both sides of the region: where it repeats itself,
+ * opens or has a wall on both. Else the lattice ends where the fluid does. */
+static bool wants_rows(const struct run *r, int a)
+{
+    const struct scene *c = &r->scene;
+    return c->domain.periodic[a] || sph_params_zones(r) ||
+           (scene_wall_of(c, SIDE_X_MIN + 2 * a) && scene_wall_of(c, SIDE_X_MIN + 2 * a + 1));
+}
+
+static void check_axis(const struct run *r, int a, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const double near = 1e-6 * given.dx, R = given.R_dx * given.dx;
+    static const char axes[] = "xyz";
+    double lo[3], hi[3];
+    bool periodic[3];
+    sph_params_region(d, sph_params_of(r), lo, hi, periodic);
+    const double length = hi[a] - lo[a];
+    if (length <= 0.0 || lo[a] < d->min[a] - near || hi[a] > d->max[a] + near) {
+        params_fault(r->params, f, "sph.box",
+                     "%c from %g to %g m is not inside the domain, %g to %g m", axes[a], lo[a],
+                     hi[a], d->min[a], d->max[a]);
+        return;
+    }
+    const struct scene_wall *w[2] = {scene_wall_of(&r->scene, SIDE_X_MIN + 2 * a),
+                                     scene_wall_of(&r->scene, SIDE_X_MIN + 2 * a + 1)};
+    if (w[0] && w[1] && is_wall(w[0]) && is_wall(w[1]) && length < 1.5 * given.dx)
+        params_fault(r->params, f, "sph.dx",
+                     "%g m: one particle has no room between the walls along %c, %g m apart; take "
+                     "%.3g m or less",
+                     given.dx, axes[a], length, 0.25 * length);
+    if (has_box() && (!whole(lo[a] - d->min[a], given.dx) || !whole(hi[a] - d->min[a], given.dx)))
+        params_fault(
+            r->params, f, "sph.box",
+            "%c from %g to %g m: both must lie a whole number of dx = %g m from domain.min, as %g "
+            "and %g m do",
+            axes[a], lo[a], hi[a], given.dx,
+            d->min[a] + given.dx * round((lo[a] - d->min[a]) / given.dx),
+            d->min[a] + given.dx * floor((hi[a] - d->min[a]) / given.dx + 1e-6));
+    else if (wants_rows(r, a) && !whole(length, given.dx))
+        params_fault(r->params, f, "sph.dx",
+                     "%g m: %c from %g to %g m is no whole number of dx, which a period, two walls "
+                     "or open sides want; %.6g and %.6g m are",
+                     given.dx, axes[a], lo[a], hi[a], length / ceil(length / given.dx),
+                     length / fmax(floor(length / given.dx), 1.0));
+    if (periodic[a] && length <= 2.0 * 1.15 * R)
+        params_fault(
+            r->params, f, "sph.dx",
+            "the periodic length %g m along %c must exceed twice the reach of a particle, %g m",
+            length, axes[a], 2.0 * 1.15 * R);
+}
+
+static void check_zones(const struct run *r, struct faults *f)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    double lo[3], hi[3];
+    zones_free_box(r, prm, lo, hi);
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        if (hi[a] - lo[a] <= 0.0) {
+            params_fault(
+                r->params, f, "sph.box",
+                "coupling.transition + coupling.buffer on open sides, %g m, leave nothing of "
+                "%g m; make the box larger, or sph.dx finer",
+                prm->box[1][a] - prm->box[0][a] - (hi[a] - lo[a]), prm->box[1][a] - prm->box[0][a]);
+            return;
+        }
+}
+
+bool sph_params_walls(const struct run *r) { return has_walls(&r->scene, sph_params_of(r)); }
+
+/* Measured on Taylor-Green flow, tanks at rest and dam breaks, R/dx 4 in 2D and 2.5 in 3D: the
+ * Riemann schemes gain energy from 0.7 and 0.6 on, the central ones with RK4 from 1.2, with j3 they
+ * run to 0.75 and more. Plane waves on a lattice, all dissipation: j3 0.57 in 2D, 0.52 in 3D, RK4
+ * 0.53, 0.43; where nothing damps waves j3 runs to 0.55. */
+double sph_params_cfl_bound(const struct sph_params *prm, int dim)
+{
+    const bool rk4 = prm->integrator == INTEGRATOR_RK4;
+    if (!is_riemann(prm->scheme))
+        return rk4 ? 1.2 : 0.75;
+    return damped_share(prm) * (dim == 3 ? 0.55 : rk4 ? 0.65 : 0.6);
+}
+
+double sph_params_viscous_bound(const struct run *r, const struct sph_params *prm)
+{
+    const bool nfm = has_nfm(&r->scene, prm);
+    const double axis = viscous_axis(prm);
+    if (prm->viscosity != VISCOSITY_MORRIS)
+        return axis * (nfm ? 0.03 : 0.04);
+    return axis * (nfm && has_no_slip(&r->scene, prm)  ? 0.048
+                   : sharpens_friction(&r->scene, prm) ? 0.075
+                                                       : 0.1);
+}
+
+/* A step beyond the bounds of the scheme ends in noise or in nothing. */
+static void check_steps(const struct run *r, struct faults *f)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    const double R = prm->R_dx * prm->dx, nu = r->scene.fluid.nu;
+    const double bound = sph_params_cfl_bound(prm, r->scene.domain.dim);
+    const double viscous = sph_params_viscous_bound(r, prm);
+    if (prm->cfl > bound)
+        params_fault(r->params, f, "sph.cfl", "%g is unstable with this scheme: at most %g",
+                     prm->cfl, bound);
+    if (sph_params_dt(prm, nu, prm->c0, NULL) * nu > 1.001 * viscous * R * R)
+        params_fault(r->params, f, "sph.cfl_viscous",
+                     "%g is unstable with this viscous term and these walls: at most %g",
+                     prm->cfl_viscous, viscous);
+}
+
+/* Beyond 0.7 R the kernel is as good as nothing: a wall of 3 dx (R = 4 dx) between two levels is
+ * tight, one of 2 dx lets particles through. */
+static void check_thin(const struct run *r, struct faults *f)
+{
+    const double dx = given.dx, needed = 0.7 * given.R_dx * dx;
+    struct wall_thin t;
+    if (wall_thin_solid(&r->scene, needed, &t))
+        params_fault(r->params, f, "sph.dx",
+                     "%s are %.3g m apart at (%g, %g) with fluid on either side: particles "
+                     "see each other through less than 0.7 sph.R_dx sph.dx = %.3g m and leak. Take "
+                     "sph.dx = %.2g or less, or make it thicker",
+                     t.what, t.width, t.at[0], t.at[1], needed, dx * t.width / needed);
+    if (wall_thin_gap(&r->scene, dx, &t))
+        params_fault(r->params, f, "sph.dx",
+                     "%s are %.3g m apart at (%g, %g): a gap narrower than sph.dx holds "
+                     "no particle, and nothing presses there. Close it, or take sph.dx = %.2g or "
+                     "less",
+                     t.what, t.width, t.at[0], t.at[1], 0.5 * t.width);
+}
+
+void sph_params_check(const struct run *r, struct faults *f)
+{
+    if (f->n > 0) /* values that were refused are not there to be compared */
+        return;
+    const bool in_3d = r->scene.domain.dim == 3, polylines = has_polylines(&r->scene);
+    if (given.gamma != 7.0 && given.gamma != 1.0)
+        params_fault(r->params, f, "sph.gamma", "%g, must be 7 or 1", given.gamma);
+    if (sph_params_of(r)->scheme != SCHEME_RIEMANN_ALE && given.transport == TRANSPORT_EULERIAN)
+        params_fault(
+            r->params, f, "sph.transport",
+            "eulerian needs scheme \"riemann_ale\": without mass flux there is no Eulerian form");
+    if (sph_params_of(r)->scheme == SCHEME_STANDARD && sph_params_of(r)->walls == WALLS_NFM &&
+        sph_params_walls(r))
+        params_fault(r->params, f, "sph.scheme",
+                     "standard has no dissipation of density and diverges at normal flux walls, "
+                     "which polylines and bodies need: take riemann, riemann_ale or delta");
+    for (int k = 0; k < r->scene.nwalls; k++)
+        if (is_coupled(r) && r->scene.walls[k].carried)
+            params_fault(r->params, f, "walls", "wall %d: carried is not for this solver", k + 1);
+    if (sph_params_of(r)->c0 <= 0.0)
+        params_fault(r->params, f, "sph.c0", "must be given: the scene has no scale of velocity");
+    check_steps(r, f);
+    if (has_points(&r->scene) && in_3d)
+        params_fault(r->params, f, "walls",
+                     "walls and bodies of points need 2 dimensions: in space give a mesh");
+    else if (polylines && given.walls == WALLS_GHOSTS)
+        params_fault(r->params, f, "sph.walls",
+                     "mirrored ghosts need plane sides: take nfm for polylines, bodies and meshes");
+    if (given.outer == OUTER_PARTNER && !is_coupled(r))
+        params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        check_axis(r, a, f);
+    if (!in_3d && sph_params_walls(r))
+        if (is_given(given.box) && is_given(given.free))
+            params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");
+    if (f->n == 0 && has_box())
+        check_zones(r, f);
+    sph_unused_check(r, &given, sph_params_of(r), f);
+    if (f->n > 0)
+        return;
+    sph_sense_check(r, &given, sph_params_of(r), f);
+    if (f->n == 0 || !in_3d)
+        sph_bodies_check(r, sph_params_of(r), f);
+    if (f->n == 0 && !in_3d)
+        check_thin(r, f);
+    else if (f->n == 0)
+        sph_meshes_check(r, sph_params_of(r), f);
+}

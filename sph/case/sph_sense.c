@@ -1,0 +1,288 @@
+/* sph_sense.c - see sph_sense.h: open sides, boxes, gauges and gravity that contradict each other.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "sph_sense.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../../common/exact.h"
+#include "../../common/scene_fluid.h"
+#include "../../common/scene_geometry.h"
+#include "../../common/scene_mesh.h"
+
+static const char *const side_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+
+static bool is_pressure(const struct scene_wall *w)
+{
+    return w && (w->kind == WALL_OUTFLOW || w->kind == WALL_ABSORBING);
+}
+
+static bool has_polylines(const struct scene *c)
+{
+    bool any = c->nbodies > 0;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || c->walls[k].side == SIDE_NONE;
+    return any;
+}
+
+/* Something that a stream along it must pass by: friction or the drag of a body. */
+static bool something_holds(const struct scene *c)
+{
+    bool any = has_polylines(c);
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || (c->walls[k].kind == WALL_NO_SLIP && c->fluid.nu > 0.0);
+    return any;
+}
+
+/* An outlet has one pressure; a column along it has not. */
+static void check_outlet(const struct run *r, int side, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    const struct scene_wall *w = scene_wall_of(c, SIDE_X_MIN + side);
+    double still[3], rise = 0.0;
+    char key[64];
+    if (!is_pressure(w))
+        return;
+    snprintf(key, sizeof key, "walls.[%d].pressure", (int)(w - c->walls));
+    scene_still_gravity(c, still);
+    for (int a = 0; a < c->domain.dim; a++)
+        if (a != side / 2)
+            rise += c->fluid.rho * fabs(still[a]) * (c->domain.max[a] - c->domain.min[a]);
+    if (rise > 0.0)
+        params_fault(r->params, f, key,
+                     "one pressure all over this side, where gravity wants %g Pa more at its foot "
+                     "than at its head: leave fluid.gravity out, which without a free surface only "
+                     "adds the weight of the column to the pressure",
+                     rise);
+}
+
+/* A fall of pressure and weight between two open ends that nothing resists. */
+static void check_ends(const struct run *r, int a, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    const struct scene_wall *low = scene_wall_of(c, SIDE_X_MIN + 2 * a);
+    const struct scene_wall *high = scene_wall_of(c, SIDE_X_MIN + 2 * a + 1);
+    const double weight =
+        c->fluid.rho * c->fluid.gravity[a] * (c->domain.max[a] - c->domain.min[a]);
+    if (weight == 0.0 || !is_pressure(low) || !is_pressure(high) || something_holds(c))
+        return;
+    if (fabs(high->pressure - low->pressure - weight) > 0.01 * fabs(weight))
+        params_fault(r->params, f, "fluid.gravity",
+                     "drives the fluid through the open ends %s and %s for ever, nothing holds it: "
+                     "let their pressures differ by %g Pa, or make one of them an inflow",
+                     side_names[2 * a], side_names[2 * a + 1], weight);
+}
+
+static void check_openings(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    const bool surface = used->surface == SURFACE_YES;
+    for (int k = 0; k < c->nwalls; k++) {
+        char key[64];
+        snprintf(key, sizeof key, "walls.[%d].kind", k);
+        if (surface && c->walls[k].kind >= WALL_INFLOW)
+            params_fault(r->params, f, key,
+                         "inlets and outlets do not know where a free surface stands: fill the "
+                         "domain (no shapes), make it periodic, or close it with walls");
+    }
+    for (int side = 0; side < 2 * c->domain.dim && !surface; side++)
+        check_outlet(r, side, f);
+    for (int a = 0; a < c->domain.dim && !surface; a++)
+        check_ends(r, a, f);
+}
+
+/* A closed line whose fluid is around it. */
+static bool is_island(const struct scene_wall *w)
+{
+    const struct line l = line_of(&w->points, true);
+    return w->side == SIDE_NONE && w->closed && line_area(&l) < 0.0;
+}
+
+/* Walls that may hold the fluid in the domain: all lines but islands, meshes that have it inside.
+ */
+static bool has_tank(const struct scene *c)
+{
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++) {
+        const struct scene_mesh *m = scene_mesh_of(c, MESH_WALL, k);
+        const bool holds = m ? m->fluid_side == FLUID_INSIDE : !is_island(c->walls + k);
+        any = any || (c->walls[k].side == SIDE_NONE && holds);
+    }
+    return any;
+}
+
+/* Whether the shapes let water go on through a closed line: the middle of a face, a little inside.
+ */
+static bool has_water_inside(const struct scene *c, const struct scene_wall *w)
+{
+    const struct exact e = exact_create(c);
+    const struct line l = line_of(&w->points, true);
+    bool any = false;
+    for (int i = 0; i < line_segments(&l); i++) {
+        const double *a = l.x[i], *b = l.x[(i + 1) % l.n], off = 1e-3;
+        const double x[3] = {0.5 * (a[0] + b[0]) + off * (b[1] - a[1]),
+                             0.5 * (a[1] + b[1]) - off * (b[0] - a[0]), 0.0};
+        any = any || scene_is_fluid(c, &e, x, NULL);
+    }
+    return any;
+}
+
+/* Water inside and around a closed line that runs clockwise, and nothing else that holds it: meant
+ * is a tank, but nothing in the scene says so. */
+static void check_islands(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    bool held = has_tank(c) || used->outer == OUTER_EXACT || used->outer == OUTER_PARTNER;
+    char key[64];
+    for (int side = 0; side < 2 * c->domain.dim; side++)
+        held = held || c->domain.periodic[side / 2] || scene_wall_of(c, SIDE_X_MIN + side);
+    for (int k = 0; k < c->nwalls && !held; k++)
+        if (is_island(c->walls + k) && has_water_inside(c, c->walls + k)) {
+            snprintf(key, sizeof key, "walls.[%d].points", k);
+            params_fault(r->params, f, key,
+                         "clockwise, so its fluid is outside, where no wall and no period holds "
+                         "it: the corners of a tank run counter-clockwise");
+        }
+}
+
+/* Fluid that fills the domain up to a side where nothing is. */
+static void check_bare(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    if (used->outer == OUTER_EXACT || used->outer == OUTER_PARTNER ||
+        used->surface == SURFACE_YES || has_tank(c))
+        return;
+    for (int side = 0; side < 2 * c->domain.dim; side++)
+        if (!c->domain.periodic[side / 2] && !scene_wall_of(c, SIDE_X_MIN + side))
+            params_fault(r->params, f, "domain",
+                         "the fluid fills it up to its side %s, which is open: give this side a "
+                         "wall, an outflow or a period; or say by shapes where the fluid ends",
+                         side_names[side]);
+}
+
+/* Gravity along a period that meets no resistance. */
+static void check_falls(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    for (int a = 0; a < c->domain.dim; a++)
+        if (c->domain.periodic[a] && c->fluid.gravity[a] != 0.0 && used->surface != SURFACE_YES &&
+            !something_holds(c))
+            params_fault(r->params, f, "fluid.gravity",
+                         "%g m/s^2 along the periodic %c: the fluid would fall for ever, nothing "
+                         "holds it (a no-slip wall with fluid.nu, a body)",
+                         c->fluid.gravity[a], "xyz"[a]);
+}
+
+/* --- the box --- */
+
+static void check_box(const struct run *r, const struct sph_params *given,
+                      const struct sph_params *used, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const bool by_free = given->free[0][0] != given->free[1][0];
+    const char *key = by_free ? "sph.free" : "sph.box";
+    double still[3];
+    const double g = scene_still_gravity(&r->scene, still);
+    for (int a = 0; a < d->dim; a++) {
+        const bool low = sph_params_reaches(d, used, 2 * a);
+        const bool high = sph_params_reaches(d, used, 2 * a + 1);
+        const double *free = given->free[0], *end = given->free[1];
+        if (by_free &&
+            (free[a] < d->min[a] - 1e-6 * used->dx || end[a] > d->max[a] + 1e-6 * used->dx))
+            params_fault(r->params, f, key,
+                         "%c from %g to %g m is not inside the domain, %g to %g m", "xyz"[a],
+                         free[a], end[a], d -> min[a], d -> max[a]);
+        if (d->periodic[a] && low != high)
+            params_fault(r->params, f, key,
+                         "ends on the periodic side %s, where the domain goes on: let it span the "
+                         "whole of %c, or lie inside",
+                         side_names[2 * a + high], "xyz"[a]);
+        if (used->surface != SURFACE_YES || (low && high))
+            continue;
+        if (g > 0.0 && fabs(still[a]) < 0.5 * g)
+            params_fault(r->params, f, key,
+                         "ends at %c = %g m under a free surface, which it would have to cross "
+                         "upright: let it span the whole of %c",
+                         "xyz"[a], low ? used->box[1][a] : used->box[0][a], "xyz"[a]);
+        else if (g > 0.0 && !(still[a] < 0.0 ? high : low))
+            params_fault(r->params, f, key,
+                         "must hold the free surface: let it reach the side %s of the domain",
+                         side_names[2 * a + (still[a] < 0.0)]);
+    }
+}
+
+/* A flow outside that the field does not know at all times. */
+static void check_outer(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    double g = 0.0;
+    for (int a = 0; a < 3; a++)
+        g += fabs(c->fluid.gravity[a]);
+    const bool rest = c->initial.field == FIELD_REST && g == 0.0;
+    if (used->outer == OUTER_EXACT && sph_params_zones(r) && !rest && !exact_at_all_times(c))
+        params_fault(r->params, f, "sph.outer",
+                     "no exact solution is known around the particles at all times: initial.field "
+                     "has none in this scene. Leave the box out, or couple with fv");
+}
+
+/* --- the rest --- */
+
+static void check_gauges(const struct run *r, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    const int up = c->domain.dim - 1;
+    bool along = true;
+    for (int a = 0; a < up; a++)
+        along = along && c->fluid.gravity[a] == 0.0;
+    for (int k = 0; k < c->nprobes && !(along && c->fluid.gravity[up] <= 0.0); k++) {
+        char key[64];
+        snprintf(key, sizeof key, "probes.[%d].kind", k);
+        if (c->probes[k].kind == PROBE_LEVEL)
+            params_fault(
+                r->params, f, key,
+                "%s: level gauges read upright columns, along %c: gravity must point along "
+                "-%c. A pressure gauge knows no such rule",
+                c->probes[k].name, "xyz"[up], "xyz"[up]);
+    }
+}
+
+/* Gauges behind closed walls, where no fluid ever is; those on a wall may lie a little behind. */
+static void check_hidden(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    for (int k = 0; k < c->nprobes; k++)
+        for (int m = 0; m < c->nwalls; m++) {
+            const struct line l = line_of(&c->walls[m].points, true);
+            const double *at = c->probes[k].at;
+            char key[64];
+            snprintf(key, sizeof key, "probes.[%d].at", k);
+            if (c->probes[k].kind == PROBE_PRESSURE && c->walls[m].closed &&
+                line_inside(&l, at) != (line_area(&l) > 0.0) && line_distance(&l, at) > used->dx)
+                params_fault(r->params, f, key, "%s is behind wall %d: put it before it",
+                             c->probes[k].name, m + 1);
+        }
+}
+
+void sph_sense_check(const struct run *r, const struct sph_params *given,
+                     const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    if (c->initial.U <= 0.0)
+        params_fault(r->params, f, "initial.U",
+                     "0 m/s: shifting, packing and drifts are measured in it, give the largest "
+                     "speed that is expected");
+    if (given->extrema[0] == 0.0 && (given->extrema[1] != 0.0 || given->extrema[2] != 0.0))
+        params_fault(r->params, f, "sph.extrema", "the first is 0: give all three");
+    check_box(r, given, used, f);
+    check_hidden(r, used, f);
+    if (c->has_fv)
+        return; /* the flow around is the partner's */
+    check_openings(r, used, f);
+    const int before = f->n;
+    check_islands(r, used, f);
+    if (f->n == before)
+        check_bare(r, used, f);
+    check_falls(r, used, f);
+    check_outer(r, used, f);
+    check_gauges(r, f);
+}

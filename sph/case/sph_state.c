@@ -1,0 +1,102 @@
+/* sph_state.c - struct sph from the case's parameters, at t = 0 or from a restart file.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../sph.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../parallel/domain.h"
+#include "../pairs/collisions.h"
+#include "../pairs/neighbours.h"
+#include "../pairs/scheme.h"
+#include "../sph_params.h"
+#include "../surface/surface.h"
+#include "../bodies/bodies.h"
+#include "../time/runge_kutta.h"
+#include "../walls/walls.h"
+#include "../open_boundaries/zones.h"
+
+/* Half a period must hold R and the skin, see check_axis in sph_params.c. */
+static double widest_skin(const struct sph *s)
+{
+    double most = 0.25 * s->R;
+    for (int a = 0; a < s->dim; a++)
+        if (s->periodic[a])
+            most = fmin(most, 0.499 * (s->hi[a] - s->lo[a]) - s->R);
+    return most;
+}
+
+static void set_constants(struct sph *s)
+{
+    const struct scene *c = &s->run->scene;
+    s->dim = c->domain.dim;
+    s->dx = s->prm.dx;
+    s->R = s->prm.R_dx * s->prm.dx;
+    s->dxD = s->dim == 2 ? s->dx * s->dx : s->dx * s->dx * s->dx;
+    s->rho0 = c->fluid.rho;
+    s->nu = c->fluid.nu;
+    s->c0 = s->prm.c0;
+    s->gamma = s->prm.gamma;
+    s->central = c->fluid.central;
+    memcpy(s->gravity, c->fluid.gravity, sizeof s->gravity);
+    sph_params_open(s->run, &s->prm, s->open);
+    sph_params_region(&c->domain, &s->prm, s->lo, s->hi, s->periodic);
+    s->skin_most = widest_skin(s);
+}
+
+static void remember_start(struct sph *s)
+{
+    double sums[SUM_COUNT];
+    sph_sums(s, sums);
+    s->mass0 = sums[SUM_MASS];
+    volume_remember(s, sums[SUM_VOLUME]);
+    s->energy0 = sums[SUM_ENERGY];
+    memcpy(s->momentum0, sums + SUM_MOMENTUM, sizeof s->momentum0);
+}
+
+struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f)
+{
+    struct sph *s = NEW(struct sph, 1);
+    s->run = r;
+    s->prm = *prm;
+    s->t = r->t;
+    set_constants(s);
+    particles_create(&s->p, s->dim, 0);
+    s->list = neighbours_create();
+    s->list->touching = collisions_distance(s);
+    s->zones = zones_create(s);
+    domain_create(s);
+    s->walls = walls_create(s);
+    bodies_create(s);
+    s->surface = surface_create(s);
+    s->passes = scheme_pick(s);
+    s->scheme = &s->passes;
+    s->stages = stages_of(prm->integrator, prm->scheme);
+    sph_watch_create(s);
+    if (f) {
+        if (!sph_restore(s, f))
+            sph_free(&s);
+        return s;
+    }
+    fill_lattice(s);
+    integrate_start(s);
+    remember_start(s);
+    return s;
+}
+
+void sph_free(struct sph **s)
+{
+    if (!*s)
+        return;
+    domain_free(&(*s)->domain);
+    zones_free(&(*s)->zones);
+    walls_free(&(*s)->walls);
+    surface_free(&(*s)->surface);
+    fit_free(&(*s)->signal_fit);
+    sph_watch_free(*s);
+    neighbours_free(&(*s)->list);
+    particles_free(&(*s)->p);
+    mem_free(*s);
+    *s = NULL;
+}

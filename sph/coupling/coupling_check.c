@@ -1,0 +1,255 @@
+/* coupling_check.c - scenes that a coupled job cannot do, found before it starts: FV fills all that
+ * lies around SPH's box, without a surface, a body or a polyline, and both need the rim where they
+ * overlap. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/exact.h"
+#include "../../common/mem.h"
+#include "../../common/scene_fluid.h"
+#include "../sph_params.h"
+#include "../rigid/body.h"
+#include "windows.h"
+#include "../open_boundaries/zones.h"
+
+static const char axes[] = "xyz";
+
+/* Points of the lattice of spacing dx over the box lo .. hi that f holds of; *x: the last one. */
+typedef bool test(const void *ctx, const double *x);
+static double count(int dim, double dx, const double *lo, const double *hi, test *f,
+                    const void *ctx, double *x)
+{
+    int n[3] = {1, 1, 1};
+    double found = 0.0;
+    for (int a = 0; a < dim; a++)
+        n[a] = (int)fmax(round((hi[a] - lo[a]) / dx), 1.0);
+    for (int k = 0; k < n[2]; k++)
+        for (int j = 0; j < n[1]; j++)
+            for (int i = 0; i < n[0]; i++) {
+                const int at[3] = {i, j, k};
+                double y[3] = {0.0, 0.0, 0.0};
+                for (int a = 0; a < dim; a++)
+                    y[a] = lo[a] + (at[a] + 0.5) * (hi[a] - lo[a]) / n[a];
+                if (!f(ctx, y))
+                    continue;
+                found += 1.0;
+                memcpy(x, y, sizeof y);
+            }
+    return found;
+}
+
+struct water {
+    const struct scene *scene;
+    double dx;
+    struct exact exact;
+    double given[2][3], hidden[2][3]; /* what SPH gives, and of it what fv does not look at */
+};
+
+static bool is_wet(const struct water *w, const double *x)
+{
+    return scene_is_fluid(w->scene, &w->exact, x, NULL);
+}
+
+static bool is_inside(const struct water *w, const double box[2][3], const double *x)
+{
+    bool inside = true;
+    for (int a = 0; a < w->scene->domain.dim; a++)
+        inside = inside && x[a] > box[0][a] && x[a] < box[1][a];
+    return inside;
+}
+
+static bool dry_outside(const void *ctx, const double *x)
+{
+    const struct water *w = ctx;
+    return !is_inside(w, w->given, x) && !is_wet(w, x);
+}
+
+static bool in_edge(const void *ctx, const double *x)
+{
+    const struct water *w = ctx;
+    return is_inside(w, w->given, x) && !is_inside(w, w->hidden, x);
+}
+
+static bool dry_in_edge(const void *ctx, const double *x)
+{
+    return in_edge(ctx, x) && !is_wet(ctx, x);
+}
+
+static bool wet(const void *ctx, const double *x) { return is_wet(ctx, x); }
+
+/* FV's flow has no surface: all that SPH does not give must be water at the start, and most of what
+ * FV takes from it; the troughs of steep waves may reach there. */
+static void check_water(const struct run *r, const struct water *w, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const double dx = w->dx;
+    double x[3] = {0.0, 0.0, 0.0};
+    if (!scene_has_surface(&r->scene))
+        return;
+    const bool outside = count(d->dim, dx, d->min, d->max, dry_outside, w, x) > 0.0;
+    if (!outside && count(d->dim, dx, d->min, d->max, dry_in_edge, w, x) <=
+                        0.5 * count(d->dim, dx, d->min, d->max, in_edge, w, (double[3]){0.0}))
+        return;
+    const double(*box)[3] = outside ? w->given : w->hidden;
+    params_fault(r->params, f, "sph.box",
+                 "at (%g, %g, %g) m there is no water: outside of (%g, %g, %g) to (%g, %g, %g) m, "
+                 "what fv takes from sph, it knows of no surface; let the box reach the sides and "
+                 "the top of the domain, set its bottom lower, or make transition, buffer and "
+                 "overlap thinner, or fv.cells finer",
+                 x[0], x[1], x[2], box[0][0], box[0][1], box[0][2], box[1][0], box[1][1],
+                 box[1][2]);
+}
+
+/* Where the box reaches the domain's side, SPH ends: at a wall, above the water, or in a period
+ * that it spans. */
+static void check_side(const struct run *r, const struct sph_params *prm, const struct water *w,
+                       int side, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const struct scene_wall *wall = scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + side));
+    const int a = side / 2;
+    double lo[3], hi[3], x[3];
+    if (!sph_params_reaches(d, prm, side))
+        return;
+    if (d->periodic[a]) {
+        if (!sph_params_reaches(d, prm, side ^ 1))
+            params_fault(
+                r->params, f, "sph.box",
+                "it ends on the periodic %c side at %g m, where fv goes on: span the whole "
+                "period, or leave the side by a cell of fv at least",
+                axes[a], side % 2 ? d->max[a] : d->min[a]);
+        return;
+    }
+    if (wall && wall->kind < WALL_INFLOW)
+        return;
+    memcpy(lo, prm->box[0], sizeof lo);
+    memcpy(hi, prm->box[1], sizeof hi);
+    if (side % 2)
+        lo[a] = hi[a] - prm->dx;
+    else
+        hi[a] = lo[a] + prm->dx;
+    if (wall || count(d->dim, prm->dx, lo, hi, wet, w, x) > 0.0)
+        params_fault(r->params, f, "sph.box",
+                     "it reaches the %c side at %g m, %s: in a coupled job that is fv's; give the "
+                     "side a wall, or end the box before it",
+                     axes[a], side % 2 ? d->max[a] : d->min[a],
+                     wall ? "an inlet or outlet" : "which has no wall");
+}
+
+/* First time at which a corner of a driven body leaves the box by an open side, INFINITY: never; a
+ * free one is watched as it goes. */
+static double leaves(const struct run *r, const struct scene_body *is, double box[2][3],
+                     const bool *open)
+{
+    enum { TIMES = 500 };
+    struct body b;
+    double when = INFINITY;
+    body_create(&b, is, NULL, r->scene.domain.dim, r->case_dir);
+    for (int k = 0; k <= (b.free ? 0 : TIMES) && when == INFINITY; k++) {
+        const double t = r->scene.time.end * k / TIMES;
+        body_move(&b, t);
+        for (int i = 0; i < is->points.n; i++) {
+            double at[2];
+            body_place(&b, is->points.x[i], at);
+            for (int a = 0; a < 2; a++)
+                if ((open[2 * a] && at[a] < box[0][a]) || (open[2 * a + 1] && at[a] > box[1][a]))
+                    when = t;
+        }
+    }
+    body_destroy(&b);
+    return when;
+}
+
+/* FV knows of no body: it must stay where SPH gives the flow. */
+static void check_bodies(const struct run *r, const struct sph_params *prm, struct faults *f)
+{
+    double given[2][3];
+    bool open[6];
+    zones_given_box(r, prm, given[0], given[1]);
+    sph_params_open(r, prm, open);
+    for (int k = 0; k < r->scene.nbodies; k++) {
+        const struct scene_body *b = r->scene.bodies + k;
+        char key[32];
+        const double when = leaves(r, b, given, open);
+        snprintf(key, sizeof key, "bodies.[%d]", k);
+        if (when < INFINITY)
+            params_fault(r->params, f, key,
+                         "body `%s' is outside of (%g, %g) to (%g, %g) m at t = %.4g s: fv, which "
+                         "knows of no body, takes that from sph alone; enlarge sph.box, or lower "
+                         "coupling.overlap, time.end or the body's way",
+                         b->name, given[0][0], given[0][1], given[1][0], given[1][1], when);
+    }
+}
+
+/* Whether a cell of edges lo + i h lies wholly between a and b. */
+static bool holds_cell(double lo, double h, double a, double b)
+{
+    return lo + (ceil((a - lo) / h - 1e-9) + 1.0) * h <= b + 1e-9 * h;
+}
+
+/* FV must be told something: a cell at least whose corners all lie where SPH gives the flow. */
+static void check_cells(const struct run *r, const struct sph_params *prm, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    double cells[3], graded[3], given[2][3];
+    zones_given_box(r, prm, given[0], given[1]);
+    if (!params_peek(r->params, r->comm, "fv.cells", cells))
+        return; /* blocks: another fault */
+    params_peek(r->params, r->comm, "fv.graded", graded);
+    for (int a = 0; a < d->dim; a++) {
+        const bool rows = a == 1 && graded[1] > 0.0;
+        const double lo = rows ? graded[0] : d->min[a];
+        const double h = (d->max[a] - lo) / (rows ? graded[1] : cells[a]);
+        if (!(h > 0.0) || holds_cell(lo, h, given[0][a], given[1][a]))
+            continue;
+        params_fault(r->params, f, "coupling.overlap",
+                     "no cell of fv (%g m along %c) lies wholly in %g to %g m, what sph gives: fv "
+                     "would learn nothing of sph; refine fv.cells, enlarge sph.box, or lower "
+                     "coupling.overlap, transition and buffer",
+                     h, axes[a], given[0][a], given[1][a]);
+        return;
+    }
+}
+
+/* The part of the given box that fv does not look at: two cells within it. */
+static void find_hidden(const struct run *r, const struct sph_params *prm, double box[2][3])
+{
+    const struct scene_domain *d = &r->scene.domain;
+    double cells[3], graded[3];
+    bool open[6];
+    zones_given_box(r, prm, box[0], box[1]);
+    sph_params_open(r, prm, open);
+    params_peek(r->params, r->comm, "fv.cells", cells);
+    params_peek(r->params, r->comm, "fv.graded", graded);
+    for (int a = 0; a < d->dim; a++) {
+        const bool rows = a == 1 && graded[1] > 0.0;
+        const double h = rows           ? (d->max[a] - graded[0]) / graded[1]
+                         : cells[a] > 0 ? (d->max[a] - d->min[a]) / cells[a]
+                                        : 0.0;
+        box[0][a] += open[2 * a] ? 2.0 * h : 0.0;
+        box[1][a] -= open[2 * a + 1] ? 2.0 * h : 0.0;
+    }
+}
+
+void coupling_check(const struct run *r, struct faults *f)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    if (!sph_params_zones(r)) {
+        params_fault(r->params, f, "sph.box",
+                     "no side of it lies in fv's flow: the programs would never meet; make it "
+                     "smaller than the domain, or leave out group fv");
+        return;
+    }
+    struct water w = {.scene = &r->scene, .dx = prm->dx, .exact = exact_create(&r->scene)};
+    zones_given_box(r, prm, w.given[0], w.given[1]);
+    find_hidden(r, prm, w.hidden);
+    for (int side = 0; side < 2 * r->scene.domain.dim; side++)
+        check_side(r, prm, &w, side, f);
+    if (f->n == 0)
+        check_water(r, &w, f);
+    check_bodies(r, prm, f);
+    if (f->n == 0)
+        check_cells(r, prm, f);
+    windows_check(r, prm, f);
+}

@@ -1,0 +1,199 @@
+/* overlap.c - see overlap.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "overlap.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/h5.h"
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../particles/eos.h"
+#include "../open_boundaries/openings.h"
+#include "../surface/surface.h"
+#include "windows.h"
+#include "../open_boundaries/zones.h"
+
+const char *const overlap_columns[OVERLAP_COLUMNS] = {
+    "overlap velocity [-]", "overlap pressure [-]", "surface in the zones [-]"};
+
+/* Windows over which differences are averaged: sound of an impact or of a sudden start, up to rho
+ * c0 U, passes through SPH alone and is no fault. */
+static const double several = 10.0;
+
+struct overlap *overlap_create(const struct sph *s)
+{
+    struct overlap *o = NEW(struct overlap, 1);
+    const struct windows w = windows_choose(s->run, &s->prm);
+    const struct scene_coupling *c = &s->run->scene.coupling;
+    const char *mend =
+        c->steps || c->memory
+            ? "the programs drift apart: set coupling.steps and coupling.memory to 0, widen "
+              "coupling.overlap, or move sph.box so that its open sides lie in calmer flow"
+            : "the programs drift apart: start the flow by initial.field, where an inlet would "
+              "start it at once, widen coupling.overlap, or move sph.box so that its open sides "
+              "lie in calmer flow";
+    o->U = w.U;
+    o->p = s->rho0 * fmax(w.U * w.U, w.weight);
+    o->velocity = (struct watch){
+        .key = "overlap_velocity",
+        .what = "velocities of sph and fv where both are free, difference over the flow's scale",
+        .likely = mend,
+        .warn = 0.15,
+        .stop = 0.4};
+    o->pressure = (struct watch){
+        .key = "overlap_pressure",
+        .what = "pressures of sph and fv where both are free, difference over the flow's scale",
+        .likely = mend,
+        .warn = w.weight > 0.0 ? 0.25 : 0.1 * s->c0 / w.U,
+        .stop = w.weight > 0.0 ? 0.5 : 0.3 * s->c0 / w.U}; /* rho U^2 is little beside the noise */
+    o->dry = (struct watch){
+        .key = "surface_in_zones",
+        .what = "share of the open sides in front of which a free surface lies in the transition",
+        .likely =
+            "fv knows of no surface: move the open sides of sph.box deeper into the water, or "
+            "make coupling.transition and coupling.buffer thinner",
+        .warn = 0.02,
+        .stop = 0.1};
+    return o;
+}
+
+void overlap_free(struct overlap **o)
+{
+    mem_free(*o);
+    *o = NULL;
+}
+
+/* Particles of the free zone's rim, where the partner is free, too; all ranks of SPH know it. */
+static bool in_rim(const struct sph *s, const double *y)
+{
+    const struct zones *z = s->zones;
+    const double depth = zones_depth(s, y), edge = z->transition + z->buffer;
+    return depth >= edge && depth < edge + z->overlap;
+}
+
+/* Sums over the rim: w, w |du|^2, w dp, w dp^2. */
+static void compare(struct sph *s, double sums[4])
+{
+    struct zones *z = s->zones;
+    const int dim = s->dim;
+    z->n = 0;
+    for (int i = 0; i < s->p.n; i++)
+        if (in_rim(s, state_row(&s->p, s->p.y, i)))
+            zones_list(s, i);
+    zones_look(z, s->t, false);
+    for (int k = 0; k < z->n; k++) {
+        const double *y = state_row(&s->p, s->p.y, z->who[k]), w = y[at_volume(dim)];
+        const double m = y[at_mass(dim)];
+        const double dp = eos_p(m / w, s->rho0, s->c0, s->gamma) - z->p[k];
+        for (int a = 0; a < dim; a++) {
+            const double du = y[dim + a] / m - z->u[dim * k + a];
+            sums[1] += w * du * du;
+        }
+        sums[0] += w;
+        sums[2] += w * dp;
+        sums[3] += w * dp * dp;
+    }
+}
+
+void overlap_find_surface(struct sph *s)
+{
+    struct overlap *o = s->zones->watched;
+    if (!o->asks || !s->surface)
+        return;
+    o->asks = false;
+    o->found = 0.0;
+    for (int i = 0; i < s->p.n; i++)
+        if (s->surface->is[i] == SURFACE_ON && s->p.zone[i] != ZONE_FREE) {
+            o->found += 1.0;
+            memcpy(o->where, state_row(&s->p, s->p.y, i), (size_t)s->dim * sizeof *o->where);
+        }
+}
+
+void overlap_look(struct sph *s)
+{
+    struct overlap *o = s->zones->watched;
+    double sums[5] = {0.0, 0.0, 0.0, 0.0, o->found};
+    compare(s, sums);
+    struct {
+        double n;
+        int rank;
+    } most = {sums[4], s->run->rank};
+    MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    if (sums[4] > 0.0) {
+        MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
+        MPI_Bcast(o->where, 3, MPI_DOUBLE, most.rank, s->run->comm);
+    }
+    const double n = sums[0] > 0.0 ? sums[0] : 1.0, mean = sums[2] / n;
+    o->du = sqrt(sums[1] / n) / o->U;
+    o->dp = sqrt(fmax(sums[3] / n - mean * mean, 0.0)) / o->p;
+    o->on = sums[4] / openings_faces(s->zones->openings);
+    o->du_mean += (o->du - o->du_mean) / several;
+    o->dp_mean += (o->dp - o->dp_mean) / several;
+    o->fresh = o->asks = true;
+}
+
+void overlap_judge(struct sph *s, struct diagnosis *d)
+{
+    struct overlap *o = s->zones->watched;
+    if (!o->fresh)
+        return;
+    o->fresh = false;
+    if (watch_judge(&o->dry, o->on, s->t, s->run->step, d))
+        snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, t = %.4g s", o->where[0], o->where[1],
+                 o->where[2], s->t);
+    const bool was_bad = d->bad;
+    watch_judge(&o->velocity, o->du_mean, s->t, s->run->step, d);
+    watch_judge(&o->pressure, o->dp_mean, s->t, s->run->step, d);
+    if (d->bad && !was_bad)
+        snprintf(d->where, sizeof d->where,
+                 "the rim of the free zone, %g m wide, t = %.4g s, step %lld", s->zones->overlap,
+                 s->t, (long long)s->run->step);
+}
+
+enum { KEPT = 2 }; /* of a watch */
+
+void overlap_save(const struct overlap *o, struct h5 *f)
+{
+    const struct watch *of[3] = {&o->velocity, &o->pressure, &o->dry};
+    double v[3 * KEPT];
+    for (int k = 0; k < 3; k++) {
+        v[KEPT * k] = of[k]->worst;
+        v[KEPT * k + 1] = of[k]->warned;
+    }
+    h5_write_real(f, "overlap", "-", 3 * KEPT, 1, v, false);
+}
+
+void overlap_load(struct overlap *o, struct h5 *f)
+{
+    struct watch *of[3] = {&o->velocity, &o->pressure, &o->dry};
+    double v[3 * KEPT];
+    if (!h5_read_same(f, "overlap", 3 * KEPT, v))
+        return;
+    for (int k = 0; k < 3; k++) {
+        of[k]->worst = v[KEPT * k];
+        of[k]->warned = v[KEPT * k + 1] != 0.0;
+    }
+}
+
+void overlap_row(const struct overlap *o, double *values)
+{
+    values[0] = o->du;
+    values[1] = o->dp;
+    values[2] = o->on;
+}
+
+void overlap_summary(const struct overlap *o, struct summary *to)
+{
+    watch_summary(&o->velocity, to);
+    watch_summary(&o->pressure, to);
+    watch_summary(&o->dry, to);
+}
+
+void overlap_tell(const struct overlap *o, struct summary *to)
+{
+    if (o->du > 0.5 * o->velocity.warn)
+        summary_real(to, "du", o->du);
+    if (o->dp > 0.5 * o->pressure.warn)
+        summary_real(to, "dp", o->dp);
+}

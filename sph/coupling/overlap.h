@@ -1,0 +1,42 @@
+/* overlap.h - what shows that the two programs of a coupled job no longer describe one flow: their
+ * velocities and pressures differ where both are free, or a surface has come where the partner
+ * knows of none. Once a window. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_OVERLAP_H
+#define SPH_OVERLAP_H
+
+#include "../../common/watch.h"
+#include "../sph.h"
+
+enum { OVERLAP_COLUMNS = 3 };
+
+struct overlap {
+    struct watch velocity, pressure; /* rms of the differences over the scales below */
+    struct watch dry;        /* share of the transition's faces above which lies a surface */
+    double U, p;             /* m/s, Pa: scales */
+    bool fresh;              /* looked at since it was judged last */
+    double du, dp, on;       /* of the last look */
+    double du_mean, dp_mean; /* over some windows: what is judged */
+    bool asks;               /* for the surface, once a window */
+    double found;            /* particles of this rank on a surface in transition and buffer */
+    double where[3];         /* m: one of them */
+};
+
+struct overlap *overlap_create(const struct sph *s);
+void overlap_free(struct overlap **o);
+/* In a stage, when the surface has been detected. */
+void overlap_find_surface(struct sph *s);
+/* Compares SPH with the patch at s->t. Collective. */
+void overlap_look(struct sph *s);
+/* Fills d where the run cannot be trusted. */
+void overlap_judge(struct sph *s, struct diagnosis *d);
+/* Names and values of OVERLAP_COLUMNS columns. */
+extern const char *const overlap_columns[OVERLAP_COLUMNS];
+void overlap_row(const struct overlap *o, double *values);
+void overlap_summary(const struct overlap *o, struct summary *to);
+/* For the progress line of the job, as soon as they have grown. */
+void overlap_tell(const struct overlap *o, struct summary *to);
+/* For a restart: the worst so far. */
+void overlap_save(const struct overlap *o, struct h5 *f);
+void overlap_load(struct overlap *o, struct h5 *f);
+
+#endif

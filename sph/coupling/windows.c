@@ -1,0 +1,257 @@
+/* windows.c - see windows.h. Outside there is a flow of constant density: velocities forced on it
+ * that change by du over a window T make a pressure rho A du/T, A the added mass of its region, and
+ * SPH answers by p/(rho c0): a gain G = A/(c0 T). A cubic in time foresees a window to about
+ * (omega T)^3, so that T must be short beside the flow's own times.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "windows.h"
+
+#include <math.h>
+
+#include "../../common/log.h"
+#include "../sph_params.h"
+#include "../open_boundaries/zones.h"
+
+/* A window of accuracy: U T/L of the flow; omega T of waves, which add up errors over periods. */
+static const double flow_share = 0.03, wave_share = 0.1;
+/* Beyond it what is foreseen by a parabola, (2 sin(omega T/2))^3 of the signal off, is worth less
+ * than the last value: omega T = pi/3. */
+static const double flow_most = 1.0 / 6.0, wave_most = M_PI / 3.0;
+static const double gain_raw = 0.3, gain_smoothed = 0.5, gain_most = 1.0;
+static const double most_way = 24.0; /* R/c0: longer ones were never tried */
+
+static double length_of(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+static double speed_of_bodies(const struct scene *c)
+{
+    double U = 0.0;
+    for (int k = 0; k < c->nwalls; k++)
+        U = fmax(U, length_of(c->walls[k].velocity));
+    for (int k = 0; k < c->nbodies; k++) {
+        const struct scene_body *b = c->bodies + k;
+        double far = 0.0;
+        for (int i = 0; i < b->points.n; i++)
+            far = fmax(far,
+                       hypot(b->points.x[i][0] - b->centre[0], b->points.x[i][1] - b->centre[1]));
+        U = fmax(U, length_of(b->velocity) + length_of(b->spin) * far);
+    }
+    return U;
+}
+
+/* Axis across which gravity holds the water down, -1: none. */
+static int axis_of_gravity(const struct scene *c)
+{
+    int axis = -1;
+    for (int a = 0; a < c->domain.dim; a++)
+        if (!c->domain.periodic[a] && c->fluid.gravity[a] != 0.0 &&
+            (axis < 0 || fabs(c->fluid.gravity[a]) > fabs(c->fluid.gravity[axis])))
+            axis = a;
+    return axis;
+}
+
+/* Height of the water above the domain's floor. */
+static double depth_of(const struct scene *c, int a)
+{
+    const double floor = c->domain.min[a];
+    if (c->initial.level < LEVEL_TOP)
+        return c->initial.level - floor;
+    double top = c->nshapes > 0 ? floor : c->domain.max[a];
+    for (int k = 0; k < c->nshapes; k++) {
+        const struct scene_shape *h = c->shapes + k;
+        double high = h->form == SHAPE_BOX    ? h->box[1][a]
+                      : h->form == SHAPE_DISC ? h->centre[a] + h->radius
+                                              : h->level;
+        for (int i = 0; i < h->points.n && h->form == SHAPE_POLYGON && a < 2; i++)
+            high = i == 0 ? h->points.x[0][a] : fmax(high, h->points.x[i][a]);
+        top = h->hole ? top : fmax(top, high);
+    }
+    return fmin(top, c->domain.max[a]) - floor;
+}
+
+static bool is_given(const struct run *r, const char *key)
+{
+    return r->params && params_given(r->params, key); /* a test has a scene without a case */
+}
+
+static void scales(const struct run *r, const struct sph_params *prm, struct windows *w)
+{
+    const struct scene *c = &r->scene;
+    const int field = c->initial.field, down = axis_of_gravity(c);
+    const double carried = length_of(c->initial.velocity);
+    const bool own = field != FIELD_REST || is_given(r, "initial.U");
+    const bool periodic_field = scene_has_wave(c) || field == FIELD_TAYLOR_GREEN ||
+                                field == FIELD_TWO_MODES || field == FIELD_BELTRAMI;
+    w->U = own ? c->initial.U : 0.0;
+    w->U = field == FIELD_TAYLOR_GREEN || field == FIELD_TWO_MODES ? w->U + carried
+                                                                   : fmax(w->U, carried);
+    w->U = fmax(w->U, speed_of_bodies(c));
+    w->L = INFINITY;
+    for (int a = 0; a < c->domain.dim; a++)
+        w->L = fmin(w->L, prm->box[1][a] - prm->box[0][a]);
+    if (periodic_field || is_given(r, "initial.L"))
+        w->L = c->initial.L;
+    if (down >= 0 && scene_has_surface(c)) {
+        const double g = fabs(c->fluid.gravity[down]), H = depth_of(c, down);
+        const double k = 2.0 * M_PI / c->initial.L * (c->initial.L_z > 0.0 ? M_SQRT2 : 1.0);
+        w->omega = scene_has_wave(c) ? sqrt(g * k * tanh(k * H)) : sqrt(g / H);
+        w->weight = g * fmin(H, w->L);
+        if (!scene_has_wave(c))
+            w->U = fmax(w->U, sqrt(g * H));
+    }
+    if (!(w->U > 0.0))
+        w->U = 0.1 * prm->c0;
+}
+
+/* Least wave number of what may pass through a side of axis a: half a wave between walls, a whole
+ * one around a period, half a one where the flow can go around the box. */
+static double lateral(const struct run *r, const struct sph_params *prm, const bool *open, int a)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    double k = INFINITY;
+    for (int b = 0; b < d->dim; b++) {
+        const double width = prm->box[1][b] - prm->box[0][b];
+        const bool round = d->periodic[b] && !open[2 * b] && !open[2 * b + 1];
+        if (b != a)
+            k = fmin(k, (round ? 2.0 : 1.0) * M_PI / width);
+    }
+    return k;
+}
+
+/* Added mass that SPH feels at one side, of the partner's region between its forced cells and a
+ * wall d behind them, by potential theory: coth(k d)/k there, cosh along the overlap D. */
+static double mass_at(const struct run *r, const struct sph_params *prm, const bool *open, int side,
+                      double D)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const int a = side / 2;
+    const double k = lateral(r, prm, open, a);
+    const bool walled = scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + side)) != NULL;
+    const double beyond = side % 2 ? d->max[a] - prm->box[1][a] : prm->box[0][a] - d->min[a];
+    /* The box spans the flow: what lies beyond can move as a whole, half of a period to each side.
+     */
+    bool spans = !walled;
+    for (int b = 0; b < d->dim; b++)
+        spans = spans && (b == a || (!open[2 * b] && !open[2 * b + 1]));
+    if (spans) {
+        const double width = prm->box[1][a] - prm->box[0][a];
+        return fmax(exp(-k * D) / k,
+                    d->periodic[a] ? 0.5 * (d->max[a] - d->min[a] - width) : beyond);
+    }
+    if (!walled || k * (beyond + D) > 20.0)
+        return exp(-k * D) / k;
+    return cosh(k * beyond) / sinh(k * (beyond + D)) / k;
+}
+
+static void find_gain(const struct run *r, const struct sph_params *prm, struct windows *w)
+{
+    double transition, buffer, free[2][3], given[2][3];
+    bool open[6];
+    sph_params_open(r, prm, open);
+    zones_widths(r, prm, &transition, &buffer);
+    zones_free_box(r, prm, free[0], free[1]);
+    zones_given_box(r, prm, given[0], given[1]);
+    for (int side = 0; side < 6; side++)
+        if (open[side]) {
+            const int a = side / 2;
+            const double overlap = side % 2 ? free[1][a] - given[1][a] : given[0][a] - free[0][a];
+            w->mass = fmax(w->mass, mass_at(r, prm, open, side, overlap + transition + buffer));
+        }
+}
+
+double windows_smoothed(int memory) { return (2.0 * memory - 1.0) / ((double)memory * memory); }
+
+/* Least memory m with G (2 m - 1)/m^2 below the limit; two windows smooth next to nothing. */
+static int memory_for(double gain)
+{
+    if (gain <= gain_raw)
+        return 1;
+    const double g = fmax(gain / gain_smoothed, 1.0);
+    return (int)fmax(ceil(g + sqrt(g * g - g)), 3.0);
+}
+
+/* Windows tile the time between outputs: they are shorter than what was asked for. */
+static double tiled(const struct scene *c, double T)
+{
+    const double every = c->output.every, end = c->time.end;
+    const double span = every > 0.0 && every < end ? every : end;
+    return span / ceil(span / T * (1.0 - 1e-9));
+}
+
+static void shorten(struct windows *w, double T, const char *limit)
+{
+    if (T < w->T) {
+        w->T = T;
+        w->limit = limit;
+    }
+}
+
+struct windows windows_choose(const struct run *r, const struct sph_params *prm)
+{
+    const struct scene_coupling *c = &r->scene.coupling;
+    struct windows w = {.limit = "the longest tried"};
+    double transition, buffer;
+    const double dt = sph_params_dt(prm, r->scene.fluid.nu, prm->c0, NULL);
+    scales(r, prm, &w);
+    find_gain(r, prm, &w);
+    zones_widths(r, prm, &transition, &buffer);
+    w.T = most_way / prm->cfl * dt;
+    w.T_most = fmin(flow_share * w.L / w.U, w.omega > 0.0 ? wave_share / w.omega : INFINITY);
+    shorten(&w, flow_share * w.L / w.U, "the flow");
+    shorten(&w, w.omega > 0.0 ? wave_share / w.omega : INFINITY, "the waves");
+    shorten(&w, transition / w.U, "the way through the transition");
+    w.steps = c->steps > 0 ? c->steps : (int)fmax(floor(w.T / dt * (1.0 + 1e-9)), 1.0);
+    w.limit = c->steps > 0 ? "coupling.steps" : w.limit;
+    w.T = w.steps * dt;
+    w.gain = w.mass / (prm->c0 * tiled(&r->scene, w.T));
+    w.memory = c->memory > 0 ? c->memory : memory_for(w.gain);
+    return w;
+}
+
+void windows_describe(const struct run *r, const struct sph_params *prm)
+{
+    const struct windows w = windows_choose(r, prm);
+    const double left = w.memory > 1 ? w.gain * windows_smoothed(w.memory) : w.gain;
+    log_say("windows of %d steps, %.3g s, by %s: U T/L = %.3f (U %.3g m/s, L %.3g m)", w.steps, w.T,
+            w.limit, w.U * w.T / w.L, w.U, w.L);
+    if (w.memory > 1)
+        log_say("gain of the loop %.2g: pressure outside smoothed over %d windows, %.2g is left",
+                w.gain, w.memory, left);
+    else
+        log_say("gain of the loop %.2g: pressure outside as it is tried ahead", w.gain);
+    if (w.T > 2.0 * w.T_most)
+        log_warn("coupling.steps = %d: windows of %.3g s are %.1f times what this flow wants; 0 "
+                 "takes %.3g s",
+                 w.steps, w.T, w.T / w.T_most, w.T_most);
+    if (left > (w.memory > 1 ? gain_smoothed : gain_raw) * (1.0 + 1e-9))
+        log_warn("gain of the loop %.2g: near its limit of %g; longer windows (coupling.steps), a "
+                 "longer coupling.memory or a wider coupling.overlap lower it",
+                 left, gain_most);
+}
+
+void windows_check(const struct run *r, const struct sph_params *prm, struct faults *f)
+{
+    const struct windows w = windows_choose(r, prm);
+    const bool given = r->scene.coupling.steps > 0;
+    const double flow = w.U * w.T / w.L, wave = w.omega * w.T;
+    const double left = w.memory > 1 ? w.gain * windows_smoothed(w.memory) : w.gain;
+    const double lag = w.memory > 1 ? w.omega * w.T * w.memory : 0.0;
+    if (flow > flow_most || wave > wave_most)
+        params_fault(
+            r->params, f, given ? "coupling.steps" : "sph.dx",
+            "windows of %d steps are %.3g s: %s = %.2g, above %.2g nothing can be foreseen "
+            "in time; %s",
+            w.steps, w.T, flow > flow_most ? "U T/L" : "omega T of the waves",
+            flow > flow_most ? flow : wave, flow > flow_most ? flow_most : wave_most,
+            given ? "lower coupling.steps, 0 takes what the flow wants"
+                  : "a single step of sph is too long for this flow: refine sph.dx");
+    if (left > gain_most)
+        params_fault(r->params, f,
+                     r->scene.coupling.memory > 0 ? "coupling.memory" : "coupling.steps",
+                     "gain of the loop %.2g, %.2g smoothed over %d windows, is unstable above %g: "
+                     "raise coupling.steps, or leave memory and steps at 0",
+                     w.gain, left, w.memory, gain_most);
+    if (lag > 1.0)
+        params_fault(r->params, f, "coupling.overlap",
+                     "pressure outside must be smoothed over %d windows, %.2g s, as long as the "
+                     "waves take: widen coupling.overlap (sph.box lower), or raise sph.c0",
+                     w.memory, w.T * w.memory);
+}

@@ -1,0 +1,52 @@
+/* openings.h - the open sides of a particle region, cut into faces of side dx. The flow through a
+ * face is booked as mass; a face that holds a whole particle gives birth to it, a particle that
+ * leaves gives its mass to the nearest face (Chiron 2017, eqs. 6.13-6.14), with threshold 1 and
+ * birth dx/2 inside, the pair that keeps a lattice. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_OPENINGS_H
+#define SPH_OPENINGS_H
+
+#include "../sph.h"
+
+struct openings {
+    int dim;
+    double dx, lo[3], hi[3];
+    bool open[6], bounded[3];    /* sides that are open; axes that do not repeat */
+    int cells[3];                /* faces along each axis */
+    int first[7];                /* of side 2a (low), 2a+1 (high); first[2 dim]: number of faces */
+    double *mass;                /* kg: booked, the same on all ranks */
+    double *change;              /* kg: of this step, this rank, then summed */
+    double *flux;                /* kg/s of the faces this rank owns, 0 elsewhere: inward */
+    double owed;                 /* kg: what voids that went out left to be drained; all ranks' */
+    double drain;                /* m/s: outwards, added to the flow outside */
+    double *shift;               /* m: place of the incoming lattice behind each face */
+    int64_t born, gone, refused; /* on this rank */
+    double born_mass, gone_mass, inflow; /* kg: since the start, this rank */
+    int64_t first_id; /* the newborn's: first_id + time of birth in ticks * faces + face */
+    double tick;      /* s: far below a step */
+    int nghost, first_ghost,
+        ghost_capacity; /* the lattice behind the faces, last among the ghosts */
+    double *ghost_x;    /* [nghost][3] at time ghost_t */
+    double ghost_t;
+};
+
+struct openings *openings_create(struct sph *s);
+void openings_free(struct openings **o);
+/* Removal, fluxes at s->t - dt/2, births. Collective. */
+void openings_step(struct sph *s, double dt);
+/* Adds the particles that the lattice would have behind the faces, with the flow outside, as ghosts
+ * behind those of the halo, so that supports near the open sides are whole. After domain_ghosts. */
+void openings_ghosts(struct sph *s);
+/* Their lines at s->t. */
+void openings_ghost_lines(struct sph *s);
+/* From the booked masses (after a restart, too): what is to be drained, and where the lattice
+ * behind each face stands. */
+void openings_settle(struct sph *s);
+int openings_faces(const struct openings *o);
+/* s since the birth of the particle with this id, or since the start. */
+double openings_age(const struct sph *s, int64_t id);
+/* Takes mass (kg) from all faces alike; the same on all ranks. */
+void openings_let_out(struct openings *o, double mass);
+/* kg: booked by all faces, less what voids left to be drained; the same on all ranks. */
+double openings_held(const struct sph *s);
+
+#endif

@@ -1,0 +1,124 @@
+/* probes.c - gauges and forces; see probes.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "probes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../particles/eos.h"
+#include "../bodies/bodies.h"
+#include "../walls/forces.h"
+#include "../pairs/kernel.h"
+#include "../walls/walls.h"
+
+int probes_columns(const struct run *r, const char **names)
+{
+    static char text[PROBE_COLUMNS][PARAM_TEXT_SIZE + 24];
+    static const char *const plane[3] = {"force x [N/m]", "force y [N/m]", "moment [N]"};
+    static const char *const space[6] = {"force x [N]",    "force y [N]",    "force z [N]",
+                                         "moment x [N m]", "moment y [N m]", "moment z [N m]"};
+    const struct scene *c = &r->scene;
+    int n = 0;
+    for (int k = 0; k < c->nprobes; k++, n++)
+        snprintf(text[n], sizeof text[n], "%s [%s]", c->probes[k].name,
+                 c->probes[k].kind == PROBE_LEVEL ? "m" : "Pa");
+    for (int k = 0; k < c->nbodies; k++)
+        for (int a = 0; a < 3 * (c->domain.dim - 1); a++, n++)
+            snprintf(text[n], sizeof text[n], "%s %s", c->bodies[k].name,
+                     c->domain.dim == 2 ? plane[a] : space[a]);
+    for (int k = 0; k < n; k++)
+        names[k] = text[k];
+    for (int k = 0; k < c->nbodies; k++)
+        n += bodies_columns(r, k, names + n);
+    return n;
+}
+
+/* Kernel average of p, carried to the place by its gradient; 0 where there is hardly any fluid. */
+static double pressure_at(struct sph *s, const double *at)
+{
+    const int dim = s->dim;
+    double sums[2] = {0.0, 0.0};
+    for (int i = 0; i < s->p.n; i++) {
+        const double *q = prim_line(&s->p, i), rho = q[at_rho(dim)];
+        const double *grho = slope_line(&s->p, i);
+        double r2 = 0.0, more = 0.0;
+        for (int a = 0; a < dim; a++) {
+            r2 += (at[a] - q[a]) * (at[a] - q[a]);
+            more += (at[a] - q[a]) * grho[a];
+        }
+        if (r2 >= s->R * s->R)
+            continue;
+        const double W = q[at_volume(dim)] * kernel_w(dim, sqrt(r2), s->R);
+        const double c = eos_c(rho, s->rho0, s->c0, s->gamma);
+        sums[0] += W * (eos_p(rho, s->rho0, s->c0, s->gamma) + c * c * more);
+        sums[1] += W;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sums[1] > 0.05 ? sums[0] / sums[1] : 0.0;
+}
+
+/* Volume of the fluid in a column around the place over the column's cross-section, on top of the
+ * domain's bottom: the surface's height where there is one, drops included. */
+static double level_at(struct sph *s, const double *at)
+{
+    const int dim = s->dim, up = dim - 1;
+    const double half = 2.0 * s->dx;
+    double volume = 0.0, section = 1.0;
+    for (int a = 0; a < up; a++) { /* integral of the hat function over the domain */
+        const double lo = fmax(-1.0, (s->lo[a] - at[a]) / half);
+        const double hi = fmin(1.0, (s->hi[a] - at[a]) / half);
+        const double low = 0.5 * (1.0 + lo) * (1.0 + lo), high = 0.5 * (1.0 - hi) * (1.0 - hi);
+        section *= s->periodic[a] ? half : half * (1.0 - low - high);
+    }
+    for (int i = 0; i < s->p.n; i++) {
+        const double *q = prim_line(&s->p, i);
+        double weight = q[at_volume(dim)];
+        for (int a = 0; a < up; a++) {
+            double d = fabs(q[a] - at[a]);
+            if (s->periodic[a])
+                d = fmin(d, s->hi[a] - s->lo[a] - d);
+            weight *= fmax(0.0, 1.0 - d / half);
+        }
+        volume += weight;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &volume, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return s->lo[up] + volume / section;
+}
+
+struct force probes_force(struct sph *s, int k)
+{
+    struct force force;
+    return forces_of(s, k, &force) ? force : body_average(s, k);
+}
+
+/* The second opinion on the first body, by rows, each for the time since the one before. */
+static void sample_average(struct sph *s)
+{
+    const double begin = fmax(s->average_t, 0.5 * s->run->scene.time.end), dt = s->t - begin;
+    s->average_t = s->t;
+    if (dt <= 0.0)
+        return;
+    const struct force force = body_average(s, 0);
+    s->average_time += dt;
+    for (int a = 0; a < s->dim; a++)
+        s->average_sum[a] += dt * force.F[a];
+}
+
+void probes_row(struct sph *s, double *values)
+{
+    const struct scene *c = &s->run->scene;
+    for (int k = 0; k < c->nprobes; k++)
+        *values++ = c->probes[k].kind == PROBE_LEVEL ? level_at(s, c->probes[k].at)
+                                                     : pressure_at(s, c->probes[k].at);
+    for (int k = 0; k < c->nbodies; k++, values += 3 * (s->dim - 1)) {
+        const struct force f = probes_force(s, k);
+        const double plane[3] = {f.F[0], f.F[1], f.M[2]};
+        memcpy(values, s->dim == 2 ? plane : f.F, 3 * sizeof *values);
+        if (s->dim == 3)
+            memcpy(values + 3, f.M, sizeof f.M);
+    }
+    for (int k = 0; k < c->nbodies; k++)
+        values = bodies_row(s, k, values);
+    if (c->nbodies > 0)
+        sample_average(s);
+}

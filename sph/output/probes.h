@@ -1,0 +1,18 @@
+/* probes.h - gauges and the forces on bodies: columns of series.csv.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_PROBES_H
+#define SPH_PROBES_H
+
+#include "../sph.h"
+#include "../walls/walls.h"
+
+/* Names of the columns of this scene (static storage); returns their number. */
+enum { PROBE_COLUMNS = PROBES_MAX + 6 * BODIES_MAX };
+int probes_columns(const struct run *r, const char **names);
+/* Their values; needs prim and slope of the present state. Collective. */
+void probes_row(struct sph *s, double *values);
+/* Force of the fluid on body k and its moment about the centre: the momentum that went there in the
+ * last step (forces.h); before the first one body_average. Collective. */
+struct force probes_force(struct sph *s, int k);
+
+#endif

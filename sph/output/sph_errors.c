@@ -1,0 +1,406 @@
+/* sph_errors.c - sums, errors against the exact solution, drifts: rows of the series and the
+ * summary. Norms are weighted with the particles' volumes and taken over the free zone.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../sph.h"
+
+#include <math.h>
+
+#include "../../common/scene_mesh.h"
+#include "../../common/exact.h"
+#include "../../common/mem.h"
+#include "../parallel/domain.h"
+#include "../particles/eos.h"
+#include "../bodies/bodies.h"
+#include "../walls/forces.h"
+#include "../pairs/neighbours.h"
+#include "../open_boundaries/openings.h"
+#include "probes.h"
+#include "../sph_params.h"
+#include "../walls/walls.h"
+#include "../open_boundaries/zones.h"
+
+enum { NORM_VELOCITY, NORM_PRESSURE, NORM_VORTICITY, FIRST_NORM = NORM_VELOCITY };
+enum { NORMS = NORM_VORTICITY - FIRST_NORM + 1 };
+
+static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
+
+void sph_sums(const struct sph *s, double sums[SUM_COUNT])
+{
+    const int dim = s->dim;
+    for (int k = 0; k < SUM_COUNT; k++)
+        sums[k] = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i), w = y[at_volume(dim)], m = y[at_mass(dim)];
+        double kinetic;
+        sums[SUM_ENERGY] += sph_energy(s, y, &kinetic);
+        for (int a = 0; a < dim; a++)
+            sums[SUM_MOMENTUM + a] += y[dim + a];
+        sums[SUM_MASS] += m;
+        sums[SUM_VOLUME] += w;
+        sums[SUM_KINETIC] += kinetic;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, s->run->comm);
+}
+
+bool sph_has_exact(const struct run *r) { return exact_at_all_times(&r->scene); }
+
+/* dv/dx - du/dy; 3D: all components. From the slopes: grad u [a][b] = du_a/dx_b. */
+void sph_vorticity(const struct sph *s, int i, double w[3])
+{
+    const int dim = s->dim;
+    const double *g = slope_line(&s->p, i) + dim;
+    w[0] = dim == 3 ? g[3 * 2 + 1] - g[3 * 1 + 2] : 0.0;
+    w[1] = dim == 3 ? g[3 * 0 + 2] - g[3 * 2 + 0] : 0.0;
+    w[2] = g[dim * 1 + 0] - g[dim * 0 + 1];
+}
+
+/* Adds one particle to the norms of velocity, pressure, vorticity (in 3D its z component). */
+static void add_errors(const struct sph *s, const struct exact *e, int i, struct norm *n)
+{
+    const int dim = s->dim;
+    const double *q = prim_line(&s->p, i), w = q[at_volume(dim)];
+    const double x[3] = {q[0], q[1], dim == 3 ? q[2] : 0.0};
+    double u[3], p, vort, omega[3];
+    exact_point(e, x, s->t, u, &p, &vort);
+    sph_vorticity(s, i, omega);
+    for (int a = 0; a < dim; a++)
+        norm_add(n, w, q[dim + a] - u[a], u[a]);
+    norm_add(n + 1, w, eos_p(q[at_rho(dim)], s->rho0, s->c0, s->gamma) - p, p);
+    norm_add(n + 2, w, omega[2] - vort, vort);
+}
+
+/* Needs prim and slope of the present state. Collective. */
+static void errors(const struct sph *s, struct norm n[NORMS])
+{
+    const struct exact e = exact_create(&s->run->scene);
+    for (int k = 0; k < NORMS; k++)
+        n[k] = (struct norm){0};
+    for (int i = 0; i < s->p.n; i++)
+        if (!s->zones || s->p.zone[i] == ZONE_FREE)
+            add_errors(s, &e, i, n);
+    norm_reduce(n, NORMS, s->run->comm);
+}
+
+/* Kinetic energy that the particles would have with the exact velocities. */
+static double exact_kinetic(const struct sph *s)
+{
+    const struct exact e = exact_create(&s->run->scene);
+    double sum = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i);
+        const double x[3] = {y[0], y[1], s->dim == 3 ? y[2] : 0.0};
+        double u[3];
+        exact_point(&e, x, s->t, u, NULL, NULL);
+        for (int a = 0; a < s->dim; a++)
+            sum += 0.5 * y[at_mass(s->dim)] * u[a] * u[a];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sum;
+}
+
+/* Part of a particle that is SPH's to count where a partner counts the rest: what of its square or
+ * cube lies in the free zone. */
+static double share(const struct sph *s, int i)
+{
+    const double *y = state_row(&s->p, s->p.y, i);
+    double f = 1.0;
+    for (int side = 0; s->zones && side < 2 * s->dim; side++) {
+        const int a = side / 2;
+        const double in = side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a];
+        const double rim = s->zones->buffer + s->zones->transition;
+        if (s->open[side])
+            f *= fmin(fmax((in - rim) / s->dx + 0.5, 0.0), 1.0);
+    }
+    return f;
+}
+
+/* Needs the gradients of the present state. own: only what no partner counts. */
+static double enstrophy(const struct sph *s, bool own)
+{
+    double sum = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        double w[3];
+        sph_vorticity(s, i, w);
+        sum += 0.5 * (own ? share(s, i) : 1.0) * prim_line(&s->p, i)[at_volume(s->dim)] *
+               (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sum;
+}
+
+/* Smallest distance where ghosts of walls or the lattice behind open sides must not count. */
+static double least_among_particles(const struct sph *s)
+{
+    const struct neighbours *l = s->list;
+    const int real = s->p.n + s->p.nhalo;
+    double least = s->R * s->R;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *x = prim_line(&s->p, i);
+        const int *j = l->j + l->start[i];
+        for (int k = l->tail[i]; k < l->count[i]; k++) {
+            const double *xj = prim_line(&s->p, j[k]);
+            double r2 = 0.0;
+            for (int a = 0; a < s->dim; a++)
+                r2 += (x[a] - xj[a]) * (x[a] - xj[a]);
+            least = j[k] < real && r2 < least ? r2 : least;
+        }
+    }
+    return sqrt(least);
+}
+
+/* Smallest distance of two particles over dx; needs the list of the present places. */
+static double least_spacing(const struct sph *s)
+{
+    const bool all = s->p.nghost == s->p.nhalo;
+    double least = (all ? neighbours_least(s) : least_among_particles(s)) / s->dx;
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, s->run->comm);
+    return least;
+}
+
+static double total(const struct sph *s, double v)
+{
+    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return v;
+}
+
+static double births(const struct sph *s) { return total(s, (double)s->zones->openings->born); }
+static double removals(const struct sph *s) { return total(s, (double)s->zones->openings->gone); }
+
+/* Momentum's part in what swings. */
+static double signal_now(const struct sph *s, const struct exact *e, bool own)
+{
+    const int dim = s->dim;
+    double sum = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i), m = y[at_mass(dim)];
+        const double u[3] = {y[dim] / m, y[dim + 1] / m, dim == 3 ? y[dim + 2] / m : 0.0};
+        sum += (own ? share(s, i) : 1.0) * m * exact_signal(e, y, u);
+    }
+    return total(s, sum);
+}
+
+void sph_tell(void *state, struct summary *report)
+{
+    struct sph *s = state;
+    const struct exact e = exact_create(&s->run->scene);
+    const int dim = s->dim;
+    double kinetic = 0.0, potential = 0.0;
+    integrate_gradients(s);
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i);
+        const double part = share(s, i), m = y[at_mass(dim)];
+        for (int a = 0; a < dim; a++) {
+            kinetic += part * 0.5 * y[dim + a] * y[dim + a] / m;
+            potential -= part * m * s->gravity[a] * y[a];
+        }
+    }
+    summary_real(report, "sum.kinetic", total(s, kinetic));
+    summary_real(report, "sum.potential", total(s, potential));
+    summary_real(report, "sum.enstrophy", enstrophy(s, true));
+    summary_real(report, "sum.signal", signal_now(s, &e, true));
+}
+
+static bool has_signal(const struct run *r)
+{
+    return r->scene.initial.field == FIELD_STANDING_WAVE || r->scene.initial.field == FIELD_DROP;
+}
+
+static void sample_signal(struct sph *s)
+{
+    const struct exact e = exact_create(&s->run->scene);
+    if (has_signal(s->run))
+        fit_add(&s->signal_fit, s->t, signal_now(s, &e, false));
+}
+
+/* Period, damping and enstrophy against the exact ones; of a coupled job by the coupler. */
+static void summarise_oscillation(struct sph *s)
+{
+    const struct exact e = exact_create(&s->run->scene);
+    double period, rate;
+    if (s->run->coupled || !has_signal(s->run) || !exact_oscillation(&e, &period, &rate))
+        return;
+    sample_signal(s);
+    const double T = fit_period(&s->signal_fit), r = fit_rate(&s->signal_fit);
+    struct summary *to = s->run->summary;
+    if (isfinite(T)) {
+        summary_real(to, "period", T);
+        summary_real(to, "error.period", fabs(T / period - 1.0));
+    }
+    if (isfinite(r)) {
+        summary_real(to, "damping", r);
+        summary_real(to, "error.damping", rate != 0.0 ? fabs(r / rate - 1.0) : fabs(r) * period);
+    }
+    if (e.field == FIELD_STANDING_WAVE && s->nu > 0.0)
+        summary_real(to, "error.enstrophy",
+                     fabs(enstrophy(s, false) / exact_enstrophy(&e, s->lo, s->hi, s->t) - 1.0));
+}
+
+static const char *const columns[] = {
+    "kinetic energy [J]",   "enstrophy [m^dim/s^2]", "mass [kg]",       "momentum x [kg m/s]",
+    "momentum y [kg m/s]",  "momentum z [kg m/s]",   "max Mach [-]",    "min density [kg/m^3]",
+    "max density [kg/m^3]", "particles [-]",         "min spacing [dx]"};
+
+int sph_columns(const struct run *r, const char **names)
+{
+    int n = 0;
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
+        if (k != 5 || r->scene.domain.dim == 3)
+            names[n++] = columns[k];
+    n += sph_watch_columns(r, names + n);
+    if (sph_has_exact(r))
+        names[n++] = "error velocity l2 [-]";
+    if (sph_params_zones(r)) {
+        names[n++] = "born [-]";
+        names[n++] = "gone [-]";
+    }
+    return n + probes_columns(r, names + n);
+}
+
+void sph_row(void *state, double *values)
+{
+    struct sph *s = state;
+    double sums[SUM_COUNT];
+    integrate_gradients(s);
+    timer_start(&s->run->timers, "output");
+    sph_sums(s, sums);
+    *values++ = sums[SUM_KINETIC];
+    *values++ = enstrophy(s, false);
+    *values++ = sums[SUM_MASS];
+    for (int a = 0; a < s->dim; a++)
+        *values++ = sums[SUM_MOMENTUM + a];
+    *values++ = s->max_speed / s->c0;
+    *values++ = s->rho_min;
+    *values++ = s->rho_max;
+    *values++ = total(s, s->p.n);
+    *values++ = least_spacing(s);
+    values = sph_watch_row(s, values);
+    if (sph_has_exact(s->run)) {
+        struct norm n[NORMS];
+        errors(s, n);
+        *values++ = norm_relative_l2(n);
+    }
+    if (s->zones) {
+        *values++ = births(s);
+        *values++ = removals(s);
+    }
+    sample_signal(s);
+    probes_row(s, values);
+    timer_stop(&s->run->timers, "output");
+}
+
+static void summarise_errors(const struct sph *s)
+{
+    struct summary *to = s->run->summary;
+    struct norm n[NORMS];
+    const double U = s->run->scene.initial.U, scale = s->rho0 * U * U;
+    errors(s, n);
+    summary_real(to, "error.velocity_l2", norm_relative_l2(n));
+    summary_real(to, "error.velocity_linf", n[0].emax / U);
+    if (n[1].r2 > 0.0)
+        summary_real(to, "error.pressure_l2", norm_rms_mean_free(n + 1) / sqrt(n[1].r2 / n[1].vol));
+    summary_real(to, "error.pressure_rms", norm_rms_mean_free(n + 1) / scale);
+    summary_real(to, "error.pressure_offset", norm_mean(n + 1) / scale);
+    if (n[2].r2 > 0.0)
+        summary_real(to, "error.vorticity_l2", norm_relative_l2(n + 2));
+    for (int k = 0; s->run->coupled && k < NORMS; k++)
+        norm_tell(to, norm_names[k], n + k);
+}
+
+/* Energy: kinetic against the exact one where that is known, else all kinds against the start. */
+static void summarise_drifts(const struct sph *s)
+{
+    struct summary *to = s->run->summary;
+    double sums[SUM_COUNT], region = 1.0, p2 = 0.0, energy;
+    const bool given = !s->run->params || params_given(s->run->params, "initial.U");
+    const double U = given ? s->run->scene.initial.U : s->watch.reference;
+    sph_sums(s, sums);
+    for (int a = 0; a < s->dim; a++) {
+        region *= s->hi[a] - s->lo[a];
+        p2 += pow(sums[SUM_MOMENTUM + a] - s->momentum0[a], 2.0);
+    }
+    if (sph_has_exact(s->run)) {
+        const double expected = exact_kinetic(s);
+        energy = (sums[SUM_KINETIC] - expected) / expected;
+    } else {
+        energy = (sums[SUM_ENERGY] - s->energy0) / fmax(fabs(s->energy0), 0.5 * s->mass0 * U * U);
+    }
+    summary_real(to, "drift.mass", sums[SUM_MASS] / s->mass0 - 1.0);
+    summary_real(to, "drift.energy", energy);
+    summary_real(to, "drift.momentum", sqrt(p2) / (s->mass0 * U));
+    summary_real(to, "drift.volume", sums[SUM_VOLUME] / region - 1.0);
+}
+
+/* Pairs over the processor time of the stages: a loaded machine counts for nothing. */
+static double pair_rate(const struct sph *s)
+{
+    static const char *const stage[] = {"list",   "gradients", "rates", "halo",
+                                        "update", "zones",     "walls", "surface"};
+    double time = 0.0;
+    for (size_t k = 0; k < sizeof stage / sizeof stage[0]; k++)
+        time += timer_wall(&s->run->timers, stage[k]);
+    time = total(s, time);
+    time *= total(s, s->cpu_s) / fmax(total(s, s->wall_s), 1e-300);
+    return time > 0.0 ? total(s, (double)s->pairs) / time : 0.0;
+}
+
+static void summarise_modules(const struct sph *s)
+{
+    static const char *const limiters[] = {"koren", "minmod", "none"};
+    static const char *const transports[] = {"tvs", "tvo", "none", "eulerian", "xsph"};
+    const bool riemann = s->prm.scheme == SCHEME_RIEMANN_ALE || s->prm.scheme == SCHEME_RIEMANN;
+    const char *names[16];
+    int n = 0;
+    names[n++] = s->scheme->name;
+    if (riemann)
+        names[n++] = limiters[s->prm.limiter];
+    names[n++] = transports[s->prm.transport];
+    if (s->nu > 0.0)
+        names[n++] = s->prm.viscosity == VISCOSITY_MORRIS ? "morris" : "monaghan";
+    if (riemann && s->prm.low_dissipation)
+        names[n++] = "low_dissipation";
+    if (riemann && s->prm.damper > 0.0)
+        names[n++] = "damper";
+    if (s->walls)
+        names[n++] = s->walls->model->name;
+    if (s->surface)
+        names[n++] = "free_surface";
+    if (s->prm.background)
+        names[n++] = "background";
+    if (s->zones)
+        names[n++] = "zones";
+    summary_texts(s->run->summary, "modules", n, names);
+}
+
+void sph_finish(void *state)
+{
+    struct sph *s = state;
+    struct summary *to = s->run->summary;
+    const double rate = pair_rate(s); /* before the passes below */
+    integrate_gradients(s);
+    summarise_modules(s);
+    scene_meshes_summary(&s->run->scene, to);
+    summary_int(to, "particles", llround(total(s, s->p.n)));
+    if (s->walls)
+        summary_int(to, "particles_returned", llround(total(s, (double)s->walls->returned)));
+    summary_int(to, "particles_lost", llround(total(s, s->lost)));
+    if (sph_has_exact(s->run))
+        summarise_errors(s);
+    summarise_oscillation(s);
+    if (s->walls)
+        forces_summarise(s);
+    bodies_summarise(s);
+    if (s->dim == 2 && s->prm.extrema[0] != 0.0)
+        sph_summarise_extrema(s);
+    summarise_drifts(s);
+    summary_real(to, "max_mach", s->max_mach);
+    summary_real(to, "max_mach_late", s->mach_late);
+    summary_real(to, "spacing.min", least_spacing(s));
+    summary_real(to, "pairs_per_s", rate);
+    sph_watch_summarise(s);
+    if (s->zones) {
+        summary_real(to, "mass_fluctuation", s->fluctuation);
+        summary_real(to, "mass_fluctuation_particles", s->fluctuation_particles);
+        summary_int(to, "born", llround(births(s)));
+        summary_int(to, "gone", llround(removals(s)));
+    }
+}

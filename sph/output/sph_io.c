@@ -1,0 +1,349 @@
+/* sph_io.c - snapshots and restart files. SPDX-License-Identifier: BSD-3-Clause */
+#include "../sph.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "../../common/h5.h"
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../../common/xdmf.h"
+#include "../parallel/domain.h"
+#include "../particles/eos.h"
+#include "../bodies/bodies.h"
+#include "../walls/forces.h"
+#include "../open_boundaries/openings.h"
+#include "../sph_params.h"
+#include "../surface/surface.h"
+#include "../open_boundaries/zones.h"
+#include "wall_files.h"
+
+/* What particle i shows in a snapshot, v[ncomp]. */
+static void get_velocity(const struct sph *s, int i, double *v)
+{
+    for (int a = 0; a < 3; a++)
+        v[a] = a < s->dim ? prim_line(&s->p, i)[s->dim + a] : 0.0;
+}
+
+static void get_pressure(const struct sph *s, int i, double *v)
+{
+    *v = eos_p(prim_line(&s->p, i)[at_rho(s->dim)], s->rho0, s->c0, s->gamma);
+}
+
+static void get_density(const struct sph *s, int i, double *v)
+{
+    *v = prim_line(&s->p, i)[at_rho(s->dim)];
+}
+
+static void get_vorticity(const struct sph *s, int i, double *v)
+{
+    double w[3];
+    sph_vorticity(s, i, w);
+    if (s->dim == 3)
+        memcpy(v, w, sizeof w);
+    else
+        *v = w[2];
+}
+
+static void get_volume(const struct sph *s, int i, double *v)
+{
+    *v = prim_line(&s->p, i)[at_volume(s->dim)];
+}
+static void get_zone(const struct sph *s, int i, double *v) { *v = s->p.zone[i]; }
+static void get_age(const struct sph *s, int i, double *v)
+{
+    *v = s->zones ? openings_age(s, s->p.id[i]) : s->t;
+}
+
+/* Fields of a snapshot; ncomp 0: 1 in 2D and 3 in 3D. */
+static const struct field {
+    const char *name, *unit;
+    int ncomp;
+    void (*get)(const struct sph *s, int i, double *v);
+} fields[] = {
+    {"velocity", "m/s", 3, get_velocity},
+    {"pressure", "Pa", 1, get_pressure},
+    {"density", "kg/m^3", 1, get_density},
+    {"vorticity", "1/s", 0, get_vorticity},
+    {"volume", "m^dim", 1, get_volume},
+    {"zone", "-", 1, get_zone},
+    {"age", "s", 1, get_age},
+};
+enum { FIELDS = sizeof fields / sizeof fields[0] };
+
+/* Whether a word stands in the list of words. */
+static bool asked(const char *list, const char *word)
+{
+    const size_t n = strlen(word);
+    for (const char *p = strstr(list, word); p; p = strstr(p + 1, word))
+        if ((p == list || strchr(" ,", p[-1])) && (p[n] == '\0' || strchr(" ,", p[n])))
+            return true;
+    return false;
+}
+
+static void write_positions(const struct sph *s, struct h5 *f, double *v)
+{
+    for (int i = 0; i < s->p.n; i++)
+        memcpy(v + (size_t)i * s->dim, prim_line(&s->p, i), (size_t)s->dim * sizeof(double));
+    h5_write_real(f, "position", "m", s->p.n, s->dim, v, true);
+}
+
+static int components(const struct sph *s, const struct field *k)
+{
+    return k->ncomp ? k->ncomp : s->dim == 3 ? 3 : 1;
+}
+
+static void write_field(const struct sph *s, struct h5 *f, const struct field *k, double *v)
+{
+    const int ncomp = components(s, k);
+    for (int i = 0; i < s->p.n; i++)
+        k->get(s, i, v + (size_t)i * ncomp);
+    h5_write_real(f, k->name, k->unit, s->p.n, ncomp, v, true);
+}
+
+/* What a picture needs to know: spacing and corners of the region, level of the pressure outside.
+ */
+static void write_region(const struct sph *s, struct h5 *f)
+{
+    static const char *const lo[3] = {"xmin", "ymin", "zmin"}, *const hi[3] = {"xmax", "ymax",
+                                                                               "zmax"};
+    h5_attribute_real(f, "dx", s->dx);
+    if (s->zones) /* Pa: what it adds to a partner's pressure */
+        h5_attribute_real(f, "gauge", s->zones->gauge);
+    for (int a = 0; a < s->dim; a++) {
+        h5_attribute_real(f, lo[a], s->lo[a]);
+        h5_attribute_real(f, hi[a], s->hi[a]);
+    }
+}
+
+void sph_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
+{
+    struct sph *s = state;
+    const char *list = s->run->scene.output.fields;
+    struct xdmf_field shown[FIELDS];
+    int nshown = 0;
+    if (s->broken)
+        particles_lines(s);
+    else
+        integrate_gradients(s);
+    double *v = NEW(double, 3 * (size_t)s->p.n);
+    write_positions(s, f, v);
+    for (int k = 0; k < FIELDS; k++)
+        if (asked(list, fields[k].name)) {
+            write_field(s, f, fields + k, v);
+            shown[nshown++] = (struct xdmf_field){fields[k].name, components(s, fields + k)};
+        }
+    if (asked(list, "id"))
+        h5_write_int(f, "id", s->p.n, s->p.id);
+    mem_free(v);
+    write_region(s, f);
+    wall_files_snapshot(s, f, x, file);
+    int64_t all = s->p.n;
+    MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT64_T, MPI_SUM, s->run->comm);
+    if (x)
+        xdmf_points(x, s->t, file, all, s->dim, nshown, shown);
+}
+
+/* Numbers that are the same on all ranks and that the next step depends on or that are reported. */
+static const struct number {
+    const char *name;
+    size_t offset;
+} numbers[] = {
+#define NUMBER(member)                                                                             \
+    {                                                                                              \
+#member, offsetof(struct sph, member)                                                      \
+    }
+    NUMBER(skin),           NUMBER(signal),         NUMBER(dt_most),
+    NUMBER(stray),          NUMBER(drift[0]),       NUMBER(drift[1]),
+    NUMBER(drift[2]),       NUMBER(max_speed),      NUMBER(max_shift),
+    NUMBER(max_c),          NUMBER(rho_min),        NUMBER(rho_max),
+    NUMBER(max_mach),       NUMBER(fluctuation),    NUMBER(fluctuation_particles),
+    NUMBER(mass0),          NUMBER(energy0),        NUMBER(dt),
+    NUMBER(momentum0[0]),   NUMBER(momentum0[1]),   NUMBER(momentum0[2]),
+    NUMBER(force_time),     NUMBER(force_sum[0]),   NUMBER(force_sum[1]),
+    NUMBER(force_sum[2]),   NUMBER(force_sum2),     NUMBER(mach_late),
+    NUMBER(average_t),      NUMBER(average_time),   NUMBER(average_sum[0]),
+    NUMBER(average_sum[1]), NUMBER(average_sum[2]), NUMBER(shift_speed),
+    NUMBER(volume0),
+};
+enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
+
+static double *number(struct sph *s, int k) { return (double *)((char *)s + numbers[k].offset); }
+
+/* Samples of what swings, so that a restarted run fits all of them. */
+static void save_signal(const struct sph *s, struct h5 *f)
+{
+    const struct fit *g = &s->signal_fit;
+    const int n = s->run->rank == 0 ? g->n : 0;
+    double *rows = NEW(double, 2 * (size_t)g->n);
+    for (int k = 0; k < g->n; k++) {
+        rows[2 * k] = g->t[k];
+        rows[2 * k + 1] = g->v[k];
+    }
+    h5_write_real(f, "signal", "s, -", n, 2, rows, false);
+    mem_free(rows);
+}
+
+static void read_signal(struct sph *s, struct h5 *f)
+{
+    int64_t n;
+    double *rows = h5_read_all_real(f, "signal", 2, &n);
+    for (int64_t k = 0; rows && k < n; k++)
+        fit_add(&s->signal_fit, rows[2 * k], rows[2 * k + 1]);
+    mem_free(rows);
+}
+
+/* Who lies on a surface: windows begin with what the last step has found. */
+static void save_surface(const struct sph *s, struct h5 *f)
+{
+    int64_t *is = NEW(int64_t, s->p.n);
+    for (int i = 0; i < s->p.n && i < s->surface->capacity; i++)
+        is[i] = s->surface->is[i];
+    h5_write_int(f, "surface", s->p.n, is);
+    mem_free(is);
+}
+
+/* None where the file does not say. */
+static void read_surface(struct sph *s, struct h5 *f)
+{
+    int64_t *is = NEW(int64_t, s->p.n);
+    h5_read_int(f, "surface", s->p.n, is);
+    surface_room(s->surface, s->p.n, s->dim);
+    for (int i = 0; i < s->p.n; i++)
+        s->surface->is[i] = (unsigned char)is[i];
+    mem_free(is);
+}
+
+void sph_checkpoint(void *state, struct h5 *f)
+{
+    struct sph *s = state;
+    int64_t *zone = NEW(int64_t, s->p.n);
+    for (int i = 0; i < s->p.n; i++)
+        zone[i] = s->p.zone[i];
+    h5_write_real(f, "state", "x, m u, w, m", s->p.n, s->p.nstate, s->p.y, false);
+    h5_write_int(f, "id", s->p.n, s->p.id);
+    h5_write_int(f, "zone", s->p.n, zone);
+    h5_write_int(f, "next_id", 1, &s->next_id);
+    h5_write_real(f, "lost", "-", 1, 1, &s->lost, false);
+    mem_free(zone);
+    if (s->surface)
+        save_surface(s, f);
+    if (s->signal_fit.n > 0)
+        save_signal(s, f);
+    for (int k = 0; k < NUMBERS; k++)
+        h5_attribute_real(f, numbers[k].name, *number(s, k));
+    h5_attribute_text(f, "limited_by", s->limited_by);
+    write_region(s, f);
+    wall_files_save(s, f);
+    sph_watch_save(s, f);
+    domain_save(s, f);
+    if (s->zones)
+        zones_save(s, f);
+    if (s->walls)
+        forces_save(s, f);
+    if (s->walls && s->walls->any_free)
+        bodies_save(s, f);
+}
+
+static bool read_particles(struct sph *s, struct h5 *f)
+{
+    const int64_t n = h5_share(f, "state");
+    if (n < 0)
+        return false;
+    int64_t *zone = NEW(int64_t, n);
+    particles_reserve(&s->p, (int)n);
+    const bool fits = h5_read_real(f, "state", n, s->p.nstate, s->p.y) &&
+                      h5_read_int(f, "id", n, s->p.id) && h5_read_int(f, "zone", n, zone);
+    for (int64_t i = 0; fits && i < n; i++)
+        s->p.zone[i] = (unsigned char)zone[i];
+    s->p.n = fits ? (int)n : 0;
+    mem_free(zone);
+    return fits;
+}
+
+/* The next id of this rank: its own, or on another number of ranks above all of theirs. */
+static bool read_next_id(struct sph *s, struct h5 *f)
+{
+    const int64_t size = s->run->size, rank = s->run->rank;
+    int64_t n, most = 0;
+    int64_t *all = h5_read_all_int(f, "next_id", &n);
+    for (int64_t k = 0; all && k < n; k++)
+        most = all[k] > most ? all[k] : most;
+    s->next_id = all && n == size ? all[rank] : (most + size) / size * size + rank;
+    mem_free(all);
+    return all != NULL;
+}
+
+static bool read_numbers(struct sph *s, struct h5 *f)
+{
+    if (!read_next_id(s, f) || !h5_read_parts(f, "lost", 1, &s->lost))
+        return false;
+    for (int k = 0; k < NUMBERS; k++)
+        if (!h5_read_attribute_real(f, numbers[k].name, number(s, k)))
+            return false;
+    sph_params_dt(&s->prm, s->nu, s->signal, &s->limited_by);
+    return true;
+}
+
+/* What the file is of: spacing and region. Says what differs. */
+static bool same_region(const struct sph *s, struct h5 *f)
+{
+    const struct corner {
+        const char *name;
+        double now;
+    } wanted[] = {{"dx", s->dx},      {"xmin", s->lo[0]}, {"xmax", s->hi[0]}, {"ymin", s->lo[1]},
+                  {"ymax", s->hi[1]}, {"zmin", s->lo[2]}, {"zmax", s->hi[2]}};
+    double any;
+    const bool solid = h5_read_attribute_real(f, "zmin", &any);
+    if (h5_read_attribute_real(f, "dx", &any) && solid != (s->dim == 3)) {
+        log_say("the restart file is of %d dimensions, the case of %d", solid ? 3 : 2, s->dim);
+        return false;
+    }
+    for (int k = 0; k < 1 + 2 * s->dim; k++) {
+        double then;
+        if (h5_read_attribute_real(f, wanted[k].name, &then) && then != wanted[k].now) {
+            log_say("the restart file is of another case: %s = %.10g m, here %.10g m",
+                    wanted[k].name, then, wanted[k].now);
+            return false;
+        }
+    }
+    return true;
+}
+
+/* What the file lacks, NULL: nothing. */
+static const char *missing(struct sph *s, struct h5 *f)
+{
+    if (!read_particles(s, f))
+        return "particles";
+    if (!read_numbers(s, f))
+        return "numbers of the run";
+    if (!sph_watch_load(s, f))
+        return "watches";
+    if (!domain_load(s, f))
+        return "partition";
+    if (s->zones && !zones_load(s, f))
+        return "open sides";
+    if (s->walls && !forces_load(s, f))
+        return "forces on walls";
+    if (s->walls && !bodies_load(s, f))
+        return "free bodies";
+    return NULL;
+}
+
+bool sph_restore(struct sph *s, struct h5 *f)
+{
+    if (!same_region(s, f) || !wall_files_fit(s, f))
+        return false;
+    const char *lacks = missing(s, f);
+    if (lacks && h5_ranks(f) == 0)
+        log_say("the restart file is of another number of ranks, or has no %s that fit this case: "
+                "files of this age are read by the number of ranks that wrote them",
+                lacks);
+    else if (lacks)
+        log_say("the restart file has no %s that fit this case", lacks);
+    if (s->surface)
+        read_surface(s, f);
+    read_signal(s, f);
+    s->ready = false;
+    return !lacks;
+}

@@ -1,0 +1,176 @@
+/* wall_files.c - see wall_files.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "wall_files.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/h5.h"
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../../common/scene_mesh.h"
+#include "../../common/xdmf.h"
+#include "../walls/walls.h"
+
+enum { SURFACES = WALLS_MAX + BODIES_MAX };
+
+static bool is_shown(const struct wall_mesh *m) { return m->of != NULL; }
+
+/* Vertices where the mesh is now; rank 0 writes them all. */
+static void write_vertices(const struct sph *s, struct h5 *f, const struct wall_mesh *m,
+                           const char *name)
+{
+    const int n = s->run->rank == 0 ? m->mesh.nvertices : 0;
+    double *x = NEW(double, 3 * (size_t)n);
+    for (int v = 0; v < n; v++)
+        wall_mesh_to_world(m, m->mesh.x[v], x + 3 * (size_t)v);
+    h5_write_real(f, name, "m", n, 3, x, true);
+    mem_free(x);
+}
+
+static void write_triangles(const struct sph *s, struct h5 *f, const struct wall_mesh *m,
+                            const char *name)
+{
+    const int64_t n = s->run->rank == 0 ? 3 * (int64_t)m->mesh.ntriangles : 0;
+    int64_t *v = NEW(int64_t, n);
+    for (int64_t k = 0; k < n; k++)
+        v[k] = m->mesh.vertex[k / 3][k % 3];
+    h5_write_int(f, name, n, v);
+    mem_free(v);
+}
+
+static void names_of(const struct wall_mesh *m, char x[80], char v[80])
+{
+    snprintf(x, 80, "vertices_%s", m->of->name);
+    snprintf(v, 80, "triangles_%s", m->of->name);
+}
+
+static void write_meshes(const struct sph *s)
+{
+    char path[1200], x[80], v[80];
+    snprintf(path, sizeof path, "%s/sph_walls.h5", s->run->dir);
+    struct h5 *f = h5_create(s->run->comm, path);
+    for (int k = 0; k < s->walls->nmeshes; k++) {
+        const struct wall_mesh *m = s->walls->meshes + k;
+        if (!is_shown(m))
+            continue;
+        names_of(m, x, v);
+        write_triangles(s, f, m, v);
+        if (m->body < 0)
+            write_vertices(s, f, m, x);
+    }
+    h5_close(&f);
+}
+
+static void show(const struct sph *s, const char *file)
+{
+    static const char own[] = "sph_walls.h5";
+    struct xdmf_surface of[SURFACES];
+    int n = 0;
+    for (int k = 0; k < s->walls->nmeshes; k++) {
+        const struct wall_mesh *m = s->walls->meshes + k;
+        if (!is_shown(m))
+            continue;
+        struct xdmf_surface *to = of + n++;
+        names_of(m, to->vertices, to->triangles);
+        to->name = m->of->name;
+        to->vertices_file = m->body < 0 ? own : file;
+        to->triangles_file = own;
+        to->nvertices = m->mesh.nvertices;
+        to->ntriangles = m->mesh.ntriangles;
+    }
+    xdmf_surfaces(s->walls->view, s->t, n, of);
+}
+
+/* Outlines of bodies in the plane where they are now; rank 0 writes them. */
+static void show_outlines(struct sph *s, struct h5 *f, const struct xdmf *x, const char *file)
+{
+    struct walls *w = s->walls;
+    const char *names[BODIES_MAX];
+    int n[BODIES_MAX];
+    for (int k = 0; k < w->nbodies; k++) {
+        const struct param_points *p = &w->bodies[k].is->points;
+        double at[PARAM_POINTS_MAX][2];
+        char name[32];
+        names[k] = w->bodies[k].is->name;
+        n[k] = p->n;
+        for (int i = 0; i < p->n; i++)
+            body_place(w->bodies + k, p->x[i], at[i]);
+        snprintf(name, sizeof name, "outline_%d", k + 1);
+        h5_write_real(f, name, "m", s->run->rank == 0 ? p->n : 0, 2, &at[0][0], true);
+    }
+    if (x && !w->view) {
+        char path[1200];
+        snprintf(path, sizeof path, "%s/sph_walls.xdmf", s->run->dir);
+        w->view = xdmf_create(path, s->run->restart, s->t);
+    }
+    if (x)
+        xdmf_outlines(w->view, s->t, file, w->nbodies, names, n);
+}
+
+void wall_files_snapshot(struct sph *s, struct h5 *f, const struct xdmf *x, const char *file)
+{
+    struct walls *w = s->walls;
+    bool any = false, moving = false;
+    const bool first = w && !w->shown;
+    if (w && s->dim == 2 && w->nbodies > 0)
+        show_outlines(s, f, x, file);
+    for (int k = 0; w && k < w->nmeshes; k++) {
+        any = any || is_shown(w->meshes + k);
+        moving = moving || (is_shown(w->meshes + k) && w->meshes[k].body >= 0);
+    }
+    if (!any || (!first && !moving))
+        return;
+    if (first)
+        write_meshes(s);
+    w->shown = true;
+    for (int k = 0; k < w->nmeshes; k++) {
+        char places[80], v[80];
+        if (!is_shown(w->meshes + k) || w->meshes[k].body < 0)
+            continue;
+        names_of(w->meshes + k, places, v);
+        write_vertices(s, f, w->meshes + k, places);
+    }
+    if (!x)
+        return;
+    if (!w->view) {
+        char path[1200];
+        snprintf(path, sizeof path, "%s/sph_walls.xdmf", s->run->dir);
+        w->view = xdmf_create(path, s->run->restart && moving, s->t);
+    }
+    show(s, file);
+}
+
+static void hash_name(const struct wall_mesh *m, char name[80])
+{
+    snprintf(name, 80, "mesh_%s", m->of->name);
+}
+
+void wall_files_save(const struct sph *s, struct h5 *f)
+{
+    for (int k = 0; s->walls && k < s->walls->nmeshes; k++) {
+        char name[80];
+        if (!is_shown(s->walls->meshes + k))
+            continue;
+        hash_name(s->walls->meshes + k, name);
+        h5_attribute_int(f, name, (int64_t)s->walls->meshes[k].of->hash);
+    }
+}
+
+bool wall_files_fit(const struct sph *s, struct h5 *f)
+{
+    for (int k = 0; s->walls && k < s->walls->nmeshes; k++) {
+        const struct wall_mesh *m = s->walls->meshes + k;
+        char name[80];
+        int64_t then;
+        if (!is_shown(m))
+            continue;
+        hash_name(m, name);
+        if (h5_read_attribute_int(f, name, &then) && then == (int64_t)m->of->hash)
+            continue;
+        log_say("the restart file is of another mesh %s: its file, or scale, rotate, translate or "
+                "weld have changed; start anew, or bring the old ones back",
+                m->of->name);
+        return false;
+    }
+    return true;
+}

@@ -1,0 +1,455 @@
+/* neighbours.c - cell grid and Verlet list. Locals are stored in the order of the cells, so what a
+ * cell finds around it is a few runs; they are copied side by side once a cell, and every particle
+ * of the cell filters that copy. SPDX-License-Identifier: BSD-3-Clause */
+#include "neighbours.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "vec.h"
+
+/* Cells [0, cells) along each axis, the outermost for ghosts only. */
+struct grid {
+    int dim, n;
+    double lo[3], edge_1; /* m, 1/m */
+    int cells[3];
+    int total;
+    int *first; /* [total + 1] first local of each cell */
+    int *ghost; /* [total + 1] first of each cell in order */
+    int *order; /* ghosts by cell */
+    int first_capacity, order_capacity;
+    int *cell; /* of each particle that is being sorted */
+    int cell_capacity;
+    /* what lies around one cell */
+    int near, near_capacity;
+    double *x[3];
+    int *id;
+};
+
+struct neighbours *neighbours_create(void)
+{
+    struct neighbours *l = NEW(struct neighbours, 1);
+    l->grid = NEW(struct grid, 1);
+    return l;
+}
+
+void neighbours_free(struct neighbours **l)
+{
+    if (!*l)
+        return;
+    struct grid *g = (*l)->grid;
+    mem_free(g->first);
+    mem_free(g->ghost);
+    mem_free(g->order);
+    mem_free(g->cell);
+    for (int a = 0; a < 3; a++)
+        mem_free(g->x[a]);
+    mem_free(g->id);
+    mem_free(g);
+    mem_free((*l)->start);
+    mem_free((*l)->count);
+    mem_free((*l)->tail);
+    mem_free((*l)->order);
+    mem_free((*l)->whole);
+    mem_free((*l)->close);
+    mem_free((*l)->j);
+    mem_free(*l);
+    *l = NULL;
+}
+
+/* Grows an array whose contents do not matter. */
+#define ROOM(p, capacity, wanted)                                                                  \
+    do {                                                                                           \
+        if ((wanted) > (capacity)) {                                                               \
+            mem_free(p);                                                                           \
+            (capacity) = (wanted) + (wanted) / 4 + 64;                                             \
+            (p) = mem_new((size_t)(capacity), sizeof *(p));                                        \
+        }                                                                                          \
+    } while (0)
+
+static void bound_locals(const struct sph *s, double lo[3], double hi[3])
+{
+    for (int a = 0; a < s->dim; a++) {
+        lo[a] = INFINITY;
+        hi[a] = -INFINITY;
+        for (int i = 0; i < s->p.n; i++) {
+            const double x = s->p.y[(size_t)i * s->p.nstate + a];
+            lo[a] = x < lo[a] ? x : lo[a];
+            hi[a] = x > hi[a] ? x : hi[a];
+        }
+        if (!(fabs(hi[a] - lo[a]) < INFINITY)) /* none, or none that is finite */
+            lo[a] = hi[a] = 0.0;
+    }
+}
+
+/* Box of the locals in cells of the reach, with one layer more for ghosts. Should particles fly
+ * apart, cells grow instead of their number. */
+static void lay_grid(struct grid *g, const struct sph *s)
+{
+    double hi[3], edge = (1.0 + 1e-9) * (s->R + s->skin);
+    const double most = 64.0 + 8.0 * s->p.n;
+    g->dim = s->dim;
+    g->n = s->p.n;
+    bound_locals(s, g->lo, hi);
+    for (;; edge *= 1.26) {
+        double total = 1.0;
+        for (int a = 0; a < s->dim; a++)
+            total *= floor((hi[a] - g->lo[a]) / edge) + 3.0;
+        if (total <= most)
+            break;
+    }
+    g->edge_1 = 1.0 / edge;
+    g->total = 1;
+    for (int a = 0; a < 3; a++) {
+        g->cells[a] = a < s->dim ? (int)floor((hi[a] - g->lo[a]) / edge) + 3 : 1;
+        g->total *= g->cells[a];
+    }
+}
+
+/* margin 1 for locals, 0 for ghosts. What lies outside goes to the outermost cells; so does NaN. */
+static int cell_of(const struct grid *g, const double *x, int margin)
+{
+    int cell = 0;
+    for (int a = g->dim - 1; a >= 0; a--) {
+        const double c = (x[a] - g->lo[a]) * g->edge_1 + 1.0;
+        const int last = g->cells[a] - 1 - margin;
+        cell = cell * g->cells[a] + (c > margin ? c < last ? (int)c : last : margin);
+    }
+    return cell;
+}
+
+/* Stable counting sort of n rows by cell: first[cell], order. */
+static void sort_rows(struct grid *g, const double *rows, int width, int n, int margin, int *first,
+                      int *order)
+{
+    ROOM(g->cell, g->cell_capacity, n);
+    memset(first, 0, ((size_t)g->total + 1) * sizeof *first);
+    for (int i = 0; i < n; i++) {
+        g->cell[i] = cell_of(g, rows + (size_t)i * width, margin);
+        first[g->cell[i] + 1]++;
+    }
+    for (int c = 0; c < g->total; c++)
+        first[c + 1] += first[c];
+    for (int i = 0; i < n; i++)
+        order[first[g->cell[i]]++] = i;
+    memmove(first + 1, first, (size_t)g->total * sizeof *first);
+    first[0] = 0;
+}
+
+void neighbours_sort(struct sph *s)
+{
+    struct grid *g = s->list->grid;
+    lay_grid(g, s);
+    int ghost_capacity = g->first_capacity;
+    ROOM(g->ghost, ghost_capacity, g->total + 1);
+    ROOM(g->first, g->first_capacity, g->total + 1);
+    ROOM(g->order, g->order_capacity, s->p.n);
+    sort_rows(g, s->p.y, s->p.nstate, s->p.n, 1, g->first, g->order);
+    particles_permute(&s->p, s->p.n, g->order);
+}
+
+static void near_room(struct grid *g, int n)
+{
+    if (n <= g->near_capacity)
+        return;
+    int capacity = 0;
+    for (int a = 0; a < 3; a++) {
+        capacity = 0;
+        ROOM(g->x[a], capacity, n);
+    }
+    capacity = 0;
+    ROOM(g->id, capacity, n);
+    g->near_capacity = capacity;
+}
+
+/* Box of the particles of a cell. */
+struct box {
+    double lo[3], hi[3], reach2;
+};
+
+static struct box box_of(const struct sph *s, const struct grid *g, int cell, double reach)
+{
+    struct box b = {.reach2 = reach * reach};
+    for (int a = 0; a < g->dim; a++) {
+        b.lo[a] = INFINITY;
+        b.hi[a] = -INFINITY;
+        for (int i = g->first[cell]; i < g->first[cell + 1]; i++) {
+            const double x = prim_line(&s->p, i)[a];
+            b.lo[a] = x < b.lo[a] ? x : b.lo[a];
+            b.hi[a] = x > b.hi[a] ? x : b.hi[a];
+        }
+    }
+    return b;
+}
+
+/* Copies a particle that is within reach of the box: written in any case, counted if so. */
+INLINE void copy_near(const struct sph *s, struct grid *g, const struct box *b, int id,
+                      const int dim)
+{
+    const double *x = prim_line(&s->p, id);
+    double r2 = 0.0;
+    for (int a = 0; a < dim; a++) {
+        const double below = b->lo[a] - x[a], above = x[a] - b->hi[a];
+        const double out = below > above ? below : above;
+        r2 += out > 0.0 ? out * out : 0.0;
+        g->x[a][g->near] = x[a];
+    }
+    g->id[g->near] = id;
+    g->near += r2 < b->reach2;
+}
+
+/* First cells of the rows of three around `cell'; returns their number. */
+static int rows_around(const struct grid *g, int cell, int rows[9])
+{
+    const int nx = g->cells[0], ny = g->cells[1], layers = g->dim == 3 ? 1 : 0;
+    int n = 0;
+    for (int k = -layers; k <= layers; k++)
+        for (int j = -1; j <= 1; j++)
+            rows[n++] = cell - 1 + nx * (j + ny * k);
+    return n;
+}
+
+/* Particles of the cells around `cell': locals in ascending order, then ghosts. */
+INLINE void look_around(const struct sph *s, struct grid *g, int cell, double reach, const int dim)
+{
+    const struct box box = box_of(s, g, cell, reach);
+    int rows[9], most = 0;
+    const int nrows = rows_around(g, cell, rows);
+    for (int k = 0; k < nrows; k++)
+        most +=
+            g->first[rows[k] + 3] - g->first[rows[k]] + g->ghost[rows[k] + 3] - g->ghost[rows[k]];
+    near_room(g, most + LANES);
+    g->near = 0;
+    for (int k = 0; k < nrows; k++)
+        for (int i = g->first[rows[k]]; i < g->first[rows[k] + 3]; i++)
+            copy_near(s, g, &box, i, dim);
+    for (int k = 0; k < nrows; k++)
+        for (int i = g->ghost[rows[k]]; i < g->ghost[rows[k] + 3]; i++)
+            copy_near(s, g, &box, g->n + g->order[i], dim);
+}
+
+/* Appends those of the surroundings from .. end-1 that are within reach of x; may look and write up
+ * to LANES - 1 entries further. least: gets the least square of their distances, or less. */
+INLINE int append(const struct grid *g, int from, int end, const double *x, double reach2,
+                  int *restrict j, vec *least, const int dim)
+{
+    typedef double near_vec __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
+    const double *X = g->x[0], *Y = g->x[1], *Z = g->x[2];
+    const int *id = g->id;
+    const vec x0 = vec_all(x[0]), x1 = vec_all(x[1]), x2 = vec_all(dim == 3 ? x[2] : 0.0);
+    const vec reach = vec_all(reach2);
+    ptrdiff_t n = 0;
+    for (ptrdiff_t k = from; k < end; k += LANES) {
+        const vec a = *(const near_vec *)(X + k) - x0, b = *(const near_vec *)(Y + k) - x1;
+        vec r2 = a * a + b * b;
+        if (dim == 3) {
+            const vec c = *(const near_vec *)(Z + k) - x2;
+            r2 += c * c;
+        }
+        *least = vec_min(*least, r2);
+        unsigned near = vec_less(r2, reach);
+        if (end - k < LANES)
+            near &= (1u << (end - k)) - 1u;
+        n += vec_pack(j + n, id + k, near);
+    }
+    return (int)n;
+}
+
+/* Entries to come after row i, which begins at `at': as many a row as so far, once there are enough
+ * of them, and some more. */
+static int64_t growth(const struct neighbours *l, int i, int64_t at)
+{
+    return i <= l->n / 8 ? at / 2 : (int64_t)(1.05 * (double)at / i * (l->n - i)) + at / 32;
+}
+
+/* Pairs of row i with j > i closer than that. */
+static void add_close(const struct sph *s, int i, double close2)
+{
+    struct neighbours *l = s->list;
+    const double *x = prim_line(&s->p, i);
+    for (int k = l->tail[i]; k < l->count[i]; k++) {
+        const int j = l->j[l->start[i] + k];
+        const double *y = prim_line(&s->p, j);
+        double r2 = 0.0;
+        for (int a = 0; a < s->dim; a++)
+            r2 += (y[a] - x[a]) * (y[a] - x[a]);
+        if (r2 >= close2)
+            continue;
+        if (l->nclose == l->close_capacity) {
+            const int more = 2 * l->close_capacity + 64;
+            GROW(l->close, l->close_capacity, more);
+            l->close_capacity = more;
+        }
+        l->close[l->nclose][0] = i;
+        l->close[l->nclose++][1] = j;
+    }
+}
+
+INLINE void list_cell(struct sph *s, int cell, const int dim)
+{
+    struct neighbours *l = s->list;
+    struct grid *g = l->grid;
+    const double reach = s->R + s->skin, reach2 = reach * reach;
+    const double enough = 0.88 * (dim == 2 ? M_PI : 4.0 / 3.0 * M_PI) * pow(reach / s->dx, dim);
+    const double close = l->touching > 0.0 ? l->touching + reach - s->R : 0.0;
+    const double close2 = close * close;
+    const vec within = vec_all(reach2);
+    int self = 0;
+    look_around(s, g, cell, reach, dim);
+    while (g->id[self] != g->first[cell])
+        self++;
+    for (int i = g->first[cell]; i < g->first[cell + 1]; i++, self++) {
+        const int64_t at = l->start[i], most = at + g->near + 2 * LANES;
+        if (most > l->capacity) {
+            const int64_t more = most + growth(l, i, at);
+            GROW(l->j, l->capacity, more);
+            l->capacity = more;
+        }
+        const double *x = prim_line(&s->p, i);
+        int *j = l->j + at;
+        vec spare = within, least = within;
+        const int before = append(g, 0, self, x, reach2, j, &spare, dim);
+        l->tail[i] = before;
+        l->count[i] = before + append(g, self + 1, g->near, x, reach2, j + before, &least, dim);
+        l->whole[i] = l->count[i] + 1 >= enough;
+        if (vec_less(least, vec_all(close2)))
+            add_close(s, i, close2);
+        for (int k = 0; k < LANES - 1; k++)
+            j[l->count[i] + k] = s->p.capacity;
+        l->start[i + 1] = at + l->count[i] + LANES - 1;
+    }
+}
+
+static void build_2d(struct sph *s)
+{
+    const struct grid *g = s->list->grid;
+    for (int cell = 0; cell < g->total; cell++)
+        if (g->first[cell + 1] > g->first[cell])
+            list_cell(s, cell, 2);
+}
+
+static void build_3d(struct sph *s)
+{
+    const struct grid *g = s->list->grid;
+    for (int cell = 0; cell < g->total; cell++)
+        if (g->first[cell + 1] > g->first[cell])
+            list_cell(s, cell, 3);
+}
+
+/* Ghosts stand at the end of a row. */
+static bool is_inner(const struct neighbours *l, int i)
+{
+    return l->count[i] == 0 || l->j[l->start[i] + l->count[i] - 1] < l->n;
+}
+
+static void order_rows(struct neighbours *l)
+{
+    int outer = 0;
+    l->ninner = 0;
+    ROOM(l->order, l->order_capacity, l->n);
+    for (int i = 0; i < l->n; i++)
+        l->ninner += is_inner(l, i);
+    for (int i = 0, inner = 0; i < l->n; i++)
+        if (is_inner(l, i))
+            l->order[inner++] = i;
+        else
+            l->order[l->ninner + outer++] = i;
+}
+
+void neighbours_rows(struct neighbours *l, enum rows which)
+{
+    l->begin = which == ROWS_OUTER ? l->ninner : 0;
+    l->end = which == ROWS_INNER ? l->ninner : l->n;
+    l->first = which != ROWS_OUTER || l->ninner == 0;
+    l->last = which != ROWS_INNER; /* no outer rows: an empty part ends the pass */
+}
+
+void neighbours_build(struct sph *s)
+{
+    struct neighbours *l = s->list;
+    struct grid *g = l->grid;
+    const int n = s->p.n;
+    require(n == g->n); /* neighbours_sort has been here */
+    if (n + 1 > l->rows_capacity) {
+        int capacity = l->rows_capacity;
+        ROOM(l->start, capacity, n + 1);
+        capacity = l->rows_capacity;
+        ROOM(l->count, capacity, n + 1);
+        capacity = l->rows_capacity;
+        ROOM(l->whole, capacity, n + 1);
+        ROOM(l->tail, l->rows_capacity, n + 1);
+    }
+    l->n = n;
+    l->start[0] = 0;
+    l->nclose = 0;
+    ROOM(g->order, g->order_capacity, s->p.nghost);
+    sort_rows(g, prim_line(&s->p, n), PRIM, s->p.nghost, 0, g->ghost, g->order);
+    if (s->dim == 2)
+        build_2d(s);
+    else
+        build_3d(s);
+    if (s->run->size > 1)
+        order_rows(l);
+    neighbours_rows(l, ROWS_ALL);
+}
+
+double *neighbours_sums(struct sph *s, int width)
+{
+    double *sums = s->p.rate;
+    const size_t used = ((size_t)s->p.n + (size_t)s->p.nghost) * (size_t)width;
+    require(width <= s->p.nstate);
+    if (s->list->first) {
+        memset(sums, 0, used * sizeof(double));
+        memset(sums + (size_t)s->p.capacity * (size_t)width, 0, (size_t)width * sizeof(double));
+    }
+    return sums;
+}
+
+int64_t neighbours_pairs(const struct sph *s)
+{
+    const struct neighbours *l = s->list;
+    int64_t pairs = 0;
+    for (int i = 0; i < l->n; i++) {
+        const double *x = prim_line(&s->p, i);
+        const int *j = l->j + l->start[i];
+        for (int k = 0; k < l->count[i]; k++) {
+            const double *xj = prim_line(&s->p, j[k]);
+            double r2 = 0.0;
+            for (int a = 0; a < s->dim; a++)
+                r2 += (x[a] - xj[a]) * (x[a] - xj[a]);
+            pairs += r2 < s->R * s->R;
+        }
+    }
+    return pairs;
+}
+
+INLINE double least_pair(const struct sph *s, const int dim)
+{
+    const struct neighbours *l = s->list;
+    vec least = vec_all(s->R * s->R);
+    for (int i = 0; i < l->n; i++) {
+        const double *x = prim_line(&s->p, i);
+        const int *j = l->j + l->start[i] + l->tail[i], *end = l->j + l->start[i] + l->count[i];
+        for (; j < end; j += LANES) {
+            vec d[3], spare, r2;
+            vec_columns(s->p.prim, PRIM, j, 0, d, d + 1);
+            if (dim == 3)
+                vec_columns(s->p.prim, PRIM, j, 2, d + 2, &spare);
+            for (int a = 0; a < dim; a++)
+                d[a] -= x[a];
+            r2 = vec_dot(d, d, dim);
+            least = vec_min(least, r2);
+        }
+    }
+    double r2 = least[0];
+    for (int k = 1; k < LANES; k++)
+        r2 = least[k] < r2 ? least[k] : r2;
+    return sqrt(r2);
+}
+
+double neighbours_least(const struct sph *s)
+{
+    return s->dim == 2 ? least_pair(s, 2) : least_pair(s, 3);
+}

@@ -1,0 +1,35 @@
+/* scheme.h - what a pair interaction provides. Both passes run over the list of s->list with prim
+ * (and slope) of locals and ghosts; dimension, viscosity, limiter are constants of one body each.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_SCHEME_H
+#define SPH_SCHEME_H
+
+#include "../sph.h"
+
+typedef void scheme_pass(struct sph *s);
+
+/* struct scheme (sph.h):
+ * gradients, first pass (one-sided): renormalised gradients of rho and u and the transport velocity
+ * of every local particle into slope; zero slope where M is nearly singular (smallest eigenvalue <
+ * 0.1), in full above 0.2; rates, second pass (symmetric): p.rate of every local particle from prim
+ * and slope. */
+
+/* The passes that the parameters of s name. */
+struct scheme scheme_pick(const struct sph *s);
+
+/* All slopes, whatever the scheme needs of them: for output. */
+scheme_pass *scheme_gradients(int dim, int transport);
+/* Those of rho alone, and u0 = u. */
+scheme_pass *scheme_density_gradients(int dim);
+scheme_pass *scheme_rates(const struct sph *s);       /* riemann_ale, riemann */
+scheme_pass *scheme_delta_rates(const struct sph *s); /* delta, standard */
+
+/* Adds to the rates of particle i what delta and standard take along with the shift, and no pair
+ * has. */
+void scheme_take_along(const struct sph *s, int i, double *rate);
+
+/* P_min = max(0, -min P) over all particles of all ranks [2.105], Pa; 0 if it is off. Collective
+ * over s->run->comm. */
+double scheme_background(const struct sph *s);
+
+#endif

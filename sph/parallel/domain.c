@@ -1,0 +1,651 @@
+/* domain.c - orthogonal recursive bisection over the ranks, migration, ghosts and their halo.
+ * The tree needs no pointers: a node is a range of ranks [a, b), cut before rank m = a + (b - a)/2
+ * by cuts[m - 1]; ranks left of it are a .. m-1. SPDX-License-Identifier: BSD-3-Clause */
+#include "domain.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/h5.h"
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../pairs/neighbours.h"
+
+/* WORK: of a particle besides its pairs, as a number of them: sort, list, update, row overhead. */
+enum { BINS = 256, PASSES = 2, TAG_COUNT = 31, TAG_LINES = 32, WORK = 8 };
+
+struct cut {
+    int axis;
+    double at;
+};
+
+/* What goes to and comes from one rank each exchange; this rank itself for periodic images. */
+struct peer {
+    int rank;
+    int nsend, capacity;
+    int *who;             /* local particle of each line sent */
+    unsigned char *image; /* which periodic image of it, base 3 digits of shift + 1 */
+    double *lines;        /* packed */
+    int nrecv, first;     /* its ghosts: first .. first + nrecv - 1 */
+};
+
+struct domain {
+    MPI_Comm comm; /* borrowed */
+    int dim, rank, size;
+    bool periodic[3];
+    double lo[3], hi[3];
+    struct cut *cuts;    /* [size - 1] */
+    double (*box)[2][3]; /* [size] */
+    int npeers;
+    struct peer *peers;    /* ascending rank */
+    MPI_Request *requests; /* [2 npeers] */
+    int nrequests;
+};
+
+/* Part of the tree under construction: ranks, box, this rank's particles in it. */
+struct node {
+    int first, end;
+    double lo[3], hi[3];
+    int *who;
+    const int *work; /* of each local particle */
+    int n;
+};
+
+static int longest_axis(const struct node *t, int dim)
+{
+    int axis = 0;
+    for (int a = 1; a < dim; a++)
+        if (t->hi[a] - t->lo[a] > t->hi[axis] - t->lo[axis])
+            axis = a;
+    return axis;
+}
+
+int domain_owner(const struct domain *d, const double *x)
+{
+    int first = 0, end = d->size;
+    while (end - first > 1) {
+        const int m = first + (end - first) / 2;
+        const struct cut *c = d->cuts + m - 1;
+        if (x[c->axis] < c->at)
+            end = m;
+        else
+            first = m;
+    }
+    return first;
+}
+
+void domain_bounds(const struct domain *d, double lo[3], double hi[3])
+{
+    memcpy(lo, d->box[d->rank][0], 3 * sizeof(double));
+    memcpy(hi, d->box[d->rank][1], 3 * sizeof(double));
+}
+
+/* Boxes of all ranks from the cuts. */
+static void make_boxes(struct domain *d)
+{
+    for (int r = 0; r < d->size; r++) {
+        int first = 0, end = d->size;
+        memcpy(d->box[r][0], d->lo, sizeof d->lo);
+        memcpy(d->box[r][1], d->hi, sizeof d->hi);
+        while (end - first > 1) {
+            const int m = first + (end - first) / 2;
+            const struct cut *c = d->cuts + m - 1;
+            d->box[r][r < m][c->axis] = c->at;
+            if (r < m)
+                end = m;
+            else
+                first = m;
+        }
+    }
+}
+
+static int images(const struct domain *d) { return d->dim == 2 ? 9 : 27; }
+
+/* Displacement of an image; false if an axis that is not periodic would be shifted. */
+static bool image_shift(const struct domain *d, int image, double shift[3])
+{
+    bool allowed = true;
+    for (int a = 0; a < 3; a++, image /= 3) {
+        const int k = a < d->dim ? image % 3 - 1 : 0;
+        shift[a] = k == 0 ? 0.0 : k * (d->hi[a] - d->lo[a]);
+        allowed = allowed && (k == 0 || d->periodic[a]);
+    }
+    return allowed;
+}
+
+static bool is_self(const struct domain *d, int image) { return image == images(d) / 2; }
+
+/* Bounds of a rank along an axis for distances: open ends reach to infinity, for that is where
+ * particles beyond them belong. */
+static void reach_bounds(const struct domain *d, int rank, int a, double *lo, double *hi)
+{
+    const bool open = !d->periodic[a];
+    *lo = open && d->box[rank][0][a] <= d->lo[a] ? -INFINITY : d->box[rank][0][a];
+    *hi = open && d->box[rank][1][a] >= d->hi[a] ? INFINITY : d->box[rank][1][a];
+}
+
+static bool boxes_touch(const struct domain *d, int from, int to, const double *shift, double reach)
+{
+    for (int a = 0; a < d->dim; a++) {
+        double lo[2], hi[2];
+        reach_bounds(d, from, a, lo, hi);
+        reach_bounds(d, to, a, lo + 1, hi + 1);
+        if (lo[0] + shift[a] > hi[1] + reach || hi[0] + shift[a] < lo[1] - reach)
+            return false;
+    }
+    return true;
+}
+
+static bool ranks_touch(const struct domain *d, int from, int to, double reach)
+{
+    double shift[3];
+    for (int k = 0; k < images(d); k++)
+        if (!(from == to && is_self(d, k)) && image_shift(d, k, shift) &&
+            boxes_touch(d, from, to, shift, reach))
+            return true;
+    return false;
+}
+
+static void free_peers(struct domain *d)
+{
+    for (int k = 0; k < d->npeers; k++) {
+        mem_free(d->peers[k].who);
+        mem_free(d->peers[k].image);
+        mem_free(d->peers[k].lines);
+    }
+    mem_free(d->peers);
+    mem_free(d->requests);
+    d->peers = NULL;
+    d->requests = NULL;
+    d->npeers = 0;
+}
+
+/* Both ranks of a pair must see each other as peers, so each looks with the eyes of both. */
+static void find_peers(struct domain *d, double reach)
+{
+    free_peers(d);
+    d->peers = NEW(struct peer, d->size);
+    for (int r = 0; r < d->size; r++)
+        if (ranks_touch(d, d->rank, r, reach) || ranks_touch(d, r, d->rank, reach))
+            d->peers[d->npeers++].rank = r;
+    d->requests = NEW(MPI_Request, 2 * d->npeers);
+}
+
+static void cuts_changed(struct sph *s)
+{
+    make_boxes(s->domain);
+    find_peers(s->domain, 1.001 * (s->R + s->skin_most));
+    s->ready = false;
+}
+
+/* Halves the node in proportion to its ranks, on a lattice face: what a uniform filling needs. */
+static void cut_evenly(struct sph *s, const struct node *t)
+{
+    struct domain *d = s->domain;
+    if (t->end - t->first < 2)
+        return;
+    const int m = t->first + (t->end - t->first) / 2, a = longest_axis(t, d->dim);
+    const double share = (double)(m - t->first) / (t->end - t->first);
+    const double at = t->lo[a] + share * (t->hi[a] - t->lo[a]);
+    d->cuts[m - 1] = (struct cut){a, d->lo[a] + s->dx * round((at - d->lo[a]) / s->dx)};
+    struct node left = *t, right = *t;
+    left.end = right.first = m;
+    left.hi[a] = right.lo[a] = d->cuts[m - 1].at;
+    cut_evenly(s, &left);
+    cut_evenly(s, &right);
+}
+
+/* Work of the node's particles in each bin of [lo, hi) along an axis, over all ranks; the first
+ * bin also counts what lies below, the last what lies above. */
+static void count_bins(const struct sph *s, const struct node *t, int axis, double lo, double hi,
+                       int64_t *bins)
+{
+    memset(bins, 0, BINS * sizeof *bins);
+    for (int k = 0; k < t->n; k++) {
+        const double x = s->p.y[(size_t)t->who[k] * s->p.nstate + axis];
+        const double b = floor((x - lo) / (hi - lo) * BINS);
+        bins[b < 0.0 ? 0 : b < BINS ? (int)b : BINS - 1] += t->work[t->who[k]];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, bins, BINS, MPI_INT64_T, MPI_SUM, s->domain->comm);
+}
+
+/* Place with `share' of the node's work below it: bins refined around the quantile. */
+static double quantile(const struct sph *s, const struct node *t, int axis, double share)
+{
+    double lo = t->lo[axis], hi = t->hi[axis];
+    int64_t bins[BINS], all = 0;
+    for (int pass = 0; pass < PASSES; pass++) {
+        count_bins(s, t, axis, lo, hi, bins);
+        if (pass == 0)
+            for (int k = 0; k < BINS; k++)
+                all += bins[k];
+        if (all == 0)
+            return lo + share * (hi - lo);
+        const double wanted = share * (double)all, width = (hi - lo) / BINS;
+        int k = 0;
+        int64_t below = 0;
+        while (k < BINS - 1 && (double)(below + bins[k]) < wanted)
+            below += bins[k++];
+        if (pass == PASSES - 1)
+            return lo + width * (wanted - (double)below > 0.5 * (double)bins[k] ? k + 1 : k);
+        hi = lo + width * (k + 1); /* bins below k now fall in the first one of the next pass */
+        lo = lo + width * k;
+    }
+    return lo;
+}
+
+/* Moves the particles below the cut to the front; returns their number. Order within does not
+ * matter. */
+static int split(const struct sph *s, const struct node *t, const struct cut *c)
+{
+    int n = 0;
+    for (int k = 0; k < t->n; k++)
+        if (s->p.y[(size_t)t->who[k] * s->p.nstate + c->axis] < c->at) {
+            const int i = t->who[k];
+            t->who[k] = t->who[n];
+            t->who[n++] = i;
+        }
+    return n;
+}
+
+static void cut_by_work(struct sph *s, const struct node *t)
+{
+    struct domain *d = s->domain;
+    if (t->end - t->first < 2)
+        return;
+    const int m = t->first + (t->end - t->first) / 2, a = longest_axis(t, d->dim);
+    const double share = (double)(m - t->first) / (t->end - t->first);
+    d->cuts[m - 1] = (struct cut){a, quantile(s, t, a, share)};
+    struct node left = *t, right = *t;
+    left.end = right.first = m;
+    left.hi[a] = right.lo[a] = d->cuts[m - 1].at;
+    left.n = split(s, t, d->cuts + m - 1);
+    right.who = t->who + left.n;
+    right.n = t->n - left.n;
+    cut_by_work(s, &left);
+    cut_by_work(s, &right);
+}
+
+static struct node root(const struct domain *d)
+{
+    struct node t = {.end = d->size};
+    memcpy(t.lo, d->lo, sizeof t.lo);
+    memcpy(t.hi, d->hi, sizeof t.hi);
+    return t;
+}
+
+struct domain *domain_create(struct sph *s)
+{
+    struct domain *d = NEW(struct domain, 1);
+    d->comm = s->run->comm;
+    d->rank = s->run->rank;
+    d->size = s->run->size;
+    d->dim = s->dim;
+    for (int a = 0; a < 3; a++) {
+        d->periodic[a] = s->periodic[a];
+        d->lo[a] = s->lo[a];
+        d->hi[a] = s->hi[a];
+    }
+    d->cuts = NEW(struct cut, d->size);
+    d->box = mem_new((size_t)d->size, sizeof *d->box);
+    s->domain = d;
+    const struct node t = root(d);
+    cut_evenly(s, &t);
+    cuts_changed(s);
+    return d;
+}
+
+void domain_free(struct domain **d)
+{
+    if (!*d)
+        return;
+    free_peers(*d);
+    mem_free((*d)->cuts);
+    mem_free((*d)->box);
+    mem_free(*d);
+    *d = NULL;
+}
+
+/* Returns the sum. */
+static int64_t find_work(const struct sph *s, int *work)
+{
+    int64_t sum = 0;
+    for (int i = 0; i < s->p.n; i++) {
+        work[i] = s->ready ? s->list->count[i] + WORK : 1;
+        sum += work[i];
+    }
+    return sum;
+}
+
+bool domain_balance(struct sph *s, double tolerance)
+{
+    struct domain *d = s->domain;
+    if (d->size == 1)
+        return false;
+    int *work = NEW(int, s->p.n);
+    const int64_t mine = find_work(s, work);
+    int64_t sum, most;
+    MPI_Allreduce(&mine, &sum, 1, MPI_INT64_T, MPI_SUM, d->comm);
+    MPI_Allreduce(&mine, &most, 1, MPI_INT64_T, MPI_MAX, d->comm);
+    const bool uneven = (double)most * d->size > (1.0 + tolerance) * (double)sum;
+    if (uneven) {
+        struct node t = root(d);
+        t.n = s->p.n;
+        t.work = work;
+        t.who = NEW(int, t.n);
+        for (int i = 0; i < t.n; i++)
+            t.who[i] = i;
+        cut_by_work(s, &t);
+        mem_free(t.who);
+        cuts_changed(s);
+    }
+    mem_free(work);
+    return uneven;
+}
+
+/* Sends rows to the ranks owner[i] >= 0; returns the received ones, by sending rank, then as they
+ * were. */
+static double *send_rows(const struct domain *d, const double *rows, const int *owner, int n,
+                         int width, int *nrecv)
+{
+    int *count = NEW(int, 4 * d->size), *at = count + d->size, *rcount = at + d->size;
+    int *rat = rcount + d->size, total = 0;
+    for (int i = 0; i < n; i++)
+        if (owner[i] >= 0)
+            count[owner[i]] += width;
+    for (int r = 1; r < d->size; r++)
+        at[r] = at[r - 1] + count[r - 1];
+    double *packed = NEW(double, at[d->size - 1] + count[d->size - 1]);
+    for (int i = 0; i < n; i++)
+        if (owner[i] >= 0) {
+            memcpy(packed + at[owner[i]], rows + (size_t)i * width, (size_t)width * sizeof(double));
+            at[owner[i]] += width;
+        }
+    MPI_Alltoall(count, 1, MPI_INT, rcount, 1, MPI_INT, d->comm);
+    for (int r = 0; r < d->size; r++) {
+        at[r] -= count[r];
+        rat[r] = total;
+        total += rcount[r];
+    }
+    double *got = NEW(double, total);
+    MPI_Alltoallv(packed, count, at, MPI_DOUBLE, got, rcount, rat, MPI_DOUBLE, d->comm);
+    *nrecv = total / width;
+    mem_free(packed);
+    mem_free(count);
+    return got;
+}
+
+int domain_send_items(struct sph *s, double **items, int n, int width)
+{
+    const struct domain *d = s->domain;
+    int *owner = NEW(int, n), got;
+    for (int i = 0; i < n; i++)
+        owner[i] = domain_owner(d, *items + (size_t)i * width);
+    double *rows = send_rows(d, *items, owner, n, width, &got);
+    mem_free(owner);
+    mem_free(*items);
+    *items = rows;
+    return got;
+}
+
+static void wrap(struct sph *s)
+{
+    for (int a = 0; a < s->dim; a++) {
+        const double lo = s->lo[a], hi = s->hi[a];
+        for (int i = 0; s->periodic[a] && i < s->p.n; i++) {
+            double *x = state_row(&s->p, s->p.y, i) + a;
+            if (*x >= lo && *x < hi)
+                continue;
+            *x -= (hi - lo) * floor((*x - lo) / (hi - lo));
+            if (!(*x >= lo && *x < hi)) /* rounding at the seam */
+                *x = lo;
+        }
+    }
+}
+
+/* A row on its way: state, then the bits of id, then zone. */
+static void pack_row(const struct particles *p, int i, double *row)
+{
+    memcpy(row, state_row(p, p->y, i), (size_t)p->nstate * sizeof(double));
+    memcpy(row + p->nstate, p->id + i, sizeof(double));
+    row[p->nstate + 1] = p->zone[i];
+}
+
+static void unpack_row(struct particles *p, const double *row)
+{
+    int64_t id;
+    memcpy(&id, row + p->nstate, sizeof id);
+    const int i = particles_add(p, id, (enum sph_zone)row[p->nstate + 1]);
+    memcpy(state_row(p, p->y, i), row, (size_t)p->nstate * sizeof(double));
+}
+
+void domain_migrate(struct sph *s)
+{
+    const struct domain *d = s->domain;
+    struct particles *p = &s->p;
+    const int width = p->nstate + 2, before = p->n;
+    int nleave = 0, got = 0;
+    wrap(s);
+    p->nghost = 0;
+    if (d->size == 1)
+        return;
+    int *owner = NEW(int, before);
+    double *rows = NULL;
+    for (int i = 0; i < before; i++) {
+        owner[nleave] = domain_owner(d, state_row(p, p->y, i));
+        nleave += owner[nleave] != d->rank;
+    }
+    rows = NEW(double, (size_t)nleave *width);
+    nleave = p->n = 0;
+    for (int i = 0; i < before; i++) {
+        if (domain_owner(d, state_row(p, p->y, i)) == d->rank)
+            particles_copy(p, p->n++, i);
+        else
+            pack_row(p, i, rows + (size_t)nleave++ * width);
+    }
+    double *in = send_rows(d, rows, owner, nleave, width, &got);
+    for (int k = 0; k < got; k++)
+        unpack_row(p, in + (size_t)k * width);
+    mem_free(in);
+    mem_free(rows);
+    mem_free(owner);
+}
+
+/* Locals that another rank or image can need: closer than reach to a bounded side of this part. */
+static int near_sides(const struct sph *s, double reach, int *who)
+{
+    const struct domain *d = s->domain;
+    double lo[3], hi[3];
+    int n = 0;
+    for (int a = 0; a < s->dim; a++)
+        reach_bounds(d, d->rank, a, lo + a, hi + a);
+    for (int i = 0; i < s->p.n; i++) {
+        const double *x = prim_line(&s->p, i);
+        bool deep = true;
+        for (int a = 0; a < s->dim; a++)
+            deep = deep && x[a] - lo[a] > reach && hi[a] - x[a] > reach;
+        if (!deep)
+            who[n++] = i;
+    }
+    return n;
+}
+
+static void add_line(struct peer *q, int i, int image, int width)
+{
+    if (q->nsend == q->capacity) {
+        const int more = 2 * q->capacity + 256;
+        GROW(q->who, q->capacity, more);
+        GROW(q->image, q->capacity, more);
+        GROW(q->lines, (size_t)q->capacity * width, (size_t)more * width);
+        q->capacity = more;
+    }
+    q->who[q->nsend] = i;
+    q->image[q->nsend++] = (unsigned char)image;
+}
+
+/* Lists the particles whose image lies within reach of the peer's part. */
+static void list_image(const struct sph *s, struct peer *q, int image, const double *shift,
+                       double reach, const int *near, int nnear)
+{
+    const struct domain *d = s->domain;
+    double lo[3], hi[3];
+    for (int a = 0; a < s->dim; a++) {
+        reach_bounds(d, q->rank, a, lo + a, hi + a);
+        lo[a] -= shift[a];
+        hi[a] -= shift[a];
+    }
+    for (int k = 0; k < nnear; k++) {
+        const double *x = prim_line(&s->p, near[k]);
+        double r2 = 0.0;
+        for (int a = 0; a < s->dim; a++) {
+            const double out = x[a] < lo[a] ? lo[a] - x[a] : x[a] > hi[a] ? x[a] - hi[a] : 0.0;
+            r2 += out * out;
+        }
+        if (r2 <= reach * reach)
+            add_line(q, near[k], image, s->p.nslope);
+    }
+}
+
+static void list_peer(const struct sph *s, struct peer *q, double reach, const int *near, int nnear)
+{
+    const struct domain *d = s->domain;
+    double shift[3];
+    q->nsend = 0;
+    for (int k = 0; k < images(d); k++)
+        if (!(q->rank == d->rank && is_self(d, k)) && image_shift(d, k, shift) &&
+            boxes_touch(d, d->rank, q->rank, shift, reach))
+            list_image(s, q, k, shift, reach, near, nnear);
+}
+
+/* Tells every peer how many lines it will get. */
+static void exchange_counts(struct domain *d)
+{
+    int n = 0;
+    for (int k = 0; k < d->npeers; k++) {
+        struct peer *q = d->peers + k;
+        if (q->rank == d->rank) {
+            q->nrecv = q->nsend;
+            continue;
+        }
+        MPI_Irecv(&q->nrecv, 1, MPI_INT, q->rank, TAG_COUNT, d->comm, d->requests + n++);
+        MPI_Isend(&q->nsend, 1, MPI_INT, q->rank, TAG_COUNT, d->comm, d->requests + n++);
+    }
+    MPI_Waitall(n, d->requests, MPI_STATUSES_IGNORE);
+}
+
+void domain_ghosts(struct sph *s)
+{
+    struct domain *d = s->domain;
+    const double reach = s->R + s->skin;
+    int *near = NEW(int, s->p.n), first = s->p.n;
+    const int nnear = near_sides(s, reach, near);
+    for (int k = 0; k < d->npeers; k++)
+        list_peer(s, d->peers + k, reach, near, nnear);
+    mem_free(near);
+    exchange_counts(d);
+    for (int k = 0; k < d->npeers; k++) {
+        d->peers[k].first = first;
+        first += d->peers[k].nrecv;
+    }
+    s->p.nghost = s->p.nhalo = first - s->p.n;
+    particles_reserve(&s->p, first);
+    domain_halo_start(s, false);
+    domain_halo_finish(s, false);
+}
+
+static void pack(const struct sph *s, const struct peer *q, bool slopes, double *out)
+{
+    const int width = slopes ? s->p.nslope : PRIM;
+    const double *lines = slopes ? s->p.slope : s->p.prim;
+    for (int k = 0; k < q->nsend; k++, out += width) {
+        memcpy(out, lines + (size_t)q->who[k] * width, (size_t)width * sizeof(double));
+        if (slopes || is_self(s->domain, q->image[k]))
+            continue;
+        double shift[3];
+        image_shift(s->domain, q->image[k], shift);
+        for (int a = 0; a < s->dim; a++)
+            out[a] += shift[a];
+    }
+}
+
+/* A peer's ghosts are one block of lines, so messages arrive in place. */
+void domain_halo_start(struct sph *s, bool slopes)
+{
+    struct domain *d = s->domain;
+    const int width = slopes ? s->p.nslope : PRIM;
+    double *lines = slopes ? s->p.slope : s->p.prim;
+    d->nrequests = 0;
+    for (int k = 0; k < d->npeers; k++) {
+        const struct peer *q = d->peers + k;
+        if (q->rank != d->rank && q->nrecv > 0)
+            MPI_Irecv(lines + (size_t)q->first * width, q->nrecv * width, MPI_DOUBLE, q->rank,
+                      TAG_LINES, d->comm, d->requests + d->nrequests++);
+    }
+    for (int k = 0; k < d->npeers; k++) {
+        const struct peer *q = d->peers + k;
+        pack(s, q, slopes, q->rank == d->rank ? lines + (size_t)q->first * width : q->lines);
+        if (q->rank != d->rank && q->nsend > 0)
+            MPI_Isend(q->lines, q->nsend * width, MPI_DOUBLE, q->rank, TAG_LINES, d->comm,
+                      d->requests + d->nrequests++);
+    }
+}
+
+void domain_halo_finish(struct sph *s, bool slopes)
+{
+    (void)slopes;
+    MPI_Waitall(s->domain->nrequests, s->domain->requests, MPI_STATUSES_IGNORE);
+    s->domain->nrequests = 0;
+}
+
+void domain_share(struct sph *s, const double *rows, int width, double *ghosts)
+{
+    struct domain *d = s->domain;
+    int n = 0;
+    require(width <= s->p.nslope); /* room of a peer's lines */
+    for (int k = 0; k < d->npeers; k++) {
+        const struct peer *q = d->peers + k;
+        const bool self = q->rank == d->rank;
+        double *in = ghosts + (size_t)(q->first - s->p.n) * width, *out = self ? in : q->lines;
+        if (!self && q->nrecv > 0)
+            MPI_Irecv(in, q->nrecv * width, MPI_DOUBLE, q->rank, TAG_LINES, d->comm,
+                      d->requests + n++);
+        for (int m = 0; m < q->nsend; m++)
+            memcpy(out + (size_t)m * width, rows + (size_t)q->who[m] * width,
+                   (size_t)width * sizeof(double));
+        if (!self && q->nsend > 0)
+            MPI_Isend(out, q->nsend * width, MPI_DOUBLE, q->rank, TAG_LINES, d->comm,
+                      d->requests + n++);
+    }
+    MPI_Waitall(n, d->requests, MPI_STATUSES_IGNORE);
+}
+
+void domain_save(const struct sph *s, struct h5 *f)
+{
+    const struct domain *d = s->domain;
+    const int n = d->rank == 0 ? d->size : 0;
+    double *rows = NEW(double, 2 * d->size); /* one spare row: never empty */
+    for (int k = 0; k < d->size - 1; k++) {
+        rows[2 * k] = d->cuts[k].axis;
+        rows[2 * k + 1] = d->cuts[k].at;
+    }
+    h5_write_real(f, "cuts", "-", n, 2, rows, false);
+    mem_free(rows);
+}
+
+/* Those of another number of ranks say nothing: cuts by the particles at hand. */
+bool domain_load(struct sph *s, struct h5 *f)
+{
+    struct domain *d = s->domain;
+    int64_t n;
+    double *rows = h5_read_all_real(f, "cuts", 2, &n);
+    if (rows && n == d->size) {
+        for (int k = 0; k < d->size - 1; k++)
+            d->cuts[k] = (struct cut){(int)rows[2 * k], rows[2 * k + 1]};
+        cuts_changed(s);
+    } else if (rows) {
+        s->ready = false;
+        domain_balance(s, -1.0);
+    }
+    mem_free(rows);
+    return rows != NULL;
+}

@@ -1,0 +1,154 @@
+/* particles.c - storage of the particles and the lines that the pair loops load.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../sph.h"
+
+#include <string.h>
+
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "eos.h"
+
+/* The line that pads neighbour rows: outside every support and without volume, yet harmless in any
+ * quotient. */
+static void set_dummy(struct particles *p, int dim)
+{
+    double *line = p->prim + (size_t)PRIM * p->capacity;
+    memset(line, 0, PRIM * sizeof(double));
+    for (int a = 0; a < dim; a++)
+        line[a] = 1e15;
+    line[at_rho(dim)] = 1.0; /* rho */
+    if (dim == 2)
+        line[7] = 1.0; /* c */
+    memset(p->slope + (size_t)p->nslope * p->capacity, 0, (size_t)p->nslope * sizeof(double));
+}
+
+static void grow(struct particles *p, int capacity)
+{
+    const size_t old = (size_t)p->capacity, n = (size_t)capacity, ns = (size_t)p->nstate;
+    GROW(p->y, old * ns, n * ns);
+    GROW(p->y0, old * ns, n * ns);
+    GROW(p->rate, old * ns, (n + 1) * ns);
+    GROW(p->prim, old * PRIM, (n + 1) * PRIM);
+    GROW(p->slope, old * p->nslope, (n + 1) * p->nslope);
+    GROW(p->id, old, n);
+    GROW(p->zone, old, n);
+    p->capacity = capacity;
+    p->sum_capacity = 0;
+    mem_free(p->sum);
+    p->sum = NULL;
+    set_dummy(p, (p->nstate - 2) / 2);
+}
+
+void particles_create(struct particles *p, int dim, int capacity)
+{
+    *p = (struct particles){.nstate = 2 * dim + 2, .nslope = dim == 2 ? 8 : 16};
+    grow(p, capacity > 0 ? capacity : 1);
+}
+
+void particles_free(struct particles *p)
+{
+    mem_free(p->y);
+    mem_free(p->y0);
+    mem_free(p->sum);
+    mem_free(p->rate);
+    mem_free(p->prim);
+    mem_free(p->slope);
+    mem_free(p->id);
+    mem_free(p->zone);
+    *p = (struct particles){0};
+}
+
+void particles_reserve(struct particles *p, int total)
+{
+    if (total > p->capacity)
+        grow(p, total + total / 16 + 64);
+}
+
+double *particles_sum(struct particles *p)
+{
+    if (p->sum_capacity < p->capacity) {
+        p->sum = NEW(double, (size_t)p->capacity * p->nstate);
+        p->sum_capacity = p->capacity;
+    }
+    return p->sum;
+}
+
+int particles_add(struct particles *p, int64_t id, enum sph_zone zone)
+{
+    particles_reserve(p, p->n + 1);
+    p->id[p->n] = id;
+    p->zone[p->n] = (unsigned char)zone;
+    memset(p->y + (size_t)p->n * p->nstate, 0, (size_t)p->nstate * sizeof(double));
+    return p->n++;
+}
+
+void particles_copy(struct particles *p, int to, int from)
+{
+    if (to == from)
+        return;
+    memcpy(p->y + (size_t)to * p->nstate, p->y + (size_t)from * p->nstate,
+           (size_t)p->nstate * sizeof(double));
+    p->id[to] = p->id[from];
+    p->zone[to] = p->zone[from];
+}
+
+/* y0 is free between steps: the new order is made there and swapped in. */
+void particles_permute(struct particles *p, int n, const int *order)
+{
+    const size_t row = (size_t)p->nstate;
+    int64_t *id = NEW(int64_t, p->capacity);
+    unsigned char *zone = NEW(unsigned char, p->capacity);
+    for (int i = 0; i < n; i++) {
+        memcpy(p->y0 + (size_t)i * row, p->y + (size_t)order[i] * row, row * sizeof(double));
+        id[i] = p->id[order[i]];
+        zone[i] = p->zone[order[i]];
+    }
+    double *y = p->y;
+    p->y = p->y0;
+    p->y0 = y;
+    mem_free(p->id);
+    mem_free(p->zone);
+    p->id = id;
+    p->zone = zone;
+}
+
+void particles_set(struct sph *s, int i, const double *x, const double *u, double w, double rho)
+{
+    double *y = state_row(&s->p, s->p.y, i);
+    const int dim = s->dim;
+    for (int a = 0; a < dim; a++) {
+        y[a] = x[a];
+        y[dim + a] = rho * w * u[a];
+    }
+    y[at_volume(dim)] = w;
+    y[at_mass(dim)] = rho * w;
+}
+
+static inline __attribute__((always_inline)) void lines(struct sph *s, const int dim)
+{
+    const double rho0 = s->rho0, c0 = s->c0, gamma = s->gamma;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + (size_t)s->p.nstate * i, w = y[at_volume(dim)],
+                     m = y[at_mass(dim)];
+        double *q = prim_line(&s->p, i);
+        const double rho = m / w, to_u = 1.0 / m;
+        for (int a = 0; a < dim; a++) {
+            q[a] = y[a];
+            q[dim + a] = y[dim + a] * to_u;
+        }
+        q[at_volume(dim)] = w;
+        q[at_rho(dim)] = rho;
+        if (dim == 2) {
+            q[6] = eos_p(rho, rho0, c0, gamma);
+            q[7] = eos_c(rho, rho0, c0, gamma);
+        }
+    }
+}
+
+void particles_lines(struct sph *s)
+{
+    if (s->dim == 2)
+        lines(s, 2);
+    else
+        lines(s, 3);
+}

@@ -1,0 +1,73 @@
+/* particles.h - arrays of the particles and where their rows keep what.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_PARTICLES_H
+#define SPH_PARTICLES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct sph;
+
+enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
+enum { PRIM = 8 }; /* doubles of a line of prim */
+
+/* Particles of one size level. State and rates are rows of nstate doubles,
+ *   x[dim], q[dim] = m u, w (volume), m (mass),
+ * so that Runge-Kutta is one loop. Lines are what the pair loops load: 64-byte multiples, aligned;
+ * row `capacity' of lines is the dummy that pads neighbour rows (far away, volume 0).
+ *   prim  [8]:        x[dim] u[dim] w rho (2D: then p c)
+ *   slope [8 | 16]:   grad rho [dim], grad u [dim][dim] (a: component, b: direction), u0 [dim]
+ * Locals are 0 .. n-1, sorted by cell; ghosts (halo of other ranks, periodic images) n ..
+ * n+nghost-1: only prim and slope exist for them. */
+struct particles {
+    int n, nghost, capacity;
+    int nhalo;      /* ghosts, the first ones, that are particles of other ranks or images */
+    int nstate;     /* 2 dim + 2 */
+    int nslope;     /* 8 (2D) or 16 (3D) */
+    double *y, *y0; /* [capacity][nstate] state, at t_n */
+    double *rate;   /* [capacity+1][nstate] its time derivative; until then sums of the pairs */
+    double *sum;    /* of rates, where the scheme in time needs one; particles_sum */
+    int sum_capacity;
+    double *prim;        /* [capacity+1][8] */
+    double *slope;       /* [capacity+1][nslope] */
+    int64_t *id;         /* [capacity] unique over all ranks */
+    unsigned char *zone; /* [capacity] enum sph_zone */
+};
+
+/* Places in a row of the state and in a line: x and u (q) come first. */
+static inline int at_volume(int dim) { return 2 * dim; }
+static inline int at_mass(int dim) { return 2 * dim + 1; } /* of a row: y, rate, .. */
+static inline int at_rho(int dim) { return 2 * dim + 1; }  /* of a line: prim */
+
+/* Row i of y, y0, sum or rate; lines i of prim and slope. */
+static inline double *state_row(const struct particles *p, double *rows, int i)
+{
+    return rows + (ptrdiff_t)p->nstate * i;
+}
+static inline double *prim_line(const struct particles *p, int i)
+{
+    return p->prim + (ptrdiff_t)PRIM * i;
+}
+static inline double *slope_line(const struct particles *p, int i)
+{
+    return p->slope + (ptrdiff_t)p->nslope * i;
+}
+
+void particles_create(struct particles *p, int dim, int capacity);
+void particles_free(struct particles *p);
+/* Room for n + nghost = total lines; keeps everything. */
+void particles_reserve(struct particles *p, int total);
+/* One more particle at the end (ghosts must be gone); returns its index; the row y is the caller's.
+ */
+int particles_add(struct particles *p, int64_t id, enum sph_zone zone);
+/* Room for sums of rates; contents are lost when capacity has grown. */
+double *particles_sum(struct particles *p);
+/* Copies particle `from' over `to' (state, id, zone). */
+void particles_copy(struct particles *p, int to, int from);
+/* Reorders state, id, zone: new i is old order[i]; n entries. */
+void particles_permute(struct particles *p, int n, const int *order);
+void particles_set(struct sph *s, int i, const double *x, const double *u, double w, double rho);
+/* prim of all locals from y (u = q/m, rho = m/w; 2D: p, c). */
+void particles_lines(struct sph *s);
+
+#endif

@@ -1,0 +1,352 @@
+/* body_free.c - a rigid body under forces. Its angular momentum is kept in space axes, where a body
+ * without torque keeps it to the last digit; hinges, sliders and locked degrees are reduced
+ * equations, so that nothing drifts from them. SPDX-License-Identifier: BSD-3-Clause */
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../../common/scene_mesh.h"
+#include "../../common/vec3.h"
+#include "body.h"
+#include "body_math.h"
+
+/* --- the start --- */
+
+static void invert(double A[3][3], double to[3][3])
+{
+    double c[3][3];
+    for (int a = 0; a < 3; a++)
+        vec3_cross(A[(a + 1) % 3], A[(a + 2) % 3], c[a]);
+    const double det = vec3_dot(A[0], c[0]);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++)
+            to[a][b] = c[b][a] / det;
+}
+
+static double inertia_about(const struct body_free *f, const double *e)
+{
+    double v[3] = {0.0, 0.0, 0.0};
+    for (int a = 0; a < 3; a++)
+        vec3_add(v, e[a], f->inertia[a]);
+    return vec3_dot(e, v);
+}
+
+static void unit(const double *from, double *to)
+{
+    const double size = vec3_length(from);
+    for (int a = 0; a < 3; a++)
+        to[a] = from[a] / size;
+}
+
+static void set_hinge(struct body *b, const struct scene_hinge *h)
+{
+    static const double z[3] = {0.0, 0.0, 1.0};
+    struct body_free *f = b->free;
+    double across[3];
+    f->hinged = true;
+    f->rotation = TURNS_AXIS;
+    unit(b->dim == 2 ? z : h->axis, f->axis);
+    memcpy(f->hinge, h->at, sizeof f->hinge);
+    for (int a = 0; a < 3; a++)
+        f->arm[a] = b->centre[a] - h->at[a];
+    vec3_cross(f->axis, f->arm, across);
+    f->J = inertia_about(f, f->axis) + f->mass * vec3_dot(across, across);
+}
+
+/* What the locked rotations leave: all, one axis, or none. */
+static void set_rotation(struct body *b)
+{
+    struct body_free *f = b->free;
+    int open = -1, count = 0;
+    for (int a = b->dim == 2 ? 2 : 0; a < 3; a++)
+        if (!(f->locked >> (AXIS_RX + a) & 1)) {
+            open = a;
+            count++;
+        }
+    f->rotation = count == 0 ? TURNS_NOT : count == 1 ? TURNS_AXIS : TURNS_FREE;
+    if (count == 1) {
+        f->axis[open] = 1.0;
+        f->J = inertia_about(f, f->axis);
+    }
+}
+
+static void set_momenta(struct body *b)
+{
+    struct body_free *f = b->free;
+    const double *u = b->is->velocity, *spin = b->is->spin;
+    double *P = f->y + BODY_P, *L = f->y + BODY_L;
+    if (f->hinged) {
+        vec3_add(L, f->J * vec3_dot(f->axis, spin), f->axis);
+        return;
+    }
+    vec3_add(P, f->mass, u);
+    if (f->slides) {
+        const double along = vec3_dot(P, f->slide);
+        memset(P, 0, 3 * sizeof *P);
+        vec3_add(P, along, f->slide);
+    }
+    if (f->rotation == TURNS_AXIS)
+        vec3_add(L, f->J * vec3_dot(f->axis, spin), f->axis);
+    else if (f->rotation == TURNS_FREE)
+        turn3(f->inertia, spin, L);
+}
+
+static void create_free(struct body *b, const struct body_mass *m)
+{
+    struct body_free *f = b->free = NEW(struct body_free, 1);
+    f->mass = m->mass;
+    memcpy(f->inertia, m->inertia, sizeof f->inertia);
+    invert(f->inertia, f->inverse);
+    f->locked = scene_body_locked(b->is->lock, b->dim);
+    f->held = b->is->release > 0.0;
+    if (b->is->hinge.n > 0)
+        set_hinge(b, b->is->hinge.of);
+    else
+        set_rotation(b);
+    if (b->is->slider.n > 0) {
+        f->slides = true;
+        unit(b->is->slider.of[0].axis, f->slide);
+    }
+    f->y[BODY_Q] = 1.0;
+    memcpy(f->y + BODY_X, b->centre, sizeof b->centre);
+    set_momenta(b);
+}
+
+void body_create(struct body *b, const struct scene_body *is, const struct trimesh *mesh, int dim,
+                 const char *dir)
+{
+    struct body_mass m;
+    char why[256];
+    *b = (struct body){.is = is, .mesh = mesh, .dim = dim, .moves = scene_body_moves(is)};
+    memcpy(b->centre, is->centre, sizeof b->centre);
+    body_drive_create(&b->drive, is, dim, dir);
+    b->contact = is->contact.n > 0 ? is->contact.of[0] : (struct scene_contact){0.3, 0.3, 1.0};
+    if (is->free && body_mass_of(is, mesh, dim, &m, why, sizeof why)) {
+        memcpy(b->centre, m.centre, sizeof b->centre);
+        create_free(b, &m);
+    }
+    for (int k = 0; k < is->points.n; k++)
+        b->reach = fmax(
+            b->reach, hypot(is->points.x[k][0] - b->centre[0], is->points.x[k][1] - b->centre[1]));
+    for (int k = 0; mesh && k < mesh->nvertices; k++) {
+        double d[3] = {-b->centre[0], -b->centre[1], -b->centre[2]};
+        vec3_add(d, 1.0, mesh->x[k]);
+        b->reach = fmax(b->reach, vec3_length(d));
+    }
+    body_move(b, 0.0);
+}
+
+void body_destroy(struct body *b)
+{
+    body_drive_free(&b->drive);
+    mem_free(b->free);
+}
+
+/* --- where it is --- */
+
+static bool is_locked(const struct body_free *f, int axis) { return f->locked >> axis & 1; }
+
+static void move_rotation(const struct body_free *f, struct body_motion *m)
+{
+    const double *y = f->y, *L = y + BODY_L;
+    if (f->rotation == TURNS_NOT)
+        return; /* as told */
+    if (f->rotation == TURNS_AXIS) {
+        const double rate = f->held ? 0.0 : vec3_dot(L, f->axis) / f->J;
+        for (int a = 0; a < 3; a++) {
+            m->r[a] = y[BODY_ANGLE] * f->axis[a];
+            m->omega[a] = rate * f->axis[a];
+        }
+        rotation_of_vector(m->r, m->Q);
+        return;
+    }
+    double in_body[3];
+    rotation_of_quaternion(y + BODY_Q, m->Q);
+    vector_of_quaternion(y + BODY_Q, m->r);
+    turn_back3(m->Q, L, in_body);
+    turn3((double(*)[3])f->inverse, in_body, in_body);
+    turn3(m->Q, in_body, m->omega);
+    for (int a = 0; a < 3 && f->held; a++)
+        m->omega[a] = 0.0;
+}
+
+static void move_centre(const struct body *b, struct body_motion *m)
+{
+    const struct body_free *f = b->free;
+    const double *y = f->y;
+    if (f->hinged) {
+        double arm[3];
+        turn3(m->Q, f->arm, arm);
+        for (int a = 0; a < 3; a++)
+            m->x[a] = f->hinge[a] + arm[a] - b->centre[a];
+        vec3_cross(m->omega, arm, m->u);
+        return;
+    }
+    for (int a = 0; a < b->dim; a++)
+        if (f->slides || !is_locked(f, AXIS_X + a)) {
+            m->x[a] = y[BODY_X + a] - b->centre[a];
+            m->u[a] = f->held ? 0.0 : y[BODY_P + a] / f->mass;
+        }
+}
+
+/* Accelerations, of the last stage: averaged forces carry pressures with them. */
+static void accelerate(const struct body *b, struct body_motion *m)
+{
+    const struct body_free *f = b->free;
+    for (int a = 0; a < 3; a++) {
+        if (f->slides || !is_locked(f, AXIS_X + a))
+            m->du[a] = f->rate[BODY_P + a] / f->mass;
+        if (f->rotation == TURNS_AXIS)
+            m->domega[a] = f->rate[BODY_L + a] / f->J;
+        else if (f->rotation == TURNS_FREE)
+            m->domega[a] = 0.0;
+    }
+    if (f->hinged) {
+        double arm[3], inward[3];
+        turn3((double(*)[3])m->Q, f->arm, arm);
+        vec3_cross(m->domega, arm, m->du);
+        vec3_cross(m->omega, m->u, inward);
+        vec3_add(m->du, 1.0, inward);
+    }
+}
+
+void body_move(struct body *b, double t)
+{
+    struct body_motion *m = &b->now;
+    body_drive_motion(&b->drive, t, m);
+    if (b->free) {
+        const struct body_free *f = b->free;
+        move_rotation(f, m);
+        move_centre(b, m);
+        accelerate(b, m);
+    }
+    m->angle = m->r[2];
+    m->spin = m->omega[2];
+    m->dspin = m->domega[2];
+}
+
+void body_place(const struct body *b, const double *from, double *to)
+{
+    double d[3] = {0.0, 0.0, 0.0};
+    for (int a = 0; a < b->dim; a++)
+        d[a] = from[a] - b->centre[a];
+    turn3((double(*)[3])b->now.Q, d, d);
+    for (int a = 0; a < b->dim; a++)
+        to[a] = b->centre[a] + b->now.x[a] + d[a];
+}
+
+void body_velocity(const struct body *b, const double *at, double *u)
+{
+    double d[3] = {0.0, 0.0, 0.0}, v[3];
+    for (int a = 0; a < b->dim; a++)
+        d[a] = at[a] - b->centre[a] - b->now.x[a];
+    vec3_cross(b->now.omega, d, v);
+    for (int a = 0; a < b->dim; a++)
+        u[a] = b->now.u[a] + v[a];
+}
+
+double body_speed(const struct body *b)
+{
+    return vec3_length(b->now.u) + b->reach * vec3_length(b->now.omega);
+}
+
+/* --- rates --- */
+
+/* Moment about the hinge's axis of a force at the centre and a moment. */
+static double about_hinge(const struct body *b, const double *F, const double *T)
+{
+    double arm[3], M[3];
+    turn3((double(*)[3])b->now.Q, b->free->arm, arm);
+    vec3_cross(arm, F, M);
+    return vec3_dot(b->free->axis, M) + vec3_dot(b->free->axis, T);
+}
+
+/* What of a force (at the centre) and a moment moves the body: change of P and L. */
+static void moving_part(const struct body *b, const double *F, const double *T, double *P,
+                        double *L)
+{
+    const struct body_free *f = b->free;
+    memset(P, 0, 3 * sizeof *P);
+    memset(L, 0, 3 * sizeof *L);
+    if (f->hinged) {
+        vec3_add(L, about_hinge(b, F, T), f->axis);
+        return;
+    }
+    if (f->slides)
+        vec3_add(P, vec3_dot(F, f->slide), f->slide);
+    else
+        for (int a = 0; a < b->dim; a++)
+            P[a] = is_locked(f, AXIS_X + a) ? 0.0 : F[a];
+    if (f->rotation == TURNS_AXIS)
+        vec3_add(L, vec3_dot(T, f->axis), f->axis);
+    else if (f->rotation == TURNS_FREE)
+        memcpy(L, T, 3 * sizeof *L);
+}
+
+void body_rates(struct body *b, const double F[3], const double T[3])
+{
+    struct body_free *f = b->free;
+    const struct body_motion *m = &b->now;
+    double *rate = f->rate, *dq = rate + BODY_Q;
+    memset(rate, 0, sizeof f->rate);
+    if (f->held)
+        return;
+    moving_part(b, F, T, rate + BODY_P, rate + BODY_L);
+    for (int a = 0; a < b->dim && !f->hinged; a++)
+        rate[BODY_X + a] = f->y[BODY_P + a] / f->mass;
+    if (f->rotation == TURNS_AXIS)
+        rate[BODY_ANGLE] = vec3_dot(m->omega, f->axis);
+    if (f->rotation != TURNS_FREE)
+        return;
+    const double *q = f->y + BODY_Q;
+    vec3_cross(m->omega, q + 1, dq + 1); /* q' = (0, omega) q/2 */
+    dq[0] = -0.5 * vec3_dot(m->omega, q + 1);
+    for (int a = 0; a < 3; a++)
+        dq[1 + a] = 0.5 * (dq[1 + a] + q[0] * m->omega[a]);
+}
+
+void body_hit(struct body *b, const double impulse[3], const double moment[3])
+{
+    double P[3], L[3];
+    if (!b->free || b->free->held)
+        return;
+    moving_part(b, impulse, moment, P, L);
+    vec3_add(b->free->y + BODY_P, 1.0, P);
+    vec3_add(b->free->y + BODY_L, 1.0, L);
+}
+
+void body_finish(struct body *b)
+{
+    double *q = b->free->y + BODY_Q;
+    const double size = sqrt(q[0] * q[0] + vec3_dot(q + 1, q + 1));
+    for (int k = 0; k < 4; k++)
+        q[k] /= size;
+}
+
+double body_energy(const struct body *b, const double g[3], double *kinetic)
+{
+    const struct body_free *f = b->free;
+    double in_body[3], L[3];
+    turn_back3((double(*)[3])b->now.Q, b->now.omega, in_body);
+    turn3((double(*)[3])f->inertia, in_body, L);
+    *kinetic = 0.5 * f->mass * vec3_dot(b->now.u, b->now.u) + 0.5 * vec3_dot(L, in_body);
+    return *kinetic - f->mass * vec3_dot(g, b->now.x);
+}
+
+double body_effective_mass(const struct body *b, const double *r, const double *n)
+{
+    struct body_free *f = b->free;
+    double T[3], P[3], L[3], w[3];
+    if (!f)
+        return INFINITY;
+    vec3_cross(r, n, T);
+    moving_part(b, n, T, P, L);
+    double yields = vec3_dot(P, n) / f->mass;
+    if (f->rotation == TURNS_AXIS) {
+        yields += vec3_dot(L, L) / f->J;
+    } else if (f->rotation == TURNS_FREE) {
+        turn_back3((double(*)[3])b->now.Q, T, w);
+        turn3(f->inverse, w, L);
+        yields += vec3_dot(w, L);
+    }
+    return yields > 0.0 ? 1.0 / yields : INFINITY;
+}

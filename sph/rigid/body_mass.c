@@ -1,0 +1,117 @@
+/* body_mass.c - mass, centre and inertia of a body, given or of a uniform density.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/scene_geometry.h"
+#include "../../common/scene_mesh.h"
+#include "body.h"
+#include "body_math.h"
+
+static bool no(char *why, size_t size, const char *what)
+{
+    snprintf(why, size, "%s", what);
+    return false;
+}
+
+static void take_inertia(const struct param_numbers *v, int dim, double J[3][3])
+{
+    static const int at[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+    memset(J, 0, 9 * sizeof(double));
+    if (dim == 2) {
+        J[0][0] = J[1][1] = 0.5 * v->v[0];
+        J[2][2] = v->v[0];
+        return;
+    }
+    for (int k = 0; k < v->n && k < 6; k++)
+        J[at[k][0]][at[k][1]] = J[at[k][1]][at[k][0]] = v->v[k];
+}
+
+/* Eigenvalues of a symmetric matrix (Smith 1961), ascending. */
+static void eigenvalues(double A[3][3], double e[3])
+{
+    const double off = A[0][1] * A[0][1] + A[0][2] * A[0][2] + A[1][2] * A[1][2];
+    const double mean = (A[0][0] + A[1][1] + A[2][2]) / 3.0;
+    double spread = 2.0 * off, B[3][3];
+    for (int a = 0; a < 3; a++)
+        spread += (A[a][a] - mean) * (A[a][a] - mean);
+    const double p = sqrt(spread / 6.0);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++)
+            B[a][b] = p > 0.0 ? (A[a][b] - (a == b ? mean : 0.0)) / p : 0.0;
+    const double half = 0.5 * (B[0][0] * (B[1][1] * B[2][2] - B[1][2] * B[1][2]) -
+                               B[0][1] * (B[0][1] * B[2][2] - B[1][2] * B[0][2]) +
+                               B[0][2] * (B[0][1] * B[1][2] - B[1][1] * B[0][2]));
+    const double phi = acos(fmax(-1.0, fmin(half, 1.0))) / 3.0;
+    e[2] = mean + 2.0 * p * cos(phi);
+    e[0] = mean + 2.0 * p * cos(phi + 2.0 * M_PI / 3.0);
+    e[1] = 3.0 * mean - e[0] - e[2];
+}
+
+/* Moments of inertia of masses: none above the sum of the others. */
+static bool possible(double J[3][3], char *why, size_t size)
+{
+    double e[3];
+    eigenvalues(J, e);
+    if (e[0] > 0.0 && e[2] <= (e[0] + e[1]) * (1.0 + 1e-9))
+        return true;
+    snprintf(
+        why, size,
+        "no body has the principal moments %.4g, %.4g, %.4g kg m^2: each must be above 0 and at "
+        "most the sum of the others",
+        e[0], e[1], e[2]);
+    return false;
+}
+
+static bool of_outline(const struct scene_body *is, double density, struct body_mass *m)
+{
+    const struct line l = line_of(&is->points, true);
+    double area, polar;
+    line_moments(&l, &area, m->centre, &polar);
+    m->centre[2] = 0.0;
+    m->mass = density * area;
+    const struct param_numbers v = {1, {density * polar}};
+    take_inertia(&v, 2, m->inertia);
+    return true;
+}
+
+/* Normals point into the body: its volume counts as negative. */
+static bool of_mesh(const struct trimesh *mesh, double density, struct body_mass *m)
+{
+    const struct trimesh_solid is = trimesh_solid(mesh, -1);
+    const double sign = is.volume < 0.0 ? -density : density;
+    m->mass = sign * is.volume;
+    memcpy(m->centre, is.centre, sizeof m->centre);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++)
+            m->inertia[a][b] = sign * is.inertia[a][b];
+    return true;
+}
+
+bool body_mass_of(const struct scene_body *is, const struct trimesh *mesh, int dim,
+                  struct body_mass *m, char *why, size_t size)
+{
+    *m = (struct body_mass){.mass = is->mass};
+    memcpy(m->centre, is->centre, sizeof m->centre);
+    if (is->density > 0.0 && is->mass > 0.0)
+        return no(why, size, "density or mass, not both");
+    if (is->density > 0.0 && dim == 2)
+        return of_outline(is, is->density, m);
+    if (is->density > 0.0 && mesh && mesh->closed)
+        return of_mesh(mesh, is->density, m);
+    if (is->density > 0.0)
+        return no(
+            why, size,
+            "only what a closed mesh holds has a mass by its density: close the mesh, or give "
+            "mass, centre and inertia");
+    if (!(is->mass > 0.0))
+        return no(why, size, "a free body has a density, or mass, centre and inertia");
+    if (dim == 2 ? is->inertia.n != 1 || !(is->inertia.v[0] > 0.0)
+                 : is->inertia.n != 3 && is->inertia.n != 6)
+        return no(why, size,
+                  dim == 2 ? "with mass goes inertia, a number above 0 (kg m^2 per metre), about "
+                             "the centre"
+                           : "with mass goes inertia = (xx, yy, zz) or (xx, yy, zz, xy, yz, zx)");
+    take_inertia(&is->inertia, dim, m->inertia);
+    return dim == 2 || possible(m->inertia, why, size);
+}

@@ -1,0 +1,286 @@
+/* surface.c - detection of the free surface; see surface.h. SPDX-License-Identifier: BSD-3-Clause
+ */
+#include "surface.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../parallel/domain.h"
+#include "../pairs/kernel.h"
+#include "../pairs/neighbours.h"
+#include "../pairs/vec.h"
+#include "../walls/walls.h"
+
+static const double spray = 0.20, inside = 0.75; /* bounds of the eigenvalue */
+
+struct surface *surface_create(struct sph *s)
+{
+    if (!s->prm.surface)
+        return NULL;
+    struct surface *f = NEW(struct surface, 1);
+    f->reach = s->prm.transport == TRANSPORT_TVO ? 2.0 * s->dx : s->R;
+    return f;
+}
+
+void surface_free(struct surface **f)
+{
+    if (!*f)
+        return;
+    mem_free((*f)->is);
+    mem_free((*f)->normal);
+    mem_free((*f)->M);
+    mem_free((*f)->g);
+    mem_free((*f)->lambda);
+    mem_free(*f);
+    *f = NULL;
+}
+
+void surface_room(struct surface *f, int n, int dim)
+{
+    if (n <= f->capacity)
+        return;
+    const int old = f->capacity, more = n + n / 8 + 64;
+    GROW(f->is, old, more);
+    GROW(f->normal, old * dim, more * dim);
+    GROW(f->M, old * dim * dim, more * dim * dim);
+    GROW(f->g, old * dim, more * dim);
+    GROW(f->lambda, old, more);
+    f->capacity = more;
+}
+
+double surface_eigenvalue(const double *M, int dim)
+{
+    if (dim == 2) {
+        const double mean = 0.5 * (M[0] + M[3]), half = 0.5 * (M[0] - M[3]);
+        const double off = 0.5 * (M[1] + M[2]);
+        return mean - sqrt(half * half + off * off);
+    }
+    /* Trigonometric form for symmetric matrices of three rows. */
+    const double a = M[0], b = M[4], c = M[8];
+    const double d = 0.5 * (M[1] + M[3]), e = 0.5 * (M[5] + M[7]), f = 0.5 * (M[2] + M[6]);
+    const double q = (a + b + c) / 3.0, off = d * d + e * e + f * f;
+    const double p2 = ((a - q) * (a - q) + (b - q) * (b - q) + (c - q) * (c - q) + 2.0 * off) / 6.0;
+    if (p2 <= 1e-28)
+        return q;
+    const double p = sqrt(p2), A = (a - q) / p, B = (b - q) / p, C = (c - q) / p;
+    const double D = d / p, E = e / p, F = f / p;
+    const double det = A * (B * C - E * E) - D * (D * C - E * F) + F * (D * E - B * F);
+    const double half = 0.5 * det < -1.0 ? -1.0 : 0.5 * det > 1.0 ? 1.0 : 0.5 * det;
+    const double phi = acos(half) / 3.0;
+    return q + 2.0 * p * cos(phi + 2.0 * M_PI / 3.0);
+}
+
+/* sum w gradW of a particle. */
+INLINE void add_crowding(const struct sph *s, int i, double *g, const int dim)
+{
+    const struct neighbours *l = s->list;
+    const double *x = prim_line(&s->p, i), R_1 = 1.0 / s->R;
+    vec sum[3] = {vec_all(0.0), vec_all(0.0), vec_all(0.0)};
+    for (const int *j = l->j + l->start[i], *end = j + l->count[i]; j < end; j += LANES) {
+        vec d[3], w, spare, r2 = vec_all(0.0);
+        vec_columns(s->p.prim, PRIM, j, 0, d, d + 1);
+        if (dim == 3)
+            vec_columns(s->p.prim, PRIM, j, 2, d + 2, &spare);
+        vec_columns(s->p.prim, PRIM, j, at_volume(dim), &w, &spare);
+        for (int a = 0; a < dim; a++) {
+            d[a] -= x[a];
+            r2 += d[a] * d[a];
+        }
+        const vec t = vec_max(1.0 - vec_sqrt(r2) * R_1, vec_all(0.0));
+        for (int a = 0; a < dim; a++)
+            sum[a] += t * t * t * w * d[a];
+    }
+    for (int a = 0; a < dim; a++)
+        g[a] -= kernel_dw_r(dim, 0.0, s->R) * vec_sum(sum[a]);
+}
+
+/* To the pairs' M of the first pass what walls add; g where a normal may be asked for, which walls
+ * do not bring about. M is 0 for particles with so many neighbours that they cannot be on the
+ * surface. */
+static void moments(struct sph *s, struct surface *f)
+{
+    const int dim = s->dim;
+    if (s->p.n > 0)
+        memset(f->g, 0, (size_t)s->p.n * dim * sizeof *f->g);
+    for (int i = 0; i < s->p.n; i++) {
+        double *M = f->M + (size_t)dim * dim * i;
+        if (s->list->whole[i])
+            memset(M, 0, (size_t)dim * dim * sizeof *M);
+        else if (surface_eigenvalue(M, dim) < inside && dim == 2)
+            add_crowding(s, i, f->g + (size_t)2 * i, 2);
+        else if (surface_eigenvalue(M, dim) < inside)
+            add_crowding(s, i, f->g + (size_t)3 * i, 3);
+    }
+    if (s->walls && s->walls->model->moments)
+        s->walls->model->moments(s, f->M, f->g);
+}
+
+/* N = -B g over its size [3.12], [4.87]; false where M is singular. */
+static bool find_normal(const double *M, const double *g, double *N, int dim)
+{
+    double v[3] = {0.0}, size = 0.0;
+    if (dim == 2) {
+        const double det = M[0] * M[3] - M[1] * M[2];
+        if (!(fabs(det) > 1e-12))
+            return false;
+        v[0] = -(M[3] * g[0] - M[2] * g[1]) / det;
+        v[1] = -(M[0] * g[1] - M[1] * g[0]) / det;
+    } else {
+        const double c[3] = {M[4] * M[8] - M[5] * M[7], M[5] * M[6] - M[3] * M[8],
+                             M[3] * M[7] - M[4] * M[6]};
+        const double det = M[0] * c[0] + M[1] * c[1] + M[2] * c[2];
+        if (!(fabs(det) > 1e-12))
+            return false;
+        v[0] = -(c[0] * g[0] + c[1] * g[1] + c[2] * g[2]) / det; /* rows of the cofactors: B^T */
+        v[1] = -((M[2] * M[7] - M[1] * M[8]) * g[0] + (M[0] * M[8] - M[2] * M[6]) * g[1] +
+                 (M[1] * M[6] - M[0] * M[7]) * g[2]) /
+               det;
+        v[2] = -((M[1] * M[5] - M[2] * M[4]) * g[0] + (M[2] * M[3] - M[0] * M[5]) * g[1] +
+                 (M[0] * M[4] - M[1] * M[3]) * g[2]) /
+               det;
+    }
+    for (int a = 0; a < dim; a++)
+        size += v[a] * v[a];
+    size = sqrt(size);
+    for (int a = 0; a < dim; a++)
+        N[a] = size > 0.0 ? v[a] / size : 0.0;
+    return size > 0.0;
+}
+
+/* Whether a neighbour lies in the cone of 45 degrees along N or in the disc around its tip. */
+static bool is_covered(const struct sph *s, int i, const double *N)
+{
+    const int dim = s->dim, *j = s->list->j + s->list->start[i];
+    const double *x = prim_line(&s->p, i), h = fmax(s->R / 3.0, 4.0 / 3.0 * s->dx);
+    for (int k = 0; k < s->list->count[i]; k++) {
+        const double *q = prim_line(&s->p, j[k]);
+        double y2 = 0.0, along = 0.0, tip2 = 0.0;
+        for (int a = 0; a < dim; a++) {
+            const double y = q[a] - x[a];
+            y2 += y * y;
+            along += y * N[a];
+            tip2 += (y - h * N[a]) * (y - h * N[a]);
+        }
+        if (y2 >= 2.0 * h * h ? tip2 < h * h : along > sqrt(0.5 * y2))
+            return true;
+    }
+    return false;
+}
+
+static void classify(struct sph *s, struct surface *f, int i)
+{
+    const int dim = s->dim;
+    const double *M = f->M + (size_t)dim * dim * i;
+    double *N = f->normal + (size_t)dim * i;
+    f->is[i] = SURFACE_INNER;
+    memset(N, 0, (size_t)dim * sizeof *N);
+    f->lambda[i] = s->list->whole[i] ? 1.0 : surface_eigenvalue(M, dim);
+    if (f->lambda[i] >= inside)
+        return;
+    const bool has_normal = find_normal(M, f->g + (size_t)dim * i, N, dim);
+    if (f->lambda[i] <= spray || !has_normal || !is_covered(s, i, N))
+        f->is[i] = SURFACE_ON;
+    else
+        memset(N, 0, (size_t)dim * sizeof *N);
+}
+
+/* [nghost][1 + dim]: flag and normal of ghosts; those of walls and openings have none. */
+static double *share(struct sph *s, const struct surface *f)
+{
+    const int dim = s->dim;
+    double *own = NEW(double, (size_t)s->p.n *(1 + dim));
+    double *ghosts = NEW(double, (size_t)s->p.nghost *(1 + dim));
+    for (int i = 0; i < s->p.n; i++) {
+        double *row = own + (size_t)(1 + dim) * i;
+        row[0] = f->is[i] == SURFACE_ON;
+        memcpy(row + 1, f->normal + (size_t)dim * i, (size_t)dim * sizeof *row);
+    }
+    domain_share(s, own, 1 + dim, ghosts);
+    mem_free(own);
+    return ghosts;
+}
+
+/* A particle i near another with normal N takes it, weighted by the kernel. */
+static void take_normal(const struct sph *s, struct surface *f, int i, int j, const double *N)
+{
+    const int dim = s->dim;
+    const double *x = prim_line(&s->p, i), *y = prim_line(&s->p, j);
+    double r2 = 0.0;
+    for (int a = 0; a < dim; a++)
+        r2 += (y[a] - x[a]) * (y[a] - x[a]);
+    const double W = kernel_w(dim, sqrt(r2), 1.05 * s->R);
+    if (r2 < f->reach * f->reach)
+        f->is[i] = SURFACE_NEAR;
+    for (int a = 0; a < dim; a++)
+        f->normal[(size_t)dim * i + a] += W * N[a];
+}
+
+/* Those near ghosts on the surface; ghosts stand at the end of a row. */
+static void find_near_ghosts(struct sph *s, struct surface *f)
+{
+    const struct neighbours *l = s->list;
+    const int n = s->p.n, width = 1 + s->dim;
+    double *ghosts = share(s, f);
+    for (int i = 0; i < n; i++) {
+        const int *j = l->j + l->start[i];
+        for (int k = l->count[i] - 1; k >= 0 && j[k] >= n && f->is[i] != SURFACE_ON; k--) {
+            const double *row = ghosts + (ptrdiff_t)width * (j[k] - n);
+            if (row[0] == 1.0)
+                take_normal(s, f, i, j[k], row + 1);
+        }
+    }
+    mem_free(ghosts);
+}
+
+/* Particles within reach of the surface take its normal: from those on it, which are few. */
+static void find_near(struct sph *s, struct surface *f)
+{
+    const int dim = s->dim, n = s->p.n;
+    for (int i = 0; i < n; i++) {
+        const int *j = s->list->j + s->list->start[i];
+        for (int k = 0; k < s->list->count[i] && j[k] < n && f->is[i] == SURFACE_ON; k++)
+            if (f->is[j[k]] != SURFACE_ON)
+                take_normal(s, f, j[k], i, f->normal + (size_t)dim * i);
+    }
+    if (s->run->size > 1 || s->p.nghost > 0)
+        find_near_ghosts(s, f);
+    for (int i = 0; i < n; i++) {
+        double *N = f->normal + (size_t)dim * i, size2 = 0.0;
+        for (int a = 0; a < dim; a++)
+            size2 += N[a] * N[a];
+        const double to_unit = f->is[i] == SURFACE_INNER || size2 == 0.0 ? 0.0 : 1.0 / sqrt(size2);
+        for (int a = 0; a < dim && f->is[i] != SURFACE_ON; a++)
+            N[a] *= to_unit;
+    }
+}
+
+void surface_detect(struct sph *s)
+{
+    struct surface *f = s->surface;
+    moments(s, f);
+    for (int i = 0; i < s->p.n; i++)
+        classify(s, f, i);
+    f->known = true;
+    if (s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO)
+        find_near(s, f); /* else nobody asks */
+}
+
+/* Next to a surface div u is an error of the gradients, not sound. The damper would take it for
+ * sound and work against the sum over the cut support, which is not that div u: a wave of H/dx = 25
+ * lost 25 % too much, without 5 % (cases/standing_wave_sph). */
+void surface_calm(struct sph *s)
+{
+    const int dim = s->dim;
+    for (int i = 0; i < s->p.n; i++) {
+        const double lambda = s->surface->lambda[i];
+        if (lambda >= 1.0)
+            continue;
+        const double out = (lambda < inside ? 1.0 : (1.0 - lambda) / (1.0 - inside)) / dim;
+        double *g = slope_line(&s->p, i) + dim, divergence = 0.0;
+        for (int a = 0; a < dim; a++)
+            divergence += g[dim * a + a];
+        for (int a = 0; a < dim; a++)
+            g[dim * a + a] -= out * divergence;
+    }
+}

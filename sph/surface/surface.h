@@ -1,0 +1,39 @@
+/* surface.h - which particles lie on a free surface (Marrone et al., J. Comput. Phys. 229, 2010),
+ * once a step: the smallest eigenvalue of M [2.42], which the first pass over the pairs sums
+ * anyway, and between its bounds a search for neighbours in a cone along the normal [3.12].
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_SURFACE_H
+#define SPH_SURFACE_H
+
+#include "../sph.h"
+
+enum surface_class { SURFACE_INNER, SURFACE_NEAR, SURFACE_ON };
+
+struct surface {
+    int capacity;
+    unsigned char *is; /* [n] enum surface_class of the locals */
+    double *normal;    /* [n][dim] out of the fluid: on and near the surface, else 0 */
+    double *M, *g;     /* [n][dim^2], [n][dim] moments with wall terms */
+    double *lambda;    /* [n] smallest eigenvalue of M; 1 where there are neighbours enough */
+    double reach;      /* m: near is within this of a particle on the surface */
+    bool known;        /* detected for the present places; else the first pass fills M */
+};
+
+/* NULL: no free surface in the scene. */
+struct surface *surface_create(struct sph *s);
+void surface_free(struct surface **f);
+/* Room for n locals. */
+void surface_room(struct surface *f, int n, int dim);
+/* After the first pass. Collective. */
+void surface_detect(struct sph *s);
+/* Takes the divergence out of the gradients of u as far as the support lacks neighbours: lambda
+ * from 1 (none of it) to 0.75 (all). For the damper. */
+void surface_calm(struct sph *s);
+/* Smallest eigenvalue of the symmetric part of M[dim][dim]. */
+double surface_eigenvalue(const double *M, int dim);
+
+/* transport.c: the last word on u0 = u + delta at every stage, after wall terms: nothing on a
+ * surface, along it near it, and the largest size [2.113]. */
+void transport_finish(struct sph *s);
+
+#endif

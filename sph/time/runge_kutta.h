@@ -1,0 +1,25 @@
+/* runge_kutta.h - explicit Runge-Kutta schemes of low storage: each stage starts from the state
+ * before the step and the rates of the stage before it,
+ *   y_0 = y
+ *   y_k+1 = y + ahead_k dt f(y_k)
+ *   y' = y + dt sum_k weight_k f(y_k)
+ * What goes with the fluid in time (forces, work, bodies) reads the same coefficients.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_RUNGE_KUTTA_H
+#define SPH_RUNGE_KUTTA_H
+
+enum { STAGES_MOST = 4 };
+
+struct stages {
+    const char *name;
+    int n;
+    double at[STAGES_MOST];     /* dt: time of stage k after that of the step's start */
+    double ahead[STAGES_MOST];  /* dt: from the start to stage k + 1; of the last stage nothing */
+    double weight[STAGES_MOST]; /* of the rates of stage k in the step; their sum is 1 */
+    double real_axis;           /* stable for dt lambda down to minus that */
+};
+
+/* integrator: enum sph_integrator but auto. */
+const struct stages *stages_of(int integrator, int scheme);
+
+#endif

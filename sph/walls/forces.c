@@ -1,0 +1,182 @@
+/* forces.c - see forces.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "forces.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/h5.h"
+#include "../../common/mem.h"
+
+enum { REST = BODIES_MAX, SIDES = BODIES_MAX + 1, PARTS = sizeof(struct force) / sizeof(double) };
+
+void forces_clear(struct walls *w)
+{
+    memset(w->forces.stage, 0, sizeof w->forces.stage);
+    w->forces.credited = true;
+}
+
+static void add(const struct sph *s, struct force to[SIDES], int body, const double *x,
+                const double *f)
+{
+    struct force *sum = to + (body < 0 ? REST : body);
+    double d[3] = {0.0, 0.0, 0.0}, F[3] = {0.0, 0.0, 0.0};
+    for (int a = 0; a < s->dim; a++) {
+        F[a] = f[a];
+        d[a] = x[a] - (body >= 0 ? body_centre(s->walls->bodies + body, a) : 0.0);
+    }
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        sum->F[a] += F[a];
+        sum->M[a] += d[b] * F[c] - d[c] * F[b];
+    }
+}
+
+void forces_add(const struct sph *s, int body, const double *x, const double *f)
+{
+    add(s, s->walls->forces.stage, body, x, f);
+}
+
+void forces_hit(const struct sph *s, int body, const double *x, const double *impulse)
+{
+    add(s, s->walls->forces.step, body, x, impulse);
+    add(s, s->walls->forces.hit, body, x, impulse);
+}
+
+static void add_times(struct force *to, double factor, const struct force *f)
+{
+    for (int a = 0; a < 3; a++) {
+        to->F[a] += factor * f->F[a];
+        to->M[a] += factor * f->M[a];
+    }
+}
+
+void forces_stage(struct sph *s, double dt)
+{
+    struct wall_forces *f = &s->walls->forces;
+    for (int b = 0; b < SIDES; b++)
+        add_times(f->step + b, dt, f->stage + b);
+}
+
+/* The first body over the second half of the run. */
+static void sample(struct sph *s, double dt)
+{
+    const double *now = s->walls->forces.now[0].F;
+    const double part = fmin(dt, s->t - 0.5 * s->run->scene.time.end);
+    if (part <= 0.0)
+        return;
+    s->force_time += part;
+    for (int a = 0; a < s->dim; a++) {
+        s->force_sum[a] += part * now[a];
+        s->force_sum2 += part * now[a] * now[a];
+    }
+}
+
+void forces_step(struct sph *s, double dt)
+{
+    struct wall_forces *f = &s->walls->forces;
+    if (!f->credited)
+        return;
+    MPI_Allreduce(MPI_IN_PLACE, f->step, PARTS * SIDES, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    if (s->walls->any_free) { /* the same bits on all ranks, whatever a reduction to all would do */
+        const bool root = s->run->rank == 0;
+        MPI_Reduce(root ? MPI_IN_PLACE : (void *)f->hit, f->hit, PARTS * SIDES, MPI_DOUBLE, MPI_SUM,
+                   0, s->run->comm);
+        MPI_Bcast(f->hit, PARTS * SIDES, MPI_DOUBLE, 0, s->run->comm);
+    }
+    memset(f->now, 0, sizeof f->now);
+    for (int b = 0; b < SIDES; b++) {
+        add_times(f->impulse + b, 1.0, f->step + b);
+        add_times(f->now + b, 1.0 / dt, f->step + b);
+    }
+    memset(f->step, 0, sizeof f->step);
+    f->known = true;
+    if (s->walls->nbodies > 0)
+        sample(s, dt);
+}
+
+bool forces_of(const struct sph *s, int k, struct force *f)
+{
+    if (s->walls->forces.known)
+        *f = s->walls->forces.now[k];
+    return s->walls->forces.known;
+}
+
+enum { SAVED = 2 * PARTS * SIDES };
+
+void forces_save(const struct sph *s, struct h5 *f)
+{
+    const struct wall_forces *w = &s->walls->forces;
+    double row[SAVED];
+    memcpy(row, w->now, sizeof w->now);
+    memcpy(row + PARTS * SIDES, w->impulse, sizeof w->impulse);
+    h5_write_real(f, "forces", "N, N s", w->known ? 1 : 0, SAVED, row, false);
+}
+
+bool forces_load(struct sph *s, struct h5 *f)
+{
+    struct wall_forces *w = &s->walls->forces;
+    int64_t n;
+    double *rows = h5_read_all_real(f, "forces", SAVED, &n);
+    w->known = rows && n > 0;
+    if (w->known) { /* all ranks hold the same */
+        memcpy(w->now, rows, sizeof w->now);
+        memcpy(w->impulse, rows + PARTS * SIDES, sizeof w->impulse);
+    }
+    mem_free(rows);
+    return rows != NULL;
+}
+
+/* Mean of the first body's force, its fluctuation, its error. */
+static void summarise_body(const struct sph *s)
+{
+    struct summary *to = s->run->summary;
+    const double *wanted = s->run->scene.bodies[0].force, T = s->force_time;
+    static const char *const names[2][3] = {
+        {"force.x", "force.y", "force.z"},
+        {"force.average_x", "force.average_y", "force.average_z"}};
+    double var = s->force_sum2 / T, size2 = 0.0, error2 = 0.0;
+    for (int a = 0; a < s->dim; a++) {
+        const double mean = s->force_sum[a] / T;
+        var -= mean * mean;
+        size2 += wanted[a] * wanted[a];
+        error2 += (mean - wanted[a]) * (mean - wanted[a]);
+        summary_real(to, names[0][a], mean);
+        if (s->average_time > 0.0)
+            summary_real(to, names[1][a], s->average_sum[a] / s->average_time);
+    }
+    summary_real(to, "force.rms", sqrt(fmax(0.0, var)));
+    if (size2 > 0.0)
+        summary_real(to, "error.force", sqrt(error2 / size2));
+}
+
+/* Momentum now less that of the start, less gravity's impulse, plus what bodies and walls got, over
+ * the largest of these or the momentum at the scale of velocity. Where openings or a central
+ * acceleration add to it, nobody has booked that. */
+static void summarise_balance(const struct sph *s)
+{
+    const struct wall_forces *f = &s->walls->forces;
+    double sums[SUM_COUNT], defect2 = 0.0, scale = s->mass0 * s->run->scene.initial.U;
+    if (s->zones || s->central > 0.0)
+        return;
+    sph_sums(s, sums);
+    for (int a = 0; a < s->dim; a++) {
+        const double gravity = s->mass0 * s->gravity[a] * s->t;
+        double left = sums[SUM_MOMENTUM + a] - s->momentum0[a] - gravity;
+        for (int b = 0; b < SIDES; b++) {
+            left += f->impulse[b].F[a];
+            scale = fmax(scale, fabs(f->impulse[b].F[a]));
+        }
+        defect2 += left * left;
+        scale = fmax(scale, fabs(gravity));
+    }
+    summary_real(s->run->summary, "momentum.defect", sqrt(defect2) / scale);
+}
+
+void forces_summarise(const struct sph *s)
+{
+    if (!s->walls->forces.known)
+        return;
+    if (s->walls->nbodies > 0 && s->force_time > 0.0)
+        summarise_body(s);
+    summarise_balance(s);
+}

@@ -1,0 +1,85 @@
+/* ghost_lines.c - see ghost_lines.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "ghost_lines.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../particles/eos.h"
+#include "../pairs/kernel.h"
+#include "../pairs/neighbours.h"
+
+double ghost_density(const struct sph *s, double rho, double K, double d)
+{
+    const double c2_1 = 1.0 / (s->c0 * s->c0), r = rho / s->rho0;
+    if (K == 0.0)
+        return rho;
+    if (s->gamma == 1.0)
+        return rho * exp(K * d * c2_1);
+    const double r2 = r * r, sixth = r2 * r2 * r2 + 6.0 * c2_1 * K * d;
+    return s->rho0 * pow(sixth > 0.1 ? sixth : 0.1, 1.0 / 6.0);
+}
+
+void ghost_set_line(const struct sph *s, double *line, const double *x, const double *u, double w,
+                    double rho)
+{
+    const int dim = s->dim;
+    for (int a = 0; a < dim; a++) {
+        line[a] = x[a];
+        line[dim + a] = u[a];
+    }
+    line[at_volume(dim)] = w;
+    line[at_rho(dim)] = rho;
+    if (dim == 2) {
+        line[6] = eos_p(rho, s->rho0, s->c0, s->gamma);
+        line[7] = eos_c(rho, s->rho0, s->c0, s->gamma);
+    }
+}
+
+int ghost_append(struct sph *s, struct ghost_block *g, int n)
+{
+    const int first = s->p.n + s->p.nghost;
+    if (g->n == 0)
+        g->first = s->p.nghost;
+    particles_reserve(&s->p, first + n);
+    if (g->n + n > g->capacity) {
+        const int more = 2 * g->capacity + n + 64;
+        GROW(g->rub, g->capacity * s->dim, more * s->dim);
+        g->capacity = more;
+    }
+    s->p.nghost += n;
+    g->n += n;
+    return first;
+}
+
+/* The part of one row; entries of a row ascend, ghosts of walls are near its end. */
+static void rub_row(struct sph *s, const struct ghost_block *g, int i)
+{
+    const struct neighbours *l = s->list;
+    const int dim = s->dim, first = s->p.n + g->first;
+    const double *x = prim_line(&s->p, i);
+    const double factor = -2.0 * s->rho0 * s->nu * kernel_dw_r(dim, 0.0, s->R) * x[at_volume(dim)];
+    const int *j = l->j + l->start[i];
+    double *rate = state_row(&s->p, s->p.rate, i) + dim;
+    for (int k = l->count[i] - 1; k >= 0 && j[k] >= s->p.n; k--) {
+        if (j[k] < first || j[k] >= first + g->n)
+            continue;
+        const double *xj = prim_line(&s->p, j[k]);
+        const double *rub = g->rub + (size_t)dim * (j[k] - first);
+        double r2 = 0.0;
+        for (int a = 0; a < dim; a++)
+            r2 += (x[a] - xj[a]) * (x[a] - xj[a]);
+        const double t = fmax(1.0 - sqrt(r2) / s->R, 0.0),
+                     f = factor * xj[at_volume(dim)] * t * t * t;
+        for (int a = 0; a < dim; a++)
+            rate[a] += f * rub[a];
+    }
+}
+
+void ghost_friction(struct sph *s, const struct ghost_block *g)
+{
+    if (!g->rubs || s->nu == 0.0)
+        return;
+    for (int i = 0; i < s->p.n; i++)
+        rub_row(s, g, i);
+}

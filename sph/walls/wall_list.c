@@ -1,0 +1,187 @@
+/* wall_list.c - see wall_list.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "wall_list.h"
+
+#include <math.h>
+
+#include "../../common/mem.h"
+#include "wall_moments.h"
+
+enum { WALL_GROUP = 8 };
+
+void wall_list_free(struct wall_list *l)
+{
+    mem_free(l->who);
+    mem_free(l->first);
+    mem_free(l->touch);
+    mem_free(l->gamma);
+    mem_free(l->boxes);
+    wall_list3_free(l);
+}
+
+void wall_list_room(struct wall_list *l, int touches)
+{
+    if (l->n + 2 > l->capacity) {
+        const int more = 2 * l->capacity + 256;
+        GROW(l->who, l->capacity, more);
+        GROW(l->first, l->capacity, more);
+        GROW(l->gamma, l->capacity, more);
+        l->capacity = more;
+    }
+    if (touches > l->touches_capacity) {
+        const int more = 2 * touches + 256;
+        GROW(l->touch, l->touches_capacity, more);
+        l->touches_capacity = more;
+    }
+}
+
+/* Neighbours along a polyline share a box, so that most particles are done with few of them. */
+static int lay_boxes(const struct walls *w, struct wall_list *l, double reach)
+{
+    const int n = (w->nsegments + WALL_GROUP - 1) / WALL_GROUP;
+    if (n > l->boxes_capacity) {
+        GROW(l->boxes, l->boxes_capacity, n);
+        l->boxes_capacity = n;
+    }
+    for (int k = 0; k < n; k++) {
+        double *box = l->boxes[k];
+        box[0] = box[1] = INFINITY;
+        box[2] = box[3] = -INFINITY;
+        for (int j = WALL_GROUP * k; j < WALL_GROUP * (k + 1) && j < w->nsegments; j++)
+            for (int a = 0; a < 2; a++) {
+                const struct segment *g = w->segments + j;
+                box[a] = fmin(box[a], fmin(g->a[a], g->b[a]) - reach);
+                box[2 + a] = fmax(box[2 + a], fmax(g->a[a], g->b[a]) + reach);
+            }
+    }
+    return n;
+}
+
+static bool is_near(const struct segment *g, const double *x, double reach)
+{
+    const double d[2] = {x[0] - g->a[0], x[1] - g->a[1]};
+    const double height = d[0] * g->n[0] + d[1] * g->n[1];
+    double out = d[0] * g->t[0] + d[1] * g->t[1];
+    out = out < 0.0 ? -out : out > g->length ? out - g->length : 0.0;
+    return height * height + out * out < reach * reach;
+}
+
+/* The segments of one group near x, behind the first n; returns how many there are then. */
+static int list_group(const struct walls *w, struct wall_list *l, int group, const double *x,
+                      double reach, int n)
+{
+    const double *box = l->boxes[group];
+    if (x[0] < box[0] || x[1] < box[1] || x[0] > box[2] || x[1] > box[3])
+        return n;
+    wall_list_room(l, n + WALL_GROUP);
+    for (int k = WALL_GROUP * group; k < WALL_GROUP * (group + 1) && k < w->nsegments; k++)
+        if (is_near(w->segments + k, x, reach))
+            l->touch[n++] = (struct wall_touch){
+                .piece = k, .body = w->segments[k].body, .no_slip = w->segments[k].no_slip};
+    return n;
+}
+
+static void build(const struct sph *s, struct wall_list *l)
+{
+    const struct walls *w = s->walls;
+    const double reach = s->R + s->skin + w->speed * s->dt_most;
+    const int groups = lay_boxes(w, l, reach);
+    int touches = 0;
+    l->n = 0;
+    wall_list_room(l, 0);
+    for (int i = 0; i < s->p.n; i++) {
+        const double *x = prim_line(&s->p, i);
+        const int before = touches;
+        for (int k = 0; k < groups; k++)
+            touches = list_group(w, l, k, x, reach, touches);
+        if (touches > before) {
+            wall_list_room(l, touches);
+            l->who[l->n] = i;
+            l->first[l->n++] = before;
+        }
+    }
+    l->first[l->n] = touches;
+}
+
+static void measure(const struct segment *g, const double *x, double R, struct wall_touch *t)
+{
+    const double d[2] = {g->a[0] - x[0], g->a[1] - x[1]};
+    const double height = g->n[0] * d[0] + g->n[1] * d[1];
+    const double from = g->t[0] * d[0] + g->t[1] * d[1], to = from + g->length;
+    const struct wall_moments m = wall_moments(height / R, from / R, to / R);
+    t->height = height;
+    t->foot = from <= 0.0 && to >= 0.0;
+    t->distance = hypot(height, fmax(0.0, fmax(from, -to)));
+    t->is.gamma = m.gamma;
+    t->is.W = m.W / R;
+    for (int a = 0; a < 2; a++) {
+        t->n[a] = g->n[a];
+        t->is.e[a] = m.along * R * g->t[a] + height * g->n[a];
+    }
+}
+
+void wall_list_build(const struct sph *s, struct wall_list *l)
+{
+    l->measured = false;
+    if (s->dim == 2)
+        build(s, l);
+    else
+        wall_list3_build(s, l);
+}
+
+void wall_list_measure(const struct sph *s, struct wall_list *l)
+{
+    const double q = 0.5 * s->dx;
+    if (s->dim == 3)
+        wall_list3_measure(s, l);
+    for (int k = 0; k < l->n; k++) {
+        const double *x = prim_line(&s->p, l->who[k]);
+        double gamma = 1.0;
+        for (int j = l->first[k]; j < l->first[k + 1]; j++) {
+            struct wall_touch *t = l->touch + j;
+            double e2 = 0.0;
+            if (s->dim == 2)
+                measure(s->walls->segments + t->piece, x, s->R, t);
+            for (int a = 0; a < s->dim; a++)
+                e2 += t->is.e[a] * t->is.e[a];
+            t->near = fmin(1.0, q * q / e2);
+            gamma += t->is.gamma;
+        }
+        l->gamma[k] = gamma > 1.0 + 1e-6 ? gamma - 1.0 : gamma; /* behind a wall one more */
+    }
+    l->measured = true;
+}
+
+double wall_list_weight(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
+                        const double *x, double R)
+{
+    if (s->dim == 3)
+        return wall_list3_weight(s, l, t, x, R);
+    struct wall_touch other;
+    measure(s->walls->segments + t->piece, x, R, &other);
+    return other.is.W;
+}
+
+void wall_list_velocity(const struct sph *s, const struct wall_touch *t, const double *x, double *u)
+{
+    const struct walls *w = s->walls;
+    if (s->dim == 2)
+        walls_velocity(w, w->segments + t->piece, x, u, NULL);
+    else
+        wall_mesh_velocity(w, w->meshes + t->of, x, u, NULL);
+}
+
+int wall_list_behind(const struct sph *s, const struct wall_list *l, int *who)
+{
+    int n = 0;
+    if (s->dim == 3)
+        return wall_list3_behind(s, l, who);
+    for (int k = 0; k < l->n; k++) {
+        const double *x = state_row(&s->p, s->p.y, l->who[k]);
+        struct wall_side side = wall_side_none(s->R);
+        for (int j = l->first[k]; j < l->first[k + 1]; j++)
+            wall_side_add(&side, s->walls->segments + l->touch[j].piece, x);
+        if (side.distance < 0.0)
+            who[n++] = l->who[k];
+    }
+    return n;
+}

@@ -1,0 +1,89 @@
+/* wall_list.h - particles near walls, the pieces of wall near each (segments in 2D, triangles in
+ * 3D), and what each piece has of the particle's kernel. The list is made once a step; its
+ * integrals once a stage, for all who ask. Whoever sums over touches need not know what a piece
+ * is. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_WALL_LIST_H
+#define SPH_WALL_LIST_H
+
+#include "facet.h"
+#include "walls.h"
+
+/* One piece as one particle sees it. */
+struct wall_touch {
+    struct wall_integrals is; /* W = 0: beyond the support; e divided by W: m, from the particle to
+                                 the centre of that weight */
+    double n[3];
+    double height, distance; /* m: over the plane of the piece, from the piece */
+    double near;             /* -: min(1, (dx/2)^2/e^2) */
+    int piece, of;           /* 2D: segment, -; 3D: place in the frames of mesh `of' */
+    int body;                /* -1: at rest */
+    bool no_slip, foot;      /* foot: that of the particle lies on the piece */
+};
+
+/* A triangle near some particles, in 3D. */
+struct wall_near {
+    int mesh, facet;
+};
+
+struct wall_list {
+    int n, capacity;
+    int *who, *first; /* [n], [n+1] */
+    int touches_capacity;
+    struct wall_touch *touch; /* [first[n]] */
+    double *gamma;            /* [n] Shepard factor */
+    bool measured;            /* touch and gamma are of the present places */
+    int boxes_capacity;
+    double (*boxes)[4]; /* 2D: around groups of segments: low x, y, high x, y */
+    /* 3D: triangles that were seen, by mesh; what a tree found; what is near a group */
+    int nframes, found_capacity, near_capacity;
+    struct wall_frames *of3;
+    int *found;
+    struct wall_near *near;
+    /* 3D with thin walls: what closes the sums at rims, m^-1; places at the last list and its time
+     */
+    int rims_capacity;
+    double (*rim)[3], (*seen_from)[3], listed_at;
+};
+
+void wall_list_free(struct wall_list *l);
+/* Particles nearer than R, the skin and the way of a step to a wall. */
+void wall_list_build(const struct sph *s, struct wall_list *l);
+/* touch and gamma at the present places of particles and walls. */
+void wall_list_measure(const struct sph *s, struct wall_list *l);
+/* Lists locals whose state is behind the nearest wall; returns their number. */
+int wall_list_behind(const struct sph *s, const struct wall_list *l, int *who);
+/* int W dS over the piece of a touch with another support R, m^(1-dim). */
+double wall_list_weight(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
+                        const double *x, double R);
+/* Velocity of the wall's material point x, m/s. */
+void wall_list_velocity(const struct sph *s, const struct wall_touch *t, const double *x,
+                        double *u);
+
+/* --- of wall_list.c and wall_list3.c --- */
+
+/* Room for one particle more and so many touches. */
+void wall_list_room(struct wall_list *l, int touches);
+void wall_list3_build(const struct sph *s, struct wall_list *l);
+void wall_list3_measure(const struct sph *s, struct wall_list *l);
+int wall_list3_behind(const struct sph *s, const struct wall_list *l, int *who);
+double wall_list3_weight(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
+                         const double *x, double R);
+void wall_list3_free(struct wall_list *l);
+/* Of a touch: its triangle in the frame of the mesh, its number there; a place seen from there. */
+const struct facet *wall_list3_facet(const struct wall_list *l, const struct wall_touch *t);
+int wall_list3_triangle(const struct wall_list *l, const struct wall_touch *t);
+void wall_list3_to_own(const struct sph *s, const struct wall_touch *t, const double *x,
+                       double *own);
+
+/* --- wall_thin3.c --- */
+
+bool wall_list3_any_thin(const struct walls *w);
+/* Takes pairs out of the list that look through thin walls. */
+void wall_list3_cut(const struct sph *s, struct wall_list *l);
+/* After the integrals: what of thin walls is not seen counts for nothing; rims. */
+void wall_list3_shade(const struct sph *s, struct wall_list *l);
+/* Whether the k-th of the list has gone through a thin wall since the list was made: where, with
+ * the normal away from the side that it came from. */
+bool wall_list3_crossed(const struct sph *s, const struct wall_list *l, int k, struct wall_foot *f);
+
+#endif

@@ -1,0 +1,268 @@
+/* wall_mesh.c - walls of triangles: where their meshes come from and where they are now; see
+ * walls.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "walls.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../../common/scene_mesh.h"
+#include "../../common/vec3.h"
+#include "../../common/xdmf.h"
+#include "../sph_params.h"
+
+void wall_mesh_turn_to_own(const struct wall_mesh *m, const double *v, double *own)
+{
+    for (int a = 0; a < 3; a++)
+        own[a] = m->Q[0][a] * v[0] + m->Q[1][a] * v[1] + m->Q[2][a] * v[2];
+}
+
+void wall_mesh_turn_to_world(const struct wall_mesh *m, const double *own, double *v)
+{
+    for (int a = 0; a < 3; a++)
+        v[a] = vec3_dot(m->Q[a], own);
+}
+
+void wall_mesh_to_own(const struct wall_mesh *m, const double *x, double *own)
+{
+    double d[3];
+    vec3_from(m->X, x, d);
+    wall_mesh_turn_to_own(m, d, own);
+}
+
+void wall_mesh_to_world(const struct wall_mesh *m, const double *own, double *x)
+{
+    double d[3];
+    wall_mesh_turn_to_world(m, own, d);
+    for (int a = 0; a < 3; a++)
+        x[a] = m->X[a] + d[a];
+}
+
+void wall_mesh_velocity(const struct walls *w, const struct wall_mesh *m, const double *x,
+                        double *u, double *du)
+{
+    memcpy(u, m->u, sizeof m->u);
+    if (du)
+        memset(du, 0, 3 * sizeof *du);
+    if (m->body < 0)
+        return;
+    const struct body *b = w->bodies + m->body;
+    const struct body_motion *now = &b->now;
+    double d[3], v[3], turned[3], inward[3];
+    for (int a = 0; a < 3; a++)
+        d[a] = x[a] - b->centre[a] - now->x[a];
+    vec3_cross(now->omega, d, v);
+    vec3_cross(now->domega, d, turned);
+    vec3_cross(now->omega, v, inward);
+    for (int a = 0; a < 3; a++) {
+        u[a] = now->u[a] + v[a];
+        if (du)
+            du[a] = now->du[a] + turned[a] + inward[a];
+    }
+}
+
+void wall_meshes_move(struct walls *w)
+{
+    for (int k = 0; k < w->nmeshes; k++) {
+        struct wall_mesh *m = w->meshes + k;
+        double turned[3];
+        if (m->body < 0)
+            continue;
+        const struct body *b = w->bodies + m->body;
+        memcpy(m->Q, b->now.Q, sizeof m->Q);
+        wall_mesh_turn_to_world(m, b->centre, turned);
+        for (int a = 0; a < 3; a++)
+            m->X[a] = b->centre[a] + b->now.x[a] - turned[a];
+    }
+}
+
+/* Whether foot f is a better answer than the best so far. */
+static bool is_nearer(const struct tree_foot *f, const struct tree_foot *best)
+{
+    const double r = fabs(f->distance), least = fabs(best->distance);
+    if (best->triangle < 0 || r < least * (1.0 - 1e-12))
+        return true;
+    return r <= least * (1.0 + 1e-12) && best->rim && !f->rim;
+}
+
+struct tree_foot wall_meshes_nearest(const struct walls *w, const double *x, double reach,
+                                     int *mesh)
+{
+    struct tree_foot best = {.distance = INFINITY, .triangle = -1};
+    *mesh = -1;
+    for (int k = 0; k < w->nmeshes; k++) {
+        const struct wall_mesh *m = w->meshes + k;
+        double own[3], foot[3], n[3];
+        wall_mesh_to_own(m, x, own);
+        struct tree_foot f =
+            tree_nearest(m->tree, own, fmin(reach, fabs(best.distance) * (1.0 + 1e-12)));
+        if (f.triangle < 0 || !is_nearer(&f, &best))
+            continue;
+        wall_mesh_to_world(m, f.foot, foot);
+        wall_mesh_turn_to_world(m, f.n, n);
+        memcpy(f.foot, foot, sizeof foot);
+        memcpy(f.n, n, sizeof n);
+        best = f;
+        *mesh = k;
+    }
+    return best;
+}
+
+/* --- sides of the domain --- */
+
+static bool is_wall_side(const struct sph *s, int side)
+{
+    const struct scene_wall *w =
+        scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
+    return w && (w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP) &&
+           sph_params_reaches(&s->run->scene.domain, &s->prm, side);
+}
+
+/* The rectangle of a side, normal out: to the corners where walls meet, else 2.5 R beyond. */
+static struct trimesh rectangle(const struct sph *s, int side)
+{
+    const int axis = side / 2, high = side % 2;
+    double lo[3], hi[3];
+    for (int a = 0; a < 3; a++) {
+        lo[a] = s->lo[a] - (is_wall_side(s, 2 * a) ? 0.0 : 2.5 * s->R);
+        hi[a] = s->hi[a] + (is_wall_side(s, 2 * a + 1) ? 0.0 : 2.5 * s->R);
+    }
+    lo[axis] = hi[axis] = high ? s->hi[axis] : s->lo[axis];
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    struct trimesh m = {.nvertices = 4, .ntriangles = 2};
+    m.x = (double(*)[3])mem_new(4, sizeof *m.x);
+    m.vertex = (int(*)[3])mem_new(2, sizeof *m.vertex);
+    for (int k = 0; k < 4; k++) { /* counter-clockwise round +axis */
+        m.x[k][axis] = lo[axis];
+        m.x[k][b] = k == 1 || k == 2 ? hi[b] : lo[b];
+        m.x[k][c] = k > 1 ? hi[c] : lo[c];
+    }
+    for (int t = 0; t < 2; t++) {
+        m.vertex[t][0] = 0;
+        m.vertex[t][1] = high ? 1 + t : 2 + t;
+        m.vertex[t][2] = high ? 2 + t : 1 + t;
+    }
+    return m;
+}
+
+static struct wall_mesh *add_mesh(struct walls *w)
+{
+    GROW(w->meshes, w->nmeshes, w->nmeshes + 1);
+    struct wall_mesh *m = w->meshes + w->nmeshes++;
+    *m = (struct wall_mesh){.body = -1};
+    for (int a = 0; a < 3; a++)
+        m->Q[a][a] = 1.0;
+    return m;
+}
+
+/* Sides alike share a mesh, so that the edges where they meet are no rims. */
+static void add_sides(struct sph *s, struct walls *w)
+{
+    bool done[6] = {false};
+    for (int side = 0; side < 6; side++) {
+        if (done[side] || !is_wall_side(s, side))
+            continue;
+        const struct scene_wall *is =
+            scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
+        struct wall_mesh *m = add_mesh(w);
+        m->no_slip = is->kind == WALL_NO_SLIP;
+        memcpy(m->u, is->velocity, sizeof m->u);
+        for (int other = side; other < 6; other++) {
+            const struct scene_wall *q =
+                scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + other));
+            if (done[other] || !is_wall_side(s, other) || q->kind != is->kind ||
+                memcmp(q->velocity, is->velocity, sizeof q->velocity))
+                continue;
+            struct trimesh more = rectangle(s, other);
+            trimesh_append(&m->mesh, &more);
+            trimesh_free(&more);
+            done[other] = true;
+        }
+        trimesh_weld(&m->mesh, 1e-9 * s->R);
+        trimesh_connect(&m->mesh);
+    }
+}
+
+/* Copies of the triangles within 2.5 R of a periodic side go on beyond the other one, and join
+ * those that end there. A mesh that reaches beyond the sides has been prolonged already. */
+static void repeat(const struct sph *s, struct wall_mesh *m, int axis)
+{
+    const double reach = 2.5 * s->R, L = s->hi[axis] - s->lo[axis], near = 1e-6 * L;
+    const int n = m->mesh.ntriangles;
+    double lo[3], hi[3];
+    trimesh_bounds(&m->mesh, lo, hi);
+    if (lo[axis] < s->lo[axis] - near || hi[axis] > s->hi[axis] + near ||
+        (lo[axis] > s->lo[axis] + reach && hi[axis] < s->hi[axis] - reach))
+        return;
+    struct trimesh copy = trimesh_copy(&m->mesh), all = trimesh_copy(&m->mesh);
+    for (int way = -1; way <= 1; way += 2) {
+        copy.ntriangles = 0;
+        for (int t = 0; t < n; t++) {
+            double least = INFINITY, most = -INFINITY;
+            for (int k = 0; k < 3; k++) {
+                least = fmin(least, m->mesh.x[m->mesh.vertex[t][k]][axis]);
+                most = fmax(most, m->mesh.x[m->mesh.vertex[t][k]][axis]);
+            }
+            if (way > 0 ? least < s->lo[axis] + reach : most > s->hi[axis] - reach)
+                memcpy(copy.vertex[copy.ntriangles++], m->mesh.vertex[t], sizeof *copy.vertex);
+        }
+        for (int v = 0; v < copy.nvertices; v++)
+            copy.x[v][axis] = m->mesh.x[v][axis] + way * L;
+        trimesh_append(&all, &copy);
+    }
+    trimesh_free(&copy);
+    trimesh_weld(&all, near);
+    trimesh_trim(&all);
+    trimesh_connect(&all);
+    if (!m->lent)
+        trimesh_free(&m->mesh);
+    m->mesh = all;
+    m->lent = false; /* a tree of its own is made of it */
+}
+
+/* Meshes of files, which the scene keeps. */
+static void add_lent(struct sph *s, struct walls *w)
+{
+    const struct scene *c = &s->run->scene;
+    for (int k = 0; c->meshes && k < c->meshes->n; k++) {
+        const struct scene_mesh *is = c->meshes->of + k;
+        if (is->owner == MESH_SHAPE)
+            continue;
+        struct wall_mesh *m = add_mesh(w);
+        const bool body = is->owner == MESH_BODY;
+        m->mesh = is->mesh;
+        m->tree = is->tree;
+        m->lent = true;
+        m->of = is;
+        m->body = body ? is->index : -1;
+        m->no_slip = (body ? c->bodies[is->index].kind : c->walls[is->index].kind) == WALL_NO_SLIP;
+        m->thin = body ? c->bodies[is->index].thin : c->walls[is->index].thin;
+        if (!body)
+            memcpy(m->u, c->walls[is->index].velocity, sizeof m->u);
+        for (int a = 0; a < 3 && !body; a++)
+            if (s->periodic[a])
+                repeat(s, m, a);
+    }
+}
+
+void wall_meshes_create(struct sph *s, struct walls *w)
+{
+    if (s->dim < 3 || s->prm.walls != WALLS_NFM)
+        return;
+    add_sides(s, w);
+    add_lent(s, w);
+    for (int k = 0; k < w->nmeshes; k++) /* trees point at their meshes: the list has its place */
+        if (!w->meshes[k].lent)
+            w->meshes[k].tree = tree_create(&w->meshes[k].mesh);
+}
+
+void wall_meshes_free(struct walls *w)
+{
+    for (int k = 0; k < w->nmeshes; k++)
+        if (!w->meshes[k].lent) {
+            tree_free(&w->meshes[k].tree);
+            trimesh_free(&w->meshes[k].mesh);
+        }
+    mem_free(w->meshes);
+    xdmf_free(&w->view);
+}

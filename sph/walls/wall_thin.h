@@ -1,0 +1,20 @@
+/* wall_thin.h - walls and bodies through which particles would see each other, and gaps that hold
+ * no particle: found in the case, in 2D. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_WALL_THIN_H
+#define SPH_WALL_THIN_H
+
+#include "../../common/scene.h"
+
+/* Where a wall is too thin or a gap too narrow. */
+struct wall_thin {
+    double at[2], width; /* m */
+    char what[160];      /* "faces of wall 2", "wall 2 and body 1 (hull)" */
+};
+
+/* Solid thinner than `least' between two faces that are wet on both sides; sharp corners are none.
+ */
+bool wall_thin_solid(const struct scene *c, double least, struct wall_thin *t);
+/* Fluid narrower than `least' between faces along 4 `least' and more; faces that touch are none. */
+bool wall_thin_gap(const struct scene *c, double least, struct wall_thin *t);
+
+#endif

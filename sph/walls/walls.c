@@ -1,0 +1,376 @@
+/* walls.c - geometry and motion of the walls; see walls.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "walls.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../../common/scene_mesh.h"
+#include "forces.h"
+#include "../sph_params.h"
+
+static void set_frame(struct segment *g)
+{
+    const double d[2] = {g->b[0] - g->a[0], g->b[1] - g->a[1]};
+    g->length = sqrt(d[0] * d[0] + d[1] * d[1]);
+    g->t[0] = d[0] / g->length;
+    g->t[1] = d[1] / g->length;
+    g->n[0] = g->t[1];
+    g->n[1] = -g->t[0];
+}
+
+static void add_segment(struct walls *w, const double *a, const double *b, bool no_slip, int body,
+                        const double *u)
+{
+    if (w->nsegments % 64 == 0)
+        GROW(w->segments, w->nsegments, w->nsegments + 64);
+    struct segment g = {.body = body, .no_slip = no_slip};
+    memcpy(g.a, a, sizeof g.a);
+    memcpy(g.b, b, sizeof g.b);
+    if (u)
+        memcpy(g.u, u, sizeof g.u);
+    set_frame(&g);
+    if (g.length > 0.0)
+        w->segments[w->nsegments++] = g;
+}
+
+/* Ends on a periodic side go on beyond it, for the images do. */
+static void extend(const struct sph *s, double *end, const double *other)
+{
+    const double d[2] = {end[0] - other[0], end[1] - other[1]};
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1]);
+    for (int a = 0; a < 2; a++)
+        if (s->periodic[a] &&
+            (fabs(end[a] - s->lo[a]) < 1e-9 * s->R || fabs(end[a] - s->hi[a]) < 1e-9 * s->R)) {
+            end[0] += 2.5 * s->R * d[0] / length;
+            end[1] += 2.5 * s->R * d[1] / length;
+            return;
+        }
+}
+
+/* Whether a polyline goes straight on at b, so that how a straight wall is cut changes nothing. */
+static bool goes_on(const double *a, const double *b, const double *c)
+{
+    const double d[2] = {b[0] - a[0], b[1] - a[1]}, e[2] = {c[0] - b[0], c[1] - b[1]};
+    const double turn = d[0] * e[1] - d[1] * e[0], along = d[0] * e[0] + d[1] * e[1];
+    return along > 0.0 && fabs(turn) < 1e-9 * along;
+}
+
+static void add_polyline(struct sph *s, struct walls *w, const struct param_points *p, bool closed,
+                         bool no_slip, int body, const double *u)
+{
+    const int n = closed ? p->n : p->n - 1;
+    double a[2], b[2];
+    for (int k = 0; k < n; k++) {
+        const double *from = p->x[k], *to = p->x[(k + 1) % p->n], *next = p->x[(k + 2) % p->n];
+        if (k == 0 || !goes_on(p->x[k - 1], from, to))
+            memcpy(a, from, sizeof a);
+        memcpy(b, to, sizeof b);
+        if (k < n - 1 && goes_on(from, to, next))
+            continue;
+        if (!closed && a[0] == p->x[0][0] && a[1] == p->x[0][1])
+            extend(s, a, p->x[1]);
+        if (!closed && k == n - 1)
+            extend(s, b, p->x[n - 1]);
+        add_segment(w, a, b, no_slip, body, u);
+    }
+}
+
+/* A side of the domain that the region does not reach is no wall of its particles. */
+static bool is_wall(const struct sph *s, const struct scene_wall *w)
+{
+    const bool is = w && (w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP);
+    return is && (w->side == SIDE_NONE ||
+                  sph_params_reaches(&s->run->scene.domain, &s->prm, w->side - SIDE_X_MIN));
+}
+
+/* Whether a polyline of the case has a point here: a wall goes on. */
+static bool is_corner(const struct sph *s, const double *x)
+{
+    const struct scene *c = &s->run->scene;
+    for (int k = 0; k < c->nwalls; k++)
+        for (int i = 0; i < c->walls[k].points.n; i++) {
+            const double *p = c->walls[k].points.x[i];
+            if (fabs(p[0] - x[0]) < 1e-6 * s->dx && fabs(p[1] - x[1]) < 1e-6 * s->dx)
+                return true;
+        }
+    return false;
+}
+
+/* A side of a plane domain as a segment: to the corners where walls meet, else beyond. */
+static void add_side(struct sph *s, struct walls *w, const struct scene_wall *is)
+{
+    const int axis = (is->side - SIDE_X_MIN) / 2, other = 1 - axis;
+    const bool high = (is->side - SIDE_X_MIN) % 2;
+    const struct scene *c = &s->run->scene;
+    const bool low_wall = is_wall(s, scene_wall_of(c, SIDE_X_MIN + 2 * other));
+    const bool high_wall = is_wall(s, scene_wall_of(c, SIDE_X_MIN + 2 * other + 1));
+    double a[2], b[2];
+    a[axis] = b[axis] = high ? s->hi[axis] : s->lo[axis];
+    a[other] = s->lo[other];
+    b[other] = s->hi[other];
+    a[other] -= low_wall || is_corner(s, a) ? 0.0 : 2.5 * s->R;
+    b[other] += high_wall || is_corner(s, b) ? 0.0 : 2.5 * s->R;
+    const bool forward = (axis == 1) != high; /* fluid on the left: bottom goes along +x */
+    add_segment(w, forward ? a : b, forward ? b : a, is->kind == WALL_NO_SLIP, -1, is->velocity);
+}
+
+static void add_plane(const struct sph *s, struct walls *w, const struct scene_wall *is)
+{
+    const int axis = (is->side - SIDE_X_MIN) / 2;
+    const bool high = (is->side - SIDE_X_MIN) % 2;
+    struct wall_plane p = {.axis = axis,
+                           .sign = high ? 1 : -1,
+                           .at = high ? s->hi[axis] : s->lo[axis],
+                           .no_slip = is->kind == WALL_NO_SLIP};
+    memcpy(p.u, is->velocity, sizeof p.u);
+    p.u[axis] = 0.0;
+    w->planes[w->nplanes++] = p;
+}
+
+void walls_move(struct sph *s, double t)
+{
+    struct walls *w = s->walls;
+    if (t == w->t && !w->any_free)
+        return;
+    w->t = t;
+    for (int k = 0; k < w->nbodies; k++) {
+        struct body *b = w->bodies + k;
+        if (w->placed && !b->moves)
+            continue;
+        body_move(b, t);
+        for (int i = b->first; i < b->first + b->n; i++) {
+            body_place(b, w->start[i].a, w->segments[i].a);
+            body_place(b, w->start[i].b, w->segments[i].b);
+            set_frame(w->segments + i);
+        }
+    }
+    wall_meshes_move(w);
+    w->placed = true;
+}
+
+void walls_velocity(const struct walls *w, const struct segment *g, const double *x, double *u,
+                    double *du)
+{
+    if (du)
+        du[0] = du[1] = 0.0;
+    if (g->body < 0) {
+        u[0] = g->u[0];
+        u[1] = g->u[1];
+        return;
+    }
+    const struct body *b = w->bodies + g->body;
+    const struct body_motion *m = &b->now;
+    const double d[2] = {x[0] - body_centre(b, 0), x[1] - body_centre(b, 1)};
+    u[0] = m->u[0] - m->spin * d[1];
+    u[1] = m->u[1] + m->spin * d[0];
+    if (du) {
+        du[0] = m->du[0] - m->dspin * d[1] - m->spin * m->spin * d[0];
+        du[1] = m->du[1] + m->dspin * d[0] - m->spin * m->spin * d[1];
+    }
+}
+
+struct wall_side wall_side_none(double reach) { return (struct wall_side){reach, reach, -1.0}; }
+
+void wall_side_add(struct wall_side *to, const struct segment *g, const double *x)
+{
+    const double d[2] = {x[0] - g->a[0], x[1] - g->a[1]};
+    const double height = -(d[0] * g->n[0] + d[1] * g->n[1]);
+    double along = d[0] * g->t[0] + d[1] * g->t[1];
+    along = along < 0.0 ? -along : along > g->length ? along - g->length : 0.0;
+    const double r = sqrt(along * along + height * height);
+    if (r < to->least * (1.0 + 1e-12) &&
+        (r < to->least * (1.0 - 1e-12) || fabs(height) > to->sure)) {
+        to->least = r;
+        to->sure = fabs(height);
+        to->distance = height < 0.0 ? -r : r;
+    }
+}
+
+double walls_distance(const struct walls *w, const double *x, double reach)
+{
+    struct wall_side side = wall_side_none(reach);
+    for (int k = 0; k < w->nsegments; k++)
+        wall_side_add(&side, w->segments + k, x);
+    return side.distance;
+}
+
+int walls_nearest(const struct walls *w, const double *x, double *foot)
+{
+    double least = INFINITY;
+    int found = 0;
+    for (int k = 0; k < w->nsegments; k++) {
+        const struct segment *g = w->segments + k;
+        const double along =
+            fmax(0.0, fmin((x[0] - g->a[0]) * g->t[0] + (x[1] - g->a[1]) * g->t[1], g->length));
+        const double p[2] = {g->a[0] + along * g->t[0], g->a[1] + along * g->t[1]};
+        const double r = hypot(x[0] - p[0], x[1] - p[1]);
+        if (r < least) {
+            least = r;
+            found = k;
+            foot[0] = p[0];
+            foot[1] = p[1];
+        }
+    }
+    return found;
+}
+
+/* The nearest point of all walls. */
+static struct wall_foot foot_of(const struct sph *s, const double *x)
+{
+    const struct walls *w = s->walls;
+    struct wall_foot f = {.body = -1};
+    if (s->dim == 2) {
+        const struct segment *g = w->segments + walls_nearest(w, x, f.x);
+        memcpy(f.n, g->n, sizeof g->n);
+        f.body = g->body;
+        walls_velocity(w, g, f.x, f.u, NULL);
+        return f;
+    }
+    int mesh;
+    const struct tree_foot t = wall_meshes_nearest(w, x, INFINITY, &mesh);
+    memcpy(f.x, t.foot, sizeof f.x);
+    memcpy(f.n, t.n, sizeof f.n);
+    f.body = w->meshes[mesh].body;
+    wall_mesh_velocity(w, w->meshes + mesh, f.x, f.u, NULL);
+    return f;
+}
+
+void walls_put_before(struct sph *s, int i, const struct wall_foot *f)
+{
+    const int dim = s->dim;
+    double *y = state_row(&s->p, s->p.y, i), un = 0.0, impulse[3];
+    const double m = y[at_mass(dim)];
+    for (int a = 0; a < dim; a++)
+        un += (y[dim + a] / m - f->u[a]) * f->n[a];
+    for (int a = 0; a < dim; a++) {
+        y[a] = f->x[a] - 0.05 * s->dx * f->n[a];
+        impulse[a] = m * fmax(un, 0.0) * f->n[a];
+        y[dim + a] -= impulse[a];
+    }
+    forces_hit(s, f->body, f->x, impulse);
+    s->walls->returned++;
+}
+
+bool walls_put_back(struct sph *s, int i)
+{
+    const double *y = state_row(&s->p, s->p.y, i);
+    const struct wall_foot f = foot_of(s, y);
+    double away2 = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        away2 += (y[a] - f.x[a]) * (y[a] - f.x[a]);
+    if (away2 > s->dx * s->dx)
+        return false;
+    walls_put_before(s, i, &f);
+    return true;
+}
+
+void walls_put_back_inside(struct sph *s)
+{
+    const int dim = s->dim;
+    if (s->walls->model->back)
+        s->walls->model->back(s);
+    for (int k = 0; k < s->walls->nplanes; k++) {
+        const struct wall_plane *p = s->walls->planes + k;
+        for (int i = 0; i < s->p.n; i++) {
+            double *y = state_row(&s->p, s->p.y, i);
+            const double out = p->sign * (y[p->axis] - p->at);
+            if (!(out > 0.0) || out > s->dx)
+                continue;
+            double impulse[3] = {0.0, 0.0, 0.0};
+            impulse[p->axis] = p->sign * fmax(p->sign * y[dim + p->axis], 0.0);
+            y[p->axis] = p->at - 0.05 * s->dx * p->sign;
+            y[dim + p->axis] -= impulse[p->axis];
+            forces_hit(s, -1, y, impulse);
+            s->walls->returned++;
+        }
+    }
+}
+
+void walls_keep_mass(struct sph *s, int n, const int *who)
+{
+    const size_t width = (size_t)s->p.nstate, mass = width - 1;
+    double sums[2] = {0.0, 0.0};
+    n = who ? n : s->p.n;
+    for (int i = 0; i < s->p.n; i++)
+        sums[0] += s->p.rate[width * i + mass];
+    for (int k = 0; k < n; k++)
+        sums[1] += s->p.y[width * (who ? who[k] : k) + mass];
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (int k = 0; k < n && sums[1] > 0.0; k++) {
+        const size_t at = width * (who ? who[k] : k) + mass;
+        s->p.rate[at] -= s->p.y[at] * sums[0] / sums[1];
+    }
+}
+
+static void add_bodies(struct sph *s, struct walls *w)
+{
+    const struct scene *c = &s->run->scene;
+    for (int k = 0; k < c->nbodies; k++) {
+        struct body *b = w->bodies + w->nbodies++;
+        body_create(b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, s->run->case_dir);
+        w->any_free = w->any_free || b->free;
+        b->first = w->nsegments;
+        add_polyline(s, w, &b->is->points, true, b->is->kind == WALL_NO_SLIP, k, NULL);
+        b->n = w->nsegments - b->first;
+    }
+}
+
+void walls_expect_speed(struct walls *w)
+{
+    w->speed = 0.0;
+    for (int k = 0; k < w->nbodies; k++)
+        w->speed = fmax(w->speed, 1.1 * body_speed(w->bodies + k));
+}
+
+struct walls *walls_create(struct sph *s)
+{
+    static const struct wall_model *const models[] = {&wall_nfm, &wall_ghost}; /* enum sph_walls */
+    const struct scene *c = &s->run->scene;
+    int any = c->nbodies;
+    for (int k = 0; k < c->nwalls; k++)
+        any += is_wall(s, c->walls + k);
+    if (!any)
+        return NULL;
+    struct walls *w = NEW(struct walls, 1);
+    w->t = NAN;
+    s->walls = w;
+    for (int k = 0; k < c->nwalls; k++) {
+        const struct scene_wall *is = c->walls + k;
+        if (!is_wall(s, is))
+            continue;
+        if (is->side != SIDE_NONE)
+            add_plane(s, w, is);
+        if (is->side != SIDE_NONE && s->dim == 2)
+            add_side(s, w, is);
+        else if (is->side == SIDE_NONE)
+            add_polyline(s, w, &is->points, is->closed, is->kind == WALL_NO_SLIP, -1, is->velocity);
+    }
+    add_bodies(s, w);
+    wall_meshes_create(s, w);
+    w->start = NEW(struct segment, w->nsegments);
+    if (w->nsegments > 0)
+        memcpy(w->start, w->segments, (size_t)w->nsegments * sizeof *w->start);
+    w->model = models[s->prm.walls];
+    w->state = w->model->create(s); /* of the walls as they are at t = 0 */
+    walls_move(s, s->t);
+    walls_expect_speed(w);
+    return w;
+}
+
+void walls_free(struct walls **w)
+{
+    if (!*w)
+        return;
+    (*w)->model->destroy((*w)->state);
+    for (int k = 0; k < (*w)->nbodies; k++)
+        body_destroy((*w)->bodies + k);
+    wall_meshes_free(*w);
+    mem_free((*w)->segments);
+    mem_free((*w)->start);
+    mem_free(*w);
+    *w = NULL;
+}

@@ -1,0 +1,361 @@
+/* sph_watch.c - see sph_watch.h. SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Energy: kinetic, elastic and potential (gravity across bounded axes, central force). Outside work
+ * is that of a body force along periodic axes, g.sum(m u), and of moving walls: of bodies the force
+ * that the fluid loses to them, of walls that slide the momentum that they give to each particle,
+ * times their velocity there, by the weights of the stages. What is left
+ * over may only fall. A gain is measured by the kinetic energy and a twentieth of what the scene
+ * lets expect, M (U^2 + p/rho)/20: a tank at rest has its hydrostatic scale, so that noise of 1e-3
+ * sqrt(g H) is no alarm and a flow of sqrt(g H)/30 that nothing drives is. A flow that creeps has
+ * the elastic energy of its pressures, M p^2/(rho c0)^2, beside. The work of moving walls is known
+ * to some percent only, for the division by gamma is theirs, too: five times its size is added to
+ * the scale, and the warning comes at 3 % instead of 1 %.
+ *
+ * Not judged: openings and partners, which carry energy in and out, and moving walls made of
+ * ghosts, whose forces are not told from those of particles. */
+#include "sph_watch.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/h5.h"
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../pairs/neighbours.h"
+#include "../open_boundaries/openings.h"
+#include "../sph.h"
+#include "../sph_params.h"
+#include "../walls/walls.h"
+#include "../open_boundaries/zones.h"
+
+enum { HISTORY = WATCH_STEPS / SPH_WATCH_EVERY };
+/* What is summed over particles and ranks. */
+enum { ENERGY, KINETIC, POWER, WALL_WORK, REMOVED, PUT_BACK, PAIRED };
+
+static const double near_pair = 0.1; /* dx: closer than that two particles are one */
+
+/* Whether some particle feels a wall that slides and the one across at once: their forces are one
+ * sum. */
+static bool is_slit(const struct scene *c, const struct sph_params *prm)
+{
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++) {
+        const struct scene_wall *w = c->walls + k;
+        const int a = (w->side - SIDE_X_MIN) / 2;
+        const double *u = w->velocity;
+        if (w->side != SIDE_NONE && (u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0))
+            any = any || c->domain.max[a] - c->domain.min[a] < 2.0 * prm->R_dx * prm->dx;
+    }
+    return any;
+}
+
+/* Whether all work that is done on the flow can be told. */
+static bool is_closed(const struct run *r, const struct sph_params *prm)
+{
+    return !r->coupled && prm->outer == OUTER_NONE &&
+           (!sph_watch_moves(&r->scene) || prm->walls == WALLS_NFM) && !is_slit(&r->scene, prm);
+}
+
+static const char *clump_remedy(const struct sph_params *prm)
+{
+    if (prm->transport != TRANSPORT_TVS)
+        return "particles clump: set sph.transport = \"tvs\"";
+    if (prm->scheme != SCHEME_RIEMANN && prm->scheme != SCHEME_RIEMANN_ALE)
+        return "particles clump: take a Riemann scheme";
+    return "particles clump, as in sheets of few particles: refine sph.dx";
+}
+
+void sph_watch_create(struct sph *s)
+{
+    struct sph_watch *w = &s->watch;
+    const struct scene_speed v = sph_params_speed(s->run);
+    w->reference = v.speed;
+    w->rest = v.pressure / (s->c0 * s->c0);
+    w->friction = v.viscous / (s->c0 * s->c0);
+    w->budget_closed = is_closed(s->run, &s->prm);
+    snprintf(w->remedy[REMEDY_C0], sizeof w->remedy[REMEDY_C0],
+             "sph.c0 = %.4g m/s is too low for this flow: raise it to ten times the largest speed",
+             s->c0);
+    snprintf(w->remedy[REMEDY_DX], sizeof w->remedy[REMEDY_DX],
+             "refine sph.dx = %.4g m, lower sph.cfl = %.3g, or raise sph.c0 = %.4g m/s", s->dx,
+             s->prm.cfl, s->c0);
+    snprintf(w->remedy[REMEDY_WALLS], sizeof w->remedy[REMEDY_WALLS],
+             "particles pass the walls and are put back: refine sph.dx = %.4g m, or try another "
+             "sph.walls",
+             s->dx);
+    snprintf(w->remedy[REMEDY_SCHEME], sizeof w->remedy[REMEDY_SCHEME],
+             "this scheme damps too little: take a Riemann scheme, or refine sph.dx = %.4g m",
+             s->dx);
+    w->of[SPH_WATCH_MACH] = (struct watch){.key = "mach",
+                                           .what = "largest |u| over the speed of sound",
+                                           .likely = w->remedy[REMEDY_C0],
+                                           .warn = 0.3,
+                                           .stop = 1.0};
+    w->of[SPH_WATCH_ENERGY] =
+        (struct watch){.key = "energy_gain",
+                       .what = "energy that the flow gained from nowhere in 100 steps, over its "
+                               "kinetic energy and 5 % of that of the reference speed",
+                       .likely = w->remedy[REMEDY_DX],
+                       .warn = sph_watch_moves(&s->run->scene) ? 0.03 : 0.01,
+                       .stop = 0.1};
+    w->of[SPH_WATCH_PAIRED] = (struct watch){.key = "paired",
+                                             .what = "share of particles within 0.1 dx of another",
+                                             .likely = clump_remedy(&s->prm),
+                                             .warn = 0.4,
+                                             .stop = 0.9};
+    w->of[SPH_WATCH_PUT_BACK] =
+        (struct watch){.key = "put_back",
+                       .what = "share of particles put back from behind walls in 100 steps",
+                       .likely = w->remedy[REMEDY_WALLS],
+                       .warn = 0.5,
+                       .stop = 5.0};
+}
+
+void sph_watch_free(struct sph *s) { mem_free(s->watch.rate); }
+
+void sph_watch_begin(struct sph *s)
+{
+    struct sph_watch *w = &s->watch;
+    w->due = s->run->step % SPH_WATCH_EVERY == 0;
+}
+
+/* Elastic energy per mass: integral of p/rho^2 from rho0, with r = rho/rho0. */
+static double elastic(const struct sph *s, double r)
+{
+    const double c2 = s->c0 * s->c0, r2 = r * r;
+    if (s->gamma == 1.0)
+        return c2 * (log(r) + 1.0 / r - 1.0);
+    return c2 / 7.0 * ((r2 * r2 * r2 - 1.0) / 6.0 + 1.0 / r - 1.0);
+}
+
+double sph_energy(const struct sph *s, const double *y, double *kinetic)
+{
+    const int dim = s->dim;
+    const double w = y[at_volume(dim)], m = y[at_mass(dim)], W2 = s->central * s->central;
+    double potential = 0.0;
+    *kinetic = 0.0;
+    for (int a = 0; a < dim; a++) {
+        *kinetic += 0.5 * y[dim + a] * y[dim + a] / m;
+        potential += m * y[a] * (0.5 * W2 * y[a] - (s->periodic[a] ? 0.0 : s->gravity[a]));
+    }
+    return *kinetic + potential + m * elastic(s, m / w / s->rho0);
+}
+
+/* Locals closer than near_pair to another particle; needs the list and lines of this place. */
+static double count_paired(const struct sph *s)
+{
+    const struct neighbours *l = s->list;
+    const int real = s->p.n + s->p.nhalo;
+    const double near2 = near_pair * near_pair * s->dx * s->dx;
+    int n = 0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *x = prim_line(&s->p, i);
+        const int *j = l->j + l->start[i];
+        bool paired = false;
+        for (int k = 0; k < l->count[i]; k++) {
+            const double *xj = prim_line(&s->p, j[k]);
+            double r2 = 0.0;
+            for (int a = 0; a < s->dim; a++)
+                r2 += (x[a] - xj[a]) * (x[a] - xj[a]);
+            paired = paired || (r2 < near2 && j[k] < real);
+        }
+        n += paired;
+    }
+    return n;
+}
+
+static void sample(struct sph *s)
+{
+    struct sph_watch *w = &s->watch;
+    double *sums = w->sums;
+    memset(sums, 0, sizeof w->sums);
+    sums[WALL_WORK] = w->wall_work;
+    w->wall_work = 0.0;
+    for (int i = 0; i < s->p.n && w->budget_closed; i++) {
+        const double *y = state_row(&s->p, s->p.y, i);
+        double kinetic;
+        sums[ENERGY] += sph_energy(s, y, &kinetic);
+        sums[KINETIC] += kinetic;
+        for (int a = 0; a < s->dim; a++)
+            sums[POWER] += s->periodic[a] ? s->gravity[a] * y[s->dim + a] : 0.0;
+    }
+    sums[REMOVED] = w->removed;
+    w->removed = 0.0;
+    sums[PUT_BACK] = s->walls ? (double)s->walls->returned : 0.0;
+    if (s->run->step % SPH_WATCH_PAIRS == 0)
+        sums[PAIRED] = count_paired(s);
+}
+
+void sph_watch_stage(struct sph *s, bool first, double weight)
+{
+    if (first && s->watch.due) {
+        struct timers *timers = &s->run->timers;
+        timer_start(timers, "watch");
+        sample(s);
+        timer_stop(timers, "watch");
+    }
+    s->watch.wall_work += weight * s->watch.wall_power;
+}
+
+void sph_watch_removed(struct sph *s, int i)
+{
+    double kinetic;
+    const double e = sph_energy(s, state_row(&s->p, s->p.y, i), &kinetic);
+    s->watch.removed += isfinite(e) ? e : 0.0;
+}
+
+/* What is measured beside the gain tells where it comes from. */
+static const char *energy_remedy(const struct sph *s)
+{
+    const struct sph_watch *w = &s->watch;
+    if (w->of[SPH_WATCH_PUT_BACK].now > 0.01)
+        return w->remedy[REMEDY_WALLS];
+    if (w->of[SPH_WATCH_MACH].now > 0.3)
+        return w->remedy[REMEDY_C0];
+    return w->remedy[s->prm.scheme <= SCHEME_RIEMANN ? REMEDY_DX : REMEDY_SCHEME];
+}
+
+static void judge_energy(struct sph *s, double t, const double *sums, struct diagnosis *d)
+{
+    struct sph_watch *w = &s->watch;
+    const int64_t step = s->run->step;
+    w->work += 0.5 * (t - w->power_t) * (w->power + sums[POWER]) + sums[WALL_WORK] - sums[REMOVED];
+    w->power = sums[POWER];
+    w->power_t = t;
+    const double gain = watch_budget_gain(&w->budget, step, sums[ENERGY] - w->work);
+    const double U2 = w->reference * w->reference + w->rest * s->c0 * s->c0;
+    double scale = sums[KINETIC] + s->mass0 * (0.05 * U2 + pow(w->friction * s->c0, 2.0));
+    w->walls[step / SPH_WATCH_EVERY % HISTORY] = fabs(sums[WALL_WORK]);
+    for (int k = 0; k < HISTORY; k++)
+        scale += 5.0 * w->walls[k];
+    w->of[SPH_WATCH_ENERGY].likely = energy_remedy(s);
+    watch_judge(w->of + SPH_WATCH_ENERGY, scale > 0.0 ? gain / scale : 0.0, t, step, d);
+}
+
+/* Sums of the sample, taken at the start of this step. */
+static void judge_sample(struct sph *s, double t, struct diagnosis *d)
+{
+    struct sph_watch *w = &s->watch;
+    const int64_t step = s->run->step, sample = step / SPH_WATCH_EVERY;
+    double sums[SPH_WATCH_SUMS + 1];
+    memcpy(sums, w->sums, sizeof w->sums);
+    sums[SPH_WATCH_SUMS] = s->p.n;
+    MPI_Allreduce(MPI_IN_PLACE, sums, SPH_WATCH_SUMS + 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    const double all = fmax(sums[SPH_WATCH_SUMS], 1.0);
+    if (s->walls) {
+        double *before = w->put_back + sample % HISTORY;
+        watch_judge(w->of + SPH_WATCH_PUT_BACK, (sums[PUT_BACK] - *before) / all, t, step, d);
+        *before = sums[PUT_BACK];
+    }
+    if (w->budget_closed)
+        judge_energy(s, t, sums, d);
+    if (step % SPH_WATCH_PAIRS == 0)
+        watch_judge(w->of + SPH_WATCH_PAIRED, sums[PAIRED] / all, t, step, d);
+}
+
+void sph_watch_judge(struct sph *s, struct diagnosis *d)
+{
+    struct sph_watch *w = &s->watch;
+    const double t = s->t - s->dt; /* of the sample */
+    watch_judge(w->of + SPH_WATCH_MACH, s->max_speed / s->c0, s->t, s->run->step, d);
+    if (w->due && !d->bad)
+        judge_sample(s, t, d);
+    w->due = false;
+    if (d->bad)
+        sph_fault_place(s, d);
+    if (d->bad && s->run->summary)
+        sph_watch_summarise(s);
+}
+
+static bool is_judged(const struct sph *s, int kind)
+{
+    return kind == SPH_WATCH_ENERGY     ? s->watch.budget_closed
+           : kind == SPH_WATCH_PUT_BACK ? s->walls != NULL
+                                        : true;
+}
+
+/* Mach number and least spacing have columns of their own. */
+int sph_watch_columns(const struct run *r, const char **names)
+{
+    int n = 0;
+    if (is_closed(r, sph_params_of(r)))
+        names[n++] = "energy gain [-]";
+    names[n++] = "paired [-]";
+    if (sph_params_walls(r))
+        names[n++] = "put back [-]";
+    return n;
+}
+
+double *sph_watch_row(const struct sph *s, double *values)
+{
+    static const int kinds[3] = {SPH_WATCH_ENERGY, SPH_WATCH_PAIRED, SPH_WATCH_PUT_BACK};
+    for (int k = 0; k < 3; k++)
+        if (is_judged(s, kinds[k]))
+            *values++ = s->watch.of[kinds[k]].now;
+    return values;
+}
+
+void sph_watch_summarise(const struct sph *s)
+{
+    for (int k = 0; k < SPH_WATCHES; k++)
+        if (is_judged(s, k))
+            watch_summary(s->watch.of + k, s->run->summary);
+}
+
+/* What a restart needs to judge as if nothing had been; the same on all ranks but for energy
+ * removed and walls' work. */
+enum { KEPT = 5 + 3 * SPH_WATCHES + 2 * HISTORY + 1 + 2 * WATCH_SLOTS };
+
+/* x to, or from, the next place of v. */
+static double keep(double **v, double x, bool load)
+{
+    double *at = (*v)++;
+    if (!load)
+        *at = x;
+    return *at;
+}
+
+static void flatten(struct sph_watch *w, double *v, bool load)
+{
+    w->work = keep(&v, w->work, load);
+    w->power = keep(&v, w->power, load);
+    w->power_t = keep(&v, w->power_t, load);
+    w->removed = keep(&v, w->removed, load);
+    w->wall_work = keep(&v, w->wall_work, load);
+    for (int k = 0; k < SPH_WATCHES; k++) {
+        w->of[k].now = keep(&v, w->of[k].now, load);
+        w->of[k].worst = keep(&v, w->of[k].worst, load);
+        w->of[k].warned = keep(&v, w->of[k].warned, load) != 0.0;
+    }
+    for (int k = 0; k < HISTORY; k++)
+        w->put_back[k] = keep(&v, w->put_back[k], load);
+    for (int k = 0; k < HISTORY; k++)
+        w->walls[k] = keep(&v, w->walls[k], load);
+    w->budget.n = (int)keep(&v, w->budget.n, load);
+    for (int k = 0; k < WATCH_SLOTS; k++) {
+        w->budget.least[k] = keep(&v, w->budget.least[k], load);
+        w->budget.slot[k] = (int64_t)keep(&v, (double)w->budget.slot[k], load);
+    }
+}
+
+void sph_watch_save(const struct sph *s, struct h5 *f)
+{
+    struct sph_watch w = s->watch;
+    double v[KEPT];
+    flatten(&w, v, false);
+    h5_write_real(f, "watch", "-", KEPT, 1, v, false);
+}
+
+bool sph_watch_load(struct sph *s, struct h5 *f)
+{
+    double v[KEPT], parts[KEPT];
+    if (!h5_read_same(f, "watch", KEPT, v) || !h5_read_parts(f, "watch", KEPT, parts))
+        return false;
+    flatten(&s->watch, parts, true);
+    const double removed = s->watch.removed, wall_work = s->watch.wall_work;
+    flatten(&s->watch, v, true);
+    s->watch.removed = removed;
+    s->watch.wall_work = wall_work;
+    return true;
+}

@@ -1,0 +1,77 @@
+/* sph_watch.h - what is watched while particles run: energy against its budget, speeds against the
+ * sound, particles put back behind walls, particles that pair up; and when a state cannot be
+ * trusted, and why. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_SPH_WATCH_H
+#define SPH_SPH_WATCH_H
+
+#include <stdbool.h>
+
+#include "../../common/watch.h"
+
+struct sph;
+struct h5;
+struct run;
+struct scene;
+
+enum sph_watch_remedy { REMEDY_C0, REMEDY_DX, REMEDY_WALLS, REMEDY_SCHEME };
+enum sph_watch_kind { SPH_WATCH_MACH, SPH_WATCH_ENERGY, SPH_WATCH_PAIRED, SPH_WATCH_PUT_BACK };
+/* Energies are taken every SPH_WATCH_EVERY steps, distances every SPH_WATCH_PAIRS. */
+enum { SPH_WATCHES = 4, SPH_WATCH_EVERY = 10, SPH_WATCH_PAIRS = 50, SPH_WATCH_SUMS = 7 };
+
+struct sph_watch {
+    struct watch of[SPH_WATCHES];
+    char remedy[4][160]; /* by enum sph_watch_remedy */
+    bool budget_closed;  /* all work done on the flow is known, so that its energy is judged */
+    double reference;    /* m/s: largest speed that the scene lets expect */
+    double rest;         /* static pressure over rho0 c0^2: compression at rest */
+    double friction;     /* the same of the pressures of slow viscous flow */
+    struct watch_budget budget;
+    double work;           /* J: done on the flow from outside since the start, all ranks */
+    double power, power_t; /* W, s: at the last sample */
+    /* At the last samples: all particles put back; size of the moving walls' work, J. */
+    double put_back[WATCH_STEPS / SPH_WATCH_EVERY], walls[WATCH_STEPS / SPH_WATCH_EVERY];
+    double removed; /* J: energy of particles removed since the last sample; this rank */
+    /* The sample of this step, this rank's part until it is judged. */
+    bool due;
+    double sums[SPH_WATCH_SUMS];
+    double wall_power; /* W: of the moving walls in this stage; this rank */
+    double wall_work;  /* J: theirs since the last sample; this rank */
+    double *rate;      /* [n][dim] momentum rates before the walls' part; NULL: not wanted */
+};
+
+void sph_watch_create(struct sph *s);
+void sph_watch_free(struct sph *s);
+/* At the start of a step: whether it takes a sample. */
+void sph_watch_begin(struct sph *s);
+/* wall_work.c: whether walls or bodies of the scene move. */
+bool sph_watch_moves(const struct scene *c);
+/* Around the walls' part of the rates. */
+void sph_watch_before_walls(struct sph *s);
+void sph_watch_after_walls(struct sph *s);
+/* After the rates of a stage that counts by `weight', s: the walls' work; in the first stage of a
+ * step that takes a sample the sums over this rank's particles. */
+void sph_watch_stage(struct sph *s, bool first, double weight);
+/* Particle i is about to be removed: its energy goes with it. */
+void sph_watch_removed(struct sph *s, int i);
+/* After the step; same on all ranks. Collective. */
+void sph_watch_judge(struct sph *s, struct diagnosis *d);
+int sph_watch_columns(const struct run *r, const char **names);
+double *sph_watch_row(const struct sph *s, double *values); /* behind those filled */
+void sph_watch_summarise(const struct sph *s);
+void sph_watch_save(const struct sph *s, struct h5 *f);
+bool sph_watch_load(struct sph *s, struct h5 *f);
+
+/* sph_fault.c: how far a state row y is beyond its limits, as a multiple of them; not finite counts
+ * as 1e300. Compression up to twice that of an impact at the largest speed so far is legal, at most
+ * 0.5:
+ * a jet of Mach number Ma that meets a wall raises rho by the share Ma (rho c U over rho c^2), in a
+ * corner twice. */
+double sph_fault_of(const struct sph *s, const double *y, double *speed, double *rho);
+double sph_fault_density_limit(const struct sph *s); /* |rho/rho0 - 1| */
+/* Names the worst particle of all ranks by its place, and the cause by what is measured there; the
+ * same on any number of ranks. y0 must be the state before the step. Collective. */
+void sph_fault_diagnose(struct sph *s, struct diagnosis *d);
+/* The place alone, of the particle that is nearest to its limits. Collective. */
+void sph_fault_place(struct sph *s, struct diagnosis *d);
+
+#endif
