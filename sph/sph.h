@@ -66,6 +66,8 @@ struct domain;     /* partition over ranks, migration, halo; domain.h */
 struct walls;      /* walls and bodies; walls.h; NULL: none */
 struct surface;    /* free surface; surface.h; NULL: none */
 struct stages;     /* scheme in time; time/runge_kutta.h */
+struct refinement; /* regions and guards; refinement/refinement.h; NULL: none */
+struct guards;     /* of one level; refinement/guards.h */
 struct zones;      /* transition, buffer, openings; zones.h; NULL: none */
 
 /* The two passes of a pair interaction; scheme.h. */
@@ -86,7 +88,10 @@ struct sph {
     double lo[3], hi[3];        /* region of the particles: the domain, or sph.box */
     bool periodic[3];           /* of that region */
     bool open[6]; /* its sides (2a: low, 2a+1: high) where particles come and go; zones.h */
-    double t;     /* s: time of the state y; during a stage: of that stage */
+    int level;                   /* of refinement: dx = dx_0/2^level */
+    struct sph *coarser, *finer; /* the levels next to this one; NULL: none. The coarsest stands
+                                    for all of them; what is of the whole flow is its own */
+    double t; /* s: time of the state y; during a stage: of that stage */
     double dt;
     struct particles p;
     struct neighbours *list;
@@ -97,6 +102,8 @@ struct sph {
     struct zones *zones;
     struct walls *walls;
     struct surface *surface;
+    struct refinement *refinement; /* of all levels: the coarsest has it */
+    struct guards *guards;
     double background; /* Pa: of this stage [2.105] */
     double skin;       /* m: the list holds pairs within R + skin */
     double skin_most;  /* m: what ghosts are prepared for, and half a period has room for */
