@@ -441,8 +441,7 @@ int neighbours_within(const struct sph *s, const double *x, double reach, int n,
                 *capacity = more;
             }
             for (int k = 0; k < all; k++) {
-                const int j =
-                    k < nlocal ? from[0] + k : g->n + g->order[ghosts[0] + k - nlocal];
+                const int j = k < nlocal ? from[0] + k : g->n + g->order[ghosts[0] + k - nlocal];
                 const double *y = prim_line(&s->p, j);
                 double r2 = 0.0;
                 for (int a = 0; a < g->dim; a++)

@@ -22,9 +22,9 @@ struct neighbours {
                    (ROLE_DEEP); NULL: as they are stored, on one rank, where ghosts are at hand at
                    once, and without deep ones */
     int order_capacity;
-    int ninner;      /* how many come first; 0 on one rank */
-    int nshallow;    /* rows but for the deep ones */
-    int treated;     /* rows that passes go through: all until slopes are known, then shallow ones */
+    int ninner;   /* how many come first; 0 on one rank */
+    int nshallow; /* rows but for the deep ones */
+    int treated;  /* rows that passes go through: all until slopes are known, then shallow ones */
     double touching; /* m: pairs that may come this near in the step are close; 0: none */
     int nclose, close_capacity;
     int (*close)[2];  /* pairs i < j that may collide in the step; collisions.h */

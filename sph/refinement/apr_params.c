@@ -32,7 +32,7 @@ const struct param apr_rows[APR_ROWS] = {
 const struct apr_params *apr_params_of(const struct run *r)
 {
     static struct apr_params used;
-    if (!params_has_group(r->params, "apr") || apr_given.regions.n == 0)
+    if ((r->params && !params_has_group(r->params, "apr")) || apr_given.regions.n == 0)
         return NULL;
     used = apr_given;
     for (int k = 0; k < used.regions.n && apr_given.levels == 0; k++)
