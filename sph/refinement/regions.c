@@ -9,6 +9,7 @@
 #include "../../common/h5.h"
 #include "../../common/mem.h"
 #include "../../common/scene_geometry.h"
+#include "../open_boundaries/zones.h"
 #include "criteria.h"
 #include "regions_parts.h"
 
@@ -247,7 +248,10 @@ int regions_levels(const struct regions *g) { return g->prm->levels; }
 
 static void set_domain(struct regions *g, const struct run *r, const struct sph_params *prm)
 {
+    double transition, buffer;
     g->dim = r->scene.domain.dim;
+    zones_widths(r, prm, &transition, &buffer);
+    g->zones = transition + buffer;
     sph_params_region(&r->scene.domain, prm, g->domain.lo, g->domain.hi, g->periodic);
     sph_params_open(r, prm, g->open);
     for (int a = 0; a < 3; a++) {

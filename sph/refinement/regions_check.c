@@ -7,7 +7,6 @@
 
 #include "../../common/mem.h"
 #include "../../common/scene_mesh.h"
-#include "../open_boundaries/zones.h"
 #include "regions.h"
 #include "regions_parts.h"
 
@@ -291,11 +290,9 @@ static void check_nesting(const struct check *c, const struct regions *g)
 double regions_allowed(const struct regions *g, int level, int side)
 {
     const int a = side / 2, sign = side % 2 ? -1 : 1;
-    double transition, buffer, depth;
+    double depth = g->zones + g->R;
     if (!g->open[side])
         return side % 2 ? INFINITY : -INFINITY;
-    zones_widths(g->run, sph_params_of(g->run), &transition, &buffer);
-    depth = transition + buffer + g->R;
     for (int n = 1; n < level; n++)
         depth += g->level[n].cells ? (ceil(g->prm->margin) + 1.0) * g->level[n].cells->h[a]
                                    : regions_margin(g, n);

@@ -42,6 +42,7 @@ struct regions {
     const struct apr_params *prm;
     int dim;
     double R, dx, near; /* m: of level 0; what counts as the same place */
+    double zones;       /* m: depth of the zones at open sides */
     struct box domain;  /* region of the particles */
     struct box room;    /* the same with faces where an edge ends: walls, free ends; infinite */
     bool periodic[3], open[6];
