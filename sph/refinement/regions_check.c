@@ -20,16 +20,17 @@ struct check {
     int k, dim;
 };
 
+/* A key of the region; one that is not given has no place in the file but that of the list. */
 static const char *key_of(const struct check *c, const char *name)
 {
     static char key[80];
     snprintf(key, sizeof key, "apr.regions.[%d].%s", c->k, name);
-    return key;
+    return params_given(c->r->params, key) ? key : "apr.regions";
 }
 
 static bool is_given(const struct check *c, const char *name)
 {
-    return params_given(c->r->params, key_of(c, name));
+    return strcmp(key_of(c, name), "apr.regions") != 0;
 }
 
 static double R_of(const struct check *c, int level)
@@ -107,7 +108,8 @@ static void check_box_and_ball(const struct check *c)
 {
     double lo[3], hi[3];
     if (c->is->shape == REGION_SPHERE && c->is->radius <= 0.0) {
-        params_fault(c->r->params, c->f, key_of(c, "radius"), "must be given");
+        params_fault(c->r->params, c->f, key_of(c, "radius"), "region %d: a sphere needs a radius",
+                     c->k + 1);
         return;
     }
     bounds(c->is, lo, hi);
@@ -420,7 +422,8 @@ static void check_criteria(const struct run *r, const struct sph_params *used,
             params_fault(r->params, f, key, "is not used: this kind has a bound `%s'", wanted);
         snprintf(key, sizeof key, "apr.criteria.[%d].%s", k, wanted);
         if (!surface && is->above <= 0.0)
-            params_fault(r->params, f, key, "must be given, larger than 0");
+            params_fault(r->params, f, "apr.criteria", "criterion %d needs `above', a bound > 0",
+                         k + 1);
         snprintf(key, sizeof key, "apr.criteria.[%d].kind", k);
         if (surface && used->surface != SURFACE_YES)
             params_fault(r->params, f, key, "the scene has no free surface");
