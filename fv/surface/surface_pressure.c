@@ -3,8 +3,8 @@
  * and a dry one the gradient is (p_I - p_L)/(theta h), theta = phi_L/(phi_L - phi_R) >= 0.01,
  * with viscosity more (surface_first_half): p_I is explicit, and 1/theta amplifies it.
  * Without gravity's part, so p_I has -(pressure at rest). In implicit steps the surface yields to
- * the velocity within the step: Newmark's scheme with beta = 1/4, for which its height counts at
- * eta + beta dt^2 dw/dt, dw/dt = -dp/dy: the same value of p, beta g dt^2 further off.
+ * the velocity within the step: Newmark's scheme, for which its height counts at eta + beta dt^2
+ * dw/dt, dw/dt = -dp/dy: the same value of p, beta g dt^2 further off.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
