@@ -287,8 +287,13 @@ static void check_surface(const struct run *r, struct faults *f)
         params_fault(r->params, f, "fv.surface",
                      "where is the water? shapes say it, or a wave (initial.field)");
     check_aspect(r, f);
-    if (prm->integrator != INTEGRATOR_RK3)
-        params_fault(r->params, f, "fv.integrator", "with a free surface rk3 alone");
+    if (prm->steady)
+        params_fault(r->params, f, "fv.steady",
+                     "a free surface moves in time: let it come to rest in a run in time");
+    if (prm->c0 > 0.0)
+        params_fault(r->params, f, "fv.c0",
+                     "not with a free surface: cells that become wet have no pressure of the steps "
+                     "before");
     for (int k = 0; k < s->nwalls; k++)
         check_water_opening(r, f, k);
     if (prm->hole[1][0] > prm->hole[0][0])

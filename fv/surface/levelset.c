@@ -251,6 +251,8 @@ struct surface *surface_create(const struct fv *s)
         f->open[a] = block_field(b);
     f->layer = NEW(unsigned char, b->size);
     f->deep = NEW(int64_t, b->size);
+    if (fv_params_of(s->run)->integrator != INTEGRATOR_RK3)
+        f->half = block_field(b);
     f->g = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
         for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
@@ -272,6 +274,7 @@ void surface_free(struct surface **fp)
     mem_free(f->phi_new);
     mem_free(f->rate);
     mem_free(f->kept);
+    mem_free(f->half);
     mem_free(f->stress);
     mem_free(f->layer);
     mem_free(f->deep);
@@ -282,7 +285,7 @@ void surface_free(struct surface **fp)
         mem_free(f->open[a]);
         mem_free(f->cut[a]);
     }
-    for (int k = 0; k < 12; k++)
+    for (int k = 0; k < 24; k++)
         mem_free(f->before[k]);
     for (int l = 0; l <= LAYERS; l++)
         mem_free(f->carry[l]);
