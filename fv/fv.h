@@ -48,7 +48,7 @@ struct fv_params {
 
 struct mesh;          /* blocks; grid/mesh.h */
 struct mesh_bc;       /* their sides; boundary/mesh_bc.c */
-struct mesh_pressure; /* poisson/mesh_pressure.c */
+struct poisson;       /* poisson/poisson.h */
 struct overset;       /* search in blocks; grid/overset.h */
 struct stages;        /* time/stages.h */
 struct bc;            /* walls and openings; bc.h; NULL: none */
@@ -105,7 +105,7 @@ struct fv {
     struct surface *surface;
     struct pressure *pressure;
     struct mesh_bc *sides;
-    struct mesh_pressure *poisson;
+    struct poisson *poisson;
     struct overset *search; /* of the gauges; NULL: none */
     struct newton *newton;
     struct fit swing; /* of a standing wave: what swings, sampled */

@@ -1,7 +1,7 @@
 /* mesh_state.c - the state of a flow on blocks, at t = 0 or from a restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
-#include "../poisson/mesh_pressure.h"
+#include "../poisson/poisson.h"
 #include "../output/mesh_output.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
@@ -136,7 +136,7 @@ void mesh_state_create(struct fv *s)
     make_fields(s);
     fill(s);
     mesh_bc_create(s);
-    mesh_pressure_create(s);
+    poisson_create(s);
     if (r->scene.nprobes > 0)
         s->search = overset_search(r, s->m);
     mesh_fill(s->m, s->m->dim, s->u);
@@ -155,7 +155,7 @@ void mesh_state_create(struct fv *s)
 
 void mesh_state_free(struct fv *s)
 {
-    mesh_pressure_free(&s->poisson);
+    poisson_free(&s->poisson);
     mesh_bc_free(&s->sides);
     overset_free(&s->search);
     mesh_free(&s->m);

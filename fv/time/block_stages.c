@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
 #include "../operators/mesh_ops.h"
-#include "../poisson/mesh_pressure.h"
+#include "../poisson/poisson.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 
@@ -88,7 +88,7 @@ static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
 {
     double *psi = s->psi[stage];
     mesh_divergence(s, s->U, s->flux);
-    const bool good = mesh_pressure_solve(s, tau, s->flux, tol, s->start[stage], psi);
+    const bool good = poisson_solve(s, tau, s->flux, tol, s->start[stage], psi);
     mesh_halo(s->m, 1, &psi);
     mesh_bc_even(s, true, psi);
     return good;
@@ -199,9 +199,7 @@ static void place(const struct fv *s, int64_t c, char *text, size_t size)
     }
 }
 
-/* The residual says little about waves as long as the grid, which make forces: a smaller one is
- * wanted than where a cycle of PFMG takes all waves alike. */
-const struct stages block_stages = {.tolerance = 0.1,
+const struct stages block_stages = {.tolerance = 1.0,
                                     .pressure_gradient = pressure_gradient,
                                     .set_slip = set_slip,
                                     .begin_sides = begin_sides,
