@@ -49,6 +49,7 @@ struct fv_params {
 struct mesh;          /* blocks; grid/mesh.h */
 struct mesh_bc;       /* their sides; boundary/mesh_bc.c */
 struct mesh_pressure; /* poisson/mesh_pressure.c */
+struct wet_pressure;  /* that of blocks with a surface; poisson/wet_pressure.c */
 struct overset;       /* search in blocks; grid/overset.h */
 struct stages;        /* time/stages.h */
 struct bc;            /* walls and openings; bc.h; NULL: none */
@@ -106,6 +107,7 @@ struct fv {
     struct pressure *pressure;
     struct mesh_bc *sides;
     struct mesh_pressure *poisson;
+    struct wet_pressure *wet; /* in its place on blocks with a surface */
     struct overset *search; /* of the gauges; NULL: none */
     struct newton *newton;
     struct fit swing; /* of a standing wave: what swings, sampled */
