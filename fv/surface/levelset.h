@@ -5,6 +5,7 @@
 #define FV_LEVELSET_H
 
 #include "../fv.h"
+#include "../grid/mesh.h"
 
 enum {
     LAYERS = 6,   /* of dry cells that carry a velocity, for the advection of phi */
@@ -32,7 +33,10 @@ struct carry {
     double slope;   /* weight of the normal derivative */
 };
 
+struct surface_mesh; /* blocks as the surface sees them, mesh_view.h */
+
 struct surface {
+    struct surface_mesh *mesh;    /* NULL: even cells or rows of unequal height */
     double *phi, *phi_new, *rate; /* m, m, m/s */
     double *kept;                 /* scratch of reinit */
     double *before[24];           /* state at the start of a step, see surface_keep_state */
@@ -54,6 +58,7 @@ struct surface {
                                  by the shifts, all in all */
     double passed;            /* m^dim: through openings, in and out */
     double travelled;         /* -: cells since the last reinit */
+    double least, largest;    /* m: sizes of cells */
     double theta_least;       /* -: least distance of the surface from a wet centre, of h */
     double rise;              /* s^2: implicit steps: see surface_pressure.c */
     double g;                 /* m/s^2: size of gravity */
@@ -62,6 +67,23 @@ struct surface {
 
 /* Whether the scene has a surface that fv computes. */
 bool surface_wanted(const struct run *r);
+
+/* The part that place c is in. */
+static inline const struct part *surface_part(const struct fv *s, int64_t c)
+{
+    const struct part *p = s->part;
+    while (c >= p->base + p->size)
+        p++;
+    return p;
+}
+/* Ghosts of nf fields between parts, on blocks the fringe, too. */
+static inline void surface_fill(const struct fv *s, int nf, double *const *f)
+{
+    if (s->m)
+        mesh_fill(s->m, nf, f);
+    else
+        block_halo(&s->b, nf, f);
+}
 
 /* levelset.c */
 struct surface *surface_create(const struct fv *s);
@@ -77,6 +99,8 @@ double surface_volume(const struct fv *s, double *area);
 /* Share of a cell below phi = 0, by the plane through its centre. */
 double surface_share(const struct fv *s, int64_t c);
 
+/* m^dim: volume of cell c, in local row j, that counts: of places where blocks overlap once. */
+double surface_cell_volume(const struct fv *s, int64_t c, int j);
 /* Further off (m) than any cell can be: phi within boxes that are cut out, which are no water. */
 static inline double surface_far(const struct fv *s)
 {

@@ -14,6 +14,7 @@
 #include "../../common/mem.h"
 #include "../boundary/forcing.h"
 #include "../boundary/still.h"
+#include "mesh_view.h"
 
 static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
 {
@@ -66,22 +67,35 @@ static void count(struct fv *s)
 {
     struct surface *f = s->surface;
     int64_t n[2] = {0, 0};
-    BLOCK_ROWS (&s->b, 0, c, len)
-        for (int64_t i = c; i < c + len; i++)
-            n[0] += f->layer[i] == 0;
-    for (int a = 0; a < s->b.dim; a++)
+    FLOW_ROWS(s, c, len)
+    for (int64_t i = c; i < c + len; i++)
+        n[0] += f->layer[i] == 0;
+    for (int a = 0; a < s->dim; a++)
         n[1] += f->ncut[a];
-    MPI_Allreduce(MPI_IN_PLACE, n, 2, MPI_INT64_T, MPI_SUM, s->b.cart);
+    MPI_Allreduce(MPI_IN_PLACE, n, 2, MPI_INT64_T, MPI_SUM, s->comm);
     f->wet = n[0];
     f->cuts = n[1];
+}
+
+/* On blocks dry cells take no part in the flow. */
+static void set_free(struct fv *s)
+{
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        s->free[i] = s->m->status[i] == CELL_COMPUTED && s->surface->layer[i] == 0;
 }
 
 void surface_rebuild(struct fv *s)
 {
     struct surface *f = s->surface;
     extension_build(s);
-    for (int a = 0; a < s->b.dim; a++)
-        find_cuts(s, a);
+    if (s->m) {
+        set_free(s);
+        surface_mesh_find_faces(s);
+    } else {
+        for (int a = 0; a < s->dim; a++)
+            find_cuts(s, a);
+    }
     count(s);
     f->setups++;
 }
@@ -90,8 +104,8 @@ void surface_set_pressure(struct fv *s)
 {
     struct surface *f = s->surface;
     if (s->nu > 0.0)
-        block_halo(&s->b, 1, &f->stress);
-    for (int a = 0; a < s->b.dim; a++)
+        surface_fill(s, 1, &f->stress);
+    for (int a = 0; a < s->dim; a++)
         for (int64_t i = 0; i < f->ncut[a]; i++) {
             struct cut *x = f->cut[a] + i;
             x->p = x->height + 2.0 * s->nu * f->stress[x->dry];
@@ -101,9 +115,9 @@ void surface_set_pressure(struct fv *s)
 void surface_zero(const struct fv *s, double *q)
 {
     const unsigned char *layer = s->surface->layer;
-    BLOCK_ROWS (&s->b, 0, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            q[i] = layer[i] ? 0.0 : q[i];
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        q[i] = layer[i] ? 0.0 : q[i];
 }
 
 void surface_add_pressure(const struct fv *s, double *div)
@@ -124,6 +138,10 @@ static double cut_gradient(const struct cut *x, const double *psi)
 void surface_fluxes(const struct fv *s, double tau, const double *psi)
 {
     const struct surface *f = s->surface;
+    if (s->m) {
+        surface_mesh_fluxes(s, tau, psi);
+        return;
+    }
     for (int a = 0; a < s->b.dim; a++)
         for (int64_t i = 0; i < f->ncut[a]; i++)
             s->U[a][f->cut[a][i].face] -= tau * cut_gradient(f->cut[a] + i, psi);

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "../operators/blocked_cells.h"
 #include "../surface/levelset.h"
 #include "rk3.h"
 #include "stages.h"
@@ -46,12 +45,8 @@ void projection(struct fv *s, double t, int stage, double tau, double tol)
     if (s->surface)
         end_surface_stage(s, tau, psi, stage == 2 || s->prm.integrator == INTEGRATOR_BDF2);
     s->stages->fill_velocity(s);
-    if (s->surface) {
-        surface_dry_fluxes(s);
-        if (s->blocked)
-            blocked_face_velocities(s, s->u, s->U, true);
-        bc_fluxes(s, BC_GIVEN, s->U);
-    }
+    if (s->surface)
+        s->stages->dry_fluxes(s);
     stop(s, "operators");
 }
 

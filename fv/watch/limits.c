@@ -201,6 +201,10 @@ static struct step_limit limit_on_blocks(const struct fv *s)
 {
     const double dt = limits_time(s->prm.cfl, s->rate, s->rise);
     struct step_limit l = {dt, s->rise * dt > s->rate ? LIMIT_FORCES : LIMIT_FLOW};
+    if (s->surface) {
+        const double h = s->surface->least;
+        lower_surface(&l, &s->run->scene, &s->prm, (const double[]){h, h, h});
+    }
     if (s->prm.integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(s->rate, s->Re), LIMIT_BDF2);
     return l;
