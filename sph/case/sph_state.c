@@ -92,6 +92,8 @@ static void create_finer(struct sph *s)
     struct regions *g = regions_create(s->run, &s->prm);
     if (!g)
         return;
+    if (sph_watch_moves(&s->run->scene)) /* guards at moving walls take part in their work */
+        s->watch.budget_closed = false;
     s->refinement = NEW(struct refinement, 1);
     s->refinement->regions = g;
     s->guards = guards_create();
