@@ -10,6 +10,7 @@
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/scheme.h"
+#include "../refinement/guards.h"
 #include "../refinement/refinement.h"
 #include "../sph_params.h"
 #include "../surface/surface.h"
@@ -74,7 +75,7 @@ static struct sph *create_level(struct run *r, const struct sph_params *prm, str
     particles_create(&s->p, s->dim, 0);
     s->list = neighbours_create();
     s->list->touching = collisions_distance(s);
-    s->zones = zones_create(s);
+    s->zones = coarser ? NULL : zones_create(s); /* open sides are of the first level */
     domain_create(s);
     s->walls = walls_create(s);
     bodies_create(s);

@@ -10,7 +10,6 @@
 #ifndef SPH_REFINEMENT_H
 #define SPH_REFINEMENT_H
 
-#include "guards.h"
 #include "regions.h"
 
 struct refinement {

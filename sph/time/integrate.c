@@ -16,6 +16,7 @@
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../refinement/apr_params.h"
+#include "../refinement/guards.h"
 #include "../refinement/refinement.h"
 #include "../open_boundaries/openings.h"
 #include "../pairs/scheme.h"
@@ -195,8 +196,10 @@ void integrate_gradients(struct sph *s)
         return;
     for (struct sph *q = s; q; q = q->finer)
         particles_lines(q);
-    if (s->finer)
+    if (s->finer) {
         guards_update(s);
+        guards_remember(s);
+    }
     for (struct sph *q = s; q; q = q->finer)
         level_gradients(q, shared);
 }
