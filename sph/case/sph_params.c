@@ -12,6 +12,7 @@
 #include "../bodies/body_check.h"
 #include "../open_boundaries/zones.h"
 #include "../refinement/apr_params.h"
+#include "../refinement/regions_check.h"
 
 static struct sph_params given; /* as the case has it: the target of the table */
 static bool present;
@@ -538,4 +539,6 @@ void sph_params_check(const struct run *r, struct faults *f)
         check_thin(r, f);
     else if (f->n == 0)
         sph_meshes_check(r, sph_params_of(r), f);
+    if (f->n == 0)
+        regions_check(r, sph_params_of(r), f);
 }

@@ -10,6 +10,7 @@
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/scheme.h"
+#include "../refinement/guards.h"
 #include "../refinement/refinement.h"
 #include "../sph_params.h"
 #include "../surface/surface.h"

@@ -10,7 +10,7 @@
 #ifndef SPH_REFINEMENT_H
 #define SPH_REFINEMENT_H
 
-#include "guards.h"
+#include "../sph.h"
 #include "regions.h"
 
 struct refinement {

@@ -16,6 +16,7 @@
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../refinement/apr_params.h"
+#include "../refinement/guards.h"
 #include "../refinement/refinement.h"
 #include "../open_boundaries/openings.h"
 #include "../pairs/scheme.h"
