@@ -172,7 +172,7 @@ void marks_measure(struct marks *c)
         c->depth[k] = (signed char)(c->mark[k] ? 1 : outer[k] ? -1 : -2);
         c->any = c->any || c->mark[k];
     }
-    for (int d = 2; d <= 3; d++) {
+    for (int d = 2; d <= MARKS_DEEP; d++) {
         step_all(c, inner, false);
         for (size_t k = 0; k < n; k++)
             c->depth[k] = (signed char)(c->depth[k] + inner[k]);
