@@ -30,6 +30,10 @@ struct standing refinement_standing(const struct sph *base, int level, const dou
  * coarser ones give birth. s: the coarsest level. */
 void refinement_adapt(struct sph *s);
 
+/* look.c: before the adaption: what regions follow, and at their times the criteria; of the lines
+ * and slopes of the last stage. Collective. */
+void refinement_look(struct sph *s);
+
 void refinement_free(struct sph *s);
 
 #endif

@@ -237,9 +237,9 @@ double regions_fixed_distance(const struct regions *g, int level, const double *
 
 double regions_distance(const struct regions *g, int level, const double *x)
 {
-    const double d = regions_fixed_distance(g, level, x);
     const struct marks *c = g->level[level].cells;
-    return c ? fmax(d, marks_distance(c, x)) : d;
+    const double d = regions_fixed_distance(g, level, x), e = c ? marks_distance(c, x) : d;
+    return e > d ? e : d;
 }
 
 int regions_levels(const struct regions *g) { return g->prm->levels; }

@@ -379,6 +379,10 @@ static void plan_dt(struct sph *s)
         s->dt_most = bodies;
         s->limited_by = "body";
     }
+    if (s->finer && s->dt_most > regions_dt(s->refinement->regions)) {
+        s->dt_most = regions_dt(s->refinement->regions);
+        s->limited_by = "region";
+    }
 }
 
 /* Two particles part by at most twice the stray velocity times dt; a tenth more, for it may grow.
@@ -549,6 +553,8 @@ static void finish_step(struct sph *s, double dt, double *most, struct diagnosis
         zones_openings(s, dt);
         stop(s, "zones");
     }
+    if (s->finer)
+        refinement_look(s);
     int lost = 0;
     for (struct sph *q = s; q; q = q->finer)
         lost += remove_behind(q) + remove_lost(q);
