@@ -1,6 +1,7 @@
 /* mesh_state.c - the state of a flow on blocks, at t = 0 or from a restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
+#include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
 #include "../output/mesh_output.h"
 #include "../fv.h"
@@ -135,6 +136,7 @@ void mesh_state_create(struct fv *s)
     }
     make_fields(s);
     fill(s);
+    s->stiffest = mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
     mesh_bc_create(s);
     poisson_create(s);
     if (r->scene.nprobes > 0)
