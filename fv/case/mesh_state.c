@@ -117,7 +117,7 @@ void mesh_state_create(struct fv *s)
 {
     struct faults faults = {0};
     struct run *r = s->run;
-    s->m = mesh_create(r, &faults);
+    s->m = mesh_take(r, &faults);
     if (!s->m)
         fail("the blocks were good when they were checked");
     s->dim = s->m->dim;

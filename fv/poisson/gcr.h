@@ -25,8 +25,8 @@ void gcr_create(struct gcr *g, MPI_Comm comm, int n, void *of,
                 void (*apply)(void *of, double *x, double *Ax),
                 void (*cycle)(void *of, double *r, double *z));
 void gcr_free(struct gcr *g);
-/* A x = b from x on, at least one cycle if most allows it, until |b - A x| <= goal, at most `most' cycles. Returns their number. left: the
- * norm of the residual in the end, which is in g->r. */
+/* A x = b from x on, at least one cycle if most allows it, until |b - A x| <= goal, at most `most'
+ * cycles. Returns their number. left: the norm of the residual in the end, which is in g->r. */
 int gcr_solve(struct gcr *g, const double *b, double *x, double goal, int most, double *left);
 double gcr_norm(const struct gcr *g, const double *x);
 
