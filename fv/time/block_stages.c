@@ -64,20 +64,15 @@ static void finish_rhs(struct fv *s)
 
 static void viscous(struct fv *s, int q, double *out) { mesh_viscous(s, s->u[q], out); }
 
+/* The increment of the stage before, scaled, is the start. */
 static bool solve_viscous(struct fv *s, double c, double t, double scale)
 {
+    const double share = viscous_keeps_increment(s) ? scale : 0.0;
     (void)t;
-    (void)scale;
     for (int a = 0; a < s->dim; a++)
-        memset(s->delta[a], 0, (size_t)s->size * sizeof(double));
-    mesh_bc_velocity(s, BC_CHANGE, s->delta); /* what the sides do from one time to the next */
-    for (int a = 0; a < s->dim; a++) {
-        double *restrict L = s->krylov[0][0];
-        mesh_viscous(s, s->delta[a], L);
         FLOW_ROWS(s, at, n)
-        for (int64_t i = at; i < at + n; i++)
-            s->rhs[a][i] += c * L[i];
-    }
+    for (int64_t i = at; i < at + n; i++)
+        s->delta[a][i] *= share;
     return mesh_viscous_solve(s, c, s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous : 1e-4);
 }
 
