@@ -19,10 +19,10 @@
 #include "../walls/walls.h"
 #include "../open_boundaries/zones.h"
 
-enum { NORM_VELOCITY, NORM_PRESSURE, NORM_VORTICITY, FIRST_NORM = NORM_VELOCITY };
-enum { NORMS = NORM_VORTICITY - FIRST_NORM + 1 };
+/* The last: of the velocity, over the particles whose support a wall cuts; not over programs. */
+enum { NORM_VELOCITY, NORM_PRESSURE, NORM_VORTICITY, NORM_WALL, NORMS };
 
-static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
+static const char *const norm_names[NORM_WALL] = {"velocity", "pressure", "vorticity"};
 
 /* Those of one level. */
 static void add_sums(const struct sph *s, double sums[SUM_COUNT])
@@ -63,6 +63,11 @@ void sph_vorticity(const struct sph *s, int i, double w[3])
     w[2] = g[dim * 1 + 0] - g[dim * 0 + 1];
 }
 
+static bool cut_by_wall(const struct sph *s, const double *x)
+{
+    return s->dim == 2 && s->walls && walls_distance(s->walls, x, s->R) < s->R;
+}
+
 /* Adds one particle to the norms of velocity, pressure, vorticity (in 3D its z component). */
 static void add_errors(const struct sph *s, const struct exact *e, int i, struct norm *n)
 {
@@ -74,6 +79,8 @@ static void add_errors(const struct sph *s, const struct exact *e, int i, struct
     sph_vorticity(s, i, omega);
     for (int a = 0; a < dim; a++)
         norm_add(n, w, q[dim + a] - u[a], u[a]);
+    for (int a = 0; a < dim && cut_by_wall(s, x); a++)
+        norm_add(n + NORM_WALL, w, q[dim + a] - u[a], u[a]);
     norm_add(n + 1, w, eos_p(q[at_rho(dim)], s->rho0, s->c0, s->gamma) - p, p);
     norm_add(n + 2, w, omega[2] - vort, vort);
 }
@@ -326,13 +333,16 @@ static void summarise_errors(const struct sph *s)
     errors(s, n);
     summary_real(to, "error.velocity_l2", norm_relative_l2(n));
     summary_real(to, "error.velocity_linf", n[0].emax / U);
+    summary_real(to, "error.velocity_rms", sqrt(s->dim) * norm_rms(n) / U);
+    if (n[NORM_WALL].vol > 0.0)
+        summary_real(to, "error.velocity_wall", sqrt(s->dim) * norm_rms(n + NORM_WALL) / U);
     if (n[1].r2 > 0.0)
         summary_real(to, "error.pressure_l2", norm_rms_mean_free(n + 1) / sqrt(n[1].r2 / n[1].vol));
     summary_real(to, "error.pressure_rms", norm_rms_mean_free(n + 1) / scale);
     summary_real(to, "error.pressure_offset", norm_mean(n + 1) / scale);
     if (n[2].r2 > 0.0)
         summary_real(to, "error.vorticity_l2", norm_relative_l2(n + 2));
-    for (int k = 0; s->run->coupled && k < NORMS; k++)
+    for (int k = 0; s->run->coupled && k < NORM_WALL; k++)
         norm_tell(to, norm_names[k], n + k);
 }
 
