@@ -335,36 +335,71 @@ void regions_free(struct regions **of)
     *of = NULL;
 }
 
-void regions_move(struct regions *g, double t)
+static void move_shells(struct regions *g)
 {
     for (int n = 0; n < g->nshells; n++)
         if (g->body_of[n] >= 0)
             shell_move(g->shells + n, g->bodies + g->body_of[n]);
+}
+
+void regions_move(struct regions *g, double t)
+{
+    move_shells(g);
     if (region_sets_move(g, t))
         regions_make(g);
 }
 
 /* --- restart --- */
 
+/* A row: displacement and rotation. */
+enum { POSE = 12 };
+
+static void save_rows(const struct regions *g, struct h5 *f, const char *name, int n, int width,
+                      const double *rows)
+{
+    h5_write_real(f, name, "m", g->run->rank == 0 ? n : 0, width, rows, false);
+}
+
 void regions_save(const struct regions *g, struct h5 *f)
 {
-    double(*shift)[3] = mem_new((size_t)g->nsets, sizeof *shift);
+    double(*shift)[3] = mem_new((size_t)g->nsets, sizeof *shift), pose[BODIES_MAX][POSE];
     for (int n = 0; n < g->nsets; n++)
         memcpy(shift[n], g->sets[n].shift, sizeof shift[n]);
-    h5_write_real(f, "apr_shift", "m", g->run->rank == 0 ? g->nsets : 0, 3, shift[0], false);
+    for (int k = 0; k < BODIES_MAX; k++) {
+        memcpy(pose[k], g->bodies[k].x, sizeof g->bodies[k].x);
+        memcpy(pose[k] + 3, g->bodies[k].Q, sizeof g->bodies[k].Q);
+    }
+    save_rows(g, f, "apr_shift", g->nsets, 3, shift[0]);
+    save_rows(g, f, "apr_bodies", BODIES_MAX, POSE, pose[0]);
     mem_free(shift);
     criteria_save(g, f);
 }
 
+/* n rows that all ranks get; false: the file has none, or others. */
+static bool load_rows(struct h5 *f, const char *name, int n, int width, double *rows)
+{
+    int64_t found = 0;
+    double *read = h5_read_all_real(f, name, width, &found);
+    const bool fits = read && found == n;
+    if (fits)
+        memcpy(rows, read, (size_t)n * (size_t)width * sizeof *rows);
+    mem_free(read);
+    return fits;
+}
+
 bool regions_load(struct regions *g, struct h5 *f)
 {
-    int64_t n = 0;
-    double *shift = h5_read_all_real(f, "apr_shift", 3, &n);
-    const bool fits = shift && n == g->nsets;
-    for (int k = 0; k < g->nsets && fits; k++)
-        memcpy(g->sets[k].shift, shift + (ptrdiff_t)3 * k, sizeof g->sets[k].shift);
-    mem_free(shift);
-    if (fits)
-        regions_make(g);
-    return fits && criteria_load(g, f);
+    double shift[REGIONS_MAX][3], pose[BODIES_MAX][POSE];
+    if (!load_rows(f, "apr_shift", g->nsets, 3, shift[0]) ||
+        !load_rows(f, "apr_bodies", BODIES_MAX, POSE, pose[0]))
+        return false;
+    for (int n = 0; n < g->nsets; n++)
+        memcpy(g->sets[n].shift, shift[n], sizeof shift[n]);
+    for (int k = 0; k < BODIES_MAX; k++) {
+        memcpy(g->bodies[k].x, pose[k], sizeof g->bodies[k].x);
+        memcpy(g->bodies[k].Q, pose[k] + 3, sizeof g->bodies[k].Q);
+    }
+    move_shells(g);
+    regions_make(g);
+    return criteria_load(g, f);
 }

@@ -16,6 +16,7 @@
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../refinement/apr_params.h"
+#include "../refinement/guards.h"
 #include "../refinement/refinement.h"
 #include "../open_boundaries/openings.h"
 #include "../pairs/scheme.h"
@@ -259,6 +260,10 @@ void integrate_rates(struct sph *s)
         guards_update(s);
     for (struct sph *q = s; q; q = q->finer)
         level_rates(q);
+    if (s->finer)
+        refinement_keep_mass(s);
+    for (struct sph *q = s->finer; q && s->walls; q = q->finer)
+        forces_join_stage(s->walls, q->walls);
 }
 
 /* Velocities of displacement, from prim and slope: what the next step and its skin depend on. The
@@ -378,7 +383,7 @@ static void plan_dt(struct sph *s)
         s->dt_most = bodies;
         s->limited_by = "body";
     }
-    if (s->finer && s->dt_most > regions_dt(s->refinement->regions)) {
+    if (s->refinement && s->dt_most > regions_dt(s->refinement->regions)) {
         s->dt_most = regions_dt(s->refinement->regions);
         s->limited_by = "region";
     }
@@ -559,6 +564,8 @@ static void finish_step(struct sph *s, double dt, double *most, struct diagnosis
         lost += remove_behind(q) + remove_lost(q);
     s->lost += lost;
     raise(most + MOST_LOST, lost);
+    for (struct sph *q = s->finer; q && s->walls; q = q->finer)
+        forces_join_step(s->walls, q->walls);
     if (s->walls)
         forces_step(s, dt);
     bodies_finish(s, d);
