@@ -11,6 +11,7 @@
 #include "../../common/xdmf.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
+#include "../refinement/guards.h"
 #include "../refinement/refinement.h"
 #include "../bodies/bodies.h"
 #include "../walls/forces.h"
@@ -282,7 +283,8 @@ static void save_particles(const struct sph *s, struct h5 *f)
     h5_write_int(f, name(s, "next_id"), 1, &s->next_id);
     mem_free(kind);
     if (s->guards)
-        h5_write_real(f, name(s, "slope"), "-", s->p.n, s->p.nslope, s->p.slope, false);
+        h5_write_real(f, name(s, "slope"), "-", s->p.n, s->p.nslope,
+                      s->guards->nprior == s->p.n ? s->guards->prior : s->p.slope, false);
     if (s->surface)
         save_surface(s, f);
 }

@@ -196,8 +196,10 @@ void integrate_gradients(struct sph *s)
         return;
     for (struct sph *q = s; q; q = q->finer)
         particles_lines(q);
-    if (s->finer)
+    if (s->finer) {
         guards_update(s);
+        guards_remember(s);
+    }
     for (struct sph *q = s; q; q = q->finer)
         level_gradients(q, shared);
 }
