@@ -376,6 +376,8 @@ void mesh_to_index(const struct fv *s, double *q, double *work)
         return;
     for (int r = 0; r < m->nparts; r++) {
         const struct part *p = m->part + r;
+        if (p->kind == PART_EVEN)
+            continue;
         for (int pass = 0; pass < 2; pass++)
             PART_ROWS (p, none, none, c, n)
                 for (int64_t i = c; i < c + n; i++) {
