@@ -343,19 +343,34 @@ void mesh_bc_even(const struct fv *s, bool odd, double *q)
     }
 }
 
+static void extended(double *q, int64_t in)
+{
+    for (int l = 1; l <= MESH_GHOSTS; l++)
+        q[-l * in] = 3.0 * (q[(1 - l) * in] - q[(2 - l) * in]) + q[(3 - l) * in];
+}
+
+void mesh_bc_extend(const struct fv *s, double *q)
+{
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            extended(q + c, d->in);
+            (void)at;
+        }
+    }
+}
+
 void mesh_bc_pressure(const struct fv *s, double *p)
 {
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
         SIDE_PLACES(d, 1, i, j, at, c)
         {
-            double *q = p + c;
-            const int64_t in = d->in;
             if (d->kind == MESH_OUTFLOW)
-                given(q, in, d->pressure);
+                given(p + c, d->in, d->pressure);
             else
-                for (int l = 1; l <= MESH_GHOSTS; l++)
-                    q[-l * in] = 3.0 * (q[(1 - l) * in] - q[(2 - l) * in]) + q[(3 - l) * in];
+                extended(p + c, d->in);
             (void)at;
         }
     }
