@@ -125,6 +125,7 @@ void surface_first_half(struct fv *s, double dt)
     surface_advance(s, 0.5 * dt);
     refresh(s);
     rebuild(s);
+    surface_smooth(s);
     carry_on(s, STENCILS);
 }
 
