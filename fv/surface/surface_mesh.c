@@ -170,7 +170,7 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, double *least, doub
         const struct part *p = s->part + q;
         for (int a = 0; a < s->dim; a++)
             w->size[q][a] = mean_spacing(s->m->block + p->block, s->dim, a);
-        w->slants[q] = is_slanting(s, s->m->block + p->block);
+        w->slants[q] = s->m->has_fringe || is_slanting(s, s->m->block + p->block);
         set_centres(s, p, w);
         set_metric(s, p, w);
         most = p->n[0] > most ? p->n[0] : most;

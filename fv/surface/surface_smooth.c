@@ -1,8 +1,8 @@
 /* surface_smooth.c - velocity without waves of two cells beside the surface, where index lines meet
- * it at a slant: u -= C'C u/(64 dim) along each axis, C the third difference (0 where it leaves the
- * cells). Cells along such a surface are no neighbours; waves of two of them are seen neither by
- * the fluxes nor by the pressure, and grow slowly by way of the extension. Waves of n cells along
- * an axis lose (pi/n)^6/dim a step. SPDX-License-Identifier: BSD-3-Clause */
+ * it at a slant or blocks overlap: u -= C'C u/(64 dim) along each axis, C the third difference (0
+ * where it leaves the cells). Cells along such a surface are no neighbours; waves of two of them
+ * are seen neither by the fluxes nor by the pressure, and grow slowly by way of the extension.
+ * Waves of n cells along an axis lose (pi/n)^6/dim a step. SPDX-License-Identifier: BSD-3-Clause */
 #include "surface_mesh.h"
 
 #include <math.h>
