@@ -303,8 +303,15 @@ void surface_check(const struct run *r, struct faults *f)
                      "where is the water? shapes say it, or a wave (initial.field)");
     if (mesh_block_count() == 0)
         check_aspect(r, f);
-    if (prm->integrator != INTEGRATOR_RK3)
-        params_fault(r->params, f, "fv.integrator", "with a free surface rk3 alone");
+    else if (prm->integrator != INTEGRATOR_RK3)
+        params_fault(r->params, f, "fv.integrator", "with a free surface on blocks rk3 alone");
+    if (prm->steady)
+        params_fault(r->params, f, "fv.steady",
+                     "a free surface moves in time: let it come to rest in a run in time");
+    if (prm->c0 > 0.0)
+        params_fault(r->params, f, "fv.c0",
+                     "not with a free surface: cells that become wet have no pressure of the steps "
+                     "before");
     for (int k = 0; k < s->nwalls; k++)
         check_water_opening(r, f, k);
     if (mesh_block_count() > 0)

@@ -1,7 +1,8 @@
 /* mesh_state.c - the state of a flow on blocks, at t = 0 or from a restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
-#include "../poisson/mesh_pressure.h"
+#include "../operators/mesh_ops.h"
+#include "../poisson/poisson.h"
 #include "../poisson/wet_pressure.h"
 #include "../surface/levelset.h"
 #include "../output/mesh_output.h"
@@ -128,7 +129,7 @@ void mesh_state_create(struct fv *s)
 {
     struct faults faults = {0};
     struct run *r = s->run;
-    s->m = mesh_create(r, &faults);
+    s->m = mesh_take(r, &faults);
     if (!s->m)
         fail("the blocks were good when they were checked");
     s->dim = s->m->dim;
@@ -147,12 +148,13 @@ void mesh_state_create(struct fv *s)
     }
     make_fields(s);
     fill(s);
+    s->stiffest = mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
     mesh_bc_create(s);
     s->surface = surface_create(s);
     if (s->surface)
         wet_pressure_create(s);
     else
-        mesh_pressure_create(s);
+        poisson_create(s);
     if (r->scene.nprobes > 0)
         s->search = overset_search(r, s->m);
     mesh_fill(s->m, s->m->dim, s->u);
@@ -173,7 +175,7 @@ void mesh_state_create(struct fv *s)
 
 void mesh_state_free(struct fv *s)
 {
-    mesh_pressure_free(&s->poisson);
+    poisson_free(&s->poisson);
     wet_pressure_free(&s->wet);
     mesh_bc_free(&s->sides);
     overset_free(&s->search);

@@ -391,7 +391,7 @@ void mesh_describe(const struct run *r)
 {
     static const char *const shapes[] = {"box", "stretched box", "ring", "sheared box", "file"};
     struct faults f = {0};
-    struct mesh *m = mesh_create(r, &f);
+    struct mesh *m = mesh_take(r, &f);
     for (int k = 0; m && k < m->nblocks; k++) {
         const struct mesh_block *b = m->block + k;
         int64_t count[3] = {0, 0, 0};
@@ -406,5 +406,5 @@ void mesh_describe(const struct run *r)
         describe_scene(r, m);
         describe_step(r, m);
     }
-    mesh_free(&m);
+    mesh_leave(&m);
 }

@@ -5,7 +5,8 @@
 
 #include "../../common/mem.h"
 #include "../boundary/blocked.h"
-#include "../surface/surface_mesh.h"
+#include "../surface/levelset.h"
+#include "../surface/mesh_view.h"
 #include "../boundary/still.h"
 #include "output.h"
 

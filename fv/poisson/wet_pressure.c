@@ -18,7 +18,8 @@
 #include "../../common/mem.h"
 #include "../boundary/still.h"
 #include "../grid/mesh.h"
-#include "../surface/surface_mesh.h"
+#include "../surface/levelset.h"
+#include "../surface/mesh_view.h"
 #include "hypre_call.h"
 
 enum { ROW_MAX = 64 };

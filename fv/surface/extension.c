@@ -12,7 +12,7 @@
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
 #include "lanes.h"
-#include "surface_mesh.h"
+#include "mesh_view.h"
 
 enum {
     TERMS = 10,

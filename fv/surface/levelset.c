@@ -10,7 +10,7 @@
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
 #include "../boundary/mesh_bc.h"
-#include "surface_mesh.h"
+#include "mesh_view.h"
 #include "weno.h"
 
 enum { BAND = 5 }; /* cells on either side of the surface that are advected */
@@ -322,6 +322,8 @@ struct surface *surface_create(const struct fv *s)
         f->open[a] = NEW(double, s->size);
     f->layer = NEW(unsigned char, s->size);
     f->deep = NEW(int64_t, s->size);
+    if (fv_params_of(s->run)->integrator != INTEGRATOR_RK3)
+        f->half = NEW(double, s->size);
     f->g = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     if (s->m) {
         f->mesh = surface_mesh_create(s, &f->least, &f->largest);
@@ -343,6 +345,7 @@ void surface_free(struct surface **fp)
     mem_free(f->phi_new);
     mem_free(f->rate);
     mem_free(f->kept);
+    mem_free(f->half);
     mem_free(f->stress);
     mem_free(f->layer);
     mem_free(f->deep);
@@ -354,7 +357,7 @@ void surface_free(struct surface **fp)
         mem_free(f->cut[a]);
     }
     surface_mesh_free(&f->mesh);
-    for (int k = 0; k < 12; k++)
+    for (int k = 0; k < 24; k++)
         mem_free(f->before[k]);
     for (int l = 0; l <= LAYERS; l++)
         mem_free(f->carry[l]);

@@ -33,13 +33,14 @@ struct carry {
     double slope;   /* weight of the normal derivative */
 };
 
-struct surface_mesh; /* blocks as the surface sees them, surface_mesh.h */
+struct surface_mesh; /* blocks as the surface sees them, mesh_view.h */
 
 struct surface {
     struct surface_mesh *mesh;    /* NULL: even cells or rows of unequal height */
     double *phi, *phi_new, *rate; /* m, m, m/s */
     double *kept;                 /* scratch of reinit */
-    double *before[12];           /* state at the start of a step, see surface_keep_state */
+    double *before[24];           /* state at the start of a step, see surface_keep_state */
+    double *half; /* implicit steps: phi at half time, while phi stands where the step ends */
     double travelled_before;
     double *stress;       /* 1/s: n.(D n) of dry cells beside the water */
     unsigned char *layer; /* 0: wet; 1 .. LAYERS; DEEP */
@@ -59,6 +60,7 @@ struct surface {
     double travelled;         /* -: cells since the last reinit */
     double least, largest;    /* m: sizes of cells */
     double theta_least;       /* -: least distance of the surface from a wet centre, of h */
+    double rise;              /* s^2: implicit steps: see surface_pressure.c */
     double g;                 /* m/s^2: size of gravity */
     int64_t setups, reinits, repeats;
 };
@@ -143,10 +145,14 @@ void surface_fluxes(const struct fv *s, double tau, const double *psi);
 void surface_dry_fluxes(const struct fv *s);
 /* Gradient of psi along a in cells whose stencil leaves the water: mean of the faces'. */
 void surface_gradient(const struct fv *s, int a, const double *psi, double *out);
+/* The same of a variation, which is 0 on the surface. */
+void surface_gradient_change(const struct fv *s, int a, const double *psi, double *out);
 
 /* surface_steps.c */
 /* Velocities, fluxes and cuts of the start. */
 void surface_start(struct fv *s);
+/* Velocity beyond the surface where it stands now, with ghosts, and the fluxes there. */
+void surface_extend(struct fv *s, int layers);
 /* Around a step of u: the surface stands at half time in it, so that both swing without loss
  * (leapfrog: phi and u take turns). */
 void surface_first_half(struct fv *s, double dt);

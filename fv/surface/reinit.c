@@ -10,7 +10,7 @@
 
 #include "../../common/mem.h"
 #include "../boundary/blocked.h"
-#include "surface_mesh.h"
+#include "mesh_view.h"
 #include "weno.h"
 
 enum { WIDTH = 8 };             /* cells on either side of the surface that are worked on */

@@ -6,7 +6,8 @@
  * Gradients beside the surface are made of these fluxes: e_a the spacing of centres,
  *   grad psi = sum over a of e_a (F_a,lower + F_a,upper)/2V.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "surface_mesh.h"
+#include "levelset.h"
+#include "mesh_view.h"
 
 #include <math.h>
 

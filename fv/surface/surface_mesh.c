@@ -1,5 +1,6 @@
-/* surface_mesh.c - see surface_mesh.h. SPDX-License-Identifier: BSD-3-Clause */
-#include "surface_mesh.h"
+/* surface_mesh.c - see mesh_view.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "levelset.h"
+#include "mesh_view.h"
 
 #include <math.h>
 

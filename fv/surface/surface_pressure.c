@@ -2,7 +2,10 @@
  * fluid: Gibou, Fedkiw, Cheng & Kang, J. Comput. Phys. 176, 2002, symmetric): between a wet cell L
  * and a dry one the gradient is (p_I - p_L)/(theta h), theta = phi_L/(phi_L - phi_R) >= 0.01,
  * with viscosity more (surface_first_half): p_I is explicit, and 1/theta amplifies it.
- * Without gravity's part, so p_I has -(pressure at rest). SPDX-License-Identifier: BSD-3-Clause */
+ * Without gravity's part, so p_I has -(pressure at rest). In implicit steps the surface yields to
+ * the velocity within the step: Newmark's scheme, for which its height counts at eta + beta dt^2
+ * dw/dt, dw/dt = -dp/dy: the same value of p, beta g dt^2 further off.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
 #include <math.h>
@@ -11,7 +14,7 @@
 #include "../../common/mem.h"
 #include "../boundary/forcing.h"
 #include "../boundary/still.h"
-#include "surface_mesh.h"
+#include "mesh_view.h"
 
 static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
 {
@@ -28,7 +31,8 @@ static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
     x.step = block_step(b, a, at[1]);
     x.size = block_size(b, a, wet_here ? at[1] : at[1] - (a == 1));
     at_surface[a] += ((wet_here ? 0.0 : -1.0) + x.up * theta) * x.step;
-    x.theta = fmax(theta, fmax(f->theta_least, 0.01));
+    x.theta = fmax(theta, fmax(f->theta_least, 0.01)) +
+              f->rise * fmax(0.0, -x.up * s->run->scene.fluid.gravity[a]) / x.step;
     x.height = -fv_still_pressure(s, at_surface) / s->run->scene.fluid.rho;
     if (f->ncut[a] == f->room[a]) {
         const int64_t more = 2 * f->room[a] + 256;
@@ -160,8 +164,8 @@ void surface_dry_fluxes(const struct fv *s)
     }
 }
 
-/* Gradient on the faces along a. */
-static void face_gradient(const struct fv *s, int a, const double *psi, double *out)
+/* Gradient on the faces along a; p on the surface: what stands there, or 0. */
+static void face_gradient(const struct fv *s, int a, const double *psi, bool change, double *out)
 {
     const struct surface *f = s->surface;
     const int64_t d = s->b.stride[a];
@@ -173,8 +177,11 @@ static void face_gradient(const struct fv *s, int a, const double *psi, double *
                 out[i] = 2.0 * w * (s->forcing->forced[i] ? -psi[i - d] : psi[i]);
         }
     }
-    for (int64_t i = 0; i < f->ncut[a]; i++)
-        out[f->cut[a][i].face] = cut_gradient(f->cut[a] + i, psi);
+    for (int64_t i = 0; i < f->ncut[a]; i++) {
+        struct cut x = f->cut[a][i];
+        x.p = change ? 0.0 : x.p;
+        out[x.face] = cut_gradient(&x, psi);
+    }
 }
 
 static bool dry_water_side(const struct fv *s, int64_t c)
@@ -182,12 +189,12 @@ static bool dry_water_side(const struct fv *s, int64_t c)
     return s->surface->layer[c] && !(s->forcing && s->forcing->forced[c]);
 }
 
-void surface_gradient(const struct fv *s, int a, const double *psi, double *out)
+static void near_gradient(const struct fv *s, int a, const double *psi, bool change, double *out)
 {
     const struct surface *f = s->surface;
     const int64_t d = s->b.stride[a];
     double *F = f->rate;
-    face_gradient(s, a, psi, F);
+    face_gradient(s, a, psi, change, F);
     BLOCK_ROWS (&s->b, 0, c, n)
         for (int64_t i = c; i < c + n; i++) {
             if (f->layer[i])
@@ -196,4 +203,14 @@ void surface_gradient(const struct fv *s, int a, const double *psi, double *out)
                      dry_water_side(s, i - 2 * d) || dry_water_side(s, i + 2 * d))
                 out[i] = 0.5 * (F[i] + F[i + d]);
         }
+}
+
+void surface_gradient(const struct fv *s, int a, const double *psi, double *out)
+{
+    near_gradient(s, a, psi, false, out);
+}
+
+void surface_gradient_change(const struct fv *s, int a, const double *psi, double *out)
+{
+    near_gradient(s, a, psi, true, out);
 }

@@ -3,7 +3,8 @@
  * where it leaves the cells). Cells along such a surface are no neighbours; waves of two of them
  * are seen neither by the fluxes nor by the pressure, and grow slowly by way of the extension.
  * Waves of n cells along an axis lose (pi/n)^6/dim a step. SPDX-License-Identifier: BSD-3-Clause */
-#include "surface_mesh.h"
+#include "levelset.h"
+#include "mesh_view.h"
 
 #include <math.h>
 

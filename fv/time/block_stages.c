@@ -2,9 +2,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
 #include "../operators/mesh_ops.h"
-#include "../poisson/mesh_pressure.h"
+#include "../poisson/poisson.h"
 #include "../poisson/wet_pressure.h"
-#include "../surface/surface_mesh.h"
+#include "../surface/levelset.h"
+#include "../surface/mesh_view.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 
@@ -63,20 +64,15 @@ static void finish_rhs(struct fv *s)
 
 static void viscous(struct fv *s, int q, double *out) { mesh_viscous(s, s->u[q], out); }
 
+/* The increment of the stage before, scaled, is the start. */
 static bool solve_viscous(struct fv *s, double c, double t, double scale)
 {
+    const double share = viscous_keeps_increment(s) ? scale : 0.0;
     (void)t;
-    (void)scale;
     for (int a = 0; a < s->dim; a++)
-        memset(s->delta[a], 0, (size_t)s->size * sizeof(double));
-    mesh_bc_velocity(s, BC_CHANGE, s->delta); /* what the sides do from one time to the next */
-    for (int a = 0; a < s->dim; a++) {
-        double *restrict L = s->krylov[0][0];
-        mesh_viscous(s, s->delta[a], L);
         FLOW_ROWS(s, at, n)
-        for (int64_t i = at; i < at + n; i++)
-            s->rhs[a][i] += c * L[i];
-    }
+    for (int64_t i = at; i < at + n; i++)
+        s->delta[a][i] *= share;
     return mesh_viscous_solve(s, c, s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous : 1e-4);
 }
 
@@ -95,7 +91,7 @@ static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
     double *psi = s->psi[stage];
     mesh_divergence(s, s->U, s->flux);
     const bool good = s->surface ? wet_pressure_solve(s, tau, s->flux, tol, psi)
-                                 : mesh_pressure_solve(s, tau, s->flux, tol, s->start[stage], psi);
+                                 : poisson_solve(s, tau, s->flux, tol, s->start[stage], psi);
     mesh_halo(s->m, 1, &psi);
     mesh_bc_even(s, true, psi);
     return good;
@@ -227,9 +223,7 @@ static void place(const struct fv *s, int64_t c, char *text, size_t size)
     }
 }
 
-/* The residual says little about waves as long as the grid, which make forces: a smaller one is
- * wanted than where a cycle of PFMG takes all waves alike. */
-const struct stages block_stages = {.tolerance = 0.1,
+const struct stages block_stages = {.tolerance = 1.0,
                                     .pressure_gradient = pressure_gradient,
                                     .set_slip = set_slip,
                                     .begin_sides = begin_sides,

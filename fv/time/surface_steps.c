@@ -9,7 +9,7 @@
 #include "../boundary/bc.h"
 #include "../operators/mesh_ops.h"
 #include "../operators/operators.h"
-#include "../surface/surface_mesh.h"
+#include "../surface/mesh_view.h"
 #include "stages.h"
 
 enum { REINIT_STEPS = 10 }; /* of 0.45 h each: more than what the surface has travelled */
@@ -70,8 +70,7 @@ static void add_velocities(struct fv *s)
         convection_face_velocities(s, s->u, s->U);
 }
 
-/* Velocity beyond the surface where it stands now, with ghosts, and the fluxes there. */
-static void carry_on(struct fv *s, int layers)
+void surface_extend(struct fv *s, int layers)
 {
     extension_apply(s, s->u, EXTEND_SHEAR, layers);
     surface_set_pressure(s);
@@ -101,7 +100,7 @@ void surface_start(struct fv *s)
     rebuild(s);
     set_level(s);
     add_velocities(s);
-    carry_on(s, LAYERS);
+    surface_extend(s, LAYERS);
 }
 
 /* What the band has not seen yet must be told before the surface comes there. */
@@ -111,12 +110,42 @@ static void refresh(struct fv *s)
         surface_reinit(s, REINIT_STEPS);
 }
 
-/* The normal stress of the last stage is part of the surface's pressure: clean while nu dt/(theta
- * h^2) is at most 5 (measured), here 3.3, as limits.c keeps nu dt/h^2 below 1. */
+/* Of projected steps: the normal stress of the last stage is part of the surface's pressure: clean
+ * while nu dt/(theta h^2) is at most 5 (measured), here 3.3, as limits.c keeps nu dt/h^2 below 1.
+ */
 static double least_theta(const struct fv *s, double dt)
 {
     const double h = s->surface->least;
+    if (s->newton)
+        return 0.0;
     return fmin(0.3 * s->nu * dt / (h * h), 0.3);
+}
+
+/* Newmark's beta of waves: 1/12 has no error of second order; more where the shortest ones, omega^2
+ * = 4 g/h at most, want it to be stable: omega dt < 2/sqrt(1 - 4 beta). */
+static double newmark_beta(const struct fv *s, double dt)
+{
+    const double *g = s->run->scene.fluid.gravity, size = s->surface->g;
+    double h = INFINITY;
+    for (int a = 0; a < s->dim; a++)
+        if (fabs(g[a]) < 0.7 * size)
+            h = fmin(h, s->b.h[a]);
+    return fmax(1.0 / 12.0, 0.25 * (1.0 - h / (size * dt * dt)));
+}
+
+/* Backward differences want the pressure where the step ends: the surface goes on there with the
+ * velocity of the start, and comes back to half time afterwards. Of the velocities that then take
+ * turns with phi, u^n+1 - u^n = dt F(n+1/2) is left where nothing but gravity acts: the leapfrog,
+ * which has no loss. The first step has no such difference. */
+static void go_ahead(struct fv *s, double dt)
+{
+    struct surface *f = s->surface;
+    const double travelled = f->travelled;
+    memcpy(f->half, f->phi, (size_t)s->b.size * sizeof(double));
+    f->rise = newmark_beta(s, dt) * dt * dt;
+    if (s->dt > 0.0)
+        surface_advance(s, 0.5 * dt);
+    f->travelled = travelled;
 }
 
 void surface_first_half(struct fv *s, double dt)
@@ -124,9 +153,11 @@ void surface_first_half(struct fv *s, double dt)
     s->surface->theta_least = least_theta(s, dt);
     surface_advance(s, 0.5 * dt);
     refresh(s);
+    if (s->surface->half)
+        go_ahead(s, dt);
     rebuild(s);
     surface_smooth(s);
-    carry_on(s, STENCILS);
+    surface_extend(s, STENCILS);
 }
 
 /* m^dim/s: water that comes in through openings less what leaves, and their sum, over all ranks. */
@@ -156,6 +187,8 @@ static void flows(const struct fv *s, double sums[2])
 void surface_second_half(struct fv *s, double dt)
 {
     double through[2];
+    if (s->surface->half)
+        memcpy(s->surface->phi, s->surface->half, (size_t)s->b.size * sizeof(double));
     flows(s, through);
     s->surface->volume0 += dt * through[0];
     s->surface->passed += dt * through[1];
@@ -165,7 +198,9 @@ void surface_second_half(struct fv *s, double dt)
     surface_sample(s);
 }
 
-/* Lists the fields of the state; returns their number. */
+enum { STATE = 24 };
+
+/* Lists the fields of the state, convection's with bdf2, whose steps swap them; their number. */
 static int state(struct fv *s, double **f)
 {
     int n = 0;
@@ -174,9 +209,11 @@ static int state(struct fv *s, double **f)
     f[n++] = s->p_before;
     for (int a = 0; a < 3; a++) {
         f[n++] = s->psi[a];
-        if (a < s->dim) {
-            f[n++] = s->u[a];
-            f[n++] = s->U[a];
+        for (int k = 0; k < 4 && a < s->dim; k++) {
+            double *const all[] = {s->u[a], s->U[a], s->u_old[a],
+                                   s->prm.integrator == INTEGRATOR_BDF2 ? s->N[a] : NULL};
+            if (all[k])
+                f[n++] = all[k];
         }
     }
     return n;
@@ -184,7 +221,7 @@ static int state(struct fv *s, double **f)
 
 void surface_keep_state(struct fv *s)
 {
-    double *f[12];
+    double *f[STATE];
     const int n = state(s, f);
     for (int k = 0; k < n; k++) {
         if (!s->surface->before[k])
@@ -196,7 +233,7 @@ void surface_keep_state(struct fv *s)
 
 void surface_back(struct fv *s)
 {
-    double *f[12];
+    double *f[STATE];
     const int n = state(s, f);
     for (int k = 0; k < n; k++)
         memcpy(f[k], s->surface->before[k], (size_t)s->size * sizeof(double));

@@ -1,10 +1,11 @@
-/* surface_mesh.h - blocks as the free surface sees them: places of centres, metrics of cells, what
+/* mesh_view.h - blocks as the free surface sees them: places of centres, metrics of cells, what
  * counts where blocks overlap, and the faces whose flux of psi ends on the surface.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_SURFACE_MESH_H
-#define FV_SURFACE_MESH_H
+#ifndef FV_MESH_VIEW_H
+#define FV_MESH_VIEW_H
 
-#include "levelset.h"
+#include "../fv.h"
+#include "../grid/mesh.h"
 
 /* Flux of psi (per unit of it) through a face that has dry cells around: sum of weight times psi
  * at the places `at' and of `given' times the pressure of the cut. */
