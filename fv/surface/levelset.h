@@ -128,6 +128,10 @@ void extension_apply(const struct fv *s, double *const u[3], enum extend how, in
 /* The same for one field, layers 1 and 2. */
 void extension_scalar(const struct fv *s, double *q);
 
+/* surface_smooth.c: on blocks, u (with its ghosts) beside the surface without waves of two cells.
+ */
+void surface_smooth(struct fv *s);
+
 /* surface_pressure.c */
 /* Wet cells, cut faces and stencils of the present phi; pressure_rebuild then. */
 void surface_rebuild(struct fv *s);

@@ -156,6 +156,7 @@ void surface_first_half(struct fv *s, double dt)
     if (s->surface->half)
         go_ahead(s, dt);
     rebuild(s);
+    surface_smooth(s);
     surface_extend(s, STENCILS);
 }
 
