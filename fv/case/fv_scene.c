@@ -281,8 +281,10 @@ static void check_surface(const struct run *r, struct faults *f)
             params_fault(r->params, f, "initial.field", "a wave wants a free surface: fv.surface");
         return;
     }
-    if (r->coupled)
-        params_fault(r->params, f, "fv.surface", "a coupled run leaves the surface to sph");
+    if (r->coupled && !r->crossed)
+        params_fault(r->params, f, "fv.surface",
+                     "a coupled run leaves the surface to sph, unless sph.box ends in the water "
+                     "at an upright side");
     if (s->nshapes == 0 && !scene_has_wave(s))
         params_fault(r->params, f, "fv.surface",
                      "where is the water? shapes say it, or a wave (initial.field)");

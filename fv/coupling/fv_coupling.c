@@ -17,10 +17,14 @@
 #include "../grid/layout.h"
 #include "../boundary/still.h"
 #include "fv_link.h"
+#include "../surface/levelset.h"
+#include "../surface/surface_forced.h"
 
 struct link {
     struct cpl *c;
     int grid, forced, velocity, pressure, imposed, seen;
+    int phi, places, filled; /* where the surface crosses into the partner's part */
+    double *share;           /* of a kernel that the partner's water fills, at the places */
     struct course *course;
     double *got; /* scratch */
     double *p;   /* Pa: the partner's at the end of the window, where mask is 1 */
@@ -71,6 +75,11 @@ static void declare(struct fv *s, struct link *k)
     check(k, cpl_points(k->c, "fv.forced", b->dim, support(b), &k->forced));
     check(k, cpl_field(k->c, k->forced, "sph.velocity", "m/s", b->dim, CPL_GET, how, &k->imposed));
     check(k, cpl_field(k->c, k->forced, "sph.pressure", "Pa", 1, CPL_GET, how, &k->seen));
+    if (!s->surface)
+        return;
+    check(k, cpl_field(k->c, k->grid, "fv.phi", "m", 1, CPL_PUT, 0, &k->phi));
+    check(k, cpl_points(k->c, "fv.surface", b->dim, s->surface->forced->R, &k->places));
+    check(k, cpl_field(k->c, k->places, "sph.one", "-", 1, CPL_GET, CPL_SUM, &k->filled));
 }
 
 /* All that the partner takes must lie in even rows. */
@@ -113,6 +122,10 @@ void coupling_create(struct fv *s)
         first = b->rows->even - b->lo[1];
         first = first < 0 ? 0 : first > b->n[1] ? b->n[1] : first;
     }
+    if (s->surface) {
+        s->surface->forced = surface_forced_create(s);
+        k->share = NEW(double, s->surface->forced->nplaces);
+    }
     declare(s, k);
     check(k, cpl_find_zone(k->c, "sph.memory", memory, memory));
     k->course = course_create(s, first, (int)memory[0]);
@@ -137,6 +150,7 @@ void coupling_free(struct fv *s)
     mem_free(k->got);
     mem_free(k->p);
     mem_free(k->mask);
+    mem_free(k->share);
     mem_free(k);
     s->link = NULL;
 }
@@ -171,6 +185,10 @@ static void put(struct fv *s)
     check(k, cpl_put_course(k->c, k->velocity, s->t, c->n, n, term));
     n = course_pressure(c);
     check(k, cpl_put_course(k->c, k->pressure, s->t, c->n, n, term));
+    if (!s->surface)
+        return;
+    n = course_surface(c);
+    check(k, cpl_put_course(k->c, k->phi, s->t, c->n, n, term));
 }
 
 /* Forced values of the start, and before it where an exact solution knows them. */
@@ -225,6 +243,10 @@ void coupling_first(void *state)
         id[m] = number_of(b, c);
     }
     check(k, cpl_move(k->c, k->forced, n, x, id, NULL));
+    if (s->surface) {
+        const struct surface_forced *w = s->surface->forced;
+        check(k, cpl_move(k->c, k->places, w->nplaces, w->x, NULL, NULL));
+    }
     mem_free(x);
     mem_free(id);
     if (!s->run->restart) {
@@ -248,7 +270,7 @@ static void count_missing(struct fv *s)
     double sum[2] = {0.0, 0.0};
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         const int64_t c = f->partner[i];
-        if (f->layer[c] > 2)
+        if (f->layer[c] > 2 || (s->surface && s->surface->forced->phi[1][c] > -0.5 * s->b.h[0]))
             continue;
         sum[1] += 1.0;
         if (!k->mask[i]) {
@@ -293,15 +315,23 @@ void coupling_window_begin(void *state, double t0, double t1)
     const int64_t n = f ? f->npartner + f->nrim : 0;
     if (f)
         forcing_shift(f, t0, t1);
+    if (s->surface)
+        surface_forced_shift(s, t0, t1);
     course_try(s, k->course, t1);
     put(s);
     check(k, cpl_get(k->c, k->imposed, n, k->got, k->mask));
     check(k, cpl_get(k->c, k->seen, n, k->p, NULL));
+    if (s->surface) {
+        check(k, cpl_get(k->c, k->filled, s->surface->forced->nplaces, k->share, NULL));
+        surface_forced_take(s, k->share);
+    }
     if (f)
         count_missing(s);
     for (int a = 0; f && a < dim; a++)
         for (int64_t i = 0; i < n; i++)
             f->v_next[a][i] = k->mask[i] ? k->got[dim * i + a] : f->v[a][i];
+    if (s->surface)
+        forcing_fill(s, k->mask);
 }
 
 void coupling_window_end(void *state, double t1)
@@ -309,7 +339,7 @@ void coupling_window_end(void *state, double t1)
     (void)t1;
     struct fv *s = state;
     course_take(s, s->link->course);
-    if (s->forcing)
+    if (s->forcing && !s->surface)
         find_datum(s);
 }
 

@@ -114,7 +114,8 @@ void fv_tell(void *state, struct summary *report)
         if (s->forcing && s->forcing->forced[c])
             continue;
         const double u[3] = {s->u[0][c], s->u[1][c], b->dim == 3 ? s->u[2][c] : 0.0};
-        const double part = h[0] * h[1] * h[2] * share(s, x, h);
+        const double wet = s->surface ? surface_share(s, c) : 1.0;
+        const double part = h[0] * h[1] * h[2] * wet * share(s, x, h);
         sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
         sum[1] += 0.5 * part * fv_curl_squared(s, c, j);
         sum[2] += rho * part * exact_signal(&s->exact, x, u);

@@ -11,6 +11,7 @@
 #include "../grid/mesh.h"
 #include "../poisson/pressure.h"
 #include "../surface/levelset.h"
+#include "../surface/surface_forced.h"
 #include "../time/newton.h"
 #include "../watch/watches.h"
 #include "../time/steps.h"
@@ -20,6 +21,8 @@
 enum { SURFACE_NUMBERS = 4 };
 static const char *const surface_numbers[SURFACE_NUMBERS] = {"volume0", "returned", "travelled",
                                                              "passed"};
+
+static const char *const forced_times[2] = {"phi_start_t", "phi_end_t"};
 
 static double *surface_number(struct surface *f, int k)
 {
@@ -73,6 +76,8 @@ void fv_checkpoint(void *state, struct h5 *f)
     if (s->surface)
         for (int k = 0; k < SURFACE_NUMBERS; k++)
             h5_attribute_real(f, surface_numbers[k], *surface_number(s->surface, k));
+    for (int k = 0; s->surface && s->surface->forced && k < 2; k++)
+        h5_attribute_real(f, forced_times[k], s->surface->forced->t[k]);
     if (s->link)
         coupling_save(s, f);
 }
@@ -155,6 +160,10 @@ bool fv_restore(struct fv *s, struct h5 *f)
     for (int k = 0; s->surface && k < SURFACE_NUMBERS; k++)
         if (!there(h5_read_attribute_real(f, surface_numbers[k], surface_number(s->surface, k)),
                    surface_numbers[k]))
+            return false;
+    for (int k = 0; s->surface && s->surface->forced && k < 2; k++)
+        if (!there(h5_read_attribute_real(f, forced_times[k], s->surface->forced->t + k),
+                   forced_times[k]))
             return false;
     if (s->surface) {
         surface_rebuild(s);

@@ -5,6 +5,7 @@
 
 #include "../../common/mem.h"
 #include "../boundary/blocked.h"
+#include "../boundary/forcing.h"
 #include "../surface/levelset.h"
 #include "../boundary/still.h"
 #include "output.h"
@@ -16,6 +17,8 @@ double surface_energy(const struct fv *s)
     BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++) {
             double square = 0.0;
+            if (s->forcing && s->forcing->forced[i])
+                continue;
             for (int a = 0; a < b->dim; a++)
                 square += s->u[a][i] * s->u[a][i];
             sum += square > 0.0 ? 0.5 * square * surface_share(s, i) * block_volume(b, j_) : 0.0;
@@ -170,7 +173,8 @@ static void summarise_swing(struct fv *s)
 {
     struct summary *to = s->run->summary;
     double period, rate;
-    if (s->exact.field != FIELD_STANDING_WAVE || !exact_oscillation(&s->exact, &period, &rate))
+    if (s->run->coupled || s->exact.field != FIELD_STANDING_WAVE ||
+        !exact_oscillation(&s->exact, &period, &rate))
         return;
     const double T = fit_period(&s->swing), r = fit_rate(&s->swing);
     if (isfinite(T)) {

@@ -196,8 +196,8 @@ static bool look_past_boxes(const struct fv *s, int64_t c, const int *corner, bo
 static void look_around(const struct fv *s, int64_t c, int layer, struct place *p)
 {
     const struct block *b = &s->b;
-    const unsigned char *known = s->surface->layer + c,
-                        *out = s->forcing ? s->forcing->forced + c : NULL;
+    const unsigned char *known = s->surface->layer + c;
+    const bool *out = s->surface->closed + c;
     const int deep = b->dim == 3 ? 2 : 0;
     const double per = 1.0 / p->spacing, *y = b->rows ? b->rows->y + block_row(b, c) : NULL;
     int shift[3], n = 0;
@@ -218,7 +218,7 @@ static void look_around(const struct fv *s, int64_t c, int layer, struct place *
             for (int a = 0; a < 3; a++)
                 r[a] = (x[0] * p->e[a][0] + x[1] * p->e[a][1] + x[2] * p->e[a][2]) * per;
             for (int i = 0; i < 5; i++) { /* kept without a branch: n goes on if it is known */
-                const bool there = !(out && out[step + i]) && !(some && !some[row + i]);
+                const bool there = !out[step + i] && !(some && !some[row + i]);
                 p->room += there;
                 for (int a = 0; a < 3; a++)
                     p->r[a][n] = r[a] + i * p->e[a][0] * (b->h[0] * per);
@@ -355,7 +355,7 @@ static void next_layer_row(const double *restrict least, const double *restrict 
 }
 
 /* Layers by spreading over faces and corners from the wet cells, along one axis after the other;
- * cells behind closed sides and forced ones do not count. */
+ * cells behind closed sides and deep in a hole do not count. */
 static void find_layers(struct fv *s)
 {
     struct surface *f = s->surface;
@@ -363,7 +363,7 @@ static void find_layers(struct fv *s)
     const bool deep = b->dim == 3;
     double *field = f->rate, *wall = f->kept, *x = s->face, *xy = s->flux;
     for (int64_t c = 0; c < b->size; c++) {
-        wall[c] = s->forcing && s->forcing->forced[c] ? 1.0 : 0.0;
+        wall[c] = f->closed[c] ? 1.0 : 0.0;
         field[c] = f->phi[c] < 0.0 && wall[c] == 0.0 ? 0.0 : DEEP;
     }
     for (int l = 1; l <= LAYERS; l++) {

@@ -9,6 +9,8 @@
 #include "../../common/mem.h"
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
+#include "../boundary/forcing.h"
+#include "surface_forced.h"
 #include "weno.h"
 
 enum { BAND = 5 }; /* cells on either side of the surface that are advected */
@@ -19,7 +21,7 @@ bool surface_wanted(const struct run *r)
     const int asked = fv_params_of(r)->surface;
     if (asked != SURFACE_AUTO)
         return asked == SURFACE_YES;
-    return !r->coupled && (c->nshapes > 0 || scene_has_wave(c));
+    return r->crossed || (!r->coupled && (c->nshapes > 0 || scene_has_wave(c)));
 }
 
 static bool side_here(const struct block *b, int a, bool upper)
@@ -197,6 +199,36 @@ static double share_at(const struct fv *s, int64_t c, double shift)
 
 double surface_share(const struct fv *s, int64_t c) { return share_at(s, c, 0.0); }
 
+double surface_face_share(const struct fv *s, int64_t c, int a)
+{
+    const struct block *b = &s->b;
+    const double *q = s->surface->phi + c;
+    const int64_t d = b->stride[a];
+    const double middle = 0.5 * (q[0] + q[-d]);
+    double n[3] = {0.0}, sum = 0.0;
+    int m = 0;
+    for (int t = 0; t < b->dim; t++)
+        if (t != a) {
+            const int64_t e = b->stride[t];
+            n[m] = 0.25 * fabs(q[e] - q[-e] + q[e - d] - q[-e - d]);
+            sum += n[m++];
+        }
+    if (fabs(middle) >= 0.505 * sum)
+        return middle < 0.0;
+    double whole = 0.0;
+    for (int k = 0; k < m; k++) {
+        n[k] = fmax(n[k], 1e-3 * sum);
+        whole += n[k];
+    }
+    return share_below(m, n, 0.5 * whole - middle);
+}
+
+/* Cells whose water counts. */
+static bool is_own(const struct fv *s, int64_t c)
+{
+    return !(s->surface->forced && s->forcing->forced[c]);
+}
+
 double surface_volume(const struct fv *s, double *area)
 {
     const struct block *b = &s->b;
@@ -204,6 +236,8 @@ double surface_volume(const struct fv *s, double *area)
     BLOCK_ROWS (b, 0, c, n) {
         const double h = largest_spacing(b, j_), e = 1e-4 * h, volume = block_volume(b, j_);
         for (int64_t i = c; i < c + n; i++) {
+            if (!is_own(s, i))
+                continue;
             if (fabs(s->surface->phi[i]) > 3.0 * h) {
                 sums[0] += s->surface->phi[i] < 0.0 ? volume : 0.0;
                 continue;
@@ -223,7 +257,7 @@ void surface_keep_volume(struct fv *s)
 {
     struct surface *f = s->surface;
     const double h = fmax(s->b.h[0], fmax(s->b.h[1], s->b.dim == 3 ? s->b.h[2] : 0.0)),
-                 most = 0.1 * h;
+                 most = (f->forced ? 0.02 : 0.1) * h;
     double area, d = INFINITY;
     for (int it = 0; it < 5 && fabs(d) > 1e-3 * h; it++) {
         const double volume = surface_volume(s, &area);
@@ -231,7 +265,7 @@ void surface_keep_volume(struct fv *s)
             return;
         d = fmax(-most, fmin(most, (f->volume0 - volume) / area));
         for (int64_t i = 0; i < s->b.size; i++)
-            f->phi[i] += d;
+            f->phi[i] += is_own(s, i) ? d : 0.0;
         f->returned += d * area;
     }
 }
@@ -251,6 +285,7 @@ struct surface *surface_create(const struct fv *s)
         f->open[a] = block_field(b);
     f->layer = NEW(unsigned char, b->size);
     f->deep = NEW(int64_t, b->size);
+    f->closed = NEW(bool, b->size);
     f->g = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
         for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
@@ -268,6 +303,8 @@ void surface_free(struct surface **fp)
     struct surface *f = *fp;
     if (!f)
         return;
+    surface_forced_free(&f->forced);
+    mem_free(f->closed);
     mem_free(f->phi);
     mem_free(f->phi_new);
     mem_free(f->rate);

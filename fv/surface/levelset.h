@@ -32,7 +32,11 @@ struct carry {
     double slope;   /* weight of the normal derivative */
 };
 
+struct surface_forced; /* phi in a partner's cells; surface_forced.h; NULL: none */
+
 struct surface {
+    struct surface_forced *forced;
+    bool *closed; /* cells whose values are nobody's: behind sides, boxes, deep in a partner's part */
     double *phi, *phi_new, *rate; /* m, m, m/s */
     double *kept;                 /* scratch of reinit */
     double *before[12];           /* state at the start of a step, see surface_keep_state */
@@ -70,10 +74,12 @@ void surface_ghosts(const struct fv *s, double *phi);
 void surface_advance(struct fv *s, double dt);
 /* Moves phi evenly to the volume of the start. */
 void surface_keep_volume(struct fv *s);
-/* m^dim of water; *area: its change with phi, < 0. Over all ranks. */
+/* m^dim of water, a partner's part apart; *area: its change with phi, < 0. Over all ranks. */
 double surface_volume(const struct fv *s, double *area);
 /* Share of a cell below phi = 0, by the plane through its centre. */
 double surface_share(const struct fv *s, int64_t c);
+/* The same of the face below cell c along axis a. */
+double surface_face_share(const struct fv *s, int64_t c, int a);
 
 /* Further off (m) than any cell can be: phi within boxes that are cut out, which are no water. */
 static inline double surface_far(const struct fv *s)
@@ -101,6 +107,8 @@ enum extend {
 void extension_apply(const struct fv *s, double *const u[3], enum extend how, int layers);
 /* The same for one field, layers 1 and 2. */
 void extension_scalar(const struct fv *s, double *q);
+/* The same for the layers further out, within what is around. */
+void extension_beyond(const struct fv *s, double *q);
 
 /* surface_pressure.c */
 /* Wet cells, cut faces and stencils of the present phi; pressure_rebuild then. */

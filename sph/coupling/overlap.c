@@ -85,6 +85,8 @@ static void compare(struct sph *s, double sums[4])
     for (int k = 0; k < z->n; k++) {
         const double *y = state_row(&s->p, s->p.y, z->who[k]), w = y[at_volume(dim)];
         const double m = y[at_mass(dim)];
+        if (z->surface && z->phi[k] > -s->dx)
+            continue;
         const double dp = eos_p(m / w, s->rho0, s->c0, s->gamma) - z->p[k];
         for (int a = 0; a < dim; a++) {
             const double du = y[dim + a] / m - z->u[dim * k + a];
@@ -99,7 +101,7 @@ static void compare(struct sph *s, double sums[4])
 void overlap_find_surface(struct sph *s)
 {
     struct overlap *o = s->zones->watched;
-    if (!o->asks || !s->surface)
+    if (!o->asks || !s->surface || s->zones->surface)
         return;
     o->asks = false;
     o->found = 0.0;
