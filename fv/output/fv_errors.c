@@ -108,7 +108,7 @@ void fv_tell(void *state, struct summary *report)
     const struct block *b = &s->b;
     const double rho = s->run->scene.fluid.rho;
     const double *g = s->run->scene.fluid.gravity;
-    double x[3], h[3], sum[4] = {0.0, 0.0, 0.0, 0.0};
+    double x[3], h[3], sum[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
     BLOCK_CELLS (b, i, j, k, c) {
         block_cell(b, i, j, k, x, h);
         if (s->forcing && s->forcing->forced[c])
@@ -120,12 +120,15 @@ void fv_tell(void *state, struct summary *report)
         sum[1] += 0.5 * part * fv_curl_squared(s, c, j);
         sum[2] += rho * part * exact_signal(&s->exact, x, u);
         sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
+        sum[4] += part;
     }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, b->cart);
     summary_real(report, "sum.potential", sum[3]);
     summary_real(report, "sum.kinetic", sum[0]);
     summary_real(report, "sum.enstrophy", sum[1]);
     summary_real(report, "sum.signal", sum[2]);
+    if (s->surface)
+        summary_real(report, "sum.water", sum[4]);
 }
 
 /* Largest divergence of the fluxes, times h: what the projection left. */

@@ -9,6 +9,7 @@
 #include "../../common/log.h"
 #include "../../common/mem.h"
 #include "../particles/eos.h"
+#include "../open_boundaries/level_gap.h"
 #include "../open_boundaries/openings.h"
 #include "../surface/surface.h"
 #include "windows.h"
@@ -144,6 +145,8 @@ void overlap_judge(struct sph *s, struct diagnosis *d)
     if (watch_judge(&o->dry, o->on, s->t, s->run->step, d))
         snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, t = %.4g s", o->where[0], o->where[1],
                  o->where[2], s->t);
+    if (s->zones->gap)
+        level_gap_judge(s, d);
     const bool was_bad = d->bad;
     watch_judge(&o->velocity, o->du_mean, s->t, s->run->step, d);
     watch_judge(&o->pressure, o->dp_mean, s->t, s->run->step, d);

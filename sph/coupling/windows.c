@@ -94,7 +94,7 @@ static void scales(const struct run *r, const struct sph_params *prm, struct win
         const double k = 2.0 * M_PI / c->initial.L * (c->initial.L_z > 0.0 ? M_SQRT2 : 1.0);
         w->omega = scene_has_wave(c) ? sqrt(g * k * tanh(k * H)) : sqrt(g / H);
         w->weight = g * fmin(H, w->L);
-        if (!scene_has_wave(c))
+        if (!scene_has_wave(c) && !r->crossed) /* else fv has the long waves, too */
             w->U = fmax(w->U, sqrt(g * H));
     }
     if (!(w->U > 0.0))

@@ -4,6 +4,7 @@
 #include "level_gap.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../../common/colour.h"
@@ -32,6 +33,13 @@ struct level_gap *level_gap_create(const struct sph *s)
     struct level_gap *g = NEW(struct level_gap, 1);
     g->profile = NEW(double, COLOUR_PARTS + 1);
     colour_profile(s->dim, g->profile);
+    g->watched = (struct watch){
+        .key = "level_gap",
+        .what = "levels of sph and fv at an open side, difference in dx over ten windows",
+        .likely = "waves too steep or too near to breaking at the side: move the side of sph.box; "
+                  "or windows too long: coupling.steps",
+        .warn = 0.5,
+        .stop = 3.0};
     return g;
 }
 
@@ -188,6 +196,55 @@ void level_gap_look(struct sph *s)
         if (s->open[side] && side / 2 != up)
             look_at_side(s, side);
     s->zones->gap->started = true;
+}
+
+const char *const level_gap_columns[LEVEL_COLUMNS] = {"level gap [m]", "level gap beyond [m]",
+                                                      "drops [kg]", "faces hold [kg]",
+                                                      "births refused [-]"};
+
+/* Of the two sides along the first axis that has any. */
+void level_gap_row(const struct sph *s, double *values)
+{
+    const struct level_gap *g = s->zones->gap;
+    const struct openings *o = s->zones->openings;
+    double sums[2] = {o->rain[0], (double)o->refused};
+    int axis = 0;
+    while (axis < s->dim - 1 && !s->open[2 * axis] && !s->open[2 * axis + 1])
+        axis++;
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    values[0] = g->gap[2 * axis];
+    values[1] = g->gap[2 * axis + 1];
+    values[2] = sums[0];
+    values[3] = openings_held(s);
+    values[4] = sums[1];
+}
+
+static const double several = 10.0; /* windows */
+
+void level_gap_judge(struct sph *s, struct diagnosis *d)
+{
+    struct level_gap *g = s->zones->gap;
+    double now = 0.0;
+    int worst = 0;
+    for (int side = 0; side < 2 * s->dim; side++)
+        if (fabs(g->gap[side]) > now) {
+            now = fabs(g->gap[side]);
+            worst = side;
+        }
+    g->mean += (now - g->mean) / several;
+    if (watch_judge(&g->watched, g->mean / s->dx, s->t, s->run->step, d))
+        snprintf(d->where, sizeof d->where, "the %s open side along %c, t = %.4g s",
+                 worst % 2 ? "upper" : "lower", "xyz"[worst / 2], s->t);
+}
+
+void level_gap_summary(const struct sph *s, struct summary *to)
+{
+    const struct openings *o = s->zones->openings;
+    double sums[2] = {o->rain[0], (double)o->drops};
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    watch_summary(&s->zones->gap->watched, to);
+    summary_real(to, "drops.mass", sums[0]);
+    summary_real(to, "drops.number", sums[1]);
 }
 
 void level_gap_save(const struct level_gap *g, struct h5 *f)

@@ -5,7 +5,10 @@
 #ifndef SPH_LEVEL_GAP_H
 #define SPH_LEVEL_GAP_H
 
+#include "../../common/watch.h"
 #include "../sph.h"
+
+enum { LEVEL_COLUMNS = 5 };
 
 struct level_gap {
     double *profile; /* colour.h */
@@ -13,6 +16,8 @@ struct level_gap {
     double gap[6];     /* m: now, over that */
     double outflow[6]; /* m/s: what is added to the flow outside */
     bool started;      /* at_rest is known */
+    double mean;       /* m: of |gap| over some windows, the largest side: what is judged */
+    struct watch watched;
     int probes;        /* places that were compared, last time */
 };
 
@@ -22,6 +27,12 @@ void level_gap_free(struct level_gap **g);
 double level_gap_outflow(const struct level_gap *g, int side);
 /* Compares at s->t. Collective. */
 void level_gap_look(struct sph *s);
+/* Names and values of LEVEL_COLUMNS columns. Collective. */
+extern const char *const level_gap_columns[LEVEL_COLUMNS];
+void level_gap_row(const struct sph *s, double *values);
+/* Once a window: fills d where the levels have parted. */
+void level_gap_judge(struct sph *s, struct diagnosis *d);
+void level_gap_summary(const struct sph *s, struct summary *to);
 void level_gap_save(const struct level_gap *g, struct h5 *f);
 bool level_gap_load(struct level_gap *g, struct h5 *f);
 

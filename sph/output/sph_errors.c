@@ -184,11 +184,12 @@ void sph_tell(void *state, struct summary *report)
     struct sph *s = state;
     const struct exact e = exact_create(&s->run->scene);
     const int dim = s->dim;
-    double kinetic = 0.0, potential = 0.0;
+    double kinetic = 0.0, potential = 0.0, water = 0.0;
     integrate_gradients(s);
     for (int i = 0; i < s->p.n; i++) {
         const double *y = state_row(&s->p, s->p.y, i);
         const double part = share(s, i), m = y[at_mass(dim)];
+        water += part * m / s->rho0;
         for (int a = 0; a < dim; a++) {
             kinetic += part * 0.5 * y[dim + a] * y[dim + a] / m;
             potential -= part * m * s->gravity[a] * y[a];
@@ -198,6 +199,8 @@ void sph_tell(void *state, struct summary *report)
     summary_real(report, "sum.potential", total(s, potential));
     summary_real(report, "sum.enstrophy", enstrophy(s, true));
     summary_real(report, "sum.signal", signal_now(s, &e, true));
+    if (s->run->crossed)
+        summary_real(report, "sum.water", total(s, water));
 }
 
 static bool has_signal(const struct run *r)
