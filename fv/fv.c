@@ -96,8 +96,10 @@ static void *create(struct run *r, struct h5 *f)
     n += s ? watches_columns(s->watches, columns + n) : 0;
     if (r->coupled)
         columns[n++] = "unmapped cells [-]";
-    if (r->crossed)
+    if (r->crossed) {
         columns[n++] = "step of the surface [m]";
+        columns[n++] = "water missing [m^dim]";
+    }
     fv_program.ncolumns = n;
     return s;
 }
@@ -122,9 +124,11 @@ static void row(void *state, double *values)
     const struct fv *s = state;
     const bool crossed = s->run->crossed;
     if (s->link)
-        values[fv_program.ncolumns - (crossed ? 2 : 1)] = coupling_unmapped(s);
-    if (crossed)
-        values[fv_program.ncolumns - 1] = s->surface->forced->step;
+        values[fv_program.ncolumns - (crossed ? 3 : 1)] = coupling_unmapped(s);
+    if (!crossed)
+        return;
+    values[fv_program.ncolumns - 2] = s->surface->forced->step;
+    values[fv_program.ncolumns - 1] = coupling_water_missing(s);
 }
 
 static void finish(void *state)

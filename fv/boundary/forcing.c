@@ -536,6 +536,8 @@ void forcing_fluxes(const struct fv *s, double t, double *const U[3])
             } else if (is_partners(f, c, d)) {
                 U[a][c] = partner_flux(f->given[a] + c, d);
             }
+            if (f->forced[c] == 1 || f->forced[c - d] == 1)
+                U[a][c] -= f->sign[a][i] * f->inflow;
         }
     balance(s, true, U);
 }

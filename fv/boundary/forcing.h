@@ -51,6 +51,8 @@ struct forcing {
     bool imposed; /* some rank gives cells the exact velocity */
     double *v[3], *v_next[3],
         *v_old[3]; /* [npartner + nrim] partner's velocities at t0, t1, and the window before */
+    double inflow; /* m/s: added to the flow through the outline, into the free cells, whose surface
+                      lets it in; 0 without a surface */
     double t0, t1, t_old; /* s */
     int levels;           /* of them known, the newest first: v_next, v, v_old */
 };

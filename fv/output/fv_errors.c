@@ -8,6 +8,7 @@
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
+#include "../coupling/water_budget.h"
 #include "../surface/levelset.h"
 #include "../watch/watches.h"
 #include "../boundary/still.h"
@@ -76,17 +77,6 @@ static void energies(struct fv *s, double sum[2])
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, b->cart);
 }
 
-/* Part of a cell outside the box that a partner counts. */
-static double share(const struct fv *s, const double *x, const double *h)
-{
-    double in = 1.0;
-    for (int a = 0; a < s->b.dim; a++) {
-        const double lo = fmax(x[a] - 0.5 * h[a], s->partner[0][a]);
-        in *= fmax(fmin(x[a] + 0.5 * h[a], s->partner[1][a]) - lo, 0.0) / h[a];
-    }
-    return 1.0 - in;
-}
-
 double fv_curl_squared(const struct fv *s, int64_t c, int j)
 {
     const struct block *b = &s->b;
@@ -115,7 +105,7 @@ void fv_tell(void *state, struct summary *report)
             continue;
         const double u[3] = {s->u[0][c], s->u[1][c], b->dim == 3 ? s->u[2][c] : 0.0};
         const double wet = s->surface ? surface_share(s, c) : 1.0;
-        const double part = h[0] * h[1] * h[2] * wet * share(s, x, h);
+        const double part = h[0] * h[1] * h[2] * wet * water_budget_share(s, x, h);
         sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
         sum[1] += 0.5 * part * fv_curl_squared(s, c, j);
         sum[2] += rho * part * exact_signal(&s->exact, x, u);

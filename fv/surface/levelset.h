@@ -55,7 +55,8 @@ struct surface {
     int64_t wet, cuts;        /* over all ranks */
     double volume0, returned; /* m^dim: to be kept, with what has come in through openings; put back
                                  by the shifts, all in all */
-    double passed;            /* m^dim: through openings, in and out */
+    double passed;            /* m^dim: through openings and a partner's outline, in and out */
+    double entered;           /* m^dim: through openings, in less out */
     double travelled;         /* -: cells since the last reinit */
     double theta_least;       /* -: least distance of the surface from a wet centre, of h */
     double g;                 /* m/s^2: size of gravity */

@@ -56,7 +56,7 @@ struct kept {
     double t, dt, dt_old, umax[3], rate, fastest, reference, u_limit, max_cfl;
     enum limit limit;
     int64_t iterations, viscous_iterations;
-    double volume0, returned, passed, travelled; /* of a free surface */
+    double volume0, returned, passed, entered, travelled; /* of a free surface */
     double *w[6][3], outflux; /* velocities of outflows that are carried */
     double dtau, norm;        /* of newton */
     int64_t newtons, krylovs, cycles, halvings;
@@ -126,6 +126,7 @@ static void carry(struct fv *s, struct kept *k, bool back)
         CARRY(k->volume0, s->surface->volume0);
         CARRY(k->returned, s->surface->returned);
         CARRY(k->passed, s->surface->passed);
+        CARRY(k->entered, s->surface->entered);
         CARRY(k->travelled, s->surface->travelled);
     }
     if (s->newton) {

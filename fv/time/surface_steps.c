@@ -145,8 +145,9 @@ static void add_outline(const struct fv *s, double sums[2])
         }
 }
 
-/* m^dim/s: water that comes in through openings less what leaves, and their sum, over all ranks. */
-static void flows(const struct fv *s, double sums[2])
+/* m^dim/s: water that comes in through openings less what leaves, their sum, and the former without
+ * a partner's outline, over all ranks. */
+static void flows(const struct fv *s, double sums[3])
 {
     const struct block *b = &s->b;
     sums[0] = sums[1] = 0.0;
@@ -166,17 +167,19 @@ static void flows(const struct fv *s, double sums[2])
                 sums[1] += fabs(in);
             }
     }
+    sums[2] = sums[0];
     if (s->surface->forced)
         add_outline(s, sums);
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, b->cart);
 }
 
 void surface_second_half(struct fv *s, double dt)
 {
-    double through[2];
+    double through[3];
     flows(s, through);
     s->surface->volume0 += dt * through[0];
     s->surface->passed += dt * through[1];
+    s->surface->entered += dt * through[2];
     surface_advance(s, 0.5 * dt);
     impose(s, s->t);
     refresh(s);

@@ -20,6 +20,7 @@
 struct link {
     struct cpl *c;
     int dim, particles, velocity, pressure, patch_velocity, patch_pressure;
+    int budget, water;  /* one point, at the free zone's corner; what that zone holds */
     int one, patch_phi; /* where a surface crosses: how much of a kernel particles fill; fv's */
     double *x, *u, *p, *w, *ones;
     int64_t *id;
@@ -84,6 +85,8 @@ void coupling_create(struct sph *s)
         check(k, cpl_field(k->c, k->particles, "sph.one", "-", 1, CPL_PUT, 0, &k->one));
         check(k,
               cpl_field(k->c, k->particles, "fv.phi", "m", 1, CPL_GET, CPL_LINEAR, &k->patch_phi));
+        check(k, cpl_points(k->c, "sph.budget", s->dim, 0.0, &k->budget));
+        check(k, cpl_field(k->c, k->budget, "sph.water", "m^dim", 1, CPL_PUT, 0, &k->water));
         s->zones->surface = eval_surface;
     }
     s->zones->eval = eval_patch;
@@ -156,6 +159,23 @@ static void room(struct link *k, int n)
     GROW(k->id, old, k->capacity);
 }
 
+/* Where the n particles are that are given: ones; and how much water the free zone holds. */
+static void give_surface(struct sph *s, int n, double t)
+{
+    const struct link *k = s->zones->ctx;
+    double lo[3], hi[3], water = 0.0;
+    const int64_t id = 0;
+    for (int i = 0; i < s->p.n; i++)
+        water += zones_share(s, i) * state_row(&s->p, s->p.y, i)[at_mass(s->dim)] / s->rho0;
+    MPI_Allreduce(MPI_IN_PLACE, &water, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    zones_free_box(s->run, &s->prm, lo, hi);
+    check(k, cpl_put(k->c, k->one, t, n, k->ones, NULL));
+    room((struct link *)s->zones->ctx, 1);
+    const int mine = s->run->rank == 0 ? 1 : 0;
+    check(k, cpl_move(k->c, k->budget, mine, lo, &id, k->ones));
+    check(k, cpl_put(k->c, k->water, t, mine, &water, NULL));
+}
+
 /* Particles of the free zone and the blended ones; never buffer particles, which would give the
  * partner its own values back. */
 void coupling_window_end(void *state, double t1)
@@ -181,5 +201,5 @@ void coupling_window_end(void *state, double t1)
     check(k, cpl_put(k->c, k->velocity, t1, n, k->u, NULL));
     check(k, cpl_put(k->c, k->pressure, t1, n, k->p, NULL));
     if (s->zones->surface)
-        check(k, cpl_put(k->c, k->one, t1, n, k->ones, NULL));
+        give_surface(s, n, t1);
 }

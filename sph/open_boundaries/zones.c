@@ -100,6 +100,7 @@ struct zones *zones_create(struct sph *s)
     zones_widths(s->run, &s->prm, &z->transition, &z->buffer);
     z->overlap = zones_overlap(s->run, &s->prm);
     z->openings = openings_create(s);
+    z->eos = (struct sph_eos){s->rho0, s->c0, s->gamma};
     z->gap = s->run->crossed ? level_gap_create(s) : NULL;
     if (s->prm.outer == OUTER_EXACT) {
         struct exact *e = NEW(struct exact, 1);
@@ -187,10 +188,11 @@ void zones_look_at_surface(struct zones *z, double t)
     z->surface(z->ctx, t, z->n, z->x, z->phi, z->gphi);
 }
 
-/* Where the surface is near no suction: interpolation across it must not make any. The level of the
- * flow inside draws at that outside. */
+/* The pressure outside is that of a constant density, and where the surface is near no suction:
+ * interpolation across it must not make any. The level of the flow inside draws at that outside. */
 static void look_under_surface(struct zones *z, double t)
 {
+    const struct sph_eos *e = &z->eos;
     const struct openings *o = z->openings;
     double below;
     z->surface(z->ctx, t, z->n, z->x, z->phi, NULL);
@@ -198,6 +200,7 @@ static void look_under_surface(struct zones *z, double t)
         const int side = nearest_side(o, z->x + 3 * k, &below);
         if (z->phi[k] > -o->dx)
             z->p[k] = fmax(z->p[k], 0.0);
+        z->p[k] = eos_p_from_constant(z->p[k], e->rho0, e->c0, e->gamma);
         z->u[o->dim * k + side / 2] += (side % 2 ? 1.0 : -1.0) * level_gap_outflow(z->gap, side);
     }
 }
@@ -225,6 +228,20 @@ double zones_depth(const struct sph *s, const double *x)
     double below;
     nearest_side(s->zones->openings, x, &below);
     return below;
+}
+
+double zones_share(const struct sph *s, int i)
+{
+    const double *y = state_row(&s->p, s->p.y, i);
+    double f = 1.0;
+    for (int side = 0; s->zones && side < 2 * s->dim; side++) {
+        const int a = side / 2;
+        const double in = side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a];
+        const double rim = s->zones->buffer + s->zones->transition;
+        if (s->open[side])
+            f *= fmin(fmax((in - rim) / s->dx + 0.5, 0.0), 1.0);
+    }
+    return f;
 }
 
 void zones_mark(struct sph *s)

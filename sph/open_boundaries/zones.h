@@ -22,6 +22,9 @@ struct zones {
     double transition, buffer; /* m: widths */
     double overlap;            /* m: of the rim of the free zone where a partner is free, too */
     zones_eval *eval;
+    struct sph_eos {
+        double rho0, c0, gamma;
+    } eos;                     /* the particles', for a partner of constant density */
     zones_surface *surface;    /* of the flow outside, which has a part of it; NULL: full of water */
     struct level_gap *gap;     /* level_gap.h; NULL without that surface */
     void (*update)(struct sph *s); /* start of a stage: looks at the flow inside; NULL: no need */
@@ -51,6 +54,10 @@ void zones_given_box(const struct run *r, const struct sph_params *prm, double l
 void zones_free_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
 /* Depth of x below the open sides of the region, m: negative outside. */
 double zones_depth(const struct sph *s, const double *x);
+
+/* Part of a particle that is SPH's to count where a partner counts the rest: what of its square or
+ * cube lies in the free zone. */
+double zones_share(const struct sph *s, int i);
 
 /* Zone of every local particle by its depth; before the list is built. */
 void zones_mark(struct sph *s);
