@@ -1,8 +1,11 @@
 /* mesh_state.c - the state of a flow on blocks, at t = 0 or from a restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
-#include "../poisson/mesh_pressure.h"
+#include "../poisson/poisson.h"
+#include "../poisson/wet_pressure.h"
+#include "../surface/levelset.h"
 #include "../output/mesh_output.h"
+#include "../boundary/still.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 
@@ -57,6 +60,13 @@ static void fill(struct fv *s)
                 s->u[a][c] = at_rest ? 0.0 : u[a];
                 diagonal += m->G[a][a][c] + m->G[a][a][c + p->stride[a]];
             }
+            pr -=
+                scene_has_wave(&s->run->scene)
+                    ? fv_still_pressure(
+                          s, s->m->block[p->block].centre[mesh_cell(
+                                 s->m->block + p->block,
+                                 (const int[]){p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]})])
+                    : 0.0;
             s->p[c] = s->p_before[c] = at_rest ? 0.0 : pr / s->run->scene.fluid.rho;
             s->free[c] = m->status[c] == CELL_COMPUTED;
             s->scale[c] = 1.25 * s->nu * diagonal / m->V[c];
@@ -103,6 +113,8 @@ static void meet_pressures(struct fv *s)
 /* Divergence-free fluxes for the velocities of the start. */
 void mesh_state_start(struct fv *s)
 {
+    if (s->surface) /* the first stage makes them */
+        return;
     projection(s, s->t, 2, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
     s->start_iterations = s->iterations;
     s->iterations = 0;
@@ -136,11 +148,17 @@ void mesh_state_create(struct fv *s)
     make_fields(s);
     fill(s);
     mesh_bc_create(s);
-    mesh_pressure_create(s);
+    s->surface = surface_create(s);
+    if (s->surface)
+        wet_pressure_create(s);
+    else
+        poisson_create(s);
     if (r->scene.nprobes > 0)
         s->search = overset_search(r, s->m);
     mesh_fill(s->m, s->m->dim, s->u);
     mesh_bc_velocity(s, BC_GIVEN, s->u);
+    if (s->surface)
+        surface_start(s);
     measure(s);
     double speed = 0.0;
     mesh_bc_rate(s, &speed);
@@ -155,7 +173,8 @@ void mesh_state_create(struct fv *s)
 
 void mesh_state_free(struct fv *s)
 {
-    mesh_pressure_free(&s->poisson);
+    poisson_free(&s->poisson);
+    wet_pressure_free(&s->wet);
     mesh_bc_free(&s->sides);
     overset_free(&s->search);
     mesh_free(&s->m);

@@ -5,6 +5,7 @@
 #include "mesh_ops.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
+#include "../surface/levelset.h"
 
 static const int none[3] = {0, 0, 0};
 
@@ -48,6 +49,8 @@ static double dot(const struct mesh *m, int dim, double *const x[3], double *con
 /* out = (1 - c L) x over the diagonal, in computed cells; x's ghosts and fringe are set. */
 static void apply(struct fv *s, double c, double *const x[3], double *const out[3])
 {
+    if (s->surface)
+        extension_apply(s, x, EXTEND_CHANGE, STENCILS);
     mesh_fill(s->m, s->m->dim, x);
     mesh_bc_velocity(s, BC_ZERO, x);
     for (int a = 0; a < s->m->dim; a++) {
@@ -96,6 +99,8 @@ bool mesh_viscous_solve(struct fv *s, double c, double tol)
         if (dot(m, dim, r, r) <= tol * tol * first)
             return true;
         apply(s, c, r, t);
+        for (int a = 0; a < dim && s->surface; a++)
+            surface_zero(s, r[a]);
         const double tt = dot(m, dim, t, t);
         omega = tt > 0.0 ? dot(m, dim, t, r) / tt : 0.0;
         for (int a = 0; a < dim; a++) {

@@ -11,6 +11,7 @@
 #include "../walls/wall_thin.h"
 #include "../bodies/body_check.h"
 #include "../open_boundaries/zones.h"
+#include "../refinement/apr_params.h"
 
 static struct sph_params given; /* as the case has it: the target of the table */
 static bool present;
@@ -54,7 +55,12 @@ const struct param_group sph_groups[SPH_GROUPS] = {{.name = "sph",
                                                     .rows = rows,
                                                     .nrows = sizeof rows / sizeof rows[0],
                                                     .target = &given,
-                                                    .present = &present}};
+                                                    .present = &present},
+                                                   {.name = "apr",
+                                                    .help = "adaptive particle refinement",
+                                                    .rows = apr_rows,
+                                                    .nrows = APR_ROWS,
+                                                    .target = &apr_given}};
 
 static bool is_given(double box[2][3])
 {
