@@ -10,6 +10,7 @@
 #include "../grid/layout.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
+#include "../surface/surface_forced.h"
 #include "../time/newton.h"
 #include "../time/stages.h"
 #include "../watch/watches.h"
@@ -20,6 +21,14 @@
 enum { SURFACE_NUMBERS = 4 };
 static const char *const surface_numbers[SURFACE_NUMBERS] = {"volume0", "returned", "travelled",
                                                              "passed"};
+
+enum { FORCED_NUMBERS = 3 };
+static const char *const forced_numbers[FORCED_NUMBERS] = {"phi_start_t", "phi_end_t", "entered"};
+
+static double *forced_number(struct surface *f, int k)
+{
+    return k < 2 ? f->forced->t + k : &f->entered;
+}
 
 static double *surface_number(struct surface *f, int k)
 {
@@ -76,6 +85,8 @@ void fv_checkpoint(void *state, struct h5 *f)
     if (s->surface)
         for (int k = 0; k < SURFACE_NUMBERS; k++)
             h5_attribute_real(f, surface_numbers[k], *surface_number(s->surface, k));
+    for (int k = 0; s->surface && s->surface->forced && k < FORCED_NUMBERS; k++)
+        h5_attribute_real(f, forced_numbers[k], *forced_number(s->surface, k));
     if (s->link)
         coupling_save(s, f);
 }
@@ -163,6 +174,10 @@ bool fv_restore(struct fv *s, struct h5 *f)
     for (int k = 0; s->surface && k < SURFACE_NUMBERS; k++)
         if (!there(h5_read_attribute_real(f, surface_numbers[k], surface_number(s->surface, k)),
                    surface_numbers[k]))
+            return false;
+    for (int k = 0; s->surface && s->surface->forced && k < FORCED_NUMBERS; k++)
+        if (!there(h5_read_attribute_real(f, forced_numbers[k], forced_number(s->surface, k)),
+                   forced_numbers[k]))
             return false;
     if (s->surface) {
         surface_rebuild(s);
