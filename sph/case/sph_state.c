@@ -10,6 +10,7 @@
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/scheme.h"
+#include "../refinement/criteria.h"
 #include "../refinement/guards.h"
 #include "../refinement/refinement.h"
 #include "../sph_params.h"
@@ -114,6 +115,10 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
         return s;
     }
     fill_lattice(s);
+    if (s->finer && criteria_due(s->refinement->regions, s->t)) { /* of the coarsest level alone */
+        integrate_start(s);
+        refinement_look(s);
+    }
     if (s->finer)
         fill_finer(s);
     integrate_start(s);

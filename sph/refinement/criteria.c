@@ -32,7 +32,7 @@ struct grid {
 struct criteria {
     int levels;
     struct grid grid[APR_LEVELS_MAX + 1];
-    double speed, gravity;
+    double speed, gravity;                    /* m/s, largest so far; m/s^2 */
     double next;                              /* s: of the next evaluation */
     double factor;                            /* on all bounds */
     double forecast;                          /* particles */
@@ -140,7 +140,7 @@ double criteria_forecast(const struct regions *g)
 void criteria_begin(struct regions *g, double speed, double gravity)
 {
     struct criteria *c = g->criteria;
-    c->speed = speed;
+    c->speed = fmax(c->speed, speed);
     c->gravity = gravity;
     c->fluid = 0;
     memset(c->fixed, 0, sizeof c->fixed);
@@ -348,6 +348,7 @@ void criteria_save(const struct regions *g, struct h5 *f)
         return;
     h5_attribute_real(f, "apr_next", c->next);
     h5_attribute_real(f, "apr_factor", c->factor);
+    h5_attribute_real(f, "apr_speed", c->speed);
     for (int n = 1; n <= c->levels; n++) {
         const struct grid *q = c->grid + n;
         const size_t cells = mine ? marks_count(&q->cells) : 0;
@@ -387,7 +388,8 @@ bool criteria_load(struct regions *g, struct h5 *f)
     if (!c)
         return true;
     bool fits = h5_read_attribute_real(f, "apr_next", &c->next) &&
-                h5_read_attribute_real(f, "apr_factor", &c->factor);
+                h5_read_attribute_real(f, "apr_factor", &c->factor) &&
+                h5_read_attribute_real(f, "apr_speed", &c->speed);
     for (int n = 1; n <= c->levels; n++)
         fits = load_level(c->grid + n, n, f) && fits;
     return fits;

@@ -23,7 +23,7 @@ struct flow_sample {
 /* Whether criteria are to be looked at, at time t: every R/(2 c) of the level below the finest that
  * they ask for. Then: begin, add for each particle that flows, of all levels, end. */
 bool criteria_due(const struct regions *g, double t);
-/* speed: m/s, of the flow, largest so far; gravity: m/s^2. */
+/* speed: m/s, largest of the flow now; gravity: m/s^2. */
 void criteria_begin(struct regions *g, double speed, double gravity);
 void criteria_add(struct regions *g, const double *x, const struct flow_sample *is);
 /* Regions are made anew. c: m/s, speed of sound. Collective. */

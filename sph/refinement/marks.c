@@ -172,7 +172,7 @@ void marks_measure(struct marks *c)
         c->depth[k] = (signed char)(c->mark[k] ? 1 : outer[k] ? -1 : -2);
         c->any = c->any || c->mark[k];
     }
-    for (int d = 2; d <= 3; d++) {
+    for (int d = 2; d <= MARKS_DEEP; d++) {
         step_all(c, inner, false);
         for (size_t k = 0; k < n; k++)
             c->depth[k] = (signed char)(c->depth[k] + inner[k]);
@@ -181,49 +181,56 @@ void marks_measure(struct marks *c)
     mem_free(outer);
 }
 
-/* The mark at a place that may lie beyond the ends. */
-static bool marked(const struct marks *c, const int *at)
-{
-    int in[3] = {at[0], at[1], at[2]};
-    for (int a = 0; a < c->dim; a++) {
-        const bool low = at[a] < 0, high = at[a] >= c->n[a];
-        if (!low && !high)
-            continue;
-        if (c->periodic[a])
-            in[a] = ((at[a] % c->n[a]) + c->n[a]) % c->n[a];
-        else if (c->open[2 * a + high])
-            return false;
-        else
-            in[a] = low ? 0 : c->n[a] - 1;
-    }
-    return c->mark[number(c, in)];
-}
+/* The cells at most two off along an axis, in the order of their distance from the middle one:
+ * squared distance of x from them, and what stands for them in the grid; -1: no marks there. */
+enum { NEAR = 5 };
+struct row {
+    double d2[NEAR];
+    int at[NEAR];
+};
 
-/* Squared distance of x from a cell. */
-static double apart(const struct marks *c, const int *at, const double *x)
+static struct row row_of(const struct marks *c, int a, int home, double x)
 {
-    double sum = 0.0;
-    for (int a = 0; a < c->dim; a++) {
-        const double lo = c->lo[a] + at[a] * c->h[a];
-        const double d = fmax(fmax(lo - x[a], x[a] - lo - c->h[a]), 0.0);
-        sum += d * d;
+    static const int step[NEAR] = {0, -1, 1, -2, 2};
+    struct row r;
+    const double h = c->h[a], in = x - c->lo[a] - home * h;
+    for (int k = 0; k < NEAR; k++) {
+        const double off = step[k] > 0   ? step[k] * h - in
+                           : step[k] < 0 ? in - (step[k] + 1) * h
+                                         : 0;
+        int i = home + step[k];
+        if (i < 0 || i >= c->n[a]) {
+            if (c->periodic[a])
+                i = ((i % c->n[a]) + c->n[a]) % c->n[a];
+            else
+                i = c->open[2 * a + (i >= 0)] ? -1 : i < 0 ? 0 : c->n[a] - 1;
+        }
+        r.at[k] = i;
+        r.d2[k] = off > 0.0 ? off * off : 0.0;
     }
-    return sum;
+    return r;
 }
 
 /* Least distance of x, in cell `home', from cells with this mark; found at most two cells off. */
 static double nearest(const struct marks *c, const int *home, const double *x, bool mark)
 {
-    const int deep = c->dim == 3 ? 2 : 0;
+    const bool solid = c->dim == 3;
+    struct row r[3] = {row_of(c, 0, home[0], x[0]), row_of(c, 1, home[1], x[1])};
+    if (solid)
+        r[2] = row_of(c, 2, home[2], x[2]);
     double best = INFINITY;
-    for (int k = -deep; k <= deep; k++)
-        for (int j = -2; j <= 2; j++)
-            for (int i = -2; i <= 2; i++) {
-                const int at[3] = {home[0] + i, home[1] + j, home[2] + k};
-                const double d = apart(c, at, x);
-                if (d < best && marked(c, at) == mark)
-                    best = d;
+    for (int k = 0; k < (solid ? NEAR : 1); k++)
+        for (int j = 0; j < NEAR; j++) {
+            const double d2 = r[1].d2[j] + (solid ? r[2].d2[k] : 0.0);
+            for (int i = 0; i < NEAR && d2 < best; i++) {
+                const int at[3] = {r[0].at[i], r[1].at[j], solid ? r[2].at[k] : 0};
+                if (d2 + r[0].d2[i] >= best)
+                    continue;
+                const bool there = at[0] >= 0 && at[1] >= 0 && at[2] >= 0;
+                if ((there && c->mark[number(c, at)]) == mark)
+                    best = d2 + r[0].d2[i];
             }
+        }
     return sqrt(best);
 }
 
@@ -233,9 +240,10 @@ static double to_face(const struct marks *c, const int *home, const double *x)
     double d = INFINITY;
     for (int a = 0; a < c->dim; a++) {
         const double lo = c->lo[a] + home[a] * c->h[a];
-        d = fmin(d, fmin(x[a] - lo, lo + c->h[a] - x[a]));
+        const double low = x[a] - lo, high = lo + c->h[a] - x[a], least = low < high ? low : high;
+        d = least < d ? least : d;
     }
-    return fmax(d, 0.0);
+    return d > 0.0 ? d : 0.0;
 }
 
 double marks_distance(const struct marks *c, const double *x)

@@ -8,6 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+enum { MARKS_DEEP = 5 };
+
 /* Cell (i, j, k) has the number i + n[0] (j + n[1] k). Beyond a closed end of the grid the marks go
  * on as they are at it, beyond an open one there are none. */
 struct marks {
@@ -15,8 +17,8 @@ struct marks {
     bool periodic[3], open[6]; /* sides 2a: low, 2a + 1: high */
     double lo[3], h[3];        /* m: lower corner, widths */
     unsigned char *mark;       /* [cells] 0 or 1 */
-    signed char *depth;        /* [cells] 1, 2, 3: so many cells from one without mark, 3: or more;
-                                  -1: beside one with, -2: not beside */
+    signed char *depth;        /* [cells] 1 .. MARKS_DEEP: so many cells from one without mark, the
+                                  last: or more; -1: beside one with, -2: not beside */
     bool any;                  /* some cell is marked */
 };
 

@@ -563,6 +563,8 @@ static void finish_step(struct sph *s, double dt, double *most, struct diagnosis
         zones_openings(s, dt);
         stop(s, "zones");
     }
+    if (s->finer)
+        refinement_look(s);
     int lost = 0;
     for (struct sph *q = s; q; q = q->finer)
         lost += remove_behind(q) + remove_lost(q);
