@@ -33,11 +33,10 @@ int probes_columns(const struct run *r, const char **names)
     return n;
 }
 
-/* Kernel average of p, carried to the place by its gradient; 0 where there is hardly any fluid. */
-static double pressure_at(struct sph *s, const double *at)
+/* Sums of one level for pressure_at: w W p and w W. */
+static void add_pressure(const struct sph *s, const double *at, double sums[2])
 {
     const int dim = s->dim;
-    double sums[2] = {0.0, 0.0};
     for (int i = 0; i < s->p.n; i++) {
         const double *q = prim_line(&s->p, i), rho = q[at_rho(dim)];
         const double *grho = slope_line(&s->p, i);
@@ -46,15 +45,44 @@ static double pressure_at(struct sph *s, const double *at)
             r2 += (at[a] - q[a]) * (at[a] - q[a]);
             more += (at[a] - q[a]) * grho[a];
         }
-        if (r2 >= s->R * s->R)
+        if (r2 >= s->R * s->R || particles_is_guard(&s->p, i))
             continue;
         const double W = q[at_volume(dim)] * kernel_w(dim, sqrt(r2), s->R);
         const double c = eos_c(rho, s->rho0, s->c0, s->gamma);
         sums[0] += W * (eos_p(rho, s->rho0, s->c0, s->gamma) + c * c * more);
         sums[1] += W;
     }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sums[1] > 0.05 ? sums[0] / sums[1] : 0.0;
+}
+
+/* Kernel average of p, carried to the place by its gradient; 0 where there is hardly any fluid. Of
+ * several levels that flow near the place the one that fills most of its support. */
+static double pressure_at(struct sph *s, const double *at)
+{
+    double p = 0.0, most = 0.05;
+    for (const struct sph *q = s; q; q = q->finer) {
+        double sums[2] = {0.0, 0.0};
+        add_pressure(q, at, sums);
+        MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+        if (sums[1] > most) {
+            p = sums[0] / sums[1];
+            most = sums[1];
+        }
+    }
+    return p;
+}
+
+/* Volume of a particle times the hat function of its distance from the column's axis. */
+static double share_of_column(const struct sph *s, int i, const double *at, double half)
+{
+    const double *q = prim_line(&s->p, i);
+    double weight = q[at_volume(s->dim)];
+    for (int a = 0; a < s->dim - 1; a++) {
+        double d = fabs(q[a] - at[a]);
+        if (s->periodic[a])
+            d = fmin(d, s->hi[a] - s->lo[a] - d);
+        weight *= fmax(0.0, 1.0 - d / half);
+    }
+    return weight;
 }
 
 /* Volume of the fluid in a column around the place over the column's cross-section, on top of the
@@ -70,17 +98,9 @@ static double level_at(struct sph *s, const double *at)
         const double low = 0.5 * (1.0 + lo) * (1.0 + lo), high = 0.5 * (1.0 - hi) * (1.0 - hi);
         section *= s->periodic[a] ? half : half * (1.0 - low - high);
     }
-    for (int i = 0; i < s->p.n; i++) {
-        const double *q = prim_line(&s->p, i);
-        double weight = q[at_volume(dim)];
-        for (int a = 0; a < up; a++) {
-            double d = fabs(q[a] - at[a]);
-            if (s->periodic[a])
-                d = fmin(d, s->hi[a] - s->lo[a] - d);
-            weight *= fmax(0.0, 1.0 - d / half);
-        }
-        volume += weight;
-    }
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            volume += particles_is_guard(&q->p, i) ? 0.0 : share_of_column(q, i, at, half);
     MPI_Allreduce(MPI_IN_PLACE, &volume, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     return s->lo[up] + volume / section;
 }

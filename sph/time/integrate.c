@@ -578,6 +578,7 @@ static void finish_step(struct sph *s, double dt, double *most, struct diagnosis
     volume_keep(s);
     if (s->finer) {
         refinement_adapt(s);
+        refinement_repay(s);
         volume_renew(s);
     }
 }
