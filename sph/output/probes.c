@@ -33,7 +33,8 @@ int probes_columns(const struct run *r, const char **names)
     return n;
 }
 
-/* Sums of one level for pressure_at: w W p and w W. */
+/* Of one level, what flows there: sums of w W p, p carried to the place by its gradient, and of w
+ * W. */
 static void add_pressure(const struct sph *s, const double *at, double sums[2])
 {
     const int dim = s->dim;
@@ -54,42 +55,39 @@ static void add_pressure(const struct sph *s, const double *at, double sums[2])
     }
 }
 
-/* Kernel average of p, carried to the place by its gradient; 0 where there is hardly any fluid. Of
- * several levels that flow near the place the one that fills most of its support. */
+/* Kernel average of p; 0 where there is hardly any fluid. */
 static double pressure_at(struct sph *s, const double *at)
 {
-    double p = 0.0, most = 0.05;
-    for (const struct sph *q = s; q; q = q->finer) {
-        double sums[2] = {0.0, 0.0};
+    double sums[2] = {0.0, 0.0};
+    for (const struct sph *q = s; q; q = q->finer)
         add_pressure(q, at, sums);
-        MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-        if (sums[1] > most) {
-            p = sums[0] / sums[1];
-            most = sums[1];
-        }
-    }
-    return p;
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sums[1] > 0.05 ? sums[0] / sums[1] : 0.0;
 }
 
-/* Volume of a particle times the hat function of its distance from the column's axis. */
-static double share_of_column(const struct sph *s, int i, const double *at, double half)
+/* Volume of what flows of one level under a hat function of this half width around the place. */
+static double volume_around(const struct sph *s, const double *at, double half)
 {
-    const double *q = prim_line(&s->p, i);
-    double weight = q[at_volume(s->dim)];
-    for (int a = 0; a < s->dim - 1; a++) {
-        double d = fabs(q[a] - at[a]);
-        if (s->periodic[a])
-            d = fmin(d, s->hi[a] - s->lo[a] - d);
-        weight *= fmax(0.0, 1.0 - d / half);
+    double volume = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *q = prim_line(&s->p, i);
+        double weight = particles_is_guard(&s->p, i) ? 0.0 : q[at_volume(s->dim)];
+        for (int a = 0; a < s->dim - 1; a++) {
+            double d = fabs(q[a] - at[a]);
+            if (s->periodic[a])
+                d = fmin(d, s->hi[a] - s->lo[a] - d);
+            weight *= fmax(0.0, 1.0 - d / half);
+        }
+        volume += weight;
     }
-    return weight;
+    return volume;
 }
 
 /* Volume of the fluid in a column around the place over the column's cross-section, on top of the
  * domain's bottom: the surface's height where there is one, drops included. */
 static double level_at(struct sph *s, const double *at)
 {
-    const int dim = s->dim, up = dim - 1;
+    const int up = s->dim - 1;
     const double half = 2.0 * s->dx;
     double volume = 0.0, section = 1.0;
     for (int a = 0; a < up; a++) { /* integral of the hat function over the domain */
@@ -99,8 +97,7 @@ static double level_at(struct sph *s, const double *at)
         section *= s->periodic[a] ? half : half * (1.0 - low - high);
     }
     for (const struct sph *q = s; q; q = q->finer)
-        for (int i = 0; i < q->p.n; i++)
-            volume += particles_is_guard(&q->p, i) ? 0.0 : share_of_column(q, i, at, half);
+        volume += volume_around(q, at, half);
     MPI_Allreduce(MPI_IN_PLACE, &volume, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     return s->lo[up] + volume / section;
 }
