@@ -88,6 +88,8 @@ void integrate_prepare(struct sph *s)
     bool ready = true;
     for (const struct sph *q = s; q; q = q->finer)
         ready = ready && q->ready;
+    if (s->finer && !ready)
+        guards_come_back(s);
     for (struct sph *q = s; q && !ready; q = q->finer)
         prepare(q);
     if (s->finer && !ready) {
@@ -260,6 +262,8 @@ void integrate_rates(struct sph *s)
         begin_rates(q);
     if (s->finer && !sloped)
         guards_update(s);
+    if (s->finer)
+        guards_forget(s);
     for (struct sph *q = s; q; q = q->finer)
         level_rates(q);
     if (s->finer)
