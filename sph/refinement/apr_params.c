@@ -65,8 +65,8 @@ static int largest_level(const struct apr_params *p)
 const struct apr_params *apr_params_of(const struct run *r)
 {
     static struct apr_params used;
-    (void)r;
-    if (apr_given.regions.n == 0 && apr_given.criteria.n == 0)
+    if ((r->params && !params_has_group(r->params, "apr")) ||
+        (apr_given.regions.n == 0 && apr_given.criteria.n == 0))
         return NULL;
     used = apr_given;
     if (used.levels == 0)

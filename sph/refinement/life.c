@@ -4,6 +4,7 @@
  * and no link is kept. What leaves its region is removed. Roles follow from places alone; births
  * and removals have a hysteresis of half the coarser spacing, so that nobody is born to be removed.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "guards.h"
 #include "refinement.h"
 
 #include <math.h>
