@@ -296,8 +296,13 @@ void surface_check(const struct run *r, struct faults *f)
             params_fault(r->params, f, "initial.field", "a wave wants a free surface: fv.surface");
         return;
     }
-    if (r->coupled)
-        params_fault(r->params, f, "fv.surface", "a coupled run leaves the surface to sph");
+    if (r->crossed && prm->integrator != INTEGRATOR_RK3)
+        params_fault(r->params, f, "fv.integrator",
+                     "with a surface that crosses into sph's part rk3 alone");
+    if (r->coupled && !r->crossed)
+        params_fault(r->params, f, "fv.surface",
+                     "a coupled run leaves the surface to sph, unless sph.box ends in the water "
+                     "at an upright side");
     if (s->nshapes == 0 && !scene_has_wave(s))
         params_fault(r->params, f, "fv.surface",
                      "where is the water? shapes say it, or a wave (initial.field)");

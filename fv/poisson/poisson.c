@@ -94,6 +94,15 @@ static void set_psi(struct fv *s, const struct poisson *p, const double *row, do
             psi[p->place[k]] = row[k] - level;
 }
 
+/* Tolerances near rounding (1e-9) are taken as they are meant: a tenth. */
+static double tolerance(const struct fv *s, double tol)
+{
+    const struct backend *by = s->poisson->by;
+    if (tol > s->prm.tol_pressure)
+        return by->stage * tol;
+    return fmax(by->last * tol, fmin(by->stage * tol, 1e-9));
+}
+
 bool poisson_solve(struct fv *s, double tau, const double *div, double tol, double *start,
                    double *psi)
 {
@@ -107,7 +116,7 @@ bool poisson_solve(struct fv *s, double tau, const double *div, double tol, doub
         p->x[k] = start[p->place[k]];
         p->b[k] = -div[p->place[k]] / tau;
     }
-    const bool good = p->by->solve(s, p->of, p->b, p->by->tolerance * tol, p->x, p->psi, &c);
+    const bool good = p->by->solve(s, p->of, p->b, tolerance(s, tol), p->x, p->psi, &c);
     for (int k = 0; k < p->n; k++)
         start[p->place[k]] = p->x[k];
     set_psi(s, p, p->psi, psi);

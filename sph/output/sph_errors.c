@@ -116,22 +116,6 @@ static double exact_kinetic(const struct sph *s)
     return sum;
 }
 
-/* Part of a particle that is SPH's to count where a partner counts the rest: what of its square or
- * cube lies in the free zone. */
-static double share(const struct sph *s, int i)
-{
-    const double *y = state_row(&s->p, s->p.y, i);
-    double f = 1.0;
-    for (int side = 0; s->zones && side < 2 * s->dim; side++) {
-        const int a = side / 2;
-        const double in = side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a];
-        const double rim = s->zones->buffer + s->zones->transition;
-        if (s->open[side])
-            f *= fmin(fmax((in - rim) / s->dx + 0.5, 0.0), 1.0);
-    }
-    return f;
-}
-
 /* Needs the gradients of the present state. own: only what no partner counts. */
 static double enstrophy(const struct sph *s, bool own)
 {
@@ -142,7 +126,7 @@ static double enstrophy(const struct sph *s, bool own)
             if (particles_is_guard(&q->p, i))
                 continue;
             sph_vorticity(q, i, w);
-            sum += 0.5 * (own ? share(q, i) : 1.0) * prim_line(&q->p, i)[at_volume(s->dim)] *
+            sum += 0.5 * (own ? zones_share(q, i) : 1.0) * prim_line(&q->p, i)[at_volume(s->dim)] *
                    (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
         }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
@@ -211,7 +195,7 @@ static double signal_now(const struct sph *s, const struct exact *e, bool own)
             const double *y = state_row(&q->p, q->p.y, i), m = y[at_mass(dim)];
             const double u[3] = {y[dim] / m, y[dim + 1] / m, dim == 3 ? y[dim + 2] / m : 0.0};
             if (!particles_is_guard(&q->p, i))
-                sum += (own ? share(q, i) : 1.0) * m * exact_signal(e, y, u);
+                sum += (own ? zones_share(q, i) : 1.0) * m * exact_signal(e, y, u);
         }
     return total(s, sum);
 }
@@ -221,11 +205,12 @@ void sph_tell(void *state, struct summary *report)
     struct sph *s = state;
     const struct exact e = exact_create(&s->run->scene);
     const int dim = s->dim;
-    double kinetic = 0.0, potential = 0.0;
+    double kinetic = 0.0, potential = 0.0, water = 0.0;
     integrate_gradients(s);
     for (int i = 0; i < s->p.n; i++) {
         const double *y = state_row(&s->p, s->p.y, i);
-        const double part = share(s, i), m = y[at_mass(dim)];
+        const double part = zones_share(s, i), m = y[at_mass(dim)];
+        water += part * m / s->rho0;
         for (int a = 0; a < dim; a++) {
             kinetic += part * 0.5 * y[dim + a] * y[dim + a] / m;
             potential -= part * m * s->gravity[a] * y[a];
@@ -235,6 +220,8 @@ void sph_tell(void *state, struct summary *report)
     summary_real(report, "sum.potential", total(s, potential));
     summary_real(report, "sum.enstrophy", enstrophy(s, true));
     summary_real(report, "sum.signal", signal_now(s, &e, true));
+    if (s->run->crossed)
+        summary_real(report, "sum.water", total(s, water));
 }
 
 static bool has_signal(const struct run *r)

@@ -120,7 +120,7 @@ void refinement_adapt(struct sph *s)
     struct refinement *r = s->refinement;
     timer_start(&s->run->timers, "levels");
     const double before = flowing(s);
-    regions_move(r->regions, s->t);
+    regions_move(s->refinement->regions, s->t);
     for (struct sph *q = s; q->finer; q = q->finer)
         enter(s, q);
     for (struct sph *q = s->finer; q; q = q->finer)
@@ -131,6 +131,26 @@ void refinement_adapt(struct sph *s)
     }
     r->added += flowing(s) - before;
     timer_stop(&s->run->timers, "levels");
+}
+
+void refinement_keep_mass(struct sph *s)
+{
+    double sums[2] = {0.0, 0.0};
+    if (s->prm.scheme != SCHEME_RIEMANN_ALE || s->zones)
+        return;
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            if (!particles_is_guard(&q->p, i)) {
+                sums[0] += state_row(&q->p, q->p.rate, i)[at_mass(q->dim)];
+                sums[1] += state_row(&q->p, q->p.y, i)[at_mass(q->dim)];
+            }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    const double share = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+    for (struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            if (!particles_is_guard(&q->p, i))
+                state_row(&q->p, q->p.rate, i)[at_mass(q->dim)] -=
+                    share * state_row(&q->p, q->p.y, i)[at_mass(q->dim)];
 }
 
 void refinement_free(struct sph *s)

@@ -10,7 +10,6 @@
 #ifndef SPH_REFINEMENT_H
 #define SPH_REFINEMENT_H
 
-#include "../sph.h"
 #include "regions.h"
 
 struct refinement {
@@ -33,6 +32,9 @@ void refinement_adapt(struct sph *s);
 /* look.c: before the adaption: what regions follow, and at their times the criteria; of the lines
  * and slopes of the last stage. Collective. */
 void refinement_look(struct sph *s);
+/* After the rates of a stage: of fluxes between what flows and guards nothing comes back, so that
+ * mass would be lost; in a closed room it is shared out over what flows. Collective. */
+void refinement_keep_mass(struct sph *s);
 
 void refinement_free(struct sph *s);
 
