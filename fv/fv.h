@@ -46,19 +46,20 @@ struct fv_params {
     int forced_order; /* in time, of partners' data within a window: 1 linear, 2 quadratic */
 };
 
-struct mesh;          /* blocks; grid/mesh.h */
-struct mesh_bc;       /* their sides; boundary/mesh_bc.c */
-struct poisson;       /* poisson/poisson.h */
-struct overset;       /* search in blocks; grid/overset.h */
-struct stages;        /* time/stages.h */
-struct bc;            /* walls and openings; bc.h; NULL: none */
-struct blocked;       /* boxes cut out; boundary/blocked.h; NULL: none */
-struct forcing;       /* cells whose velocity is imposed; forcing.h; NULL: none */
-struct surface;       /* free surface; levelset.h; NULL: none */
-struct pressure;      /* the operator in hypre; pressure.h */
-struct newton;        /* the implicit integrator; newton.h; NULL: another one */
-struct link;          /* place in a coupled job; fv_coupling.c; NULL alone */
-struct watches;       /* figures that a sound run keeps small; watches.h */
+struct mesh;         /* blocks; grid/mesh.h */
+struct mesh_bc;      /* their sides; boundary/mesh_bc.c */
+struct poisson;      /* poisson/poisson.h */
+struct wet_pressure; /* that of blocks with a surface; poisson/wet_pressure.c */
+struct overset;      /* search in blocks; grid/overset.h */
+struct stages;       /* time/stages.h */
+struct bc;           /* walls and openings; bc.h; NULL: none */
+struct blocked;      /* boxes cut out; boundary/blocked.h; NULL: none */
+struct forcing;      /* cells whose velocity is imposed; forcing.h; NULL: none */
+struct surface;      /* free surface; levelset.h; NULL: none */
+struct pressure;     /* the operator in hypre; pressure.h */
+struct newton;       /* the implicit integrator; newton.h; NULL: another one */
+struct link;         /* place in a coupled job; fv_coupling.c; NULL alone */
+struct watches;      /* figures that a sound run keeps small; watches.h */
 
 struct fv {
     struct run *run;
@@ -97,9 +98,9 @@ struct fv {
     double *faces[3];       /* blocks: scratch; the first is face */
     double *free;           /* blocks: 1: computed, 0: not */
     double *scale;          /* blocks: of the viscous rows */
-    double stiffest;        /* 1/s, blocks: mesh_viscous_largest; 0 without walls, where little is left
-                             * to solve for */
-    double dissipation;     /* blocks: of newton's convection, 0 for the others */
+    double stiffest;    /* 1/s, blocks: mesh_viscous_largest; 0 without walls, where little is left
+                         * to solve for */
+    double dissipation; /* blocks: of newton's convection, 0 for the others */
     bool uneven; /* blocks: volumes differ: volume averages are not averages in index space */
     struct bc *bc;
     struct blocked *blocked;
@@ -108,7 +109,8 @@ struct fv {
     struct pressure *pressure;
     struct mesh_bc *sides;
     struct poisson *poisson;
-    struct overset *search; /* of the gauges; NULL: none */
+    struct wet_pressure *wet; /* in its place on blocks with a surface */
+    struct overset *search;   /* of the gauges; NULL: none */
     struct newton *newton;
     struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;

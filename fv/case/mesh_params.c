@@ -4,6 +4,7 @@
 #include "../fv.h"
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
+#include "fv_case.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -160,8 +161,7 @@ void mesh_check(const struct run *r, struct faults *f)
     if (prm->c0 > 0.0)
         params_fault(r->params, f, "fv.c0", "the pressure of blocks knows no sound");
     limits_check(r, f);
-    if (surface_wanted(r))
-        params_fault(r->params, f, "fv.surface", "blocks know no free surface: use fv.cells");
+    surface_check(r, f);
     if (prm->graded[1] > 0.0)
         params_fault(r->params, f, "fv.graded", "not with blocks: they have maps of their own");
     if (prm->hole[1][0] > prm->hole[0][0])
@@ -169,7 +169,7 @@ void mesh_check(const struct run *r, struct faults *f)
     for (int k = 0; k < r->scene.nwalls; k++)
         check_wall(r, f, k);
     for (int k = 0; k < r->scene.nprobes; k++)
-        if (r->scene.probes[k].kind != PROBE_PRESSURE)
+        if (r->scene.probes[k].kind != PROBE_PRESSURE && !surface_wanted(r))
             params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
     for (int k = 0; k < mesh_given_count; k++)
         check_block(r, f, k);

@@ -3,7 +3,10 @@
 #include "../boundary/mesh_bc.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
+#include "../poisson/wet_pressure.h"
+#include "../surface/levelset.h"
 #include "../output/mesh_output.h"
+#include "../boundary/still.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 
@@ -58,6 +61,13 @@ static void fill(struct fv *s)
                 s->u[a][c] = at_rest ? 0.0 : u[a];
                 diagonal += m->G[a][a][c] + m->G[a][a][c + p->stride[a]];
             }
+            pr -=
+                scene_has_wave(&s->run->scene)
+                    ? fv_still_pressure(
+                          s, s->m->block[p->block].centre[mesh_cell(
+                                 s->m->block + p->block,
+                                 (const int[]){p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]})])
+                    : 0.0;
             s->p[c] = s->p_before[c] = at_rest ? 0.0 : pr / s->run->scene.fluid.rho;
             s->free[c] = m->status[c] == CELL_COMPUTED;
             s->scale[c] = 1.25 * s->nu * diagonal / m->V[c];
@@ -104,6 +114,8 @@ static void meet_pressures(struct fv *s)
 /* Divergence-free fluxes for the velocities of the start. */
 void mesh_state_start(struct fv *s)
 {
+    if (s->surface) /* the first stage makes them */
+        return;
     projection(s, s->t, 2, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
     s->start_iterations = s->iterations;
     s->iterations = 0;
@@ -138,11 +150,17 @@ void mesh_state_create(struct fv *s)
     fill(s);
     s->stiffest = mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
     mesh_bc_create(s);
-    poisson_create(s);
+    s->surface = surface_create(s);
+    if (s->surface)
+        wet_pressure_create(s);
+    else
+        poisson_create(s);
     if (r->scene.nprobes > 0)
         s->search = overset_search(r, s->m);
     mesh_fill(s->m, s->m->dim, s->u);
     mesh_bc_velocity(s, BC_GIVEN, s->u);
+    if (s->surface)
+        surface_start(s);
     measure(s);
     double speed = 0.0;
     mesh_bc_rate(s, &speed);
@@ -158,6 +176,7 @@ void mesh_state_create(struct fv *s)
 void mesh_state_free(struct fv *s)
 {
     poisson_free(&s->poisson);
+    wet_pressure_free(&s->wet);
     mesh_bc_free(&s->sides);
     overset_free(&s->search);
     mesh_free(&s->m);

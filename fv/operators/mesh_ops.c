@@ -10,6 +10,7 @@
 #include "mesh_ops.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
+#include "../surface/levelset.h"
 
 #include <math.h>
 #include <string.h>
@@ -157,7 +158,8 @@ static void even_viscous(const struct fv *s, const struct part *p, const double 
 }
 
 static void even_subtract(const struct mesh *m, const struct part *p, int a, double tau,
-                          const double *restrict psi, double *restrict U)
+                          const double *restrict psi, const double *restrict open,
+                          double *restrict U)
 {
     const int64_t d = p->stride[a];
     const double w = tau * m->G[a][a][part_at(p, 0, 0, 0)];
@@ -165,7 +167,7 @@ static void even_subtract(const struct mesh *m, const struct part *p, int a, dou
     layers(m->dim, a, 1, down, up);
     PART_ROWS (p, down, up, c, n)
         for (int64_t i = c; i < c + n; i++)
-            U[i] -= w * m->open[a][i] * (psi[i] - psi[i - d]);
+            U[i] -= w * open[i] * (psi[i] - psi[i - d]);
 }
 
 /* Whether component k of the faces along a is 0 throughout. */
@@ -349,8 +351,9 @@ void mesh_subtract_psi(struct fv *s, double tau, const double *psi, double *cons
             int axis[2], down[3], up[3];
             const int nt = tangents(p, m->dim, a, tangent, axis);
             const int64_t d = p->stride[a];
+            const double *open = s->surface ? s->surface->open[a] : m->open[a];
             if (p->kind == PART_EVEN) {
-                even_subtract(m, p, a, tau, psi, U[a]);
+                even_subtract(m, p, a, tau, psi, open, U[a]);
                 continue;
             }
             layers(m->dim, a, 1, down, up);
@@ -362,7 +365,7 @@ void mesh_subtract_psi(struct fv *s, double tau, const double *psi, double *cons
                         F += 0.25 * m->G[a][axis[t]][i] *
                              (psi[i + b] - psi[i - b] + psi[i - d + b] - psi[i - d - b]);
                     }
-                    U[a][i] -= tau * m->open[a][i] * F;
+                    U[a][i] -= tau * open[i] * F;
                 }
         }
     }

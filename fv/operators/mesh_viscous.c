@@ -7,6 +7,7 @@
 #include "mesh_ops.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
+#include "../surface/levelset.h"
 #include "operators.h"
 
 #include <math.h>
@@ -56,6 +57,8 @@ static double dot(const struct mesh *m, int dim, double *const x[3], double *con
 /* out = (1 - c L) x over the diagonal, in computed cells; x's ghosts and fringe are set. */
 static void apply(struct fv *s, double c, double *const x[3], double *const out[3])
 {
+    if (s->surface)
+        extension_apply(s, x, EXTEND_CHANGE, STENCILS);
     mesh_fill(s->m, s->m->dim, x);
     mesh_bc_velocity(s, BC_ZERO, x);
     for (int a = 0; a < s->m->dim; a++) {
@@ -104,6 +107,8 @@ static bool bicgstab(struct fv *s, double c, double share)
         if (dot(m, dim, r, r) <= share * first)
             return true;
         apply(s, c, r, t);
+        for (int a = 0; a < dim && s->surface; a++)
+            surface_zero(s, r[a]);
         const double tt = dot(m, dim, t, t);
         omega = tt > 0.0 ? dot(m, dim, t, r) / tt : 0.0;
         for (int a = 0; a < dim; a++) {
@@ -235,6 +240,6 @@ bool mesh_viscous_solve(struct fv *s, double c, double tol)
     const double rr = square(m, s->rhs), goal = tol * tol * fmax(rr, whole);
     if (rr <= goal)
         return true;
-    return (s->stiffest > 0.0 && rr < 1e300 && chebyshev(s, c, rr, goal)) ||
+    return (s->stiffest > 0.0 && !s->surface && rr < 1e300 && chebyshev(s, c, rr, goal)) ||
            bicgstab(s, c, goal / rr);
 }

@@ -16,6 +16,7 @@
 #include "../../common/mem.h"
 #include "../../common/xdmf.h"
 #include "../grid/layout.h"
+#include "../surface/levelset.h"
 #include "../watch/watches.h"
 #include "../boundary/still.h"
 
@@ -97,6 +98,22 @@ static void centroid(const struct mesh_block *b, int dim, const int *cell, doubl
         mean[c] /= whole;
 }
 
+/* phi has a value in dry cells, too. */
+static void write_level(const struct fv *s, struct h5 *f, int k)
+{
+    const struct mesh *m = s->m;
+    int lo[3], hi[3], i[3];
+    char name[64];
+    const struct part *p = range(m, k, lo, hi);
+    double *v = NEW(double, p ? (int64_t)p->n[0] * p->n[1] * p->n[2] : 0), *to = v;
+    if (p)
+        PART_CELLS (p, i, c)
+            *to++ = m->status[c] == CELL_COMPUTED ? s->surface->phi[c] : NAN;
+    snprintf(name, sizeof name, "level_set_%d", k + 1);
+    h5_write_block(f, name, "m", m->dim, m->block[k].n, lo, hi, 1, v, true);
+    mem_free(v);
+}
+
 static void add_still_pressure(const struct fv *s, double *q)
 {
     const struct mesh *m = s->m;
@@ -120,7 +137,8 @@ void mesh_output_average(struct fv *s, enum mesh_output what, double *q)
         FLOW_ROWS(s, c, n)
     for (int64_t i = c; i < c + n; i++)
         q[i] = what == OUTPUT_PRESSURE ? fv_pressure(s, i) : s->u[what][i];
-    mesh_to_volume(s, q, s->flux);
+    if (!s->surface || what != OUTPUT_PRESSURE) /* p ends at the surface: no differences there */
+        mesh_to_volume(s, q, s->flux);
     if (what == OUTPUT_PRESSURE)
         add_still_pressure(s, q);
 }
@@ -128,7 +146,7 @@ void mesh_output_average(struct fv *s, enum mesh_output what, double *q)
 void mesh_snapshot(struct fv *s, struct h5 *f, struct xdmf *x, const char *file)
 {
     const struct mesh *m = s->m;
-    struct xdmf_field fields[4];
+    struct xdmf_field fields[5];
     int n = 0, cells[MESH_BLOCKS_MAX][3];
     double *u[3] = {NULL, NULL, NULL}, *q = mesh_field(m);
     h5_attribute_int(f, "blocks", m->nblocks);
@@ -158,6 +176,11 @@ void mesh_snapshot(struct fv *s, struct h5 *f, struct xdmf *x, const char *file)
         for (int k = 0; k < m->nblocks; k++)
             write_field(s, f, k, "vorticity", "1/s", 1, &q);
         fields[n++] = (struct xdmf_field){"vorticity", 1};
+    }
+    if (s->surface) {
+        for (int k = 0; k < m->nblocks; k++)
+            write_level(s, f, k);
+        fields[n++] = (struct xdmf_field){"level_set", 1};
     }
     if (x)
         xdmf_curved(x, s->t, file, m->dim, m->nblocks, (const int(*)[3])cells, n, fields);

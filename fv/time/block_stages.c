@@ -3,6 +3,9 @@
 #include "../boundary/mesh_bc.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
+#include "../poisson/wet_pressure.h"
+#include "../surface/levelset.h"
+#include "../surface/mesh_view.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 
@@ -52,6 +55,8 @@ static void finish_rhs(struct fv *s)
         return;
     mesh_fill(s->m, s->dim, s->rhs);
     for (int a = 0; a < s->dim; a++) {
+        if (s->surface) /* its slope goes on beyond the surface */
+            extension_scalar(s, s->rhs[a]);
         mesh_bc_even(s, false, s->rhs[a]);
         mesh_to_index(s, s->rhs[a], s->flux);
     }
@@ -74,6 +79,8 @@ static bool solve_viscous(struct fv *s, double c, double t, double scale)
 static void predict_fluxes(struct fv *s, double t)
 {
     (void)t;
+    if (s->surface)
+        extension_apply(s, s->u, EXTEND_FREE, STENCILS);
     ghosts(s, BC_AHEAD, s->u);
     mesh_face_velocities(s, s->u, s->U);
     mesh_bc_fluxes(s, s->U);
@@ -83,7 +90,8 @@ static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
 {
     double *psi = s->psi[stage];
     mesh_divergence(s, s->U, s->flux);
-    const bool good = poisson_solve(s, tau, s->flux, tol, s->start[stage], psi);
+    const bool good = s->surface ? wet_pressure_solve(s, tau, s->flux, tol, psi)
+                                 : poisson_solve(s, tau, s->flux, tol, s->start[stage], psi);
     mesh_halo(s->m, 1, &psi);
     mesh_bc_even(s, true, psi);
     return good;
@@ -93,9 +101,30 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
 {
     mesh_subtract_psi(s, tau, psi, s->U);
     mesh_gradient(s, psi, s->rhs);
+    if (s->surface)
+        surface_mesh_psi_gradient(s, psi, s->rhs);
 }
 
 static void fill_velocity(struct fv *s) { ghosts(s, BC_GIVEN, s->u); }
+
+static void dry_fluxes(struct fv *s)
+{
+    const unsigned char *layer = s->surface->layer;
+    mesh_face_velocities(s, s->u, s->rhs);
+    for (int a = 0; a < s->dim; a++)
+        for (int q = 0; q < s->nparts; q++) {
+            const struct part *p = s->part + q;
+            int down[3], up[3];
+            for (int t = 0; t < 3; t++)
+                down[t] = up[t] = t < s->dim && t != a;
+            up[a] = 1;
+            PART_ROWS (p, down, up, c, n)
+                for (int64_t i = c; i < c + n; i++)
+                    if (layer[i] && layer[i - p->stride[a]])
+                        s->U[a][i] = s->rhs[a][i];
+        }
+    mesh_bc_fluxes(s, s->U);
+}
 
 /* Largest sum over the indices of the rates of crossing cells, 1/s, and largest speed; what forces
  * add to the rate in a second. */
@@ -126,7 +155,7 @@ static void measure_blocks(struct fv *s)
                     for (int k = 0; k < m->dim; k++) {
                         const double S = 0.5 * (m->S[a][k][i] + m->S[a][k][i + p->stride[a]]);
                         F += s->u[k][i] * S;
-                        G += s->drive[k] * S;
+                        G += (s->drive[k] + (s->surface ? s->still[k] : 0.0)) * S;
                         S2 += S * S;
                     }
                     rate += fabs(F);
@@ -173,8 +202,8 @@ static void find_worst(const struct fv *s, double before, struct diagnosis *d)
                          at[0], at[1], at[2], b->prm->name, v < 1e300 ? v : NAN, s->u_limit);
                 snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, step of %g s, limited by %s",
                          x[0], x[1], x[2], s->dt, limit_name(s->limit));
-                limits_explain(&s->prm, s->limit, before, s->rate * s->dt, false, d->likely,
-                               sizeof d->likely);
+                limits_explain(&s->prm, s->limit, before, s->rate * s->dt, s->surface != NULL,
+                               d->likely, sizeof d->likely);
             }
     }
 }
@@ -208,6 +237,8 @@ const struct stages block_stages = {.tolerance = 1.0,
                                     .solve_pressure = solve_pressure,
                                     .correct_fluxes = correct_fluxes,
                                     .fill_velocity = fill_velocity,
+                                    .dry_fluxes = dry_fluxes,
+                                    .rebuild_pressure = wet_pressure_rebuild,
                                     .measure = measure_blocks,
                                     .find_worst = find_worst,
                                     .place = place};
