@@ -51,6 +51,7 @@ struct mesh_bc;       /* their sides; boundary/mesh_bc.c */
 struct mesh_pressure; /* poisson/mesh_pressure.c */
 struct overset;       /* search in blocks; grid/overset.h */
 struct stages;        /* time/stages.h */
+struct moving;        /* blocks that move; time/moving.h; NULL: none do */
 struct bc;            /* walls and openings; bc.h; NULL: none */
 struct blocked;       /* boxes cut out; boundary/blocked.h; NULL: none */
 struct forcing;       /* cells whose velocity is imposed; forcing.h; NULL: none */
@@ -95,9 +96,12 @@ struct fv {
     double drive[3];        /* m/s^2: gravity along periodic axes; across, the pressure takes it */
     double *face, *flux;    /* scratch */
     double *faces[3];       /* blocks: scratch; the first is face */
-    double *free;           /* blocks: 1: computed, 0: not */
-    double *scale;          /* blocks: of the viscous rows */
-    double dissipation;     /* blocks: of newton's convection, 0 for the others */
+    struct moving *moving;
+    double *jump;  /* m^2/s^2: of blocks that move: psi in the fringe beyond its interpolation */
+    double *zw;    /* of blocks that move, without an outflow: psi of the volumes */
+    double *free;  /* blocks: 1: computed, 0: not */
+    double *scale; /* blocks: of the viscous rows */
+    double dissipation; /* blocks: of newton's convection, 0 for the others */
     bool uneven; /* blocks: volumes differ: volume averages are not averages in index space */
     struct bc *bc;
     struct blocked *blocked;
@@ -111,6 +115,7 @@ struct fv {
     struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;
     bool predicts; /* its steps will be taken back: nothing in them is to be judged or counted */
+    double dt_now; /* s: of the step under way */
     double dt, dt_old;    /* s: last step, 0 before the first; the one before it */
     double partner[2][3]; /* m: box that a partner counts as its own; lo >= hi: none */
     double scene_speed;   /* m/s: limits_reference */

@@ -37,6 +37,7 @@ const struct param mesh_rows_of[MESH_ROWS] = {
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls along themselves, of its inflow"),
     CHOICE(P, lid, "all|i_min|i_max|j_min|j_max|k_min|k_max", "all", "the only one of its walls that has the velocity"),
     PARAM(P, spin,     "rad/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls i_min and i_max about the centre"),
+    LIST(P, motion, &scene_motion_list, "how the block moves as a whole, joined blocks with it, its walls too: terms add up, rotation is about its centre; a plain text: one file"),
 };
 /* clang-format on */
 #undef P

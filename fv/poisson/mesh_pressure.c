@@ -49,6 +49,10 @@ struct mesh_pressure {
     double *volume; /* right side V of computed cells */
     double volumes; /* m^dim: of all computed cells */
     double fringe;  /* diagonal of the rows of the fringe */
+    /* of blocks that move: rows of all cells as they are when computed, by first of each */
+    int *row_first;
+    HYPRE_BigInt *row_col;
+    double *row_value;
 };
 
 /* A row under way. */
@@ -123,21 +127,27 @@ static void add_fringe(const struct mesh *m, const struct mesh_fringe *f, double
     }
 }
 
+static void computed_row(const struct mesh *m, const struct part *p, const int *i, struct row *r)
+{
+    r->n = 0;
+    for (int a = 0; a < m->dim; a++) {
+        int up[3] = {i[0], i[1], i[2]};
+        up[a]++;
+        add_face(m, p, i, a, -1.0, r);
+        add_face(m, p, up, a, 1.0, r);
+    }
+}
+
 static void make_row(const struct mesh *m, const struct part *p, const int *i,
                      const struct mesh_fringe *fringe, double scale, struct row *r)
 {
     const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
     const int64_t c = part_at(p, i[0], i[1], i[2]);
-    r->n = 0;
     if (m->status[c] == CELL_COMPUTED) {
-        for (int a = 0; a < m->dim; a++) {
-            int up[3] = {i[0], i[1], i[2]};
-            up[a]++;
-            add_face(m, p, i, a, -1.0, r);
-            add_face(m, p, up, a, 1.0, r);
-        }
+        computed_row(m, p, i, r);
         return;
     }
+    r->n = 0;
     add(r, (HYPRE_BigInt)mesh_row(m, p->block, at), scale);
     if (m->status[c] == CELL_FRINGE)
         add_fringe(m, fringe, scale, r);
@@ -162,12 +172,11 @@ static void set_row(struct matrix *A, HYPRE_BigInt row, struct row *r)
     HYPRE(HYPRE_IJMatrixSetValues(A->ij, 1, &n, &row, r->col, r->v));
 }
 
-static void fill_matrices(struct fv *s, struct mesh_pressure *p)
+/* The mean diagonal of computed cells is that of the fringe. */
+static void set_scale(const struct fv *s, struct mesh_pressure *p)
 {
     static const int none[3] = {0, 0, 0};
     const struct mesh *m = s->m;
-    struct row r, pin = {0};
-    int64_t *fringe = NEW(int64_t, m->size_local);
     double sum[2] = {0.0, 0.0};
     for (int q = 0; q < m->nparts; q++)
         PART_ROWS (m->part + q, none, none, c, n)
@@ -177,6 +186,14 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
             }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, m->comm);
     p->fringe = sum[0] / fmax(sum[1], 1.0);
+}
+
+static void fill_matrices(struct fv *s, struct mesh_pressure *p)
+{
+    const struct mesh *m = s->m;
+    struct row r, pin = {0};
+    int64_t *fringe = NEW(int64_t, m->size_local);
+    set_scale(s, p);
     for (int64_t k = 0; k < m->nfringe; k++)
         fringe[m->fringes[k].place] = k;
     create_matrix(m, p, &p->whole);
@@ -215,6 +232,104 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
     finish_matrix(&p->whole);
     if (p->singular)
         finish_matrix(&p->solved);
+}
+
+/* ---- of blocks that move: what computed cells' rows are stays, the rest is small ---- */
+
+static void keep_rows(const struct mesh *m, struct mesh_pressure *p)
+{
+    int64_t n = 0, room = 16 * (int64_t)p->n;
+    HYPRE_BigInt k = 0;
+    p->row_first = NEW(int, p->n + 1);
+    p->row_col = NEW(HYPRE_BigInt, room);
+    p->row_value = NEW(double, room);
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *part = m->part + q;
+        struct row r;
+        int i[3];
+        PART_CELLS (part, i, c) {
+            computed_row(m, part, i, &r);
+            if (n + r.n > room) {
+                GROW(p->row_col, room, 2 * room);
+                GROW(p->row_value, room, 2 * room);
+                room *= 2;
+            }
+            memcpy(p->row_col + n, r.col, (size_t)r.n * sizeof *r.col);
+            memcpy(p->row_value + n, r.v, (size_t)r.n * sizeof *r.v);
+            p->place[k] = c;
+            p->row[k] = p->first + k;
+            p->row_first[++k] = (int)(n += r.n);
+        }
+    }
+}
+
+/* The row of the first computed cell of all ranks, which psi = 0 replaces; its place here, or -1.
+ */
+static int find_pinned(const struct mesh *m, struct mesh_pressure *p)
+{
+    HYPRE_BigInt mine = (HYPRE_BigInt)1 << 30, least;
+    for (int k = p->n - 1; k >= 0; k--)
+        mine = m->status[p->place[k]] == CELL_COMPUTED ? p->first + k : mine;
+    MPI_Allreduce(&mine, &least, 1, HYPRE_MPI_BIG_INT, MPI_MIN, m->comm);
+    p->pinned = p->singular ? least : -1;
+    return p->singular && mine == least ? (int)(least - p->first) : -1;
+}
+
+static void set_matrix(const struct mesh *m, struct mesh_pressure *p, struct matrix *A,
+                       HYPRE_Int *ncols, const HYPRE_BigInt *col, const double *v)
+{
+    HYPRE(HYPRE_IJMatrixCreate(m->comm, p->first, p->last, p->first, p->last, &A->ij));
+    HYPRE(HYPRE_IJMatrixSetObjectType(A->ij, HYPRE_PARCSR));
+    HYPRE(HYPRE_IJMatrixSetRowSizes(A->ij, ncols));
+    HYPRE(HYPRE_IJMatrixInitialize(A->ij));
+    if (p->n > 0)
+        HYPRE(HYPRE_IJMatrixSetValues(A->ij, p->n, ncols, p->row, col, v));
+    finish_matrix(A);
+}
+
+static void fill_anew(struct fv *s, struct mesh_pressure *p)
+{
+    const struct mesh *m = s->m;
+    int64_t n = 0;
+    if (!p->row_first)
+        keep_rows(m, p);
+    set_scale(s, p);
+    const int64_t room = p->row_first[p->n] + 9 * (m->nfringe + p->n);
+    HYPRE_BigInt *col = NEW(HYPRE_BigInt, room);
+    double *v = NEW(double, room);
+    HYPRE_Int *ncols = NEW(HYPRE_Int, p->n);
+    int64_t *fringe = NEW(int64_t, m->size_local);
+    for (int64_t k = 0; k < m->nfringe; k++)
+        fringe[m->fringes[k].place] = k + 1;
+    const int pinned = find_pinned(m, p);
+    int64_t pinned_at = -1;
+    for (int k = 0; k < p->n; k++) {
+        const int64_t c = p->place[k];
+        if (m->status[c] == CELL_COMPUTED) {
+            const int at = p->row_first[k];
+            ncols[k] = p->row_first[k + 1] - at;
+            pinned_at = k == pinned ? n : pinned_at;
+            memcpy(col + n, p->row_col + at, (size_t)ncols[k] * sizeof *col);
+            memcpy(v + n, p->row_value + at, (size_t)ncols[k] * sizeof *v);
+        } else {
+            struct row r = {.n = 1, .col = {p->row[k]}, .v = {p->fringe}};
+            if (fringe[c] > 0)
+                add_fringe(m, m->fringes + fringe[c] - 1, p->fringe, &r);
+            ncols[k] = r.n;
+            memcpy(col + n, r.col, (size_t)r.n * sizeof *col);
+            memcpy(v + n, r.v, (size_t)r.n * sizeof *v);
+        }
+        n += ncols[k];
+    }
+    set_matrix(m, p, &p->whole, ncols, col, v);
+    for (int q = 0; pinned_at >= 0 && q < ncols[pinned]; q++)
+        v[pinned_at + q] = col[pinned_at + q] == p->pinned ? v[pinned_at + q] : 0.0;
+    if (p->singular)
+        set_matrix(m, p, &p->solved, ncols, col, v);
+    mem_free(col);
+    mem_free(v);
+    mem_free(ncols);
+    mem_free(fringe);
 }
 
 static void create_vector(const struct mesh *m, struct mesh_pressure *p, struct vector *v)
@@ -258,15 +373,31 @@ static HYPRE_Solver make_amg(int relax, int sweeps, int coarsen)
     return amg;
 }
 
-static void make_solver(const struct mesh *m, struct mesh_pressure *p)
+/* In place of a setup: the hierarchy of a matrix before serves a neighbour; its cycle has the new
+ * one on the finest level. */
+static HYPRE_Int keep_hierarchy(HYPRE_Solver amg, HYPRE_Matrix A, HYPRE_Vector b, HYPRE_Vector x)
 {
-    p->amg = make_amg(3, 1, 8);
+    (void)amg;
+    (void)A;
+    (void)b;
+    (void)x;
+    return 0;
+}
+
+static void make_gmres(const struct mesh *m, struct mesh_pressure *p, HYPRE_PtrToSolverFcn setup)
+{
     HYPRE(HYPRE_ParCSRGMRESCreate(m->comm, &p->gmres));
     HYPRE(HYPRE_GMRESSetKDim(p->gmres, 30));
     HYPRE(HYPRE_GMRESSetMaxIter(p->gmres, 60));
-    HYPRE(HYPRE_GMRESSetPrecond(p->gmres, (HYPRE_PtrToSolverFcn)HYPRE_BoomerAMGSolve,
-                                (HYPRE_PtrToSolverFcn)HYPRE_BoomerAMGSetup, p->amg));
+    HYPRE(
+        HYPRE_GMRESSetPrecond(p->gmres, (HYPRE_PtrToSolverFcn)HYPRE_BoomerAMGSolve, setup, p->amg));
     HYPRE(HYPRE_ParCSRGMRESSetup(p->gmres, matrix_of(p), p->b.v, p->x.v));
+}
+
+static void make_solver(const struct mesh *m, struct mesh_pressure *p)
+{
+    p->amg = make_amg(3, 1, 8);
+    make_gmres(m, p, (HYPRE_PtrToSolverFcn)HYPRE_BoomerAMGSetup);
 }
 
 static void make_safe(const struct mesh *m, struct mesh_pressure *p)
@@ -360,6 +491,16 @@ static void solve_volumes(struct fv *s, struct mesh_pressure *p)
     mem_free(b);
 }
 
+static void set_volumes(const struct fv *s, struct mesh_pressure *p)
+{
+    p->volumes = 0.0;
+    for (int k = 0; k < p->n; k++) {
+        p->volume[k] = s->free[p->place[k]] * s->m->V[p->place[k]];
+        p->volumes += p->volume[k];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &p->volumes, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
+}
+
 void mesh_pressure_create(struct fv *s)
 {
     const struct mesh *m = s->m;
@@ -376,16 +517,15 @@ void mesh_pressure_create(struct fv *s)
     p->residual = NEW(double, n);
     p->volume = NEW(double, n);
     p->zw = NEW(double, n);
-    fill_matrices(s, p);
+    if (m->moves)
+        fill_anew(s, p);
+    else
+        fill_matrices(s, p);
     create_vector(m, p, &p->b);
     create_vector(m, p, &p->x);
     create_vector(m, p, &p->r);
     make_solver(m, p);
-    for (int k = 0; k < p->n; k++) {
-        p->volume[k] = s->free[p->place[k]] * m->V[p->place[k]];
-        p->volumes += p->volume[k];
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &p->volumes, 1, MPI_DOUBLE, MPI_SUM, m->comm);
+    set_volumes(s, p);
     if (p->singular)
         solve_volumes(s, p);
 }
@@ -394,6 +534,39 @@ static void free_matrix(struct matrix *A)
 {
     if (A->ij)
         HYPRE_IJMatrixDestroy(A->ij);
+    A->ij = NULL;
+}
+
+static void free_safe(struct mesh_pressure *p)
+{
+    if (!p->safe)
+        return;
+    HYPRE_ParCSRBiCGSTABDestroy(p->safe);
+    HYPRE_BoomerAMGDestroy(p->safe_amg);
+    p->safe = NULL;
+}
+
+void mesh_pressure_renew(struct fv *s, bool hierarchy)
+{
+    struct mesh_pressure *p = s->poisson;
+    free_safe(p);
+    HYPRE_ParCSRGMRESDestroy(p->gmres);
+    free_matrix(&p->whole);
+    free_matrix(&p->solved);
+    fill_anew(s, p);
+    if (hierarchy) {
+        HYPRE_BoomerAMGDestroy(p->amg);
+        make_solver(s->m, p);
+    } else
+        make_gmres(s->m, p, keep_hierarchy);
+    set_volumes(s, p);
+    if (!p->singular)
+        return;
+    for (int k = 0; k < p->n; k++)
+        p->zw[k] = s->zw[p->place[k]];
+    solve_volumes(s, p);
+    for (int k = 0; k < p->n; k++)
+        s->zw[p->place[k]] = p->zw[k];
 }
 
 void mesh_pressure_free(struct mesh_pressure **pp)
@@ -403,10 +576,7 @@ void mesh_pressure_free(struct mesh_pressure **pp)
         return;
     HYPRE_ParCSRGMRESDestroy(p->gmres);
     HYPRE_BoomerAMGDestroy(p->amg);
-    if (p->safe) {
-        HYPRE_ParCSRBiCGSTABDestroy(p->safe);
-        HYPRE_BoomerAMGDestroy(p->safe_amg);
-    }
+    free_safe(p);
     free_matrix(&p->whole);
     free_matrix(&p->solved);
     HYPRE_IJVectorDestroy(p->b.ij);
@@ -418,6 +588,9 @@ void mesh_pressure_free(struct mesh_pressure **pp)
     mem_free(p->residual);
     mem_free(p->volume);
     mem_free(p->zw);
+    mem_free(p->row_first);
+    mem_free(p->row_col);
+    mem_free(p->row_value);
     mem_free(p);
     *pp = NULL;
 }
@@ -441,6 +614,8 @@ static bool negligible(struct fv *s, const struct mesh_pressure *p, const double
         sum[0] += div[c] * div[c];
         for (int a = 0; a < s->m->dim; a++)
             sum[1] += s->free[c] * s->U[a][c] * s->U[a][c];
+        if (s->jump && s->m->status[c] == CELL_FRINGE && s->jump[c] != 0.0)
+            sum[0] = INFINITY;
     }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->m->comm);
     return sum[0] <= 1e-27 * sum[1];
@@ -457,6 +632,8 @@ bool mesh_pressure_solve(struct fv *s, double tau, const double *div, double tol
     for (int k = 0; k < p->n; k++) {
         p->residual[k] = start[p->place[k]];
         b[k] = -div[p->place[k]] / tau;
+        if (s->jump && s->m->status[p->place[k]] == CELL_FRINGE)
+            b[k] = p->fringe * s->jump[p->place[k]];
     }
     set_vector(p, &p->x, p->residual);
     double keep = p->pinned >= p->first && p->pinned <= p->last ? b[p->pinned - p->first] : 0.0;

@@ -8,6 +8,9 @@
 
 /* mesh_pressure.c: A psi = -div/tau; div with what the overlap makes taken out evenly. */
 void mesh_pressure_create(struct fv *s);
+/* After blocks have moved: the matrix of the cells and of m->fringes now; without `hierarchy' the
+ * one of a matrix before goes on as preconditioner. */
+void mesh_pressure_renew(struct fv *s, bool hierarchy);
 void mesh_pressure_free(struct mesh_pressure **p);
 /* false: did not converge. start: kept for the next solve. */
 bool mesh_pressure_solve(struct fv *s, double tau, const double *div, double tol, double *start,

@@ -32,8 +32,8 @@ struct watches *mesh_watches_create(struct fv *s)
             if (s->m->block[k].side[side] == MESH_INFLOW ||
                 s->m->block[k].side[side] == MESH_OUTFLOW)
                 watches_open(w);
-    w->has_energy = !s->prm.steady;
-    w->has_growth = !s->newton;
+    w->has_energy = !s->prm.steady && !s->m->moves; /* blocks that move do work */
+    w->has_growth = !s->newton && !s->m->moves;
     w->energy_every = 20;                    /* faces are mapped anew */
     w->speed = fmax(w->speed, s->reference); /* of walls and openings of blocks, too */
     return w;
