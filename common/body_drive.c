@@ -147,7 +147,7 @@ static void one_axis(const struct scene_motion *m, double t, double v[3])
         v[2] = -m->amplitude * w * w * sin(z);
         return;
     }
-    const bool within = t > m->from && t < m->until;
+    const bool within = t >= m->from && t < m->until;
     const double T = (t < m->from ? m->from : t > m->until ? m->until : t) - m->from;
     v[0] = v[1] = v[2] = 0.0;
     for (int k = m->coefficients.n - 1; k >= 0; k--) { /* Horner, with derivatives */

@@ -1,5 +1,7 @@
 /* mesh_params.c - parameters of the list blocks. SPDX-License-Identifier: BSD-3-Clause */
+#include "../../common/scene_check.h"
 #include "../grid/mesh.h"
+#include "../grid/mesh_motion.h"
 
 #include "../fv.h"
 #include "../surface/levelset.h"
@@ -167,6 +169,11 @@ void mesh_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "fv.graded", "not with blocks: they have maps of their own");
     if (prm->hole[1][0] > prm->hole[0][0])
         params_fault(r->params, f, "fv.hole", "blocks know no forced cells: let a block overlap");
+    if (mesh_motion_any() && prm->integrator == INTEGRATOR_NEWTON)
+        params_fault(r->params, f, "fv.integrator",
+                     "newton's residual knows no cells that move: use rk3 or bdf2");
+    for (int k = 0; k < mesh_given_count; k++)
+        scene_check_motion(&mesh_given[k].motion, "blocks", k, r->params, f);
     for (int k = 0; k < r->scene.nwalls; k++)
         check_wall(r, f, k);
     for (int k = 0; k < r->scene.nprobes; k++)
@@ -180,6 +187,8 @@ void mesh_check(const struct run *r, struct faults *f)
     if (m) {
         check_taken(r, f, m);
         mesh_scene_check(r, f, m);
+        if (f->n == before && m->moves)
+            mesh_motion_sweep(r, f, m);
     }
     mesh_free(&m);
 }

@@ -164,6 +164,9 @@ void mesh_side_velocity(const struct run *r, const struct mesh_block *b, int sid
                         double *w);
 /* mesh_scene.c: faults of a scene on blocks that contradicts itself. */
 void mesh_scene_check(const struct run *r, struct faults *f, const struct mesh *m);
+/* Faults of blocks that move within the run: out of the domain, cells without donors; the mesh ends
+ * where they end. */
+void mesh_motion_sweep(const struct run *r, struct faults *f, struct mesh *m);
 /* Faults of the group blocks; makes and frees the mesh. */
 void mesh_check(const struct run *r, struct faults *f);
 void mesh_fault(const struct run *r, struct faults *f, int block, const char *key, const char *fmt,

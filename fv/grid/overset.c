@@ -419,6 +419,29 @@ static bool in_overlap_layers(const struct mesh *m, const struct mesh_block *b, 
     return false;
 }
 
+/* Whether the stencil may move by a cell: a cut holds for a step. */
+static bool keeps_giving(const struct mesh *m, int block, const int *from, int width)
+{
+    int i[3], lo[3] = {0, 0, 0}, hi[3] = {1, 1, 1};
+    const struct mesh_block *b = m->block + block;
+    for (int a = 0; a < m->dim; a++) {
+        lo[a] = from[a] - 1;
+        hi[a] = from[a] + width + 1;
+        lo[a] = lo[a] < 0 && !leads_on(b, 2 * a) ? 0 : lo[a];
+        hi[a] = hi[a] > b->n[a] && !leads_on(b, 2 * a + 1) ? b->n[a] : hi[a];
+    }
+    for (i[2] = lo[2]; i[2] < hi[2]; i[2]++)
+        for (i[1] = lo[1]; i[1] < hi[1]; i[1]++)
+            for (i[0] = lo[0]; i[0] < hi[0]; i[0]++) {
+                int at[3] = {i[0], i[1], i[2]}, k = block;
+                double move[3] = {0.0, 0.0, 0.0};
+                if (!mesh_resolve(m, &k, at, move) ||
+                    m->block[k].status[mesh_cell(m->block + k, at)] != CELL_COMPUTED)
+                    return false;
+            }
+    return true;
+}
+
 /* Whether a later block than k (or any other one) can give a value at x by `width' cells. */
 static bool can_give(const struct mesh *m, const struct overset *o, int first, int but,
                      const double *x, int width)
@@ -427,7 +450,7 @@ static bool can_give(const struct mesh *m, const struct overset *o, int first, i
         int cell[3], from[3];
         double xi[3];
         if (q != but && overset_locate(m, o, q, x, cell, xi) &&
-            stencil(m, q, cell, xi, width, from))
+            stencil(m, q, cell, xi, width, from) && (!m->moves || keeps_giving(m, q, from, width)))
             return true;
     }
     return false;

@@ -477,11 +477,12 @@ static double pinned_residual(struct fv *s, struct mesh_pressure *p, const doubl
 }
 
 /* c V is no larger than the right side it is taken out of, so z_w needs a tenth of the finest
- * tolerance of the run: the start's, see mesh_flow_create. */
+ * tolerance of the run: the start's, see mesh_state_start; of blocks that move, which find it each
+ * step, that of a step. */
 static void solve_volumes(struct fv *s, struct mesh_pressure *p)
 {
     double *b = NEW(double, p->n);
-    const double tol = 1e-4 * fmin(1.0, s->prm.tol_pressure);
+    const double tol = (s->m->moves ? 1e-2 : 1e-4) * fmin(1.0, s->prm.tol_pressure);
     memcpy(b, p->volume, (size_t)p->n * sizeof(double));
     set_vector(p, &p->x, p->zw);
     if (!solve(s, p, b, tol) && !(residual(s, p, matrix_of(p), b) < 1e-6 * norm(s, b, p->n)))

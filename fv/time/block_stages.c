@@ -27,6 +27,8 @@ static void pressure_gradient(struct fv *s)
         moving_begin(s);
     mesh_bc_pressure(s, s->p);
     mesh_gradient(s, s->p, s->step_p);
+    if (s->moving)
+        moving_gradient(s);
 }
 
 static void set_slip(struct fv *s, double tau, const double *psi)
@@ -98,7 +100,11 @@ static bool solve_viscous(struct fv *s, double c, double t, double scale)
 static void predict_fluxes(struct fv *s, double t)
 {
     (void)t;
-    ghosts(s, BC_AHEAD, s->u);
+    if (s->moving)
+        moving_fill(s, s->u);
+    else
+        mesh_fill(s->m, s->dim, s->u);
+    mesh_bc_velocity(s, BC_AHEAD, s->u);
     mesh_face_velocities(s, s->u, s->U);
     mesh_bc_fluxes(s, s->U);
 }

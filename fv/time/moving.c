@@ -1,12 +1,14 @@
 /* moving.c - see moving.h. A block's cells carry u and p along, so a step's equations are those of
  * the moving frame: fluxes relative to the faces, no other term, as blocks are rigid.
- * Where blocks meet the values of one at the places of the other change with the motion:
- *   u*    the fringe is interpolated at the stage's own time. The viscous increment there is
- *         I_k u_k-1 - u_k-1 beyond the interpolated increment.
- *   psi   p + psi is the mean pressure of a stage, hence continuous where the blocks are in its
- *         middle: psi - I psi = (I_k-1 + I_k) p/2 - p in the fringe (rk3; bdf2: I p - p at the
- *         step's end). The I of psi, which is of the order of the step, is that of the middle of
- *         the step: one matrix a step.
+ * Where blocks meet the values of one at the places of the other change with the motion. I_k
+ * interpolates at the time of stage k, c_k dt after the step's start:
+ *   psi   p + psi is continuous at the time that a stage's pressure stands for, e_k dt after the
+ *         start: 0, 5/3, 5/6 in rk3, that of the convection it balances, and 1 in bdf2. Hence
+ *         psi = I psi + (e_k/c_k) (I_k p - p). The I of psi, which is of the order of the step, is
+ *         that of the middle of the step: one matrix a step.
+ *   u*    lacks tau grad psi, in which psi is that of the cells: u* = I_k u* + tau (e_k/c_k) (I_k
+ *         grad p - grad p). The viscous increment is this with u_k-1 in place of u*, less u_k-1,
+ *         beyond the interpolated increment.
  * The hierarchy of a matrix before preconditions until iterations have grown by a half.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "moving.h"
@@ -22,15 +24,19 @@
 #include "../grid/overset.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/mesh_pressure.h"
+#include "rk3.h"
 
 static const int none[3] = {0, 0, 0};
 
 struct moving {
     double t_cut, t_rows; /* s: middle of the last step; of that whose matrix has the hierarchy */
-    double t_gradient;    /* s: of the directions of step_p */
     double fresh;       /* iterations of the step that made the hierarchy; 0: the next makes one */
     int64_t iterations; /* before the step */
-    double *before, *after; /* m^2/s^2: p of the step's start in the fringe of two stages */
+    double tau;         /* s: length of the stage */
+    double *push[3];    /* m/s^2: in the fringe, grad psi there beyond that of the donors */
+    double *first[3];   /* m/s^2: grad p of the step's start */
+    double *now[4];     /* scratch: that, and p, by the donors of a stage */
+    int stage;
     unsigned char *status[MESH_BLOCKS_MAX]; /* before the step */
     unsigned char *born[MESH_BLOCKS_MAX];   /* 1: computed now, nothing before */
     unsigned char *local;                   /* m->status before the step */
@@ -62,8 +68,13 @@ struct moving *moving_create(struct fv *s)
     if (!m->moves)
         return NULL;
     struct moving *v = NEW(struct moving, 1);
-    v->before = mesh_field(m);
-    v->after = mesh_field(m);
+    for (int a = 0; a < 4; a++) {
+        v->now[a] = mesh_field(m);
+        if (a < m->dim) {
+            v->push[a] = mesh_field(m);
+            v->first[a] = mesh_field(m);
+        }
+    }
     v->local = NEW(unsigned char, m->size_local);
     for (int k = 0; k < m->nblocks; k++) {
         v->status[k] = NEW(unsigned char, count_of(m->block + k));
@@ -86,8 +97,11 @@ void moving_free(struct moving **vp)
         mem_free(v->status[k]);
         mem_free(v->born[k]);
     }
-    mem_free(v->before);
-    mem_free(v->after);
+    for (int a = 0; a < 4; a++) {
+        mem_free(v->now[a]);
+        mem_free(a < 3 ? v->push[a] : NULL);
+        mem_free(a < 3 ? v->first[a] : NULL);
+    }
     mem_free(v->local);
     mem_free(v);
     *vp = NULL;
@@ -204,7 +218,7 @@ void moving_begin(struct fv *s)
     struct moving *v = s->moving;
     struct mesh *m = s->m;
     v->iterations = s->iterations;
-    v->t_gradient = s->t;
+    v->stage = 0;
     if (m->has_fringe) {
         timer_start(&s->run->timers, "overlap");
         for (int k = 0; k < m->nblocks; k++)
@@ -224,7 +238,6 @@ void moving_begin(struct fv *s)
         mesh_bc_velocity(s, BC_GIVEN, s->u);
         fill_fluxes(s);
     }
-    memcpy(v->after, s->p, (size_t)s->size * sizeof(double));
 }
 
 /* --- stages --- */
@@ -239,29 +252,51 @@ static void turn_back_and_on(struct mesh_motion *v, double from, double to, doub
             R[i][j] = vec3_dot(b.Q[i], a.Q[j]);
 }
 
-void moving_turn_pressure(struct fv *s, double tau)
+/* Place of a stage's pressure in the step: of rk3 the mean of the times whose convection it
+ * balances. */
+static double pressure_at(const struct fv *s)
+{
+    const int k = s->moving->stage;
+    if (s->prm.integrator == INTEGRATOR_BDF2)
+        return 1.0;
+    const double c1 = k > 0 ? rk3_at[k - 1] : 0.0, c0 = k > 1 ? rk3_at[k - 2] : 0.0;
+    return (rk3_gamma[k] * c1 + rk3_zeta[k] * c0) / (rk3_gamma[k] + rk3_zeta[k]);
+}
+
+void moving_gradient(struct fv *s)
+{
+    mesh_fill(s->m, s->dim, s->step_p);
+    for (int a = 0; a < s->dim; a++)
+        memcpy(s->moving->first[a], s->step_p[a], (size_t)s->size * sizeof(double));
+}
+
+/* g = the gradient of the step's start as it has turned until t, ghosts and all. */
+static void turn_gradient(struct fv *s, double t, double *const g[3])
 {
     const struct mesh *m = s->m;
-    const bool bdf2 = s->prm.integrator == INTEGRATOR_BDF2;
-    struct moving *v = s->moving;
-    double to = s->t + s->dt_now, R[3][3];
+    double *const *first = s->moving->first, R[3][3];
     for (int q = 0; q < m->nparts; q++) {
-        struct mesh_motion *w = m->block[m->part[q].block].motion;
-        if (!w || !w->turns)
+        const struct part *p = m->part + q;
+        struct mesh_motion *w = m->block[p->block].motion;
+        const bool turns = w && w->turns;
+        for (int a = 0; a < m->dim && !turns; a++)
+            memcpy(g[a] + p->base, first[a] + p->base, (size_t)p->size * sizeof(double));
+        if (!turns)
             continue;
-        to = bdf2 ? to : w->t + 0.5 * tau;
-        turn_back_and_on(w, v->t_gradient, to, R);
-        PART_ROWS (m->part + q, none, none, c, n)
-            for (int64_t i = c; i < c + n; i++) {
-                double g[3] = {0.0, 0.0, 0.0};
-                for (int a = 0; a < m->dim; a++)
-                    g[a] = s->step_p[a][i];
-                turn3(R, g, g);
-                for (int a = 0; a < m->dim; a++)
-                    s->step_p[a][i] = g[a];
+        turn_back_and_on(w, s->t, t, R);
+        for (int64_t c = p->base; c < p->base + p->size; c++)
+            for (int a = 0; a < m->dim; a++) {
+                g[a][c] = 0.0;
+                for (int k = 0; k < m->dim; k++)
+                    g[a][c] += R[a][k] * first[k][c];
             }
     }
-    v->t_gradient = to;
+}
+
+void moving_turn_pressure(struct fv *s, double tau)
+{
+    s->moving->tau = tau;
+    turn_gradient(s, s->t + pressure_at(s) * s->dt_now, s->step_p);
 }
 
 void moving_convection(struct fv *s, double *const N[3])
@@ -279,20 +314,32 @@ void moving_stage(struct fv *s, double t)
 {
     struct moving *v = s->moving;
     struct mesh *m = s->m;
-    const double now = s->prm.integrator == INTEGRATOR_BDF2 ? 1.0 : 0.5;
-    double *was = v->before;
+    const double f = pressure_at(s) * s->dt_now / (t - s->t);
+    v->stage++;
     timer_start(&s->run->timers, "overlap");
     mesh_motion_place(m, t);
     if (m->has_fringe) {
-        v->before = v->after;
-        v->after = was;
         overset_find(m, m->search);
-        memcpy(v->after, s->p, (size_t)s->size * sizeof(double));
-        mesh_exchange(m, &m->fringe, 1, &v->after);
-        for (int64_t c = 0; c < s->size; c++)
-            s->jump[c] = now * v->after[c] + (1.0 - now) * v->before[c] - s->p[c];
+        turn_gradient(s, t, v->now);
+        memcpy(v->now[m->dim], s->p, (size_t)s->size * sizeof(double));
+        mesh_exchange(m, &m->fringe, m->dim + 1, v->now);
+        for (int64_t c = 0; c < s->size; c++) {
+            s->jump[c] = f * (v->now[m->dim][c] - s->p[c]);
+            for (int a = 0; a < m->dim; a++)
+                v->push[a][c] = (1.0 - f) * v->first[a][c] + f * v->now[a][c] - s->step_p[a][c];
+        }
     }
     timer_stop(&s->run->timers, "overlap");
+}
+
+void moving_fill(struct fv *s, double *const u[3])
+{
+    const struct mesh *m = s->m;
+    mesh_fill(s->m, m->dim, u);
+    for (int a = 0; a < m->dim; a++)
+        for (int64_t c = 0; c < s->size; c++)
+            u[a][c] += m->status[c] == CELL_FRINGE ? s->moving->tau * s->moving->push[a][c] : 0.0;
+    mesh_halo(s->m, m->dim, u);
 }
 
 void moving_change(struct fv *s, double *const delta[3])
@@ -300,7 +347,7 @@ void moving_change(struct fv *s, double *const delta[3])
     const struct mesh *m = s->m;
     for (int a = 0; a < m->dim; a++)
         memcpy(delta[a], s->u[a], (size_t)s->size * sizeof(double));
-    mesh_fill(s->m, m->dim, delta);
+    moving_fill(s, delta);
     for (int a = 0; a < m->dim; a++)
         for (int64_t c = 0; c < s->size; c++)
             delta[a][c] = m->status[c] == CELL_FRINGE ? delta[a][c] - s->u[a][c] : 0.0;

@@ -15,6 +15,10 @@ struct moving *moving_create(struct fv *s);
 void moving_free(struct moving **v);
 /* What the cells are in the step of s->dt_now that begins; values of new ones. */
 void moving_begin(struct fv *s);
+/* step_p in the fringe, before the blocks move. */
+void moving_gradient(struct fv *s);
+/* u*, ahead of its projection, in the fringe. */
+void moving_fill(struct fv *s, double *const u[3]);
 /* The gradient of the step's pressure turns with the cells, to a stage of length tau. */
 void moving_turn_pressure(struct fv *s, double tau);
 /* bdf2: cells without a convection of the step before. */
