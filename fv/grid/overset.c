@@ -323,19 +323,31 @@ static bool leads_on(const struct mesh_block *b, int side)
     return b->side[side] == MESH_JOINED || b->side[side] == MESH_PERIODIC;
 }
 
-static bool all_computed(const struct mesh *m, int block, const int *from, int width)
+/* Cells lo to hi - 1, which may lie behind joined sides. */
+static bool computed_box(const struct mesh *m, int block, const int *lo, const int *hi)
 {
+    const struct mesh_block *b = m->block + block;
+    bool inside = true;
     int i[3];
-    for (i[2] = 0; i[2] < (m->dim == 3 ? width : 1); i[2]++)
-        for (i[1] = 0; i[1] < width; i[1]++)
-            for (i[0] = 0; i[0] < width; i[0]++) {
-                int at[3] = {from[0] + i[0], from[1] + i[1], from[2] + i[2]}, k = block;
+    for (int a = 0; a < m->dim; a++)
+        inside = inside && lo[a] >= 0 && hi[a] <= b->n[a];
+    for (i[2] = lo[2]; i[2] < hi[2]; i[2]++)
+        for (i[1] = lo[1]; i[1] < hi[1]; i[1]++)
+            for (i[0] = lo[0]; i[0] < hi[0]; i[0]++) {
+                int at[3] = {i[0], i[1], i[2]}, k = block;
                 double move[3] = {0.0, 0.0, 0.0};
-                if (!mesh_resolve(m, &k, at, move) ||
-                    m->block[k].status[mesh_cell(m->block + k, at)] != CELL_COMPUTED)
+                if (!inside && !mesh_resolve(m, &k, at, move))
+                    return false;
+                if (m->block[k].status[mesh_cell(m->block + k, at)] != CELL_COMPUTED)
                     return false;
             }
     return true;
+}
+
+static bool all_computed(const struct mesh *m, int block, const int *from, int width)
+{
+    const int to[3] = {from[0] + width, from[1] + width, m->dim == 3 ? from[2] + width : 1};
+    return computed_box(m, block, from, to);
 }
 
 /* First cell of the stencil around a place; it stays among the cells. */
@@ -422,7 +434,7 @@ static bool in_overlap_layers(const struct mesh *m, const struct mesh_block *b, 
 /* Whether the stencil may move by a cell: a cut holds for a step. */
 static bool keeps_giving(const struct mesh *m, int block, const int *from, int width)
 {
-    int i[3], lo[3] = {0, 0, 0}, hi[3] = {1, 1, 1};
+    int lo[3] = {0, 0, 0}, hi[3] = {1, 1, 1};
     const struct mesh_block *b = m->block + block;
     for (int a = 0; a < m->dim; a++) {
         lo[a] = from[a] - 1;
@@ -430,16 +442,7 @@ static bool keeps_giving(const struct mesh *m, int block, const int *from, int w
         lo[a] = lo[a] < 0 && !leads_on(b, 2 * a) ? 0 : lo[a];
         hi[a] = hi[a] > b->n[a] && !leads_on(b, 2 * a + 1) ? b->n[a] : hi[a];
     }
-    for (i[2] = lo[2]; i[2] < hi[2]; i[2]++)
-        for (i[1] = lo[1]; i[1] < hi[1]; i[1]++)
-            for (i[0] = lo[0]; i[0] < hi[0]; i[0]++) {
-                int at[3] = {i[0], i[1], i[2]}, k = block;
-                double move[3] = {0.0, 0.0, 0.0};
-                if (!mesh_resolve(m, &k, at, move) ||
-                    m->block[k].status[mesh_cell(m->block + k, at)] != CELL_COMPUTED)
-                    return false;
-            }
-    return true;
+    return computed_box(m, block, lo, hi);
 }
 
 /* Whether a later block than k (or any other one) can give a value at x by `width' cells. */
@@ -575,12 +578,15 @@ static void make_fringe(struct mesh *m, int k)
         index_of(b, c, i);
         if (b->status[c] != CELL_COMPUTED)
             continue;
+        bool inside = true;
+        for (int a = 0; a < m->dim; a++)
+            inside = inside && i[a] >= 2 && i[a] < b->n[a] - 2;
         for (int e = -reach; e <= reach; e++)
             for (int d = -2; d <= 2; d++)
                 for (int p = -2; p <= 2; p++) {
                     int at[3] = {i[0] + p, i[1] + d, i[2] + e}, to = k;
                     double move[3] = {0.0, 0.0, 0.0};
-                    if (!mesh_resolve(m, &to, at, move))
+                    if (!inside && !mesh_resolve(m, &to, at, move))
                         continue;
                     unsigned char *s = m->block[to].status + mesh_cell(m->block + to, at);
                     if (*s == CELL_HOLE)
