@@ -33,6 +33,9 @@ void trimesh_bounds(const struct trimesh *m, double lo[3], double hi[3]);
 double trimesh_normal(const struct trimesh *m, int triangle, double n[3]);
 void trimesh_middle(const struct trimesh *m, int triangle, double x[3]);
 double trimesh_area(const struct trimesh *m);
+/* For each triangle a number that neighbours in one plane share, -1 where no neighbour lies in its
+ * plane; [ntriangles], the caller's. */
+int *trimesh_planes(const struct trimesh *m);
 
 /* What a closed surface holds, with density 1 (Eberly, Polyhedral mass properties, 2002, after
  * Mirtich, J. Graphics Tools 1, 1996): negative where its normals point in. */

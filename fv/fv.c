@@ -137,7 +137,7 @@ static void progress(void *state, char *line, int size)
              fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
 }
 
-static const char *const others[] = {"sph", "coupler", NULL};
+static const char *const others[] = {"sph", "apr", "coupler", NULL};
 
 static struct program fv_program = {.name = "fv",
                                     .help = "implicit finite volumes, fourth order, 2D and 3D",

@@ -46,20 +46,21 @@ struct fv_params {
     int forced_order; /* in time, of partners' data within a window: 1 linear, 2 quadratic */
 };
 
-struct mesh;          /* blocks; grid/mesh.h */
-struct mesh_bc;       /* their sides; boundary/mesh_bc.c */
-struct mesh_pressure; /* poisson/mesh_pressure.c */
-struct overset;       /* search in blocks; grid/overset.h */
-struct stages;        /* time/stages.h */
-struct moving;        /* blocks that move; time/moving.h; NULL: none do */
-struct bc;            /* walls and openings; bc.h; NULL: none */
-struct blocked;       /* boxes cut out; boundary/blocked.h; NULL: none */
-struct forcing;       /* cells whose velocity is imposed; forcing.h; NULL: none */
-struct surface;       /* free surface; levelset.h; NULL: none */
-struct pressure;      /* the operator in hypre; pressure.h */
-struct newton;        /* the implicit integrator; newton.h; NULL: another one */
-struct link;          /* place in a coupled job; fv_coupling.c; NULL alone */
-struct watches;       /* figures that a sound run keeps small; watches.h */
+struct mesh;         /* blocks; grid/mesh.h */
+struct mesh_bc;      /* their sides; boundary/mesh_bc.c */
+struct poisson;      /* poisson/poisson.h */
+struct wet_pressure; /* that of blocks with a surface; poisson/wet_pressure.c */
+struct overset;      /* search in blocks; grid/overset.h */
+struct stages;       /* time/stages.h */
+struct moving;       /* blocks that move; time/moving.h; NULL: none do */
+struct bc;           /* walls and openings; bc.h; NULL: none */
+struct blocked;      /* boxes cut out; boundary/blocked.h; NULL: none */
+struct forcing;      /* cells whose velocity is imposed; forcing.h; NULL: none */
+struct surface;      /* free surface; levelset.h; NULL: none */
+struct pressure;     /* the operator in hypre; pressure.h */
+struct newton;       /* the implicit integrator; newton.h; NULL: another one */
+struct link;         /* place in a coupled job; fv_coupling.c; NULL alone */
+struct watches;      /* figures that a sound run keeps small; watches.h */
 
 struct fv {
     struct run *run;
@@ -97,10 +98,13 @@ struct fv {
     double *face, *flux;    /* scratch */
     double *faces[3];       /* blocks: scratch; the first is face */
     struct moving *moving;
-    double *jump;  /* m^2/s^2: of blocks that move: psi in the fringe beyond its interpolation */
-    double *zw;    /* of blocks that move, without an outflow: psi of the volumes */
-    double *free;  /* blocks: 1: computed, 0: not */
-    double *scale; /* blocks: of the viscous rows */
+    double *jump; /* m^2/s^2: of blocks that move: psi in the fringe beyond its interpolation */
+    double *change[3];  /* m/s: the same of delta */
+    double *zw;         /* of blocks that move, without an outflow: psi of the volumes */
+    double *free;       /* blocks: 1: computed, 0: not */
+    double *scale;      /* blocks: of the viscous rows */
+    double stiffest;    /* 1/s, blocks: mesh_viscous_largest; 0 without walls, where little is left
+                         * to solve for */
     double dissipation; /* blocks: of newton's convection, 0 for the others */
     bool uneven; /* blocks: volumes differ: volume averages are not averages in index space */
     struct bc *bc;
@@ -109,8 +113,9 @@ struct fv {
     struct surface *surface;
     struct pressure *pressure;
     struct mesh_bc *sides;
-    struct mesh_pressure *poisson;
-    struct overset *search; /* of the gauges; NULL: none */
+    struct poisson *poisson;
+    struct wet_pressure *wet; /* in its place on blocks with a surface */
+    struct overset *search;   /* of the gauges; NULL: none */
     struct newton *newton;
     struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;

@@ -66,6 +66,8 @@ struct domain;     /* partition over ranks, migration, halo; domain.h */
 struct walls;      /* walls and bodies; walls.h; NULL: none */
 struct surface;    /* free surface; surface.h; NULL: none */
 struct stages;     /* scheme in time; time/runge_kutta.h */
+struct refinement; /* regions and guards; refinement/refinement.h; NULL: none */
+struct guards;     /* of one level; refinement/guards.h */
 struct zones;      /* transition, buffer, openings; zones.h; NULL: none */
 
 /* The two passes of a pair interaction; scheme.h. */
@@ -86,7 +88,10 @@ struct sph {
     double lo[3], hi[3];        /* region of the particles: the domain, or sph.box */
     bool periodic[3];           /* of that region */
     bool open[6]; /* its sides (2a: low, 2a+1: high) where particles come and go; zones.h */
-    double t;     /* s: time of the state y; during a stage: of that stage */
+    int level;    /* of refinement: dx = dx_0/2^level */
+    struct sph *coarser, *finer; /* the levels next to this one; NULL: none. The coarsest stands
+                                    for all of them; what is of the whole flow is its own */
+    double t;                    /* s: time of the state y; during a stage: of that stage */
     double dt;
     struct particles p;
     struct neighbours *list;
@@ -97,6 +102,8 @@ struct sph {
     struct zones *zones;
     struct walls *walls;
     struct surface *surface;
+    struct refinement *refinement; /* of all levels: the coarsest has it */
+    struct guards *guards;
     double background; /* Pa: of this stage [2.105] */
     double skin;       /* m: the list holds pairs within R + skin */
     double skin_most;  /* m: what ghosts are prepared for, and half a period has room for */
@@ -139,9 +146,11 @@ struct sph {
 struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f);
 void sph_free(struct sph **s);
 
-/* volume.c: at the start, of a fluid of this volume; after the stages of every step. Collective. */
+/* volume.c: at the start, of a fluid of this volume; after the stages of every step; where levels
+ * have exchanged particles, what is kept from then on. Collective. */
 void volume_remember(struct sph *s, double volume);
 void volume_keep(struct sph *s);
+void volume_renew(struct sph *s);
 
 /* pack.c: steps of rearrangement of the first particles between walls; 0: none. Collective. */
 void pack_start(struct sph *s, int steps);
@@ -150,6 +159,8 @@ void pack_start(struct sph *s, int steps);
 struct exact;
 /* lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
 void fill_lattice(struct sph *s);
+/* The first particles of the finer levels: born of the coarser ones, with the exact field. */
+void fill_finer(struct sph *s);
 /* Takes out the locals that packing has pressed into seams of walls narrower than dx. */
 void fill_clear_seams(struct sph *s);
 

@@ -1,12 +1,12 @@
-/* sph_params.h - the parameters of group sph: table, faults between keys, derived defaults.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* sph_params.h - the parameters of groups sph and apr: tables, faults between keys, defaults
+ * that follow from others. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_SPH_PARAMS_H
 #define SPH_SPH_PARAMS_H
 
 #include "../common/scene_speed.h"
 #include "sph.h"
 
-enum { SPH_GROUPS = 1 };
+enum { SPH_GROUPS = 2 };
 extern const struct param_group sph_groups[SPH_GROUPS];
 
 /* As the run uses them: c0, cfl_viscous, box and outer filled in where the case leaves them open.

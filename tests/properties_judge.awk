@@ -125,8 +125,7 @@ function compared(name, t) {
 # rows count; cells are solved to fv.tol_pressure = 1e-2 of a step's divergence, by sweeps that know left from right.
 function tolerance(t, name) {
     if (t == "units") return program["base"] == "coupled" ? 1e-4 : 1e-6
-    # A side in space is two triangles with a flux each, and neither mirrors nor turns move its diagonal: sph/NOTES.md.
-    if (program["base"] == "sph") return know["dim"] == 3 && (t == "mirror" || t == "turn") ? 1e-3 : 1e-5
+    if (program["base"] == "sph") return 1e-5
     return name ~ /force|moment|\[Pa\]/ ? 0.05 : 0.02
 }
 function compare(t,    i, j, from, n, row, big, d, worst, what, name, last, s) {

@@ -294,6 +294,24 @@ static void walls_carry_the_weight(void **state)
     sph_free(&c.s);
 }
 
+/* A side is cut into two triangles and yet its own mirror image: water at rest in a square tank has
+ * no way to go sideways. */
+static void a_square_tank_has_no_sense(void **state)
+{
+    struct sph_case c;
+    double sums[SUM_COUNT];
+    (void)state;
+    tank(&c, 8, true);
+    struct sph *s = sph_case_start(&c, NULL);
+    assert_true(sph_case_run(&c, 10, 100.0));
+    sph_sums(s, sums);
+    const double size = sqrt(2.0 * sums[SUM_MASS] * sums[SUM_KINETIC]);
+    assert_true(size > 0.0);
+    assert_close(sums[SUM_MOMENTUM] / size, 0.0, 1e-9);
+    assert_close(sums[SUM_MOMENTUM + 1] / size, 0.0, 1e-9);
+    sph_free(&c.s);
+}
+
 static void a_particle_behind_is_put_back(void **state)
 {
     struct sph_case c;
@@ -400,6 +418,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(surface_is_found),
         cmocka_unit_test(momentum_is_balanced),
         cmocka_unit_test(walls_carry_the_weight),
+        cmocka_unit_test(a_square_tank_has_no_sense),
         cmocka_unit_test(a_particle_behind_is_put_back),
         cmocka_unit_test(ranks_agree),
         cmocka_unit_test(restart_is_exact),

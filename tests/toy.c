@@ -39,7 +39,7 @@ static const struct param rows[] = {
 /* clang-format on */
 static const struct param_group groups[] = {
     {"toy", "Oscillators", rows, sizeof rows / sizeof rows[0], &params, NULL, 0, 0, NULL}};
-static const char *const others[] = {"sph", "fv", NULL};
+static const char *const others[] = {"sph", "apr", "fv", NULL};
 static const char *const columns[] = {"energy [J]"};
 
 static void describe(const struct run *r)

@@ -36,6 +36,7 @@ static void list_others(const char *others[OTHERS], bool shared, const struct ha
 {
     int n = 0;
     others[n++] = "sph";
+    others[n++] = "apr";
     others[n++] = "fv";
     for (int k = 0; k < OF_SCENE && !shared; k++)
         others[n++] = of_scene[k];

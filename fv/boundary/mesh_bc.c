@@ -28,6 +28,7 @@ struct side {
     double *w[3], *w_old[3]; /* m/s: now and before the last change of time */
     double *slip[3];         /* m/s: what the next projection takes off */
     double *grad_xi[2][3];   /* 1/m: of the tangents' indices on the face */
+    double *tilt;            /* m: slope outwards, a cell, of a level set; NULL: there is none */
 };
 
 struct mesh_bc {
@@ -162,6 +163,8 @@ void mesh_bc_free(struct mesh_bc **b)
                                    d->grad_xi[1][c]};
             for (int q = 0; q < 5; q++)
                 mem_free(all[q]);
+            if (c == 0)
+                mem_free(d->tilt);
         }
     if (*b)
         mem_free((*b)->side);
@@ -364,6 +367,38 @@ void mesh_bc_even(const struct fv *s, bool odd, double *q)
         {
             mirrored(q + c, d->in, odd && d->kind == MESH_OUTFLOW ? -1.0 : 1.0);
             (void)at;
+        }
+    }
+}
+
+/* Whether a level surface meets the face at a slant. */
+static bool is_slanting(const struct fv *s, const struct side *d, int64_t c)
+{
+    const double *g = s->run->scene.fluid.gravity;
+    double gS = 0.0, S2 = 0.0, g2 = 0.0;
+    for (int q = 0; q < s->m->dim; q++) {
+        const double S = s->m->S[d->a][q][c + d->face];
+        gS += g[q] * S;
+        S2 += S * S;
+        g2 += g[q] * g[q];
+    }
+    const double cosine2 = gS * gS / (S2 * g2);
+    return cosine2 > 1e-8 && cosine2 < 1.0 - 1e-8;
+}
+
+void mesh_bc_level(const struct fv *s, bool keep, double *phi)
+{
+    for (int k = 0; k < s->sides->n; k++) {
+        struct side *d = s->sides->side + k;
+        if (!d->tilt)
+            d->tilt = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            double *q = phi + c;
+            if (!keep)
+                d->tilt[at] = is_slanting(s, d, c) ? q[0] - q[d->in] : 0.0;
+            for (int m = 1; m <= MESH_GHOSTS; m++)
+                q[-m * d->in] = q[(m - 1) * d->in] + (2 * m - 1) * d->tilt[at];
         }
     }
 }

@@ -12,6 +12,8 @@ void fv_params_check(const struct run *r, struct faults *f);
 void fv_unused_check(const struct run *r, struct faults *f);
 /* fv_scene.c: faults of a scene on a grid of cells that contradicts itself. */
 void fv_scene_check(const struct run *r, struct faults *f);
+/* The same of its free surface alone, on any grid. */
+void surface_check(const struct run *r, struct faults *f);
 
 /* fv_state.c, mesh_state.c */
 struct fv *fv_create(struct run *r, struct h5 *f);

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../grid/mesh.h"
 #include "../surface/levelset.h"
 #include "fv_case.h"
 #include "../boundary/still.h"
@@ -271,7 +272,21 @@ static void check_aspect(const struct run *r, struct faults *f)
                      most / least, ASPECT_MOST);
 }
 
-static void check_surface(const struct run *r, struct faults *f)
+/* Openings in the sides of blocks: they would know neither the level nor what comes in. */
+static void check_block_sides(const struct run *r, struct faults *f)
+{
+    for (int k = 0; k < r->scene.nwalls; k++)
+        if (r->scene.walls[k].kind == WALL_INFLOW || r->scene.walls[k].kind == WALL_OUTFLOW)
+            wall_fault(r, f, k, "on blocks a free surface wants walls: openings are for fv.cells");
+    for (int k = 0; k < mesh_block_count(); k++)
+        if (mesh_block_has(k, MESH_INFLOW) || mesh_block_has(k, MESH_OUTFLOW) ||
+            mesh_block_has(k, MESH_EXACT))
+            mesh_fault(r, f, k, "name",
+                       "with a free surface its sides are walls, joined, periodic or overlap: an "
+                       "opening is for fv.cells");
+}
+
+void surface_check(const struct run *r, struct faults *f)
 {
     const struct scene *s = &r->scene;
     const double *g = s->fluid.gravity;
@@ -286,15 +301,25 @@ static void check_surface(const struct run *r, struct faults *f)
     if (s->nshapes == 0 && !scene_has_wave(s))
         params_fault(r->params, f, "fv.surface",
                      "where is the water? shapes say it, or a wave (initial.field)");
-    check_aspect(r, f);
-    if (prm->integrator != INTEGRATOR_RK3)
-        params_fault(r->params, f, "fv.integrator", "with a free surface rk3 alone");
+    if (mesh_block_count() == 0)
+        check_aspect(r, f);
+    else if (prm->integrator != INTEGRATOR_RK3)
+        params_fault(r->params, f, "fv.integrator", "with a free surface on blocks rk3 alone");
+    if (prm->steady)
+        params_fault(r->params, f, "fv.steady",
+                     "a free surface moves in time: let it come to rest in a run in time");
+    if (prm->c0 > 0.0)
+        params_fault(r->params, f, "fv.c0",
+                     "not with a free surface: cells that become wet have no pressure of the steps "
+                     "before");
     for (int k = 0; k < s->nwalls; k++)
         check_water_opening(r, f, k);
+    if (mesh_block_count() > 0)
+        check_block_sides(r, f);
     if (prm->hole[1][0] > prm->hole[0][0])
         params_fault(r->params, f, "fv.hole", "not with a free surface");
     for (int a = 0; a < s->domain.dim; a++)
-        for (int up = 0; up < 2 && !s->domain.periodic[a]; up++)
+        for (int up = 0; up < 2 && !s->domain.periodic[a] && mesh_block_count() == 0; up++)
             if (!wall_on(s, a, up))
                 params_fault(r->params, f, "walls",
                              "a free surface needs all sides that are not "
@@ -449,7 +474,7 @@ void fv_scene_check(const struct run *r, struct faults *f)
         check_balance(r, f);
         check_falling(r, f);
     }
-    check_surface(r, f);
+    surface_check(r, f);
     for (int k = 0; k < r->scene.nprobes; k++)
         check_probe(r, f, k);
 }

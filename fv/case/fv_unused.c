@@ -370,7 +370,7 @@ static void check_elements(const struct run *r, struct faults *f)
         params_fault(r->params, f, key,
                      "is not used: without a free surface (%s) the fluid is "
                      "everywhere",
-                     mesh_block_count() > 0 ? "blocks know none" : "fv.surface");
+                     "fv.surface");
     }
 }
 

@@ -6,6 +6,7 @@
 #include "../fv.h"
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
+#include "fv_case.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -163,8 +164,7 @@ void mesh_check(const struct run *r, struct faults *f)
     if (prm->c0 > 0.0)
         params_fault(r->params, f, "fv.c0", "the pressure of blocks knows no sound");
     limits_check(r, f);
-    if (surface_wanted(r))
-        params_fault(r->params, f, "fv.surface", "blocks know no free surface: use fv.cells");
+    surface_check(r, f);
     if (prm->graded[1] > 0.0)
         params_fault(r->params, f, "fv.graded", "not with blocks: they have maps of their own");
     if (prm->hole[1][0] > prm->hole[0][0])
@@ -172,12 +172,15 @@ void mesh_check(const struct run *r, struct faults *f)
     if (mesh_motion_any() && prm->integrator == INTEGRATOR_NEWTON)
         params_fault(r->params, f, "fv.integrator",
                      "newton's residual knows no cells that move: use rk3 or bdf2");
+    if (mesh_motion_any() && surface_wanted(r))
+        params_fault(r->params, f, "fv.surface",
+                     "a free surface does not go with blocks that move yet");
     for (int k = 0; k < mesh_given_count; k++)
         scene_check_motion(&mesh_given[k].motion, "blocks", k, r->params, f);
     for (int k = 0; k < r->scene.nwalls; k++)
         check_wall(r, f, k);
     for (int k = 0; k < r->scene.nprobes; k++)
-        if (r->scene.probes[k].kind != PROBE_PRESSURE)
+        if (r->scene.probes[k].kind != PROBE_PRESSURE && !surface_wanted(r))
             params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
     for (int k = 0; k < mesh_given_count; k++)
         check_block(r, f, k);
@@ -190,5 +193,5 @@ void mesh_check(const struct run *r, struct faults *f)
         if (f->n == before && m->moves)
             mesh_motion_sweep(r, f, m);
     }
-    mesh_free(&m);
+    mesh_leave(&m);
 }

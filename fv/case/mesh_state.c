@@ -1,8 +1,12 @@
 /* mesh_state.c - the state of a flow on blocks, at t = 0 or from a restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
-#include "../poisson/mesh_pressure.h"
+#include "../operators/mesh_ops.h"
+#include "../poisson/poisson.h"
+#include "../poisson/wet_pressure.h"
+#include "../surface/levelset.h"
 #include "../output/mesh_output.h"
+#include "../boundary/still.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 
@@ -59,6 +63,13 @@ static void fill(struct fv *s)
                 s->u[a][c] = at_rest ? 0.0 : u[a];
                 diagonal += m->G[a][a][c] + m->G[a][a][c + p->stride[a]];
             }
+            pr -=
+                scene_has_wave(&s->run->scene)
+                    ? fv_still_pressure(
+                          s, s->m->block[p->block].centre[mesh_cell(
+                                 s->m->block + p->block,
+                                 (const int[]){p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]})])
+                    : 0.0;
             s->p[c] = s->p_before[c] = at_rest ? 0.0 : pr / s->run->scene.fluid.rho;
             s->free[c] = m->status[c] == CELL_COMPUTED;
             s->scale[c] = 1.25 * s->nu * diagonal / m->V[c];
@@ -105,6 +116,8 @@ static void meet_pressures(struct fv *s)
 /* Divergence-free fluxes for the velocities of the start. */
 void mesh_state_start(struct fv *s)
 {
+    if (s->surface) /* the first stage makes them */
+        return;
     projection(s, s->t, 2, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
     s->start_iterations = s->iterations;
     s->iterations = 0;
@@ -118,7 +131,7 @@ void mesh_state_create(struct fv *s)
 {
     struct faults faults = {0};
     struct run *r = s->run;
-    s->m = mesh_create(r, &faults);
+    s->m = mesh_take(r, &faults);
     if (!s->m)
         fail("the blocks were good when they were checked");
     s->dim = s->m->dim;
@@ -137,13 +150,20 @@ void mesh_state_create(struct fv *s)
     }
     make_fields(s);
     fill(s);
+    s->stiffest = mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
     mesh_bc_create(s);
     s->moving = moving_create(s);
-    mesh_pressure_create(s);
+    s->surface = surface_create(s);
+    if (s->surface)
+        wet_pressure_create(s);
+    else
+        poisson_create(s);
     if (r->scene.nprobes > 0)
         s->search = overset_search(r, s->m);
     mesh_fill(s->m, s->m->dim, s->u);
     mesh_bc_velocity(s, BC_GIVEN, s->u);
+    if (s->surface)
+        surface_start(s);
     measure(s);
     double speed = 0.0;
     mesh_bc_rate(s, &speed);
@@ -161,10 +181,13 @@ void mesh_state_create(struct fv *s)
 
 void mesh_state_free(struct fv *s)
 {
-    mesh_pressure_free(&s->poisson);
+    poisson_free(&s->poisson);
+    wet_pressure_free(&s->wet);
     mesh_bc_free(&s->sides);
     moving_free(&s->moving);
     mem_free(s->jump);
+    for (int a = 0; a < 3; a++)
+        mem_free(s->change[a]);
     mem_free(s->zw);
     overset_free(&s->search);
     mesh_free(&s->m);

@@ -10,6 +10,7 @@
 #include "mesh_ops.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
+#include "../surface/levelset.h"
 
 #include <math.h>
 #include <string.h>
@@ -157,7 +158,8 @@ static void even_viscous(const struct fv *s, const struct part *p, const double 
 }
 
 static void even_subtract(const struct mesh *m, const struct part *p, int a, double tau,
-                          const double *restrict psi, double *restrict U)
+                          const double *restrict psi, const double *restrict open,
+                          double *restrict U)
 {
     const int64_t d = p->stride[a];
     const double w = tau * m->G[a][a][part_at(p, 0, 0, 0)];
@@ -165,7 +167,13 @@ static void even_subtract(const struct mesh *m, const struct part *p, int a, dou
     layers(m->dim, a, 1, down, up);
     PART_ROWS (p, down, up, c, n)
         for (int64_t i = c; i < c + n; i++)
-            U[i] -= w * m->open[a][i] * (psi[i] - psi[i - d]);
+            U[i] -= w * open[i] * (psi[i] - psi[i - d]);
+}
+
+/* Whether component k of the faces along a is 0 throughout. */
+static bool is_zero(const struct part *p, int a, int k)
+{
+    return p->kind == PART_UPRIGHT && k != a;
 }
 
 /* ---- on all ------------------------------------------------------------------------------------
@@ -184,12 +192,15 @@ void mesh_face_velocities(struct fv *s, double *const u[3], double *const U[3])
                 even_fluxes(m, p, a, u[a], U[a]);
                 continue;
             }
-            for (int k = 0; k < m->dim; k++)
-                face_values(p, m->dim, a, 2, u[k], s->faces[k]);
             layers(m->dim, a, 1, down, up);
-            for (int k = 0; k < m->dim; k++)
+            for (int k = 0, first = 1; k < m->dim; k++) {
+                if (is_zero(p, a, k))
+                    continue;
+                face_values(p, m->dim, a, 2, u[k], s->faces[k]);
                 PART_ROWS (p, down, up, c, n)
-                    product_row(s->faces[k] + c, m->S[a][k] + c, tangent, nt, n, k == 0, U[a] + c);
+                    product_row(s->faces[k] + c, m->S[a][k] + c, tangent, nt, n, first, U[a] + c);
+                first = 0;
+            }
         }
     }
 }
@@ -260,9 +271,11 @@ void mesh_gradient(struct fv *s, const double *q, double *const g[3])
             face_values(p, m->dim, a, 1, q, s->faces[0]);
             layers(m->dim, a, 0, down, up);
             for (int k = 0; k < m->dim; k++) {
+                if (is_zero(p, a, k))
+                    continue;
                 PART_ROWS (p, down, up, c, n)
                     product_row(s->faces[0] + c, m->S[a][k] + c, tangent, nt, n, true, s->flux + c);
-                add_difference(p, a, s->flux, a == 0, g[k]);
+                add_difference(p, a, s->flux, a == 0 || p->kind == PART_UPRIGHT, g[k]);
             }
         }
         for (int k = 0; k < m->dim; k++)
@@ -311,11 +324,13 @@ void mesh_viscous(struct fv *s, const double *q, double *out)
             layers(m->dim, a, 1, down, up);
             PART_ROWS (p, down, up, c, n)
                 normal_slope(q + c, p->stride[a], n, s->faces[0] + c);
-            face_values(p, m->dim, a, 2, q, s->faces[1]);
+            const bool askew = p->kind == PART_CURVED;
+            if (askew)
+                face_values(p, m->dim, a, 2, q, s->faces[1]);
             layers(m->dim, a, 0, down, up);
             PART_ROWS (p, down, up, c, n) {
                 product_row(s->faces[0] + c, m->G[a][a] + c, tangent, nt, n, true, s->flux + c);
-                for (int t = 0; t < nt; t++)
+                for (int t = 0; askew && t < nt; t++)
                     add_tangential(s->faces[1] + c, m->G[a][axis[t]] + c, tangent[t], tangent, nt,
                                    n, s->flux + c);
             }
@@ -352,20 +367,21 @@ void mesh_subtract_psi(struct fv *s, double tau, const double *psi, double *cons
             int axis[2], down[3], up[3];
             const int nt = tangents(p, m->dim, a, tangent, axis);
             const int64_t d = p->stride[a];
+            const double *open = s->surface ? s->surface->open[a] : m->open[a];
             if (p->kind == PART_EVEN) {
-                even_subtract(m, p, a, tau, psi, U[a]);
+                even_subtract(m, p, a, tau, psi, open, U[a]);
                 continue;
             }
             layers(m->dim, a, 1, down, up);
             PART_ROWS (p, down, up, c, n)
                 for (int64_t i = c; i < c + n; i++) {
                     double F = m->G[a][a][i] * (psi[i] - psi[i - d]);
-                    for (int t = 0; t < nt; t++) {
+                    for (int t = 0; p->kind == PART_CURVED && t < nt; t++) {
                         const int64_t b = tangent[t];
                         F += 0.25 * m->G[a][axis[t]][i] *
                              (psi[i + b] - psi[i - b] + psi[i - d + b] - psi[i - d - b]);
                     }
-                    U[a][i] -= tau * m->open[a][i] * F;
+                    U[a][i] -= tau * open[i] * F;
                 }
         }
     }

@@ -9,10 +9,10 @@
 #include "../fv.h"
 #include "../grid/layout.h"
 #include "../grid/mesh.h"
-#include "../poisson/pressure.h"
 #include "../surface/levelset.h"
 #include "../time/moving.h"
 #include "../time/newton.h"
+#include "../time/stages.h"
 #include "../watch/watches.h"
 #include "../time/steps.h"
 #include "output.h"
@@ -160,7 +160,7 @@ bool fv_restore(struct fv *s, struct h5 *f)
             return false;
     if (s->surface) {
         surface_rebuild(s);
-        pressure_rebuild(s);
+        s->stages->rebuild_pressure(s);
     }
     watches_load(s->watches, f);
     return there(h5_read_attribute_real(f, "dt", &s->dt) &&

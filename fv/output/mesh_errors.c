@@ -17,6 +17,7 @@
 #include "../watch/limits.h"
 #include "../grid/mesh_motion.h"
 #include "../grid/overset.h"
+#include "../surface/levelset.h"
 #include "../watch/watches.h"
 #include "../boundary/still.h"
 
@@ -49,7 +50,10 @@ static void errors(struct fv *s, struct norm n[NORMS])
 static void energies(struct fv *s, double sum[2])
 {
     const struct mesh *m = s->m;
-    sum[0] = sum[1] = 0.0;
+    sum[0] = s->surface ? surface_energy(s) : 0.0;
+    sum[1] = 0.0;
+    if (s->surface)
+        return;
     for (int q = 0; q < m->nparts; q++) {
         const struct part *p = m->part + q;
         int i[3];
@@ -216,16 +220,60 @@ static bool mesh_covers(const struct fv *s, const struct overset *o, const doubl
     return false;
 }
 
+/* Values of phi at places along gravity over x, from the top of the domain; `far' where no cells
+ * are. */
+enum { ALONG = 400 };
+
+static void levels_along(struct fv *s, const double *at, int up, bool down, double *phi)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    const double L = d->max[up] - d->min[up];
+    for (int n = 0; n <= ALONG; n++) {
+        double x[3] = {at[0], at[1], at[2]};
+        x[up] = down ? d->min[up] + n * L / ALONG : d->max[up] - n * L / ALONG;
+        phi[n] = mesh_value_at(s, s->search, x, 2, s->surface->phi);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, phi, ALONG + 1, MPI_DOUBLE, MPI_SUM, s->comm);
+}
+
+/* Place along gravity of the highest water over x; the domain's end if there is none. */
+static double level_at(struct fv *s, const double *x)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    const int up = still_upright(&s->run->scene);
+    const bool down = s->run->scene.fluid.gravity[up] > 0.0;
+    const double top = down ? d->min[up] : d->max[up], end = down ? d->max[up] : d->min[up];
+    double phi[ALONG + 1];
+    levels_along(s, x, up, down, phi);
+    for (int n = 0; n <= ALONG; n++) {
+        if (!(phi[n] < 0.0))
+            continue;
+        const double back = n > 0 && phi[n - 1] > 0.0 ? phi[n] / (phi[n] - phi[n - 1]) : 0.0;
+        return top + (end - top) * (n - back) / ALONG;
+    }
+    return end;
+}
+
 static void probes(struct fv *s, double *values)
 {
     const struct scene *scene = &s->run->scene;
-    for (int k = 0; k < scene->nprobes; k++)
-        values[k] = mesh_value_at(s, s->search, scene->probes[k].at, 2, NULL);
-    MPI_Allreduce(MPI_IN_PLACE, values, scene->nprobes, MPI_DOUBLE, MPI_SUM, s->comm);
-    for (int k = 0; k < scene->nprobes && s->m->moves; k++) /* where a body is there is none */
-        values[k] = mesh_covers(s, s->search, scene->probes[k].at) ? values[k] : NAN;
-    for (int k = 0; k < scene->nprobes; k++)
-        values[k] += still_pressure(scene, s->still, s->level, scene->probes[k].at);
+    for (int k = 0; k < scene->nprobes; k++) {
+        const struct scene_probe *p = scene->probes + k;
+        double here[2] = {0.0, 0.0};
+        if (p->kind == PROBE_LEVEL) {
+            values[k] = level_at(s, p->at);
+            continue;
+        }
+        here[0] = mesh_value_at(s, s->search, p->at, 2, NULL);
+        here[1] = s->surface ? mesh_value_at(s, s->search, p->at, 2, s->surface->phi) : -1.0;
+        MPI_Allreduce(MPI_IN_PLACE, here, 2, MPI_DOUBLE, MPI_SUM, s->comm);
+        if (s->m->moves && !mesh_covers(s, s->search, p->at)) { /* where a body is there is none */
+            values[k] = NAN;
+            continue;
+        }
+        values[k] =
+            here[1] < 0.0 ? here[0] + still_pressure(scene, s->still, s->level, p->at) : 0.0;
+    }
 }
 
 /* Mean and half range of the forces over the second half of the run, frequency of the one along y
@@ -300,6 +348,8 @@ static void summarise(struct fv *s)
         s->defect = fabs(mesh_bc_net_flux(s));
     if (s->m->has_fringe && s->umax[0] > 0.0) /* relative to the flow, if there is one */
         summary_real(to, "overlap.net_flux", s->defect / s->umax[0]);
+    if (s->surface)
+        surface_summarise(s);
     if (mesh_bc_has_walls(s->m))
         summarise_forces(s);
     summary_int(to, "poisson_iterations_start", s->start_iterations);
@@ -356,11 +406,13 @@ static void describe_scene(const struct run *r, const struct mesh *m)
             snprintf(sides + n, sizeof sides - n, "%s%s", n ? ", " : "", kinds[kind]);
     }
     log_say("%dD, fourth-order averages, rk3, three projections a step; sides: %s", m->dim, sides);
-    log_say("%s%s%s%s; off: free surface, forced cells, coupling%s%s%s%s",
-            viscous ? "viscous, implicit" : "inviscid", walls ? ", walls" : "",
+    log_say("%s%s%s%s%s; off: %sforced cells, coupling%s%s%s%s",
+            viscous ? "viscous, implicit" : "inviscid",
+            surface_wanted(r) ? ", free surface (level set)" : "", walls ? ", walls" : "",
             m->has_fringe ? ", interpolation where blocks overlap" : "", heavy ? ", gravity" : "",
-            viscous ? "" : ", viscous solver", walls ? "" : ", walls",
-            m->has_fringe ? "" : ", interpolation", heavy ? "" : ", gravity");
+            surface_wanted(r) ? "" : "free surface, ", viscous ? "" : ", viscous solver",
+            walls ? "" : ", walls", m->has_fringe ? "" : ", interpolation",
+            heavy ? "" : ", gravity");
     log_say("%s", fv_measures_errors(r) ? "errors against the exact solution"
                                         : "no exact solution to measure errors by");
 }
@@ -391,7 +443,7 @@ void mesh_describe(const struct run *r)
 {
     static const char *const shapes[] = {"box", "stretched box", "ring", "sheared box", "file"};
     struct faults f = {0};
-    struct mesh *m = mesh_create(r, &f);
+    struct mesh *m = mesh_take(r, &f);
     for (int k = 0; m && k < m->nblocks; k++) {
         const struct mesh_block *b = m->block + k;
         int64_t count[3] = {0, 0, 0};
@@ -406,5 +458,5 @@ void mesh_describe(const struct run *r)
         describe_scene(r, m);
         describe_step(r, m);
     }
-    mesh_free(&m);
+    mesh_leave(&m);
 }

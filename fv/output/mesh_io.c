@@ -15,6 +15,7 @@
 #include "../../common/mem.h"
 #include "../../common/xdmf.h"
 #include "../grid/layout.h"
+#include "../surface/levelset.h"
 #include "../watch/watches.h"
 #include "../boundary/still.h"
 
@@ -77,6 +78,22 @@ static void write_field(const struct fv *s, struct h5 *f, int k, const char *fie
     mem_free(v);
 }
 
+/* phi has a value in dry cells, too. */
+static void write_level(const struct fv *s, struct h5 *f, int k)
+{
+    const struct mesh *m = s->m;
+    int lo[3], hi[3], i[3];
+    char name[64];
+    const struct part *p = range(m, k, lo, hi);
+    double *v = NEW(double, p ? (int64_t)p->n[0] * p->n[1] * p->n[2] : 0), *to = v;
+    if (p)
+        PART_CELLS (p, i, c)
+            *to++ = m->status[c] == CELL_COMPUTED ? s->surface->phi[c] : NAN;
+    snprintf(name, sizeof name, "level_set_%d", k + 1);
+    h5_write_block(f, name, "m", m->dim, m->block[k].n, lo, hi, 1, v, true);
+    mem_free(v);
+}
+
 static void whole_pressure(const struct fv *s, double *q)
 {
     const struct mesh *m = s->m;
@@ -95,7 +112,7 @@ static void whole_pressure(const struct fv *s, double *q)
 void mesh_snapshot(struct fv *s, struct h5 *f, struct xdmf *x, const char *file)
 {
     const struct mesh *m = s->m;
-    struct xdmf_field fields[4];
+    struct xdmf_field fields[5];
     int n = 0, cells[MESH_BLOCKS_MAX][3];
     double *q = mesh_field(m);
     h5_attribute_int(f, "blocks", m->nblocks);
@@ -119,6 +136,11 @@ void mesh_snapshot(struct fv *s, struct h5 *f, struct xdmf *x, const char *file)
         for (int k = 0; k < m->nblocks; k++)
             write_field(s, f, k, "vorticity", "1/s", 1, &q);
         fields[n++] = (struct xdmf_field){"vorticity", 1};
+    }
+    if (s->surface) {
+        for (int k = 0; k < m->nblocks; k++)
+            write_level(s, f, k);
+        fields[n++] = (struct xdmf_field){"level_set", 1};
     }
     if (x)
         xdmf_curved(x, s->t, file, m->dim, m->nblocks, (const int(*)[3])cells, n, fields);

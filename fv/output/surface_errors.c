@@ -6,21 +6,22 @@
 #include "../../common/mem.h"
 #include "../boundary/blocked.h"
 #include "../surface/levelset.h"
+#include "../surface/mesh_view.h"
 #include "../boundary/still.h"
 #include "output.h"
 
 double surface_energy(const struct fv *s)
 {
-    const struct block *b = &s->b;
     double sum = 0.0;
-    BLOCK_ROWS (b, 0, c, n)
-        for (int64_t i = c; i < c + n; i++) {
-            double square = 0.0;
-            for (int a = 0; a < b->dim; a++)
-                square += s->u[a][i] * s->u[a][i];
-            sum += square > 0.0 ? 0.5 * square * surface_share(s, i) * block_volume(b, j_) : 0.0;
-        }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++) {
+        double square = 0.0;
+        for (int a = 0; a < s->dim; a++)
+            square += s->u[a][i] * s->u[a][i];
+        sum +=
+            square > 0.0 ? 0.5 * square * surface_share(s, i) * surface_cell_volume(s, i, j_) : 0.0;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
     return sum;
 }
 
@@ -58,8 +59,27 @@ static double foot_of_water(const struct fv *s, const int *at, int64_t c, int a)
     return end + more;
 }
 
+/* On blocks: to the surface along the indices, or to a wall. */
+static double reach_on_blocks(const struct fv *s, int a)
+{
+    const struct surface_mesh *w = s->surface->mesh;
+    const double *phi = s->surface->phi, *x = w->x[a];
+    double most = -INFINITY;
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        for (int b = 0; b < 2 * s->dim && s->free[i] > 0.0; b++) {
+            const int64_t to = b % 2 ? i + p_->stride[b / 2] : i - p_->stride[b / 2];
+            const double way = w->out[to] ? 0.5 : phi[to] < 0.0 ? 0.0 : phi[i] / (phi[i] - phi[to]);
+            most = fmax(most, x[i] + way * (x[to] - x[i]));
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
+    return most;
+}
+
 double surface_reach(const struct fv *s, int a)
 {
+    if (s->m)
+        return reach_on_blocks(s, a);
     const struct block *b = &s->b;
     const double *phi = s->surface->phi;
     double most = -INFINITY, x[3];
@@ -128,14 +148,32 @@ static double row_in_mode(const struct fv *s, int64_t at, const double *c, const
     return sum;
 }
 
-/* Momentum in the inviscid mode of the wave. */
-void surface_sample(struct fv *s)
+/* The same over blocks, cell by cell. */
+static double mode_on_blocks(const struct fv *s)
+{
+    const struct exact *e = &s->exact;
+    double *const *x = s->surface->mesh->x, sum = 0.0;
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++) {
+        const double kx = e->wave.k * e->along[0], kz = e->crossed ? e->wave.k * e->along[1] : 0.0,
+                     y = e->wave.k * (x[1][i] - e->bottom), count = s->surface->mesh->count[i];
+        double m = 0.0;
+        if (s->surface->layer[i] > 2 || count == 0.0)
+            continue;
+        m = cos(kz * x[2][i]) * (s->u[1][i] * sinh(y) * cos(kx * x[0][i]) -
+                                 e->along[0] * s->u[0][i] * cosh(y) * sin(kx * x[0][i]));
+        if (e->crossed)
+            m -= e->along[1] * s->u[2][i] * cosh(y) * cos(kx * x[0][i]) * sin(kz * x[2][i]);
+        sum += count * surface_share(s, i) * m;
+    }
+    return sum;
+}
+
+static double mode_on_even_cells(const struct fv *s)
 {
     const struct block *b = &s->b;
     const struct exact *e = &s->exact;
     double sum = 0.0, x[3];
-    if (e->field != FIELD_STANDING_WAVE)
-        return;
     double *c = NEW(double, 2 * (b->n[0] + b->n[2])), *v = c + b->n[0], *cz = v + b->n[0],
            *vz = cz + b->n[2];
     waves_along(b, 0, e->wave.k * e->along[0], c, v);
@@ -149,7 +187,16 @@ void surface_sample(struct fv *s)
                                (const double[]){sinh(z), cosh(z), cz[k], vz[k]});
         }
     mem_free(c);
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+    return sum;
+}
+
+/* Momentum in the inviscid mode of the wave. */
+void surface_sample(struct fv *s)
+{
+    if (s->exact.field != FIELD_STANDING_WAVE)
+        return;
+    double sum = s->m ? mode_on_blocks(s) : mode_on_even_cells(s);
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
     fit_add(&s->swing, s->t, sum);
 }
 
@@ -181,7 +228,7 @@ static void summarise_swing(struct fv *s)
         summary_real(to, "damping", r);
         summary_real(to, "error.damping", rate != 0.0 ? fabs(r / rate - 1.0) : fabs(r) * period);
     }
-    if (rate != 0.0) {
+    if (rate != 0.0 && !s->m) {
         const struct scene_domain *d = &s->run->scene.domain;
         summary_real(to, "error.enstrophy",
                      fabs(enstrophy(s) / exact_enstrophy(&s->exact, d->min, d->max, s->t) - 1.0));

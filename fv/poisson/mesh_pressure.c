@@ -5,11 +5,10 @@
  * one row is replaced by psi = 0, A_p, and the residual of that row is what the right side has too
  * much. z_w = A_p^-1 V is kept, so each solve takes out the right multiple c of the volumes:
  *   z = A_p^-1 b, c = (b - A z)_1/(V - A z_w)_1, psi = z - c z_w:  A psi = b - c V in all rows.
- * GMRES with one cycle of BoomerAMG; the true residual is looked at; if it is not small enough
- * again with BiCGSTAB and a stronger cycle. SPDX-License-Identifier: BSD-3-Clause */
+ * Conjugate residuals with one cycle of BoomerAMG; if the residual is not small enough again with
+ * BiCGSTAB and a stronger cycle. SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
 #include "../operators/mesh_ops.h"
-#include "mesh_pressure.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 
@@ -22,6 +21,8 @@
 
 #include "../../common/log.h"
 #include "../../common/mem.h"
+#include "backend.h"
+#include "gcr.h"
 #include "hypre_call.h"
 
 enum { ROW_MAX = 96 };
@@ -38,13 +39,13 @@ struct vector {
 struct mesh_pressure {
     struct matrix whole, solved; /* the second with the replaced row; the same without */
     struct vector b, x, r;
-    HYPRE_Solver gmres, amg, safe, safe_amg; /* the safe pair is made when needed */
+    HYPRE_Solver amg, safe, safe_amg; /* the safe pair is made when needed */
+    struct gcr gcr;
     bool singular;
     HYPRE_BigInt first, last, pinned;
     int n;          /* rows of this rank */
     int64_t *place; /* of each row */
-    double *value, *residual;
-    HYPRE_BigInt *row;
+    double shift;   /* 1/m^2 */
     double *zw, cw; /* A_p^-1 V; residual of its row */
     double *volume; /* right side V of computed cells */
     double volumes; /* m^dim: of all computed cells */
@@ -139,12 +140,13 @@ static void computed_row(const struct mesh *m, const struct part *p, const int *
 }
 
 static void make_row(const struct mesh *m, const struct part *p, const int *i,
-                     const struct mesh_fringe *fringe, double scale, struct row *r)
+                     const struct mesh_fringe *fringe, double scale, double shift, struct row *r)
 {
     const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
     const int64_t c = part_at(p, i[0], i[1], i[2]);
     if (m->status[c] == CELL_COMPUTED) {
         computed_row(m, p, i, r);
+        add(r, (HYPRE_BigInt)mesh_row(m, p->block, at), shift * m->V[c]);
         return;
     }
     r->n = 0;
@@ -207,9 +209,8 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
             for (i[1] = 0; i[1] < part->n[1]; i[1]++)
                 for (i[0] = 0; i[0] < part->n[0]; i[0]++, row++) {
                     const int64_t c = part_at(part, i[0], i[1], i[2]);
-                    make_row(m, part, i, m->fringes + fringe[c], p->fringe, &r);
+                    make_row(m, part, i, m->fringes + fringe[c], p->fringe, p->shift, &r);
                     p->place[row - p->first] = c;
-                    p->row[row - p->first] = row;
                     set_row(&p->whole, row, &r);
                     if (p->singular)
                         set_row(&p->solved, row, &r);
@@ -257,7 +258,6 @@ static void keep_rows(const struct mesh *m, struct mesh_pressure *p)
             memcpy(p->row_col + n, r.col, (size_t)r.n * sizeof *r.col);
             memcpy(p->row_value + n, r.v, (size_t)r.n * sizeof *r.v);
             p->place[k] = c;
-            p->row[k] = p->first + k;
             p->row_first[++k] = (int)(n += r.n);
         }
     }
@@ -278,12 +278,16 @@ static int find_pinned(const struct mesh *m, struct mesh_pressure *p)
 static void set_matrix(const struct mesh *m, struct mesh_pressure *p, struct matrix *A,
                        HYPRE_Int *ncols, const HYPRE_BigInt *col, const double *v)
 {
+    HYPRE_BigInt *row = NEW(HYPRE_BigInt, p->n);
+    for (int k = 0; k < p->n; k++)
+        row[k] = p->first + k;
     HYPRE(HYPRE_IJMatrixCreate(m->comm, p->first, p->last, p->first, p->last, &A->ij));
     HYPRE(HYPRE_IJMatrixSetObjectType(A->ij, HYPRE_PARCSR));
     HYPRE(HYPRE_IJMatrixSetRowSizes(A->ij, ncols));
     HYPRE(HYPRE_IJMatrixInitialize(A->ij));
     if (p->n > 0)
-        HYPRE(HYPRE_IJMatrixSetValues(A->ij, p->n, ncols, p->row, col, v));
+        HYPRE(HYPRE_IJMatrixSetValues(A->ij, p->n, ncols, row, col, v));
+    mem_free(row);
     finish_matrix(A);
 }
 
@@ -312,7 +316,7 @@ static void fill_anew(struct fv *s, struct mesh_pressure *p)
             memcpy(col + n, p->row_col + at, (size_t)ncols[k] * sizeof *col);
             memcpy(v + n, p->row_value + at, (size_t)ncols[k] * sizeof *v);
         } else {
-            struct row r = {.n = 1, .col = {p->row[k]}, .v = {p->fringe}};
+            struct row r = {.n = 1, .col = {p->first + k}, .v = {p->fringe}};
             if (fringe[c] > 0)
                 add_fringe(m, m->fringes + fringe[c] - 1, p->fringe, &r);
             ncols[k] = r.n;
@@ -344,13 +348,13 @@ static void create_vector(const struct mesh *m, struct mesh_pressure *p, struct 
 static void set_vector(struct mesh_pressure *p, struct vector *v, const double *values)
 {
     if (p->n > 0)
-        HYPRE(HYPRE_IJVectorSetValues(v->ij, p->n, p->row, values));
+        HYPRE(HYPRE_IJVectorSetValues(v->ij, p->n, NULL, values)); /* NULL: all, in order */
 }
 
 static void get_vector(struct mesh_pressure *p, struct vector *v, double *values)
 {
     if (p->n > 0)
-        HYPRE(HYPRE_IJVectorGetValues(v->ij, p->n, p->row, values));
+        HYPRE(HYPRE_IJVectorGetValues(v->ij, p->n, NULL, values));
 }
 
 static HYPRE_ParCSRMatrix matrix_of(const struct mesh_pressure *p)
@@ -370,34 +374,32 @@ static HYPRE_Solver make_amg(int relax, int sweeps, int coarsen)
     HYPRE(HYPRE_BoomerAMGSetStrongThreshold(amg, 0.25));
     HYPRE(HYPRE_BoomerAMGSetTol(amg, 0.0));
     HYPRE(HYPRE_BoomerAMGSetMaxIter(amg, 1));
+    HYPRE(HYPRE_BoomerAMGSetRelaxOrder(amg, 1)); /* coarse cells first, then the others */
     return amg;
 }
 
-/* In place of a setup: the hierarchy of a matrix before serves a neighbour; its cycle has the new
- * one on the finest level. */
-static HYPRE_Int keep_hierarchy(HYPRE_Solver amg, HYPRE_Matrix A, HYPRE_Vector b, HYPRE_Vector x)
+static void make_solver(struct mesh_pressure *p)
 {
-    (void)amg;
-    (void)A;
-    (void)b;
-    (void)x;
-    return 0;
+    p->amg = make_amg(3, 1, 10);
+    HYPRE(HYPRE_BoomerAMGSetup(p->amg, matrix_of(p), p->b.v, p->x.v));
 }
 
-static void make_gmres(const struct mesh *m, struct mesh_pressure *p, HYPRE_PtrToSolverFcn setup)
+static void apply_rows(void *of, double *x, double *Ax)
 {
-    HYPRE(HYPRE_ParCSRGMRESCreate(m->comm, &p->gmres));
-    HYPRE(HYPRE_GMRESSetKDim(p->gmres, 30));
-    HYPRE(HYPRE_GMRESSetMaxIter(p->gmres, 60));
-    HYPRE(
-        HYPRE_GMRESSetPrecond(p->gmres, (HYPRE_PtrToSolverFcn)HYPRE_BoomerAMGSolve, setup, p->amg));
-    HYPRE(HYPRE_ParCSRGMRESSetup(p->gmres, matrix_of(p), p->b.v, p->x.v));
+    struct mesh_pressure *p = of;
+    set_vector(p, &p->x, x);
+    HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, matrix_of(p), p->x.v, 0.0, p->r.v));
+    get_vector(p, &p->r, Ax);
 }
 
-static void make_solver(const struct mesh *m, struct mesh_pressure *p)
+static void cycle_rows(void *of, double *r, double *z)
 {
-    p->amg = make_amg(3, 1, 8);
-    make_gmres(m, p, (HYPRE_PtrToSolverFcn)HYPRE_BoomerAMGSetup);
+    struct mesh_pressure *p = of;
+    memset(z, 0, (size_t)p->n * sizeof(double));
+    set_vector(p, &p->b, r);
+    set_vector(p, &p->x, z);
+    HYPRE(HYPRE_BoomerAMGSolve(p->amg, matrix_of(p), p->b.v, p->x.v));
+    get_vector(p, &p->x, z);
 }
 
 static void make_safe(const struct mesh *m, struct mesh_pressure *p)
@@ -410,70 +412,61 @@ static void make_safe(const struct mesh *m, struct mesh_pressure *p)
     HYPRE(HYPRE_ParCSRBiCGSTABSetup(p->safe, matrix_of(p), p->b.v, p->x.v));
 }
 
-/* r = b - A x, its largest norm told by sum of squares; r stays in p->residual. */
-static double residual(struct fv *s, struct mesh_pressure *p, HYPRE_ParCSRMatrix A, const double *b)
-{
-    double sum = 0.0;
-    HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, A, p->x.v, 0.0, p->r.v));
-    get_vector(p, &p->r, p->residual);
-    for (int k = 0; k < p->n; k++) {
-        p->residual[k] = b[k] - p->residual[k];
-        sum += p->residual[k] * p->residual[k];
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
-    return sqrt(sum);
-}
-
-static double norm(struct fv *s, const double *b, int n)
-{
-    double sum = 0.0;
-    for (int k = 0; k < n; k++)
-        sum += b[k] * b[k];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
-    return sqrt(sum);
-}
-
 /* What rounding leaves of A x: no solver gets below it. */
-static double rounding(struct fv *s, struct mesh_pressure *p)
+static double rounding(const struct mesh_pressure *p, const double *x)
 {
-    get_vector(p, &p->x, p->residual);
-    return 1e-15 * p->fringe * norm(s, p->residual, p->n);
+    return 1e-15 * p->fringe * gcr_norm(&p->gcr, x);
 }
 
-/* Solves for the right side b (its pinned row counts as 0), x from its start; false: not. */
-static bool solve(struct fv *s, struct mesh_pressure *p, double *b, double tol)
+/* Again with the stronger cycle; the residual's norm then. */
+static double solve_safely(struct fv *s, struct mesh_pressure *p, double *b, double tol, double *x)
 {
     HYPRE_Int its = 0;
-    if (p->pinned >= p->first && p->pinned <= p->last)
-        b[p->pinned - p->first] = 0.0;
-    const double wanted = tol * norm(s, b, p->n);
-    set_vector(p, &p->b, b);
-    HYPRE(HYPRE_GMRESSetTol(p->gmres, tol));
-    HYPRE(HYPRE_ParCSRGMRESSolve(p->gmres, matrix_of(p), p->b.v, p->x.v));
-    HYPRE(HYPRE_GMRESGetNumIterations(p->gmres, &its));
-    s->iterations += its;
-    const double left = residual(s, p, matrix_of(p), b);
-    if (left <= 2.0 * wanted || left <= rounding(s, p))
-        return true;
+    double left;
     if (!p->safe)
         make_safe(s->m, p);
     s->retries++;
+    set_vector(p, &p->b, b);
+    set_vector(p, &p->x, x);
     HYPRE(HYPRE_BiCGSTABSetTol(p->safe, tol));
     HYPRE(HYPRE_ParCSRBiCGSTABSolve(p->safe, matrix_of(p), p->b.v, p->x.v));
     HYPRE(HYPRE_BiCGSTABGetNumIterations(p->safe, &its));
     s->iterations += its;
-    return residual(s, p, matrix_of(p), b) <= 10.0 * wanted;
+    get_vector(p, &p->x, x);
+    gcr_solve(&p->gcr, b, x, 0.0, 0, &left);
+    return left;
 }
 
-/* What the last residual has in the replaced row, on all ranks. */
-static double pinned_residual(struct fv *s, struct mesh_pressure *p, const double *b)
+/* Solves for the right side b (its pinned row counts as 0), x from its start; false: not. */
+static bool solve_pinned(struct fv *s, struct mesh_pressure *p, double *b, double tol, double *x)
+{
+    double left;
+    if (p->pinned >= p->first && p->pinned <= p->last)
+        b[p->pinned - p->first] = 0.0;
+    const double wanted = tol * gcr_norm(&p->gcr, b);
+    s->iterations += gcr_solve(&p->gcr, b, x, wanted, 60, &left);
+    if (left <= 2.0 * wanted || left <= rounding(p, x))
+        return true;
+    return solve_safely(s, p, b, tol, x) <= 10.0 * wanted;
+}
+
+/* b - A x in the replaced row, on all ranks. */
+static double pinned_residual(struct fv *s, struct mesh_pressure *p, double b, double *x)
 {
     double v = 0.0;
-    residual(s, p, p->whole.A, b);
-    if (p->pinned >= p->first && p->pinned <= p->last)
-        v = p->residual[p->pinned - p->first];
+    set_vector(p, &p->x, x);
+    HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, p->whole.A, p->x.v, 0.0, p->r.v));
+    if (p->pinned >= p->first && p->pinned <= p->last) {
+        HYPRE(HYPRE_IJVectorGetValues(p->r.ij, 1, &p->pinned, &v));
+        v = b - v;
+    }
     MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
     return v;
+}
+
+static double in_pinned_row(const struct mesh_pressure *p, const double *b)
+{
+    return p->pinned >= p->first && p->pinned <= p->last ? b[p->pinned - p->first] : 0.0;
 }
 
 /* c V is no larger than the right side it is taken out of, so z_w needs a tenth of the finest
@@ -484,11 +477,10 @@ static void solve_volumes(struct fv *s, struct mesh_pressure *p)
     double *b = NEW(double, p->n);
     const double tol = (s->m->moves ? 1e-2 : 1e-4) * fmin(1.0, s->prm.tol_pressure);
     memcpy(b, p->volume, (size_t)p->n * sizeof(double));
-    set_vector(p, &p->x, p->zw);
-    if (!solve(s, p, b, tol) && !(residual(s, p, matrix_of(p), b) < 1e-6 * norm(s, b, p->n)))
+    if (!solve_pinned(s, p, b, tol, p->zw) &&
+        !(gcr_norm(&p->gcr, p->gcr.r) < 1e-6 * gcr_norm(&p->gcr, b)))
         fail("the pressure matrix of the blocks cannot be solved");
-    get_vector(p, &p->x, p->zw);
-    p->cw = pinned_residual(s, p, p->volume);
+    p->cw = pinned_residual(s, p, in_pinned_row(p, p->volume), p->zw);
     mem_free(b);
 }
 
@@ -502,10 +494,10 @@ static void set_volumes(const struct fv *s, struct mesh_pressure *p)
     MPI_Allreduce(MPI_IN_PLACE, &p->volumes, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
 }
 
-void mesh_pressure_create(struct fv *s)
+static void *create(struct fv *s)
 {
     const struct mesh *m = s->m;
-    struct mesh_pressure *p = s->poisson = NEW(struct mesh_pressure, 1);
+    struct mesh_pressure *p = NEW(struct mesh_pressure, 1);
     int64_t first, n;
     mesh_rows(m, m->rank, &first, &n);
     p->n = (int)n;
@@ -513,9 +505,6 @@ void mesh_pressure_create(struct fv *s)
     p->last = (HYPRE_BigInt)(first + n - 1);
     p->singular = !mesh_bc_pressure_given(s);
     p->place = NEW(int64_t, n);
-    p->row = NEW(HYPRE_BigInt, n);
-    p->value = NEW(double, n);
-    p->residual = NEW(double, n);
     p->volume = NEW(double, n);
     p->zw = NEW(double, n);
     if (m->moves)
@@ -525,10 +514,12 @@ void mesh_pressure_create(struct fv *s)
     create_vector(m, p, &p->b);
     create_vector(m, p, &p->x);
     create_vector(m, p, &p->r);
-    make_solver(m, p);
+    make_solver(p);
+    gcr_create(&p->gcr, m->comm, p->n, p, apply_rows, cycle_rows);
     set_volumes(s, p);
     if (p->singular)
         solve_volumes(s, p);
+    return p;
 }
 
 static void free_matrix(struct matrix *A)
@@ -547,19 +538,19 @@ static void free_safe(struct mesh_pressure *p)
     p->safe = NULL;
 }
 
-void mesh_pressure_renew(struct fv *s, bool hierarchy)
+/* The hierarchy of a matrix before serves a neighbour: its cycle has the new one on the finest
+ * level. */
+static void renew(struct fv *s, void *of, bool hierarchy)
 {
-    struct mesh_pressure *p = s->poisson;
+    struct mesh_pressure *p = of;
     free_safe(p);
-    HYPRE_ParCSRGMRESDestroy(p->gmres);
     free_matrix(&p->whole);
     free_matrix(&p->solved);
     fill_anew(s, p);
     if (hierarchy) {
         HYPRE_BoomerAMGDestroy(p->amg);
-        make_solver(s->m, p);
-    } else
-        make_gmres(s->m, p, keep_hierarchy);
+        make_solver(p);
+    }
     set_volumes(s, p);
     if (!p->singular)
         return;
@@ -570,115 +561,72 @@ void mesh_pressure_renew(struct fv *s, bool hierarchy)
         s->zw[p->place[k]] = p->zw[k];
 }
 
-void mesh_pressure_free(struct mesh_pressure **pp)
+static void free_matrices(void **of)
 {
-    struct mesh_pressure *p = *pp;
+    struct mesh_pressure *p = *of;
     if (!p)
         return;
-    HYPRE_ParCSRGMRESDestroy(p->gmres);
     HYPRE_BoomerAMGDestroy(p->amg);
     free_safe(p);
+    gcr_free(&p->gcr);
     free_matrix(&p->whole);
     free_matrix(&p->solved);
     HYPRE_IJVectorDestroy(p->b.ij);
     HYPRE_IJVectorDestroy(p->x.ij);
     HYPRE_IJVectorDestroy(p->r.ij);
     mem_free(p->place);
-    mem_free(p->row);
-    mem_free(p->value);
-    mem_free(p->residual);
     mem_free(p->volume);
     mem_free(p->zw);
     mem_free(p->row_first);
     mem_free(p->row_col);
     mem_free(p->row_value);
     mem_free(p);
-    *pp = NULL;
+    *of = NULL;
 }
 
-/* Mean over the computed volumes. */
-static double mean(struct fv *s, const struct mesh_pressure *p, const double *z)
+/* One row is free for psi = 0 only as long as the matrix is singular. */
+static void set_shift(struct fv *s, void *of, double shift)
 {
-    double sum = 0.0;
+    struct mesh_pressure *p = of;
+    if (shift == p->shift)
+        return;
+    HYPRE_BoomerAMGDestroy(p->amg);
+    free_matrix(&p->whole);
+    free_matrix(&p->solved);
+    p->shift = shift;
+    p->singular = !mesh_bc_pressure_given(s) && shift == 0.0;
+    fill_matrices(s, p);
+    make_solver(p);
+}
+
+static bool solve(struct fv *s, void *of, double *b, double tol, double *x, double *psi, double *c)
+{
+    struct mesh_pressure *p = of;
+    for (int k = 0; k < p->n && s->jump; k++)
+        b[k] *= s->m->status[p->place[k]] == CELL_FRINGE ? p->fringe : 1.0;
+    const double kept = in_pinned_row(p, b);
+    const bool good = solve_pinned(s, p, b, tol, x);
+    *c = p->singular ? pinned_residual(s, p, kept, x) / p->cw : 0.0;
     for (int k = 0; k < p->n; k++)
-        sum += p->volume[k] * z[k];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
-    return sum / p->volumes;
-}
-
-/* What rounding makes of divergences: nothing to solve for. */
-static bool negligible(struct fv *s, const struct mesh_pressure *p, const double *div)
-{
-    double sum[2] = {0.0, 0.0};
-    for (int k = 0; k < p->n; k++) {
-        const int64_t c = p->place[k];
-        sum[0] += div[c] * div[c];
-        for (int a = 0; a < s->m->dim; a++)
-            sum[1] += s->free[c] * s->U[a][c] * s->U[a][c];
-        if (s->jump && s->m->status[c] == CELL_FRINGE && s->jump[c] != 0.0)
-            sum[0] = INFINITY;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->m->comm);
-    return sum[0] <= 1e-27 * sum[1];
-}
-
-bool mesh_pressure_solve(struct fv *s, double tau, const double *div, double tol, double *start,
-                         double *psi)
-{
-    struct mesh_pressure *p = s->poisson;
-    double *b = p->value, c = 0.0;
-    memset(psi, 0, (size_t)s->m->size_local * sizeof(double));
-    if (negligible(s, p, div))
-        return true;
-    for (int k = 0; k < p->n; k++) {
-        p->residual[k] = start[p->place[k]];
-        b[k] = -div[p->place[k]] / tau;
-        if (s->jump && s->m->status[p->place[k]] == CELL_FRINGE)
-            b[k] = p->fringe * s->jump[p->place[k]];
-    }
-    set_vector(p, &p->x, p->residual);
-    double keep = p->pinned >= p->first && p->pinned <= p->last ? b[p->pinned - p->first] : 0.0;
-    const bool good = solve(s, p, b, tol);
-    if (p->singular) {
-        if (p->pinned >= p->first && p->pinned <= p->last)
-            b[p->pinned - p->first] = keep;
-        c = pinned_residual(s, p, b) / p->cw;
-    }
-    get_vector(p, &p->x, p->residual);
-    for (int k = 0; k < p->n; k++) {
-        start[p->place[k]] = p->residual[k];
-        p->residual[k] -= c * p->zw[k];
-    }
-    const double level = p->singular ? mean(s, p, p->residual) : 0.0;
-    for (int k = 0; k < p->n; k++)
-        if (s->m->status[p->place[k]] != CELL_HOLE)
-            psi[p->place[k]] = p->residual[k] - level;
-    s->defect_now = fabs(c) * tau * p->volumes;
+        psi[k] = x[k] - (p->singular ? *c * p->zw[k] : 0.0);
     return good;
 }
 
 /* The pinned row is solved for nothing: the mean goes out before and after. */
-void mesh_pressure_cycle(struct fv *s, const double *div, double *psi)
+static void cycle(struct fv *s, void *of, double *b, double *x)
 {
-    struct mesh_pressure *p = s->poisson;
-    double excess = 0.0;
-    for (int k = 0; k < p->n; k++)
-        excess += p->volume[k] > 0.0 ? div[p->place[k]] : 0.0;
-    MPI_Allreduce(MPI_IN_PLACE, &excess, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    for (int k = 0; k < p->n; k++) {
-        p->value[k] = p->volume[k] > 0.0 ? div[p->place[k]] : 0.0;
-        p->value[k] -= p->singular ? excess * p->volume[k] / p->volumes : 0.0;
-        p->residual[k] = 0.0;
-    }
+    struct mesh_pressure *p = of;
+    (void)s;
     if (p->pinned >= p->first && p->pinned <= p->last)
-        p->value[p->pinned - p->first] = 0.0;
-    set_vector(p, &p->b, p->value);
-    set_vector(p, &p->x, p->residual);
-    HYPRE(HYPRE_BoomerAMGSolve(p->amg, matrix_of(p), p->b.v, p->x.v));
-    get_vector(p, &p->x, p->residual);
-    const double level = p->singular ? mean(s, p, p->residual) : 0.0;
-    memset(psi, 0, (size_t)s->size * sizeof(double));
-    for (int k = 0; k < p->n; k++)
-        if (s->m->status[p->place[k]] != CELL_HOLE)
-            psi[p->place[k]] = p->residual[k] - level;
+        b[p->pinned - p->first] = 0.0;
+    cycle_rows(of, b, x);
 }
+
+const struct backend backend_boomeramg = {.name = "BoomerAMG",
+                                          .tolerance = 0.1,
+                                          .create = create,
+                                          .free = free_matrices,
+                                          .solve = solve,
+                                          .cycle = cycle,
+                                          .shift = set_shift,
+                                          .renew = renew};

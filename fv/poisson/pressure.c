@@ -1,28 +1,20 @@
 /* pressure.c - see pressure.h. The conjugate gradients are written out here: hypre's would spend a
- * second cycle on the residual of its last iteration, and most solves take one iteration. Settings
- * of PFMG: red-black relaxation with non-Galerkin coarse operators, 5-point on all levels; this
- * pair and no wider stencil (README.md). SPDX-License-Identifier: BSD-3-Clause */
+ * second cycle on the residual of its last iteration, and most solves take one iteration.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "pressure.h"
 
-#include <HYPRE_struct_ls.h>
 #include <math.h>
 #include <string.h>
 
-#include "../../common/log.h"
 #include "../../common/mem.h"
-#include "hypre_call.h"
+#include "pfmg.h"
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
 #include "../surface/levelset.h"
 
 struct pressure {
-    HYPRE_StructGrid grid;
-    HYPRE_StructStencil stencil;
-    HYPRE_StructMatrix A;
-    HYPRE_StructVector b, x;
-    HYPRE_StructSolver cycle;
-    int lo[3], hi[3];   /* this rank's cells, hypre's way: both inside */
-    int outer[2][3];    /* the same with ghosts: the box of a field */
+    struct pfmg *pfmg;
+    int outer[2][3];    /* the cells of a field, ghosts too, as the cycle counts them */
     double *diagonal;   /* 1/m^2: sum of 1/h^2 over the open faces */
     double *p, *Ap, *z; /* direction, its image, residual after a cycle */
     double free_cells;  /* of all ranks */
@@ -30,27 +22,19 @@ struct pressure {
     double shift;       /* 1/m^2: on the diagonal of the cycle's matrix, beside the least one */
 };
 
-static void make_grid(const struct block *b, struct pressure *p)
+static struct pfmg *make_pfmg(const struct block *b)
 {
-    int periodic[3] = {0, 0, 0};
-    HYPRE(HYPRE_StructGridCreate(b->cart, b->dim, &p->grid));
+    int lo[1][3], hi[1][3];
+    struct pfmg_grid g = {
+        .comm = b->cart, .dim = b->dim, .uneven = b->rows, .nboxes = 1, .lo = lo, .hi = hi};
     for (int a = 0; a < 3; a++) {
-        p->lo[a] = b->lo[a];
-        p->hi[a] = b->hi[a] - 1;
-        p->outer[0][a] = p->lo[a] - b->g[a];
-        p->outer[1][a] = p->hi[a] + b->g[a];
-        periodic[a] = b->periodic[a] ? b->cells[a] : 0;
+        lo[0][a] = b->lo[a];
+        hi[0][a] = b->hi[a] - 1;
+        g.cells[a] = b->cells[a];
+        g.periodic[a] = b->periodic[a];
+        g.h[a] = b->length[a] / b->cells[a];
     }
-    HYPRE(HYPRE_StructGridSetExtents(p->grid, p->lo, p->hi));
-    HYPRE(HYPRE_StructGridSetPeriodic(p->grid, periodic));
-    HYPRE(HYPRE_StructGridAssemble(p->grid));
-    HYPRE(HYPRE_StructStencilCreate(b->dim, 2 * b->dim + 1, &p->stencil));
-    for (int e = 0; e <= 2 * b->dim; e++) {
-        int offset[3] = {0, 0, 0};
-        if (e > 0)
-            offset[(e - 1) / 2] = (e - 1) % 2 ? 1 : -1;
-        HYPRE(HYPRE_StructStencilSetElement(p->stencil, e, offset));
-    }
+    return pfmg_create(&g);
 }
 
 /* A thousandth of the smallest eigenvalue, about (pi/L)^2, on the diagonal of the cycle's matrix:
@@ -117,92 +101,14 @@ static void make_matrix(const struct fv *s, struct pressure *p)
 {
     const struct block *b = &s->b;
     const int m = 2 * b->dim + 1;
-    int entries[7] = {0, 1, 2, 3, 4, 5, 6};
     double *values = NEW(double, (int64_t)m * b->n[0] * b->n[1] * b->n[2]), *row = values;
     if (s->surface)
         add_cuts(s, p->z);
     BLOCK_ROWS (b, 0, c, n)
         for (int64_t i = c; i < c + n; i++, row += m)
             p->diagonal[i] = fill_row(s, p, i, j_, row);
-    HYPRE(HYPRE_StructMatrixCreate(b->cart, p->grid, p->stencil, &p->A));
-    HYPRE(HYPRE_StructMatrixInitialize(p->A));
-    HYPRE(HYPRE_StructMatrixSetBoxValues(p->A, p->lo, p->hi, m, entries, values));
-    HYPRE(HYPRE_StructMatrixAssemble(p->A));
+    pfmg_set_matrix(p->pfmg, &values);
     mem_free(values);
-}
-
-static void make_vector(const struct block *b, struct pressure *p, HYPRE_StructVector *v)
-{
-    HYPRE(HYPRE_StructVectorCreate(b->cart, p->grid, v));
-    HYPRE(HYPRE_StructVectorInitialize(*v));
-    HYPRE(HYPRE_StructVectorAssemble(*v));
-}
-
-static void mean_size(const struct block *b, double h[3])
-{
-    for (int a = 0; a < 3; a++)
-        h[a] = b->length[a] / b->cells[a];
-}
-
-/* Levels of the cycle, which halves the axis of the least spacing: down to the first grid with an
- * odd number of cells along a periodic axis. There red cells have red neighbours, and a half sweep
- * would read what the last solve left; the last level is relaxed by Jacobi, which does not. Axes of
- * the same spacing go together: the grids between are not relaxed. */
-static int levels(const struct block *b)
-{
-    int n[3] = {b->cells[0], b->cells[1], b->cells[2]}, count = 1;
-    double h[3];
-    mean_size(b, h);
-    for (;;) {
-        double least = INFINITY;
-        for (int a = 0; a < b->dim; a++) {
-            if (b->periodic[a] && n[a] > 1 && n[a] % 2)
-                return count;
-            least = n[a] > 1 ? fmin(least, h[a]) : least;
-        }
-        if (least == INFINITY)
-            return count;
-        for (int a = 0; a < b->dim; a++)
-            if (n[a] > 1 && h[a] < 1.05 * least) {
-                n[a] = (n[a] + 1) / 2;
-                h[a] *= 2.0;
-                count++;
-            }
-    }
-}
-
-/* Red-black in boxes with closed sides and in periodic ones of even sides; else weighted Jacobi:
- * the coarsest grids have one cell along a periodic axis and more along another then, a cell is its
- * own neighbour, and red and black again read what the last solve left. */
-static int relaxation(const struct block *b)
-{
-    bool closed = true, even = true;
-    for (int a = 0; a < b->dim; a++) {
-        closed = closed && !b->periodic[a];
-        even = even && b->periodic[a] && b->cells[a] == b->cells[0] &&
-               fabs(b->h[a] / b->h[0] - 1.0) < 1e-9;
-    }
-    return closed || even ? 2 : 1;
-}
-
-static void make_cycle(const struct block *b, struct pressure *p)
-{
-    HYPRE(HYPRE_StructPFMGCreate(b->cart, &p->cycle));
-    HYPRE(HYPRE_StructPFMGSetMaxIter(p->cycle, 1));
-    HYPRE(HYPRE_StructPFMGSetTol(p->cycle, 0.0));
-    HYPRE(HYPRE_StructPFMGSetZeroGuess(p->cycle));
-    HYPRE(HYPRE_StructPFMGSetMaxLevels(p->cycle, levels(b)));
-    HYPRE(HYPRE_StructPFMGSetRelaxType(p->cycle, relaxation(b)));
-    HYPRE(HYPRE_StructPFMGSetRAPType(p->cycle, 1));
-    HYPRE(HYPRE_StructPFMGSetSkipRelax(p->cycle, 1));
-    HYPRE(HYPRE_StructPFMGSetNumPreRelax(p->cycle, 1));
-    HYPRE(HYPRE_StructPFMGSetNumPostRelax(p->cycle, 1));
-    if (b->rows) { /* which axis it halves would hang on the rows' scatter otherwise */
-        double h[3];
-        mean_size(b, h);
-        HYPRE(HYPRE_StructPFMGSetDxyz(p->cycle, h));
-    }
-    HYPRE(HYPRE_StructPFMGSetup(p->cycle, p->A, p->b, p->x));
 }
 
 struct pressure *pressure_create(const struct fv *s)
@@ -221,11 +127,12 @@ struct pressure *pressure_create(const struct fv *s)
         p->singular = p->singular && s->surface->cuts == 0;
         p->free_cells = fmax(1.0, (double)s->surface->wet);
     }
-    make_grid(b, p);
+    for (int a = 0; a < 3; a++) {
+        p->outer[0][a] = b->lo[a] - b->g[a];
+        p->outer[1][a] = b->hi[a] - 1 + b->g[a];
+    }
+    p->pfmg = make_pfmg(b);
     make_matrix(s, p);
-    make_vector(b, p, &p->b);
-    make_vector(b, p, &p->x);
-    make_cycle(b, p);
     return p;
 }
 
@@ -234,12 +141,7 @@ void pressure_free(struct pressure **pp)
     struct pressure *p = *pp;
     if (!p)
         return;
-    HYPRE_StructPFMGDestroy(p->cycle);
-    HYPRE_StructVectorDestroy(p->b);
-    HYPRE_StructVectorDestroy(p->x);
-    HYPRE_StructMatrixDestroy(p->A);
-    HYPRE_StructStencilDestroy(p->stencil);
-    HYPRE_StructGridDestroy(p->grid);
+    pfmg_free(&p->pfmg);
     mem_free(p->diagonal);
     mem_free(p->p);
     mem_free(p->Ap);
@@ -251,12 +153,9 @@ void pressure_free(struct pressure **pp)
 void pressure_rebuild(struct fv *s)
 {
     struct pressure *p = s->pressure;
-    HYPRE_StructPFMGDestroy(p->cycle);
-    HYPRE_StructMatrixDestroy(p->A);
     p->singular = s->surface->cuts == 0 && (!s->bc || !s->bc->pressure_given);
     p->free_cells = fmax(1.0, (double)s->surface->wet);
     make_matrix(s, p);
-    make_cycle(&s->b, p);
 }
 
 static void zero_idle(const struct fv *s, double *x)
@@ -335,9 +234,9 @@ static double remove_mean(const struct fv *s, double *restrict x)
 /* x = one cycle on r. */
 static void cycle(struct pressure *p, double *r, double *x)
 {
-    HYPRE(HYPRE_StructVectorSetBoxValues2(p->b, p->lo, p->hi, p->outer[0], p->outer[1], r));
-    HYPRE(HYPRE_StructPFMGSolve(p->cycle, p->A, p->b, p->x));
-    HYPRE(HYPRE_StructVectorGetBoxValues2(p->x, p->lo, p->hi, p->outer[0], p->outer[1], x));
+    pfmg_put(p->pfmg, 0, p->outer, r);
+    pfmg_cycle(p->pfmg);
+    pfmg_get(p->pfmg, 0, p->outer, x);
 }
 
 /* z = one cycle on r, and p = z + beta p with the beta that makes p conjugate. Returns r.z. */
@@ -448,8 +347,5 @@ void pressure_shift(const struct fv *s, double given)
     if (given == p->shift)
         return;
     p->shift = given;
-    HYPRE_StructPFMGDestroy(p->cycle);
-    HYPRE_StructMatrixDestroy(p->A);
     make_matrix(s, p);
-    make_cycle(&s->b, p);
 }

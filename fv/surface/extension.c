@@ -12,6 +12,7 @@
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
 #include "lanes.h"
+#include "mesh_view.h"
 
 enum { TERMS = 10, STENCIL = 128, THIN = 9 }; /* 125 cells and what fills up the last lanes */
 
@@ -81,6 +82,7 @@ static void weights(const struct least_squares *q, int n, const double *e, doubl
 
 /* A dry cell under work: frame e[0] = normal, e[1], e[2] tangents; origin: foot point. */
 struct place {
+    const struct part *part;
     double e[3][3];
     double depth;            /* m: of the cell over the surface */
     int n, step[STENCIL];    /* known cells around; the last one again fills up the lanes */
@@ -119,18 +121,28 @@ static void terms_at(int dim, int order, bool skip, const double *r, double *e)
         e[i] = b[i][0];
 }
 
-static void make_frame(const struct fv *s, int64_t c, struct place *p)
+/* grad phi of a cell. */
+static void slope_at(const struct fv *s, const struct part *p, int64_t c, double n[3])
 {
     const struct block *b = &s->b;
-    const double *q = s->surface->phi + c;
+    if (s->m) {
+        surface_mesh_gradient(s, p, c, s->surface->phi, n);
+        return;
+    }
     const int row = block_row(b, c);
-    double size = 0.0, n[3] = {0.0, 0.0, 0.0};
-    for (int a = 0; a < b->dim; a++) {
+    for (int a = 0; a < b->dim; a++)
         n[a] = (blocked_beside(s, s->surface->phi, c, b->stride[a]) -
                 blocked_beside(s, s->surface->phi, c, -b->stride[a])) /
                (block_step(b, a, row) + block_step(b, a, row + 1));
+}
+
+static void make_frame(const struct fv *s, int64_t c, struct place *p)
+{
+    const double *q = s->surface->phi + c;
+    double size = 0.0, n[3] = {0.0, 0.0, 0.0};
+    slope_at(s, p->part, c, n);
+    for (int a = 0; a < s->dim; a++)
         size += n[a] * n[a];
-    }
     size = sqrt(size);
     if (!(size > 1e-3)) { /* no direction: a ridge of phi */
         n[0] = n[2] = 0.0;
@@ -140,7 +152,7 @@ static void make_frame(const struct fv *s, int64_t c, struct place *p)
     memset(p->e, 0, sizeof p->e);
     for (int a = 0; a < 3; a++)
         p->e[0][a] = n[a] / size;
-    if (b->dim == 2) {
+    if (s->dim == 2) {
         p->e[1][0] = -p->e[0][1];
         p->e[1][1] = p->e[0][0];
         return;
@@ -192,6 +204,20 @@ static bool look_past_boxes(const struct fv *s, int64_t c, const int *corner, bo
     return near;
 }
 
+/* The last known cell again until the lanes are full. */
+static void fill_lanes(struct place *p, int n)
+{
+    p->known = n;
+    for (; n % LANES; n++) {
+        p->step[n] = p->step[p->known - 1];
+        for (int a = 0; a < 3; a++)
+            p->r[a][n] = p->r[a][p->known - 1];
+    }
+    p->n = n;
+    p->self[0] = p->depth / p->spacing;
+    p->self[1] = p->self[2] = 0.0;
+}
+
 /* Known cells of a window of 5 cells a side, moved one cell into the water. */
 static void look_around(const struct fv *s, int64_t c, int layer, struct place *p)
 {
@@ -226,15 +252,46 @@ static void look_around(const struct fv *s, int64_t c, int layer, struct place *
                 n += there && known[step + i] < layer;
             }
         }
-    p->known = n;
-    for (; n % LANES; n++) {
-        p->step[n] = p->step[p->known - 1];
-        for (int a = 0; a < 3; a++)
-            p->r[a][n] = p->r[a][p->known - 1];
+    fill_lanes(p, n);
+}
+
+/* The same on blocks: the window moves along the indices that lead into the water; dry cells that
+ * other blocks interpolate are not known. */
+static void look_around_on_blocks(const struct fv *s, int64_t c, int layer, struct place *p)
+{
+    const struct mesh *m = s->m;
+    const struct surface_mesh *w = s->surface->mesh;
+    const struct part *part = p->part;
+    const int deep = m->dim == 3 ? 2 : 0;
+    int shift[3] = {0, 0, 0}, n = 0;
+    p->room = 0;
+    for (int a = 0; a < m->dim; a++) {
+        double along = 0.0, size = 0.0;
+        for (int k = 0; k < m->dim; k++) {
+            const double S = m->S[a][k][c] + m->S[a][k][c + part->stride[a]];
+            along += p->e[0][k] * S;
+            size += S * S;
+        }
+        shift[a] = -(int)lround(1.2 * along / sqrt(size));
     }
-    p->n = n;
-    p->self[0] = p->depth / p->spacing;
-    p->self[1] = p->self[2] = 0.0;
+    for (int k = -deep; k <= deep; k++)
+        for (int j = -2; j <= 2; j++)
+            for (int i = -2; i <= 2; i++) {
+                const int64_t step = shift[0] + i + (shift[1] + j) * part->stride[1] +
+                                     (shift[2] + k) * part->stride[2];
+                const int64_t at = c + step;
+                double x[3];
+                for (int a = 0; a < 3; a++)
+                    x[a] = w->x[a][at] - w->x[a][c] + p->depth * p->e[0][a];
+                for (int a = 0; a < 3; a++)
+                    p->r[a][n] =
+                        (x[0] * p->e[a][0] + x[1] * p->e[a][1] + x[2] * p->e[a][2]) / p->spacing;
+                p->step[n] = (int)step;
+                const int of = s->surface->layer[at];
+                p->room += !w->out[at];
+                n += !w->out[at] && of < layer && (of == 0 || m->status[at] == CELL_COMPUTED);
+            }
+    fill_lanes(p, n);
 }
 
 /* The best fit that the cells allow, of at most this order; the order done. */
@@ -243,14 +300,14 @@ static int fit(const struct fv *s, const struct place *p, int order, bool skip, 
 {
     for (int k = 0; k < p->n; k++) {
         double r2 = 0.25;
-        for (int a = 0; a < s->b.dim; a++)
+        for (int a = 0; a < s->dim; a++)
             r2 += (p->r[a][k] - from[a]) * (p->r[a][k] - from[a]);
         q->w[k] = 1.0 / (r2 * r2);
     }
     for (int k = p->known; k < p->n; k++)
         q->w[k] = 0.0;
     for (;; order--) {
-        q->m = terms(s->b.dim, order, skip, p->r, p->n, q->b);
+        q->m = terms(s->dim, order, skip, p->r, p->n, q->b);
         if ((p->known >= q->m && prepare(q, p->n)) || order == 0)
             return order;
     }
@@ -277,7 +334,7 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
 {
     static const double origin[3] = {0.0, 0.0, 0.0};
     struct least_squares q;
-    const int dim = s->b.dim;
+    const int dim = s->dim;
     double e[TERMS] = {0.0}, w[3][STENCIL];
     memset(grad, 0, sizeof(double) * (size_t)(dim * p->n));
     if (fit(s, p, 2, false, origin, &q) == 0)
@@ -297,19 +354,27 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
  * 0.4. */
 static bool is_thin(const struct fv *s, const struct place *p)
 {
-    return p->known < (s->b.dim == 2 ? THIN : 3 * THIN) || 2 * p->known < p->room;
+    return p->known < (s->dim == 2 ? THIN : 3 * THIN) || 2 * p->known < p->room;
 }
 
-static void add_carry(struct fv *s, int64_t c, int layer)
+static double mean_size(const struct fv *s, int64_t c)
+{
+    const double *h = s->b.h, volume = s->m ? s->m->V[c] : h[0] * h[1] * (s->dim == 3 ? h[2] : 1.0);
+    return s->dim == 2 ? sqrt(volume) : cbrt(volume);
+}
+
+static void add_carry(struct fv *s, const struct part *part, int64_t c, int layer)
 {
     struct surface *f = s->surface;
-    const int dim = s->b.dim;
-    const double *h = s->b.h;
-    struct place p = {.spacing = dim == 2 ? sqrt(h[0] * h[1]) : cbrt(h[0] * h[1] * h[2])};
+    const int dim = s->dim;
+    struct place p = {.part = part, .spacing = mean_size(s, c)};
     struct least_squares q;
     double e[TERMS];
     make_frame(s, c, &p);
-    look_around(s, c, layer, &p);
+    if (s->m)
+        look_around_on_blocks(s, c, layer, &p);
+    else
+        look_around(s, c, layer, &p);
     make_room(f, STENCIL, (int64_t)dim * STENCIL);
     struct carry x = {.cell = c, .first = (int)f->nstencil, .n = p.n, .first_grad = (int)f->ngrad};
     double *w = f->weight + f->nstencil;
@@ -354,34 +419,54 @@ static void next_layer_row(const double *restrict least, const double *restrict 
         field[i] = field[i] == DEEP && wall[i] == 0.0 && least[i] == layer - 1.0 ? layer : field[i];
 }
 
+/* Halo of one field. */
+static void share(const struct fv *s, double *field)
+{
+    if (s->m)
+        mesh_halo(s->m, 1, &field);
+    else
+        block_halo(&s->b, 1, &field);
+}
+
+/* Spreads layer l - 1 over one part's cells. */
+static void next_layer(const struct part *p, double l, const double *wall, double *x, double *xy,
+                       double *field)
+{
+    const bool deep = p->g[2] > 0;
+    const int none[3] = {0, 0, 0}, one[3] = {1, 1, deep}, above[3] = {0, 0, deep};
+    PART_ROWS (p, one, one, c, n)
+        least_row(field + c, 1, n, x + c);
+    PART_ROWS (p, above, above, c, n)
+        least_row(x + c, p->stride[1], n, xy + c);
+    if (deep)
+        PART_ROWS (p, none, none, c, n)
+            least_row(xy + c, p->stride[2], n, x + c);
+    PART_ROWS (p, none, none, c, n)
+        next_layer_row((deep ? x : xy) + c, wall + c, l, n, field + c);
+}
+
+static bool holds_none(const struct fv *s, int64_t c)
+{
+    return s->m ? s->surface->mesh->out[c] : s->forcing && s->forcing->forced[c];
+}
+
 /* Layers by spreading over faces and corners from the wet cells, along one axis after the other;
  * cells behind closed sides and forced ones do not count. */
 static void find_layers(struct fv *s)
 {
     struct surface *f = s->surface;
-    const struct block *b = &s->b;
-    const bool deep = b->dim == 3;
-    double *field = f->rate, *wall = f->kept, *x = s->face, *xy = s->flux;
-    for (int64_t c = 0; c < b->size; c++) {
-        wall[c] = s->forcing && s->forcing->forced[c] ? 1.0 : 0.0;
+    double *field = f->rate, *wall = f->kept;
+    for (int64_t c = 0; c < s->size; c++) {
+        wall[c] = holds_none(s, c) ? 1.0 : 0.0;
         field[c] = f->phi[c] < 0.0 && wall[c] == 0.0 ? 0.0 : DEEP;
     }
     for (int l = 1; l <= LAYERS; l++) {
-        block_halo(b, 1, &field);
-        BLOCK_ROWS (b, 1, c, n)
-            least_row(field + c, 1, n, x + c);
-        for (int k = deep ? -1 : 0; k < b->n[2] + (deep ? 1 : 0); k++)
-            for (int j = 0; j < b->n[1]; j++)
-                least_row(x + block_at(b, 0, j, k), b->stride[1], b->n[0],
-                          xy + block_at(b, 0, j, k));
-        if (deep)
-            BLOCK_ROWS (b, 0, c, n)
-                least_row(xy + c, b->stride[2], n, x + c);
-        BLOCK_ROWS (b, 0, c, n)
-            next_layer_row((deep ? x : xy) + c, wall + c, l, n, field + c);
+        share(s, field);
+        for (int q = 0; q < s->nparts; q++)
+            next_layer(s->part + q, l, wall, s->face, s->flux, field);
     }
-    block_halo(b, 1, &field);
-    for (int64_t c = 0; c < b->size; c++)
+    share(s, field);
+    for (int64_t c = 0; c < s->size; c++)
         f->layer[c] = (unsigned char)field[c];
 }
 
@@ -392,12 +477,14 @@ void extension_build(struct fv *s)
     f->nstencil = f->ngrad = f->ndeep = 0;
     for (int l = 0; l <= LAYERS; l++)
         f->ncarry[l] = 0;
-    BLOCK_ROWS (&s->b, 0, at, n)
-        for (int64_t c = at; c < at + n; c++) {
-            const int l = f->layer[c];
-            if (l >= 1 && l <= LAYERS)
-                add_carry(s, c, l);
-            else if (l == DEEP)
-                f->deep[f->ndeep++] = c;
-        }
+    FLOW_ROWS(s, at, n)
+    for (int64_t c = at; c < at + n; c++) {
+        const int l = f->layer[c];
+        if (s->m && s->m->status[c] != CELL_COMPUTED)
+            continue;
+        if (l >= 1 && l <= LAYERS)
+            add_carry(s, p_, c, l);
+        else if (l == DEEP)
+            f->deep[f->ndeep++] = c;
+    }
 }

@@ -38,7 +38,7 @@ static void normal_slopes(const struct fv *s, const struct carry *x, const struc
                           enum extend how, double *slope)
 {
     const struct surface *f = s->surface;
-    const int dim = s->b.dim;
+    const int dim = s->dim;
     const double *grad = f->grad + x->first_grad;
     double G[3][3], normal = 0.0;
     for (int q = 0; q < dim; q++) {
@@ -85,7 +85,7 @@ static void carry_velocity(const struct fv *s, const struct carry *x, int layer,
                            double *const u[3])
 {
     const struct surface *f = s->surface;
-    const int dim = s->b.dim;
+    const int dim = s->dim;
     const bool clip = how != EXTEND_CHANGE;
     double slope[3] = {0.0, 0.0, 0.0}, own[3] = {0.0, 0.0, 0.0};
     struct around r;
@@ -105,18 +105,22 @@ static void carry_velocity(const struct fv *s, const struct carry *x, int layer,
         u[q][x->cell] = own[q];
 }
 
+/* Where blocks overlap, cells that are interpolated near the surface take part in what their donors
+ * are made of: twice, and all layers, as donors lie further out. */
 void extension_apply(const struct fv *s, double *const u[3], enum extend how, int layers)
 {
     const struct surface *f = s->surface;
-    const struct block *b = &s->b;
+    const bool overlaps = s->m && s->m->has_fringe;
+    const int last = overlaps ? LAYERS : layers;
     for (int64_t i = 0; i < f->ndeep; i++)
-        for (int q = 0; q < b->dim; q++)
+        for (int q = 0; q < s->dim; q++)
             u[q][f->deep[i]] = 0.0;
-    for (int l = 1; l <= layers; l++) {
-        block_halo(b, b->dim, u);
-        for (int64_t i = 0; i < f->ncarry[l]; i++)
-            carry_velocity(s, f->carry[l] + i, l, how, u);
-    }
+    for (int pass = 0; pass < (overlaps ? 2 : 1); pass++)
+        for (int l = 1; l <= last; l++) {
+            surface_fill(s, s->dim, u);
+            for (int64_t i = 0; i < f->ncarry[l]; i++)
+                carry_velocity(s, f->carry[l] + i, l, how, u);
+        }
 }
 
 /* Normal derivative of one field from the weights of its gradient. */
@@ -133,14 +137,14 @@ void extension_scalar(const struct fv *s, double *q)
     const struct surface *f = s->surface;
     struct around r;
     for (int l = 1; l <= 2; l++) {
-        block_halo(&s->b, 1, &q);
+        surface_fill(s, 1, &q);
         for (int64_t i = 0; i < f->ncarry[l]; i++) {
             const struct carry *x = f->carry[l] + i;
             look(f, x, 1, &q, &r);
             const double v = lanes_dot(f->weight + x->first, r.v[0], x->n) +
-                             x->slope * slope_of(f, x, s->b.dim, r.v[0]);
+                             x->slope * slope_of(f, x, s->dim, r.v[0]);
             q[x->cell] = x->n > 0 ? within(r.v[0], x->n, l, v) : 0.0;
         }
     }
-    block_halo(&s->b, 1, &q);
+    surface_fill(s, 1, &q);
 }

@@ -9,6 +9,8 @@
 #include "../../common/mem.h"
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
+#include "../boundary/mesh_bc.h"
+#include "mesh_view.h"
 #include "weno.h"
 
 enum { BAND = 5 }; /* cells on either side of the surface that are advected */
@@ -27,9 +29,19 @@ static bool side_here(const struct block *b, int a, bool upper)
     return !b->periodic[a] && (upper ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
 }
 
+static void ghosts_on_blocks(const struct fv *s, double *phi)
+{
+    mesh_fill(s->m, 1, &phi);
+    mesh_bc_level(s, s->surface && s->surface->mesh->keeps, phi);
+}
+
 void surface_ghosts(const struct fv *s, double *phi)
 {
     const struct block *b = &s->b;
+    if (s->m) {
+        ghosts_on_blocks(s, phi);
+        return;
+    }
     block_halo(b, 1, &phi);
     for (int a = 0; a < b->dim; a++)
         for (int upper = 0; upper < 2; upper++) {
@@ -93,9 +105,29 @@ static void rate_beside_boxes(const struct fv *s, const double *phi, double *rat
         }
 }
 
+/* In indices: velocities along them are those of surface_mesh_speeds. */
+static void rate_on_blocks(const struct fv *s, const double *phi, double *rate)
+{
+    const struct surface_mesh *w = s->surface->mesh;
+    FLOW_ROWS(s, c, n)
+    {
+        const double *size = w->size[p_ - s->part];
+        const double band = BAND * surface_mesh_spacing(s, p_);
+        memset(rate + c, 0, (size_t)n * sizeof(double));
+        for (int64_t from = c, m = 0; next_run(phi, band, c + n, &from, &m);)
+            for (int a = 0; a < s->dim; a++)
+                weno_advect(phi + from, w->speed[a] + from, p_->stride[a], 1.0 / size[a], m,
+                            rate + from);
+    }
+}
+
 static void rate_of(const struct fv *s, const double *phi, double *rate)
 {
     const struct block *b = &s->b;
+    if (s->m) {
+        rate_on_blocks(s, phi, rate);
+        return;
+    }
     BLOCK_ROWS (b, 0, c, n) {
         const double band = BAND * largest_spacing(b, j_);
         memset(rate + c, 0, (size_t)n * sizeof(double));
@@ -109,12 +141,12 @@ static void rate_of(const struct fv *s, const double *phi, double *rate)
 }
 
 /* q = w p + (1 - w)(q + dt rate) */
-static void blend(const struct block *b, double w, const double *p, double dt, const double *rate,
+static void blend(const struct fv *s, double w, const double *p, double dt, const double *rate,
                   double *q)
 {
-    BLOCK_ROWS (b, 0, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            q[i] = w * p[i] + (1.0 - w) * (q[i] + dt * rate[i]);
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        q[i] = w * p[i] + (1.0 - w) * (q[i] + dt * rate[i]);
 }
 
 /* One step of SSP-RK3. */
@@ -122,10 +154,10 @@ static void advance(struct fv *s, double dt)
 {
     static const double w[3] = {0.0, 0.75, 1.0 / 3.0};
     struct surface *f = s->surface;
-    memcpy(f->phi_new, f->phi, (size_t)s->b.size * sizeof(double));
+    memcpy(f->phi_new, f->phi, (size_t)s->size * sizeof(double));
     for (int k = 0; k < 3; k++) {
         rate_of(s, f->phi_new, f->rate);
-        blend(&s->b, w[k], f->phi, dt, f->rate, f->phi_new);
+        blend(s, w[k], f->phi, dt, f->rate, f->phi_new);
         surface_ghosts(s, f->phi_new);
     }
     double *t = f->phi;
@@ -136,8 +168,11 @@ static void advance(struct fv *s, double dt)
 void surface_advance(struct fv *s, double dt)
 {
     double cfl = 0.0;
-    for (int a = 0; a < s->b.dim; a++)
-        cfl += s->umax[a] * dt / s->b.h[a];
+    if (s->m)
+        cfl = surface_mesh_speeds(s, BAND) * dt;
+    else
+        for (int a = 0; a < s->dim; a++)
+            cfl += s->umax[a] * dt / s->b.h[a];
     s->surface->travelled += cfl;
     const int n = cfl > 0.5 ? (int)ceil(2.0 * cfl) : 1;
     for (int k = 0; k < n; k++)
@@ -172,14 +207,15 @@ static double across_row(const struct block *b, int64_t c)
     return 2.0 * b->rows->h[j] / (b->rows->step[j] + b->rows->step[j + 1]);
 }
 
-static double share_at(const struct fv *s, int64_t c, double shift)
+/* On blocks by a plane in the cell's indices. */
+static double share_at(const struct fv *s, const struct part *p, int64_t c, double shift)
 {
     const struct block *b = &s->b;
     const double *q = s->surface->phi + c;
     double n[3], sum = 0.0, alpha;
-    for (int a = 0; a < b->dim; a++) {
-        n[a] = 0.5 * fabs(blocked_beside(s, s->surface->phi, c, b->stride[a]) -
-                          blocked_beside(s, s->surface->phi, c, -b->stride[a]));
+    for (int a = 0; a < s->dim; a++) {
+        n[a] = 0.5 * fabs(blocked_beside(s, s->surface->phi, c, p->stride[a]) -
+                          blocked_beside(s, s->surface->phi, c, -p->stride[a]));
         if (a == 1 && b->rows)
             n[a] *= across_row(b, c);
         sum += n[a];
@@ -187,32 +223,42 @@ static double share_at(const struct fv *s, int64_t c, double shift)
     if (fabs(q[0] + shift) >= 0.5 * sum * 1.01)
         return q[0] + shift < 0.0;
     double whole = 0.0;
-    for (int a = 0; a < b->dim; a++) {
+    for (int a = 0; a < s->dim; a++) {
         n[a] = fmax(n[a], 1e-3 * sum); /* the formula divides by it */
         whole += n[a];
     }
     alpha = 0.5 * whole - (q[0] + shift);
-    return share_below(b->dim, n, alpha);
+    return share_below(s->dim, n, alpha);
 }
 
-double surface_share(const struct fv *s, int64_t c) { return share_at(s, c, 0.0); }
+double surface_share(const struct fv *s, int64_t c)
+{
+    return share_at(s, surface_part(s, c), c, 0.0);
+}
+
+double surface_cell_volume(const struct fv *s, int64_t c, int j)
+{
+    return s->m ? s->surface->mesh->count[c] : block_volume(&s->b, j);
+}
 
 double surface_volume(const struct fv *s, double *area)
 {
-    const struct block *b = &s->b;
     double sums[2] = {0.0, 0.0};
-    BLOCK_ROWS (b, 0, c, n) {
-        const double h = largest_spacing(b, j_), e = 1e-4 * h, volume = block_volume(b, j_);
+    FLOW_ROWS(s, c, n)
+    {
+        const double h = s->m ? surface_mesh_spacing(s, p_) : largest_spacing(&s->b, j_);
+        const double e = 1e-4 * h;
         for (int64_t i = c; i < c + n; i++) {
+            const double volume = surface_cell_volume(s, i, j_);
             if (fabs(s->surface->phi[i]) > 3.0 * h) {
                 sums[0] += s->surface->phi[i] < 0.0 ? volume : 0.0;
                 continue;
             }
-            sums[0] += volume * share_at(s, i, 0.0);
-            sums[1] += volume * (share_at(s, i, e) - share_at(s, i, -e)) / (2.0 * e);
+            sums[0] += volume * share_at(s, p_, i, 0.0);
+            sums[1] += volume * (share_at(s, p_, i, e) - share_at(s, p_, i, -e)) / (2.0 * e);
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     if (area)
         *area = sums[1];
     return sums[0];
@@ -222,43 +268,70 @@ double surface_volume(const struct fv *s, double *area)
 void surface_keep_volume(struct fv *s)
 {
     struct surface *f = s->surface;
-    const double h = fmax(s->b.h[0], fmax(s->b.h[1], s->b.dim == 3 ? s->b.h[2] : 0.0)),
-                 most = 0.1 * h;
+    const double h = f->largest, most = 0.1 * h;
     double area, d = INFINITY;
     for (int it = 0; it < 5 && fabs(d) > 1e-3 * h; it++) {
         const double volume = surface_volume(s, &area);
         if (!(area < 0.0))
             return;
         d = fmax(-most, fmin(most, (f->volume0 - volume) / area));
-        for (int64_t i = 0; i < s->b.size; i++)
+        for (int64_t i = 0; i < s->size; i++)
             f->phi[i] += d;
         f->returned += d * area;
     }
 }
 
-struct surface *surface_create(const struct fv *s)
+static void fill_even(const struct fv *s, double *phi)
 {
     const struct block *b = &s->b;
+    double x[3];
+    for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
+        for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
+            for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
+                const int64_t c = block_at(b, i, j, k);
+                block_centre(b, i, j, k, x);
+                phi[c] = is_blocked(s, c) ? surface_far(s) : surface_distance(s, x);
+            }
+}
+
+static void fill_blocks(const struct fv *s, const struct surface_mesh *w, double *phi)
+{
+    for (int64_t c = 0; c < s->size; c++)
+        phi[c] = surface_distance(s, (double[]){w->x[0][c], w->x[1][c], w->x[2][c]});
+}
+
+static void set_sizes(const struct block *b, struct surface *f)
+{
+    f->least = INFINITY;
+    for (int a = 0; a < b->dim; a++) {
+        f->least = fmin(f->least, b->h[a]);
+        f->largest = fmax(f->largest, b->h[a]);
+    }
+}
+
+struct surface *surface_create(const struct fv *s)
+{
     if (!surface_wanted(s->run))
         return NULL;
     struct surface *f = NEW(struct surface, 1);
     double **const fields[] = {&f->phi, &f->phi_new, &f->rate, &f->kept, &f->stress};
     const double *g = s->run->scene.fluid.gravity;
-    double x[3];
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
-        *fields[k] = block_field(b);
-    for (int a = 0; a < b->dim; a++)
-        f->open[a] = block_field(b);
-    f->layer = NEW(unsigned char, b->size);
-    f->deep = NEW(int64_t, b->size);
+        *fields[k] = NEW(double, s->size);
+    for (int a = 0; a < s->dim; a++)
+        f->open[a] = NEW(double, s->size);
+    f->layer = NEW(unsigned char, s->size);
+    f->deep = NEW(int64_t, s->size);
+    if (fv_params_of(s->run)->integrator != INTEGRATOR_RK3)
+        f->half = NEW(double, s->size);
     f->g = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
-        for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
-            for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
-                block_centre(b, i, j, k, x);
-                f->phi[block_at(b, i, j, k)] =
-                    is_blocked(s, block_at(b, i, j, k)) ? surface_far(s) : surface_distance(s, x);
-            }
+    if (s->m) {
+        f->mesh = surface_mesh_create(s, &f->least, &f->largest);
+        fill_blocks(s, f->mesh, f->phi);
+    } else {
+        set_sizes(&s->b, f);
+        fill_even(s, f->phi);
+    }
     surface_ghosts(s, f->phi);
     return f;
 }
@@ -272,6 +345,7 @@ void surface_free(struct surface **fp)
     mem_free(f->phi_new);
     mem_free(f->rate);
     mem_free(f->kept);
+    mem_free(f->half);
     mem_free(f->stress);
     mem_free(f->layer);
     mem_free(f->deep);
@@ -282,7 +356,8 @@ void surface_free(struct surface **fp)
         mem_free(f->open[a]);
         mem_free(f->cut[a]);
     }
-    for (int k = 0; k < 12; k++)
+    surface_mesh_free(&f->mesh);
+    for (int k = 0; k < 24; k++)
         mem_free(f->before[k]);
     for (int l = 0; l <= LAYERS; l++)
         mem_free(f->carry[l]);

@@ -5,6 +5,7 @@
 #define FV_LEVELSET_H
 
 #include "../fv.h"
+#include "../grid/mesh.h"
 
 enum {
     LAYERS = 6,   /* of dry cells that carry a velocity, for the advection of phi */
@@ -32,10 +33,14 @@ struct carry {
     double slope;   /* weight of the normal derivative */
 };
 
+struct surface_mesh; /* blocks as the surface sees them, mesh_view.h */
+
 struct surface {
+    struct surface_mesh *mesh;    /* NULL: even cells or rows of unequal height */
     double *phi, *phi_new, *rate; /* m, m, m/s */
     double *kept;                 /* scratch of reinit */
-    double *before[12];           /* state at the start of a step, see surface_keep_state */
+    double *before[24];           /* state at the start of a step, see surface_keep_state */
+    double *half; /* implicit steps: phi at half time, while phi stands where the step ends */
     double travelled_before;
     double *stress;       /* 1/s: n.(D n) of dry cells beside the water */
     unsigned char *layer; /* 0: wet; 1 .. LAYERS; DEEP */
@@ -53,13 +58,32 @@ struct surface {
                                  by the shifts, all in all */
     double passed;            /* m^dim: through openings, in and out */
     double travelled;         /* -: cells since the last reinit */
+    double least, largest;    /* m: sizes of cells */
     double theta_least;       /* -: least distance of the surface from a wet centre, of h */
+    double rise;              /* s^2: implicit steps: see surface_pressure.c */
     double g;                 /* m/s^2: size of gravity */
     int64_t setups, reinits, repeats;
 };
 
 /* Whether the scene has a surface that fv computes. */
 bool surface_wanted(const struct run *r);
+
+/* The part that place c is in. */
+static inline const struct part *surface_part(const struct fv *s, int64_t c)
+{
+    const struct part *p = s->part;
+    while (c >= p->base + p->size)
+        p++;
+    return p;
+}
+/* Ghosts of nf fields between parts, on blocks the fringe, too. */
+static inline void surface_fill(const struct fv *s, int nf, double *const *f)
+{
+    if (s->m)
+        mesh_fill(s->m, nf, f);
+    else
+        block_halo(&s->b, nf, f);
+}
 
 /* levelset.c */
 struct surface *surface_create(const struct fv *s);
@@ -75,6 +99,8 @@ double surface_volume(const struct fv *s, double *area);
 /* Share of a cell below phi = 0, by the plane through its centre. */
 double surface_share(const struct fv *s, int64_t c);
 
+/* m^dim: volume of cell c, in local row j, that counts: of places where blocks overlap once. */
+double surface_cell_volume(const struct fv *s, int64_t c, int j);
 /* Further off (m) than any cell can be: phi within boxes that are cut out, which are no water. */
 static inline double surface_far(const struct fv *s)
 {
@@ -115,10 +141,14 @@ void surface_fluxes(const struct fv *s, double tau, const double *psi);
 void surface_dry_fluxes(const struct fv *s);
 /* Gradient of psi along a in cells whose stencil leaves the water: mean of the faces'. */
 void surface_gradient(const struct fv *s, int a, const double *psi, double *out);
+/* The same of a variation, which is 0 on the surface. */
+void surface_gradient_change(const struct fv *s, int a, const double *psi, double *out);
 
 /* surface_steps.c */
 /* Velocities, fluxes and cuts of the start. */
 void surface_start(struct fv *s);
+/* Velocity beyond the surface where it stands now, with ghosts, and the fluxes there. */
+void surface_extend(struct fv *s, int layers);
 /* Around a step of u: the surface stands at half time in it, so that both swing without loss
  * (leapfrog: phi and u take turns). */
 void surface_first_half(struct fv *s, double dt);

@@ -10,6 +10,7 @@
 
 #include "../../common/mem.h"
 #include "../boundary/blocked.h"
+#include "mesh_view.h"
 #include "weno.h"
 
 enum { WIDTH = 8 };             /* cells on either side of the surface that are worked on */
@@ -17,16 +18,19 @@ static const double good = 0.1; /* | |grad phi| - 1 | of cells beside the surfac
 
 /* A run of cells of the band along x. */
 struct strip {
+    const struct part *part;
     int64_t cell, n;
     int row;     /* local */
-    double dtau; /* m: pseudo step of those that are no spots */
+    double dtau; /* m: pseudo step of those that are no spots; on blocks each cell has its own */
 };
 
 /* A cell of the band between which and a neighbour the surface passes. */
 struct spot {
+    const struct part *part;
     int64_t cell;
     double sign, dtau;  /* -, m */
-    double reach[3][2]; /* m: way to the surface along each axis, down and up; 0: none */
+    double reach[3][2]; /* m, on blocks cells: way to the surface along each axis, down and up; 0:
+                           none */
 };
 
 struct band {
@@ -51,10 +55,15 @@ static double crossing(const double *q, int64_t d)
     return t > 0.0 && t < 1.0 ? t : q[0] / fall;
 }
 
-static double slope_of(const struct fv *s, const double *phi, int64_t c, int j)
+static double slope_of(const struct fv *s, const struct part *p, const double *phi, int64_t c,
+                       int j)
 {
     const struct block *b = &s->b;
-    double sum = 0.0;
+    double sum = 0.0, g[3];
+    if (s->m) {
+        surface_mesh_gradient(s, p, c, phi, g);
+        return sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    }
     for (int a = 0; a < b->dim; a++) {
         const double d =
             (blocked_beside(s, phi, c, b->stride[a]) - blocked_beside(s, phi, c, -b->stride[a])) /
@@ -64,27 +73,35 @@ static double slope_of(const struct fv *s, const double *phi, int64_t c, int j)
     return sqrt(sum);
 }
 
-static double pseudo_cfl(const struct block *b) { return b->dim == 3 ? 0.3 : 0.45; }
+static double pseudo_cfl(const struct fv *s) { return s->dim == 3 ? 0.3 : 0.45; }
 
-static struct spot look(const struct fv *s, const double *phi, int64_t c)
+/* Height of cell c, in local row j, along axis a. */
+static double height(const struct fv *s, const struct part *p, int64_t c, int a, int j)
 {
-    const struct block *b = &s->b;
-    const int j = block_row(b, c);
-    struct spot x = {.cell = c, .sign = phi[c] < 0.0 ? -1.0 : 1.0, .dtau = INFINITY};
-    for (int a = 0; a < b->dim; a++) {
-        x.dtau = fmin(x.dtau, block_size(b, a, j));
+    const struct surface_mesh *w = s->surface->mesh;
+    return s->m ? w->size[p - s->part][a] / sqrt(w->K[a][a][c]) : block_size(&s->b, a, j);
+}
+
+static struct spot look(const struct fv *s, const struct part *p, const double *phi, int64_t c,
+                        int j)
+{
+    struct spot x = {.part = p, .cell = c, .sign = phi[c] < 0.0 ? -1.0 : 1.0, .dtau = INFINITY};
+    for (int a = 0; a < s->dim; a++) {
+        const double h = height(s, p, c, a, j);
         double v[5];
-        blocked_even_line(s, phi, c, b->stride[a], v + 2);
+        x.dtau = fmin(x.dtau, h);
+        blocked_even_line(s, phi, c, p->stride[a], v + 2);
         for (int up = 0; up < 2; up++) {
             const int d = up ? 1 : -1;
             if ((v[2] < 0.0) == (v[2 + d] < 0.0))
                 continue;
-            x.reach[a][up] = fmax(1e-6, crossing(v + 2, d)) * block_step(b, a, j + up);
-            x.dtau = fmin(x.dtau, x.reach[a][up]);
+            const double part = fmax(1e-6, crossing(v + 2, d));
+            x.reach[a][up] = s->m ? part : part * block_step(&s->b, a, j + up);
+            x.dtau = fmin(x.dtau, s->m ? part * h : x.reach[a][up]);
         }
     }
-    x.dtau *= pseudo_cfl(b);
-    if (fabs(slope_of(s, phi, c, j) - 1.0) < good)
+    x.dtau *= pseudo_cfl(s);
+    if (fabs(slope_of(s, p, phi, c, j) - 1.0) < good)
         x.dtau = 0.0;
     return x;
 }
@@ -115,9 +132,71 @@ static void slopes_beside(const struct fv *s, const double *phi, const struct sp
     }
 }
 
+/* |grad phi| in a cell from slopes on either side of it along the indices, K their metric: along
+ * each index the one that distance comes in by, Godunov's choice; where it leaves both ways the one
+ * at which it stands still. */
+static double size_in_indices(int dim, double K[3][3], const double below[3], const double above[3],
+                              double sign)
+{
+    double slope[3], sum = 0.0;
+    for (int a = 0; a < dim; a++) {
+        double others = 0.0;
+        for (int b = 0; b < dim; b++)
+            others += b == a ? 0.0 : 0.5 * K[a][b] * (below[b] + above[b]);
+        const double in = fmax(0.0, sign * (K[a][a] * below[a] + others)),
+                     out = fmax(0.0, -sign * (K[a][a] * above[a] + others));
+        slope[a] = in == 0.0 && out == 0.0 ? -others / K[a][a] : in >= out ? below[a] : above[a];
+    }
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++)
+            sum += K[a][b] * slope[a] * slope[b];
+    return sqrt(fmax(0.0, sum));
+}
+
+/* The same beside the surface, where slopes end on it. */
+static double size_beside_on_blocks(const struct fv *s, const double *phi, const struct spot *x)
+{
+    const double *size = s->surface->mesh->size[x->part - s->part];
+    double K[3][3], d[2][3];
+    surface_mesh_metric(s, x->cell, K);
+    for (int a = 0; a < s->dim; a++)
+        for (int up = 0; up < 2; up++) {
+            const int64_t step = up ? x->part->stride[a] : -x->part->stride[a];
+            const double *q = phi + x->cell, reach = x->reach[a][up] > 0.0 ? x->reach[a][up] : 1.0;
+            const double c = minmod(bend(q, step), bend(q + step, step)),
+                         far = x->reach[a][up] > 0.0 ? 0.0 : q[step];
+            d[up][a] = (up ? 1.0 : -1.0) * ((far - q[0]) / reach - 0.5 * reach * c) / size[a];
+        }
+    return size_in_indices(s->dim, K, d[0], d[1], x->sign);
+}
+
+static void rates_of_strip(const struct fv *s, const double *phi, const double *old,
+                           const struct strip *x, double *rate)
+{
+    const struct surface_mesh *w = s->surface->mesh;
+    const double *size = w->size[x->part - s->part];
+    for (int a = 0; a < s->dim; a++)
+        weno_slopes(phi + x->cell, x->part->stride[a], 1.0 / size[a], x->n, w->slopes[a][0],
+                    w->slopes[a][1]);
+    for (int64_t i = 0; i < x->n; i++) {
+        double K[3][3], d[2][3], least = INFINITY;
+        surface_mesh_metric(s, x->cell + i, K);
+        for (int a = 0; a < s->dim; a++) {
+            d[0][a] = w->slopes[a][0][i];
+            d[1][a] = w->slopes[a][1][i];
+            least = fmin(least, size[a] / sqrt(K[a][a]));
+        }
+        const double sign = old[x->cell + i] < 0.0 ? -1.0 : 1.0;
+        rate[x->cell + i] =
+            pseudo_cfl(s) * least * sign * (1.0 - size_in_indices(s->dim, K, d[0], d[1], sign));
+    }
+}
+
 static double size_beside(const struct fv *s, const double *phi, const struct spot *x)
 {
     double sum = 0.0, d[2];
+    if (s->m)
+        return size_beside_on_blocks(s, phi, x);
     for (int a = 0; a < s->b.dim; a++) {
         slopes_beside(s, phi, x, a, d);
         const double in = fmax(0.0, x->sign * d[0]), out = fmin(0.0, x->sign * d[1]);
@@ -150,7 +229,9 @@ static void rates(const struct fv *s, const double *phi, const double *old, cons
                   double *rate)
 {
     const struct block *b = &s->b;
-    for (int64_t k = 0; k < w->nstrips; k++) {
+    for (int64_t k = 0; k < w->nstrips && s->m; k++)
+        rates_of_strip(s, phi, old, w->strips + k, rate);
+    for (int64_t k = 0; k < w->nstrips && !s->m; k++) {
         const int64_t c = w->strips[k].cell, n = w->strips[k].n;
         memset(rate + c, 0, (size_t)n * sizeof(double));
         for (int a = 0; a < b->dim; a++)
@@ -159,7 +240,7 @@ static void rates(const struct fv *s, const double *phi, const double *old, cons
     }
     if (s->blocked)
         squares_beside_boxes(s, phi, old, rate);
-    for (int64_t k = 0; k < w->nstrips; k++) {
+    for (int64_t k = 0; k < w->nstrips && !s->m; k++) {
         const int64_t c = w->strips[k].cell, n = w->strips[k].n;
         const double dtau = w->strips[k].dtau;
         for (int64_t i = c; i < c + n; i++)
@@ -171,33 +252,43 @@ static void rates(const struct fv *s, const double *phi, const double *old, cons
     }
 }
 
-static bool beside_surface(const struct fv *s, const double *phi, int64_t c)
+static bool beside_surface(const struct fv *s, const struct part *p, const double *phi, int64_t c)
 {
-    for (int a = 0; a < s->b.dim; a++)
+    for (int a = 0; a < s->dim; a++)
         for (int way = -1; way <= 1; way += 2)
-            if ((phi[c] < 0.0) != (blocked_beside(s, phi, c, way * s->b.stride[a]) < 0.0))
+            if ((phi[c] < 0.0) != (blocked_beside(s, phi, c, way * p->stride[a]) < 0.0))
                 return !is_blocked(s, c);
     return false;
+}
+
+/* Cells that no reinitialisation changes: boxes, and on blocks those that others interpolate. */
+static bool is_left_out(const struct fv *s, int64_t c)
+{
+    return s->m ? s->m->status[c] != CELL_COMPUTED : is_blocked(s, c);
 }
 
 /* mark = 1 within WIDTH cells of the surface, whatever phi says there: it may be old. */
 static void mark_band(const struct fv *s, double *mark)
 {
-    const struct block *b = &s->b;
-    memset(mark, 0, (size_t)b->size * sizeof(double));
-    BLOCK_ROWS (b, 0, c, len)
-        for (int64_t i = c; i < c + len; i++)
-            mark[i] = beside_surface(s, s->surface->phi, i);
+    memset(mark, 0, (size_t)s->size * sizeof(double));
+    FLOW_ROWS(s, c, len)
+    for (int64_t i = c; i < c + len; i++)
+        mark[i] = !is_left_out(s, i) && beside_surface(s, p_, s->surface->phi, i);
     for (int k = 1; k < WIDTH; k++)
-        for (int a = 0; a < b->dim; a++) {
-            const int64_t d = b->stride[a];
+        for (int a = 0; a < s->dim; a++) {
             double *const next = s->surface->kept;
-            block_halo(b, 1, &mark);
-            BLOCK_ROWS (b, 0, c, len)
+            if (s->m)
+                mesh_halo(s->m, 1, &mark);
+            else
+                block_halo(&s->b, 1, &mark);
+            FLOW_ROWS(s, c, len)
+            {
+                const int64_t d = p_->stride[a];
                 for (int64_t i = c; i < c + len; i++)
                     next[i] = fmax(mark[i], fmax(mark[i - d], mark[i + d]));
-            BLOCK_ROWS (b, 0, c, len)
-                memcpy(mark + c, next + c, (size_t)len * sizeof(double));
+            }
+            FLOW_ROWS(s, c, len)
+            memcpy(mark + c, next + c, (size_t)len * sizeof(double));
         }
 }
 
@@ -212,40 +303,48 @@ static double least_size(const struct block *b, int j)
 /* The band's cells; all others are at least as far off as it is wide. */
 static void list_band(struct fv *s, struct band *w)
 {
-    const struct block *b = &s->b;
-    double *phi = s->surface->phi, *mark = s->surface->phi_new, far = INFINITY;
-    for (int a = 0; a < b->dim; a++)
-        far = fmin(far, b->h[a]);
-    far *= WIDTH - 1;
+    double *phi = s->surface->phi, *mark = s->surface->phi_new;
+    const double far = s->surface->least * (WIDTH - 1);
     mark_band(s, mark);
-    BLOCK_ROWS (b, 0, c, len)
-        for (int64_t i = c; i < c + len; i++)
-            if (mark[i] == 0.0 || is_blocked(s, i))
-                phi[i] = copysign(fmax(far, fabs(phi[i])), phi[i]);
+    FLOW_ROWS(s, c, len)
+    for (int64_t i = c; i < c + len; i++)
+        if (mark[i] == 0.0 || is_blocked(s, i))
+            phi[i] = copysign(fmax(far, fabs(phi[i])), phi[i]);
     surface_ghosts(s, phi);
-    BLOCK_ROWS (b, 0, c, len)
-        for (int64_t i = c; i < c + len; i++) {
-            if (!(mark[i] > 0.0) || is_blocked(s, i))
-                continue;
-            if (i == c || !(mark[i - 1] > 0.0) || is_blocked(s, i - 1))
-                w->strips[w->nstrips++] =
-                    (struct strip){.cell = i, .row = j_, .dtau = pseudo_cfl(b) * least_size(b, j_)};
-            w->strips[w->nstrips - 1].n++;
-            if (beside_surface(s, phi, i))
-                w->spots[w->nspots++] = look(s, phi, i);
-        }
+    FLOW_ROWS(s, c, len)
+    for (int64_t i = c; i < c + len; i++) {
+        if (!(mark[i] > 0.0) || is_left_out(s, i))
+            continue;
+        if (i == c || !(mark[i - 1] > 0.0) || is_left_out(s, i - 1))
+            w->strips[w->nstrips++] =
+                (struct strip){.part = p_,
+                               .cell = i,
+                               .row = j_,
+                               .dtau = s->m ? 0.0 : pseudo_cfl(s) * least_size(&s->b, j_)};
+        w->strips[w->nstrips - 1].n++;
+        if (beside_surface(s, p_, phi, i))
+            w->spots[w->nspots++] = look(s, p_, phi, i, j_);
+    }
+}
+
+static void keep_slopes(const struct fv *s, bool keep)
+{
+    if (s->m)
+        s->surface->mesh->keeps = keep;
 }
 
 void surface_reinit(struct fv *s, int steps)
 {
     struct surface *f = s->surface;
-    const struct block *b = &s->b;
-    const int64_t cells = (int64_t)b->n[0] * b->n[1] * b->n[2];
+    int64_t cells = 0;
+    FLOW_ROWS(s, c, len)
+    cells += c >= 0 ? len : 0;
     struct band w = {.strips = NEW(struct strip, cells), .spots = NEW(struct spot, cells)};
     list_band(s, &w);
+    keep_slopes(s, true);
     double *restrict phi = f->phi, *restrict old = f->kept, *restrict rate = f->rate;
     for (int it = 0; it < steps; it++) {
-        memcpy(old, phi, (size_t)b->size * sizeof(double));
+        memcpy(old, phi, (size_t)s->size * sizeof(double));
         rates(s, phi, old, &w, rate);
         for (int64_t k = 0; k < w.nstrips; k++)
             for (int64_t i = w.strips[k].cell; i < w.strips[k].cell + w.strips[k].n; i++)
@@ -259,6 +358,7 @@ void surface_reinit(struct fv *s, int steps)
             }
         surface_ghosts(s, phi);
     }
+    keep_slopes(s, false);
     mem_free(w.strips);
     mem_free(w.spots);
     f->travelled = 0.0;
@@ -267,16 +367,12 @@ void surface_reinit(struct fv *s, int steps)
 
 double surface_distortion(const struct fv *s)
 {
-    const struct block *b = &s->b;
-    const double *phi = s->surface->phi;
-    double most = 0.0, h = 0.0;
-    for (int a = 0; a < b->dim; a++)
-        h = fmax(h, b->h[a]);
-    BLOCK_ROWS (b, 0, c, len)
-        for (int64_t i = c; i < c + len; i++) {
-            if (fabs(phi[i]) < 2.0 * h)
-                most = fmax(most, fabs(slope_of(s, phi, i, j_) - 1.0));
-        }
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, b->cart);
+    const double *phi = s->surface->phi, h = s->surface->largest;
+    double most = 0.0;
+    FLOW_ROWS(s, c, len)
+    for (int64_t i = c; i < c + len; i++)
+        if (fabs(phi[i]) < 2.0 * h && !is_left_out(s, i))
+            most = fmax(most, fabs(slope_of(s, p_, phi, i, j_) - 1.0));
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     return most;
 }

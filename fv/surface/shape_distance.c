@@ -13,7 +13,7 @@ static double height(const struct fv *s, const double *x)
     const double *g = s->run->scene.fluid.gravity;
     const double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     if (size == 0.0)
-        return x[s->b.dim - 1];
+        return x[s->dim - 1];
     return -(g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) / size;
 }
 
@@ -42,9 +42,11 @@ static bool is_wall(const struct fv *s, const double *x, int a, double side, dou
  * not surface. */
 static double box(const struct fv *s, const struct scene_shape *h, const double *x)
 {
+    const struct scene_domain *domain = &s->run->scene.domain;
     double out2 = 0.0, in = -INFINITY;
-    for (int a = 0; a < s->b.dim; a++) {
-        const double low = s->b.origin[a], high = low + s->b.length[a], eps = 1e-6 * s->b.h[a];
+    for (int a = 0; a < s->dim; a++) {
+        const double low = domain->min[a], high = domain->max[a];
+        const double eps = 1e-6 * (s->m ? 1e-3 * (high - low) : s->b.h[a]);
         if (a == 2 && !(h->box[1][a] > h->box[0][a]))
             continue; /* a plane box in 3D goes through */
         double d = -INFINITY;
@@ -78,7 +80,7 @@ static double polygon(const struct param_points *p, const double *x)
 static double shape(const struct fv *s, const struct scene_shape *h, const double *x)
 {
     double r2 = 0.0;
-    for (int a = 0; a < s->b.dim; a++)
+    for (int a = 0; a < s->dim; a++)
         r2 += (x[a] - h->centre[a]) * (x[a] - h->centre[a]);
     switch (h->form) {
     case SHAPE_BOX:
@@ -97,8 +99,8 @@ double surface_distance(const struct fv *s, const double *x)
     const struct scene *c = &s->run->scene;
     const struct scene_initial *f = &c->initial;
     double far = 0.0;
-    for (int a = 0; a < s->b.dim; a++)
-        far += s->b.length[a];
+    for (int a = 0; a < s->dim; a++)
+        far += c->domain.max[a] - c->domain.min[a];
     double d = far;
     if (c->nshapes == 0)
         d = scene_has_wave(c) && f->level < LEVEL_TOP ? x[1] - exact_surface(&s->exact, x[0])

@@ -2,7 +2,10 @@
  * fluid: Gibou, Fedkiw, Cheng & Kang, J. Comput. Phys. 176, 2002, symmetric): between a wet cell L
  * and a dry one the gradient is (p_I - p_L)/(theta h), theta = phi_L/(phi_L - phi_R) >= 0.01,
  * with viscosity more (surface_first_half): p_I is explicit, and 1/theta amplifies it.
- * Without gravity's part, so p_I has -(pressure at rest). SPDX-License-Identifier: BSD-3-Clause */
+ * Without gravity's part, so p_I has -(pressure at rest). In implicit steps the surface yields to
+ * the velocity within the step: Newmark's scheme, for which its height counts at eta + beta dt^2
+ * dw/dt, dw/dt = -dp/dy: the same value of p, beta g dt^2 further off.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
 #include <math.h>
@@ -11,6 +14,7 @@
 #include "../../common/mem.h"
 #include "../boundary/forcing.h"
 #include "../boundary/still.h"
+#include "mesh_view.h"
 
 static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
 {
@@ -27,7 +31,8 @@ static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
     x.step = block_step(b, a, at[1]);
     x.size = block_size(b, a, wet_here ? at[1] : at[1] - (a == 1));
     at_surface[a] += ((wet_here ? 0.0 : -1.0) + x.up * theta) * x.step;
-    x.theta = fmax(theta, fmax(f->theta_least, 0.01));
+    x.theta = fmax(theta, fmax(f->theta_least, 0.01)) +
+              f->rise * fmax(0.0, -x.up * s->run->scene.fluid.gravity[a]) / x.step;
     x.height = -fv_still_pressure(s, at_surface) / s->run->scene.fluid.rho;
     if (f->ncut[a] == f->room[a]) {
         const int64_t more = 2 * f->room[a] + 256;
@@ -62,22 +67,35 @@ static void count(struct fv *s)
 {
     struct surface *f = s->surface;
     int64_t n[2] = {0, 0};
-    BLOCK_ROWS (&s->b, 0, c, len)
-        for (int64_t i = c; i < c + len; i++)
-            n[0] += f->layer[i] == 0;
-    for (int a = 0; a < s->b.dim; a++)
+    FLOW_ROWS(s, c, len)
+    for (int64_t i = c; i < c + len; i++)
+        n[0] += f->layer[i] == 0;
+    for (int a = 0; a < s->dim; a++)
         n[1] += f->ncut[a];
-    MPI_Allreduce(MPI_IN_PLACE, n, 2, MPI_INT64_T, MPI_SUM, s->b.cart);
+    MPI_Allreduce(MPI_IN_PLACE, n, 2, MPI_INT64_T, MPI_SUM, s->comm);
     f->wet = n[0];
     f->cuts = n[1];
+}
+
+/* On blocks dry cells take no part in the flow. */
+static void set_free(struct fv *s)
+{
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        s->free[i] = s->m->status[i] == CELL_COMPUTED && s->surface->layer[i] == 0;
 }
 
 void surface_rebuild(struct fv *s)
 {
     struct surface *f = s->surface;
     extension_build(s);
-    for (int a = 0; a < s->b.dim; a++)
-        find_cuts(s, a);
+    if (s->m) {
+        set_free(s);
+        surface_mesh_find_faces(s);
+    } else {
+        for (int a = 0; a < s->dim; a++)
+            find_cuts(s, a);
+    }
     count(s);
     f->setups++;
 }
@@ -86,8 +104,8 @@ void surface_set_pressure(struct fv *s)
 {
     struct surface *f = s->surface;
     if (s->nu > 0.0)
-        block_halo(&s->b, 1, &f->stress);
-    for (int a = 0; a < s->b.dim; a++)
+        surface_fill(s, 1, &f->stress);
+    for (int a = 0; a < s->dim; a++)
         for (int64_t i = 0; i < f->ncut[a]; i++) {
             struct cut *x = f->cut[a] + i;
             x->p = x->height + 2.0 * s->nu * f->stress[x->dry];
@@ -97,9 +115,9 @@ void surface_set_pressure(struct fv *s)
 void surface_zero(const struct fv *s, double *q)
 {
     const unsigned char *layer = s->surface->layer;
-    BLOCK_ROWS (&s->b, 0, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            q[i] = layer[i] ? 0.0 : q[i];
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        q[i] = layer[i] ? 0.0 : q[i];
 }
 
 void surface_add_pressure(const struct fv *s, double *div)
@@ -120,6 +138,10 @@ static double cut_gradient(const struct cut *x, const double *psi)
 void surface_fluxes(const struct fv *s, double tau, const double *psi)
 {
     const struct surface *f = s->surface;
+    if (s->m) {
+        surface_mesh_fluxes(s, tau, psi);
+        return;
+    }
     for (int a = 0; a < s->b.dim; a++)
         for (int64_t i = 0; i < f->ncut[a]; i++)
             s->U[a][f->cut[a][i].face] -= tau * cut_gradient(f->cut[a] + i, psi);
@@ -142,8 +164,8 @@ void surface_dry_fluxes(const struct fv *s)
     }
 }
 
-/* Gradient on the faces along a. */
-static void face_gradient(const struct fv *s, int a, const double *psi, double *out)
+/* Gradient on the faces along a; p on the surface: what stands there, or 0. */
+static void face_gradient(const struct fv *s, int a, const double *psi, bool change, double *out)
 {
     const struct surface *f = s->surface;
     const int64_t d = s->b.stride[a];
@@ -155,8 +177,11 @@ static void face_gradient(const struct fv *s, int a, const double *psi, double *
                 out[i] = 2.0 * w * (s->forcing->forced[i] ? -psi[i - d] : psi[i]);
         }
     }
-    for (int64_t i = 0; i < f->ncut[a]; i++)
-        out[f->cut[a][i].face] = cut_gradient(f->cut[a] + i, psi);
+    for (int64_t i = 0; i < f->ncut[a]; i++) {
+        struct cut x = f->cut[a][i];
+        x.p = change ? 0.0 : x.p;
+        out[x.face] = cut_gradient(&x, psi);
+    }
 }
 
 static bool dry_water_side(const struct fv *s, int64_t c)
@@ -164,12 +189,12 @@ static bool dry_water_side(const struct fv *s, int64_t c)
     return s->surface->layer[c] && !(s->forcing && s->forcing->forced[c]);
 }
 
-void surface_gradient(const struct fv *s, int a, const double *psi, double *out)
+static void near_gradient(const struct fv *s, int a, const double *psi, bool change, double *out)
 {
     const struct surface *f = s->surface;
     const int64_t d = s->b.stride[a];
     double *F = f->rate;
-    face_gradient(s, a, psi, F);
+    face_gradient(s, a, psi, change, F);
     BLOCK_ROWS (&s->b, 0, c, n)
         for (int64_t i = c; i < c + n; i++) {
             if (f->layer[i])
@@ -178,4 +203,14 @@ void surface_gradient(const struct fv *s, int a, const double *psi, double *out)
                      dry_water_side(s, i - 2 * d) || dry_water_side(s, i + 2 * d))
                 out[i] = 0.5 * (F[i] + F[i + d]);
         }
+}
+
+void surface_gradient(const struct fv *s, int a, const double *psi, double *out)
+{
+    near_gradient(s, a, psi, false, out);
+}
+
+void surface_gradient_change(const struct fv *s, int a, const double *psi, double *out)
+{
+    near_gradient(s, a, psi, true, out);
 }

@@ -55,3 +55,14 @@ void weno_add_square(const double *restrict q, const double *restrict sign, int6
         sum[i] += in > out ? in : out;
     }
 }
+
+void weno_slopes(const double *restrict q, int64_t d, double per_h, int64_t n,
+                 double *restrict below, double *restrict above)
+{
+    for (int64_t i = 0; i < n; i++) {
+        double D[6];
+        differences(q + i, d, per_h, D);
+        below[i] = weno5(D[0], D[1], D[2], D[3], D[4]);
+        above[i] = weno5(D[5], D[4], D[3], D[2], D[1]);
+    }
+}

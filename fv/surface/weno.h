@@ -13,5 +13,7 @@ void weno_advect(const double *q, const double *u, int64_t d, double per_h, int6
  * water. */
 void weno_add_square(const double *q, const double *sign, int64_t d, double per_h, int64_t n,
                      double *sum);
+/* dq/dx from below and from above. */
+void weno_slopes(const double *q, int64_t d, double per_h, int64_t n, double *below, double *above);
 
 #endif

@@ -2,7 +2,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
 #include "../operators/mesh_ops.h"
-#include "../poisson/mesh_pressure.h"
+#include "../poisson/poisson.h"
+#include "../poisson/wet_pressure.h"
+#include "../surface/levelset.h"
+#include "../surface/mesh_view.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 
@@ -71,6 +74,8 @@ static void finish_rhs(struct fv *s)
         return;
     mesh_fill(s->m, s->dim, s->rhs);
     for (int a = 0; a < s->dim; a++) {
+        if (s->surface) /* its slope goes on beyond the surface */
+            extension_scalar(s, s->rhs[a]);
         mesh_bc_even(s, false, s->rhs[a]);
         mesh_to_index(s, s->rhs[a], s->flux);
     }
@@ -78,28 +83,25 @@ static void finish_rhs(struct fv *s)
 
 static void viscous(struct fv *s, int q, double *out) { mesh_viscous(s, s->u[q], out); }
 
+/* The increment of the stage before, scaled, is the start. */
 static bool solve_viscous(struct fv *s, double c, double t, double scale)
 {
+    const double share = viscous_keeps_increment(s) ? scale : 0.0;
     (void)t;
-    (void)scale;
-    for (int a = 0; a < s->dim; a++)
-        memset(s->delta[a], 0, (size_t)s->size * sizeof(double));
     if (s->moving)
-        moving_change(s, s->delta);
-    mesh_bc_velocity(s, BC_CHANGE, s->delta); /* what the sides do from one time to the next */
-    for (int a = 0; a < s->dim; a++) {
-        double *restrict L = s->krylov[0][0];
-        mesh_viscous(s, s->delta[a], L);
+        moving_change(s);
+    for (int a = 0; a < s->dim; a++)
         FLOW_ROWS(s, at, n)
-        for (int64_t i = at; i < at + n; i++)
-            s->rhs[a][i] += c * L[i];
-    }
+    for (int64_t i = at; i < at + n; i++)
+        s->delta[a][i] *= share;
     return mesh_viscous_solve(s, c, s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous : 1e-4);
 }
 
 static void predict_fluxes(struct fv *s, double t)
 {
     (void)t;
+    if (s->surface)
+        extension_apply(s, s->u, EXTEND_FREE, STENCILS);
     if (s->moving)
         moving_fill(s, s->u);
     else
@@ -113,7 +115,8 @@ static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
 {
     double *psi = s->psi[stage];
     mesh_divergence(s, s->U, s->flux);
-    const bool good = mesh_pressure_solve(s, tau, s->flux, tol, s->start[stage], psi);
+    const bool good = s->surface ? wet_pressure_solve(s, tau, s->flux, tol, psi)
+                                 : poisson_solve(s, tau, s->flux, tol, s->start[stage], psi);
     mesh_halo(s->m, 1, &psi);
     mesh_bc_even(s, true, psi);
     return good;
@@ -123,9 +126,30 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
 {
     mesh_subtract_psi(s, tau, psi, s->U);
     mesh_gradient(s, psi, s->rhs);
+    if (s->surface)
+        surface_mesh_psi_gradient(s, psi, s->rhs);
 }
 
 static void fill_velocity(struct fv *s) { ghosts(s, BC_GIVEN, s->u); }
+
+static void dry_fluxes(struct fv *s)
+{
+    const unsigned char *layer = s->surface->layer;
+    mesh_face_velocities(s, s->u, s->rhs);
+    for (int a = 0; a < s->dim; a++)
+        for (int q = 0; q < s->nparts; q++) {
+            const struct part *p = s->part + q;
+            int down[3], up[3];
+            for (int t = 0; t < 3; t++)
+                down[t] = up[t] = t < s->dim && t != a;
+            up[a] = 1;
+            PART_ROWS (p, down, up, c, n)
+                for (int64_t i = c; i < c + n; i++)
+                    if (layer[i] && layer[i - p->stride[a]])
+                        s->U[a][i] = s->rhs[a][i];
+        }
+    mesh_bc_fluxes(s, s->U);
+}
 
 /* Largest sum over the indices of the rates of crossing cells, 1/s, and largest speed; what forces
  * add to the rate in a second. */
@@ -158,7 +182,7 @@ static void measure_blocks(struct fv *s)
                     for (int k = 0; k < m->dim; k++) {
                         const double S = 0.5 * (m->S[a][k][i] + m->S[a][k][i + p->stride[a]]);
                         F += s->u[k][i] * S;
-                        G += s->drive[k] * S;
+                        G += (s->drive[k] + (s->surface ? s->still[k] : 0.0)) * S;
                         S2 += S * S;
                     }
                     rate += fabs(F);
@@ -206,8 +230,8 @@ static void find_worst(const struct fv *s, double before, struct diagnosis *d)
                          at[0], at[1], at[2], b->prm->name, v < 1e300 ? v : NAN, s->u_limit);
                 snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, step of %g s, limited by %s",
                          x[0], x[1], x[2], s->dt, limit_name(s->limit));
-                limits_explain(&s->prm, s->limit, before, s->rate * s->dt, false, d->likely,
-                               sizeof d->likely);
+                limits_explain(&s->prm, s->limit, before, s->rate * s->dt, s->surface != NULL,
+                               d->likely, sizeof d->likely);
             }
     }
 }
@@ -228,9 +252,7 @@ static void place(const struct fv *s, int64_t c, char *text, size_t size)
     }
 }
 
-/* The residual says little about waves as long as the grid, which make forces: a smaller one is
- * wanted than where a cycle of PFMG takes all waves alike. */
-const struct stages block_stages = {.tolerance = 0.1,
+const struct stages block_stages = {.tolerance = 1.0,
                                     .pressure_gradient = pressure_gradient,
                                     .set_slip = set_slip,
                                     .begin_sides = begin_sides,
@@ -243,6 +265,8 @@ const struct stages block_stages = {.tolerance = 0.1,
                                     .solve_pressure = solve_pressure,
                                     .correct_fluxes = correct_fluxes,
                                     .fill_velocity = fill_velocity,
+                                    .dry_fluxes = dry_fluxes,
+                                    .rebuild_pressure = wet_pressure_rebuild,
                                     .measure = measure_blocks,
                                     .find_worst = find_worst,
                                     .place = place};

@@ -151,6 +151,20 @@ static void fill_velocity(struct fv *s)
     block_halo(&s->b, s->dim, s->u);
 }
 
+static void dry_fluxes(struct fv *s)
+{
+    surface_dry_fluxes(s);
+    if (s->blocked)
+        blocked_face_velocities(s, s->u, s->U, true);
+    bc_fluxes(s, BC_GIVEN, s->U);
+}
+
+static void rebuild_pressure(struct fv *s)
+{
+    if (s->pressure)
+        pressure_rebuild(s);
+}
+
 /* Largest |u_a| and sum of |u_a| w_a of a row of cells (in 2D the third is one of the others). A
  * value that is not finite makes the sum infinite. */
 static void measure_row(const double *restrict u, const double *restrict v,
@@ -241,6 +255,8 @@ const struct stages even_stages = {.tolerance = 1.0,
                                    .solve_pressure = solve_pressure,
                                    .correct_fluxes = correct_fluxes,
                                    .fill_velocity = fill_velocity,
+                                   .dry_fluxes = dry_fluxes,
+                                   .rebuild_pressure = rebuild_pressure,
                                    .measure = measure_even,
                                    .find_worst = find_worst,
                                    .place = place};

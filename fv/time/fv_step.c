@@ -20,7 +20,7 @@ void measure(struct fv *s) { s->stages->measure(s); }
 
 /* The velocity of an impact is not known before it: a step that turns out too long is taken back
  * and done again in half the time. */
-static bool step_with_surface(struct fv *s, double *dt)
+static bool step_with_surface(struct fv *s, double *dt, struct diagnosis *d)
 {
     const double most = 1.5 * fmax(s->prm.cfl, 0.1), rate = s->rate;
     double before[3];
@@ -31,10 +31,17 @@ static bool step_with_surface(struct fv *s, double *dt)
         timer_start(&s->run->timers, "surface");
         surface_first_half(s, *dt);
         timer_stop(&s->run->timers, "surface");
-        good = projection_step(s, *dt);
+        good = s->newton ? newton_try(s, *dt) : projection_step(s, *dt);
+        if (good && s->newton)
+            surface_extend(s, LAYERS);
         measure(s);
-        if ((good && s->rate * *dt <= most) || tries == 8)
-            return good;
+        if (good && (s->rate * *dt <= most || tries == 8))
+            return true;
+        if (tries == 8) {
+            if (s->newton)
+                newton_describe(s, "8 halvings of the step", d);
+            return s->newton;
+        }
         surface_back(s);
         memcpy(s->umax, before, sizeof before);
         s->rate = rate;
@@ -126,10 +133,12 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
     s->limit = dt < 0.5 * most.dt ? LIMIT_OUTPUT : most.by;
     if (s->prm.steady)
         dt = newton_pseudo_step(s, fmin(most.dt, s->run->scene.time.end), t_stop, d);
+    else if (s->surface)
+        good = step_with_surface(s, &dt, d);
     else if (s->newton)
         newton_step(s, &dt, d);
     else
-        good = s->surface ? step_with_surface(s, &dt) : projection_step(s, dt);
+        good = projection_step(s, dt);
     s->t = dt == left ? t_stop : s->t + dt;
     s->dt_old = s->dt;
     s->dt = dt;

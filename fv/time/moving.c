@@ -23,7 +23,7 @@
 #include "../grid/mesh_motion.h"
 #include "../grid/overset.h"
 #include "../operators/mesh_ops.h"
-#include "../poisson/mesh_pressure.h"
+#include "../poisson/poisson.h"
 #include "rk3.h"
 
 static const int none[3] = {0, 0, 0};
@@ -83,6 +83,8 @@ struct moving *moving_create(struct fv *s)
     v->t_cut = v->t_rows = s->t;
     v->least = least_height(m);
     s->jump = mesh_field(m);
+    for (int a = 0; a < m->dim; a++)
+        s->change[a] = mesh_field(m);
     if (!mesh_bc_pressure_given(s))
         s->zw = mesh_field(m);
     return v;
@@ -218,7 +220,7 @@ static void renew_matrix(struct fv *s)
     const bool hierarchy = v->fresh == 0.0;
     v->t_rows = hierarchy ? v->t_cut : v->t_rows;
     timer_start(&s->run->timers, "pressure");
-    mesh_pressure_renew(s, hierarchy);
+    poisson_renew(s, hierarchy);
     timer_stop(&s->run->timers, "pressure");
 }
 
@@ -353,9 +355,10 @@ void moving_fill(struct fv *s, double *const u[3])
     mesh_halo(s->m, m->dim, u);
 }
 
-void moving_change(struct fv *s, double *const delta[3])
+void moving_change(struct fv *s)
 {
     const struct mesh *m = s->m;
+    double *const *delta = s->change;
     for (int a = 0; a < m->dim; a++)
         memcpy(delta[a], s->u[a], (size_t)s->size * sizeof(double));
     moving_fill(s, delta);

@@ -25,8 +25,8 @@ void moving_turn_pressure(struct fv *s, double tau);
 void moving_convection(struct fv *s, double *const N[3]);
 /* Blocks, walls and donors at the time of a stage. */
 void moving_stage(struct fv *s, double t);
-/* delta in the fringe: what the motion changes there, 0 elsewhere. */
-void moving_change(struct fv *s, double *const delta[3]);
+/* s->change: what delta has in the fringe beyond its interpolation. */
+void moving_change(struct fv *s);
 void moving_end(struct fv *s);
 /* Cells that moving blocks pass a second now or within a step, 1/s. */
 double moving_rate(const struct fv *s);

@@ -46,7 +46,7 @@ static void make_kinsol(struct fv *s, struct newton *w)
     SUN(KINSetUserData(w->kin, s));
     SUN(KINSetLinearSolver(w->kin, w->krylov, NULL));
     SUN(KINSetPreconditioner(w->kin, newton_precond_setup, newton_precond_solve));
-    if (w->cells_of->evaluate_variation)
+    if (w->cells_of->evaluate_variation && !s->surface)
         SUN(KINSetJacTimesVecFn(w->kin, newton_jacobian_times));
     SUN(KINSetEtaForm(w->kin, s->prm.steady ? KIN_ETACONSTANT : KIN_ETACHOICE1));
     SUN(KINSetEtaConstValue(w->kin, 0.1));
@@ -197,8 +197,7 @@ static int64_t cell_of(const struct fv *s, int64_t k)
     return 0;
 }
 
-/* Cell of the largest scaled residual, for the diagnosis. */
-static void describe(struct fv *s, const char *after, struct diagnosis *d)
+void newton_describe(struct fv *s, const char *after, struct diagnosis *d)
 {
     struct newton *w = s->newton;
     const double *r = N_VGetArrayPointer(w->residual), *f = N_VGetArrayPointer(w->fscale);
@@ -233,33 +232,53 @@ static void describe(struct fv *s, const char *after, struct diagnosis *d)
                  s->prm.cfl);
 }
 
-bool newton_step(struct fv *s, double *dt, struct diagnosis *d)
+/* Both levels before, from the fields that become those of the next step. */
+static void take_levels(struct fv *s)
 {
     struct newton *w = s->newton;
-    start(s, "newton");
     newton_pack(s, s->p, s->u, w->q1);
     newton_pack(s, s->p_before, s->u_old, w->q2);
     memcpy(s->p_before, s->p, (size_t)s->size * sizeof(double));
     for (int a = 0; a < s->dim; a++)
         memcpy(s->u_old[a], s->u[a], (size_t)s->size * sizeof(double));
-    bool good = false;
     s->stages->begin_sides(s);
-    for (int k = 0; k <= HALVINGS && !good; k++) {
-        if (k > 0) {
-            *dt *= 0.5;
-            w->halvings++;
-        }
-        w->of.t = s->t + *dt;
-        s->stages->set_sides(s, w->of.t, *dt);
-        newton_set_step(s, *dt, s->dt);
-        set_levels(s, *dt, s->dt);
-        good = solve(s);
+}
+
+static bool solve_step(struct fv *s, double dt)
+{
+    s->newton->of.t = s->t + dt;
+    s->stages->set_sides(s, s->t + dt, dt);
+    newton_set_step(s, dt, s->dt);
+    set_levels(s, dt, s->dt);
+    return solve(s);
+}
+
+bool newton_try(struct fv *s, double dt)
+{
+    start(s, "newton");
+    take_levels(s);
+    const bool good = solve_step(s, dt);
+    s->newton->halvings += !good;
+    stop(s, "newton");
+    return good;
+}
+
+bool newton_step(struct fv *s, double *dt, struct diagnosis *d)
+{
+    struct newton *w = s->newton;
+    start(s, "newton");
+    take_levels(s);
+    bool good = solve_step(s, *dt);
+    for (int k = 0; k < HALVINGS && !good; k++) {
+        *dt *= 0.5;
+        w->halvings++;
+        good = solve_step(s, *dt);
     }
     stop(s, "newton");
     if (!good) {
         char after[64];
         snprintf(after, sizeof after, "%d halvings of the step to %g s", HALVINGS, *dt);
-        describe(s, after, d);
+        newton_describe(s, after, d);
     }
     return good;
 }
@@ -300,7 +319,7 @@ static void march(struct fv *s, struct diagnosis *d)
     const double before = w->norm;
     w->norm = scaled_norm(w, w->residual);
     if (!good)
-        describe(s, "a pseudo step that was cut to nothing", d);
+        newton_describe(s, "a pseudo step that was cut to nothing", d);
     w->steady = w->norm <= s->prm.tol_newton;
     if (before > 0.0 && w->norm > 0.0)
         w->dtau *= fmin(fmax(before / w->norm, 0.5), 10.0);
@@ -321,7 +340,7 @@ double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagn
     if (!d->bad && !w->steady && s->t + dt >= (1.0 - 1e-9) * end) {
         char after[64];
         snprintf(after, sizeof after, "%d pseudo steps", PSEUDO_STEPS);
-        describe(s, after, d);
+        newton_describe(s, after, d);
     }
     return dt;
 }

@@ -74,6 +74,10 @@ struct newton {
 
 struct newton *newton_create(struct fv *s);
 void newton_free(struct newton **n);
+/* One step of dt s from s->t; false: not converged, and the state is not one. */
+bool newton_try(struct fv *s, double dt);
+/* Where the last solve failed, and why it may have. */
+void newton_describe(struct fv *s, const char *after, struct diagnosis *d);
 /* One step of at most *dt s from s->t, halved as often as Newton fails (then d tells why). */
 bool newton_step(struct fv *s, double *dt, struct diagnosis *d);
 /* One step of pseudo-time towards the steady state, the first of dtau s, then as the residual

@@ -6,7 +6,7 @@
 
 #include "../boundary/mesh_bc.h"
 #include "../operators/mesh_ops.h"
-#include "../poisson/mesh_pressure.h"
+#include "../poisson/poisson.h"
 #include "newton.h"
 #include "stages.h"
 
@@ -196,7 +196,7 @@ static void cycle(struct fv *s, double *div, double *phi)
     FLOW_ROWS(s, c, n)
     for (int64_t i = c; i < c + n; i++)
         div[i] *= s->free[i] * s->m->V[i];
-    mesh_pressure_cycle(s, div, phi);
+    poisson_cycle(s, div, phi);
     mesh_halo(s->m, 1, &phi);
     mesh_bc_even(s, true, phi);
 }

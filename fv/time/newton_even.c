@@ -1,11 +1,14 @@
 /* newton_even.c - the equations of newton.h on a uniform grid and on graded rows, and their
- * derivative along a variation, written out. SPDX-License-Identifier: BSD-3-Clause */
+ * derivative along a variation, written out. A free surface stands still within a step: dry cells
+ * are no unknowns, what they carry on and the normal stress belong to the velocity of the end; the
+ * derivative is then made of difference quotients. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
 
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
 #include "../poisson/pressure.h"
+#include "../surface/levelset.h"
 #include "newton.h"
 #include "../operators/operators.h"
 #include "../watch/limits.h"
@@ -22,6 +25,11 @@ static void fill_ghosts(struct fv *s, const struct flow *q, bool variation)
         forcing_zero(s->forcing, q->p);
     } else if (s->forcing)
         forcing_velocity(s, s->newton->of.t, q->u);
+    if (s->surface) {
+        extension_apply(s, q->u, EXTEND_SHEAR, STENCILS);
+        surface_set_pressure(s);
+        extension_scalar(s, q->p);
+    }
     bc_ghosts(s, variation ? BC_ZERO : BC_GIVEN, q->u);
     block_halo(&s->b, s->b.dim + 1, fields);
 }
@@ -37,6 +45,19 @@ static void add_pressure_flux(double *restrict U, const double *restrict p,
     }
 }
 
+/* The same where a face is cut: p is that of the surface. */
+static void add_cut_flux(struct fv *s, const struct flow *q)
+{
+    const struct surface *f = s->surface;
+    const double d = s->newton->of.d;
+    for (int a = 0; a < s->dim; a++)
+        for (int64_t i = 0; i < f->ncut[a]; i++) {
+            const struct cut *x = f->cut[a] + i;
+            q->U[a][x->face] += d * 0.5 * (q->G[a][x->wet] + q->G[a][x->dry]);
+        }
+    surface_fluxes(s, d, q->p);
+}
+
 /* Ghosts, gradient of p, fluxes. */
 static void complete(struct fv *s, const struct flow *q, bool variation)
 {
@@ -44,16 +65,22 @@ static void complete(struct fv *s, const struct flow *q, bool variation)
     fill_ghosts(s, q, variation);
     for (int a = 0; a < b->dim; a++) {
         gradient(s, q->p, a, variation ? CONTINUE_VARIATION : CONTINUE_CUBIC, q->G[a]);
+        if (s->surface)
+            surface_gradient(s, a, q->p, q->G[a]);
         if (s->forcing)
             forcing_zero(s->forcing, q->G[a]);
+        if (s->surface)
+            extension_scalar(s, q->G[a]);
     }
     block_halo(b, b->dim, q->G);
+    double *const *open = s->surface ? s->surface->open : s->forcing ? s->forcing->open : NULL;
     convection_face_velocities(s, q->u, q->U);
     for (int a = 0; a < b->dim; a++)
         BLOCK_ROWS (b, 1, c, n)
-            add_pressure_flux(q->U[a] + c, q->p + c, q->G[a] + c,
-                              s->forcing ? s->forcing->open[a] + c : NULL, b->stride[a],
-                              s->newton->of.d, 1.0 / block_step(b, a, j_), n);
+            add_pressure_flux(q->U[a] + c, q->p + c, q->G[a] + c, open ? open[a] + c : NULL,
+                              b->stride[a], s->newton->of.d, 1.0 / block_step(b, a, j_), n);
+    if (s->surface)
+        add_cut_flux(s, q);
     if (s->forcing && variation)
         forcing_fluxes_variation(s, q->U);
     else if (s->forcing)
@@ -279,11 +306,32 @@ static void close_rows(struct fv *s)
     }
 }
 
+/* Beyond the surface the velocity goes on as it is. */
+static void close_wet_rows(struct fv *s)
+{
+    const unsigned char *layer = s->surface->layer;
+    double *const *A = s->newton->A;
+    for (int e = 1; e <= 2 * s->dim; e++) {
+        const int64_t to = (e % 2 ? -1 : 1) * s->b.stride[(e - 1) / 2];
+        BLOCK_ROWS (&s->b, 0, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                if (!layer[i] && layer[i + to])
+                    A[0][i] += A[e][i];
+                if (layer[i] || layer[i + to])
+                    A[e][i] = 0.0;
+                if (layer[i])
+                    A[0][i] = 1.0;
+            }
+    }
+}
+
 static void fill_rows(struct fv *s)
 {
     const double a = s->prm.c0 > 0.0 ? 1.0 / (s->prm.c0 * s->prm.c0) : 0.0, c0 = s->newton->of.c0;
     fill_open_rows(s);
     close_rows(s);
+    if (s->surface)
+        close_wet_rows(s);
     pressure_shift(s, a * c0 * c0);
 }
 
@@ -297,6 +345,10 @@ static void zero_ghosts(struct fv *s, double *const x[3])
 static void subtract_divergence(struct fv *s, double *const x[3], double *restrict div)
 {
     const struct block *b = &s->b;
+    if (s->surface) {
+        extension_apply(s, x, EXTEND_CHANGE, STENCILS);
+        zero_ghosts(s, x);
+    }
     for (int a = 0; a < b->dim; a++) {
         const int64_t d = b->stride[a];
         const double *restrict u = x[a];
@@ -320,14 +372,19 @@ static void cycle(struct fv *s, double *div, double *phi)
 
 static void gradients(struct fv *s, const double *phi, double *const g[3])
 {
-    for (int a = 0; a < s->dim; a++)
+    for (int a = 0; a < s->dim; a++) {
         gradient(s, phi, a, CONTINUE_EVEN, g[a]);
+        if (s->surface)
+            surface_gradient_change(s, a, phi, g[a]);
+    }
 }
 
 static void clear(const struct fv *s, double *q)
 {
     if (s->forcing)
         forcing_zero(s->forcing, q);
+    if (s->surface)
+        surface_zero(s, q);
 }
 
 const struct newton_cells newton_even = {.set_rates = set_rates,

@@ -83,7 +83,7 @@ double newton_dissipation(const struct fv *s)
  * scratch. */
 static void clear_given(const struct fv *s, N_Vector r)
 {
-    if (!s->m && !s->forcing)
+    if (!s->m && !s->forcing && !s->surface)
         return;
     newton_unpack(s, r, s->face, s->rhs);
     s->newton->cells_of->clear(s, s->face);

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "../operators/blocked_cells.h"
 #include "../surface/levelset.h"
 #include "moving.h"
 #include "rk3.h"
@@ -45,14 +44,10 @@ void projection(struct fv *s, double t, int stage, double tau, double tol)
             u[i] -= tau * g[i];
     }
     if (s->surface)
-        end_surface_stage(s, tau, psi, stage == 2);
+        end_surface_stage(s, tau, psi, stage == 2 || s->prm.integrator == INTEGRATOR_BDF2);
     s->stages->fill_velocity(s);
-    if (s->surface) {
-        surface_dry_fluxes(s);
-        if (s->blocked)
-            blocked_face_velocities(s, s->u, s->U, true);
-        bc_fluxes(s, BC_GIVEN, s->U);
-    }
+    if (s->surface)
+        s->stages->dry_fluxes(s);
     stop(s, "operators");
 }
 
@@ -125,14 +120,21 @@ static void add_pressure(struct fv *s, const double *restrict psi)
         p[i] = keep * p[i] + psi[i];
 }
 
+/* Of the last projection of a step. With a surface that of the pressure's change in a step, whose
+ * errors make or damp waves; the first one has no pressure to start from. */
+static double last_tolerance(const struct fv *s)
+{
+    if (s->surface)
+        return s->dt > 0.0 ? 0.01 * s->prm.tol_pressure : 1e-8;
+    return s->stages->tolerance * s->prm.tol_pressure;
+}
+
 static bool step_rk3(struct fv *s, double dt)
 {
     /* one cycle mostly; but a fixed number of them diverges around a hole on some grids (50 and 54
      * cells) */
-    const bool fresh = s->surface && !(s->dt > 0.0); /* no pressure to start from */
-    /* with a surface of the pressure's change in a step, whose errors make or damp waves */
-    const double last =
-        fresh ? 1e-8 : (s->surface ? 0.01 : s->stages->tolerance) * s->prm.tol_pressure;
+    const bool fresh = s->surface && !(s->dt > 0.0);
+    const double last = last_tolerance(s);
     const double first = fresh ? last : fmin(10.0 * last, 0.1), t = s->t;
     bool good = true;
     double before = (rk3_alpha[2] + rk3_beta[2]) * s->dt; /* the last stage's part of a step */
@@ -178,6 +180,8 @@ static bool step_bdf2(struct fv *s, double dt)
     const double tau = dt / c0;
     begin_step(s);
     step_convection(s);
+    for (int a = 0; s->surface && a < s->dim; a++)
+        extension_scalar(s, s->N[a]); /* for cells that the next step finds wet */
     start(s, "viscous");
     s->stages->set_slip(s, tau, s->psi[0]);
     /* increment from u^n: (1 - tau L) d = tau [L u - (1+r) N + r N_old - Gc p] + (c2/c0)(u^n -
@@ -187,7 +191,7 @@ static bool step_bdf2(struct fv *s, double dt)
     s->stages->set_sides(s, s->t + dt, dt);
     const bool good = add_increment(s, tau, s->t + dt, 0.0);
     stop(s, "viscous");
-    projection(s, s->t + dt, 0, tau, s->stages->tolerance * s->prm.tol_pressure);
+    projection(s, s->t + dt, 0, tau, last_tolerance(s));
     add_pressure(s, s->psi[0]);
     return good;
 }

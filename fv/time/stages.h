@@ -33,6 +33,10 @@ struct stages {
     void (*correct_fluxes)(struct fv *s, double tau, double *psi);
     /* Ghosts of the projected velocity. */
     void (*fill_velocity)(struct fv *s);
+    /* With a surface: U of faces between dry cells, from u with its ghosts. */
+    void (*dry_fluxes)(struct fv *s);
+    /* The pressure's matrix for the surface where it stands. */
+    void (*rebuild_pressure)(struct fv *s);
     void (*measure)(struct fv *s);
     /* Fills d with the fastest cell, if this rank has it. */
     void (*find_worst)(const struct fv *s, double before, struct diagnosis *d);

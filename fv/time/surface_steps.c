@@ -5,22 +5,34 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/mem.h"
 #include "../boundary/bc.h"
-#include "../operators/blocked_cells.h"
-#include "../poisson/pressure.h"
+#include "../operators/mesh_ops.h"
 #include "../operators/operators.h"
+#include "../surface/mesh_view.h"
+#include "stages.h"
 
 enum { REINIT_STEPS = 10 }; /* of 0.45 h each: more than what the surface has travelled */
 
 static void rebuild(struct fv *s)
 {
     surface_rebuild(s);
-    if (s->pressure)
-        pressure_rebuild(s);
+    s->stages->rebuild_pressure(s);
 }
 
-/* Velocities that shapes add to the field's. */
-static void add_velocities(struct fv *s)
+/* Velocity that a shape at x adds to that of place c; whether it does. */
+static bool add_velocity(struct fv *s, int64_t c, const double *x)
+{
+    const struct scene_shape *h = surface_shape(s, x);
+    bool any = false;
+    for (int a = 0; h && a < s->dim; a++) {
+        s->u[a][c] += h->velocity[a];
+        any = any || h->velocity[a] != 0.0;
+    }
+    return any;
+}
+
+static bool add_on_even_cells(struct fv *s)
 {
     const struct block *b = &s->b;
     bool any = false;
@@ -28,34 +40,42 @@ static void add_velocities(struct fv *s)
     for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
         for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
             for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
-                const int64_t c = block_at(b, i, j, k);
                 block_centre(b, i, j, k, x);
-                const struct scene_shape *h = surface_shape(s, x);
-                for (int a = 0; h && a < b->dim; a++) {
-                    s->u[a][c] += h->velocity[a];
-                    any = any || h->velocity[a] != 0.0;
-                }
+                any = add_velocity(s, block_at(b, i, j, k), x) || any;
             }
-    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_C_BOOL, MPI_LOR, b->cart);
-    if (!any)
-        return;
-    extension_apply(s, s->u, EXTEND_FREE, LAYERS);
-    bc_ghosts(s, BC_GIVEN, s->u);
-    block_halo(b, b->dim, s->u);
-    convection_face_velocities(s, s->u, s->U);
+    return any;
 }
 
-/* Velocity beyond the surface where it stands now, with ghosts, and the fluxes there. */
-static void carry_on(struct fv *s, int layers)
+static bool add_on_blocks(struct fv *s)
+{
+    double *const *x = s->surface->mesh->x;
+    bool any = false;
+    for (int64_t c = 0; c < s->size; c++)
+        any = add_velocity(s, c, (const double[]){x[0][c], x[1][c], x[2][c]}) || any;
+    return any;
+}
+
+/* Velocities that shapes add to the field's. */
+static void add_velocities(struct fv *s)
+{
+    bool any = s->m ? add_on_blocks(s) : add_on_even_cells(s);
+    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_C_BOOL, MPI_LOR, s->comm);
+    if (!any && !s->m)
+        return;
+    extension_apply(s, s->u, EXTEND_FREE, LAYERS);
+    s->stages->fill_velocity(s);
+    if (s->m)
+        mesh_face_velocities(s, s->u, s->U);
+    else
+        convection_face_velocities(s, s->u, s->U);
+}
+
+void surface_extend(struct fv *s, int layers)
 {
     extension_apply(s, s->u, EXTEND_SHEAR, layers);
     surface_set_pressure(s);
-    bc_ghosts(s, BC_GIVEN, s->u);
-    block_halo(&s->b, s->b.dim, s->u);
-    surface_dry_fluxes(s);
-    if (s->blocked)
-        blocked_face_velocities(s, s->u, s->U, true);
-    bc_fluxes(s, BC_GIVEN, s->U);
+    s->stages->fill_velocity(s);
+    s->stages->dry_fluxes(s);
 }
 
 /* p = 0 at the highest water, if the case does not say where. */
@@ -63,10 +83,10 @@ static void set_level(struct fv *s)
 {
     const struct surface *f = s->surface;
     double top = -INFINITY;
-    for (int a = 0; a < s->b.dim; a++)
+    for (int a = 0; a < s->dim; a++)
         for (int64_t i = 0; i < f->ncut[a]; i++)
             top = fmax(top, f->cut[a][i].height);
-    MPI_Allreduce(MPI_IN_PLACE, &top, 1, MPI_DOUBLE, MPI_MAX, s->b.cart);
+    MPI_Allreduce(MPI_IN_PLACE, &top, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     if (s->run->scene.initial.level < LEVEL_TOP || !isfinite(top) || f->g == 0.0)
         return;
     s->level += top / f->g;
@@ -80,7 +100,7 @@ void surface_start(struct fv *s)
     rebuild(s);
     set_level(s);
     add_velocities(s);
-    carry_on(s, LAYERS);
+    surface_extend(s, LAYERS);
 }
 
 /* What the band has not seen yet must be told before the surface comes there. */
@@ -90,14 +110,42 @@ static void refresh(struct fv *s)
         surface_reinit(s, REINIT_STEPS);
 }
 
-/* The normal stress of the last stage is part of the surface's pressure: clean while nu dt/(theta
- * h^2) is at most 5 (measured), here 3.3, as limits.c keeps nu dt/h^2 below 1. */
+/* Of projected steps: the normal stress of the last stage is part of the surface's pressure: clean
+ * while nu dt/(theta h^2) is at most 5 (measured), here 3.3, as limits.c keeps nu dt/h^2 below 1.
+ */
 static double least_theta(const struct fv *s, double dt)
 {
-    double h = INFINITY;
-    for (int a = 0; a < s->b.dim; a++)
-        h = fmin(h, s->b.h[a]);
+    const double h = s->surface->least;
+    if (s->newton)
+        return 0.0;
     return fmin(0.3 * s->nu * dt / (h * h), 0.3);
+}
+
+/* Newmark's beta of waves: 1/12 has no error of second order; more where the shortest ones, omega^2
+ * = 4 g/h at most, want it to be stable: omega dt < 2/sqrt(1 - 4 beta). */
+static double newmark_beta(const struct fv *s, double dt)
+{
+    const double *g = s->run->scene.fluid.gravity, size = s->surface->g;
+    double h = INFINITY;
+    for (int a = 0; a < s->dim; a++)
+        if (fabs(g[a]) < 0.7 * size)
+            h = fmin(h, s->b.h[a]);
+    return fmax(1.0 / 12.0, 0.25 * (1.0 - h / (size * dt * dt)));
+}
+
+/* Backward differences want the pressure where the step ends: the surface goes on there with the
+ * velocity of the start, and comes back to half time afterwards. Of the velocities that then take
+ * turns with phi, u^n+1 - u^n = dt F(n+1/2) is left where nothing but gravity acts: the leapfrog,
+ * which has no loss. The first step has no such difference. */
+static void go_ahead(struct fv *s, double dt)
+{
+    struct surface *f = s->surface;
+    const double travelled = f->travelled;
+    memcpy(f->half, f->phi, (size_t)s->b.size * sizeof(double));
+    f->rise = newmark_beta(s, dt) * dt * dt;
+    if (s->dt > 0.0)
+        surface_advance(s, 0.5 * dt);
+    f->travelled = travelled;
 }
 
 void surface_first_half(struct fv *s, double dt)
@@ -105,8 +153,10 @@ void surface_first_half(struct fv *s, double dt)
     s->surface->theta_least = least_theta(s, dt);
     surface_advance(s, 0.5 * dt);
     refresh(s);
+    if (s->surface->half)
+        go_ahead(s, dt);
     rebuild(s);
-    carry_on(s, STENCILS);
+    surface_extend(s, STENCILS);
 }
 
 /* m^dim/s: water that comes in through openings less what leaves, and their sum, over all ranks. */
@@ -130,12 +180,14 @@ static void flows(const struct fv *s, double sums[2])
                 sums[1] += fabs(in);
             }
     }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
 void surface_second_half(struct fv *s, double dt)
 {
     double through[2];
+    if (s->surface->half)
+        memcpy(s->surface->phi, s->surface->half, (size_t)s->b.size * sizeof(double));
     flows(s, through);
     s->surface->volume0 += dt * through[0];
     s->surface->passed += dt * through[1];
@@ -145,7 +197,9 @@ void surface_second_half(struct fv *s, double dt)
     surface_sample(s);
 }
 
-/* Lists the fields of the state; returns their number. */
+enum { STATE = 24 };
+
+/* Lists the fields of the state, convection's with bdf2, whose steps swap them; their number. */
 static int state(struct fv *s, double **f)
 {
     int n = 0;
@@ -154,9 +208,11 @@ static int state(struct fv *s, double **f)
     f[n++] = s->p_before;
     for (int a = 0; a < 3; a++) {
         f[n++] = s->psi[a];
-        if (a < s->b.dim) {
-            f[n++] = s->u[a];
-            f[n++] = s->U[a];
+        for (int k = 0; k < 4 && a < s->dim; k++) {
+            double *const all[] = {s->u[a], s->U[a], s->u_old[a],
+                                   s->prm.integrator == INTEGRATOR_BDF2 ? s->N[a] : NULL};
+            if (all[k])
+                f[n++] = all[k];
         }
     }
     return n;
@@ -164,22 +220,22 @@ static int state(struct fv *s, double **f)
 
 void surface_keep_state(struct fv *s)
 {
-    double *f[12];
+    double *f[STATE];
     const int n = state(s, f);
     for (int k = 0; k < n; k++) {
         if (!s->surface->before[k])
-            s->surface->before[k] = block_field(&s->b);
-        memcpy(s->surface->before[k], f[k], (size_t)s->b.size * sizeof(double));
+            s->surface->before[k] = NEW(double, s->size);
+        memcpy(s->surface->before[k], f[k], (size_t)s->size * sizeof(double));
     }
     s->surface->travelled_before = s->surface->travelled;
 }
 
 void surface_back(struct fv *s)
 {
-    double *f[12];
+    double *f[STATE];
     const int n = state(s, f);
     for (int k = 0; k < n; k++)
-        memcpy(f[k], s->surface->before[k], (size_t)s->b.size * sizeof(double));
+        memcpy(f[k], s->surface->before[k], (size_t)s->size * sizeof(double));
     s->surface->travelled = s->surface->travelled_before;
     s->surface->repeats++;
 }

@@ -160,14 +160,20 @@ static double viscous_time(double nu, const double *h, int dim)
     return nu > 0.0 ? VISCOUS_MOST * least * least / nu : INFINITY;
 }
 
-static void lower_surface(struct step_limit *l, const struct scene *s, double cfl, const double *h)
+/* Waves of two cells: stable steps (rk3), or exact ones of waves that cells resolve. Implicit ones
+ * do not see how flat the cells lie. */
+static void lower_surface(struct step_limit *l, const struct scene *s, const struct fv_params *p,
+                          const double *h)
 {
-    double shortest = INFINITY; /* waves of two cells */
+    const double g = size_of(s->fluid.gravity, s->domain.dim), cfl = limits_cfl(p),
+                 part[] = {fmin(cfl, 1.0), cfl / BDF2_CFL, cfl};
+    double shortest = INFINITY;
     for (int a = 0; a < s->domain.dim; a++)
-        shortest = fmin(shortest, h[a]);
-    const double g = size_of(s->fluid.gravity, s->domain.dim);
-    lower(l, g > 0.0 ? WAVES * fmin(cfl, 1.0) * sqrt(shortest / g) : INFINITY, LIMIT_WAVES);
-    lower(l, viscous_time(s->fluid.nu, h, s->domain.dim), LIMIT_VISCOUS);
+        if (p->integrator == INTEGRATOR_RK3 || fabs(s->fluid.gravity[a]) < 0.7 * g)
+            shortest = fmin(shortest, h[a]);
+    lower(l, g > 0.0 ? WAVES * part[p->integrator] * sqrt(shortest / g) : INFINITY, LIMIT_WAVES);
+    if (p->integrator != INTEGRATOR_NEWTON)
+        lower(l, viscous_time(s->fluid.nu, h, s->domain.dim), LIMIT_VISCOUS);
 }
 
 /* Convection by two steps' extrapolation, at cell Reynolds number Re. */
@@ -176,14 +182,17 @@ static double bdf2_time(double rate, double Re)
     return rate > 0.0 ? 0.8 / (cbrt(Re) * rate) : INFINITY;
 }
 
-static struct step_limit bulk_limit(const struct scene *s, double cfl, double rate, bool surface,
-                                    const double *h)
+static struct step_limit bulk_limit(const struct scene *s, const struct fv_params *p, double rate,
+                                    bool surface, const double *h)
 {
-    const double rise = rise_of(s, surface, h), dt = limits_time(cfl, rate, rise);
+    /* what falls within an implicit step is seen when it has: the step is taken back */
+    const bool falls = surface && p->integrator != INTEGRATOR_NEWTON;
+    const double rise = surface && !falls ? 0.0 : rise_of(s, surface, h),
+                 dt = limits_time(limits_cfl(p), rate, rise);
     struct step_limit l = {INFINITY, LIMIT_NONE};
     lower(&l, dt, rise * dt > rate ? LIMIT_FORCES : LIMIT_FLOW);
     if (surface)
-        lower_surface(&l, s, cfl, h);
+        lower_surface(&l, s, p, h);
     return l;
 }
 
@@ -192,6 +201,10 @@ static struct step_limit limit_on_blocks(const struct fv *s)
 {
     const double dt = limits_time(s->prm.cfl, s->rate, s->rise);
     struct step_limit l = {dt, s->rise * dt > s->rate ? LIMIT_FORCES : LIMIT_FLOW};
+    if (s->surface) {
+        const double h = s->surface->least;
+        lower_surface(&l, &s->run->scene, &s->prm, (const double[]){h, h, h});
+    }
     if (s->prm.integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(s->rate, s->Re), LIMIT_BDF2);
     return l;
@@ -216,7 +229,7 @@ struct step_limit limits_of(const struct fv *s)
     }
     const struct scene *scene = &s->run->scene;
     const double rate = fmax(s->rate, imposed_rate(scene, h));
-    struct step_limit l = bulk_limit(scene, cfl, rate, s->surface != NULL, h);
+    struct step_limit l = bulk_limit(scene, &s->prm, rate, s->surface != NULL, h);
     if (s->bc && s->bc->carries && s->prm.integrator != INTEGRATOR_NEWTON)
         lower(&l, limits_time(fmin(cfl, OUTFLOW_CFL), rate, 0.0), LIMIT_OUTFLOW);
     if (s->prm.integrator == INTEGRATOR_BDF2)
@@ -237,7 +250,7 @@ struct step_limit limits_estimate(const struct run *r, const double *h)
     if (s->initial.field > FIELD_UNIFORM && !scene_has_wave(s))
         rate += s->initial.U / shortest;
     rate = fmax(rate, imposed_rate(s, h));
-    struct step_limit l = bulk_limit(s, limits_cfl(p), rate, surface_wanted(r), h);
+    struct step_limit l = bulk_limit(s, p, rate, surface_wanted(r), h);
     for (int k = 0; k < s->nwalls; k++)
         if (s->walls[k].carried && p->integrator != INTEGRATOR_NEWTON)
             lower(&l, limits_time(OUTFLOW_CFL, rate, 0.0), LIMIT_OUTFLOW);

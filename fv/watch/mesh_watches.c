@@ -6,6 +6,7 @@
 #include "../boundary/mesh_bc.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
+#include "../surface/levelset.h"
 
 static const int none[3] = {0, 0, 0};
 
@@ -22,7 +23,8 @@ static bool has_sides(const struct mesh *m)
  * levels. */
 struct watches *mesh_watches_create(struct fv *s)
 {
-    struct watches *w = watches_create(s->run, &s->prm, !has_sides(s->m), false);
+    struct watches *w =
+        watches_create(s->run, &s->prm, !has_sides(s->m) && !s->surface, s->surface != NULL);
     if (s->m->has_fringe) {
         w->energy.warn *= 10.0;
         w->energy.stop *= 10.0;
@@ -32,9 +34,12 @@ struct watches *mesh_watches_create(struct fv *s)
             if (s->m->block[k].side[side] == MESH_INFLOW ||
                 s->m->block[k].side[side] == MESH_OUTFLOW)
                 watches_open(w);
-    w->has_energy = !s->prm.steady && !s->m->moves; /* blocks that move do work */
-    w->has_growth = !s->newton && !s->m->moves;
-    w->energy_every = 20;                    /* faces are mapped anew */
+    double walls = 0.0; /* friction at a moving one is not known beside a surface */
+    mesh_bc_rate(s, &walls);
+    MPI_Allreduce(MPI_IN_PLACE, &walls, 1, MPI_DOUBLE, MPI_MAX, s->comm);
+    w->has_energy = !s->prm.steady && !s->m->moves && !(s->surface && walls > 0.0);
+    w->has_growth = !s->newton && !s->surface && !s->m->moves;
+    w->energy_every = s->surface ? 1 : 20;   /* faces are mapped anew */
     w->speed = fmax(w->speed, s->reference); /* of walls and openings of blocks, too */
     return w;
 }
@@ -46,7 +51,8 @@ static struct flow_energy energy_of(struct fv *s)
     for (int q = 0; q < m->nparts; q++)
         PART_ROWS (m->part + q, none, none, c, n)
             for (int64_t i = c; i < c + n; i++) {
-                const double w = s->free[i] * m->V[i];
+                const double w = s->surface ? surface_cell_volume(s, i, j_) * surface_share(s, i)
+                                            : s->free[i] * m->V[i];
                 double square = 0.0;
                 for (int a = 0; a < m->dim; a++) {
                     sums[a] += w * s->u[a][i];
@@ -55,10 +61,10 @@ static struct flow_energy energy_of(struct fv *s)
                 sums[3] += 0.5 * w * square;
                 sums[4] += w;
             }
-    if (!s->watches->periodic)
+    if (!s->watches->periodic && !s->surface)
         sums[5] = mesh_bc_power(s);
     for (int a = 0; a < m->dim; a++)
-        sums[5] += s->drive[a] * sums[a];
+        sums[5] += (s->drive[a] + (s->surface ? s->still[a] : 0.0)) * sums[a];
     MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, m->comm);
     return (struct flow_energy){.kinetic = sums[3],
                                 .momentum = {sums[0], sums[1], sums[2]},
@@ -141,5 +147,9 @@ void mesh_watches_look(struct fv *s, struct diagnosis *d)
     }
     if (watches_want_waves(w, step))
         look_at_waves(s, step, d);
+    if (s->surface && s->surface->volume0 > 0.0)
+        watch_judge(&w->returned,
+                    fabs(s->surface->returned) / (s->surface->volume0 + s->surface->passed), s->t,
+                    step, d);
     timer_stop(&s->run->timers, "watches");
 }

@@ -14,6 +14,7 @@
 #include "rooms.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
+#include "../refinement/refinement.h"
 #include "../sph_params.h"
 #include "../walls/walls.h"
 
@@ -298,4 +299,55 @@ void fill_lattice(struct sph *s)
     basins_free(&b);
     lattice_free(&l);
     s->next_id = (all + ranks - 1) / ranks * ranks + s->run->rank;
+}
+
+/* Whether the masses of the first particles are those of a fluid at rest. */
+static bool is_weighed(const struct scene *c)
+{
+    double still[3];
+    return scene_still_gravity(c, still) != 0.0 && !scene_has_wave(c) &&
+           c->initial.field != FIELD_POISEUILLE;
+}
+
+/* Slopes that children are born with: those of water at rest where its weight counts. */
+static void set_slopes(struct sph *s, const struct exact *e)
+{
+    const int dim = s->dim;
+    const bool weighed = is_weighed(&s->run->scene);
+    if (s->p.n > 0)
+        memset(s->p.slope, 0, (size_t)s->p.n * s->p.nslope * sizeof(double));
+    for (int i = 0; i < s->p.n && weighed; i++) {
+        const double *y = state_row(&s->p, s->p.y, i);
+        const double rho = y[at_mass(dim)] / y[at_volume(dim)];
+        const double c = eos_c(rho, s->rho0, s->c0, s->gamma);
+        double x[3] = {0.0, 0.0, 0.0}, u[3], p;
+        memcpy(x, y, (size_t)dim * sizeof *x);
+        exact_point(e, x, 0.0, u, &p, NULL);
+        const bool falls = rho == eos_rho(p, s->rho0, s->c0, s->gamma);
+        for (int a = 0; a < dim && !falls; a++)
+            slope_line(&s->p, i)[a] = s->periodic[a] ? 0.0 : rho * s->gravity[a] / (c * c);
+    }
+}
+
+void fill_finer(struct sph *s)
+{
+    const struct exact e = exact_create(&s->run->scene);
+    const bool weighed = is_weighed(&s->run->scene);
+    set_slopes(s, &e);
+    refinement_adapt(s);
+    s->refinement->added = 0.0;
+    for (struct sph *q = s->finer; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            const double *y = state_row(&q->p, q->p.y, i),
+                         w = s->prm.packing > 0 ? y[at_volume(q->dim)] : q->dxD;
+            const double rho = y[at_mass(q->dim)] / y[at_volume(q->dim)];
+            double x[3] = {0.0, 0.0, 0.0}, u[3], p, more[3];
+            memcpy(x, y, (size_t)q->dim * sizeof *x);
+            if (!scene_is_fluid(&s->run->scene, &e, x, more)) /* beyond its shape */
+                continue;
+            exact_point(&e, x, 0.0, u, &p, NULL);
+            for (int a = 0; a < q->dim; a++)
+                u[a] += more[a];
+            particles_set(q, i, x, u, w, weighed ? rho : eos_rho(p, q->rho0, q->c0, q->gamma));
+        }
 }

@@ -11,6 +11,8 @@
 #include "../walls/wall_thin.h"
 #include "../bodies/body_check.h"
 #include "../open_boundaries/zones.h"
+#include "../refinement/apr_params.h"
+#include "../refinement/regions_check.h"
 
 static struct sph_params given; /* as the case has it: the target of the table */
 static bool present;
@@ -54,7 +56,12 @@ const struct param_group sph_groups[SPH_GROUPS] = {{.name = "sph",
                                                     .rows = rows,
                                                     .nrows = sizeof rows / sizeof rows[0],
                                                     .target = &given,
-                                                    .present = &present}};
+                                                    .present = &present},
+                                                   {.name = "apr",
+                                                    .help = "adaptive particle refinement",
+                                                    .rows = apr_rows,
+                                                    .nrows = APR_ROWS,
+                                                    .target = &apr_given}};
 
 static bool is_given(double box[2][3])
 {
@@ -532,4 +539,6 @@ void sph_params_check(const struct run *r, struct faults *f)
         check_thin(r, f);
     else if (f->n == 0)
         sph_meshes_check(r, sph_params_of(r), f);
+    if (f->n == 0)
+        regions_check(r, sph_params_of(r), f);
 }

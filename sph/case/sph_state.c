@@ -10,6 +10,9 @@
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/scheme.h"
+#include "../refinement/criteria.h"
+#include "../refinement/guards.h"
+#include "../refinement/refinement.h"
 #include "../sph_params.h"
 #include "../surface/surface.h"
 #include "../bodies/bodies.h"
@@ -55,12 +58,20 @@ static void remember_start(struct sph *s)
     memcpy(s->momentum0, sums + SUM_MOMENTUM, sizeof s->momentum0);
 }
 
-struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f)
+/* Without particles; coarser: the level above, NULL: the first. */
+static struct sph *create_level(struct run *r, const struct sph_params *prm, struct sph *coarser)
 {
     struct sph *s = NEW(struct sph, 1);
     s->run = r;
     s->prm = *prm;
     s->t = r->t;
+    s->coarser = coarser;
+    if (coarser) {
+        coarser->finer = s;
+        s->level = coarser->level + 1;
+        s->prm.dx = 0.5 * coarser->dx;
+        s->next_id = ((int64_t)s->level << 56) + r->rank;
+    }
     set_constants(s);
     particles_create(&s->p, s->dim, 0);
     s->list = neighbours_create();
@@ -74,12 +85,40 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
     s->scheme = &s->passes;
     s->stages = stages_of(prm->integrator, prm->scheme);
     sph_watch_create(s);
+    return s;
+}
+
+/* The finer levels of a case that refines. */
+static void create_finer(struct sph *s)
+{
+    struct regions *g = regions_create(s->run, &s->prm);
+    if (!g)
+        return;
+    s->refinement = NEW(struct refinement, 1);
+    s->refinement->regions = g;
+    s->guards = guards_create();
+    for (struct sph *q = s; q->level < regions_levels(g);) {
+        q = create_level(s->run, &s->prm, q);
+        q->guards = guards_create();
+    }
+}
+
+struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f)
+{
+    struct sph *s = create_level(r, prm, NULL);
+    create_finer(s);
     if (f) {
         if (!sph_restore(s, f))
             sph_free(&s);
         return s;
     }
     fill_lattice(s);
+    if (s->finer && criteria_due(s->refinement->regions, s->t)) { /* of the coarsest level alone */
+        integrate_start(s);
+        refinement_look(s);
+    }
+    if (s->finer)
+        fill_finer(s);
     integrate_start(s);
     remember_start(s);
     return s;
@@ -89,6 +128,9 @@ void sph_free(struct sph **s)
 {
     if (!*s)
         return;
+    sph_free(&(*s)->finer);
+    refinement_free(*s);
+    guards_free(&(*s)->guards);
     domain_free(&(*s)->domain);
     zones_free(&(*s)->zones);
     walls_free(&(*s)->walls);

@@ -19,19 +19,20 @@
 #include "../walls/walls.h"
 #include "../open_boundaries/zones.h"
 
-enum { NORM_VELOCITY, NORM_PRESSURE, NORM_VORTICITY, FIRST_NORM = NORM_VELOCITY };
-enum { NORMS = NORM_VORTICITY - FIRST_NORM + 1 };
+/* The last: of the velocity, over the particles whose support a wall cuts; not over programs. */
+enum { NORM_VELOCITY, NORM_PRESSURE, NORM_VORTICITY, NORM_WALL, NORMS };
 
-static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
+static const char *const norm_names[NORM_WALL] = {"velocity", "pressure", "vorticity"};
 
-void sph_sums(const struct sph *s, double sums[SUM_COUNT])
+/* Those of one level. */
+static void add_sums(const struct sph *s, double sums[SUM_COUNT])
 {
     const int dim = s->dim;
-    for (int k = 0; k < SUM_COUNT; k++)
-        sums[k] = 0.0;
     for (int i = 0; i < s->p.n; i++) {
         const double *y = state_row(&s->p, s->p.y, i), w = y[at_volume(dim)], m = y[at_mass(dim)];
         double kinetic;
+        if (particles_is_guard(&s->p, i))
+            continue;
         sums[SUM_ENERGY] += sph_energy(s, y, &kinetic);
         for (int a = 0; a < dim; a++)
             sums[SUM_MOMENTUM + a] += y[dim + a];
@@ -39,6 +40,14 @@ void sph_sums(const struct sph *s, double sums[SUM_COUNT])
         sums[SUM_VOLUME] += w;
         sums[SUM_KINETIC] += kinetic;
     }
+}
+
+void sph_sums(const struct sph *s, double sums[SUM_COUNT])
+{
+    for (int k = 0; k < SUM_COUNT; k++)
+        sums[k] = 0.0;
+    for (const struct sph *q = s; q; q = q->finer)
+        add_sums(q, sums);
     MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
@@ -54,6 +63,11 @@ void sph_vorticity(const struct sph *s, int i, double w[3])
     w[2] = g[dim * 1 + 0] - g[dim * 0 + 1];
 }
 
+static bool cut_by_wall(const struct sph *s, const double *x)
+{
+    return s->dim == 2 && s->walls && walls_distance(s->walls, x, s->R) < s->R;
+}
+
 /* Adds one particle to the norms of velocity, pressure, vorticity (in 3D its z component). */
 static void add_errors(const struct sph *s, const struct exact *e, int i, struct norm *n)
 {
@@ -65,6 +79,8 @@ static void add_errors(const struct sph *s, const struct exact *e, int i, struct
     sph_vorticity(s, i, omega);
     for (int a = 0; a < dim; a++)
         norm_add(n, w, q[dim + a] - u[a], u[a]);
+    for (int a = 0; a < dim && cut_by_wall(s, x); a++)
+        norm_add(n + NORM_WALL, w, q[dim + a] - u[a], u[a]);
     norm_add(n + 1, w, eos_p(q[at_rho(dim)], s->rho0, s->c0, s->gamma) - p, p);
     norm_add(n + 2, w, omega[2] - vort, vort);
 }
@@ -75,9 +91,10 @@ static void errors(const struct sph *s, struct norm n[NORMS])
     const struct exact e = exact_create(&s->run->scene);
     for (int k = 0; k < NORMS; k++)
         n[k] = (struct norm){0};
-    for (int i = 0; i < s->p.n; i++)
-        if (!s->zones || s->p.zone[i] == ZONE_FREE)
-            add_errors(s, &e, i, n);
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            if (!particles_is_guard(&q->p, i) && (!s->zones || q->p.zone[i] == ZONE_FREE))
+                add_errors(q, &e, i, n);
     norm_reduce(n, NORMS, s->run->comm);
 }
 
@@ -86,14 +103,15 @@ static double exact_kinetic(const struct sph *s)
 {
     const struct exact e = exact_create(&s->run->scene);
     double sum = 0.0;
-    for (int i = 0; i < s->p.n; i++) {
-        const double *y = state_row(&s->p, s->p.y, i);
-        const double x[3] = {y[0], y[1], s->dim == 3 ? y[2] : 0.0};
-        double u[3];
-        exact_point(&e, x, s->t, u, NULL, NULL);
-        for (int a = 0; a < s->dim; a++)
-            sum += 0.5 * y[at_mass(s->dim)] * u[a] * u[a];
-    }
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            const double *y = state_row(&q->p, q->p.y, i);
+            const double x[3] = {y[0], y[1], s->dim == 3 ? y[2] : 0.0};
+            double u[3];
+            exact_point(&e, x, s->t, u, NULL, NULL);
+            for (int a = 0; a < s->dim && !particles_is_guard(&q->p, i); a++)
+                sum += 0.5 * y[at_mass(s->dim)] * u[a] * u[a];
+        }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     return sum;
 }
@@ -118,12 +136,15 @@ static double share(const struct sph *s, int i)
 static double enstrophy(const struct sph *s, bool own)
 {
     double sum = 0.0;
-    for (int i = 0; i < s->p.n; i++) {
-        double w[3];
-        sph_vorticity(s, i, w);
-        sum += 0.5 * (own ? share(s, i) : 1.0) * prim_line(&s->p, i)[at_volume(s->dim)] *
-               (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-    }
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            double w[3];
+            if (particles_is_guard(&q->p, i))
+                continue;
+            sph_vorticity(q, i, w);
+            sum += 0.5 * (own ? share(q, i) : 1.0) * prim_line(&q->p, i)[at_volume(s->dim)] *
+                   (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+        }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     return sum;
 }
@@ -148,11 +169,15 @@ static double least_among_particles(const struct sph *s)
     return sqrt(least);
 }
 
-/* Smallest distance of two particles over dx; needs the list of the present places. */
+/* Smallest distance of two particles of a level over its dx; needs the list of the present places.
+ */
 static double least_spacing(const struct sph *s)
 {
-    const bool all = s->p.nghost == s->p.nhalo;
-    double least = (all ? neighbours_least(s) : least_among_particles(s)) / s->dx;
+    double least = INFINITY;
+    for (const struct sph *q = s; q; q = q->finer) {
+        const bool all = q->p.nghost == q->p.nhalo;
+        least = fmin(least, (all ? neighbours_least(q) : least_among_particles(q)) / q->dx);
+    }
     MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, s->run->comm);
     return least;
 }
@@ -163,6 +188,16 @@ static double total(const struct sph *s, double v)
     return v;
 }
 
+/* What flows, of all levels and ranks. */
+static double particles(const struct sph *s)
+{
+    double n = 0.0;
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            n += !particles_is_guard(&q->p, i);
+    return total(s, n);
+}
+
 static double births(const struct sph *s) { return total(s, (double)s->zones->openings->born); }
 static double removals(const struct sph *s) { return total(s, (double)s->zones->openings->gone); }
 
@@ -171,11 +206,13 @@ static double signal_now(const struct sph *s, const struct exact *e, bool own)
 {
     const int dim = s->dim;
     double sum = 0.0;
-    for (int i = 0; i < s->p.n; i++) {
-        const double *y = state_row(&s->p, s->p.y, i), m = y[at_mass(dim)];
-        const double u[3] = {y[dim] / m, y[dim + 1] / m, dim == 3 ? y[dim + 2] / m : 0.0};
-        sum += (own ? share(s, i) : 1.0) * m * exact_signal(e, y, u);
-    }
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            const double *y = state_row(&q->p, q->p.y, i), m = y[at_mass(dim)];
+            const double u[3] = {y[dim] / m, y[dim + 1] / m, dim == 3 ? y[dim + 2] / m : 0.0};
+            if (!particles_is_guard(&q->p, i))
+                sum += (own ? share(q, i) : 1.0) * m * exact_signal(e, y, u);
+        }
     return total(s, sum);
 }
 
@@ -271,7 +308,7 @@ void sph_row(void *state, double *values)
     *values++ = s->max_speed / s->c0;
     *values++ = s->rho_min;
     *values++ = s->rho_max;
-    *values++ = total(s, s->p.n);
+    *values++ = particles(s);
     *values++ = least_spacing(s);
     values = sph_watch_row(s, values);
     if (sph_has_exact(s->run)) {
@@ -296,13 +333,16 @@ static void summarise_errors(const struct sph *s)
     errors(s, n);
     summary_real(to, "error.velocity_l2", norm_relative_l2(n));
     summary_real(to, "error.velocity_linf", n[0].emax / U);
+    summary_real(to, "error.velocity_rms", sqrt(s->dim) * norm_rms(n) / U);
+    if (n[NORM_WALL].vol > 0.0)
+        summary_real(to, "error.velocity_wall", sqrt(s->dim) * norm_rms(n + NORM_WALL) / U);
     if (n[1].r2 > 0.0)
         summary_real(to, "error.pressure_l2", norm_rms_mean_free(n + 1) / sqrt(n[1].r2 / n[1].vol));
     summary_real(to, "error.pressure_rms", norm_rms_mean_free(n + 1) / scale);
     summary_real(to, "error.pressure_offset", norm_mean(n + 1) / scale);
     if (n[2].r2 > 0.0)
         summary_real(to, "error.vorticity_l2", norm_relative_l2(n + 2));
-    for (int k = 0; s->run->coupled && k < NORMS; k++)
+    for (int k = 0; s->run->coupled && k < NORM_WALL; k++)
         norm_tell(to, norm_names[k], n + k);
 }
 
@@ -379,7 +419,7 @@ void sph_finish(void *state)
     integrate_gradients(s);
     summarise_modules(s);
     scene_meshes_summary(&s->run->scene, to);
-    summary_int(to, "particles", llround(total(s, s->p.n)));
+    summary_int(to, "particles", llround(particles(s)));
     if (s->walls)
         summary_int(to, "particles_returned", llround(total(s, (double)s->walls->returned)));
     summary_int(to, "particles_lost", llround(total(s, s->lost)));

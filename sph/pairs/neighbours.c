@@ -147,7 +147,7 @@ void neighbours_sort(struct sph *s)
     ROOM(g->first, g->first_capacity, g->total + 1);
     ROOM(g->order, g->order_capacity, s->p.n);
     sort_rows(g, s->p.y, s->p.nstate, s->p.n, 1, g->first, g->order);
-    particles_permute(&s->p, s->p.n, g->order);
+    particles_permute(&s->p, s->p.n, g->order, s->guards != NULL);
 }
 
 static void near_room(struct grid *g, int n)
@@ -344,24 +344,38 @@ static bool is_inner(const struct neighbours *l, int i)
     return l->count[i] == 0 || l->j[l->start[i] + l->count[i] - 1] < l->n;
 }
 
-static void order_rows(struct neighbours *l)
+/* What a row is: 0 inner, 1 outer, 2 deep. */
+static int kind_of(const struct sph *s, int i)
 {
-    int outer = 0;
-    l->ninner = 0;
+    if (s->p.role[i] & ROLE_DEEP)
+        return 2;
+    return s->run->size > 1 && is_inner(s->list, i) ? 0 : 1;
+}
+
+/* By kind, each as they are stored. */
+static void order_rows(const struct sph *s, struct neighbours *l)
+{
+    int n[3] = {0};
+    for (int i = 0; i < l->n; i++)
+        n[kind_of(s, i)]++;
+    l->ninner = n[0];
+    l->nshallow = n[0] + n[1];
+    if (s->run->size == 1 && n[2] == 0) {
+        mem_free(l->order);
+        l->order = NULL;
+        l->order_capacity = 0;
+        return;
+    }
+    int at[3] = {0, n[0], n[0] + n[1]};
     ROOM(l->order, l->order_capacity, l->n);
     for (int i = 0; i < l->n; i++)
-        l->ninner += is_inner(l, i);
-    for (int i = 0, inner = 0; i < l->n; i++)
-        if (is_inner(l, i))
-            l->order[inner++] = i;
-        else
-            l->order[l->ninner + outer++] = i;
+        l->order[at[kind_of(s, i)]++] = i;
 }
 
 void neighbours_rows(struct neighbours *l, enum rows which)
 {
     l->begin = which == ROWS_OUTER ? l->ninner : 0;
-    l->end = which == ROWS_INNER ? l->ninner : l->n;
+    l->end = which == ROWS_INNER ? l->ninner : l->treated;
     l->first = which != ROWS_OUTER || l->ninner == 0;
     l->last = which != ROWS_INNER; /* no outer rows: an empty part ends the pass */
 }
@@ -390,9 +404,53 @@ void neighbours_build(struct sph *s)
         build_2d(s);
     else
         build_3d(s);
-    if (s->run->size > 1)
-        order_rows(l);
+    l->nshallow = n;
+    if (s->run->size > 1 || s->guards)
+        order_rows(s, l);
+    l->treated = n;
     neighbours_rows(l, ROWS_ALL);
+}
+
+/* Range of cells along an axis that may hold a place within reach of x: what lies outside is in the
+ * outermost ones. */
+static void cell_range(const struct grid *g, int a, double x, double reach, int *first, int *last)
+{
+    const int most = g->cells[a] - 1;
+    const double lo = (x - reach - g->lo[a]) * g->edge_1 + 1.0;
+    const double hi = (x + reach - g->lo[a]) * g->edge_1 + 1.0;
+    *first = lo > 0.0 ? lo < most - 1 ? (int)lo : most - 1 : 0;
+    *last = hi > 1.0 ? hi < most ? (int)hi : most : 1;
+}
+
+int neighbours_within(const struct sph *s, const double *x, double reach, int n, int **found,
+                      int *capacity)
+{
+    const struct grid *g = s->list->grid;
+    int first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
+    for (int a = 0; a < g->dim; a++)
+        cell_range(g, a, x[a], reach, first + a, last + a);
+    for (int c = first[2]; c <= last[2]; c++)
+        for (int b = first[1]; b <= last[1]; b++) {
+            const int *from = g->first + first[0] + g->cells[0] * (b + g->cells[1] * c);
+            const int *ghosts = g->ghost + first[0] + g->cells[0] * (b + g->cells[1] * c);
+            const int width = last[0] - first[0] + 1;
+            const int nlocal = from[width] - from[0], all = nlocal + ghosts[width] - ghosts[0];
+            if (n + all > *capacity) {
+                const int more = 2 * *capacity + all + 64;
+                GROW(*found, *capacity, more);
+                *capacity = more;
+            }
+            for (int k = 0; k < all; k++) {
+                const int j = k < nlocal ? from[0] + k : g->n + g->order[ghosts[0] + k - nlocal];
+                const double *y = prim_line(&s->p, j);
+                double r2 = 0.0;
+                for (int a = 0; a < g->dim; a++)
+                    r2 += (y[a] - x[a]) * (y[a] - x[a]);
+                (*found)[n] = j;
+                n += r2 < reach * reach;
+            }
+        }
+    return n;
 }
 
 double *neighbours_sums(struct sph *s, int width)

@@ -18,10 +18,13 @@ struct neighbours {
     int *tail;  /* [n] first entry of row i with j > i */
     int *j;
     unsigned char *whole; /* [n] so many neighbours that nothing of the support can be missing */
-    int *order; /* [n] rows, those first whose lists hold locals only; NULL: as they are stored, on
-                   one rank, where ghosts are at hand at once */
+    int *order; /* [n] rows, those first whose lists hold locals only, those last that are deep
+                   (ROLE_DEEP); NULL: as they are stored, on one rank, where ghosts are at hand at
+                   once, and without deep ones */
     int order_capacity;
-    int ninner;      /* how many come first; 0 on one rank */
+    int ninner;   /* how many come first; 0 on one rank */
+    int nshallow; /* rows but for the deep ones */
+    int treated;  /* rows that passes go through: all until slopes are known, then shallow ones */
     double touching; /* m: pairs that may come this near in the step are close; 0: none */
     int nclose, close_capacity;
     int (*close)[2];  /* pairs i < j that may collide in the step; collisions.h */
@@ -49,6 +52,10 @@ void neighbours_rows(struct neighbours *l, enum rows which);
 /* [capacity + 1][width]: sums of a symmetric pass, one row for each line, width nstate at most;
  * zeros before the first row. They lie where s->p.rate will be written. */
 double *neighbours_sums(struct sph *s, int width);
+/* Numbers of the locals and ghosts within reach of x, from its cells; found is grown (its room:
+ * *capacity), n are there already; returns their new number. After neighbours_build. */
+int neighbours_within(const struct sph *s, const double *x, double reach, int n, int **found,
+                      int *capacity);
 /* Least distance of a listed pair, R at most; of this rank. */
 double neighbours_least(const struct sph *s);
 /* Ordered pairs within R now; for the throughput figures. */

@@ -42,12 +42,13 @@ struct domain {
     int nrequests;
 };
 
-/* Part of the tree under construction: ranks, box, this rank's particles in it. */
+/* Part of the tree under construction: ranks, box, this rank's particles in it, of all levels. */
 struct node {
     int first, end;
     double lo[3], hi[3];
     int *who;
-    const int *work; /* of each local particle */
+    const double (*x)[3]; /* of each local particle: place, work */
+    const int *work;
     int n;
 };
 
@@ -171,11 +172,16 @@ static void find_peers(struct domain *d, double reach)
     d->requests = NEW(MPI_Request, 2 * d->npeers);
 }
 
+/* Of one level, and of the finer ones, which share the cuts. */
 static void cuts_changed(struct sph *s)
 {
-    make_boxes(s->domain);
-    find_peers(s->domain, 1.001 * (s->R + s->skin_most));
-    s->ready = false;
+    for (struct sph *q = s; q; q = q->finer) {
+        if (q != s)
+            memcpy(q->domain->cuts, s->domain->cuts, (size_t)s->domain->size * sizeof(struct cut));
+        make_boxes(q->domain);
+        find_peers(q->domain, 1.001 * (q->R + q->skin_most));
+        q->ready = false;
+    }
 }
 
 /* Halves the node in proportion to its ranks, on a lattice face: what a uniform filling needs. */
@@ -202,7 +208,7 @@ static void count_bins(const struct sph *s, const struct node *t, int axis, doub
 {
     memset(bins, 0, BINS * sizeof *bins);
     for (int k = 0; k < t->n; k++) {
-        const double x = s->p.y[(size_t)t->who[k] * s->p.nstate + axis];
+        const double x = t->x[t->who[k]][axis];
         const double b = floor((x - lo) / (hi - lo) * BINS);
         bins[b < 0.0 ? 0 : b < BINS ? (int)b : BINS - 1] += t->work[t->who[k]];
     }
@@ -236,11 +242,11 @@ static double quantile(const struct sph *s, const struct node *t, int axis, doub
 
 /* Moves the particles below the cut to the front; returns their number. Order within does not
  * matter. */
-static int split(const struct sph *s, const struct node *t, const struct cut *c)
+static int split(const struct node *t, const struct cut *c)
 {
     int n = 0;
     for (int k = 0; k < t->n; k++)
-        if (s->p.y[(size_t)t->who[k] * s->p.nstate + c->axis] < c->at) {
+        if (t->x[t->who[k]][c->axis] < c->at) {
             const int i = t->who[k];
             t->who[k] = t->who[n];
             t->who[n++] = i;
@@ -259,7 +265,7 @@ static void cut_by_work(struct sph *s, const struct node *t)
     struct node left = *t, right = *t;
     left.end = right.first = m;
     left.hi[a] = right.lo[a] = d->cuts[m - 1].at;
-    left.n = split(s, t, d->cuts + m - 1);
+    left.n = split(t, d->cuts + m - 1);
     right.who = t->who + left.n;
     right.n = t->n - left.n;
     cut_by_work(s, &left);
@@ -290,7 +296,10 @@ struct domain *domain_create(struct sph *s)
     d->box = mem_new((size_t)d->size, sizeof *d->box);
     s->domain = d;
     const struct node t = root(d);
-    cut_evenly(s, &t);
+    if (s->coarser)
+        memcpy(d->cuts, s->coarser->domain->cuts, (size_t)d->size * sizeof *d->cuts);
+    else
+        cut_evenly(s, &t);
     cuts_changed(s);
     return d;
 }
@@ -306,39 +315,53 @@ void domain_free(struct domain **d)
     *d = NULL;
 }
 
-/* Returns the sum. */
-static int64_t find_work(const struct sph *s, int *work)
+/* Places and work of the particles of all levels; returns the sum. */
+static int64_t find_work(const struct sph *s, double (*x)[3], int *work)
 {
     int64_t sum = 0;
-    for (int i = 0; i < s->p.n; i++) {
-        work[i] = s->ready ? s->list->count[i] + WORK : 1;
-        sum += work[i];
-    }
+    int k = 0;
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++, k++) {
+            memcpy(x[k], state_row(&q->p, q->p.y, i), (size_t)q->dim * sizeof(double));
+            work[k] = q->ready ? q->list->count[i] + WORK : 1;
+            sum += work[k];
+        }
     return sum;
+}
+
+/* The tree anew. */
+static void cut_anew(struct sph *s, int n, const double (*x)[3], const int *work)
+{
+    struct node t = root(s->domain);
+    t.n = n;
+    t.x = x;
+    t.work = work;
+    t.who = NEW(int, n);
+    for (int i = 0; i < n; i++)
+        t.who[i] = i;
+    cut_by_work(s, &t);
+    mem_free(t.who);
+    cuts_changed(s);
 }
 
 bool domain_balance(struct sph *s, double tolerance)
 {
     struct domain *d = s->domain;
+    int n = 0;
     if (d->size == 1)
         return false;
-    int *work = NEW(int, s->p.n);
-    const int64_t mine = find_work(s, work);
+    for (const struct sph *q = s; q; q = q->finer)
+        n += q->p.n;
+    int *work = NEW(int, n);
+    double(*x)[3] = mem_new((size_t)n, sizeof *x);
+    const int64_t mine = find_work(s, x, work);
     int64_t sum, most;
     MPI_Allreduce(&mine, &sum, 1, MPI_INT64_T, MPI_SUM, d->comm);
     MPI_Allreduce(&mine, &most, 1, MPI_INT64_T, MPI_MAX, d->comm);
     const bool uneven = (double)most * d->size > (1.0 + tolerance) * (double)sum;
-    if (uneven) {
-        struct node t = root(d);
-        t.n = s->p.n;
-        t.work = work;
-        t.who = NEW(int, t.n);
-        for (int i = 0; i < t.n; i++)
-            t.who[i] = i;
-        cut_by_work(s, &t);
-        mem_free(t.who);
-        cuts_changed(s);
-    }
+    if (uneven)
+        cut_anew(s, n, (const double(*)[3])x, work);
+    mem_free(x);
     mem_free(work);
     return uneven;
 }
@@ -403,27 +426,33 @@ static void wrap(struct sph *s)
     }
 }
 
-/* A row on its way: state, then the bits of id, then zone. */
-static void pack_row(const struct particles *p, int i, double *row)
+/* A row on its way: state, then the bits of id, then zone and role; with levels slopes. */
+static void pack_row(const struct particles *p, int i, double *row, bool slopes)
 {
     memcpy(row, state_row(p, p->y, i), (size_t)p->nstate * sizeof(double));
     memcpy(row + p->nstate, p->id + i, sizeof(double));
-    row[p->nstate + 1] = p->zone[i];
+    row[p->nstate + 1] = p->zone[i] + 256.0 * p->role[i];
+    if (slopes)
+        memcpy(row + p->nstate + 2, slope_line(p, i), (size_t)p->nslope * sizeof *row);
 }
 
-static void unpack_row(struct particles *p, const double *row)
+static void unpack_row(struct particles *p, const double *row, bool slopes)
 {
     int64_t id;
     memcpy(&id, row + p->nstate, sizeof id);
-    const int i = particles_add(p, id, (enum sph_zone)row[p->nstate + 1]);
+    const int kind = (int)row[p->nstate + 1], i = particles_add(p, id, (enum sph_zone)(kind % 256));
+    p->role[i] = (unsigned char)(kind / 256);
     memcpy(state_row(p, p->y, i), row, (size_t)p->nstate * sizeof(double));
+    if (slopes)
+        memcpy(slope_line(p, i), row + p->nstate + 2, (size_t)p->nslope * sizeof *row);
 }
 
 void domain_migrate(struct sph *s)
 {
     const struct domain *d = s->domain;
     struct particles *p = &s->p;
-    const int width = p->nstate + 2, before = p->n;
+    const bool slopes = s->guards != NULL;
+    const int width = p->nstate + 2 + (slopes ? p->nslope : 0), before = p->n;
     int nleave = 0, got = 0;
     wrap(s);
     p->nghost = 0;
@@ -441,11 +470,11 @@ void domain_migrate(struct sph *s)
         if (domain_owner(d, state_row(p, p->y, i)) == d->rank)
             particles_copy(p, p->n++, i);
         else
-            pack_row(p, i, rows + (size_t)nleave++ * width);
+            pack_row(p, i, rows + (size_t)nleave++ * width, slopes);
     }
     double *in = send_rows(d, rows, owner, nleave, width, &got);
     for (int k = 0; k < got; k++)
-        unpack_row(p, in + (size_t)k * width);
+        unpack_row(p, in + (size_t)k * width, slopes);
     mem_free(in);
     mem_free(rows);
     mem_free(owner);

@@ -32,6 +32,7 @@ static void grow(struct particles *p, int capacity)
     GROW(p->slope, old * p->nslope, (n + 1) * p->nslope);
     GROW(p->id, old, n);
     GROW(p->zone, old, n);
+    GROW(p->role, old, n);
     p->capacity = capacity;
     p->sum_capacity = 0;
     mem_free(p->sum);
@@ -55,6 +56,7 @@ void particles_free(struct particles *p)
     mem_free(p->slope);
     mem_free(p->id);
     mem_free(p->zone);
+    mem_free(p->role);
     *p = (struct particles){0};
 }
 
@@ -78,6 +80,7 @@ int particles_add(struct particles *p, int64_t id, enum sph_zone zone)
     particles_reserve(p, p->n + 1);
     p->id[p->n] = id;
     p->zone[p->n] = (unsigned char)zone;
+    p->role[p->n] = 0;
     memset(p->y + (size_t)p->n * p->nstate, 0, (size_t)p->nstate * sizeof(double));
     return p->n++;
 }
@@ -90,26 +93,45 @@ void particles_copy(struct particles *p, int to, int from)
            (size_t)p->nstate * sizeof(double));
     p->id[to] = p->id[from];
     p->zone[to] = p->zone[from];
+    p->role[to] = p->role[from];
+    memcpy(slope_line(p, to), slope_line(p, from), (size_t)p->nslope * sizeof(double));
+}
+
+static void permute_slopes(struct particles *p, int n, const int *order)
+{
+    const size_t row = (size_t)p->nslope;
+    double *old = NEW(double, (size_t)n *row);
+    if (n > 0)
+        memcpy(old, p->slope, (size_t)n * row * sizeof *old);
+    for (int i = 0; i < n; i++)
+        memcpy(slope_line(p, i), old + (size_t)order[i] * row, row * sizeof *old);
+    mem_free(old);
 }
 
 /* y0 is free between steps: the new order is made there and swapped in. */
-void particles_permute(struct particles *p, int n, const int *order)
+void particles_permute(struct particles *p, int n, const int *order, bool slopes)
 {
     const size_t row = (size_t)p->nstate;
     int64_t *id = NEW(int64_t, p->capacity);
     unsigned char *zone = NEW(unsigned char, p->capacity);
+    unsigned char *role = NEW(unsigned char, p->capacity);
     for (int i = 0; i < n; i++) {
         memcpy(p->y0 + (size_t)i * row, p->y + (size_t)order[i] * row, row * sizeof(double));
         id[i] = p->id[order[i]];
         zone[i] = p->zone[order[i]];
+        role[i] = p->role[order[i]];
     }
+    if (slopes)
+        permute_slopes(p, n, order);
     double *y = p->y;
     p->y = p->y0;
     p->y0 = y;
     mem_free(p->id);
     mem_free(p->zone);
+    mem_free(p->role);
     p->id = id;
     p->zone = zone;
+    p->role = role;
 }
 
 void particles_set(struct sph *s, int i, const double *x, const double *u, double w, double rho)

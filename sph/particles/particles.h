@@ -3,12 +3,17 @@
 #ifndef SPH_PARTICLES_H
 #define SPH_PARTICLES_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 struct sph;
 
 enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
+/* Bits of what a particle is where there are levels (refinement/refinement.h): its fields are those
+ * of others; it has given birth; a guard too far from flow for its slopes to count; one whose
+ * support its level does not fill. */
+enum sph_role { ROLE_GUARD = 1, ROLE_MOTHER = 2, ROLE_DEEP = 4, ROLE_EDGE = 8 };
 enum { PRIM = 8 }; /* doubles of a line of prim */
 
 /* Particles of one size level. State and rates are rows of nstate doubles,
@@ -32,6 +37,7 @@ struct particles {
     double *slope;       /* [capacity+1][nslope] */
     int64_t *id;         /* [capacity] unique over all ranks */
     unsigned char *zone; /* [capacity] enum sph_zone */
+    unsigned char *role; /* [capacity] bits of enum sph_role, 0 without levels */
 };
 
 /* Places in a row of the state and in a line: x and u (q) come first. */
@@ -53,6 +59,12 @@ static inline double *slope_line(const struct particles *p, int i)
     return p->slope + (ptrdiff_t)p->nslope * i;
 }
 
+/* Whether particle i takes its fields from others: no part of any sum over the fluid. */
+static inline bool particles_is_guard(const struct particles *p, int i)
+{
+    return (p->role[i] & ROLE_GUARD) != 0;
+}
+
 void particles_create(struct particles *p, int dim, int capacity);
 void particles_free(struct particles *p);
 /* Room for n + nghost = total lines; keeps everything. */
@@ -62,10 +74,10 @@ void particles_reserve(struct particles *p, int total);
 int particles_add(struct particles *p, int64_t id, enum sph_zone zone);
 /* Room for sums of rates; contents are lost when capacity has grown. */
 double *particles_sum(struct particles *p);
-/* Copies particle `from' over `to' (state, id, zone). */
+/* Copies particle `from' over `to' (state, id, zone, role; slope, which births look at). */
 void particles_copy(struct particles *p, int to, int from);
-/* Reorders state, id, zone: new i is old order[i]; n entries. */
-void particles_permute(struct particles *p, int n, const int *order);
+/* Reorders state, id, zone, role: new i is old order[i]; n entries. slopes: these too. */
+void particles_permute(struct particles *p, int n, const int *order, bool slopes);
 void particles_set(struct sph *s, int i, const double *x, const double *u, double w, double rho);
 /* prim of all locals from y (u = q/m, rho = m/w; 2D: p, c). */
 void particles_lines(struct sph *s);

@@ -15,15 +15,31 @@ static bool is_closed(const struct sph *s)
 
 void volume_remember(struct sph *s, double volume) { s->volume0 = is_closed(s) ? volume : 0.0; }
 
+/* Of what flows, all levels and ranks. */
+static double sum_volumes(const struct sph *s)
+{
+    const int at = at_volume(s->dim), row = s->p.nstate;
+    double sum = 0.0;
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            sum += particles_is_guard(&q->p, i) ? 0.0 : q->p.y[(size_t)row * i + at];
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sum;
+}
+
 void volume_keep(struct sph *s)
 {
     const int at = at_volume(s->dim), row = s->p.nstate;
-    double *y = s->p.y, sum = 0.0;
     if (s->volume0 == 0.0)
         return;
-    for (int i = 0; i < s->p.n; i++)
-        sum += y[(size_t)row * i + at];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    for (int i = 0; i < s->p.n; i++)
-        y[(size_t)row * i + at] *= s->volume0 / sum;
+    const double factor = s->volume0 / sum_volumes(s);
+    for (; s; s = s->finer)
+        for (int i = 0; i < s->p.n; i++)
+            s->p.y[(size_t)row * i + at] *= factor;
+}
+
+void volume_renew(struct sph *s)
+{
+    if (s->volume0 != 0.0)
+        s->volume0 = sum_volumes(s);
 }

@@ -15,6 +15,9 @@
 #include "../walls/forces.h"
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
+#include "../refinement/apr_params.h"
+#include "../refinement/guards.h"
+#include "../refinement/refinement.h"
 #include "../open_boundaries/openings.h"
 #include "../pairs/scheme.h"
 #include "../sph_params.h"
@@ -23,7 +26,7 @@
 #include "../walls/walls.h"
 #include "../open_boundaries/zones.h"
 
-enum { BALANCE_EVERY = 50, COUNT_EVERY = 20 };
+enum { BALANCE_EVERY = 50, COUNT_EVERY = 20, LEVELS = APR_LEVELS_MAX + 1 };
 
 /* Largest values over particles, then over ranks by one reduction. Minima are kept negated. */
 enum {
@@ -48,10 +51,9 @@ static void start(struct sph *s, const char *timer) { timer_start(&s->run->timer
 
 static void stop(struct sph *s, const char *timer) { timer_stop(&s->run->timers, timer); }
 
-void integrate_prepare(struct sph *s)
+/* One level. */
+static void prepare(struct sph *s)
 {
-    if (s->ready)
-        return;
     start(s, "list");
     if (s->zones)
         zones_mark(s);
@@ -79,6 +81,20 @@ void integrate_prepare(struct sph *s)
     }
     s->sloped = false;
     s->ready = true;
+}
+
+void integrate_prepare(struct sph *s)
+{
+    bool ready = true;
+    for (const struct sph *q = s; q; q = q->finer)
+        ready = ready && q->ready;
+    for (struct sph *q = s; q && !ready; q = q->finer)
+        prepare(q);
+    if (s->finer && !ready) {
+        start(s, "levels");
+        guards_list(s);
+        stop(s, "levels");
+    }
 }
 
 typedef void wall_hook(struct sph *s);
@@ -147,30 +163,48 @@ static void add_central(struct sph *s)
     }
 }
 
+/* What follows the slopes of one level: of its deep guards these stay for the step. */
+static void slopes_done(struct sph *s)
+{
+    finish_slopes(s);
+    if (s->guards)
+        guards_hold_edge(s);
+    s->list->treated = s->list->nshallow;
+}
+
 /* All slopes, whatever the scheme needs; they serve the next step's first stage as well, where that
  * does the same and imposes nothing before. */
-void integrate_gradients(struct sph *s)
+static void level_gradients(struct sph *s, bool shared)
 {
-    scheme_pass *const all = scheme_gradients(s->dim, s->prm.transport);
-    const bool shared = !s->zones && s->scheme->gradients == all;
-    integrate_prepare(s);
-    if (s->sloped)
-        return;
     start(s, shared ? "gradients" : "output");
-    particles_lines(s);
     domain_halo_start(s, false);
     domain_halo_finish(s, false);
     if (s->walls && s->walls->model->lines)
         s->walls->model->lines(s);
-    all(s);
+    scheme_gradients(s->dim, s->prm.transport)(s);
     stop(s, shared ? "gradients" : "output");
-    finish_slopes(s);
+    slopes_done(s);
     s->sloped = shared;
 }
 
-void integrate_rates(struct sph *s)
+void integrate_gradients(struct sph *s)
 {
-    const struct wall_model *w = s->walls ? s->walls->model : NULL;
+    const bool shared =
+        !s->zones && s->scheme->gradients == scheme_gradients(s->dim, s->prm.transport);
+    integrate_prepare(s);
+    if (s->sloped)
+        return;
+    for (struct sph *q = s; q; q = q->finer)
+        particles_lines(q);
+    if (s->finer)
+        guards_update(s);
+    for (struct sph *q = s; q; q = q->finer)
+        level_gradients(q, shared);
+}
+
+/* Walls, what is imposed, lines. */
+static void begin_rates(struct sph *s)
+{
     if (s->walls)
         walls_move(s, s->t);
     if (s->zones) {
@@ -183,9 +217,15 @@ void integrate_rates(struct sph *s)
         particles_lines(s);
     s->background = scheme_background(s);
     stop(s, "update");
+}
+
+/* Both passes and the walls, of one level. */
+static void level_rates(struct sph *s)
+{
+    const struct wall_model *w = s->walls ? s->walls->model : NULL;
     if (s->scheme->gradients && !s->sloped) {
         pass(s, s->scheme->gradients, "gradients", false, w ? w->lines : NULL);
-        finish_slopes(s);
+        slopes_done(s);
     }
     if (s->zones) {
         start(s, "zones");
@@ -207,10 +247,24 @@ void integrate_rates(struct sph *s)
     }
     if (s->central > 0.0)
         add_central(s);
+    if (s->guards)
+        guards_rates(s);
 }
 
-/* Velocities of displacement, from prim and slope: what the next step and its skin depend on. */
-static void measure_lines(const struct sph *s, double *most)
+void integrate_rates(struct sph *s)
+{
+    const bool sloped = s->sloped;
+    for (struct sph *q = s; q; q = q->finer)
+        begin_rates(q);
+    if (s->finer && !sloped)
+        guards_update(s);
+    for (struct sph *q = s; q; q = q->finer)
+        level_rates(q);
+}
+
+/* Velocities of displacement, from prim and slope: what the next step and its skin depend on. The
+ * step is not bound by guards, which are moved alone. */
+static void measure_level(const struct sph *s, double *most)
 {
     const int dim = s->dim;
     for (int i = 0; i < s->p.n; i++) {
@@ -225,10 +279,12 @@ static void measure_lines(const struct sph *s, double *most)
             raise(most + MOST_U0 + a, u0[a]);
             raise(most + LEAST_U0 + a, -u0[a]);
         }
+        raise(most + MOST_STRAY, stray2);
+        if (particles_is_guard(&s->p, i))
+            continue;
         raise(most + MOST_C, c);
         raise(most + MOST_SHIFT, shift2);
         raise(most + MOST_SIGNAL, c + sqrt(shift2));
-        raise(most + MOST_STRAY, stray2);
         raise(most + MOST_RELATIVE, relative2);
     }
     for (int k = 0; k < 3; k++) {
@@ -237,27 +293,34 @@ static void measure_lines(const struct sph *s, double *most)
     }
 }
 
-static void measure_state(const struct sph *s, double *most)
+static void measure_lines(const struct sph *s, double most[][EXTREMES])
 {
-    for (int i = 0; i < s->p.n; i++) {
-        double speed, rho;
-        raise(most + MOST_FAULT, sph_fault_of(s, state_row(&s->p, s->p.y, i), &speed, &rho));
-        raise(most + MOST_SPEED, speed);
-        raise(most + MOST_RHO, rho);
-        raise(most + LEAST_RHO, -rho);
-    }
+    for (; s; s = s->finer)
+        measure_level(s, most[s->level]);
 }
 
-static void clear(double *most)
+static void measure_state(const struct sph *s, double most[][EXTREMES])
 {
-    for (int k = 0; k < EXTREMES; k++)
-        most[k] = -1e300;
+    for (; s; s = s->finer)
+        for (int i = 0; i < s->p.n; i++) {
+            double speed, rho, *to = most[s->level];
+            raise(to + MOST_FAULT, sph_fault_of(s, state_row(&s->p, s->p.y, i), &speed, &rho));
+            raise(to + MOST_SPEED, speed);
+            raise(to + MOST_RHO, rho);
+            raise(to + LEAST_RHO, -rho);
+        }
 }
 
-static void reduce(struct sph *s, double *most)
+static void clear(double most[][EXTREMES])
 {
-    MPI_Allreduce(MPI_IN_PLACE, most, EXTREMES, MPI_DOUBLE, MPI_MAX, s->run->comm);
-    s->signal = most[MOST_SIGNAL];
+    for (int k = 0; k < LEVELS * EXTREMES; k++)
+        most[0][k] = -1e300;
+}
+
+/* What a level knows of the whole flow; its signal is its own. */
+static void learn(struct sph *s, const double *most, double signal)
+{
+    s->signal = signal;
     s->max_c = most[MOST_C];
     s->max_shift = most[MOST_SHIFT];
     s->stray = most[MOST_STRAY];
@@ -277,36 +340,77 @@ static void reduce(struct sph *s, double *most)
         s->mach_late = fmax(s->mach_late, s->max_speed / s->c0);
 }
 
-/* Two particles part by at most twice the stray velocity times dt; a tenth more, for it may grow.
- * Beyond the widest skin pairs would come together unseen: no step is longer than that. */
-static void plan_next(struct sph *s)
+/* most[0] gets the values over all levels and ranks. */
+static void reduce(struct sph *s, double most[][EXTREMES])
+{
+    double signal[LEVELS];
+    int n = 0;
+    for (const struct sph *q = s; q; q = q->finer)
+        n++;
+    MPI_Allreduce(MPI_IN_PLACE, most, n * EXTREMES, MPI_DOUBLE, MPI_MAX, s->run->comm);
+    for (int m = 0; m < n; m++) {
+        signal[m] = most[m][MOST_SIGNAL];
+        for (int k = 0; k < EXTREMES; k++)
+            raise(most[0] + k, most[m][k]);
+    }
+    for (struct sph *q = s; q; q = q->finer)
+        learn(q, most[0], signal[q->level]);
+}
+
+/* Largest step of the flow, all levels: one where nothing flows asks for none. */
+static void plan_dt(struct sph *s)
 {
     const double bodies = bodies_dt(s);
-    s->dt_most = sph_params_dt(&s->prm, s->nu, s->signal, &s->limited_by);
-    if (2.2 * s->dt_most * s->stray > s->skin_most) {
-        s->dt_most = s->skin_most / (2.2 * s->stray);
-        s->limited_by = "speed";
+    s->dt_most = INFINITY;
+    for (const struct sph *q = s; q; q = q->finer) {
+        const char *by;
+        const double dt =
+            q->signal > 0.0 ? sph_params_dt(&q->prm, q->nu, q->signal, &by) : INFINITY;
+        if (dt < s->dt_most) {
+            s->dt_most = dt;
+            s->limited_by = by;
+        }
+        if (2.2 * s->dt_most * q->stray > q->skin_most) {
+            s->dt_most = q->skin_most / (2.2 * q->stray);
+            s->limited_by = "speed";
+        }
     }
     if (s->dt_most > bodies) {
         s->dt_most = bodies;
         s->limited_by = "body";
     }
-    if (s->walls)
-        walls_expect_speed(s->walls);
-    s->skin = fmax(2.2 * s->dt_most * s->stray, 0.01 * s->R);
-    s->ready = false;
+    if (s->finer && s->dt_most > regions_dt(s->refinement->regions)) {
+        s->dt_most = regions_dt(s->refinement->regions);
+        s->limited_by = "region";
+    }
+}
+
+/* Two particles part by at most twice the stray velocity times dt; a tenth more, for it may grow.
+ * Beyond the widest skin pairs would come together unseen: no step is longer than that. */
+static void plan_next(struct sph *s)
+{
+    plan_dt(s);
+    for (struct sph *q = s; q; q = q->finer) {
+        q->dt_most = s->dt_most;
+        if (q->walls)
+            walls_expect_speed(q->walls);
+        q->skin = fmax(2.2 * q->dt_most * q->stray, 0.01 * q->R);
+        q->ready = false;
+    }
 }
 
 void integrate_start(struct sph *s)
 {
-    s->skin = 0.05 * s->R;
-    s->ready = false;
+    for (struct sph *q = s; q; q = q->finer) {
+        q->skin = 0.05 * q->R;
+        q->ready = false;
+    }
     if (s->zones && s->zones->update) /* what stands at open sides, for the first gradients */
         s->zones->update(s);
     for (int pass = 0; pass < 3; pass++) { /* the second knows the drift, the third the shift */
-        double most[EXTREMES];
-        if (pass == 1)
-            s->shift_speed = 0.0; /* of the drift alone */
+        double most[LEVELS][EXTREMES];
+        for (struct sph *q = s; q && pass == 1; q = q->finer)
+            q->shift_speed = 0.0; /* of the drift alone */
         integrate_gradients(s);
         clear(most);
         measure_lines(s, most);
@@ -363,16 +467,23 @@ static void update(struct sph *s, int k, double dt)
     stop(s, "update");
 }
 
+static void set_time(struct sph *s, double t)
+{
+    for (; s; s = s->finer)
+        s->t = t;
+}
+
 /* The stages from s->t to t_end; most gets what the last one shows of velocities. */
-static void take_stages(struct sph *s, double dt, double t_end, double *most)
+static void take_stages(struct sph *s, double dt, double t_end, double most[][EXTREMES])
 {
     const struct stages *c = s->stages;
     const double t = s->t;
-    memcpy(s->p.y0, s->p.y, (size_t)s->p.n * s->p.nstate * sizeof(double));
+    for (struct sph *q = s; q; q = q->finer)
+        memcpy(q->p.y0, q->p.y, (size_t)q->p.n * q->p.nstate * sizeof(double));
     bodies_begin(s);
     for (int k = 0; k < c->n; k++) {
         const double part = c->weight[k] * dt;
-        s->t = c->at[k] == 1.0 ? t_end : t + c->at[k] * dt;
+        set_time(s, c->at[k] == 1.0 ? t_end : t + c->at[k] * dt);
         integrate_rates(s);
         if (s->walls)
             forces_stage(s, part);
@@ -380,13 +491,16 @@ static void take_stages(struct sph *s, double dt, double t_end, double *most)
         sph_watch_stage(s, k == 0, part);
         if (k == c->n - 1)
             measure_lines(s, most);
-        update(s, k, dt);
+        for (struct sph *q = s; q; q = q->finer)
+            update(q, k, dt);
         bodies_advance(s, c->ahead[k] * dt, part, k == c->n - 1);
     }
-    collisions_apply(s);
-    s->t = t_end;
-    if (s->walls) /* what follows meets them where the step ends */
-        walls_move(s, t_end);
+    set_time(s, t_end);
+    for (struct sph *q = s; q; q = q->finer) {
+        collisions_apply(q);
+        if (q->walls) /* what follows meets them where the step ends */
+            walls_move(q, t_end);
+    }
 }
 
 /* Particles beyond a side where nothing holds them; returns their number. */
@@ -439,13 +553,21 @@ static void finish_step(struct sph *s, double dt, double *most, struct diagnosis
         zones_openings(s, dt);
         stop(s, "zones");
     }
-    const int lost = remove_behind(s) + remove_lost(s);
+    if (s->finer)
+        refinement_look(s);
+    int lost = 0;
+    for (struct sph *q = s; q; q = q->finer)
+        lost += remove_behind(q) + remove_lost(q);
     s->lost += lost;
     raise(most + MOST_LOST, lost);
     if (s->walls)
         forces_step(s, dt);
     bodies_finish(s, d);
     volume_keep(s);
+    if (s->finer) {
+        refinement_adapt(s);
+        volume_renew(s);
+    }
 }
 
 /* The first time, and whenever the number has grown tenfold. */
@@ -492,15 +614,18 @@ static void judge(struct sph *s, double fault, struct diagnosis *d)
 
 static void count_pairs(struct sph *s)
 {
-    if (s->pairs_now == 0 || s->run->step % COUNT_EVERY == 0)
-        s->pairs_now = neighbours_pairs(s);
+    if (s->pairs_now == 0 || s->run->step % COUNT_EVERY == 0) {
+        s->pairs_now = 0;
+        for (const struct sph *q = s; q; q = q->finer)
+            s->pairs_now += neighbours_pairs(q);
+    }
     s->pairs += s->stages->n * s->pairs_now;
 }
 
 double integrate_step(struct sph *s, double t_stop, struct diagnosis *d)
 {
     bool last;
-    double most[EXTREMES];
+    double most[LEVELS][EXTREMES];
     const double wall = wall_time(), cpu = cpu_time();
     /* A coupled run cuts anew between windows only: within one, a rank holds the patch of its part.
      */
@@ -515,14 +640,14 @@ double integrate_step(struct sph *s, double t_stop, struct diagnosis *d)
     count_pairs(s);
     clear(most);
     take_stages(s, s->dt, t_end, most);
-    finish_step(s, s->dt, most, d);
+    finish_step(s, s->dt, most[0], d);
     measure_state(s, most);
     reduce(s, most);
     plan_next(s);
-    report_lost(s, most[MOST_LOST]);
+    report_lost(s, most[0][MOST_LOST]);
     if (s->zones)
         track_mass(s);
-    judge(s, most[MOST_FAULT], d);
+    judge(s, most[0][MOST_FAULT], d);
     s->wall_s += wall_time() - wall;
     s->cpu_s += cpu_time() - cpu;
     return s->dt;

@@ -75,8 +75,10 @@ static int list_group(const struct walls *w, struct wall_list *l, int group, con
     wall_list_room(l, n + WALL_GROUP);
     for (int k = WALL_GROUP * group; k < WALL_GROUP * (group + 1) && k < w->nsegments; k++)
         if (is_near(w->segments + k, x, reach))
-            l->touch[n++] = (struct wall_touch){
-                .piece = k, .body = w->segments[k].body, .no_slip = w->segments[k].no_slip};
+            l->touch[n++] = (struct wall_touch){.piece = k,
+                                                .plane = -1, /* segments in one line are one */
+                                                .body = w->segments[k].body,
+                                                .no_slip = w->segments[k].no_slip};
     return n;
 }
 
@@ -128,6 +130,34 @@ void wall_list_build(const struct sph *s, struct wall_list *l)
         wall_list3_build(s, l);
 }
 
+/* What `more' has goes to t, of the same plane. */
+static void join(struct wall_touch *t, struct wall_touch *more)
+{
+    const double W = t->is.W + more->is.W;
+    for (int a = 0; a < 3 && W > 0.0; a++)
+        t->is.e[a] = (t->is.W * t->is.e[a] + more->is.W * more->is.e[a]) / W;
+    t->is.W = W;
+    t->is.gamma += more->is.gamma;
+    t->distance = fmin(t->distance, more->distance);
+    t->foot = t->foot || more->foot;
+    more->is = (struct wall_integrals){0};
+    more->joined = true;
+}
+
+/* One flux a plane, wherever it is cut into pieces: what the flux has that is not linear, bounds
+ * of the state at the wall and the share of the wave, else depends on the cuts, and a side of two
+ * triangles is no longer its own mirror image. */
+static void join_planes(struct wall_touch *touch, int n)
+{
+    for (int j = 0; j < n; j++) {
+        struct wall_touch *t = touch + j;
+        t->joined = false;
+        for (int k = 0; k < j && t->plane >= 0 && !t->joined; k++)
+            if (touch[k].plane == t->plane && touch[k].of == t->of && !touch[k].joined)
+                join(touch + k, t);
+    }
+}
+
 void wall_list_measure(const struct sph *s, struct wall_list *l)
 {
     const double q = 0.5 * s->dx;
@@ -136,11 +166,12 @@ void wall_list_measure(const struct sph *s, struct wall_list *l)
     for (int k = 0; k < l->n; k++) {
         const double *x = prim_line(&s->p, l->who[k]);
         double gamma = 1.0;
+        for (int j = l->first[k]; j < l->first[k + 1] && s->dim == 2; j++)
+            measure(s->walls->segments + l->touch[j].piece, x, s->R, l->touch + j);
+        join_planes(l->touch + l->first[k], l->first[k + 1] - l->first[k]);
         for (int j = l->first[k]; j < l->first[k + 1]; j++) {
             struct wall_touch *t = l->touch + j;
             double e2 = 0.0;
-            if (s->dim == 2)
-                measure(s->walls->segments + t->piece, x, s->R, t);
             for (int a = 0; a < s->dim; a++)
                 e2 += t->is.e[a] * t->is.e[a];
             t->near = fmin(1.0, q * q / e2);

@@ -13,11 +13,13 @@ struct wall_touch {
     struct wall_integrals is; /* W = 0: beyond the support; e divided by W: m, from the particle to
                                  the centre of that weight */
     double n[3];
-    double height, distance; /* m: over the plane of the piece, from the piece */
+    double height, distance; /* m: over the plane of the piece, from the piece or those joined */
     double near;             /* -: min(1, (dx/2)^2/e^2) */
     int piece, of;           /* 2D: segment, -; 3D: place in the frames of mesh `of' */
+    int plane;               /* pieces of `of' alike in it have one flux; -1: this one alone */
     int body;                /* -1: at rest */
     bool no_slip, foot;      /* foot: that of the particle lies on the piece */
+    bool joined;             /* with an earlier one of its plane, which has its integrals */
 };
 
 /* A triangle near some particles, in 3D. */

@@ -161,7 +161,11 @@ static int touch(const struct sph *s, struct wall_list *l, int i, int nnear, dou
             wall_mesh_to_own(m, prim_line(&s->p, i), own);
         if (is_near(l->of3[q->mesh].facet + q->facet, own, reach))
             l->touch[touches++] = (struct wall_touch){
-                .piece = q->facet, .of = q->mesh, .body = m->body, .no_slip = m->no_slip};
+                .piece = q->facet,
+                .of = q->mesh,
+                .plane = m->plane ? m->plane[l->of3[q->mesh].triangle[q->facet]] : -1,
+                .body = m->body,
+                .no_slip = m->no_slip};
     }
     return touches;
 }

@@ -251,18 +251,24 @@ void wall_meshes_create(struct sph *s, struct walls *w)
         return;
     add_sides(s, w);
     add_lent(s, w);
-    for (int k = 0; k < w->nmeshes; k++) /* trees point at their meshes: the list has its place */
-        if (!w->meshes[k].lent)
-            w->meshes[k].tree = tree_create(&w->meshes[k].mesh);
+    for (int k = 0; k < w->nmeshes; k++) { /* trees point at their meshes: the list has its place */
+        struct wall_mesh *m = w->meshes + k;
+        if (!m->lent)
+            m->tree = tree_create(&m->mesh);
+        if (!m->thin)
+            m->plane = trimesh_planes(&m->mesh);
+    }
 }
 
 void wall_meshes_free(struct walls *w)
 {
-    for (int k = 0; k < w->nmeshes; k++)
+    for (int k = 0; k < w->nmeshes; k++) {
+        mem_free(w->meshes[k].plane);
         if (!w->meshes[k].lent) {
             tree_free(&w->meshes[k].tree);
             trimesh_free(&w->meshes[k].mesh);
         }
+    }
     mem_free(w->meshes);
     xdmf_free(&w->view);
 }

@@ -88,7 +88,7 @@ static void add_crowding(const struct sph *s, const struct nfm *m, int k)
     const double *x = prim_line(&s->p, l->who[k]), *u = x + dim;
     double *u0 = slope_line(&s->p, l->who[k]) + dim + dim * dim, sum[3] = {0.0, 0.0, 0.0};
     for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
-        if (t->is.W == 0.0)
+        if (t->is.W == 0.0 && !t->joined)
             continue;
         const double G = crowding(s, m, t, x);
         for (int a = 0; a < dim; a++)

@@ -30,6 +30,7 @@ struct wall_plane {
 struct wall_mesh {
     struct trimesh mesh; /* normals out of the fluid */
     struct tree *tree;
+    int *plane;                  /* [ntriangles] the same of neighbours in one plane; NULL: thin */
     bool lent;                   /* mesh and tree belong to the scene */
     const struct scene_mesh *of; /* of a file; NULL: sides */
     int body;                    /* -1: at rest */

@@ -143,7 +143,7 @@ double sph_energy(const struct sph *s, const double *y, double *kinetic)
 }
 
 /* Locals closer than near_pair to another particle; needs the list and lines of this place. */
-static double count_paired(const struct sph *s)
+static double paired_of_level(const struct sph *s)
 {
     const struct neighbours *l = s->list;
     const int real = s->p.n + s->p.nhalo;
@@ -165,6 +165,29 @@ static double count_paired(const struct sph *s)
     return n;
 }
 
+static double count_paired(const struct sph *s)
+{
+    double n = 0.0;
+    for (; s; s = s->finer)
+        n += paired_of_level(s);
+    return n;
+}
+
+/* Of one level. */
+static void add_energy(const struct sph *s, double *sums)
+{
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i);
+        double kinetic;
+        if (particles_is_guard(&s->p, i))
+            continue;
+        sums[ENERGY] += sph_energy(s, y, &kinetic);
+        sums[KINETIC] += kinetic;
+        for (int a = 0; a < s->dim; a++)
+            sums[POWER] += s->periodic[a] ? s->gravity[a] * y[s->dim + a] : 0.0;
+    }
+}
+
 static void sample(struct sph *s)
 {
     struct sph_watch *w = &s->watch;
@@ -172,17 +195,13 @@ static void sample(struct sph *s)
     memset(sums, 0, sizeof w->sums);
     sums[WALL_WORK] = w->wall_work;
     w->wall_work = 0.0;
-    for (int i = 0; i < s->p.n && w->budget_closed; i++) {
-        const double *y = state_row(&s->p, s->p.y, i);
-        double kinetic;
-        sums[ENERGY] += sph_energy(s, y, &kinetic);
-        sums[KINETIC] += kinetic;
-        for (int a = 0; a < s->dim; a++)
-            sums[POWER] += s->periodic[a] ? s->gravity[a] * y[s->dim + a] : 0.0;
-    }
+    for (const struct sph *q = s; q && w->budget_closed; q = q->finer)
+        add_energy(q, sums);
     sums[REMOVED] = w->removed;
     w->removed = 0.0;
-    sums[PUT_BACK] = s->walls ? (double)s->walls->returned : 0.0;
+    sums[PUT_BACK] = 0.0;
+    for (const struct sph *q = s; q && q->walls; q = q->finer)
+        sums[PUT_BACK] += (double)q->walls->returned;
     if (s->run->step % SPH_WATCH_PAIRS == 0)
         sums[PAIRED] = count_paired(s);
 }
@@ -240,7 +259,9 @@ static void judge_sample(struct sph *s, double t, struct diagnosis *d)
     const int64_t step = s->run->step, sample = step / SPH_WATCH_EVERY;
     double sums[SPH_WATCH_SUMS + 1];
     memcpy(sums, w->sums, sizeof w->sums);
-    sums[SPH_WATCH_SUMS] = s->p.n;
+    sums[SPH_WATCH_SUMS] = 0.0;
+    for (const struct sph *q = s; q; q = q->finer)
+        sums[SPH_WATCH_SUMS] += q->p.n;
     MPI_Allreduce(MPI_IN_PLACE, sums, SPH_WATCH_SUMS + 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     const double all = fmax(sums[SPH_WATCH_SUMS], 1.0);
     if (s->walls) {

@@ -1,0 +1,156 @@
+/* poisson.c - see poisson.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "poisson.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../boundary/mesh_bc.h"
+#include "backend.h"
+
+struct poisson {
+    const struct backend *by;
+    void *of;       /* its own */
+    int n;          /* rows of this rank */
+    int64_t *place; /* of each row */
+    double *V;      /* m^dim: of computed cells, else 0 */
+    double volumes; /* m^dim: of all computed cells */
+    double shift;
+    double *b, *x, *psi;
+};
+
+static void set_volumes(const struct fv *s, struct poisson *p)
+{
+    p->volumes = 0.0;
+    for (int k = 0; k < p->n; k++) {
+        p->V[k] = s->free[p->place[k]] * s->m->V[p->place[k]];
+        p->volumes += p->V[k];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &p->volumes, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
+}
+
+void poisson_create(struct fv *s)
+{
+    static const struct backend *const all[] = {&backend_pfmg, &backend_boomeramg};
+    static const int none[3] = {0, 0, 0};
+    const struct mesh *m = s->m;
+    struct poisson *p = s->poisson = NEW(struct poisson, 1);
+    for (int q = 0; q < m->nparts; q++)
+        p->n += m->part[q].n[0] * m->part[q].n[1] * m->part[q].n[2];
+    p->place = NEW(int64_t, p->n);
+    p->V = NEW(double, p->n);
+    p->b = NEW(double, p->n);
+    p->x = NEW(double, p->n);
+    p->psi = NEW(double, p->n);
+    int k = 0;
+    for (int q = 0; q < m->nparts; q++)
+        PART_ROWS (m->part + q, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++, k++) {
+                p->place[k] = i;
+            }
+    set_volumes(s, p);
+    for (size_t e = 0; !p->of; e++) {
+        p->by = all[e];
+        p->of = p->by->create(s);
+    }
+}
+
+void poisson_free(struct poisson **pp)
+{
+    struct poisson *p = *pp;
+    if (!p)
+        return;
+    p->by->free(&p->of);
+    mem_free(p->place);
+    mem_free(p->V);
+    mem_free(p->b);
+    mem_free(p->x);
+    mem_free(p->psi);
+    mem_free(p);
+    *pp = NULL;
+}
+
+const char *poisson_name(const struct poisson *p) { return p->by->name; }
+
+/* What rounding makes of divergences: nothing to solve for. */
+static bool negligible(struct fv *s, const struct poisson *p, const double *div)
+{
+    double sum[2] = {0.0, 0.0};
+    for (int k = 0; k < p->n; k++) {
+        const int64_t c = p->place[k];
+        sum[0] += div[c] * div[c];
+        for (int a = 0; a < s->m->dim; a++)
+            sum[1] += s->free[c] * s->U[a][c] * s->U[a][c];
+        if (s->jump && s->m->status[c] == CELL_FRINGE && s->jump[c] != 0.0)
+            sum[0] = INFINITY;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->m->comm);
+    return sum[0] <= 1e-27 * sum[1];
+}
+
+/* psi of the rows, less its mean over the computed volumes where no side gives the pressure. */
+static void set_psi(struct fv *s, const struct poisson *p, const double *row, double *psi)
+{
+    double level = 0.0;
+    if (!mesh_bc_pressure_given(s) && p->shift == 0.0) {
+        for (int k = 0; k < p->n; k++)
+            level += p->V[k] * row[k];
+        MPI_Allreduce(MPI_IN_PLACE, &level, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
+        level /= p->volumes;
+    }
+    memset(psi, 0, (size_t)s->size * sizeof(double));
+    for (int k = 0; k < p->n; k++)
+        if (s->m->status[p->place[k]] != CELL_HOLE)
+            psi[p->place[k]] = row[k] - level;
+}
+
+bool poisson_solve(struct fv *s, double tau, const double *div, double tol, double *start,
+                   double *psi)
+{
+    struct poisson *p = s->poisson;
+    double c = 0.0;
+    if (negligible(s, p, div)) {
+        memset(psi, 0, (size_t)s->size * sizeof(double));
+        return true;
+    }
+    for (int k = 0; k < p->n; k++) {
+        p->x[k] = start[p->place[k]];
+        p->b[k] = -div[p->place[k]] / tau;
+        if (s->jump && s->m->status[p->place[k]] == CELL_FRINGE)
+            p->b[k] = s->jump[p->place[k]];
+    }
+    const bool good = p->by->solve(s, p->of, p->b, p->by->tolerance * tol, p->x, p->psi, &c);
+    for (int k = 0; k < p->n; k++)
+        start[p->place[k]] = p->x[k];
+    set_psi(s, p, p->psi, psi);
+    s->defect_now = fabs(c) * tau * p->volumes;
+    return good;
+}
+
+void poisson_cycle(struct fv *s, const double *div, double *psi)
+{
+    struct poisson *p = s->poisson;
+    const bool singular = !mesh_bc_pressure_given(s) && p->shift == 0.0;
+    double excess = 0.0;
+    for (int k = 0; k < p->n; k++)
+        excess += p->V[k] > 0.0 ? div[p->place[k]] : 0.0;
+    MPI_Allreduce(MPI_IN_PLACE, &excess, 1, MPI_DOUBLE, MPI_SUM, s->comm);
+    for (int k = 0; k < p->n; k++) {
+        p->b[k] = p->V[k] > 0.0 ? div[p->place[k]] : 0.0;
+        p->b[k] -= singular ? excess * p->V[k] / p->volumes : 0.0;
+    }
+    p->by->cycle(s, p->of, p->b, p->x);
+    set_psi(s, p, p->x, psi);
+}
+
+void poisson_renew(struct fv *s, bool hierarchy)
+{
+    set_volumes(s, s->poisson);
+    s->poisson->by->renew(s, s->poisson->of, hierarchy);
+}
+
+void poisson_shift(struct fv *s, double shift)
+{
+    s->poisson->shift = shift;
+    s->poisson->by->shift(s, s->poisson->of, shift);
+}

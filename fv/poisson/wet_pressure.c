@@ -1,0 +1,476 @@
+/* wet_pressure.c - see wet_pressure.h. Rows of wet computed cells: minus the sums of the fluxes of
+ * psi (surface_faces.c beside the surface); of dry cells and holes: psi = 0. Wet cells that other
+ * blocks interpolate: psi less its linear interpolation; beside the surface, where donors are dry,
+ * what psi has beyond the surface's pressure P grows with the distance,
+ *   psi = P + phi <(psi_k - P_k)/phi_k>, the mean over the wet donors k.
+ * GMRES with a cycle of BoomerAMG; the surface's pressure makes the matrix regular.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "wet_pressure.h"
+
+#include <HYPRE.h>
+#include <HYPRE_IJ_mv.h>
+#include <HYPRE_krylov.h>
+#include <HYPRE_parcsr_ls.h>
+#include <math.h>
+#include <string.h>
+
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../boundary/still.h"
+#include "../grid/mesh.h"
+#include "../surface/levelset.h"
+#include "../surface/mesh_view.h"
+#include "hypre_call.h"
+
+enum { ROW_MAX = 64 };
+
+struct vector {
+    HYPRE_IJVector ij;
+    HYPRE_ParVector v;
+};
+
+struct wet_pressure {
+    HYPRE_BigInt first, last, pinned;
+    int n;                /* rows of this rank */
+    int64_t *place;       /* of each row */
+    HYPRE_BigInt *row;    /* of each row here: its number among all */
+    HYPRE_BigInt *row_of; /* of each place, behind walls of the mirrored cell; -1: none */
+    double *value, *residual;
+    double *dry; /* right side of interpolated cells: what they have of the surface's pressure */
+    double scale;
+    HYPRE_IJMatrix ij;
+    HYPRE_ParCSRMatrix A;
+    struct vector b, x, r;
+    HYPRE_Solver gmres, amg;
+    int *special[3]; /* of each place: 1 + index of its wet_face, 0: a plain face */
+    /* entries of all rows */
+    HYPRE_Int *count;
+    HYPRE_BigInt *col;
+    double *entry;
+    int64_t nentry, room;
+    /* donors of interpolated cells: phi and P of theirs stand behind the fields' own places */
+    struct mesh_exchange donors;
+    double *beyond[2];
+};
+
+/* A row under way. */
+struct row {
+    int n;
+    HYPRE_BigInt col[ROW_MAX];
+    double v[ROW_MAX];
+};
+
+static void add(struct row *r, HYPRE_BigInt col, double v)
+{
+    for (int k = 0; k < r->n; k++)
+        if (r->col[k] == col) {
+            r->v[k] += v;
+            return;
+        }
+    require(r->n < ROW_MAX && col >= 0);
+    r->col[r->n] = col;
+    r->v[r->n++] = v;
+}
+
+/* --- what stays --- */
+
+/* The row of a cell that may lie behind sides: behind walls that of its mirror image. */
+static HYPRE_BigInt row_of(const struct mesh *m, int block, const int *cell)
+{
+    int at[3] = {cell[0], cell[1], cell[2]};
+    double move[3] = {0.0, 0.0, 0.0};
+    if (!mesh_resolve(m, &block, at, move)) {
+        const int *n = m->block[block].n;
+        for (int a = 0; a < m->dim; a++)
+            at[a] = at[a] < 0 ? -1 - at[a] : at[a] >= n[a] ? 2 * n[a] - 1 - at[a] : at[a];
+        if (!mesh_resolve(m, &block, at, move))
+            return -1;
+    }
+    return (HYPRE_BigInt)mesh_row(m, block, at);
+}
+
+static void set_rows(const struct fv *s, struct wet_pressure *p)
+{
+    const struct mesh *m = s->m;
+    int row = 0;
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *part = m->part + q;
+        int i[3];
+        for (i[2] = -part->g[2]; i[2] < part->n[2] + part->g[2]; i[2]++)
+            for (i[1] = -part->g[1]; i[1] < part->n[1] + part->g[1]; i[1]++)
+                for (i[0] = -part->g[0]; i[0] < part->n[0] + part->g[0]; i[0]++) {
+                    const int at[3] = {part->lo[0] + i[0], part->lo[1] + i[1], part->lo[2] + i[2]};
+                    p->row_of[part_at(part, i[0], i[1], i[2])] = row_of(m, part->block, at);
+                }
+        PART_CELLS (part, i, c) {
+            p->place[row] = c;
+            p->row[row] = p->first + row;
+            row++;
+        }
+    }
+}
+
+/* Where the donors of the fringe give their phi and P to. */
+static void make_donors(struct fv *s, struct wet_pressure *p)
+{
+    struct mesh *m = s->m;
+    const int each = 1 << m->dim;
+    struct mesh_request *request = NEW(struct mesh_request, each * m->nfringe);
+    for (int64_t k = 0; k < m->nfringe; k++)
+        for (int d = 0; d < each; d++) {
+            const struct mesh_fringe *f = m->fringes + k;
+            int at[3] = {f->from[0] + (d & 1), f->from[1] + (d >> 1 & 1),
+                         f->from[2] + (d >> 2 & 1)};
+            int block = f->donor;
+            double move[3] = {0.0, 0.0, 0.0};
+            struct mesh_request *q = request + each * k + d;
+            if (!mesh_resolve(m, &block, at, move))
+                fail("a donor behind a wall");
+            *q = (struct mesh_request){.in = s->size + each * k + d};
+            mesh_owner(m, block, at, &q->rank, &q->out);
+        }
+    mesh_exchange_create(m, &p->donors, 1, each * m->nfringe, request);
+    for (int k = 0; k < 2; k++)
+        p->beyond[k] = NEW(double, s->size + each * m->nfringe);
+    mem_free(request);
+}
+
+static void create_vector(const struct mesh *m, struct wet_pressure *p, struct vector *v)
+{
+    HYPRE(HYPRE_IJVectorCreate(m->comm, p->first, p->last, &v->ij));
+    HYPRE(HYPRE_IJVectorSetObjectType(v->ij, HYPRE_PARCSR));
+    HYPRE(HYPRE_IJVectorInitialize(v->ij));
+    HYPRE(HYPRE_IJVectorAssemble(v->ij));
+    HYPRE(HYPRE_IJVectorGetObject(v->ij, (void **)&v->v));
+}
+
+static void set_vector(struct wet_pressure *p, struct vector *v, const double *values)
+{
+    if (p->n > 0)
+        HYPRE(HYPRE_IJVectorSetValues(v->ij, p->n, p->row, values));
+}
+
+static void get_vector(struct wet_pressure *p, struct vector *v, double *values)
+{
+    if (p->n > 0)
+        HYPRE(HYPRE_IJVectorGetValues(v->ij, p->n, p->row, values));
+}
+
+void wet_pressure_create(struct fv *s)
+{
+    const struct mesh *m = s->m;
+    struct wet_pressure *p = s->wet = NEW(struct wet_pressure, 1);
+    int64_t first, n;
+    double sum[2] = {0.0, 0.0};
+    mesh_rows(m, m->rank, &first, &n);
+    p->n = (int)n;
+    p->first = (HYPRE_BigInt)first;
+    p->last = (HYPRE_BigInt)(first + n - 1);
+    p->place = NEW(int64_t, n);
+    p->row = NEW(HYPRE_BigInt, n);
+    p->row_of = NEW(HYPRE_BigInt, s->size);
+    p->value = NEW(double, n);
+    p->residual = NEW(double, n);
+    p->dry = NEW(double, s->size);
+    p->count = NEW(HYPRE_Int, n);
+    for (int a = 0; a < m->dim; a++)
+        p->special[a] = NEW(int, s->size);
+    set_rows(s, p);
+    if (m->has_fringe)
+        make_donors(s, p);
+    for (int k = 0; k < p->n; k++)
+        if (m->status[p->place[k]] == CELL_COMPUTED) {
+            sum[0] += 2.0 * m->dim * m->G[0][0][p->place[k]];
+            sum[1] += 1.0;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, m->comm);
+    p->scale = sum[0] / fmax(sum[1], 1.0);
+    create_vector(m, p, &p->b);
+    create_vector(m, p, &p->x);
+    create_vector(m, p, &p->r);
+}
+
+static void free_matrix(struct wet_pressure *p)
+{
+    if (!p->ij)
+        return;
+    HYPRE_ParCSRGMRESDestroy(p->gmres);
+    HYPRE_BoomerAMGDestroy(p->amg);
+    HYPRE_IJMatrixDestroy(p->ij);
+}
+
+void wet_pressure_free(struct wet_pressure **pp)
+{
+    struct wet_pressure *p = *pp;
+    if (!p)
+        return;
+    free_matrix(p);
+    HYPRE_IJVectorDestroy(p->b.ij);
+    HYPRE_IJVectorDestroy(p->x.ij);
+    HYPRE_IJVectorDestroy(p->r.ij);
+    mesh_exchange_free(&p->donors);
+    for (int a = 0; a < 3; a++)
+        mem_free(p->special[a]);
+    for (int k = 0; k < 2; k++)
+        mem_free(p->beyond[k]);
+    mem_free(p->place);
+    mem_free(p->row);
+    mem_free(p->row_of);
+    mem_free(p->value);
+    mem_free(p->residual);
+    mem_free(p->dry);
+    mem_free(p->count);
+    mem_free(p->col);
+    mem_free(p->entry);
+    mem_free(p);
+    *pp = NULL;
+}
+
+/* --- rows --- */
+
+/* weight times the flux of psi through the lower face along a of cell c. */
+static void add_face(const struct fv *s, const struct part *part, int a, int64_t c, double weight,
+                     struct row *r)
+{
+    const struct mesh *m = s->m;
+    const struct wet_pressure *p = s->wet;
+    const struct surface_mesh *w = s->surface->mesh;
+    const int64_t d = part->stride[a];
+    const double open = weight * s->surface->open[a][c];
+    if (p->special[a][c]) {
+        const struct wet_face *x = w->face[a] + p->special[a][c] - 1;
+        for (int k = x->first; k < x->first + x->n; k++)
+            add(r, p->row_of[w->at[k]], weight * w->weight[k]);
+        return;
+    }
+    if (open == 0.0)
+        return;
+    add(r, p->row_of[c], open * m->G[a][a][c]);
+    add(r, p->row_of[c - d], -open * m->G[a][a][c]);
+    for (int t = 0; t < m->dim; t++) {
+        const int64_t b = part->stride[t];
+        const double g = t == a ? 0.0 : 0.25 * open * m->G[a][t][c];
+        if (g == 0.0)
+            continue;
+        add(r, p->row_of[c + b], g);
+        add(r, p->row_of[c - b], -g);
+        add(r, p->row_of[c - d + b], g);
+        add(r, p->row_of[c - d - b], -g);
+    }
+}
+
+/* p/rho of the surface next to a cell: at its foot on it. */
+static double surface_pressure_near(const struct fv *s, const struct part *part, int64_t c)
+{
+    const struct surface_mesh *w = s->surface->mesh;
+    const double *phi = s->surface->phi;
+    double g[3], foot[3], g2 = 0.0;
+    surface_mesh_gradient(s, part, c, phi, g);
+    for (int a = 0; a < 3; a++)
+        g2 += g[a] * g[a];
+    for (int a = 0; a < 3; a++)
+        foot[a] = w->x[a][c] - phi[c] * g[a] / fmax(g2, 0.25);
+    return -fv_still_pressure(s, foot) / s->run->scene.fluid.rho;
+}
+
+/* phi and the surface's pressure at the donors of the fringe. */
+static void ask_donors(struct fv *s, struct wet_pressure *p)
+{
+    memset(p->beyond[1], 0, (size_t)s->size * sizeof(double));
+    memcpy(p->beyond[0], s->surface->phi, (size_t)s->size * sizeof(double));
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        if (s->m->status[i] != CELL_HOLE && s->surface->layer[i] == 0)
+            p->beyond[1][i] = surface_pressure_near(s, p_, i);
+    mesh_exchange(s->m, &p->donors, 2, p->beyond);
+}
+
+/* A wet cell of the fringe. */
+static void fringe_row(const struct fv *s, struct wet_pressure *p, int64_t k, struct row *r)
+{
+    const struct mesh_fringe *f = s->m->fringes + k;
+    const int each = 1 << s->m->dim;
+    const double *phi = p->beyond[0] + s->size + each * k, *P = p->beyond[1] + s->size + each * k;
+    const double near = -0.2 * s->surface->least, own = fmin(s->surface->phi[f->place], 0.0);
+    double weights = 0.0, scale;
+    bool all = true;
+    for (int d = 0; d < each; d++) {
+        all = all && (f->weight[d] == 0.0 || phi[d] < 0.0);
+        weights += phi[d] < near ? f->weight[d] : 0.0;
+    }
+    p->dry[f->place] = all ? 0.0 : p->scale * p->beyond[1][f->place];
+    for (int d = 0; d < each; d++) {
+        const int at[3] = {f->from[0] + (d & 1), f->from[1] + (d >> 1 & 1),
+                           f->from[2] + (d >> 2 & 1)};
+        if (f->weight[d] == 0.0 || (!all && (!(phi[d] < near) || !(weights > 0.2))))
+            continue;
+        scale = all ? 1.0 : own / (phi[d] * weights);
+        scale *= p->scale * f->weight[d];
+        add(r, row_of(s->m, f->donor, at), -scale);
+        p->dry[f->place] -= all ? 0.0 : scale * P[d];
+    }
+}
+
+static void make_row(const struct fv *s, struct wet_pressure *p, const struct part *part, int64_t c,
+                     HYPRE_BigInt own, const int64_t *fringe, struct row *r)
+{
+    r->n = 0;
+    if (s->free[c] > 0.0 && own != p->pinned) {
+        for (int a = 0; a < s->dim; a++) {
+            add_face(s, part, a, c, 1.0, r);
+            add_face(s, part, a, c + part->stride[a], -1.0, r);
+        }
+        if (r->n > 0)
+            return;
+    }
+    add(r, own, p->scale);
+    if (s->m->status[c] == CELL_FRINGE && s->surface->layer[c] == 0)
+        fringe_row(s, p, fringe[c], r);
+}
+
+static void keep_row(struct wet_pressure *p, int k, const struct row *r)
+{
+    if (p->nentry + r->n > p->room) {
+        const int64_t more = 2 * p->room + 16 * (int64_t)p->n + ROW_MAX;
+        GROW(p->col, p->nentry, more);
+        GROW(p->entry, p->nentry, more);
+        p->room = more;
+    }
+    p->count[k] = r->n;
+    memcpy(p->col + p->nentry, r->col, (size_t)r->n * sizeof *p->col);
+    memcpy(p->entry + p->nentry, r->v, (size_t)r->n * sizeof *p->entry);
+    p->nentry += r->n;
+}
+
+static void make_rows(struct fv *s, struct wet_pressure *p)
+{
+    const struct surface_mesh *w = s->surface->mesh;
+    int64_t *fringe = NEW(int64_t, s->m->has_fringe ? s->size : 1);
+    struct row r;
+    int k = 0;
+    for (int64_t q = 0; q < s->m->nfringe; q++)
+        fringe[s->m->fringes[q].place] = q;
+    for (int a = 0; a < s->dim; a++) {
+        memset(p->special[a], 0, (size_t)s->size * sizeof(int));
+        for (int64_t q = 0; q < w->nface[a]; q++)
+            p->special[a][w->face[a][q].face] = (int)q + 1;
+    }
+    p->nentry = 0;
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++, k++) {
+        make_row(s, p, p_, i, p->row[k], fringe, &r);
+        keep_row(p, k, &r);
+    }
+    mem_free(fringe);
+}
+
+/* A tank that is full has no pressure given: psi is 0 in one cell. */
+static void find_pinned(const struct fv *s, struct wet_pressure *p)
+{
+    HYPRE_BigInt mine = (HYPRE_BigInt)1 << 30;
+    p->pinned = -1;
+    if (s->surface->cuts > 0)
+        return;
+    for (int k = p->n - 1; k >= 0; k--)
+        mine = s->free[p->place[k]] > 0.0 ? p->row[k] : mine;
+    MPI_Allreduce(&mine, &p->pinned, 1, HYPRE_MPI_BIG_INT, MPI_MIN, s->comm);
+}
+
+static void make_solver(const struct mesh *m, struct wet_pressure *p)
+{
+    HYPRE(HYPRE_BoomerAMGCreate(&p->amg));
+    HYPRE(HYPRE_BoomerAMGSetCoarsenType(p->amg, 8));
+    HYPRE(HYPRE_BoomerAMGSetInterpType(p->amg, 6));
+    HYPRE(HYPRE_BoomerAMGSetPMaxElmts(p->amg, 4));
+    HYPRE(HYPRE_BoomerAMGSetRelaxType(p->amg, 3));
+    HYPRE(HYPRE_BoomerAMGSetNumSweeps(p->amg, 1));
+    HYPRE(HYPRE_BoomerAMGSetStrongThreshold(p->amg, 0.25));
+    HYPRE(HYPRE_BoomerAMGSetTol(p->amg, 0.0));
+    HYPRE(HYPRE_BoomerAMGSetMaxIter(p->amg, 1));
+    HYPRE(HYPRE_ParCSRGMRESCreate(m->comm, &p->gmres));
+    HYPRE(HYPRE_GMRESSetKDim(p->gmres, 50));
+    HYPRE(HYPRE_GMRESSetMaxIter(p->gmres, 100));
+    HYPRE(HYPRE_GMRESSetPrecond(p->gmres, (HYPRE_PtrToSolverFcn)HYPRE_BoomerAMGSolve,
+                                (HYPRE_PtrToSolverFcn)HYPRE_BoomerAMGSetup, p->amg));
+    HYPRE(HYPRE_ParCSRGMRESSetup(p->gmres, p->A, p->b.v, p->x.v));
+}
+
+void wet_pressure_rebuild(struct fv *s)
+{
+    struct wet_pressure *p = s->wet;
+    free_matrix(p);
+    find_pinned(s, p);
+    if (s->m->has_fringe)
+        ask_donors(s, p);
+    make_rows(s, p);
+    HYPRE(HYPRE_IJMatrixCreate(s->comm, p->first, p->last, p->first, p->last, &p->ij));
+    HYPRE(HYPRE_IJMatrixSetObjectType(p->ij, HYPRE_PARCSR));
+    HYPRE(HYPRE_IJMatrixSetRowSizes(p->ij, p->count));
+    HYPRE(HYPRE_IJMatrixInitialize(p->ij));
+    if (p->n > 0)
+        HYPRE(HYPRE_IJMatrixSetValues(p->ij, p->n, p->count, p->row, p->col, p->entry));
+    HYPRE(HYPRE_IJMatrixAssemble(p->ij));
+    HYPRE(HYPRE_IJMatrixGetObject(p->ij, (void **)&p->A));
+    make_solver(s->m, p);
+}
+
+/* --- solve --- */
+
+static double norm(const struct fv *s, const double *v, int n)
+{
+    double sum = 0.0;
+    for (int k = 0; k < n; k++)
+        sum += v[k] * v[k];
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
+    return sqrt(sum);
+}
+
+/* |b - A x|. */
+static double residual(const struct fv *s, struct wet_pressure *p, const double *b)
+{
+    HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, p->A, p->x.v, 0.0, p->r.v));
+    get_vector(p, &p->r, p->residual);
+    for (int k = 0; k < p->n; k++)
+        p->residual[k] = b[k] - p->residual[k];
+    return norm(s, p->residual, p->n);
+}
+
+/* What rounding leaves of the pressure of a column as high as the scene. */
+static double rounding(const struct fv *s, const struct wet_pressure *p)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    double L = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        L = fmax(L, d->max[a] - d->min[a]);
+    return 1e-15 * s->surface->g * L * p->scale * sqrt((double)s->surface->wet);
+}
+
+bool wet_pressure_solve(struct fv *s, double tau, double *div, double tol, double *psi)
+{
+    struct wet_pressure *p = s->wet;
+    double *b = p->value;
+    HYPRE_Int its = 0;
+    surface_mesh_add_pressure(s, tau, div);
+    for (int k = 0; k < p->n; k++) {
+        const int64_t c = p->place[k];
+        const bool wet = s->surface->layer[c] == 0;
+        b[k] = !wet || p->row[k] == p->pinned ? 0.0 : s->free[c] > 0.0 ? -div[c] / tau : p->dry[c];
+        p->residual[k] = wet && s->m->status[c] != CELL_HOLE ? psi[c] : 0.0;
+    }
+    set_vector(p, &p->x, p->residual);
+    set_vector(p, &p->b, b);
+    const double before = residual(s, p, b), least = rounding(s, p), size = norm(s, b, p->n),
+                 wanted = fmax(tol * before, least);
+    if (before > least && size > 0.0) {
+        HYPRE(HYPRE_GMRESSetTol(p->gmres, wanted / size));
+        HYPRE(HYPRE_ParCSRGMRESSolve(p->gmres, p->A, p->b.v, p->x.v));
+        HYPRE(HYPRE_GMRESGetNumIterations(p->gmres, &its));
+        s->iterations += its;
+    }
+    const double left = its > 0 ? residual(s, p, b) : before;
+    get_vector(p, &p->x, p->residual);
+    memset(psi, 0, (size_t)s->size * sizeof(double));
+    for (int k = 0; k < p->n; k++)
+        psi[p->place[k]] = p->residual[k];
+    return left <= fmax(10.0 * wanted, 1e-12 * size);
+}

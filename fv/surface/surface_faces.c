@@ -1,0 +1,265 @@
+/* surface_faces.c - on blocks: faces that the surface cuts, or that have dry cells around. Flux of
+ * psi through the lower face along a, G_ab = S_a.S_b/J:
+ *   F = G_aa D_a + sum over tangents t of G_at D_t,
+ * D_a the difference of the two cells, or of the wet one to the surface at its place theta on the
+ * index line; D_t the mean over the wet ones of the two of their slopes along t, from wet cells.
+ * Gradients beside the surface are made of these fluxes: e_a the spacing of centres,
+ *   grad psi = sum over a of e_a (F_a,lower + F_a,upper)/2V.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "levelset.h"
+#include "mesh_view.h"
+
+#include <math.h>
+
+#include "../../common/mem.h"
+#include "../boundary/still.h"
+
+enum { AROUND = 12 }; /* two cells, and the four around each along two tangents */
+
+/* A stencil under way. */
+struct stencil {
+    int n;
+    int64_t at[AROUND];
+    double weight[AROUND];
+};
+
+static void add(struct stencil *x, int64_t at, double weight)
+{
+    for (int k = 0; k < x->n; k++)
+        if (x->at[k] == at) {
+            x->weight[k] += weight;
+            return;
+        }
+    x->at[x->n] = at;
+    x->weight[x->n++] = weight;
+}
+
+static bool is_wet(const struct fv *s, int64_t c) { return s->surface->layer[c] == 0; }
+
+/* Whether psi there is no water's: behind walls it is mirrored. */
+static bool is_dry(const struct fv *s, int64_t c)
+{
+    return !is_wet(s, c) && !s->surface->mesh->out[c];
+}
+
+/* weight times the slope of psi along t at a wet cell. */
+static void add_slope(const struct fv *s, int64_t c, int64_t t, double weight, struct stencil *x)
+{
+    const bool dry[2] = {is_dry(s, c - t), is_dry(s, c + t)};
+    if (dry[0] && dry[1])
+        return;
+    const double w = dry[0] || dry[1] ? weight : 0.5 * weight;
+    const int64_t low = dry[0] || s->surface->mesh->out[c - t] ? c : c - t,
+                  high = dry[1] || s->surface->mesh->out[c + t] ? c : c + t;
+    add(x, high, w);
+    add(x, low, -w);
+}
+
+static void add_cut(struct fv *s, int a, int64_t face, int64_t d)
+{
+    struct surface *f = s->surface;
+    const struct surface_mesh *w = f->mesh;
+    const bool here = is_wet(s, face);
+    struct cut x = {.face = face,
+                    .wet = here ? face : face - d,
+                    .dry = here ? face - d : face,
+                    .up = here ? -1.0 : 1.0};
+    const double theta = f->phi[x.wet] / (f->phi[x.wet] - f->phi[x.dry]);
+    double at[3];
+    for (int k = 0; k < 3; k++) {
+        const double way = w->x[k][x.dry] - w->x[k][x.wet];
+        at[k] = w->x[k][x.wet] + theta * way;
+        x.step += way * way;
+    }
+    x.step = x.size = sqrt(x.step);
+    x.theta = fmax(theta, fmax(f->theta_least, 0.01));
+    x.height = -fv_still_pressure(s, at) / s->run->scene.fluid.rho;
+    if (f->ncut[a] == f->room[a]) {
+        const int64_t more = 2 * f->room[a] + 256;
+        GROW(f->cut[a], f->ncut[a], more);
+        f->room[a] = more;
+    }
+    f->cut[a][f->ncut[a]++] = x;
+}
+
+static void add_face(struct fv *s, int a, const struct wet_face *x, const struct stencil *q)
+{
+    struct surface_mesh *w = s->surface->mesh;
+    if (w->nface[a] == w->face_room[a]) {
+        const int64_t more = 2 * w->face_room[a] + 256;
+        GROW(w->face[a], w->nface[a], more);
+        w->face_room[a] = more;
+    }
+    if (w->nat + q->n > w->at_room) {
+        const int64_t more = 2 * w->at_room + 1024;
+        GROW(w->at, w->nat, more);
+        GROW(w->weight, w->nat, more);
+        w->at_room = more;
+    }
+    struct wet_face *to = w->face[a] + w->nface[a]++;
+    *to = *x;
+    to->first = (int)w->nat;
+    to->n = q->n;
+    for (int k = 0; k < q->n; k++, w->nat++) {
+        w->at[w->nat] = q->at[k];
+        w->weight[w->nat] = q->weight[k];
+    }
+}
+
+/* Whether slopes along the face count in its flux and end at dry cells. */
+static bool has_dry_around(const struct fv *s, const struct part *p, int a, int64_t c)
+{
+    for (int t = 0; t < s->dim; t++) {
+        const int64_t d = p->stride[t], b = c - p->stride[a];
+        if (t != a && s->m->G[a][t][c] != 0.0 &&
+            (is_dry(s, c - d) || is_dry(s, c + d) || is_dry(s, b - d) || is_dry(s, b + d)))
+            return true;
+    }
+    return false;
+}
+
+static void look_at_face(struct fv *s, const struct part *p, int a, int64_t c)
+{
+    struct surface *f = s->surface;
+    const struct mesh *m = s->m;
+    const int64_t d = p->stride[a], cells[2] = {c - d, c};
+    const bool here = is_wet(s, c), below = is_wet(s, c - d);
+    f->open[a][c] = here && below ? m->open[a][c] : 0.0;
+    if ((!here && !below) || m->open[a][c] == 0.0 || f->mesh->out[c] || f->mesh->out[c - d] ||
+        (here && below && !has_dry_around(s, p, a, c)))
+        return;
+    struct wet_face x = {.face = c, .cut = -1};
+    struct stencil q = {0};
+    f->open[a][c] = 0.0;
+    if (here != below) {
+        add_cut(s, a, c, d);
+        x.cut = (int)f->ncut[a] - 1;
+        const struct cut *cut = f->cut[a] + x.cut;
+        x.given = cut->up * m->G[a][a][c] / cut->theta;
+        add(&q, cut->wet, -x.given);
+    } else {
+        add(&q, c, m->G[a][a][c]);
+        add(&q, c - d, -m->G[a][a][c]);
+    }
+    for (int t = 0; t < m->dim; t++)
+        for (int k = 0; k < 2 && t != a && m->G[a][t][c] != 0.0; k++)
+            if (is_wet(s, cells[k]))
+                add_slope(s, cells[k], p->stride[t], m->G[a][t][c] * (here && below ? 0.5 : 1.0),
+                          &q);
+    add_face(s, a, &x, &q);
+}
+
+void surface_mesh_find_faces(struct fv *s)
+{
+    struct surface *f = s->surface;
+    f->mesh->nat = 0;
+    for (int a = 0; a < s->dim; a++) {
+        f->ncut[a] = f->mesh->nface[a] = 0;
+        for (int q = 0; q < s->nparts; q++) {
+            int down[3], up[3];
+            for (int t = 0; t < 3; t++)
+                down[t] = up[t] = t < s->dim && t != a;
+            up[a] = 1;
+            PART_ROWS (s->part + q, down, up, c, n)
+                for (int64_t i = c; i < c + n; i++)
+                    look_at_face(s, s->part + q, a, i);
+        }
+    }
+}
+
+static double flux_of(const struct fv *s, int a, const struct wet_face *x, const double *psi)
+{
+    const struct surface_mesh *w = s->surface->mesh;
+    double F = x->cut >= 0 ? x->given * s->surface->cut[a][x->cut].p : 0.0;
+    for (int k = x->first; k < x->first + x->n; k++)
+        F += w->weight[k] * psi[w->at[k]];
+    return F;
+}
+
+void surface_mesh_fluxes(const struct fv *s, double tau, const double *psi)
+{
+    const struct surface_mesh *w = s->surface->mesh;
+    for (int a = 0; a < s->dim; a++)
+        for (int64_t k = 0; k < w->nface[a]; k++)
+            s->U[a][w->face[a][k].face] -= tau * flux_of(s, a, w->face[a] + k, psi);
+}
+
+void surface_mesh_add_pressure(const struct fv *s, double tau, double *div)
+{
+    const struct surface_mesh *w = s->surface->mesh;
+    for (int a = 0; a < s->dim; a++)
+        for (int64_t k = 0; k < w->nface[a]; k++) {
+            const struct wet_face *x = w->face[a] + k;
+            if (x->cut < 0)
+                continue;
+            const struct cut *cut = s->surface->cut[a] + x->cut;
+            if (s->m->status[cut->wet] == CELL_COMPUTED)
+                div[cut->wet] -= cut->up * tau * x->given * cut->p;
+        }
+}
+
+/* Fluxes of psi through the lower faces along a of a part's cells. */
+static void face_fluxes(const struct fv *s, const struct part *p, int a, const double *psi,
+                        double *out)
+{
+    const struct mesh *m = s->m;
+    const int64_t d = p->stride[a];
+    int none[3] = {0, 0, 0}, up[3] = {0, 0, 0};
+    up[a] = 1;
+    PART_ROWS (p, none, up, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            double F = m->G[a][a][i] * (psi[i] - psi[i - d]);
+            for (int t = 0; t < m->dim; t++) {
+                const int64_t b = p->stride[t];
+                if (t != a && m->G[a][t][i] != 0.0)
+                    F += 0.25 * m->G[a][t][i] *
+                         (psi[i + b] - psi[i - b] + psi[i - d + b] - psi[i - d - b]);
+            }
+            out[i] = s->surface->open[a][i] * F;
+        }
+}
+
+/* Whether the fourth-order gradient of a cell has dry ones in it. */
+static bool leaves_water(const struct fv *s, const struct part *p, int64_t c)
+{
+    const bool even = p->kind == PART_EVEN;
+    for (int a = 0; a < s->dim; a++)
+        for (int m = -2; m <= 2; m++) {
+            const int64_t at = c + m * p->stride[a];
+            if (is_dry(s, at))
+                return true;
+            for (int t = 0; t < s->dim && !even; t++)
+                if (t != a && (is_dry(s, at - p->stride[t]) || is_dry(s, at + p->stride[t])))
+                    return true;
+        }
+    return false;
+}
+
+void surface_mesh_psi_gradient(const struct fv *s, const double *psi, double *const out[3])
+{
+    static const int none[3] = {0, 0, 0};
+    const struct surface_mesh *w = s->surface->mesh;
+    double *const F[3] = {s->surface->rate, s->surface->kept, s->surface->phi_new};
+    for (int a = 0; a < s->dim; a++) {
+        for (int q = 0; q < s->nparts; q++)
+            face_fluxes(s, s->part + q, a, psi, F[a]);
+        for (int64_t k = 0; k < w->nface[a]; k++)
+            F[a][w->face[a][k].face] = flux_of(s, a, w->face[a] + k, psi);
+    }
+    for (int q = 0; q < s->nparts; q++) {
+        const struct part *p = s->part + q;
+        PART_ROWS (p, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                if (!(s->free[i] > 0.0) || !leaves_water(s, p, i))
+                    continue;
+                for (int k = 0; k < s->dim; k++) {
+                    double sum = 0.0;
+                    for (int a = 0; a < s->dim; a++) {
+                        const int64_t d = p->stride[a];
+                        sum += 0.25 * (w->x[k][i + d] - w->x[k][i - d]) * (F[a][i] + F[a][i + d]);
+                    }
+                    out[k][i] = sum / s->m->V[i];
+                }
+            }
+    }
+}

@@ -1,0 +1,236 @@
+/* surface_mesh.c - see mesh_view.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "levelset.h"
+#include "mesh_view.h"
+
+#include <math.h>
+
+#include "../../common/mem.h"
+#include "../grid/overset.h"
+
+static const int none[3] = {0, 0, 0};
+
+/* Mean distance of neighbouring vertices along axis a of the whole block: the same on all ranks. */
+static double mean_spacing(const struct mesh_block *b, int dim, int a)
+{
+    double sum = 0.0;
+    int64_t n = 0;
+    int i[3];
+    for (i[2] = 0; i[2] <= (dim == 3 ? b->n[2] : 0); i[2]++)
+        for (i[1] = 0; i[1] <= b->n[1]; i[1]++)
+            for (i[0] = 0; i[0] <= b->n[0]; i[0]++) {
+                int up[3] = {i[0], i[1], i[2]};
+                if (i[a] == b->n[a])
+                    continue;
+                up[a]++;
+                const double *x = b->x[mesh_vertex(b, i[0], i[1], i[2])],
+                             *y = b->x[mesh_vertex(b, up[0], up[1], up[2])];
+                sum += hypot(hypot(y[0] - x[0], y[1] - x[1]), y[2] - x[2]);
+                n++;
+            }
+    return sum / (double)n;
+}
+
+static void set_centres(const struct fv *s, const struct part *p, struct surface_mesh *w)
+{
+    const struct mesh *m = s->m;
+    int i[3];
+    for (i[2] = -p->g[2]; i[2] < p->n[2] + p->g[2]; i[2]++)
+        for (i[1] = -p->g[1]; i[1] < p->n[1] + p->g[1]; i[1]++)
+            for (i[0] = -p->g[0]; i[0] < p->n[0] + p->g[0]; i[0]++) {
+                const int64_t c = part_at(p, i[0], i[1], i[2]);
+                const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+                double x[3], dx[3][3];
+                mesh_map_point(m->block + p->block, m->dim, at, (double[3]){0.5, 0.5, 0.5}, x, dx);
+                for (int a = 0; a < 3; a++)
+                    w->x[a][c] = x[a];
+            }
+}
+
+/* grad xi_a of a cell, 1/m. */
+static void index_gradients(const struct mesh *m, const struct part *p, int64_t c, double g[3][3])
+{
+    for (int a = 0; a < m->dim; a++)
+        for (int k = 0; k < m->dim; k++)
+            g[a][k] = 0.5 * (m->S[a][k][c] + m->S[a][k][c + p->stride[a]]) / m->V[c];
+}
+
+static void set_metric(const struct fv *s, const struct part *p, struct surface_mesh *w)
+{
+    const struct mesh *m = s->m;
+    const double *size = w->size[p - s->part];
+    PART_ROWS (p, none, none, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            double g[3][3];
+            index_gradients(m, p, i, g);
+            for (int a = 0; a < m->dim; a++)
+                for (int b = a; b < m->dim; b++) {
+                    double dot = 0.0;
+                    for (int k = 0; k < m->dim; k++)
+                        dot += g[a][k] * g[b][k];
+                    w->K[a][b][i] = dot * size[a] * size[b];
+                }
+        }
+}
+
+/* Share of a cell that no later block computes, from points within it. */
+static double own_share(const struct fv *s, const struct overset *o, const struct part *p,
+                        const int *i)
+{
+    const struct mesh *m = s->m;
+    const int side = m->dim == 3 ? 4 : 8, deep = m->dim == 3 ? side : 1;
+    const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+    int own = 0;
+    for (int n = 0; n < side * side * deep; n++) {
+        const double xi[3] = {(n % side + 0.5) / side, (n / side % side + 0.5) / side,
+                              (n / side / side + 0.5) / deep};
+        double x[3], dx[3][3];
+        bool covered = false;
+        mesh_map_point(m->block + p->block, m->dim, at, xi, x, dx);
+        for (int k = p->block + 1; k < m->nblocks && !covered; k++) {
+            int cell[3];
+            double place[3];
+            covered = overset_locate(m, o, k, x, cell, place) &&
+                      m->block[k].status[mesh_cell(m->block + k, cell)] == CELL_COMPUTED;
+        }
+        own += !covered;
+    }
+    return (double)own / (side * side * deep);
+}
+
+static void set_counts(const struct fv *s, struct surface_mesh *w)
+{
+    const struct mesh *m = s->m;
+    struct overset *o = m->has_fringe ? overset_search(s->run, m) : NULL;
+    for (int q = 0; q < s->nparts; q++) {
+        const struct part *p = s->part + q;
+        int i[3];
+        PART_CELLS (p, i, c) {
+            const double share = o && m->status[c] == CELL_COMPUTED ? own_share(s, o, p, i) : 1.0;
+            w->count[c] = m->status[c] == CELL_COMPUTED ? share * m->V[c] : 0.0;
+        }
+    }
+    overset_free(&o);
+}
+
+static void set_sizes(const struct fv *s, const struct surface_mesh *w, double *least,
+                      double *largest)
+{
+    double ends[2] = {-INFINITY, 0.0};
+    for (int q = 0; q < s->nparts; q++)
+        PART_ROWS (s->part + q, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                for (int a = 0; a < s->dim && s->m->status[i] == CELL_COMPUTED; a++) {
+                    const double h = w->size[q][a] / sqrt(w->K[a][a][i]);
+                    ends[0] = fmax(ends[0], -h);
+                    ends[1] = fmax(ends[1], h);
+                }
+    MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MAX, s->comm);
+    *least = -ends[0];
+    *largest = ends[1];
+}
+
+struct surface_mesh *surface_mesh_create(const struct fv *s, double *least, double *largest)
+{
+    struct surface_mesh *w = NEW(struct surface_mesh, 1);
+    int most = 1;
+    w->count = mesh_field(s->m);
+    w->out = NEW(unsigned char, s->size);
+    for (int a = 0; a < 3; a++) {
+        w->x[a] = mesh_field(s->m);
+        w->speed[a] = mesh_field(s->m);
+        for (int b = a; b < 3 && a < s->dim; b++)
+            w->K[a][b] = mesh_field(s->m);
+    }
+    for (int q = 0; q < s->nparts; q++) {
+        const struct part *p = s->part + q;
+        for (int a = 0; a < s->dim; a++)
+            w->size[q][a] = mean_spacing(s->m->block + p->block, s->dim, a);
+        set_centres(s, p, w);
+        set_metric(s, p, w);
+        most = p->n[0] > most ? p->n[0] : most;
+    }
+    for (int a = 0; a < s->dim; a++)
+        for (int up = 0; up < 2; up++)
+            w->slopes[a][up] = NEW(double, most);
+    for (int64_t c = 0; c < s->size; c++)
+        w->out[c] = s->m->status[c] == CELL_HOLE;
+    set_counts(s, w);
+    set_sizes(s, w, least, largest);
+    return w;
+}
+
+void surface_mesh_free(struct surface_mesh **wp)
+{
+    struct surface_mesh *w = *wp;
+    if (!w)
+        return;
+    for (int a = 0; a < 3; a++) {
+        mem_free(w->x[a]);
+        mem_free(w->speed[a]);
+        mem_free(w->face[a]);
+        for (int b = 0; b < 3; b++)
+            mem_free(w->K[a][b]);
+        for (int up = 0; up < 2; up++)
+            mem_free(w->slopes[a][up]);
+    }
+    mem_free(w->count);
+    mem_free(w->out);
+    mem_free(w->at);
+    mem_free(w->weight);
+    mem_free(w);
+    *wp = NULL;
+}
+
+double surface_mesh_spacing(const struct fv *s, const struct part *p)
+{
+    const double *size = s->surface->mesh->size[p - s->part];
+    double most = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        most = fmax(most, size[a]);
+    return most;
+}
+
+double surface_mesh_speeds(const struct fv *s, double band)
+{
+    const struct mesh *m = s->m;
+    struct surface_mesh *w = s->surface->mesh;
+    double most = 0.0;
+    for (int q = 0; q < s->nparts; q++) {
+        const struct part *p = s->part + q;
+        const double near = band * surface_mesh_spacing(s, p);
+        PART_ROWS (p, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                double g[3][3], sum = 0.0;
+                index_gradients(m, p, i, g);
+                for (int a = 0; a < m->dim; a++) {
+                    double rate = 0.0;
+                    for (int k = 0; k < m->dim; k++)
+                        rate += s->u[k][i] * g[a][k];
+                    w->speed[a][i] = rate * w->size[q][a];
+                    sum += fabs(rate);
+                }
+                if (fabs(s->surface->phi[i]) < near && m->status[i] != CELL_HOLE)
+                    most = fmax(most, sum);
+            }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
+    return most;
+}
+
+void surface_mesh_gradient(const struct fv *s, const struct part *p, int64_t c, const double *phi,
+                           double g[3])
+{
+    double xi[3][3];
+    index_gradients(s->m, p, c, xi);
+    g[0] = g[1] = g[2] = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        for (int k = 0; k < s->dim; k++)
+            g[k] += 0.5 * (phi[c + p->stride[a]] - phi[c - p->stride[a]]) * xi[a][k];
+}
+
+void surface_mesh_metric(const struct fv *s, int64_t c, double K[3][3])
+{
+    for (int a = 0; a < s->dim; a++)
+        for (int b = a; b < s->dim; b++)
+            K[a][b] = K[b][a] = s->surface->mesh->K[a][b][c];
+}

@@ -1,0 +1,370 @@
+/* regions.c - see regions.h. Each region of the case is a piece of its own level and, grown by the
+ * margin from level to level, of those above; pieces of a level are united.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "regions.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/h5.h"
+#include "../../common/mem.h"
+#include "../../common/scene_geometry.h"
+#include "../open_boundaries/zones.h"
+#include "criteria.h"
+#include "regions_parts.h"
+
+/* How far region k is grown for level n, m; < 0: it has no part in this level. */
+static double growth(const struct regions *g, int k, int n)
+{
+    double sum = 0.0;
+    const int from = g->prm->regions.of[k].level;
+    if (n > from || (n < from && !g->alone[k]))
+        return -1.0;
+    for (int m = n; m < from; m++)
+        sum += regions_margin(g, m);
+    return sum;
+}
+
+/* Images of periodic axes: -1, 0, 1 along each; false: no such image. */
+static bool image(const struct regions *g, int k, double *shift)
+{
+    bool any = true;
+    for (int a = 0; a < 3; a++) {
+        const int i = (a == 0 ? k % 3 : a == 1 ? k / 3 % 3 : k / 9) - 1;
+        any = any && (i == 0 || g->periodic[a]);
+        shift[a] = i ? i * (g->domain.hi[a] - g->domain.lo[a]) : 0.0;
+    }
+    return any;
+}
+
+/* Takes what moves around a period back to the domain. */
+static void add_shift(const struct regions *g, const struct region_set *s, double *shift)
+{
+    for (int a = 0; a < g->dim; a++) {
+        const double L = g->domain.hi[a] - g->domain.lo[a];
+        const double turns =
+            g->periodic[a] ? floor((s->centre[a] + s->shift[a] - g->domain.lo[a]) / L) : 0.0;
+        shift[a] += s->shift[a] - L * turns;
+    }
+}
+
+/* Distances are exact up to this from the domain, m. */
+static double reach(const struct regions *g) { return 8.0 * g->R; }
+
+static bool is_near(const struct regions *g, const double *lo, const double *hi)
+{
+    bool near = true;
+    for (int a = 0; a < g->dim; a++)
+        near = near && lo[a] < g->domain.hi[a] + reach(g) && hi[a] > g->domain.lo[a] - reach(g);
+    return near;
+}
+
+/* --- faces on walls --- */
+
+/* Whether closed walls leave fluid no place at x. */
+static bool is_solid(const struct regions *g, const double *x)
+{
+    const struct scene *c = &g->run->scene;
+    bool solid = false;
+    for (int k = 0; k < c->nwalls && !solid; k++) {
+        const struct scene_mesh *m = scene_mesh_of(c, MESH_WALL, k);
+        const struct line l = line_of(&c->walls[k].points, true);
+        if (m)
+            solid = m->mesh.closed && !scene_mesh_holds(m, x);
+        else if (c->walls[k].closed && l.n > 0)
+            solid = line_inside(&l, x) != (line_area(&l) > 0.0);
+    }
+    return solid;
+}
+
+/* Whether no part of a face of the box within the domain is before walls. */
+static bool face_is_solid(const struct regions *g, const struct box *b, int axis, bool high)
+{
+    enum { SAMPLES = 16 };
+    const int u = (axis + 1) % g->dim, v = (axis + 2) % g->dim;
+    double x[3] = {0.0, 0.0, 0.0}, from[3], length[3];
+    for (int a = 0; a < g->dim; a++) {
+        from[a] = fmax(b->lo[a], g->domain.lo[a]);
+        length[a] = fmin(b->hi[a], g->domain.hi[a]) - from[a];
+        if (a != axis && length[a] <= 0.0)
+            return true;
+    }
+    x[axis] = high ? b->hi[axis] + g->near : b->lo[axis] - g->near;
+    for (int i = 0; i < SAMPLES; i++)
+        for (int j = 0; j < (g->dim == 3 ? SAMPLES : 1); j++) {
+            x[u] = from[u] + (i + 0.5) / SAMPLES * length[u];
+            if (g->dim == 3)
+                x[v] = from[v] + (j + 0.5) / SAMPLES * length[v];
+            if (!is_solid(g, x))
+                return false;
+        }
+    return true;
+}
+
+static bool has_closed_walls(const struct regions *g)
+{
+    const struct scene *c = &g->run->scene;
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || c->walls[k].closed || scene_mesh_of(c, MESH_WALL, k);
+    return any;
+}
+
+/* Faces on sides of the domain or beyond, and images' faces far from it, are none; those in the
+ * solid of closed walls go so deep into it that no guard is before them. */
+static void open_faces(const struct regions *g, struct box *b, double R)
+{
+    const bool walls = has_closed_walls(g);
+    for (int a = 0; a < g->dim; a++) {
+        const double far = g->periodic[a] ? reach(g) : INFINITY;
+        if (b->lo[a] <= g->room.lo[a] + g->near || b->lo[a] < g->domain.lo[a] - far)
+            b->lo[a] = -INFINITY;
+        else if (walls && face_is_solid(g, b, a, false))
+            b->lo[a] -= 1.001 * R;
+        if (b->hi[a] >= g->room.hi[a] - g->near || b->hi[a] > g->domain.hi[a] + far)
+            b->hi[a] = INFINITY;
+        else if (walls && face_is_solid(g, b, a, true))
+            b->hi[a] += 1.001 * R;
+    }
+}
+
+/* --- pieces of a level --- */
+
+struct pieces {
+    int n, level;
+    struct box *box;
+};
+
+static void add_box(const struct regions *g, int k, double grow, struct pieces *to)
+{
+    const struct apr_region *is = g->prm->regions.of + k;
+    double shift[3];
+    for (int i = 0; i < 27; i++) {
+        struct box b;
+        if (!image(g, i, shift))
+            continue;
+        add_shift(g, g->sets + g->set_of[k], shift);
+        for (int a = 0; a < 3; a++) {
+            b.lo[a] = is->min[a] - grow + shift[a];
+            b.hi[a] = is->max[a] + grow + shift[a];
+        }
+        if (!is_near(g, b.lo, b.hi))
+            continue;
+        open_faces(g, &b, regions_R(g, to->level - 1));
+        GROW(to->box, to->n, to->n + 1);
+        to->box[to->n++] = b;
+    }
+}
+
+static void add_ball(const struct regions *g, int k, double grow, struct level *l)
+{
+    const struct apr_region *is = g->prm->regions.of + k;
+    double shift[3], lo[3], hi[3];
+    for (int i = 0; i < 27; i++) {
+        struct ball b = {.radius = is->radius + grow};
+        if (!image(g, i, shift))
+            continue;
+        add_shift(g, g->sets + g->set_of[k], shift);
+        for (int a = 0; a < 3; a++) {
+            b.centre[a] = is->centre[a] + shift[a];
+            lo[a] = b.centre[a] - b.radius;
+            hi[a] = b.centre[a] + b.radius;
+        }
+        if (!is_near(g, lo, hi))
+            continue;
+        GROW(l->balls, l->nballs, l->nballs + 1);
+        l->balls[l->nballs++] = b;
+    }
+}
+
+static void make_level(struct regions *g, int n)
+{
+    struct level *l = g->level + n;
+    struct pieces boxes = {.level = n};
+    box_union_free(&l->boxes);
+    l->nballs = l->nlayers = 0;
+    for (int k = 0; k < g->prm->regions.n; k++) {
+        const struct apr_region *is = g->prm->regions.of + k;
+        const double grow = growth(g, k, n);
+        if (grow < 0.0)
+            continue;
+        if (is->shape == REGION_BOX) {
+            add_box(g, k, grow, &boxes);
+        } else if (is->shape == REGION_SPHERE) {
+            add_ball(g, k, grow, l);
+        } else {
+            GROW(l->layers, l->nlayers, l->nlayers + 1);
+            l->layers[l->nlayers++] = (struct layer){g->shell_of[k], is->offset + grow};
+        }
+    }
+    l->boxes = box_union_create(g->dim, boxes.n, boxes.box, g->near);
+    mem_free(boxes.box);
+}
+
+void regions_make(struct regions *g)
+{
+    for (int n = 1; n <= g->prm->levels; n++)
+        make_level(g, n);
+}
+
+/* --- distances --- */
+
+/* Of a point from the surface, around periods, too. */
+static double layer_distance(const struct regions *g, const struct layer *l, const double *x)
+{
+    double best = INFINITY, shift[3];
+    for (int i = 0; i < 27; i++) {
+        double at[3] = {0.0, 0.0, 0.0};
+        if (!image(g, i, shift))
+            continue;
+        for (int a = 0; a < g->dim; a++)
+            at[a] = x[a] + shift[a];
+        best = fmin(best, shell_distance(g->shells + l->shell, at, l->width + g->R));
+    }
+    return l->width - fmin(best, l->width + g->R);
+}
+
+double regions_fixed_distance(const struct regions *g, int level, const double *x)
+{
+    const struct level *l = g->level + level;
+    double d = box_union_distance(&l->boxes, x);
+    for (int k = 0; k < l->nballs; k++)
+        d = fmax(d, ball_distance(l->balls + k, g->dim, &g->room, x));
+    for (int k = 0; k < l->nlayers; k++)
+        d = fmax(d, layer_distance(g, l->layers + k, x));
+    return d;
+}
+
+double regions_distance(const struct regions *g, int level, const double *x)
+{
+    const struct marks *c = g->level[level].cells;
+    const double d = regions_fixed_distance(g, level, x), e = c ? marks_distance(c, x) : d;
+    return e > d ? e : d;
+}
+
+int regions_levels(const struct regions *g) { return g->prm->levels; }
+
+/* --- life --- */
+
+static void set_domain(struct regions *g, const struct run *r, const struct sph_params *prm)
+{
+    double transition, buffer;
+    g->dim = r->scene.domain.dim;
+    zones_widths(r, prm, &transition, &buffer);
+    g->zones = transition + buffer;
+    sph_params_region(&r->scene.domain, prm, g->domain.lo, g->domain.hi, g->periodic);
+    sph_params_open(r, prm, g->open);
+    for (int a = 0; a < 3; a++) {
+        const bool no_end = g->periodic[a] || a >= g->dim;
+        g->room.lo[a] = no_end || g->open[2 * a] ? -INFINITY : g->domain.lo[a];
+        g->room.hi[a] = no_end || g->open[2 * a + 1] ? INFINITY : g->domain.hi[a];
+    }
+}
+
+/* Largest width that a region has at any level, m. */
+static double widest(const struct regions *g, int k)
+{
+    double w = g->prm->regions.of[k].offset;
+    for (int n = 1; n < g->prm->regions.of[k].level; n++)
+        w += regions_margin(g, n);
+    return w + 2.0 * g->R;
+}
+
+static void add_shells(struct regions *g)
+{
+    const struct scene *c = &g->run->scene;
+    for (int k = 0; k < g->prm->regions.n; k++) {
+        const struct apr_region *is = g->prm->regions.of + k;
+        g->shell_of[k] = -1;
+        if (is->shape < REGION_BODY)
+            continue;
+        const bool body = is->shape == REGION_BODY;
+        const int n = g->shell_of[k] = g->nshells++;
+        const int index = body ? region_body(c, is->body) : is->wall - 1;
+        g->body_of[n] = body ? index : -1;
+        g->shells[n] = shell_create(c, body ? MESH_BODY : MESH_WALL, index, widest(g, k));
+    }
+}
+
+/* A region within one of the level below that moves alike has an outer one given. */
+static void find_alone(struct regions *g)
+{
+    for (int k = 0; k < g->prm->regions.n; k++)
+        g->alone[k] = !regions_outer_given(g, k);
+}
+
+struct regions *regions_create(const struct run *r, const struct sph_params *prm)
+{
+    const struct apr_params *used = apr_params_of(r);
+    if (!used)
+        return NULL;
+    struct regions *g = NEW(struct regions, 1);
+    g->run = r;
+    g->prm = used;
+    g->R = prm->R_dx * prm->dx;
+    g->dx = prm->dx;
+    g->near = 1e-6 * ldexp(prm->dx, -used->levels);
+    set_domain(g, r, prm);
+    for (int k = 0; k < BODIES_MAX; k++)
+        for (int a = 0; a < 3; a++)
+            g->bodies[k].Q[a][a] = 1.0;
+    region_sets_create(g);
+    add_shells(g);
+    find_alone(g);
+    region_sets_move(g, r->t);
+    regions_make(g);
+    g->criteria = criteria_create(g);
+    return g;
+}
+
+void regions_free(struct regions **of)
+{
+    struct regions *g = *of;
+    if (!g)
+        return;
+    for (int n = 1; n <= g->prm->levels; n++) {
+        box_union_free(&g->level[n].boxes);
+        mem_free(g->level[n].balls);
+        mem_free(g->level[n].layers);
+    }
+    for (int n = 0; n < g->nshells; n++)
+        shell_free(g->shells + n);
+    region_sets_free(g);
+    criteria_free(g);
+    mem_free(g);
+    *of = NULL;
+}
+
+void regions_move(struct regions *g, double t)
+{
+    for (int n = 0; n < g->nshells; n++)
+        if (g->body_of[n] >= 0)
+            shell_move(g->shells + n, g->bodies + g->body_of[n]);
+    if (region_sets_move(g, t))
+        regions_make(g);
+}
+
+/* --- restart --- */
+
+void regions_save(const struct regions *g, struct h5 *f)
+{
+    double(*shift)[3] = mem_new((size_t)g->nsets, sizeof *shift);
+    for (int n = 0; n < g->nsets; n++)
+        memcpy(shift[n], g->sets[n].shift, sizeof shift[n]);
+    h5_write_real(f, "apr_shift", "m", g->run->rank == 0 ? g->nsets : 0, 3, shift[0], false);
+    mem_free(shift);
+    criteria_save(g, f);
+}
+
+bool regions_load(struct regions *g, struct h5 *f)
+{
+    int64_t n = 0;
+    double *shift = h5_read_all_real(f, "apr_shift", 3, &n);
+    const bool fits = shift && n == g->nsets;
+    for (int k = 0; k < g->nsets && fits; k++)
+        memcpy(g->sets[k].shift, shift + (ptrdiff_t)3 * k, sizeof g->sets[k].shift);
+    mem_free(shift);
+    if (fits)
+        regions_make(g);
+    return fits && criteria_load(g, f);
+}

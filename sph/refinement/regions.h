@@ -1,0 +1,40 @@
+/* regions.h - where particles are refined. Level n >= 1 has dx/2^n in its region B_n, a signed
+ * distance d_n: guards where 0 < d_n < R_(n-1), refined particles deeper (Chiron 2017, 5.3).
+ * B_n holds all of B_(n+1), apr.margin R_(n-1) and at least R_(n-1) + R_n within its edge.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_REGIONS_H
+#define SPH_REGIONS_H
+
+#include "../sph.h"
+
+struct regions;
+struct h5;
+
+/* NULL: the case refines nothing. r is borrowed. */
+struct regions *regions_create(const struct run *r, const struct sph_params *prm);
+void regions_free(struct regions **g);
+/* Finest level, >= 1. */
+int regions_levels(const struct regions *g);
+/* m, positive inside B_level, 1 <= level, at the time of the last regions_move. Parts of the edge
+ * on or beyond a wall, an end of the domain or the partner of a periodic side do not count. Never
+ * more than the distance to the edge; INFINITY: there is no edge, -INFINITY: no region. */
+double regions_distance(const struct regions *g, int level, const double *x);
+/* Once a step, to the time t, s, after the places of bodies and the peak were set: what follows
+ * these goes at most half a spacing of its finest level a call. */
+void regions_move(struct regions *g, double t);
+/* Largest step, s: no region may move by more than that in one. INFINITY: none moves as told. */
+double regions_dt(const struct regions *g);
+/* Where a body of the scene is; at the start all are where the case has them. The same on all
+ * ranks, as what follows. */
+struct body_motion;
+void regions_set_body(struct regions *g, int body, const struct body_motion *now);
+/* Whether some region follows the peak: the place of the largest pressure, m and Pa, is to be set
+ * then. */
+bool regions_want_peak(const struct regions *g);
+void regions_set_peak(struct regions *g, const double *x, double p);
+
+/* All that a restart needs; false: the file has none, or others. Collective. */
+void regions_save(const struct regions *g, struct h5 *f);
+bool regions_load(struct regions *g, struct h5 *f);
+
+#endif
