@@ -79,22 +79,6 @@ static void write_field(const struct fv *s, struct h5 *f, int k, const char *fie
     mem_free(v);
 }
 
-/* phi has a value in dry cells, too. */
-static void write_level(const struct fv *s, struct h5 *f, int k)
-{
-    const struct mesh *m = s->m;
-    int lo[3], hi[3], i[3];
-    char name[64];
-    const struct part *p = range(m, k, lo, hi);
-    double *v = NEW(double, p ? (int64_t)p->n[0] * p->n[1] * p->n[2] : 0), *to = v;
-    if (p)
-        PART_CELLS (p, i, c)
-            *to++ = m->status[c] == CELL_COMPUTED ? s->surface->phi[c] : NAN;
-    snprintf(name, sizeof name, "level_set_%d", k + 1);
-    h5_write_block(f, name, "m", m->dim, m->block[k].n, lo, hi, 1, v, true);
-    mem_free(v);
-}
-
 /* Mean place of a cell, over its volume. */
 static void centroid(const struct mesh_block *b, int dim, const int *cell, double *mean)
 {
@@ -112,6 +96,22 @@ static void centroid(const struct mesh_block *b, int dim, const int *cell, doubl
     }
     for (int c = 0; c < 3; c++)
         mean[c] /= whole;
+}
+
+/* phi has a value in dry cells, too. */
+static void write_level(const struct fv *s, struct h5 *f, int k)
+{
+    const struct mesh *m = s->m;
+    int lo[3], hi[3], i[3];
+    char name[64];
+    const struct part *p = range(m, k, lo, hi);
+    double *v = NEW(double, p ? (int64_t)p->n[0] * p->n[1] * p->n[2] : 0), *to = v;
+    if (p)
+        PART_CELLS (p, i, c)
+            *to++ = m->status[c] == CELL_COMPUTED ? s->surface->phi[c] : NAN;
+    snprintf(name, sizeof name, "level_set_%d", k + 1);
+    h5_write_block(f, name, "m", m->dim, m->block[k].n, lo, hi, 1, v, true);
+    mem_free(v);
 }
 
 static void add_still_pressure(const struct fv *s, double *q)
@@ -137,7 +137,7 @@ void mesh_output_average(struct fv *s, enum mesh_output what, double *q)
         FLOW_ROWS(s, c, n)
     for (int64_t i = c; i < c + n; i++)
         q[i] = what == OUTPUT_PRESSURE ? fv_pressure(s, i) : s->u[what][i];
-    if (!s->surface) /* beyond it nothing is smooth */
+    if (!s->surface || what != OUTPUT_PRESSURE) /* p ends at the surface: no differences there */
         mesh_to_volume(s, q, s->flux);
     if (what == OUTPUT_PRESSURE)
         add_still_pressure(s, q);

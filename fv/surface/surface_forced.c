@@ -53,10 +53,11 @@ struct surface_forced *surface_forced_create(const struct fv *s)
     if (!g)
         return NULL;
     struct surface_forced *f = NEW(struct surface_forced, 1);
-    double h = 0.0;
+    double h = 0.0, dx[3];
     for (int a = 0; a < b->dim; a++)
         h = fmax(h, b->h[a]);
-    f->R = 2.0 * h;
+    params_peek(s->run->params, s->run->comm, "sph.dx", dx);
+    f->R = fmax(2.0 * h, 4.0 * dx[0]); /* fewer particles make noise */
     f->cell = NEW(int64_t, b->size);
     for (int64_t i = 0; i < g->nlocal; i++)
         if (g->forced[g->local[i]] == 1)

@@ -160,6 +160,8 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, double *least, doub
     struct surface_mesh *w = NEW(struct surface_mesh, 1);
     int most = 1;
     w->count = mesh_field(s->m);
+    for (int k = 0; k < s->m->nblocks; k++)
+        w->slanting = w->slanting || is_slanting(s, s->m->block + k);
     w->out = NEW(unsigned char, s->size);
     for (int a = 0; a < 3; a++) {
         w->x[a] = mesh_field(s->m);

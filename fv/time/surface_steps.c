@@ -289,5 +289,5 @@ const char *surface_trouble(const struct fv *s)
         fills = fills || s->bc->kind[k] == BC_INFLOW;
     if (s->surface->cuts == 0 && fills && !s->bc->pressure_given)
         return "the domain is full of water, and more flows in";
-    return s->surface->wet > 0 ? NULL : "no cell holds water any more";
+    return s->surface->wet > 0 || s->surface->forced ? NULL : "no cell holds water any more";
 }

@@ -119,7 +119,7 @@ static void take_surface(struct sph *s)
     check(k, cpl_patch_get(k->c, k->patch_phi, lo, hi));
     s->ready = false; /* the lattice behind the faces ends at the surface, which is another now */
     if (!s->zones->gap->started)
-        level_gap_look(s);
+        level_gap_look(s, 0.0);
 }
 
 /* The patch that this rank's particles and faces may need until the end of the window. */
@@ -163,11 +163,9 @@ static void room(struct link *k, int n)
 static void give_surface(struct sph *s, int n, double t)
 {
     const struct link *k = s->zones->ctx;
-    double lo[3], hi[3], water = 0.0;
+    const double water = zones_water(s);
+    double lo[3], hi[3];
     const int64_t id = 0;
-    for (int i = 0; i < s->p.n; i++)
-        water += zones_share(s, i) * state_row(&s->p, s->p.y, i)[at_mass(s->dim)] / s->rho0;
-    MPI_Allreduce(MPI_IN_PLACE, &water, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     zones_free_box(s->run, &s->prm, lo, hi);
     check(k, cpl_put(k->c, k->one, t, n, k->ones, NULL));
     room((struct link *)s->zones->ctx, 1);

@@ -8,13 +8,14 @@
 #include "../../common/watch.h"
 #include "../sph.h"
 
-enum { LEVEL_COLUMNS = 5 };
+enum { LEVEL_COLUMNS = 6 };
 
 struct level_gap {
     double *profile; /* colour.h */
     double at_rest[6]; /* m: gap at the start, which is no step */
     double gap[6];     /* m: now, over that */
     double outflow[6]; /* m/s: what is added to the flow outside */
+    double lasting[6]; /* m/s: part of it that a lasting gap has called for */
     bool started;      /* at_rest is known */
     double mean;       /* m: of |gap| over some windows, the largest side: what is judged */
     struct watch watched;
@@ -25,8 +26,8 @@ struct level_gap *level_gap_create(const struct sph *s);
 void level_gap_free(struct level_gap **g);
 /* m/s outwards; g NULL: 0. */
 double level_gap_outflow(const struct level_gap *g, int side);
-/* Compares at s->t. Collective. */
-void level_gap_look(struct sph *s);
+/* Compares at s->t, dt after the last time. Collective. */
+void level_gap_look(struct sph *s, double dt);
 /* Names and values of LEVEL_COLUMNS columns. Collective. */
 extern const char *const level_gap_columns[LEVEL_COLUMNS];
 void level_gap_row(const struct sph *s, double *values);

@@ -244,6 +244,15 @@ double zones_share(const struct sph *s, int i)
     return f;
 }
 
+double zones_water(const struct sph *s)
+{
+    double sum = 0.0;
+    for (int i = 0; i < s->p.n; i++)
+        sum += zones_share(s, i) * state_row(&s->p, s->p.y, i)[at_mass(s->dim)] / s->rho0;
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sum;
+}
+
 void zones_mark(struct sph *s)
 {
     const struct zones *z = s->zones;
@@ -470,7 +479,7 @@ void zones_openings(struct sph *s, double dt)
 {
     openings_step(s, dt);
     if (s->zones->gap)
-        level_gap_look(s);
+        level_gap_look(s, dt);
 }
 
 void zones_save(struct sph *s, struct h5 *f)

@@ -59,6 +59,9 @@ double zones_depth(const struct sph *s, const double *x);
  * cube lies in the free zone. */
 double zones_share(const struct sph *s, int i);
 
+/* m^dim: what the free zone holds. Collective. */
+double zones_water(const struct sph *s);
+
 /* Zone of every local particle by its depth; before the list is built. */
 void zones_mark(struct sph *s);
 /* Start of a stage: buffer particles take u and p from outside at s->t; m = rho w. */

@@ -581,6 +581,7 @@ static void finish_step(struct sph *s, double dt, double *most, struct diagnosis
             particles_lines(q);
         guards_update(s);
         refinement_adapt(s);
+        refinement_repay(s);
         volume_renew(s);
     }
 }
