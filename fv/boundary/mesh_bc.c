@@ -346,24 +346,6 @@ void mesh_bc_even(const struct fv *s, bool odd, double *q)
     }
 }
 
-static void extended(double *q, int64_t in)
-{
-    for (int l = 1; l <= MESH_GHOSTS; l++)
-        q[-l * in] = 3.0 * (q[(1 - l) * in] - q[(2 - l) * in]) + q[(3 - l) * in];
-}
-
-void mesh_bc_extend(const struct fv *s, double *q)
-{
-    for (int k = 0; k < s->sides->n; k++) {
-        const struct side *d = s->sides->side + k;
-        SIDE_PLACES(d, 1, i, j, at, c)
-        {
-            extended(q + c, d->in);
-            (void)at;
-        }
-    }
-}
-
 /* Whether a level surface meets the face at a slant. */
 static bool is_slanting(const struct fv *s, const struct side *d, int64_t c)
 {
@@ -392,6 +374,24 @@ void mesh_bc_level(const struct fv *s, bool keep, double *phi)
                 d->tilt[at] = is_slanting(s, d, c) ? q[0] - q[d->in] : 0.0;
             for (int m = 1; m <= MESH_GHOSTS; m++)
                 q[-m * d->in] = q[(m - 1) * d->in] + (2 * m - 1) * d->tilt[at];
+        }
+    }
+}
+
+static void extended(double *q, int64_t in)
+{
+    for (int l = 1; l <= MESH_GHOSTS; l++)
+        q[-l * in] = 3.0 * (q[(1 - l) * in] - q[(2 - l) * in]) + q[(3 - l) * in];
+}
+
+void mesh_bc_extend(const struct fv *s, double *q)
+{
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            extended(q + c, d->in);
+            (void)at;
         }
     }
 }

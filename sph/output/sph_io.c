@@ -293,6 +293,7 @@ static void save_particles(const struct sph *s, struct h5 *f)
 static void save_levels(struct sph *s, struct h5 *f)
 {
     h5_write_real(f, "levels_mass", "kg", 1, 1, &s->refinement->added, false);
+    h5_attribute_real(f, "levels_repaid", s->refinement->repaid);
     for (struct sph *q = s->finer; q; q = q->finer) {
         h5_attribute_real(f, name(q, "skin"), q->skin);
         h5_attribute_real(f, name(q, "signal"), q->signal);
@@ -397,7 +398,8 @@ static bool same_region(const struct sph *s, struct h5 *f)
 /* What finer levels have of their own; all else they have of the first. */
 static bool read_levels(struct sph *s, struct h5 *f)
 {
-    bool fits = h5_read_parts(f, "levels_mass", 1, &s->refinement->added);
+    bool fits = h5_read_parts(f, "levels_mass", 1, &s->refinement->added) &&
+                h5_read_attribute_real(f, "levels_repaid", &s->refinement->repaid);
     for (struct sph *q = s->finer; q && fits; q = q->finer) {
         const struct number of_flow[] = {NUMBER(dt_most),   NUMBER(stray),    NUMBER(drift[0]),
                                          NUMBER(drift[1]),  NUMBER(drift[2]), NUMBER(max_speed),

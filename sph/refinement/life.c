@@ -11,13 +11,10 @@
 #include <string.h>
 
 #include "../../common/mem.h"
-#include "../particles/eos.h"
-#include "../surface/surface.h"
-#include "../walls/walls.h"
-#include "criteria.h"
 
-static const double hysteresis = 0.5; /* coarser dx */
-static const double steepest = 0.05;  /* change of rho from mother to child, its share */
+static const double hysteresis = 0.5;                   /* coarser dx */
+static const double paid_back = 0.01, most_paid = 1e-5; /* a step: of the debt; of the mass */
+static const double steepest = 0.05; /* change of rho from mother to child, its share */
 
 struct standing refinement_standing(const struct sph *base, int level, const double *x)
 {
@@ -119,85 +116,12 @@ static void judge(const struct sph *base, struct sph *s)
     }
 }
 
-/* The place of the largest pressure of what flows, of all ranks. */
-static void set_peak(struct sph *s, struct regions *g)
-{
-    struct {
-        double rho;
-        int rank;
-    } most = {0.0, s->run->rank};
-    double x[3] = {0.0, 0.0, 0.0};
-    for (const struct sph *q = s; q; q = q->finer)
-        for (int i = 0; i < q->p.n; i++) {
-            const double *y = state_row(&q->p, q->p.y, i);
-            const double rho = y[at_mass(q->dim)] / y[at_volume(q->dim)];
-            if (particles_is_guard(&q->p, i) || rho <= most.rho)
-                continue;
-            most.rho = rho;
-            memcpy(x, y, (size_t)q->dim * sizeof *x);
-        }
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
-    MPI_Bcast(x, 3, MPI_DOUBLE, most.rank, s->run->comm);
-    regions_set_peak(g, x, eos_p(most.rho, s->rho0, s->c0, s->gamma));
-}
-
-static void move_regions(struct sph *s)
-{
-    struct regions *g = s->refinement->regions;
-    for (int k = 0; s->walls && k < s->walls->nbodies; k++)
-        regions_set_body(g, k, &s->walls->bodies[k].now);
-    if (regions_want_peak(g))
-        set_peak(s, g);
-    regions_move(g, s->t);
-}
-
-/* What a particle says to the criteria; slopes are those of the last stage. */
-static struct flow_sample sample_of(const struct sph *s, int i)
-{
-    const int dim = s->dim;
-    const double *y = state_row(&s->p, s->p.y, i), *g = slope_line(&s->p, i);
-    const double m = y[at_mass(dim)], w = y[at_volume(dim)];
-    const double c = eos_c(m / w, s->rho0, s->c0, s->gamma);
-    struct flow_sample is = {.volume = w, .rho = m / w};
-    double curl2 = 0.0, slope2 = 0.0, u2 = 0.0;
-    for (int a = 0; a < dim; a++) {
-        u2 += y[dim + a] * y[dim + a] / (m * m);
-        slope2 += g[a] * g[a];
-        for (int b = 0; b < a; b++)
-            curl2 += pow(g[dim + dim * a + b] - g[dim + dim * b + a], 2.0);
-    }
-    is.speed = sqrt(u2);
-    is.curl = sqrt(curl2);
-    is.slope = c * c * sqrt(slope2);
-    is.on_surface = s->surface && i < s->surface->capacity && s->surface->is[i] == SURFACE_ON;
-    return is;
-}
-
-static void look_at_criteria(struct sph *s)
-{
-    struct regions *g = s->refinement->regions;
-    double gravity2 = 0.0;
-    if (!criteria_due(g, s->t))
-        return;
-    for (int a = 0; a < s->dim; a++)
-        gravity2 += s->gravity[a] * s->gravity[a];
-    criteria_begin(g, s->max_mach * s->c0, sqrt(gravity2));
-    for (const struct sph *q = s; q; q = q->finer)
-        for (int i = 0; i < q->p.n; i++)
-            if (!particles_is_guard(&q->p, i)) {
-                const struct flow_sample is = sample_of(q, i);
-                criteria_add(g, state_row(&q->p, q->p.y, i), &is);
-            }
-    criteria_end(g, s->t, s->c0);
-}
-
 void refinement_adapt(struct sph *s)
 {
     struct refinement *r = s->refinement;
     timer_start(&s->run->timers, "levels");
     const double before = flowing(s);
-    look_at_criteria(s);
-    move_regions(s);
+    regions_move(s->refinement->regions, s->t);
     for (struct sph *q = s; q->finer; q = q->finer)
         enter(s, q);
     for (struct sph *q = s->finer; q; q = q->finer)
@@ -237,4 +161,22 @@ void refinement_free(struct sph *s)
     regions_free(&s->refinement->regions);
     mem_free(s->refinement);
     s->refinement = NULL;
+}
+
+void refinement_repay(struct sph *s)
+{
+    struct refinement *r = s->refinement;
+    double sums[2] = {r->added, flowing(s)};
+    if (s->zones)
+        return;
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    const double debt = sums[1] > 0.0 ? (sums[0] - r->repaid) / sums[1] : 0.0;
+    const double part = fmax(-most_paid, fmin(paid_back * debt, most_paid));
+    if (fabs(debt) < 1e-12)
+        return;
+    r->repaid += part * sums[1];
+    for (struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            for (int k = q->dim; k < q->p.nstate && !particles_is_guard(&q->p, i); k++)
+                state_row(&q->p, q->p.y, i)[k] *= 1.0 - part;
 }

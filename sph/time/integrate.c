@@ -577,7 +577,11 @@ static void finish_step(struct sph *s, double dt, double *most, struct diagnosis
     bodies_finish(s, d);
     volume_keep(s);
     if (s->finer) {
+        for (struct sph *q = s; q; q = q->finer) /* guards that wake now, as the others are now */
+            particles_lines(q);
+        guards_update(s);
         refinement_adapt(s);
+        refinement_repay(s);
         volume_renew(s);
     }
 }
