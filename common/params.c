@@ -594,9 +594,9 @@ static const config_setting_t *value_of(const struct params *p, const char *key)
     return p->read ? config_lookup(&p->cfg, key) : NULL;
 }
 
-bool params_peek(const struct params *p, MPI_Comm comm, const char *key, double v[3])
+/* Numbers that a setting holds; how many. */
+static int peek(const config_setting_t *s, double v[3])
 {
-    const config_setting_t *s = value_of(p, key);
     int n = 0;
     v[0] = v[1] = v[2] = 0.0;
     if (s && param_number(s, v))
@@ -604,7 +604,26 @@ bool params_peek(const struct params *p, MPI_Comm comm, const char *key, double 
     for (int k = 0; s && config_setting_is_aggregate(s) && k < 3 && k < config_setting_length(s);
          k++)
         n += param_number(config_setting_get_elem(s, (unsigned)k), v + k);
+    return n;
+}
+
+bool params_peek(const struct params *p, MPI_Comm comm, const char *key, double v[3])
+{
+    int n = peek(value_of(p, key), v);
     MPI_Bcast(v, 3, MPI_DOUBLE, 0, comm);
+    MPI_Bcast(&n, 1, MPI_INT, 0, comm);
+    return n > 0;
+}
+
+bool params_peek_pair(const struct params *p, MPI_Comm comm, const char *key, double v[2][3])
+{
+    const config_setting_t *s = value_of(p, key);
+    int n = 0;
+    for (int k = 0; k < 2; k++) {
+        const bool there = s && config_setting_is_aggregate(s) && k < config_setting_length(s);
+        n += peek(there ? config_setting_get_elem(s, (unsigned)k) : NULL, v[k]);
+    }
+    MPI_Bcast(v, 6, MPI_DOUBLE, 0, comm);
     MPI_Bcast(&n, 1, MPI_INT, 0, comm);
     return n > 0;
 }

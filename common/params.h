@@ -134,6 +134,8 @@ bool params_on_command_line(const struct params *p, const char *key);
 /* A number or a vector of numbers of a group that another program checks ("fv.cells"), 0 where it
  * has no component; false: not given. Collective over comm. */
 bool params_peek(const struct params *p, MPI_Comm comm, const char *key, double v[3]);
+/* The same for a pair of vectors ("sph.box"). */
+bool params_peek_pair(const struct params *p, MPI_Comm comm, const char *key, double v[2][3]);
 /* A fault where `key' is given and the run has no use for it: "is not used: WHY". A key that
  * changes nothing is a mistake of the case, never passed over in silence; but one that repeats the
  * default says what is so. Call on all ranks alike.

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "accept.h"
+#include "crossing.h"
 #include "disk.h"
 #include "h5.h"
 #include "log.h"
@@ -106,6 +107,8 @@ static int read_case(struct life *l)
         scene_orient(&r->scene);
     if (l->faults.n == 0)
         read_meshes(l);
+    if (l->faults.n == 0)
+        r->crossed = crossing_find(r);
     if (l->faults.n == 0)
         accept_check(&r->scene, r->case_dir, l->params, &l->faults);
     if (l->faults.n == 0 && l->p->check)

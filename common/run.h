@@ -40,6 +40,7 @@ struct run {
     char case_dir[1024]; /* folder of the case file */
     bool restart;        /* state comes from the restart file */
     bool coupled;
+    bool crossed; /* coupled, and the free surface crosses open sides of sph.box: crossing.h */
     const struct partner *partner; /* NULL when alone */
     void *partner_ctx;             /* its state (struct cpl *) */
     struct timers timers;

@@ -41,8 +41,10 @@ enum cpl_direction { CPL_PUT = 1, CPL_GET = 2, CPL_OPTIONAL = 4 };
  * is a mean of what is around it (constants are kept, by CPL_MLS linear functions, too).
  * With CPL_CONSERVATIVE added, its transpose: each giver's value (a force, a mass: something that
  * adds up) is dealt out to the taker's points around it by weights whose sum is 1, so the sum over
- * all points is kept to rounding; a giver without a taker in reach gives all to the nearest one. */
-enum cpl_mapping { CPL_SHEPARD, CPL_MLS, CPL_NEAREST, CPL_CONSERVATIVE = 16 };
+ * all points is kept to rounding; a giver without a taker in reach gives all to the nearest one.
+ * CPL_SUM is neither: the sum of volume times value times kernel, not divided by the sum of the
+ * weights, everywhere (mask 1); of ones it is the share of the kernel that the givers fill. */
+enum cpl_mapping { CPL_SHEPARD, CPL_MLS, CPL_NEAREST, CPL_SUM, CPL_CONSERVATIVE = 16 };
 enum cpl_interpolation { CPL_LINEAR, CPL_CUBIC }; /* grid to anywhere */
 /* Which values a read is made of. A put holds them at one time, the start or the end of a window,
  * with a polynomial in time around it where the giver has one. */

@@ -21,6 +21,7 @@
 #include "time/steps.h"
 #include "output/output.h"
 #include "coupling/fv_link.h"
+#include "surface/surface_forced.h"
 
 /* Those of rows, forces and watches at most, blocks and gauges. */
 static const char *columns[40 + 3 * MESH_BLOCKS_MAX + 3 * BLOCKED_MAX + PROBES_MAX];
@@ -95,6 +96,10 @@ static void *create(struct run *r, struct h5 *f)
     n += s ? watches_columns(s->watches, columns + n) : 0;
     if (r->coupled)
         columns[n++] = "unmapped cells [-]";
+    if (r->crossed) {
+        columns[n++] = "step of the surface [m]";
+        columns[n++] = "water missing [m^dim]";
+    }
     fv_program.ncolumns = n;
     return s;
 }
@@ -116,8 +121,14 @@ static double step(void *state, double t_stop, struct diagnosis *d)
 static void row(void *state, double *values)
 {
     fv_row(state, values);
-    if (((struct fv *)state)->link)
-        values[fv_program.ncolumns - 1] = coupling_unmapped(state);
+    const struct fv *s = state;
+    const bool crossed = s->run->crossed;
+    if (s->link)
+        values[fv_program.ncolumns - (crossed ? 3 : 1)] = coupling_unmapped(s);
+    if (!crossed)
+        return;
+    values[fv_program.ncolumns - 2] = s->surface->forced->step;
+    values[fv_program.ncolumns - 1] = coupling_water_missing(s);
 }
 
 static void finish(void *state)

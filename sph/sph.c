@@ -17,6 +17,7 @@
 #include "sph_params.h"
 #include "case/sph_sense.h"
 #include "coupling/windows.h"
+#include "open_boundaries/level_gap.h"
 #include "open_boundaries/zones.h"
 #include "refinement/regions_check.h"
 #include "pairs/vec.h"
@@ -234,6 +235,8 @@ static void *create(struct run *r, struct h5 *f)
     int n = sph_columns(r, columns);
     for (int k = 0; k < OVERLAP_COLUMNS && r->coupled; k++)
         columns[n++] = overlap_columns[k];
+    for (int k = 0; k < LEVEL_COLUMNS && r->crossed; k++)
+        columns[n++] = level_gap_columns[k];
     sph_program.ncolumns = n;
     struct sph *s = sph_create(r, sph_params_of(r), f);
     if (s && r->coupled)
@@ -252,6 +255,8 @@ static void destroy(void *state)
 }
 
 static struct overlap *watched(const struct sph *s) { return s->zones ? s->zones->watched : NULL; }
+
+static struct level_gap *gap(const struct sph *s) { return s->zones ? s->zones->gap : NULL; }
 
 static double step(void *state, double t_stop, struct diagnosis *d)
 {
@@ -296,9 +301,12 @@ static void progress(void *state, char *line, int size)
 static void row(void *state, double *values)
 {
     struct sph *s = state;
+    const int own = sph_program.ncolumns - OVERLAP_COLUMNS - (gap(s) ? LEVEL_COLUMNS : 0);
     sph_row(s, values);
     if (watched(s))
-        overlap_row(watched(s), values + sph_program.ncolumns - OVERLAP_COLUMNS);
+        overlap_row(watched(s), values + own);
+    if (gap(s))
+        level_gap_row(s, values + own + OVERLAP_COLUMNS);
 }
 
 static void finish(void *state)
@@ -307,6 +315,8 @@ static void finish(void *state)
     sph_finish(s);
     if (watched(s))
         overlap_summary(watched(s), s->run->summary);
+    if (gap(s))
+        level_gap_summary(s, s->run->summary);
 }
 
 static void tell(void *state, struct summary *report)

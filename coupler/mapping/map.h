@@ -34,6 +34,9 @@ map_points map_mls;
 /* The value of the nearest source, of equally near ones that of the lowest gid. */
 map_points map_nearest;
 
+/* sum w_j f_j W, not divided by anything: the mask is 1 everywhere. */
+map_points map_sum;
+
 /* The transpose of a consistent mapping: what each source has is dealt out to the targets by the
  * weights with which the consistent one, from the targets to the source, would gather: they add up
  * to 1, so sums over all points are kept to rounding (those of moving least squares keep first

@@ -114,6 +114,22 @@ static bool map_one(int dim, double R, int ncomp, bool mls, const struct reach *
     return !(total < least_weight);
 }
 
+static void sum_one(int dim, double R, int ncomp, const struct reach *r, const struct map_cloud *c,
+                    const double *x, double *v)
+{
+    for (int a = 0; a < ncomp; a++)
+        v[a] = 0.0;
+    for (int k = 0; k < r->n; k++) {
+        const long j = r->j[k];
+        double r2 = 0.0;
+        for (int d = 0; d < dim; d++)
+            r2 += (c->x[j * dim + d] - x[d]) * (c->x[j * dim + d] - x[d]);
+        const double w = c->volume[j] * kernel(dim, sqrt(r2) / R, R);
+        for (int a = 0; a < ncomp; a++)
+            v[a] += w * c->v[j * ncomp + a];
+    }
+}
+
 /* The same sums as weights of the sources. Divided by what they really add up to: a transposed
  * mapping keeps sums to rounding, also where the moments of mls_row are badly conditioned. */
 bool map_weights(int dim, double R, bool mls, const struct reach *r, const struct map_cloud *c,
@@ -163,4 +179,21 @@ void map_mls(int dim, double R, int ncomp, struct map_cloud *from, long ntarget,
              double *v, unsigned char *mask)
 {
     map(dim, R, ncomp, true, from, ntarget, x, v, mask);
+}
+
+void map_sum(int dim, double R, int ncomp, struct map_cloud *from, long ntarget, const double *x,
+             double *v, unsigned char *mask)
+{
+    struct reach r = {0};
+    if (ntarget == 0)
+        return;
+    near_sort(from, dim, ncomp);
+    struct near g = near_create(dim, R, from, ntarget, x);
+    for (long i = 0; i < ntarget; i++) {
+        near_gather(&g, x + i * dim, &r);
+        sum_one(dim, R, ncomp, &r, from, x + i * dim, v + i * ncomp);
+        mask[i] = 1;
+    }
+    reach_free(&r);
+    near_free(&g);
 }

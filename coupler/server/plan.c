@@ -184,7 +184,8 @@ static void check_link(const struct link *l, const struct solver *g, const struc
                 "(cpl_move_cells)",
                 give->name, t->name, g->name);
     else if (from->is_grid ? take->how != CPL_LINEAR && take->how != CPL_CUBIC
-                           : (take->how & ~CPL_CONSERVATIVE) > CPL_NEAREST || take->how < 0)
+                           : (take->how & ~CPL_CONSERVATIVE) > CPL_SUM || take->how < 0 ||
+                                 take->how == (CPL_SUM | CPL_CONSERVATIVE))
         problem(text, "field %s: %s asks for an unknown way (%d) of mapping", give->name, t->name,
                 take->how);
     for (int a = 0; a < 3; a++)
@@ -205,8 +206,8 @@ static void find_period(const struct coupler *c, const struct solver_set *from,
 
 static map_points *consistent(int how)
 {
-    static map_points *const of[] = {map_shepard, map_mls, map_nearest};
-    return how >= 0 && how <= CPL_NEAREST ? of[how] : NULL;
+    static map_points *const of[] = {map_shepard, map_mls, map_nearest, map_sum};
+    return how >= 0 && how <= CPL_SUM ? of[how] : NULL;
 }
 
 static enum map_dealing dealing(int how)
@@ -313,7 +314,7 @@ void plan_answer_ready(struct coupler *c, const char *text)
 static const char *way_of(const struct link *l, int how)
 {
     static const char *const grid[] = {"linear", "cubic"};
-    static const char *const points[] = {"Shepard", "moving least squares", "nearest"};
+    static const char *const points[] = {"Shepard", "moving least squares", "nearest", "sum"};
     static const char *const dealt[] = {"dealt out as Shepard", "dealt out as moving least squares",
                                         "dealt out to the nearest"};
     const int kind = how & ~CPL_CONSERVATIVE;

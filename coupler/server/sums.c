@@ -11,7 +11,7 @@
 #include "../../common/fit.h"
 #include "../../common/mem.h"
 
-enum { KINETIC, POTENTIAL, ENSTROPHY, SIGNAL, SUMS };
+enum { KINETIC, POTENTIAL, ENSTROPHY, SIGNAL, WATER, SUMS }; /* WATER: where both have a surface */
 
 struct sums {
     struct series *file;
@@ -20,9 +20,9 @@ struct sums {
 };
 
 static const char *const keys[SUMS] = {"sum.kinetic", "sum.potential", "sum.enstrophy",
-                                       "sum.signal"};
+                                       "sum.signal", "sum.water"};
 static const char *const columns[] = {"t [s]", "kinetic energy [J]", "potential energy [J]",
-                                      "enstrophy [m^dim/s^2]", "signal [-]"};
+                                      "enstrophy [m^dim/s^2]", "signal [-]", "water [m^dim]"};
 
 /* False if no program told this. */
 static bool add_up(const struct coupler *c, const char *key, double *sum)
@@ -43,14 +43,16 @@ void sums_window(struct coupler *c)
     const double t = window_start(c, c->window);
     struct sums *s = c->sums;
     double row[1 + SUMS] = {t};
-    for (int k = 0; k < SUMS; k++)
-        if (!add_up(c, keys[k], row + 1 + k))
-            return;
+    int n = 0;
+    while (n < SUMS && add_up(c, keys[n], row + 1 + n))
+        n++;
+    if (n < WATER)
+        return;
     if (!s) {
         char path[1100];
         snprintf(path, sizeof path, "%s/series.csv", c->dir);
         s = c->sums = NEW(struct sums, 1);
-        s->file = series_create(path, 1 + SUMS, columns, c->command->restart,
+        s->file = series_create(path, 1 + n, columns, c->command->restart,
                                 window_start(c, c->window - 1));
     }
     memcpy(s->now, row + 1, sizeof s->now);

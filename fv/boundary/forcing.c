@@ -243,9 +243,13 @@ static bool add_side(const struct forcing *f, int64_t c, int64_t d, int way,
         const double g = way * plain[m - 1];
         x->cubic[REACH + way * m] -= g;
         x->even[REACH + way * m] -= g;
-        if (side->kind == BC_SLIP || side->kind == BC_OUTFLOW)
+        if (side->kind == BC_SLIP || side->kind == BC_OUTFLOW) {
             spread_mirror(side, edge, run, m - edge, g, x, way);
-        else
+        } else if (f->whole && f->forced[c + (edge + 1) * d] == 1) {
+            double spare[2 * REACH + 1] = {0.0};
+            spread_ghost(edge, run, m - edge, g, x->cubic, spare, way);
+            spread_ghost(edge, run, m - edge, g, x->even, spare, way);
+        } else
             spread_ghost(edge, run, m - edge, g, x->cubic, x->even, way);
     }
     return true;
@@ -302,6 +306,7 @@ struct forcing *forcing_create(const struct fv *s, const double *lo, const doubl
     struct forcing *f = NEW(struct forcing, 1);
     f->dim = b->dim;
     f->from_partner = partner;
+    f->whole = partner && s->surface;
     f->forced = NEW(unsigned char, b->size);
     f->layer = NEW(unsigned char, b->size);
     if (count_kind(s, f, lo, hi) == 0) {
@@ -383,6 +388,52 @@ void forcing_shift(struct forcing *f, double t0, double t1)
     f->levels = f->levels < 3 ? f->levels + 1 : 3;
 }
 
+/* One round: listed cells without a value take the mean of their neighbours that have one. */
+static void fill_round(const struct fv *s, const double *has, double *next)
+{
+    const struct forcing *f = s->forcing;
+    memcpy(next, has, (size_t)s->b.size * sizeof *next);
+    for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
+        const int64_t c = f->partner[i];
+        double sum[3] = {0.0, 0.0, 0.0}, n = 0.0;
+        for (int way = 0; way < 2 * f->dim && has[c] == 0.0; way++) {
+            const int64_t d = c + (way % 2 ? 1 : -1) * s->b.stride[way / 2];
+            if (has[d] == 0.0)
+                continue;
+            n += 1.0;
+            for (int a = 0; a < f->dim; a++)
+                sum[a] += f->given[a][d];
+        }
+        for (int a = 0; a < f->dim && n > 0.0; a++)
+            f->given[a][c] = sum[a] / n;
+        next[c] = has[c] > 0.0 || n > 0.0 ? 1.0 : 0.0;
+    }
+}
+
+void forcing_fill(const struct fv *s, const unsigned char *mask)
+{
+    const struct forcing *f = s->forcing;
+    double *has = block_field(&s->b), *next = block_field(&s->b);
+    for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
+        has[f->partner[i]] = mask[i];
+        for (int a = 0; a < f->dim; a++)
+            f->given[a][f->partner[i]] = mask[i] ? f->v_next[a][i] : 0.0;
+    }
+    for (int round = 0; round < NEAR; round++) {
+        double *spare = has;
+        block_halo(&s->b, 1, (double *const[]){has});
+        block_halo(&s->b, f->dim, f->given);
+        fill_round(s, has, next);
+        has = next;
+        next = spare;
+    }
+    for (int a = 0; a < f->dim; a++)
+        for (int64_t i = 0; i < f->npartner + f->nrim; i++)
+            f->v_next[a][i] = f->given[a][f->partner[i]];
+    mem_free(has);
+    mem_free(next);
+}
+
 void forcing_velocity(const struct fv *s, double t, double *const u[3])
 {
     const struct forcing *f = s->forcing;
@@ -448,6 +499,8 @@ static void balance(const struct fv *s, bool given, double *const U[3])
 {
     const struct forcing *f = s->forcing;
     double sums[2] = {0.0, 0.0};
+    if (s->surface) /* which takes what is too much */
+        return;
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
             if (f->counts[a][i]) {
@@ -483,6 +536,8 @@ void forcing_fluxes(const struct fv *s, double t, double *const U[3])
             } else if (is_partners(f, c, d)) {
                 U[a][c] = partner_flux(f->given[a] + c, d);
             }
+            if (f->forced[c] == 1 || f->forced[c - d] == 1)
+                U[a][c] -= f->sign[a][i] * f->inflow;
         }
     balance(s, true, U);
 }

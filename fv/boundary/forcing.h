@@ -46,9 +46,13 @@ struct forcing {
     double *open[3];    /* [size] 1: both cells of the face are free */
     int64_t free_cells; /* of all ranks */
     bool from_partner;
+    bool whole; /* psi is the whole pressure, not its change: into a partner's cells it goes on as p
+                   does */
     bool imposed; /* some rank gives cells the exact velocity */
     double *v[3], *v_next[3],
         *v_old[3]; /* [npartner + nrim] partner's velocities at t0, t1, and the window before */
+    double inflow; /* m/s: added to the flow through the outline, into the free cells, whose surface
+                      lets it in; 0 without a surface */
     double t0, t1, t_old; /* s */
     int levels;           /* of them known, the newest first: v_next, v, v_old */
 };
@@ -68,9 +72,12 @@ void forcing_shift(struct forcing *f, double t0, double t1);
 void forcing_velocity(const struct fv *s, double t, double *const u[3]);
 /* Fluxes of the outline at time t: exact ones where the exact solution is imposed, a partner's
  * where its values reach two cells to both sides, else as they are interpolated; then corrected
- * evenly to no net flux. The free cells' own velocities hold the pressure of the step before:
+ * evenly to no net flux, which a free surface takes. The free cells' own velocities hold the pressure of the step before:
  * fluxes made of them would let the pressure lag. */
 void forcing_fluxes(const struct fv *s, double t, double *const U[3]);
+/* The partner's newest values where it gave none (mask 0): means of those beside them, layer by
+ * layer. For cells in the air above its water. Collective. */
+void forcing_fill(const struct fv *s, const unsigned char *mask);
 /* How they vary with the velocity that U was interpolated from. */
 void forcing_fluxes_variation(const struct fv *s, double *const U[3]);
 /* Adds to the gradient `out' of q along axis a what continues q into the forced cells: evenly, or

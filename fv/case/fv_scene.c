@@ -292,12 +292,21 @@ void surface_check(const struct run *r, struct faults *f)
     const double *g = s->fluid.gravity;
     const struct fv_params *prm = fv_params_of(r);
     if (!surface_wanted(r)) {
+        if (r->crossed)
+            params_fault(r->params, f, "fv.surface",
+                         "sph.box ends in the water at an upright side: both programs have the "
+                         "surface; leave it on auto, or let the box span the domain");
         if (!r->coupled && scene_has_wave(s))
             params_fault(r->params, f, "initial.field", "a wave wants a free surface: fv.surface");
         return;
     }
-    if (r->coupled)
-        params_fault(r->params, f, "fv.surface", "a coupled run leaves the surface to sph");
+    if (r->crossed && prm->integrator != INTEGRATOR_RK3)
+        params_fault(r->params, f, "fv.integrator",
+                     "with a surface that crosses into sph's part rk3 alone");
+    if (r->coupled && !r->crossed)
+        params_fault(r->params, f, "fv.surface",
+                     "a coupled run leaves the surface to sph, unless sph.box ends in the water "
+                     "at an upright side");
     if (s->nshapes == 0 && !scene_has_wave(s))
         params_fault(r->params, f, "fv.surface",
                      "where is the water? shapes say it, or a wave (initial.field)");

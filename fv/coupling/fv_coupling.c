@@ -17,10 +17,17 @@
 #include "../grid/layout.h"
 #include "../boundary/still.h"
 #include "fv_link.h"
+#include "water_budget.h"
+#include "../surface/levelset.h"
+#include "../surface/surface_forced.h"
 
 struct link {
     struct cpl *c;
     int grid, forced, velocity, pressure, imposed, seen;
+    int budget, water;       /* one point; the partner's water */
+    struct water_budget of_water;
+    int phi, places, filled; /* where the surface crosses into the partner's part */
+    double *share;           /* of a kernel that the partner's water fills, at the places */
     struct course *course;
     double *got; /* scratch */
     double *p;   /* Pa: the partner's at the end of the window, where mask is 1 */
@@ -71,6 +78,14 @@ static void declare(struct fv *s, struct link *k)
     check(k, cpl_points(k->c, "fv.forced", b->dim, support(b), &k->forced));
     check(k, cpl_field(k->c, k->forced, "sph.velocity", "m/s", b->dim, CPL_GET, how, &k->imposed));
     check(k, cpl_field(k->c, k->forced, "sph.pressure", "Pa", 1, CPL_GET, how, &k->seen));
+    if (!s->surface)
+        return;
+    check(k, cpl_field(k->c, k->grid, "fv.phi", "m", 1, CPL_PUT, 0, &k->phi));
+    check(k, cpl_points(k->c, "fv.surface", b->dim, s->surface->forced->R, &k->places));
+    check(k, cpl_field(k->c, k->places, "sph.one", "-", 1, CPL_GET, CPL_SUM, &k->filled));
+    check(k, cpl_points(k->c, "fv.budget", b->dim, b->h[0], &k->budget));
+    check(k, cpl_field(k->c, k->budget, "sph.water", "m^dim", 1, CPL_GET, CPL_NEAREST, &k->water));
+    k->of_water = water_budget_create();
 }
 
 /* All that the partner takes must lie in even rows. */
@@ -113,6 +128,10 @@ void coupling_create(struct fv *s)
         first = b->rows->even - b->lo[1];
         first = first < 0 ? 0 : first > b->n[1] ? b->n[1] : first;
     }
+    if (s->surface) {
+        s->surface->forced = surface_forced_create(s);
+        k->share = NEW(double, s->surface->forced->nplaces);
+    }
     declare(s, k);
     check(k, cpl_find_zone(k->c, "sph.memory", memory, memory));
     k->course = course_create(s, first, (int)memory[0]);
@@ -137,6 +156,7 @@ void coupling_free(struct fv *s)
     mem_free(k->got);
     mem_free(k->p);
     mem_free(k->mask);
+    mem_free(k->share);
     mem_free(k);
     s->link = NULL;
 }
@@ -171,6 +191,10 @@ static void put(struct fv *s)
     check(k, cpl_put_course(k->c, k->velocity, s->t, c->n, n, term));
     n = course_pressure(c);
     check(k, cpl_put_course(k->c, k->pressure, s->t, c->n, n, term));
+    if (!s->surface)
+        return;
+    n = course_surface(c);
+    check(k, cpl_put_course(k->c, k->phi, s->t, c->n, n, term));
 }
 
 /* Forced values of the start, and before it where an exact solution knows them. */
@@ -225,6 +249,12 @@ void coupling_first(void *state)
         id[m] = number_of(b, c);
     }
     check(k, cpl_move(k->c, k->forced, n, x, id, NULL));
+    if (s->surface) {
+        const struct surface_forced *w = s->surface->forced;
+        const double at[3] = {s->partner[0][0], s->partner[0][1], s->partner[0][2]};
+        check(k, cpl_move(k->c, k->places, w->nplaces, w->x, NULL, NULL));
+        check(k, cpl_move(k->c, k->budget, 1, at, NULL, NULL));
+    }
     mem_free(x);
     mem_free(id);
     if (!s->run->restart) {
@@ -248,7 +278,7 @@ static void count_missing(struct fv *s)
     double sum[2] = {0.0, 0.0};
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         const int64_t c = f->partner[i];
-        if (f->layer[c] > 2)
+        if (f->layer[c] > 2 || (s->surface && s->surface->forced->phi[1][c] > -0.5 * s->b.h[0]))
             continue;
         sum[1] += 1.0;
         if (!k->mask[i]) {
@@ -271,16 +301,22 @@ static void count_missing(struct fv *s)
 void coupling_judge(struct fv *s, struct diagnosis *d)
 {
     struct link *k = s->link;
+    if (s->surface && !isnan(k->of_water.start))
+        water_budget_judge(s, &k->of_water, d);
     if (watch_judge(&k->unmapped, k->missing, s->t, s->run->step, d))
         snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, t = %.4g s", k->where[0], k->where[1],
                  k->where[2], s->t);
 }
+
+double coupling_water_missing(const struct fv *s) { return s->link->of_water.missing; }
 
 double coupling_unmapped(const struct fv *s) { return s->link->missing; }
 
 void coupling_summary(const struct fv *s, struct summary *to)
 {
     watch_summary(&s->link->unmapped, to);
+    if (s->surface)
+        watch_summary(&s->link->of_water.watched, to);
 }
 
 /* The partner's velocities at t1; cells that it does not reach keep theirs. */
@@ -293,23 +329,33 @@ void coupling_window_begin(void *state, double t0, double t1)
     const int64_t n = f ? f->npartner + f->nrim : 0;
     if (f)
         forcing_shift(f, t0, t1);
+    if (s->surface)
+        surface_forced_shift(s, t0, t1);
     course_try(s, k->course, t1);
     put(s);
     check(k, cpl_get(k->c, k->imposed, n, k->got, k->mask));
     check(k, cpl_get(k->c, k->seen, n, k->p, NULL));
+    if (s->surface) {
+        check(k, cpl_get(k->c, k->filled, s->surface->forced->nplaces, k->share, NULL));
+        surface_forced_take(s, k->share);
+        check(k, cpl_get(k->c, k->water, 1, &k->of_water.partners, NULL));
+    }
     if (f)
         count_missing(s);
     for (int a = 0; f && a < dim; a++)
         for (int64_t i = 0; i < n; i++)
             f->v_next[a][i] = k->mask[i] ? k->got[dim * i + a] : f->v[a][i];
+    if (s->surface)
+        forcing_fill(s, k->mask);
 }
 
 void coupling_window_end(void *state, double t1)
 {
-    (void)t1;
     struct fv *s = state;
     course_take(s, s->link->course);
-    if (s->forcing)
+    if (s->surface)
+        water_budget_close(s, &s->link->of_water, t1 - s->forcing->t0);
+    if (s->forcing && !s->surface)
         find_datum(s);
 }
 
@@ -326,6 +372,10 @@ void coupling_save(const struct fv *s, struct h5 *f)
     const struct forcing *c = s->forcing;
     course_save(s, s->link->course, f);
     h5_attribute_real(f, "datum", s->link->datum);
+    if (s->surface) {
+        water_budget_save(&s->link->of_water, f);
+        h5_attribute_real(f, "inflow", c->inflow);
+    }
     if (!c)
         return;
     const double clock[4] = {c->t0, c->t1, c->t_old, c->levels};
@@ -420,5 +470,8 @@ bool coupling_load(struct fv *s, struct h5 *f)
     c->t1 = clock[1];
     c->t_old = clock[2];
     c->levels = (int)clock[3];
+    if (s->surface)
+        good = good && water_budget_load(&s->link->of_water, f) &&
+               h5_read_attribute_real(f, "inflow", &c->inflow);
     return good;
 }

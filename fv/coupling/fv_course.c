@@ -11,6 +11,7 @@
 #include "../grid/layout.h"
 #include "../time/steps.h"
 #include "../boundary/still.h"
+#include "../surface/levelset.h"
 
 struct course *course_create(const struct fv *s, int first, int memory)
 {
@@ -18,13 +19,14 @@ struct course *course_create(const struct fv *s, int first, int memory)
     const struct block *b = &s->b;
     c->first = first;
     c->dim = b->dim;
+    c->width = b->dim + (s->surface ? 2 : 1);
     c->memory = memory;
     c->n = (int64_t)b->n[0] * (b->n[1] - first) * b->n[2];
     for (int m = 0; m < COURSE_LEVELS; m++)
-        c->q[m] = NEW(double, c->n *(b->dim + 1));
+        c->q[m] = NEW(double, c->n * c->width);
     for (int m = 0; m < COURSE_TERMS; m++)
         c->term[m] = NEW(double, c->n * b->dim);
-    c->tried = NEW(double, c->n *(b->dim + 1));
+    c->tried = NEW(double, c->n * c->width);
     c->kept = kept_create(s);
     if (c->memory > 1) {
         c->rate = NEW(double, c->n);
@@ -58,7 +60,7 @@ static void take_out_level(const struct fv *s, const struct course *c, double *q
     const struct forcing *f = s->forcing;
     const double *g = s->run->scene.fluid.gravity;
     double sum[2] = {0.0, 0.0}, x[3];
-    if (!f || !scene_has_surface(&s->run->scene) || (g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0))
+    if (!f || s->surface || !scene_has_surface(&s->run->scene) || (g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0))
         return;
     for (int64_t m = f->npartner; m < f->npartner + f->nrim; m++) {
         int at[3];
@@ -66,13 +68,26 @@ static void take_out_level(const struct fv *s, const struct course *c, double *q
         block_centre(b, at[0], at[1], at[2], x);
         const int64_t i =
             at[0] + (int64_t)b->n[0] * (at[1] - c->first + (int64_t)(b->n[1] - c->first) * at[2]);
-        sum[0] += q[i * (b->dim + 1) + b->dim] - fv_still_pressure(s, x);
+        sum[0] += q[i * c->width + b->dim] - fv_still_pressure(s, x);
         sum[1] += 1.0;
     }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, b->cart);
     const double level = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
     for (int64_t i = 0; i < c->n; i++)
-        q[i * (b->dim + 1) + b->dim] -= level;
+        q[i * c->width + b->dim] -= level;
+}
+
+/* phi, as far as linear interpolation may want it. */
+static void look_at_surface(const struct fv *s, const struct course *c, double *q)
+{
+    const struct block *b = &s->b;
+    double *one = NEW(double, c->n), most = 0.0;
+    for (int a = 0; a < b->dim; a++)
+        most = fmax(most, 4.0 * b->h[a]);
+    block_pack_from(b, c->first, s->surface->phi, one);
+    for (int64_t i = 0; i < c->n; i++)
+        q[i * c->width + b->dim + 1] = fmax(-most, fmin(most, one[i]));
+    mem_free(one);
 }
 
 /* Velocity and whole pressure now; forced cells get a pressure continued from the free side. */
@@ -82,13 +97,17 @@ static void look(struct fv *s, const struct course *c, double *q)
     double *one = NEW(double, c->n), *p = block_field(b);
     for (int64_t i = 0; i < b->size; i++)
         p[i] = fv_pressure(s, i);
+    if (s->surface)
+        extension_beyond(s, p);
     if (s->forcing)
         forcing_extend(s, p);
     fv_add_still_pressure(s, p);
+    if (s->surface)
+        look_at_surface(s, c, q);
     for (int m = 0; m <= b->dim; m++) {
         block_pack_from(b, c->first, m < b->dim ? s->u[m] : p, one);
         for (int64_t i = 0; i < c->n; i++)
-            q[i * (b->dim + 1) + m] = one[i];
+            q[i * c->width + m] = one[i];
     }
     mem_free(p);
     mem_free(one);
@@ -112,7 +131,7 @@ static void smooth_pressure(struct course *c)
 {
     const double h = c->t[0] - c->t[1];
     for (int64_t i = 0; i < c->n; i++) {
-        const int64_t at = i * (c->dim + 1) + c->dim;
+        const int64_t at = i * c->width + c->dim;
         double level = c->q[1][at];
         fit_smooth(c->q[0][at], h, c->memory, &level, c->rate + i,
                    c->scatter ? c->scatter + i : NULL);
@@ -142,7 +161,10 @@ static void exact_level(struct fv *s, struct course *c, double t, double *q)
                 for (int a = 0; a < b->dim; a++)
                     q[at++] = u[a];
                 q[at++] = p;
+                at += c->width - b->dim - 1;
             }
+    if (s->surface)
+        look_at_surface(s, c, q);
     take_out_level(s, c, q);
 }
 
@@ -158,7 +180,7 @@ void course_start(struct fv *s, struct course *c, double before)
             look(s, c, c->q[0]);
     }
     for (int64_t i = 0; i < c->n && c->rate && c->levels > 1; i++) {
-        const int64_t at = i * (c->dim + 1) + c->dim;
+        const int64_t at = i * c->width + c->dim;
         c->rate[i] = (c->q[0][at] - c->q[1][at]) / before;
     }
 }
@@ -221,7 +243,7 @@ int course_velocity(struct course *c)
     const int n = others(c, q, x);
     for (int64_t i = 0; i < c->n; i++)
         for (int a = 0; a < c->dim; a++) {
-            const int64_t at = i * (c->dim + 1) + a;
+            const int64_t at = i * c->width + a;
             for (int j = 0; j < n; j++)
                 f[j] = q[j][at];
             expand(c->q[0][at], n, x, f, term);
@@ -231,14 +253,28 @@ int course_velocity(struct course *c)
     return n + 1;
 }
 
-/* A straight line: to what the trial found, or from the level before; smoothed along its trend. */
+/* A straight line: to what the trial found, or from the level before. */
+int course_surface(struct course *c)
+{
+    const double *q[COURSE_LEVELS];
+    double x[COURSE_LEVELS];
+    const int n = others(c, q, x);
+    for (int64_t i = 0; i < c->n; i++) {
+        const int64_t at = i * c->width + c->dim + 1;
+        c->term[0][i] = c->q[0][at];
+        c->term[1][i] = n > 0 ? (q[0][at] - c->q[0][at]) / x[0] : 0.0;
+    }
+    return 2;
+}
+
+/* The same; smoothed along its trend. */
 int course_pressure(struct course *c)
 {
     const double *q[COURSE_LEVELS];
     double x[COURSE_LEVELS];
     const int n = others(c, q, x);
     for (int64_t i = 0; i < c->n; i++) {
-        const int64_t at = i * (c->dim + 1) + c->dim;
+        const int64_t at = i * c->width + c->dim;
         c->term[0][i] = c->q[0][at];
         c->term[1][i] = c->rate ? c->rate[i] : n > 0 ? (q[0][at] - c->q[0][at]) / x[0] : 0.0;
     }
@@ -263,7 +299,7 @@ void course_save(const struct fv *s, const struct course *c, struct h5 *f)
     const struct box mine = box_of(s, c);
     layout_save(f, "course", 1, &mine);
     for (int m = 0; m < COURSE_LEVELS; m++)
-        h5_write_real(f, names[m], "-", c->n, c->dim + 1, c->q[m], false);
+        h5_write_real(f, names[m], "-", c->n, c->width, c->q[m], false);
     h5_write_real(f, "levels", "-", COURSE_LEVELS + 1, 1, clock, false);
     if (c->rate)
         h5_write_real(f, "rate", "Pa/s", c->n, 1, c->rate, false);
@@ -289,7 +325,7 @@ bool course_load(const struct fv *s, struct course *c, struct h5 *f)
                 (!c->rate || load(s, c, f, l, "rate", 1, c->rate)) &&
                 (!c->scatter || load(s, c, f, l, "scatter", 1, c->scatter));
     for (int m = 0; good && m < COURSE_LEVELS; m++) {
-        good = load(s, c, f, l, names[m], c->dim + 1, c->q[m]);
+        good = load(s, c, f, l, names[m], c->width, c->q[m]);
         c->t[m] = clock[m];
     }
     layout_free(&l);

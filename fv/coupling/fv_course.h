@@ -19,14 +19,15 @@ struct course {
     int first;                  /* local row: below it nothing is given, rows are uneven */
     int64_t n;                  /* local cells from there on */
     int dim, memory;            /* windows over which the pressure is smoothed; 1: none */
-    double *q[COURSE_LEVELS];   /* [n][dim + 1] velocity, pressure; newest first */
+    int width;                  /* values of a cell */
+    double *q[COURSE_LEVELS];   /* [n][width] velocity, pressure, phi with a surface; newest first */
     double *tried;              /* the same at the end of the next window */
     double t[COURSE_LEVELS];    /* s: their times */
     double t_tried;             /* s; before t[0]: not known */
     int levels;                 /* of them known */
     double *rate;               /* [n] Pa/s: trend of the smoothed pressure; NULL: not smoothed */
     double *scatter;            /* [n] Pa: about its trend; NULL: no surface, no impacts */
-    double *term[COURSE_TERMS]; /* [n][dim] of velocity; after course_pressure of pressure */
+    double *term[COURSE_TERMS]; /* [n][dim] of velocity; then of what was filled in last */
     bool failed;                /* a trial has */
     struct kept *kept;
 };
@@ -43,6 +44,7 @@ void course_try(struct fv *s, struct course *c, double t1);
 /* Fills c->term with what a partner shall get; returns the number of terms. */
 int course_velocity(struct course *c);
 int course_pressure(struct course *c);
+int course_surface(struct course *c); /* phi */
 void course_save(const struct fv *s, const struct course *c, struct h5 *f);
 bool course_load(const struct fv *s, struct course *c, struct h5 *f);
 

@@ -13,6 +13,8 @@ double coupling_datum(const struct fv *s);
 /* Fills d where the partner has left out too many cells; share of them; worst one. */
 void coupling_judge(struct fv *s, struct diagnosis *d);
 double coupling_unmapped(const struct fv *s);
+/* m^dim that both programs have lost since the start. */
+double coupling_water_missing(const struct fv *s);
 void coupling_summary(const struct fv *s, struct summary *to);
 void coupling_first(void *s);
 void coupling_window_begin(void *s, double t0, double t1);

@@ -387,7 +387,8 @@ void mesh_subtract_psi(struct fv *s, double tau, const double *psi, double *cons
     }
 }
 
-void mesh_to_index(const struct fv *s, double *q, double *work)
+/* q += sign times the sum over the axes of dq dV/48 V. */
+static void shift_average(const struct fv *s, double sign, double *q, double *work)
 {
     static const int none[3] = {0, 0, 0};
     const struct mesh *m = s->m;
@@ -395,12 +396,14 @@ void mesh_to_index(const struct fv *s, double *q, double *work)
         return;
     for (int r = 0; r < m->nparts; r++) {
         const struct part *p = m->part + r;
+        if (p->kind == PART_EVEN)
+            continue;
         for (int pass = 0; pass < 2; pass++)
             PART_ROWS (p, none, none, c, n)
                 for (int64_t i = c; i < c + n; i++) {
                     double sum = 0.0;
                     if (pass == 1) {
-                        q[i] -= work[i];
+                        q[i] += sign * work[i];
                         continue;
                     }
                     for (int a = 0; a < m->dim; a++) {
@@ -410,6 +413,15 @@ void mesh_to_index(const struct fv *s, double *q, double *work)
                     work[i] = s->free[i] * sum / (48.0 * m->V[i]);
                 }
     }
+}
+
+void mesh_to_index(const struct fv *s, double *q, double *work) { shift_average(s, -1.0, q, work); }
+
+void mesh_to_volume(struct fv *s, double *q, double *work)
+{
+    mesh_fill(s->m, 1, &q);
+    mesh_bc_extend(s, q);
+    shift_average(s, 1.0, q, work);
 }
 
 /* Third difference across the lower face, 0 where it leaves the cells. */

@@ -20,6 +20,8 @@ void mesh_divergence(const struct fv *s, double *const U[3], double *div); /* m^
 void mesh_subtract_psi(struct fv *s, double tau, const double *psi, double *const U[3]);
 /* q -= what makes an average over volume one over indices; q with ghosts, work: scratch. */
 void mesh_to_index(const struct fv *s, double *q, double *work);
+/* The other way, to fourth order, also beside sides; sets the ghosts of q. */
+void mesh_to_volume(struct fv *s, double *q, double *work);
 void mesh_smooth_pressure(struct fv *s);
 void mesh_vorticity(struct fv *s, double *w);
 

@@ -27,6 +27,20 @@ static void combine(const struct mesh *m, double *restrict y, double f, double g
                 y[i] = f * y[i] + g * x[i];
 }
 
+/* Eight sums side by side, or each addition waits for the one before. */
+static double dot_row(const double *restrict a, const double *restrict b, int64_t n)
+{
+    double part[8] = {0.0};
+    int64_t i = 0;
+    for (; i + 8 <= n; i += 8)
+        for (int k = 0; k < 8; k++)
+            part[k] += a[i + k] * b[i + k];
+    for (; i < n; i++)
+        part[0] += a[i] * b[i];
+    return ((part[0] + part[1]) + (part[2] + part[3])) +
+           ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
 static void dots(const struct mesh *m, int n, double *const (*pair)[2], double *sums)
 {
     for (int k = 0; k < n; k++) {
@@ -34,8 +48,7 @@ static void dots(const struct mesh *m, int n, double *const (*pair)[2], double *
         const double *restrict a = pair[k][0], *restrict b = pair[k][1];
         for (int q = 0; q < m->nparts; q++)
             PART_ROWS (m->part + q, none, none, c, len)
-                for (int64_t i = c; i < c + len; i++)
-                    sums[k] += a[i] * b[i];
+                sums[k] += dot_row(a + c, b + c, len);
     }
     MPI_Allreduce(MPI_IN_PLACE, sums, n, MPI_DOUBLE, MPI_SUM, m->comm);
 }
@@ -152,6 +165,27 @@ double mesh_viscous_largest(const struct fv *s)
     return s->nu * most;
 }
 
+static double step_row(const double *restrict x, const double *restrict L, const double *restrict r,
+                       const double *restrict is_free, double c, double alpha, double beta,
+                       int64_t n, double *restrict y)
+{
+    double part[8] = {0.0};
+    int64_t i = 0;
+    for (; i + 8 <= n; i += 8)
+        for (int k = 0; k < 8; k++) {
+            const double left = is_free[i + k] * (r[i + k] - x[i + k] + c * L[i + k]);
+            y[i + k] = x[i + k] + beta * (x[i + k] - y[i + k]) + alpha * left;
+            part[k] += left * left;
+        }
+    for (; i < n; i++) {
+        const double left = is_free[i] * (r[i] - x[i] + c * L[i]);
+        y[i] = x[i] + beta * (x[i] - y[i]) + alpha * left;
+        part[0] += left * left;
+    }
+    return ((part[0] + part[1]) + (part[2] + part[3])) +
+           ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
 /* y = x + beta (x - y) + alpha (r - x + c L x); the sum of the squares of what alpha has, of this
  * rank. */
 static double step(struct fv *s, double c, double alpha, double beta, double *const x[3],
@@ -165,15 +199,7 @@ static double step(struct fv *s, double c, double alpha, double beta, double *co
         double *restrict to = y[a];
         mesh_viscous(s, x[a], s->krylov[1][0]);
         FLOW_ROWS(s, at, n)
-        {
-            double part[4] = {0.0, 0.0, 0.0, 0.0};
-            for (int64_t i = at; i < at + n; i++) {
-                const double left = s->free[i] * (b[i] - from[i] + c * L[i]);
-                to[i] = from[i] + beta * (from[i] - to[i]) + alpha * left;
-                part[(i - at) & 3] += left * left;
-            }
-            sum += (part[0] + part[1]) + (part[2] + part[3]);
-        }
+        sum += step_row(from + at, L + at, b + at, s->free + at, c, alpha, beta, n, to + at);
     }
     return sum;
 }

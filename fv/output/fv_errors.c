@@ -8,6 +8,7 @@
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
+#include "../coupling/water_budget.h"
 #include "../surface/levelset.h"
 #include "../watch/watches.h"
 #include "../boundary/still.h"
@@ -76,17 +77,6 @@ static void energies(struct fv *s, double sum[2])
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, b->cart);
 }
 
-/* Part of a cell outside the box that a partner counts. */
-static double share(const struct fv *s, const double *x, const double *h)
-{
-    double in = 1.0;
-    for (int a = 0; a < s->b.dim; a++) {
-        const double lo = fmax(x[a] - 0.5 * h[a], s->partner[0][a]);
-        in *= fmax(fmin(x[a] + 0.5 * h[a], s->partner[1][a]) - lo, 0.0) / h[a];
-    }
-    return 1.0 - in;
-}
-
 double fv_curl_squared(const struct fv *s, int64_t c, int j)
 {
     const struct block *b = &s->b;
@@ -108,23 +98,27 @@ void fv_tell(void *state, struct summary *report)
     const struct block *b = &s->b;
     const double rho = s->run->scene.fluid.rho;
     const double *g = s->run->scene.fluid.gravity;
-    double x[3], h[3], sum[4] = {0.0, 0.0, 0.0, 0.0};
+    double x[3], h[3], sum[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
     BLOCK_CELLS (b, i, j, k, c) {
         block_cell(b, i, j, k, x, h);
         if (s->forcing && s->forcing->forced[c])
             continue;
         const double u[3] = {s->u[0][c], s->u[1][c], b->dim == 3 ? s->u[2][c] : 0.0};
-        const double part = h[0] * h[1] * h[2] * share(s, x, h);
+        const double wet = s->surface ? surface_share(s, c) : 1.0;
+        const double part = h[0] * h[1] * h[2] * wet * water_budget_share(s, x, h);
         sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
         sum[1] += 0.5 * part * fv_curl_squared(s, c, j);
         sum[2] += rho * part * exact_signal(&s->exact, x, u);
         sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
+        sum[4] += part;
     }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, b->cart);
     summary_real(report, "sum.potential", sum[3]);
     summary_real(report, "sum.kinetic", sum[0]);
     summary_real(report, "sum.enstrophy", sum[1]);
     summary_real(report, "sum.signal", sum[2]);
+    if (s->surface)
+        summary_real(report, "sum.water", sum[4]);
 }
 
 /* Largest divergence of the fluxes, times h: what the projection left. */

@@ -10,6 +10,7 @@
 #include "../grid/layout.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
+#include "../surface/surface_forced.h"
 #include "../time/moving.h"
 #include "../time/newton.h"
 #include "../time/stages.h"
@@ -21,6 +22,14 @@
 enum { SURFACE_NUMBERS = 4 };
 static const char *const surface_numbers[SURFACE_NUMBERS] = {"volume0", "returned", "travelled",
                                                              "passed"};
+
+enum { FORCED_NUMBERS = 3 };
+static const char *const forced_numbers[FORCED_NUMBERS] = {"phi_start_t", "phi_end_t", "entered"};
+
+static double *forced_number(struct surface *f, int k)
+{
+    return k < 2 ? f->forced->t + k : &f->entered;
+}
 
 static double *surface_number(struct surface *f, int k)
 {
@@ -51,6 +60,9 @@ static void save_newton(const struct newton *w, struct h5 *f)
     h5_attribute_real(f, "dtau", w->dtau);
     h5_attribute_real(f, "residual", w->norm);
     h5_attribute_real(f, "steady", w->steady);
+    h5_attribute_real(f, "best", w->best);
+    h5_attribute_real(f, "best_at", (double)w->best_at);
+    h5_attribute_real(f, "pseudo_steps", (double)w->pseudo_steps);
     h5_attribute_real(f, "newtons", (double)w->newtons);
     h5_attribute_real(f, "krylovs", (double)w->krylovs);
 }
@@ -75,19 +87,26 @@ void fv_checkpoint(void *state, struct h5 *f)
     if (s->surface)
         for (int k = 0; k < SURFACE_NUMBERS; k++)
             h5_attribute_real(f, surface_numbers[k], *surface_number(s->surface, k));
+    for (int k = 0; s->surface && s->surface->forced && k < FORCED_NUMBERS; k++)
+        h5_attribute_real(f, forced_numbers[k], *forced_number(s->surface, k));
     if (s->link)
         coupling_save(s, f);
 }
 
 static bool restore_newton(struct newton *w, struct h5 *f)
 {
-    double steady = 0.0, newtons = 0.0, krylovs = 0.0;
+    double steady = 0.0, newtons = 0.0, krylovs = 0.0, best_at = 0.0, steps = 0.0;
     const bool there = h5_read_attribute_real(f, "dtau", &w->dtau) &&
                        h5_read_attribute_real(f, "residual", &w->norm) &&
                        h5_read_attribute_real(f, "steady", &steady) &&
+                       h5_read_attribute_real(f, "best", &w->best) &&
+                       h5_read_attribute_real(f, "best_at", &best_at) &&
+                       h5_read_attribute_real(f, "pseudo_steps", &steps) &&
                        h5_read_attribute_real(f, "newtons", &newtons) &&
                        h5_read_attribute_real(f, "krylovs", &krylovs);
     w->steady = steady != 0.0;
+    w->best_at = llround(best_at);
+    w->pseudo_steps = llround(steps);
     w->newtons = llround(newtons);
     w->krylovs = llround(krylovs);
     return there;
@@ -157,6 +176,10 @@ bool fv_restore(struct fv *s, struct h5 *f)
     for (int k = 0; s->surface && k < SURFACE_NUMBERS; k++)
         if (!there(h5_read_attribute_real(f, surface_numbers[k], surface_number(s->surface, k)),
                    surface_numbers[k]))
+            return false;
+    for (int k = 0; s->surface && s->surface->forced && k < FORCED_NUMBERS; k++)
+        if (!there(h5_read_attribute_real(f, forced_numbers[k], forced_number(s->surface, k)),
+                   forced_numbers[k]))
             return false;
     if (s->surface) {
         surface_rebuild(s);

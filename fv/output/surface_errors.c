@@ -5,6 +5,7 @@
 
 #include "../../common/mem.h"
 #include "../boundary/blocked.h"
+#include "../boundary/forcing.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
 #include "../boundary/still.h"
@@ -16,6 +17,8 @@ double surface_energy(const struct fv *s)
     FLOW_ROWS(s, c, n)
     for (int64_t i = c; i < c + n; i++) {
         double square = 0.0;
+        if (s->forcing && s->forcing->forced[i])
+            continue;
         for (int a = 0; a < s->dim; a++)
             square += s->u[a][i] * s->u[a][i];
         sum +=
@@ -69,7 +72,7 @@ static double reach_on_blocks(const struct fv *s, int a)
     for (int64_t i = c; i < c + n; i++)
         for (int b = 0; b < 2 * s->dim && s->free[i] > 0.0; b++) {
             const int64_t to = b % 2 ? i + p_->stride[b / 2] : i - p_->stride[b / 2];
-            const double way = w->out[to] ? 0.5 : phi[to] < 0.0 ? 0.0 : phi[i] / (phi[i] - phi[to]);
+            const double way = w->out[to] || phi[to] < 0.0 ? 0.5 : phi[i] / (phi[i] - phi[to]);
             most = fmax(most, x[i] + way * (x[to] - x[i]));
         }
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
@@ -217,7 +220,8 @@ static void summarise_swing(struct fv *s)
 {
     struct summary *to = s->run->summary;
     double period, rate;
-    if (s->exact.field != FIELD_STANDING_WAVE || !exact_oscillation(&s->exact, &period, &rate))
+    if (s->run->coupled || s->exact.field != FIELD_STANDING_WAVE ||
+        !exact_oscillation(&s->exact, &period, &rate))
         return;
     const double T = fit_period(&s->swing), r = fit_rate(&s->swing);
     if (isfinite(T)) {

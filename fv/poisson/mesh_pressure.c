@@ -623,7 +623,8 @@ static void cycle(struct fv *s, void *of, double *b, double *x)
 }
 
 const struct backend backend_boomeramg = {.name = "BoomerAMG",
-                                          .tolerance = 0.1,
+                                          .stage = 0.1,
+                                          .last = 0.02,
                                           .create = create,
                                           .free = free_matrices,
                                           .solve = solve,

@@ -14,7 +14,12 @@
 #include "lanes.h"
 #include "mesh_view.h"
 
-enum { TERMS = 10, STENCIL = 128, THIN = 9 }; /* 125 cells and what fills up the last lanes */
+enum {
+    TERMS = 10,
+    STENCIL = 128,
+    THIN = 9,
+    WEDGE = 12
+}; /* 125 cells and what fills up the last lanes */
 
 /* Normal equations of a fit over a stencil. */
 struct least_squares {
@@ -222,8 +227,8 @@ static void fill_lanes(struct place *p, int n)
 static void look_around(const struct fv *s, int64_t c, int layer, struct place *p)
 {
     const struct block *b = &s->b;
-    const unsigned char *known = s->surface->layer + c,
-                        *out = s->forcing ? s->forcing->forced + c : NULL;
+    const unsigned char *known = s->surface->layer + c;
+    const bool *out = s->surface->closed + c;
     const int deep = b->dim == 3 ? 2 : 0;
     const double per = 1.0 / p->spacing, *y = b->rows ? b->rows->y + block_row(b, c) : NULL;
     int shift[3], n = 0;
@@ -244,7 +249,7 @@ static void look_around(const struct fv *s, int64_t c, int layer, struct place *
             for (int a = 0; a < 3; a++)
                 r[a] = (x[0] * p->e[a][0] + x[1] * p->e[a][1] + x[2] * p->e[a][2]) * per;
             for (int i = 0; i < 5; i++) { /* kept without a branch: n goes on if it is known */
-                const bool there = !(out && out[step + i]) && !(some && !some[row + i]);
+                const bool there = !out[step + i] && !(some && !some[row + i]);
                 p->room += there;
                 for (int a = 0; a < 3; a++)
                     p->r[a][n] = r[a] + i * p->e[a][0] * (b->h[0] * per);
@@ -354,6 +359,10 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
  * 0.4. */
 static bool is_thin(const struct fv *s, const struct place *p)
 {
+    /* in the wedge between a slanting wall and the surface a slope from few cells grows */
+    if (s->m && s->surface->mesh->slants[p->part - s->part] &&
+        p->known < (s->dim == 2 ? WEDGE : 4 * WEDGE))
+        return true;
     return p->known < (s->dim == 2 ? THIN : 3 * THIN) || 2 * p->known < p->room;
 }
 
@@ -447,11 +456,11 @@ static void next_layer(const struct part *p, double l, const double *wall, doubl
 
 static bool holds_none(const struct fv *s, int64_t c)
 {
-    return s->m ? s->surface->mesh->out[c] : s->forcing && s->forcing->forced[c];
+    return s->m ? s->surface->mesh->out[c] : s->surface->closed[c];
 }
 
 /* Layers by spreading over faces and corners from the wet cells, along one axis after the other;
- * cells behind closed sides and forced ones do not count. */
+ * cells behind closed sides and deep in a hole do not count. */
 static void find_layers(struct fv *s)
 {
     struct surface *f = s->surface;

@@ -148,3 +148,22 @@ void extension_scalar(const struct fv *s, double *q)
     }
     surface_fill(s, 1, &q);
 }
+
+void extension_beyond(const struct fv *s, double *q)
+{
+    const struct surface *f = s->surface;
+    struct around r;
+    for (int l = 3; l <= LAYERS; l++) {
+        block_halo(&s->b, 1, &q);
+        for (int64_t i = 0; i < f->ncarry[l]; i++) {
+            const struct carry *x = f->carry[l] + i;
+            double low = 0.0, high = 0.0;
+            look(f, x, 1, &q, &r);
+            if (x->n > 0)
+                lanes_bounds(r.v[0], x->n, &low, &high);
+            const double v = lanes_dot(f->weight + x->first, r.v[0], x->n);
+            q[x->cell] = fmax(low, fmin(high, v));
+        }
+    }
+    block_halo(&s->b, 1, &q);
+}

@@ -9,8 +9,10 @@
 #include "../../common/mem.h"
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
+#include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "mesh_view.h"
+#include "surface_forced.h"
 #include "weno.h"
 
 enum { BAND = 5 }; /* cells on either side of the surface that are advected */
@@ -21,7 +23,7 @@ bool surface_wanted(const struct run *r)
     const int asked = fv_params_of(r)->surface;
     if (asked != SURFACE_AUTO)
         return asked == SURFACE_YES;
-    return !r->coupled && (c->nshapes > 0 || scene_has_wave(c));
+    return r->crossed || (!r->coupled && (c->nshapes > 0 || scene_has_wave(c)));
 }
 
 static bool side_here(const struct block *b, int a, bool upper)
@@ -241,6 +243,36 @@ double surface_cell_volume(const struct fv *s, int64_t c, int j)
     return s->m ? s->surface->mesh->count[c] : block_volume(&s->b, j);
 }
 
+double surface_face_share(const struct fv *s, int64_t c, int a)
+{
+    const struct block *b = &s->b;
+    const double *q = s->surface->phi + c;
+    const int64_t d = b->stride[a];
+    const double middle = 0.5 * (q[0] + q[-d]);
+    double n[3] = {0.0}, sum = 0.0;
+    int m = 0;
+    for (int t = 0; t < b->dim; t++)
+        if (t != a) {
+            const int64_t e = b->stride[t];
+            n[m] = 0.25 * fabs(q[e] - q[-e] + q[e - d] - q[-e - d]);
+            sum += n[m++];
+        }
+    if (fabs(middle) >= 0.505 * sum)
+        return middle < 0.0;
+    double whole = 0.0;
+    for (int k = 0; k < m; k++) {
+        n[k] = fmax(n[k], 1e-3 * sum);
+        whole += n[k];
+    }
+    return share_below(m, n, 0.5 * whole - middle);
+}
+
+/* Cells whose water counts. */
+static bool is_own(const struct fv *s, int64_t c)
+{
+    return !(s->surface->forced && s->forcing->forced[c]);
+}
+
 double surface_volume(const struct fv *s, double *area)
 {
     double sums[2] = {0.0, 0.0};
@@ -249,6 +281,8 @@ double surface_volume(const struct fv *s, double *area)
         const double h = s->m ? surface_mesh_spacing(s, p_) : largest_spacing(&s->b, j_);
         const double e = 1e-4 * h;
         for (int64_t i = c; i < c + n; i++) {
+            if (!is_own(s, i))
+                continue;
             const double volume = surface_cell_volume(s, i, j_);
             if (fabs(s->surface->phi[i]) > 3.0 * h) {
                 sums[0] += s->surface->phi[i] < 0.0 ? volume : 0.0;
@@ -268,7 +302,7 @@ double surface_volume(const struct fv *s, double *area)
 void surface_keep_volume(struct fv *s)
 {
     struct surface *f = s->surface;
-    const double h = f->largest, most = 0.1 * h;
+    const double h = f->largest, most = (f->forced ? 0.02 : 0.1) * h;
     double area, d = INFINITY;
     for (int it = 0; it < 5 && fabs(d) > 1e-3 * h; it++) {
         const double volume = surface_volume(s, &area);
@@ -276,7 +310,7 @@ void surface_keep_volume(struct fv *s)
             return;
         d = fmax(-most, fmin(most, (f->volume0 - volume) / area));
         for (int64_t i = 0; i < s->size; i++)
-            f->phi[i] += d;
+            f->phi[i] += is_own(s, i) ? d : 0.0;
         f->returned += d * area;
     }
 }
@@ -322,6 +356,7 @@ struct surface *surface_create(const struct fv *s)
         f->open[a] = NEW(double, s->size);
     f->layer = NEW(unsigned char, s->size);
     f->deep = NEW(int64_t, s->size);
+    f->closed = NEW(bool, s->size);
     if (fv_params_of(s->run)->integrator != INTEGRATOR_RK3)
         f->half = NEW(double, s->size);
     f->g = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
@@ -341,6 +376,8 @@ void surface_free(struct surface **fp)
     struct surface *f = *fp;
     if (!f)
         return;
+    surface_forced_free(&f->forced);
+    mem_free(f->closed);
     mem_free(f->phi);
     mem_free(f->phi_new);
     mem_free(f->rate);

@@ -33,9 +33,13 @@ struct carry {
     double slope;   /* weight of the normal derivative */
 };
 
-struct surface_mesh; /* blocks as the surface sees them, mesh_view.h */
+struct surface_forced; /* phi in a partner's cells; surface_forced.h; NULL: none */
+struct surface_mesh;   /* blocks as the surface sees them, mesh_view.h */
 
 struct surface {
+    struct surface_forced *forced;
+    bool *closed; /* even cells whose values are nobody's: behind sides, boxes, deep in a partner's
+                     part */
     struct surface_mesh *mesh;    /* NULL: even cells or rows of unequal height */
     double *phi, *phi_new, *rate; /* m, m, m/s */
     double *kept;                 /* scratch of reinit */
@@ -56,7 +60,8 @@ struct surface {
     int64_t wet, cuts;        /* over all ranks */
     double volume0, returned; /* m^dim: to be kept, with what has come in through openings; put back
                                  by the shifts, all in all */
-    double passed;            /* m^dim: through openings, in and out */
+    double passed;            /* m^dim: through openings and a partner's outline, in and out */
+    double entered;           /* m^dim: through openings, in less out */
     double travelled;         /* -: cells since the last reinit */
     double least, largest;    /* m: sizes of cells */
     double theta_least;       /* -: least distance of the surface from a wet centre, of h */
@@ -94,10 +99,12 @@ void surface_ghosts(const struct fv *s, double *phi);
 void surface_advance(struct fv *s, double dt);
 /* Moves phi evenly to the volume of the start. */
 void surface_keep_volume(struct fv *s);
-/* m^dim of water; *area: its change with phi, < 0. Over all ranks. */
+/* m^dim of water, a partner's part apart; *area: its change with phi, < 0. Over all ranks. */
 double surface_volume(const struct fv *s, double *area);
 /* Share of a cell below phi = 0, by the plane through its centre. */
 double surface_share(const struct fv *s, int64_t c);
+/* The same of the face below cell c along axis a. */
+double surface_face_share(const struct fv *s, int64_t c, int a);
 
 /* m^dim: volume of cell c, in local row j, that counts: of places where blocks overlap once. */
 double surface_cell_volume(const struct fv *s, int64_t c, int j);
@@ -127,6 +134,12 @@ enum extend {
 void extension_apply(const struct fv *s, double *const u[3], enum extend how, int layers);
 /* The same for one field, layers 1 and 2. */
 void extension_scalar(const struct fv *s, double *q);
+/* The same for the layers further out, within what is around. */
+void extension_beyond(const struct fv *s, double *q);
+
+/* surface_smooth.c: on blocks, u (with its ghosts) beside the surface without waves of two cells.
+ */
+void surface_smooth(struct fv *s);
 
 /* surface_pressure.c */
 /* Wet cells, cut faces and stencils of the present phi; pressure_rebuild then. */

@@ -69,7 +69,7 @@ static void count(struct fv *s)
     int64_t n[2] = {0, 0};
     FLOW_ROWS(s, c, len)
     for (int64_t i = c; i < c + len; i++)
-        n[0] += f->layer[i] == 0;
+        n[0] += f->layer[i] == 0 && !(f->forced && s->forcing->forced[i]);
     for (int a = 0; a < s->dim; a++)
         n[1] += f->ncut[a];
     MPI_Allreduce(MPI_IN_PLACE, n, 2, MPI_INT64_T, MPI_SUM, s->comm);
@@ -182,11 +182,33 @@ static void face_gradient(const struct fv *s, int a, const double *psi, bool cha
         x.p = change ? 0.0 : x.p;
         out[x.face] = cut_gradient(&x, psi);
     }
+    if (!f->forced)
+        return;
+    for (int64_t i = 0; i < s->forcing->nface[a]; i++) { /* into a partner's cells it goes on */
+        const int64_t face = s->forcing->face[a][i];
+        out[face] = out[face - s->forcing->sign[a][i] * d];
+    }
 }
 
 static bool dry_water_side(const struct fv *s, int64_t c)
 {
     return s->surface->layer[c] && !(s->forcing && s->forcing->forced[c]);
+}
+
+/* Cells beside a partner's whose one-sided stencil would leave the water, too. */
+static void gradient_beside_partner(const struct fv *s, int a, const double *F, double *out)
+{
+    const struct forcing *g = s->forcing;
+    const int64_t d = s->b.stride[a];
+    for (int64_t i = 0; i < g->nfix[a]; i++) {
+        const int64_t c = g->fix[a][i].cell;
+        bool dry = false;
+        for (int way = -1; way <= 1; way += 2)
+            for (int m = 1; m <= REACH && !g->forced[c + way * m * d]; m++)
+                dry = dry || s->surface->layer[c + way * m * d];
+        if (dry && !s->surface->layer[c])
+            out[c] = 0.5 * (F[c] + F[c + d]);
+    }
 }
 
 static void near_gradient(const struct fv *s, int a, const double *psi, bool change, double *out)
@@ -203,6 +225,8 @@ static void near_gradient(const struct fv *s, int a, const double *psi, bool cha
                      dry_water_side(s, i - 2 * d) || dry_water_side(s, i + 2 * d))
                 out[i] = 0.5 * (F[i] + F[i + d]);
         }
+    if (f->forced)
+        gradient_beside_partner(s, a, F, out);
 }
 
 void surface_gradient(const struct fv *s, int a, const double *psi, double *out)

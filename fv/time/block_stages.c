@@ -186,15 +186,16 @@ static void measure_blocks(struct fv *s)
                         S2 += S * S;
                     }
                     rate += fabs(F);
-                    rise += fabs(G) + push * sqrt(S2);
-                    least = fmin(least, S2);
+                    rise += fabs(G) + (push > 0.0 ? push * sqrt(S2) : 0.0);
+                    least = S2 < least ? S2 : least;
                     u2 += s->u[a][i] * s->u[a][i];
                     poison += 0.0 * s->u[a][i];
                 }
-                most[0] = fmax(most[0], rate / m->V[i]);
-                most[1] = fmax(most[1], u2);
-                most[2] = fmax(most[2], rise / m->V[i]);
-                most[3] = fmax(most[3], sqrt(u2 / least) * m->V[i]);
+                most[0] = rate > most[0] * m->V[i] ? rate / m->V[i] : most[0];
+                most[1] = u2 > most[1] ? u2 : most[1];
+                most[2] = rise > most[2] * m->V[i] ? rise / m->V[i] : most[2];
+                if (u2 * m->V[i] * m->V[i] > most[3] * most[3] * least)
+                    most[3] = sqrt(u2 / least) * m->V[i];
             }
     }
     most[1] = poison == 0.0 ? sqrt(most[1]) : INFINITY;

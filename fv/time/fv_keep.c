@@ -5,6 +5,7 @@
 #include "../../common/mem.h"
 #include "../boundary/bc.h"
 #include "../surface/levelset.h"
+#include "../surface/surface_forced.h"
 #include "../fv.h"
 #include "newton.h"
 #include "../operators/operators.h"
@@ -31,6 +32,10 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
     if (s->surface) {
         f[n] = s->surface->phi;
         names[n++] = "phi";
+        for (int k = 0; k < 2 && s->surface->forced; k++) {
+            f[n] = s->surface->forced->phi[k];
+            names[n++] = k ? "phi_end" : "phi_start";
+        }
     }
     for (int a = 0; a < 3; a++) {
         double *const all[] = {s->u[a], s->U[a], s->N[a], s->u_old[a],
@@ -55,6 +60,7 @@ struct kept {
     double t, dt, dt_old, umax[3], rate, fastest, reference, u_limit, max_cfl;
     enum limit limit;
     int64_t iterations, viscous_iterations;
+    double volume0, returned, passed, entered, travelled; /* of a free surface */
     double *w[6][3], outflux; /* velocities of outflows that are carried */
     double dtau, norm;        /* of newton */
     int64_t newtons, krylovs, cycles, halvings;
@@ -120,6 +126,13 @@ static void carry(struct fv *s, struct kept *k, bool back)
     CARRY(k->max_cfl, s->max_cfl);
     CARRY(k->iterations, s->iterations);
     CARRY(k->viscous_iterations, s->viscous_iterations);
+    if (s->surface) {
+        CARRY(k->volume0, s->surface->volume0);
+        CARRY(k->returned, s->surface->returned);
+        CARRY(k->passed, s->surface->passed);
+        CARRY(k->entered, s->surface->entered);
+        CARRY(k->travelled, s->surface->travelled);
+    }
     if (s->newton) {
         CARRY(k->dtau, s->newton->dtau);
         CARRY(k->norm, s->newton->norm);

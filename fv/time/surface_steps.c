@@ -7,9 +7,11 @@
 
 #include "../../common/mem.h"
 #include "../boundary/bc.h"
+#include "../boundary/forcing.h"
 #include "../operators/mesh_ops.h"
 #include "../operators/operators.h"
 #include "../surface/mesh_view.h"
+#include "../surface/surface_forced.h"
 #include "stages.h"
 
 enum { REINIT_STEPS = 10 }; /* of 0.45 h each: more than what the surface has travelled */
@@ -93,9 +95,19 @@ static void set_level(struct fv *s)
     rebuild(s);
 }
 
+/* A partner's near cells take part as water or air; nothing is known in all others that are forced.
+ */
+static void close_cells(struct fv *s)
+{
+    const struct forcing *g = s->forcing;
+    for (int64_t c = 0; g && c < s->b.size; c++)
+        s->surface->closed[c] = g->forced[c] && !(s->surface->forced && g->known[c]);
+}
+
 void surface_start(struct fv *s)
 {
     struct surface *f = s->surface;
+    close_cells(s);
     f->volume0 = surface_volume(s, NULL);
     rebuild(s);
     set_level(s);
@@ -119,6 +131,12 @@ static double least_theta(const struct fv *s, double dt)
     if (s->newton)
         return 0.0;
     return fmin(0.3 * s->nu * dt / (h * h), 0.3);
+}
+
+static void impose(struct fv *s, double t)
+{
+    if (s->surface->forced)
+        surface_forced_impose(s, t);
 }
 
 /* Newmark's beta of waves: 1/12 has no error of second order; more where the shortest ones, omega^2
@@ -152,15 +170,35 @@ void surface_first_half(struct fv *s, double dt)
 {
     s->surface->theta_least = least_theta(s, dt);
     surface_advance(s, 0.5 * dt);
+    impose(s, s->t + 0.5 * dt);
     refresh(s);
     if (s->surface->half)
         go_ahead(s, dt);
     rebuild(s);
+    surface_smooth(s);
     surface_extend(s, STENCILS);
 }
 
-/* m^dim/s: water that comes in through openings less what leaves, and their sum, over all ranks. */
-static void flows(const struct fv *s, double sums[2])
+/* The same through the outline of a partner's cells. */
+static void add_outline(const struct fv *s, double sums[2])
+{
+    const struct forcing *g = s->forcing;
+    for (int a = 0; a < s->b.dim; a++)
+        for (int64_t i = 0; i < g->nface[a]; i++) {
+            const int64_t c = g->face[a][i], d = s->b.stride[a];
+            if (!g->counts[a][i] || (g->forced[c] != 1 && g->forced[c - d] != 1))
+                continue;
+            const int row = block_row(&s->b, c);
+            const double area = block_volume(&s->b, row) / block_size(&s->b, a, row);
+            const double in = -g->sign[a][i] * area * s->U[a][c] * surface_face_share(s, c, a);
+            sums[0] += in;
+            sums[1] += fabs(in);
+        }
+}
+
+/* m^dim/s: water that comes in through openings less what leaves, their sum, and the former without
+ * a partner's outline, over all ranks. */
+static void flows(const struct fv *s, double sums[3])
 {
     const struct block *b = &s->b;
     sums[0] = sums[1] = 0.0;
@@ -180,18 +218,23 @@ static void flows(const struct fv *s, double sums[2])
                 sums[1] += fabs(in);
             }
     }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
+    sums[2] = sums[0];
+    if (s->surface->forced)
+        add_outline(s, sums);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
 void surface_second_half(struct fv *s, double dt)
 {
-    double through[2];
+    double through[3];
     if (s->surface->half)
         memcpy(s->surface->phi, s->surface->half, (size_t)s->b.size * sizeof(double));
     flows(s, through);
     s->surface->volume0 += dt * through[0];
     s->surface->passed += dt * through[1];
+    s->surface->entered += dt * through[2];
     surface_advance(s, 0.5 * dt);
+    impose(s, s->t);
     refresh(s);
     surface_keep_volume(s);
     surface_sample(s);
@@ -207,10 +250,9 @@ static int state(struct fv *s, double **f)
     f[n++] = s->p;
     f[n++] = s->p_before;
     for (int a = 0; a < 3; a++) {
-        f[n++] = s->psi[a];
-        for (int k = 0; k < 4 && a < s->dim; k++) {
-            double *const all[] = {s->u[a], s->U[a], s->u_old[a],
-                                   s->prm.integrator == INTEGRATOR_BDF2 ? s->N[a] : NULL};
+        double *const all[] = {s->psi[a], s->u[a], s->U[a], s->u_old[a],
+                               s->prm.integrator == INTEGRATOR_BDF2 ? s->N[a] : NULL};
+        for (int k = 0; k < (a < s->dim ? 5 : 1); k++) {
             if (all[k])
                 f[n++] = all[k];
         }
@@ -247,5 +289,5 @@ const char *surface_trouble(const struct fv *s)
         fills = fills || s->bc->kind[k] == BC_INFLOW;
     if (s->surface->cuts == 0 && fills && !s->bc->pressure_given)
         return "the domain is full of water, and more flows in";
-    return s->surface->wet > 0 ? NULL : "no cell holds water any more";
+    return s->surface->wet > 0 || s->surface->forced ? NULL : "no cell holds water any more";
 }

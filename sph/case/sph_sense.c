@@ -199,6 +199,8 @@ static void check_box(const struct run *r, const struct sph_params *given,
                          side_names[2 * a + high], "xyz"[a]);
         if (used->surface != SURFACE_YES || (low && high))
             continue;
+        if (r->crossed && fabs(still[a]) < 0.5 * g)
+            continue; /* the partner has a surface, too */
         if (g > 0.0 && fabs(still[a]) < 0.5 * g)
             params_fault(r->params, f, key,
                          "ends at %c = %g m under a free surface, which it would have to cross "

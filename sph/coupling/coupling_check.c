@@ -85,7 +85,7 @@ static void check_water(const struct run *r, const struct water *w, struct fault
     const struct scene_domain *d = &r->scene.domain;
     const double dx = w->dx;
     double x[3] = {0.0, 0.0, 0.0};
-    if (!scene_has_surface(&r->scene))
+    if (!scene_has_surface(&r->scene) || r->crossed)
         return;
     const bool outside = count(d->dim, dx, d->min, d->max, dry_outside, w, x) > 0.0;
     if (!outside && count(d->dim, dx, d->min, d->max, dry_in_edge, w, x) <=

@@ -9,6 +9,7 @@
 #include "../../common/log.h"
 #include "../../common/mem.h"
 #include "../particles/eos.h"
+#include "../open_boundaries/level_gap.h"
 #include "../open_boundaries/openings.h"
 #include "../surface/surface.h"
 #include "windows.h"
@@ -85,6 +86,8 @@ static void compare(struct sph *s, double sums[4])
     for (int k = 0; k < z->n; k++) {
         const double *y = state_row(&s->p, s->p.y, z->who[k]), w = y[at_volume(dim)];
         const double m = y[at_mass(dim)];
+        if (z->surface && z->phi[k] > -s->dx)
+            continue;
         const double dp = eos_p(m / w, s->rho0, s->c0, s->gamma) - z->p[k];
         for (int a = 0; a < dim; a++) {
             const double du = y[dim + a] / m - z->u[dim * k + a];
@@ -99,7 +102,7 @@ static void compare(struct sph *s, double sums[4])
 void overlap_find_surface(struct sph *s)
 {
     struct overlap *o = s->zones->watched;
-    if (!o->asks || !s->surface)
+    if (!o->asks || !s->surface || s->zones->surface)
         return;
     o->asks = false;
     o->found = 0.0;
@@ -142,6 +145,8 @@ void overlap_judge(struct sph *s, struct diagnosis *d)
     if (watch_judge(&o->dry, o->on, s->t, s->run->step, d))
         snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, t = %.4g s", o->where[0], o->where[1],
                  o->where[2], s->t);
+    if (s->zones->gap)
+        level_gap_judge(s, d);
     const bool was_bad = d->bad;
     watch_judge(&o->velocity, o->du_mean, s->t, s->run->step, d);
     watch_judge(&o->pressure, o->dp_mean, s->t, s->run->step, d);

@@ -10,6 +10,7 @@
 #include "../../coupler/cpl.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
+#include "../open_boundaries/level_gap.h"
 #include "overlap.h"
 #include "../sph_params.h"
 #include "windows.h"
@@ -19,7 +20,9 @@
 struct link {
     struct cpl *c;
     int dim, particles, velocity, pressure, patch_velocity, patch_pressure;
-    double *x, *u, *p, *w;
+    int budget, water;  /* one point, at the free zone's corner; what that zone holds */
+    int one, patch_phi; /* where a surface crosses: how much of a kernel particles fill; fv's */
+    double *x, *u, *p, *w, *ones;
     int64_t *id;
     int capacity;
 };
@@ -57,6 +60,12 @@ static void eval_patch(void *ctx, double t, int n, const double *x, double *u, d
     cpl_patch_eval(k->c, k->patch_pressure, t, n, x, p, gp);
 }
 
+static void eval_surface(void *ctx, double t, int n, const double *x, double *phi, double *gphi)
+{
+    const struct link *k = ctx;
+    cpl_patch_eval(k->c, k->patch_phi, t, n, x, phi, gphi);
+}
+
 void coupling_create(struct sph *s)
 {
     struct link *k = NEW(struct link, 1);
@@ -72,6 +81,14 @@ void coupling_create(struct sph *s)
                        &k->patch_velocity));
     check(k,
           cpl_field(k->c, k->particles, "fv.pressure", "Pa", 1, CPL_GET, how, &k->patch_pressure));
+    if (s->run->crossed) {
+        check(k, cpl_field(k->c, k->particles, "sph.one", "-", 1, CPL_PUT, 0, &k->one));
+        check(k,
+              cpl_field(k->c, k->particles, "fv.phi", "m", 1, CPL_GET, CPL_LINEAR, &k->patch_phi));
+        check(k, cpl_points(k->c, "sph.budget", s->dim, 0.0, &k->budget));
+        check(k, cpl_field(k->c, k->budget, "sph.water", "m^dim", 1, CPL_PUT, 0, &k->water));
+        s->zones->surface = eval_surface;
+    }
     s->zones->eval = eval_patch;
     s->zones->ctx = k;
     s->zones->watched = overlap_create(s);
@@ -85,8 +102,24 @@ void coupling_free(struct sph *s)
     mem_free(k->u);
     mem_free(k->p);
     mem_free(k->w);
+    mem_free(k->ones);
     mem_free(k->id);
     mem_free(k);
+}
+
+/* All ranks know the surface around the whole region: faces and probes are everybody's. */
+static void take_surface(struct sph *s)
+{
+    const struct link *k = s->zones->ctx;
+    double lo[3], hi[3];
+    for (int a = 0; a < 3; a++) {
+        lo[a] = s->lo[a] - (a < s->dim ? s->R : 0.0);
+        hi[a] = s->hi[a] + (a < s->dim ? s->R : 0.0);
+    }
+    check(k, cpl_patch_get(k->c, k->patch_phi, lo, hi));
+    s->ready = false; /* the lattice behind the faces ends at the surface, which is another now */
+    if (!s->zones->gap->started)
+        level_gap_look(s, 0.0);
 }
 
 /* The patch that this rank's particles and faces may need until the end of the window. */
@@ -104,6 +137,8 @@ void coupling_window_begin(void *state, double t0, double t1)
     }
     check(k, cpl_patch_get(k->c, k->patch_velocity, lo, hi));
     check(k, cpl_patch_get(k->c, k->patch_pressure, lo, hi));
+    if (s->zones->surface)
+        take_surface(s);
     zones_gauge(s);
     overlap_look(s);
 }
@@ -118,7 +153,25 @@ static void room(struct link *k, int n)
     GROW(k->u, k->dim * old, k->dim * k->capacity);
     GROW(k->p, old, k->capacity);
     GROW(k->w, old, k->capacity);
+    GROW(k->ones, old, k->capacity);
+    for (int i = old; i < k->capacity; i++)
+        k->ones[i] = 1.0;
     GROW(k->id, old, k->capacity);
+}
+
+/* Where the n particles are that are given: ones; and how much water the free zone holds. */
+static void give_surface(struct sph *s, int n, double t)
+{
+    const struct link *k = s->zones->ctx;
+    const double water = zones_water(s);
+    double lo[3], hi[3];
+    const int64_t id = 0;
+    zones_free_box(s->run, &s->prm, lo, hi);
+    check(k, cpl_put(k->c, k->one, t, n, k->ones, NULL));
+    room((struct link *)s->zones->ctx, 1);
+    const int mine = s->run->rank == 0 ? 1 : 0;
+    check(k, cpl_move(k->c, k->budget, mine, lo, &id, k->ones));
+    check(k, cpl_put(k->c, k->water, t, mine, &water, NULL));
 }
 
 /* Particles of the free zone and the blended ones; never buffer particles, which would give the
@@ -145,4 +198,6 @@ void coupling_window_end(void *state, double t1)
     check(k, cpl_move(k->c, k->particles, n, k->x, k->id, k->w));
     check(k, cpl_put(k->c, k->velocity, t1, n, k->u, NULL));
     check(k, cpl_put(k->c, k->pressure, t1, n, k->p, NULL));
+    if (s->zones->surface)
+        give_surface(s, n, t1);
 }

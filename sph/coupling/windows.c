@@ -94,7 +94,7 @@ static void scales(const struct run *r, const struct sph_params *prm, struct win
         const double k = 2.0 * M_PI / c->initial.L * (c->initial.L_z > 0.0 ? M_SQRT2 : 1.0);
         w->omega = scene_has_wave(c) ? sqrt(g * k * tanh(k * H)) : sqrt(g / H);
         w->weight = g * fmin(H, w->L);
-        if (!scene_has_wave(c))
+        if (!scene_has_wave(c) && !r->crossed) /* else fv has the long waves, too */
             w->U = fmax(w->U, sqrt(g * H));
     }
     if (!(w->U > 0.0))
@@ -124,6 +124,10 @@ static double mass_at(const struct run *r, const struct sph_params *prm, const b
     const struct scene_domain *d = &r->scene.domain;
     const int a = side / 2;
     const double k = lateral(r, prm, open, a);
+    if (r->crossed) { /* a surface bounds it: Westergaard, decaying over the overlap */
+        const double H = depth_of(&r->scene, axis_of_gravity(&r->scene));
+        return 0.55 * H * exp(-1.6 * D / H);
+    }
     const bool walled = scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + side)) != NULL;
     const double beyond = side % 2 ? d->max[a] - prm->box[1][a] : prm->box[0][a] - d->min[a];
     /* The box spans the flow: what lies beyond can move as a whole, half of a period to each side.

@@ -12,6 +12,7 @@
 #include "../particles/eos.h"
 #include "../pairs/neighbours.h"
 #include "../sph_params.h"
+#include "wet_faces.h"
 #include "zones.h"
 
 /* What a face that cannot give birth holds beyond this goes to its neighbours; what it owes beyond
@@ -45,6 +46,9 @@ struct openings *openings_create(struct sph *s)
     o->change = NEW(double, n);
     o->flux = NEW(double, n);
     o->shift = NEW(double, n);
+    o->share = NEW(double, n);
+    for (int f = 0; f < n; f++)
+        o->share[f] = 1.0;
     o->first_id = (int64_t)1 << 40; /* above those of the first filling */
     o->tick = sph_params_dt(&s->prm, s->nu, s->c0, NULL) / 64.0;
     return o;
@@ -58,6 +62,7 @@ void openings_free(struct openings **o)
     mem_free((*o)->change);
     mem_free((*o)->flux);
     mem_free((*o)->shift);
+    mem_free((*o)->share);
     mem_free((*o)->ghost_x);
     mem_free(*o);
     *o = NULL;
@@ -108,7 +113,7 @@ static int face_at(const struct openings *o, int side, const int *I)
 }
 
 /* Side, centre and inward normal sign of a face. */
-static int face_place(const struct openings *o, int f, double *x)
+int openings_place(const struct openings *o, int f, double *x)
 {
     int side = 0;
     while (f >= o->first[side + 1])
@@ -124,6 +129,14 @@ static int face_place(const struct openings *o, int f, double *x)
         k /= o->cells[b];
     }
     return side;
+}
+
+int openings_face_at(const struct openings *o, int side, const double *x)
+{
+    int I[3] = {0, 0, 0};
+    for (int a = 0; a < o->dim; a++)
+        I[a] = (int)floor((x[a] - o->lo[a]) / o->dx);
+    return face_at(o, side, I);
 }
 
 static double inward(int side) { return side % 2 ? -1.0 : 1.0; }
@@ -188,6 +201,8 @@ void openings_ghosts(struct sph *s)
         if (o->open[side] && d < reach)
             list_side(s, side, lo, hi, reach);
     }
+    if (s->zones->surface)
+        wet_faces_ghosts(s);
     o->first_ghost = s->p.nghost;
     particles_reserve(&s->p, s->p.n + s->p.nghost + o->nghost);
     s->p.nghost += o->nghost;
@@ -234,10 +249,9 @@ static void remove_leavers(struct sph *s)
             i++;
             continue;
         }
-        int side = 0, I[3] = {0, 0, 0};
+        int side = 0;
         double most = 0.0;
-        for (int a = 0; a < o->dim; a++) {
-            I[a] = (int)floor((y[a] - o->lo[a]) / o->dx);
+        for (int a = 0; a < o->dim; a++)
             for (int k = 0; k < 2; k++) {
                 const double out = k ? y[a] - o->hi[a] : o->lo[a] - y[a];
                 if (o->open[2 * a + k] && out > most) {
@@ -245,9 +259,12 @@ static void remove_leavers(struct sph *s)
                     side = 2 * a + k;
                 }
             }
-        }
         const double m = y[at_mass(o->dim)];
-        o->change[face_at(o, side, I)] += m;
+        const int to = wet_faces_for(s, side, y);
+        if (to >= 0)
+            o->change[to] += m;
+        else
+            wet_faces_rain(s, y);
         o->gone_mass += m;
         o->gone++;
         particles_copy(p, i, --p->n);
@@ -266,7 +283,7 @@ static void add_fluxes(struct sph *s, double dt)
     zones_room(z, n);
     for (int f = 0; f < n; f++) {
         double x[3], in[3];
-        const int side = face_place(o, f, x);
+        const int side = openings_place(o, f, x);
         memcpy(in, x, sizeof x);
         in[side / 2] += 0.5 * o->dx * inward(side);
         o->flux[f] = 0.0;
@@ -282,7 +299,7 @@ static void add_fluxes(struct sph *s, double dt)
         while (f >= o->first[side + 1])
             side++;
         const double rho = eos_rho(z->p[k], s->rho0, s->c0, s->gamma);
-        o->flux[f] = rho * area * inward(side) * z->u[dim * k + side / 2];
+        o->flux[f] = rho * area * o->share[f] * inward(side) * z->u[dim * k + side / 2];
         o->change[f] += dt * o->flux[f];
         o->inflow += dt * (o->flux[f] + s->rho0 * area * o->drain);
     }
@@ -297,7 +314,8 @@ static void collect_debts(struct sph *s)
 {
     struct openings *o = s->zones->openings;
     const double least = -most_debt * s->rho0 * s->dxD, area = s->dxD / s->dx;
-    if (!s->surface || s->prm.outer == OUTER_SIDES) /* an outlet's faces may stand in air */
+    /* an outlet's faces may stand in air; an outside with a surface has room for voids */
+    if (!s->surface || s->prm.outer == OUTER_SIDES || s->zones->surface)
         return;
     for (int f = 0; f < openings_faces(o); f++)
         if (o->mass[f] < least) {
@@ -399,7 +417,7 @@ static void born(struct sph *s, int f, const double *x, const double *u, double 
 static void pass_on(struct openings *o, int f, double mass)
 {
     double x[3], least = INFINITY;
-    const int side = face_place(o, f, x);
+    const int side = openings_place(o, f, x);
     int to = f;
     for (int b = 0; b < o->dim; b++)
         for (int way = -1; b != side / 2 && way <= 1; way += 2) {
@@ -407,7 +425,7 @@ static void pass_on(struct openings *o, int f, double mass)
             for (int a = 0; a < 3; a++)
                 I[a] = a < o->dim ? (int)floor((x[a] - o->lo[a]) / o->dx) + (a == b ? way : 0) : 0;
             const int g = face_at(o, side, I);
-            if (g != f && o->mass[g] + o->change[g] < least) {
+            if (g != f && o->share[g] > 0.25 && o->mass[g] + o->change[g] < least) {
                 least = o->mass[g] + o->change[g];
                 to = g;
             }
@@ -433,14 +451,17 @@ static void give_birth(struct sph *s)
         const int f = z->who[k];
         const double rho = eos_rho(z->p[k], s->rho0, s->c0, s->gamma), whole = rho * s->dxD;
         double held = o->mass[f] + o->change[f], *u = z->u + dim * k;
-        if (held < whole || (o->flux[f] <= 0.0 && held < most_debt * whole))
+        if (held < whole || o->share[f] == 0.0 ||
+            (o->flux[f] <= 0.0 && held < most_debt * whole))
             continue;
         double x[3];
-        const int side = face_place(o, f, x), a = side / 2;
+        const int side = openings_place(o, f, x), a = side / 2;
         const double over = fmin(held / whole - 1.0, most_over) * s->dx, un = fabs(u[a]);
         for (int b = 0; b < dim; b++)
             x[b] += b == a ? inward(side) * (0.5 * s->dx + over)
                            : (un > 0.0 ? fmax(fmin(u[b] / un, 1.0), -1.0) * over : 0.0);
+        if (s->zones->surface)
+            wet_faces_lower(s, 0.25 * s->dx, 1, x);
         if (crowded(&near, o, x)) {
             o->refused++;
             if (held > most_debt * whole)
@@ -476,6 +497,8 @@ void openings_settle(struct sph *s)
 
 void openings_step(struct sph *s, double dt)
 {
+    if (s->zones->surface)
+        wet_faces_find(s, s->t - 0.5 * dt);
     remove_leavers(s);
     add_fluxes(s, dt);
     sum_changes(s);

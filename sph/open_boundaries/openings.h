@@ -18,6 +18,9 @@ struct openings {
     double *flux;                /* kg/s of the faces this rank owns, 0 elsewhere: inward */
     double owed;                 /* kg: what voids that went out left to be drained; all ranks' */
     double drain;                /* m/s: outwards, added to the flow outside */
+    double *share;  /* -: of each face that the water outside wets; 1 without a surface there */
+    double rain[4]; /* kg, kg m/s: drops that left over the water, this rank */
+    int64_t drops;
     double *shift;               /* m: place of the incoming lattice behind each face */
     int64_t born, gone, refused; /* on this rank */
     double born_mass, gone_mass, inflow; /* kg: since the start, this rank */
@@ -42,6 +45,9 @@ void openings_ghost_lines(struct sph *s);
  * behind each face stands. */
 void openings_settle(struct sph *s);
 int openings_faces(const struct openings *o);
+/* Side, centre x[3] of a face; the one at x on a side, clamped. */
+int openings_place(const struct openings *o, int face, double *x);
+int openings_face_at(const struct openings *o, int side, const double *x);
 /* s since the birth of the particle with this id, or since the start. */
 double openings_age(const struct sph *s, int64_t id);
 /* Takes mass (kg) from all faces alike; the same on all ranks. */

@@ -12,10 +12,12 @@
 #include "../../common/h5.h"
 #include "../../common/mem.h"
 #include "../particles/eos.h"
+#include "level_gap.h"
 #include "openings.h"
 #include "../coupling/overlap.h"
 #include "sides.h"
 #include "../sph_params.h"
+#include "wet_faces.h"
 
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer)
@@ -98,6 +100,8 @@ struct zones *zones_create(struct sph *s)
     zones_widths(s->run, &s->prm, &z->transition, &z->buffer);
     z->overlap = zones_overlap(s->run, &s->prm);
     z->openings = openings_create(s);
+    z->eos = (struct sph_eos){s->rho0, s->c0, s->gamma};
+    z->gap = s->run->crossed ? level_gap_create(s) : NULL;
     if (s->prm.outer == OUTER_EXACT) {
         struct exact *e = NEW(struct exact, 1);
         *e = exact_create(&s->run->scene);
@@ -124,6 +128,9 @@ void zones_free(struct zones **z)
     mem_free((*z)->p);
     mem_free((*z)->gu);
     mem_free((*z)->gp);
+    mem_free((*z)->phi);
+    mem_free((*z)->gphi);
+    level_gap_free(&(*z)->gap);
     mem_free(*z);
     *z = NULL;
 }
@@ -139,6 +146,8 @@ void zones_room(struct zones *z, int n)
     GROW(z->p, z->capacity, n);
     GROW(z->gu, 9 * z->capacity, 9 * n);
     GROW(z->gp, 3 * z->capacity, 3 * n);
+    GROW(z->phi, z->capacity, n);
+    GROW(z->gphi, 3 * z->capacity, 3 * n);
     z->capacity = n;
 }
 
@@ -168,6 +177,34 @@ static void add_drain(struct zones *z)
     }
 }
 
+double zones_wet(const struct zones *z, double phi)
+{
+    const double dx = z->openings->dx;
+    return z->surface ? fmax(0.0, fmin(1.0, (3.0 * dx - phi) / (2.5 * dx))) : 1.0;
+}
+
+void zones_look_at_surface(struct zones *z, double t)
+{
+    z->surface(z->ctx, t, z->n, z->x, z->phi, z->gphi);
+}
+
+/* The pressure outside is that of a constant density, and where the surface is near no suction:
+ * interpolation across it must not make any. The level of the flow inside draws at that outside. */
+static void look_under_surface(struct zones *z, double t)
+{
+    const struct sph_eos *e = &z->eos;
+    const struct openings *o = z->openings;
+    double below;
+    z->surface(z->ctx, t, z->n, z->x, z->phi, NULL);
+    for (int k = 0; k < z->n; k++) {
+        const int side = nearest_side(o, z->x + 3 * k, &below);
+        if (z->phi[k] > -o->dx)
+            z->p[k] = fmax(z->p[k], 0.0);
+        z->p[k] = eos_p_from_constant(z->p[k], e->rho0, e->c0, e->gamma);
+        z->u[o->dim * k + side / 2] += (side % 2 ? 1.0 : -1.0) * level_gap_outflow(z->gap, side);
+    }
+}
+
 void zones_look(struct zones *z, double t, bool gradients)
 {
     if (!z->eval) { /* a partner's patch has not come: at rest */
@@ -180,6 +217,8 @@ void zones_look(struct zones *z, double t, bool gradients)
     z->eval(z->ctx, t, z->n, z->x, z->u, z->p, gradients ? z->gu : NULL, gradients ? z->gp : NULL);
     for (int k = 0; k < z->n; k++)
         z->p[k] += z->gauge;
+    if (z->surface)
+        look_under_surface(z, t);
     if (z->openings->drain != 0.0)
         add_drain(z);
 }
@@ -189,6 +228,29 @@ double zones_depth(const struct sph *s, const double *x)
     double below;
     nearest_side(s->zones->openings, x, &below);
     return below;
+}
+
+double zones_share(const struct sph *s, int i)
+{
+    const double *y = state_row(&s->p, s->p.y, i);
+    double f = 1.0;
+    for (int side = 0; s->zones && side < 2 * s->dim; side++) {
+        const int a = side / 2;
+        const double in = side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a];
+        const double rim = s->zones->buffer + s->zones->transition;
+        if (s->open[side])
+            f *= fmin(fmax((in - rim) / s->dx + 0.5, 0.0), 1.0);
+    }
+    return f;
+}
+
+double zones_water(const struct sph *s)
+{
+    double sum = 0.0;
+    for (int i = 0; i < s->p.n; i++)
+        sum += zones_share(s, i) * state_row(&s->p, s->p.y, i)[at_mass(s->dim)] / s->rho0;
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sum;
 }
 
 void zones_mark(struct sph *s)
@@ -236,6 +298,39 @@ static void impose(struct sph *s, int i, const double *u, double rho)
         y[dim + a] = y[at_mass(dim)] * u[a];
 }
 
+/* Row `from' of the list becomes row `to'. */
+static void move_row(struct zones *z, int dim, int to, int from)
+{
+    z->who[to] = z->who[from];
+    z->p[to] = z->p[from];
+    z->phi[to] = z->phi[from];
+    memmove(z->x + 3 * to, z->x + 3 * from, 3 * sizeof *z->x);
+    memmove(z->u + dim * to, z->u + dim * from, (size_t)dim * sizeof *z->u);
+    memmove(z->gp + 3 * to, z->gp + 3 * from, 3 * sizeof *z->gp);
+    memmove(z->gu + 3 * dim * to, z->gu + 3 * dim * from, 3 * (size_t)dim * sizeof *z->gu);
+}
+
+/* Buffer particles in the air outside leave the list, those between are imposed in part. */
+static void mix_with_own(struct sph *s)
+{
+    struct zones *z = s->zones;
+    const int dim = s->dim;
+    int n = 0;
+    for (int k = 0; k < z->n; k++) {
+        const double *y = state_row(&s->p, s->p.y, z->who[k]), m = y[at_mass(dim)];
+        const double wet = zones_wet(z, z->phi[k]);
+        const double own = eos_p(m / y[at_volume(dim)], s->rho0, s->c0, s->gamma);
+        if (wet == 0.0)
+            continue;
+        move_row(z, dim, n, k);
+        z->p[n] = wet * z->p[n] + (1.0 - wet) * own;
+        for (int a = 0; a < dim; a++)
+            z->u[dim * n + a] = wet * z->u[dim * n + a] + (1.0 - wet) * y[dim + a] / m;
+        n++;
+    }
+    z->n = n;
+}
+
 void zones_stage(struct sph *s)
 {
     struct zones *z = s->zones;
@@ -244,6 +339,8 @@ void zones_stage(struct sph *s)
     openings_ghost_lines(s);
     gather(s, ZONE_BUFFER);
     zones_look(z, s->t, true);
+    if (z->surface)
+        mix_with_own(s);
     for (int k = 0; k < z->n; k++) {
         const int i = z->who[k];
         double *y = state_row(&s->p, s->p.y, i);
@@ -326,6 +423,8 @@ void zones_gauge(struct sph *s)
     struct openings *o = z->openings;
     double inflow;
     z->gauge = 0.0;
+    if (z->surface) /* one pressure, 0 on the surface of both */
+        return;
     if (!s->surface && s->run->scene.coupling.keep_mass)
         openings_let_out(o, gained(s));
     if (!s->surface || g == 0.0)
@@ -365,7 +464,8 @@ void zones_blend(struct sph *s)
         double below;
         const int side = nearest_side(z->openings, y, &below);
         const double in = (below - z->buffer) / z->transition;
-        const double alpha = fmin(fmax(1.0 - in, 0.0), 1.0), m = y[at_mass(dim)];
+        const double wet = zones_wet(z, z->surface ? z->phi[k] : 0.0), m = y[at_mass(dim)];
+        const double alpha = wet * fmin(fmax(1.0 - in, 0.0), 1.0);
         double p = eos_p(m / y[at_volume(dim)], s->rho0, s->c0, s->gamma);
         for (int a = 0; a < dim; a++)
             u[a] = y[dim + a] / m;
@@ -375,7 +475,12 @@ void zones_blend(struct sph *s)
     }
 }
 
-void zones_openings(struct sph *s, double dt) { openings_step(s, dt); }
+void zones_openings(struct sph *s, double dt)
+{
+    openings_step(s, dt);
+    if (s->zones->gap)
+        level_gap_look(s, dt);
+}
 
 void zones_save(struct sph *s, struct h5 *f)
 {
@@ -390,6 +495,10 @@ void zones_save(struct sph *s, struct h5 *f)
     h5_write_real(f, "zones_level", "Pa", 1, 1, level, false);
     h5_write_real(f, "zones_owed", "kg", 1, 1, owed, false);
     h5_write_int(f, "zones_counted", 3, counted);
+    if (s->zones->gap) {
+        level_gap_save(s->zones->gap, f);
+        wet_faces_save(o, f);
+    }
     if (s->zones->watched)
         overlap_save(s->zones->watched, f);
 }
@@ -423,7 +532,8 @@ bool zones_load(struct sph *s, struct h5 *f)
     if (!same_faces || !h5_read_parts(f, "faces_flux", faces, o->flux) ||
         !h5_read_parts(f, "zones_booked", 4, booked) ||
         !h5_read_same(f, "zones_level", 1, &s->zones->level) ||
-        !h5_read_same(f, "zones_owed", 1, &o->owed) || !load_counts(s, f, counted))
+        !h5_read_same(f, "zones_owed", 1, &o->owed) || !load_counts(s, f, counted) ||
+        (s->zones->gap && !level_gap_load(s->zones->gap, f)) || !wet_faces_load(s, f))
         return false;
     s->zones->blended = booked[0];
     o->born_mass = booked[1];

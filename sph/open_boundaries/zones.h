@@ -12,12 +12,21 @@
 typedef void zones_eval(void *ctx, double t, int n, const double *x, double *u, double *p,
                         double *gu, double *gp);
 
+/* Height over the surface outside (m, < 0: water) and its gradient gphi[n][3] (NULL: not wanted). */
+typedef void zones_surface(void *ctx, double t, int n, const double *x, double *phi, double *gphi);
+
 struct openings;
 struct overlap;
+struct level_gap;
 struct zones {
     double transition, buffer; /* m: widths */
     double overlap;            /* m: of the rim of the free zone where a partner is free, too */
     zones_eval *eval;
+    struct sph_eos {
+        double rho0, c0, gamma;
+    } eos;                     /* the particles', for a partner of constant density */
+    zones_surface *surface;    /* of the flow outside, which has a part of it; NULL: full of water */
+    struct level_gap *gap;     /* level_gap.h; NULL without that surface */
     void (*update)(struct sph *s); /* start of a stage: looks at the flow inside; NULL: no need */
     void *ctx;                     /* borrowed */
     struct openings *openings;
@@ -30,6 +39,7 @@ struct zones {
     int capacity;
     int *who;
     double *x, *u, *p, *gu, *gp;
+    double *phi, *gphi; /* with a surface outside: see zones_surface */
 };
 
 /* Zones if the region s->lo..hi has open sides, else NULL. */
@@ -44,6 +54,13 @@ void zones_given_box(const struct run *r, const struct sph_params *prm, double l
 void zones_free_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
 /* Depth of x below the open sides of the region, m: negative outside. */
 double zones_depth(const struct sph *s, const double *x);
+
+/* Part of a particle that is SPH's to count where a partner counts the rest: what of its square or
+ * cube lies in the free zone. */
+double zones_share(const struct sph *s, int i);
+
+/* m^dim: what the free zone holds. Collective. */
+double zones_water(const struct sph *s);
 
 /* Zone of every local particle by its depth; before the list is built. */
 void zones_mark(struct sph *s);
@@ -61,7 +78,12 @@ void zones_gauge(struct sph *s);
 void zones_blend(struct sph *s);
 /* After the positions moved by dt: removals, face masses, births [6.13-6.14]. Collective. */
 void zones_openings(struct sph *s, double dt);
-/* Fills u, p (and gradients) of z->who[0..n-1] at places z->x. */
+/* How far the flow outside is to be imposed there: 1 in its water, 0 in its air, where particles are
+ * free (spray, drops). */
+double zones_wet(const struct zones *z, double phi);
+/* Fills phi and gphi alone. */
+void zones_look_at_surface(struct zones *z, double t);
+/* Fills u, p (and gradients), with a surface phi, of z->who[0..n-1] at places z->x. */
 void zones_look(struct zones *z, double t, bool gradients);
 /* Adds local particle i to that list. */
 void zones_list(struct sph *s, int i);

@@ -4,11 +4,14 @@
 #include "../sph.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "../../common/scene_mesh.h"
 #include "../../common/exact.h"
 #include "../../common/mem.h"
 #include "../parallel/domain.h"
+#include "../refinement/apr_params.h"
+#include "../refinement/refinement.h"
 #include "../particles/eos.h"
 #include "../bodies/bodies.h"
 #include "../walls/forces.h"
@@ -116,22 +119,6 @@ static double exact_kinetic(const struct sph *s)
     return sum;
 }
 
-/* Part of a particle that is SPH's to count where a partner counts the rest: what of its square or
- * cube lies in the free zone. */
-static double share(const struct sph *s, int i)
-{
-    const double *y = state_row(&s->p, s->p.y, i);
-    double f = 1.0;
-    for (int side = 0; s->zones && side < 2 * s->dim; side++) {
-        const int a = side / 2;
-        const double in = side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a];
-        const double rim = s->zones->buffer + s->zones->transition;
-        if (s->open[side])
-            f *= fmin(fmax((in - rim) / s->dx + 0.5, 0.0), 1.0);
-    }
-    return f;
-}
-
 /* Needs the gradients of the present state. own: only what no partner counts. */
 static double enstrophy(const struct sph *s, bool own)
 {
@@ -142,7 +129,7 @@ static double enstrophy(const struct sph *s, bool own)
             if (particles_is_guard(&q->p, i))
                 continue;
             sph_vorticity(q, i, w);
-            sum += 0.5 * (own ? share(q, i) : 1.0) * prim_line(&q->p, i)[at_volume(s->dim)] *
+            sum += 0.5 * (own ? zones_share(q, i) : 1.0) * prim_line(&q->p, i)[at_volume(s->dim)] *
                    (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
         }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
@@ -211,7 +198,7 @@ static double signal_now(const struct sph *s, const struct exact *e, bool own)
             const double *y = state_row(&q->p, q->p.y, i), m = y[at_mass(dim)];
             const double u[3] = {y[dim] / m, y[dim + 1] / m, dim == 3 ? y[dim + 2] / m : 0.0};
             if (!particles_is_guard(&q->p, i))
-                sum += (own ? share(q, i) : 1.0) * m * exact_signal(e, y, u);
+                sum += (own ? zones_share(q, i) : 1.0) * m * exact_signal(e, y, u);
         }
     return total(s, sum);
 }
@@ -221,11 +208,12 @@ void sph_tell(void *state, struct summary *report)
     struct sph *s = state;
     const struct exact e = exact_create(&s->run->scene);
     const int dim = s->dim;
-    double kinetic = 0.0, potential = 0.0;
+    double kinetic = 0.0, potential = 0.0, water = 0.0;
     integrate_gradients(s);
     for (int i = 0; i < s->p.n; i++) {
         const double *y = state_row(&s->p, s->p.y, i);
-        const double part = share(s, i), m = y[at_mass(dim)];
+        const double part = zones_share(s, i), m = y[at_mass(dim)];
+        water += part * m / s->rho0;
         for (int a = 0; a < dim; a++) {
             kinetic += part * 0.5 * y[dim + a] * y[dim + a] / m;
             potential -= part * m * s->gravity[a] * y[a];
@@ -235,6 +223,8 @@ void sph_tell(void *state, struct summary *report)
     summary_real(report, "sum.potential", total(s, potential));
     summary_real(report, "sum.enstrophy", enstrophy(s, true));
     summary_real(report, "sum.signal", signal_now(s, &e, true));
+    if (s->run->crossed)
+        summary_real(report, "sum.water", total(s, water));
 }
 
 static bool has_signal(const struct run *r)
@@ -277,6 +267,36 @@ static const char *const columns[] = {
     "momentum y [kg m/s]",  "momentum z [kg m/s]",   "max Mach [-]",    "min density [kg/m^3]",
     "max density [kg/m^3]", "particles [-]",         "min spacing [dx]"};
 
+/* Of each level what flows and its guards; what the change of levels has made or lost of mass. */
+static int levels_columns(const struct run *r, const char **names)
+{
+    static char text[APR_LEVELS_MAX + 1][2][32];
+    const struct apr_params *apr = apr_params_of(r);
+    int n = 0;
+    for (int k = 0; apr && k <= apr->levels; k++) {
+        snprintf(text[k][0], sizeof text[k][0], "particles level %d [-]", k);
+        snprintf(text[k][1], sizeof text[k][1], "guards level %d [-]", k);
+        names[n++] = text[k][0];
+        names[n++] = text[k][1];
+    }
+    if (apr)
+        names[n++] = "mass of level changes [kg]";
+    return n;
+}
+
+static double *levels_row(const struct sph *s, double *values)
+{
+    for (const struct sph *q = s; q; q = q->finer) {
+        int guards = 0;
+        for (int i = 0; i < q->p.n; i++)
+            guards += particles_is_guard(&q->p, i);
+        *values++ = total(s, q->p.n - guards);
+        *values++ = total(s, guards);
+    }
+    *values++ = total(s, s->refinement->added);
+    return values;
+}
+
 int sph_columns(const struct run *r, const char **names)
 {
     int n = 0;
@@ -286,6 +306,7 @@ int sph_columns(const struct run *r, const char **names)
     n += sph_watch_columns(r, names + n);
     if (sph_has_exact(r))
         names[n++] = "error velocity l2 [-]";
+    n += levels_columns(r, names + n);
     if (sph_params_zones(r)) {
         names[n++] = "born [-]";
         names[n++] = "gone [-]";
@@ -316,6 +337,8 @@ void sph_row(void *state, double *values)
         errors(s, n);
         *values++ = norm_relative_l2(n);
     }
+    if (s->finer)
+        values = levels_row(s, values);
     if (s->zones) {
         *values++ = births(s);
         *values++ = removals(s);
@@ -373,8 +396,8 @@ static void summarise_drifts(const struct sph *s)
 /* Pairs over the processor time of the stages: a loaded machine counts for nothing. */
 static double pair_rate(const struct sph *s)
 {
-    static const char *const stage[] = {"list",   "gradients", "rates", "halo",
-                                        "update", "zones",     "walls", "surface"};
+    static const char *const stage[] = {"list",  "gradients", "rates",   "halo",   "update",
+                                        "zones", "walls",     "surface", "levels", "guards"};
     double time = 0.0;
     for (size_t k = 0; k < sizeof stage / sizeof stage[0]; k++)
         time += timer_wall(&s->run->timers, stage[k]);
@@ -408,6 +431,8 @@ static void summarise_modules(const struct sph *s)
         names[n++] = "background";
     if (s->zones)
         names[n++] = "zones";
+    if (s->finer)
+        names[n++] = "refinement";
     summary_texts(s->run->summary, "modules", n, names);
 }
 
@@ -432,6 +457,8 @@ void sph_finish(void *state)
     if (s->dim == 2 && s->prm.extrema[0] != 0.0)
         sph_summarise_extrema(s);
     summarise_drifts(s);
+    if (s->finer)
+        summary_real(to, "levels.mass", total(s, s->refinement->added) / s->mass0);
     summary_real(to, "max_mach", s->max_mach);
     summary_real(to, "max_mach_late", s->mach_late);
     summary_real(to, "spacing.min", least_spacing(s));

@@ -24,4 +24,13 @@ static inline double eos_rho(double p, double rho0, double c0, double gamma)
     return gamma == 1.0 ? rho0 * s : rho0 * pow(s > 1e-3 ? s : 1e-3, 1.0 / 7.0);
 }
 
+/* Pressure at which the enthalpy, the integral of dp/rho, is that of a flow of constant density at
+ * pressure p: gradients over density are then the same, and so is the level of water at rest. */
+static inline double eos_p_from_constant(double p, double rho0, double c0, double gamma)
+{
+    const double s = p / (rho0 * c0 * c0), t = 1.0 + 6.0 * s;
+    const double r = gamma == 1.0 ? exp(s) : pow(t > 1e-3 ? t : 1e-3, 1.0 / 6.0);
+    return eos_p(rho0 * r, rho0, c0, gamma);
+}
+
 #endif

@@ -27,6 +27,7 @@ void guards_free(struct guards **g)
     mem_free((*g)->count);
     mem_free((*g)->j);
     mem_free((*g)->ghost);
+    mem_free((*g)->prior);
     mem_free(*g);
     *g = NULL;
 }
@@ -118,6 +119,7 @@ static void list_level(struct sph *const *all, struct sph *s)
         }
     }
     g->fresh = true;
+    g->nprior = 0;
 }
 
 /* The levels by their number. */
@@ -247,6 +249,36 @@ void guards_update(struct sph *s)
     for (struct sph *q = s; q; q = q->finer)
         update_level(all, q);
     timer_stop(&s->run->timers, "guards");
+}
+
+void guards_remember(struct sph *s)
+{
+    for (; s; s = s->finer) {
+        const size_t size = (size_t)s->p.n * s->p.nslope;
+        if (s->guards->nprior > 0) /* of an output of this place before */
+            continue;
+        mem_free(s->guards->prior);
+        s->guards->prior = NEW(double, size);
+        s->guards->nprior = s->p.n;
+        if (size > 0)
+            memcpy(s->guards->prior, s->p.slope, size * sizeof(double));
+    }
+}
+
+void guards_come_back(struct sph *s)
+{
+    for (; s; s = s->finer) {
+        const size_t size = (size_t)s->guards->nprior * s->p.nslope;
+        if (size > 0 && s->guards->nprior == s->p.n)
+            memcpy(s->p.slope, s->guards->prior, size * sizeof(double));
+        s->guards->nprior = 0;
+    }
+}
+
+void guards_forget(struct sph *s)
+{
+    for (; s; s = s->finer)
+        s->guards->nprior = 0;
 }
 
 void guards_hold_edge(struct sph *s)

@@ -25,16 +25,20 @@ static double growth(const struct regions *g, int k, int n)
     return sum;
 }
 
-/* Images of periodic axes: -1, 0, 1 along each; false: no such image. */
-static bool image(const struct regions *g, int k, double *shift)
+/* Shifts to the images of periodic axes, the thing itself first. */
+static void find_images(struct regions *g)
 {
-    bool any = true;
-    for (int a = 0; a < 3; a++) {
-        const int i = (a == 0 ? k % 3 : a == 1 ? k / 3 % 3 : k / 9) - 1;
-        any = any && (i == 0 || g->periodic[a]);
-        shift[a] = i ? i * (g->domain.hi[a] - g->domain.lo[a]) : 0.0;
+    static const int step[3] = {0, -1, 1};
+    g->nimages = 0;
+    for (int k = 0; k < 27; k++) {
+        const int at[3] = {step[k % 3], step[k / 3 % 3], step[k / 9]};
+        bool any = true;
+        for (int a = 0; a < 3; a++)
+            any = any && (at[a] == 0 || g->periodic[a]);
+        for (int a = 0; a < 3 && any; a++)
+            g->image[g->nimages][a] = at[a] ? at[a] * (g->domain.hi[a] - g->domain.lo[a]) : 0.0;
+        g->nimages += any;
     }
-    return any;
 }
 
 /* Takes what moves around a period back to the domain. */
@@ -139,10 +143,9 @@ static void add_box(const struct regions *g, int k, double grow, struct pieces *
 {
     const struct apr_region *is = g->prm->regions.of + k;
     double shift[3];
-    for (int i = 0; i < 27; i++) {
+    for (int i = 0; i < g->nimages; i++) {
         struct box b;
-        if (!image(g, i, shift))
-            continue;
+        memcpy(shift, g->image[i], sizeof shift);
         add_shift(g, g->sets + g->set_of[k], shift);
         for (int a = 0; a < 3; a++) {
             b.lo[a] = is->min[a] - grow + shift[a];
@@ -160,10 +163,9 @@ static void add_ball(const struct regions *g, int k, double grow, struct level *
 {
     const struct apr_region *is = g->prm->regions.of + k;
     double shift[3], lo[3], hi[3];
-    for (int i = 0; i < 27; i++) {
+    for (int i = 0; i < g->nimages; i++) {
         struct ball b = {.radius = is->radius + grow};
-        if (!image(g, i, shift))
-            continue;
+        memcpy(shift, g->image[i], sizeof shift);
         add_shift(g, g->sets + g->set_of[k], shift);
         for (int a = 0; a < 3; a++) {
             b.centre[a] = is->centre[a] + shift[a];
@@ -212,16 +214,15 @@ void regions_make(struct regions *g)
 /* Of a point from the surface, around periods, too. */
 static double layer_distance(const struct regions *g, const struct layer *l, const double *x)
 {
-    double best = INFINITY, shift[3];
-    for (int i = 0; i < 27; i++) {
+    double best = INFINITY;
+    for (int i = 0; i < g->nimages; i++) {
         double at[3] = {0.0, 0.0, 0.0};
-        if (!image(g, i, shift))
-            continue;
         for (int a = 0; a < g->dim; a++)
-            at[a] = x[a] + shift[a];
-        best = fmin(best, shell_distance(g->shells + l->shell, at, l->width + g->R));
+            at[a] = x[a] + g->image[i][a];
+        const double d = shell_distance(g->shells + l->shell, at, l->width);
+        best = d < best ? d : best;
     }
-    return l->width - fmin(best, l->width + g->R);
+    return l->width - best;
 }
 
 double regions_fixed_distance(const struct regions *g, int level, const double *x)
@@ -305,6 +306,7 @@ struct regions *regions_create(const struct run *r, const struct sph_params *prm
     g->dx = prm->dx;
     g->near = 1e-6 * ldexp(prm->dx, -used->levels);
     set_domain(g, r, prm);
+    find_images(g);
     for (int k = 0; k < BODIES_MAX; k++)
         for (int a = 0; a < 3; a++)
             g->bodies[k].Q[a][a] = 1.0;
@@ -335,36 +337,71 @@ void regions_free(struct regions **of)
     *of = NULL;
 }
 
-void regions_move(struct regions *g, double t)
+static void move_shells(struct regions *g)
 {
     for (int n = 0; n < g->nshells; n++)
         if (g->body_of[n] >= 0)
             shell_move(g->shells + n, g->bodies + g->body_of[n]);
+}
+
+void regions_move(struct regions *g, double t)
+{
+    move_shells(g);
     if (region_sets_move(g, t))
         regions_make(g);
 }
 
 /* --- restart --- */
 
+/* A row: displacement and rotation. */
+enum { POSE = 12 };
+
+static void save_rows(const struct regions *g, struct h5 *f, const char *name, int n, int width,
+                      const double *rows)
+{
+    h5_write_real(f, name, "m", g->run->rank == 0 ? n : 0, width, rows, false);
+}
+
 void regions_save(const struct regions *g, struct h5 *f)
 {
-    double(*shift)[3] = mem_new((size_t)g->nsets, sizeof *shift);
+    double(*shift)[3] = mem_new((size_t)g->nsets, sizeof *shift), pose[BODIES_MAX][POSE];
     for (int n = 0; n < g->nsets; n++)
         memcpy(shift[n], g->sets[n].shift, sizeof shift[n]);
-    h5_write_real(f, "apr_shift", "m", g->run->rank == 0 ? g->nsets : 0, 3, shift[0], false);
+    for (int k = 0; k < BODIES_MAX; k++) {
+        memcpy(pose[k], g->bodies[k].x, sizeof g->bodies[k].x);
+        memcpy(pose[k] + 3, g->bodies[k].Q, sizeof g->bodies[k].Q);
+    }
+    save_rows(g, f, "apr_shift", g->nsets, 3, shift[0]);
+    save_rows(g, f, "apr_bodies", BODIES_MAX, POSE, pose[0]);
     mem_free(shift);
     criteria_save(g, f);
 }
 
+/* n rows that all ranks get; false: the file has none, or others. */
+static bool load_rows(struct h5 *f, const char *name, int n, int width, double *rows)
+{
+    int64_t found = 0;
+    double *read = h5_read_all_real(f, name, width, &found);
+    const bool fits = read && found == n;
+    if (fits)
+        memcpy(rows, read, (size_t)n * (size_t)width * sizeof *rows);
+    mem_free(read);
+    return fits;
+}
+
 bool regions_load(struct regions *g, struct h5 *f)
 {
-    int64_t n = 0;
-    double *shift = h5_read_all_real(f, "apr_shift", 3, &n);
-    const bool fits = shift && n == g->nsets;
-    for (int k = 0; k < g->nsets && fits; k++)
-        memcpy(g->sets[k].shift, shift + (ptrdiff_t)3 * k, sizeof g->sets[k].shift);
-    mem_free(shift);
-    if (fits)
-        regions_make(g);
-    return fits && criteria_load(g, f);
+    double shift[REGIONS_MAX][3], pose[BODIES_MAX][POSE];
+    if (!load_rows(f, "apr_shift", g->nsets, 3, shift[0]) ||
+        !load_rows(f, "apr_bodies", BODIES_MAX, POSE, pose[0]))
+        return false;
+    for (int n = 0; n < g->nsets; n++)
+        memcpy(g->sets[n].shift, shift[n], sizeof shift[n]);
+    for (int k = 0; k < BODIES_MAX; k++) {
+        memcpy(g->bodies[k].x, pose[k], sizeof g->bodies[k].x);
+        memcpy(g->bodies[k].Q, pose[k] + 3, sizeof g->bodies[k].Q);
+    }
+    move_shells(g);
+    regions_make(g);
+    return criteria_load(g, f);
 }

@@ -468,10 +468,10 @@ void regions_check(const struct run *r, const struct sph_params *used, struct fa
     const struct apr_params *prm = apr_params_of(r);
     const int before = f->n;
     if (!prm) {
-        if (params_has_group(r->params, "apr"))
+        if (params_has_group(r->params, "apr") && !params_given(r->params, "apr.regions"))
             params_fault(r->params, f, "apr",
                          "neither regions nor criteria: nothing would be refined; leave the group "
-                         "out, or give one of them");
+                         "out, or give one of them (regions = () for a run without)");
         return;
     }
     struct check c = {.r = r, .used = used, .prm = prm, .f = f, .dim = r->scene.domain.dim};

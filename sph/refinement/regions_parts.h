@@ -46,6 +46,8 @@ struct regions {
     struct box domain;  /* region of the particles */
     struct box room;    /* the same with faces where an edge ends: walls, free ends; infinite */
     bool periodic[3], open[6];
+    int nimages; /* of periodic axes, and the shift to each, m */
+    double image[27][3];
     int nsets, set_of[REGIONS_MAX]; /* -1: moves with its shell */
     struct region_set sets[REGIONS_MAX];
     int nshells, shell_of[REGIONS_MAX]; /* -1: none */

@@ -79,5 +79,8 @@ double shell_distance(const struct shell *s, const double *x, double reach)
         const double d = fmax(fmax(s->lo[a] - own[a], own[a] - s->hi[a]), 0.0);
         out += d * d;
     }
-    return out >= reach * reach ? INFINITY : fabs(tree_nearest(s->tree, own, reach).distance);
+    if (out >= reach * reach)
+        return sqrt(out);
+    const double d = fabs(tree_nearest(s->tree, own, reach).distance);
+    return d < reach ? d : reach;
 }

@@ -22,7 +22,7 @@ struct shell {
 struct shell shell_create(const struct scene *s, enum mesh_owner owner, int index, double reach);
 void shell_free(struct shell *s);
 void shell_move(struct shell *s, const struct body_motion *now);
-/* m, of x from the surface on either side; INFINITY: beyond reach. */
+/* m, of x from the surface on either side; beyond reach some value from there to it. */
 double shell_distance(const struct shell *s, const double *x, double reach);
 
 #endif

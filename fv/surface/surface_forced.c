@@ -1,0 +1,162 @@
+/* surface_forced.c - see surface_forced.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "surface_forced.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/colour.h"
+#include "../../common/mem.h"
+#include "../boundary/forcing.h"
+#include "levelset.h"
+
+/* --- cells and places --- */
+
+/* The centre of a cell and its images beyond closed sides: a wall cuts the water, not its surface.
+ */
+static int images(const struct fv *s, int64_t c, double R, double (*x)[3])
+{
+    const struct block *b = &s->b;
+    int at[3], n = 1;
+    block_place(b, c, at);
+    block_centre(b, at[0], at[1], at[2], x[0]);
+    for (int a = 0; a < b->dim; a++)
+        for (int up = 0; up < 2 && !b->periodic[a]; up++) {
+            const double side = b->origin[a] + (up ? b->length[a] : 0.0);
+            const int before = n;
+            if (fabs(x[0][a] - side) >= R)
+                continue;
+            for (int k = 0; k < before; k++, n++) {
+                memcpy(x[n], x[k], sizeof x[n]);
+                x[n][a] = 2.0 * side - x[k][a];
+            }
+        }
+    return n;
+}
+
+static void list_places(const struct fv *s, struct surface_forced *f)
+{
+    double x[8][3];
+    f->first = NEW(int64_t, f->n + 1);
+    f->x = NEW(double, 24 * f->n);
+    for (int64_t i = 0; i < f->n; i++) {
+        const int n = images(s, f->cell[i], f->R, x);
+        memcpy(f->x + 3 * f->first[i], x, (size_t)n * sizeof x[0]);
+        f->first[i + 1] = f->first[i] + n;
+    }
+    f->nplaces = f->first[f->n];
+}
+
+struct surface_forced *surface_forced_create(const struct fv *s)
+{
+    const struct block *b = &s->b;
+    const struct forcing *g = s->forcing;
+    if (!g)
+        return NULL;
+    struct surface_forced *f = NEW(struct surface_forced, 1);
+    double h = 0.0, dx[3];
+    for (int a = 0; a < b->dim; a++)
+        h = fmax(h, b->h[a]);
+    params_peek(s->run->params, s->run->comm, "sph.dx", dx);
+    f->R = fmax(2.0 * h, 4.0 * dx[0]); /* fewer particles make noise */
+    f->cell = NEW(int64_t, b->size);
+    for (int64_t i = 0; i < g->nlocal; i++)
+        if (g->forced[g->local[i]] == 1)
+            f->cell[f->n++] = g->local[i];
+    f->nforced = f->n;
+    for (int64_t i = g->npartner; i < g->npartner + g->nrim; i++)
+        f->cell[f->n++] = g->partner[i];
+    list_places(s, f);
+    f->profile = NEW(double, COLOUR_PARTS + 1);
+    colour_profile(b->dim, f->profile);
+    for (int k = 0; k < 2; k++) {
+        f->phi[k] = block_field(b);
+        memcpy(f->phi[k], s->surface->phi, (size_t)b->size * sizeof(double));
+        f->t[k] = s->t;
+    }
+    return f;
+}
+
+void surface_forced_free(struct surface_forced **fp)
+{
+    struct surface_forced *f = *fp;
+    if (!f)
+        return;
+    mem_free(f->cell);
+    mem_free(f->first);
+    mem_free(f->x);
+    mem_free(f->profile);
+    mem_free(f->phi[0]);
+    mem_free(f->phi[1]);
+    mem_free(f);
+    *fp = NULL;
+}
+
+/* --- in time --- */
+
+void surface_forced_shift(struct fv *s, double t0, double t1)
+{
+    struct surface_forced *f = s->surface->forced;
+    double *now = f->phi[1], *next = f->phi[0];
+    const double before = f->t[1] - f->t[0], share = before > 0.0 ? (t1 - t0) / before : 0.0;
+    for (int64_t i = 0; i < f->n; i++) {
+        const int64_t c = f->cell[i];
+        next[c] = now[c] + share * (now[c] - next[c]);
+    }
+    f->phi[0] = now;
+    f->phi[1] = next;
+    f->t[0] = t0;
+    f->t[1] = t1;
+}
+
+static double largest(const struct fv *s)
+{
+    double h = 0.0;
+    for (int a = 0; a < s->b.dim; a++)
+        h = fmax(h, s->b.h[a]);
+    return h;
+}
+
+/* Mean over the free cells beside the outline of phi less the partner's, where both know it. */
+static void look_at_step(struct fv *s, const double *phi)
+{
+    struct surface_forced *f = s->surface->forced;
+    const double h = largest(s);
+    double sums[2] = {0.0, 0.0};
+    for (int64_t i = f->nforced; i < f->n; i++) {
+        const double own = s->surface->phi[f->cell[i]], theirs = phi[f->cell[i]];
+        if (fabs(own) < h && fabs(theirs) < h) {
+            sums[0] += own - theirs;
+            sums[1] += 1.0;
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    f->step = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+}
+
+void surface_forced_take(struct fv *s, const double *share)
+{
+    struct surface_forced *f = s->surface->forced;
+    for (int64_t i = 0; i < f->n; i++) {
+        double sum = 0.0;
+        for (int64_t k = f->first[i]; k < f->first[i + 1]; k++)
+            sum += share[k];
+        f->phi[1][f->cell[i]] = colour_height(f->profile, f->R, sum);
+    }
+}
+
+/* Far from the surface phi is what the field itself has made of it, if the sides agree. */
+void surface_forced_impose(struct fv *s, double t)
+{
+    struct surface_forced *f = s->surface->forced;
+    double *phi = s->surface->phi;
+    const double T = f->t[1] - f->t[0], part = T > 0.0 ? (t - f->t[0]) / T : 0.0;
+    if (part > 1.0 - 1e-9) /* phi of the free cells is of that time, too */
+        look_at_step(s, f->phi[1]);
+    for (int64_t i = 0; i < f->nforced; i++) {
+        const int64_t c = f->cell[i];
+        const double v = f->phi[0][c] + part * (f->phi[1][c] - f->phi[0][c]);
+        if (fabs(v) < 0.95 * colour_reach(f->R) || (v < 0.0) != (phi[c] < 0.0))
+            phi[c] = v;
+    }
+    surface_ghosts(s, phi);
+}

@@ -1,0 +1,30 @@
+/* surface_forced.h - the level set in cells that a partner fills: from the share of a kernel that its
+ * water takes there (colour.h).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_SURFACE_FORCED_H
+#define FV_SURFACE_FORCED_H
+
+#include "../fv.h"
+
+struct surface_forced {
+    int64_t nforced, n, *cell; /* local: forced ones, then free ones beside the outline */
+    int64_t nplaces, *first;   /* [n + 1] places of each cell: its centre, images beyond walls */
+    double *x;                 /* [nplaces][3] m */
+    double R;                  /* m: support of the kernel */
+    double *profile;           /* of colour.h */
+    double *phi[2];            /* [size] m: at the start and at the end of the window */
+    double t[2];               /* s */
+    double step;               /* m: phi of the free cells less the partner's, at the outline */
+};
+
+/* Of s->forcing; NULL without. */
+struct surface_forced *surface_forced_create(const struct fv *s);
+void surface_forced_free(struct surface_forced **f);
+/* The next window: phi[0] is phi[1] now, and its new values are extrapolated. */
+void surface_forced_shift(struct fv *s, double t0, double t1);
+/* phi[1] from the shares at the places. Collective. */
+void surface_forced_take(struct fv *s, const double *share);
+/* phi of forced cells at time t, and its ghosts. */
+void surface_forced_impose(struct fv *s, double t);
+
+#endif

@@ -1,0 +1,270 @@
+/* level_gap.c - see level_gap.h. Probes stand on the surface outside, one in each column of width dx
+ * of the transition; the share of a kernel that the particles fill there (colour.h) says how high
+ * they stand. SPDX-License-Identifier: BSD-3-Clause */
+#include "level_gap.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/colour.h"
+#include "../../common/h5.h"
+#include "../../common/mem.h"
+#include "../pairs/kernel.h"
+#include "openings.h"
+#include "zones.h"
+
+/* The blending of velocities holds a step of pressure of 0.7 % of rho g H by a difference of 5e-5 c0
+ * between what flows in the two programs: in proportion alone a gap of a tenth of dx stays. A slower
+ * part, four times that, takes it away.
+ * Of Flather's sqrt(g/d): 1 would take all of a step at once, and feed waves (3e-4 sqrt(g/H)); with
+ * 0.2 a step dies by 0.5 to 5.5 sqrt(g/H). */
+static const double kappa = 0.2;
+static const double most = 0.05; /* of sqrt(g d) */
+
+/* The columns of one side: i along it inwards, j across it and across gravity (3D). */
+struct columns {
+    int side, up, across, n[2];
+    double sense;      /* 1: water lies at the lower end of axis `up' */
+    double (*x)[3];    /* [n[0] n[1]] the probe */
+    double *depth;     /* m: of the water below it; 0: no surface there */
+    double *share;     /* of the kernel that particles fill */
+};
+
+struct level_gap *level_gap_create(const struct sph *s)
+{
+    struct level_gap *g = NEW(struct level_gap, 1);
+    g->profile = NEW(double, COLOUR_PARTS + 1);
+    colour_profile(s->dim, g->profile);
+    g->watched = (struct watch){
+        .key = "level_gap",
+        .what = "levels of sph and fv at an open side, difference in dx over ten windows",
+        .likely = "waves too steep or too near to breaking at the side: move the side of sph.box; "
+                  "or windows too long: coupling.steps",
+        .warn = 0.5,
+        .stop = 3.0};
+    return g;
+}
+
+void level_gap_free(struct level_gap **g)
+{
+    if (!*g)
+        return;
+    mem_free((*g)->profile);
+    mem_free(*g);
+    *g = NULL;
+}
+
+double level_gap_outflow(const struct level_gap *g, int side) { return g ? g->outflow[side] : 0.0; }
+
+static int upright(const struct sph *s)
+{
+    int up = 0;
+    for (int a = 1; a < s->dim; a++)
+        up = fabs(s->gravity[a]) > fabs(s->gravity[up]) ? a : up;
+    return up;
+}
+
+static struct columns columns_of(const struct sph *s, int side)
+{
+    const struct zones *z = s->zones;
+    struct columns c = {.side = side, .up = upright(s), .across = -1};
+    c.sense = s->gravity[c.up] < 0.0 ? 1.0 : -1.0;
+    c.n[0] = (int)fmax(floor(z->transition / s->dx), 1.0);
+    c.n[1] = 1;
+    for (int a = 0; a < s->dim; a++)
+        if (a != side / 2 && a != c.up) {
+            c.across = a;
+            c.n[1] = (int)lround((s->hi[a] - s->lo[a]) / s->dx);
+        }
+    const int n = c.n[0] * c.n[1];
+    c.x = mem_new((size_t)n, sizeof *c.x);
+    c.depth = NEW(double, n);
+    c.share = NEW(double, n);
+    return c;
+}
+
+static void columns_free(struct columns *c)
+{
+    mem_free(c->x);
+    mem_free(c->depth);
+    mem_free(c->share);
+}
+
+/* Foot of column (i, j) on the lower end of the region. */
+static void foot(const struct sph *s, const struct columns *c, int i, int j, double *x)
+{
+    const int a = c->side / 2;
+    const double in = s->zones->buffer + (i + 0.5) * s->dx;
+    x[0] = x[1] = x[2] = 0.0;
+    x[a] = c->side % 2 ? s->hi[a] - in : s->lo[a] + in;
+    x[c->up] = c->sense > 0.0 ? s->lo[c->up] : s->hi[c->up];
+    if (c->across >= 0)
+        x[c->across] = s->lo[c->across] + (j + 0.5) * s->dx;
+}
+
+/* The topmost place of a column where phi changes its sign. */
+static void find_surface(struct sph *s, struct columns *c, int k)
+{
+    struct zones *z = s->zones;
+    const int n = (int)ceil((s->hi[c->up] - s->lo[c->up]) / s->dx) + 1;
+    double x[3];
+    foot(s, c, k % c->n[0], k / c->n[0], x);
+    zones_room(z, n);
+    z->n = n;
+    for (int m = 0; m < n; m++) {
+        memcpy(z->x + 3 * m, x, sizeof x);
+        z->x[3 * m + c->up] += c->sense * m * s->dx;
+    }
+    z->surface(z->ctx, s->t, n, z->x, z->phi, NULL);
+    for (int m = n - 1; m > 0 && c->depth[k] == 0.0; m--)
+        if (z->phi[m] >= 0.0 && z->phi[m - 1] < 0.0) {
+            const double part = z->phi[m - 1] / (z->phi[m - 1] - z->phi[m]);
+            c->depth[k] = (m - 1 + part) * s->dx;
+            memcpy(c->x[k], x, sizeof x);
+            c->x[k][c->up] += c->sense * c->depth[k];
+        }
+}
+
+/* Beside walls a kernel is cut. */
+static bool is_beside_wall(const struct sph *s, const struct columns *c, int j)
+{
+    const int a = c->across;
+    if (a < 0 || s->periodic[a])
+        return false;
+    const double x = (j + 0.5) * s->dx, L = s->hi[a] - s->lo[a];
+    return (!s->open[2 * a] && x < s->R) || (!s->open[2 * a + 1] && x > L - s->R);
+}
+
+static void add_particle(const struct sph *s, struct columns *c, const double *y, double w)
+{
+    const int a = c->side / 2, more = (int)ceil(s->R / s->dx);
+    const double in = (c->side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a]) - s->zones->buffer;
+    const int i0 = (int)floor(in / s->dx);
+    int first = 0, last = 0;
+    if (c->across >= 0) {
+        const int j0 = (int)floor((y[c->across] - s->lo[c->across]) / s->dx);
+        first = j0 - more > 0 ? j0 - more : 0;
+        last = j0 + more < c->n[1] - 1 ? j0 + more : c->n[1] - 1;
+    }
+    for (int j = first; j <= last; j++)
+        for (int i = i0 > more ? i0 - more : 0; i <= i0 + more && i < c->n[0]; i++) {
+            const int k = i + c->n[0] * j;
+            double r2 = 0.0;
+            for (int b = 0; b < s->dim; b++)
+                r2 += (y[b] - c->x[k][b]) * (y[b] - c->x[k][b]);
+            if (c->depth[k] > 0.0 && r2 < s->R * s->R)
+                c->share[k] += w * kernel_w(s->dim, sqrt(r2), s->R);
+        }
+}
+
+static void look_at_side(struct sph *s, int side, double dt)
+{
+    struct level_gap *g = s->zones->gap;
+    struct columns c = columns_of(s, side);
+    const int n = c.n[0] * c.n[1];
+    double sum = 0.0, weights = 0.0, depth = 0.0;
+    for (int k = 0; k < n; k++)
+        if (!is_beside_wall(s, &c, k / c.n[0]))
+            find_surface(s, &c, k);
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i);
+        add_particle(s, &c, y, y[at_volume(s->dim)]);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, c.share, n, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (int k = 0; k < n; k++) {
+        const double alpha = 1.0 - (k % c.n[0] + 0.5) / c.n[0];
+        if (c.depth[k] == 0.0)
+            continue;
+        sum -= alpha * colour_height(g->profile, s->R, c.share[k]);
+        depth += alpha * c.depth[k];
+        weights += alpha;
+        g->probes++;
+    }
+    columns_free(&c);
+    const double gap = weights > 0.0 ? sum / weights : 0.0;
+    if (!g->started)
+        g->at_rest[side] = gap;
+    const double d = weights > 0.0 ? fmax(depth / weights, s->R) : s->R;
+    const double U = sqrt(fabs(s->gravity[upright(s)]) * d), rate = kappa * U / d;
+    g->gap[side] = weights > 0.0 ? gap - g->at_rest[side] : 0.0;
+    const double now = rate * g->gap[side], lasting = g->lasting[side] + 0.25 * rate * dt * now;
+    g->lasting[side] = fmax(-most * U, fmin(most * U, lasting));
+    g->outflow[side] = fmax(-most * U, fmin(most * U, now + g->lasting[side]));
+}
+
+void level_gap_look(struct sph *s, double dt)
+{
+    const int up = upright(s);
+    s->zones->gap->probes = 0;
+    for (int side = 0; side < 2 * s->dim; side++)
+        if (s->open[side] && side / 2 != up)
+            look_at_side(s, side, dt);
+    s->zones->gap->started = true;
+}
+
+const char *const level_gap_columns[LEVEL_COLUMNS] = {"level gap [m]", "level gap beyond [m]",
+                                                      "drops [kg]", "faces hold [kg]",
+                                                      "births refused [-]", "water [m^dim]"};
+
+/* Of the two sides along the first axis that has any. */
+void level_gap_row(const struct sph *s, double *values)
+{
+    const struct level_gap *g = s->zones->gap;
+    const struct openings *o = s->zones->openings;
+    double sums[2] = {o->rain[0], (double)o->refused};
+    int axis = 0;
+    const double water = zones_water(s);
+    while (axis < s->dim - 1 && !s->open[2 * axis] && !s->open[2 * axis + 1])
+        axis++;
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    values[0] = g->gap[2 * axis];
+    values[1] = g->gap[2 * axis + 1];
+    values[2] = sums[0];
+    values[3] = openings_held(s);
+    values[4] = sums[1];
+    values[5] = water;
+}
+
+static const double several = 10.0; /* windows */
+
+void level_gap_judge(struct sph *s, struct diagnosis *d)
+{
+    struct level_gap *g = s->zones->gap;
+    double now = 0.0;
+    int worst = 0;
+    for (int side = 0; side < 2 * s->dim; side++)
+        if (fabs(g->gap[side]) > now) {
+            now = fabs(g->gap[side]);
+            worst = side;
+        }
+    g->mean += (now - g->mean) / several;
+    if (watch_judge(&g->watched, g->mean / s->dx, s->t, s->run->step, d))
+        snprintf(d->where, sizeof d->where, "the %s open side along %c, t = %.4g s",
+                 worst % 2 ? "upper" : "lower", "xyz"[worst / 2], s->t);
+}
+
+void level_gap_summary(const struct sph *s, struct summary *to)
+{
+    const struct openings *o = s->zones->openings;
+    double sums[2] = {o->rain[0], (double)o->drops};
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    watch_summary(&s->zones->gap->watched, to);
+    summary_real(to, "drops.mass", sums[0]);
+    summary_real(to, "drops.number", sums[1]);
+}
+
+void level_gap_save(const struct level_gap *g, struct h5 *f)
+{
+    h5_write_real(f, "level_at_rest", "m", 6, 1, g->at_rest, false);
+    h5_write_real(f, "level_outflow", "m/s", 6, 1, g->outflow, false);
+    h5_write_real(f, "level_lasting", "m/s", 6, 1, g->lasting, false);
+}
+
+bool level_gap_load(struct level_gap *g, struct h5 *f)
+{
+    g->started = true;
+    return h5_read_same(f, "level_at_rest", 6, g->at_rest) &&
+           h5_read_same(f, "level_outflow", 6, g->outflow) &&
+           h5_read_same(f, "level_lasting", 6, g->lasting);
+}

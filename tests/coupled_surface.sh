@@ -1,0 +1,72 @@
+#!/bin/sh
+# Coupled jobs whose free surface crosses upright open sides of SPH's box: rest, a wave through two sides, a dam that
+# breaks into FV, any number of ranks, restart, what is refused. SPDX-License-Identifier: BSD-3-Clause
+b=$(cd "${1:-build}" && pwd)
+root=$(cd "$(dirname "$0")/.." && pwd)
+tmp=${TEST_SCRATCH:-$(mktemp -d)}/coupled_surface
+mkdir -p "$tmp" && cd "$tmp" || exit 1
+export ESTRAN_BUILD="$b" OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+failed=0
+bad() { echo "FAIL: $*"; failed=$((failed + 1)); }
+number() { sed -n "s/.*\"$2\": *\([-+0-9.eE]*\).*/\1/p" "$1/summary.json" | head -n 1; }
+below() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && a + 0 == a && a <= b) }'; }
+close_to() { awk -v a="$1" -v b="$2" -v e="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(a != "" && b != "" && d <= e * (b < 0 ? -b : b)) }'; }
+job() { # DIR RANKS CASE ARGS...
+    d=$1 r=$2 case=$3
+    shift 3
+    "$root/cases/run" "$case" -n "$r" -o "$d" "$@" >"$d.txt" 2>&1
+    code=$?
+    [ $code -le 1 ] || bad "$d ended with $code: $(tail -n 3 "$d.txt")"
+}
+same_bits() { # the last snapshots of two runs hold the same values
+    for p in sph fv; do
+        a= c=
+        for f in "$1/$p"_[0-9]*.h5; do a=$f; done
+        for f in "$2/$p"_[0-9]*.h5; do c=$f; done
+        h5diff "$a" "$c" >diff.txt 2>&1 || return 1
+    done
+}
+
+# water at rest, SPH in the right half, a strip in the middle, and a level that no row of particles ends on
+still="-p time.end=1.5 -p sph.dx=0.05 -p fv.cells=(32,11) -p domain.max=(4,1.4) -p output.snapshots=false"
+# shellcheck disable=SC2086
+{
+    job right 1:1:1 still_water_crossing $still -p "sph.box=((2,0),(4,1.4))"
+    job strip 1:1:1 still_water_crossing $still -p "sph.box=((0.7,0),(3.3,1.4))"
+    job off 1:1:1 still_water_crossing $still -p "sph.box=((2,0),(4,1.4))" -p "shapes.[0].level=1.015" -p initial.level=1.015
+}
+for d in right strip off; do
+    below "$(number $d max_mach)" 2e-3 || bad "$d: Mach $(number $d max_mach) in water at rest, wanted at most 2e-3"
+    below "$(number $d water_missing)" 1e-3 || bad "$d: $(number $d water_missing) of the water is missing, wanted at most 1e-3"
+    below "$(number $d level_gap)" 0.1 || bad "$d: levels $(number $d level_gap) dx apart, wanted at most 0.1"
+done
+
+# a wave through two sides: the level that leaves one program comes to the other; ranks; restart half-way
+wave="-p time.end=0.5 -p output.every=0.25 -p output.checkpoint=0.25 -p sph.dx=0.05 -p fv.cells=(40,12) -p sph.R_dx=4
+ -p sph.box=((0.5,0),(3.5,1.2)) -p coupling.transition=0.25 -p coupling.buffer=0.25 -p coupling.overlap=0.25"
+# shellcheck disable=SC2086
+{
+    job wave 1:1:1 standing_wave_crossing $wave
+    job wave2 2:2:2 standing_wave_crossing $wave
+    job half 1:1:1 standing_wave_crossing $wave -p time.end=0.25
+    job half 1:1:1 standing_wave_crossing $wave --restart
+}
+below "$(number wave velocity_l2)" 0.06 || bad "wave: velocity error $(number wave velocity_l2), wanted at most 0.06"
+below "$(number wave water_missing)" 1e-3 || bad "wave: $(number wave water_missing) of the water is missing, wanted at most 1e-3"
+close_to "$(number wave2 velocity_l2)" "$(number wave velocity_l2)" 1e-6 ||
+    bad "wave on 2:2:2: velocity error $(number wave2 velocity_l2), on one rank each $(number wave velocity_l2)"
+same_bits wave half || bad "a restarted run gives other bits: $(tail -n 2 diff.txt)"
+
+# what cannot be done says so
+refuses() { # WHAT REASON ARGS...
+    what=$1 reason=$2
+    shift 2
+    "$root/cases/run" standing_wave_crossing --check "$@" >text 2>&1 && bad "$what is not refused"
+    grep -q -- "$reason" text || bad "$what: no line like \"$reason\": $(tail -n 2 text)"
+}
+refuses "bdf2 under a crossing surface" 'rk3 alone' -p fv.integrator=bdf2
+refuses "a surface that fv shall not have" 'both programs have the surface' -p fv.surface=no
+refuses "a box under the surface" 'must hold the free surface' -p 'sph.box=((0.4,0),(3.6,0.8))'
+
+[ $failed = 0 ] && echo "coupled_surface: all is well"
+exit $((failed > 0))
