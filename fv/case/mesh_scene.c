@@ -6,8 +6,8 @@
 #include "../../common/exact.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
-#include "../boundary/still.h"
 #include "../grid/mesh_motion.h"
+#include "../boundary/still.h"
 #include "../grid/overset.h"
 
 static const char *const sides[] = {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};
@@ -184,26 +184,6 @@ static void check_extent(const struct run *r, struct faults *f, const struct mes
     }
 }
 
-/* Whether some block has computed cells around x; along gravity somewhere for the level of water.
- */
-static bool is_covered(const struct run *r, const struct mesh *m, const struct overset *o,
-                       const struct scene_probe *p)
-{
-    const int up = still_upright(&r->scene), most = p->kind == PROBE_LEVEL ? 100 : 0;
-    const struct scene_domain *d = &r->scene.domain;
-    for (int n = 0; n <= most; n++)
-        for (int b = 0; b < m->nblocks; b++) {
-            int cell[3], from[3];
-            double x[3] = {p->at[0], p->at[1], p->at[2]}, xi[3], w[64];
-            if (most > 0)
-                x[up] = d->min[up] + n * (d->max[up] - d->min[up]) / most;
-            if (overset_locate(m, o, b, x, cell, xi) &&
-                overset_weights(m, b, cell, xi, 1, 2, from, w))
-                return true;
-        }
-    return false;
-}
-
 /* --- blocks that move --- */
 
 enum { SWEEP_TIMES = 2000, SWEEP_CUTS = 12 };
@@ -279,6 +259,26 @@ void mesh_motion_sweep(const struct run *r, struct faults *f, struct mesh *m)
                 return;
         }
     }
+}
+
+/* Whether some block has computed cells around x; along gravity somewhere for the level of water.
+ */
+static bool is_covered(const struct run *r, const struct mesh *m, const struct overset *o,
+                       const struct scene_probe *p)
+{
+    const int up = still_upright(&r->scene), most = p->kind == PROBE_LEVEL ? 100 : 0;
+    const struct scene_domain *d = &r->scene.domain;
+    for (int n = 0; n <= most; n++)
+        for (int b = 0; b < m->nblocks; b++) {
+            int cell[3], from[3];
+            double x[3] = {p->at[0], p->at[1], p->at[2]}, xi[3], w[64];
+            if (most > 0)
+                x[up] = d->min[up] + n * (d->max[up] - d->min[up]) / most;
+            if (overset_locate(m, o, b, x, cell, xi) &&
+                overset_weights(m, b, cell, xi, 1, 2, from, w))
+                return true;
+        }
+    return false;
 }
 
 static void check_probes(const struct run *r, struct faults *f, const struct mesh *m)

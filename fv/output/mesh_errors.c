@@ -432,6 +432,8 @@ static void describe_step(const struct run *r, const struct mesh *m)
     for (int k = 0; k < m->nblocks; k++) {
         const struct mesh_block_params *b = m->block[k].prm;
         speed = fmax(speed, hypot(hypot(b->velocity[0], b->velocity[1]), b->velocity[2]));
+        if (m->block[k].motion)
+            speed = fmax(speed, m->block[k].motion->speed);
         for (int side = 0; side < 2 && b->mapping == MAPPING_ANNULUS; side++)
             speed = fmax(speed, fabs(b->spin[side]) * b->radius[side]);
     }

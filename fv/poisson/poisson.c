@@ -81,14 +81,14 @@ static bool negligible(struct fv *s, const double *div)
         double part[2][4] = {{0.0}};
         for (int64_t i = c; i < c + n; i++)
             part[0][(i - c) & 3] += div[i] * div[i];
+        for (int64_t i = c; i < c + n && s->jump; i++)
+            if (s->m->status[i] == CELL_FRINGE && s->jump[i] != 0.0)
+                sum[0] = INFINITY;
         for (int a = 0; a < s->dim; a++)
             for (int64_t i = c; i < c + n; i++)
                 part[1][(i - c) & 3] += s->free[i] * s->U[a][i] * s->U[a][i];
         for (int k = 0; k < 2; k++)
             sum[k] += (part[k][0] + part[k][1]) + (part[k][2] + part[k][3]);
-        for (int64_t i = c; i < c + n && s->jump; i++)
-            if (s->m->status[i] == CELL_FRINGE && s->jump[i] != 0.0)
-                sum[0] = INFINITY;
     }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     return sum[0] <= 1e-27 * sum[1];
