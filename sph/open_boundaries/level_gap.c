@@ -19,7 +19,7 @@
  * part, four times that, takes it away.
  * Of Flather's sqrt(g/d): 1 would take all of a step at once, and feed waves (3e-4 sqrt(g/H)); with
  * 0.2 a step dies by 0.5 to 5.5 sqrt(g/H). */
-static const double kappa = 0.2;
+static const double kappa = 0.1;
 static const double most = 0.05; /* of sqrt(g d) */
 
 /* The columns of one side: i along it inwards, j across it and across gravity (3D). */
