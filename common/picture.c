@@ -33,7 +33,8 @@ static const struct {
                           {"body", "#333333", "#d9d9d9", 2},
                           {"probe", "#d94801", "#d94801", 1.5},
                           {"zone of particles", "#6a51a3", "none", 1.5},
-                          {"cells", "#2171b5", "none", 1}};
+                          {"cells", "#2171b5", "none", 1},
+                          {"region of refinement", "#e7298a", "none", 1.5}};
 
 static double px(const struct picture *p, double x) { return MARGIN + p->scale * (x - p->lo[0]); }
 static double py(const struct picture *p, double y)

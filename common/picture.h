@@ -23,6 +23,7 @@ enum picture_kind {
     PICTURE_PROBE,
     PICTURE_ZONE,
     PICTURE_CELLS,
+    PICTURE_REGION,
     PICTURE_KINDS
 };
 

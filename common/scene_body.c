@@ -56,7 +56,7 @@ static const struct param contact_rows[] = {
 #undef P
 
 #define INNER(T, r, max, plain) {ROWS(r), sizeof(((T *)0)->of[0]), offsetof(T, of), max, plain}
-static const struct param_list motions = INNER(struct scene_motions, motion_rows, MOTIONS_MAX, "file");
+const struct param_list scene_motion_list = INNER(struct scene_motions, motion_rows, MOTIONS_MAX, "file");
 static const struct param_list lines = INNER(struct scene_lines, line_rows, LINES_MAX, NULL);
 static const struct param_list hinges = INNER(struct scene_hinges, hinge_rows, 1, NULL);
 static const struct param_list sliders = INNER(struct scene_sliders, slider_rows, 1, NULL);
@@ -72,7 +72,7 @@ const struct param scene_body_rows[] = {
     PARAM(P, centre,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "centre of rotation and of moments at the start; of a free body with mass: its mass centre"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the centre; of a free body: at the start"),
     TURN(P, spin,      "rad/s", "0.0", -1e6, 1e6, "rate of rotation (3D: vector); of a free body: at the start"),
-    LIST(P, motion, &motions, "motion as told, its terms add up; a plain text: one file"),
+    LIST(P, motion, &scene_motion_list, "motion as told, its terms add up; a plain text: one file"),
     PARAM(P, force,    "N/m", "(0.0, 0.0, 0.0)", -1e12, 1e12, "known mean force of the fluid on the first body: for error.force"),
     PARAM(P, free,     "-",      "false", 0, 0, "moved by the forces on it"),
     PARAM(P, density,  "kg/m^3", "0.0", 0, 1e9, "of a free body, uniform: gives mass, centre and inertia"),

@@ -24,6 +24,11 @@ struct scene_motion {
     double ramp;                       /* s in which the term grows from nothing */
 };
 
+struct scene_motions {
+    int n;
+    struct scene_motion of[MOTIONS_MAX];
+};
+
 /* Spring, damper or mooring line. */
 struct scene_line {
     double from[3], to[3];      /* m at the start: on the body; anchor, or on the other body */
@@ -69,10 +74,7 @@ struct scene_body {
     double release;               /* s: held until then */
     int force_rule;               /* enum force_rule */
     double load[3], torque[3];    /* N, N m (2D: per metre): constant */
-    struct scene_motions {
-        int n;
-        struct scene_motion of[MOTIONS_MAX];
-    } motion;
+    struct scene_motions motion;
     struct scene_lines {
         int n;
         struct scene_line of[LINES_MAX];
@@ -93,6 +95,7 @@ struct scene_body {
 
 extern const struct param scene_body_rows[];
 extern const int scene_body_nrows;
+extern const struct param_list scene_motion_list; /* of a struct scene_motions */
 
 /* Whether the body ever moves. */
 bool scene_body_moves(const struct scene_body *b);

@@ -98,7 +98,9 @@ struct fv {
     double *faces[3];       /* blocks: scratch; the first is face */
     double *free;           /* blocks: 1: computed, 0: not */
     double *scale;          /* blocks: of the viscous rows */
-    double dissipation;     /* blocks: of newton's convection, 0 for the others */
+    double stiffest;    /* 1/s, blocks: mesh_viscous_largest; 0 without walls, where little is left
+                         * to solve for */
+    double dissipation; /* blocks: of newton's convection, 0 for the others */
     bool uneven; /* blocks: volumes differ: volume averages are not averages in index space */
     struct bc *bc;
     struct blocked *blocked;

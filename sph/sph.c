@@ -19,6 +19,7 @@
 #include "coupling/windows.h"
 #include "open_boundaries/level_gap.h"
 #include "open_boundaries/zones.h"
+#include "refinement/regions_check.h"
 #include "pairs/vec.h"
 
 static const char *columns[SPH_COLUMNS];
@@ -92,7 +93,7 @@ static void describe_modules(const struct run *r, bool gravity, bool viscous)
          "zones and openings"},
         {prm->packing > 0, "packing", "packing"},
         {r->scene.nprobes > 0, "gauges", "gauges"},
-        {false, "", "refinement"},
+        {regions_finest(r, prm) < prm->dx, "refinement", "refinement"},
     };
     char text[2][256] = {"", ""};
     for (size_t k = 0; k < sizeof modules / sizeof modules[0]; k++) {
@@ -197,17 +198,21 @@ static void describe(const struct run *r)
 {
     const struct sph_params *prm = sph_params_of(r);
     const char *limit;
-    const double dt = sph_params_dt(prm, r->scene.fluid.nu, prm->c0, &limit), n = lattice(r);
+    struct sph_params fine = *prm;
+    fine.dx = regions_finest(r, prm);
+    const double dt = sph_params_dt(&fine, r->scene.fluid.nu, prm->c0, &limit), n = lattice(r);
+    const double all = n + regions_particles(r, prm);
     describe_scene(r);
     scene_meshes_say(&r->scene);
     log_say("about %.0f particles, dx %g m, R/dx %g, c0 %g m/s; %.0f MB", n, prm->dx, prm->R_dx,
-            prm->c0, 1e-6 * n * bytes_per_particle(r));
+            prm->c0, 1e-6 * all * bytes_per_particle(r));
+    regions_describe(r, prm);
     const struct scene_speed v = sph_params_speed(r);
     log_say("speed to expect %.3g m/s: %s; c0 is %.3g times that", v.speed, v.from,
             prm->c0 / v.speed);
     const double steps = ceil(r->scene.time.end / dt);
     log_say("dt about %.3g s (%s), %.0f steps", dt, limit, steps);
-    forecast_say("sph", r->scene.domain.dim, n * pairs_of_particle(r), steps);
+    forecast_say("sph", r->scene.domain.dim, all * pairs_of_particle(r), steps);
     if (r->coupled)
         windows_describe(r, prm);
     warn_of(r);
@@ -217,6 +222,7 @@ static void draw(const struct run *r, struct picture *p)
 {
     const struct sph_params *prm = sph_params_of(r);
     double lo[3], hi[3];
+    regions_draw(r, prm, p);
     if (!sph_params_zones(r))
         return;
     zones_free_box(r, prm, lo, hi);
@@ -266,7 +272,7 @@ static void check(const struct run *r, struct faults *f)
     if (f->n == 0 && r->coupled)
         coupling_check(r, f);
     if (f->n == 0) {
-        const double n = lattice(r);
+        const double n = lattice(r) + regions_particles(r, sph_params_of(r));
         run_check_memory(r, f, "sph.dx", n, "particles", n * bytes_per_particle(r));
     }
 }

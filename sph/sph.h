@@ -187,7 +187,7 @@ bool sph_has_exact(const struct run *r);
 void sph_vorticity(const struct sph *s, int i, double w[3]);
 /* Names of the columns that sph_row fills for this scene; returns their number, at most
  * SPH_COLUMNS. */
-enum { SPH_COLUMNS = 28 + PROBES_MAX + 32 * BODIES_MAX };
+enum { SPH_COLUMNS = 56 + PROBES_MAX + 32 * BODIES_MAX };
 int sph_columns(const struct run *r, const char **names);
 void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void sph_checkpoint(void *s, struct h5 *f);

@@ -485,6 +485,49 @@ else
         { echo "FAIL: the scene with a plate is not drawn: $(tail -n 2 out.txt)"; failed=$((failed + 1)); }
 fi
 
+# regions of refinement
+cat >apr.cfg <<'END'
+format = 1;
+time:    { end = 1.0; };
+fluid:   { nu = 0.005; gravity = (0, -9.81); };
+domain:  { min = (0, 0); max = (2, 1); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "box"; box = ((0, 0), (1, 0.6)); } );
+sph:     { dx = 0.02; };
+apr:     { levels = 2; regions = (
+  { level = 1; min = (0.2, -0.1); max = (1.2, 0.6); },
+  { level = 2; min = (0.5, -0.1); max = (0.9, 0.3); } ); };
+END
+sed 's/domain:.*/domain: { min = (0, 0); max = (2, 1); periodic = (false, true); };/; s/"x_min"/"x_min"; kind = "inflow"; velocity = (1, 0)/
+s/"x_max"/"x_max"; kind = "outflow"/; s/, { side = "y_min"; }//; /^shapes/d; s/, gravity.*/;/; s/gravity[^;]*;//' apr.cfg >apr_open.cfg
+timeout 60 "$b/sph" apr.cfg --check >out.txt 2>&1 && timeout 60 "$b/sph" apr_open.cfg --check -p 'apr.regions=({ min = (0.6, 0.3); max = (1.2, 0.7); })' -p apr.levels=1 >out.txt 2>&1 ||
+    { failed=$((failed + 1)); echo "FAIL: regions in order are refused"; cat out.txt; }
+with apr 's/levels = 2/levels = 1/' 'case.cfg:10: .*level: 2 is above apr.levels = 1' sph
+with apr 's/levels = 2/levels = 3/' 'case.cfg:8: apr.levels: 3, but no region' sph
+with apr 's/max = (0.9, 0.3)/max = (0.4, 0.3)/' 'case.cfg:10: .*max: 0.4 m is not larger than min, 0.5 m' sph
+with apr 's/max = (0.9, 0.3)/max = (0.6, 0.3)/' 'case.cfg:10: .*max: x from 0.5 to 0.6 m: guards R = 0.04 m deep .*at least 0.12 m' sph
+with apr 's/max = (0.9, 0.3)/max = (1.1, 0.3)/' 'case.cfg:10: .*min: level 2 comes to 0.1 m from the edge of level 1 .*0.12 m' sph
+with apr 's/max = (0.9, 0.3)/max = (1.4, 0.3)/' 'case.cfg:10: .*min: level 2 comes .*outside of it' sph
+with apr 's/min = (0.2, -0.1); max = (1.2/min = (2.2, -0.1); max = (3.2/' 'case.cfg:9: .*min: the region, x from 2.2 to 3.2 m, lies outside' sph
+with apr 's/max = (1.2, 0.6);/max = (1.2, 0.6); radius = 0.1;/' 'case.cfg:9: .*radius: is not used: only a sphere' sph
+with apr 's/max = (1.2, 0.6);/max = (1.2, 0.6); along = "x";/' 'case.cfg:9: .*along: is not used: nothing is followed' sph
+with apr 's/max = (1.2, 0.6);/max = (1.2, 0.6); follow = "hull";/' 'case.cfg:9: .*follow: no body has the name `hull' sph
+with apr 's/max = (1.2, 0.6);/max = (1.2, 0.6); follow = "peak"; along = "w";/' 'case.cfg:9: .*along: `w. are no axes' sph
+with apr 's/{ level = 1; .*/{ shape = "sphere"; level = 1; centre = (0.4, 0.3); },/' 'case.cfg:8: apr.regions: region 1: a sphere needs a radius' sph
+with apr 's/{ level = 1; .*/{ shape = "body"; level = 1; body = "hull"; offset = 0.3; },/' 'case.cfg:9: .*body: no body has the name `hull' sph
+with apr 's/{ level = 1; .*/{ shape = "wall"; level = 1; wall = 2; offset = 0.3; },/' 'case.cfg:9: .*wall: wall 2 is a side of the domain' sph
+with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); velocity = (60, 0);/' 'case.cfg:10: .*velocity: 60 m/s: the region goes .* dx of level 2 in a step' sph
+with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); velocity = (3, 0);/' 'case.cfg:10: .*velocity: the region has left .* along x at t = ' sph
+with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = ({ kind = "harmonic"; axis = "rz"; amplitude = 1; period = 1; });/' 'case.cfg:10: .*motion: term 1: a region does not turn' sph
+with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = "nothing.txt";/' 'case.cfg:10: .*motion: term 1: nothing.txt is no file' sph
+with apr 's/levels = 2;/levels = 2; around = 4;/' 'case.cfg:8: apr.around: is not used' sph
+with apr 's/levels = 2;/levels = 2; particles = 1e5;/' 'case.cfg:8: apr.particles: is not used' sph
+with apr 's/levels = 2;/levels = 2; criteria = ({ kind = "vorticity"; });/' 'case.cfg:8: apr.criteria: criterion 1 needs .above' sph
+with apr 's/levels = 2;/levels = 2; criteria = ({ kind = "surface"; above = 0.1; });/' 'case.cfg:8: .*above: is not used: this kind has a bound `distance' sph
+with apr 's/levels = 2;/levels = 2; margin = 1.0;/' 'case.cfg:8: apr.margin: 1 is not allowed' sph
+with apr '9,10d; s/levels = 2;.*/levels = 2; };/' 'case.cfg:8: apr: neither regions nor criteria' sph
+with apr_open 's/(0.9, 0.3)/(1.5, 0.3)/; s/(1.2, 0.6)/(1.8, 0.6)/; s/-0.1/0.1/g' 'case.cfg:.*apr.regions: level 1 reaches into the open side x_max' sph
+
 # folders and files of others, where root can become another user
 chmod 755 .
 if [ "$(id -u)" = 0 ] && setpriv --reuid=65534 --clear-groups test -r sph.cfg 2>/dev/null; then

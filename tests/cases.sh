@@ -49,6 +49,9 @@ small taylor_green_sph "error.velocity_l2 0.0049 error.pressure_offset 0.04" -p 
 small taylor_green_sph "error.velocity_l2 0.0049 error.pressure_offset 0.04" -p sph.dx=0.015625 -p fluid.nu=0.001
 small taylor_green_sph "error.velocity_l2 0.03 error.pressure_offset 0.04" -p sph.dx=0.04
 small taylor_green_sph "error.velocity_l2 0.003 error.pressure_offset 0.04" -p sph.noise=0.5
+# refinement: guards are exact on uniform fields; they neither smooth vortices nor wake with the velocity of the step before
+small apr_translation "error.velocity_linf 1e-10" -p time.end=0.25
+small apr_vortices "error.velocity_l2 0.0042 drift.mass 3e-3" -p sph.dx=0.025 -p time.end=0.4
 small poiseuille_sph "error.velocity_l2 0.015 particles_lost 0" -p time.end=3 -p sph.noise=0.3
 small still_water_3d "max_mach_late 1e-3 particles_lost 0" -p sph.dx=0.1
 small dam_break_3d "particles_lost 0 drift.energy 0.2" -p sph.dx=0.1 -p time.end=0.7

@@ -56,7 +56,8 @@ static inline void mesh_case_read(struct mesh_case *c, MPI_Comm comm, const char
         dim = strcmp(overrides[n], "domain.dim=3") == 0 ? 3 : dim;
         newton = newton || strstr(overrides[n], "newton\"");
         carried = carried && strcmp(overrides[n], "initial.field=\"rest\"") != 0 &&
-                  strcmp(overrides[n], "initial.field=\"couette\"") != 0;
+                  strcmp(overrides[n], "initial.field=\"couette\"") != 0 &&
+                  strcmp(overrides[n], "initial.field=\"standing_wave\"") != 0;
     }
     const char *domain = domains[strstr(blocks, "periodic") != NULL][dim == 3];
     FILE *file = fopen(c->path, "w");

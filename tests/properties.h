@@ -46,6 +46,11 @@ struct shape {
     bool hole;
 };
 
+struct region { /* of refinement: a box, or with a radius a sphere about lo */
+    int level;
+    double lo[3], hi[3], radius;
+};
+
 struct probe {
     const char *kind;
     double at[3];
@@ -69,7 +74,8 @@ struct scene {
     double U, L, V[3], amplitude, level; /* level < -1e29: not given */
     bool say_U;                          /* or leave the default */
     struct side sides[6];
-    int nwalls, nbodies, nshapes, nprobes, nblocks;
+    int nwalls, nbodies, nshapes, nprobes, nblocks, nregions;
+    struct region regions[LISTS];
     struct wall walls[LISTS];
     struct body bodies[LISTS];
     struct shape shapes[LISTS];

@@ -187,15 +187,17 @@ function ended(run) {
 function column(name) { return ("base" SUBSEP name) in at ? at["base", name] : 0 }
 function last(name) { return column(name) ? value["base", rows["base"], column(name)] : "" }
 
-function laws(    i, k, n, row, K0, sph, lost, drift) {
+function laws(    i, k, n, row, K0, sph, lost, drift, slack) {
     n = rows["base"]
     sph = program["base"] == "sph"
+    # Births, removals and guards at edges of levels keep mass on average: 0.1 %, and some particles about to cross.
+    slack = know["refined"] ? 1e-3 + 8 / value["base", 1, column("particles [-]")] : 0
     k = column("kinetic energy [J]")
     K0 = value["base", 1, k]
     # Sound takes up to Mach^2 = 1 % of the energy and gives it back; cells lose some, their projection is good to 1e-3.
     if (know["unforced"] && !know["still"] && know["gravity"] + 0 == 0 && program["base"] != "coupled")
         for (row = 2; row <= n; row++)
-            if (value["base", row, k] > K0 * (1 + (sph ? 0.03 : 1e-3)) + 1e-6 * know["mass"] * know["speed"] ^ 2) {
+            if (value["base", row, k] > K0 * (1 + slack + (sph ? 0.03 : 1e-3)) + 1e-6 * know["mass"] * know["speed"] ^ 2) {
                 bad("energy", sprintf("grows unforced: %.4g J, then %.4g J in row %d of %d", K0, value["base", row, k], row, n))
                 break
             }
@@ -205,7 +207,7 @@ function laws(    i, k, n, row, K0, sph, lost, drift) {
     if (know["closed"] && sph) {
         lost = summary["base", "particles_lost"] / value["base", 1, column("particles [-]")]
         drift = last("mass [kg]") / value["base", 1, column("mass [kg]")] - 1 + lost
-        if (abs(drift) > 1e-9 + 0.1 * lost) bad("mass", "drifts by " drift) # densities differ by some percent
+        if (abs(drift) > 1e-9 + slack + 0.1 * lost) bad("mass", "drifts by " drift) # densities differ by some percent
         if (lost > 0 && warned["base"] !~ /left the region/) bad("mass", "particles are lost without a word")
         if (lost > 0 && !know["open_above"]) bad("mass", summary["base", "particles_lost"] " particles lost")
     }
@@ -216,7 +218,7 @@ function laws(    i, k, n, row, K0, sph, lost, drift) {
     if (know["free_of_walls"] && sph && know["gravity"] + 0 == 0)
         for (i = 0; i < know["dim"]; i++) {
             k = column("momentum " substr("xyz", i + 1, 1) " [kg m/s]")
-            if (abs(value["base", n, k] - value["base", 1, k]) > (know["standard"] ? 1e-8 : 0.01) * know["mass"] * know["speed"]) {
+            if (abs(value["base", n, k] - value["base", 1, k]) > (know["standard"] ? 1e-8 : 0.01) * know["mass"] * know["speed"] + slack * abs(value["base", 1, k]) + (slack > 0 ? 0.01 * know["mass"] * know["speed"] : 0)) {
                 bad("momentum", sprintf("changes from %.3g to %.3g kg m/s (mass x speed %.3g)", value["base", 1, k], value["base", n, k], know["mass"] * know["speed"]))
                 break
             }

@@ -430,14 +430,45 @@ static void wave(struct scene *s, struct random *r)
     settle_particles(s, r, nx * ny);
 }
 
-const struct family sph_families[] = {{"sph fields", 3, fields},
-                                      {"sph closed", 3, closed},
-                                      {"sph channel", 1.5, channel},
-                                      {"sph tank", 5, tank},
-                                      {"sph tilted", 2, tilted},
-                                      {"sph bodies", 4, bodies},
-                                      {"sph openings", 2, openings},
-                                      {"sph patch or drop", 1, patch_or_drop},
-                                      {"sph jets", 2, jets},
-                                      {"sph wave", 1, wave},
-                                      {NULL, 0, NULL}};
+/* Boxes and spheres of one or two levels in scenes that have room for them: at least R and two
+ * spacings of the coarser level behind each edge. Their faces lie between the places of the lattice
+ * and not on them, where rounding would decide. */
+static void add_region(struct scene *s, struct random *r, int level)
+{
+    struct region *is = s->regions + s->nregions++;
+    const double least = 12.5 * ldexp(s->dx, 1 - level);
+    is->level = level;
+    is->radius = chance(r, 0.3) ? least * uniform(r, 0.55, 0.8) : 0.0;
+    for (int a = 0; a < s->dim; a++) {
+        const double L = s->hi[a] - s->lo[a], length = fmin(least * uniform(r, 1.0, 2.0), 0.9 * L);
+        const double from = s->lo[a] + uniform(r, 0.05, 0.95) * (L - length);
+        is->lo[a] = is->radius > 0.0 ? s->lo[a] + uniform(r, 0.45, 0.55) * L : from;
+        is->hi[a] = from + length;
+    }
+}
+
+static void refined(struct scene *s, struct random *r)
+{
+    void (*const make[])(struct scene *, struct random *) = {fields, closed, channel, tank};
+    const int level = whole(r, 1, 2);
+    make[whole(r, 0, 3)](s, r);
+    bool room = s->dim == 2; /* a step of 3D takes too long for so many scenes */
+    for (int a = 0; a < s->dim; a++)
+        room = room && s->hi[a] - s->lo[a] > 14.0 * s->dx;
+    if (!room)
+        return;
+    add_region(s, r, level);
+    if (chance(r, 0.2))
+        add_region(s, r, 1);
+    s->end *= level == 1 ? 0.3 : 0.15;
+    s->carried = false; /* the regions stay */
+    s->error = 0.0;     /* of waves that have gone through edges there is no table */
+}
+
+const struct family sph_families[] = {
+    {"sph fields", 3, fields},     {"sph closed", 3, closed},
+    {"sph channel", 1.5, channel}, {"sph tank", 5, tank},
+    {"sph tilted", 2, tilted},     {"sph bodies", 4, bodies},
+    {"sph openings", 2, openings}, {"sph patch or drop", 1, patch_or_drop},
+    {"sph jets", 2, jets},         {"sph wave", 1, wave},
+    {"sph refined", 4, refined},   {NULL, 0, NULL}};

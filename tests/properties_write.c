@@ -130,6 +130,11 @@ void scene_move(struct scene *s, const struct motion *m)
     }
     for (int k = 0; k < s->nprobes; k++)
         place(m, s->probes[k].at);
+    for (int k = 0; k < s->nregions; k++)
+        if (s->regions[k].radius > 0.0)
+            place(m, s->regions[k].lo);
+        else
+            box(m, s->regions[k].lo, s->regions[k].hi);
     for (int k = 0; k < s->nblocks; k++) /* blocks are shifted only */
         for (int a = 0; a < 3; a++) {
             struct block *b = s->blocks + k;
@@ -170,6 +175,11 @@ static void scale_lists(struct scene *s, double l, double u, double d)
     }
     for (int k = 0; k < s->nprobes; k++)
         times(s->probes[k].at, 3, l);
+    for (int k = 0; k < s->nregions; k++) {
+        times(s->regions[k].lo, 3, l);
+        times(s->regions[k].hi, 3, l);
+        s->regions[k].radius *= l;
+    }
     for (int k = 0; k < s->nblocks; k++) {
         struct block *b = s->blocks + k;
         times(b->lo, 3, l);
@@ -363,6 +373,23 @@ static void write_block(const struct block *b, int dim, FILE *f)
             fprintf(f, " %s = \"%s\";", names[k], b->sides[k]);
 }
 
+static void write_regions(const struct scene *s, FILE *f)
+{
+    for (int k = 0; k < s->nregions; k++) {
+        const struct region *is = s->regions + k;
+        fprintf(f, "%s{ level = %d;", k ? ",\n  " : "apr: { regions = ( ", is->level);
+        if (is->radius > 0.0) {
+            vector(f, "centre", is->lo, s->dim);
+            fprintf(f, " shape = \"sphere\"; radius = %.17g;", is->radius);
+        } else {
+            vector(f, "min", is->lo, s->dim);
+            vector(f, "max", is->hi, s->dim);
+        }
+        fprintf(f, " }");
+    }
+    fprintf(f, s->nregions ? " ); };\n" : "");
+}
+
 static void write_solvers(const struct scene *s, FILE *f)
 {
     for (int k = 0; k < s->nblocks; k++) {
@@ -450,5 +477,6 @@ void scene_write(const struct scene *s, const char *name, FILE *f)
     write_bodies(s, name, f);
     write_shapes(s, f);
     write_solvers(s, f);
+    write_regions(s, f);
     fprintf(f, "output: { snapshots = false; series = 1; };\n");
 }

@@ -72,6 +72,19 @@ family blocks kinetic 1e-9 2 "1 3" 0.1 taylor_green_blocks -p fv.tol_pressure=1e
 family coupled kinetic 1e-9 2:1:1 "1:2:2 3:1:1" 0.08 taylor_green -p sph.dx=0.0125 -p "fv.cells=(24,24)"
 family wave kinetic 1e-9 2:1:1 "2:1:1 1:2:2 3:1:3" 0.5 standing_wave -p "fv.cells=(16,20)"
 
+# regions of refinement that follow a body and the largest pressure, and cells that the surface asks for: on as many
+# ranks as before to the last digit
+sed 's/^sph:.*/sph: { dx = 0.025; c0 = 30.0; };/; s/end = 0.2/end = 0.03/' dam.cfg >regions.cfg
+cat >>regions.cfg <<'END'
+bodies: ( { name = "block"; points = ((0.2, 0.1), (0.2, 0.2), (0.3, 0.2), (0.3, 0.1)); velocity = (0.5, 0); } );
+apr:    { around = 2; particles = 6e3;
+          regions = ( { level = 1; shape = "body"; body = "block"; offset = 0.16; },
+                      { level = 1; min = (0.3, -0.1); max = (0.6, 0.2); follow = "peak"; along = "x"; pressure = 100; } );
+          criteria = ( { kind = "surface"; distance = 0; } ); };
+END
+family regions kinetic 1e-9 2 "1 3" 0.03 regions.cfg
+family regions_same kinetic 0 1 1 0.03 regions.cfg
+
 # meshes: a column of water in a tank without lid, an obstacle; the restart file knows its meshes
 awk -v lo="0 0 0" -v hi="1 0.4 0.6" -v drop=zp -f "$root/tests/stl.awk" >tank.stl
 awk -v lo="0.62 0.13 0" -v hi="0.78 0.27 0.17" -v drop=zm -f "$root/tests/stl.awk" >block.stl

@@ -3,6 +3,7 @@
 #include "test.h"
 
 #include "mesh_case.h"
+#include "../fv/boundary/mesh_bc.h"
 
 #include "../fv/watch/watches.h"
 #include "../fv/case/fv_case.h"
@@ -137,6 +138,86 @@ static void ring_flow_has_order_three_and_a_half(void **state)
     print_message("ring: u %.2e %.2e p %.2e %.2e\n", e[0][0], e[1][0], e[0][1], e[1][1]);
     assert_true(e[1][0] < 5e-5 && log2(e[0][0] / e[1][0]) > 3.5);
     assert_true(log2(e[0][1] / e[1][1]) > 2.5);
+}
+
+/* rms error of what snapshots hold against the averages over volumes, from the exact flow: u, v, p,
+ * vorticity. */
+static void output_errors(const char *text, const char *const *overrides, double e[4])
+{
+    static const double gauss[3] = {0.1127016653792583, 0.5, 0.8872983346207417},
+                        weight[3] = {5.0, 8.0, 5.0};
+    struct mesh_case c;
+    struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, text, overrides);
+    static const enum mesh_output what[4] = {OUTPUT_X, OUTPUT_Y, OUTPUT_PRESSURE, OUTPUT_VORTICITY};
+    const struct mesh *m = s->m;
+    double *q = mesh_field(m);
+    for (int f = 0; f < 4; f++) {
+        double sum[2] = {0.0, 0.0};
+        for (int k = 0; k < m->nparts; k++) {
+            const struct part *p = m->part + k;
+            int i[3];
+            PART_CELLS (p, i, at) {
+                double u[3], pressure, w;
+                mesh_exact_average(s, p, i, 0.0, u, &pressure, &w);
+                s->u[0][at] = u[0];
+                s->u[1][at] = u[1];
+                s->p[at] = s->p_before[at] = pressure;
+            }
+        }
+        mesh_fill(s->m, 2, s->u);
+        mesh_bc_velocity(s, BC_GIVEN, s->u);
+        mesh_output_average(s, what[f], q);
+        for (int k = 0; k < m->nparts; k++) {
+            const struct part *p = m->part + k;
+            int i[3];
+            PART_CELLS (p, i, at) {
+                double mean = 0.0, volume = 0.0;
+                for (int g = 0; g < 9; g++) {
+                    const double xi[3] = {gauss[g % 3], gauss[g / 3], 0.5};
+                    const int cell[3] = {p->lo[0] + i[0], p->lo[1] + i[1], 0};
+                    double x[3], dx[3][3], u[3], pressure, w;
+                    mesh_map_point(m->block + p->block, 2, cell, xi, x, dx);
+                    mesh_exact_at(s, x, 0.0, u, &pressure, &w);
+                    const double V = weight[g % 3] * weight[g / 3] * mesh_determinant(dx);
+                    volume += V;
+                    mean += V * (f < 2 ? u[f] : f == 2 ? pressure : w);
+                }
+                sum[0] += pow(q[at] - mean / volume, 2);
+                sum[1] += 1.0;
+            }
+        }
+        MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+        e[f] = sqrt(sum[0] / sum[1]);
+    }
+    mem_free(q);
+    mesh_case_end(&c, &s);
+}
+
+static void output_is_averaged_over_volumes(void **state)
+{
+    (void)state;
+    char text[512];
+    double e[2][4];
+    for (int k = 0; k < 2; k++) {
+        sized(text, sizeof text, WAVE, 32 << k, 32 << k, 1);
+        output_errors(text, NULL, e[k]);
+    }
+    for (int f = 0; f < 4; f++) {
+        print_message("output on waving cells: %.2e %.2e\n", e[0][f], e[1][f]);
+        assert_true(log2(e[0][f] / e[1][f]) > 3.5);
+    }
+    for (int k = 0; k < 2; k++) {
+        snprintf(text, sizeof text,
+                 "{ name = \"s\"; mapping = \"stretched\"; stretch = (1.5, -1.5); focus = (0.3, "
+                 "0.5); cells = (%d, %d); "
+                 "i_min = \"exact\"; i_max = \"exact\"; j_min = \"exact\"; j_max = \"exact\"; }",
+                 32 << k, 32 << k);
+        output_errors(text, NULL, e[k]);
+    }
+    for (int f = 0; f < 3; f++) {
+        print_message("output on stretched cells: %.2e %.2e\n", e[0][f], e[1][f]);
+        assert_true(log2(e[0][f] / e[1][f]) > 3.5);
+    }
 }
 
 static void waves_and_joints_keep_order_three_and_a_half(void **state)
@@ -557,6 +638,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(faces_of_a_cell_close),
         cmocka_unit_test(a_uniform_flow_stays),
         cmocka_unit_test(ring_flow_has_order_three_and_a_half),
+        cmocka_unit_test(output_is_averaged_over_volumes),
         cmocka_unit_test(waves_and_joints_keep_order_three_and_a_half),
         cmocka_unit_test(a_lid_is_one_wall_alone),
         cmocka_unit_test(a_lid_drags_what_its_layer_holds),

@@ -3,6 +3,7 @@
 #include "test.h"
 
 #include "../sph/refinement/apr_params.h"
+#include "../sph/refinement/guards.h"
 #include "../sph/refinement/refinement.h"
 #include "sph_case.h"
 
@@ -30,6 +31,39 @@ static double flowing(const struct sph *q)
     return n;
 }
 
+/* Particles of all levels set in motion. */
+static void set_moving(struct sph *s, const double *U)
+{
+    for (struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            double *y = state_row(&q->p, q->p.y, i);
+            for (int a = 0; a < q->dim; a++)
+                y[q->dim + a] = y[at_mass(q->dim)] * U[a];
+        }
+    integrate_start(s);
+}
+
+/* Largest difference from U, and of density from 1, guards included. */
+static double departure(const struct sph *s, const double *U)
+{
+    double worst = 0.0;
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            const double *y = state_row(&q->p, q->p.y, i), m = y[at_mass(q->dim)];
+            for (int a = 0; a < q->dim; a++)
+                worst = fmax(worst, fabs(y[q->dim + a] / m - U[a]));
+            worst = fmax(worst, fabs(m / y[at_volume(q->dim)] - 1.0));
+        }
+    return max_anywhere(worst);
+}
+
+static void start_at_rest(struct sph_case *c, int dim, int cells)
+{
+    sph_case_set(c, dim, cells);
+    c->run.scene.initial.field = FIELD_REST;
+    c->run.scene.fluid.nu = 0.0;
+}
+
 /* A lattice that is carried through the box once around: births and removals, and every guard gets
  * what is everywhere. */
 static void translation_is_exact(void **state)
@@ -37,41 +71,109 @@ static void translation_is_exact(void **state)
     (void)state;
     const double U[2] = {1.0, 0.0};
     struct sph_case c;
-    sph_case_set(&c, 2, 20);
-    c.run.scene.initial.field = FIELD_REST;
-    c.run.scene.fluid.nu = 0.0;
-    c.prm.noise = 0.0;
+    start_at_rest(&c, 2, 20);
     refine(&c, 1, 0.1, 0.9);
     struct sph *s = sph_case_start(&c, NULL);
     assert_true(s->finer != NULL && s->finer->finer == NULL);
-    for (struct sph *q = s; q; q = q->finer)
-        for (int i = 0; i < q->p.n; i++) {
-            double *y = state_row(&q->p, q->p.y, i);
-            for (int a = 0; a < 2; a++)
-                y[2 + a] = y[5] * U[a];
-        }
-    integrate_start(s);
+    set_moving(s, U);
     const double n[2] = {flowing(s), flowing(s->finer)};
     while (s->t < 1.0)
         assert_true(sph_case_run(&c, 1, 1.0));
+    assert_true(departure(s, U) < 1e-10);
+    assert_true(flowing(s) == n[0] && flowing(s->finer) == n[1]);
+    sph_free(&c.s);
+    refine_nothing();
+}
+
+/* The same for a part of the way through nested boxes, and in space. */
+static void nested_boxes_and_space_are_exact(void **state)
+{
+    (void)state;
+    const double U[3] = {0.6, 1.0, 0.3};
+    for (int dim = 2; dim <= 3; dim++) {
+        struct sph_case c;
+        start_at_rest(&c, dim, dim == 2 ? 24 : 12);
+        if (dim == 2)
+            c.prm.R_dx = 3.0;
+        refine(&c, 4 - dim, dim == 2 ? 0.4 : 0.2, dim == 2 ? 0.6 : 0.8);
+        apr_given.margin = 1.5;
+        struct sph *s = sph_case_start(&c, NULL);
+        set_moving(s, U);
+        for (const struct sph *q = s; q; q = q->finer)
+            assert_true(flowing(q) > 0.0);
+        assert_true(sph_case_run(&c, dim == 2 ? 40 : 4, 100.0));
+        assert_true(departure(s, U) < 1e-10);
+        sph_free(&c.s);
+    }
+    refine_nothing();
+}
+
+/* Regions that lie elsewhere, or hold a particle or two: levels that are empty or nearly so. */
+static void empty_levels_run(void **state)
+{
+    (void)state;
+    const double U[2] = {1.0, 0.0}, ends[2] = {0.501, 0.53};
+    for (int k = 0; k < 2; k++) {
+        struct sph_case c;
+        start_at_rest(&c, 2, 20);
+        refine(&c, 1, 0.5, ends[k]);
+        struct sph *s = sph_case_start(&c, NULL);
+        set_moving(s, U);
+        assert_true(sph_case_run(&c, 20, 100.0));
+        assert_true(departure(s, U) < 1e-10);
+        assert_true(flowing(s) == 400.0 && flowing(s->finer) == 0.0);
+        sph_free(&c.s);
+    }
+    refine_nothing();
+}
+
+/* Guards are given linear fields exactly where their sources have the slopes of these, however
+ * these stand. */
+static void guards_take_linear_fields(void **state)
+{
+    (void)state;
+    struct sph_case c;
     double worst = 0.0;
+    start_at_rest(&c, 2, 20);
+    c.prm.noise = 0.2;
+    refine(&c, 1, 0.1, 0.9);
+    struct sph *s = sph_case_start(&c, NULL);
+    s->ready = false;
+    integrate_prepare(s);
     for (struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
-            const double *y = state_row(&q->p, q->p.y, i);
-            for (int a = 0; a < 2; a++)
-                worst = fmax(worst, fabs(y[2 + a] / y[5] - U[a]));
-            worst = fmax(worst, fabs(y[5] / y[4] - 1.0));
+            double *y = state_row(&q->p, q->p.y, i), *g = slope_line(&q->p, i);
+            const double rho = 1.0 + 0.01 * y[0] - 0.02 * y[1];
+            const double u[2] = {0.1 + 0.3 * y[1], 0.2 * y[0] - 0.4 * y[1]};
+            const double slopes[6] = {0.01, -0.02, 0.0, 0.3, 0.2, -0.4};
+            const double x[2] = {y[0], y[1]};
+            memcpy(g, slopes, sizeof slopes);
+            if (!particles_is_guard(&q->p, i))
+                particles_set(q, i, x, u, y[4], rho);
         }
-    print_message("worst %g; %g %g -> %g %g\n", worst, n[0], n[1], flowing(s), flowing(s->finer));
-    assert_true(max_anywhere(worst) < 1e-10);
-    assert_true(flowing(s) == n[0] && flowing(s->finer) == n[1]);
+    for (struct sph *q = s; q; q = q->finer)
+        particles_lines(q);
+    guards_update(s);
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            const double *p = prim_line(&q->p, i);
+            const bool inner = fmin(p[0], p[1]) > 0.11 && fmax(p[0], p[1]) < 0.89;
+            if (!particles_is_guard(&q->p, i) || !inner) /* across a periodic side fields jump */
+                continue;
+            worst = fmax(worst, fabs(p[5] - 1.0 - 0.01 * p[0] + 0.02 * p[1]));
+            worst = fmax(worst, fabs(p[2] - 0.1 - 0.3 * p[1]));
+            worst = fmax(worst, fabs(p[3] - 0.2 * p[0] + 0.4 * p[1]));
+        }
+    assert_true(max_anywhere(worst) < 1e-12);
     sph_free(&c.s);
     refine_nothing();
 }
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(translation_is_exact)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(translation_is_exact), cmocka_unit_test(nested_boxes_and_space_are_exact),
+        cmocka_unit_test(empty_levels_run), cmocka_unit_test(guards_take_linear_fields)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

@@ -157,6 +157,40 @@ shapes.velocity (0.2,0)
 probes.name "other"
 probes.kind "level"
 probes.at (0.2,-0.7)
+apr.levels 3
+apr.margin 2.0
+apr.around 4
+apr.particles 4000
+apr.regions ({min=(-0.8,-0.8);max=(0.7,0.7);})
+apr.criteria ({kind="vorticity";above=0.02;})
+apr.regions.level 1
+apr.regions.shape "sphere"
+apr.regions.min (-0.4,-0.35)
+apr.regions.max (0.4,0.45)
+apr.regions.centre (0.1,0.1)
+apr.regions.radius 0.5
+apr.regions.body "b"
+apr.regions.wall 1
+apr.regions.offset 0.4
+apr.regions.velocity (0.3,0)
+apr.regions.motion ({kind="harmonic";axis="x";amplitude=0.02;period=0.2;})
+apr.regions.follow "peak"
+apr.regions.along "x"
+apr.regions.pressure 10.0
+apr.regions.motion.kind "polynomial"
+apr.regions.motion.file "nowhere.txt"
+apr.regions.motion.axis "y"
+apr.regions.motion.amplitude 0.03
+apr.regions.motion.period 0.3
+apr.regions.motion.phase 0.3
+apr.regions.motion.coefficients (1,2)
+apr.regions.motion.from 0.01
+apr.regions.motion.until 0.02
+apr.regions.motion.ramp 0.02
+apr.criteria.level 2
+apr.criteria.kind "pressure"
+apr.criteria.above 0.055
+apr.criteria.distance 2
 '
 # Where a run is written (checkpoint_wall: by the clock; fields: in snapshots, which are off here; tests/bad_input.sh has
 # the words of it), and what judges it.
@@ -254,6 +288,18 @@ initial: { U = 3.0; };
 shapes: ( { form = "mesh"; mesh = "water.stl"; #shapes
  } );
 sph: { dx = 0.2; R_dx = 2.5; c0 = 30.0; packing = 3; };' ;;
+    regions) echo 'fluid: { rho = 1.0; nu = 0.01; };
+domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, true); };
+initial: { field = "taylor_green"; U = 1.0; L = 2.0; };
+sph: { dx = 0.05; R_dx = 2.5; };
+apr: { regions = ( { level = 2; min = (-0.4, -0.3); max = (0.4, 0.3); #regions
+ } ); };' ;;
+    swirls) echo 'fluid: { rho = 1.0; nu = 0.01; };
+domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, true); };
+initial: { field = "taylor_green"; U = 1.0; L = 2.0; };
+sph: { dx = 0.05; R_dx = 2.5; };
+apr: { around = 2; criteria = ( { kind = "vorticity"; above = 0.3; #criteria
+ } ); };' ;;
     wave) echo 'fluid: { rho = 1.0; nu = 0.002; gravity = (0, -1); };
 domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, false); };
 walls: ( { side = "y_min"; kind = "no_slip"; #walls
@@ -303,7 +349,7 @@ try() { # MODE KEY VALUE
     esac
     cp base.cfg case.cfg
     case $key in
-    walls.* | bodies.* | shapes.* | probes.*)
+    walls.* | bodies.* | shapes.* | probes.* | apr.regions.* | apr.criteria.*)
         group=${key%.*} name=${key##*.}
         group=${group##*.}
         grep -q "#$group" base.cfg || return
@@ -332,8 +378,8 @@ for key in $("$b/sph" --params | sed -n 's/^| `\([a-z_A-Z0-9]*\.[a-zA-Z_0-9.]*\)
     case $key in accept.*) continue ;; esac
     echo "$known" | grep -qx "$key" || { echo "FAIL: no other value is known for $key: add it here"; failed=$((failed + 1)); }
 done
-[ "${1:-}" = all ] && set -- vortices delta dam body float hinge touch box channel cube mesh wave drop lines
-[ $# -gt 0 ] || set -- delta dam channel body float hinge touch mesh
+[ "${1:-}" = all ] && set -- vortices delta dam body float hinge touch box channel cube mesh wave drop lines regions swirls
+[ $# -gt 0 ] || set -- delta dam channel body float hinge touch mesh swirls
 for solid in "tank -0.8 0.8 zp" "cube -0.3 0.1" "other -0.5 0.3" "water -1 0.5"; do # NAME LOW HIGH [open face]
     echo "$solid" | while read -r name low high open; do
         awk -v lo="$low $low $low" -v hi="$high $high $high" -v drop="$open" -f "$root/tests/stl.awk" >"$name.stl"

@@ -378,19 +378,34 @@ void mesh_bc_level(const struct fv *s, bool keep, double *phi)
     }
 }
 
+static void extended(double *q, int64_t in)
+{
+    for (int l = 1; l <= MESH_GHOSTS; l++)
+        q[-l * in] = 3.0 * (q[(1 - l) * in] - q[(2 - l) * in]) + q[(3 - l) * in];
+}
+
+void mesh_bc_extend(const struct fv *s, double *q)
+{
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            extended(q + c, d->in);
+            (void)at;
+        }
+    }
+}
+
 void mesh_bc_pressure(const struct fv *s, double *p)
 {
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
         SIDE_PLACES(d, 1, i, j, at, c)
         {
-            double *q = p + c;
-            const int64_t in = d->in;
             if (d->kind == MESH_OUTFLOW)
-                given(q, in, d->pressure);
+                given(p + c, d->in, d->pressure);
             else
-                for (int l = 1; l <= MESH_GHOSTS; l++)
-                    q[-l * in] = 3.0 * (q[(1 - l) * in] - q[(2 - l) * in]) + q[(3 - l) * in];
+                extended(p + c, d->in);
             (void)at;
         }
     }
@@ -493,20 +508,60 @@ static void face_state(const struct fv *s, const struct side *d, int64_t c, int 
     *pressure = (7.0 * (p[1] + p[2]) - (p[0] + p[3])) / 12.0;
 }
 
-/* -p S + mu (grad u + grad u^T) S on one face, outwards of the fluid. */
+/* Average of the pressure over the face at f, Pa. */
+static double face_pressure(const struct fv *s, int64_t f, int64_t a)
+{
+    return (7.0 * (fv_pressure(s, f - a) + fv_pressure(s, f)) -
+            (fv_pressure(s, f - 2 * a) + fv_pressure(s, f + a))) /
+           12.0;
+}
+
+/* nu <G_ab dq/dxi_b> of the face at f, as mesh_viscous has it. */
+static double viscous_flux(const struct fv *s, const struct side *d, int64_t f, const double *q)
+{
+    const struct mesh *m = s->m;
+    const int a = d->a;
+    double slope[3], up[3], down[3], F = 0.0;
+    face_slopes(m, d, f, q, slope);
+    for (int k = 0; k < m->dim; k++)
+        F += m->G[a][k][f] * slope[k];
+    for (int n = 0; n < 2 && d->t[n] < m->dim; n++) {
+        const int64_t t = d->p->stride[d->t[n]];
+        face_slopes(m, d, f + t, q, up);
+        face_slopes(m, d, f - t, q, down);
+        for (int k = 0; k < m->dim; k++)
+            F += (up[k] - down[k]) * (m->G[a][k][f + t] - m->G[a][k][f - t]) / 48.0;
+    }
+    return s->nu * F;
+}
+
+/* -p S + mu (grad u + grad u^T) S on one face, outwards of the fluid. p S and grad u S are the
+ * fluxes of the momentum equation. Of grad u^T S the slopes across the wall are 0 by continuity;
+ * those along it remain where it turns. */
 static void face_force(const struct fv *s, const struct side *d, int64_t c, int i, int j,
                        double *force)
 {
     const struct mesh *m = s->m;
     const double rho = s->run->scene.fluid.rho, out = d->k % 2 ? 1.0 : -1.0;
-    const int64_t f = c + d->face;
-    double x[3], pf, g[3][3] = {{0.0}};
+    const int64_t f = c + d->face, a = d->p->stride[d->a];
+    double x[3], pf, g[3][3] = {{0.0}}, S2 = 0.0;
     face_state(s, d, c, i, j, x, &pf, g);
     pf += still_pressure(&s->run->scene, s->still, s->level, x);
+    for (int e = 0; e < m->dim; e++)
+        S2 += m->S[d->a][e][f] * m->S[d->a][e][f];
     for (int q = 0; q < m->dim; q++) {
-        force[q] = -pf * m->S[d->a][q][f];
-        for (int e = 0; e < m->dim; e++)
-            force[q] += rho * s->nu * (g[q][e] + g[e][q]) * m->S[d->a][e][f];
+        force[q] = rho * viscous_flux(s, d, f, s->u[q]) - pf * m->S[d->a][q][f];
+        for (int n = 0; n < 2 && d->t[n] < m->dim; n++) {
+            const int64_t t = d->p->stride[d->t[n]];
+            force[q] -= (face_pressure(s, f + t, a) - face_pressure(s, f - t, a)) *
+                        (m->S[d->a][q][f + t] - m->S[d->a][q][f - t]) / 48.0;
+        }
+        for (int e = 0; e < m->dim; e++) {
+            double across = 0.0;
+            for (int r = 0; r < m->dim; r++)
+                across += g[e][r] * m->S[d->a][r][f];
+            force[q] += rho * s->nu * (g[e][q] - across * m->S[d->a][q][f] / S2) * m->S[d->a][e][f];
+        }
         force[q] *= -out; /* on the wall */
     }
     x[2] = 0.0;

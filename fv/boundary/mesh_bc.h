@@ -17,6 +17,8 @@ void mesh_bc_even(const struct fv *s, bool odd, double *q);
 /* A level set, mirrored; behind walls that are neither level nor upright it goes on with the slope
  * that it has beside them. keep: with that of the last call. */
 void mesh_bc_level(const struct fv *s, bool keep, double *phi);
+/* Continued by the parabola through three cells, whatever the side. */
+void mesh_bc_extend(const struct fv *s, double *q);
 void mesh_bc_pressure(const struct fv *s, double *p);
 void mesh_bc_fluxes(const struct fv *s, double *const U[3]);
 /* See convection_beside_walls; of one part. */

@@ -180,5 +180,5 @@ void mesh_check(const struct run *r, struct faults *f)
         check_taken(r, f, m);
         mesh_scene_check(r, f, m);
     }
-    mesh_free(&m);
+    mesh_leave(&m);
 }

@@ -6,6 +6,7 @@
 #include "../../common/exact.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
+#include "../boundary/still.h"
 #include "../grid/overset.h"
 
 static const char *const sides[] = {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};
@@ -173,6 +174,26 @@ static void check_extent(const struct run *r, struct faults *f, const struct mes
     }
 }
 
+/* Whether some block has computed cells around x; along gravity somewhere for the level of water.
+ */
+static bool is_covered(const struct run *r, const struct mesh *m, const struct overset *o,
+                       const struct scene_probe *p)
+{
+    const int up = still_upright(&r->scene), most = p->kind == PROBE_LEVEL ? 100 : 0;
+    const struct scene_domain *d = &r->scene.domain;
+    for (int n = 0; n <= most; n++)
+        for (int b = 0; b < m->nblocks; b++) {
+            int cell[3], from[3];
+            double x[3] = {p->at[0], p->at[1], p->at[2]}, xi[3], w[64];
+            if (most > 0)
+                x[up] = d->min[up] + n * (d->max[up] - d->min[up]) / most;
+            if (overset_locate(m, o, b, x, cell, xi) &&
+                overset_weights(m, b, cell, xi, 1, 2, from, w))
+                return true;
+        }
+    return false;
+}
+
 static void check_probes(const struct run *r, struct faults *f, const struct mesh *m)
 {
     if (r->scene.nprobes == 0)
@@ -180,16 +201,9 @@ static void check_probes(const struct run *r, struct faults *f, const struct mes
     struct overset *o = overset_search(r, m);
     for (int k = 0; k < r->scene.nprobes; k++) {
         const struct scene_probe *p = r->scene.probes + k;
-        bool found = false;
         char key[32];
-        for (int b = 0; b < m->nblocks; b++) {
-            int cell[3], from[3];
-            double xi[3], w[64];
-            found = found || (overset_locate(m, o, b, p->at, cell, xi) &&
-                              overset_weights(m, b, cell, xi, 1, 2, from, w));
-        }
         snprintf(key, sizeof key, "probes.[%d].at", k);
-        if (!found)
+        if (!is_covered(r, m, o, p))
             params_fault(r->params, f, key,
                          "probe \"%s\": no block has computed cells around (%g, %g, %g) m", p->name,
                          p->at[0], p->at[1], p->at[2]);

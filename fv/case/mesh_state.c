@@ -1,6 +1,7 @@
 /* mesh_state.c - the state of a flow on blocks, at t = 0 or from a restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
+#include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
 #include "../poisson/wet_pressure.h"
 #include "../surface/levelset.h"
@@ -128,7 +129,7 @@ void mesh_state_create(struct fv *s)
 {
     struct faults faults = {0};
     struct run *r = s->run;
-    s->m = mesh_create(r, &faults);
+    s->m = mesh_take(r, &faults);
     if (!s->m)
         fail("the blocks were good when they were checked");
     s->dim = s->m->dim;
@@ -147,6 +148,7 @@ void mesh_state_create(struct fv *s)
     }
     make_fields(s);
     fill(s);
+    s->stiffest = mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
     mesh_bc_create(s);
     s->surface = surface_create(s);
     if (s->surface)

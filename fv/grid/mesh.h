@@ -105,6 +105,7 @@ struct mesh_fringe {
 
 struct mesh {
     MPI_Comm comm;
+    const struct params *prm_of; /* the case it was made of; borrowed, for comparison alone */
     int rank, size, dim;
     int nblocks;
     struct mesh_block block[MESH_BLOCKS_MAX];
@@ -163,6 +164,9 @@ void mesh_fault(const struct run *r, struct faults *f, int block, const char *ke
 /* mesh_create.c: NULL if there are faults. Collective. */
 struct mesh *mesh_create(const struct run *r, struct faults *f);
 void mesh_free(struct mesh **m);
+/* That which was left for the same case, else a new one; leaves one to who takes it next. */
+struct mesh *mesh_take(const struct run *r, struct faults *f);
+void mesh_leave(struct mesh **m);
 double *mesh_field(const struct mesh *m);
 /* Rank and place there of a real cell. */
 void mesh_owner(const struct mesh *m, int block, const int *cell, int *rank, int64_t *place);

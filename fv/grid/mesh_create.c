@@ -185,6 +185,7 @@ struct mesh *mesh_create(const struct run *r, struct faults *f)
     const struct mesh_block_params *prm = mesh_block_params();
     bool good = true;
     m->comm = r->comm;
+    m->prm_of = r->params;
     m->dim = r->scene.domain.dim;
     m->nblocks = mesh_block_count();
     MPI_Comm_rank(m->comm, &m->rank);
@@ -246,6 +247,26 @@ void mesh_free(struct mesh **mp)
     mesh_exchange_free(&m->fringe);
     mem_free(m);
     *mp = NULL;
+}
+
+/* The mesh that was checked last: the description and the state are made of it, not of another. */
+static struct mesh *checked;
+
+struct mesh *mesh_take(const struct run *r, struct faults *f)
+{
+    struct mesh *m = checked;
+    checked = NULL;
+    if (m && m->comm == r->comm && m->prm_of == r->params)
+        return m;
+    mesh_free(&m);
+    return mesh_create(r, f);
+}
+
+void mesh_leave(struct mesh **m)
+{
+    mesh_free(&checked);
+    checked = *m;
+    *m = NULL;
 }
 
 double *mesh_field(const struct mesh *m) { return NEW(double, m->size_local); }

@@ -123,12 +123,18 @@ static double interpolate(const struct part *p, int width, bool solid, const dou
     return sum;
 }
 
-static double value(const struct mesh *m, const struct mesh_exchange *x, int64_t k, const double *f)
+/* What field c of nf gives, one behind the other for each place. */
+static void gather(const struct mesh *m, const struct mesh_exchange *x, int nf, int c,
+                   const double *restrict f, double *restrict send)
 {
+    const int64_t nout = x->first_out[x->npeers], *restrict out = x->out;
     if (x->width == 1)
-        return f[x->out[k]];
-    return interpolate(m->part + x->part[k], x->width, m->dim == 3, x->weight + k * stencil(m, x),
-                       f + x->out[k]);
+        for (int64_t k = 0; k < nout; k++)
+            send[nf * k + c] = f[out[k]];
+    else
+        for (int64_t k = 0; k < nout; k++)
+            send[nf * k + c] = interpolate(m->part + x->part[k], x->width, m->dim == 3,
+                                           x->weight + k * stencil(m, x), f + out[k]);
 }
 
 /* First pass all sends are made from the old values: a place that gives may also receive. */
@@ -147,9 +153,8 @@ void mesh_exchange(const struct mesh *m, struct mesh_exchange *x, int nf, double
             MPI_Irecv(x->recv + nf * x->first_in[q],
                       (int)(nf * (x->first_in[q + 1] - x->first_in[q])), MPI_DOUBLE, x->peer[q], 0,
                       m->comm, requests + n++);
-    for (int64_t k = 0; k < nout; k++)
-        for (int c = 0; c < nf; c++)
-            x->send[nf * k + c] = value(m, x, k, f[c]);
+    for (int c = 0; c < nf; c++)
+        gather(m, x, nf, c, f[c], x->send);
     for (int q = 0; q < x->npeers; q++) {
         const int64_t count = x->first_out[q + 1] - x->first_out[q];
         if (x->peer[q] == m->rank)
@@ -160,9 +165,11 @@ void mesh_exchange(const struct mesh *m, struct mesh_exchange *x, int nf, double
                       m->comm, requests + n++);
     }
     MPI_Waitall(n, requests, MPI_STATUSES_IGNORE);
-    for (int64_t k = 0; k < nin; k++)
-        for (int c = 0; c < nf; c++)
-            f[c][x->in[k]] = x->recv[nf * k + c];
+    for (int c = 0; c < nf; c++) {
+        double *restrict to = f[c];
+        for (int64_t k = 0; k < nin; k++)
+            to[x->in[k]] = x->recv[nf * k + c];
+    }
     mem_free(requests);
 }
 

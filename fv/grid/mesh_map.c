@@ -133,31 +133,53 @@ static void cubic(double s, double *w, double *d)
     d[3] = (3.0 * s * s - 1.0) / 6.0;
 }
 
+/* Sums along the first index, then the second, then the third: x and dx of a point. */
+static inline __attribute__((always_inline)) void sum_up(const struct mesh_block *b, const int dim,
+                                                         const int *from, double w[3][4],
+                                                         double d[3][4], double *x, double dx[3][3])
+{
+    const int n2 = dim == 3 ? 4 : 1;
+    for (int k = 0; k < n2; k++) {
+        double plane[3][3] = {{0.0}};
+        for (int j = 0; j < 4; j++) {
+            const double(*v)[3] =
+                (const double(*)[3])(b->x + mesh_vertex(b, from[0], from[1] + j, from[2] + k));
+            for (int c = 0; c < dim; c++) {
+                double f = 0.0, slope = 0.0;
+                for (int i = 0; i < 4; i++) {
+                    f += w[0][i] * v[i][c];
+                    slope += d[0][i] * v[i][c];
+                }
+                plane[0][c] += w[1][j] * f;
+                plane[1][c] += w[1][j] * slope;
+                plane[2][c] += d[1][j] * f;
+            }
+        }
+        for (int c = 0; c < dim; c++) {
+            x[c] += w[2][k] * plane[0][c];
+            dx[0][c] += w[2][k] * plane[1][c];
+            dx[1][c] += w[2][k] * plane[2][c];
+            dx[2][c] += d[2][k] * plane[0][c];
+        }
+    }
+}
+
 void mesh_map_point(const struct mesh_block *b, int dim, const int *cell, const double *xi,
                     double *x, double dx[3][3])
 {
     double w[3][4] = {{1.0}, {1.0}, {1.0}}, d[3][4] = {{0.0}};
-    int from[3] = {0, 0, 0}, n[3] = {1, 1, 1};
+    int from[3] = {0, 0, 0};
     for (int a = 0; a < dim; a++) {
         const int least = b->v0[a], most = b->v0[a] + b->nv[a] - 4;
         from[a] = cell[a] - 1 < least ? least : cell[a] - 1 > most ? most : cell[a] - 1;
         cubic(xi[a] + cell[a] - 1 - from[a], w[a], d[a]);
-        n[a] = 4;
     }
     memset(x, 0, 3 * sizeof(double));
     memset(dx, 0, 9 * sizeof(double));
-    for (int k = 0; k < n[2]; k++)
-        for (int j = 0; j < n[1]; j++)
-            for (int i = 0; i < n[0]; i++) {
-                const double *v = b->x[mesh_vertex(b, from[0] + i, from[1] + j, from[2] + k)];
-                const double f[4] = {w[0][i] * w[1][j] * w[2][k], d[0][i] * w[1][j] * w[2][k],
-                                     w[0][i] * d[1][j] * w[2][k], w[0][i] * w[1][j] * d[2][k]};
-                for (int c = 0; c < dim; c++) {
-                    x[c] += f[0] * v[c];
-                    for (int a = 0; a < dim; a++)
-                        dx[a][c] += f[1 + a] * v[c];
-                }
-            }
+    if (dim == 3)
+        sum_up(b, 3, from, w, d, x, dx);
+    else
+        sum_up(b, 2, from, w, d, x, dx);
     if (dim == 2)
         dx[2][2] = 1.0;
 }

@@ -168,33 +168,38 @@ static void part_metrics(struct mesh *m, const struct part *p)
             }
 }
 
-/* Whether the metrics of a cell and its lower faces are those of the first cell, upright. */
-static bool is_like(const struct mesh *m, int64_t first, int64_t c)
+/* What the metrics of a cell and its lower faces make it: the first cell's box, another upright
+ * one, neither. */
+static enum part_kind kind_of_cell(const struct mesh *m, int64_t first, int64_t c)
 {
-    bool like = fabs(m->V[c] - m->V[first]) < 1e-10 * m->V[first];
+    bool like = fabs(m->V[c] - m->V[first]) < 1e-10 * m->V[first], upright = true;
     for (int a = 0; a < m->dim; a++)
         for (int k = 0; k < m->dim; k++) {
-            const double S = k == a ? m->S[a][a][first] : 0.0, G = k == a ? m->G[a][a][first] : 0.0;
-            like = like && m->S[a][a][first] > 0.0 &&
-                   fabs(m->S[a][k][c] - S) < 1e-10 * m->S[a][a][first] &&
-                   fabs(m->G[a][k][c] - G) < 1e-10 * m->G[a][a][first];
+            const double S = m->S[a][a][first], G = m->G[a][a][first];
+            upright = upright && m->S[a][a][c] > 0.0 &&
+                      (k == a || (fabs(m->S[a][k][c]) < 1e-10 * m->S[a][a][c] &&
+                                  fabs(m->G[a][k][c]) < 1e-10 * m->G[a][a][c]));
+            like = like && (k != a || (fabs(m->S[a][a][c] - S) < 1e-10 * S &&
+                                       fabs(m->G[a][a][c] - G) < 1e-10 * G));
         }
-    return like;
+    return !upright ? PART_CURVED : like ? PART_EVEN : PART_UPRIGHT;
 }
 
 /* By the metrics, not by the mapping: joined to other cells the places between vertices bend. */
 static enum part_kind kind_of(const struct mesh *m, const struct part *p)
 {
+    enum part_kind kind = PART_EVEN;
     int down[3], up[3];
     for (int a = 0; a < 3; a++) {
         down[a] = a < m->dim;
         up[a] = 2 * (a < m->dim);
     }
     PART_ROWS (p, down, up, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            if (!is_like(m, part_at(p, 0, 0, 0), i))
-                return PART_CURVED;
-    return PART_EVEN;
+        for (int64_t i = c; i < c + n; i++) {
+            const enum part_kind one = kind_of_cell(m, part_at(p, 0, 0, 0), i);
+            kind = one < kind ? one : kind;
+        }
+    return kind;
 }
 
 void mesh_metrics(struct mesh *m)

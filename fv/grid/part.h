@@ -6,8 +6,8 @@
 #include <stdint.h>
 
 /* A rank's part of a block. Cell (i, j, k), counted from 0 at lo: see part_at. */
-/* EVEN: all cells are the same box, upright along the axes. */
-enum part_kind { PART_CURVED, PART_EVEN };
+/* EVEN: all cells are the same box, upright along the axes; UPRIGHT: boxes of any size. */
+enum part_kind { PART_CURVED, PART_UPRIGHT, PART_EVEN };
 
 struct part {
     enum part_kind kind;

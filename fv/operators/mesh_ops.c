@@ -170,6 +170,12 @@ static void even_subtract(const struct mesh *m, const struct part *p, int a, dou
             U[i] -= w * open[i] * (psi[i] - psi[i - d]);
 }
 
+/* Whether component k of the faces along a is 0 throughout. */
+static bool is_zero(const struct part *p, int a, int k)
+{
+    return p->kind == PART_UPRIGHT && k != a;
+}
+
 /* ---- on all ------------------------------------------------------------------------------------
  */
 
@@ -186,12 +192,15 @@ void mesh_face_velocities(struct fv *s, double *const u[3], double *const U[3])
                 even_fluxes(m, p, a, u[a], U[a]);
                 continue;
             }
-            for (int k = 0; k < m->dim; k++)
-                face_values(p, m->dim, a, 2, u[k], s->faces[k]);
             layers(m->dim, a, 1, down, up);
-            for (int k = 0; k < m->dim; k++)
+            for (int k = 0, first = 1; k < m->dim; k++) {
+                if (is_zero(p, a, k))
+                    continue;
+                face_values(p, m->dim, a, 2, u[k], s->faces[k]);
                 PART_ROWS (p, down, up, c, n)
-                    product_row(s->faces[k] + c, m->S[a][k] + c, tangent, nt, n, k == 0, U[a] + c);
+                    product_row(s->faces[k] + c, m->S[a][k] + c, tangent, nt, n, first, U[a] + c);
+                first = 0;
+            }
         }
     }
 }
@@ -246,9 +255,11 @@ void mesh_gradient(struct fv *s, const double *q, double *const g[3])
             face_values(p, m->dim, a, 1, q, s->faces[0]);
             layers(m->dim, a, 0, down, up);
             for (int k = 0; k < m->dim; k++) {
+                if (is_zero(p, a, k))
+                    continue;
                 PART_ROWS (p, down, up, c, n)
                     product_row(s->faces[0] + c, m->S[a][k] + c, tangent, nt, n, true, s->flux + c);
-                add_difference(p, a, s->flux, a == 0, g[k]);
+                add_difference(p, a, s->flux, a == 0 || p->kind == PART_UPRIGHT, g[k]);
             }
         }
         for (int k = 0; k < m->dim; k++)
@@ -297,11 +308,13 @@ void mesh_viscous(struct fv *s, const double *q, double *out)
             layers(m->dim, a, 1, down, up);
             PART_ROWS (p, down, up, c, n)
                 normal_slope(q + c, p->stride[a], n, s->faces[0] + c);
-            face_values(p, m->dim, a, 2, q, s->faces[1]);
+            const bool askew = p->kind == PART_CURVED;
+            if (askew)
+                face_values(p, m->dim, a, 2, q, s->faces[1]);
             layers(m->dim, a, 0, down, up);
             PART_ROWS (p, down, up, c, n) {
                 product_row(s->faces[0] + c, m->G[a][a] + c, tangent, nt, n, true, s->flux + c);
-                for (int t = 0; t < nt; t++)
+                for (int t = 0; askew && t < nt; t++)
                     add_tangential(s->faces[1] + c, m->G[a][axis[t]] + c, tangent[t], tangent, nt,
                                    n, s->flux + c);
             }
@@ -347,7 +360,7 @@ void mesh_subtract_psi(struct fv *s, double tau, const double *psi, double *cons
             PART_ROWS (p, down, up, c, n)
                 for (int64_t i = c; i < c + n; i++) {
                     double F = m->G[a][a][i] * (psi[i] - psi[i - d]);
-                    for (int t = 0; t < nt; t++) {
+                    for (int t = 0; p->kind == PART_CURVED && t < nt; t++) {
                         const int64_t b = tangent[t];
                         F += 0.25 * m->G[a][axis[t]][i] *
                              (psi[i + b] - psi[i - b] + psi[i - d + b] - psi[i - d - b]);
@@ -358,7 +371,8 @@ void mesh_subtract_psi(struct fv *s, double tau, const double *psi, double *cons
     }
 }
 
-void mesh_to_index(const struct fv *s, double *q, double *work)
+/* q += sign times the sum over the axes of dq dV/48 V. */
+static void shift_average(const struct fv *s, double sign, double *q, double *work)
 {
     static const int none[3] = {0, 0, 0};
     const struct mesh *m = s->m;
@@ -366,12 +380,14 @@ void mesh_to_index(const struct fv *s, double *q, double *work)
         return;
     for (int r = 0; r < m->nparts; r++) {
         const struct part *p = m->part + r;
+        if (p->kind == PART_EVEN)
+            continue;
         for (int pass = 0; pass < 2; pass++)
             PART_ROWS (p, none, none, c, n)
                 for (int64_t i = c; i < c + n; i++) {
                     double sum = 0.0;
                     if (pass == 1) {
-                        q[i] -= work[i];
+                        q[i] += sign * work[i];
                         continue;
                     }
                     for (int a = 0; a < m->dim; a++) {
@@ -381,6 +397,15 @@ void mesh_to_index(const struct fv *s, double *q, double *work)
                     work[i] = s->free[i] * sum / (48.0 * m->V[i]);
                 }
     }
+}
+
+void mesh_to_index(const struct fv *s, double *q, double *work) { shift_average(s, -1.0, q, work); }
+
+void mesh_to_volume(struct fv *s, double *q, double *work)
+{
+    mesh_fill(s->m, 1, &q);
+    mesh_bc_extend(s, q);
+    shift_average(s, 1.0, q, work);
 }
 
 /* Third difference across the lower face, 0 where it leaves the cells. */

@@ -400,8 +400,9 @@ static bool chebyshev(struct fv *s, double c, double *const delta[3], double *co
 bool viscous_keeps_increment(const struct fv *s)
 {
     const struct forcing *f = s->forcing;
-    return !s->m && s->nu > 0.0 && !s->surface && s->prm.integrator == INTEGRATOR_RK3 &&
-           (s->bc || s->blocked || s->b.rows) && !(f && (f->imposed || f->from_partner));
+    return s->nu > 0.0 && !s->surface && s->prm.integrator == INTEGRATOR_RK3 &&
+           (s->bc || s->blocked || s->b.rows || s->stiffest > 0.0) &&
+           !(f && (f->imposed || f->from_partner));
 }
 
 /* rhs becomes the residual, work the search direction, u_old's place is not touched; face is

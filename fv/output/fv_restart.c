@@ -59,6 +59,9 @@ static void save_newton(const struct newton *w, struct h5 *f)
     h5_attribute_real(f, "dtau", w->dtau);
     h5_attribute_real(f, "residual", w->norm);
     h5_attribute_real(f, "steady", w->steady);
+    h5_attribute_real(f, "best", w->best);
+    h5_attribute_real(f, "best_at", (double)w->best_at);
+    h5_attribute_real(f, "pseudo_steps", (double)w->pseudo_steps);
     h5_attribute_real(f, "newtons", (double)w->newtons);
     h5_attribute_real(f, "krylovs", (double)w->krylovs);
 }
@@ -90,13 +93,18 @@ void fv_checkpoint(void *state, struct h5 *f)
 
 static bool restore_newton(struct newton *w, struct h5 *f)
 {
-    double steady = 0.0, newtons = 0.0, krylovs = 0.0;
+    double steady = 0.0, newtons = 0.0, krylovs = 0.0, best_at = 0.0, steps = 0.0;
     const bool there = h5_read_attribute_real(f, "dtau", &w->dtau) &&
                        h5_read_attribute_real(f, "residual", &w->norm) &&
                        h5_read_attribute_real(f, "steady", &steady) &&
+                       h5_read_attribute_real(f, "best", &w->best) &&
+                       h5_read_attribute_real(f, "best_at", &best_at) &&
+                       h5_read_attribute_real(f, "pseudo_steps", &steps) &&
                        h5_read_attribute_real(f, "newtons", &newtons) &&
                        h5_read_attribute_real(f, "krylovs", &krylovs);
     w->steady = steady != 0.0;
+    w->best_at = llround(best_at);
+    w->pseudo_steps = llround(steps);
     w->newtons = llround(newtons);
     w->krylovs = llround(krylovs);
     return there;

@@ -85,18 +85,23 @@ static double largest_divergence(struct fv *s)
     return most;
 }
 
-double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int width,
+double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int wanted,
                      const double *q)
 {
     const struct mesh *m = s->m;
     double value = 0.0, finest = INFINITY;
     for (int k = 0; k < m->nblocks; k++) {
-        int cell[3], from[3];
+        int cell[3], from[3], width = wanted > 0 ? wanted : 4;
         double xi[3], w[64], sum = 0.0;
         if (!overset_locate(m, o, k, x, cell, xi))
             continue;
         const double v = m->block[k].volume[mesh_cell(m->block + k, cell)];
-        if (v >= finest || !overset_weights(m, k, cell, xi, 1, width, from, w))
+        bool good = v < finest && overset_weights(m, k, cell, xi, 1, width, from, w);
+        if (!good && wanted == 0) {
+            width = 2;
+            good = v < finest && overset_weights(m, k, cell, xi, 1, width, from, w);
+        }
+        if (!good)
             continue;
         for (int n = 0; n < (m->dim == 3 ? width : 1) * width * width; n++) {
             int at[3] = {from[0] + n % width, from[1] + n / width % width,
@@ -216,7 +221,7 @@ static void probes(struct fv *s, double *values)
             values[k] = level_at(s, p->at);
             continue;
         }
-        here[0] = mesh_value_at(s, s->search, p->at, 2, NULL);
+        here[0] = mesh_value_at(s, s->search, p->at, s->surface ? 2 : 0, NULL);
         here[1] = s->surface ? mesh_value_at(s, s->search, p->at, 2, s->surface->phi) : -1.0;
         MPI_Allreduce(MPI_IN_PLACE, here, 2, MPI_DOUBLE, MPI_SUM, s->comm);
         values[k] =
@@ -391,7 +396,7 @@ void mesh_describe(const struct run *r)
 {
     static const char *const shapes[] = {"box", "stretched box", "ring", "sheared box", "file"};
     struct faults f = {0};
-    struct mesh *m = mesh_create(r, &f);
+    struct mesh *m = mesh_take(r, &f);
     for (int k = 0; m && k < m->nblocks; k++) {
         const struct mesh_block *b = m->block + k;
         int64_t count[3] = {0, 0, 0};
@@ -406,5 +411,5 @@ void mesh_describe(const struct run *r)
         describe_scene(r, m);
         describe_step(r, m);
     }
-    mesh_free(&m);
+    mesh_leave(&m);
 }

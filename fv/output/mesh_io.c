@@ -1,5 +1,6 @@
 /* mesh_io.c - snapshots and restart files of a flow on blocks: datasets NAME_1, NAME_2, ... of the
- * blocks, vertices x_1, ...; cells that are not computed hold no number.
+ * blocks, vertices x_1, ...; cells that are not computed hold no number. What is written are
+ * averages over the volumes of cells.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../operators/mesh_ops.h"
 #include "mesh_output.h"
@@ -78,6 +79,25 @@ static void write_field(const struct fv *s, struct h5 *f, int k, const char *fie
     mem_free(v);
 }
 
+/* Mean place of a cell, over its volume. */
+static void centroid(const struct mesh_block *b, int dim, const int *cell, double *mean)
+{
+    static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
+    double whole = 0.0;
+    mean[0] = mean[1] = mean[2] = 0.0;
+    for (int g = 0; g < 1 << dim; g++) {
+        const double xi[3] = {gauss[g & 1], gauss[g >> 1 & 1], gauss[g >> 2]};
+        double x[3], dx[3][3];
+        mesh_map_point(b, dim, cell, xi, x, dx);
+        const double V = mesh_determinant(dx);
+        whole += V;
+        for (int c = 0; c < 3; c++)
+            mean[c] += V * x[c];
+    }
+    for (int c = 0; c < 3; c++)
+        mean[c] /= whole;
+}
+
 /* phi has a value in dry cells, too. */
 static void write_level(const struct fv *s, struct h5 *f, int k)
 {
@@ -94,19 +114,33 @@ static void write_level(const struct fv *s, struct h5 *f, int k)
     mem_free(v);
 }
 
-static void whole_pressure(const struct fv *s, double *q)
+static void add_still_pressure(const struct fv *s, double *q)
 {
     const struct mesh *m = s->m;
     for (int r = 0; r < m->nparts; r++) {
         const struct part *p = m->part + r;
-        const struct mesh_block *b = m->block + p->block;
         int i[3];
         PART_CELLS (p, i, c) {
             const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-            const double *x = b->centre[mesh_cell(b, at)];
-            q[c] = fv_pressure(s, c) + still_pressure(&s->run->scene, s->still, s->level, x);
+            double x[3];
+            centroid(m->block + p->block, m->dim, at, x);
+            q[c] += still_pressure(&s->run->scene, s->still, s->level, x);
         }
     }
+}
+
+void mesh_output_average(struct fv *s, enum mesh_output what, double *q)
+{
+    if (what == OUTPUT_VORTICITY)
+        mesh_vorticity(s, q);
+    else
+        FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        q[i] = what == OUTPUT_PRESSURE ? fv_pressure(s, i) : s->u[what][i];
+    if (!s->surface || what != OUTPUT_PRESSURE) /* p ends at the surface: no differences there */
+        mesh_to_volume(s, q, s->flux);
+    if (what == OUTPUT_PRESSURE)
+        add_still_pressure(s, q);
 }
 
 void mesh_snapshot(struct fv *s, struct h5 *f, struct xdmf *x, const char *file)
@@ -114,25 +148,31 @@ void mesh_snapshot(struct fv *s, struct h5 *f, struct xdmf *x, const char *file)
     const struct mesh *m = s->m;
     struct xdmf_field fields[5];
     int n = 0, cells[MESH_BLOCKS_MAX][3];
-    double *q = mesh_field(m);
+    double *u[3] = {NULL, NULL, NULL}, *q = mesh_field(m);
     h5_attribute_int(f, "blocks", m->nblocks);
     for (int k = 0; k < m->nblocks; k++) {
         write_vertices(s, f, k);
         memcpy(cells[k], m->block[k].n, sizeof cells[k]);
     }
     if (fv_field_wanted(s->run, "velocity")) {
+        for (int a = 0; a < m->dim; a++) {
+            u[a] = mesh_field(m);
+            mesh_output_average(s, (enum mesh_output)a, u[a]);
+        }
         for (int k = 0; k < m->nblocks; k++)
-            write_field(s, f, k, "velocity", "m/s", 3, s->u);
+            write_field(s, f, k, "velocity", "m/s", 3, u);
+        for (int a = 0; a < m->dim; a++)
+            mem_free(u[a]);
         fields[n++] = (struct xdmf_field){"velocity", 3};
     }
     if (fv_field_wanted(s->run, "pressure")) {
-        whole_pressure(s, q);
+        mesh_output_average(s, OUTPUT_PRESSURE, q);
         for (int k = 0; k < m->nblocks; k++)
             write_field(s, f, k, "pressure", "Pa", 1, &q);
         fields[n++] = (struct xdmf_field){"pressure", 1};
     }
     if (fv_field_wanted(s->run, "vorticity")) {
-        mesh_vorticity(s, q);
+        mesh_output_average(s, OUTPUT_VORTICITY, q);
         for (int k = 0; k < m->nblocks; k++)
             write_field(s, f, k, "vorticity", "1/s", 1, &q);
         fields[n++] = (struct xdmf_field){"vorticity", 1};

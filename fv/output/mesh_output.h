@@ -7,12 +7,15 @@
 #include "../grid/mesh.h"
 
 /* mesh_errors.c: this rank's share of the value at a place, of the finest block there; q NULL:
- * pressure. width 2: linear, 4: cubic from averages. */
+ * pressure. width 2: linear, 4: cubic from averages, 0: that where it can, else linear. */
 double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int width,
                      const double *q);
 /* fv_lines.c: extrema on the centre lines of the domain into the summary. */
 void mesh_summarise_extrema(const struct fv *s);
 
+/* mesh_io.c: averages over the volumes of computed cells as snapshots have them, m/s, Pa, 1/s. */
+enum mesh_output { OUTPUT_X, OUTPUT_Y, OUTPUT_Z, OUTPUT_PRESSURE, OUTPUT_VORTICITY };
+void mesh_output_average(struct fv *s, enum mesh_output what, double *q);
 /* mesh_io.c, mesh_errors.c */
 void mesh_describe(const struct run *r);
 void mesh_snapshot(struct fv *s, struct h5 *f, struct xdmf *x, const char *file);

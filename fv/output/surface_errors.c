@@ -72,7 +72,7 @@ static double reach_on_blocks(const struct fv *s, int a)
     for (int64_t i = c; i < c + n; i++)
         for (int b = 0; b < 2 * s->dim && s->free[i] > 0.0; b++) {
             const int64_t to = b % 2 ? i + p_->stride[b / 2] : i - p_->stride[b / 2];
-            const double way = w->out[to] ? 0.5 : phi[to] < 0.0 ? 0.0 : phi[i] / (phi[i] - phi[to]);
+            const double way = w->out[to] || phi[to] < 0.0 ? 0.5 : phi[i] / (phi[i] - phi[to]);
             most = fmax(most, x[i] + way * (x[to] - x[i]));
         }
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);

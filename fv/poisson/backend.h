@@ -10,9 +10,10 @@ struct fv;
 
 struct backend {
     const char *name;
-    /* Of a solve over what the step wants: the residual says little about waves as long as the
-     * grid, which make forces; a cycle of PFMG takes all waves alike. */
-    double tolerance;
+    /* Of the solves of stages and of the last one of a step, over what the step wants: the residual
+     * says little about waves as long as the grid, which make forces and p; a cycle of PFMG takes
+     * all waves alike. */
+    double stage, last;
     /* NULL: it cannot take these blocks. */
     void *(*create)(struct fv *s);
     void (*free)(void **of);

@@ -256,12 +256,13 @@ static HYPRE_Solver make_amg(int relax, int sweeps, int coarsen)
     HYPRE(HYPRE_BoomerAMGSetStrongThreshold(amg, 0.25));
     HYPRE(HYPRE_BoomerAMGSetTol(amg, 0.0));
     HYPRE(HYPRE_BoomerAMGSetMaxIter(amg, 1));
+    HYPRE(HYPRE_BoomerAMGSetRelaxOrder(amg, 1)); /* coarse cells first, then the others */
     return amg;
 }
 
 static void make_solver(struct mesh_pressure *p)
 {
-    p->amg = make_amg(3, 1, 8);
+    p->amg = make_amg(3, 1, 10);
     HYPRE(HYPRE_BoomerAMGSetup(p->amg, matrix_of(p), p->b.v, p->x.v));
 }
 
@@ -460,7 +461,8 @@ static void cycle(struct fv *s, void *of, double *b, double *x)
 }
 
 const struct backend backend_boomeramg = {.name = "BoomerAMG",
-                                          .tolerance = 0.1,
+                                          .stage = 0.1,
+                                          .last = 0.02,
                                           .create = create,
                                           .free = free_matrices,
                                           .solve = solve,

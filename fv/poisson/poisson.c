@@ -65,16 +65,21 @@ void poisson_free(struct poisson **pp)
 const char *poisson_name(const struct poisson *p) { return p->by->name; }
 
 /* What rounding makes of divergences: nothing to solve for. */
-static bool negligible(struct fv *s, const struct poisson *p, const double *div)
+static bool negligible(struct fv *s, const double *div)
 {
     double sum[2] = {0.0, 0.0};
-    for (int k = 0; k < p->n; k++) {
-        const int64_t c = p->place[k];
-        sum[0] += div[c] * div[c];
-        for (int a = 0; a < s->m->dim; a++)
-            sum[1] += s->free[c] * s->U[a][c] * s->U[a][c];
+    FLOW_ROWS(s, c, n)
+    {
+        double part[2][4] = {{0.0}};
+        for (int64_t i = c; i < c + n; i++)
+            part[0][(i - c) & 3] += div[i] * div[i];
+        for (int a = 0; a < s->dim; a++)
+            for (int64_t i = c; i < c + n; i++)
+                part[1][(i - c) & 3] += s->free[i] * s->U[a][i] * s->U[a][i];
+        for (int k = 0; k < 2; k++)
+            sum[k] += (part[k][0] + part[k][1]) + (part[k][2] + part[k][3]);
     }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->m->comm);
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     return sum[0] <= 1e-27 * sum[1];
 }
 
@@ -94,12 +99,21 @@ static void set_psi(struct fv *s, const struct poisson *p, const double *row, do
             psi[p->place[k]] = row[k] - level;
 }
 
+/* Tolerances near rounding (1e-9) are taken as they are meant: a tenth. */
+static double tolerance(const struct fv *s, double tol)
+{
+    const struct backend *by = s->poisson->by;
+    if (tol > s->prm.tol_pressure)
+        return by->stage * tol;
+    return fmax(by->last * tol, fmin(by->stage * tol, 1e-9));
+}
+
 bool poisson_solve(struct fv *s, double tau, const double *div, double tol, double *start,
                    double *psi)
 {
     struct poisson *p = s->poisson;
     double c = 0.0;
-    if (negligible(s, p, div)) {
+    if (negligible(s, div)) {
         memset(psi, 0, (size_t)s->size * sizeof(double));
         return true;
     }
@@ -107,7 +121,7 @@ bool poisson_solve(struct fv *s, double tau, const double *div, double tol, doub
         p->x[k] = start[p->place[k]];
         p->b[k] = -div[p->place[k]] / tau;
     }
-    const bool good = p->by->solve(s, p->of, p->b, p->by->tolerance * tol, p->x, p->psi, &c);
+    const bool good = p->by->solve(s, p->of, p->b, tolerance(s, tol), p->x, p->psi, &c);
     for (int k = 0; k < p->n; k++)
         start[p->place[k]] = p->x[k];
     set_psi(s, p, p->psi, psi);

@@ -508,7 +508,8 @@ static void set_shift(struct fv *s, void *of, double shift)
 }
 
 const struct backend backend_pfmg = {.name = "PFMG",
-                                     .tolerance = 1.0,
+                                     .stage = 1.0,
+                                     .last = 1.0,
                                      .create = create,
                                      .free = free_tiles,
                                      .solve = solve,

@@ -14,7 +14,12 @@
 #include "lanes.h"
 #include "mesh_view.h"
 
-enum { TERMS = 10, STENCIL = 128, THIN = 9 }; /* 125 cells and what fills up the last lanes */
+enum {
+    TERMS = 10,
+    STENCIL = 128,
+    THIN = 9,
+    WEDGE = 12
+}; /* 125 cells and what fills up the last lanes */
 
 /* Normal equations of a fit over a stencil. */
 struct least_squares {
@@ -354,6 +359,10 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
  * 0.4. */
 static bool is_thin(const struct fv *s, const struct place *p)
 {
+    /* in the wedge between a slanting wall and the surface a slope from few cells grows */
+    if (s->m && s->surface->mesh->slants[p->part - s->part] &&
+        p->known < (s->dim == 2 ? WEDGE : 4 * WEDGE))
+        return true;
     return p->known < (s->dim == 2 ? THIN : 3 * THIN) || 2 * p->known < p->room;
 }
 

@@ -137,6 +137,10 @@ void extension_scalar(const struct fv *s, double *q);
 /* The same for the layers further out, within what is around. */
 void extension_beyond(const struct fv *s, double *q);
 
+/* surface_smooth.c: on blocks, u (with its ghosts) beside the surface without waves of two cells.
+ */
+void surface_smooth(struct fv *s);
+
 /* surface_pressure.c */
 /* Wet cells, cut faces and stencils of the present phi; pressure_rebuild then. */
 void surface_rebuild(struct fv *s);

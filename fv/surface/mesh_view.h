@@ -24,7 +24,10 @@ struct surface_mesh {
     double *speed[3];                /* m/s: rate along each index, times the size */
     double *count;                   /* m^dim: volume that counts */
     unsigned char *out;              /* 1: no water can be there: behind walls, in holes */
-    bool keeps;                      /* slopes of phi behind inclined walls stay as they are */
+    bool slants[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright, or end in an
+                                     overlap */
+    bool slanting;                /* some block has such lines */
+    bool keeps;                   /* slopes of phi behind inclined walls stay as they are */
     int64_t nface[3], face_room[3];
     struct wet_face *face[3];
     int64_t nat, at_room;

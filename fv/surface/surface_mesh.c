@@ -30,6 +30,32 @@ static double mean_spacing(const struct mesh_block *b, int dim, int a)
     return sum / (double)n;
 }
 
+/* Whether some edge of the block is neither along gravity nor across it. */
+static bool is_slanting(const struct fv *s, const struct mesh_block *b)
+{
+    const double *g = s->run->scene.fluid.gravity, g2 = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+    int i[3];
+    for (i[2] = 0; i[2] <= (s->dim == 3 ? b->n[2] : 0); i[2]++)
+        for (i[1] = 0; i[1] <= b->n[1]; i[1]++)
+            for (i[0] = 0; i[0] <= b->n[0]; i[0]++)
+                for (int a = 0; a < s->dim; a++) {
+                    int up[3] = {i[0], i[1], i[2]};
+                    double along = 0.0, size = 0.0;
+                    if (up[a]++ == b->n[a])
+                        continue;
+                    const double *x = b->x[mesh_vertex(b, i[0], i[1], i[2])],
+                                 *y = b->x[mesh_vertex(b, up[0], up[1], up[2])];
+                    for (int k = 0; k < s->dim; k++) {
+                        along += g[k] * (y[k] - x[k]);
+                        size += (y[k] - x[k]) * (y[k] - x[k]);
+                    }
+                    const double cosine2 = along * along / (g2 * size);
+                    if (cosine2 > 1e-6 && cosine2 < 1.0 - 1e-6)
+                        return true;
+                }
+    return false;
+}
+
 static void set_centres(const struct fv *s, const struct part *p, struct surface_mesh *w)
 {
     const struct mesh *m = s->m;
@@ -134,6 +160,8 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, double *least, doub
     struct surface_mesh *w = NEW(struct surface_mesh, 1);
     int most = 1;
     w->count = mesh_field(s->m);
+    for (int k = 0; k < s->m->nblocks; k++)
+        w->slanting = w->slanting || is_slanting(s, s->m->block + k);
     w->out = NEW(unsigned char, s->size);
     for (int a = 0; a < 3; a++) {
         w->x[a] = mesh_field(s->m);
@@ -145,6 +173,7 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, double *least, doub
         const struct part *p = s->part + q;
         for (int a = 0; a < s->dim; a++)
             w->size[q][a] = mean_spacing(s->m->block + p->block, s->dim, a);
+        w->slants[q] = s->m->has_fringe || is_slanting(s, s->m->block + p->block);
         set_centres(s, p, w);
         set_metric(s, p, w);
         most = p->n[0] > most ? p->n[0] : most;

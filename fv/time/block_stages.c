@@ -64,20 +64,15 @@ static void finish_rhs(struct fv *s)
 
 static void viscous(struct fv *s, int q, double *out) { mesh_viscous(s, s->u[q], out); }
 
+/* The increment of the stage before, scaled, is the start. */
 static bool solve_viscous(struct fv *s, double c, double t, double scale)
 {
+    const double share = viscous_keeps_increment(s) ? scale : 0.0;
     (void)t;
-    (void)scale;
     for (int a = 0; a < s->dim; a++)
-        memset(s->delta[a], 0, (size_t)s->size * sizeof(double));
-    mesh_bc_velocity(s, BC_CHANGE, s->delta); /* what the sides do from one time to the next */
-    for (int a = 0; a < s->dim; a++) {
-        double *restrict L = s->krylov[0][0];
-        mesh_viscous(s, s->delta[a], L);
         FLOW_ROWS(s, at, n)
-        for (int64_t i = at; i < at + n; i++)
-            s->rhs[a][i] += c * L[i];
-    }
+    for (int64_t i = at; i < at + n; i++)
+        s->delta[a][i] *= share;
     return mesh_viscous_solve(s, c, s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous : 1e-4);
 }
 
@@ -164,15 +159,16 @@ static void measure_blocks(struct fv *s)
                         S2 += S * S;
                     }
                     rate += fabs(F);
-                    rise += fabs(G) + push * sqrt(S2);
-                    least = fmin(least, S2);
+                    rise += fabs(G) + (push > 0.0 ? push * sqrt(S2) : 0.0);
+                    least = S2 < least ? S2 : least;
                     u2 += s->u[a][i] * s->u[a][i];
                     poison += 0.0 * s->u[a][i];
                 }
-                most[0] = fmax(most[0], rate / m->V[i]);
-                most[1] = fmax(most[1], u2);
-                most[2] = fmax(most[2], rise / m->V[i]);
-                most[3] = fmax(most[3], sqrt(u2 / least) * m->V[i]);
+                most[0] = rate > most[0] * m->V[i] ? rate / m->V[i] : most[0];
+                most[1] = u2 > most[1] ? u2 : most[1];
+                most[2] = rise > most[2] * m->V[i] ? rise / m->V[i] : most[2];
+                if (u2 * m->V[i] * m->V[i] > most[3] * most[3] * least)
+                    most[3] = sqrt(u2 / least) * m->V[i];
             }
     }
     most[1] = poison == 0.0 ? sqrt(most[1]) : INFINITY;

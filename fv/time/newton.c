@@ -15,7 +15,14 @@
 #include "../boundary/forcing.h"
 #include "stages.h"
 
-enum { KRYLOV = 200, NEWTONS = 12, HALVINGS = 6, PSEUDO_STEPS = 500, PSEUDO_FAILURES = 12 };
+enum {
+    KRYLOV = 200,
+    NEWTONS = 12,
+    HALVINGS = 6,
+    PSEUDO_STEPS = 500,
+    PSEUDO_FAILURES = 12,
+    STALL = 150 /* pseudo steps without a lower residual */
+};
 
 /* SUNDIALS' codes below zero are faults of the call, not of the numerics. */
 #define SUN(call)                                                                                  \
@@ -223,8 +230,9 @@ void newton_describe(struct fv *s, const char *after, struct diagnosis *d)
              place);
     if (s->prm.steady)
         snprintf(d->likely, sizeof d->likely,
-                 "this flow may have no steady state on these cells: more cells, "
-                 "fv.flux = \"upwind\", more viscosity, or fv.steady = false");
+                 "this flow may have no steady state on these cells: fv.steady = false shows what "
+                 "it does in time; more cells, %smore viscosity",
+                 s->prm.flux == FLUX_CENTRAL ? "fv.flux = \"upwind\", " : "");
     else
         snprintf(d->likely, sizeof d->likely,
                  "fv.cfl = %g is too large for this flow, or fv.flux = \"central\" finds it "
@@ -294,12 +302,33 @@ static bool try_pseudo_step(struct fv *s)
     count(w);
     bool good = code >= 0 || code == KIN_MAXITER_REACHED;
     newton_residual(w->q, w->residual, s);
-    good = good && isfinite(scaled_norm(w, w->residual)); /* largest values let NaN pass */
+    w->left = scaled_norm(w, w->residual);
+    good = good && isfinite(w->left); /* largest values let NaN pass */
     if (!good)
         N_VScale(1.0, w->q1, w->q);
     N_VScale(1.0, w->q, w->q1); /* so that only the terms of the steady problem are left */
     newton_residual(w->q, w->residual, s);
     return good;
+}
+
+/* The residual goes up while eddies form, and down at last; that which no longer does is told. */
+static bool stalls(struct newton *w)
+{
+    w->pseudo_steps++;
+    if (w->best == 0.0 || w->norm < 0.9 * w->best) {
+        w->best = w->norm;
+        w->best_at = w->pseudo_steps;
+    }
+    return w->pseudo_steps - w->best_at >= STALL;
+}
+
+/* Of the pseudo step. Residual: left in the step's own equation, and gained in the steady one, each
+ * over that before. A step that one Newton iteration solves may grow, whatever the flow does
+ * meanwhile; one that it does not solve is too long. */
+static double growth(double left, double gain)
+{
+    const double least = left < 0.25 ? 1.5 : left < 0.5 ? 1.1 : 0.5;
+    return left > 0.8 ? 0.5 : fmin(fmax(gain, least), 10.0);
 }
 
 static void march(struct fv *s, struct diagnosis *d)
@@ -322,7 +351,7 @@ static void march(struct fv *s, struct diagnosis *d)
         newton_describe(s, "a pseudo step that was cut to nothing", d);
     w->steady = w->norm <= s->prm.tol_newton;
     if (before > 0.0 && w->norm > 0.0)
-        w->dtau *= fmin(fmax(before / w->norm, 0.5), 10.0);
+        w->dtau *= growth(w->left / before, before / w->norm);
 }
 
 double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagnosis *d)
@@ -337,9 +366,12 @@ double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagn
     march(s, d);
     stop(s, "newton");
     const double dt = w->steady ? left : fmin(left, end / PSEUDO_STEPS);
-    if (!d->bad && !w->steady && s->t + dt >= (1.0 - 1e-9) * end) {
-        char after[64];
-        snprintf(after, sizeof after, "%d pseudo steps", PSEUDO_STEPS);
+    const bool stalled = stalls(w), late = s->t + dt >= (1.0 - 1e-9) * end;
+    if (!d->bad && !w->steady && (stalled || late)) {
+        char after[160];
+        snprintf(after, sizeof after,
+                 "%d pseudo steps (rms %.3g, the least %.3g at %d; the last step %.3g s)",
+                 (int)w->pseudo_steps, w->norm, w->best, (int)w->best_at, w->dtau);
         newton_describe(s, after, d);
     }
     return dt;

@@ -68,7 +68,10 @@ struct newton {
     double *A[7];         /* the momentum operator of the preconditioner: 1/diagonal, -x, +x, .. */
     double *x[3], *r[3], *phi, *div; /* its unknowns and right sides */
     double dtau, norm; /* s, -: pseudo step; scaled residual (rms) after the last one */
-    bool steady;       /* reached */
+    double left;       /* -: residual that the last pseudo step left in its own equation */
+    double best;       /* -: least norm so far, reached at the pseudo step best_at */
+    int64_t best_at, pseudo_steps;
+    bool steady;                                /* reached */
     int64_t newtons, krylovs, cycles, halvings; /* summed over the run */
 };
 

@@ -175,6 +175,7 @@ void surface_first_half(struct fv *s, double dt)
     if (s->surface->half)
         go_ahead(s, dt);
     rebuild(s);
+    surface_smooth(s);
     surface_extend(s, STENCILS);
 }
 
@@ -249,10 +250,9 @@ static int state(struct fv *s, double **f)
     f[n++] = s->p;
     f[n++] = s->p_before;
     for (int a = 0; a < 3; a++) {
-        f[n++] = s->psi[a];
-        for (int k = 0; k < 4 && a < s->dim; k++) {
-            double *const all[] = {s->u[a], s->U[a], s->u_old[a],
-                                   s->prm.integrator == INTEGRATOR_BDF2 ? s->N[a] : NULL};
+        double *const all[] = {s->psi[a], s->u[a], s->U[a], s->u_old[a],
+                               s->prm.integrator == INTEGRATOR_BDF2 ? s->N[a] : NULL};
+        for (int k = 0; k < (a < s->dim ? 5 : 1); k++) {
             if (all[k])
                 f[n++] = all[k];
         }

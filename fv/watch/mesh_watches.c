@@ -7,6 +7,7 @@
 #include "../fv.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
+#include "../surface/mesh_view.h"
 
 static const int none[3] = {0, 0, 0};
 
@@ -19,13 +20,14 @@ static bool has_sides(const struct mesh *m)
     return false;
 }
 
-/* Where blocks overlap a strip of the flow counts twice, and interpolation does work: ten times the
+/* Where blocks overlap a strip of the flow counts twice, and interpolation does work; where
+ * a surface crosses cells at a slant, the work of gravity is known to a few per cent: ten times the
  * levels. */
 struct watches *mesh_watches_create(struct fv *s)
 {
     struct watches *w =
         watches_create(s->run, &s->prm, !has_sides(s->m) && !s->surface, s->surface != NULL);
-    if (s->m->has_fringe) {
+    if (s->m->has_fringe || (s->surface && s->surface->mesh->slanting)) {
         w->energy.warn *= 10.0;
         w->energy.stop *= 10.0;
     }

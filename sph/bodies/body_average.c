@@ -151,7 +151,8 @@ static void ask_particle(const struct sph *s, int i, struct node *d)
         away += e[a] * d->n[a];
         un += (u[a] - d->u[a]) * d->n[a];
     }
-    if (r2 >= s->R * s->R || away <= 0.0) /* not from the other side of a thin body */
+    if (r2 >= s->R * s->R || away <= 0.0 ||
+        particles_is_guard(&s->p, i)) /* not from the other side of a thin body */
         return;
     const double W = q[at_volume(dim)] * kernel_w(dim, sqrt(r2), s->R);
     d->said.W += W;
@@ -234,11 +235,13 @@ struct force body_average(struct sph *s, int which)
     const struct walls *w = s->walls;
     struct nodes nodes = lay_nodes(s, which);
     struct force force = {0};
-    if (s->dim == 2)
-        ask_all(s, &nodes);
-    for (int k = 0; k < w->nmeshes; k++)
-        if (w->meshes[k].body == which)
-            ask_mesh(s, w->meshes + k, nodes.first[k], &nodes);
+    for (const struct sph *q = s; q; q = q->finer) {
+        if (q->dim == 2)
+            ask_all(q, &nodes);
+        for (int k = 0; k < w->nmeshes; k++)
+            if (w->meshes[k].body == which)
+                ask_mesh(q, w->meshes + k, nodes.first[k], &nodes);
+    }
     sum_over_ranks(s, &nodes);
     for (int k = 0; k < nodes.n; k++)
         add_force(s, w->bodies + which, nodes.node + k, &force);

@@ -335,7 +335,7 @@ void fill_finer(struct sph *s)
     const bool weighed = is_weighed(&s->run->scene);
     set_slopes(s, &e);
     refinement_adapt(s);
-    s->refinement->added = 0.0;
+    s->refinement->added = s->refinement->repaid = 0.0;
     for (struct sph *q = s->finer; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
             const double *y = state_row(&q->p, q->p.y, i),

@@ -12,6 +12,8 @@
 #include "../bodies/body_check.h"
 #include "../open_boundaries/zones.h"
 #include "../refinement/apr_params.h"
+#include "../refinement/apr_params.h"
+#include "../refinement/regions_check.h"
 
 static struct sph_params given; /* as the case has it: the target of the table */
 static bool present;
@@ -491,6 +493,30 @@ static void check_thin(const struct run *r, struct faults *f)
                      t.what, t.width, t.at[0], t.at[1], 0.5 * t.width);
 }
 
+/* What levels of refinement do not go together with. */
+static void check_levels(const struct run *r, struct faults *f)
+{
+    const struct sph_params *used = sph_params_of(r);
+    if (is_coupled(r))
+        params_fault(r->params, f, "apr",
+                     "refinement is not for a coupled job yet: leave out group apr, or run sph "
+                     "alone");
+    if (sph_params_walls(r) && used->walls == WALLS_GHOSTS)
+        params_fault(r->params, f, "sph.walls",
+                     "mirrored ghosts know one spacing only: refinement needs nfm");
+    if (used->background)
+        params_fault(r->params, f, "sph.background",
+                     "levels of refinement would each lift their own least pressure: leave it out");
+    for (int k = 0; k < r->scene.nbodies; k++)
+        if (r->scene.bodies[k].free) {
+            params_fault(r->params, f, "apr",
+                         "body %d (%s) is moved by the fluid, which refinement does not know yet: "
+                         "prescribe its motion, or leave out group apr",
+                         k + 1, r->scene.bodies[k].name);
+            return;
+        }
+}
+
 void sph_params_check(const struct run *r, struct faults *f)
 {
     if (f->n > 0) /* values that were refused are not there to be compared */
@@ -538,4 +564,8 @@ void sph_params_check(const struct run *r, struct faults *f)
         check_thin(r, f);
     else if (f->n == 0)
         sph_meshes_check(r, sph_params_of(r), f);
+    if (f->n == 0)
+        regions_check(r, sph_params_of(r), f);
+    if (f->n == 0 && apr_params_of(r))
+        check_levels(r, f);
 }

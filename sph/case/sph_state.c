@@ -10,6 +10,8 @@
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/scheme.h"
+#include "../refinement/criteria.h"
+#include "../refinement/guards.h"
 #include "../refinement/refinement.h"
 #include "../sph_params.h"
 #include "../surface/surface.h"
@@ -74,7 +76,7 @@ static struct sph *create_level(struct run *r, const struct sph_params *prm, str
     particles_create(&s->p, s->dim, 0);
     s->list = neighbours_create();
     s->list->touching = collisions_distance(s);
-    s->zones = zones_create(s);
+    s->zones = coarser ? NULL : zones_create(s); /* open sides are of the first level */
     domain_create(s);
     s->walls = walls_create(s);
     bodies_create(s);
@@ -92,6 +94,8 @@ static void create_finer(struct sph *s)
     struct regions *g = regions_create(s->run, &s->prm);
     if (!g)
         return;
+    if (sph_watch_moves(&s->run->scene)) /* guards at moving walls take part in their work */
+        s->watch.budget_closed = false;
     s->refinement = NEW(struct refinement, 1);
     s->refinement->regions = g;
     s->guards = guards_create();
@@ -111,6 +115,10 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
         return s;
     }
     fill_lattice(s);
+    if (s->finer && criteria_due(s->refinement->regions, s->t)) { /* of the coarsest level alone */
+        integrate_start(s);
+        refinement_look(s);
+    }
     if (s->finer)
         fill_finer(s);
     integrate_start(s);

@@ -175,7 +175,8 @@ static void check_body(const struct run *r, const bool *has, int k, struct fault
 /* Words of output.fields that no particle has. */
 static void check_fields(const struct run *r, struct faults *f)
 {
-    static const char known[] = " velocity pressure density vorticity volume zone age id ";
+    static const char known[] =
+        " velocity pressure density vorticity volume zone age level guard id ";
     const char *at = r->scene.output.fields;
     while (*(at += strspn(at, " ,"))) {
         char word[PARAM_TEXT_SIZE + 2];

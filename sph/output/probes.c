@@ -33,11 +33,11 @@ int probes_columns(const struct run *r, const char **names)
     return n;
 }
 
-/* Kernel average of p, carried to the place by its gradient; 0 where there is hardly any fluid. */
-static double pressure_at(struct sph *s, const double *at)
+/* Of one level, what flows there: sums of w W p, p carried to the place by its gradient, and of w
+ * W. */
+static void add_pressure(const struct sph *s, const double *at, double sums[2])
 {
     const int dim = s->dim;
-    double sums[2] = {0.0, 0.0};
     for (int i = 0; i < s->p.n; i++) {
         const double *q = prim_line(&s->p, i), rho = q[at_rho(dim)];
         const double *grho = slope_line(&s->p, i);
@@ -46,22 +46,48 @@ static double pressure_at(struct sph *s, const double *at)
             r2 += (at[a] - q[a]) * (at[a] - q[a]);
             more += (at[a] - q[a]) * grho[a];
         }
-        if (r2 >= s->R * s->R)
+        if (r2 >= s->R * s->R || particles_is_guard(&s->p, i))
             continue;
         const double W = q[at_volume(dim)] * kernel_w(dim, sqrt(r2), s->R);
         const double c = eos_c(rho, s->rho0, s->c0, s->gamma);
         sums[0] += W * (eos_p(rho, s->rho0, s->c0, s->gamma) + c * c * more);
         sums[1] += W;
     }
+}
+
+/* Kernel average of p; 0 where there is hardly any fluid. */
+static double pressure_at(struct sph *s, const double *at)
+{
+    double sums[2] = {0.0, 0.0};
+    for (const struct sph *q = s; q; q = q->finer)
+        add_pressure(q, at, sums);
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
     return sums[1] > 0.05 ? sums[0] / sums[1] : 0.0;
+}
+
+/* Volume of what flows of one level under a hat function of this half width around the place. */
+static double volume_around(const struct sph *s, const double *at, double half)
+{
+    double volume = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *q = prim_line(&s->p, i);
+        double weight = particles_is_guard(&s->p, i) ? 0.0 : q[at_volume(s->dim)];
+        for (int a = 0; a < s->dim - 1; a++) {
+            double d = fabs(q[a] - at[a]);
+            if (s->periodic[a])
+                d = fmin(d, s->hi[a] - s->lo[a] - d);
+            weight *= fmax(0.0, 1.0 - d / half);
+        }
+        volume += weight;
+    }
+    return volume;
 }
 
 /* Volume of the fluid in a column around the place over the column's cross-section, on top of the
  * domain's bottom: the surface's height where there is one, drops included. */
 static double level_at(struct sph *s, const double *at)
 {
-    const int dim = s->dim, up = dim - 1;
+    const int up = s->dim - 1;
     const double half = 2.0 * s->dx;
     double volume = 0.0, section = 1.0;
     for (int a = 0; a < up; a++) { /* integral of the hat function over the domain */
@@ -70,17 +96,8 @@ static double level_at(struct sph *s, const double *at)
         const double low = 0.5 * (1.0 + lo) * (1.0 + lo), high = 0.5 * (1.0 - hi) * (1.0 - hi);
         section *= s->periodic[a] ? half : half * (1.0 - low - high);
     }
-    for (int i = 0; i < s->p.n; i++) {
-        const double *q = prim_line(&s->p, i);
-        double weight = q[at_volume(dim)];
-        for (int a = 0; a < up; a++) {
-            double d = fabs(q[a] - at[a]);
-            if (s->periodic[a])
-                d = fmin(d, s->hi[a] - s->lo[a] - d);
-            weight *= fmax(0.0, 1.0 - d / half);
-        }
-        volume += weight;
-    }
+    for (const struct sph *q = s; q; q = q->finer)
+        volume += volume_around(q, at, half);
     MPI_Allreduce(MPI_IN_PLACE, &volume, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     return s->lo[up] + volume / section;
 }

@@ -4,11 +4,14 @@
 #include "../sph.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "../../common/scene_mesh.h"
 #include "../../common/exact.h"
 #include "../../common/mem.h"
 #include "../parallel/domain.h"
+#include "../refinement/apr_params.h"
+#include "../refinement/refinement.h"
 #include "../particles/eos.h"
 #include "../bodies/bodies.h"
 #include "../walls/forces.h"
@@ -264,6 +267,36 @@ static const char *const columns[] = {
     "momentum y [kg m/s]",  "momentum z [kg m/s]",   "max Mach [-]",    "min density [kg/m^3]",
     "max density [kg/m^3]", "particles [-]",         "min spacing [dx]"};
 
+/* Of each level what flows and its guards; what the change of levels has made or lost of mass. */
+static int levels_columns(const struct run *r, const char **names)
+{
+    static char text[APR_LEVELS_MAX + 1][2][32];
+    const struct apr_params *apr = apr_params_of(r);
+    int n = 0;
+    for (int k = 0; apr && k <= apr->levels; k++) {
+        snprintf(text[k][0], sizeof text[k][0], "particles level %d [-]", k);
+        snprintf(text[k][1], sizeof text[k][1], "guards level %d [-]", k);
+        names[n++] = text[k][0];
+        names[n++] = text[k][1];
+    }
+    if (apr)
+        names[n++] = "mass of level changes [kg]";
+    return n;
+}
+
+static double *levels_row(const struct sph *s, double *values)
+{
+    for (const struct sph *q = s; q; q = q->finer) {
+        int guards = 0;
+        for (int i = 0; i < q->p.n; i++)
+            guards += particles_is_guard(&q->p, i);
+        *values++ = total(s, q->p.n - guards);
+        *values++ = total(s, guards);
+    }
+    *values++ = total(s, s->refinement->added);
+    return values;
+}
+
 int sph_columns(const struct run *r, const char **names)
 {
     int n = 0;
@@ -273,6 +306,7 @@ int sph_columns(const struct run *r, const char **names)
     n += sph_watch_columns(r, names + n);
     if (sph_has_exact(r))
         names[n++] = "error velocity l2 [-]";
+    n += levels_columns(r, names + n);
     if (sph_params_zones(r)) {
         names[n++] = "born [-]";
         names[n++] = "gone [-]";
@@ -303,6 +337,8 @@ void sph_row(void *state, double *values)
         errors(s, n);
         *values++ = norm_relative_l2(n);
     }
+    if (s->finer)
+        values = levels_row(s, values);
     if (s->zones) {
         *values++ = births(s);
         *values++ = removals(s);
@@ -360,8 +396,8 @@ static void summarise_drifts(const struct sph *s)
 /* Pairs over the processor time of the stages: a loaded machine counts for nothing. */
 static double pair_rate(const struct sph *s)
 {
-    static const char *const stage[] = {"list",   "gradients", "rates", "halo",
-                                        "update", "zones",     "walls", "surface"};
+    static const char *const stage[] = {"list",  "gradients", "rates",   "halo",   "update",
+                                        "zones", "walls",     "surface", "levels", "guards"};
     double time = 0.0;
     for (size_t k = 0; k < sizeof stage / sizeof stage[0]; k++)
         time += timer_wall(&s->run->timers, stage[k]);
@@ -395,6 +431,8 @@ static void summarise_modules(const struct sph *s)
         names[n++] = "background";
     if (s->zones)
         names[n++] = "zones";
+    if (s->finer)
+        names[n++] = "refinement";
     summary_texts(s->run->summary, "modules", n, names);
 }
 
@@ -419,6 +457,8 @@ void sph_finish(void *state)
     if (s->dim == 2 && s->prm.extrema[0] != 0.0)
         sph_summarise_extrema(s);
     summarise_drifts(s);
+    if (s->finer)
+        summary_real(to, "levels.mass", total(s, s->refinement->added) / s->mass0);
     summary_real(to, "max_mach", s->max_mach);
     summary_real(to, "max_mach_late", s->mach_late);
     summary_real(to, "spacing.min", least_spacing(s));

@@ -2,6 +2,7 @@
 #include "../sph.h"
 
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../../common/h5.h"
@@ -10,6 +11,8 @@
 #include "../../common/xdmf.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
+#include "../refinement/guards.h"
+#include "../refinement/refinement.h"
 #include "../bodies/bodies.h"
 #include "../walls/forces.h"
 #include "../open_boundaries/openings.h"
@@ -50,6 +53,12 @@ static void get_volume(const struct sph *s, int i, double *v)
     *v = prim_line(&s->p, i)[at_volume(s->dim)];
 }
 static void get_zone(const struct sph *s, int i, double *v) { *v = s->p.zone[i]; }
+static void get_level(const struct sph *s, int i, double *v)
+{
+    (void)i;
+    *v = s->level;
+}
+static void get_guard(const struct sph *s, int i, double *v) { *v = particles_is_guard(&s->p, i); }
 static void get_age(const struct sph *s, int i, double *v)
 {
     *v = s->zones ? openings_age(s, s->p.id[i]) : s->t;
@@ -68,6 +77,8 @@ static const struct field {
     {"volume", "m^dim", 1, get_volume},
     {"zone", "-", 1, get_zone},
     {"age", "s", 1, get_age},
+    {"level", "-", 1, get_level},
+    {"guard", "-", 1, get_guard},
 };
 enum { FIELDS = sizeof fields / sizeof fields[0] };
 
@@ -81,11 +92,42 @@ static bool asked(const char *list, const char *word)
     return false;
 }
 
-static void write_positions(const struct sph *s, struct h5 *f, double *v)
+/* Whether a snapshot shows a particle: guards where the case asks for their column. */
+static bool shows(const struct sph *s, int i)
 {
-    for (int i = 0; i < s->p.n; i++)
-        memcpy(v + (size_t)i * s->dim, prim_line(&s->p, i), (size_t)s->dim * sizeof(double));
-    h5_write_real(f, "position", "m", s->p.n, s->dim, v, true);
+    return !particles_is_guard(&s->p, i) || asked(s->run->scene.output.fields, "guard");
+}
+
+static int64_t shown_here(const struct sph *s)
+{
+    int64_t n = 0;
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            n += shows(q, i);
+    return n;
+}
+
+static void write_positions(const struct sph *s, struct h5 *f, int64_t n, double *v)
+{
+    double *to = v;
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            if (shows(q, i)) {
+                memcpy(to, prim_line(&q->p, i), (size_t)q->dim * sizeof(double));
+                to += q->dim;
+            }
+    h5_write_real(f, "position", "m", n, s->dim, v, true);
+}
+
+static void write_ids(const struct sph *s, struct h5 *f, int64_t n)
+{
+    int64_t *ids = NEW(int64_t, n), *to = ids;
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            if (shows(q, i))
+                *to++ = q->p.id[i];
+    h5_write_int(f, "id", n, ids);
+    mem_free(ids);
 }
 
 static int components(const struct sph *s, const struct field *k)
@@ -93,12 +135,18 @@ static int components(const struct sph *s, const struct field *k)
     return k->ncomp ? k->ncomp : s->dim == 3 ? 3 : 1;
 }
 
-static void write_field(const struct sph *s, struct h5 *f, const struct field *k, double *v)
+static void write_field(const struct sph *s, struct h5 *f, const struct field *k, int64_t n,
+                        double *v)
 {
     const int ncomp = components(s, k);
-    for (int i = 0; i < s->p.n; i++)
-        k->get(s, i, v + (size_t)i * ncomp);
-    h5_write_real(f, k->name, k->unit, s->p.n, ncomp, v, true);
+    double *to = v;
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            if (shows(q, i)) {
+                k->get(q, i, to);
+                to += ncomp;
+            }
+    h5_write_real(f, k->name, k->unit, n, ncomp, v, true);
 }
 
 /* What a picture needs to know: spacing and corners of the region, level of the pressure outside.
@@ -122,23 +170,24 @@ void sph_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
     const char *list = s->run->scene.output.fields;
     struct xdmf_field shown[FIELDS];
     int nshown = 0;
-    if (s->broken)
-        particles_lines(s);
-    else
+    for (struct sph *q = s; q && s->broken; q = q->finer)
+        particles_lines(q);
+    if (!s->broken)
         integrate_gradients(s);
-    double *v = NEW(double, 3 * (size_t)s->p.n);
-    write_positions(s, f, v);
+    const int64_t n = shown_here(s);
+    double *v = NEW(double, 3 * (size_t)n);
+    write_positions(s, f, n, v);
     for (int k = 0; k < FIELDS; k++)
-        if (asked(list, fields[k].name)) {
-            write_field(s, f, fields + k, v);
+        if (asked(list, fields[k].name) || (s->finer && fields[k].get == get_level)) {
+            write_field(s, f, fields + k, n, v);
             shown[nshown++] = (struct xdmf_field){fields[k].name, components(s, fields + k)};
         }
     if (asked(list, "id"))
-        h5_write_int(f, "id", s->p.n, s->p.id);
+        write_ids(s, f, n);
     mem_free(v);
     write_region(s, f);
     wall_files_snapshot(s, f, x, file);
-    int64_t all = s->p.n;
+    int64_t all = n;
     MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT64_T, MPI_SUM, s->run->comm);
     if (x)
         xdmf_points(x, s->t, file, all, s->dim, nshown, shown);
@@ -193,13 +242,21 @@ static void read_signal(struct sph *s, struct h5 *f)
     mem_free(rows);
 }
 
+/* A dataset of one level: the first has plain names. Valid until the next call. */
+static const char *name(const struct sph *s, const char *plain)
+{
+    static char text[64];
+    snprintf(text, sizeof text, "%s_%d", plain, s->level);
+    return s->level > 0 ? text : plain;
+}
+
 /* Who lies on a surface: windows begin with what the last step has found. */
 static void save_surface(const struct sph *s, struct h5 *f)
 {
     int64_t *is = NEW(int64_t, s->p.n);
     for (int i = 0; i < s->p.n && i < s->surface->capacity; i++)
         is[i] = s->surface->is[i];
-    h5_write_int(f, "surface", s->p.n, is);
+    h5_write_int(f, name(s, "surface"), s->p.n, is);
     mem_free(is);
 }
 
@@ -207,27 +264,51 @@ static void save_surface(const struct sph *s, struct h5 *f)
 static void read_surface(struct sph *s, struct h5 *f)
 {
     int64_t *is = NEW(int64_t, s->p.n);
-    h5_read_int(f, "surface", s->p.n, is);
+    h5_read_int(f, name(s, "surface"), s->p.n, is);
     surface_room(s->surface, s->p.n, s->dim);
     for (int i = 0; i < s->p.n; i++)
         s->surface->is[i] = (unsigned char)is[i];
     mem_free(is);
 }
 
+/* The particles of one level; with levels their roles, and slopes, which guards take. */
+static void save_particles(const struct sph *s, struct h5 *f)
+{
+    int64_t *kind = NEW(int64_t, s->p.n);
+    for (int i = 0; i < s->p.n; i++)
+        kind[i] = s->p.zone[i] + 256 * s->p.role[i];
+    h5_write_real(f, name(s, "state"), "x, m u, w, m", s->p.n, s->p.nstate, s->p.y, false);
+    h5_write_int(f, name(s, "id"), s->p.n, s->p.id);
+    h5_write_int(f, name(s, "zone"), s->p.n, kind);
+    h5_write_int(f, name(s, "next_id"), 1, &s->next_id);
+    mem_free(kind);
+    if (s->guards)
+        h5_write_real(f, name(s, "slope"), "-", s->p.n, s->p.nslope,
+                      s->guards->nprior == s->p.n ? s->guards->prior : s->p.slope, false);
+    if (s->surface)
+        save_surface(s, f);
+}
+
+/* What each level has of its own beside its particles. */
+static void save_levels(struct sph *s, struct h5 *f)
+{
+    h5_write_real(f, "levels_mass", "kg", 1, 1, &s->refinement->added, false);
+    h5_attribute_real(f, "levels_repaid", s->refinement->repaid);
+    for (struct sph *q = s->finer; q; q = q->finer) {
+        h5_attribute_real(f, name(q, "skin"), q->skin);
+        h5_attribute_real(f, name(q, "signal"), q->signal);
+    }
+    regions_save(s->refinement->regions, f);
+}
+
 void sph_checkpoint(void *state, struct h5 *f)
 {
     struct sph *s = state;
-    int64_t *zone = NEW(int64_t, s->p.n);
-    for (int i = 0; i < s->p.n; i++)
-        zone[i] = s->p.zone[i];
-    h5_write_real(f, "state", "x, m u, w, m", s->p.n, s->p.nstate, s->p.y, false);
-    h5_write_int(f, "id", s->p.n, s->p.id);
-    h5_write_int(f, "zone", s->p.n, zone);
-    h5_write_int(f, "next_id", 1, &s->next_id);
+    for (const struct sph *q = s; q; q = q->finer)
+        save_particles(q, f);
     h5_write_real(f, "lost", "-", 1, 1, &s->lost, false);
-    mem_free(zone);
-    if (s->surface)
-        save_surface(s, f);
+    if (s->finer)
+        save_levels(s, f);
     if (s->signal_fit.n > 0)
         save_signal(s, f);
     for (int k = 0; k < NUMBERS; k++)
@@ -247,17 +328,21 @@ void sph_checkpoint(void *state, struct h5 *f)
 
 static bool read_particles(struct sph *s, struct h5 *f)
 {
-    const int64_t n = h5_share(f, "state");
+    const int64_t n = h5_share(f, name(s, "state"));
     if (n < 0)
         return false;
-    int64_t *zone = NEW(int64_t, n);
+    int64_t *kind = NEW(int64_t, n);
     particles_reserve(&s->p, (int)n);
-    const bool fits = h5_read_real(f, "state", n, s->p.nstate, s->p.y) &&
-                      h5_read_int(f, "id", n, s->p.id) && h5_read_int(f, "zone", n, zone);
-    for (int64_t i = 0; fits && i < n; i++)
-        s->p.zone[i] = (unsigned char)zone[i];
+    const bool fits = h5_read_real(f, name(s, "state"), n, s->p.nstate, s->p.y) &&
+                      h5_read_int(f, name(s, "id"), n, s->p.id) &&
+                      h5_read_int(f, name(s, "zone"), n, kind) &&
+                      (!s->guards || h5_read_real(f, name(s, "slope"), n, s->p.nslope, s->p.slope));
+    for (int64_t i = 0; fits && i < n; i++) {
+        s->p.zone[i] = (unsigned char)(kind[i] % 256);
+        s->p.role[i] = (unsigned char)(kind[i] / 256);
+    }
     s->p.n = fits ? (int)n : 0;
-    mem_free(zone);
+    mem_free(kind);
     return fits;
 }
 
@@ -266,7 +351,7 @@ static bool read_next_id(struct sph *s, struct h5 *f)
 {
     const int64_t size = s->run->size, rank = s->run->rank;
     int64_t n, most = 0;
-    int64_t *all = h5_read_all_int(f, "next_id", &n);
+    int64_t *all = h5_read_all_int(f, name(s, "next_id"), &n);
     for (int64_t k = 0; all && k < n; k++)
         most = all[k] > most ? all[k] : most;
     s->next_id = all && n == size ? all[rank] : (most + size) / size * size + rank;
@@ -310,13 +395,37 @@ static bool same_region(const struct sph *s, struct h5 *f)
     return true;
 }
 
+/* What finer levels have of their own; all else they have of the first. */
+static bool read_levels(struct sph *s, struct h5 *f)
+{
+    bool fits = h5_read_parts(f, "levels_mass", 1, &s->refinement->added) &&
+                h5_read_attribute_real(f, "levels_repaid", &s->refinement->repaid);
+    for (struct sph *q = s->finer; q && fits; q = q->finer) {
+        const struct number of_flow[] = {NUMBER(dt_most),   NUMBER(stray),    NUMBER(drift[0]),
+                                         NUMBER(drift[1]),  NUMBER(drift[2]), NUMBER(max_speed),
+                                         NUMBER(max_shift), NUMBER(max_c),    NUMBER(rho_min),
+                                         NUMBER(rho_max),   NUMBER(max_mach), NUMBER(shift_speed)};
+        for (size_t k = 0; k < sizeof of_flow / sizeof of_flow[0]; k++)
+            *(double *)((char *)q + of_flow[k].offset) =
+                *(const double *)((const char *)s + of_flow[k].offset);
+        fits = read_next_id(q, f) && h5_read_attribute_real(f, name(q, "skin"), &q->skin) &&
+               h5_read_attribute_real(f, name(q, "signal"), &q->signal);
+    }
+    return fits && regions_load(s->refinement->regions, f);
+}
+
 /* What the file lacks, NULL: nothing. */
 static const char *missing(struct sph *s, struct h5 *f)
 {
-    if (!read_particles(s, f))
+    bool particles = true;
+    for (struct sph *q = s; q; q = q->finer)
+        particles = particles && read_particles(q, f);
+    if (!particles)
         return "particles";
     if (!read_numbers(s, f))
         return "numbers of the run";
+    if (s->finer && !read_levels(s, f))
+        return "levels of refinement";
     if (!sph_watch_load(s, f))
         return "watches";
     if (!domain_load(s, f))
@@ -341,9 +450,11 @@ bool sph_restore(struct sph *s, struct h5 *f)
                 lacks);
     else if (lacks)
         log_say("the restart file has no %s that fit this case", lacks);
-    if (s->surface)
-        read_surface(s, f);
+    for (struct sph *q = s; q; q = q->finer) {
+        if (q->surface)
+            read_surface(q, f);
+        q->ready = false;
+    }
     read_signal(s, f);
-    s->ready = false;
     return !lacks;
 }

@@ -47,8 +47,10 @@ static double fit(const double *m)
 static double *line_of(const struct sph *s, int across, int n)
 {
     double *sums = NEW(double, SUMS *(size_t)(n + 1)), *f = NEW(double, n + 1);
-    for (int i = 0; i < s->p.n; i++)
-        add_particle(s, i, across, n, sums);
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            if (!particles_is_guard(&q->p, i))
+                add_particle(q, i, across, n, sums);
     MPI_Allreduce(MPI_IN_PLACE, sums, SUMS * (n + 1), MPI_DOUBLE, MPI_SUM, s->run->comm);
     for (int k = 0; k <= n; k++)
         f[k] = fit(sums + SUMS * (size_t)k);

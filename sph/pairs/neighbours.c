@@ -147,7 +147,7 @@ void neighbours_sort(struct sph *s)
     ROOM(g->first, g->first_capacity, g->total + 1);
     ROOM(g->order, g->order_capacity, s->p.n);
     sort_rows(g, s->p.y, s->p.nstate, s->p.n, 1, g->first, g->order);
-    particles_permute(&s->p, s->p.n, g->order);
+    particles_permute(&s->p, s->p.n, g->order, s->guards != NULL);
 }
 
 static void near_room(struct grid *g, int n)

@@ -426,28 +426,33 @@ static void wrap(struct sph *s)
     }
 }
 
-/* A row on its way: state, then the bits of id, then zone and role. */
-static void pack_row(const struct particles *p, int i, double *row)
+/* A row on its way: state, then the bits of id, then zone and role; with levels slopes. */
+static void pack_row(const struct particles *p, int i, double *row, bool slopes)
 {
     memcpy(row, state_row(p, p->y, i), (size_t)p->nstate * sizeof(double));
     memcpy(row + p->nstate, p->id + i, sizeof(double));
     row[p->nstate + 1] = p->zone[i] + 256.0 * p->role[i];
+    if (slopes)
+        memcpy(row + p->nstate + 2, slope_line(p, i), (size_t)p->nslope * sizeof *row);
 }
 
-static void unpack_row(struct particles *p, const double *row)
+static void unpack_row(struct particles *p, const double *row, bool slopes)
 {
     int64_t id;
     memcpy(&id, row + p->nstate, sizeof id);
     const int kind = (int)row[p->nstate + 1], i = particles_add(p, id, (enum sph_zone)(kind % 256));
     p->role[i] = (unsigned char)(kind / 256);
     memcpy(state_row(p, p->y, i), row, (size_t)p->nstate * sizeof(double));
+    if (slopes)
+        memcpy(slope_line(p, i), row + p->nstate + 2, (size_t)p->nslope * sizeof *row);
 }
 
 void domain_migrate(struct sph *s)
 {
     const struct domain *d = s->domain;
     struct particles *p = &s->p;
-    const int width = p->nstate + 2, before = p->n;
+    const bool slopes = s->guards != NULL;
+    const int width = p->nstate + 2 + (slopes ? p->nslope : 0), before = p->n;
     int nleave = 0, got = 0;
     wrap(s);
     p->nghost = 0;
@@ -465,11 +470,11 @@ void domain_migrate(struct sph *s)
         if (domain_owner(d, state_row(p, p->y, i)) == d->rank)
             particles_copy(p, p->n++, i);
         else
-            pack_row(p, i, rows + (size_t)nleave++ * width);
+            pack_row(p, i, rows + (size_t)nleave++ * width, slopes);
     }
     double *in = send_rows(d, rows, owner, nleave, width, &got);
     for (int k = 0; k < got; k++)
-        unpack_row(p, in + (size_t)k * width);
+        unpack_row(p, in + (size_t)k * width, slopes);
     mem_free(in);
     mem_free(rows);
     mem_free(owner);

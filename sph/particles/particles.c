@@ -97,8 +97,19 @@ void particles_copy(struct particles *p, int to, int from)
     memcpy(slope_line(p, to), slope_line(p, from), (size_t)p->nslope * sizeof(double));
 }
 
+static void permute_slopes(struct particles *p, int n, const int *order)
+{
+    const size_t row = (size_t)p->nslope;
+    double *old = NEW(double, (size_t)n *row);
+    if (n > 0)
+        memcpy(old, p->slope, (size_t)n * row * sizeof *old);
+    for (int i = 0; i < n; i++)
+        memcpy(slope_line(p, i), old + (size_t)order[i] * row, row * sizeof *old);
+    mem_free(old);
+}
+
 /* y0 is free between steps: the new order is made there and swapped in. */
-void particles_permute(struct particles *p, int n, const int *order)
+void particles_permute(struct particles *p, int n, const int *order, bool slopes)
 {
     const size_t row = (size_t)p->nstate;
     int64_t *id = NEW(int64_t, p->capacity);
@@ -110,6 +121,8 @@ void particles_permute(struct particles *p, int n, const int *order)
         zone[i] = p->zone[order[i]];
         role[i] = p->role[order[i]];
     }
+    if (slopes)
+        permute_slopes(p, n, order);
     double *y = p->y;
     p->y = p->y0;
     p->y0 = y;

@@ -76,8 +76,8 @@ int particles_add(struct particles *p, int64_t id, enum sph_zone zone);
 double *particles_sum(struct particles *p);
 /* Copies particle `from' over `to' (state, id, zone, role; slope, which births look at). */
 void particles_copy(struct particles *p, int to, int from);
-/* Reorders state, id, zone, role: new i is old order[i]; n entries. */
-void particles_permute(struct particles *p, int n, const int *order);
+/* Reorders state, id, zone, role: new i is old order[i]; n entries. slopes: these too. */
+void particles_permute(struct particles *p, int n, const int *order, bool slopes);
 void particles_set(struct sph *s, int i, const double *x, const double *u, double w, double rho);
 /* prim of all locals from y (u = q/m, rho = m/w; 2D: p, c). */
 void particles_lines(struct sph *s);

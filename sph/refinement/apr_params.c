@@ -8,40 +8,74 @@ struct apr_params apr_given;
 /* clang-format off */
 #define P struct apr_region
 static const struct param region_rows[] = {
-    PARAM(P, level, "-", "0", 0, APR_LEVELS_MAX, "dx is halved so often in it; 0: apr.levels times"),
-    CHOICE(P, shape, "box|sphere", "box", "its form; in 2D a sphere is a disc"),
-    PARAM(P, min, "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "lower corner of a box; faces on walls, on ends of the domain or beyond them are no edges"),
-    PARAM(P, max, "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "upper corner"),
-    PARAM(P, centre, "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "of a sphere"),
-    PARAM(P, radius, "m", "0.0", 0, 1e9, "of a sphere"),
+    PARAM(P, level,    "-", "0", 0, APR_LEVELS_MAX, "dx is halved so often in it; 0: apr.levels times"),
+    CHOICE(P, shape, "box|sphere|body|wall", "box", "its form; in 2D a sphere is a disc; body and wall: all within offset of the surface of one"),
+    PARAM(P, min,      "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "lower corner of a box; faces on walls, on ends of the domain or beyond them are no edges"),
+    PARAM(P, max,      "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "upper corner"),
+    PARAM(P, centre,   "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "of a sphere"),
+    PARAM(P, radius,   "m", "0.0", 0, 1e9, "of a sphere"),
+    PARAM(P, body,     "-", "", 0, 0, "of shape body: the body's name"),
+    PARAM(P, wall,     "-", "0", 0, 1000, "of shape wall: number of the wall in the list, from 1; points or a mesh"),
+    PARAM(P, offset,   "m", "0.0", 0, 1e9, "of shapes body and wall: width of the region in front of the surface"),
+    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of a box or sphere"),
+    LIST(P, motion, &scene_motion_list, "motion of a box or sphere as told, like that of bodies, without rotations; a plain text: one file"),
+    PARAM(P, follow,   "-", "", 0, 0, "a box or sphere moves with the body of this name, or with the largest pressure of the flow: \"peak\""),
+    PARAM(P, along,    "-", "", 0, 0, "axes along which it follows, as in \"x\"; all if none are named"),
+    PARAM(P, pressure, "Pa", "0.0", 0, 1e12, "with follow = \"peak\": least pressure of a peak that is followed"),
 };
 #undef P
 static const struct param_list regions = {
     region_rows, sizeof region_rows / sizeof region_rows[0], sizeof(struct apr_region),
     offsetof(struct apr_regions, of), REGIONS_MAX, NULL};
 
+#define P struct apr_criterion
+static const struct param criterion_rows[] = {
+    PARAM(P, level, "-", "0", 0, APR_LEVELS_MAX, "finest level that it asks for; 0: apr.levels"),
+    CHOICE(P, kind, "surface|vorticity|pressure|jump", "vorticity", "nearness of the free surface; |curl u| dx/U, U the largest speed so far; |grad p| dx/(rho max(u^2, g dx)); jump of p between particles after reconstruction, over rho max(u^2, g dx); dx of the coarser level"),
+    PARAM(P, above,    "-", "0.0", 0, 1e9, "refined where it is larger than this, released below a third of it"),
+    PARAM(P, distance, "-", "0.0", 0, 100, "of kind surface: refined so many R of the coarser level around it"),
+};
+#undef P
+static const struct param_list criteria = {
+    criterion_rows, sizeof criterion_rows / sizeof criterion_rows[0], sizeof(struct apr_criterion),
+    offsetof(struct apr_criteria, of), CRITERIA_MAX, NULL};
+
 #define P struct apr_params
 const struct param apr_rows[APR_ROWS] = {
-    PARAM(P, levels, "-", "0", 0, APR_LEVELS_MAX, "levels of refinement: dx of the finest is sph.dx / 2^levels; 0: the largest level of the regions"),
-    PARAM(P, margin, "-", "3.0", 1.5, 100, "a region of level 2 and more has one of each coarser level around it, made where the case gives none: distance of their edges in R of the level outside of the coarser one"),
+    PARAM(P, levels,    "-", "0", 0, APR_LEVELS_MAX, "levels of refinement: dx of the finest is sph.dx / 2^levels; 0: the largest level of regions and criteria, 1 if none is given"),
+    PARAM(P, margin,    "-", "3.0", 1.5, 100, "a region of level 2 and more has one of each coarser level around it, made where the case gives none: distance of their edges, in R of the level outside of both"),
+    PARAM(P, around,    "-", "3", 2, 20, "cells, as wide as R of the coarser level, that are refined around those where a criterion asks for it"),
+    PARAM(P, particles, "-", "0.0", 0, 1e12, "most particles of all levels together: criteria refine less rather than exceed it; 0: no bound"),
     LIST(P, regions, &regions, "where particles are refined; regions of one level are united"),
+    LIST(P, criteria, &criteria, "what of the flow asks for refinement"),
 };
 #undef P
 /* clang-format on */
 
+static int largest_level(const struct apr_params *p)
+{
+    int n = 1;
+    for (int k = 0; k < p->regions.n; k++)
+        n = p->regions.of[k].level > n ? p->regions.of[k].level : n;
+    for (int k = 0; k < p->criteria.n; k++)
+        n = p->criteria.of[k].level > n ? p->criteria.of[k].level : n;
+    return n;
+}
+
 const struct apr_params *apr_params_of(const struct run *r)
 {
     static struct apr_params used;
-    if ((r->params && !params_has_group(r->params, "apr")) || apr_given.regions.n == 0)
+    if ((r->params && !params_has_group(r->params, "apr")) ||
+        (apr_given.regions.n == 0 && apr_given.criteria.n == 0))
         return NULL;
     used = apr_given;
-    for (int k = 0; k < used.regions.n && apr_given.levels == 0; k++)
-        if (used.regions.of[k].level > used.levels)
-            used.levels = used.regions.of[k].level;
     if (used.levels == 0)
-        used.levels = 1;
+        used.levels = largest_level(&used);
     for (int k = 0; k < used.regions.n; k++)
         if (used.regions.of[k].level == 0)
             used.regions.of[k].level = used.levels;
+    for (int k = 0; k < used.criteria.n; k++)
+        if (used.criteria.of[k].level == 0)
+            used.criteria.of[k].level = used.levels;
     return &used;
 }

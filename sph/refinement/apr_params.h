@@ -3,27 +3,48 @@
 #ifndef SPH_APR_PARAMS_H
 #define SPH_APR_PARAMS_H
 
-#include "../../common/params.h"
+#include "../../common/scene_body.h"
 
 struct run;
 
-enum region_shape { REGION_BOX, REGION_SPHERE };
-enum { REGIONS_MAX = 32, APR_LEVELS_MAX = 12, APR_ROWS = 3 };
+enum region_shape { REGION_BOX, REGION_SPHERE, REGION_BODY, REGION_WALL };
+enum criterion_kind { CRITERION_SURFACE, CRITERION_VORTICITY, CRITERION_PRESSURE, CRITERION_JUMP };
+enum { REGIONS_MAX = 32, CRITERIA_MAX = 8, APR_LEVELS_MAX = 12, APR_ROWS = 6 };
 
 struct apr_region {
-    int level;                /* 0: the finest */
-    int shape;                /* enum region_shape */
-    double min[3], max[3];    /* m: of a box */
-    double centre[3], radius; /* m: of a sphere (2D: a disc) */
+    int level;                  /* 0: the finest */
+    int shape;                  /* enum region_shape */
+    double min[3], max[3];      /* m: of a box */
+    double centre[3], radius;   /* m: of a sphere (2D: a disc) */
+    char body[PARAM_TEXT_SIZE]; /* name of a body */
+    int wall;                   /* number in the list of walls, from 1 */
+    double offset;              /* m: how far from the surface of a body or wall */
+    double velocity[3];         /* m/s */
+    struct scene_motions motion;
+    char follow[PARAM_TEXT_SIZE]; /* name of a body, or "peak" */
+    char along[PARAM_TEXT_SIZE];  /* axes of that, as in "x"; "": all */
+    double pressure;              /* Pa: least of a peak that is followed */
+};
+
+struct apr_criterion {
+    int level; /* finest that it asks for; 0: the finest of all */
+    int kind;  /* enum criterion_kind */
+    double above, distance;
 };
 
 struct apr_params {
-    int levels;    /* halvings of dx; 0: as the regions have it */
-    double margin; /* R of the coarser level: between the edges of regions made automatically */
+    int levels;       /* halvings of dx; 0: as regions and criteria have it */
+    double margin;    /* R of the coarser level: between the edges of regions made automatically */
+    int around;       /* cells of R of the coarser level around those that a criterion marks */
+    double particles; /* of all levels, never exceeded; 0: no bound */
     struct apr_regions {
         int n;
         struct apr_region of[REGIONS_MAX];
     } regions;
+    struct apr_criteria {
+        int n;
+        struct apr_criterion of[CRITERIA_MAX];
+    } criteria;
 };
 
 extern const struct param apr_rows[APR_ROWS];

@@ -156,7 +156,8 @@ static inline double apart(const struct box *b, const double *x, const int dim)
 {
     double sum = 0.0;
     for (int a = 0; a < dim; a++) {
-        const double d = fmax(fmax(b->lo[a] - x[a], x[a] - b->hi[a]), 0.0);
+        const double low = b->lo[a] - x[a], high = x[a] - b->hi[a];
+        const double out = low > high ? low : high, d = out > 0.0 ? out : 0.0;
         sum += d * d;
     }
     return sum;

@@ -19,6 +19,9 @@ struct guards {
     int *j;
     int ghost_capacity;
     unsigned char *ghost; /* [nhalo] roles of the ghosts */
+    int nprior;           /* locals that `prior' is of; 0: slopes are those of the last stage */
+    double *prior;        /* [nprior][nslope] slopes that guards were given before an output; what a
+                             restart goes on from */
     bool fresh;           /* deep ones have not been given the fields of this step yet */
 };
 
@@ -28,6 +31,11 @@ void guards_free(struct guards **g);
 void guards_list(struct sph *s);
 /* Each stage, before the first pass: state and lines of the guards of all levels. Collective. */
 void guards_update(struct sph *s);
+/* Before slopes are made for output: keeps those that the guards have been given. Should particles
+ * be sorted anew before the next step, these come back: an output leaves no trace. All levels. */
+void guards_remember(struct sph *s);
+void guards_come_back(struct sph *s);
+void guards_forget(struct sph *s);
 /* Of one level, after the first pass: those at the edge are moved with the flow alone. */
 void guards_hold_edge(struct sph *s);
 /* Of one level, after the rates: guards move, no more. */

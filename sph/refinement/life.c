@@ -4,6 +4,7 @@
  * and no link is kept. What leaves its region is removed. Roles follow from places alone; births
  * and removals have a hysteresis of half the coarser spacing, so that nobody is born to be removed.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "guards.h"
 #include "refinement.h"
 
 #include <math.h>
@@ -11,8 +12,9 @@
 
 #include "../../common/mem.h"
 
-static const double hysteresis = 0.5; /* coarser dx */
-static const double steepest = 0.05;  /* change of rho from mother to child, its share */
+static const double hysteresis = 0.5;                   /* coarser dx */
+static const double paid_back = 0.01, most_paid = 1e-5; /* a step: of the debt; of the mass */
+static const double steepest = 0.05; /* change of rho from mother to child, its share */
 
 struct standing refinement_standing(const struct sph *base, int level, const double *x)
 {
@@ -119,7 +121,7 @@ void refinement_adapt(struct sph *s)
     struct refinement *r = s->refinement;
     timer_start(&s->run->timers, "levels");
     const double before = flowing(s);
-    regions_move(r->regions, s->t);
+    regions_move(s->refinement->regions, s->t);
     for (struct sph *q = s; q->finer; q = q->finer)
         enter(s, q);
     for (struct sph *q = s->finer; q; q = q->finer)
@@ -132,6 +134,26 @@ void refinement_adapt(struct sph *s)
     timer_stop(&s->run->timers, "levels");
 }
 
+void refinement_keep_mass(struct sph *s)
+{
+    double sums[2] = {0.0, 0.0};
+    if (s->prm.scheme != SCHEME_RIEMANN_ALE || s->zones)
+        return;
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            if (!particles_is_guard(&q->p, i)) {
+                sums[0] += state_row(&q->p, q->p.rate, i)[at_mass(q->dim)];
+                sums[1] += state_row(&q->p, q->p.y, i)[at_mass(q->dim)];
+            }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    const double share = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+    for (struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            if (!particles_is_guard(&q->p, i))
+                state_row(&q->p, q->p.rate, i)[at_mass(q->dim)] -=
+                    share * state_row(&q->p, q->p.y, i)[at_mass(q->dim)];
+}
+
 void refinement_free(struct sph *s)
 {
     if (!s->refinement)
@@ -139,4 +161,22 @@ void refinement_free(struct sph *s)
     regions_free(&s->refinement->regions);
     mem_free(s->refinement);
     s->refinement = NULL;
+}
+
+void refinement_repay(struct sph *s)
+{
+    struct refinement *r = s->refinement;
+    double sums[2] = {r->added, flowing(s)};
+    if (s->zones)
+        return;
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    const double debt = sums[1] > 0.0 ? (sums[0] - r->repaid) / sums[1] : 0.0;
+    const double part = fmax(-most_paid, fmin(paid_back * debt, most_paid));
+    if (fabs(debt) < 1e-12)
+        return;
+    r->repaid += part * sums[1];
+    for (struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            for (int k = q->dim; k < q->p.nstate && !particles_is_guard(&q->p, i); k++)
+                state_row(&q->p, q->p.y, i)[k] *= 1.0 - part;
 }

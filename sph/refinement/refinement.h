@@ -10,12 +10,12 @@
 #ifndef SPH_REFINEMENT_H
 #define SPH_REFINEMENT_H
 
-#include "guards.h"
 #include "regions.h"
 
 struct refinement {
     struct regions *regions;
-    double added; /* kg: mass of what flows, by births, removals and changes of status */
+    double added;  /* kg: to the mass of what flows, by changes of level; this rank */
+    double repaid; /* kg: of that, taken back from what flows; all ranks */
 };
 
 /* Places in the levels that a particle of level n may have. */
@@ -29,6 +29,18 @@ struct standing refinement_standing(const struct sph *base, int level, const dou
  * are born and removed, all get their roles. At the start the finer levels have no particles: the
  * coarser ones give birth. s: the coarsest level. */
 void refinement_adapt(struct sph *s);
+
+/* Generations agree in number on average only, so mass comes and goes as they change places. In a
+ * closed room all that flows pays it back, slowly, for rows of a lattice that cross an edge
+ * together owe for some steps only; volumes too, so that densities stay. Collective. */
+void refinement_repay(struct sph *s);
+
+/* look.c: before the adaption: what regions follow, and at their times the criteria; of the lines
+ * and slopes of the last stage. Collective. */
+void refinement_look(struct sph *s);
+/* After the rates of a stage: of fluxes between what flows and guards nothing comes back, so that
+ * mass would be lost; in a closed room it is shared out over what flows. Collective. */
+void refinement_keep_mass(struct sph *s);
 
 void refinement_free(struct sph *s);
 

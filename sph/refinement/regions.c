@@ -6,100 +6,167 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/h5.h"
 #include "../../common/mem.h"
-#include "../sph_params.h"
-#include "apr_params.h"
-#include "ball.h"
-#include "box_union.h"
+#include "../../common/scene_geometry.h"
+#include "../open_boundaries/zones.h"
+#include "criteria.h"
+#include "regions_parts.h"
 
-struct level {
-    struct box_union boxes;
-    int nballs;
-    struct ball *balls;
-};
-
-struct regions {
-    const struct apr_params *prm;
-    int dim;
-    double R, near;    /* m: of level 0; what counts as the same place */
-    struct box domain; /* region of the particles */
-    struct box room;   /* the same with faces where an edge ends: walls, free ends; else infinite */
-    bool periodic[3];
-    struct level level[APR_LEVELS_MAX + 1]; /* [1 .. levels] */
-};
-
-/* How far a region of level `from' is grown for level `to', m. */
-static double growth(const struct regions *g, int from, int to)
+/* How far region k is grown for level n, m; < 0: it has no part in this level. */
+static double growth(const struct regions *g, int k, int n)
 {
     double sum = 0.0;
-    for (int n = to; n < from; n++) /* edges of n and n + 1 */
-        sum += g->prm->margin * ldexp(g->R, 1 - n);
+    const int from = g->prm->regions.of[k].level;
+    if (n > from || (n < from && !g->alone[k]))
+        return -1.0;
+    for (int m = n; m < from; m++)
+        sum += regions_margin(g, m);
     return sum;
 }
 
-/* Images of periodic axes: -1, 0, 1 along each; false: no such image. */
-static bool image(const struct regions *g, int k, double *shift)
+/* Shifts to the images of periodic axes, the thing itself first. */
+static void find_images(struct regions *g)
 {
-    bool any = true;
-    for (int a = 0; a < 3; a++) {
-        const int i = (a == 0 ? k % 3 : a == 1 ? k / 3 % 3 : k / 9) - 1;
-        any = any && (i == 0 || g->periodic[a]);
-        shift[a] = i ? i * (g->domain.hi[a] - g->domain.lo[a]) : 0.0;
+    static const int step[3] = {0, -1, 1};
+    g->nimages = 0;
+    for (int k = 0; k < 27; k++) {
+        const int at[3] = {step[k % 3], step[k / 3 % 3], step[k / 9]};
+        bool any = true;
+        for (int a = 0; a < 3; a++)
+            any = any && (at[a] == 0 || g->periodic[a]);
+        for (int a = 0; a < 3 && any; a++)
+            g->image[g->nimages][a] = at[a] ? at[a] * (g->domain.hi[a] - g->domain.lo[a]) : 0.0;
+        g->nimages += any;
     }
-    return any;
 }
 
-/* Whether [lo, hi] comes as near to the domain as distances are asked for. */
+/* Takes what moves around a period back to the domain. */
+static void add_shift(const struct regions *g, const struct region_set *s, double *shift)
+{
+    for (int a = 0; a < g->dim; a++) {
+        const double L = g->domain.hi[a] - g->domain.lo[a];
+        const double turns =
+            g->periodic[a] ? floor((s->centre[a] + s->shift[a] - g->domain.lo[a]) / L) : 0.0;
+        shift[a] += s->shift[a] - L * turns;
+    }
+}
+
+/* Distances are exact up to this from the domain, m. */
+static double reach(const struct regions *g) { return 8.0 * g->R; }
+
 static bool is_near(const struct regions *g, const double *lo, const double *hi)
 {
     bool near = true;
     for (int a = 0; a < g->dim; a++)
-        near = near && lo[a] < g->domain.hi[a] + 8.0 * g->R && hi[a] > g->domain.lo[a] - 8.0 * g->R;
+        near = near && lo[a] < g->domain.hi[a] + reach(g) && hi[a] > g->domain.lo[a] - reach(g);
     return near;
 }
 
-/* Faces on walls or beyond, and images' faces far from the domain, are none. */
-static void open_faces(const struct regions *g, struct box *b)
+/* --- faces on walls --- */
+
+/* Whether closed walls leave fluid no place at x. */
+static bool is_solid(const struct regions *g, const double *x)
 {
+    const struct scene *c = &g->run->scene;
+    bool solid = false;
+    for (int k = 0; k < c->nwalls && !solid; k++) {
+        const struct scene_mesh *m = scene_mesh_of(c, MESH_WALL, k);
+        const struct line l = line_of(&c->walls[k].points, true);
+        if (m)
+            solid = m->mesh.closed && !scene_mesh_holds(m, x);
+        else if (c->walls[k].closed && l.n > 0)
+            solid = line_inside(&l, x) != (line_area(&l) > 0.0);
+    }
+    return solid;
+}
+
+/* Whether no part of a face of the box within the domain is before walls. */
+static bool face_is_solid(const struct regions *g, const struct box *b, int axis, bool high)
+{
+    enum { SAMPLES = 16 };
+    const int u = (axis + 1) % g->dim, v = (axis + 2) % g->dim;
+    double x[3] = {0.0, 0.0, 0.0}, from[3], length[3];
     for (int a = 0; a < g->dim; a++) {
-        const double far = g->periodic[a] ? 8.0 * g->R : INFINITY;
+        from[a] = fmax(b->lo[a], g->domain.lo[a]);
+        length[a] = fmin(b->hi[a], g->domain.hi[a]) - from[a];
+        if (a != axis && length[a] <= 0.0)
+            return true;
+    }
+    x[axis] = high ? b->hi[axis] + g->near : b->lo[axis] - g->near;
+    for (int i = 0; i < SAMPLES; i++)
+        for (int j = 0; j < (g->dim == 3 ? SAMPLES : 1); j++) {
+            x[u] = from[u] + (i + 0.5) / SAMPLES * length[u];
+            if (g->dim == 3)
+                x[v] = from[v] + (j + 0.5) / SAMPLES * length[v];
+            if (!is_solid(g, x))
+                return false;
+        }
+    return true;
+}
+
+static bool has_closed_walls(const struct regions *g)
+{
+    const struct scene *c = &g->run->scene;
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || c->walls[k].closed || scene_mesh_of(c, MESH_WALL, k);
+    return any;
+}
+
+/* Faces on sides of the domain or beyond, and images' faces far from it, are none; those in the
+ * solid of closed walls go so deep into it that no guard is before them. */
+static void open_faces(const struct regions *g, struct box *b, double R)
+{
+    const bool walls = has_closed_walls(g);
+    for (int a = 0; a < g->dim; a++) {
+        const double far = g->periodic[a] ? reach(g) : INFINITY;
         if (b->lo[a] <= g->room.lo[a] + g->near || b->lo[a] < g->domain.lo[a] - far)
             b->lo[a] = -INFINITY;
+        else if (walls && face_is_solid(g, b, a, false))
+            b->lo[a] -= 1.001 * R;
         if (b->hi[a] >= g->room.hi[a] - g->near || b->hi[a] > g->domain.hi[a] + far)
             b->hi[a] = INFINITY;
+        else if (walls && face_is_solid(g, b, a, true))
+            b->hi[a] += 1.001 * R;
     }
 }
 
-static int add_box(const struct regions *g, const struct apr_region *is, double grow,
-                   struct box **all, int n)
+/* --- pieces of a level --- */
+
+struct pieces {
+    int n, level;
+    struct box *box;
+};
+
+static void add_box(const struct regions *g, int k, double grow, struct pieces *to)
 {
+    const struct apr_region *is = g->prm->regions.of + k;
     double shift[3];
-    for (int k = 0; k < 27; k++) {
-        if (!image(g, k, shift))
-            continue;
+    for (int i = 0; i < g->nimages; i++) {
         struct box b;
+        memcpy(shift, g->image[i], sizeof shift);
+        add_shift(g, g->sets + g->set_of[k], shift);
         for (int a = 0; a < 3; a++) {
             b.lo[a] = is->min[a] - grow + shift[a];
             b.hi[a] = is->max[a] + grow + shift[a];
         }
         if (!is_near(g, b.lo, b.hi))
             continue;
-        open_faces(g, &b);
-        GROW(*all, n, n + 1);
-        (*all)[n++] = b;
+        open_faces(g, &b, regions_R(g, to->level - 1));
+        GROW(to->box, to->n, to->n + 1);
+        to->box[to->n++] = b;
     }
-    return n;
 }
 
-static void add_ball(const struct regions *g, const struct apr_region *is, double grow,
-                     struct level *l)
+static void add_ball(const struct regions *g, int k, double grow, struct level *l)
 {
-    double shift[3];
-    for (int k = 0; k < 27; k++) {
-        if (!image(g, k, shift))
-            continue;
+    const struct apr_region *is = g->prm->regions.of + k;
+    double shift[3], lo[3], hi[3];
+    for (int i = 0; i < g->nimages; i++) {
         struct ball b = {.radius = is->radius + grow};
-        double lo[3], hi[3];
+        memcpy(shift, g->image[i], sizeof shift);
+        add_shift(g, g->sets + g->set_of[k], shift);
         for (int a = 0; a < 3; a++) {
             b.centre[a] = is->centre[a] + shift[a];
             lo[a] = b.centre[a] - b.radius;
@@ -115,32 +182,116 @@ static void add_ball(const struct regions *g, const struct apr_region *is, doubl
 static void make_level(struct regions *g, int n)
 {
     struct level *l = g->level + n;
-    struct box *boxes = NULL;
-    int nboxes = 0;
+    struct pieces boxes = {.level = n};
+    box_union_free(&l->boxes);
+    l->nballs = l->nlayers = 0;
     for (int k = 0; k < g->prm->regions.n; k++) {
         const struct apr_region *is = g->prm->regions.of + k;
-        if (is->level < n)
+        const double grow = growth(g, k, n);
+        if (grow < 0.0)
             continue;
-        if (is->shape == REGION_BOX)
-            nboxes = add_box(g, is, growth(g, is->level, n), &boxes, nboxes);
-        else
-            add_ball(g, is, growth(g, is->level, n), l);
+        if (is->shape == REGION_BOX) {
+            add_box(g, k, grow, &boxes);
+        } else if (is->shape == REGION_SPHERE) {
+            add_ball(g, k, grow, l);
+        } else {
+            GROW(l->layers, l->nlayers, l->nlayers + 1);
+            l->layers[l->nlayers++] = (struct layer){g->shell_of[k], is->offset + grow};
+        }
     }
-    l->boxes = box_union_create(g->dim, nboxes, boxes, g->near);
-    mem_free(boxes);
+    l->boxes = box_union_create(g->dim, boxes.n, boxes.box, g->near);
+    mem_free(boxes.box);
 }
+
+void regions_make(struct regions *g)
+{
+    for (int n = 1; n <= g->prm->levels; n++)
+        make_level(g, n);
+}
+
+/* --- distances --- */
+
+/* Of a point from the surface, around periods, too. */
+static double layer_distance(const struct regions *g, const struct layer *l, const double *x)
+{
+    double best = INFINITY;
+    for (int i = 0; i < g->nimages; i++) {
+        double at[3] = {0.0, 0.0, 0.0};
+        for (int a = 0; a < g->dim; a++)
+            at[a] = x[a] + g->image[i][a];
+        const double d = shell_distance(g->shells + l->shell, at, l->width);
+        best = d < best ? d : best;
+    }
+    return l->width - best;
+}
+
+double regions_fixed_distance(const struct regions *g, int level, const double *x)
+{
+    const struct level *l = g->level + level;
+    double d = box_union_distance(&l->boxes, x);
+    for (int k = 0; k < l->nballs; k++)
+        d = fmax(d, ball_distance(l->balls + k, g->dim, &g->room, x));
+    for (int k = 0; k < l->nlayers; k++)
+        d = fmax(d, layer_distance(g, l->layers + k, x));
+    return d;
+}
+
+double regions_distance(const struct regions *g, int level, const double *x)
+{
+    const struct marks *c = g->level[level].cells;
+    const double d = regions_fixed_distance(g, level, x), e = c ? marks_distance(c, x) : d;
+    return e > d ? e : d;
+}
+
+int regions_levels(const struct regions *g) { return g->prm->levels; }
+
+/* --- life --- */
 
 static void set_domain(struct regions *g, const struct run *r, const struct sph_params *prm)
 {
-    bool open[6];
+    double transition, buffer;
     g->dim = r->scene.domain.dim;
+    zones_widths(r, prm, &transition, &buffer);
+    g->zones = transition + buffer;
     sph_params_region(&r->scene.domain, prm, g->domain.lo, g->domain.hi, g->periodic);
-    sph_params_open(r, prm, open);
+    sph_params_open(r, prm, g->open);
     for (int a = 0; a < 3; a++) {
         const bool no_end = g->periodic[a] || a >= g->dim;
-        g->room.lo[a] = no_end || open[2 * a] ? -INFINITY : g->domain.lo[a];
-        g->room.hi[a] = no_end || open[2 * a + 1] ? INFINITY : g->domain.hi[a];
+        g->room.lo[a] = no_end || g->open[2 * a] ? -INFINITY : g->domain.lo[a];
+        g->room.hi[a] = no_end || g->open[2 * a + 1] ? INFINITY : g->domain.hi[a];
     }
+}
+
+/* Largest width that a region has at any level, m. */
+static double widest(const struct regions *g, int k)
+{
+    double w = g->prm->regions.of[k].offset;
+    for (int n = 1; n < g->prm->regions.of[k].level; n++)
+        w += regions_margin(g, n);
+    return w + 2.0 * g->R;
+}
+
+static void add_shells(struct regions *g)
+{
+    const struct scene *c = &g->run->scene;
+    for (int k = 0; k < g->prm->regions.n; k++) {
+        const struct apr_region *is = g->prm->regions.of + k;
+        g->shell_of[k] = -1;
+        if (is->shape < REGION_BODY)
+            continue;
+        const bool body = is->shape == REGION_BODY;
+        const int n = g->shell_of[k] = g->nshells++;
+        const int index = body ? region_body(c, is->body) : is->wall - 1;
+        g->body_of[n] = body ? index : -1;
+        g->shells[n] = shell_create(c, body ? MESH_BODY : MESH_WALL, index, widest(g, k));
+    }
+}
+
+/* A region within one of the level below that moves alike has an outer one given. */
+static void find_alone(struct regions *g)
+{
+    for (int k = 0; k < g->prm->regions.n; k++)
+        g->alone[k] = !regions_outer_given(g, k);
 }
 
 struct regions *regions_create(const struct run *r, const struct sph_params *prm)
@@ -149,53 +300,108 @@ struct regions *regions_create(const struct run *r, const struct sph_params *prm
     if (!used)
         return NULL;
     struct regions *g = NEW(struct regions, 1);
+    g->run = r;
     g->prm = used;
     g->R = prm->R_dx * prm->dx;
+    g->dx = prm->dx;
     g->near = 1e-6 * ldexp(prm->dx, -used->levels);
     set_domain(g, r, prm);
-    for (int n = 1; n <= used->levels; n++)
-        make_level(g, n);
+    find_images(g);
+    for (int k = 0; k < BODIES_MAX; k++)
+        for (int a = 0; a < 3; a++)
+            g->bodies[k].Q[a][a] = 1.0;
+    region_sets_create(g);
+    add_shells(g);
+    find_alone(g);
+    region_sets_move(g, r->t);
+    regions_make(g);
+    g->criteria = criteria_create(g);
     return g;
 }
 
-void regions_free(struct regions **g)
+void regions_free(struct regions **of)
 {
-    if (!*g)
+    struct regions *g = *of;
+    if (!g)
         return;
-    for (int n = 1; n <= (*g)->prm->levels; n++) {
-        box_union_free(&(*g)->level[n].boxes);
-        mem_free((*g)->level[n].balls);
+    for (int n = 1; n <= g->prm->levels; n++) {
+        box_union_free(&g->level[n].boxes);
+        mem_free(g->level[n].balls);
+        mem_free(g->level[n].layers);
     }
-    mem_free(*g);
-    *g = NULL;
+    for (int n = 0; n < g->nshells; n++)
+        shell_free(g->shells + n);
+    region_sets_free(g);
+    criteria_free(g);
+    mem_free(g);
+    *of = NULL;
 }
 
-int regions_levels(const struct regions *g) { return g->prm->levels; }
-
-double regions_distance(const struct regions *g, int level, const double *x)
+static void move_shells(struct regions *g)
 {
-    const struct level *l = g->level + level;
-    double d = box_union_distance(&l->boxes, x);
-    for (int k = 0; k < l->nballs; k++)
-        d = fmax(d, ball_distance(l->balls + k, g->dim, &g->room, x));
-    return d;
+    for (int n = 0; n < g->nshells; n++)
+        if (g->body_of[n] >= 0)
+            shell_move(g->shells + n, g->bodies + g->body_of[n]);
 }
 
 void regions_move(struct regions *g, double t)
 {
-    (void)g;
-    (void)t;
+    move_shells(g);
+    if (region_sets_move(g, t))
+        regions_make(g);
+}
+
+/* --- restart --- */
+
+/* A row: displacement and rotation. */
+enum { POSE = 12 };
+
+static void save_rows(const struct regions *g, struct h5 *f, const char *name, int n, int width,
+                      const double *rows)
+{
+    h5_write_real(f, name, "m", g->run->rank == 0 ? n : 0, width, rows, false);
 }
 
 void regions_save(const struct regions *g, struct h5 *f)
 {
-    (void)g;
-    (void)f;
+    double(*shift)[3] = mem_new((size_t)g->nsets, sizeof *shift), pose[BODIES_MAX][POSE];
+    for (int n = 0; n < g->nsets; n++)
+        memcpy(shift[n], g->sets[n].shift, sizeof shift[n]);
+    for (int k = 0; k < BODIES_MAX; k++) {
+        memcpy(pose[k], g->bodies[k].x, sizeof g->bodies[k].x);
+        memcpy(pose[k] + 3, g->bodies[k].Q, sizeof g->bodies[k].Q);
+    }
+    save_rows(g, f, "apr_shift", g->nsets, 3, shift[0]);
+    save_rows(g, f, "apr_bodies", BODIES_MAX, POSE, pose[0]);
+    mem_free(shift);
+    criteria_save(g, f);
+}
+
+/* n rows that all ranks get; false: the file has none, or others. */
+static bool load_rows(struct h5 *f, const char *name, int n, int width, double *rows)
+{
+    int64_t found = 0;
+    double *read = h5_read_all_real(f, name, width, &found);
+    const bool fits = read && found == n;
+    if (fits)
+        memcpy(rows, read, (size_t)n * (size_t)width * sizeof *rows);
+    mem_free(read);
+    return fits;
 }
 
 bool regions_load(struct regions *g, struct h5 *f)
 {
-    (void)g;
-    (void)f;
-    return true;
+    double shift[REGIONS_MAX][3], pose[BODIES_MAX][POSE];
+    if (!load_rows(f, "apr_shift", g->nsets, 3, shift[0]) ||
+        !load_rows(f, "apr_bodies", BODIES_MAX, POSE, pose[0]))
+        return false;
+    for (int n = 0; n < g->nsets; n++)
+        memcpy(g->sets[n].shift, shift[n], sizeof shift[n]);
+    for (int k = 0; k < BODIES_MAX; k++) {
+        memcpy(g->bodies[k].x, pose[k], sizeof g->bodies[k].x);
+        memcpy(g->bodies[k].Q, pose[k] + 3, sizeof g->bodies[k].Q);
+    }
+    move_shells(g);
+    regions_make(g);
+    return criteria_load(g, f);
 }

@@ -19,8 +19,19 @@ int regions_levels(const struct regions *g);
  * on or beyond a wall, an end of the domain or the partner of a periodic side do not count. Never
  * more than the distance to the edge; INFINITY: there is no edge, -INFINITY: no region. */
 double regions_distance(const struct regions *g, int level, const double *x);
-/* To the time t, s. */
+/* Once a step, to the time t, s, after the places of bodies and the peak were set: what follows
+ * these goes at most half a spacing of its finest level a call. */
 void regions_move(struct regions *g, double t);
+/* Largest step, s: no region may move by more than that in one. INFINITY: none moves as told. */
+double regions_dt(const struct regions *g);
+/* Where a body of the scene is; at the start all are where the case has them. The same on all
+ * ranks, as what follows. */
+struct body_motion;
+void regions_set_body(struct regions *g, int body, const struct body_motion *now);
+/* Whether some region follows the peak: the place of the largest pressure, m and Pa, is to be set
+ * then. */
+bool regions_want_peak(const struct regions *g);
+void regions_set_peak(struct regions *g, const double *x, double p);
 
 /* All that a restart needs; false: the file has none, or others. Collective. */
 void regions_save(const struct regions *g, struct h5 *f);

@@ -16,6 +16,7 @@
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../refinement/apr_params.h"
+#include "../refinement/guards.h"
 #include "../refinement/refinement.h"
 #include "../open_boundaries/openings.h"
 #include "../pairs/scheme.h"
@@ -87,6 +88,8 @@ void integrate_prepare(struct sph *s)
     bool ready = true;
     for (const struct sph *q = s; q; q = q->finer)
         ready = ready && q->ready;
+    if (s->finer && !ready)
+        guards_come_back(s);
     for (struct sph *q = s; q && !ready; q = q->finer)
         prepare(q);
     if (s->finer && !ready) {
@@ -195,8 +198,10 @@ void integrate_gradients(struct sph *s)
         return;
     for (struct sph *q = s; q; q = q->finer)
         particles_lines(q);
-    if (s->finer)
+    if (s->finer) {
         guards_update(s);
+        guards_remember(s);
+    }
     for (struct sph *q = s; q; q = q->finer)
         level_gradients(q, shared);
 }
@@ -257,8 +262,14 @@ void integrate_rates(struct sph *s)
         begin_rates(q);
     if (s->finer && !sloped)
         guards_update(s);
+    if (s->finer)
+        guards_forget(s);
     for (struct sph *q = s; q; q = q->finer)
         level_rates(q);
+    if (s->finer)
+        refinement_keep_mass(s);
+    for (struct sph *q = s->finer; q && s->walls; q = q->finer)
+        forces_join_stage(s->walls, q->walls);
 }
 
 /* Velocities of displacement, from prim and slope: what the next step and its skin depend on. The
@@ -377,6 +388,10 @@ static void plan_dt(struct sph *s)
     if (s->dt_most > bodies) {
         s->dt_most = bodies;
         s->limited_by = "body";
+    }
+    if (s->refinement && s->dt_most > regions_dt(s->refinement->regions)) {
+        s->dt_most = regions_dt(s->refinement->regions);
+        s->limited_by = "region";
     }
 }
 
@@ -548,17 +563,25 @@ static void finish_step(struct sph *s, double dt, double *most, struct diagnosis
         zones_openings(s, dt);
         stop(s, "zones");
     }
+    if (s->finer)
+        refinement_look(s);
     int lost = 0;
     for (struct sph *q = s; q; q = q->finer)
         lost += remove_behind(q) + remove_lost(q);
     s->lost += lost;
     raise(most + MOST_LOST, lost);
+    for (struct sph *q = s->finer; q && s->walls; q = q->finer)
+        forces_join_step(s->walls, q->walls);
     if (s->walls)
         forces_step(s, dt);
     bodies_finish(s, d);
     volume_keep(s);
     if (s->finer) {
+        for (struct sph *q = s; q; q = q->finer) /* guards that wake now, as the others are now */
+            particles_lines(q);
+        guards_update(s);
         refinement_adapt(s);
+        refinement_repay(s);
         volume_renew(s);
     }
 }

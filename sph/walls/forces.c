@@ -50,6 +50,23 @@ static void add_times(struct force *to, double factor, const struct force *f)
     }
 }
 
+void forces_join_stage(struct walls *to, const struct walls *from)
+{
+    for (int b = 0; b < SIDES; b++)
+        add_times(to->forces.stage + b, 1.0, from->forces.stage + b);
+}
+
+void forces_join_step(struct walls *to, struct walls *from)
+{
+    struct wall_forces *f = &from->forces;
+    for (int b = 0; b < SIDES; b++) {
+        add_times(to->forces.step + b, 1.0, f->step + b);
+        add_times(to->forces.hit + b, 1.0, f->hit + b);
+    }
+    memset(f->step, 0, sizeof f->step);
+    memset(f->hit, 0, sizeof f->hit);
+}
+
 void forces_stage(struct sph *s, double dt)
 {
     struct wall_forces *f = &s->walls->forces;

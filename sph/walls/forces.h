@@ -15,6 +15,9 @@ void forces_clear(struct walls *w);
 void forces_add(const struct sph *s, int body, const double *x, const double *f);
 /* The same once, with an impulse, N s (2D: N s/m). */
 void forces_hit(const struct sph *s, int body, const double *x, const double *impulse);
+/* What `from' has of the stage or the step under way goes to `to', the walls of another level. */
+void forces_join_stage(struct walls *to, const struct walls *from);
+void forces_join_step(struct walls *to, struct walls *from);
 /* After a stage that counts for dt, s, of the step; at the end of a step of dt. The latter is
  * collective. */
 void forces_stage(struct sph *s, double dt);

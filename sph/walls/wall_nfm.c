@@ -253,7 +253,9 @@ INLINE void add_walls(struct sph *s, const struct nfm *m, int k, const int dim)
         pairs[a] = rate[dim + a] - own[dim + a];
         lost[a] = (1.0 - gamma_1) * pairs[a];
     }
-    wall_share_out(s, l, k, i.x, lost);
+    const bool guard = particles_is_guard(&s->p, who); /* no part of the fluid: pushes nobody */
+    if (!guard)
+        wall_share_out(s, l, k, i.x, lost);
     struct given all = {0};
     double force[3] = {0.0, 0.0, 0.0}; /* of pieces of one body, which come together */
     int body = l->touch[l->first[k]].body;
@@ -265,7 +267,7 @@ INLINE void add_walls(struct sph *s, const struct nfm *m, int k, const int dim)
         if (t->is.W == 0.0)
             continue;
         const struct given to = flux(s, t, &i, dim);
-        if (t->body != body) {
+        if (t->body != body && !guard) {
             forces_add(s, body, i.x, force);
             body = t->body;
             force[0] = force[1] = force[2] = 0.0;
@@ -277,7 +279,8 @@ INLINE void add_walls(struct sph *s, const struct nfm *m, int k, const int dim)
         all.w += to.w;
         all.m += to.m;
     }
-    forces_add(s, body, i.x, force);
+    if (!guard)
+        forces_add(s, body, i.x, force);
     for (int a = 0; a < dim; a++)
         rate[dim + a] = (pairs[a] + i.w * all.q[a]) * gamma_1 + own[dim + a];
     const int V = at_volume(dim), M = at_mass(dim);
@@ -293,7 +296,7 @@ static void rates(struct sph *s)
         add_walls(s, m, k, 2);
     for (int k = 0; k < m->list.n && s->dim == 3; k++)
         add_walls(s, m, k, 3);
-    if (s->prm.scheme == SCHEME_RIEMANN_ALE && !s->zones)
+    if (s->prm.scheme == SCHEME_RIEMANN_ALE && !s->zones && !s->guards) /* else of all levels */
         walls_keep_mass(s, m->list.n, m->list.who);
 }
 

@@ -251,7 +251,8 @@ void walls_put_before(struct sph *s, int i, const struct wall_foot *f)
         impulse[a] = m * fmax(un, 0.0) * f->n[a];
         y[dim + a] -= impulse[a];
     }
-    forces_hit(s, f->body, f->x, impulse);
+    if (!particles_is_guard(&s->p, i))
+        forces_hit(s, f->body, f->x, impulse);
     s->walls->returned++;
 }
 
@@ -284,7 +285,8 @@ void walls_put_back_inside(struct sph *s)
             impulse[p->axis] = p->sign * fmax(p->sign * y[dim + p->axis], 0.0);
             y[p->axis] = p->at - 0.05 * s->dx * p->sign;
             y[dim + p->axis] -= impulse[p->axis];
-            forces_hit(s, -1, y, impulse);
+            if (!particles_is_guard(&s->p, i))
+                forces_hit(s, -1, y, impulse);
             s->walls->returned++;
         }
     }

@@ -17,7 +17,7 @@ struct culprit {
     double fault, before; /* of the state, and of that at the start of the step; < 0: none */
     double x[3], speed, rho;
     double started[2]; /* speed and density at the start of the step */
-    double zone;
+    double zone, level;
 };
 enum { CULPRIT = sizeof(struct culprit) / sizeof(double) };
 
@@ -74,7 +74,7 @@ static struct culprit look_at(const struct sph *s, int i)
 {
     const int dim = s->dim;
     const double *y = state_row(&s->p, s->p.y, i), *y0 = state_row(&s->p, s->p.y0, i);
-    struct culprit c = {.zone = s->zones ? s->p.zone[i] : 0};
+    struct culprit c = {.zone = s->zones ? s->p.zone[i] : 0, .level = s->level};
     c.fault = sph_fault_of(s, y, &c.speed, &c.rho);
     c.before = sph_fault_of(s, y0, c.started, c.started + 1);
     for (int a = 0; a < dim; a++)
@@ -86,11 +86,12 @@ static struct culprit look_at(const struct sph *s, int i)
 static struct culprit find_worst(const struct sph *s)
 {
     struct culprit worst = {.fault = -1.0, .before = -1.0};
-    for (int i = 0; i < s->p.n; i++) {
-        const struct culprit c = look_at(s, i);
-        if (is_worse(&c, &worst))
-            worst = c;
-    }
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            const struct culprit c = look_at(q, i);
+            if (is_worse(&c, &worst))
+                worst = c;
+        }
     struct culprit *all = NEW(struct culprit, s->run->size);
     MPI_Allgather(&worst, CULPRIT, MPI_DOUBLE, all, CULPRIT, MPI_DOUBLE, s->run->comm);
     worst = all[0];
@@ -221,16 +222,25 @@ static void describe_cause(const struct sph *s, const struct culprit *c, const s
                  s->dx, s->prm.cfl);
 }
 
-void sph_fault_place(struct sph *s, struct diagnosis *d)
+static const struct sph *level_of(const struct sph *s, const struct culprit *c)
 {
-    const struct culprit c = find_worst(s);
+    while (s->finer && s->level < c->level)
+        s = s->finer;
+    return s;
+}
+
+void sph_fault_place(struct sph *base, struct diagnosis *d)
+{
+    const struct culprit c = find_worst(base);
+    const struct sph *s = level_of(base, &c);
     const struct place p = survey(s, &c);
     describe_where(s, &c, &p, d);
 }
 
-void sph_fault_diagnose(struct sph *s, struct diagnosis *d)
+void sph_fault_diagnose(struct sph *base, struct diagnosis *d)
 {
-    const struct culprit c = find_worst(s);
+    const struct culprit c = find_worst(base);
+    const struct sph *s = level_of(base, &c);
     const struct place p = survey(s, &c);
     d->bad = true;
     describe_fault(s, &c, d);

@@ -1,0 +1,396 @@
+/* criteria.c - see criteria.h. Indicators of level n are made with dx of level n - 1 wherever they
+ * are read, so that they do not depend on how fine a place is already.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "criteria.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/h5.h"
+#include "../../common/log.h"
+#include "../../common/mem.h"
+#include "regions_parts.h"
+
+/* 2^30 cells of 20 bytes are more than a rank can hold; 2^25 are 700 MB. */
+#define CELLS_MOST 33554432.0
+/* The budget is kept by forecasts; between two of them particles cross edges. */
+#define BUDGET_SHARE 0.9
+
+struct grid {
+    struct marks cells;
+    double *value; /* [cells] largest indicator over its bound, of this evaluation */
+    double *until; /* [cells] s: kept at least until then */
+    unsigned char *surface, *seed; /* [cells] holds the surface now; is refined for itself */
+    int64_t *units;                /* [cells] fluid outside of fixed regions, see UNITS */
+    unsigned char *allowed;        /* [cells] far enough from open sides */
+};
+
+/* Volumes are summed as integers, so that sums do not depend on the ranks. */
+#define UNITS 1024.0
+
+struct criteria {
+    int levels;
+    struct grid grid[APR_LEVELS_MAX + 1];
+    double speed, gravity;                    /* m/s, largest so far; m/s^2 */
+    double next;                              /* s: of the next evaluation */
+    double factor;                            /* on all bounds */
+    double forecast;                          /* particles */
+    double asked;                             /* those that no fixed region could do without */
+    int64_t fluid, fixed[APR_LEVELS_MAX + 1]; /* units: all; within fixed regions of a level */
+};
+
+static double unit(const struct regions *g)
+{
+    return pow(ldexp(g->dx, -g->prm->levels), g->dim) / UNITS;
+}
+
+/* Particles of level n in so many units of fluid. */
+static double particles_of(const struct regions *g, int n, double units)
+{
+    return units * unit(g) / pow(ldexp(g->dx, -n), g->dim);
+}
+
+/* --- life --- */
+
+/* Cells whose guards would come into the zones at open sides are not marked. */
+static void allow(struct regions *g, int n)
+{
+    struct grid *q = g->criteria->grid + n;
+    const struct marks *c = &q->cells;
+    for (size_t k = 0; k < marks_count(c); k++) {
+        const size_t at[3] = {k % (size_t)c->n[0], k / (size_t)c->n[0] % (size_t)c->n[1],
+                              k / ((size_t)c->n[0] * (size_t)c->n[1])};
+        bool in = true;
+        for (int a = 0; a < g->dim; a++) {
+            const double lo = c->lo[a] + (double)at[a] * c->h[a];
+            in = in && lo >= regions_allowed(g, n, 2 * a) - g->near &&
+                 lo + c->h[a] <= regions_allowed(g, n, 2 * a + 1) + g->near;
+        }
+        q->allowed[k] = in;
+    }
+}
+
+struct criteria *criteria_create(struct regions *g)
+{
+    int levels = 0;
+    for (int k = 0; k < g->prm->criteria.n; k++)
+        levels = g->prm->criteria.of[k].level > levels ? g->prm->criteria.of[k].level : levels;
+    if (levels == 0)
+        return NULL;
+    struct criteria *c = g->criteria = NEW(struct criteria, 1);
+    c->levels = levels;
+    c->factor = 1.0;
+    c->next = -INFINITY;
+    for (int n = 1; n <= levels; n++) {
+        struct grid *q = c->grid + n;
+        if (!marks_create(&q->cells, g->dim, g->domain.lo, g->domain.hi, g->periodic, g->open,
+                          regions_R(g, n - 1), CELLS_MOST))
+            fail("criteria of level %d want more than %g cells", n, CELLS_MOST);
+        const size_t cells = marks_count(&q->cells);
+        q->value = NEW(double, cells);
+        q->until = NEW(double, cells);
+        q->surface = NEW(unsigned char, cells);
+        q->seed = NEW(unsigned char, cells);
+        q->units = NEW(int64_t, cells);
+        q->allowed = NEW(unsigned char, cells);
+        g->level[n].cells = &q->cells;
+        allow(g, n);
+    }
+    return c;
+}
+
+void criteria_free(struct regions *g)
+{
+    for (int n = 1; g->criteria && n <= g->criteria->levels; n++) {
+        struct grid *q = g->criteria->grid + n;
+        marks_free(&q->cells);
+        mem_free(q->value);
+        mem_free(q->until);
+        mem_free(q->surface);
+        mem_free(q->seed);
+        mem_free(q->units);
+        mem_free(q->allowed);
+    }
+    mem_free(g->criteria);
+    g->criteria = NULL;
+}
+
+/* --- what particles say --- */
+
+bool criteria_due(const struct regions *g, double t)
+{
+    return g->criteria && t >= g->criteria->next;
+}
+
+bool criteria_want_jumps(const struct regions *g)
+{
+    bool any = false;
+    for (int k = 0; k < g->prm->criteria.n; k++)
+        any = any || g->prm->criteria.of[k].kind == CRITERION_JUMP;
+    return any;
+}
+
+double criteria_factor(const struct regions *g) { return g->criteria ? g->criteria->factor : 1.0; }
+double criteria_forecast(const struct regions *g)
+{
+    return g->criteria ? g->criteria->forecast : 0;
+}
+
+void criteria_begin(struct regions *g, double speed, double gravity)
+{
+    struct criteria *c = g->criteria;
+    c->speed = fmax(c->speed, speed);
+    c->gravity = gravity;
+    c->fluid = 0;
+    memset(c->fixed, 0, sizeof c->fixed);
+    for (int n = 1; n <= c->levels; n++) {
+        struct grid *q = c->grid + n;
+        const size_t cells = marks_count(&q->cells);
+        memset(q->value, 0, cells * sizeof *q->value);
+        memset(q->surface, 0, cells);
+        memset(q->units, 0, cells * sizeof *q->units);
+    }
+}
+
+/* Indicator over its bound; dx: m, of the level below. */
+static double ratio(const struct criteria *c, const struct apr_criterion *is, double dx,
+                    const struct flow_sample *s)
+{
+    const double head = s->rho * fmax(s->speed * s->speed, c->gravity * dx);
+    switch (is->kind) {
+    case CRITERION_VORTICITY:
+        return c->speed > 0.0 ? s->curl * dx / (c->speed * is->above) : 0.0;
+    case CRITERION_PRESSURE:
+        return head > 0.0 ? s->slope * dx / (head * is->above) : 0.0;
+    case CRITERION_JUMP:
+        return head > 0.0 ? s->jump / (head * is->above) : 0.0;
+    default:
+        return 0.0;
+    }
+}
+
+static void add_to_level(struct regions *g, int n, const double *x, const struct flow_sample *is,
+                         int64_t units)
+{
+    struct criteria *c = g->criteria;
+    struct grid *q = c->grid + n;
+    const size_t cell = marks_find(&q->cells, x);
+    const double dx = ldexp(g->dx, 1 - n);
+    for (int k = 0; k < g->prm->criteria.n; k++) {
+        const struct apr_criterion *one = g->prm->criteria.of + k;
+        if (one->level >= n)
+            q->value[cell] = fmax(q->value[cell], ratio(c, one, dx, is));
+    }
+    q->surface[cell] |= is->on_surface;
+    if (regions_fixed_distance(g, n, x) > 0.0)
+        c->fixed[n] += units;
+    else
+        q->units[cell] += units;
+}
+
+void criteria_add(struct regions *g, const double *x, const struct flow_sample *is)
+{
+    const int64_t units = llround(is->volume / unit(g));
+    g->criteria->fluid += units;
+    for (int n = 1; n <= g->criteria->levels; n++)
+        add_to_level(g, n, x, is, units);
+    for (int n = g->criteria->levels + 1; n <= g->prm->levels; n++)
+        if (regions_fixed_distance(g, n, x) > 0.0)
+            g->criteria->fixed[n] += units;
+}
+
+/* --- what is made of it --- */
+
+/* Widest distance from the surface that a criterion asks of level n, R; < 0: none does. */
+static double surface_distance(const struct regions *g, int n)
+{
+    double d = -1.0;
+    for (int k = 0; k < g->prm->criteria.n; k++) {
+        const struct apr_criterion *is = g->prm->criteria.of + k;
+        if (is->kind == CRITERION_SURFACE && is->level >= n)
+            d = fmax(d, is->distance);
+    }
+    return d;
+}
+
+/* Cells near the surface count as much above their bound as they are nearer than it asks for. */
+static void add_surface(const struct regions *g, int n)
+{
+    struct grid *q = g->criteria->grid + n;
+    const size_t cells = marks_count(&q->cells);
+    const int width = (int)ceil(surface_distance(g, n));
+    if (surface_distance(g, n) < 0.0)
+        return;
+    for (int k = 0; k <= width; k++) {
+        for (size_t i = 0; i < cells; i++)
+            if (q->surface[i])
+                q->value[i] = fmax(q->value[i], (width + 2.0) / (k + 1.0));
+        if (k < width)
+            marks_dilate(&q->cells, q->surface, 1);
+    }
+}
+
+static bool is_kept(const struct grid *q, size_t i, double factor, double t, bool patient)
+{
+    if (q->value[i] > factor)
+        return true;
+    return patient && q->seed[i] && (3.0 * q->value[i] > factor || t < q->until[i]);
+}
+
+/* Marks of all levels for this factor on the bounds, from the finest; returns the particles. */
+static double mark_all(struct regions *g, double factor, double t, bool patient)
+{
+    struct criteria *c = g->criteria;
+    double sum = particles_of(g, 0, (double)c->fluid);
+    for (int n = g->prm->levels; n > c->levels; n--)
+        sum += particles_of(g, n, (double)c->fixed[n]);
+    for (int n = c->levels; n >= 1; n--) {
+        struct grid *q = c->grid + n;
+        const size_t cells = marks_count(&q->cells);
+        for (size_t i = 0; i < cells; i++)
+            q->cells.mark[i] = is_kept(q, i, factor, t, patient);
+        marks_dilate(&q->cells, q->cells.mark, g->prm->around);
+        if (n < c->levels)
+            marks_cover(&q->cells, &c->grid[n + 1].cells, (int)ceil(g->prm->margin));
+        int64_t units = c->fixed[n];
+        for (size_t i = 0; i < cells; i++) {
+            q->cells.mark[i] &= q->allowed[i];
+            units += q->cells.mark[i] ? q->units[i] : 0;
+        }
+        sum += particles_of(g, n, (double)units);
+    }
+    return sum;
+}
+
+/* The least factor >= 1 that keeps the budget; without patience what was refined is kept no longer
+ * than it is asked for. */
+static double find_factor(struct regions *g, double t, bool patient)
+{
+    const double budget = BUDGET_SHARE * g->prm->particles;
+    double low = 1.0, high = 1.0;
+    if (g->prm->particles <= 0.0 || mark_all(g, 1.0, t, patient) <= budget)
+        return 1.0;
+    while (high < 1e6) {
+        high *= 4.0;
+        if (mark_all(g, high, t, patient) <= budget)
+            break;
+        low = high;
+    }
+    if (high >= 1e6)
+        return INFINITY;
+    for (int k = 0; k < 12; k++) {
+        const double mid = sqrt(low * high);
+        if (mark_all(g, mid, t, patient) <= budget)
+            high = mid;
+        else
+            low = mid;
+    }
+    return high;
+}
+
+/* Largest of the indicators and sums of all ranks. */
+static void reduce(struct regions *g)
+{
+    struct criteria *c = g->criteria;
+    MPI_Comm comm = g->run->comm;
+    MPI_Allreduce(MPI_IN_PLACE, &c->fluid, 1, MPI_INT64_T, MPI_SUM, comm);
+    MPI_Allreduce(MPI_IN_PLACE, c->fixed, APR_LEVELS_MAX + 1, MPI_INT64_T, MPI_SUM, comm);
+    for (int n = 1; n <= c->levels; n++) {
+        struct grid *q = c->grid + n;
+        const int cells = (int)marks_count(&q->cells);
+        MPI_Allreduce(MPI_IN_PLACE, q->value, cells, MPI_DOUBLE, MPI_MAX, comm);
+        MPI_Allreduce(MPI_IN_PLACE, q->surface, cells, MPI_UNSIGNED_CHAR, MPI_MAX, comm);
+        MPI_Allreduce(MPI_IN_PLACE, q->units, cells, MPI_INT64_T, MPI_SUM, comm);
+    }
+}
+
+/* Seeds of this evaluation, and how long they stay. */
+static void remember(struct regions *g, double t, double sound, bool patient)
+{
+    struct criteria *c = g->criteria;
+    for (int n = 1; n <= c->levels; n++) {
+        struct grid *q = c->grid + n;
+        const double life = 20.0 * regions_R(g, n - 1) / sound;
+        for (size_t i = 0; i < marks_count(&q->cells); i++) {
+            q->seed[i] = is_kept(q, i, c->factor, t, patient);
+            if (q->value[i] > c->factor)
+                q->until[i] = t + life;
+        }
+        marks_measure(&q->cells);
+    }
+}
+
+void criteria_end(struct regions *g, double t, double sound)
+{
+    struct criteria *c = g->criteria;
+    reduce(g);
+    for (int n = 1; n <= c->levels; n++)
+        add_surface(g, n);
+    bool patient = true;
+    c->factor = find_factor(g, t, patient);
+    if (c->factor == INFINITY) {
+        patient = false;
+        c->factor = find_factor(g, t, patient);
+    }
+    c->forecast = mark_all(g, c->factor, t, patient);
+    remember(g, t, sound, patient);
+    c->next = t + 0.5 * regions_R(g, c->levels - 1) / sound * (1.0 - 1e-9);
+}
+
+/* --- restart --- */
+
+void criteria_save(const struct regions *g, struct h5 *f)
+{
+    const struct criteria *c = g->criteria;
+    const bool mine = g->run->rank == 0;
+    if (!c)
+        return;
+    h5_attribute_real(f, "apr_next", c->next);
+    h5_attribute_real(f, "apr_factor", c->factor);
+    h5_attribute_real(f, "apr_speed", c->speed);
+    for (int n = 1; n <= c->levels; n++) {
+        const struct grid *q = c->grid + n;
+        const size_t cells = mine ? marks_count(&q->cells) : 0;
+        char name[32];
+        double(*row)[3] = mem_new(cells, sizeof *row);
+        for (size_t i = 0; i < cells; i++) {
+            row[i][0] = q->cells.mark[i];
+            row[i][1] = q->seed[i];
+            row[i][2] = q->until[i];
+        }
+        snprintf(name, sizeof name, "apr_cells_%d", n);
+        h5_write_real(f, name, "-", (int64_t)cells, 3, row[0], false);
+        mem_free(row);
+    }
+}
+
+static bool load_level(struct grid *q, int n, struct h5 *f)
+{
+    int64_t rows = 0;
+    char name[32];
+    snprintf(name, sizeof name, "apr_cells_%d", n);
+    double *row = h5_read_all_real(f, name, 3, &rows);
+    const bool fits = row && rows == (int64_t)marks_count(&q->cells);
+    for (int64_t i = 0; i < rows && fits; i++) {
+        q->cells.mark[i] = row[3 * i] > 0.0;
+        q->seed[i] = row[3 * i + 1] > 0.0;
+        q->until[i] = row[3 * i + 2];
+    }
+    mem_free(row);
+    marks_measure(&q->cells);
+    return fits;
+}
+
+bool criteria_load(struct regions *g, struct h5 *f)
+{
+    struct criteria *c = g->criteria;
+    if (!c)
+        return true;
+    bool fits = h5_read_attribute_real(f, "apr_next", &c->next) &&
+                h5_read_attribute_real(f, "apr_factor", &c->factor) &&
+                h5_read_attribute_real(f, "apr_speed", &c->speed);
+    for (int n = 1; n <= c->levels; n++)
+        fits = load_level(c->grid + n, n, f) && fits;
+    return fits;
+}

@@ -1,0 +1,44 @@
+/* criteria.h - regions that the flow asks for. Each level has a grid of cells as wide as R of the
+ * level below it; particles that flow put their indicators in; cells above a criterion's bound, and
+ * some around them, are refined. A cell is released when its indicator has fallen below a third of
+ * the bound and 20 R/c have passed since it was above. A budget of particles raises all bounds
+ * alike. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_CRITERIA_H
+#define SPH_CRITERIA_H
+
+#include <stdbool.h>
+
+struct regions;
+struct h5;
+
+/* What a particle that flows has to say. */
+struct flow_sample {
+    double volume;      /* m^dim */
+    double rho, speed;  /* kg/m^3, m/s: |u| */
+    double curl, slope; /* 1/s: |curl u|; Pa/m: |grad p| */
+    double jump;        /* Pa: largest jump of p after reconstruction, with its neighbours */
+    bool on_surface;
+};
+
+/* Whether criteria are to be looked at, at time t: every R/(2 c) of the level below the finest that
+ * they ask for. Then: begin, add for each particle that flows, of all levels, end. */
+bool criteria_due(const struct regions *g, double t);
+/* speed: m/s, largest of the flow now; gravity: m/s^2. */
+void criteria_begin(struct regions *g, double speed, double gravity);
+void criteria_add(struct regions *g, const double *x, const struct flow_sample *is);
+/* Regions are made anew. c: m/s, speed of sound. Collective. */
+void criteria_end(struct regions *g, double t, double c);
+/* Whether the slopes of neighbours must be looked at for `jump'. */
+bool criteria_want_jumps(const struct regions *g);
+/* Factor on all bounds that the budget asks for, >= 1; 1 without criteria. */
+double criteria_factor(const struct regions *g);
+/* Particles of all levels that the last evaluation expects. */
+double criteria_forecast(const struct regions *g);
+
+/* For regions.c. */
+struct criteria *criteria_create(struct regions *g);
+void criteria_free(struct regions *g);
+void criteria_save(const struct regions *g, struct h5 *f);
+bool criteria_load(struct regions *g, struct h5 *f);
+
+#endif

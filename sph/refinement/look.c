@@ -1,0 +1,109 @@
+/* look.c - what regions learn of the flow: where bodies are, the largest pressure, the indicators
+ * of criteria. Read from the lines and slopes of the last stage.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <string.h>
+
+#include "../pairs/neighbours.h"
+#include "../particles/eos.h"
+#include "../surface/surface.h"
+#include "../walls/walls.h"
+#include "criteria.h"
+#include "refinement.h"
+
+static double pressure(const struct sph *s, int i)
+{
+    return eos_p(prim_line(&s->p, i)[at_rho(s->dim)], s->rho0, s->c0, s->gamma);
+}
+
+/* Place of the largest pressure of all that flows; of equal ones the first rank's. */
+static void find_peak(struct sph *s)
+{
+    struct {
+        double p;
+        int rank;
+    } most = {-INFINITY, s->run->rank};
+    double x[3] = {0.0, 0.0, 0.0};
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            if (!particles_is_guard(&q->p, i) && pressure(q, i) > most.p) {
+                most.p = pressure(q, i);
+                memcpy(x, prim_line(&q->p, i), (size_t)q->dim * sizeof *x);
+            }
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
+    MPI_Bcast(x, 3, MPI_DOUBLE, most.rank, s->run->comm);
+    if (isfinite(most.p))
+        regions_set_peak(s->refinement->regions, x, most.p);
+}
+
+/* Largest jump of p between i and its neighbours when both are continued to the middle with their
+ * slopes, Pa. */
+static double largest_jump(const struct sph *s, int i, double c)
+{
+    const struct neighbours *l = s->list;
+    const double *x = prim_line(&s->p, i), *g = slope_line(&s->p, i);
+    double most = 0.0;
+    for (int64_t k = l->start[i]; k < l->start[i] + l->count[i]; k++) {
+        const double *y = prim_line(&s->p, l->j[k]), *h = slope_line(&s->p, l->j[k]);
+        double r2 = 0.0, drho = y[at_rho(s->dim)] - x[at_rho(s->dim)];
+        for (int a = 0; a < s->dim; a++) {
+            const double d = y[a] - x[a];
+            r2 += d * d;
+            drho -= 0.5 * (g[a] + h[a]) * d;
+        }
+        if (r2 < s->R * s->R)
+            most = fmax(most, fabs(drho));
+    }
+    return most * c * c;
+}
+
+static struct flow_sample sample(const struct sph *s, int i, bool jumps)
+{
+    const double *q = prim_line(&s->p, i), *slope = slope_line(&s->p, i);
+    struct flow_sample to = {.volume = q[at_volume(s->dim)], .rho = q[at_rho(s->dim)]};
+    const double c = eos_c(to.rho, s->rho0, s->c0, s->gamma);
+    double w[3];
+    sph_vorticity(s, i, w);
+    for (int a = 0; a < 3; a++)
+        to.curl += w[a] * w[a];
+    for (int a = 0; a < s->dim; a++) {
+        to.speed += q[s->dim + a] * q[s->dim + a];
+        to.slope += slope[a] * slope[a];
+    }
+    to.curl = sqrt(to.curl);
+    to.speed = sqrt(to.speed);
+    to.slope = c * c * sqrt(to.slope);
+    to.jump = jumps ? largest_jump(s, i, c) : 0.0;
+    to.on_surface = s->surface && s->surface->is[i] == SURFACE_ON;
+    return to;
+}
+
+/* Indicators of all that flows. */
+static void ask_criteria(struct sph *s)
+{
+    struct regions *g = s->refinement->regions;
+    const double *f = s->gravity;
+    const bool jumps = criteria_want_jumps(g);
+    criteria_begin(g, s->max_speed, sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]));
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            if (particles_is_guard(&q->p, i))
+                continue;
+            const struct flow_sample is = sample(q, i, jumps);
+            criteria_add(g, prim_line(&q->p, i), &is);
+        }
+    criteria_end(g, s->t, s->c0);
+}
+
+void refinement_look(struct sph *s)
+{
+    struct regions *g = s->refinement->regions;
+    timer_start(&s->run->timers, "levels");
+    for (int k = 0; s->walls && k < s->walls->nbodies; k++)
+        regions_set_body(g, k, &s->walls->bodies[k].now);
+    if (regions_want_peak(g))
+        find_peak(s);
+    if (criteria_due(g, s->t))
+        ask_criteria(s);
+    timer_stop(&s->run->timers, "levels");
+}

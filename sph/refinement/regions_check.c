@@ -1,0 +1,498 @@
+/* regions_check.c - see regions_check.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "regions_check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../../common/scene_mesh.h"
+#include "regions.h"
+#include "regions_parts.h"
+
+/* What a check of region k needs. */
+struct check {
+    const struct run *r;
+    const struct sph_params *used;
+    const struct apr_params *prm;
+    struct faults *f;
+    const struct apr_region *is;
+    int k, dim;
+};
+
+/* A key of the region; one that is not given has no place in the file but that of the list. */
+static const char *key_of(const struct check *c, const char *name)
+{
+    static char key[80];
+    snprintf(key, sizeof key, "apr.regions.[%d].%s", c->k, name);
+    return params_given(c->r->params, key) ? key : "apr.regions";
+}
+
+static bool is_given(const struct check *c, const char *name)
+{
+    return strcmp(key_of(c, name), "apr.regions") != 0;
+}
+
+static double R_of(const struct check *c, int level)
+{
+    return ldexp(c->used->R_dx * c->used->dx, -level);
+}
+
+/* --- keys of other shapes --- */
+
+static void check_unused(const struct check *c)
+{
+    static const struct {
+        const char *name;
+        unsigned shapes; /* bits of enum region_shape */
+        const char *why;
+    } rows[] = {
+        {"min", 1, "only a box has corners"},
+        {"max", 1, "only a box has corners"},
+        {"centre", 2, "only a sphere has a centre"},
+        {"radius", 2, "only a sphere has a radius"},
+        {"body", 4, "the shape is no body; to move with one: follow"},
+        {"wall", 8, "the shape is no wall"},
+        {"offset", 12, "only shapes body and wall have an offset"},
+        {"velocity", 3, "this shape moves with its body, or not at all"},
+        {"motion", 3, "this shape moves with its body, or not at all"},
+        {"follow", 3, "this shape moves with its body, or not at all"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (!(rows[i].shapes >> c->is->shape & 1) && is_given(c, rows[i].name))
+            params_fault(c->r->params, c->f, key_of(c, rows[i].name), "is not used: %s",
+                         rows[i].why);
+    if (!*c->is->follow && is_given(c, "along"))
+        params_fault(c->r->params, c->f, key_of(c, "along"), "is not used: nothing is followed");
+    if (strcmp(c->is->follow, "peak") != 0 && is_given(c, "pressure"))
+        params_fault(c->r->params, c->f, key_of(c, "pressure"), "is not used: no peak is followed");
+}
+
+/* --- size and place --- */
+
+/* Bounds of a box or sphere at the start. */
+static void bounds(const struct apr_region *is, double lo[3], double hi[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const bool box = is->shape == REGION_BOX;
+        lo[a] = box ? is->min[a] : is->centre[a] - is->radius;
+        hi[a] = box ? is->max[a] : is->centre[a] + is->radius;
+    }
+}
+
+static void check_extent(const struct check *c, int a, double lo, double hi)
+{
+    const struct scene_domain *d = &c->r->scene.domain;
+    const double near = 1e-6 * c->used->dx, R = R_of(c, c->is->level - 1);
+    const double *from = c->used->box[0], *to = c->used->box[1];
+    if (hi <= from[a] + near || lo >= to[a] - near) {
+        params_fault(c->r->params, c->f, key_of(c, c->is->shape == REGION_BOX ? "min" : "centre"),
+                     "the region, %c from %g to %g m, lies outside of that of the particles, %g "
+                     "to %g m",
+                     "xyz"[a], lo, hi, from[a], to[a]);
+        return;
+    }
+    const int faces = d->periodic[a] && hi - lo >= d->max[a] - d->min[a] - near
+                          ? 0
+                          : (lo > from[a] + near) + (hi < to[a] - near);
+    const double length = fmin(hi, to[a]) - fmax(lo, from[a]);
+    const double least = faces * (R + 2.0 * ldexp(c->used->dx, 1 - c->is->level));
+    if (length < least * (1.0 - 1e-9))
+        params_fault(c->r->params, c->f, key_of(c, c->is->shape == REGION_BOX ? "max" : "radius"),
+                     "%c from %g to %g m: guards R = %.4g m deep of level %d at %d edge%s leave "
+                     "nothing to refine; at least %.4g m are wanted, or a smaller level",
+                     "xyz"[a], lo, hi, R, c -> is -> level, faces, faces > 1 ? "s" : "", least);
+}
+
+static void check_box_and_ball(const struct check *c)
+{
+    double lo[3], hi[3];
+    if (c->is->shape == REGION_SPHERE && c->is->radius <= 0.0) {
+        params_fault(c->r->params, c->f, key_of(c, "radius"), "region %d: a sphere needs a radius",
+                     c->k + 1);
+        return;
+    }
+    bounds(c->is, lo, hi);
+    for (int a = 0; a < c->dim; a++)
+        if (hi[a] <= lo[a]) {
+            params_fault(c->r->params, c->f, key_of(c, "max"),
+                         "%g m is not larger than min, %g m, along %c", hi[a], lo[a], "xyz"[a]);
+            return;
+        }
+    for (int a = 0; a < c->dim; a++)
+        check_extent(c, a, lo[a], hi[a]);
+}
+
+static void check_shell(const struct check *c)
+{
+    const struct scene *s = &c->r->scene;
+    const double least = R_of(c, c->is->level - 1) + 2.0 * ldexp(c->used->dx, 1 - c->is->level);
+    if (c->is->shape == REGION_BODY && region_body(s, c->is->body) == BODIES_MAX)
+        params_fault(c->r->params, c->f, key_of(c, "body"),
+                     "no body has the name `%s'; group bodies names them", c->is->body);
+    if (c->is->shape == REGION_WALL && (c->is->wall < 1 || c->is->wall > s->nwalls))
+        params_fault(c->r->params, c->f, key_of(c, "wall"), "%d: there are walls 1 to %d",
+                     c->is->wall, s->nwalls);
+    else if (c->is->shape == REGION_WALL && s->walls[c->is->wall - 1].side != SIDE_NONE)
+        params_fault(c->r->params, c->f, key_of(c, "wall"),
+                     "wall %d is a side of the domain: give a box that ends on it", c->is->wall);
+    if (c->is->offset < least * (1.0 - 1e-9))
+        params_fault(c->r->params, c->f, key_of(c, "offset"),
+                     "%g m: guards R = %.4g m deep at the edge of level %d leave nothing to "
+                     "refine; at least %.4g m are wanted",
+                     c->is->offset, least - 2.0 * ldexp(c->used->dx, 1 - c->is->level),
+                     c->is->level, least);
+}
+
+/* --- levels --- */
+
+static void check_levels(const struct run *r, const struct apr_params *prm, struct faults *f)
+{
+    int most = 0;
+    char key[80];
+    for (int k = 0; k < prm->regions.n; k++) {
+        const int level = prm->regions.of[k].level;
+        most = level > most ? level : most;
+        snprintf(key, sizeof key, "apr.regions.[%d].level", k);
+        if (level > prm->levels)
+            params_fault(r->params, f, key, "%d is above apr.levels = %d", level, prm->levels);
+    }
+    for (int k = 0; k < prm->criteria.n; k++) {
+        const int level = prm->criteria.of[k].level;
+        most = level > most ? level : most;
+        snprintf(key, sizeof key, "apr.criteria.[%d].level", k);
+        if (level > prm->levels)
+            params_fault(r->params, f, key, "%d is above apr.levels = %d", level, prm->levels);
+    }
+    if (most < prm->levels)
+        params_fault(r->params, f, "apr.levels",
+                     "%d, but no region and no criterion asks for more than %d", prm->levels, most);
+}
+
+static bool motion_is_told(const struct apr_region *is)
+{
+    bool any = is->motion.n > 0;
+    for (int a = 0; a < 3; a++)
+        any = any || is->velocity[a] != 0.0;
+    return any;
+}
+
+static bool moves(const struct apr_region *is) { return motion_is_told(is) || *is->follow; }
+
+static bool same_motion(const struct regions *g, int a, int b)
+{
+    if (g->set_of[a] >= 0 || g->set_of[b] >= 0)
+        return g->set_of[a] == g->set_of[b];
+    const struct apr_region *x = g->prm->regions.of + a, *y = g->prm->regions.of + b;
+    return x->shape == y->shape && x->wall == y->wall && strcmp(x->body, y->body) == 0;
+}
+
+static bool holds(const struct apr_region *is, const double *x, int dim)
+{
+    bool in = true;
+    double r2 = 0.0;
+    for (int a = 0; a < dim; a++) {
+        in = in && x[a] >= is->min[a] && x[a] <= is->max[a];
+        r2 += (x[a] - is->centre[a]) * (x[a] - is->centre[a]);
+    }
+    return is->shape == REGION_BOX ? in : r2 <= is->radius * is->radius;
+}
+
+bool regions_outer_given(const struct regions *g, int k)
+{
+    const struct apr_regions *all = &g->prm->regions;
+    double lo[3], hi[3], x[3];
+    bounds(all->of + k, lo, hi);
+    for (int a = 0; a < 3; a++)
+        x[a] = 0.5 * (lo[a] + hi[a]);
+    for (int j = 0; j < all->n; j++)
+        if (all->of[j].level == all->of[k].level - 1 && same_motion(g, j, k) &&
+            (all->of[k].shape >= REGION_BODY || holds(all->of + j, x, g->dim)))
+            return true;
+    return false;
+}
+
+/* Least distance of what a region covers within the domain from the edge of the level below. */
+struct least {
+    double d, at[3];
+};
+
+static void try_point(const struct regions *g, int level, const double *x, struct least *best)
+{
+    for (int a = 0; a < g->dim; a++)
+        if (!g->periodic[a] && (x[a] < g->domain.lo[a] || x[a] > g->domain.hi[a]))
+            return;
+    const double d = regions_fixed_distance(g, level, x);
+    if (d < best->d) {
+        best->d = d;
+        memcpy(best->at, x, sizeof best->at);
+    }
+}
+
+/* By samples on its surface: a grid on each face of a box; on a sphere the same grid drawn to it.
+ */
+static struct least least_depth(const struct regions *g, const struct apr_region *is)
+{
+    enum { SAMPLES = 32 };
+    struct least best = {.d = INFINITY};
+    double lo[3], hi[3];
+    bounds(is, lo, hi);
+    for (int side = 0; side < 2 * g->dim; side++)
+        for (int i = 0; i <= SAMPLES; i++)
+            for (int j = 0; j <= (g->dim == 3 ? SAMPLES : 0); j++) {
+                const int at[2] = {i, j};
+                double x[3] = {0.0, 0.0, 0.0}, length = 0.0;
+                for (int a = 0, b = 0; a < g->dim; a++) {
+                    const double w = a == side / 2 ? side % 2 : (double)at[b++] / SAMPLES;
+                    const double from =
+                        is->shape == REGION_BOX ? fmax(lo[a], g->domain.lo[a]) : lo[a];
+                    const double to =
+                        is->shape == REGION_BOX ? fmin(hi[a], g->domain.hi[a]) : hi[a];
+                    x[a] = from + w * (to - from);
+                    length += pow(x[a] - is->centre[a], 2.0);
+                }
+                for (int a = 0; a < g->dim && is->shape == REGION_SPHERE; a++)
+                    x[a] = is->centre[a] + is->radius * (x[a] - is->centre[a]) / sqrt(length);
+                try_point(g, is->level - 1, x, &best);
+            }
+    return best;
+}
+
+static void check_nesting(const struct check *c, const struct regions *g)
+{
+    const int outer = c->is->level - 1;
+    const double least = 1.5 * R_of(c, outer - 1);
+    if (outer < 1 || g->alone[c->k])
+        return;
+    if (c->is->shape >= REGION_BODY) {
+        for (int j = 0; j < g->prm->regions.n; j++) {
+            const struct apr_region *is = g->prm->regions.of + j;
+            if (is->level == outer && same_motion(g, j, c->k) &&
+                is->offset < (c->is->offset + least) * (1.0 - 1e-9))
+                params_fault(c->r->params, c->f, key_of(c, "offset"),
+                             "level %d reaches to %g m, that of level %d around it to %g m: make "
+                             "that %.4g m, or leave it out, then one is made",
+                             c->is->level, c->is->offset, outer, is->offset, c->is->offset + least);
+        }
+        return;
+    }
+    const struct least l = least_depth(g, c->is);
+    if (l.d < least * (1.0 - 1e-6))
+        params_fault(
+            c->r->params, c->f, key_of(c, c->is->shape == REGION_BOX ? "min" : "radius"),
+            "level %d comes to %.4g m from the edge of level %d at (%g, %g, %g)%s: at least "
+            "R of level %d and half of it, %.4g m, must lie between; make the region of "
+            "level %d larger, or leave it out, then one is made",
+            c->is->level, l.d, outer, l.at[0], l.at[1], l.at[2], l.d < 0.0 ? ", outside of it" : "",
+            outer - 1, least, outer);
+}
+
+/* --- open sides --- */
+
+double regions_allowed(const struct regions *g, int level, int side)
+{
+    const int a = side / 2, sign = side % 2 ? -1 : 1;
+    double depth = g->zones + g->R;
+    if (!g->open[side])
+        return side % 2 ? INFINITY : -INFINITY;
+    for (int n = 1; n < level; n++)
+        depth += g->level[n].cells ? (ceil(g->prm->margin) + 1.0) * g->level[n].cells->h[a]
+                                   : regions_margin(g, n);
+    return (side % 2 ? g->domain.hi[a] : g->domain.lo[a]) + sign * depth;
+}
+
+/* A region of level 1 that comes into the zones at an open side, anywhere along it. */
+static void check_open_side(const struct run *r, const struct regions *g, int side,
+                            struct faults *f)
+{
+    enum { SAMPLES = 64 };
+    static const char *const names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+    const int axis = side / 2, u = (axis + 1) % g->dim, v = (axis + 2) % g->dim;
+    double x[3] = {0.0, 0.0, 0.0};
+    x[axis] = regions_allowed(g, 1, side);
+    const double end = side % 2 ? g->domain.hi[axis] : g->domain.lo[axis];
+    for (int i = 0; i < SAMPLES; i++)
+        for (int j = 0; j < (g->dim == 3 ? SAMPLES : 1); j++) {
+            x[u] = g->domain.lo[u] + (i + 0.5) / SAMPLES * (g->domain.hi[u] - g->domain.lo[u]);
+            if (g->dim == 3)
+                x[v] = g->domain.lo[v] + (j + 0.5) / SAMPLES * (g->domain.hi[v] - g->domain.lo[v]);
+            double d = regions_fixed_distance(g, 1, x);
+            double beyond[3] = {x[0], x[1], x[2]};
+            for (int k = 0; k < 4; k++) { /* a region may lie between the place and the side */
+                beyond[axis] += 0.25 * (end - x[axis]);
+                d = fmax(d, regions_fixed_distance(g, 1, beyond));
+            }
+            if (d <= 1e-6 * g->R)
+                continue;
+            params_fault(
+                r->params, f, "apr.regions",
+                "level 1 reaches into the open side %s at (%g, %g, %g): regions and what "
+                "is made around them must stay %.4g m away, transition, buffer and R; make "
+                "them smaller, or the region of the particles larger",
+                names[side], x[0], x[1], x[2], fabs(end - x[axis]));
+            return;
+        }
+}
+
+/* --- motion --- */
+
+static bool check_motion_keys(const struct check *c)
+{
+    const int before = c->f->n;
+    for (int m = 0; m < c->is->motion.n; m++) {
+        const struct scene_motion *t = c->is->motion.of + m;
+        char path[1024 + PARAM_TEXT_SIZE];
+        double *rows = NULL;
+        if (t->kind != MOTION_FILE && t->axis >= AXIS_RX)
+            params_fault(c->r->params, c->f, key_of(c, "motion"),
+                         "term %d: a region does not turn: axis x, y or z", m + 1);
+        if (t->kind == MOTION_HARMONIC && t->period <= 0.0)
+            params_fault(c->r->params, c->f, key_of(c, "motion"),
+                         "term %d: a harmonic motion needs a period", m + 1);
+        snprintf(path, sizeof path, "%s/%s", c->r->case_dir, t->file);
+        if (t->kind == MOTION_FILE && body_read_rows(path, c->dim == 2 ? 4 : 7, &rows) <= 0)
+            params_fault(c->r->params, c->f, key_of(c, "motion"),
+                         "term %d: %s is no file of rows of %d numbers, times rising", m + 1,
+                         t->file, c->dim == 2 ? 4 : 7);
+        mem_free(rows);
+    }
+    if (region_axes(c->is->along, c->dim) < 0)
+        params_fault(c->r->params, c->f, key_of(c, "along"), "`%s' are no axes: %s is meant",
+                     c->is->along, c->dim == 2 ? "x, y or x y" : "some of x y z");
+    if (*c->is->follow && motion_is_told(c->is))
+        params_fault(c->r->params, c->f, key_of(c, "follow"),
+                     "a region that follows something has no motion of its own: take velocity and "
+                     "motion out");
+    if (*c->is->follow && strcmp(c->is->follow, "peak") != 0 &&
+        region_body(&c->r->scene, c->is->follow) == BODIES_MAX)
+        params_fault(c->r->params, c->f, key_of(c, "follow"),
+                     "no body has the name `%s'; follow = \"peak\" is the largest pressure",
+                     c->is->follow);
+    return c->f->n == before;
+}
+
+/* Too fast for its particles, or gone before the run is over. */
+static void check_motion(const struct check *c, const struct regions *g)
+{
+    const struct region_set *s = g->set_of[c->k] < 0 ? NULL : g->sets + g->set_of[c->k];
+    const char *key = key_of(c, c->is->motion.n > 0 ? "motion" : "velocity");
+    if (!s || s->speed <= 0.0)
+        return;
+    struct sph_params fine = *c->used;
+    fine.dx = ldexp(fine.dx, -c->prm->levels);
+    const double dt = sph_params_dt(&fine, c->r->scene.fluid.nu, fine.c0, NULL);
+    const double most = 0.5 * ldexp(c->used->dx, -s->finest);
+    if (s->speed * dt > most) {
+        params_fault(
+            c->r->params, c->f, key,
+            "%.4g m/s: the region goes %.3g dx of level %d in a step of %.3g s, at most 0.5 "
+            "are allowed; %.4g m/s are, or a larger sph.c0",
+            s->speed, s->speed * dt / (2.0 * most), s->finest, dt, most / dt);
+        return;
+    }
+    double lo[3], hi[3], d[BODY_AXES], dd[BODY_AXES], ddd[BODY_AXES];
+    bounds(c->is, lo, hi);
+    for (int k = 0; k <= 64; k++) {
+        const double t = c->r->scene.time.end * k / 64.0;
+        body_drive_at(&s->drive, t, d, dd, ddd);
+        for (int a = 0; a < c->dim; a++)
+            if (!g->periodic[a] &&
+                (hi[a] + d[a] <= g->domain.lo[a] || lo[a] + d[a] >= g->domain.hi[a])) {
+                params_fault(c->r->params, c->f, key,
+                             "the region has left that of the particles along %c at t = %.4g s, "
+                             "before time.end = %g s",
+                             "xyz"[a], t, c -> r -> scene.time.end);
+                return;
+            }
+    }
+}
+
+/* --- criteria --- */
+
+static void check_criteria(const struct run *r, const struct sph_params *used,
+                           const struct apr_params *prm, struct faults *f)
+{
+    char key[80];
+    for (int k = 0; k < prm->criteria.n; k++) {
+        const struct apr_criterion *is = prm->criteria.of + k;
+        const bool surface = is->kind == CRITERION_SURFACE;
+        const char *const wanted = surface ? "distance" : "above";
+        snprintf(key, sizeof key, "apr.criteria.[%d].%s", k, surface ? "above" : "distance");
+        if (params_given(r->params, key))
+            params_fault(r->params, f, key, "is not used: this kind has a bound `%s'", wanted);
+        snprintf(key, sizeof key, "apr.criteria.[%d].%s", k, wanted);
+        if (!surface && is->above <= 0.0)
+            params_fault(r->params, f, "apr.criteria", "criterion %d needs `above', a bound > 0",
+                         k + 1);
+        snprintf(key, sizeof key, "apr.criteria.[%d].kind", k);
+        if (surface && used->surface != SURFACE_YES)
+            params_fault(r->params, f, key, "the scene has no free surface");
+        if (is->kind == CRITERION_JUMP && used->scheme != SCHEME_RIEMANN_ALE &&
+            used->scheme != SCHEME_RIEMANN)
+            params_fault(r->params, f, key, "only the Riemann schemes reconstruct pressures");
+    }
+    if (prm->criteria.n == 0 && params_given(r->params, "apr.around"))
+        params_fault(r->params, f, "apr.around", "is not used: there are no criteria");
+    if (prm->criteria.n == 0 && params_given(r->params, "apr.particles"))
+        params_fault(r->params, f, "apr.particles",
+                     "is not used: without criteria nothing adapts to a budget");
+    double cells = 1.0;
+    for (int a = 0; a < r->scene.domain.dim && prm->criteria.n > 0; a++)
+        cells *= ceil((used->box[1][a] - used->box[0][a]) /
+                      ldexp(used->R_dx * used->dx, 1 - prm->levels));
+    if (cells > 3.3e7)
+        params_fault(
+            r->params, f, "apr.criteria",
+            "%.2g cells of R = %.3g m in the domain are too many for criteria: fewer levels", cells,
+            ldexp(used->R_dx * used->dx, 1 - prm->levels));
+}
+
+/* --- all --- */
+
+static void check_region(struct check *c)
+{
+    check_unused(c);
+    if (c->is->shape < REGION_BODY)
+        check_box_and_ball(c);
+    else
+        check_shell(c);
+    if (moves(c->is))
+        check_motion_keys(c);
+}
+
+/* Whether any region or criterion goes beyond level 1: only then are outer ones made. */
+static bool has_outer(const struct apr_params *prm) { return prm->levels > 1; }
+
+void regions_check(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct apr_params *prm = apr_params_of(r);
+    const int before = f->n;
+    if (!prm) {
+        if (params_has_group(r->params, "apr") && !params_given(r->params, "apr.regions"))
+            params_fault(r->params, f, "apr",
+                         "neither regions nor criteria: nothing would be refined; leave the group "
+                         "out, or give one of them (regions = () for a run without)");
+        return;
+    }
+    struct check c = {.r = r, .used = used, .prm = prm, .f = f, .dim = r->scene.domain.dim};
+    check_levels(r, prm, f);
+    check_criteria(r, used, prm, f);
+    params_unused(r->params, f, "apr.margin", has_outer(prm), "all regions are of level 1");
+    for (c.k = 0; c.k < prm->regions.n; c.k++) {
+        c.is = prm->regions.of + c.k;
+        if (c.is->level <= prm->levels)
+            check_region(&c);
+    }
+    if (f->n > before)
+        return;
+    struct regions *g = regions_create(r, used);
+    for (c.k = 0; c.k < prm->regions.n; c.k++) {
+        c.is = prm->regions.of + c.k;
+        check_nesting(&c, g);
+        check_motion(&c, g);
+    }
+    for (int side = 0; side < 2 * g->dim; side++)
+        if (g->open[side])
+            check_open_side(r, g, side, f);
+    regions_free(&g);
+}

@@ -1,0 +1,95 @@
+/* regions_parts.h - what the files of regions share. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_REGIONS_PARTS_H
+#define SPH_REGIONS_PARTS_H
+
+#include "../sph_params.h"
+#include "apr_params.h"
+#include "ball.h"
+#include "box_union.h"
+#include "marks.h"
+#include "shell.h"
+
+/* A shell of the regions, as wide as this level has it. */
+struct layer {
+    int shell;
+    double width; /* m */
+};
+
+struct level {
+    struct box_union boxes;
+    int nballs, nlayers;
+    struct ball *balls;
+    struct layer *layers;
+    struct marks *cells; /* what criteria mark; NULL: no criterion asks for this level */
+};
+
+/* Regions that move alike. */
+struct region_set {
+    const struct apr_region *is;
+    struct scene_body told;  /* the motion as a body would have it */
+    struct body_drive drive; /* of that */
+    int body;                /* that it follows, -1: none */
+    bool peak, along[3];
+    double shift[3];  /* m: now */
+    double centre[3]; /* m: of its finest region at the start */
+    double speed;     /* m/s: largest of the motion as told */
+    int finest;       /* level */
+};
+
+struct criteria;
+struct regions {
+    const struct run *run;
+    const struct apr_params *prm;
+    int dim;
+    double R, dx, near; /* m: of level 0; what counts as the same place */
+    double zones;       /* m: depth of the zones at open sides */
+    struct box domain;  /* region of the particles */
+    struct box room;    /* the same with faces where an edge ends: walls, free ends; infinite */
+    bool periodic[3], open[6];
+    int nimages; /* of periodic axes, and the shift to each, m */
+    double image[27][3];
+    int nsets, set_of[REGIONS_MAX]; /* -1: moves with its shell */
+    struct region_set sets[REGIONS_MAX];
+    int nshells, shell_of[REGIONS_MAX]; /* -1: none */
+    struct shell shells[REGIONS_MAX];
+    int body_of[REGIONS_MAX]; /* of shells; -1: a wall */
+    bool alone[REGIONS_MAX];  /* regions that have an outer one made for them */
+    struct body_motion bodies[BODIES_MAX];
+    double peak[3], peak_pressure; /* m, Pa */
+    bool peak_known;
+    struct level level[APR_LEVELS_MAX + 1]; /* [1 .. levels] */
+    struct criteria *criteria;              /* NULL: none */
+};
+
+/* R of a level, m. */
+static inline double regions_R(const struct regions *g, int level) { return ldexp(g->R, -level); }
+/* Distance from the edge of level n to that of level n + 1 within it, where it is made, m. */
+static inline double regions_margin(const struct regions *g, int n)
+{
+    return g->prm->margin * regions_R(g, n - 1);
+}
+
+/* regions.c: makes boxes, balls and layers of all levels from the regions as they are moved now. */
+void regions_make(struct regions *g);
+/* Distance of level n to the edge of its boxes, balls and layers alone. */
+double regions_fixed_distance(const struct regions *g, int level, const double *x);
+
+/* regions_check.c: whether the case has a region of the level below around region k, moving alike.
+ */
+bool regions_outer_given(const struct regions *g, int k);
+
+/* m: the most that level may reach along an axis towards side 2a (low) or 2a + 1 (high): infinite
+ * but at open sides. */
+double regions_allowed(const struct regions *g, int level, int side);
+
+/* region_motion.c */
+void region_sets_create(struct regions *g);
+void region_sets_free(struct regions *g);
+/* Shifts at time t; whether any has changed. */
+bool region_sets_move(struct regions *g, double t);
+/* BODIES_MAX: no such body. */
+int region_body(const struct scene *c, const char *name);
+/* Bits of the axes named in `along', all if none are; -1: a word is no axis. */
+int region_axes(const char *along, int dim);
+
+#endif

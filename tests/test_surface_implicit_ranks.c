@@ -1,0 +1,125 @@
+/* test_surface_implicit_ranks.c - a free surface with bdf2 and newton: the number of ranks changes
+ * nothing but rounding, a restart nothing at all. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause
+ */
+#include "test.h"
+
+#include "../fv/surface/levelset.h"
+#include "fv_case.h"
+
+#define CLOSED "domain.periodic=(false,false,false)"
+#define SURFACE "fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED
+#define BDF2 "fv.integrator=\"bdf2\""
+#define NEWTON "fv.integrator=\"newton\""
+#define WAVE                                                                                       \
+    "fv.surface=\"yes\"", "initial.field=\"standing_wave\"", "initial.level=1",                    \
+        "initial.amplitude=0.01", "initial.U=0.01", "initial.L=4", "fluid.gravity=(0,-1)",         \
+        "domain.max=(4,1.25)", "domain.periodic=(true,false)"
+
+static const char *const integrators[2] = {BDF2, NEWTON};
+
+static struct fv *start(struct fv_case *c, MPI_Comm comm, const char *const *overrides,
+                        const struct scene_shape *shape, enum wall_kind kind)
+{
+    fv_case_set(c, comm, overrides);
+    struct scene *scene = &c->run.scene;
+    for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * scene->domain.dim; side++)
+        if (!scene->domain.periodic[(side - SIDE_X_MIN) / 2])
+            scene->walls[scene->nwalls++] = (struct scene_wall){.side = side, .kind = kind};
+    if (shape)
+        scene->shapes[scene->nshapes++] = *shape;
+    return fv_case_start(c, NULL);
+}
+
+enum { FLOWS = 4 };
+
+static struct fv *flow_start(struct fv_case *c, MPI_Comm comm, int flow)
+{
+    const struct scene_shape column = {.form = SHAPE_BOX, .box = {{0, 0, 0}, {0.43, 0.61, 0.57}}};
+    const char *const by = integrators[flow % 2];
+    if (flow < 2)
+        return start(c, comm,
+                     (const char *const[]){WAVE, "fv.cells=(24,20)", "fluid.nu=2e-3", by,
+                                           "fv.tol_pressure=1e-6", NULL},
+                     NULL, WALL_NO_SLIP);
+    return start(c, comm,
+                 (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "fv.cells=(26,24)", by,
+                                       "fv.tol_pressure=1e-9", "fv.tol_viscous=1e-9",
+                                       "fv.tol_newton=1e-9", NULL},
+                 &column, WALL_NO_SLIP);
+}
+
+static void sums_on(MPI_Comm comm, int flow, double sums[4])
+{
+    struct fv_case c;
+    struct fv *s = flow_start(&c, comm, flow);
+    const bool good = fv_case_run(&c, 6, 100.0);
+    sums[0] = good ? surface_energy(s) : NAN;
+    sums[1] = surface_reach(s, 0);
+    sums[2] = surface_reach(s, 1);
+    sums[3] = s->umax[0];
+    fv_free(&c.s);
+}
+
+static void ranks_agree(void **state)
+{
+    (void)state;
+    for (int flow = 0; flow < FLOWS; flow++) {
+        double alone[4], shared[4], most = 0.0;
+        sums_on(MPI_COMM_SELF, flow, alone);
+        sums_on(MPI_COMM_WORLD, flow, shared);
+        for (int k = 0; k < 4; k++)
+            most = fmax(most, fabs(alone[k] - shared[k]) / fmax(1e-3, fabs(alone[k])));
+        MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+        print_message("flow %d: %.3g\n", flow, most);
+        assert_close(most, 0.0, 1e-6);
+    }
+}
+
+static void restart_is_exact(void **state)
+{
+    enum { SIZE = 1024 };
+    (void)state;
+    for (int flow = 0; flow < FLOWS; flow++) {
+        struct fv_case one, two;
+        char path[SIZE];
+        int64_t differ = 0;
+        fv_case_path(".h5", path, SIZE);
+        MPI_Bcast(path, SIZE, MPI_CHAR, 0, MPI_COMM_WORLD);
+        flow_start(&one, MPI_COMM_WORLD, flow);
+        assert_true(fv_case_run(&one, 5, 100.0));
+        struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
+        fv_checkpoint(one.s, f);
+        h5_close(&f);
+        f = h5_open(MPI_COMM_WORLD, path);
+        assert_non_null(f);
+        flow_start(&two, MPI_COMM_WORLD, flow);
+        assert_true(fv_restore(two.s, f));
+        measure(two.s);
+        h5_close(&f);
+        two.s->t = one.s->t; /* which the program takes from the file */
+        assert_true(fv_case_run(&one, 4, 100.0) && fv_case_run(&two, 4, 100.0));
+        for (int a = 0; a < one.s->b.dim; a++)
+            BLOCK_ROWS (&one.s->b, 0, at, n)
+                for (int64_t i = at; i < at + n; i++)
+                    differ += one.s->u[a][i] != two.s->u[a][i] ||
+                              one.s->surface->phi[i] != two.s->surface->phi[i] ||
+                              one.s->p[i] != two.s->p[i];
+        MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+        print_message("restart, flow %d: %d values differ\n", flow, (int)differ);
+        assert_int_equal(differ, 0);
+        fv_free(&one.s);
+        fv_free(&two.s);
+        MPI_Barrier(MPI_COMM_WORLD);
+        remove(path);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(ranks_agree),
+                                       cmocka_unit_test(restart_is_exact)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
