@@ -1,7 +1,7 @@
-/* colour.h - how high a place stands over the surface of water, from the share of a kernel around it
- * that the water fills ("colour"): F of the height over a plane surface, turned round. 1/2 stands on
- * a plane surface by symmetry, so nothing is to be calibrated; of distances to particles that cannot
- * be said. Kernel: Wendland C2. SPDX-License-Identifier: BSD-3-Clause */
+/* colour.h - how high a place stands over the surface of water, from the share of a kernel around
+ * it that the water fills ("colour"): F of the height over a plane surface, turned round. 1/2
+ * stands on a plane surface by symmetry, so nothing is to be calibrated; of distances to particles
+ * that cannot be said. Kernel: Wendland C2. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_COLOUR_H
 #define COMMON_COLOUR_H
 

@@ -1,5 +1,6 @@
-/* test_colour.c - heights over a surface from the share of a kernel that lattices of particles fill,
- * and shares of partly wet faces against exact areas. SPDX-License-Identifier: BSD-3-Clause */
+/* test_colour.c - heights over a surface from the share of a kernel that lattices of particles
+ * fill, and shares of partly wet faces against exact areas. SPDX-License-Identifier: BSD-3-Clause
+ */
 #include "test.h"
 
 #include <math.h>
@@ -58,7 +59,8 @@ static void planes_are_found_to_a_thirtieth_of_dx(void **state)
     }
 }
 
-/* By theory 5/144 R^2/radius; over all places of the lattice, which does not fill a disc exactly. */
+/* By theory 5/144 R^2/radius; over all places of the lattice, which does not fill a disc exactly.
+ */
 static void discs_look_lower_by_their_curvature(void **state)
 {
     (void)state;

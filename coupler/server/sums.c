@@ -21,8 +21,9 @@ struct sums {
 
 static const char *const keys[SUMS] = {"sum.kinetic", "sum.potential", "sum.enstrophy",
                                        "sum.signal", "sum.water"};
-static const char *const columns[] = {"t [s]", "kinetic energy [J]", "potential energy [J]",
-                                      "enstrophy [m^dim/s^2]", "signal [-]", "water [m^dim]"};
+static const char *const columns[] = {
+    "t [s]",      "kinetic energy [J]", "potential energy [J]", "enstrophy [m^dim/s^2]",
+    "signal [-]", "water [m^dim]"};
 
 /* False if no program told this. */
 static bool add_up(const struct coupler *c, const char *key, double *sum)

@@ -72,8 +72,8 @@ void forcing_shift(struct forcing *f, double t0, double t1);
 void forcing_velocity(const struct fv *s, double t, double *const u[3]);
 /* Fluxes of the outline at time t: exact ones where the exact solution is imposed, a partner's
  * where its values reach two cells to both sides, else as they are interpolated; then corrected
- * evenly to no net flux, which a free surface takes. The free cells' own velocities hold the pressure of the step before:
- * fluxes made of them would let the pressure lag. */
+ * evenly to no net flux, which a free surface takes. The free cells' own velocities hold the
+ * pressure of the step before: fluxes made of them would let the pressure lag. */
 void forcing_fluxes(const struct fv *s, double t, double *const U[3]);
 /* The partner's newest values where it gave none (mask 0): means of those beside them, layer by
  * layer. For cells in the air above its water. Collective. */

@@ -24,7 +24,7 @@
 struct link {
     struct cpl *c;
     int grid, forced, velocity, pressure, imposed, seen;
-    int budget, water;       /* one point; the partner's water */
+    int budget, water; /* one point; the partner's water */
     struct water_budget of_water;
     int phi, places, filled; /* where the surface crosses into the partner's part */
     double *share;           /* of a kernel that the partner's water fills, at the places */

@@ -60,7 +60,8 @@ static void take_out_level(const struct fv *s, const struct course *c, double *q
     const struct forcing *f = s->forcing;
     const double *g = s->run->scene.fluid.gravity;
     double sum[2] = {0.0, 0.0}, x[3];
-    if (!f || s->surface || !scene_has_surface(&s->run->scene) || (g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0))
+    if (!f || s->surface || !scene_has_surface(&s->run->scene) ||
+        (g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0))
         return;
     for (int64_t m = f->npartner; m < f->npartner + f->nrim; m++) {
         int at[3];

@@ -16,17 +16,17 @@ enum {
 };
 
 struct course {
-    int first;                  /* local row: below it nothing is given, rows are uneven */
-    int64_t n;                  /* local cells from there on */
-    int dim, memory;            /* windows over which the pressure is smoothed; 1: none */
-    int width;                  /* values of a cell */
-    double *q[COURSE_LEVELS];   /* [n][width] velocity, pressure, phi with a surface; newest first */
-    double *tried;              /* the same at the end of the next window */
-    double t[COURSE_LEVELS];    /* s: their times */
-    double t_tried;             /* s; before t[0]: not known */
-    int levels;                 /* of them known */
-    double *rate;               /* [n] Pa/s: trend of the smoothed pressure; NULL: not smoothed */
-    double *scatter;            /* [n] Pa: about its trend; NULL: no surface, no impacts */
+    int first;                /* local row: below it nothing is given, rows are uneven */
+    int64_t n;                /* local cells from there on */
+    int dim, memory;          /* windows over which the pressure is smoothed; 1: none */
+    int width;                /* values of a cell */
+    double *q[COURSE_LEVELS]; /* [n][width] velocity, pressure, phi with a surface; newest first */
+    double *tried;            /* the same at the end of the next window */
+    double t[COURSE_LEVELS];  /* s: their times */
+    double t_tried;           /* s; before t[0]: not known */
+    int levels;               /* of them known */
+    double *rate;             /* [n] Pa/s: trend of the smoothed pressure; NULL: not smoothed */
+    double *scatter;          /* [n] Pa: about its trend; NULL: no surface, no impacts */
     double *term[COURSE_TERMS]; /* [n][dim] of velocity; then of what was filled in last */
     bool failed;                /* a trial has */
     struct kept *kept;

@@ -1,6 +1,5 @@
-/* surface_forced.h - the level set in cells that a partner fills: from the share of a kernel that its
- * water takes there (colour.h).
- * SPDX-License-Identifier: BSD-3-Clause */
+/* surface_forced.h - the level set in cells that a partner fills: from the share of a kernel that
+ * its water takes there (colour.h). SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_SURFACE_FORCED_H
 #define FV_SURFACE_FORCED_H
 

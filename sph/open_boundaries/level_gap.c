@@ -1,6 +1,6 @@
-/* level_gap.c - see level_gap.h. Probes stand on the surface outside, one in each column of width dx
- * of the transition; the share of a kernel that the particles fill there (colour.h) says how high
- * they stand. SPDX-License-Identifier: BSD-3-Clause */
+/* level_gap.c - see level_gap.h. Probes stand on the surface outside, one in each column of width
+ * dx of the transition; the share of a kernel that the particles fill there (colour.h) says how
+ * high they stand. SPDX-License-Identifier: BSD-3-Clause */
 #include "level_gap.h"
 
 #include <math.h>
@@ -14,21 +14,20 @@
 #include "openings.h"
 #include "zones.h"
 
-/* The blending of velocities holds a step of pressure of 0.7 % of rho g H by a difference of 5e-5 c0
- * between what flows in the two programs: in proportion alone a gap of a tenth of dx stays. A slower
- * part, four times that, takes it away.
- * Of Flather's sqrt(g/d): 1 would take all of a step at once, and feed waves (3e-4 sqrt(g/H)); with
- * 0.2 a step dies by 0.5 to 5.5 sqrt(g/H). */
+/* The blending of velocities holds a step of pressure of 0.7 % of rho g H by a difference of 5e-5
+ * c0 between what flows in the two programs: in proportion alone a gap of a tenth of dx stays. A
+ * slower part, four times that, takes it away. Of Flather's sqrt(g/d): 1 would take all of a step
+ * at once, and feed waves (3e-4 sqrt(g/H)); with 0.2 a step dies by 0.5 to 5.5 sqrt(g/H). */
 static const double kappa = 0.1;
 static const double most = 0.05; /* of sqrt(g d) */
 
 /* The columns of one side: i along it inwards, j across it and across gravity (3D). */
 struct columns {
     int side, up, across, n[2];
-    double sense;      /* 1: water lies at the lower end of axis `up' */
-    double (*x)[3];    /* [n[0] n[1]] the probe */
-    double *depth;     /* m: of the water below it; 0: no surface there */
-    double *share;     /* of the kernel that particles fill */
+    double sense;   /* 1: water lies at the lower end of axis `up' */
+    double (*x)[3]; /* [n[0] n[1]] the probe */
+    double *depth;  /* m: of the water below it; 0: no surface there */
+    double *share;  /* of the kernel that particles fill */
 };
 
 struct level_gap *level_gap_create(const struct sph *s)
@@ -203,8 +202,8 @@ void level_gap_look(struct sph *s, double dt)
     s->zones->gap->started = true;
 }
 
-const char *const level_gap_columns[LEVEL_COLUMNS] = {"level gap [m]", "level gap beyond [m]",
-                                                      "drops [kg]", "faces hold [kg]",
+const char *const level_gap_columns[LEVEL_COLUMNS] = {"level gap [m]",      "level gap beyond [m]",
+                                                      "drops [kg]",         "faces hold [kg]",
                                                       "births refused [-]", "water [m^dim]"};
 
 /* Of the two sides along the first axis that has any. */
@@ -241,7 +240,7 @@ void level_gap_judge(struct sph *s, struct diagnosis *d)
     g->mean += (now - g->mean) / several;
     if (watch_judge(&g->watched, g->mean / s->dx, s->t, s->run->step, d))
         snprintf(d->where, sizeof d->where, "the %s open side along %c, t = %.4g s",
-                 worst % 2 ? "upper" : "lower", "xyz"[worst / 2], s->t);
+                 worst % 2 ? "upper" : "lower", "xyz"[worst / 2], s -> t);
 }
 
 void level_gap_summary(const struct sph *s, struct summary *to)

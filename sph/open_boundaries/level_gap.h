@@ -1,7 +1,7 @@
-/* level_gap.h - the level of the particles over that of the flow outside, along each open side that a
- * free surface crosses. Velocity and pressure tell neither program the other's level: a step between
- * them would die by what the blending lets through alone. A small outflow in proportion to it, by
- * Flather's condition, closes it and feeds nothing. SPDX-License-Identifier: BSD-3-Clause */
+/* level_gap.h - the level of the particles over that of the flow outside, along each open side that
+ * a free surface crosses. Velocity and pressure tell neither program the other's level: a step
+ * between them would die by what the blending lets through alone. A small outflow in proportion to
+ * it, by Flather's condition, closes it and feeds nothing. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_LEVEL_GAP_H
 #define SPH_LEVEL_GAP_H
 
@@ -11,7 +11,7 @@
 enum { LEVEL_COLUMNS = 6 };
 
 struct level_gap {
-    double *profile; /* colour.h */
+    double *profile;   /* colour.h */
     double at_rest[6]; /* m: gap at the start, which is no step */
     double gap[6];     /* m: now, over that */
     double outflow[6]; /* m/s: what is added to the flow outside */
@@ -19,7 +19,7 @@ struct level_gap {
     bool started;      /* at_rest is known */
     double mean;       /* m: of |gap| over some windows, the largest side: what is judged */
     struct watch watched;
-    int probes;        /* places that were compared, last time */
+    int probes; /* places that were compared, last time */
 };
 
 struct level_gap *level_gap_create(const struct sph *s);

@@ -451,8 +451,7 @@ static void give_birth(struct sph *s)
         const int f = z->who[k];
         const double rho = eos_rho(z->p[k], s->rho0, s->c0, s->gamma), whole = rho * s->dxD;
         double held = o->mass[f] + o->change[f], *u = z->u + dim * k;
-        if (held < whole || o->share[f] == 0.0 ||
-            (o->flux[f] <= 0.0 && held < most_debt * whole))
+        if (held < whole || o->share[f] == 0.0 || (o->flux[f] <= 0.0 && held < most_debt * whole))
             continue;
         double x[3];
         const int side = openings_place(o, f, x), a = side / 2;

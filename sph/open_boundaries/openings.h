@@ -10,19 +10,19 @@
 struct openings {
     int dim;
     double dx, lo[3], hi[3];
-    bool open[6], bounded[3];    /* sides that are open; axes that do not repeat */
-    int cells[3];                /* faces along each axis */
-    int first[7];                /* of side 2a (low), 2a+1 (high); first[2 dim]: number of faces */
-    double *mass;                /* kg: booked, the same on all ranks */
-    double *change;              /* kg: of this step, this rank, then summed */
-    double *flux;                /* kg/s of the faces this rank owns, 0 elsewhere: inward */
-    double owed;                 /* kg: what voids that went out left to be drained; all ranks' */
-    double drain;                /* m/s: outwards, added to the flow outside */
+    bool open[6], bounded[3]; /* sides that are open; axes that do not repeat */
+    int cells[3];             /* faces along each axis */
+    int first[7];             /* of side 2a (low), 2a+1 (high); first[2 dim]: number of faces */
+    double *mass;             /* kg: booked, the same on all ranks */
+    double *change;           /* kg: of this step, this rank, then summed */
+    double *flux;             /* kg/s of the faces this rank owns, 0 elsewhere: inward */
+    double owed;              /* kg: what voids that went out left to be drained; all ranks' */
+    double drain;             /* m/s: outwards, added to the flow outside */
     double *share;  /* -: of each face that the water outside wets; 1 without a surface there */
     double rain[4]; /* kg, kg m/s: drops that left over the water, this rank */
     int64_t drops;
-    double *shift;               /* m: place of the incoming lattice behind each face */
-    int64_t born, gone, refused; /* on this rank */
+    double *shift;                       /* m: place of the incoming lattice behind each face */
+    int64_t born, gone, refused;         /* on this rank */
     double born_mass, gone_mass, inflow; /* kg: since the start, this rank */
     int64_t first_id; /* the newborn's: first_id + time of birth in ticks * faces + face */
     double tick;      /* s: far below a step */

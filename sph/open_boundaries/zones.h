@@ -12,7 +12,8 @@
 typedef void zones_eval(void *ctx, double t, int n, const double *x, double *u, double *p,
                         double *gu, double *gp);
 
-/* Height over the surface outside (m, < 0: water) and its gradient gphi[n][3] (NULL: not wanted). */
+/* Height over the surface outside (m, < 0: water) and its gradient gphi[n][3] (NULL: not wanted).
+ */
 typedef void zones_surface(void *ctx, double t, int n, const double *x, double *phi, double *gphi);
 
 struct openings;
@@ -24,9 +25,9 @@ struct zones {
     zones_eval *eval;
     struct sph_eos {
         double rho0, c0, gamma;
-    } eos;                     /* the particles', for a partner of constant density */
-    zones_surface *surface;    /* of the flow outside, which has a part of it; NULL: full of water */
-    struct level_gap *gap;     /* level_gap.h; NULL without that surface */
+    } eos;                  /* the particles', for a partner of constant density */
+    zones_surface *surface; /* of the flow outside, which has a part of it; NULL: full of water */
+    struct level_gap *gap;  /* level_gap.h; NULL without that surface */
     void (*update)(struct sph *s); /* start of a stage: looks at the flow inside; NULL: no need */
     void *ctx;                     /* borrowed */
     struct openings *openings;
@@ -78,8 +79,8 @@ void zones_gauge(struct sph *s);
 void zones_blend(struct sph *s);
 /* After the positions moved by dt: removals, face masses, births [6.13-6.14]. Collective. */
 void zones_openings(struct sph *s, double dt);
-/* How far the flow outside is to be imposed there: 1 in its water, 0 in its air, where particles are
- * free (spray, drops). */
+/* How far the flow outside is to be imposed there: 1 in its water, 0 in its air, where particles
+ * are free (spray, drops). */
 double zones_wet(const struct zones *z, double phi);
 /* Fills phi and gphi alone. */
 void zones_look_at_surface(struct zones *z, double t);
