@@ -11,7 +11,7 @@
 /* Windows over which what is missing comes back: some periods of short waves, so that it does not
  * follow them. What comes back in proportion leaves a lasting loss behind; a slower part, four
  * times that, takes it away without swinging. */
-static const double memory = 50.0;
+static const double memory = 200.0;
 
 struct water_budget water_budget_create(void)
 {
