@@ -31,9 +31,18 @@ struct side {
     double *tilt;            /* m: slope outwards, a cell, of a level set; NULL: there is none */
 };
 
+/* A place beyond a part's side, where the wall goes on: on a neighbour, who knows the slip. */
+struct beyond {
+    int side;
+    int64_t at, ghost; /* in the side's values; in fields, the first ghost behind the wall */
+};
+
 struct mesh_bc {
     int n;
     struct side *side;
+    int nbeyond;
+    struct beyond *beyond;
+    struct mesh_exchange walls; /* from ghosts behind walls to those of `beyond' */
     bool pressure_given;
     bool set; /* values have been */
 };
@@ -61,6 +70,12 @@ static int64_t cell(const struct side *s, int i, int j)
 static bool is_physical(enum mesh_side k)
 {
     return k != MESH_OVERLAP && k != MESH_JOINED && k != MESH_PERIODIC;
+}
+
+/* Whether the projection takes tau grad psi off its velocity. */
+static bool slips(enum mesh_side k)
+{
+    return is_physical(k) && k != MESH_SLIP && k != MESH_OUTFLOW;
 }
 
 /* Gradients of the tangential indices at the centre of the face: cofactors / J. */
@@ -138,6 +153,51 @@ static int axis_of_turn(const struct mesh *m, int part, int turn)
     return turn < last ? turn : turn + 1;
 }
 
+/* Who has the ghost behind the wall at a place beyond the side; false: the wall ends there. */
+static bool find_wall(const struct mesh *m, const struct side *d, int i, int j,
+                      struct mesh_request *r)
+{
+    int at[3], k = d->p->block, outside = 0;
+    double move[3];
+    at[d->a] = d->p->lo[d->a] + d->first + (d->k % 2 ? 1 : -1);
+    at[d->t[0]] = d->p->lo[d->t[0]] + i;
+    at[d->t[1]] = d->p->lo[d->t[1]] + j;
+    if (mesh_resolve(m, &k, at, move))
+        return false;
+    const struct mesh_block *b = m->block + k;
+    for (int a = 0; a < m->dim; a++)
+        if (at[a] < 0 || at[a] >= b->n[a])
+            outside +=
+                (at[a] == -1 || at[a] == b->n[a]) && slips(b->side[2 * a + (at[a] > 0)]) ? 1 : 2;
+    if (outside == 1)
+        mesh_owner(m, k, at, &r->rank, &r->out);
+    return outside == 1;
+}
+
+static void find_beyond(struct mesh *m, struct mesh_bc *bc)
+{
+    struct mesh_request *request = NULL, one = {0};
+    for (int k = 0; k < bc->n; k++) {
+        const struct side *d = bc->side + k;
+        if (!slips(d->kind))
+            continue;
+        const int64_t around = d->width * (d->n[1] + 2 * d->g[1]) - (int64_t)d->n[0] * d->n[1];
+        const size_t most = (size_t)(bc->nbeyond + around);
+        request = mem_grow(request, (size_t)bc->nbeyond, most, sizeof *request);
+        bc->beyond = mem_grow(bc->beyond, (size_t)bc->nbeyond, most, sizeof *bc->beyond);
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            one.in = c - d->in;
+            if ((i >= 0 && i < d->n[0] && j >= 0 && j < d->n[1]) || !find_wall(m, d, i, j, &one))
+                continue;
+            bc->beyond[bc->nbeyond] = (struct beyond){.side = k, .at = at, .ghost = one.in};
+            request[bc->nbeyond++] = one;
+        }
+    }
+    mesh_exchange_create(m, &bc->walls, 1, bc->nbeyond, request);
+    mem_free(request);
+}
+
 void mesh_bc_create(struct fv *s)
 {
     const struct mesh *m = s->m;
@@ -148,9 +208,14 @@ void mesh_bc_create(struct fv *s)
         for (int q = 0; q < m->nparts; q++)
             for (int up = 0; up < 2; up++)
                 add_side(s, bc, m->part + q, 2 * axis_of_turn(m, q, turn) + up);
+    bool slip_anywhere = false;
     for (int k = 0; k < m->nblocks; k++)
-        for (int q = 0; q < 2 * m->dim; q++)
+        for (int q = 0; q < 2 * m->dim; q++) {
             bc->pressure_given = bc->pressure_given || m->block[k].side[q] == MESH_OUTFLOW;
+            slip_anywhere = slip_anywhere || slips(m->block[k].side[q]);
+        }
+    if (slip_anywhere)
+        find_beyond(s->m, bc);
     mesh_bc_time(s, s->t);
 }
 
@@ -166,8 +231,11 @@ void mesh_bc_free(struct mesh_bc **b)
             if (c == 0)
                 mem_free(d->tilt);
         }
-    if (*b)
+    if (*b) {
         mem_free((*b)->side);
+        mem_free((*b)->beyond);
+        mesh_exchange_free(&(*b)->walls);
+    }
     mem_free(*b);
     *b = NULL;
 }
@@ -250,37 +318,72 @@ void mesh_bc_time(struct fv *s, double t)
     s->sides->set = true;
 }
 
-/* tau times the gradient of psi along the side, of psi on the face, (7 psi_1 - psi_2)/6. */
+/* tau times the gradient of psi along the side, of psi on the face, (7 psi_1 - psi_2)/6; c: cell
+ * inside. */
+static void slip_at(const struct fv *s, const struct side *d, int64_t at, int64_t c, double tau,
+                    const double *psi)
+{
+    double g[3] = {0.0, 0.0, 0.0}, gS = 0.0, S2 = 0.0;
+    for (int n = 0; n < 2 && d->t[n] < s->m->dim; n++) {
+        double f[5];
+        for (int l = 0; l < 5; l++) {
+            const double *q = psi + c + (l - 2) * d->p->stride[d->t[n]];
+            f[l] = (7.0 * q[0] - q[d->in]) / 6.0;
+        }
+        const double slope = (8.0 * (f[3] - f[1]) - (f[4] - f[0])) / 12.0;
+        for (int e = 0; e < s->m->dim; e++)
+            g[e] += slope * d->grad_xi[n][e][at];
+    }
+    for (int e = 0; e < s->m->dim; e++) {
+        const double S = s->m->S[d->a][e][c + d->face];
+        gS += g[e] * S;
+        S2 += S * S;
+    }
+    for (int e = 0; e < s->m->dim; e++)
+        d->slip[e][at] = tau * (g[e] - gS / S2 * s->m->S[d->a][e][c + d->face]);
+}
+
+/* Beyond a part's side, where stencils along the wall have no more psi, the neighbour's slip, by
+ * way of the ghosts behind the wall in s->faces. */
+static void take_slip(const struct fv *s)
+{
+    const struct mesh_bc *bc = s->sides;
+    for (int k = 0; k < bc->n; k++) {
+        const struct side *d = bc->side + k;
+        if (!slips(d->kind))
+            continue;
+        SIDE_PLACES(d, 0, i, j, at, c)
+        {
+            for (int e = 0; e < s->m->dim; e++)
+                s->faces[e][c - d->in] = d->slip[e][at];
+        }
+    }
+    mesh_exchange(s->m, &s->sides->walls, s->m->dim, s->faces);
+    for (int k = 0; k < bc->nbeyond; k++)
+        for (int e = 0; e < s->m->dim; e++)
+            bc->side[bc->beyond[k].side].slip[e][bc->beyond[k].at] =
+                s->faces[e][bc->beyond[k].ghost];
+}
+
+/* Where a wall ends at one without slip or at an overlap, the stencils reach one place beyond; the
+ * slip further on is 0. */
 void mesh_bc_set_slip(const struct fv *s, double tau, const double *psi)
 {
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        if (d->kind == MESH_SLIP || d->kind == MESH_OUTFLOW)
+        if (!slips(d->kind))
             continue;
         SIDE_PLACES(d, 1, i, j, at, c)
         {
-            double g[3] = {0.0, 0.0, 0.0}, gS = 0.0, S2 = 0.0;
-            const bool near = i >= -1 && i <= d->n[0] && j >= -1 && j <= d->n[1];
-            for (int n = 0; near && n < 2 && d->t[n] < s->m->dim; n++) {
-                double f[5];
-                for (int l = 0; l < 5; l++) {
-                    const double *q = psi + c + (l - 2) * d->p->stride[d->t[n]];
-                    f[l] = (7.0 * q[0] - q[d->in]) / 6.0;
-                }
-                const double slope = (8.0 * (f[3] - f[1]) - (f[4] - f[0])) / 12.0;
+            if (i >= -1 && i <= d->n[0] && j >= -1 && j <= d->n[1])
+                slip_at(s, d, at, c, tau, psi);
+            else
                 for (int e = 0; e < s->m->dim; e++)
-                    g[e] += slope * d->grad_xi[n][e][at];
-            }
-            for (int e = 0; e < s->m->dim; e++) {
-                const double S = s->m->S[d->a][e][c + d->face];
-                gS += g[e] * S;
-                S2 += S * S;
-            }
-            for (int e = 0; e < s->m->dim; e++)
-                d->slip[e][at] =
-                    near ? tau * (g[e] - gS / S2 * s->m->S[d->a][e][c + d->face]) : 0.0;
+                    d->slip[e][at] = 0.0;
         }
     }
+    if (s->sides->walls.npeers > 0)
+        take_slip(s);
 }
 
 static void given(double *q, int64_t in, double w)

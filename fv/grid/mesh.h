@@ -182,7 +182,7 @@ void mesh_leave(struct mesh **m);
 double *mesh_field(const struct mesh *m);
 /* What the local cells are, from what the blocks' are. */
 void mesh_set_status(struct mesh *m);
-/* Rank and place there of a real cell. */
+/* Rank and place there of a real cell, or of a ghost behind one side of the block. */
 void mesh_owner(const struct mesh *m, int block, const int *cell, int *rank, int64_t *place);
 /* Number of a real cell's row among all rows, ordered by ranks; first and number of a rank's. */
 int64_t mesh_row(const struct mesh *m, int block, const int *cell);

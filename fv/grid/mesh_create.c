@@ -108,8 +108,10 @@ static struct part part_of(const struct mesh *m, int k, int rank)
 void mesh_owner(const struct mesh *m, int block, const int *cell, int *rank, int64_t *place)
 {
     const struct mesh_block *b = m->block + block;
+    int row = cell[b->cut];
+    row = row < 0 ? 0 : row >= b->n[b->cut] ? b->n[b->cut] - 1 : row;
     *rank = 0;
-    while (b->first[*rank + 1] <= cell[b->cut])
+    while (b->first[*rank + 1] <= row)
         (*rank)++;
     struct part p = part_of(m, block, *rank);
     for (int k = 0; k < block; k++)
