@@ -90,36 +90,46 @@ static double largest_divergence(struct fv *s)
     return div;
 }
 
+#define UNEVEN "mapping = \"stretched\"; stretch = (-1.0, -1.0); "
 /* In a box and along a duct whose walls go on over joins, periods and cuts between ranks: fluxes
  * beside a wall are the same on both sides of them. */
 static void so_do_walls_of_blocks(void **state)
 {
     (void)state;
     static const struct {
-        const char *name, *blocks, *periodic;
+        const char *name, *blocks, *periodic, *dim;
         int along;
     } flows[] = {
         {"box",
          "{ name = \"a\"; cells = (32, 32); max = (1.0, 1.0); i_min = \"wall\"; i_max = "
          "\"wall\"; j_min = \"wall\"; j_max = \"wall\"; }",
-         "domain.periodic=(false,false)", 2},
+         "domain.periodic=(false,false)", "domain.dim=2", 2},
+        {"box of two, one turned",
+         "{ name = \"a\"; cells = (16, 24); max = (0.5, 1.0); i_min = \"wall\"; i_max = "
+         "\"joined\"; j_min = \"wall\"; j_max = \"wall\"; }, { name = \"b\"; cells = (24, 16); "
+         "min = (0.25, 0.25); max = (1.25, 0.75); centre = (0.75, 0.5); angle = 90.0; i_min = "
+         "\"wall\"; i_max = \"wall\"; j_min = \"wall\"; j_max = \"joined\"; }",
+         "domain.periodic=(false,false)", "domain.dim=2", 2},
         {"duct",
          "{ name = \"a\"; cells = (32, 16); max = (1.0, 1.0); i_min = \"periodic\"; i_max = "
          "\"periodic\"; j_min = \"wall\"; j_max = \"wall\"; }",
-         "domain.periodic=(true,false)", 1},
+         "domain.periodic=(true,false)", "domain.dim=2", 1},
         {"duct of two",
-         "{ name = \"a\"; mapping = \"stretched\"; stretch = (-1.0, -1.0); cells = (16, 24); max = "
-         "(0.5, 1.0); i_min = \"periodic\"; i_max = \"joined\"; j_min = \"wall\"; j_max = "
-         "\"wall\"; }, { name = \"b\"; mapping = \"stretched\"; stretch = (-1.0, -1.0); cells = "
-         "(16, 24); min = (0.5, 0.0); max = (1.0, 1.0); i_min = \"joined\"; i_max = \"periodic\"; "
-         "j_min = \"wall\"; j_max = \"wall\"; }",
-         "domain.periodic=(true,false)", 1}};
-    for (int k = 0; k < 3; k++) {
+         "{ name = \"a\"; " UNEVEN "cells = (16, 24); max = (0.5, 1.0); i_min = \"periodic\"; "
+         "i_max = \"joined\"; j_min = \"wall\"; j_max = \"wall\"; }, { name = \"b\"; " UNEVEN
+         "cells = (16, 24); min = (0.5, 0.0); max = (1.0, 1.0); i_min = \"joined\"; i_max = "
+         "\"periodic\"; j_min = \"wall\"; j_max = \"wall\"; }",
+         "domain.periodic=(true,false)", "domain.dim=2", 1},
+        {"duct of four walls",
+         "{ name = \"a\"; cells = (12, 8, 8); max = (1.0, 1.0, 1.0); i_min = \"periodic\"; i_max = "
+         "\"periodic\"; j_min = \"wall\"; j_max = \"wall\"; k_min = \"wall\"; k_max = \"wall\"; }",
+         "domain.periodic=(true,false,false)", "domain.dim=3", 1}};
+    for (int k = 0; k < (int)(sizeof flows / sizeof *flows); k++) {
         double sums[4], force[3];
         struct mesh_case m;
         struct fv *s = mesh_case_start(
             &m, MPI_COMM_WORLD, flows[k].blocks,
-            (const char *const[]){"fv.tol_pressure=1e-11", flows[k].periodic, NULL});
+            (const char *const[]){"fv.tol_pressure=1e-11", flows[k].periodic, flows[k].dim, NULL});
         assert_true(mesh_case_run(s, 8, 100.0));
         rates(s, sums);
         force_of(s, force);
