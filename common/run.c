@@ -20,7 +20,7 @@
 #include "scene_mesh.h"
 #include "xdmf.h"
 
-enum { GROUPS_MAX = SCENE_GROUPS + 8, COLUMNS_MAX = 128 };
+enum { GROUPS_MAX = SCENE_GROUPS + 8, COLUMNS_MAX = 256 };
 
 /* A run with what only this file needs. */
 struct life {

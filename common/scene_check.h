@@ -6,6 +6,9 @@
 
 /* scene_unused.c: keys that other keys leave without use. */
 void scene_check_unused(const struct scene *s, const struct params *p, struct faults *f);
+/* The same of the terms of a motion, of list.[k].motion. */
+void scene_check_motion(const struct scene_motions *all, const char *list, int k,
+                        const struct params *p, struct faults *f);
 /* scene_sense.c: keys that contradict each other, and places outside the domain. */
 void scene_check_sense(const struct scene *s, const struct params *p, struct faults *f);
 

@@ -83,11 +83,11 @@ static void check_wall(const struct scene *s, const struct params *p, struct fau
 }
 
 /* Terms of a motion. */
-static void check_motion(const struct scene *s, const struct params *p, struct faults *f, int k)
+void scene_check_motion(const struct scene_motions *all, const char *list, int k,
+                        const struct params *p, struct faults *f)
 {
-    const struct scene_motions *all = &s->bodies[k].motion;
     char group[48];
-    snprintf(group, sizeof group, "bodies.[%d].motion", k);
+    snprintf(group, sizeof group, "%s.[%d].motion", list, k);
     for (int i = 0; i < all->n; i++) {
         const int kind = all->of[i].kind;
         const bool file = kind == MOTION_FILE, sine = kind == MOTION_HARMONIC;
@@ -145,7 +145,7 @@ static void check_body(const struct scene *s, const struct params *p, struct fau
     check_key(p, f, "bodies", k, "thin", *b->surface.mesh, "it is of a mesh");
     check_key(p, f, "bodies", k, "force", k == 0,
               "error.force is that of the first body: put this one first");
-    check_motion(s, p, f, k);
+    scene_check_motion(&b->motion, "bodies", k, p, f);
     check_free(s, p, f, k);
 }
 

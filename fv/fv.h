@@ -52,6 +52,7 @@ struct poisson;      /* poisson/poisson.h */
 struct wet_pressure; /* that of blocks with a surface; poisson/wet_pressure.c */
 struct overset;      /* search in blocks; grid/overset.h */
 struct stages;       /* time/stages.h */
+struct moving;       /* blocks that move; time/moving.h; NULL: none do */
 struct bc;           /* walls and openings; bc.h; NULL: none */
 struct blocked;      /* boxes cut out; boundary/blocked.h; NULL: none */
 struct forcing;      /* cells whose velocity is imposed; forcing.h; NULL: none */
@@ -96,8 +97,12 @@ struct fv {
     double drive[3];        /* m/s^2: gravity along periodic axes; across, the pressure takes it */
     double *face, *flux;    /* scratch */
     double *faces[3];       /* blocks: scratch; the first is face */
-    double *free;           /* blocks: 1: computed, 0: not */
-    double *scale;          /* blocks: of the viscous rows */
+    struct moving *moving;
+    double *jump; /* m^2/s^2: of blocks that move: psi in the fringe beyond its interpolation */
+    double *change[3];  /* m/s: the same of delta */
+    double *zw;         /* of blocks that move, without an outflow: psi of the volumes */
+    double *free;       /* blocks: 1: computed, 0: not */
+    double *scale;      /* blocks: of the viscous rows */
     double stiffest;    /* 1/s, blocks: mesh_viscous_largest; 0 without walls, where little is left
                          * to solve for */
     double dissipation; /* blocks: of newton's convection, 0 for the others */
@@ -115,6 +120,7 @@ struct fv {
     struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;
     bool predicts; /* its steps will be taken back: nothing in them is to be judged or counted */
+    double dt_now; /* s: of the step under way */
     double dt, dt_old;    /* s: last step, 0 before the first; the one before it */
     double partner[2][3]; /* m: box that a partner counts as its own; lo >= hi: none */
     double scene_speed;   /* m/s: limits_reference */

@@ -460,7 +460,7 @@ static void refined(struct scene *s, struct random *r)
     add_region(s, r, level);
     if (chance(r, 0.2))
         add_region(s, r, 1);
-    s->end *= level == 1 ? 0.3 : 0.15;
+    s->end *= level == 1 ? 0.2 : 0.05;
     s->carried = false; /* the regions stay */
     s->error = 0.0;     /* of waves that have gone through edges there is no table */
 }

@@ -7,7 +7,7 @@
 #include "../common/scene_geometry.h"
 #include "../sph/bodies/bodies.h"
 #include "../sph/rigid/body_impedance.h"
-#include "../sph/rigid/body_math.h"
+#include "../common/body_math.h"
 
 /* A box of unit sides about `centre' in the plane. */
 static struct scene_body square(double x, double y)

@@ -160,7 +160,7 @@ probes.at (0.2,-0.7)
 apr.levels 3
 apr.margin 2.0
 apr.around 4
-apr.particles 4000
+apr.particles 6000
 apr.regions ({min=(-0.8,-0.8);max=(0.7,0.7);})
 apr.criteria ({kind="vorticity";above=0.02;})
 apr.regions.level 1
@@ -291,14 +291,14 @@ sph: { dx = 0.2; R_dx = 2.5; c0 = 30.0; packing = 3; };' ;;
     regions) echo 'fluid: { rho = 1.0; nu = 0.01; };
 domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, true); };
 initial: { field = "taylor_green"; U = 1.0; L = 2.0; };
-sph: { dx = 0.05; R_dx = 2.5; };
+sph: { dx = 0.0625; R_dx = 2.5; };
 apr: { regions = ( { level = 2; min = (-0.4, -0.3); max = (0.4, 0.3); #regions
  } ); };' ;;
     swirls) echo 'fluid: { rho = 1.0; nu = 0.01; };
 domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, true); };
 initial: { field = "taylor_green"; U = 1.0; L = 2.0; };
-sph: { dx = 0.05; R_dx = 2.5; };
-apr: { around = 2; criteria = ( { kind = "vorticity"; above = 0.3; #criteria
+sph: { dx = 0.04; R_dx = 2.5; };
+apr: { around = 2; criteria = ( { kind = "vorticity"; above = 0.24; #criteria
  } ); };' ;;
     wave) echo 'fluid: { rho = 1.0; nu = 0.002; gravity = (0, -1); };
 domain: { dim = 2; min = (-1, -1); max = (1, 1); periodic = (true, false); };

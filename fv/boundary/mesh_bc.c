@@ -5,6 +5,7 @@
 #include "mesh_bc.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
+#include "../grid/mesh_motion.h"
 
 #include <math.h>
 #include <string.h>
@@ -22,6 +23,7 @@ struct side {
     int64_t in;           /* step inwards */
     int64_t face;         /* step from that cell to the face's place */
     int64_t width;
+    bool moves;              /* with its block */
     double pressure;         /* m^2/s^2: p/rho of an outflow */
     double *w[3], *w_old[3]; /* m/s: now and before the last change of time */
     double *slip[3];         /* m/s: what the next projection takes off */
@@ -80,6 +82,15 @@ static void set_slopes(const struct fv *s, const struct side *d, int i, int j, i
         }
 }
 
+static void turn_slopes(const struct fv *s, const struct side *d)
+{
+    SIDE_PLACES(d, 1, i, j, at, c)
+    {
+        set_slopes(s, d, i, j, at);
+        (void)c;
+    }
+}
+
 static void add_side(struct fv *s, struct mesh_bc *bc, const struct part *p, int k)
 {
     const struct mesh_block *b = s->m->block + p->block;
@@ -87,7 +98,7 @@ static void add_side(struct fv *s, struct mesh_bc *bc, const struct part *p, int
     if (!is_physical(b->side[k]) || (k % 2 ? p->lo[a] + p->n[a] < b->n[a] : p->lo[a] > 0))
         return;
     struct side *d = bc->side + bc->n++;
-    *d = (struct side){.p = p, .a = a, .k = k, .kind = b->side[k]};
+    *d = (struct side){.p = p, .a = a, .k = k, .kind = b->side[k], .moves = b->motion};
     for (int t = 0, n = 0; t < 3; t++)
         if (t != a) {
             d->t[n] = t;
@@ -106,11 +117,7 @@ static void add_side(struct fv *s, struct mesh_bc *bc, const struct part *p, int
         for (int q = 0; q < 5; q++)
             *all[q] = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
     }
-    SIDE_PLACES(d, 1, i, j, at, c)
-    {
-        set_slopes(s, d, i, j, at);
-        (void)c;
-    }
+    turn_slopes(s, d);
 }
 
 /* That of a lid comes last: its ghosts go on through the corners (set_turns in bc.c). */
@@ -207,16 +214,19 @@ static void set_values(const struct fv *s, struct side *d, double t)
 {
     SIDE_PLACES(d, 1, i, j, m, c)
     {
-        double x[4][3], sum[3] = {0.0, 0.0, 0.0}, w[3];
+        double x[4][3], sum[3] = {0.0, 0.0, 0.0}, own = 0.0, w[3], rigid[3];
         const int n = face_points(s, d, i, j, x);
         for (int g = 0; g < n; g++) {
             value_at(s, d, x[g], t, w);
-            for (int q = 0; q < 3; q++)
+            mesh_motion_velocity(s->m->block + d->p->block, x[g], rigid);
+            for (int q = 0; q < 3; q++) {
                 sum[q] += w[q] / n;
+                own = fmax(own, fabs(w[q] - rigid[q]) - 1e-12 * fabs(rigid[q]));
+            }
         }
         for (int q = 0; q < s->m->dim; q++) {
             d->w[q][m] = sum[q];
-            d->slides = d->slides || (d->kind == MESH_WALL && sum[q] != 0.0);
+            d->slides = d->slides || (d->kind == MESH_WALL && own > 0.0);
         }
         (void)c;
     }
@@ -227,11 +237,13 @@ void mesh_bc_time(struct fv *s, double t)
     for (int k = 0; k < s->sides->n; k++) {
         struct side *d = s->sides->side + k;
         const size_t bytes = (size_t)(d->width * (d->n[1] + 2 * d->g[1])) * sizeof(double);
-        const bool changes = d->kind == MESH_EXACT && s->ring < 0;
+        const bool changes = d->moves || (d->kind == MESH_EXACT && s->ring < 0);
         for (int q = 0; q < s->m->dim; q++)
             memcpy(d->w_old[q], d->w[q], bytes);
         if (changes || !s->sides->set)
             set_values(s, d, t);
+        if (d->moves && s->m->block[d->p->block].motion->turns)
+            turn_slopes(s, d);
         for (int q = 0; q < s->m->dim && !s->sides->set; q++)
             memcpy(d->w_old[q], d->w[q], bytes);
     }
@@ -284,13 +296,15 @@ static void mirrored(double *q, int64_t in, double sign)
         q[-(m + 1) * in] = sign * q[m * in];
 }
 
-static void slip(const struct mesh *m, const struct side *d, int64_t c, double *const u[3])
+/* wS: flux that the wall itself makes. */
+static void slip(const struct mesh *m, const struct side *d, int64_t c, double wS,
+                 double *const u[3])
 {
     double S2 = 0.0;
     for (int q = 0; q < m->dim; q++)
         S2 += m->S[d->a][q][c + d->face] * m->S[d->a][q][c + d->face];
     for (int l = 0; l < MESH_GHOSTS; l++) {
-        double un = 0.0;
+        double un = -wS;
         for (int q = 0; q < m->dim; q++)
             un += u[q][c + l * d->in] * m->S[d->a][q][c + d->face];
         for (int q = 0; q < m->dim; q++)
@@ -314,6 +328,17 @@ static double wanted(const struct side *d, int q, int64_t at, enum bc_value what
     return 0.0;
 }
 
+/* Of a slip wall that moves. */
+static double flux_wanted(const struct mesh *m, const struct side *d, int64_t at, int64_t c,
+                          enum bc_value what)
+{
+    double sum = 0.0;
+    for (int q = 0; q < m->dim && what != BC_ZERO; q++)
+        sum += (d->w[q][at] - (what == BC_CHANGE ? d->w_old[q][at] : 0.0)) *
+               m->S[d->a][q][c + d->face];
+    return sum;
+}
+
 void mesh_bc_velocity(const struct fv *s, enum bc_value what, double *const u[3])
 {
     const struct mesh *m = s->m;
@@ -322,7 +347,7 @@ void mesh_bc_velocity(const struct fv *s, enum bc_value what, double *const u[3]
         SIDE_PLACES(d, 1, i, j, at, c)
         {
             if (d->kind == MESH_SLIP)
-                slip(m, d, c, u);
+                slip(m, d, c, d->moves ? flux_wanted(m, d, at, c, what) : 0.0, u);
             else
                 for (int q = 0; q < m->dim; q++) {
                     if (d->kind == MESH_OUTFLOW)
@@ -419,7 +444,7 @@ void mesh_bc_fluxes(const struct fv *s, double *const U[3])
             continue;
         SIDE_PLACES(d, 1, i, j, at, c)
         {
-            U[d->a][c + d->face] = 0.0;
+            U[d->a][c + d->face] = d->moves ? s->m->grid[d->a][c + d->face] : 0.0;
             (void)at;
         }
     }
@@ -449,9 +474,10 @@ double mesh_bc_rate(const struct fv *s, double *speed)
         {
             double w2 = 0.0, sum = 0.0;
             for (int a = 0; a < m->dim; a++) {
-                double wS = 0.0;
+                const int64_t f = c + (a == d->a ? d->face : 0);
+                double wS = d->moves ? -m->grid[a][f] : 0.0;
                 for (int q = 0; q < m->dim; q++)
-                    wS += d->w[q][at] * m->S[a][q][c + (a == d->a ? d->face : 0)];
+                    wS += d->w[q][at] * m->S[a][q][f];
                 sum += fabs(wS);
                 w2 += d->w[a][at] * d->w[a][at];
             }
@@ -565,7 +591,8 @@ static void face_force(const struct fv *s, const struct side *d, int64_t c, int 
         force[q] *= -out; /* on the wall */
     }
     x[2] = 0.0;
-    const double *o = m->block[d->p->block].prm->centre;
+    double o[3];
+    mesh_motion_now(m->block + d->p->block, m->block[d->p->block].prm->centre, o);
     force[3] = (x[0] - o[0]) * force[1] - (x[1] - o[1]) * force[0];
 }
 

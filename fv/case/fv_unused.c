@@ -231,10 +231,18 @@ static bool radius_of_three(const struct run *r, int k)
     return (void)r, block(k)->radius[2] != 0.0;
 }
 static bool arc_of_three(const struct run *r, int k) { return (void)r, block(k)->arc[2] != 0.0; }
+static bool turned(int k)
+{
+    const struct scene_motions *all = &block(k)->motion;
+    bool any = false;
+    for (int i = 0; i < all->n; i++)
+        any = any || all->of[i].kind == MOTION_FILE || all->of[i].axis >= AXIS_RX;
+    return any;
+}
 static bool no_centre(const struct run *r, int k)
 {
-    return is_file(r, k) ? !mesh_block_has(k, MESH_WALL)
-                         : block(k)->angle == 0.0 && no_ring(r, k) && !mesh_block_has(k, MESH_WALL);
+    const bool walls = mesh_block_has(k, MESH_WALL) || turned(k);
+    return is_file(r, k) ? !walls : block(k)->angle == 0.0 && no_ring(r, k) && !walls;
 }
 static bool no_moving_side(const struct run *r, int k)
 {

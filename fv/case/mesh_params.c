@@ -1,5 +1,7 @@
 /* mesh_params.c - parameters of the list blocks. SPDX-License-Identifier: BSD-3-Clause */
+#include "../../common/scene_check.h"
 #include "../grid/mesh.h"
+#include "../grid/mesh_motion.h"
 
 #include "../fv.h"
 #include "../surface/levelset.h"
@@ -38,6 +40,7 @@ const struct param mesh_rows_of[MESH_ROWS] = {
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls along themselves, of its inflow"),
     CHOICE(P, lid, "all|i_min|i_max|j_min|j_max|k_min|k_max", "all", "the only one of its walls that has the velocity"),
     PARAM(P, spin,     "rad/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls i_min and i_max about the centre"),
+    LIST(P, motion, &scene_motion_list, "how the block moves as a whole, joined blocks with it, its walls too: terms add up, rotation is about its centre; a plain text: one file"),
 };
 /* clang-format on */
 #undef P
@@ -166,6 +169,14 @@ void mesh_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "fv.graded", "not with blocks: they have maps of their own");
     if (prm->hole[1][0] > prm->hole[0][0])
         params_fault(r->params, f, "fv.hole", "blocks know no forced cells: let a block overlap");
+    if (mesh_motion_any() && prm->integrator == INTEGRATOR_NEWTON)
+        params_fault(r->params, f, "fv.integrator",
+                     "newton's residual knows no cells that move: use rk3 or bdf2");
+    if (mesh_motion_any() && surface_wanted(r))
+        params_fault(r->params, f, "fv.surface",
+                     "a free surface does not go with blocks that move yet");
+    for (int k = 0; k < mesh_given_count; k++)
+        scene_check_motion(&mesh_given[k].motion, "blocks", k, r->params, f);
     for (int k = 0; k < r->scene.nwalls; k++)
         check_wall(r, f, k);
     for (int k = 0; k < r->scene.nprobes; k++)
@@ -179,6 +190,8 @@ void mesh_check(const struct run *r, struct faults *f)
     if (m) {
         check_taken(r, f, m);
         mesh_scene_check(r, f, m);
+        if (f->n == before && m->moves)
+            mesh_motion_sweep(r, f, m);
     }
     mesh_leave(&m);
 }

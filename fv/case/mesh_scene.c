@@ -6,6 +6,7 @@
 #include "../../common/exact.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
+#include "../grid/mesh_motion.h"
 #include "../boundary/still.h"
 #include "../grid/overset.h"
 
@@ -71,14 +72,16 @@ static struct total sum_side(const struct run *r, const struct mesh *m, int k, i
     for (int q = 0; q < q1; q++)
         for (int p = 0; p < p1; p++) {
             const struct face f = face_at(m, b, side, p, q);
-            double w[3] = {0.0, 0.0, 0.0}, wS = 0.0, w2 = 0.0, S2 = 0.0, height = 0.0;
+            double w[3] = {0.0, 0.0, 0.0}, rigid[3], wS = 0.0, w2 = 0.0, S2 = 0.0, height = 0.0;
             if (b->status[mesh_cell(b, f.cell)] != CELL_COMPUTED)
                 continue;
             if (b->side[side] == MESH_EXACT)
                 exact_point(e, f.x, 0.0, w, NULL, NULL);
             else if (b->side[side] == MESH_WALL || b->side[side] == MESH_INFLOW)
                 mesh_side_velocity(r, b, side, f.x, w);
+            mesh_motion_velocity(b, f.x, rigid);
             for (int c = 0; c < m->dim; c++) {
+                w[c] -= rigid[c];
                 wS += w[c] * f.S[c];
                 w2 += w[c] * w[c];
                 S2 += f.S[c] * f.S[c];
@@ -146,31 +149,115 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
                      net < 0.0 ? "in than out" : "out than in");
 }
 
+/* Where a block reaches furthest out of the domain, over its length; 0: nowhere. */
+static double beyond_domain(const struct run *r, const struct mesh *m, const struct mesh_block *b,
+                            double at[3])
+{
+    const struct scene_domain *d = &r->scene.domain;
+    double beyond = 0.0;
+    int i[3];
+    for (i[2] = 0; i[2] <= (m->dim == 3 ? b->n[2] : 0); i[2]++)
+        for (i[1] = 0; i[1] <= b->n[1]; i[1]++)
+            for (i[0] = 0; i[0] <= b->n[0]; i[0]++) {
+                const double *x = b->x[mesh_vertex(b, i[0], i[1], i[2])];
+                for (int a = 0; a < m->dim; a++) {
+                    const double L = d->max[a] - d->min[a],
+                                 out = fmax(d->min[a] - x[a], x[a] - d->max[a]) / L;
+                    if (d->periodic[a] || !(out > beyond))
+                        continue;
+                    beyond = out;
+                    for (int c = 0; c < m->dim; c++)
+                        at[c] = x[c];
+                }
+            }
+    return beyond;
+}
+
 /* The domain is what periods, levels and centre lines are taken from. */
 static void check_extent(const struct run *r, struct faults *f, const struct mesh *m)
 {
-    const struct scene_domain *d = &r->scene.domain;
     for (int k = 0; k < m->nblocks; k++) {
-        const struct mesh_block *b = m->block + k;
-        double beyond = 0.0, at[3] = {0.0, 0.0, 0.0};
-        int i[3];
-        for (i[2] = 0; i[2] <= (m->dim == 3 ? b->n[2] : 0); i[2]++)
-            for (i[1] = 0; i[1] <= b->n[1]; i[1]++)
-                for (i[0] = 0; i[0] <= b->n[0]; i[0]++) {
-                    const double *x = b->x[mesh_vertex(b, i[0], i[1], i[2])];
-                    for (int a = 0; a < m->dim; a++) {
-                        const double L = d->max[a] - d->min[a],
-                                     out = fmax(d->min[a] - x[a], x[a] - d->max[a]) / L;
-                        if (d->periodic[a] || !(out > beyond))
-                            continue;
-                        beyond = out;
-                        for (int c = 0; c < m->dim; c++)
-                            at[c] = x[c];
-                    }
-                }
-        if (beyond > 1e-6)
+        double at[3] = {0.0, 0.0, 0.0};
+        if (beyond_domain(r, m, m->block + k, at) > 1e-6)
             mesh_fault(r, f, k, "name", "it reaches out of the domain, to (%g, %g, %g) m", at[0],
                        at[1], at[2]);
+    }
+}
+
+/* --- blocks that move --- */
+
+enum { SWEEP_TIMES = 2000, SWEEP_CUTS = 12 };
+
+/* At one place of the run: false: faults were added. */
+static bool sound_at(const struct run *r, struct faults *f, struct mesh *m, double t)
+{
+    struct overset_orphan o;
+    mesh_motion_place(m, t);
+    for (int k = 0; k < m->nblocks; k++) {
+        double at[3] = {0.0, 0.0, 0.0};
+        if (m->block[k].motion && beyond_domain(r, m, m->block + k, at) > 1e-6) {
+            mesh_fault(r, f, m->block[k].motion->block, "motion",
+                       "at t = %g s it reaches out of the domain, to (%g, %g, %g) m: a smaller "
+                       "motion, or a larger domain and background",
+                       t, at[0], at[1], at[2]);
+            return false;
+        }
+    }
+    if (!m->has_fringe)
+        return true;
+    overset_cut(m, m->search);
+    if (overset_sound(m, m->search, &o))
+        return true;
+    mesh_fault(r, f, o.block, "name",
+               "at t = %g s its cell (%d, %d, %d) at (%g, %g, %g) m has no donors: no other block "
+               "has computed cells around it. A smaller motion, a background that reaches further, "
+               "or 8 cells or more beyond the walls of the block that moves",
+               t, o.cell[0], o.cell[1], o.cell[2], o.x[0], o.x[1], o.x[2]);
+    return false;
+}
+
+/* Where each degree of freedom is least and largest, and at even times between. */
+static int times_of(const struct run *r, const struct mesh_motion *v, double *times)
+{
+    const double end = r->scene.time.end;
+    double least[BODY_AXES] = {0.0}, most[BODY_AXES] = {0.0};
+    int n = 0;
+    for (int e = 0; e <= SWEEP_TIMES; e++) {
+        double d[BODY_AXES], dd[BODY_AXES], ddd[BODY_AXES];
+        const double t = end * e / SWEEP_TIMES;
+        body_drive_at(&v->drive, t, d, dd, ddd);
+        for (int a = 0; a < BODY_AXES; a++) {
+            if (e == 0 || d[a] < least[a]) {
+                least[a] = d[a];
+                times[2 * a] = t;
+            }
+            if (e == 0 || d[a] > most[a]) {
+                most[a] = d[a];
+                times[2 * a + 1] = t;
+            }
+        }
+    }
+    n = 2 * BODY_AXES;
+    for (int e = 1; e <= SWEEP_CUTS; e++)
+        times[n++] = end * e / SWEEP_CUTS;
+    return n;
+}
+
+void mesh_motion_sweep(const struct run *r, struct faults *f, struct mesh *m)
+{
+    for (int k = 0; k < m->nblocks; k++) {
+        const struct mesh_motion *v = m->block[k].motion;
+        double times[2 * BODY_AXES + SWEEP_CUTS], last = 0.0;
+        if (!v || v->block != k)
+            continue;
+        const int n = times_of(r, v, times);
+        for (int e = 0; e < n; e++) {
+            if (times[e] == last) /* the start has been looked at */
+                continue;
+            last = times[e];
+            if (!sound_at(r, f, m, times[e]))
+                return;
+        }
     }
 }
 

@@ -16,7 +16,9 @@
 #include "../../common/log.h"
 #include "../../common/mem.h"
 #include "../watch/limits.h"
+#include "../grid/mesh_motion.h"
 #include "../grid/overset.h"
+#include "../time/moving.h"
 #include "../time/newton.h"
 #include "../time/stages.h"
 #include "../watch/watches.h"
@@ -54,7 +56,7 @@ static void fill(struct fv *s)
         int i[3];
         PART_CELLS (p, i, c) {
             double u[3], pr, w, diagonal = 0.0;
-            if (m->status[c] == CELL_HOLE)
+            if (m->status[c] == CELL_HOLE && !m->moves)
                 continue;
             mesh_exact_average(s, p, i, 0.0, u, &pr, &w);
             for (int a = 0; a < m->dim; a++) {
@@ -150,6 +152,7 @@ void mesh_state_create(struct fv *s)
     fill(s);
     s->stiffest = mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
     mesh_bc_create(s);
+    s->moving = moving_create(s);
     s->surface = surface_create(s);
     if (s->surface)
         wet_pressure_create(s);
@@ -166,6 +169,9 @@ void mesh_state_create(struct fv *s)
     mesh_bc_rate(s, &speed);
     MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     s->scene_speed = fmax(speed, limits_reference(r));
+    for (int k = 0; k < s->m->nblocks && s->moving; k++)
+        if (s->m->block[k].motion)
+            s->scene_speed = fmax(s->scene_speed, s->m->block[k].motion->speed);
     s->reference = fmax(s->umax[0], s->scene_speed);
     s->u_limit = 10.0 * s->reference;
     if (s->prm.integrator == INTEGRATOR_NEWTON)
@@ -178,6 +184,11 @@ void mesh_state_free(struct fv *s)
     poisson_free(&s->poisson);
     wet_pressure_free(&s->wet);
     mesh_bc_free(&s->sides);
+    moving_free(&s->moving);
+    mem_free(s->jump);
+    for (int a = 0; a < 3; a++)
+        mem_free(s->change[a]);
+    mem_free(s->zw);
     overset_free(&s->search);
     mesh_free(&s->m);
 }

@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "../../common/run.h"
+#include "../../common/scene_body.h"
 #include "part.h"
 
 enum {
@@ -56,6 +57,7 @@ struct mesh_block_params {
     double velocity[3];                           /* m/s: of walls along themselves, of an inflow */
     int lid;        /* 0: all walls have the velocity; else the side that alone has it, from 1 */
     double spin[3]; /* rad/s: of the walls i_min, i_max about the centre */
+    struct scene_motions motion; /* of the whole block, see mesh_motion.h */
 };
 
 /* Doubled indices X (vertex i: 2 i, cell i: 2 i + 1) behind a joined side are the neighbour's
@@ -66,17 +68,21 @@ struct mesh_join {
     double move[3];
 };
 
+struct mesh_motion;
 struct mesh_block {
     const struct mesh_block_params *prm;
-    int n[3];         /* cells */
-    int v0[3], nv[3]; /* vertices: first index, number with ghosts */
-    double (*x)[3];   /* m: vertices with ghosts */
+    struct mesh_motion *motion;    /* NULL: at rest; of joined blocks the same */
+    const struct mesh_block *made; /* where the case puts it: itself if at rest */
+    int n[3];                      /* cells */
+    int v0[3], nv[3];              /* vertices: first index, number with ghosts */
+    double (*x)[3];                /* m: vertices with ghosts */
     enum mesh_side side[6];
     const struct scene_wall
         *wall[6]; /* of the scene, on whose side of the domain this one lies; NULL: none */
     struct mesh_join join[6];
     double (*centre)[3];   /* m: of the real cells */
     double *volume;        /* m^dim: of the real cells */
+    double *faces;         /* of a moving block's part here: S and int r cross dS as made */
     unsigned char *status; /* of the real cells */
     int cut;               /* axis along which ranks share it */
     int *first;            /* of each rank, and one more: rows along `cut' */
@@ -116,7 +122,7 @@ struct mesh {
     int64_t computed;     /* of all blocks */
     int64_t fringe_cells; /* of all blocks */
     int64_t linear;       /* of these, by linear interpolation alone */
-    bool has_fringe;
+    bool has_fringe, moves;
     int64_t nfringe;
     struct mesh_fringe *fringes;
     double *S[3][3];       /* m^(dim-1): of the lower face along a, component */
@@ -125,6 +131,9 @@ struct mesh {
     double *open[3];       /* 1: psi passes the lower face; 0: it does not */
     unsigned char *status; /* with ghosts: CELL_HOLE behind sides that are no cells */
     struct mesh_exchange halo, fringe;
+    double *grid[3];        /* m^dim/s: flux of the moving cells' own velocity, see mesh_motion.h */
+    struct overset *search; /* of blocks that move; else NULL */
+    char trouble[600];      /* a cell without donors on this rank, after a move; "" : none */
 };
 
 static inline int64_t mesh_cell(const struct mesh_block *b, const int *i)
@@ -133,7 +142,7 @@ static inline int64_t mesh_cell(const struct mesh_block *b, const int *i)
 }
 
 /* mesh_params.c */
-enum { MESH_ROWS = 24 };
+enum { MESH_ROWS = 25 };
 extern const struct param mesh_rows_of[MESH_ROWS];
 extern struct mesh_block_params mesh_given[MESH_BLOCKS_MAX]; /* what the case has */
 extern int mesh_given_count;
@@ -156,6 +165,9 @@ void mesh_side_velocity(const struct run *r, const struct mesh_block *b, int sid
                         double *w);
 /* mesh_scene.c: faults of a scene on blocks that contradicts itself. */
 void mesh_scene_check(const struct run *r, struct faults *f, const struct mesh *m);
+/* Faults of blocks that move within the run: out of the domain, cells without donors; the mesh ends
+ * where they end. */
+void mesh_motion_sweep(const struct run *r, struct faults *f, struct mesh *m);
 /* Faults of the group blocks; makes and frees the mesh. */
 void mesh_check(const struct run *r, struct faults *f);
 void mesh_fault(const struct run *r, struct faults *f, int block, const char *key, const char *fmt,
@@ -168,6 +180,8 @@ void mesh_free(struct mesh **m);
 struct mesh *mesh_take(const struct run *r, struct faults *f);
 void mesh_leave(struct mesh **m);
 double *mesh_field(const struct mesh *m);
+/* What the local cells are, from what the blocks' are. */
+void mesh_set_status(struct mesh *m);
 /* Rank and place there of a real cell. */
 void mesh_owner(const struct mesh *m, int block, const int *cell, int *rank, int64_t *place);
 /* Number of a real cell's row among all rows, ordered by ranks; first and number of a rank's. */
@@ -196,8 +210,12 @@ bool mesh_join_blocks(const struct run *r, struct faults *f, struct mesh *m);
  * false: behind another kind of side. */
 bool mesh_resolve(const struct mesh *m, int *block, int *cell, double *move);
 
-/* mesh_metrics.c: of the local parts. */
+/* mesh_metrics.c: of the local parts, as the blocks are made. */
 void mesh_metrics(struct mesh *m);
+/* int (x - o) cross dS over the lower face along a of cell i: as the vectors of faces, these of a
+ * cell's six faces sum to zero. */
+void mesh_face_moment(const struct mesh_block *b, int dim, const int *i, int a, const double *o,
+                      double *R);
 
 /* mesh_halo.c */
 struct mesh_request { /* a place wants a value */

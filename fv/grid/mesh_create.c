@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "../../common/mem.h"
+#include "mesh_motion.h"
 #include "overset.h"
 
 /* Smallest determinant at the corners of a cell, by its edges; an inside-out cell has one <= 0. */
@@ -160,9 +161,8 @@ static void make_parts(struct mesh *m)
 }
 
 /* What the local cells are, ghosts too: those behind joined sides as there, others no cells. */
-static void set_status(struct mesh *m)
+void mesh_set_status(struct mesh *m)
 {
-    m->status = NEW(unsigned char, m->size_local);
     memset(m->status, CELL_HOLE, (size_t)m->size_local);
     for (int q = 0; q < m->nparts; q++) {
         const struct part *p = m->part + q;
@@ -204,6 +204,7 @@ struct mesh *mesh_create(const struct run *r, struct faults *f)
     good = good && mesh_join_blocks(r, f, m);
     for (int k = 0; k < m->nblocks && good; k++)
         good = set_cells(r, f, m, k) && good;
+    good = good && mesh_motion_create(r, f, m, r->t);
     struct overset *o = NULL;
     good = good && (o = overset_create(r, f, m)) != NULL;
     if (!good) {
@@ -212,11 +213,16 @@ struct mesh *mesh_create(const struct run *r, struct faults *f)
     }
     deal_out(m);
     make_parts(m);
-    set_status(m);
+    m->status = NEW(unsigned char, m->size_local);
+    mesh_set_status(m);
     mesh_metrics(m);
+    mesh_motion_metrics(m);
     mesh_halo_create(m);
     overset_exchange(m, o);
-    overset_free(&o);
+    if (m->moves)
+        m->search = o;
+    else
+        overset_free(&o);
     return m;
 }
 
@@ -225,6 +231,8 @@ void mesh_free(struct mesh **mp)
     struct mesh *m = *mp;
     if (!m)
         return;
+    mesh_motion_free(m);
+    overset_free(&m->search);
     for (int k = 0; k < m->nblocks; k++) {
         struct mesh_block *b = m->block + k;
         mem_free(b->x);
@@ -256,7 +264,7 @@ struct mesh *mesh_take(const struct run *r, struct faults *f)
 {
     struct mesh *m = checked;
     checked = NULL;
-    if (m && m->comm == r->comm && m->prm_of == r->params)
+    if (m && m->comm == r->comm && m->prm_of == r->params && !m->moves)
         return m;
     mesh_free(&m);
     return mesh_create(r, f);

@@ -110,6 +110,7 @@ void mesh_exchange_free(struct mesh_exchange *x)
     mem_free(x->part);
     mem_free(x->send);
     mem_free(x->recv);
+    *x = (struct mesh_exchange){0};
 }
 
 static double interpolate(const struct part *p, int width, bool solid, const double *w,

@@ -16,10 +16,11 @@ static const double *vertex(const struct mesh_block *b, const int *i)
     return b->x[mesh_vertex(b, i[0], i[1], i[2])];
 }
 
-/* 1/2 int (x - o) cross dx along the edge from vertex i on along axis a. */
-static void edge(const struct mesh_block *b, const int *i, int a, double *e)
+/* Places and slopes on the edge from vertex i on along axis a at three Gauss points, o the origin.
+ */
+static void edge_points(const struct mesh_block *b, const int *i, int a, const double *o,
+                        double x[3][3], double dx[3][3])
 {
-    const double *o = vertex(b, (int[3]){0, 0, 0});
     int at[3] = {i[0], i[1], i[2]};
     const double *v[4];
     for (int m = 0; m < 4; m++) {
@@ -28,7 +29,6 @@ static void edge(const struct mesh_block *b, const int *i, int a, double *e)
         at[a] = at[a] < b->v0[a] ? b->v0[a] : at[a] > most ? most : at[a];
         v[m] = vertex(b, at);
     }
-    e[0] = e[1] = e[2] = 0.0;
     for (int g = 0; g < 3; g++) {
         const double s = gauss3[g];
         const double w[4] = {-s * (s - 1.0) * (s - 2.0) / 6.0,
@@ -37,17 +37,67 @@ static void edge(const struct mesh_block *b, const int *i, int a, double *e)
         const double d[4] = {-(3.0 * s * s - 6.0 * s + 2.0) / 6.0,
                              (3.0 * s * s - 4.0 * s - 1.0) / 2.0,
                              -(3.0 * s * s - 2.0 * s - 2.0) / 2.0, (3.0 * s * s - 1.0) / 6.0};
-        double x[3] = {0.0, 0.0, 0.0}, dx[3] = {0.0, 0.0, 0.0};
-        for (int m = 0; m < 4; m++)
-            for (int c = 0; c < 3; c++) {
-                x[c] += w[m] * (v[m][c] - o[c]);
-                dx[c] += d[m] * v[m][c];
-            }
         for (int c = 0; c < 3; c++) {
-            const int p = (c + 1) % 3, q = (c + 2) % 3;
-            e[c] += 0.5 * weight3[g] * (x[p] * dx[q] - x[q] * dx[p]);
+            x[g][c] = dx[g][c] = 0.0;
+            for (int m = 0; m < 4; m++) {
+                x[g][c] += w[m] * (v[m][c] - o[c]);
+                dx[g][c] += d[m] * v[m][c];
+            }
         }
     }
+}
+
+/* 1/2 int (x - o) cross dx along the edge from vertex i on along axis a. */
+static void edge(const struct mesh_block *b, const int *i, int a, double *e)
+{
+    double x[3][3], dx[3][3];
+    edge_points(b, i, a, vertex(b, (int[3]){0, 0, 0}), x, dx);
+    e[0] = e[1] = e[2] = 0.0;
+    for (int g = 0; g < 3; g++)
+        for (int c = 0; c < 3; c++) {
+            const int p = (c + 1) % 3, q = (c + 2) % 3;
+            e[c] += 0.5 * weight3[g] * (x[g][p] * dx[g][q] - x[g][q] * dx[g][p]);
+        }
+}
+
+/* e += sign times 1/2 int |x - o|^2 dx along an edge. */
+static void add_edge_moment(const struct mesh_block *b, const int *i, int a, const double *o,
+                            double sign, double *e)
+{
+    double x[3][3], dx[3][3];
+    edge_points(b, i, a, o, x, dx);
+    for (int g = 0; g < 3; g++) {
+        const double r2 = x[g][0] * x[g][0] + x[g][1] * x[g][1] + x[g][2] * x[g][2];
+        for (int c = 0; c < 3; c++)
+            e[c] += sign * 0.5 * weight3[g] * r2 * dx[g][c];
+    }
+}
+
+static double half_square(const double *x, const double *o)
+{
+    return 0.5 * ((x[0] - o[0]) * (x[0] - o[0]) + (x[1] - o[1]) * (x[1] - o[1]));
+}
+
+/* By Stokes' theorem int r cross dS = - int 1/2 |r|^2 dx around the face. */
+void mesh_face_moment(const struct mesh_block *b, int dim, const int *i, int a, const double *o,
+                      double *R)
+{
+    int up[3] = {i[0], i[1], i[2]};
+    R[0] = R[1] = R[2] = 0.0;
+    if (dim == 2) {
+        up[1 - a]++;
+        R[2] = half_square(vertex(b, i), o) - half_square(vertex(b, up), o);
+        R[2] = a == 0 ? R[2] : -R[2];
+        return;
+    }
+    const int p = (a + 1) % 3, q = (a + 2) % 3;
+    add_edge_moment(b, i, p, o, -1.0, R);
+    add_edge_moment(b, i, q, o, 1.0, R);
+    up[p]++;
+    add_edge_moment(b, up, q, o, -1.0, R);
+    up[p]--;
+    up[q]++;
+    add_edge_moment(b, up, p, o, 1.0, R);
 }
 
 /* Vector of the lower face along a of cell i. */
@@ -138,7 +188,7 @@ static bool is_closed(enum mesh_side s)
 
 static void part_metrics(struct mesh *m, const struct part *p)
 {
-    const struct mesh_block *b = m->block + p->block;
+    const struct mesh_block *b = m->block[p->block].made;
     const int G = MESH_GHOSTS;
     const int down[3] = {p->g[0], p->g[1], p->g[2]};
     int i[3];

@@ -2,7 +2,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
+#include "../../common/body_math.h"
 #include "mesh.h"
+#include "mesh_motion.h"
 
 /* Whether all vertices of a block's side lie on a side of the domain. */
 static bool lies_on(const struct scene_domain *d, const struct mesh_block *b, int dim, int side,
@@ -69,6 +71,15 @@ static void own_velocity(const struct run *r, const struct mesh_block *block, in
 void mesh_side_velocity(const struct run *r, const struct mesh_block *b, int side, const double *x,
                         double *w)
 {
+    if (b->motion) { /* its own turns with the block */
+        double made[3], rigid[3];
+        mesh_motion_made(b, x, made);
+        own_velocity(r, b, side, made, w);
+        turn3(b->motion->now.Q, w, w);
+        mesh_motion_velocity(b, x, rigid);
+        vec3_add(w, 1.0, rigid);
+        return;
+    }
     if (!b->wall[side]) {
         own_velocity(r, b, side, x, w);
         return;

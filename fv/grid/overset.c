@@ -12,9 +12,11 @@
 #include "overset.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../../common/mem.h"
+#include "mesh_motion.h"
 
 struct bins {
     double lo[3], hi[3], size[3]; /* m */
@@ -28,6 +30,7 @@ struct donor {
     int block, cell[3]; /* that receives */
     int from_block, from[3], linear_from[3];
     int at[3]; /* the donor cell itself */
+    int width; /* of the cells that give: 4, or 2 */
     double weight[64], linear[8];
 };
 
@@ -35,8 +38,12 @@ struct overset {
     struct bins bins[MESH_BLOCKS_MAX];
     int64_t n, room;
     struct donor *donor;
+    int64_t n_old, room_old; /* those of the last search */
+    struct donor *old;
+    bool rows_only;             /* linear weights are found alone */
+    int *last[MESH_BLOCKS_MAX]; /* of each cell in old, and one more; NULL: nothing moves */
     bool periodic[3];
-    double length[3];
+    double length[3], least[3];
 };
 
 /* --- search --- */
@@ -259,9 +266,13 @@ static bool locate(const struct mesh *m, const struct bins *s, const struct mesh
     return false;
 }
 
-bool overset_locate(const struct mesh *m, const struct overset *o, int block, const double *x,
+bool overset_locate(const struct mesh *m, const struct overset *o, int block, const double *place,
                     int *cell, double *xi)
 {
+    double x[3] = {place[0], place[1], place[2]};
+    for (int c = 0; c < m->dim && m->moves; c++) /* some blocks may be periods away */
+        if (o->periodic[c])
+            x[c] -= o->length[c] * floor((x[c] - o->least[c]) / o->length[c]);
     for (int s = 0; s < 27; s++) {
         const int over[3] = {(s + 1) % 3 - 1, (s / 3 + 1) % 3 - 1, (s / 9 + 1) % 3 - 1};
         double y[3];
@@ -270,7 +281,10 @@ bool overset_locate(const struct mesh *m, const struct overset *o, int block, co
             fits = fits && (over[c] == 0 || o->periodic[c]);
             y[c] = x[c] + over[c] * o->length[c];
         }
-        if (fits && locate(m, o->bins + block, m->block + block, y, cell, xi))
+        if (!fits)
+            continue;
+        mesh_motion_made(m->block + block, y, y);
+        if (locate(m, o->bins + block, m->block[block].made, y, cell, xi))
             return true;
     }
     return false;
@@ -309,19 +323,31 @@ static bool leads_on(const struct mesh_block *b, int side)
     return b->side[side] == MESH_JOINED || b->side[side] == MESH_PERIODIC;
 }
 
-static bool all_computed(const struct mesh *m, int block, const int *from, int width)
+/* Cells lo to hi - 1, which may lie behind joined sides. */
+static bool computed_box(const struct mesh *m, int block, const int *lo, const int *hi)
 {
+    const struct mesh_block *b = m->block + block;
+    bool inside = true;
     int i[3];
-    for (i[2] = 0; i[2] < (m->dim == 3 ? width : 1); i[2]++)
-        for (i[1] = 0; i[1] < width; i[1]++)
-            for (i[0] = 0; i[0] < width; i[0]++) {
-                int at[3] = {from[0] + i[0], from[1] + i[1], from[2] + i[2]}, k = block;
+    for (int a = 0; a < m->dim; a++)
+        inside = inside && lo[a] >= 0 && hi[a] <= b->n[a];
+    for (i[2] = lo[2]; i[2] < hi[2]; i[2]++)
+        for (i[1] = lo[1]; i[1] < hi[1]; i[1]++)
+            for (i[0] = lo[0]; i[0] < hi[0]; i[0]++) {
+                int at[3] = {i[0], i[1], i[2]}, k = block;
                 double move[3] = {0.0, 0.0, 0.0};
-                if (!mesh_resolve(m, &k, at, move) ||
-                    m->block[k].status[mesh_cell(m->block + k, at)] != CELL_COMPUTED)
+                if (!inside && !mesh_resolve(m, &k, at, move))
+                    return false;
+                if (m->block[k].status[mesh_cell(m->block + k, at)] != CELL_COMPUTED)
                     return false;
             }
     return true;
+}
+
+static bool all_computed(const struct mesh *m, int block, const int *from, int width)
+{
+    const int to[3] = {from[0] + width, from[1] + width, m->dim == 3 ? from[2] + width : 1};
+    return computed_box(m, block, from, to);
 }
 
 /* First cell of the stencil around a place; it stays among the cells. */
@@ -375,7 +401,8 @@ static bool gauss_places(const struct mesh *m, const struct donor *d, const doub
             x[c] += shift[c];
             to[c] = xi[c];
         }
-        if (!invert(m->block + d->from_block, m->dim, d->at, x, to))
+        mesh_motion_made(m->block + d->from_block, x, x);
+        if (!invert(m->block[d->from_block].made, m->dim, d->at, x, to))
             return false;
     }
     return true;
@@ -404,6 +431,20 @@ static bool in_overlap_layers(const struct mesh *m, const struct mesh_block *b, 
     return false;
 }
 
+/* Whether the stencil may move by a cell: a cut holds for a step. */
+static bool keeps_giving(const struct mesh *m, int block, const int *from, int width)
+{
+    int lo[3] = {0, 0, 0}, hi[3] = {1, 1, 1};
+    const struct mesh_block *b = m->block + block;
+    for (int a = 0; a < m->dim; a++) {
+        lo[a] = from[a] - 1;
+        hi[a] = from[a] + width + 1;
+        lo[a] = lo[a] < 0 && !leads_on(b, 2 * a) ? 0 : lo[a];
+        hi[a] = hi[a] > b->n[a] && !leads_on(b, 2 * a + 1) ? b->n[a] : hi[a];
+    }
+    return computed_box(m, block, lo, hi);
+}
+
 /* Whether a later block than k (or any other one) can give a value at x by `width' cells. */
 static bool can_give(const struct mesh *m, const struct overset *o, int first, int but,
                      const double *x, int width)
@@ -412,7 +453,7 @@ static bool can_give(const struct mesh *m, const struct overset *o, int first, i
         int cell[3], from[3];
         double xi[3];
         if (q != but && overset_locate(m, o, q, x, cell, xi) &&
-            stencil(m, q, cell, xi, width, from))
+            stencil(m, q, cell, xi, width, from) && (!m->moves || keeps_giving(m, q, from, width)))
             return true;
     }
     return false;
@@ -493,10 +534,11 @@ static void protect(const struct mesh *m, const struct overset *o, int k, unsign
             if (!in_overlap_layers(m, w, i) || can_give(m, o, k + 1, q, w->centre[c], 4) ||
                 !overset_locate(m, o, k, w->centre[c], cell, xi))
                 continue;
-            const int reach[3] = {2, 2, m->dim == 3 ? 2 : 0};
-            for (int e = -reach[2]; e <= reach[2]; e++)
-                for (int d = -2; d <= 2; d++)
-                    for (int p = -2; p <= 2; p++) {
+            const int near = m->moves ? 3 : 2; /* a cut holds for a step */
+            const int deep = m->dim == 3 ? near : 0;
+            for (int e = -deep; e <= deep; e++)
+                for (int d = -near; d <= near; d++)
+                    for (int p = -near; p <= near; p++) {
                         int at[3] = {cell[0] + p, cell[1] + d, cell[2] + e}, to = k;
                         double move[3] = {0.0, 0.0, 0.0};
                         if (mesh_resolve(m, &to, at, move) && to == k)
@@ -536,12 +578,15 @@ static void make_fringe(struct mesh *m, int k)
         index_of(b, c, i);
         if (b->status[c] != CELL_COMPUTED)
             continue;
+        bool inside = true;
+        for (int a = 0; a < m->dim; a++)
+            inside = inside && i[a] >= 2 && i[a] < b->n[a] - 2;
         for (int e = -reach; e <= reach; e++)
             for (int d = -2; d <= 2; d++)
                 for (int p = -2; p <= 2; p++) {
                     int at[3] = {i[0] + p, i[1] + d, i[2] + e}, to = k;
                     double move[3] = {0.0, 0.0, 0.0};
-                    if (!mesh_resolve(m, &to, at, move))
+                    if (!inside && !mesh_resolve(m, &to, at, move))
                         continue;
                     unsigned char *s = m->block[to].status + mesh_cell(m->block + to, at);
                     if (*s == CELL_HOLE)
@@ -551,6 +596,26 @@ static void make_fringe(struct mesh *m, int k)
 }
 
 /* --- donors --- */
+
+/* Between blocks at rest the weights of the last search hold, if the stencil is the same. */
+static bool is_last(const struct mesh *m, const struct overset *o, struct donor *d, const int *from,
+                    int width)
+{
+    const struct mesh_block *b = m->block + d->block;
+    if (width != 4 || !o->last[d->block] || b->motion || m->block[d->from_block].motion)
+        return false;
+    const int at = o->last[d->block][mesh_cell(b, d->cell)] - 1;
+    if (at < 0 || at >= o->n_old)
+        return false;
+    const struct donor *e = o->old + at;
+    for (int a = 0; a < m->dim; a++)
+        if (e->at[a] != d->at[a] || e->from[a] != from[a])
+            return false;
+    if (e->from_block != d->from_block || e->width != width)
+        return false;
+    *d = *e;
+    return true;
+}
 
 static bool try_donor(const struct mesh *m, const struct overset *o, int q, int width,
                       const double *x, struct donor *d, double *volume)
@@ -566,17 +631,23 @@ static bool try_donor(const struct mesh *m, const struct overset *o, int q, int 
     struct donor e = *d;
     memcpy(e.at, cell, sizeof e.at);
     e.from_block = q;
+    if (is_last(m, o, &e, from, width)) {
+        *volume = v;
+        *d = e;
+        return true;
+    }
     mesh_map_point(m->block + q, m->dim, cell, xi, y, dx);
     for (int c = 0; c < 3; c++)
         shift[c] = y[c] - x[c];
-    if (!gauss_places(m, &e, shift, xi, places))
+    memcpy(places, xi, sizeof xi);
+    if (!o->rows_only && !gauss_places(m, &e, shift, xi, places))
         return false;
     const int n = (1 << m->dim) + 1;
-    if (width == 4 ? !overset_weights(m, q, cell, places, n, 4, e.from, e.weight)
-                   : !overset_weights(m, q, cell, places, n, 2, e.from, e.weight))
+    if (!o->rows_only && !overset_weights(m, q, cell, places, n, width, e.from, e.weight))
         return false;
     if (!overset_weights(m, q, cell, places, 1, 2, e.linear_from, e.linear))
         return false;
+    e.width = width;
     *volume = v;
     *d = e;
     return true;
@@ -612,7 +683,8 @@ static bool find_donor(const struct mesh *m, struct overset *o, int k, int64_t c
             try_donor(m, o, q, 2, x, &d, &volume);
         if (volume == INFINITY)
             return false;
-        widen(m, &d);
+        if (!o->rows_only)
+            widen(m, &d);
         (*linear)++;
     }
     if (o->n == o->room)
@@ -630,7 +702,6 @@ static bool find_donors(const struct run *r, struct faults *f, struct mesh *m, s
         for (int64_t c = 0; c < count_of(b); c++) {
             if (b->status[c] != CELL_FRINGE)
                 continue;
-            m->fringe_cells++;
             if (!find_donor(m, o, k, c, &m->linear) && orphans++ == 0)
                 first = c;
         }
@@ -654,15 +725,33 @@ struct overset *overset_search(const struct run *r, const struct mesh *m)
 {
     struct overset *o = NEW(struct overset, 1);
     for (int c = 0; c < 3; c++) {
+        o->least[c] = r->scene.domain.min[c];
         o->periodic[c] = c < m->dim && r->scene.domain.periodic[c];
         o->length[c] = r->scene.domain.max[c] - r->scene.domain.min[c];
     }
     for (int k = 0; k < m->nblocks; k++) {
-        make_bins(m->block + k, m->dim, o->bins + k);
+        make_bins(m->block[k].made, m->dim, o->bins + k);
         if (is_rectilinear(m->block + k))
-            make_lines(m->block + k, m->dim, o->bins + k);
+            make_lines(m->block[k].made, m->dim, o->bins + k);
     }
     return o;
+}
+
+void overset_cut(struct mesh *m, const struct overset *o)
+{
+    m->computed = m->fringe_cells = 0;
+    for (int k = m->nblocks - 1; k >= 0; k--) {
+        unsigned char *flag = NEW(unsigned char, count_of(m->block + k));
+        cut(m, o, k, flag);
+        mem_free(flag);
+    }
+    for (int k = 0; k < m->nblocks; k++)
+        make_fringe(m, k);
+    for (int k = 0; k < m->nblocks; k++)
+        for (int64_t c = 0; c < count_of(m->block + k); c++) {
+            m->computed += m->block[k].status[c] == CELL_COMPUTED;
+            m->fringe_cells += m->block[k].status[c] == CELL_FRINGE;
+        }
 }
 
 struct overset *overset_create(const struct run *r, struct faults *f, struct mesh *m)
@@ -677,16 +766,7 @@ struct overset *overset_create(const struct run *r, struct faults *f, struct mes
         return NEW(struct overset, 1);
     }
     struct overset *o = overset_search(r, m);
-    for (int k = m->nblocks - 1; k >= 0; k--) {
-        unsigned char *flag = NEW(unsigned char, count_of(m->block + k));
-        cut(m, o, k, flag);
-        mem_free(flag);
-    }
-    for (int k = 0; k < m->nblocks; k++)
-        make_fringe(m, k);
-    for (int k = 0; k < m->nblocks; k++)
-        for (int64_t c = 0; c < count_of(m->block + k); c++)
-            m->computed += m->block[k].status[c] == CELL_COMPUTED;
+    overset_cut(m, o);
     if (!find_donors(r, f, m, o))
         overset_free(&o);
     return o;
@@ -702,7 +782,9 @@ void overset_free(struct overset **op)
         mem_free(o->bins[k].cell);
         for (int a = 0; a < 3; a++)
             mem_free(o->bins[k].line[a]);
+        mem_free(o->last[k]);
     }
+    mem_free(o->old);
     mem_free(o->donor);
     mem_free(o);
     *op = NULL;
@@ -722,11 +804,11 @@ static int64_t place_of(const struct mesh *m, const struct donor *d, int *rank)
     return place;
 }
 
-void overset_exchange(struct mesh *m, const struct overset *o)
+static void make_exchange(struct mesh *m, const struct overset *o, struct mesh_exchange *x)
 {
     struct mesh_request *request = NEW(struct mesh_request, o->n);
     int64_t n = 0;
-    m->fringes = NEW(struct mesh_fringe, o->n);
+    mesh_exchange_free(x);
     for (int64_t k = 0; k < o->n; k++) {
         const struct donor *d = o->donor + k;
         int rank;
@@ -737,12 +819,148 @@ void overset_exchange(struct mesh *m, const struct overset *o)
         struct mesh_request *q = request + n++;
         *q = (struct mesh_request){.in = place, .block = d->from_block, .weight = d->weight};
         q->out = place_of(m, d, &q->rank);
+    }
+    mesh_exchange_create(m, x, 4, n, request);
+    mem_free(request);
+}
+
+/* The rows of the matrix. */
+static void set_fringes(struct mesh *m, const struct overset *o)
+{
+    mem_free(m->fringes);
+    m->fringes = NEW(struct mesh_fringe, o->n);
+    m->nfringe = 0;
+    for (int64_t k = 0; k < o->n; k++) {
+        const struct donor *d = o->donor + k;
+        int rank;
+        int64_t place;
+        mesh_owner(m, d->block, d->cell, &rank, &place);
+        if (rank != m->rank)
+            continue;
         struct mesh_fringe *e = m->fringes + m->nfringe++;
         *e = (struct mesh_fringe){.place = place, .block = d->block, .donor = d->from_block};
         memcpy(e->cell, d->cell, sizeof e->cell);
         memcpy(e->from, d->linear_from, sizeof e->from);
         memcpy(e->weight, d->linear, sizeof e->weight);
     }
-    mesh_exchange_create(m, &m->fringe, 4, n, request);
-    mem_free(request);
+}
+
+void overset_exchange(struct mesh *m, const struct overset *o)
+{
+    make_exchange(m, o, &m->fringe);
+    set_fringes(m, o);
+}
+
+/* ---- blocks that move -------------------------------------------------------------------------
+ */
+
+static bool is_mine(const struct mesh *m, int k, const int *cell)
+{
+    const struct mesh_block *b = m->block + k;
+    return cell[b->cut] >= b->first[m->rank] && cell[b->cut] < b->first[m->rank + 1];
+}
+
+/* The donors found become those of the last search. */
+static void keep_last(struct mesh *m, struct overset *o)
+{
+    struct donor *const spare = o->old;
+    const int64_t room = o->room_old;
+    for (int64_t k = 0; k < o->n_old; k++)
+        o->last[spare[k].block][mesh_cell(m->block + spare[k].block, spare[k].cell)] = 0;
+    o->old = o->donor;
+    o->room_old = o->room;
+    o->n_old = o->n;
+    o->donor = spare;
+    o->room = room;
+    o->n = 0;
+    for (int k = 0; k < m->nblocks; k++)
+        if (!o->last[k])
+            o->last[k] = NEW(int, count_of(m->block + k));
+    for (int64_t k = 0; k < o->n_old; k++)
+        o->last[o->old[k].block][mesh_cell(m->block + o->old[k].block, o->old[k].cell)] =
+            (int)k + 1;
+}
+
+static void report_orphan(struct mesh *m, int k, int64_t c)
+{
+    const struct mesh_block *b = m->block + k;
+    const double *x = b->centre[c];
+    int i[3];
+    index_of(b, c, i);
+    snprintf(m->trouble, sizeof m->trouble,
+             "cell (%d, %d, %d) of block \"%s\" at (%g, %g, %g) m has no donors any more: no other "
+             "block has computed cells around it",
+             i[0], i[1], i[2], b->prm->name, x[0], x[1], x[2]);
+}
+
+/* Of this rank's cells that `wanted' says. */
+static void find_again(struct mesh *m, struct overset *o, unsigned char *const *wanted)
+{
+    m->linear = 0;
+    for (int k = 0; k < m->nblocks; k++) {
+        const struct mesh_block *b = m->block + k;
+        for (int64_t c = 0; c < count_of(b); c++) {
+            int i[3];
+            if (wanted ? !wanted[k][c] : b->status[c] != CELL_FRINGE)
+                continue;
+            index_of(b, c, i);
+            if (is_mine(m, k, i) && !find_donor(m, o, k, c, &m->linear) && !*m->trouble)
+                report_orphan(m, k, c);
+        }
+    }
+}
+
+void overset_find(struct mesh *m, struct overset *o)
+{
+    keep_last(m, o);
+    find_again(m, o, NULL);
+    make_exchange(m, o, &m->fringe);
+}
+
+void overset_find_rows(struct mesh *m, const struct overset *o)
+{
+    struct overset fresh = *o;
+    fresh.donor = NULL;
+    fresh.n = fresh.room = fresh.n_old = 0;
+    fresh.rows_only = true;
+    find_again(m, &fresh, NULL);
+    set_fringes(m, &fresh);
+    mem_free(fresh.donor);
+}
+
+void overset_interpolate(struct mesh *m, struct overset *o, unsigned char *const *wanted, int nf,
+                         double *const *f)
+{
+    struct mesh_exchange x = {0};
+    struct overset fresh = *o;
+    fresh.donor = NULL;
+    fresh.n = fresh.room = fresh.n_old = 0;
+    find_again(m, &fresh, wanted);
+    make_exchange(m, &fresh, &x);
+    mesh_exchange(m, &x, nf, f);
+    mesh_exchange_free(&x);
+    mem_free(fresh.donor);
+}
+
+bool overset_sound(const struct mesh *m, struct overset *o, struct overset_orphan *first)
+{
+    struct donor *const kept = o->donor;
+    const int64_t n = o->n, room = o->room;
+    int64_t linear = 0;
+    bool sound = true;
+    o->donor = NULL;
+    o->n = o->room = 0;
+    for (int k = 0; k < m->nblocks && sound; k++)
+        for (int64_t c = 0; c < count_of(m->block + k) && sound; c++)
+            if (m->block[k].status[c] == CELL_FRINGE && !find_donor(m, o, k, c, &linear)) {
+                sound = false;
+                first->block = k;
+                index_of(m->block + k, c, first->cell);
+                memcpy(first->x, m->block[k].centre[c], sizeof first->x);
+            }
+    mem_free(o->donor);
+    o->donor = kept;
+    o->n = n;
+    o->room = room;
+    return sound;
 }

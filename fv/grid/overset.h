@@ -10,6 +10,21 @@ struct overset; /* bins for the search, donors of all fringe cells */
 /* Sets what each cell of all blocks is and finds the donors; NULL: faults were added. */
 struct overset *overset_create(const struct run *r, struct faults *f, struct mesh *m);
 void overset_free(struct overset **o);
+/* Of blocks that move, after they have been placed anew: what each cell is; then donors of this
+ * rank's fringe and their exchange. A cell without donors is told by m->trouble. */
+void overset_cut(struct mesh *m, const struct overset *o);
+void overset_find(struct mesh *m, struct overset *o);
+/* m->fringes alone, of the places now. */
+void overset_find_rows(struct mesh *m, const struct overset *o);
+/* Values of the cells (of all blocks, 1: wanted) from donors computed now. Collective. */
+void overset_interpolate(struct mesh *m, struct overset *o, unsigned char *const *wanted, int nf,
+                         double *const *f);
+/* Whether all cells of the fringe have donors; else the first that has none. */
+struct overset_orphan {
+    int block, cell[3];
+    double x[3];
+};
+bool overset_sound(const struct mesh *m, struct overset *o, struct overset_orphan *first);
 /* The exchange of the fringe, after the parts are known. */
 void overset_exchange(struct mesh *m, const struct overset *o);
 /* The cell of a block at x and the place in it (0 to 1); *move: period of the domain that was

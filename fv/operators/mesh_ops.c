@@ -205,13 +205,29 @@ void mesh_face_velocities(struct fv *s, double *const u[3], double *const U[3])
     }
 }
 
+/* Fluxes through the faces of a part: of one that moves relative to it, into rhs. */
+static void relative_fluxes(struct fv *s, const struct part *p, double *U[3])
+{
+    const struct mesh *m = s->m;
+    for (int a = 0; a < m->dim; a++) {
+        U[a] = s->U[a];
+        if (!m->block[p->block].motion)
+            continue;
+        U[a] = s->rhs[a];
+        for (int64_t c = p->base; c < p->base + p->size; c++)
+            U[a][c] = s->U[a][c] - m->grid[a][c];
+    }
+}
+
 void mesh_convection(struct fv *s, double *const N[3])
 {
     const struct mesh *m = s->m;
     for (int q = 0; q < m->nparts; q++) {
         const struct part *p = m->part + q;
+        double *U[3];
+        relative_fluxes(s, p, U);
         for (int a = 0; a < m->dim; a++)
-            mesh_bc_beside_walls(s, p, a, s->U[a]);
+            mesh_bc_beside_walls(s, p, a, U[a]);
         for (int k = 0; k < m->dim; k++) {
             for (int a = 0; a < m->dim; a++) {
                 int64_t tangent[2];
@@ -221,15 +237,15 @@ void mesh_convection(struct fv *s, double *const N[3])
                 layers(m->dim, a, 1, down, up);
                 if (s->prm.upwind > 0.0)
                     PART_ROWS (p, down, up, c, n)
-                        bias_row(s->u[k] + c, s->U[a] + c, p->stride[a], n, s->prm.upwind,
+                        bias_row(s->u[k] + c, U[a] + c, p->stride[a], n, s->prm.upwind,
                                  s->faces[0] + c);
                 mesh_bc_beside_walls(s, p, a, s->faces[0]);
                 layers(m->dim, a, 0, down, up);
                 PART_ROWS (p, down, up, c, n)
-                    product_row(s->U[a] + c, s->faces[0] + c, tangent, nt, n, true, s->flux + c);
+                    product_row(U[a] + c, s->faces[0] + c, tangent, nt, n, true, s->flux + c);
                 if (s->dissipation > 0.0)
                     PART_ROWS (p, down, up, c, n)
-                        add_dissipation(s->u[k] + c, s->U[a] + c, m->G[a][a] + c, m->V + c,
+                        add_dissipation(s->u[k] + c, U[a] + c, m->G[a][a] + c, m->V + c,
                                         p->stride[a], n, s->dissipation, s->scene_speed,
                                         s->flux + c);
                 add_difference(p, a, s->flux, a == 0, N[k]);

@@ -149,9 +149,11 @@ double mesh_viscous_largest(const struct fv *s)
         int i[3];
         PART_CELLS (p, i, c) {
             double sum = 0.0;
-            for (int a = 0; a < m->dim && s->free[c] > 0.0; a++) {
+            for (int a = 0; a < m->dim && (s->free[c] > 0.0 || m->moves); a++) {
                 const int64_t d = p->stride[a];
-                const bool side = m->status[c - d] == CELL_HOLE || m->status[c + d] == CELL_HOLE;
+                const bool side =
+                    m->moves ? m->open[a][c] == 0.0 || m->open[a][c + d] == 0.0
+                             : m->status[c - d] == CELL_HOLE || m->status[c + d] == CELL_HOLE;
                 for (int b = 0; b < m->dim; b++)
                     sum += (side ? 7.8 : 16.0 / 3.0) * 0.5 *
                            (fabs(m->G[a][b][c]) + fabs(m->G[a][b][c + d]));
@@ -254,6 +256,9 @@ bool mesh_viscous_solve(struct fv *s, double c, double tol)
         s->rhs[a][i] *= s->free[i];
     const double whole = square(m, s->rhs);
     mesh_fill(s->m, s->dim, s->delta);
+    for (int a = 0; a < s->dim && s->change[0]; a++)
+        for (int64_t i = 0; i < s->size; i++)
+            s->delta[a][i] += s->change[a][i];
     mesh_bc_velocity(s, BC_CHANGE, s->delta);
     for (int a = 0; a < s->dim; a++) {
         const double *restrict d = s->delta[a];

@@ -11,6 +11,7 @@
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
+#include "../time/moving.h"
 #include "../time/newton.h"
 #include "../time/stages.h"
 #include "../watch/watches.h"
@@ -82,6 +83,7 @@ void fv_checkpoint(void *state, struct h5 *f)
         save_newton(s->newton, f);
     watches_save(s->watches, f);
     outflow_save(s, f);
+    moving_save(s, f);
     if (s->surface)
         for (int k = 0; k < SURFACE_NUMBERS; k++)
             h5_attribute_real(f, surface_numbers[k], *surface_number(s->surface, k));
@@ -189,5 +191,6 @@ bool fv_restore(struct fv *s, struct h5 *f)
                  "time step") &&
            there(!s->newton || restore_newton(s->newton, f), "state of Newton's method") &&
            there(outflow_load(s, f), "velocity of an outflow") &&
+           there(moving_restore(s, f), "cut of blocks that move") &&
            there(!s->link || coupling_load(s, f), "past of the coupling");
 }

@@ -15,6 +15,7 @@
 #include "../../common/log.h"
 #include "../../common/mem.h"
 #include "../watch/limits.h"
+#include "../grid/mesh_motion.h"
 #include "../grid/overset.h"
 #include "../surface/levelset.h"
 #include "../watch/watches.h"
@@ -132,6 +133,40 @@ static bool has_own_forces(const struct run *r, int k)
     return n > 1 && mesh_block_has(k, MESH_WALL);
 }
 
+/* Places of blocks that move: x y [z] of the centre, the angle or the rotation vector. */
+static int motion_columns(const struct run *r, const char **columns)
+{
+    static const char *const axes[2][6] = {
+        {"x [m]", "y [m]", "angle [rad]"},
+        {"x [m]", "y [m]", "z [m]", "rx [rad]", "ry [rad]", "rz [rad]"}};
+    static char own[MESH_BLOCKS_MAX][6][PARAM_TEXT_SIZE + 24];
+    const int dim = r->scene.domain.dim;
+    int n = 0;
+    for (int k = 0; k < mesh_block_count(); k++)
+        for (int a = 0; a < (dim == 3 ? 6 : 3) && mesh_motion_told(k); a++) {
+            snprintf(own[k][a], sizeof own[k][a], "%s %s", mesh_block_params()[k].name,
+                     axes[dim == 3][a]);
+            columns[n++] = own[k][a];
+        }
+    return n;
+}
+
+static int motion_values(const struct fv *s, double *values)
+{
+    const int dim = s->dim;
+    int n = 0;
+    for (int k = 0; k < s->m->nblocks; k++) {
+        const struct mesh_motion *v = s->m->block[k].motion;
+        if (!v || v->block != k)
+            continue;
+        for (int a = 0; a < dim; a++)
+            values[n++] = v->centre[a] + v->now.x[a];
+        for (int a = dim == 3 ? 0 : 2; a < 3; a++)
+            values[n++] = v->now.r[a];
+    }
+    return n;
+}
+
 static int force_columns(const struct run *r, const char **columns)
 {
     static const char *const forces[] = {"force x [N]", "force y [N]", "force z [N]"};
@@ -146,7 +181,7 @@ static int force_columns(const struct run *r, const char **columns)
                      "xyz"[a]);
             columns[n++] = own[k][a];
         }
-    return n;
+    return n + motion_columns(r, columns + n);
 }
 
 /* On all walls; of several blocks the moments have centres of their own. */
@@ -171,10 +206,23 @@ static int forces(struct fv *s, double *values)
     for (int k = 0; k < s->m->nblocks; k++)
         for (int a = 0; a < s->dim && has_own_forces(s->run, k); a++)
             values[n++] = of[k][a];
+    n += motion_values(s, values + n);
     GROW(s->history, s->nhistory, s->nhistory + 1);
     s->history[s->nhistory][0] = s->t;
     memcpy(s->history[s->nhistory++] + 1, force, 2 * sizeof(double));
     return n;
+}
+
+static bool mesh_covers(const struct fv *s, const struct overset *o, const double *x)
+{
+    for (int k = 0; k < s->m->nblocks; k++) {
+        int cell[3], from[3];
+        double xi[3], w[64];
+        if (overset_locate(s->m, o, k, x, cell, xi) &&
+            overset_weights(s->m, k, cell, xi, 1, 2, from, w))
+            return true;
+    }
+    return false;
 }
 
 /* Values of phi at places along gravity over x, from the top of the domain; `far' where no cells
@@ -224,6 +272,10 @@ static void probes(struct fv *s, double *values)
         here[0] = mesh_value_at(s, s->search, p->at, s->surface ? 2 : 0, NULL);
         here[1] = s->surface ? mesh_value_at(s, s->search, p->at, 2, s->surface->phi) : -1.0;
         MPI_Allreduce(MPI_IN_PLACE, here, 2, MPI_DOUBLE, MPI_SUM, s->comm);
+        if (s->m->moves && !mesh_covers(s, s->search, p->at)) { /* where a body is there is none */
+            values[k] = NAN;
+            continue;
+        }
         values[k] =
             here[1] < 0.0 ? here[0] + still_pressure(scene, s->still, s->level, p->at) : 0.0;
     }
@@ -380,6 +432,8 @@ static void describe_step(const struct run *r, const struct mesh *m)
     for (int k = 0; k < m->nblocks; k++) {
         const struct mesh_block_params *b = m->block[k].prm;
         speed = fmax(speed, hypot(hypot(b->velocity[0], b->velocity[1]), b->velocity[2]));
+        if (m->block[k].motion)
+            speed = fmax(speed, m->block[k].motion->speed);
         for (int side = 0; side < 2 && b->mapping == MAPPING_ANNULUS; side++)
             speed = fmax(speed, fabs(b->spin[side]) * b->radius[side]);
     }

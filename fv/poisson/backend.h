@@ -17,14 +17,17 @@ struct backend {
     /* NULL: it cannot take these blocks. */
     void *(*create)(struct fv *s);
     void (*free)(void **of);
-    /* A psi = b - c V of all computed volumes V; c is 0 where a side gives the pressure. x: start,
-     * then that of the next solve. false: did not converge. */
+    /* A psi = b - c V (of cells of the fringe: psi = I psi + b) of all computed volumes V; c is 0
+     * where a side gives the pressure. x: start, then that of the next solve. false: did not
+     * converge. */
     bool (*solve)(struct fv *s, void *of, double *b, double tol, double *x, double *psi, double *c);
     /* x ~ (A + shift V)^-1 b by one cycle, a linear map; without a shift b has no mean if no side
      * gives the pressure. */
     void (*cycle)(struct fv *s, void *of, double *b, double *x);
     /* 1/m^2; 0 at the start. */
     void (*shift)(struct fv *s, void *of, double shift);
+    /* After blocks have moved, see poisson_renew; NULL: theirs never do. */
+    void (*renew)(struct fv *s, void *of, bool hierarchy);
 };
 
 extern const struct backend backend_pfmg;      /* tiles.c: blocks that make one index space */

@@ -50,6 +50,10 @@ struct mesh_pressure {
     double *volume; /* right side V of computed cells */
     double volumes; /* m^dim: of all computed cells */
     double fringe;  /* diagonal of the rows of the fringe */
+    /* of blocks that move: rows of all cells as they are when computed, by first of each */
+    int *row_first;
+    HYPRE_BigInt *row_col;
+    double *row_value;
 };
 
 /* A row under way. */
@@ -124,22 +128,28 @@ static void add_fringe(const struct mesh *m, const struct mesh_fringe *f, double
     }
 }
 
+static void computed_row(const struct mesh *m, const struct part *p, const int *i, struct row *r)
+{
+    r->n = 0;
+    for (int a = 0; a < m->dim; a++) {
+        int up[3] = {i[0], i[1], i[2]};
+        up[a]++;
+        add_face(m, p, i, a, -1.0, r);
+        add_face(m, p, up, a, 1.0, r);
+    }
+}
+
 static void make_row(const struct mesh *m, const struct part *p, const int *i,
                      const struct mesh_fringe *fringe, double scale, double shift, struct row *r)
 {
     const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
     const int64_t c = part_at(p, i[0], i[1], i[2]);
-    r->n = 0;
     if (m->status[c] == CELL_COMPUTED) {
-        for (int a = 0; a < m->dim; a++) {
-            int up[3] = {i[0], i[1], i[2]};
-            up[a]++;
-            add_face(m, p, i, a, -1.0, r);
-            add_face(m, p, up, a, 1.0, r);
-        }
+        computed_row(m, p, i, r);
         add(r, (HYPRE_BigInt)mesh_row(m, p->block, at), shift * m->V[c]);
         return;
     }
+    r->n = 0;
     add(r, (HYPRE_BigInt)mesh_row(m, p->block, at), scale);
     if (m->status[c] == CELL_FRINGE)
         add_fringe(m, fringe, scale, r);
@@ -164,12 +174,11 @@ static void set_row(struct matrix *A, HYPRE_BigInt row, struct row *r)
     HYPRE(HYPRE_IJMatrixSetValues(A->ij, 1, &n, &row, r->col, r->v));
 }
 
-static void fill_matrices(struct fv *s, struct mesh_pressure *p)
+/* The mean diagonal of computed cells is that of the fringe. */
+static void set_scale(const struct fv *s, struct mesh_pressure *p)
 {
     static const int none[3] = {0, 0, 0};
     const struct mesh *m = s->m;
-    struct row r, pin = {0};
-    int64_t *fringe = NEW(int64_t, m->size_local);
     double sum[2] = {0.0, 0.0};
     for (int q = 0; q < m->nparts; q++)
         PART_ROWS (m->part + q, none, none, c, n)
@@ -179,6 +188,14 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
             }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, m->comm);
     p->fringe = sum[0] / fmax(sum[1], 1.0);
+}
+
+static void fill_matrices(struct fv *s, struct mesh_pressure *p)
+{
+    const struct mesh *m = s->m;
+    struct row r, pin = {0};
+    int64_t *fringe = NEW(int64_t, m->size_local);
+    set_scale(s, p);
     for (int64_t k = 0; k < m->nfringe; k++)
         fringe[m->fringes[k].place] = k;
     create_matrix(m, p, &p->whole);
@@ -216,6 +233,107 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
     finish_matrix(&p->whole);
     if (p->singular)
         finish_matrix(&p->solved);
+}
+
+/* ---- of blocks that move: what computed cells' rows are stays, the rest is small ---- */
+
+static void keep_rows(const struct mesh *m, struct mesh_pressure *p)
+{
+    int64_t n = 0, room = 16 * (int64_t)p->n;
+    HYPRE_BigInt k = 0;
+    p->row_first = NEW(int, p->n + 1);
+    p->row_col = NEW(HYPRE_BigInt, room);
+    p->row_value = NEW(double, room);
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *part = m->part + q;
+        struct row r;
+        int i[3];
+        PART_CELLS (part, i, c) {
+            computed_row(m, part, i, &r);
+            if (n + r.n > room) {
+                GROW(p->row_col, room, 2 * room);
+                GROW(p->row_value, room, 2 * room);
+                room *= 2;
+            }
+            memcpy(p->row_col + n, r.col, (size_t)r.n * sizeof *r.col);
+            memcpy(p->row_value + n, r.v, (size_t)r.n * sizeof *r.v);
+            p->place[k] = c;
+            p->row_first[++k] = (int)(n += r.n);
+        }
+    }
+}
+
+/* The row of the first computed cell of all ranks, which psi = 0 replaces; its place here, or -1.
+ */
+static int find_pinned(const struct mesh *m, struct mesh_pressure *p)
+{
+    HYPRE_BigInt mine = (HYPRE_BigInt)1 << 30, least;
+    for (int k = p->n - 1; k >= 0; k--)
+        mine = m->status[p->place[k]] == CELL_COMPUTED ? p->first + k : mine;
+    MPI_Allreduce(&mine, &least, 1, HYPRE_MPI_BIG_INT, MPI_MIN, m->comm);
+    p->pinned = p->singular ? least : -1;
+    return p->singular && mine == least ? (int)(least - p->first) : -1;
+}
+
+static void set_matrix(const struct mesh *m, struct mesh_pressure *p, struct matrix *A,
+                       HYPRE_Int *ncols, const HYPRE_BigInt *col, const double *v)
+{
+    HYPRE_BigInt *row = NEW(HYPRE_BigInt, p->n);
+    for (int k = 0; k < p->n; k++)
+        row[k] = p->first + k;
+    HYPRE(HYPRE_IJMatrixCreate(m->comm, p->first, p->last, p->first, p->last, &A->ij));
+    HYPRE(HYPRE_IJMatrixSetObjectType(A->ij, HYPRE_PARCSR));
+    HYPRE(HYPRE_IJMatrixSetRowSizes(A->ij, ncols));
+    HYPRE(HYPRE_IJMatrixInitialize(A->ij));
+    if (p->n > 0)
+        HYPRE(HYPRE_IJMatrixSetValues(A->ij, p->n, ncols, row, col, v));
+    mem_free(row);
+    finish_matrix(A);
+}
+
+static void fill_anew(struct fv *s, struct mesh_pressure *p)
+{
+    const struct mesh *m = s->m;
+    int64_t n = 0;
+    if (!p->row_first)
+        keep_rows(m, p);
+    set_scale(s, p);
+    const int64_t room = p->row_first[p->n] + 9 * (m->nfringe + p->n);
+    HYPRE_BigInt *col = NEW(HYPRE_BigInt, room);
+    double *v = NEW(double, room);
+    HYPRE_Int *ncols = NEW(HYPRE_Int, p->n);
+    int64_t *fringe = NEW(int64_t, m->size_local);
+    for (int64_t k = 0; k < m->nfringe; k++)
+        fringe[m->fringes[k].place] = k + 1;
+    const int pinned = find_pinned(m, p);
+    int64_t pinned_at = -1;
+    for (int k = 0; k < p->n; k++) {
+        const int64_t c = p->place[k];
+        if (m->status[c] == CELL_COMPUTED) {
+            const int at = p->row_first[k];
+            ncols[k] = p->row_first[k + 1] - at;
+            pinned_at = k == pinned ? n : pinned_at;
+            memcpy(col + n, p->row_col + at, (size_t)ncols[k] * sizeof *col);
+            memcpy(v + n, p->row_value + at, (size_t)ncols[k] * sizeof *v);
+        } else {
+            struct row r = {.n = 1, .col = {p->first + k}, .v = {p->fringe}};
+            if (fringe[c] > 0)
+                add_fringe(m, m->fringes + fringe[c] - 1, p->fringe, &r);
+            ncols[k] = r.n;
+            memcpy(col + n, r.col, (size_t)r.n * sizeof *col);
+            memcpy(v + n, r.v, (size_t)r.n * sizeof *v);
+        }
+        n += ncols[k];
+    }
+    set_matrix(m, p, &p->whole, ncols, col, v);
+    for (int q = 0; pinned_at >= 0 && q < ncols[pinned]; q++)
+        v[pinned_at + q] = col[pinned_at + q] == p->pinned ? v[pinned_at + q] : 0.0;
+    if (p->singular)
+        set_matrix(m, p, &p->solved, ncols, col, v);
+    mem_free(col);
+    mem_free(v);
+    mem_free(ncols);
+    mem_free(fringe);
 }
 
 static void create_vector(const struct mesh *m, struct mesh_pressure *p, struct vector *v)
@@ -352,17 +470,28 @@ static double in_pinned_row(const struct mesh_pressure *p, const double *b)
 }
 
 /* c V is no larger than the right side it is taken out of, so z_w needs a tenth of the finest
- * tolerance of the run: the start's, see mesh_flow_create. */
+ * tolerance of the run: the start's, see mesh_state_start; of blocks that move, which find it each
+ * step, that of a step. */
 static void solve_volumes(struct fv *s, struct mesh_pressure *p)
 {
     double *b = NEW(double, p->n);
-    const double tol = 1e-4 * fmin(1.0, s->prm.tol_pressure);
+    const double tol = (s->m->moves ? 1e-2 : 1e-4) * fmin(1.0, s->prm.tol_pressure);
     memcpy(b, p->volume, (size_t)p->n * sizeof(double));
     if (!solve_pinned(s, p, b, tol, p->zw) &&
         !(gcr_norm(&p->gcr, p->gcr.r) < 1e-6 * gcr_norm(&p->gcr, b)))
         fail("the pressure matrix of the blocks cannot be solved");
     p->cw = pinned_residual(s, p, in_pinned_row(p, p->volume), p->zw);
     mem_free(b);
+}
+
+static void set_volumes(const struct fv *s, struct mesh_pressure *p)
+{
+    p->volumes = 0.0;
+    for (int k = 0; k < p->n; k++) {
+        p->volume[k] = s->free[p->place[k]] * s->m->V[p->place[k]];
+        p->volumes += p->volume[k];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &p->volumes, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
 }
 
 static void *create(struct fv *s)
@@ -378,17 +507,16 @@ static void *create(struct fv *s)
     p->place = NEW(int64_t, n);
     p->volume = NEW(double, n);
     p->zw = NEW(double, n);
-    fill_matrices(s, p);
+    if (m->moves)
+        fill_anew(s, p);
+    else
+        fill_matrices(s, p);
     create_vector(m, p, &p->b);
     create_vector(m, p, &p->x);
     create_vector(m, p, &p->r);
     make_solver(p);
     gcr_create(&p->gcr, m->comm, p->n, p, apply_rows, cycle_rows);
-    for (int k = 0; k < p->n; k++) {
-        p->volume[k] = s->free[p->place[k]] * m->V[p->place[k]];
-        p->volumes += p->volume[k];
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &p->volumes, 1, MPI_DOUBLE, MPI_SUM, m->comm);
+    set_volumes(s, p);
     if (p->singular)
         solve_volumes(s, p);
     return p;
@@ -401,16 +529,45 @@ static void free_matrix(struct matrix *A)
     A->ij = NULL;
 }
 
+static void free_safe(struct mesh_pressure *p)
+{
+    if (!p->safe)
+        return;
+    HYPRE_ParCSRBiCGSTABDestroy(p->safe);
+    HYPRE_BoomerAMGDestroy(p->safe_amg);
+    p->safe = NULL;
+}
+
+/* The hierarchy of a matrix before serves a neighbour: its cycle has the new one on the finest
+ * level. */
+static void renew(struct fv *s, void *of, bool hierarchy)
+{
+    struct mesh_pressure *p = of;
+    free_safe(p);
+    free_matrix(&p->whole);
+    free_matrix(&p->solved);
+    fill_anew(s, p);
+    if (hierarchy) {
+        HYPRE_BoomerAMGDestroy(p->amg);
+        make_solver(p);
+    }
+    set_volumes(s, p);
+    if (!p->singular)
+        return;
+    for (int k = 0; k < p->n; k++)
+        p->zw[k] = s->zw[p->place[k]];
+    solve_volumes(s, p);
+    for (int k = 0; k < p->n; k++)
+        s->zw[p->place[k]] = p->zw[k];
+}
+
 static void free_matrices(void **of)
 {
     struct mesh_pressure *p = *of;
     if (!p)
         return;
     HYPRE_BoomerAMGDestroy(p->amg);
-    if (p->safe) {
-        HYPRE_ParCSRBiCGSTABDestroy(p->safe);
-        HYPRE_BoomerAMGDestroy(p->safe_amg);
-    }
+    free_safe(p);
     gcr_free(&p->gcr);
     free_matrix(&p->whole);
     free_matrix(&p->solved);
@@ -420,6 +577,9 @@ static void free_matrices(void **of)
     mem_free(p->place);
     mem_free(p->volume);
     mem_free(p->zw);
+    mem_free(p->row_first);
+    mem_free(p->row_col);
+    mem_free(p->row_value);
     mem_free(p);
     *of = NULL;
 }
@@ -442,6 +602,8 @@ static void set_shift(struct fv *s, void *of, double shift)
 static bool solve(struct fv *s, void *of, double *b, double tol, double *x, double *psi, double *c)
 {
     struct mesh_pressure *p = of;
+    for (int k = 0; k < p->n && s->jump; k++)
+        b[k] *= s->m->status[p->place[k]] == CELL_FRINGE ? p->fringe : 1.0;
     const double kept = in_pinned_row(p, b);
     const bool good = solve_pinned(s, p, b, tol, x);
     *c = p->singular ? pinned_residual(s, p, kept, x) / p->cw : 0.0;
@@ -467,4 +629,5 @@ const struct backend backend_boomeramg = {.name = "BoomerAMG",
                                           .free = free_matrices,
                                           .solve = solve,
                                           .cycle = cycle,
-                                          .shift = set_shift};
+                                          .shift = set_shift,
+                                          .renew = renew};

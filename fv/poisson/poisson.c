@@ -19,6 +19,16 @@ struct poisson {
     double *b, *x, *psi;
 };
 
+static void set_volumes(const struct fv *s, struct poisson *p)
+{
+    p->volumes = 0.0;
+    for (int k = 0; k < p->n; k++) {
+        p->V[k] = s->free[p->place[k]] * s->m->V[p->place[k]];
+        p->volumes += p->V[k];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &p->volumes, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
+}
+
 void poisson_create(struct fv *s)
 {
     static const struct backend *const all[] = {&backend_pfmg, &backend_boomeramg};
@@ -37,10 +47,8 @@ void poisson_create(struct fv *s)
         PART_ROWS (m->part + q, none, none, c, n)
             for (int64_t i = c; i < c + n; i++, k++) {
                 p->place[k] = i;
-                p->V[k] = s->free[i] * m->V[i];
-                p->volumes += p->V[k];
             }
-    MPI_Allreduce(MPI_IN_PLACE, &p->volumes, 1, MPI_DOUBLE, MPI_SUM, m->comm);
+    set_volumes(s, p);
     for (size_t e = 0; !p->of; e++) {
         p->by = all[e];
         p->of = p->by->create(s);
@@ -73,6 +81,9 @@ static bool negligible(struct fv *s, const double *div)
         double part[2][4] = {{0.0}};
         for (int64_t i = c; i < c + n; i++)
             part[0][(i - c) & 3] += div[i] * div[i];
+        for (int64_t i = c; i < c + n && s->jump; i++)
+            if (s->m->status[i] == CELL_FRINGE && s->jump[i] != 0.0)
+                sum[0] = INFINITY;
         for (int a = 0; a < s->dim; a++)
             for (int64_t i = c; i < c + n; i++)
                 part[1][(i - c) & 3] += s->free[i] * s->U[a][i] * s->U[a][i];
@@ -120,6 +131,8 @@ bool poisson_solve(struct fv *s, double tau, const double *div, double tol, doub
     for (int k = 0; k < p->n; k++) {
         p->x[k] = start[p->place[k]];
         p->b[k] = -div[p->place[k]] / tau;
+        if (s->jump && s->m->status[p->place[k]] == CELL_FRINGE)
+            p->b[k] = s->jump[p->place[k]];
     }
     const bool good = p->by->solve(s, p->of, p->b, tolerance(s, tol), p->x, p->psi, &c);
     for (int k = 0; k < p->n; k++)
@@ -143,6 +156,12 @@ void poisson_cycle(struct fv *s, const double *div, double *psi)
     }
     p->by->cycle(s, p->of, p->b, p->x);
     set_psi(s, p, p->x, psi);
+}
+
+void poisson_renew(struct fv *s, bool hierarchy)
+{
+    set_volumes(s, s->poisson);
+    s->poisson->by->renew(s, s->poisson->of, hierarchy);
 }
 
 void poisson_shift(struct fv *s, double shift)

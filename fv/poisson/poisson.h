@@ -17,6 +17,9 @@ bool poisson_solve(struct fv *s, double tau, const double *div, double tol, doub
 /* psi ~ the solution of (A + shift V) psi = div (both over the cells of this rank) by one cycle, a
  * linear map; without a shift and where no side gives the pressure, without its mean. */
 void poisson_cycle(struct fv *s, const double *div, double *psi);
+/* After blocks have moved: the matrix of the cells and of m->fringes now; without `hierarchy' the
+ * one of a matrix before goes on as preconditioner. */
+void poisson_renew(struct fv *s, bool hierarchy);
 /* 1/m^2; 0 at the start. */
 void poisson_shift(struct fv *s, double shift);
 

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "../watch/limits.h"
+#include "moving.h"
 #include "stages.h"
 
 static const int none[3] = {0, 0, 0};
@@ -25,17 +26,35 @@ static void pressure_gradient(struct fv *s)
         mesh_smooth_pressure(s);
         mesh_fill(s->m, 1, &s->p);
     }
+    if (s->moving)
+        moving_begin(s);
     mesh_bc_pressure(s, s->p);
     mesh_gradient(s, s->p, s->step_p);
+    if (s->moving)
+        moving_gradient(s);
 }
 
-static void set_slip(struct fv *s, double tau, const double *psi) { mesh_bc_set_slip(s, tau, psi); }
+static void set_slip(struct fv *s, double tau, const double *psi)
+{
+    if (s->moving)
+        moving_turn_pressure(s, tau);
+    mesh_bc_set_slip(s, tau, psi);
+}
+
+static void convect(struct fv *s, double *const N[3])
+{
+    mesh_convection(s, N);
+    if (s->moving)
+        moving_convection(s, N);
+}
 
 static void begin_sides(struct fv *s) { (void)s; }
 
 static void set_sides(struct fv *s, double t, double dt)
 {
     (void)dt;
+    if (s->moving)
+        moving_stage(s, t);
     mesh_bc_time(s, t);
 }
 
@@ -69,6 +88,8 @@ static bool solve_viscous(struct fv *s, double c, double t, double scale)
 {
     const double share = viscous_keeps_increment(s) ? scale : 0.0;
     (void)t;
+    if (s->moving)
+        moving_change(s);
     for (int a = 0; a < s->dim; a++)
         FLOW_ROWS(s, at, n)
     for (int64_t i = at; i < at + n; i++)
@@ -81,7 +102,11 @@ static void predict_fluxes(struct fv *s, double t)
     (void)t;
     if (s->surface)
         extension_apply(s, s->u, EXTEND_FREE, STENCILS);
-    ghosts(s, BC_AHEAD, s->u);
+    if (s->moving)
+        moving_fill(s, s->u);
+    else
+        mesh_fill(s->m, s->dim, s->u);
+    mesh_bc_velocity(s, BC_AHEAD, s->u);
     mesh_face_velocities(s, s->u, s->U);
     mesh_bc_fluxes(s, s->U);
 }
@@ -145,13 +170,15 @@ static void measure_blocks(struct fv *s)
     double most[4] = {0.0}, speed = 0.0, poison = 0.0;
     for (int q = 0; q < m->nparts; q++) {
         const struct part *p = m->part + q;
+        const bool moves = m->block[p->block].motion != NULL;
         PART_ROWS (p, none, none, c, n)
             for (int64_t i = c; i < c + n; i++) {
                 double u2 = 0.0, rate = 0.0, rise = 0.0, least = INFINITY;
                 if (s->free[i] == 0.0)
                     continue;
                 for (int a = 0; a < m->dim; a++) {
-                    double F = 0.0, G = 0.0, S2 = 0.0;
+                    double F = moves ? -0.5 * (m->grid[a][i] + m->grid[a][i + p->stride[a]]) : 0.0,
+                           G = 0.0, S2 = 0.0;
                     for (int k = 0; k < m->dim; k++) {
                         const double S = 0.5 * (m->S[a][k][i] + m->S[a][k][i + p->stride[a]]);
                         F += s->u[k][i] * S;
@@ -173,6 +200,8 @@ static void measure_blocks(struct fv *s)
     }
     most[1] = poison == 0.0 ? sqrt(most[1]) : INFINITY;
     most[0] = fmax(most[0], mesh_bc_rate(s, &speed));
+    if (s->moving)
+        most[0] = fmax(most[0], moving_rate(s));
     MPI_Allreduce(MPI_IN_PLACE, most, 4, MPI_DOUBLE, MPI_MAX, m->comm);
     s->rate = most[0];
     s->umax[0] = most[1];
@@ -229,7 +258,7 @@ const struct stages block_stages = {.tolerance = 1.0,
                                     .set_slip = set_slip,
                                     .begin_sides = begin_sides,
                                     .set_sides = set_sides,
-                                    .convection = mesh_convection,
+                                    .convection = convect,
                                     .viscous = viscous,
                                     .finish_rhs = finish_rhs,
                                     .solve_viscous = solve_viscous,

@@ -25,6 +25,10 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
     names[n++] = "p";
     f[n] = s->p_before;
     names[n++] = "p_before";
+    if (s->zw) {
+        f[n] = s->zw;
+        names[n++] = "zw";
+    }
     if (s->surface) {
         f[n] = s->surface->phi;
         names[n++] = "phi";

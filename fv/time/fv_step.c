@@ -11,6 +11,7 @@
 #include "../boundary/outflow.h"
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
+#include "moving.h"
 #include "newton.h"
 #include "../watch/watches.h"
 #include "steps.h"
@@ -53,6 +54,13 @@ static void diagnose(const struct fv *s, double dt, double before, bool good, st
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
     if (!isfinite(most) || !(most <= s->u_limit)) {
         s->stages->find_worst(s, before, d);
+    } else if (*moving_trouble(s)) {
+        d->bad = true;
+        snprintf(d->reason, sizeof d->reason, "%s", moving_trouble(s));
+        snprintf(d->where, sizeof d->where, "step of %g s", dt);
+        snprintf(d->likely, sizeof d->likely,
+                 "a smaller motion, a background that reaches further or is as fine as the block "
+                 "there, or cells of the block that go 8 or more layers beyond its walls");
     } else if (!good) {
         d->bad = true;
         snprintf(d->reason, sizeof d->reason,

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../surface/levelset.h"
+#include "moving.h"
 #include "rk3.h"
 #include "stages.h"
 #include "steps.h"
@@ -203,4 +204,11 @@ struct integrator {
 static const struct integrator integrators[] = {{"rk3", step_rk3},
                                                 {"bdf2", step_bdf2}}; /* and newton */
 
-bool projection_step(struct fv *s, double dt) { return integrators[s->prm.integrator].step(s, dt); }
+bool projection_step(struct fv *s, double dt)
+{
+    s->dt_now = dt;
+    const bool good = integrators[s->prm.integrator].step(s, dt);
+    if (s->moving)
+        moving_end(s);
+    return good;
+}

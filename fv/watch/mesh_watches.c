@@ -39,8 +39,8 @@ struct watches *mesh_watches_create(struct fv *s)
     double walls = 0.0; /* friction at a moving one is not known beside a surface */
     mesh_bc_rate(s, &walls);
     MPI_Allreduce(MPI_IN_PLACE, &walls, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    w->has_energy = !s->prm.steady && !(s->surface && walls > 0.0);
-    w->has_growth = !s->newton && !s->surface;
+    w->has_energy = !s->prm.steady && !s->m->moves && !(s->surface && walls > 0.0);
+    w->has_growth = !s->newton && !s->surface && !s->m->moves;
     w->energy_every = s->surface ? 1 : 20;   /* faces are mapped anew */
     w->speed = fmax(w->speed, s->reference); /* of walls and openings of blocks, too */
     return w;

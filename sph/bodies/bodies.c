@@ -6,7 +6,7 @@
 
 #include "../sph_params.h"
 #include "../rigid/body_impedance.h"
-#include "../rigid/body_math.h"
+#include "../../common/body_math.h"
 
 /* --- the start --- */
 

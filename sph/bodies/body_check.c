@@ -9,7 +9,7 @@
 #include "../../common/scene_fluid.h"
 #include "../sph_params.h"
 #include "bodies.h"
-#include "../rigid/body_math.h"
+#include "../../common/body_math.h"
 
 enum { KEY = 96 };
 
@@ -84,16 +84,9 @@ static void check_rows(const struct run *r, const struct sph_params *used, const
 static void check_file(const struct run *r, const struct sph_params *used, const char *key,
                        const struct body *b, const struct body_term *t, struct faults *f)
 {
-    if (!*t->is->file)
-        params_fault(r->params, f, key, "body %s: a term of kind file wants the file's name",
-                     b->is->name);
-    else if (t->n <= 0)
-        params_fault(r->params, f, key, "body %s: motion %s/%s: %s", b->is->name, r->case_dir,
-                     t->is->file,
-                     t->n < 0      ? "no such file"
-                     : b->dim == 2 ? "rows of t, x, y, angle with rising times are wanted"
-                                   : "rows of t, x, y, z, rx, ry, rz with rising times are "
-                                     "wanted");
+    char text[1400];
+    if (body_term_fault(&b->drive, (int)(t - b->drive.term), r->case_dir, text, sizeof text))
+        params_fault(r->params, f, key, "body %s: %s", b->is->name, text);
     else
         check_rows(r, used, key, b, t, f);
 }
@@ -135,16 +128,12 @@ static void check_term(const struct run *r, const struct sph_params *used, int k
             }
         return;
     }
-    if (dim == 2 && (axis == AXIS_Z || axis == AXIS_RX || axis == AXIS_RY))
-        params_fault(r->params, f, key, "axis %s in a case of 2 dimensions", names[axis]);
+    char text[1400];
+    if (body_term_fault(&b->drive, i, r->case_dir, text, sizeof text))
+        params_fault(r->params, f, key, "%s", text);
     else if (is_open(b->is, dim, axis))
         params_fault(r->params, f, key, "forces move %s, too: add it to lock, or leave this out",
                      names[axis]);
-    if (m->kind == MOTION_HARMONIC && (m->period <= 0.0 || m->amplitude == 0.0))
-        params_fault(r->params, f, key, "a harmonic term wants amplitude and period, not 0");
-    if (m->kind == MOTION_POLYNOMIAL && m->until <= m->from)
-        params_fault(r->params, f, key, "it ends at %g s (until), before its start at %g s (from)",
-                     m->until, m->from);
 }
 
 /* --- free bodies --- */

@@ -9,7 +9,7 @@
 #include "../../common/mem.h"
 #include "bodies.h"
 #include "body_touch.h"
-#include "../rigid/body_math.h"
+#include "../../common/body_math.h"
 
 /* How many of the largest steps a contact lasts: a body that comes at c0/10 goes 0.3 dx deep. */
 enum { CONTACT_STEPS = 6 };

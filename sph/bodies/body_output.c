@@ -6,7 +6,7 @@
 #include "../../common/h5.h"
 #include "../../common/mem.h"
 #include "bodies.h"
-#include "../rigid/body_math.h"
+#include "../../common/body_math.h"
 
 enum { MOTION_COLUMNS = 12, TEXT = PARAM_TEXT_SIZE + 24 };
 

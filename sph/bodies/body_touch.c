@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "../../common/mem.h"
-#include "../rigid/body_math.h"
+#include "../../common/body_math.h"
 
 struct box {
     double lo[2], hi[2];

@@ -17,7 +17,7 @@
 /* The blending of velocities holds a step of pressure of 0.7 % of rho g H by a difference of 5e-5
  * c0 between what flows in the two programs: in proportion alone a gap of a tenth of dx stays. A
  * slower part, four times that, takes it away. Of Flather's sqrt(g/d): 1 would take all of a step
- * at once, and feed waves (3e-4 sqrt(g/H)); with 0.2 a step dies by 0.5 to 5.5 sqrt(g/H). */
+ * at once, and feed waves (3e-4 sqrt(g/H)); with 0.1 to 0.2 a step dies by 0.5 to 5.5 sqrt(g/H). */
 static const double kappa = 0.1;
 static const double most = 0.05; /* of sqrt(g d) */
 

@@ -6,7 +6,7 @@
 
 #include "../../common/mem.h"
 #include "../../common/tree.h"
-#include "../rigid/body_math.h"
+#include "../../common/body_math.h"
 
 static void strip(struct trimesh *m, const struct param_points *p, bool closed, double half)
 {

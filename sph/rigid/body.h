@@ -3,45 +3,11 @@
 #ifndef SPH_BODY_H
 #define SPH_BODY_H
 
+#include "../../common/body_drive.h"
 #include "../../common/scene.h"
 #include "../../common/trimesh.h"
 
 struct run;
-
-/* Place and velocity of a body, relative to its start, in space axes. */
-struct body_motion {
-    double x[3], u[3], du[3];   /* m, m/s, m/s^2: displacement of the centre */
-    double r[3];                /* rad: rotation vector */
-    double Q[3][3];             /* of its rotation */
-    double omega[3], domega[3]; /* rad/s, rad/s^2 */
-    double angle, spin, dspin;  /* about z, as 2D has it */
-};
-
-/* --- body_drive.c: motion as told --- */
-
-struct body_term {
-    const struct scene_motion *is;
-    int n;        /* rows of its file */
-    double *rows; /* [n][columns]: t and displacements */
-};
-
-struct body_drive {
-    int dim, nterms, columns; /* of files: 4 or 7 */
-    struct body_term term[MOTIONS_MAX];
-    double constant[BODY_AXES]; /* m/s, rad/s */
-};
-
-/* Rows of `columns' numbers, times rising. -1: no such file, 0: bad rows; *rows is the caller's. */
-int body_read_rows(const char *path, int columns, double **rows);
-/* Files are beside the case in dir; degrees that forces move are left out. */
-void body_drive_create(struct body_drive *v, const struct scene_body *is, int dim, const char *dir);
-void body_drive_free(struct body_drive *v);
-/* Displacements x, y, z and components of the rotation vector, their rates and second rates. */
-void body_drive_at(const struct body_drive *v, double t, double d[BODY_AXES], double dd[BODY_AXES],
-                   double ddd[BODY_AXES]);
-void body_drive_motion(const struct body_drive *v, double t, struct body_motion *m);
-/* Largest speed until t of a point as far from the centre as `reach', m/s. */
-double body_drive_speed(const struct body_drive *v, double reach, double end);
 
 /* --- body_free.c: motion by forces --- */
 

@@ -7,7 +7,7 @@
 #include "../../common/scene_mesh.h"
 #include "../../common/vec3.h"
 #include "body.h"
-#include "body_math.h"
+#include "../../common/body_math.h"
 
 /* --- the start --- */
 

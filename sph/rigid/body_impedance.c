@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "body_impedance.h"
-#include "body_math.h"
+#include "../../common/body_math.h"
 
 void impedance_add(struct impedance *z, const double *arm, const double *n, double along,
                    double across)

@@ -6,7 +6,7 @@
 #include "../../common/scene_geometry.h"
 #include "../../common/scene_mesh.h"
 #include "body.h"
-#include "body_math.h"
+#include "../../common/body_math.h"
 
 static bool no(char *why, size_t size, const char *what)
 {

@@ -563,8 +563,12 @@ static void finish_step(struct sph *s, double dt, double *most, struct diagnosis
         zones_openings(s, dt);
         stop(s, "zones");
     }
-    if (s->finer)
+    if (s->finer) {
         refinement_look(s);
+        for (struct sph *q = s; q; q = q->finer) /* guards that wake now are as the others are */
+            particles_lines(q);
+        guards_update(s); /* its lists know nothing of removals */
+    }
     int lost = 0;
     for (struct sph *q = s; q; q = q->finer)
         lost += remove_behind(q) + remove_lost(q);
@@ -577,9 +581,6 @@ static void finish_step(struct sph *s, double dt, double *most, struct diagnosis
     bodies_finish(s, d);
     volume_keep(s);
     if (s->finer) {
-        for (struct sph *q = s; q; q = q->finer) /* guards that wake now, as the others are now */
-            particles_lines(q);
-        guards_update(s);
         refinement_adapt(s);
         refinement_repay(s);
         volume_renew(s);

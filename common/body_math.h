@@ -1,11 +1,11 @@
 /* body_math.h - vectors and rotations of rigid bodies. Matrices are rows; quaternions (w, x, y, z).
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_BODY_MATH_H
-#define SPH_BODY_MATH_H
+#ifndef COMMON_BODY_MATH_H
+#define COMMON_BODY_MATH_H
 
 #include <math.h>
 
-#include "../../common/vec3.h"
+#include "vec3.h"
 
 static inline void turn3(double Q[3][3], const double *v, double *to)
 {

@@ -1,12 +1,13 @@
 /* body_drive.c - motion as told: files, harmonic terms, polynomials; they add up. Velocities are
  * the exact derivatives of the places. SPDX-License-Identifier: BSD-3-Clause */
+#include "body_drive.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "body.h"
 #include "body_math.h"
+#include "mem.h"
 
 int body_read_rows(const char *path, int columns, double **rows)
 {
@@ -44,27 +45,58 @@ int body_read_rows(const char *path, int columns, double **rows)
     return n;
 }
 
-void body_drive_create(struct body_drive *v, const struct scene_body *is, int dim, const char *dir)
+void body_drive_terms(struct body_drive *v, const struct scene_motions *is, int dim,
+                      const char *dir)
 {
-    const int locked = is->free ? scene_body_locked(is->lock, dim) : (1 << BODY_AXES) - 1;
     *v = (struct body_drive){.dim = dim, .columns = dim == 2 ? 4 : 7};
-    for (int a = 0; a < BODY_AXES; a++)
-        if (locked >> a & 1)
-            v->constant[a] = a < 3 ? is->velocity[a] : is->spin[a - 3];
-    for (int k = 0; k < is->motion.n; k++) {
+    for (int k = 0; k < is->n; k++) {
         struct body_term *t = v->term + v->nterms++;
         char path[1024 + PARAM_TEXT_SIZE];
-        t->is = is->motion.of + k;
+        t->is = is->of + k;
         snprintf(path, sizeof path, "%s/%s", dir, t->is->file);
         if (t->is->kind == MOTION_FILE)
             t->n = body_read_rows(path, v->columns, &t->rows);
     }
 }
 
+void body_drive_create(struct body_drive *v, const struct scene_body *is, int dim, const char *dir)
+{
+    const int locked = is->free ? scene_body_locked(is->lock, dim) : (1 << BODY_AXES) - 1;
+    body_drive_terms(v, &is->motion, dim, dir);
+    for (int a = 0; a < BODY_AXES; a++)
+        if (locked >> a & 1)
+            v->constant[a] = a < 3 ? is->velocity[a] : is->spin[a - 3];
+}
+
 void body_drive_free(struct body_drive *v)
 {
     for (int k = 0; k < v->nterms; k++)
         mem_free(v->term[k].rows);
+}
+
+bool body_term_fault(const struct body_drive *v, int term, const char *dir, char *text, size_t size)
+{
+    static const char *const names[BODY_AXES] = {"x", "y", "z", "rx", "ry", "rz"};
+    const struct body_term *t = v->term + term;
+    const struct scene_motion *m = t->is;
+    *text = '\0';
+    if (m->kind == MOTION_FILE && !*m->file)
+        snprintf(text, size, "a term of kind file wants the file's name");
+    else if (m->kind == MOTION_FILE && t->n <= 0)
+        snprintf(text, size, "motion %s/%s: %s", dir, m->file,
+                 t->n < 0      ? "no such file"
+                 : v->dim == 2 ? "rows of t, x, y, angle with rising times are wanted"
+                               : "rows of t, x, y, z, rx, ry, rz with rising times are wanted");
+    else if (m->kind == MOTION_FILE)
+        return false;
+    else if (v->dim == 2 && (m->axis == AXIS_Z || m->axis == AXIS_RX || m->axis == AXIS_RY))
+        snprintf(text, size, "axis %s in a case of 2 dimensions", names[m->axis]);
+    else if (m->kind == MOTION_HARMONIC && (m->period <= 0.0 || m->amplitude == 0.0))
+        snprintf(text, size, "a harmonic term wants amplitude and period, not 0");
+    else if (m->kind == MOTION_POLYNOMIAL && m->until <= m->from)
+        snprintf(text, size, "it ends at %g s (until), before its start at %g s (from)", m->until,
+                 m->from);
+    return *text != '\0';
 }
 
 /* Cubic through the rows with slopes of central differences: value, rate, second rate. */
@@ -115,7 +147,7 @@ static void one_axis(const struct scene_motion *m, double t, double v[3])
         v[2] = -m->amplitude * w * w * sin(z);
         return;
     }
-    const bool within = t > m->from && t < m->until;
+    const bool within = t >= m->from && t < m->until;
     const double T = (t < m->from ? m->from : t > m->until ? m->until : t) - m->from;
     v[0] = v[1] = v[2] = 0.0;
     for (int k = m->coefficients.n - 1; k >= 0; k--) { /* Horner, with derivatives */

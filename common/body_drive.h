@@ -1,0 +1,51 @@
+/* body_drive.h - motion as told of rigid bodies: files, harmonic terms, polynomials; they add up.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_BODY_DRIVE_H
+#define COMMON_BODY_DRIVE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "scene_body.h"
+
+/* Place and velocity of a body, relative to its start, in space axes. */
+struct body_motion {
+    double x[3], u[3], du[3];   /* m, m/s, m/s^2: displacement of the centre */
+    double r[3];                /* rad: rotation vector */
+    double Q[3][3];             /* of its rotation */
+    double omega[3], domega[3]; /* rad/s, rad/s^2 */
+    double angle, spin, dspin;  /* about z, as 2D has it */
+};
+
+struct body_term {
+    const struct scene_motion *is;
+    int n;        /* rows of its file */
+    double *rows; /* [n][columns]: t and displacements */
+};
+
+struct body_drive {
+    int dim, nterms, columns; /* of files: 4 or 7 */
+    struct body_term term[MOTIONS_MAX];
+    double constant[BODY_AXES]; /* m/s, rad/s */
+};
+
+/* Rows of `columns' numbers, times rising. -1: no such file, 0: bad rows; *rows is the caller's. */
+int body_read_rows(const char *path, int columns, double **rows);
+/* Of the terms alone; they are borrowed. Files are beside the case in dir. */
+void body_drive_terms(struct body_drive *v, const struct scene_motions *is, int dim,
+                      const char *dir);
+/* Of a body; degrees that forces move are left out. */
+void body_drive_create(struct body_drive *v, const struct scene_body *is, int dim, const char *dir);
+void body_drive_free(struct body_drive *v);
+/* What is wrong with a term: its file, its axis, numbers that are missing, into text; false:
+ * nothing is. */
+bool body_term_fault(const struct body_drive *v, int term, const char *dir, char *text,
+                     size_t size);
+/* Displacements x, y, z and components of the rotation vector, their rates and second rates. */
+void body_drive_at(const struct body_drive *v, double t, double d[BODY_AXES], double dd[BODY_AXES],
+                   double ddd[BODY_AXES]);
+void body_drive_motion(const struct body_drive *v, double t, struct body_motion *m);
+/* Largest speed until `end' of a point as far from the centre as `reach', m/s. */
+double body_drive_speed(const struct body_drive *v, double reach, double end);
+
+#endif

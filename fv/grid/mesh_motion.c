@@ -1,0 +1,299 @@
+/* mesh_motion.c - see mesh_motion.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh_motion.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/body_math.h"
+#include "../../common/mem.h"
+
+bool mesh_motion_told(int block) { return mesh_block_params()[block].motion.n > 0; }
+
+bool mesh_motion_any(void)
+{
+    bool any = false;
+    for (int k = 0; k < mesh_block_count(); k++)
+        any = any || mesh_motion_told(k);
+    return any;
+}
+
+void mesh_motion_made(const struct mesh_block *b, const double *x, double *to)
+{
+    struct mesh_motion *v = b->motion;
+    double d[3] = {x[0], x[1], x[2]};
+    if (v) {
+        for (int c = 0; c < 3; c++)
+            d[c] -= v->centre[c] + v->now.x[c];
+        if (v->turns)
+            turn_back3(v->now.Q, d, d);
+        vec3_add(d, 1.0, v->centre);
+    }
+    memcpy(to, d, sizeof d);
+}
+
+void mesh_motion_now(const struct mesh_block *b, const double *made, double *to)
+{
+    struct mesh_motion *v = b->motion;
+    double d[3] = {made[0], made[1], made[2]};
+    if (v) {
+        vec3_add(d, -1.0, v->centre);
+        if (v->turns)
+            turn3(v->now.Q, d, d);
+        for (int c = 0; c < 3; c++)
+            d[c] += v->centre[c] + v->now.x[c];
+    }
+    memcpy(to, d, sizeof d);
+}
+
+void mesh_motion_velocity(const struct mesh_block *b, const double *x, double *w)
+{
+    const struct mesh_motion *v = b->motion;
+    double d[3];
+    w[0] = w[1] = w[2] = 0.0;
+    if (!v)
+        return;
+    for (int c = 0; c < 3; c++)
+        d[c] = x[c] - v->centre[c] - v->now.x[c];
+    vec3_cross(v->now.omega, d, w);
+    vec3_add(w, 1.0, v->now.u);
+}
+
+/* --- places --- */
+
+static int64_t vertices(const struct mesh_block *b)
+{
+    return (int64_t)b->nv[0] * b->nv[1] * b->nv[2];
+}
+
+static int64_t cells(const struct mesh_block *b) { return (int64_t)b->n[0] * b->n[1] * b->n[2]; }
+
+static void place_block(struct mesh_block *b)
+{
+    for (int64_t k = 0; k < vertices(b); k++)
+        mesh_motion_now(b, b->made->x[k], b->x[k]);
+    for (int64_t k = 0; k < cells(b); k++)
+        mesh_motion_now(b, b->made->centre[k], b->centre[k]);
+}
+
+/* S of the faces of a part as made, in its frame: turned back from what it is now. */
+static void place_faces(struct mesh *m, const struct part *p)
+{
+    const struct mesh_block *b = m->block + p->block;
+    const struct mesh_motion *v = b->motion;
+    const int most[3] = {p->n[0] + p->g[0], p->n[1] + p->g[1], p->n[2] + p->g[2]};
+    double u[3], omega[3];
+    turn_back3(((struct mesh_motion *)v)->now.Q, v->now.u, u);
+    turn_back3(((struct mesh_motion *)v)->now.Q, v->now.omega, omega);
+    for (int k = -p->g[2]; k < most[2]; k++)
+        for (int j = -p->g[1]; j < most[1]; j++)
+            for (int i = -p->g[0]; i < most[0]; i++)
+                for (int a = 0; a < m->dim; a++) {
+                    const int64_t c = part_at(p, i, j, k);
+                    const double *S = b->faces + 6 * (m->dim * (c - p->base) + a), *R = S + 3;
+                    m->grid[a][c] = vec3_dot(u, S) + vec3_dot(omega, R);
+                    for (int q = 0; q < m->dim && v->turns; q++)
+                        m->S[a][q][c] = vec3_dot(v->now.Q[q], S);
+                }
+}
+
+void mesh_motion_place(struct mesh *m, double t)
+{
+    for (int k = 0; k < m->nblocks; k++) {
+        struct mesh_motion *v = m->block[k].motion;
+        if (v && v->block == k) {
+            body_drive_motion(&v->drive, t, &v->now);
+            v->t = t;
+        }
+    }
+    for (int k = 0; k < m->nblocks; k++)
+        if (m->block[k].motion)
+            place_block(m->block + k);
+    for (int q = 0; q < m->nparts && m->grid[0]; q++)
+        if (m->block[m->part[q].block].motion)
+            place_faces(m, m->part + q);
+}
+
+/* --- start --- */
+
+/* The block's vertices and centres get a second store, that of the places as made. */
+static void keep_made(struct mesh_block *b)
+{
+    struct mesh_block *made = NEW(struct mesh_block, 1);
+    const size_t nv = (size_t)vertices(b) * sizeof *b->x, n = (size_t)cells(b) * sizeof *b->centre;
+    *made = *b;
+    b->x = (double(*)[3])NEW(double, 3 * vertices(b));
+    b->centre = (double(*)[3])NEW(double, 3 * cells(b));
+    memcpy(b->x, made->x, nv);
+    memcpy(b->centre, made->centre, n);
+    made->motion = NULL;
+    b->made = made;
+}
+
+static void set_reach(struct mesh_motion *v, const struct mesh_block *b, int dim)
+{
+    for (int64_t k = 0; k < vertices(b); k++) {
+        double r2 = 0.0;
+        for (int c = 0; c < dim; c++)
+            r2 += (b->x[k][c] - v->centre[c]) * (b->x[k][c] - v->centre[c]);
+        v->reach = fmax(v->reach, sqrt(r2));
+    }
+}
+
+static bool ever_turns(const struct body_drive *v)
+{
+    for (int k = 0; k < v->nterms; k++) {
+        const struct body_term *t = v->term + k;
+        if (t->is->kind != MOTION_FILE && t->is->axis >= AXIS_RX)
+            return true;
+        for (int i = 0; i < t->n; i++)
+            for (int c = v->columns == 4 ? 3 : 4; c < v->columns; c++)
+                if (t->rows[(ptrdiff_t)v->columns * i + c] != 0.0)
+                    return true;
+    }
+    return false;
+}
+
+static struct mesh_motion *create_one(const struct run *r, struct faults *f, struct mesh *m, int k)
+{
+    const struct mesh_block_params *p = m->block[k].prm;
+    struct mesh_motion *v = NEW(struct mesh_motion, 1);
+    const int before = f->n;
+    v->block = k;
+    memcpy(v->centre, p->centre, sizeof v->centre);
+    body_drive_terms(&v->drive, &p->motion, m->dim, r->case_dir);
+    for (int i = 0; i < v->drive.nterms; i++) {
+        char text[1400];
+        if (body_term_fault(&v->drive, i, r->case_dir, text, sizeof text))
+            mesh_fault(r, f, k, "motion", "term %d: %s", i + 1, text);
+    }
+    v->turns = f->n == before && ever_turns(&v->drive);
+    m->moves = true;
+    return v;
+}
+
+/* Blocks joined to one that moves have its motion. */
+static bool spread(const struct run *r, struct faults *f, struct mesh *m)
+{
+    bool any = true, good = true;
+    while (any && good) {
+        any = false;
+        for (int k = 0; k < m->nblocks; k++)
+            for (int s = 0; s < 2 * m->dim && m->block[k].motion; s++) {
+                const int to = m->block[k].join[s].block;
+                if (to < 0 || m->block[to].motion == m->block[k].motion)
+                    continue;
+                if (m->block[to].motion) {
+                    mesh_fault(r, f, to, "motion",
+                               "it is joined to block \"%s\", which has a motion, too: one of "
+                               "them has it, the other moves with it",
+                               m->block[k].prm->name);
+                    return false;
+                }
+                m->block[to].motion = m->block[k].motion;
+                any = true;
+            }
+    }
+    return good;
+}
+
+static bool check_sides(const struct run *r, struct faults *f, const struct mesh *m, int k)
+{
+    static const char *const names[] = {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};
+    const struct mesh_block *b = m->block + k;
+    const int before = f->n;
+    bool slides = false;
+    for (int c = 0; c < 3; c++)
+        slides = slides || b->prm->velocity[c] != 0.0;
+    for (int s = 0; s < 2 * m->dim; s++)
+        if (b->wall[s] || b->side[s] == MESH_PERIODIC || b->side[s] == MESH_INFLOW ||
+            b->side[s] == MESH_OUTFLOW || b->side[s] == MESH_EXACT)
+            mesh_fault(r, f, k, names[s],
+                       "a side of a block that moves is \"wall\", \"slip\", \"joined\" or "
+                       "\"overlap\", within the domain");
+    if (slides)
+        mesh_fault(r, f, k, "velocity",
+                   "walls of a block that moves have its velocity; turn them by spin");
+    return f->n == before;
+}
+
+bool mesh_motion_create(const struct run *r, struct faults *f, struct mesh *m, double t)
+{
+    const int before = f->n;
+    for (int k = 0; k < m->nblocks; k++)
+        m->block[k].made = m->block + k;
+    for (int k = 0; k < m->nblocks; k++)
+        if (mesh_motion_told(k))
+            m->block[k].motion = create_one(r, f, m, k);
+    if (!m->moves)
+        return true;
+    bool good = spread(r, f, m) && f->n == before;
+    for (int k = 0; k < m->nblocks; k++)
+        if (m->block[k].motion) {
+            good = check_sides(r, f, m, k) && good;
+            keep_made(m->block + k);
+            set_reach(m->block[k].motion, m->block + k, m->dim);
+        }
+    for (int k = 0; k < m->nblocks && good; k++) {
+        struct mesh_motion *v = m->block[k].motion;
+        if (v && v->block == k)
+            v->speed = body_drive_speed(&v->drive, v->turns ? v->reach : 0.0, r->scene.time.end);
+    }
+    if (good)
+        mesh_motion_place(m, t);
+    return good;
+}
+
+void mesh_motion_free(struct mesh *m)
+{
+    for (int k = 0; k < m->nblocks; k++) {
+        struct mesh_block *b = m->block + k;
+        if (b->motion && b->motion->block == k) {
+            body_drive_free(&b->motion->drive);
+            mem_free(b->motion);
+        }
+        if (b->made && b->made != b) {
+            mem_free(b->made->x);
+            mem_free(b->made->centre);
+            mem_free((struct mesh_block *)b->made);
+        }
+        mem_free(b->faces);
+    }
+    for (int a = 0; a < 3; a++)
+        mem_free(m->grid[a]);
+}
+
+static void keep_faces(struct mesh *m, const struct part *p)
+{
+    struct mesh_block *b = m->block + p->block;
+    const int most[3] = {p->n[0] + p->g[0], p->n[1] + p->g[1], p->n[2] + p->g[2]};
+    b->faces = NEW(double, 6 * m->dim * p->size);
+    for (int k = -p->g[2]; k < most[2]; k++)
+        for (int j = -p->g[1]; j < most[1]; j++)
+            for (int i = -p->g[0]; i < most[0]; i++)
+                for (int a = 0; a < m->dim; a++) {
+                    const int64_t c = part_at(p, i, j, k);
+                    const int at[3] = {p->lo[0] + i, p->lo[1] + j, p->lo[2] + k};
+                    double *S = b->faces + 6 * (m->dim * (c - p->base) + a);
+                    for (int q = 0; q < m->dim; q++)
+                        S[q] = m->S[a][q][c];
+                    mesh_face_moment(b->made, m->dim, at, a, b->motion->centre, S + 3);
+                }
+}
+
+void mesh_motion_metrics(struct mesh *m)
+{
+    if (!m->moves)
+        return;
+    for (int a = 0; a < m->dim; a++)
+        m->grid[a] = mesh_field(m);
+    for (int q = 0; q < m->nparts; q++) {
+        struct part *p = m->part + q;
+        const struct mesh_motion *v = m->block[p->block].motion;
+        if (!v)
+            continue;
+        keep_faces(m, p);
+        if (v->turns)
+            p->kind = PART_CURVED;
+        place_faces(m, p);
+    }
+}

@@ -1,0 +1,443 @@
+/* moving.c - see moving.h. A block's cells carry u and p along, so a step's equations are those of
+ * the moving frame: fluxes relative to the faces, no other term, as blocks are rigid.
+ * Where blocks meet the values of one at the places of the other change with the motion. I_k
+ * interpolates at the time of stage k, c_k dt after the step's start:
+ *   psi   p + psi is continuous at the time that a stage's pressure stands for, e_k dt after the
+ *         start: 0, 5/3, 5/6 in rk3, that of the convection it balances, and 1 in bdf2. Hence
+ *         psi = I psi + (e_k/c_k) (I_k p - p). The I of psi, which is of the order of the step, is
+ *         that of the middle of the step: one matrix a step.
+ *   u*    lacks tau grad psi, in which psi is that of the cells: u* = I_k u* + tau (e_k/c_k) (I_k
+ *         grad p - grad p). The viscous increment is this with u_k-1 in place of u*, less u_k-1,
+ *         beyond the interpolated increment.
+ * The hierarchy of a matrix before preconditions until iterations have grown by a half.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "moving.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/body_math.h"
+#include "../../common/h5.h"
+#include "../../common/mem.h"
+#include "../boundary/mesh_bc.h"
+#include "../grid/mesh_motion.h"
+#include "../grid/overset.h"
+#include "../operators/mesh_ops.h"
+#include "../poisson/poisson.h"
+#include "rk3.h"
+
+static const int none[3] = {0, 0, 0};
+
+struct moving {
+    double t_cut, t_rows; /* s: middle of the last step; of that whose matrix has the hierarchy */
+    double fresh;       /* iterations of the step that made the hierarchy; 0: the next makes one */
+    int64_t iterations; /* before the step */
+    double tau;         /* s: length of the stage */
+    double *push[3];    /* m/s^2: in the fringe, grad psi there beyond that of the donors */
+    double *first[3];   /* m/s^2: grad p of the step's start */
+    double *now[4];     /* scratch: that, and p, by the donors of a stage */
+    int stage;
+    unsigned char *status[MESH_BLOCKS_MAX]; /* before the step */
+    unsigned char *born[MESH_BLOCKS_MAX];   /* 1: computed now, nothing before */
+    unsigned char *local;                   /* m->status before the step */
+    double least;                           /* m: least height of a cell of the fringe */
+};
+
+static int64_t count_of(const struct mesh_block *b) { return (int64_t)b->n[0] * b->n[1] * b->n[2]; }
+
+/* Height of the flattest cell where blocks meet, all ranks; it hardly changes. */
+static double least_height(const struct mesh *m)
+{
+    double least = INFINITY;
+    for (int q = 0; q < m->nparts; q++)
+        PART_ROWS (m->part + q, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                for (int a = 0; a < m->dim && m->status[i] == CELL_FRINGE; a++) {
+                    double S2 = 0.0;
+                    for (int k = 0; k < m->dim; k++)
+                        S2 += m->S[a][k][i] * m->S[a][k][i];
+                    least = fmin(least, m->V[i] / sqrt(S2));
+                }
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m->comm);
+    return least;
+}
+
+struct moving *moving_create(struct fv *s)
+{
+    struct mesh *m = s->m;
+    if (!m->moves)
+        return NULL;
+    struct moving *v = NEW(struct moving, 1);
+    for (int a = 0; a < 4; a++) {
+        v->now[a] = mesh_field(m);
+        if (a < m->dim) {
+            v->push[a] = mesh_field(m);
+            v->first[a] = mesh_field(m);
+        }
+    }
+    v->local = NEW(unsigned char, m->size_local);
+    for (int k = 0; k < m->nblocks; k++) {
+        v->status[k] = NEW(unsigned char, count_of(m->block + k));
+        v->born[k] = NEW(unsigned char, count_of(m->block + k));
+    }
+    v->t_cut = v->t_rows = s->t;
+    v->least = least_height(m);
+    s->jump = mesh_field(m);
+    for (int a = 0; a < m->dim; a++)
+        s->change[a] = mesh_field(m);
+    if (!mesh_bc_pressure_given(s))
+        s->zw = mesh_field(m);
+    return v;
+}
+
+void moving_free(struct moving **vp)
+{
+    struct moving *v = *vp;
+    if (!v)
+        return;
+    for (int k = 0; k < MESH_BLOCKS_MAX; k++) {
+        mem_free(v->status[k]);
+        mem_free(v->born[k]);
+    }
+    for (int a = 0; a < 4; a++) {
+        mem_free(v->now[a]);
+        mem_free(a < 3 ? v->push[a] : NULL);
+        mem_free(a < 3 ? v->first[a] : NULL);
+    }
+    mem_free(v->local);
+    mem_free(v);
+    *vp = NULL;
+}
+
+const char *moving_trouble(const struct fv *s) { return s->m ? s->m->trouble : ""; }
+
+/* --- what cells are --- */
+
+/* All blocks' status and the store change places. */
+static void swap_status(struct mesh *m, struct moving *v)
+{
+    for (int k = 0; k < m->nblocks; k++) {
+        unsigned char *now = m->block[k].status;
+        m->block[k].status = v->status[k];
+        v->status[k] = now;
+    }
+}
+
+static void set_free(struct fv *s)
+{
+    const struct mesh *m = s->m;
+    mesh_set_status(s->m);
+    for (int q = 0; q < m->nparts; q++)
+        PART_ROWS (m->part + q, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                s->free[i] = m->status[i] == CELL_COMPUTED;
+}
+
+/* Cells for a step whose middle is at t. */
+static void cut(struct fv *s, double t)
+{
+    struct mesh *m = s->m;
+    mesh_motion_place(m, t);
+    if (m->has_fringe) {
+        overset_cut(m, m->search);
+        overset_find_rows(m, m->search);
+    }
+    set_free(s);
+    s->moving->t_cut = t;
+}
+
+/* Computed cells that were not even interpolated. */
+static bool find_born(struct fv *s)
+{
+    struct moving *v = s->moving;
+    bool any = false;
+    for (int k = 0; k < s->m->nblocks; k++)
+        for (int64_t c = 0; c < count_of(s->m->block + k); c++) {
+            v->born[k][c] =
+                s->m->block[k].status[c] == CELL_COMPUTED && v->status[k][c] == CELL_HOLE;
+            any = any || v->born[k][c];
+        }
+    return any;
+}
+
+static int carried(const struct fv *s, double **f)
+{
+    int n = 0;
+    f[n++] = s->p;
+    f[n++] = s->p_before;
+    for (int a = 0; a < 3; a++) {
+        double *const all[] = {s->u[a], s->u_old[a], s->psi[a], s->start[a]};
+        for (int k = 0; k < 4; k++)
+            if (all[k])
+                f[n++] = all[k];
+    }
+    return n;
+}
+
+/* From the blocks where they stood, and the cells that were. */
+static void fill_born(struct fv *s)
+{
+    double *f[14];
+    const int n = carried(s, f);
+    swap_status(s->m, s->moving);
+    overset_interpolate(s->m, s->m->search, s->moving->born, n, f);
+    swap_status(s->m, s->moving);
+}
+
+/* Fluxes between cells that the last projection did not have: those of the interpolated velocity.
+ */
+static void fill_fluxes(struct fv *s)
+{
+    const struct mesh *m = s->m;
+    const unsigned char *was = s->moving->local;
+    mesh_face_velocities(s, s->u, s->rhs);
+    mesh_bc_fluxes(s, s->rhs);
+    for (int q = 0; q < m->nparts; q++)
+        for (int a = 0; a < m->dim; a++) {
+            const struct part *p = m->part + q;
+            const int64_t d = p->stride[a];
+            int up[3] = {0, 0, 0};
+            up[a] = 1;
+            PART_ROWS (p, none, up, c, n)
+                for (int64_t i = c; i < c + n; i++)
+                    if (was[i] != CELL_COMPUTED && was[i - d] != CELL_COMPUTED)
+                        s->U[a][i] = s->rhs[a][i];
+        }
+}
+
+/* Donors of the last step's end are those of this one's start then. */
+static bool is_as_before(const struct mesh *m, const struct moving *v)
+{
+    bool same = true;
+    for (int k = 0; k < m->nblocks && same; k++)
+        same = memcmp(v->status[k], m->block[k].status, (size_t)count_of(m->block + k)) == 0;
+    return same;
+}
+
+static void renew_matrix(struct fv *s)
+{
+    struct moving *v = s->moving;
+    const bool hierarchy = v->fresh == 0.0;
+    v->t_rows = hierarchy ? v->t_cut : v->t_rows;
+    timer_start(&s->run->timers, "pressure");
+    poisson_renew(s, hierarchy);
+    timer_stop(&s->run->timers, "pressure");
+}
+
+void moving_begin(struct fv *s)
+{
+    struct moving *v = s->moving;
+    struct mesh *m = s->m;
+    v->iterations = s->iterations;
+    v->stage = 0;
+    if (m->has_fringe) {
+        timer_start(&s->run->timers, "overlap");
+        for (int k = 0; k < m->nblocks; k++)
+            memcpy(v->status[k], m->block[k].status, (size_t)count_of(m->block + k));
+        memcpy(v->local, m->status, (size_t)m->size_local);
+        cut(s, s->t + 0.5 * s->dt_now);
+        timer_stop(&s->run->timers, "overlap");
+        renew_matrix(s);
+        timer_start(&s->run->timers, "overlap");
+        mesh_motion_place(m, s->t);
+        if (!is_as_before(m, v)) {
+            if (find_born(s))
+                fill_born(s);
+            overset_find(m, m->search);
+        }
+        timer_stop(&s->run->timers, "overlap");
+        mesh_fill(m, 1, &s->p);
+        mesh_fill(m, m->dim, s->u);
+        mesh_bc_velocity(s, BC_GIVEN, s->u);
+        fill_fluxes(s);
+    }
+}
+
+/* --- stages --- */
+
+static void turn_back_and_on(struct mesh_motion *v, double from, double to, double R[3][3])
+{
+    struct body_motion a, b;
+    body_drive_motion(&v->drive, from, &a);
+    body_drive_motion(&v->drive, to, &b);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            R[i][j] = vec3_dot(b.Q[i], a.Q[j]);
+}
+
+/* Place of a stage's pressure in the step: of rk3 the mean of the times whose convection it
+ * balances. */
+static double pressure_at(const struct fv *s)
+{
+    const int k = s->moving->stage;
+    if (s->prm.integrator == INTEGRATOR_BDF2)
+        return 1.0;
+    const double c1 = k > 0 ? rk3_at[k - 1] : 0.0, c0 = k > 1 ? rk3_at[k - 2] : 0.0;
+    return (rk3_gamma[k] * c1 + rk3_zeta[k] * c0) / (rk3_gamma[k] + rk3_zeta[k]);
+}
+
+void moving_gradient(struct fv *s)
+{
+    mesh_fill(s->m, s->dim, s->step_p);
+    for (int a = 0; a < s->dim; a++)
+        memcpy(s->moving->first[a], s->step_p[a], (size_t)s->size * sizeof(double));
+}
+
+/* g = the gradient of the step's start as it has turned until t, ghosts and all. */
+static void turn_gradient(struct fv *s, double t, double *const g[3])
+{
+    const struct mesh *m = s->m;
+    double *const *first = s->moving->first, R[3][3];
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *p = m->part + q;
+        struct mesh_motion *w = m->block[p->block].motion;
+        const bool turns = w && w->turns;
+        for (int a = 0; a < m->dim && !turns; a++)
+            memcpy(g[a] + p->base, first[a] + p->base, (size_t)p->size * sizeof(double));
+        if (!turns)
+            continue;
+        turn_back_and_on(w, s->t, t, R);
+        for (int64_t c = p->base; c < p->base + p->size; c++)
+            for (int a = 0; a < m->dim; a++) {
+                g[a][c] = 0.0;
+                for (int k = 0; k < m->dim; k++)
+                    g[a][c] += R[a][k] * first[k][c];
+            }
+    }
+}
+
+void moving_turn_pressure(struct fv *s, double tau)
+{
+    s->moving->tau = tau;
+    turn_gradient(s, s->t + pressure_at(s) * s->dt_now, s->step_p);
+}
+
+void moving_convection(struct fv *s, double *const N[3])
+{
+    const struct mesh *m = s->m;
+    const unsigned char *was = s->moving->local;
+    for (int q = 0; q < m->nparts && s->prm.integrator == INTEGRATOR_BDF2 && m->has_fringe; q++)
+        PART_ROWS (m->part + q, none, none, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                for (int a = 0; a < m->dim && was[i] != CELL_COMPUTED; a++)
+                    s->N_old[a][i] = N[a][i];
+}
+
+void moving_stage(struct fv *s, double t)
+{
+    struct moving *v = s->moving;
+    struct mesh *m = s->m;
+    const double f = pressure_at(s) * s->dt_now / (t - s->t);
+    v->stage++;
+    timer_start(&s->run->timers, "overlap");
+    mesh_motion_place(m, t);
+    if (m->has_fringe) {
+        overset_find(m, m->search);
+        turn_gradient(s, t, v->now);
+        memcpy(v->now[m->dim], s->p, (size_t)s->size * sizeof(double));
+        mesh_exchange(m, &m->fringe, m->dim + 1, v->now);
+        for (int64_t c = 0; c < s->size; c++) {
+            s->jump[c] = f * (v->now[m->dim][c] - s->p[c]);
+            for (int a = 0; a < m->dim; a++)
+                v->push[a][c] = (1.0 - f) * v->first[a][c] + f * v->now[a][c] - s->step_p[a][c];
+        }
+    }
+    timer_stop(&s->run->timers, "overlap");
+}
+
+void moving_fill(struct fv *s, double *const u[3])
+{
+    const struct mesh *m = s->m;
+    mesh_fill(s->m, m->dim, u);
+    for (int a = 0; a < m->dim; a++)
+        for (int64_t c = 0; c < s->size; c++)
+            u[a][c] += m->status[c] == CELL_FRINGE ? s->moving->tau * s->moving->push[a][c] : 0.0;
+    mesh_halo(s->m, m->dim, u);
+}
+
+void moving_change(struct fv *s)
+{
+    const struct mesh *m = s->m;
+    double *const *delta = s->change;
+    for (int a = 0; a < m->dim; a++)
+        memcpy(delta[a], s->u[a], (size_t)s->size * sizeof(double));
+    moving_fill(s, delta);
+    for (int a = 0; a < m->dim; a++)
+        for (int64_t c = 0; c < s->size; c++)
+            delta[a][c] = m->status[c] == CELL_FRINGE ? delta[a][c] - s->u[a][c] : 0.0;
+}
+
+void moving_end(struct fv *s)
+{
+    struct moving *v = s->moving;
+    const double its = (double)(s->iterations - v->iterations);
+    if (v->fresh == 0.0)
+        v->fresh = fmax(its, 1.0);
+    else if (its > 1.5 * v->fresh + 2.0)
+        v->fresh = 0.0;
+}
+
+/* The largest speed in as long as a step may last, beside what it is now. */
+double moving_rate(const struct fv *s)
+{
+    const struct mesh *m = s->m;
+    const struct moving *v = s->moving;
+    double most = 0.0;
+    for (int k = 0; k < m->nblocks; k++) {
+        const struct mesh_motion *w = m->block[k].motion;
+        struct body_motion now;
+        if (!w || w->block != k)
+            continue;
+        const double reach = w->turns ? w->reach : 0.0;
+        const double ahead = s->dt > 0.0 ? 2.0 * s->dt : v->least / fmax(w->speed, 1e-300);
+        for (int e = 0; e < 5; e++) {
+            body_drive_motion(&w->drive, s->t + 0.25 * e * ahead, &now);
+            most = fmax(most, vec3_length(now.u) + reach * vec3_length(now.omega));
+        }
+    }
+    return m->has_fringe ? sqrt((double)m->dim) * most / v->least : 0.0;
+}
+
+/* --- restart --- */
+
+void moving_save(const struct fv *s, struct h5 *f)
+{
+    const struct moving *v = s->moving;
+    if (!v)
+        return;
+    h5_attribute_real(f, "t_cut", v->t_cut);
+    h5_attribute_real(f, "t_rows", v->t_rows);
+    h5_attribute_real(f, "fresh", v->fresh);
+}
+
+/* The hierarchy is made of the matrix that it had, then cells and donors are those of the last
+ * step's end. */
+bool moving_restore(struct fv *s, struct h5 *f)
+{
+    struct moving *v = s->moving;
+    double t_cut, t_rows, fresh;
+    if (!v)
+        return true;
+    if (!h5_read_attribute_real(f, "t_cut", &t_cut) ||
+        !h5_read_attribute_real(f, "t_rows", &t_rows) ||
+        !h5_read_attribute_real(f, "fresh", &fresh))
+        return false;
+    if (s->m->has_fringe && fresh > 0.0) {
+        double *zw = mesh_field(s->m);
+        if (s->zw)
+            memcpy(zw, s->zw, (size_t)s->size * sizeof(double));
+        cut(s, t_rows);
+        v->fresh = 0.0;
+        renew_matrix(s);
+        if (s->zw)
+            memcpy(s->zw, zw, (size_t)s->size * sizeof(double));
+        mem_free(zw);
+    }
+    v->fresh = fresh;
+    if (s->m->has_fringe)
+        cut(s, t_cut);
+    mesh_motion_place(s->m, s->t);
+    if (s->m->has_fringe)
+        overset_find(s->m, s->m->search);
+    return true;
+}

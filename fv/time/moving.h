@@ -1,0 +1,38 @@
+/* moving.h - steps of blocks that move. What cells are is found once a step, for the middle of it;
+ * blocks stand at each stage's own time, where donors are found anew. The pressure goes with the
+ * cells: psi in the fringe is what its donors have less what p there has, see moving.c.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_MOVING_H
+#define FV_MOVING_H
+
+#include "../boundary/bc.h"
+#include "../fv.h"
+
+struct h5;
+
+/* NULL: no block moves. */
+struct moving *moving_create(struct fv *s);
+void moving_free(struct moving **v);
+/* What the cells are in the step of s->dt_now that begins; values of new ones. */
+void moving_begin(struct fv *s);
+/* step_p in the fringe, before the blocks move. */
+void moving_gradient(struct fv *s);
+/* u*, ahead of its projection, in the fringe. */
+void moving_fill(struct fv *s, double *const u[3]);
+/* The gradient of the step's pressure turns with the cells, to a stage of length tau. */
+void moving_turn_pressure(struct fv *s, double tau);
+/* bdf2: cells without a convection of the step before. */
+void moving_convection(struct fv *s, double *const N[3]);
+/* Blocks, walls and donors at the time of a stage. */
+void moving_stage(struct fv *s, double t);
+/* s->change: what delta has in the fringe beyond its interpolation. */
+void moving_change(struct fv *s);
+void moving_end(struct fv *s);
+/* Cells that moving blocks pass a second now or within a step, 1/s. */
+double moving_rate(const struct fv *s);
+/* What stops the run, over this rank: "": nothing. */
+const char *moving_trouble(const struct fv *s);
+void moving_save(const struct fv *s, struct h5 *f);
+bool moving_restore(struct fv *s, struct h5 *f);
+
+#endif
