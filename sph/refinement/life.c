@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "../../common/mem.h"
+#include "../walls/walls.h"
 
 static const double hysteresis = 0.5;                   /* coarser dx */
 static const double paid_back = 0.01, most_paid = 1e-5; /* a step: of the debt; of the mass */
@@ -84,12 +85,37 @@ static void bear(const struct sph *s, struct sph *fine, int i, const double *d)
     memcpy(slope_line(&fine->p, k), grad, (size_t)s->p.nslope * sizeof *grad);
 }
 
+/* Changes the way d from a mother at x, h from a wall, less than the half spacing that she fills,
+ * to a child such that both are as far from that wall, each in its own spacings, and so from the
+ * next wall in a corner: a layer that packing or the flow has put there becomes two, with nobody
+ * behind walls, at any number of levels. A way that meets a wall yet ends halfway before it. */
+static void heed_walls(const struct sph *s, const double *x, double h, const double *way, double *d)
+{
+    const int dim = s->dim;
+    double along = 0.0, aside[3];
+    for (int a = 0; a < dim; a++)
+        along += d[a] * way[a] / h;
+    for (int a = 0; a < dim; a++)
+        aside[a] = 2.0 * (d[a] - along * way[a] / h);
+    const double free = 0.5 * walls_meet(s, x, aside), ahead = along > 0.0 ? 2.0 * h / s->dx : 1.0;
+    for (int a = 0; a < dim; a++)
+        d[a] = free * aside[a] + ahead * along * way[a] / h;
+    const double share = walls_meet(s, x, d);
+    for (int a = 0; a < dim && share < 1.0; a++)
+        d[a] *= 0.5 * share;
+}
+
 static void give_birth(struct sph *s, int i)
 {
+    const double *x = state_row(&s->p, s->p.y, i);
+    double way[3];
+    const double reach = 0.5 * s->dx, h = s->walls ? walls_way(s, x, reach, way) : reach;
     for (int k = 0; k < 1 << s->dim; k++) {
         double d[3];
         for (int a = 0; a < 3; a++)
             d[a] = (k >> a & 1 ? 0.25 : -0.25) * s->dx;
+        if (h > 0.0 && h < reach)
+            heed_walls(s, x, h, way, d);
         bear(s, s->finer, i, d);
     }
     s->p.role[i] |= ROLE_MOTHER;
