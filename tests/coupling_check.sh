@@ -57,7 +57,8 @@ fv:      { cells = (64, 40); };
 CASE
 accepts basin.cfg
 refuses "a surface in the transition" 'there is no water' basin.cfg -p 'sph.box=((0,0.44),(2,1.2))'
-refuses "a part of the width under a surface" 'ends at x = 0.5 m under a free surface' basin.cfg -p 'sph.box=((0.5,0.1),(1.5,1.2))'
+accepts basin.cfg -p 'sph.box=((0.5,0.0),(1.5,1.2))' # the surface crosses its sides
+refuses "a crossing surface in 3D" 'tried in 2D only' standing_wave_3d -p 'sph.box=((0.25,0,0),(1.75,1.25,2))'
 sed '/x_max/s/, { side = "x_max"; }//' basin.cfg >open.cfg
 refuses "a side without a wall" 'which has no wall' open.cfg
 cat >body.cfg <<'CASE'

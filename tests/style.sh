@@ -33,7 +33,6 @@ sph/open_boundaries/zones.c sph/open_boundaries/openings.h
 sph/open_boundaries/zones.c sph/open_boundaries/level_gap.h
 sph/open_boundaries/zones.c sph/open_boundaries/wet_faces.h
 sph/open_boundaries/openings.c sph/open_boundaries/wet_faces.h
-fv/surface/levelset.c fv/surface/surface_forced.h
 sph/pairs/scheme_gradients.c sph/surface/surface.h
 sph/walls/walls.c sph/walls/forces.h
 sph/bodies/sph_bodies.c sph/case/sph_sense.h"

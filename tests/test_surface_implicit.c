@@ -85,11 +85,13 @@ static void waves_swing_as_theory_says(void **state)
     swing("fv.cells=(32,40)", "fv.graded=(0,0)", BDF2, "fv.cfl=0.5", "fluid.nu=2e-3", &T, &r);
     assert_close(T, 0.0, 0.002);
     assert_close(r, 0.0, 0.03);
+    swing("fv.cells=(16,24)", "fv.graded=(1.1,8)", NEWTON, "fv.cfl=0.7", "fluid.nu=2e-3", &T, &r);
+    assert_close(T, 0.0, 0.005);
+    if (SANITIZED)
+        return;
     swing("fv.cells=(32,40)", "fv.graded=(0,0)", NEWTON, "fv.cfl=1.16", "fluid.nu=2e-3", &T, &r);
     assert_close(T, 0.0, 0.002);
     assert_close(r, 0.0, 0.03);
-    swing("fv.cells=(16,24)", "fv.graded=(1.1,8)", NEWTON, "fv.cfl=0.7", "fluid.nu=2e-3", &T, &r);
-    assert_close(T, 0.0, 0.005);
     swing("fv.cells=(16,64)", "fv.graded=(0,0)", NEWTON, "fv.cfl=1.5", "fluid.nu=0.05", &T, &r);
     assert_close(T, 0.0, 0.03);
     assert_close(r, 0.0, 0.1); /* eleven steps a period */
@@ -104,7 +106,7 @@ static void columns_fall(void **state)
     (void)state;
     static const struct scene_shape column = {.form = SHAPE_BOX,
                                               .box = {{0, 0, 0}, {0.31, 0.61, 0.57}}};
-    for (int k = 0; k < 3; k++) {
+    for (int k = SANITIZED; k < (SANITIZED ? 2 : 3); k++) {
         struct fv_case c;
         struct fv *s =
             start(&c, MPI_COMM_WORLD,

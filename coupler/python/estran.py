@@ -12,7 +12,7 @@ from mpi4py import MPI
 VERSION, NAME, TERMS = 3, 64, 4  # of the cpl.h that this file was written for
 RUN, OUTPUT, SAVE, STOP = 1, 2, 4, 8
 PUT, GET, OPTIONAL = 1, 2, 4
-SHEPARD, MLS, NEAREST, CONSERVATIVE = 0, 1, 2, 16
+SHEPARD, MLS, NEAREST, SUM, CONSERVATIVE = 0, 1, 2, 3, 16
 LINEAR, CUBIC = 0, 1
 START, END, BETWEEN = 0, 1, 2
 

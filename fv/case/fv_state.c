@@ -11,6 +11,7 @@
 #include "../operators/blocked_cells.h"
 #include "../boundary/forcing.h"
 #include "../surface/levelset.h"
+#include "../surface/surface_forced.h"
 #include "../watch/limits.h"
 #include "../time/newton.h"
 #include "../time/stages.h"
@@ -251,6 +252,8 @@ void fv_free(struct fv **sp)
     pressure_free(&s->pressure);
     forcing_free(&s->forcing);
     blocked_free(&s->blocked);
+    if (s->surface)
+        surface_forced_free(&s->surface->forced);
     surface_free(&s->surface);
     fit_free(&s->swing);
     bc_free(&s->bc);

@@ -12,7 +12,6 @@
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "mesh_view.h"
-#include "surface_forced.h"
 #include "weno.h"
 
 enum { BAND = 5 }; /* cells on either side of the surface that are advected */
@@ -376,7 +375,6 @@ void surface_free(struct surface **fp)
     struct surface *f = *fp;
     if (!f)
         return;
-    surface_forced_free(&f->forced);
     mem_free(f->closed);
     mem_free(f->phi);
     mem_free(f->phi_new);

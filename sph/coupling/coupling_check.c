@@ -241,6 +241,10 @@ void coupling_check(const struct run *r, struct faults *f)
                      "smaller than the domain, or leave out group fv");
         return;
     }
+    if (r->crossed && r->scene.domain.dim == 3)
+        params_fault(r->params, f, "sph.box",
+                     "it ends in the water at an upright side: that the surface crosses it was "
+                     "tried in 2D only; let the box span the domain across gravity");
     struct water w = {.scene = &r->scene, .dx = prm->dx, .exact = exact_create(&r->scene)};
     zones_given_box(r, prm, w.given[0], w.given[1]);
     find_hidden(r, prm, w.hidden);

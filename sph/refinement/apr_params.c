@@ -31,7 +31,7 @@ static const struct param_list regions = {
 #define P struct apr_criterion
 static const struct param criterion_rows[] = {
     PARAM(P, level, "-", "0", 0, APR_LEVELS_MAX, "finest level that it asks for; 0: apr.levels"),
-    CHOICE(P, kind, "surface|vorticity|pressure|jump", "vorticity", "nearness of the free surface; |curl u| dx/U, U the largest speed so far; |grad p| dx/(rho max(u^2, g dx)); jump of p between particles after reconstruction, over rho max(u^2, g dx); dx of the coarser level"),
+    CHOICE(P, kind, "surface|vorticity|pressure|jump", "vorticity", "nearness of the free surface; size of the curl of u times dx/U, U the largest speed so far; size of the gradient of p times dx/(rho max(u^2, g dx)); jump of p between particles after reconstruction, over rho max(u^2, g dx); dx of the coarser level"),
     PARAM(P, above,    "-", "0.0", 0, 1e9, "refined where it is larger than this, released below a third of it"),
     PARAM(P, distance, "-", "0.0", 0, 100, "of kind surface: refined so many R of the coarser level around it"),
 };

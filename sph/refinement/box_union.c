@@ -134,7 +134,8 @@ static void find_rest(struct box_union *u, double near)
 struct box_union box_union_create(int dim, int n, const struct box *box, double near)
 {
     struct box_union u = {.dim = dim, .n = n, .near = near, .of = NEW(struct box, n)};
-    memcpy(u.of, box, (size_t)n * sizeof *box);
+    if (n > 0)
+        memcpy(u.of, box, (size_t)n * sizeof *box);
     for (int k = 0; k < n && dim == 2; k++) {
         u.of[k].lo[2] = -INFINITY;
         u.of[k].hi[2] = INFINITY;

@@ -330,8 +330,9 @@ static void measure_state(struct sph *s, double most[][EXTREMES])
 
 static void clear(double most[][EXTREMES])
 {
-    for (int k = 0; k < LEVELS * EXTREMES; k++)
-        most[0][k] = -1e300;
+    for (int l = 0; l < LEVELS; l++)
+        for (int k = 0; k < EXTREMES; k++)
+            most[l][k] = -1e300;
 }
 
 /* What a level knows of the whole flow; its signal is its own. */
