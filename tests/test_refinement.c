@@ -5,6 +5,7 @@
 #include "../sph/refinement/apr_params.h"
 #include "../sph/refinement/guards.h"
 #include "../sph/refinement/refinement.h"
+#include "../sph/walls/walls.h"
 #include "sph_case.h"
 
 /* A box of the finest level. */
@@ -169,11 +170,43 @@ static void guards_take_linear_fields(void **state)
     refine_nothing();
 }
 
+/* Levels about an oblique face, whose first particles were packed: children of all generations
+ * stand before it, and none is lost in the first steps. */
+static void nobody_is_born_behind_walls(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    long behind = 0;
+    start_at_rest(&c, 2, 40);
+    c.prm.R_dx = 3.0;
+    c.prm.packing = 40;
+    c.run.scene.nbodies = 1;
+    c.run.scene.bodies[0].points.n = 3;
+    memcpy(c.run.scene.bodies[0].points.x, (double[3][2]){{0.3, 0.3}, {0.5, 0.7}, {0.7, 0.3}},
+           6 * sizeof(double));
+    refine(&c, 6, 0.0, 0.0);
+    apr_given.margin = 1.5;
+    memcpy(apr_given.regions.of[0].min, (double[2]){0.38, 0.48}, 2 * sizeof(double));
+    memcpy(apr_given.regions.of[0].max, (double[2]){0.42, 0.52}, 2 * sizeof(double));
+    struct sph *s = sph_case_start(&c, NULL);
+    for (const struct sph *q = s; q; q = q->finer) {
+        assert_true(flowing(q) > 0.0);
+        for (int i = 0; i < q->p.n; i++)
+            behind += !(walls_distance(q->walls, state_row(&q->p, q->p.y, i), 1.0) > 0.0);
+    }
+    assert_true(none_anywhere(behind));
+    assert_true(sph_case_run(&c, 3, 100.0));
+    assert_true(max_anywhere(s->lost) == 0.0);
+    sph_free(&c.s);
+    refine_nothing();
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(translation_is_exact), cmocka_unit_test(nested_boxes_and_space_are_exact),
-        cmocka_unit_test(empty_levels_run), cmocka_unit_test(guards_take_linear_fields)};
+        cmocka_unit_test(empty_levels_run), cmocka_unit_test(guards_take_linear_fields),
+        cmocka_unit_test(nobody_is_born_behind_walls)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

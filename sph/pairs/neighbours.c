@@ -150,18 +150,16 @@ void neighbours_sort(struct sph *s)
     particles_permute(&s->p, s->p.n, g->order, s->guards != NULL);
 }
 
+/* Keeps what is there. */
 static void near_room(struct grid *g, int n)
 {
     if (n <= g->near_capacity)
         return;
-    int capacity = 0;
-    for (int a = 0; a < 3; a++) {
-        capacity = 0;
-        ROOM(g->x[a], capacity, n);
-    }
-    capacity = 0;
-    ROOM(g->id, capacity, n);
-    g->near_capacity = capacity;
+    const int old = g->near_capacity, more = n + n / 4 + 64;
+    for (int a = 0; a < 3; a++)
+        GROW(g->x[a], old, more);
+    GROW(g->id, old, more);
+    g->near_capacity = more;
 }
 
 /* Box of the particles of a cell. */
@@ -422,35 +420,63 @@ static void cell_range(const struct grid *g, int a, double x, double reach, int 
     *last = hi > 1.0 ? hi < most ? (int)hi : most : 1;
 }
 
-int neighbours_within(const struct sph *s, const double *x, double reach, int n, int **found,
-                      int *capacity)
+/* Of the locals or ghosts of some cells that follow each other. */
+INLINE void gather_row(const struct sph *s, struct grid *g, const struct box *b, int from, int end,
+                       const unsigned char *ghost_role, const int dim)
+{
+    for (int k = from; k < end; k++) {
+        const int j = ghost_role ? g->n + g->order[k] : k;
+        const int role = ghost_role ? ghost_role[g->order[k]] : s->p.role[k];
+        if (!(role & ROLE_GUARD))
+            copy_near(s, g, b, j, dim);
+    }
+}
+
+INLINE void gather(const struct sph *s, const struct box *b, double reach,
+                   const unsigned char *ghost_role, const int dim)
+{
+    struct grid *g = s->list->grid;
+    int first[3] = {0, 0, 0}, last[3] = {0, 0, 0}, unused;
+    for (int a = 0; a < dim; a++) {
+        cell_range(g, a, b->lo[a], reach, first + a, &unused);
+        cell_range(g, a, b->hi[a], reach, &unused, last + a);
+    }
+    g->near = 0;
+    for (int c = first[2]; c <= last[2]; c++)
+        for (int r = first[1]; r <= last[1]; r++) {
+            const int row = g->cells[0] * (r + g->cells[1] * c);
+            const int *own = g->first + row, *ghost = g->ghost + row;
+            const int from = first[0], end = last[0] + 1;
+            near_room(g, g->near + own[end] - own[from] + ghost[end] - ghost[from] + LANES);
+            gather_row(s, g, b, own[from], own[end], NULL, dim);
+            gather_row(s, g, b, ghost[from], ghost[end], ghost_role, dim);
+        }
+}
+
+void neighbours_gather(const struct sph *s, const double *lo, const double *hi, double reach,
+                       const unsigned char *ghost_role)
+{
+    struct box b = {.reach2 = reach * reach};
+    memcpy(b.lo, lo, (size_t)s->dim * sizeof *lo);
+    memcpy(b.hi, hi, (size_t)s->dim * sizeof *hi);
+    if (s->dim == 2)
+        gather(s, &b, reach, ghost_role, 2);
+    else
+        gather(s, &b, reach, ghost_role, 3);
+}
+
+int neighbours_pick(const struct sph *s, const double *x, double reach, int n, int **found,
+                    int *capacity)
 {
     const struct grid *g = s->list->grid;
-    int first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
-    for (int a = 0; a < g->dim; a++)
-        cell_range(g, a, x[a], reach, first + a, last + a);
-    for (int c = first[2]; c <= last[2]; c++)
-        for (int b = first[1]; b <= last[1]; b++) {
-            const int *from = g->first + first[0] + g->cells[0] * (b + g->cells[1] * c);
-            const int *ghosts = g->ghost + first[0] + g->cells[0] * (b + g->cells[1] * c);
-            const int width = last[0] - first[0] + 1;
-            const int nlocal = from[width] - from[0], all = nlocal + ghosts[width] - ghosts[0];
-            if (n + all > *capacity) {
-                const int more = 2 * *capacity + all + 64;
-                GROW(*found, *capacity, more);
-                *capacity = more;
-            }
-            for (int k = 0; k < all; k++) {
-                const int j = k < nlocal ? from[0] + k : g->n + g->order[ghosts[0] + k - nlocal];
-                const double *y = prim_line(&s->p, j);
-                double r2 = 0.0;
-                for (int a = 0; a < g->dim; a++)
-                    r2 += (y[a] - x[a]) * (y[a] - x[a]);
-                (*found)[n] = j;
-                n += r2 < reach * reach;
-            }
-        }
-    return n;
+    vec least = vec_all(INFINITY);
+    if (n + g->near + 2 * LANES > *capacity) {
+        const int more = 2 * *capacity + g->near + 2 * LANES;
+        GROW(*found, *capacity, more);
+        *capacity = more;
+    }
+    return n + (s->dim == 2 ? append(g, 0, g->near, x, reach * reach, *found + n, &least, 2)
+                            : append(g, 0, g->near, x, reach * reach, *found + n, &least, 3));
 }
 
 double *neighbours_sums(struct sph *s, int width)

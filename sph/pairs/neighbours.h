@@ -52,10 +52,14 @@ void neighbours_rows(struct neighbours *l, enum rows which);
 /* [capacity + 1][width]: sums of a symmetric pass, one row for each line, width nstate at most;
  * zeros before the first row. They lie where s->p.rate will be written. */
 double *neighbours_sums(struct sph *s, int width);
-/* Numbers of the locals and ghosts within reach of x, from its cells; found is grown (its room:
- * *capacity), n are there already; returns their new number. After neighbours_build. */
-int neighbours_within(const struct sph *s, const double *x, double reach, int n, int **found,
-                      int *capacity);
+/* Gathers the locals and ghosts that flow within reach of the box from lo to hi, for
+ * neighbours_pick; ghost_role: bits of the ghosts' enum sph_role. After neighbours_build. */
+void neighbours_gather(const struct sph *s, const double *lo, const double *hi, double reach,
+                       const unsigned char *ghost_role);
+/* Numbers of those gathered last within reach of x; found is grown (its room: *capacity, at least
+ * LANES more than there are), n are there already; returns their new number. */
+int neighbours_pick(const struct sph *s, const double *x, double reach, int n, int **found,
+                    int *capacity);
 /* Least distance of a listed pair, R at most; of this rank. */
 double neighbours_least(const struct sph *s);
 /* Ordered pairs within R now; for the throughput figures. */

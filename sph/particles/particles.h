@@ -12,8 +12,8 @@ struct sph;
 enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
 /* Bits of what a particle is where there are levels (refinement/refinement.h): its fields are those
  * of others; it has given birth; a guard too far from flow for its slopes to count; one whose
- * support its level does not fill. */
-enum sph_role { ROLE_GUARD = 1, ROLE_MOTHER = 2, ROLE_DEEP = 4, ROLE_EDGE = 8 };
+ * support its level does not fill; from bit ROLE_SOURCE on the finer of a guard's two sources. */
+enum sph_role { ROLE_GUARD = 1, ROLE_MOTHER = 2, ROLE_DEEP = 4, ROLE_EDGE = 8, ROLE_SOURCE = 4 };
 enum { PRIM = 8 }; /* doubles of a line of prim */
 
 /* Particles of one size level. State and rates are rows of nstate doubles,

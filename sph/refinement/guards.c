@@ -63,7 +63,7 @@ static void make_room(struct guards *g, int n)
 }
 
 /* Who they are, those that are not deep first. */
-static void find(const struct sph *base, struct sph *s)
+static void find(struct sph *s)
 {
     struct guards *g = s->guards;
     int n = 0;
@@ -79,44 +79,66 @@ static void find(const struct sph *base, struct sph *s)
             g->nshallow = g->n;
     }
     for (int k = 0; k < g->n; k++)
-        g->source[k] =
-            (unsigned char)refinement_standing(base, s->level, prim_line(&s->p, g->who[k])).source;
+        g->source[k] = (unsigned char)(s->p.role[g->who[k]] >> ROLE_SOURCE);
 }
 
-/* Those of a level within reach of x that flow: appended to the list, then padded. */
-static int add_row(struct guards *g, const struct sph *from, const double *x, double reach, int at)
+/* How many guards from k on have the same sources and lie together, as those of a cell do; lo, hi:
+ * gets their box. */
+static int find_group(const struct sph *s, int k, double *lo, double *hi)
 {
-    const int end = neighbours_within(from, x, reach, at, &g->j, &g->j_capacity);
-    int n = at;
-    for (int k = at; k < end; k++) {
-        const int j = g->j[k];
-        const int role = j < from->p.n ? from->p.role[j] : from->guards->ghost[j - from->p.n];
-        g->j[n] = j;
-        n += !(role & ROLE_GUARD);
+    const struct guards *g = s->guards;
+    const double widest = s->R + s->skin;
+    int n = 0;
+    for (; k + n < g->n && g->source[k + n] == g->source[k]; n++) {
+        const double *x = prim_line(&s->p, g->who[k + n]);
+        double low[3], high[3];
+        bool together = true;
+        for (int a = 0; a < s->dim; a++) {
+            low[a] = n > 0 ? fmin(lo[a], x[a]) : x[a];
+            high[a] = n > 0 ? fmax(hi[a], x[a]) : x[a];
+            together = together && high[a] - low[a] <= widest;
+        }
+        if (n > 0 && !together)
+            break;
+        memcpy(lo, low, sizeof low);
+        memcpy(hi, high, sizeof high);
     }
-    if (n + LANES > g->j_capacity) {
-        const int more = 2 * g->j_capacity + LANES;
-        GROW(g->j, g->j_capacity, more);
-        g->j_capacity = more;
+    return n;
+}
+
+/* Rows of the guards k .. end-1 from one of their sources, each padded; returns the next free place
+ * in j. */
+static int add_rows(struct sph *s, const struct sph *from, int m, int k, int end, double reach,
+                    int at)
+{
+    struct guards *g = s->guards;
+    for (; k < end; k++) {
+        const double *x = prim_line(&s->p, g->who[k]);
+        const int begin = at;
+        at = neighbours_pick(from, x, reach, at, &g->j, &g->j_capacity);
+        g->first[k][m] = begin;
+        g->count[k][m] = at - begin;
+        for (int pad = 0; pad < LANES - 1; pad++)
+            g->j[at++] = from->p.capacity;
     }
-    for (int k = 0; k < LANES - 1; k++)
-        g->j[n + k] = from->p.capacity;
-    return n - at;
+    return at;
 }
 
 static void list_level(struct sph *const *all, struct sph *s)
 {
     struct guards *g = s->guards;
     int at = 0;
-    find(all[0], s);
-    for (int k = 0; k < g->n; k++) {
+    find(s);
+    for (int k = 0; k < g->n;) {
         const struct sph *fine = all[g->source[k]], *sources[2] = {fine->coarser, fine};
-        const double *x = prim_line(&s->p, g->who[k]), reach = fine->R + fine->skin;
+        const double reach = fine->R + fine->skin;
+        double lo[3], hi[3];
+        const int end = k + find_group(s, k, lo, hi);
         for (int m = 0; m < 2; m++) {
-            g->first[k][m] = at;
-            g->count[k][m] = add_row(g, sources[m], x, reach, at);
-            at += g->count[k][m] + LANES - 1;
+            neighbours_gather(sources[m], lo, hi, reach, sources[m]->guards->ghost);
+            at = add_rows(s, sources[m], m, k, end, reach, at);
         }
+        k = end;
     }
     g->fresh = true;
     g->nprior = 0;

@@ -11,33 +11,45 @@
 #include <string.h>
 
 #include "../../common/mem.h"
+#include "../walls/walls.h"
 
 static const double hysteresis = 0.5;                   /* coarser dx */
 static const double paid_back = 0.01, most_paid = 1e-5; /* a step: of the debt; of the mass */
 static const double steepest = 0.05; /* change of rho from mother to child, its share */
 
-struct standing refinement_standing(const struct sph *base, int level, const double *x)
+/* Distances of the particles of a level to the edges of its own region and of the next finer one;
+ * NULL: there is none. Each is asked for once a step. */
+struct depths {
+    double *own, *next;
+};
+
+static double *measure(const struct regions *g, const struct sph *s, int level)
 {
-    const struct regions *g = base->refinement->regions;
-    const int finest = regions_levels(g);
-    struct standing is = {0, level};
-    if (level > 0) {
-        const double R = ldexp(base->R, -level), d = regions_distance(g, level, x);
-        if (d < 2.0 * R) { /* guards of the finer level */
-            is.role = ROLE_GUARD | (d < R ? ROLE_EDGE : 0);
-            return is;
-        }
-    }
-    for (int n = level + 1; n <= finest; n++) {
-        const double R = ldexp(base->R, 1 - n), d = regions_distance(g, n, x);
+    double *d = NEW(double, s->p.n);
+    for (int i = 0; i < s->p.n; i++)
+        d[i] = regions_distance(g, level, state_row(&s->p, s->p.y, i));
+    return d;
+}
+
+/* Bits of enum sph_role of particle i but ROLE_MOTHER, with the source. */
+static int role_of(const struct regions *g, const struct sph *s, const struct depths *is, int i)
+{
+    int role = 0, source = s->level;
+    if (is->own && is->own[i] < 2.0 * s->R) /* guards of the finer level */
+        return ROLE_GUARD | (is->own[i] < s->R ? ROLE_EDGE : 0) | source << ROLE_SOURCE;
+    for (int n = s->level + 1; n <= regions_levels(g); n++) {
+        const double R = ldexp(s->R, s->level + 1 - n);
+        const double d =
+            n == s->level + 1 ? is->next[i] : regions_distance(g, n, state_row(&s->p, s->p.y, i));
         if (d < R)
             break;
-        is.source = n;
-        is.role |= ROLE_GUARD;
-        if (n == level + 1 && d > 3.25 * R) /* slopes of guards reach 2 R deep, with what moves */
-            is.role |= ROLE_DEEP;
+        source = n;
+        role |= ROLE_GUARD;
+        if (n == s->level + 1 &&
+            d > 3.25 * R) /* slopes of guards reach 2 R deep, with what moves */
+            role |= ROLE_DEEP;
     }
-    return is;
+    return role | source << ROLE_SOURCE;
 }
 
 /* What flows, kg; this rank. */
@@ -73,47 +85,79 @@ static void bear(const struct sph *s, struct sph *fine, int i, const double *d)
     memcpy(slope_line(&fine->p, k), grad, (size_t)s->p.nslope * sizeof *grad);
 }
 
+/* Changes the way d from a mother at x, h from a wall, less than the half spacing that she fills,
+ * to a child such that both are as far from that wall, each in its own spacings, and so from the
+ * next wall in a corner: a layer that packing or the flow has put there becomes two, with nobody
+ * behind walls, at any number of levels. A way that meets a wall yet ends halfway before it. */
+static void heed_walls(const struct sph *s, const double *x, double h, const double *way, double *d)
+{
+    const int dim = s->dim;
+    double along = 0.0, aside[3];
+    for (int a = 0; a < dim; a++)
+        along += d[a] * way[a] / h;
+    for (int a = 0; a < dim; a++)
+        aside[a] = 2.0 * (d[a] - along * way[a] / h);
+    const double free = 0.5 * walls_meet(s, x, aside), ahead = along > 0.0 ? 2.0 * h / s->dx : 1.0;
+    for (int a = 0; a < dim; a++)
+        d[a] = free * aside[a] + ahead * along * way[a] / h;
+    const double share = walls_meet(s, x, d);
+    for (int a = 0; a < dim && share < 1.0; a++)
+        d[a] *= 0.5 * share;
+}
+
 static void give_birth(struct sph *s, int i)
 {
+    const double *x = state_row(&s->p, s->p.y, i);
+    double way[3];
+    const double reach = 0.5 * s->dx, h = s->walls ? walls_way(s, x, reach, way) : reach;
     for (int k = 0; k < 1 << s->dim; k++) {
         double d[3];
         for (int a = 0; a < 3; a++)
             d[a] = (k >> a & 1 ? 0.25 : -0.25) * s->dx;
+        if (h > 0.0 && h < reach)
+            heed_walls(s, x, h, way, d);
         bear(s, s->finer, i, d);
     }
     s->p.role[i] |= ROLE_MOTHER;
 }
 
 /* Mothers of one level. */
-static void enter(const struct sph *base, struct sph *s)
+static void enter(struct sph *s, const double *next)
 {
-    const struct regions *g = base->refinement->regions;
     s->finer->p.nghost = 0;
-    for (int i = 0; i < s->p.n; i++) {
-        const double d = regions_distance(g, s->level + 1, state_row(&s->p, s->p.y, i));
-        if (!(s->p.role[i] & ROLE_MOTHER) && d >= 0.0)
+    for (int i = 0; i < s->p.n; i++)
+        if (!(s->p.role[i] & ROLE_MOTHER) && next[i] >= 0.0)
             give_birth(s, i);
-        else if (d < -hysteresis * s->dx)
+        else if (next[i] < -hysteresis * s->dx)
             s->p.role[i] &= (unsigned char)~ROLE_MOTHER;
-    }
 }
 
-static void leave(const struct sph *base, struct sph *s)
+static void leave(struct sph *s, struct depths *is)
 {
-    const struct regions *g = base->refinement->regions;
     for (int i = 0; i < s->p.n;)
-        if (regions_distance(g, s->level, state_row(&s->p, s->p.y, i)) < -2.0 * hysteresis * s->dx)
+        if (is->own[i] < -2.0 * hysteresis * s->dx) {
             particles_copy(&s->p, i, --s->p.n);
-        else
+            is->own[i] = is->own[s->p.n];
+            if (is->next)
+                is->next[i] = is->next[s->p.n];
+        } else {
             i++;
+        }
 }
 
-static void judge(const struct sph *base, struct sph *s)
+static void adapt_level(const struct regions *g, struct sph *s)
 {
-    for (int i = 0; i < s->p.n; i++) {
-        const struct standing is = refinement_standing(base, s->level, state_row(&s->p, s->p.y, i));
-        s->p.role[i] = (unsigned char)((s->p.role[i] & ROLE_MOTHER) | is.role);
-    }
+    struct depths is = {s->coarser ? measure(g, s, s->level) : NULL,
+                        s->finer ? measure(g, s, s->level + 1) : NULL};
+    if (s->finer)
+        enter(s, is.next);
+    if (s->coarser)
+        leave(s, &is);
+    for (int i = 0; i < s->p.n; i++)
+        s->p.role[i] = (unsigned char)((s->p.role[i] & ROLE_MOTHER) | role_of(g, s, &is, i));
+    s->ready = false;
+    mem_free(is.own);
+    mem_free(is.next);
 }
 
 void refinement_adapt(struct sph *s)
@@ -121,15 +165,9 @@ void refinement_adapt(struct sph *s)
     struct refinement *r = s->refinement;
     timer_start(&s->run->timers, "levels");
     const double before = flowing(s);
-    regions_move(s->refinement->regions, s->t);
-    for (struct sph *q = s; q->finer; q = q->finer)
-        enter(s, q);
-    for (struct sph *q = s->finer; q; q = q->finer)
-        leave(s, q);
-    for (struct sph *q = s; q; q = q->finer) {
-        judge(s, q);
-        q->ready = false;
-    }
+    regions_move(r->regions, s->t);
+    for (struct sph *q = s; q; q = q->finer)
+        adapt_level(r->regions, q);
     r->added += flowing(s) - before;
     timer_stop(&s->run->timers, "levels");
 }

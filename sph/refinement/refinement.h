@@ -18,13 +18,6 @@ struct refinement {
     double repaid; /* kg: of that, taken back from what flows; all ranks */
 };
 
-/* Places in the levels that a particle of level n may have. */
-struct standing {
-    int role;   /* ROLE_GUARD, ROLE_DEEP, ROLE_EDGE */
-    int source; /* of a guard: the finer of the two levels that its fields come from */
-};
-struct standing refinement_standing(const struct sph *base, int level, const double *x);
-
 /* life.c: at the end of a step, with the slopes of its last stage: regions move to s->t, particles
  * are born and removed, all get their roles. At the start the finer levels have no particles: the
  * coarser ones give birth. s: the coarsest level. */

@@ -266,8 +266,11 @@ void integrate_rates(struct sph *s)
         guards_forget(s);
     for (struct sph *q = s; q; q = q->finer)
         level_rates(q);
-    if (s->finer)
+    if (s->finer) {
+        start(s, "update");
         refinement_keep_mass(s);
+        stop(s, "update");
+    }
     for (struct sph *q = s->finer; q && s->walls; q = q->finer)
         forces_join_stage(s->walls, q->walls);
 }
@@ -303,22 +306,26 @@ static void measure_level(const struct sph *s, double *most)
     }
 }
 
-static void measure_lines(const struct sph *s, double most[][EXTREMES])
+static void measure_lines(struct sph *s, double most[][EXTREMES])
 {
-    for (; s; s = s->finer)
-        measure_level(s, most[s->level]);
+    start(s, "update");
+    for (const struct sph *q = s; q; q = q->finer)
+        measure_level(q, most[q->level]);
+    stop(s, "update");
 }
 
-static void measure_state(const struct sph *s, double most[][EXTREMES])
+static void measure_state(struct sph *s, double most[][EXTREMES])
 {
-    for (; s; s = s->finer)
-        for (int i = 0; i < s->p.n; i++) {
-            double speed, rho, *to = most[s->level];
-            raise(to + MOST_FAULT, sph_fault_of(s, state_row(&s->p, s->p.y, i), &speed, &rho));
+    start(s, "update");
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            double speed, rho, *to = most[q->level];
+            raise(to + MOST_FAULT, sph_fault_of(q, state_row(&q->p, q->p.y, i), &speed, &rho));
             raise(to + MOST_SPEED, speed);
             raise(to + MOST_RHO, rho);
             raise(to + LEAST_RHO, -rho);
         }
+    stop(s, "update");
 }
 
 static void clear(double most[][EXTREMES])
@@ -489,8 +496,10 @@ static void take_stages(struct sph *s, double dt, double t_end, double most[][EX
 {
     const struct stages *c = s->stages;
     const double t = s->t;
+    start(s, "update");
     for (struct sph *q = s; q; q = q->finer)
         memcpy(q->p.y0, q->p.y, (size_t)q->p.n * q->p.nstate * sizeof(double));
+    stop(s, "update");
     bodies_begin(s);
     for (int k = 0; k < c->n; k++) {
         const double part = c->weight[k] * dt;
@@ -540,9 +549,10 @@ static int remove_behind(struct sph *s)
     int gone = 0;
     if (!s->walls)
         return 0;
-    walls_put_back_inside(s);
+    at_walls(s, walls_put_back_inside);
     if (!s->walls->model->behind)
         return 0;
+    start(s, "walls");
     int *who = NEW(int, s->p.n);
     for (int k = s->walls->model->behind(s, who) - 1; k >= 0; k--)
         if (!walls_put_back(s, who[k])) {
@@ -551,6 +561,7 @@ static int remove_behind(struct sph *s)
             gone++;
         }
     mem_free(who);
+    stop(s, "walls");
     return gone;
 }
 
@@ -566,8 +577,10 @@ static void finish_step(struct sph *s, double dt, double *most, struct diagnosis
     }
     if (s->finer) {
         refinement_look(s);
+        start(s, "update");
         for (struct sph *q = s; q; q = q->finer) /* guards that wake now are as the others are */
             particles_lines(q);
+        stop(s, "update");
         guards_update(s); /* its lists know nothing of removals */
     }
     int lost = 0;
@@ -583,8 +596,10 @@ static void finish_step(struct sph *s, double dt, double *most, struct diagnosis
     volume_keep(s);
     if (s->finer) {
         refinement_adapt(s);
+        start(s, "levels");
         refinement_repay(s);
         volume_renew(s);
+        stop(s, "levels");
     }
 }
 

@@ -239,6 +239,57 @@ static struct wall_foot foot_of(const struct sph *s, const double *x)
     return f;
 }
 
+double walls_way(const struct sph *s, const double *x, double reach, double *way)
+{
+    double foot[3], h;
+    if (s->dim == 2) {
+        h = walls_distance(s->walls, x, reach);
+        if (fabs(h) >= reach)
+            return h;
+        walls_nearest(s->walls, x, foot);
+    } else {
+        int mesh;
+        const struct tree_foot t = wall_meshes_nearest(s->walls, x, reach, &mesh);
+        if (t.triangle < 0)
+            return reach;
+        h = t.rim ? fabs(t.distance) : t.distance;
+        memcpy(foot, t.foot, sizeof foot);
+    }
+    for (int a = 0; a < s->dim; a++)
+        way[a] = foot[a] - x[a];
+    return h;
+}
+
+/* Share of the way d from x at which it meets a segment, 1: it does not. */
+static double meet_segment(const struct segment *g, const double *x, const double *d)
+{
+    const double r[2] = {g->a[0] - x[0], g->a[1] - x[1]};
+    const double across = d[0] * g->n[0] + d[1] * g->n[1];
+    const double share = (r[0] * g->n[0] + r[1] * g->n[1]) / across;
+    if (!(share > 0.0 && share < 1.0))
+        return 1.0;
+    const double along = (share * d[0] - r[0]) * g->t[0] + (share * d[1] - r[1]) * g->t[1];
+    return along >= 0.0 && along <= g->length ? share : 1.0;
+}
+
+double walls_meet(const struct sph *s, const double *x, const double *d)
+{
+    const struct walls *w = s->walls;
+    double first = 1.0, to[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < w->nsegments && s->dim == 2; k++)
+        first = fmin(first, meet_segment(w->segments + k, x, d));
+    for (int a = 0; a < s->dim; a++)
+        to[a] = x[a] + d[a];
+    for (int k = 0; k < w->nmeshes && s->dim == 3; k++) {
+        double a[3], b[3], where;
+        wall_mesh_to_own(w->meshes + k, x, a);
+        wall_mesh_to_own(w->meshes + k, to, b);
+        if (tree_crosses(w->meshes[k].tree, a, b, &where))
+            first = fmin(first, where);
+    }
+    return first;
+}
+
 void walls_put_before(struct sph *s, int i, const struct wall_foot *f)
 {
     const int dim = s->dim;

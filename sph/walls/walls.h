@@ -126,6 +126,11 @@ struct wall_foot {
     double x[3], n[3], u[3]; /* m, -, m/s */
     int body;
 };
+/* Distance of x to the nearest wall, negative behind it; at least -reach, at most reach; if less,
+ * the way to its nearest point. */
+double walls_way(const struct sph *s, const double *x, double reach, double *way);
+/* Share of the way d from x at which it first meets a wall; 1: it meets none. */
+double walls_meet(const struct sph *s, const double *x, const double *d);
 /* Puts local particle i back to 0.05 dx before f, without the velocity that led there. */
 void walls_put_before(struct sph *s, int i, const struct wall_foot *f);
 /* Puts local particle i, found behind a wall, back to 0.05 dx before it, without the velocity that
