@@ -370,7 +370,9 @@ with coupled 's/(0.2, 0.2), (0.8, 0.8)/(0.4, 0.4), (0.6, 0.6)/' 'sph.box: .*leav
 with sph 's/dx = 0.02/dx = 0.02; box = ((0, 0.2), (0.6, 0.8))/' 'case.cfg:6: sph.box: ends on the periodic side x_min' sph
 with coupled 's/box = .*));/free = ((-0.1, 0.4), (0.6, 0.6));/' 'sph.free: x from -0.1' sph --check
 sed 's/^sph:.*/sph: { dx = 0.02; R_dx = 2.0; c0 = 30.0; box = ((0.5, 0.2), (1.5, 1)); };\nfv: { cells = (16, 16); };/; /^bodies/d' tank.cfg >part.cfg
-with part 's/dx/dx/' 'sph.box: ends at x = 0.5 m under a free surface' sph --check
+with part 's/dx/dx/' 'walls: a free surface needs all sides .*y_max has none' fv --check
+with part '/^fv:/d; s/^walls.*/walls: ( { side = "y_min"; } );/; s/U = 3.0/field = "rest"; U = 3.0/; s/box = ((0.5, 0.2)/outer = "exact"; box = ((0.5, 0)/' \
+    'sph.box: ends at x = 0.5 m under a free surface' sph --check
 with part 's/(0.5, 0.2), (1.5, 1)/(0, 0.2), (2, 0.8)/' 'sph.box: must hold the free surface: .*y_max' sph --check
 with tank 's/^sph:.*/sph: { dx = 0.02; R_dx = 2.0; box = ((0.5, 0), (1.5, 1)); };/; /^bodies/d; /^shapes/d; s/^walls.*/walls: ( { side = "y_min"; } );/' 'sph.outer: no exact solution' sph
 # rows of particles
