@@ -18,21 +18,21 @@ static bool is_level(const struct trimesh *m, int triangle, const double *n)
 }
 
 /* Gives `number' to all that hang together with `first' in its plane; returns how many. */
-static int spread(const struct trimesh *m, int first, int *number, int *todo)
+static int spread(const struct trimesh *m, int first, int *number, int *waiting)
 {
     double n[3];
-    int ntodo = 0, count = 1;
+    int nwaiting = 0, count = 1;
     trimesh_normal(m, first, n);
     number[first] = first;
-    todo[ntodo++] = first;
-    while (ntodo > 0) {
-        const int t = todo[--ntodo];
+    waiting[nwaiting++] = first;
+    while (nwaiting > 0) {
+        const int t = waiting[--nwaiting];
         for (int e = 0; e < 3; e++) {
             const int other = m->neighbour[t][e];
             if (other < 0 || number[other] >= 0 || !is_level(m, other, n))
                 continue;
             number[other] = first;
-            todo[ntodo++] = other;
+            waiting[nwaiting++] = other;
             count++;
         }
     }
@@ -41,13 +41,13 @@ static int spread(const struct trimesh *m, int first, int *number, int *todo)
 
 int *trimesh_planes(const struct trimesh *m)
 {
-    int *number = NEW(int, m->ntriangles), *todo = NEW(int, m->ntriangles);
+    int *number = NEW(int, m->ntriangles), *waiting = NEW(int, m->ntriangles);
     memset(number, -1, (size_t)m->ntriangles * sizeof *number);
     for (int t = 0; t < m->ntriangles; t++)
-        if (number[t] < 0 && spread(m, t, number, todo) == 1)
+        if (number[t] < 0 && spread(m, t, number, waiting) == 1)
             number[t] = -2; /* looked at, alone */
     for (int t = 0; t < m->ntriangles; t++)
         number[t] = number[t] < 0 ? -1 : number[t];
-    mem_free(todo);
+    mem_free(waiting);
     return number;
 }
