@@ -95,8 +95,8 @@ $(B)/tests/properties_scene: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/properti
 	@cc $(SAN) -o $@ $^ -lm
 tests: all $(tests_bin) $(B)/tests/mock $(B)/tests/mock_any $(B)/tests/mock_calls $(B)/tests/heat $(B)/tests/kill_at.so $(B)/tests/properties_scene
 asan:
-	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-O1 -march=native -fno-math-errno" \
-	    SAN="-fsanitize=address,undefined -fno-omit-frame-pointer" tests
+	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-O2 -march=native -fno-math-errno" \
+	    SAN="-fsanitize=address,undefined -fno-sanitize=null,alignment,object-size -fno-omit-frame-pointer" tests
 
 # ---- what a user types ---------------------------------------------------------------------------------
 deps:

@@ -11,7 +11,9 @@ set grid back lt 1 lw 0.5 lc rgb '#cccccc'
 set key top right
 set offsets graph 0.15, graph 0.15, graph 0.1, graph 0.1
 set xlabel 'processor time (s)'; set ylabel what
-plot rows('uniform') using 4:5 with linespoints pt 7 lw 2 lc rgb '#666666' title 'uniform', \
+others = system(sprintf("cut -d, -f1 %s/time.csv | grep -v '^#' | grep -v uniform | grep -v refined | sort -u | tr '\\n' ' '", case))
+more = words(others) > 0 ? ", for [l in others] rows(l) using 4:5 with linespoints pt 6 lw 1 title l" : ""
+eval "plot rows('uniform') using 4:5 with linespoints pt 7 lw 2 lc rgb '#666666' title 'uniform', \
      rows('uniform') using 4:5:2 with labels offset 0, 0.9 notitle, \
      rows('refined') using 4:5 with linespoints pt 7 lw 2 lc rgb '#c0392b' title 'refined', \
-     rows('refined') using 4:5:2 with labels offset 0, 0.9 notitle
+     rows('refined') using 4:5:2 with labels offset 0, 0.9 notitle" . more

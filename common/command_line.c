@@ -12,13 +12,19 @@
 #include "params_hints.h"
 #include "run.h"
 
-static const struct option options[] = {
-    {"help", optional_argument, NULL, 'h'},     {"version", no_argument, NULL, 'V'},
-    {"params", no_argument, NULL, 'M'},         {"check", optional_argument, NULL, 'c'},
-    {"param", required_argument, NULL, 'p'},    {"output", required_argument, NULL, 'o'},
-    {"restart", no_argument, NULL, 'r'},        {"force", no_argument, NULL, 'f'},
-    {"deadline", required_argument, NULL, 'd'}, {"patience", required_argument, NULL, 't'},
-    {"groups", no_argument, NULL, 'g'},         {NULL, 0, NULL, 0}};
+static const struct option options[] = {{"help", optional_argument, NULL, 'h'},
+                                        {"version", no_argument, NULL, 'V'},
+                                        {"params", no_argument, NULL, 'M'},
+                                        {"check", optional_argument, NULL, 'c'},
+                                        {"param", required_argument, NULL, 'p'},
+                                        {"output", required_argument, NULL, 'o'},
+                                        {"restart", no_argument, NULL, 'r'},
+                                        {"force", no_argument, NULL, 'f'},
+                                        {"deadline", required_argument, NULL, 'd'},
+                                        {"patience", required_argument, NULL, 't'},
+                                        {"groups", no_argument, NULL, 'g'},
+                                        {"as", required_argument, NULL, 'a'},
+                                        {NULL, 0, NULL, 0}};
 
 static void usage(const char *name, const char *help)
 {
@@ -26,6 +32,7 @@ static void usage(const char *name, const char *help)
            "usage: %s CASE [-p group.key=value ...] [-o DIR] [--check] [--restart] [--force]\n"
            "CASE is a folder with a case.cfg, a folder of cases/, or a .cfg file.\n"
            "  -p, --param K=V   overrides a key of the case: -p sph.dx=0.01 -p 'fv.cells=(64,64)'\n"
+           "                    or of an element of a list: -p 'walls.[0].kind=no_slip'\n"
            "  -o, --output DIR  where the run writes (out/CASE)\n"
            "      --check       reads and validates the case, says what it uses and costs; no run\n"
            "      --check=picture  draws the scene as well, to DIR/PROGRAM-scene.svg\n"
@@ -36,12 +43,13 @@ static void usage(const char *name, const char *help)
            "(120 s)\n"
            "      --help [KEY]  this text and all keys, or one key or group\n"
            "      --params      all keys as a markdown table\n"
+           "      --as NAME     one of several programs of this kind: `%s_left' reads that group\n"
            "      --groups      names of the groups of the case, included files and all\n"
            "      --version\n"
            "Exit codes: 0 done, 1 done but not accepted, 2 input at fault, 3 diverged, 4 a partner "
            "failed,\n"
            "5 stopped in order.\n\n",
-           name, help, name);
+           name, help, name, name);
 }
 
 /* Says what is wrong, once a job's program. */
@@ -159,6 +167,13 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
             break;
         case 'g':
             c->groups = true;
+            break;
+        case 'a':
+            c->as = optarg;
+            if (strncmp(optarg, name, strlen(name)) != 0 || optarg[strlen(name)] != '_' ||
+                strlen(optarg) > 40)
+                return refuse(name, "a name that begins with the program's and _ is wanted, not",
+                              optarg);
             break;
         case 'd':
         case 't':

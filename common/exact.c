@@ -20,7 +20,8 @@ bool exact_at_all_times(const struct scene *s)
     const double *g = s->fluid.gravity;
     const bool driven = g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0;
     const bool bounded = s->nbodies > 0 || s->nshapes > 0 || s->nwalls > 0;
-    if (f == FIELD_POISEUILLE || f == FIELD_COUETTE || f == FIELD_STANDING_WAVE)
+    if (f == FIELD_POISEUILLE || f == FIELD_COUETTE || f == FIELD_STANDING_WAVE ||
+        scene_has_steady_wave(s))
         return true;
     return !driven && !bounded &&
            (f == FIELD_UNIFORM || f == FIELD_TAYLOR_GREEN || f == FIELD_TWO_MODES ||
@@ -35,6 +36,13 @@ static void set_layer(struct exact *e, const struct scene *s)
     e->height = (scene_has_wave(s) ? level : d->max[1]) - d->min[1];
     if (e->field == FIELD_STOKES)
         e->stokes = stokes_create(s->initial.L, -s->fluid.gravity[1], e->rho, s->initial.amplitude);
+    if (scene_has_steady_wave(s)) {
+        const bool alone = e->field == FIELD_SOLITARY;
+        if (!steady_create(&e->steady, alone, e->height, s->initial.L,
+                           (alone ? 1.0 : 2.0) * s->initial.amplitude, s->initial.crest,
+                           -s->fluid.gravity[1], e->rho))
+            e->steady = (struct steady){.c = 0.0}; /* scene_check says so */
+    }
     if (e->field != FIELD_STANDING_WAVE)
         return;
     const double L = s->initial.L, L_z = s->initial.L_z;
@@ -165,6 +173,8 @@ static void other_point(const struct exact *e, const double *x, double t, double
         wave_at(e, x, t, u, p, w);
     } else if (e->field == FIELD_STOKES) {
         stokes_point(&e->stokes, x[0], x[1] - e->bottom - e->height, u, p);
+    } else if (e->steady.c > 0.0) {
+        steady_point(&e->steady, x[0], x[1] - e->bottom - e->height, t, u, p);
     } else if (e->field == FIELD_PATCH) { /* clockwise */
         u[0] = rate * x[1];
         u[1] = -rate * x[0];
@@ -225,9 +235,14 @@ bool exact_has_past(const struct exact *e)
     return e->field != FIELD_POISEUILLE && e->field != FIELD_COUETTE;
 }
 
-double exact_surface(const struct exact *e, double x)
+double exact_surface(const struct exact *e, double x) { return exact_surface_at(e, x, 0.0); }
+
+double exact_surface_at(const struct exact *e, double x, double t)
 {
-    return e->bottom + e->height + (e->field == FIELD_STOKES ? stokes_eta(&e->stokes, x) : 0.0);
+    const double eta = e->field == FIELD_STOKES ? stokes_eta(&e->stokes, x)
+                       : e->steady.c > 0.0      ? steady_eta(&e->steady, x, t)
+                                                : 0.0;
+    return e->bottom + e->height + eta;
 }
 
 double exact_enstrophy(const struct exact *e, const double *lo, const double *hi, double t)

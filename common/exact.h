@@ -7,13 +7,15 @@
  * In 3D the field is the same for all z. beltrami: the flow of Arnold, Beltrami and Childress (A =
  * B = C = U). Others: Poiseuille and Couette flow from rest between the y sides, the standing wave
  * of wave.h, and three that are exact at t = 0 only: the rotating square patch, the disc under a
- * central force (Monaghan & Rafiee 2013) and the steep wave of stokes.h.
+ * central force (Monaghan & Rafiee 2013) and the steep wave of stokes.h. Regular and solitary waves
+ * (steady.h) are exact without friction.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_EXACT_H
 #define COMMON_EXACT_H
 
 #include "scene.h"
 #include "series.h"
+#include "steady.h"
 #include "stokes.h"
 #include "wave.h"
 
@@ -31,6 +33,7 @@ struct exact {
     double force;          /* m/s^2: along the channel */
     struct wave wave;
     struct stokes stokes;
+    struct steady steady;
     bool crossed;    /* the wave varies along z, too: cos cos, k = |(k_x, k_z)| */
     double along[2]; /* k_x/k, k_z/k */
 };
@@ -45,8 +48,9 @@ struct exact exact_create(const struct scene *s);
 /* Period (s) and rate of decay (1/s, < 0) of a standing wave or of the drop (rate 0: inviscid);
  * false for other fields. */
 bool exact_oscillation(const struct exact *e, double *period, double *rate);
-/* Height of the surface over x at t = 0, m. */
+/* Height of the surface over x at t = 0, m; of waves of permanent form at any t. */
 double exact_surface(const struct exact *e, double x);
+double exact_surface_at(const struct exact *e, double x, double t);
 /* Enstrophy of the standing wave over the bottom of the box lo..hi (m); m^dim/s^2. */
 double exact_enstrophy(const struct exact *e, const double *lo, const double *hi, double t);
 /* What swings, per mass: the velocity u at x as part of the wave's inviscid mode, or the drop's

@@ -18,9 +18,10 @@
 enum { NAMES_SIZE = 2048, GIVEN_SIZE = 64 };
 
 struct override {
-    const char *text; /* as given: "sph.dx=0.02"; borrowed */
-    char group[64], key[64];
-    config_t cfg; /* holds the value as setting "value" */
+    const char *text;        /* as given: "sph.dx=0.02"; borrowed */
+    char group[64], key[64]; /* of an element of a list: "walls", "[0].kind" */
+    config_t cfg;            /* holds the value as setting "value" */
+    bool known;              /* this program has its group, though perhaps not its element */
     bool used;
 };
 
@@ -32,6 +33,7 @@ struct params {
     config_t cfg;
     struct override *overrides;
     unsigned long long hash;
+    char kind[64], as[64];  /* keys of group `kind' are those of group `as'; "": none */
     char names[NAMES_SIZE]; /* " sph fv ": groups the case has, the same on all ranks */
     /* " sph.dx walls.[0].kind ": keys with values, the same on all ranks; again as "sph.dx=" where
      * the value is the default, as "sph.dx!" where it comes from the command line. */
@@ -213,14 +215,23 @@ static void place_of(const struct params *p, const config_setting_t *s, char *pl
         snprintf(place, size, "%s: %s%s%s", file, group, dot, key);
 }
 
-static struct override *override_of(struct params *p, const char *group, const char *key)
+/* What the command line gives for a key of a group, or of an element of a list (element >= 0). */
+static struct override *override_of(struct params *p, const char *group, int element,
+                                    const char *key)
 {
     struct override *found = NULL;
-    for (int k = 0; k < p->noverrides; k++)
-        if (strcmp(p->overrides[k].group, group) == 0 && strcmp(p->overrides[k].key, key) == 0) {
+    char whole[256], own[160];
+    if (element < 0)
+        snprintf(whole, sizeof whole, "%s.%s", group, key);
+    else
+        snprintf(whole, sizeof whole, "%s.[%d].%s", group, element, key);
+    for (int k = 0; k < p->noverrides; k++) {
+        snprintf(own, sizeof own, "%s.%s", p->overrides[k].group, p->overrides[k].key);
+        if (strcmp(own, whole) == 0) {
             found = p->overrides + k; /* the last one counts */
             found->used = true;
         }
+    }
     return found;
 }
 
@@ -242,22 +253,23 @@ static bool same_value(const struct param *r, const void *a, const void *b)
     return r->type == PARAM_TEXT ? strcmp(a, b) == 0 : memcmp(a, b, param_size(r)) == 0;
 }
 
+static bool heads_columns(const char *name) { return *name && !strpbrk(name, ",;\"\t\n\r"); }
+
 static void read_inner(struct params *p, const char *path, const struct param *r,
                        const config_setting_t *s, void *target, struct faults *f);
 
-/* element: of a list; -1: a plain group, whose keys the command line may give, too. */
+/* element: of a list; -1: a plain group. The command line may give keys of both. */
 static void read_row(struct params *p, const struct param_group *g, const struct param *r,
                      const config_setting_t *group, void *target, int element, struct faults *f)
 {
-    const bool overridable = element < 0;
     char place[1300], why[512];
-    struct override *o = overridable ? override_of(p, g->name, r->key) : NULL;
+    const struct override *o = override_of(p, g->name, element, r->key);
     const config_setting_t *s = o ? config_lookup(&o->cfg, "value")
                                   : (group ? config_setting_get_member(group, r->key) : NULL);
     if (o && !s)
         return; /* its fault is known */
     if (o)
-        snprintf(place, sizeof place, "command line: -p %s: %s.%s", o->text, g->name, r->key);
+        snprintf(place, sizeof place, "command line: -p %s: %s.%s", o->text, o->group, o->key);
     else
         place_of(p, s ? s : group, place, sizeof place, g->name, r->key);
     if (!s) {
@@ -282,6 +294,10 @@ static void read_row(struct params *p, const struct param_group *g, const struct
     memcpy(before, (char *)target + r->offset, param_size(r));
     if (!param_read(r, s, target, why, sizeof why))
         fault(f, place, "%s", why);
+    else if (element >= 0 && strcmp(r->key, "name") == 0 && r->type == PARAM_TEXT &&
+             !heads_columns((char *)target + r->offset))
+        fault(f, place,
+              "a name heads columns of series.csv: a word or two, without , ; and quotes");
     else if (r->dflt && same_value(r, before, (char *)target + r->offset))
         mark_given(p, g->name, element, r->key, "=");
     mem_free(before);
@@ -411,13 +427,20 @@ static void read_inner(struct params *p, const char *path, const struct param *r
     }
 }
 
+/* Whether "sph_*" stands for "sph_left". */
+static bool is_of_kind(const char *kind, const char *name)
+{
+    const size_t n = strlen(kind);
+    return n > 1 && kind[n - 1] == '*' && strncmp(kind, name, n - 1) == 0;
+}
+
 static bool known_group(const struct params *p, const char *const *others, const char *name)
 {
     bool known = strcmp(name, "format") == 0;
     for (int k = 0; k < p->ngroups; k++)
         known = known || strcmp(p->groups[k].name, name) == 0;
     for (int k = 0; others && others[k]; k++)
-        known = known || strcmp(others[k], name) == 0;
+        known = known || strcmp(others[k], name) == 0 || is_of_kind(others[k], name);
     return known;
 }
 
@@ -470,12 +493,29 @@ static void find_unknown_overrides(struct params *p, const char *const *others, 
         if (!g && !known_group(p, others, o->group)) {
             const char *near = nearest_group(p, others, o->group);
             fault(f, place, near ? "unknown group; did you mean `%s'?" : "unknown group", near);
-        } else if (g && (g->stride || !has_row(g, o->key))) {
-            const char *near = g->stride ? NULL : nearest_key(g, o->key);
+        } else if (g && !g->stride && !has_row(g, o->key) && !strstr(o->key, ".[")) {
+            const char *near = nearest_key(g, o->key);
             fault(f, place, near ? "unknown key; did you mean `%s'?" : "unknown key", near);
+        } else if (g) {
+            o->known = true; /* if some list has such an element and key, seen once it is read */
         }
         if (strcmp(o->group, "output") != 0)
             p->hash = fnv(p->hash, o->text);
+    }
+}
+
+/* Keys of elements of lists that no list of the case has. */
+static void find_unused_overrides(const struct params *p, struct faults *f)
+{
+    char place[256];
+    for (int k = 0; k < p->noverrides; k++) {
+        const struct override *o = p->overrides + k;
+        if (!o->known || o->used)
+            continue;
+        snprintf(place, sizeof place, "command line: -p %s: %s.%s", o->text, o->group, o->key);
+        fault(f, place,
+              "no such element of a list in the case, or no such key: elements count from 0, as in "
+              "walls.[0].kind, and must be there; the command line adds none");
     }
 }
 
@@ -510,6 +550,7 @@ static void read_case(struct params *p, const char *const *texts, const char *co
         else
             read_plain(p, p->groups + k, s, f);
     }
+    find_unused_overrides(p, f);
 }
 
 static void share_given(struct params *p, MPI_Comm comm)
@@ -572,6 +613,41 @@ void params_free(struct params **p)
     *p = NULL;
 }
 
+void params_alias(struct params *p, const char *kind, const char *as)
+{
+    snprintf(p->kind, sizeof p->kind, "%s", kind);
+    snprintf(p->as, sizeof p->as, "%s", as);
+}
+
+/* A key as the case has it. */
+static const char *key_of(const struct params *p, const char *key, char buffer[160])
+{
+    const size_t n = strlen(p->kind);
+    if (key[0] == ':') /* of that very group */
+        return key + 1;
+    if (n == 0 || strncmp(key, p->kind, n) != 0 || (key[n] != '.' && key[n] != '\0'))
+        return key;
+    snprintf(buffer, 160, "%s%s", p->as, key + n);
+    return buffer;
+}
+
+int params_kin(const struct params *p, const char *kind, char names[PARAM_KIN_MAX][64])
+{
+    const size_t n = strlen(kind);
+    int found = 0;
+    for (const char *at = p->names; *at;) {
+        const size_t space = strspn(at, " "), length = strcspn(at + space, " ");
+        at += space;
+        if (length >= n && length < 64 && found < PARAM_KIN_MAX && strncmp(at, kind, n) == 0 &&
+            (length == n || at[n] == '_')) {
+            memcpy(names[found], at, length);
+            names[found++][length] = '\0';
+        }
+        at += length;
+    }
+    return found;
+}
+
 bool params_has_group(const struct params *p, const char *group)
 {
     char word[80];
@@ -582,8 +658,10 @@ bool params_has_group(const struct params *p, const char *group)
 unsigned long long params_hash(const struct params *p) { return p->hash; }
 
 /* The value of `key' on rank 0: of the command line, of the case, or NULL. */
-static const config_setting_t *value_of(const struct params *p, const char *key)
+static const config_setting_t *value_of(const struct params *p, const char *name)
 {
+    char buffer[160];
+    const char *key = key_of(p, name, buffer);
     for (int k = p->noverrides - 1; p->rank == 0 && k >= 0; k--) {
         const struct override *o = p->overrides + k;
         char whole[160];
@@ -630,8 +708,8 @@ bool params_peek_pair(const struct params *p, MPI_Comm comm, const char *key, do
 
 static bool marked(const struct params *p, const char *key, const char *mark)
 {
-    char word[160];
-    snprintf(word, sizeof word, " %s%s ", key, mark);
+    char word[168], buffer[160];
+    snprintf(word, sizeof word, " %s%s ", key_of(p, key, buffer), mark);
     return strstr(p->given, word) != NULL;
 }
 
@@ -645,9 +723,10 @@ void params_unused(const struct params *p, struct faults *f, const char *key, bo
         params_fault(p, f, key, "is not used: %s", why);
 }
 
-void params_fault(const struct params *p, struct faults *f, const char *key, const char *fmt, ...)
+void params_fault(const struct params *p, struct faults *f, const char *name, const char *fmt, ...)
 {
-    char place[1400], text[256];
+    char place[1400], text[256], buffer[160];
+    const char *key = key_of(p, name, buffer);
     va_list args;
     if (p->rank > 0) {
         f->n++;

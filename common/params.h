@@ -123,6 +123,12 @@ struct params *params_read(MPI_Comm comm, const char *path, int noverrides,
 void params_free(struct params **p);
 /* Whether the case has this group, for groups in `others' too. Same on all ranks. */
 bool params_has_group(const struct params *p, const char *group);
+/* From now on keys of group `kind' ("sph") mean those of group `as' ("sph_left"), of which several
+ * programs of one kind have one each; ":sph.dx" is still that of `sph'. */
+void params_alias(struct params *p, const char *kind, const char *as);
+/* Groups of a kind: "sph", "sph_left", ...; their number. */
+enum { PARAM_KIN_MAX = 8 };
+int params_kin(const struct params *p, const char *kind, char names[PARAM_KIN_MAX][64]);
 /* 64-bit FNV-1a of the case as read (file, included files, overrides) but for -p output.*; same on
  * all ranks. Two programs of a job must agree on it. */
 unsigned long long params_hash(const struct params *p);

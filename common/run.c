@@ -63,13 +63,18 @@ static void collect_groups(struct life *l)
     l->ngroups = SCENE_GROUPS;
     for (int k = 0; k < l->p->ngroups; k++)
         l->groups[l->ngroups++] = l->p->groups[k];
+    /* one of several programs of a kind has a name and a group of its own */
+    for (int k = 0; k < l->ngroups && l->line.as; k++)
+        if (strcmp(l->groups[k].name, l->p->name) == 0)
+            l->groups[k].name = l->line.as;
 }
 
 /* A case with both solvers is a coupled job; one without this program's group is not for it. */
 static void check_place(struct life *l)
 {
     struct run *r = &l->r;
-    r->scene.has_sph = params_has_group(l->params, "sph");
+    char kin[PARAM_KIN_MAX][64];
+    r->scene.has_sph = params_kin(l->params, "sph", kin) > 0;
     r->scene.has_fv = params_has_group(l->params, "fv");
     if (!params_has_group(l->params, r->name))
         params_fault(l->params, &l->faults, r->name,
@@ -98,6 +103,8 @@ static int read_case(struct life *l)
     l->params = params_read(r->comm, l->line.case_file, l->line.noverrides, l->line.overrides,
                             l->groups, l->ngroups, l->p->other_groups, &l->faults);
     r->params = l->params;
+    if (l->line.as)
+        params_alias(l->params, l->p->name, l->line.as);
     if (l->faults.n == 0)
         check_place(l);
     r->coupled = r->partner_ctx || (l->line.check && r->scene.has_sph && r->scene.has_fv);
@@ -109,6 +116,8 @@ static int read_case(struct life *l)
         read_meshes(l);
     if (l->faults.n == 0)
         r->crossed = crossing_find(r);
+    if (r->crossed)
+        crossing_deal(r);
     if (l->faults.n == 0)
         accept_check(&r->scene, r->case_dir, l->params, &l->faults);
     if (l->faults.n == 0 && l->p->check)
@@ -445,6 +454,7 @@ static void say_end(const struct life *l)
 {
     const struct run *r = &l->r;
     const double now = wall_time(), wall = now - l->began, loop = now - l->wall0;
+    const char *quote = strpbrk(r->dir, " \t()&;$'*?<>|") ? "'" : "";
     double cpu = 0.0;
     summary_each(r->summary, say_number, NULL);
     summary_find(r->summary, "cpu_s", &cpu);
@@ -454,7 +464,7 @@ static void say_end(const struct life *l)
         log_say("time       %-22s %10.3f s %5.1f %%", r->timers.of[k].name, r->timers.of[k].wall,
                 100.0 * r->timers.of[k].wall / loop);
     if (r->scene.output.snapshots)
-        log_say("look       paraview --script=%s/view.py", r->dir);
+        log_say("look       paraview --script=%s%s/view.py%s", quote, r->dir, quote);
 }
 
 static int end(struct life *l, int code)
@@ -509,7 +519,8 @@ static int run_state(struct life *l, struct h5 *restart)
     h5_close(&restart);
     if (!l->s) {
         if (r->coupled)
-            (r->partner->fail)(r->partner_ctx, RUN_INPUT, "the restart file does not fit");
+            (r->partner->fail)(r->partner_ctx, RUN_INPUT,
+                               r->restart ? "the restart file does not fit" : "nothing to compute");
         return RUN_INPUT;
     }
     start_series(l);
@@ -585,8 +596,7 @@ static int live(struct life *l)
         snprintf(path, sizeof path, "%s/log.txt", r->dir);
     log_file(path);
     banner(l);
-    if (!r->coupled || r->rank == 0)
-        l->p->describe(r);
+    l->p->describe(r);
     r->summary = summary_create();
     l->status = "done";
     start_files(l);
@@ -607,13 +617,14 @@ int run_main(int argc, char **argv, const struct program *p, const struct partne
     if (code < 0) {
         code = 0;
         l->r.comm = MPI_COMM_WORLD;
+        l->r.name = l->line.as ? l->line.as : p->name;
         if (partner)
-            code = partner->open(MPI_COMM_WORLD, p->name, l->line.deadline, l->line.patience,
+            code = partner->open(MPI_COMM_WORLD, l->r.name, l->line.deadline, l->line.patience,
                                  &l->r.comm, &l->r.partner_ctx);
         l->r.partner = l->r.partner_ctx ? partner : NULL;
         MPI_Comm_rank(l->r.comm, &l->r.rank);
         MPI_Comm_size(l->r.comm, &l->r.size);
-        log_open(l->r.comm, p->name);
+        log_open(l->r.comm, l->r.name);
         if (code == 0)
             code = live(l);
     }

@@ -41,6 +41,7 @@ struct run {
     bool restart;        /* state comes from the restart file */
     bool coupled;
     bool crossed; /* coupled, and the free surface crosses open sides of sph.box: crossing.h */
+    bool gauge_inside[PROBES_MAX]; /* crossed: a gauge lies in sph.box and is SPH's, else FV's */
     const struct partner *partner; /* NULL when alone */
     void *partner_ctx;             /* its state (struct cpl *) */
     struct timers timers;
@@ -148,6 +149,7 @@ int run_main(int argc, char **argv, const struct program *p, const struct partne
 struct command_line {
     const char *case_file; /* path as given, or cases/NAME/case.cfg found from NAME */
     const char *dir;       /* -o, or out/CASE */
+    const char *as;        /* name of one of several programs of a kind; NULL: the kind's own */
     int noverrides;
     const char *const *overrides;
     bool check, picture, restart, force, groups;

@@ -363,8 +363,13 @@ bool run_make_folder(const char *dir)
                 why = 0;
             *c = '/';
         }
-    if (mkdir(path, 0777) == 0 || errno == EEXIST)
+    struct stat is;
+    if (mkdir(path, 0777) == 0)
         return true;
+    if (errno == EEXIST && stat(path, &is) == 0) {
+        errno = S_ISDIR(is.st_mode) ? 0 : ENOTDIR;
+        return errno == 0 && access(path, W_OK | X_OK) == 0;
+    }
     errno = errno == ENOENT && why ? why : errno;
     return false;
 }
@@ -415,7 +420,7 @@ static int prepare(const char *dir, const char *name, bool force, bool restart)
         return RUN_INPUT;
     }
     if (!run_make_folder(dir)) {
-        log_say("cannot make the folder %s: %s", dir, strerror(errno));
+        log_say("cannot make the folder %s, or write in it: %s", dir, strerror(errno));
         return RUN_INPUT;
     }
     if (is_taken(dir, name)) {

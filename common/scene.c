@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "exact.h"
 #include "scene_check.h"
 
 #define ROWS(r) (r), (int)(sizeof(r) / sizeof *(r))
@@ -34,12 +35,13 @@ static const struct param domain_rows[] = {
 #undef P
 #define P struct scene_initial
 static const struct param initial_rows[] = {
-    CHOICE(P, field, "rest|uniform|taylor_green|two_modes|poiseuille|couette|standing_wave|patch|drop|beltrami|stokes", "rest", "field at the start, and the exact solution after it"),
+    CHOICE(P, field, "rest|uniform|taylor_green|two_modes|poiseuille|couette|standing_wave|patch|drop|beltrami|stokes|regular|solitary", "rest", "field at the start, and the exact solution after it"),
     PARAM(P, U,        "m/s", "1.0", 0, 1e6, "scale of velocity: amplitude of the field, unit of errors"),
     PARAM(P, L,        "m",   "1.0", 1e-9, 1e9, "length of the field: of a wave, side of the patch, radius of the drop, height of a channel"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "uniform velocity, or the one that carries the field"),
-    PARAM(P, amplitude, "m",  "0.0", -1e6, 1e6, "amplitude of a wave"),
+    PARAM(P, amplitude, "m",  "0.0", -1e6, 1e6, "amplitude of a wave; regular: half its height from trough to crest; solitary: its height"),
     PARAM(P, L_z,      "m",   "0.0", 0, 1e6, "length of a standing wave along z; 0: the same for all z"),
+    PARAM(P, crest,    "m",   "0.0", -1e9, 1e9, "x of the crest of a regular or solitary wave, which run to +x"),
     PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "height against gravity where p = 0; by default the top of each water"),
     PARAM(P, seed,     "m",   "()", -1e9, 1e9, "points in the fluid, where meshes leave it open which of the rooms that they part hold it; sph in 3D"),
 };
@@ -76,8 +78,9 @@ static const struct param shape_rows[] = {
 #define P struct scene_probe
 static const struct param probe_rows[] = {
     PARAM(P, name, "-", NULL, 0, 0, "its name in series.csv"),
-    CHOICE(P, kind, "pressure|level", "pressure", "what it reads: pressure at a point, or the height of the surface above it"),
+    CHOICE(P, kind, "pressure|level|shore", "pressure", "what it reads: pressure at a point; height of the surface above it; height of the water's edge on a beach, to both sides of a place in the water (sph in 2D)"),
     PARAM(P, at,   "m", NULL, -1e9, 1e9, "place"),
+    PARAM(P, radius, "m", "0.0", 0, 1e9, "of a pressure (sph): its face; it reads the mean over a disc, in 3D a sphere, of this radius, and less the less of that is wet below a quarter (3D: an eighth); the same whatever the particles' size; 0 and below their R: their R"),
 };
 #undef P
 #define P struct scene_coupling
@@ -152,7 +155,21 @@ const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side si
 
 bool scene_has_wave(const struct scene *s)
 {
-    return s->initial.field == FIELD_STANDING_WAVE || s->initial.field == FIELD_STOKES;
+    return s->initial.field == FIELD_STANDING_WAVE || s->initial.field == FIELD_STOKES ||
+           scene_has_steady_wave(s);
+}
+
+bool scene_has_steady_wave(const struct scene *s)
+{
+    return s->initial.field == FIELD_REGULAR || s->initial.field == FIELD_SOLITARY;
+}
+
+double scene_wave_length(const struct scene *s)
+{
+    const double H = s->initial.level - s->domain.min[1];
+    return s->initial.field == FIELD_SOLITARY
+               ? 2.0 * M_PI * sqrt(4.0 * H * H * H / (3.0 * s->initial.amplitude))
+               : s->initial.L;
 }
 
 bool scene_has_surface(const struct scene *s)
@@ -228,6 +245,17 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
         params_fault(p, f, "initial.field", "beltrami: a field of three dimensions");
     if (scene_has_wave(s) && !(s->fluid.gravity[1] < 0.0))
         params_fault(p, f, "fluid.gravity", "a wave wants some along -y");
+    if (scene_has_steady_wave(s) && !(s->initial.level < LEVEL_TOP))
+        params_fault(p, f, "initial.level", "a wave wants the level of the still water");
+    else if (scene_has_steady_wave(s)) {
+        const struct exact e = exact_create(s);
+        if (!(e.steady.c > 0.0))
+            params_fault(
+                p, f, "initial.amplitude",
+                "%g m: a wave of permanent form is higher than 0, and lower than about 0.13 "
+                "of its length from trough to crest, a solitary one than 0.75 of the depth",
+                s->initial.amplitude);
+    }
     if (s->initial.L_z > 0.0 && (field != FIELD_STANDING_WAVE || s->domain.dim < 3))
         params_fault(p, f, "initial.L_z", "wants a standing wave in three dimensions");
     const double H = s->domain.max[1] - s->domain.min[1];
@@ -236,7 +264,7 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
         params_fault(p, f, "initial.L", "%g m: of a channel it is the height, %g m; leave it out",
                      s->initial.L, H);
     if (field != FIELD_TAYLOR_GREEN && field != FIELD_TWO_MODES && field != FIELD_BELTRAMI &&
-        field != FIELD_STOKES)
+        field != FIELD_STOKES && field != FIELD_REGULAR)
         return;
     for (int a = 0; a < (field == FIELD_BELTRAMI ? 3 : 2); a++) {
         const double n = (s->domain.max[a] - s->domain.min[a]) / s->initial.L;

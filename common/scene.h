@@ -20,7 +20,9 @@ enum initial_field {
     FIELD_PATCH,
     FIELD_DROP,
     FIELD_BELTRAMI,
-    FIELD_STOKES
+    FIELD_STOKES,
+    FIELD_REGULAR,
+    FIELD_SOLITARY
 };
 enum scene_side {
     SIDE_NONE,
@@ -36,7 +38,7 @@ enum wall_profile { PROFILE_UNIFORM, PROFILE_PARABOLIC };
 enum shape_form { SHAPE_BOX, SHAPE_POLYGON, SHAPE_DISC, SHAPE_BELOW, SHAPE_MESH };
 enum fluid_side { FLUID_AUTO, FLUID_INSIDE, FLUID_OUTSIDE, FLUID_SHEET };
 enum accept_measure { ACCEPT_RMS, ACCEPT_PEAK, ACCEPT_IMPULSE, ACCEPT_ARRIVAL };
-enum probe_kind { PROBE_PRESSURE, PROBE_LEVEL };
+enum probe_kind { PROBE_PRESSURE, PROBE_LEVEL, PROBE_SHORE };
 enum {
     ACCEPT_MAX = 16,
     WALLS_MAX = 16,
@@ -67,6 +69,7 @@ struct scene {
         double velocity[3]; /* m/s: uniform velocity, or the one that carries two_modes */
         double amplitude;   /* m: of a wave */
         double L_z;         /* m: its length along z; 0: the same for all z */
+        double crest;       /* m: x of the crest of a travelling wave */
         double level;       /* m: height against gravity where p = 0; LEVEL_TOP: the fluid's top */
         struct param_places seed; /* m: points that are known to be fluid */
     } initial;
@@ -103,8 +106,9 @@ struct scene {
     int nshapes;
     struct scene_probe {
         char name[PARAM_TEXT_SIZE];
-        int kind;     /* enum probe_kind */
-        double at[3]; /* m */
+        int kind;      /* enum probe_kind */
+        double at[3];  /* m */
+        double radius; /* m: pressure: of what it reads the mean of; 0: R of the particles */
     } probes[PROBES_MAX];
     int nprobes;
     struct scene_coupling {
@@ -149,6 +153,10 @@ const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side si
 
 /* Whether the field is a wave under a surface of its own. */
 bool scene_has_wave(const struct scene *s);
+/* One of permanent form: steady.h. */
+bool scene_has_steady_wave(const struct scene *s);
+/* m: of a solitary wave that of the one as steep, 2 pi/K of its profile sech^2 Kx. */
+double scene_wave_length(const struct scene *s);
 /* Whether the water ends somewhere without a wall. */
 bool scene_has_surface(const struct scene *s);
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "log.h"
 #include "scene_geometry.h"
 #include "scene_mesh.h"
 
@@ -85,6 +86,67 @@ bool scene_is_fluid(const struct scene *s, const struct exact *e, const double *
     return in ? !in->hole : fluid;
 }
 
+void scene_shape_extent(const struct scene_shape *h, double lo[3], double hi[3])
+{
+    const bool points = h->form == SHAPE_POLYGON && h->points.n > 0;
+    for (int a = 0; a < 3; a++) {
+        const bool box = h->form == SHAPE_BOX && (a < 2 || h->box[1][2] > h->box[0][2]);
+        const bool disc = h->form == SHAPE_DISC, flat = points && a < 2;
+        lo[a] = box ? h->box[0][a] : disc ? h->centre[a] - h->radius : flat ? INFINITY : -INFINITY;
+        hi[a] = box ? h->box[1][a] : disc ? h->centre[a] + h->radius : flat ? -INFINITY : INFINITY;
+    }
+    for (int k = 0; points && k < h->points.n; k++)
+        for (int a = 0; a < 2; a++) {
+            lo[a] = fmin(lo[a], h->points.x[k][a]);
+            hi[a] = fmax(hi[a], h->points.x[k][a]);
+        }
+}
+
+/* Whether shape k holds fluid at one of these places. */
+static bool holds_grain(const struct scene *s, const struct exact *e, int k, const double *first,
+                        const double *h, const int *n)
+{
+    double lo[3], hi[3], x[3] = {0.0, 0.0, 0.0};
+    int from[3] = {0, 0, 0}, to[3] = {0, 0, 0}, i[3];
+    scene_shape_extent(s->shapes + k, lo, hi);
+    for (int a = 0; a < s->domain.dim; a++) {
+        from[a] = (int)fmin(fmax(0.0, floor((lo[a] - first[a]) / h[a])), n[a]);
+        to[a] = (int)fmax(fmin(n[a] - 1.0, ceil((hi[a] - first[a]) / h[a])), -1.0);
+    }
+    for (i[2] = from[2]; i[2] <= to[2]; i[2]++)
+        for (i[1] = from[1]; i[1] <= to[1]; i[1]++)
+            for (i[0] = from[0]; i[0] <= to[0]; i[0]++) {
+                for (int a = 0; a < s->domain.dim; a++)
+                    x[a] = first[a] + i[a] * h[a];
+                if (scene_in_shape(s, s->shapes + k, x) && scene_is_fluid(s, e, x, NULL))
+                    return true;
+            }
+    return false;
+}
+
+void scene_check_grains(const struct scene *s, const struct params *p, const double *first,
+                        const double *h, const int *n, const char *grain, struct faults *f)
+{
+    const struct exact e = exact_create(s);
+    bool holds[SHAPES_MAX], any = scene_has_wave(s);
+    for (int k = 0; k < s->nshapes; k++) {
+        holds[k] = s->shapes[k].form == SHAPE_MESH ||
+                   (!s->shapes[k].hole && holds_grain(s, &e, k, first, h, n));
+        any = any || holds[k];
+    }
+    if (s->nshapes > 0 && !any) {
+        params_fault(p, f, "shapes",
+                     "no %s lies in what they leave, at a spacing of %g m: there is no water; a "
+                     "larger shape, a finer spacing, or a smaller hole",
+                     grain, h[0]);
+        return;
+    }
+    for (int k = 0; k < s->nshapes; k++)
+        if (!holds[k] && !s->shapes[k].hole)
+            log_warn("shape %d holds no %s, at a spacing of %g m: its water is not there", k + 1,
+                     grain, h[0]);
+}
+
 bool scene_is_room(const struct scene *s, const double *x)
 {
     for (int k = 0; k < s->nbodies; k++) {
@@ -92,6 +154,11 @@ bool scene_is_room(const struct scene *s, const double *x)
         if (line_inside(&l, x))
             return false;
     }
+    return scene_in_tanks(s, x);
+}
+
+bool scene_in_tanks(const struct scene *s, const double *x)
+{
     for (int k = 0; k < s->nwalls; k++) {
         const struct line l = line_of(&s->walls[k].points, true);
         if (s->walls[k].closed && line_inside(&l, x) != (line_area(&l) > 0.0))

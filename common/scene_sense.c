@@ -135,26 +135,12 @@ static void check_walls(const struct scene *s, const struct params *p, struct fa
 
 /* --- water --- */
 
-/* Box around a shape in the plane; false: it has none. */
-static bool extent(const struct scene_shape *h, double lo[2], double hi[2])
-{
-    for (int a = 0; a < 2; a++) {
-        lo[a] = h->form == SHAPE_BOX ? h->box[0][a] : h->centre[a] - h->radius;
-        hi[a] = h->form == SHAPE_BOX ? h->box[1][a] : h->centre[a] + h->radius;
-        for (int k = 0; h->form == SHAPE_POLYGON && k < h->points.n; k++) {
-            lo[a] = fmin(k ? lo[a] : INFINITY, h->points.x[k][a]);
-            hi[a] = fmax(k ? hi[a] : -INFINITY, h->points.x[k][a]);
-        }
-    }
-    return h->form != SHAPE_BELOW && h->form != SHAPE_MESH; /* the file is not read yet */
-}
-
 static void check_shape(const struct scene *s, const struct params *p, struct faults *f, int k)
 {
     static const char axes[] = "xyz";
     const struct scene_shape *h = s->shapes + k;
     const struct scene_domain *d = &s->domain;
-    double lo[2], hi[2], low, high, still[3];
+    double lo[3], hi[3], low, high, still[3];
     const double g = scene_still_gravity(s, still);
     char key[64];
     snprintf(key, sizeof key, "shapes.[%d]", k);
@@ -166,15 +152,15 @@ static void check_shape(const struct scene *s, const struct params *p, struct fa
         params_fault(p, f, key, "level %g m is not in the domain, whose heights are %g to %g m%s",
                      h->level, low, high,
                      h->level > high ? ": raise domain.max, or lower the level" : "");
-    if (!extent(h, lo, hi))
-        return;
+    scene_shape_extent(h, lo, hi);
     for (int a = 0; a < 2; a++) {
         const double size = 1e-6 * (d->max[a] - d->min[a]);
         if (hi[a] <= d->min[a] || lo[a] >= d->max[a])
             params_fault(p, f, key,
                          "lies outside the domain: %c from %g to %g m, domain %g to %g m", axes[a],
                          lo[a], hi[a], d->min[a], d->max[a]);
-        else if (!h->hole && s->fluid.gravity[a] <= -0.7 * g && g > 0.0 && hi[a] > d->max[a] + size)
+        else if (!h->hole && s->fluid.gravity[a] <= -0.7 * g && g > 0.0 && isfinite(hi[a]) &&
+                 hi[a] > d->max[a] + size)
             params_fault(p, f, key,
                          "its water stands above the domain: %c up to %g m, domain to %g m: raise "
                          "domain.max, or end the shape there",
@@ -218,7 +204,7 @@ static void check_probes(const struct scene *s, const struct params *p, struct f
     const struct scene_domain *d = &s->domain;
     for (int k = 0; k < s->nprobes; k++) {
         const struct scene_probe *g = s->probes + k;
-        const int axes = g->kind == PROBE_LEVEL ? d->dim - 1 : d->dim;
+        const int axes = g->kind == PROBE_PRESSURE ? d->dim : d->dim - 1;
         char key[64];
         snprintf(key, sizeof key, "probes.[%d].at", k);
         for (int a = 0; a < axes; a++)
@@ -228,6 +214,8 @@ static void check_probes(const struct scene *s, const struct params *p, struct f
                              "xyz"[a], g -> at[a], d -> min[a], d -> max[a]);
                 break;
             }
+        if (g->kind == PROBE_SHORE && (!s->has_sph || d->dim == 3))
+            params_fault(p, f, key, "%s: a shore is read by sph alone, in 2D", g->name);
         for (int b = 0; b < s->nbodies && g->kind == PROBE_PRESSURE; b++) {
             const struct line l = line_of(&s->bodies[b].points, true);
             if (l.n > 2 && line_inside(&l, g->at) &&
@@ -241,6 +229,20 @@ static void check_probes(const struct scene *s, const struct params *p, struct f
     }
 }
 
+/* Columns, restart files and lines find a body by its name. */
+static void check_names(const struct scene *s, const struct params *p, struct faults *f)
+{
+    for (int k = 0; k < s->nbodies; k++)
+        for (int i = 0; i < k; i++)
+            if (strcmp(s->bodies[i].name, s->bodies[k].name) == 0) {
+                char key[64];
+                snprintf(key, sizeof key, "bodies.[%d].name", k);
+                params_fault(p, f, key, "bodies %d and %d are both called `%s': give each a name",
+                             i + 1, k + 1, s->bodies[k].name);
+                break;
+            }
+}
+
 void scene_check_sense(const struct scene *s, const struct params *p, struct faults *f)
 {
     const int before = f->n;
@@ -251,4 +253,5 @@ void scene_check_sense(const struct scene *s, const struct params *p, struct fau
     check_walls(s, p, f);
     check_water(s, p, f);
     check_probes(s, p, f);
+    check_names(s, p, f);
 }

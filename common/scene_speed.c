@@ -27,6 +27,13 @@ static double field_speed(const struct scene *s)
         return fmax(f->U, s->fluid.central * f->L);
     case FIELD_BELTRAMI:
         return sqrt(6.0) * f->U; /* where all sines and cosines are sqrt(1/2) */
+    case FIELD_REGULAR:
+    case FIELD_SOLITARY: {
+        const struct exact e = exact_create(s);
+        double u[2];
+        steady_point(&e.steady, e.steady.x, e.steady.crest, 0.0, u, NULL);
+        return u[0];
+    }
     case FIELD_STANDING_WAVE:
     case FIELD_STOKES: {
         const struct exact e = exact_create(s);

@@ -19,14 +19,17 @@ static void check_initial(const struct scene *s, const struct params *p, struct 
         {"initial.L",
          BIT(FIELD_TAYLOR_GREEN) | BIT(FIELD_TWO_MODES) | BIT(FIELD_STANDING_WAVE) |
              BIT(FIELD_PATCH) | BIT(FIELD_DROP) | BIT(FIELD_BELTRAMI) | BIT(FIELD_STOKES) |
-             BIT(FIELD_POISEUILLE) | BIT(FIELD_COUETTE),
+             BIT(FIELD_REGULAR) | BIT(FIELD_POISEUILLE) | BIT(FIELD_COUETTE),
          "this initial.field has no length of its own"},
         {"initial.velocity",
          BIT(FIELD_UNIFORM) | BIT(FIELD_TAYLOR_GREEN) | BIT(FIELD_TWO_MODES) | BIT(FIELD_BELTRAMI),
          "only the fields uniform, taylor_green, two_modes and beltrami are carried; a stream "
          "everywhere is initial.field = \"uniform\""},
-        {"initial.amplitude", BIT(FIELD_STANDING_WAVE) | BIT(FIELD_STOKES),
-         "only the fields standing_wave and stokes have a wave"},
+        {"initial.amplitude",
+         BIT(FIELD_STANDING_WAVE) | BIT(FIELD_STOKES) | BIT(FIELD_REGULAR) | BIT(FIELD_SOLITARY),
+         "only the fields standing_wave, stokes, regular and solitary have a wave"},
+        {"initial.crest", BIT(FIELD_REGULAR) | BIT(FIELD_SOLITARY),
+         "only the fields regular and solitary have it"},
         {"initial.L_z", BIT(FIELD_STANDING_WAVE), "only the field standing_wave has it"},
     };
     params_unused(p, f, "initial.seed", scene_has_meshes(s),
@@ -161,6 +164,12 @@ static void check_shape(const struct scene *s, const struct params *p, struct fa
     check_key(p, f, "shapes", k, "velocity", !h->hole, "a hole has no fluid");
 }
 
+static void check_probe(const struct scene *s, const struct params *p, struct faults *f, int k)
+{
+    check_key(p, f, "probes", k, "radius", s->probes[k].kind == PROBE_PRESSURE,
+              "a level is that of a column of the particles' size");
+}
+
 void scene_check_unused(const struct scene *s, const struct params *p, struct faults *f)
 {
     check_initial(s, p, f);
@@ -170,4 +179,6 @@ void scene_check_unused(const struct scene *s, const struct params *p, struct fa
         check_body(s, p, f, k);
     for (int k = 0; k < s->nshapes; k++)
         check_shape(s, p, f, k);
+    for (int k = 0; k < s->nprobes; k++)
+        check_probe(s, p, f, k);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "disk.h"
+#include "log.h"
 #include "mem.h"
 
 struct series {
@@ -18,14 +19,16 @@ struct series {
  * A row that a kill cut short goes, too. */
 static void drop_later_rows(const char *path, double t)
 {
-    char line[4096], part[1100];
+    char *line = NULL, part[1100];
+    size_t room = 0;
     FILE *in = fopen(path, "r"), *out = NULL;
     snprintf(part, sizeof part, "%s.part", path);
     if (in)
         out = fopen(part, "w");
-    for (bool header = true; out && fgets(line, sizeof line, in); header = false)
+    for (bool header = true; out && getline(&line, &room, in) > 0; header = false)
         if (strchr(line, '\n') && (header || atof(line) <= t * (1.0 + 1e-11)))
             fputs(line, out);
+    free(line);
     if (in)
         fclose(in);
     if (out) {
@@ -34,11 +37,21 @@ static void drop_later_rows(const char *path, double t)
     }
 }
 
+/* Who reads columns by their names finds each of them. */
+static void require_names(int n, const char *const *columns)
+{
+    for (int k = 0; k < n; k++)
+        for (int i = 0; i < k; i++)
+            if (strcmp(columns[i], columns[k]) == 0)
+                fail("series.csv has two columns `%s'", columns[k]);
+}
+
 struct series *series_create(const char *path, int ncolumns, const char *const *columns, bool keep,
                              double t_restart)
 {
     struct series *s = NEW(struct series, 1);
     s->ncolumns = ncolumns;
+    require_names(ncolumns, columns);
     if (!path)
         return s;
     FILE *old = keep ? fopen(path, "r") : NULL;

@@ -2,7 +2,8 @@
  * Open MPI 4.1 reports no error for a dead peer: survivors get SIGTERM about 1 s after it and
  * SIGKILL 1 s later. So SIGTERM with a note on disk means that a partner failed; without one, an
  * orderly stop is tried, and if that hangs for 0.8 s, for lack of the partner, the reason is
- * printed and the process leaves. Handlers use only functions that are safe in them.
+ * printed and the process leaves. A SIGTERM from anyone else has no such haste: the stop takes
+ * as long as the partners need. Handlers use only functions that are safe in them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <errno.h>
 #include <fcntl.h>
@@ -25,6 +26,7 @@ static struct {
     char hint[300];     /* where to look when a launcher ends the job and nobody here knows why */
     char heard[2][256]; /* the text in use and the one being written */
     bool launched;      /* by mpirun, which kills soon after its SIGTERM */
+    pid_t launcher;     /* that process, 0: not known */
     volatile sig_atomic_t heard_now, stop, handled, started;
 } state;
 
@@ -98,19 +100,21 @@ static void stopped_early(int signal)
     _exit(RUN_STOPPED);
 }
 
-static void on_stop(int signal)
+static void on_stop(int signal, siginfo_t *info, void *context)
 {
+    (void)context;
     const int error = errno;
+    const bool hurry = state.launched && (!state.launcher || info->si_pid == state.launcher);
     if (!state.started && !state.launched)
         stopped_early(signal);
     state.stop = 1;
     if (signal == SIGTERM && !state.handled) {
         if (print_note())
             leave();
-        if (*state.hint && state.launched)
+        if (*state.hint && hurry)
             print_hint();
         const struct itimerval soon = {.it_value = {.tv_usec = 800000}};
-        if (state.launched)
+        if (hurry)
             setitimer(ITIMER_REAL, &soon, NULL);
     }
     errno = error;
@@ -143,11 +147,28 @@ static void not_started(int signal)
     _exit(RUN_INPUT);
 }
 
+/* Open MPI makes each process that it starts, often a script, the leader of a group: the launcher
+ * is the parent of the leader of this process's group. */
+static pid_t find_launcher(void)
+{
+    char path[64], text[256];
+    snprintf(path, sizeof path, "/proc/%d/stat", (int)getpgrp());
+    FILE *f = fopen(path, "r");
+    const char *name_end = f && fgets(text, sizeof text, f) ? strrchr(text, ')') : NULL;
+    int parent = 0;
+    if (name_end && sscanf(name_end + 1, " %*c %d", &parent) != 1)
+        parent = 0;
+    if (f)
+        fclose(f);
+    return parent;
+}
+
 void signals_start_mpi(int *argc, char ***argv, const char *program)
 {
     snprintf(state.who, sizeof state.who, "%s", program);
     state.launched =
         getenv("OMPI_COMM_WORLD_RANK") != NULL; /* MPI_Init may set it for a lone process */
+    state.launcher = state.launched ? find_launcher() : 0;
     signal(SIGTERM, stopped_early);
     signal(SIGINT, stopped_early);
     signal(SIGALRM, not_started);
@@ -187,12 +208,19 @@ static void install(int signal, void (*handler)(int), int flags)
     sigaction(signal, &a, NULL);
 }
 
+static void install_stop(int signal)
+{
+    struct sigaction a = {.sa_sigaction = on_stop, .sa_flags = SA_RESTART | SA_SIGINFO};
+    sigemptyset(&a.sa_mask);
+    sigaction(signal, &a, NULL);
+}
+
 void signals_install(const char *program, int rank)
 {
     snprintf(state.who, sizeof state.who, "%s rank %d", program, rank);
-    install(SIGINT, on_stop, SA_RESTART);
-    install(SIGTERM, on_stop, SA_RESTART);
-    install(SIGUSR1, on_stop, SA_RESTART);
+    install_stop(SIGINT);
+    install_stop(SIGTERM);
+    install_stop(SIGUSR1);
     install(SIGALRM, on_alarm, SA_RESTART);
     static const int faults[] = {SIGSEGV, SIGFPE, SIGBUS, SIGABRT};
     for (size_t k = 0; k < sizeof faults / sizeof faults[0]; k++)

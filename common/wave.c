@@ -110,8 +110,11 @@ void wave_point(const struct wave *w, double x, double y, double t, double *u, d
                 double *vorticity)
 {
     const double complex A = w->c[0], B = w->c[1], e = cexp(w->s * t);
-    const double complex up = w->nu > 0.0 ? w->c[2] * cexp(w->m * y) : 0.0;
-    const double complex down = w->nu > 0.0 ? w->c[3] * cexp(-w->m * (y + w->H)) : 0.0;
+    /* beyond the mean level and the bottom, where ghosts lie, layers go on for twice their own
+     * thickness: thinner ones would grow without bounds */
+    const double most = w->nu > 0.0 ? 2.0 / creal(w->m) : 0.0;
+    const double complex up = w->nu > 0.0 ? w->c[2] * cexp(w->m * fmin(y, most)) : 0.0;
+    const double complex down = w->nu > 0.0 ? w->c[3] * cexp(-w->m * fmax(y + w->H, -most)) : 0.0;
     const double ch = cosh(w->k * y), sh = sinh(w->k * y);
     if (u) {
         u[0] = creal((-(A * sh + B * ch) - w->m / w->k * (up - down)) * e) * sin(w->k * x);

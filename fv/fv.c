@@ -20,6 +20,7 @@
 #include "case/fv_case.h"
 #include "time/steps.h"
 #include "output/output.h"
+#include "output/report.h"
 #include "coupling/fv_link.h"
 #include "surface/surface_forced.h"
 
@@ -44,8 +45,6 @@ static void describe_rows(const struct run *r)
 
 static void describe(const struct run *r)
 {
-    static const char *const integrators[] = {"rk3, three projections a step",
-                                              "bdf2, one projection a step", "newton, all at once"};
     if (mesh_block_count() > 0) {
         mesh_describe(r);
         return;
@@ -68,23 +67,30 @@ static void describe(const struct run *r)
     const struct step_limit step_most = limits_estimate(r, h);
     const double dt = fmin(step_most.dt, r->scene.time.end);
     const int fields = 4 + 6 * d->dim + (viscous ? 2 * d->dim : 0) + 4;
-    log_say("%dD, fourth-order averages, %s, %s", d->dim, integrators[prm->integrator],
+    const struct report_use uses[] = {
+        {"implicit viscosity", viscous}, {"free surface (level set)", water},
+        {"walls and openings", walls},   {"blocked boxes", blocked_count() > 0},
+        {"given cells", hole},           {"coupling", r->coupled}};
+    log_say("%dD, fourth-order averages, %s, %s", d->dim, report_method(r),
             closed  ? "exact velocity on sides without a wall"
             : walls ? "walls"
                     : "periodic");
-    log_say("%s%s%s%s; off: %s%s%s%s", viscous ? "viscous, implicit" : "inviscid",
-            water ? ", free surface (level set)" : "", walls ? ", walls and openings" : "",
-            hole ? ", forced cells" : "", water ? "coupling" : "free surface",
-            walls ? "" : ", walls", viscous ? "" : ", viscous solver",
-            hole ? "" : ", forced cells");
+    report_uses(uses, (int)(sizeof uses / sizeof *uses));
     blocked_describe(r);
     if (prm->graded[1] > 0.0)
         describe_rows(r);
-    log_say(
-        "%.0f cells, h %g m, dt about %.3g s at the start (%s, CFL %g), %.0f steps at that; about "
-        "%.0f MB",
-        cells, least, dt, limit_name(step_most.by), limits_cfl(prm), ceil(r->scene.time.end / dt),
-        8e-6 * cells * fields + 1.0);
+    log_say("%.0f cells, h %g m; about %.0f MB", cells, least, 8e-6 * cells * fields + 1.0);
+    if (prm->steady)
+        return; /* marches in pseudo-time */
+    if (step_most.by == LIMIT_NONE)
+        log_say("steps follow the flow, which is at rest at the start (CFL %g)%s", limits_cfl(prm),
+                r->coupled ? ", and end with each exchange" : "");
+    else
+        log_say("dt about %.3g s at the start (%s, CFL %g), %.0f steps at that%s", dt,
+                limit_name(step_most.by), limits_cfl(prm), ceil(r->scene.time.end / dt),
+                r->coupled ? "; they end with each exchange, too" : "");
+    if (step_most.by == LIMIT_NONE || r->coupled)
+        return;                                         /* how many steps is not known */
     if (prm->integrator != INTEGRATOR_NEWTON && !water) /* what the figures were measured with */
         forecast_say("fv", d->dim, cells, ceil(r->scene.time.end / dt));
 }
@@ -148,7 +154,7 @@ static void progress(void *state, char *line, int size)
              fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
 }
 
-static const char *const others[] = {"sph", "apr", "coupler", NULL};
+static const char *const others[] = {"sph", "sph_*", "apr", "coupler", NULL};
 
 static struct program fv_program = {.name = "fv",
                                     .help = "implicit finite volumes, fourth order, 2D and 3D",

@@ -11,7 +11,9 @@
 #include "../common/fit.h"
 #include "../common/run.h"
 #include "grid/block.h"
+#include "grid/part.h"
 
+enum { PARTNERS_MAX = PARAM_KIN_MAX };
 enum fv_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
 enum fv_integrator { INTEGRATOR_RK3, INTEGRATOR_BDF2, INTEGRATOR_NEWTON };
 enum fv_flux { FLUX_CENTRAL, FLUX_UPWIND };
@@ -47,7 +49,7 @@ struct fv_params {
 };
 
 struct mesh;         /* blocks; grid/mesh.h */
-struct mesh_bc;      /* their sides; boundary/mesh_bc.c */
+struct mesh_bc;      /* their sides; boundary/mesh_sides.h */
 struct poisson;      /* poisson/poisson.h */
 struct wet_pressure; /* that of blocks with a surface; poisson/wet_pressure.c */
 struct overset;      /* search in blocks; grid/overset.h */
@@ -56,6 +58,7 @@ struct moving;       /* blocks that move; time/moving.h; NULL: none do */
 struct bc;           /* walls and openings; bc.h; NULL: none */
 struct blocked;      /* boxes cut out; boundary/blocked.h; NULL: none */
 struct forcing;      /* cells whose velocity is imposed; forcing.h; NULL: none */
+struct outflows;     /* sides that the flow leaves as it is carried; outflow.h; NULL: none */
 struct surface;      /* free surface; levelset.h; NULL: none */
 struct pressure;     /* the operator in hypre; pressure.h */
 struct newton;       /* the implicit integrator; newton.h; NULL: another one */
@@ -105,11 +108,13 @@ struct fv {
     double *scale;      /* blocks: of the viscous rows */
     double stiffest;    /* 1/s, blocks: mesh_viscous_largest; 0 without walls, where little is left
                          * to solve for */
+    bool symmetric;     /* blocks: mesh_viscous_symmetric */
     double dissipation; /* blocks: of newton's convection, 0 for the others */
     bool uneven; /* blocks: volumes differ: volume averages are not averages in index space */
     struct bc *bc;
     struct blocked *blocked;
     struct forcing *forcing;
+    struct outflows *outflows;
     struct surface *surface;
     struct pressure *pressure;
     struct mesh_bc *sides;
@@ -121,16 +126,19 @@ struct fv {
     struct link *link;
     bool predicts; /* its steps will be taken back: nothing in them is to be judged or counted */
     double dt_now; /* s: of the step under way */
-    double dt, dt_old;    /* s: last step, 0 before the first; the one before it */
-    double partner[2][3]; /* m: box that a partner counts as its own; lo >= hi: none */
-    double scene_speed;   /* m/s: limits_reference */
-    double reference;     /* m/s: limits_follow */
-    double u_limit;       /* m/s: beyond it the run has blown up */
-    double umax[3];       /* m/s: largest |u_a|; on blocks {largest |u|, 0, 0} */
-    double rate;          /* 1/s: largest sum over the axes of |u_a|/h_a of a cell */
-    double rise;          /* 1/s^2: what forces add to it in a second; blocks */
-    double Re;            /* largest |u| h/nu of a cell; blocks */
-    enum limit limit;     /* of the last step */
+    double dt, dt_old; /* s: last step, 0 before the first; the one before it */
+    int npartners;
+    double partner[PARTNERS_MAX][2][3]; /* m: box that each partner counts as its own */
+    bool partner_moves;                 /* one of these moves */
+    double partner_speed;               /* m/s: to expect where it has bodies; 0: none */
+    double scene_speed;                 /* m/s: limits_reference */
+    double reference;                   /* m/s: limits_follow */
+    double u_limit;                     /* m/s: beyond it the run has blown up */
+    double umax[3];                     /* m/s: largest |u_a|; on blocks {largest |u|, 0, 0} */
+    double rate;                        /* 1/s: largest sum over the axes of |u_a|/h_a of a cell */
+    double rise;                        /* 1/s^2: what forces add to it in a second; blocks */
+    double Re;                          /* largest |u| h/nu of a cell; blocks */
+    enum limit limit;                   /* of the last step */
     double max_cfl;
     struct watches *watches; /* watches.h */
     int64_t iterations;      /* of the pressure solver */
@@ -141,6 +149,17 @@ struct fv {
     int nhistory;
     double (*history)[3]; /* t, force x, force y of each row of the series */
 };
+
+/* The part that holds a place of the fields, ghosts too, and the cell there (at: or NULL). */
+static inline const struct part *part_of_place(const struct fv *s, int64_t c, int *at)
+{
+    const struct part *p = s->part;
+    while (c < p->base || c >= p->base + p->size)
+        p++;
+    if (at)
+        part_index(p, c, at);
+    return p;
+}
 
 /* Rows of all cells of this rank: c is the place of a row's first cell, len its length. */
 #define FLOW_ROWS(s, c, len)                                                                       \
@@ -156,6 +175,8 @@ extern const struct param_group fv_groups[FV_GROUPS];
 const struct fv_params *fv_params_of(const struct run *r);
 /* Whether errors against the exact solution are measured. */
 bool fv_measures_errors(const struct run *r);
+/* The box of fv.hole, lower and upper corner; NULL: none. */
+const double (*fv_hole(const struct run *r))[3];
 /* Whether output.fields has this word. */
 bool fv_field_wanted(const struct run *r, const char *name);
 #endif

@@ -19,6 +19,7 @@
 #include "coupling/windows.h"
 #include "open_boundaries/level_gap.h"
 #include "open_boundaries/zones.h"
+#include "refinement/apr_params.h"
 #include "refinement/regions_check.h"
 #include "pairs/vec.h"
 
@@ -211,10 +212,14 @@ static void describe(const struct run *r)
     log_say("speed to expect %.3g m/s: %s; c0 is %.3g times that", v.speed, v.from,
             prm->c0 / v.speed);
     const double steps = ceil(r->scene.time.end / dt);
-    log_say("dt about %.3g s (%s), %.0f steps", dt, limit, steps);
+    const struct apr_params *apr = apr_params_of(r);
+    log_say("dt about %.3g s (%s), %.0f steps%s", dt, limit, steps,
+            apr && apr->local_steps ? " of the finest level; coarser ones take fewer" : "");
     forecast_say("sph", r->scene.domain.dim, all * pairs_of_particle(r), steps);
     if (r->coupled)
         windows_describe(r, prm);
+    if (r->coupled)
+        coupling_warn(r);
     warn_of(r);
 }
 
@@ -293,9 +298,12 @@ static void window_begin(void *state, double t0, double t1)
 static void progress(void *state, char *line, int size)
 {
     const struct sph *s = state;
-    snprintf(line, (size_t)size, "dt %.3g s (%s)  Ma %.3f  rho %+.2f .. %+.2f %%", s->dt,
-             s->limited_by, s->max_speed / s->c0, 100.0 * (s->rho_min / s->rho0 - 1.0),
-             100.0 * (s->rho_max / s->rho0 - 1.0));
+    const struct sph *q = s;
+    while (q->finer && q->level < s->limited_level)
+        q = q->finer;
+    snprintf(line, (size_t)size, "dt %.3g s (%s%s)  Ma %.3f  rho %+.2f .. %+.2f %%", s->dt,
+             s->limited_by, sph_level_name(q), s->max_speed / s->c0,
+             100.0 * (s->rho_min / s->rho0 - 1.0), 100.0 * (s->rho_max / s->rho0 - 1.0));
 }
 
 static void row(void *state, double *values)
@@ -327,7 +335,7 @@ static void tell(void *state, struct summary *report)
         overlap_tell(watched(s), report);
 }
 
-static const char *const others[] = {"fv", "coupler", NULL};
+static const char *const others[] = {"sph", "sph_*", "fv", "blocks", "coupler", NULL};
 
 static struct program sph_program = {.name = "sph",
                                      .help = "weakly compressible SPH, 2D and 3D",

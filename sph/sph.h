@@ -49,15 +49,17 @@ struct sph_params {
     double cfl_viscous;   /* CFL_v of [2.103] */
     double box[2][3];     /* outer face of the buffer; all 0: the whole domain, no zones */
     double free[2][3];    /* instead of box: the free zone; box is the widths of the zones larger */
-    int walls;            /* enum sph_walls */
-    int wall_integrals;   /* enum sph_integrals */
-    int wall_squares;     /* along each side, of clipped ones */
-    int surface;          /* enum sph_surface: the fluid has a free surface */
-    int outer;            /* what feeds the zones: none, exact, partner */
-    double density_limit; /* |rho/rho0 - 1| that ends the run; 0: as the flow has it */
-    int packing;          /* steps; -1: as the walls need it */
-    double noise;         /* random displacement of the first lattice, in dx */
-    double extrema[3];    /* m/s: known ones on the centre lines, see sph_lines.c; 0: none */
+    double box_velocity[3]; /* m/s */
+    char box_follows[128];  /* name of a body, "": none */
+    int walls;              /* enum sph_walls */
+    int wall_integrals;     /* enum sph_integrals */
+    int wall_squares;       /* along each side, of clipped ones */
+    int surface;            /* enum sph_surface: the fluid has a free surface */
+    int outer;              /* what feeds the zones: none, exact, partner */
+    double density_limit;   /* |rho/rho0 - 1| that ends the run; 0: as the flow has it */
+    int packing;            /* steps; -1: as the walls need it */
+    double noise;           /* random displacement of the first lattice, in dx */
+    double extrema[3];      /* m/s: known ones on the centre lines, see sph_lines.c; 0: none */
 };
 
 struct sph;
@@ -68,6 +70,7 @@ struct surface;    /* free surface; surface.h; NULL: none */
 struct stages;     /* scheme in time; time/runge_kutta.h */
 struct refinement; /* regions and guards; refinement/refinement.h; NULL: none */
 struct guards;     /* of one level; refinement/guards.h */
+struct mixed;      /* particles of different sizes; refinement/mixed.h; NULL: all of one */
 struct zones;      /* transition, buffer, openings; zones.h; NULL: none */
 
 /* The two passes of a pair interaction; scheme.h. */
@@ -87,12 +90,13 @@ struct sph {
     double gravity[3], central; /* m/s^2, 1/s */
     double lo[3], hi[3];        /* region of the particles: the domain, or sph.box */
     bool periodic[3];           /* of that region */
-    bool open[6]; /* its sides (2a: low, 2a+1: high) where particles come and go; zones.h */
-    int level;    /* of refinement: dx = dx_0/2^level */
+    bool open[6];     /* its sides (2a: low, 2a+1: high) where particles come and go; zones.h */
+    int level;        /* of refinement: dx = dx_0/2^level */
+    bool local_steps; /* each level steps with a time step of its own */
     struct sph *coarser, *finer; /* the levels next to this one; NULL: none. The coarsest stands
                                     for all of them; what is of the whole flow is its own */
     double t;                    /* s: time of the state y; during a stage: of that stage */
-    double dt;
+    double dt;                   /* s: of the last step of this level; y0 is the state before it */
     struct particles p;
     struct neighbours *list;
     struct domain *domain;
@@ -103,7 +107,10 @@ struct sph {
     struct walls *walls;
     struct surface *surface;
     struct refinement *refinement; /* of all levels: the coarsest has it */
+    /* Whether it is this level that flows at x; NULL: there is one level. refinement.h */
+    bool (*flows_at)(const struct sph *s, const double *x);
     struct guards *guards;
+    struct mixed *mixed;
     double background; /* Pa: of this stage [2.105] */
     double skin;       /* m: the list holds pairs within R + skin */
     double skin_most;  /* m: what ghosts are prepared for, and half a period has room for */
@@ -115,7 +122,8 @@ struct sph {
     int64_t next_id;   /* of the next particle born on this rank: rank + k size */
     /* of the last step, over all ranks */
     double max_speed, max_shift, rho_min, rho_max, max_c;
-    const char *limited_by; /* "sound", "viscosity" or "speed" */
+    const char *limited_by; /* "sound", "viscosity", "speed", "body" or "region" */
+    int limited_level;      /* at which level the step is bound */
     double signal;          /* m/s: max of c + |u - u0| */
     double shift_speed;     /* m/s: U of the laws of shifting: largest |u| so far, without walls
                                relative to the drift; with walls at least nu/R */
@@ -131,6 +139,9 @@ struct sph {
     struct fit signal_fit; /* of a standing wave or of the drop, sampled with the series */
     double mass0, energy0, momentum0[3]; /* at t = 0, for drifts */
     double volume0;                      /* m^dim: of a closed room, kept; 0: not closed */
+    double mass; /* kg: with refinement, of the fluid after the last step, this rank. Levels take
+                    over from each other across a spacing of the coarser one, lest a row of a
+                    lattice that passes there count at once */
     /* Force on the first body over the second half of the run: length of the sampled time,
      * integrals of F and of |F|^2; the same from the averaged wall pressure, of rows: last time,
      * length, integral of F. */
@@ -147,18 +158,26 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
 void sph_free(struct sph **s);
 
 /* volume.c: at the start, of a fluid of this volume; after the stages of every step; where levels
- * have exchanged particles, what is kept from then on. Collective. */
+ * have exchanged particles, what is kept from then on; or before that is kept, what an exchange
+ * within the step has added, m^dim, on this rank. Collective. */
 void volume_remember(struct sph *s, double volume);
+void volume_change(struct sph *s, double by);
 void volume_keep(struct sph *s);
 void volume_renew(struct sph *s);
 
 /* pack.c: steps of rearrangement of the first particles between walls; 0: none. Collective. */
 void pack_start(struct sph *s, int steps);
+/* Of a finer level, but for those at its edge, after its birth of one that was packed. */
+void pack_finer(struct sph *level);
 
 /* fill.c: whether there is fluid at x at the start, and the velocity that its shape adds. */
 struct exact;
 /* lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
 void fill_lattice(struct sph *s);
+/* Lower end of that lattice along axis a of a region from lo to hi, m: from the lower corner; from
+ * the upper one where only that has a wall of the domain. The last cell may reach out of a domain
+ * that dx does not divide. */
+double fill_lattice_begin(const struct scene *c, int a, double lo, double hi, double dx);
 /* The first particles of the finer levels: born of the coarser ones, with the exact field. */
 void fill_finer(struct sph *s);
 /* Takes out the locals that packing has pressed into seams of walls narrower than dx. */
@@ -174,6 +193,9 @@ void integrate_rates(struct sph *s);
 void integrate_gradients(struct sph *s);
 /* First time step, skin and extremes from the state at t = 0. */
 void integrate_start(struct sph *s);
+
+/* ", level n" of a scene that is refined, "" of others; valid until the next call. */
+const char *sph_level_name(const struct sph *s);
 
 /* sph_io.c, sph_errors.c */
 enum { SUM_MASS, SUM_VOLUME, SUM_KINETIC, SUM_ENERGY, SUM_MOMENTUM, SUM_COUNT = SUM_MOMENTUM + 3 };
@@ -202,7 +224,8 @@ void sph_summarise_extrema(const struct sph *s);
 
 /* sph_coupling.c: the only file here that knows cpl.h. */
 void coupling_check(const struct run *r, struct faults *f); /* coupling_check.c */
-void coupling_offer(struct run *r);                         /* publishes sph.box and sph.free */
+void coupling_warn(const struct run *r); /* of what is allowed, and better otherwise */
+void coupling_offer(struct run *r);      /* publishes sph.box and sph.free */
 void coupling_create(struct sph *s); /* declares sets and fields; s->zones->eval reads the patch */
 void coupling_free(struct sph *s);
 void coupling_window_begin(void *s, double t0, double t1);

@@ -4,10 +4,10 @@
  * time, best of some repeats. SPDX-License-Identifier: BSD-3-Clause */
 #include <stdio.h>
 
-#include "../common/timer.h"
 #include "../fv/operators/mesh_ops.h"
 #include "../fv/poisson/poisson.h"
 #include "../fv/time/stages.h"
+#include "bench.h"
 #include "mesh_case.h"
 
 enum { N = 256, REPEATS = 8 };
@@ -23,40 +23,6 @@ static const struct kernel {
     {"gradient", {3, 6, 8}, {14, 34, 62}},
     {"face velocities", {4, 6, 8}, {16, 28, 56}},
 };
-
-static double fma_peak(void)
-{
-    double a[64], best = INFINITY, sum = 0.0;
-    const long n = 2000000;
-    for (int k = 0; k < 64; k++)
-        a[k] = k;
-    for (int repeat = 0; repeat < 4; repeat++) {
-        const double t = cpu_time();
-        for (long i = 0; i < n; i++)
-            for (int k = 0; k < 64; k++)
-                a[k] = a[k] * 0.999999 + 1e-6;
-        best = fmin(best, cpu_time() - t);
-    }
-    for (int k = 0; k < 64; k++)
-        sum += a[k];
-    return sum > 0.0 ? 1e-9 * (double)n * 64 * 2 / best : 0.0;
-}
-
-/* Doubles a second, 1e9, of x = y + a z over fields of the bench's size. */
-static double triad(struct fv *s)
-{
-    double best = INFINITY;
-    for (int repeat = 0; repeat < REPEATS; repeat++) {
-        double *restrict x = s->krylov[1][0], *restrict y = s->krylov[2][0],
-                         *restrict z = s->krylov[3][0];
-        const double t = cpu_time();
-        for (int n = 0; n < 10; n++)
-            for (int64_t i = 0; i < s->size; i++)
-                x[i] = y[i] + 1e-3 * n * z[i];
-        best = fmin(best, cpu_time() - t);
-    }
-    return 1e-9 * 30.0 * (double)s->size / best;
-}
 
 static void call(struct fv *s, int kernel)
 {
@@ -110,7 +76,7 @@ static void report(const char *what, int kind, const char *shape, double peak)
                  ? "i_min = \"exact\"; i_max = \"exact\"; j_min = \"exact\"; j_max = \"exact\";"
                  : PERIODIC);
     struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, text, NULL);
-    const double speed = triad(s), cells = (double)N * N;
+    const double speed = bench_triad(s), cells = (double)N * N;
     printf("%s cells, %d x %d: triad %.2f Gdouble/s, peak %.1f GFLOP/s\n", what, N, N, speed, peak);
     for (int k = 0; k < (int)(sizeof kernels / sizeof kernels[0]); k++) {
         const struct kernel *e = kernels + k;
@@ -127,7 +93,7 @@ static void report(const char *what, int kind, const char *shape, double peak)
 int main(int argc, char **argv)
 {
     MPI_Init(&argc, &argv);
-    const double peak = fma_peak();
+    const double peak = bench_peak();
     report("even", 0, "", peak);
     report("upright", 1, "mapping = \"stretched\"; stretch = (1.5, 1.5); focus = (0.5, 0.5);",
            peak);

@@ -40,10 +40,33 @@ for case in taylor_green uniform_flow standing_wave standing_wave_3d breaking_wa
 done
 
 # scenes without a place for the coupling
-refuses "no cell of fv in what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p coupling.overlap=0.2
+refuses "no cell of fv in what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p coupling.overlap=0.19
 refuses "cells wider than what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p 'fv.cells=(4,4)'
+refuses "no room left for what sph gives" 'leave nothing along x of what sph gives' taylor_green -p coupling.overlap=0.4
 refuses "sph everywhere" 'no side of it lies in fv' taylor_green -p 'sph.free=((0,0),(1,1))'
-refuses "a box that ends on a periodic side" 'ends on the periodic side x_min' taylor_green -p 'sph.free=((0,0.3),(0.6,0.7))'
+accepts taylor_green -p 'sph.free=((0.7,0.3),(1.1,0.7))' # across a periodic side
+refuses "a box longer than the period" 'is longer than the period' taylor_green -p 'sph.free=((0.05,0.3),(0.97,0.7))'
+accepts taylor_green -p 'sph.box_velocity=(0.5,0.3)' # it moves
+refuses "a box that moves along its walls" 'cannot move along y' standing_wave -p 'sph.box_velocity=(0,0.1)'
+refuses "a body that is not there" 'no body is named' taylor_green -p sph.box_follows=ship
+two=$root/cases/taylor_green/two_boxes.cfg
+accepts "$two"
+refuses "boxes whose zones overlap" 'overlaps the box of group sph_right' "$two" -p 'sph.free=((0.3,0.3),(1.1,0.7))'
+refuses "one of two boxes that moves" 'one that moves could meet another' "$two" -p 'sph.box_velocity=(0.1,0)'
+cat >channel.cfg <<'CASE'
+format = 1;
+time:    { end = 1.0; };
+fluid:   { rho = 1000.0; nu = 0.01; };
+domain:  { dim = 2; min = (0, 0); max = (4, 1); };
+initial: { field = "uniform"; velocity = (1, 0); };
+walls:   ( { side = "x_min"; kind = "inflow"; velocity = (1, 0); }, { side = "x_max"; kind = "outflow"; },
+           { side = "y_min"; }, { side = "y_max"; } );
+sph:     { dx = 0.025; box = ((0.8, 0), (2.6, 1)); };
+fv:      { cells = (96, 24); };
+CASE
+refuses "a box that parts fv's flow" "cuts fv's flow in two along x, and what lies below has no outlet" channel.cfg
+accepts channel.cfg -p 'domain.max=(4,2)' -p 'fv.cells=(96,48)' # a way around
+accepts channel.cfg -p 'walls.[0].kind=outflow' -p 'walls.[0].velocity=(0,0)' -p 'walls.[0].pressure=100'
 cat >basin.cfg <<'CASE'
 format = 1;
 time:    { end = 1.6; };
@@ -58,7 +81,11 @@ CASE
 accepts basin.cfg
 refuses "a surface in the transition" 'there is no water' basin.cfg -p 'sph.box=((0,0.44),(2,1.2))'
 accepts basin.cfg -p 'sph.box=((0.5,0.0),(1.5,1.2))' # the surface crosses its sides
-refuses "a crossing surface in 3D" 'tried in 2D only' standing_wave_3d -p 'sph.box=((0.25,0,0),(1.75,1.25,2))'
+accepts basin.cfg -p 'sph.box=((0.5,0.0),(1.5,0.4))' # or is fv's alone
+accepts standing_wave_3d -p 'sph.box=((0.25,0,0),(1.75,1.25,2))' # and in 3D
+sed 's|walls:   (|walls: ( { points = ((1.2, 0), (2, 0.8)); },|' basin.cfg >beach.cfg
+accepts beach.cfg -p 'sph.box=((0.5,0.0),(2,1.2))' # a beach where sph gives the flow
+refuses "a beach that reaches into fv" 'fv, which knows of no line' beach.cfg -p 'sph.box=((1,0),(2,1.2))'
 sed '/x_max/s/, { side = "x_max"; }//' basin.cfg >open.cfg
 refuses "a side without a wall" 'which has no wall' open.cfg
 cat >body.cfg <<'CASE'

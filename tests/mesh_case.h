@@ -17,6 +17,7 @@
 #include "../fv/case/fv_case.h"
 #include "../fv/time/steps.h"
 #include "../fv/output/output.h"
+#include "../fv/surface/levelset.h"
 
 #define PERIODIC                                                                                   \
     "i_min = \"periodic\"; i_max = \"periodic\"; j_min = \"periodic\"; j_max = \"periodic\"; "
@@ -120,6 +121,38 @@ static inline void mesh_case_errors(const char *blocks, const char *const *overr
             error[k] = NAN;
     summary_free(&c.run.summary);
     mesh_case_end(&c, &s);
+}
+
+/* s, of case one, takes so many steps, its restart file starts case two, which was read but not
+ * started, and both take as many more: values of phi, u and p that differ; -1: a run stopped. Ends
+ * both. Collective. */
+static inline int64_t mesh_case_restart(struct mesh_case *one, struct fv *s, struct mesh_case *two,
+                                        int steps)
+{
+    char path[1100];
+    int64_t differ = 0;
+    snprintf(path, sizeof path, "%s.h5", one->path);
+    MPI_Bcast(path, sizeof path, MPI_CHAR, 0, MPI_COMM_WORLD);
+    bool good = mesh_case_run(s, steps, 100.0);
+    struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
+    fv_checkpoint(s, f);
+    h5_close(&f);
+    two->run.t = s->t;
+    two->run.step = s->run->step;
+    f = h5_open(MPI_COMM_WORLD, path);
+    struct fv *z = fv_create(&two->run, f);
+    h5_close(&f);
+    good = z && mesh_case_run(s, steps, 100.0) && mesh_case_run(z, steps, 100.0) && good;
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n && good; i++)
+        differ += s->surface->phi[i] != z->surface->phi[i] || s->u[0][i] != z->u[0][i] ||
+                  s->p[i] != z->p[i];
+    MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    mesh_case_end(one, &s);
+    mesh_case_end(two, &z);
+    MPI_Barrier(MPI_COMM_WORLD);
+    remove(path);
+    return good ? differ : -1;
 }
 
 #endif

@@ -447,20 +447,44 @@ static void add_region(struct scene *s, struct random *r, int level)
     }
 }
 
+/* In space a slab of level 1 across the longest axis, from a wall on if there is one: at least R
+ * and two spacings at each edge. */
+static bool add_slab(struct scene *s, struct random *r)
+{
+    int along = 0;
+    for (int a = 1; a < 3; a++)
+        along = s->hi[a] - s->lo[a] > s->hi[along] - s->lo[along] ? a : along;
+    const double L = s->hi[along] - s->lo[along], least = s->periodic[along] ? 12.3 : 6.2;
+    const double length = least * s->dx;
+    if (L < length + 0.3 * s->dx)
+        return false;
+    struct region *is = s->regions + s->nregions++;
+    *is = (struct region){.level = 1};
+    memcpy(is->lo, s->lo, sizeof is->lo);
+    memcpy(is->hi, s->hi, sizeof is->hi);
+    if (s->periodic[along])
+        is->lo[along] += uniform(r, 0.05, 0.95) * (L - length);
+    is->hi[along] = is->lo[along] + length;
+    return true;
+}
+
 static void refined(struct scene *s, struct random *r)
 {
     void (*const make[])(struct scene *, struct random *) = {fields, closed, channel, tank};
-    const int level = whole(r, 1, 2);
+    int level = whole(r, 1, 2);
     make[whole(r, 0, 3)](s, r);
-    bool room = s->dim == 2; /* a step of 3D takes too long for so many scenes */
+    bool room = s->dim == 2;
     for (int a = 0; a < s->dim; a++)
         room = room && s->hi[a] - s->lo[a] > 14.0 * s->dx;
-    if (!room)
+    if (s->dim == 3 ? !add_slab(s, r) : !room)
         return;
-    add_region(s, r, level);
-    if (chance(r, 0.2))
+    if (s->dim == 3)
+        level = 1;
+    else
+        add_region(s, r, level);
+    if (s->dim == 2 && chance(r, 0.2))
         add_region(s, r, 1);
-    s->end *= level == 1 ? 0.2 : 0.05;
+    s->end *= s->dim == 3 ? 0.08 : level == 1 ? 0.2 : 0.05;
     s->carried = false; /* the regions stay */
     s->error = 0.0;     /* of waves that have gone through edges there is no table */
 }

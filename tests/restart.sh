@@ -84,6 +84,7 @@ apr:    { around = 2; particles = 6e3;
 END
 family regions kinetic 1e-9 2 "1 3" 0.03 regions.cfg
 family regions_same kinetic 0 1 1 0.03 regions.cfg
+family regions_local kinetic 0 2 2 0.03 regions.cfg -p apr.local_steps=true
 
 # meshes: a column of water in a tank without lid, an obstacle; the restart file knows its meshes
 awk -v lo="0 0 0" -v hi="1 0.4 0.6" -v drop=zp -f "$root/tests/stl.awk" >tank.stl

@@ -51,7 +51,15 @@ scene column 1 0.04 'max = (2, 1.2);' '(0, -9.81)' \
     '{ form = "box"; box = ((0, 0), (0.5, 0.6)); }'
 scene paddle 0.6 0.04 'max = (1, 1.04);' '(0, 0)' '{ side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; }' '' \
     'bodies: ( { spin = 1.5; centre = (0.5, 0.5); points = ((0.3, 0.44), (0.3, 0.56), (0.7, 0.56), (0.7, 0.44)); } );'
-for name in corner oblique jets pool film column paddle; do runs $name; done
+# a dam that breaks onto a beach, drawn into the tank as one line more; water at rest before it
+sides='{ side = "x_min"; }, { side = "y_min"; }, { side = "x_max"; }'
+scene beach 0.6 0.02 'max = (2, 1.2);' '(0, -9.81)' "$sides, { points = ((1.2, 0), (2, 0.4)); }" '{ form = "box"; box = ((0, 0), (0.5, 0.5)); }'
+scene shore 0.4 0.02 'max = (2, 1.2);' '(0, -9.81)' "$sides, { points = ((1.1, -0.05), (2.2, 0.5)); }" '{ form = "below"; level = 0.3; }'
+for name in corner oblique jets pool film column paddle beach shore; do runs $name; done
+awk -v m="$(value shore max_mach)" 'BEGIN { exit !(m > 0 && m < 0.003) }' || bad "water before a beach does not rest" shore.txt
+sed 's/(1.1, -0.05), (2.2, 0.5)/(1.1, 0), (1.7, 0.25)/' shore.cfg >plate.cfg
+"$b/sph" plate.cfg --check >plate.txt 2>&1
+grep -q 'walls.\[3\].points: the line that stands on another wall .*both of its faces' plate.txt || bad "a line with water on both sides" plate.txt
 runs corner -p 'sph.scheme="riemann_ale"'
 runs jets -p 'sph.scheme="delta"'
 

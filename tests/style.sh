@@ -23,16 +23,10 @@ found=$(find sph fv coupler common -name '*.[ch]' | sed 's,.*/,,' | sort | uniq 
 # Folders of a program from the lowest layer to the highest; "." is its state, the headers beside the main program
 layers_fv="grid . boundary surface operators poisson watch time coupling output case"
 layers_sph=". rigid particles pairs parallel walls surface open_boundaries bodies refinement time coupling watch output case"
-# What still runs upward or in a circle: the state of sph holds particles and watches by value; zones, walls and
+# What still runs upward or in a circle: the state of sph holds particles and watches by value; walls and
 # bodies would have to be split from what they fill, push and check
 known="sph/sph.h sph/particles/particles.h
 sph/sph.h sph/watch/sph_watch.h
-sph/open_boundaries/zones.c sph/coupling/overlap.h
-sph/open_boundaries/zones.c sph/open_boundaries/sides.h
-sph/open_boundaries/zones.c sph/open_boundaries/openings.h
-sph/open_boundaries/zones.c sph/open_boundaries/level_gap.h
-sph/open_boundaries/zones.c sph/open_boundaries/wet_faces.h
-sph/open_boundaries/openings.c sph/open_boundaries/wet_faces.h
 sph/pairs/scheme_gradients.c sph/surface/surface.h
 sph/walls/walls.c sph/walls/forces.h
 sph/bodies/sph_bodies.c sph/case/sph_sense.h"

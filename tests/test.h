@@ -8,6 +8,7 @@
 #include <mpi.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -23,6 +24,15 @@ enum { SANITIZED = 1 };
 #else
 enum { SANITIZED = 0 };
 #endif
+
+/* Whether there is but one rank: what ranks do not change need not be tried on each number of them.
+ */
+static inline bool is_alone(void)
+{
+    int size;
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    return size == 1;
+}
 
 /* |a - b| <= tolerance, absolute; NaN fails. */
 #define assert_close(a, b, tolerance)                                                              \

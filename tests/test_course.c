@@ -17,7 +17,7 @@ static struct fv *start(struct fv_case *c)
     const char *const overrides[] = {"fv.cells=(16,16)", NULL};
     fv_case_set(c, MPI_COMM_WORLD, overrides);
     struct fv *s = fv_case_start(c, NULL);
-    s->forcing = forcing_create(s, box[0], box[1], true);
+    s->forcing = forcing_create(s, 1, &box, true);
     return s;
 }
 
@@ -60,7 +60,9 @@ static void velocity_follows_cubics_and_pressure_lines(void **state)
     static const double t[COURSE_LEVELS] = {0.7, 0.55, 0.3};
     struct fv_case k;
     struct fv *s = start(&k);
-    struct course *c = course_create(s, 0, 1);
+    struct patch of_cells;
+    assert_true(patch_create(s, NULL, NULL, NULL, &of_cells, NULL));
+    struct course *c = course_create(s, &of_cells, 1);
     for (int tried = 0; tried < 2; tried++) {
         const int degree = tried ? 3 : 2;
         for (int m = 0; m < COURSE_LEVELS; m++) {
@@ -115,7 +117,9 @@ static void run(struct fv_case *k, const char *integrator, bool tries)
                                      "fv.hole=((0.25,0.25,0),(0.75,0.75,0))", NULL};
     fv_case_set(k, MPI_COMM_WORLD, overrides);
     struct fv *s = fv_case_start(k, NULL);
-    struct course *c = course_create(s, 0, 1);
+    struct patch of_cells;
+    assert_true(patch_create(s, NULL, NULL, NULL, &of_cells, NULL));
+    struct course *c = course_create(s, &of_cells, 1);
     course_start(s, c, 1e-3);
     for (int window = 0; window < 3; window++) {
         if (tries) {

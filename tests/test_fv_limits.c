@@ -191,6 +191,34 @@ static void unit_of_errors_sets_no_step(void **state)
     assert_close(dt[0], dt[1], 0.0);
 }
 
+/* A lid over a fluid so viscous that it is steady within a step that the flow alone would allow
+ * (Re = 0.01): five times L^2/nu after its start the flow is that of the implicit solver, which
+ * solves pressure and friction together. Steps of 1.1 cells: a sixth of its energy. */
+static void viscous_starts_hold(void **state)
+{
+    static const char *const integrators[] = {"fv.integrator=\"newton\"", "fv.integrator=\"rk3\"",
+                                              "fv.integrator=\"bdf2\""};
+    double row[FV_CASE_ROW], energy[3];
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_SELF,
+                    (const char *const[]){"initial.field=\"rest\"", "fv.cells=(16,16)", CLOSED,
+                                          "fluid.nu=100", "time.end=0.05", integrators[k], NULL});
+        for (int side = SIDE_X_MIN; side <= SIDE_Y_MAX; side++)
+            wall_add(&c, (enum scene_side)side, WALL_NO_SLIP, side == SIDE_Y_MAX ? 1.0 : 0.0);
+        struct fv *s = fv_case_start(&c, NULL);
+        assert_true(fv_case_run(&c, 300, 0.05));
+        assert_close(s->t, 0.05, 1e-12);
+        fv_row(s, row);
+        energy[k] = row[0];
+        fv_free(&c.s);
+    }
+    print_message("lid at Re 0.01: %.5g, %.5g, %.5g J\n", energy[0], energy[1], energy[2]);
+    for (int k = 1; k < 3; k++)
+        assert_close(energy[k], energy[0], 0.01 * energy[0]);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(rk3_holds_in_every_direction),
@@ -200,6 +228,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(starts_from_rest_hold),
                                        cmocka_unit_test(convective_outflow_holds),
                                        cmocka_unit_test(viscous_surfaces_hold),
+                                       cmocka_unit_test(viscous_starts_hold),
                                        cmocka_unit_test(unit_of_errors_sets_no_step)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -34,10 +34,11 @@ static void uniform_flow_stays(void **state)
         "0.2, 0.2); max = (0.8, 0.8, 0.8); centre = (0.5, 0.5, 0.5); motion = ( { kind = "
         "\"polynomial\"; axis = \"rx\"; coefficients = (0.3, 1.0); }, { kind = \"polynomial\"; "
         "axis = \"z\"; coefficients = (0.0, 0.5); } ); }"};
-    static const char *const integrators[2] = {"fv.integrator=\"rk3\"", "fv.integrator=\"bdf2\""};
-    for (int k = 0; k < 3; k++) {
+    static const char *const integrators[4] = {"fv.integrator=\"rk3\"", "fv.integrator=\"bdf2\"",
+                                               "fv.integrator=\"rk3\"", "fv.integrator=\"newton\""};
+    for (int k = 0; k < 4; k++) {
         struct mesh_case c;
-        const char *const overrides[] = {"initial.field=\"uniform\"", integrators[k == 1],
+        const char *const overrides[] = {"initial.field=\"uniform\"", integrators[k],
                                          k == 2 ? "domain.dim=3" : NULL, NULL};
         struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, blocks[k == 2], overrides);
         const int a = k == 2 ? 2 : 0;
@@ -46,7 +47,8 @@ static void uniform_flow_stays(void **state)
         const double worst = distance_from_uniform(s);
         const bool moved = fabs(s->m->block[1].x[0][a] - x) > 1e-3;
         mesh_case_end(&c, &s);
-        assert_true(good && moved && worst < 1e-13);
+        print_message("uniform flow, %s: %.2g off\n", integrators[k], worst);
+        assert_true(good && moved && worst < (k == 3 ? 1e-6 : 1e-13));
     }
 }
 
@@ -102,6 +104,11 @@ static void a_known_flow_is_kept(void **state)
     mesh_case_errors(rest, bdf2, 0.1, e[0]);
     mesh_case_errors(moves, bdf2, 0.1, e[1]);
     assert_true(e[1][0] < 1.1 * e[0][0]);
+    const char *const newton[] = {"fv.integrator=\"newton\"", "fv.cfl=0.25", NULL};
+    mesh_case_errors(rest, newton, 0.1, e[0]);
+    mesh_case_errors(moves, newton, 0.1, e[1]);
+    print_message("newton: %.3g at rest, %.3g past a block that moves\n", e[0][0], e[1][0]);
+    assert_true(e[1][0] < 1.1 * e[0][0]);
     const char *const rk3[] = {"fv.cfl=0.6", NULL};
     mesh_case_errors(rest, rk3, 0.1, e[0]);
     mesh_case_errors(moves, rk3, 0.1, e[1]);
@@ -125,7 +132,7 @@ static void moment_of(const char *blocks, double *moment, double *size)
     bool good = true;
     for (int k = 1; k <= 10; k++) /* no flow bounds the steps of a wall that slides */
         good = mesh_case_run(s, 100, 0.01 * k) && good;
-    mesh_bc_force(s, force);
+    mesh_bc_force(s, NULL, force);
     *moment = good ? force[1][3] : NAN;
     *size = hypot(force[1][0], force[1][1]);
     mesh_case_end(&c, &s);
@@ -144,6 +151,26 @@ static void a_turning_block_is_a_spinning_wall(void **state)
     assert_true(size[1] < 0.01 * fabs(moment[1]));
 }
 
+/* A ring that starts in a fluid so viscous that the flow sets no step: friction does, all the way.
+ */
+static void friction_bounds_the_step(void **state)
+{
+    (void)state;
+    struct mesh_case c;
+    struct fv *s = mesh_case_start(
+        &c, MPI_COMM_WORLD,
+        WALLED "motion = ( { kind = \"harmonic\"; axis = \"rz\"; amplitude = 0.1; period = 0.1; "
+               "} ); }",
+        (const char *const[]){"initial.field=\"rest\"", "fluid.nu=50", "domain.min=(-1,-1)",
+                              "domain.max=(1,1)", NULL});
+    for (int k = 0; k < 3; k++) {
+        assert_true(mesh_case_run(s, 1, 0.1));
+        assert_true(s->dt * s->stiffest < 240.0 * (1.0 + 1e-9));
+        assert_true(s->dt * s->stiffest > 60.0 * (1.0 - 0.1));
+    }
+    mesh_case_end(&c, &s);
+}
+
 /* What cannot move is refused, with the time if it is on the way. */
 static void faults_are_told(void **state)
 {
@@ -156,7 +183,7 @@ static void faults_are_told(void **state)
          "fv.cfl=1.0", "reaches out of the domain"},
         {WALLED "motion = ( { kind = \"polynomial\"; axis = \"x\"; coefficients = (0.0, 0.1); } ); "
                 "}",
-         "fv.integrator=\"newton\"", "newton's residual"},
+         "fv.steady=true", "no steady state"},
         {WALLED "motion = ( { kind = \"harmonic\"; axis = \"z\"; amplitude = 0.1; period = 1.0; } "
                 "); }",
          "fv.cfl=1.0", "axis z in a case of 2 dimensions"},
@@ -179,10 +206,12 @@ static void faults_are_told(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(uniform_flow_stays), cmocka_unit_test(cells_keep_their_volume),
-        cmocka_unit_test(a_known_flow_is_kept),
-        cmocka_unit_test(a_turning_block_is_a_spinning_wall), cmocka_unit_test(faults_are_told)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(uniform_flow_stays),
+                                       cmocka_unit_test(cells_keep_their_volume),
+                                       cmocka_unit_test(a_known_flow_is_kept),
+                                       cmocka_unit_test(a_turning_block_is_a_spinning_wall),
+                                       cmocka_unit_test(friction_bounds_the_step),
+                                       cmocka_unit_test(faults_are_told)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

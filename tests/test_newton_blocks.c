@@ -50,6 +50,43 @@ static void joints_do_not_matter(void **state)
     assert_close(over[0], one[0], 0.2);
 }
 
+/* Mean kinetic energy after a second of a weakly compressible flow; vectors an iteration. */
+static double energy_with_sound(const char *blocks, const char *c0, double *vectors)
+{
+    struct mesh_case c;
+    double sums[2] = {0.0, 0.0};
+    struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, blocks,
+                                   (const char *const[]){NEWTON, "fv.cfl=2", c0, NULL});
+    assert_true(mesh_case_run(s, 1000, 0.3));
+    FLOW_ROWS(s, at, n)
+    for (int64_t i = at; i < at + n; i++) {
+        sums[0] += s->free[i] * s->m->V[i];
+        sums[1] += s->free[i] * s->m->V[i] * (s->u[0][i] * s->u[0][i] + s->u[1][i] * s->u[1][i]);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    *vectors = (double)s->newton->krylovs / (double)s->newton->newtons;
+    mesh_case_end(&c, &s);
+    return sums[1] / sums[0];
+}
+
+/* Of the order of the Mach number's square, on all blocks alike. */
+static void sound_changes_little(void **state)
+{
+    static const char *const blocks[3] = {plain, joined, overlapping};
+    double change[3];
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        double vectors[2];
+        const double none = energy_with_sound(blocks[k], NULL, vectors);
+        change[k] = energy_with_sound(blocks[k], "fv.c0=10", vectors + 1) / none - 1.0;
+        print_message("c = 10 U: energy %.3g, vectors %.3g (%.3g)\n", change[k], vectors[1],
+                      vectors[0]);
+        assert_true(fabs(change[k]) > 1e-6 && fabs(change[k]) < 1e-2);
+        assert_true(vectors[1] < 2.0 * vectors[0] + 2.0);
+    }
+    assert_close(change[1] / change[0], 1.0, 1e-2);
+}
+
 /* M (v + w) = M v + M w, also where blocks overlap. */
 static void preconditioner_is_linear(void **state)
 {
@@ -174,6 +211,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(steady_ring_has_order_three_and_a_half),
                                        cmocka_unit_test(joints_do_not_matter),
+                                       cmocka_unit_test(sound_changes_little),
                                        cmocka_unit_test(preconditioner_is_linear),
                                        cmocka_unit_test(a_stream_becomes_uniform),
                                        cmocka_unit_test(walls_of_the_scene_make_a_duct),

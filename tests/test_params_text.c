@@ -28,6 +28,32 @@ static void the_command_line_goes_before_the_file(void **state)
     faulty(text, WITH("box.count=4294967299"), 1, WITH("-p box.count=4294967299: "));
 }
 
+/* "walls.[0].kind" is how messages name a key: so it can be given, too. */
+static void the_command_line_reaches_into_lists(void **state)
+{
+    (void)state;
+    const char *text =
+        "items: ({ weight = 1; }, { weight = 3; });\n"
+        "trees: ({ }, { parts = ({ x = 1; file = \"a\"; }, { x = 2; }); root = { x = 3; }; });\n";
+    sound(text, WITH("items.[1].weight=4", "items.[0].kind=soft", "trees.[1].parts.[1].x=5",
+                     "trees.[1].parts.[0].file=b", "trees.[1].root.x=6"));
+    assert_close(items[0].weight + 10 * items[1].weight, 41.0, 0);
+    assert_int_equal(items[0].kind + 10 * items[1].kind, 10);
+    assert_int_equal(trees[1].parts.n, 2);
+    assert_close(trees[1].parts.of[0].x + 10 * trees[1].parts.of[1].x, 51.0, 0);
+    assert_string_equal(trees[1].parts.of[0].file, "b");
+    assert_close(trees[1].root.of[0].x, 6.0, 0);
+    faulty(text,
+           WITH("items.[2].weight=4", "items.[0].wait=4", "trees.[0].parts.[0].x=1",
+                "items.weight=1", "items.[1].weight=999", "items.[1].kind=firm"),
+           6,
+           WITH("-p items.[2].weight=4: items.[2].weight: no such element",
+                "-p items.[0].wait=4: items.[0].wait: no such", "elements count from 0",
+                "-p trees.[0].parts.[0].x=1: trees.[0].parts.[0].x: no such",
+                "-p items.weight=1: items.weight: no such",
+                "-p items.[1].weight=999: items.[1].weight: 999 is not allowed"));
+}
+
 static unsigned long long hash(const char *text, const char *const *over)
 {
     struct faults f;
@@ -168,6 +194,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_command_line_goes_before_the_file),
+        cmocka_unit_test(the_command_line_reaches_into_lists),
         cmocka_unit_test(the_hash_is_of_the_case_and_not_of_its_output),
         cmocka_unit_test(the_text_of_a_case_can_be_read_again),
         cmocka_unit_test(a_given_key_that_is_not_used_is_a_fault),

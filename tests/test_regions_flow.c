@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
+#include "../sph/pairs/neighbours.h"
 #include "../sph/refinement/criteria.h"
 #include "../sph/refinement/refinement.h"
 #include "../sph/refinement/regions_parts.h"
@@ -105,7 +106,7 @@ static void vortices_are_refined_within_the_budget(void **state)
         apr_given.around = 2;
         struct sph *s = sph_case_start(&c, NULL);
         double most = 0.0;
-        for (int step = 0; step < 12; step++) {
+        for (int step = 0; step < (SANITIZED ? 3 : 12); step++) {
             assert_true(sph_case_run(&c, 1, 1.0));
             most = fmax(most, particles(s, false));
         }
@@ -150,6 +151,90 @@ static void ranks_have_the_same_regions(void **state)
     ask_nothing();
 }
 
+/* Size of the gradient of p of a particle, or its largest jump of p with neighbours once both are
+ * carried to the middle, over rho max(u^2, g dx)/dx or without dx; g = 1. */
+static double indicator(const struct sph *s, int kind, double dx, int i)
+{
+    const double *q = prim_line(&s->p, i), *g = slope_line(&s->p, i), rho = q[at_rho(2)];
+    const double c2 = s->c0 * s->c0 * pow(rho / s->rho0, 6.0);
+    const double unit = rho * fmax(q[2] * q[2] + q[3] * q[3], dx);
+    double most = 0.0;
+    if (kind == CRITERION_PRESSURE)
+        return c2 * hypot(g[0], g[1]) * dx / unit;
+    for (int k = 0; k < s->list->count[i]; k++) {
+        const int j = s->list->j[s->list->start[i] + k];
+        const double *y = prim_line(&s->p, j), *h = slope_line(&s->p, j);
+        const double d[2] = {y[0] - q[0], y[1] - q[1]};
+        const double mid = 0.5 * ((g[0] + h[0]) * d[0] + (g[1] + h[1]) * d[1]);
+        if (hypot(d[0], d[1]) < s->R && j < s->p.n + s->p.nhalo)
+            most = fmax(most, c2 * fabs(y[at_rho(2)] - rho - mid) / unit);
+    }
+    return most;
+}
+
+/* Water at rest: the gradient is 1 in these units and nothing jumps, so a bound above refines
+ * nothing below the surface, one below all of it by gradients and still nothing by jumps. */
+static void still_water_is_refined_by_its_weight_alone(void **state)
+{
+    (void)state;
+    static const int kinds[3] = {CRITERION_PRESSURE, CRITERION_PRESSURE, CRITERION_JUMP};
+    static const double bounds[3] = {2.0, 0.5, 0.5};
+    for (int k = 0; k < 3; k++) {
+        struct sph_case c;
+        long in = 0, out = 0;
+        set_column(&c, 40);
+        c.run.scene.shapes[0].box[1][0] = 1.2;
+        ask(kinds[k], bounds[k], 0.0, 1, 0.0);
+        apr_given.around = 2;
+        struct sph *s = sph_case_start(&c, NULL);
+        assert_true(sph_case_run(&c, 5, 10.0));
+        for (int i = 0; i < s->p.n; i++) {
+            const double *y = state_row(&s->p, s->p.y, i);
+            const double d = regions_distance(s->refinement->regions, 1, y);
+            in += y[1] < 0.1 && d > 0.0;
+            out += y[1] < 0.1 && d < 0.0;
+        }
+        assert_true(max_anywhere((double)(in + out)) > 0.0);
+        assert_true(none_anywhere(k == 1 ? out : in));
+        sph_free(&c.s);
+    }
+    ask_nothing();
+}
+
+/* A column that falls: at its front all of the depth's pressure falls to nothing, and a wave of
+ * release runs from there. Whoever is above the bound lies in the region. */
+static void steep_pressures_are_refined(void **state)
+{
+    (void)state;
+    static const int kinds[2] = {CRITERION_PRESSURE, CRITERION_JUMP};
+    static const double bounds[2] = {2.5, 0.5};
+    for (int k = 0; k < 2; k++) {
+        struct sph_case c;
+        long above = 0, outside = 0;
+        set_column(&c, 48);
+        ask(kinds[k], bounds[k], 0.0, 1, 0.0);
+        apr_given.around = 2;
+        struct sph *s = sph_case_start(&c, NULL);
+        for (int turn = 0; turn < 3; turn++) {
+            assert_true(sph_case_run(&c, 10, 10.0));
+            integrate_gradients(s);
+            for (const struct sph *q = s; q; q = q->finer)
+                for (int i = 0; i < q->p.n; i++) {
+                    if (particles_is_guard(&q->p, i) ||
+                        indicator(q, kinds[k], s->dx, i) <= bounds[k])
+                        continue;
+                    above++;
+                    outside += regions_distance(s->refinement->regions, 1,
+                                                state_row(&q->p, q->p.y, i)) < 0.0;
+                }
+        }
+        assert_true(max_anywhere((double)above) > 0.0);
+        assert_true(none_anywhere(outside));
+        sph_free(&c.s);
+    }
+    ask_nothing();
+}
+
 /* A region that follows the peak goes to where the column's foot is. */
 static void the_peak_takes_its_region_along(void **state)
 {
@@ -186,6 +271,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(the_surface_is_refined),
         cmocka_unit_test(vortices_are_refined_within_the_budget),
         cmocka_unit_test(ranks_have_the_same_regions),
+        cmocka_unit_test(still_water_is_refined_by_its_weight_alone),
+        cmocka_unit_test(steep_pressures_are_refined),
         cmocka_unit_test(the_peak_takes_its_region_along),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -144,12 +144,40 @@ static void numbers_are_found_and_listed_in_order(void **state)
     summary_free(&s);
 }
 
+/* Eight bodies and 24 gauges of long names make a header of more than any buffer. */
+static void a_long_header_survives_a_restart(void **state)
+{
+    (void)state;
+    enum { MANY = 200 };
+    static char names[MANY][80];
+    const char *list[MANY];
+    double row[MANY];
+    for (int k = 0; k < MANY; k++) {
+        snprintf(names[k], sizeof names[k], "a gauge with a name that says where it stands: %d", k);
+        list[k] = names[k];
+        row[k] = k;
+    }
+    for (int again = 0; again < 2; again++) {
+        struct series *s = series_create(path, MANY, list, again, 0.0);
+        series_row(s, row);
+        series_free(&s);
+    }
+    FILE *f = fopen(path, "r");
+    int lines = 0, commas = 0;
+    for (int c; (c = fgetc(f)) != EOF; lines += c == '\n')
+        commas += c == ',';
+    fclose(f);
+    assert_int_equal(lines, 3); /* header, the row that was kept, the new one */
+    assert_int_equal(commas, 3 * (MANY - 1));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_row_has_its_columns),
         cmocka_unit_test(a_row_is_on_disk_at_once),
         cmocka_unit_test(a_restart_leaves_no_trace),
+        cmocka_unit_test(a_long_header_survives_a_restart),
         cmocka_unit_test(a_restart_without_an_old_file_begins_one),
         cmocka_unit_test(other_ranks_write_nothing),
         cmocka_unit_test(keys_with_dots_are_nested),

@@ -257,6 +257,43 @@ static void body_in_still_water(void **state)
     sph_free(&c.s);
 }
 
+/* A gauge with a radius reads the mean over its face: the weight of the water in its middle, and of
+ * one particle's own pressure no more than that particle's share of the face. */
+static void gauge_reads_mean(void **state)
+{
+    struct sph_case c;
+    double row[2], loud[2];
+    (void)state;
+    tank(&c, 50, false, WALLS_NFM);
+    c.run.scene.nprobes = 2;
+    for (int k = 0; k < 2; k++)
+        c.run.scene.probes[k] = (struct scene_probe){
+            .kind = PROBE_PRESSURE, .at = {0.51, 0.51}, .radius = k ? 0.1 : 0.0};
+    struct sph *s = sph_case_start(&c, NULL);
+    integrate_gradients(s);
+    probes_row(s, row);
+    for (int i = 0; i < s->p.n; i++) {
+        double *q = prim_line(&s->p, i);
+        if (hypot(q[0] - 0.51, q[1] - 0.51) < 0.5 * s->dx)
+            q[at_rho(2)] *= 1.01;
+    }
+    probes_row(s, loud);
+    print_message("gauge: %g, %g Pa; one loud particle: +%g, +%g\n", row[0], row[1],
+                  loud[0] - row[0], loud[1] - row[1]);
+    for (int k = 0; k < 2; k++)
+        assert_close(row[k], 0.49 * 1000.0 * 9.81, 0.01 * 1000.0 * 9.81);
+    assert_true(loud[0] > row[0] + 500.0);
+    assert_close((loud[1] - row[1]) / (loud[0] - row[0]), 0.64, 0.02); /* (R/radius)^2 */
+    for (int i = 0; i < s->p.n + s->p.nghost; i++) { /* all but that one weigh nothing now */
+        double *q = prim_line(&s->p, i);
+        if (hypot(q[0] - 0.51, q[1] - 0.51) > 0.5 * s->dx)
+            q[at_volume(2)] = 0.0;
+    }
+    probes_row(s, row);
+    assert_close(row[1] / row[0], 7.0 / M_PI * 0.04 / 0.25, 0.01); /* w W(0), of a quarter */
+    sph_free(&c.s);
+}
+
 /* A closed ALE run: pair fluxes with mirrored ghosts are antisymmetric, NFM gives mass back. */
 static void mass_is_kept(void **state)
 {
@@ -469,6 +506,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(eigenvalues),
                                        cmocka_unit_test(surface_is_found),
                                        cmocka_unit_test(body_in_still_water),
+                                       cmocka_unit_test(gauge_reads_mean),
                                        cmocka_unit_test(motion),
                                        cmocka_unit_test(laplacian_at_a_wall),
                                        cmocka_unit_test(mass_is_kept),

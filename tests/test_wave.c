@@ -68,6 +68,19 @@ static struct scene channel(int field)
     return s;
 }
 
+/* Water of real viscosity: its layers are millimetres, cells beyond the crest and
+ * the bottom are not. */
+static void thin_layers_do_not_grow_beyond_the_water(void **state)
+{
+    (void)state;
+    const struct wave w = wave_create(0.6, 2.0, 9.81, 1e-6, 1000.0, 0.03);
+    for (int j = -80; j <= 60; j++) {
+        double u[2], vorticity;
+        wave_point(&w, 0.7, 0.01 * j, 0.1, u, NULL, &vorticity);
+        assert_true(hypot(u[0], u[1]) < 10.0 * 0.03 * cabs(w.s));
+    }
+}
+
 static void channels(void **state)
 {
     const double y[3] = {0.3, 0.5, 0.0}, wall[3] = {0.0, 1.0, 0.0}, h = 1e-4;
@@ -176,6 +189,7 @@ int main(void)
                                        cmocka_unit_test(wave_solves_its_equations),
                                        cmocka_unit_test(stokes_wave_travels),
                                        cmocka_unit_test(enstrophy_of_the_layer),
+                                       cmocka_unit_test(thin_layers_do_not_grow_beyond_the_water),
                                        cmocka_unit_test(channels),
                                        cmocka_unit_test(patch_and_drop)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -36,8 +36,10 @@ static void list_others(const char *others[OTHERS], bool shared, const struct ha
 {
     int n = 0;
     others[n++] = "sph";
+    others[n++] = "sph_*";
     others[n++] = "apr";
     others[n++] = "fv";
+    others[n++] = "blocks"; /* of fv */
     for (int k = 0; k < OF_SCENE && !shared; k++)
         others[n++] = of_scene[k];
     for (int k = 0; who && k < who->nprograms; k++)
@@ -66,7 +68,8 @@ static void look(struct scene *s, MPI_Comm comm, const struct command_line *l)
     struct faults scrap = {0};
     struct params *p =
         params_read(comm, l->case_file, l->noverrides, l->overrides, NULL, 0, NULL, &scrap);
-    s->has_sph = params_has_group(p, "sph");
+    char kin[PARAM_KIN_MAX][64];
+    s->has_sph = params_kin(p, "sph", kin) > 0;
     s->has_fv = params_has_group(p, "fv");
     params_free(&p);
     mem_free(scrap.text);

@@ -62,9 +62,14 @@ static void check_programs(const struct coupler *c, char *text)
                     c->solver[i].name);
     if (c->job.programs[0])
         return;
-    if (c->scene.has_sph && !present(c, "sph"))
-        problem(text, "the case has a group sph, but no program `sph' is in this job "
-                      "(coupler.programs: others in its place)");
+    char kin[PARAM_KIN_MAX][64];
+    const int n = params_kin(c->params, "sph", kin);
+    for (int k = 0; k < n; k++)
+        if (!present(c, kin[k]))
+            problem(text,
+                    "the case has a group %s, but no program `%s' is in this job "
+                    "(coupler.programs: others in its place)",
+                    kin[k], kin[k]);
     if (c->scene.has_fv && !present(c, "fv"))
         problem(text, "the case has a group fv, but no program `fv' is in this job "
                       "(coupler.programs: others in its place)");

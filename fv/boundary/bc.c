@@ -1,8 +1,4 @@
-/* bc.c - see bc.h. Ghosts of cell averages behind a side, q_1, q_2, q_3 inside, w the average on
- * the side's face:
- *   given     q_0 = 4 w - (13 q_1 - 5 q_2 + q_3)/3,  q_-1 = 16 w - (70 q_1 - 32 q_2 + 7 q_3)/3,
- *             the cubic through them; the fourth-order face value is then w itself
- *   mirrored  q_0 = q_1, q_-1 = q_2, or 2 w - q_1, 2 w - q_2
+/* bc.c - see bc.h. Of ghosts.h:
  * No-slip and inflow: all components given; slip: the normal one odd, others even; outflow: even.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bc.h"
@@ -12,6 +8,8 @@
 
 #include "../../common/mem.h"
 #include "blocked.h"
+#include "carried.h"
+#include "ghosts.h"
 
 /* Places of a side on this rank: tangents t0 < t1, from lo to hi; places count from -g, so that
  * those behind other sides have their own. */
@@ -100,55 +98,50 @@ static double profile_at(const struct fv *s, const struct scene_wall *wall, cons
 }
 
 /* Places of an outflow and the cells inside. */
-static struct outflow *make_outflow(const struct bc *bc, const struct block *b, int k,
-                                    int64_t places)
+static void make_outflow(struct fv *s, struct bc *bc, int k)
 {
+    const struct block *b = &s->b;
     const struct side d = side_of(bc, b, k, true);
-    struct outflow *o = NEW(struct outflow, 1);
-    o->side = k;
-    o->place = NEW(int64_t, places);
-    o->cell = NEW(int64_t, places);
-    o->own = NEW(bool, places);
-    o->area = NEW(double, places);
+    struct outflow *o = carried_add(s, k, bc->n[k], bc->n[k]);
+    const double h = block_size(b, d.a, k % 2 ? b->n[1] - 1 : 0); /* a row, if it is along y */
+    o->in = d.in;
     SIDE_PLACES(b, d, i, j, m, c)
     {
         o->place[o->n] = m;
         o->cell[o->n] = c;
-        o->area[o->n] = face_area(b, &d, i, j);
+        o->S[d.a][o->n] = (k % 2 ? 1.0 : -1.0) * face_area(b, &d, i, j);
+        o->h[o->n] = h;
         o->own[o->n++] = i >= 0 && i < b->n[d.t[0]] && j >= 0 && j < b->n[d.t[1]];
     }
     for (int q = 0; q < b->dim; q++) {
-        o->line[q] = NEW(double, 3 * o->n);
-        o->change[q] = NEW(double, places);
+        o->w[q] = bc->w[k][q];
+        bc->change[k][q] = o->change[q];
     }
-    return o;
 }
 
-static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall *wall)
+static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall)
 {
-    static const enum bc_kind kinds[] = {BC_SLIP, BC_NO_SLIP, BC_INFLOW, BC_OUTFLOW};
     const struct block *b = &s->b;
     if (wall->side == SIDE_NONE)
         return;
     const int k = wall->side - SIDE_X_MIN, a = k / 2;
     if (a >= b->dim || b->periodic[a])
         return;
-    bc->kind[k] = wall->carried ? BC_CARRIED : kinds[wall->kind];
-    bc->carries = bc->carries || bc->kind[k] == BC_CARRIED;
-    bc->pressure_given = bc->pressure_given || bc->kind[k] == BC_OUTFLOW;
-    if (bc->kind[k] == BC_OUTFLOW)
+    bc->kind[k] = side_of_wall(wall);
+    bc->pressure_given = bc->pressure_given || bc->kind[k] == MESH_OUTFLOW;
+    if (bc->kind[k] == MESH_OUTFLOW)
         bc->pressure[k] = wall->pressure / s->run->scene.fluid.rho;
     bc->driven = bc->driven || bc->pressure[k] != 0.0;
-    for (int q = 0; q < b->dim && bc->kind[k] != BC_OUTFLOW; q++) {
+    for (int q = 0; q < b->dim && bc->kind[k] != MESH_OUTFLOW; q++) {
         bc->speed_along[q] = fmax(bc->speed_along[q], fabs(wall->velocity[q]));
-        bc->slides[k] = bc->slides[k] || (bc->kind[k] == BC_NO_SLIP && wall->velocity[q] != 0.0);
+        bc->slides[k] = bc->slides[k] || (bc->kind[k] == MESH_WALL && wall->velocity[q] != 0.0);
     }
     for (int q = 0; q < b->dim; q++)
         bc->speed = fmax(bc->speed, bc->speed_along[q]);
     double area = 1.0;
     for (int t = 0; t < b->dim; t++)
         area *= t == a ? 1.0 : b->length[t];
-    if (bc->kind[k] == BC_NO_SLIP || bc->kind[k] == BC_SLIP)
+    if (bc->kind[k] == MESH_WALL || bc->kind[k] == MESH_SLIP)
         bc->wall_area += area;
     if (!has_side(b, k))
         return;
@@ -161,8 +154,8 @@ static void make_side(const struct fv *s, struct bc *bc, const struct scene_wall
             for (int i = -b->g[d.t[0]]; i < b->n[d.t[0]] + b->g[d.t[0]]; i++)
                 bc->w[k][q][place(b, &d, i, j)] = wall->velocity[q] * profile_at(s, wall, &d, i, j);
     }
-    if (bc->kind[k] == BC_CARRIED)
-        bc->out[k] = make_outflow(bc, b, k, bc->n[k]);
+    if (bc->kind[k] == MESH_CARRIED)
+        make_outflow(s, bc, k);
     SIDE_PLACES(b, inner, i, j, m, c)
     {
         bc->outflux += (k % 2 ? 1.0 : -1.0) * face_area(b, &inner, i, j) * bc->w[k][a][m];
@@ -189,31 +182,18 @@ static void set_turns(const struct scene *scene, int dim, int turn[3])
     }
 }
 
-static void free_outflow(struct outflow *o)
-{
-    if (!o)
-        return;
-    mem_free(o->place);
-    mem_free(o->cell);
-    mem_free(o->own);
-    mem_free(o->area);
-    for (int q = 0; q < 3; q++) {
-        mem_free(o->line[q]);
-        mem_free(o->change[q]);
-    }
-    mem_free(o);
-}
-
-struct bc *bc_create(const struct fv *s)
+struct bc *bc_create(struct fv *s)
 {
     const struct scene *scene = &s->run->scene;
     if (scene->nwalls == 0)
         return NULL;
     struct bc *bc = NEW(struct bc, 1);
+    carried_create(s);
     set_turns(scene, s->b.dim, bc->turn);
     for (int i = 0; i < scene->nwalls; i++)
         make_side(s, bc, scene->walls + i);
-    bc->outflux_given = bc->outflux;
+    if (s->outflows)
+        s->outflows->given = bc->outflux;
     return bc;
 }
 
@@ -222,51 +202,36 @@ void bc_free(struct bc **bp)
     struct bc *bc = *bp;
     if (!bc)
         return;
-    for (int k = 0; k < 6; k++) {
+    for (int k = 0; k < 6; k++)
         for (int q = 0; q < 3; q++) {
             mem_free(bc->w[k][q]);
             mem_free(bc->slip[k][q]);
         }
-        free_outflow(bc->out[k]);
-    }
     mem_free(bc);
     *bp = NULL;
 }
 
-enum bc_kind bc_behind(const struct fv *s, const int *at, int a)
+enum mesh_side bc_behind(const struct fv *s, const int *at, int a)
 {
     const struct block *b = &s->b;
     const int i = b->lo[a] + at[a];
     if (!s->bc || a >= b->dim || b->periodic[a] || (i >= 0 && i < b->cells[a]))
-        return BC_NONE;
+        return MESH_NONE;
     return s->bc->kind[2 * a + (i >= 0)];
 }
 
-static void ghosts_given(double *q, int64_t in, double w)
-{
-    q[-in] = 4.0 * w - (13.0 * q[0] - 5.0 * q[in] + q[2 * in]) / 3.0;
-    q[-2 * in] = 16.0 * w - (70.0 * q[0] - 32.0 * q[in] + 7.0 * q[2 * in]) / 3.0;
-    q[-3 * in] = q[-2 * in]; /* no stencil reads it */
-}
-
-static void ghosts_mirrored(double *q, int64_t in, double sign, double w)
-{
-    for (int m = 0; m < GHOSTS; m++)
-        q[-(m + 1) * in] = 2.0 * w + sign * q[m * in];
-}
-
 /* One component along one side. w, slip: NULL for zero. */
-static void fill(const struct bc *bc, const struct block *b, int k, enum bc_kind kind, int q,
+static void fill(const struct bc *bc, const struct block *b, int k, enum mesh_side kind, int q,
                  const double *w, const double *slip, double *u)
 {
     const struct side d = side_of(bc, b, k, true);
-    const bool even = kind == BC_OUTFLOW || (kind == BC_SLIP && q != d.a);
+    const bool even = kind == MESH_OUTFLOW || (kind == MESH_SLIP && q != d.a);
     SIDE_PLACES(b, d, i, j, m, c)
     {
         const double v = (w ? w[m] : 0.0) + (slip ? slip[m] : 0.0);
         if (even)
             ghosts_mirrored(u + c, d.in, 1.0, 0.0);
-        else if (kind == BC_SLIP)
+        else if (kind == MESH_SLIP)
             ghosts_mirrored(u + c, d.in, -1.0, v);
         else
             ghosts_given(u + c, d.in, v);
@@ -277,7 +242,7 @@ static void fill(const struct bc *bc, const struct block *b, int k, enum bc_kind
 static const double *side_value(const struct bc *bc, int k, int q, enum bc_value what)
 {
     if (what == BC_CHANGE)
-        return bc->out[k] ? bc->out[k]->change[q] : NULL;
+        return bc->change[k][q];
     return what == BC_ZERO ? NULL : bc->w[k][q];
 }
 
@@ -304,13 +269,13 @@ void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3])
 static void fill_zero(const struct bc *bc, const struct block *b, int k, int q,
                       const struct side *d, double *u)
 {
-    const enum bc_kind kind = bc->kind[k];
+    const enum mesh_side kind = bc->kind[k];
     SIDE_PLACES(b, *d, i, j, m, c)
     {
         (void)m;
-        if (kind == BC_OUTFLOW || (kind == BC_SLIP && q != d->a))
+        if (kind == MESH_OUTFLOW || (kind == MESH_SLIP && q != d->a))
             ghosts_mirrored(u + c, d->in, 1.0, 0.0);
-        else if (kind == BC_SLIP)
+        else if (kind == MESH_SLIP)
             ghosts_mirrored(u + c, d->in, -1.0, 0.0);
         else
             ghosts_given(u + c, d->in, 0.0);
@@ -361,7 +326,7 @@ void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
 {
     const struct block *b = &s->b;
     for (int k = 0; s->bc && k < 2 * b->dim; k++) {
-        if (s->bc->n[k] == 0 || s->bc->kind[k] == BC_OUTFLOW)
+        if (s->bc->n[k] == 0 || s->bc->kind[k] == MESH_OUTFLOW)
             continue;
         const struct side d = side_of(s->bc, b, k, true);
         const int64_t face = k % 2 ? b->stride[d.a] : 0;
@@ -421,7 +386,7 @@ void bc_set_slip(const struct fv *s, double tau, const double *psi)
 {
     const struct block *b = &s->b;
     for (int k = 0; s->bc && k < 2 * b->dim; k++) {
-        if (s->bc->n[k] == 0 || s->bc->kind[k] == BC_SLIP || s->bc->kind[k] == BC_OUTFLOW)
+        if (s->bc->n[k] == 0 || s->bc->kind[k] == MESH_SLIP || s->bc->kind[k] == MESH_OUTFLOW)
             continue;
         const struct side d = side_of(s->bc, b, k, false);
         for (int m = 0; m < 2 && d.t[m] < b->dim; m++) {

@@ -5,36 +5,21 @@
 #define FV_BC_H
 
 #include "../fv.h"
-
-enum bc_kind { BC_NONE, BC_NO_SLIP, BC_SLIP, BC_INFLOW, BC_OUTFLOW, BC_CARRIED };
-
-/* A side through which the flow leaves as it is carried; outflow.h. */
-struct outflow {
-    int side;            /* as in bc.h */
-    int64_t n;           /* places on this rank */
-    int64_t *place;      /* in the side's arrays */
-    int64_t *cell;       /* inside */
-    bool *own;           /* its face is one of this rank's, once */
-    double *area;        /* m^(dim-1): of its face */
-    double *line[3];     /* [3 n]: the step's first velocity inwards, w + b x + c x^2, x in cells */
-    double *change[3];   /* [places of the side] m/s: of w at the last outflow_set */
-    double carried, sum; /* cells a second; m^dim/s outwards on this rank */
-};
+#include "../grid/side_kinds.h"
 
 struct bc {
-    int turn[3];          /* of the axes, when sides are filled: 0 first */
-    enum bc_kind kind[6]; /* side 2 a + (1 if upper) of axis a */
-    bool slides[6];       /* a wall that moves along itself */
+    int turn[3];            /* of the axes, when sides are filled: 0 first */
+    enum mesh_side kind[6]; /* side 2 a + (1 if upper) of axis a */
+    bool slides[6];         /* a wall that moves along itself */
     int64_t n[6]; /* places of a side on this rank, ghosts of its tangents included; 0: not here */
-    double *w[6][3];        /* m/s: velocity on the side, averages over faces */
-    double *slip[6][3];     /* m/s: what the next projection takes off the side's velocity */
-    double pressure[6];     /* m^2/s^2: p/rho of an outflow, 0 elsewhere */
-    bool driven;            /* some of it not 0 */
-    bool pressure_given;    /* at an outflow: the pressure problem is regular */
-    bool carries;           /* some outflow is of the kind BC_CARRIED */
-    struct outflow *out[6]; /* those on this rank; else NULL */
-    double outflux;         /* m^dim/s: through this rank's faces of given velocity, outwards */
-    double outflux_given;   /* its part of walls and inflow */
+    double *w[6][3];     /* m/s: velocity on the side, averages over faces */
+    double *slip[6][3];  /* m/s: what the next projection takes off the side's velocity */
+    double pressure[6];  /* m^2/s^2: p/rho of an outflow, 0 elsewhere */
+    bool driven;         /* some of it not 0 */
+    bool pressure_given; /* at an outflow: the pressure problem is regular */
+    double
+        *change[6][3]; /* m/s: of w within the step, of carried outflows (outflow.h); else NULL */
+    double outflux;    /* m^dim/s: through this rank's faces of given velocity, outwards */
     double speed, speed_along[3]; /* m/s: largest velocity imposed, and of each component */
     double wall_area;             /* m^(dim-1) of walls, over all ranks; 0: none */
 };
@@ -47,10 +32,10 @@ enum bc_value {
 };
 
 /* NULL if no side has a kind. */
-struct bc *bc_create(const struct fv *s);
+struct bc *bc_create(struct fv *s);
 void bc_free(struct bc **b);
-/* Kind of the side behind which the cell `at' (local) lies along axis a; BC_NONE if inside. */
-enum bc_kind bc_behind(const struct fv *s, const int *at, int a);
+/* Kind of the side behind which the cell `at' (local) lies along axis a; MESH_NONE if inside. */
+enum mesh_side bc_behind(const struct fv *s, const int *at, int a);
 /* Ghost averages of the fields u along all sides that have a kind; halo first. */
 void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3]);
 /* The same of a difference (BC_ZERO) u of component q, in slab j across the last axis, without

@@ -7,82 +7,109 @@
 #include "../../common/mem.h"
 #include "bc.h"
 #include "blocked.h"
+#include "mesh_bc.h"
 
-/* Visits all cells with their ghosts. */
-#define ALL_CELLS(b, i, j, k)                                                                      \
-    for (int k = -(b)->g[2]; k < (b)->n[2] + (b)->g[2]; k++)                                       \
-        for (int j = -(b)->g[1]; j < (b)->n[1] + (b)->g[1]; j++)                                   \
-            for (int i = -(b)->g[0]; i < (b)->n[0] + (b)->g[0]; i++)
+/* Visits all cells of all parts with their ghosts: at (int[3]) of part p has place c. */
+#define ALL_CELLS(s, p, at, c)                                                                     \
+    for (const struct part *p = (s)->part; p < (s)->part + (s)->nparts; p++)                       \
+        for (at[2] = -p->g[2]; at[2] < p->n[2] + p->g[2]; at[2]++)                                 \
+            for (at[1] = -p->g[1]; at[1] < p->n[1] + p->g[1]; at[1]++)                             \
+                for (at[0] = -p->g[0]; at[0] < p->n[0] + p->g[0]; at[0]++)                         \
+                    for (int64_t c = part_at(p, at[0], at[1], at[2]), once_ = 1; once_; once_ = 0)
 
-static bool is_local(const struct block *b, const int *at)
+static bool is_local(const struct part *p, const int *at)
 {
     for (int a = 0; a < 3; a++)
-        if (at[a] < 0 || at[a] >= b->n[a])
+        if (at[a] < 0 || at[a] >= p->n[a])
             return false;
     return true;
 }
 
-/* 1: inside the box, 2: behind a closed side, 0: free. */
-static unsigned char kind_of(const struct block *b, const int *at, const double *lo,
-                             const double *hi)
+static double *new_field(const struct fv *s) { return NEW(double, s->size); }
+
+void forcing_halo(const struct fv *s, int nf, double *const *f)
 {
+    if (s->m)
+        mesh_halo(s->m, nf, f);
+    else
+        block_halo(&s->b, nf, f);
+}
+
+/* 1: inside the box, 2: behind a closed side, 0: free. */
+static unsigned char kind_of(const struct block *b, const int *at, const double (*box)[3])
+{
+    const double *const lo = box[0], *const hi = box[1];
     bool inside = true;
     for (int a = 0; a < b->dim; a++) {
         int i = b->lo[a] + at[a];
         if (!b->periodic[a] && (i < 0 || i >= b->cells[a]))
             return 2;
         i = ((i % b->cells[a]) + b->cells[a]) % b->cells[a];
-        const double h = block_size(b, a, at[a]), eps = 1e-9 * h,
-                     x = a == 1 && b->rows ? b->rows->y[at[1]] - 0.5 * h : b->origin[a] + i * h;
+        const double h = block_size(b, a, at[a]), eps = 1e-9 * h;
+        double x = a == 1 && b->rows ? b->rows->y[at[1]] - 0.5 * h : b->origin[a] + i * h;
+        if (b->periodic[a] && isfinite(lo[a])) /* the image that is not below the box */
+            x += b->length[a] * ceil((lo[a] - eps - x) / b->length[a]);
         inside = inside && x >= lo[a] - eps && x + h <= hi[a] + eps;
     }
     return inside;
 }
 
-static int64_t count_kind(const struct fv *s, struct forcing *f, const double *lo, const double *hi)
+/* In any of n boxes. */
+static unsigned char kind_in(const struct block *b, const int *at, int n, const double (*box)[2][3])
 {
-    const struct block *b = &s->b;
+    unsigned char kind = 0;
+    for (int k = 0; k < n && kind == 0; k++)
+        kind = kind_of(b, at, box[k]);
+    return kind;
+}
+
+static int64_t count_kind(const struct fv *s, struct forcing *f, int n, const double (*box)[2][3])
+{
+    static const unsigned char kinds[] = {
+        [CELL_COMPUTED] = 0, [CELL_FRINGE] = 0, [CELL_HOLE] = 4, [CELL_GIVEN] = 1};
     int64_t forced = 0, free_cells = 0;
-    ALL_CELLS (b, i, j, k) {
-        const int at[3] = {i, j, k};
-        const int64_t c = block_at(b, i, j, k);
-        f->forced[c] = kind_of(b, at, lo, hi);
-        if (f->forced[c] != 2 && is_blocked(s, c))
+    int at[3];
+    ALL_CELLS (s, p, at, c) {
+        f->forced[c] = s->m ? kinds[s->m->status[c]] : kind_in(&s->b, at, n, box);
+        if (!s->m && f->forced[c] != 2 && is_blocked(s, c))
             f->forced[c] = 3;
-        forced += f->forced[c] != 0;
-        free_cells += !f->forced[c] && is_local(b, at);
+        forced += f->forced[c] != 0 && f->forced[c] != 4;
+        free_cells += !f->forced[c] && is_local(p, at);
     }
-    MPI_Allreduce(&free_cells, &f->free_cells, 1, MPI_INT64_T, MPI_SUM, b->cart);
-    MPI_Allreduce(MPI_IN_PLACE, &forced, 1, MPI_INT64_T, MPI_SUM, b->cart);
+    MPI_Allreduce(&free_cells, &f->free_cells, 1, MPI_INT64_T, MPI_SUM, s->comm);
+    MPI_Allreduce(MPI_IN_PLACE, &forced, 1, MPI_INT64_T, MPI_SUM, s->comm);
     return forced;
+}
+
+static bool beside_layer(const struct part *p, const double *field, const int *at, double layer)
+{
+    int d[3];
+    for (d[2] = -(p->g[2] > 0); d[2] <= (p->g[2] > 0); d[2]++)
+        for (d[1] = -1; d[1] <= 1; d[1]++)
+            for (d[0] = -1; d[0] <= 1; d[0]++) {
+                bool there = true;
+                for (int a = 0; a < 3; a++)
+                    there = there && at[a] + d[a] >= -p->g[a] && at[a] + d[a] < p->n[a] + p->g[a];
+                if (there && field[part_at(p, at[0] + d[0], at[1] + d[1], at[2] + d[2])] == layer)
+                    return true;
+            }
+    return false;
 }
 
 /* Layers by spreading from the free cells over faces and corners; halo by way of a field. */
 static void find_layers(const struct fv *s, struct forcing *f)
 {
-    const struct block *b = &s->b;
-    double *field = block_field(b), *const fields[1] = {field};
-    for (int64_t c = 0; c < b->size; c++)
-        field[c] = f->forced[c] ? 99.0 : 0.0;
-    for (int layer = 1; layer <= NEAR; layer++) {
-        ALL_CELLS (b, i, j, k) {
-            const int64_t c = block_at(b, i, j, k);
-            if (field[c] < 99.0)
-                continue;
-            for (int dk = -(b->g[2] > 0); dk <= (b->g[2] > 0); dk++)
-                for (int dj = -1; dj <= 1; dj++)
-                    for (int di = -1; di <= 1; di++) {
-                        const int at[3] = {i + di, j + dj, k + dk};
-                        bool there = true;
-                        for (int a = 0; a < 3; a++)
-                            there = there && at[a] >= -b->g[a] && at[a] < b->n[a] + b->g[a];
-                        if (there && field[block_at(b, at[0], at[1], at[2])] == layer - 1.0)
-                            field[c] = layer;
-                    }
-        }
-        block_halo(b, 1, fields);
+    double *field = new_field(s), *const fields[1] = {field};
+    int at[3];
+    for (int64_t c = 0; c < s->size; c++)
+        field[c] = f->forced[c] == 4 ? 999.0 : f->forced[c] ? 99.0 : 0.0;
+    for (int layer = 1; layer <= f->near; layer++) {
+        ALL_CELLS (s, p, at, c)
+            if (field[c] == 99.0 && beside_layer(p, field, at, layer - 1.0))
+                field[c] = layer;
+        forcing_halo(s, 1, fields);
     }
-    for (int64_t c = 0; c < b->size; c++)
+    for (int64_t c = 0; c < s->size; c++)
         f->layer[c] = field[c] < 99.0 ? (unsigned char)field[c] : 0;
     mem_free(field);
 }
@@ -93,56 +120,58 @@ static bool has_bc(const struct fv *s, const int *at)
     return bc_behind(s, at, 0) || bc_behind(s, at, 1) || bc_behind(s, at, 2);
 }
 
-/* Whether a free cell has a cell of the hole within two cells along an axis. */
-static bool is_rim(const struct block *b, const struct forcing *f, int64_t c)
+/* Whether a free cell has a cell of the hole within two cells along an axis; on askew cells the
+ * fluxes want those beside such lines, too. */
+static bool is_rim(const struct fv *s, const struct part *p, const struct forcing *f, int64_t c)
 {
     bool rim = false;
-    for (int a = 0; a < b->dim; a++)
-        for (int m = -2; m <= 2; m++)
-            rim = rim || f->forced[c + m * b->stride[a]] == 1;
+    for (int a = 0; a < f->dim; a++)
+        for (int m = -2; m <= 2; m++) {
+            rim = rim || f->forced[c + m * p->stride[a]] == 1;
+            for (int t = 0; t < f->dim && s->m; t++)
+                for (int e = -1; e <= 1; e += 2)
+                    rim = rim || f->forced[c + m * p->stride[a] + e * p->stride[t]] == 1;
+        }
     return rim && !f->forced[c];
 }
 
-static void mark_known(const struct block *b, struct forcing *f)
+static void mark_known(const struct fv *s, struct forcing *f)
 {
-    double *field = block_field(b), *const fields[1] = {field};
+    double *field = new_field(s), *const fields[1] = {field};
     for (int64_t i = 0; i < f->npartner + f->nrim; i++)
         field[f->partner[i]] = 1.0;
-    block_halo(b, 1, fields);
-    f->known = NEW(bool, b->size);
-    for (int64_t c = 0; c < b->size; c++)
+    forcing_halo(s, 1, fields);
+    f->known = NEW(bool, s->size);
+    for (int64_t c = 0; c < s->size; c++)
         f->known[c] = field[c] == 1.0;
     mem_free(field);
 }
 
 static void list_partner(const struct fv *s, struct forcing *f)
 {
-    const struct block *b = &s->b;
-    BLOCK_ROWS (b, 0, at, n)
-        for (int64_t c = at; c < at + n; c++)
-            if (is_rim(b, f, c))
-                f->partner[f->npartner + f->nrim++] = c;
-    mark_known(b, f);
+    FLOW_ROWS(s, at, n)
+    for (int64_t c = at; c < at + n; c++)
+        if (is_rim(s, p_, f, c))
+            f->partner[f->npartner + f->nrim++] = c;
+    mark_known(s, f);
     for (int a = 0; a < f->dim; a++) {
         f->v[a] = NEW(double, f->npartner + f->nrim);
         f->v_next[a] = NEW(double, f->npartner + f->nrim);
         f->v_old[a] = NEW(double, f->npartner + f->nrim);
-        f->given[a] = block_field(b);
+        f->given[a] = new_field(s);
     }
 }
 
 static void list_cells(const struct fv *s, struct forcing *f)
 {
-    const struct block *b = &s->b;
-    f->local = NEW(int64_t, b->size);
-    f->set = NEW(int64_t, b->size);
-    f->partner = NEW(int64_t, b->size);
-    ALL_CELLS (b, i, j, k) {
-        const int at[3] = {i, j, k};
-        const int64_t c = block_at(b, i, j, k);
-        if (!f->forced[c])
+    int at[3];
+    f->local = NEW(int64_t, s->size);
+    f->set = NEW(int64_t, s->size);
+    f->partner = NEW(int64_t, s->size);
+    ALL_CELLS (s, p, at, c) {
+        if (!f->forced[c] || f->forced[c] == 4)
             continue;
-        const bool local = is_local(b, at);
+        const bool local = is_local(p, at);
         if (local)
             f->local[f->nlocal++] = c;
         if (f->forced[c] == 1 && local && f->layer[c] && f->from_partner)
@@ -155,161 +184,94 @@ static void list_cells(const struct fv *s, struct forcing *f)
     if (f->from_partner)
         list_partner(s, f);
     f->imposed = f->nset > 0;
-    MPI_Allreduce(MPI_IN_PLACE, &f->imposed, 1, MPI_C_BOOL, MPI_LOR, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, &f->imposed, 1, MPI_C_BOOL, MPI_LOR, s->comm);
+}
+
+/* Whether the face between two cells, one of them free, the other not, is of the outline. */
+static bool is_outline(const struct fv *s, struct forcing *f, const int *at, int a, int64_t c,
+                       int64_t d)
+{
+    const bool here = f->forced[c] != 0;
+    int outer[3] = {at[0], at[1], at[2]}; /* the forced cell */
+    outer[a] -= here ? 0 : 1;
+    if (s->m)
+        return s->m->status[here ? c - d : c] == CELL_COMPUTED && f->forced[here ? c : c - d] == 1;
+    const enum mesh_side kind = bc_behind(s, outer, a);
+    if (kind == MESH_OUTFLOW) /* psi is 0 on the face, half a cell away */
+        f->open[a][c] = 2.0;
+    return !kind && f->forced[here ? c : c - d] != 3;
 }
 
 /* Faces between free and forced cells along axis a. */
 static void list_faces(const struct fv *s, struct forcing *f, int a)
 {
-    const struct block *b = &s->b;
-    f->face[a] = NEW(int64_t, b->size);
-    f->sign[a] = NEW(signed char, b->size);
-    f->counts[a] = NEW(bool, b->size);
-    f->open[a] = NEW(double, b->size);
-    ALL_CELLS (b, i, j, k) {
-        const int at[3] = {i, j, k};
-        const int64_t c = block_at(b, i, j, k), d = b->stride[a];
-        if (at[a] == -b->g[a])
+    int at[3];
+    f->face[a] = NEW(int64_t, s->size);
+    f->sign[a] = NEW(signed char, s->size);
+    f->counts[a] = NEW(bool, s->size);
+    f->open[a] = s->m ? NULL : NEW(double, s->size);
+    ALL_CELLS (s, p, at, c) {
+        const int64_t d = p->stride[a];
+        if (at[a] == -p->g[a])
             continue;
         const bool here = f->forced[c] != 0, below = f->forced[c - d] != 0;
-        f->open[a][c] = !here && !below;
-        if (here == below)
+        if (f->open[a])
+            f->open[a][c] = !here && !below;
+        if (here == below || !is_outline(s, f, at, a, c, d))
             continue;
-        int inner[3] = {i, j, k}, outer[3] = {i, j, k}; /* the free cell, the forced one */
-        (here ? inner : outer)[a]--;
-        const enum bc_kind kind = bc_behind(s, outer, a);
-        if (kind == BC_OUTFLOW) /* psi is 0 on the face, half a cell away */
-            f->open[a][c] = 2.0;
-        if (kind || f->forced[here ? c : c - d] == 3)
-            continue;
+        int inner[3] = {at[0], at[1], at[2]}; /* the free cell */
+        inner[a] -= here ? 1 : 0;
         f->face[a][f->nface[a]] = c;
         f->sign[a][f->nface[a]] = here ? 1 : -1;
-        f->counts[a][f->nface[a]++] = is_local(b, inner);
+        f->counts[a][f->nface[a]++] = is_local(p, inner);
     }
 }
 
-/* Adds to the weights, counted from cell 0 outwards, g times the ghost `depth' = 1, 2 cells beyond
- * the free cell at `edge', behind which `run' free cells stand in line. */
-static void spread_ghost(int edge, int run, int depth, double g, double *cubic, double *even,
-                         int way)
+/* Of the lower face along a. */
+static double face_area(const struct fv *s, int64_t c, int a)
 {
-    static const double beyond[4][2][4] = {{{1}, {1}},
-                                           {{2, -1}, {3, -2}},
-                                           {{3, -3, 1}, {6, -8, 3}},
-                                           {{4, -6, 4, -1}, {10, -20, 15, -4}}};
-    for (int m = 0; m < run; m++)
-        cubic[REACH + way * (edge - m)] += g * beyond[run - 1][depth - 1][m];
-    even[REACH + way * (edge - (depth <= run ? depth - 1 : run - 1))] += g;
-}
-
-/* Boundary that the two cells beside a cell reach, if any. */
-struct beside {
-    enum bc_kind kind;
-    double pressure; /* m^2/s^2: of an outflow */
-};
-
-/* The same where the pressure is given on the face: p by the cubic through it, psi odd; and at a
- * slip wall, where both are even. */
-static void spread_mirror(const struct beside *side, int edge, int run, int depth, double g,
-                          struct fix *x, int way)
-{
-    static const double given[2][3] = {{-13.0 / 3.0, 5.0 / 3.0, -1.0 / 3.0},
-                                       {-70.0 / 3.0, 32.0 / 3.0, -7.0 / 3.0}};
-    const double sign = side->kind == BC_OUTFLOW ? -1.0 : 1.0;
-    const int near = REACH + way * (edge - (depth <= run ? depth - 1 : run - 1));
-    x->even[near] += sign * g;
-    if (side->kind == BC_SLIP || run < 3)
-        x->cubic[near] += sign * g;
-    else
-        for (int m = 0; m < 3; m++)
-            x->cubic[REACH + way * (edge - m)] += g * given[depth - 1][m];
-    x->given += side->pressure * (run < 3 ? 2.0 * g : g * (depth == 1 ? 4.0 : 16.0));
-}
-
-/* Adds what the two cells on one side of a free cell c have beyond the plain weights 8/12, -1/12.
- * d: the step to that side, of sign `way'. False if both are free. */
-static bool add_side(const struct forcing *f, int64_t c, int64_t d, int way,
-                     const struct beside *side, struct fix *x)
-{
-    static const double plain[2] = {8.0 / 12.0, -1.0 / 12.0};
-    const int edge = f->forced[c + d] ? 0 : 1;
-    const int most = side->kind ? 3 : 4; /* by a cubic the pressure in a cavity's corners grows */
-    int run = 1;
-    if (!f->forced[c + d] && !f->forced[c + 2 * d])
-        return false;
-    while (run < most && edge - run >= -REACH && !f->forced[c + (edge - run) * d])
-        run++;
-    for (int m = edge + 1; m <= 2; m++) {
-        const double g = way * plain[m - 1];
-        x->cubic[REACH + way * m] -= g;
-        x->even[REACH + way * m] -= g;
-        if (side->kind == BC_SLIP || side->kind == BC_OUTFLOW) {
-            spread_mirror(side, edge, run, m - edge, g, x, way);
-        } else if (f->whole && f->forced[c + (edge + 1) * d] == 1) {
-            double spare[2 * REACH + 1] = {0.0};
-            spread_ghost(edge, run, m - edge, g, x->cubic, spare, way);
-            spread_ghost(edge, run, m - edge, g, x->even, spare, way);
-        } else
-            spread_ghost(edge, run, m - edge, g, x->cubic, x->even, way);
-    }
-    return true;
-}
-
-static struct beside beside(const struct fv *s, const struct forcing *f, int64_t c, int a, int way)
-{
-    const struct block *b = &s->b;
-    const int64_t d = way * b->stride[a], box = f->forced[c + d] ? c + d : c + 2 * d;
     int at[3];
-    block_place(b, c, at);
-    at[a] += 2 * way;
-    if (f->forced[box] == 3)
-        return (struct beside){
-            blocked_params(s->blocked->box[box] - 1)->kind == WALL_SLIP ? BC_SLIP : BC_NO_SLIP,
-            0.0};
-    if (f->forced[c + way * b->stride[a]] == 1)
-        return (struct beside){BC_NONE, 0.0};
-    const enum bc_kind kind = bc_behind(s, at, a);
-    return (struct beside){kind, kind ? s->bc->pressure[2 * a + (way > 0)] : 0.0};
+    double S2 = 0.0;
+    if (!s->m) {
+        block_place(&s->b, c, at);
+        return block_volume(&s->b, at[1]) / block_size(&s->b, a, at[1]);
+    }
+    for (int k = 0; k < s->dim; k++)
+        S2 += s->m->S[a][k][c] * s->m->S[a][k][c];
+    return sqrt(S2);
 }
 
-static void list_fixes(const struct fv *s, struct forcing *f, int a)
+/* Whether the vectors of the outline's faces sum to zero, alone or with those of the sides of
+ * blocks: it has a whole inside, or the rest of the fluid has. */
+static void find_ends(const struct fv *s, struct forcing *f)
 {
-    const struct block *b = &s->b;
-    int64_t room = 0;
-    BLOCK_ROWS (b, 0, at, n)
-        for (int64_t c = at; c < at + n; c++) {
-            struct fix x = {.cell = c};
-            if (f->forced[c])
-                continue;
-            const int64_t d = b->stride[a];
-            const struct beside above = beside(s, f, c, a, 1), below = beside(s, f, c, a, -1);
-            const bool one = add_side(f, c, d, 1, &above, &x);
-            if (!add_side(f, c, -d, -1, &below, &x) && !one)
-                continue;
-            const double h = block_size(b, a, j_); /* rows near a side or a hole are even */
-            x.given /= h;
-            for (int m = 0; m <= 2 * REACH; m++) {
-                x.cubic[m] /= h;
-                x.even[m] /= h;
+    double sum[4] = {0.0}, sides[3] = {0.0};
+    for (int a = 0; a < s->dim; a++)
+        for (int64_t i = 0; i < f->nface[a]; i++)
+            for (int e = 0; e < s->dim && f->counts[a][i]; e++) {
+                const int64_t c = f->face[a][i];
+                const double S = s->m ? s->m->S[a][e][c] : e == a ? face_area(s, c, a) : 0.0;
+                sum[e] += f->sign[a][i] * S;
+                sum[3] += fabs(S);
             }
-            if (f->nfix[a] == room) {
-                room = 2 * room + 64;
-                GROW(f->fix[a], f->nfix[a], room);
-            }
-            f->fix[a][f->nfix[a]++] = x;
-        }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, s->comm);
+    if (s->m)
+        mesh_bc_vectors(s, sides);
+    f->closed = hypot(hypot(sum[0], sum[1]), sum[2]) <= 1e-9 * sum[3];
+    f->closes =
+        hypot(hypot(sum[0] + sides[0], sum[1] + sides[1]), sum[2] + sides[2]) <= 1e-9 * sum[3];
 }
 
-struct forcing *forcing_create(const struct fv *s, const double *lo, const double *hi, bool partner)
+struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2][3], bool partner)
 {
-    const struct block *b = &s->b;
     struct forcing *f = NEW(struct forcing, 1);
-    f->dim = b->dim;
+    f->dim = s->dim;
     f->from_partner = partner;
     f->whole = partner && s->surface;
-    f->forced = NEW(unsigned char, b->size);
-    f->layer = NEW(unsigned char, b->size);
-    if (count_kind(s, f, lo, hi) == 0) {
+    f->near = NEAR + (partner && s->partner_moves ? AHEAD : 0);
+    f->forced = NEW(unsigned char, s->size);
+    f->layer = NEW(unsigned char, s->size);
+    if (count_kind(s, f, n, box) == 0) {
         forcing_free(&f);
         return NULL;
     }
@@ -317,8 +279,12 @@ struct forcing *forcing_create(const struct fv *s, const double *lo, const doubl
     list_cells(s, f);
     for (int a = 0; a < f->dim; a++) {
         list_faces(s, f, a);
-        list_fixes(s, f, a);
+        if (!s->m)
+            forcing_list_fixes(s, f, a);
     }
+    find_ends(s, f);
+    if (s->m)
+        given_rows_create(s, f);
     return f;
 }
 
@@ -333,6 +299,7 @@ void forcing_free(struct forcing **fp)
     mem_free(f->set);
     mem_free(f->partner);
     mem_free(f->known);
+    given_rows_free(&f->gradient);
     for (int a = 0; a < 3; a++) {
         mem_free(f->fix[a]);
         mem_free(f->face[a]);
@@ -392,12 +359,12 @@ void forcing_shift(struct forcing *f, double t0, double t1)
 static void fill_round(const struct fv *s, const double *has, double *next)
 {
     const struct forcing *f = s->forcing;
-    memcpy(next, has, (size_t)s->b.size * sizeof *next);
+    memcpy(next, has, (size_t)s->size * sizeof *next);
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
-        const int64_t c = f->partner[i];
+        const int64_t c = f->partner[i], *stride = part_of_place(s, c, (int[3]){0})->stride;
         double sum[3] = {0.0, 0.0, 0.0}, n = 0.0;
         for (int way = 0; way < 2 * f->dim && has[c] == 0.0; way++) {
-            const int64_t d = c + (way % 2 ? 1 : -1) * s->b.stride[way / 2];
+            const int64_t d = c + (way % 2 ? 1 : -1) * stride[way / 2];
             if (has[d] == 0.0)
                 continue;
             n += 1.0;
@@ -413,16 +380,16 @@ static void fill_round(const struct fv *s, const double *has, double *next)
 void forcing_fill(const struct fv *s, const unsigned char *mask)
 {
     const struct forcing *f = s->forcing;
-    double *has = block_field(&s->b), *next = block_field(&s->b);
+    double *has = new_field(s), *next = new_field(s);
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         has[f->partner[i]] = mask[i];
         for (int a = 0; a < f->dim; a++)
             f->given[a][f->partner[i]] = mask[i] ? f->v_next[a][i] : 0.0;
     }
-    for (int round = 0; round < NEAR; round++) {
+    for (int round = 0; round < f->near; round++) {
         double *spare = has;
-        block_halo(&s->b, 1, (double *const[]){has});
-        block_halo(&s->b, f->dim, f->given);
+        forcing_halo(s, 1, (double *const[]){has});
+        forcing_halo(s, f->dim, f->given);
         fill_round(s, has, next);
         has = next;
         next = spare;
@@ -434,15 +401,53 @@ void forcing_fill(const struct fv *s, const unsigned char *mask)
     mem_free(next);
 }
 
+void forcing_average(const struct fv *s, int64_t c, double t, double *v, double *pressure)
+{
+    double x[3], h[3], p, w;
+    int at[3];
+    const struct part *part = part_of_place(s, c, at);
+    if (s->m) {
+        mesh_exact_average(s, part, at, t, v, pressure ? pressure : &p, &w);
+        return;
+    }
+    block_cell(&s->b, at[0], at[1], at[2], x, h);
+    exact_average(&s->exact, x, h, t, v, pressure, NULL);
+}
+
+void forcing_centre(const struct fv *s, int64_t c, double *x)
+{
+    int at[3];
+    const struct part *p = part_of_place(s, c, at);
+    if (!s->m) {
+        block_centre(&s->b, at[0], at[1], at[2], x);
+        return;
+    }
+    const struct mesh_block *b = s->m->block + p->block;
+    const int cell[3] = {p->lo[0] + at[0], p->lo[1] + at[1], p->lo[2] + at[2]};
+    memcpy(x, b->centre[mesh_cell(b, cell)], 3 * sizeof *x);
+}
+
+int64_t forcing_number(const struct fv *s, int64_t c)
+{
+    int at[3], cell[3];
+    int64_t first = 0;
+    const struct part *p = part_of_place(s, c, at);
+    for (int a = 0; a < 3; a++)
+        cell[a] = p->lo[a] + at[a];
+    for (int k = 0; s->m && k < p->block; k++) {
+        const int *n = s->m->block[k].n;
+        first += (int64_t)n[0] * n[1] * n[2];
+    }
+    const int *n = s->m ? s->m->block[p->block].n : s->b.cells;
+    return first + cell[0] + (int64_t)n[0] * (cell[1] + (int64_t)n[1] * cell[2]);
+}
+
 void forcing_velocity(const struct fv *s, double t, double *const u[3])
 {
     const struct forcing *f = s->forcing;
-    double x[3], h[3], v[3];
+    double v[3];
     for (int64_t i = 0; i < f->nset; i++) {
-        int at[3];
-        block_place(&s->b, f->set[i], at);
-        block_cell(&s->b, at[0], at[1], at[2], x, h);
-        exact_average(&s->exact, x, h, t, v, NULL, NULL);
+        forcing_average(s, f->set[i], t, v, NULL);
         for (int a = 0; a < f->dim; a++)
             u[a][f->set[i]] = v[a];
     }
@@ -451,20 +456,17 @@ void forcing_velocity(const struct fv *s, double t, double *const u[3])
             u[a][f->partner[i]] = partner_value(f, s->prm.forced_order == 2, a, i, t);
 }
 
-/* Centre of the lower face of a cell given by its index; the cell's size. */
-static void face_centre(const struct block *b, int64_t c, int a, double *x, double *h)
+static double exact_flux(const struct fv *s, int64_t c, int a, double t)
 {
+    double x[3], h[3], v[3];
     int at[3];
-    block_place(b, c, at);
-    block_cell(b, at[0], at[1], at[2], x, h);
+    if (s->m)
+        return given_exact_flux(s, c, a, t);
+    block_place(&s->b, c, at);
+    block_cell(&s->b, at[0], at[1], at[2], x, h);
     x[a] -= 0.5 * h[a];
-}
-
-static double face_area(const struct block *b, int64_t c, int a)
-{
-    int at[3];
-    block_place(b, c, at);
-    return block_volume(b, at[1]) / block_size(b, a, at[1]);
+    exact_face(&s->exact, x, h, a, t, v);
+    return v[a];
 }
 
 static bool is_exact(const struct forcing *f, int64_t c, int64_t d)
@@ -479,7 +481,7 @@ static void look_at_partner(const struct fv *s, double t)
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->npartner + f->nrim; i++)
             f->given[a][f->partner[i]] = partner_value(f, s->prm.forced_order == 2, a, i, t);
-    block_halo(&s->b, f->dim, f->given);
+    forcing_halo(s, f->dim, f->given);
 }
 
 /* Whether the flux through the lower face of c is a partner's alone. */
@@ -494,30 +496,60 @@ static double partner_flux(const double *u, int64_t d)
     return (7.0 * (u[-d] + u[0]) - (u[-2 * d] + u[d])) / 12.0;
 }
 
-/* Takes the net flux out, evenly; with that of walls and inflow if given. */
-static void balance(const struct fv *s, bool given, double *const U[3])
+/* m/s of even cells, m^dim/s of blocks: through the lower face of c, less `excess' m/s outwards. */
+static void take_off(const struct fv *s, int a, int64_t i, double excess, double *U)
 {
     const struct forcing *f = s->forcing;
-    double sums[2] = {0.0, 0.0};
-    if (s->surface) /* which takes what is too much */
-        return;
+    const int64_t c = f->face[a][i];
+    U[c] -= f->sign[a][i] * excess * (s->m ? face_area(s, c, a) : 1.0);
+}
+
+/* Flux outwards through the outline, and its area; of all ranks. */
+static void sum_outline(const struct fv *s, double *const U[3], double sums[2])
+{
+    const struct forcing *f = s->forcing;
+    sums[0] = sums[1] = 0.0;
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
             if (f->counts[a][i]) {
-                const double area = face_area(&s->b, f->face[a][i], a);
-                sums[0] += f->sign[a][i] * U[a][f->face[a][i]] * area;
+                const double area = face_area(s, f->face[a][i], a);
+                sums[0] += f->sign[a][i] * U[a][f->face[a][i]] * (s->m ? 1.0 : area);
                 sums[1] += area;
             }
-    if (s->bc) {
-        if (s->bc->pressure_given)
-            return; /* the outflow takes what is too much */
-        sums[0] += given ? s->bc->outflux : 0.0;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->b.cart);
+}
+
+/* Takes the net flux out, evenly; with that of walls and inflow if given and no side gives the
+ * pressure. A partner knows of no constant density: what it has too much must not drive what lies
+ * between it and an outflow. Where the outline ends at one, or in an overlap, that or all cells
+ * take it; so does a surface. */
+static void balance(const struct fv *s, bool given, double *const U[3])
+{
+    const struct forcing *f = s->forcing;
+    const bool open = s->m ? mesh_bc_pressure_given(s) : s->bc && s->bc->pressure_given;
+    const bool alone = f->closed && (open || (s->m && s->m->has_fringe));
+    double sums[2];
+    if (s->surface || !(alone || (!open && (!s->m || f->closes))))
+        return;
+    sum_outline(s, U, sums);
+    if (s->bc && given && !open)
+        sums[0] += s->bc->outflux;
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
+    if (s->m && given && !alone)
+        sums[0] += mesh_bc_net_flux(s);
     const double excess = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
-            U[a][f->face[a][i]] -= f->sign[a][i] * excess;
+            take_off(s, a, i, excess, U[a]);
+}
+
+/* Whether the flux through the lower face of c is a partner's alone, and what it is. */
+static bool partners_flux(const struct fv *s, int64_t c, int a, int64_t d, double *U)
+{
+    const struct forcing *f = s->forcing;
+    if (!is_partners(f, c, d))
+        return false;
+    *U = s->m ? given_flux_of(s, f->given, c, a) : partner_flux(f->given[a] + c, d);
+    return true;
 }
 
 void forcing_fluxes(const struct fv *s, double t, double *const U[3])
@@ -527,17 +559,13 @@ void forcing_fluxes(const struct fv *s, double t, double *const U[3])
         look_at_partner(s, t);
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++) {
-            const int64_t c = f->face[a][i], d = s->b.stride[a];
-            if (is_exact(f, c, d)) {
-                double x[3], h[3], v[3];
-                face_centre(&s->b, c, a, x, h);
-                exact_face(&s->exact, x, h, a, t, v);
-                U[a][c] = v[a];
-            } else if (is_partners(f, c, d)) {
-                U[a][c] = partner_flux(f->given[a] + c, d);
-            }
-            if (f->forced[c] == 1 || f->forced[c - d] == 1)
-                U[a][c] -= f->sign[a][i] * f->inflow;
+            const int64_t c = f->face[a][i], d = part_of_place(s, c, NULL)->stride[a];
+            if (is_exact(f, c, d))
+                U[a][c] = exact_flux(s, c, a, t);
+            else
+                partners_flux(s, c, a, d, U[a] + c);
+            if (f->inflow != 0.0 && (f->forced[c] == 1 || f->forced[c - d] == 1))
+                take_off(s, a, i, f->inflow, U[a]);
         }
     balance(s, true, U);
 }
@@ -546,68 +574,11 @@ void forcing_fluxes_variation(const struct fv *s, double *const U[3])
 {
     const struct forcing *f = s->forcing;
     for (int a = 0; a < f->dim; a++)
-        for (int64_t i = 0; i < f->nface[a]; i++)
-            if (is_exact(f, f->face[a][i], s->b.stride[a]) ||
-                is_partners(f, f->face[a][i], s->b.stride[a]))
-                U[a][f->face[a][i]] = 0.0;
+        for (int64_t i = 0; i < f->nface[a]; i++) {
+            const int64_t c = f->face[a][i], d = part_of_place(s, c, NULL)->stride[a];
+            if (is_exact(f, c, d) || is_partners(f, c, d))
+                U[a][c] = 0.0;
+        }
     if (f->from_partner)
         balance(s, false, U);
-}
-
-void forcing_gradient(const struct fv *s, int a, enum continuation how, const double *q,
-                      double *out)
-{
-    const struct forcing *f = s->forcing;
-    const int64_t d = s->b.stride[a];
-    for (int64_t i = 0; i < f->nfix[a]; i++) {
-        const struct fix *x = f->fix[a] + i;
-        const double *w = (how == CONTINUE_EVEN ? x->even : x->cubic) + REACH, *at = q + x->cell;
-        for (int m = -REACH; m <= REACH; m++)
-            out[x->cell] += w[m] * at[m * d];
-        if (how == CONTINUE_CUBIC)
-            out[x->cell] += x->given;
-    }
-}
-
-/* A cell takes the mean of what its known lines say: cubic where three cells behind are known, else
- * linear. */
-void forcing_extend(const struct fv *s, double *p)
-{
-    const struct forcing *f = s->forcing;
-    const struct block *b = &s->b;
-    double *const fields[1] = {p};
-    for (int layer = 1; layer <= NEAR; layer++) {
-        block_halo(b, 1, fields);
-        for (int64_t i = 0; i < f->nlocal; i++) {
-            const int64_t c = f->local[i];
-            double sum = 0.0, n = 0.0;
-            if (f->layer[c] != layer || f->forced[c] != 1)
-                continue;
-            for (int way = 0; way < 2 * f->dim; way++) {
-                const int64_t d = (way % 2 ? 1 : -1) * b->stride[way / 2];
-#define KNOWN(m) (!f->forced[c + (m)*d] || (f->layer[c + (m)*d] && f->layer[c + (m)*d] < layer))
-                if (!KNOWN(1))
-                    continue;
-                n += 1.0;
-                if (KNOWN(2) && KNOWN(3))
-                    sum += 3.0 * p[c + d] - 3.0 * p[c + 2 * d] + p[c + 3 * d];
-                else
-                    sum += p[c + d];
-#undef KNOWN
-            }
-            if (n == 0.0) { /* a corner cell: its diagonal neighbours */
-                for (int q = 0; q < 4; q++) {
-                    const int64_t d =
-                        (q % 2 ? 1 : -1) * b->stride[0] + (q / 2 ? 1 : -1) * b->stride[1];
-                    if (!f->forced[c + d] || (f->layer[c + d] && f->layer[c + d] < layer)) {
-                        sum += p[c + d];
-                        n += 1.0;
-                    }
-                }
-            }
-            if (n > 0.0)
-                p[c] = sum / n;
-        }
-    }
-    block_halo(b, 1, fields);
 }

@@ -8,8 +8,9 @@
 #include "../fv.h"
 
 enum {
-    NEAR = 4, /* layers of forced cells that get values */
-    REACH = 3 /* cells to either side in a one-sided gradient */
+    NEAR = 4,  /* layers of forced cells that get values */
+    AHEAD = 3, /* more of them where a partner's box moves: they have a past when they come near */
+    REACH = 3  /* cells to either side in a one-sided gradient */
 };
 
 /* How a field goes on into forced cells: evenly (psi), by a cubic (p), or as a variation of p. */
@@ -23,9 +24,12 @@ struct fix {
     double given; /* what an outflow's pressure adds to the cubic one, m/s^2 */
 };
 
+struct one_sided; /* given_cells.c */
+
 struct forcing {
     int dim;
-    unsigned char *forced; /* [size] 1: forced (ghosts too), 2: behind a closed side, 3: in a box */
+    unsigned char *forced; /* [size] 1: forced (ghosts too), 2: behind a closed side, 3: in a
+                              blocked box, 4: of blocks: no cell */
     unsigned char
         *layer; /* [size] of a forced cell: distance from the free ones, 1 ..; 0: deep or free */
     int64_t nlocal, *local; /* forced cells of this rank */
@@ -34,21 +38,25 @@ struct forcing {
     int64_t npartner, nrim,
         *partner; /* in the order of a partner's values: npartner local near cells of the hole, then
                      nrim free ones beside its outline, whose values serve the fluxes alone */
+    int near;     /* layers of forced cells that get values */
     bool *known;  /* [size] a partner gives it, ghosts too */
     double *given[3]; /* [size] its velocities at the time of a flux */
     int64_t nfix[3];
-    struct fix *fix[3]; /* one-sided gradients along each axis */
+    struct fix *fix[3];         /* one-sided gradients along each axis */
+    struct one_sided *gradient; /* those of blocks; NULL: no blocks */
     /* faces of the outline: index in U, sign of the flow out of the fluid, whether this rank counts
      * it */
     int64_t nface[3], *face[3];
     signed char *sign[3];
     bool *counts[3];
-    double *open[3];    /* [size] 1: both cells of the face are free */
+    double *open[3];    /* [size] 1: both cells of the face are free; blocks have mesh.open */
     int64_t free_cells; /* of all ranks */
     bool from_partner;
     bool whole; /* psi is the whole pressure, not its change: into a partner's cells it goes on as p
                    does */
     bool imposed; /* some rank gives cells the exact velocity */
+    bool closed;  /* the outline has a whole inside, no part of it counts twice */
+    bool closes;  /* of blocks: so has it with their sides */
     double *v[3], *v_next[3],
         *v_old[3]; /* [npartner + nrim] partner's velocities at t0, t1, and the window before */
     double inflow; /* m/s: added to the flow through the outline, into the free cells, whose surface
@@ -57,11 +65,13 @@ struct forcing {
     int levels;           /* of them known, the newest first: v_next, v, v_old */
 };
 
-/* NULL if nothing is forced. partner: the box (lo, hi) is filled by a partner, else by the exact
- * solution; cells all of whose corners lie inside are forced. lo >= hi: no box. */
-struct forcing *forcing_create(const struct fv *s, const double *lo, const double *hi,
-                               bool partner);
+/* NULL if nothing is forced. partner: the n boxes (lower, upper corner) are filled by partners,
+ * else by the exact solution; cells all of whose corners lie inside one are forced. lo >= hi: no
+ * box. */
+struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2][3], bool partner);
 void forcing_free(struct forcing **f);
+/* Ghosts of nf fields from other cells, of either kind of grid. */
+void forcing_halo(const struct fv *s, int nf, double *const *f);
 /* Zero in the forced cells of this rank. */
 void forcing_zero(const struct forcing *f, double *q);
 /* The next window, t0 to t1, begins: v_next is v now, and its new values are those of the last
@@ -84,8 +94,28 @@ void forcing_fluxes_variation(const struct fv *s, double *const U[3]);
  * by a cubic (of lower degree where fewer than four free cells stand in line). */
 void forcing_gradient(const struct fv *s, int a, enum continuation how, const double *q,
                       double *out);
-/* Extends p into the near forced cells from the free side, layer by layer, for a partner's
- * interpolation. */
-void forcing_extend(const struct fv *s, double *p);
+/* forcing_fixes.c: their weights, along axis a. */
+void forcing_list_fixes(const struct fv *s, struct forcing *f, int a);
+/* Extends p into the near forced cells from the free side, `layers' of them, one by one. */
+void forcing_extend(const struct fv *s, int layers, double *p);
+
+/* Exact average over a cell of this rank at t; centre; number in the whole grid, or among the cells
+ * of all blocks. pressure: Pa, or NULL. */
+void forcing_average(const struct fv *s, int64_t c, double t, double *v, double *pressure);
+void forcing_centre(const struct fv *s, int64_t c, double *x);
+int64_t forcing_number(const struct fv *s, int64_t c);
+
+/* given_cells.c: of blocks. */
+void given_rows_create(const struct fv *s, struct forcing *f);
+void given_rows_free(struct one_sided **g);
+/* Gradients of computed cells near given ones are those of q continued along the indices. */
+void given_gradient(const struct fv *s, enum continuation how, const double *q, double *const g[3]);
+/* psi of given cells beside free ones: the mean of those, as the rows of the matrix have it; sets
+ * ghosts. */
+void given_mirror(const struct fv *s, double *psi);
+/* m^dim/s: flux of volume through the lower face of c along a: the exact solution's; that of
+ * averages v, with ghosts. */
+double given_exact_flux(const struct fv *s, int64_t c, int a, double t);
+double given_flux_of(const struct fv *s, double *const v[3], int64_t c, int a);
 
 #endif

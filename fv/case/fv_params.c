@@ -77,8 +77,8 @@ static void check_graded(const struct run *r, struct faults *f)
     if (surface_wanted(r) && still_upright(&r->scene) != 1)
         params_fault(r->params, f, "fv.graded",
                      "with a free surface gravity must act along y, as the rows lie");
-    if (given.hole[1][0] > given.hole[0][0] || given.extrema[0] != 0.0)
-        params_fault(r->params, f, "fv.graded", "not with fv.hole or fv.extrema");
+    if (given.extrema[0] != 0.0)
+        params_fault(r->params, f, "fv.graded", "not with fv.extrema");
     if (d->periodic[1])
         params_fault(r->params, f, "fv.graded", "y is periodic");
     else if (given.graded[1] != floor(given.graded[1]))
@@ -145,4 +145,10 @@ void fv_params_check(const struct run *r, struct faults *f)
                          "only a lone run with an exact solution (initial.field) can fill a hole");
     }
     fv_scene_check(r, f);
+}
+
+const double (*fv_hole(const struct run *r))[3]
+{
+    const struct fv_params *prm = fv_params_of(r);
+    return prm->hole[1][0] > prm->hole[0][0] ? prm->hole : NULL;
 }

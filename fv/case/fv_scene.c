@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../../common/scene_fluid.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
 #include "fv_case.h"
@@ -30,7 +31,7 @@ static void check_wall(const struct run *r, struct faults *f, int k)
 {
     const struct scene_wall *w = r->scene.walls + k;
     const bool steady = fv_params_of(r)->steady;
-    if (w->side == SIDE_NONE)
+    if (w->side == SIDE_NONE && !(r->coupled && r->scene.has_sph)) /* there it is the partner's */
         wall_fault(r, f, k, "a polyline is not for this solver");
     if (w->kind == WALL_ABSORBING)
         wall_fault(r, f, k, "\"absorbing\" is not for this solver");
@@ -167,30 +168,6 @@ static double height_of(const double *g, const double *x)
            sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
 }
 
-static void shape_extent(const struct scene_shape *h, double lo[3], double hi[3])
-{
-    for (int a = 0; a < 3; a++) {
-        lo[a] = -INFINITY;
-        hi[a] = INFINITY;
-        if (h->form == SHAPE_BOX && !(a == 2 && !(h->box[1][2] > h->box[0][2]))) {
-            lo[a] = h->box[0][a];
-            hi[a] = h->box[1][a];
-        }
-        if (h->form == SHAPE_DISC) {
-            lo[a] = h->centre[a] - h->radius;
-            hi[a] = h->centre[a] + h->radius;
-        }
-    }
-    for (int a = 0; a < 2 && h->form == SHAPE_POLYGON; a++) {
-        lo[a] = INFINITY;
-        hi[a] = -INFINITY;
-        for (int k = 0; k < h->points.n; k++) {
-            lo[a] = fmin(lo[a], h->points.x[k][a]);
-            hi[a] = fmax(hi[a], h->points.x[k][a]);
-        }
-    }
-}
-
 /* Water beyond the highest side would be lost in silence; beyond the others walls hold it. */
 static void check_shape(const struct run *r, struct faults *f, int k)
 {
@@ -213,7 +190,7 @@ static void check_shape(const struct run *r, struct faults *f, int k)
                      "shape %d: its level, %g m, lies outside the domain, which reaches from %g to "
                      "%g m against gravity",
                      k + 1, h->level, bottom, top);
-    shape_extent(h, lo, hi);
+    scene_shape_extent(h, lo, hi);
     for (int a = 0; a < dim; a++)
         g2 += g[a] * g[a];
     for (int a = 0; a < dim; a++) {
@@ -241,10 +218,6 @@ static void check_water_opening(const struct run *r, struct faults *f, int k)
     if (w->kind == WALL_OUTFLOW && r->scene.fluid.gravity[(w->side - SIDE_X_MIN) / 2] != 0.0)
         wall_fault(r, f, k,
                    "water would fall out of it: with a free surface an outflow stands upright");
-    if (w->carried)
-        wall_fault(
-            r, f, k,
-            "a carried outflow knows no free surface: one whose pressure is that of the level");
     if (w->pressure != 0.0)
         wall_fault(
             r, f, k,
@@ -272,18 +245,31 @@ static void check_aspect(const struct run *r, struct faults *f)
                      most / least, ASPECT_MOST);
 }
 
-/* Openings in the sides of blocks: they would know neither the level nor what comes in. */
+/* The exact velocity is that of a flow without a surface. */
 static void check_block_sides(const struct run *r, struct faults *f)
 {
-    for (int k = 0; k < r->scene.nwalls; k++)
-        if (r->scene.walls[k].kind == WALL_INFLOW || r->scene.walls[k].kind == WALL_OUTFLOW)
-            wall_fault(r, f, k, "on blocks a free surface wants walls: openings are for fv.cells");
     for (int k = 0; k < mesh_block_count(); k++)
-        if (mesh_block_has(k, MESH_INFLOW) || mesh_block_has(k, MESH_OUTFLOW) ||
-            mesh_block_has(k, MESH_EXACT))
+        if (mesh_block_has(k, MESH_EXACT))
             mesh_fault(r, f, k, "name",
-                       "with a free surface its sides are walls, joined, periodic or overlap: an "
-                       "opening is for fv.cells");
+                       "with a free surface its sides are walls, openings, joined, periodic or "
+                       "overlap: no field is known beside it");
+}
+
+/* Centres of even cells. */
+static void check_grains(const struct run *r, struct faults *f)
+{
+    const struct scene *s = &r->scene;
+    const struct fv_params *prm = fv_params_of(r);
+    double first[3], h[3];
+    int n[3] = {1, 1, 1};
+    if (mesh_block_count() > 0 || prm->graded[1] > 0.0)
+        return;
+    for (int a = 0; a < s->domain.dim; a++) {
+        n[a] = prm->cells[a];
+        h[a] = (s->domain.max[a] - s->domain.min[a]) / n[a];
+        first[a] = s->domain.min[a] + 0.5 * h[a];
+    }
+    scene_check_grains(s, r->params, first, h, n, "centre of a cell", f);
 }
 
 void surface_check(const struct run *r, struct faults *f)
@@ -312,8 +298,6 @@ void surface_check(const struct run *r, struct faults *f)
                      "where is the water? shapes say it, or a wave (initial.field)");
     if (mesh_block_count() == 0)
         check_aspect(r, f);
-    else if (prm->integrator != INTEGRATOR_RK3)
-        params_fault(r->params, f, "fv.integrator", "with a free surface on blocks rk3 alone");
     if (prm->steady)
         params_fault(r->params, f, "fv.steady",
                      "a free surface moves in time: let it come to rest in a run in time");
@@ -344,6 +328,7 @@ void surface_check(const struct run *r, struct faults *f)
     }
     for (int k = 0; k < s->nshapes; k++)
         check_shape(r, f, k);
+    check_grains(r, f);
 }
 
 /* --- fields that are exact at all times --- */
@@ -404,13 +389,15 @@ static void check_wave(const struct run *r, struct faults *f)
     if (!(s->initial.level > d->min[1] && s->initial.level < d->max[1]))
         params_fault(r->params, f, "initial.level",
                      "a wave wants its still level, between %g and %g m", d->min[1], d->max[1]);
-    for (int k = 0; k < 100 && e.height > 0.0 && !standing; k++)
+    if (e.steady.c > 0.0)
+        crest = s->initial.level + e.steady.crest;
+    for (int k = 0; k < 100 && e.height > 0.0 && s->initial.field == FIELD_STOKES; k++)
         crest = fmax(crest, exact_surface(&e, 0.01 * k * s->initial.L));
     if (crest > d->max[1])
         params_fault(r->params, f, "domain.max", "the crest of the wave, %g m, lies above it",
                      crest);
-    if (!standing && !d->periodic[0])
-        params_fault(r->params, f, "domain.periodic", "stokes: a wave that travels along x");
+    if (!standing && s->initial.field != FIELD_SOLITARY && !d->periodic[0])
+        params_fault(r->params, f, "domain.periodic", "a train of waves that travels along x");
     for (int a = 0; a < d->dim && standing; a += 2) {
         const double half = L[a] > 0.0 ? (d->max[a] - d->min[a]) / (0.5 * L[a]) : 0.0,
                      from = L[a] > 0.0 ? d->min[a] / (0.5 * L[a]) : 0.0,
@@ -434,6 +421,8 @@ static void check_field(const struct run *r, struct faults *f)
         break;
     case FIELD_STANDING_WAVE:
     case FIELD_STOKES:
+    case FIELD_REGULAR:
+    case FIELD_SOLITARY:
         check_wave(r, f);
         break;
     case FIELD_PATCH:

@@ -15,6 +15,7 @@
 #include "../watch/limits.h"
 #include "../time/newton.h"
 #include "../time/stages.h"
+#include "../boundary/carried.h"
 #include "../boundary/outflow.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
@@ -91,10 +92,12 @@ static void fill_fluxes(struct fv *s)
 
 static void make_forcing(struct fv *s)
 {
-    if (s->run->coupled)
-        coupling_create(s); /* asks the partner for its free zone, makes the forcing */
-    else
-        s->forcing = forcing_create(s, s->prm.hole[0], s->prm.hole[1], false);
+    double box[2][3];
+    if (s->run->coupled) {
+        coupling_box(s, box);
+        coupling_create(s, (const double(*)[3])box);
+    } else
+        s->forcing = forcing_create(s, 1, (const double(*)[2][3]) & s->prm.hole, false);
 }
 
 /* Forced cells that never get values must not hold those of the start: the largest velocity sets
@@ -127,7 +130,7 @@ static void set_limit(struct fv *s)
 {
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
     s->scene_speed = limits_reference(s->run);
-    s->reference = fmax(most, s->scene_speed);
+    s->reference = fmax(most, fmax(s->scene_speed, s->partner_speed));
     s->u_limit = 10.0 * s->reference;
 }
 
@@ -149,7 +152,7 @@ static void meet_pressures(struct fv *s)
 {
     double sum = 0.0, n = 0.0;
     for (int k = 0; k < 6; k++)
-        if (s->bc->kind[k] == BC_OUTFLOW) {
+        if (s->bc->kind[k] == MESH_OUTFLOW) {
             sum += s->bc->pressure[k];
             n += 1.0;
         }
@@ -257,6 +260,7 @@ void fv_free(struct fv **sp)
     surface_free(&s->surface);
     fit_free(&s->swing);
     bc_free(&s->bc);
+    carried_free(&s->outflows);
     watches_free(&s->watches);
     double *const one[] = {s->p,    s->p_before, s->m ? NULL : s->face, s->flux, s->step_work,
                            s->free, s->scale};

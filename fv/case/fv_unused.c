@@ -7,9 +7,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../../common/mem.h"
 #include "../boundary/blocked.h"
 #include "../surface/levelset.h"
 #include "../grid/mesh.h"
+#include "../grid/rows.h"
 #include "fv_case.h"
 
 /* Whether the run leaves the key out; k: element of a list. */
@@ -99,13 +101,18 @@ static bool level_unseen(const struct run *r, int k)
 /* Behind an outflow the water stands at the level. */
 static bool surface_of_shapes(const struct run *r, int k)
 {
-    bool out = false;
+    bool out = some_block_has(MESH_OUTFLOW);
     for (int w = 0; w < r->scene.nwalls; w++)
-        out = out || r->scene.walls[w].kind == WALL_OUTFLOW;
+        out = out || (r->scene.walls[w].kind == WALL_OUTFLOW && !r->scene.walls[w].carried);
     return (void)k, surface_wanted(r) && r->scene.nshapes > 0 && !scene_has_wave(&r->scene) && !out;
 }
 
 static bool no_wave(const struct run *r, int k) { return (void)k, !scene_has_wave(&r->scene); }
+static bool no_crest(const struct run *r, int k)
+{
+    (void)k;
+    return r->scene.initial.field != FIELD_REGULAR && r->scene.initial.field != FIELD_SOLITARY;
+}
 
 /* Of a channel it is the height: one that says so says what is. */
 static bool no_length(const struct run *r, int k)
@@ -164,19 +171,40 @@ static bool no_extrema(const struct run *r, int k)
 {
     return (void)k, fv_params_of(r)->extrema[0] == 0.0;
 }
+/* Whether one of the rows of unequal height lies wholly in the hole. */
+static bool some_row(const struct run *r)
+{
+    const struct fv_params *p = fv_params_of(r);
+    const struct scene_domain *d = &r->scene.domain;
+    double *h = NEW(double, p->cells[1]), y = d->min[1];
+    bool any = !(rows_heights(p->cells[1], (int)p->graded[1], p->graded[0] - d->min[1],
+                              d->max[1] - d->min[1], h) > 0.0); /* told elsewhere */
+    for (int j = 0; j < p->cells[1] && !any; j++) {
+        const double eps = 1e-9 * h[j];
+        any = y >= p->hole[0][1] - eps && y + h[j] <= p->hole[1][1] + eps;
+        y += h[j];
+    }
+    mem_free(h);
+    return any;
+}
+
 /* Cells that lie wholly in the box are forced. */
 static bool no_hole(const struct run *r, int k)
 {
     const struct fv_params *p = fv_params_of(r);
     const struct scene_domain *d = &r->scene.domain;
     bool empty = false;
-    for (int a = 0; a < d->dim; a++) {
+    for (int a = 0; a < d->dim && !blocks(r, k); a++) { /* of blocks: mesh_params.c */
+        if (a == 1 && p->graded[1] > 0.0) {
+            empty = empty || !some_row(r);
+            continue;
+        }
         const double h = (d->max[a] - d->min[a]) / p->cells[a];
         const double first = fmax(ceil((p->hole[0][a] - d->min[a]) / h - 1e-9), 0.0),
                      last = fmin(floor((p->hole[1][a] - d->min[a]) / h + 1e-9), p->cells[a]);
         empty = empty || !(last > first);
     }
-    return (void)k, empty;
+    return empty;
 }
 static bool no_forces(const struct run *r, int k)
 {
@@ -263,6 +291,7 @@ static const struct rule rules[] = {
     {"initial.L",         no_length,         "the field has no length", true},
     {"initial.velocity",  nothing_carried,   "the field is not carried along: initial.field = \"uniform\" for a uniform stream", true},
     {"initial.amplitude", no_wave,           "initial.field is no wave", false},
+    {"initial.crest",     no_crest,          "only the fields regular and solitary have it", false},
     {"initial.level",     surface_of_shapes, "p = 0 on the free surface, wherever that is", true},
     {"initial.level",     level_unseen,      "no gravity acts across closed sides, or nothing shows the pressure", true},
     {"walls.closed",      straight,          "it is for a polyline, and this wall is a side", false},
@@ -277,6 +306,7 @@ static const struct rule rules[] = {
     {"shapes.radius",     no_disc,           "this shape is no disc", true},
     {"shapes.level",      no_level,          "form = \"below\" alone has a level", true},
     {"shapes.velocity",   is_hole,           "a hole holds no fluid", true},
+    {"probes.radius",     always,            "the finite volumes read the pressure between their cells", true},
     {"coupling.steps",         alone, "this is no coupled job: it has no group sph", false},
     {"coupling.transition",    alone, "this is no coupled job: it has no group sph", false},
     {"coupling.buffer",        alone, "this is no coupled job: it has no group sph", false},
@@ -334,7 +364,10 @@ static int length_of(const struct run *r, const char *key)
     const struct {
         const char *name;
         int n;
-    } lists[] = {{"walls.", s->nwalls}, {"shapes.", s->nshapes}, {"blocks.", mesh_block_count()}};
+    } lists[] = {{"walls.", s->nwalls},
+                 {"shapes.", s->nshapes},
+                 {"probes.", s->nprobes},
+                 {"blocks.", mesh_block_count()}};
     for (size_t k = 0; k < sizeof lists / sizeof lists[0]; k++)
         if (strncmp(key, lists[k].name, strlen(lists[k].name)) == 0)
             return lists[k].n;

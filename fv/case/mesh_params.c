@@ -8,6 +8,7 @@
 #include "../watch/limits.h"
 #include "fv_case.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -81,6 +82,30 @@ bool mesh_block_has(int block, enum mesh_side kind)
     return any;
 }
 
+bool mesh_side_is_body(const struct run *r, int block, int side)
+{
+    const struct mesh_block_params *b = mesh_given + block;
+    const int kinds[6] = {b->i_min, b->i_max, b->j_min, b->j_max, b->k_min, b->k_max};
+    const int a = side / 2;
+    const double *end = side % 2 ? r->scene.domain.max : r->scene.domain.min,
+                 *own = side % 2 ? b->max : b->min;
+    const bool upright =
+        (b->mapping == MAPPING_BOX || b->mapping == MAPPING_STRETCHED) && b->angle == 0.0;
+    const double L = r->scene.domain.max[a] - r->scene.domain.min[a];
+    if (kinds[side] == MESH_SLIP)
+        return (!upright && !(b->mapping == MAPPING_ANNULUS && a == 2)) ||
+               fabs(own[a] - end[a]) > 1e-9 * L;
+    return kinds[side] == MESH_WALL;
+}
+
+bool mesh_block_is_body(const struct run *r, int block)
+{
+    bool any = false;
+    for (int side = 0; side < 2 * r->scene.domain.dim; side++)
+        any = any || mesh_side_is_body(r, block, side);
+    return any;
+}
+
 /* A lid is a wall that moves. */
 static void check_lid(const struct run *r, struct faults *f, int k)
 {
@@ -112,6 +137,10 @@ static void check_block(const struct run *r, struct faults *f, int k)
         mesh_fault(r, f, k, "radius", "0 < inner < outer is wanted");
     if (b->mapping == MAPPING_ANNULUS && !(b->arc[1] > b->arc[0]))
         mesh_fault(r, f, k, "arc", "first < last is wanted");
+    if (b->mapping == MAPPING_ANNULUS && fabs(b->arc[1] - b->arc[0] - 360.0) < 1e-9 &&
+        (b->j_min == MESH_OVERLAP || b->j_max == MESH_OVERLAP))
+        mesh_fault(r, f, k, "j_min",
+                   "the ends of a full ring lie on each other: j_min and j_max = \"joined\"");
     bool stretched = false;
     for (int a = 0; a < dim; a++)
         stretched = stretched || b->stretch[a] != 0.0;
@@ -132,9 +161,8 @@ static void check_wall(const struct run *r, struct faults *f, int k)
     if (w->side == SIDE_NONE)
         params_fault(r->params, f, key,
                      "walls within the domain are a block's sides here (blocks.i_min = \"wall\")");
-    else if (w->carried)
-        params_fault(r->params, f, key,
-                     "a carried outflow is for fv.cells: on blocks its pressure is given");
+    else if (w->carried && (w->kind != WALL_OUTFLOW || fv_params_of(r)->steady))
+        params_fault(r->params, f, key, "carried is for an outflow of a run in time");
 }
 
 /* A wall of the scene that no block has is a mistake. */
@@ -155,26 +183,42 @@ static void check_taken(const struct run *r, struct faults *f, const struct mesh
     }
 }
 
+static void check_hole(const struct run *r, struct faults *f)
+{
+    if (!fv_hole(r))
+        return;
+    if (!fv_measures_errors(r) || (mesh_ring(r) && !fv_params_of(r)->steady))
+        params_fault(r->params, f, "fv.hole",
+                     "only a run with an exact solution (initial.field) can fill a hole");
+    if (mesh_motion_any())
+        params_fault(r->params, f, "fv.hole", "not with blocks that move");
+}
+
+static void check_coupled(const struct run *r, struct faults *f)
+{
+    if (mesh_motion_any())
+        params_fault(r->params, f, "blocks.motion", "a coupled job knows no blocks that move");
+    if (r->crossed)
+        params_fault(r->params, f, "blocks",
+                     "a free surface crosses the open sides of sph.box on fv.cells alone");
+    if (fv_hole(r))
+        params_fault(r->params, f, "fv.hole",
+                     "only a lone run with an exact solution (initial.field) can fill a hole");
+}
+
 void mesh_check(const struct run *r, struct faults *f)
 {
     const struct fv_params *prm = fv_params_of(r);
     const int before = f->n;
     if (r->coupled)
-        params_fault(r->params, f, "blocks", "a coupled job knows no blocks: use fv.cells");
-    if (prm->c0 > 0.0)
-        params_fault(r->params, f, "fv.c0", "the pressure of blocks knows no sound");
+        check_coupled(r, f);
     limits_check(r, f);
     surface_check(r, f);
     if (prm->graded[1] > 0.0)
         params_fault(r->params, f, "fv.graded", "not with blocks: they have maps of their own");
-    if (prm->hole[1][0] > prm->hole[0][0])
-        params_fault(r->params, f, "fv.hole", "blocks know no forced cells: let a block overlap");
-    if (mesh_motion_any() && prm->integrator == INTEGRATOR_NEWTON)
-        params_fault(r->params, f, "fv.integrator",
-                     "newton's residual knows no cells that move: use rk3 or bdf2");
-    if (mesh_motion_any() && surface_wanted(r))
-        params_fault(r->params, f, "fv.surface",
-                     "a free surface does not go with blocks that move yet");
+    check_hole(r, f);
+    if (mesh_motion_any() && prm->steady)
+        params_fault(r->params, f, "fv.steady", "blocks that move have no steady state");
     for (int k = 0; k < mesh_given_count; k++)
         scene_check_motion(&mesh_given[k].motion, "blocks", k, r->params, f);
     for (int k = 0; k < r->scene.nwalls; k++)
@@ -186,9 +230,11 @@ void mesh_check(const struct run *r, struct faults *f)
         check_block(r, f, k);
     if (f->n > before)
         return;
-    struct mesh *m = mesh_create(r, f);
+    struct mesh *m = mesh_create(r, fv_hole(r), f);
     if (m) {
         check_taken(r, f, m);
+        if (m->has_given && m->given_cells == 0)
+            params_fault(r->params, f, "fv.hole", "no cell of the blocks lies wholly in the box");
         mesh_scene_check(r, f, m);
         if (f->n == before && m->moves)
             mesh_motion_sweep(r, f, m);

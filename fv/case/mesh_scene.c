@@ -9,6 +9,7 @@
 #include "../grid/mesh_motion.h"
 #include "../boundary/still.h"
 #include "../grid/overset.h"
+#include "../surface/levelset.h"
 
 static const char *const sides[] = {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};
 
@@ -58,6 +59,7 @@ static struct face face_at(const struct mesh *m, const struct mesh_block *b, int
 struct total {
     double flux, most; /* m^dim/s: outwards, sum of the sizes */
     double worst;      /* -: largest |w.S|/(|w| |S|) */
+    double slant;      /* -: largest |g.S|/(|g| |S|) */
     double height;     /* m^2/s^2: least and most of -g.x */
     double height_most;
     bool any;
@@ -72,7 +74,8 @@ static struct total sum_side(const struct run *r, const struct mesh *m, int k, i
     for (int q = 0; q < q1; q++)
         for (int p = 0; p < p1; p++) {
             const struct face f = face_at(m, b, side, p, q);
-            double w[3] = {0.0, 0.0, 0.0}, rigid[3], wS = 0.0, w2 = 0.0, S2 = 0.0, height = 0.0;
+            double w[3] = {0.0, 0.0, 0.0}, rigid[3], wS = 0.0, w2 = 0.0, S2 = 0.0, height = 0.0,
+                   gS = 0.0, g2 = 0.0;
             if (b->status[mesh_cell(b, f.cell)] != CELL_COMPUTED)
                 continue;
             if (b->side[side] == MESH_EXACT)
@@ -85,12 +88,15 @@ static struct total sum_side(const struct run *r, const struct mesh *m, int k, i
                 wS += w[c] * f.S[c];
                 w2 += w[c] * w[c];
                 S2 += f.S[c] * f.S[c];
+                gS += r->scene.fluid.gravity[c] * f.S[c];
+                g2 += r->scene.fluid.gravity[c] * r->scene.fluid.gravity[c];
                 height -= r->scene.domain.periodic[c] ? 0.0 : r->scene.fluid.gravity[c] * f.x[c];
             }
             sum.any = true;
             sum.flux += wS;
             sum.most += fabs(wS);
             sum.worst = fmax(sum.worst, w2 > 0.0 ? fabs(wS) / sqrt(w2 * S2) : 0.0);
+            sum.slant = fmax(sum.slant, g2 > 0.0 ? fabs(gS) / sqrt(g2 * S2) : 0.0);
             sum.height = fmin(sum.height, height);
             sum.height_most = fmax(sum.height_most, height);
         }
@@ -123,11 +129,15 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
             if (kind == MESH_INFLOW && !(t.most > 0.0))
                 mesh_fault(r, f, k, sides[side],
                            "an inflow without a velocity across it: nothing flows in");
+            if (kind == MESH_OUTFLOW && t.slant > 1e-6 && surface_wanted(r))
+                mesh_fault(r, f, k, sides[side],
+                           "water would fall out of it: with a free surface an outflow stands "
+                           "upright");
             if (kind == MESH_OUTFLOW) {
                 least = fmin(least, 0.5 * (t.height + t.height_most));
                 most = fmax(most, 0.5 * (t.height + t.height_most));
             }
-            out = out || kind == MESH_OUTFLOW;
+            out = out || kind == MESH_OUTFLOW || kind == MESH_CARRIED;
             in = in || kind == MESH_INFLOW;
             exact = exact || kind == MESH_EXACT;
             net += kind == MESH_INFLOW || kind == MESH_EXACT ? t.flux : 0.0;

@@ -1,6 +1,8 @@
 /* mesh_state.c - the state of a flow on blocks, at t = 0 or from a restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
+#include "../boundary/outflow.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
 #include "../poisson/wet_pressure.h"
@@ -22,6 +24,7 @@
 #include "../time/newton.h"
 #include "../time/stages.h"
 #include "../watch/watches.h"
+#include "../coupling/fv_link.h"
 #include "fv_case.h"
 #include "../time/steps.h"
 
@@ -131,7 +134,12 @@ void mesh_state_create(struct fv *s)
 {
     struct faults faults = {0};
     struct run *r = s->run;
-    s->m = mesh_take(r, &faults);
+    double box[2][3];
+    if (r->coupled)
+        coupling_box(s, box);
+    s->m = mesh_take(r, r->coupled ? (const double(*)[3])box : fv_hole(r), &faults);
+    if (!s->m && r->coupled)
+        coupling_refuse(s, faults.text);
     if (!s->m)
         fail("the blocks were good when they were checked");
     s->dim = s->m->dim;
@@ -151,7 +159,12 @@ void mesh_state_create(struct fv *s)
     make_fields(s);
     fill(s);
     s->stiffest = mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
+    s->symmetric = mesh_viscous_symmetric(s);
     mesh_bc_create(s);
+    if (r->coupled)
+        coupling_create(s, (const double(*)[3])box);
+    else if (s->m->has_given)
+        s->forcing = forcing_create(s, 0, NULL, false);
     s->moving = moving_create(s);
     s->surface = surface_create(s);
     if (s->surface)
@@ -162,6 +175,10 @@ void mesh_state_create(struct fv *s)
         s->search = overset_search(r, s->m);
     mesh_fill(s->m, s->m->dim, s->u);
     mesh_bc_velocity(s, BC_GIVEN, s->u);
+    if (s->outflows) {
+        outflow_start(s);
+        mesh_bc_velocity(s, BC_GIVEN, s->u);
+    }
     if (s->surface)
         surface_start(s);
     measure(s);
@@ -172,7 +189,7 @@ void mesh_state_create(struct fv *s)
     for (int k = 0; k < s->m->nblocks && s->moving; k++)
         if (s->m->block[k].motion)
             s->scene_speed = fmax(s->scene_speed, s->m->block[k].motion->speed);
-    s->reference = fmax(s->umax[0], s->scene_speed);
+    s->reference = fmax(s->umax[0], fmax(s->scene_speed, s->partner_speed));
     s->u_limit = 10.0 * s->reference;
     if (s->prm.integrator == INTEGRATOR_NEWTON)
         s->newton = newton_create(s);

@@ -13,25 +13,43 @@
 #include "../../common/watch.h"
 #include "../../coupler/cpl.h"
 #include "../boundary/forcing.h"
+#include "../boundary/mesh_bc.h"
 #include "fv_course.h"
 #include "../grid/layout.h"
 #include "../boundary/still.h"
 #include "fv_link.h"
+#include "moved_box.h"
 #include "water_budget.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
 
+/* One program of particles. */
+struct giver {
+    char name[64]; /* "sph", "sph_left" */
+    int forced, imposed, seen;
+    int place, way; /* of a box that moves: one point; how far it is from its start */
+    bool moves;
+    double given[2][3], free[2][3]; /* m: what it gives, its free zone, at the start */
+    double stands[3];               /* m: of the box whose cells are forced now */
+    double moved[9]; /* m: how far it has moved last; the box that it counts as its own then */
+};
+
 struct link {
     struct cpl *c;
-    int grid, forced, velocity, pressure, imposed, seen;
-    int budget, water; /* one point; the partner's water */
+    int n; /* givers */
+    struct giver of[PARTNERS_MAX];
+    int grid, velocity, pressure;
+    int budget, water; /* one point; the partner's water and drops */
+    bool has_moved;    /* some box, once */
     struct water_budget of_water;
     int phi, places, filled; /* where the surface crosses into the partner's part */
     double *share;           /* of a kernel that the partner's water fills, at the places */
+    struct patch patch;
     struct course *course;
-    double *got; /* scratch */
-    double *p;   /* Pa: the partner's at the end of the window, where mask is 1 */
-    unsigned char *mask;
+    double *got, *one; /* scratch: velocities, pressures of one giver */
+    unsigned char *whose;
+    double *p;           /* Pa: the partner's at the end of the window, where mask is 1 */
+    unsigned char *mask; /* some giver has particles there */
     double datum; /* Pa: the partner's pressure over ours, mean over the rim of the free cells */
     struct watch unmapped; /* share of the cells that fluxes look at which the partner left out */
     double missing;        /* now */
@@ -49,43 +67,91 @@ static void check(const struct link *k, int code)
 }
 
 /* Width of the kernel whose mean has the second moment of a cell average: sqrt(6/5) h in 2D,
- * sqrt(5/4) h in 3D. A sum over particles then gives the cell's average up to fourth order. */
-static double support(const struct block *b)
+ * sqrt(5/4) h in 3D. A sum over particles then gives the cell's average up to fourth order. Of
+ * blocks h is that of the largest cell that the partner gives. */
+static double support(const struct fv *s)
 {
+    const struct forcing *f = s->forcing;
     double h = 0.0;
-    for (int a = 0; a < b->dim; a++)
-        h = fmax(h, b->h[a]);
-    return h * sqrt(b->dim == 2 ? 1.2 : 1.25);
+    for (int a = 0; a < s->b.dim && !s->m; a++)
+        h = fmax(h, s->b.h[a]);
+    for (int64_t i = 0; s->m && i < f->npartner; i++)
+        h = fmax(h, pow(s->m->V[f->partner[i]], 1.0 / s->dim));
+    if (s->m)
+        MPI_Allreduce(MPI_IN_PLACE, &h, 1, MPI_DOUBLE, MPI_MAX, s->comm);
+    return h * sqrt(s->dim == 2 ? 1.2 : 1.25);
+}
+
+/* A name of a set or a field: "fv.forced" and "sph_left" give "fv.forced_left", "sph.velocity"
+ * "sph_left.velocity". */
+static const char *named(const struct giver *g, const char *own, const char *name)
+{
+    static char text[2][CPL_NAME + 64];
+    static int turn;
+    char *to = text[turn = 1 - turn];
+    if (own)
+        snprintf(to, sizeof *text, "%s%.60s", own, g->name + 3);
+    else
+        snprintf(to, sizeof *text, "%.63s.%s", g->name, name);
+    return to;
+}
+
+static void find_zone(const struct link *k, const struct giver *g, const char *zone, double lo[3],
+                      double hi[3])
+{
+    check(k, cpl_find_zone(k->c, named(g, NULL, zone), lo, hi));
+}
+
+static void declare_giver(struct fv *s, struct link *k, struct giver *g, int how)
+{
+    check(k, cpl_points(k->c, named(g, "fv.forced", ""), s->dim, support(s), &g->forced));
+    check(k, cpl_field(k->c, g->forced, named(g, NULL, "velocity"), "m/s", s->dim, CPL_GET, how,
+                       &g->imposed));
+    check(k,
+          cpl_field(k->c, g->forced, named(g, NULL, "pressure"), "Pa", 1, CPL_GET, how, &g->seen));
+    if (!g->moves)
+        return;
+    check(k, cpl_points(k->c, named(g, "fv.place", ""), s->dim, s->b.h[0], &g->place));
+    check(k,
+          cpl_field(k->c, g->place, named(g, NULL, "way"), "m", 9, CPL_GET, CPL_NEAREST, &g->way));
 }
 
 static void declare(struct fv *s, struct link *k)
 {
-    const struct block *b = &s->b;
+    const struct patch *p = &k->patch;
     const int how = s->run->scene.coupling.mapping ? CPL_MLS : CPL_SHEPARD;
-    struct cpl_grid g = {.dim = b->dim};
+    struct cpl_grid g = {.dim = s->dim};
     for (int a = 0; a < 3; a++) {
-        const int first = a == 1 && b->rows ? b->rows->even : 0;
-        g.origin[a] = first > 0 ? b->rows->edge[first] : b->origin[a];
-        g.spacing[a] = b->h[a];
-        g.cells[a] = b->cells[a] - first;
-        g.periodic[a] = b->periodic[a];
-        g.lo[a] = b->lo[a] > first ? b->lo[a] - first : 0;
-        g.hi[a] = b->hi[a] > first ? b->hi[a] - first : 0;
+        const int below = a == 1 ? p->below : 0;
+        g.origin[a] = p->origin[a];
+        g.spacing[a] = p->h[a];
+        g.cells[a] = p->cells[a];
+        g.periodic[a] = p->periodic[a];
+        g.lo[a] = p->of.lo[a] > below ? p->of.lo[a] - below : 0;
+        g.hi[a] = g.lo[a] + p->of.n[a];
     }
     check(k, cpl_grid(k->c, "fv.cells", &g, &k->grid));
-    check(k, cpl_field(k->c, k->grid, "fv.velocity", "m/s", b->dim, CPL_PUT, 0, &k->velocity));
+    check(k, cpl_field(k->c, k->grid, "fv.velocity", "m/s", s->dim, CPL_PUT, 0, &k->velocity));
     check(k, cpl_field(k->c, k->grid, "fv.pressure", "Pa", 1, CPL_PUT, 0, &k->pressure));
-    check(k, cpl_points(k->c, "fv.forced", b->dim, support(b), &k->forced));
-    check(k, cpl_field(k->c, k->forced, "sph.velocity", "m/s", b->dim, CPL_GET, how, &k->imposed));
-    check(k, cpl_field(k->c, k->forced, "sph.pressure", "Pa", 1, CPL_GET, how, &k->seen));
+    for (int q = 0; q < k->n; q++)
+        declare_giver(s, k, k->of + q, how);
     if (!s->surface)
         return;
     check(k, cpl_field(k->c, k->grid, "fv.phi", "m", 1, CPL_PUT, 0, &k->phi));
-    check(k, cpl_points(k->c, "fv.surface", b->dim, s->surface->forced->R, &k->places));
-    check(k, cpl_field(k->c, k->places, "sph.one", "-", 1, CPL_GET, CPL_SUM, &k->filled));
-    check(k, cpl_points(k->c, "fv.budget", b->dim, b->h[0], &k->budget));
-    check(k, cpl_field(k->c, k->budget, "sph.water", "m^dim", 1, CPL_GET, CPL_NEAREST, &k->water));
+    check(k, cpl_points(k->c, "fv.surface", s->dim, s->surface->forced->R, &k->places));
+    check(k, cpl_field(k->c, k->places, named(k->of, NULL, "one"), "-", 1, CPL_GET, CPL_SUM,
+                       &k->filled));
+    check(k, cpl_points(k->c, "fv.budget", s->dim, s->b.h[0], &k->budget));
+    check(k, cpl_field(k->c, k->budget, named(k->of, NULL, "water"), "m^dim", 2, CPL_GET,
+                       CPL_NEAREST, &k->water));
     k->of_water = water_budget_create();
+    find_zone(k, k->of, "counted", k->of_water.box[0], k->of_water.box[1]);
+}
+
+static void refuse(const struct link *k, const char *reason)
+{
+    signals_handled(); /* cpl_fail says it */
+    cpl_fail(k->c, RUN_INPUT, reason);
 }
 
 /* All that the partner takes must lie in even rows. */
@@ -95,49 +161,166 @@ static void check_rows(const struct fv *s, const struct link *k)
     const double margin = 2.0 * s->b.h[1];
     double lo[3], hi[3];
     char reason[200];
-    check(k, cpl_find_zone(k->c, "sph.box", lo, hi));
+    double least = INFINITY;
+    for (int q = 0; q < k->n; q++) {
+        find_zone(k, k->of + q, "box", lo, hi);
+        least = fmin(least, lo[1]);
+    }
+    lo[1] = least;
     if (lo[1] >= r->edge[r->even] + margin - 1e-9 * s->b.h[1])
         return;
     snprintf(reason, sizeof reason,
              "fv.graded: even rows begin at y = %g m, sph.box at %g m: lower the first to %g m or "
              "less, two rows below the box",
              r->edge[r->even], lo[1], lo[1] - margin);
-    signals_handled(); /* cpl_fail says it */
-    cpl_fail(k->c, RUN_INPUT, reason);
+    refuse(k, reason);
 }
 
-void coupling_create(struct fv *s)
+/* What a giver says of itself before the meeting. */
+static void meet_giver(struct fv *s, const struct link *k, struct giver *g)
+{
+    double number[3];
+    find_zone(k, g, "given", g->given[0], g->given[1]);
+    find_zone(k, g, "free", g->free[0], g->free[1]);
+    for (int a = s->run->scene.domain.dim; a < 3; a++) {
+        g->given[0][a] = -INFINITY;
+        g->given[1][a] = INFINITY;
+    }
+    find_zone(k, g, "moves", number, number);
+    g->moves = number[0] != 0.0;
+    s->partner_moves = s->partner_moves || g->moves;
+    find_zone(k, g, "speed", number, number);
+    if (s->run->scene.nbodies > 0)
+        s->partner_speed = fmax(s->partner_speed, number[0]);
+}
+
+void coupling_box(struct fv *s, double box[2][3])
 {
     struct link *k = s->link = NEW(struct link, 1);
-    const struct block *b = &s->b;
-    double lo[3], hi[3];
+    char names[PARAM_KIN_MAX][64];
     k->c = s->run->partner_ctx;
-    check(k, cpl_find_zone(k->c, "sph.given", lo, hi));
-    check(k, cpl_find_zone(k->c, "sph.free", s->partner[0], s->partner[1]));
-    s->forcing = forcing_create(s, lo, hi, true);
-    if (!s->forcing) {
-        signals_handled(); /* cpl_fail says it */
-        cpl_fail(k->c, RUN_INPUT,
-                 "no cell of fv lies wholly in the box that sph gives: refine fv.cells, enlarge "
-                 "sph.box or lower coupling.overlap");
+    k->n = params_kin(s->run->params, "sph", names);
+    if (k->n == 0) { /* another solver in its place */
+        strcpy(names[0], "sph");
+        k->n = 1;
     }
-    int first = 0; /* row */
-    double memory[3];
-    if (b->rows) {
+    s->npartners = k->n;
+    for (int q = 0; q < k->n; q++) {
+        struct giver *g = k->of + q;
+        memcpy(g->name, names[q], sizeof g->name);
+        meet_giver(s, k, g);
+        memcpy(s->partner[q], g->free, sizeof g->free);
+    }
+    memcpy(box, k->of[0].given, sizeof k->of[0].given);
+}
+
+/* What the givers give, where their boxes stand. */
+static void given_boxes(const struct link *k, double box[PARTNERS_MAX][2][3])
+{
+    for (int q = 0; q < k->n; q++)
+        for (int side = 0; side < 2; side++)
+            for (int a = 0; a < 3; a++)
+                box[q][side][a] = k->of[q].given[side][a] + k->of[q].stands[a];
+}
+
+void coupling_refuse(const struct fv *s, const char *reason) { refuse(s->link, reason); }
+
+/* The cells whose averages the partner is given. */
+static void make_patch(struct fv *s, struct link *k, const double (*given)[3])
+{
+    double lo[3], hi[3], where[3];
+    char reason[500];
+    find_zone(k, k->of, "box", lo, hi);
+    if (patch_create(s, lo, hi, given, &k->patch, where))
+        return;
+    snprintf(reason, sizeof reason,
+             "blocks: sph.box (%g, %g, %g) to (%g, %g, %g) m wants the flow at (%g, %g, %g) m, "
+             "within two cells of it, and no block computes it there: move the box away from walls "
+             "that it does not share, or let blocks reach further",
+             lo[0], lo[1], lo[2], hi[0], hi[1], hi[2], where[0], where[1], where[2]);
+    refuse(k, reason);
+}
+
+/* Forced values of the start, and before it where an exact solution knows them. */
+static void start_forced(struct fv *s, double before)
+{
+    struct forcing *f = s->forcing;
+    double u[3];
+    f->t1 = s->t;
+    f->t0 = s->t - before;
+    f->t_old = s->t - 2.0 * before;
+    const bool past = exact_has_past(&s->exact) && s->has_exact;
+    f->levels = past ? 3 : 1;
+    for (int64_t i = 0; i < f->npartner + f->nrim; i++)
+        for (int m = 0; m < 3; m++) {
+            double *const *v = m == 0 ? f->v_next : m == 1 ? f->v : f->v_old;
+            if (m > 0 && past)
+                forcing_average(s, f->partner[i], s->t - m * before, u, NULL);
+            for (int a = 0; a < s->dim; a++)
+                v[a][i] = m > 0 && past ? u[a] : s->u[a][f->partner[i]];
+        }
+}
+
+static void free_room(struct link *k)
+{
+    mem_free(k->got);
+    mem_free(k->one);
+    mem_free(k->whose);
+    mem_free(k->p);
+    mem_free(k->mask);
+    mem_free(k->share);
+}
+
+/* For what the partner gives. */
+static void make_room(const struct fv *s, struct link *k)
+{
+    const int64_t n = s->forcing->npartner + s->forcing->nrim;
+    free_room(k);
+    k->got = NEW(double, n * s->dim);
+    k->one = NEW(double, n);
+    k->whose = NEW(unsigned char, n);
+    k->p = NEW(double, n);
+    k->mask = NEW(unsigned char, n);
+    k->share = s->surface ? NEW(double, s->surface->forced->nplaces) : NULL;
+}
+
+/* Windows over which the pressure is smoothed, as the one wants it that wants most. */
+static int longest_memory(const struct link *k)
+{
+    double memory[3], most = 0.0;
+    for (int q = 0; q < k->n; q++) {
+        find_zone(k, k->of + q, "memory", memory, memory);
+        most = fmax(most, memory[0]);
+    }
+    return (int)most;
+}
+
+void coupling_create(struct fv *s, const double (*box)[3])
+{
+    struct link *k = s->link;
+    double all[PARTNERS_MAX][2][3];
+    if (s->m && k->n > 1)
+        refuse(k, "several programs of particles want fv.cells: blocks are cut around one box");
+    given_boxes(k, all);
+    s->forcing = forcing_create(s, k->n, (const double(*)[2][3])all, true);
+    if (!s->forcing)
+        refuse(k, "no cell of fv lies wholly in the box that sph gives: refine fv.cells (or the "
+                  "blocks), enlarge sph.box or lower coupling.overlap");
+    if (s->b.rows)
         check_rows(s, k);
-        first = b->rows->even - b->lo[1];
-        first = first < 0 ? 0 : first > b->n[1] ? b->n[1] : first;
-    }
-    if (s->surface) {
+    if (s->m && mesh_bc_pressure_given(s) && !s->forcing->closed)
+        refuse(k,
+               "blocks: the cells that sph gives lie in blocks that overlap there, so what flows "
+               "through their outline cannot be balanced, and an outflow would let it swing: "
+               "let them lie in one block, or in blocks that are joined");
+    make_patch(s, k, box);
+    if (s->surface)
         s->surface->forced = surface_forced_create(s);
-        k->share = NEW(double, s->surface->forced->nplaces);
-    }
     declare(s, k);
-    check(k, cpl_find_zone(k->c, "sph.memory", memory, memory));
-    k->course = course_create(s, first, (int)memory[0]);
-    const int64_t most = s->forcing ? s->forcing->npartner + s->forcing->nrim : 0;
-    k->got = NEW(double, most * b->dim);
-    k->p = NEW(double, most);
+    k->course = course_create(s, &k->patch, longest_memory(k));
+    make_room(s, k);
+    if (s->m) /* the start makes fluxes before the partner has said a word */
+        start_forced(s, 1e-3);
     k->unmapped = (struct watch){
         .key = "unmapped_cells",
         .what = "share of the cells at sph's edge that hold no particle of sph",
@@ -146,17 +329,14 @@ void coupling_create(struct fv *s)
                   "want coarser fv.cells",
         .warn = 0.05,
         .stop = 0.25};
-    k->mask = NEW(unsigned char, most);
 }
 
 void coupling_free(struct fv *s)
 {
     struct link *k = s->link;
     course_free(&k->course);
-    mem_free(k->got);
-    mem_free(k->p);
-    mem_free(k->mask);
-    mem_free(k->share);
+    patch_free(&k->patch);
+    free_room(k);
     mem_free(k);
     s->link = NULL;
 }
@@ -170,15 +350,13 @@ static void find_datum(struct fv *s)
     const struct forcing *f = s->forcing;
     double sum[2] = {0.0, 0.0}, x[3];
     for (int64_t i = f->npartner; i < f->npartner + f->nrim; i++) {
-        int at[3];
         if (!k->mask[i])
             continue;
-        block_place(&s->b, f->partner[i], at);
-        block_centre(&s->b, at[0], at[1], at[2], x);
+        forcing_centre(s, f->partner[i], x);
         sum[0] += k->p[i] - fv_pressure(s, f->partner[i]) - fv_still_pressure(s, x);
         sum[1] += 1.0;
     }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     k->datum = sum[1] > 0.0 ? sum[0] / sum[1] : k->datum;
 }
 
@@ -197,66 +375,41 @@ static void put(struct fv *s)
     check(k, cpl_put_course(k->c, k->phi, s->t, c->n, n, term));
 }
 
-/* Forced values of the start, and before it where an exact solution knows them. */
-static void start_forced(struct fv *s, double before)
+/* Which cells take the partner's values. */
+static void name_cells(struct fv *s)
 {
-    const struct block *b = &s->b;
-    struct forcing *f = s->forcing;
-    double x[3], u[3];
-    f->t1 = s->t;
-    f->t0 = s->t - before;
-    f->t_old = s->t - 2.0 * before;
-    const bool past = exact_has_past(&s->exact) && s->has_exact;
-    f->levels = past ? 3 : 1;
-    for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
-        int at[3];
-        block_place(b, f->partner[i], at);
-        block_centre(b, at[0], at[1], at[2], x);
-        for (int m = 0; m < 3; m++) {
-            double *const *v = m == 0 ? f->v_next : m == 1 ? f->v : f->v_old;
-            if (m > 0 && past)
-                exact_average(&s->exact, x, b->h, s->t - m * before, u, NULL, NULL);
-            for (int a = 0; a < b->dim; a++)
-                v[a][i] = m > 0 && past ? u[a] : s->u[a][f->partner[i]];
-        }
-    }
-}
-
-/* Number in the whole grid of a cell with this local index. */
-static int64_t number_of(const struct block *b, int64_t c)
-{
-    int at[3];
-    block_place(b, c, at);
-    return (b->lo[0] + at[0]) +
-           (int64_t)b->cells[0] * ((b->lo[1] + at[1]) + (int64_t)b->cells[1] * (b->lo[2] + at[2]));
-}
-
-/* Which cells take the partner's values, once; then the first patch. */
-void coupling_first(void *state)
-{
-    struct fv *s = state;
     struct link *k = s->link;
-    const struct block *b = &s->b;
     const struct forcing *f = s->forcing;
-    const int64_t n = f ? f->npartner + f->nrim : 0;
+    const int64_t n = f->npartner + f->nrim;
     double *x = NEW(double, 3 * n);
     int64_t *id = NEW(int64_t, n);
     for (int64_t m = 0; m < n; m++) {
-        const int64_t c = f->partner[m];
-        int at[3];
-        block_place(b, c, at);
-        block_centre(b, at[0], at[1], at[2], x + 3 * m);
-        id[m] = number_of(b, c);
+        forcing_centre(s, f->partner[m], x + 3 * m);
+        id[m] = forcing_number(s, f->partner[m]);
     }
-    check(k, cpl_move(k->c, k->forced, n, x, id, NULL));
+    for (int q = 0; q < k->n; q++)
+        check(k, cpl_move(k->c, k->of[q].forced, n, x, id, NULL));
     if (s->surface) {
         const struct surface_forced *w = s->surface->forced;
-        const double at[3] = {s->partner[0][0], s->partner[0][1], s->partner[0][2]};
         check(k, cpl_move(k->c, k->places, w->nplaces, w->x, NULL, NULL));
-        check(k, cpl_move(k->c, k->budget, 1, at, NULL, NULL));
     }
     mem_free(x);
     mem_free(id);
+}
+
+/* Cells and points that take values; then the first patch. */
+void coupling_first(void *state)
+{
+    static const double one[3] = {0.0, 0.0, 0.0};
+    struct fv *s = state;
+    struct link *k = s->link;
+    const struct forcing *f = s->forcing;
+    name_cells(s);
+    if (s->surface)
+        check(k, cpl_move(k->c, k->budget, 1, one, NULL, NULL));
+    for (int q = 0; q < k->n; q++)
+        if (k->of[q].moves)
+            check(k, cpl_move(k->c, k->of[q].place, 1, one, NULL, NULL));
     if (!s->run->restart) {
         const double before = s->exact.U > 0.0 ? 1e-3 * s->exact.L / s->exact.U : 1e-3;
         if (f)
@@ -265,8 +418,8 @@ void coupling_first(void *state)
     }
 }
 
-/* Cells without a particle near them keep their values. Two layers of the hole and the rim make the
- * fluxes of its outline: there it matters. */
+/* Cells without a particle near them keep their values. Two layers of the hole and the rim make
+ * the fluxes of its outline: there it matters. */
 static void count_missing(struct fv *s)
 {
     struct link *k = s->link;
@@ -282,18 +435,16 @@ static void count_missing(struct fv *s)
             continue;
         sum[1] += 1.0;
         if (!k->mask[i]) {
-            int at[3];
-            block_place(&s->b, c, at);
-            block_centre(&s->b, at[0], at[1], at[2], k->where);
+            forcing_centre(s, c, k->where);
             sum[0] += 1.0;
         }
     }
     most.n = sum[0];
-    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     if (sum[0] > 0.0) {
-        MPI_Comm_rank(s->b.cart, &most.rank);
-        MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->b.cart);
-        MPI_Bcast(k->where, 3, MPI_DOUBLE, most.rank, s->b.cart);
+        MPI_Comm_rank(s->comm, &most.rank);
+        MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->comm);
+        MPI_Bcast(k->where, 3, MPI_DOUBLE, most.rank, s->comm);
     }
     k->missing = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
 }
@@ -319,32 +470,112 @@ void coupling_summary(const struct fv *s, struct summary *to)
         watch_summary(&s->link->of_water.watched, to);
 }
 
+/* The boxes stand at these ways from their starts, and other cells are forced; false: the same. */
+static bool stand(struct fv *s)
+{
+    struct link *k = s->link;
+    double box[PARTNERS_MAX][2][3];
+    for (int q = 0; q < k->n; q++)
+        for (int side = 0; side < 2; side++)
+            for (int a = 0; a < 3; a++)
+                s->partner[q][side][a] = k->of[q].free[side][a] + k->of[q].stands[a];
+    given_boxes(k, box);
+    if (!moved_box(s, k->course, k->n, (const double(*)[2][3])box))
+        return false;
+    make_room(s, k);
+    return true;
+}
+
+bool coupling_stand(struct fv *s, struct h5 *f)
+{
+    double way[12 * PARTNERS_MAX];
+    struct link *k = s->link;
+    if (!k || !s->partner_moves)
+        return true;
+    if (!h5_read_same(f, "partners_way", 12 * k->n, way))
+        return false;
+    for (int q = 0; q < k->n; q++) {
+        memcpy(k->of[q].stands, way + 12 * q, sizeof k->of[q].stands);
+        memcpy(k->of[q].moved, way + 12 * q + 3, sizeof k->of[q].moved);
+    }
+    k->has_moved = true;
+    (void)stand(s);
+    return true;
+}
+
+static void save_ways(const struct link *k, struct h5 *f)
+{
+    double way[12 * PARTNERS_MAX];
+    for (int q = 0; q < k->n; q++) {
+        memcpy(way + 12 * q, k->of[q].stands, sizeof k->of[q].stands);
+        memcpy(way + 12 * q + 3, k->of[q].moved, sizeof k->of[q].moved);
+    }
+    h5_write_real(f, "partners_way", "m", 12 * k->n, 1, way, false);
+}
+
+/* They stand where they were when the last window ended. */
+static void follow(struct fv *s)
+{
+    struct link *k = s->link;
+    for (int q = 0; q < k->n; q++)
+        memcpy(k->of[q].stands, k->of[q].moved, sizeof k->of[q].stands);
+    if (s->surface)
+        memcpy(k->of_water.box, k->of[0].moved + 3, sizeof k->of_water.box);
+    if (stand(s))
+        name_cells(s);
+}
+
+/* What the givers have at the end of the window: of each the cells that its particles reach. */
+static void take(struct fv *s)
+{
+    struct link *k = s->link;
+    struct forcing *f = s->forcing;
+    const int dim = s->dim;
+    const int64_t n = f->npartner + f->nrim;
+    memset(k->mask, 0, (size_t)n);
+    for (int a = 0; a < dim; a++)
+        memcpy(f->v_next[a], f->v[a], (size_t)n * sizeof(double));
+    for (int q = 0; q < k->n; q++) {
+        const struct giver *g = k->of + q;
+        check(k, cpl_get(k->c, g->imposed, n, k->got, k->whose));
+        check(k, cpl_get(k->c, g->seen, n, k->one, NULL));
+        for (int64_t i = 0; i < n; i++) {
+            if (!k->whose[i])
+                continue;
+            k->mask[i] = 1;
+            k->p[i] = k->one[i];
+            for (int a = 0; a < dim; a++)
+                f->v_next[a][i] = k->got[dim * i + a];
+        }
+    }
+    for (int q = 0; q < k->n; q++)
+        if (k->of[q].moves) {
+            check(k, cpl_get(k->c, k->of[q].way, 1, k->of[q].moved, NULL));
+            k->has_moved = true;
+        }
+}
+
 /* The partner's velocities at t1; cells that it does not reach keep theirs. */
 void coupling_window_begin(void *state, double t0, double t1)
 {
     struct fv *s = state;
     struct link *k = s->link;
-    struct forcing *f = s->forcing;
-    const int dim = s->b.dim;
-    const int64_t n = f ? f->npartner + f->nrim : 0;
-    if (f)
-        forcing_shift(f, t0, t1);
+    if (s->partner_moves && k->has_moved)
+        follow(s);
+    forcing_shift(s->forcing, t0, t1);
     if (s->surface)
         surface_forced_shift(s, t0, t1);
     course_try(s, k->course, t1);
     put(s);
-    check(k, cpl_get(k->c, k->imposed, n, k->got, k->mask));
-    check(k, cpl_get(k->c, k->seen, n, k->p, NULL));
+    take(s);
     if (s->surface) {
         check(k, cpl_get(k->c, k->filled, s->surface->forced->nplaces, k->share, NULL));
         surface_forced_take(s, k->share);
-        check(k, cpl_get(k->c, k->water, 1, &k->of_water.partners, NULL));
+        double water[2];
+        check(k, cpl_get(k->c, k->water, 1, water, NULL));
+        water_budget_take(s, &k->of_water, water);
     }
-    if (f)
-        count_missing(s);
-    for (int a = 0; f && a < dim; a++)
-        for (int64_t i = 0; i < n; i++)
-            f->v_next[a][i] = k->mask[i] ? k->got[dim * i + a] : f->v[a][i];
+    count_missing(s);
     if (s->surface)
         forcing_fill(s, k->mask);
 }
@@ -372,6 +603,8 @@ void coupling_save(const struct fv *s, struct h5 *f)
     const struct forcing *c = s->forcing;
     course_save(s, s->link->course, f);
     h5_attribute_real(f, "datum", s->link->datum);
+    if (s->partner_moves)
+        save_ways(s->link, f);
     if (s->surface) {
         water_budget_save(&s->link->of_water, f);
         h5_attribute_real(f, "inflow", c->inflow);
@@ -382,12 +615,12 @@ void coupling_save(const struct fv *s, struct h5 *f)
     const int64_t n = c->npartner + c->nrim;
     int64_t *number = NEW(int64_t, n);
     for (int64_t i = 0; i < n; i++)
-        number[i] = number_of(&s->b, c->partner[i]);
+        number[i] = forcing_number(s, c->partner[i]);
     h5_write_int(f, "forced_cells", n, number);
     mem_free(number);
     h5_write_real(f, "forced_levels", "-", 4, 1, clock, false);
     for (int m = 0; m < 3; m++)
-        for (int a = 0; a < s->b.dim; a++)
+        for (int a = 0; a < s->dim; a++)
             h5_write_real(f, forced_names[m][a], "m/s", n, 1, forced_at(c, m, a), false);
 }
 
@@ -402,8 +635,8 @@ static int by_number(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Rows of the forced cells in a file of another number of ranks: row[i] of partner[i]; false if one
- * is not there. */
+/* Rows of the forced cells in a file of another number of ranks: row[i] of partner[i]; false if
+ * one is not there. */
 static bool find_rows(const struct fv *s, struct h5 *f, int64_t *row)
 {
     const struct forcing *c = s->forcing;
@@ -416,14 +649,14 @@ static bool find_rows(const struct fv *s, struct h5 *f, int64_t *row)
     if (number)
         qsort(all, (size_t)n, sizeof *all, by_number);
     for (int64_t i = 0; good && i < c->npartner + c->nrim; i++) {
-        const struct numbered key = {number_of(&s->b, c->partner[i]), 0};
+        const struct numbered key = {forcing_number(s, c->partner[i]), 0};
         const struct numbered *at = bsearch(&key, all, (size_t)n, sizeof *all, by_number);
         good = at != NULL;
         row[i] = at ? at->row : 0;
     }
     mem_free(all);
     mem_free(number);
-    MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, s->b.cart);
+    MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, s->comm);
     return good;
 }
 
@@ -432,9 +665,9 @@ static bool gather_forced(const struct fv *s, struct h5 *f)
     const struct forcing *c = s->forcing;
     int64_t *row = NEW(int64_t, c->npartner + c->nrim), n;
     bool good = find_rows(s, f, row);
-    for (int k = 0; good && k < 3 * s->b.dim; k++) {
-        double *to = forced_at(c, k / s->b.dim, k % s->b.dim);
-        double *all = h5_read_all_real(f, forced_names[k / s->b.dim][k % s->b.dim], 1, &n);
+    for (int k = 0; good && k < 3 * s->dim; k++) {
+        double *to = forced_at(c, k / s->dim, k % s->dim);
+        double *all = h5_read_all_real(f, forced_names[k / s->dim][k % s->dim], 1, &n);
         good = all != NULL;
         for (int64_t i = 0; good && i < c->npartner + c->nrim; i++)
             to[i] = all[row[i]];
@@ -451,7 +684,7 @@ static bool load_forced(const struct fv *s, struct h5 *f)
     if (!layout_same_ranks(f, s->run->size))
         return gather_forced(s, f);
     for (int m = 0; m < 3; m++)
-        for (int a = 0; a < s->b.dim; a++)
+        for (int a = 0; a < s->dim; a++)
             good = good && h5_read_real(f, forced_names[m][a], c->npartner + c->nrim, 1,
                                         forced_at(c, m, a));
     return good;

@@ -8,24 +8,24 @@
 #include "../../common/h5.h"
 #include "../../common/log.h"
 #include "../../common/mem.h"
+#include "../boundary/mesh_bc.h"
 #include "../grid/layout.h"
 #include "../time/steps.h"
 #include "../boundary/still.h"
 #include "../surface/levelset.h"
 
-struct course *course_create(const struct fv *s, int first, int memory)
+struct course *course_create(const struct fv *s, struct patch *p, int memory)
 {
     struct course *c = NEW(struct course, 1);
-    const struct block *b = &s->b;
-    c->first = first;
-    c->dim = b->dim;
-    c->width = b->dim + (s->surface ? 2 : 1);
+    c->patch = p;
+    c->dim = s->dim;
+    c->width = s->dim + (s->surface ? 2 : 1);
     c->memory = memory;
-    c->n = (int64_t)b->n[0] * (b->n[1] - first) * b->n[2];
+    c->n = p->n;
     for (int m = 0; m < COURSE_LEVELS; m++)
         c->q[m] = NEW(double, c->n * c->width);
     for (int m = 0; m < COURSE_TERMS; m++)
-        c->term[m] = NEW(double, c->n * b->dim);
+        c->term[m] = NEW(double, c->n * c->dim);
     c->tried = NEW(double, c->n * c->width);
     c->kept = kept_create(s);
     if (c->memory > 1) {
@@ -53,29 +53,29 @@ void course_free(struct course **cp)
 }
 
 /* Under a surface the partner knows the level of the pressure: what it is told is what stands over
- * its mean at the rim of the free cells, which would follow every swing of the level late. */
-static void take_out_level(const struct fv *s, const struct course *c, double *q)
+ * its mean at the rim of the free cells, which would follow every swing of the level late. q: of
+ * the patch; p: Pa, in the places of cells, or NULL: the exact one at t. */
+static void take_out_level(const struct fv *s, const struct course *c, const double *p, double t,
+                           double *q)
 {
-    const struct block *b = &s->b;
     const struct forcing *f = s->forcing;
     const double *g = s->run->scene.fluid.gravity;
-    double sum[2] = {0.0, 0.0}, x[3];
+    double sum[2] = {0.0, 0.0}, x[3], u[3];
     if (!f || s->surface || !scene_has_surface(&s->run->scene) ||
         (g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0))
         return;
     for (int64_t m = f->npartner; m < f->npartner + f->nrim; m++) {
-        int at[3];
-        block_place(b, f->partner[m], at);
-        block_centre(b, at[0], at[1], at[2], x);
-        const int64_t i =
-            at[0] + (int64_t)b->n[0] * (at[1] - c->first + (int64_t)(b->n[1] - c->first) * at[2]);
-        sum[0] += q[i * c->width + b->dim] - fv_still_pressure(s, x);
+        double one = p ? p[f->partner[m]] : 0.0;
+        if (!p)
+            forcing_average(s, f->partner[m], t, u, &one);
+        forcing_centre(s, f->partner[m], x);
+        sum[0] += one - (p ? 0.0 : fv_still_pressure(s, x));
         sum[1] += 1.0;
     }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     const double level = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
     for (int64_t i = 0; i < c->n; i++)
-        q[i * c->width + b->dim] -= level;
+        q[i * c->width + c->dim] -= level;
 }
 
 /* phi, as far as linear interpolation may want it. */
@@ -85,7 +85,7 @@ static void look_at_surface(const struct fv *s, const struct course *c, double *
     double *one = NEW(double, c->n), most = 0.0;
     for (int a = 0; a < b->dim; a++)
         most = fmax(most, 4.0 * b->h[a]);
-    block_pack_from(b, c->first, s->surface->phi, one);
+    patch_look(s, c->patch, s->surface->phi, one);
     for (int64_t i = 0; i < c->n; i++)
         q[i * c->width + b->dim + 1] = fmax(-most, fmin(most, one[i]));
     mem_free(one);
@@ -94,25 +94,30 @@ static void look_at_surface(const struct fv *s, const struct course *c, double *
 /* Velocity and whole pressure now; forced cells get a pressure continued from the free side. */
 static void look(struct fv *s, const struct course *c, double *q)
 {
-    const struct block *b = &s->b;
-    double *one = NEW(double, c->n), *p = block_field(b);
-    for (int64_t i = 0; i < b->size; i++)
+    double *one = NEW(double, c->n), *p = NEW(double, s->size), x[3];
+    for (int64_t i = 0; i < s->size; i++)
         p[i] = fv_pressure(s, i);
+    if (s->m)
+        mesh_fill(s->m, 1, &p);
     if (s->surface)
         extension_beyond(s, p);
     if (s->forcing)
-        forcing_extend(s, p);
-    fv_add_still_pressure(s, p);
+        forcing_extend(s, NEAR, p);
+    if (s->m)
+        mesh_fill(s->m, s->dim, s->u);
     if (s->surface)
         look_at_surface(s, c, q);
-    for (int m = 0; m <= b->dim; m++) {
-        block_pack_from(b, c->first, m < b->dim ? s->u[m] : p, one);
-        for (int64_t i = 0; i < c->n; i++)
-            q[i * c->width + m] = one[i];
+    for (int m = 0; m <= c->dim; m++) {
+        patch_look(s, c->patch, m < c->dim ? s->u[m] : p, one);
+        for (int64_t i = 0; i < c->n; i++) {
+            if (m == c->dim)
+                patch_centre(c->patch, i, x);
+            q[i * c->width + m] = one[i] + (m == c->dim ? fv_still_pressure(s, x) : 0.0);
+        }
     }
+    take_out_level(s, c, p, s->t, q);
     mem_free(p);
     mem_free(one);
-    take_out_level(s, c, q);
 }
 
 static void shift(struct course *c, double t)
@@ -151,22 +156,19 @@ void course_take(struct fv *s, struct course *c)
 
 static void exact_level(struct fv *s, struct course *c, double t, double *q)
 {
-    const struct block *b = &s->b;
     double x[3], u[3], p;
     int64_t at = 0;
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = c->first; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                block_centre(b, i, j, k, x);
-                exact_average(&s->exact, x, b->h, t, u, &p, NULL);
-                for (int a = 0; a < b->dim; a++)
-                    q[at++] = u[a];
-                q[at++] = p;
-                at += c->width - b->dim - 1;
-            }
+    for (int64_t i = 0; i < c->n; i++) {
+        patch_centre(c->patch, i, x);
+        exact_average(&s->exact, x, c->patch->h, t, u, &p, NULL);
+        for (int a = 0; a < c->dim; a++)
+            q[at++] = u[a];
+        q[at++] = p;
+        at += c->width - c->dim - 1;
+    }
     if (s->surface)
         look_at_surface(s, c, q);
-    take_out_level(s, c, q);
+    take_out_level(s, c, NULL, t, q);
 }
 
 void course_start(struct fv *s, struct course *c, double before)
@@ -204,6 +206,8 @@ void course_try(struct fv *s, struct course *c, double t1)
     c->failed = c->failed || d.bad;
     s->predicts = false;
     kept_put_back(c->kept, s);
+    if (s->m) /* sides are those of the start again */
+        mesh_bc_time(s, s->t);
 }
 
 /* The polynomial through the newest level and up to three others, value f[j] at x[j] s after it:
@@ -284,21 +288,11 @@ int course_pressure(struct course *c)
 
 static const char *const names[] = {"level0", "level1", "level2"};
 
-/* The cells that it tells of: those above the uneven rows, without ghosts. */
-static struct box box_of(const struct fv *s, const struct course *c)
-{
-    struct box x = layout_block(&s->b);
-    x.lo[1] += c->first;
-    x.n[1] -= c->first;
-    x.g[0] = x.g[1] = x.g[2] = 0;
-    return x;
-}
-
 void course_save(const struct fv *s, const struct course *c, struct h5 *f)
 {
     const double clock[COURSE_LEVELS + 1] = {c->t[0], c->t[1], c->t[2], c->levels};
-    const struct box mine = box_of(s, c);
-    layout_save(f, "course", 1, &mine);
+    (void)s;
+    layout_save(f, "course", 1, &c->patch->of);
     for (int m = 0; m < COURSE_LEVELS; m++)
         h5_write_real(f, names[m], "-", c->n, c->width, c->q[m], false);
     h5_write_real(f, "levels", "-", COURSE_LEVELS + 1, 1, clock, false);
@@ -312,8 +306,8 @@ void course_save(const struct fv *s, const struct course *c, struct h5 *f)
 static bool load(const struct fv *s, const struct course *c, struct h5 *f, const struct layout *l,
                  const char *name, int ncomp, double *to)
 {
-    const struct box mine = box_of(s, c);
-    return l ? layout_read(l, f, name, ncomp, &mine, s->b.periodic, to)
+    (void)s;
+    return l ? layout_read(l, f, name, ncomp, &c->patch->of, c->patch->periodic, to)
              : h5_read_real(f, name, c->n, ncomp, to);
 }
 

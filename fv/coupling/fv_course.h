@@ -8,6 +8,7 @@
 
 #include "../boundary/forcing.h"
 #include "../fv.h"
+#include "patch.h"
 #include "../time/steps.h"
 
 enum {
@@ -16,8 +17,8 @@ enum {
 };
 
 struct course {
-    int first;                /* local row: below it nothing is given, rows are uneven */
-    int64_t n;                /* local cells from there on */
+    struct patch *patch;      /* where it is told; borrowed */
+    int64_t n;                /* local cells of that */
     int dim, memory;          /* windows over which the pressure is smoothed; 1: none */
     int width;                /* values of a cell */
     double *q[COURSE_LEVELS]; /* [n][width] velocity, pressure, phi with a surface; newest first */
@@ -32,8 +33,7 @@ struct course {
     struct kept *kept;
 };
 
-/* first: local row from which on cells are given. */
-struct course *course_create(const struct fv *s, int first, int memory);
+struct course *course_create(const struct fv *s, struct patch *p, int memory);
 void course_free(struct course **c);
 /* At the start: the state now, and two levels before it of an exact solution, `before' s apart. */
 void course_start(struct fv *s, struct course *c, double before);

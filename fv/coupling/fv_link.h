@@ -6,7 +6,12 @@
 #include "../fv.h"
 
 /* fv_coupling.c: the only file here that knows cpl.h. */
-void coupling_create(struct fv *s);
+/* Meets the partner: the box whose cells it gives. Before the blocks are made. */
+void coupling_box(struct fv *s, double box[2][3]);
+/* Ends the job: for want of something that this reason says. */
+void coupling_refuse(const struct fv *s, const char *reason);
+/* Lists of what is given, both ways; fields of the start must be there. */
+void coupling_create(struct fv *s, const double (*box)[3]);
 void coupling_free(struct fv *s);
 /* Pa: to be added to the pressure for the partner's level; 0 alone. */
 double coupling_datum(const struct fv *s);
@@ -19,6 +24,8 @@ void coupling_summary(const struct fv *s, struct summary *to);
 void coupling_first(void *s);
 void coupling_window_begin(void *s, double t0, double t1);
 void coupling_window_end(void *s, double t1);
+/* Before the fields of a restart file are read: a partner's box that moves stands as it did. */
+bool coupling_stand(struct fv *s, struct h5 *f);
 void coupling_save(const struct fv *s, struct h5 *f);
 bool coupling_load(struct fv *s, struct h5 *f);
 

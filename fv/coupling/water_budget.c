@@ -4,14 +4,16 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../../common/crossing.h"
 #include "../../common/h5.h"
 #include "../boundary/forcing.h"
 #include "../surface/levelset.h"
 
-/* Windows over which what is missing comes back: some periods of short waves, so that it does not
- * follow them. What comes back in proportion leaves a lasting loss behind; a slower part, four
- * times that, takes it away without swinging. */
-static const double memory = 200.0;
+/* sqrt(H/g) over which what is missing comes back. Waves last longer, 4.4 of it and more, and take
+ * no part in what is missing; what drops and shifted particles take away comes steadily: a slower
+ * part, four times that, takes the lasting loss away which the part in proportion leaves, without
+ * swinging. */
+static const double memory = 2.0;
 
 struct water_budget water_budget_create(void)
 {
@@ -25,17 +27,29 @@ struct water_budget water_budget_create(void)
                     .stop = 0.02}};
 }
 
-double water_budget_share(const struct fv *s, const double *x, const double *h)
+static double share_outside(const struct fv *s, const double box[2][3], const double *x,
+                            const double *h)
 {
+    const struct scene_domain *d = &s->run->scene.domain;
     double in = 1.0;
-    for (int a = 0; a < s->b.dim; a++) {
-        const double lo = fmax(x[a] - 0.5 * h[a], s->partner[0][a]);
-        in *= fmax(fmin(x[a] + 0.5 * h[a], s->partner[1][a]) - lo, 0.0) / h[a];
+    for (int a = 0; a < s->dim; a++) {
+        const double L = d->periodic[a] ? d->max[a] - d->min[a] : 0.0;
+        const double off = L > 0.0 ? round((0.5 * (box[0][a] + box[1][a]) - x[a]) / L) * L : 0.0;
+        const double lo = fmax(x[a] + off - 0.5 * h[a], box[0][a]);
+        in *= fmax(fmin(x[a] + off + 0.5 * h[a], box[1][a]) - lo, 0.0) / h[a];
     }
     return 1.0 - in;
 }
 
-static double own_water(const struct fv *s)
+double water_budget_share(const struct fv *s, const double *x, const double *h)
+{
+    double outside = 1.0;
+    for (int k = 0; k < s->npartners; k++)
+        outside -= 1.0 - share_outside(s, s->partner[k], x, h);
+    return outside;
+}
+
+static double own_water(const struct fv *s, const struct water_budget *w)
 {
     const struct block *b = &s->b;
     double x[3], h[3], sum = 0.0;
@@ -43,7 +57,7 @@ static double own_water(const struct fv *s)
         if (s->forcing->forced[c] || s->surface->phi[c] > 3.0 * b->h[0])
             continue;
         block_cell(b, i, j, k, x, h);
-        sum += h[0] * h[1] * h[2] * surface_share(s, c) * water_budget_share(s, x, h);
+        sum += h[0] * h[1] * h[2] * surface_share(s, c) * share_outside(s, w->box, x, h);
     }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
     return sum;
@@ -65,12 +79,19 @@ static double wet_area(const struct fv *s)
     return sum;
 }
 
+void water_budget_take(struct fv *s, struct water_budget *w, const double water[2])
+{
+    w->partners = water[0];
+    s->surface->volume0 += water[1] - w->drops;
+    w->drops = water[1];
+}
+
 void water_budget_close(struct fv *s, struct water_budget *w, double T)
 {
-    const double all = own_water(s) + w->partners - s->surface->entered, area = wet_area(s);
+    const double all = own_water(s, w) + w->partners - s->surface->entered, area = wet_area(s);
     if (isnan(w->start))
         w->start = all;
-    const double tau = memory * T;
+    const double tau = fmax(memory * crossing_time(&s->run->scene), 10.0 * T);
     w->missing = w->start - all;
     w->lasting += T * w->missing / (4.0 * tau * tau);
     s->forcing->inflow = area > 0.0 ? (w->missing / tau + w->lasting) / area : 0.0;
@@ -89,6 +110,7 @@ void water_budget_save(const struct water_budget *w, struct h5 *f)
     h5_attribute_real(f, "water_start", w->start);
     h5_attribute_real(f, "water_missing", w->missing);
     h5_attribute_real(f, "water_lasting", w->lasting);
+    h5_attribute_real(f, "water_drops", w->drops);
     h5_attribute_real(f, "water_worst", w->watched.worst);
 }
 
@@ -97,5 +119,6 @@ bool water_budget_load(struct water_budget *w, struct h5 *f)
     return h5_read_attribute_real(f, "water_start", &w->start) &&
            h5_read_attribute_real(f, "water_missing", &w->missing) &&
            h5_read_attribute_real(f, "water_lasting", &w->lasting) &&
+           h5_read_attribute_real(f, "water_drops", &w->drops) &&
            h5_read_attribute_real(f, "water_worst", &w->watched.worst);
 }

@@ -1,7 +1,7 @@
 /* water_budget.h - the water of both programs where a free surface crosses from one into the other:
- * the partner's within its free zone and FV's outside of that. What crosses the outline is the
- * partner's velocity, seen through a mapping, so that the sum drifts; what is missing comes back by
- * a slow flow through the outline. SPDX-License-Identifier: BSD-3-Clause */
+ * the partner's where FV's cells are forced and FV's outside of that. What crosses the outline is
+ * the partner's velocity, seen through a mapping, so that the sum drifts; what is missing comes
+ * back by a slow flow through the outline. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_WATER_BUDGET_H
 #define FV_WATER_BUDGET_H
 
@@ -9,16 +9,21 @@
 #include "../fv.h"
 
 struct water_budget {
-    double partners; /* m^dim: in its free zone, at the end of the window */
-    double start;    /* m^dim: both at the start; NAN: not known yet */
-    double missing;  /* m^dim: now */
-    double lasting;  /* m^dim/s: part of the flow that a lasting loss has called for */
+    double box[2][3]; /* m: what lies within is the partner's; FV's forced cells fill it */
+    double partners;  /* m^dim: in there, at the end of the window */
+    double drops;     /* m^dim: that left the partner over FV's water and fell into it, evenly */
+    double start;     /* m^dim: both at the start; NAN: not known yet */
+    double missing;   /* m^dim: now */
+    double lasting;   /* m^dim/s: part of the flow that a lasting loss has called for */
     struct watch watched;
 };
 
 struct water_budget water_budget_create(void);
 /* Part of a cell of centre x and size h outside the box that a partner counts as its own. */
 double water_budget_share(const struct fv *s, const double *x, const double *h);
+/* The partner's at the end of the window: its water, and drops that have left it since the start,
+ * which become FV's. */
+void water_budget_take(struct fv *s, struct water_budget *w, const double water[2]);
 /* At the end of a window of T s: the flow through the outline for the next one. Collective. */
 void water_budget_close(struct fv *s, struct water_budget *w, double T);
 void water_budget_judge(const struct fv *s, struct water_budget *w, struct diagnosis *d);

@@ -13,11 +13,13 @@
 #include "../../common/run.h"
 #include "../../common/scene_body.h"
 #include "part.h"
+#include "side_kinds.h"
 
 enum {
     MESH_BLOCKS_MAX = 16,
-    MESH_GHOSTS = 3,  /* layers of cells */
-    MESH_VERTICES = 5 /* layers of vertices behind the sides */
+    MESH_GHOSTS = 3,      /* layers of cells */
+    MESH_VERTICES = 5,    /* layers of vertices behind the sides */
+    MESH_GIVEN_LAYERS = 4 /* of given cells that get values */
 };
 enum mesh_mapping {
     MAPPING_BOX,
@@ -26,17 +28,13 @@ enum mesh_mapping {
     MAPPING_SHEARED,
     MAPPING_FILE
 };
-enum mesh_side {
-    MESH_OVERLAP,
-    MESH_JOINED,
-    MESH_PERIODIC,
-    MESH_WALL,
-    MESH_SLIP,
-    MESH_INFLOW,
-    MESH_OUTFLOW,
-    MESH_EXACT
+enum mesh_status { CELL_COMPUTED, CELL_FRINGE, CELL_HOLE, CELL_GIVEN };
+
+/* Cells of all blocks that lie wholly in a box are given. */
+struct mesh_box {
+    double lo[3], hi[3];
+    double period[3], least[3]; /* m: of the domain, 0: none; its lower corner */
 };
-enum mesh_status { CELL_COMPUTED, CELL_FRINGE, CELL_HOLE };
 
 struct mesh_block_params {
     char name[PARAM_TEXT_SIZE];
@@ -122,7 +120,9 @@ struct mesh {
     int64_t computed;     /* of all blocks */
     int64_t fringe_cells; /* of all blocks */
     int64_t linear;       /* of these, by linear interpolation alone */
-    bool has_fringe, moves;
+    int64_t given_cells;  /* of all blocks, near computed ones */
+    struct mesh_box given;
+    bool has_fringe, has_given, moves;
     int64_t nfringe;
     struct mesh_fringe *fringes;
     double *S[3][3];       /* m^(dim-1): of the lower face along a, component */
@@ -139,6 +139,17 @@ struct mesh {
 static inline int64_t mesh_cell(const struct mesh_block *b, const int *i)
 {
     return i[0] + (int64_t)b->n[0] * (i[1] + (int64_t)b->n[1] * i[2]);
+}
+
+static inline void mesh_index(const struct mesh_block *b, int64_t c, int *i)
+{
+    i[0] = (int)(c % b->n[0]);
+    i[1] = (int)(c / b->n[0] % b->n[1]);
+    i[2] = (int)(c / b->n[0] / b->n[1]);
+}
+static inline int64_t mesh_count(const struct mesh_block *b)
+{
+    return (int64_t)b->n[0] * b->n[1] * b->n[2];
 }
 
 /* mesh_params.c */
@@ -160,6 +171,9 @@ const struct mesh_block_params *mesh_block_params(void);
 bool mesh_ring(const struct run *r);
 /* Whether one of the block's sides is of this kind. */
 bool mesh_block_has(int block, enum mesh_side kind);
+/* Whether forces on a side count: of no-slip walls, and of slip ones within the domain. */
+bool mesh_side_is_body(const struct run *r, int block, int side);
+bool mesh_block_is_body(const struct run *r, int block);
 /* Velocity that a wall or an inflow of a block has at x, m/s. */
 void mesh_side_velocity(const struct run *r, const struct mesh_block *b, int side, const double *x,
                         double *w);
@@ -173,11 +187,23 @@ void mesh_check(const struct run *r, struct faults *f);
 void mesh_fault(const struct run *r, struct faults *f, int block, const char *key, const char *fmt,
                 ...) __attribute__((format(printf, 5, 6)));
 
-/* mesh_create.c: NULL if there are faults. Collective. */
-struct mesh *mesh_create(const struct run *r, struct faults *f);
+/* mesh_given.c: status of the cells in m->given; what lies deep in it becomes a hole; no psi passes
+ * the faces of given cells. */
+void mesh_given_mark(struct mesh *m);
+void mesh_given_trim(struct mesh *m);
+void mesh_given_close(struct mesh *m);
+/* The computed neighbours of a given cell c of this rank whose mean its psi is, as steps along the
+ * indices; their number, 0: none is near. */
+enum { MESH_SOURCES = 12 };
+int mesh_given_sources(const struct mesh *m, const struct part *p, int64_t c, int (*offset)[3]);
+
+/* mesh_create.c: NULL if there are faults. Cells within `box' (lo, hi; NULL: none) are given.
+ * Collective. */
+struct mesh *mesh_create(const struct run *r, const double (*box)[3], struct faults *f);
 void mesh_free(struct mesh **m);
-/* That which was left for the same case, else a new one; leaves one to who takes it next. */
-struct mesh *mesh_take(const struct run *r, struct faults *f);
+/* That which was left for the same case and box, else a new one; leaves one to who takes it next.
+ */
+struct mesh *mesh_take(const struct run *r, const double (*box)[3], struct faults *f);
 void mesh_leave(struct mesh **m);
 double *mesh_field(const struct mesh *m);
 /* What the local cells are, from what the blocks' are. */
@@ -228,6 +254,9 @@ void mesh_exchange_create(struct mesh *m, struct mesh_exchange *x, int width, in
                           const struct mesh_request *request);
 void mesh_exchange_free(struct mesh_exchange *x);
 void mesh_exchange(const struct mesh *m, struct mesh_exchange *x, int nf, double *const *f);
+/* The same into other arrays than those that give. */
+void mesh_exchange_to(const struct mesh *m, struct mesh_exchange *x, int nf, double *const *f,
+                      double *const *to);
 void mesh_halo_create(struct mesh *m);
 /* Ghosts behind joined sides and between ranks, and the fringe. */
 void mesh_fill(struct mesh *m, int nf, double *const *f);

@@ -181,7 +181,19 @@ void mesh_set_status(struct mesh *m)
     }
 }
 
-struct mesh *mesh_create(const struct run *r, struct faults *f)
+static void set_box(const struct run *r, struct mesh *m, const double (*box)[3])
+{
+    m->has_given = box != NULL;
+    for (int a = 0; a < 3 && box; a++) {
+        const struct scene_domain *d = &r->scene.domain;
+        m->given.lo[a] = box[0][a];
+        m->given.hi[a] = box[1][a];
+        m->given.least[a] = d->min[a];
+        m->given.period[a] = d->periodic[a] ? d->max[a] - d->min[a] : 0.0;
+    }
+}
+
+struct mesh *mesh_create(const struct run *r, const double (*box)[3], struct faults *f)
 {
     struct mesh *m = NEW(struct mesh, 1);
     const struct mesh_block_params *prm = mesh_block_params();
@@ -190,6 +202,7 @@ struct mesh *mesh_create(const struct run *r, struct faults *f)
     m->prm_of = r->params;
     m->dim = r->scene.domain.dim;
     m->nblocks = mesh_block_count();
+    set_box(r, m, box);
     MPI_Comm_rank(m->comm, &m->rank);
     MPI_Comm_size(m->comm, &m->size);
     for (int k = 0; k < m->nblocks; k++) {
@@ -218,6 +231,7 @@ struct mesh *mesh_create(const struct run *r, struct faults *f)
     m->status = NEW(unsigned char, m->size_local);
     mesh_set_status(m);
     mesh_metrics(m);
+    mesh_given_close(m);
     mesh_motion_metrics(m);
     mesh_halo_create(m);
     overset_exchange(m, o);
@@ -262,14 +276,21 @@ void mesh_free(struct mesh **mp)
 /* The mesh that was checked last: the description and the state are made of it, not of another. */
 static struct mesh *checked;
 
-struct mesh *mesh_take(const struct run *r, struct faults *f)
+static bool same_box(const struct mesh *m, const double (*box)[3])
+{
+    return m->has_given == (box != NULL) &&
+           (!box || (memcmp(m->given.lo, box[0], sizeof box[0]) == 0 &&
+                     memcmp(m->given.hi, box[1], sizeof box[1]) == 0));
+}
+
+struct mesh *mesh_take(const struct run *r, const double (*box)[3], struct faults *f)
 {
     struct mesh *m = checked;
     checked = NULL;
-    if (m && m->comm == r->comm && m->prm_of == r->params && !m->moves)
+    if (m && m->comm == r->comm && m->prm_of == r->params && !m->moves && same_box(m, box))
         return m;
     mesh_free(&m);
-    return mesh_create(r, f);
+    return mesh_create(r, box, f);
 }
 
 void mesh_leave(struct mesh **m)

@@ -139,7 +139,8 @@ static void gather(const struct mesh *m, const struct mesh_exchange *x, int nf, 
 }
 
 /* First pass all sends are made from the old values: a place that gives may also receive. */
-void mesh_exchange(const struct mesh *m, struct mesh_exchange *x, int nf, double *const *f)
+void mesh_exchange_to(const struct mesh *m, struct mesh_exchange *x, int nf, double *const *f,
+                      double *const *into)
 {
     const int64_t nin = x->first_in[x->npeers], nout = x->first_out[x->npeers];
     MPI_Request *requests = NEW(MPI_Request, 2 * x->npeers);
@@ -167,11 +168,16 @@ void mesh_exchange(const struct mesh *m, struct mesh_exchange *x, int nf, double
     }
     MPI_Waitall(n, requests, MPI_STATUSES_IGNORE);
     for (int c = 0; c < nf; c++) {
-        double *restrict to = f[c];
+        double *restrict to = into[c];
         for (int64_t k = 0; k < nin; k++)
             to[x->in[k]] = x->recv[nf * k + c];
     }
     mem_free(requests);
+}
+
+void mesh_exchange(const struct mesh *m, struct mesh_exchange *x, int nf, double *const *f)
+{
+    mesh_exchange_to(m, x, nf, f, f);
 }
 
 static bool is_own(const struct part *p, const int *i)

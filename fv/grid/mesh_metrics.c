@@ -183,7 +183,8 @@ static double volume(const struct mesh_block *b, int dim, const int *i)
 
 static bool is_closed(enum mesh_side s)
 {
-    return s == MESH_WALL || s == MESH_SLIP || s == MESH_INFLOW || s == MESH_EXACT;
+    return s == MESH_WALL || s == MESH_SLIP || s == MESH_INFLOW || s == MESH_EXACT ||
+           s == MESH_CARRIED;
 }
 
 static void part_metrics(struct mesh *m, const struct part *p)

@@ -25,7 +25,6 @@ static bool lies_on(const struct scene_domain *d, const struct mesh_block *b, in
 
 void mesh_take_walls(const struct run *r, struct mesh *m)
 {
-    static const enum mesh_side kinds[] = {MESH_SLIP, MESH_WALL, MESH_INFLOW, MESH_OUTFLOW};
     const struct scene *s = &r->scene;
     for (int k = 0; k < m->nblocks; k++)
         for (int side = 0; side < 2 * m->dim; side++)
@@ -36,7 +35,7 @@ void mesh_take_walls(const struct run *r, struct mesh *m)
                     of_domain / 2 >= m->dim || !lies_on(&s->domain, b, m->dim, side, of_domain))
                     continue;
                 b->wall[side] = s->walls + w;
-                b->side[side] = kinds[s->walls[w].kind];
+                b->side[side] = side_of_wall(s->walls + w);
             }
 }
 

@@ -35,6 +35,10 @@ bool overset_locate(const struct mesh *m, const struct overset *o, int block, co
  * `from' with weights; false: no computed cells there. width 4 or 2. */
 bool overset_weights(const struct mesh *m, int block, const int *cell, const double *xi,
                      int npoints, int width, int *from, double *weight);
+/* Weights (4^dim, kept by r) of what has values, computed or not, for the average over a box of
+ * size h around x, and who gives it; false: nothing does. */
+bool overset_sample(const struct mesh *m, const struct overset *o, const double *x, const double *h,
+                    struct mesh_request *r, double *weight);
 /* Bins alone: for gauges. */
 struct overset *overset_search(const struct run *r, const struct mesh *m);
 

@@ -21,6 +21,16 @@ static inline int64_t part_at(const struct part *p, int i, int j, int k)
 {
     return p->base + (i + p->g[0]) + p->stride[1] * (j + p->g[1]) + p->stride[2] * (k + p->g[2]);
 }
+/* The cell at a place of the part. */
+static inline void part_index(const struct part *p, int64_t c, int *at)
+{
+    c -= p->base;
+    at[2] = p->g[2] > 0 ? (int)(c / p->stride[2]) - p->g[2] : 0;
+    c = p->g[2] > 0 ? c % p->stride[2] : c;
+    at[1] = (int)(c / p->stride[1]) - p->g[1];
+    at[0] = (int)(c % p->stride[1]) - p->g[0];
+}
+
 /* Rows of a part's cells; `down' and `up' layers (int[3]) more: c is the place of the row's first
  * cell, len its length. */
 #define PART_ROWS(p, down, up, c, len)                                                             \

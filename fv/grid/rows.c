@@ -79,6 +79,45 @@ static void face_weights(const double h[4], double value[4], double slope[4])
     }
 }
 
+static const double ones[9] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+
+void rows_beyond(const double *of, int way, int n, int depth, double *w)
+{
+    const double *h = of ? of : ones + 4;
+    double e[5] = {0.0}, y[2] = {0.0, h[way]}; /* edges before it; ends of the row behind */
+    for (int m = 0; m < n; m++)
+        e[m + 1] = e[m] - h[-way * m];
+    for (int k = 1; k < depth; k++) {
+        y[0] = y[1];
+        y[1] += h[way * (k + 1)];
+    }
+    for (int m = 0; m < n; m++)
+        w[m] = 0.0;
+    for (int k = 1; k <= n; k++) {
+        double ends[2]; /* the integral from edge 0 to k holds -h of the averages before */
+        for (int q = 0; q < 2; q++) {
+            ends[q] = 1.0;
+            for (int m = 0; m <= n; m++)
+                ends[q] *= m == k ? 1.0 : (y[q] - e[m]) / (e[k] - e[m]);
+        }
+        for (int m = 0; m < k; m++)
+            w[m] -= h[-way * m] * (ends[1] - ends[0]) / (y[1] - y[0]);
+    }
+}
+
+/* Mean of y^2 from a to b. */
+static double mean_square(double a, double b) { return (a * a + a * b + b * b) / 3.0; }
+
+void rows_mirror(const double *of, int way, int n, int depth, double *w)
+{
+    const double *h = of ? of : ones + 4;
+    const double near = mean_square(0.0, h[0]), far = mean_square(h[0], h[0] + h[-way]),
+                 low = depth > 1 ? h[way] : 0.0, x = mean_square(low, low + h[way * depth]);
+    w[0] = n > 1 ? (far - x) / (far - near) : 1.0;
+    if (n > 1)
+        w[1] = 1.0 - w[0];
+}
+
 /* Faces of rows from -1 to n + 1, derivatives of rows from -1 to n; what is read is from -3 to n +
  * 2. */
 static void set_weights(struct rows *r, int n)

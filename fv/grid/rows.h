@@ -28,6 +28,13 @@ struct rows {
     double (*laplace)[5];  /* 1/m^2: of the second one */
 };
 
+/* Weights of `n' averages that go on beyond the edge of the first of them: to the average over the
+ * row `depth' = 1, 2 behind it. h: height of the first row before that edge (NULL: all are even),
+ * way = 1, -1: those behind it follow above, below. By the polynomial through up to four averages;
+ * evenly, by that of y^2 from the edge through two. */
+void rows_beyond(const double *h, int way, int n, int depth, double *w);
+void rows_mirror(const double *h, int way, int n, int depth, double *w);
+
 /* Of a grid whose n rows have these heights from the bottom on, those of a rank: its own `own' ones
  * from the lo-th on. */
 struct rows *rows_create(int n, int even, double bottom, const double *h, int lo, int own);

@@ -52,7 +52,8 @@ static void bias_row(const double *restrict q, const double *restrict U, int64_t
         const double a = q[i - along] - q[i - 2 * along], b = q[i] - q[i - along],
                      c = q[i + along] - q[i], d = a - 2.0 * b + c;
         const double r = fabs(d) / (fabs(a) + 2.0 * fabs(b) + fabs(c) + 1e-300);
-        out[i] += copysign(fmin(1.0, C * r * r) * (1.0 / 12.0), U[i]) * d;
+        const double theta = C * r * r < 1.0 ? C * r * r : 1.0; /* fmin would be called */
+        out[i] += copysign(theta * (1.0 / 12.0), U[i]) * d;
     }
 }
 

@@ -6,8 +6,10 @@
  * ones from face values by (8 d_2 - d_4)/12
  *   volume average to average over indices: less sum over a of dq_a dV_a/48/V
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "mesh_ops.h"
+#include "operators.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
@@ -56,7 +58,8 @@ static void bias_row(const double *restrict q, const double *restrict U, int64_t
         const double a = q[i - s] - q[i - 2 * s], b = q[i] - q[i - s], c = q[i + s] - q[i],
                      d = a - 2.0 * b + c;
         const double r = fabs(d) / (fabs(a) + 2.0 * fabs(b) + fabs(c) + 1e-300);
-        out[i] += copysign(fmin(1.0, C * r * r) * (1.0 / 12.0), U[i]) * d;
+        const double theta = C * r * r < 1.0 ? C * r * r : 1.0; /* fmin would be called */
+        out[i] += copysign(theta * (1.0 / 12.0), U[i]) * d;
     }
 }
 
@@ -76,6 +79,12 @@ static void add_dissipation(const double *restrict q, const double *restrict U,
 static void product_row(const double *restrict a, const double *restrict b, const int64_t *tangent,
                         int nt, int64_t n, bool first, double *restrict out)
 {
+    if (first && nt == 1) {
+        const int64_t d = tangent[0];
+        for (int64_t i = 0; i < n; i++)
+            out[i] = a[i] * b[i] + (a[i + d] - a[i - d]) * (b[i + d] - b[i - d]) * (1.0 / 48.0);
+        return;
+    }
     if (first)
         for (int64_t i = 0; i < n; i++)
             out[i] = a[i] * b[i];
@@ -95,8 +104,12 @@ static void add_difference(const struct part *p, int a, const double *restrict F
     static const int none[3] = {0, 0, 0};
     const int64_t s = p->stride[a];
     PART_ROWS (p, none, none, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            out[i] = (first ? 0.0 : out[i]) + F[i + s] - F[i];
+        if (first)
+            for (int64_t i = c; i < c + n; i++)
+                out[i] = F[i + s] - F[i];
+        else
+            for (int64_t i = c; i < c + n; i++)
+                out[i] += F[i + s] - F[i];
 }
 
 static void per_volume(const struct fv *s, const struct part *p, double *restrict out)
@@ -146,14 +159,15 @@ static void even_viscous(const struct fv *s, const struct part *p, const double 
     static const int none[3] = {0, 0, 0};
     const struct mesh *m = s->m;
     const int64_t first = part_at(p, 0, 0, 0);
-    for (int a = 0; a < m->dim; a++) {
-        const int64_t d = p->stride[a];
-        const double w = s->nu * m->G[a][a][first] / (12.0 * m->V[first]);
-        PART_ROWS (p, none, none, c, n)
+    const double *restrict is_free = s->free;
+    double w[3];
+    for (int a = 0; a < m->dim; a++)
+        w[a] = s->nu * m->G[a][a][first] / (12.0 * m->V[first]);
+    PART_ROWS (p, none, none, c, n) {
+        viscous_row(q + c, p->stride, w, m->dim, n, out + c);
+        if (m->computed < m->cells)
             for (int64_t i = c; i < c + n; i++)
-                out[i] = (a ? out[i] : 0.0) + s->free[i] * w *
-                                                  (16.0 * (q[i - d] + q[i + d]) -
-                                                   (q[i - 2 * d] + q[i + 2 * d]) - 30.0 * q[i]);
+                out[i] *= is_free[i];
     }
 }
 
@@ -420,6 +434,8 @@ void mesh_to_index(const struct fv *s, double *q, double *work) { shift_average(
 void mesh_to_volume(struct fv *s, double *q, double *work)
 {
     mesh_fill(s->m, 1, &q);
+    if (s->forcing)
+        forcing_extend(s, 1, q);
     mesh_bc_extend(s, q);
     shift_average(s, 1.0, q, work);
 }
@@ -427,8 +443,8 @@ void mesh_to_volume(struct fv *s, double *q, double *work)
 /* Third difference across the lower face, 0 where it leaves the cells. */
 static double third(const double *q, const unsigned char *status, int64_t i, int64_t d)
 {
-    const bool inside = status[i - 2 * d] != CELL_HOLE && status[i - d] != CELL_HOLE &&
-                        status[i] != CELL_HOLE && status[i + d] != CELL_HOLE;
+    const bool inside = status[i - 2 * d] < CELL_HOLE && status[i - d] < CELL_HOLE &&
+                        status[i] < CELL_HOLE && status[i + d] < CELL_HOLE;
     return inside ? q[i + d] - q[i - 2 * d] - 3.0 * (q[i] - q[i - d]) : 0.0;
 }
 
@@ -474,6 +490,8 @@ void mesh_vorticity(struct fv *s, double *w)
             for (int64_t i = c; i < c + n; i++)
                 w[i] = s->rhs[0][i] - w[i];
     mesh_fill(s->m, 1, &w);
+    if (s->forcing)
+        forcing_extend(s, 1, w);
     mesh_bc_even(s, false, w);
     mesh_to_index(s, w, s->flux);
 }

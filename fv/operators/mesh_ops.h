@@ -13,6 +13,8 @@ void mesh_viscous(struct fv *s, const double *q, double *out);
 /* Solves (1 - c L) delta = rhs with what the sides change from one time to the next; delta: start
  * and result. tol: of what delta = 0 leaves. false: not converged. */
 bool mesh_viscous_solve(struct fv *s, double c, double tol);
+/* Whether the operator of that is symmetric: joins alone and cells all alike. */
+bool mesh_viscous_symmetric(const struct fv *s);
 /* 1/s: a bound of the eigenvalues of -L. */
 double mesh_viscous_largest(const struct fv *s);
 void mesh_divergence(const struct fv *s, double *const U[3], double *div); /* m^dim/s */

@@ -18,6 +18,9 @@ void convection_beside_walls(const struct fv *s, int a, double *f);
 
 /* viscous.c: out = L q = nu Lap q in the free cells. Ghosts of q must be there. */
 void viscous_apply(const struct fv *s, const double *q, double *out);
+/* The same in a row of n even cells; c: nu/(12 h^2) along each axis. */
+void viscous_row(const double *q, const int64_t *stride, const double *c, int dim, int64_t n,
+                 double *out);
 /* Solves (1 - c L) delta = rhs for all components by CG; delta holds the imposed values in forced
  * cells and ghosts of the boundary; `tol' relative to the first residual. false: not converged. */
 bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const rhs[3],

@@ -20,6 +20,7 @@ static enum picture_kind kind_of(enum mesh_side side)
     case MESH_INFLOW:
     case MESH_OUTFLOW:
     case MESH_EXACT:
+    case MESH_CARRIED:
         return PICTURE_OPENING;
     default:
         return PICTURE_CELLS;
@@ -50,7 +51,7 @@ static void draw_blocks(const struct run *r, struct picture *p)
     alone.comm = MPI_COMM_SELF;
     alone.rank = 0;
     alone.size = 1;
-    struct mesh *m = mesh_create(&alone, &f);
+    struct mesh *m = mesh_create(&alone, fv_hole(r), &f);
     for (int k = 0; m && k < m->nblocks; k++) {
         const struct mesh_block *b = m->block + k;
         const int up = m->dim == 3 ? 2 : 1;
@@ -66,6 +67,8 @@ void fv_draw(const struct run *r, struct picture *p)
 {
     const struct fv_params *prm = fv_params_of(r);
     const struct scene_domain *d = &r->scene.domain;
+    if (fv_hole(r))
+        picture_box(p, PICTURE_CELLS, prm->hole[0], prm->hole[1], "fv.hole");
     if (mesh_block_count() > 0) {
         draw_blocks(r, p);
         return;
@@ -75,8 +78,6 @@ void fv_draw(const struct run *r, struct picture *p)
         picture_box(p, box->kind == WALL_SLIP ? PICTURE_SLIP : PICTURE_NO_SLIP, box->min, box->max,
                     box->name);
     }
-    if (prm->hole[1][0] > prm->hole[0][0])
-        picture_box(p, PICTURE_CELLS, prm->hole[0], prm->hole[1], "fv.hole");
     if (prm->graded[1] > 0.0 && d->dim == 2) {
         const double y = prm->graded[0], line[2][2] = {{d->min[0], y}, {d->max[0], y}};
         picture_line(p, PICTURE_CELLS, 2, line, false, false, false);

@@ -12,6 +12,7 @@
 #include "../surface/levelset.h"
 #include "../watch/watches.h"
 #include "../boundary/still.h"
+#include "mesh_output.h"
 #include "output.h"
 
 void fv_vorticity(const struct fv *s, double *w)
@@ -92,13 +93,14 @@ double fv_curl_squared(const struct fv *s, int64_t c, int j)
     return sum;
 }
 
-void fv_tell(void *state, struct summary *report)
+/* Sums over the cells outside of the partner's part: kinetic energy, enstrophy, signal, potential
+ * energy, volume. */
+static void sum_even(const struct fv *s, double sum[5])
 {
-    const struct fv *s = state;
     const struct block *b = &s->b;
     const double rho = s->run->scene.fluid.rho;
     const double *g = s->run->scene.fluid.gravity;
-    double x[3], h[3], sum[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
+    double x[3], h[3];
     BLOCK_CELLS (b, i, j, k, c) {
         block_cell(b, i, j, k, x, h);
         if (s->forcing && s->forcing->forced[c])
@@ -112,7 +114,17 @@ void fv_tell(void *state, struct summary *report)
         sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
         sum[4] += part;
     }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, b->cart);
+}
+
+void fv_tell(void *state, struct summary *report)
+{
+    struct fv *s = state;
+    double sum[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
+    if (s->m)
+        mesh_sums(s, sum);
+    else
+        sum_even(s, sum);
+    MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, s->comm);
     summary_real(report, "sum.potential", sum[3]);
     summary_real(report, "sum.kinetic", sum[0]);
     summary_real(report, "sum.enstrophy", sum[1]);
@@ -170,8 +182,10 @@ static int forces(struct fv *s, double *values)
 
 static void summarise(struct fv *s)
 {
-    if (s->surface)
+    if (s->surface) {
         surface_summarise(s);
+        steady_summarise(s);
+    }
     fv_summarise_blocked(s);
 }
 

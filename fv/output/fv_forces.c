@@ -65,7 +65,7 @@ void fv_wall_force(const struct fv *s, double force[3])
     block_halo(&s->b, 2, (double *const[]){s->p, s->p_before}); /* a rank may have three rows */
     memset(force, 0, 3 * sizeof(double));
     for (int k = 0; s->bc && k < 2 * s->b.dim; k++)
-        if (s->bc->n[k] > 0 && (s->bc->kind[k] == BC_NO_SLIP || s->bc->kind[k] == BC_SLIP))
+        if (s->bc->n[k] > 0 && (s->bc->kind[k] == MESH_WALL || s->bc->kind[k] == MESH_SLIP))
             add_side(s, k, force);
     MPI_Allreduce(MPI_IN_PLACE, force, 3, MPI_DOUBLE, MPI_SUM, s->b.cart);
 }

@@ -135,9 +135,10 @@ static double pressure_at(const struct fv *s, const double *x)
     return sum + fv_still_pressure(s, x) + coupling_datum(s);
 }
 
-/* A partner has the surface. */
-static bool is_mine(const struct run *r, int k)
+bool fv_probe_mine(const struct run *r, int k)
 {
+    if (r->crossed)
+        return !r->gauge_inside[k];
     return r->scene.probes[k].kind == PROBE_PRESSURE || !r->coupled;
 }
 
@@ -146,7 +147,7 @@ int fv_probe_columns(const struct run *r, const char **columns)
     static char names[PROBES_MAX][PARAM_TEXT_SIZE + 8];
     int n = 0;
     for (int k = 0; k < r->scene.nprobes; k++)
-        if (is_mine(r, k)) {
+        if (fv_probe_mine(r, k)) {
             snprintf(names[n], sizeof names[n], "%s [%s]", r->scene.probes[k].name,
                      r->scene.probes[k].kind == PROBE_PRESSURE ? "Pa" : "m");
             columns[n] = names[n];
@@ -163,7 +164,7 @@ void fv_probe(struct fv *s, double *values)
     block_halo(&s->b, 2, (double *const[]){s->p, s->p_before});
     int n = 0;
     for (int k = 0; k < scene->nprobes; k++)
-        if (is_mine(s->run, k))
+        if (fv_probe_mine(s->run, k))
             values[n++] = scene->probes[k].kind == PROBE_LEVEL
                               ? surface_level(s, scene->probes[k].at)
                               : pressure_at(s, scene->probes[k].at);

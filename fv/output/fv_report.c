@@ -2,7 +2,10 @@
 #include "report.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
+#include "../../common/log.h"
 #include "../boundary/blocked.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
@@ -13,6 +16,30 @@
 static const struct report *report_of(const struct fv *s)
 {
     return s->m ? &block_report : &even_report;
+}
+
+const char *report_method(const struct run *r)
+{
+    static const char *const integrators[] = {"rk3, three projections a step",
+                                              "bdf2, one projection a step", "newton, all at once"};
+    const struct fv_params *prm = fv_params_of(r);
+    return prm->steady ? "newton, to a steady state" : integrators[prm->integrator];
+}
+
+void report_uses(const struct report_use *uses, int n)
+{
+    char line[512] = "";
+    for (int on = 1; on >= 0; on--) {
+        const char *between = on ? "on: " : *line ? "; off: " : "off: ";
+        for (int k = 0; k < n; k++) {
+            const size_t end = strlen(line);
+            if (uses[k].on != (on == 1))
+                continue;
+            snprintf(line + end, sizeof line - end, "%s%s", between, uses[k].what);
+            between = ", ";
+        }
+    }
+    log_say("%s", line);
 }
 
 static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
@@ -77,7 +104,6 @@ int fv_columns(const struct run *r, const char **columns)
         for (int a = 0; a < r->scene.domain.dim; a++)
             columns[n++] = reaches[a];
     }
-    n += fv_blocked_columns(r, columns + n);
     return n + fv_probe_columns(r, columns + n);
 }
 
@@ -104,12 +130,10 @@ void fv_row(void *state, double *values)
         for (int a = 0; a < s->dim; a++)
             values[n++] = surface_reach(s, a);
     }
-    if (s->blocked) {
-        fv_blocked_forces(s, values + n);
-        n += blocked_count() * s->dim;
-    }
     of->probes(s, values + n);
-    watches_values(s->watches, values + n + s->run->scene.nprobes);
+    for (int k = 0; k < s->run->scene.nprobes; k++)
+        n += fv_probe_mine(s->run, k);
+    watches_values(s->watches, values + n);
 }
 
 static void summarise_cost(const struct fv *s, double cells)

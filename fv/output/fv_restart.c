@@ -82,7 +82,6 @@ void fv_checkpoint(void *state, struct h5 *f)
     if (s->newton)
         save_newton(s->newton, f);
     watches_save(s->watches, f);
-    outflow_save(s, f);
     moving_save(s, f);
     if (s->surface)
         for (int k = 0; k < SURFACE_NUMBERS; k++)
@@ -171,7 +170,7 @@ static bool there(bool good, const char *what)
 
 bool fv_restore(struct fv *s, struct h5 *f)
 {
-    if (!restore_grids(s, f))
+    if (!there(coupling_stand(s, f), "place of sph.box") || !restore_grids(s, f))
         return false;
     for (int k = 0; s->surface && k < SURFACE_NUMBERS; k++)
         if (!there(h5_read_attribute_real(f, surface_numbers[k], surface_number(s->surface, k)),
@@ -181,16 +180,17 @@ bool fv_restore(struct fv *s, struct h5 *f)
         if (!there(h5_read_attribute_real(f, forced_numbers[k], forced_number(s->surface, k)),
                    forced_numbers[k]))
             return false;
+    if (!there(moving_restore(s, f), "cut of blocks that move"))
+        return false;
     if (s->surface) {
         surface_rebuild(s);
         s->stages->rebuild_pressure(s);
     }
+    outflow_restore(s);
     watches_load(s->watches, f);
     return there(h5_read_attribute_real(f, "dt", &s->dt) &&
                      h5_read_attribute_real(f, "dt_old", &s->dt_old),
                  "time step") &&
            there(!s->newton || restore_newton(s->newton, f), "state of Newton's method") &&
-           there(outflow_load(s, f), "velocity of an outflow") &&
-           there(moving_restore(s, f), "cut of blocks that move") &&
            there(!s->link || coupling_load(s, f), "past of the coupling");
 }

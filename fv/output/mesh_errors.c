@@ -2,7 +2,9 @@
  * field over the computed cells, forces on walls, gauges. SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
 #include "../operators/mesh_ops.h"
+#include "../coupling/water_budget.h"
 #include "mesh_output.h"
+#include "output.h"
 #include "report.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
@@ -44,6 +46,66 @@ static void errors(struct fv *s, struct norm n[NORMS])
     }
     mem_free(w);
     norm_reduce(n, NORMS, m->comm);
+}
+
+/* Whether a later block computes the place of a cell, too. */
+static bool counts_twice(const struct fv *s, const struct overset *o, int block, const double *x)
+{
+    int cell[3];
+    double xi[3];
+    for (int k = block + 1; k < s->m->nblocks; k++) {
+        const struct mesh_block *b = s->m->block + k;
+        if (overset_locate(s->m, o, k, x, cell, xi) &&
+            b->status[mesh_cell(b, cell)] == CELL_COMPUTED)
+            return true;
+    }
+    return false;
+}
+
+static double square_of_curl(const struct fv *s, const struct part *p, int64_t c)
+{
+    const struct mesh *m = s->m;
+    double g[3][3] = {{0.0}}, sum = 0.0;
+    for (int q = 0; q < m->dim; q++) /* by face values: second order */
+        for (int a = 0; a < m->dim; a++)
+            for (int k = 0; k < m->dim; k++) {
+                const int64_t d = p->stride[a];
+                g[q][k] += 0.5 *
+                           (m->S[a][k][c + d] * (s->u[q][c] + s->u[q][c + d]) -
+                            m->S[a][k][c] * (s->u[q][c] + s->u[q][c - d])) /
+                           m->V[c];
+            }
+    for (int a = m->dim == 3 ? 0 : 2; a < 3; a++) {
+        const double w = g[(a + 2) % 3][(a + 1) % 3] - g[(a + 1) % 3][(a + 2) % 3];
+        sum += w * w;
+    }
+    return sum;
+}
+
+void mesh_sums(struct fv *s, double sum[5])
+{
+    const struct mesh *m = s->m;
+    const double rho = s->run->scene.fluid.rho, *g = s->run->scene.fluid.gravity;
+    struct overset *o = m->has_fringe ? overset_search(s->run, m) : NULL;
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *p = m->part + q;
+        const struct mesh_block *b = m->block + p->block;
+        int i[3];
+        PART_CELLS (p, i, c) {
+            const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+            const double *x = b->centre[mesh_cell(b, at)], h = pow(m->V[c], 1.0 / m->dim);
+            if (s->free[c] == 0.0 || (o && counts_twice(s, o, p->block, x)))
+                continue;
+            const double part = m->V[c] * water_budget_share(s, x, (const double[]){h, h, h});
+            const double u[3] = {s->u[0][c], s->u[1][c], m->dim == 3 ? s->u[2][c] : 0.0};
+            sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+            sum[1] += 0.5 * part * square_of_curl(s, p, c);
+            sum[2] += rho * part * exact_signal(&s->exact, x, u);
+            sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
+            sum[4] += part;
+        }
+    }
+    overset_free(&o);
 }
 
 /* Kinetic energy over the computed cells and the exact field's, J/kg m^dim. */
@@ -122,15 +184,16 @@ double mesh_value_at(const struct fv *s, const struct overset *o, const double *
     return value;
 }
 
-/* Blocks with no-slip walls of their own: each has its own forces, too, where there are others. */
+/* Blocks with walls of their own that forces count on: each has its own forces, too, where there
+ * are others. */
 static bool has_own_forces(const struct run *r, int k)
 {
     int n = 0;
     for (int w = 0; w < r->scene.nwalls; w++)
         n += r->scene.walls[w].kind == WALL_NO_SLIP;
     for (int b = 0; b < mesh_block_count(); b++)
-        n += mesh_block_has(b, MESH_WALL);
-    return n > 1 && mesh_block_has(k, MESH_WALL);
+        n += mesh_block_is_body(r, b);
+    return n > 1 && mesh_block_is_body(r, k);
 }
 
 /* Places of blocks that move: x y [z] of the centre, the angle or the rotation vector. */
@@ -187,7 +250,9 @@ static int force_columns(const struct run *r, const char **columns)
 /* On all walls; of several blocks the moments have centres of their own. */
 static void whole_force(struct fv *s, double (*of)[4], double whole[4])
 {
-    mesh_bc_force(s, of);
+    if (s->surface)
+        surface_ghosts(s, s->surface->phi);
+    mesh_bc_force(s, s->surface ? s->surface->phi : NULL, of);
     for (int q = 0; q < 4; q++) {
         whole[q] = 0.0;
         for (int k = 0; k < s->m->nblocks; k++)
@@ -265,18 +330,20 @@ static void probes(struct fv *s, double *values)
     for (int k = 0; k < scene->nprobes; k++) {
         const struct scene_probe *p = scene->probes + k;
         double here[2] = {0.0, 0.0};
+        if (!fv_probe_mine(s->run, k))
+            continue;
         if (p->kind == PROBE_LEVEL) {
-            values[k] = level_at(s, p->at);
+            *values++ = level_at(s, p->at);
             continue;
         }
         here[0] = mesh_value_at(s, s->search, p->at, s->surface ? 2 : 0, NULL);
         here[1] = s->surface ? mesh_value_at(s, s->search, p->at, 2, s->surface->phi) : -1.0;
         MPI_Allreduce(MPI_IN_PLACE, here, 2, MPI_DOUBLE, MPI_SUM, s->comm);
         if (s->m->moves && !mesh_covers(s, s->search, p->at)) { /* where a body is there is none */
-            values[k] = NAN;
+            *values++ = NAN;
             continue;
         }
-        values[k] =
+        *values++ =
             here[1] < 0.0 ? here[0] + still_pressure(scene, s->still, s->level, p->at) : 0.0;
     }
 }
@@ -397,9 +464,10 @@ static void describe_scene(const struct run *r, const struct mesh *m)
 {
     static const char *const kinds[] = {"overlap", "joined", "periodic", "walls",
                                         "slip",    "inflow", "outflow",  "exact velocity"};
-    const bool viscous = r->scene.fluid.nu > 0.0, walls = mesh_bc_has_walls(m);
     const double *g = r->scene.fluid.gravity;
-    const bool heavy = g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0;
+    bool moves = false;
+    for (int k = 0; k < m->nblocks; k++)
+        moves = moves || m->block[k].motion;
     char sides[160] = "";
     for (int kind = MESH_OVERLAP; kind <= MESH_EXACT; kind++) {
         bool any = false;
@@ -410,14 +478,16 @@ static void describe_scene(const struct run *r, const struct mesh *m)
         if (any)
             snprintf(sides + n, sizeof sides - n, "%s%s", n ? ", " : "", kinds[kind]);
     }
-    log_say("%dD, fourth-order averages, rk3, three projections a step; sides: %s", m->dim, sides);
-    log_say("%s%s%s%s%s; off: %sforced cells, coupling%s%s%s%s",
-            viscous ? "viscous, implicit" : "inviscid",
-            surface_wanted(r) ? ", free surface (level set)" : "", walls ? ", walls" : "",
-            m->has_fringe ? ", interpolation where blocks overlap" : "", heavy ? ", gravity" : "",
-            surface_wanted(r) ? "" : "free surface, ", viscous ? "" : ", viscous solver",
-            walls ? "" : ", walls", m->has_fringe ? "" : ", interpolation",
-            heavy ? "" : ", gravity");
+    const struct report_use uses[] = {{"implicit viscosity", r->scene.fluid.nu > 0.0},
+                                      {"free surface (level set)", surface_wanted(r)},
+                                      {"walls", mesh_bc_has_walls(m)},
+                                      {"interpolation where blocks overlap", m->has_fringe},
+                                      {"gravity", g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0},
+                                      {"moving blocks", moves},
+                                      {"given cells", m->has_given},
+                                      {"coupling", r->coupled}};
+    log_say("%dD, fourth-order averages, %s; sides: %s", m->dim, report_method(r), sides);
+    report_uses(uses, (int)(sizeof uses / sizeof *uses));
     log_say("%s", fv_measures_errors(r) ? "errors against the exact solution"
                                         : "no exact solution to measure errors by");
 }
@@ -440,6 +510,8 @@ static void describe_step(const struct run *r, const struct mesh *m)
     const double cfl = limits_cfl(fv_params_of(r)), h = least_height(m);
     log_say("%lld cells computed, the flattest %.3g m high; about %.0f MB", (long long)m->computed,
             h, 8e-6 * (double)m->cells * 80.0 + 1.0);
+    if (fv_params_of(r)->steady)
+        return; /* marches in pseudo-time */
     log_say("dt about %.3g s if the fastest flow crosses the flattest cell (%s, CFL %g)",
             cfl * h / speed, limit_name(LIMIT_FLOW), cfl);
     forecast_say("fv", m->dim, BLOCK_COST * (double)m->computed,
@@ -450,16 +522,17 @@ void mesh_describe(const struct run *r)
 {
     static const char *const shapes[] = {"box", "stretched box", "ring", "sheared box", "file"};
     struct faults f = {0};
-    struct mesh *m = mesh_take(r, &f);
+    struct mesh *m = mesh_take(r, fv_hole(r), &f);
     for (int k = 0; m && k < m->nblocks; k++) {
         const struct mesh_block *b = m->block + k;
-        int64_t count[3] = {0, 0, 0};
+        int64_t count[4] = {0, 0, 0, 0};
         for (int64_t c = 0; c < (int64_t)b->n[0] * b->n[1] * b->n[2]; c++)
             count[b->status[c]]++;
         log_say("block %d \"%s\": %s, %d x %d x %d cells: %lld computed, %lld interpolated, %lld "
-                "cut out",
+                "given, %lld cut out",
                 k + 1, b->prm->name, shapes[b->prm->mapping], b->n[0], b->n[1], b->n[2],
-                (long long)count[0], (long long)count[1], (long long)count[2]);
+                (long long)count[CELL_COMPUTED], (long long)count[CELL_FRINGE],
+                (long long)count[CELL_GIVEN], (long long)count[CELL_HOLE]);
     }
     if (m) {
         describe_scene(r, m);

@@ -20,4 +20,8 @@ void mesh_output_average(struct fv *s, enum mesh_output what, double *q);
 void mesh_describe(const struct run *r);
 void mesh_snapshot(struct fv *s, struct h5 *f, struct xdmf *x, const char *file);
 
+/* mesh_errors.c: sums over this rank's cells outside of the partner's part, see fv_tell; where
+ * blocks overlap those of the latest one count. */
+void mesh_sums(struct fv *s, double sum[5]);
+
 #endif

@@ -25,7 +25,8 @@ struct picture;
 void fv_draw(const struct run *r, struct picture *p);
 
 /* fv_probes.c: the case's gauges; number of columns and their names (static), values on all ranks.
- */
+ * Of a coupled job those that are not its partner's. */
+bool fv_probe_mine(const struct run *r, int k);
 int fv_probe_columns(const struct run *r, const char **columns);
 void fv_probe(struct fv *s, double *values);
 
@@ -37,6 +38,8 @@ int fv_blocked_columns(const struct run *r, const char **columns);
 void fv_blocked_forces(const struct fv *s, double *values);
 void fv_summarise_blocked(const struct fv *s);
 
+/* steady_errors.c: of a regular or solitary wave into the summary. */
+void steady_summarise(struct fv *s);
 /* fv_lines.c: extrema on the centre lines into the summary. */
 void fv_summarise_extrema(const struct fv *s);
 

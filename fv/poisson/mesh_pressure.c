@@ -50,7 +50,7 @@ struct mesh_pressure {
     double *volume; /* right side V of computed cells */
     double volumes; /* m^dim: of all computed cells */
     double fringe;  /* diagonal of the rows of the fringe */
-    /* of blocks that move: rows of all cells as they are when computed, by first of each */
+    /* rows of all cells as they are when computed, by first of each */
     int *row_first;
     HYPRE_BigInt *row_col;
     double *row_value;
@@ -128,6 +128,21 @@ static void add_fringe(const struct mesh *m, const struct mesh_fringe *f, double
     }
 }
 
+/* psi of a given cell beside computed ones, which slopes along their faces look at. */
+static void add_mirror(const struct mesh *m, const struct part *p, int64_t c, double scale,
+                       struct row *r)
+{
+    int offset[MESH_SOURCES][3], cell[3];
+    const int n = mesh_given_sources(m, p, c, offset);
+    part_index(p, c, cell);
+    for (int k = 0; k < n; k++) {
+        int at[3];
+        for (int a = 0; a < 3; a++)
+            at[a] = p->lo[a] + cell[a] + offset[k][a];
+        add_cell(m, r, p->block, at, -scale / n);
+    }
+}
+
 static void computed_row(const struct mesh *m, const struct part *p, const int *i, struct row *r)
 {
     r->n = 0;
@@ -139,39 +154,10 @@ static void computed_row(const struct mesh *m, const struct part *p, const int *
     }
 }
 
-static void make_row(const struct mesh *m, const struct part *p, const int *i,
-                     const struct mesh_fringe *fringe, double scale, double shift, struct row *r)
-{
-    const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-    const int64_t c = part_at(p, i[0], i[1], i[2]);
-    if (m->status[c] == CELL_COMPUTED) {
-        computed_row(m, p, i, r);
-        add(r, (HYPRE_BigInt)mesh_row(m, p->block, at), shift * m->V[c]);
-        return;
-    }
-    r->n = 0;
-    add(r, (HYPRE_BigInt)mesh_row(m, p->block, at), scale);
-    if (m->status[c] == CELL_FRINGE)
-        add_fringe(m, fringe, scale, r);
-}
-
-static void create_matrix(const struct mesh *m, struct mesh_pressure *p, struct matrix *A)
-{
-    HYPRE(HYPRE_IJMatrixCreate(m->comm, p->first, p->last, p->first, p->last, &A->ij));
-    HYPRE(HYPRE_IJMatrixSetObjectType(A->ij, HYPRE_PARCSR));
-    HYPRE(HYPRE_IJMatrixInitialize(A->ij));
-}
-
 static void finish_matrix(struct matrix *A)
 {
     HYPRE(HYPRE_IJMatrixAssemble(A->ij));
     HYPRE(HYPRE_IJMatrixGetObject(A->ij, (void **)&A->A));
-}
-
-static void set_row(struct matrix *A, HYPRE_BigInt row, struct row *r)
-{
-    HYPRE_Int n = r->n;
-    HYPRE(HYPRE_IJMatrixSetValues(A->ij, 1, &n, &row, r->col, r->v));
 }
 
 /* The mean diagonal of computed cells is that of the fringe. */
@@ -190,53 +176,7 @@ static void set_scale(const struct fv *s, struct mesh_pressure *p)
     p->fringe = sum[0] / fmax(sum[1], 1.0);
 }
 
-static void fill_matrices(struct fv *s, struct mesh_pressure *p)
-{
-    const struct mesh *m = s->m;
-    struct row r, pin = {0};
-    int64_t *fringe = NEW(int64_t, m->size_local);
-    set_scale(s, p);
-    for (int64_t k = 0; k < m->nfringe; k++)
-        fringe[m->fringes[k].place] = k;
-    create_matrix(m, p, &p->whole);
-    if (p->singular)
-        create_matrix(m, p, &p->solved);
-    HYPRE_BigInt row = p->first, pinned = -1;
-    for (int q = 0; q < m->nparts; q++) {
-        const struct part *part = m->part + q;
-        int i[3];
-        for (i[2] = 0; i[2] < part->n[2]; i[2]++)
-            for (i[1] = 0; i[1] < part->n[1]; i[1]++)
-                for (i[0] = 0; i[0] < part->n[0]; i[0]++, row++) {
-                    const int64_t c = part_at(part, i[0], i[1], i[2]);
-                    make_row(m, part, i, m->fringes + fringe[c], p->fringe, p->shift, &r);
-                    p->place[row - p->first] = c;
-                    set_row(&p->whole, row, &r);
-                    if (p->singular)
-                        set_row(&p->solved, row, &r);
-                    if (pinned < 0 && m->status[c] == CELL_COMPUTED) {
-                        pinned = row;
-                        pin = r;
-                    }
-                }
-    }
-    /* one cell of all: of the lowest rank that has one */
-    HYPRE_BigInt mine = pinned < 0 ? (HYPRE_BigInt)1 << 30 : pinned, least;
-    MPI_Allreduce(&mine, &least, 1, HYPRE_MPI_BIG_INT, MPI_MIN, m->comm);
-    p->pinned = p->singular ? least : -1;
-    if (p->singular && pinned == least) {
-        for (int k = 0; k < pin.n; k++)
-            pin.v[k] = pin.col[k] == pinned ? pin.v[k] : 0.0;
-        set_row(&p->solved, pinned, &pin);
-    }
-    mem_free(fringe);
-    finish_matrix(&p->whole);
-    if (p->singular)
-        finish_matrix(&p->solved);
-}
-
-/* ---- of blocks that move: what computed cells' rows are stays, the rest is small ---- */
-
+/* Rows of all cells as they are when computed. */
 static void keep_rows(const struct mesh *m, struct mesh_pressure *p)
 {
     int64_t n = 0, room = 16 * (int64_t)p->n;
@@ -261,6 +201,16 @@ static void keep_rows(const struct mesh *m, struct mesh_pressure *p)
             p->row_first[++k] = (int)(n += r.n);
         }
     }
+}
+
+static void free_rows(struct mesh_pressure *p)
+{
+    mem_free(p->row_first);
+    mem_free(p->row_col);
+    mem_free(p->row_value);
+    p->row_first = NULL;
+    p->row_col = NULL;
+    p->row_value = NULL;
 }
 
 /* The row of the first computed cell of all ranks, which psi = 0 replaces; its place here, or -1.
@@ -291,14 +241,22 @@ static void set_matrix(const struct mesh *m, struct mesh_pressure *p, struct mat
     finish_matrix(A);
 }
 
-static void fill_anew(struct fv *s, struct mesh_pressure *p)
+/* Adds the shift to the diagonal of a row of n entries. */
+static void add_shift(HYPRE_BigInt row, double shift, int n, const HYPRE_BigInt *col, double *v)
+{
+    for (int q = 0; q < n && shift != 0.0; q++)
+        v[q] += col[q] == row ? shift : 0.0;
+}
+
+/* The matrices; of blocks that move, computed cells' rows stay for the next time. */
+static void fill_matrices(struct fv *s, struct mesh_pressure *p)
 {
     const struct mesh *m = s->m;
     int64_t n = 0;
     if (!p->row_first)
         keep_rows(m, p);
     set_scale(s, p);
-    const int64_t room = p->row_first[p->n] + 9 * (m->nfringe + p->n);
+    const int64_t room = p->row_first[p->n] + (MESH_SOURCES + 1) * (int64_t)p->n + 8 * m->nfringe;
     HYPRE_BigInt *col = NEW(HYPRE_BigInt, room);
     double *v = NEW(double, room);
     HYPRE_Int *ncols = NEW(HYPRE_Int, p->n);
@@ -307,18 +265,24 @@ static void fill_anew(struct fv *s, struct mesh_pressure *p)
         fringe[m->fringes[k].place] = k + 1;
     const int pinned = find_pinned(m, p);
     int64_t pinned_at = -1;
+    const struct part *part = m->part;
     for (int k = 0; k < p->n; k++) {
         const int64_t c = p->place[k];
+        while (c >= part->base + part->size)
+            part++;
         if (m->status[c] == CELL_COMPUTED) {
             const int at = p->row_first[k];
             ncols[k] = p->row_first[k + 1] - at;
             pinned_at = k == pinned ? n : pinned_at;
             memcpy(col + n, p->row_col + at, (size_t)ncols[k] * sizeof *col);
             memcpy(v + n, p->row_value + at, (size_t)ncols[k] * sizeof *v);
+            add_shift(p->first + k, p->shift * m->V[c], ncols[k], col + n, v + n);
         } else {
             struct row r = {.n = 1, .col = {p->first + k}, .v = {p->fringe}};
             if (fringe[c] > 0)
                 add_fringe(m, m->fringes + fringe[c] - 1, p->fringe, &r);
+            if (m->status[c] == CELL_GIVEN)
+                add_mirror(m, part, c, p->fringe, &r);
             ncols[k] = r.n;
             memcpy(col + n, r.col, (size_t)r.n * sizeof *col);
             memcpy(v + n, r.v, (size_t)r.n * sizeof *v);
@@ -334,6 +298,8 @@ static void fill_anew(struct fv *s, struct mesh_pressure *p)
     mem_free(v);
     mem_free(ncols);
     mem_free(fringe);
+    if (!m->moves)
+        free_rows(p);
 }
 
 static void create_vector(const struct mesh *m, struct mesh_pressure *p, struct vector *v)
@@ -374,7 +340,8 @@ static HYPRE_Solver make_amg(int relax, int sweeps, int coarsen)
     HYPRE(HYPRE_BoomerAMGSetStrongThreshold(amg, 0.25));
     HYPRE(HYPRE_BoomerAMGSetTol(amg, 0.0));
     HYPRE(HYPRE_BoomerAMGSetMaxIter(amg, 1));
-    HYPRE(HYPRE_BoomerAMGSetRelaxOrder(amg, 1)); /* coarse cells first, then the others */
+    HYPRE(HYPRE_BoomerAMGSetRelaxOrder(amg, 1));    /* coarse cells first, then the others */
+    HYPRE(HYPRE_BoomerAMGSetKeepTranspose(amg, 1)); /* restricts by rows */
     return amg;
 }
 
@@ -507,10 +474,7 @@ static void *create(struct fv *s)
     p->place = NEW(int64_t, n);
     p->volume = NEW(double, n);
     p->zw = NEW(double, n);
-    if (m->moves)
-        fill_anew(s, p);
-    else
-        fill_matrices(s, p);
+    fill_matrices(s, p);
     create_vector(m, p, &p->b);
     create_vector(m, p, &p->x);
     create_vector(m, p, &p->r);
@@ -546,7 +510,7 @@ static void renew(struct fv *s, void *of, bool hierarchy)
     free_safe(p);
     free_matrix(&p->whole);
     free_matrix(&p->solved);
-    fill_anew(s, p);
+    fill_matrices(s, p);
     if (hierarchy) {
         HYPRE_BoomerAMGDestroy(p->amg);
         make_solver(p);
@@ -577,9 +541,7 @@ static void free_matrices(void **of)
     mem_free(p->place);
     mem_free(p->volume);
     mem_free(p->zw);
-    mem_free(p->row_first);
-    mem_free(p->row_col);
-    mem_free(p->row_value);
+    free_rows(p);
     mem_free(p);
     *of = NULL;
 }

@@ -2,7 +2,9 @@
  * or not: PFMG over all of them. Its matrix leaves out the fluxes that slopes along a face make
  * where cells are askew; the conjugate residuals round it have them. Blocks on which its cycles do
  * too little (cells of strongly different shape) are left to the others: a rough right side is
- * solved for at the start, and the cycles are counted. SPDX-License-Identifier: BSD-3-Clause */
+ * solved for at the start, and the cycles are counted. Given cells have rows of their own, 1, and
+ * psi = 0; no flux passes their faces. SPDX-License-Identifier: BSD-3-Clause */
+#include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
@@ -33,12 +35,13 @@ struct tiles {
     struct gcr gcr;
     double *psi, *flux; /* fields */
     double *box;        /* a part's values in the order of the index space */
-    double *V;          /* m^dim: of the rows */
+    double *V;          /* m^dim: of the rows; 0: given */
     double volumes;     /* of all */
     double coupling;    /* about the diagonal of A */
     double least;       /* 1/m^2: shift of the cycle's matrix */
     double shift;
     bool singular;
+    bool askew; /* some cells are, and slopes along their faces look at given ones */
 };
 
 static int common_divisor(int a, int b) { return b == 0 ? a : common_divisor(b, a % b); }
@@ -192,7 +195,7 @@ static void add_face(const struct mesh *m, int a, int64_t face, int64_t to, doub
                      double *other)
 {
     const double w = m->G[a][a][face];
-    const bool inside = m->status[to] != CELL_HOLE;
+    const bool inside = m->status[to] == CELL_COMPUTED;
     *other = inside ? -w : 0.0;
     *own += inside ? w : m->open[a][face] == 1.0 ? 2.0 * w : 0.0;
 }
@@ -207,8 +210,8 @@ static double *rows_of(const struct tiles *t, const struct part *p)
     int i[3];
     PART_CELLS (p, i, c) {
         double *row = rows + width * (first + i[0] * step[0] + i[1] * step[1] + i[2] * step[2]);
-        row[0] = m->V[c] * fmax(t->shift, t->least);
-        for (int a = 0; a < m->dim; a++) {
+        row[0] = m->status[c] == CELL_COMPUTED ? m->V[c] * fmax(t->shift, t->least) : 1.0;
+        for (int a = 0; a < m->dim && m->status[c] == CELL_COMPUTED; a++) {
             const int64_t d = p->stride[a];
             const int below = 1 + 2 * of->axis[a] + (of->sign[a] < 0),
                       above = 1 + 2 * of->axis[a] + (of->sign[a] > 0);
@@ -313,6 +316,16 @@ static void even_row(const double *restrict q, const int64_t *stride, const doub
                      w[2] * (q[i - z] + q[i + z]);
 }
 
+/* Beside given cells: only through open faces. */
+static void add_open_row(const double *restrict q, const double *restrict G,
+                         const double *restrict open, int64_t d, bool first, int64_t n,
+                         double *restrict out)
+{
+    for (int64_t i = 0; i < n; i++)
+        out[i] = (first ? 0.0 : out[i]) + open[i] * G[i] * (q[i] - q[i - d]) -
+                 open[i + d] * G[i + d] * (q[i + d] - q[i]);
+}
+
 static void add_upright_row(const double *restrict q, const double *restrict G, int64_t d,
                             bool first, int64_t n, double *restrict out)
 {
@@ -330,7 +343,10 @@ static void apply_part(const struct tiles *t, const struct part *p, double *out)
     for (int a = 0; a < m->dim; a++)
         w[a] = m->G[a][a][part_at(p, 0, 0, 0)];
     PART_ROWS (p, none, none, c, n) {
-        if (p->kind == PART_EVEN)
+        if (m->has_given)
+            for (int a = 0; a < m->dim; a++)
+                add_open_row(psi + c, m->G[a][a] + c, m->open[a] + c, p->stride[a], a == 0, n, out);
+        else if (p->kind == PART_EVEN)
             even_row(psi + c, p->stride, w, m->dim, n, out);
         else
             for (int a = 0; a < m->dim; a++)
@@ -375,20 +391,26 @@ static void apply_rows(void *of, double *x, double *Ax)
     struct tiles *t = of;
     struct fv *s = t->s;
     const double *from = x;
+    double *to = Ax;
     for (int q = 0; q < s->nparts; q++)
         PART_ROWS (s->part + q, none, none, c, n) {
             memcpy(t->psi + c, from, (size_t)n * sizeof(double));
             from += n;
         }
-    mesh_halo(s->m, 1, &t->psi);
+    if (s->forcing && t->askew)
+        given_mirror(s, t->psi);
+    else
+        mesh_halo(s->m, 1, &t->psi);
     mesh_bc_even(s, true, t->psi);
     for (int q = 0; q < s->nparts; q++) {
         const struct part *p = s->part + q;
-        apply_part(t, p, Ax);
+        apply_part(t, p, to);
         if (p->kind == PART_CURVED)
-            add_askew(t, p, Ax);
-        Ax += (int64_t)p->n[0] * p->n[1] * p->n[2];
+            add_askew(t, p, to);
+        to += (int64_t)p->n[0] * p->n[1] * p->n[2];
     }
+    for (int i = 0; i < t->gcr.n && s->forcing; i++)
+        Ax[i] *= t->V[i] > 0.0 ? 1.0 : 0.0;
 }
 
 /* ---- the back end ---- */
@@ -421,7 +443,7 @@ static bool is_fast(struct tiles *t)
                          (uint32_t)(p->lo[1] + i[1]) * 19349663u ^
                          (uint32_t)(p->lo[2] + i[2]) * 83492791u ^ (uint32_t)p->block * 2654435761u;
             k = (k ^ k >> 15) * 2246822519u;
-            *to++ = s->m->V[c] * ((k >> 8 & 0xffff) / 65536.0 - 0.5);
+            *to++ = s->free[c] * s->m->V[c] * ((k >> 8 & 0xffff) / 65536.0 - 0.5);
         }
     }
     balance(t, b);
@@ -456,7 +478,7 @@ static void *create(struct fv *s)
     t->s = s;
     for (int k = 0; k < m->nparts; k++)
         n += (int64_t)m->part[k].n[0] * m->part[k].n[1] * m->part[k].n[2];
-    if (m->computed < m->cells || !place(t, m)) {
+    if (m->has_fringe || !place(t, m)) {
         free_tiles(&of);
         return NULL;
     }
@@ -468,12 +490,15 @@ static void *create(struct fv *s)
     double *V = t->V;
     FLOW_ROWS(s, c, len)
     for (int64_t i = c; i < c + len; i++) {
-        *V++ = m->V[i];
-        t->volumes += m->V[i];
+        *V = s->free[i] * m->V[i];
+        t->volumes += *V++;
     }
     MPI_Allreduce(MPI_IN_PLACE, &t->volumes, 1, MPI_DOUBLE, MPI_SUM, m->comm);
     gcr_create(&t->gcr, m->comm, (int)n, t, apply_rows, cycle_rows);
     t->gcr.galerkin = true;
+    for (int k = 0; k < m->nparts; k++)
+        t->askew = t->askew || m->part[k].kind == PART_CURVED;
+    MPI_Allreduce(MPI_IN_PLACE, &t->askew, 1, MPI_C_BOOL, MPI_LOR, m->comm);
     make_pfmg(t);
     if (!is_fast(t))
         free_tiles(&of);

@@ -2,7 +2,8 @@
  * psi (surface_faces.c beside the surface); of dry cells and holes: psi = 0. Wet cells that other
  * blocks interpolate: psi less its linear interpolation; beside the surface, where donors are dry,
  * what psi has beyond the surface's pressure P grows with the distance,
- *   psi = P + phi <(psi_k - P_k)/phi_k>, the mean over the wet donors k.
+ *   psi = P + phi <(psi_k - P_k)/phi_k>, the mean over the wet donors k,
+ * phi less what the surface rises within an implicit step (surface_pressure.c).
  * GMRES with a cycle of BoomerAMG; the surface's pressure makes the matrix regular.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wet_pressure.h"
@@ -16,6 +17,7 @@
 
 #include "../../common/log.h"
 #include "../../common/mem.h"
+#include "../boundary/mesh_bc.h"
 #include "../boundary/still.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
@@ -130,9 +132,17 @@ static void make_donors(struct fv *s, struct wet_pressure *p)
             mesh_owner(m, block, at, &q->rank, &q->out);
         }
     mesh_exchange_create(m, &p->donors, 1, each * m->nfringe, request);
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < 2; k++) {
+        mem_free(p->beyond[k]);
         p->beyond[k] = NEW(double, s->size + each * m->nfringe);
+    }
     mem_free(request);
+}
+
+void wet_pressure_donors(struct fv *s)
+{
+    mesh_exchange_free(&s->wet->donors);
+    make_donors(s, s->wet);
 }
 
 static void create_vector(const struct mesh *m, struct wet_pressure *p, struct vector *v)
@@ -228,6 +238,12 @@ void wet_pressure_free(struct wet_pressure **pp)
 
 /* --- rows --- */
 
+/* v times psi at a place with ghosts. */
+static void add_at(const struct fv *s, int64_t at, double v, struct row *r)
+{
+    add(r, s->wet->row_of[at], s->surface->mesh->out[at] == BEHIND_ODD ? -v : v);
+}
+
 /* weight times the flux of psi through the lower face along a of cell c. */
 static void add_face(const struct fv *s, const struct part *part, int a, int64_t c, double weight,
                      struct row *r)
@@ -245,21 +261,24 @@ static void add_face(const struct fv *s, const struct part *part, int a, int64_t
     }
     if (open == 0.0)
         return;
-    add(r, p->row_of[c], open * m->G[a][a][c]);
-    add(r, p->row_of[c - d], -open * m->G[a][a][c]);
+    add_at(s, c, open * m->G[a][a][c], r);
+    add_at(s, c - d, -open * m->G[a][a][c], r);
     for (int t = 0; t < m->dim; t++) {
         const int64_t b = part->stride[t];
         const double g = t == a ? 0.0 : 0.25 * open * m->G[a][t][c];
         if (g == 0.0)
             continue;
-        add(r, p->row_of[c + b], g);
-        add(r, p->row_of[c - b], -g);
-        add(r, p->row_of[c - d + b], g);
-        add(r, p->row_of[c - d - b], -g);
+        add_at(s, c + b, g, r);
+        add_at(s, c - b, -g, r);
+        add_at(s, c - d + b, g, r);
+        add_at(s, c - d - b, -g, r);
     }
 }
 
-/* p/rho of the surface next to a cell: at its foot on it. */
+/* p/rho of the surface next to a cell, phi from it along the normal. phi over its slope is nearer
+ * where phi is no distance, but slopes at the fringe are rough: P then drives what makes them so,
+ * and water at rest grows by up to a quarter a step. With phi as it is P in the mean over the
+ * donors has all that is needed. */
 static double surface_pressure_near(const struct fv *s, const struct part *part, int64_t c)
 {
     const struct surface_mesh *w = s->surface->mesh;
@@ -269,7 +288,7 @@ static double surface_pressure_near(const struct fv *s, const struct part *part,
     for (int a = 0; a < 3; a++)
         g2 += g[a] * g[a];
     for (int a = 0; a < 3; a++)
-        foot[a] = w->x[a][c] - phi[c] * g[a] / fmax(g2, 0.25);
+        foot[a] = w->x[a][c] - phi[c] * g[a] / fmax(sqrt(g2), 0.5);
     return -fv_still_pressure(s, foot) / s->run->scene.fluid.rho;
 }
 
@@ -291,7 +310,8 @@ static void fringe_row(const struct fv *s, struct wet_pressure *p, int64_t k, st
     const struct mesh_fringe *f = s->m->fringes + k;
     const int each = 1 << s->m->dim;
     const double *phi = p->beyond[0] + s->size + each * k, *P = p->beyond[1] + s->size + each * k;
-    const double near = -0.2 * s->surface->least, own = fmin(s->surface->phi[f->place], 0.0);
+    const double near = -0.2 * s->surface->least, rise = s->surface->rise * s->surface->g,
+                 own = fmin(s->surface->phi[f->place], 0.0) - rise;
     double weights = 0.0, scale;
     bool all = true;
     for (int d = 0; d < each; d++) {
@@ -304,7 +324,7 @@ static void fringe_row(const struct fv *s, struct wet_pressure *p, int64_t k, st
                            f->from[2] + (d >> 2 & 1)};
         if (f->weight[d] == 0.0 || (!all && (!(phi[d] < near) || !(weights > 0.2))))
             continue;
-        scale = all ? 1.0 : own / (phi[d] * weights);
+        scale = all ? 1.0 : own / ((phi[d] - rise) * weights);
         scale *= p->scale * f->weight[d];
         add(r, row_of(s->m, f->donor, at), -scale);
         p->dry[f->place] -= all ? 0.0 : scale * P[d];
@@ -369,7 +389,7 @@ static void find_pinned(const struct fv *s, struct wet_pressure *p)
 {
     HYPRE_BigInt mine = (HYPRE_BigInt)1 << 30;
     p->pinned = -1;
-    if (s->surface->cuts > 0)
+    if (s->surface->cuts > 0 || mesh_bc_pressure_given(s))
         return;
     for (int k = p->n - 1; k >= 0; k--)
         mine = s->free[p->place[k]] > 0.0 ? p->row[k] : mine;
@@ -445,6 +465,13 @@ static double rounding(const struct fv *s, const struct wet_pressure *p)
     return 1e-15 * s->surface->g * L * p->scale * sqrt((double)s->surface->wet);
 }
 
+static void put_rows(const struct fv *s, struct wet_pressure *p, double *psi)
+{
+    memset(psi, 0, (size_t)s->size * sizeof(double));
+    for (int k = 0; k < p->n; k++)
+        psi[p->place[k]] = p->residual[k];
+}
+
 bool wet_pressure_solve(struct fv *s, double tau, double *div, double tol, double *psi)
 {
     struct wet_pressure *p = s->wet;
@@ -469,8 +496,21 @@ bool wet_pressure_solve(struct fv *s, double tau, double *div, double tol, doubl
     }
     const double left = its > 0 ? residual(s, p, b) : before;
     get_vector(p, &p->x, p->residual);
-    memset(psi, 0, (size_t)s->size * sizeof(double));
-    for (int k = 0; k < p->n; k++)
-        psi[p->place[k]] = p->residual[k];
+    put_rows(s, p, psi);
     return left <= fmax(10.0 * wanted, 1e-12 * size);
+}
+
+void wet_pressure_cycle(struct fv *s, const double *div, double *psi)
+{
+    struct wet_pressure *p = s->wet;
+    for (int k = 0; k < p->n; k++) {
+        const int64_t c = p->place[k];
+        p->value[k] = s->free[c] > 0.0 && p->row[k] != p->pinned ? div[c] : 0.0;
+        p->residual[k] = 0.0;
+    }
+    set_vector(p, &p->b, p->value);
+    set_vector(p, &p->x, p->residual);
+    HYPRE(HYPRE_BoomerAMGSolve(p->amg, p->A, p->b.v, p->x.v));
+    get_vector(p, &p->x, p->residual);
+    put_rows(s, p, psi);
 }

@@ -93,6 +93,7 @@ struct place {
     int n, step[STENCIL];    /* known cells around; the last one again fills up the lanes */
     int known;               /* of them not again */
     int room;                /* how many the window could hold */
+    bool mixed;              /* some of the known are other blocks' */
     double r[3][STENCIL];    /* their places in the frame, in units of h */
     double self[3], spacing; /* the cell's own; mean h (m), no axis before another */
 };
@@ -294,7 +295,10 @@ static void look_around_on_blocks(const struct fv *s, int64_t c, int layer, stru
                 p->step[n] = (int)step;
                 const int of = s->surface->layer[at];
                 p->room += !w->out[at];
-                n += !w->out[at] && of < layer && (of == 0 || m->status[at] == CELL_COMPUTED);
+                const bool known =
+                    !w->out[at] && of < layer && (of == 0 || m->status[at] == CELL_COMPUTED);
+                p->mixed = p->mixed || (known && m->status[at] == CELL_FRINGE);
+                n += known;
             }
     fill_lanes(p, n);
 }
@@ -359,6 +363,9 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
  * 0.4. */
 static bool is_thin(const struct fv *s, const struct place *p)
 {
+    /* slopes over what two blocks have, each for itself, drive them apart */
+    if (p->mixed && s->surface->mesh->slanting)
+        return true;
     /* in the wedge between a slanting wall and the surface a slope from few cells grows */
     if (s->m && s->surface->mesh->slants[p->part - s->part] &&
         p->known < (s->dim == 2 ? WEDGE : 4 * WEDGE))

@@ -3,6 +3,7 @@
 #include "levelset.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "lanes.h"
 
@@ -115,6 +116,8 @@ void extension_apply(const struct fv *s, double *const u[3], enum extend how, in
     for (int64_t i = 0; i < f->ndeep; i++)
         for (int q = 0; q < s->dim; q++)
             u[q][f->deep[i]] = 0.0;
+    if (overlaps && how == EXTEND_SHEAR) /* or donors would have what they had in other steps */
+        memset(f->stress, 0, (size_t)s->size * sizeof(double));
     for (int pass = 0; pass < (overlaps ? 2 : 1); pass++)
         for (int l = 1; l <= last; l++) {
             surface_fill(s, s->dim, u);

@@ -32,7 +32,7 @@ static bool side_here(const struct block *b, int a, bool upper)
 
 static void ghosts_on_blocks(const struct fv *s, double *phi)
 {
-    mesh_fill(s->m, 1, &phi);
+    surface_mesh_fill(s, phi);
     mesh_bc_level(s, s->surface && s->surface->mesh->keeps, phi);
 }
 
@@ -106,8 +106,8 @@ static void rate_beside_boxes(const struct fv *s, const double *phi, double *rat
         }
 }
 
-/* In indices: velocities along them are those of surface_mesh_speeds. */
-static void rate_on_blocks(const struct fv *s, const double *phi, double *rate)
+/* In indices: velocities along them are those of surface_mesh_speeds. near: where the band is. */
+static void rate_on_blocks(const struct fv *s, const double *near, const double *phi, double *rate)
 {
     const struct surface_mesh *w = s->surface->mesh;
     FLOW_ROWS(s, c, n)
@@ -115,10 +115,28 @@ static void rate_on_blocks(const struct fv *s, const double *phi, double *rate)
         const double *size = w->size[p_ - s->part];
         const double band = BAND * surface_mesh_spacing(s, p_);
         memset(rate + c, 0, (size_t)n * sizeof(double));
-        for (int64_t from = c, m = 0; next_run(phi, band, c + n, &from, &m);)
+        for (int64_t from = c, m = 0; next_run(near, band, c + n, &from, &m);)
             for (int a = 0; a < s->dim; a++)
                 weno_advect(phi + from, w->speed[a] + from, p_->stride[a], 1.0 / size[a], m,
                             rate + from);
+    }
+}
+
+/* Blocks that move: phi less the height z of places, eta = phi - z, has
+ *   eta_t + (u - w).grad eta + u_z = 0
+ * in cells of velocity w, whatever the motion: level water that is at rest stays so exactly. */
+static void rate_on_moving_blocks(const struct fv *s, const double *near, const double *eta,
+                                  double *rate)
+{
+    const double *g = s->run->scene.fluid.gravity;
+    rate_on_blocks(s, near, eta, rate);
+    FLOW_ROWS(s, c, n)
+    {
+        const double band = BAND * surface_mesh_spacing(s, p_);
+        for (int64_t from = c, m = 0; next_run(near, band, c + n, &from, &m);)
+            for (int a = 0; a < s->dim; a++)
+                for (int64_t i = from; i < from + m; i++)
+                    rate[i] += g[a] / s->surface->g * s->u[a][i];
     }
 }
 
@@ -126,7 +144,7 @@ static void rate_of(const struct fv *s, const double *phi, double *rate)
 {
     const struct block *b = &s->b;
     if (s->m) {
-        rate_on_blocks(s, phi, rate);
+        rate_on_blocks(s, phi, phi, rate);
         return;
     }
     BLOCK_ROWS (b, 0, c, n) {
@@ -164,6 +182,37 @@ static void advance(struct fv *s, double dt)
     double *t = f->phi;
     f->phi = f->phi_new;
     f->phi_new = t;
+}
+
+/* The same with eta of rate_on_moving_blocks in place of phi, which says where the band is. */
+static void advance_height(struct fv *s, double dt, double *near)
+{
+    static const double w[3] = {0.0, 0.75, 1.0 / 3.0};
+    struct surface *f = s->surface;
+    memcpy(near, f->phi, (size_t)s->size * sizeof(double));
+    surface_mesh_change_height(s, 1.0, near);
+    memcpy(f->phi_new, f->phi, (size_t)s->size * sizeof(double));
+    for (int k = 0; k < 3; k++) {
+        rate_on_moving_blocks(s, near, f->phi_new, f->rate);
+        blend(s, w[k], f->phi, dt, f->rate, f->phi_new);
+        mesh_fill(s->m, 1, &f->phi_new);
+        mesh_bc_level(s, false, f->phi_new);
+    }
+    memcpy(f->phi, f->phi_new, (size_t)s->size * sizeof(double));
+}
+
+void surface_advance_to(struct fv *s, double t, double dt)
+{
+    struct surface *f = s->surface;
+    const double cfl = surface_mesh_speeds(s, BAND) * dt;
+    const int n = cfl > 0.5 ? (int)ceil(2.0 * cfl) : 1;
+    f->travelled += cfl;
+    surface_mesh_change_height(s, -1.0, f->phi);
+    surface_mesh_place(s, t);
+    for (int k = 0; k < n; k++)
+        advance_height(s, dt / n, f->kept);
+    surface_mesh_change_height(s, 1.0, f->phi);
+    surface_ghosts(s, f->phi);
 }
 
 void surface_advance(struct fv *s, double dt)
@@ -272,6 +321,23 @@ static bool is_own(const struct fv *s, int64_t c)
     return !(s->surface->forced && s->forcing->forced[c]);
 }
 
+/* Cells that blocks share count by their pieces: what they have beyond their shares. */
+static void correct_shared(const struct fv *s, double sums[2])
+{
+    const struct surface_mesh *w = s->surface->mesh;
+    for (int64_t k = 0; k < w->nshared; k++) {
+        const struct shared_cell *x = w->shared + k;
+        const struct part *p = surface_part(s, x->cell);
+        const double h = surface_mesh_spacing(s, p), e = 1e-4 * h, volume = w->count[x->cell];
+        if (fabs(s->surface->phi[x->cell]) > 3.0 * h)
+            continue;
+        sums[0] += surface_mesh_shared_water(s, x, 0.0) - volume * share_at(s, p, x->cell, 0.0);
+        sums[1] += (surface_mesh_shared_water(s, x, e) - surface_mesh_shared_water(s, x, -e) -
+                    volume * (share_at(s, p, x->cell, e) - share_at(s, p, x->cell, -e))) /
+                   (2.0 * e);
+    }
+}
+
 double surface_volume(const struct fv *s, double *area)
 {
     double sums[2] = {0.0, 0.0};
@@ -291,6 +357,8 @@ double surface_volume(const struct fv *s, double *area)
             sums[1] += volume * (share_at(s, p_, i, e) - share_at(s, p_, i, -e)) / (2.0 * e);
         }
     }
+    if (s->m)
+        correct_shared(s, sums);
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     if (area)
         *area = sums[1];
@@ -333,10 +401,12 @@ static void fill_blocks(const struct fv *s, const struct surface_mesh *w, double
         phi[c] = surface_distance(s, (double[]){w->x[0][c], w->x[1][c], w->x[2][c]});
 }
 
-static void set_sizes(const struct block *b, struct surface *f)
+static void set_sizes(const struct block *b, const double *g, struct surface *f)
 {
-    f->least = INFINITY;
+    f->least = f->across = INFINITY;
     for (int a = 0; a < b->dim; a++) {
+        if (fabs(g[a]) < 0.7 * f->g)
+            f->across = fmin(f->across, b->h[a]);
         f->least = fmin(f->least, b->h[a]);
         f->largest = fmax(f->largest, b->h[a]);
     }
@@ -360,10 +430,10 @@ struct surface *surface_create(const struct fv *s)
         f->half = NEW(double, s->size);
     f->g = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     if (s->m) {
-        f->mesh = surface_mesh_create(s, &f->least, &f->largest);
+        f->mesh = surface_mesh_create(s, f);
         fill_blocks(s, f->mesh, f->phi);
     } else {
-        set_sizes(&s->b, f);
+        set_sizes(&s->b, g, f);
         fill_even(s, f->phi);
     }
     surface_ghosts(s, f->phi);

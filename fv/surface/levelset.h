@@ -62,8 +62,10 @@ struct surface {
                                  by the shifts, all in all */
     double passed;            /* m^dim: through openings and a partner's outline, in and out */
     double entered;           /* m^dim: through openings, in less out */
+    double through[3];        /* m^dim/s: at the start of a step, see flows() */
     double travelled;         /* -: cells since the last reinit */
     double least, largest;    /* m: sizes of cells */
+    double across;            /* m: least spacing of cells across gravity, of 45 degrees and less */
     double theta_least;       /* -: least distance of the surface from a wet centre, of h */
     double rise;              /* s^2: implicit steps: see surface_pressure.c */
     double g;                 /* m/s^2: size of gravity */
@@ -97,6 +99,8 @@ void surface_free(struct surface **w);
 void surface_ghosts(const struct fv *s, double *phi);
 /* phi by dt with u as it is. */
 void surface_advance(struct fv *s, double dt);
+/* The same of blocks that move, from where they stand to their places at time t. */
+void surface_advance_to(struct fv *s, double t, double dt);
 /* Moves phi evenly to the volume of the start. */
 void surface_keep_volume(struct fv *s);
 /* m^dim of water, a partner's part apart; *area: its change with phi, < 0. Over all ranks. */
@@ -142,6 +146,9 @@ void extension_beyond(const struct fv *s, double *q);
 void surface_smooth(struct fv *s);
 
 /* surface_pressure.c */
+/* What the surface's rise within an implicit step adds to the distance from a wet centre to its
+ * pressure, m; e: from wet to dry, of length 1. */
+double surface_rise(const struct fv *s, const double *e);
 /* Wet cells, cut faces and stencils of the present phi; pressure_rebuild then. */
 void surface_rebuild(struct fv *s);
 /* p/rho on the cut faces with the viscous stress of the last extension. */
@@ -160,6 +167,8 @@ void surface_gradient_change(const struct fv *s, int a, const double *psi, doubl
 /* surface_steps.c */
 /* Velocities, fluxes and cuts of the start. */
 void surface_start(struct fv *s);
+/* Other cells are forced than before, when the free ones held `before' m^dim. Collective. */
+void surface_outline_moved(struct fv *s, double before);
 /* Velocity beyond the surface where it stands now, with ghosts, and the fluxes there. */
 void surface_extend(struct fv *s, int layers);
 /* Around a step of u: the surface stands at half time in it, so that both swing without loss

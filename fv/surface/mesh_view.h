@@ -16,6 +16,19 @@ struct wet_face {
     double given;
 };
 
+enum { BEHIND_EVEN = 1, BEHIND_ODD = 2 };
+enum { POLYGON_MOST = 16 };
+struct polygon {
+    int n;
+    double x[POLYGON_MOST][2]; /* m */
+};
+
+/* A cell of which later blocks compute some pieces. */
+struct shared_cell {
+    int64_t cell, first, n; /* its pieces in the list */
+    struct polygon own;     /* all of it */
+};
+
 struct surface_mesh {
     double size[MESH_BLOCKS_MAX][3]; /* m: mean spacing of a part's cells along its indices */
     double *x[3];                    /* m: centres, with ghosts */
@@ -23,9 +36,16 @@ struct surface_mesh {
     double *slopes[3][2];            /* scratch: of a row, from below and from above */
     double *speed[3];                /* m/s: rate along each index, times the size */
     double *count;                   /* m^dim: volume that counts */
-    unsigned char *out;              /* 1: no water can be there: behind walls, in holes */
+    int64_t nshared, shared_room;    /* cells of which some counts, 2D */
+    struct shared_cell *shared;
+    int64_t npieces, piece_room;
+    struct polygon *piece;
+    double *height;     /* m: of centres, against gravity */
+    unsigned char *out; /* 0: a cell; else none: behind sides and in holes, where psi is mirrored
+                           (BEHIND_EVEN) or has its sign turned (BEHIND_ODD: outflows) */
     bool slants[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright, or end in an
                                      overlap */
+    bool leans[MESH_BLOCKS_MAX];  /* the former */
     bool slanting;                /* some block has such lines */
     bool keeps;                   /* slopes of phi behind inclined walls stay as they are */
     int64_t nface[3], face_room[3];
@@ -35,19 +55,35 @@ struct surface_mesh {
     double *weight;
 };
 
-/* surface_mesh.c: *least, *largest: m, heights of cells over all blocks. Collective. */
-struct surface_mesh *surface_mesh_create(const struct fv *s, double *least, double *largest);
+struct surface;
+
+/* surface_mesh.c: also sets the sizes of cells over all blocks. Collective. */
+struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f);
 void surface_mesh_free(struct surface_mesh **m);
 /* Rates at which the velocity crosses cells; the largest sum over the indices, 1/s, in the band
  * where |phi| is less than `band' sizes of cells, over all ranks. */
 double surface_mesh_speeds(const struct fv *s, double band);
 /* Largest spacing of a part's cells, m. */
 double surface_mesh_spacing(const struct fv *s, const struct part *p);
-/* Gradient of phi (1) at a cell, by central differences. */
+/* Ghosts of phi between blocks. What is interpolated is phi less the height of the place, so that
+ * level water is level for all blocks. */
+void surface_mesh_fill(const struct fv *s, double *phi);
+/* phi less the height of places (sign -1), or plus it (1), with ghosts. */
+void surface_mesh_change_height(const struct fv *s, double sign, double *phi);
+/* Blocks that move: all of them at time t, with their donors; then, or if they are there already,
+ * centres, heights and what can hold water. */
+void surface_mesh_place(struct fv *s, double t);
+void surface_mesh_update(struct fv *s);
+/* Gradient of phi (1) at a cell, by central differences: exact for planes. */
 void surface_mesh_gradient(const struct fv *s, const struct part *p, int64_t c, const double *phi,
                            double g[3]);
 /* K of a cell, both halves. */
 void surface_mesh_metric(const struct fv *s, int64_t c, double K[3][3]);
+
+/* surface_own.c: what counts of each cell where blocks overlap now. */
+void surface_mesh_count(struct fv *s);
+/* m^dim of water that counts in a shared cell, phi + shift < 0. */
+double surface_mesh_shared_water(const struct fv *s, const struct shared_cell *x, double shift);
 
 /* surface_faces.c: cuts and faces with dry cells around, of the present layers. */
 void surface_mesh_find_faces(struct fv *s);
@@ -55,7 +91,11 @@ void surface_mesh_find_faces(struct fv *s);
 void surface_mesh_fluxes(const struct fv *s, double tau, const double *psi);
 /* div (m^dim/s) less tau times what the surface's pressure adds to the fluxes of psi. */
 void surface_mesh_add_pressure(const struct fv *s, double tau, double *div);
-/* out[3] = grad psi in wet cells whose stencils leave the water. */
-void surface_mesh_psi_gradient(const struct fv *s, const double *psi, double *const out[3]);
+/* U of these faces by momentum interpolation of p with its gradient G, d (s) of each cell. */
+void surface_mesh_interpolate(const struct fv *s, const double *d, double *const G[3]);
+/* out[3] = grad psi in wet cells whose stencils leave the water; of a stage of length tau; change:
+ * of a variation, which is 0 on the surface. */
+void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi, bool change,
+                               double *const out[3]);
 
 #endif

@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "../../common/mem.h"
+#include "../boundary/mesh_bc.h"
 #include "../boundary/still.h"
 
 enum { AROUND = 12 }; /* two cells, and the four around each along two tangents */
@@ -36,7 +37,7 @@ static void add(struct stencil *x, int64_t at, double weight)
 
 static bool is_wet(const struct fv *s, int64_t c) { return s->surface->layer[c] == 0; }
 
-/* Whether psi there is no water's: behind walls it is mirrored. */
+/* Whether psi there is no water's: behind sides it is mirrored. */
 static bool is_dry(const struct fv *s, int64_t c)
 {
     return !is_wet(s, c) && !s->surface->mesh->out[c];
@@ -48,11 +49,11 @@ static void add_slope(const struct fv *s, int64_t c, int64_t t, double weight, s
     const bool dry[2] = {is_dry(s, c - t), is_dry(s, c + t)};
     if (dry[0] && dry[1])
         return;
+    const unsigned char *out = s->surface->mesh->out;
     const double w = dry[0] || dry[1] ? weight : 0.5 * weight;
-    const int64_t low = dry[0] || s->surface->mesh->out[c - t] ? c : c - t,
-                  high = dry[1] || s->surface->mesh->out[c + t] ? c : c + t;
-    add(x, high, w);
-    add(x, low, -w);
+    const int64_t low = dry[0] || out[c - t] ? c : c - t, high = dry[1] || out[c + t] ? c : c + t;
+    add(x, high, out[c + t] == BEHIND_ODD ? -w : w);
+    add(x, low, out[c - t] == BEHIND_ODD ? w : -w);
 }
 
 static void add_cut(struct fv *s, int a, int64_t face, int64_t d)
@@ -65,14 +66,16 @@ static void add_cut(struct fv *s, int a, int64_t face, int64_t d)
                     .dry = here ? face - d : face,
                     .up = here ? -1.0 : 1.0};
     const double theta = f->phi[x.wet] / (f->phi[x.wet] - f->phi[x.dry]);
-    double at[3];
+    double at[3], e[3];
     for (int k = 0; k < 3; k++) {
-        const double way = w->x[k][x.dry] - w->x[k][x.wet];
-        at[k] = w->x[k][x.wet] + theta * way;
-        x.step += way * way;
+        e[k] = w->x[k][x.dry] - w->x[k][x.wet];
+        at[k] = w->x[k][x.wet] + theta * e[k];
+        x.step += e[k] * e[k];
     }
     x.step = x.size = sqrt(x.step);
-    x.theta = fmax(theta, fmax(f->theta_least, 0.01));
+    for (int k = 0; k < 3; k++)
+        e[k] /= x.step;
+    x.theta = fmax(theta, fmax(f->theta_least, 0.01)) + surface_rise(s, e) / x.step;
     x.height = -fv_still_pressure(s, at) / s->run->scene.fluid.rho;
     if (f->ncut[a] == f->room[a]) {
         const int64_t more = 2 * f->room[a] + 256;
@@ -124,7 +127,9 @@ static void look_at_face(struct fv *s, const struct part *p, int a, int64_t c)
     const struct mesh *m = s->m;
     const int64_t d = p->stride[a], cells[2] = {c - d, c};
     const bool here = is_wet(s, c), below = is_wet(s, c - d);
-    f->open[a][c] = here && below ? m->open[a][c] : 0.0;
+    const bool leaves = (here && f->mesh->out[c - d] == BEHIND_ODD) ||
+                        (below && f->mesh->out[c] == BEHIND_ODD); /* through an outflow */
+    f->open[a][c] = (here && below) || leaves ? m->open[a][c] : 0.0;
     if ((!here && !below) || m->open[a][c] == 0.0 || f->mesh->out[c] || f->mesh->out[c - d] ||
         (here && below && !has_dry_around(s, p, a, c)))
         return;
@@ -167,10 +172,12 @@ void surface_mesh_find_faces(struct fv *s)
     }
 }
 
-static double flux_of(const struct fv *s, int a, const struct wet_face *x, const double *psi)
+/* change: of a variation, which is 0 on the surface. */
+static double flux_of(const struct fv *s, int a, const struct wet_face *x, const double *psi,
+                      bool change)
 {
     const struct surface_mesh *w = s->surface->mesh;
-    double F = x->cut >= 0 ? x->given * s->surface->cut[a][x->cut].p : 0.0;
+    double F = x->cut >= 0 && !change ? x->given * s->surface->cut[a][x->cut].p : 0.0;
     for (int k = x->first; k < x->first + x->n; k++)
         F += w->weight[k] * psi[w->at[k]];
     return F;
@@ -181,7 +188,23 @@ void surface_mesh_fluxes(const struct fv *s, double tau, const double *psi)
     const struct surface_mesh *w = s->surface->mesh;
     for (int a = 0; a < s->dim; a++)
         for (int64_t k = 0; k < w->nface[a]; k++)
-            s->U[a][w->face[a][k].face] -= tau * flux_of(s, a, w->face[a] + k, psi);
+            s->U[a][w->face[a][k].face] -= tau * flux_of(s, a, w->face[a] + k, psi, false);
+}
+
+void surface_mesh_interpolate(const struct fv *s, const double *d, double *const G[3])
+{
+    const struct surface_mesh *w = s->surface->mesh;
+    for (int a = 0; a < s->dim; a++)
+        for (int64_t k = 0; k < w->nface[a]; k++) {
+            const struct wet_face *x = w->face[a] + k;
+            const int64_t c = x->face, below = c - surface_part(s, c)->stride[a];
+            const double each = is_wet(s, below) ? d[below] : d[c],
+                         other = is_wet(s, c) ? d[c] : d[below];
+            double mean = 0.0;
+            for (int q = 0; q < s->dim; q++)
+                mean += 0.5 * (G[q][c] + G[q][below]) * s->m->S[a][q][c];
+            s->U[a][c] += 0.5 * (each + other) * (mean - flux_of(s, a, x, s->p, false));
+        }
 }
 
 void surface_mesh_add_pressure(const struct fv *s, double tau, double *div)
@@ -235,7 +258,8 @@ static bool leaves_water(const struct fv *s, const struct part *p, int64_t c)
     return false;
 }
 
-void surface_mesh_psi_gradient(const struct fv *s, const double *psi, double *const out[3])
+void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi, bool change,
+                               double *const out[3])
 {
     static const int none[3] = {0, 0, 0};
     const struct surface_mesh *w = s->surface->mesh;
@@ -244,7 +268,9 @@ void surface_mesh_psi_gradient(const struct fv *s, const double *psi, double *co
         for (int q = 0; q < s->nparts; q++)
             face_fluxes(s, s->part + q, a, psi, F[a]);
         for (int64_t k = 0; k < w->nface[a]; k++)
-            F[a][w->face[a][k].face] = flux_of(s, a, w->face[a] + k, psi);
+            F[a][w->face[a][k].face] = flux_of(s, a, w->face[a] + k, psi, change);
+        if (s->moving && !change)
+            mesh_bc_slope_fluxes(s, tau, a, F[a]);
     }
     for (int q = 0; q < s->nparts; q++) {
         const struct part *p = s->part + q;

@@ -3,8 +3,10 @@
 #include "mesh_view.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "../../common/mem.h"
+#include "../grid/mesh_motion.h"
 #include "../grid/overset.h"
 
 static const int none[3] = {0, 0, 0};
@@ -98,50 +100,24 @@ static void set_metric(const struct fv *s, const struct part *p, struct surface_
         }
 }
 
-/* Share of a cell that no later block computes, from points within it. */
-static double own_share(const struct fv *s, const struct overset *o, const struct part *p,
-                        const int *i)
+/* How far the step from a cell to the next along an index goes across gravity, m; infinite along
+ * lines that are steeper than 45 degrees. */
+static double across_gravity(const struct fv *s, const struct surface_mesh *w, int64_t c, int64_t d)
 {
-    const struct mesh *m = s->m;
-    const int side = m->dim == 3 ? 4 : 8, deep = m->dim == 3 ? side : 1;
-    const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-    int own = 0;
-    for (int n = 0; n < side * side * deep; n++) {
-        const double xi[3] = {(n % side + 0.5) / side, (n / side % side + 0.5) / side,
-                              (n / side / side + 0.5) / deep};
-        double x[3], dx[3][3];
-        bool covered = false;
-        mesh_map_point(m->block + p->block, m->dim, at, xi, x, dx);
-        for (int k = p->block + 1; k < m->nblocks && !covered; k++) {
-            int cell[3];
-            double place[3];
-            covered = overset_locate(m, o, k, x, cell, place) &&
-                      m->block[k].status[mesh_cell(m->block + k, cell)] == CELL_COMPUTED;
-        }
-        own += !covered;
+    const double *g = s->run->scene.fluid.gravity,
+                 size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    double e2 = 0.0, up = 0.0;
+    for (int k = 0; k < s->dim; k++) {
+        const double e = 0.5 * (w->x[k][c + d] - w->x[k][c - d]);
+        e2 += e * e;
+        up += size > 0.0 ? e * g[k] / size : 0.0;
     }
-    return (double)own / (side * side * deep);
+    return up * up < 0.55 * e2 ? sqrt(e2 - up * up) : INFINITY;
 }
 
-static void set_counts(const struct fv *s, struct surface_mesh *w)
+static void set_sizes(const struct fv *s, const struct surface_mesh *w, struct surface *f)
 {
-    const struct mesh *m = s->m;
-    struct overset *o = m->has_fringe ? overset_search(s->run, m) : NULL;
-    for (int q = 0; q < s->nparts; q++) {
-        const struct part *p = s->part + q;
-        int i[3];
-        PART_CELLS (p, i, c) {
-            const double share = o && m->status[c] == CELL_COMPUTED ? own_share(s, o, p, i) : 1.0;
-            w->count[c] = m->status[c] == CELL_COMPUTED ? share * m->V[c] : 0.0;
-        }
-    }
-    overset_free(&o);
-}
-
-static void set_sizes(const struct fv *s, const struct surface_mesh *w, double *least,
-                      double *largest)
-{
-    double ends[2] = {-INFINITY, 0.0};
+    double ends[3] = {-INFINITY, 0.0, -INFINITY};
     for (int q = 0; q < s->nparts; q++)
         PART_ROWS (s->part + q, none, none, c, n)
             for (int64_t i = c; i < c + n; i++)
@@ -149,17 +125,108 @@ static void set_sizes(const struct fv *s, const struct surface_mesh *w, double *
                     const double h = w->size[q][a] / sqrt(w->K[a][a][i]);
                     ends[0] = fmax(ends[0], -h);
                     ends[1] = fmax(ends[1], h);
+                    ends[2] = fmax(ends[2], -across_gravity(s, w, i, s->part[q].stride[a]));
                 }
-    MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MAX, s->comm);
-    *least = -ends[0];
-    *largest = ends[1];
+    MPI_Allreduce(MPI_IN_PLACE, ends, 3, MPI_DOUBLE, MPI_MAX, s->comm);
+    f->least = -ends[0];
+    f->largest = ends[1];
+    f->across = -ends[2];
 }
 
-struct surface_mesh *surface_mesh_create(const struct fv *s, double *least, double *largest)
+/* Of a place that is no cell: behind how many outflows it lies. */
+static unsigned char behind(const struct mesh *m, int block, const int *cell)
+{
+    int at[3] = {cell[0], cell[1], cell[2]};
+    double move[3] = {0.0, 0.0, 0.0};
+    bool odd = false;
+    if (mesh_resolve(m, &block, at, move))
+        return BEHIND_EVEN; /* a hole */
+    const struct mesh_block *b = m->block + block;
+    for (int a = 0; a < m->dim; a++)
+        if (at[a] < 0 || at[a] >= b->n[a])
+            odd ^= b->side[2 * a + (at[a] > 0)] == MESH_OUTFLOW;
+    return odd ? BEHIND_ODD : BEHIND_EVEN;
+}
+
+static void set_part_out(const struct fv *s, const struct part *p, unsigned char *out)
+{
+    int i[3];
+    for (i[2] = -p->g[2]; i[2] < p->n[2] + p->g[2]; i[2]++)
+        for (i[1] = -p->g[1]; i[1] < p->n[1] + p->g[1]; i[1]++)
+            for (i[0] = -p->g[0]; i[0] < p->n[0] + p->g[0]; i[0]++) {
+                const int64_t c = part_at(p, i[0], i[1], i[2]);
+                const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+                if (s->m->status[c] == CELL_HOLE)
+                    out[c] = behind(s->m, p->block, at);
+            }
+}
+
+/* Heights of centres. */
+static void set_height(const struct fv *s, struct surface_mesh *w)
+{
+    const double *g = s->run->scene.fluid.gravity, size = s->surface ? s->surface->g : 0.0;
+    for (int64_t c = 0; c < s->size && size > 0.0; c++) {
+        w->height[c] = 0.0;
+        for (int k = 0; k < s->dim; k++)
+            w->height[c] -= g[k] / size * w->x[k][c];
+    }
+}
+
+static void set_out(const struct fv *s, struct surface_mesh *w)
+{
+    memset(w->out, 0, (size_t)s->size * sizeof *w->out);
+    for (int q = 0; q < s->nparts; q++)
+        set_part_out(s, s->part + q, w->out);
+}
+
+/* sign = -1: phi less the height of places; 1: back. */
+static void add_height(const struct fv *s, double sign, double *restrict phi)
+{
+    const double *restrict height = s->surface->mesh->height;
+    for (int64_t c = 0; c < s->size; c++)
+        phi[c] += sign * height[c];
+}
+
+void surface_mesh_fill(const struct fv *s, double *phi)
+{
+    const bool level = s->surface && s->m->has_fringe;
+    if (level)
+        add_height(s, -1.0, phi);
+    mesh_fill(s->m, 1, &phi);
+    if (level)
+        add_height(s, 1.0, phi);
+}
+
+void surface_mesh_change_height(const struct fv *s, double sign, double *phi)
+{
+    add_height(s, sign, phi);
+}
+
+void surface_mesh_update(struct fv *s)
+{
+    for (int q = 0; q < s->nparts; q++)
+        if (s->m->block[s->m->part[q].block].motion)
+            set_centres(s, s->part + q, s->surface->mesh);
+    set_height(s, s->surface->mesh);
+    set_out(s, s->surface->mesh);
+}
+
+void surface_mesh_place(struct fv *s, double t)
+{
+    mesh_motion_place(s->m, t);
+    if (s->m->has_fringe)
+        overset_find(s->m, s->m->search);
+    surface_mesh_update(s);
+}
+
+struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
 {
     struct surface_mesh *w = NEW(struct surface_mesh, 1);
     int most = 1;
+    if (s->m->moves) /* sizes are those of the start, to the last bit, after a restart, too */
+        mesh_motion_place(s->m, 0.0);
     w->count = mesh_field(s->m);
+    w->height = mesh_field(s->m);
     for (int k = 0; k < s->m->nblocks; k++)
         w->slanting = w->slanting || is_slanting(s, s->m->block + k);
     w->out = NEW(unsigned char, s->size);
@@ -173,7 +240,8 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, double *least, doub
         const struct part *p = s->part + q;
         for (int a = 0; a < s->dim; a++)
             w->size[q][a] = mean_spacing(s->m->block + p->block, s->dim, a);
-        w->slants[q] = s->m->has_fringe || is_slanting(s, s->m->block + p->block);
+        w->leans[q] = is_slanting(s, s->m->block + p->block);
+        w->slants[q] = s->m->has_fringe || w->leans[q];
         set_centres(s, p, w);
         set_metric(s, p, w);
         most = p->n[0] > most ? p->n[0] : most;
@@ -181,10 +249,10 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, double *least, doub
     for (int a = 0; a < s->dim; a++)
         for (int up = 0; up < 2; up++)
             w->slopes[a][up] = NEW(double, most);
-    for (int64_t c = 0; c < s->size; c++)
-        w->out[c] = s->m->status[c] == CELL_HOLE;
-    set_counts(s, w);
-    set_sizes(s, w, least, largest);
+    set_out(s, w);
+    set_sizes(s, w, f);
+    if (s->m->moves)
+        mesh_motion_place(s->m, s->t);
     return w;
 }
 
@@ -203,6 +271,9 @@ void surface_mesh_free(struct surface_mesh **wp)
             mem_free(w->slopes[a][up]);
     }
     mem_free(w->count);
+    mem_free(w->height);
+    mem_free(w->shared);
+    mem_free(w->piece);
     mem_free(w->out);
     mem_free(w->at);
     mem_free(w->weight);
@@ -227,12 +298,15 @@ double surface_mesh_speeds(const struct fv *s, double band)
     for (int q = 0; q < s->nparts; q++) {
         const struct part *p = s->part + q;
         const double near = band * surface_mesh_spacing(s, p);
+        const bool moves = m->block[p->block].motion != NULL;
         PART_ROWS (p, none, none, c, n)
             for (int64_t i = c; i < c + n; i++) {
                 double g[3][3], sum = 0.0;
                 index_gradients(m, p, i, g);
                 for (int a = 0; a < m->dim; a++) {
                     double rate = 0.0;
+                    if (moves)
+                        rate = -0.5 * (m->grid[a][i] + m->grid[a][i + p->stride[a]]) / m->V[i];
                     for (int k = 0; k < m->dim; k++)
                         rate += s->u[k][i] * g[a][k];
                     w->speed[a][i] = rate * w->size[q][a];
@@ -249,12 +323,22 @@ double surface_mesh_speeds(const struct fv *s, double band)
 void surface_mesh_gradient(const struct fv *s, const struct part *p, int64_t c, const double *phi,
                            double g[3])
 {
-    double xi[3][3];
-    index_gradients(s->m, p, c, xi);
-    g[0] = g[1] = g[2] = 0.0;
-    for (int a = 0; a < s->dim; a++)
+    const struct surface_mesh *w = s->surface->mesh;
+    double d[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, rise[3] = {0.0, 0.0, 0.0};
+    for (int a = 0; a < s->dim; a++) {
+        rise[a] = phi[c + p->stride[a]] - phi[c - p->stride[a]];
         for (int k = 0; k < s->dim; k++)
-            g[k] += 0.5 * (phi[c + p->stride[a]] - phi[c - p->stride[a]]) * xi[a][k];
+            d[a][k] = w->x[k][c + p->stride[a]] - w->x[k][c - p->stride[a]];
+    }
+    const double J = mesh_determinant(d);
+    for (int k = 0; k < 3; k++) { /* column k of the inverse: cofactors over J */
+        const int q = (k + 1) % 3, r = (k + 2) % 3;
+        g[k] = 0.0;
+        for (int a = 0; a < 3; a++) {
+            const int u = (a + 1) % 3, v = (a + 2) % 3;
+            g[k] += rise[a] * (d[u][q] * d[v][r] - d[u][r] * d[v][q]) / J;
+        }
+    }
 }
 
 void surface_mesh_metric(const struct fv *s, int64_t c, double K[3][3])

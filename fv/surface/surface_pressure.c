@@ -4,7 +4,8 @@
  * with viscosity more (surface_first_half): p_I is explicit, and 1/theta amplifies it.
  * Without gravity's part, so p_I has -(pressure at rest). In implicit steps the surface yields to
  * the velocity within the step: Newmark's scheme, for which its height counts at eta + beta dt^2
- * dw/dt, dw/dt = -dp/dy: the same value of p, beta g dt^2 further off.
+ * dw/dt, dw/dt = -dp/dy: the same value of p, beta g dt^2 further off; along a line that leans by
+ * an angle of up to 45 degrees, where dp/dy is the slope over its cosine, over that.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
@@ -16,6 +17,15 @@
 #include "../boundary/still.h"
 #include "mesh_view.h"
 
+double surface_rise(const struct fv *s, const double *e)
+{
+    const double g = s->surface->g;
+    double up = 0.0;
+    for (int a = 0; a < s->dim && g > 0.0; a++)
+        up -= e[a] * s->run->scene.fluid.gravity[a] / g;
+    return s->surface->rise * g * fmax(0.0, up) / fmax(up * up, 0.5);
+}
+
 static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
 {
     struct surface *f = s->surface;
@@ -26,13 +36,13 @@ static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
                     .dry = wet_here ? face - d : face,
                     .up = wet_here ? -1.0 : 1.0};
     const double theta = f->phi[x.wet] / (f->phi[x.wet] - f->phi[x.dry]);
-    double at_surface[3];
+    double at_surface[3], e[3] = {0.0, 0.0, 0.0};
+    e[a] = x.up;
     block_centre(b, at[0], at[1], at[2], at_surface);
     x.step = block_step(b, a, at[1]);
     x.size = block_size(b, a, wet_here ? at[1] : at[1] - (a == 1));
     at_surface[a] += ((wet_here ? 0.0 : -1.0) + x.up * theta) * x.step;
-    x.theta = fmax(theta, fmax(f->theta_least, 0.01)) +
-              f->rise * fmax(0.0, -x.up * s->run->scene.fluid.gravity[a]) / x.step;
+    x.theta = fmax(theta, fmax(f->theta_least, 0.01)) + surface_rise(s, e) / x.step;
     x.height = -fv_still_pressure(s, at_surface) / s->run->scene.fluid.rho;
     if (f->ncut[a] == f->room[a]) {
         const int64_t more = 2 * f->room[a] + 256;

@@ -1,6 +1,8 @@
 /* block_stages.c - stages on structured blocks of any shape that are joined or overlap.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
+#include "../boundary/outflow.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
 #include "../poisson/wet_pressure.h"
@@ -30,6 +32,8 @@ static void pressure_gradient(struct fv *s)
         moving_begin(s);
     mesh_bc_pressure(s, s->p);
     mesh_gradient(s, s->p, s->step_p);
+    if (s->forcing)
+        given_gradient(s, CONTINUE_CUBIC, s->p, s->step_p);
     if (s->moving)
         moving_gradient(s);
 }
@@ -48,14 +52,12 @@ static void convect(struct fv *s, double *const N[3])
         moving_convection(s, N);
 }
 
-static void begin_sides(struct fv *s) { (void)s; }
-
 static void set_sides(struct fv *s, double t, double dt)
 {
-    (void)dt;
     if (s->moving)
         moving_stage(s, t);
     mesh_bc_time(s, t);
+    outflow_set(s, dt);
 }
 
 static void ghosts(struct fv *s, enum bc_value what, double *const u[3])
@@ -76,6 +78,8 @@ static void finish_rhs(struct fv *s)
     for (int a = 0; a < s->dim; a++) {
         if (s->surface) /* its slope goes on beyond the surface */
             extension_scalar(s, s->rhs[a]);
+        if (s->forcing)
+            forcing_extend(s, 1, s->rhs[a]);
         mesh_bc_even(s, false, s->rhs[a]);
         mesh_to_index(s, s->rhs[a], s->flux);
     }
@@ -83,23 +87,41 @@ static void finish_rhs(struct fv *s)
 
 static void viscous(struct fv *s, int q, double *out) { mesh_viscous(s, s->u[q], out); }
 
+/* What given cells change by until t. */
+static void given_change(struct fv *s, double t)
+{
+    const struct forcing *f = s->forcing;
+    forcing_velocity(s, t, s->delta);
+    for (int a = 0; a < s->dim; a++) {
+        for (int64_t i = 0; i < f->nset; i++)
+            s->delta[a][f->set[i]] -= s->u[a][f->set[i]];
+        for (int64_t i = 0; i < f->npartner; i++)
+            s->delta[a][f->partner[i]] -= s->u[a][f->partner[i]];
+    }
+}
+
 /* The increment of the stage before, scaled, is the start. */
 static bool solve_viscous(struct fv *s, double c, double t, double scale)
 {
     const double share = viscous_keeps_increment(s) ? scale : 0.0;
-    (void)t;
     if (s->moving)
         moving_change(s);
     for (int a = 0; a < s->dim; a++)
         FLOW_ROWS(s, at, n)
     for (int64_t i = at; i < at + n; i++)
         s->delta[a][i] *= share;
-    return mesh_viscous_solve(s, c, s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous : 1e-4);
+    if (s->forcing)
+        given_change(s, t);
+    return mesh_viscous_solve(s, c,
+                              s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous
+                              : s->forcing             ? 1e-5
+                                                       : 1e-4);
 }
 
 static void predict_fluxes(struct fv *s, double t)
 {
-    (void)t;
+    if (s->forcing)
+        forcing_velocity(s, t, s->u);
     if (s->surface)
         extension_apply(s, s->u, EXTEND_FREE, STENCILS);
     if (s->moving)
@@ -109,6 +131,8 @@ static void predict_fluxes(struct fv *s, double t)
     mesh_bc_velocity(s, BC_AHEAD, s->u);
     mesh_face_velocities(s, s->u, s->U);
     mesh_bc_fluxes(s, s->U);
+    if (s->forcing)
+        forcing_fluxes(s, t, s->U);
 }
 
 static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
@@ -117,7 +141,10 @@ static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
     mesh_divergence(s, s->U, s->flux);
     const bool good = s->surface ? wet_pressure_solve(s, tau, s->flux, tol, psi)
                                  : poisson_solve(s, tau, s->flux, tol, s->start[stage], psi);
-    mesh_halo(s->m, 1, &psi);
+    if (s->forcing)
+        given_mirror(s, psi);
+    else
+        mesh_halo(s->m, 1, &psi);
     mesh_bc_even(s, true, psi);
     return good;
 }
@@ -125,9 +152,13 @@ static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
 static void correct_fluxes(struct fv *s, double tau, double *psi)
 {
     mesh_subtract_psi(s, tau, psi, s->U);
+    if (s->surface && s->moving)
+        mesh_bc_slope_ghosts(s, tau, psi);
     mesh_gradient(s, psi, s->rhs);
+    if (s->forcing)
+        given_gradient(s, CONTINUE_EVEN, psi, s->rhs);
     if (s->surface)
-        surface_mesh_psi_gradient(s, psi, s->rhs);
+        surface_mesh_psi_gradient(s, tau, psi, false, s->rhs);
 }
 
 static void fill_velocity(struct fv *s) { ghosts(s, BC_GIVEN, s->u); }
@@ -151,8 +182,6 @@ static void dry_fluxes(struct fv *s)
     mesh_bc_fluxes(s, s->U);
 }
 
-/* Largest sum over the indices of the rates of crossing cells, 1/s, and largest speed; what forces
- * add to the rate in a second. */
 /* m/s^2: of differences of pressure between sides. */
 static double push_of(const struct fv *s)
 {
@@ -163,6 +192,41 @@ static double push_of(const struct fv *s)
     return limits_pressure_difference(&s->run->scene) / L;
 }
 
+/* Into most: largest sum over the indices of the rates of crossing cells, 1/s; square of the
+ * largest speed; what forces add to the rate in a second; largest speed times a cell's size. Of a
+ * part whose cells are all alike and at rest. false: some value is not finite. */
+static bool measure_alike(const struct fv *s, const struct part *p, double push, double most[4])
+{
+    const struct mesh *m = s->m;
+    const int64_t first = part_at(p, 0, 0, 0);
+    const double V = m->V[first];
+    double w[3] = {0.0, 0.0, 0.0}, rise = 0.0, least = INFINITY, rate = 0.0, u2 = 0.0;
+    int64_t bad = 0;
+    for (int a = 0; a < m->dim; a++) {
+        const double S = fabs(m->S[a][a][first]);
+        w[a] = S / V;
+        rise += w[a] * (fabs(s->drive[a] + (s->surface ? s->still[a] : 0.0)) + fmax(push, 0.0));
+        least = fmin(least, S);
+    }
+    const double third = m->dim == 3 ? 1.0 : 0.0;
+    const double *restrict u = s->u[0], *restrict v = s->u[1],
+                           *restrict z = s->u[m->dim == 3 ? 2 : 1], *restrict f = s->free;
+    PART_ROWS (p, none, none, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            const double sum = f[i] * (fabs(u[i]) * w[0] + fabs(v[i]) * w[1] + fabs(z[i]) * w[2]),
+                         square = f[i] * (u[i] * u[i] + v[i] * v[i] + third * z[i] * z[i]);
+            rate = sum > rate ? sum : rate;
+            u2 = square > u2 ? square : u2;
+            bad |= square < 1e300 ? 0 : 1;
+        }
+    most[0] = fmax(most[0], rate);
+    most[1] = fmax(most[1], u2);
+    most[2] = fmax(most[2], rise);
+    most[3] = fmax(most[3], sqrt(u2) * V / least);
+    return bad == 0;
+}
+
+/* The same of all parts. */
 static void measure_blocks(struct fv *s)
 {
     const double push = push_of(s);
@@ -171,6 +235,10 @@ static void measure_blocks(struct fv *s)
     for (int q = 0; q < m->nparts; q++) {
         const struct part *p = m->part + q;
         const bool moves = m->block[p->block].motion != NULL;
+        if (p->kind == PART_EVEN && !moves) {
+            poison = measure_alike(s, p, push, most) ? poison : NAN;
+            continue;
+        }
         PART_ROWS (p, none, none, c, n)
             for (int64_t i = c; i < c + n; i++) {
                 double u2 = 0.0, rate = 0.0, rise = 0.0, least = INFINITY;
@@ -256,7 +324,7 @@ static void place(const struct fv *s, int64_t c, char *text, size_t size)
 const struct stages block_stages = {.tolerance = 1.0,
                                     .pressure_gradient = pressure_gradient,
                                     .set_slip = set_slip,
-                                    .begin_sides = begin_sides,
+                                    .begin_sides = outflow_begin,
                                     .set_sides = set_sides,
                                     .convection = convect,
                                     .viscous = viscous,

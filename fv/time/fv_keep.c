@@ -3,7 +3,8 @@
 #include <string.h>
 
 #include "../../common/mem.h"
-#include "../boundary/bc.h"
+#include "../boundary/carried.h"
+#include "../boundary/outflow.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
 #include "../fv.h"
@@ -14,11 +15,9 @@
 /* All fields that a step starts from, ghosts and all: bit for bit on the same ranks. */
 int fv_restart_fields(const struct fv *s, double **f, const char **names)
 {
-    static const char *const vector[][3] = {{"u0", "u1", "u2"},
-                                            {"U0", "U1", "U2"},
-                                            {"N0", "N1", "N2"},
-                                            {"old0", "old1", "old2"},
-                                            {"step0", "step1", "step2"}};
+    static const char *const vector[][3] = {{"u0", "u1", "u2"},          {"U0", "U1", "U2"},
+                                            {"N0", "N1", "N2"},          {"old0", "old1", "old2"},
+                                            {"step0", "step1", "step2"}, {"out0", "out1", "out2"}};
     static const char *const starts[][3] = {{"psi0", "psi1", "psi2"}, {"z0", "z1", "z2"}};
     int n = 0;
     f[n] = s->p;
@@ -38,9 +37,13 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
         }
     }
     for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->u[a], s->U[a], s->N[a], s->u_old[a],
-                               viscous_keeps_increment(s) ? s->delta[a] : NULL};
-        for (int k = 0; k < 5; k++)
+        double *const all[] = {s->u[a],
+                               s->U[a],
+                               s->N[a],
+                               s->u_old[a],
+                               viscous_keeps_increment(s) ? s->delta[a] : NULL,
+                               s->outflows ? s->outflows->kept[a] : NULL};
+        for (int k = 0; k < 6; k++)
             if (all[k]) {
                 f[n] = all[k];
                 names[n++] = vector[k][a];
@@ -61,8 +64,7 @@ struct kept {
     enum limit limit;
     int64_t iterations, viscous_iterations;
     double volume0, returned, passed, entered, travelled; /* of a free surface */
-    double *w[6][3], outflux; /* velocities of outflows that are carried */
-    double dtau, norm;        /* of newton */
+    double dtau, norm;                                    /* of newton */
     int64_t newtons, krylovs, cycles, halvings;
 };
 
@@ -74,9 +76,6 @@ struct kept *kept_create(const struct fv *s)
     const int n = fv_restart_fields(s, fields, names);
     for (int i = 0; i < n; i++)
         k->fields[i] = NEW(double, s->size);
-    for (int side = 0; s->bc && side < 2 * s->dim; side++)
-        for (int a = 0; a < s->dim && s->bc->kind[side] == BC_CARRIED; a++)
-            k->w[side][a] = NEW(double, s->bc->n[side]);
     return k;
 }
 
@@ -87,9 +86,6 @@ void kept_free(struct kept **kp)
         return;
     for (int i = 0; i < FV_RESTART_FIELDS; i++)
         mem_free(k->fields[i]);
-    for (int side = 0; side < 6; side++)
-        for (int a = 0; a < 3; a++)
-            mem_free(k->w[side][a]);
     mem_free(k);
     *kp = NULL;
 }
@@ -109,11 +105,6 @@ static void carry(struct fv *s, struct kept *k, bool back)
 #define CARRY(kept, now) copy(&(kept), &(now), sizeof(now), back)
     for (int i = 0; i < n; i++)
         copy(k->fields[i], fields[i], (size_t)s->size * sizeof(double), back);
-    for (int side = 0; s->bc && side < 2 * s->dim; side++)
-        for (int a = 0; a < s->dim && k->w[side][a]; a++)
-            copy(k->w[side][a], s->bc->w[side][a], (size_t)s->bc->n[side] * sizeof(double), back);
-    if (s->bc)
-        CARRY(k->outflux, s->bc->outflux);
     CARRY(k->t, s->t);
     CARRY(k->dt, s->dt);
     CARRY(k->dt_old, s->dt_old);
@@ -145,4 +136,8 @@ static void carry(struct fv *s, struct kept *k, bool back)
 }
 
 void kept_take(struct kept *k, struct fv *s) { carry(s, k, false); }
-void kept_put_back(struct kept *k, struct fv *s) { carry(s, k, true); }
+void kept_put_back(struct kept *k, struct fv *s)
+{
+    carry(s, k, true);
+    outflow_restore(s);
+}

@@ -107,8 +107,7 @@ void pressure_start(struct fv *s)
             memcpy(s->U[a], keep[1][a], bytes);
         }
     }
-    if (!s->m)
-        outflow_start(s);
+    outflow_start(s);
     for (int a = 0; a < 3; a++) {
         if (s->psi[a])
             memset(s->psi[a], 0, bytes);
@@ -121,11 +120,31 @@ void pressure_start(struct fv *s)
     s->iterations = s->viscous_iterations = 0;
 }
 
+/* Steps to the end of a window, of which sph makes some tens. */
+#define MOST_OF_A_WINDOW 1e5
+
+/* Whether steps have shrunk so far that the window would never end. */
+static bool crawls(const struct fv *s, double n, const struct step_limit *most, struct diagnosis *d)
+{
+    if (!s->run->coupled || n < MOST_OF_A_WINDOW)
+        return false;
+    d->bad = true;
+    snprintf(d->reason, sizeof d->reason, "the step has shrunk to %.3g s, %.3g of them to a window",
+             most->dt, n);
+    snprintf(d->where, sizeof d->where, "limited by %s; largest velocity %.3g m/s",
+             limit_name(most->by), fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
+    snprintf(d->likely, sizeof d->likely,
+             "velocities given on sides or by the partner that the flow does not have");
+    return true;
+}
+
 double integrate(struct fv *s, double t_stop, struct diagnosis *d)
 {
     const struct step_limit most = limits_of(s);
     const double left = t_stop - s->t, before = s->rate;
     const double n = fmax(ceil(left / most.dt - 1e-9), 1.0);
+    if (crawls(s, n, &most, d))
+        return 0.0;
     double dt = left / n;
     bool good = true;
     s->failed = false;

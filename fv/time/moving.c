@@ -9,6 +9,9 @@
  *   u*    lacks tau grad psi, in which psi is that of the cells: u* = I_k u* + tau (e_k/c_k) (I_k
  *         grad p - grad p). The viscous increment is this with u_k-1 in place of u*, less u_k-1,
  *         beyond the interpolated increment.
+ * With a free surface psi is the whole pressure of the middle of the step, where the surface stands
+ * then: psi = I psi of that time, u* = I_k u*.
+ * newton has the whole pressure where the step ends: p = I p, and what cells are is cut there.
  * The hierarchy of a matrix before preconditions until iterations have grown by a half.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "moving.h"
@@ -24,6 +27,9 @@
 #include "../grid/overset.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
+#include "../poisson/wet_pressure.h"
+#include "../surface/levelset.h"
+#include "../surface/mesh_view.h"
 #include "rk3.h"
 
 static const int none[3] = {0, 0, 0};
@@ -146,15 +152,16 @@ static void cut(struct fv *s, double t)
     s->moving->t_cut = t;
 }
 
-/* Computed cells that were not even interpolated. */
+/* Computed cells that were not even interpolated; with newton, which wants the velocity of two
+ * steps before of what may be computed next, interpolated ones, too. */
 static bool find_born(struct fv *s)
 {
     struct moving *v = s->moving;
+    const int last = s->prm.integrator == INTEGRATOR_NEWTON ? CELL_FRINGE : CELL_COMPUTED;
     bool any = false;
     for (int k = 0; k < s->m->nblocks; k++)
         for (int64_t c = 0; c < count_of(s->m->block + k); c++) {
-            v->born[k][c] =
-                s->m->block[k].status[c] == CELL_COMPUTED && v->status[k][c] == CELL_HOLE;
+            v->born[k][c] = s->m->block[k].status[c] <= last && v->status[k][c] == CELL_HOLE;
             any = any || v->born[k][c];
         }
     return any;
@@ -165,6 +172,8 @@ static int carried(const struct fv *s, double **f)
     int n = 0;
     f[n++] = s->p;
     f[n++] = s->p_before;
+    if (s->surface)
+        f[n++] = s->surface->phi;
     for (int a = 0; a < 3; a++) {
         double *const all[] = {s->u[a], s->u_old[a], s->psi[a], s->start[a]};
         for (int k = 0; k < 4; k++)
@@ -177,11 +186,32 @@ static int carried(const struct fv *s, double **f)
 /* From the blocks where they stood, and the cells that were. */
 static void fill_born(struct fv *s)
 {
-    double *f[14];
+    double *f[15];
     const int n = carried(s, f);
     swap_status(s->m, s->moving);
+    if (s->surface)
+        surface_mesh_change_height(s, -1.0, s->surface->phi);
     overset_interpolate(s->m, s->m->search, s->moving->born, n, f);
+    if (s->surface)
+        surface_mesh_change_height(s, 1.0, s->surface->phi);
     swap_status(s->m, s->moving);
+}
+
+/* Velocities of a step before, where blocks stood then. */
+static void fill_born_before(struct fv *s)
+{
+    swap_status(s->m, s->moving);
+    mesh_motion_place(s->m, s->t - s->dt);
+    overset_interpolate(s->m, s->m->search, s->moving->born, s->dim, s->u_old);
+    mesh_motion_place(s->m, s->t);
+    swap_status(s->m, s->moving);
+}
+
+static void fill_born_all(struct fv *s)
+{
+    fill_born(s);
+    if (s->newton && s->dt > 0.0)
+        fill_born_before(s);
 }
 
 /* Fluxes between cells that the last projection did not have: those of the interpolated velocity.
@@ -224,33 +254,114 @@ static void renew_matrix(struct fv *s)
     timer_stop(&s->run->timers, "pressure");
 }
 
-void moving_begin(struct fv *s)
+/* What cells are in the step, then blocks where they stand at its start, donors and all. */
+static void cut_step(struct fv *s)
 {
     struct moving *v = s->moving;
     struct mesh *m = s->m;
     v->iterations = s->iterations;
     v->stage = 0;
-    if (m->has_fringe) {
-        timer_start(&s->run->timers, "overlap");
-        for (int k = 0; k < m->nblocks; k++)
-            memcpy(v->status[k], m->block[k].status, (size_t)count_of(m->block + k));
-        memcpy(v->local, m->status, (size_t)m->size_local);
-        cut(s, s->t + 0.5 * s->dt_now);
-        timer_stop(&s->run->timers, "overlap");
+    if (!m->has_fringe)
+        return;
+    timer_start(&s->run->timers, "overlap");
+    for (int k = 0; k < m->nblocks; k++)
+        memcpy(v->status[k], m->block[k].status, (size_t)count_of(m->block + k));
+    memcpy(v->local, m->status, (size_t)m->size_local);
+    cut(s, s->t + 0.5 * s->dt_now);
+    timer_stop(&s->run->timers, "overlap");
+    if (!s->surface)
         renew_matrix(s);
-        timer_start(&s->run->timers, "overlap");
-        mesh_motion_place(m, s->t);
-        if (!is_as_before(m, v)) {
-            if (find_born(s))
-                fill_born(s);
-            overset_find(m, m->search);
-        }
-        timer_stop(&s->run->timers, "overlap");
-        mesh_fill(m, 1, &s->p);
-        mesh_fill(m, m->dim, s->u);
-        mesh_bc_velocity(s, BC_GIVEN, s->u);
-        fill_fluxes(s);
+    timer_start(&s->run->timers, "overlap");
+    mesh_motion_place(m, s->t);
+    if (!is_as_before(m, v)) {
+        if (find_born(s))
+            fill_born_all(s);
+        overset_find(m, m->search);
     }
+    timer_stop(&s->run->timers, "overlap");
+}
+
+static void fill_step(struct fv *s)
+{
+    mesh_fill(s->m, 1, &s->p);
+    mesh_fill(s->m, s->dim, s->u);
+    mesh_bc_velocity(s, BC_GIVEN, s->u);
+    fill_fluxes(s);
+}
+
+void moving_begin(struct fv *s)
+{
+    cut_step(s);
+    if (s->m->has_fringe)
+        fill_step(s);
+}
+
+void moving_begin_surface(struct fv *s, double dt)
+{
+    s->dt_now = dt;
+    cut_step(s);
+    surface_mesh_update(s);
+    if (s->m->has_fringe) {
+        fill_step(s);
+        wet_pressure_donors(s);
+    }
+    surface_ghosts(s, s->surface->phi);
+}
+
+void moving_end_rows(struct fv *s)
+{
+    if (!s->m->has_fringe)
+        return;
+    overset_find_rows(s->m, s->m->search);
+    wet_pressure_donors(s);
+}
+
+void moving_to_start(struct fv *s)
+{
+    mesh_motion_place(s->m, s->t);
+    if (!s->m->has_fringe)
+        return;
+    overset_find(s->m, s->m->search);
+    mesh_fill(s->m, s->dim, s->u);
+    mesh_bc_velocity(s, BC_GIVEN, s->u);
+}
+
+void moving_begin_implicit(struct fv *s, double dt)
+{
+    struct moving *v = s->moving;
+    struct mesh *m = s->m;
+    s->dt_now = dt;
+    if (!m->has_fringe)
+        return;
+    timer_start(&s->run->timers, "overlap");
+    mesh_fill(m, 1, &s->p);
+    mesh_fill(m, m->dim, s->u);
+    mesh_fill(m, m->dim, s->u_old);
+    for (int k = 0; k < m->nblocks; k++)
+        memcpy(v->status[k], m->block[k].status, (size_t)count_of(m->block + k));
+    cut(s, s->t + dt);
+    v->fresh = 0.0;
+    timer_stop(&s->run->timers, "overlap");
+    renew_matrix(s);
+    timer_start(&s->run->timers, "overlap");
+    mesh_motion_place(m, s->t);
+    if (!is_as_before(m, v) && find_born(s))
+        fill_born_all(s);
+    timer_stop(&s->run->timers, "overlap");
+}
+
+void moving_back(struct fv *s)
+{
+    struct moving *v = s->moving;
+    struct mesh *m = s->m;
+    mesh_motion_place(m, s->t);
+    mesh_bc_time(s, s->t);
+    if (!m->has_fringe)
+        return;
+    for (int k = 0; k < m->nblocks; k++)
+        memcpy(m->block[k].status, v->status[k], (size_t)count_of(m->block + k));
+    set_free(s);
+    overset_find(m, m->search);
 }
 
 /* --- stages --- */
@@ -270,7 +381,7 @@ static void turn_back_and_on(struct mesh_motion *v, double from, double to, doub
 static double pressure_at(const struct fv *s)
 {
     const int k = s->moving->stage;
-    if (s->prm.integrator == INTEGRATOR_BDF2)
+    if (s->prm.integrator != INTEGRATOR_RK3)
         return 1.0;
     const double c1 = k > 0 ? rk3_at[k - 1] : 0.0, c0 = k > 1 ? rk3_at[k - 2] : 0.0;
     return (rk3_gamma[k] * c1 + rk3_zeta[k] * c0) / (rk3_gamma[k] + rk3_zeta[k]);
@@ -309,6 +420,8 @@ static void turn_gradient(struct fv *s, double t, double *const g[3])
 void moving_turn_pressure(struct fv *s, double tau)
 {
     s->moving->tau = tau;
+    if (s->surface)
+        return;
     turn_gradient(s, s->t + pressure_at(s) * s->dt_now, s->step_p);
 }
 
@@ -331,8 +444,9 @@ void moving_stage(struct fv *s, double t)
     v->stage++;
     timer_start(&s->run->timers, "overlap");
     mesh_motion_place(m, t);
-    if (m->has_fringe) {
+    if (m->has_fringe)
         overset_find(m, m->search);
+    if (m->has_fringe && !s->surface && s->prm.integrator != INTEGRATOR_NEWTON) {
         turn_gradient(s, t, v->now);
         memcpy(v->now[m->dim], s->p, (size_t)s->size * sizeof(double));
         mesh_exchange(m, &m->fringe, m->dim + 1, v->now);
@@ -349,6 +463,8 @@ void moving_fill(struct fv *s, double *const u[3])
 {
     const struct mesh *m = s->m;
     mesh_fill(s->m, m->dim, u);
+    if (s->surface)
+        return;
     for (int a = 0; a < m->dim; a++)
         for (int64_t c = 0; c < s->size; c++)
             u[a][c] += m->status[c] == CELL_FRINGE ? s->moving->tau * s->moving->push[a][c] : 0.0;
@@ -371,6 +487,8 @@ void moving_end(struct fv *s)
 {
     struct moving *v = s->moving;
     const double its = (double)(s->iterations - v->iterations);
+    if (s->surface)
+        return;
     if (v->fresh == 0.0)
         v->fresh = fmax(its, 1.0);
     else if (its > 1.5 * v->fresh + 2.0)
@@ -408,6 +526,7 @@ void moving_save(const struct fv *s, struct h5 *f)
     h5_attribute_real(f, "t_cut", v->t_cut);
     h5_attribute_real(f, "t_rows", v->t_rows);
     h5_attribute_real(f, "fresh", v->fresh);
+    h5_attribute_real(f, "level", s->level); /* found where blocks stood at the start */
 }
 
 /* The hierarchy is made of the matrix that it had, then cells and donors are those of the last
@@ -420,9 +539,10 @@ bool moving_restore(struct fv *s, struct h5 *f)
         return true;
     if (!h5_read_attribute_real(f, "t_cut", &t_cut) ||
         !h5_read_attribute_real(f, "t_rows", &t_rows) ||
-        !h5_read_attribute_real(f, "fresh", &fresh))
+        !h5_read_attribute_real(f, "fresh", &fresh) ||
+        !h5_read_attribute_real(f, "level", &s->level))
         return false;
-    if (s->m->has_fringe && fresh > 0.0) {
+    if (s->m->has_fringe && fresh > 0.0 && !s->surface) {
         double *zw = mesh_field(s->m);
         if (s->zw)
             memcpy(zw, s->zw, (size_t)s->size * sizeof(double));
@@ -439,5 +559,11 @@ bool moving_restore(struct fv *s, struct h5 *f)
     mesh_motion_place(s->m, s->t);
     if (s->m->has_fringe)
         overset_find(s->m, s->m->search);
+    if (s->surface) {
+        surface_mesh_update(s);
+        surface_mesh_count(s);
+        if (s->m->has_fringe)
+            wet_pressure_donors(s);
+    }
     return true;
 }

@@ -15,6 +15,17 @@ struct moving *moving_create(struct fv *s);
 void moving_free(struct moving **v);
 /* What the cells are in the step of s->dt_now that begins; values of new ones. */
 void moving_begin(struct fv *s);
+/* The same with a free surface, ahead of its first half step of dt. */
+void moving_begin_surface(struct fv *s, double dt);
+/* With bdf2 and newton, whose surface goes ahead to where the step ends and blocks with it: the
+ * matrix interpolates psi there; and back to the start's places for bdf2's convection. */
+void moving_end_rows(struct fv *s);
+void moving_to_start(struct fv *s);
+/* newton: what the cells are where a step of dt ends, values of new ones; u, p and u_old are those
+ * of its start. */
+void moving_begin_implicit(struct fv *s, double dt);
+/* Back to what cells were at the start of the step, where they stood then. */
+void moving_back(struct fv *s);
 /* step_p in the fringe, before the blocks move. */
 void moving_gradient(struct fv *s);
 /* u*, ahead of its projection, in the fringe. */

@@ -13,6 +13,7 @@
 #include "../../common/log.h"
 #include "../../common/mem.h"
 #include "../boundary/forcing.h"
+#include "moving.h"
 #include "stages.h"
 
 enum {
@@ -240,6 +241,15 @@ void newton_describe(struct fv *s, const char *after, struct diagnosis *d)
                  s->prm.cfl);
 }
 
+/* A step that is tried again: both levels go back to the fields that they came from. */
+static void give_levels(struct fv *s)
+{
+    struct newton *w = s->newton;
+    newton_unpack(s, w->q1, s->p, s->u);
+    newton_unpack(s, w->q2, s->p_before, s->u_old);
+    moving_back(s);
+}
+
 /* Both levels before, from the fields that become those of the next step. */
 static void take_levels(struct fv *s)
 {
@@ -275,11 +285,18 @@ bool newton_step(struct fv *s, double *dt, struct diagnosis *d)
 {
     struct newton *w = s->newton;
     start(s, "newton");
+    if (s->moving)
+        moving_begin_implicit(s, *dt);
     take_levels(s);
     bool good = solve_step(s, *dt);
     for (int k = 0; k < HALVINGS && !good; k++) {
         *dt *= 0.5;
         w->halvings++;
+        if (s->moving) {
+            give_levels(s);
+            moving_begin_implicit(s, *dt);
+            take_levels(s);
+        }
         good = solve_step(s, *dt);
     }
     stop(s, "newton");

@@ -1,21 +1,32 @@
 /* newton_blocks.c - the equations of newton.h on blocks: the operators of mesh_ops.h, averages over
  * indices. Where no side gives the pressure, the mean of the divergence is taken out of the
- * continuity: interpolated fluxes do not sum to zero. SPDX-License-Identifier: BSD-3-Clause */
+ * continuity: interpolated fluxes do not sum to zero. A free surface stands still within a step, as
+ * on even cells (newton_even.c). SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
 
+#include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
+#include "../poisson/wet_pressure.h"
+#include "../surface/levelset.h"
+#include "../surface/mesh_view.h"
 #include "newton.h"
 #include "stages.h"
+
+/* Flux through a face relative to it. */
+static double relative_flux(const struct fv *s, int a, int64_t face)
+{
+    return s->U[a][face] - (s->moving ? s->m->grid[a][face] : 0.0);
+}
 
 /* Rate at which a cell is crossed and diffused through, 1/s. */
 static double rate_of(const struct fv *s, int64_t c, const int64_t *stride)
 {
     double sum = 0.0;
     for (int a = 0; a < s->dim; a++)
-        sum += 0.5 * (fabs(s->U[a][c]) + fabs(s->U[a][c + stride[a]])) +
+        sum += 0.5 * (fabs(relative_flux(s, a, c)) + fabs(relative_flux(s, a, c + stride[a]))) +
                s->nu * (s->m->G[a][a][c] + s->m->G[a][a][c + stride[a]]);
     return sum / s->m->V[c];
 }
@@ -65,10 +76,11 @@ static void add_pressure_flux(struct fv *s)
             for (int k = 0; k < 3; k++)
                 down[k] = up[k] = k < s->dim && k != a;
             up[a] = 1;
+            const double *open = s->surface ? s->surface->open[a] : m->open[a];
             PART_ROWS (p, down, up, c, n)
                 for (int64_t i = c; i < c + n; i++) {
                     double mean = 0.0;
-                    if (m->open[a][i] != 1.0 || m->status[i] == CELL_HOLE ||
+                    if (open[i] != 1.0 || m->status[i] == CELL_HOLE ||
                         m->status[i - below] == CELL_HOLE)
                         continue;
                     for (int k = 0; k < s->dim; k++)
@@ -78,20 +90,6 @@ static void add_pressure_flux(struct fv *s)
         }
 }
 
-/* Ghosts, gradient of p, fluxes of the state. */
-static void complete(struct fv *s)
-{
-    mesh_fill(s->m, s->dim, s->u);
-    mesh_bc_velocity(s, BC_GIVEN, s->u);
-    mesh_fill(s->m, 1, &s->p);
-    mesh_bc_pressure(s, s->p);
-    mesh_gradient(s, s->p, s->newton->G);
-    mesh_fill(s->m, s->dim, s->newton->G);
-    mesh_face_velocities(s, s->u, s->U);
-    add_pressure_flux(s);
-    mesh_bc_fluxes(s, s->U);
-}
-
 static void clear(const struct fv *s, double *q)
 {
     FLOW_ROWS(s, c, n)
@@ -99,11 +97,54 @@ static void clear(const struct fv *s, double *q)
         q[i] = s->free[i] > 0.0 ? q[i] : 0.0;
 }
 
+/* Velocity and pressure beyond the surface, and the pressure on it. */
+static void extend_state(struct fv *s)
+{
+    extension_apply(s, s->u, EXTEND_SHEAR, STENCILS);
+    surface_set_pressure(s);
+    extension_scalar(s, s->p);
+}
+
+static void extend_gradient(struct fv *s)
+{
+    surface_mesh_psi_gradient(s, 1.0 / s->newton->of.c0, s->p, false, s->newton->G);
+    for (int a = 0; a < s->dim; a++)
+        extension_scalar(s, s->newton->G[a]);
+}
+
+/* Ghosts, gradient of p, fluxes of the state. */
+static void complete(struct fv *s)
+{
+    if (s->surface)
+        extend_state(s);
+    if (s->forcing) {
+        forcing_velocity(s, s->newton->of.t, s->u);
+        forcing_extend(s, 1, s->p); /* for slopes along faces */
+    }
+    mesh_fill(s->m, s->dim, s->u);
+    mesh_bc_velocity(s, BC_GIVEN, s->u);
+    mesh_fill(s->m, 1, &s->p);
+    mesh_bc_pressure(s, s->p);
+    mesh_gradient(s, s->p, s->newton->G);
+    if (s->forcing)
+        given_gradient(s, CONTINUE_CUBIC, s->p, s->newton->G);
+    if (s->surface)
+        extend_gradient(s);
+    mesh_fill(s->m, s->dim, s->newton->G);
+    mesh_face_velocities(s, s->u, s->U);
+    add_pressure_flux(s);
+    if (s->surface)
+        surface_mesh_interpolate(s, s->newton->d, s->newton->G);
+    mesh_bc_fluxes(s, s->U);
+    if (s->forcing)
+        forcing_fluxes(s, s->newton->of.t, s->U);
+}
+
 /* q -= its mean over the volumes, if no side gives the pressure: what the overlap makes. */
 static void remove_mean(struct fv *s, double *q)
 {
     double sums[2] = {0.0, 0.0};
-    if (mesh_bc_pressure_given(s))
+    if (mesh_bc_pressure_given(s) || (s->surface && s->surface->cuts > 0))
         return;
     FLOW_ROWS(s, c, n)
     for (int64_t i = c; i < c + n; i++) {
@@ -142,9 +183,25 @@ static void evaluate(struct fv *s)
     remove_mean(s, s->face);
 }
 
+/* Beyond the surface the velocity goes on as it is. */
+static void close_wet_rows(struct fv *s)
+{
+    const unsigned char *layer = s->surface->layer;
+    double *const *A = s->newton->A;
+    for (int e = 1; e <= 2 * s->dim; e++)
+        FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++) {
+        const int64_t to = i + (e % 2 ? -1 : 1) * p_->stride[(e - 1) / 2];
+        if (s->free[i] > 0.0 && layer[to] && s->m->status[to] != CELL_HOLE) {
+            A[0][i] += A[e][i];
+            A[e][i] = 0.0;
+        }
+    }
+}
+
 /* First-order upwind, as on even cells; what lies behind closed sides goes into the diagonal, with
- * ghosts that are odd (walls) or even (outflow). Cells that are not computed get rows of their own.
- */
+ * ghosts that are odd (walls) or even (outflow); given cells do not vary. Cells that are not
+ * computed get rows of their own. */
 static void fill_rows(struct fv *s)
 {
     const struct mesh *m = s->m;
@@ -155,14 +212,20 @@ static void fill_rows(struct fv *s)
         for (int e = 1; e <= 2 * s->dim; e++) {
             const int a = (e - 1) / 2;
             const int64_t d = p_->stride[a], face = e % 2 ? i : i + d, to = e % 2 ? i - d : i + d;
-            const double in = e % 2 ? s->U[a][face] : -s->U[a][face];
+            const double U = relative_flux(s, a, face), in = e % 2 ? U : -U;
             const double w = (0.5 * (in + fabs(in)) + 1.2 * s->nu * m->G[a][a][face]) / m->V[i];
-            const bool inside = m->status[to] != CELL_HOLE;
+            const bool inside = m->status[to] < CELL_HOLE;
             A[e][i] = s->free[i] > 0.0 && inside ? -w : 0.0;
-            A[0][i] += inside ? w : m->open[a][face] == 1.0 ? 0.0 : 2.0 * w;
+            A[0][i] += inside || m->status[to] == CELL_GIVEN ? w
+                       : m->open[a][face] == 1.0             ? 0.0
+                                                             : 2.0 * w;
         }
         A[0][i] = s->free[i] > 0.0 ? A[0][i] : 1.0;
     }
+    if (s->surface)
+        close_wet_rows(s);
+    if (s->prm.c0 > 0.0)
+        poisson_shift(s, pow(s->newton->of.c0 / s->prm.c0, 2.0));
 }
 
 static void fill_ghosts(struct fv *s, double *const x[3])
@@ -174,6 +237,11 @@ static void fill_ghosts(struct fv *s, double *const x[3])
 static void subtract_divergence(struct fv *s, double *const x[3], double *div)
 {
     const struct mesh *m = s->m;
+    const struct newton *w = s->newton;
+    if (s->surface) {
+        extension_apply(s, x, EXTEND_CHANGE, STENCILS);
+        fill_ghosts(s, x);
+    }
     FLOW_ROWS(s, c, n)
     for (int64_t i = c; i < c + n; i++) {
         double sum = 0.0;
@@ -182,13 +250,18 @@ static void subtract_divergence(struct fv *s, double *const x[3], double *div)
             for (int k = 0; k < s->dim; k++) {
                 const double *u = x[k] + i;
                 sum += m->S[a][k][i + d] * (u[d] + u[0]) *
-                           (m->status[i + d] == CELL_HOLE && m->open[a][i + d] != 1.0 ? 0.0 : 0.5) -
+                           (m->status[i + d] >= CELL_HOLE && m->open[a][i + d] != 1.0 ? 0.0 : 0.5) -
                        m->S[a][k][i] * (u[0] + u[-d]) *
-                           (m->status[i - d] == CELL_HOLE && m->open[a][i] != 1.0 ? 0.0 : 0.5);
+                           (m->status[i - d] >= CELL_HOLE && m->open[a][i] != 1.0 ? 0.0 : 0.5);
             }
         }
-        div[i] -= s->free[i] > 0.0 ? sum / m->V[i] : 0.0;
+        w->phi[i] = s->free[i] > 0.0 ? sum / m->V[i] : 0.0;
     }
+    if (s->prm.c0 > 0.0) /* else the cycle takes it out */
+        remove_mean(s, w->phi);
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        div[i] -= w->phi[i];
 }
 
 static void cycle(struct fv *s, double *div, double *phi)
@@ -196,14 +269,24 @@ static void cycle(struct fv *s, double *div, double *phi)
     FLOW_ROWS(s, c, n)
     for (int64_t i = c; i < c + n; i++)
         div[i] *= s->free[i] * s->m->V[i];
-    poisson_cycle(s, div, phi);
-    mesh_halo(s->m, 1, &phi);
+    if (s->surface)
+        wet_pressure_cycle(s, div, phi);
+    else
+        poisson_cycle(s, div, phi);
+    if (s->forcing)
+        given_mirror(s, phi);
+    else
+        mesh_halo(s->m, 1, &phi);
     mesh_bc_even(s, true, phi);
 }
 
 static void gradient_of(struct fv *s, const double *phi, double *const g[3])
 {
     mesh_gradient(s, phi, g);
+    if (s->forcing)
+        given_gradient(s, CONTINUE_EVEN, phi, g);
+    if (s->surface)
+        surface_mesh_psi_gradient(s, 1.0, phi, true, g);
 }
 
 const struct newton_cells newton_blocks = {.set_rates = set_rates,

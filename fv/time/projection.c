@@ -120,6 +120,19 @@ static void add_pressure(struct fv *s, const double *restrict psi)
         p[i] = keep * p[i] + psi[i];
 }
 
+/* On blocks with a surface: the mean over the stages, which belongs to the middle of the step, as
+ * the surface does in all of them. The last one alone balances walls' accelerations of t - dt/6. */
+static void add_mean_pressure(struct fv *s)
+{
+    add_pressure(s, s->psi[2]);
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++) {
+        s->p[i] = 0.0;
+        for (int k = 0; k < 3; k++)
+            s->p[i] += (rk3_alpha[k] + rk3_beta[k]) * s->psi[k][i];
+    }
+}
+
 /* Of the last projection of a step. With a surface that of the pressure's change in a step, whose
  * errors make or damp waves; the first one has no pressure to start from. */
 static double last_tolerance(const struct fv *s)
@@ -152,7 +165,10 @@ static bool step_rk3(struct fv *s, double dt)
         stop(s, "viscous");
         projection(s, t_stage, k, ab * dt, k == 2 ? last : first);
     }
-    add_pressure(s, s->psi[2]);
+    if (s->surface && s->m)
+        add_mean_pressure(s);
+    else
+        add_pressure(s, s->psi[2]);
     return good;
 }
 
@@ -179,6 +195,9 @@ static bool step_bdf2(struct fv *s, double dt)
                  c2 = first ? 0.0 : r * r / (1.0 + r);
     const double tau = dt / c0;
     begin_step(s);
+    /* fringes interpolate from air, too, where it would be that of two steps before */
+    for (int a = 0; s->surface && s->m && s->m->has_fringe && a < s->dim; a++)
+        memset(s->N_old[a], 0, (size_t)s->size * sizeof(double));
     step_convection(s);
     for (int a = 0; s->surface && a < s->dim; a++)
         extension_scalar(s, s->N[a]); /* for cells that the next step finds wet */

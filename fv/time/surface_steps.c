@@ -7,11 +7,16 @@
 
 #include "../../common/mem.h"
 #include "../boundary/bc.h"
+#include "../boundary/carried.h"
 #include "../boundary/forcing.h"
+#include "../boundary/mesh_bc.h"
+#include "../boundary/outflow.h"
+#include "../boundary/still.h"
 #include "../operators/mesh_ops.h"
 #include "../operators/operators.h"
 #include "../surface/mesh_view.h"
 #include "../surface/surface_forced.h"
+#include "moving.h"
 #include "stages.h"
 
 enum { REINIT_STEPS = 10 }; /* of 0.45 h each: more than what the surface has travelled */
@@ -104,14 +109,59 @@ static void close_cells(struct fv *s)
         s->surface->closed[c] = g->forced[c] && !(s->surface->forced && g->known[c]);
 }
 
+/* m: how wide a side of the domain is across gravity. */
+static double width_of(const struct fv *s, int side)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    double width = 1.0;
+    for (int a = 0; a < s->dim; a++)
+        width *= a == side / 2 || a == still_upright(&s->run->scene) ? 1.0 : d->max[a] - d->min[a];
+    return width;
+}
+
+/* What is under water of the sides that carry the flow out, and how fast waves run there. */
+static void set_outflows(struct fv *s)
+{
+    struct outflows *all = s->outflows;
+    double wet[6] = {0.0};
+    if (!all)
+        return;
+    for (int k = 0; k < all->n; k++) {
+        struct outflow *o = all->of + k;
+        for (int64_t i = 0; i < o->n; i++) {
+            o->share[i] = s->surface->layer[o->cell[i]] == 0;
+            if (o->own[i])
+                wet[o->side] += surface_share(s, o->cell[i]) * carried_area(o, i);
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, wet, 6, MPI_DOUBLE, MPI_SUM, s->comm);
+    for (int side = 0; side < 6; side++)
+        all->waves[side] = sqrt(s->surface->g * wet[side] / width_of(s, side));
+    all->level_free = s->surface->cuts > 0;
+}
+
+void surface_outline_moved(struct fv *s, double before)
+{
+    close_cells(s);
+    s->surface->volume0 += surface_volume(s, NULL) - before;
+    rebuild(s);
+}
+
 void surface_start(struct fv *s)
 {
     struct surface *f = s->surface;
     close_cells(s);
+    if (s->m) {
+        surface_mesh_update(s);
+        surface_mesh_count(s);
+        surface_ghosts(s, f->phi);
+    }
     f->volume0 = surface_volume(s, NULL);
     rebuild(s);
     set_level(s);
     add_velocities(s);
+    set_outflows(s);
+    outflow_start(s);
     surface_extend(s, LAYERS);
 }
 
@@ -143,12 +193,8 @@ static void impose(struct fv *s, double t)
  * = 4 g/h at most, want it to be stable: omega dt < 2/sqrt(1 - 4 beta). */
 static double newmark_beta(const struct fv *s, double dt)
 {
-    const double *g = s->run->scene.fluid.gravity, size = s->surface->g;
-    double h = INFINITY;
-    for (int a = 0; a < s->dim; a++)
-        if (fabs(g[a]) < 0.7 * size)
-            h = fmin(h, s->b.h[a]);
-    return fmax(1.0 / 12.0, 0.25 * (1.0 - h / (size * dt * dt)));
+    const struct surface *f = s->surface;
+    return fmax(1.0 / 12.0, 0.25 * (1.0 - f->across / (f->g * dt * dt)));
 }
 
 /* Backward differences want the pressure where the step ends: the surface goes on there with the
@@ -159,27 +205,19 @@ static void go_ahead(struct fv *s, double dt)
 {
     struct surface *f = s->surface;
     const double travelled = f->travelled;
-    memcpy(f->half, f->phi, (size_t)s->b.size * sizeof(double));
+    memcpy(f->half, f->phi, (size_t)s->size * sizeof(double));
     f->rise = newmark_beta(s, dt) * dt * dt;
-    if (s->dt > 0.0)
+    if (s->moving) { /* phi less the height goes with the cells */
+        surface_mesh_change_height(s, -1.0, f->half);
+        surface_advance_to(s, s->t + dt, 0.5 * dt);
+        moving_end_rows(s);
+    } else if (s->dt > 0.0) {
         surface_advance(s, 0.5 * dt);
+    }
     f->travelled = travelled;
 }
 
-void surface_first_half(struct fv *s, double dt)
-{
-    s->surface->theta_least = least_theta(s, dt);
-    surface_advance(s, 0.5 * dt);
-    impose(s, s->t + 0.5 * dt);
-    refresh(s);
-    if (s->surface->half)
-        go_ahead(s, dt);
-    rebuild(s);
-    surface_smooth(s);
-    surface_extend(s, STENCILS);
-}
-
-/* The same through the outline of a partner's cells. */
+/* The same as flows() through the outline of a partner's cells. */
 static void add_outline(const struct fv *s, double sums[2])
 {
     const struct forcing *g = s->forcing;
@@ -196,17 +234,22 @@ static void add_outline(const struct fv *s, double sums[2])
         }
 }
 
-/* m^dim/s: water that comes in through openings less what leaves, their sum, and the former without
- * a partner's outline, over all ranks. */
-static void flows(const struct fv *s, double sums[3])
+/* Of a cell on blocks: water in it that counts. */
+static double share_that_counts(const struct fv *s, int64_t c)
+{
+    return surface_share(s, c) * surface_cell_volume(s, c, 0) / s->m->V[c];
+}
+
+/* Through the openings of an even grid. */
+static void add_openings(const struct fv *s, double sums[2])
 {
     const struct block *b = &s->b;
-    sums[0] = sums[1] = 0.0;
     for (int k = 0; s->bc && k < 2 * b->dim; k++) {
         const int a = k / 2, t0 = a == 0 ? 1 : 0, t1 = a == 2 ? 1 : 2;
         int at[3];
         at[a] = k % 2 ? b->n[a] - 1 : 0;
-        if (s->bc->n[k] == 0 || (s->bc->kind[k] != BC_INFLOW && s->bc->kind[k] != BC_OUTFLOW))
+        if (s->bc->n[k] == 0 || (s->bc->kind[k] != MESH_INFLOW && s->bc->kind[k] != MESH_OUTFLOW &&
+                                 s->bc->kind[k] != MESH_CARRIED))
             continue;
         for (at[t1] = 0; at[t1] < b->n[t1]; at[t1]++)
             for (at[t0] = 0; at[t0] < b->n[t0]; at[t0]++) {
@@ -218,23 +261,64 @@ static void flows(const struct fv *s, double sums[3])
                 sums[1] += fabs(in);
             }
     }
+}
+
+/* m^dim/s: water that comes in through openings less what leaves, their sum, and the former without
+ * a partner's outline, over all ranks. */
+static void flows(const struct fv *s, double sums[3])
+{
+    sums[0] = sums[1] = 0.0;
+    if (s->m)
+        mesh_bc_passing(s, share_that_counts, sums);
+    else
+        add_openings(s, sums);
     sums[2] = sums[0];
     if (s->surface->forced)
         add_outline(s, sums);
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
+void surface_first_half(struct fv *s, double dt)
+{
+    s->surface->theta_least = least_theta(s, dt);
+    flows(s, s->surface->through);
+    if (s->moving) {
+        moving_begin_surface(s, dt);
+        surface_advance_to(s, s->t + 0.5 * dt, 0.5 * dt);
+    } else {
+        surface_advance(s, 0.5 * dt);
+    }
+    impose(s, s->t + 0.5 * dt);
+    refresh(s);
+    if (s->surface->half)
+        go_ahead(s, dt);
+    rebuild(s);
+    set_outflows(s);
+    surface_smooth(s);
+    surface_extend(s, STENCILS);
+    if (s->moving && s->prm.integrator == INTEGRATOR_BDF2)
+        moving_to_start(s);
+}
+
 void surface_second_half(struct fv *s, double dt)
 {
-    double through[3];
-    if (s->surface->half)
-        memcpy(s->surface->phi, s->surface->half, (size_t)s->b.size * sizeof(double));
-    flows(s, through);
-    s->surface->volume0 += dt * through[0];
-    s->surface->passed += dt * through[1];
-    s->surface->entered += dt * through[2];
-    surface_advance(s, 0.5 * dt);
+    struct surface *f = s->surface;
+    double now[3];
+    if (f->half)
+        memcpy(f->phi, f->half, (size_t)s->size * sizeof(double));
+    if (s->moving) {
+        if (f->half)
+            surface_mesh_change_height(s, 1.0, f->phi);
+        surface_advance_to(s, s->t, 0.5 * dt);
+        surface_mesh_count(s);
+    } else {
+        surface_advance(s, 0.5 * dt);
+    }
     impose(s, s->t);
+    flows(s, now);
+    f->volume0 += 0.5 * dt * (f->through[0] + now[0]);
+    f->passed += 0.5 * dt * (f->through[1] + now[1]);
+    f->entered += 0.5 * dt * (f->through[2] + now[2]);
     refresh(s);
     surface_keep_volume(s);
     surface_sample(s);
@@ -250,9 +334,13 @@ static int state(struct fv *s, double **f)
     f[n++] = s->p;
     f[n++] = s->p_before;
     for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->psi[a], s->u[a], s->U[a], s->u_old[a],
-                               s->prm.integrator == INTEGRATOR_BDF2 ? s->N[a] : NULL};
-        for (int k = 0; k < (a < s->dim ? 5 : 1); k++) {
+        double *const all[] = {s->psi[a],
+                               s->u[a],
+                               s->U[a],
+                               s->u_old[a],
+                               s->prm.integrator == INTEGRATOR_BDF2 ? s->N[a] : NULL,
+                               s->outflows ? s->outflows->kept[a] : NULL};
+        for (int k = 0; k < (a < s->dim ? 6 : 1); k++) {
             if (all[k])
                 f[n++] = all[k];
         }
@@ -278,16 +366,24 @@ void surface_back(struct fv *s)
     const int n = state(s, f);
     for (int k = 0; k < n; k++)
         memcpy(f[k], s->surface->before[k], (size_t)s->size * sizeof(double));
+    outflow_restore(s);
     s->surface->travelled = s->surface->travelled_before;
+    if (s->moving) {
+        moving_back(s);
+        surface_mesh_update(s);
+    }
     s->surface->repeats++;
 }
 
 const char *surface_trouble(const struct fv *s)
 {
-    bool fills = false;
+    bool fills = false, leaves = s->m ? mesh_bc_pressure_given(s) : s->bc && s->bc->pressure_given;
     for (int k = 0; s->bc && k < 6; k++)
-        fills = fills || s->bc->kind[k] == BC_INFLOW;
-    if (s->surface->cuts == 0 && fills && !s->bc->pressure_given)
+        fills = fills || s->bc->kind[k] == MESH_INFLOW;
+    for (int k = 0; s->m && k < s->m->nblocks; k++)
+        for (int side = 0; side < 6; side++)
+            fills = fills || s->m->block[k].side[side] == MESH_INFLOW;
+    if (s->surface->cuts == 0 && fills && !leaves)
         return "the domain is full of water, and more flows in";
     return s->surface->wet > 0 || s->surface->forced ? NULL : "no cell holds water any more";
 }

@@ -27,7 +27,8 @@ struct watches *fv_watches_create(const struct fv *s)
     const bool moved = s->surface && s->bc && s->bc->speed > 0.0; /* friction at a moving wall */
     bool open = false; /* water and its energy come and go */
     for (int k = 0; s->surface && s->bc && k < 6; k++)
-        open = open || s->bc->kind[k] == BC_INFLOW || s->bc->kind[k] == BC_OUTFLOW;
+        open = open || s->bc->kind[k] == MESH_INFLOW || s->bc->kind[k] == MESH_OUTFLOW ||
+               s->bc->kind[k] == MESH_CARRIED;
     w->has_energy = !filled && !moved && !open && !s->prm.steady && s->prm.c0 == 0.0;
     if (s->surface) /* whose steps are long beside the swing of short waves' work, and dear */
         w->energy_every = 1;

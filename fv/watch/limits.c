@@ -24,7 +24,12 @@
 #define NEWTON_CFL 1.0   /* of accuracy: it is stable at any */
 #define OUTFLOW_CFL 0.5  /* of the whole flow, which a carried outflow meets in time: measured */
 #define VISCOUS_MOST 1.0 /* nu dt/h^2 where a surface's normal stress is explicit */
-#define WAVES 0.5        /* dt of sqrt(h/g), h of the smallest cell */
+#define STIFFEST 7.75    /* h^2/nu times the largest eigenvalue of friction with walls */
+#define START_STIFF 60.0 /* first steps after a sudden start, of the time of that eigenvalue */
+#define START_SHARE 0.1  /* and later ones, of the time since: measured, README.md */
+#define MOVED_STIFF                                                                                \
+    240.0         /* always where walls go with their blocks, which start anew all the time */
+#define WAVES 0.5 /* dt of sqrt(h/g), h of the smallest cell */
 
 const char *limit_name(enum limit by)
 {
@@ -96,15 +101,16 @@ double limits_pressure_difference(const struct scene *s)
 }
 
 /* The scene's own where something moves or can fall: nothing does without a surface, where the
- * pressure takes gravity across sides; or what enters through blocks' sides. */
+ * pressure takes gravity across sides, but for a partner's fluid, which sound compresses; or what
+ * enters through blocks' sides. */
 double limits_reference(const struct run *r)
 {
     const struct scene *s = &r->scene;
     struct scene held = *s;
-    for (int a = 0; a < s->domain.dim && !scene_has_surface(s); a++)
+    for (int a = 0; a < s->domain.dim && !scene_has_surface(s) && !r->coupled; a++)
         held.fluid.gravity[a] = s->domain.periodic[a] ? s->fluid.gravity[a] : 0.0;
     const struct scene_speed v = scene_speed_of(&held, 0.0, 0.0);
-    const double flows = v.moves || scene_has_surface(s) ? v.speed : 0.0;
+    const double flows = v.moves || scene_has_surface(s) || r->coupled ? v.speed : 0.0;
     return fmax(fmax(flows, size_of(s->initial.velocity, s->domain.dim)),
                 1e-3 * length_of(s) / s->time.end);
 }
@@ -163,17 +169,24 @@ static double viscous_time(double nu, const double *h, int dim)
 /* Waves of two cells: stable steps (rk3), or exact ones of waves that cells resolve. Implicit ones
  * do not see how flat the cells lie. */
 static void lower_surface(struct step_limit *l, const struct scene *s, const struct fv_params *p,
-                          const double *h)
+                          double shortest, const double *h)
 {
     const double g = size_of(s->fluid.gravity, s->domain.dim), cfl = limits_cfl(p),
                  part[] = {fmin(cfl, 1.0), cfl / BDF2_CFL, cfl};
+    lower(l, g > 0.0 ? WAVES * part[p->integrator] * sqrt(shortest / g) : INFINITY, LIMIT_WAVES);
+    if (p->integrator != INTEGRATOR_NEWTON)
+        lower(l, viscous_time(s->fluid.nu, h, s->domain.dim), LIMIT_VISCOUS);
+}
+
+/* Spacing that tells the shortest waves of an even grid. */
+static double shortest_of(const struct scene *s, const struct fv_params *p, const double *h)
+{
+    const double g = size_of(s->fluid.gravity, s->domain.dim);
     double shortest = INFINITY;
     for (int a = 0; a < s->domain.dim; a++)
         if (p->integrator == INTEGRATOR_RK3 || fabs(s->fluid.gravity[a]) < 0.7 * g)
             shortest = fmin(shortest, h[a]);
-    lower(l, g > 0.0 ? WAVES * part[p->integrator] * sqrt(shortest / g) : INFINITY, LIMIT_WAVES);
-    if (p->integrator != INTEGRATOR_NEWTON)
-        lower(l, viscous_time(s->fluid.nu, h, s->domain.dim), LIMIT_VISCOUS);
+    return shortest;
 }
 
 /* Convection by two steps' extrapolation, at cell Reynolds number Re. */
@@ -192,21 +205,41 @@ static struct step_limit bulk_limit(const struct scene *s, const struct fv_param
     struct step_limit l = {INFINITY, LIMIT_NONE};
     lower(&l, dt, rise * dt > rate ? LIMIT_FORCES : LIMIT_FLOW);
     if (surface)
-        lower_surface(&l, s, p, h);
+        lower_surface(&l, s, p, shortest_of(s, p, h), h);
     return l;
+}
+
+/* After a sudden start layers of sqrt(nu t) grow from walls; steps that pass over them leave the
+ * pressure, which each step corrects once, behind the walls' friction: 15 steps and more. 1/s:
+ * largest eigenvalue of the viscous terms. */
+static void lower_start(struct step_limit *l, const struct fv *s)
+{
+    double stiffest = s->stiffest;
+    for (int a = 0; a < s->dim && !s->m && s->bc; a++)
+        stiffest += STIFFEST * s->nu / (s->b.h[a] * s->b.h[a]);
+    const double later =
+        s->moving ? MOVED_STIFF / fmax(stiffest, 1e-300) : START_SHARE * fabs(s->t);
+    if (stiffest > 0.0 && s->prm.integrator != INTEGRATOR_NEWTON)
+        lower(l, fmax(START_STIFF / stiffest, later), LIMIT_VISCOUS);
 }
 
 /* Of cells of any shape: as the state was measured. */
 static struct step_limit limit_on_blocks(const struct fv *s)
 {
-    const double dt = limits_time(s->prm.cfl, s->rate, s->rise);
-    struct step_limit l = {dt, s->rise * dt > s->rate ? LIMIT_FORCES : LIMIT_FLOW};
+    const bool falls = s->surface && s->newton; /* such a step is taken back */
+    const double rise = falls ? 0.0 : s->rise, dt = limits_time(s->prm.cfl, s->rate, rise);
+    struct step_limit l = {dt, rise * dt > s->rate ? LIMIT_FORCES : LIMIT_FLOW};
     if (s->surface) {
         const double h = s->surface->least;
-        lower_surface(&l, &s->run->scene, &s->prm, (const double[]){h, h, h});
+        lower_surface(&l, &s->run->scene, &s->prm,
+                      s->prm.integrator == INTEGRATOR_RK3 ? h : s->surface->across,
+                      (const double[]){h, h, h});
     }
+    if (s->outflows && s->prm.integrator != INTEGRATOR_NEWTON)
+        lower(&l, limits_time(fmin(s->prm.cfl, OUTFLOW_CFL), s->rate, 0.0), LIMIT_OUTFLOW);
     if (s->prm.integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(s->rate, s->Re), LIMIT_BDF2);
+    lower_start(&l, s);
     return l;
 }
 
@@ -230,10 +263,11 @@ struct step_limit limits_of(const struct fv *s)
     const struct scene *scene = &s->run->scene;
     const double rate = fmax(s->rate, imposed_rate(scene, h));
     struct step_limit l = bulk_limit(scene, &s->prm, rate, s->surface != NULL, h);
-    if (s->bc && s->bc->carries && s->prm.integrator != INTEGRATOR_NEWTON)
+    if (s->outflows && s->prm.integrator != INTEGRATOR_NEWTON)
         lower(&l, limits_time(fmin(cfl, OUTFLOW_CFL), rate, 0.0), LIMIT_OUTFLOW);
     if (s->prm.integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(rate, Re), LIMIT_BDF2);
+    lower_start(&l, s);
     return l;
 }
 

@@ -31,15 +31,19 @@ struct watches *mesh_watches_create(struct fv *s)
         w->energy.warn *= 10.0;
         w->energy.stop *= 10.0;
     }
+    bool open = false;
     for (int k = 0; k < s->m->nblocks; k++)
         for (int side = 0; side < 2 * s->m->dim; side++)
-            if (s->m->block[k].side[side] == MESH_INFLOW ||
-                s->m->block[k].side[side] == MESH_OUTFLOW)
-                watches_open(w);
+            open = open || s->m->block[k].side[side] == MESH_INFLOW ||
+                   s->m->block[k].side[side] == MESH_OUTFLOW ||
+                   s->m->block[k].side[side] == MESH_CARRIED;
+    if (open)
+        watches_open(w);
     double walls = 0.0; /* friction at a moving one is not known beside a surface */
     mesh_bc_rate(s, &walls);
     MPI_Allreduce(MPI_IN_PLACE, &walls, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    w->has_energy = !s->prm.steady && !s->m->moves && !(s->surface && walls > 0.0);
+    w->has_energy =
+        !s->prm.steady && !s->m->moves && !s->forcing && !(s->surface && (walls > 0.0 || open));
     w->has_growth = !s->newton && !s->surface && !s->m->moves;
     w->energy_every = s->surface ? 1 : 20;   /* faces are mapped anew */
     w->speed = fmax(w->speed, s->reference); /* of walls and openings of blocks, too */

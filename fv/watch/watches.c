@@ -13,6 +13,9 @@ enum { WATCHES = 5 };
 
 /* Of a surface, whose jets and films are thinner than cells: waves of two cells, over the flow. */
 #define SPRAY 0.10
+/* An impact whose jets are thinner than cells swings to 0.1 and back within some steps; a run that
+ * blows up passes this one, too. */
+#define IMPACT 0.3
 /* Of the volume: from here on the run is not accepted. */
 #define RETURNED_MOST 0.05
 
@@ -91,8 +94,10 @@ struct watches *watches_create(const struct run *r, const struct fv_params *p, b
     for (int k = 0; k < WATCHES; k++)
         *all[k] = kinds[k];
     advise(w, p);
-    if (surface)
+    if (surface) {
         w->velocity.warn = SPRAY;
+        w->energy.stop = IMPACT;
+    }
     for (int k = 0; k < r->scene.nwalls; k++)
         if (r->scene.walls[k].kind >= WALL_INFLOW)
             watches_open(w);

@@ -54,8 +54,10 @@ void bodies_create(struct sph *s)
         return;
     for (int k = 0; k < w->nbodies; k++)
         if (w->bodies[k].free) {
-            w->bodies[k].free->lambda = stopping_rate(s, w->bodies + k);
-            body_lines_slack(w->bodies + k);
+            double *lambda = &w->bodies[k].free->lambda;
+            *lambda = fmax(*lambda, stopping_rate(s, w->bodies + k)); /* of the finest level */
+            if (!s->coarser)
+                body_lines_slack(w->bodies + k);
         }
     w->dt_contact = fmin(dt, bodies_dt(s));
 }

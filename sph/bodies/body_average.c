@@ -16,7 +16,7 @@ struct said {
 };
 enum { SAID = sizeof(struct said) / sizeof(double) };
 
-/* Points of a body's surface, dx/2 apart or closer. */
+/* Points of a body's surface, dx/2 of the finest level apart or closer. */
 struct node {
     double x[3], n[3], u[3], du[3], area; /* area: 2D length */
     bool no_slip;
@@ -42,9 +42,16 @@ static struct node *add_node(struct nodes *to)
     return d;
 }
 
+static double distance_of_nodes(const struct sph *s)
+{
+    while (s->finer)
+        s = s->finer;
+    return 0.5 * s->dx;
+}
+
 static void lay_segment(const struct sph *s, const struct segment *g, struct nodes *to)
 {
-    const int pieces = (int)ceil(g->length / (0.5 * s->dx));
+    const int pieces = (int)ceil(g->length / distance_of_nodes(s));
     for (int i = 0; i < pieces; i++) {
         struct node *d = add_node(to);
         for (int a = 0; a < 2; a++) {
@@ -67,7 +74,7 @@ static void lay_part(const struct sph *s, const struct wall_mesh *m, const doubl
         length[i] = vec3_length(e[i]);
     }
     const int first = length[0] >= length[1] ? 0 : 1, a = length[first] >= length[2] ? first : 2;
-    if (length[a] > 0.5 * s->dx) {
+    if (length[a] > distance_of_nodes(s)) {
         const double *const before = v[(a + 1) % 3], *const apex = v[(a + 2) % 3];
         double mid[3];
         for (int c = 0; c < 3; c++)

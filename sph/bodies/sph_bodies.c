@@ -13,6 +13,7 @@
 #include "../case/sph_sense.h"
 #include "../walls/walls.h"
 #include "body_check.h"
+#include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
 
 enum { VERTICES = 2000, LEAST_TIMES = 20, MOST_TIMES = 2000 };
@@ -299,19 +300,20 @@ static void place_bodies(const struct scene *c, struct body *bodies, double t,
 
 /* A corner outside the room that a body may have: the free zone of the particles. */
 static bool check_room(const struct run *r, const struct sph_params *used, const struct bound *b,
-                       const char *when, struct faults *f)
+                       double t, const char *when, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
     const struct line *l = &b->line;
     const double small = 1e-6 * line_size(l);
-    double lo[3], hi[3];
+    double lo[3], hi[3], way[3];
     zones_free_box(r, used, lo, hi);
+    (void)box_motion_foretold(r, used, t, way);
     for (int i = 0; i < l->n; i++)
         for (int a = 0; a < 2; a++) {
             const double x = l->x[i][a];
             const bool leaves = x < d->min[a] - small || x > d->max[a] + small;
             char key[64];
-            if (x >= lo[a] - small && x <= hi[a] + small)
+            if (x >= lo[a] + way[a] - small && x <= hi[a] + way[a] + small)
                 continue;
             snprintf(key, sizeof key, "bodies.[%d]", b->body);
             params_fault(r->params, f, key, "%s %s %c at (%g, %g) m, %s: %s", b->name,
@@ -339,7 +341,7 @@ static bool check_places(const struct run *r, const struct sph_params *used,
     for (int k = 0; k < r->scene.nbodies; k++) {
         if (t > 0.0 && r->scene.bodies[k].free)
             continue; /* goes where forces take it, and is watched there */
-        if (!check_room(r, used, all + k, when, f))
+        if (!check_room(r, used, all + k, t, when, f))
             return true;
         for (int m = 0; m < n; m++) {
             char words[96];

@@ -14,6 +14,7 @@
 #include "rooms.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
+#include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
 #include "../sph_params.h"
 #include "../walls/walls.h"
@@ -71,18 +72,20 @@ static bool has_room(const struct sph *s, const double *x)
             !in_seam(s->walls, x, s->dx));
 }
 
-/* Cells from the lower corner; from the upper one where only that has a wall of the domain. The
- * last may reach out of a domain that dx does not divide. */
+double fill_lattice_begin(const struct scene *c, int a, double lo, double hi, double dx)
+{
+    const struct scene_wall *low = scene_wall_of(c, SIDE_X_MIN + 2 * a);
+    const struct scene_wall *high = scene_wall_of(c, SIDE_X_MIN + 2 * a + 1);
+    const double n = (hi - lo) / dx, whole = ceil(n - 1e-6);
+    return high && !low && whole - n > 1e-6 ? hi - whole * dx : lo;
+}
+
 static struct lattice lattice_create(const struct sph *s)
 {
-    const struct scene *c = &s->run->scene;
     struct lattice l = {.n = {1, 1, 1}, .dx = s->dx};
     for (int a = 0; a < s->dim; a++) {
-        const struct scene_wall *low = scene_wall_of(c, SIDE_X_MIN + 2 * a);
-        const struct scene_wall *high = scene_wall_of(c, SIDE_X_MIN + 2 * a + 1);
-        const double n = (s->hi[a] - s->lo[a]) / s->dx;
-        l.n[a] = (int)ceil(n - 1e-6);
-        l.origin[a] = high && !low && l.n[a] - n > 1e-6 ? s->hi[a] - l.n[a] * s->dx : s->lo[a];
+        l.n[a] = (int)ceil((s->hi[a] - s->lo[a]) / s->dx - 1e-6);
+        l.origin[a] = fill_lattice_begin(&s->run->scene, a, s->lo[a], s->hi[a], s->dx);
     }
     l.bits = NEW(unsigned char, (size_t)(lattice_cells(&l) / 8 + 1));
     return l;
@@ -158,6 +161,8 @@ static void mark(struct sph *s, const struct lattice *l, int64_t cell, const dou
     displace(s, cell, centre, x);
     if (!scene_is_fluid(&s->run->scene, &k->exact, x, NULL))
         return;
+    if (!rooms_parted(s) && !scene_in_tanks(&s->run->scene, x))
+        return; /* a shape may reach beyond its tank */
     k->wet++;
     if (!has_room(s, x))
         k->taken++;
@@ -207,6 +212,15 @@ static double density_at_rest(const struct sph *s, double g, double d)
     return s->rho0 * pow(fmax(1.0 + 6.0 * r, 0.1), 1.0 / 6.0);
 }
 
+/* Whether a partner has the water above. */
+static bool has_open_top(const struct sph *s, const double *still)
+{
+    for (int a = 0; a < s->dim; a++)
+        if (still[a] != 0.0 && s->open[still[a] < 0.0 ? 2 * a + 1 : 2 * a])
+            return true;
+    return false;
+}
+
 /* Masses under gravity: p = 0 at the given height, or on top of each water. A wave and a channel
  * have their own pressure; gravity along a periodic axis drives. */
 static void weigh(struct sph *s, const struct basins *b)
@@ -233,7 +247,7 @@ static void weigh(struct sph *s, const struct basins *b)
         y[at_mass(s->dim)] *= more;
     }
     MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPI_DOUBLE, MPI_MAX, s->run->comm);
-    if (s->surface && off > s->dx)
+    if (s->surface && off > s->dx && !(s->run->crossed && has_open_top(s, still)))
         log_warn("initial.level = %g m is %g m off the level of a free surface, which starts with "
                  "%.3g Pa: leave it out",
                  f->level, off, s->rho0 * g * off);
@@ -329,25 +343,38 @@ static void set_slopes(struct sph *s, const struct exact *e)
     }
 }
 
+/* Fields of the case where particles stand; those that are weighed keep their densities. */
+static void set_fields(struct sph *q, const struct exact *e, bool keep_volumes, bool weighed)
+{
+    for (int i = 0; i < q->p.n; i++) {
+        const double *y = state_row(&q->p, q->p.y, i),
+                     w = keep_volumes ? y[at_volume(q->dim)] : q->dxD;
+        const double rho = y[at_mass(q->dim)] / y[at_volume(q->dim)];
+        double x[3] = {0.0, 0.0, 0.0}, u[3], p, more[3];
+        memcpy(x, y, (size_t)q->dim * sizeof *x);
+        if (!scene_is_fluid(&q->run->scene, e, x, more)) /* beyond its shape */
+            continue;
+        exact_point(e, x, 0.0, u, &p, NULL);
+        for (int a = 0; a < q->dim; a++)
+            u[a] += more[a];
+        particles_set(q, i, x, u, w, weighed ? rho : eos_rho(p, q->rho0, q->c0, q->gamma));
+    }
+}
+
 void fill_finer(struct sph *s)
 {
     const struct exact e = exact_create(&s->run->scene);
     const bool weighed = is_weighed(&s->run->scene);
     set_slopes(s, &e);
-    refinement_adapt(s);
-    s->refinement->added = s->refinement->repaid = 0.0;
+    if (!s->finer) {
+        mixed_start(s);
+        set_fields(s, &e, true, weighed);
+        return;
+    }
+    /* Gaps are at walls, or between families of displaced mothers, twice as wide for each level. */
+    const bool gaps = s->walls || (s->prm.noise > 0.0 && s->finer->finer);
+    refinement_begin(s, s->prm.packing > 0 && gaps ? pack_finer : NULL);
     for (struct sph *q = s->finer; q; q = q->finer)
-        for (int i = 0; i < q->p.n; i++) {
-            const double *y = state_row(&q->p, q->p.y, i),
-                         w = s->prm.packing > 0 ? y[at_volume(q->dim)] : q->dxD;
-            const double rho = y[at_mass(q->dim)] / y[at_volume(q->dim)];
-            double x[3] = {0.0, 0.0, 0.0}, u[3], p, more[3];
-            memcpy(x, y, (size_t)q->dim * sizeof *x);
-            if (!scene_is_fluid(&s->run->scene, &e, x, more)) /* beyond its shape */
-                continue;
-            exact_point(&e, x, 0.0, u, &p, NULL);
-            for (int a = 0; a < q->dim; a++)
-                u[a] += more[a];
-            particles_set(q, i, x, u, w, weighed ? rho : eos_rho(p, q->rho0, q->c0, q->gamma));
-        }
+        set_fields(q, &e, s->prm.packing > 0, weighed);
+    refinement_remember(s);
 }

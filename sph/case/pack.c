@@ -15,6 +15,7 @@
 #include "../pairs/kernel.h"
 #include "../pairs/neighbours.h"
 #include "../surface/surface.h"
+#include "../time/level.h"
 #include "../walls/walls.h"
 #include "rooms.h"
 
@@ -24,7 +25,8 @@ static bool by_meshes(const struct sph *s) { return rooms_parted(s) && !(s->prm.
 /* What a step of packing changes: all, or what is that near to a mesh. */
 static bool is_packed(const struct sph *s, int i, double reach)
 {
-    return !by_meshes(s) || rooms_are_near(s, prim_line(&s->p, i), reach);
+    return !(s->p.role[i] & ROLE_EDGE) &&
+           (!by_meshes(s) || rooms_are_near(s, prim_line(&s->p, i), reach));
 }
 
 static double shift2(const struct sph *s, int i)
@@ -171,6 +173,18 @@ static void fill_enclosed(struct sph *s)
     }
 }
 
+/* Lists and slopes; finer levels are packed one by one, without guards yet. */
+static void find_crowding(struct sph *s)
+{
+    if (!s->coarser) {
+        integrate_gradients(s);
+        return;
+    }
+    if (!s->ready)
+        level_prepare(s);
+    level_gradients(s, false);
+}
+
 /* One step moves by 0.1 R^2 times the crowding vector, at most R/80. */
 void pack_start(struct sph *s, int steps)
 {
@@ -182,17 +196,18 @@ void pack_start(struct sph *s, int steps)
     s->packing = true;
     s->shift_speed = U;
     s->skin = 0.05 * s->R;
+    s->ready = false;
     double past[5] = {0.0};
     int k = 0;
     for (; k < steps; k++) {
-        integrate_gradients(s);
+        find_crowding(s);
         if (is_settled(s, k, past))
             break;
         move(s, dt);
         if (s->walls && (k == steps / 2 || k == steps - 1))
             fill_clear_seams(s);
     }
-    integrate_gradients(s);
+    find_crowding(s);
     if (by_meshes(s))
         log_say("packing: %d steps, R times the crowding vector %.3g on average near meshes", k,
                 crowding(s));
@@ -204,3 +219,7 @@ void pack_start(struct sph *s, int steps)
     s->prm.transport = transport;
     s->ready = false;
 }
+
+/* Children of packed mothers stand evenly but beside walls, where what is a tenth of the spacing
+ * for one level is a fifth for the next. */
+void pack_finer(struct sph *level) { pack_start(level, (level->prm.packing + 3) / 4); }

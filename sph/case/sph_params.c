@@ -3,16 +3,19 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "../../common/mem.h"
 #include "../time/runge_kutta.h"
 #include "sph_sense.h"
 #include "sph_unused.h"
+#include "../walls/wall_ends.h"
 #include "../walls/wall_thin.h"
 #include "../bodies/body_check.h"
+#include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
 #include "../refinement/apr_params.h"
-#include "../refinement/apr_params.h"
+#include "../refinement/mixed.h"
 #include "../refinement/regions_check.h"
 
 static struct sph_params given; /* as the case has it: the target of the table */
@@ -40,6 +43,8 @@ static const struct param rows[] = {
     PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan), with no-slip walls 0.05 to 0.012; j3 of the Riemann schemes 1.18 times that"),
     PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
     PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
+    PARAM(P, box_velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the box: it moves through the fluid, particles come into being ahead of it and end behind it"),
+    PARAM(P, box_follows, "-", "", 0, 0, "name of a body with which the box goes, along the axes whose both sides are open"),
     CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
     PARAM(P, density_limit, "-", "0.0", 0.0, 10.0, "|rho/rho0 - 1| that ends the run; 0: 0.1, compression at rest and twice the largest Mach number so far, at most 0.5"),
     CHOICE(P, walls, "nfm|ghosts|auto", "auto", "normal flux (any polyline or mesh; not with scheme standard), mirrored ghosts (plane sides); auto: nfm, but ghosts where schemes delta and standard meet no polyline or mesh"),
@@ -85,9 +90,15 @@ static void find_box(const struct run *r, struct sph_params *used, int a)
     double transition = 0.0, buffer = 0.0;
     if (around)
         zones_widths(r, used, &transition, &buffer);
-    const bool plain = !has_box() || a >= d->dim;
-    used->box[0][a] = plain || lo <= d->min[a] ? d->min[a] : lo - (transition + buffer);
-    used->box[1][a] = plain || hi >= d->max[a] ? d->max[a] : hi + (transition + buffer);
+    const double from = lo - (transition + buffer), to = hi + (transition + buffer);
+    bool plain = !has_box() || a >= d->dim;
+    if (!plain && d->periodic[a] && hi - lo < d->max[a] - d->min[a] - 1e-6 * given.dx) {
+        used->box[0][a] = from; /* it may go on beyond the periodic side */
+        used->box[1][a] = to;
+        return;
+    }
+    used->box[0][a] = plain || lo <= d->min[a] ? d->min[a] : from;
+    used->box[1][a] = plain || hi >= d->max[a] ? d->max[a] : to;
 }
 
 struct scene_speed sph_params_speed(const struct run *r)
@@ -108,6 +119,8 @@ bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *p
 {
     const int a = side / 2;
     const double near = 1e-6 * prm->dx;
+    if (d->periodic[a]) /* both or none */
+        return prm->box[1][a] - prm->box[0][a] >= d->max[a] - d->min[a] - near;
     return side % 2 ? prm->box[1][a] >= d->max[a] - near : prm->box[0][a] <= d->min[a] + near;
 }
 
@@ -279,6 +292,9 @@ const struct sph_params *sph_params_of(const struct run *r)
         used.viscosity = used.surface ? VISCOSITY_MONAGHAN : VISCOSITY_MORRIS;
     if (used.scheme == SCHEME_AUTO)
         used.scheme = used.surface == SURFACE_YES ? SCHEME_RIEMANN : SCHEME_RIEMANN_ALE;
+    const struct apr_params *apr = apr_params_of(r);
+    if (used.walls == WALLS_AUTO && apr && apr->method != APR_GUARDS)
+        used.walls = WALLS_GHOSTS;
     if (used.walls == WALLS_AUTO) /* delta without polylines: as it is known */
         used.walls = is_riemann(used.scheme) || has_polylines(&r->scene) ? WALLS_NFM : WALLS_GHOSTS;
     if (used.integrator == INTEGRATOR_AUTO)
@@ -295,6 +311,8 @@ const struct sph_params *sph_params_of(const struct run *r)
         used.outer = is_coupled(r) ? OUTER_PARTNER : OUTER_EXACT;
     if (!has_box() && used.outer == OUTER_NONE && has_openings(&r->scene))
         used.outer = OUTER_SIDES;
+    if (used.noise < 0.0 && apr && apr->method == APR_GRADED)
+        used.noise = 0.0;
     if (used.noise < 0.0)
         used.noise = shears_lattice(r, &used) ? 0.3 : 0.0;
     if (used.packing < 0)
@@ -312,8 +330,7 @@ void sph_params_region(const struct scene_domain *d, const struct sph_params *pr
     for (int a = 0; a < 3; a++) {
         lo[a] = a < d->dim ? prm->box[0][a] : 0.0;
         hi[a] = a < d->dim ? prm->box[1][a] : 0.0;
-        periodic[a] =
-            a < d->dim && d->periodic[a] && lo[a] <= d->min[a] + near && hi[a] >= d->max[a] - near;
+        periodic[a] = a < d->dim && d->periodic[a] && hi[a] - lo[a] >= d->max[a] - d->min[a] - near;
     }
 }
 
@@ -382,7 +399,15 @@ static void check_axis(const struct run *r, int a, struct faults *f)
     bool periodic[3];
     sph_params_region(d, sph_params_of(r), lo, hi, periodic);
     const double length = hi[a] - lo[a];
-    if (length <= 0.0 || lo[a] < d->min[a] - near || hi[a] > d->max[a] + near) {
+    const double L = d->max[a] - d->min[a], beyond = d->periodic[a] ? L : near;
+    if (length > L + near) {
+        params_fault(r->params, f, "sph.box",
+                     "%c from %g to %g m with transition and buffer is longer than the period, %g "
+                     "m: make it smaller, or let it span the period",
+                     axes[a], lo[a], hi[a], L);
+        return;
+    }
+    if (length <= 0.0 || lo[a] < d->min[a] - beyond || hi[a] > d->max[a] + beyond) {
         params_fault(r->params, f, "sph.box",
                      "%c from %g to %g m is not inside the domain, %g to %g m", axes[a], lo[a],
                      hi[a], d->min[a], d->max[a]);
@@ -430,6 +455,66 @@ static void check_zones(const struct run *r, struct faults *f)
                 prm->box[1][a] - prm->box[0][a] - (hi[a] - lo[a]), prm->box[1][a] - prm->box[0][a]);
             return;
         }
+}
+
+/* Whether a box that moves has a way that is foretold, and room for it. */
+static void check_way(const struct run *r, const struct sph_params *prm, struct faults *f)
+{
+    enum { TIMES = 200 };
+    const struct scene_domain *d = &r->scene.domain;
+    const char *key = box_motion_key(prm);
+    const double R = prm->R_dx * prm->dx;
+    double way[3];
+    for (int k = 0; k <= TIMES; k++) {
+        const double t = r->scene.time.end * k / TIMES;
+        if (!box_motion_foretold(r, prm, t, way))
+            return; /* the run watches it */
+        for (int a = 0; a < d->dim; a++) {
+            const double lo = prm->box[0][a] + way[a], hi = prm->box[1][a] + way[a];
+            if (d->periodic[a] || way[a] == 0.0 || (lo > d->min[a] + R && hi < d->max[a] - R))
+                continue;
+            params_fault(r->params, f, key,
+                         "the box comes to a side of the domain across %c at t = %.4g s, %g to %g "
+                         "m: shorten time.end, or enlarge the domain",
+                         "xyz"[a], t, lo, hi);
+            return;
+        }
+    }
+}
+
+/* Of a box that moves: through what is the partner's on both sides. */
+static void check_motion(const struct run *r, struct faults *f)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    const char *key = box_motion_key(prm);
+    bool named = !prm->box_follows[0], any = false;
+    if (!box_motion_wanted(prm))
+        return;
+    for (int k = 0; k < r->scene.nbodies; k++)
+        named = named || strcmp(r->scene.bodies[k].name, prm->box_follows) == 0;
+    for (int a = 0; a < 3; a++)
+        any = any || (a < r->scene.domain.dim && box_motion_along(r, prm, a));
+    if (!has_box() || !any)
+        params_fault(
+            r->params, f, key,
+            "no box has both sides open along an axis on which it would move: give sph.box "
+            "(or sph.free) inside the domain");
+    if (!named)
+        params_fault(r->params, f, key, "no body is named `%s'", prm->box_follows);
+    for (int a = 0; a < 3; a++) {
+        if (prm->box_velocity[a] != 0.0 && prm->box_follows[0])
+            params_fault(r->params, f, key, "give either box_velocity or box_follows, not both");
+        else if (prm->box_velocity[a] != 0.0 && !box_motion_along(r, prm, a))
+            params_fault(r->params, f, key,
+                         "the box cannot move along %c: there it ends on the domain's own sides",
+                         "xyz"[a]);
+    }
+    if (apr_params_of(r))
+        params_fault(r->params, f, key,
+                     "regions of refinement do not go with a box that moves: leave out group apr, "
+                     "or let the box rest");
+    if (f->n == 0)
+        check_way(r, prm, f);
 }
 
 bool sph_params_walls(const struct run *r) { return has_walls(&r->scene, sph_params_of(r)); }
@@ -493,28 +578,55 @@ static void check_thin(const struct run *r, struct faults *f)
                      t.what, t.width, t.at[0], t.at[1], 0.5 * t.width);
 }
 
+/* A line has fluid on one side alone. */
+static void check_ends(const struct run *r, struct faults *f)
+{
+    char key[64];
+    struct wall_end e;
+    if (!wall_ends_open(&r->scene, 0.1 * given.dx, &e))
+        return;
+    snprintf(key, sizeof key, "walls.[%d].points", e.wall);
+    params_fault(
+        r->params, f, key,
+        "the line that stands on another wall at (%g, %g) ends inside the domain at (%g, %g), "
+        "so that fluid comes to its back, where a line is no wall: let it go on to a wall or "
+        "to a side of the domain, or draw both of its faces",
+        e.foot[0], e.foot[1], e.at[0], e.at[1]);
+}
+
+/* A body moved by the fluid and a partner of a coupled job take one step with all levels. */
+static void check_local_steps(const struct run *r, struct faults *f)
+{
+    bool any_free = false;
+    for (int k = 0; k < r->scene.nbodies; k++)
+        any_free = any_free || r->scene.bodies[k].free;
+    if (is_coupled(r) || any_free)
+        params_fault(r->params, f, "apr.local_steps", "%s: leave it out",
+                     any_free ? "bodies that the fluid moves go with all levels at once"
+                              : "levels of a coupled job step together");
+}
+
 /* What levels of refinement do not go together with. */
 static void check_levels(const struct run *r, struct faults *f)
 {
     const struct sph_params *used = sph_params_of(r);
-    if (is_coupled(r))
-        params_fault(r->params, f, "apr",
-                     "refinement is not for a coupled job yet: leave out group apr, or run sph "
-                     "alone");
-    if (sph_params_walls(r) && used->walls == WALLS_GHOSTS)
-        params_fault(r->params, f, "sph.walls",
-                     "mirrored ghosts know one spacing only: refinement needs nfm");
+    const struct apr_params *apr = apr_params_of(r);
+    params_unused(r->params, f, "apr.local_steps", apr->method == APR_GUARDS,
+                  "this method has particles of all sizes in one set");
+    params_unused(r->params, f, "apr.unshifted_finest",
+                  apr->method == APR_GUARDS &&
+                      (used->transport == TRANSPORT_TVS || used->transport == TRANSPORT_TVO),
+                  apr->method == APR_GUARDS ? "sph.transport is no law of shifting"
+                                            : "this method has particles of all sizes in one set");
+    if (apr->method != APR_GUARDS) {
+        mixed_check(r, used, apr, f);
+        return;
+    }
+    if (apr->local_steps)
+        check_local_steps(r, f);
     if (used->background)
         params_fault(r->params, f, "sph.background",
                      "levels of refinement would each lift their own least pressure: leave it out");
-    for (int k = 0; k < r->scene.nbodies; k++)
-        if (r->scene.bodies[k].free) {
-            params_fault(r->params, f, "apr",
-                         "body %d (%s) is moved by the fluid, which refinement does not know yet: "
-                         "prescribe its motion, or leave out group apr",
-                         k + 1, r->scene.bodies[k].name);
-            return;
-        }
 }
 
 void sph_params_check(const struct run *r, struct faults *f)
@@ -554,12 +666,16 @@ void sph_params_check(const struct run *r, struct faults *f)
             params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");
     if (f->n == 0 && has_box())
         check_zones(r, f);
+    if (f->n == 0)
+        check_motion(r, f);
     sph_unused_check(r, &given, sph_params_of(r), f);
     if (f->n > 0)
         return;
     sph_sense_check(r, &given, sph_params_of(r), f);
     if (f->n == 0 || !in_3d)
         sph_bodies_check(r, sph_params_of(r), f);
+    if (f->n == 0 && !in_3d)
+        check_ends(r, f);
     if (f->n == 0 && !in_3d)
         check_thin(r, f);
     else if (f->n == 0)

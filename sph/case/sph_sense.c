@@ -9,6 +9,7 @@
 #include "../../common/scene_fluid.h"
 #include "../../common/scene_geometry.h"
 #include "../../common/scene_mesh.h"
+#include "../sph.h"
 
 static const char *const side_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
@@ -187,19 +188,14 @@ static void check_box(const struct run *r, const struct sph_params *given,
         const bool low = sph_params_reaches(d, used, 2 * a);
         const bool high = sph_params_reaches(d, used, 2 * a + 1);
         const double *free = given->free[0], *end = given->free[1];
-        if (by_free &&
+        if (by_free && !d->periodic[a] &&
             (free[a] < d->min[a] - 1e-6 * used->dx || end[a] > d->max[a] + 1e-6 * used->dx))
             params_fault(r->params, f, key,
                          "%c from %g to %g m is not inside the domain, %g to %g m", "xyz"[a],
                          free[a], end[a], d -> min[a], d -> max[a]);
-        if (d->periodic[a] && low != high)
-            params_fault(r->params, f, key,
-                         "ends on the periodic side %s, where the domain goes on: let it span the "
-                         "whole of %c, or lie inside",
-                         side_names[2 * a + high], "xyz"[a]);
         if (used->surface != SURFACE_YES || (low && high))
             continue;
-        if (r->crossed && fabs(still[a]) < 0.5 * g)
+        if (r->crossed)
             continue; /* the partner has a surface, too */
         if (g > 0.0 && fabs(still[a]) < 0.5 * g)
             params_fault(r->params, f, key,
@@ -239,10 +235,10 @@ static void check_gauges(const struct run *r, struct faults *f)
     for (int k = 0; k < c->nprobes && !(along && c->fluid.gravity[up] <= 0.0); k++) {
         char key[64];
         snprintf(key, sizeof key, "probes.[%d].kind", k);
-        if (c->probes[k].kind == PROBE_LEVEL)
+        if (c->probes[k].kind != PROBE_PRESSURE)
             params_fault(
                 r->params, f, key,
-                "%s: level gauges read upright columns, along %c: gravity must point along "
+                "%s: gauges of levels read upright columns, along %c: gravity must point along "
                 "-%c. A pressure gauge knows no such rule",
                 c->probes[k].name, "xyz"[up], "xyz"[up]);
     }
@@ -265,6 +261,24 @@ static void check_hidden(const struct run *r, const struct sph_params *used, str
         }
 }
 
+/* As fill.c lays the lattice. */
+static void check_grains(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    double lo[3], hi[3], first[3], h[3] = {used->dx, used->dx, used->dx};
+    bool periodic[3];
+    int n[3] = {1, 1, 1};
+    sph_params_region(&c->domain, used, lo, hi, periodic);
+    for (int a = 0; a < c->domain.dim; a++) {
+        const double cells = (hi[a] - lo[a]) / used->dx;
+        if (!(cells < 1e9))
+            return; /* a fault of its own */
+        n[a] = (int)ceil(cells - 1e-6);
+        first[a] = fill_lattice_begin(c, a, lo[a], hi[a], used->dx) + 0.5 * used->dx;
+    }
+    scene_check_grains(c, r->params, first, h, n, "place of a particle", f);
+}
+
 void sph_sense_check(const struct run *r, const struct sph_params *given,
                      const struct sph_params *used, struct faults *f)
 {
@@ -285,6 +299,7 @@ void sph_sense_check(const struct run *r, const struct sph_params *given,
     if (f->n == before)
         check_bare(r, used, f);
     check_falls(r, used, f);
+    check_grains(r, used, f);
     check_outer(r, used, f);
     check_gauges(r, f);
 }

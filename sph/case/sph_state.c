@@ -3,22 +3,27 @@
 #include "../sph.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "../../common/log.h"
 #include "../../common/mem.h"
 #include "../parallel/domain.h"
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/scheme.h"
+#include "../refinement/apr_params.h"
 #include "../refinement/criteria.h"
 #include "../refinement/guards.h"
+#include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
 #include "../sph_params.h"
 #include "../surface/surface.h"
 #include "../bodies/bodies.h"
 #include "../time/runge_kutta.h"
 #include "../walls/walls.h"
-#include "../open_boundaries/zones.h"
+#include "../open_boundaries/box_motion.h"
+#include "../open_boundaries/zone_steps.h"
 
 /* Half a period must hold R and the skin, see check_axis in sph_params.c. */
 static double widest_skin(const struct sph *s)
@@ -58,6 +63,18 @@ static void remember_start(struct sph *s)
     memcpy(s->momentum0, sums + SUM_MOMENTUM, sizeof s->momentum0);
 }
 
+/* Laid out once: as far as the box may come. */
+static void create_walls(struct sph *s)
+{
+    double now[2][3];
+    memcpy(now[0], s->lo, sizeof now[0]);
+    memcpy(now[1], s->hi, sizeof now[1]);
+    box_motion_range(s, s->lo, s->hi);
+    s->walls = walls_create(s);
+    memcpy(s->lo, now[0], sizeof now[0]);
+    memcpy(s->hi, now[1], sizeof now[1]);
+}
+
 /* Without particles; coarser: the level above, NULL: the first. */
 static struct sph *create_level(struct run *r, const struct sph_params *prm, struct sph *coarser)
 {
@@ -78,7 +95,7 @@ static struct sph *create_level(struct run *r, const struct sph_params *prm, str
     s->list->touching = collisions_distance(s);
     s->zones = coarser ? NULL : zones_create(s); /* open sides are of the first level */
     domain_create(s);
-    s->walls = walls_create(s);
+    create_walls(s);
     bodies_create(s);
     s->surface = surface_create(s);
     s->passes = scheme_pick(s);
@@ -94,15 +111,39 @@ static void create_finer(struct sph *s)
     struct regions *g = regions_create(s->run, &s->prm);
     if (!g)
         return;
-    if (sph_watch_moves(&s->run->scene)) /* guards at moving walls take part in their work */
-        s->watch.budget_closed = false;
+    const bool local = apr_params_of(s->run)->local_steps;
     s->refinement = NEW(struct refinement, 1);
     s->refinement->regions = g;
+    if (apr_params_of(s->run)->method != APR_GUARDS)
+        return;
+    s->refinement->local_steps = s->local_steps = local;
     s->guards = guards_create();
+    s->guards->own_rates = local;
+    s->flows_at = refinement_flows_at;
     for (struct sph *q = s; q->level < regions_levels(g);) {
-        q = create_level(s->run, &s->prm, q);
+        struct sph_params prm = s->prm;
+        if (apr_params_of(s->run)->unshifted_finest && q->level + 1 == regions_levels(g))
+            prm.transport = TRANSPORT_NONE;
+        q = create_level(s->run, &prm, q);
         q->guards = guards_create();
+        q->guards->own_rates = q->local_steps = local;
+        q->flows_at = refinement_flows_at;
     }
+}
+
+/* Whether there is nobody, and nobody can come in. */
+static bool is_dry(const struct sph *s)
+{
+    int64_t n = s->p.n;
+    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT64_T, MPI_SUM, s->run->comm);
+    return n == 0 && !s->zones;
+}
+
+const char *sph_level_name(const struct sph *s)
+{
+    static char text[32];
+    snprintf(text, sizeof text, ", level %d", s->level);
+    return s->guards ? text : "";
 }
 
 struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f)
@@ -114,12 +155,22 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
             sph_free(&s);
         return s;
     }
-    fill_lattice(s);
+    if (s->refinement && apr_params_of(r)->method == APR_GRADED)
+        graded_fill(s);
+    else
+        fill_lattice(s);
+    if (is_dry(s)) {
+        log_say("%s: walls and bodies leave no place for a particle: no water, nothing to compute; "
+                "nothing was started",
+                r->case_name);
+        sph_free(&s);
+        return NULL;
+    }
     if (s->finer && criteria_due(s->refinement->regions, s->t)) { /* of the coarsest level alone */
         integrate_start(s);
         refinement_look(s);
     }
-    if (s->finer)
+    if (s->refinement)
         fill_finer(s);
     integrate_start(s);
     remember_start(s);
@@ -133,6 +184,7 @@ void sph_free(struct sph **s)
     sph_free(&(*s)->finer);
     refinement_free(*s);
     guards_free(&(*s)->guards);
+    mixed_free(*s);
     domain_free(&(*s)->domain);
     zones_free(&(*s)->zones);
     walls_free(&(*s)->walls);

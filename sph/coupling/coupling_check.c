@@ -6,11 +6,13 @@
 #include <string.h>
 
 #include "../../common/exact.h"
+#include "../../common/log.h"
 #include "../../common/mem.h"
 #include "../../common/scene_fluid.h"
 #include "../sph_params.h"
 #include "../rigid/body.h"
 #include "windows.h"
+#include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
 
 static const char axes[] = "xyz";
@@ -101,8 +103,7 @@ static void check_water(const struct run *r, const struct water *w, struct fault
                  box[1][2]);
 }
 
-/* Where the box reaches the domain's side, SPH ends: at a wall, above the water, or in a period
- * that it spans. */
+/* Where the box reaches the domain's side, SPH ends: at a wall, or above the water. */
 static void check_side(const struct run *r, const struct sph_params *prm, const struct water *w,
                        int side, struct faults *f)
 {
@@ -110,17 +111,8 @@ static void check_side(const struct run *r, const struct sph_params *prm, const 
     const struct scene_wall *wall = scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + side));
     const int a = side / 2;
     double lo[3], hi[3], x[3];
-    if (!sph_params_reaches(d, prm, side))
+    if (!sph_params_reaches(d, prm, side) || d->periodic[a])
         return;
-    if (d->periodic[a]) {
-        if (!sph_params_reaches(d, prm, side ^ 1))
-            params_fault(
-                r->params, f, "sph.box",
-                "it ends on the periodic %c side at %g m, where fv goes on: span the whole "
-                "period, or leave the side by a cell of fv at least",
-                axes[a], side % 2 ? d->max[a] : d->min[a]);
-        return;
-    }
     if (wall && wall->kind < WALL_INFLOW)
         return;
     memcpy(lo, prm->box[0], sizeof lo);
@@ -139,8 +131,8 @@ static void check_side(const struct run *r, const struct sph_params *prm, const 
 
 /* First time at which a corner of a driven body leaves the box by an open side, INFINITY: never; a
  * free one is watched as it goes. */
-static double leaves(const struct run *r, const struct scene_body *is, double box[2][3],
-                     const bool *open)
+static double leaves(const struct run *r, const struct sph_params *prm, const struct scene_body *is,
+                     double box[2][3], const bool *open)
 {
     enum { TIMES = 500 };
     struct body b;
@@ -148,12 +140,15 @@ static double leaves(const struct run *r, const struct scene_body *is, double bo
     body_create(&b, is, NULL, r->scene.domain.dim, r->case_dir);
     for (int k = 0; k <= (b.free ? 0 : TIMES) && when == INFINITY; k++) {
         const double t = r->scene.time.end * k / TIMES;
+        double way[3];
         body_move(&b, t);
+        (void)box_motion_foretold(r, prm, t, way);
         for (int i = 0; i < is->points.n; i++) {
             double at[2];
             body_place(&b, is->points.x[i], at);
             for (int a = 0; a < 2; a++)
-                if ((open[2 * a] && at[a] < box[0][a]) || (open[2 * a + 1] && at[a] > box[1][a]))
+                if ((open[2 * a] && at[a] < box[0][a] + way[a]) ||
+                    (open[2 * a + 1] && at[a] > box[1][a] + way[a]))
                     when = t;
         }
     }
@@ -171,7 +166,7 @@ static void check_bodies(const struct run *r, const struct sph_params *prm, stru
     for (int k = 0; k < r->scene.nbodies; k++) {
         const struct scene_body *b = r->scene.bodies + k;
         char key[32];
-        const double when = leaves(r, b, given, open);
+        const double when = leaves(r, prm, b, given, open);
         snprintf(key, sizeof key, "bodies.[%d]", k);
         if (when < INFINITY)
             params_fault(r->params, f, key,
@@ -179,6 +174,50 @@ static void check_bodies(const struct run *r, const struct sph_params *prm, stru
                          "knows of no body, takes that from sph alone; enlarge sph.box, or lower "
                          "coupling.overlap, time.end or the body's way",
                          b->name, given[0][0], given[0][1], given[1][0], given[1][1], when);
+    }
+}
+
+/* A line that leaves where SPH gives the flow, inside the domain: the place where it does. */
+static bool line_leaves(const struct run *r, const struct scene_wall *w, double box[2][3],
+                        const bool *open, double step, double *at)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    for (int i = 0; i + !w->closed < w->points.n; i++) {
+        const double *a = w->points.x[i], *b = w->points.x[(i + 1) % w->points.n];
+        const int n = (int)ceil(hypot(b[0] - a[0], b[1] - a[1]) / step) + 1;
+        for (int k = 0; k <= n; k++) {
+            bool inside = true, out = false;
+            for (int c = 0; c < 2; c++) {
+                at[c] = a[c] + k * (b[c] - a[c]) / n;
+                inside = inside && at[c] > d->min[c] && at[c] < d->max[c];
+                out = out || (open[2 * c] && at[c] < box[0][c]) ||
+                      (open[2 * c + 1] && at[c] > box[1][c]);
+            }
+            if (inside && out)
+                return true;
+        }
+    }
+    return false;
+}
+
+/* FV knows of no line: its stencils, two cells deep in what SPH gives, must not meet one. */
+static void check_lines(const struct run *r, const struct sph_params *prm, const struct water *w,
+                        struct faults *f)
+{
+    double box[2][3], at[2];
+    bool open[6];
+    memcpy(box, w->hidden, sizeof box);
+    sph_params_open(r, prm, open);
+    for (int k = 0; k < r->scene.nwalls; k++) {
+        const struct scene_wall *line = r->scene.walls + k;
+        char key[32];
+        snprintf(key, sizeof key, "walls.[%d].points", k);
+        if (line->points.n > 1 && line_leaves(r, line, box, open, 0.5 * prm->dx, at))
+            params_fault(r->params, f, key,
+                         "at (%g, %g) m it is outside of (%g, %g) to (%g, %g) m: fv, which knows "
+                         "of no line, takes only what lies deeper from sph; enlarge sph.box, lower "
+                         "coupling.overlap, or refine fv.cells",
+                         at[0], at[1], box[0][0], box[0][1], box[1][0], box[1][1]);
     }
 }
 
@@ -232,6 +271,155 @@ static void find_hidden(const struct run *r, const struct sph_params *prm, doubl
     }
 }
 
+/* Cells that come free and those that are forced anew are those of fv.cells. */
+static void check_moving(const struct run *r, const struct sph_params *prm, struct faults *f)
+{
+    const char *key = box_motion_key(prm);
+    double cells[3], graded[3];
+    if (!box_motion_wanted(prm))
+        return;
+    if (!params_peek(r->params, r->comm, "fv.cells", cells) || !(cells[0] > 0.0))
+        params_fault(r->params, f, key,
+                     "fv has blocks, which are cut once around the box: give fv.cells, or let the "
+                     "box rest");
+    params_peek(r->params, r->comm, "fv.graded", graded);
+    if (graded[1] > 0.0 && box_motion_along(r, prm, 1))
+        params_fault(r->params, f, key,
+                     "the box would move across rows of fv.graded: let it move along x and z");
+}
+
+void coupling_warn(const struct run *r)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    double near[2][3];
+    bool open[6];
+    find_hidden(r, prm, near);
+    sph_params_open(r, prm, open);
+    for (int k = 0; k < r->scene.nbodies; k++)
+        if (leaves(r, prm, r->scene.bodies + k, near, open) < INFINITY)
+            log_warn(
+                "body `%s' comes within two cells of fv of what fv takes from sph: it mixes the "
+                "particles on all its sides there; enlarge sph.box, or refine fv.cells",
+                r->scene.bodies[k].name);
+}
+
+/* The box of another group of particles with its zones; false: it has none of its own. */
+static bool box_of_group(const struct run *r, const struct sph_params *prm, const char *group,
+                         double box[2][3])
+{
+    struct sph_params other = *prm;
+    double given[3], transition, buffer;
+    char key[72];
+    snprintf(key, sizeof key, ":%.60s.box", group);
+    if (params_peek_pair(r->params, r->comm, key, box))
+        return true;
+    snprintf(key, sizeof key, ":%.60s.free", group);
+    if (!params_peek_pair(r->params, r->comm, key, box))
+        return false;
+    snprintf(key, sizeof key, ":%.60s.dx", group);
+    if (params_peek(r->params, r->comm, key, given))
+        other.dx = given[0];
+    snprintf(key, sizeof key, ":%.60s.R_dx", group);
+    if (params_peek(r->params, r->comm, key, given))
+        other.R_dx = given[0];
+    zones_widths(r, &other, &transition, &buffer);
+    for (int a = 0; a < r->scene.domain.dim; a++) {
+        box[0][a] -= transition + buffer;
+        box[1][a] += transition + buffer;
+    }
+    return true;
+}
+
+/* Several programs of particles, each with its box: what only one of them can have. */
+static void check_several(const struct run *r, const struct sph_params *prm, struct faults *f)
+{
+    char names[PARAM_KIN_MAX][64];
+    const int n = params_kin(r->params, "sph", names);
+    const struct scene_domain *d = &r->scene.domain;
+    if (n < 2)
+        return;
+    if (scene_has_surface(&r->scene))
+        params_fault(r->params, f, "sph.box",
+                     "%d boxes of particles under a free surface: its water is counted between two "
+                     "programs; take one box, or fill the domain",
+                     n);
+    if (r->scene.nbodies > 0)
+        params_fault(r->params, f, "bodies",
+                     "%d boxes of particles: bodies go with one box; leave out the other groups",
+                     n);
+    if (box_motion_wanted(prm))
+        params_fault(r->params, f, box_motion_key(prm),
+                     "%d boxes of particles: one that moves could meet another; let them rest, or "
+                     "take one box",
+                     n);
+    for (int k = 0; k < n; k++) {
+        double box[2][3];
+        bool apart = strcmp(names[k], r->name) == 0 || !box_of_group(r, prm, names[k], box);
+        for (int a = 0; a < d->dim; a++)
+            apart = apart || box[1][a] <= prm->box[0][a] || box[0][a] >= prm->box[1][a];
+        if (!apart)
+            params_fault(r->params, f, "sph.box",
+                         "it overlaps the box of group %s (with its zones %g to %g, %g to %g m): "
+                         "let them lie apart",
+                         names[k], box[0][0], box[1][0], box[0][1], box[1][1]);
+    }
+}
+
+/* Whether transition, buffer and overlap leave anything of sph.box. */
+static bool gives(const struct run *r, const struct sph_params *prm, const struct water *w,
+                  struct faults *f)
+{
+    for (int a = 0; a < r->scene.domain.dim; a++) {
+        const double wide = w->given[1][a] - w->given[0][a];
+        if (wide > 1e-9 * prm->dx)
+            continue;
+        params_fault(r->params, f, params_given(r->params, "sph.free") ? "sph.free" : "sph.box",
+                     "transition, buffer and overlap (each 1.25 R = %g m by default, at each open "
+                     "side) leave nothing along %c of what sph gives to fv: %.4g m and a cell of "
+                     "fv are wanted; enlarge it, refine sph.dx, or give these widths",
+                     1.25 * prm->R_dx * prm->dx, axes[a], fmax(0.0, -wide - 1e-9 * prm->dx));
+        return false;
+    }
+    return true;
+}
+
+/* Whether fv's flow beside an end of axis a has an outlet that sets its pressure. */
+static bool has_outlet(const struct scene *c, int a, int up)
+{
+    for (int side = 0; side < 2 * c->domain.dim; side++) {
+        const struct scene_wall *w = scene_wall_of(c, SIDE_X_MIN + side);
+        if ((side / 2 != a || side % 2 == up) && w && w->kind == WALL_OUTFLOW && !w->carried)
+            return true;
+    }
+    return false;
+}
+
+/* What sph gives from wall to wall cuts fv's flow in two. One without an outlet knows neither its
+ * level of pressure nor where what sph gives too much is to go: the projection has no solution. */
+static void check_parted(const struct run *r, const struct sph_params *prm, const struct water *w,
+                         struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    const struct scene_domain *d = &c->domain;
+    const bool blocks = params_has_group(r->params, "blocks"); /* whose sides are their own */
+    for (int a = 0; a < d->dim && !r->crossed && !blocks; a++) {
+        bool across = !d->periodic[a];
+        for (int b = 0; b < d->dim; b++) {
+            const double near = 1e-6 * prm->dx;
+            across =
+                across &&
+                (b == a ? w->given[0][b] > d->min[b] + near && w->given[1][b] < d->max[b] - near
+                        : w->given[0][b] < d->min[b] + near && w->given[1][b] > d->max[b] - near);
+        }
+        if (across && !(has_outlet(c, a, 0) && has_outlet(c, a, 1)))
+            params_fault(r->params, f, params_given(r->params, "sph.free") ? "sph.free" : "sph.box",
+                         "cuts fv's flow in two along %c, and what lies %s has no outlet of its "
+                         "own: nothing sets its pressure. Leave fv a way around it: end the box "
+                         "before one of the sides that it reaches now",
+                         axes[a], has_outlet(c, a, 1) ? "below" : "above");
+    }
+}
+
 void coupling_check(const struct run *r, struct faults *f)
 {
     const struct sph_params *prm = sph_params_of(r);
@@ -241,18 +429,20 @@ void coupling_check(const struct run *r, struct faults *f)
                      "smaller than the domain, or leave out group fv");
         return;
     }
-    if (r->crossed && r->scene.domain.dim == 3)
-        params_fault(r->params, f, "sph.box",
-                     "it ends in the water at an upright side: that the surface crosses it was "
-                     "tried in 2D only; let the box span the domain across gravity");
     struct water w = {.scene = &r->scene, .dx = prm->dx, .exact = exact_create(&r->scene)};
     zones_given_box(r, prm, w.given[0], w.given[1]);
     find_hidden(r, prm, w.hidden);
     for (int side = 0; side < 2 * r->scene.domain.dim; side++)
         check_side(r, prm, &w, side, f);
+    if (!gives(r, prm, &w, f))
+        return;
+    check_parted(r, prm, &w, f);
     if (f->n == 0)
         check_water(r, &w, f);
     check_bodies(r, prm, f);
+    check_moving(r, prm, f);
+    check_several(r, prm, f);
+    check_lines(r, prm, &w, f);
     if (f->n == 0)
         check_cells(r, prm, f);
     windows_check(r, prm, f);

@@ -22,8 +22,24 @@ const char *const overlap_columns[OVERLAP_COLUMNS] = {
  * c0 U, passes through SPH alone and is no fault. */
 static const double several = 10.0;
 
-struct overlap *overlap_create(const struct sph *s)
+/* In a stage, when the surface has been detected. */
+static void find_surface(struct sph *s)
 {
+    struct overlap *o = s->zones->watched;
+    if (!o->asks || !s->surface || s->zones->surface)
+        return;
+    o->asks = false;
+    o->found = 0.0;
+    for (int i = 0; i < s->p.n; i++)
+        if (s->surface->is[i] == SURFACE_ON && s->p.zone[i] != ZONE_FREE) {
+            o->found += 1.0;
+            memcpy(o->where, state_row(&s->p, s->p.y, i), (size_t)s->dim * sizeof *o->where);
+        }
+}
+
+struct overlap *overlap_create(struct sph *s)
+{
+    s->zones->look_inside = find_surface;
     struct overlap *o = NEW(struct overlap, 1);
     const struct windows w = windows_choose(s->run, &s->prm);
     const struct scene_coupling *c = &s->run->scene.coupling;
@@ -97,20 +113,6 @@ static void compare(struct sph *s, double sums[4])
         sums[2] += w * dp;
         sums[3] += w * dp * dp;
     }
-}
-
-void overlap_find_surface(struct sph *s)
-{
-    struct overlap *o = s->zones->watched;
-    if (!o->asks || !s->surface || s->zones->surface)
-        return;
-    o->asks = false;
-    o->found = 0.0;
-    for (int i = 0; i < s->p.n; i++)
-        if (s->surface->is[i] == SURFACE_ON && s->p.zone[i] != ZONE_FREE) {
-            o->found += 1.0;
-            memcpy(o->where, state_row(&s->p, s->p.y, i), (size_t)s->dim * sizeof *o->where);
-        }
 }
 
 void overlap_look(struct sph *s)

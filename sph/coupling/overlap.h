@@ -21,10 +21,8 @@ struct overlap {
     double where[3];         /* m: one of them */
 };
 
-struct overlap *overlap_create(const struct sph *s);
+struct overlap *overlap_create(struct sph *s);
 void overlap_free(struct overlap **o);
-/* In a stage, when the surface has been detected. */
-void overlap_find_surface(struct sph *s);
 /* Compares SPH with the patch at s->t. Collective. */
 void overlap_look(struct sph *s);
 /* Fills d where the run cannot be trusted. */

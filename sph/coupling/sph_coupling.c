@@ -3,6 +3,7 @@
  * its particles over, and takes the next patch when its partner has followed.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../../common/log.h"
@@ -10,17 +11,21 @@
 #include "../../coupler/cpl.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
+#include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/level_gap.h"
 #include "overlap.h"
 #include "../sph_params.h"
 #include "windows.h"
+#include "../open_boundaries/wet_faces.h"
+#include "../open_boundaries/zone_steps.h"
 #include "../open_boundaries/zones.h"
 
 /* Ids of the sets and fields, and scratch for what is sent. */
 struct link {
     struct cpl *c;
     int dim, particles, velocity, pressure, patch_velocity, patch_pressure;
-    int budget, water;  /* one point, at the free zone's corner; what that zone holds */
+    int budget, water;  /* one point, at the free zone's corner; wet_faces_water */
+    int place, way;     /* of a box that moves: a point where it starts, how far it is from there */
     int one, patch_phi; /* where a surface crosses: how much of a kernel particles fill; fv's */
     double *x, *u, *p, *w, *ones;
     int64_t *id;
@@ -37,18 +42,33 @@ static void check(const struct link *k, int code)
         fail("coupling: %s", cpl_strerror(k->c));
 }
 
+/* "sph.velocity": of what this program gives. */
+static const char *named(const struct run *r, const char *what)
+{
+    static char text[CPL_NAME];
+    snprintf(text, sizeof text, "%s.%s", r->name, what);
+    return text;
+}
+
 void coupling_offer(struct run *r)
 {
     const struct sph_params *prm = sph_params_of(r);
     double lo[3], hi[3];
     zones_free_box(r, prm, lo, hi);
-    cpl_zone(r->partner_ctx, "sph.box", prm->box[0], prm->box[1]);
-    cpl_zone(r->partner_ctx, "sph.free", lo, hi);
+    cpl_zone(r->partner_ctx, named(r, "box"), prm->box[0], prm->box[1]);
+    cpl_zone(r->partner_ctx, named(r, "free"), lo, hi);
     zones_given_box(r, prm, lo, hi);
-    cpl_zone(r->partner_ctx, "sph.given", lo, hi);
+    cpl_zone(r->partner_ctx, named(r, "given"), lo, hi);
+    static const double start[3] = {0.0, 0.0, 0.0};
+    zones_counted_box(r, prm, start, lo, hi);
+    cpl_zone(r->partner_ctx, named(r, "counted"), lo, hi);
     /* a number that travels as a box: windows over which pressure is smoothed */
     const double memory[3] = {windows_choose(r, prm).memory, 0.0, 0.0};
-    cpl_zone(r->partner_ctx, "sph.memory", memory, memory);
+    const double moves[3] = {box_motion_wanted(prm), 0.0, 0.0};
+    cpl_zone(r->partner_ctx, named(r, "memory"), memory, memory);
+    cpl_zone(r->partner_ctx, named(r, "moves"), moves, moves);
+    const double speed[3] = {sph_params_speed(r).speed, 0.0, 0.0};
+    cpl_zone(r->partner_ctx, named(r, "speed"), speed, speed);
 }
 
 /* Values and gradients of the patch, one field after the other. */
@@ -72,22 +92,27 @@ void coupling_create(struct sph *s)
     const int how = s->run->scene.coupling.interpolation ? CPL_CUBIC : CPL_LINEAR;
     k->c = s->run->partner_ctx;
     k->dim = s->dim;
-    check(k, cpl_points(k->c, "sph.particles", s->dim, 0.0, &k->particles));
-    check(k,
-          cpl_field(k->c, k->particles, "sph.velocity", "m/s", s->dim, CPL_PUT, 0, &k->velocity));
-    check(k, cpl_field(k->c, k->particles, "sph.pressure", "Pa", 1, CPL_PUT | CPL_OPTIONAL, 0,
-                       &k->pressure));
+    check(k, cpl_points(k->c, named(s->run, "particles"), s->dim, 0.0, &k->particles));
+    check(k, cpl_field(k->c, k->particles, named(s->run, "velocity"), "m/s", s->dim, CPL_PUT, 0,
+                       &k->velocity));
+    check(k, cpl_field(k->c, k->particles, named(s->run, "pressure"), "Pa", 1,
+                       CPL_PUT | CPL_OPTIONAL, 0, &k->pressure));
     check(k, cpl_field(k->c, k->particles, "fv.velocity", "m/s", s->dim, CPL_GET, how,
                        &k->patch_velocity));
     check(k,
           cpl_field(k->c, k->particles, "fv.pressure", "Pa", 1, CPL_GET, how, &k->patch_pressure));
     if (s->run->crossed) {
-        check(k, cpl_field(k->c, k->particles, "sph.one", "-", 1, CPL_PUT, 0, &k->one));
+        check(k, cpl_field(k->c, k->particles, named(s->run, "one"), "-", 1, CPL_PUT, 0, &k->one));
         check(k,
               cpl_field(k->c, k->particles, "fv.phi", "m", 1, CPL_GET, CPL_LINEAR, &k->patch_phi));
-        check(k, cpl_points(k->c, "sph.budget", s->dim, 0.0, &k->budget));
-        check(k, cpl_field(k->c, k->budget, "sph.water", "m^dim", 1, CPL_PUT, 0, &k->water));
+        check(k, cpl_points(k->c, named(s->run, "budget"), s->dim, 0.0, &k->budget));
+        check(k, cpl_field(k->c, k->budget, named(s->run, "water"), "m^dim", 2, CPL_PUT, 0,
+                           &k->water));
         s->zones->surface = eval_surface;
+    }
+    if (box_motion_wanted(&s->prm)) {
+        check(k, cpl_points(k->c, named(s->run, "place"), s->dim, 0.0, &k->place));
+        check(k, cpl_field(k->c, k->place, named(s->run, "way"), "m", 9, CPL_PUT, 0, &k->way));
     }
     s->zones->eval = eval_patch;
     s->zones->ctx = k;
@@ -107,14 +132,24 @@ void coupling_free(struct sph *s)
     mem_free(k);
 }
 
+/* m: how far around its part a rank may look in a window of T s: a support, and where the box goes.
+ */
+static double looks_beyond(const struct sph *s, int a, double T)
+{
+    const struct zones *z = s->zones;
+    const double most = fmax(z->fastest, 1.5 * fabs(z->speed[a]));
+    const bool moves = z->fastest > 0.0 && box_motion_along(s->run, &s->prm, a);
+    return a >= s->dim ? 0.0 : s->R + (moves ? most * T : 0.0);
+}
+
 /* All ranks know the surface around the whole region: faces and probes are everybody's. */
-static void take_surface(struct sph *s)
+static void take_surface(struct sph *s, double T)
 {
     const struct link *k = s->zones->ctx;
     double lo[3], hi[3];
     for (int a = 0; a < 3; a++) {
-        lo[a] = s->lo[a] - (a < s->dim ? s->R : 0.0);
-        hi[a] = s->hi[a] + (a < s->dim ? s->R : 0.0);
+        lo[a] = s->lo[a] - looks_beyond(s, a, T);
+        hi[a] = s->hi[a] + looks_beyond(s, a, T);
     }
     check(k, cpl_patch_get(k->c, k->patch_phi, lo, hi));
     s->ready = false; /* the lattice behind the faces ends at the surface, which is another now */
@@ -125,20 +160,19 @@ static void take_surface(struct sph *s)
 /* The patch that this rank's particles and faces may need until the end of the window. */
 void coupling_window_begin(void *state, double t0, double t1)
 {
-    (void)t0;
-    (void)t1;
     struct sph *s = state;
     const struct link *k = s->zones->ctx;
     double lo[3], hi[3];
+    zones_counted_box(s->run, &s->prm, s->zones->way, s->zones->counted[0], s->zones->counted[1]);
     domain_bounds(s->domain, lo, hi);
     for (int a = 0; a < 3; a++) {
-        lo[a] -= a < s->dim ? s->R : 0.0;
-        hi[a] += a < s->dim ? s->R : 0.0;
+        lo[a] -= looks_beyond(s, a, t1 - t0);
+        hi[a] += looks_beyond(s, a, t1 - t0);
     }
     check(k, cpl_patch_get(k->c, k->patch_velocity, lo, hi));
     check(k, cpl_patch_get(k->c, k->patch_pressure, lo, hi));
     if (s->zones->surface)
-        take_surface(s);
+        take_surface(s, t1 - t0);
     zones_gauge(s);
     overlap_look(s);
 }
@@ -159,19 +193,44 @@ static void room(struct link *k, int n)
     GROW(k->id, old, k->capacity);
 }
 
+/* Places as the domain has them, whose periodic sides the box may have passed. */
+static double into_domain(const struct sph *s, int a, double x)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    const double L = d->max[a] - d->min[a];
+    return d->periodic[a] ? x - L * floor((x - d->min[a]) / L) : x;
+}
+
+/* A point and a value that one rank has. */
+static void give_one(struct sph *s, int set, int field, double t, const double *value)
+{
+    struct link *k = s->zones->ctx;
+    const double start[3] = {0.0, 0.0, 0.0};
+    const int mine = s->run->rank == 0 ? 1 : 0;
+    const int64_t id = 0;
+    room(k, 1);
+    check(k, cpl_move(k->c, set, mine, start, &id, k->ones));
+    check(k, cpl_put(k->c, field, t, mine, value, NULL));
+}
+
+/* How far the box has moved, and what of it will be counted as SPH's water in the next window. */
+static void give_way(struct sph *s, double t)
+{
+    const struct link *k = s->zones->ctx;
+    double v[9];
+    memcpy(v, s->zones->way, 3 * sizeof *v);
+    zones_counted_box(s->run, &s->prm, v, v + 3, v + 6);
+    give_one(s, k->place, k->way, t, v);
+}
+
 /* Where the n particles are that are given: ones; and how much water the free zone holds. */
 static void give_surface(struct sph *s, int n, double t)
 {
     const struct link *k = s->zones->ctx;
-    const double water = zones_water(s);
-    double lo[3], hi[3];
-    const int64_t id = 0;
-    zones_free_box(s->run, &s->prm, lo, hi);
+    double water[2];
+    wet_faces_water(s, water);
     check(k, cpl_put(k->c, k->one, t, n, k->ones, NULL));
-    room((struct link *)s->zones->ctx, 1);
-    const int mine = s->run->rank == 0 ? 1 : 0;
-    check(k, cpl_move(k->c, k->budget, mine, lo, &id, k->ones));
-    check(k, cpl_put(k->c, k->water, t, mine, &water, NULL));
+    give_one(s, k->budget, k->water, t, water);
 }
 
 /* Particles of the free zone and the blended ones; never buffer particles, which would give the
@@ -188,7 +247,7 @@ void coupling_window_end(void *state, double t1)
         if (zones_depth(s, y) < s->zones->buffer)
             continue;
         for (int a = 0; a < 3; a++)
-            k->x[3 * n + a] = a < dim ? y[a] : 0.0;
+            k->x[3 * n + a] = a < dim ? into_domain(s, a, y[a]) : 0.0;
         for (int a = 0; a < dim; a++)
             k->u[dim * n + a] = y[dim + a] / y[at_mass(dim)];
         k->p[n] = eos_p(y[at_mass(dim)] / y[at_volume(dim)], s->rho0, s->c0, s->gamma);
@@ -200,4 +259,6 @@ void coupling_window_end(void *state, double t1)
     check(k, cpl_put(k->c, k->pressure, t1, n, k->p, NULL));
     if (s->zones->surface)
         give_surface(s, n, t1);
+    if (box_motion_wanted(&s->prm))
+        give_way(s, t1);
 }

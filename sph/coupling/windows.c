@@ -7,8 +7,10 @@
 
 #include <math.h>
 
+#include "../../common/crossing.h"
 #include "../../common/log.h"
 #include "../sph_params.h"
+#include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
 
 /* A window of accuracy: U T/L of the flow; omega T of waves, which add up errors over periods. */
@@ -48,25 +50,6 @@ static int axis_of_gravity(const struct scene *c)
     return axis;
 }
 
-/* Height of the water above the domain's floor. */
-static double depth_of(const struct scene *c, int a)
-{
-    const double floor = c->domain.min[a];
-    if (c->initial.level < LEVEL_TOP)
-        return c->initial.level - floor;
-    double top = c->nshapes > 0 ? floor : c->domain.max[a];
-    for (int k = 0; k < c->nshapes; k++) {
-        const struct scene_shape *h = c->shapes + k;
-        double high = h->form == SHAPE_BOX    ? h->box[1][a]
-                      : h->form == SHAPE_DISC ? h->centre[a] + h->radius
-                                              : h->level;
-        for (int i = 0; i < h->points.n && h->form == SHAPE_POLYGON && a < 2; i++)
-            high = i == 0 ? h->points.x[0][a] : fmax(high, h->points.x[i][a]);
-        top = h->hole ? top : fmax(top, high);
-    }
-    return fmin(top, c->domain.max[a]) - floor;
-}
-
 static bool is_given(const struct run *r, const char *key)
 {
     return r->params && params_given(r->params, key); /* a test has a scene without a case */
@@ -88,10 +71,10 @@ static void scales(const struct run *r, const struct sph_params *prm, struct win
     for (int a = 0; a < c->domain.dim; a++)
         w->L = fmin(w->L, prm->box[1][a] - prm->box[0][a]);
     if (periodic_field || is_given(r, "initial.L"))
-        w->L = c->initial.L;
+        w->L = scene_wave_length(c);
     if (down >= 0 && scene_has_surface(c)) {
-        const double g = fabs(c->fluid.gravity[down]), H = depth_of(c, down);
-        const double k = 2.0 * M_PI / c->initial.L * (c->initial.L_z > 0.0 ? M_SQRT2 : 1.0);
+        const double g = fabs(c->fluid.gravity[down]), H = crossing_depth(c, down);
+        const double k = 2.0 * M_PI / scene_wave_length(c) * (c->initial.L_z > 0.0 ? M_SQRT2 : 1.0);
         w->omega = scene_has_wave(c) ? sqrt(g * k * tanh(k * H)) : sqrt(g / H);
         w->weight = g * fmin(H, w->L);
         if (!scene_has_wave(c) && !r->crossed) /* else fv has the long waves, too */
@@ -125,7 +108,7 @@ static double mass_at(const struct run *r, const struct sph_params *prm, const b
     const int a = side / 2;
     const double k = lateral(r, prm, open, a);
     if (r->crossed) { /* a surface bounds it: Westergaard, decaying over the overlap */
-        const double H = depth_of(&r->scene, axis_of_gravity(&r->scene));
+        const double H = crossing_depth(&r->scene, axis_of_gravity(&r->scene));
         return 0.55 * H * exp(-1.6 * D / H);
     }
     const bool walled = scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + side)) != NULL;
@@ -188,6 +171,18 @@ static void shorten(struct windows *w, double T, const char *limit)
     }
 }
 
+/* Of fv.cells, m; INFINITY: blocks. */
+static double least_cell(const struct run *r)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    double cells[3], h = INFINITY;
+    if (!r->params || !params_peek(r->params, r->comm, "fv.cells", cells))
+        return h;
+    for (int a = 0; a < d->dim; a++)
+        h = cells[a] > 0.0 ? fmin(h, (d->max[a] - d->min[a]) / cells[a]) : h;
+    return h;
+}
+
 struct windows windows_choose(const struct run *r, const struct sph_params *prm)
 {
     const struct scene_coupling *c = &r->scene.coupling;
@@ -201,7 +196,10 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
     w.T_most = fmin(flow_share * w.L / w.U, w.omega > 0.0 ? wave_share / w.omega : INFINITY);
     shorten(&w, flow_share * w.L / w.U, "the flow");
     shorten(&w, w.omega > 0.0 ? wave_share / w.omega : INFINITY, "the waves");
-    shorten(&w, transition / w.U, "the way through the transition");
+    const double box = box_motion_speed(r, prm);
+    shorten(&w, transition / (w.U + box), "the way through the transition");
+    if (box > 0.0) /* cells are forced in a row or two ahead of it, and have values there */
+        shorten(&w, least_cell(r) / box, "the way of the box through a cell");
     w.steps = c->steps > 0 ? c->steps : (int)fmax(floor(w.T / dt * (1.0 + 1e-9)), 1.0);
     w.limit = c->steps > 0 ? "coupling.steps" : w.limit;
     w.T = w.steps * dt;

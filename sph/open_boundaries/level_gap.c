@@ -12,6 +12,7 @@
 #include "../../common/mem.h"
 #include "../pairs/kernel.h"
 #include "openings.h"
+#include "wet_faces.h"
 #include "zones.h"
 
 /* The blending of velocities holds a step of pressure of 0.7 % of rho g H by a difference of 5e-5
@@ -53,8 +54,6 @@ void level_gap_free(struct level_gap **g)
     mem_free(*g);
     *g = NULL;
 }
-
-double level_gap_outflow(const struct level_gap *g, int side) { return g ? g->outflow[side] : 0.0; }
 
 static int upright(const struct sph *s)
 {
@@ -189,7 +188,16 @@ static void look_at_side(struct sph *s, int side, double dt)
     g->gap[side] = weights > 0.0 ? gap - g->at_rest[side] : 0.0;
     const double now = rate * g->gap[side], lasting = g->lasting[side] + 0.25 * rate * dt * now;
     g->lasting[side] = fmax(-most * U, fmin(most * U, lasting));
-    g->outflow[side] = fmax(-most * U, fmin(most * U, now + g->lasting[side]));
+    s->zones->outflow[side] = fmax(-most * U, fmin(most * U, now + g->lasting[side]));
+}
+
+/* In a period no level resists a flow through both sides, in by one and out by the other: what they
+ * call for of it would be given back by the partner, and grow. The rest is left to them. */
+static void leave_out_circulation(const struct sph *s, double *outflow, int axis)
+{
+    double *low = outflow + 2 * axis, *high = low + 1;
+    if (s->run->scene.domain.periodic[axis] && s->open[2 * axis] && s->open[2 * axis + 1])
+        *low = *high = 0.5 * (*low + *high);
 }
 
 void level_gap_look(struct sph *s, double dt)
@@ -199,30 +207,37 @@ void level_gap_look(struct sph *s, double dt)
     for (int side = 0; side < 2 * s->dim; side++)
         if (s->open[side] && side / 2 != up)
             look_at_side(s, side, dt);
+    for (int a = 0; a < s->dim; a++) {
+        leave_out_circulation(s, s->zones->outflow, a);
+        leave_out_circulation(s, s->zones->gap->lasting, a);
+    }
     s->zones->gap->started = true;
 }
 
-const char *const level_gap_columns[LEVEL_COLUMNS] = {"level gap [m]",      "level gap beyond [m]",
-                                                      "drops [kg]",         "faces hold [kg]",
-                                                      "births refused [-]", "water [m^dim]"};
+const char *const level_gap_columns[LEVEL_COLUMNS] = {
+    "level gap [m]",      "level gap beyond [m]", "drops [kg]", "faces hold [kg]",
+    "births refused [-]", "films [kg]",           "voids [kg]", "water [m^dim]"};
 
 /* Of the two sides along the first axis that has any. */
-void level_gap_row(const struct sph *s, double *values)
+void level_gap_row(struct sph *s, double *values)
 {
     const struct level_gap *g = s->zones->gap;
     const struct openings *o = s->zones->openings;
-    double sums[2] = {o->rain[0], (double)o->refused};
+    double sums[3] = {o->rain[0], (double)o->refused, o->films};
     int axis = 0;
-    const double water = zones_water(s);
+    double water[2];
+    wet_faces_water(s, water);
     while (axis < s->dim - 1 && !s->open[2 * axis] && !s->open[2 * axis + 1])
         axis++;
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->run->comm);
     values[0] = g->gap[2 * axis];
     values[1] = g->gap[2 * axis + 1];
     values[2] = sums[0];
     values[3] = openings_held(s);
     values[4] = sums[1];
-    values[5] = water;
+    values[5] = sums[2];
+    values[6] = wet_faces_voids(s);
+    values[7] = water[0];
 }
 
 static const double several = 10.0; /* windows */
@@ -246,24 +261,31 @@ void level_gap_judge(struct sph *s, struct diagnosis *d)
 void level_gap_summary(const struct sph *s, struct summary *to)
 {
     const struct openings *o = s->zones->openings;
-    double sums[2] = {o->rain[0], (double)o->drops};
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    static const char *const momentum[] = {"drops.momentum_x", "drops.momentum_y",
+                                           "drops.momentum_z"};
+    double sums[6] = {o->rain[0], (double)o->drops, o->films, o->rain[1], o->rain[2], o->rain[3]};
+    MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, s->run->comm);
     watch_summary(&s->zones->gap->watched, to);
     summary_real(to, "drops.mass", sums[0]);
     summary_real(to, "drops.number", sums[1]);
+    summary_real(to, "drops.films", sums[2]);
+    for (int a = 0; a < s->dim; a++)
+        summary_real(to, momentum[a], sums[3 + a]);
 }
 
-void level_gap_save(const struct level_gap *g, struct h5 *f)
+void level_gap_save(const struct sph *s, struct h5 *f)
 {
+    const struct level_gap *g = s->zones->gap;
     h5_write_real(f, "level_at_rest", "m", 6, 1, g->at_rest, false);
-    h5_write_real(f, "level_outflow", "m/s", 6, 1, g->outflow, false);
+    h5_write_real(f, "level_outflow", "m/s", 6, 1, s->zones->outflow, false);
     h5_write_real(f, "level_lasting", "m/s", 6, 1, g->lasting, false);
 }
 
-bool level_gap_load(struct level_gap *g, struct h5 *f)
+bool level_gap_load(struct sph *s, struct h5 *f)
 {
+    struct level_gap *g = s->zones->gap;
     g->started = true;
     return h5_read_same(f, "level_at_rest", 6, g->at_rest) &&
-           h5_read_same(f, "level_outflow", 6, g->outflow) &&
+           h5_read_same(f, "level_outflow", 6, s->zones->outflow) &&
            h5_read_same(f, "level_lasting", 6, g->lasting);
 }

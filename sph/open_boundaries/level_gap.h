@@ -8,13 +8,12 @@
 #include "../../common/watch.h"
 #include "../sph.h"
 
-enum { LEVEL_COLUMNS = 6 };
+enum { LEVEL_COLUMNS = 8 };
 
 struct level_gap {
     double *profile;   /* colour.h */
     double at_rest[6]; /* m: gap at the start, which is no step */
     double gap[6];     /* m: now, over that */
-    double outflow[6]; /* m/s: what is added to the flow outside */
     double lasting[6]; /* m/s: part of it that a lasting gap has called for */
     bool started;      /* at_rest is known */
     double mean;       /* m: of |gap| over some windows, the largest side: what is judged */
@@ -24,17 +23,15 @@ struct level_gap {
 
 struct level_gap *level_gap_create(const struct sph *s);
 void level_gap_free(struct level_gap **g);
-/* m/s outwards; g NULL: 0. */
-double level_gap_outflow(const struct level_gap *g, int side);
-/* Compares at s->t, dt after the last time. Collective. */
+/* Compares at s->t, dt after the last time: zones' `outflow' follows. Collective. */
 void level_gap_look(struct sph *s, double dt);
 /* Names and values of LEVEL_COLUMNS columns. Collective. */
 extern const char *const level_gap_columns[LEVEL_COLUMNS];
-void level_gap_row(const struct sph *s, double *values);
+void level_gap_row(struct sph *s, double *values);
 /* Once a window: fills d where the levels have parted. */
 void level_gap_judge(struct sph *s, struct diagnosis *d);
 void level_gap_summary(const struct sph *s, struct summary *to);
-void level_gap_save(const struct level_gap *g, struct h5 *f);
-bool level_gap_load(struct level_gap *g, struct h5 *f);
+void level_gap_save(const struct sph *s, struct h5 *f);
+bool level_gap_load(struct sph *s, struct h5 *f);
 
 #endif

@@ -7,6 +7,12 @@
 
 #include "../sph.h"
 
+/* What a face that cannot give birth holds beyond this, in particles, goes to its neighbours; what
+ * it owes beyond this is a void that went out. */
+static const double openings_most_debt = 1.5;
+
+static inline double openings_inward(int side) { return side % 2 ? -1.0 : 1.0; }
+
 struct openings {
     int dim;
     double dx, lo[3], hi[3];
@@ -16,10 +22,11 @@ struct openings {
     double *mass;             /* kg: booked, the same on all ranks */
     double *change;           /* kg: of this step, this rank, then summed */
     double *flux;             /* kg/s of the faces this rank owns, 0 elsewhere: inward */
-    double owed;              /* kg: what voids that went out left to be drained; all ranks' */
-    double drain;             /* m/s: outwards, added to the flow outside */
+    double owed;              /* kg: what voids that went out left to be drained, by zones' `drain';
+                                 all ranks' */
     double *share;  /* -: of each face that the water outside wets; 1 without a surface there */
     double rain[4]; /* kg, kg m/s: drops that left over the water, this rank */
+    double films;   /* kg: of that what ran along a wall */
     int64_t drops;
     double *shift;                       /* m: place of the incoming lattice behind each face */
     int64_t born, gone, refused;         /* on this rank */
@@ -34,13 +41,6 @@ struct openings {
 
 struct openings *openings_create(struct sph *s);
 void openings_free(struct openings **o);
-/* Removal, fluxes at s->t - dt/2, births. Collective. */
-void openings_step(struct sph *s, double dt);
-/* Adds the particles that the lattice would have behind the faces, with the flow outside, as ghosts
- * behind those of the halo, so that supports near the open sides are whole. After domain_ghosts. */
-void openings_ghosts(struct sph *s);
-/* Their lines at s->t. */
-void openings_ghost_lines(struct sph *s);
 /* From the booked masses (after a restart, too): what is to be drained, and where the lattice
  * behind each face stands. */
 void openings_settle(struct sph *s);
@@ -48,6 +48,9 @@ int openings_faces(const struct openings *o);
 /* Side, centre x[3] of a face; the one at x on a side, clamped. */
 int openings_place(const struct openings *o, int face, double *x);
 int openings_face_at(const struct openings *o, int side, const double *x);
+/* Face of a side at lattice indices I (that of the side's axis does not matter); indices of bounded
+ * axes are clamped, of periodic ones wrapped. */
+int openings_face(const struct openings *o, int side, const int *at);
 /* s since the birth of the particle with this id, or since the start. */
 double openings_age(const struct sph *s, int64_t id);
 /* Takes mass (kg) from all faces alike; the same on all ranks. */

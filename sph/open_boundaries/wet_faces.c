@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../../common/h5.h"
+#include "../walls/walls.h"
 #include "zones.h"
 
 /* Share of the unit square around 0 where phi + n0 s + n1 t < 0, n0 >= n1 >= 0: corners that stand
@@ -73,13 +74,37 @@ int wet_faces_for(struct sph *s, int side, const double *x)
     return -1;
 }
 
+/* Within two rows of a closed side, or of a line. */
+static bool is_film(const struct sph *s, const double *y)
+{
+    const double near = 2.0 * s->dx;
+    for (int side = 0; side < 2 * s->dim; side++) {
+        const int a = side / 2;
+        const double in = side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a];
+        if (!s->open[side] && !s->periodic[a] && in < near)
+            return true;
+    }
+    return s->dim == 2 && s->walls && walls_distance(s->walls, y, near) < near;
+}
+
 void wet_faces_rain(struct sph *s, const double *y)
 {
     struct openings *o = s->zones->openings;
     o->rain[0] += y[at_mass(o->dim)];
+    o->films += is_film(s, y) ? y[at_mass(o->dim)] : 0.0;
     for (int a = 0; a < o->dim; a++)
         o->rain[1 + a] += y[o->dim + a];
     o->drops++;
+}
+
+double wet_faces_voids(const struct sph *s)
+{
+    const struct openings *o = s->zones->openings;
+    const double least = openings_most_debt * s->rho0 * s->dxD;
+    double sum = 0.0;
+    for (int f = 0; f < openings_faces(o); f++)
+        sum += fmax(-o->mass[f] - least, 0.0);
+    return sum;
 }
 
 void wet_faces_lower(struct sph *s, double depth, int n, double *x)
@@ -120,21 +145,62 @@ void wet_faces_ghosts(struct sph *s)
     o->nghost = n;
 }
 
+/* Part of a particle's square or cube that lies in the counted box. */
+static double counted_share(const struct sph *s, const double *y)
+{
+    const struct zones *z = s->zones;
+    double f = 1.0;
+    for (int side = 0; side < 2 * s->dim; side++) {
+        const int a = side / 2;
+        const double in = side % 2 ? z->counted[1][a] - y[a] : y[a] - z->counted[0][a];
+        if (s->open[side])
+            f *= fmin(fmax(in / s->dx + 0.5, 0.0), 1.0);
+    }
+    return f;
+}
+
+void wet_faces_water(struct sph *s, double water[2])
+{
+    struct zones *z = s->zones;
+    water[0] = 0.0;
+    water[1] = z->openings->rain[0] / s->rho0;
+    z->n = 0;
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            const double *y = state_row(&q->p, q->p.y, i), f = counted_share(s, y);
+            if (particles_is_guard(&q->p, i))
+                continue;
+            water[0] += f * y[at_mass(s->dim)] / s->rho0;
+            if (f < 1.0 && z->surface && q == s)
+                zones_list(s, i);
+        }
+    if (z->surface)
+        zones_look_at_surface(z, s->t);
+    for (int k = 0; k < z->n; k++) {
+        const double *y = state_row(&s->p, s->p.y, z->who[k]);
+        if (zones_wet(z, z->phi[k]) == 0.0)
+            water[0] += (1.0 - counted_share(s, y)) * y[at_mass(s->dim)] / s->rho0;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, water, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+}
+
 void wet_faces_save(const struct openings *o, struct h5 *f)
 {
-    const double rain[5] = {o->rain[0], o->rain[1], o->rain[2], o->rain[3], (double)o->drops};
-    h5_write_real(f, "zones_rain", "kg", 5, 1, rain, false);
+    const double rain[6] = {o->rain[0], o->rain[1],       o->rain[2],
+                            o->rain[3], (double)o->drops, o->films};
+    h5_write_real(f, "zones_rain", "kg", 6, 1, rain, false);
 }
 
 bool wet_faces_load(struct sph *s, struct h5 *f)
 {
     struct openings *o = s->zones->openings;
-    double rain[5];
+    double rain[6];
     if (!s->zones->gap)
         return true;
-    if (!h5_read_parts(f, "zones_rain", 5, rain))
+    if (!h5_read_parts(f, "zones_rain", 6, rain))
         return false;
     memcpy(o->rain, rain, sizeof o->rain);
     o->drops = llround(rain[4]);
+    o->films = rain[5];
     return true;
 }

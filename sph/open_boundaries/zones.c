@@ -1,23 +1,13 @@
-/* zones.c - what the flow outside imposes: buffer at every stage, transition after every step.
- * Equations [6.x] of Chiron 2017. Where pairs exchange mass (ALE) the volume w stays a particle's
- * own and follows the packing; its mass is reset to rho w. Else its mass stays and w is reset:
- * nothing else would hold w to the packing for as long as the particle is in the zone.
+/* zones.c - where the zones lie, and what the flow outside is there; see zones.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "zones.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../../common/exact.h"
-#include "../../common/h5.h"
 #include "../../common/mem.h"
 #include "../particles/eos.h"
-#include "level_gap.h"
-#include "openings.h"
-#include "../coupling/overlap.h"
-#include "sides.h"
 #include "../sph_params.h"
-#include "wet_faces.h"
 
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer)
@@ -57,82 +47,30 @@ void zones_given_box(const struct run *r, const struct sph_params *prm, double l
     }
 }
 
-/* The exact solution as the flow outside; the gradient of p by central differences. */
-static void eval_exact(void *ctx, double t, int n, const double *x, double *u, double *p,
-                       double *gu, double *gp)
+void zones_counted_box(const struct run *r, const struct sph_params *prm, const double way[3],
+                       double lo[3], double hi[3])
 {
-    const struct exact *e = ctx;
-    const int dim = e->dim;
-    const double h = 1e-5;
-    for (int i = 0; i < n; i++) {
-        double v[3], g[3][3], q[3] = {0.0, 0.0, 0.0}, lo, hi;
-        exact_point(e, x + 3 * i, t, v, p + i, NULL);
-        for (int a = 0; a < dim; a++)
-            u[dim * i + a] = v[a];
-        if (!gu)
+    const struct scene_domain *d = &r->scene.domain;
+    double cells[3] = {0.0, 0.0, 0.0}, graded[3] = {0.0, 0.0, 0.0};
+    bool open[6];
+    zones_given_box(r, prm, lo, hi);
+    sph_params_open(r, prm, open);
+    for (int a = 0; a < d->dim; a++) {
+        lo[a] += way[a];
+        hi[a] += way[a];
+    }
+    if (!r->crossed || !params_peek(r->params, r->comm, "fv.cells", cells))
+        return; /* on blocks cells are counted by their share */
+    params_peek(r->params, r->comm, "fv.graded", graded);
+    for (int a = 0; a < d->dim; a++) {
+        const double h = (d->max[a] - d->min[a]) / cells[a], eps = 1e-9;
+        if (!(cells[a] > 0.0) || (a == 1 && graded[1] > 0.0))
             continue;
-        exact_gradient(e, x + 3 * i, t, g);
-        for (int a = 0; a < dim; a++)
-            for (int b = 0; b < 3; b++)
-                gu[3 * (dim * i + a) + b] = g[a][b];
-        for (int b = 0; b < dim; b++) {
-            double y[3] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
-            y[b] += h;
-            exact_point(e, y, t, NULL, &hi, NULL);
-            y[b] -= 2.0 * h;
-            exact_point(e, y, t, NULL, &lo, NULL);
-            q[b] = (hi - lo) / (2.0 * h);
-        }
-        for (int b = 0; b < 3; b++)
-            gp[3 * i + b] = q[b];
+        if (open[2 * a])
+            lo[a] = d->min[a] + h * ceil((lo[a] - d->min[a]) / h - eps);
+        if (open[2 * a + 1])
+            hi[a] = d->min[a] + h * floor((hi[a] - d->min[a]) / h + eps);
     }
-}
-
-struct zones *zones_create(struct sph *s)
-{
-    bool open = false;
-    for (int side = 0; side < 6; side++)
-        open = open || s->open[side];
-    if (!open)
-        return NULL;
-    struct zones *z = NEW(struct zones, 1);
-    z->level = NAN;
-    zones_widths(s->run, &s->prm, &z->transition, &z->buffer);
-    z->overlap = zones_overlap(s->run, &s->prm);
-    z->openings = openings_create(s);
-    z->eos = (struct sph_eos){s->rho0, s->c0, s->gamma};
-    z->gap = s->run->crossed ? level_gap_create(s) : NULL;
-    if (s->prm.outer == OUTER_EXACT) {
-        struct exact *e = NEW(struct exact, 1);
-        *e = exact_create(&s->run->scene);
-        z->eval = eval_exact;
-        z->ctx = e;
-    }
-    if (s->prm.outer == OUTER_SIDES)
-        sides_create(s, z);
-    return z;
-}
-
-void zones_free(struct zones **z)
-{
-    if (!*z)
-        return;
-    openings_free(&(*z)->openings);
-    if ((*z)->eval == eval_exact)
-        mem_free((*z)->ctx);
-    else if ((*z)->update)
-        sides_free(*z);
-    mem_free((*z)->who);
-    mem_free((*z)->x);
-    mem_free((*z)->u);
-    mem_free((*z)->p);
-    mem_free((*z)->gu);
-    mem_free((*z)->gp);
-    mem_free((*z)->phi);
-    mem_free((*z)->gphi);
-    level_gap_free(&(*z)->gap);
-    mem_free(*z);
-    *z = NULL;
 }
 
 void zones_room(struct zones *z, int n)
@@ -151,15 +89,14 @@ void zones_room(struct zones *z, int n)
     z->capacity = n;
 }
 
-/* Side of the region nearest to x; *below: depth of x below it. */
-static int nearest_side(const struct openings *o, const double *x, double *below)
+int zones_nearest(const struct zones *z, const double *x, double *below)
 {
     int nearest = 0;
     *below = INFINITY;
-    for (int side = 0; side < 2 * o->dim; side++) {
+    for (int side = 0; side < 2 * z->dim; side++) {
         const int a = side / 2;
-        const double d = side % 2 ? o->hi[a] - x[a] : x[a] - o->lo[a];
-        if (o->open[side] && d < *below) {
+        const double d = side % 2 ? z->hi[a] - x[a] : x[a] - z->lo[a];
+        if (z->open[side] && d < *below) {
             *below = d;
             nearest = side;
         }
@@ -169,17 +106,16 @@ static int nearest_side(const struct openings *o, const double *x, double *below
 
 static void add_drain(struct zones *z)
 {
-    const struct openings *o = z->openings;
     double below;
     for (int k = 0; k < z->n; k++) {
-        const int side = nearest_side(o, z->x + 3 * k, &below);
-        z->u[o->dim * k + side / 2] += side % 2 ? o->drain : -o->drain;
+        const int side = zones_nearest(z, z->x + 3 * k, &below);
+        z->u[z->dim * k + side / 2] += side % 2 ? z->drain : -z->drain;
     }
 }
 
 double zones_wet(const struct zones *z, double phi)
 {
-    const double dx = z->openings->dx;
+    const double dx = z->dx;
     return z->surface ? fmax(0.0, fmin(1.0, (3.0 * dx - phi) / (2.5 * dx))) : 1.0;
 }
 
@@ -193,15 +129,14 @@ void zones_look_at_surface(struct zones *z, double t)
 static void look_under_surface(struct zones *z, double t)
 {
     const struct sph_eos *e = &z->eos;
-    const struct openings *o = z->openings;
     double below;
     z->surface(z->ctx, t, z->n, z->x, z->phi, NULL);
     for (int k = 0; k < z->n; k++) {
-        const int side = nearest_side(o, z->x + 3 * k, &below);
-        if (z->phi[k] > -o->dx)
+        const int side = zones_nearest(z, z->x + 3 * k, &below);
+        if (z->phi[k] > -z->dx)
             z->p[k] = fmax(z->p[k], 0.0);
         z->p[k] = eos_p_from_constant(z->p[k], e->rho0, e->c0, e->gamma);
-        z->u[o->dim * k + side / 2] += (side % 2 ? 1.0 : -1.0) * level_gap_outflow(z->gap, side);
+        z->u[z->dim * k + side / 2] += (side % 2 ? 1.0 : -1.0) * z->outflow[side];
     }
 }
 
@@ -219,14 +154,14 @@ void zones_look(struct zones *z, double t, bool gradients)
         z->p[k] += z->gauge;
     if (z->surface)
         look_under_surface(z, t);
-    if (z->openings->drain != 0.0)
+    if (z->drain != 0.0)
         add_drain(z);
 }
 
 double zones_depth(const struct sph *s, const double *x)
 {
     double below;
-    nearest_side(s->zones->openings, x, &below);
+    zones_nearest(s->zones, x, &below);
     return below;
 }
 
@@ -242,15 +177,6 @@ double zones_share(const struct sph *s, int i)
             f *= fmin(fmax((in - rim) / s->dx + 0.5, 0.0), 1.0);
     }
     return f;
-}
-
-double zones_water(const struct sph *s)
-{
-    double sum = 0.0;
-    for (int i = 0; i < s->p.n; i++)
-        sum += zones_share(s, i) * state_row(&s->p, s->p.y, i)[at_mass(s->dim)] / s->rho0;
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sum;
 }
 
 void zones_mark(struct sph *s)
@@ -272,276 +198,4 @@ void zones_list(struct sph *s, int i)
     for (int a = 0; a < 3; a++)
         z->x[3 * z->n + a] = a < s->dim ? y[a] : 0.0;
     z->who[z->n++] = i;
-}
-
-/* Lists the local particles of a zone with their places. */
-static void gather(struct sph *s, enum sph_zone zone)
-{
-    struct zones *z = s->zones;
-    const struct particles *p = &s->p;
-    z->n = 0;
-    for (int i = 0; i < p->n; i++)
-        if (p->zone[i] == zone)
-            zones_list(s, i);
-}
-
-/* Imposes u and rho: at fixed w where pairs exchange mass, else at fixed m. */
-static void impose(struct sph *s, int i, const double *u, double rho)
-{
-    double *y = state_row(&s->p, s->p.y, i);
-    const int dim = s->dim;
-    if (s->prm.scheme == SCHEME_RIEMANN_ALE)
-        y[at_mass(dim)] = rho * y[at_volume(dim)];
-    else
-        y[at_volume(dim)] = y[at_mass(dim)] / rho;
-    for (int a = 0; a < dim; a++)
-        y[dim + a] = y[at_mass(dim)] * u[a];
-}
-
-/* Row `from' of the list becomes row `to'. */
-static void move_row(struct zones *z, int dim, int to, int from)
-{
-    z->who[to] = z->who[from];
-    z->p[to] = z->p[from];
-    z->phi[to] = z->phi[from];
-    memmove(z->x + 3 * to, z->x + 3 * from, 3 * sizeof *z->x);
-    memmove(z->u + dim * to, z->u + dim * from, (size_t)dim * sizeof *z->u);
-    memmove(z->gp + 3 * to, z->gp + 3 * from, 3 * sizeof *z->gp);
-    memmove(z->gu + 3 * dim * to, z->gu + 3 * dim * from, 3 * (size_t)dim * sizeof *z->gu);
-}
-
-/* Buffer particles in the air outside leave the list, those between are imposed in part. */
-static void mix_with_own(struct sph *s)
-{
-    struct zones *z = s->zones;
-    const int dim = s->dim;
-    int n = 0;
-    for (int k = 0; k < z->n; k++) {
-        const double *y = state_row(&s->p, s->p.y, z->who[k]), m = y[at_mass(dim)];
-        const double wet = zones_wet(z, z->phi[k]);
-        const double own = eos_p(m / y[at_volume(dim)], s->rho0, s->c0, s->gamma);
-        if (wet == 0.0)
-            continue;
-        move_row(z, dim, n, k);
-        z->p[n] = wet * z->p[n] + (1.0 - wet) * own;
-        for (int a = 0; a < dim; a++)
-            z->u[dim * n + a] = wet * z->u[dim * n + a] + (1.0 - wet) * y[dim + a] / m;
-        n++;
-    }
-    z->n = n;
-}
-
-void zones_stage(struct sph *s)
-{
-    struct zones *z = s->zones;
-    if (z->update)
-        z->update(s);
-    openings_ghost_lines(s);
-    gather(s, ZONE_BUFFER);
-    zones_look(z, s->t, true);
-    if (z->surface)
-        mix_with_own(s);
-    for (int k = 0; k < z->n; k++) {
-        const int i = z->who[k];
-        double *y = state_row(&s->p, s->p.y, i);
-        /* Births and removals change the packing by jumps that div u0 does not know: volumes that
-         * followed it there would wander. They wait until the particle is a support away from the
-         * side. */
-        if (zones_depth(s, y) < s->R)
-            y[at_volume(s->dim)] = state_row(&s->p, s->p.y0, i)[at_volume(s->dim)];
-        impose(s, i, z->u + s->dim * k, eos_rho(z->p[k], s->rho0, s->c0, s->gamma));
-    }
-}
-
-void zones_slopes(struct sph *s)
-{
-    const struct zones *z = s->zones;
-    const int dim = s->dim;
-    if (z->watched)
-        overlap_find_surface(s);
-    for (int k = 0; k < z->n; k++) {
-        const int i = z->who[k];
-        const double *x = prim_line(&s->p, i);
-        double *g = slope_line(&s->p, i);
-        const double c = eos_c(x[at_rho(dim)], s->rho0, s->c0, s->gamma);
-        for (int b = 0; b < dim; b++) {
-            g[b] = z->gp[3 * k + b] / (c * c);
-            for (int a = 0; a < dim; a++)
-                g[dim + dim * a + b] = z->gu[3 * (dim * k + a) + b];
-        }
-    }
-}
-
-/* Mean of P less P_out at the rim of the free zone, R/2 deep: what a partner of constant density
- * cannot know. Under waves it is no constant: their momentum changes the mean pressure. */
-static double level_inside(struct sph *s)
-{
-    struct zones *z = s->zones;
-    const double rim = z->buffer + z->transition;
-    double sums[2] = {0.0, 0.0};
-    z->n = 0;
-    for (int i = 0; i < s->p.n; i++) {
-        const double d = zones_depth(s, state_row(&s->p, s->p.y, i));
-        if (d >= rim && d < rim + 0.5 * s->R)
-            zones_list(s, i);
-    }
-    zones_look(z, s->t, false);
-    for (int k = 0; k < z->n; k++) {
-        const double *y = state_row(&s->p, s->p.y, z->who[k]), w = y[at_volume(s->dim)];
-        sums[0] += w * (eos_p(y[at_mass(s->dim)] / w, s->rho0, s->c0, s->gamma) - z->p[k]);
-        sums[1] += w;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
-}
-
-double zones_mass(const struct sph *s)
-{
-    double sum = 0.0;
-    for (int i = 0; i < s->p.n; i++)
-        sum += s->p.y[(size_t)i * s->p.nstate + 2 * s->dim + 1];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sum;
-}
-
-/* kg: what the region and its faces hold beyond the start. Collective. */
-static double gained(const struct sph *s) { return zones_mass(s) + openings_held(s) - s->mass0; }
-
-/* Windows over which the level is smoothed: one that followed at once would be a wall to the sound
- * of impacts. */
-static const double level_memory = 10.0;
-
-/* A full box holds what it held at the start: volumes in the zones do not know it, and what they
- * gained goes out by the faces. Under a free surface mass goes in and out with the waves, and a
- * partner of constant density knows its pressure up to a level: SPH's own is taken. Alone that
- * would let the column drain: what the region holds beyond its start and what has flown in adds ten
- * times the weight of the missing layer. */
-void zones_gauge(struct sph *s)
-{
-    struct zones *z = s->zones;
-    const double *G = s->gravity, g = sqrt(G[0] * G[0] + G[1] * G[1] + G[2] * G[2]);
-    struct openings *o = z->openings;
-    double inflow;
-    z->gauge = 0.0;
-    if (z->surface) /* one pressure, 0 on the surface of both */
-        return;
-    if (!s->surface && s->run->scene.coupling.keep_mass)
-        openings_let_out(o, gained(s));
-    if (!s->surface || g == 0.0)
-        return;
-    MPI_Allreduce(&o->inflow, &inflow, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    const double layer = (gained(s) - inflow) * s->dx / (openings_faces(o) * s->dxD);
-    const double level = level_inside(s);
-    z->level = isnan(z->level) ? level : z->level + (level - z->level) / level_memory;
-    z->gauge = z->level - 10.0 * g * layer;
-}
-
-/* Draws the state of particle k of the list to the flow outside by alpha; p in Pa, u in m/s. */
-static void draw(const struct sph *s, int k, int side, double alpha, double *p, double u[3])
-{
-    const struct zones *z = s->zones;
-    const int dim = s->dim, n = side / 2;
-    const double Z = (side % 2 ? 1.0 : -1.0) * s->rho0 * s->c0;
-    const double entering = z->p[k] - *p - Z * (z->u[dim * k + n] - u[n]);
-    for (int a = 0; a < dim; a++)
-        u[a] += a == n ? -0.5 * alpha * entering / Z : alpha * (z->u[dim * k + a] - u[a]);
-    *p += 0.5 * alpha * entering;
-}
-
-/* Of u along the sides u <- a u_out + (1-a) u [6.8], a = depth into the transition over its width;
- * across them and of P only what enters, P - rho c u.n, n outwards: P + rho c u.n leaves as SPH
- * made it. To blend both as in [6.7] lets the coupled programs feed vorticity, or damp
- * (coupler/README.md). */
-void zones_blend(struct sph *s)
-{
-    struct zones *z = s->zones;
-    const int dim = s->dim;
-    gather(s, ZONE_TRANSITION);
-    zones_look(z, s->t, false);
-    for (int k = 0; k < z->n; k++) {
-        const int i = z->who[k];
-        double *y = state_row(&s->p, s->p.y, i), u[3];
-        double below;
-        const int side = nearest_side(z->openings, y, &below);
-        const double in = (below - z->buffer) / z->transition;
-        const double wet = zones_wet(z, z->surface ? z->phi[k] : 0.0), m = y[at_mass(dim)];
-        const double alpha = wet * fmin(fmax(1.0 - in, 0.0), 1.0);
-        double p = eos_p(m / y[at_volume(dim)], s->rho0, s->c0, s->gamma);
-        for (int a = 0; a < dim; a++)
-            u[a] = y[dim + a] / m;
-        draw(s, k, side, alpha, &p, u);
-        impose(s, i, u, eos_rho(p, s->rho0, s->c0, s->gamma));
-        z->blended += y[at_mass(dim)] - m;
-    }
-}
-
-void zones_openings(struct sph *s, double dt)
-{
-    openings_step(s, dt);
-    if (s->zones->gap)
-        level_gap_look(s, dt);
-}
-
-void zones_save(struct sph *s, struct h5 *f)
-{
-    const struct openings *o = s->zones->openings;
-    const int64_t rows = s->run->rank == 0 ? openings_faces(o) : 0;
-    h5_write_real(f, "faces_mass", "kg", rows, 1, o->mass, false);
-    h5_write_real(f, "faces_flux", "kg/s", openings_faces(o), 1, o->flux, false);
-    const double booked[4] = {s->zones->blended, o->born_mass, o->gone_mass, o->inflow};
-    const double level[1] = {s->zones->level}, owed[1] = {o->owed};
-    const int64_t counted[3] = {o->born, o->gone, o->refused};
-    h5_write_real(f, "zones_booked", "kg", 4, 1, booked, false);
-    h5_write_real(f, "zones_level", "Pa", 1, 1, level, false);
-    h5_write_real(f, "zones_owed", "kg", 1, 1, owed, false);
-    h5_write_int(f, "zones_counted", 3, counted);
-    if (s->zones->gap) {
-        level_gap_save(s->zones->gap, f);
-        wet_faces_save(o, f);
-    }
-    if (s->zones->watched)
-        overlap_save(s->zones->watched, f);
-}
-
-/* Counts of all ranks; on another number of ranks the first gets them. */
-static bool load_counts(struct sph *s, struct h5 *f, int64_t counted[3])
-{
-    int64_t n;
-    int64_t *all = h5_read_all_int(f, "zones_counted", &n);
-    const bool same = n == 3 * s->run->size, fits = all && n % 3 == 0;
-    const int64_t first = same ? 3 * s->run->rank : 0, end = same ? first + 3 : n;
-    for (int k = 0; k < 3; k++)
-        counted[k] = 0;
-    for (int64_t k = first; fits && k < end && (same || s->run->rank == 0); k++)
-        counted[k % 3] += all[k];
-    mem_free(all);
-    return fits;
-}
-
-bool zones_load(struct sph *s, struct h5 *f)
-{
-    struct openings *o = s->zones->openings;
-    const int faces = openings_faces(o);
-    double booked[4];
-    int64_t counted[3], n;
-    double *mass = h5_read_all_real(f, "faces_mass", 1, &n);
-    const bool same_faces = mass && n == faces;
-    if (same_faces)
-        memcpy(o->mass, mass, (size_t)faces * sizeof *mass);
-    mem_free(mass);
-    if (!same_faces || !h5_read_parts(f, "faces_flux", faces, o->flux) ||
-        !h5_read_parts(f, "zones_booked", 4, booked) ||
-        !h5_read_same(f, "zones_level", 1, &s->zones->level) ||
-        !h5_read_same(f, "zones_owed", 1, &o->owed) || !load_counts(s, f, counted) ||
-        (s->zones->gap && !level_gap_load(s->zones->gap, f)) || !wet_faces_load(s, f))
-        return false;
-    s->zones->blended = booked[0];
-    o->born_mass = booked[1];
-    o->gone_mass = booked[2];
-    o->inflow = booked[3];
-    o->born = counted[0];
-    o->gone = counted[1];
-    o->refused = counted[2];
-    openings_settle(s);
-    return true;
 }

@@ -20,8 +20,14 @@ struct openings;
 struct overlap;
 struct level_gap;
 struct zones {
+    int dim;
+    double dx, lo[3], hi[3]; /* m: of the region */
+    bool open[6];
     double transition, buffer; /* m: widths */
     double overlap;            /* m: of the rim of the free zone where a partner is free, too */
+    double counted[2][3];      /* m: zones_counted_box, as the window has begun */
+    double way[3], speed[3];   /* m, m/s: of the box since the start, over the last step */
+    double fastest;            /* m/s: as fast as it will be */
     zones_eval *eval;
     struct sph_eos {
         double rho0, c0, gamma;
@@ -31,7 +37,10 @@ struct zones {
     void (*update)(struct sph *s); /* start of a stage: looks at the flow inside; NULL: no need */
     void *ctx;                     /* borrowed */
     struct openings *openings;
-    struct overlap *watched; /* overlap.h; NULL without a partner */
+    double drain;      /* m/s: outwards, added to the flow outside: see openings.h */
+    double outflow[6]; /* m/s: the same by side: see level_gap.h */
+    void (*look_inside)(struct sph *s); /* in a stage, when the surface has been detected; NULL */
+    struct overlap *watched;            /* overlap.h; NULL without a partner */
     double gauge; /* Pa: added to the pressure outside, which an incompressible partner knows up to
                      a constant; 0 without a free surface */
     double level; /* Pa: the smoothed part of it that SPH's own pressure gives; NAN: none yet */
@@ -43,9 +52,6 @@ struct zones {
     double *phi, *gphi; /* with a surface outside: see zones_surface */
 };
 
-/* Zones if the region s->lo..hi has open sides, else NULL. */
-struct zones *zones_create(struct sph *s);
-void zones_free(struct zones **z);
 /* Widths and box of the free zone from parameters alone (open sides: not s->periodic). */
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer);
@@ -53,6 +59,12 @@ double zones_overlap(const struct run *r, const struct sph_params *prm);
 /* The box that partners leave to SPH: the free zone less the overlap. */
 void zones_given_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
 void zones_free_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
+/* Of that box, which has moved by `way', what a partner's cells fill whole: there it forces them,
+ * and there ends its water. */
+void zones_counted_box(const struct run *r, const struct sph_params *prm, const double way[3],
+                       double lo[3], double hi[3]);
+/* Side of the region nearest to x; *below: depth of x below it. */
+int zones_nearest(const struct zones *z, const double *x, double *below);
 /* Depth of x below the open sides of the region, m: negative outside. */
 double zones_depth(const struct sph *s, const double *x);
 
@@ -60,25 +72,8 @@ double zones_depth(const struct sph *s, const double *x);
  * cube lies in the free zone. */
 double zones_share(const struct sph *s, int i);
 
-/* m^dim: what the free zone holds. Collective. */
-double zones_water(const struct sph *s);
-
 /* Zone of every local particle by its depth; before the list is built. */
 void zones_mark(struct sph *s);
-/* Start of a stage: buffer particles take u and p from outside at s->t; m = rho w. */
-void zones_stage(struct sph *s);
-/* After the gradients of a stage: buffer slopes from outside; transport shift near the open sides.
- */
-void zones_slopes(struct sph *s);
-/* kg: of all particles of the region. Collective. */
-double zones_mass(const struct sph *s);
-/* At an exchange with a partner: sets the gauge by the mass of the region under a surface, else
- * lets out what it gained. Collective. */
-void zones_gauge(struct sph *s);
-/* After the RK cycle: transition particles are blended with the outside [6.7-6.8]. */
-void zones_blend(struct sph *s);
-/* After the positions moved by dt: removals, face masses, births [6.13-6.14]. Collective. */
-void zones_openings(struct sph *s, double dt);
 /* How far the flow outside is to be imposed there: 1 in its water, 0 in its air, where particles
  * are free (spray, drops). */
 double zones_wet(const struct zones *z, double phi);
@@ -89,8 +84,5 @@ void zones_look(struct zones *z, double t, bool gradients);
 /* Adds local particle i to that list. */
 void zones_list(struct sph *s, int i);
 void zones_room(struct zones *z, int n);
-
-void zones_save(struct sph *s, struct h5 *f);
-bool zones_load(struct sph *s, struct h5 *f);
 
 #endif

@@ -9,7 +9,11 @@
 #include "../bodies/bodies.h"
 #include "../walls/forces.h"
 #include "../pairs/kernel.h"
+#include "shore.h"
 #include "../walls/walls.h"
+
+/* Where a surface crosses, fv reads the gauges outside of the box. */
+static bool is_mine(const struct run *r, int k) { return !r->crossed || r->gauge_inside[k]; }
 
 int probes_columns(const struct run *r, const char **names)
 {
@@ -19,9 +23,10 @@ int probes_columns(const struct run *r, const char **names)
                                          "moment x [N m]", "moment y [N m]", "moment z [N m]"};
     const struct scene *c = &r->scene;
     int n = 0;
-    for (int k = 0; k < c->nprobes; k++, n++)
-        snprintf(text[n], sizeof text[n], "%s [%s]", c->probes[k].name,
-                 c->probes[k].kind == PROBE_LEVEL ? "m" : "Pa");
+    for (int k = 0; k < c->nprobes; k++)
+        if (is_mine(r, k))
+            snprintf(text[n++], sizeof text[0], "%s [%s]", c->probes[k].name,
+                     c->probes[k].kind == PROBE_PRESSURE ? "Pa" : "m");
     for (int k = 0; k < c->nbodies; k++)
         for (int a = 0; a < 3 * (c->domain.dim - 1); a++, n++)
             snprintf(text[n], sizeof text[n], "%s %s", c->bodies[k].name,
@@ -35,34 +40,40 @@ int probes_columns(const struct run *r, const char **names)
 
 /* Of one level, what flows there: sums of w W p, p carried to the place by its gradient, and of w
  * W. */
-static void add_pressure(const struct sph *s, const double *at, double sums[2])
+static void add_pressure(const struct sph *s, const struct scene_probe *g, double sums[2])
 {
+    const double *at = g->at;
     const int dim = s->dim;
     for (int i = 0; i < s->p.n; i++) {
         const double *q = prim_line(&s->p, i), rho = q[at_rho(dim)];
         const double *grho = slope_line(&s->p, i);
+        const double R = fmax(s->p.size ? s->p.size[i][0] : s->R, g->radius);
         double r2 = 0.0, more = 0.0;
         for (int a = 0; a < dim; a++) {
             r2 += (at[a] - q[a]) * (at[a] - q[a]);
             more += (at[a] - q[a]) * grho[a];
         }
-        if (r2 >= s->R * s->R || particles_is_guard(&s->p, i))
+        if (r2 >= R * R || particles_is_guard(&s->p, i))
             continue;
-        const double W = q[at_volume(dim)] * kernel_w(dim, sqrt(r2), s->R);
+        const double W = q[at_volume(dim)] * kernel_w(dim, sqrt(r2), R);
         const double c = eos_c(rho, s->rho0, s->c0, s->gamma);
         sums[0] += W * (eos_p(rho, s->rho0, s->c0, s->gamma) + c * c * more);
         sums[1] += W;
     }
 }
 
-/* Kernel average of p; 0 where there is hardly any fluid. */
-static double pressure_at(struct sph *s, const double *at)
+/* Kernel average of p; 0 where there is hardly any fluid. An instrument with a face of its own
+ * reads what presses on all of it: less as less of it is wet than a corner of walls leaves, a
+ * quarter of the disc or an eighth of the sphere, so that one particle of a splash does not count
+ * as a face full of water. */
+static double pressure_at(struct sph *s, const struct scene_probe *g)
 {
     double sums[2] = {0.0, 0.0};
     for (const struct sph *q = s; q; q = q->finer)
-        add_pressure(q, at, sums);
+        add_pressure(q, g, sums);
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sums[1] > 0.05 ? sums[0] / sums[1] : 0.0;
+    const double least = g->radius > 0.0 ? ldexp(1.0, -s->dim) : 0.05;
+    return sums[1] > 0.05 ? sums[0] / fmax(sums[1], least) : 0.0;
 }
 
 /* Volume of what flows of one level under a hat function of this half width around the place. */
@@ -102,6 +113,13 @@ static double level_at(struct sph *s, const double *at)
     return s->lo[up] + volume / section;
 }
 
+static double value_at(struct sph *s, const struct scene_probe *g)
+{
+    return g->kind == PROBE_LEVEL   ? level_at(s, g->at)
+           : g->kind == PROBE_SHORE ? shore_height(s, g->at[0])
+                                    : pressure_at(s, g);
+}
+
 struct force probes_force(struct sph *s, int k)
 {
     struct force force;
@@ -125,8 +143,8 @@ void probes_row(struct sph *s, double *values)
 {
     const struct scene *c = &s->run->scene;
     for (int k = 0; k < c->nprobes; k++)
-        *values++ = c->probes[k].kind == PROBE_LEVEL ? level_at(s, c->probes[k].at)
-                                                     : pressure_at(s, c->probes[k].at);
+        if (is_mine(s->run, k))
+            *values++ = value_at(s, c->probes + k);
     for (int k = 0; k < c->nbodies; k++, values += 3 * (s->dim - 1)) {
         const struct force f = probes_force(s, k);
         const double plane[3] = {f.F[0], f.F[1], f.M[2]};

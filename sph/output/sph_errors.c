@@ -51,6 +51,8 @@ void sph_sums(const struct sph *s, double sums[SUM_COUNT])
         sums[k] = 0.0;
     for (const struct sph *q = s; q; q = q->finer)
         add_sums(q, sums);
+    if (s->finer)
+        sums[SUM_MASS] = s->mass;
     MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
@@ -210,15 +212,16 @@ void sph_tell(void *state, struct summary *report)
     const int dim = s->dim;
     double kinetic = 0.0, potential = 0.0, water = 0.0;
     integrate_gradients(s);
-    for (int i = 0; i < s->p.n; i++) {
-        const double *y = state_row(&s->p, s->p.y, i);
-        const double part = zones_share(s, i), m = y[at_mass(dim)];
-        water += part * m / s->rho0;
-        for (int a = 0; a < dim; a++) {
-            kinetic += part * 0.5 * y[dim + a] * y[dim + a] / m;
-            potential -= part * m * s->gravity[a] * y[a];
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            const double *y = state_row(&q->p, q->p.y, i), m = y[at_mass(dim)];
+            const double part = particles_is_guard(&q->p, i) ? 0.0 : zones_share(q, i);
+            water += part * m / s->rho0;
+            for (int a = 0; a < dim; a++) {
+                kinetic += part * 0.5 * y[dim + a] * y[dim + a] / m;
+                potential -= part * m * s->gravity[a] * y[a];
+            }
         }
-    }
     summary_real(report, "sum.kinetic", total(s, kinetic));
     summary_real(report, "sum.potential", total(s, potential));
     summary_real(report, "sum.enstrophy", enstrophy(s, true));
@@ -273,6 +276,8 @@ static int levels_columns(const struct run *r, const char **names)
     static char text[APR_LEVELS_MAX + 1][2][32];
     const struct apr_params *apr = apr_params_of(r);
     int n = 0;
+    if (apr && apr->method != APR_GUARDS)
+        return 0;
     for (int k = 0; apr && k <= apr->levels; k++) {
         snprintf(text[k][0], sizeof text[k][0], "particles level %d [-]", k);
         snprintf(text[k][1], sizeof text[k][1], "guards level %d [-]", k);
@@ -369,7 +374,19 @@ static void summarise_errors(const struct sph *s)
         norm_tell(to, norm_names[k], n + k);
 }
 
-/* Energy: kinetic against the exact one where that is known, else all kinds against the start. */
+/* m^2/s^2: of a fluid at the lowest point of the domain, so that energies do not depend on where
+ * the origin is. */
+static double lowest_potential(const struct sph *s)
+{
+    double least = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        if (!s->periodic[a])
+            least -= fmax(s->gravity[a] * s->lo[a], s->gravity[a] * s->hi[a]);
+    return least;
+}
+
+/* Energy: kinetic against the exact one where that is known, else all kinds against the start,
+ * measured from the lowest point. */
 static void summarise_drifts(const struct sph *s)
 {
     struct summary *to = s->run->summary;
@@ -385,12 +402,15 @@ static void summarise_drifts(const struct sph *s)
         const double expected = exact_kinetic(s);
         energy = (sums[SUM_KINETIC] - expected) / expected;
     } else {
-        energy = (sums[SUM_ENERGY] - s->energy0) / fmax(fabs(s->energy0), 0.5 * s->mass0 * U * U);
+        const double start = s->energy0 - s->mass0 * lowest_potential(s);
+        energy = (sums[SUM_ENERGY] - s->energy0) / fmax(fabs(start), 0.5 * s->mass0 * U * U);
     }
     summary_real(to, "drift.mass", sums[SUM_MASS] / s->mass0 - 1.0);
     summary_real(to, "drift.energy", energy);
     summary_real(to, "drift.momentum", sqrt(p2) / (s->mass0 * U));
-    summary_real(to, "drift.volume", sums[SUM_VOLUME] / region - 1.0);
+    if (s->volume0 > 0.0 || !(s->surface || (s->walls && s->walls->nsegments > 0)))
+        summary_real(to, "drift.volume", /* of what the fluid fills */
+                     sums[SUM_VOLUME] / (s->volume0 > 0.0 ? s->volume0 : region) - 1.0);
 }
 
 /* Pairs over the processor time of the stages: a loaded machine counts for nothing. */
@@ -459,6 +479,8 @@ void sph_finish(void *state)
     summarise_drifts(s);
     if (s->finer)
         summary_real(to, "levels.mass", total(s, s->refinement->added) / s->mass0);
+    if (s->run->size > 1)
+        summary_real(to, "balance.tau", domain_tau(s->domain));
     summary_real(to, "max_mach", s->max_mach);
     summary_real(to, "max_mach_late", s->mach_late);
     summary_real(to, "spacing.min", least_spacing(s));

@@ -12,13 +12,16 @@
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
 #include "../refinement/guards.h"
+#include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
 #include "../bodies/bodies.h"
 #include "../walls/forces.h"
+#include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/openings.h"
 #include "../sph_params.h"
 #include "../surface/surface.h"
-#include "../open_boundaries/zones.h"
+#include "../coupling/overlap.h"
+#include "../open_boundaries/zone_steps.h"
 #include "wall_files.h"
 
 /* What particle i shows in a snapshot, v[ncomp]. */
@@ -285,6 +288,8 @@ static void save_particles(const struct sph *s, struct h5 *f)
     if (s->guards)
         h5_write_real(f, name(s, "slope"), "-", s->p.n, s->p.nslope,
                       s->guards->nprior == s->p.n ? s->guards->prior : s->p.slope, false);
+    if (s->p.size)
+        h5_write_real(f, "sizes", "R, weight", s->p.n, 2, s->p.size[0], false);
     if (s->surface)
         save_surface(s, f);
 }
@@ -292,8 +297,10 @@ static void save_particles(const struct sph *s, struct h5 *f)
 /* What each level has of its own beside its particles. */
 static void save_levels(struct sph *s, struct h5 *f)
 {
-    h5_write_real(f, "levels_mass", "kg", 1, 1, &s->refinement->added, false);
-    h5_attribute_real(f, "levels_repaid", s->refinement->repaid);
+    const struct refinement *r = s->refinement;
+    h5_write_real(f, "levels_mass", "kg", 3, 1, (double[3]){r->added, s->mass, r->gone}, false);
+    h5_attribute_real(f, "levels_mass0", r->mass0);
+    h5_attribute_real(f, "levels_debt", r->debt);
     for (struct sph *q = s->finer; q; q = q->finer) {
         h5_attribute_real(f, name(q, "skin"), q->skin);
         h5_attribute_real(f, name(q, "signal"), q->signal);
@@ -307,7 +314,7 @@ void sph_checkpoint(void *state, struct h5 *f)
     for (const struct sph *q = s; q; q = q->finer)
         save_particles(q, f);
     h5_write_real(f, "lost", "-", 1, 1, &s->lost, false);
-    if (s->finer)
+    if (s->refinement)
         save_levels(s, f);
     if (s->signal_fit.n > 0)
         save_signal(s, f);
@@ -320,10 +327,26 @@ void sph_checkpoint(void *state, struct h5 *f)
     domain_save(s, f);
     if (s->zones)
         zones_save(s, f);
+    if (s->zones && s->zones->watched)
+        overlap_save(s->zones->watched, f);
     if (s->walls)
         forces_save(s, f);
     if (s->walls && s->walls->any_free)
         bodies_save(s, f);
+}
+
+/* Whether all guards name the levels that they take from. Collective. */
+static bool guards_have_sources(const struct sph *s)
+{
+    int without = 0;
+    for (int i = 0; i < s->p.n; i++)
+        without += particles_is_guard(&s->p, i) && s->p.role[i] >> ROLE_SOURCE == 0;
+    MPI_Allreduce(MPI_IN_PLACE, &without, 1, MPI_INT, MPI_SUM, s->run->comm);
+    if (without > 0)
+        log_say("the restart file is of an older version: %d guards of level %d do not say which "
+                "levels they take from; begin the run anew",
+                without, s->level);
+    return without == 0;
 }
 
 static bool read_particles(struct sph *s, struct h5 *f)
@@ -339,11 +362,13 @@ static bool read_particles(struct sph *s, struct h5 *f)
                       (!s->guards || h5_read_real(f, name(s, "slope"), n, s->p.nslope, s->p.slope));
     for (int64_t i = 0; fits && i < n; i++) {
         s->p.zone[i] = (unsigned char)(kind[i] % 256);
-        s->p.role[i] = (unsigned char)(kind[i] / 256);
+        s->p.role[i] = (unsigned short)(kind[i] / 256);
     }
     s->p.n = fits ? (int)n : 0;
     mem_free(kind);
-    return fits;
+    if (!fits || !s->refinement || apr_params_of(s->run)->method == APR_GUARDS)
+        return fits && guards_have_sources(s);
+    return mixed_restart(s, f);
 }
 
 /* The next id of this rank: its own, or on another number of ranks above all of theirs. */
@@ -386,7 +411,8 @@ static bool same_region(const struct sph *s, struct h5 *f)
     }
     for (int k = 0; k < 1 + 2 * s->dim; k++) {
         double then;
-        if (h5_read_attribute_real(f, wanted[k].name, &then) && then != wanted[k].now) {
+        const bool moved = k > 0 && box_motion_wanted(&s->prm); /* its way is in the file, too */
+        if (!moved && h5_read_attribute_real(f, wanted[k].name, &then) && then != wanted[k].now) {
             log_say("the restart file is of another case: %s = %.10g m, here %.10g m",
                     wanted[k].name, then, wanted[k].now);
             return false;
@@ -398,8 +424,14 @@ static bool same_region(const struct sph *s, struct h5 *f)
 /* What finer levels have of their own; all else they have of the first. */
 static bool read_levels(struct sph *s, struct h5 *f)
 {
-    bool fits = h5_read_parts(f, "levels_mass", 1, &s->refinement->added) &&
-                h5_read_attribute_real(f, "levels_repaid", &s->refinement->repaid);
+    struct refinement *r = s->refinement;
+    double parts[3] = {0.0, 0.0, 0.0};
+    bool fits = h5_read_parts(f, "levels_mass", 3, parts) &&
+                h5_read_attribute_real(f, "levels_mass0", &r->mass0) &&
+                h5_read_attribute_real(f, "levels_debt", &r->debt);
+    r->added = parts[0];
+    s->mass = parts[1];
+    r->gone = parts[2];
     for (struct sph *q = s->finer; q && fits; q = q->finer) {
         const struct number of_flow[] = {NUMBER(dt_most),   NUMBER(stray),    NUMBER(drift[0]),
                                          NUMBER(drift[1]),  NUMBER(drift[2]), NUMBER(max_speed),
@@ -424,7 +456,7 @@ static const char *missing(struct sph *s, struct h5 *f)
         return "particles";
     if (!read_numbers(s, f))
         return "numbers of the run";
-    if (s->finer && !read_levels(s, f))
+    if (s->refinement && !read_levels(s, f))
         return "levels of refinement";
     if (!sph_watch_load(s, f))
         return "watches";

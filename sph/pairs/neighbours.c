@@ -54,6 +54,7 @@ void neighbours_free(struct neighbours **l)
     mem_free((*l)->order);
     mem_free((*l)->whole);
     mem_free((*l)->close);
+    mem_free((*l)->taken);
     mem_free((*l)->j);
     mem_free(*l);
     *l = NULL;
@@ -165,6 +166,7 @@ static void near_room(struct grid *g, int n)
 /* Box of the particles of a cell. */
 struct box {
     double lo[3], hi[3], reach2;
+    int without; /* bits of enum sph_role that leave a particle out */
 };
 
 static struct box box_of(const struct sph *s, const struct grid *g, int cell, double reach)
@@ -422,18 +424,19 @@ static void cell_range(const struct grid *g, int a, double x, double reach, int 
 
 /* Of the locals or ghosts of some cells that follow each other. */
 INLINE void gather_row(const struct sph *s, struct grid *g, const struct box *b, int from, int end,
-                       const unsigned char *ghost_role, const int dim)
+                       const unsigned short *ghost_role, const int dim)
 {
     for (int k = from; k < end; k++) {
         const int j = ghost_role ? g->n + g->order[k] : k;
         const int role = ghost_role ? ghost_role[g->order[k]] : s->p.role[k];
-        if (!(role & ROLE_GUARD))
+        if (!(role & b->without))
             copy_near(s, g, b, j, dim);
     }
 }
 
+/* Cells are those of the last sort, from where particles have moved by the skin at most. */
 INLINE void gather(const struct sph *s, const struct box *b, double reach,
-                   const unsigned char *ghost_role, const int dim)
+                   const unsigned short *ghost_role, const int dim)
 {
     struct grid *g = s->list->grid;
     int first[3] = {0, 0, 0}, last[3] = {0, 0, 0}, unused;
@@ -454,11 +457,12 @@ INLINE void gather(const struct sph *s, const struct box *b, double reach,
 }
 
 void neighbours_gather(const struct sph *s, const double *lo, const double *hi, double reach,
-                       const unsigned char *ghost_role)
+                       const unsigned short *ghost_role, int without)
 {
-    struct box b = {.reach2 = reach * reach};
+    struct box b = {.reach2 = reach * reach, .without = without};
     memcpy(b.lo, lo, (size_t)s->dim * sizeof *lo);
     memcpy(b.hi, hi, (size_t)s->dim * sizeof *hi);
+    reach += s->skin;
     if (s->dim == 2)
         gather(s, &b, reach, ghost_role, 2);
     else

@@ -26,6 +26,8 @@ struct neighbours {
     int nshallow; /* rows but for the deep ones */
     int treated;  /* rows that passes go through: all until slopes are known, then shallow ones */
     double touching; /* m: pairs that may come this near in the step are close; 0: none */
+    int *taken; /* [n] entries of the lists from which guards take their fields; NULL: no levels */
+    int taken_capacity;
     int nclose, close_capacity;
     int (*close)[2];  /* pairs i < j that may collide in the step; collisions.h */
     int begin, end;   /* places in order that a pass treats: neighbours_rows */
@@ -52,10 +54,11 @@ void neighbours_rows(struct neighbours *l, enum rows which);
 /* [capacity + 1][width]: sums of a symmetric pass, one row for each line, width nstate at most;
  * zeros before the first row. They lie where s->p.rate will be written. */
 double *neighbours_sums(struct sph *s, int width);
-/* Gathers the locals and ghosts that flow within reach of the box from lo to hi, for
- * neighbours_pick; ghost_role: bits of the ghosts' enum sph_role. After neighbours_build. */
+/* Gathers the locals and ghosts without any of the bits `without' of enum sph_role (ROLE_GUARD:
+ * those that flow) within reach of the box from lo to hi, for neighbours_pick; ghost_role: bits of
+ * the ghosts. After neighbours_build. */
 void neighbours_gather(const struct sph *s, const double *lo, const double *hi, double reach,
-                       const unsigned char *ghost_role);
+                       const unsigned short *ghost_role, int without);
 /* Numbers of those gathered last within reach of x; found is grown (its room: *capacity, at least
  * LANES more than there are), n are there already; returns their new number. */
 int neighbours_pick(const struct sph *s, const double *x, double reach, int n, int **found,

@@ -11,8 +11,11 @@
 #include "../../common/mem.h"
 #include "../pairs/neighbours.h"
 
-/* WORK: of a particle besides its pairs, as a number of them: sort, list, update, row overhead. */
+/* WORK: of a particle besides its pairs, as a number of them: sort, list, update, row overhead.
+ * With levels in eighths of a pair, measured: PAIR; of rows that are deep, which are listed and
+ * summed over once a step; what guards take from, at each stage, once a step. */
 enum { BINS = 256, PASSES = 2, TAG_COUNT = 31, TAG_LINES = 32, WORK = 8 };
+enum { PAIR = 8, DEEP_PAIR = 2, TAKEN = 6, DEEP_TAKEN = 2 };
 
 struct cut {
     int axis;
@@ -40,6 +43,8 @@ struct domain {
     struct peer *peers;    /* ascending rank */
     MPI_Request *requests; /* [2 npeers] */
     int nrequests;
+    double tau_sum; /* of mean over largest work of a rank, when it was looked at */
+    int tau_n;
 };
 
 /* Part of the tree under construction: ranks, box, this rank's particles in it, of all levels. */
@@ -315,6 +320,19 @@ void domain_free(struct domain **d)
     *d = NULL;
 }
 
+static int work_of(const struct sph *s, int i)
+{
+    const struct neighbours *l = s->list;
+    const bool deep = (s->p.role[i] & ROLE_DEEP) != 0;
+    if (!s->ready)
+        return 1;
+    if (!l->taken)
+        return l->count[i] + WORK;
+    const int work = (deep ? DEEP_PAIR : PAIR) * l->count[i] + PAIR * WORK +
+                     (deep ? DEEP_TAKEN : TAKEN) * l->taken[i];
+    return s->local_steps ? work << s->level : work;
+}
+
 /* Places and work of the particles of all levels; returns the sum. */
 static int64_t find_work(const struct sph *s, double (*x)[3], int *work)
 {
@@ -323,7 +341,7 @@ static int64_t find_work(const struct sph *s, double (*x)[3], int *work)
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++, k++) {
             memcpy(x[k], state_row(&q->p, q->p.y, i), (size_t)q->dim * sizeof(double));
-            work[k] = q->ready ? q->list->count[i] + WORK : 1;
+            work[k] = work_of(q, i);
             sum += work[k];
         }
     return sum;
@@ -344,6 +362,15 @@ static void cut_anew(struct sph *s, int n, const double (*x)[3], const int *work
     cuts_changed(s);
 }
 
+void domain_follow(struct sph *s)
+{
+    for (struct sph *q = s; q; q = q->finer) {
+        memcpy(q->domain->lo, q->lo, sizeof q->domain->lo);
+        memcpy(q->domain->hi, q->hi, sizeof q->domain->hi);
+        make_boxes(q->domain);
+    }
+}
+
 bool domain_balance(struct sph *s, double tolerance)
 {
     struct domain *d = s->domain;
@@ -359,12 +386,18 @@ bool domain_balance(struct sph *s, double tolerance)
     MPI_Allreduce(&mine, &sum, 1, MPI_INT64_T, MPI_SUM, d->comm);
     MPI_Allreduce(&mine, &most, 1, MPI_INT64_T, MPI_MAX, d->comm);
     const bool uneven = (double)most * d->size > (1.0 + tolerance) * (double)sum;
+    if (s->ready && most > 0) {
+        d->tau_sum += (double)sum / ((double)most * d->size);
+        d->tau_n++;
+    }
     if (uneven)
         cut_anew(s, n, (const double(*)[3])x, work);
     mem_free(x);
     mem_free(work);
     return uneven;
 }
+
+double domain_tau(const struct domain *d) { return d->tau_n > 0 ? d->tau_sum / d->tau_n : 1.0; }
 
 /* Sends rows to the ranks owner[i] >= 0; returns the received ones, by sending rank, then as they
  * were. */
@@ -441,7 +474,7 @@ static void unpack_row(struct particles *p, const double *row, bool slopes)
     int64_t id;
     memcpy(&id, row + p->nstate, sizeof id);
     const int kind = (int)row[p->nstate + 1], i = particles_add(p, id, (enum sph_zone)(kind % 256));
-    p->role[i] = (unsigned char)(kind / 256);
+    p->role[i] = (unsigned short)(kind / 256);
     memcpy(state_row(p, p->y, i), row, (size_t)p->nstate * sizeof(double));
     if (slopes)
         memcpy(slope_line(p, i), row + p->nstate + 2, (size_t)p->nslope * sizeof *row);

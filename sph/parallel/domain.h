@@ -14,6 +14,11 @@ void domain_free(struct domain **d);
  * (max/mean - 1); returns whether it did. Then domain_migrate is due. Work: pairs in the list and a
  * constant, or particles where the list is not of the present state. */
 bool domain_balance(struct sph *s, double tolerance);
+/* The region has moved: s->lo, s->hi. The cuts stay until the work wants others. */
+void domain_follow(struct sph *s);
+/* Work of a rank, mean over largest, on average over the times when it was looked at, each before
+ * the cuts were made anew; 1 on one rank. */
+double domain_tau(const struct domain *d);
 /* Rank that owns the place x (clamped into the region). */
 int domain_owner(const struct domain *d, const double *x);
 /* Bounds of this rank's part. */

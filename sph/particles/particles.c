@@ -33,6 +33,8 @@ static void grow(struct particles *p, int capacity)
     GROW(p->id, old, n);
     GROW(p->zone, old, n);
     GROW(p->role, old, n);
+    if (p->size)
+        GROW(p->size, old, n);
     p->capacity = capacity;
     p->sum_capacity = 0;
     mem_free(p->sum);
@@ -57,7 +59,17 @@ void particles_free(struct particles *p)
     mem_free(p->id);
     mem_free(p->zone);
     mem_free(p->role);
+    mem_free(p->size);
     *p = (struct particles){0};
+}
+
+void particles_add_sizes(struct particles *p, double R)
+{
+    p->size = mem_new((size_t)p->capacity, sizeof *p->size);
+    for (int i = 0; i < p->n; i++) {
+        p->size[i][0] = R;
+        p->size[i][1] = 1.0;
+    }
 }
 
 void particles_reserve(struct particles *p, int total)
@@ -94,6 +106,8 @@ void particles_copy(struct particles *p, int to, int from)
     p->id[to] = p->id[from];
     p->zone[to] = p->zone[from];
     p->role[to] = p->role[from];
+    if (p->size)
+        memcpy(p->size[to], p->size[from], sizeof *p->size);
     memcpy(slope_line(p, to), slope_line(p, from), (size_t)p->nslope * sizeof(double));
 }
 
@@ -108,13 +122,22 @@ static void permute_slopes(struct particles *p, int n, const int *order)
     mem_free(old);
 }
 
+static void permute_sizes(struct particles *p, int n, const int *order)
+{
+    double(*size)[2] = mem_new((size_t)p->capacity, sizeof *size);
+    for (int i = 0; i < n; i++)
+        memcpy(size[i], p->size[order[i]], sizeof *size);
+    mem_free(p->size);
+    p->size = size;
+}
+
 /* y0 is free between steps: the new order is made there and swapped in. */
 void particles_permute(struct particles *p, int n, const int *order, bool slopes)
 {
     const size_t row = (size_t)p->nstate;
     int64_t *id = NEW(int64_t, p->capacity);
     unsigned char *zone = NEW(unsigned char, p->capacity);
-    unsigned char *role = NEW(unsigned char, p->capacity);
+    unsigned short *role = NEW(unsigned short, p->capacity);
     for (int i = 0; i < n; i++) {
         memcpy(p->y0 + (size_t)i * row, p->y + (size_t)order[i] * row, row * sizeof(double));
         id[i] = p->id[order[i]];
@@ -126,6 +149,8 @@ void particles_permute(struct particles *p, int n, const int *order, bool slopes
     double *y = p->y;
     p->y = p->y0;
     p->y0 = y;
+    if (p->size)
+        permute_sizes(p, n, order);
     mem_free(p->id);
     mem_free(p->zone);
     mem_free(p->role);
@@ -146,25 +171,46 @@ void particles_set(struct sph *s, int i, const double *x, const double *u, doubl
     y[at_mass(dim)] = rho * w;
 }
 
+static inline __attribute__((always_inline)) void line(const struct sph *s, const double *y,
+                                                       double *q, const int dim)
+{
+    const double w = y[at_volume(dim)], m = y[at_mass(dim)], rho = m / w, to_u = 1.0 / m;
+    for (int a = 0; a < dim; a++) {
+        q[a] = y[a];
+        q[dim + a] = y[dim + a] * to_u;
+    }
+    q[at_volume(dim)] = w;
+    q[at_rho(dim)] = rho;
+    if (dim == 2) {
+        q[6] = eos_p(rho, s->rho0, s->c0, s->gamma);
+        q[7] = eos_c(rho, s->rho0, s->c0, s->gamma);
+    }
+}
+
 static inline __attribute__((always_inline)) void lines(struct sph *s, const int dim)
 {
-    const double rho0 = s->rho0, c0 = s->c0, gamma = s->gamma;
+    for (int i = 0; i < s->p.n; i++)
+        line(s, s->p.y + (size_t)s->p.nstate * i, prim_line(&s->p, i), dim);
+}
+
+static inline __attribute__((always_inline)) void lines_between(struct sph *s, double part,
+                                                                const int dim)
+{
     for (int i = 0; i < s->p.n; i++) {
-        const double *y = s->p.y + (size_t)s->p.nstate * i, w = y[at_volume(dim)],
-                     m = y[at_mass(dim)];
-        double *q = prim_line(&s->p, i);
-        const double rho = m / w, to_u = 1.0 / m;
-        for (int a = 0; a < dim; a++) {
-            q[a] = y[a];
-            q[dim + a] = y[dim + a] * to_u;
-        }
-        q[at_volume(dim)] = w;
-        q[at_rho(dim)] = rho;
-        if (dim == 2) {
-            q[6] = eos_p(rho, rho0, c0, gamma);
-            q[7] = eos_c(rho, rho0, c0, gamma);
-        }
+        const double *y0 = state_row(&s->p, s->p.y0, i), *y1 = state_row(&s->p, s->p.y, i);
+        double y[8];
+        for (int k = 0; k < 2 * dim + 2; k++)
+            y[k] = y0[k] + part * (y1[k] - y0[k]);
+        line(s, y, prim_line(&s->p, i), dim);
     }
+}
+
+void particles_lines_between(struct sph *s, double part)
+{
+    if (s->dim == 2)
+        lines_between(s, part, 2);
+    else
+        lines_between(s, part, 3);
 }
 
 void particles_lines(struct sph *s)

@@ -12,8 +12,17 @@ struct sph;
 enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
 /* Bits of what a particle is where there are levels (refinement/refinement.h): its fields are those
  * of others; it has given birth; a guard too far from flow for its slopes to count; one whose
- * support its level does not fill; from bit ROLE_SOURCE on the finer of a guard's two sources. */
-enum sph_role { ROLE_GUARD = 1, ROLE_MOTHER = 2, ROLE_DEEP = 4, ROLE_EDGE = 8, ROLE_SOURCE = 4 };
+ * support its level does not fill; it flows, within R of the surface; it is one guard too many;
+ * from bit ROLE_SOURCE on the finer of a guard's two sources. */
+enum sph_role {
+    ROLE_GUARD = 1,
+    ROLE_MOTHER = 2,
+    ROLE_DEEP = 4,
+    ROLE_EDGE = 8,
+    ROLE_SURFACE = 16,
+    ROLE_SURPLUS = 32,
+    ROLE_SOURCE = 6
+};
 enum { PRIM = 8 }; /* doubles of a line of prim */
 
 /* Particles of one size level. State and rates are rows of nstate doubles,
@@ -33,11 +42,13 @@ struct particles {
     double *rate;   /* [capacity+1][nstate] its time derivative; until then sums of the pairs */
     double *sum;    /* of rates, where the scheme in time needs one; particles_sum */
     int sum_capacity;
-    double *prim;        /* [capacity+1][8] */
-    double *slope;       /* [capacity+1][nslope] */
-    int64_t *id;         /* [capacity] unique over all ranks */
-    unsigned char *zone; /* [capacity] enum sph_zone */
-    unsigned char *role; /* [capacity] bits of enum sph_role, 0 without levels */
+    double *prim;         /* [capacity+1][8] */
+    double *slope;        /* [capacity+1][nslope] */
+    int64_t *id;          /* [capacity] unique over all ranks */
+    unsigned char *zone;  /* [capacity] enum sph_zone */
+    unsigned short *role; /* [capacity] bits of enum sph_role, 0 without levels */
+    double (*size)[2];    /* [capacity] R, m, and weight, where particles of one set differ in them;
+                             ghosts too; NULL: they do not. refinement/mixed.h */
 };
 
 /* Places in a row of the state and in a line: x and u (q) come first. */
@@ -67,6 +78,8 @@ static inline bool particles_is_guard(const struct particles *p, int i)
 
 void particles_create(struct particles *p, int dim, int capacity);
 void particles_free(struct particles *p);
+/* Each has an R and a weight of its own from now on; these are set. */
+void particles_add_sizes(struct particles *p, double R);
 /* Room for n + nghost = total lines; keeps everything. */
 void particles_reserve(struct particles *p, int total);
 /* One more particle at the end (ghosts must be gone); returns its index; the row y is the caller's.
@@ -81,5 +94,7 @@ void particles_permute(struct particles *p, int n, const int *order, bool slopes
 void particles_set(struct sph *s, int i, const double *x, const double *u, double w, double rho);
 /* prim of all locals from y (u = q/m, rho = m/w; 2D: p, c). */
 void particles_lines(struct sph *s);
+/* The same of the share `part' of the way from y0 to y. */
+void particles_lines_between(struct sph *s, double part);
 
 #endif

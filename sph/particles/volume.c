@@ -38,6 +38,14 @@ void volume_keep(struct sph *s)
             s->p.y[(size_t)row * i + at] *= factor;
 }
 
+void volume_change(struct sph *s, double by)
+{
+    if (s->volume0 == 0.0)
+        return;
+    MPI_Allreduce(MPI_IN_PLACE, &by, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    s->volume0 += by;
+}
+
 void volume_renew(struct sph *s)
 {
     if (s->volume0 != 0.0)

@@ -10,6 +10,7 @@
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
 #include "../pairs/kernel.h"
+#include "../walls/walls.h"
 #include "apr_params.h"
 #include "refinement.h"
 
@@ -23,16 +24,19 @@ void guards_free(struct guards **g)
         return;
     mem_free((*g)->who);
     mem_free((*g)->source);
+    mem_free((*g)->near);
     mem_free((*g)->first);
     mem_free((*g)->count);
     mem_free((*g)->j);
     mem_free((*g)->ghost);
     mem_free((*g)->prior);
+    mem_free((*g)->newborn);
     mem_free(*g);
     *g = NULL;
 }
 
-/* Roles of the ghosts are those that their owners gave. */
+/* Roles of the ghosts are those that their owners gave, of mirror images those of what they show.
+ */
 static void share_roles(struct sph *s)
 {
     struct guards *g = s->guards;
@@ -45,7 +49,12 @@ static void share_roles(struct sph *s)
         g->ghost_capacity = s->p.nghost;
     }
     for (int k = 0; k < s->p.nghost; k++)
-        g->ghost[k] = (unsigned char)ghosts[k];
+        g->ghost[k] = (unsigned short)ghosts[k];
+    for (int k = s->p.nhalo; k < s->p.nghost && s->walls; k++) {
+        const int from = walls_mirrored(s, s->p.n + k);
+        if (from >= 0)
+            g->ghost[k] = from < s->p.n ? s->p.role[from] : g->ghost[from - s->p.n];
+    }
     mem_free(own);
     mem_free(ghosts);
 }
@@ -57,27 +66,38 @@ static void make_room(struct guards *g, int n)
     const int old = g->capacity, more = n + n / 8 + 64;
     GROW(g->who, old, more);
     GROW(g->source, old, more);
+    GROW(g->near, old, more);
     GROW(g->first, old, more);
     GROW(g->count, old, more);
     g->capacity = more;
 }
 
-/* Who they are, those that are not deep first. */
+/* In which place they are listed: guards outside of where their level flows, guards within, deep
+ * ones. */
+static int kind_of(const struct sph *s, int i)
+{
+    if (s->p.role[i] & ROLE_DEEP)
+        return 2;
+    return s->p.role[i] >> ROLE_SOURCE == s->level ? 0 : 1;
+}
+
+/* Who they are, by kind. */
 static void find(struct sph *s)
 {
     struct guards *g = s->guards;
-    int n = 0;
+    int n = 0, upto[3];
     for (int i = 0; i < s->p.n; i++)
         n += particles_is_guard(&s->p, i);
     make_room(g, n);
     g->n = 0;
-    for (int deep = 0; deep < 2; deep++) {
+    for (int kind = 0; kind < 3; kind++) {
         for (int i = 0; i < s->p.n; i++)
-            if (particles_is_guard(&s->p, i) && ((s->p.role[i] & ROLE_DEEP) != 0) == deep)
+            if (particles_is_guard(&s->p, i) && kind_of(s, i) == kind)
                 g->who[g->n++] = i;
-        if (!deep)
-            g->nshallow = g->n;
+        upto[kind] = g->n;
     }
+    g->nfiner = upto[0];
+    g->nshallow = upto[1];
     for (int k = 0; k < g->n; k++)
         g->source[k] = (unsigned char)(s->p.role[g->who[k]] >> ROLE_SOURCE);
 }
@@ -106,6 +126,16 @@ static int find_group(const struct sph *s, int k, double *lo, double *hi)
     return n;
 }
 
+static bool any_on_surface(const struct sph *from, const int *j, int n)
+{
+    bool any = false;
+    for (int k = 0; k < n && !any; k++) {
+        const int ghost = j[k] - from->p.n;
+        any = (ghost < 0 ? from->p.role[j[k]] : from->guards->ghost[ghost]) & ROLE_SURFACE;
+    }
+    return any;
+}
+
 /* Rows of the guards k .. end-1 from one of their sources, each padded; returns the next free place
  * in j. */
 static int add_rows(struct sph *s, const struct sph *from, int m, int k, int end, double reach,
@@ -118,10 +148,27 @@ static int add_rows(struct sph *s, const struct sph *from, int m, int k, int end
         at = neighbours_pick(from, x, reach, at, &g->j, &g->j_capacity);
         g->first[k][m] = begin;
         g->count[k][m] = at - begin;
+        g->near[k] = (m > 0 && g->near[k]) ||
+                     (from->surface && any_on_surface(from, g->j + begin, at - begin));
         for (int pad = 0; pad < LANES - 1; pad++)
             g->j[at++] = from->p.capacity;
     }
     return at;
+}
+
+/* What the partition over ranks wants to know. */
+static void count_taken(struct sph *s)
+{
+    struct neighbours *l = s->list;
+    if (l->taken_capacity < s->p.n) {
+        mem_free(l->taken);
+        l->taken_capacity = s->p.capacity;
+        l->taken = NEW(int, l->taken_capacity);
+    }
+    if (s->p.n > 0)
+        memset(l->taken, 0, (size_t)s->p.n * sizeof *l->taken);
+    for (int k = 0; k < s->guards->n; k++)
+        l->taken[s->guards->who[k]] = s->guards->count[k][0] + s->guards->count[k][1];
 }
 
 static void list_level(struct sph *const *all, struct sph *s)
@@ -135,13 +182,14 @@ static void list_level(struct sph *const *all, struct sph *s)
         double lo[3], hi[3];
         const int end = k + find_group(s, k, lo, hi);
         for (int m = 0; m < 2; m++) {
-            neighbours_gather(sources[m], lo, hi, reach, sources[m]->guards->ghost);
+            neighbours_gather(sources[m], lo, hi, reach, sources[m]->guards->ghost, ROLE_GUARD);
             at = add_rows(s, sources[m], m, k, end, reach, at);
         }
         k = end;
     }
     g->fresh = true;
     g->nprior = 0;
+    count_taken(s);
 }
 
 /* The levels by their number. */
@@ -206,18 +254,95 @@ INLINE void add_sources(const struct sph *from, const double *x, double R_1, con
 /* rho and u at the guard: by the trapezoidal rule along the way from each source, of third order on
  * any set where the slopes are of second order, and Shepard's mean [5.24] where these are 0. The
  * mean alone errs by half the kernel's second moment times the field's curvature: Taylor-Green
- * vortices through a box lost 9 % of their energy by that. */
-INLINE void take(struct sph *s, int i, const struct sums *sum, double W0, const int dim)
+ * vortices through a box lost 9 % of their energy by that. Returns the sum of the weights. */
+INLINE double mean_of(const struct sums *sum, double f[4], const int dim)
 {
-    const double W = vec_sum(sum->W), W_1 = 1.0 / W;
-    double *y = state_row(&s->p, s->p.y, i), *q = prim_line(&s->p, i), f[4];
-    if (!(W0 * W > thin))
-        return;
+    const double W = vec_sum(sum->W), W_1 = W > 0.0 ? 1.0 / W : 0.0;
     for (int c = 0; c <= dim; c++) {
         f[c] = vec_sum(sum->f[c]) * W_1;
         for (int a = 0; a < dim; a++)
             f[c] -= 0.5 * vec_sum(sum->r[a]) * W_1 * vec_sum(sum->grad[c][a]) * W_1;
     }
+    return W;
+}
+
+/* Pressure of water at rest beyond its weight near the surface, where the momentum equation sums
+ * over half a support: of P = p/(rho g R), in the same unit, linear between the rows of a tank at
+ * rest with R/dx 4 (means of two spacings); none in what does not press. */
+static double excess(double P)
+{
+    static const double of[][2] = {{0.0, 0.0},    {0.24, 0.118},  {0.40, 0.049},
+                                   {0.64, 0.018}, {0.87, 0.0025}, {1.1, 0.0}};
+    enum { ROWS = sizeof of / sizeof of[0] };
+    int k = 1;
+    if (P <= 0.0 || P >= of[ROWS - 1][0])
+        return 0.0;
+    while (P > of[k][0])
+        k++;
+    const double along = (P - of[k - 1][0]) / (of[k][0] - of[k - 1][0]);
+    return of[k - 1][1] + along * (of[k][1] - of[k - 1][1]);
+}
+
+/* The density at which a level with the weight `to' = rho g R has, near the surface at rest, the
+ * pressure that one of weight `from' has at rho in the same depth. */
+static double matched_density(const struct sph *s, double rho, double from, double to)
+{
+    const double p = eos_p(rho, s->rho0, s->c0, s->gamma), head = p - from * excess(p / from);
+    double P = head / to;
+    if (from == to)
+        return rho;
+    for (int k = 0; k < 8; k++) /* contracts by 0.6 */
+        P = head / to + excess(P);
+    return rho + (P * to - p) / pow(eos_c(rho, s->rho0, s->c0, s->gamma), 2.0);
+}
+
+/* Near a free surface: each level's mean by itself, for what their pressures are at rest differs.
+ */
+INLINE double take_near(struct sph *s, const struct sums sum[2], const struct sph *fine,
+                        double f[4], const int dim)
+{
+    const double *G = s->gravity, g = sqrt(G[0] * G[0] + G[1] * G[1] + G[2] * G[2]);
+    double W = 0.0;
+    for (int c = 0; c <= dim; c++)
+        f[c] = 0.0;
+    for (int m = 0; m < 2; m++) {
+        double of[4];
+        const double part = mean_of(sum + m, of, dim), R = m ? fine->R : 2.0 * fine->R;
+        if (part > 0.0 && g > 0.0)
+            of[0] = matched_density(s, of[0], s->rho0 * g * R, s->rho0 * g * s->R);
+        for (int c = 0; c <= dim; c++)
+            f[c] += part * of[c];
+        W += part;
+    }
+    for (int c = 0; c <= dim; c++)
+        f[c] /= W > 0.0 ? W : 1.0;
+    return W;
+}
+
+static void join_sums(struct sums *to, const struct sums *more, int dim)
+{
+    to->W += more->W;
+    for (int a = 0; a < dim; a++)
+        to->r[a] += more->r[a];
+    for (int c = 0; c <= dim; c++) {
+        to->f[c] += more->f[c];
+        for (int a = 0; a < dim; a++)
+            to->grad[c][a] += more->grad[c][a];
+    }
+}
+
+INLINE void take(struct sph *s, int i, struct sums sum[2], const struct sph *fine, bool near,
+                 const int dim)
+{
+    double *y = state_row(&s->p, s->p.y, i), *q = prim_line(&s->p, i), f[4], W;
+    if (near) {
+        W = take_near(s, sum, fine, f, dim);
+    } else {
+        join_sums(sum, sum + 1, dim);
+        W = mean_of(sum, f, dim);
+    }
+    if (!(kernel_w0(dim, fine->R) * W > thin))
+        return;
     const double m = y[at_mass(dim)], rho = f[0];
     for (int a = 0; a < dim; a++) {
         q[dim + a] = f[1 + a];
@@ -237,10 +362,11 @@ INLINE void update(struct sph *const *all, struct sph *s, int n, const int dim)
     for (int k = 0; k < n; k++) {
         const struct sph *fine = all[g->source[k]];
         const double *x = prim_line(&s->p, g->who[k]), R_1 = 1.0 / fine->R;
-        struct sums sum = {0};
-        add_sources(fine->coarser, x, R_1, g->j + g->first[k][0], g->count[k][0], &sum, dim);
-        add_sources(fine, x, R_1, g->j + g->first[k][1], g->count[k][1], &sum, dim);
-        take(s, g->who[k], &sum, kernel_w0(dim, fine->R), dim);
+        struct sums sum[2];
+        memset(sum, 0, sizeof sum);
+        add_sources(fine->coarser, x, R_1, g->j + g->first[k][0], g->count[k][0], sum, dim);
+        add_sources(fine, x, R_1, g->j + g->first[k][1], g->count[k][1], sum + 1, dim);
+        take(s, g->who[k], sum, fine, g->near[k], dim);
     }
 }
 
@@ -255,21 +381,41 @@ static void update_level(struct sph *const *all, struct sph *s)
     g->fresh = false;
 }
 
+void guards_share(struct sph *s, bool slopes)
+{
+    timer_start(&s->run->timers, "halo");
+    domain_halo_start(s, slopes);
+    domain_halo_finish(s, slopes);
+    if (s->walls && s->walls->model == &wall_ghost) /* images at plane sides are sources too */
+        (slopes ? wall_ghost.ghost_slopes : wall_ghost.lines)(s);
+    timer_stop(&s->run->timers, "halo");
+}
+
 void guards_update(struct sph *s)
 {
     struct sph *all[APR_LEVELS_MAX + 1];
     levels_of(s, all);
-    timer_start(&s->run->timers, "halo");
     for (struct sph *q = s; q; q = q->finer) {
-        domain_halo_start(q, false);
-        domain_halo_finish(q, false);
-        domain_halo_start(q, true); /* of the stage before */
-        domain_halo_finish(q, true);
+        guards_share(q, false);
+        guards_share(q, true); /* of the stage before */
     }
-    timer_stop(&s->run->timers, "halo");
     timer_start(&s->run->timers, "guards");
     for (struct sph *q = s; q; q = q->finer)
         update_level(all, q);
+    timer_stop(&s->run->timers, "guards");
+}
+
+void guards_update_edge(struct sph *s)
+{
+    struct sph *all[APR_LEVELS_MAX + 1];
+    levels_of(s, all);
+    guards_share(s, false);
+    guards_share(s, true);
+    timer_start(&s->run->timers, "guards");
+    if (s->dim == 2)
+        update(all, s, s->guards->nfiner, 2);
+    else
+        update(all, s, s->guards->nfiner, 3);
     timer_stop(&s->run->timers, "guards");
 }
 
@@ -316,6 +462,15 @@ void guards_hold_edge(struct sph *s)
     }
 }
 
+/* u and rho go on as the rates have it, the mass stays. */
+static void keep_mass(const struct sph *s, int i, double *rate)
+{
+    const double *y = state_row(&s->p, s->p.y, i);
+    const double share = rate[at_mass(s->dim)] / y[at_mass(s->dim)];
+    for (int k = s->dim; k < s->p.nstate; k++)
+        rate[k] -= share * y[k];
+}
+
 void guards_rates(struct sph *s)
 {
     const struct guards *g = s->guards;
@@ -323,6 +478,10 @@ void guards_rates(struct sph *s)
     for (int k = 0; k < g->n; k++) {
         double *rate = state_row(&s->p, s->p.rate, g->who[k]);
         const double *u0 = slope_line(&s->p, g->who[k]) + dim + dim * dim;
+        if (g->own_rates && !(s->p.role[g->who[k]] & (ROLE_DEEP | ROLE_EDGE))) {
+            keep_mass(s, g->who[k], rate);
+            continue;
+        }
         memset(rate, 0, (size_t)s->p.nstate * sizeof *rate);
         memcpy(rate, u0, (size_t)dim * sizeof *rate);
     }

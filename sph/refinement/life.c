@@ -14,7 +14,7 @@
 #include "../walls/walls.h"
 
 static const double hysteresis = 0.5;                   /* coarser dx */
-static const double paid_back = 0.01, most_paid = 1e-5; /* a step: of the debt; of the mass */
+static const double paid_back = 0.03, most_paid = 2e-4; /* a step: of the debt; of the mass */
 static const double steepest = 0.05; /* change of rho from mother to child, its share */
 
 /* Distances of the particles of a level to the edges of its own region and of the next finer one;
@@ -31,12 +31,27 @@ static double *measure(const struct regions *g, const struct sph *s, int level)
     return d;
 }
 
+/* held: what particles are with respect to the region of their own level stays. */
+static struct depths depths_of(const struct regions *g, const struct sph *s, bool held)
+{
+    return (struct depths){s->coarser && !held ? measure(g, s, s->level) : NULL,
+                           s->finer ? measure(g, s, s->level + 1) : NULL};
+}
+
+static void depths_free(struct depths *is)
+{
+    mem_free(is->own);
+    mem_free(is->next);
+}
+
 /* Bits of enum sph_role of particle i but ROLE_MOTHER, with the source. */
 static int role_of(const struct regions *g, const struct sph *s, const struct depths *is, int i)
 {
     int role = 0, source = s->level;
+    /* With local steps births come up to a coarser step late. */
+    const double edge = (s->guards->own_rates ? 1.25 : 1.0) * s->R;
     if (is->own && is->own[i] < 2.0 * s->R) /* guards of the finer level */
-        return ROLE_GUARD | (is->own[i] < s->R ? ROLE_EDGE : 0) | source << ROLE_SOURCE;
+        return ROLE_GUARD | (is->own[i] < edge ? ROLE_EDGE : 0) | source << ROLE_SOURCE;
     for (int n = s->level + 1; n <= regions_levels(g); n++) {
         const double R = ldexp(s->R, s->level + 1 - n);
         const double d =
@@ -45,22 +60,81 @@ static int role_of(const struct regions *g, const struct sph *s, const struct de
             break;
         source = n;
         role |= ROLE_GUARD;
-        if (n == s->level + 1 &&
-            d > 3.25 * R) /* slopes of guards reach 2 R deep, with what moves */
+        /* Slopes of guards reach 2 R deep, with what moves; where guards go on by their own rates,
+         * these must be whole for another R. */
+        const double deep = s->guards->own_rates ? 4.25 : 3.25;
+        if (n == s->level + 1 && d > deep * R)
             role |= ROLE_DEEP;
+        else if (n == s->level + 1 && d > (deep - 1.0) * R && s->guards->own_rates)
+            role |= ROLE_EDGE;
     }
     return role | source << ROLE_SOURCE;
 }
 
-/* What flows, kg; this rank. */
-static double flowing(const struct sph *s)
+bool refinement_flows_at(const struct sph *s, const double *x)
+{
+    const struct sph *coarsest = s;
+    while (coarsest->coarser)
+        coarsest = coarsest->coarser;
+    const struct regions *g = coarsest->refinement->regions;
+    return !(s->coarser && regions_distance(g, s->level, x) < 2.0 * s->R) &&
+           !(s->finer && regions_distance(g, s->level + 1, x) >= s->R);
+}
+
+/* Sum over what flows of a number of the state; this rank. */
+static double sum_of(const struct sph *s, int at)
 {
     double sum = 0.0;
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++)
             if (!particles_is_guard(&q->p, i))
-                sum += state_row(&q->p, q->p.y, i)[at_mass(q->dim)];
+                sum += state_row(&q->p, q->p.y, i)[at];
     return sum;
+}
+
+/* What flows, kg; this rank. */
+static double flowing(const struct sph *s) { return sum_of(s, at_mass(s->dim)); }
+
+/* Share of a particle's mass that counts: 1 where its level flows, 0 where another does. */
+static double share_of(const struct sph *s, const struct depths *is, int i)
+{
+    double share = 1.0;
+    if (is->own)
+        share *= fmax(0.0, fmin(0.5 + (is->own[i] - 2.0 * s->R) / (2.0 * s->dx), 1.0));
+    if (is->next)
+        share *= fmax(0.0, fmin(0.5 - (is->next[i] - s->R) / s->dx, 1.0));
+    return share;
+}
+
+static double mass_of_level(const struct sph *s, const struct depths *is)
+{
+    double sum = 0.0;
+    for (int i = 0; i < s->p.n; i++)
+        sum += share_of(s, is, i) * state_row(&s->p, s->p.y, i)[at_mass(s->dim)];
+    return sum;
+}
+
+void refinement_remember(struct sph *s)
+{
+    struct refinement *r = s->refinement;
+    s->mass = 0.0;
+    for (struct sph *q = s; q; q = q->finer) {
+        struct depths is = depths_of(r->regions, q, false);
+        s->mass += mass_of_level(q, &is);
+        depths_free(&is);
+    }
+    r->added = r->gone = s->watch.removed = 0.0;
+    MPI_Allreduce(&s->mass, &r->mass0, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+}
+
+void refinement_removed(struct sph *s, int i)
+{
+    const double m = state_row(&s->p, s->p.y, i)[at_mass(s->dim)];
+    const bool counts = !particles_is_guard(&s->p, i);
+    while (s->coarser)
+        s = s->coarser;
+    if (counts && s->refinement)
+        s->refinement->gone += isfinite(m) ? m : 0.0;
 }
 
 /* One child of particle i, at its place + d. */
@@ -83,6 +157,7 @@ static void bear(const struct sph *s, struct sph *fine, int i, const double *d)
     fine->next_id += s->run->size;
     particles_set(fine, k, x, u, ldexp(m, -dim) / rho_f, rho_f);
     memcpy(slope_line(&fine->p, k), grad, (size_t)s->p.nslope * sizeof *grad);
+    fine->p.role[k] = ROLE_GUARD; /* until it gets its role */
 }
 
 /* Changes the way d from a mother at x, h from a wall, less than the half spacing that she fills,
@@ -129,13 +204,20 @@ static void enter(struct sph *s, const double *next)
         if (!(s->p.role[i] & ROLE_MOTHER) && next[i] >= 0.0)
             give_birth(s, i);
         else if (next[i] < -hysteresis * s->dx)
-            s->p.role[i] &= (unsigned char)~ROLE_MOTHER;
+            s->p.role[i] &= (unsigned short)~ROLE_MOTHER;
+}
+
+/* Whether it leaves its region, or is one guard too many, which does not come to flow now. */
+static bool is_removed(const struct sph *s, double depth, int i)
+{
+    return depth < -2.0 * hysteresis * s->dx ||
+           ((s->p.role[i] & ROLE_SURPLUS) != 0 && depth < 2.0 * s->R);
 }
 
 static void leave(struct sph *s, struct depths *is)
 {
     for (int i = 0; i < s->p.n;)
-        if (is->own[i] < -2.0 * hysteresis * s->dx) {
+        if (is_removed(s, is->own[i], i)) {
             particles_copy(&s->p, i, --s->p.n);
             is->own[i] = is->own[s->p.n];
             if (is->next)
@@ -145,19 +227,71 @@ static void leave(struct sph *s, struct depths *is)
         }
 }
 
-static void adapt_level(const struct regions *g, struct sph *s)
+/* Whether i is a guard because its own level does not flow there. */
+static bool is_outside(const struct sph *s, int i)
 {
-    struct depths is = {s->coarser ? measure(g, s, s->level) : NULL,
-                        s->finer ? measure(g, s, s->level + 1) : NULL};
+    return particles_is_guard(&s->p, i) && s->p.role[i] >> ROLE_SOURCE == s->level;
+}
+
+/* What flows has gained so much energy without work: the watch is not to take it for made of
+ * nothing. */
+static void book_energy(struct sph *s, double gained)
+{
+    while (s->coarser)
+        s = s->coarser;
+    s->watch.removed -= isfinite(gained) ? gained : 0.0;
+}
+
+static void give_roles(const struct regions *g, struct sph *s, const struct depths *is, bool held)
+{
+    const int kept = ROLE_MOTHER | ROLE_SURFACE | (held ? ROLE_SURPLUS : 0);
+    double woken = 0.0, kinetic;
+    for (int i = 0; i < s->p.n; i++) {
+        const int before = s->p.role[i];
+        if (held && is_outside(s, i))
+            continue;
+        s->p.role[i] = (unsigned short)((before & kept) | role_of(g, s, is, i));
+        if ((before ^ s->p.role[i]) & ROLE_GUARD)
+            woken += (before & ROLE_GUARD ? 1.0 : -1.0) *
+                     sph_energy(s, state_row(&s->p, s->p.y, i), &kinetic);
+    }
+    book_energy(s, woken);
+}
+
+static void add_newborn(struct sph *s)
+{
+    struct guards *g = s->guards;
+    for (int k = 0; k < g->nnewborn; k++) {
+        const struct newborn *is = g->newborn + k;
+        s->p.nghost = 0;
+        particles_reserve(&s->p, s->p.n + 1);
+        const int i = particles_add(&s->p, s->next_id, ZONE_FREE);
+        s->next_id += s->run->size;
+        double x[3];
+        for (int a = 0; a < s->dim; a++)
+            x[a] = is->x[a] + (s->t - is->t) * is->u[a];
+        particles_set(s, i, x, is->u, is->volume, is->rho);
+        memcpy(slope_line(&s->p, i), is->slope, (size_t)s->p.nslope * sizeof(double));
+        s->p.role[i] = ROLE_GUARD;
+    }
+    g->nnewborn = 0;
+}
+
+/* Returns its share of the mass of the fluid, kg, this rank. */
+static double adapt_level(const struct regions *g, struct sph *s, bool held)
+{
+    if (!held)
+        add_newborn(s);
+    struct depths is = depths_of(g, s, held);
     if (s->finer)
         enter(s, is.next);
-    if (s->coarser)
+    if (is.own)
         leave(s, &is);
-    for (int i = 0; i < s->p.n; i++)
-        s->p.role[i] = (unsigned char)((s->p.role[i] & ROLE_MOTHER) | role_of(g, s, &is, i));
+    give_roles(g, s, &is, held);
+    const double mass = mass_of_level(s, &is);
     s->ready = false;
-    mem_free(is.own);
-    mem_free(is.next);
+    depths_free(&is);
+    return mass;
 }
 
 void refinement_adapt(struct sph *s)
@@ -166,10 +300,54 @@ void refinement_adapt(struct sph *s)
     timer_start(&s->run->timers, "levels");
     const double before = flowing(s);
     regions_move(r->regions, s->t);
+    s->mass = 0.0;
     for (struct sph *q = s; q; q = q->finer)
-        adapt_level(r->regions, q);
+        s->mass += adapt_level(r->regions, q, false);
     r->added += flowing(s) - before;
+    refinement_watch_bodies(s);
     timer_stop(&s->run->timers, "levels");
+}
+
+void refinement_begin(struct sph *s, void (*settle)(struct sph *level))
+{
+    const struct regions *g = s->refinement->regions;
+    regions_move(s->refinement->regions, s->t);
+    for (struct sph *q = s; q; q = q->finer) {
+        if (q->coarser && settle) {
+            struct depths is = depths_of(g, q, false);
+            give_roles(g, q, &is, false);
+            depths_free(&is);
+            settle(q);
+        }
+        adapt_level(g, q, false);
+    }
+}
+
+void refinement_adapt_finer(struct sph *s, struct sph *outside)
+{
+    struct refinement *r = s->refinement;
+    timer_start(&s->run->timers, "levels");
+    const double before = flowing(outside), room = sum_of(outside, at_volume(s->dim));
+    refinement_follow(s, outside);
+    regions_move(r->regions, outside->t);
+    for (struct sph *q = outside; q; q = q->finer)
+        adapt_level(r->regions, q, q == outside);
+    r->added += flowing(outside) - before;
+    r->grown += sum_of(outside, at_volume(s->dim)) - room;
+    timer_stop(&s->run->timers, "levels");
+}
+
+void refinement_spread_mass(struct sph *s, double gained)
+{
+    double sums[2] = {gained, flowing(s)};
+    if (s->prm.scheme != SCHEME_RIEMANN_ALE || s->zones)
+        return;
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    const double share = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+    for (struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++)
+            if (!particles_is_guard(&q->p, i))
+                state_row(&q->p, q->p.y, i)[at_mass(q->dim)] *= 1.0 - share;
 }
 
 void refinement_keep_mass(struct sph *s)
@@ -197,6 +375,7 @@ void refinement_free(struct sph *s)
     if (!s->refinement)
         return;
     regions_free(&s->refinement->regions);
+    mem_free(s->refinement->held);
     mem_free(s->refinement);
     s->refinement = NULL;
 }
@@ -204,17 +383,25 @@ void refinement_free(struct sph *s)
 void refinement_repay(struct sph *s)
 {
     struct refinement *r = s->refinement;
-    double sums[2] = {r->added, flowing(s)};
+    double sums[2] = {s->mass, r->gone};
     if (s->zones)
         return;
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    const double debt = sums[1] > 0.0 ? (sums[0] - r->repaid) / sums[1] : 0.0;
-    const double part = fmax(-most_paid, fmin(paid_back * debt, most_paid));
+    const double debt = r->debt = sums[0] > 0.0 ? (sums[0] + sums[1] - r->mass0) / sums[0] : 0.0;
+    const double steps = r->local_steps ? fmin(ldexp(1.0, regions_levels(r->regions)), 4.0) : 1.0;
+    const double most = steps * most_paid, part = fmax(-most, fmin(steps * paid_back * debt, most));
     if (fabs(debt) < 1e-12)
         return;
-    r->repaid += part * sums[1];
+    double energy = 0.0, kinetic;
+    s->mass *= 1.0 - part;
     for (struct sph *q = s; q; q = q->finer)
-        for (int i = 0; i < q->p.n; i++)
-            for (int k = q->dim; k < q->p.nstate && !particles_is_guard(&q->p, i); k++)
-                state_row(&q->p, q->p.y, i)[k] *= 1.0 - part;
+        for (int i = 0; i < q->p.n; i++) {
+            double *y = state_row(&q->p, q->p.y, i);
+            if (particles_is_guard(&q->p, i))
+                continue;
+            energy += s->watch.budget_closed ? sph_energy(q, y, &kinetic) : 0.0;
+            for (int k = q->dim; k < q->p.nstate; k++)
+                y[k] *= 1.0 - part;
+        }
+    book_energy(s, -part * energy);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../pairs/neighbours.h"
+#include "../parallel/domain.h"
 #include "../particles/eos.h"
 #include "../surface/surface.h"
 #include "../walls/walls.h"
@@ -17,7 +18,7 @@ static double pressure(const struct sph *s, int i)
 }
 
 /* Place of the largest pressure of all that flows; of equal ones the first rank's. */
-static void find_peak(struct sph *s)
+static void find_peak(struct regions *g, const struct sph *s)
 {
     struct {
         double p;
@@ -33,7 +34,7 @@ static void find_peak(struct sph *s)
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
     MPI_Bcast(x, 3, MPI_DOUBLE, most.rank, s->run->comm);
     if (isfinite(most.p))
-        regions_set_peak(s->refinement->regions, x, most.p);
+        regions_set_peak(g, x, most.p);
 }
 
 /* Largest jump of p between i and its neighbours when both are continued to the middle with their
@@ -84,6 +85,10 @@ static void ask_criteria(struct sph *s)
     struct regions *g = s->refinement->regions;
     const double *f = s->gravity;
     const bool jumps = criteria_want_jumps(g);
+    for (struct sph *q = s; q && jumps; q = q->finer) { /* at the start ghosts have no slopes yet */
+        domain_halo_start(q, true);
+        domain_halo_finish(q, true);
+    }
     criteria_begin(g, s->max_speed, sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]));
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
@@ -95,14 +100,42 @@ static void ask_criteria(struct sph *s)
     criteria_end(g, s->t, s->c0);
 }
 
+/* Whether what flows is near the free surface, for the guards that take from it. */
+static void mark_surface(struct sph *s)
+{
+    for (int i = 0; i < s->p.n && s->surface; i++) {
+        const bool near = !particles_is_guard(&s->p, i) && s->surface->is[i] != SURFACE_INNER;
+        s->p.role[i] = (unsigned short)((s->p.role[i] & ~ROLE_SURFACE) | (near ? ROLE_SURFACE : 0));
+    }
+}
+
+/* Regions know a body by the centre that the case has; a free one turns about that of its mass. */
+static void tell_place(struct regions *g, const struct body *b, int k)
+{
+    struct body_motion now = b->now;
+    double x[3] = {0.0, 0.0, 0.0};
+    body_place(b, b->is->centre, x);
+    for (int a = 0; a < b->dim; a++)
+        now.x[a] = x[a] - b->is->centre[a];
+    regions_set_body(g, k, &now);
+}
+
+void refinement_follow(struct sph *s, struct sph *outside)
+{
+    struct regions *g = s->refinement->regions;
+    for (struct sph *q = outside; q; q = q->finer)
+        mark_surface(q);
+    for (int k = 0; s->walls && k < s->walls->nbodies; k++)
+        tell_place(g, outside->walls->bodies + k, k);
+    if (regions_want_peak(g))
+        find_peak(g, outside);
+}
+
 void refinement_look(struct sph *s)
 {
     struct regions *g = s->refinement->regions;
     timer_start(&s->run->timers, "levels");
-    for (int k = 0; s->walls && k < s->walls->nbodies; k++)
-        regions_set_body(g, k, &s->walls->bodies[k].now);
-    if (regions_want_peak(g))
-        find_peak(s);
+    refinement_follow(s, s);
     if (criteria_due(g, s->t))
         ask_criteria(s);
     timer_stop(&s->run->timers, "levels");

@@ -10,30 +10,56 @@
 #ifndef SPH_REFINEMENT_H
 #define SPH_REFINEMENT_H
 
+#include "apr_params.h"
 #include "regions.h"
 
 struct refinement {
     struct regions *regions;
-    double added;  /* kg: to the mass of what flows, by changes of level; this rank */
-    double repaid; /* kg: of that, taken back from what flows; all ranks */
+    bool local_steps;                /* each level has its own */
+    int (*held)[APR_LEVELS_MAX + 1]; /* [BODIES_MAX]: cover.c; NULL before the first step */
+    double added;       /* kg: to the mass of what flows, by changes of level; this rank */
+    double mass0, gone; /* kg: of the fluid at the start, all ranks; removed since, this rank */
+    double debt;        /* -: of the fluid's mass, what flows too much, at the last step */
+    double grown;       /* m^dim: volume added by changes within this common step; this rank */
 };
 
 /* life.c: at the end of a step, with the slopes of its last stage: regions move to s->t, particles
  * are born and removed, all get their roles. At the start the finer levels have no particles: the
  * coarser ones give birth. s: the coarsest level. */
 void refinement_adapt(struct sph *s);
+/* The same at the start, one level after the other: settle may move the particles of a finer level
+ * but those at its edge (ROLE_EDGE) before they give birth; NULL: all stay. */
+void refinement_begin(struct sph *s, void (*settle)(struct sph *level));
 
 /* Generations agree in number on average only, so mass comes and goes as they change places. In a
- * closed room all that flows pays it back, slowly, for rows of a lattice that cross an edge
- * together owe for some steps only; volumes too, so that densities stay. Collective. */
+ * closed room all that flows pays it back, slowly; volumes too, so that densities stay. Collective.
+ */
 void refinement_repay(struct sph *s);
+/* The mass of the fluid as it is now is that of the start. Collective. */
+void refinement_remember(struct sph *s);
+/* Local particle i of a level is about to be removed. */
+void refinement_removed(struct sph *s, int i);
+
+/* With local steps: the same for the levels finer than `outside', which stand at its time; regions
+ * follow what these levels show. Particles of `outside' change roles as they enter or leave the
+ * next region, and none of it is added or removed. s: the coarsest. Collective. */
+void refinement_adapt_finer(struct sph *s, struct sph *outside);
+
+/* For sph.flows_at: whether this level flows at x. */
+bool refinement_flows_at(const struct sph *s, const double *x);
 
 /* look.c: before the adaption: what regions follow, and at their times the criteria; of the lines
  * and slopes of the last stage. Collective. */
 void refinement_look(struct sph *s);
+/* What regions follow alone, as `outside' and finer levels show it. */
+void refinement_follow(struct sph *s, struct sph *outside);
+/* cover.c: after the regions have moved: says which body has left a region that held it. */
+void refinement_watch_bodies(struct sph *s);
 /* After the rates of a stage: of fluxes between what flows and guards nothing comes back, so that
  * mass would be lost; in a closed room it is shared out over what flows. Collective. */
 void refinement_keep_mass(struct sph *s);
+/* With local steps at the end of the common step instead: gained kg so, this rank. Collective. */
+void refinement_spread_mass(struct sph *s, double gained);
 
 void refinement_free(struct sph *s);
 

@@ -184,3 +184,12 @@ double regions_dt(const struct regions *g)
             dt = fmin(dt, 0.5 * ldexp(g->dx, -g->sets[n].finest) / g->sets[n].speed);
     return dt;
 }
+
+double regions_dt_outside(const struct regions *g, int level)
+{
+    double dt = INFINITY;
+    for (int n = 0; n < g->nsets; n++)
+        if (g->sets[n].speed > 0.0 && g->sets[n].finest > level)
+            dt = fmin(dt, 0.5 * ldexp(g->dx, -level - 1) / g->sets[n].speed);
+    return dt;
+}

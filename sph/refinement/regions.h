@@ -24,6 +24,9 @@ double regions_distance(const struct regions *g, int level, const double *x);
 void regions_move(struct regions *g, double t);
 /* Largest step, s: no region may move by more than that in one. INFINITY: none moves as told. */
 double regions_dt(const struct regions *g);
+/* The same for the steps of one level, where regions of the next finer one are moved after each: by
+ * half of its spacing. */
+double regions_dt_outside(const struct regions *g, int level);
 /* Where a body of the scene is; at the start all are where the case has them. The same on all
  * ranks, as what follows. */
 struct body_motion;

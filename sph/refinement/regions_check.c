@@ -460,20 +460,6 @@ static void check_region(struct check *c)
         check_motion_keys(c);
 }
 
-/* Packed particles leave gaps of some tenths of dx before walls, which are wide for fine levels: a
- * plate over water ran quietly with eight, was off by 10 % in density with nine at once, and fell
- * apart with ten. */
-static void check_packing(const struct run *r, const struct sph_params *used, int levels,
-                          struct faults *f)
-{
-    enum { PACKED_LEVELS = 8 };
-    if (used->packing > 0 && levels > PACKED_LEVELS)
-        params_fault(r->params, f, "sph.packing",
-                     "particles of level %d are born of the first ones, whose places after packing "
-                     "are too uneven for more than %d levels: set sph.packing = 0",
-                     levels, PACKED_LEVELS);
-}
-
 /* Whether any region or criterion goes beyond level 1: only then are outer ones made. */
 static bool has_outer(const struct apr_params *prm) { return prm->levels > 1; }
 
@@ -491,7 +477,6 @@ void regions_check(const struct run *r, const struct sph_params *used, struct fa
     struct check c = {.r = r, .used = used, .prm = prm, .f = f, .dim = r->scene.domain.dim};
     check_levels(r, prm, f);
     check_criteria(r, used, prm, f);
-    check_packing(r, used, prm->levels, f);
     params_unused(r->params, f, "apr.margin", has_outer(prm), "all regions are of level 1");
     for (c.k = 0; c.k < prm->regions.n; c.k++) {
         c.is = prm->regions.of + c.k;

@@ -45,6 +45,14 @@ static void add(struct sph *s, struct mirror *m, int source, int plane)
     m->source[m->ghosts.n] = source;
     m->plane[m->ghosts.n] = (unsigned char)plane;
     ghost_append(s, &m->ghosts, 1);
+    if (s->p.size)
+        memcpy(s->p.size[s->p.n + s->p.nghost - 1], s->p.size[source], sizeof *s->p.size);
+}
+
+/* How far a line is seen: of different sizes by those up to twice its own. */
+static double reach_of(const struct sph *s, int i)
+{
+    return (s->p.size ? 1.5 * s->p.size[i][0] : s->R) + s->skin;
 }
 
 /* The sides that ghost k is mirrored at, last first; *root: the line that is no such ghost. */
@@ -119,7 +127,6 @@ static void lines(struct sph *s)
 static void ghosts(struct sph *s)
 {
     struct mirror *m = s->walls->state;
-    const double reach = s->R + s->skin;
     m->ghosts.n = 0;
     m->ghosts.first = s->p.nghost;
     for (int k = 0; k < s->walls->nplanes; k++) {
@@ -128,7 +135,7 @@ static void ghosts(struct sph *s)
         const int before = m->ghosts.n;
         for (int i = 0; i < have; i++) {
             const double d = p->sign * (p->at - prim_line(&s->p, i)[p->axis]);
-            if (d >= 0.0 && d < reach)
+            if (d >= 0.0 && d < reach_of(s, i))
                 add(s, m, i, k);
         }
         if (m->ghosts.n > before) /* the next sides mirror these, too */
@@ -159,11 +166,19 @@ static void ghost_slopes(struct sph *s)
     }
 }
 
+int walls_mirrored(const struct sph *s, int i)
+{
+    const struct mirror *m = s->walls->state;
+    const int k = i - s->p.n - m->ghosts.first;
+    return s->walls->model == &wall_ghost && k >= 0 && k < m->ghosts.n ? m->source[k] : -1;
+}
+
+/* Levels of refinement see to their mass together. */
 static void rates(struct sph *s)
 {
     const struct mirror *m = s->walls->state;
     ghost_friction(s, &m->ghosts);
-    if (s->prm.scheme == SCHEME_RIEMANN_ALE && !s->zones)
+    if (s->prm.scheme == SCHEME_RIEMANN_ALE && !s->zones && !s->guards)
         walls_keep_mass(s, 0, NULL);
 }
 

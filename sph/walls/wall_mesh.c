@@ -10,6 +10,7 @@
 #include "../../common/vec3.h"
 #include "../../common/xdmf.h"
 #include "../sph_params.h"
+#include "wall_cover3.h"
 
 void wall_mesh_turn_to_own(const struct wall_mesh *m, const double *v, double *own)
 {
@@ -118,31 +119,23 @@ static bool is_wall_side(const struct sph *s, int side)
            sph_params_reaches(&s->run->scene.domain, &s->prm, side);
 }
 
-/* The rectangle of a side, normal out: to the corners where walls meet, else 2.5 R beyond. */
-static struct trimesh rectangle(const struct sph *s, int side)
+/* The rectangle of a side, normal out, to the corners where walls meet, else 2.5 R beyond; but for
+ * what meshes at rest cover. */
+static struct trimesh triangles_of(const struct sph *s, int side)
 {
-    const int axis = side / 2, high = side % 2;
-    double lo[3], hi[3];
+    const struct scene *c = &s->run->scene;
+    struct cover_side is = {.axis = side / 2, .high = side % 2};
+    const struct tree *cover[WALLS_MAX];
+    int n = 0;
     for (int a = 0; a < 3; a++) {
-        lo[a] = s->lo[a] - (is_wall_side(s, 2 * a) ? 0.0 : 2.5 * s->R);
-        hi[a] = s->hi[a] + (is_wall_side(s, 2 * a + 1) ? 0.0 : 2.5 * s->R);
+        is.lo[a] = s->lo[a] - (is_wall_side(s, 2 * a) ? 0.0 : 2.5 * s->R);
+        is.hi[a] = s->hi[a] + (is_wall_side(s, 2 * a + 1) ? 0.0 : 2.5 * s->R);
     }
-    lo[axis] = hi[axis] = high ? s->hi[axis] : s->lo[axis];
-    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    struct trimesh m = {.nvertices = 4, .ntriangles = 2};
-    m.x = (double(*)[3])mem_new(4, sizeof *m.x);
-    m.vertex = (int(*)[3])mem_new(2, sizeof *m.vertex);
-    for (int k = 0; k < 4; k++) { /* counter-clockwise round +axis */
-        m.x[k][axis] = lo[axis];
-        m.x[k][b] = k == 1 || k == 2 ? hi[b] : lo[b];
-        m.x[k][c] = k > 1 ? hi[c] : lo[c];
-    }
-    for (int t = 0; t < 2; t++) {
-        m.vertex[t][0] = 0;
-        m.vertex[t][1] = high ? 1 + t : 2 + t;
-        m.vertex[t][2] = high ? 2 + t : 1 + t;
-    }
-    return m;
+    is.at = is.high ? s->hi[is.axis] : s->lo[is.axis];
+    for (int k = 0; c->meshes && k < c->meshes->n; k++)
+        if (c->meshes->of[k].owner == MESH_WALL && !c->walls[c->meshes->of[k].index].thin)
+            cover[n++] = c->meshes->of[k].tree;
+    return wall_cover_side(&is, n, cover, s->dx);
 }
 
 static struct wall_mesh *add_mesh(struct walls *w)
@@ -173,7 +166,7 @@ static void add_sides(struct sph *s, struct walls *w)
             if (done[other] || !is_wall_side(s, other) || q->kind != is->kind ||
                 memcmp(q->velocity, is->velocity, sizeof q->velocity))
                 continue;
-            struct trimesh more = rectangle(s, other);
+            struct trimesh more = triangles_of(s, other);
             trimesh_append(&m->mesh, &more);
             trimesh_free(&more);
             done[other] = true;
@@ -220,6 +213,60 @@ static void repeat(const struct sph *s, struct wall_mesh *m, int axis)
     m->lent = false; /* a tree of its own is made of it */
 }
 
+/* A side is one plane, however it is cut. */
+static int *planes_of_sides(const struct trimesh *m)
+{
+    int *plane = NEW(int, m->ntriangles);
+    for (int t = 0; t < m->ntriangles; t++) {
+        double n[3];
+        trimesh_normal(m, t, n);
+        for (int a = 0; a < 3; a++)
+            plane[t] = fabs(n[a]) > 0.5 ? 2 * a + (n[a] > 0.0) : plane[t];
+    }
+    return plane;
+}
+
+/* Whether a triangle lies within `near' of an end of the box, or beyond it. */
+static bool is_beyond(const struct trimesh *m, int triangle, const double *lo, const double *hi,
+                      double near)
+{
+    for (int a = 0; a < 3; a++) {
+        double least = INFINITY, most = -INFINITY;
+        for (int k = 0; k < 3; k++) {
+            least = fmin(least, m->x[m->vertex[triangle][k]][a]);
+            most = fmax(most, m->x[m->vertex[triangle][k]][a]);
+        }
+        if (least < lo[a] - near || most > hi[a] + near || most < lo[a] + near ||
+            least > hi[a] - near)
+            return true;
+    }
+    return false;
+}
+
+/* A mesh at rest ends where a side of the domain is a wall: what it has beyond, or back to back
+ * with the side, is felt by none. */
+static void end_at_sides(const struct sph *s, struct wall_mesh *m)
+{
+    const double near = 0.1 * s->dx, nearest = 1e-6 * s->dx;
+    double lo[3], hi[3];
+    bool beyond = false;
+    for (int a = 0; a < 3; a++) {
+        lo[a] = is_wall_side(s, 2 * a) ? s->lo[a] + nearest : -INFINITY;
+        hi[a] = is_wall_side(s, 2 * a + 1) ? s->hi[a] - nearest : INFINITY;
+    }
+    for (int t = 0; t < m->mesh.ntriangles && !beyond; t++)
+        beyond = is_beyond(&m->mesh, t, lo, hi, near);
+    if (!beyond)
+        return;
+    struct trimesh cut = wall_cover_clip(&m->mesh, lo, hi);
+    trimesh_weld(&cut, 1e-9 * s->R);
+    trimesh_connect(&cut);
+    if (!m->lent)
+        trimesh_free(&m->mesh);
+    m->mesh = cut;
+    m->lent = false; /* a tree of its own is made of it */
+}
+
 /* Meshes of files, which the scene keeps. */
 static void add_lent(struct sph *s, struct walls *w)
 {
@@ -242,6 +289,8 @@ static void add_lent(struct sph *s, struct walls *w)
         for (int a = 0; a < 3 && !body; a++)
             if (s->periodic[a])
                 repeat(s, m, a);
+        if (!body && !m->thin)
+            end_at_sides(s, m);
     }
 }
 
@@ -256,7 +305,7 @@ void wall_meshes_create(struct sph *s, struct walls *w)
         if (!m->lent)
             m->tree = tree_create(&m->mesh);
         if (!m->thin)
-            m->plane = trimesh_planes(&m->mesh);
+            m->plane = m->of ? trimesh_planes(&m->mesh) : planes_of_sides(&m->mesh);
     }
 }
 

@@ -10,6 +10,7 @@
 #include "../../common/mem.h"
 #include "../../common/scene_mesh.h"
 #include "forces.h"
+#include "wall_cover.h"
 #include "../sph_params.h"
 
 static void set_frame(struct segment *g)
@@ -359,12 +360,56 @@ void walls_keep_mass(struct sph *s, int n, const int *who)
     }
 }
 
+/* The end of a part of a wall, which is the wall's own if it is that near. */
+static void part_end(const struct segment *g, double at, double near, double *x)
+{
+    for (int a = 0; a < 2; a++)
+        x[a] = at < near ? g->a[a] : at > g->length - near ? g->b[a] : g->a[a] + at * g->t[a];
+}
+
+/* Of walls at rest, what others cover. */
+static void leave_out_covered(const struct sph *s, struct walls *w)
+{
+    const double near = 0.1 * s->prm.dx;
+    const int n = w->nsegments;
+    struct segment *const old = w->segments;
+    double(*ends)[2][2] = mem_new((size_t)n, sizeof *ends), length = 0.0;
+    for (int k = 0; k < n; k++) {
+        memcpy(ends[k][0], old[k].a, sizeof ends[k][0]);
+        memcpy(ends[k][1], old[k].b, sizeof ends[k][1]);
+        length += old[k].length;
+    }
+    struct wall_parts parts = wall_cover(n, (const double(*)[2][2])ends, s->lo, s->hi, near);
+    mem_free(ends);
+    if (!parts.cut)
+        return;
+    w->segments = NULL;
+    w->nsegments = 0;
+    for (int k = 0; k < parts.n; k++) {
+        const struct segment *g = old + parts.part[k].wall;
+        double a[2], b[2];
+        part_end(g, parts.part[k].from, 4.0 * near, a);
+        part_end(g, parts.part[k].to, 4.0 * near, b);
+        add_segment(w, a, b, g->no_slip, -1, g->u);
+        length -= w->segments[w->nsegments - 1].length;
+    }
+    mem_free(old);
+    mem_free(parts.part);
+    if (length > near && s->level == 0)
+        log_say("%.3g m of walls lie behind others, where no fluid comes, and are left out",
+                length);
+}
+
 static void add_bodies(struct sph *s, struct walls *w)
 {
     const struct scene *c = &s->run->scene;
     for (int k = 0; k < c->nbodies; k++) {
         struct body *b = w->bodies + w->nbodies++;
         body_create(b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, s->run->case_dir);
+        if (w->lent && b->free) { /* one body, one state */
+            mem_free(b->free);
+            b->free = s->coarser->walls->bodies[k].free;
+        }
         w->any_free = w->any_free || b->free;
         b->first = w->nsegments;
         add_polyline(s, w, &b->is->points, true, b->is->kind == WALL_NO_SLIP, k, NULL);
@@ -390,6 +435,7 @@ struct walls *walls_create(struct sph *s)
         return NULL;
     struct walls *w = NEW(struct walls, 1);
     w->t = NAN;
+    w->lent = s->coarser != NULL;
     s->walls = w;
     for (int k = 0; k < c->nwalls; k++) {
         const struct scene_wall *is = c->walls + k;
@@ -402,6 +448,8 @@ struct walls *walls_create(struct sph *s)
         else if (is->side == SIDE_NONE)
             add_polyline(s, w, &is->points, is->closed, is->kind == WALL_NO_SLIP, -1, is->velocity);
     }
+    if (s->dim == 2)
+        leave_out_covered(s, w);
     add_bodies(s, w);
     wall_meshes_create(s, w);
     w->start = NEW(struct segment, w->nsegments);
@@ -419,8 +467,11 @@ void walls_free(struct walls **w)
     if (!*w)
         return;
     (*w)->model->destroy((*w)->state);
-    for (int k = 0; k < (*w)->nbodies; k++)
+    for (int k = 0; k < (*w)->nbodies; k++) {
+        if ((*w)->lent)
+            (*w)->bodies[k].free = NULL;
         body_destroy((*w)->bodies + k);
+    }
     wall_meshes_free(*w);
     mem_free((*w)->segments);
     mem_free((*w)->start);

@@ -86,6 +86,7 @@ struct walls {
     int nbodies;
     struct body bodies[BODIES_MAX];
     bool any_free; /* some body moves by forces */
+    bool lent;     /* the state of free bodies is that of the coarser level's walls */
     bool placed;   /* all have been moved to their places once */
     double t;      /* s: of `segments' */
     const struct wall_model *model;
@@ -142,6 +143,8 @@ void walls_put_back_inside(struct sph *s);
  * from them their antisymmetry. What mass they so make or lose is given back to the particles
  * who[n] (NULL: all) in proportion to theirs. Collective. */
 void walls_keep_mass(struct sph *s, int n, const int *who);
+/* wall_ghost.c: the line that is mirrored to line i, an earlier one; -1: i is no mirror image. */
+int walls_mirrored(const struct sph *s, int i);
 /* wall_mesh.c: meshes of the scene, and those of sides that are walls. */
 void wall_meshes_create(struct sph *s, struct walls *w);
 void wall_meshes_free(struct walls *w);

@@ -22,12 +22,18 @@
 #include "../../common/h5.h"
 #include "../../common/log.h"
 #include "../../common/mem.h"
+#include "../../common/scene_fluid.h"
 #include "../pairs/neighbours.h"
 #include "../open_boundaries/openings.h"
+#include "../refinement/refinement.h"
 #include "../sph.h"
 #include "../sph_params.h"
 #include "../walls/walls.h"
 #include "../open_boundaries/zones.h"
+
+/* Of g dx: rows at the surface and at walls find their places within some hundredths of dx, up as
+ * well as down. Of water a row deep that is a tenth of all the energy it has. */
+#define SETTLES 0.3
 
 enum { HISTORY = WATCH_STEPS / SPH_WATCH_EVERY };
 /* What is summed over particles and ranks. */
@@ -50,11 +56,13 @@ static bool is_slit(const struct scene *c, const struct sph_params *prm)
     return any;
 }
 
-/* Whether all work that is done on the flow can be told. */
+/* Whether all work that is done on the flow can be told. Guards of refined levels take part in that
+ * of walls that move. */
 static bool is_closed(const struct run *r, const struct sph_params *prm)
 {
-    return !r->coupled && prm->outer == OUTER_NONE &&
-           (!sph_watch_moves(&r->scene) || prm->walls == WALLS_NFM) && !is_slit(&r->scene, prm);
+    const bool known = prm->walls == WALLS_NFM && !apr_params_of(r);
+    return !r->coupled && prm->outer == OUTER_NONE && (!sph_watch_moves(&r->scene) || known) &&
+           !is_slit(&r->scene, prm);
 }
 
 static const char *clump_remedy(const struct sph_params *prm)
@@ -70,9 +78,11 @@ void sph_watch_create(struct sph *s)
 {
     struct sph_watch *w = &s->watch;
     const struct scene_speed v = sph_params_speed(s->run);
+    double still[3];
     w->reference = v.speed;
     w->rest = v.pressure / (s->c0 * s->c0);
     w->friction = v.viscous / (s->c0 * s->c0);
+    w->settles = s->surface ? SETTLES * scene_still_gravity(&s->run->scene, still) * s->dx : 0.0;
     w->budget_closed = is_closed(s->run, &s->prm);
     snprintf(w->remedy[REMEDY_C0], sizeof w->remedy[REMEDY_C0],
              "sph.c0 = %.4g m/s is too low for this flow: raise it to ten times the largest speed",
@@ -221,6 +231,11 @@ void sph_watch_removed(struct sph *s, int i)
 {
     double kinetic;
     const double e = sph_energy(s, state_row(&s->p, s->p.y, i), &kinetic);
+    refinement_removed(s, i);
+    if (particles_is_guard(&s->p, i))
+        return;
+    while (s->coarser)
+        s = s->coarser;
     s->watch.removed += isfinite(e) ? e : 0.0;
 }
 
@@ -244,7 +259,8 @@ static void judge_energy(struct sph *s, double t, const double *sums, struct dia
     w->power_t = t;
     const double gain = watch_budget_gain(&w->budget, step, sums[ENERGY] - w->work);
     const double U2 = w->reference * w->reference + w->rest * s->c0 * s->c0;
-    double scale = sums[KINETIC] + s->mass0 * (0.05 * U2 + pow(w->friction * s->c0, 2.0));
+    double scale =
+        sums[KINETIC] + s->mass0 * (0.05 * U2 + pow(w->friction * s->c0, 2.0) + w->settles);
     w->walls[step / SPH_WATCH_EVERY % HISTORY] = fabs(sums[WALL_WORK]);
     for (int k = 0; k < HISTORY; k++)
         scale += 5.0 * w->walls[k];

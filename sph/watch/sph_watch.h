@@ -25,6 +25,7 @@ struct sph_watch {
     double reference;    /* m/s: largest speed that the scene lets expect */
     double rest;         /* static pressure over rho0 c0^2: compression at rest */
     double friction;     /* the same of the pressures of slow viscous flow */
+    double settles;      /* m^2/s^2: what a row of water gains by settling, see SETTLES */
     struct watch_budget budget;
     double work;           /* J: done on the flow from outside since the start, all ranks */
     double power, power_t; /* W, s: at the last sample */

@@ -1,0 +1,77 @@
+/* carried.c - see carried.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "carried.h"
+
+#include <math.h>
+
+#include "../../common/mem.h"
+
+void carried_create(struct fv *s)
+{
+    const struct scene *scene = &s->run->scene;
+    bool any = false;
+    for (int k = 0; k < scene->nwalls; k++)
+        any = any || scene->walls[k].carried;
+    if (!any)
+        return;
+    s->outflows = NEW(struct outflows, 1);
+    for (int q = 0; q < s->dim; q++)
+        s->outflows->kept[q] = NEW(double, s->size);
+}
+
+struct outflow *carried_add(struct fv *s, int side, int64_t n, int64_t values)
+{
+    struct outflows *all = s->outflows;
+    GROW(all->of, all->n, all->n + 1);
+    struct outflow *o = all->of + all->n++;
+    *o = (struct outflow){.side = side};
+    o->place = NEW(int64_t, n);
+    o->cell = NEW(int64_t, n);
+    o->own = NEW(bool, n);
+    o->share = NEW(double, n);
+    for (int64_t i = 0; i < n; i++)
+        o->share[i] = 1.0;
+    o->h = NEW(double, n);
+    for (int q = 0; q < s->dim; q++) {
+        o->S[q] = NEW(double, n);
+        o->line[q] = NEW(double, 3 * n);
+        o->change[q] = NEW(double, values);
+    }
+    return o;
+}
+
+void carried_free(struct outflows **all)
+{
+    for (int k = 0; *all && k < (*all)->n; k++) {
+        struct outflow *o = (*all)->of + k;
+        mem_free(o->place);
+        mem_free(o->cell);
+        mem_free(o->own);
+        mem_free(o->share);
+        mem_free(o->h);
+        for (int q = 0; q < 3; q++) {
+            mem_free(o->S[q]);
+            mem_free(o->line[q]);
+            mem_free(o->change[q]);
+        }
+    }
+    for (int q = 0; *all && q < 3; q++)
+        mem_free((*all)->kept[q]);
+    if (*all)
+        mem_free((*all)->of);
+    mem_free(*all);
+    *all = NULL;
+}
+
+double carried_flux(const struct outflow *o, int dim, int64_t i)
+{
+    double sum = 0.0;
+    for (int q = 0; q < dim; q++)
+        sum += o->S[q][i] * o->w[q][o->place[i]];
+    return sum;
+}
+
+double carried_area(const struct outflow *o, int64_t i)
+{
+    const double S[3] = {o->S[0][i], o->S[1][i], o->S[2] ? o->S[2][i] : 0.0};
+    return sqrt(S[0] * S[0] + S[1] * S[1] + S[2] * S[2]);
+}

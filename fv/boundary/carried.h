@@ -1,0 +1,44 @@
+/* carried.h - lists of the places of sides that the flow leaves as it is carried (outflow.h).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_CARRIED_H
+#define FV_CARRIED_H
+
+#include "../fv.h"
+
+/* One of this rank's: of its block, or of one of its parts. */
+struct outflow {
+    int side;          /* of the domain, as in bc.h */
+    int64_t in;        /* step inwards */
+    int64_t n;         /* places, ghosts of its tangents included */
+    int64_t *place;    /* in the side's arrays */
+    int64_t *cell;     /* inside */
+    bool *own;         /* its face is one of this rank's, once */
+    double *share;     /* -: of its face that is under water; 1 without a surface */
+    double *S[3];      /* m^(dim-1): of its face, outwards */
+    double *h;         /* m: of the cell inside, across the side */
+    double *w[3];      /* m/s: the side's own array */
+    double *line[3];   /* [3 n]: the step's first velocity inwards, w + b x + c x^2, x in cells */
+    double *change[3]; /* [places of the side] m/s: of w at the last outflow_set */
+};
+
+struct outflows {
+    int n;
+    struct outflow *of;
+    double speed[6]; /* m/s: mean velocity outwards of each side of the domain, >= 0, and waves' */
+    double waves[6]; /* m/s: of long waves under a surface, else 0 */
+    bool level_free; /* a surface takes what comes in and does not leave */
+    double *kept[3]; /* m/s: fields: w in the first ghost behind the side, for restart files */
+    double given;    /* m^dim/s: through this rank's other faces of given velocity, outwards */
+    double all;      /* with these */
+};
+
+/* Makes s->outflows where some side is carried, on all ranks. */
+void carried_create(struct fv *s);
+/* Adds one with room for n places, none filled; values: of w. */
+struct outflow *carried_add(struct fv *s, int side, int64_t n, int64_t values);
+void carried_free(struct outflows **o);
+/* Outwards through a face, m^dim/s, and its size. */
+double carried_flux(const struct outflow *o, int dim, int64_t i);
+double carried_area(const struct outflow *o, int64_t i);
+
+#endif

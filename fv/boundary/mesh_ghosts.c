@@ -1,0 +1,212 @@
+/* mesh_ghosts.c - physical sides of blocks: ghosts as in bc.c, along the indices across the side.
+ * No-slip, inflow, exact: the cubic through the average w on the face and three cells; slip: the
+ * normal component mirrored oddly; outflow: evenly, with p/rho = 0 on the face.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh_sides.h"
+
+#include <math.h>
+
+#include "../../common/mem.h"
+#include "ghosts.h"
+
+/* wS: flux that the wall itself makes. */
+static void slip(const struct mesh *m, const struct side *d, int64_t c, double wS,
+                 double *const u[3])
+{
+    double S2 = 0.0;
+    for (int q = 0; q < m->dim; q++)
+        S2 += m->S[d->a][q][c + d->face] * m->S[d->a][q][c + d->face];
+    for (int l = 0; l < MESH_GHOSTS; l++) {
+        double un = -wS;
+        for (int q = 0; q < m->dim; q++)
+            un += u[q][c + l * d->in] * m->S[d->a][q][c + d->face];
+        for (int q = 0; q < m->dim; q++)
+            u[q][c - (l + 1) * d->in] =
+                u[q][c + l * d->in] - 2.0 * un * m->S[d->a][q][c + d->face] / S2;
+    }
+}
+
+static double wanted(const struct side *d, int q, int64_t at, enum bc_value what)
+{
+    switch (what) {
+    case BC_GIVEN:
+        return d->w[q][at];
+    case BC_AHEAD:
+        return d->w[q][at] + d->slip[q][at];
+    case BC_CHANGE:
+        return d->w[q][at] + d->slip[q][at] - d->w_old[q][at];
+    case BC_ZERO:
+        break;
+    }
+    return 0.0;
+}
+
+/* With a surface the projection takes the whole pressure off, whose slope at a wall that moves is
+ * less the wall's acceleration: ahead of it the velocity across is that of the stage before. */
+static bool accelerates(const struct fv *s, const struct side *d)
+{
+    return s->surface && d->moves && (d->kind == MESH_WALL || d->kind == MESH_SLIP);
+}
+
+/* What a place of such a wall gains across it while the projection acts, times the area: in rk3 in
+ * a stage, with backward differences in dt/c0. Its cell inside: c. */
+static double gain(const struct fv *s, const struct side *d, int64_t at, int64_t c)
+{
+    const double r = s->dt > 0.0 ? s->dt_now / s->dt : 0.0,
+                 share = s->prm.integrator == INTEGRATOR_RK3 ? 1.0 : (1.0 + r) / (1.0 + 2.0 * r);
+    double sum = 0.0;
+    for (int q = 0; q < s->m->dim; q++)
+        sum += (d->w[q][at] - d->w_old[q][at]) * s->m->S[d->a][q][c + d->face];
+    return share * sum;
+}
+
+static double area2(const struct mesh *m, const struct side *d, int64_t c)
+{
+    double S2 = 0.0;
+    for (int q = 0; q < m->dim; q++)
+        S2 += m->S[d->a][q][c + d->face] * m->S[d->a][q][c + d->face];
+    return S2;
+}
+
+void mesh_bc_slope_ghosts(const struct fv *s, double tau, double *psi)
+{
+    const struct mesh *m = s->m;
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        if (!accelerates(s, d))
+            continue;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            /* a cell's way across the wall, by its volume */
+            const double S2 = area2(m, d, c), step = m->V[c] / S2;
+            const double rise = gain(s, d, at, c) * step * (d->k % 2 ? -1.0 : 1.0) / tau;
+            for (int l = 1; l <= MESH_GHOSTS; l++)
+                psi[c - l * d->in] += (2 * l - 1) * rise;
+        }
+    }
+}
+
+void mesh_bc_slope_fluxes(const struct fv *s, double tau, int a, double *F)
+{
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        if (d->a != a || !accelerates(s, d))
+            continue;
+        SIDE_PLACES(d, 0, i, j, at, c) { F[c + d->face] = -gain(s, d, at, c) / tau; }
+    }
+}
+
+/* Of a slip wall that moves. */
+static double flux_wanted(const struct mesh *m, const struct side *d, int64_t at, int64_t c,
+                          enum bc_value what)
+{
+    double sum = 0.0;
+    for (int q = 0; q < m->dim && what != BC_ZERO; q++)
+        sum += (d->w[q][at] - (what == BC_CHANGE ? d->w_old[q][at] : 0.0)) *
+               m->S[d->a][q][c + d->face];
+    return sum;
+}
+
+void mesh_bc_velocity(const struct fv *s, enum bc_value what, double *const u[3])
+{
+    const struct mesh *m = s->m;
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            const double late = (what == BC_AHEAD || what == BC_CHANGE) && accelerates(s, d)
+                                    ? gain(s, d, at, c)
+                                    : 0.0;
+            if (d->kind == MESH_SLIP)
+                slip(m, d, c, d->moves ? flux_wanted(m, d, at, c, what) - late : 0.0, u);
+            else
+                for (int q = 0; q < m->dim; q++) {
+                    if (d->kind == MESH_OUTFLOW)
+                        ghosts_mirrored(u[q] + c, d->in, 1.0, 0.0);
+                    else
+                        ghosts_given(u[q] + c, d->in,
+                                     wanted(d, q, at, what) -
+                                         (late != 0.0
+                                              ? late / area2(m, d, c) * m->S[d->a][q][c + d->face]
+                                              : 0.0));
+                }
+        }
+    }
+}
+
+void mesh_bc_even(const struct fv *s, bool odd, double *q)
+{
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            ghosts_mirrored(q + c, d->in, odd && d->kind == MESH_OUTFLOW ? -1.0 : 1.0, 0.0);
+            (void)at;
+        }
+    }
+}
+
+/* Whether a level surface meets the face at a slant. */
+static bool is_slanting(const struct fv *s, const struct side *d, int64_t c)
+{
+    const double *g = s->run->scene.fluid.gravity;
+    double gS = 0.0, S2 = 0.0, g2 = 0.0;
+    for (int q = 0; q < s->m->dim; q++) {
+        const double S = s->m->S[d->a][q][c + d->face];
+        gS += g[q] * S;
+        S2 += S * S;
+        g2 += g[q] * g[q];
+    }
+    const double cosine2 = gS * gS / (S2 * g2);
+    return cosine2 > 1e-8 && cosine2 < 1.0 - 1e-8;
+}
+
+void mesh_bc_level(const struct fv *s, bool keep, double *phi)
+{
+    for (int k = 0; k < s->sides->n; k++) {
+        struct side *d = s->sides->side + k;
+        if (!d->tilt)
+            d->tilt = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            double *q = phi + c;
+            if (!keep)
+                d->tilt[at] = is_slanting(s, d, c) ? q[0] - q[d->in] : 0.0;
+            for (int m = 1; m <= MESH_GHOSTS; m++)
+                q[-m * d->in] = q[(m - 1) * d->in] + (2 * m - 1) * d->tilt[at];
+        }
+    }
+}
+
+static void extended(double *q, int64_t in)
+{
+    for (int l = 1; l <= MESH_GHOSTS; l++)
+        q[-l * in] = 3.0 * (q[(1 - l) * in] - q[(2 - l) * in]) + q[(3 - l) * in];
+}
+
+void mesh_bc_extend(const struct fv *s, double *q)
+{
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            extended(q + c, d->in);
+            (void)at;
+        }
+    }
+}
+
+void mesh_bc_pressure(const struct fv *s, double *p)
+{
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            if (d->kind == MESH_OUTFLOW)
+                ghosts_given(p + c, d->in, d->pressure);
+            else
+                extended(p + c, d->in);
+            (void)at;
+        }
+    }
+}

@@ -1,0 +1,134 @@
+/* mesh_side_fluxes.c - what flows through the physical sides of blocks.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh_sides.h"
+
+#include <math.h>
+
+void mesh_bc_fluxes(const struct fv *s, double *const U[3])
+{
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        if (d->kind != MESH_WALL && d->kind != MESH_SLIP)
+            continue;
+        SIDE_PLACES(d, 1, i, j, at, c)
+        {
+            U[d->a][c + d->face] = d->moves ? s->m->grid[d->a][c + d->face] : 0.0;
+            (void)at;
+        }
+    }
+}
+
+void mesh_bc_beside_walls(const struct fv *s, const struct part *p, int a, double *f)
+{
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        if (d->p != p || d->a == a || !d->slides)
+            continue;
+        for (int j = 0; j < d->n[1] + (d->t[1] == a); j++)
+            for (int i = 0; i < d->n[0] + (d->t[0] == a); i++) {
+                double *q = f + side_cell(d, i, j);
+                q[-d->in] = 4.0 * (q[0] + q[2 * d->in]) - 6.0 * q[d->in] - q[3 * d->in];
+            }
+    }
+}
+
+double mesh_bc_rate(const struct fv *s, double *speed)
+{
+    const struct mesh *m = s->m;
+    double rate = 0.0;
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        SIDE_PLACES(d, 0, i, j, at, c)
+        {
+            double w2 = 0.0, sum = 0.0;
+            for (int a = 0; a < m->dim; a++) {
+                const int64_t f = c + (a == d->a ? d->face : 0);
+                double wS = d->moves ? -m->grid[a][f] : 0.0;
+                for (int q = 0; q < m->dim; q++)
+                    wS += d->w[q][at] * m->S[a][q][f];
+                sum += fabs(wS);
+                w2 += d->w[a][at] * d->w[a][at];
+            }
+            rate = fmax(rate, sum / m->V[c]);
+            *speed = fmax(*speed, sqrt(w2));
+        }
+    }
+    return rate;
+}
+
+void mesh_bc_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c),
+                     double sums[2])
+{
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        if (d->kind != MESH_INFLOW && d->kind != MESH_OUTFLOW && d->kind != MESH_CARRIED)
+            continue;
+        SIDE_PLACES(d, 0, i, j, at, c)
+        {
+            const double in = (d->k % 2 ? -1.0 : 1.0) * s->U[d->a][c + d->face] * share(s, c);
+            sums[0] += in;
+            sums[1] += fabs(in);
+            (void)at;
+        }
+    }
+}
+
+/* <w.S> of one face, outwards. */
+static double given_flux(const struct mesh *m, const struct side *d, int64_t at, int64_t c)
+{
+    double sum = 0.0;
+    for (int q = 0; q < m->dim; q++) {
+        const double *w = d->w[q] + at, *S = m->S[d->a][q] + c + d->face;
+        sum += w[0] * S[0];
+        for (int n = 0; n < 2 && d->t[n] < m->dim; n++) {
+            const int64_t t = d->p->stride[d->t[n]], e = n == 0 ? 1 : d->width;
+            sum += (w[e] - w[-e]) * (S[t] - S[-t]) / 48.0;
+        }
+    }
+    return d->k % 2 ? sum : -sum;
+}
+
+double mesh_bc_given_flux(const struct fv *s)
+{
+    double sum = 0.0;
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        if (d->kind != MESH_INFLOW && d->kind != MESH_EXACT)
+            continue;
+        SIDE_PLACES(d, 0, i, j, at, c)
+        {
+            sum += s->m->status[c] == CELL_COMPUTED ? given_flux(s->m, d, at, c) : 0.0;
+        }
+    }
+    return sum;
+}
+
+double mesh_bc_net_flux(const struct fv *s)
+{
+    double sum = 0.0;
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        SIDE_PLACES(d, 0, i, j, at, c)
+        {
+            sum += s->free[c] * (d->k % 2 ? 1.0 : -1.0) * s->U[d->a][c + d->face];
+            (void)at;
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
+    return sum;
+}
+
+void mesh_bc_vectors(const struct fv *s, double sum[3])
+{
+    sum[0] = sum[1] = sum[2] = 0.0;
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        SIDE_PLACES(d, 0, i, j, at, c)
+        {
+            for (int e = 0; e < s->dim; e++)
+                sum[e] += s->free[c] * (d->k % 2 ? 1.0 : -1.0) * s->m->S[d->a][e][c + d->face];
+            (void)at;
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, s->comm);
+}

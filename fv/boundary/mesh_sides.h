@@ -1,0 +1,66 @@
+/* mesh_sides.h - what the files of mesh_bc.h know of the physical sides of blocks.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_MESH_SIDES_H
+#define FV_MESH_SIDES_H
+
+#include "../fv.h"
+#include "../grid/mesh.h"
+#include "mesh_bc.h"
+
+struct side {
+    const struct part *p;
+    int a, k; /* axis, side of the block */
+    enum mesh_side kind;
+    bool slides;          /* a wall that moves along itself */
+    int t[2], g[2], n[2]; /* tangents, their ghosts and cells */
+    int first;            /* cell along a that touches the side */
+    int64_t in;           /* step inwards */
+    int64_t face;         /* step from that cell to the face's place */
+    int64_t width;
+    bool moves;              /* with its block */
+    bool body;               /* forces on it count */
+    double pressure;         /* m^2/s^2: p/rho of an outflow */
+    double *w[3], *w_old[3]; /* m/s: now and before the last change of time */
+    double *slip[3];         /* m/s: what the next projection takes off */
+    double *grad_xi[2][3];   /* 1/m: of the tangents' indices on the face */
+    double *tilt;            /* m: slope outwards, a cell, of a level set; NULL: there is none */
+};
+
+/* A place beyond a part's side, where the wall goes on: on a neighbour, who knows the slip. */
+struct beyond {
+    int side;
+    int64_t at, ghost; /* in the side's values; in fields, the first ghost behind the wall */
+};
+
+struct mesh_bc {
+    int n;
+    struct side *side;
+    int nbeyond;
+    struct beyond *beyond;
+    struct mesh_exchange walls; /* from ghosts behind walls to those of `beyond' */
+    bool pressure_given;
+    bool set; /* values have been */
+};
+
+static inline int64_t side_place(const struct side *s, int i, int j)
+{
+    return (i + s->g[0]) + s->width * (j + s->g[1]);
+}
+
+static inline int64_t side_cell(const struct side *s, int i, int j)
+{
+    int at[3];
+    at[s->a] = s->first;
+    at[s->t[0]] = i;
+    at[s->t[1]] = j;
+    return part_at(s->p, at[0], at[1], at[2]);
+}
+
+/* Visits the places of a side with all ghosts of its tangents: m counts them, c: cell inside. */
+#define SIDE_PLACES(s, more, i, j, m, c)                                                           \
+    for (int j = -(more) * (s)->g[1]; j < (s)->n[1] + (more) * (s)->g[1]; j++)                     \
+        for (int i = -(more) * (s)->g[0]; i < (s)->n[0] + (more) * (s)->g[0]; i++)                 \
+            for (int64_t m = side_place(s, i, j), c = side_cell(s, i, j), once_ = 1; once_;        \
+                 once_ = 0)
+
+#endif

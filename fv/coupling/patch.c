@@ -1,0 +1,199 @@
+/* patch.c - see patch.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "patch.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../grid/overset.h"
+
+enum { MARGIN = 4 }; /* cells around the box: a cubic's and one for rounding */
+
+static void of_grid(const struct fv *s, struct patch *p)
+{
+    const struct block *b = &s->b;
+    p->of = layout_block(b);
+    p->of.g[0] = p->of.g[1] = p->of.g[2] = 0;
+    if (b->rows) {
+        p->below = b->rows->even;
+        p->first = p->below - b->lo[1];
+        p->first = p->first < 0 ? 0 : p->first > b->n[1] ? b->n[1] : p->first;
+        p->of.lo[1] += p->first;
+        p->of.n[1] -= p->first;
+    }
+    for (int a = 0; a < 3; a++) {
+        const int below = a == 1 && b->rows ? b->rows->even : 0;
+        p->origin[a] = below > 0 ? b->rows->edge[below] : b->origin[a];
+        p->h[a] = b->h[a];
+        p->cells[a] = b->cells[a] - below;
+        p->periodic[a] = b->periodic[a];
+    }
+}
+
+/* The block with the smallest cells at the middle of the box, and their size; -1: none. */
+static int finest(const struct mesh *m, const struct overset *o, const double *x, double *h)
+{
+    double least = INFINITY;
+    int best = -1;
+    for (int k = 0; k < m->nblocks; k++) {
+        int cell[3];
+        double xi[3];
+        if (!overset_locate(m, o, k, x, cell, xi))
+            continue;
+        const double v = m->block[k].volume[mesh_cell(m->block + k, cell)];
+        if (v < least) {
+            least = v;
+            best = k;
+        }
+    }
+    *h = best < 0 ? 0.0 : pow(least, 1.0 / m->dim);
+    return best;
+}
+
+static bool is_plain(const struct mesh_block *b)
+{
+    return b->prm->mapping == MAPPING_BOX && b->prm->angle == 0.0;
+}
+
+/* Cells along axis a: those of a plain block go on beyond it; others as large as h about. The
+ * domain's walls bound them, a period that the box spans is theirs. */
+static void set_axis(const struct fv *s, const struct mesh_block *b, int a, double lo, double hi,
+                     double h, struct patch *p)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    const double min = d->min[a], max = d->max[a], L = max - min, eps = 1e-9 * L;
+    double from = b ? b->prm->min[a] : lo;
+    p->h[a] = b ? (b->prm->max[a] - from) / b->n[a] : h;
+    if (d->periodic[a] && hi - lo >= L - eps) {
+        p->cells[a] = (int)llround(L / p->h[a]);
+        p->h[a] = L / p->cells[a];
+        p->origin[a] = min;
+        p->periodic[a] = true;
+        return;
+    }
+    from += p->h[a] * (floor((lo - from) / p->h[a] + 1e-9) - MARGIN);
+    double to = from + p->h[a] * ceil((hi - from) / p->h[a] + MARGIN - 1e-9);
+    if (!d->periodic[a] && (from < min - eps || to > max + eps)) {
+        from = from < min - eps ? min : from;
+        to = to > max + eps ? max : to;
+        p->cells[a] = (int)fmax(1.0, round((to - from) / p->h[a]));
+        p->h[a] = (to - from) / p->cells[a];
+    } else
+        p->cells[a] = (int)llround((to - from) / p->h[a]);
+    p->origin[a] = from;
+}
+
+/* This rank's slab, along the last axis. */
+static void share(const struct fv *s, struct patch *p)
+{
+    const int a = p->dim - 1, n = p->cells[a];
+    for (int e = 0; e < 3; e++)
+        p->of.n[e] = p->cells[e];
+    p->of.lo[a] = (int)((int64_t)n * s->run->rank / s->run->size);
+    p->of.n[a] = (int)((int64_t)n * (s->run->rank + 1) / s->run->size) - p->of.lo[a];
+}
+
+/* Whether the partner may look at a cell: it does not deep in its own part, which ends nowhere at
+ * the domain's sides. */
+static bool is_wanted(const struct fv *s, const struct patch *p, const double *x, const double *lo,
+                      const double *hi, const double (*inner)[3])
+{
+    bool around = true, deep = true;
+    for (int a = 0; a < p->dim; a++) {
+        const struct scene_domain *d = &s->run->scene.domain;
+        const double h = p->h[a];
+        around = around && x[a] > lo[a] - 2.0 * h && x[a] < hi[a] + 2.0 * h;
+        deep = deep && (x[a] > inner[0][a] + 2.0 * h || inner[0][a] < d->min[a] + 1e-6 * h) &&
+               (x[a] < inner[1][a] - 2.0 * h || inner[1][a] > d->max[a] - 1e-6 * h);
+    }
+    return around && !deep;
+}
+
+/* Donors of this rank's cells; false: one that is wanted has none, at `where'. */
+static bool find_donors(const struct fv *s, struct overset *o, struct patch *p, const double *lo,
+                        const double *hi, const double (*inner)[3], double *where)
+{
+    struct mesh_request *request = mem_new((size_t)p->n + 1, sizeof *request);
+    double *weight = NEW(double, 64 * p->n);
+    int64_t n = 0;
+    bool good = true;
+    p->known = NEW(bool, p->n);
+    for (int64_t i = 0; i < p->n; i++) {
+        double x[3];
+        patch_centre(p, i, x);
+        p->known[i] = overset_sample(s->m, o, x, p->h, request + n, weight + 64 * n);
+        if (p->known[i])
+            request[n++].in = i;
+        else if (good && is_wanted(s, p, x, lo, hi, inner)) {
+            good = false;
+            memcpy(where, x, sizeof x);
+        }
+    }
+    mesh_exchange_create(s->m, &p->sample, 4, n, request);
+    mem_free(request);
+    mem_free(weight);
+    return good;
+}
+
+/* All ranks know the place of the lowest that has one. */
+static bool agree(const struct fv *s, bool good, double *where)
+{
+    int mine = good ? s->run->size : s->run->rank, least;
+    MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, s->comm);
+    if (least < s->run->size)
+        MPI_Bcast(where, 3, MPI_DOUBLE, least, s->comm);
+    return least == s->run->size;
+}
+
+bool patch_create(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
+                  struct patch *p, double *where)
+{
+    *p = (struct patch){.dim = s->dim};
+    if (!s->m) {
+        of_grid(s, p);
+        p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
+        return true;
+    }
+    struct overset *o = overset_search(s->run, s->m);
+    double middle[3], h;
+    for (int a = 0; a < 3; a++)
+        middle[a] = 0.5 * (lo[a] + hi[a]);
+    const int k = finest(s->m, o, middle, &h);
+    bool good = k >= 0;
+    memcpy(where, middle, sizeof middle);
+    for (int a = 0; a < 3; a++) {
+        p->cells[a] = 1;
+        p->h[a] = 1.0;
+        if (a < s->dim && good)
+            set_axis(s, is_plain(s->m->block + k) ? s->m->block + k : NULL, a, lo[a], hi[a], h, p);
+    }
+    share(s, p);
+    p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
+    good = good && agree(s, find_donors(s, o, p, lo, hi, inner, where), where);
+    overset_free(&o);
+    return good;
+}
+
+void patch_free(struct patch *p)
+{
+    mesh_exchange_free(&p->sample);
+    mem_free(p->known);
+}
+
+void patch_centre(const struct patch *p, int64_t i, double *x)
+{
+    const int at[3] = {(int)(i % p->of.n[0]), (int)(i / p->of.n[0] % p->of.n[1]),
+                       (int)(i / p->of.n[0] / p->of.n[1])};
+    for (int a = 0; a < 3; a++)
+        x[a] = a < p->dim
+                   ? p->origin[a] + (p->of.lo[a] - (a == 1 ? p->below : 0) + at[a] + 0.5) * p->h[a]
+                   : 0.0;
+}
+
+void patch_look(const struct fv *s, struct patch *p, double *f, double *to)
+{
+    if (s->m)
+        mesh_exchange_to(s->m, &p->sample, 1, &f, &to);
+    else
+        block_pack_from(&s->b, p->first, f, to);
+}

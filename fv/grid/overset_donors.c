@@ -1,0 +1,332 @@
+/* overset_donors.c - donors of the fringe: computed cells only, of the block with the smallest
+ * cell there: no chains. Cubic where all 4^dim cells are computed, else linear from 2^dim.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "mesh_motion.h"
+#include "overset_inside.h"
+
+/* Places of the centre and of Gauss points of a cell in the donor's indices. */
+static bool gauss_places(const struct mesh *m, const struct donor *d, const double *shift,
+                         const double *xi, double *places)
+{
+    static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
+    for (int g = 0; g <= 1 << m->dim; g++) {
+        double at[3] = {0.5, 0.5, 0.5}, x[3], dx[3][3], *to = places + 3 * g;
+        for (int a = 0; a < m->dim && g > 0; a++)
+            at[a] = gauss[(g - 1) >> a & 1];
+        mesh_map_point(m->block + d->block, m->dim, d->cell, at, x, dx);
+        for (int c = 0; c < 3; c++) {
+            x[c] += shift[c];
+            to[c] = xi[c];
+        }
+        mesh_motion_made(m->block + d->from_block, x, x);
+        if (!overset_invert(m->block[d->from_block].made, m->dim, d->at, x, to))
+            return false;
+    }
+    return true;
+}
+
+/* Between blocks at rest the weights of the last search hold, if the stencil is the same. */
+static bool is_last(const struct mesh *m, const struct overset *o, struct donor *d, const int *from,
+                    int width)
+{
+    const struct mesh_block *b = m->block + d->block;
+    if (width != 4 || !o->last[d->block] || b->motion || m->block[d->from_block].motion)
+        return false;
+    const int at = o->last[d->block][mesh_cell(b, d->cell)] - 1;
+    if (at < 0 || at >= o->n_old)
+        return false;
+    const struct donor *e = o->old + at;
+    for (int a = 0; a < m->dim; a++)
+        if (e->at[a] != d->at[a] || e->from[a] != from[a])
+            return false;
+    if (e->from_block != d->from_block || e->width != width)
+        return false;
+    *d = *e;
+    return true;
+}
+
+static bool try_donor(const struct mesh *m, const struct overset *o, int q, int width,
+                      const double *x, struct donor *d, double *volume)
+{
+    double xi[3], places[3 * 9], shift[3], y[3], dx[3][3];
+    int cell[3], from[3];
+    if (q == d->block || !overset_locate(m, o, q, x, cell, xi) ||
+        !overset_stencil(m, q, cell, xi, width, OF_COMPUTED, from))
+        return false;
+    const double v = m->block[q].volume[mesh_cell(m->block + q, cell)];
+    if (v >= *volume)
+        return false;
+    struct donor e = *d;
+    memcpy(e.at, cell, sizeof e.at);
+    e.from_block = q;
+    if (is_last(m, o, &e, from, width)) {
+        *volume = v;
+        *d = e;
+        return true;
+    }
+    mesh_map_point(m->block + q, m->dim, cell, xi, y, dx);
+    for (int c = 0; c < 3; c++)
+        shift[c] = y[c] - x[c];
+    memcpy(places, xi, sizeof xi);
+    if (!o->rows_only && !gauss_places(m, &e, shift, xi, places))
+        return false;
+    const int n = (1 << m->dim) + 1;
+    if (!o->rows_only && !overset_weights(m, q, cell, places, n, width, e.from, e.weight))
+        return false;
+    if (!overset_weights(m, q, cell, places, 1, 2, e.linear_from, e.linear))
+        return false;
+    e.width = width;
+    *volume = v;
+    *d = e;
+    return true;
+}
+
+static bool find_donor(const struct mesh *m, struct overset *o, int k, int64_t c, int64_t *linear)
+{
+    const double *x = m->block[k].centre[c];
+    struct donor d = {.block = k};
+    double volume = INFINITY;
+    mesh_index(m->block + k, c, d.cell);
+    for (int q = 0; q < m->nblocks; q++)
+        try_donor(m, o, q, 4, x, &d, &volume);
+    if (volume == INFINITY) {
+        for (int q = 0; q < m->nblocks; q++)
+            try_donor(m, o, q, 2, x, &d, &volume);
+        if (volume == INFINITY)
+            return false;
+        if (!o->rows_only)
+            overset_widen(m, &d);
+        (*linear)++;
+    }
+    if (o->n == o->room)
+        GROW(o->donor, o->n, o->room = 2 * o->room + 256);
+    o->donor[o->n++] = d;
+    return true;
+}
+
+static bool find_donors(const struct run *r, struct faults *f, struct mesh *m, struct overset *o)
+{
+    bool all = true;
+    for (int k = 0; k < m->nblocks; k++) {
+        const struct mesh_block *b = m->block + k;
+        int64_t orphans = 0, first = 0;
+        for (int64_t c = 0; c < mesh_count(b); c++) {
+            if (b->status[c] != CELL_FRINGE)
+                continue;
+            if (!find_donor(m, o, k, c, &m->linear) && orphans++ == 0)
+                first = c;
+        }
+        if (orphans == 0)
+            continue;
+        int i[3];
+        mesh_index(b, first, i);
+        const double *x = b->centre[first];
+        mesh_fault(
+            r, f, k, "name",
+            "%lld orphan cells, the first (%d, %d, %d) at (%g, %g, %g) m: no other block has "
+            "computed cells around it. Let the blocks overlap by at least 8 cells, or give "
+            "its sides a kind",
+            (long long)orphans, i[0], i[1], i[2], x[0], x[1], x[2]);
+        all = false;
+    }
+    return all;
+}
+
+struct overset *overset_create(const struct run *r, struct faults *f, struct mesh *m)
+{
+    bool overlap = false;
+    for (int k = 0; k < m->nblocks; k++)
+        for (int s = 0; s < 2 * m->dim; s++)
+            overlap = overlap || m->block[k].side[s] == MESH_OVERLAP;
+    m->has_fringe = overlap;
+    mesh_given_mark(m);
+    struct overset *o = overlap ? overset_search(r, m) : NEW(struct overset, 1);
+    if (overlap)
+        overset_cut(m, o);
+    mesh_given_trim(m);
+    overset_count(m);
+    if (overlap && !find_donors(r, f, m, o))
+        overset_free(&o);
+    return o;
+}
+
+void overset_free(struct overset **op)
+{
+    struct overset *o = *op;
+    if (!o)
+        return;
+    for (int k = 0; k < MESH_BLOCKS_MAX; k++) {
+        mem_free(o->bins[k].first);
+        mem_free(o->bins[k].cell);
+        for (int a = 0; a < 3; a++)
+            mem_free(o->bins[k].line[a]);
+        mem_free(o->last[k]);
+    }
+    mem_free(o->old);
+    mem_free(o->donor);
+    mem_free(o);
+    *op = NULL;
+}
+
+static void make_exchange(struct mesh *m, const struct overset *o, struct mesh_exchange *x)
+{
+    struct mesh_request *request = NEW(struct mesh_request, o->n);
+    int64_t n = 0;
+    mesh_exchange_free(x);
+    for (int64_t k = 0; k < o->n; k++) {
+        const struct donor *d = o->donor + k;
+        int rank;
+        int64_t place;
+        mesh_owner(m, d->block, d->cell, &rank, &place);
+        if (rank != m->rank)
+            continue;
+        struct mesh_request *q = request + n++;
+        *q = (struct mesh_request){.in = place, .block = d->from_block, .weight = d->weight};
+        q->out = overset_place(m, d, &q->rank);
+    }
+    mesh_exchange_create(m, x, 4, n, request);
+    mem_free(request);
+}
+
+/* The rows of the matrix. */
+static void set_fringes(struct mesh *m, const struct overset *o)
+{
+    mem_free(m->fringes);
+    m->fringes = NEW(struct mesh_fringe, o->n);
+    m->nfringe = 0;
+    for (int64_t k = 0; k < o->n; k++) {
+        const struct donor *d = o->donor + k;
+        int rank;
+        int64_t place;
+        mesh_owner(m, d->block, d->cell, &rank, &place);
+        if (rank != m->rank)
+            continue;
+        struct mesh_fringe *e = m->fringes + m->nfringe++;
+        *e = (struct mesh_fringe){.place = place, .block = d->block, .donor = d->from_block};
+        memcpy(e->cell, d->cell, sizeof e->cell);
+        memcpy(e->from, d->linear_from, sizeof e->from);
+        memcpy(e->weight, d->linear, sizeof e->weight);
+    }
+}
+
+void overset_exchange(struct mesh *m, const struct overset *o)
+{
+    make_exchange(m, o, &m->fringe);
+    set_fringes(m, o);
+}
+
+static bool is_mine(const struct mesh *m, int k, const int *cell)
+{
+    const struct mesh_block *b = m->block + k;
+    return cell[b->cut] >= b->first[m->rank] && cell[b->cut] < b->first[m->rank + 1];
+}
+
+/* The donors found become those of the last search. */
+static void keep_last(struct mesh *m, struct overset *o)
+{
+    struct donor *const spare = o->old;
+    const int64_t room = o->room_old;
+    for (int64_t k = 0; k < o->n_old; k++)
+        o->last[spare[k].block][mesh_cell(m->block + spare[k].block, spare[k].cell)] = 0;
+    o->old = o->donor;
+    o->room_old = o->room;
+    o->n_old = o->n;
+    o->donor = spare;
+    o->room = room;
+    o->n = 0;
+    for (int k = 0; k < m->nblocks; k++)
+        if (!o->last[k])
+            o->last[k] = NEW(int, mesh_count(m->block + k));
+    for (int64_t k = 0; k < o->n_old; k++)
+        o->last[o->old[k].block][mesh_cell(m->block + o->old[k].block, o->old[k].cell)] =
+            (int)k + 1;
+}
+
+static void report_orphan(struct mesh *m, int k, int64_t c)
+{
+    const struct mesh_block *b = m->block + k;
+    const double *x = b->centre[c];
+    int i[3];
+    mesh_index(b, c, i);
+    snprintf(m->trouble, sizeof m->trouble,
+             "cell (%d, %d, %d) of block \"%s\" at (%g, %g, %g) m has no donors any more: no other "
+             "block has computed cells around it",
+             i[0], i[1], i[2], b->prm->name, x[0], x[1], x[2]);
+}
+
+/* Of this rank's cells that `wanted' says. */
+static void find_again(struct mesh *m, struct overset *o, unsigned char *const *wanted)
+{
+    m->linear = 0;
+    for (int k = 0; k < m->nblocks; k++) {
+        const struct mesh_block *b = m->block + k;
+        for (int64_t c = 0; c < mesh_count(b); c++) {
+            int i[3];
+            if (wanted ? !wanted[k][c] : b->status[c] != CELL_FRINGE)
+                continue;
+            mesh_index(b, c, i);
+            if (is_mine(m, k, i) && !find_donor(m, o, k, c, &m->linear) && !*m->trouble)
+                report_orphan(m, k, c);
+        }
+    }
+}
+
+void overset_find(struct mesh *m, struct overset *o)
+{
+    keep_last(m, o);
+    find_again(m, o, NULL);
+    make_exchange(m, o, &m->fringe);
+}
+
+void overset_find_rows(struct mesh *m, const struct overset *o)
+{
+    struct overset fresh = *o;
+    fresh.donor = NULL;
+    fresh.n = fresh.room = fresh.n_old = 0;
+    fresh.rows_only = true;
+    find_again(m, &fresh, NULL);
+    set_fringes(m, &fresh);
+    mem_free(fresh.donor);
+}
+
+void overset_interpolate(struct mesh *m, struct overset *o, unsigned char *const *wanted, int nf,
+                         double *const *f)
+{
+    struct mesh_exchange x = {0};
+    struct overset fresh = *o;
+    fresh.donor = NULL;
+    fresh.n = fresh.room = fresh.n_old = 0;
+    find_again(m, &fresh, wanted);
+    make_exchange(m, &fresh, &x);
+    mesh_exchange(m, &x, nf, f);
+    mesh_exchange_free(&x);
+    mem_free(fresh.donor);
+}
+
+bool overset_sound(const struct mesh *m, struct overset *o, struct overset_orphan *first)
+{
+    struct donor *const kept = o->donor;
+    const int64_t n = o->n, room = o->room;
+    int64_t linear = 0;
+    bool sound = true;
+    o->donor = NULL;
+    o->n = o->room = 0;
+    for (int k = 0; k < m->nblocks && sound; k++)
+        for (int64_t c = 0; c < mesh_count(m->block + k) && sound; c++)
+            if (m->block[k].status[c] == CELL_FRINGE && !find_donor(m, o, k, c, &linear)) {
+                sound = false;
+                first->block = k;
+                mesh_index(m->block + k, c, first->cell);
+                memcpy(first->x, m->block[k].centre[c], sizeof first->x);
+            }
+    mem_free(o->donor);
+    o->donor = kept;
+    o->n = n;
+    o->room = room;
+    return sound;
+}

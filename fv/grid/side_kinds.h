@@ -1,0 +1,27 @@
+/* side_kinds.h - what is behind a side, of a block or of the uniform grid.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_SIDE_KINDS_H
+#define FV_SIDE_KINDS_H
+
+#include "../../common/scene.h"
+
+enum mesh_side {
+    MESH_NONE, /* of the uniform grid: periodic, or the exact velocity */
+    MESH_OVERLAP = MESH_NONE,
+    MESH_JOINED,
+    MESH_PERIODIC,
+    MESH_WALL,
+    MESH_SLIP,
+    MESH_INFLOW,
+    MESH_OUTFLOW,
+    MESH_EXACT,
+    MESH_CARRIED /* an outflow whose velocity is carried; from `walls' alone */
+};
+
+static inline enum mesh_side side_of_wall(const struct scene_wall *w)
+{
+    static const enum mesh_side kinds[] = {MESH_SLIP, MESH_WALL, MESH_INFLOW, MESH_OUTFLOW};
+    return w->carried ? MESH_CARRIED : kinds[w->kind];
+}
+
+#endif

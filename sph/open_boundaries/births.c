@@ -1,0 +1,258 @@
+/* births.c - see births.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "births.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../pairs/neighbours.h"
+#include "../parallel/domain.h"
+#include "../particles/eos.h"
+#include "openings.h"
+#include "wet_faces.h"
+#include "zones.h"
+
+/* Particles beyond an open side give their mass to the nearest face. */
+static void remove_leavers(struct sph *s)
+{
+    struct openings *o = s->zones->openings;
+    struct particles *p = &s->p;
+    for (int i = 0; i < p->n;) {
+        const double *y = state_row(p, p->y, i);
+        if (zones_depth(s, y) >= 0.0) {
+            i++;
+            continue;
+        }
+        int side = 0;
+        double most = 0.0;
+        for (int a = 0; a < o->dim; a++)
+            for (int k = 0; k < 2; k++) {
+                const double out = k ? y[a] - o->hi[a] : o->lo[a] - y[a];
+                if (o->open[2 * a + k] && out > most) {
+                    most = out;
+                    side = 2 * a + k;
+                }
+            }
+        const double m = y[at_mass(o->dim)];
+        const int to = wet_faces_for(s, side, y);
+        if (to >= 0)
+            o->change[to] += m;
+        else
+            wet_faces_rain(s, y);
+        o->gone_mass += m;
+        o->gone++;
+        particles_copy(p, i, --p->n);
+    }
+}
+
+/* rho u.n dx^(D-1) of the faces this rank owns [6.13], from the flow outside at the middle of the
+ * step. */
+static void add_fluxes(struct sph *s, double dt)
+{
+    struct openings *o = s->zones->openings;
+    struct zones *z = s->zones;
+    const int n = openings_faces(o), dim = o->dim;
+    const double area = s->dxD / s->dx;
+    z->n = 0;
+    zones_room(z, n);
+    for (int f = 0; f < n; f++) {
+        double x[3], in[3];
+        const int side = openings_place(o, f, x);
+        memcpy(in, x, sizeof x);
+        in[side / 2] += 0.5 * o->dx * openings_inward(side);
+        for (int a = 0; a < dim; a++) /* where the face was at that time */
+            x[a] -= 0.5 * dt * z->speed[a];
+        o->flux[f] = 0.0;
+        if (domain_owner(s->domain, in) != s->run->rank)
+            continue;
+        memcpy(z->x + 3 * z->n, x, sizeof x);
+        z->who[z->n++] = f;
+    }
+    zones_look(z, s->t - 0.5 * dt, false);
+    for (int k = 0; k < z->n; k++) {
+        const int f = z->who[k];
+        int side = 0;
+        while (f >= o->first[side + 1])
+            side++;
+        const double rho = eos_rho(z->p[k], s->rho0, s->c0, s->gamma);
+        const double u = z->u[dim * k + side / 2] - z->speed[side / 2];
+        o->flux[f] = rho * area * o->share[f] * openings_inward(side) * u;
+        o->change[f] += dt * o->flux[f];
+        o->inflow += dt * (o->flux[f] + s->rho0 * area * s->zones->drain);
+    }
+    o->owed -= dt * openings_faces(o) * s->rho0 * area * s->zones->drain;
+}
+
+/* Places near the open sides in a hash of cells of side dx, to keep births apart. */
+struct strip {
+    int n, capacity, heads;
+    double (*x)[3];
+    int *next, *head;
+};
+
+static int strip_cell(const struct strip *t, const struct openings *o, const double *x,
+                      const int *off)
+{
+    uint32_t key = 0;
+    for (int a = 0; a < o->dim; a++)
+        key = key * 73856093u + (uint32_t)((int)floor((x[a] - o->lo[a]) / o->dx) + off[a]);
+    return (int)(key % (uint32_t)t->heads);
+}
+
+static void strip_add(struct strip *t, const struct openings *o, const double *y)
+{
+    static const int here[3] = {0, 0, 0};
+    if (t->n == t->capacity) {
+        GROW(t->x, t->capacity, 2 * t->capacity);
+        GROW(t->next, t->capacity, 2 * t->capacity);
+        t->capacity *= 2;
+    }
+    for (int a = 0; a < o->dim; a++)
+        t->x[t->n][a] = y[a];
+    const int c = strip_cell(t, o, y, here);
+    t->next[t->n] = t->head[c];
+    t->head[c] = t->n++;
+}
+
+/* Locals where they are now, ghosts where the last stage saw them. */
+static struct strip strip_create(const struct sph *s)
+{
+    const struct openings *o = s->zones->openings;
+    const int room = 4 * openings_faces(o) + 64;
+    struct strip t = {.capacity = room,
+                      .heads = room,
+                      .x = mem_new((size_t)room, sizeof *t.x),
+                      .next = NEW(int, room),
+                      .head = NEW(int, room)};
+    for (int c = 0; c < t.heads; c++)
+        t.head[c] = -1;
+    for (int i = 0; i < s->p.n + o->first_ghost; i++) {
+        const double *y =
+            i < s->p.n ? state_row(&s->p, s->p.y, i) : prim_line(&s->p, s->list->n + i - s->p.n);
+        if (zones_depth(s, y) < 2.0 * s->dx)
+            strip_add(&t, o, y);
+    }
+    return t;
+}
+
+static void strip_free(struct strip *t)
+{
+    mem_free(t->x);
+    mem_free(t->next);
+    mem_free(t->head);
+}
+
+static bool crowded(const struct strip *t, const struct openings *o, const double *x)
+{
+    const double least2 = 0.25 * o->dx * o->dx;
+    int off[3] = {0, 0, 0};
+    for (off[2] = o->dim > 2 ? -1 : 0; off[2] <= (o->dim > 2 ? 1 : 0); off[2]++)
+        for (off[1] = -1; off[1] <= 1; off[1]++)
+            for (off[0] = -1; off[0] <= 1; off[0]++)
+                for (int k = t->head[strip_cell(t, o, x, off)]; k >= 0; k = t->next[k]) {
+                    double r2 = 0.0;
+                    for (int a = 0; a < o->dim; a++)
+                        r2 += (x[a] - t->x[k][a]) * (x[a] - t->x[k][a]);
+                    if (r2 < least2)
+                        return true;
+                }
+    return false;
+}
+
+static void born(struct sph *s, int f, const double *x, const double *u, double rho)
+{
+    struct openings *o = s->zones->openings;
+    const int64_t id = o->first_id + f + llround(s->t / o->tick) * openings_faces(o);
+    const int i = particles_add(&s->p, id, ZONE_BUFFER);
+    particles_set(s, i, x, u, s->dxD, rho);
+    o->change[f] -= rho * s->dxD;
+    o->born_mass += rho * s->dxD;
+    o->born++;
+}
+
+/* Mass goes to the face beside f, on the same side, that holds least. */
+static void pass_on(struct openings *o, int f, double mass)
+{
+    double x[3], least = INFINITY;
+    const int side = openings_place(o, f, x);
+    int to = f;
+    for (int b = 0; b < o->dim; b++)
+        for (int way = -1; b != side / 2 && way <= 1; way += 2) {
+            int I[3];
+            for (int a = 0; a < 3; a++)
+                I[a] = a < o->dim ? (int)floor((x[a] - o->lo[a]) / o->dx) + (a == b ? way : 0) : 0;
+            const int g = openings_face(o, side, I);
+            if (g != f && o->share[g] > 0.25 && o->mass[g] + o->change[g] < least) {
+                least = o->mass[g] + o->change[g];
+                to = g;
+            }
+        }
+    o->change[f] -= mass;
+    o->change[to] += mass;
+}
+
+/* What a newborn may be moved on, in dx: with a half, faces at an edge gave birth on it, and
+ * rounding lost the particle. */
+static const double most_over = 0.49;
+
+/* A face that holds a particle's mass and lets fluid in gives birth dx/2 inside, moved on along the
+ * flow by what the step overshot. */
+static void give_birth(struct sph *s)
+{
+    struct openings *o = s->zones->openings;
+    struct zones *z = s->zones;
+    const int looked = z->n, dim = o->dim;
+    struct strip near = strip_create(s);
+    s->p.nghost = 0; /* newborn take their place */
+    for (int k = 0; k < looked; k++) {
+        const int f = z->who[k];
+        const double rho = eos_rho(z->p[k], s->rho0, s->c0, s->gamma), whole = rho * s->dxD;
+        double held = o->mass[f] + o->change[f], *u = z->u + dim * k;
+        if (held < whole || o->share[f] == 0.0 ||
+            (o->flux[f] <= 0.0 && held < openings_most_debt * whole))
+            continue;
+        double x[3];
+        const double *const of_box = z->speed;
+        const int side = openings_place(o, f, x), a = side / 2;
+        const double over = fmin(held / whole - 1.0, most_over) * s->dx;
+        const double un = fabs(u[a] - of_box[a]);
+        for (int b = 0; b < dim; b++)
+            x[b] += b == a
+                        ? openings_inward(side) * (0.5 * s->dx + over)
+                        : (un > 0.0 ? fmax(fmin((u[b] - of_box[b]) / un, 1.0), -1.0) * over : 0.0);
+        if (s->zones->surface)
+            wet_faces_lower(s, 0.25 * s->dx, 1, x);
+        if (crowded(&near, o, x)) {
+            o->refused++;
+            if (held > openings_most_debt * whole)
+                pass_on(o, f, held - openings_most_debt * whole);
+            continue;
+        }
+        born(s, f, x, u, rho);
+        strip_add(&near, o, x);
+    }
+    strip_free(&near);
+}
+
+static void sum_changes(struct sph *s)
+{
+    struct openings *o = s->zones->openings;
+    const int n = openings_faces(o);
+    if (s->run->size > 1)
+        MPI_Allreduce(MPI_IN_PLACE, o->change, n, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (int f = 0; f < n; f++)
+        o->mass[f] += o->change[f];
+    memset(o->change, 0, (size_t)n * sizeof(double));
+}
+
+void births_step(struct sph *s, double dt)
+{
+    if (s->zones->surface)
+        wet_faces_find(s, s->t - 0.5 * dt);
+    remove_leavers(s);
+    add_fluxes(s, dt);
+    sum_changes(s);
+    give_birth(s);
+    sum_changes(s);
+    openings_settle(s);
+}

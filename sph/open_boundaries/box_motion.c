@@ -1,0 +1,179 @@
+/* box_motion.c - see box_motion.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "box_motion.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../parallel/domain.h"
+#include "../rigid/body.h"
+#include "../sph_params.h"
+#include "../walls/walls.h"
+#include "openings.h"
+#include "zones.h"
+
+const char *box_motion_key(const struct sph_params *prm)
+{
+    return prm->box_follows[0] ? "sph.box_follows" : "sph.box_velocity";
+}
+
+bool box_motion_wanted(const struct sph_params *prm)
+{
+    const double *v = prm->box_velocity;
+    return v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0 || prm->box_follows[0];
+}
+
+bool box_motion_along(const struct run *r, const struct sph_params *prm, int a)
+{
+    bool open[6];
+    sph_params_open(r, prm, open);
+    return box_motion_wanted(prm) && open[2 * a] && open[2 * a + 1] &&
+           (prm->box_follows[0] || prm->box_velocity[a] != 0.0);
+}
+
+static int body_of(const struct run *r, const struct sph_params *prm)
+{
+    for (int k = 0; k < r->scene.nbodies; k++)
+        if (strcmp(r->scene.bodies[k].name, prm->box_follows) == 0)
+            return k;
+    return -1;
+}
+
+static void way_of_body(const struct body *b, double way[3])
+{
+    double to[3] = {0.0, 0.0, 0.0};
+    body_place(b, b->centre, to);
+    for (int a = 0; a < b->dim; a++)
+        way[a] = to[a] - b->centre[a];
+}
+
+/* Only along axes on which it moves. */
+static void mask(const struct run *r, const struct sph_params *prm, double way[3])
+{
+    for (int a = 0; a < 3; a++)
+        if (a >= r->scene.domain.dim || !box_motion_along(r, prm, a))
+            way[a] = 0.0;
+}
+
+bool box_motion_foretold(const struct run *r, const struct sph_params *prm, double t, double way[3])
+{
+    bool known = true;
+    for (int a = 0; a < 3; a++)
+        way[a] = prm->box_velocity[a] * t;
+    if (!box_motion_wanted(prm))
+        return true;
+    const int k = body_of(r, prm);
+    if (prm->box_follows[0] && k >= 0) {
+        struct body b;
+        body_create(&b, r->scene.bodies + k, NULL, r->scene.domain.dim, r->case_dir);
+        known = !b.free;
+        if (known) {
+            body_move(&b, t);
+            way_of_body(&b, way);
+        }
+        body_destroy(&b);
+    }
+    mask(r, prm, way);
+    return known;
+}
+
+double box_motion_speed(const struct run *r, const struct sph_params *prm)
+{
+    enum { TIMES = 200 };
+    const double step = r->scene.time.end / TIMES;
+    double before[3], now[3], most = 0.0;
+    if (!box_motion_wanted(prm))
+        return 0.0;
+    if (!box_motion_foretold(r, prm, 0.0, before))
+        return sph_params_speed(r).speed;
+    for (int k = 1; k <= TIMES; k++) {
+        double d2 = 0.0;
+        box_motion_foretold(r, prm, k * step, now);
+        for (int a = 0; a < 3; a++)
+            d2 += (now[a] - before[a]) * (now[a] - before[a]);
+        most = fmax(most, sqrt(d2) / step);
+        memcpy(before, now, sizeof now);
+    }
+    return most;
+}
+
+/* Region, zones, faces and partition of all levels stand where z->way says. */
+static void place(struct sph *s)
+{
+    struct zones *z = s->zones;
+    for (struct sph *q = s; q; q = q->finer)
+        for (int a = 0; a < s->dim; a++) {
+            q->lo[a] = s->prm.box[0][a] + z->way[a];
+            q->hi[a] = s->prm.box[1][a] + z->way[a];
+        }
+    memcpy(z->lo, s->lo, sizeof z->lo);
+    memcpy(z->hi, s->hi, sizeof z->hi);
+    memcpy(z->openings->lo, s->lo, sizeof z->openings->lo);
+    memcpy(z->openings->hi, s->hi, sizeof z->openings->hi);
+    domain_follow(s);
+}
+
+/* Of a box that has come within a support of a side that it does not share. */
+static void judge(const struct sph *s, struct diagnosis *d)
+{
+    const struct scene_domain *c = &s->run->scene.domain;
+    for (int a = 0; a < s->dim; a++) {
+        if (c->periodic[a] || s->zones->speed[a] == 0.0 ||
+            (s->lo[a] > c->min[a] + s->R && s->hi[a] < c->max[a] - s->R))
+            continue;
+        d->bad = true;
+        snprintf(d->reason, sizeof d->reason, "sph.box has come to a side of the domain across %c",
+                 "xyz"[a]);
+        snprintf(d->where, sizeof d->where, "%c from %g to %g m, t = %.4g s", "xyz"[a], s -> lo[a],
+                 s -> hi[a], s -> t);
+        snprintf(d->likely, sizeof d->likely,
+                 "a shorter time.end, a larger domain, or another sph.box_velocity or box_follows");
+    }
+}
+
+void box_motion_step(struct sph *s, double dt, struct diagnosis *d)
+{
+    struct zones *z = s->zones;
+    double now[3] = {0.0, 0.0, 0.0};
+    if (!box_motion_wanted(&s->prm))
+        return;
+    if (s->prm.box_follows[0])
+        way_of_body(s->walls->bodies + body_of(s->run, &s->prm), now);
+    else
+        for (int a = 0; a < s->dim; a++)
+            now[a] = s->prm.box_velocity[a] * s->t;
+    mask(s->run, &s->prm, now);
+    for (int a = 0; a < 3; a++) {
+        z->speed[a] = dt > 0.0 ? (now[a] - z->way[a]) / dt : 0.0;
+        z->way[a] = now[a];
+    }
+    place(s);
+    judge(s, d);
+}
+
+void box_motion_set(struct sph *s, const double way[3])
+{
+    if (!box_motion_wanted(&s->prm))
+        return;
+    memcpy(s->zones->way, way, sizeof s->zones->way);
+    place(s);
+}
+
+void box_motion_range(const struct sph *s, double lo[3], double hi[3])
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    const double end = s->run->scene.time.end;
+    double way[3];
+    memcpy(lo, s->lo, sizeof s->lo);
+    memcpy(hi, s->hi, sizeof s->hi);
+    if (!box_motion_wanted(&s->prm))
+        return;
+    const bool known = box_motion_foretold(s->run, &s->prm, end, way) && !s->prm.box_follows[0];
+    for (int a = 0; a < s->dim; a++) {
+        if (!box_motion_along(s->run, &s->prm, a))
+            continue;
+        const double L = d->periodic[a] ? d->max[a] - d->min[a] : 0.0;
+        lo[a] = known ? fmin(lo[a], lo[a] + way[a]) : d->min[a] - L;
+        hi[a] = known ? fmax(hi[a], hi[a] + way[a]) : d->max[a] + L;
+    }
+}

@@ -1,0 +1,276 @@
+/* counts.c - see counts.h. The gap at a mother is the kernel sum, at her place, of the children
+ * that all mothers would have if they gave birth now, less that of the children there are: 0 beside
+ * walls, surfaces and edges as well. It is averaged over the mothers that flow in her support, for
+ * families are no lattice. SPDX-License-Identifier: BSD-3-Clause */
+#include "counts.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+#include "../pairs/kernel.h"
+#include "../pairs/neighbours.h"
+#include "../parallel/domain.h"
+#include "guards.h"
+#include "../walls/walls.h"
+#include "refinement.h"
+#include "regions.h"
+
+/* What gaps, in children, ask for: of mothers that flow, averaged, in units of what one child
+ * changes, one is born beyond few; at a single place, where means say little of sheets and drops,
+ * a child that is so many too many dies. Both give way to what the mass of the fluid is short of:
+ * they would not be even by themselves. */
+static const double few = 0.4, many = 1.2;
+static const double most_off = 1e-3; /* of the mass: beyond this they give way no further */
+static const double hole = 0.6;      /* spacings from the next one: room for one more */
+enum {
+    EVERY = 2, /* steps */
+    TURNS = 2, /* along each axis: mothers nearer than so many spacings wait for each other */
+    PLACES = 4 /* along each axis: where a hole is looked for */
+};
+static const double nothing = 1e30; /* no gap is known */
+
+/* Particles found near a place. */
+struct found {
+    int n, capacity;
+    int *j;
+};
+
+/* One look at both levels; gap: of the mothers, then of their ghosts. */
+struct census {
+    struct sph *s, *fine;
+    const struct regions *regions;
+    double *gap, *ghost_gap, *depth;
+    double off;         /* -1 .. 1: how much more mass flows than at the start */
+    struct found found; /* a list to reuse */
+};
+
+static int role_of(const struct sph *s, int i)
+{
+    return i < s->p.n ? s->p.role[i] : s->guards->ghost[i - s->p.n];
+}
+
+/* Whether those of a level at x are looked at now, of `turns' along each axis. */
+static bool is_turn(const struct sph *s, const double *x, int turns)
+{
+    int64_t turn = s->run->step / EVERY;
+    for (int a = 0; a < s->dim; a++, turn /= turns) {
+        const double cell = floor((x[a] - s->lo[a]) / s->dx);
+        if (cell - turns * floor(cell / turns) != (double)(turn % turns))
+            return false;
+    }
+    return true;
+}
+
+static double distance(int dim, const double *x, const double *y)
+{
+    double r2 = 0.0;
+    for (int a = 0; a < dim; a++)
+        r2 += (x[a] - y[a]) * (x[a] - y[a]);
+    return sqrt(r2);
+}
+
+/* Of one at the same place: 1. */
+static double weight(double r, double R)
+{
+    const double q = r / R, t = q < 1.0 ? 1.0 - q : 0.0;
+    return t * t * t * t * (1.0 + 4.0 * q);
+}
+
+/* The children that a mother at y would have, seen from x. */
+static double family(const struct sph *s, const double *x, const double *y, double R)
+{
+    double sum = 0.0;
+    if (distance(s->dim, x, y) >= R + s->dx)
+        return 0.0;
+    for (int c = 0; c < 1 << s->dim; c++) {
+        double z[3];
+        for (int a = 0; a < s->dim; a++)
+            z[a] = y[a] + (c >> a & 1 ? 0.25 : -0.25) * s->dx;
+        sum += weight(distance(s->dim, x, z), R);
+    }
+    return sum;
+}
+
+static void look_around(struct sph *at, const double *x, double reach, struct found *to)
+{
+    neighbours_gather(at, x, x, reach, at->guards->ghost, 0);
+    to->n = neighbours_pick(at, x, reach, 0, &to->j, &to->capacity);
+}
+
+static double gap_at(struct census *c, const double *x)
+{
+    struct sph *s = c->s, *fine = c->fine;
+    double gap = 0.0;
+    look_around(s, x, fine->R + 0.5 * s->dx, &c->found);
+    for (int k = 0; k < c->found.n; k++)
+        if (role_of(s, c->found.j[k]) & ROLE_MOTHER)
+            gap += family(s, x, prim_line(&s->p, c->found.j[k]), fine->R);
+    look_around(fine, x, fine->R, &c->found);
+    for (int k = 0; k < c->found.n; k++)
+        gap -= weight(distance(s->dim, x, prim_line(&fine->p, c->found.j[k])), fine->R);
+    return gap;
+}
+
+/* Gaps of the mothers that flow, but those on the very edge. */
+static void find_gaps(struct census *c)
+{
+    struct sph *s = c->s;
+    c->gap = NEW(double, s->p.n);
+    c->depth = NEW(double, s->p.n);
+    c->ghost_gap = NEW(double, s->p.nghost);
+    for (int k = 0; k < s->p.nghost; k++)
+        c->ghost_gap[k] = nothing;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *x = prim_line(&s->p, i);
+        c->gap[i] = nothing;
+        if ((s->p.role[i] & (ROLE_MOTHER | ROLE_GUARD)) != ROLE_MOTHER)
+            continue;
+        c->depth[i] = regions_distance(c->regions, s->level + 1, x);
+        if (c->depth[i] >= 0.5 * s->dx)
+            c->gap[i] = gap_at(c, x);
+    }
+    domain_share(s, c->gap, 1, c->ghost_gap);
+}
+
+/* Mean gap around mother i; one: what one child at her place changes of it. */
+static double mean_gap(const struct census *c, int i, double *one)
+{
+    const struct sph *s = c->s;
+    const struct neighbours *l = s->list;
+    const double *x = prim_line(&s->p, i);
+    double sum = c->gap[i], total = 1.0, own = 1.0;
+    for (int64_t k = l->start[i]; k < l->start[i] + l->count[i]; k++) {
+        const int j = l->j[k], ghost = j - s->p.n;
+        const double gap = ghost < 0            ? c->gap[j]
+                           : ghost < s->p.nhalo ? c->ghost_gap[ghost]
+                                                : nothing;
+        const double r = distance(s->dim, x, prim_line(&s->p, j)), W = weight(r, s->R);
+        if (gap >= nothing)
+            continue;
+        sum += W * gap;
+        own += W * weight(r, c->fine->R);
+        total += W;
+    }
+    *one = own / total;
+    return sum / total;
+}
+
+/* Distance from x to the next one of those found, and of those that are to be born. */
+static double room_at(const struct sph *at, const struct found *near, const double *x)
+{
+    double least = INFINITY;
+    for (int k = 0; k < near->n; k++)
+        least = fmin(least, distance(at->dim, x, prim_line(&at->p, near->j[k])));
+    for (int k = 0; k < at->guards->nnewborn; k++)
+        least = fmin(least, distance(at->dim, x, at->guards->newborn[k].x));
+    return least;
+}
+
+/* The widest hole among the particles of a level within half the width `wide' of x, in spacings. */
+static double find_hole(const struct sph *at, const struct found *near, const double *x,
+                        double wide, double *hole_x)
+{
+    double most = 0.0;
+    for (int k = 0; k < (at->dim == 2 ? PLACES * PLACES : PLACES * PLACES * PLACES); k++) {
+        double y[3] = {0.0, 0.0, 0.0};
+        for (int a = 0, n = k; a < at->dim; a++, n /= PLACES)
+            y[a] = x[a] + ((n % PLACES + 0.5) / PLACES - 0.5) * wide;
+        const double room = room_at(at, near, y) / at->dx;
+        if (room > most) {
+            most = room;
+            memcpy(hole_x, y, sizeof y);
+        }
+    }
+    return most;
+}
+
+/* One of level `at' with the fields of particle i of `from'. */
+static void conceive(struct sph *at, const double *x, const struct sph *from, int i)
+{
+    struct guards *g = at->guards;
+    const int dim = at->dim;
+    const double *q = prim_line(&from->p, i);
+    if (g->nnewborn == g->newborn_capacity) {
+        const int more = 2 * g->newborn_capacity + 16;
+        GROW(g->newborn, g->newborn_capacity, more);
+        g->newborn_capacity = more;
+    }
+    struct newborn *to = g->newborn + g->nnewborn++;
+    *to = (struct newborn){.t = from->t,
+                           .rho = q[at_rho(dim)],
+                           .volume = ldexp(q[at_volume(dim)], -dim * (at->level - from->level))};
+    memcpy(to->x, x, (size_t)dim * sizeof *x);
+    memcpy(to->u, q + dim, (size_t)dim * sizeof *q);
+    memcpy(to->slope, slope_line(&from->p, i), (size_t)from->p.nslope * sizeof(double));
+}
+
+/* A hole near mother i that flows gets a child. */
+static void fill_hole(struct census *c, int i)
+{
+    struct sph *s = c->s, *fine = c->fine;
+    const double *x = prim_line(&s->p, i);
+    double y[3], d[3] = {0.0, 0.0, 0.0};
+    look_around(fine, x, s->dx + fine->dx, &c->found);
+    if (find_hole(fine, &c->found, x, s->dx, y) < (s->dim == 2 ? hole : 1.22 * hole))
+        return;
+    for (int a = 0; a < s->dim; a++)
+        d[a] = y[a] - x[a];
+    if (!s->walls || walls_meet(s, x, d) >= 1.0)
+        conceive(fine, y, s, i);
+}
+
+static void look_at_flowing(struct census *c)
+{
+    struct sph *s = c->s;
+    find_gaps(c);
+    for (int i = 0; i < s->p.n; i++) {
+        double one;
+        if (c->gap[i] < nothing && c->depth[i] < s->R - s->dx &&
+            is_turn(s, prim_line(&s->p, i), TURNS) &&
+            mean_gap(c, i, &one) > few * (1.0 + c->off) * one)
+            fill_hole(c, i);
+    }
+}
+
+/* Of one level: its guards where it does not flow itself. */
+static bool is_outside(const struct sph *s, int i)
+{
+    return particles_is_guard(&s->p, i) && s->p.role[i] >> ROLE_SOURCE == s->level;
+}
+
+/* Guards of the finer level outside of where it flows. */
+static void look_at_children(struct census *c)
+{
+    struct sph *fine = c->fine;
+    for (int i = 0; i < fine->p.n; i++) {
+        const double *x = prim_line(&fine->p, i);
+        if (is_outside(fine, i) && is_turn(fine, x, 2 * TURNS) &&
+            regions_distance(c->regions, fine->level, x) >= 0.5 * c->s->dx &&
+            gap_at(c, x) < -many * (1.0 - 0.4 * c->off))
+            fine->p.role[i] |= ROLE_SURPLUS;
+    }
+}
+
+static void mark_level(struct sph *s, const struct refinement *r)
+{
+    struct census c = {.s = s, .fine = s->finer, .regions = r->regions};
+    c.off = fmax(-1.0, fmin(r->debt / most_off, 1.0));
+    look_at_flowing(&c);
+    look_at_children(&c);
+    mem_free(c.gap);
+    mem_free(c.ghost_gap);
+    mem_free(c.depth);
+    mem_free(c.found.j);
+}
+
+void counts_mark(struct sph *s)
+{
+    const struct sph *coarsest = s;
+    if (s->run->step % EVERY > 0 || s->packing)
+        return;
+    while (coarsest->coarser)
+        coarsest = coarsest->coarser;
+    for (; s->finer; s = s->finer)
+        mark_level(s, coarsest->refinement);
+}

@@ -1,0 +1,60 @@
+/* mixed.h - one set of particles of different sizes: the methods that adaptive refinement with
+ * guards is compared with (Chiron 2017, 5.2). Each particle has its own R; a pair has the mean of
+ * both, so that what one gives the other takes. In 2D, on one rank, with Riemann schemes, plane
+ * sides as mirrors. Simple on purpose.
+ *   graded       the spacing grows away from a box, by less than 3 % from neighbour to neighbour
+ *   weights      mothers stay beside their children; each source counts with a weight chi that goes
+ *                from 0 to 1 within R inside the edge, of the other generation the rest (Barcarolo:
+ *                [5.12-5.13])
+ *   coalescence  mothers split into four, which merge in pairs outside (Vacondio: [5.6-5.11])
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_MIXED_H
+#define SPH_MIXED_H
+
+#include "../sph.h"
+#include "apr_params.h"
+
+struct mixed;
+struct faults;
+struct h5;
+
+/* What these methods do not go together with. */
+void mixed_check(const struct run *r, const struct sph_params *used, const struct apr_params *prm,
+                 struct faults *f);
+
+/* After the first particles of the coarsest size; s->refinement is there. */
+void mixed_start(struct sph *s);
+/* From a file, after the particles; false: it has no sizes. */
+bool mixed_restart(struct sph *s, struct h5 *f);
+void mixed_free(struct sph *s);
+/* m: the smallest R; the step depends on it. */
+double mixed_least(const struct sph *s);
+
+/* Instead of neighbours_sort and neighbours_build; between them sizes of the periodic images. */
+void mixed_sort(struct sph *s);
+void mixed_images(struct sph *s);
+void mixed_list(struct sph *s);
+/* At the end of a step: births, removals, weights. */
+void mixed_adapt(struct sph *s);
+
+/* mixed_pairs.c: both passes. */
+void mixed_gradients(struct sph *s);
+void mixed_rates(struct sph *s);
+
+/* mixed_weights.c, mixed_merge.c: what mixed_adapt does. */
+void mixed_weights(struct sph *s);
+void mixed_split(struct sph *s);
+
+/* graded.c: the first particles, instead of a lattice. */
+void graded_fill(struct sph *s);
+/* Largest change of the spacing from one layer to the next. */
+double graded_growth(void);
+
+/* R of particle i, and its weight. */
+static inline double *mixed_R(const struct sph *s, int i) { return &s->p.size[i][0]; }
+static inline double *mixed_weight(const struct sph *s, int i) { return &s->p.size[i][1]; }
+/* One of the 2^D of half the size around particle i, its fields carried along the way d; returns
+ * its index. */
+int mixed_bear(struct sph *s, int i, const double *d, double R);
+
+#endif

@@ -1,0 +1,108 @@
+/* extremes.c - see extremes.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "extremes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../particles/eos.h"
+
+void extremes_raise(double *most, double v) { *most = v > *most ? v : *most; }
+
+void extremes_of_lines(struct sph *s, double *most)
+{
+    timer_start(&s->run->timers, "update");
+    const int dim = s->dim;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *q = prim_line(&s->p, i);
+        const double *u0 = slope_line(&s->p, i) + dim + dim * dim;
+        const double c = eos_c(q[at_rho(dim)], s->rho0, s->c0, s->gamma);
+        double shift2 = 0.0, stray2 = 0.0, relative2 = 0.0;
+        for (int a = 0; a < dim; a++) {
+            shift2 += (q[dim + a] - u0[a]) * (q[dim + a] - u0[a]);
+            stray2 += (u0[a] - s->drift[a]) * (u0[a] - s->drift[a]);
+            relative2 += (q[dim + a] - s->drift[a]) * (q[dim + a] - s->drift[a]);
+            extremes_raise(most + MOST_U0 + a, u0[a]);
+            extremes_raise(most + LEAST_U0 + a, -u0[a]);
+        }
+        extremes_raise(most + MOST_STRAY, stray2);
+        if (particles_is_guard(&s->p, i))
+            continue;
+        extremes_raise(most + MOST_C, c);
+        extremes_raise(most + MOST_SHIFT, shift2);
+        extremes_raise(most + MOST_SIGNAL, c + sqrt(shift2));
+        extremes_raise(most + MOST_RELATIVE, relative2);
+    }
+    for (int k = 0; k < 3; k++) {
+        static const int squared[3] = {MOST_SHIFT, MOST_STRAY, MOST_RELATIVE};
+        most[squared[k]] = most[squared[k]] > 0.0 ? sqrt(most[squared[k]]) : 0.0;
+    }
+    timer_stop(&s->run->timers, "update");
+}
+
+void extremes_of_state(struct sph *s, double *most)
+{
+    timer_start(&s->run->timers, "update");
+    for (int i = 0; i < s->p.n; i++) {
+        double speed, rho;
+        extremes_raise(most + MOST_FAULT,
+                       sph_fault_of(s, state_row(&s->p, s->p.y, i), &speed, &rho));
+        extremes_raise(most + MOST_SPEED, speed);
+        extremes_raise(most + MOST_RHO, rho);
+        extremes_raise(most + LEAST_RHO, -rho);
+    }
+    timer_stop(&s->run->timers, "update");
+}
+
+void extremes_clear(double most[LEVELS][EXTREMES])
+{
+    for (int l = 0; l < LEVELS; l++)
+        for (int k = 0; k < EXTREMES; k++)
+            most[l][k] = -1e300;
+}
+
+/* What a level knows of the whole flow; its signal is its own. */
+static void learn(struct sph *s, const double *most, double signal)
+{
+    s->signal = signal;
+    s->max_c = most[MOST_C];
+    s->max_shift = most[MOST_SHIFT];
+    s->stray = most[MOST_STRAY];
+    for (int a = 0; a < s->dim; a++)
+        s->drift[a] = 0.5 * (most[MOST_U0 + a] - most[LEAST_U0 + a]);
+    const bool empty = most[MOST_RHO] < 0.0; /* water may yet come in by an open side */
+    s->max_speed = fmax(most[MOST_SPEED], 0.0);
+    s->rho_max = empty ? s->rho0 : most[MOST_RHO];
+    s->rho_min = empty ? s->rho0 : -most[LEAST_RHO];
+    /* 0.1 c0 is the speed that a sound speed is chosen for; transport_finish bounds what comes of
+     * it at walls. */
+    const double speed = s->walls ? fmax(s->max_speed, s->nu / s->R) : most[MOST_RELATIVE];
+    const bool bounded = s->walls && s->prm.scheme <= SCHEME_RIEMANN;
+    s->shift_speed =
+        bounded ? 0.1 * s->c0 : fmin(fmax(s->shift_speed, speed), (s->walls ? 0.1 : 0.2) * s->c0);
+    s->max_mach = fmax(s->max_mach, s->max_speed / s->c0);
+    if (s->t >= 0.5 * s->run->scene.time.end)
+        s->mach_late = fmax(s->mach_late, s->max_speed / s->c0);
+}
+
+void extremes_reduce(struct sph *s, double most[LEVELS][EXTREMES])
+{
+    double signal[LEVELS];
+    int n = 0;
+    for (const struct sph *q = s; q; q = q->finer)
+        n++;
+    MPI_Allreduce(MPI_IN_PLACE, most, n * EXTREMES, MPI_DOUBLE, MPI_MAX, s->run->comm);
+    for (int m = 0; m < n; m++) {
+        signal[m] = most[m][MOST_SIGNAL];
+        for (int k = 0; k < EXTREMES; k++)
+            extremes_raise(most[0] + k, most[m][k]);
+    }
+    for (struct sph *q = s; q; q = q->finer)
+        learn(q, most[0], signal[q->level]);
+}
+
+void extremes_reduce_level(struct sph *s, double *most)
+{
+    MPI_Allreduce(MPI_IN_PLACE, most, EXTREMES, MPI_DOUBLE, MPI_MAX, s->run->comm);
+    s->signal = most[MOST_SIGNAL];
+    s->stray = most[MOST_STRAY];
+}

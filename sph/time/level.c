@@ -1,0 +1,293 @@
+/* level.c - see level.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "level.h"
+
+#include <math.h>
+
+#include "../../common/mem.h"
+#include "../open_boundaries/outer_lattice.h"
+#include "../open_boundaries/zone_steps.h"
+#include "../pairs/neighbours.h"
+#include "../pairs/scheme.h"
+#include "../parallel/domain.h"
+#include "../refinement/guards.h"
+#include "../refinement/mixed.h"
+#include "../sph_params.h"
+#include "../surface/surface.h"
+#include "../walls/walls.h"
+#include "runge_kutta.h"
+
+static void start(struct sph *s, const char *timer) { timer_start(&s->run->timers, timer); }
+
+static void stop(struct sph *s, const char *timer) { timer_stop(&s->run->timers, timer); }
+
+void level_prepare(struct sph *s)
+{
+    start(s, "list");
+    if (s->zones)
+        zones_mark(s);
+    domain_migrate(s);
+    if (s->mixed)
+        mixed_sort(s);
+    else
+        neighbours_sort(s);
+    particles_lines(s);
+    domain_ghosts(s);
+    if (s->mixed)
+        mixed_images(s);
+    if (s->zones)
+        outer_lattice_ghosts(s);
+    if (s->walls) {
+        walls_move(s, s->t);
+        if (s->walls->model->ghosts)
+            s->walls->model->ghosts(s);
+    }
+    if (s->mixed)
+        mixed_list(s);
+    else
+        neighbours_build(s);
+    stop(s, "list");
+    if (s->walls && s->walls->model->list) {
+        start(s, "walls");
+        s->walls->model->list(s);
+        stop(s, "walls");
+    }
+    if (s->surface) {
+        surface_room(s->surface, s->p.n, s->dim);
+        s->surface->known = false;
+    }
+    s->sloped = false;
+    s->ready = true;
+}
+
+typedef void wall_hook(struct sph *s);
+
+static void at_walls(struct sph *s, wall_hook *hook)
+{
+    if (!hook)
+        return;
+    start(s, "walls");
+    hook(s);
+    stop(s, "walls");
+}
+
+/* A pass over the pairs: rows without ghosts while these are under way, then, when walls have seen
+ * to theirs, the others. */
+static void pass(struct sph *s, void (*rows)(struct sph *s), const char *timer, bool slopes,
+                 wall_hook *hook)
+{
+    struct neighbours *l = s->list;
+    start(s, "halo");
+    domain_halo_start(s, slopes);
+    stop(s, "halo");
+    if (l->ninner > 0) {
+        start(s, timer);
+        neighbours_rows(l, ROWS_INNER);
+        rows(s);
+        stop(s, timer);
+    }
+    start(s, "halo");
+    domain_halo_finish(s, slopes);
+    stop(s, "halo");
+    at_walls(s, hook);
+    start(s, timer);
+    neighbours_rows(l, ROWS_OUTER);
+    rows(s);
+    neighbours_rows(l, ROWS_ALL);
+    stop(s, timer);
+}
+
+/* What follows the first pass and its halo. */
+static void finish_slopes(struct sph *s)
+{
+    if (s->surface && !s->surface->known) {
+        start(s, "surface");
+        surface_detect(s);
+        stop(s, "surface");
+    }
+    if (s->walls)
+        at_walls(s, s->walls->model->slopes);
+    if (s->walls || s->surface)
+        transport_finish(s);
+    if (s->surface && s->prm.damper > 0.0 && s->prm.scheme <= SCHEME_RIEMANN)
+        surface_calm(s);
+}
+
+/* The acceleration -W^2 x. */
+static void add_central(struct sph *s)
+{
+    const double W2 = s->central * s->central;
+    const int dim = s->dim;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i);
+        double *rate = state_row(&s->p, s->p.rate, i) + dim;
+        for (int a = 0; a < dim; a++)
+            rate[a] -= y[at_mass(dim)] * W2 * y[a];
+    }
+}
+
+/* What follows the slopes of one level: of its deep guards these stay for the step. */
+static void slopes_done(struct sph *s)
+{
+    finish_slopes(s);
+    if (s->guards)
+        guards_hold_edge(s);
+    s->list->treated = s->list->nshallow;
+}
+
+void level_gradients(struct sph *s, bool shared)
+{
+    start(s, shared ? "gradients" : "output");
+    domain_halo_start(s, false);
+    domain_halo_finish(s, false);
+    if (s->walls && s->walls->model->lines)
+        s->walls->model->lines(s);
+    (s->mixed ? mixed_gradients : scheme_gradients(s->dim, s->prm.transport))(s);
+    stop(s, shared ? "gradients" : "output");
+    slopes_done(s);
+    s->sloped = shared;
+}
+
+void level_begin_rates(struct sph *s)
+{
+    if (s->walls)
+        walls_move(s, s->t);
+    if (s->zones) {
+        start(s, "zones");
+        zones_stage(s);
+        stop(s, "zones");
+    }
+    start(s, "update");
+    if (!s->sloped)
+        particles_lines(s);
+    s->background = scheme_background(s);
+    stop(s, "update");
+}
+
+void level_rates(struct sph *s)
+{
+    const struct wall_model *w = s->walls ? s->walls->model : NULL;
+    if (s->scheme->gradients && !s->sloped) {
+        pass(s, s->scheme->gradients, "gradients", false, w ? w->lines : NULL);
+        slopes_done(s);
+    }
+    if (s->zones) {
+        start(s, "zones");
+        zones_slopes(s);
+        stop(s, "zones");
+    }
+    s->sloped = false;
+    if (s->scheme->slopes || !s->scheme->gradients) {
+        pass(s, s->scheme->rates, "rates", s->scheme->slopes, w ? w->ghost_slopes : NULL);
+    } else {
+        start(s, "rates");
+        s->scheme->rates(s);
+        stop(s, "rates");
+    }
+    if (w) {
+        sph_watch_before_walls(s);
+        at_walls(s, w->rates);
+        sph_watch_after_walls(s);
+    }
+    if (s->central > 0.0)
+        add_central(s);
+    if (s->guards)
+        guards_rates(s);
+}
+
+/* y = y0 + a rate. */
+static void advance(struct sph *s, double a)
+{
+    const size_t n = (size_t)s->p.n * s->p.nstate;
+    double *restrict y = s->p.y;
+    const double *restrict y0 = s->p.y0, *restrict rate = s->p.rate;
+    for (size_t i = 0; i < n; i++)
+        y[i] = y0[i] + a * rate[i];
+}
+
+/* sum (+)= b rate; sum is there if a stage before the last counts. */
+static void add_rates(struct sph *s, double b, bool first)
+{
+    const size_t n = (size_t)s->p.n * s->p.nstate;
+    double *restrict sum = particles_sum(&s->p);
+    const double *restrict rate = s->p.rate;
+    for (size_t i = 0; i < n; i++)
+        sum[i] = (first ? 0.0 : sum[i]) + b * rate[i];
+}
+
+void level_update(struct sph *s, int k, double dt)
+{
+    const struct stages *c = s->stages;
+    const bool summed = c->weight[0] != 0.0, last = k == c->n - 1;
+    start(s, "update");
+    if (summed)
+        add_rates(s, c->weight[k], k == 0);
+    if (!last) {
+        advance(s, c->ahead[k] * dt);
+    } else if (!summed) {
+        advance(s, c->weight[k] * dt);
+    } else {
+        const size_t n = (size_t)s->p.n * s->p.nstate;
+        for (size_t i = 0; i < n; i++)
+            s->p.y[i] = s->p.y0[i] + dt * s->p.sum[i];
+    }
+    stop(s, "update");
+}
+
+/* Particles beyond a side where nothing holds them; their number. */
+static int remove_lost(struct sph *s)
+{
+    const int before = s->p.n;
+    int n = 0;
+    for (int i = 0; i < before; i++) {
+        const double *y = state_row(&s->p, s->p.y, i);
+        bool inside = true;
+        for (int a = 0; a < s->dim; a++)
+            inside = inside && (s->periodic[a] || !(y[a] < s->lo[a] || y[a] > s->hi[a]));
+        if (inside)
+            particles_copy(&s->p, n++, i);
+        else
+            sph_watch_removed(s, i);
+    }
+    s->p.n = n;
+    return before - n;
+}
+
+/* Particles that walls have let through are put back; removed are those too far behind. */
+static int remove_behind(struct sph *s)
+{
+    int gone = 0;
+    if (!s->walls)
+        return 0;
+    at_walls(s, walls_put_back_inside);
+    if (!s->walls->model->behind)
+        return 0;
+    start(s, "walls");
+    int *who = NEW(int, s->p.n);
+    for (int k = s->walls->model->behind(s, who) - 1; k >= 0; k--)
+        if (!walls_put_back(s, who[k])) {
+            sph_watch_removed(s, who[k]);
+            particles_copy(&s->p, who[k], --s->p.n);
+            gone++;
+        }
+    mem_free(who);
+    stop(s, "walls");
+    return gone;
+}
+
+int level_clean(struct sph *s) { return remove_behind(s) + remove_lost(s); }
+
+double level_dt(const struct sph *s, const char **by)
+{
+    double dt = INFINITY;
+    struct sph_params prm = s->prm;
+    if (s->mixed) /* the smallest R asks for it */
+        prm.dx = mixed_least(s) / prm.R_dx;
+    *by = "speed";
+    if (s->signal > 0.0)
+        dt = sph_params_dt(&prm, s->nu, s->signal, by);
+    if (2.2 * dt * s->stray > s->skin_most) {
+        dt = s->skin_most / (2.2 * s->stray);
+        *by = "speed";
+    }
+    return dt;
+}

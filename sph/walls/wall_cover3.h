@@ -1,0 +1,24 @@
+/* wall_cover3.h - what of a side of the domain lies behind meshes at rest, in 3D: the floor under a
+ * slope that is drawn into a tank. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_WALL_COVER3_H
+#define SPH_WALL_COVER3_H
+
+#include "../../common/tree.h"
+
+/* A plane rectangle across an axis, normal towards +axis if high; m. */
+struct cover_side {
+    int axis;
+    bool high;
+    double at, lo[3], hi[3];
+};
+
+/* Its triangles, but for what lies behind the n meshes; two if nothing does. Where it meets a mesh
+ * it is cut by the plane of the mesh there, in squares of at most `size', m. The caller's. */
+struct trimesh wall_cover_side(const struct cover_side *is, int n, const struct tree *const *mesh,
+                               double size);
+
+/* What of m lies in the box, of which any end may be infinite; m must be connected, the result is
+ * not. The caller's. */
+struct trimesh wall_cover_clip(const struct trimesh *m, const double lo[3], const double hi[3]);
+
+#endif
