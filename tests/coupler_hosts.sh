@@ -166,8 +166,14 @@ ended "a host killed" 8000
 named sph 'fv on west' "a host killed"
 named coupler 'fv on west' "a host killed"
 
-# the cable cut
-happens ip -n $east link set e down &
+# The cable cut while the line is quiet: what is sent and not yet acknowledged would keep the link alive for
+# net.ipv4.tcp_retries2 trials of the kernel (coupler/README.md)
+cut_quietly() {
+    sleep 0.5
+    date +%s%3N >when
+    ip -n $east link set e down
+}
+happens cut_quietly &
 sleep 0.1
 job "-H $E" "-H $E" "-H $W" n=40 $slow
 wait
