@@ -76,6 +76,23 @@ void log_say(const char *fmt, ...)
         SAY(true, true, "");
 }
 
+void log_uses(const struct log_use *uses, int n)
+{
+    char line[1024] = "";
+    for (int on = 1; on >= 0; on--) {
+        const char *between = on ? "on: " : *line ? "; off: " : "off: ";
+        for (int k = 0; k < n; k++) {
+            const size_t end = strlen(line);
+            if (uses[k].on != (on == 1))
+                continue;
+            snprintf(line + end, sizeof line - end, "%s%s", between,
+                     on || !uses[k].left_out ? uses[k].used : uses[k].left_out);
+            between = ", ";
+        }
+    }
+    log_say("%s", line);
+}
+
 void log_quiet(const char *fmt, ...)
 {
     if (rank_now() == 0)

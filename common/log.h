@@ -5,6 +5,7 @@
 #define COMMON_LOG_H
 
 #include <mpi.h>
+#include <stdbool.h>
 
 /* From here on rank 0 of comm speaks, as `program' ("sph"). Before: world rank 0. */
 void log_open(MPI_Comm comm, const char *program);
@@ -13,6 +14,12 @@ void log_file(const char *path);
 /* One or more whole lines; a newline is added if there is none. Quiet: the file only. */
 void log_say(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 void log_quiet(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
+/* What a run uses and leaves out, a line: "on: A, B; off: C"; left_out NULL: the same words. */
+struct log_use {
+    bool on;
+    const char *used, *left_out;
+};
+void log_uses(const struct log_use *uses, int n);
 /* "warning: ..." */
 void log_warn(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 /* From any rank, with "program rank N: " before it (terminal, and the file on rank 0). */

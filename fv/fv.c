@@ -67,15 +67,15 @@ static void describe(const struct run *r)
     const struct step_limit step_most = limits_estimate(r, h);
     const double dt = fmin(step_most.dt, r->scene.time.end);
     const int fields = 4 + 6 * d->dim + (viscous ? 2 * d->dim : 0) + 4;
-    const struct report_use uses[] = {
-        {"implicit viscosity", viscous}, {"free surface (level set)", water},
-        {"walls and openings", walls},   {"blocked boxes", blocked_count() > 0},
-        {"given cells", hole},           {"coupling", r->coupled}};
+    const struct log_use uses[] = {
+        {viscous, "implicit viscosity", NULL}, {water, "free surface (level set)", NULL},
+        {walls, "walls and openings", NULL},   {blocked_count() > 0, "blocked boxes", NULL},
+        {hole, "given cells", NULL},           {r->coupled, "coupling", NULL}};
     log_say("%dD, fourth-order averages, %s, %s", d->dim, report_method(r),
             closed  ? "exact velocity on sides without a wall"
             : walls ? "walls"
                     : "periodic");
-    report_uses(uses, (int)(sizeof uses / sizeof *uses));
+    log_uses(uses, (int)(sizeof uses / sizeof *uses));
     blocked_describe(r);
     if (prm->graded[1] > 0.0)
         describe_rows(r);

@@ -79,10 +79,7 @@ static void describe_modules(const struct run *r, bool gravity, bool viscous)
     static const char *const walls[] = {"normal flux walls", "walls by mirrored ghosts"};
     const struct sph_params *prm = sph_params_of(r);
     const bool has_walls = sph_params_walls(r);
-    const struct {
-        bool used;
-        const char *on, *off;
-    } modules[] = {
+    const struct log_use uses[] = {
         {viscous, prm->viscosity == VISCOSITY_MORRIS ? "viscous (Morris)" : "viscous (Monaghan)",
          "viscosity"},
         {gravity, "gravity", "gravity"},
@@ -96,14 +93,7 @@ static void describe_modules(const struct run *r, bool gravity, bool viscous)
         {r->scene.nprobes > 0, "gauges", "gauges"},
         {regions_finest(r, prm) < prm->dx, "refinement", "refinement"},
     };
-    char text[2][256] = {"", ""};
-    for (size_t k = 0; k < sizeof modules / sizeof modules[0]; k++) {
-        char *to = text[modules[k].used ? 0 : 1];
-        const size_t n = strlen(to);
-        snprintf(to + n, sizeof text[0] - n, "%s%s", n ? ", " : "",
-                 modules[k].used ? modules[k].on : modules[k].off);
-    }
-    log_say("on: %s; off: %s", *text[0] ? text[0] : "nothing more", text[1]);
+    log_uses(uses, (int)(sizeof uses / sizeof *uses));
 }
 
 /* Lines that ran the other way. */

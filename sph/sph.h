@@ -174,9 +174,10 @@ void pack_finer(struct sph *level);
 struct exact;
 /* lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
 void fill_lattice(struct sph *s);
-/* Lower end of that lattice along axis a of a region from lo to hi, m: from the lower corner; from
- * the upper one where only that has a wall of the domain. The last cell may reach out of a domain
- * that dx does not divide. */
+/* Cells of that lattice along an axis of a region from lo to hi, m, and its lower end along axis a:
+ * from the lower corner; from the upper one where only that has a wall of the domain. The last
+ * cell may reach out of a domain that dx does not divide. */
+double fill_lattice_cells(double lo, double hi, double dx);
 double fill_lattice_begin(const struct scene *c, int a, double lo, double hi, double dx);
 /* The first particles of the finer levels: born of the coarser ones, with the exact field. */
 void fill_finer(struct sph *s);

@@ -26,22 +26,6 @@ const char *report_method(const struct run *r)
     return prm->steady ? "newton, to a steady state" : integrators[prm->integrator];
 }
 
-void report_uses(const struct report_use *uses, int n)
-{
-    char line[512] = "";
-    for (int on = 1; on >= 0; on--) {
-        const char *between = on ? "on: " : *line ? "; off: " : "off: ";
-        for (int k = 0; k < n; k++) {
-            const size_t end = strlen(line);
-            if (uses[k].on != (on == 1))
-                continue;
-            snprintf(line + end, sizeof line - end, "%s%s", between, uses[k].what);
-            between = ", ";
-        }
-    }
-    log_say("%s", line);
-}
-
 static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity"};
 
 static double relative(const struct norm *n) { return n->r2 > 0.0 ? norm_relative_l2(n) : NAN; }

@@ -478,16 +478,16 @@ static void describe_scene(const struct run *r, const struct mesh *m)
         if (any)
             snprintf(sides + n, sizeof sides - n, "%s%s", n ? ", " : "", kinds[kind]);
     }
-    const struct report_use uses[] = {{"implicit viscosity", r->scene.fluid.nu > 0.0},
-                                      {"free surface (level set)", surface_wanted(r)},
-                                      {"walls", mesh_bc_has_walls(m)},
-                                      {"interpolation where blocks overlap", m->has_fringe},
-                                      {"gravity", g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0},
-                                      {"moving blocks", moves},
-                                      {"given cells", m->has_given},
-                                      {"coupling", r->coupled}};
+    const struct log_use uses[] = {{r->scene.fluid.nu > 0.0, "implicit viscosity", NULL},
+                                   {surface_wanted(r), "free surface (level set)", NULL},
+                                   {mesh_bc_has_walls(m), "walls", NULL},
+                                   {m->has_fringe, "interpolation where blocks overlap", NULL},
+                                   {g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0, "gravity", NULL},
+                                   {moves, "moving blocks", NULL},
+                                   {m->has_given, "given cells", NULL},
+                                   {r->coupled, "coupling", NULL}};
     log_say("%dD, fourth-order averages, %s; sides: %s", m->dim, report_method(r), sides);
-    report_uses(uses, (int)(sizeof uses / sizeof *uses));
+    log_uses(uses, (int)(sizeof uses / sizeof *uses));
     log_say("%s", fv_measures_errors(r) ? "errors against the exact solution"
                                         : "no exact solution to measure errors by");
 }

@@ -27,11 +27,4 @@ extern const struct report even_report, block_report;
 /* How the run steps: "rk3, three projections a step". */
 const char *report_method(const struct run *r);
 
-/* What a run uses and leaves out, a line: "on: A, B; off: C". */
-struct report_use {
-    const char *what;
-    bool on;
-};
-void report_uses(const struct report_use *uses, int n);
-
 #endif

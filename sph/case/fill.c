@@ -72,11 +72,16 @@ static bool has_room(const struct sph *s, const double *x)
             !in_seam(s->walls, x, s->dx));
 }
 
+double fill_lattice_cells(double lo, double hi, double dx)
+{
+    return ceil((hi - lo) / dx - 1e-6); /* rounding makes no cell */
+}
+
 double fill_lattice_begin(const struct scene *c, int a, double lo, double hi, double dx)
 {
     const struct scene_wall *low = scene_wall_of(c, SIDE_X_MIN + 2 * a);
     const struct scene_wall *high = scene_wall_of(c, SIDE_X_MIN + 2 * a + 1);
-    const double n = (hi - lo) / dx, whole = ceil(n - 1e-6);
+    const double n = (hi - lo) / dx, whole = fill_lattice_cells(lo, hi, dx);
     return high && !low && whole - n > 1e-6 ? hi - whole * dx : lo;
 }
 
@@ -84,7 +89,7 @@ static struct lattice lattice_create(const struct sph *s)
 {
     struct lattice l = {.n = {1, 1, 1}, .dx = s->dx};
     for (int a = 0; a < s->dim; a++) {
-        l.n[a] = (int)ceil((s->hi[a] - s->lo[a]) / s->dx - 1e-6);
+        l.n[a] = (int)fill_lattice_cells(s->lo[a], s->hi[a], s->dx);
         l.origin[a] = fill_lattice_begin(&s->run->scene, a, s->lo[a], s->hi[a], s->dx);
     }
     l.bits = NEW(unsigned char, (size_t)(lattice_cells(&l) / 8 + 1));

@@ -273,7 +273,7 @@ static void check_grains(const struct run *r, const struct sph_params *used, str
         const double cells = (hi[a] - lo[a]) / used->dx;
         if (!(cells < 1e9))
             return; /* a fault of its own */
-        n[a] = (int)ceil(cells - 1e-6);
+        n[a] = (int)fill_lattice_cells(lo[a], hi[a], used->dx);
         first[a] = fill_lattice_begin(c, a, lo[a], hi[a], used->dx) + 0.5 * used->dx;
     }
     scene_check_grains(c, r->params, first, h, n, "place of a particle", f);
