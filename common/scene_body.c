@@ -51,7 +51,7 @@ static const struct param slider_rows[] = {
 static const struct param contact_rows[] = {
     PARAM(P, restitution, "-",  "0.3", 0.01, 1.0, "speed after over speed before"),
     PARAM(P, friction,    "-",  "0.3", 0, 100, "Coulomb's coefficient"),
-    PARAM(P, gap,         "dx", "1.0", 0.1, 4.0, "distance that it holds, in sph.dx: a row of particles stays between"),
+    PARAM(P, gap,         "dx", "1.5", 0.1, 4.0, "distance that it holds, in sph.dx: a row of particles stays between"),
 };
 #undef P
 
@@ -98,6 +98,11 @@ bool scene_body_moves(const struct scene_body *b)
     for (int a = 0; a < 3; a++)
         any = any || b->velocity[a] != 0.0 || b->spin[a] != 0.0;
     return any;
+}
+
+struct scene_contact scene_contact_of(const struct scene_body *b)
+{
+    return b->contact.n > 0 ? b->contact.of[0] : (struct scene_contact){0.3, 0.3, 1.5};
 }
 
 int scene_body_locked(const char *lock, int dim)

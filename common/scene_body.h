@@ -100,6 +100,8 @@ extern const struct param_list scene_motion_list; /* of a struct scene_motions *
 
 /* Whether the body ever moves. */
 bool scene_body_moves(const struct scene_body *b);
+/* As given, or as the keys' defaults are. */
+struct scene_contact scene_contact_of(const struct scene_body *b);
 /* Degrees, BIT(AXIS_..), of the words in lock; -1: a word is none. */
 int scene_body_locked(const char *lock, int dim);
 

@@ -122,8 +122,7 @@ static void check_contacts(const struct run *r, const struct sph_params *used,
     for (int k = 0; k < r->scene.nbodies; k++)
         for (int m = 0; m < n; m++) {
             const struct scene_body *b = r->scene.bodies + k;
-            const double gap =
-                (b->contact.n > 0 ? b->contact.of[0].gap : 1.0) * used->dx * (1.0 - 1e-6);
+            const double gap = scene_contact_of(b).gap * used->dx * (1.0 - 1e-6);
             double at[2] = {0.0, 0.0};
             char key[64];
             if (m == k || !b->free || (is_free(&r->scene, all + m) && m > k))
@@ -218,7 +217,7 @@ static void check_start3(const struct run *r, const struct sph_params *used, int
     const struct scene *c = &r->scene;
     const struct scene_body *b = c->bodies + k;
     const struct scene_mesh *m = scene_mesh_of(c, MESH_BODY, k);
-    const double gap = (b->contact.n > 0 ? b->contact.of[0].gap : 1.0) * used->dx * (1.0 - 1e-6);
+    const double gap = scene_contact_of(b).gap * used->dx * (1.0 - 1e-6);
     double at[3] = {0.0, 0.0, 0.0}, size = 0.0;
     char what[96];
     for (int a = 0; a < 3; a++)

@@ -119,7 +119,7 @@ void body_create(struct body *b, const struct scene_body *is, const struct trime
     *b = (struct body){.is = is, .mesh = mesh, .dim = dim, .moves = scene_body_moves(is)};
     memcpy(b->centre, is->centre, sizeof b->centre);
     body_drive_create(&b->drive, is, dim, dir);
-    b->contact = is->contact.n > 0 ? is->contact.of[0] : (struct scene_contact){0.3, 0.3, 1.0};
+    b->contact = scene_contact_of(is);
     if (is->free && body_mass_of(is, mesh, dim, &m, why, sizeof why)) {
         memcpy(b->centre, m.centre, sizeof b->centre);
         create_free(b, &m);
