@@ -143,7 +143,7 @@ sed 's/^shapes.*/shapes: ( { form = "box"; box = ((-0.4, -0.4, -0.4), (-0.25, 0.
     s/rotate = (20, 0, 0); spin = (0, 2, 0);//; s/end = 0.06/end = 0.5/; s/R_dx = 2.5/R_dx = 2.5; c0 = 30.0/; s/checkpoint = 0.03/checkpoint = 0.0/' octa.cfg >fall.cfg
 run fall fall.cfg
 up3=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i ~ /octa z /) z = i; if ($i ~ /octa w /) w = i } next }
-    $w > 0 { up = 1 } up && $z > most { most = $z } BEGIN { most = -1 } END { print (most + 0.15) / 0.3 / 0.36 }' fall/series.csv)
+    $w > 0 { up = 1 } up && $z > most { most = $z } BEGIN { most = -1 } END { print (most + 0.125) / 0.275 / 0.36 }' fall/series.csv)
 holds "$up3 > 0.88 && $up3 < 1.08" || bad "drop in 3D: rebound of $up3 times the wanted height"
 echo "bodies: block $low, $high N/m; rebound $up, in 3D $up3; momentum $defect, $defect3; $failed faults"
 [ $failed = 0 ]
