@@ -260,7 +260,7 @@ sph: { dx = 0.1; c0 = 30.0; packing = 5; };' ;;
     touch) echo "$box"'
 fluid: { rho = 1000.0; nu = 0.01; };
 initial: { U = 3.0; };
-bodies: ( { name = "b"; points = ((-0.2, -0.83), (-0.2, -0.5), (0.2, -0.5), (0.2, -0.83)); free = true; density = 600.0; velocity = (0.5, -2.0); #bodies
+bodies: ( { name = "b"; points = ((-0.2, -0.845), (-0.2, -0.5), (0.2, -0.5), (0.2, -0.845)); free = true; density = 600.0; velocity = (0.5, -2.0); #bodies
  slider = { axis = (0, 1); #slider
  };
  contact = { restitution = 0.3; #contact
