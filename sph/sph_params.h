@@ -17,6 +17,10 @@ struct scene_speed sph_params_speed(const struct run *r);
 /* Region of the particles and which of its axes are periodic. */
 void sph_params_region(const struct scene_domain *d, const struct sph_params *prm, double lo[3],
                        double hi[3], bool periodic[3]);
+/* The outer box along axis a around a free zone, m: transition and buffer on either side, and what
+ * makes it whole particles. */
+void sph_params_around(const struct run *r, const struct sph_params *prm, int a, double free[2][3],
+                       double *from, double *to);
 /* Whether a side (2a: low, 2a + 1: high) of the region lies on the domain's. */
 bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *prm, int side);
 /* Whether the case has transition and buffer zones. */

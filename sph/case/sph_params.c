@@ -79,18 +79,27 @@ static bool is_given(double box[2][3])
 
 static bool has_box(void) { return is_given(given.box) || is_given(given.free); }
 
-/* The outer box along an axis: as given, around the free zone, or the domain. A free zone that
- * reaches a side of the domain ends there. */
+void sph_params_around(const struct run *r, const struct sph_params *prm, int a, double free[2][3],
+                       double *from, double *to)
+{
+    const double corner = r->scene.domain.min[a], dx = prm->dx;
+    double transition, buffer;
+    zones_widths(r, prm, &transition, &buffer);
+    *from = corner + dx * floor((free[0][a] - transition - buffer - corner) / dx + 1e-6);
+    *to = corner + dx * ceil((free[1][a] + transition + buffer - corner) / dx - 1e-6);
+}
+
+/* The outer box along an axis: as given, around the free zone with whole particles, or the domain.
+ * A free zone that reaches a side of the domain ends there. */
 static void find_box(const struct run *r, struct sph_params *used, int a)
 {
     const struct scene_domain *d = &r->scene.domain;
     const bool around = is_given(given.free);
     const double lo = around ? given.free[0][a] : given.box[0][a];
     const double hi = around ? given.free[1][a] : given.box[1][a];
-    double transition = 0.0, buffer = 0.0;
+    double from = lo, to = hi;
     if (around)
-        zones_widths(r, used, &transition, &buffer);
-    const double from = lo - (transition + buffer), to = hi + (transition + buffer);
+        sph_params_around(r, used, a, given.free, &from, &to);
     bool plain = !has_box() || a >= d->dim;
     if (!plain && d->periodic[a] && hi - lo < d->max[a] - d->min[a] - 1e-6 * given.dx) {
         used->box[0][a] = from; /* it may go on beyond the periodic side */

@@ -308,7 +308,7 @@ static bool box_of_group(const struct run *r, const struct sph_params *prm, cons
                          double box[2][3])
 {
     struct sph_params other = *prm;
-    double given[3], transition, buffer;
+    double given[3];
     char key[72];
     snprintf(key, sizeof key, ":%.60s.box", group);
     if (params_peek_pair(r->params, r->comm, key, box))
@@ -322,11 +322,8 @@ static bool box_of_group(const struct run *r, const struct sph_params *prm, cons
     snprintf(key, sizeof key, ":%.60s.R_dx", group);
     if (params_peek(r->params, r->comm, key, given))
         other.R_dx = given[0];
-    zones_widths(r, &other, &transition, &buffer);
-    for (int a = 0; a < r->scene.domain.dim; a++) {
-        box[0][a] -= transition + buffer;
-        box[1][a] += transition + buffer;
-    }
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        sph_params_around(r, &other, a, box, &box[0][a], &box[1][a]);
     return true;
 }
 
