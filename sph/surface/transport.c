@@ -22,6 +22,47 @@ static void along_surface(const struct surface *f, int i, double *delta, int dim
         delta[a] = f->is[i] == SURFACE_ON ? 0.0 : delta[a] - across * N[a];
 }
 
+/* Speed of a particle that the surface does not see; 0 of others. */
+static double inner_speed(const struct sph *s, int i)
+{
+    const double *u = prim_line(&s->p, i) + s->dim;
+    double u2 = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        u2 += u[a] * u[a];
+    return s->surface->is[i] == SURFACE_INNER ? sqrt(u2) : 0.0;
+}
+
+/* Where densities do not know of the shift it lets the level sink, the faster the more moves. What
+ * it takes from the potential energy of all is given back by a shift against gravity of those
+ * inside, in proportion to their speeds as the shift's own bound is. */
+static void make_workless(struct sph *s)
+{
+    const int dim = s->dim;
+    const double *g = s->gravity;
+    double sums[2] = {0.0, 0.0}, g2 = 0.0;
+    for (int a = 0; a < dim; a++)
+        g2 += g[a] * g[a];
+    if (g2 == 0.0)
+        return;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *q = prim_line(&s->p, i), *u0 = slope_line(&s->p, i) + dim + dim * dim;
+        const double w = q[at_volume(dim)];
+        if (particles_is_guard(&s->p, i))
+            continue;
+        for (int a = 0; a < dim; a++)
+            sums[0] += w * g[a] * (u0[a] - q[dim + a]);
+        sums[1] += w * g2 * inner_speed(s, i);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    const double share = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        double *u0 = slope_line(&s->p, i) + dim + dim * dim;
+        const double back = share * inner_speed(s, i);
+        for (int a = 0; a < dim; a++)
+            u0[a] -= back * g[a];
+    }
+}
+
 void transport_finish(struct sph *s)
 {
     const int dim = s->dim;
@@ -50,4 +91,6 @@ void transport_finish(struct sph *s)
         for (int a = 0; a < dim; a++)
             u0[a] = u[a] + factor * delta[a];
     }
+    if (s->surface && !s->packing && s->prm.scheme != SCHEME_RIEMANN_ALE)
+        make_workless(s);
 }
