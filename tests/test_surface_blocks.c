@@ -85,6 +85,8 @@ static void still_water_stays(void **state)
 
 static const char leaning[] = "{ name = \"v\"; cells = (24, 24); max = (1.0, 1.0); angle = 20.0; "
                               "centre = (0.5, 0.5); " SLIP_I SLIP_J "}";
+static const char steep[] = "{ name = \"v\"; cells = (29, 29); max = (1.0, 1.0); angle = 74.647; "
+                            "centre = (0.5, 0.5); " SLIP_I SLIP_J "}";
 static const char sliver[] = "{ name = \"back\"; cells = (27, 21); max = (1.0, 0.7); " SLIP_I SLIP_J
                              "}, { name = \"turned\"; cells = (28, 28); min = (0.3, 0.12); max = "
                              "(0.66, 0.48); angle = 15.0; "
@@ -99,9 +101,9 @@ static const char coarse_below[] =
 static void rough_water_calms(void **state)
 {
     (void)state;
-    static const char *const blocks[4] = {turned, leaning, sliver, coarse_below};
-    static const double levels[4] = {0.363, 0.533, 0.476, 0.455};
-    for (int k = 0; k < (SANITIZED ? 1 : 4); k++) {
+    static const char *const blocks[5] = {turned, leaning, sliver, coarse_below, steep};
+    static const double levels[5] = {0.363, 0.533, 0.476, 0.455, 0.443};
+    for (int k = 0; k < (SANITIZED ? 1 : 5); k++) {
         struct mesh_case c;
         const struct scene_shape water = {.form = SHAPE_BELOW, .level = levels[k]};
         struct fv *s =

@@ -3,8 +3,10 @@
  * blocks interpolate: psi less its linear interpolation; beside the surface, where donors are dry,
  * what psi has beyond the surface's pressure P grows with the distance,
  *   psi = P + phi <(psi_k - P_k)/phi_k>, the mean over the wet donors k,
- * phi less what the surface rises within an implicit step (surface_pressure.c).
- * GMRES with a cycle of BoomerAMG; the surface's pressure makes the matrix regular.
+ * phi less what the surface rises within an implicit step (surface_pressure.c). Where all donors
+ * are wet, what cubics of the start value have beyond the linear rows stands on the right: psi is
+ * the whole pressure here, and linear donors half a cell off take (k h)^2/8 of a wave's, which
+ * damps it. GMRES with a cycle of BoomerAMG; the surface's pressure makes the matrix regular.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wet_pressure.h"
 
@@ -38,6 +40,7 @@ struct wet_pressure {
     HYPRE_BigInt *row;    /* of each row here: its number among all */
     HYPRE_BigInt *row_of; /* of each place, behind walls of the mirrored cell; -1: none */
     double *value, *residual;
+    unsigned char *whole; /* of each place: interpolated from wet donors alone */
     double *dry; /* right side of interpolated cells: what they have of the surface's pressure */
     double scale;
     HYPRE_IJMatrix ij;
@@ -182,6 +185,7 @@ void wet_pressure_create(struct fv *s)
     p->value = NEW(double, n);
     p->residual = NEW(double, n);
     p->dry = NEW(double, s->size);
+    p->whole = NEW(unsigned char, s->size);
     p->count = NEW(HYPRE_Int, n);
     for (int a = 0; a < m->dim; a++)
         p->special[a] = NEW(int, s->size);
@@ -229,6 +233,7 @@ void wet_pressure_free(struct wet_pressure **pp)
     mem_free(p->value);
     mem_free(p->residual);
     mem_free(p->dry);
+    mem_free(p->whole);
     mem_free(p->count);
     mem_free(p->col);
     mem_free(p->entry);
@@ -318,6 +323,7 @@ static void fringe_row(const struct fv *s, struct wet_pressure *p, int64_t k, st
         all = all && (f->weight[d] == 0.0 || phi[d] < 0.0);
         weights += phi[d] < near ? f->weight[d] : 0.0;
     }
+    p->whole[f->place] = all;
     p->dry[f->place] = all ? 0.0 : p->scale * p->beyond[1][f->place];
     for (int d = 0; d < each; d++) {
         const int at[3] = {f->from[0] + (d & 1), f->from[1] + (d >> 1 & 1),
@@ -472,12 +478,26 @@ static void put_rows(const struct fv *s, struct wet_pressure *p, double *psi)
         psi[p->place[k]] = p->residual[k];
 }
 
+/* In rows with wet donors: what the start value, in x and of cubics there, has beyond linear. */
+static void add_cubics(const struct fv *s, struct wet_pressure *p, double *b)
+{
+    HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, p->A, p->x.v, 0.0, p->r.v));
+    get_vector(p, &p->r, p->residual);
+    for (int k = 0; k < p->n; k++) {
+        const int64_t c = p->place[k];
+        if (s->m->status[c] == CELL_FRINGE && s->surface->layer[c] == 0 && p->whole[c])
+            b[k] = p->residual[k];
+    }
+}
+
 bool wet_pressure_solve(struct fv *s, double tau, double *div, double tol, double *psi)
 {
     struct wet_pressure *p = s->wet;
     double *b = p->value;
     HYPRE_Int its = 0;
     surface_mesh_add_pressure(s, tau, div);
+    if (s->m->has_fringe)
+        mesh_fill(s->m, 1, &psi);
     for (int k = 0; k < p->n; k++) {
         const int64_t c = p->place[k];
         const bool wet = s->surface->layer[c] == 0;
@@ -485,6 +505,8 @@ bool wet_pressure_solve(struct fv *s, double tau, double *div, double tol, doubl
         p->residual[k] = wet && s->m->status[c] != CELL_HOLE ? psi[c] : 0.0;
     }
     set_vector(p, &p->x, p->residual);
+    if (s->m->has_fringe)
+        add_cubics(s, p, b);
     set_vector(p, &p->b, b);
     const double before = residual(s, p, b), least = rounding(s, p), size = norm(s, b, p->n),
                  wanted = fmax(tol * before, least);

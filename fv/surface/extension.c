@@ -338,15 +338,17 @@ static void make_room(struct surface *f, int64_t n, int64_t ngrad)
     }
 }
 
-/* Gradient at the foot point by a quadratic without condition, from the frame to the axes. */
+/* Gradient at the foot point by a quadratic without condition, from the frame to the axes. Where
+ * index lines slant, linear: there a quadratic's makes waves of a few cells in water at rest grow.
+ */
 static void gradient_weights(const struct fv *s, const struct place *p, double *grad)
 {
     static const double origin[3] = {0.0, 0.0, 0.0};
     struct least_squares q;
-    const int dim = s->dim;
+    const int dim = s->dim, order = s->m && s->surface->mesh->leans[p->part - s->part] ? 1 : 2;
     double e[TERMS] = {0.0}, w[3][STENCIL];
     memset(grad, 0, sizeof(double) * (size_t)(dim * p->n));
-    if (fit(s, p, 2, false, origin, &q) == 0)
+    if (fit(s, p, order, false, origin, &q) == 0)
         return;
     for (int r = 0; r < dim; r++) {
         e[1 + r] = 1.0 / p->spacing;
