@@ -10,7 +10,6 @@
 #include "../boundary/forcing.h"
 #include "../coupling/water_budget.h"
 #include "../surface/levelset.h"
-#include "../watch/watches.h"
 #include "../boundary/still.h"
 #include "mesh_output.h"
 #include "output.h"
@@ -198,5 +197,4 @@ const struct report even_report = {.divergence = "divergence [m/s]",
                                    .forces = forces,
                                    .probes = fv_probe,
                                    .summarise = summarise,
-                                   .extrema = fv_summarise_extrema,
-                                   .end_watches = fv_watches_end};
+                                   .extrema = fv_summarise_extrema};

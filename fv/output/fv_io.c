@@ -16,7 +16,6 @@
 #include "../time/newton.h"
 #include "../boundary/outflow.h"
 #include "../grid/rows.h"
-#include "../watch/watches.h"
 #include "../boundary/still.h"
 #include "output.h"
 #include "../coupling/fv_link.h"

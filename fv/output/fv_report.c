@@ -158,6 +158,6 @@ void fv_finish(void *state)
     if (s->prm.extrema[0] != 0.0)
         of->extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);
-    of->end_watches(s);
+    fv_watches_end(s);
     summarise_cost(s, cells);
 }

@@ -20,7 +20,6 @@
 #include "../grid/mesh_motion.h"
 #include "../grid/overset.h"
 #include "../surface/levelset.h"
-#include "../watch/watches.h"
 #include "../boundary/still.h"
 
 static void errors(struct fv *s, struct norm n[NORMS])
@@ -439,8 +438,7 @@ const struct report block_report = {.divergence = "divergence [1/s]",
                                     .forces = forces,
                                     .probes = probes,
                                     .summarise = summarise,
-                                    .extrema = mesh_summarise_extrema,
-                                    .end_watches = mesh_watches_end};
+                                    .extrema = mesh_summarise_extrema};
 
 /* Least distance of opposite faces of a computed cell, m, about: volume over the largest face. */
 static double least_height(const struct mesh *m)

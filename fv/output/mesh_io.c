@@ -17,7 +17,6 @@
 #include "../../common/xdmf.h"
 #include "../grid/layout.h"
 #include "../surface/levelset.h"
-#include "../watch/watches.h"
 #include "../boundary/still.h"
 
 /* This rank's cells of a block: [lo, hi), empty if it has none. */

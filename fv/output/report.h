@@ -20,7 +20,6 @@ struct report {
     void (*probes)(struct fv *s, double *values);
     void (*summarise)(struct fv *s); /* what this kind alone has */
     void (*extrema)(const struct fv *s);
-    void (*end_watches)(struct fv *s);
 };
 extern const struct report even_report, block_report;
 

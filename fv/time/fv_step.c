@@ -174,9 +174,7 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
     s->max_cfl = fmax(s->max_cfl, s->rate * (s->prm.steady ? s->newton->dtau : dt));
     s->u_limit = limits_follow(&s->reference, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
     s->defect = fmax(s->defect, s->defect_now);
-    if (!failed && s->m)
-        mesh_watches_look(s, d);
-    else if (!failed)
+    if (!failed)
         fv_watches_look(s, d);
     return dt;
 }

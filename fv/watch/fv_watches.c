@@ -1,4 +1,4 @@
-/* fv_watches.c - the sums behind the watches on the uniform grid.
+/* fv_watches.c - looks at the flow on any grid; the sums behind that on even cells and rows.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "watches.h"
 
@@ -108,10 +108,9 @@ static void share_row(const struct fv *s, int64_t c, int64_t n, double *restrict
     }
 }
 
-static struct flow_energy energy_of(const struct fv *s)
+static void sum_energy(const struct fv *s, double sums[6])
 {
     const struct block *b = &s->b;
-    double sums[6] = {0.0};
     BLOCK_ROWS (b, 0, c, n) {
         double row[5] = {0.0}, *wet = NULL;
         if (s->surface) {
@@ -125,9 +124,18 @@ static struct flow_energy energy_of(const struct fv *s)
     for (int k = 0; k < 2 * b->dim; k++)
         if (closed_here(b, k) && !s->surface)
             sums[5] += side_power(s, k);
-    for (int a = 0; a < b->dim; a++)
+}
+
+static struct flow_energy energy_of(struct fv *s)
+{
+    double sums[6] = {0.0};
+    if (s->m)
+        mesh_watches_energy(s, sums);
+    else
+        sum_energy(s, sums);
+    for (int a = 0; a < s->dim; a++)
         sums[5] += (s->drive[a] + (s->surface ? s->still[a] : 0.0)) * sums[a];
-    MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, s->comm);
     return (struct flow_energy){.kinetic = sums[3],
                                 .momentum = {sums[0], sums[1], sums[2]},
                                 .volume = sums[4],
@@ -183,13 +191,13 @@ static void moments(const struct fv *s, const double *q, const unsigned char *id
     }
 }
 
-static struct flow_waves waves_of(struct fv *s, double *volume)
+static void sum_waves(struct fv *s, double sums[6])
 {
     const struct block *b = &s->b;
     const unsigned char *idle = s->surface   ? s->surface->layer
                                 : s->forcing ? s->forcing->forced
                                              : NULL;
-    double sums[6] = {0.0}, of[3];
+    double of[3];
     double *const fields[1] = {s->p};
     block_halo(b, 1, fields);
     for (int q = 0; q < b->dim; q++) {
@@ -200,20 +208,20 @@ static struct flow_waves waves_of(struct fv *s, double *volume)
     }
     for (int a = 0; a < b->dim; a++)
         sums[2] += squares(s, s->p, a, idle);
-    moments(s, s->p, idle, of);
-    for (int m = 0; m < 3; m++)
-        sums[3 + m] = of[m];
-    MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, b->cart);
-    *volume = sums[3];
-    return (struct flow_waves){sums[0], sums[1], sums[2],
-                               sums[5] - sums[4] * sums[4] / fmax(sums[3], 1e-300)};
+    moments(s, s->p, idle, sums + 3);
 }
 
 static void look_at_waves(struct fv *s, int64_t step, struct diagnosis *d)
 {
-    double volume;
-    const struct flow_waves v = waves_of(s, &volume);
-    watches_waves(s->watches, &v, volume, s->t, step, d);
+    double sums[6] = {0.0};
+    if (s->m)
+        mesh_watches_waves(s, sums);
+    else
+        sum_waves(s, sums);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, s->comm);
+    const struct flow_waves v = {sums[0], sums[1], sums[2],
+                                 sums[5] - sums[4] * sums[4] / fmax(sums[3], 1e-300)};
+    watches_waves(s->watches, &v, sums[3], s->t, step, d);
 }
 
 void fv_watches_end(struct fv *s)

@@ -50,10 +50,9 @@ struct watches *mesh_watches_create(struct fv *s)
     return w;
 }
 
-static struct flow_energy energy_of(struct fv *s)
+void mesh_watches_energy(struct fv *s, double sums[6])
 {
     const struct mesh *m = s->m;
-    double sums[6] = {0.0};
     for (int q = 0; q < m->nparts; q++)
         PART_ROWS (m->part + q, none, none, c, n)
             for (int64_t i = c; i < c + n; i++) {
@@ -69,13 +68,6 @@ static struct flow_energy energy_of(struct fv *s)
             }
     if (!s->watches->periodic && !s->surface)
         sums[5] = mesh_bc_power(s);
-    for (int a = 0; a < m->dim; a++)
-        sums[5] += (s->drive[a] + (s->surface ? s->still[a] : 0.0)) * sums[a];
-    MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, m->comm);
-    return (struct flow_energy){.kinetic = sums[3],
-                                .momentum = {sums[0], sums[1], sums[2]},
-                                .volume = sums[4],
-                                .power = sums[5]};
 }
 
 /* Fourth differences over 16, of cells whose neighbours are computed on this rank, too. All cells
@@ -112,50 +104,14 @@ static void add_moments(const struct fv *s, const double *q, double sums[3])
             }
 }
 
-static struct flow_waves waves_of(const struct fv *s, double *volume)
+void mesh_watches_waves(const struct fv *s, double sums[6])
 {
-    double sums[8] = {0.0};
-    for (int a = 0; a < s->m->dim; a++) {
-        sums[6] += squares(s, s->u[a]);
-        add_moments(s, s->u[a], sums);
+    double of[3] = {0.0};
+    for (int a = 0; a < s->dim; a++) {
+        sums[0] += squares(s, s->u[a]);
+        add_moments(s, s->u[a], of);
     }
-    sums[7] = squares(s, s->p);
+    sums[1] = of[2];
+    sums[2] = squares(s, s->p);
     add_moments(s, s->p, sums + 3);
-    MPI_Allreduce(MPI_IN_PLACE, sums, 8, MPI_DOUBLE, MPI_SUM, s->m->comm);
-    *volume = sums[3];
-    return (struct flow_waves){sums[6], sums[2], sums[7],
-                               sums[5] - sums[4] * sums[4] / fmax(sums[3], 1e-300)};
-}
-
-static void look_at_waves(struct fv *s, int64_t step, struct diagnosis *d)
-{
-    double volume;
-    const struct flow_waves v = waves_of(s, &volume);
-    watches_waves(s->watches, &v, volume, s->t, step, d);
-}
-
-void mesh_watches_end(struct fv *s)
-{
-    struct diagnosis d = {0};
-    look_at_waves(s, s->run->step, &d);
-    watches_summarise(s->watches, s->run->summary);
-}
-
-void mesh_watches_look(struct fv *s, struct diagnosis *d)
-{
-    struct watches *w = s->watches;
-    const int64_t step = s->run->step + 1;
-    timer_start(&s->run->timers, "watches");
-    watches_growth(w, s->umax[0], s->t, step, d);
-    if (watches_want_energy(w, step)) {
-        const struct flow_energy e = energy_of(s);
-        watches_energy(w, &e, s->t, step, d);
-    }
-    if (watches_want_waves(w, step))
-        look_at_waves(s, step, d);
-    if (s->surface && s->surface->volume0 > 0.0)
-        watch_judge(&w->returned,
-                    fabs(s->surface->returned) / (s->surface->volume0 + s->surface->passed), s->t,
-                    step, d);
-    timer_stop(&s->run->timers, "watches");
 }
