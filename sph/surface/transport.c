@@ -34,12 +34,12 @@ static double inner_speed(const struct sph *s, int i)
 
 /* Where densities do not know of the shift it lets the level sink, the faster the more moves. What
  * it takes from the potential energy of all is given back by a shift against gravity of those
- * inside, in proportion to their speeds as the shift's own bound is. */
+ * inside, in proportion to their speeds as the shift's own bound is; guards by themselves. */
 static void make_workless(struct sph *s)
 {
     const int dim = s->dim;
     const double *g = s->gravity;
-    double sums[2] = {0.0, 0.0}, g2 = 0.0;
+    double sums[4] = {0.0}, share[2], g2 = 0.0;
     for (int a = 0; a < dim; a++)
         g2 += g[a] * g[a];
     if (g2 == 0.0)
@@ -47,17 +47,17 @@ static void make_workless(struct sph *s)
     for (int i = 0; i < s->p.n; i++) {
         const double *q = prim_line(&s->p, i), *u0 = slope_line(&s->p, i) + dim + dim * dim;
         const double w = q[at_volume(dim)];
-        if (particles_is_guard(&s->p, i))
-            continue;
+        double *sum = sums + (particles_is_guard(&s->p, i) ? 2 : 0);
         for (int a = 0; a < dim; a++)
-            sums[0] += w * g[a] * (u0[a] - q[dim + a]);
-        sums[1] += w * g2 * inner_speed(s, i);
+            sum[0] += w * g[a] * (u0[a] - q[dim + a]);
+        sum[1] += w * g2 * inner_speed(s, i);
     }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    const double share = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+    MPI_Allreduce(MPI_IN_PLACE, sums, s->guards ? 4 : 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (int k = 0; k < 2; k++)
+        share[k] = sums[2 * k + 1] > 0.0 ? sums[2 * k] / sums[2 * k + 1] : 0.0;
     for (int i = 0; i < s->p.n; i++) {
         double *u0 = slope_line(&s->p, i) + dim + dim * dim;
-        const double back = share * inner_speed(s, i);
+        const double back = share[particles_is_guard(&s->p, i)] * inner_speed(s, i);
         for (int a = 0; a < dim; a++)
             u0[a] -= back * g[a];
     }
