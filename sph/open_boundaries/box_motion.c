@@ -84,6 +84,10 @@ double box_motion_speed(const struct run *r, const struct sph_params *prm)
     double before[3], now[3], most = 0.0;
     if (!box_motion_wanted(prm))
         return 0.0;
+    if (!prm->box_follows[0]) { /* the same bits whenever the run ends */
+        box_motion_foretold(r, prm, 1.0, now);
+        return sqrt(now[0] * now[0] + now[1] * now[1] + now[2] * now[2]);
+    }
     if (!box_motion_foretold(r, prm, 0.0, before))
         return sph_params_speed(r).speed;
     for (int k = 1; k <= TIMES; k++) {
