@@ -278,9 +278,12 @@ static double window_wish(void *state)
     return windows_choose(s->run, &s->prm).T;
 }
 
-/* A new partition first: the patch is taken for each rank's part. */
+/* A new partition first: the patch is taken for each rank's part. By numbers alone: costs are known
+ * where a snapshot has made a list, and not after a restart. */
 static void window_begin(void *state, double t0, double t1)
 {
+    for (struct sph *q = state; q; q = q->finer)
+        q->ready = false;
     domain_balance(state, 0.1);
     coupling_window_begin(state, t0, t1);
 }
