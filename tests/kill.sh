@@ -7,7 +7,7 @@ tmp=${TEST_SCRATCH:-$(mktemp -d)}/kill
 mkdir -p "$tmp" && cd "$tmp" || exit 1
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
 mpi="timeout -k 1 60 mpirun --quiet --bind-to none --oversubscribe --mca mpi_yield_when_idle 1 --mca btl_vader_single_copy_mechanism none"
-bad() { echo "FAIL: $*" >>faults; }
+bad() { echo "FAIL: $*" >>"${faults:-faults}"; }
 : >faults
 cat >case.cfg <<'CASE'
 format = 1;
@@ -37,9 +37,11 @@ job() {
     echo $? >"$dir.code"
     date +%s%3N >"$dir.end"
 }
-# how a job of VICTIM, PHASE, SIGNAL ended
+# how a job of VICTIM, PHASE, SIGNAL ended; its faults go to the file NAME.faults
 judge() {
     victim=$1 phase=$2 signal=$3 name=$1-$2-$3
+    faults=$name.faults
+    : >"$faults"
     code=$(cat "$name.code")
     hit=$(sed -n 's/.*kill_at: .*, ms //p' "$name.txt" | head -n 1)
     [ -n "$hit" ] || { bad "$name: the phase was not reached, exit $code"; return; }
@@ -59,6 +61,17 @@ judge() {
             bad "$name (exit $code): $p says nothing of $victim: $(grep "^$p rank" "$name.txt")"
     done
 }
+# The launcher kills all within 1 s of the first end: whom a busy machine gives no processor time until then says nothing.
+# A fault is what happens three times out of three.
+trial() {
+    for again in 1 2 3; do
+        rm -rf "$1-$2-$3" "$1-$2-$3".*
+        job "$1-$2-$3" "$1" "$2" "$3"
+        judge "$1" "$2" "$3"
+        [ -s "$1-$2-$3.faults" ] || return
+    done
+    cat "$1-$2-$3.faults" >>faults
+}
 same_bits() { # the last snapshots of two runs hold the same values
     for p in sph fv; do
         h5diff "$1/${p}_000002.h5" "$2/${p}_000002.h5" >diff.txt 2>&1 || return 1
@@ -72,7 +85,7 @@ for phase in handshake exchange wait work checkpoint end; do
     for signal in 9 15 2; do
         for victim in sph coupler fv; do # side by side
             [ $phase-$victim = work-coupler ] && continue
-            { job $victim-$phase-$signal $victim $phase $signal; judge $victim $phase $signal; } &
+            trial $victim $phase $signal &
         done
         wait
     done

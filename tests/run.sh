@@ -117,7 +117,7 @@ ends 2 "$toy" swing -o parts1 --restart -p time.end=0.1
 has out.txt 'stands at t = .* after time.end = 0.1 s'
 "$toy" swing -o busy -p time.end=1e6 -p output.every=1e6 -p toy.dt=1e-5 >busy.txt 2>&1 &
 busy=$!
-for n in 1 2 3 4 5 6 7 8 9 10; do [ -e busy/log.txt ] || sleep 1; done
+for tenth in $(seq 300); do [ -e busy/log.txt ] || sleep 0.1; done
 ends 2 "$toy" swing -o busy --force
 has out.txt 'a run of toy is at work in busy'
 kill "$busy"
@@ -163,10 +163,7 @@ has ill/toy.xdmf toy_diverged.h5
 for s in INT TERM USR1; do
     "$toy" swing -o "stop$s" -p toy.slow=1 -p toy.dt=0.05 -p output.every=0 >out.txt 2>&1 &
     job=$!
-    for k in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
-        [ -f "stop$s/series.csv" ] && break
-        sleep 0.25
-    done
+    for tenth in $(seq 300); do [ -f "stop$s/series.csv" ] || sleep 0.1; done
     kill -$s $job
     wait $job
     code=$?
