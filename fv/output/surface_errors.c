@@ -247,7 +247,7 @@ void surface_summarise(struct fv *s)
     summarise_swing(s);
     summary_real(to, "largest_velocity", fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
     summary_real(to, "drift.volume", volume / f->volume0 - 1.0);
-    summary_real(to, "volume_returned", f->returned / f->volume0);
+    summary_real(to, "volume_returned", f->returned / surface_volume_scale(s));
     summary_int(to, "reinitialisations", f->reinits);
     summary_int(to, "steps_repeated", f->repeats);
 }

@@ -365,6 +365,15 @@ double surface_volume(const struct fv *s, double *area)
     return sums[0];
 }
 
+double surface_volume_scale(const struct fv *s)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    double least = 0.01;
+    for (int a = 0; a < d->dim; a++)
+        least *= d->max[a] - d->min[a];
+    return fmax(s->surface->volume0 + s->surface->passed, least);
+}
+
 /* Newton's iteration; once is enough for what a smooth step loses. */
 void surface_keep_volume(struct fv *s)
 {

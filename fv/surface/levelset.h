@@ -105,6 +105,9 @@ void surface_advance_to(struct fv *s, double t, double dt);
 void surface_keep_volume(struct fv *s);
 /* m^dim of water, a partner's part apart; *area: its change with phi, < 0. Over all ranks. */
 double surface_volume(const struct fv *s, double *area);
+/* m^dim: what lost volumes are judged by: what was there and has come in, at least a hundredth of
+ * the domain, so that the first drops in an empty one are no fault. */
+double surface_volume_scale(const struct fv *s);
 /* Share of a cell below phi = 0, by the plane through its centre. */
 double surface_share(const struct fv *s, int64_t c);
 /* The same of the face below cell c along axis a. */

@@ -243,9 +243,8 @@ void fv_watches_look(struct fv *s, struct diagnosis *d)
     }
     if (watches_want_waves(w, step))
         look_at_waves(s, step, d);
-    if (s->surface && s->surface->volume0 > 0.0)
-        watch_judge(&w->returned,
-                    fabs(s->surface->returned) / (s->surface->volume0 + s->surface->passed), s->t,
-                    step, d);
+    if (s->surface)
+        watch_judge(&w->returned, fabs(s->surface->returned) / surface_volume_scale(s), s->t, step,
+                    d);
     timer_stop(&s->run->timers, "watches");
 }
