@@ -221,60 +221,6 @@ void files_tell_difference(const struct run_files *f, struct h5 *h)
     mem_free(text);
 }
 
-void files_view(const struct run *r)
-{
-    char path[1100];
-    snprintf(path, sizeof path, "%s/view.py", r->dir);
-    FILE *f = r->rank == 0 ? fopen(path, "w") : NULL;
-    if (!f)
-        return;
-    fputs("# paraview --script=view.py: all programs of the run at its last time\n"
-          "import os\n"
-          "from paraview.simple import *\n"
-          "here = os.path.dirname(os.path.abspath(__file__)) if '__file__' in globals() else "
-          "os.getcwd()\n"
-          "view = GetActiveViewOrCreate('RenderView')\n"
-          "sources, times = {}, []\n"
-          "for name in ('fv', 'sph'):\n"
-          "    path = os.path.join(here, name + '.xdmf')\n"
-          "    if os.path.exists(path):\n"
-          "        sources[name] = XDMFReader(FileNames=[path], guiName=name)\n"
-          "        times += list(sources[name].TimestepValues)\n"
-          "GetAnimationScene().UpdateAnimationUsingDataTimeSteps()\n"
-          "last = max(times) if times else 0.0\n"
-          "GetAnimationScene().AnimationTime = last\n"
-          "view.ViewTime = last\n"
-          "coloured = False\n"
-          "for name, source in sources.items():\n"
-          "    source.UpdatePipeline(last)\n"
-          "    shown = Show(source, view)\n"
-          "    points = name == 'sph'\n"
-          "    if points:\n"
-          "        shown.PointSize = 4\n"
-          "    data = source.PointData if points else source.CellData\n"
-          "    for field in ('vorticity', 'velocity', 'pressure'):\n"
-          "        if field in data.keys():\n"
-          "            ColorBy(shown, ('POINTS' if points else 'CELLS', field))\n"
-          "            shown.RescaleTransferFunctionToDataRange(coloured, False)\n"
-          "            shown.SetScalarBarVisibility(view, True)\n"
-          "            coloured = True\n"
-          "            break\n",
-          f);
-    if (r->scene.domain.dim == 3)
-        fputs("path = os.path.join(here, 'sph_walls.xdmf')\n"
-              "if os.path.exists(path):\n"
-              "    walls = XDMFReader(FileNames=[path], guiName='walls')\n"
-              "    shown = Show(walls, view)\n"
-              "    shown.Opacity = 0.3\n",
-              f);
-    if (r->scene.domain.dim == 2)
-        fputs("view.InteractionMode = '2D'\n", f);
-    fputs("ResetCamera(view)\n"
-          "Render(view)\n",
-          f);
-    fclose(f);
-}
-
 /* Ranks of a host share its memory; the hosts are taken to be alike. */
 void run_check_memory(const struct run *r, struct faults *f, const char *key, double n,
                       const char *unit, double bytes)
