@@ -148,10 +148,12 @@ static void output_errors(const char *text, const char *const *overrides, double
                         weight[3] = {5.0, 8.0, 5.0};
     struct mesh_case c;
     struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, text, overrides);
-    static const enum mesh_output what[4] = {OUTPUT_X, OUTPUT_Y, OUTPUT_PRESSURE, OUTPUT_VORTICITY};
+    static const enum output_field what[4] = {OUTPUT_VELOCITY, OUTPUT_VELOCITY, OUTPUT_PRESSURE,
+                                              OUTPUT_VORTICITY};
     const struct mesh *m = s->m;
-    double *q = mesh_field(m);
+    double *const all[3] = {mesh_field(m), mesh_field(m), mesh_field(m)};
     for (int f = 0; f < 4; f++) {
+        const double *q = all[f == 1];
         double sum[2] = {0.0, 0.0};
         for (int k = 0; k < m->nparts; k++) {
             const struct part *p = m->part + k;
@@ -166,7 +168,7 @@ static void output_errors(const char *text, const char *const *overrides, double
         }
         mesh_fill(s->m, 2, s->u);
         mesh_bc_velocity(s, BC_GIVEN, s->u);
-        mesh_output_average(s, what[f], q);
+        output_fill(s, what[f], all);
         for (int k = 0; k < m->nparts; k++) {
             const struct part *p = m->part + k;
             int i[3];
@@ -189,7 +191,8 @@ static void output_errors(const char *text, const char *const *overrides, double
         MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
         e[f] = sqrt(sum[0] / sum[1]);
     }
-    mem_free(q);
+    for (int a = 0; a < 3; a++)
+        mem_free(all[a]);
     mesh_case_end(&c, &s);
 }
 
