@@ -15,8 +15,8 @@ void mesh_summarise_extrema(const struct fv *s);
 
 /* mesh_errors.c */
 void mesh_describe(const struct run *r);
-/* Sums over this rank's cells outside of the partner's part, see fv_tell; where
- * blocks overlap those of the latest one count. */
-void mesh_sums(struct fv *s, double sum[5]);
+/* Whether a later block computes the place of a cell of `block', too. */
+bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, const double *x);
+double mesh_curl_squared(const struct fv *s, const struct part *p, int64_t c); /* 1/s^2 */
 
 #endif
