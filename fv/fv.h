@@ -124,6 +124,7 @@ struct fv {
     struct newton *newton;
     struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;
+    double datum;  /* Pa: the partner's pressure over ours, to be added in output; 0 alone */
     bool predicts; /* its steps will be taken back: nothing in them is to be judged or counted */
     double dt_now; /* s: of the step under way */
     double dt, dt_old; /* s: last step, 0 before the first; the one before it */

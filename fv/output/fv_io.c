@@ -12,7 +12,6 @@
 #include "../../common/xdmf.h"
 #include "../boundary/forcing.h"
 #include "../boundary/still.h"
-#include "../coupling/fv_link.h"
 #include "../grid/mesh.h"
 #include "../operators/mesh_ops.h"
 #include "../surface/levelset.h"
@@ -57,7 +56,7 @@ static void pressure(struct fv *s, double *const q[3])
 {
     FLOW_ROWS(s, c, n)
     for (int64_t i = c; i < c + n; i++)
-        q[0][i] = fv_pressure(s, i) + (s->m ? 0.0 : coupling_datum(s));
+        q[0][i] = fv_pressure(s, i) + s->datum;
     if (s->m && !s->surface) /* p ends at the surface: no differences there */
         mesh_to_volume(s, q[0], s->flux);
     for (const struct part *p = s->part; p < s->part + s->nparts; p++) {
@@ -227,8 +226,6 @@ static void write_frame(const struct fv *s, struct h5 *f)
     if (s->b.rows)
         h5_write_real(f, "rows", "m", s->run->rank == 0 ? s->b.cells[1] + 1 : 0, 1, s->b.rows->edge,
                       false);
-    if (s->run->coupled) /* Pa: what the pressures below have of the partner's level */
-        h5_attribute_real(f, "datum", coupling_datum(s));
 }
 
 static void view(const struct fv *s, struct xdmf *x, const char *file, int n,
@@ -255,6 +252,8 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
         h5_attribute_int(f, "blocks", s->m->nblocks);
     else
         write_frame(s, f);
+    if (s->run->coupled) /* Pa: what the pressures below have of the partner's level */
+        h5_attribute_real(f, "datum", s->datum);
     for (int k = 0; k < nblocks(s); k++)
         if (s->m || (s->dim == 2 && strcmp(file, first_snapshot) == 0))
             write_vertices(s, f, k);

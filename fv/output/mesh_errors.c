@@ -264,8 +264,7 @@ static void probes(struct fv *s, double *values)
             *values++ = NAN;
             continue;
         }
-        *values++ =
-            here[1] < 0.0 ? here[0] + still_pressure(scene, s->still, s->level, p->at) : 0.0;
+        *values++ = here[1] < 0.0 ? here[0] + fv_still_pressure(s, p->at) + s->datum : 0.0;
     }
 }
 
