@@ -307,7 +307,7 @@ void coupling_create(struct fv *s, const double (*box)[3])
                   "blocks), enlarge sph.box or lower coupling.overlap");
     if (s->b.rows)
         check_rows(s, k);
-    if (s->m && mesh_bc_pressure_given(s) && !s->forcing->closed)
+    if (s->m && mesh_bc_pressure_given(s) && s->forcing->net == NET_OTHERS)
         refuse(k,
                "blocks: the cells that sph gives lie in blocks that overlap there, so what flows "
                "through their outline cannot be balanced, and an outflow would let it swing: "
