@@ -5,7 +5,6 @@
 #include "../boundary/outflow.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
-#include "../poisson/wet_pressure.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
 #include "../fv.h"
@@ -139,8 +138,7 @@ static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
 {
     double *psi = s->psi[stage];
     mesh_divergence(s, s->U, s->flux);
-    const bool good = s->surface ? wet_pressure_solve(s, tau, s->flux, tol, psi)
-                                 : poisson_solve(s, tau, s->flux, tol, s->start[stage], psi);
+    const bool good = poisson_solve(s, tau, s->flux, tol, s->start[stage], psi);
     if (s->forcing)
         given_mirror(s, psi);
     else
@@ -335,7 +333,6 @@ const struct stages block_stages = {.tolerance = 1.0,
                                     .correct_fluxes = correct_fluxes,
                                     .fill_velocity = fill_velocity,
                                     .dry_fluxes = dry_fluxes,
-                                    .rebuild_pressure = wet_pressure_rebuild,
                                     .measure = measure_blocks,
                                     .find_worst = find_worst,
                                     .place = place};

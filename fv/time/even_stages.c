@@ -7,7 +7,7 @@
 #include "../boundary/forcing.h"
 #include "../boundary/outflow.h"
 #include "../operators/blocked_cells.h"
-#include "../poisson/pressure.h"
+#include "../poisson/poisson.h"
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
 #include "stages.h"
@@ -114,8 +114,7 @@ static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
     divergence(s, tau, s->rhs[0]);
     if (s->surface)
         surface_add_pressure(s, s->rhs[0]);
-    s->iterations += pressure_solve(s, s->psi[stage], s->rhs[0], tol, 50);
-    return true; /* the watches see what is left */
+    return poisson_solve(s, tau, s->rhs[0], tol, NULL, s->psi[stage]);
 }
 
 static void subtract_row(double *restrict U, const double *restrict psi, int64_t d, double w,
@@ -157,12 +156,6 @@ static void dry_fluxes(struct fv *s)
     if (s->blocked)
         blocked_face_velocities(s, s->u, s->U, true);
     bc_fluxes(s, BC_GIVEN, s->U);
-}
-
-static void rebuild_pressure(struct fv *s)
-{
-    if (s->pressure)
-        pressure_rebuild(s);
 }
 
 /* Largest |u_a| and sum of |u_a| w_a of a row of cells (in 2D the third is one of the others). A
@@ -256,7 +249,6 @@ const struct stages even_stages = {.tolerance = 1.0,
                                    .correct_fluxes = correct_fluxes,
                                    .fill_velocity = fill_velocity,
                                    .dry_fluxes = dry_fluxes,
-                                   .rebuild_pressure = rebuild_pressure,
                                    .measure = measure_even,
                                    .find_worst = find_worst,
                                    .place = place};

@@ -35,8 +35,6 @@ struct stages {
     void (*fill_velocity)(struct fv *s);
     /* With a surface: U of faces between dry cells, from u with its ghosts. */
     void (*dry_fluxes)(struct fv *s);
-    /* The pressure's matrix for the surface where it stands. */
-    void (*rebuild_pressure)(struct fv *s);
     void (*measure)(struct fv *s);
     /* Fills d with the fastest cell, if this rank has it. */
     void (*find_worst)(const struct fv *s, double before, struct diagnosis *d);
