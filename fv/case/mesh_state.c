@@ -189,7 +189,7 @@ void mesh_state_create(struct fv *s)
     s->u_limit = 10.0 * s->reference;
     if (s->prm.integrator == INTEGRATOR_NEWTON)
         s->newton = newton_create(s);
-    s->watches = mesh_watches_create(s);
+    s->watches = fv_watches_create(s);
 }
 
 void mesh_state_free(struct fv *s)
