@@ -305,6 +305,31 @@ static void a_lid_drags_what_its_layer_holds(void **state)
     mesh_case_end(&c, &s);
 }
 
+/* A flow that has blown up is told with the cell, its block and its place. */
+static void the_worst_cell_is_named(void **state)
+{
+    struct mesh_case c;
+    struct diagnosis d = {0};
+    int i[3];
+    (void)state;
+    struct fv *s = mesh_case_start(
+        &c, MPI_COMM_WORLD,
+        "{ name = \"left\"; cells = (16, 16); max = (0.5, 1); i_min = \"periodic\"; i_max = "
+        "\"joined\"; j_min = \"periodic\"; j_max = \"periodic\"; }, { name = \"right\"; cells = "
+        "(16, 16); min = (0.5, 0); max = (1, 1); i_min = \"joined\"; i_max = \"periodic\"; "
+        "j_min = \"periodic\"; j_max = \"periodic\"; }",
+        NULL);
+    for (const struct part *p = s->part; p < s->part + s->nparts; p++)
+        PART_CELLS (p, i, at)
+            if (p->block == 1 && p->lo[0] + i[0] == 5 && p->lo[1] + i[1] == 7)
+                s->u[1][at] = 1e3;
+    integrate(s, 1e-9, &d);
+    assert_true(d.bad);
+    assert_non_null(strstr(d.reason, "cell (5, 7, 0) of block \"right\" is "));
+    assert_non_null(strstr(d.where, "(0.671875, 0.46875, 0) m"));
+    mesh_case_end(&c, &s);
+}
+
 /* Two blocks joined in the middle of a gap, each with its wall and that wall's own velocity; two
  * rings joined likewise, each wall with its spin. */
 static void walls_of_blocks_move_on_their_own(void **state)
@@ -645,6 +670,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(waves_and_joints_keep_order_three_and_a_half),
         cmocka_unit_test(a_lid_is_one_wall_alone),
         cmocka_unit_test(a_lid_drags_what_its_layer_holds),
+        cmocka_unit_test(the_worst_cell_is_named),
         cmocka_unit_test(walls_of_blocks_move_on_their_own),
         cmocka_unit_test(a_start_is_linear_in_the_cells),
         cmocka_unit_test(one_uniform_block_is_the_plain_solver),

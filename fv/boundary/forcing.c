@@ -461,6 +461,16 @@ void forcing_velocity(const struct fv *s, double t, double *const u[3])
             u[a][f->partner[i]] = partner_value(f, s->prm.forced_order == 2, a, i, t);
 }
 
+void forcing_subtract(const struct forcing *f, double *const u[3], double *const delta[3])
+{
+    for (int a = 0; a < f->dim; a++) {
+        for (int64_t i = 0; i < f->nset; i++)
+            delta[a][f->set[i]] -= u[a][f->set[i]];
+        for (int64_t i = 0; i < f->npartner; i++)
+            delta[a][f->partner[i]] -= u[a][f->partner[i]];
+    }
+}
+
 static double exact_flux(const struct fv *s, int64_t c, int a, double t)
 {
     double x[3], h[3], v[3];

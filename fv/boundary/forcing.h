@@ -87,6 +87,8 @@ void forcing_zero(const struct forcing *f, double *q);
 void forcing_shift(struct forcing *f, double t0, double t1);
 /* Sets u in the forced cells to their values at time t. */
 void forcing_velocity(const struct fv *s, double t, double *const u[3]);
+/* delta -= u in these cells. */
+void forcing_subtract(const struct forcing *f, double *const u[3], double *const delta[3]);
 /* Fluxes of the outline at time t: exact ones where the exact solution is imposed, a partner's
  * where its values reach two cells to both sides, else as they are interpolated; then corrected
  * evenly to no net flux, which a free surface takes. The free cells' own velocities hold the
