@@ -48,22 +48,20 @@ struct fv_params {
     int forced_order; /* in time, of partners' data within a window: 1 linear, 2 quadratic */
 };
 
-struct mesh;         /* blocks; grid/mesh.h */
-struct mesh_bc;      /* their sides; boundary/mesh_sides.h */
-struct poisson;      /* poisson/poisson.h */
-struct wet_pressure; /* that of blocks with a surface; poisson/wet_pressure.c */
-struct overset;      /* search in blocks; grid/overset.h */
-struct stages;       /* time/stages.h */
-struct moving;       /* blocks that move; time/moving.h; NULL: none do */
-struct bc;           /* walls and openings; bc.h; NULL: none */
-struct blocked;      /* boxes cut out; boundary/blocked.h; NULL: none */
-struct forcing;      /* cells whose velocity is imposed; forcing.h; NULL: none */
-struct outflows;     /* sides that the flow leaves as it is carried; outflow.h; NULL: none */
-struct surface;      /* free surface; levelset.h; NULL: none */
-struct pressure;     /* the operator in hypre; pressure.h */
-struct newton;       /* the implicit integrator; newton.h; NULL: another one */
-struct link;         /* place in a coupled job; fv_coupling.c; NULL alone */
-struct watches;      /* figures that a sound run keeps small; watches.h */
+struct mesh;     /* blocks; grid/mesh.h */
+struct mesh_bc;  /* their sides; boundary/mesh_sides.h */
+struct poisson;  /* poisson/poisson.h */
+struct overset;  /* search in blocks; grid/overset.h */
+struct stages;   /* time/stages.h */
+struct moving;   /* blocks that move; time/moving.h; NULL: none do */
+struct bc;       /* walls and openings; bc.h; NULL: none */
+struct blocked;  /* boxes cut out; boundary/blocked.h; NULL: none */
+struct forcing;  /* cells whose velocity is imposed; forcing.h; NULL: none */
+struct outflows; /* sides that the flow leaves as it is carried; outflow.h; NULL: none */
+struct surface;  /* free surface; levelset.h; NULL: none */
+struct newton;   /* the implicit integrator; newton.h; NULL: another one */
+struct link;     /* place in a coupled job; fv_coupling.c; NULL alone */
+struct watches;  /* figures that a sound run keeps small; watches.h */
 
 struct fv {
     struct run *run;
@@ -116,14 +114,13 @@ struct fv {
     struct forcing *forcing;
     struct outflows *outflows;
     struct surface *surface;
-    struct pressure *pressure;
     struct mesh_bc *sides;
     struct poisson *poisson;
-    struct wet_pressure *wet; /* in its place on blocks with a surface */
-    struct overset *search;   /* of the gauges; NULL: none */
+    struct overset *search; /* of the gauges; NULL: none */
     struct newton *newton;
     struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;
+    double datum;  /* Pa: the partner's pressure over ours, to be added in output; 0 alone */
     bool predicts; /* its steps will be taken back: nothing in them is to be judged or counted */
     double dt_now; /* s: of the step under way */
     double dt, dt_old; /* s: last step, 0 before the first; the one before it */

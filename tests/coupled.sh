@@ -125,6 +125,7 @@ END
     bad "a block below SPH's water: ended with $?: $(tail -n 3 below.txt)"
 left=$(tail -n 1 below/fv-series.csv | cut -d, -f5)
 below "$left" 1e-4 || bad "a block below SPH's water has a divergence of $left 1/s, wanted at most 1e-4"
+head -n 1 below/fv-series.csv | grep -q growth && bad "a block below SPH's water: growth is watched in a coupled job"
 
 # a free surface above, a wall below: error, level, any number of ranks, restart
 wave() { # DIR RANKS ARGS...

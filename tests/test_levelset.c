@@ -7,7 +7,7 @@
 
 #include "../fv/boundary/bc.h"
 #include "../fv/surface/levelset.h"
-#include "../fv/poisson/pressure.h"
+#include "../fv/poisson/poisson.h"
 #include "fv_case.h"
 #include "fv_restart.h"
 #include "../fv/case/fv_case.h"
@@ -170,7 +170,7 @@ static double off_solution(int n)
             div[block_at(b, i, j, 0)] = -5.0 * cos(3.0 * x[0]) * cosh(2.0 * x[1]);
         }
     surface_add_pressure(s, div);
-    pressure_solve(s, psi, div, 1e-10, 200);
+    poisson_solve(s, 1.0, div, 1e-10, NULL, psi);
     for (int j = 0; j < b->n[1]; j++)
         for (int i = 0; i < b->n[0]; i++) {
             const int64_t at = block_at(b, i, j, 0);

@@ -148,10 +148,12 @@ static void output_errors(const char *text, const char *const *overrides, double
                         weight[3] = {5.0, 8.0, 5.0};
     struct mesh_case c;
     struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, text, overrides);
-    static const enum mesh_output what[4] = {OUTPUT_X, OUTPUT_Y, OUTPUT_PRESSURE, OUTPUT_VORTICITY};
+    static const enum output_field what[4] = {OUTPUT_VELOCITY, OUTPUT_VELOCITY, OUTPUT_PRESSURE,
+                                              OUTPUT_VORTICITY};
     const struct mesh *m = s->m;
-    double *q = mesh_field(m);
+    double *const all[3] = {mesh_field(m), mesh_field(m), mesh_field(m)};
     for (int f = 0; f < 4; f++) {
+        const double *q = all[f == 1];
         double sum[2] = {0.0, 0.0};
         for (int k = 0; k < m->nparts; k++) {
             const struct part *p = m->part + k;
@@ -166,7 +168,7 @@ static void output_errors(const char *text, const char *const *overrides, double
         }
         mesh_fill(s->m, 2, s->u);
         mesh_bc_velocity(s, BC_GIVEN, s->u);
-        mesh_output_average(s, what[f], q);
+        output_fill(s, what[f], all);
         for (int k = 0; k < m->nparts; k++) {
             const struct part *p = m->part + k;
             int i[3];
@@ -189,7 +191,8 @@ static void output_errors(const char *text, const char *const *overrides, double
         MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
         e[f] = sqrt(sum[0] / sum[1]);
     }
-    mem_free(q);
+    for (int a = 0; a < 3; a++)
+        mem_free(all[a]);
     mesh_case_end(&c, &s);
 }
 
@@ -299,6 +302,31 @@ static void a_lid_drags_what_its_layer_holds(void **state)
     print_message("lid: %.4g m/s\n", s->umax[0]);
     assert_close(s->umax[0] / (2.0 * sqrt(1e-4 / M_PI) * 16.0), 1.0, 0.25);
     assert_close(s->watches->speed, 1.0, 1e-12); /* the lid's: the scene knows no sides of blocks */
+    mesh_case_end(&c, &s);
+}
+
+/* A flow that has blown up is told with the cell, its block and its place. */
+static void the_worst_cell_is_named(void **state)
+{
+    struct mesh_case c;
+    struct diagnosis d = {0};
+    int i[3];
+    (void)state;
+    struct fv *s = mesh_case_start(
+        &c, MPI_COMM_WORLD,
+        "{ name = \"left\"; cells = (16, 16); max = (0.5, 1); i_min = \"periodic\"; i_max = "
+        "\"joined\"; j_min = \"periodic\"; j_max = \"periodic\"; }, { name = \"right\"; cells = "
+        "(16, 16); min = (0.5, 0); max = (1, 1); i_min = \"joined\"; i_max = \"periodic\"; "
+        "j_min = \"periodic\"; j_max = \"periodic\"; }",
+        NULL);
+    for (const struct part *p = s->part; p < s->part + s->nparts; p++)
+        PART_CELLS (p, i, at)
+            if (p->block == 1 && p->lo[0] + i[0] == 5 && p->lo[1] + i[1] == 7)
+                s->u[1][at] = 1e3;
+    integrate(s, 1e-9, &d);
+    assert_true(d.bad);
+    assert_non_null(strstr(d.reason, "cell (5, 7, 0) of block \"right\" is "));
+    assert_non_null(strstr(d.where, "(0.671875, 0.46875, 0) m"));
     mesh_case_end(&c, &s);
 }
 
@@ -642,6 +670,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(waves_and_joints_keep_order_three_and_a_half),
         cmocka_unit_test(a_lid_is_one_wall_alone),
         cmocka_unit_test(a_lid_drags_what_its_layer_holds),
+        cmocka_unit_test(the_worst_cell_is_named),
         cmocka_unit_test(walls_of_blocks_move_on_their_own),
         cmocka_unit_test(a_start_is_linear_in_the_cells),
         cmocka_unit_test(one_uniform_block_is_the_plain_solver),

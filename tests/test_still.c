@@ -32,6 +32,7 @@ enum { COLUMNS = 40 };
 static struct run run;
 static struct param_group groups[SCENE_GROUPS + FV_GROUPS];
 static char path[512];
+static double datum; /* Pa: of a partner */
 
 /* The row of the series after the first step, and its headings. */
 static void row_of(const char *text, double *row, const char **columns)
@@ -53,18 +54,13 @@ static void row_of(const char *text, double *row, const char **columns)
     run.params = p;
     fv_params_check(&run, &f);
     assert_int_equal(params_report(&f), 0);
-    if (mesh_block_count() > 0) {
-        struct fv *s = fv_create(&run, NULL);
-        integrate(s, 0.1, &d);
+    struct fv *s = fv_create(&run, NULL);
+    integrate(s, 0.1, &d);
+    s->datum = datum;
+    if (columns)
         fv_columns(&run, columns);
-        fv_row(s, row);
-        fv_free(&s);
-    } else {
-        struct fv *s = fv_create(&run, NULL);
-        integrate(s, 0.1, &d);
-        fv_row(s, row);
-        fv_free(&s);
-    }
+    fv_row(s, row);
+    fv_free(&s);
     assert_false(d.bad);
     params_free(&p);
 }
@@ -142,6 +138,25 @@ static void blocks_know_the_whole_pressure(void **state)
     assert_close(row[10], 1000 * 9.81 * 1.5, 1e-6);
 }
 
+/* Gauges have it on all grids; it is no force on what is closed. */
+static void a_partners_level_counts(void **state)
+{
+    (void)state;
+    static const char *const grids[2] = {CELLS, "fv: { };\nblocks: ( " BOX " );\n"};
+    datum = 250.0;
+    for (int k = 0; k < 2; k++) {
+        double row[COLUMNS] = {0};
+        char text[2048];
+        snprintf(text, sizeof text,
+                 HEAD "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\n%s", grids[k]);
+        row_of(text, row, NULL);
+        assert_close(row[3], 0.0, 1e-6);
+        assert_close(row[4], -1000 * 9.81 * 4, 1e-6);
+        assert_close(row[k ? 6 : 5], 1000 * 9.81 * 1.5 + datum, 1e-6);
+    }
+    datum = 0.0;
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -149,6 +164,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(walls_under_a_free_surface_feel_the_water_alone),
         cmocka_unit_test(levels_stand_against_gravity),
         cmocka_unit_test(blocks_know_the_whole_pressure),
+        cmocka_unit_test(a_partners_level_counts),
     };
     const char *dir = getenv("TEST_SCRATCH");
     MPI_Init(&argc, &argv);

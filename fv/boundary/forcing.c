@@ -241,10 +241,11 @@ static double face_area(const struct fv *s, int64_t c, int a)
     return sqrt(S2);
 }
 
-/* Whether the vectors of the outline's faces sum to zero, alone or with those of the sides of
+/* By whether the vectors of the outline's faces sum to zero, alone or with those of the sides of
  * blocks: it has a whole inside, or the rest of the fluid has. */
-static void find_ends(const struct fv *s, struct forcing *f)
+static enum net_flux net_of(const struct fv *s, const struct forcing *f)
 {
+    const bool open = s->m ? mesh_bc_pressure_given(s) : s->bc && s->bc->pressure_given;
     double sum[4] = {0.0}, sides[3] = {0.0};
     for (int a = 0; a < s->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
@@ -257,9 +258,13 @@ static void find_ends(const struct fv *s, struct forcing *f)
     MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, s->comm);
     if (s->m)
         mesh_bc_vectors(s, sides);
-    f->closed = hypot(hypot(sum[0], sum[1]), sum[2]) <= 1e-9 * sum[3];
-    f->closes =
-        hypot(hypot(sum[0] + sides[0], sum[1] + sides[1]), sum[2] + sides[2]) <= 1e-9 * sum[3];
+    const double small = 1e-9 * sum[3], *to = sides;
+    const bool closed = hypot(hypot(sum[0], sum[1]), sum[2]) <= small;
+    if (closed && (open || (s->m && s->m->has_fringe)))
+        return NET_OUTLINE;
+    const bool closes =
+        !s->m || hypot(hypot(sum[0] + to[0], sum[1] + to[1]), sum[2] + to[2]) <= small;
+    return closes && !open ? NET_SIDES : NET_OTHERS;
 }
 
 struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2][3], bool partner)
@@ -282,7 +287,7 @@ struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2]
         if (!s->m)
             forcing_list_fixes(s, f, a);
     }
-    find_ends(s, f);
+    f->net = net_of(s, f);
     if (s->m)
         given_rows_create(s, f);
     return f;
@@ -456,6 +461,16 @@ void forcing_velocity(const struct fv *s, double t, double *const u[3])
             u[a][f->partner[i]] = partner_value(f, s->prm.forced_order == 2, a, i, t);
 }
 
+void forcing_subtract(const struct forcing *f, double *const u[3], double *const delta[3])
+{
+    for (int a = 0; a < f->dim; a++) {
+        for (int64_t i = 0; i < f->nset; i++)
+            delta[a][f->set[i]] -= u[a][f->set[i]];
+        for (int64_t i = 0; i < f->npartner; i++)
+            delta[a][f->partner[i]] -= u[a][f->partner[i]];
+    }
+}
+
 static double exact_flux(const struct fv *s, int64_t c, int a, double t)
 {
     double x[3], h[3], v[3];
@@ -518,23 +533,20 @@ static void sum_outline(const struct fv *s, double *const U[3], double sums[2])
             }
 }
 
-/* Takes the net flux out, evenly; with that of walls and inflow if given and no side gives the
- * pressure. A partner knows of no constant density: what it has too much must not drive what lies
- * between it and an outflow. Where the outline ends at one, or in an overlap, that or all cells
- * take it; so does a surface. */
-static void balance(const struct fv *s, bool given, double *const U[3])
+/* Takes the net flux out, where the outline does and no surface lets it in; sides: theirs counts.
+ */
+static void balance(const struct fv *s, bool sides, double *const U[3])
 {
     const struct forcing *f = s->forcing;
-    const bool open = s->m ? mesh_bc_pressure_given(s) : s->bc && s->bc->pressure_given;
-    const bool alone = f->closed && (open || (s->m && s->m->has_fringe));
     double sums[2];
-    if (s->surface || !(alone || (!open && (!s->m || f->closes))))
+    if (s->surface || f->net == NET_OTHERS)
         return;
+    sides = sides && f->net == NET_SIDES;
     sum_outline(s, U, sums);
-    if (s->bc && given && !open)
+    if (s->bc && sides)
         sums[0] += s->bc->outflux;
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
-    if (s->m && given && !alone)
+    if (s->m && sides)
         sums[0] += mesh_bc_net_flux(s);
     const double excess = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
     for (int a = 0; a < f->dim; a++)

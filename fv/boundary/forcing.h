@@ -24,6 +24,14 @@ struct fix {
     double given; /* what an outflow's pressure adds to the cubic one, m/s^2 */
 };
 
+/* Who takes the net flux of the outline. A partner knows of no constant density: what it has too
+ * much must not drive what lies between it and an outflow. */
+enum net_flux {
+    NET_OUTLINE, /* its faces, evenly: it has a whole inside */
+    NET_SIDES,   /* they do, with that of walls and inflows: nothing leaves elsewhere */
+    NET_OTHERS   /* an outflow, or all cells in the solve for psi: the outline ends there */
+};
+
 struct one_sided; /* given_cells.c */
 
 struct forcing {
@@ -55,8 +63,7 @@ struct forcing {
     bool whole; /* psi is the whole pressure, not its change: into a partner's cells it goes on as p
                    does */
     bool imposed; /* some rank gives cells the exact velocity */
-    bool closed;  /* the outline has a whole inside, no part of it counts twice */
-    bool closes;  /* of blocks: so has it with their sides */
+    enum net_flux net;
     double *v[3], *v_next[3],
         *v_old[3]; /* [npartner + nrim] partner's velocities at t0, t1, and the window before */
     double inflow; /* m/s: added to the flow through the outline, into the free cells, whose surface
@@ -80,6 +87,8 @@ void forcing_zero(const struct forcing *f, double *q);
 void forcing_shift(struct forcing *f, double t0, double t1);
 /* Sets u in the forced cells to their values at time t. */
 void forcing_velocity(const struct fv *s, double t, double *const u[3]);
+/* delta -= u in these cells. */
+void forcing_subtract(const struct forcing *f, double *const u[3], double *const delta[3]);
 /* Fluxes of the outline at time t: exact ones where the exact solution is imposed, a partner's
  * where its values reach two cells to both sides, else as they are interpolated; then corrected
  * evenly to no net flux, which a free surface takes. The free cells' own velocities hold the

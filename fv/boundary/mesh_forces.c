@@ -109,7 +109,8 @@ static double wet_share(const struct fv *s, const struct side *d, const double *
     return share;
 }
 
-/* Pressure of water at rest in the middle of the wet share of a face. */
+/* What its pressure lacks, Pa: that of water at rest, a partner's level, in the middle of the wet
+ * share of a face. */
 static double still_on_face(const struct fv *s, const struct side *d, int i, int j, double xi[3])
 {
     double x[3], dx[3][3];
@@ -119,7 +120,7 @@ static double still_on_face(const struct fv *s, const struct side *d, int i, int
     at[d->t[1]] = d->p->lo[d->t[1]] + j;
     xi[d->a] = d->k % 2;
     mesh_map_point(s->m->block + d->p->block, s->m->dim, at, xi, x, dx);
-    return still_pressure(&s->run->scene, s->still, s->level, x);
+    return fv_still_pressure(s, x) + s->datum;
 }
 
 /* On a slip wall no friction. */

@@ -45,16 +45,6 @@ double fv_still_pressure(const struct fv *s, const double *x)
     return still_pressure(&s->run->scene, s->still, s->level, x);
 }
 
-void fv_add_still_pressure(const struct fv *s, double *p)
-{
-    const struct block *b = &s->b;
-    double x[3];
-    BLOCK_CELLS (b, i, j, k, c) {
-        block_centre(b, i, j, k, x);
-        p[c] += fv_still_pressure(s, x);
-    }
-}
-
 double fv_still_in_exact(const struct fv *s, const double *x)
 {
     return scene_has_wave(&s->run->scene) ? fv_still_pressure(s, x) : 0.0;

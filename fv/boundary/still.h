@@ -10,8 +10,6 @@ double fv_pressure(const struct fv *s, int64_t c);
 /* What gravity adds to it at x: the equations hold only the rest, so that water at rest stays so.
  */
 double fv_still_pressure(const struct fv *s, const double *x);
-/* Adds it to a field, in the local cells. */
-void fv_add_still_pressure(const struct fv *s, double *p);
 /* The part of it that the exact solution's pressure holds, too: all of it in a wave, else 0. */
 double fv_still_in_exact(const struct fv *s, const double *x);
 

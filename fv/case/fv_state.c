@@ -19,7 +19,7 @@
 #include "../boundary/outflow.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
-#include "../poisson/pressure.h"
+#include "../poisson/poisson.h"
 #include "../grid/rows.h"
 #include "../watch/watches.h"
 #include "fv_case.h"
@@ -206,7 +206,7 @@ static void create_grid(struct fv *s)
     bc_fluxes(s, BC_GIVEN, s->U);
     if (s->surface)
         surface_start(s);
-    s->pressure = pressure_create(s);
+    poisson_create(s);
     if (s->prm.integrator == INTEGRATOR_NEWTON)
         s->newton = newton_create(s);
     measure(s);
@@ -252,7 +252,7 @@ void fv_free(struct fv **sp)
     if (s->link)
         coupling_free(s);
     newton_free(&s->newton);
-    pressure_free(&s->pressure);
+    poisson_free(&s->poisson);
     forcing_free(&s->forcing);
     blocked_free(&s->blocked);
     if (s->surface)

@@ -5,7 +5,6 @@
 #include "../boundary/outflow.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
-#include "../poisson/wet_pressure.h"
 #include "../surface/levelset.h"
 #include "../output/mesh_output.h"
 #include "../boundary/still.h"
@@ -167,10 +166,7 @@ void mesh_state_create(struct fv *s)
         s->forcing = forcing_create(s, 0, NULL, false);
     s->moving = moving_create(s);
     s->surface = surface_create(s);
-    if (s->surface)
-        wet_pressure_create(s);
-    else
-        poisson_create(s);
+    poisson_create(s);
     if (r->scene.nprobes > 0)
         s->search = overset_search(r, s->m);
     mesh_fill(s->m, s->m->dim, s->u);
@@ -193,13 +189,11 @@ void mesh_state_create(struct fv *s)
     s->u_limit = 10.0 * s->reference;
     if (s->prm.integrator == INTEGRATOR_NEWTON)
         s->newton = newton_create(s);
-    s->watches = mesh_watches_create(s);
+    s->watches = fv_watches_create(s);
 }
 
 void mesh_state_free(struct fv *s)
 {
-    poisson_free(&s->poisson);
-    wet_pressure_free(&s->wet);
     mesh_bc_free(&s->sides);
     moving_free(&s->moving);
     mem_free(s->jump);

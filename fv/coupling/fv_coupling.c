@@ -48,9 +48,8 @@ struct link {
     struct course *course;
     double *got, *one; /* scratch: velocities, pressures of one giver */
     unsigned char *whose;
-    double *p;           /* Pa: the partner's at the end of the window, where mask is 1 */
-    unsigned char *mask; /* some giver has particles there */
-    double datum; /* Pa: the partner's pressure over ours, mean over the rim of the free cells */
+    double *p;             /* Pa: the partner's at the end of the window, where mask is 1 */
+    unsigned char *mask;   /* some giver has particles there */
     struct watch unmapped; /* share of the cells that fluxes look at which the partner left out */
     double missing;        /* now */
     double where[3];       /* m: one of them */
@@ -308,7 +307,7 @@ void coupling_create(struct fv *s, const double (*box)[3])
                   "blocks), enlarge sph.box or lower coupling.overlap");
     if (s->b.rows)
         check_rows(s, k);
-    if (s->m && mesh_bc_pressure_given(s) && !s->forcing->closed)
+    if (s->m && mesh_bc_pressure_given(s) && s->forcing->net == NET_OTHERS)
         refuse(k,
                "blocks: the cells that sph gives lie in blocks that overlap there, so what flows "
                "through their outline cannot be balanced, and an outflow would let it swing: "
@@ -341,8 +340,6 @@ void coupling_free(struct fv *s)
     s->link = NULL;
 }
 
-double coupling_datum(const struct fv *s) { return s->link ? s->link->datum : 0.0; }
-
 /* A flow of constant density knows its pressure up to a constant: the partner has it. */
 static void find_datum(struct fv *s)
 {
@@ -357,7 +354,7 @@ static void find_datum(struct fv *s)
         sum[1] += 1.0;
     }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm);
-    k->datum = sum[1] > 0.0 ? sum[0] / sum[1] : k->datum;
+    s->datum = sum[1] > 0.0 ? sum[0] / sum[1] : s->datum;
 }
 
 static void put(struct fv *s)
@@ -602,7 +599,7 @@ void coupling_save(const struct fv *s, struct h5 *f)
 {
     const struct forcing *c = s->forcing;
     course_save(s, s->link->course, f);
-    h5_attribute_real(f, "datum", s->link->datum);
+    h5_attribute_real(f, "datum", s->datum);
     if (s->partner_moves)
         save_ways(s->link, f);
     if (s->surface) {
@@ -694,8 +691,7 @@ bool coupling_load(struct fv *s, struct h5 *f)
 {
     struct forcing *c = s->forcing;
     double clock[4];
-    bool good =
-        course_load(s, s->link->course, f) && h5_read_attribute_real(f, "datum", &s->link->datum);
+    bool good = course_load(s, s->link->course, f) && h5_read_attribute_real(f, "datum", &s->datum);
     if (!c || !good)
         return good;
     good = h5_read_same(f, "forced_levels", 4, clock) && load_forced(s, f);

@@ -13,8 +13,6 @@ void coupling_refuse(const struct fv *s, const char *reason);
 /* Lists of what is given, both ways; fields of the start must be there. */
 void coupling_create(struct fv *s, const double (*box)[3]);
 void coupling_free(struct fv *s);
-/* Pa: to be added to the pressure for the partner's level; 0 alone. */
-double coupling_datum(const struct fv *s);
 /* Fills d where the partner has left out too many cells; share of them; worst one. */
 void coupling_judge(struct fv *s, struct diagnosis *d);
 double coupling_unmapped(const struct fv *s);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "../../common/mem.h"
-#include "../poisson/pressure.h"
+#include "../poisson/poisson.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
 #include "../time/stages.h"
@@ -82,7 +82,7 @@ bool moved_box(struct fv *s, const struct course *c, int n, const double (*box)[
         surface_outline_moved(s, before);
         return true;
     }
-    pressure_free(&s->pressure);
-    s->pressure = pressure_create(s);
+    poisson_free(&s->poisson);
+    poisson_create(s);
     return true;
 }

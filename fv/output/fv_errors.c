@@ -1,14 +1,20 @@
-/* fv_errors.c - what the series and the summary hold on even cells: errors against exact cell
- * averages, energies, over the free cells. SPDX-License-Identifier: BSD-3-Clause */
+/* fv_errors.c - what the series and the summary hold on all grids: errors against exact cell
+ * averages, energies, over the computed cells; what even cells alone have.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "report.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "../../common/mem.h"
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
+#include "../boundary/mesh_bc.h"
 #include "../coupling/water_budget.h"
+#include "../grid/mesh.h"
+#include "../grid/overset.h"
+#include "../operators/mesh_ops.h"
 #include "../surface/levelset.h"
 #include "../boundary/still.h"
 #include "mesh_output.h"
@@ -23,58 +29,83 @@ void fv_vorticity(const struct fv *s, double *w)
                 block_derivative(b, s->u[1] + i, 0, j_) - block_derivative(b, s->u[0] + i, 1, j_);
 }
 
-static void add_cell(const struct fv *s, int64_t c, const double *x, const double *h,
-                     const double *vorticity, struct norm *n)
+/* What a cell has: its volume, m^dim, 0 where none is computed, centre and sides. */
+struct cell {
+    double volume, x[3], h[3];
+};
+
+static struct cell cell_at(const struct fv *s, const struct part *p, const int *i, int64_t c)
 {
-    const double volume = h[0] * h[1] * h[2];
-    double u[3], p, w;
-    exact_average(&s->exact, x, h, s->t, u, &p, &w);
-    for (int a = 0; a < s->b.dim; a++)
-        norm_add(n, volume, s->u[a][c] - u[a], u[a]);
-    norm_add(n + 1, volume, fv_pressure(s, c) + fv_still_in_exact(s, x) - p, p);
-    norm_add(n + 2, volume, vorticity[c] - w, w);
+    struct cell of = {.volume = 0.0};
+    if (s->m && s->free[c] > 0.0) {
+        const struct mesh_block *b = s->m->block + p->block;
+        const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+        memcpy(of.x, b->centre[mesh_cell(b, at)], sizeof of.x);
+        of.volume = s->m->V[c];
+        of.h[0] = of.h[1] = of.h[2] = pow(of.volume, 1.0 / s->dim);
+    } else if (!s->m && !(s->forcing && s->forcing->forced[c])) {
+        block_cell(&s->b, i[0], i[1], i[2], of.x, of.h);
+        of.volume = of.h[0] * of.h[1] * of.h[2];
+    }
+    return of;
 }
 
-static void errors(struct fv *s, struct norm n[NORMS])
+/* Averages of the exact solution there. */
+static void exact_at(const struct fv *s, const struct part *p, const int *i, const struct cell *of,
+                     double u[3], double *pressure, double *w)
 {
-    const struct block *b = &s->b;
-    double *vorticity = block_field(b), x[3], h[3];
-    fv_vorticity(s, vorticity);
+    if (s->m)
+        mesh_exact_average(s, p, i, s->t, u, pressure, w);
+    else
+        exact_average(&s->exact, of->x, of->h, s->t, u, pressure, w);
+}
+
+/* Visits the computed cells: i (int[3]) has place c, `of' what it has. */
+#define COMPUTED_CELLS(s, p, i, c, of)                                                             \
+    for (const struct part *p = (s)->part; p < (s)->part + (s)->nparts; p++)                       \
+        PART_CELLS (p, i, c)                                                                       \
+            for (struct cell of = cell_at(s, p, i, c); of.volume > 0.0; of.volume = 0.0)
+
+void fv_errors(struct fv *s, struct norm n[NORMS])
+{
+    double *vorticity = NEW(double, s->size), u[3], p, w;
+    int i[3];
+    if (s->m)
+        mesh_vorticity(s, vorticity);
+    else
+        fv_vorticity(s, vorticity);
     for (int k = 0; k < NORMS; k++)
         n[k] = (struct norm){0};
-    BLOCK_CELLS (b, i, j, k, c) {
-        if (s->forcing && s->forcing->forced[c])
-            continue;
-        block_cell(b, i, j, k, x, h);
-        add_cell(s, c, x, h, vorticity, n);
+    COMPUTED_CELLS(s, part, i, c, of)
+    {
+        exact_at(s, part, i, &of, u, &p, &w);
+        for (int a = 0; a < s->dim; a++)
+            norm_add(n, of.volume, s->u[a][c] - u[a], u[a]);
+        norm_add(n + 1, of.volume, fv_pressure(s, c) + fv_still_in_exact(s, of.x) - p, p);
+        norm_add(n + 2, of.volume, vorticity[c] - w, w);
     }
     mem_free(vorticity);
-    norm_reduce(n, NORMS, b->cart);
+    norm_reduce(n, NORMS, s->comm);
 }
 
-/* Kinetic energy and the exact field's, J/kg m^dim, over the free cells. */
-static void energies(struct fv *s, double sum[2])
+void fv_energies(struct fv *s, double sum[2])
 {
-    const struct block *b = &s->b;
-    if (s->surface) {
-        sum[0] = surface_energy(s);
-        sum[1] = 0.0;
+    double u[3] = {0.0, 0.0, 0.0}, p, w;
+    int i[3];
+    sum[0] = s->surface ? surface_energy(s) : 0.0;
+    sum[1] = 0.0;
+    if (s->surface)
         return;
-    }
-    double x[3], h[3], u[3];
-    sum[0] = sum[1] = 0.0;
-    BLOCK_CELLS (b, i, j, k, c) {
-        if (s->forcing && s->forcing->forced[c])
-            continue;
-        block_cell(b, i, j, k, x, h);
-        const double volume = h[0] * h[1] * h[2];
-        exact_average(&s->exact, x, h, s->t, u, NULL, NULL);
-        for (int a = 0; a < b->dim; a++) {
-            sum[0] += 0.5 * volume * s->u[a][c] * s->u[a][c];
-            sum[1] += 0.5 * volume * u[a] * u[a];
+    COMPUTED_CELLS(s, part, i, c, of)
+    {
+        if (s->has_exact)
+            exact_at(s, part, i, &of, u, &p, &w);
+        for (int a = 0; a < s->dim; a++) {
+            sum[0] += 0.5 * of.volume * s->u[a][c] * s->u[a][c];
+            sum[1] += 0.5 * of.volume * u[a] * u[a];
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
 double fv_curl_squared(const struct fv *s, int64_t c, int j)
@@ -92,44 +123,34 @@ double fv_curl_squared(const struct fv *s, int64_t c, int j)
     return sum;
 }
 
-/* Sums over the cells outside of the partner's part: kinetic energy, enstrophy, signal, potential
- * energy, volume. */
-static void sum_even(const struct fv *s, double sum[5])
+/* Over the cells outside of the partner's part; where blocks overlap those of the latest count. */
+void fv_tell(void *state, struct summary *report)
 {
-    const struct block *b = &s->b;
-    const double rho = s->run->scene.fluid.rho;
-    const double *g = s->run->scene.fluid.gravity;
-    double x[3], h[3];
-    BLOCK_CELLS (b, i, j, k, c) {
-        block_cell(b, i, j, k, x, h);
-        if (s->forcing && s->forcing->forced[c])
+    static const char *const names[] = {"sum.kinetic", "sum.enstrophy", "sum.signal",
+                                        "sum.potential", "sum.water"};
+    struct fv *s = state;
+    struct overset *o = s->m && s->m->has_fringe ? overset_search(s->run, s->m) : NULL;
+    const double rho = s->run->scene.fluid.rho, *g = s->run->scene.fluid.gravity;
+    double sum[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
+    int i[3];
+    COMPUTED_CELLS(s, p, i, c, of)
+    {
+        const double *x = of.x;
+        if (o && mesh_counts_twice(s, o, p->block, x))
             continue;
-        const double u[3] = {s->u[0][c], s->u[1][c], b->dim == 3 ? s->u[2][c] : 0.0};
+        const double u[3] = {s->u[0][c], s->u[1][c], s->dim == 3 ? s->u[2][c] : 0.0};
         const double wet = s->surface ? surface_share(s, c) : 1.0;
-        const double part = h[0] * h[1] * h[2] * wet * water_budget_share(s, x, h);
+        const double part = of.volume * wet * water_budget_share(s, x, of.h);
         sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-        sum[1] += 0.5 * part * fv_curl_squared(s, c, j);
+        sum[1] += 0.5 * part * (s->m ? mesh_curl_squared(s, p, c) : fv_curl_squared(s, c, i[1]));
         sum[2] += rho * part * exact_signal(&s->exact, x, u);
         sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
         sum[4] += part;
     }
-}
-
-void fv_tell(void *state, struct summary *report)
-{
-    struct fv *s = state;
-    double sum[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
-    if (s->m)
-        mesh_sums(s, sum);
-    else
-        sum_even(s, sum);
+    overset_free(&o);
     MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, s->comm);
-    summary_real(report, "sum.potential", sum[3]);
-    summary_real(report, "sum.kinetic", sum[0]);
-    summary_real(report, "sum.enstrophy", sum[1]);
-    summary_real(report, "sum.signal", sum[2]);
-    if (s->surface)
-        summary_real(report, "sum.water", sum[4]);
+    for (int k = 0; k < (s->surface ? 5 : 4); k++)
+        summary_real(report, names[k], sum[k]);
 }
 
 /* Largest divergence of the fluxes, times h: what the projection left. */
@@ -189,8 +210,6 @@ static void summarise(struct fv *s)
 }
 
 const struct report even_report = {.divergence = "divergence [m/s]",
-                                   .energies = energies,
-                                   .errors = errors,
                                    .largest_divergence = largest_divergence,
                                    .cells = cells_of,
                                    .force_columns = force_columns,

@@ -7,7 +7,6 @@
 #include "../surface/levelset.h"
 #include "../boundary/still.h"
 #include "output.h"
-#include "../coupling/fv_link.h"
 
 /* Whether the cell holds no water; whether none stands at the wall, beyond the cell's centre. */
 static bool is_dry(const struct fv *s, int64_t c)
@@ -40,7 +39,7 @@ static void add_face(const struct fv *s, int k, const int *at, double area, doub
     x[a] += 0.5 * out * block_size(b, a, at[a]);
     force[a] += out * area *
                 ((25.0 * p[0] - 23.0 * p[1] + 13.0 * p[2] - 3.0 * p[3]) / 12.0 +
-                 fv_still_pressure(s, x) + coupling_datum(s));
+                 fv_still_pressure(s, x) + s->datum);
     for (int q = 0; q < b->dim; q++) {
         const double *u = s->u[q] + c;
         if (q != a)

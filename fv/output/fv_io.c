@@ -1,67 +1,218 @@
-/* fv_io.c - snapshots and restart files. SPDX-License-Identifier: BSD-3-Clause */
-#include "../fv.h"
-#include "mesh_output.h"
+/* fv_io.c - snapshots: one list of fields for all grids, averages over the volumes of cells. On
+ * blocks datasets NAME_1, NAME_2, ... of the blocks, vertices x_1, ...
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "output.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../../common/h5.h"
-#include "../../common/log.h"
 #include "../../common/mem.h"
 #include "../../common/xdmf.h"
 #include "../boundary/forcing.h"
-#include "../grid/layout.h"
-#include "../poisson/pressure.h"
-#include "../surface/levelset.h"
-#include "../time/newton.h"
-#include "../boundary/outflow.h"
-#include "../grid/rows.h"
 #include "../boundary/still.h"
-#include "output.h"
-#include "../coupling/fv_link.h"
+#include "../grid/mesh.h"
+#include "../operators/mesh_ops.h"
+#include "../surface/levelset.h"
 
-static int64_t local_cells(const struct block *b) { return (int64_t)b->n[0] * b->n[1] * b->n[2]; }
-
-static bool idle(const struct fv *s, int64_t c)
+/* Mean place of a cell, over its volume. */
+static void centroid(const struct fv *s, const struct part *p, const int *i, double *mean)
 {
-    return (s->forcing && s->forcing->forced[c]) || (s->surface && s->surface->phi[c] >= 0.0);
+    static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
+    const int cell[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+    double whole = 0.0;
+    if (!s->m) {
+        block_centre(&s->b, i[0], i[1], i[2], mean);
+        return;
+    }
+    mean[0] = mean[1] = mean[2] = 0.0;
+    for (int g = 0; g < 1 << s->dim; g++) {
+        const double xi[3] = {gauss[g & 1], gauss[g >> 1 & 1], gauss[g >> 2]};
+        double x[3], dx[3][3];
+        mesh_map_point(s->m->block + p->block, s->dim, cell, xi, x, dx);
+        const double V = mesh_determinant(dx);
+        whole += V;
+        for (int c = 0; c < 3; c++)
+            mean[c] += V * x[c];
+    }
+    for (int c = 0; c < 3; c++)
+        mean[c] /= whole;
 }
+
+/* ---- the fields: their components in all cells of this rank ---- */
+
+static void velocity(struct fv *s, double *const q[3])
+{
+    for (int a = 0; a < s->dim; a++) {
+        FLOW_ROWS(s, c, n)
+        memcpy(q[a] + c, s->u[a] + c, (size_t)n * sizeof(double));
+        if (s->m)
+            mesh_to_volume(s, q[a], s->flux);
+    }
+}
+
+static void pressure(struct fv *s, double *const q[3])
+{
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        q[0][i] = fv_pressure(s, i) + s->datum;
+    if (s->m && !s->surface) /* p ends at the surface: no differences there */
+        mesh_to_volume(s, q[0], s->flux);
+    for (const struct part *p = s->part; p < s->part + s->nparts; p++) {
+        double x[3];
+        int i[3];
+        PART_CELLS (p, i, c) {
+            centroid(s, p, i, x);
+            q[0][c] += fv_still_pressure(s, x);
+        }
+    }
+}
+
+static void vorticity(struct fv *s, double *const q[3])
+{
+    if (!s->m) {
+        fv_vorticity(s, q[0]);
+        return;
+    }
+    mesh_vorticity(s, q[0]);
+    mesh_to_volume(s, q[0], s->flux);
+}
+
+static bool has_exact_vorticity(const struct fv *s)
+{
+    return !s->m && fv_field_wanted(s->run, "vorticity_exact") &&
+           exact_at_all_times(&s->run->scene);
+}
+
+/* In forced cells, too, for a picture beside the other. */
+static void exact_vorticity(struct fv *s, double *const q[3])
+{
+    double x[3];
+    BLOCK_CELLS (&s->b, i, j, k, c) {
+        block_centre(&s->b, i, j, k, x);
+        exact_point(&s->exact, x, s->t, NULL, NULL, q[0] + c);
+        if (scene_has_wave(&s->run->scene) && x[1] > exact_surface(&s->exact, x[0]))
+            q[0][c] = NAN;
+    }
+}
+
+static bool has_level(const struct fv *s) { return s->surface; }
+
+static void level(struct fv *s, double *const q[3])
+{
+    memcpy(q[0], s->surface->phi, (size_t)s->size * sizeof(double));
+}
+
+static bool has_forced(const struct fv *s) { return s->forcing && !s->m; }
+
+static void forced(struct fv *s, double *const q[3])
+{
+    for (int64_t c = 0; c < s->size; c++)
+        q[0][c] = s->forcing->forced[c];
+}
+
+static const struct field {
+    const char *name, *unit;
+    int ncomp;
+    bool flows;                      /* cells where nothing flows hold no number */
+    bool (*has)(const struct fv *s); /* NULL: if output.fields asks for it */
+    void (*fill)(struct fv *s, double *const q[3]);
+} fields[] = {{"velocity", "m/s", 3, true, NULL, velocity},
+              {"pressure", "Pa", 1, true, NULL, pressure},
+              {"vorticity", "1/s", 1, true, NULL, vorticity},
+              {"vorticity_exact", "1/s", 1, false, has_exact_vorticity, exact_vorticity},
+              {"level_set", "m", 1, false, has_level, level},
+              {"forced", "-", 1, false, has_forced, forced}};
+enum { FIELDS = sizeof fields / sizeof fields[0] };
+
+void output_fill(struct fv *s, enum output_field what, double *const q[3])
+{
+    fields[what].fill(s, q);
+}
+
+/* ---- the file ---- */
 
 /* Forced and dry cells hold what the stencils need, not a flow: no number in a picture. */
-static void blank_idle(const struct fv *s, int ncomp, double *v)
+static bool is_blank(const struct fv *s, bool flows, int64_t c)
+{
+    if (s->m)
+        return flows ? s->free[c] == 0.0 : s->m->status[c] != CELL_COMPUTED;
+    return flows &&
+           ((s->forcing && s->forcing->forced[c]) || (s->surface && s->surface->phi[c] >= 0.0));
+}
+
+static int nblocks(const struct fv *s) { return s->m ? s->m->nblocks : 1; }
+static const int *cells_of(const struct fv *s, int k)
+{
+    return s->m ? s->m->block[k].n : s->b.cells;
+}
+
+/* This rank's cells of a block: [lo, hi), empty if it has none. */
+static const struct part *range(const struct fv *s, int k, int lo[3], int hi[3])
+{
+    const struct part *p = s->part, *const end = s->part + s->nparts;
+    while (p < end && p->block != k)
+        p++;
+    for (int a = 0; a < 3; a++) {
+        lo[a] = p < end ? p->lo[a] : 0;
+        hi[a] = p < end ? p->lo[a] + p->n[a] : 0;
+    }
+    return p < end ? p : NULL;
+}
+
+static void write(const struct fv *s, struct h5 *f, int k, const struct field *of, double *const *q)
+{
+    int lo[3], hi[3], i[3];
+    char name[64];
+    const struct part *p = range(s, k, lo, hi);
+    double *v = NEW(double, p ? (int64_t)of->ncomp * p->n[0] * p->n[1] * p->n[2] : 0), *to = v;
+    if (p)
+        PART_CELLS (p, i, c)
+            for (int a = 0; a < of->ncomp; a++)
+                *to++ = is_blank(s, of->flows, c) ? NAN : q[a][c];
+    snprintf(name, sizeof name, "%s_%d", of->name, k + 1);
+    h5_write_block(f, s->m ? name : of->name, of->unit, s->dim, cells_of(s, k), lo, hi, of->ncomp,
+                   v, true);
+    mem_free(v);
+}
+
+/* Of vertex i. */
+static void place(const struct fv *s, int k, const int *i, double *x)
 {
     const struct block *b = &s->b;
-    if (!s->forcing && !s->surface)
+    if (s->m) {
+        const struct mesh_block *of = s->m->block + k;
+        memcpy(x, of->x[mesh_vertex(of, i[0], i[1], i[2])], (size_t)s->dim * sizeof *x);
         return;
-    BLOCK_CELLS (b, i, j, k, c) {
-        for (int a = 0; idle(s, c) && a < ncomp; a++)
-            v[a] = NAN;
-        v += ncomp;
     }
+    x[0] = b->origin[0] + i[0] * b->h[0];
+    x[1] = b->rows ? b->rows->edge[i[1]] : b->origin[1] + i[1] * b->h[1];
 }
 
-static void write(const struct fv *s, struct h5 *f, const char *name, const char *unit, int ncomp,
-                  double *v)
+static void write_vertices(const struct fv *s, struct h5 *f, int k)
 {
-    const struct block *b = &s->b;
-    if (*unit != '-')
-        blank_idle(s, ncomp, v);
-    h5_write_block(f, name, unit, b->dim, b->cells, b->lo, b->hi, ncomp, v, true);
+    int lo[3], hi[3], n[3], i[3];
+    char name[32];
+    const bool any = range(s, k, lo, hi);
+    int64_t count = 1;
+    for (int a = 0; a < 3; a++) {
+        n[a] = cells_of(s, k)[a] + (a < s->dim);
+        hi[a] += any && a < s->dim && hi[a] == n[a] - 1;
+        count *= hi[a] - lo[a];
+    }
+    double *x = NEW(double, count * s->dim), *to = x;
+    for (i[2] = lo[2]; i[2] < hi[2]; i[2]++)
+        for (i[1] = lo[1]; i[1] < hi[1]; i[1]++)
+            for (i[0] = lo[0]; i[0] < hi[0]; i[0]++, to += s->dim)
+                place(s, k, i, to);
+    snprintf(name, sizeof name, "x_%d", k + 1);
+    h5_write_block(f, s->m ? name : "vertices", "m", s->dim, n, lo, hi, s->dim, x, false);
+    mem_free(x);
 }
 
-static void write_velocity(const struct fv *s, struct h5 *f, double *v)
-{
-    const int64_t n = local_cells(&s->b);
-    double *one = NEW(double, n);
-    memset(v, 0, 3 * (size_t)n * sizeof(double));
-    for (int a = 0; a < s->b.dim; a++) {
-        block_pack(&s->b, s->u[a], one);
-        for (int64_t i = 0; i < n; i++)
-            v[3 * i + a] = one[i];
-    }
-    mem_free(one);
-    write(s, f, "velocity", "m/s", 3, v);
-}
+/* Of a flat grid, in the first snapshot alone: they stay. */
+static const char first_snapshot[] = "fv_000000.h5";
 
 /* Corners of the domain, for whoever draws. */
 static void write_frame(const struct fv *s, struct h5 *f)
@@ -75,109 +226,50 @@ static void write_frame(const struct fv *s, struct h5 *f)
     if (s->b.rows)
         h5_write_real(f, "rows", "m", s->run->rank == 0 ? s->b.cells[1] + 1 : 0, 1, s->b.rows->edge,
                       false);
-    if (s->run->coupled) /* Pa: what the pressures below have of the partner's level */
-        h5_attribute_real(f, "datum", coupling_datum(s));
 }
 
-/* Of a flat grid, in the first snapshot alone: they stay. */
-static const char first_snapshot[] = "fv_000000.h5";
-
-static void write_vertices(const struct fv *s, struct h5 *f)
+static void view(const struct fv *s, struct xdmf *x, const char *file, int n,
+                 const struct xdmf_field *of)
 {
     const struct block *b = &s->b;
-    int hi[2];
-    for (int a = 0; a < 2; a++)
-        hi[a] = b->hi[a] + (b->hi[a] == b->cells[a]);
-    double *x = NEW(double, 2 * (int64_t)(hi[0] - b->lo[0]) * (hi[1] - b->lo[1])), *to = x;
-    for (int j = b->lo[1]; j < hi[1]; j++)
-        for (int i = b->lo[0]; i < hi[0]; i++) {
-            *to++ = b->origin[0] + i * b->h[0];
-            *to++ = b->rows ? b->rows->edge[j] : b->origin[1] + j * b->h[1];
-        }
-    h5_write_block(f, "vertices", "m", 2, (const int[]){b->cells[0] + 1, b->cells[1] + 1}, b->lo,
-                   hi, 2, x, false);
-    mem_free(x);
-}
-
-static void whole_pressure(const struct fv *s, double *field)
-{
-    for (int64_t c = 0; c < s->b.size; c++)
-        field[c] = fv_pressure(s, c) + coupling_datum(s);
-    fv_add_still_pressure(s, field);
-}
-
-/* Of the exact solution, in forced cells, too, for a picture beside the other. */
-static void write_exact(const struct fv *s, struct h5 *f, double *field, double *v)
-{
-    const struct block *b = &s->b;
-    double x[3];
-    BLOCK_CELLS (b, i, j, k, c) {
-        block_centre(b, i, j, k, x);
-        double *w = field + c;
-        exact_point(&s->exact, x, s->t, NULL, NULL, w);
-        if (scene_has_wave(&s->run->scene) && x[1] > exact_surface(&s->exact, x[0]))
-            *w = NAN;
-    }
-    block_pack(b, field, v);
-    h5_write_block(f, "vorticity_exact", "1/s", b->dim, b->cells, b->lo, b->hi, 1, v, true);
-}
-
-static void snapshot(struct fv *s, struct h5 *f, struct xdmf *x, const char *file)
-{
-    const struct block *b = &s->b;
-    const int64_t n = local_cells(b);
-    struct xdmf_field fields[8];
-    int nfields = 0;
-    double *v = NEW(double, 3 * n), *field = block_field(b);
-    write_frame(s, f);
-    if (b->dim == 2 && strcmp(file, first_snapshot) == 0)
-        write_vertices(s, f);
-    if (fv_field_wanted(s->run, "velocity")) {
-        write_velocity(s, f, v);
-        fields[nfields++] = (struct xdmf_field){"velocity", 3};
-    }
-    if (fv_field_wanted(s->run, "pressure")) {
-        whole_pressure(s, field);
-        block_pack(b, field, v);
-        write(s, f, "pressure", "Pa", 1, v);
-        fields[nfields++] = (struct xdmf_field){"pressure", 1};
-    }
-    if (fv_field_wanted(s->run, "vorticity")) {
-        fv_vorticity(s, field);
-        block_pack(b, field, v);
-        write(s, f, "vorticity", "1/s", 1, v);
-        fields[nfields++] = (struct xdmf_field){"vorticity", 1};
-    }
-    if (fv_field_wanted(s->run, "vorticity_exact") && exact_at_all_times(&s->run->scene)) {
-        write_exact(s, f, field, v);
-        fields[nfields++] = (struct xdmf_field){"vorticity_exact", 1};
-    }
-    if (s->surface) {
-        block_pack(b, s->surface->phi, v);
-        h5_write_block(f, "level_set", "m", b->dim, b->cells, b->lo, b->hi, 1, v, true);
-        fields[nfields++] = (struct xdmf_field){"level_set", 1};
-    }
-    if (s->forcing) {
-        for (int64_t c = 0; c < b->size; c++)
-            field[c] = s->forcing->forced[c];
-        block_pack(b, field, v);
-        write(s, f, "forced", "-", 1, v);
-        fields[nfields++] = (struct xdmf_field){"forced", 1};
-    }
-    if (x && b->dim == 2)
-        xdmf_flat(x, s->t, file, first_snapshot, b->cells, nfields, fields);
-    else if (x)
-        xdmf_block(x, s->t, file, b->cells, b->origin, b->h, b->rows ? b->rows->edge : NULL,
-                   nfields, fields);
-    mem_free(field);
-    mem_free(v);
+    int cells[MESH_BLOCKS_MAX][3];
+    for (int k = 0; k < nblocks(s); k++)
+        memcpy(cells[k], cells_of(s, k), sizeof cells[k]);
+    if (s->m)
+        xdmf_curved(x, s->t, file, s->dim, nblocks(s), (const int(*)[3])cells, n, of);
+    else if (s->dim == 2)
+        xdmf_flat(x, s->t, file, first_snapshot, b->cells, n, of);
+    else
+        xdmf_block(x, s->t, file, b->cells, b->origin, b->h, b->rows ? b->rows->edge : NULL, n, of);
 }
 
 void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
 {
     struct fv *s = state;
+    struct xdmf_field of[FIELDS];
+    int n = 0;
     if (s->m)
-        mesh_snapshot(s, f, x, file);
+        h5_attribute_int(f, "blocks", s->m->nblocks);
     else
-        snapshot(s, f, x, file);
+        write_frame(s, f);
+    if (s->run->coupled) /* Pa: what the pressures below have of the partner's level */
+        h5_attribute_real(f, "datum", s->datum);
+    for (int k = 0; k < nblocks(s); k++)
+        if (s->m || (s->dim == 2 && strcmp(file, first_snapshot) == 0))
+            write_vertices(s, f, k);
+    for (const struct field *one = fields; one < fields + FIELDS; one++) {
+        double *q[3] = {NULL, NULL, NULL};
+        if (!(one->has ? one->has(s) : fv_field_wanted(s->run, one->name)))
+            continue;
+        for (int a = 0; a < one->ncomp; a++)
+            q[a] = NEW(double, s->size);
+        one->fill(s, q);
+        for (int k = 0; k < nblocks(s); k++)
+            write(s, f, k, one, q);
+        for (int a = 0; a < one->ncomp; a++)
+            mem_free(q[a]);
+        of[n++] = (struct xdmf_field){one->name, one->ncomp};
+    }
+    if (x)
+        view(s, x, file, n, of);
 }

@@ -10,7 +10,6 @@
 #include "../surface/levelset.h"
 #include "../boundary/still.h"
 #include "output.h"
-#include "../coupling/fv_link.h"
 
 /* The same among rows of unequal height. */
 static int row_below(const struct block *b, double y, double *weight)
@@ -132,7 +131,7 @@ static double pressure_at(const struct fv *s, const double *x)
         }
         sum += f * pressure_of(s, at, i, w);
     }
-    return sum + fv_still_pressure(s, x) + coupling_datum(s);
+    return sum + fv_still_pressure(s, x) + s->datum;
 }
 
 bool fv_probe_mine(const struct run *r, int k)

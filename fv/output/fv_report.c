@@ -59,7 +59,7 @@ static void summarise_errors(struct fv *s)
     const struct run *r = s->run;
     const double U = r->scene.initial.U;
     struct norm n[NORMS];
-    report_of(s)->errors(s, n);
+    fv_errors(s, n);
     summarise_norms(r, n);
     if (U > 0.0)
         summary_real(r->summary, "error.pressure_offset",
@@ -97,14 +97,14 @@ void fv_row(void *state, double *values)
     const struct report *of = report_of(s);
     double sum[2];
     int n = 3;
-    of->energies(s, sum);
+    fv_energies(s, sum);
     values[0] = s->run->scene.fluid.rho * sum[0];
     values[1] = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
     s->fastest = fmax(s->fastest, values[1]);
     values[2] = of->largest_divergence(s);
     if (s->has_exact) {
         struct norm norms[NORMS];
-        of->errors(s, norms);
+        fv_errors(s, norms);
         values[n++] = velocity_error(s->run, norms);
     }
     n += of->forces(s, values + n);
@@ -150,7 +150,7 @@ void fv_finish(void *state)
         summary_real(r->summary, "max_speed_over_U", s->fastest / r->scene.initial.U);
     if (s->has_exact)
         summarise_errors(s);
-    of->energies(s, sum);
+    fv_energies(s, sum);
     summary_real(r->summary, "drift.energy",
                  s->has_exact && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
     summary_real(r->summary, "divergence", of->largest_divergence(s));

@@ -9,6 +9,7 @@
 #include "../fv.h"
 #include "../grid/layout.h"
 #include "../grid/mesh.h"
+#include "../poisson/poisson.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
 #include "../time/moving.h"
@@ -184,7 +185,7 @@ bool fv_restore(struct fv *s, struct h5 *f)
         return false;
     if (s->surface) {
         surface_rebuild(s);
-        s->stages->rebuild_pressure(s);
+        poisson_rebuild(s);
     }
     outflow_restore(s);
     watches_load(s->watches, f);

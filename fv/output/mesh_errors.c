@@ -1,5 +1,5 @@
-/* mesh_errors.c - rows of the series and the summary of a flow on blocks: errors against the exact
- * field over the computed cells, forces on walls, gauges. SPDX-License-Identifier: BSD-3-Clause */
+/* mesh_errors.c - rows of the series and the summary of a flow on blocks: forces on walls, gauges.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
 #include "../operators/mesh_ops.h"
 #include "../coupling/water_budget.h"
@@ -22,33 +22,7 @@
 #include "../surface/levelset.h"
 #include "../boundary/still.h"
 
-static void errors(struct fv *s, struct norm n[NORMS])
-{
-    const struct mesh *m = s->m;
-    double *w = mesh_field(m);
-    mesh_vorticity(s, w);
-    for (int k = 0; k < NORMS; k++)
-        n[k] = (struct norm){0};
-    for (int q = 0; q < m->nparts; q++) {
-        const struct part *p = m->part + q;
-        int i[3];
-        PART_CELLS (p, i, c) {
-            double u[3], pr, o;
-            if (s->free[c] == 0.0)
-                continue;
-            mesh_exact_average(s, p, i, s->t, u, &pr, &o);
-            for (int a = 0; a < m->dim; a++)
-                norm_add(n, m->V[c], s->u[a][c] - u[a], u[a]);
-            norm_add(n + 1, m->V[c], fv_pressure(s, c) - pr, pr);
-            norm_add(n + 2, m->V[c], w[c] - o, o);
-        }
-    }
-    mem_free(w);
-    norm_reduce(n, NORMS, m->comm);
-}
-
-/* Whether a later block computes the place of a cell, too. */
-static bool counts_twice(const struct fv *s, const struct overset *o, int block, const double *x)
+bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, const double *x)
 {
     int cell[3];
     double xi[3];
@@ -61,7 +35,7 @@ static bool counts_twice(const struct fv *s, const struct overset *o, int block,
     return false;
 }
 
-static double square_of_curl(const struct fv *s, const struct part *p, int64_t c)
+double mesh_curl_squared(const struct fv *s, const struct part *p, int64_t c)
 {
     const struct mesh *m = s->m;
     double g[3][3] = {{0.0}}, sum = 0.0;
@@ -79,58 +53,6 @@ static double square_of_curl(const struct fv *s, const struct part *p, int64_t c
         sum += w * w;
     }
     return sum;
-}
-
-void mesh_sums(struct fv *s, double sum[5])
-{
-    const struct mesh *m = s->m;
-    const double rho = s->run->scene.fluid.rho, *g = s->run->scene.fluid.gravity;
-    struct overset *o = m->has_fringe ? overset_search(s->run, m) : NULL;
-    for (int q = 0; q < m->nparts; q++) {
-        const struct part *p = m->part + q;
-        const struct mesh_block *b = m->block + p->block;
-        int i[3];
-        PART_CELLS (p, i, c) {
-            const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-            const double *x = b->centre[mesh_cell(b, at)], h = pow(m->V[c], 1.0 / m->dim);
-            if (s->free[c] == 0.0 || (o && counts_twice(s, o, p->block, x)))
-                continue;
-            const double part = m->V[c] * water_budget_share(s, x, (const double[]){h, h, h});
-            const double u[3] = {s->u[0][c], s->u[1][c], m->dim == 3 ? s->u[2][c] : 0.0};
-            sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-            sum[1] += 0.5 * part * square_of_curl(s, p, c);
-            sum[2] += rho * part * exact_signal(&s->exact, x, u);
-            sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
-            sum[4] += part;
-        }
-    }
-    overset_free(&o);
-}
-
-/* Kinetic energy over the computed cells and the exact field's, J/kg m^dim. */
-static void energies(struct fv *s, double sum[2])
-{
-    const struct mesh *m = s->m;
-    sum[0] = s->surface ? surface_energy(s) : 0.0;
-    sum[1] = 0.0;
-    if (s->surface)
-        return;
-    for (int q = 0; q < m->nparts; q++) {
-        const struct part *p = m->part + q;
-        int i[3];
-        PART_CELLS (p, i, c) {
-            double u[3] = {0.0, 0.0, 0.0}, pr, o;
-            if (s->free[c] == 0.0)
-                continue;
-            if (s->has_exact)
-                mesh_exact_average(s, p, i, s->t, u, &pr, &o);
-            for (int a = 0; a < m->dim; a++) {
-                sum[0] += 0.5 * m->V[c] * s->u[a][c] * s->u[a][c];
-                sum[1] += 0.5 * m->V[c] * u[a] * u[a];
-            }
-        }
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, m->comm);
 }
 
 /* Largest |div U|, 1/s. */
@@ -342,8 +264,7 @@ static void probes(struct fv *s, double *values)
             *values++ = NAN;
             continue;
         }
-        *values++ =
-            here[1] < 0.0 ? here[0] + still_pressure(scene, s->still, s->level, p->at) : 0.0;
+        *values++ = here[1] < 0.0 ? here[0] + fv_still_pressure(s, p->at) + s->datum : 0.0;
     }
 }
 
@@ -430,8 +351,6 @@ static void summarise(struct fv *s)
 static double cells_of(const struct fv *s) { return (double)s->m->computed; }
 
 const struct report block_report = {.divergence = "divergence [1/s]",
-                                    .energies = energies,
-                                    .errors = errors,
                                     .largest_divergence = largest_divergence,
                                     .cells = cells_of,
                                     .force_columns = force_columns,

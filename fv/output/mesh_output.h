@@ -1,4 +1,4 @@
-/* mesh_output.h - errors, forces, gauges, snapshots and restart files on blocks.
+/* mesh_output.h - errors, forces and gauges on blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_MESH_OUTPUT_H
 #define FV_MESH_OUTPUT_H
@@ -13,15 +13,10 @@ double mesh_value_at(const struct fv *s, const struct overset *o, const double *
 /* fv_lines.c: extrema on the centre lines of the domain into the summary. */
 void mesh_summarise_extrema(const struct fv *s);
 
-/* mesh_io.c: averages over the volumes of computed cells as snapshots have them, m/s, Pa, 1/s. */
-enum mesh_output { OUTPUT_X, OUTPUT_Y, OUTPUT_Z, OUTPUT_PRESSURE, OUTPUT_VORTICITY };
-void mesh_output_average(struct fv *s, enum mesh_output what, double *q);
-/* mesh_io.c, mesh_errors.c */
+/* mesh_errors.c */
 void mesh_describe(const struct run *r);
-void mesh_snapshot(struct fv *s, struct h5 *f, struct xdmf *x, const char *file);
-
-/* mesh_errors.c: sums over this rank's cells outside of the partner's part, see fv_tell; where
- * blocks overlap those of the latest one count. */
-void mesh_sums(struct fv *s, double sum[5]);
+/* Whether a later block computes the place of a cell of `block', too. */
+bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, const double *x);
+double mesh_curl_squared(const struct fv *s, const struct part *p, int64_t c); /* 1/s^2 */
 
 #endif

@@ -10,6 +10,9 @@
 double fv_curl_squared(const struct fv *s, int64_t c, int j);
 void fv_vorticity(const struct fv *s,
                   double *w); /* dv/dx - du/dy, all local cells (with ghosts' layout) */
+/* Averages over the volumes of cells as snapshots have them, m/s, Pa, 1/s. */
+enum output_field { OUTPUT_VELOCITY, OUTPUT_PRESSURE, OUTPUT_VORTICITY };
+void output_fill(struct fv *s, enum output_field what, double *const q[3]);
 void fv_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void fv_checkpoint(void *s, struct h5 *f);
 bool fv_restore(struct fv *s, struct h5 *f);

@@ -9,9 +9,6 @@ enum { NORMS = 3 }; /* velocity, pressure, vorticity */
 
 struct report {
     const char *divergence; /* name of its column */
-    /* Kinetic energy over the free cells, and the exact field's, J/kg m^dim. */
-    void (*energies)(struct fv *s, double sum[2]);
-    void (*errors)(struct fv *s, struct norm n[NORMS]);
     double (*largest_divergence)(struct fv *s);
     double (*cells)(const struct fv *s); /* that are computed, of all ranks */
     /* Forces on walls: number of columns and their (static) names; values, as many. */
@@ -23,6 +20,9 @@ struct report {
 };
 extern const struct report even_report, block_report;
 
+/* fv_errors.c: kinetic energy over the computed cells, and the exact field's, J/kg m^dim. */
+void fv_energies(struct fv *s, double sum[2]);
+void fv_errors(struct fv *s, struct norm n[NORMS]);
 /* How the run steps: "rk3, three projections a step". */
 const char *report_method(const struct run *r);
 

@@ -23,17 +23,11 @@
 #include "../../common/mem.h"
 #include "backend.h"
 #include "gcr.h"
-#include "hypre_call.h"
-
-enum { ROW_MAX = 96 };
+#include "ij_rows.h"
 
 struct matrix {
     HYPRE_IJMatrix ij;
     HYPRE_ParCSRMatrix A;
-};
-struct vector {
-    HYPRE_IJVector ij;
-    HYPRE_ParVector v;
 };
 
 struct mesh_pressure {
@@ -43,37 +37,16 @@ struct mesh_pressure {
     struct gcr gcr;
     bool singular;
     HYPRE_BigInt first, last, pinned;
-    int n;          /* rows of this rank */
-    int64_t *place; /* of each row */
-    double shift;   /* 1/m^2 */
-    double *zw, cw; /* A_p^-1 V; residual of its row */
-    double *volume; /* right side V of computed cells */
-    double volumes; /* m^dim: of all computed cells */
-    double fringe;  /* diagonal of the rows of the fringe */
+    const struct poisson *rows; /* borrowed */
+    int n;                      /* of them */
+    double shift;               /* 1/m^2 */
+    double *zw, cw;             /* A_p^-1 V; residual of its row */
+    double fringe;              /* diagonal of the rows of the fringe */
     /* rows of all cells as they are when computed, by first of each */
     int *row_first;
     HYPRE_BigInt *row_col;
     double *row_value;
 };
-
-/* A row under way. */
-struct row {
-    int n;
-    HYPRE_BigInt col[ROW_MAX];
-    double v[ROW_MAX];
-};
-
-static void add(struct row *r, HYPRE_BigInt col, double v)
-{
-    for (int k = 0; k < r->n; k++)
-        if (r->col[k] == col) {
-            r->v[k] += v;
-            return;
-        }
-    require(r->n < ROW_MAX);
-    r->col[r->n] = col;
-    r->v[r->n++] = v;
-}
 
 /* v times psi of a cell that may lie behind a side: mirrored there, with its sign turned behind an
  * outflow. */
@@ -95,7 +68,7 @@ static void add_cell(const struct mesh *m, struct row *r, int block, const int *
         if (!mesh_resolve(m, &block, at, move))
             return;
     }
-    add(r, (HYPRE_BigInt)mesh_row(m, block, at), v);
+    row_add(r, (HYPRE_BigInt)mesh_row(m, block, at), v);
 }
 
 /* Minus the flux of psi through the lower face along a of cell `at', times sign. */
@@ -177,29 +150,25 @@ static void set_scale(const struct fv *s, struct mesh_pressure *p)
 }
 
 /* Rows of all cells as they are when computed. */
-static void keep_rows(const struct mesh *m, struct mesh_pressure *p)
+static void keep_rows(const struct fv *s, struct mesh_pressure *p)
 {
     int64_t n = 0, room = 16 * (int64_t)p->n;
-    HYPRE_BigInt k = 0;
+    struct row r;
+    int i[3];
     p->row_first = NEW(int, p->n + 1);
     p->row_col = NEW(HYPRE_BigInt, room);
     p->row_value = NEW(double, room);
-    for (int q = 0; q < m->nparts; q++) {
-        const struct part *part = m->part + q;
-        struct row r;
-        int i[3];
-        PART_CELLS (part, i, c) {
-            computed_row(m, part, i, &r);
-            if (n + r.n > room) {
-                GROW(p->row_col, room, 2 * room);
-                GROW(p->row_value, room, 2 * room);
-                room *= 2;
-            }
-            memcpy(p->row_col + n, r.col, (size_t)r.n * sizeof *r.col);
-            memcpy(p->row_value + n, r.v, (size_t)r.n * sizeof *r.v);
-            p->place[k] = c;
-            p->row_first[++k] = (int)(n += r.n);
+    for (int k = 0; k < p->n; k++) {
+        const struct part *part = part_of_place(s, p->rows->place[k], i);
+        computed_row(s->m, part, i, &r);
+        if (n + r.n > room) {
+            GROW(p->row_col, room, 2 * room);
+            GROW(p->row_value, room, 2 * room);
+            room *= 2;
         }
+        memcpy(p->row_col + n, r.col, (size_t)r.n * sizeof *r.col);
+        memcpy(p->row_value + n, r.v, (size_t)r.n * sizeof *r.v);
+        p->row_first[k + 1] = (int)(n += r.n);
     }
 }
 
@@ -219,7 +188,7 @@ static int find_pinned(const struct mesh *m, struct mesh_pressure *p)
 {
     HYPRE_BigInt mine = (HYPRE_BigInt)1 << 30, least;
     for (int k = p->n - 1; k >= 0; k--)
-        mine = m->status[p->place[k]] == CELL_COMPUTED ? p->first + k : mine;
+        mine = m->status[p->rows->place[k]] == CELL_COMPUTED ? p->first + k : mine;
     MPI_Allreduce(&mine, &least, 1, HYPRE_MPI_BIG_INT, MPI_MIN, m->comm);
     p->pinned = p->singular ? least : -1;
     return p->singular && mine == least ? (int)(least - p->first) : -1;
@@ -254,7 +223,7 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
     const struct mesh *m = s->m;
     int64_t n = 0;
     if (!p->row_first)
-        keep_rows(m, p);
+        keep_rows(s, p);
     set_scale(s, p);
     const int64_t room = p->row_first[p->n] + (MESH_SOURCES + 1) * (int64_t)p->n + 8 * m->nfringe;
     HYPRE_BigInt *col = NEW(HYPRE_BigInt, room);
@@ -267,7 +236,7 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
     int64_t pinned_at = -1;
     const struct part *part = m->part;
     for (int k = 0; k < p->n; k++) {
-        const int64_t c = p->place[k];
+        const int64_t c = p->rows->place[k];
         while (c >= part->base + part->size)
             part++;
         if (m->status[c] == CELL_COMPUTED) {
@@ -302,27 +271,6 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
         free_rows(p);
 }
 
-static void create_vector(const struct mesh *m, struct mesh_pressure *p, struct vector *v)
-{
-    HYPRE(HYPRE_IJVectorCreate(m->comm, p->first, p->last, &v->ij));
-    HYPRE(HYPRE_IJVectorSetObjectType(v->ij, HYPRE_PARCSR));
-    HYPRE(HYPRE_IJVectorInitialize(v->ij));
-    HYPRE(HYPRE_IJVectorAssemble(v->ij));
-    HYPRE(HYPRE_IJVectorGetObject(v->ij, (void **)&v->v));
-}
-
-static void set_vector(struct mesh_pressure *p, struct vector *v, const double *values)
-{
-    if (p->n > 0)
-        HYPRE(HYPRE_IJVectorSetValues(v->ij, p->n, NULL, values)); /* NULL: all, in order */
-}
-
-static void get_vector(struct mesh_pressure *p, struct vector *v, double *values)
-{
-    if (p->n > 0)
-        HYPRE(HYPRE_IJVectorGetValues(v->ij, p->n, NULL, values));
-}
-
 static HYPRE_ParCSRMatrix matrix_of(const struct mesh_pressure *p)
 {
     return p->singular ? p->solved.A : p->whole.A;
@@ -354,19 +302,19 @@ static void make_solver(struct mesh_pressure *p)
 static void apply_rows(void *of, double *x, double *Ax)
 {
     struct mesh_pressure *p = of;
-    set_vector(p, &p->x, x);
+    vector_set(&p->x, x);
     HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, matrix_of(p), p->x.v, 0.0, p->r.v));
-    get_vector(p, &p->r, Ax);
+    vector_get(&p->r, Ax);
 }
 
 static void cycle_rows(void *of, double *r, double *z)
 {
     struct mesh_pressure *p = of;
     memset(z, 0, (size_t)p->n * sizeof(double));
-    set_vector(p, &p->b, r);
-    set_vector(p, &p->x, z);
+    vector_set(&p->b, r);
+    vector_set(&p->x, z);
     HYPRE(HYPRE_BoomerAMGSolve(p->amg, matrix_of(p), p->b.v, p->x.v));
-    get_vector(p, &p->x, z);
+    vector_get(&p->x, z);
 }
 
 static void make_safe(const struct mesh *m, struct mesh_pressure *p)
@@ -393,13 +341,13 @@ static double solve_safely(struct fv *s, struct mesh_pressure *p, double *b, dou
     if (!p->safe)
         make_safe(s->m, p);
     s->retries++;
-    set_vector(p, &p->b, b);
-    set_vector(p, &p->x, x);
+    vector_set(&p->b, b);
+    vector_set(&p->x, x);
     HYPRE(HYPRE_BiCGSTABSetTol(p->safe, tol));
     HYPRE(HYPRE_ParCSRBiCGSTABSolve(p->safe, matrix_of(p), p->b.v, p->x.v));
     HYPRE(HYPRE_BiCGSTABGetNumIterations(p->safe, &its));
     s->iterations += its;
-    get_vector(p, &p->x, x);
+    vector_get(&p->x, x);
     gcr_solve(&p->gcr, b, x, 0.0, 0, &left);
     return left;
 }
@@ -421,7 +369,7 @@ static bool solve_pinned(struct fv *s, struct mesh_pressure *p, double *b, doubl
 static double pinned_residual(struct fv *s, struct mesh_pressure *p, double b, double *x)
 {
     double v = 0.0;
-    set_vector(p, &p->x, x);
+    vector_set(&p->x, x);
     HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, p->whole.A, p->x.v, 0.0, p->r.v));
     if (p->pinned >= p->first && p->pinned <= p->last) {
         HYPRE(HYPRE_IJVectorGetValues(p->r.ij, 1, &p->pinned, &v));
@@ -443,22 +391,12 @@ static void solve_volumes(struct fv *s, struct mesh_pressure *p)
 {
     double *b = NEW(double, p->n);
     const double tol = (s->m->moves ? 1e-2 : 1e-4) * fmin(1.0, s->prm.tol_pressure);
-    memcpy(b, p->volume, (size_t)p->n * sizeof(double));
+    memcpy(b, p->rows->V, (size_t)p->n * sizeof(double));
     if (!solve_pinned(s, p, b, tol, p->zw) &&
         !(gcr_norm(&p->gcr, p->gcr.r) < 1e-6 * gcr_norm(&p->gcr, b)))
         fail("the pressure matrix of the blocks cannot be solved");
-    p->cw = pinned_residual(s, p, in_pinned_row(p, p->volume), p->zw);
+    p->cw = pinned_residual(s, p, in_pinned_row(p, p->rows->V), p->zw);
     mem_free(b);
-}
-
-static void set_volumes(const struct fv *s, struct mesh_pressure *p)
-{
-    p->volumes = 0.0;
-    for (int k = 0; k < p->n; k++) {
-        p->volume[k] = s->free[p->place[k]] * s->m->V[p->place[k]];
-        p->volumes += p->volume[k];
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &p->volumes, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
 }
 
 static void *create(struct fv *s)
@@ -467,20 +405,18 @@ static void *create(struct fv *s)
     struct mesh_pressure *p = NEW(struct mesh_pressure, 1);
     int64_t first, n;
     mesh_rows(m, m->rank, &first, &n);
-    p->n = (int)n;
+    p->rows = s->poisson;
+    p->n = p->rows->n;
     p->first = (HYPRE_BigInt)first;
     p->last = (HYPRE_BigInt)(first + n - 1);
     p->singular = !mesh_bc_pressure_given(s);
-    p->place = NEW(int64_t, n);
-    p->volume = NEW(double, n);
     p->zw = NEW(double, n);
     fill_matrices(s, p);
-    create_vector(m, p, &p->b);
-    create_vector(m, p, &p->x);
-    create_vector(m, p, &p->r);
+    vector_create(&p->b, m->comm, p->first, p->n);
+    vector_create(&p->x, m->comm, p->first, p->n);
+    vector_create(&p->r, m->comm, p->first, p->n);
     make_solver(p);
     gcr_create(&p->gcr, m->comm, p->n, p, apply_rows, cycle_rows);
-    set_volumes(s, p);
     if (p->singular)
         solve_volumes(s, p);
     return p;
@@ -515,14 +451,13 @@ static void renew(struct fv *s, void *of, bool hierarchy)
         HYPRE_BoomerAMGDestroy(p->amg);
         make_solver(p);
     }
-    set_volumes(s, p);
     if (!p->singular)
         return;
     for (int k = 0; k < p->n; k++)
-        p->zw[k] = s->zw[p->place[k]];
+        p->zw[k] = s->zw[p->rows->place[k]];
     solve_volumes(s, p);
     for (int k = 0; k < p->n; k++)
-        s->zw[p->place[k]] = p->zw[k];
+        s->zw[p->rows->place[k]] = p->zw[k];
 }
 
 static void free_matrices(void **of)
@@ -538,8 +473,6 @@ static void free_matrices(void **of)
     HYPRE_IJVectorDestroy(p->b.ij);
     HYPRE_IJVectorDestroy(p->x.ij);
     HYPRE_IJVectorDestroy(p->r.ij);
-    mem_free(p->place);
-    mem_free(p->volume);
     mem_free(p->zw);
     free_rows(p);
     mem_free(p);
@@ -565,7 +498,7 @@ static bool solve(struct fv *s, void *of, double *b, double tol, double *x, doub
 {
     struct mesh_pressure *p = of;
     for (int k = 0; k < p->n && s->jump; k++)
-        b[k] *= s->m->status[p->place[k]] == CELL_FRINGE ? p->fringe : 1.0;
+        b[k] *= s->m->status[p->rows->place[k]] == CELL_FRINGE ? p->fringe : 1.0;
     const double kept = in_pinned_row(p, b);
     const bool good = solve_pinned(s, p, b, tol, x);
     *c = p->singular ? pinned_residual(s, p, kept, x) / p->cw : 0.0;

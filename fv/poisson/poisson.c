@@ -6,18 +6,8 @@
 
 #include "../../common/mem.h"
 #include "../boundary/mesh_bc.h"
+#include "../grid/mesh.h"
 #include "backend.h"
-
-struct poisson {
-    const struct backend *by;
-    void *of;       /* its own */
-    int n;          /* rows of this rank */
-    int64_t *place; /* of each row */
-    double *V;      /* m^dim: of computed cells, else 0 */
-    double volumes; /* m^dim: of all computed cells */
-    double shift;
-    double *b, *x, *psi;
-};
 
 static void set_volumes(const struct fv *s, struct poisson *p)
 {
@@ -29,26 +19,29 @@ static void set_volumes(const struct fv *s, struct poisson *p)
     MPI_Allreduce(MPI_IN_PLACE, &p->volumes, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
 }
 
-void poisson_create(struct fv *s)
+static void make_rows(const struct fv *s, struct poisson *p)
 {
-    static const struct backend *const all[] = {&backend_pfmg, &backend_boomeramg};
-    static const int none[3] = {0, 0, 0};
-    const struct mesh *m = s->m;
-    struct poisson *p = s->poisson = NEW(struct poisson, 1);
-    for (int q = 0; q < m->nparts; q++)
-        p->n += m->part[q].n[0] * m->part[q].n[1] * m->part[q].n[2];
+    int k = 0;
+    for (int q = 0; q < s->nparts; q++)
+        p->n += s->part[q].n[0] * s->part[q].n[1] * s->part[q].n[2];
     p->place = NEW(int64_t, p->n);
     p->V = NEW(double, p->n);
     p->b = NEW(double, p->n);
     p->x = NEW(double, p->n);
     p->psi = NEW(double, p->n);
-    int k = 0;
-    for (int q = 0; q < m->nparts; q++)
-        PART_ROWS (m->part + q, none, none, c, n)
-            for (int64_t i = c; i < c + n; i++, k++) {
-                p->place[k] = i;
-            }
+    FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++)
+        p->place[k++] = i;
     set_volumes(s, p);
+}
+
+void poisson_create(struct fv *s)
+{
+    static const struct backend *const all[] = {&backend_even, &backend_wet, &backend_pfmg,
+                                                &backend_boomeramg};
+    struct poisson *p = s->poisson = NEW(struct poisson, 1);
+    if (s->m && !s->surface)
+        make_rows(s, p);
     for (size_t e = 0; !p->of; e++) {
         p->by = all[e];
         p->of = p->by->create(s);
@@ -129,11 +122,12 @@ static double tolerance(const struct fv *s, double tol)
     return fmax(by->last * tol, fmin(by->stage * tol, 1e-9));
 }
 
-bool poisson_solve(struct fv *s, double tau, const double *div, double tol, double *start,
-                   double *psi)
+bool poisson_solve(struct fv *s, double tau, double *div, double tol, double *start, double *psi)
 {
     struct poisson *p = s->poisson;
     double c = 0.0;
+    if (p->by->solve_field)
+        return p->by->solve_field(s, tau, div, tol, psi);
     if (negligible(s, div)) {
         memset(psi, 0, (size_t)s->size * sizeof(double));
         return true;
@@ -152,9 +146,13 @@ bool poisson_solve(struct fv *s, double tau, const double *div, double tol, doub
     return good;
 }
 
-void poisson_cycle(struct fv *s, const double *div, double *psi)
+void poisson_cycle(struct fv *s, double *div, double *psi)
 {
     struct poisson *p = s->poisson;
+    if (p->by->cycle_field) {
+        p->by->cycle_field(s, div, psi);
+        return;
+    }
     const bool singular = !mesh_bc_pressure_given(s) && p->shift == 0.0;
     double excess = 0.0;
     for (int k = 0; k < p->n; k++)
@@ -166,6 +164,12 @@ void poisson_cycle(struct fv *s, const double *div, double *psi)
     }
     p->by->cycle(s, p->of, p->b, p->x);
     set_psi(s, p, p->x, psi);
+}
+
+void poisson_rebuild(struct fv *s)
+{
+    if (s->poisson) /* else the first matrix is of the surface as it is */
+        s->poisson->by->rebuild(s, s->poisson->of);
 }
 
 void poisson_renew(struct fv *s, bool hierarchy)

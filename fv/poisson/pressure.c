@@ -1,16 +1,20 @@
-/* pressure.c - see pressure.h. The conjugate gradients are written out here: hypre's would spend a
- * second cycle on the residual of its last iteration, and most solves take one iteration.
- * SPDX-License-Identifier: BSD-3-Clause */
-#include "pressure.h"
+/* pressure.c - the 5-point (7-point) problem of even cells and rows: conjugate gradients with one
+ * PFMG cycle, started from what is given. They are written out here: hypre's would spend a second
+ * cycle on the residual of its last iteration, and most solves take one iteration. Forced cells are
+ * identity rows. SPDX-License-Identifier: BSD-3-Clause */
+#include "../fv.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "../../common/mem.h"
+#include "backend.h"
 #include "pfmg.h"
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
 #include "../surface/levelset.h"
+
+enum { MOST = 50 }; /* iterations */
 
 struct pressure {
     struct pfmg *pfmg;
@@ -21,6 +25,8 @@ struct pressure {
     bool singular;      /* no side gives the pressure */
     double shift;       /* 1/m^2: on the diagonal of the cycle's matrix, beside the least one */
 };
+
+static struct pressure *own(const struct fv *s) { return s->poisson->of; }
 
 static struct pfmg *make_pfmg(const struct block *b)
 {
@@ -111,9 +117,11 @@ static void make_matrix(const struct fv *s, struct pressure *p)
     mem_free(values);
 }
 
-struct pressure *pressure_create(const struct fv *s)
+static void *create(struct fv *s)
 {
     const struct block *b = &s->b;
+    if (s->m)
+        return NULL;
     struct pressure *p = NEW(struct pressure, 1);
     p->diagonal = block_field(b);
     p->p = block_field(b);
@@ -136,9 +144,9 @@ struct pressure *pressure_create(const struct fv *s)
     return p;
 }
 
-void pressure_free(struct pressure **pp)
+static void free_pressure(void **of)
 {
-    struct pressure *p = *pp;
+    struct pressure *p = *of;
     if (!p)
         return;
     pfmg_free(&p->pfmg);
@@ -147,12 +155,12 @@ void pressure_free(struct pressure **pp)
     mem_free(p->Ap);
     mem_free(p->z);
     mem_free(p);
-    *pp = NULL;
+    *of = NULL;
 }
 
-void pressure_rebuild(struct fv *s)
+static void rebuild(struct fv *s, void *of)
 {
-    struct pressure *p = s->pressure;
+    struct pressure *p = of;
     p->singular = s->surface->cuts == 0 && (!s->bc || !s->bc->pressure_given);
     p->free_cells = fmax(1.0, (double)s->surface->wet);
     make_matrix(s, p);
@@ -170,7 +178,7 @@ static void zero_idle(const struct fv *s, double *x)
 static void apply(const struct fv *s, const double *restrict x, double *restrict q)
 {
     const struct block *b = &s->b;
-    const double *restrict d = s->pressure->diagonal;
+    const double *restrict d = own(s)->diagonal;
     const int64_t y = b->stride[1], z = b->stride[2];
     BLOCK_ROWS (b, 0, c, n) {
         const double cx = coefficient(b, 0, j_), low = coefficient(b, 1, j_),
@@ -221,9 +229,9 @@ static double remove_mean(const struct fv *s, double *restrict x)
     double sums[2];
     zero_idle(s, x);
     add_up(&s->b, x, x, sums);
-    if (!s->pressure->singular)
+    if (!own(s)->singular)
         return sums[0];
-    const double mean = sums[1] / s->pressure->free_cells;
+    const double mean = sums[1] / own(s)->free_cells;
     BLOCK_ROWS (&s->b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             x[i] -= mean;
@@ -242,7 +250,7 @@ static void cycle(struct pressure *p, double *r, double *x)
 /* z = one cycle on r, and p = z + beta p with the beta that makes p conjugate. Returns r.z. */
 static double next_direction(const struct fv *s, double *r, double rz_last)
 {
-    struct pressure *p = s->pressure;
+    struct pressure *p = own(s);
     double sums[2];
     cycle(p, r, p->z);
     if (s->surface)
@@ -259,7 +267,7 @@ static double next_direction(const struct fv *s, double *r, double rz_last)
 /* x += alpha p, r -= alpha A p with the alpha of the smallest error. Returns r.r. */
 static double advance(const struct fv *s, double rz, double *restrict x, double *restrict r)
 {
-    struct pressure *p = s->pressure;
+    struct pressure *p = own(s);
     double *restrict d = p->p, *restrict Ad = p->Ap, sums[2];
     block_halo(&s->b, 1, &p->p);
     apply(s, p->p, p->Ap);
@@ -277,11 +285,11 @@ static double advance(const struct fv *s, double rz, double *restrict x, double 
 /* r = -div - A psi in place of div. Returns r.r. */
 static double first_residual(const struct fv *s, double *psi, double *restrict div)
 {
-    const double *restrict q = s->pressure->Ap;
+    const double *restrict q = own(s)->Ap;
     double sums[2];
     zero_idle(s, psi);
     block_halo(&s->b, 1, &psi);
-    apply(s, psi, s->pressure->Ap);
+    apply(s, psi, own(s)->Ap);
     BLOCK_ROWS (&s->b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             div[i] = -div[i] - q[i];
@@ -309,27 +317,29 @@ static void weight_rows(const struct block *b, double *r)
                 r[i] *= weight(b, j_);
 }
 
-int pressure_solve(const struct fv *s, double *psi, double *div, double tol, int most)
+static bool solve(struct fv *s, double tau, double *div, double tol, double *psi)
 {
+    (void)tau; /* div is over it */
     weight_rows(&s->b, div);
     double enough = tol * tol * remove_mean(s, div);
     double rr = first_residual(s, psi, div), rz = 0.0;
     if (s->surface) /* psi is the whole pressure: of its change */
         enough = fmax(tol * tol * rr, least_residual(s));
     int n = 0;
-    while (rr > 0.0 && (n == 0 || rr > enough) && n < most) {
+    while (rr > 0.0 && (n == 0 || rr > enough) && n < MOST) {
         rz = next_direction(s, div, rz);
         rr = advance(s, rz, psi, div);
         n++;
     }
     remove_mean(s, psi);
     block_halo(&s->b, 1, &psi);
-    return n;
+    s->iterations += n;
+    return true; /* the watches see what is left */
 }
 
-int pressure_cycle(const struct fv *s, double *r, double *x)
+static void cycle_field(struct fv *s, double *r, double *x)
 {
-    struct pressure *p = s->pressure;
+    struct pressure *p = own(s);
     weight_rows(&s->b, r);
     if (p->shift == 0.0)
         remove_mean(s, r);
@@ -338,14 +348,21 @@ int pressure_cycle(const struct fv *s, double *r, double *x)
         remove_mean(s, x);
     else if (s->forcing)
         forcing_zero(s->forcing, x);
-    return 1;
 }
 
-void pressure_shift(const struct fv *s, double given)
+static void set_shift(struct fv *s, void *of, double given)
 {
-    struct pressure *p = s->pressure;
+    struct pressure *p = of;
     if (given == p->shift)
         return;
     p->shift = given;
     make_matrix(s, p);
 }
+
+const struct backend backend_even = {.name = "PFMG, even cells",
+                                     .create = create,
+                                     .free = free_pressure,
+                                     .solve_field = solve,
+                                     .cycle_field = cycle_field,
+                                     .shift = set_shift,
+                                     .rebuild = rebuild};

@@ -35,8 +35,6 @@ struct tiles {
     struct gcr gcr;
     double *psi, *flux; /* fields */
     double *box;        /* a part's values in the order of the index space */
-    double *V;          /* m^dim: of the rows; 0: given */
-    double volumes;     /* of all */
     double coupling;    /* about the diagonal of A */
     double least;       /* 1/m^2: shift of the cycle's matrix */
     double shift;
@@ -410,7 +408,7 @@ static void apply_rows(void *of, double *x, double *Ax)
         to += (int64_t)p->n[0] * p->n[1] * p->n[2];
     }
     for (int i = 0; i < t->gcr.n && s->forcing; i++)
-        Ax[i] *= t->V[i] > 0.0 ? 1.0 : 0.0;
+        Ax[i] *= s->poisson->V[i] > 0.0 ? 1.0 : 0.0;
 }
 
 /* ---- the back end ---- */
@@ -418,6 +416,7 @@ static void apply_rows(void *of, double *x, double *Ax)
 /* b -= c V so that its sum is 0. */
 static double balance(const struct tiles *t, double *b)
 {
+    const struct poisson *rows = t->s->poisson;
     double sum = 0.0;
     if (!t->singular)
         return 0.0;
@@ -425,8 +424,8 @@ static double balance(const struct tiles *t, double *b)
         sum += b[i];
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, t->gcr.comm);
     for (int i = 0; i < t->gcr.n; i++)
-        b[i] -= sum / t->volumes * t->V[i];
-    return sum / t->volumes;
+        b[i] -= sum / rows->volumes * rows->V[i];
+    return sum / rows->volumes;
 }
 
 /* Whether the cycles get a rough right side down by 1e-4: it changes its sign from cell to cell in
@@ -464,7 +463,6 @@ static void free_tiles(void **of)
     mem_free(t->psi);
     mem_free(t->flux);
     mem_free(t->box);
-    mem_free(t->V);
     mem_free(t);
     *of = NULL;
 }
@@ -473,11 +471,8 @@ static void *create(struct fv *s)
 {
     const struct mesh *m = s->m;
     struct tiles *t = NEW(struct tiles, 1);
-    int64_t n = 0;
     void *of = t;
     t->s = s;
-    for (int k = 0; k < m->nparts; k++)
-        n += (int64_t)m->part[k].n[0] * m->part[k].n[1] * m->part[k].n[2];
     if (m->has_fringe || !place(t, m)) {
         free_tiles(&of);
         return NULL;
@@ -485,16 +480,8 @@ static void *create(struct fv *s)
     t->singular = !mesh_bc_pressure_given(s);
     t->psi = mesh_field(m);
     t->flux = mesh_field(m);
-    t->box = NEW(double, n);
-    t->V = NEW(double, n);
-    double *V = t->V;
-    FLOW_ROWS(s, c, len)
-    for (int64_t i = c; i < c + len; i++) {
-        *V = s->free[i] * m->V[i];
-        t->volumes += *V++;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &t->volumes, 1, MPI_DOUBLE, MPI_SUM, m->comm);
-    gcr_create(&t->gcr, m->comm, (int)n, t, apply_rows, cycle_rows);
+    t->box = NEW(double, s->poisson->n);
+    gcr_create(&t->gcr, m->comm, s->poisson->n, t, apply_rows, cycle_rows);
     t->gcr.galerkin = true;
     for (int k = 0; k < m->nparts; k++)
         t->askew = t->askew || m->part[k].kind == PART_CURVED;

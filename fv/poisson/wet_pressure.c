@@ -1,14 +1,14 @@
-/* wet_pressure.c - see wet_pressure.h. Rows of wet computed cells: minus the sums of the fluxes of
- * psi (surface_faces.c beside the surface); of dry cells and holes: psi = 0. Wet cells that other
- * blocks interpolate: psi less its linear interpolation; beside the surface, where donors are dry,
- * what psi has beyond the surface's pressure P grows with the distance,
- *   psi = P + phi <(psi_k - P_k)/phi_k>, the mean over the wet donors k,
- * phi less what the surface rises within an implicit step (surface_pressure.c). Where all donors
- * are wet, what cubics of the start value have beyond the linear rows stands on the right: psi is
- * the whole pressure here, and linear donors half a cell off take (k h)^2/8 of a wave's, which
- * damps it. GMRES with a cycle of BoomerAMG; the surface's pressure makes the matrix regular.
+/* wet_pressure.c - the pressure of blocks under a free surface; a matrix for each place of it. Rows
+ * of wet computed cells: minus the sums of the fluxes of psi (surface_faces.c beside the surface);
+ * of dry cells and holes: psi = 0. Wet cells that other blocks interpolate: psi less its linear
+ * interpolation; beside the surface, where donors are dry, what psi has beyond the surface's
+ * pressure P grows with the distance, psi = P + phi <(psi_k - P_k)/phi_k>, the mean over the wet
+ * donors k, phi less what the surface rises within an implicit step (surface_pressure.c). Where all
+ * donors are wet, what cubics of the start value have beyond the linear rows stands on the right:
+ * psi is the whole pressure here, and linear donors half a cell off take (k h)^2/8 of a wave's,
+ * which damps it. GMRES with a cycle of BoomerAMG; the surface's pressure makes the matrix regular.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "wet_pressure.h"
+#include "../fv.h"
 
 #include <HYPRE.h>
 #include <HYPRE_IJ_mv.h>
@@ -24,14 +24,8 @@
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
-#include "hypre_call.h"
-
-enum { ROW_MAX = 64 };
-
-struct vector {
-    HYPRE_IJVector ij;
-    HYPRE_ParVector v;
-};
+#include "backend.h"
+#include "ij_rows.h"
 
 struct wet_pressure {
     HYPRE_BigInt first, last, pinned;
@@ -58,24 +52,7 @@ struct wet_pressure {
     double *beyond[2];
 };
 
-/* A row under way. */
-struct row {
-    int n;
-    HYPRE_BigInt col[ROW_MAX];
-    double v[ROW_MAX];
-};
-
-static void add(struct row *r, HYPRE_BigInt col, double v)
-{
-    for (int k = 0; k < r->n; k++)
-        if (r->col[k] == col) {
-            r->v[k] += v;
-            return;
-        }
-    require(r->n < ROW_MAX && col >= 0);
-    r->col[r->n] = col;
-    r->v[r->n++] = v;
-}
+static struct wet_pressure *own(const struct fv *s) { return s->poisson->of; }
 
 /* --- what stays --- */
 
@@ -142,37 +119,21 @@ static void make_donors(struct fv *s, struct wet_pressure *p)
     mem_free(request);
 }
 
-void wet_pressure_donors(struct fv *s)
+/* The rows of the fringe (m->fringes) have changed. */
+static void renew(struct fv *s, void *of, bool hierarchy)
 {
-    mesh_exchange_free(&s->wet->donors);
-    make_donors(s, s->wet);
+    struct wet_pressure *p = of;
+    (void)hierarchy;
+    mesh_exchange_free(&p->donors);
+    make_donors(s, p);
 }
 
-static void create_vector(const struct mesh *m, struct wet_pressure *p, struct vector *v)
-{
-    HYPRE(HYPRE_IJVectorCreate(m->comm, p->first, p->last, &v->ij));
-    HYPRE(HYPRE_IJVectorSetObjectType(v->ij, HYPRE_PARCSR));
-    HYPRE(HYPRE_IJVectorInitialize(v->ij));
-    HYPRE(HYPRE_IJVectorAssemble(v->ij));
-    HYPRE(HYPRE_IJVectorGetObject(v->ij, (void **)&v->v));
-}
-
-static void set_vector(struct wet_pressure *p, struct vector *v, const double *values)
-{
-    if (p->n > 0)
-        HYPRE(HYPRE_IJVectorSetValues(v->ij, p->n, p->row, values));
-}
-
-static void get_vector(struct wet_pressure *p, struct vector *v, double *values)
-{
-    if (p->n > 0)
-        HYPRE(HYPRE_IJVectorGetValues(v->ij, p->n, p->row, values));
-}
-
-void wet_pressure_create(struct fv *s)
+static void *create(struct fv *s)
 {
     const struct mesh *m = s->m;
-    struct wet_pressure *p = s->wet = NEW(struct wet_pressure, 1);
+    if (!m || !s->surface)
+        return NULL;
+    struct wet_pressure *p = NEW(struct wet_pressure, 1);
     int64_t first, n;
     double sum[2] = {0.0, 0.0};
     mesh_rows(m, m->rank, &first, &n);
@@ -199,9 +160,10 @@ void wet_pressure_create(struct fv *s)
         }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, m->comm);
     p->scale = sum[0] / fmax(sum[1], 1.0);
-    create_vector(m, p, &p->b);
-    create_vector(m, p, &p->x);
-    create_vector(m, p, &p->r);
+    vector_create(&p->b, m->comm, p->first, p->n);
+    vector_create(&p->x, m->comm, p->first, p->n);
+    vector_create(&p->r, m->comm, p->first, p->n);
+    return p;
 }
 
 static void free_matrix(struct wet_pressure *p)
@@ -213,9 +175,9 @@ static void free_matrix(struct wet_pressure *p)
     HYPRE_IJMatrixDestroy(p->ij);
 }
 
-void wet_pressure_free(struct wet_pressure **pp)
+static void free_wet(void **of)
 {
-    struct wet_pressure *p = *pp;
+    struct wet_pressure *p = *of;
     if (!p)
         return;
     free_matrix(p);
@@ -238,7 +200,7 @@ void wet_pressure_free(struct wet_pressure **pp)
     mem_free(p->col);
     mem_free(p->entry);
     mem_free(p);
-    *pp = NULL;
+    *of = NULL;
 }
 
 /* --- rows --- */
@@ -246,7 +208,7 @@ void wet_pressure_free(struct wet_pressure **pp)
 /* v times psi at a place with ghosts. */
 static void add_at(const struct fv *s, int64_t at, double v, struct row *r)
 {
-    add(r, s->wet->row_of[at], s->surface->mesh->out[at] == BEHIND_ODD ? -v : v);
+    row_add(r, own(s)->row_of[at], s->surface->mesh->out[at] == BEHIND_ODD ? -v : v);
 }
 
 /* weight times the flux of psi through the lower face along a of cell c. */
@@ -254,14 +216,14 @@ static void add_face(const struct fv *s, const struct part *part, int a, int64_t
                      struct row *r)
 {
     const struct mesh *m = s->m;
-    const struct wet_pressure *p = s->wet;
+    const struct wet_pressure *p = own(s);
     const struct surface_mesh *w = s->surface->mesh;
     const int64_t d = part->stride[a];
     const double open = weight * s->surface->open[a][c];
     if (p->special[a][c]) {
         const struct wet_face *x = w->face[a] + p->special[a][c] - 1;
         for (int k = x->first; k < x->first + x->n; k++)
-            add(r, p->row_of[w->at[k]], weight * w->weight[k]);
+            row_add(r, p->row_of[w->at[k]], weight * w->weight[k]);
         return;
     }
     if (open == 0.0)
@@ -332,7 +294,7 @@ static void fringe_row(const struct fv *s, struct wet_pressure *p, int64_t k, st
             continue;
         scale = all ? 1.0 : own / ((phi[d] - rise) * weights);
         scale *= p->scale * f->weight[d];
-        add(r, row_of(s->m, f->donor, at), -scale);
+        row_add(r, row_of(s->m, f->donor, at), -scale);
         p->dry[f->place] -= all ? 0.0 : scale * P[d];
     }
 }
@@ -349,7 +311,7 @@ static void make_row(const struct fv *s, struct wet_pressure *p, const struct pa
         if (r->n > 0)
             return;
     }
-    add(r, own, p->scale);
+    row_add(r, own, p->scale);
     if (s->m->status[c] == CELL_FRINGE && s->surface->layer[c] == 0)
         fringe_row(s, p, fringe[c], r);
 }
@@ -421,9 +383,9 @@ static void make_solver(const struct mesh *m, struct wet_pressure *p)
     HYPRE(HYPRE_ParCSRGMRESSetup(p->gmres, p->A, p->b.v, p->x.v));
 }
 
-void wet_pressure_rebuild(struct fv *s)
+static void rebuild(struct fv *s, void *of)
 {
-    struct wet_pressure *p = s->wet;
+    struct wet_pressure *p = of;
     free_matrix(p);
     find_pinned(s, p);
     if (s->m->has_fringe)
@@ -455,7 +417,7 @@ static double norm(const struct fv *s, const double *v, int n)
 static double residual(const struct fv *s, struct wet_pressure *p, const double *b)
 {
     HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, p->A, p->x.v, 0.0, p->r.v));
-    get_vector(p, &p->r, p->residual);
+    vector_get(&p->r, p->residual);
     for (int k = 0; k < p->n; k++)
         p->residual[k] = b[k] - p->residual[k];
     return norm(s, p->residual, p->n);
@@ -482,7 +444,7 @@ static void put_rows(const struct fv *s, struct wet_pressure *p, double *psi)
 static void add_cubics(const struct fv *s, struct wet_pressure *p, double *b)
 {
     HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, p->A, p->x.v, 0.0, p->r.v));
-    get_vector(p, &p->r, p->residual);
+    vector_get(&p->r, p->residual);
     for (int k = 0; k < p->n; k++) {
         const int64_t c = p->place[k];
         if (s->m->status[c] == CELL_FRINGE && s->surface->layer[c] == 0 && p->whole[c])
@@ -490,9 +452,10 @@ static void add_cubics(const struct fv *s, struct wet_pressure *p, double *b)
     }
 }
 
-bool wet_pressure_solve(struct fv *s, double tau, double *div, double tol, double *psi)
+/* tol: of the residual of psi, the start. */
+static bool solve(struct fv *s, double tau, double *div, double tol, double *psi)
 {
-    struct wet_pressure *p = s->wet;
+    struct wet_pressure *p = own(s);
     double *b = p->value;
     HYPRE_Int its = 0;
     surface_mesh_add_pressure(s, tau, div);
@@ -504,10 +467,10 @@ bool wet_pressure_solve(struct fv *s, double tau, double *div, double tol, doubl
         b[k] = !wet || p->row[k] == p->pinned ? 0.0 : s->free[c] > 0.0 ? -div[c] / tau : p->dry[c];
         p->residual[k] = wet && s->m->status[c] != CELL_HOLE ? psi[c] : 0.0;
     }
-    set_vector(p, &p->x, p->residual);
+    vector_set(&p->x, p->residual);
     if (s->m->has_fringe)
         add_cubics(s, p, b);
-    set_vector(p, &p->b, b);
+    vector_set(&p->b, b);
     const double before = residual(s, p, b), least = rounding(s, p), size = norm(s, b, p->n),
                  wanted = fmax(tol * before, least);
     if (before > least && size > 0.0) {
@@ -517,22 +480,31 @@ bool wet_pressure_solve(struct fv *s, double tau, double *div, double tol, doubl
         s->iterations += its;
     }
     const double left = its > 0 ? residual(s, p, b) : before;
-    get_vector(p, &p->x, p->residual);
+    vector_get(&p->x, p->residual);
     put_rows(s, p, psi);
     return left <= fmax(10.0 * wanted, 1e-12 * size);
 }
 
-void wet_pressure_cycle(struct fv *s, const double *div, double *psi)
+/* Nothing on the surface. */
+static void cycle(struct fv *s, double *div, double *psi)
 {
-    struct wet_pressure *p = s->wet;
+    struct wet_pressure *p = own(s);
     for (int k = 0; k < p->n; k++) {
         const int64_t c = p->place[k];
         p->value[k] = s->free[c] > 0.0 && p->row[k] != p->pinned ? div[c] : 0.0;
         p->residual[k] = 0.0;
     }
-    set_vector(p, &p->b, p->value);
-    set_vector(p, &p->x, p->residual);
+    vector_set(&p->b, p->value);
+    vector_set(&p->x, p->residual);
     HYPRE(HYPRE_BoomerAMGSolve(p->amg, p->A, p->b.v, p->x.v));
-    get_vector(p, &p->x, p->residual);
+    vector_get(&p->x, p->residual);
     put_rows(s, p, psi);
 }
+
+const struct backend backend_wet = {.name = "BoomerAMG, under a surface",
+                                    .create = create,
+                                    .free = free_wet,
+                                    .solve_field = solve,
+                                    .cycle_field = cycle,
+                                    .rebuild = rebuild,
+                                    .renew = renew};

@@ -152,7 +152,7 @@ void surface_smooth(struct fv *s);
 /* What the surface's rise within an implicit step adds to the distance from a wet centre to its
  * pressure, m; e: from wet to dry, of length 1. */
 double surface_rise(const struct fv *s, const double *e);
-/* Wet cells, cut faces and stencils of the present phi; pressure_rebuild then. */
+/* Wet cells, cut faces and stencils of the present phi; poisson_rebuild then. */
 void surface_rebuild(struct fv *s);
 /* p/rho on the cut faces with the viscous stress of the last extension. */
 void surface_set_pressure(struct fv *s);

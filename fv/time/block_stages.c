@@ -5,7 +5,6 @@
 #include "../boundary/outflow.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
-#include "../poisson/wet_pressure.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
 #include "../fv.h"
@@ -87,19 +86,6 @@ static void finish_rhs(struct fv *s)
 
 static void viscous(struct fv *s, int q, double *out) { mesh_viscous(s, s->u[q], out); }
 
-/* What given cells change by until t. */
-static void given_change(struct fv *s, double t)
-{
-    const struct forcing *f = s->forcing;
-    forcing_velocity(s, t, s->delta);
-    for (int a = 0; a < s->dim; a++) {
-        for (int64_t i = 0; i < f->nset; i++)
-            s->delta[a][f->set[i]] -= s->u[a][f->set[i]];
-        for (int64_t i = 0; i < f->npartner; i++)
-            s->delta[a][f->partner[i]] -= s->u[a][f->partner[i]];
-    }
-}
-
 /* The increment of the stage before, scaled, is the start. */
 static bool solve_viscous(struct fv *s, double c, double t, double scale)
 {
@@ -110,8 +96,10 @@ static bool solve_viscous(struct fv *s, double c, double t, double scale)
         FLOW_ROWS(s, at, n)
     for (int64_t i = at; i < at + n; i++)
         s->delta[a][i] *= share;
-    if (s->forcing)
-        given_change(s, t);
+    if (s->forcing) {
+        forcing_velocity(s, t, s->delta);
+        forcing_subtract(s->forcing, s->u, s->delta);
+    }
     return mesh_viscous_solve(s, c,
                               s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous
                               : s->forcing             ? 1e-5
@@ -139,8 +127,7 @@ static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
 {
     double *psi = s->psi[stage];
     mesh_divergence(s, s->U, s->flux);
-    const bool good = s->surface ? wet_pressure_solve(s, tau, s->flux, tol, psi)
-                                 : poisson_solve(s, tau, s->flux, tol, s->start[stage], psi);
+    const bool good = poisson_solve(s, tau, s->flux, tol, s->start[stage], psi);
     if (s->forcing)
         given_mirror(s, psi);
     else
@@ -277,54 +264,8 @@ static void measure_blocks(struct fv *s)
     s->Re = most[3] / fmax(s->nu, 1e-300);
 }
 
-static void find_worst(const struct fv *s, double before, struct diagnosis *d)
-{
-    const struct mesh *m = s->m;
-    double worst = -1.0;
-    for (int q = 0; q < m->nparts; q++) {
-        const struct part *p = m->part + q;
-        const struct mesh_block *b = m->block + p->block;
-        int i[3];
-        PART_CELLS (p, i, c)
-            for (int a = 0; a < m->dim; a++) {
-                const double v = isfinite(s->u[a][c]) ? fabs(s->u[a][c]) : 1e300;
-                const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-                const double *x = b->centre[mesh_cell(b, at)];
-                if (s->free[c] == 0.0 || v <= worst || v <= s->u_limit)
-                    continue;
-                worst = v;
-                d->bad = true;
-                snprintf(d->reason, sizeof d->reason,
-                         "velocity of cell (%d, %d, %d) of block \"%s\" is %g m/s, limit %g m/s",
-                         at[0], at[1], at[2], b->prm->name, v < 1e300 ? v : NAN, s->u_limit);
-                snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, step of %g s, limited by %s",
-                         x[0], x[1], x[2], s->dt, limit_name(s->limit));
-                limits_explain(&s->prm, s->limit, before, s->rate * s->dt, s->surface != NULL,
-                               d->likely, sizeof d->likely);
-            }
-    }
-}
-
-static void place(const struct fv *s, int64_t c, char *text, size_t size)
-{
-    for (int q = 0; q < s->nparts; q++) {
-        const struct part *p = s->part + q;
-        const struct mesh_block *b = s->m->block + p->block;
-        int i[3];
-        PART_CELLS (p, i, at)
-            if (at == c) {
-                const int cell[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-                const double *x = b->centre[mesh_cell(b, cell)];
-                snprintf(text, size, "cell (%d, %d, %d) of block \"%s\" at (%g, %g, %g) m", cell[0],
-                         cell[1], cell[2], b->prm->name, x[0], x[1], x[2]);
-            }
-    }
-}
-
-const struct stages block_stages = {.tolerance = 1.0,
-                                    .pressure_gradient = pressure_gradient,
+const struct stages block_stages = {.pressure_gradient = pressure_gradient,
                                     .set_slip = set_slip,
-                                    .begin_sides = outflow_begin,
                                     .set_sides = set_sides,
                                     .convection = convect,
                                     .viscous = viscous,
@@ -335,7 +276,4 @@ const struct stages block_stages = {.tolerance = 1.0,
                                     .correct_fluxes = correct_fluxes,
                                     .fill_velocity = fill_velocity,
                                     .dry_fluxes = dry_fluxes,
-                                    .rebuild_pressure = wet_pressure_rebuild,
-                                    .measure = measure_blocks,
-                                    .find_worst = find_worst,
-                                    .place = place};
+                                    .measure = measure_blocks};

@@ -7,7 +7,7 @@
 #include "../boundary/forcing.h"
 #include "../boundary/outflow.h"
 #include "../operators/blocked_cells.h"
-#include "../poisson/pressure.h"
+#include "../poisson/poisson.h"
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
 #include "stages.h"
@@ -58,13 +58,7 @@ static void start_increment(struct fv *s, double t, double scale)
         forcing_zero(s->forcing, s->delta[a]);
     forcing_velocity(s, t, s->delta);
     bc_ghosts(s, BC_CHANGE, s->delta);
-    const struct forcing *f = s->forcing;
-    for (int a = 0; a < s->dim; a++) {
-        for (int64_t i = 0; i < f->nset; i++)
-            s->delta[a][f->set[i]] -= s->u[a][f->set[i]];
-        for (int64_t i = 0; i < f->npartner; i++)
-            s->delta[a][f->partner[i]] -= s->u[a][f->partner[i]];
-    }
+    forcing_subtract(s->forcing, s->u, s->delta);
 }
 
 static bool solve_viscous(struct fv *s, double c, double t, double scale)
@@ -114,8 +108,7 @@ static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
     divergence(s, tau, s->rhs[0]);
     if (s->surface)
         surface_add_pressure(s, s->rhs[0]);
-    s->iterations += pressure_solve(s, s->psi[stage], s->rhs[0], tol, 50);
-    return true; /* the watches see what is left */
+    return poisson_solve(s, tau, s->rhs[0], tol, NULL, s->psi[stage]);
 }
 
 static void subtract_row(double *restrict U, const double *restrict psi, int64_t d, double w,
@@ -159,12 +152,6 @@ static void dry_fluxes(struct fv *s)
     bc_fluxes(s, BC_GIVEN, s->U);
 }
 
-static void rebuild_pressure(struct fv *s)
-{
-    if (s->pressure)
-        pressure_rebuild(s);
-}
-
 /* Largest |u_a| and sum of |u_a| w_a of a row of cells (in 2D the third is one of the others). A
  * value that is not finite makes the sum infinite. */
 static void measure_row(const double *restrict u, const double *restrict v,
@@ -204,49 +191,8 @@ static void measure_even(struct fv *s)
     s->rate = most[3];
 }
 
-static void find_worst(const struct fv *s, double before, struct diagnosis *d)
-{
-    const struct block *b = &s->b;
-    int at[3] = {0, 0, 0};
-    double worst = -1.0, x[3];
-    BLOCK_CELLS (b, i, j, k, c)
-        for (int a = 0; a < b->dim; a++) {
-            const double v = fabs(s->u[a][c]);
-            if (!(v <= worst) || !isfinite(v)) {
-                worst = isfinite(v) ? v : 1e300;
-                at[0] = i;
-                at[1] = j;
-                at[2] = k;
-            }
-        }
-    if (worst < s->u_limit) /* another rank has it */
-        return;
-    d->bad = true;
-    block_centre(b, at[0], at[1], at[2], x);
-    snprintf(d->reason, sizeof d->reason, "velocity of cell (%d, %d, %d) is %g m/s, limit %g m/s",
-             at[0] + b->lo[0], at[1] + b->lo[1], at[2] + b->lo[2], worst < 1e300 ? worst : NAN,
-             s->u_limit);
-    snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, step of %g s, limited by %s", x[0], x[1],
-             x[2], s->dt, limit_name(s->limit));
-    limits_explain(&s->prm, s->limit, before, s->rate * s->dt, s->surface != NULL, d->likely,
-                   sizeof d->likely);
-}
-
-static void place(const struct fv *s, int64_t c, char *text, size_t size)
-{
-    const struct block *b = &s->b;
-    int at[3];
-    double x[3];
-    block_place(b, c, at);
-    block_centre(b, at[0], at[1], at[2], x);
-    snprintf(text, size, "cell (%d, %d, %d) at (%g, %g, %g) m", at[0] + b->lo[0], at[1] + b->lo[1],
-             at[2] + b->lo[2], x[0], x[1], x[2]);
-}
-
-const struct stages even_stages = {.tolerance = 1.0,
-                                   .pressure_gradient = pressure_gradient,
+const struct stages even_stages = {.pressure_gradient = pressure_gradient,
                                    .set_slip = set_slip,
-                                   .begin_sides = outflow_begin,
                                    .set_sides = set_sides,
                                    .convection = convection,
                                    .viscous = viscous,
@@ -256,7 +202,4 @@ const struct stages even_stages = {.tolerance = 1.0,
                                    .correct_fluxes = correct_fluxes,
                                    .fill_velocity = fill_velocity,
                                    .dry_fluxes = dry_fluxes,
-                                   .rebuild_pressure = rebuild_pressure,
-                                   .measure = measure_even,
-                                   .find_worst = find_worst,
-                                   .place = place};
+                                   .measure = measure_even};

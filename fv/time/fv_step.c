@@ -8,7 +8,9 @@
 
 #include "../../common/mem.h"
 #include "../boundary/bc.h"
+#include "../boundary/forcing.h"
 #include "../boundary/outflow.h"
+#include "../grid/mesh.h"
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
 #include "moving.h"
@@ -49,11 +51,49 @@ static bool step_with_surface(struct fv *s, double *dt, struct diagnosis *d)
     }
 }
 
+void cell_place(const struct fv *s, int64_t c, char *text, size_t size, double x[3])
+{
+    int at[3];
+    const struct part *p = part_of_place(s, c, at);
+    const int n = snprintf(text, size, "cell (%d, %d, %d)", p->lo[0] + at[0], p->lo[1] + at[1],
+                           p->lo[2] + at[2]);
+    if (s->m)
+        snprintf(text + n, size - (size_t)n, " of block \"%s\"", s->m->block[p->block].prm->name);
+    forcing_centre(s, c, x);
+}
+
+/* Fills d with the fastest cell, if this rank has it. */
+static void find_worst(const struct fv *s, double before, struct diagnosis *d)
+{
+    double worst = s->u_limit, x[3];
+    int64_t at = -1;
+    char place[PARAM_TEXT_SIZE + 64];
+    for (int a = 0; a < s->dim; a++)
+        FLOW_ROWS(s, c, n)
+    for (int64_t i = c; i < c + n; i++) {
+        const double v = isfinite(s->u[a][i]) ? fabs(s->u[a][i]) : 1e300;
+        if (v <= worst || (s->m && s->free[i] == 0.0))
+            continue;
+        worst = v;
+        at = i;
+    }
+    if (at < 0)
+        return;
+    d->bad = true;
+    cell_place(s, at, place, sizeof place, x);
+    snprintf(d->reason, sizeof d->reason, "velocity of %s is %g m/s, limit %g m/s", place,
+             worst < 1e300 ? worst : NAN, s->u_limit);
+    snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, step of %g s, limited by %s", x[0], x[1],
+             x[2], s->dt, limit_name(s->limit));
+    limits_explain(&s->prm, s->limit, before, s->rate * s->dt, s->surface != NULL, d->likely,
+                   sizeof d->likely);
+}
+
 static void diagnose(const struct fv *s, double dt, double before, bool good, struct diagnosis *d)
 {
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
     if (!isfinite(most) || !(most <= s->u_limit)) {
-        s->stages->find_worst(s, before, d);
+        find_worst(s, before, d);
     } else if (*moving_trouble(s)) {
         d->bad = true;
         snprintf(d->reason, sizeof d->reason, "%s", moving_trouble(s));

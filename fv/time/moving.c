@@ -27,7 +27,6 @@
 #include "../grid/overset.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
-#include "../poisson/wet_pressure.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
 #include "rk3.h"
@@ -303,7 +302,7 @@ void moving_begin_surface(struct fv *s, double dt)
     surface_mesh_update(s);
     if (s->m->has_fringe) {
         fill_step(s);
-        wet_pressure_donors(s);
+        poisson_renew(s, false);
     }
     surface_ghosts(s, s->surface->phi);
 }
@@ -313,7 +312,7 @@ void moving_end_rows(struct fv *s)
     if (!s->m->has_fringe)
         return;
     overset_find_rows(s->m, s->m->search);
-    wet_pressure_donors(s);
+    poisson_renew(s, false);
 }
 
 void moving_to_start(struct fv *s)
@@ -563,7 +562,7 @@ bool moving_restore(struct fv *s, struct h5 *f)
         surface_mesh_update(s);
         surface_mesh_count(s);
         if (s->m->has_fringe)
-            wet_pressure_donors(s);
+            poisson_renew(s, false);
     }
     return true;
 }

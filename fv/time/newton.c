@@ -13,6 +13,7 @@
 #include "../../common/log.h"
 #include "../../common/mem.h"
 #include "../boundary/forcing.h"
+#include "../boundary/outflow.h"
 #include "moving.h"
 #include "stages.h"
 
@@ -219,16 +220,17 @@ void newton_describe(struct fv *s, const char *after, struct diagnosis *d)
     MPI_Allreduce(&worst, &all, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     if (worst < all) /* another rank has it */
         return;
-    char place[128];
-    s->stages->place(s, cell_of(s, at % w->cells), place, sizeof place);
+    char place[PARAM_TEXT_SIZE + 64];
+    double x[3];
+    cell_place(s, cell_of(s, at % w->cells), place, sizeof place, x);
     d->bad = true;
     snprintf(
         d->reason, sizeof d->reason,
         "Newton's method leaves a residual of %.3g (of velocity, relative), wanted %.3g, after "
         "%s",
         worst, s->prm.tol_newton, after);
-    snprintf(d->where, sizeof d->where, "%s of %s", at < w->cells ? "continuity" : "momentum",
-             place);
+    snprintf(d->where, sizeof d->where, "%s of %s at (%g, %g, %g) m",
+             at < w->cells ? "continuity" : "momentum", place, x[0], x[1], x[2]);
     if (s->prm.steady)
         snprintf(d->likely, sizeof d->likely,
                  "this flow may have no steady state on these cells: fv.steady = false shows what "
@@ -259,7 +261,7 @@ static void take_levels(struct fv *s)
     memcpy(s->p_before, s->p, (size_t)s->size * sizeof(double));
     for (int a = 0; a < s->dim; a++)
         memcpy(s->u_old[a], s->u[a], (size_t)s->size * sizeof(double));
-    s->stages->begin_sides(s);
+    outflow_begin(s);
 }
 
 static bool solve_step(struct fv *s, double dt)

@@ -9,7 +9,6 @@
 #include "../boundary/mesh_bc.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
-#include "../poisson/wet_pressure.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
 #include "newton.h"
@@ -269,10 +268,7 @@ static void cycle(struct fv *s, double *div, double *phi)
     FLOW_ROWS(s, c, n)
     for (int64_t i = c; i < c + n; i++)
         div[i] *= s->free[i] * s->m->V[i];
-    if (s->surface)
-        wet_pressure_cycle(s, div, phi);
-    else
-        poisson_cycle(s, div, phi);
+    poisson_cycle(s, div, phi);
     if (s->forcing)
         given_mirror(s, phi);
     else

@@ -7,7 +7,7 @@
 
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
-#include "../poisson/pressure.h"
+#include "../poisson/poisson.h"
 #include "../surface/levelset.h"
 #include "newton.h"
 #include "../operators/operators.h"
@@ -332,7 +332,7 @@ static void fill_rows(struct fv *s)
     close_rows(s);
     if (s->surface)
         close_wet_rows(s);
-    pressure_shift(s, a * c0 * c0);
+    poisson_shift(s, a * c0 * c0);
 }
 
 static void zero_ghosts(struct fv *s, double *const x[3])
@@ -366,7 +366,7 @@ static void subtract_divergence(struct fv *s, double *const x[3], double *restri
 
 static void cycle(struct fv *s, double *div, double *phi)
 {
-    pressure_cycle(s, div, phi);
+    poisson_cycle(s, div, phi);
     block_halo(&s->b, 1, &phi);
 }
 

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../boundary/outflow.h"
 #include "../surface/levelset.h"
 #include "moving.h"
 #include "rk3.h"
@@ -98,7 +99,7 @@ static void begin_step(struct fv *s)
     start(s, "operators");
     if (!s->surface) /* there each projection makes the whole pressure */
         s->stages->pressure_gradient(s);
-    s->stages->begin_sides(s);
+    outflow_begin(s);
     stop(s, "operators");
 }
 
@@ -139,7 +140,7 @@ static double last_tolerance(const struct fv *s)
 {
     if (s->surface)
         return s->dt > 0.0 ? 0.01 * s->prm.tol_pressure : 1e-8;
-    return s->stages->tolerance * s->prm.tol_pressure;
+    return s->prm.tol_pressure;
 }
 
 static bool step_rk3(struct fv *s, double dt)

@@ -9,13 +9,11 @@
 #include "steps.h"
 
 struct stages {
-    double tolerance; /* of the last projection of a step, over fv.tol_pressure */
     /* step_p = grad p of the step's start, p without its odd-even mode. */
     void (*pressure_gradient)(struct fv *s);
     /* What the next projection will take off the velocity of the sides. */
     void (*set_slip)(struct fv *s, double tau, const double *psi);
-    /* Takes note of the flow at the sides before a step; conditions dt later, at t. */
-    void (*begin_sides)(struct fv *s);
+    /* Conditions on the sides dt after outflow_begin, at t. */
     void (*set_sides)(struct fv *s, double t, double dt);
     /* Ghosts and given cells must be there for the next two. */
     void (*convection)(struct fv *s, double *const N[3]);
@@ -35,17 +33,13 @@ struct stages {
     void (*fill_velocity)(struct fv *s);
     /* With a surface: U of faces between dry cells, from u with its ghosts. */
     void (*dry_fluxes)(struct fv *s);
-    /* The pressure's matrix for the surface where it stands. */
-    void (*rebuild_pressure)(struct fv *s);
     void (*measure)(struct fv *s);
-    /* Fills d with the fastest cell, if this rank has it. */
-    void (*find_worst)(const struct fv *s, double before, struct diagnosis *d);
-    /* "cell (i, j, k) at (x, y, z) m" */
-    void (*place)(const struct fv *s, int64_t c, char *text, size_t size);
 };
 
 extern const struct stages even_stages, block_stages;
 
+/* fv_step.c: "cell (i, j, k)", of which block; its centre. */
+void cell_place(const struct fv *s, int64_t c, char *text, size_t size, double x[3]);
 /* projection.c: makes u and U solenoidal; psi[stage] is the start and the result. */
 void projection(struct fv *s, double t, int stage, double tau, double tol);
 

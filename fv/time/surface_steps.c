@@ -14,6 +14,7 @@
 #include "../boundary/still.h"
 #include "../operators/mesh_ops.h"
 #include "../operators/operators.h"
+#include "../poisson/poisson.h"
 #include "../surface/mesh_view.h"
 #include "../surface/surface_forced.h"
 #include "moving.h"
@@ -24,7 +25,7 @@ enum { REINIT_STEPS = 10 }; /* of 0.45 h each: more than what the surface has tr
 static void rebuild(struct fv *s)
 {
     surface_rebuild(s);
-    s->stages->rebuild_pressure(s);
+    poisson_rebuild(s);
 }
 
 /* Velocity that a shape at x adds to that of place c; whether it does. */

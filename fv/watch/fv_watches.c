@@ -1,38 +1,74 @@
-/* fv_watches.c - looks at the flow on any grid; the sums behind that on even cells and rows.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* fv_watches.c - looks at the flow on any grid. SPDX-License-Identifier: BSD-3-Clause */
 #include "watches.h"
 
 #include <math.h>
 
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
-#include "../surface/levelset.h"
+#include "../boundary/mesh_bc.h"
 #include "../boundary/still.h"
+#include "../surface/levelset.h"
+#include "../surface/mesh_view.h"
 
-static bool all_periodic(const struct fv *s)
+/* One bit a kind: what the sides are. */
+static unsigned sides_of(const struct fv *s)
 {
-    for (int a = 0; a < s->b.dim; a++)
-        if (!s->b.periodic[a])
-            return false;
-    return true;
+    unsigned kinds = 0;
+    for (int k = 0; k < (s->m ? s->m->nblocks : 1); k++)
+        for (int side = 0; side < 2 * s->dim; side++)
+            kinds |= 1u << (s->m    ? s->m->block[k].side[side]
+                            : s->bc ? s->bc->kind[side]
+                                    : MESH_NONE);
+    return kinds;
 }
 
-/* Cells that a partner or the exact solution fills do work that no budget knows; nor is there one
- * in pseudo-time or with sound. */
+static bool is_periodic(const struct fv *s, unsigned sides)
+{
+    bool all = !s->surface && !s->blocked;
+    for (int a = 0; a < s->dim && !s->m; a++)
+        all = all && s->b.periodic[a];
+    return all && (!s->m || sides < 1u << MESH_WALL);
+}
+
+/* m/s: largest of the sides, of all ranks. */
+static double speed_of_sides(const struct fv *s)
+{
+    double speed = s->bc ? s->bc->speed : 0.0;
+    if (!s->m)
+        return speed;
+    mesh_bc_rate(s, &speed);
+    MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, s->comm);
+    return speed;
+}
+
+/* Cells that a partner or the exact solution fills do work that no budget knows, as do walls that
+ * move beside a surface and water that comes and goes; nor is there one in pseudo-time or with
+ * sound. Where blocks overlap a strip of the flow counts twice, and interpolation does work; where
+ * a surface crosses cells at a slant, the work of gravity is known to a few per cent: ten times the
+ * levels. */
 struct watches *fv_watches_create(const struct fv *s)
 {
-    const bool filled = s->run->coupled || s->prm.hole[1][0] > s->prm.hole[0][0];
-    struct watches *w = watches_create(
-        s->run, &s->prm, all_periodic(s) && !s->surface && !s->blocked, s->surface != NULL);
-    const bool moved = s->surface && s->bc && s->bc->speed > 0.0; /* friction at a moving wall */
-    bool open = false; /* water and its energy come and go */
-    for (int k = 0; s->surface && s->bc && k < 6; k++)
-        open = open || s->bc->kind[k] == MESH_INFLOW || s->bc->kind[k] == MESH_OUTFLOW ||
-               s->bc->kind[k] == MESH_CARRIED;
-    w->has_energy = !filled && !moved && !open && !s->prm.steady && s->prm.c0 == 0.0;
+    const struct mesh *m = s->m;
+    const unsigned sides = sides_of(s);
+    const bool filled = s->run->coupled || s->prm.hole[1][0] > s->prm.hole[0][0],
+               open = sides & (1u << MESH_INFLOW | 1u << MESH_OUTFLOW | 1u << MESH_CARRIED),
+               works = speed_of_sides(s) > 0.0 || open, moves = m && m->moves;
+    struct watches *w = watches_create(s->run, &s->prm, is_periodic(s, sides), s->surface != NULL);
+    if (m && (m->has_fringe || (s->surface && s->surface->mesh->slanting))) {
+        w->energy.warn *= 10.0;
+        w->energy.stop *= 10.0;
+    }
+    if (open)
+        watches_open(w);
+    w->has_energy =
+        !filled && !moves && !s->prm.steady && s->prm.c0 == 0.0 && !(s->surface && works);
+    w->has_growth = !s->run->coupled && !moves && !s->surface && !s->newton;
+    if (m) { /* faces are mapped anew; walls and openings of blocks count, too */
+        w->energy_every = 20;
+        w->speed = fmax(w->speed, s->reference);
+    }
     if (s->surface) /* whose steps are long beside the swing of short waves' work, and dear */
         w->energy_every = 1;
-    w->has_growth = !s->run->coupled && !s->surface && !s->newton;
     return w;
 }
 
@@ -79,7 +115,7 @@ static bool closed_here(const struct block *b, int k)
 /* Sums of a row of cells: velocity and its square, times the weights (NULL: 1). */
 static void add_row(const struct fv *s, int64_t c, int64_t n, const double *weight, double *sums)
 {
-    for (int a = 0; a < s->b.dim; a++) {
+    for (int a = 0; a < s->dim; a++) {
         const double *restrict u = s->u[a] + c;
         double first = 0.0, second = 0.0;
         for (int64_t i = 0; i < n; i++) {
@@ -108,31 +144,43 @@ static void share_row(const struct fv *s, int64_t c, int64_t n, double *restrict
     }
 }
 
-static void sum_energy(const struct fv *s, double sums[6])
+/* What the cells of a row count beside block_volume, m^dim on blocks; NULL: 1. */
+static double *weights_of_row(const struct fv *s, int64_t c, int64_t n, int j)
 {
-    const struct block *b = &s->b;
-    BLOCK_ROWS (b, 0, c, n) {
-        double row[5] = {0.0}, *wet = NULL;
-        if (s->surface) {
-            wet = s->surface->rate + c; /* scratch */
-            share_row(s, c, n, wet);
-        }
-        add_row(s, c, n, wet, row);
+    double *w = s->flux + c; /* scratch */
+    if (s->surface && !s->m)
+        share_row(s, c, n, w);
+    for (int64_t i = 0; i < n && s->m; i++)
+        w[i] = s->surface ? surface_cell_volume(s, c + i, j) * surface_share(s, c + i)
+                          : s->free[c + i] * s->m->V[c + i];
+    return s->surface || s->m ? w : NULL;
+}
+
+static double volume_of_row(const struct fv *s, int j)
+{
+    return s->m ? 1.0 : block_volume(&s->b, j);
+}
+
+static void sum_energy(struct fv *s, double sums[6])
+{
+    FLOW_ROWS(s, c, n)
+    {
+        double row[5] = {0.0};
+        add_row(s, c, n, weights_of_row(s, c, n, j_), row);
         for (int m = 0; m < 5; m++)
-            sums[m] += block_volume(b, j_) * row[m];
+            sums[m] += volume_of_row(s, j_) * row[m];
     }
-    for (int k = 0; k < 2 * b->dim; k++)
-        if (closed_here(b, k) && !s->surface)
+    if (s->m && !s->watches->periodic && !s->surface)
+        sums[5] = mesh_bc_power(s);
+    for (int k = 0; k < 2 * s->dim && !s->m && !s->surface; k++)
+        if (closed_here(&s->b, k))
             sums[5] += side_power(s, k);
 }
 
 static struct flow_energy energy_of(struct fv *s)
 {
     double sums[6] = {0.0};
-    if (s->m)
-        mesh_watches_energy(s, sums);
-    else
-        sum_energy(s, sums);
+    sum_energy(s, sums);
     for (int a = 0; a < s->dim; a++)
         sums[5] += (s->drive[a] + (s->surface ? s->still[a] : 0.0)) * sums[a];
     MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, s->comm);
@@ -142,82 +190,89 @@ static struct flow_energy energy_of(struct fv *s)
                                 .power = sums[5]};
 }
 
-/* --- waves of two cells: fourth differences over 16, 1 on them, 5e-4 on waves of eight --- */
+/* --- waves of two cells: fourth differences over 16, 1 on them, 5e-4 on waves of eight. On blocks
+ * cells count alike: far ones, much larger, would drown those that matter --- */
 
-static double square_row(const double *restrict q, int64_t d, int64_t n, const unsigned char *idle)
+/* 1 where something flows, 0 behind closed sides, too. */
+static const double *mask_of(struct fv *s)
 {
-    double sum = 0.0;
-    for (int64_t i = 0; i < n; i++) {
-        const double v = (q[i - 2 * d] + q[i + 2 * d]) - 4.0 * (q[i - d] + q[i + d]) + 6.0 * q[i];
-        const bool out =
-            idle && (idle[i - 2 * d] || idle[i - d] || idle[i] || idle[i + d] || idle[i + 2 * d]);
-        sum += out ? 0.0 : v * v;
-    }
-    return sum / 256.0;
+    const unsigned char *idle = s->surface   ? s->surface->layer
+                                : s->forcing ? s->forcing->forced
+                                             : NULL;
+    const struct part *p = &s->whole;
+    if (s->m)
+        return s->free;
+    PART_ROWS (p, p->g, p->g, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            const int at[3] = {(int)(i - c) - p->g[0], j_, k_};
+            bool in = !(idle && idle[i]);
+            for (int a = 0; a < s->dim && in; a++)
+                in = (at[a] >= 0 || !closed_here(&s->b, 2 * a)) &&
+                     (at[a] < p->n[a] || !closed_here(&s->b, 2 * a + 1));
+            s->flux[i] = in;
+        }
+    return s->flux;
 }
 
-/* Along axis a, away from closed sides, whose ghosts are no flow. */
-static double squares(const struct fv *s, const double *q, int a, const unsigned char *idle)
+/* Along axis a, of cells whose neighbours flow, too (on blocks: on this rank). */
+static double squares(const struct fv *s, const double *q, int a, const double *flows)
 {
-    const struct block *b = &s->b;
-    int lo[3] = {0, 0, 0}, hi[3] = {b->n[0], b->n[1], b->n[2]};
-    lo[a] = closed_here(b, 2 * a) ? 2 : 0;
-    hi[a] -= closed_here(b, 2 * a + 1) ? 2 : 0;
     double sum = 0.0;
-    for (int k = lo[2]; k < hi[2]; k++)
-        for (int j = lo[1]; j < hi[1]; j++) {
-            const int64_t c = block_at(b, lo[0], j, k);
-            sum += block_volume(b, j) *
-                   square_row(q + c, b->stride[a], hi[0] - lo[0], idle ? idle + c : NULL);
+    FLOW_ROWS(s, c, n)
+    {
+        const int64_t d = p_->stride[a];
+        double row = 0.0;
+        for (int64_t i = c; i < c + n; i++) {
+            const double v =
+                (q[i - 2 * d] + q[i + 2 * d]) - 4.0 * (q[i - d] + q[i + d]) + 6.0 * q[i];
+            const double in =
+                flows[i - 2 * d] * flows[i - d] * flows[i] * flows[i + d] * flows[i + 2 * d];
+            row += in > 0.0 ? v * v : 0.0;
         }
+        sum += volume_of_row(s, j_) * (row / 256.0);
+    }
     return sum;
 }
 
-/* Sum of squares, and the sum, of what is not idle. */
-static void moments(const struct fv *s, const double *q, const unsigned char *idle, double sums[3])
+/* Sum of squares, and the sum, of what flows. */
+static void moments(const struct fv *s, const double *q, const double *flows, double sums[3])
 {
-    const struct block *b = &s->b;
     sums[0] = sums[1] = sums[2] = 0.0;
-    BLOCK_ROWS (b, 0, c, n) {
+    FLOW_ROWS(s, c, n)
+    {
         double row[3] = {0.0};
         for (int64_t i = c; i < c + n; i++) {
-            const double w = idle && idle[i] ? 0.0 : 1.0;
-            row[0] += w;
-            row[1] += w * q[i];
-            row[2] += w * q[i] * q[i];
+            const double v = flows[i] > 0.0 ? q[i] : 0.0;
+            row[0] += flows[i];
+            row[1] += v;
+            row[2] += v * v;
         }
         for (int m = 0; m < 3; m++)
-            sums[m] += block_volume(b, j_) * row[m];
+            sums[m] += volume_of_row(s, j_) * row[m];
     }
 }
 
 static void sum_waves(struct fv *s, double sums[6])
 {
-    const struct block *b = &s->b;
-    const unsigned char *idle = s->surface   ? s->surface->layer
-                                : s->forcing ? s->forcing->forced
-                                             : NULL;
+    const double *flows = mask_of(s);
     double of[3];
-    double *const fields[1] = {s->p};
-    block_halo(b, 1, fields);
-    for (int q = 0; q < b->dim; q++) {
-        for (int a = 0; a < b->dim; a++)
-            sums[0] += squares(s, s->u[q], a, idle);
-        moments(s, s->u[q], idle, of);
+    if (!s->m)
+        block_halo(&s->b, 1, &s->p);
+    for (int q = 0; q < s->dim; q++) {
+        for (int a = 0; a < s->dim; a++)
+            sums[0] += squares(s, s->u[q], a, flows);
+        moments(s, s->u[q], flows, of);
         sums[1] += of[2];
     }
-    for (int a = 0; a < b->dim; a++)
-        sums[2] += squares(s, s->p, a, idle);
-    moments(s, s->p, idle, sums + 3);
+    for (int a = 0; a < s->dim; a++)
+        sums[2] += squares(s, s->p, a, flows);
+    moments(s, s->p, flows, sums + 3);
 }
 
 static void look_at_waves(struct fv *s, int64_t step, struct diagnosis *d)
 {
     double sums[6] = {0.0};
-    if (s->m)
-        mesh_watches_waves(s, sums);
-    else
-        sum_waves(s, sums);
+    sum_waves(s, sums);
     MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, s->comm);
     const struct flow_waves v = {sums[0], sums[1], sums[2],
                                  sums[5] - sums[4] * sums[4] / fmax(sums[3], 1e-300)};

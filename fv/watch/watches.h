@@ -62,11 +62,5 @@ void watches_load(struct watches *w, struct h5 *f);
 struct watches *fv_watches_create(const struct fv *s);
 void fv_watches_look(struct fv *s, struct diagnosis *d);
 void fv_watches_end(struct fv *s); /* the state that is left; collective, as all */
-/* mesh_watches.c: those of blocks; this rank's sums over computed cells: momentum, kinetic energy,
- * volume, power of sides; waves of velocity, its squares, waves of pressure, count, sum, squares.
- */
-struct watches *mesh_watches_create(struct fv *s);
-void mesh_watches_energy(struct fv *s, double sums[6]);
-void mesh_watches_waves(const struct fv *s, double sums[6]);
 
 #endif
