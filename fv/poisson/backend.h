@@ -43,8 +43,8 @@ extern const struct backend backend_boomeramg; /* mesh_pressure.c: all others */
 struct poisson {
     const struct backend *by;
     void *of; /* its own */
-    /* of those that solve by rows: */
-    int n;          /* of this rank */
+    /* of blocks: */
+    int n, first;   /* rows of this rank; number of the first among all */
     int64_t *place; /* of each */
     double *V;      /* m^dim: of computed cells, else 0 */
     double volumes; /* m^dim: of all computed cells */

@@ -1,4 +1,4 @@
-/* ij_rows.h - rows and vectors of matrices of hypre's IJ interface.
+/* ij_rows.h - matrices and vectors of hypre's IJ interface over the rows of s->poisson.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_IJ_ROWS_H
 #define FV_IJ_ROWS_H
@@ -6,6 +6,9 @@
 #include <HYPRE_IJ_mv.h>
 
 #include "../../common/log.h"
+#include "../../common/mem.h"
+#include "../fv.h"
+#include "backend.h"
 #include "hypre_call.h"
 
 enum { ROW_MAX = 96 };
@@ -29,16 +32,48 @@ static inline void row_add(struct row *r, HYPRE_BigInt col, double v)
     r->v[r->n++] = v;
 }
 
+struct matrix {
+    HYPRE_IJMatrix ij;
+    HYPRE_ParCSRMatrix A;
+};
+
+/* ncols entries of each row, one row behind the other. */
+static inline void matrix_create(struct matrix *A, const struct fv *s, HYPRE_Int *ncols,
+                                 const HYPRE_BigInt *col, const double *v)
+{
+    const HYPRE_BigInt first = s->poisson->first, last = first + s->poisson->n - 1;
+    HYPRE_BigInt *row = NEW(HYPRE_BigInt, s->poisson->n);
+    for (int k = 0; k < s->poisson->n; k++)
+        row[k] = first + k;
+    HYPRE(HYPRE_IJMatrixCreate(s->comm, first, last, first, last, &A->ij));
+    HYPRE(HYPRE_IJMatrixSetObjectType(A->ij, HYPRE_PARCSR));
+    HYPRE(HYPRE_IJMatrixSetRowSizes(A->ij, ncols));
+    HYPRE(HYPRE_IJMatrixInitialize(A->ij));
+    if (s->poisson->n > 0)
+        HYPRE(HYPRE_IJMatrixSetValues(A->ij, s->poisson->n, ncols, row, col, v));
+    HYPRE(HYPRE_IJMatrixAssemble(A->ij));
+    HYPRE(HYPRE_IJMatrixGetObject(A->ij, (void **)&A->A));
+    mem_free(row);
+}
+
+static inline void matrix_free(struct matrix *A)
+{
+    if (A->ij)
+        HYPRE_IJMatrixDestroy(A->ij);
+    A->ij = NULL;
+}
+
 struct vector {
     HYPRE_IJVector ij;
     HYPRE_ParVector v;
-    int n; /* rows of this rank */
+    int n;
 };
 
-static inline void vector_create(struct vector *v, MPI_Comm comm, HYPRE_BigInt first, int n)
+static inline void vector_create(struct vector *v, const struct fv *s)
 {
-    v->n = n;
-    HYPRE(HYPRE_IJVectorCreate(comm, first, first + n - 1, &v->ij));
+    const HYPRE_BigInt first = s->poisson->first;
+    v->n = s->poisson->n;
+    HYPRE(HYPRE_IJVectorCreate(s->comm, first, first + v->n - 1, &v->ij));
     HYPRE(HYPRE_IJVectorSetObjectType(v->ij, HYPRE_PARCSR));
     HYPRE(HYPRE_IJVectorInitialize(v->ij));
     HYPRE(HYPRE_IJVectorAssemble(v->ij));

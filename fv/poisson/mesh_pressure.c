@@ -25,11 +25,6 @@
 #include "gcr.h"
 #include "ij_rows.h"
 
-struct matrix {
-    HYPRE_IJMatrix ij;
-    HYPRE_ParCSRMatrix A;
-};
-
 struct mesh_pressure {
     struct matrix whole, solved; /* the second with the replaced row; the same without */
     struct vector b, x, r;
@@ -127,12 +122,6 @@ static void computed_row(const struct mesh *m, const struct part *p, const int *
     }
 }
 
-static void finish_matrix(struct matrix *A)
-{
-    HYPRE(HYPRE_IJMatrixAssemble(A->ij));
-    HYPRE(HYPRE_IJMatrixGetObject(A->ij, (void **)&A->A));
-}
-
 /* The mean diagonal of computed cells is that of the fringe. */
 static void set_scale(const struct fv *s, struct mesh_pressure *p)
 {
@@ -194,22 +183,6 @@ static int find_pinned(const struct mesh *m, struct mesh_pressure *p)
     return p->singular && mine == least ? (int)(least - p->first) : -1;
 }
 
-static void set_matrix(const struct mesh *m, struct mesh_pressure *p, struct matrix *A,
-                       HYPRE_Int *ncols, const HYPRE_BigInt *col, const double *v)
-{
-    HYPRE_BigInt *row = NEW(HYPRE_BigInt, p->n);
-    for (int k = 0; k < p->n; k++)
-        row[k] = p->first + k;
-    HYPRE(HYPRE_IJMatrixCreate(m->comm, p->first, p->last, p->first, p->last, &A->ij));
-    HYPRE(HYPRE_IJMatrixSetObjectType(A->ij, HYPRE_PARCSR));
-    HYPRE(HYPRE_IJMatrixSetRowSizes(A->ij, ncols));
-    HYPRE(HYPRE_IJMatrixInitialize(A->ij));
-    if (p->n > 0)
-        HYPRE(HYPRE_IJMatrixSetValues(A->ij, p->n, ncols, row, col, v));
-    mem_free(row);
-    finish_matrix(A);
-}
-
 /* Adds the shift to the diagonal of a row of n entries. */
 static void add_shift(HYPRE_BigInt row, double shift, int n, const HYPRE_BigInt *col, double *v)
 {
@@ -258,11 +231,11 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
         }
         n += ncols[k];
     }
-    set_matrix(m, p, &p->whole, ncols, col, v);
+    matrix_create(&p->whole, s, ncols, col, v);
     for (int q = 0; pinned_at >= 0 && q < ncols[pinned]; q++)
         v[pinned_at + q] = col[pinned_at + q] == p->pinned ? v[pinned_at + q] : 0.0;
     if (p->singular)
-        set_matrix(m, p, &p->solved, ncols, col, v);
+        matrix_create(&p->solved, s, ncols, col, v);
     mem_free(col);
     mem_free(v);
     mem_free(ncols);
@@ -403,30 +376,21 @@ static void *create(struct fv *s)
 {
     const struct mesh *m = s->m;
     struct mesh_pressure *p = NEW(struct mesh_pressure, 1);
-    int64_t first, n;
-    mesh_rows(m, m->rank, &first, &n);
     p->rows = s->poisson;
     p->n = p->rows->n;
-    p->first = (HYPRE_BigInt)first;
-    p->last = (HYPRE_BigInt)(first + n - 1);
+    p->first = p->rows->first;
+    p->last = p->first + p->n - 1;
     p->singular = !mesh_bc_pressure_given(s);
-    p->zw = NEW(double, n);
+    p->zw = NEW(double, p->n);
     fill_matrices(s, p);
-    vector_create(&p->b, m->comm, p->first, p->n);
-    vector_create(&p->x, m->comm, p->first, p->n);
-    vector_create(&p->r, m->comm, p->first, p->n);
+    vector_create(&p->b, s);
+    vector_create(&p->x, s);
+    vector_create(&p->r, s);
     make_solver(p);
     gcr_create(&p->gcr, m->comm, p->n, p, apply_rows, cycle_rows);
     if (p->singular)
         solve_volumes(s, p);
     return p;
-}
-
-static void free_matrix(struct matrix *A)
-{
-    if (A->ij)
-        HYPRE_IJMatrixDestroy(A->ij);
-    A->ij = NULL;
 }
 
 static void free_safe(struct mesh_pressure *p)
@@ -444,8 +408,8 @@ static void renew(struct fv *s, void *of, bool hierarchy)
 {
     struct mesh_pressure *p = of;
     free_safe(p);
-    free_matrix(&p->whole);
-    free_matrix(&p->solved);
+    matrix_free(&p->whole);
+    matrix_free(&p->solved);
     fill_matrices(s, p);
     if (hierarchy) {
         HYPRE_BoomerAMGDestroy(p->amg);
@@ -468,8 +432,8 @@ static void free_matrices(void **of)
     HYPRE_BoomerAMGDestroy(p->amg);
     free_safe(p);
     gcr_free(&p->gcr);
-    free_matrix(&p->whole);
-    free_matrix(&p->solved);
+    matrix_free(&p->whole);
+    matrix_free(&p->solved);
     HYPRE_IJVectorDestroy(p->b.ij);
     HYPRE_IJVectorDestroy(p->x.ij);
     HYPRE_IJVectorDestroy(p->r.ij);
@@ -486,8 +450,8 @@ static void set_shift(struct fv *s, void *of, double shift)
     if (shift == p->shift)
         return;
     HYPRE_BoomerAMGDestroy(p->amg);
-    free_matrix(&p->whole);
-    free_matrix(&p->solved);
+    matrix_free(&p->whole);
+    matrix_free(&p->solved);
     p->shift = shift;
     p->singular = !mesh_bc_pressure_given(s) && shift == 0.0;
     fill_matrices(s, p);

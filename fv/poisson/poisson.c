@@ -21,16 +21,17 @@ static void set_volumes(const struct fv *s, struct poisson *p)
 
 static void make_rows(const struct fv *s, struct poisson *p)
 {
-    int k = 0;
-    for (int q = 0; q < s->nparts; q++)
-        p->n += s->part[q].n[0] * s->part[q].n[1] * s->part[q].n[2];
+    int64_t first, n, k = 0;
+    mesh_rows(s->m, s->m->rank, &first, &n);
+    p->first = (int)first;
+    p->n = (int)n;
     p->place = NEW(int64_t, p->n);
     p->V = NEW(double, p->n);
     p->b = NEW(double, p->n);
     p->x = NEW(double, p->n);
     p->psi = NEW(double, p->n);
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
+    FLOW_ROWS(s, c, len)
+    for (int64_t i = c; i < c + len; i++)
         p->place[k++] = i;
     set_volumes(s, p);
 }
@@ -40,7 +41,7 @@ void poisson_create(struct fv *s)
     static const struct backend *const all[] = {&backend_even, &backend_wet, &backend_pfmg,
                                                 &backend_boomeramg};
     struct poisson *p = s->poisson = NEW(struct poisson, 1);
-    if (s->m && !s->surface)
+    if (s->m)
         make_rows(s, p);
     for (size_t e = 0; !p->of; e++) {
         p->by = all[e];

@@ -28,17 +28,15 @@
 #include "ij_rows.h"
 
 struct wet_pressure {
-    HYPRE_BigInt first, last, pinned;
-    int n;                /* rows of this rank */
-    int64_t *place;       /* of each row */
-    HYPRE_BigInt *row;    /* of each row here: its number among all */
-    HYPRE_BigInt *row_of; /* of each place, behind walls of the mirrored cell; -1: none */
-    double *value, *residual;
-    unsigned char *whole; /* of each place: interpolated from wet donors alone */
+    const struct poisson *rows; /* borrowed */
+    int n;                      /* of them */
+    HYPRE_BigInt first, pinned;
+    HYPRE_BigInt *row_of;     /* of each place, behind walls of the mirrored cell; -1: none */
+    double *value, *residual; /* of each row; borrowed */
+    unsigned char *whole;     /* of each place: interpolated from wet donors alone */
     double *dry; /* right side of interpolated cells: what they have of the surface's pressure */
     double scale;
-    HYPRE_IJMatrix ij;
-    HYPRE_ParCSRMatrix A;
+    struct matrix A;
     struct vector b, x, r;
     HYPRE_Solver gmres, amg;
     int *special[3]; /* of each place: 1 + index of its wet_face, 0: a plain face */
@@ -74,7 +72,6 @@ static HYPRE_BigInt row_of(const struct mesh *m, int block, const int *cell)
 static void set_rows(const struct fv *s, struct wet_pressure *p)
 {
     const struct mesh *m = s->m;
-    int row = 0;
     for (int q = 0; q < m->nparts; q++) {
         const struct part *part = m->part + q;
         int i[3];
@@ -84,11 +81,6 @@ static void set_rows(const struct fv *s, struct wet_pressure *p)
                     const int at[3] = {part->lo[0] + i[0], part->lo[1] + i[1], part->lo[2] + i[2]};
                     p->row_of[part_at(part, i[0], i[1], i[2])] = row_of(m, part->block, at);
                 }
-        PART_CELLS (part, i, c) {
-            p->place[row] = c;
-            p->row[row] = p->first + row;
-            row++;
-        }
     }
 }
 
@@ -134,45 +126,41 @@ static void *create(struct fv *s)
     if (!m || !s->surface)
         return NULL;
     struct wet_pressure *p = NEW(struct wet_pressure, 1);
-    int64_t first, n;
     double sum[2] = {0.0, 0.0};
-    mesh_rows(m, m->rank, &first, &n);
-    p->n = (int)n;
-    p->first = (HYPRE_BigInt)first;
-    p->last = (HYPRE_BigInt)(first + n - 1);
-    p->place = NEW(int64_t, n);
-    p->row = NEW(HYPRE_BigInt, n);
+    p->rows = s->poisson;
+    p->n = p->rows->n;
+    p->first = p->rows->first;
     p->row_of = NEW(HYPRE_BigInt, s->size);
-    p->value = NEW(double, n);
-    p->residual = NEW(double, n);
+    p->value = p->rows->b;
+    p->residual = p->rows->x;
     p->dry = NEW(double, s->size);
     p->whole = NEW(unsigned char, s->size);
-    p->count = NEW(HYPRE_Int, n);
+    p->count = NEW(HYPRE_Int, p->n);
     for (int a = 0; a < m->dim; a++)
         p->special[a] = NEW(int, s->size);
     set_rows(s, p);
     if (m->has_fringe)
         make_donors(s, p);
     for (int k = 0; k < p->n; k++)
-        if (m->status[p->place[k]] == CELL_COMPUTED) {
-            sum[0] += 2.0 * m->dim * m->G[0][0][p->place[k]];
+        if (m->status[p->rows->place[k]] == CELL_COMPUTED) {
+            sum[0] += 2.0 * m->dim * m->G[0][0][p->rows->place[k]];
             sum[1] += 1.0;
         }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, m->comm);
     p->scale = sum[0] / fmax(sum[1], 1.0);
-    vector_create(&p->b, m->comm, p->first, p->n);
-    vector_create(&p->x, m->comm, p->first, p->n);
-    vector_create(&p->r, m->comm, p->first, p->n);
+    vector_create(&p->b, s);
+    vector_create(&p->x, s);
+    vector_create(&p->r, s);
     return p;
 }
 
-static void free_matrix(struct wet_pressure *p)
+static void free_solver(struct wet_pressure *p)
 {
-    if (!p->ij)
+    if (!p->A.ij)
         return;
     HYPRE_ParCSRGMRESDestroy(p->gmres);
     HYPRE_BoomerAMGDestroy(p->amg);
-    HYPRE_IJMatrixDestroy(p->ij);
+    matrix_free(&p->A);
 }
 
 static void free_wet(void **of)
@@ -180,7 +168,7 @@ static void free_wet(void **of)
     struct wet_pressure *p = *of;
     if (!p)
         return;
-    free_matrix(p);
+    free_solver(p);
     HYPRE_IJVectorDestroy(p->b.ij);
     HYPRE_IJVectorDestroy(p->x.ij);
     HYPRE_IJVectorDestroy(p->r.ij);
@@ -189,11 +177,7 @@ static void free_wet(void **of)
         mem_free(p->special[a]);
     for (int k = 0; k < 2; k++)
         mem_free(p->beyond[k]);
-    mem_free(p->place);
-    mem_free(p->row);
     mem_free(p->row_of);
-    mem_free(p->value);
-    mem_free(p->residual);
     mem_free(p->dry);
     mem_free(p->whole);
     mem_free(p->count);
@@ -346,7 +330,7 @@ static void make_rows(struct fv *s, struct wet_pressure *p)
     p->nentry = 0;
     FLOW_ROWS(s, c, n)
     for (int64_t i = c; i < c + n; i++, k++) {
-        make_row(s, p, p_, i, p->row[k], fringe, &r);
+        make_row(s, p, p_, i, p->first + k, fringe, &r);
         keep_row(p, k, &r);
     }
     mem_free(fringe);
@@ -360,7 +344,7 @@ static void find_pinned(const struct fv *s, struct wet_pressure *p)
     if (s->surface->cuts > 0 || mesh_bc_pressure_given(s))
         return;
     for (int k = p->n - 1; k >= 0; k--)
-        mine = s->free[p->place[k]] > 0.0 ? p->row[k] : mine;
+        mine = s->free[p->rows->place[k]] > 0.0 ? p->first + k : mine;
     MPI_Allreduce(&mine, &p->pinned, 1, HYPRE_MPI_BIG_INT, MPI_MIN, s->comm);
 }
 
@@ -380,25 +364,18 @@ static void make_solver(const struct mesh *m, struct wet_pressure *p)
     HYPRE(HYPRE_GMRESSetMaxIter(p->gmres, 100));
     HYPRE(HYPRE_GMRESSetPrecond(p->gmres, (HYPRE_PtrToSolverFcn)HYPRE_BoomerAMGSolve,
                                 (HYPRE_PtrToSolverFcn)HYPRE_BoomerAMGSetup, p->amg));
-    HYPRE(HYPRE_ParCSRGMRESSetup(p->gmres, p->A, p->b.v, p->x.v));
+    HYPRE(HYPRE_ParCSRGMRESSetup(p->gmres, p->A.A, p->b.v, p->x.v));
 }
 
 static void rebuild(struct fv *s, void *of)
 {
     struct wet_pressure *p = of;
-    free_matrix(p);
+    free_solver(p);
     find_pinned(s, p);
     if (s->m->has_fringe)
         ask_donors(s, p);
     make_rows(s, p);
-    HYPRE(HYPRE_IJMatrixCreate(s->comm, p->first, p->last, p->first, p->last, &p->ij));
-    HYPRE(HYPRE_IJMatrixSetObjectType(p->ij, HYPRE_PARCSR));
-    HYPRE(HYPRE_IJMatrixSetRowSizes(p->ij, p->count));
-    HYPRE(HYPRE_IJMatrixInitialize(p->ij));
-    if (p->n > 0)
-        HYPRE(HYPRE_IJMatrixSetValues(p->ij, p->n, p->count, p->row, p->col, p->entry));
-    HYPRE(HYPRE_IJMatrixAssemble(p->ij));
-    HYPRE(HYPRE_IJMatrixGetObject(p->ij, (void **)&p->A));
+    matrix_create(&p->A, s, p->count, p->col, p->entry);
     make_solver(s->m, p);
 }
 
@@ -416,7 +393,7 @@ static double norm(const struct fv *s, const double *v, int n)
 /* |b - A x|. */
 static double residual(const struct fv *s, struct wet_pressure *p, const double *b)
 {
-    HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, p->A, p->x.v, 0.0, p->r.v));
+    HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, p->A.A, p->x.v, 0.0, p->r.v));
     vector_get(&p->r, p->residual);
     for (int k = 0; k < p->n; k++)
         p->residual[k] = b[k] - p->residual[k];
@@ -437,16 +414,16 @@ static void put_rows(const struct fv *s, struct wet_pressure *p, double *psi)
 {
     memset(psi, 0, (size_t)s->size * sizeof(double));
     for (int k = 0; k < p->n; k++)
-        psi[p->place[k]] = p->residual[k];
+        psi[p->rows->place[k]] = p->residual[k];
 }
 
 /* In rows with wet donors: what the start value, in x and of cubics there, has beyond linear. */
 static void add_cubics(const struct fv *s, struct wet_pressure *p, double *b)
 {
-    HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, p->A, p->x.v, 0.0, p->r.v));
+    HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, p->A.A, p->x.v, 0.0, p->r.v));
     vector_get(&p->r, p->residual);
     for (int k = 0; k < p->n; k++) {
-        const int64_t c = p->place[k];
+        const int64_t c = p->rows->place[k];
         if (s->m->status[c] == CELL_FRINGE && s->surface->layer[c] == 0 && p->whole[c])
             b[k] = p->residual[k];
     }
@@ -462,9 +439,11 @@ static bool solve(struct fv *s, double tau, double *div, double tol, double *psi
     if (s->m->has_fringe)
         mesh_fill(s->m, 1, &psi);
     for (int k = 0; k < p->n; k++) {
-        const int64_t c = p->place[k];
+        const int64_t c = p->rows->place[k];
         const bool wet = s->surface->layer[c] == 0;
-        b[k] = !wet || p->row[k] == p->pinned ? 0.0 : s->free[c] > 0.0 ? -div[c] / tau : p->dry[c];
+        b[k] = !wet || p->first + k == p->pinned ? 0.0
+               : s->free[c] > 0.0                ? -div[c] / tau
+                                                 : p->dry[c];
         p->residual[k] = wet && s->m->status[c] != CELL_HOLE ? psi[c] : 0.0;
     }
     vector_set(&p->x, p->residual);
@@ -475,7 +454,7 @@ static bool solve(struct fv *s, double tau, double *div, double tol, double *psi
                  wanted = fmax(tol * before, least);
     if (before > least && size > 0.0) {
         HYPRE(HYPRE_GMRESSetTol(p->gmres, wanted / size));
-        HYPRE(HYPRE_ParCSRGMRESSolve(p->gmres, p->A, p->b.v, p->x.v));
+        HYPRE(HYPRE_ParCSRGMRESSolve(p->gmres, p->A.A, p->b.v, p->x.v));
         HYPRE(HYPRE_GMRESGetNumIterations(p->gmres, &its));
         s->iterations += its;
     }
@@ -490,13 +469,13 @@ static void cycle(struct fv *s, double *div, double *psi)
 {
     struct wet_pressure *p = own(s);
     for (int k = 0; k < p->n; k++) {
-        const int64_t c = p->place[k];
-        p->value[k] = s->free[c] > 0.0 && p->row[k] != p->pinned ? div[c] : 0.0;
+        const int64_t c = p->rows->place[k];
+        p->value[k] = s->free[c] > 0.0 && p->first + k != p->pinned ? div[c] : 0.0;
         p->residual[k] = 0.0;
     }
     vector_set(&p->b, p->value);
     vector_set(&p->x, p->residual);
-    HYPRE(HYPRE_BoomerAMGSolve(p->amg, p->A, p->b.v, p->x.v));
+    HYPRE(HYPRE_BoomerAMGSolve(p->amg, p->A.A, p->b.v, p->x.v));
     vector_get(&p->x, p->residual);
     put_rows(s, p, psi);
 }
