@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../../common/mem.h"
+#include "../boundary/forcing.h"
 #include "../poisson/pressure.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
@@ -16,19 +17,8 @@ static bool differs(const struct fv *s, const struct forcing *f)
     return other != 0;
 }
 
-/* Velocity component a of FV's own cells at the end of window m before this one. */
-static void own_past(const struct fv *s, const struct course *c, int m, int a, double *field)
-{
-    const struct block *b = &s->b;
-    int64_t n = 0;
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = c->patch->first; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++, n++)
-                field[block_at(b, i, j, k)] = c->q[m][n * c->width + a];
-}
-
 /* The values of the new lists: the partner's, where the old lists had them, else FV's own. */
-static void carry(const struct fv *s, const struct course *c, struct forcing *to)
+static void carry(const struct fv *s, struct forcing *to)
 {
     const struct forcing *from = s->forcing;
     double *field = NEW(double, s->size);
@@ -36,8 +26,7 @@ static void carry(const struct fv *s, const struct course *c, struct forcing *to
         for (int a = 0; a < s->dim; a++) {
             const double *v = m == 0 ? from->v_next[a] : m == 1 ? from->v[a] : from->v_old[a];
             double *w = m == 0 ? to->v_next[a] : m == 1 ? to->v[a] : to->v_old[a];
-            if (c->levels > 0) /* else a restart file will say */
-                own_past(s, c, m < c->levels ? m : c->levels - 1, a, field);
+            memcpy(field, m == 0 ? s->u[a] : s->past[m - 1][a], (size_t)s->size * sizeof *field);
             for (int64_t i = 0; i < from->npartner + from->nrim; i++)
                 field[from->partner[i]] = v[i];
             for (int64_t i = 0; i < to->npartner + to->nrim; i++)
@@ -64,25 +53,27 @@ static void carry_surface(struct fv *s, struct surface_forced *from)
     surface_forced_free(&from);
 }
 
-bool moved_box(struct fv *s, const struct course *c, int n, const double (*box)[2][3])
+enum moved moved_box(struct fv *s, int n, const double (*box)[2][3])
 {
     struct forcing *f = forcing_create(s, n, box, true);
-    if (!f || !differs(s, f)) {
+    if (!f)
+        return MOVED_LOST;
+    if (!differs(s, f)) {
         forcing_free(&f);
-        return false;
+        return MOVED_NOT;
     }
     forcing_extend(s, s->forcing->near, s->p);
     forcing_extend(s, s->forcing->near, s->p_before);
-    carry(s, c, f);
+    carry(s, f);
     const double before = s->surface ? surface_volume(s, NULL) : 0.0;
     forcing_free(&s->forcing);
     s->forcing = f;
     if (s->surface) {
         carry_surface(s, s->surface->forced);
         surface_outline_moved(s, before);
-        return true;
+        return MOVED;
     }
     pressure_free(&s->pressure);
     s->pressure = pressure_create(s);
-    return true;
+    return MOVED;
 }

@@ -5,10 +5,12 @@
 #ifndef FV_MOVED_BOX_H
 #define FV_MOVED_BOX_H
 
-#include "fv_course.h"
+#include "../fv.h"
 
-/* Forces the cells of these n boxes instead of those before, if they are others; false: they are
- * the same. c: the velocities of the last windows. Collective. */
-bool moved_box(struct fv *s, const struct course *c, int n, const double (*box)[2][3]);
+enum moved { MOVED_NOT, MOVED, MOVED_LOST };
+
+/* Forces the cells of these n boxes instead of those before, if they are others; lost: no cell lies
+ * wholly in one, and nothing has changed. Collective. */
+enum moved moved_box(struct fv *s, int n, const double (*box)[2][3]);
 
 #endif

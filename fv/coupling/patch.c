@@ -9,6 +9,50 @@
 
 enum { MARGIN = 4 }; /* cells around the box: a cubic's and one for rounding */
 
+/* The four rows around the middle of a row of the patch, and their weights. */
+static struct blend blend_rows(const struct block *b, double from, double to)
+{
+    const double *edge = b->rows->edge, middle = 0.5 * (from + to);
+    const int n = b->cells[1];
+    struct blend x;
+    int j = 0;
+    while (j < n - 1 && middle >= edge[j + 1])
+        j++;
+    j -= middle < 0.5 * (edge[j] + edge[j + 1]) ? 2 : 1;
+    j = j < 0 ? 0 : j > n - 4 ? n - 4 : j;
+    rows_average(edge + j, from, to, x.w);
+    for (int m = 0; m < 4; m++)
+        x.w[m] = fabs(x.w[m]) < 1e-9 ? 0.0 : x.w[m];
+    x.row = j - b->lo[1];
+    return x;
+}
+
+/* The even rows go on to the domain's bottom: this rank's are those with their middle in its own.
+ */
+static void blend_grid(const struct block *b, struct patch *p)
+{
+    const struct rows *r = b->rows;
+    const double h = b->h[1], bottom = r->edge[0], top = r->edge[r->even];
+    const double least = r->edge[b->lo[1]], most = r->edge[b->lo[1] + b->n[1]];
+    const int below = (int)ceil((top - bottom) / h - 1e-9), all = below + b->cells[1] - r->even;
+    int first = 0, n = 0;
+    p->origin[1] = top - below * h;
+    p->cells[1] = all;
+    p->first = p->below = 0;
+    for (int j = 0; j < all; j++) {
+        const double middle = p->origin[1] + (j + 0.5) * h;
+        first += middle < least && b->lo[1] > 0;
+        n += (middle >= least || b->lo[1] == 0) &&
+             (middle < most || b->lo[1] + b->n[1] == b->cells[1]);
+    }
+    p->of.lo[1] = first;
+    p->of.n[1] = n;
+    p->blend = mem_new((size_t)n + 1, sizeof *p->blend);
+    for (int j = 0; j < n; j++)
+        p->blend[j] =
+            blend_rows(b, p->origin[1] + (first + j) * h, p->origin[1] + (first + j + 1) * h);
+}
+
 static void of_grid(const struct fv *s, struct patch *p)
 {
     const struct block *b = &s->b;
@@ -28,6 +72,13 @@ static void of_grid(const struct fv *s, struct patch *p)
         p->cells[a] = b->cells[a] - below;
         p->periodic[a] = b->periodic[a];
     }
+}
+
+/* Whether what the partner looks at from y = lo m on are even rows. */
+static bool in_even_rows(const struct fv *s, double lo)
+{
+    const struct rows *r = s->b.rows;
+    return lo >= r->edge[r->even] + (2.0 - 1e-9) * s->b.h[1];
 }
 
 /* The block with the smallest cells at the middle of the box, and their size; -1: none. */
@@ -151,6 +202,8 @@ bool patch_create(const struct fv *s, const double *lo, const double *hi, const 
     *p = (struct patch){.dim = s->dim};
     if (!s->m) {
         of_grid(s, p);
+        if (s->b.rows && lo && (s->partner_moves[1] || !in_even_rows(s, lo[1])))
+            blend_grid(&s->b, p);
         p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
         return true;
     }
@@ -178,6 +231,7 @@ void patch_free(struct patch *p)
 {
     mesh_exchange_free(&p->sample);
     mem_free(p->known);
+    mem_free(p->blend);
 }
 
 void patch_centre(const struct patch *p, int64_t i, double *x)
@@ -190,10 +244,30 @@ void patch_centre(const struct patch *p, int64_t i, double *x)
                    : 0.0;
 }
 
+static void look_at_rows(const struct fv *s, const struct patch *p, double *f, double *to)
+{
+    const struct block *b = &s->b;
+    const int64_t up = b->stride[1];
+    block_halo(b, 1, &f);
+    for (int k = 0; k < p->of.n[2]; k++)
+        for (int j = 0; j < p->of.n[1]; j++) {
+            const struct blend *x = p->blend + j;
+            const double *at = f + block_at(b, 0, x->row, k);
+            for (int i = 0; i < p->of.n[0]; i++, at++) {
+                double sum = 0.0;
+                for (int m = 0; m < 4; m++)
+                    sum += x->w[m] != 0.0 ? x->w[m] * at[m * up] : 0.0;
+                *to++ = sum;
+            }
+        }
+}
+
 void patch_look(const struct fv *s, struct patch *p, double *f, double *to)
 {
     if (s->m)
         mesh_exchange_to(s->m, &p->sample, 1, &f, &to);
+    else if (p->blend)
+        look_at_rows(s, p, f, to);
     else
         block_pack_from(&s->b, p->first, f, to);
 }

@@ -275,17 +275,13 @@ static void find_hidden(const struct run *r, const struct sph_params *prm, doubl
 static void check_moving(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
     const char *key = box_motion_key(prm);
-    double cells[3], graded[3];
+    double cells[3];
     if (!box_motion_wanted(prm))
         return;
     if (!params_peek(r->params, r->comm, "fv.cells", cells) || !(cells[0] > 0.0))
         params_fault(r->params, f, key,
                      "fv has blocks, which are cut once around the box: give fv.cells, or let the "
                      "box rest");
-    params_peek(r->params, r->comm, "fv.graded", graded);
-    if (graded[1] > 0.0 && box_motion_along(r, prm, 1))
-        params_fault(r->params, f, key,
-                     "the box would move across rows of fv.graded: let it move along x and z");
 }
 
 void coupling_warn(const struct run *r)

@@ -175,11 +175,13 @@ static void shorten(struct windows *w, double T, const char *limit)
 static double least_cell(const struct run *r)
 {
     const struct scene_domain *d = &r->scene.domain;
-    double cells[3], h = INFINITY;
+    double cells[3], graded[3], h = INFINITY;
     if (!r->params || !params_peek(r->params, r->comm, "fv.cells", cells))
         return h;
     for (int a = 0; a < d->dim; a++)
         h = cells[a] > 0.0 ? fmin(h, (d->max[a] - d->min[a]) / cells[a]) : h;
+    if (params_peek(r->params, r->comm, "fv.graded", graded) && graded[1] > 0.0)
+        h = fmin(h, (d->max[1] - graded[0]) / graded[1]);
     return h;
 }
 
