@@ -131,6 +131,8 @@ struct fv {
     double partner[PARTNERS_MAX][2][3]; /* m: box that each partner counts as its own */
     bool partner_moves[3];              /* one of these moves along the axis */
     double *past[2][3];   /* m/s: then, where the last window began and the one before */
+    unsigned char *born;  /* of blocks with bdf2: 1: computed since born_at, when the box moved */
+    double born_at;       /* s */
     double partner_speed; /* m/s: to expect where it has bodies; 0: none */
     double scene_speed;   /* m/s: limits_reference */
     double reference;     /* m/s: limits_follow */

@@ -122,6 +122,21 @@ blocks blocks_half 1:1:1 -p time.end=0.06 || bad "half a job on blocks ended wit
 blocks blocks_half 1:1:1 --restart || bad "restart on blocks ended with $?: $(tail -n 3 blocks_half.txt)"
 same_bits blocks blocks_half || bad "a restarted run on blocks gives other bits: $(tail -n 2 diff.txt)"
 
+# the box moves over these blocks: 1.5 times the error on even cells at most; restart
+passes="-p sph.dx=0.0166667 -p sph.free=((0.35,0.3),(0.75,0.7)) -p sph.box_velocity=(0.9,-0.6) -p initial.velocity=(0.8,0.3)"
+# shellcheck disable=SC2086
+"$root/cases/run" taylor_green -n 1:1:1 -o plain $passes -p 'fv.cells=(24,24)' -p time.end=0.12 -p output.every=0.06 >plain.txt 2>&1 ||
+    bad "the box over even cells ended with $?: $(tail -n 3 plain.txt)"
+# shellcheck disable=SC2086
+blocks over 1:1:1 $passes || bad "the box that moves over blocks ended with $?: $(tail -n 3 over.txt)"
+below "$(number_of over/fv-summary.json velocity_l2)" "$(number_of plain/fv-summary.json velocity_l2 | awk '{ print 1.5 * $1 }')" ||
+    bad "the box over blocks: velocity error of fv $(number_of over/fv-summary.json velocity_l2), over even cells $(number_of plain/fv-summary.json velocity_l2)"
+# shellcheck disable=SC2086
+blocks over_half 1:1:1 $passes -p time.end=0.06 || bad "half of the way over blocks ended with $?"
+# shellcheck disable=SC2086
+blocks over_half 1:1:1 $passes --restart || bad "restart over blocks ended with $?: $(tail -n 3 over_half.txt)"
+same_bits over over_half || bad "a restarted run over blocks gives other bits: $(tail -n 2 diff.txt)"
+
 # a block below SPH's water, whose outline ends nowhere but at a periodic side: what it has too much leaves none of its cells
 cat >below.cfg <<'END'
 format = 1;

@@ -278,6 +278,7 @@ void fv_free(struct fv **sp)
             mem_free(s->past[k][a]);
     }
     mem_free(s->history);
+    mem_free(s->born);
     if (s->m)
         mesh_state_free(s);
     else

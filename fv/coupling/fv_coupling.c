@@ -17,6 +17,7 @@
 #include "forced_points.h"
 #include "fv_course.h"
 #include "../grid/layout.h"
+#include "../grid/mesh.h"
 #include "../boundary/still.h"
 #include "fv_link.h"
 #include "moved_box.h"
@@ -31,6 +32,8 @@ struct giver {
     int place, way; /* of a box that moves: one point; how far it is from its start */
     bool moves;
     double given[2][3], free[2][3]; /* m: what it gives, its free zone, at the start */
+    double box[2][3];               /* m: and all of it, with its zones */
+    double pace;                    /* m/s: as fast as its box will be */
     double stands[3];               /* m: of the box whose cells are forced now */
     double moved[9]; /* m: how far it has moved last; the box that it counts as its own then */
 };
@@ -39,11 +42,12 @@ struct link {
     struct cpl *c;
     int n;       /* givers */
     double seen; /* m: seen_size at the start */
+    double wish; /* s: window in which no box passes a cell of blocks */
     struct giver of[PARTNERS_MAX];
     int grid, velocity, pressure;
     int budget, water; /* one point; the partner's water and drops */
     bool has_moved;    /* some box, once */
-    char lost[200];    /* why its place is none for FV; "": it is one */
+    char lost[256];    /* why its place is none for FV; "": it is one */
     struct water_budget of_water;
     int phi, places, filled; /* where the surface crosses into the partner's part */
     double *share;           /* of a kernel that the partner's water fills, at the places */
@@ -86,6 +90,23 @@ static double seen_size(const struct fv *s)
     return h;
 }
 
+/* m: least height of the cells of blocks that the partner gives. */
+static double least_height(const struct fv *s)
+{
+    const struct forcing *f = s->forcing;
+    double h = INFINITY;
+    for (int64_t i = 0; i < f->npartner; i++)
+        for (int a = 0; a < s->dim; a++) {
+            const int64_t c = f->partner[i];
+            double S2 = 0.0;
+            for (int e = 0; e < s->dim; e++)
+                S2 += s->m->S[a][e][c] * s->m->S[a][e][c];
+            h = fmin(h, s->m->V[c] / sqrt(S2));
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &h, 1, MPI_DOUBLE, MPI_MIN, s->comm);
+    return h;
+}
+
 /* Width of the kernel whose mean has the second moment of a cell average: sqrt(6/5) h in 2D,
  * sqrt(5/4) h in 3D. A sum over particles then gives the cell's average up to fourth order. */
 static double support(const struct fv *s, double h) { return h * sqrt(s->dim == 2 ? 1.2 : 1.25); }
@@ -119,7 +140,7 @@ static void declare_giver(struct fv *s, struct link *k, struct giver *g, int how
           cpl_field(k->c, g->forced, named(g, NULL, "pressure"), "Pa", 1, CPL_GET, how, &g->seen));
     if (!g->moves)
         return;
-    check(k, cpl_points(k->c, named(g, "fv.place", ""), s->dim, s->b.h[0], &g->place));
+    check(k, cpl_points(k->c, named(g, "fv.place", ""), s->dim, k->seen, &g->place));
     check(k,
           cpl_field(k->c, g->place, named(g, NULL, "way"), "m", 9, CPL_GET, CPL_NEAREST, &g->way));
 }
@@ -168,6 +189,7 @@ static void meet_giver(struct fv *s, const struct link *k, struct giver *g)
     double number[3];
     find_zone(k, g, "given", g->given[0], g->given[1]);
     find_zone(k, g, "free", g->free[0], g->free[1]);
+    find_zone(k, g, "box", g->box[0], g->box[1]);
     for (int a = s->run->scene.domain.dim; a < 3; a++) {
         g->given[0][a] = -INFINITY;
         g->given[1][a] = INFINITY;
@@ -177,6 +199,8 @@ static void meet_giver(struct fv *s, const struct link *k, struct giver *g)
         g->moves = g->moves || number[a] != 0.0;
         s->partner_moves[a] = s->partner_moves[a] || number[a] != 0.0;
     }
+    find_zone(k, g, "pace", number, number);
+    g->pace = number[0];
     find_zone(k, g, "speed", number, number);
     if (s->run->scene.nbodies > 0)
         s->partner_speed = fmax(s->partner_speed, number[0]);
@@ -218,7 +242,8 @@ static void make_patch(struct fv *s, struct link *k, const double (*given)[3])
 {
     double lo[3], hi[3], where[3];
     char reason[500];
-    find_zone(k, k->of, "box", lo, hi);
+    memcpy(lo, k->of[0].box[0], sizeof lo);
+    memcpy(hi, k->of[0].box[1], sizeof hi);
     if (patch_create(s, lo, hi, given, &k->patch, where))
         return;
     snprintf(reason, sizeof reason,
@@ -291,16 +316,11 @@ static int longest_memory(const struct link *k)
     return (int)most;
 }
 
-static void make_past(struct fv *s)
-{
-    for (int m = 0; m < 2; m++)
-        for (int a = 0; a < s->dim; a++)
-            s->past[m][a] = NEW(double, s->size);
-}
-
 /* Where the next window begins. */
 static void remember(struct fv *s)
 {
+    if (s->m && s->past[0][0])
+        mesh_fill(s->m, s->dim, s->u);
     for (int a = 0; a < s->dim && s->past[0][a]; a++) {
         double *const oldest = s->past[1][a];
         s->past[1][a] = s->past[0][a];
@@ -334,7 +354,7 @@ void coupling_create(struct fv *s, const double (*box)[3])
         refuse(k, "several programs of particles want fv.cells: blocks are cut around one box");
     given_boxes(k, all);
     if (s->partner_moves[0] || s->partner_moves[1] || s->partner_moves[2])
-        make_past(s);
+        moved_box_prepare(s, (const double(*)[3])all);
     s->forcing = forcing_create(s, k->n, (const double(*)[2][3])all, true);
     if (!s->forcing)
         refuse(k, "no cell of fv lies wholly in the box that sph gives: refine fv.cells (or the "
@@ -346,6 +366,7 @@ void coupling_create(struct fv *s, const double (*box)[3])
                "let them lie in one block, or in blocks that are joined");
     make_patch(s, k, box);
     k->seen = seen_size(s);
+    k->wish = s->m && k->of[0].pace > 0.0 ? least_height(s) / k->of[0].pace : INFINITY;
     if (s->surface)
         s->surface->forced = surface_forced_create(s);
     declare(s, k);
@@ -483,8 +504,7 @@ void coupling_judge(struct fv *s, struct diagnosis *d)
         snprintf(d->reason, sizeof d->reason, "%s", k->lost);
         snprintf(d->where, sizeof d->where, "t = %.4g s", s->t);
         snprintf(d->likely, sizeof d->likely,
-                 "the box has come to cells that are too large for it: another way, a larger box, "
-                 "or finer cells there");
+                 "another way of the box, finer cells or blocks that overlap by more there");
     }
     if (s->surface && !isnan(k->of_water.start))
         water_budget_judge(s, &k->of_water, d);
@@ -495,6 +515,12 @@ void coupling_judge(struct fv *s, struct diagnosis *d)
 
 double coupling_water_missing(const struct fv *s) { return s->link->of_water.missing; }
 
+double coupling_wish(void *state)
+{
+    const struct fv *s = state;
+    return s->link->wish;
+}
+
 double coupling_unmapped(const struct fv *s) { return s->link->missing; }
 
 void coupling_summary(const struct fv *s, struct summary *to)
@@ -502,6 +528,20 @@ void coupling_summary(const struct fv *s, struct summary *to)
     watch_summary(&s->link->unmapped, to);
     if (s->surface)
         watch_summary(&s->link->of_water.watched, to);
+}
+
+/* The cells that the partner is given, of blocks cut anew. */
+static void move_patch(struct fv *s, struct link *k, double (*given)[3])
+{
+    double lo[3], hi[3], where[3];
+    for (int a = 0; a < 3; a++) {
+        lo[a] = k->of[0].box[0][a] + k->of[0].stands[a];
+        hi[a] = k->of[0].box[1][a] + k->of[0].stands[a];
+    }
+    if (!patch_renew(s, lo, hi, (const double(*)[3])given, &k->patch, where))
+        snprintf(k->lost, sizeof k->lost,
+                 "sph wants the flow at (%g, %g, %g) m, and no block computes it there", where[0],
+                 where[1], where[2]);
 }
 
 /* The boxes stand at these ways from their starts, and other cells are forced; false: the same. */
@@ -514,13 +554,10 @@ static bool stand(struct fv *s)
             for (int a = 0; a < 3; a++)
                 s->partner[q][side][a] = k->of[q].free[side][a] + k->of[q].stands[a];
     given_boxes(k, box);
-    const enum moved now = moved_box(s, k->n, (const double(*)[2][3])box);
-    if (now == MOVED_LOST)
-        snprintf(k->lost, sizeof k->lost,
-                 "no cell of fv lies wholly in (%g, %g, %g) to (%g, %g, %g) m, what sph gives",
-                 box[0][0][0], box[0][0][1], box[0][0][2], box[0][1][0], box[0][1][1],
-                 box[0][1][2]);
-    if (now != MOVED)
+    const bool moved = moved_box(s, k->n, (const double(*)[2][3])box, k->lost);
+    if (moved && s->m && !*k->lost)
+        move_patch(s, k, box[0]);
+    if (!moved)
         return false;
     make_room(s, k);
     return true;
@@ -540,6 +577,8 @@ bool coupling_stand(struct fv *s, struct h5 *f)
     }
     k->has_moved = true;
     (void)stand(s);
+    for (int64_t c = 0; s->born && c < s->size; c++)
+        s->born[c] = 0;
     return true;
 }
 

@@ -101,6 +101,33 @@ static int finest(const struct mesh *m, const struct overset *o, const double *x
     return best;
 }
 
+/* The same over all places that the box may come to. */
+static int finest_on_way(const struct fv *s, const struct overset *o, const double *lo,
+                         const double *hi, double *h)
+{
+    enum { PLACES = 9 }; /* along an axis */
+    const struct scene_domain *d = &s->run->scene.domain;
+    int best = -1;
+    for (int i = 0; i < PLACES * PLACES * PLACES; i++) {
+        const int at[3] = {i % PLACES, i / PLACES % PLACES, i / PLACES / PLACES};
+        double x[3] = {0.0, 0.0, 0.0}, here;
+        bool once = true;
+        for (int a = 0; a < 3; a++) {
+            const bool moves = a < s->dim && s->partner_moves[a];
+            once = once && (moves || at[a] == 0);
+            if (a < s->dim)
+                x[a] = moves ? d->min[a] + (at[a] + 0.5) / PLACES * (d->max[a] - d->min[a])
+                             : 0.5 * (lo[a] + hi[a]);
+        }
+        const int k = once ? finest(s->m, o, x, &here) : -1;
+        if (k >= 0 && (best < 0 || here < *h)) {
+            best = k;
+            *h = here;
+        }
+    }
+    return best;
+}
+
 static bool is_plain(const struct mesh_block *b)
 {
     return b->prm->mapping == MAPPING_BOX && b->prm->angle == 0.0;
@@ -146,16 +173,18 @@ static void share(const struct fv *s, struct patch *p)
 
 /* Whether the partner may look at a cell: it does not deep in its own part, which ends nowhere at
  * the domain's sides. */
-static bool is_wanted(const struct fv *s, const struct patch *p, const double *x, const double *lo,
-                      const double *hi, const double (*inner)[3])
+static bool is_wanted(const struct fv *s, const struct patch *p, const double *place,
+                      const double *lo, const double *hi, const double (*inner)[3])
 {
     bool around = true, deep = true;
     for (int a = 0; a < p->dim; a++) {
         const struct scene_domain *d = &s->run->scene.domain;
-        const double h = p->h[a];
-        around = around && x[a] > lo[a] - 2.0 * h && x[a] < hi[a] + 2.0 * h;
-        deep = deep && (x[a] > inner[0][a] + 2.0 * h || inner[0][a] < d->min[a] + 1e-6 * h) &&
-               (x[a] < inner[1][a] - 2.0 * h || inner[1][a] > d->max[a] - 1e-6 * h);
+        const double h = p->h[a], L = d->max[a] - d->min[a];
+        const double x =
+            p->periodic[a] ? place[a] + L * ceil((lo[a] - 2.0 * h - place[a]) / L) : place[a];
+        around = around && x > lo[a] - 2.0 * h && x < hi[a] + 2.0 * h;
+        deep = deep && (x > inner[0][a] + 2.0 * h || inner[0][a] < d->min[a] + 1e-6 * h) &&
+               (x < inner[1][a] - 2.0 * h || inner[1][a] > d->max[a] - 1e-6 * h);
     }
     return around && !deep;
 }
@@ -196,6 +225,25 @@ static bool agree(const struct fv *s, bool good, double *where)
     return least == s->run->size;
 }
 
+/* Cells as large as h about, or those of the plain block k: in the box, along axes on which it
+ * moves in the whole domain. */
+static void make_grid(const struct fv *s, int k, const double *lo, const double *hi, double h,
+                      struct patch *p)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    const struct mesh_block *b = is_plain(s->m->block + k) ? s->m->block + k : NULL;
+    for (int a = 0; a < 3; a++) {
+        p->cells[a] = 1;
+        p->h[a] = 1.0;
+        if (a < s->dim && s->partner_moves[a])
+            set_axis(s, b, a, d->min[a], d->max[a], h, p);
+        else if (a < s->dim)
+            set_axis(s, b, a, lo[a], hi[a], h, p);
+    }
+    share(s, p);
+    p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
+}
+
 bool patch_create(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
                   struct patch *p, double *where)
 {
@@ -207,24 +255,25 @@ bool patch_create(const struct fv *s, const double *lo, const double *hi, const 
         p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
         return true;
     }
-    struct overset *o = overset_search(s->run, s->m);
-    double middle[3], h;
-    for (int a = 0; a < 3; a++)
-        middle[a] = 0.5 * (lo[a] + hi[a]);
-    const int k = finest(s->m, o, middle, &h);
-    bool good = k >= 0;
-    memcpy(where, middle, sizeof middle);
-    for (int a = 0; a < 3; a++) {
-        p->cells[a] = 1;
-        p->h[a] = 1.0;
-        if (a < s->dim && good)
-            set_axis(s, is_plain(s->m->block + k) ? s->m->block + k : NULL, a, lo[a], hi[a], h, p);
-    }
-    share(s, p);
-    p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
-    good = good && agree(s, find_donors(s, o, p, lo, hi, inner, where), where);
-    overset_free(&o);
+    struct overset *o = s->m->search ? s->m->search : overset_search(s->run, s->m);
+    double h;
+    for (int a = 0; a < s->dim; a++)
+        where[a] = 0.5 * (lo[a] + hi[a]);
+    const int k = s->m->search ? finest_on_way(s, o, lo, hi, &h) : finest(s->m, o, where, &h);
+    if (k >= 0)
+        make_grid(s, k, lo, hi, h, p);
+    const bool good = k >= 0 && agree(s, find_donors(s, o, p, lo, hi, inner, where), where);
+    if (!s->m->search)
+        overset_free(&o);
     return good;
+}
+
+bool patch_renew(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
+                 struct patch *p, double *where)
+{
+    mesh_exchange_free(&p->sample);
+    mem_free(p->known);
+    return agree(s, find_donors(s, s->m->search, p, lo, hi, inner, where), where);
 }
 
 void patch_free(struct patch *p)

@@ -32,6 +32,9 @@ struct patch {
  * values there. where: a place (m) that wants a value and finds none; false then. Collective. */
 bool patch_create(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
                   struct patch *p, double *where);
+/* Of blocks cut anew around a box that moves, which stands there now. */
+bool patch_renew(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
+                 struct patch *p, double *where);
 void patch_free(struct patch *p);
 /* Centre of the local cell with this number. */
 void patch_centre(const struct patch *p, int64_t i, double *x);

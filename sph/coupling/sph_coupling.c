@@ -69,6 +69,8 @@ void coupling_offer(struct run *r)
         moves[a] = a < r->scene.domain.dim && box_motion_along(r, prm, a);
     cpl_zone(r->partner_ctx, named(r, "memory"), memory, memory);
     cpl_zone(r->partner_ctx, named(r, "moves"), moves, moves);
+    const double pace[3] = {box_motion_speed(r, prm), 0.0, 0.0};
+    cpl_zone(r->partner_ctx, named(r, "pace"), pace, pace);
     const double speed[3] = {sph_params_speed(r).speed, 0.0, 0.0};
     cpl_zone(r->partner_ctx, named(r, "speed"), speed, speed);
 }
