@@ -85,6 +85,16 @@ across rows -p 'fv.cells=(32,28)' -p 'fv.graded=(0.5,16)'
 below "$(number_of rows/fv-summary.json velocity_l2)" "$(number_of alike/fv-summary.json velocity_l2 | awk '{ print 1.5 * $1 }')" ||
     bad "moving box across rows: velocity error of fv $(number_of rows/fv-summary.json velocity_l2), on even ones $(number_of alike/fv-summary.json velocity_l2)"
 
+# levels of refinement go with a box that moves: 1.5 times the error without them at most
+levels="-p sph.dx=0.0166667 -p sph.free=((0.25,0.25),(0.75,0.75)) -p sph.box_velocity=(0.9,-0.6) -p time.end=0.06 -p output.every=0"
+{ cat "$root/cases/taylor_green/case.cfg" && echo "apr: { levels = 1; regions = ( { level = 1; min = (0.34, 0.34); max = (0.66, 0.66); follow = \"sph.box\"; } ); };"; } >levels.cfg
+# shellcheck disable=SC2086
+"$root/cases/run" levels.cfg -n 1:1:1 -o levels $levels >levels.txt 2>&1 || bad "levels in a moving box ended with $?: $(tail -n 3 levels.txt)"
+# shellcheck disable=SC2086
+"$root/cases/run" taylor_green -n 1:1:1 -o level $levels >level.txt 2>&1 || bad "the box without levels ended with $?: $(tail -n 3 level.txt)"
+below "$(number levels velocity_l2)" "$(number level velocity_l2 | awk '{ print 1.5 * $1 }')" ||
+    bad "levels in a moving box: velocity error $(number levels velocity_l2), without $(number level velocity_l2)"
+
 # two boxes, each a program: the error of one
 "$root/cases/run" "$root/cases/taylor_green/two_boxes.cfg" -n 1:1:1 -o two -p time.end=0.12 -p output.every=0 >two.txt 2>&1 ||
     bad "two boxes ended with $?: $(tail -n 3 two.txt)"

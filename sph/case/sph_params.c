@@ -518,10 +518,6 @@ static void check_motion(const struct run *r, struct faults *f)
                          "the box cannot move along %c: there it ends on the domain's own sides",
                          "xyz"[a]);
     }
-    if (apr_params_of(r))
-        params_fault(r->params, f, key,
-                     "regions of refinement do not go with a box that moves: leave out group apr, "
-                     "or let the box rest");
     if (f->n == 0)
         check_way(r, prm, f);
 }
