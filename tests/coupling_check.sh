@@ -60,6 +60,8 @@ refined "$part velocity = (0.5, 0.3);"
 accepts refined.cfg -p 'sph.box_velocity=(0.5,0.3)'
 refined "$part"
 refuses "a region that a moving box leaves" 'reaches into the open side' refined.cfg -p 'sph.box_velocity=(0.5,0.3)'
+accepts solitary_crossing -p 'sph.box_follows="breaker"'
+refuses "a breaker without a surface" 'a crest is followed where the surface crosses' taylor_green -p 'sph.box_follows="breaker"'
 two=$root/cases/taylor_green/two_boxes.cfg
 accepts "$two"
 refuses "boxes whose zones overlap" 'overlaps the box of group sph_right' "$two" -p 'sph.free=((0.3,0.3),(1.1,0.7))'
