@@ -126,16 +126,19 @@ struct fv {
     double dt, dt_old; /* s: last step, 0 before the first; the one before it */
     int npartners;
     double partner[PARTNERS_MAX][2][3]; /* m: box that each partner counts as its own */
-    bool partner_moves;                 /* one of these moves */
-    double partner_speed;               /* m/s: to expect where it has bodies; 0: none */
-    double scene_speed;                 /* m/s: limits_reference */
-    double reference;                   /* m/s: limits_follow */
-    double u_limit;                     /* m/s: beyond it the run has blown up */
-    double umax[3];                     /* m/s: largest |u_a|; on blocks {largest |u|, 0, 0} */
-    double rate;                        /* 1/s: largest sum over the axes of |u_a|/h_a of a cell */
-    double rise;                        /* 1/s^2: what forces add to it in a second; blocks */
-    double Re;                          /* largest |u| h/nu of a cell; blocks */
-    enum limit limit;                   /* of the last step */
+    bool partner_moves[3];              /* one of these moves along the axis */
+    double *past[2][3];   /* m/s: then, where the last window began and the one before */
+    unsigned char *born;  /* of blocks with bdf2: 1: computed since born_at, when the box moved */
+    double born_at;       /* s */
+    double partner_speed; /* m/s: to expect where it has bodies; 0: none */
+    double scene_speed;   /* m/s: limits_reference */
+    double reference;     /* m/s: limits_follow */
+    double u_limit;       /* m/s: beyond it the run has blown up */
+    double umax[3];       /* m/s: largest |u_a|; on blocks {largest |u|, 0, 0} */
+    double rate;          /* 1/s: largest sum over the axes of |u_a|/h_a of a cell */
+    double rise;          /* 1/s^2: what forces add to it in a second; blocks */
+    double Re;            /* largest |u| h/nu of a cell; blocks */
+    enum limit limit;     /* of the last step */
     double max_cfl;
     struct watches *watches; /* watches.h */
     int64_t iterations;      /* of the pressure solver */

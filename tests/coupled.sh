@@ -72,6 +72,29 @@ moves moves2 1:1:2
 close_to "$(number moves2 velocity_l2)" "$(number whole velocity_l2)" 1e-3 ||
     bad "moving box on other ranks: velocity error $(number moves2 velocity_l2), wanted $(number whole velocity_l2)"
 
+# a box that moves across rows of unequal height, between sides of the exact flow: 1.5 times the even grid's error at most
+across() { # DIR ARGS...
+    d=$1
+    shift
+    "$root/cases/run" taylor_green -n 1:1:1 -o "$d" -p 'domain.periodic=(true,false)' -p 'initial.velocity=(0.8,0.3)' -p sph.dx=0.0166667 \
+        -p 'sph.free=((0.3,0.35),(0.7,0.7))' -p 'sph.box_velocity=(0.5,-0.6)' -p time.end=0.12 -p output.every=0 "$@" >"$d.txt" 2>&1 ||
+        bad "the box across rows $d ended with $?: $(tail -n 3 "$d.txt")"
+}
+across alike
+across rows -p 'fv.cells=(32,28)' -p 'fv.graded=(0.5,16)'
+below "$(number_of rows/fv-summary.json velocity_l2)" "$(number_of alike/fv-summary.json velocity_l2 | awk '{ print 1.5 * $1 }')" ||
+    bad "moving box across rows: velocity error of fv $(number_of rows/fv-summary.json velocity_l2), on even ones $(number_of alike/fv-summary.json velocity_l2)"
+
+# levels of refinement go with a box that moves: 1.5 times the error without them at most
+levels="-p sph.dx=0.0166667 -p sph.free=((0.25,0.25),(0.75,0.75)) -p sph.box_velocity=(0.9,-0.6) -p time.end=0.06 -p output.every=0"
+{ cat "$root/cases/taylor_green/case.cfg" && echo "apr: { levels = 1; regions = ( { level = 1; min = (0.34, 0.34); max = (0.66, 0.66); follow = \"sph.box\"; } ); };"; } >levels.cfg
+# shellcheck disable=SC2086
+"$root/cases/run" levels.cfg -n 1:1:1 -o levels $levels >levels.txt 2>&1 || bad "levels in a moving box ended with $?: $(tail -n 3 levels.txt)"
+# shellcheck disable=SC2086
+"$root/cases/run" taylor_green -n 1:1:1 -o level $levels >level.txt 2>&1 || bad "the box without levels ended with $?: $(tail -n 3 level.txt)"
+below "$(number levels velocity_l2)" "$(number level velocity_l2 | awk '{ print 1.5 * $1 }')" ||
+    bad "levels in a moving box: velocity error $(number levels velocity_l2), without $(number level velocity_l2)"
+
 # two boxes, each a program: the error of one
 "$root/cases/run" "$root/cases/taylor_green/two_boxes.cfg" -n 1:1:1 -o two -p time.end=0.12 -p output.every=0 >two.txt 2>&1 ||
     bad "two boxes ended with $?: $(tail -n 3 two.txt)"
@@ -108,6 +131,21 @@ close_to "$(number blocks2 velocity_l2)" "$(number blocks velocity_l2)" 2e-3 ||
 blocks blocks_half 1:1:1 -p time.end=0.06 || bad "half a job on blocks ended with $?"
 blocks blocks_half 1:1:1 --restart || bad "restart on blocks ended with $?: $(tail -n 3 blocks_half.txt)"
 same_bits blocks blocks_half || bad "a restarted run on blocks gives other bits: $(tail -n 2 diff.txt)"
+
+# the box moves over these blocks: 1.5 times the error on even cells at most; restart
+passes="-p sph.dx=0.0166667 -p sph.free=((0.35,0.3),(0.75,0.7)) -p sph.box_velocity=(0.9,-0.6) -p initial.velocity=(0.8,0.3)"
+# shellcheck disable=SC2086
+"$root/cases/run" taylor_green -n 1:1:1 -o plain $passes -p 'fv.cells=(24,24)' -p time.end=0.12 -p output.every=0.06 >plain.txt 2>&1 ||
+    bad "the box over even cells ended with $?: $(tail -n 3 plain.txt)"
+# shellcheck disable=SC2086
+blocks over 1:1:1 $passes || bad "the box that moves over blocks ended with $?: $(tail -n 3 over.txt)"
+below "$(number_of over/fv-summary.json velocity_l2)" "$(number_of plain/fv-summary.json velocity_l2 | awk '{ print 1.5 * $1 }')" ||
+    bad "the box over blocks: velocity error of fv $(number_of over/fv-summary.json velocity_l2), over even cells $(number_of plain/fv-summary.json velocity_l2)"
+# shellcheck disable=SC2086
+blocks over_half 1:1:1 $passes -p time.end=0.06 || bad "half of the way over blocks ended with $?"
+# shellcheck disable=SC2086
+blocks over_half 1:1:1 $passes --restart || bad "restart over blocks ended with $?: $(tail -n 3 over_half.txt)"
+same_bits over over_half || bad "a restarted run over blocks gives other bits: $(tail -n 2 diff.txt)"
 
 # a block below SPH's water, whose outline ends nowhere but at a periodic side: what it has too much leaves none of its cells
 cat >below.cfg <<'END'

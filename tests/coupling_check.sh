@@ -49,6 +49,19 @@ refuses "a box longer than the period" 'is longer than the period' taylor_green 
 accepts taylor_green -p 'sph.box_velocity=(0.5,0.3)' # it moves
 refuses "a box that moves along its walls" 'cannot move along y' standing_wave -p 'sph.box_velocity=(0,0.1)'
 refuses "a body that is not there" 'no body is named' taylor_green -p sph.box_follows=ship
+refined() { # KEYS of a region, in a box that moves
+    { cat "$root/cases/taylor_green/case.cfg" && echo "apr: { levels = 1; regions = ( { level = 1; $1 } ); };"; } >refined.cfg
+}
+part='min = (0.43, 0.43); max = (0.57, 0.57);'
+refined "$part follow = \"sph.box\";"
+accepts refined.cfg -p 'sph.box_velocity=(0.5,0.3)'
+refuses "a region that follows a box at rest" 'the box rests' refined.cfg
+refined "$part velocity = (0.5, 0.3);"
+accepts refined.cfg -p 'sph.box_velocity=(0.5,0.3)'
+refined "$part"
+refuses "a region that a moving box leaves" 'reaches into the open side' refined.cfg -p 'sph.box_velocity=(0.5,0.3)'
+accepts solitary_crossing -p 'sph.box_follows="breaker"'
+refuses "a breaker without a surface" 'a crest is followed where the surface crosses' taylor_green -p 'sph.box_follows="breaker"'
 two=$root/cases/taylor_green/two_boxes.cfg
 accepts "$two"
 refuses "boxes whose zones overlap" 'overlaps the box of group sph_right' "$two" -p 'sph.free=((0.3,0.3),(1.1,0.7))'

@@ -3,6 +3,7 @@
 #include "test.h"
 
 #include "../common/exact.h"
+#include "../sph/open_boundaries/box_chase.h"
 #include "../sph/open_boundaries/openings.h"
 #include "../sph/coupling/overlap.h"
 #include "../sph/surface/surface.h"
@@ -340,9 +341,61 @@ static void the_overlap_is_watched(void **state)
     sph_free(&c.s);
 }
 
+/* A crest at x, a fifth of the box wide, of particles that have a volume. */
+static void raise_crest(struct sph *s, double x)
+{
+    for (int i = 0; i < s->p.n; i++) {
+        double *y = s->p.y + (size_t)i * s->p.nstate;
+        const double far = (y[0] - x) / 0.08, eta = 0.5 + 0.3 / (1.0 + far * far);
+        y[2 * s->dim] = y[1] < eta ? s->dx * s->dx : 0.0;
+    }
+}
+
+static void stand(struct sph *s, double way)
+{
+    s->lo[0] = s->prm.box[0][0] + way;
+    s->hi[0] = s->prm.box[1][0] + way;
+}
+
+/* Behind one of constant speed it does not lag; it stays within the domain, and rests where there
+ * is none. */
+static void a_box_goes_with_a_crest(void **state)
+{
+    static const bool along[3] = {true, false, false};
+    struct sph_case c;
+    double way[3] = {0.0, 0.0, 0.0}, t = 0.0;
+    (void)state;
+    struct sph *s = start(&c, 2, 0.0, 0.0);
+    c.run.scene.fluid.gravity[1] = -1.0;
+    c.run.scene.initial.level = 0.5;
+    c.run.scene.domain.periodic[0] = false;
+    s->prm.box[0][0] = 0.15;
+    s->prm.box[1][0] = 0.55;
+    assert_close(box_chase_speed(&c.run), 1.0, 1e-12);
+    for (; t < 1.0; t += 0.01) {
+        stand(s, way[0]);
+        raise_crest(s, 0.35 + 0.2 * t);
+        box_chase_step(s, 0.01, along, way);
+    }
+    assert_true(fabs(way[0] - 0.2 * t) < 0.2 * s->dx);
+    for (double last = t; t < last + 3.0; t += 0.01) {
+        stand(s, way[0]);
+        raise_crest(s, 0.35 + 0.2 * t);
+        box_chase_step(s, 0.01, along, way);
+    }
+    assert_true(s->prm.box[1][0] + way[0] <= 1.0 - s->R);
+    const double there = way[0];
+    raise_crest(s, 10.0);
+    for (int k = 0; k < 300; k++)
+        box_chase_step(s, 0.01, along, way);
+    assert_true(fabs(way[0] - there) < 0.5 * s->dx);
+    sph_free(&c.s);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_box_goes_with_a_crest),
         cmocka_unit_test(aligned_flow_keeps_the_lattice),
         cmocka_unit_test(oblique_flow_leaves_no_clusters),
         cmocka_unit_test(a_box_moves_through_the_fluid),

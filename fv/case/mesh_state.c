@@ -52,13 +52,14 @@ static void fill(struct fv *s)
 {
     const struct mesh *m = s->m;
     const bool at_rest = s->run->scene.initial.field == FIELD_REST || s->ring >= 0;
+    const bool all = m->moves || s->partner_moves[0] || s->partner_moves[1] || s->partner_moves[2];
     double least = INFINITY, most = 0.0;
     for (int q = 0; q < m->nparts; q++) {
         const struct part *p = m->part + q;
         int i[3];
         PART_CELLS (p, i, c) {
             double u[3], pr, w, diagonal = 0.0;
-            if (m->status[c] == CELL_HOLE && !m->moves)
+            if (m->status[c] == CELL_HOLE && !all)
                 continue;
             mesh_exact_average(s, p, i, 0.0, u, &pr, &w);
             for (int a = 0; a < m->dim; a++) {

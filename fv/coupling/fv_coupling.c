@@ -14,8 +14,10 @@
 #include "../../coupler/cpl.h"
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
+#include "forced_points.h"
 #include "fv_course.h"
 #include "../grid/layout.h"
+#include "../grid/mesh.h"
 #include "../boundary/still.h"
 #include "fv_link.h"
 #include "moved_box.h"
@@ -30,24 +32,31 @@ struct giver {
     int place, way; /* of a box that moves: one point; how far it is from its start */
     bool moves;
     double given[2][3], free[2][3]; /* m: what it gives, its free zone, at the start */
+    double box[2][3];               /* m: and all of it, with its zones */
+    double pace;                    /* m/s: as fast as its box will be */
     double stands[3];               /* m: of the box whose cells are forced now */
     double moved[9]; /* m: how far it has moved last; the box that it counts as its own then */
 };
 
 struct link {
     struct cpl *c;
-    int n; /* givers */
+    int n;       /* givers */
+    double seen; /* m: seen_size at the start */
+    double wish; /* s: window in which no box passes a cell of blocks */
     struct giver of[PARTNERS_MAX];
     int grid, velocity, pressure;
     int budget, water; /* one point; the partner's water and drops */
     bool has_moved;    /* some box, once */
+    char lost[256];    /* why its place is none for FV; "": it is one */
     struct water_budget of_water;
     int phi, places, filled; /* where the surface crosses into the partner's part */
     double *share;           /* of a kernel that the partner's water fills, at the places */
     struct patch patch;
     struct course *course;
-    double *got, *one; /* scratch: velocities, pressures of one giver */
-    unsigned char *whose;
+    struct forced_points points;
+    double *got, *one;    /* scratch: velocities, pressures of one giver at the points */
+    double *mean, *level; /* the same of the cells */
+    unsigned char *whose, *has;
     double *p;             /* Pa: the partner's at the end of the window, where mask is 1 */
     unsigned char *mask;   /* some giver has particles there */
     struct watch unmapped; /* share of the cells that fluxes look at which the partner left out */
@@ -65,10 +74,9 @@ static void check(const struct link *k, int code)
         fail("coupling: %s", cpl_strerror(k->c));
 }
 
-/* Width of the kernel whose mean has the second moment of a cell average: sqrt(6/5) h in 2D,
- * sqrt(5/4) h in 3D. A sum over particles then gives the cell's average up to fourth order. Of
- * blocks h is that of the largest cell that the partner gives. */
-static double support(const struct fv *s)
+/* m: edge of the cell whose average the kernel is. Of blocks that of the largest one that the
+ * partner gives. */
+static double seen_size(const struct fv *s)
 {
     const struct forcing *f = s->forcing;
     double h = 0.0;
@@ -78,8 +86,29 @@ static double support(const struct fv *s)
         h = fmax(h, pow(s->m->V[f->partner[i]], 1.0 / s->dim));
     if (s->m)
         MPI_Allreduce(MPI_IN_PLACE, &h, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    return h * sqrt(s->dim == 2 ? 1.2 : 1.25);
+    return h;
 }
+
+/* m: least height of the cells of blocks that the partner gives. */
+static double least_height(const struct fv *s)
+{
+    const struct forcing *f = s->forcing;
+    double h = INFINITY;
+    for (int64_t i = 0; i < f->npartner; i++)
+        for (int a = 0; a < s->dim; a++) {
+            const int64_t c = f->partner[i];
+            double S2 = 0.0;
+            for (int e = 0; e < s->dim; e++)
+                S2 += s->m->S[a][e][c] * s->m->S[a][e][c];
+            h = fmin(h, s->m->V[c] / sqrt(S2));
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &h, 1, MPI_DOUBLE, MPI_MIN, s->comm);
+    return h;
+}
+
+/* Width of the kernel whose mean has the second moment of a cell average: sqrt(6/5) h in 2D,
+ * sqrt(5/4) h in 3D. A sum over particles then gives the cell's average up to fourth order. */
+static double support(const struct fv *s, double h) { return h * sqrt(s->dim == 2 ? 1.2 : 1.25); }
 
 /* A name of a set or a field: "fv.forced" and "sph_left" give "fv.forced_left", "sph.velocity"
  * "sph_left.velocity". */
@@ -103,14 +132,14 @@ static void find_zone(const struct link *k, const struct giver *g, const char *z
 
 static void declare_giver(struct fv *s, struct link *k, struct giver *g, int how)
 {
-    check(k, cpl_points(k->c, named(g, "fv.forced", ""), s->dim, support(s), &g->forced));
+    check(k, cpl_points(k->c, named(g, "fv.forced", ""), s->dim, support(s, k->seen), &g->forced));
     check(k, cpl_field(k->c, g->forced, named(g, NULL, "velocity"), "m/s", s->dim, CPL_GET, how,
                        &g->imposed));
     check(k,
           cpl_field(k->c, g->forced, named(g, NULL, "pressure"), "Pa", 1, CPL_GET, how, &g->seen));
     if (!g->moves)
         return;
-    check(k, cpl_points(k->c, named(g, "fv.place", ""), s->dim, s->b.h[0], &g->place));
+    check(k, cpl_points(k->c, named(g, "fv.place", ""), s->dim, k->seen, &g->place));
     check(k,
           cpl_field(k->c, g->place, named(g, NULL, "way"), "m", 9, CPL_GET, CPL_NEAREST, &g->way));
 }
@@ -153,41 +182,24 @@ static void refuse(const struct link *k, const char *reason)
     cpl_fail(k->c, RUN_INPUT, reason);
 }
 
-/* All that the partner takes must lie in even rows. */
-static void check_rows(const struct fv *s, const struct link *k)
-{
-    const struct rows *r = s->b.rows;
-    const double margin = 2.0 * s->b.h[1];
-    double lo[3], hi[3];
-    char reason[200];
-    double least = INFINITY;
-    for (int q = 0; q < k->n; q++) {
-        find_zone(k, k->of + q, "box", lo, hi);
-        least = fmin(least, lo[1]);
-    }
-    lo[1] = least;
-    if (lo[1] >= r->edge[r->even] + margin - 1e-9 * s->b.h[1])
-        return;
-    snprintf(reason, sizeof reason,
-             "fv.graded: even rows begin at y = %g m, sph.box at %g m: lower the first to %g m or "
-             "less, two rows below the box",
-             r->edge[r->even], lo[1], lo[1] - margin);
-    refuse(k, reason);
-}
-
 /* What a giver says of itself before the meeting. */
 static void meet_giver(struct fv *s, const struct link *k, struct giver *g)
 {
     double number[3];
     find_zone(k, g, "given", g->given[0], g->given[1]);
     find_zone(k, g, "free", g->free[0], g->free[1]);
+    find_zone(k, g, "box", g->box[0], g->box[1]);
     for (int a = s->run->scene.domain.dim; a < 3; a++) {
         g->given[0][a] = -INFINITY;
         g->given[1][a] = INFINITY;
     }
     find_zone(k, g, "moves", number, number);
-    g->moves = number[0] != 0.0;
-    s->partner_moves = s->partner_moves || g->moves;
+    for (int a = 0; a < 3; a++) {
+        g->moves = g->moves || number[a] != 0.0;
+        s->partner_moves[a] = s->partner_moves[a] || number[a] != 0.0;
+    }
+    find_zone(k, g, "pace", number, number);
+    g->pace = number[0];
     find_zone(k, g, "speed", number, number);
     if (s->run->scene.nbodies > 0)
         s->partner_speed = fmax(s->partner_speed, number[0]);
@@ -229,7 +241,8 @@ static void make_patch(struct fv *s, struct link *k, const double (*given)[3])
 {
     double lo[3], hi[3], where[3];
     char reason[500];
-    find_zone(k, k->of, "box", lo, hi);
+    memcpy(lo, k->of[0].box[0], sizeof lo);
+    memcpy(hi, k->of[0].box[1], sizeof hi);
     if (patch_create(s, lo, hi, given, &k->patch, where))
         return;
     snprintf(reason, sizeof reason,
@@ -264,7 +277,10 @@ static void free_room(struct link *k)
 {
     mem_free(k->got);
     mem_free(k->one);
+    mem_free(k->mean);
+    mem_free(k->level);
     mem_free(k->whose);
+    mem_free(k->has);
     mem_free(k->p);
     mem_free(k->mask);
     mem_free(k->share);
@@ -275,9 +291,14 @@ static void make_room(const struct fv *s, struct link *k)
 {
     const int64_t n = s->forcing->npartner + s->forcing->nrim;
     free_room(k);
-    k->got = NEW(double, n * s->dim);
-    k->one = NEW(double, n);
-    k->whose = NEW(unsigned char, n);
+    forced_points_free(&k->points);
+    k->points = forced_points_create(s, k->seen);
+    k->got = NEW(double, k->points.n * s->dim);
+    k->one = NEW(double, k->points.n);
+    k->whose = NEW(unsigned char, k->points.n);
+    k->mean = NEW(double, n * s->dim);
+    k->level = NEW(double, n);
+    k->has = NEW(unsigned char, n);
     k->p = NEW(double, n);
     k->mask = NEW(unsigned char, n);
     k->share = s->surface ? NEW(double, s->surface->forced->nplaces) : NULL;
@@ -294,6 +315,36 @@ static int longest_memory(const struct link *k)
     return (int)most;
 }
 
+/* Where the next window begins. */
+static void remember(struct fv *s)
+{
+    if (s->m && s->past[0][0])
+        mesh_fill(s->m, s->dim, s->u);
+    for (int a = 0; a < s->dim && s->past[0][a]; a++) {
+        double *const oldest = s->past[1][a];
+        s->past[1][a] = s->past[0][a];
+        s->past[0][a] = oldest;
+        memcpy(oldest, s->u[a], (size_t)s->size * sizeof *oldest);
+    }
+}
+
+/* Velocities before the start, where an exact solution knows them. */
+static void start_past(struct fv *s, double before)
+{
+    const bool exact = exact_has_past(&s->exact) && s->has_exact;
+    double u[3];
+    for (int m = 0; m < 2; m++)
+        for (int a = 0; a < s->dim; a++)
+            memcpy(s->past[m][a], s->u[a], (size_t)s->size * sizeof(double));
+    for (int m = 0; m < 2 && exact; m++)
+        FLOW_ROWS(s, at, n)
+    for (int64_t c = at; c < at + n; c++) {
+        forcing_average(s, c, s->t - (m + 1) * before, u, NULL);
+        for (int a = 0; a < s->dim; a++)
+            s->past[m][a][c] = u[a];
+    }
+}
+
 void coupling_create(struct fv *s, const double (*box)[3])
 {
     struct link *k = s->link;
@@ -301,18 +352,20 @@ void coupling_create(struct fv *s, const double (*box)[3])
     if (s->m && k->n > 1)
         refuse(k, "several programs of particles want fv.cells: blocks are cut around one box");
     given_boxes(k, all);
+    if (s->partner_moves[0] || s->partner_moves[1] || s->partner_moves[2])
+        moved_box_prepare(s, (const double(*)[3])all);
     s->forcing = forcing_create(s, k->n, (const double(*)[2][3])all, true);
     if (!s->forcing)
         refuse(k, "no cell of fv lies wholly in the box that sph gives: refine fv.cells (or the "
                   "blocks), enlarge sph.box or lower coupling.overlap");
-    if (s->b.rows)
-        check_rows(s, k);
     if (s->m && mesh_bc_pressure_given(s) && s->forcing->net == NET_OTHERS)
         refuse(k,
                "blocks: the cells that sph gives lie in blocks that overlap there, so what flows "
                "through their outline cannot be balanced, and an outflow would let it swing: "
                "let them lie in one block, or in blocks that are joined");
     make_patch(s, k, box);
+    k->seen = seen_size(s);
+    k->wish = s->m && k->of[0].pace > 0.0 ? least_height(s) / k->of[0].pace : INFINITY;
     if (s->surface)
         s->surface->forced = surface_forced_create(s);
     declare(s, k);
@@ -336,6 +389,7 @@ void coupling_free(struct fv *s)
     course_free(&k->course);
     patch_free(&k->patch);
     free_room(k);
+    forced_points_free(&k->points);
     mem_free(k);
     s->link = NULL;
 }
@@ -376,22 +430,13 @@ static void put(struct fv *s)
 static void name_cells(struct fv *s)
 {
     struct link *k = s->link;
-    const struct forcing *f = s->forcing;
-    const int64_t n = f->npartner + f->nrim;
-    double *x = NEW(double, 3 * n);
-    int64_t *id = NEW(int64_t, n);
-    for (int64_t m = 0; m < n; m++) {
-        forcing_centre(s, f->partner[m], x + 3 * m);
-        id[m] = forcing_number(s, f->partner[m]);
-    }
+    const struct forced_points *p = &k->points;
     for (int q = 0; q < k->n; q++)
-        check(k, cpl_move(k->c, k->of[q].forced, n, x, id, NULL));
+        check(k, cpl_move(k->c, k->of[q].forced, p->n, p->x, p->id, NULL));
     if (s->surface) {
         const struct surface_forced *w = s->surface->forced;
         check(k, cpl_move(k->c, k->places, w->nplaces, w->x, NULL, NULL));
     }
-    mem_free(x);
-    mem_free(id);
 }
 
 /* Cells and points that take values; then the first patch. */
@@ -411,6 +456,8 @@ void coupling_first(void *state)
         const double before = s->exact.U > 0.0 ? 1e-3 * s->exact.L / s->exact.U : 1e-3;
         if (f)
             start_forced(s, before);
+        if (s->past[0][0])
+            start_past(s, before);
         course_start(s, k->course, before);
     }
 }
@@ -449,6 +496,13 @@ static void count_missing(struct fv *s)
 void coupling_judge(struct fv *s, struct diagnosis *d)
 {
     struct link *k = s->link;
+    if (*k->lost) {
+        d->bad = true;
+        snprintf(d->reason, sizeof d->reason, "%s", k->lost);
+        snprintf(d->where, sizeof d->where, "t = %.4g s", s->t);
+        snprintf(d->likely, sizeof d->likely,
+                 "another way of the box, finer cells or blocks that overlap by more there");
+    }
     if (s->surface && !isnan(k->of_water.start))
         water_budget_judge(s, &k->of_water, d);
     if (watch_judge(&k->unmapped, k->missing, s->t, s->run->step, d))
@@ -458,6 +512,12 @@ void coupling_judge(struct fv *s, struct diagnosis *d)
 
 double coupling_water_missing(const struct fv *s) { return s->link->of_water.missing; }
 
+double coupling_wish(void *state)
+{
+    const struct fv *s = state;
+    return s->link->wish;
+}
+
 double coupling_unmapped(const struct fv *s) { return s->link->missing; }
 
 void coupling_summary(const struct fv *s, struct summary *to)
@@ -465,6 +525,20 @@ void coupling_summary(const struct fv *s, struct summary *to)
     watch_summary(&s->link->unmapped, to);
     if (s->surface)
         watch_summary(&s->link->of_water.watched, to);
+}
+
+/* The cells that the partner is given, of blocks cut anew. */
+static void move_patch(struct fv *s, struct link *k, double (*given)[3])
+{
+    double lo[3], hi[3], where[3];
+    for (int a = 0; a < 3; a++) {
+        lo[a] = k->of[0].box[0][a] + k->of[0].stands[a];
+        hi[a] = k->of[0].box[1][a] + k->of[0].stands[a];
+    }
+    if (!patch_renew(s, lo, hi, (const double(*)[3])given, &k->patch, where))
+        snprintf(k->lost, sizeof k->lost,
+                 "sph wants the flow at (%g, %g, %g) m, and no block computes it there", where[0],
+                 where[1], where[2]);
 }
 
 /* The boxes stand at these ways from their starts, and other cells are forced; false: the same. */
@@ -477,7 +551,10 @@ static bool stand(struct fv *s)
             for (int a = 0; a < 3; a++)
                 s->partner[q][side][a] = k->of[q].free[side][a] + k->of[q].stands[a];
     given_boxes(k, box);
-    if (!moved_box(s, k->course, k->n, (const double(*)[2][3])box))
+    const bool moved = moved_box(s, k->n, (const double(*)[2][3])box, k->lost);
+    if (moved && s->m && !*k->lost)
+        move_patch(s, k, box[0]);
+    if (!moved)
         return false;
     make_room(s, k);
     return true;
@@ -487,7 +564,7 @@ bool coupling_stand(struct fv *s, struct h5 *f)
 {
     double way[12 * PARTNERS_MAX];
     struct link *k = s->link;
-    if (!k || !s->partner_moves)
+    if (!k || !s->past[0][0])
         return true;
     if (!h5_read_same(f, "partners_way", 12 * k->n, way))
         return false;
@@ -497,6 +574,8 @@ bool coupling_stand(struct fv *s, struct h5 *f)
     }
     k->has_moved = true;
     (void)stand(s);
+    for (int64_t c = 0; s->born && c < s->size; c++)
+        s->born[c] = 0;
     return true;
 }
 
@@ -534,15 +613,17 @@ static void take(struct fv *s)
         memcpy(f->v_next[a], f->v[a], (size_t)n * sizeof(double));
     for (int q = 0; q < k->n; q++) {
         const struct giver *g = k->of + q;
-        check(k, cpl_get(k->c, g->imposed, n, k->got, k->whose));
-        check(k, cpl_get(k->c, g->seen, n, k->one, NULL));
+        check(k, cpl_get(k->c, g->imposed, k->points.n, k->got, k->whose));
+        check(k, cpl_get(k->c, g->seen, k->points.n, k->one, NULL));
+        forced_points_mean(&k->points, dim, k->got, k->whose, k->mean, k->has);
+        forced_points_mean(&k->points, 1, k->one, k->whose, k->level, k->has);
         for (int64_t i = 0; i < n; i++) {
-            if (!k->whose[i])
+            if (!k->has[i])
                 continue;
             k->mask[i] = 1;
-            k->p[i] = k->one[i];
+            k->p[i] = k->level[i];
             for (int a = 0; a < dim; a++)
-                f->v_next[a][i] = k->got[dim * i + a];
+                f->v_next[a][i] = k->mean[dim * i + a];
         }
     }
     for (int q = 0; q < k->n; q++)
@@ -557,8 +638,9 @@ void coupling_window_begin(void *state, double t0, double t1)
 {
     struct fv *s = state;
     struct link *k = s->link;
-    if (s->partner_moves && k->has_moved)
+    if (k->has_moved)
         follow(s);
+    remember(s);
     forcing_shift(s->forcing, t0, t1);
     if (s->surface)
         surface_forced_shift(s, t0, t1);
@@ -600,7 +682,7 @@ void coupling_save(const struct fv *s, struct h5 *f)
     const struct forcing *c = s->forcing;
     course_save(s, s->link->course, f);
     h5_attribute_real(f, "datum", s->datum);
-    if (s->partner_moves)
+    if (s->past[0][0])
         save_ways(s->link, f);
     if (s->surface) {
         water_budget_save(&s->link->of_water, f);

@@ -102,7 +102,7 @@ static void look(struct fv *s, const struct course *c, double *q)
     if (s->surface)
         extension_beyond(s, p);
     if (s->forcing)
-        forcing_extend(s, NEAR, p);
+        forcing_extend(s, s->forcing->near, p);
     if (s->m)
         mesh_fill(s->m, s->dim, s->u);
     if (s->surface)

@@ -1,12 +1,18 @@
 /* moved_box.c - see moved_box.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "moved_box.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "../../common/mem.h"
+#include "../boundary/forcing.h"
+#include "../boundary/mesh_bc.h"
+#include "../grid/overset.h"
+#include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
+#include "../time/moving.h"
 #include "../time/stages.h"
 
 static bool differs(const struct fv *s, const struct forcing *f)
@@ -16,19 +22,8 @@ static bool differs(const struct fv *s, const struct forcing *f)
     return other != 0;
 }
 
-/* Velocity component a of FV's own cells at the end of window m before this one. */
-static void own_past(const struct fv *s, const struct course *c, int m, int a, double *field)
-{
-    const struct block *b = &s->b;
-    int64_t n = 0;
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = c->patch->first; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++, n++)
-                field[block_at(b, i, j, k)] = c->q[m][n * c->width + a];
-}
-
 /* The values of the new lists: the partner's, where the old lists had them, else FV's own. */
-static void carry(const struct fv *s, const struct course *c, struct forcing *to)
+static void carry(const struct fv *s, struct forcing *to)
 {
     const struct forcing *from = s->forcing;
     double *field = NEW(double, s->size);
@@ -36,8 +31,7 @@ static void carry(const struct fv *s, const struct course *c, struct forcing *to
         for (int a = 0; a < s->dim; a++) {
             const double *v = m == 0 ? from->v_next[a] : m == 1 ? from->v[a] : from->v_old[a];
             double *w = m == 0 ? to->v_next[a] : m == 1 ? to->v[a] : to->v_old[a];
-            if (c->levels > 0) /* else a restart file will say */
-                own_past(s, c, m < c->levels ? m : c->levels - 1, a, field);
+            memcpy(field, m == 0 ? s->u[a] : s->past[m - 1][a], (size_t)s->size * sizeof *field);
             for (int64_t i = 0; i < from->npartner + from->nrim; i++)
                 field[from->partner[i]] = v[i];
             for (int64_t i = 0; i < to->npartner + to->nrim; i++)
@@ -64,16 +58,170 @@ static void carry_surface(struct fv *s, struct surface_forced *from)
     surface_forced_free(&from);
 }
 
-bool moved_box(struct fv *s, const struct course *c, int n, const double (*box)[2][3])
+/* --- blocks --- */
+
+/* What the cells of all blocks are, to be freed. Those deep in the box count as given ones: where
+ * they come near free cells, the partner knows them. */
+static void copy_status(const struct mesh *m, unsigned char *was[MESH_BLOCKS_MAX])
 {
-    struct forcing *f = forcing_create(s, n, box, true);
-    if (!f || !differs(s, f)) {
-        forcing_free(&f);
-        return false;
+    for (int k = 0; k < m->nblocks; k++) {
+        const struct mesh_block *b = m->block + k;
+        was[k] = NEW(unsigned char, mesh_count(b));
+        memcpy(was[k], b->status, (size_t)mesh_count(b));
+        for (int64_t c = 0; c < mesh_count(b); c++)
+            if (was[k][c] == CELL_HOLE && mesh_given_holds(m, b, c))
+                was[k][c] = CELL_GIVEN;
     }
-    forcing_extend(s, s->forcing->near, s->p);
-    forcing_extend(s, s->forcing->near, s->p_before);
-    carry(s, c, f);
+}
+
+static void swap_status(struct mesh *m, unsigned char *was[MESH_BLOCKS_MAX])
+{
+    for (int k = 0; k < m->nblocks; k++) {
+        unsigned char *const now = m->block[k].status;
+        m->block[k].status = was[k];
+        was[k] = now;
+    }
+}
+
+/* Velocities of now and before. */
+static int past_fields(const struct fv *s, double **f)
+{
+    int n = 0;
+    for (int a = 0; a < s->dim; a++) {
+        f[n++] = s->u[a];
+        f[n++] = s->past[0][a];
+        f[n++] = s->past[1][a];
+    }
+    return n;
+}
+
+/* Cells that later blocks hid have values, now that the box has come to them, from those blocks. */
+static void fill_hidden(struct fv *s, unsigned char *was[MESH_BLOCKS_MAX])
+{
+    struct mesh *m = s->m;
+    unsigned char *wanted[MESH_BLOCKS_MAX];
+    double *f[9];
+    const int n = past_fields(s, f);
+    bool any = false;
+    for (int k = 0; k < m->nblocks; k++) {
+        const struct mesh_block *b = m->block + k;
+        wanted[k] = NEW(unsigned char, mesh_count(b));
+        for (int64_t c = 0; c < mesh_count(b); c++) {
+            wanted[k][c] = was[k][c] == CELL_HOLE && b->status[c] == CELL_GIVEN;
+            any = any || wanted[k][c];
+        }
+    }
+    if (any && m->has_fringe) {
+        swap_status(m, was);
+        overset_interpolate(m, m->search, wanted, n, f);
+        swap_status(m, was);
+    }
+    for (int k = 0; k < m->nblocks; k++)
+        mem_free(wanted[k]);
+}
+
+/* Some rank's cells without donors. */
+static void tell_trouble(const struct fv *s, char why[256])
+{
+    int mine = *s->m->trouble ? s->run->rank : s->run->size, least;
+    MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, s->comm);
+    if (least == s->run->size)
+        return;
+    snprintf(why, 256, "%.255s", s->m->trouble);
+    MPI_Bcast(why, 256, MPI_CHAR, least, s->comm);
+}
+
+static void cut(struct fv *s, const double (*box)[3])
+{
+    mesh_recut(s->m, box);
+    moving_set_free(s);
+}
+
+/* The lists of blocks cut around the box; NULL: as before. */
+static struct forcing *cut_anew(struct fv *s, const double (*box)[3], char why[256])
+{
+    struct mesh *m = s->m;
+    const struct mesh_box old = m->given;
+    const double back[2][3] = {{old.lo[0], old.lo[1], old.lo[2]},
+                               {old.hi[0], old.hi[1], old.hi[2]}};
+    unsigned char *was[MESH_BLOCKS_MAX], *local = NEW(unsigned char, s->size);
+    double *f[9];
+    const int n = past_fields(s, f);
+    memcpy(local, m->status, (size_t)s->size);
+    mesh_fill(m, 1, &s->p);
+    mesh_fill(m, n, f);
+    copy_status(m, was);
+    cut(s, box);
+    tell_trouble(s, why);
+    struct forcing *to = *why ? NULL : forcing_create(s, 1, NULL, true);
+    if (to)
+        fill_hidden(s, was);
+    else
+        cut(s, back);
+    *m->trouble = '\0';
+    for (int64_t c = 0; s->born && to && c < s->size; c++)
+        s->born[c] = m->status[c] == CELL_COMPUTED && local[c] != CELL_COMPUTED;
+    s->born_at = s->t;
+    for (int k = 0; k < m->nblocks; k++)
+        mem_free(was[k]);
+    mem_free(local);
+    return to;
+}
+
+static void renew_pressure(struct fv *s)
+{
+    if (s->m)
+        s->stiffest = mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
+    poisson_free(&s->poisson);
+    poisson_create(s);
+}
+
+/* --- both --- */
+
+void moved_box_prepare(struct fv *s, const double (*box)[3])
+{
+    for (int m = 0; m < 2; m++)
+        for (int a = 0; a < s->dim; a++)
+            s->past[m][a] = NEW(double, s->size);
+    if (!s->m)
+        return;
+    if (s->prm.integrator == INTEGRATOR_BDF2)
+        s->born = NEW(unsigned char, s->size);
+    s->m->search = overset_search(s->run, s->m);
+    s->m->given.layers += AHEAD;
+    cut(s, box);
+}
+
+/* The lists for these boxes; NULL: they are the same, or none can be. */
+static struct forcing *new_lists(struct fv *s, int n, const double (*box)[2][3], char why[256])
+{
+    if (s->m && !mesh_recut_wanted(s->m, box[0]))
+        return NULL;
+    struct forcing *f = s->m ? NULL : forcing_create(s, n, box, true);
+    if (f && !differs(s, f)) {
+        forcing_free(&f);
+        return NULL;
+    }
+    if (f || s->m) {
+        forcing_extend(s, s->forcing->near, s->p);
+        forcing_extend(s, s->forcing->near, s->p_before);
+    }
+    if (s->m)
+        f = cut_anew(s, box[0], why);
+    if (!f && !*why)
+        snprintf(
+            why, 256, "no cell of fv lies wholly in (%g, %g, %g) to (%g, %g, %g) m, what sph gives",
+            box[0][0][0], box[0][0][1], box[0][0][2], box[0][1][0], box[0][1][1], box[0][1][2]);
+    return f;
+}
+
+bool moved_box(struct fv *s, int n, const double (*box)[2][3], char why[256])
+{
+    *why = '\0';
+    struct forcing *f = new_lists(s, n, box, why);
+    if (!f)
+        return false;
+    carry(s, f);
     const double before = s->surface ? surface_volume(s, NULL) : 0.0;
     forcing_free(&s->forcing);
     s->forcing = f;
@@ -82,7 +230,10 @@ bool moved_box(struct fv *s, const struct course *c, int n, const double (*box)[
         surface_outline_moved(s, before);
         return true;
     }
-    poisson_free(&s->poisson);
-    poisson_create(s);
+    renew_pressure(s);
+    if (s->m && mesh_bc_pressure_given(s) && f->net == NET_OTHERS)
+        snprintf(why, 256,
+                 "what flows through the outline of the cells that sph gives, in blocks "
+                 "that overlap there, cannot be balanced, and an outflow lets it swing");
     return true;
 }

@@ -9,6 +9,50 @@
 
 enum { MARGIN = 4 }; /* cells around the box: a cubic's and one for rounding */
 
+/* The four rows around the middle of a row of the patch, and their weights. */
+static struct blend blend_rows(const struct block *b, double from, double to)
+{
+    const double *edge = b->rows->edge, middle = 0.5 * (from + to);
+    const int n = b->cells[1];
+    struct blend x;
+    int j = 0;
+    while (j < n - 1 && middle >= edge[j + 1])
+        j++;
+    j -= middle < 0.5 * (edge[j] + edge[j + 1]) ? 2 : 1;
+    j = j < 0 ? 0 : j > n - 4 ? n - 4 : j;
+    rows_average(edge + j, from, to, x.w);
+    for (int m = 0; m < 4; m++)
+        x.w[m] = fabs(x.w[m]) < 1e-9 ? 0.0 : x.w[m];
+    x.row = j - b->lo[1];
+    return x;
+}
+
+/* The even rows go on to the domain's bottom: this rank's are those with their middle in its own.
+ */
+static void blend_grid(const struct block *b, struct patch *p)
+{
+    const struct rows *r = b->rows;
+    const double h = b->h[1], bottom = r->edge[0], top = r->edge[r->even];
+    const double least = r->edge[b->lo[1]], most = r->edge[b->lo[1] + b->n[1]];
+    const int below = (int)ceil((top - bottom) / h - 1e-9), all = below + b->cells[1] - r->even;
+    int first = 0, n = 0;
+    p->origin[1] = top - below * h;
+    p->cells[1] = all;
+    p->first = p->below = 0;
+    for (int j = 0; j < all; j++) {
+        const double middle = p->origin[1] + (j + 0.5) * h;
+        first += middle < least && b->lo[1] > 0;
+        n += (middle >= least || b->lo[1] == 0) &&
+             (middle < most || b->lo[1] + b->n[1] == b->cells[1]);
+    }
+    p->of.lo[1] = first;
+    p->of.n[1] = n;
+    p->blend = mem_new((size_t)n + 1, sizeof *p->blend);
+    for (int j = 0; j < n; j++)
+        p->blend[j] =
+            blend_rows(b, p->origin[1] + (first + j) * h, p->origin[1] + (first + j + 1) * h);
+}
+
 static void of_grid(const struct fv *s, struct patch *p)
 {
     const struct block *b = &s->b;
@@ -30,6 +74,13 @@ static void of_grid(const struct fv *s, struct patch *p)
     }
 }
 
+/* Whether what the partner looks at from y = lo m on are even rows. */
+static bool in_even_rows(const struct fv *s, double lo)
+{
+    const struct rows *r = s->b.rows;
+    return lo >= r->edge[r->even] + (2.0 - 1e-9) * s->b.h[1];
+}
+
 /* The block with the smallest cells at the middle of the box, and their size; -1: none. */
 static int finest(const struct mesh *m, const struct overset *o, const double *x, double *h)
 {
@@ -47,6 +98,33 @@ static int finest(const struct mesh *m, const struct overset *o, const double *x
         }
     }
     *h = best < 0 ? 0.0 : pow(least, 1.0 / m->dim);
+    return best;
+}
+
+/* The same over all places that the box may come to. */
+static int finest_on_way(const struct fv *s, const struct overset *o, const double *lo,
+                         const double *hi, double *h)
+{
+    enum { PLACES = 9 }; /* along an axis */
+    const struct scene_domain *d = &s->run->scene.domain;
+    int best = -1;
+    for (int i = 0; i < PLACES * PLACES * PLACES; i++) {
+        const int at[3] = {i % PLACES, i / PLACES % PLACES, i / PLACES / PLACES};
+        double x[3] = {0.0, 0.0, 0.0}, here;
+        bool once = true;
+        for (int a = 0; a < 3; a++) {
+            const bool moves = a < s->dim && s->partner_moves[a];
+            once = once && (moves || at[a] == 0);
+            if (a < s->dim)
+                x[a] = moves ? d->min[a] + (at[a] + 0.5) / PLACES * (d->max[a] - d->min[a])
+                             : 0.5 * (lo[a] + hi[a]);
+        }
+        const int k = once ? finest(s->m, o, x, &here) : -1;
+        if (k >= 0 && (best < 0 || here < *h)) {
+            best = k;
+            *h = here;
+        }
+    }
     return best;
 }
 
@@ -95,16 +173,18 @@ static void share(const struct fv *s, struct patch *p)
 
 /* Whether the partner may look at a cell: it does not deep in its own part, which ends nowhere at
  * the domain's sides. */
-static bool is_wanted(const struct fv *s, const struct patch *p, const double *x, const double *lo,
-                      const double *hi, const double (*inner)[3])
+static bool is_wanted(const struct fv *s, const struct patch *p, const double *place,
+                      const double *lo, const double *hi, const double (*inner)[3])
 {
     bool around = true, deep = true;
     for (int a = 0; a < p->dim; a++) {
         const struct scene_domain *d = &s->run->scene.domain;
-        const double h = p->h[a];
-        around = around && x[a] > lo[a] - 2.0 * h && x[a] < hi[a] + 2.0 * h;
-        deep = deep && (x[a] > inner[0][a] + 2.0 * h || inner[0][a] < d->min[a] + 1e-6 * h) &&
-               (x[a] < inner[1][a] - 2.0 * h || inner[1][a] > d->max[a] - 1e-6 * h);
+        const double h = p->h[a], L = d->max[a] - d->min[a];
+        const double x =
+            p->periodic[a] ? place[a] + L * ceil((lo[a] - 2.0 * h - place[a]) / L) : place[a];
+        around = around && x > lo[a] - 2.0 * h && x < hi[a] + 2.0 * h;
+        deep = deep && (x > inner[0][a] + 2.0 * h || inner[0][a] < d->min[a] + 1e-6 * h) &&
+               (x < inner[1][a] - 2.0 * h || inner[1][a] > d->max[a] - 1e-6 * h);
     }
     return around && !deep;
 }
@@ -145,39 +225,62 @@ static bool agree(const struct fv *s, bool good, double *where)
     return least == s->run->size;
 }
 
+/* Cells as large as h about, or those of the plain block k: in the box, along axes on which it
+ * moves in the whole domain. */
+static void make_grid(const struct fv *s, int k, const double *lo, const double *hi, double h,
+                      struct patch *p)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    const struct mesh_block *b = is_plain(s->m->block + k) ? s->m->block + k : NULL;
+    for (int a = 0; a < 3; a++) {
+        p->cells[a] = 1;
+        p->h[a] = 1.0;
+        if (a < s->dim && s->partner_moves[a])
+            set_axis(s, b, a, d->min[a], d->max[a], h, p);
+        else if (a < s->dim)
+            set_axis(s, b, a, lo[a], hi[a], h, p);
+    }
+    share(s, p);
+    p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
+}
+
 bool patch_create(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
                   struct patch *p, double *where)
 {
     *p = (struct patch){.dim = s->dim};
     if (!s->m) {
         of_grid(s, p);
+        if (s->b.rows && lo && (s->partner_moves[1] || !in_even_rows(s, lo[1])))
+            blend_grid(&s->b, p);
         p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
         return true;
     }
-    struct overset *o = overset_search(s->run, s->m);
-    double middle[3], h;
-    for (int a = 0; a < 3; a++)
-        middle[a] = 0.5 * (lo[a] + hi[a]);
-    const int k = finest(s->m, o, middle, &h);
-    bool good = k >= 0;
-    memcpy(where, middle, sizeof middle);
-    for (int a = 0; a < 3; a++) {
-        p->cells[a] = 1;
-        p->h[a] = 1.0;
-        if (a < s->dim && good)
-            set_axis(s, is_plain(s->m->block + k) ? s->m->block + k : NULL, a, lo[a], hi[a], h, p);
-    }
-    share(s, p);
-    p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
-    good = good && agree(s, find_donors(s, o, p, lo, hi, inner, where), where);
-    overset_free(&o);
+    struct overset *o = s->m->search ? s->m->search : overset_search(s->run, s->m);
+    double h;
+    for (int a = 0; a < s->dim; a++)
+        where[a] = 0.5 * (lo[a] + hi[a]);
+    const int k = s->m->search ? finest_on_way(s, o, lo, hi, &h) : finest(s->m, o, where, &h);
+    if (k >= 0)
+        make_grid(s, k, lo, hi, h, p);
+    const bool good = k >= 0 && agree(s, find_donors(s, o, p, lo, hi, inner, where), where);
+    if (!s->m->search)
+        overset_free(&o);
     return good;
+}
+
+bool patch_renew(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
+                 struct patch *p, double *where)
+{
+    mesh_exchange_free(&p->sample);
+    mem_free(p->known);
+    return agree(s, find_donors(s, s->m->search, p, lo, hi, inner, where), where);
 }
 
 void patch_free(struct patch *p)
 {
     mesh_exchange_free(&p->sample);
     mem_free(p->known);
+    mem_free(p->blend);
 }
 
 void patch_centre(const struct patch *p, int64_t i, double *x)
@@ -190,10 +293,30 @@ void patch_centre(const struct patch *p, int64_t i, double *x)
                    : 0.0;
 }
 
+static void look_at_rows(const struct fv *s, const struct patch *p, double *f, double *to)
+{
+    const struct block *b = &s->b;
+    const int64_t up = b->stride[1];
+    block_halo(b, 1, &f);
+    for (int k = 0; k < p->of.n[2]; k++)
+        for (int j = 0; j < p->of.n[1]; j++) {
+            const struct blend *x = p->blend + j;
+            const double *at = f + block_at(b, 0, x->row, k);
+            for (int i = 0; i < p->of.n[0]; i++, at++) {
+                double sum = 0.0;
+                for (int m = 0; m < 4; m++)
+                    sum += x->w[m] != 0.0 ? x->w[m] * at[m * up] : 0.0;
+                *to++ = sum;
+            }
+        }
+}
+
 void patch_look(const struct fv *s, struct patch *p, double *f, double *to)
 {
     if (s->m)
         mesh_exchange_to(s->m, &p->sample, 1, &f, &to);
+    else if (p->blend)
+        look_at_rows(s, p, f, to);
     else
         block_pack_from(&s->b, p->first, f, to);
 }

@@ -1,6 +1,7 @@
-/* patch.h - what a partner is given: the cells of a uniform grid. Of fv.cells those themselves,
- * above the uneven rows; of blocks a box around the partner's, whose averages come from the blocks'
- * cells by cubics. Where the finest block there is a plain box, they are its cells.
+/* patch.h - what a partner is given: the cells of a uniform grid. Of fv.cells those themselves;
+ * where the partner may come to uneven rows, the even ones go on below, with averages by cubics; of
+ * blocks a box around the partner's, whose averages come from the blocks' cells by cubics. Where
+ * the finest block there is a plain box, they are its cells.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_PATCH_H
 #define FV_PATCH_H
@@ -14,19 +15,26 @@ struct patch {
     double origin[3], h[3]; /* m */
     int cells[3];           /* of all ranks */
     bool periodic[3];
-    int first;     /* local row of fv.cells that is its lowest */
-    int below;     /* rows of fv.cells below its first */
-    struct box of; /* what this rank has; its own rows of fv.cells are counted from the grid's */
-    int64_t n;     /* number of those */
+    int first; /* local row of fv.cells that is its lowest */
+    int below; /* rows of fv.cells below its first */
+    struct blend {
+        int row;     /* of fv.cells, this rank's: the first of four */
+        double w[4]; /* that make a row of the patch */
+    } * blend;       /* [of.n[1]]; NULL: rows of fv.cells are its own */
+    struct box of;   /* what this rank has; its own rows of fv.cells are counted from the grid's */
+    int64_t n;       /* number of those */
     struct mesh_exchange sample; /* of blocks */
     bool *known;                 /* [n] of blocks: some block gives a value */
 };
 
-/* lo, hi: the box in which the partner may look; inner (lower, upper corner): within it and away
- * from its outline the partner does not look, so blocks need not have values there. where: a place
- * (m) that wants a value and finds none; false then. Collective. */
+/* lo, hi: the box in which the partner may look, NULL: in even rows alone; inner (lower, upper
+ * corner): within it and away from its outline the partner does not look, so blocks need not have
+ * values there. where: a place (m) that wants a value and finds none; false then. Collective. */
 bool patch_create(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
                   struct patch *p, double *where);
+/* Of blocks cut anew around a box that moves, which stands there now. */
+bool patch_renew(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
+                 struct patch *p, double *where);
 void patch_free(struct patch *p);
 /* Centre of the local cell with this number. */
 void patch_centre(const struct patch *p, int64_t i, double *x);

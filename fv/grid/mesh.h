@@ -33,7 +33,8 @@ enum mesh_status { CELL_COMPUTED, CELL_FRINGE, CELL_HOLE, CELL_GIVEN };
 /* Cells of all blocks that lie wholly in a box are given. */
 struct mesh_box {
     double lo[3], hi[3];
-    double period[3], least[3]; /* m: of the domain, 0: none; its lower corner */
+    double period[3]; /* m: of the domain, 0: none */
+    int layers;       /* of given cells that get values */
 };
 
 struct mesh_block_params {
@@ -132,7 +133,7 @@ struct mesh {
     unsigned char *status; /* with ghosts: CELL_HOLE behind sides that are no cells */
     struct mesh_exchange halo, fringe;
     double *grid[3];        /* m^dim/s: flux of the moving cells' own velocity, see mesh_motion.h */
-    struct overset *search; /* of blocks that move; else NULL */
+    struct overset *search; /* of blocks, or a box of given cells, that move; else NULL */
     char trouble[600];      /* a cell without donors on this rank, after a move; "" : none */
 };
 
@@ -190,8 +191,16 @@ void mesh_fault(const struct run *r, struct faults *f, int block, const char *ke
 /* mesh_given.c: status of the cells in m->given; what lies deep in it becomes a hole; no psi passes
  * the faces of given cells. */
 void mesh_given_mark(struct mesh *m);
+/* Whether all corners of a cell lie in the box, some periods away. */
+bool mesh_given_holds(const struct mesh *m, const struct mesh_block *b, int64_t c);
 void mesh_given_trim(struct mesh *m);
 void mesh_given_close(struct mesh *m);
+/* mesh_metrics.c: open, as sides have it. */
+void mesh_open_faces(struct mesh *m);
+/* mesh_recut.c: whether other cells lie in this box than in m->given; blocks cut around it. Where
+ * blocks overlap m->search is there; m->trouble, see overset.h. Collective. */
+bool mesh_recut_wanted(const struct mesh *m, const double (*box)[3]);
+void mesh_recut(struct mesh *m, const double (*box)[3]);
 /* The computed neighbours of a given cell c of this rank whose mean its psi is, as steps along the
  * indices; their number, 0: none is near. */
 enum { MESH_SOURCES = 12 };

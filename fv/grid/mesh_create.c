@@ -184,11 +184,11 @@ void mesh_set_status(struct mesh *m)
 static void set_box(const struct run *r, struct mesh *m, const double (*box)[3])
 {
     m->has_given = box != NULL;
+    m->given.layers = MESH_GIVEN_LAYERS;
     for (int a = 0; a < 3 && box; a++) {
         const struct scene_domain *d = &r->scene.domain;
         m->given.lo[a] = box[0][a];
         m->given.hi[a] = box[1][a];
-        m->given.least[a] = d->min[a];
         m->given.period[a] = d->periodic[a] ? d->max[a] - d->min[a] : 0.0;
     }
 }

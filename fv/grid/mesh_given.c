@@ -6,8 +6,7 @@
 
 #include "mesh.h"
 
-/* Whether all corners of a cell lie in the box, some periods away. */
-static bool is_inside(const struct mesh *m, const struct mesh_block *b, int64_t c)
+bool mesh_given_holds(const struct mesh *m, const struct mesh_block *b, int64_t c)
 {
     const struct mesh_box *box = &m->given;
     double move[3] = {0.0, 0.0, 0.0};
@@ -16,7 +15,7 @@ static bool is_inside(const struct mesh *m, const struct mesh_block *b, int64_t 
     const double eps = 1e-9 * pow(b->volume[c], 1.0 / m->dim);
     for (int a = 0; a < m->dim; a++)
         if (box->period[a] > 0.0)
-            move[a] = box->period[a] * floor((b->centre[c][a] - box->least[a]) / box->period[a]);
+            move[a] = box->period[a] * floor((b->centre[c][a] - box->lo[a]) / box->period[a]);
     for (int k = 0; k < 1 << m->dim; k++) {
         const double *x =
             b->x[mesh_vertex(b, i[0] + (k & 1), i[1] + (k >> 1 & 1), i[2] + (k >> 2 & 1))];
@@ -32,7 +31,7 @@ void mesh_given_mark(struct mesh *m)
     for (int k = 0; k < m->nblocks && m->has_given; k++) {
         struct mesh_block *b = m->block + k;
         for (int64_t c = 0; c < mesh_count(b); c++)
-            if (is_inside(m, b, c))
+            if (mesh_given_holds(m, b, c))
                 b->status[c] = CELL_GIVEN;
     }
 }
@@ -43,10 +42,10 @@ static bool is_near(const struct mesh *m, int k, int64_t c)
     const struct mesh_block *b = m->block + k;
     int i[3], d[3];
     mesh_index(b, c, i);
-    const int reach = m->dim == 3 ? MESH_GIVEN_LAYERS : 0;
+    const int layers = m->given.layers, reach = m->dim == 3 ? layers : 0;
     for (d[2] = -reach; d[2] <= reach; d[2]++)
-        for (d[1] = -MESH_GIVEN_LAYERS; d[1] <= MESH_GIVEN_LAYERS; d[1]++)
-            for (d[0] = -MESH_GIVEN_LAYERS; d[0] <= MESH_GIVEN_LAYERS; d[0]++) {
+        for (d[1] = -layers; d[1] <= layers; d[1]++)
+            for (d[0] = -layers; d[0] <= layers; d[0]++) {
                 int at[3] = {i[0] + d[0], i[1] + d[1], i[2] + d[2]}, to = k;
                 double move[3] = {0.0, 0.0, 0.0};
                 if (mesh_resolve(m, &to, at, move) &&

@@ -211,12 +211,27 @@ static void part_metrics(struct mesh *m, const struct part *p)
                         m->S[a][k][c] = S[k];
                         m->G[a][k][c] = g[k];
                     }
-                    m->open[a][c] = (at[a] == 0 && is_closed(b->side[2 * a])) ||
-                                            (at[a] == b->n[a] && is_closed(b->side[2 * a + 1]))
-                                        ? 0.0
-                                        : 1.0;
                 }
             }
+}
+
+void mesh_open_faces(struct mesh *m)
+{
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *p = m->part + q;
+        const struct mesh_block *b = m->block + p->block;
+        for (int64_t c = p->base; c < p->base + p->size; c++) {
+            int at[3];
+            part_index(p, c, at);
+            for (int a = 0; a < m->dim; a++) {
+                const int i = p->lo[a] + at[a];
+                m->open[a][c] = (i == 0 && is_closed(b->side[2 * a])) ||
+                                        (i == b->n[a] && is_closed(b->side[2 * a + 1]))
+                                    ? 0.0
+                                    : 1.0;
+            }
+        }
+    }
 }
 
 /* What the metrics of a cell and its lower faces make it: the first cell's box, another upright
@@ -267,4 +282,5 @@ void mesh_metrics(struct mesh *m)
         part_metrics(m, m->part + k);
         m->part[k].kind = kind_of(m, m->part + k);
     }
+    mesh_open_faces(m);
 }

@@ -14,6 +14,8 @@ void overset_free(struct overset **o);
  * rank's fringe and their exchange. A cell without donors is told by m->trouble. */
 void overset_cut(struct mesh *m, const struct overset *o);
 void overset_find(struct mesh *m, struct overset *o);
+/* Both donors and rows of the matrix, after another cut. */
+void overset_renew(struct mesh *m, struct overset *o);
 /* m->fringes alone, of the places now. */
 void overset_find_rows(struct mesh *m, const struct overset *o);
 /* Values of the cells (of all blocks, 1: wanted) from donors computed now. Collective. */

@@ -208,15 +208,59 @@ static bool is_beside_given(const struct mesh *m, const struct overset *o, int k
     return false;
 }
 
-/* Cells of the fringe for whom the box is nearer than other donors join its cells. */
-static void hand_over(struct mesh *m, const struct overset *o)
+/* Steps from cell i of block k along axis a to a given cell, over free ones; 0: none within `most'.
+ * *joined: it is none of the box itself. */
+static int steps_to_given(const struct mesh *m, int k, const int *i, int a, int way, int most,
+                          bool *joined)
+{
+    for (int n = 1; n <= most; n++) {
+        int at[3] = {i[0], i[1], i[2]}, to = k;
+        double move[3] = {0.0, 0.0, 0.0};
+        at[a] += n * way;
+        if (!mesh_resolve(m, &to, at, move))
+            return 0;
+        const int64_t c = mesh_cell(m->block + to, at);
+        const unsigned char s = m->block[to].status[c];
+        if (s == CELL_GIVEN)
+            *joined = *joined || !mesh_given_holds(m, m->block + to, c);
+        if (s == CELL_GIVEN || s == CELL_HOLE)
+            return s == CELL_GIVEN ? n : 0;
+    }
+    return 0;
+}
+
+/* Whether a free cell stands with fewer than four in line between the box and cells that have
+ * joined it: too few for its gradient. */
+static bool is_in_gap(const struct mesh *m, int k, const int *i)
+{
+    enum { LEAST = 4 };
+    for (int a = 0; a < m->dim; a++) {
+        bool joined = false;
+        const int down = steps_to_given(m, k, i, a, -1, LEAST - 1, &joined);
+        const int up = down ? steps_to_given(m, k, i, a, 1, LEAST - down, &joined) : 0;
+        if (up && joined)
+            return true;
+    }
+    return false;
+}
+
+/* Cells of the fringe for whom the box is nearer than other donors join its cells; false: there are
+ * none. gaps: of all free cells those between them and the box do. */
+static bool hand_over(struct mesh *m, const struct overset *o, bool gaps)
 {
     unsigned char *own[MESH_BLOCKS_MAX];
+    bool any = false;
     for (int k = 0; k < m->nblocks; k++) {
-        own[k] = NEW(unsigned char, mesh_count(m->block + k));
-        for (int64_t c = 0; c < mesh_count(m->block + k); c++)
-            own[k][c] = m->block[k].status[c] == CELL_FRINGE &&
-                        is_beside_given(m, o, k, m->block[k].centre[c]);
+        const struct mesh_block *b = m->block + k;
+        own[k] = NEW(unsigned char, mesh_count(b));
+        for (int64_t c = 0; c < mesh_count(b); c++) {
+            int i[3];
+            mesh_index(b, c, i);
+            own[k][c] = gaps
+                            ? b->status[c] <= CELL_FRINGE && is_in_gap(m, k, i)
+                            : b->status[c] == CELL_FRINGE && is_beside_given(m, o, k, b->centre[c]);
+            any = any || own[k][c];
+        }
     }
     for (int k = 0; k < m->nblocks; k++) {
         for (int64_t c = 0; c < mesh_count(m->block + k); c++)
@@ -224,6 +268,7 @@ static void hand_over(struct mesh *m, const struct overset *o)
                 m->block[k].status[c] = CELL_GIVEN;
         mem_free(own[k]);
     }
+    return any;
 }
 
 void overset_count(struct mesh *m)
@@ -245,7 +290,7 @@ void overset_cut(struct mesh *m, const struct overset *o)
     }
     for (int k = 0; k < m->nblocks; k++)
         make_fringe(m, k);
-    if (m->has_given)
-        hand_over(m, o);
+    for (bool more = m->has_given; more;)
+        more = hand_over(m, o, false) && hand_over(m, o, true);
     overset_count(m);
 }

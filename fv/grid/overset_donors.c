@@ -283,6 +283,13 @@ void overset_find(struct mesh *m, struct overset *o)
     make_exchange(m, o, &m->fringe);
 }
 
+void overset_renew(struct mesh *m, struct overset *o)
+{
+    keep_last(m, o);
+    find_again(m, o, NULL);
+    overset_exchange(m, o);
+}
+
 void overset_find_rows(struct mesh *m, const struct overset *o)
 {
     struct overset fresh = *o;

@@ -118,6 +118,23 @@ void rows_mirror(const double *of, int way, int n, int depth, double *w)
         w[1] = 1.0 - w[0];
 }
 
+void rows_average(const double e[5], double from, double to, double w[4])
+{
+    const double y[2] = {from, to};
+    for (int m = 0; m < 4; m++)
+        w[m] = 0.0;
+    for (int k = 1; k < 5; k++) {
+        double ends[2]; /* the integral up to edge k holds the averages below */
+        for (int q = 0; q < 2; q++) {
+            ends[q] = 1.0;
+            for (int m = 0; m < 5; m++)
+                ends[q] *= m == k ? 1.0 : (y[q] - e[m]) / (e[k] - e[m]);
+        }
+        for (int m = 0; m < k; m++)
+            w[m] += (e[m + 1] - e[m]) * (ends[1] - ends[0]) / (to - from);
+    }
+}
+
 /* Faces of rows from -1 to n + 1, derivatives of rows from -1 to n; what is read is from -3 to n +
  * 2. */
 static void set_weights(struct rows *r, int n)

@@ -35,6 +35,10 @@ struct rows {
 void rows_beyond(const double *h, int way, int n, int depth, double *w);
 void rows_mirror(const double *h, int way, int n, int depth, double *w);
 
+/* Weights of the averages of four rows between the edges e for the average from `from' to `to': by
+ * the quartic through their integral. */
+void rows_average(const double e[5], double from, double to, double w[4]);
+
 /* Of a grid whose n rows have these heights from the bottom on, those of a rank: its own `own' ones
  * from the lo-th on. */
 struct rows *rows_create(int n, int even, double bottom, const double *h, int lo, int own);

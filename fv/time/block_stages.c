@@ -44,9 +44,19 @@ static void set_slip(struct fv *s, double tau, const double *psi)
     mesh_bc_set_slip(s, tau, psi);
 }
 
+/* Cells that a partner's box has left have no convection of the step before. */
+static void begin_born(struct fv *s, double *const N[3])
+{
+    for (int64_t c = 0; c < s->size; c++)
+        for (int a = 0; a < s->dim && s->born[c]; a++)
+            s->N_old[a][c] = N[a][c];
+}
+
 static void convect(struct fv *s, double *const N[3])
 {
     mesh_convection(s, N);
+    if (s->born && s->t == s->born_at)
+        begin_born(s, N);
     if (s->moving)
         moving_convection(s, N);
 }

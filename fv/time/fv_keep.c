@@ -19,6 +19,8 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
                                             {"N0", "N1", "N2"},          {"old0", "old1", "old2"},
                                             {"step0", "step1", "step2"}, {"out0", "out1", "out2"}};
     static const char *const starts[][3] = {{"psi0", "psi1", "psi2"}, {"z0", "z1", "z2"}};
+    static const char *const pasts[][3] = {{"past0", "past1", "past2"},
+                                           {"older0", "older1", "older2"}};
     int n = 0;
     f[n] = s->p;
     names[n++] = "p";
@@ -53,6 +55,11 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
             if (of_solves[k]) {
                 f[n] = of_solves[k];
                 names[n++] = starts[k][a];
+            }
+        for (int k = 0; k < 2; k++)
+            if (s->past[k][a]) {
+                f[n] = s->past[k][a];
+                names[n++] = pasts[k][a];
             }
     }
     return n;

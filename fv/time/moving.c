@@ -128,7 +128,7 @@ static void swap_status(struct mesh *m, struct moving *v)
     }
 }
 
-static void set_free(struct fv *s)
+void moving_set_free(struct fv *s)
 {
     const struct mesh *m = s->m;
     mesh_set_status(s->m);
@@ -147,7 +147,7 @@ static void cut(struct fv *s, double t)
         overset_cut(m, m->search);
         overset_find_rows(m, m->search);
     }
-    set_free(s);
+    moving_set_free(s);
     s->moving->t_cut = t;
 }
 
@@ -359,7 +359,7 @@ void moving_back(struct fv *s)
         return;
     for (int k = 0; k < m->nblocks; k++)
         memcpy(m->block[k].status, v->status[k], (size_t)count_of(m->block + k));
-    set_free(s);
+    moving_set_free(s);
     overset_find(m, m->search);
 }
 

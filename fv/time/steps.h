@@ -14,7 +14,7 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d);
 void measure(struct fv *s);
 
 /* The fields that a step starts from, and their names: their number. */
-enum { FV_RESTART_FIELDS = 32 };
+enum { FV_RESTART_FIELDS = 40 };
 int fv_restart_fields(const struct fv *s, double **f, const char **names);
 /* fv_keep.c: a copy of the state, to take steps back. */
 struct kept;

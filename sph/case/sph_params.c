@@ -12,6 +12,7 @@
 #include "../walls/wall_ends.h"
 #include "../walls/wall_thin.h"
 #include "../bodies/body_check.h"
+#include "../open_boundaries/box_chase.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
 #include "../refinement/apr_params.h"
@@ -44,7 +45,7 @@ static const struct param rows[] = {
     PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
     PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
     PARAM(P, box_velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the box: it moves through the fluid, particles come into being ahead of it and end behind it"),
-    PARAM(P, box_follows, "-", "", 0, 0, "name of a body with which the box goes, along the axes whose both sides are open"),
+    PARAM(P, box_follows, "-", "", 0, 0, "name of a body with which the box goes, along the axes whose both sides are open; \"breaker\": it goes with the crest in it, above initial.level"),
     CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
     PARAM(P, density_limit, "-", "0.0", 0.0, 10.0, "|rho/rho0 - 1| that ends the run; 0: 0.1, compression at rest and twice the largest Mach number so far, at most 0.5"),
     CHOICE(P, walls, "nfm|ghosts|auto", "auto", "normal flux (any polyline or mesh; not with scheme standard), mirrored ghosts (plane sides); auto: nfm, but ghosts where schemes delta and standard meet no polyline or mesh"),
@@ -508,8 +509,17 @@ static void check_motion(const struct run *r, struct faults *f)
             r->params, f, key,
             "no box has both sides open along an axis on which it would move: give sph.box "
             "(or sph.free) inside the domain");
-    if (!named)
-        params_fault(r->params, f, key, "no body is named `%s'", prm->box_follows);
+    const bool crest = strcmp(prm->box_follows, BOX_CHASE) == 0;
+    if (!named && !crest)
+        params_fault(r->params, f, key,
+                     "no body is named `%s'; \"breaker\" is the crest of the water",
+                     prm->box_follows);
+    if (crest &&
+        (box_chase_speed(r) == 0.0 || !r->crossed || !(r->scene.initial.level < LEVEL_TOP)))
+        params_fault(r->params, f, key,
+                     "a crest is followed where the surface crosses the sides of the box: give "
+                     "gravity, a free surface in both programs, and initial.level, above which "
+                     "crests stand");
     for (int a = 0; a < 3; a++) {
         if (prm->box_velocity[a] != 0.0 && prm->box_follows[0])
             params_fault(r->params, f, key, "give either box_velocity or box_follows, not both");
@@ -518,10 +528,6 @@ static void check_motion(const struct run *r, struct faults *f)
                          "the box cannot move along %c: there it ends on the domain's own sides",
                          "xyz"[a]);
     }
-    if (apr_params_of(r))
-        params_fault(r->params, f, key,
-                     "regions of refinement do not go with a box that moves: leave out group apr, "
-                     "or let the box rest");
     if (f->n == 0)
         check_way(r, prm, f);
 }

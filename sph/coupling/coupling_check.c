@@ -271,23 +271,6 @@ static void find_hidden(const struct run *r, const struct sph_params *prm, doubl
     }
 }
 
-/* Cells that come free and those that are forced anew are those of fv.cells. */
-static void check_moving(const struct run *r, const struct sph_params *prm, struct faults *f)
-{
-    const char *key = box_motion_key(prm);
-    double cells[3], graded[3];
-    if (!box_motion_wanted(prm))
-        return;
-    if (!params_peek(r->params, r->comm, "fv.cells", cells) || !(cells[0] > 0.0))
-        params_fault(r->params, f, key,
-                     "fv has blocks, which are cut once around the box: give fv.cells, or let the "
-                     "box rest");
-    params_peek(r->params, r->comm, "fv.graded", graded);
-    if (graded[1] > 0.0 && box_motion_along(r, prm, 1))
-        params_fault(r->params, f, key,
-                     "the box would move across rows of fv.graded: let it move along x and z");
-}
-
 void coupling_warn(const struct run *r)
 {
     const struct sph_params *prm = sph_params_of(r);
@@ -437,7 +420,6 @@ void coupling_check(const struct run *r, struct faults *f)
     if (f->n == 0)
         check_water(r, &w, f);
     check_bodies(r, prm, f);
-    check_moving(r, prm, f);
     check_several(r, prm, f);
     check_lines(r, prm, &w, f);
     if (f->n == 0)

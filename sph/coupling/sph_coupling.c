@@ -64,9 +64,13 @@ void coupling_offer(struct run *r)
     cpl_zone(r->partner_ctx, named(r, "counted"), lo, hi);
     /* a number that travels as a box: windows over which pressure is smoothed */
     const double memory[3] = {windows_choose(r, prm).memory, 0.0, 0.0};
-    const double moves[3] = {box_motion_wanted(prm), 0.0, 0.0};
+    double moves[3];
+    for (int a = 0; a < 3; a++)
+        moves[a] = a < r->scene.domain.dim && box_motion_along(r, prm, a);
     cpl_zone(r->partner_ctx, named(r, "memory"), memory, memory);
     cpl_zone(r->partner_ctx, named(r, "moves"), moves, moves);
+    const double pace[3] = {box_motion_speed(r, prm), 0.0, 0.0};
+    cpl_zone(r->partner_ctx, named(r, "pace"), pace, pace);
     const double speed[3] = {sph_params_speed(r).speed, 0.0, 0.0};
     cpl_zone(r->partner_ctx, named(r, "speed"), speed, speed);
 }

@@ -6,10 +6,12 @@
 #include "windows.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "../../common/crossing.h"
 #include "../../common/log.h"
 #include "../sph_params.h"
+#include "../open_boundaries/box_chase.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
 
@@ -175,11 +177,13 @@ static void shorten(struct windows *w, double T, const char *limit)
 static double least_cell(const struct run *r)
 {
     const struct scene_domain *d = &r->scene.domain;
-    double cells[3], h = INFINITY;
+    double cells[3], graded[3], h = INFINITY;
     if (!r->params || !params_peek(r->params, r->comm, "fv.cells", cells))
         return h;
     for (int a = 0; a < d->dim; a++)
         h = cells[a] > 0.0 ? fmin(h, (d->max[a] - d->min[a]) / cells[a]) : h;
+    if (params_peek(r->params, r->comm, "fv.graded", graded) && graded[1] > 0.0)
+        h = fmin(h, (d->max[1] - graded[0]) / graded[1]);
     return h;
 }
 
@@ -198,8 +202,11 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
     shorten(&w, w.omega > 0.0 ? wave_share / w.omega : INFINITY, "the waves");
     const double box = box_motion_speed(r, prm);
     shorten(&w, transition / (w.U + box), "the way through the transition");
-    if (box > 0.0) /* cells are forced in a row or two ahead of it, and have values there */
-        shorten(&w, least_cell(r) / box, "the way of the box through a cell");
+    /* cells are forced in a row or two ahead of it, and have values there; behind a crest the box
+     * goes half as fast as it may at most, and shorter windows want more memory */
+    const double cells = strcmp(prm->box_follows, BOX_CHASE) == 0 ? 2.0 : 1.0;
+    if (box > 0.0)
+        shorten(&w, cells * least_cell(r) / box, "the way of the box through a cell");
     w.steps = c->steps > 0 ? c->steps : (int)fmax(floor(w.T / dt * (1.0 + 1e-9)), 1.0);
     w.limit = c->steps > 0 ? "coupling.steps" : w.limit;
     w.T = w.steps * dt;

@@ -9,6 +9,7 @@
 #include "../rigid/body.h"
 #include "../sph_params.h"
 #include "../walls/walls.h"
+#include "box_chase.h"
 #include "openings.h"
 #include "zones.h"
 
@@ -23,10 +24,17 @@ bool box_motion_wanted(const struct sph_params *prm)
     return v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0 || prm->box_follows[0];
 }
 
+static bool chases(const struct sph_params *prm)
+{
+    return strcmp(prm->box_follows, BOX_CHASE) == 0;
+}
+
 bool box_motion_along(const struct run *r, const struct sph_params *prm, int a)
 {
     bool open[6];
     sph_params_open(r, prm, open);
+    if (chases(prm) && r->scene.fluid.gravity[a] != 0.0)
+        return false;
     return box_motion_wanted(prm) && open[2 * a] && open[2 * a + 1] &&
            (prm->box_follows[0] || prm->box_velocity[a] != 0.0);
 }
@@ -62,6 +70,8 @@ bool box_motion_foretold(const struct run *r, const struct sph_params *prm, doub
         way[a] = prm->box_velocity[a] * t;
     if (!box_motion_wanted(prm))
         return true;
+    if (chases(prm))
+        return false;
     const int k = body_of(r, prm);
     if (prm->box_follows[0] && k >= 0) {
         struct body b;
@@ -84,6 +94,8 @@ double box_motion_speed(const struct run *r, const struct sph_params *prm)
     double before[3], now[3], most = 0.0;
     if (!box_motion_wanted(prm))
         return 0.0;
+    if (chases(prm))
+        return box_chase_speed(r);
     if (!prm->box_follows[0]) { /* the same bits whenever the run ends */
         box_motion_foretold(r, prm, 1.0, now);
         return sqrt(now[0] * now[0] + now[1] * now[1] + now[2] * now[2]);
@@ -141,7 +153,10 @@ void box_motion_step(struct sph *s, double dt, struct diagnosis *d)
     double now[3] = {0.0, 0.0, 0.0};
     if (!box_motion_wanted(&s->prm))
         return;
-    if (s->prm.box_follows[0])
+    if (chases(&s->prm)) {
+        memcpy(now, z->way, sizeof now);
+        box_chase_step(s, dt, z->along, now);
+    } else if (s->prm.box_follows[0])
         way_of_body(s->walls->bodies + body_of(s->run, &s->prm), now);
     else
         for (int a = 0; a < s->dim; a++)

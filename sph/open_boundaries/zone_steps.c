@@ -67,6 +67,8 @@ struct zones *zones_create(struct sph *s)
     z->level = NAN;
     zones_widths(s->run, &s->prm, &z->transition, &z->buffer);
     z->fastest = box_motion_speed(s->run, &s->prm);
+    for (int a = 0; a < s->dim; a++)
+        z->along[a] = box_motion_along(s->run, &s->prm, a);
     z->overlap = zones_overlap(s->run, &s->prm);
     z->openings = openings_create(s);
     z->eos = (struct sph_eos){s->rho0, s->c0, s->gamma};
@@ -330,6 +332,8 @@ void zones_save(struct sph *s, struct h5 *f)
     h5_write_real(f, "zones_owed", "kg", 1, 1, owed, false);
     h5_write_int(f, "zones_counted", 3, counted);
     h5_write_real(f, "zones_way", "m", 3, 1, s->zones->way, false);
+    if (s->prm.box_follows[0])
+        h5_write_real(f, "zones_chase", "m/s", 3, 1, s->zones->chase, false);
     if (s->zones->gap) {
         level_gap_save(s, f);
         wet_faces_save(o, f);
@@ -366,6 +370,7 @@ bool zones_load(struct sph *s, struct h5 *f)
         !h5_read_parts(f, "zones_booked", 4, booked) ||
         !h5_read_same(f, "zones_level", 1, &s->zones->level) ||
         !h5_read_same(f, "zones_owed", 1, &o->owed) || !h5_read_same(f, "zones_way", 3, way) ||
+        (s->prm.box_follows[0] && !h5_read_same(f, "zones_chase", 3, s->zones->chase)) ||
         !load_counts(s, f, counted) || (s->zones->gap && !level_gap_load(s, f)) ||
         !wet_faces_load(s, f))
         return false;

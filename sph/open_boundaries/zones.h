@@ -26,8 +26,10 @@ struct zones {
     double transition, buffer; /* m: widths */
     double overlap;            /* m: of the rim of the free zone where a partner is free, too */
     double counted[2][3];      /* m: zones_counted_box, as the window has begun */
+    bool along[3];             /* the box moves along this axis */
     double way[3], speed[3];   /* m, m/s: of the box since the start, over the last step */
     double fastest;            /* m/s: as fast as it will be */
+    double chase[3];           /* m/s: box_chase.h, speed that it remembers */
     zones_eval *eval;
     struct sph_eos {
         double rho0, c0, gamma;

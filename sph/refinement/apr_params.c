@@ -19,7 +19,7 @@ static const struct param region_rows[] = {
     PARAM(P, offset,   "m", "0.0", 0, 1e9, "of shapes body and wall: width of the region in front of the surface"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of a box or sphere"),
     LIST(P, motion, &scene_motion_list, "motion of a box or sphere as told, like that of bodies, without rotations; a plain text: one file"),
-    PARAM(P, follow,   "-", "", 0, 0, "a box or sphere moves with the body of this name, or with the largest pressure of the flow: \"peak\""),
+    PARAM(P, follow,   "-", "", 0, 0, "a box or sphere moves with the body of this name, or with the largest pressure of the flow: \"peak\"; or with a box of particles that moves: \"sph.box\""),
     PARAM(P, along,    "-", "", 0, 0, "axes along which it follows, as in \"x\"; all if none are named"),
     PARAM(P, pressure, "Pa", "0.0", 0, 1e12, "with follow = \"peak\": least pressure of a peak that is followed"),
 };

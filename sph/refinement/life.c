@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/log.h"
 #include "../../common/mem.h"
 #include "../walls/walls.h"
 
@@ -294,6 +295,23 @@ static double adapt_level(const struct regions *g, struct sph *s, bool held)
     return mass;
 }
 
+/* Once, of regions that do not go as the box does. */
+static void watch_zones(struct sph *s)
+{
+    enum { EVERY = 50 };
+    struct refinement *r = s->refinement;
+    double x[3];
+    for (int side = 0; s->zones && s->run->step % EVERY == 0 && side < 2 * s->dim; side++) {
+        if (r->met || !regions_meet_zones(r->regions, side, x))
+            continue;
+        r->met = true;
+        log_warn("t = %.4g s: a region of refinement has come to the zones at an open side, at "
+                 "(%g, %g, %g) m: the flow there is wrong; let it go with the box (follow = "
+                 "\"sph.box\"), or make it smaller",
+                 s->t, x[0], x[1], x[2]);
+    }
+}
+
 void refinement_adapt(struct sph *s)
 {
     struct refinement *r = s->refinement;
@@ -305,6 +323,7 @@ void refinement_adapt(struct sph *s)
         s->mass += adapt_level(r->regions, q, false);
     r->added += flowing(s) - before;
     refinement_watch_bodies(s);
+    watch_zones(s);
     timer_stop(&s->run->timers, "levels");
 }
 

@@ -7,6 +7,7 @@
 #include "../pairs/neighbours.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
+#include "../open_boundaries/zones.h"
 #include "../surface/surface.h"
 #include "../walls/walls.h"
 #include "criteria.h"
@@ -127,6 +128,8 @@ void refinement_follow(struct sph *s, struct sph *outside)
         mark_surface(q);
     for (int k = 0; s->walls && k < s->walls->nbodies; k++)
         tell_place(g, outside->walls->bodies + k, k);
+    if (s->zones)
+        regions_set_box(g, s->zones->way);
     if (regions_want_peak(g))
         find_peak(g, outside);
 }

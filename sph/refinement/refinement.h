@@ -15,6 +15,7 @@
 
 struct refinement {
     struct regions *regions;
+    bool met;                        /* a region has come to the zones: it was said */
     bool local_steps;                /* each level has its own */
     int (*held)[APR_LEVELS_MAX + 1]; /* [BODIES_MAX]: cover.c; NULL before the first step */
     double added;       /* kg: to the mass of what flows, by changes of level; this rank */

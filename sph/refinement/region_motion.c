@@ -56,7 +56,10 @@ static void start_set(struct regions *g, struct region_set *s, const struct apr_
     body_drive_create(&s->drive, &s->told, g->dim, r->case_dir);
     s->speed = scene_body_moves(&s->told) ? body_drive_speed(&s->drive, 0.0, r->scene.time.end) : 0;
     s->peak = strcmp(is->follow, "peak") == 0;
-    if (*is->follow && !s->peak)
+    s->box = strcmp(is->follow, "sph.box") == 0;
+    if (s->box)
+        s->speed = g->speed;
+    if (*is->follow && !s->peak && !s->box)
         s->body = region_body(&r->scene, is->follow);
     for (int a = 0; a < 3; a++)
         s->along[a] = axes >> a & 1;
@@ -145,6 +148,9 @@ bool region_sets_move(struct regions *g, double t)
         memcpy(before, s->shift, sizeof before);
         if (s->peak) {
             follow_peak(g, s);
+        } else if (s->box) {
+            for (int a = 0; a < g->dim; a++)
+                s->shift[a] = s->along[a] ? g->way[a] : 0.0;
         } else if (s->body >= 0) {
             follow_body(g, s);
         } else if (s->speed > 0.0) {

@@ -9,6 +9,7 @@
 #include "../../common/h5.h"
 #include "../../common/mem.h"
 #include "../../common/scene_geometry.h"
+#include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
 #include "criteria.h"
 #include "regions_parts.h"
@@ -306,6 +307,10 @@ struct regions *regions_create(const struct run *r, const struct sph_params *prm
     g->dx = prm->dx;
     g->near = 1e-6 * ldexp(prm->dx, -used->levels);
     set_domain(g, r, prm);
+    g->start[0] = g->domain;
+    g->start[1] = g->room;
+    g->goes = box_motion_wanted(prm);
+    g->speed = box_motion_speed(r, prm);
     find_images(g);
     for (int k = 0; k < BODIES_MAX; k++)
         for (int a = 0; a < 3; a++)
@@ -337,6 +342,22 @@ void regions_free(struct regions **of)
     *of = NULL;
 }
 
+void regions_set_box(struct regions *g, const double way[3])
+{
+    struct box *const both[2] = {&g->domain, &g->room};
+    for (int a = 0; a < g->dim; a++) {
+        g->gone = g->gone || way[a] != g->way[a];
+        g->way[a] = way[a];
+        for (int k = 0; k < 2; k++) { /* room is infinite at open sides */
+            both[k]->lo[a] = g->start[k].lo[a] + way[a];
+            both[k]->hi[a] = g->start[k].hi[a] + way[a];
+        }
+        for (int n = 1; n <= g->prm->levels; n++)
+            if (g->level[n].cells)
+                g->level[n].cells->lo[a] = g->domain.lo[a];
+    }
+}
+
 static void move_shells(struct regions *g)
 {
     for (int n = 0; n < g->nshells; n++)
@@ -347,8 +368,9 @@ static void move_shells(struct regions *g)
 void regions_move(struct regions *g, double t)
 {
     move_shells(g);
-    if (region_sets_move(g, t))
+    if (region_sets_move(g, t) || g->gone)
         regions_make(g);
+    g->gone = false;
 }
 
 /* --- restart --- */
@@ -373,6 +395,8 @@ void regions_save(const struct regions *g, struct h5 *f)
     }
     save_rows(g, f, "apr_shift", g->nsets, 3, shift[0]);
     save_rows(g, f, "apr_bodies", BODIES_MAX, POSE, pose[0]);
+    if (g->goes)
+        save_rows(g, f, "apr_box", 1, 3, g->way);
     mem_free(shift);
     criteria_save(g, f);
 }
@@ -395,6 +419,11 @@ bool regions_load(struct regions *g, struct h5 *f)
     if (!load_rows(f, "apr_shift", g->nsets, 3, shift[0]) ||
         !load_rows(f, "apr_bodies", BODIES_MAX, POSE, pose[0]))
         return false;
+    double way[3];
+    if (g->goes && !load_rows(f, "apr_box", 1, 3, way))
+        return false;
+    if (g->goes)
+        regions_set_box(g, way);
     for (int n = 0; n < g->nsets; n++)
         memcpy(g->sets[n].shift, shift[n], sizeof shift[n]);
     for (int k = 0; k < BODIES_MAX; k++) {

@@ -31,6 +31,10 @@ double regions_dt_outside(const struct regions *g, int level);
  * ranks, as what follows. */
 struct body_motion;
 void regions_set_body(struct regions *g, int body, const struct body_motion *now);
+/* How far sph.box has moved: with it go regions that follow it, and the cells of criteria. */
+void regions_set_box(struct regions *g, const double way[3]);
+/* Whether level 1 comes into the zones at an open side, or R near; where, m. */
+bool regions_meet_zones(const struct regions *g, int side, double x[3]);
 /* Whether some region follows the peak: the place of the largest pressure, m and Pa, is to be set
  * then. */
 bool regions_want_peak(const struct regions *g);

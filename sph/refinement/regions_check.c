@@ -7,6 +7,8 @@
 
 #include "../../common/mem.h"
 #include "../../common/scene_mesh.h"
+#include "../open_boundaries/box_motion.h"
+#include "../rigid/body.h"
 #include "regions.h"
 #include "regions_parts.h"
 
@@ -301,14 +303,13 @@ double regions_allowed(const struct regions *g, int level, int side)
     return (side % 2 ? g->domain.hi[a] : g->domain.lo[a]) + sign * depth;
 }
 
-/* A region of level 1 that comes into the zones at an open side, anywhere along it. */
-static void check_open_side(const struct run *r, const struct regions *g, int side,
-                            struct faults *f)
+bool regions_meet_zones(const struct regions *g, int side, double x[3])
 {
     enum { SAMPLES = 64 };
-    static const char *const names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     const int axis = side / 2, u = (axis + 1) % g->dim, v = (axis + 2) % g->dim;
-    double x[3] = {0.0, 0.0, 0.0};
+    if (!g->open[side])
+        return false;
+    x[0] = x[1] = x[2] = 0.0;
     x[axis] = regions_allowed(g, 1, side);
     const double end = side % 2 ? g->domain.hi[axis] : g->domain.lo[axis];
     for (int i = 0; i < SAMPLES; i++)
@@ -322,16 +323,77 @@ static void check_open_side(const struct run *r, const struct regions *g, int si
                 beyond[axis] += 0.25 * (end - x[axis]);
                 d = fmax(d, regions_fixed_distance(g, 1, beyond));
             }
-            if (d <= 1e-6 * g->R)
+            if (d > 1e-6 * g->R)
+                return true;
+        }
+    return false;
+}
+
+/* Places of the bodies at t; false: one is free. */
+static bool set_bodies(const struct run *r, struct regions *g, double t)
+{
+    bool told = true;
+    for (int k = 0; k < r->scene.nbodies; k++) {
+        struct body b;
+        double x[3] = {0.0, 0.0, 0.0};
+        told = told && !r->scene.bodies[k].free;
+        if (r->scene.bodies[k].free)
+            continue;
+        body_create(&b, r->scene.bodies + k, NULL, g->dim, r->case_dir);
+        body_move(&b, t);
+        body_place(&b, b.centre, x);
+        struct body_motion now = b.now;
+        for (int a = 0; a < g->dim; a++)
+            now.x[a] = x[a] - b.centre[a];
+        regions_set_body(g, k, &now);
+        body_destroy(&b);
+    }
+    return told;
+}
+
+/* Regions and the box as they are at t. */
+static void stand_at(const struct run *r, const struct sph_params *used, struct regions *g,
+                     double t)
+{
+    double way[3];
+    set_bodies(r, g, t);
+    box_motion_foretold(r, used, t, way);
+    regions_set_box(g, way);
+    regions_move(g, t);
+}
+
+/* A region that comes into the zones at an open side, anywhere along it, as far as its way and that
+ * of the box are known beforehand. */
+static void check_open_sides(const struct run *r, const struct sph_params *used, struct regions *g,
+                             struct faults *f)
+{
+    static const char *const names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+    double way[3], x[3];
+    bool moves = g->goes;
+    for (int n = 0; n < g->nsets; n++)
+        moves = moves || g->sets[n].speed > 0.0 || g->sets[n].body >= 0;
+    for (int n = 0; n < g->nshells; n++)
+        moves = moves || g->body_of[n] >= 0;
+    const bool told = set_bodies(r, g, 0.0) && box_motion_foretold(r, used, 0.0, way);
+    const int times = !moves || !told ? 0 : g->dim == 3 ? 4 : 32;
+    for (int k = 0; k <= times; k++) {
+        const double t = times > 0 ? r->scene.time.end * k / times : 0.0;
+        if (k > 0)
+            stand_at(r, used, g, t);
+        for (int side = 0; side < 2 * g->dim; side++) {
+            if (!regions_meet_zones(g, side, x))
                 continue;
+            const double end = side % 2 ? g->domain.hi[side / 2] : g->domain.lo[side / 2];
             params_fault(
                 r->params, f, "apr.regions",
-                "level 1 reaches into the open side %s at (%g, %g, %g): regions and what "
-                "is made around them must stay %.4g m away, transition, buffer and R; make "
-                "them smaller, or the region of the particles larger",
-                names[side], x[0], x[1], x[2], fabs(end - x[axis]));
+                "level 1 reaches into the open side %s at (%g, %g, %g) m, t = %.4g s: regions and "
+                "what is made around them must stay %.4g m away, transition, buffer and R; make "
+                "them smaller, or the region of the particles larger%s",
+                names[side], x[0], x[1], x[2], t, fabs(end - x[side / 2]),
+                g->goes ? "; follow = \"sph.box\" moves them with the box" : "");
             return;
         }
+    }
 }
 
 /* --- motion --- */
@@ -363,10 +425,15 @@ static bool check_motion_keys(const struct check *c)
         params_fault(c->r->params, c->f, key_of(c, "follow"),
                      "a region that follows something has no motion of its own: take velocity and "
                      "motion out");
-    if (*c->is->follow && strcmp(c->is->follow, "peak") != 0 &&
+    const bool with_box = strcmp(c->is->follow, "sph.box") == 0;
+    if (with_box && !box_motion_wanted(c->used))
+        params_fault(c->r->params, c->f, key_of(c, "follow"),
+                     "the box rests: leave it out, or give sph.box_velocity or sph.box_follows");
+    if (*c->is->follow && strcmp(c->is->follow, "peak") != 0 && !with_box &&
         region_body(&c->r->scene, c->is->follow) == BODIES_MAX)
         params_fault(c->r->params, c->f, key_of(c, "follow"),
-                     "no body has the name `%s'; follow = \"peak\" is the largest pressure",
+                     "no body has the name `%s'; follow = \"peak\" is the largest pressure, "
+                     "\"sph.box\" the box that moves",
                      c->is->follow);
     return c->f->n == before;
 }
@@ -394,10 +461,14 @@ static void check_motion(const struct check *c, const struct regions *g)
     bounds(c->is, lo, hi);
     for (int k = 0; k <= 64; k++) {
         const double t = c->r->scene.time.end * k / 64.0;
+        double way[3];
+        if (!box_motion_foretold(c->r, c->used, t, way))
+            return;
         body_drive_at(&s->drive, t, d, dd, ddd);
         for (int a = 0; a < c->dim; a++)
-            if (!g->periodic[a] &&
-                (hi[a] + d[a] <= g->domain.lo[a] || lo[a] + d[a] >= g->domain.hi[a])) {
+            if (!s->box && !g->periodic[a] &&
+                (hi[a] + d[a] <= g->domain.lo[a] + way[a] ||
+                 lo[a] + d[a] >= g->domain.hi[a] + way[a])) {
                 params_fault(c->r->params, c->f, key,
                              "the region has left that of the particles along %c at t = %.4g s, "
                              "before time.end = %g s",
@@ -491,8 +562,6 @@ void regions_check(const struct run *r, const struct sph_params *used, struct fa
         check_nesting(&c, g);
         check_motion(&c, g);
     }
-    for (int side = 0; side < 2 * g->dim; side++)
-        if (g->open[side])
-            check_open_side(r, g, side, f);
+    check_open_sides(r, used, g, f);
     regions_free(&g);
 }

@@ -26,14 +26,14 @@ struct level {
 /* Regions that move alike. */
 struct region_set {
     const struct apr_region *is;
-    struct scene_body told;  /* the motion as a body would have it */
-    struct body_drive drive; /* of that */
-    int body;                /* that it follows, -1: none */
-    bool peak, along[3];
-    double shift[3];  /* m: now */
-    double centre[3]; /* m: of its finest region at the start */
-    double speed;     /* m/s: largest of the motion as told */
-    int finest;       /* level */
+    struct scene_body told;   /* the motion as a body would have it */
+    struct body_drive drive;  /* of that */
+    int body;                 /* that it follows, -1: none */
+    bool peak, box, along[3]; /* it follows the peak, sph.box */
+    double shift[3];          /* m: now */
+    double centre[3];         /* m: of its finest region at the start */
+    double speed;             /* m/s: largest of the motion as told */
+    int finest;               /* level */
 };
 
 struct criteria;
@@ -41,10 +41,15 @@ struct regions {
     const struct run *run;
     const struct apr_params *prm;
     int dim;
-    double R, dx, near; /* m: of level 0; what counts as the same place */
-    double zones;       /* m: depth of the zones at open sides */
-    struct box domain;  /* region of the particles */
-    struct box room;    /* the same with faces where an edge ends: walls, free ends; infinite */
+    double R, dx, near;  /* m: of level 0; what counts as the same place */
+    double zones;        /* m: depth of the zones at open sides */
+    struct box domain;   /* region of the particles */
+    struct box start[2]; /* both where the case has them */
+    bool goes;           /* they move: sph.box */
+    bool gone;           /* since the regions were made */
+    double way[3];       /* m: from where the case has them */
+    double speed;        /* m/s: as fast as they will be */
+    struct box room;     /* the same with faces where an edge ends: walls, free ends; infinite */
     bool periodic[3], open[6];
     int nimages; /* of periodic axes, and the shift to each, m */
     double image[27][3];
