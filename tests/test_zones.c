@@ -341,6 +341,28 @@ static void the_overlap_is_watched(void **state)
     sph_free(&c.s);
 }
 
+/* What faces wait for stays theirs where the outside has a surface, also before it is known: a
+ * restart. */
+static void voids_wait_where_a_surface_crosses(void **state)
+{
+    struct sph_case c;
+    (void)state;
+    struct sph *s = start(&c, 2, 1.0, 0.0);
+    struct openings *o = s->zones->openings;
+    struct surface none = {0};
+    const double owed = -10.0 * s->rho0 * s->dxD;
+    s->surface = &none;
+    c.run.crossed = true;
+    o->mass[0] = owed;
+    openings_settle(s);
+    assert_close(o->mass[0], owed, 1e-12);
+    c.run.crossed = false;
+    openings_settle(s);
+    assert_true(o->mass[0] > 0.5 * owed && s->zones->drain > 0.0);
+    s->surface = NULL;
+    sph_free(&c.s);
+}
+
 /* A crest at x, a fifth of the box wide, of particles that have a volume. */
 static void raise_crest(struct sph *s, double x)
 {
@@ -396,6 +418,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_box_goes_with_a_crest),
+        cmocka_unit_test(voids_wait_where_a_surface_crosses),
         cmocka_unit_test(aligned_flow_keeps_the_lattice),
         cmocka_unit_test(oblique_flow_leaves_no_clusters),
         cmocka_unit_test(a_box_moves_through_the_fluid),

@@ -138,8 +138,8 @@ static void collect_debts(struct sph *s)
     struct openings *o = s->zones->openings;
     const double least = -openings_most_debt * s->rho0 * s->dxD, area = s->dxD / s->dx;
     /* an outlet's faces may stand in air; an outside with a surface has room for voids */
-    if (!s->surface || s->prm.outer == OUTER_SIDES || s->zones->surface)
-        return;
+    if (!s->surface || s->prm.outer == OUTER_SIDES || s->zones->surface || s->run->crossed)
+        return; /* at a restart the partner's is not known yet */
     for (int f = 0; f < openings_faces(o); f++)
         if (o->mass[f] < least) {
             o->owed += least - o->mass[f];

@@ -376,7 +376,8 @@ static void check_open_sides(const struct run *r, const struct sph_params *used,
         moves = moves || g->body_of[n] >= 0;
     const bool told = set_bodies(r, g, 0.0) && box_motion_foretold(r, used, 0.0, way);
     const int times = !moves || !told ? 0 : g->dim == 3 ? 4 : 32;
-    for (int k = 0; k <= times; k++) {
+    const int before = f->n;
+    for (int k = 0; k <= times && f->n == before; k++) {
         const double t = times > 0 ? r->scene.time.end * k / times : 0.0;
         if (k > 0)
             stand_at(r, used, g, t);
@@ -391,7 +392,6 @@ static void check_open_sides(const struct run *r, const struct sph_params *used,
                 "them smaller, or the region of the particles larger%s",
                 names[side], x[0], x[1], x[2], t, fabs(end - x[side / 2]),
                 g->goes ? "; follow = \"sph.box\" moves them with the box" : "");
-            return;
         }
     }
 }
