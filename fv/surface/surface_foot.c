@@ -14,26 +14,32 @@
 /* Cells along an index line: from the first on the step to the foot is less than whole, from the
  * second on none. */
 static const double WHOLE = 1.5, NONE = 3.0;
+/* Cells that the water passes in a step: up to here this is done, from twice that on it is not.
+ * Slopes of jets are rough, and phi that travels becomes a distance again by itself (reinit.c). */
+static const double SLOW = 0.1;
 
 /* The step to the foot, in cells along each index; false: the cell is too far off. */
 static bool step_to_foot(const struct fv *s, const struct part *p, int64_t c, const double g[3][3],
                          double step[3], double *share)
 {
     const double phi = s->surface->phi[c];
-    double n[3], n2 = 0.0, most = 0.0;
+    double n[3], n2 = 0.0, most = 0.0, passed = 0.0;
     if (fabs(phi) > NONE * surface_mesh_spacing(s, p) || s->m->status[c] == CELL_HOLE)
         return false;
     surface_mesh_gradient(s, p, c, s->surface->phi, n);
     for (int k = 0; k < s->dim; k++)
         n2 += n[k] * n[k];
     for (int a = 0; a < s->dim; a++) {
-        double along = 0.0;
-        for (int k = 0; k < s->dim; k++)
+        double along = 0.0, rate = 0.0;
+        for (int k = 0; k < s->dim; k++) {
             along += g[a][k] * n[k];
+            rate += g[a][k] * s->u[k][c];
+        }
+        passed += fabs(rate) * s->dt;
         step[a] = -phi * along / fmax(n2, 0.25);
         most = fmax(most, fabs(step[a]));
     }
-    *share = fmin(1.0, (NONE - most) / (NONE - WHOLE));
+    *share = fmin(1.0, (NONE - most) / (NONE - WHOLE)) * fmax(0.0, fmin(1.0, 2.0 - passed / SLOW));
     return *share > 0.0;
 }
 
