@@ -32,7 +32,7 @@ struct watches *fv_watches_create(const struct fv *s)
     w->has_energy = !filled && !moved && !open && !s->prm.steady && s->prm.c0 == 0.0;
     if (s->surface) /* whose steps are long beside the swing of short waves' work, and dear */
         w->energy_every = 1;
-    w->has_growth = !s->run->coupled && !s->surface && !s->newton;
+    w->has_growth = !s->surface && !s->newton;
     return w;
 }
 

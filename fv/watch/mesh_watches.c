@@ -22,15 +22,21 @@ static bool has_sides(const struct mesh *m)
 
 /* Where blocks overlap a strip of the flow counts twice, and interpolation does work; where
  * a surface crosses cells at a slant, the work of gravity is known to a few per cent: ten times the
- * levels. */
+ * levels. With a surface the run ends where most of the energy there is has come from nowhere
+ * within the last steps: water at rest that grows never gains more than all it has. */
+#define MOST_OF_IT 0.7
 struct watches *mesh_watches_create(struct fv *s)
 {
     struct watches *w =
         watches_create(s->run, &s->prm, !has_sides(s->m) && !s->surface, s->surface != NULL);
     if (s->m->has_fringe || (s->surface && s->surface->mesh->slanting)) {
         w->energy.warn *= 10.0;
-        w->energy.stop *= 10.0;
+        w->energy.stop = s->surface ? MOST_OF_IT : 10.0 * w->energy.stop;
     }
+    if (s->m->has_fringe && s->surface)
+        w->energy.likely = "the step or the cells are too large for this flow (fv.cfl at half its "
+                           "value tells which), or a block ends where the surface runs along its "
+                           "side: let it end some cells further up or down";
     bool open = false;
     for (int k = 0; k < s->m->nblocks; k++)
         for (int side = 0; side < 2 * s->m->dim; side++)
@@ -44,8 +50,8 @@ struct watches *mesh_watches_create(struct fv *s)
     MPI_Allreduce(MPI_IN_PLACE, &walls, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     w->has_energy =
         !s->prm.steady && !s->m->moves && !s->forcing && !(s->surface && (walls > 0.0 || open));
-    w->has_growth = !s->newton && !s->surface && !s->m->moves;
-    w->energy_every = s->surface ? 1 : 20;   /* faces are mapped anew */
+    w->has_growth = !s->newton && !s->surface && !s->m->moves; /* as on even cells */
+    w->energy_every = s->surface ? 1 : 20;                     /* faces are mapped anew */
     w->speed = fmax(w->speed, s->reference); /* of walls and openings of blocks, too */
     return w;
 }
