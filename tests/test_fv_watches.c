@@ -43,6 +43,34 @@ static void gained_energy_ends_a_run(void **state)
     }
 }
 
+/* Energy that grows from nothing, by 1.01 a step, ends a run on blocks that overlap. */
+static void growing_rest_ends_a_run(void **state)
+{
+    static const char over[] = "{ name = \"back\"; cells = (20, 14); max = (1.0, 0.7); i_min = "
+                               "\"slip\"; i_max = \"slip\"; "
+                               "j_min = \"slip\"; j_max = \"slip\"; }, { name = \"fine\"; cells = "
+                               "(16, 16); min = (0.3, 0.1); "
+                               "max = (0.7, 0.5); }";
+    const struct scene_shape water = {.form = SHAPE_BELOW, .level = 0.363};
+    struct mesh_case c;
+    struct diagnosis d = {0};
+    (void)state;
+    mesh_case_read(
+        &c, MPI_COMM_WORLD, over,
+        (const char *const[]){"fluid.gravity=(0,-9.81)", "initial.field=\"rest\"", NULL});
+    c.run.scene.shapes[c.run.scene.nshapes++] = water;
+    fv_params_check(&c.run, &c.faults);
+    assert_int_equal(params_report(&c.faults), 0);
+    struct fv *s = fv_create(&c.run, NULL);
+    for (int64_t k = 1; k <= 300 && !d.bad; k++) {
+        const struct flow_energy e = {.kinetic = 1e-3 * pow(1.01 * 1.01, (double)k - 300.0),
+                                      .volume = 0.4};
+        watches_energy(s->watches, &e, 0.01 * (double)k, k, &d);
+    }
+    assert_true(d.bad && d.reason[0] && d.likely[0]);
+    mesh_case_end(&c, &s);
+}
+
 static void blocks_are_watched(void **state)
 {
     static const char waving[] =
@@ -151,6 +179,7 @@ static void lost_water_is_not_accepted(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(gained_energy_ends_a_run),
+                                       cmocka_unit_test(growing_rest_ends_a_run),
                                        cmocka_unit_test(blocks_are_watched),
                                        cmocka_unit_test(waves_of_two_cells_are_seen),
                                        cmocka_unit_test(sudden_growth_is_seen),

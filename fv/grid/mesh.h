@@ -96,7 +96,8 @@ struct mesh_exchange {
     int width;                     /* of a stencil: width^dim values; 1: copies */
     double *weight;                /* width^dim a value */
     int *part;                     /* of the giving stencils */
-    double *send, *recv;           /* room for `room' fields */
+    const unsigned char *keep; /* of all places, 1: vectors there stay as they are; NULL: none */
+    double *send, *recv;       /* room for `room' fields */
     int room;
 };
 

@@ -169,8 +169,10 @@ void mesh_exchange_to(const struct mesh *m, struct mesh_exchange *x, int nf, dou
     MPI_Waitall(n, requests, MPI_STATUSES_IGNORE);
     for (int c = 0; c < nf; c++) {
         double *restrict to = into[c];
+        const unsigned char *keep = nf > 1 ? x->keep : NULL;
         for (int64_t k = 0; k < nin; k++)
-            to[x->in[k]] = x->recv[nf * k + c];
+            if (!keep || !keep[x->in[k]])
+                to[x->in[k]] = x->recv[nf * k + c];
     }
     mem_free(requests);
 }

@@ -16,10 +16,11 @@
 
 enum {
     TERMS = 10,
-    STENCIL = 128,
+    STENCIL = 128, /* 125 cells and what fills up the last lanes */
     THIN = 9,
-    WEDGE = 12
-}; /* 125 cells and what fills up the last lanes */
+    WEDGE = 12,
+    OWN = 5
+};
 
 /* Normal equations of a fit over a stencil. */
 struct least_squares {
@@ -369,7 +370,7 @@ static bool is_thin(const struct fv *s, const struct place *p)
     if (p->mixed && s->surface->mesh->slanting)
         return true;
     /* in the wedge between a slanting wall and the surface a slope from few cells grows */
-    if (s->m && s->surface->mesh->slants[p->part - s->part] &&
+    if (s->m && s->surface->mesh->leans[p->part - s->part] &&
         p->known < (s->dim == 2 ? WEDGE : 4 * WEDGE))
         return true;
     return p->known < (s->dim == 2 ? THIN : 3 * THIN) || 2 * p->known < p->room;
@@ -379,6 +380,18 @@ static double mean_size(const struct fv *s, int64_t c)
 {
     const double *h = s->b.h, volume = s->m ? s->m->V[c] : h[0] * h[1] * (s->dim == 3 ? h[2] : 1.0);
     return s->dim == 2 ? sqrt(volume) : cbrt(volume);
+}
+
+/* A dry cell of the fringe whose block has water of its own beside it: what donors have there comes
+ * from another block's surface, and where the surface runs along a block's side the two drive each
+ * other. */
+static bool keep_own(const struct fv *s, int64_t c, const struct place *p)
+{
+    int own = 0;
+    for (int k = 0; k < p->known; k++)
+        own += s->m->status[c + p->step[k]] == CELL_COMPUTED;
+    s->surface->mesh->keep[c] = own >= (s->dim == 2 ? OWN : 3 * OWN);
+    return s->surface->mesh->keep[c];
 }
 
 static void add_carry(struct fv *s, const struct part *part, int64_t c, int layer)
@@ -393,6 +406,8 @@ static void add_carry(struct fv *s, const struct part *part, int64_t c, int laye
         look_around_on_blocks(s, c, layer, &p);
     else
         look_around(s, c, layer, &p);
+    if (s->m && s->m->status[c] == CELL_FRINGE && !keep_own(s, c, &p))
+        return;
     make_room(f, STENCIL, (int64_t)dim * STENCIL);
     struct carry x = {.cell = c, .first = (int)f->nstencil, .n = p.n, .first_grad = (int)f->ngrad};
     double *w = f->weight + f->nstencil;
@@ -492,13 +507,17 @@ void extension_build(struct fv *s)
 {
     struct surface *f = s->surface;
     find_layers(s);
+    if (s->m) {
+        memset(f->mesh->keep, 0, (size_t)s->size);
+        s->m->fringe.keep = f->mesh->keep;
+    }
     f->nstencil = f->ngrad = f->ndeep = 0;
     for (int l = 0; l <= LAYERS; l++)
         f->ncarry[l] = 0;
     FLOW_ROWS(s, at, n)
     for (int64_t c = at; c < at + n; c++) {
         const int l = f->layer[c];
-        if (s->m && s->m->status[c] != CELL_COMPUTED)
+        if (s->m && s->m->status[c] != CELL_COMPUTED && !(s->m->status[c] == CELL_FRINGE && l == 1))
             continue;
         if (l >= 1 && l <= LAYERS)
             add_carry(s, p_, c, l);

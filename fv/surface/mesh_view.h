@@ -43,6 +43,8 @@ struct surface_mesh {
     double *height;     /* m: of centres, against gravity */
     unsigned char *out; /* 0: a cell; else none: behind sides and in holes, where psi is mirrored
                            (BEHIND_EVEN) or has its sign turned (BEHIND_ODD: outflows) */
+    unsigned char
+        *keep; /* 1: a dry cell of the fringe whose velocity is that of its block's water */
     bool slants[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright, or end in an
                                      overlap */
     bool leans[MESH_BLOCKS_MAX];  /* the former */
@@ -63,6 +65,9 @@ void surface_mesh_free(struct surface_mesh **m);
 /* Rates at which the velocity crosses cells; the largest sum over the indices, 1/s, in the band
  * where |phi| is less than `band' sizes of cells, over all ranks. */
 double surface_mesh_speeds(const struct fv *s, double band);
+/* surface_foot.c: velocity by which phi of a cell goes on; g: gradients of its indices, 1/m. */
+void surface_foot_velocity(const struct fv *s, const struct part *p, int64_t c,
+                           const double g[3][3], double u[3]);
 /* Largest spacing of a part's cells, m. */
 double surface_mesh_spacing(const struct fv *s, const struct part *p);
 /* Ghosts of phi between blocks. What is interpolated is phi less the height of the place, so that

@@ -230,6 +230,7 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
     for (int k = 0; k < s->m->nblocks; k++)
         w->slanting = w->slanting || is_slanting(s, s->m->block + k);
     w->out = NEW(unsigned char, s->size);
+    w->keep = NEW(unsigned char, s->size);
     for (int a = 0; a < 3; a++) {
         w->x[a] = mesh_field(s->m);
         w->speed[a] = mesh_field(s->m);
@@ -275,6 +276,7 @@ void surface_mesh_free(struct surface_mesh **wp)
     mem_free(w->shared);
     mem_free(w->piece);
     mem_free(w->out);
+    mem_free(w->keep);
     mem_free(w->at);
     mem_free(w->weight);
     mem_free(w);
@@ -301,14 +303,15 @@ double surface_mesh_speeds(const struct fv *s, double band)
         const bool moves = m->block[p->block].motion != NULL;
         PART_ROWS (p, none, none, c, n)
             for (int64_t i = c; i < c + n; i++) {
-                double g[3][3], sum = 0.0;
+                double g[3][3], u[3], sum = 0.0;
                 index_gradients(m, p, i, g);
+                surface_foot_velocity(s, p, i, (const double(*)[3])g, u);
                 for (int a = 0; a < m->dim; a++) {
                     double rate = 0.0;
                     if (moves)
                         rate = -0.5 * (m->grid[a][i] + m->grid[a][i + p->stride[a]]) / m->V[i];
                     for (int k = 0; k < m->dim; k++)
-                        rate += s->u[k][i] * g[a][k];
+                        rate += u[k] * g[a][k];
                     w->speed[a][i] = rate * w->size[q][a];
                     sum += fabs(rate);
                 }
