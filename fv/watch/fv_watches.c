@@ -59,6 +59,7 @@ struct watches *fv_watches_create(const struct fv *s)
     if (m && (m->has_fringe || (s->surface && s->surface->mesh->slanting))) {
         w->energy.warn *= 10.0;
         w->energy.stop = s->surface ? MOST_OF_IT : 10.0 * w->energy.stop;
+        w->least = 1e-6; /* work of rough velocities that hardly move is not known at all */
     }
     if (m && m->has_fringe && s->surface)
         w->energy.likely = "the step or the cells are too large for this flow (fv.cfl at half its "

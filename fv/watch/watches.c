@@ -108,6 +108,7 @@ struct watches *watches_create(const struct run *r, const struct fv_params *p, b
     w->damping = 10.0 * r->scene.fluid.nu / (L * L);
     w->periodic = periodic;
     w->has_surface = surface;
+    w->least = 1e-9;
     w->energy_every = 10;
     w->waves_every = 50;
     return w;
@@ -141,7 +142,7 @@ static double scale_of(const struct watches *w, const struct flow_energy *e, dou
     if (w->periodic)
         return fmax(energy, 1e-6 * whole);
     if (w->has_surface)
-        return fmax(fmax(w->kinetic_most, w->work_most - w->work_least), 1e-9 * whole);
+        return fmax(fmax(w->kinetic_most, w->work_most - w->work_least), w->least * whole);
     return fmax(energy, whole) * (1.0 + w->damping * time);
 }
 
