@@ -20,7 +20,7 @@ static const double flow_share = 0.03, wave_share = 0.1;
 /* Beyond it what is foreseen by a parabola, (2 sin(omega T/2))^3 of the signal off, is worth less
  * than the last value: omega T = pi/3. */
 static const double flow_most = 1.0 / 6.0, wave_most = M_PI / 3.0;
-static const double gain_raw = 0.3, gain_smoothed = 0.5, gain_most = 1.0;
+static const double gain_raw = 0.3, gain_smoothed = 0.4, gain_most = 1.0;
 static const double most_way = 24.0; /* R/c0: longer ones were never tried */
 
 static double length_of(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
