@@ -138,13 +138,14 @@ void refinement_removed(struct sph *s, int i)
         s->refinement->gone += isfinite(m) ? m : 0.0;
 }
 
-/* One child of particle i, at its place + d. */
-static void bear(const struct sph *s, struct sph *fine, int i, const double *d)
+int refinement_child(const struct sph *s, struct sph *to, int i, const double *d)
 {
     const int dim = s->dim;
+    particles_reserve(&to->p, to->p.n + 1); /* which may be those of i */
+    const int k = particles_add(&to->p, to->next_id, ZONE_FREE);
     const double *y = state_row(&s->p, s->p.y, i), *grad = slope_line(&s->p, i);
     const double m = y[at_mass(dim)], rho = m / y[at_volume(dim)];
-    double more = 0.0, x[3], u[3];
+    double more = 0.0, x[3] = {0.0}, u[3] = {0.0};
     for (int a = 0; a < dim; a++) {
         more += grad[a] * d[a];
         x[a] = y[a] + d[a];
@@ -153,12 +154,10 @@ static void bear(const struct sph *s, struct sph *fine, int i, const double *d)
             u[a] += grad[dim + dim * a + b] * d[b];
     }
     const double rho_f = rho + fmax(-steepest * rho, fmin(more, steepest * rho));
-    particles_reserve(&fine->p, fine->p.n + 1);
-    const int k = particles_add(&fine->p, fine->next_id, ZONE_FREE);
-    fine->next_id += s->run->size;
-    particles_set(fine, k, x, u, ldexp(m, -dim) / rho_f, rho_f);
-    memcpy(slope_line(&fine->p, k), grad, (size_t)s->p.nslope * sizeof *grad);
-    fine->p.role[k] = ROLE_GUARD; /* until it gets its role */
+    to->next_id += s->run->size;
+    particles_set(to, k, x, u, ldexp(m, -dim) / rho_f, rho_f);
+    memcpy(slope_line(&to->p, k), grad, (size_t)s->p.nslope * sizeof *grad);
+    return k;
 }
 
 /* Changes the way d from a mother at x, h from a wall, less than the half spacing that she fills,
@@ -192,7 +191,8 @@ static void give_birth(struct sph *s, int i)
             d[a] = (k >> a & 1 ? 0.25 : -0.25) * s->dx;
         if (h > 0.0 && h < reach)
             heed_walls(s, x, h, way, d);
-        bear(s, s->finer, i, d);
+        const int child = refinement_child(s, s->finer, i, d);
+        s->finer->p.role[child] = ROLE_GUARD; /* until it gets its role */
     }
     s->p.role[i] |= ROLE_MOTHER;
 }

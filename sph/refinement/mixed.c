@@ -107,23 +107,7 @@ void mixed_adapt(struct sph *s)
 
 int mixed_bear(struct sph *s, int i, const double *d, double R)
 {
-    const int dim = s->dim;
-    double x[3] = {0.0}, u[3] = {0.0}, more = 0.0;
-    particles_reserve(&s->p, s->p.n + 1);
-    const int k = particles_add(&s->p, s->next_id, ZONE_FREE);
-    const double *y = state_row(&s->p, s->p.y, i), *grad = slope_line(&s->p, i);
-    const double m = y[at_mass(dim)], rho = m / y[at_volume(dim)];
-    for (int a = 0; a < dim; a++) {
-        x[a] = y[a] + d[a];
-        u[a] = y[dim + a] / m;
-        more += grad[a] * d[a];
-        for (int b = 0; b < dim; b++)
-            u[a] += grad[dim + dim * a + b] * d[b];
-    }
-    const double rho_f = rho + fmax(-0.05 * rho, fmin(more, 0.05 * rho));
-    s->next_id += s->run->size;
-    particles_set(s, k, x, u, ldexp(m, -dim) / rho_f, rho_f);
-    memcpy(slope_line(&s->p, k), grad, (size_t)s->p.nslope * sizeof *grad);
+    const int k = refinement_child(s, s, i, d);
     *mixed_R(s, k) = R;
     *mixed_weight(s, k) = 1.0;
     return k;

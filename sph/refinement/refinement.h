@@ -46,6 +46,9 @@ void refinement_removed(struct sph *s, int i);
  * next region, and none of it is added or removed. s: the coarsest. Collective. */
 void refinement_adapt_finer(struct sph *s, struct sph *outside);
 
+/* A child of particle i of s in `to' (s, or its finer level), at its place + d: 1/2^D of its mass,
+ * its fields with their slopes, rho by 5 % at most; the child's index. */
+int refinement_child(const struct sph *s, struct sph *to, int i, const double *d);
 /* For sph.flows_at: whether this level flows at x. */
 bool refinement_flows_at(const struct sph *s, const double *x);
 
