@@ -87,7 +87,9 @@ static void scales(const struct run *r, const struct sph_params *prm, struct win
 }
 
 /* Least wave number of what may pass through a side of axis a: half a wave between walls, a whole
- * one around a period, half a one where the flow can go around the box. */
+ * one around a period, half a one where the flow can go around both ends of the side; where a
+ * wall is at one of them it is longer: with 1 boxes at walls round a towed body diverged, with 0.5,
+ * the mirror's, four times the gain is foreseen where twice as much was there. */
 static double lateral(const struct run *r, const struct sph_params *prm, const bool *open, int a)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -95,8 +97,9 @@ static double lateral(const struct run *r, const struct sph_params *prm, const b
     for (int b = 0; b < d->dim; b++) {
         const double width = prm->box[1][b] - prm->box[0][b];
         const bool round = d->periodic[b] && !open[2 * b] && !open[2 * b + 1];
+        const bool mirrored = open[2 * b] != open[2 * b + 1];
         if (b != a)
-            k = fmin(k, (round ? 2.0 : 1.0) * M_PI / width);
+            k = fmin(k, (round ? 2.0 : mirrored ? 0.7 : 1.0) * M_PI / width);
     }
     return k;
 }
