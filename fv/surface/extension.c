@@ -478,7 +478,7 @@ static void next_layer(const struct part *p, double l, const double *wall, doubl
         next_layer_row((deep ? x : xy) + c, wall + c, l, n, field + c);
 }
 
-static bool holds_none(const struct fv *s, int64_t c)
+bool surface_holds_none(const struct fv *s, int64_t c)
 {
     return s->m ? s->surface->mesh->out[c] : s->surface->closed[c];
 }
@@ -490,7 +490,7 @@ static void find_layers(struct fv *s)
     struct surface *f = s->surface;
     double *field = f->rate, *wall = f->kept;
     for (int64_t c = 0; c < s->size; c++) {
-        wall[c] = holds_none(s, c) ? 1.0 : 0.0;
+        wall[c] = surface_holds_none(s, c) ? 1.0 : 0.0;
         field[c] = f->phi[c] < 0.0 && wall[c] == 0.0 ? 0.0 : DEEP;
     }
     for (int l = 1; l <= LAYERS; l++) {

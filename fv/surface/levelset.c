@@ -380,7 +380,7 @@ void surface_keep_volume(struct fv *s)
     struct surface *f = s->surface;
     const double h = f->largest, most = (f->forced ? 0.02 : 0.1) * h;
     double area, d = INFINITY;
-    for (int it = 0; it < 5 && fabs(d) > 1e-3 * h; it++) {
+    for (int it = 0; it < 5 && fabs(d) > 1e-4 * f->least; it++) {
         const double volume = surface_volume(s, &area);
         if (!(area < 0.0))
             return;
