@@ -54,6 +54,8 @@ static void solve(double theta, double cut, const double F[3], double g[2])
 void surface_line_slopes(const struct fv *s, int a, const double *psi, bool change, double *out)
 {
     const struct block *b = &s->b;
+    if (s->surface->leans) /* cuts along two lines, each for itself: waves grow more */
+        return;
     for (int64_t i = 0; i < s->surface->ncut[a]; i++) {
         const struct cut *x = s->surface->cut[a] + i;
         const bool above = x->up > 0.0; /* the dry cell is */

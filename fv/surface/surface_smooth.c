@@ -24,7 +24,7 @@ enum {
 static double difference(const struct fv *s, int m, const double *q, int64_t i, int64_t d)
 {
     const unsigned char *layer = s->surface->layer;
-    const int last = !s->m ? 0 : m == 2 ? LAYERS : SMOOTH;
+    const int last = m == 3 ? SMOOTH : surface_any_leans(s) ? LAYERS : 0;
     int64_t at = i - (m - 1) * d;
     for (int k = 0; k <= m; k++, at += d)
         if (surface_holds_none(s, at) || layer[at] > last)
@@ -66,24 +66,26 @@ static void smooth_part(const struct fv *s, const struct part *p, int m, double 
             q[i] -= part * sum[i];
 }
 
-static void smooth_blocks(struct fv *s)
+/* -: of what is smoothed, 0: nothing. */
+static double share_of(const struct fv *s, const struct part *p, double dt)
 {
-    const struct surface_mesh *w = s->surface->mesh;
-    for (int q = 0; q < s->nparts; q++) {
-        const bool leans = w->leans[q];
-        const double share = leans || w->slanting ? 1.0 : 0.5;
-        for (int a = 0; a < s->dim && w->slants[q]; a++)
-            for (int k = 0; k < (leans ? PASSES : 1); k++)
-                smooth_part(s, s->part + q, leans ? 2 : 3, share, s->u[a]);
-    }
+    if (surface_leans(s, p))
+        return 1.0;
+    if (s->m)
+        return !s->surface->mesh->slants[p - s->part] ? 0.0
+               : s->surface->mesh->slanting           ? 1.0
+                                                      : 0.5;
+    return fmin(0.5, 2.0 * s->surface->g * dt * dt / s->surface->across);
 }
 
 void surface_smooth(struct fv *s, double dt)
 {
-    const double rise = s->surface->g * dt * dt / s->surface->across;
-    if (s->m)
-        smooth_blocks(s);
-    else
-        for (int a = 0; a < s->dim; a++)
-            smooth_part(s, s->part, 2, fmin(0.5, 2.0 * rise), s->u[a]);
+    for (int q = 0; q < s->nparts; q++) {
+        const struct part *p = s->part + q;
+        const bool leans = surface_leans(s, p);
+        const double share = share_of(s, p, dt);
+        for (int a = 0; a < s->dim && share > 0.0; a++)
+            for (int k = 0; k < (leans ? PASSES : 1); k++)
+                smooth_part(s, p, s->m && !leans ? 3 : 2, share, s->u[a]);
+    }
 }
