@@ -190,13 +190,10 @@ static struct flow_energy energy_of(struct fv *s)
     for (int a = 0; a < s->dim; a++)
         sums[5] += (s->drive[a] + (s->surface ? s->still[a] : 0.0)) * sums[a];
     MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, s->comm);
-    struct flow_energy e = {.kinetic = sums[3],
-                            .momentum = {sums[0], sums[1], sums[2]},
-                            .volume = sums[4],
-                            .power = sums[5]};
-    for (int a = 0; a < s->dim && s->surface; a++)
-        e.gravity[a] = s->still[a] * sums[a];
-    return e;
+    return (struct flow_energy){.kinetic = sums[3],
+                                .momentum = {sums[0], sums[1], sums[2]},
+                                .volume = sums[4],
+                                .power = sums[5]};
 }
 
 /* --- waves of two cells: fourth differences over 16, 1 on them, 5e-4 on waves of eight. On blocks

@@ -14,8 +14,8 @@ enum { WATCHES = 5 };
 /* Of a surface, whose jets and films are thinner than cells: waves of two cells, over the flow. */
 #define SPRAY 0.10
 /* With a surface: an impact whose jets are thinner than cells swings to 0.1 and back within some
- * steps, a wave of 12 cells, whose speed on the surface is not that of the cells below, to 0.4.
- * Most of the energy comes from nowhere in a run that blows up, and in water at rest that grows. */
+ * steps; in a run that blows up, and in water at rest that grows, most of the energy comes from
+ * nowhere. */
 #define MOST_OF_IT 0.7
 /* Of the volume: from here on the run is not accepted. */
 #define RETURNED_MOST 0.05
@@ -135,37 +135,22 @@ bool watches_want_waves(const struct watches *w, int64_t step)
  * of height has the largest that it had of either. One between walls or openings has at least what
  * its scene's velocity makes, for a sudden start, whose layers are thinner than a cell, has no
  * budget to the percent of the little energy of its first steps; and what viscosity turns over in
- * those steps, whose pressure is not known to the percent of that either. Where gravity is askew
- * its components do work of first order in a wave's height, which cancels but for what the cells do
- * not know of the momentum, a percent. */
+ * those steps, whose pressure is not known to the percent of that either. */
 static double scale_of(const struct watches *w, const struct flow_energy *e, double energy,
                        double time)
 {
     const double whole = 0.5 * e->volume * w->speed * w->speed;
     if (w->periodic)
         return fmax(energy, 1e-6 * whole);
-    if (w->has_surface) {
-        const double work = w->work_most - w->work_least;
-        double askew = 0.0;
-        for (int a = 0; a < 3; a++)
-            askew = fmax(askew, w->gravity[a].most - w->gravity[a].least - work);
-        return fmax(fmax(w->kinetic_most, work) + 0.01 * askew, w->least * whole);
-    }
+    if (w->has_surface)
+        return fmax(fmax(w->kinetic_most, w->work_most - w->work_least), w->least * whole);
     return fmax(energy, whole) * (1.0 + w->damping * time);
 }
 
-static void add_gravity(struct watches *w, const struct flow_energy *e, double since)
-{
-    for (int a = 0; a < 3; a++) {
-        w->gravity[a].work += 0.5 * since * (w->gravity[a].power + e->gravity[a]);
-        w->gravity[a].power = e->gravity[a];
-        w->gravity[a].least = fmin(w->gravity[a].least, w->gravity[a].work);
-        w->gravity[a].most = fmax(w->gravity[a].most, w->gravity[a].work);
-    }
-}
-
 /* In a periodic domain the energy about the mean flow, which no force even in space changes; else
- * all of it less the work of sides and gravity, by the trapezoidal rule between looks. */
+ * all of it less the work of sides and gravity, by the trapezoidal rule between looks. With a
+ * surface no more than what the kinetic energy has risen to beyond its largest before: gravity's
+ * work on waves of a few cells swings by half of their energy, grow or not. */
 void watches_energy(struct watches *w, const struct flow_energy *e, double t, int64_t step,
                     struct diagnosis *d)
 {
@@ -176,12 +161,14 @@ void watches_energy(struct watches *w, const struct flow_energy *e, double t, in
     if (!w->periodic)
         w->work += 0.5 * since * (w->power + e->power);
     w->power = e->power;
-    add_gravity(w, e, since);
     w->t = t;
     w->work_least = fmin(w->work_least, w->work);
     w->work_most = fmax(w->work_most, w->work);
     w->kinetic_most = fmax(w->kinetic_most, e->kinetic);
-    const double gain = watch_budget_gain(&w->budget, step, energy - w->work);
+    double gain = watch_budget_gain(&w->budget, step, energy - w->work);
+    const double more = watch_budget_gain(&w->peaks, step, w->kinetic_most);
+    if (w->has_surface)
+        gain = fmin(gain, more);
     const double scale = scale_of(w, e, energy, since * WATCH_STEPS / w->energy_every);
     if (!w->has_surface || step >= WATCH_STEPS) /* no scale yet */
         watch_judge(&w->energy, scale > 0.0 ? gain / scale : gain, t, step, d);

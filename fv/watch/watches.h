@@ -13,7 +13,6 @@ struct flow_energy {
     double momentum[3]; /* m^(dim+1)/s */
     double volume;      /* m^dim */
     double power;       /* m^(dim+2)/s^3: what comes in through sides and by gravity */
-    double gravity[3];  /* the same of each component of gravity under a surface */
 };
 /* Sums of squares of the waves of two cells along each axis, and of what they are waves of. */
 struct flow_waves {
@@ -24,15 +23,12 @@ struct flow_waves {
 struct watches {
     struct watch energy, velocity, pressure, growth, returned;
     bool has_energy, has_growth, has_surface, periodic;
-    int energy_every, waves_every; /* steps */
-    struct watch_budget budget;
-    double speed;          /* m/s: of the scene */
-    double damping;        /* 1/s: of the slowest wave by viscosity, pi^2 nu/L^2 */
-    double work, power, t; /* m^(dim+2)/s^2, of the last look, its time */
+    int energy_every, waves_every;     /* steps */
+    struct watch_budget budget, peaks; /* of the energy less work; its largest so far */
+    double speed;                      /* m/s: of the scene */
+    double damping;                    /* 1/s: of the slowest wave by viscosity, pi^2 nu/L^2 */
+    double work, power, t;             /* m^(dim+2)/s^2, of the last look, its time */
     double work_least, work_most, kinetic_most;
-    struct {
-        double power, work, least, most;
-    } gravity[3]; /* its components */
     double least; /* with a surface: of the energy that the scene's velocity makes, what counts */
     int looks;
     double sum_before; /* m/s: of the largest velocities, a step ago */
