@@ -346,7 +346,7 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
 {
     static const double origin[3] = {0.0, 0.0, 0.0};
     struct least_squares q;
-    const int dim = s->dim, order = s->m && s->surface->mesh->leans[p->part - s->part] ? 1 : 2;
+    const int dim = s->dim, order = surface_leans(s, p->part) ? 1 : 2;
     double e[TERMS] = {0.0}, w[3][STENCIL];
     memset(grad, 0, sizeof(double) * (size_t)(dim * p->n));
     if (fit(s, p, order, false, origin, &q) == 0)
@@ -370,8 +370,7 @@ static bool is_thin(const struct fv *s, const struct place *p)
     if (p->mixed && s->surface->mesh->slanting)
         return true;
     /* in the wedge between a slanting wall and the surface a slope from few cells grows */
-    if (s->m && s->surface->mesh->leans[p->part - s->part] &&
-        p->known < (s->dim == 2 ? WEDGE : 4 * WEDGE))
+    if (surface_leans(s, p->part) && p->known < (s->dim == 2 ? WEDGE : 4 * WEDGE))
         return true;
     return p->known < (s->dim == 2 ? THIN : 3 * THIN) || 2 * p->known < p->room;
 }
@@ -478,7 +477,7 @@ static void next_layer(const struct part *p, double l, const double *wall, doubl
         next_layer_row((deep ? x : xy) + c, wall + c, l, n, field + c);
 }
 
-static bool holds_none(const struct fv *s, int64_t c)
+bool surface_holds_none(const struct fv *s, int64_t c)
 {
     return s->m ? s->surface->mesh->out[c] : s->surface->closed[c];
 }
@@ -490,7 +489,7 @@ static void find_layers(struct fv *s)
     struct surface *f = s->surface;
     double *field = f->rate, *wall = f->kept;
     for (int64_t c = 0; c < s->size; c++) {
-        wall[c] = holds_none(s, c) ? 1.0 : 0.0;
+        wall[c] = surface_holds_none(s, c) ? 1.0 : 0.0;
         field[c] = f->phi[c] < 0.0 && wall[c] == 0.0 ? 0.0 : DEEP;
     }
     for (int l = 1; l <= LAYERS; l++) {

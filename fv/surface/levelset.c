@@ -380,7 +380,7 @@ void surface_keep_volume(struct fv *s)
     struct surface *f = s->surface;
     const double h = f->largest, most = (f->forced ? 0.02 : 0.1) * h;
     double area, d = INFINITY;
-    for (int it = 0; it < 5 && fabs(d) > 1e-3 * h; it++) {
+    for (int it = 0; it < 5 && fabs(d) > 1e-4 * f->least; it++) {
         const double volume = surface_volume(s, &area);
         if (!(area < 0.0))
             return;
@@ -414,7 +414,9 @@ static void set_sizes(const struct block *b, const double *g, struct surface *f)
 {
     f->least = f->across = INFINITY;
     for (int a = 0; a < b->dim; a++) {
-        if (fabs(g[a]) < 0.7 * f->g)
+        const double along = fabs(g[a]);
+        f->leans = f->leans || (along > 1e-3 * f->g && along < (1.0 - 1e-6) * f->g);
+        if (along < 0.7 * f->g)
             f->across = fmin(f->across, b->h[a]);
         f->least = fmin(f->least, b->h[a]);
         f->largest = fmax(f->largest, b->h[a]);

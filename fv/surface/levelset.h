@@ -65,6 +65,7 @@ struct surface {
     double through[3];        /* m^dim/s: at the start of a step, see flows() */
     double travelled;         /* -: cells since the last reinit */
     double least, largest;    /* m: sizes of cells */
+    bool leans;           /* even cells whose lines are neither level nor upright */
     double across;            /* m: least spacing of cells across gravity, of 45 degrees and less */
     double theta_least;       /* -: least distance of the surface from a wet centre, of h */
     double rise;              /* s^2: implicit steps: see surface_pressure.c */
@@ -133,6 +134,8 @@ double surface_distortion(const struct fv *s);
 
 /* extension.c: layers and stencils of the present phi; u of dry cells, layers 1 .. n. */
 void extension_build(struct fv *s);
+/* Whether a cell holds nothing: behind sides, in boxes and holes. */
+bool surface_holds_none(const struct fv *s, int64_t c);
 enum extend {
     EXTEND_FREE,  /* goes on as it comes */
     EXTEND_SHEAR, /* no shear stress at the surface; takes note of the normal one */
@@ -144,9 +147,9 @@ void extension_scalar(const struct fv *s, double *q);
 /* The same for the layers further out, within what is around. */
 void extension_beyond(const struct fv *s, double *q);
 
-/* surface_smooth.c: on blocks, u (with its ghosts) beside the surface without waves of two cells.
- */
-void surface_smooth(struct fv *s);
+/* surface_smooth.c: u (with its ghosts) beside the surface without waves of a few cells, once in a
+ * step dt. */
+void surface_smooth(struct fv *s, double dt);
 
 /* surface_pressure.c */
 /* What the surface's rise within an implicit step adds to the distance from a wet centre to its
@@ -162,10 +165,16 @@ void surface_add_pressure(const struct fv *s, double *div);
 /* U of cut faces by the pressure there, of dry faces anew from u. */
 void surface_fluxes(const struct fv *s, double tau, const double *psi);
 void surface_dry_fluxes(const struct fv *s);
-/* Gradient of psi along a in cells whose stencil leaves the water: mean of the faces'. */
+/* Slope of psi on a cut face; change: of a variation, which is 0 on the surface. */
+double surface_cut_gradient(const struct cut *x, const double *psi, bool change);
+/* Gradient of psi along a in cells whose stencil leaves the water: mean of the faces', but in the
+ * last two wet cells of a line. */
 void surface_gradient(const struct fv *s, int a, const double *psi, double *out);
 /* The same of a variation, which is 0 on the surface. */
 void surface_gradient_change(const struct fv *s, int a, const double *psi, double *out);
+
+/* surface_line.c: out of even cells, the slope of psi along a, anew in these two. */
+void surface_line_slopes(const struct fv *s, int a, const double *psi, bool change, double *out);
 
 /* surface_steps.c */
 /* Velocities, fluxes and cuts of the start. */

@@ -59,6 +59,10 @@ struct surface_mesh {
 
 struct surface;
 
+/* Whether a part's index lines, or any, are neither level nor upright. */
+bool surface_leans(const struct fv *s, const struct part *p);
+bool surface_any_leans(const struct fv *s);
+
 /* surface_mesh.c: also sets the sizes of cells over all blocks. Collective. */
 struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f);
 void surface_mesh_free(struct surface_mesh **m);

@@ -32,6 +32,16 @@ static double mean_spacing(const struct mesh_block *b, int dim, int a)
     return sum / (double)n;
 }
 
+bool surface_leans(const struct fv *s, const struct part *p)
+{
+    return s->m ? s->surface->mesh->leans[p - s->part] : s->surface->leans;
+}
+
+bool surface_any_leans(const struct fv *s)
+{
+    return s->m ? s->surface->mesh->slanting : s->surface->leans;
+}
+
 /* Whether some edge of the block is neither along gravity nor across it. */
 static bool is_slanting(const struct fv *s, const struct mesh_block *b)
 {

@@ -52,16 +52,17 @@ static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
     f->cut[a][f->ncut[a]++] = x;
 }
 
-/* Faces of local cells and of one layer around. */
+/* Faces of local cells and of one layer around, and the next further up along a: that of a cell two
+ * places below, see surface_line.c. */
 static void find_cuts(struct fv *s, int a)
 {
     struct surface *f = s->surface;
     const struct block *b = &s->b;
     const int more = 1, deep = b->g[2] ? 1 : 0;
     f->ncut[a] = 0;
-    for (int k = -deep; k < b->n[2] + deep; k++)
-        for (int j = -more; j < b->n[1] + more; j++)
-            for (int i = -more; i < b->n[0] + more; i++) {
+    for (int k = -deep; k < b->n[2] + deep + (a == 2); k++)
+        for (int j = -more; j < b->n[1] + more + (a == 1); j++)
+            for (int i = -more; i < b->n[0] + more + (a == 0); i++) {
                 const int64_t c = block_at(b, i, j, k);
                 const double free = s->forcing ? s->forcing->open[a][c] : 1.0;
                 const bool here = f->layer[c] == 0, below = f->layer[c - b->stride[a]] == 0;
@@ -140,9 +141,9 @@ void surface_add_pressure(const struct fv *s, double *div)
         }
 }
 
-static double cut_gradient(const struct cut *x, const double *psi)
+double surface_cut_gradient(const struct cut *x, const double *psi, bool change)
 {
-    return x->up * (x->p - psi[x->wet]) / (x->theta * x->step);
+    return x->up * ((change ? 0.0 : x->p) - psi[x->wet]) / (x->theta * x->step);
 }
 
 void surface_fluxes(const struct fv *s, double tau, const double *psi)
@@ -154,7 +155,7 @@ void surface_fluxes(const struct fv *s, double tau, const double *psi)
     }
     for (int a = 0; a < s->b.dim; a++)
         for (int64_t i = 0; i < f->ncut[a]; i++)
-            s->U[a][f->cut[a][i].face] -= tau * cut_gradient(f->cut[a] + i, psi);
+            s->U[a][f->cut[a][i].face] -= tau * surface_cut_gradient(f->cut[a] + i, psi, false);
 }
 
 void surface_dry_fluxes(const struct fv *s)
@@ -188,9 +189,8 @@ static void face_gradient(const struct fv *s, int a, const double *psi, bool cha
         }
     }
     for (int64_t i = 0; i < f->ncut[a]; i++) {
-        struct cut x = f->cut[a][i];
-        x.p = change ? 0.0 : x.p;
-        out[x.face] = cut_gradient(&x, psi);
+        const struct cut *x = f->cut[a] + i;
+        out[x->face] = surface_cut_gradient(x, psi, change);
     }
     if (!f->forced)
         return;
@@ -235,6 +235,7 @@ static void near_gradient(const struct fv *s, int a, const double *psi, bool cha
                      dry_water_side(s, i - 2 * d) || dry_water_side(s, i + 2 * d))
                 out[i] = 0.5 * (F[i] + F[i + d]);
         }
+    surface_line_slopes(s, a, psi, change, out);
     if (f->forced)
         gradient_beside_partner(s, a, F, out);
 }

@@ -295,7 +295,7 @@ void surface_first_half(struct fv *s, double dt)
         go_ahead(s, dt);
     rebuild(s);
     set_outflows(s);
-    surface_smooth(s);
+    surface_smooth(s, dt);
     surface_extend(s, STENCILS);
     if (s->moving && s->prm.integrator == INTEGRATOR_BDF2)
         moving_to_start(s);

@@ -45,9 +45,7 @@ static double speed_of_sides(const struct fv *s)
  * move beside a surface and water that comes and goes; nor is there one in pseudo-time or with
  * sound. Where blocks overlap a strip of the flow counts twice, and interpolation does work; where
  * a surface crosses cells at a slant, the work of gravity is known to a few per cent: ten times the
- * levels. With a surface the run ends there where most of the energy has come from nowhere within
- * the last steps: water at rest that grows never gains more than all it has. */
-#define MOST_OF_IT 0.7
+ * levels, but for the end with a surface. */
 struct watches *fv_watches_create(const struct fv *s)
 {
     const struct mesh *m = s->m;
@@ -56,9 +54,10 @@ struct watches *fv_watches_create(const struct fv *s)
                open = sides & (1u << MESH_INFLOW | 1u << MESH_OUTFLOW | 1u << MESH_CARRIED),
                works = speed_of_sides(s) > 0.0 || open, moves = m && m->moves;
     struct watches *w = watches_create(s->run, &s->prm, is_periodic(s, sides), s->surface != NULL);
-    if (m && (m->has_fringe || (s->surface && s->surface->mesh->slanting))) {
+    if ((m && m->has_fringe) || (s->surface && surface_any_leans(s))) {
         w->energy.warn *= 10.0;
-        w->energy.stop = s->surface ? MOST_OF_IT : 10.0 * w->energy.stop;
+        if (!s->surface)
+            w->energy.stop *= 10.0;
         w->least = 1e-6; /* work of rough velocities that hardly move is not known at all */
     }
     if (m && m->has_fringe && s->surface)

@@ -23,11 +23,11 @@ struct flow_waves {
 struct watches {
     struct watch energy, velocity, pressure, growth, returned;
     bool has_energy, has_growth, has_surface, periodic;
-    int energy_every, waves_every; /* steps */
-    struct watch_budget budget;
-    double speed;          /* m/s: of the scene */
-    double damping;        /* 1/s: of the slowest wave by viscosity, pi^2 nu/L^2 */
-    double work, power, t; /* m^(dim+2)/s^2, of the last look, its time */
+    int energy_every, waves_every;     /* steps */
+    struct watch_budget budget, peaks; /* of the energy less work; its largest so far */
+    double speed;                      /* m/s: of the scene */
+    double damping;                    /* 1/s: of the slowest wave by viscosity, pi^2 nu/L^2 */
+    double work, power, t;             /* m^(dim+2)/s^2, of the last look, its time */
     double work_least, work_most, kinetic_most;
     double least; /* with a surface: of the energy that the scene's velocity makes, what counts */
     int looks;
