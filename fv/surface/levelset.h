@@ -65,7 +65,7 @@ struct surface {
     double through[3];        /* m^dim/s: at the start of a step, see flows() */
     double travelled;         /* -: cells since the last reinit */
     double least, largest;    /* m: sizes of cells */
-    bool leans;           /* even cells whose lines are neither level nor upright */
+    bool leans;               /* even cells whose lines are neither level nor upright */
     double across;            /* m: least spacing of cells across gravity, of 45 degrees and less */
     double theta_least;       /* -: least distance of the surface from a wet centre, of h */
     double rise;              /* s^2: implicit steps: see surface_pressure.c */
