@@ -130,7 +130,9 @@ static void waves_swing_as_on_one_block(void **state)
             assert_close(period[k], 0.0, 0.002);
             assert_close(damping[k], 0.0, 0.03);
         }
-        assert_true(SANITIZED || (period[2] <= 1.2 * period[0] && damping[2] <= 1.2 * damping[0]));
+        /* of periods that are off by less than a fifth of what is wanted signs decide */
+        assert_true(SANITIZED ||
+                    (period[2] <= fmax(1.2 * period[0], 2e-4) && damping[2] <= 1.2 * damping[0]));
     }
 }
 

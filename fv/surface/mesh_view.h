@@ -107,4 +107,10 @@ void surface_mesh_interpolate(const struct fv *s, const double *d, double *const
 void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi, bool change,
                                double *const out[3]);
 
+/* surface_line.c: whether a part's last two wet cells of a line have slopes of their own; out anew
+ * in them. */
+bool surface_takes_lines(const struct fv *s, const struct part *p);
+void surface_mesh_line_slopes(const struct fv *s, const double *psi, bool change,
+                              double *const out[3]);
+
 #endif

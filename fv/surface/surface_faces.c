@@ -154,6 +154,21 @@ static void look_at_face(struct fv *s, const struct part *p, int a, int64_t c)
     add_face(s, a, &x, &q);
 }
 
+/* Cuts above the cell next to a part, whose line ends within it (surface_line.c); along a from the
+ * face `at'. */
+static void look_beside(struct fv *s, const struct part *p, int a, int at)
+{
+    const unsigned char *out = s->surface->mesh->out;
+    const int64_t d = p->stride[a];
+    int down[3] = {0, 0, 0}, up[3] = {0, 0, 0};
+    down[a] = -at;
+    up[a] = at + 1 - p->n[a];
+    PART_ROWS (p, down, up, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            if (is_wet(s, i) != is_wet(s, i - d) && !out[i] && !out[i - d])
+                add_cut(s, a, i, d);
+}
+
 void surface_mesh_find_faces(struct fv *s)
 {
     struct surface *f = s->surface;
@@ -168,6 +183,10 @@ void surface_mesh_find_faces(struct fv *s)
             PART_ROWS (s->part + q, down, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
                     look_at_face(s, s->part + q, a, i);
+            if (!surface_takes_lines(s, s->part + q))
+                continue;
+            look_beside(s, s->part + q, a, -1);
+            look_beside(s, s->part + q, a, s->part[q].n[a] + 1);
         }
     }
 }
@@ -288,4 +307,5 @@ void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi
                 }
             }
     }
+    surface_mesh_line_slopes(s, psi, change, out);
 }

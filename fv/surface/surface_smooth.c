@@ -4,9 +4,9 @@
  * a surface are no neighbours; waves of two to six of them, whose normal velocity the surface
  * hardly sees, grow by way of the extension. Waves of n cells along an axis lose (pi/n)^2m/dim a
  * pass. Half of it where no block slants: viscous waves have their shear just there. On even cells
- * fourth differences of the water alone, by half, in short steps by less: what surface_line.c
- * leaves of growth is of second order in the step; nothing in water that crosses half a cell a
- * step, which has other losses. SPDX-License-Identifier: BSD-3-Clause */
+ * and upright blocks fourth differences of the water alone, by half, in short steps by less: what
+ * surface_line.c leaves of growth is of second order in the step; nothing in water that crosses
+ * half a cell a step, which has other losses. SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
 #include <math.h>
@@ -50,43 +50,52 @@ static bool is_smoothed(const struct fv *s, int64_t c)
     return s->m ? s->free[c] > 0.0 : f->layer[c] == 0 && !(s->forcing && s->forcing->forced[c]);
 }
 
-static void smooth_part(const struct fv *s, const struct part *p, int m, double share, double *q)
+static void smooth_part(const struct fv *s, const struct part *p, int m, const double share[3],
+                        double *q)
 {
     static const int none[3] = {0, 0, 0};
     double *const sum = s->surface->rate;
-    const double part = share / (m == 3 ? 64.0 : 16.0) / s->dim;
+    const double part = 1.0 / (m == 3 ? 64.0 : 16.0) / s->dim;
     PART_ROWS (p, none, none, c, n)
         for (int64_t i = c; i < c + n; i++) {
             sum[i] = 0.0;
             for (int a = 0; a < s->dim && is_smoothed(s, i); a++)
-                sum[i] += bent(s, m, q, i, p->stride[a]);
+                sum[i] += share[a] * bent(s, m, q, i, p->stride[a]);
         }
     PART_ROWS (p, none, none, c, n)
         for (int64_t i = c; i < c + n; i++)
             q[i] -= part * sum[i];
 }
 
-/* -: of what is smoothed, 0: nothing. */
-static double share_of(const struct fv *s, const struct part *p, double dt)
+/* Cells that are flat along gravity know waves along axis a well that are short in cells. */
+static double flatness(const struct fv *s, const struct part *p, int a)
 {
+    const double h = s->m ? s->surface->mesh->size[p - s->part][a] : s->b.h[a],
+                 flat = s->surface->least / h;
+    return fmin(1.0, flat * flat);
+}
+
+/* -: of what is smoothed along axis a, 0: nothing. */
+static double share_of(const struct fv *s, const struct part *p, int a, double dt)
+{
+    const double calm = fmax(0.0, 1.0 - 2.0 * s->rate * dt);
     if (surface_leans(s, p))
         return 1.0;
-    if (s->m)
-        return !s->surface->mesh->slants[p - s->part] ? 0.0
-               : s->surface->mesh->slanting           ? 1.0
-                                                      : 0.5;
-    const double calm = fmax(0.0, 1.0 - 2.0 * s->rate * dt);
-    return calm * fmin(0.5, 2.0 * s->surface->g * dt * dt / s->surface->across);
+    if (s->m && s->m->has_fringe)
+        return s->surface->mesh->slanting ? 1.0 : 0.5;
+    return calm * flatness(s, p, a) * fmin(0.5, 2.0 * s->surface->g * dt * dt / s->surface->across);
 }
 
 void surface_smooth(struct fv *s, double dt)
 {
     for (int q = 0; q < s->nparts; q++) {
         const struct part *p = s->part + q;
-        const bool leans = surface_leans(s, p);
-        const double share = share_of(s, p, dt);
-        for (int a = 0; a < s->dim && share > 0.0; a++)
+        const bool leans = surface_leans(s, p), overlaps = s->m && s->m->has_fringe && !leans;
+        double share[3];
+        for (int a = 0; a < s->dim; a++)
+            share[a] = share_of(s, p, a, dt);
+        for (int a = 0; a < s->dim; a++)
             for (int k = 0; k < (leans ? PASSES : 1); k++)
-                smooth_part(s, p, s->m && !leans ? 3 : 2, share, s->u[a]);
+                smooth_part(s, p, overlaps ? 3 : 2, share, s->u[a]);
     }
 }
