@@ -19,7 +19,7 @@ static const struct param time_rows[] = {
 #undef P
 #define P struct scene_fluid
 static const struct param fluid_rows[] = {
-    PARAM(P, rho,     "kg/m^3", "1000.0",  1e-3, 1e5,  "density"),
+    PARAM(P, rho,     "kg/m^3", "1000.0",  1e-15, 1e15,  "density"),
     PARAM(P, nu,      "m^2/s",  "0.0",     0,    1e6,  "kinematic viscosity; 0: inviscid, nothing viscous is computed"),
     PARAM(P, gravity, "m/s^2",  "(0.0, 0.0, 0.0)", -1e6, 1e6, "acceleration of gravity"),
     PARAM(P, central, "1/s",    "0.0",     0,    1e6,  "W of the acceleration -W^2 x towards the origin"),
