@@ -85,15 +85,20 @@ static void check_place(struct life *l)
                      "leave a group out");
 }
 
-/* A coupled job has a program that knows none. */
+/* In a coupled job walls and bodies of triangles lie where the particles are, and the other program
+ * reads none; the water at the start is both programs' affair. */
 static void read_meshes(struct life *l)
 {
     struct run *r = &l->r;
-    if (l->p->meshes && !r->coupled)
+    const bool partly = r->coupled && r->scene.has_sph;
+    for (enum mesh_owner owner = MESH_SHAPE; owner <= MESH_WALL; owner++)
+        if (!l->p->meshes ? owner == MESH_SHAPE || !partly : owner == MESH_SHAPE && r->coupled)
+            scene_meshes_refuse(&r->scene, owner, l->params,
+                                "surfaces of triangles are for sph in 3D, alone or, of walls and "
+                                "bodies, where it has its particles in a coupled job",
+                                &l->faults);
+    if (l->p->meshes && l->faults.n == 0)
         l->p->meshes(&r->scene, r->case_dir, l->params, r->comm, &l->faults);
-    else
-        scene_meshes_refuse(&r->scene, l->params, "surfaces of triangles are for sph alone, in 3D",
-                            &l->faults);
 }
 
 /* Reads and checks everything; returns the number of faults, the same on all ranks. */

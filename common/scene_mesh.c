@@ -40,16 +40,15 @@ bool scene_has_meshes(const struct scene *s)
     return any;
 }
 
-void scene_meshes_refuse(const struct scene *s, const struct params *p, const char *why,
-                         struct faults *f)
+void scene_meshes_refuse(const struct scene *s, enum mesh_owner owner, const struct params *p,
+                         const char *why, struct faults *f)
 {
-    for (enum mesh_owner owner = MESH_SHAPE; owner <= MESH_WALL; owner++)
-        for (int k = 0; k < scene_mesh_owners(s, owner); k++) {
-            char key[64];
-            scene_mesh_key(owner, k, key);
-            if (*scene_surface_of(s, owner, k)->mesh)
-                params_fault(p, f, key, "%s", why);
-        }
+    for (int k = 0; k < scene_mesh_owners(s, owner); k++) {
+        char key[64];
+        scene_mesh_key(owner, k, key);
+        if (*scene_surface_of(s, owner, k)->mesh)
+            params_fault(p, f, key, "%s", why);
+    }
 }
 
 const struct scene_mesh *scene_mesh_of(const struct scene *s, enum mesh_owner owner, int index)
@@ -134,7 +133,8 @@ static void say_one(const struct scene_mesh *m)
         log_say("mesh %s: %d of its %d part(s) inside out in the file: turned", m->name, m->parts,
                 t->nparts);
     if (m->turned)
-        log_say("mesh %s: its normals pointed into the fluid: turned", m->name);
+        log_say("mesh %s: its normals pointed into the fluid: turned (flip has the last word)",
+                m->name);
 }
 
 static void warn_one(const struct scene_mesh *m)

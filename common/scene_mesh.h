@@ -43,9 +43,9 @@ void scene_mesh_key(enum mesh_owner owner, int k, char key[64]);
  * remedy. Collective over comm. */
 void scene_meshes_read(struct scene *s, const char *case_dir, const struct params *p, MPI_Comm comm,
                        struct faults *f);
-/* A fault for each mesh that the case names. */
-void scene_meshes_refuse(const struct scene *s, const struct params *p, const char *why,
-                         struct faults *f);
+/* A fault for each mesh of such owners that the case names. */
+void scene_meshes_refuse(const struct scene *s, enum mesh_owner owner, const struct params *p,
+                         const char *why, struct faults *f);
 void scene_meshes_free(struct scene *s);
 /* NULL: it has none. */
 const struct scene_mesh *scene_mesh_of(const struct scene *s, enum mesh_owner owner, int index);

@@ -203,24 +203,45 @@ static void wet_sides(const struct scene *s, const struct scene_mesh *m, double 
         }
 }
 
-/* The normals of an open surface are those of the file, unless all fluid is on their other side. */
+/* The side that an open surface of this volume and planeness has its fluid on. */
+static int side_of_open(double volume, double plane)
+{
+    return plane > 0.5 ? FLUID_SHEET : volume > 0.0 ? FLUID_INSIDE : FLUID_OUTSIDE;
+}
+
+/* Whether the normals of an open surface, which should point out of the fluid, point into it. Where
+ * the shapes have fluid on one side only, that says it; else the side that the case names; else
+ * gravity: fluid stands on a sheet, in what is open above, around what is open below. */
+static bool is_turned(const struct reading *r, const struct scene_mesh *m)
+{
+    const int wanted = r->s->walls[m->index].fluid_side;
+    double share[2], volume, n[3], g[3];
+    const double plane = trimesh_openness(&m->mesh, &volume, n);
+    wet_sides(r->s, m, share);
+    if (share[0] < 0.5 * share[1] || share[1] < 0.5 * share[0])
+        return share[0] < share[1];
+    if (wanted == FLUID_SHEET)
+        return false;
+    if (wanted != FLUID_AUTO && plane <= 0.5)
+        return wanted != side_of_open(volume, plane);
+    const double size = scene_still_gravity(r->s, g);
+    return vec3_dot(n, g) < -0.05 * size;
+}
+
+/* The normals of an open surface are those of the file, flipped or turned. */
 static void orient_open(const struct reading *r, struct scene_mesh *m)
 {
     const struct scene_wall *w = r->s->walls + m->index;
-    double share[2], volume, plane;
+    double volume, n[3];
     char key[64];
     snprintf(key, sizeof key, "walls.[%d].flip", m->index);
     if (w->flip)
         trimesh_turn(&m->mesh, -1);
-    wet_sides(r->s, m, share);
-    m->turned = !params_given(r->p, key) && share[0] < 0.5 * share[1];
+    m->turned = !params_given(r->p, key) && is_turned(r, m);
     if (m->turned)
         trimesh_turn(&m->mesh, -1);
-    trimesh_openness(&m->mesh, &volume, &plane);
-    m->fluid_side = w->fluid_side != FLUID_AUTO ? w->fluid_side
-                    : plane > 0.5               ? FLUID_SHEET
-                    : volume > 0.0              ? FLUID_INSIDE
-                                                : FLUID_OUTSIDE;
+    const double plane = trimesh_openness(&m->mesh, &volume, n);
+    m->fluid_side = w->fluid_side != FLUID_AUTO ? w->fluid_side : side_of_open(volume, plane);
 }
 
 static void orient(const struct reading *r, struct scene_mesh *m)

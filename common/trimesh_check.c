@@ -4,6 +4,7 @@
 
 #include <limits.h>
 #include <math.h>
+#include <string.h>
 
 #include "mem.h"
 #include "vec3.h"
@@ -201,9 +202,10 @@ int trimesh_orient_closed(struct trimesh *m, int sign)
     return n;
 }
 
-void trimesh_openness(const struct trimesh *m, double *volume, double *plane)
+double trimesh_openness(const struct trimesh *m, double *volume, double normal[3])
 {
-    double middle[3] = {0.0, 0.0, 0.0}, sum[3] = {0.0, 0.0, 0.0}, area = 0.0, n[3];
+    double middle[3] = {0.0, 0.0, 0.0}, area = 0.0, n[3];
+    memset(normal, 0, sizeof n);
     int count = 0;
     for (int at = 0; at < 3 * m->ntriangles; at++)
         if (m->neighbour[at / 3][at % 3] < 0) {
@@ -221,9 +223,11 @@ void trimesh_openness(const struct trimesh *m, double *volume, double *plane)
         *volume += A * vec3_dot(d, n) / 3.0;
         area += A;
         for (int a = 0; a < 3; a++)
-            sum[a] += A * n[a];
+            normal[a] += A * n[a];
     }
-    *plane = area > 0.0 ? vec3_length(sum) / area : 0.0;
+    for (int a = 0; a < 3 && area > 0.0; a++)
+        normal[a] /= area;
+    return vec3_length(normal);
 }
 
 uint64_t trimesh_hash(const struct trimesh *m)

@@ -32,6 +32,13 @@ static inline void vec3_from(const double *a, const double *b, double *d) /* d =
         d[k] = b[k] - a[k];
 }
 
+static inline double vec3_distance(const double *a, const double *b)
+{
+    double d[3];
+    vec3_from(a, b, d);
+    return vec3_length(d);
+}
+
 /* Makes a unit vector of a, returns its length; 0 stays 0. */
 static inline double vec3_unit(double *a)
 {

@@ -373,7 +373,7 @@ with tank '/^walls/d; /^shapes/d' 'domain: .*up to its side x_min' sph
 with coupled 's/(0.2, 0.2), (0.8, 0.8)/(0.21, 0.2), (0.8, 0.8)/' 'sph.box: x from 0.21 .*as 0.2' sph --check
 with coupled 's/(0.2, 0.2), (0.8, 0.8)/(0.4, 0.4), (0.6, 0.6)/' 'sph.box: .*leave nothing .*larger' sph --check
 with sph 's/dx = 0.02/dx = 0.02; box_velocity = (0.1, 0)/' 'case.cfg:6: sph.box_velocity: no box has both sides open' sph
-with coupled 's/box = .*));/free = ((-3.0, 0.4), (-2.6, 0.6));/' 'sph.box: x from -3.* is not inside the domain' sph --check
+with coupled 's/box = .*));/free = ((-3.0, 0.4), (-2.6, 0.6));/' 'sph.free: x from -3.* is not inside the domain' sph --check
 sed 's/^sph:.*/sph: { dx = 0.02; R_dx = 2.0; c0 = 30.0; box = ((0.5, 0.2), (1.5, 1)); };\nfv: { cells = (16, 16); };/; /^bodies/d' tank.cfg >part.cfg
 with part 's/dx/dx/' 'walls: a free surface needs all sides .*y_max has none' fv --check
 with part '/^fv:/d; s/^walls.*/walls: ( { side = "y_min"; } );/; s/U = 3.0/field = "rest"; U = 3.0/; s/box = ((0.5, 0.2)/outer = "exact"; box = ((0.5, 0)/' \
@@ -471,7 +471,7 @@ else
     with mesh 's/mesh = "solid.stl"/side = "z_max"/; s/^sph/initial: { seed = ((0.5, 0.5, 0.1)); };\n&/' 'initial.seed: is not used' sph
     with mesh 's/sph: .*/sph: { dx = 0.05; walls = "ghosts"; };/' 'sph.walls: mirrored ghosts need plane sides' sph
     with mesh 's/^sph/probes: ( { name = "p"; at = (0.5, 0.5, 0.4); } );\n&/' 'probes.\[0\].at: p is behind the surface solid.stl' sph
-    with mesh 's/sph: .*/fv: { cells = (16, 16, 16); };/' 'walls.\[5\].mesh: surfaces of triangles are for sph alone' fv
+    with mesh 's/sph: .*/fv: { cells = (16, 16, 16); };/' 'walls.\[5\].mesh: surfaces of triangles are for sph in 3D' fv
     with sph 's/^sph:/walls: ( { mesh = "solid.stl"; } );\n&/' 'walls.\[0\].mesh: a surface of triangles bounds a fluid of 3 dimensions' sph
     with mesh 's/mesh = "solid.stl"/points = ((0, 0), (1, 1))/' 'walls and bodies of points need 2 dimensions: in space give a mesh' sph
     with mesh 's/{ side = "y_max"; }, //; s/^shapes.*//' 'domain: the fluid fills it up to its side y_max, which is open' sph

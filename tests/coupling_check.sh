@@ -66,6 +66,37 @@ two=$root/cases/taylor_green/two_boxes.cfg
 accepts "$two"
 refuses "boxes whose zones overlap" 'overlaps the box of group sph_right' "$two" -p 'sph.free=((0.3,0.3),(1.1,0.7))'
 refuses "one of two boxes that moves" 'one that moves could meet another' "$two" -p 'sph.box_velocity=(0.1,0)'
+
+# surfaces of triangles: where the particles are
+awk -v lo="0.4 0.4 0.4" -v hi="0.6 0.6 0.6" -f "$root/tests/stl.awk" >cube.stl
+solid() { # LISTS of a confined tank, a cube in it
+    cat >solid.cfg <<CASE
+format = 1;
+time:    { end = 1.0; };
+fluid:   { rho = 1000.0; nu = 0.01; gravity = (0, 0, -1); };
+domain:  { dim = 3; min = (-1, 0, 0); max = (2, 1, 1); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; }, { side = "z_min"; },
+           { side = "z_max"; }$2 );
+$1
+sph:     { dx = 0.025; R_dx = 2.5; free = ((0.2, 0.2, 0), (0.8, 0.8, 1)); };
+fv:      { cells = (96, 32, 32); };
+CASE
+}
+if "$b/sph" "$root/cases/sphere_3d/case.cfg" --check 2>&1 | grep -q 'built without a reader'; then
+    echo "note: this build has no reader of meshes"
+else
+    solid 'bodies: ( { name = "cube"; mesh = "cube.stl"; } );'
+    accepts solid.cfg
+    "$b/fv" solid.cfg --check >text 2>&1 || bad "fv refuses a coupled body of triangles: $(tail -n 2 text)"
+    solid 'bodies: ( { name = "cube"; mesh = "cube.stl"; velocity = (0.5, 0, 0); } );'
+    refuses "a body of triangles that leaves" "body .cube' is outside of (0.25[0-9]*, 0.25[0-9]*, 0) to .* m at t = 0.[0-9]* s" solid.cfg
+    solid 'bodies: ( { name = "cube"; mesh = "cube.stl"; velocity = (0.5, 0, 0); } );'
+    accepts solid.cfg -p 'sph.box_follows="cube"'
+    solid '' ', { mesh = "cube.stl"; translate = (0.9, 0, 0); fluid_side = "outside"; }'
+    refuses "a wall of triangles in fv's flow" 'walls.\[6\].mesh: at (1.3.*fv, which knows of no wall but' solid.cfg
+    solid 'shapes: ( { form = "mesh"; mesh = "cube.stl"; } );'
+    refuses "water given by triangles" 'shapes.\[0\].mesh: surfaces of triangles are for sph in 3D' solid.cfg
+fi
 cat >channel.cfg <<'CASE'
 format = 1;
 time:    { end = 1.0; };
@@ -98,7 +129,7 @@ accepts basin.cfg -p 'sph.box=((0.5,0.0),(1.5,0.4))' # or is fv's alone
 accepts standing_wave_3d -p 'sph.box=((0.25,0,0),(1.75,1.25,2))' # and in 3D
 sed 's|walls:   (|walls: ( { points = ((1.2, 0), (2, 0.8)); },|' basin.cfg >beach.cfg
 accepts beach.cfg -p 'sph.box=((0.5,0.0),(2,1.2))' # a beach where sph gives the flow
-refuses "a beach that reaches into fv" 'fv, which knows of no line' beach.cfg -p 'sph.box=((1,0),(2,1.2))'
+refuses "a beach that reaches into fv" 'fv, which knows of no wall but the domain' beach.cfg -p 'sph.box=((1,0),(2,1.2))'
 sed '/x_max/s/, { side = "x_max"; }//' basin.cfg >open.cfg
 refuses "a side without a wall" 'which has no wall' open.cfg
 cat >body.cfg <<'CASE'

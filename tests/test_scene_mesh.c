@@ -220,6 +220,54 @@ static void sides_follow_the_shapes(void **state)
     trimesh_free(&m);
 }
 
+/* Fluid of the shapes on both sides: gravity says what is open above and below, and which side of a
+ * sheet is its bed; whichever way the file has its normals. */
+static void gravity_parts_tanks_from_obstacles(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *fluid, *more;
+        int open;    /* 0: below, 1: above */
+        bool inside; /* that the fluid is in what the walls enclose */
+    } cases[] = {{"(0, 0, -9.81)", "", 0, false},
+                 {"(0, 0, -9.81)", "", 1, true},
+                 {"(0, 0, 9.81)", "", 0, true},
+                 {"(0, 0, 9.81)", "", 1, false},
+                 {"(0, 0, -9.81)", "fluid_side = \"inside\";", 0, true},
+                 {"(0, 0, -9.81)", "fluid_side = \"outside\";", 1, false}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        for (int sense = -1; sense <= 1; sense += 2) {
+            struct trimesh m = trimesh_box(low, high, 1);
+            int kept = 0;
+            char text[512];
+            struct reading r;
+            for (int t = 0; t < m.ntriangles; t++) {
+                double n[3];
+                trimesh_normal(&m, t, n);
+                if (n[2] * (cases[k].open ? 1.0 : -1.0) < 0.5)
+                    memcpy(m.vertex[kept++], m.vertex[t], sizeof *m.vertex);
+            }
+            m.ntriangles = kept;
+            if (sense < 0)
+                trimesh_turn(&m, -1);
+            if (rank == 0)
+                write_stl(&m, "half.stl");
+            snprintf(text, sizeof text,
+                     "walls: ( { mesh = \"half.stl\"; %s }, { side = \"z_min\"; } );\n"
+                     "shapes: ( { box = ((0, 0, 0), (4, 2, 1.5)); } );\n"
+                     "fluid: { gravity = %s; };\n",
+                     cases[k].more, cases[k].fluid);
+            read_scene(&r, text);
+            assert_int_equal(r.f.n, 0);
+            assert_int_equal(r.scene.meshes->of[0].fluid_side,
+                             cases[k].inside ? FLUID_INSIDE : FLUID_OUTSIDE);
+            assert_int_equal(scene_mesh_holds(r.scene.meshes->of, (double[]){1.0, 0.7, 0.8}),
+                             cases[k].inside);
+            done(&r);
+            trimesh_free(&m);
+        }
+}
+
 /* Two boxes that overlap pierce each other; touching is not piercing. */
 static void crossings_are_seen(void **state)
 {
@@ -310,6 +358,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(parts_alternate),
         cmocka_unit_test(keys_place_the_mesh),
         cmocka_unit_test(sides_follow_the_shapes),
+        cmocka_unit_test(gravity_parts_tanks_from_obstacles),
         cmocka_unit_test(crossings_are_seen),
         cmocka_unit_test(sizes_tell_facets_from_the_sphere),
         cmocka_unit_test(one_sided_surfaces_are_refused),

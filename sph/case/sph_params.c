@@ -410,17 +410,19 @@ static void check_axis(const struct run *r, int a, struct faults *f)
     sph_params_region(d, sph_params_of(r), lo, hi, periodic);
     const double length = hi[a] - lo[a];
     const double L = d->max[a] - d->min[a], beyond = d->periodic[a] ? L : near;
-    if (length > L + near) {
-        params_fault(r->params, f, "sph.box",
+    const char *key = params_given(r->params, "sph.free") ? "sph.free" : "sph.box";
+    if (d->periodic[a] && length > L + near) {
+        params_fault(r->params, f, key,
                      "%c from %g to %g m with transition and buffer is longer than the period, %g "
                      "m: make it smaller, or let it span the period",
                      axes[a], lo[a], hi[a], L);
         return;
     }
     if (length <= 0.0 || lo[a] < d->min[a] - beyond || hi[a] > d->max[a] + beyond) {
-        params_fault(r->params, f, "sph.box",
-                     "%c from %g to %g m is not inside the domain, %g to %g m", axes[a], lo[a],
-                     hi[a], d->min[a], d->max[a]);
+        params_fault(r->params, f, key,
+                     "%c from %g to %g m, with transition and buffer, is not inside the domain, %g "
+                     "to %g m: let it end on the domain's sides, make it smaller or sph.dx finer",
+                     axes[a], lo[a], hi[a], d->min[a], d->max[a]);
         return;
     }
     const struct scene_wall *w[2] = {scene_wall_of(&r->scene, SIDE_X_MIN + 2 * a),

@@ -10,7 +10,7 @@
 #include "../../common/mem.h"
 #include "../../common/scene_fluid.h"
 #include "../sph_params.h"
-#include "../rigid/body.h"
+#include "coupling_solids.h"
 #include "windows.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
@@ -129,98 +129,6 @@ static void check_side(const struct run *r, const struct sph_params *prm, const 
                      wall ? "an inlet or outlet" : "which has no wall");
 }
 
-/* First time at which a corner of a driven body leaves the box by an open side, INFINITY: never; a
- * free one is watched as it goes. */
-static double leaves(const struct run *r, const struct sph_params *prm, const struct scene_body *is,
-                     double box[2][3], const bool *open)
-{
-    enum { TIMES = 500 };
-    struct body b;
-    double when = INFINITY;
-    body_create(&b, is, NULL, r->scene.domain.dim, r->case_dir);
-    for (int k = 0; k <= (b.free ? 0 : TIMES) && when == INFINITY; k++) {
-        const double t = r->scene.time.end * k / TIMES;
-        double way[3];
-        body_move(&b, t);
-        (void)box_motion_foretold(r, prm, t, way);
-        for (int i = 0; i < is->points.n; i++) {
-            double at[2];
-            body_place(&b, is->points.x[i], at);
-            for (int a = 0; a < 2; a++)
-                if ((open[2 * a] && at[a] < box[0][a] + way[a]) ||
-                    (open[2 * a + 1] && at[a] > box[1][a] + way[a]))
-                    when = t;
-        }
-    }
-    body_destroy(&b);
-    return when;
-}
-
-/* FV knows of no body: it must stay where SPH gives the flow. */
-static void check_bodies(const struct run *r, const struct sph_params *prm, struct faults *f)
-{
-    double given[2][3];
-    bool open[6];
-    zones_given_box(r, prm, given[0], given[1]);
-    sph_params_open(r, prm, open);
-    for (int k = 0; k < r->scene.nbodies; k++) {
-        const struct scene_body *b = r->scene.bodies + k;
-        char key[32];
-        const double when = leaves(r, prm, b, given, open);
-        snprintf(key, sizeof key, "bodies.[%d]", k);
-        if (when < INFINITY)
-            params_fault(r->params, f, key,
-                         "body `%s' is outside of (%g, %g) to (%g, %g) m at t = %.4g s: fv, which "
-                         "knows of no body, takes that from sph alone; enlarge sph.box, or lower "
-                         "coupling.overlap, time.end or the body's way",
-                         b->name, given[0][0], given[0][1], given[1][0], given[1][1], when);
-    }
-}
-
-/* A line that leaves where SPH gives the flow, inside the domain: the place where it does. */
-static bool line_leaves(const struct run *r, const struct scene_wall *w, double box[2][3],
-                        const bool *open, double step, double *at)
-{
-    const struct scene_domain *d = &r->scene.domain;
-    for (int i = 0; i + !w->closed < w->points.n; i++) {
-        const double *a = w->points.x[i], *b = w->points.x[(i + 1) % w->points.n];
-        const int n = (int)ceil(hypot(b[0] - a[0], b[1] - a[1]) / step) + 1;
-        for (int k = 0; k <= n; k++) {
-            bool inside = true, out = false;
-            for (int c = 0; c < 2; c++) {
-                at[c] = a[c] + k * (b[c] - a[c]) / n;
-                inside = inside && at[c] > d->min[c] && at[c] < d->max[c];
-                out = out || (open[2 * c] && at[c] < box[0][c]) ||
-                      (open[2 * c + 1] && at[c] > box[1][c]);
-            }
-            if (inside && out)
-                return true;
-        }
-    }
-    return false;
-}
-
-/* FV knows of no line: its stencils, two cells deep in what SPH gives, must not meet one. */
-static void check_lines(const struct run *r, const struct sph_params *prm, const struct water *w,
-                        struct faults *f)
-{
-    double box[2][3], at[2];
-    bool open[6];
-    memcpy(box, w->hidden, sizeof box);
-    sph_params_open(r, prm, open);
-    for (int k = 0; k < r->scene.nwalls; k++) {
-        const struct scene_wall *line = r->scene.walls + k;
-        char key[32];
-        snprintf(key, sizeof key, "walls.[%d].points", k);
-        if (line->points.n > 1 && line_leaves(r, line, box, open, 0.5 * prm->dx, at))
-            params_fault(r->params, f, key,
-                         "at (%g, %g) m it is outside of (%g, %g) to (%g, %g) m: fv, which knows "
-                         "of no line, takes only what lies deeper from sph; enlarge sph.box, lower "
-                         "coupling.overlap, or refine fv.cells",
-                         at[0], at[1], box[0][0], box[0][1], box[1][0], box[1][1]);
-    }
-}
-
 /* Whether a cell of edges lo + i h lies wholly between a and b. */
 static bool holds_cell(double lo, double h, double a, double b)
 {
@@ -249,41 +157,6 @@ static void check_cells(const struct run *r, const struct sph_params *prm, struc
                      h, axes[a], given[0][a], given[1][a]);
         return;
     }
-}
-
-/* The part of the given box that fv does not look at: two cells within it. */
-static void find_hidden(const struct run *r, const struct sph_params *prm, double box[2][3])
-{
-    const struct scene_domain *d = &r->scene.domain;
-    double cells[3], graded[3];
-    bool open[6];
-    zones_given_box(r, prm, box[0], box[1]);
-    sph_params_open(r, prm, open);
-    params_peek(r->params, r->comm, "fv.cells", cells);
-    params_peek(r->params, r->comm, "fv.graded", graded);
-    for (int a = 0; a < d->dim; a++) {
-        const bool rows = a == 1 && graded[1] > 0.0;
-        const double h = rows           ? (d->max[a] - graded[0]) / graded[1]
-                         : cells[a] > 0 ? (d->max[a] - d->min[a]) / cells[a]
-                                        : 0.0;
-        box[0][a] += open[2 * a] ? 2.0 * h : 0.0;
-        box[1][a] -= open[2 * a + 1] ? 2.0 * h : 0.0;
-    }
-}
-
-void coupling_warn(const struct run *r)
-{
-    const struct sph_params *prm = sph_params_of(r);
-    double near[2][3];
-    bool open[6];
-    find_hidden(r, prm, near);
-    sph_params_open(r, prm, open);
-    for (int k = 0; k < r->scene.nbodies; k++)
-        if (leaves(r, prm, r->scene.bodies + k, near, open) < INFINITY)
-            log_warn(
-                "body `%s' comes within two cells of fv of what fv takes from sph: it mixes the "
-                "particles on all its sides there; enlarge sph.box, or refine fv.cells",
-                r->scene.bodies[k].name);
 }
 
 /* The box of another group of particles with its zones; false: it has none of its own. */
@@ -411,7 +284,7 @@ void coupling_check(const struct run *r, struct faults *f)
     }
     struct water w = {.scene = &r->scene, .dx = prm->dx, .exact = exact_create(&r->scene)};
     zones_given_box(r, prm, w.given[0], w.given[1]);
-    find_hidden(r, prm, w.hidden);
+    coupling_hidden(r, prm, w.hidden);
     for (int side = 0; side < 2 * r->scene.domain.dim; side++)
         check_side(r, prm, &w, side, f);
     if (!gives(r, prm, &w, f))
@@ -419,9 +292,9 @@ void coupling_check(const struct run *r, struct faults *f)
     check_parted(r, prm, &w, f);
     if (f->n == 0)
         check_water(r, &w, f);
-    check_bodies(r, prm, f);
+    coupling_check_bodies(r, prm, f);
     check_several(r, prm, f);
-    check_lines(r, prm, &w, f);
+    coupling_check_walls(r, prm, f);
     if (f->n == 0)
         check_cells(r, prm, f);
     windows_check(r, prm, f);

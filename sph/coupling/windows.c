@@ -10,6 +10,8 @@
 
 #include "../../common/crossing.h"
 #include "../../common/log.h"
+#include "../../common/scene_mesh.h"
+#include "../../common/vec3.h"
 #include "../sph_params.h"
 #include "../open_boundaries/box_chase.h"
 #include "../open_boundaries/box_motion.h"
@@ -36,6 +38,9 @@ static double speed_of_bodies(const struct scene *c)
         for (int i = 0; i < b->points.n; i++)
             far = fmax(far,
                        hypot(b->points.x[i][0] - b->centre[0], b->points.x[i][1] - b->centre[1]));
+        const struct trimesh *m = scene_body_mesh(c, k);
+        for (int i = 0; m && i < m->nvertices; i++)
+            far = fmax(far, vec3_distance(m->x[i], b->centre));
         U = fmax(U, length_of(b->velocity) + length_of(b->spin) * far);
     }
     return U;

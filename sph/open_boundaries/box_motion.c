@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../../common/scene_mesh.h"
 #include "../parallel/domain.h"
 #include "../rigid/body.h"
 #include "../sph_params.h"
@@ -75,7 +76,8 @@ bool box_motion_foretold(const struct run *r, const struct sph_params *prm, doub
     const int k = body_of(r, prm);
     if (prm->box_follows[0] && k >= 0) {
         struct body b;
-        body_create(&b, r->scene.bodies + k, NULL, r->scene.domain.dim, r->case_dir);
+        body_create(&b, r->scene.bodies + k, scene_body_mesh(&r->scene, k), r->scene.domain.dim,
+                    r->case_dir);
         known = !b.free;
         if (known) {
             body_move(&b, t);
