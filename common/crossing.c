@@ -2,6 +2,8 @@
 #include "crossing.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "scene_fluid.h"
 
@@ -17,24 +19,31 @@ static int upright(const struct scene *c)
     return up;
 }
 
-/* sph.box, or else sph.free; false: neither is given. Collective. */
-static bool peek_box(const struct run *r, double box[2][3])
+/* Boxes of the groups sph, sph_NAME (box, or else free); those of SPH's program `only' alone, NULL:
+ * all. Returns how many. Collective. */
+static int peek_boxes(const struct run *r, const char *only, double box[PARAM_KIN_MAX][2][3])
 {
-    return params_peek_pair(r->params, r->comm, "sph.box", box) ||
-           params_peek_pair(r->params, r->comm, "sph.free", box);
+    static const char *const keys[] = {"box", "free"};
+    char names[PARAM_KIN_MAX][64], key[80];
+    const int n = params_kin(r->params, "sph", names);
+    int found = 0;
+    for (int k = 0; k < n; k++)
+        for (int i = 0; i < 2 && (!only || strcmp(only, names[k]) == 0); i++) {
+            snprintf(key, sizeof key, ":%.63s.%s", names[k], keys[i]);
+            if (!params_peek_pair(r->params, r->comm, key, box[found]))
+                continue;
+            found++;
+            break;
+        }
+    return found;
 }
 
-bool crossing_find(const struct run *r)
+/* Whether a box ends in the water at an upright side, or in the air. */
+static bool ends_inside(const struct scene *c, int up, double box[2][3])
 {
-    const struct scene_domain *d = &r->scene.domain;
-    double box[2][3];
+    const struct scene_domain *d = &c->domain;
+    const bool falls = c->fluid.gravity[up] < 0.0; /* towards the lower side */
     bool ends = false;
-    if (!r->coupled || !r->scene.has_sph || !r->scene.has_fv || !scene_has_surface(&r->scene))
-        return false;
-    const int up = upright(&r->scene);
-    if (up < 0 || !peek_box(r, box))
-        return false;
-    const bool falls = r->scene.fluid.gravity[up] < 0.0; /* towards the lower side */
     for (int a = 0; a < d->dim; a++) {
         const double eps = 1e-9 * (d->max[a] - d->min[a]);
         const bool low = box[0][a] > d->min[a] + eps, high = box[1][a] < d->max[a] - eps;
@@ -44,19 +53,41 @@ bool crossing_find(const struct run *r)
     return ends;
 }
 
+bool crossing_find(const struct run *r)
+{
+    double box[PARAM_KIN_MAX][2][3];
+    bool ends = false;
+    if (!r->coupled || !r->scene.has_sph || !r->scene.has_fv || !scene_has_surface(&r->scene))
+        return false;
+    const int up = upright(&r->scene);
+    if (up < 0)
+        return false;
+    const int n = peek_boxes(r, NULL, box);
+    for (int k = 0; k < n; k++)
+        ends = ends || ends_inside(&r->scene, up, box[k]);
+    return ends;
+}
+
+/* Whether a gauge lies in a box; one of the level by its place on the ground alone. */
+static bool holds(const struct scene *c, int up, double box[2][3], const struct scene_probe *g)
+{
+    bool inside = true;
+    for (int a = 0; a < c->domain.dim; a++)
+        if (box[1][a] > box[0][a] && (a != up || g->kind == PROBE_PRESSURE))
+            inside = inside && g->at[a] >= box[0][a] && g->at[a] <= box[1][a];
+    return inside;
+}
+
 void crossing_deal(struct run *r)
 {
     const struct scene *c = &r->scene;
     const int up = upright(c);
-    double box[2][3];
-    (void)peek_box(r, box); /* that of crossing_find */
+    double box[PARAM_KIN_MAX][2][3];
+    const int n = peek_boxes(r, strncmp(r->name, "sph", 3) == 0 ? r->name : NULL, box);
     for (int k = 0; k < c->nprobes; k++) {
-        const struct scene_probe *g = c->probes + k;
-        r->gauge_inside[k] = true;
-        for (int a = 0; a < c->domain.dim; a++)
-            if (box[1][a] > box[0][a] && (a != up || g->kind == PROBE_PRESSURE))
-                r->gauge_inside[k] =
-                    r->gauge_inside[k] && g->at[a] >= box[0][a] && g->at[a] <= box[1][a];
+        r->gauge_inside[k] = false;
+        for (int q = 0; q < n; q++)
+            r->gauge_inside[k] = r->gauge_inside[k] || holds(c, up, box[q], c->probes + k);
     }
 }
 

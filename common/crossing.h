@@ -6,11 +6,12 @@
 #include "run.h"
 
 /* From the case alone, so that both programs say the same: the water has a surface, gravity holds
- * it down, and sph.box (or sph.free) ends inside the domain along an axis across gravity, or below
- * its top.
+ * it down, and a box of particles (sph.box or sph.free, sph_left.box ...) ends inside the domain
+ * along an axis across gravity, or below its top.
  * Collective over r->comm. */
 bool crossing_find(const struct run *r);
-/* Deals out the gauges: r->gauge_inside. Of a crossing case; collective over r->comm. */
+/* Deals out the gauges: r->gauge_inside, of FV those in any box, of SPH those in its own. Of a
+ * crossing case; collective over r->comm. */
 void crossing_deal(struct run *r);
 /* Height of the water above the domain's floor at the start, along axis a, m. */
 double crossing_depth(const struct scene *c, int a);

@@ -29,7 +29,9 @@
 struct giver {
     char name[64]; /* "sph", "sph_left" */
     int forced, imposed, seen;
-    int place, way; /* of a box that moves: one point; how far it is from its start */
+    int place, way;     /* of a box that moves: one point; how far it is from its start */
+    int places, filled; /* where the surface crosses into its part: a kernel filled by its water */
+    int budget, water;  /* one point; its water and drops */
     bool moves;
     double given[2][3], free[2][3]; /* m: what it gives, its free zone, at the start */
     double box[2][3];               /* m: and all of it, with its zones */
@@ -45,12 +47,11 @@ struct link {
     double wish; /* s: window in which no box passes a cell of blocks */
     struct giver of[PARTNERS_MAX];
     int grid, velocity, pressure;
-    int budget, water; /* one point; the partner's water and drops */
-    bool has_moved;    /* some box, once */
-    char lost[256];    /* why its place is none for FV; "": it is one */
+    bool has_moved; /* some box, once */
+    char lost[256]; /* why its place is none for FV; "": it is one */
     struct water_budget of_water;
-    int phi, places, filled; /* where the surface crosses into the partner's part */
-    double *share;           /* of a kernel that the partner's water fills, at the places */
+    int phi;                      /* where the surface crosses into a giver's part */
+    double *share, *share_of_one; /* of a kernel that the givers' water fills, at the places */
     struct patch patch;
     struct course *course;
     struct forced_points points;
@@ -144,6 +145,19 @@ static void declare_giver(struct fv *s, struct link *k, struct giver *g, int how
           cpl_field(k->c, g->place, named(g, NULL, "way"), "m", 9, CPL_GET, CPL_NEAREST, &g->way));
 }
 
+static void declare_water(struct fv *s, struct link *k, int q)
+{
+    struct giver *g = k->of + q;
+    check(k,
+          cpl_points(k->c, named(g, "fv.surface", ""), s->dim, s->surface->forced->R, &g->places));
+    check(k,
+          cpl_field(k->c, g->places, named(g, NULL, "one"), "-", 1, CPL_GET, CPL_SUM, &g->filled));
+    check(k, cpl_points(k->c, named(g, "fv.budget", ""), s->dim, s->b.h[0], &g->budget));
+    check(k, cpl_field(k->c, g->budget, named(g, NULL, "water"), "m^dim", 2, CPL_GET, CPL_NEAREST,
+                       &g->water));
+    find_zone(k, g, "counted", k->of_water.box[q][0], k->of_water.box[q][1]);
+}
+
 static void declare(struct fv *s, struct link *k)
 {
     const struct patch *p = &k->patch;
@@ -166,14 +180,9 @@ static void declare(struct fv *s, struct link *k)
     if (!s->surface)
         return;
     check(k, cpl_field(k->c, k->grid, "fv.phi", "m", 1, CPL_PUT, 0, &k->phi));
-    check(k, cpl_points(k->c, "fv.surface", s->dim, s->surface->forced->R, &k->places));
-    check(k, cpl_field(k->c, k->places, named(k->of, NULL, "one"), "-", 1, CPL_GET, CPL_SUM,
-                       &k->filled));
-    check(k, cpl_points(k->c, "fv.budget", s->dim, s->b.h[0], &k->budget));
-    check(k, cpl_field(k->c, k->budget, named(k->of, NULL, "water"), "m^dim", 2, CPL_GET,
-                       CPL_NEAREST, &k->water));
-    k->of_water = water_budget_create();
-    find_zone(k, k->of, "counted", k->of_water.box[0], k->of_water.box[1]);
+    k->of_water = water_budget_create(k->n);
+    for (int q = 0; q < k->n; q++)
+        declare_water(s, k, q);
 }
 
 static void refuse(const struct link *k, const char *reason)
@@ -284,6 +293,7 @@ static void free_room(struct link *k)
     mem_free(k->p);
     mem_free(k->mask);
     mem_free(k->share);
+    mem_free(k->share_of_one);
 }
 
 /* For what the partner gives. */
@@ -301,7 +311,9 @@ static void make_room(const struct fv *s, struct link *k)
     k->has = NEW(unsigned char, n);
     k->p = NEW(double, n);
     k->mask = NEW(unsigned char, n);
-    k->share = s->surface ? NEW(double, s->surface->forced->nplaces) : NULL;
+    const int64_t nplaces = s->surface ? s->surface->forced->nplaces : 0;
+    k->share = s->surface ? NEW(double, nplaces) : NULL;
+    k->share_of_one = s->surface ? NEW(double, nplaces) : NULL;
 }
 
 /* Windows over which the pressure is smoothed, as the one wants it that wants most. */
@@ -431,11 +443,11 @@ static void name_cells(struct fv *s)
 {
     struct link *k = s->link;
     const struct forced_points *p = &k->points;
-    for (int q = 0; q < k->n; q++)
+    const struct surface_forced *w = s->surface ? s->surface->forced : NULL;
+    for (int q = 0; q < k->n; q++) {
         check(k, cpl_move(k->c, k->of[q].forced, p->n, p->x, p->id, NULL));
-    if (s->surface) {
-        const struct surface_forced *w = s->surface->forced;
-        check(k, cpl_move(k->c, k->places, w->nplaces, w->x, NULL, NULL));
+        if (w)
+            check(k, cpl_move(k->c, k->of[q].places, w->nplaces, w->x, NULL, NULL));
     }
 }
 
@@ -447,11 +459,12 @@ void coupling_first(void *state)
     struct link *k = s->link;
     const struct forcing *f = s->forcing;
     name_cells(s);
-    if (s->surface)
-        check(k, cpl_move(k->c, k->budget, 1, one, NULL, NULL));
-    for (int q = 0; q < k->n; q++)
+    for (int q = 0; q < k->n; q++) {
+        if (s->surface)
+            check(k, cpl_move(k->c, k->of[q].budget, 1, one, NULL, NULL));
         if (k->of[q].moves)
             check(k, cpl_move(k->c, k->of[q].place, 1, one, NULL, NULL));
+    }
     if (!s->run->restart) {
         const double before = s->exact.U > 0.0 ? 1e-3 * s->exact.L / s->exact.U : 1e-3;
         if (f)
@@ -595,8 +608,9 @@ static void follow(struct fv *s)
     struct link *k = s->link;
     for (int q = 0; q < k->n; q++)
         memcpy(k->of[q].stands, k->of[q].moved, sizeof k->of[q].stands);
-    if (s->surface)
-        memcpy(k->of_water.box, k->of[0].moved + 3, sizeof k->of_water.box);
+    for (int q = 0; s->surface && q < k->n; q++)
+        if (k->of[q].moves)
+            memcpy(k->of_water.box[q], k->of[q].moved + 3, sizeof k->of_water.box[q]);
     if (stand(s))
         name_cells(s);
 }
@@ -633,6 +647,25 @@ static void take(struct fv *s)
         }
 }
 
+/* The givers' surfaces and water; their boxes lie apart, so what they fill adds up. */
+static void take_surface(struct fv *s)
+{
+    struct link *k = s->link;
+    const int64_t n = s->surface->forced->nplaces;
+    double water[2] = {0.0, 0.0}, of_one[2];
+    memset(k->share, 0, (size_t)n * sizeof *k->share);
+    for (int q = 0; q < k->n; q++) {
+        check(k, cpl_get(k->c, k->of[q].filled, n, k->share_of_one, NULL));
+        for (int64_t i = 0; i < n; i++)
+            k->share[i] += k->share_of_one[i];
+        check(k, cpl_get(k->c, k->of[q].water, 1, of_one, NULL));
+        water[0] += of_one[0];
+        water[1] += of_one[1];
+    }
+    surface_forced_take(s, k->share);
+    water_budget_take(s, &k->of_water, water);
+}
+
 /* The partner's velocities at t1; cells that it does not reach keep theirs. */
 void coupling_window_begin(void *state, double t0, double t1)
 {
@@ -647,13 +680,8 @@ void coupling_window_begin(void *state, double t0, double t1)
     course_try(s, k->course, t1);
     put(s);
     take(s);
-    if (s->surface) {
-        check(k, cpl_get(k->c, k->filled, s->surface->forced->nplaces, k->share, NULL));
-        surface_forced_take(s, k->share);
-        double water[2];
-        check(k, cpl_get(k->c, k->water, 1, water, NULL));
-        water_budget_take(s, &k->of_water, water);
-    }
+    if (s->surface)
+        take_surface(s);
     count_missing(s);
     if (s->surface)
         forcing_fill(s, k->mask);

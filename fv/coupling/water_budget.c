@@ -15,9 +15,10 @@
  * swinging. */
 static const double memory = 2.0;
 
-struct water_budget water_budget_create(void)
+struct water_budget water_budget_create(int n)
 {
     return (struct water_budget){
+        .n = n,
         .start = NAN,
         .watched = {.key = "water_missing",
                     .what = "water of both programs that came or went unbooked, over all of it",
@@ -27,8 +28,8 @@ struct water_budget water_budget_create(void)
                     .stop = 0.02}};
 }
 
-static double share_outside(const struct fv *s, const double box[2][3], const double *x,
-                            const double *h)
+static double share_within(const struct fv *s, const double box[2][3], const double *x,
+                           const double *h)
 {
     const struct scene_domain *d = &s->run->scene.domain;
     double in = 1.0;
@@ -38,14 +39,14 @@ static double share_outside(const struct fv *s, const double box[2][3], const do
         const double lo = fmax(x[a] + off - 0.5 * h[a], box[0][a]);
         in *= fmax(fmin(x[a] + off + 0.5 * h[a], box[1][a]) - lo, 0.0) / h[a];
     }
-    return 1.0 - in;
+    return in;
 }
 
 double water_budget_share(const struct fv *s, const double *x, const double *h)
 {
     double outside = 1.0;
     for (int k = 0; k < s->npartners; k++)
-        outside -= 1.0 - share_outside(s, s->partner[k], x, h);
+        outside -= share_within(s, s->partner[k], x, h);
     return outside;
 }
 
@@ -57,7 +58,10 @@ static double own_water(const struct fv *s, const struct water_budget *w)
         if (s->forcing->forced[c] || s->surface->phi[c] > 3.0 * b->h[0])
             continue;
         block_cell(b, i, j, k, x, h);
-        sum += h[0] * h[1] * h[2] * surface_share(s, c) * share_outside(s, w->box, x, h);
+        double own = 1.0;
+        for (int q = 0; q < w->n; q++)
+            own -= share_within(s, w->box[q], x, h);
+        sum += h[0] * h[1] * h[2] * surface_share(s, c) * own;
     }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
     return sum;

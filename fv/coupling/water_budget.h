@@ -9,20 +9,22 @@
 #include "../fv.h"
 
 struct water_budget {
-    double box[2][3]; /* m: what lies within is the partner's; FV's forced cells fill it */
-    double partners;  /* m^dim: in there, at the end of the window */
-    double drops;     /* m^dim: that left the partner over FV's water and fell into it, evenly */
-    double start;     /* m^dim: both at the start; NAN: not known yet */
-    double missing;   /* m^dim: now */
-    double lasting;   /* m^dim/s: part of the flow that a lasting loss has called for */
+    int n;
+    double box[PARTNERS_MAX][2][3]; /* m: what lies within is a partner's; forced cells fill it */
+    double partners;                /* m^dim: in there, at the end of the window */
+    double drops;   /* m^dim: that left partners over FV's water and fell into it, evenly */
+    double start;   /* m^dim: all at the start; NAN: not known yet */
+    double missing; /* m^dim: now */
+    double lasting; /* m^dim/s: part of the flow that a lasting loss has called for */
     struct watch watched;
 };
 
-struct water_budget water_budget_create(void);
+/* Of n partners, whose boxes are the caller's to set. */
+struct water_budget water_budget_create(int n);
 /* Part of a cell of centre x and size h outside the box that a partner counts as its own. */
 double water_budget_share(const struct fv *s, const double *x, const double *h);
-/* The partner's at the end of the window: its water, and drops that have left it since the start,
- * which become FV's. */
+/* The partners' at the end of the window: their water, and drops that have left them since the
+ * start, which become FV's. */
 void water_budget_take(struct fv *s, struct water_budget *w, const double water[2]);
 /* At the end of a window of T s: the flow through the outline for the next one. Collective. */
 void water_budget_close(struct fv *s, struct water_budget *w, double T);

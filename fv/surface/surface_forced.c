@@ -2,6 +2,7 @@
 #include "surface_forced.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../../common/colour.h"
@@ -46,6 +47,28 @@ static void list_places(const struct fv *s, struct surface_forced *f)
     f->nplaces = f->first[f->n];
 }
 
+static double largest(const struct fv *s)
+{
+    double h = 0.0;
+    for (int a = 0; a < s->b.dim; a++)
+        h = fmax(h, s->b.h[a]);
+    return h;
+}
+
+/* m: spacing of the partner's particles, of several the largest. */
+static double coarsest_particles(const struct fv *s)
+{
+    char names[PARAM_KIN_MAX][64], key[80];
+    const int n = params_kin(s->run->params, "sph", names);
+    double dx[3], most = 0.0;
+    for (int k = 0; k < n; k++) {
+        snprintf(key, sizeof key, ":%.63s.dx", names[k]);
+        if (params_peek(s->run->params, s->run->comm, key, dx))
+            most = fmax(most, dx[0]);
+    }
+    return most;
+}
+
 struct surface_forced *surface_forced_create(const struct fv *s)
 {
     const struct block *b = &s->b;
@@ -53,11 +76,7 @@ struct surface_forced *surface_forced_create(const struct fv *s)
     if (!g)
         return NULL;
     struct surface_forced *f = NEW(struct surface_forced, 1);
-    double h = 0.0, dx[3];
-    for (int a = 0; a < b->dim; a++)
-        h = fmax(h, b->h[a]);
-    params_peek(s->run->params, s->run->comm, "sph.dx", dx);
-    f->R = fmax(2.0 * h, 4.0 * dx[0]); /* fewer particles make noise */
+    f->R = fmax(2.0 * largest(s), 4.0 * coarsest_particles(s)); /* fewer make noise */
     f->cell = NEW(int64_t, b->size);
     for (int64_t i = 0; i < g->nlocal; i++)
         if (g->forced[g->local[i]] == 1)
@@ -106,14 +125,6 @@ void surface_forced_shift(struct fv *s, double t0, double t1)
     f->phi[1] = next;
     f->t[0] = t0;
     f->t[1] = t1;
-}
-
-static double largest(const struct fv *s)
-{
-    double h = 0.0;
-    for (int a = 0; a < s->b.dim; a++)
-        h = fmax(h, s->b.h[a]);
-    return h;
 }
 
 /* Mean over the free cells beside the outline of phi less the partner's, where both know it. */

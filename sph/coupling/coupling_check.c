@@ -191,10 +191,11 @@ static void check_several(const struct run *r, const struct sph_params *prm, str
     const struct scene_domain *d = &r->scene.domain;
     if (n < 2)
         return;
-    if (scene_has_surface(&r->scene))
+    if (scene_has_surface(&r->scene) && !r->crossed)
         params_fault(r->params, f, "sph.box",
-                     "%d boxes of particles under a free surface: its water is counted between two "
-                     "programs; take one box, or fill the domain",
+                     "%d boxes of particles, and none ends in the water at an upright side: the "
+                     "free surface would belong to several programs; take one box, or boxes with "
+                     "fv's water between them",
                      n);
     if (r->scene.nbodies > 0)
         params_fault(r->params, f, "bodies",
