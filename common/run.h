@@ -41,7 +41,8 @@ struct run {
     bool restart;        /* state comes from the restart file */
     bool coupled;
     bool crossed; /* coupled, and the free surface crosses open sides of sph.box: crossing.h */
-    bool gauge_inside[PROBES_MAX]; /* crossed: a gauge is that SPH's in whose box it lies, or FV's */
+    bool
+        gauge_inside[PROBES_MAX]; /* crossed: a gauge is that SPH's in whose box it lies, or FV's */
     const struct partner *partner; /* NULL when alone */
     void *partner_ctx;             /* its state (struct cpl *) */
     struct timers timers;
