@@ -82,6 +82,22 @@ CASE
     below "$(number cube water_missing)" 1e-3 || bad "cube: $(number cube water_missing) of the water is missing"
 fi
 
+# two boxes, each a program, under one surface: levels, water, each gauge by its own program
+sed 's/^sph: .*/sph:     { dx = 0.05; c0 = 10.0; transport = "none"; free = ((1, 0), (2.5, 1.4)); };/; /^ *box = /d' \
+    "$root/cases/still_water_crossing/case.cfg" >two.cfg
+cat >>two.cfg <<'CASE'
+sph_right: { dx = 0.05; c0 = 10.0; transport = "none"; free = ((5, 0), (6.5, 1.4)); };
+probes:  ( { name = "a"; kind = "level"; at = (2, 0); }, { name = "b"; kind = "level"; at = (4, 0); },
+           { name = "c"; kind = "level"; at = (6, 0); } );
+CASE
+job two 1:1:1 two.cfg -p time.end=1.5 -p "fv.cells=(80,14)" -p "domain.max=(8,1.4)" -p output.snapshots=false
+below "$(number two max_mach)" 2e-3 || bad "two boxes: Mach $(number two max_mach) in water at rest, wanted at most 2e-3"
+below "$(number two water_missing)" 1e-3 || bad "two boxes: $(number two water_missing) of the water is missing"
+for at in sph:a fv:b sph_right:c; do
+    close_to "$(last two/${at%:*}-series.csv "${at#*:} ")" 1.0 0.005 || bad "two boxes: gauge ${at#*:} of ${at%:*}: $(last two/${at%:*}-series.csv "${at#*:} ")"
+done
+[ -z "$(last two/sph-series.csv 'c [m]')$(last two/fv-series.csv 'a [m]')" ] || bad "two boxes: a gauge is read by another program"
+
 # a wave through two sides: the level that leaves one program comes to the other; ranks; restart half-way
 wave="-p time.end=0.5 -p output.every=0.25 -p output.checkpoint=0.25 -p sph.dx=0.05 -p fv.cells=(40,12) -p sph.R_dx=4
  -p sph.box=((0.5,0),(3.5,1.2)) -p coupling.transition=0.25 -p coupling.buffer=0.25 -p coupling.overlap=0.25"
