@@ -129,11 +129,11 @@ static void describe_scene(const struct run *r)
     describe_modules(r, gravity, viscous);
     say_turned(&r->scene);
     if (sph_params_zones(r)) {
-        double lo[3], hi[3], transition, buffer;
+        double box[2][3], transition, buffer;
         zones_widths(r, prm, &transition, &buffer);
-        zones_free_box(r, prm, lo, hi);
-        log_say("free zone (%g, %g) to (%g, %g) m, transition %g m, buffer %g m, around it: %s",
-                lo[0], lo[1], hi[0], hi[1], transition, buffer, outers[prm->outer]);
+        zones_free_box(r, prm, box[0], box[1]);
+        log_say("free zone %s m, transition %g m, buffer %g m, around it: %s",
+                zones_extent(r->scene.domain.dim, box), transition, buffer, outers[prm->outer]);
     }
 }
 

@@ -31,19 +31,6 @@ void coupling_hidden(const struct run *r, const struct sph_params *prm, double b
     }
 }
 
-/* "(0, 0) to (1, 1)": a box of the scene. */
-static const char *extent(int dim, double box[2][3])
-{
-    static char text[160];
-    if (dim == 2)
-        snprintf(text, sizeof text, "(%g, %g) to (%g, %g)", box[0][0], box[0][1], box[1][0],
-                 box[1][1]);
-    else
-        snprintf(text, sizeof text, "(%g, %g, %g) to (%g, %g, %g)", box[0][0], box[0][1], box[0][2],
-                 box[1][0], box[1][1], box[1][2]);
-    return text;
-}
-
 /* Whether a point lies beyond a side of the box by which the partner's flow comes. */
 static bool is_beyond(int dim, double box[2][3], const bool *open, const double *way,
                       const double *x)
@@ -97,7 +84,7 @@ void coupling_check_bodies(const struct run *r, const struct sph_params *prm, st
                          "body `%s' is outside of %s m at t = %.4g s: fv, which "
                          "knows of no body, takes that from sph alone; enlarge sph.box, or lower "
                          "coupling.overlap, time.end or the body's way",
-                         r->scene.bodies[k].name, extent(r->scene.domain.dim, given), when);
+                         r->scene.bodies[k].name, zones_extent(r->scene.domain.dim, given), when);
     }
 }
 
@@ -169,7 +156,7 @@ void coupling_check_walls(const struct run *r, const struct sph_params *prm, str
                          "at (%g, %g, %g) m it is outside of %s m: fv, which knows "
                          "of no wall but the domain's sides, takes only what lies deeper from sph; "
                          "enlarge sph.box, lower coupling.overlap, or refine fv.cells",
-                         at[0], at[1], at[2], extent(r->scene.domain.dim, box));
+                         at[0], at[1], at[2], zones_extent(r->scene.domain.dim, box));
     }
 }
 

@@ -3,6 +3,7 @@
 #include "zones.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../../common/mem.h"
@@ -15,6 +16,18 @@ void zones_widths(const struct run *r, const struct sph_params *prm, double *tra
     const double least = 1.25 * prm->R_dx * prm->dx; /* the sheet's rule s >= 1.25 R */
     *transition = r->scene.coupling.transition > 0.0 ? r->scene.coupling.transition : least;
     *buffer = r->scene.coupling.buffer > 0.0 ? r->scene.coupling.buffer : least;
+}
+
+const char *zones_extent(int dim, double box[2][3])
+{
+    static char text[160];
+    if (dim == 2)
+        snprintf(text, sizeof text, "(%g, %g) to (%g, %g)", box[0][0], box[0][1], box[1][0],
+                 box[1][1]);
+    else
+        snprintf(text, sizeof text, "(%g, %g, %g) to (%g, %g, %g)", box[0][0], box[0][1], box[0][2],
+                 box[1][0], box[1][1], box[1][2]);
+    return text;
 }
 
 void zones_free_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3])

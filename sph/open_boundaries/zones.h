@@ -58,6 +58,8 @@ struct zones {
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer);
 double zones_overlap(const struct run *r, const struct sph_params *prm);
+/* "(0, 0) to (1, 1)": corners of a box as messages have them; valid until the next call. */
+const char *zones_extent(int dim, double box[2][3]);
 /* The box that partners leave to SPH: the free zone less the overlap. */
 void zones_given_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
 void zones_free_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
