@@ -1,5 +1,6 @@
 /* body_average.c - the force on a body by kernel averages of pressure and friction over its
  * surface. SPDX-License-Identifier: BSD-3-Clause */
+#include "bins.h"
 #include "bodies.h"
 
 #include <math.h>
@@ -23,11 +24,9 @@ struct node {
     struct said said;
 };
 
-/* Nodes of a body; in 3D those of triangle t of mesh m are first[m][t] .. first[m][t + 1] - 1. */
 struct nodes {
     int n, capacity;
     struct node *node;
-    int **first;
 };
 
 static struct node *add_node(struct nodes *to)
@@ -112,27 +111,10 @@ static struct nodes lay_nodes(const struct sph *s, int body)
     struct nodes to = {.n = 0};
     for (int k = b->first; s->dim == 2 && k < b->first + b->n; k++)
         lay_segment(s, w->segments + k, &to);
-    to.first = NEW(int *, w->nmeshes);
-    for (int k = 0; k < w->nmeshes; k++) {
-        const struct wall_mesh *m = w->meshes + k;
-        if (m->body != body)
-            continue;
-        to.first[k] = NEW(int, m->mesh.ntriangles + 1);
-        for (int t = 0; t < m->mesh.ntriangles; t++) {
-            to.first[k][t] = to.n;
-            lay_triangle(s, m, t, &to);
-        }
-        to.first[k][m->mesh.ntriangles] = to.n;
-    }
+    for (int k = 0; k < w->nmeshes; k++)
+        for (int t = 0; w->meshes[k].body == body && t < w->meshes[k].mesh.ntriangles; t++)
+            lay_triangle(s, w->meshes + k, t, &to);
     return to;
-}
-
-static void free_nodes(const struct sph *s, struct nodes *nodes)
-{
-    for (int k = 0; k < s->walls->nmeshes; k++)
-        mem_free(nodes->first[k]);
-    mem_free(nodes->first);
-    mem_free(nodes->node);
 }
 
 /* Pressure at the wall of a particle's own, carried there as in a fluid that goes with the wall: at
@@ -155,11 +137,14 @@ static void ask_particle(const struct sph *s, int i, struct node *d)
     for (int a = 0; a < dim; a++) {
         e[a] = d->x[a] - q[a];
         r2 += e[a] * e[a];
+    }
+    if (r2 >= s->R * s->R)
+        return;
+    for (int a = 0; a < dim; a++) {
         away += e[a] * d->n[a];
         un += (u[a] - d->u[a]) * d->n[a];
     }
-    if (r2 >= s->R * s->R || away <= 0.0 ||
-        particles_is_guard(&s->p, i)) /* not from the other side of a thin body */
+    if (away <= 0.0) /* not from the other side of a thin body */
         return;
     const double W = q[at_volume(dim)] * kernel_w(dim, sqrt(r2), s->R);
     d->said.W += W;
@@ -169,45 +154,21 @@ static void ask_particle(const struct sph *s, int i, struct node *d)
             W * s->rho0 * s->nu * (u[a] - d->u[a] - un * d->n[a]) / fmax(away, 0.25 * s->dx);
 }
 
+/* All particles of one level; each node hears them in their order. */
 static void ask_all(const struct sph *s, struct nodes *nodes)
 {
-    double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
-    for (int k = 0; k < nodes->n; k++)
-        for (int a = 0; a < 2; a++) {
-            lo[a] = fmin(lo[a], nodes->node[k].x[a] - s->R);
-            hi[a] = fmax(hi[a], nodes->node[k].x[a] + s->R);
-        }
+    if (nodes->n == 0)
+        return;
+    struct bins bins =
+        bins_create(s->dim, nodes->n, nodes->node->x, sizeof *nodes->node / sizeof(double), s->R);
+    struct bins_run run[BINS_RUNS];
     for (int i = 0; i < s->p.n; i++) {
-        const double *x = prim_line(&s->p, i);
-        const bool near = x[0] > lo[0] && x[0] < hi[0] && x[1] > lo[1] && x[1] < hi[1];
-        for (int k = 0; near && k < nodes->n; k++)
-            ask_particle(s, i, nodes->node + k);
+        const int n = particles_is_guard(&s->p, i) ? 0 : bins_near(&bins, prim_line(&s->p, i), run);
+        for (int q = 0; q < n; q++)
+            for (int k = run[q].first; k < run[q].end; k++)
+                ask_particle(s, i, nodes->node + bins.who[k]);
     }
-}
-
-/* The tree tells which triangles are near a particle. */
-static void ask_mesh(const struct sph *s, const struct wall_mesh *m, const int *first,
-                     struct nodes *nodes)
-{
-    int most = 64, *who = NEW(int, most);
-    for (int i = 0; i < s->p.n; i++) {
-        double own[3], lo[3], hi[3];
-        wall_mesh_to_own(m, prim_line(&s->p, i), own);
-        for (int a = 0; a < 3; a++) {
-            lo[a] = own[a] - s->R;
-            hi[a] = own[a] + s->R;
-        }
-        int found = tree_box(m->tree, lo, hi, most, who);
-        if (found > most) {
-            GROW(who, most, 2 * found);
-            most = 2 * found;
-            found = tree_box(m->tree, lo, hi, most, who);
-        }
-        for (int k = 0; k < found; k++)
-            for (int j = first[who[k]]; j < first[who[k] + 1]; j++)
-                ask_particle(s, i, nodes->node + j);
-    }
-    mem_free(who);
+    bins_free(&bins);
 }
 
 static void sum_over_ranks(const struct sph *s, struct nodes *nodes)
@@ -242,16 +203,11 @@ struct force body_average(struct sph *s, int which)
     const struct walls *w = s->walls;
     struct nodes nodes = lay_nodes(s, which);
     struct force force = {0};
-    for (const struct sph *q = s; q; q = q->finer) {
-        if (q->dim == 2)
-            ask_all(q, &nodes);
-        for (int k = 0; k < w->nmeshes; k++)
-            if (w->meshes[k].body == which)
-                ask_mesh(q, w->meshes + k, nodes.first[k], &nodes);
-    }
+    for (const struct sph *q = s; q; q = q->finer)
+        ask_all(q, &nodes);
     sum_over_ranks(s, &nodes);
     for (int k = 0; k < nodes.n; k++)
         add_force(s, w->bodies + which, nodes.node + k, &force);
-    free_nodes(s, &nodes);
+    mem_free(nodes.node);
     return force;
 }
