@@ -227,8 +227,7 @@ static void list_faces(const struct fv *s, struct forcing *f, int a)
     }
 }
 
-/* Of the lower face along a. */
-static double face_area(const struct fv *s, int64_t c, int a)
+double forcing_face_area(const struct fv *s, int64_t c, int a)
 {
     int at[3];
     double S2 = 0.0;
@@ -251,7 +250,9 @@ static enum net_flux net_of(const struct fv *s, const struct forcing *f)
         for (int64_t i = 0; i < f->nface[a]; i++)
             for (int e = 0; e < s->dim && f->counts[a][i]; e++) {
                 const int64_t c = f->face[a][i];
-                const double S = s->m ? s->m->S[a][e][c] : e == a ? face_area(s, c, a) : 0.0;
+                const double S = s->m     ? s->m->S[a][e][c]
+                                 : e == a ? forcing_face_area(s, c, a)
+                                          : 0.0;
                 sum[e] += f->sign[a][i] * S;
                 sum[3] += fabs(S);
             }
@@ -516,7 +517,7 @@ static void take_off(const struct fv *s, int a, int64_t i, double excess, double
 {
     const struct forcing *f = s->forcing;
     const int64_t c = f->face[a][i];
-    U[c] -= f->sign[a][i] * excess * (s->m ? face_area(s, c, a) : 1.0);
+    U[c] -= f->sign[a][i] * excess * (s->m ? forcing_face_area(s, c, a) : 1.0);
 }
 
 /* Flux outwards through the outline, and its area; of all ranks. */
@@ -527,7 +528,7 @@ static void sum_outline(const struct fv *s, double *const U[3], double sums[2])
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
             if (f->counts[a][i]) {
-                const double area = face_area(s, f->face[a][i], a);
+                const double area = forcing_face_area(s, f->face[a][i], a);
                 sums[0] += f->sign[a][i] * U[a][f->face[a][i]] * (s->m ? 1.0 : area);
                 sums[1] += area;
             }

@@ -113,12 +113,17 @@ void forcing_extend(const struct fv *s, int layers, double *p);
 void forcing_average(const struct fv *s, int64_t c, double t, double *v, double *pressure);
 void forcing_centre(const struct fv *s, int64_t c, double *x);
 int64_t forcing_number(const struct fv *s, int64_t c);
+/* m^(dim-1): of the lower face of cell c along a. */
+double forcing_face_area(const struct fv *s, int64_t c, int a);
 
 /* given_cells.c: of blocks. */
 void given_rows_create(const struct fv *s, struct forcing *f);
 void given_rows_free(struct one_sided **g);
 /* Gradients of computed cells near given ones are those of q continued along the indices. */
 void given_gradient(const struct fv *s, enum continuation how, const double *q, double *const g[3]);
+/* The i-th cell with such a gradient, and the n places of its stencil; false: there is none. */
+bool given_stencil(const struct forcing *f, int64_t i, int64_t *cell, int64_t *n,
+                   const int64_t **place);
 /* psi of given cells beside free ones: the mean of those, as the rows of the matrix have it; sets
  * ghosts. */
 void given_mirror(const struct fv *s, double *psi);

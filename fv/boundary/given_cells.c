@@ -227,6 +227,18 @@ void given_gradient(const struct fv *s, enum continuation how, const double *q, 
     }
 }
 
+bool given_stencil(const struct forcing *f, int64_t i, int64_t *cell, int64_t *n,
+                   const int64_t **place)
+{
+    const struct one_sided *of = f->gradient;
+    if (!of || i >= of->n)
+        return false;
+    *cell = of->cell[i];
+    *n = of->first[i + 1] - of->first[i];
+    *place = of->place + of->first[i];
+    return true;
+}
+
 void given_mirror(const struct fv *s, double *psi)
 {
     const struct forcing *f = s->forcing;

@@ -153,12 +153,15 @@ static void check_block(const struct run *r, struct faults *f, int k)
     check_lid(r, f, k);
 }
 
+/* Walls may be those of a partner's part alone. */
+static bool has_partner(const struct run *r) { return r->coupled && r->scene.has_sph; }
+
 static void check_wall(const struct run *r, struct faults *f, int k)
 {
     const struct scene_wall *w = r->scene.walls + k;
     char key[32];
     snprintf(key, sizeof key, "walls.[%d]", k);
-    if (w->side == SIDE_NONE)
+    if (w->side == SIDE_NONE && !has_partner(r))
         params_fault(r->params, f, key,
                      "walls within the domain are a block's sides here (blocks.i_min = \"wall\")");
     else if (w->carried && (w->kind != WALL_OUTFLOW || fv_params_of(r)->steady))
@@ -169,7 +172,7 @@ static void check_wall(const struct run *r, struct faults *f, int k)
 static void check_taken(const struct run *r, struct faults *f, const struct mesh *m)
 {
     for (int w = 0; w < r->scene.nwalls; w++) {
-        bool taken = false;
+        bool taken = has_partner(r);
         char key[32];
         for (int k = 0; k < m->nblocks; k++)
             for (int side = 0; side < 2 * m->dim; side++)
@@ -198,9 +201,6 @@ static void check_coupled(const struct run *r, struct faults *f)
 {
     if (mesh_motion_any())
         params_fault(r->params, f, "blocks.motion", "a coupled job knows no blocks that move");
-    if (r->crossed)
-        params_fault(r->params, f, "blocks",
-                     "a free surface crosses the open sides of sph.box on fv.cells alone");
     if (fv_hole(r))
         params_fault(r->params, f, "fv.hole",
                      "only a lone run with an exact solution (initial.field) can fill a hole");

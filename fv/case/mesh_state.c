@@ -161,12 +161,12 @@ void mesh_state_create(struct fv *s)
     s->stiffest = mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
     s->symmetric = mesh_viscous_symmetric(s);
     mesh_bc_create(s);
+    s->moving = moving_create(s);
+    s->surface = surface_create(s);
     if (r->coupled)
         coupling_create(s, (const double(*)[3])box);
     else if (s->m->has_given)
         s->forcing = forcing_create(s, 0, NULL, false);
-    s->moving = moving_create(s);
-    s->surface = surface_create(s);
     poisson_create(s);
     if (r->scene.nprobes > 0)
         s->search = overset_search(r, s->m);

@@ -21,6 +21,7 @@
 #include "../boundary/still.h"
 #include "fv_link.h"
 #include "moved_box.h"
+#include "shared_walls.h"
 #include "water_budget.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
@@ -152,7 +153,7 @@ static void declare_water(struct fv *s, struct link *k, int q)
           cpl_points(k->c, named(g, "fv.surface", ""), s->dim, s->surface->forced->R, &g->places));
     check(k,
           cpl_field(k->c, g->places, named(g, NULL, "one"), "-", 1, CPL_GET, CPL_SUM, &g->filled));
-    check(k, cpl_points(k->c, named(g, "fv.budget", ""), s->dim, s->b.h[0], &g->budget));
+    check(k, cpl_points(k->c, named(g, "fv.budget", ""), s->dim, k->seen, &g->budget));
     check(k, cpl_field(k->c, g->budget, named(g, NULL, "water"), "m^dim", 2, CPL_GET, CPL_NEAREST,
                        &g->water));
     find_zone(k, g, "counted", k->of_water.box[q][0], k->of_water.box[q][1]);
@@ -260,6 +261,16 @@ static void make_patch(struct fv *s, struct link *k, const double (*given)[3])
              "that it does not share, or let blocks reach further",
              lo[0], lo[1], lo[2], hi[0], hi[1], hi[2], where[0], where[1], where[2]);
     refuse(k, reason);
+}
+
+static void compare_walls(struct fv *s, const struct link *k, const double (*given)[2][3])
+{
+    double box[PARTNERS_MAX][2][3];
+    char why[400];
+    for (int q = 0; q < k->n; q++)
+        memcpy(box[q], k->of[q].box, sizeof box[q]);
+    if (!shared_walls_agree(s, k->n, given, (const double(*)[2][3])box, why, sizeof why))
+        refuse(k, why);
 }
 
 /* Forced values of the start, and before it where an exact solution knows them. */
@@ -375,6 +386,8 @@ void coupling_create(struct fv *s, const double (*box)[3])
                "blocks: the cells that sph gives lie in blocks that overlap there, so what flows "
                "through their outline cannot be balanced, and an outflow would let it swing: "
                "let them lie in one block, or in blocks that are joined");
+    if (s->m)
+        compare_walls(s, k, (const double(*)[2][3])all);
     make_patch(s, k, box);
     k->seen = seen_size(s);
     k->wish = s->m && k->of[0].pace > 0.0 ? least_height(s) / k->of[0].pace : INFINITY;
@@ -488,7 +501,7 @@ static void count_missing(struct fv *s)
     double sum[2] = {0.0, 0.0};
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         const int64_t c = f->partner[i];
-        if (f->layer[c] > 2 || (s->surface && s->surface->forced->phi[1][c] > -0.5 * s->b.h[0]))
+        if (f->layer[c] > 2 || (s->surface && s->surface->forced->phi[1][c] > -0.5 * k->seen))
             continue;
         sum[1] += 1.0;
         if (!k->mask[i]) {

@@ -81,13 +81,12 @@ static void take_out_level(const struct fv *s, const struct course *c, const dou
 /* phi, as far as linear interpolation may want it. */
 static void look_at_surface(const struct fv *s, const struct course *c, double *q)
 {
-    const struct block *b = &s->b;
-    double *one = NEW(double, c->n), most = 0.0;
-    for (int a = 0; a < b->dim; a++)
-        most = fmax(most, 4.0 * b->h[a]);
+    double *one = NEW(double, c->n), most = 4.0 * (s->m ? s->surface->largest : 0.0);
+    for (int a = 0; a < s->dim && !s->m; a++)
+        most = fmax(most, 4.0 * s->b.h[a]);
     patch_look(s, c->patch, s->surface->phi, one);
     for (int64_t i = 0; i < c->n; i++)
-        q[i * c->width + b->dim + 1] = fmax(-most, fmin(most, one[i]));
+        q[i * c->width + c->dim + 1] = fmax(-most, fmin(most, one[i]));
     mem_free(one);
 }
 

@@ -83,7 +83,9 @@ static void swap_status(struct mesh *m, unsigned char *was[MESH_BLOCKS_MAX])
     }
 }
 
-/* Velocities of now and before. */
+enum { PAST = 10 };
+
+/* Velocities of now and before, and the surface. */
 static int past_fields(const struct fv *s, double **f)
 {
     int n = 0;
@@ -92,6 +94,8 @@ static int past_fields(const struct fv *s, double **f)
         f[n++] = s->past[0][a];
         f[n++] = s->past[1][a];
     }
+    if (s->surface)
+        f[n++] = s->surface->phi;
     return n;
 }
 
@@ -100,7 +104,7 @@ static void fill_hidden(struct fv *s, unsigned char *was[MESH_BLOCKS_MAX])
 {
     struct mesh *m = s->m;
     unsigned char *wanted[MESH_BLOCKS_MAX];
-    double *f[9];
+    double *f[PAST];
     const int n = past_fields(s, f);
     bool any = false;
     for (int k = 0; k < m->nblocks; k++) {
@@ -145,7 +149,7 @@ static struct forcing *cut_anew(struct fv *s, const double (*box)[3], char why[2
     const double back[2][3] = {{old.lo[0], old.lo[1], old.lo[2]},
                                {old.hi[0], old.hi[1], old.hi[2]}};
     unsigned char *was[MESH_BLOCKS_MAX], *local = NEW(unsigned char, s->size);
-    double *f[9];
+    double *f[PAST];
     const int n = past_fields(s, f);
     memcpy(local, m->status, (size_t)s->size);
     mesh_fill(m, 1, &s->p);
@@ -225,12 +229,14 @@ bool moved_box(struct fv *s, int n, const double (*box)[2][3], char why[256])
     const double before = s->surface ? surface_volume(s, NULL) : 0.0;
     forcing_free(&s->forcing);
     s->forcing = f;
-    if (s->surface) {
+    if (s->surface)
         carry_surface(s, s->surface->forced);
+    if (s->m || !s->surface)
+        renew_pressure(s);
+    if (s->surface) {
         surface_outline_moved(s, before);
         return true;
     }
-    renew_pressure(s);
     if (s->m && mesh_bc_pressure_given(s) && f->net == NET_OTHERS)
         snprintf(why, 256,
                  "what flows through the outline of the cells that sph gives, in blocks "

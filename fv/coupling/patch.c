@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../../common/mem.h"
+#include "../grid/block_walls.h"
 #include "../grid/overset.h"
 
 enum { MARGIN = 4 }; /* cells around the box: a cubic's and one for rounding */
@@ -101,31 +102,40 @@ static int finest(const struct mesh *m, const struct overset *o, const double *x
     return best;
 }
 
-/* The same over all places that the box may come to. */
-static int finest_on_way(const struct fv *s, const struct overset *o, const double *lo,
+/* The same over the places of a raster within lo and hi. */
+static int finest_within(const struct fv *s, const struct overset *o, const double *lo,
                          const double *hi, double *h)
 {
     enum { PLACES = 9 }; /* along an axis */
-    const struct scene_domain *d = &s->run->scene.domain;
     int best = -1;
-    for (int i = 0; i < PLACES * PLACES * PLACES; i++) {
+    for (int i = 0; i < (s->dim == 3 ? PLACES : 1) * PLACES * PLACES; i++) {
         const int at[3] = {i % PLACES, i / PLACES % PLACES, i / PLACES / PLACES};
         double x[3] = {0.0, 0.0, 0.0}, here;
-        bool once = true;
-        for (int a = 0; a < 3; a++) {
-            const bool moves = a < s->dim && s->partner_moves[a];
-            once = once && (moves || at[a] == 0);
-            if (a < s->dim)
-                x[a] = moves ? d->min[a] + (at[a] + 0.5) / PLACES * (d->max[a] - d->min[a])
-                             : 0.5 * (lo[a] + hi[a]);
-        }
-        const int k = once ? finest(s->m, o, x, &here) : -1;
+        for (int a = 0; a < s->dim; a++)
+            x[a] = lo[a] + (at[a] + 0.5) / PLACES * (hi[a] - lo[a]);
+        const int k = finest(s->m, o, x, &here);
         if (k >= 0 && (best < 0 || here < *h)) {
             best = k;
             *h = here;
         }
     }
     return best;
+}
+
+/* The same where the box stands, by its middle unless walls cut that off, or over all places that
+ * it may come to. */
+static int finest_at(const struct fv *s, const struct overset *o, const double *lo,
+                     const double *hi, double *h)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    double middle[3], from[3], to[3];
+    for (int a = 0; a < 3; a++) {
+        middle[a] = 0.5 * (lo[a] + hi[a]);
+        from[a] = s->m->search && s->partner_moves[a] ? d->min[a] : middle[a];
+        to[a] = s->m->search && s->partner_moves[a] ? d->max[a] : middle[a];
+    }
+    const int k = finest_within(s, o, from, to, h);
+    return k >= 0 ? k : finest_within(s, o, lo, hi, h);
 }
 
 static bool is_plain(const struct mesh_block *b)
@@ -194,6 +204,7 @@ static bool find_donors(const struct fv *s, struct overset *o, struct patch *p, 
                         const double *hi, const double (*inner)[3], double *where)
 {
     struct mesh_request *request = mem_new((size_t)p->n + 1, sizeof *request);
+    struct block_walls *walls = block_walls_create(s->m);
     double *weight = NEW(double, 64 * p->n);
     int64_t n = 0;
     bool good = true;
@@ -201,15 +212,22 @@ static bool find_donors(const struct fv *s, struct overset *o, struct patch *p, 
     for (int64_t i = 0; i < p->n; i++) {
         double x[3];
         patch_centre(p, i, x);
+        struct nearest_wall wall = {.height = 1.0};
         p->known[i] = overset_sample(s->m, o, x, p->h, request + n, weight + 64 * n);
+        const bool behind =
+            !p->known[i] && block_walls_nearest(walls, x, &wall) && wall.height < 0.0;
+        if (behind)
+            p->known[i] =
+                overset_sample_beyond(s->m, wall.block, wall.cell, x, request + n, weight + 64 * n);
         if (p->known[i])
             request[n++].in = i;
-        else if (good && is_wanted(s, p, x, lo, hi, inner)) {
+        else if (good && !behind && is_wanted(s, p, x, lo, hi, inner)) {
             good = false;
             memcpy(where, x, sizeof x);
         }
     }
     mesh_exchange_create(s->m, &p->sample, 4, n, request);
+    block_walls_free(&walls);
     mem_free(request);
     mem_free(weight);
     return good;
@@ -259,7 +277,7 @@ bool patch_create(const struct fv *s, const double *lo, const double *hi, const 
     double h;
     for (int a = 0; a < s->dim; a++)
         where[a] = 0.5 * (lo[a] + hi[a]);
-    const int k = s->m->search ? finest_on_way(s, o, lo, hi, &h) : finest(s->m, o, where, &h);
+    const int k = finest_at(s, o, lo, hi, &h);
     if (k >= 0)
         make_grid(s, k, lo, hi, h, p);
     const bool good = k >= 0 && agree(s, find_donors(s, o, p, lo, hi, inner, where), where);

@@ -7,6 +7,7 @@
 #include "../../common/crossing.h"
 #include "../../common/h5.h"
 #include "../boundary/forcing.h"
+#include "../grid/mesh.h"
 #include "../surface/levelset.h"
 
 /* sqrt(H/g) over which what is missing comes back. Waves last longer, 4.4 of it and more, and take
@@ -50,20 +51,68 @@ double water_budget_share(const struct fv *s, const double *x, const double *h)
     return outside;
 }
 
+/* Part of a box of centre x and size h that no partner counts as its own. */
+static double share_outside(const struct fv *s, const struct water_budget *w, const double *x,
+                            const double *h)
+{
+    double own = 1.0;
+    for (int q = 0; q < w->n; q++)
+        own -= share_within(s, w->box[q], x, h);
+    return own;
+}
+
+static bool is_beside(const struct fv *s, const struct water_budget *w, const double *x, double far)
+{
+    const double h[3] = {far, far, far};
+    return share_outside(s, w, x, h) < 1.0;
+}
+
+/* The same of a cell of blocks: a curved one by points, each for a box of its own. */
+static double cell_outside(const struct fv *s, const struct water_budget *w, const struct part *p,
+                           const int *i)
+{
+    const struct mesh_block *b = s->m->block + p->block;
+    const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+    const int side = p->kind == PART_CURVED ? 8 : 1,
+              n = s->dim == 3 ? side * side * side : side * side;
+    double x[3], dx[3][3], h[3] = {1.0, 1.0, 1.0}, far = 0.0, sum = 0.0;
+    mesh_map_point(b, s->dim, at, (const double[]){0.5, 0.5, 0.5}, x, dx);
+    for (int a = 0; a < s->dim; a++) {
+        h[a] = 0.0;
+        for (int t = 0; t < s->dim; t++)
+            h[a] += fabs(dx[t][a]);
+        far = fmax(far, h[a]);
+    }
+    if (p->kind != PART_CURVED || !is_beside(s, w, x, 2.0 * far))
+        return share_outside(s, w, x, h);
+    for (int a = 0; a < 3; a++)
+        h[a] /= side;
+    for (int k = 0; k < n; k++) {
+        const double xi[3] = {(k % side + 0.5) / side, (k / side % side + 0.5) / side,
+                              s->dim == 3 ? (k / side / side + 0.5) / side : 0.5};
+        mesh_map_point(b, s->dim, at, xi, x, dx);
+        sum += share_outside(s, w, x, h) / n;
+    }
+    return sum;
+}
+
 static double own_water(const struct fv *s, const struct water_budget *w)
 {
-    const struct block *b = &s->b;
     double x[3], h[3], sum = 0.0;
-    BLOCK_CELLS (b, i, j, k, c) {
-        if (s->forcing->forced[c] || s->surface->phi[c] > 3.0 * b->h[0])
-            continue;
-        block_cell(b, i, j, k, x, h);
-        double own = 1.0;
-        for (int q = 0; q < w->n; q++)
-            own -= share_within(s, w->box[q], x, h);
-        sum += h[0] * h[1] * h[2] * surface_share(s, c) * own;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+    int i[3];
+    for (const struct part *p = s->part; p < s->part + s->nparts; p++)
+        PART_CELLS (p, i, c) {
+            if (s->forcing->forced[c] || s->surface->phi[c] > 3.0 * s->surface->largest)
+                continue;
+            if (s->m) {
+                sum +=
+                    surface_cell_volume(s, c, 0) * surface_share(s, c) * cell_outside(s, w, p, i);
+                continue;
+            }
+            block_cell(&s->b, i[0], i[1], i[2], x, h);
+            sum += h[0] * h[1] * h[2] * surface_share(s, c) * share_outside(s, w, x, h);
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
     return sum;
 }
 
@@ -73,13 +122,11 @@ static double wet_area(const struct fv *s)
     const struct forcing *f = s->forcing;
     double sum = 0.0;
     for (int a = 0; a < f->dim; a++)
-        for (int64_t i = 0; i < f->nface[a]; i++) {
-            const int row = block_row(&s->b, f->face[a][i]);
+        for (int64_t i = 0; i < f->nface[a]; i++)
             if (f->counts[a][i])
-                sum += block_volume(&s->b, row) / block_size(&s->b, a, row) *
+                sum += forcing_face_area(s, f->face[a][i], a) *
                        surface_face_share(s, f->face[a][i], a);
-        }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
     return sum;
 }
 

@@ -41,6 +41,10 @@ bool overset_weights(const struct mesh *m, int block, const int *cell, const dou
  * size h around x, and who gives it; false: nothing does. */
 bool overset_sample(const struct mesh *m, const struct overset *o, const double *x, const double *h,
                     struct mesh_request *r, double *weight);
+/* The same for a place behind a closed side of the block, beside this cell: linear from the cells
+ * there, no further than a cell beyond it. */
+bool overset_sample_beyond(const struct mesh *m, int block, const int *cell, const double *x,
+                           struct mesh_request *r, double *weight);
 /* Bins alone: for gauges. */
 struct overset *overset_search(const struct run *r, const struct mesh *m);
 

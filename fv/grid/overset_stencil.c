@@ -176,6 +176,31 @@ static bool sample_from(const struct mesh *m, const struct overset *o, int q, in
     return true;
 }
 
+static void to_request(const struct mesh *m, const struct donor *d, struct mesh_request *r,
+                       double *weight)
+{
+    *r = (struct mesh_request){.block = d->from_block, .weight = weight};
+    r->out = overset_place(m, d, &r->rank);
+    memcpy(weight, d->weight, sizeof d->weight);
+}
+
+bool overset_sample_beyond(const struct mesh *m, int block, const int *cell, const double *x,
+                           struct mesh_request *r, double *weight)
+{
+    struct donor d = {.from_block = block, .width = 2};
+    double xi[3] = {0.5, 0.5, 0.5};
+    memcpy(d.at, cell, sizeof d.at);
+    if (!overset_invert(m->block + block, m->dim, cell, x, xi))
+        return false;
+    for (int a = 0; a < m->dim; a++)
+        xi[a] = fmax(-1.0, fmin(2.0, xi[a]));
+    if (!overset_weigh(m, block, cell, xi, 1, 2, OF_ANY, d.from, d.weight))
+        return false;
+    overset_widen(m, &d);
+    to_request(m, &d, r, weight);
+    return true;
+}
+
 bool overset_sample(const struct mesh *m, const struct overset *o, const double *x, const double *h,
                     struct mesh_request *r, double *weight)
 {
@@ -188,8 +213,6 @@ bool overset_sample(const struct mesh *m, const struct overset *o, const double 
         return false;
     if (d.width == 2)
         overset_widen(m, &d);
-    *r = (struct mesh_request){.block = d.from_block, .weight = weight};
-    r->out = overset_place(m, &d, &r->rank);
-    memcpy(weight, d.weight, sizeof d.weight);
+    to_request(m, &d, r, weight);
     return true;
 }

@@ -227,7 +227,21 @@ static void levels_along(struct fv *s, const double *at, int up, bool down, doub
     MPI_Allreduce(MPI_IN_PLACE, phi, ALONG + 1, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
-/* Place along gravity of the highest water over x; the domain's end if there is none. */
+/* Whether some cell over x is computed: a partner's part moves, and has no level of FV's. */
+static bool is_known(const struct fv *s, const double *at, int up)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    for (int n = 0; n <= ALONG && s->past[0][0]; n++) {
+        double x[3] = {at[0], at[1], at[2]};
+        x[up] = d->min[up] + n * (d->max[up] - d->min[up]) / ALONG;
+        if (mesh_covers(s, s->search, x))
+            return true;
+    }
+    return !s->past[0][0];
+}
+
+/* Place along gravity of the highest water over x; the domain's end if there is none, NAN where
+ * FV does not compute. */
 static double level_at(struct fv *s, const double *x)
 {
     const struct scene_domain *d = &s->run->scene.domain;
@@ -235,6 +249,8 @@ static double level_at(struct fv *s, const double *x)
     const bool down = s->run->scene.fluid.gravity[up] > 0.0;
     const double top = down ? d->min[up] : d->max[up], end = down ? d->max[up] : d->min[up];
     double phi[ALONG + 1];
+    if (!is_known(s, x, up))
+        return NAN;
     levels_along(s, x, up, down, phi);
     for (int n = 0; n <= ALONG; n++) {
         if (!(phi[n] < 0.0))
@@ -260,7 +276,8 @@ static void probes(struct fv *s, double *values)
         here[0] = mesh_value_at(s, s->search, p->at, s->surface ? 2 : 0, NULL);
         here[1] = s->surface ? mesh_value_at(s, s->search, p->at, 2, s->surface->phi) : -1.0;
         MPI_Allreduce(MPI_IN_PLACE, here, 2, MPI_DOUBLE, MPI_SUM, s->comm);
-        if (s->m->moves && !mesh_covers(s, s->search, p->at)) { /* where a body is there is none */
+        if ((s->m->moves || s->past[0][0]) &&
+            !mesh_covers(s, s->search, p->at)) { /* where a body or a partner is there is none */
             *values++ = NAN;
             continue;
         }

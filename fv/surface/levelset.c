@@ -293,15 +293,15 @@ double surface_cell_volume(const struct fv *s, int64_t c, int j)
 
 double surface_face_share(const struct fv *s, int64_t c, int a)
 {
-    const struct block *b = &s->b;
+    const struct part *p = surface_part(s, c);
     const double *q = s->surface->phi + c;
-    const int64_t d = b->stride[a];
+    const int64_t d = p->stride[a];
     const double middle = 0.5 * (q[0] + q[-d]);
     double n[3] = {0.0}, sum = 0.0;
     int m = 0;
-    for (int t = 0; t < b->dim; t++)
+    for (int t = 0; t < s->dim; t++)
         if (t != a) {
-            const int64_t e = b->stride[t];
+            const int64_t e = p->stride[t];
             n[m] = 0.25 * fabs(q[e] - q[-e] + q[e - d] - q[-e - d]);
             sum += n[m++];
         }

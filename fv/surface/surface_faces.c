@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "../../common/mem.h"
+#include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "../boundary/still.h"
 
@@ -35,12 +36,18 @@ static void add(struct stencil *x, int64_t at, double weight)
     x->weight[x->n++] = weight;
 }
 
-static bool is_wet(const struct fv *s, int64_t c) { return s->surface->layer[c] == 0; }
+/* A partner's cells, wet or dry, have no psi. */
+static bool is_given(const struct fv *s, int64_t c) { return s->m->status[c] == CELL_GIVEN; }
+
+static bool is_wet(const struct fv *s, int64_t c)
+{
+    return s->surface->layer[c] == 0 && !is_given(s, c);
+}
 
 /* Whether psi there is no water's: behind sides it is mirrored. */
 static bool is_dry(const struct fv *s, int64_t c)
 {
-    return !is_wet(s, c) && !s->surface->mesh->out[c];
+    return !is_wet(s, c) && (!s->surface->mesh->out[c] || is_given(s, c));
 }
 
 /* weight times the slope of psi along t at a wet cell. */
@@ -165,7 +172,8 @@ static void look_beside(struct fv *s, const struct part *p, int a, int at)
     up[a] = at + 1 - p->n[a];
     PART_ROWS (p, down, up, c, n)
         for (int64_t i = c; i < c + n; i++)
-            if (is_wet(s, i) != is_wet(s, i - d) && !out[i] && !out[i - d])
+            if (is_wet(s, i) != is_wet(s, i - d) && !out[i] && !out[i - d] && !is_given(s, i) &&
+                !is_given(s, i - d))
                 add_cut(s, a, i, d);
 }
 
@@ -261,6 +269,9 @@ static void face_fluxes(const struct fv *s, const struct part *p, int a, const d
         }
 }
 
+/* Whether a cell is dry and FV's own. */
+static bool is_air(const struct fv *s, int64_t c) { return is_dry(s, c) && !is_given(s, c); }
+
 /* Whether the fourth-order gradient of a cell has dry ones in it. */
 static bool leaves_water(const struct fv *s, const struct part *p, int64_t c)
 {
@@ -268,13 +279,50 @@ static bool leaves_water(const struct fv *s, const struct part *p, int64_t c)
     for (int a = 0; a < s->dim; a++)
         for (int m = -2; m <= 2; m++) {
             const int64_t at = c + m * p->stride[a];
-            if (is_dry(s, at))
+            if (is_air(s, at))
                 return true;
             for (int t = 0; t < s->dim && !even; t++)
-                if (t != a && (is_dry(s, at - p->stride[t]) || is_dry(s, at + p->stride[t])))
+                if (t != a && (is_air(s, at - p->stride[t]) || is_air(s, at + p->stride[t])))
                     return true;
         }
     return false;
+}
+
+/* grad psi of a cell by the fluxes through its faces. */
+static void mean_of_faces(const struct fv *s, const struct part *p, int64_t c, double *const F[3],
+                          double *const out[3])
+{
+    double *const *x = s->surface->mesh->x;
+    for (int k = 0; k < s->dim; k++) {
+        double sum = 0.0;
+        for (int a = 0; a < s->dim; a++) {
+            const int64_t d = p->stride[a];
+            sum += 0.25 * (x[k][c + d] - x[k][c - d]) * (F[a][c] + F[a][c + d]);
+        }
+        out[k][c] = sum / s->m->V[c];
+    }
+}
+
+/* Into a partner's cells fluxes go on as they come. Cells beside them whose one-sided gradients
+ * would leave the water, too, have the faces'. */
+static void gradient_beside_partner(const struct fv *s, double *const F[3], double *const out[3])
+{
+    const struct forcing *g = s->forcing;
+    const int64_t *place;
+    int64_t cell, n;
+    for (int a = 0; a < s->dim; a++)
+        for (int64_t i = 0; i < g->nface[a]; i++) {
+            const int64_t face = g->face[a][i], d = surface_part(s, face)->stride[a];
+            if (g->counts[a][i])
+                F[a][face] = F[a][face - g->sign[a][i] * d];
+        }
+    for (int64_t i = 0; given_stencil(g, i, &cell, &n, &place); i++) {
+        bool leaves = false;
+        for (int64_t k = 0; k < n; k++)
+            leaves = leaves || is_air(s, place[k]);
+        if (leaves && s->free[cell] > 0.0)
+            mean_of_faces(s, surface_part(s, cell), cell, F, out);
+    }
 }
 
 void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi, bool change,
@@ -291,21 +339,14 @@ void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi
         if (s->moving && !change)
             mesh_bc_slope_fluxes(s, tau, a, F[a]);
     }
+    if (s->surface->forced)
+        gradient_beside_partner(s, F, out);
     for (int q = 0; q < s->nparts; q++) {
         const struct part *p = s->part + q;
         PART_ROWS (p, none, none, c, n)
-            for (int64_t i = c; i < c + n; i++) {
-                if (!(s->free[i] > 0.0) || !leaves_water(s, p, i))
-                    continue;
-                for (int k = 0; k < s->dim; k++) {
-                    double sum = 0.0;
-                    for (int a = 0; a < s->dim; a++) {
-                        const int64_t d = p->stride[a];
-                        sum += 0.25 * (w->x[k][i + d] - w->x[k][i - d]) * (F[a][i] + F[a][i + d]);
-                    }
-                    out[k][i] = sum / s->m->V[i];
-                }
-            }
+            for (int64_t i = c; i < c + n; i++)
+                if (s->free[i] > 0.0 && leaves_water(s, p, i))
+                    mean_of_faces(s, p, i, F, out);
     }
     surface_mesh_line_slopes(s, psi, change, out);
 }

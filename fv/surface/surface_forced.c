@@ -8,12 +8,14 @@
 #include "../../common/colour.h"
 #include "../../common/mem.h"
 #include "../boundary/forcing.h"
+#include "../grid/block_walls.h"
 #include "levelset.h"
+#include "mesh_view.h"
 
 /* --- cells and places --- */
 
-/* The centre of a cell and its images beyond closed sides: a wall cuts the water, not its surface.
- */
+/* The centre of an even cell and its images beyond closed sides: a wall cuts the water, not its
+ * surface. */
 static int images(const struct fv *s, int64_t c, double R, double (*x)[3])
 {
     const struct block *b = &s->b;
@@ -36,22 +38,34 @@ static int images(const struct fv *s, int64_t c, double R, double (*x)[3])
 
 static void list_places(const struct fv *s, struct surface_forced *f)
 {
-    double x[8][3];
+    double x[IMAGES_MOST][3];
+    struct block_walls *walls = s->m ? block_walls_create(s->m) : NULL;
     f->first = NEW(int64_t, f->n + 1);
-    f->x = NEW(double, 24 * f->n);
+    f->x = NEW(double, 3 * IMAGES_MOST * f->n);
     for (int64_t i = 0; i < f->n; i++) {
-        const int n = images(s, f->cell[i], f->R, x);
+        forcing_centre(s, f->cell[i], x[0]);
+        const int n = walls ? block_walls_images(walls, f->R, x) : images(s, f->cell[i], f->R, x);
         memcpy(f->x + 3 * f->first[i], x, (size_t)n * sizeof x[0]);
         f->first[i + 1] = f->first[i] + n;
     }
     f->nplaces = f->first[f->n];
+    block_walls_free(&walls);
 }
 
-static double largest(const struct fv *s)
+/* m: spacing of cells along any axis, of blocks that of a partner's and those beside them. */
+static double largest(const struct fv *s, const struct surface_forced *f)
 {
     double h = 0.0;
-    for (int a = 0; a < s->b.dim; a++)
+    for (int a = 0; a < s->dim && !s->m; a++)
         h = fmax(h, s->b.h[a]);
+    for (int64_t i = 0; s->m && i < f->n; i++) {
+        const struct part *p = surface_part(s, f->cell[i]);
+        const struct surface_mesh *w = s->surface->mesh;
+        for (int a = 0; a < s->dim; a++)
+            h = fmax(h, w->size[p - s->part][a] / sqrt(w->K[a][a][f->cell[i]]));
+    }
+    if (s->m)
+        MPI_Allreduce(MPI_IN_PLACE, &h, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     return h;
 }
 
@@ -69,27 +83,40 @@ static double coarsest_particles(const struct fv *s)
     return most;
 }
 
+/* Whether a cell of blocks lies so deep in a partner's part that nothing but phi is known there:
+ * the distance from the surface is made of all that are around. */
+static bool is_deep(const struct fv *s, const struct part *p, int64_t c)
+{
+    int at[3];
+    const struct mesh_block *b = s->m->block + p->block;
+    part_index(p, c, at);
+    for (int a = 0; a < 3; a++)
+        at[a] += p->lo[a];
+    return s->m->status[c] == CELL_HOLE && mesh_given_holds(s->m, b, mesh_cell(b, at));
+}
+
 struct surface_forced *surface_forced_create(const struct fv *s)
 {
-    const struct block *b = &s->b;
     const struct forcing *g = s->forcing;
     if (!g)
         return NULL;
     struct surface_forced *f = NEW(struct surface_forced, 1);
-    f->R = fmax(2.0 * largest(s), 4.0 * coarsest_particles(s)); /* fewer make noise */
-    f->cell = NEW(int64_t, b->size);
-    for (int64_t i = 0; i < g->nlocal; i++)
-        if (g->forced[g->local[i]] == 1)
-            f->cell[f->n++] = g->local[i];
+    f->cell = NEW(int64_t, s->size);
+    FLOW_ROWS(s, at, n)
+    for (int64_t c = at; c < at + n; c++)
+        if (g->forced[c] == 1 || (s->m && is_deep(s, p_, c)))
+            f->cell[f->n++] = c;
     f->nforced = f->n;
     for (int64_t i = g->npartner; i < g->npartner + g->nrim; i++)
         f->cell[f->n++] = g->partner[i];
+    f->h = largest(s, f);
+    f->R = fmax(2.0 * f->h, 4.0 * coarsest_particles(s)); /* fewer make noise */
     list_places(s, f);
     f->profile = NEW(double, COLOUR_PARTS + 1);
-    colour_profile(b->dim, f->profile);
+    colour_profile(s->dim, f->profile);
     for (int k = 0; k < 2; k++) {
-        f->phi[k] = block_field(b);
-        memcpy(f->phi[k], s->surface->phi, (size_t)b->size * sizeof(double));
+        f->phi[k] = NEW(double, s->size);
+        memcpy(f->phi[k], s->surface->phi, (size_t)s->size * sizeof(double));
         f->t[k] = s->t;
     }
     return f;
@@ -131,7 +158,7 @@ void surface_forced_shift(struct fv *s, double t0, double t1)
 static void look_at_step(struct fv *s, const double *phi)
 {
     struct surface_forced *f = s->surface->forced;
-    const double h = largest(s);
+    const double h = f->h;
     double sums[2] = {0.0, 0.0};
     for (int64_t i = f->nforced; i < f->n; i++) {
         const double own = s->surface->phi[f->cell[i]], theirs = phi[f->cell[i]];
@@ -140,7 +167,7 @@ static void look_at_step(struct fv *s, const double *phi)
             sums[1] += 1.0;
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     f->step = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
 }
 

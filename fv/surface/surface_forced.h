@@ -9,7 +9,7 @@ struct surface_forced {
     int64_t nforced, n, *cell; /* local: forced ones, then free ones beside the outline */
     int64_t nplaces, *first;   /* [n + 1] places of each cell: its centre, images beyond walls */
     double *x;                 /* [nplaces][3] m */
-    double R;                  /* m: support of the kernel */
+    double h, R;               /* m: largest spacing of these cells; support of the kernel */
     double *profile;           /* of colour.h */
     double *phi[2];            /* [size] m: at the start and at the end of the window */
     double t[2];               /* s */

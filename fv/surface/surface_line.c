@@ -20,9 +20,8 @@
 
 static bool is_water(const struct fv *s, int64_t c)
 {
-    if (s->m)
-        return s->surface->layer[c] == 0 && !s->surface->mesh->out[c];
-    return s->surface->layer[c] == 0 && !(s->forcing && s->forcing->forced[c]);
+    return s->surface->layer[c] == 0 && !surface_holds_none(s, c) &&
+           !(s->forcing && s->forcing->forced[c] == 1);
 }
 
 /* Whether four cells from c on are water; d: step into it. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../../common/mem.h"
+#include "../boundary/forcing.h"
 #include "../grid/mesh_motion.h"
 #include "../grid/overset.h"
 
@@ -184,9 +185,13 @@ static void set_height(const struct fv *s, struct surface_mesh *w)
 
 static void set_out(const struct fv *s, struct surface_mesh *w)
 {
+    const struct forcing *g = s->forcing;
     memset(w->out, 0, (size_t)s->size * sizeof *w->out);
     for (int q = 0; q < s->nparts; q++)
         set_part_out(s, s->part + q, w->out);
+    for (int64_t c = 0; g && c < s->size; c++)
+        if (s->m->status[c] == CELL_GIVEN && !g->known[c])
+            w->out[c] = BEHIND_EVEN;
 }
 
 /* sign = -1: phi less the height of places; 1: back. */

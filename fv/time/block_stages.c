@@ -153,7 +153,7 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
         mesh_bc_slope_ghosts(s, tau, psi);
     mesh_gradient(s, psi, s->rhs);
     if (s->forcing)
-        given_gradient(s, CONTINUE_EVEN, psi, s->rhs);
+        given_gradient(s, s->forcing->whole ? CONTINUE_CUBIC : CONTINUE_EVEN, psi, s->rhs);
     if (s->surface)
         surface_mesh_psi_gradient(s, tau, psi, false, s->rhs);
 }

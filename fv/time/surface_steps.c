@@ -106,7 +106,7 @@ static void set_level(struct fv *s)
 static void close_cells(struct fv *s)
 {
     const struct forcing *g = s->forcing;
-    for (int64_t c = 0; g && c < s->b.size; c++)
+    for (int64_t c = 0; g && !s->m && c < s->b.size; c++)
         s->surface->closed[c] = g->forced[c] && !(s->surface->forced && g->known[c]);
 }
 
@@ -144,6 +144,11 @@ static void set_outflows(struct fv *s)
 void surface_outline_moved(struct fv *s, double before)
 {
     close_cells(s);
+    if (s->m) {
+        surface_mesh_update(s);
+        surface_mesh_count(s);
+        surface_ghosts(s, s->surface->phi);
+    }
     s->surface->volume0 += surface_volume(s, NULL) - before;
     rebuild(s);
 }
@@ -222,13 +227,12 @@ static void go_ahead(struct fv *s, double dt)
 static void add_outline(const struct fv *s, double sums[2])
 {
     const struct forcing *g = s->forcing;
-    for (int a = 0; a < s->b.dim; a++)
+    for (int a = 0; a < s->dim; a++)
         for (int64_t i = 0; i < g->nface[a]; i++) {
-            const int64_t c = g->face[a][i], d = s->b.stride[a];
+            const int64_t c = g->face[a][i], d = surface_part(s, c)->stride[a];
             if (!g->counts[a][i] || (g->forced[c] != 1 && g->forced[c - d] != 1))
                 continue;
-            const int row = block_row(&s->b, c);
-            const double area = block_volume(&s->b, row) / block_size(&s->b, a, row);
+            const double area = s->m ? 1.0 : forcing_face_area(s, c, a);
             const double in = -g->sign[a][i] * area * s->U[a][c] * surface_face_share(s, c, a);
             sums[0] += in;
             sums[1] += fabs(in);

@@ -23,6 +23,7 @@
 #include "../time/runge_kutta.h"
 #include "../walls/walls.h"
 #include "../open_boundaries/box_motion.h"
+#include "../open_boundaries/openings.h"
 #include "../open_boundaries/zone_steps.h"
 
 /* Half a period must hold R and the skin, see check_axis in sph_params.c. */
@@ -96,6 +97,8 @@ static struct sph *create_level(struct run *r, const struct sph_params *prm, str
     s->zones = coarser ? NULL : zones_create(s); /* open sides are of the first level */
     domain_create(s);
     create_walls(s);
+    if (s->zones)
+        openings_find_room(s, s->zones->openings);
     bodies_create(s);
     s->surface = surface_create(s);
     s->passes = scheme_pick(s);

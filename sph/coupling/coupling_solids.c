@@ -150,7 +150,8 @@ void coupling_check_walls(const struct run *r, const struct sph_params *prm, str
         const struct scene_mesh *mesh = scene_mesh_of(&r->scene, MESH_WALL, k);
         char key[64];
         snprintf(key, sizeof key, "walls.[%d].%s", k, mesh ? "mesh" : "points");
-        if ((line->points.n > 1 && line_leaves(r, line, box, open, 0.5 * prm->dx, at)) ||
+        if ((line->points.n > 1 && !params_has_group(r->params, "blocks") && /* fv looks at them */
+             line_leaves(r, line, box, open, 0.5 * prm->dx, at)) ||
             (mesh && mesh_leaves(r, &mesh->mesh, box, open, 0.5 * prm->dx, at)))
             params_fault(r->params, f, key,
                          "at (%g, %g, %g) m it is outside of %s m: fv, which knows "

@@ -211,6 +211,10 @@ static void give_birth(struct sph *s)
         if (held < whole || o->share[f] == 0.0 ||
             (o->flux[f] <= 0.0 && held < openings_most_debt * whole))
             continue;
+        if (o->room[f] < 0.5) { /* its middle lies behind a wall */
+            pass_on(o, f, held);
+            continue;
+        }
         double x[3];
         const double *const of_box = z->speed;
         const int side = openings_place(o, f, x), a = side / 2;

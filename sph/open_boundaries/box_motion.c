@@ -128,6 +128,7 @@ static void place(struct sph *s)
     memcpy(z->hi, s->hi, sizeof z->hi);
     memcpy(z->openings->lo, s->lo, sizeof z->openings->lo);
     memcpy(z->openings->hi, s->hi, sizeof z->openings->hi);
+    openings_find_room(s, z->openings);
     domain_follow(s);
 }
 

@@ -9,6 +9,7 @@
 
 #include "../../common/mem.h"
 #include "../sph_params.h"
+#include "../walls/walls.h"
 #include "zones.h"
 
 /* In R/c0: how long the drain takes for what voids left. With 50 the drain of the breaking wave is
@@ -39,8 +40,9 @@ struct openings *openings_create(struct sph *s)
     o->flux = NEW(double, n);
     o->shift = NEW(double, n);
     o->share = NEW(double, n);
+    o->room = NEW(double, n);
     for (int f = 0; f < n; f++)
-        o->share[f] = 1.0;
+        o->room[f] = o->share[f] = 1.0;
     o->first_id = (int64_t)1 << 40; /* above those of the first filling */
     o->tick = sph_params_dt(&s->prm, s->nu, s->c0, NULL) / 64.0;
     return o;
@@ -55,9 +57,37 @@ void openings_free(struct openings **o)
     mem_free((*o)->flux);
     mem_free((*o)->shift);
     mem_free((*o)->share);
+    mem_free((*o)->room);
     mem_free((*o)->ghost_x);
     mem_free(*o);
     *o = NULL;
+}
+
+static bool has_lines(const struct sph *s)
+{
+    bool any = false;
+    for (int k = 0; k < s->run->scene.nwalls; k++)
+        any = any || s->run->scene.walls[k].points.n > 1;
+    return any && s->dim == 2 && s->walls;
+}
+
+void openings_find_room(const struct sph *s, struct openings *o)
+{
+    enum { POINTS = 8 }; /* of a face */
+    for (int f = 0; f < openings_faces(o) && has_lines(s); f++) {
+        double x[3], y[3];
+        const int along = 1 - openings_place(o, f, x) / 2;
+        const double middle = walls_distance(s->walls, x, 2.0 * s->R);
+        int before = middle > 0.0 ? POINTS : 0;
+        if (fabs(middle) < o->dx)
+            before = 0;
+        for (int k = 0; k < POINTS && fabs(middle) < o->dx; k++) {
+            memcpy(y, x, sizeof y);
+            y[along] += ((k + 0.5) / POINTS - 0.5) * o->dx;
+            before += walls_distance(s->walls, y, 2.0 * s->R) > 0.0;
+        }
+        o->room[f] = o->share[f] = (double)before / POINTS;
+    }
 }
 
 int openings_faces(const struct openings *o) { return o->first[2 * o->dim]; }

@@ -24,7 +24,8 @@ struct openings {
     double *flux;             /* kg/s of the faces this rank owns, 0 elsewhere: inward */
     double owed;              /* kg: what voids that went out left to be drained, by zones' `drain';
                                  all ranks' */
-    double *share;  /* -: of each face that the water outside wets; 1 without a surface there */
+    double *room;             /* -: of each face that no line of the walls cuts off */
+    double *share;  /* -: of each face that the water outside wets; without a surface there, room */
     double rain[4]; /* kg, kg m/s: drops that left over the water, this rank */
     double films;   /* kg: of that what ran along a wall */
     int64_t drops;
@@ -41,6 +42,8 @@ struct openings {
 
 struct openings *openings_create(struct sph *s);
 void openings_free(struct openings **o);
+/* What walls leave of faces where they stand now. */
+void openings_find_room(const struct sph *s, struct openings *o);
 /* From the booked masses (after a restart, too): what is to be drained, and where the lattice
  * behind each face stands. */
 void openings_settle(struct sph *s);

@@ -46,7 +46,8 @@ void wet_faces_find(struct sph *s, double t)
     zones_look_at_surface(z, t);
     for (int side = 0; side < 2 * o->dim; side++)
         for (int f = o->first[side]; f < o->first[side + 1]; f++)
-            o->share[f] = wet_faces_share(o->dim, side / 2, o->dx, z->phi[f], z->gphi + 3 * f);
+            o->share[f] =
+                o->room[f] * wet_faces_share(o->dim, side / 2, o->dx, z->phi[f], z->gphi + 3 * f);
 }
 
 static int upright(const struct sph *s)

@@ -25,6 +25,7 @@ struct piece {
 
 struct plane {
     double near; /* m: what is nearer than this meets */
+    const double *lo, *hi;
     int nlines, npieces, ncuts, nnodes;
     struct line *line;
     struct piece *piece;
@@ -98,7 +99,7 @@ static bool are_apart(const struct plane *p, const struct line *l, const struct 
     return false;
 }
 
-/* Whether a wall meets another between the ends of one of them. */
+/* Whether something meets a wall between its ends. */
 static bool cut_lines(struct plane *p)
 {
     bool any = false;
@@ -109,7 +110,7 @@ static bool cut_lines(struct plane *p)
                 continue;
             cut_by(p, i, j);
             for (int k = before; k < p->ncuts; k++)
-                any = any || (p->line[i].wall && p->line[j].wall && p->cut[k].at > p->near &&
+                any = any || (p->line[i].wall && p->cut[k].at > p->near &&
                               p->cut[k].at < p->line[i].length - p->near);
         }
     return any;
@@ -281,9 +282,28 @@ static void find_rooms(struct plane *p)
             walk(p, k);
 }
 
+static bool is_outside(const struct plane *p, int piece)
+{
+    const struct piece *c = p->piece + piece;
+    double x[2];
+    end_of(p->line + c->line, 0.5 * (c->from + c->to), x);
+    return x[0] < p->lo[0] || x[1] < p->lo[1] || x[0] > p->hi[0] || x[1] > p->hi[1];
+}
+
+/* Whether a piece goes on outside of the domain from one within, across an open side, that lies
+ * before a closed room: that room goes on, too. */
+static bool goes_on(const struct plane *p, int piece)
+{
+    for (int k = piece - 1; k <= piece + 1 && is_outside(p, piece); k += 2)
+        if (k >= 0 && k < p->npieces && p->piece[k].line == p->piece[piece].line &&
+            !is_outside(p, k) && p->shut[p->face[2 * k]])
+            return true;
+    return false;
+}
+
 static bool is_covered(const struct plane *p, int piece)
 {
-    return p->shut[p->face[2 * piece]] || is_beyond(p, piece);
+    return p->shut[p->face[2 * piece]] || is_beyond(p, piece) || goes_on(p, piece);
 }
 
 static void add_part(struct wall_parts *to, int line, double from, double until)
@@ -322,23 +342,35 @@ static void add_open_sides(struct plane *p, const double *lo, const double *hi)
         add_line(p, corner[k], corner[(k + 1) % 4], false);
 }
 
+/* Whether all walls are left, from end to end. */
+static bool are_whole(const struct plane *p, int n, const struct wall_parts *parts)
+{
+    bool whole = parts->n == n;
+    for (int i = 0; i < n && whole; i++)
+        whole = parts->part[i].wall == i && parts->part[i].from <= 4.0 * p->near &&
+                parts->part[i].to >= p->line[i].length - 4.0 * p->near;
+    return whole;
+}
+
 struct wall_parts wall_cover(int n, const double (*ends)[2][2], const double *lo, const double *hi,
                              double near)
 {
     struct wall_parts parts = {0};
-    struct plane p = {.near = near};
+    struct plane p = {.near = near, .lo = lo, .hi = hi};
     for (int k = 0; k < n; k++)
         add_line(&p, ends[k][0], ends[k][1], true);
+    add_open_sides(&p, lo, hi);
     parts.cut = cut_lines(&p);
     if (parts.cut) {
-        p.ncuts = 0;
-        add_open_sides(&p, lo, hi);
-        cut_lines(&p);
         lay_pieces(&p);
         drop_doubles(&p);
         find_rooms(&p);
         for (int i = 0, k = 0; i < n; i++) /* the first n lines are the walls */
             k = keep_seen(&p, i, k, &parts);
+    }
+    if (parts.cut && are_whole(&p, n, &parts)) {
+        mem_free(parts.part);
+        parts = (struct wall_parts){0};
     }
     mem_free(p.line);
     mem_free(p.piece);

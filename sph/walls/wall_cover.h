@@ -9,8 +9,7 @@
 
 /* What is left of walls, in their order; `part' is the caller's, freed by mem_free. */
 struct wall_parts {
-    bool
-        cut; /* false: walls meet at their ends alone, all of them are left, and there is no list */
+    bool cut; /* false: all of them are left, and there is no list */
     int n;
     struct wall_part {
         int wall;

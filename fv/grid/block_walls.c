@@ -1,0 +1,223 @@
+/* block_walls.c - see block_walls.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "block_walls.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/mem.h"
+
+enum { WALLS_MOST = 3 }; /* that meet at a corner */
+
+struct face {
+    double x[3], n[3]; /* m: centre; into the fluid, of length 1 */
+    int cell[3];
+    double radius; /* m: of its farthest vertex */
+};
+
+/* A closed side of a block. */
+struct side {
+    int block;
+    int64_t first, n; /* of its faces */
+    double min[3], max[3];
+};
+
+struct block_walls {
+    int dim, nsides;
+    struct side side[6 * MESH_BLOCKS_MAX];
+    struct face *face;
+};
+
+static bool is_closed(enum mesh_side s)
+{
+    return s != MESH_OVERLAP && s != MESH_JOINED && s != MESH_PERIODIC;
+}
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Face of the cell `at' on the side along a, and the box around it. */
+static void add_face(const struct mesh_block *b, int dim, int a, bool upper, const int *at,
+                     struct face *f, struct side *s)
+{
+    const int t0 = (a + 1) % dim, t1 = dim == 3 ? (a + 2) % 3 : 2, corners = dim == 3 ? 4 : 2;
+    double v[4][3], e[2][3], in[3];
+    *f = (struct face){.cell = {at[0], at[1], at[2]}};
+    for (int k = 0; k < corners; k++) {
+        int i[3] = {at[0], at[1], at[2]};
+        i[a] += upper;
+        i[t0] += k & 1;
+        i[t1] += k >> 1;
+        memcpy(v[k], b->x[mesh_vertex(b, i[0], i[1], i[2])], sizeof v[k]);
+        for (int q = 0; q < dim; q++) {
+            f->x[q] += v[k][q] / corners;
+            s->min[q] = fmin(s->min[q], v[k][q]);
+            s->max[q] = fmax(s->max[q], v[k][q]);
+        }
+    }
+    for (int q = 0; q < 3; q++) {
+        e[0][q] = v[1][q] - v[0][q] + (dim == 3 ? v[3][q] - v[2][q] : 0.0);
+        e[1][q] = dim == 3 ? v[2][q] + v[3][q] - v[0][q] - v[1][q] : q == 2;
+        in[q] = q < dim ? b->centre[mesh_cell(b, at)][q] - f->x[q] : 0.0;
+    }
+    for (int q = 0; q < 3; q++)
+        f->n[q] = e[0][(q + 1) % 3] * e[1][(q + 2) % 3] - e[0][(q + 2) % 3] * e[1][(q + 1) % 3];
+    const double size = copysign(sqrt(dot(f->n, f->n)), dot(f->n, in));
+    for (int q = 0; q < 3; q++)
+        f->n[q] /= size;
+    for (int k = 0; k < corners; k++)
+        f->radius = fmax(f->radius, hypot(hypot(v[k][0] - f->x[0], v[k][1] - f->x[1]),
+                                          dim == 3 ? v[k][2] - f->x[2] : 0.0));
+}
+
+static void add_side(struct block_walls *w, const struct mesh *m, int block, int k, int64_t *room)
+{
+    const struct mesh_block *b = m->block + block;
+    const int a = k / 2, t0 = a == 0 ? 1 : 0, t1 = a == 2 ? 1 : 2;
+    struct side *s = w->side + w->nsides;
+    *s = (struct side){.block = block,
+                       .first = w->nsides ? s[-1].first + s[-1].n : 0,
+                       .n = (int64_t)b->n[t0] * (w->dim == 3 ? b->n[t1] : 1),
+                       .min = {INFINITY, INFINITY, INFINITY},
+                       .max = {-INFINITY, -INFINITY, -INFINITY}};
+    if (s->first + s->n > *room) {
+        const int64_t more = 2 * *room + s->n;
+        GROW(w->face, s->first, more);
+        *room = more;
+    }
+    for (int64_t i = 0; i < s->n; i++) {
+        int at[3] = {0, 0, 0};
+        at[a] = k % 2 ? b->n[a] - 1 : 0;
+        at[t0] = (int)(i % b->n[t0]);
+        if (w->dim == 3)
+            at[t1] = (int)(i / b->n[t0]);
+        add_face(b, w->dim, a, k % 2, at, w->face + s->first + i, s);
+    }
+    w->nsides++;
+}
+
+struct block_walls *block_walls_create(const struct mesh *m)
+{
+    struct block_walls *w = NEW(struct block_walls, 1);
+    int64_t room = 0;
+    w->dim = m->dim;
+    for (int q = 0; q < m->nblocks; q++)
+        for (int k = 0; k < 2 * m->dim; k++)
+            if (is_closed(m->block[q].side[k]))
+                add_side(w, m, q, k, &room);
+    return w;
+}
+
+void block_walls_free(struct block_walls **wp)
+{
+    if (!*wp)
+        return;
+    mem_free((*wp)->face);
+    mem_free(*wp);
+    *wp = NULL;
+}
+
+/* m: from x to the box around a side. */
+static double beyond(const struct block_walls *w, const struct side *s, const double *x)
+{
+    double d2 = 0.0;
+    for (int a = 0; a < w->dim; a++) {
+        const double d = fmax(fmax(s->min[a] - x[a], x[a] - s->max[a]), 0.0);
+        d2 += d * d;
+    }
+    return sqrt(d2);
+}
+
+/* The face of a side with its middle nearest to x, less than R m away; NULL: none. *d2: its
+ * distance, squared. */
+static const struct face *nearest(const struct block_walls *w, const struct side *s, double R,
+                                  const double *x, double *d2)
+{
+    const struct face *best = NULL;
+    *d2 = INFINITY;
+    for (int64_t i = 0; i < s->n && beyond(w, s, x) < R; i++) {
+        const struct face *f = w->face + s->first + i;
+        const double d[3] = {x[0] - f->x[0], x[1] - f->x[1], x[2] - f->x[2]}, d2_here = dot(d, d);
+        if (d2_here < *d2) {
+            *d2 = d2_here;
+            best = f;
+        }
+    }
+    return best;
+}
+
+/* m: of x over a face, < 0: behind it. */
+static double height(const struct face *f, const double *x)
+{
+    return dot((double[]){x[0] - f->x[0], x[1] - f->x[1], x[2] - f->x[2]}, f->n);
+}
+
+/* The face of a side that x stands over, less than R from it; NULL: none. *off: how far the foot
+ * lies from its middle, of its radius. */
+static const struct face *find_face(const struct block_walls *w, const struct side *s, double R,
+                                    const double *x, double *off)
+{
+    double d2;
+    const struct face *best = nearest(w, s, R, x, &d2);
+    if (!best)
+        return NULL;
+    const double high = height(best, x);
+    *off = sqrt(fmax(0.0, d2 - high * high)) / best->radius;
+    return fabs(high) < R && *off < 1.5 ? best : NULL;
+}
+
+bool block_walls_nearest(const struct block_walls *w, const double *x, struct nearest_wall *to)
+{
+    double least = INFINITY, d2;
+    for (int k = 0; k < w->nsides; k++) {
+        const struct face *f = nearest(w, w->side + k, sqrt(least), x, &d2);
+        if (!f || d2 >= least)
+            continue;
+        least = d2;
+        *to = (struct nearest_wall){.block = w->side[k].block,
+                                    .cell = {f->cell[0], f->cell[1], f->cell[2]},
+                                    .height = height(f, x),
+                                    .radius = f->radius};
+        to->beside = sqrt(fmax(0.0, d2 - to->height * to->height));
+    }
+    return least < INFINITY;
+}
+
+/* Walls of two blocks that go on into each other are one: the nearer face is its own. */
+static int add_wall(const struct face *f, double off, int n, const struct face **wall, double *offs)
+{
+    for (int k = 0; k < n; k++)
+        if (dot(f->n, wall[k]->n) > 0.5) {
+            if (off < offs[k]) {
+                wall[k] = f;
+                offs[k] = off;
+            }
+            return n;
+        }
+    if (n == WALLS_MOST)
+        return n;
+    wall[n] = f;
+    offs[n] = off;
+    return n + 1;
+}
+
+int block_walls_images(const struct block_walls *w, double R, double (*x)[3])
+{
+    const struct face *wall[WALLS_MOST];
+    double offs[WALLS_MOST], off;
+    int nwalls = 0, n = 1;
+    for (int k = 0; k < w->nsides; k++) {
+        const struct face *f = find_face(w, w->side + k, R, x[0], &off);
+        if (f)
+            nwalls = add_wall(f, off, nwalls, wall, offs);
+    }
+    for (int q = 0; q < nwalls; q++)
+        for (int k = 0, before = n; k < before; k++, n++) {
+            const double d[3] = {x[k][0] - wall[q]->x[0], x[k][1] - wall[q]->x[1],
+                                 x[k][2] - wall[q]->x[2]};
+            for (int a = 0; a < 3; a++)
+                x[n][a] = x[k][a] - 2.0 * dot(d, wall[q]->n) * wall[q]->n[a];
+        }
+    return n;
+}
