@@ -114,6 +114,51 @@ close_to "$(number wave2 velocity_l2)" "$(number wave velocity_l2)" 1e-6 ||
     bad "wave on 2:2:2: velocity error $(number wave2 velocity_l2), on one rank each $(number wave velocity_l2)"
 same_bits wave half || bad "a restarted run gives other bits: $(tail -n 2 diff.txt)"
 
+# on blocks: two joined ones whose seam lies in sph's box, turned cells under a box that moves, bdf2; a bed that rises
+# through both programs, which a side of fv's block follows; restart
+blocks() { # FILE BLOCKS...: the still water with these
+    to=$1
+    shift
+    sed '/^fv: /d' "$root/cases/still_water_crossing/case.cfg" >"$to"
+    { echo 'fv: {};'; echo "blocks: ( $* );"; } >>"$to"
+}
+on="-p time.end=1.5 -p sph.dx=0.05 -p domain.max=(4,1.4) -p output.every=0.75 -p output.checkpoint=0.75"
+blocks joined.cfg '{ name = "l"; cells = (20, 14); max = (2, 1.4); i_max = "joined"; },' \
+    '{ name = "r"; cells = (20, 14); min = (2, 0); max = (4, 1.4); i_min = "joined"; }'
+blocks waving.cfg '{ name = "all"; mapping = "sheared"; wave = 0.03; cells = (40, 14); max = (4, 1.4); }'
+blocks bed.cfg '{ name = "all"; mapping = "file"; file = "bed.xyz"; i_min = "slip"; i_max = "slip"; j_min = "slip"; j_max = "slip"; }'
+awk 'function bed(x) { return x < 0.5 ? 0 : x > 3.5 ? 0.5 : (x - 0.5) / 6 }
+    BEGIN { print 41, 15; for (j = 0; j < 15; j++) for (i = 0; i < 41; i++) print i / 10
+            for (j = 0; j < 15; j++) for (i = 0; i < 41; i++) print bed(i / 10) + (1.4 - bed(i / 10)) * j / 14 }' >bed.xyz
+sed -i 's/^           { side = "y_min"; kind = "slip"; }/           { points = ((0.5, 0), (3.5, 0.5), (4, 0.5)); kind = "slip"; }, { side = "y_min"; kind = "slip"; }/' bed.cfg
+# shellcheck disable=SC2086
+{
+    job joined 1:1:2 joined.cfg $on -p "sph.box=((0.8,0),(2.8,1.4))"
+    job waving 1:1:1 waving.cfg $on -p "sph.box=((0.7,0),(2.5,1.4))" -p "sph.box_velocity=(0.1,0)" -p fv.integrator=bdf2
+    job bed 1:1:1 bed.cfg $on -p "sph.box=((1,0),(3,1.4))"
+    job bed_half 1:1:1 bed.cfg $on -p "sph.box=((1,0),(3,1.4))" -p time.end=0.75
+    job bed_half 1:1:1 bed.cfg $on -p "sph.box=((1,0),(3,1.4))" --restart
+}
+for d in joined waving bed; do
+    below "$(number $d max_mach)" 2e-3 || bad "$d: Mach $(number $d max_mach) in water at rest, wanted at most 2e-3"
+    below "$(number $d water_missing)" 1e-3 || bad "$d: $(number $d water_missing) of the water is missing, wanted at most 1e-3"
+    below "$(number $d level_gap)" 0.1 || bad "$d: levels $(number $d level_gap) dx apart, wanted at most 0.1"
+done
+same_bits bed bed_half || bad "on blocks a restarted run gives other bits: $(tail -n 2 diff.txt)"
+grep -q 'left the region' bed.txt && bad "bed: particles came in behind it: $(grep 'left the region' bed.txt | tail -n 1)"
+
+# walls that but one of the programs has
+astray() { # FILE REASON
+    "$root/cases/run" "$1" -n 1:1:1 -o astray -p time.end=0.1 -p sph.dx=0.05 -p "domain.max=(4,1.4)" -p "sph.box=((1,0),(3,1.4))" >text 2>&1 &&
+        bad "$1 is not refused"
+    grep -q -- "$2" text || bad "$1: no line like \"$2\": $(tail -n 2 text)"
+    rm -rf astray
+}
+sed 's/(0.5, 0), (3.5, 0.5), (4, 0.5)/(0, 0.2), (4, 0.2)/' bed.cfg >line.cfg
+sed 's/{ points = .*; }, { side = "y_min"/{ side = "y_min"/' bed.cfg >side.cfg
+astray line.cfg 'it lies in cells of fv.s blocks and is no side'
+astray side.cfg 'its side is a wall, within sph.box'
+
 # what cannot be done says so
 refuses() { # WHAT REASON ARGS...
     what=$1 reason=$2
@@ -121,7 +166,6 @@ refuses() { # WHAT REASON ARGS...
     "$root/cases/run" standing_wave_crossing --check "$@" >text 2>&1 && bad "$what is not refused"
     grep -q -- "$reason" text || bad "$what: no line like \"$reason\": $(tail -n 2 text)"
 }
-refuses "bdf2 under a crossing surface" 'rk3 alone' -p fv.integrator=bdf2
 refuses "a surface that fv shall not have" 'both programs have the surface' -p fv.surface=no
 
 [ $failed = 0 ] && echo "coupled_surface: all is well"

@@ -272,6 +272,21 @@ static void check_grains(const struct run *r, struct faults *f)
     scene_check_grains(s, r->params, first, h, n, "centre of a cell", f);
 }
 
+/* Where the water meets a shore is sph's to say, on a shore of its own. */
+static void check_shores(const struct run *r, struct faults *f)
+{
+    char key[32];
+    for (int k = 0; k < r->scene.nprobes; k++) {
+        snprintf(key, sizeof key, "probes.[%d].at", k);
+        if (r->scene.probes[k].kind == PROBE_SHORE && r->crossed && !r->gauge_inside[k])
+            params_fault(r->params, f, key,
+                         "probe \"%s\": (%g, %g) m lies in fv's part, which looks at no shore; put "
+                         "it into sph.box",
+                         r->scene.probes[k].name, r->scene.probes[k].at[0],
+                         r->scene.probes[k].at[1]);
+    }
+}
+
 void surface_check(const struct run *r, struct faults *f)
 {
     const struct scene *s = &r->scene;
@@ -286,9 +301,6 @@ void surface_check(const struct run *r, struct faults *f)
             params_fault(r->params, f, "initial.field", "a wave wants a free surface: fv.surface");
         return;
     }
-    if (r->crossed && prm->integrator != INTEGRATOR_RK3)
-        params_fault(r->params, f, "fv.integrator",
-                     "with a surface that crosses into sph's part rk3 alone");
     if (r->coupled && !r->crossed)
         params_fault(r->params, f, "fv.surface",
                      "a coupled run leaves the surface to sph, unless sph.box ends in the water "
@@ -309,6 +321,7 @@ void surface_check(const struct run *r, struct faults *f)
         check_water_opening(r, f, k);
     if (mesh_block_count() > 0)
         check_block_sides(r, f);
+    check_shores(r, f);
     if (prm->hole[1][0] > prm->hole[0][0])
         params_fault(r->params, f, "fv.hole", "not with a free surface");
     for (int a = 0; a < s->domain.dim; a++)

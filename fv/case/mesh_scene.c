@@ -9,6 +9,7 @@
 #include "../grid/mesh_motion.h"
 #include "../boundary/still.h"
 #include "../grid/overset.h"
+#include "../output/output.h"
 #include "../surface/levelset.h"
 
 static const char *const sides[] = {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};
@@ -300,7 +301,7 @@ static void check_probes(const struct run *r, struct faults *f, const struct mes
         const struct scene_probe *p = r->scene.probes + k;
         char key[32];
         snprintf(key, sizeof key, "probes.[%d].at", k);
-        if (!is_covered(r, m, o, p))
+        if (fv_probe_mine(r, k) && !is_covered(r, m, o, p))
             params_fault(r->params, f, key,
                          "probe \"%s\": no block has computed cells around (%g, %g, %g) m", p->name,
                          p->at[0], p->at[1], p->at[2]);

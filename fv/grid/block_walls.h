@@ -1,5 +1,5 @@
-/* block_walls.h - the closed sides of blocks as faces in space. SPDX-License-Identifier:
- * BSD-3-Clause */
+/* block_walls.h - the closed sides of blocks as faces in space.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_BLOCK_WALLS_H
 #define FV_BLOCK_WALLS_H
 

@@ -221,6 +221,7 @@ static void go_ahead(struct fv *s, double dt)
         surface_advance(s, 0.5 * dt);
     }
     f->travelled = travelled;
+    impose(s, s->t + dt);
 }
 
 /* The same as flows() through the outline of a partner's cells. */
