@@ -14,7 +14,7 @@ enum mesh_owner { MESH_SHAPE, MESH_BODY, MESH_WALL };
 struct scene_mesh {
     char name[64], key[64]; /* in the summary; in the case, "walls.[0].mesh" */
     enum mesh_owner owner;
-    int index; /* in the list of its owner */
+    int index; /* in the list of its owner; -1: another program has it */
     struct trimesh mesh;
     struct tree *tree;
     int fluid_side;          /* enum fluid_side, no longer FLUID_AUTO */

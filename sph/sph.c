@@ -11,6 +11,7 @@
 #include "../common/picture.h"
 #include "../common/scene_fluid.h"
 #include "../common/scene_mesh.h"
+#include "../common/solids.h"
 #include "../coupler/cpl_partner.h"
 #include "parallel/domain.h"
 #include "coupling/overlap.h"
@@ -227,6 +228,7 @@ static void draw(const struct run *r, struct picture *p)
 
 static void *create(struct run *r, struct h5 *f)
 {
+    solids_deal(r);
     int n = sph_columns(r, columns);
     for (int k = 0; k < OVERLAP_COLUMNS && r->coupled; k++)
         columns[n++] = overlap_columns[k];

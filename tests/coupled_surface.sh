@@ -98,6 +98,20 @@ for at in sph:a fv:b sph_right:c; do
 done
 [ -z "$(last two/sph-series.csv 'c [m]')$(last two/fv-series.csv 'a [m]')" ] || bad "two boxes: a gauge is read by another program"
 
+# a body and a line in each of them: each program has its own
+{
+    cat two.cfg
+    echo 'bodies: ( { name = "one"; points = ((1.5, 0.7), (1.5, 1.2), (2, 1.2), (2, 0.7)); },'
+    echo '          { name = "two"; points = ((5.6, 0.5), (5.6, 1.2), (5.9, 1.2), (5.9, 0.5)); } );'
+} | sed 's/^walls: *(/&{ points = ((1.6, 0), (1.75, 0.2), (1.9, 0)); kind = "slip"; }, { points = ((5.6, 0), (5.75, 0.2), (5.9, 0)); kind = "slip"; }, /' >own.cfg
+job own 1:1:1 own.cfg -p time.end=1 -p "fv.cells=(80,14)" -p "domain.max=(8,1.4)" -p output.snapshots=false
+for at in sph:one sph_right:two; do
+    close_to "$(last own/${at%:*}-series.csv "${at#*:} force y")" 0.15 0.03 ||
+        bad "body ${at#*:} of ${at%:*}: lifted by $(last own/${at%:*}-series.csv "${at#*:} force y"), its water weighs 0.15"
+done
+[ -z "$(last own/sph-series.csv 'two force')$(last own/sph_right-series.csv 'one force')" ] || bad "a body is two programs'"
+below "$(number own water_missing)" 1e-3 || bad "two boxes with bodies: $(number own water_missing) of the water is missing"
+
 # a wave through two sides: the level that leaves one program comes to the other; ranks; restart half-way
 wave="-p time.end=0.5 -p output.every=0.25 -p output.checkpoint=0.25 -p sph.dx=0.05 -p fv.cells=(40,12) -p sph.R_dx=4
  -p sph.box=((0.5,0),(3.5,1.2)) -p coupling.transition=0.25 -p coupling.buffer=0.25 -p coupling.overlap=0.25"

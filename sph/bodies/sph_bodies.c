@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "../../common/mem.h"
-#include "../../common/scene_mesh.h"
 #include "../../common/scene_fluid.h"
 #include "../../common/scene_geometry.h"
 #include "../../common/scene_mesh.h"
+#include "../../common/solids.h"
 #include "../case/sph_sense.h"
 #include "../walls/walls.h"
 #include "body_check.h"
@@ -23,6 +23,7 @@ struct bound {
     struct line line;
     char name[64];
     int body;       /* -1: a wall */
+    bool elsewhere; /* a body in another program's box */
     double x[2][2]; /* of a side */
 };
 
@@ -340,7 +341,7 @@ static bool check_places(const struct run *r, const struct sph_params *used,
     for (int k = 0; k < r->scene.nbodies; k++) {
         if (t > 0.0 && r->scene.bodies[k].free)
             continue; /* goes where forces take it, and is watched there */
-        if (!check_room(r, used, all + k, t, when, f))
+        if (!all[k].elsewhere && !check_room(r, used, all + k, t, when, f))
             return true;
         for (int m = 0; m < n; m++) {
             char words[96];
@@ -412,6 +413,7 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
     for (int k = 0; k < c->nbodies && plane; k++) {
         all[k].line = line_of(&c->bodies[k].points, true);
         all[k].line.x = (const double(*)[2])now[k].x;
+        all[k].elsewhere = solids_elsewhere(r, MESH_BODY, k);
     }
     for (int k = 0; k < c->nbodies; k++)
         speed = fmax(speed, body_drive_speed(&bodies[k].drive, bodies[k].reach, c->time.end));

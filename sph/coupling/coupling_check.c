@@ -197,10 +197,6 @@ static void check_several(const struct run *r, const struct sph_params *prm, str
                      "free surface would belong to several programs; take one box, or boxes with "
                      "fv's water between them",
                      n);
-    if (r->scene.nbodies > 0)
-        params_fault(r->params, f, "bodies",
-                     "%d boxes of particles: bodies go with one box; leave out the other groups",
-                     n);
     if (box_motion_wanted(prm))
         params_fault(r->params, f, box_motion_key(prm),
                      "%d boxes of particles: one that moves could meet another; let them rest, or "

@@ -6,6 +6,7 @@
 
 #include "../../common/log.h"
 #include "../../common/scene_mesh.h"
+#include "../../common/solids.h"
 #include "../../common/vec3.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
@@ -77,7 +78,8 @@ void coupling_check_bodies(const struct run *r, const struct sph_params *prm, st
     sph_params_open(r, prm, open);
     for (int k = 0; k < r->scene.nbodies; k++) {
         char key[32];
-        const double when = leaves(r, prm, k, given, open);
+        const double when =
+            solids_elsewhere(r, MESH_BODY, k) ? INFINITY : leaves(r, prm, k, given, open);
         snprintf(key, sizeof key, "bodies.[%d]", k);
         if (when < INFINITY)
             params_fault(r->params, f, key,
@@ -150,6 +152,8 @@ void coupling_check_walls(const struct run *r, const struct sph_params *prm, str
         const struct scene_mesh *mesh = scene_mesh_of(&r->scene, MESH_WALL, k);
         char key[64];
         snprintf(key, sizeof key, "walls.[%d].%s", k, mesh ? "mesh" : "points");
+        if (solids_elsewhere(r, MESH_WALL, k))
+            continue;
         if ((line->points.n > 1 && !params_has_group(r->params, "blocks") && /* fv looks at them */
              line_leaves(r, line, box, open, 0.5 * prm->dx, at)) ||
             (mesh && mesh_leaves(r, &mesh->mesh, box, open, 0.5 * prm->dx, at)))
@@ -169,7 +173,7 @@ void coupling_warn(const struct run *r)
     coupling_hidden(r, prm, near);
     sph_params_open(r, prm, open);
     for (int k = 0; k < r->scene.nbodies; k++)
-        if (leaves(r, prm, k, near, open) < INFINITY)
+        if (!solids_elsewhere(r, MESH_BODY, k) && leaves(r, prm, k, near, open) < INFINITY)
             log_warn(
                 "body `%s' comes within two cells of fv of what fv takes from sph: it mixes the "
                 "particles on all its sides there; enlarge sph.box, or refine fv.cells",

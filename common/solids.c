@@ -1,0 +1,93 @@
+/* solids.c - see solids.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "solids.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Box around a body or wall as the case has it; false: a side of the domain. */
+static bool extent(const struct scene *s, enum mesh_owner owner, int k, double lo[3], double hi[3])
+{
+    const struct scene_mesh *m = scene_mesh_of(s, owner, k);
+    const struct param_points *p = owner == MESH_BODY ? &s->bodies[k].points : &s->walls[k].points;
+    for (int a = 0; a < 3; a++) {
+        lo[a] = m ? m->lo[a] : INFINITY;
+        hi[a] = m ? m->hi[a] : -INFINITY;
+    }
+    for (int i = 0; i < p->n && !m; i++)
+        for (int a = 0; a < 2; a++) {
+            lo[a] = fmin(lo[a], p->x[i][a]);
+            hi[a] = fmax(hi[a], p->x[i][a]);
+        }
+    return m || p->n > 0;
+}
+
+static bool holds(int dim, double box[2][3], const double *lo, const double *hi)
+{
+    bool inside = true;
+    for (int a = 0; a < dim; a++)
+        inside = inside && (!(box[1][a] > box[0][a]) || (lo[a] >= box[0][a] && hi[a] <= box[1][a]));
+    return inside;
+}
+
+/* The box of a group of particles, or its free zone; false: it has none. */
+static bool box_of(const struct run *r, const char *group, double box[2][3])
+{
+    static const char *const keys[] = {"box", "free"};
+    char key[80];
+    for (int i = 0; i < 2; i++) {
+        snprintf(key, sizeof key, ":%.63s.%s", group, keys[i]);
+        if (params_peek_pair(r->params, r->comm, key, box))
+            return true;
+    }
+    return false;
+}
+
+bool solids_elsewhere(const struct run *r, enum mesh_owner owner, int k)
+{
+    char names[PARAM_KIN_MAX][64];
+    const int n = r->coupled ? params_kin(r->params, "sph", names) : 0;
+    double lo[3], hi[3], box[2][3];
+    bool elsewhere = false;
+    if (n < 2 || !extent(&r->scene, owner, k, lo, hi))
+        return false;
+    for (int q = 0; q < n; q++)
+        elsewhere = (strcmp(names[q], r->name) != 0 && box_of(r, names[q], box) &&
+                     holds(r->scene.domain.dim, box, lo, hi)) ||
+                    elsewhere;
+    return elsewhere;
+}
+
+/* What the k-th of a list has for a mesh is now that of `index', or nobody's (-1). */
+static void number_mesh(struct scene *s, enum mesh_owner owner, int k, int index)
+{
+    for (int m = 0; s->meshes && m < s->meshes->n; m++)
+        if (s->meshes->of[m].owner == owner && s->meshes->of[m].index == k) {
+            s->meshes->of[m].index = index;
+            return;
+        }
+}
+
+void solids_deal(struct run *r)
+{
+    struct scene *s = &r->scene;
+    bool away[WALLS_MAX + BODIES_MAX];
+    int n = 0;
+    for (int k = 0; k < s->nwalls; k++)
+        away[k] = solids_elsewhere(r, MESH_WALL, k);
+    for (int k = 0; k < s->nbodies; k++)
+        away[WALLS_MAX + k] = solids_elsewhere(r, MESH_BODY, k);
+    for (int k = 0; k < s->nwalls; k++) {
+        number_mesh(s, MESH_WALL, k, away[k] ? -1 : n);
+        if (!away[k])
+            s->walls[n++] = s->walls[k];
+    }
+    s->nwalls = n;
+    n = 0;
+    for (int k = 0; k < s->nbodies; k++) {
+        number_mesh(s, MESH_BODY, k, away[WALLS_MAX + k] ? -1 : n);
+        if (!away[WALLS_MAX + k])
+            s->bodies[n++] = s->bodies[k];
+    }
+    s->nbodies = n;
+}
