@@ -104,7 +104,8 @@ enum scene_matter scene_matter(const struct scene *s, const struct exact *e, con
     for (int k = 0; s->meshes && k < s->meshes->n; k++) {
         const struct scene_mesh *m = s->meshes->of + k;
         const bool closed = m->mesh.closed;
-        if (m->index < 0 || m->owner == MESH_SHAPE || (!closed && m->owner == MESH_WALL && s->walls[m->index].thin))
+        if (m->index < 0 || m->owner == MESH_SHAPE ||
+            (!closed && m->owner == MESH_WALL && s->walls[m->index].thin))
             continue;
         if (closed && m->fluid_side == FLUID_OUTSIDE && !scene_mesh_holds(m, x))
             return MATTER_SOLID;

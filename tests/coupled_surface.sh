@@ -161,6 +161,22 @@ done
 same_bits bed bed_half || bad "on blocks a restarted run gives other bits: $(tail -n 2 diff.txt)"
 grep -q 'left the region' bed.txt && bad "bed: particles came in behind it: $(grep 'left the region' bed.txt | tail -n 1)"
 
+# two boxes with their bodies on blocks that overlap between them, one of them stretched
+sed '/^fv: /d' own.cfg >own_blocks.cfg
+cat >>own_blocks.cfg <<'CASE'
+fv: {};
+blocks: ( { name = "a"; cells = (44, 14); max = (4.4, 1.4); i_max = "overlap"; },
+          { name = "b"; mapping = "stretched"; stretch = (0.5, 0); focus = (5.5, 0); cells = (42, 14); min = (3.8, 0); max = (8, 1.4);
+            i_min = "overlap"; } );
+CASE
+job own_blocks 1:1:2 own_blocks.cfg -p time.end=1 -p "domain.max=(8,1.4)" -p output.every=0.5
+for at in sph:one sph_right:two; do
+    close_to "$(last own_blocks/${at%:*}-series.csv "${at#*:} force y")" 0.15 0.03 ||
+        bad "on blocks body ${at#*:} is lifted by $(last own_blocks/${at%:*}-series.csv "${at#*:} force y"), its water weighs 0.15"
+    grep -q 'outline_1' "own_blocks/${at%:*}_walls.xdmf" || bad "snapshots of ${at%:*} show no body of its own"
+done
+below "$(number own_blocks water_missing)" 1e-3 || bad "two boxes on blocks: $(number own_blocks water_missing) of the water is missing"
+
 # walls that but one of the programs has
 astray() { # FILE REASON
     "$root/cases/run" "$1" -n 1:1:1 -o astray -p time.end=0.1 -p sph.dx=0.05 -p "domain.max=(4,1.4)" -p "sph.box=((1,0),(3,1.4))" >text 2>&1 &&

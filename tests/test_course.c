@@ -61,7 +61,7 @@ static void velocity_follows_cubics_and_pressure_lines(void **state)
     struct fv_case k;
     struct fv *s = start(&k);
     struct patch of_cells;
-    assert_true(patch_create(s, NULL, NULL, NULL, &of_cells, NULL));
+    assert_true(patch_create(s, 0, NULL, NULL, &of_cells, NULL));
     struct course *c = course_create(s, &of_cells, 1);
     for (int tried = 0; tried < 2; tried++) {
         const int degree = tried ? 3 : 2;
@@ -118,7 +118,7 @@ static void run(struct fv_case *k, const char *integrator, bool tries)
     fv_case_set(k, MPI_COMM_WORLD, overrides);
     struct fv *s = fv_case_start(k, NULL);
     struct patch of_cells;
-    assert_true(patch_create(s, NULL, NULL, NULL, &of_cells, NULL));
+    assert_true(patch_create(s, 0, NULL, NULL, &of_cells, NULL));
     struct course *c = course_create(s, &of_cells, 1);
     course_start(s, c, 1e-3);
     for (int window = 0; window < 3; window++) {

@@ -32,7 +32,7 @@ static void even_rows_go_on_below(void **state)
     double x[3], h[3];
     int64_t n = 0, all = 0;
     (void)state;
-    assert_true(patch_create(s, box[0], box[1], box, &p, x));
+    assert_true(patch_create(s, 1, &box, &box, &p, x));
     assert_non_null(p.blend);
     double *f = block_field(b), *to = NEW(double, p.n);
     for (int j = 0; j < b->n[1]; j++)
@@ -51,7 +51,8 @@ static void even_rows_go_on_below(void **state)
     mem_free(f);
     mem_free(to);
     patch_free(&p);
-    patch_create(s, (const double[]){0.25, 0.6, 0.0}, box[1], box, &p, x);
+    const double high[2][3] = {{0.25, 0.6, 0.0}, {box[1][0], box[1][1], box[1][2]}};
+    patch_create(s, 1, &high, &box, &p, x);
     assert_null(p.blend); /* even rows alone are looked at */
     patch_free(&p);
     fv_free(&c.s);

@@ -92,10 +92,10 @@ static void fill_fluxes(struct fv *s)
 
 static void make_forcing(struct fv *s)
 {
-    double box[2][3];
+    double box[PARTNERS_MAX][2][3];
     if (s->run->coupled) {
-        coupling_box(s, box);
-        coupling_create(s, (const double(*)[3])box);
+        coupling_boxes(s, box);
+        coupling_create(s);
     } else
         s->forcing = forcing_create(s, 1, (const double(*)[2][3]) & s->prm.hole, false);
 }

@@ -134,10 +134,12 @@ void mesh_state_create(struct fv *s)
 {
     struct faults faults = {0};
     struct run *r = s->run;
-    double box[2][3];
+    double box[PARTNERS_MAX][2][3];
     if (r->coupled)
-        coupling_box(s, box);
-    s->m = mesh_take(r, r->coupled ? (const double(*)[3])box : fv_hole(r), &faults);
+        coupling_boxes(s, box);
+    s->m = r->coupled
+               ? mesh_take(r, s->npartners, (const double(*)[2][3])box, &faults)
+               : mesh_take(r, fv_hole(r) != NULL, (const double(*)[2][3])fv_hole(r), &faults);
     if (!s->m && r->coupled)
         coupling_refuse(s, faults.text);
     if (!s->m)
@@ -164,7 +166,7 @@ void mesh_state_create(struct fv *s)
     s->moving = moving_create(s);
     s->surface = surface_create(s);
     if (r->coupled)
-        coupling_create(s, (const double(*)[3])box);
+        coupling_create(s);
     else if (s->m->has_given)
         s->forcing = forcing_create(s, 0, NULL, false);
     poisson_create(s);

@@ -215,7 +215,7 @@ static void meet_giver(struct fv *s, const struct link *k, struct giver *g)
         s->partner_speed = fmax(s->partner_speed, number[0]);
 }
 
-void coupling_box(struct fv *s, double box[2][3])
+void coupling_boxes(struct fv *s, double box[PARTNERS_MAX][2][3])
 {
     struct link *k = s->link = NEW(struct link, 1);
     char names[PARAM_KIN_MAX][64];
@@ -231,8 +231,8 @@ void coupling_box(struct fv *s, double box[2][3])
         memcpy(g->name, names[q], sizeof g->name);
         meet_giver(s, k, g);
         memcpy(s->partner[q], g->free, sizeof g->free);
+        memcpy(box[q], g->given, sizeof g->given);
     }
-    memcpy(box, k->of[0].given, sizeof k->of[0].given);
 }
 
 /* What the givers give, where their boxes stand. */
@@ -244,22 +244,30 @@ static void given_boxes(const struct link *k, double box[PARTNERS_MAX][2][3])
                 box[q][side][a] = k->of[q].given[side][a] + k->of[q].stands[a];
 }
 
+/* All that they compute, where their boxes stand. */
+static void all_boxes(const struct link *k, double box[PARTNERS_MAX][2][3])
+{
+    for (int q = 0; q < k->n; q++)
+        for (int side = 0; side < 2; side++)
+            for (int a = 0; a < 3; a++)
+                box[q][side][a] = k->of[q].box[side][a] + k->of[q].stands[a];
+}
+
 void coupling_refuse(const struct fv *s, const char *reason) { refuse(s->link, reason); }
 
 /* The cells whose averages the partner is given. */
-static void make_patch(struct fv *s, struct link *k, const double (*given)[3])
+static void make_patch(struct fv *s, struct link *k, const double (*given)[2][3])
 {
-    double lo[3], hi[3], where[3];
+    double box[PARTNERS_MAX][2][3], where[3];
     char reason[500];
-    memcpy(lo, k->of[0].box[0], sizeof lo);
-    memcpy(hi, k->of[0].box[1], sizeof hi);
-    if (patch_create(s, lo, hi, given, &k->patch, where))
+    all_boxes(k, box);
+    if (patch_create(s, k->n, (const double(*)[2][3])box, given, &k->patch, where))
         return;
     snprintf(reason, sizeof reason,
-             "blocks: sph.box (%g, %g, %g) to (%g, %g, %g) m wants the flow at (%g, %g, %g) m, "
-             "within two cells of it, and no block computes it there: move the box away from walls "
-             "that it does not share, or let blocks reach further",
-             lo[0], lo[1], lo[2], hi[0], hi[1], hi[2], where[0], where[1], where[2]);
+             "blocks: sph.box wants the flow at (%g, %g, %g) m, within two cells of it, and no "
+             "block computes it there: move the box away from walls that it does not share, or let "
+             "blocks reach further",
+             where[0], where[1], where[2]);
     refuse(k, reason);
 }
 
@@ -267,8 +275,7 @@ static void compare_walls(struct fv *s, const struct link *k, const double (*giv
 {
     double box[PARTNERS_MAX][2][3];
     char why[400];
-    for (int q = 0; q < k->n; q++)
-        memcpy(box[q], k->of[q].box, sizeof box[q]);
+    all_boxes(k, box);
     if (!shared_walls_agree(s, k->n, given, (const double(*)[2][3])box, why, sizeof why))
         refuse(k, why);
 }
@@ -368,15 +375,13 @@ static void start_past(struct fv *s, double before)
     }
 }
 
-void coupling_create(struct fv *s, const double (*box)[3])
+void coupling_create(struct fv *s)
 {
     struct link *k = s->link;
     double all[PARTNERS_MAX][2][3];
-    if (s->m && k->n > 1)
-        refuse(k, "several programs of particles want fv.cells: blocks are cut around one box");
     given_boxes(k, all);
     if (s->partner_moves[0] || s->partner_moves[1] || s->partner_moves[2])
-        moved_box_prepare(s, (const double(*)[3])all);
+        moved_box_prepare(s, (const double(*)[2][3])all);
     s->forcing = forcing_create(s, k->n, (const double(*)[2][3])all, true);
     if (!s->forcing)
         refuse(k, "no cell of fv lies wholly in the box that sph gives: refine fv.cells (or the "
@@ -388,7 +393,7 @@ void coupling_create(struct fv *s, const double (*box)[3])
                "let them lie in one block, or in blocks that are joined");
     if (s->m)
         compare_walls(s, k, (const double(*)[2][3])all);
-    make_patch(s, k, box);
+    make_patch(s, k, (const double(*)[2][3])all);
     k->seen = seen_size(s);
     k->wish = s->m && k->of[0].pace > 0.0 ? least_height(s) / k->of[0].pace : INFINITY;
     if (s->surface)
@@ -554,14 +559,11 @@ void coupling_summary(const struct fv *s, struct summary *to)
 }
 
 /* The cells that the partner is given, of blocks cut anew. */
-static void move_patch(struct fv *s, struct link *k, double (*given)[3])
+static void move_patch(struct fv *s, struct link *k, const double (*given)[2][3])
 {
-    double lo[3], hi[3], where[3];
-    for (int a = 0; a < 3; a++) {
-        lo[a] = k->of[0].box[0][a] + k->of[0].stands[a];
-        hi[a] = k->of[0].box[1][a] + k->of[0].stands[a];
-    }
-    if (!patch_renew(s, lo, hi, (const double(*)[3])given, &k->patch, where))
+    double box[PARTNERS_MAX][2][3], where[3];
+    all_boxes(k, box);
+    if (!patch_renew(s, k->n, (const double(*)[2][3])box, given, &k->patch, where))
         snprintf(k->lost, sizeof k->lost,
                  "sph wants the flow at (%g, %g, %g) m, and no block computes it there", where[0],
                  where[1], where[2]);
@@ -579,7 +581,7 @@ static bool stand(struct fv *s)
     given_boxes(k, box);
     const bool moved = moved_box(s, k->n, (const double(*)[2][3])box, k->lost);
     if (moved && s->m && !*k->lost)
-        move_patch(s, k, box[0]);
+        move_patch(s, k, (const double(*)[2][3])box);
     if (!moved)
         return false;
     make_room(s, k);

@@ -6,12 +6,13 @@
 #include "../fv.h"
 
 /* fv_coupling.c: the only file here that knows cpl.h. */
-/* Meets the partner: the box whose cells it gives. Before the blocks are made. */
-void coupling_box(struct fv *s, double box[2][3]);
+/* Meets the partners (s->npartners): the boxes whose cells they give. Before the blocks are made.
+ */
+void coupling_boxes(struct fv *s, double box[PARTNERS_MAX][2][3]);
 /* Ends the job: for want of something that this reason says. */
 void coupling_refuse(const struct fv *s, const char *reason);
 /* Lists of what is given, both ways; fields of the start must be there. */
-void coupling_create(struct fv *s, const double (*box)[3]);
+void coupling_create(struct fv *s);
 void coupling_free(struct fv *s);
 /* Fills d where the partner has left out too many cells; share of them; worst one. */
 void coupling_judge(struct fv *s, struct diagnosis *d);

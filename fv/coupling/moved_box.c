@@ -135,19 +135,17 @@ static void tell_trouble(const struct fv *s, char why[256])
     MPI_Bcast(why, 256, MPI_CHAR, least, s->comm);
 }
 
-static void cut(struct fv *s, const double (*box)[3])
+static void cut(struct fv *s, const double (*box)[2][3])
 {
     mesh_recut(s->m, box);
     moving_set_free(s);
 }
 
 /* The lists of blocks cut around the box; NULL: as before. */
-static struct forcing *cut_anew(struct fv *s, const double (*box)[3], char why[256])
+static struct forcing *cut_anew(struct fv *s, const double (*box)[2][3], char why[256])
 {
     struct mesh *m = s->m;
-    const struct mesh_box old = m->given;
-    const double back[2][3] = {{old.lo[0], old.lo[1], old.lo[2]},
-                               {old.hi[0], old.hi[1], old.hi[2]}};
+    const struct mesh_boxes old = m->given;
     unsigned char *was[MESH_BLOCKS_MAX], *local = NEW(unsigned char, s->size);
     double *f[PAST];
     const int n = past_fields(s, f);
@@ -161,7 +159,7 @@ static struct forcing *cut_anew(struct fv *s, const double (*box)[3], char why[2
     if (to)
         fill_hidden(s, was);
     else
-        cut(s, back);
+        cut(s, (const double(*)[2][3])old.box);
     *m->trouble = '\0';
     for (int64_t c = 0; s->born && to && c < s->size; c++)
         s->born[c] = m->status[c] == CELL_COMPUTED && local[c] != CELL_COMPUTED;
@@ -182,7 +180,7 @@ static void renew_pressure(struct fv *s)
 
 /* --- both --- */
 
-void moved_box_prepare(struct fv *s, const double (*box)[3])
+void moved_box_prepare(struct fv *s, const double (*box)[2][3])
 {
     for (int m = 0; m < 2; m++)
         for (int a = 0; a < s->dim; a++)
@@ -199,7 +197,7 @@ void moved_box_prepare(struct fv *s, const double (*box)[3])
 /* The lists for these boxes; NULL: they are the same, or none can be. */
 static struct forcing *new_lists(struct fv *s, int n, const double (*box)[2][3], char why[256])
 {
-    if (s->m && !mesh_recut_wanted(s->m, box[0]))
+    if (s->m && !mesh_recut_wanted(s->m, box))
         return NULL;
     struct forcing *f = s->m ? NULL : forcing_create(s, n, box, true);
     if (f && !differs(s, f)) {
@@ -211,7 +209,7 @@ static struct forcing *new_lists(struct fv *s, int n, const double (*box)[2][3],
         forcing_extend(s, s->forcing->near, s->p_before);
     }
     if (s->m)
-        f = cut_anew(s, box[0], why);
+        f = cut_anew(s, box, why);
     if (!f && !*why)
         snprintf(
             why, 256, "no cell of fv lies wholly in (%g, %g, %g) to (%g, %g, %g) m, what sph gives",

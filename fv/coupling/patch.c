@@ -10,6 +10,12 @@
 
 enum { MARGIN = 4 }; /* cells around the box: a cubic's and one for rounding */
 
+/* Boxes of partners, as patch_create has them. */
+struct partners {
+    int n;
+    const double (*box)[2][3], (*inner)[2][3];
+};
+
 /* The four rows around the middle of a row of the patch, and their weights. */
 static struct blend blend_rows(const struct block *b, double from, double to)
 {
@@ -122,20 +128,29 @@ static int finest_within(const struct fv *s, const struct overset *o, const doub
     return best;
 }
 
-/* The same where the box stands, by its middle unless walls cut that off, or over all places that
- * it may come to. */
-static int finest_at(const struct fv *s, const struct overset *o, const double *lo,
-                     const double *hi, double *h)
+/* The same where the boxes stand, by their middles unless walls cut those off, or over all places
+ * that they may come to. */
+static int finest_at(const struct fv *s, const struct overset *o, const struct partners *by,
+                     double *h)
 {
     const struct scene_domain *d = &s->run->scene.domain;
-    double middle[3], from[3], to[3];
-    for (int a = 0; a < 3; a++) {
-        middle[a] = 0.5 * (lo[a] + hi[a]);
-        from[a] = s->m->search && s->partner_moves[a] ? d->min[a] : middle[a];
-        to[a] = s->m->search && s->partner_moves[a] ? d->max[a] : middle[a];
+    int best = -1;
+    for (int q = 0; q < by->n; q++) {
+        const double *lo = by->box[q][0], *hi = by->box[q][1];
+        double from[3], to[3], here;
+        for (int a = 0; a < 3; a++) {
+            const bool moves = s->m->search && s->partner_moves[a];
+            from[a] = moves ? d->min[a] : 0.5 * (lo[a] + hi[a]);
+            to[a] = moves ? d->max[a] : 0.5 * (lo[a] + hi[a]);
+        }
+        int k = finest_within(s, o, from, to, &here);
+        k = k >= 0 ? k : finest_within(s, o, lo, hi, &here);
+        if (k >= 0 && (best < 0 || here < *h)) {
+            best = k;
+            *h = here;
+        }
     }
-    const int k = finest_within(s, o, from, to, h);
-    return k >= 0 ? k : finest_within(s, o, lo, hi, h);
+    return best;
 }
 
 static bool is_plain(const struct mesh_block *b)
@@ -183,9 +198,10 @@ static void share(const struct fv *s, struct patch *p)
 
 /* Whether the partner may look at a cell: it does not deep in its own part, which ends nowhere at
  * the domain's sides. */
-static bool is_wanted(const struct fv *s, const struct patch *p, const double *place,
-                      const double *lo, const double *hi, const double (*inner)[3])
+static bool is_wanted_by(const struct fv *s, const struct patch *p, const double *place,
+                         const double (*box)[3], const double (*inner)[3])
 {
+    const double *lo = box[0], *hi = box[1];
     bool around = true, deep = true;
     for (int a = 0; a < p->dim; a++) {
         const struct scene_domain *d = &s->run->scene.domain;
@@ -199,9 +215,18 @@ static bool is_wanted(const struct fv *s, const struct patch *p, const double *p
     return around && !deep;
 }
 
+static bool is_wanted(const struct fv *s, const struct patch *p, const double *place,
+                      const struct partners *by)
+{
+    bool wanted = false;
+    for (int q = 0; q < by->n && !wanted; q++)
+        wanted = is_wanted_by(s, p, place, by->box[q], by->inner[q]);
+    return wanted;
+}
+
 /* Donors of this rank's cells; false: one that is wanted has none, at `where'. */
-static bool find_donors(const struct fv *s, struct overset *o, struct patch *p, const double *lo,
-                        const double *hi, const double (*inner)[3], double *where)
+static bool find_donors(const struct fv *s, struct overset *o, struct patch *p,
+                        const struct partners *by, double *where)
 {
     struct mesh_request *request = mem_new((size_t)p->n + 1, sizeof *request);
     struct block_walls *walls = block_walls_create(s->m);
@@ -221,7 +246,7 @@ static bool find_donors(const struct fv *s, struct overset *o, struct patch *p, 
                 overset_sample_beyond(s->m, wall.block, wall.cell, x, request + n, weight + 64 * n);
         if (p->known[i])
             request[n++].in = i;
-        else if (good && !behind && is_wanted(s, p, x, lo, hi, inner)) {
+        else if (good && !behind && is_wanted(s, p, x, by)) {
             good = false;
             memcpy(where, x, sizeof x);
         }
@@ -262,36 +287,59 @@ static void make_grid(const struct fv *s, int k, const double *lo, const double 
     p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
 }
 
-bool patch_create(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
-                  struct patch *p, double *where)
+/* The box around all of them. */
+static void find_hull(const struct partners *by, double lo[3], double hi[3])
 {
-    *p = (struct patch){.dim = s->dim};
-    if (!s->m) {
-        of_grid(s, p);
-        if (s->b.rows && lo && (s->partner_moves[1] || !in_even_rows(s, lo[1])))
-            blend_grid(&s->b, p);
-        p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
-        return true;
+    for (int a = 0; a < 3; a++) {
+        lo[a] = INFINITY;
+        hi[a] = -INFINITY;
+        for (int q = 0; q < by->n; q++) {
+            lo[a] = fmin(lo[a], by->box[q][0][a]);
+            hi[a] = fmax(hi[a], by->box[q][1][a]);
+        }
     }
+}
+
+static bool create_on_blocks(const struct fv *s, const struct partners *by, struct patch *p,
+                             double *where)
+{
     struct overset *o = s->m->search ? s->m->search : overset_search(s->run, s->m);
-    double h;
+    double h, lo[3], hi[3];
+    find_hull(by, lo, hi);
     for (int a = 0; a < s->dim; a++)
         where[a] = 0.5 * (lo[a] + hi[a]);
-    const int k = finest_at(s, o, lo, hi, &h);
+    const int k = finest_at(s, o, by, &h);
     if (k >= 0)
         make_grid(s, k, lo, hi, h, p);
-    const bool good = k >= 0 && agree(s, find_donors(s, o, p, lo, hi, inner, where), where);
+    const bool good = k >= 0 && agree(s, find_donors(s, o, p, by, where), where);
     if (!s->m->search)
         overset_free(&o);
     return good;
 }
 
-bool patch_renew(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
+bool patch_create(const struct fv *s, int n, const double (*box)[2][3], const double (*inner)[2][3],
+                  struct patch *p, double *where)
+{
+    const struct partners by = {n, box, inner};
+    double lo[3], hi[3];
+    *p = (struct patch){.dim = s->dim};
+    if (s->m)
+        return create_on_blocks(s, &by, p, where);
+    of_grid(s, p);
+    find_hull(&by, lo, hi);
+    if (s->b.rows && box && (s->partner_moves[1] || !in_even_rows(s, lo[1])))
+        blend_grid(&s->b, p);
+    p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
+    return true;
+}
+
+bool patch_renew(const struct fv *s, int n, const double (*box)[2][3], const double (*inner)[2][3],
                  struct patch *p, double *where)
 {
+    const struct partners by = {n, box, inner};
     mesh_exchange_free(&p->sample);
     mem_free(p->known);
-    return agree(s, find_donors(s, s->m->search, p, lo, hi, inner, where), where);
+    return agree(s, find_donors(s, s->m->search, p, &by, where), where);
 }
 
 void patch_free(struct patch *p)

@@ -1,6 +1,6 @@
 /* patch.h - what a partner is given: the cells of a uniform grid. Of fv.cells those themselves;
  * where the partner may come to uneven rows, the even ones go on below, with averages by cubics; of
- * blocks a box around the partner's, whose averages come from the blocks' cells by cubics. Where
+ * blocks a box around the partners', whose averages come from the blocks' cells by cubics. Where
  * the finest block there is a plain box, they are its cells.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_PATCH_H
@@ -27,13 +27,13 @@ struct patch {
     bool *known;                 /* [n] of blocks: some block gives a value */
 };
 
-/* lo, hi: the box in which the partner may look, NULL: in even rows alone; inner (lower, upper
- * corner): within it and away from its outline the partner does not look, so blocks need not have
- * values there. where: a place (m) that wants a value and finds none; false then. Collective. */
-bool patch_create(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
+/* box (lower, upper corner): where each of n partners may look, NULL: in even rows alone; inner:
+ * within it and away from its outline it does not look, so blocks need not have values there.
+ * where: a place (m) that wants a value and finds none; false then. Collective. */
+bool patch_create(const struct fv *s, int n, const double (*box)[2][3], const double (*inner)[2][3],
                   struct patch *p, double *where);
-/* Of blocks cut anew around a box that moves, which stands there now. */
-bool patch_renew(const struct fv *s, const double *lo, const double *hi, const double (*inner)[3],
+/* Of blocks cut anew around boxes that move, which stand there now. */
+bool patch_renew(const struct fv *s, int n, const double (*box)[2][3], const double (*inner)[2][3],
                  struct patch *p, double *where);
 void patch_free(struct patch *p);
 /* Centre of the local cell with this number. */

@@ -17,6 +17,7 @@
 
 enum {
     MESH_BLOCKS_MAX = 16,
+    MESH_BOXES_MAX = 8,   /* of given cells */
     MESH_GHOSTS = 3,      /* layers of cells */
     MESH_VERTICES = 5,    /* layers of vertices behind the sides */
     MESH_GIVEN_LAYERS = 4 /* of given cells that get values */
@@ -30,9 +31,10 @@ enum mesh_mapping {
 };
 enum mesh_status { CELL_COMPUTED, CELL_FRINGE, CELL_HOLE, CELL_GIVEN };
 
-/* Cells of all blocks that lie wholly in a box are given. */
-struct mesh_box {
-    double lo[3], hi[3];
+/* Cells of all blocks that lie wholly in one of n boxes (lower, upper corner) are given. */
+struct mesh_boxes {
+    int n;
+    double box[MESH_BOXES_MAX][2][3];
     double period[3]; /* m: of the domain, 0: none */
     int layers;       /* of given cells that get values */
 };
@@ -123,7 +125,7 @@ struct mesh {
     int64_t fringe_cells; /* of all blocks */
     int64_t linear;       /* of these, by linear interpolation alone */
     int64_t given_cells;  /* of all blocks, near computed ones */
-    struct mesh_box given;
+    struct mesh_boxes given;
     bool has_fringe, has_given, moves;
     int64_t nfringe;
     struct mesh_fringe *fringes;
@@ -192,28 +194,29 @@ void mesh_fault(const struct run *r, struct faults *f, int block, const char *ke
 /* mesh_given.c: status of the cells in m->given; what lies deep in it becomes a hole; no psi passes
  * the faces of given cells. */
 void mesh_given_mark(struct mesh *m);
-/* Whether all corners of a cell lie in the box, some periods away. */
+/* Whether all corners of a cell lie in one of the boxes, some periods away. */
 bool mesh_given_holds(const struct mesh *m, const struct mesh_block *b, int64_t c);
 void mesh_given_trim(struct mesh *m);
 void mesh_given_close(struct mesh *m);
 /* mesh_metrics.c: open, as sides have it. */
 void mesh_open_faces(struct mesh *m);
-/* mesh_recut.c: whether other cells lie in this box than in m->given; blocks cut around it. Where
- * blocks overlap m->search is there; m->trouble, see overset.h. Collective. */
-bool mesh_recut_wanted(const struct mesh *m, const double (*box)[3]);
-void mesh_recut(struct mesh *m, const double (*box)[3]);
+/* mesh_recut.c: whether other cells lie in these boxes, as many as before, than in m->given; blocks
+ * cut around them. Where blocks overlap m->search is there; m->trouble, see overset.h. Collective.
+ */
+bool mesh_recut_wanted(const struct mesh *m, const double (*box)[2][3]);
+void mesh_recut(struct mesh *m, const double (*box)[2][3]);
 /* The computed neighbours of a given cell c of this rank whose mean its psi is, as steps along the
  * indices; their number, 0: none is near. */
 enum { MESH_SOURCES = 12 };
 int mesh_given_sources(const struct mesh *m, const struct part *p, int64_t c, int (*offset)[3]);
 
-/* mesh_create.c: NULL if there are faults. Cells within `box' (lo, hi; NULL: none) are given.
+/* mesh_create.c: NULL if there are faults. Cells within the n boxes (lo, hi) are given.
  * Collective. */
-struct mesh *mesh_create(const struct run *r, const double (*box)[3], struct faults *f);
+struct mesh *mesh_create(const struct run *r, int n, const double (*box)[2][3], struct faults *f);
 void mesh_free(struct mesh **m);
-/* That which was left for the same case and box, else a new one; leaves one to who takes it next.
+/* That which was left for the same case and boxes, else a new one; leaves one to who takes it next.
  */
-struct mesh *mesh_take(const struct run *r, const double (*box)[3], struct faults *f);
+struct mesh *mesh_take(const struct run *r, int n, const double (*box)[2][3], struct faults *f);
 void mesh_leave(struct mesh **m);
 double *mesh_field(const struct mesh *m);
 /* What the local cells are, from what the blocks' are. */

@@ -181,19 +181,19 @@ void mesh_set_status(struct mesh *m)
     }
 }
 
-static void set_box(const struct run *r, struct mesh *m, const double (*box)[3])
+static void set_boxes(const struct run *r, struct mesh *m, int n, const double (*box)[2][3])
 {
-    m->has_given = box != NULL;
+    const struct scene_domain *d = &r->scene.domain;
+    m->has_given = n > 0;
+    m->given.n = n;
     m->given.layers = MESH_GIVEN_LAYERS;
-    for (int a = 0; a < 3 && box; a++) {
-        const struct scene_domain *d = &r->scene.domain;
-        m->given.lo[a] = box[0][a];
-        m->given.hi[a] = box[1][a];
+    if (n > 0)
+        memcpy(m->given.box, box, (size_t)n * sizeof *box);
+    for (int a = 0; a < 3; a++)
         m->given.period[a] = d->periodic[a] ? d->max[a] - d->min[a] : 0.0;
-    }
 }
 
-struct mesh *mesh_create(const struct run *r, const double (*box)[3], struct faults *f)
+struct mesh *mesh_create(const struct run *r, int n, const double (*box)[2][3], struct faults *f)
 {
     struct mesh *m = NEW(struct mesh, 1);
     const struct mesh_block_params *prm = mesh_block_params();
@@ -202,7 +202,7 @@ struct mesh *mesh_create(const struct run *r, const double (*box)[3], struct fau
     m->prm_of = r->params;
     m->dim = r->scene.domain.dim;
     m->nblocks = mesh_block_count();
-    set_box(r, m, box);
+    set_boxes(r, m, n, box);
     MPI_Comm_rank(m->comm, &m->rank);
     MPI_Comm_size(m->comm, &m->size);
     for (int k = 0; k < m->nblocks; k++) {
@@ -276,21 +276,19 @@ void mesh_free(struct mesh **mp)
 /* The mesh that was checked last: the description and the state are made of it, not of another. */
 static struct mesh *checked;
 
-static bool same_box(const struct mesh *m, const double (*box)[3])
+static bool same_boxes(const struct mesh *m, int n, const double (*box)[2][3])
 {
-    return m->has_given == (box != NULL) &&
-           (!box || (memcmp(m->given.lo, box[0], sizeof box[0]) == 0 &&
-                     memcmp(m->given.hi, box[1], sizeof box[1]) == 0));
+    return m->given.n == n && (n == 0 || memcmp(m->given.box, box, (size_t)n * sizeof *box) == 0);
 }
 
-struct mesh *mesh_take(const struct run *r, const double (*box)[3], struct faults *f)
+struct mesh *mesh_take(const struct run *r, int n, const double (*box)[2][3], struct faults *f)
 {
     struct mesh *m = checked;
     checked = NULL;
-    if (m && m->comm == r->comm && m->prm_of == r->params && !m->moves && same_box(m, box))
+    if (m && m->comm == r->comm && m->prm_of == r->params && !m->moves && same_boxes(m, n, box))
         return m;
     mesh_free(&m);
-    return mesh_create(r, box, f);
+    return mesh_create(r, n, box, f);
 }
 
 void mesh_leave(struct mesh **m)

@@ -1,4 +1,4 @@
-/* mesh_given.c - the cells of blocks that a box holds: their velocity is given from outside of the
+/* mesh_given.c - the cells of blocks that boxes hold: their velocity is given from outside of the
  * mesh. Marked before blocks are cut, for they can give values as computed ones can; cells of the
  * fringe that find no computed donors beside them join them.
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -6,24 +6,33 @@
 
 #include "mesh.h"
 
-bool mesh_given_holds(const struct mesh *m, const struct mesh_block *b, int64_t c)
+static bool is_in(const struct mesh *m, const struct mesh_block *b, int64_t c,
+                  const double (*box)[3])
 {
-    const struct mesh_box *box = &m->given;
+    const double *period = m->given.period;
     double move[3] = {0.0, 0.0, 0.0};
     int i[3];
     mesh_index(b, c, i);
     const double eps = 1e-9 * pow(b->volume[c], 1.0 / m->dim);
     for (int a = 0; a < m->dim; a++)
-        if (box->period[a] > 0.0)
-            move[a] = box->period[a] * floor((b->centre[c][a] - box->lo[a]) / box->period[a]);
+        if (period[a] > 0.0)
+            move[a] = period[a] * floor((b->centre[c][a] - box[0][a]) / period[a]);
     for (int k = 0; k < 1 << m->dim; k++) {
         const double *x =
             b->x[mesh_vertex(b, i[0] + (k & 1), i[1] + (k >> 1 & 1), i[2] + (k >> 2 & 1))];
         for (int a = 0; a < m->dim; a++)
-            if (x[a] - move[a] < box->lo[a] - eps || x[a] - move[a] > box->hi[a] + eps)
+            if (x[a] - move[a] < box[0][a] - eps || x[a] - move[a] > box[1][a] + eps)
                 return false;
     }
     return true;
+}
+
+bool mesh_given_holds(const struct mesh *m, const struct mesh_block *b, int64_t c)
+{
+    bool inside = false;
+    for (int k = 0; k < m->given.n && !inside; k++)
+        inside = is_in(m, b, c, (const double(*)[3])m->given.box[k]);
+    return inside;
 }
 
 void mesh_given_mark(struct mesh *m)

@@ -47,7 +47,7 @@ static void names_of(const struct wall_mesh *m, char x[80], char v[80])
 static void write_meshes(const struct sph *s)
 {
     char path[1200], x[80], v[80];
-    snprintf(path, sizeof path, "%s/sph_walls.h5", s->run->dir);
+    snprintf(path, sizeof path, "%s/%s_walls.h5", s->run->dir, s->run->name);
     struct h5 *f = h5_create(s->run->comm, path);
     for (int k = 0; k < s->walls->nmeshes; k++) {
         const struct wall_mesh *m = s->walls->meshes + k;
@@ -63,9 +63,10 @@ static void write_meshes(const struct sph *s)
 
 static void show(const struct sph *s, const char *file)
 {
-    static const char own[] = "sph_walls.h5";
+    char own[80];
     struct xdmf_surface of[SURFACES];
     int n = 0;
+    snprintf(own, sizeof own, "%.60s_walls.h5", s->run->name);
     for (int k = 0; k < s->walls->nmeshes; k++) {
         const struct wall_mesh *m = s->walls->meshes + k;
         if (!is_shown(m))
@@ -100,7 +101,7 @@ static void show_outlines(struct sph *s, struct h5 *f, const struct xdmf *x, con
     }
     if (x && !w->view) {
         char path[1200];
-        snprintf(path, sizeof path, "%s/sph_walls.xdmf", s->run->dir);
+        snprintf(path, sizeof path, "%s/%s_walls.xdmf", s->run->dir, s->run->name);
         w->view = xdmf_create(path, s->run->restart, s->t);
     }
     if (x)
@@ -134,7 +135,7 @@ void wall_files_snapshot(struct sph *s, struct h5 *f, const struct xdmf *x, cons
         return;
     if (!w->view) {
         char path[1200];
-        snprintf(path, sizeof path, "%s/sph_walls.xdmf", s->run->dir);
+        snprintf(path, sizeof path, "%s/%s_walls.xdmf", s->run->dir, s->run->name);
         w->view = xdmf_create(path, s->run->restart && moving, s->t);
     }
     show(s, file);

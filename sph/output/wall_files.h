@@ -5,7 +5,7 @@
 
 #include "../sph.h"
 
-/* With the first snapshot of a run sph_walls.h5 and .xdmf; of bodies their places into each
+/* With the first snapshot of a run NAME_walls.h5 and .xdmf; of bodies their places into each
  * snapshot f, `file' its name. x: NULL except on rank 0. Collective. */
 void wall_files_snapshot(struct sph *s, struct h5 *f, const struct xdmf *x, const char *file);
 /* Hashes of the meshes into a restart file; whether they are those of the case, said if not. */

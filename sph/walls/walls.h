@@ -96,7 +96,7 @@ struct walls {
     double approach[BODIES_MAX][BODIES_MAX + 1]; /* m/s: at the first touch of a pair, last: walls
                                                     at rest; 0: apart */
     struct wall_forces forces;
-    bool shown;        /* sph_walls.h5 is written; wall_files.h */
+    bool shown;        /* NAME_walls.h5 is written; wall_files.h */
     struct xdmf *view; /* its XDMF file; rank 0 */
     int64_t returned;  /* particles found behind walls and put back; this rank */
 };
