@@ -161,6 +161,12 @@ done
 same_bits bed bed_half || bad "on blocks a restarted run gives other bits: $(tail -n 2 diff.txt)"
 grep -q 'left the region' bed.txt && bad "bed: particles came in behind it: $(grep 'left the region' bed.txt | tail -n 1)"
 
+# a dam that breaks out of sph into fv on a block: phi of the partner's cells is a distance, far from its water, too
+sed 's/^fv: .*/fv: {};/; $ a blocks: ( { name = "all"; cells = (64, 24); max = (1.6, 0.6); } );' \
+    "$root/cases/dam_break_crossing/case.cfg" >dam.cfg
+job dam 1:1:1 dam.cfg -p time.end=0.35 -p output.snapshots=false
+below "$(number dam water_missing)" 0.003 || bad "dam on a block: $(number dam water_missing) of the water is missing, wanted at most 0.003"
+
 # two boxes with their bodies on blocks that overlap between them, one of them stretched
 sed '/^fv: /d' own.cfg >own_blocks.cfg
 cat >>own_blocks.cfg <<'CASE'

@@ -5,10 +5,12 @@
 #include "mesh_file.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <hdf5.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "../../common/mem.h"
 
@@ -211,10 +213,14 @@ double *mesh_file_read(const struct run *r, struct faults *f, int block,
         const size_t m = strlen(p->file);
         x = m > 3 && strcmp(p->file + m - 3, ".h5") == 0 ? read_hdf5(path, dim, cells)
                                                          : read_plot3d(path, p->zone, dim, cells);
-        good = x != NULL;
+        good = x ? 1 : access(path, R_OK) ? -errno : 0;
     }
     MPI_Bcast(&good, 1, MPI_INT, 0, r->comm);
     MPI_Bcast(cells, 3, MPI_INT, 0, r->comm);
+    if (good < 0) {
+        mesh_fault(r, f, block, "file", "%s cannot be read: %s", path, strerror(-good));
+        return NULL;
+    }
     if (!good) {
         mesh_fault(r, f, block, "file",
                    "%s holds no vertices of %dD blocks (HDF5: dataset x[k][j][i][%d]; else Plot3D "

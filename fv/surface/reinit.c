@@ -11,6 +11,7 @@
 #include "../../common/mem.h"
 #include "../boundary/blocked.h"
 #include "mesh_view.h"
+#include "surface_forced.h"
 #include "weno.h"
 
 enum { WIDTH = 8 };             /* cells on either side of the surface that are worked on */
@@ -264,7 +265,10 @@ static bool beside_surface(const struct fv *s, const struct part *p, const doubl
 /* Cells that no reinitialisation changes: boxes, and on blocks those that others interpolate. */
 static bool is_left_out(const struct fv *s, int64_t c)
 {
-    return s->m ? s->m->status[c] != CELL_COMPUTED : is_blocked(s, c);
+    const struct surface_forced *p = s->surface->forced;
+    if (!s->m)
+        return is_blocked(s, c);
+    return s->m->status[c] != CELL_COMPUTED && !(p && p->holds[c]);
 }
 
 /* mark = 1 within WIDTH cells of the surface, whatever phi says there: it may be old. */

@@ -107,6 +107,9 @@ struct surface_forced *surface_forced_create(const struct fv *s)
         if (g->forced[c] == 1 || (s->m && is_deep(s, p_, c)))
             f->cell[f->n++] = c;
     f->nforced = f->n;
+    f->holds = s->m ? NEW(bool, s->size) : NULL;
+    for (int64_t i = 0; i < f->n && s->m; i++)
+        f->holds[f->cell[i]] = true;
     for (int64_t i = g->npartner; i < g->npartner + g->nrim; i++)
         f->cell[f->n++] = g->partner[i];
     f->h = largest(s, f);
@@ -128,6 +131,7 @@ void surface_forced_free(struct surface_forced **fp)
     if (!f)
         return;
     mem_free(f->cell);
+    mem_free(f->holds);
     mem_free(f->first);
     mem_free(f->x);
     mem_free(f->profile);

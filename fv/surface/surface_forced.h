@@ -7,6 +7,7 @@
 
 struct surface_forced {
     int64_t nforced, n, *cell; /* local: forced ones, then free ones beside the outline */
+    bool *holds;               /* [size] of blocks: the former; NULL: even cells */
     int64_t nplaces, *first;   /* [n + 1] places of each cell: its centre, images beyond walls */
     double *x;                 /* [nplaces][3] m */
     double h, R;               /* m: largest spacing of these cells; support of the kernel */

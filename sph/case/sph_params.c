@@ -663,8 +663,11 @@ void sph_params_check(const struct run *r, struct faults *f)
                      "standard has no dissipation of density and diverges at normal flux walls, "
                      "which polylines and bodies need: take riemann, riemann_ale or delta");
     for (int k = 0; k < r->scene.nwalls; k++)
-        if (is_coupled(r) && r->scene.walls[k].carried)
-            params_fault(r->params, f, "walls", "wall %d: carried is not for this solver", k + 1);
+        if (is_coupled(r) && !r->crossed && r->scene.walls[k].carried)
+            params_fault(r->params, f, "walls",
+                         "wall %d: without a surface that crosses sph.box nothing but an outflow "
+                         "sets the pressure of a coupled job: give it one, leave out carried",
+                         k + 1);
     if (sph_params_of(r)->c0 <= 0.0)
         params_fault(r->params, f, "sph.c0", "must be given: the scene has no scale of velocity");
     check_steps(r, f);
