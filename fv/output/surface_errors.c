@@ -1,6 +1,7 @@
 /* surface_errors.c - what the water does as a whole: energy, reach, levels, period and damping of a
  * standing wave. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../../common/mem.h"
@@ -8,6 +9,7 @@
 #include "../boundary/forcing.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
+#include "../surface/surface_forced.h"
 #include "../boundary/still.h"
 #include "output.h"
 
@@ -62,6 +64,36 @@ static double foot_of_water(const struct fv *s, const int *at, int64_t c, int a)
     return end + more;
 }
 
+/* What foot_of_water adds, on blocks: to the place `end' along axis a of the surface between cell i
+ * of a part and that at step d. */
+static double foot_on_blocks(const struct fv *s, const struct part *p, int64_t i, int64_t d, int a,
+                             double end)
+{
+    const struct surface_mesh *w = s->surface->mesh;
+    const double *phi = s->surface->phi, *x = w->x[a], h = fabs(x[i + d] - x[i]);
+    double more = 0.0;
+    for (int b = 0; b < 2 * s->dim; b++) {
+        const int64_t in = b % 2 ? -p->stride[b / 2] : p->stride[b / 2];
+        double next = NAN;
+        if (llabs(d) == p->stride[b / 2] || !w->out[i - in])
+            continue;
+        for (int m = 0; m <= 2 && !isfinite(next); m++) {
+            const int64_t k = i + in - m * d;
+            if (!w->out[k] && !w->out[k + d] && phi[k] < 0.0 && phi[k + d] >= 0.0)
+                next = x[k] + phi[k] / (phi[k] - phi[k + d]) * (x[k + d] - x[k]);
+        }
+        more = fmax(more, isfinite(next) ? fmin(0.5 * (end - next), h) : h);
+    }
+    return more;
+}
+
+/* Cells of the flow, and a partner's. */
+static bool has_water(const struct fv *s, int64_t c)
+{
+    const struct surface_forced *p = s->surface->forced;
+    return s->surface->phi[c] < 0.0 && (s->m->status[c] == CELL_COMPUTED || (p && p->holds[c]));
+}
+
 /* On blocks: to the surface along the indices, or to a wall. */
 static double reach_on_blocks(const struct fv *s, int a)
 {
@@ -70,10 +102,14 @@ static double reach_on_blocks(const struct fv *s, int a)
     double most = -INFINITY;
     FLOW_ROWS(s, c, n)
     for (int64_t i = c; i < c + n; i++)
-        for (int b = 0; b < 2 * s->dim && s->free[i] > 0.0; b++) {
-            const int64_t to = b % 2 ? i + p_->stride[b / 2] : i - p_->stride[b / 2];
-            const double way = w->out[to] || phi[to] < 0.0 ? 0.5 : phi[i] / (phi[i] - phi[to]);
-            most = fmax(most, x[i] + way * (x[to] - x[i]));
+        for (int b = 0; b < 2 * s->dim && has_water(s, i); b++) {
+            const int64_t d = b % 2 ? p_->stride[b / 2] : -p_->stride[b / 2], to = i + d;
+            const bool inside = w->out[to] || phi[to] < 0.0;
+            const double way = inside ? 0.5 : phi[i] / (phi[i] - phi[to]);
+            const double end = x[i] + way * (x[to] - x[i]);
+            most = fmax(most, end);
+            if (!inside && end > x[i])
+                most = fmax(most, end + foot_on_blocks(s, p_, i, d, a, end));
         }
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     return most;
