@@ -381,6 +381,40 @@ static void stand(struct sph *s, double way)
 
 /* Behind one of constant speed it does not lag; it stays within the domain, and rests where there
  * is none. */
+/* A bed rises through both open sides: their faces are cut off below it, however deep. */
+static void faces_end_at_a_bed(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        struct sph_case c;
+        const double low = 0.05 + 0.06 * k, high = 0.45 - 0.03 * k;
+        sph_case_set(&c, 2, 50);
+        struct scene *e = &c.run.scene;
+        e->domain.periodic[0] = e->domain.periodic[1] = false;
+        e->initial.field = FIELD_REST;
+        e->coupling.transition = e->coupling.buffer = e->coupling.overlap = 0.08;
+        e->walls[0] = (struct scene_wall){.side = SIDE_Y_MIN, .kind = WALL_SLIP};
+        e->walls[1] = (struct scene_wall){.side = SIDE_Y_MAX, .kind = WALL_SLIP};
+        e->walls[2] = (struct scene_wall){.kind = WALL_SLIP,
+                                          .points = {.n = 2, .x = {{0.0, low}, {1.0, high}}}};
+        e->nwalls = 3;
+        c.prm.outer = OUTER_PARTNER;
+        c.prm.box[0][0] = 0.2;
+        c.prm.box[1][0] = 0.8;
+        c.prm.box[1][1] = 1.0;
+        c.s = sph_create(&c.run, &c.prm, NULL);
+        const struct openings *o = c.s->zones->openings;
+        assert_true(openings_faces(o) == 100);
+        for (int f = 0; f < openings_faces(o); f++) {
+            double x[3];
+            (void)openings_place(o, f, x);
+            const double bed = low + x[0] * (high - low), above = (x[1] - bed) / o->dx + 0.5;
+            assert_close(o->room[f], fmin(1.0, fmax(0.0, above)), 0.07);
+        }
+        sph_free(&c.s);
+    }
+}
+
 static void a_box_goes_with_a_crest(void **state)
 {
     static const bool along[3] = {true, false, false};
@@ -418,6 +452,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_box_goes_with_a_crest),
+        cmocka_unit_test(faces_end_at_a_bed),
         cmocka_unit_test(voids_wait_where_a_surface_crosses),
         cmocka_unit_test(aligned_flow_keeps_the_lattice),
         cmocka_unit_test(oblique_flow_leaves_no_clusters),

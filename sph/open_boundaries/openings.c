@@ -77,14 +77,13 @@ void openings_find_room(const struct sph *s, struct openings *o)
     for (int f = 0; f < openings_faces(o) && has_lines(s); f++) {
         double x[3], y[3];
         const int along = 1 - openings_place(o, f, x) / 2;
-        const double middle = walls_distance(s->walls, x, 2.0 * s->R);
-        int before = middle > 0.0 ? POINTS : 0;
-        if (fabs(middle) < o->dx)
-            before = 0;
-        for (int k = 0; k < POINTS && fabs(middle) < o->dx; k++) {
+        const double middle = walls_distance(s->walls, x, INFINITY);
+        const bool cut = fabs(middle) < o->dx;
+        int before = !cut && middle > 0.0 ? POINTS : 0;
+        for (int k = 0; k < POINTS && cut; k++) {
             memcpy(y, x, sizeof y);
             y[along] += ((k + 0.5) / POINTS - 0.5) * o->dx;
-            before += walls_distance(s->walls, y, 2.0 * s->R) > 0.0;
+            before += walls_distance(s->walls, y, INFINITY) > 0.0;
         }
         o->room[f] = o->share[f] = (double)before / POINTS;
     }
