@@ -1,0 +1,111 @@
+/* forced_restart.c - see forced_restart.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "forced_restart.h"
+
+#include <stdlib.h>
+
+#include "../../common/h5.h"
+#include "../../common/mem.h"
+#include "../boundary/forcing.h"
+#include "../grid/layout.h"
+
+static const char *const forced_names[3][3] = {
+    {"v_x", "v_y", "v_z"}, {"w_x", "w_y", "w_z"}, {"o_x", "o_y", "o_z"}};
+
+static double *forced_at(const struct forcing *f, int m, int a)
+{
+    return m == 0 ? f->v[a] : m == 1 ? f->v_next[a] : f->v_old[a];
+}
+
+void forced_save(const struct fv *s, struct h5 *f)
+{
+    const struct forcing *c = s->forcing;
+    const double clock[4] = {c->t0, c->t1, c->t_old, c->levels};
+    const int64_t n = c->npartner + c->nrim;
+    int64_t *number = NEW(int64_t, n);
+    for (int64_t i = 0; i < n; i++)
+        number[i] = forcing_number(s, c->partner[i]);
+    h5_write_int(f, "forced_cells", n, number);
+    mem_free(number);
+    h5_write_real(f, "forced_levels", "-", 4, 1, clock, false);
+    for (int m = 0; m < 3; m++)
+        for (int a = 0; a < s->dim; a++)
+            h5_write_real(f, forced_names[m][a], "m/s", n, 1, forced_at(c, m, a), false);
+}
+
+struct numbered {
+    int64_t number, row;
+};
+
+static int by_number(const void *a, const void *b)
+{
+    const int64_t x = ((const struct numbered *)a)->number,
+                  y = ((const struct numbered *)b)->number;
+    return (x > y) - (x < y);
+}
+
+/* Rows of the forced cells in a file of another number of ranks: row[i] of partner[i]; false if
+ * one is not there. */
+static bool find_rows(const struct fv *s, struct h5 *f, int64_t *row)
+{
+    const struct forcing *c = s->forcing;
+    int64_t n;
+    int64_t *number = h5_read_all_int(f, "forced_cells", &n);
+    struct numbered *all = mem_new((size_t)(number ? n : 0), sizeof *all);
+    int good = number != NULL;
+    for (int64_t k = 0; number && k < n; k++)
+        all[k] = (struct numbered){number[k], k};
+    if (number)
+        qsort(all, (size_t)n, sizeof *all, by_number);
+    for (int64_t i = 0; good && i < c->npartner + c->nrim; i++) {
+        const struct numbered key = {forcing_number(s, c->partner[i]), 0};
+        const struct numbered *at = bsearch(&key, all, (size_t)n, sizeof *all, by_number);
+        good = at != NULL;
+        row[i] = at ? at->row : 0;
+    }
+    mem_free(all);
+    mem_free(number);
+    MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, s->comm);
+    return good;
+}
+
+static bool gather_forced(const struct fv *s, struct h5 *f)
+{
+    const struct forcing *c = s->forcing;
+    int64_t *row = NEW(int64_t, c->npartner + c->nrim), n;
+    bool good = find_rows(s, f, row);
+    for (int k = 0; good && k < 3 * s->dim; k++) {
+        double *to = forced_at(c, k / s->dim, k % s->dim);
+        double *all = h5_read_all_real(f, forced_names[k / s->dim][k % s->dim], 1, &n);
+        good = all != NULL;
+        for (int64_t i = 0; good && i < c->npartner + c->nrim; i++)
+            to[i] = all[row[i]];
+        mem_free(all);
+    }
+    mem_free(row);
+    return good;
+}
+
+static bool load_forced(const struct fv *s, struct h5 *f)
+{
+    const struct forcing *c = s->forcing;
+    bool good = true;
+    if (!layout_same_ranks(f, s->run->size))
+        return gather_forced(s, f);
+    for (int m = 0; m < 3; m++)
+        for (int a = 0; a < s->dim; a++)
+            good = good && h5_read_real(f, forced_names[m][a], c->npartner + c->nrim, 1,
+                                        forced_at(c, m, a));
+    return good;
+}
+
+bool forced_load(const struct fv *s, struct h5 *f)
+{
+    struct forcing *c = s->forcing;
+    double clock[4] = {0.0};
+    const bool good = h5_read_same(f, "forced_levels", 4, clock) && load_forced(s, f);
+    c->t0 = clock[0];
+    c->t1 = clock[1];
+    c->t_old = clock[2];
+    c->levels = (int)clock[3];
+    return good;
+}

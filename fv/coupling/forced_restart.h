@@ -1,0 +1,12 @@
+/* forced_restart.h - a partner's velocities at three times in a restart file, by the numbers of
+ * their cells, so that other ranks find them. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_FORCED_RESTART_H
+#define FV_FORCED_RESTART_H
+
+#include "../fv.h"
+
+/* Of s->forcing. Collective. */
+void forced_save(const struct fv *s, struct h5 *f);
+bool forced_load(const struct fv *s, struct h5 *f);
+
+#endif
