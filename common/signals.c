@@ -30,11 +30,20 @@ static struct {
     volatile sig_atomic_t heard_now, stop, handled, started;
 } state;
 
-static void put(int fd, const char *s)
+/* A line in one piece: other ranks may say theirs at the same time. */
+static void put_parts(int fd, const char *const *part)
 {
-    const ssize_t n = write(fd, s, strlen(s));
-    (void)n;
+    char line[1600];
+    size_t n = 0;
+    for (; *part; part++) {
+        const size_t more = strlen(*part), room = sizeof line - n;
+        memcpy(line + n, *part, more < room ? more : room);
+        n += more < room ? more : room;
+    }
+    const ssize_t written = write(fd, line, n);
+    (void)written;
 }
+#define PUT(fd, ...) put_parts(fd, (const char *const[]){__VA_ARGS__, NULL})
 
 /* Prints the note of whoever failed first; false if there is none. */
 static bool print_note(void)
@@ -51,20 +60,14 @@ static bool print_note(void)
         memcpy(text, empty, sizeof empty);
     }
     text[n] = '\0';
-    put(STDOUT_FILENO, state.who);
-    put(STDOUT_FILENO, ": ends because of ");
-    put(STDOUT_FILENO, text);
-    if (text[n - 1] != '\n')
-        put(STDOUT_FILENO, "\n");
+    PUT(STDOUT_FILENO, state.who, ": ends because of ", text, text[n - 1] != '\n' ? "\n" : "");
     return true;
 }
 
 static void print_hint(void)
 {
-    put(STDOUT_FILENO, state.who);
-    put(STDOUT_FILENO, ": the launcher ends the job; if nobody has stopped it, ");
-    put(STDOUT_FILENO, state.hint);
-    put(STDOUT_FILENO, "\n");
+    PUT(STDOUT_FILENO, state.who, ": the launcher ends the job; if nobody has stopped it, ",
+        state.hint, "\n");
     *state.hint = '\0'; /* once */
 }
 
@@ -73,10 +76,7 @@ static void leave_note(const char *what)
     const int fd = *state.note ? open(state.note, O_WRONLY | O_CREAT | O_EXCL, 0644) : -1;
     if (fd < 0)
         return;
-    put(fd, state.who);
-    put(fd, ": ");
-    put(fd, what);
-    put(fd, "\n");
+    PUT(fd, state.who, ": ", what, "\n");
     close(fd);
 }
 
@@ -92,8 +92,7 @@ static void leave(void)
 static void stopped_early(int signal)
 {
     (void)signal;
-    put(STDOUT_FILENO, state.who);
-    put(STDOUT_FILENO,
+    PUT(STDOUT_FILENO, state.who,
         state.launched
             ? ": the launcher ends the job before it began: a program of it was stopped or killed\n"
             : ": stopped by a signal before the first step\n");
@@ -126,14 +125,10 @@ static void on_alarm(int signal)
     if (state.handled)
         return;
     if (!print_note()) {
-        put(STDOUT_FILENO, state.who);
-        put(STDOUT_FILENO,
-            ": the launcher ends the job and no program left a reason (killed, or out of memory?)");
-        if (*state.heard[state.heard_now]) {
-            put(STDOUT_FILENO, "; last heard: ");
-            put(STDOUT_FILENO, state.heard[state.heard_now]);
-        }
-        put(STDOUT_FILENO, "\n");
+        const char *const heard = state.heard[state.heard_now];
+        PUT(STDOUT_FILENO, state.who,
+            ": the launcher ends the job and no program left a reason (killed, or out of memory?)",
+            *heard ? "; last heard: " : "", heard, "\n");
     }
     leave();
 }
@@ -141,8 +136,7 @@ static void on_alarm(int signal)
 static void not_started(int signal)
 {
     (void)signal;
-    put(STDOUT_FILENO, state.who);
-    put(STDOUT_FILENO,
+    PUT(STDOUT_FILENO, state.who,
         ": MPI has not started within 120 s: is every program of this job an MPI program?\n");
     _exit(RUN_INPUT);
 }
@@ -194,10 +188,7 @@ static const char *fault_name(int signal)
 static void on_fault(int signal)
 {
     leave_note(fault_name(signal));
-    put(STDOUT_FILENO, state.who);
-    put(STDOUT_FILENO, ": ");
-    put(STDOUT_FILENO, fault_name(signal));
-    put(STDOUT_FILENO, "\n");
+    PUT(STDOUT_FILENO, state.who, ": ", fault_name(signal), "\n");
     raise(signal); /* SA_RESETHAND: the default action now */
 }
 
