@@ -19,22 +19,28 @@ static int upright(const struct scene *c)
     return up;
 }
 
-/* Boxes of the groups sph, sph_NAME (box, or else free); those of SPH's program `only' alone, NULL:
- * all. Returns how many. Collective. */
-static int peek_boxes(const struct run *r, const char *only, double box[PARAM_KIN_MAX][2][3])
+bool crossing_box(const struct run *r, const char *group, double box[2][3])
 {
     static const char *const keys[] = {"box", "free"};
-    char names[PARAM_KIN_MAX][64], key[80];
+    char key[80];
+    for (int i = 0; i < 2; i++) {
+        snprintf(key, sizeof key, ":%.63s.%s", group, keys[i]);
+        if (params_peek_pair(r->params, r->comm, key, box))
+            return true;
+    }
+    return false;
+}
+
+/* Boxes of the groups sph, sph_NAME; those of SPH's program `only' alone, NULL: all. Returns how
+ * many. Collective. */
+static int peek_boxes(const struct run *r, const char *only, double box[PARAM_KIN_MAX][2][3])
+{
+    char names[PARAM_KIN_MAX][64];
     const int n = params_kin(r->params, "sph", names);
     int found = 0;
     for (int k = 0; k < n; k++)
-        for (int i = 0; i < 2 && (!only || strcmp(only, names[k]) == 0); i++) {
-            snprintf(key, sizeof key, ":%.63s.%s", names[k], keys[i]);
-            if (!params_peek_pair(r->params, r->comm, key, box[found]))
-                continue;
-            found++;
-            break;
-        }
+        if (!only || strcmp(only, names[k]) == 0)
+            found += crossing_box(r, names[k], box[found]);
     return found;
 }
 

@@ -5,6 +5,9 @@
 
 #include "run.h"
 
+/* The box of a group of particles (box, or else free); false: it has none. Collective over r->comm.
+ */
+bool crossing_box(const struct run *r, const char *group, double box[2][3]);
 /* From the case alone, so that both programs say the same: the water has a surface, gravity holds
  * it down, and a box of particles (sph.box or sph.free, sph_left.box ...) ends inside the domain
  * along an axis across gravity, or below its top.

@@ -2,8 +2,9 @@
 #include "solids.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
+
+#include "crossing.h"
 
 /* Box around a body or wall as the case has it; false: a side of the domain. */
 static bool extent(const struct scene *s, enum mesh_owner owner, int k, double lo[3], double hi[3])
@@ -30,19 +31,6 @@ static bool holds(int dim, double box[2][3], const double *lo, const double *hi)
     return inside;
 }
 
-/* The box of a group of particles, or its free zone; false: it has none. */
-static bool box_of(const struct run *r, const char *group, double box[2][3])
-{
-    static const char *const keys[] = {"box", "free"};
-    char key[80];
-    for (int i = 0; i < 2; i++) {
-        snprintf(key, sizeof key, ":%.63s.%s", group, keys[i]);
-        if (params_peek_pair(r->params, r->comm, key, box))
-            return true;
-    }
-    return false;
-}
-
 bool solids_elsewhere(const struct run *r, enum mesh_owner owner, int k)
 {
     char names[PARAM_KIN_MAX][64];
@@ -52,7 +40,7 @@ bool solids_elsewhere(const struct run *r, enum mesh_owner owner, int k)
     if (n < 2 || !extent(&r->scene, owner, k, lo, hi))
         return false;
     for (int q = 0; q < n; q++)
-        elsewhere = (strcmp(names[q], r->name) != 0 && box_of(r, names[q], box) &&
+        elsewhere = (strcmp(names[q], r->name) != 0 && crossing_box(r, names[q], box) &&
                      holds(r->scene.domain.dim, box, lo, hi)) ||
                     elsewhere;
     return elsewhere;
@@ -71,22 +59,19 @@ static void number_mesh(struct scene *s, enum mesh_owner owner, int k, int index
 void solids_deal(struct run *r)
 {
     struct scene *s = &r->scene;
-    bool away[WALLS_MAX + BODIES_MAX];
     int n = 0;
-    for (int k = 0; k < s->nwalls; k++)
-        away[k] = solids_elsewhere(r, MESH_WALL, k);
-    for (int k = 0; k < s->nbodies; k++)
-        away[WALLS_MAX + k] = solids_elsewhere(r, MESH_BODY, k);
     for (int k = 0; k < s->nwalls; k++) {
-        number_mesh(s, MESH_WALL, k, away[k] ? -1 : n);
-        if (!away[k])
+        const bool away = solids_elsewhere(r, MESH_WALL, k);
+        number_mesh(s, MESH_WALL, k, away ? -1 : n);
+        if (!away)
             s->walls[n++] = s->walls[k];
     }
     s->nwalls = n;
     n = 0;
     for (int k = 0; k < s->nbodies; k++) {
-        number_mesh(s, MESH_BODY, k, away[WALLS_MAX + k] ? -1 : n);
-        if (!away[WALLS_MAX + k])
+        const bool away = solids_elsewhere(r, MESH_BODY, k);
+        number_mesh(s, MESH_BODY, k, away ? -1 : n);
+        if (!away)
             s->bodies[n++] = s->bodies[k];
     }
     s->nbodies = n;

@@ -176,7 +176,7 @@ const struct fv_params *fv_params_of(const struct run *r);
 /* Whether errors against the exact solution are measured. */
 bool fv_measures_errors(const struct run *r);
 /* The box of fv.hole, lower and upper corner; NULL: none. */
-const double (*fv_hole(const struct run *r))[3];
+const double (*fv_hole(const struct run *r))[2][3];
 /* Whether output.fields has this word. */
 bool fv_field_wanted(const struct run *r, const char *name);
 #endif

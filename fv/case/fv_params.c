@@ -147,8 +147,8 @@ void fv_params_check(const struct run *r, struct faults *f)
     fv_scene_check(r, f);
 }
 
-const double (*fv_hole(const struct run *r))[3]
+const double (*fv_hole(const struct run *r))[2][3]
 {
     const struct fv_params *prm = fv_params_of(r);
-    return prm->hole[1][0] > prm->hole[0][0] ? prm->hole : NULL;
+    return prm->hole[1][0] > prm->hole[0][0] ? (const double(*)[2][3]) & prm->hole : NULL;
 }

@@ -230,7 +230,7 @@ void mesh_check(const struct run *r, struct faults *f)
         check_block(r, f, k);
     if (f->n > before)
         return;
-    struct mesh *m = mesh_create(r, fv_hole(r) != NULL, (const double(*)[2][3])fv_hole(r), f);
+    struct mesh *m = mesh_create(r, fv_hole(r) != NULL, fv_hole(r), f);
     if (m) {
         check_taken(r, f, m);
         if (m->has_given && m->given_cells == 0)

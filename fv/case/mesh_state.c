@@ -137,9 +137,8 @@ void mesh_state_create(struct fv *s)
     double box[PARTNERS_MAX][2][3];
     if (r->coupled)
         coupling_boxes(s, box);
-    s->m = r->coupled
-               ? mesh_take(r, s->npartners, (const double(*)[2][3])box, &faults)
-               : mesh_take(r, fv_hole(r) != NULL, (const double(*)[2][3])fv_hole(r), &faults);
+    s->m = r->coupled ? mesh_take(r, s->npartners, (const double(*)[2][3])box, &faults)
+                      : mesh_take(r, fv_hole(r) != NULL, fv_hole(r), &faults);
     if (!s->m && r->coupled)
         coupling_refuse(s, faults.text);
     if (!s->m)

@@ -233,23 +233,21 @@ static bool find_donors(const struct fv *s, struct overset *o, struct patch *p,
     double *weight = NEW(double, 64 * p->n);
     int64_t n = 0;
     bool good = true;
-    p->known = NEW(bool, p->n);
     for (int64_t i = 0; i < p->n; i++) {
         double x[3];
         patch_centre(p, i, x);
-        struct nearest_wall wall = {.height = 1.0};
-        p->known[i] = overset_sample(s->m, o, x, p->h, request + n, weight + 64 * n);
-        const bool behind =
-            !p->known[i] && block_walls_nearest(walls, x, &wall) && wall.height < 0.0;
+        struct nearest_wall wall;
+        double *const w = weight + 64 * n;
+        bool known = overset_sample(s->m, o, x, p->h, request + n, w);
+        const bool behind = !known && block_walls_nearest(walls, x, &wall) && wall.height < 0.0;
         if (behind)
-            p->known[i] =
-                overset_sample_beyond(s->m, wall.block, wall.cell, x, request + n, weight + 64 * n);
-        if (p->known[i])
-            request[n++].in = i;
-        else if (good && !behind && is_wanted(s, p, x, by)) {
+            known = overset_sample_beyond(s->m, wall.block, wall.cell, x, request + n, w);
+        else if (!known && good && is_wanted(s, p, x, by)) {
             good = false;
             memcpy(where, x, sizeof x);
         }
+        if (known)
+            request[n++].in = i;
     }
     mesh_exchange_create(s->m, &p->sample, 4, n, request);
     block_walls_free(&walls);
@@ -338,14 +336,12 @@ bool patch_renew(const struct fv *s, int n, const double (*box)[2][3], const dou
 {
     const struct partners by = {n, box, inner};
     mesh_exchange_free(&p->sample);
-    mem_free(p->known);
     return agree(s, find_donors(s, s->m->search, p, &by, where), where);
 }
 
 void patch_free(struct patch *p)
 {
     mesh_exchange_free(&p->sample);
-    mem_free(p->known);
     mem_free(p->blend);
 }
 

@@ -24,7 +24,6 @@ struct patch {
     struct box of;   /* what this rank has; its own rows of fv.cells are counted from the grid's */
     int64_t n;       /* number of those */
     struct mesh_exchange sample; /* of blocks */
-    bool *known;                 /* [n] of blocks: some block gives a value */
 };
 
 /* box (lower, upper corner): where each of n partners may look, NULL: in even rows alone; inner:

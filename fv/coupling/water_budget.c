@@ -43,22 +43,26 @@ static double share_within(const struct fv *s, const double box[2][3], const dou
     return in;
 }
 
-double water_budget_share(const struct fv *s, const double *x, const double *h)
+/* Part of a box of centre x and size h outside of n others. */
+static double share_beyond(const struct fv *s, int n, const double (*box)[2][3], const double *x,
+                           const double *h)
 {
     double outside = 1.0;
-    for (int k = 0; k < s->npartners; k++)
-        outside -= share_within(s, s->partner[k], x, h);
+    for (int k = 0; k < n; k++)
+        outside -= share_within(s, box[k], x, h);
     return outside;
 }
 
-/* Part of a box of centre x and size h that no partner counts as its own. */
+double water_budget_share(const struct fv *s, const double *x, const double *h)
+{
+    return share_beyond(s, s->npartners, s->partner, x, h);
+}
+
+/* The same of what partners count now. */
 static double share_outside(const struct fv *s, const struct water_budget *w, const double *x,
                             const double *h)
 {
-    double own = 1.0;
-    for (int q = 0; q < w->n; q++)
-        own -= share_within(s, w->box[q], x, h);
-    return own;
+    return share_beyond(s, w->n, w->box, x, h);
 }
 
 static bool is_beside(const struct fv *s, const struct water_budget *w, const double *x, double far)

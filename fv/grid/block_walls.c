@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../../common/mem.h"
+#include "../../common/vec3.h"
 
 enum { WALLS_MOST = 3 }; /* that meet at a corner */
 
@@ -32,11 +33,6 @@ static bool is_closed(enum mesh_side s)
     return s != MESH_OVERLAP && s != MESH_JOINED && s != MESH_PERIODIC;
 }
 
-static double dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Face of the cell `at' on the side along a, and the box around it. */
 static void add_face(const struct mesh_block *b, int dim, int a, bool upper, const int *at,
                      struct face *f, struct side *s)
@@ -61,14 +57,13 @@ static void add_face(const struct mesh_block *b, int dim, int a, bool upper, con
         e[1][q] = dim == 3 ? v[2][q] + v[3][q] - v[0][q] - v[1][q] : q == 2;
         in[q] = q < dim ? b->centre[mesh_cell(b, at)][q] - f->x[q] : 0.0;
     }
-    for (int q = 0; q < 3; q++)
-        f->n[q] = e[0][(q + 1) % 3] * e[1][(q + 2) % 3] - e[0][(q + 2) % 3] * e[1][(q + 1) % 3];
-    const double size = copysign(sqrt(dot(f->n, f->n)), dot(f->n, in));
+    vec3_cross(e[0], e[1], f->n);
+    const double size = copysign(vec3_length(f->n), vec3_dot(f->n, in));
     for (int q = 0; q < 3; q++)
         f->n[q] /= size;
     for (int k = 0; k < corners; k++)
-        f->radius = fmax(f->radius, hypot(hypot(v[k][0] - f->x[0], v[k][1] - f->x[1]),
-                                          dim == 3 ? v[k][2] - f->x[2] : 0.0));
+        f->radius = fmax(f->radius, dim == 3 ? vec3_distance(v[k], f->x)
+                                             : hypot(v[k][0] - f->x[0], v[k][1] - f->x[1]));
 }
 
 static void add_side(struct block_walls *w, const struct mesh *m, int block, int k, int64_t *room)
@@ -136,9 +131,13 @@ static const struct face *nearest(const struct block_walls *w, const struct side
 {
     const struct face *best = NULL;
     *d2 = INFINITY;
-    for (int64_t i = 0; i < s->n && beyond(w, s, x) < R; i++) {
+    if (!(beyond(w, s, x) < R))
+        return NULL;
+    for (int64_t i = 0; i < s->n; i++) {
         const struct face *f = w->face + s->first + i;
-        const double d[3] = {x[0] - f->x[0], x[1] - f->x[1], x[2] - f->x[2]}, d2_here = dot(d, d);
+        double d[3];
+        vec3_from(f->x, x, d);
+        const double d2_here = vec3_dot(d, d);
         if (d2_here < *d2) {
             *d2 = d2_here;
             best = f;
@@ -150,7 +149,9 @@ static const struct face *nearest(const struct block_walls *w, const struct side
 /* m: of x over a face, < 0: behind it. */
 static double height(const struct face *f, const double *x)
 {
-    return dot((double[]){x[0] - f->x[0], x[1] - f->x[1], x[2] - f->x[2]}, f->n);
+    double d[3];
+    vec3_from(f->x, x, d);
+    return vec3_dot(d, f->n);
 }
 
 /* The face of a side that x stands over, less than R from it; NULL: none. *off: how far the foot
@@ -179,16 +180,29 @@ bool block_walls_nearest(const struct block_walls *w, const double *x, struct ne
                                     .cell = {f->cell[0], f->cell[1], f->cell[2]},
                                     .height = height(f, x),
                                     .radius = f->radius};
-        to->beside = sqrt(fmax(0.0, d2 - to->height * to->height));
     }
     return least < INFINITY;
+}
+
+bool block_walls_face(const struct block_walls *w, int64_t i, struct wall_face *to)
+{
+    int k = 0;
+    while (k < w->nsides && i >= w->side[k].first + w->side[k].n)
+        k++;
+    if (k == w->nsides)
+        return false;
+    const struct face *f = w->face + i;
+    *to = (struct wall_face){.block = w->side[k].block, .radius = f->radius};
+    memcpy(to->cell, f->cell, sizeof to->cell);
+    memcpy(to->x, f->x, sizeof to->x);
+    return true;
 }
 
 /* Walls of two blocks that go on into each other are one: the nearer face is its own. */
 static int add_wall(const struct face *f, double off, int n, const struct face **wall, double *offs)
 {
     for (int k = 0; k < n; k++)
-        if (dot(f->n, wall[k]->n) > 0.5) {
+        if (vec3_dot(f->n, wall[k]->n) > 0.5) {
             if (off < offs[k]) {
                 wall[k] = f;
                 offs[k] = off;
@@ -214,10 +228,8 @@ int block_walls_images(const struct block_walls *w, double R, double (*x)[3])
     }
     for (int q = 0; q < nwalls; q++)
         for (int k = 0, before = n; k < before; k++, n++) {
-            const double d[3] = {x[k][0] - wall[q]->x[0], x[k][1] - wall[q]->x[1],
-                                 x[k][2] - wall[q]->x[2]};
-            for (int a = 0; a < 3; a++)
-                x[n][a] = x[k][a] - 2.0 * dot(d, wall[q]->n) * wall[q]->n[a];
+            memcpy(x[n], x[k], sizeof x[n]);
+            vec3_add(x[n], -2.0 * height(wall[q], x[k]), wall[q]->n);
         }
     return n;
 }

@@ -20,10 +20,17 @@ int block_walls_images(const struct block_walls *w, double R, double (*x)[3]);
 struct nearest_wall {
     int block, cell[3]; /* that it is of */
     double height;      /* m: of the place over it, < 0: behind */
-    double beside;      /* m: from its middle, along it */
     double radius;      /* m: of its farthest vertex from its middle */
 };
 /* false: there is no wall. */
 bool block_walls_nearest(const struct block_walls *w, const double *x, struct nearest_wall *to);
+
+struct wall_face {
+    int block, cell[3]; /* that it is of */
+    double x[3];        /* m: its middle */
+    double radius;      /* m: of its farthest vertex from that */
+};
+/* The i-th of all faces; false: there are fewer. */
+bool block_walls_face(const struct block_walls *w, int64_t i, struct wall_face *to);
 
 #endif

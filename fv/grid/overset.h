@@ -33,6 +33,9 @@ void overset_exchange(struct mesh *m, const struct overset *o);
  * added to x. false: not inside. */
 bool overset_locate(const struct mesh *m, const struct overset *o, int block, const double *x,
                     int *cell, double *xi);
+/* The computed cell at x of the latest block after `after' (-1: of all); false: none. */
+bool overset_computed(const struct mesh *m, const struct overset *o, int after, const double *x,
+                      int *block, int *cell);
 /* Value at a place in each block's cells: for the tests and the gauges. width cells each way from
  * `from' with weights; false: no computed cells there. width 4 or 2. */
 bool overset_weights(const struct mesh *m, int block, const int *cell, const double *xi,

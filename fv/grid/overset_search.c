@@ -250,6 +250,20 @@ bool overset_locate(const struct mesh *m, const struct overset *o, int block, co
     return false;
 }
 
+bool overset_computed(const struct mesh *m, const struct overset *o, int after, const double *x,
+                      int *block, int *cell)
+{
+    for (int k = m->nblocks - 1; k > after; k--) {
+        double place[3];
+        if (overset_locate(m, o, k, x, cell, place) &&
+            m->block[k].status[mesh_cell(m->block + k, cell)] == CELL_COMPUTED) {
+            *block = k;
+            return true;
+        }
+    }
+    return false;
+}
+
 struct overset *overset_search(const struct run *r, const struct mesh *m)
 {
     struct overset *o = NEW(struct overset, 1);

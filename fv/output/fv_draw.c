@@ -51,7 +51,7 @@ static void draw_blocks(const struct run *r, struct picture *p)
     alone.comm = MPI_COMM_SELF;
     alone.rank = 0;
     alone.size = 1;
-    struct mesh *m = mesh_create(&alone, fv_hole(r) != NULL, (const double(*)[2][3])fv_hole(r), &f);
+    struct mesh *m = mesh_create(&alone, fv_hole(r) != NULL, fv_hole(r), &f);
     for (int k = 0; m && k < m->nblocks; k++) {
         const struct mesh_block *b = m->block + k;
         const int up = m->dim == 3 ? 2 : 1;

@@ -456,7 +456,7 @@ void mesh_describe(const struct run *r)
 {
     static const char *const shapes[] = {"box", "stretched box", "ring", "sheared box", "file"};
     struct faults f = {0};
-    struct mesh *m = mesh_take(r, fv_hole(r) != NULL, (const double(*)[2][3])fv_hole(r), &f);
+    struct mesh *m = mesh_take(r, fv_hole(r) != NULL, fv_hole(r), &f);
     for (int k = 0; m && k < m->nblocks; k++) {
         const struct mesh_block *b = m->block + k;
         int64_t count[4] = {0, 0, 0, 0};

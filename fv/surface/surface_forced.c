@@ -14,14 +14,12 @@
 
 /* --- cells and places --- */
 
-/* The centre of an even cell and its images beyond closed sides: a wall cuts the water, not its
+/* Images of x[0] beyond closed sides of even cells, behind it: a wall cuts the water, not its
  * surface. */
-static int images(const struct fv *s, int64_t c, double R, double (*x)[3])
+static int images(const struct fv *s, double R, double (*x)[3])
 {
     const struct block *b = &s->b;
-    int at[3], n = 1;
-    block_place(b, c, at);
-    block_centre(b, at[0], at[1], at[2], x[0]);
+    int n = 1;
     for (int a = 0; a < b->dim; a++)
         for (int up = 0; up < 2 && !b->periodic[a]; up++) {
             const double side = b->origin[a] + (up ? b->length[a] : 0.0);
@@ -44,7 +42,7 @@ static void list_places(const struct fv *s, struct surface_forced *f)
     f->x = NEW(double, 3 * IMAGES_MOST * f->n);
     for (int64_t i = 0; i < f->n; i++) {
         forcing_centre(s, f->cell[i], x[0]);
-        const int n = walls ? block_walls_images(walls, f->R, x) : images(s, f->cell[i], f->R, x);
+        const int n = walls ? block_walls_images(walls, f->R, x) : images(s, f->R, x);
         memcpy(f->x + 3 * f->first[i], x, (size_t)n * sizeof x[0]);
         f->first[i + 1] = f->first[i] + n;
     }

@@ -74,21 +74,6 @@ static void move_to(const struct scene_domain *d, const struct polygon *p, struc
 
 /* --- what later blocks compute --- */
 
-/* The computed cell of the latest block after `after' at x; false: none. */
-static bool find_cover(const struct mesh *m, const struct overset *o, int after, const double *x,
-                       int *block, int *cell)
-{
-    for (int k = m->nblocks - 1; k > after; k--) {
-        double place[3];
-        if (overset_locate(m, o, k, x, cell, place) &&
-            m->block[k].status[mesh_cell(m->block + k, cell)] == CELL_COMPUTED) {
-            *block = k;
-            return true;
-        }
-    }
-    return false;
-}
-
 /* Point n of side^dim in a cell. */
 static void point_of(const struct mesh *m, const struct part *p, const int *i, int side, int n,
                      double *x)
@@ -109,7 +94,7 @@ static double share_of_points(const struct mesh *m, const struct overset *o, con
         double x[3];
         int block, cell[3];
         point_of(m, p, i, side, n, x);
-        own += !find_cover(m, o, p->block, x, &block, cell);
+        own += !overset_computed(m, o, p->block, x, &block, cell);
     }
     return (double)own / most;
 }
@@ -158,7 +143,7 @@ static bool find_pieces(const struct fv *s, const struct overset *o, const struc
         double x[3], dx[3][3];
         int block, cell[3];
         mesh_map_point(m->block + p->block, m->dim, at, xi, x, dx);
-        if (find_cover(m, o, p->block, x, &block, cell))
+        if (overset_computed(m, o, p->block, x, &block, cell))
             meet(met, block, cell);
     }
     for (int k = 0; k < met->n; k++) {
@@ -206,9 +191,9 @@ static void cover_centres(const struct fv *s, const struct overset *o, const str
     PART_ROWS (p, one, one, c, n)
         for (int64_t at = c; at < c + n; at++) {
             int block, cell[3];
-            covered[at] =
-                find_cover(s->m, o, p->block,
-                           (const double[]){w->x[0][at], w->x[1][at], w->x[2][at]}, &block, cell);
+            covered[at] = overset_computed(s->m, o, p->block,
+                                           (const double[]){w->x[0][at], w->x[1][at], w->x[2][at]},
+                                           &block, cell);
         }
 }
 

@@ -106,7 +106,13 @@ static void set_level(struct fv *s)
 static void close_cells(struct fv *s)
 {
     const struct forcing *g = s->forcing;
-    for (int64_t c = 0; g && !s->m && c < s->b.size; c++)
+    if (s->m) {
+        surface_mesh_update(s);
+        surface_mesh_count(s);
+        surface_ghosts(s, s->surface->phi);
+        return;
+    }
+    for (int64_t c = 0; g && c < s->b.size; c++)
         s->surface->closed[c] = g->forced[c] && !(s->surface->forced && g->known[c]);
 }
 
@@ -144,11 +150,6 @@ static void set_outflows(struct fv *s)
 void surface_outline_moved(struct fv *s, double before)
 {
     close_cells(s);
-    if (s->m) {
-        surface_mesh_update(s);
-        surface_mesh_count(s);
-        surface_ghosts(s, s->surface->phi);
-    }
     s->surface->volume0 += surface_volume(s, NULL) - before;
     rebuild(s);
 }
@@ -157,11 +158,6 @@ void surface_start(struct fv *s)
 {
     struct surface *f = s->surface;
     close_cells(s);
-    if (s->m) {
-        surface_mesh_update(s);
-        surface_mesh_count(s);
-        surface_ghosts(s, f->phi);
-    }
     f->volume0 = surface_volume(s, NULL);
     rebuild(s);
     set_level(s);

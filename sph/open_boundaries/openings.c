@@ -74,7 +74,8 @@ static bool has_lines(const struct sph *s)
 void openings_find_room(const struct sph *s, struct openings *o)
 {
     enum { POINTS = 8 }; /* of a face */
-    for (int f = 0; f < openings_faces(o) && has_lines(s); f++) {
+    const int n = has_lines(s) ? openings_faces(o) : 0;
+    for (int f = 0; f < n; f++) {
         double x[3], y[3];
         const int along = 1 - openings_place(o, f, x) / 2;
         const double middle = walls_distance(s->walls, x, INFINITY);
