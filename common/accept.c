@@ -192,7 +192,7 @@ bool accept_judge(const struct scene *s, const char *case_dir, const char *dir,
         const struct scene_accept *a = s->accept + k;
         char name[PARAM_TEXT_SIZE];
         double v = NAN;
-        snprintf(name, sizeof name, "%s", a->what);
+        snprintf(name, sizeof name, "%.*s", (int)sizeof name - 1, a->what);
         if (*a->reference) {
             v = compare(a, case_dir, dir);
             name_of(a, name, sizeof name);

@@ -38,7 +38,7 @@ static void set_moving(struct sph *s, const double *U)
     for (struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
             double *y = state_row(&q->p, q->p.y, i);
-            for (int a = 0; a < q->dim; a++)
+            for (int a = 0; a < q->dim && a < 3; a++)
                 y[q->dim + a] = y[at_mass(q->dim)] * U[a];
         }
     integrate_start(s);
@@ -69,7 +69,7 @@ static void start_at_rest(struct sph_case *c, int dim, int cells)
  * what is everywhere. */
 static void carry(bool local_steps)
 {
-    const double U[2] = {1.0, 0.0};
+    const double U[3] = {1.0, 0.0, 0.0};
     struct sph_case c;
     start_at_rest(&c, 2, 20);
     refine(&c, 1, 0.1, 0.9);
@@ -121,7 +121,7 @@ static void nested_boxes_and_space_are_exact(void **state)
 static void empty_levels_run(void **state)
 {
     (void)state;
-    const double U[2] = {1.0, 0.0}, ends[2] = {0.501, 0.53};
+    const double U[3] = {1.0, 0.0, 0.0}, ends[2] = {0.501, 0.53};
     for (int k = 0; k < 2; k++) {
         struct sph_case c;
         start_at_rest(&c, 2, 20);
@@ -321,7 +321,7 @@ static double guards_of(const struct sph *q)
 static void missing_children_are_born_again(void **state)
 {
     (void)state;
-    const double U[2] = {0.0, 0.0};
+    const double U[3] = {0.0, 0.0, 0.0};
     struct sph_case c;
     start_at_rest(&c, 2, 24);
     refine(&c, 1, 0.1, 0.9);

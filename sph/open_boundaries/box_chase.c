@@ -59,7 +59,7 @@ static void add_level(const struct sph *s, const struct sph *q, const bool along
         double above = -level;
         if (particles_is_guard(&q->p, i))
             continue;
-        for (int a = 0; a < s->dim; a++)
+        for (int a = 0; a < s->dim && a < 3; a++)
             above += up[a] * y[a];
         if (above <= 0.0)
             continue;
