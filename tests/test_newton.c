@@ -272,6 +272,21 @@ static void steady_cavity_takes_few_iterations(void **state)
     assert_true(n.norm < 1e-6);
 }
 
+/* Cells of aspect 100: a pseudo step whose linear system stays unsolved is not made again and again
+ * (GMRES has 200 vectors an iteration; all of them were used in most, 175 on average). */
+static void pseudo_steps_stay_within_what_gmres_solves(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    cavity(&c, "fv.cells=(32,32)", "domain.max=(100,1)");
+    assert_true(fv_case_run(&c, 1000, 60.0));
+    const struct newton *n = c.s->newton;
+    print_message("aspect 100: %lld iterations, %lld vectors\n", (long long)n->newtons,
+                  (long long)n->krylovs);
+    assert_true(n->steady && n->newtons < 60 && n->krylovs < 133 * n->newtons);
+    fv_free(&c.s);
+}
+
 /* What the residual at default settings leaves is below a twentieth of the cells' own error, and
  * that falls, from below what 32 cells are allowed to what second order makes of it. */
 static void steady_residual_follows_the_cells(void **state)
@@ -414,6 +429,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(sound_is_swallowed),
                                        cmocka_unit_test(steady_cavity_takes_few_iterations),
                                        cmocka_unit_test(steady_residual_follows_the_cells),
+                                       cmocka_unit_test(pseudo_steps_stay_within_what_gmres_solves),
                                        cmocka_unit_test(upwind_states_survive_coarse_cells),
                                        cmocka_unit_test(hopeless_flow_stops_with_a_reason),
                                        cmocka_unit_test(steady_channels_are_exact),

@@ -59,6 +59,7 @@ static int boxes_of(const struct fv *s, struct box *of)
 static void save_newton(const struct newton *w, struct h5 *f)
 {
     h5_attribute_real(f, "dtau", w->dtau);
+    h5_attribute_real(f, "longest_step", w->longest_step);
     h5_attribute_real(f, "residual", w->norm);
     h5_attribute_real(f, "steady", w->steady);
     h5_attribute_real(f, "best", w->best);
@@ -97,6 +98,7 @@ static bool restore_newton(struct newton *w, struct h5 *f)
 {
     double steady = 0.0, newtons = 0.0, krylovs = 0.0, best_at = 0.0, steps = 0.0;
     const bool there = h5_read_attribute_real(f, "dtau", &w->dtau) &&
+                       h5_read_attribute_real(f, "longest_step", &w->longest_step) &&
                        h5_read_attribute_real(f, "residual", &w->norm) &&
                        h5_read_attribute_real(f, "steady", &steady) &&
                        h5_read_attribute_real(f, "best", &w->best) &&

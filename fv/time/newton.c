@@ -350,9 +350,21 @@ static double growth(double left, double gain)
     return left > 0.8 ? 0.5 : fmin(fmax(gain, least), 10.0);
 }
 
+/* The next pseudo step. Where GMRES leaves the linear system unsolved it was too long, too: beyond
+ * the time in which the flow forgets its start little is gained by length, while the
+ * preconditioner, whose sweeps reach some cells, is worth less and less. That is kept in mind. */
+static void next_pseudo_step(struct newton *w, double factor, int64_t vectors)
+{
+    w->longest_step *= 1.5;
+    if (vectors >= KRYLOV || w->longest_step == 0.0)
+        w->longest_step = vectors >= KRYLOV ? 0.1 * w->dtau : INFINITY;
+    w->dtau = fmin(w->dtau * factor, w->longest_step);
+}
+
 static void march(struct fv *s, struct diagnosis *d)
 {
     struct newton *w = s->newton;
+    const int64_t vectors = w->krylovs;
     bool good = false;
     w->of.t = 0.0; /* what is imposed stays as it begins */
     newton_pack(s, s->p, s->u, w->q1);
@@ -370,7 +382,7 @@ static void march(struct fv *s, struct diagnosis *d)
         newton_describe(s, "a pseudo step that was cut to nothing", d);
     w->steady = w->norm <= s->prm.tol_newton;
     if (before > 0.0 && w->norm > 0.0)
-        w->dtau *= growth(w->left / before, before / w->norm);
+        next_pseudo_step(w, growth(w->left / before, before / w->norm), w->krylovs - vectors);
 }
 
 double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagnosis *d)
