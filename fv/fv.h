@@ -34,7 +34,7 @@ struct fv_params {
     double cfl; /* of the largest sum over the axes of |u_a| dt/h_a; 0: the integrator's own */
     int integrator;
     double tol_pressure; /* of the last projection of a step, relative to |div U*| */
-    double tol_viscous;  /* of Helmholtz; 0: 1e-3, with forced cells 1e-5 */
+    double tol_viscous;  /* of Helmholtz; 0: see helmholtz_tolerance */
     double tol_newton;   /* of a residual, as a velocity relative to the largest */
     int flux;            /* newton only */
     double c0;           /* m/s: sound speed; newton only, 0: incompressible */
@@ -73,7 +73,8 @@ struct fv {
     int64_t size; /* of a field */
     int nparts;   /* of this rank */
     const struct part *part;
-    struct part whole; /* that of the uniform grid */
+    double cells_a_side; /* the square or cubic root of how many there are */
+    struct part whole;   /* that of the uniform grid */
     const struct stages *stages;
     struct exact exact;
     double nu;

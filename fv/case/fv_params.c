@@ -22,7 +22,7 @@ static const struct param rows[] = {
     PARAM(P, cfl,          "-", "0.0",  0, 1e4, "largest sum over the axes of |u_a| dt/h_a in a cell; at most 1.2 (rk3), 0.7 (bdf2); 0: 1.1 (rk3), 0.5 (bdf2), 1 (newton)"),
     CHOICE(P, integrator, "rk3|bdf2|newton", "rk3", "three projected stages, two-step backward for slow flows, fully implicit"),
     PARAM(P, tol_pressure, "-", "1e-2", 1e-14, 1, "of the last projection of a step, relative to its divergence"),
-    PARAM(P, tol_viscous,  "-", "0.0",  0, 1,     "of the viscous solver; 0: 1e-3, with forced cells 1e-5"),
+    PARAM(P, tol_viscous,  "-", "0.0",  0, 1,     "of the viscous solver; 0: (32/n)^2/1000, n cells a side, with imposed cells or closed sides 1e-5 at most"),
     PARAM(P, tol_newton,   "-", "0.0",  0, 1,     "of newton's residual, as a velocity relative to the largest; 0: 1e-6, of a steady state 32/n^5, n cells a side, 1e-11 to 1e-6"),
     CHOICE(P, flux, "central|upwind", "central", "newton's convection: with a small dissipation, or upwind (kappa = 1/3)"),
     PARAM(P, c0,           "m/s", "0.0", 0, 1e9,  "newton's sound speed; 0: incompressible"),

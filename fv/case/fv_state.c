@@ -214,6 +214,15 @@ static void create_grid(struct fv *s)
     s->watches = fv_watches_create(s);
 }
 
+static double cells_a_side(const struct fv *s)
+{
+    int64_t n = 0;
+    for (int k = 0; k < s->nparts; k++)
+        n += (int64_t)s->part[k].n[0] * s->part[k].n[1] * s->part[k].n[2];
+    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT64_T, MPI_SUM, s->comm);
+    return pow((double)n, 1.0 / s->dim);
+}
+
 struct fv *fv_create(struct run *r, struct h5 *f)
 {
     struct fv *s = NEW(struct fv, 1);
@@ -230,6 +239,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
         mesh_state_create(s);
     else
         create_grid(s);
+    s->cells_a_side = cells_a_side(s);
     if (f && !fv_restore(s, f)) {
         fv_free(&s);
         return NULL;

@@ -7,6 +7,14 @@
 #include <math.h>
 #include <string.h>
 
+double helmholtz_tolerance(const struct fv *s)
+{
+    const double side = 32.0 / s->cells_a_side;
+    if (s->prm.tol_viscous > 0.0)
+        return s->prm.tol_viscous;
+    return fmin(s->forcing ? 1e-5 : s->m ? 1e-4 : 1e-3, 1e-3 * side * side);
+}
+
 static double dot_row(const double *restrict a, const double *restrict b, int64_t n)
 {
     double part[8] = {0.0};

@@ -27,6 +27,11 @@ struct helmholtz {
                                Chebyshev's iteration the first two, BiCGStab all */
 };
 
+/* Default of fv.tol_viscous, or what the case gives. What a solve leaves is in the shortest waves:
+ * h^2 of the increment at the first two levels keeps velocity and vorticity at the order of the
+ * cells (Taylor-Green to 512^2). */
+double helmholtz_tolerance(const struct fv *s);
+
 /* Sums over this rank's cells. */
 double helmholtz_dot(const struct fv *s, const double *x, const double *y);
 void helmholtz_add(const struct fv *s, double a, const double *x, double *y); /* y += a x */

@@ -3,6 +3,7 @@
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "../boundary/outflow.h"
+#include "../operators/helmholtz.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
 #include "../surface/levelset.h"
@@ -110,10 +111,7 @@ static bool solve_viscous(struct fv *s, double c, double t, double scale)
         forcing_velocity(s, t, s->delta);
         forcing_subtract(s->forcing, s->u, s->delta);
     }
-    return mesh_viscous_solve(s, c,
-                              s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous
-                              : s->forcing             ? 1e-5
-                                                       : 1e-4);
+    return mesh_viscous_solve(s, c, helmholtz_tolerance(s));
 }
 
 static void predict_fluxes(struct fv *s, double t)

@@ -7,6 +7,7 @@
 #include "../boundary/forcing.h"
 #include "../boundary/outflow.h"
 #include "../operators/blocked_cells.h"
+#include "../operators/helmholtz.h"
 #include "../poisson/poisson.h"
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
@@ -63,9 +64,8 @@ static void start_increment(struct fv *s, double t, double scale)
 
 static bool solve_viscous(struct fv *s, double c, double t, double scale)
 {
-    const double tol = s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous : s->forcing ? 1e-5 : 1e-3;
     start_increment(s, t, viscous_keeps_increment(s) ? scale : 0.0);
-    return viscous_solve(s, c, s->delta, s->rhs, tol);
+    return viscous_solve(s, c, s->delta, s->rhs, helmholtz_tolerance(s));
 }
 
 static void predict_fluxes(struct fv *s, double t)
