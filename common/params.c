@@ -13,17 +13,10 @@
 #include "log.h"
 #include "mem.h"
 #include "params_hints.h"
+#include "params_override.h"
 #include "params_value.h"
 
 enum { NAMES_SIZE = 2048, GIVEN_SIZE = 64 };
-
-struct override {
-    const char *text;        /* as given: "sph.dx=0.02"; borrowed */
-    char group[64], key[64]; /* of an element of a list: "walls", "[0].kind" */
-    config_t cfg;            /* holds the value as setting "value" */
-    bool known;              /* this program has its group, though perhaps not its element */
-    bool used;
-};
 
 struct params {
     char path[1024];
@@ -53,8 +46,7 @@ static void add_fault(struct faults *f, const char *place, const char *fmt, va_l
     f->n++;
 }
 
-static void __attribute__((format(printf, 3, 4)))
-fault(struct faults *f, const char *place, const char *fmt, ...)
+void params_add_fault(struct faults *f, const char *place, const char *fmt, ...)
 {
     va_list args;
     va_start(args, fmt);
@@ -126,12 +118,12 @@ static void read_file(struct params *p, struct faults *f)
     size_t bytes = 0;
     char *text = read_text(p->path, &bytes), dir[1024], place[1300];
     if (!text) {
-        fault(f, p->path, "no such case file, or it cannot be read");
+        params_add_fault(f, p->path, "no such case file, or it cannot be read");
         return;
     }
     const char *no_text = hint_no_text(text, bytes);
     if (no_text) {
-        fault(f, p->path, "%s", no_text);
+        params_add_fault(f, p->path, "%s", no_text);
         mem_free(text);
         return;
     }
@@ -145,8 +137,9 @@ static void read_file(struct params *p, struct faults *f)
     const int large = hint_long_integer(text, number, sizeof number);
     if (large > 0) { /* libconfig would wrap it silently */
         snprintf(place, sizeof place, "%s:%d", p->path, large);
-        fault(f, place, "%s is too large for an integer; with an L behind it, it is read whole",
-              number);
+        params_add_fault(f, place,
+                         "%s is too large for an integer; with an L behind it, it is read whole",
+                         number);
     }
     if ((has_mark(text) ? config_read_string(&p->cfg, text + 3)
                         : config_read_file(&p->cfg, p->path)) == CONFIG_TRUE) {
@@ -160,45 +153,9 @@ static void read_file(struct params *p, struct faults *f)
                                      config_error_text(&p->cfg), hint, sizeof hint);
         mem_free(included);
         snprintf(place, sizeof place, "%s:%d", in, line);
-        fault(f, place, "%s%s%s", config_error_text(&p->cfg), *hint ? ": " : "", hint);
+        params_add_fault(f, place, "%s%s%s", config_error_text(&p->cfg), *hint ? ": " : "", hint);
     }
     mem_free(text);
-}
-
-/* "sph.dx=0.02" -> group, key, value; a plain word is taken as text, 64x64 as (64, 64). */
-static void read_override(struct override *o, const char *text, struct faults *f)
-{
-    char place[256], value[512], line[600];
-    const char *eq = strchr(text, '='), *dot = strchr(text, '.');
-    o->text = text;
-    config_init(&o->cfg);
-    config_set_auto_convert(&o->cfg, CONFIG_TRUE);
-    snprintf(place, sizeof place, "command line: -p %s", text);
-    if (!eq || !dot || dot > eq || dot == text || eq == dot + 1 || !eq[1] || dot - text > 60 ||
-        eq - dot > 60) {
-        fault(f, place, "GROUP.KEY=VALUE is wanted, as in sph.dx=0.01");
-        return;
-    }
-    snprintf(o->group, sizeof o->group, "%.*s", (int)(dot - text), text);
-    snprintf(o->key, sizeof o->key, "%.*s", (int)(eq - dot - 1), dot + 1);
-    int a, b, c, end = 0;
-    if (sscanf(eq + 1, "%dx%dx%d%n", &a, &b, &c, &end) == 3 && !eq[1 + end])
-        snprintf(value, sizeof value, "(%d, %d, %d)", a, b, c);
-    else if (end = 0, sscanf(eq + 1, "%dx%d%n", &a, &b, &end) == 2 && !eq[1 + end])
-        snprintf(value, sizeof value, "(%d, %d)", a, b);
-    else
-        snprintf(value, sizeof value, "%s", eq + 1);
-    char number[64];
-    if (hint_long_integer(value, number, sizeof number)) { /* libconfig would wrap it silently */
-        fault(f, place, "%s is too large for an integer", number);
-        return;
-    }
-    snprintf(line, sizeof line, "value = %s;", value);
-    if (config_read_string(&o->cfg, line) == CONFIG_TRUE)
-        return;
-    snprintf(line, sizeof line, "value = \"%s\";", value);
-    if (config_read_string(&o->cfg, line) != CONFIG_TRUE)
-        fault(f, place, "`%s' is no value", value);
 }
 
 /* --- groups --- */
@@ -208,7 +165,9 @@ static void place_of(const struct params *p, const config_setting_t *s, char *pl
 {
     const char *file = s && config_setting_source_file(s) ? config_setting_source_file(s) : p->path;
     const char *dot = *key ? "." : "";
-    if (s)
+    if (s && config_setting_source_line(s) == 0)
+        snprintf(place, size, "command line: %s%s%s", group, dot, key);
+    else if (s)
         snprintf(place, size, "%s:%u: %s%s%s", file, config_setting_source_line(s), group, dot,
                  key);
     else
@@ -274,8 +233,9 @@ static void read_row(struct params *p, const struct param_group *g, const struct
         place_of(p, s ? s : group, place, sizeof place, g->name, r->key);
     if (!s) {
         if (!r->dflt && r->type != PARAM_LIST && (group || params_has_group(p, g->name)))
-            fault(f, place, "must be given: %s%s%s", r->help, strcmp(r->unit, "-") ? ", in " : "",
-                  strcmp(r->unit, "-") ? r->unit : "");
+            params_add_fault(f, place, "must be given: %s%s%s", r->help,
+                             strcmp(r->unit, "-") ? ", in " : "",
+                             strcmp(r->unit, "-") ? r->unit : "");
         return;
     }
     mark_given(p, g->name, element, r->key, "");
@@ -293,11 +253,11 @@ static void read_row(struct params *p, const struct param_group *g, const struct
     char *before = mem_new(param_size(r), 1);
     memcpy(before, (char *)target + r->offset, param_size(r));
     if (!param_read(r, s, target, why, sizeof why))
-        fault(f, place, "%s", why);
+        params_add_fault(f, place, "%s", why);
     else if (element >= 0 && strcmp(r->key, "name") == 0 && r->type == PARAM_TEXT &&
              !heads_columns((char *)target + r->offset))
-        fault(f, place,
-              "a name heads columns of series.csv: a word or two, without , ; and quotes");
+        params_add_fault(
+            f, place, "a name heads columns of series.csv: a word or two, without , ; and quotes");
     else if (r->dflt && same_value(r, before, (char *)target + r->offset))
         mark_given(p, g->name, element, r->key, "=");
     mem_free(before);
@@ -345,9 +305,10 @@ static void find_unknown_keys(const struct params *p, const struct param_group *
         const struct param_group *home = group_with(p, key);
         near = nearest_key(g, key);
         if (!near && home)
-            fault(f, place, "unknown key; it is known in group `%s'", home->name);
+            params_add_fault(f, place, "unknown key; it is known in group `%s'", home->name);
         else
-            fault(f, place, near ? "unknown key; did you mean `%s'?" : "unknown key", near);
+            params_add_fault(f, place, near ? "unknown key; did you mean `%s'?" : "unknown key",
+                             near);
     }
 }
 
@@ -357,7 +318,7 @@ static void read_plain(struct params *p, const struct param_group *g, const conf
     char place[1300];
     if (s && !config_setting_is_group(s)) {
         place_of(p, s, place, sizeof place, g->name, "");
-        fault(f, place, "a group { ... } is wanted");
+        params_add_fault(f, place, "a group { ... } is wanted");
         return;
     }
     for (int k = 0; k < g->nrows; k++)
@@ -375,7 +336,8 @@ static void read_list(struct params *p, const struct param_group *g, const confi
         return;
     if (!config_setting_is_list(s) || config_setting_length(s) > g->max) {
         place_of(p, s, place, sizeof place, g->name, "");
-        fault(f, place, "a list ( { ... }, { ... } ) of at most %d groups is wanted", g->max);
+        params_add_fault(f, place, "a list ( { ... }, { ... } ) of at most %d groups is wanted",
+                         g->max);
         return;
     }
     for (int k = 0; k < config_setting_length(s); k++) {
@@ -383,7 +345,7 @@ static void read_list(struct params *p, const struct param_group *g, const confi
         void *target = (char *)g->target + g->stride * (size_t)k;
         if (!config_setting_is_group(e)) {
             place_of(p, e, place, sizeof place, g->name, "");
-            fault(f, place, "element %d: a group { ... } is wanted", k + 1);
+            params_add_fault(f, place, "element %d: a group { ... } is wanted", k + 1);
             continue;
         }
         for (int r = 0; r < g->nrows; r++) {
@@ -415,7 +377,7 @@ static void read_inner(struct params *p, const char *path, const struct param *r
             place_of(p, s, place, sizeof place, path, "");
             mark_given(p, path, 0, l->plain, "");
             if (!param_read(l->rows + k, s, g.target, why, sizeof why))
-                fault(f, place, "%s", why);
+                params_add_fault(f, place, "%s", why);
             *count = 1;
         }
     if (!plain && l->max == 1) {
@@ -464,12 +426,13 @@ static void find_unknown_groups(struct params *p, const char *const *others, str
         const char *name = config_setting_name(s);
         const size_t n = strlen(p->names);
         snprintf(p->names + n, sizeof p->names - n, "%s ", name);
-        if (known_group(p, others, name))
-            continue;
+        if (known_group(p, others, name) || config_setting_source_line(s) == 0)
+            continue; /* of the command line: see find_unknown_overrides */
         const char *file = config_setting_source_file(s), *near = nearest_group(p, others, name);
         snprintf(place, sizeof place, "%s:%u: %s", file ? file : p->path,
                  config_setting_source_line(s), name);
-        fault(f, place, near ? "unknown group; did you mean `%s'?" : "unknown group", near);
+        params_add_fault(f, place, near ? "unknown group; did you mean `%s'?" : "unknown group",
+                         near);
     }
 }
 
@@ -489,13 +452,16 @@ static void find_unknown_overrides(struct params *p, const char *const *others, 
         const size_t n = strlen(p->names);
         if (!strstr(p->names, word))
             snprintf(p->names + n, sizeof p->names - n, "%s ", o->group);
-        snprintf(place, sizeof place, "command line: -p %s: %s.%s", o->text, o->group, o->key);
+        snprintf(place, sizeof place, "command line: -p %s: %s%s%s", o->text, o->group,
+                 *o->key ? "." : "", o->key);
         if (!g && !known_group(p, others, o->group)) {
             const char *near = nearest_group(p, others, o->group);
-            fault(f, place, near ? "unknown group; did you mean `%s'?" : "unknown group", near);
-        } else if (g && !g->stride && !has_row(g, o->key) && !strstr(o->key, ".[")) {
+            params_add_fault(f, place, near ? "unknown group; did you mean `%s'?" : "unknown group",
+                             near);
+        } else if (g && *o->key && !g->stride && !has_row(g, o->key) && !strstr(o->key, ".[")) {
             const char *near = nearest_key(g, o->key);
-            fault(f, place, near ? "unknown key; did you mean `%s'?" : "unknown key", near);
+            params_add_fault(f, place, near ? "unknown key; did you mean `%s'?" : "unknown key",
+                             near);
         } else if (g) {
             o->known = true; /* if some list has such an element and key, seen once it is read */
         }
@@ -513,9 +479,10 @@ static void find_unused_overrides(const struct params *p, struct faults *f)
         if (!o->known || o->used)
             continue;
         snprintf(place, sizeof place, "command line: -p %s: %s.%s", o->text, o->group, o->key);
-        fault(f, place,
-              "no such element of a list in the case, or no such key: elements count from 0, as in "
-              "walls.[0].kind, and must be there; the command line adds none");
+        params_add_fault(
+            f, place,
+            "no such element of a list in the case, or no such key: elements count from 0, as in "
+            "walls.[0].kind, and must be there; the command line adds none");
     }
 }
 
@@ -526,7 +493,7 @@ static void check_format(const struct params *p, struct faults *f)
     char place[1300];
     if (s && !(param_number(s, &v) && v == 1.0)) {
         snprintf(place, sizeof place, "%s:%u: format", p->path, config_setting_source_line(s));
-        fault(f, place, "1 is wanted: this program reads format 1");
+        params_add_fault(f, place, "1 is wanted: this program reads format 1");
     }
 }
 
@@ -535,11 +502,13 @@ static void read_case(struct params *p, const char *const *texts, const char *co
 {
     p->overrides = NEW(struct override, p->noverrides);
     for (int k = 0; k < p->noverrides; k++)
-        read_override(p->overrides + k, texts[k], f);
+        override_read(p->overrides + k, texts[k], f);
     read_file(p, f);
     snprintf(p->names, sizeof p->names, " ");
     if (!p->read)
         return;
+    for (int k = 0; k < p->noverrides; k++)
+        override_graft(p->overrides + k, &p->cfg, f);
     check_format(p, f);
     find_unknown_groups(p, others, f);
     find_unknown_overrides(p, others, f);
@@ -735,7 +704,9 @@ void params_fault(const struct params *p, struct faults *f, const char *name, co
     snprintf(text, sizeof text, "%s=", key);
     const config_setting_t *s = p->read ? config_lookup(&p->cfg, key) : NULL;
     snprintf(place, sizeof place, "%s: %s", p->path, key);
-    if (s)
+    if (s && config_setting_source_line(s) == 0)
+        snprintf(place, sizeof place, "command line: %s", key);
+    else if (s)
         snprintf(place, sizeof place, "%s:%u: %s",
                  config_setting_source_file(s) ? config_setting_source_file(s) : p->path,
                  config_setting_source_line(s), key);

@@ -156,6 +156,9 @@ char *params_text(const struct params *p);
 /* One more fault, at the place of `key' ("sph.dx") in the file; call on all ranks alike. */
 void params_fault(const struct params *p, struct faults *f, const char *key, const char *fmt, ...)
     __attribute__((format(printf, 4, 5)));
+/* The same where there is no case: `place' as it is. */
+void params_add_fault(struct faults *f, const char *place, const char *fmt, ...)
+    __attribute__((format(printf, 3, 4)));
 /* Prints the faults and their number on rank 0; returns f->n. */
 int params_report(const struct faults *f);
 /* --help [key], --params (markdown) and --template: print from the table. */

@@ -54,6 +54,28 @@ static void the_command_line_reaches_into_lists(void **state)
                 "-p items.[1].weight=999: items.[1].weight: 999 is not allowed"));
 }
 
+/* A list or a group as a whole, of any depth, in place of the file's or where it has none. */
+static void the_command_line_gives_whole_lists(void **state)
+{
+    (void)state;
+    const char *text = "items: ({ weight = 1; }, { weight = 3; }); box: { size = 1; };\n";
+    sound(text, WITH("items=()"));
+    assert_int_equal(nitems, 0);
+    sound(text, WITH("items=({ weight = 7; kind = \"soft\"; })", "items.[0].weight=8",
+                     "box={ size = 2; lo = (3, 4.5); on = false; }"));
+    assert_int_equal(nitems, 1);
+    assert_close(items[0].weight + 10 * items[0].kind, 8.0, 0); /* soft: 0 */
+    assert_close(box.size + box.lo[0] + box.lo[1], 9.5, 0);
+    assert_false(box.on);
+    sound("box: { size = 1; };", WITH("trees=({ parts = ({ x = 1; file = \"a\"; }); })"));
+    assert_close(trees[0].parts.of[0].x, 1.0, 0);
+    faulty(text,
+           WITH("itms=()", "items=5", "box={ size = 99; sice = 1; }", "items=({ wait = 1; })"), 5,
+           WITH("-p itms=(): itms: unknown group; did you mean `items'", "GROUP.KEY=VALUE",
+                "command line: box.size: 99 is not allowed", "command line: box.sice: unknown key",
+                "command line: items.wait: unknown key"));
+}
+
 static unsigned long long hash(const char *text, const char *const *over)
 {
     struct faults f;
@@ -195,6 +217,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_command_line_goes_before_the_file),
         cmocka_unit_test(the_command_line_reaches_into_lists),
+        cmocka_unit_test(the_command_line_gives_whole_lists),
         cmocka_unit_test(the_hash_is_of_the_case_and_not_of_its_output),
         cmocka_unit_test(the_text_of_a_case_can_be_read_again),
         cmocka_unit_test(a_given_key_that_is_not_used_is_a_fault),
