@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../sph_params.h"
+#include "../walls/forces.h"
 #include "../rigid/body_impedance.h"
 #include "../../common/body_math.h"
 
@@ -107,6 +108,7 @@ static void fluid_loads(struct sph *s, double weight, double (*loads)[6])
             memcpy(loads[k], by.F, sizeof by.F);
             memcpy(loads[k] + 3, by.M, sizeof by.M);
         }
+        forces_add_turning(s, k, loads[k] + 3);
         vec3_add(b->free->impulse[0], weight, given[k].F);
         vec3_add(b->free->impulse[1], weight, loads[k]);
         b->free->size += weight * vec3_length(given[k].F);

@@ -41,6 +41,7 @@ struct body {
     double centre[3]; /* m: of rotation and moments at the start */
     bool moves;       /* ever */
     double reach;     /* m: of the farthest point from it */
+    double volume;    /* m^3; 2D: m^2 */
     int first, n;     /* 2D: its segments */
     struct body_drive drive;
     struct scene_contact contact;
@@ -55,6 +56,8 @@ struct body_mass {
 };
 bool body_mass_of(const struct scene_body *is, const struct trimesh *mesh, int dim,
                   struct body_mass *m, char *why, size_t size);
+/* Of what its surface encloses, m^3; 2D: m^2. */
+double body_volume_of(const struct scene_body *is, const struct trimesh *mesh);
 /* Drive, and for a free body its state at the start; files of motion are beside the case in dir. */
 void body_create(struct body *b, const struct scene_body *is, const struct trimesh *mesh, int dim,
                  const char *dir);

@@ -120,6 +120,7 @@ void body_create(struct body *b, const struct scene_body *is, const struct trime
     memcpy(b->centre, is->centre, sizeof b->centre);
     body_drive_create(&b->drive, is, dim, dir);
     b->contact = scene_contact_of(is);
+    b->volume = body_volume_of(is, mesh);
     if (is->free && body_mass_of(is, mesh, dim, &m, why, sizeof why)) {
         memcpy(b->centre, m.centre, sizeof b->centre);
         create_free(b, &m);

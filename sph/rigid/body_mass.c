@@ -1,5 +1,6 @@
 /* body_mass.c - mass, centre and inertia of a body, given or of a uniform density.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -86,6 +87,12 @@ static bool of_mesh(const struct trimesh *mesh, double density, struct body_mass
         for (int b = 0; b < 3; b++)
             m->inertia[a][b] = sign * is.inertia[a][b];
     return true;
+}
+
+double body_volume_of(const struct scene_body *is, const struct trimesh *mesh)
+{
+    const struct line l = line_of(&is->points, true);
+    return fabs(mesh ? trimesh_solid(mesh, -1).volume : line_area(&l));
 }
 
 bool body_mass_of(const struct scene_body *is, const struct trimesh *mesh, int dim,

@@ -67,11 +67,31 @@ void forces_join_step(struct walls *to, struct walls *from)
     memset(f->hit, 0, sizeof f->hit);
 }
 
+/* Morris's term is nu Lap u, whose traction on a wall is mu du/dn. The stress on a wall that turns
+ * at w is mu (du/dn - w x n), for there the other half of the gradient is not 0; over a closed
+ * surface the difference is no force but the moment -2 mu V w: of Couette flow between two
+ * cylinders, r1/r2 = 1/2, three eighths of the torque. Monaghan's pairs push along the line of
+ * centres, and their moment is whole. What the fluid loses is the first: it is what the watch of
+ * the energy knows. */
+void forces_add_turning(const struct sph *s, int k, double moment[3])
+{
+    const struct body *b = s->walls->bodies + k;
+    if (b->is->kind != WALL_NO_SLIP || s->prm.viscosity != VISCOSITY_MORRIS)
+        return;
+    for (int a = 0; a < 3; a++)
+        moment[a] -= 2.0 * s->rho0 * s->nu * b->volume * b->now.omega[a];
+}
+
 void forces_stage(struct sph *s, double dt)
 {
     struct wall_forces *f = &s->walls->forces;
     for (int b = 0; b < SIDES; b++)
         add_times(f->step + b, dt, f->stage + b);
+    for (int k = 0; k < s->walls->nbodies && s->run->rank == 0 && s->level == 0; k++) {
+        struct force turning = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+        forces_add_turning(s, k, turning.M);
+        add_times(f->step + k, dt, &turning);
+    }
 }
 
 /* The first body over the second half of the run. */

@@ -18,6 +18,9 @@ void forces_hit(const struct sph *s, int body, const double *x, const double *im
 /* What `from' has of the stage or the step under way goes to `to', the walls of another level. */
 void forces_join_stage(struct walls *to, const struct walls *from);
 void forces_join_step(struct walls *to, struct walls *from);
+/* Adds to the moment on body k what its turning takes from the friction of Morris's term; see
+ * forces.c. */
+void forces_add_turning(const struct sph *s, int k, double moment[3]);
 /* After a stage that counts for dt, s, of the step; at the end of a step of dt. The latter is
  * collective. */
 void forces_stage(struct sph *s, double dt);
