@@ -78,7 +78,7 @@ static const struct param shape_rows[] = {
 #define P struct scene_probe
 static const struct param probe_rows[] = {
     PARAM(P, name, "-", NULL, 0, 0, "its name in series.csv"),
-    CHOICE(P, kind, "pressure|level|shore", "pressure", "what it reads: pressure at a point; height of the surface above it; height of the water's edge on a beach, to both sides of a place in the water (sph in 2D)"),
+    CHOICE(P, kind, "pressure|level|shore", "pressure", "what it reads: pressure at a point; height of the surface in the column over it, which stands on the floor or body next below it (sph); height of the water's edge on a beach, to both sides of a place in the water (sph in 2D)"),
     PARAM(P, at,   "m", NULL, -1e9, 1e9, "place"),
     PARAM(P, radius, "m", "0.0", 0, 1e9, "of a pressure (sph): its face; it reads the mean over a disc, in 3D a sphere, of this radius, and less the less of that is wet below a quarter (3D: an eighth); the same whatever the particles' size; 0 and below their R: their R"),
 };

@@ -9,6 +9,7 @@
 #include "../bodies/bodies.h"
 #include "../walls/forces.h"
 #include "../pairs/kernel.h"
+#include "level_gauge.h"
 #include "shore.h"
 #include "../walls/walls.h"
 
@@ -76,46 +77,9 @@ static double pressure_at(struct sph *s, const struct scene_probe *g)
     return sums[1] > 0.05 ? sums[0] / fmax(sums[1], least) : 0.0;
 }
 
-/* Volume of what flows of one level under a hat function of this half width around the place. */
-static double volume_around(const struct sph *s, const double *at, double half)
-{
-    double volume = 0.0;
-    for (int i = 0; i < s->p.n; i++) {
-        const double *q = prim_line(&s->p, i);
-        double weight = particles_is_guard(&s->p, i) ? 0.0 : q[at_volume(s->dim)];
-        for (int a = 0; a < s->dim - 1; a++) {
-            double d = fabs(q[a] - at[a]);
-            if (s->periodic[a])
-                d = fmin(d, s->hi[a] - s->lo[a] - d);
-            weight *= fmax(0.0, 1.0 - d / half);
-        }
-        volume += weight;
-    }
-    return volume;
-}
-
-/* Volume of the fluid in a column around the place over the column's cross-section, on top of the
- * domain's bottom: the surface's height where there is one, drops included. */
-static double level_at(struct sph *s, const double *at)
-{
-    const int up = s->dim - 1;
-    const double half = 2.0 * s->dx;
-    double volume = 0.0, section = 1.0;
-    for (int a = 0; a < up; a++) { /* integral of the hat function over the domain */
-        const double lo = fmax(-1.0, (s->lo[a] - at[a]) / half);
-        const double hi = fmin(1.0, (s->hi[a] - at[a]) / half);
-        const double low = 0.5 * (1.0 + lo) * (1.0 + lo), high = 0.5 * (1.0 - hi) * (1.0 - hi);
-        section *= s->periodic[a] ? half : half * (1.0 - low - high);
-    }
-    for (const struct sph *q = s; q; q = q->finer)
-        volume += volume_around(q, at, half);
-    MPI_Allreduce(MPI_IN_PLACE, &volume, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return s->lo[up] + volume / section;
-}
-
 static double value_at(struct sph *s, const struct scene_probe *g)
 {
-    return g->kind == PROBE_LEVEL   ? level_at(s, g->at)
+    return g->kind == PROBE_LEVEL   ? level_gauge(s, g->at)
            : g->kind == PROBE_SHORE ? shore_height(s, g->at[0])
                                     : pressure_at(s, g);
 }
