@@ -59,7 +59,7 @@ for name in corner oblique jets pool film column paddle beach shore; do runs $na
 awk -v m="$(value shore max_mach)" 'BEGIN { exit !(m > 0 && m < 0.003) }' || bad "water before a beach does not rest" shore.txt
 sed 's/(1.1, -0.05), (2.2, 0.5)/(1.1, 0), (1.7, 0.25)/' shore.cfg >plate.cfg
 "$b/sph" plate.cfg --check >plate.txt 2>&1
-grep -q 'walls.\[3\].points: the line that stands on another wall .*both of its faces' plate.txt || bad "a line with water on both sides" plate.txt
+grep -q 'walls.\[3\].points: the line stands on another wall .*both of its faces' plate.txt || bad "a line with water on both sides" plate.txt
 runs corner -p 'sph.scheme="riemann_ale"'
 runs jets -p 'sph.scheme="delta"'
 

@@ -600,15 +600,15 @@ static void check_ends(const struct run *r, struct faults *f)
 {
     char key[64];
     struct wall_end e;
-    if (!wall_ends_open(&r->scene, 0.1 * given.dx, &e))
+    if (!wall_ends_open(&r->scene, given.dx, &e))
         return;
     snprintf(key, sizeof key, "walls.[%d].points", e.wall);
-    params_fault(
-        r->params, f, key,
-        "the line that stands on another wall at (%g, %g) ends inside the domain at (%g, %g), "
-        "so that fluid comes to its back, where a line is no wall: let it go on to a wall or "
-        "to a side of the domain, or draw both of its faces",
-        e.foot[0], e.foot[1], e.at[0], e.at[1]);
+    params_fault(r->params, f, key,
+                 "the line %s ends inside the domain at (%g, %g), so that fluid comes to its back, "
+                 "where a line is no wall: let it go on to a wall or to a side of the domain, or "
+                 "draw both of its faces, %.3g m (0.7 sph.R_dx sph.dx) apart or more",
+                 e.stands ? "stands on another wall and" : "has water at its end: it", e.at[0],
+                 e.at[1], 0.7 * given.R_dx * given.dx);
 }
 
 /* A body moved by the fluid and a partner of a coupled job take one step with all levels. */

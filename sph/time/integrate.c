@@ -245,6 +245,27 @@ static void finish_step(struct sph *s, double dt, double lost, double *most, str
     }
 }
 
+/* Of all ranks: particles that were removed behind walls, and where the first of them was on the
+ * lowest rank that has some. Collective. */
+static int64_t gone_behind(const struct sph *s, double at[3])
+{
+    struct {
+        int none, rank;
+    } who = {1, s->run->rank};
+    int64_t n = 0;
+    memset(at, 0, 3 * sizeof *at);
+    for (const struct sph *q = s; q; q = q->finer)
+        if (q->walls && q->walls->gone > 0) {
+            n += q->walls->gone;
+            memcpy(at, q->walls->gone_at, 3 * sizeof *at);
+            who.none = 0;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT64_T, MPI_SUM, s->run->comm);
+    MPI_Allreduce(MPI_IN_PLACE, &who, 1, MPI_2INT, MPI_MINLOC, s->run->comm);
+    MPI_Bcast(at, 3, MPI_DOUBLE, who.rank, s->run->comm);
+    return n;
+}
+
 /* The first time, and whenever the number has grown tenfold. */
 static void report_lost(struct sph *s, double lost)
 {
@@ -255,8 +276,19 @@ static void report_lost(struct sph *s, double lost)
     if (sum < 10.0 * s->lost_said)
         return;
     s->lost_said = sum;
-    log_warn("t = %g s: %.0f particle(s) left the region at an open side since the start", s->t,
-             sum);
+    double at[3];
+    const int64_t behind = gone_behind(s, at);
+    if (behind > 0)
+        log_warn("t = %g s: %.0f particle(s) left the region since the start, %.0f of them behind "
+                 "walls, the first at (%g, %g, %g) m, and are out of the run: %s",
+                 s->t, sum, (double)behind, at[0], at[1], at[2],
+                 s->dim == 2 ? "a line has no wall on its back; where water may come round it draw "
+                               "both of its faces"
+                             : "where water may come round an open mesh give it both faces, or "
+                               "thin = true");
+    else
+        log_warn("t = %g s: %.0f particle(s) left the region at an open side since the start", s->t,
+                 sum);
 }
 
 /* Mass of the region: particles, and what the faces hold of particles that are partly in. */

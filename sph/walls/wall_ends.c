@@ -3,6 +3,9 @@
 
 #include <math.h>
 
+#include "../../common/exact.h"
+#include "../../common/scene_fluid.h"
+
 /* Ends of segment k of a wall: of its points, or of the side of the domain that it is. */
 static bool segment_of(const struct scene *c, const struct scene_wall *w, int k, double a[2],
                        double b[2])
@@ -64,8 +67,33 @@ static bool is_free(const struct scene *c, int k, const double *x, double near)
     return !meets(c, k, x, near, false);
 }
 
-bool wall_ends_open(const struct scene *c, double near, struct wall_end *e)
+/* Whether the line goes on from its own end x elsewhere, as one that is closed by hand. */
+static bool comes_back(const struct scene_wall *w, int end, const double *x, double near)
 {
+    const int n = w->points.n;
+    for (int i = end ? 0 : 1; i + 1 < n - (end ? 1 : 0); i++)
+        if (is_on(x, w->points.x[i], w->points.x[i + 1], near, false))
+            return true;
+    return false;
+}
+
+/* Whether there is water at the start beyond the end x of a line that comes from `from'. */
+static bool is_wet(const struct scene *c, const double *x, const double *from, double dx)
+{
+    const struct exact e = exact_create(c);
+    const double way = atan2(x[1] - from[1], x[0] - from[0]);
+    bool wet = false;
+    for (int k = -2; k <= 2; k++) {
+        const double angle = way + k * 0.5, r = 0.75 * dx;
+        const double y[3] = {x[0] + r * cos(angle), x[1] + r * sin(angle), 0.0};
+        wet = wet || (scene_is_fluid(c, &e, y, NULL) && scene_is_room(c, y));
+    }
+    return wet;
+}
+
+bool wall_ends_open(const struct scene *c, double dx, struct wall_end *e)
+{
+    const double near = 0.1 * dx;
     for (int k = 0; k < c->nwalls; k++) {
         const struct scene_wall *w = c->walls + k;
         const int last = w->points.n - 1;
@@ -73,10 +101,12 @@ bool wall_ends_open(const struct scene *c, double near, struct wall_end *e)
             continue;
         for (int end = 0; end < 2; end++) {
             const double *x = w->points.x[end ? last : 0], *foot = w->points.x[end ? 0 : last];
-            if (!is_free(c, k, x, near) || !meets(c, k, foot, near, true))
+            const double *before = w->points.x[end ? last - 1 : 1];
+            if (!is_free(c, k, x, near) || comes_back(w, end, x, near))
                 continue;
-            *e = (struct wall_end){.wall = k, .at = {x[0], x[1]}, .foot = {foot[0], foot[1]}};
-            return true;
+            *e = (struct wall_end){k, {x[0], x[1]}, meets(c, k, foot, near, true)};
+            if (e->stands || is_wet(c, x, before, dx))
+                return true;
         }
     }
     return false;

@@ -2,6 +2,7 @@
 #include "wall_list.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "../../common/mem.h"
 #include "wall_moments.h"
@@ -104,12 +105,20 @@ static void build(const struct sph *s, struct wall_list *l)
     l->first[l->n] = touches;
 }
 
+/* Whether x lies beyond an open end of g and behind its line: from there it sees no wall. */
+static bool is_round(const struct segment *g, double height, double from, double to)
+{
+    return height < 0.0 && ((from > 0.0 && g->open[0]) || (to < 0.0 && g->open[1]));
+}
+
 static void measure(const struct segment *g, const double *x, double R, struct wall_touch *t)
 {
     const double d[2] = {g->a[0] - x[0], g->a[1] - x[1]};
     const double height = g->n[0] * d[0] + g->n[1] * d[1];
     const double from = g->t[0] * d[0] + g->t[1] * d[1], to = from + g->length;
-    const struct wall_moments m = wall_moments(height / R, from / R, to / R);
+    const struct wall_moments m = is_round(g, height, from, to)
+                                      ? (struct wall_moments){0}
+                                      : wall_moments(height / R, from / R, to / R);
     t->height = height;
     t->foot = from <= 0.0 && to >= 0.0;
     t->distance = hypot(height, fmax(0.0, fmax(from, -to)));
@@ -158,6 +167,42 @@ static void join_planes(struct wall_touch *touch, int n)
     }
 }
 
+/* A wall that ends in the open hides what lies behind it up to the line of sight through its end.
+ * What this line has of the kernel beyond the end closes the sums over wall and fluid: a uniform
+ * pressure pushes nobody along a wall's rim, and where x comes into the wall's own line it has all
+ * that the wall has, so that nothing jumps there. */
+static void add_open_ends(const struct segment *g, const double *x, double R, double *rim)
+{
+    for (int end = 0; end < 2; end++) {
+        const double *e = end ? g->b : g->a;
+        const double to[2] = {e[0] - x[0], e[1] - x[1]}, r = hypot(to[0], to[1]);
+        if (!g->open[end] || r >= R || r < 1e-9 * R)
+            continue;
+        const double inward = end ? -1.0 : 1.0; /* along t, to where the wall is */
+        const double side = inward * (to[0] * g->t[1] - to[1] * g->t[0]);
+        const double W = (side < 0.0 ? -1.0 : 1.0) * wall_moments(0.0, r / R, 1.0).W / (R * r);
+        rim[0] -= W * to[1];
+        rim[1] += W * to[0];
+    }
+}
+
+static void close_open_ends(const struct sph *s, struct wall_list *l)
+{
+    if (s->dim == 3 || !s->walls->any_open)
+        return;
+    if (l->n > l->rims_capacity) {
+        GROW(l->rim, l->rims_capacity, l->n + l->n / 2);
+        l->rims_capacity = l->n + l->n / 2;
+    }
+    for (int k = 0; k < l->n; k++) {
+        memset(l->rim[k], 0, sizeof *l->rim);
+        for (int j = l->first[k]; j < l->first[k + 1]; j++)
+            if (l->touch[j].is.W > 0.0)
+                add_open_ends(s->walls->segments + l->touch[j].piece, prim_line(&s->p, l->who[k]),
+                              s->R, l->rim[k]);
+    }
+}
+
 void wall_list_measure(const struct sph *s, struct wall_list *l)
 {
     const double q = 0.5 * s->dx;
@@ -179,6 +224,7 @@ void wall_list_measure(const struct sph *s, struct wall_list *l)
         }
         l->gamma[k] = gamma > 1.0 + 1e-6 ? gamma - 1.0 : gamma; /* behind a wall one more */
     }
+    close_open_ends(s, l);
     l->measured = true;
 }
 

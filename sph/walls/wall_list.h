@@ -41,8 +41,8 @@ struct wall_list {
     struct wall_frames *of3;
     int *found;
     struct wall_near *near;
-    /* 3D with thin walls: what closes the sums at rims, m^-1; places at the last list and its time
-     */
+    /* Thin walls in 3D, open ends in 2D: what closes the sums at rims, m^-1. 3D: places at the last
+     * list and its time */
     int rims_capacity;
     double (*rim)[3], (*seen_from)[3], listed_at;
 };

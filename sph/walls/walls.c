@@ -181,13 +181,14 @@ void wall_side_add(struct wall_side *to, const struct segment *g, const double *
     const double d[2] = {x[0] - g->a[0], x[1] - g->a[1]};
     const double height = -(d[0] * g->n[0] + d[1] * g->n[1]);
     double along = d[0] * g->t[0] + d[1] * g->t[1];
+    const bool round = (along < 0.0 && g->open[0]) || (along > g->length && g->open[1]);
     along = along < 0.0 ? -along : along > g->length ? along - g->length : 0.0;
     const double r = sqrt(along * along + height * height);
     if (r < to->least * (1.0 + 1e-12) &&
         (r < to->least * (1.0 - 1e-12) || fabs(height) > to->sure)) {
         to->least = r;
         to->sure = fabs(height);
-        to->distance = height < 0.0 ? -r : r;
+        to->distance = height < 0.0 && !round ? -r : r;
     }
 }
 
@@ -197,6 +198,13 @@ double walls_distance(const struct walls *w, const double *x, double reach)
     for (int k = 0; k < w->nsegments; k++)
         wall_side_add(&side, w->segments + k, x);
     return side.distance;
+}
+
+static double segment_distance(const struct segment *g, const double *x)
+{
+    const double along =
+        fmax(0.0, fmin((x[0] - g->a[0]) * g->t[0] + (x[1] - g->a[1]) * g->t[1], g->length));
+    return hypot(x[0] - g->a[0] - along * g->t[0], x[1] - g->a[1] - along * g->t[1]);
 }
 
 int walls_nearest(const struct walls *w, const double *x, double *foot)
@@ -308,6 +316,18 @@ void walls_put_before(struct sph *s, int i, const struct wall_foot *f)
     s->walls->returned++;
 }
 
+/* Whether the nearest wall ends openly within 2 dx of its point nearest to x: through a line
+ * particles come less than dx, so this one has come round it. */
+static bool is_round_end(const struct sph *s, const double *x)
+{
+    double foot[2];
+    if (s->dim == 3)
+        return false;
+    const struct segment *g = s->walls->segments + walls_nearest(s->walls, x, foot);
+    return (g->open[0] && hypot(foot[0] - g->a[0], foot[1] - g->a[1]) < 2.0 * s->dx) ||
+           (g->open[1] && hypot(foot[0] - g->b[0], foot[1] - g->b[1]) < 2.0 * s->dx);
+}
+
 bool walls_put_back(struct sph *s, int i)
 {
     const double *y = state_row(&s->p, s->p.y, i);
@@ -315,8 +335,12 @@ bool walls_put_back(struct sph *s, int i)
     double away2 = 0.0;
     for (int a = 0; a < s->dim; a++)
         away2 += (y[a] - f.x[a]) * (y[a] - f.x[a]);
-    if (away2 > s->dx * s->dx)
+    if (away2 > s->dx * s->dx || is_round_end(s, y)) {
+        for (int a = 0; s->walls->gone == 0 && a < s->dim; a++)
+            s->walls->gone_at[a] = y[a];
+        s->walls->gone++;
         return false;
+    }
     walls_put_before(s, i, &f);
     return true;
 }
@@ -417,6 +441,25 @@ static void add_bodies(struct sph *s, struct walls *w)
     }
 }
 
+/* Where lines at rest end in the open: on no other segment and no side of the domain. */
+static void find_open_ends(const struct sph *s, struct walls *w)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    const double near = 0.1 * s->prm.dx;
+    for (int k = 0; k < w->nsegments; k++)
+        for (int end = 0; end < 2; end++) {
+            struct segment *g = w->segments + k;
+            const double *x = end ? g->b : g->a;
+            bool meets = g->body >= 0;
+            for (int a = 0; a < 2; a++)
+                meets = meets || x[a] < d->min[a] + near || x[a] > d->max[a] - near;
+            for (int j = 0; j < w->nsegments && !meets; j++)
+                meets = j != k && segment_distance(w->segments + j, x) < near;
+            g->open[end] = !meets;
+            w->any_open = w->any_open || !meets;
+        }
+}
+
 void walls_expect_speed(struct walls *w)
 {
     w->speed = 0.0;
@@ -451,6 +494,8 @@ struct walls *walls_create(struct sph *s)
     if (s->dim == 2)
         leave_out_covered(s, w);
     add_bodies(s, w);
+    if (s->dim == 2)
+        find_open_ends(s, w);
     wall_meshes_create(s, w);
     w->start = NEW(struct segment, w->nsegments);
     if (w->nsegments > 0)

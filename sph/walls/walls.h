@@ -15,6 +15,7 @@ struct segment {
     double u[2];       /* m/s: of a wall along itself (bodies: walls_velocity) */
     int body;          /* -1: at rest */
     bool no_slip;
+    bool open[2]; /* a, b end where no wall goes on: beyond them nothing is behind it */
 };
 
 /* A plane side of the domain, as mirrored ghosts need it. */
@@ -86,6 +87,7 @@ struct walls {
     int nbodies;
     struct body bodies[BODIES_MAX];
     bool any_free; /* some body moves by forces */
+    bool any_open; /* 2D: some line ends in the open */
     bool lent;     /* the state of free bodies is that of the coarser level's walls */
     bool placed;   /* all have been moved to their places once */
     double t;      /* s: of `segments' */
@@ -99,6 +101,8 @@ struct walls {
     bool shown;        /* NAME_walls.h5 is written; wall_files.h */
     struct xdmf *view; /* its XDMF file; rank 0 */
     int64_t returned;  /* particles found behind walls and put back; this rank */
+    int64_t gone;      /* the same, too far behind or round an open end, and removed */
+    double gone_at[3]; /* m: where the first of them was */
 };
 
 /* NULL: the scene has no walls. Needs s->domain. */
@@ -135,7 +139,7 @@ double walls_meet(const struct sph *s, const double *x, const double *d);
 /* Puts local particle i back to 0.05 dx before f, without the velocity that led there. */
 void walls_put_before(struct sph *s, int i, const struct wall_foot *f);
 /* Puts local particle i, found behind a wall, back to 0.05 dx before it, without the velocity that
- * led there; false if it is farther than dx behind. */
+ * led there; false, and counted, if it is farther than dx behind, or has come round an open end. */
 bool walls_put_back(struct sph *s, int i);
 /* The same for all locals beyond a side that is a wall. */
 void walls_put_back_inside(struct sph *s);
