@@ -38,14 +38,21 @@ static void add_segment(struct walls *w, const double *a, const double *b, bool 
         w->segments[w->nsegments++] = g;
 }
 
-/* Ends on a periodic side go on beyond it, for the images do. */
+/* Whether fluid goes on beyond a side of the region: its images, or what an inlet or outlet has. */
+static bool goes_beyond(const struct sph *s, int side)
+{
+    const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
+    return s->periodic[side / 2] || (w && w->kind >= WALL_INFLOW);
+}
+
+/* Ends on a side through which fluid goes go on beyond it, as sides do. */
 static void extend(const struct sph *s, double *end, const double *other)
 {
     const double d[2] = {end[0] - other[0], end[1] - other[1]};
     const double length = sqrt(d[0] * d[0] + d[1] * d[1]);
     for (int a = 0; a < 2; a++)
-        if (s->periodic[a] &&
-            (fabs(end[a] - s->lo[a]) < 1e-9 * s->R || fabs(end[a] - s->hi[a]) < 1e-9 * s->R)) {
+        if ((goes_beyond(s, 2 * a) && fabs(end[a] - s->lo[a]) < 1e-9 * s->R) ||
+            (goes_beyond(s, 2 * a + 1) && fabs(end[a] - s->hi[a]) < 1e-9 * s->R)) {
             end[0] += 2.5 * s->R * d[0] / length;
             end[1] += 2.5 * s->R * d[1] / length;
             return;
