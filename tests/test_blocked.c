@@ -8,6 +8,7 @@
 
 #include "../fv/boundary/blocked.h"
 #include "../fv/surface/levelset.h"
+#include "../fv/watch/watches.h"
 #include "fv_case.h"
 #include "../fv/case/fv_case.h"
 #include "../fv/output/output.h"
@@ -30,10 +31,9 @@ static void add_box(const char *name, const double *min, const double *max, enum
 #define BOX(name, kind, x0, y0, z0, x1, y1, z1)                                                    \
     add_box(name, (const double[]){x0, y0, z0}, (const double[]){x1, y1, z1}, kind)
 
-static struct fv *start(struct fv_case *c, MPI_Comm comm, const char *const *overrides,
-                        const struct scene_shape *shape, enum wall_kind kind)
+/* Of a case that is set. */
+static struct fv *start_set(struct fv_case *c, const struct scene_shape *shape, enum wall_kind kind)
 {
-    fv_case_set(c, comm, overrides);
     struct scene *scene = &c->run.scene;
     for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * scene->domain.dim; side++)
         if (!scene->domain.periodic[(side - SIDE_X_MIN) / 2])
@@ -44,6 +44,13 @@ static struct fv *start(struct fv_case *c, MPI_Comm comm, const char *const *ove
     blocked_given_count = nboxes;
     nboxes = 0;
     return fv_case_start(c, NULL);
+}
+
+static struct fv *start(struct fv_case *c, MPI_Comm comm, const char *const *overrides,
+                        const struct scene_shape *shape, enum wall_kind kind)
+{
+    fv_case_set(c, comm, overrides);
+    return start_set(c, shape, kind);
 }
 
 static void end(struct fv_case *c)
@@ -151,6 +158,60 @@ static void thin_wall_parts_basins(void **state)
     end(&c);
 }
 
+/* Over all ranks. */
+static double level_at(const struct fv *s, double x)
+{
+    double level = surface_level(s, (const double[]){x, 0, 0});
+    MPI_Allreduce(MPI_IN_PLACE, &level, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return level;
+}
+
+/* Two shafts round a core: each has the level of its own shape, whatever box lies between, and the
+ * energy of what then swings is that of the fall. */
+static void shafts_have_their_own_levels(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    const struct scene_shape left = {.form = SHAPE_BOX, .box = {{0, 0, 0}, {0.5, 0.65, 0}}},
+                             right = {.form = SHAPE_BOX, .box = {{0.5, 0, 0}, {1, 0.55, 0}}};
+    BOX("core", WALL_SLIP, 0.25, 0.25, 0, 0.75, 1, 0);
+    fv_case_set(&c, MPI_COMM_WORLD,
+                (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "fluid.nu=0",
+                                      "domain.dim=2", "fv.cells=(32,32)", NULL});
+    c.run.scene.shapes[c.run.scene.nshapes++] = left;
+    struct fv *s = start_set(&c, &right, WALL_SLIP);
+    assert_close(level_at(s, 0.1), 0.65, 1e-9);
+    assert_close(level_at(s, 0.9), 0.55, 1e-9);
+    assert_true(fv_case_run(&c, 1000, 3.5)); /* more than a hundred steps, two periods */
+    print_message("U tube: %d steps, energy gained %.3g\n", (int)c.run.step,
+                  s->watches->energy.worst);
+    assert_true(c.run.step > 105 && s->watches->energy.worst < s->watches->energy.warn);
+    end(&c);
+}
+
+/* The height of the surface, over what stands on the floor and what hangs in the water, and the
+ * ground where there is no water. */
+static void gauges_read_over_boxes(void **state)
+{
+    (void)state;
+    static const struct {
+        double water, top, x, level; /* of the water, the sill; the gauge and what it reads */
+    } all[] = {{0.4, 0.2, 0.45, 0.4}, {0.4, 0.2, 0.2, 0.4}, {0.4, 0.2, 0.7, 0.4},
+               {0.4, 0.6, 0.2, 0.6},  {0.1, 0.2, 0.2, 0.2}, {0.1, 0.2, 0.7, 0.1}};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+        struct fv_case c;
+        const struct scene_shape water = {.form = SHAPE_BELOW, .level = all[k].water};
+        BOX("sill", WALL_SLIP, 0.1, 0, 0, 0.3, all[k].top, 0);
+        BOX("bar", WALL_SLIP, 0.6, 0.2, 0, 0.8, 0.3, 0);
+        struct fv *s = start(&c, MPI_COMM_WORLD,
+                             (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)",
+                                                   "domain.dim=2", "fv.cells=(20,20)", NULL},
+                             &water, WALL_SLIP);
+        assert_close(level_at(s, all[k].x), all[k].level, 1e-9);
+        end(&c);
+    }
+}
+
 static void duct_has_its_parabola(void **state)
 {
     (void)state;
@@ -250,7 +311,8 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_water_stays),      cmocka_unit_test(boxes_are_walls),
-        cmocka_unit_test(thin_wall_parts_basins), cmocka_unit_test(duct_has_its_parabola),
+        cmocka_unit_test(thin_wall_parts_basins), cmocka_unit_test(shafts_have_their_own_levels),
+        cmocka_unit_test(gauges_read_over_boxes), cmocka_unit_test(duct_has_its_parabola),
         cmocka_unit_test(stream_loses_energy),    cmocka_unit_test(ranks_agree)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -71,6 +71,40 @@ static void growing_rest_ends_a_run(void **state)
     mesh_case_end(&c, &s);
 }
 
+/* Water that swings over the edge of a shelf, at half the step, whose hundred steps end at rest:
+ * the work of gravity is that of what the surface does, not of averages beside the edge. */
+static void edges_make_no_energy(void **state)
+{
+    static const char shelf[] =
+        "{ name = \"deep\"; cells = (32, 16); max = (1.0, 0.5); i_max = \"slip\"; j_max = "
+        "\"joined\"; i_min = \"slip\"; j_min = \"slip\"; }, "
+        "{ name = \"left\"; cells = (32, 16); min = (0.0, 0.5); max = (1.0, 1.0); i_min = "
+        "\"slip\"; "
+        "i_max = \"joined\"; j_min = \"joined\"; j_max = \"slip\"; }, "
+        "{ name = \"right\"; cells = (32, 16); min = (1.0, 0.5); max = (2.0, 1.0); i_min = "
+        "\"joined\"; i_max = \"slip\"; j_min = \"slip\"; j_max = \"slip\"; }";
+    struct scene_shape water = {.form = SHAPE_POLYGON, .points.n = 4};
+    static const double corner[4][2] = {{-1, -1}, {-1, 0.68}, {3, 0.72}, {3, -1}};
+    struct mesh_case c;
+    struct diagnosis d = {0};
+    (void)state;
+    memcpy(water.points.x, corner, sizeof corner);
+    mesh_case_read(&c, MPI_COMM_WORLD, shelf,
+                   (const char *const[]){"fluid.gravity=(0,-9.81)", "initial.field=\"rest\"",
+                                         "domain.max=(2,1)", NULL});
+    c.run.scene.shapes[c.run.scene.nshapes++] = water;
+    fv_params_check(&c.run, &c.faults);
+    assert_int_equal(params_report(&c.faults), 0);
+    struct fv *s = fv_create(&c.run, NULL);
+    while (!d.bad && c.run.step < 160) {
+        c.run.t += integrate(s, 10.0, &d);
+        c.run.step++;
+    }
+    say("a shelf", s->watches);
+    assert_true(!d.bad && s->watches->energy.worst < s->watches->energy.warn);
+    mesh_case_end(&c, &s);
+}
+
 static void blocks_are_watched(void **state)
 {
     static const char waving[] =
@@ -180,6 +214,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(gained_energy_ends_a_run),
                                        cmocka_unit_test(growing_rest_ends_a_run),
+                                       cmocka_unit_test(edges_make_no_energy),
                                        cmocka_unit_test(blocks_are_watched),
                                        cmocka_unit_test(waves_of_two_cells_are_seen),
                                        cmocka_unit_test(sudden_growth_is_seen),

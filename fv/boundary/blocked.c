@@ -26,6 +26,20 @@ static unsigned char box_of(const struct block *b, const int (*cells)[2][3], int
     return 0;
 }
 
+int blocked_stack(const struct fv *s, const int *at, int a, int way)
+{
+    const struct block *b = &s->b;
+    int cells[BLOCKED_MAX][2][3], i[3], n = 0;
+    for (int k = 0; k < blocked_count(); k++)
+        blocked_cells(s->run, k, cells[k][0], cells[k][1]);
+    for (int t = 0; t < 3; t++)
+        i[t] = b->lo[t] + at[t];
+    for (i[a] += way; i[a] >= 0 && i[a] < b->cells[a]; i[a] += way, n++)
+        if (!box_of(b, (const int(*)[2][3])cells, blocked_count(), i))
+            break;
+    return n;
+}
+
 static void mark(const struct fv *s, struct blocked *w)
 {
     const struct block *b = &s->b;

@@ -74,6 +74,9 @@ void blocked_line(const struct near_box *x, const double *q, int64_t d, int reac
 /* The ghost behind a box of which q is the first free cell and `in' the step away from it. */
 double blocked_ghost(const double *q, int64_t in, int depth, enum blocked_ghost rule);
 
+/* How many cells in line are cut out from the one next to a local cell on, along a. */
+int blocked_stack(const struct fv *s, const int *at, int a, int way);
+
 static inline bool is_blocked(const struct fv *s, int64_t c)
 {
     return s->blocked && s->blocked->box[c];

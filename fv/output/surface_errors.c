@@ -136,6 +136,20 @@ double surface_reach(const struct fv *s, int a)
     return most;
 }
 
+/* Water of a cell in a column, over the cell, with what is cut out below it: a box is ground for
+ * the water on it, and on the floor of the domain whether there is water or not. */
+static double height_in_column(const struct fv *s, const int *at, int64_t c, int up, int way)
+{
+    if (!s->blocked)
+        return surface_share(s, c);
+    const int stack = blocked_stack(s, at, up, way), i = s->b.lo[up] + at[up];
+    const bool grounded = stack == (way < 0 ? i : s->b.cells[up] - 1 - i);
+    if (is_blocked(s, c))
+        return grounded;
+    const double share = surface_share(s, c);
+    return share + (share > 0.0 && !grounded ? stack : 0);
+}
+
 /* Two columns along gravity (in 3D four) around x, with weights, linear between their centres. */
 double surface_level(const struct fv *s, const double *x)
 {
@@ -151,7 +165,7 @@ double surface_level(const struct fv *s, const double *x)
             const double place = fmin(top, fmax(half, (x[a] - b->origin[a]) / b->h[a])) - half;
             w *= a == up ? 1.0 : fmax(0.0, 1.0 - fabs(place - (b->lo[a] + at[a])));
         }
-        sum += w > 0.0 ? w * surface_share(s, c) : 0.0;
+        sum += w > 0.0 ? w * height_in_column(s, at, c, up, down ? 1 : -1) : 0.0;
     }
     int rank;
     MPI_Comm_rank(b->cart, &rank);

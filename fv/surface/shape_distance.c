@@ -17,20 +17,20 @@ static double height(const struct fv *s, const double *x)
     return -(g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) / size;
 }
 
-/* Whether what is half a cell beyond a side of the water, seen from x, is a box that is cut out. */
+/* Whether a side of the water is, seen from x, a box that is cut out: what lies half a cell beyond
+ * it is, and x is in the water's half or in that box. Of rooms behind the box it is none. */
 static bool is_wall(const struct fv *s, const double *x, int a, double side, double out)
 {
     const struct block *b = &s->b;
-    if (!s->blocked)
-        return false;
-    for (int k = 0; k < blocked_count(); k++) {
+    const bool behind = out * (x[a] - side) > 0.0;
+    for (int k = 0; s->blocked && k < blocked_count(); k++) {
         int lo[3], hi[3];
         bool in = true;
         blocked_cells(s->run, k, lo, hi);
         for (int t = 0; t < b->dim; t++) {
             const double y = t == a ? side + 0.5 * out * b->h[a] : x[t];
-            const double at = (y - b->origin[t]) / b->h[t];
-            in = in && at > lo[t] && at < hi[t];
+            const double at = (y - b->origin[t]) / b->h[t], own = (x[t] - b->origin[t]) / b->h[t];
+            in = in && at > lo[t] && at < hi[t] && !(behind && (own <= lo[t] || own >= hi[t]));
         }
         if (in)
             return true;
