@@ -28,7 +28,7 @@ static const struct param rows[] = {
     PARAM(P, c0,           "m/s", "0.0", 0, 1e9,  "newton's sound speed; 0: incompressible"),
     PARAM(P, steady,       "-", "false", 0, 1,    "newton marches to a steady state in pseudo-time; time.end: when it must be there"),
     PARAM(P, hole,         "m", "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "box whose cells take the exact solution; none by default"),
-    PARAM(P, upwind,       "-", "-1.0", -1, 1e6,   "rk3, bdf2: strength of the upwind bias where the flow is finer than the cells; 0: none, -1: 1 with walls, else none"),
+    PARAM(P, upwind,       "-", "-1.0", -1, 1e6,   "rk3, bdf2: strength of the upwind bias where the flow is finer than the cells; 0: none, -1: 1 with walls and where U h/nu is above 200, else none"),
     PARAM(P, extrema,      "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema"),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: with shapes or a wave, alone"),
     PARAM(P, force,        "-", "(0.0, 0.0, 0.0)", -1e9, 1e9, "known mean of the force x on the walls of blocks, amplitude of force y (N), its frequency (1/s), over the second half of the run: for error.force"),

@@ -192,7 +192,8 @@ static void create_grid(struct fv *s)
     s->blocked = blocked_create(s);
     s->bc = bc_create(s);
     if (s->prm.upwind < 0.0)
-        s->prm.upwind = s->bc || s->blocked ? 1.0 : 0.0;
+        s->prm.upwind = limits_upwind(s->run, s->bc || s->blocked,
+                                      (double)s->b.cells[0] * s->b.cells[1] * s->b.cells[2]);
     s->surface = surface_create(s);
     make_fields(s);
     fill(s);

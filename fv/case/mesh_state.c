@@ -152,7 +152,7 @@ void mesh_state_create(struct fv *s)
     s->ring = mesh_ring(r) ? 0 : -1;
     s->has_exact = fv_measures_errors(r);
     if (s->prm.upwind < 0.0)
-        s->prm.upwind = mesh_bc_has_walls(s->m) ? 1.0 : 0.0;
+        s->prm.upwind = limits_upwind(r, mesh_bc_has_walls(s->m), (double)s->m->cells);
     if (s->prm.integrator == INTEGRATOR_NEWTON) {
         s->prm.upwind = 0.0;
         s->dissipation = newton_dissipation(s);

@@ -33,6 +33,9 @@ double limits_pressure_difference(const struct scene *s);
  * openings and shapes, of what falls, of what pressures and gravity along periodic axes drive; at
  * least a thousandth of the domain in the run's time, so that it is never 0. */
 double limits_reference(const struct run *r);
+/* fv.upwind's default: 1 with walls, and where viscosity does not hold waves of two cells down: U
+ * h/nu above 200, h the size of `cells' cells over the domain. */
+double limits_upwind(const struct run *r, bool walls, double cells);
 /* The running flow's own: follows the largest velocity by at most 2 % a step, so that a flow may
  * grow, but not blow up; returns the limit, 10 times it. */
 double limits_follow(double *reference, double most);
