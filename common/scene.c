@@ -57,7 +57,7 @@ static const struct param wall_rows[] = {
     PARAM(P, thin,     "-",   "false", 0, 0, "of a mesh: the fluid on one side does not see that on the other through it; for walls thinner than the support"),
     CHOICE(P, kind, "slip|no_slip|inflow|outflow|absorbing", "slip", "what it does to the flow"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, of the inflow, of the far flow that an absorbing side meets"),
-    CHOICE(P, profile, "uniform|parabolic", "uniform", "of an inflow; parabolic: velocity is the largest one"),
+    CHOICE(P, profile, "uniform|parabolic", "uniform", "of an inflow; parabolic: over each opening (blocks that touch are one), velocity is the largest one"),
     PARAM(P, pressure, "Pa",  "0.0", -1e12, 1e12, "at an outflow"),
     PARAM(P, carried,  "-",   "false", 0, 1, "at an outflow (fv): the flow leaves as it is carried, p is not given"),
 };

@@ -122,6 +122,45 @@ static void what_comes_in_goes_out(void **state)
     }
 }
 
+/* Two pipes end on one side of the domain, the lower one of two joined blocks: each has its own
+ * parabola, and steady flow through both stays as it is. */
+static void each_opening_has_its_parabola(void **state)
+{
+    static const char pipes[] =
+        "{ name = \"a\"; cells = (8, 8); min = (0, 0); max = (1, 0.5); j_min = \"wall\"; j_max = "
+        "\"joined\"; }, { name = \"b\"; cells = (8, 8); min = (0, 0.5); max = (1, 1); j_min = "
+        "\"joined\"; j_max = \"wall\"; }, { name = \"c\"; cells = (8, 16); min = (0, 1.5); max = "
+        "(1, 2); j_min = \"wall\"; j_max = \"wall\"; }";
+    static const struct {
+        int block;
+        double y, u;
+    } places[] = {{0, 0.0, 0.0}, {0, 0.25, 0.75}, {0, 0.5, 1.0},  {1, 0.5, 1.0},
+                  {1, 1.0, 0.0}, {2, 1.5, 0.0},   {2, 1.75, 1.0}, {2, 2.0, 0.0}};
+    struct mesh_case c;
+    (void)state;
+    mesh_case_read(&c, MPI_COMM_WORLD, pipes,
+                   (const char *const[]){"initial.field=\"rest\"", "domain.min=(0,0)",
+                                         "domain.max=(1,2)", "fluid.nu=0.1", NULL});
+    c.run.scene.walls[c.run.scene.nwalls++] = (struct scene_wall){.side = SIDE_X_MIN,
+                                                                  .kind = WALL_INFLOW,
+                                                                  .velocity = {1.0, 0.0, 0.0},
+                                                                  .profile = PROFILE_PARABOLIC};
+    c.run.scene.walls[c.run.scene.nwalls++] =
+        (struct scene_wall){.side = SIDE_X_MAX, .kind = WALL_OUTFLOW};
+    fv_params_check(&c.run, &c.faults);
+    assert_int_equal(params_report(&c.faults), 0);
+    struct fv *s = fv_create(&c.run, NULL);
+    for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
+        double w[3];
+        mesh_side_velocity(&c.run, s->m->block + places[k].block, 0,
+                           (const double[]){0.0, places[k].y, 0.0}, w);
+        assert_close(w[0], places[k].u, 1e-12);
+    }
+    assert_true(mesh_case_run(s, 1000, 8.0)); /* 8 times H^2/(pi^2 nu) */
+    assert_close(s->umax[0], 1.0, 0.01);      /* (h/H)^2 below the crest */
+    mesh_case_end(&c, &s);
+}
+
 static double energy(const struct fv *s)
 {
     double sum = 0.0;
@@ -172,6 +211,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(vortices_leave),
                                        cmocka_unit_test(what_comes_in_goes_out),
+                                       cmocka_unit_test(each_opening_has_its_parabola),
                                        cmocka_unit_test(ranks_agree_and_a_restart_is_exact)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

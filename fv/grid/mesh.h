@@ -80,6 +80,8 @@ struct mesh_block {
     enum mesh_side side[6];
     const struct scene_wall
         *wall[6]; /* of the scene, on whose side of the domain this one lies; NULL: none */
+    double opening[6][2][3]; /* m: box of the opening on that side of the domain that a side is part
+                                of: sides of blocks that touch are one */
     struct mesh_join join[6];
     double (*centre)[3];   /* m: of the real cells */
     double *volume;        /* m^dim: of the real cells */
