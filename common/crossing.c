@@ -105,20 +105,34 @@ double crossing_time(const struct scene *c)
     return up < 0 ? INFINITY : sqrt(crossing_depth(c, up) / size);
 }
 
+/* Height of a shape's highest point, or of the water below a level, along sign times axis a. */
+static double top_of(const struct scene_shape *h, int a, double sign)
+{
+    double high = -INFINITY;
+    switch (h->form) {
+    case SHAPE_BOX:
+        return sign > 0.0 ? h->box[1][a] : -h->box[0][a];
+    case SHAPE_DISC:
+        return sign * h->centre[a] + h->radius;
+    case SHAPE_POLYGON:
+        for (int i = 0; i < h->points.n && a < 2; i++)
+            high = fmax(high, sign * h->points.x[i][a]);
+        return high;
+    default:
+        return h->level;
+    }
+}
+
 double crossing_depth(const struct scene *c, int a)
 {
-    const double floor = c->domain.min[a];
+    const double sign = c->fluid.gravity[a] > 0.0 ? -1.0 : 1.0; /* heights are against gravity */
+    const double floor = sign > 0.0 ? c->domain.min[a] : -c->domain.max[a];
+    const double roof = sign > 0.0 ? c->domain.max[a] : -c->domain.min[a];
+    double top = c->nshapes > 0 ? floor : roof;
     if (c->initial.level < LEVEL_TOP)
         return c->initial.level - floor;
-    double top = c->nshapes > 0 ? floor : c->domain.max[a];
-    for (int k = 0; k < c->nshapes; k++) {
-        const struct scene_shape *h = c->shapes + k;
-        double high = h->form == SHAPE_BOX    ? h->box[1][a]
-                      : h->form == SHAPE_DISC ? h->centre[a] + h->radius
-                                              : h->level;
-        for (int i = 0; i < h->points.n && h->form == SHAPE_POLYGON && a < 2; i++)
-            high = i == 0 ? h->points.x[0][a] : fmax(high, h->points.x[i][a]);
-        top = h->hole ? top : fmax(top, high);
-    }
-    return fmin(top, c->domain.max[a]) - floor;
+    for (int k = 0; k < c->nshapes; k++)
+        if (!c->shapes[k].hole)
+            top = fmax(top, top_of(c->shapes + k, a, sign));
+    return fmin(top, roof) - floor;
 }

@@ -225,22 +225,27 @@ static void check_outer(const struct run *r, const struct sph_params *used, stru
 
 /* --- the rest --- */
 
+/* Columns of levels go along an axis; beaches are read over y. */
 static void check_gauges(const struct run *r, struct faults *f)
 {
     const struct scene *c = &r->scene;
-    const int up = c->domain.dim - 1;
-    bool along = true;
-    for (int a = 0; a < up; a++)
-        along = along && c->fluid.gravity[a] == 0.0;
-    for (int k = 0; k < c->nprobes && !(along && c->fluid.gravity[up] <= 0.0); k++) {
+    double g[3];
+    int axes = 0;
+    (void)scene_still_gravity(c, g);
+    for (int a = 0; a < c->domain.dim; a++)
+        axes += g[a] != 0.0;
+    for (int k = 0; k < c->nprobes; k++) {
         char key[64];
         snprintf(key, sizeof key, "probes.[%d].kind", k);
-        if (c->probes[k].kind != PROBE_PRESSURE)
-            params_fault(
-                r->params, f, key,
-                "%s: gauges of levels read upright columns, along %c: gravity must point along "
-                "-%c. A pressure gauge knows no such rule",
-                c->probes[k].name, "xyz"[up], "xyz"[up]);
+        if (c->probes[k].kind != PROBE_PRESSURE && axes > 1)
+            params_fault(r->params, f, key,
+                         "%s: gauges of levels read columns along gravity, which must point along "
+                         "an axis (its part along a periodic one does not count). A pressure gauge "
+                         "knows no such rule",
+                         c->probes[k].name);
+        else if (c->probes[k].kind == PROBE_SHORE && !(g[1] < 0.0))
+            params_fault(r->params, f, key, "%s: a shore is read where gravity points along -y",
+                         c->probes[k].name);
     }
 }
 
@@ -291,6 +296,7 @@ void sph_sense_check(const struct run *r, const struct sph_params *given,
         params_fault(r->params, f, "sph.extrema", "the first is 0: give all three");
     check_box(r, given, used, f);
     check_hidden(r, used, f);
+    check_gauges(r, f);
     if (c->has_fv)
         return; /* the flow around is the partner's */
     check_openings(r, used, f);
@@ -301,5 +307,4 @@ void sph_sense_check(const struct run *r, const struct sph_params *given,
     check_falls(r, used, f);
     check_grains(r, used, f);
     check_outer(r, used, f);
-    check_gauges(r, f);
 }

@@ -1,21 +1,26 @@
 /* level_gauge.c - see level_gauge.h. The volume of the fluid in a column around the place over the
  * column's cross-section, drops included, on top of the floor: the first wall or body below the
- * place (the first above it that holds fluid, where the place is in a wall itself), else the bottom
- * of the domain. Where walls stand in the column it ends there; what water drowns above the place
- * counts as water. SPDX-License-Identifier: BSD-3-Clause */
+ * place (the first above it that holds fluid, where the place is in a wall itself), else the end of
+ * the domain to which gravity draws. Where walls stand in the column it ends there; what water
+ * drowns above the place counts as water. Heights are against gravity, along its axis, from the
+ * origin. SPDX-License-Identifier: BSD-3-Clause */
 #include "level_gauge.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "../../common/scene.h"
+#include "../../common/scene_fluid.h"
 #include "../walls/walls.h"
 
 enum { SAMPLES_2D = 16, SAMPLES_3D = 8 }; /* of a floor, along an axis */
 
 struct column {
+    int up;              /* axis of gravity, else the last one */
+    double sign;         /* of its direction upwards */
+    double bottom, top;  /* m: heights of the domain's ends */
     double at[3];        /* the place, in the fluid */
-    double lo[2], hi[2]; /* m from it: across */
+    double lo[3], hi[3]; /* m from it: across */
     double half;         /* m: half width of the hat function that weights it */
     bool walled;         /* by more than sides of the domain */
     double section, floor;
@@ -40,41 +45,48 @@ static double free_way(const struct sph *s, const double *x, int axis, double fa
     return walls_meet(s, x, d) * far;
 }
 
-/* Out of the solid that the place is in or on, upwards. */
-static void rise_from_solid(const struct sph *s, double *x)
+static double height_of(const struct column *c, const double *x) { return c->sign * x[c->up]; }
+
+static void lift(const struct column *c, double *x, double by) { x[c->up] += c->sign * by; }
+
+/* How far it is free from x upwards or, if `far' is below 0, downwards, m. */
+static double free_height(const struct sph *s, const struct column *c, const double *x, double far)
 {
-    const int up = s->dim - 1;
-    const double step = 0.01 * s->dx, top = s->hi[up];
-    double way[3], y[3];
-    memcpy(y, x, sizeof y);
-    for (int k = 0; k < 8 && walls_way(s, y, 1e30, way) < step; k++) {
-        y[up] -= 2.0 * step;
-        y[up] += free_way(s, y, up, top - y[up]) + step;
-        if (y[up] >= top)
-            return;
-    }
-    memcpy(x, y, sizeof y);
+    return c->sign * free_way(s, x, c->up, c->sign * far);
 }
 
-static double hat(const struct column *c, double d) { return fmax(0.0, 1.0 - fabs(d) / c->half); }
-
-/* Integral of the hat function from lo to hi, m. */
-static double hat_integral(const struct column *c, double lo, double hi)
+/* Out of the solid that the place is in or on, upwards. */
+static void rise_from_solid(const struct sph *s, struct column *c)
 {
-    return hi - 0.5 * hi * hi / c->half - lo - 0.5 * lo * lo / c->half;
+    const double step = 0.01 * s->dx;
+    double way[3], y[3];
+    memcpy(y, c->at, sizeof y);
+    for (int k = 0; k < 8 && walls_way(s, y, 1e30, way) < step; k++) {
+        lift(c, y, -2.0 * step);
+        lift(c, y, free_height(s, c, y, c->top - height_of(c, y)) + step);
+        if (height_of(c, y) >= c->top)
+            return;
+    }
+    memcpy(c->at, y, sizeof y);
+}
+
+/* Integral of the hat function from minus infinity to x, m. */
+static double hat_until(const struct column *c, double x)
+{
+    const double t = fmax(-1.0, fmin(1.0, x / c->half)), rest = 1.0 - fabs(t);
+    return t < 0.0 ? 0.5 * c->half * rest * rest : c->half * (1.0 - 0.5 * rest * rest);
 }
 
 /* Whether walls hide the place across from the one at x, or at its height what is `by' higher. */
 static bool is_hidden(const struct sph *s, const struct column *c, const double *across, double by)
 {
-    const int up = s->dim - 1;
     double d[3] = {0.0, 0.0, 0.0}, x[3];
     memcpy(x, c->at, sizeof x);
-    for (int a = 0; a < up; a++) {
-        d[a] = across[a];
-        x[a] += across[a];
+    for (int a = 0; a < s->dim; a++) {
+        d[a] = a == c->up ? 0.0 : across[a];
+        x[a] += d[a];
     }
-    return walls_meet(s, c->at, d) < 1.0 || (by < 0.0 && free_way(s, x, up, by) > by);
+    return walls_meet(s, c->at, d) < 1.0 || (by < 0.0 && free_height(s, c, x, by) > by);
 }
 
 /* Floor and roof over one place of the section; sums: weight, floor, roof's weight, roof, height.
@@ -82,21 +94,21 @@ static bool is_hidden(const struct sph *s, const struct column *c, const double 
 static void sound(const struct sph *s, const struct column *c, const double *across, double weight,
                   double sums[5])
 {
-    const int up = s->dim - 1;
     double x[3];
     memcpy(x, c->at, sizeof x);
     if (is_hidden(s, c, across, 0.0))
         return;
-    for (int a = 0; a < up; a++)
-        x[a] += across[a];
+    for (int a = 0; a < s->dim; a++)
+        x[a] += a == c->up ? 0.0 : across[a];
+    const double h = height_of(c, x);
     sums[0] += weight;
-    sums[1] += weight * (x[up] + free_way(s, x, up, s->lo[up] - x[up]));
-    const double room = s->hi[up] - x[up], roof = free_way(s, x, up, room);
+    sums[1] += weight * (h + free_height(s, c, x, c->bottom - h));
+    const double room = c->top - h, roof = free_height(s, c, x, room);
     if (roof >= room)
         return;
-    const double under = x[up] + roof, eps = 1e-6 * s->dx;
-    x[up] = under + eps;
-    const double rest = s->hi[up] - x[up], height = free_way(s, x, up, rest);
+    const double under = h + roof, eps = 1e-6 * s->dx;
+    lift(c, x, roof + eps);
+    const double rest = c->top - height_of(c, x), height = free_height(s, c, x, rest);
     if (!(rest > 0.0) || height >= rest) /* solid up to the top */
         return;
     sums[2] += weight;
@@ -106,14 +118,17 @@ static void sound(const struct sph *s, const struct column *c, const double *acr
 
 static void sound_all(const struct sph *s, struct column *c)
 {
-    const int up = s->dim - 1, n = up == 1 ? SAMPLES_2D : SAMPLES_3D, m = up == 1 ? 1 : n;
+    const int n = s->dim == 2 ? SAMPLES_2D : SAMPLES_3D, m = s->dim == 2 ? 1 : n;
     double sums[5] = {0.0}, all = 0.0;
     for (int k = 0; k < n * m; k++) {
-        const int at[2] = {k % n, k / n};
-        double across[2] = {0.0, 0.0}, weight = 1.0;
-        for (int a = 0; a < up; a++) {
-            across[a] = c->lo[a] + (at[a] + 0.5) / n * (c->hi[a] - c->lo[a]);
-            weight *= hat(c, across[a]);
+        int at = k;
+        double across[3] = {0.0, 0.0, 0.0}, weight = 1.0;
+        for (int a = 0; a < s->dim; a++) {
+            if (a == c->up)
+                continue;
+            across[a] = c->lo[a] + (at % n + 0.5) / n * (c->hi[a] - c->lo[a]);
+            weight *= fmax(0.0, 1.0 - fabs(across[a]) / c->half);
+            at /= n;
         }
         all += weight;
         sound(s, c, across, weight, sums);
@@ -126,48 +141,72 @@ static void sound_all(const struct sph *s, struct column *c)
     c->drowned = sums[4] / sums[0];
 }
 
+static void set_axis(const struct sph *s, struct column *c)
+{
+    double g[3];
+    const bool still = scene_still_gravity(&s->run->scene, g) > 0.0;
+    c->up = s->dim - 1;
+    for (int a = 0; a < s->dim && still; a++)
+        c->up = fabs(g[a]) > fabs(g[c->up]) ? a : c->up;
+    c->sign = g[c->up] > 0.0 ? -1.0 : 1.0;
+    c->bottom = c->sign > 0.0 ? s->lo[c->up] : -s->hi[c->up];
+    c->top = c->sign > 0.0 ? s->hi[c->up] : -s->lo[c->up];
+}
+
 static struct column column_at(const struct sph *s, const double *at)
 {
-    const int up = s->dim - 1;
-    struct column c = {.half = 2.0 * s->dx,
-                       .section = 1.0,
-                       .floor = s->lo[up],
-                       .roof = NAN,
-                       .walled = has_walls_inside(s)};
+    struct column c = {
+        .half = 2.0 * s->dx, .section = 1.0, .roof = NAN, .walled = has_walls_inside(s)};
+    set_axis(s, &c);
+    c.floor = c.bottom;
     memcpy(c.at, at, (size_t)s->dim * sizeof *at);
     if (c.walled)
-        rise_from_solid(s, c.at);
-    for (int a = 0; a < up; a++) {
+        rise_from_solid(s, &c);
+    for (int a = 0; a < s->dim; a++) {
+        if (a == c.up)
+            continue;
         c.lo[a] = s->periodic[a] ? -c.half : fmax(-c.half, s->lo[a] - at[a]);
         c.hi[a] = s->periodic[a] ? c.half : fmin(c.half, s->hi[a] - at[a]);
         if (c.walled && c.lo[a] < 0.0 && c.hi[a] > 0.0) {
             c.lo[a] = free_way(s, c.at, a, c.lo[a]);
             c.hi[a] = free_way(s, c.at, a, c.hi[a]);
         }
-        c.section *= hat_integral(&c, c.lo[a], c.hi[a]);
+        c.section *= hat_until(&c, c.hi[a]) - hat_until(&c, c.lo[a]);
     }
     if (c.walled)
         sound_all(s, &c);
     return c;
 }
 
+/* Share of a particle d away along an axis across: it is as wide as dx, so that a lattice fills the
+ * column exactly, beside walls, too. */
+static double share_across(const struct sph *s, const struct column *c, int a, double d)
+{
+    const double r = 0.5 * s->dx;
+    if (c->walled &&
+        ((d < c->lo[a] && c->lo[a] > -c->half) || (d > c->hi[a] && c->hi[a] < c->half)))
+        return 0.0; /* beyond a wall */
+    return (hat_until(c, d + r) - hat_until(c, d - r)) / s->dx;
+}
+
 /* Volume of what flows of one level, weighted by the hat function. */
 static double volume_in(const struct sph *s, const struct column *c)
 {
-    const int up = s->dim - 1;
     double volume = 0.0;
     for (int i = 0; i < s->p.n; i++) {
         const double *q = prim_line(&s->p, i);
         double weight = particles_is_guard(&s->p, i) ? 0.0 : q[at_volume(s->dim)];
-        double across[2] = {0.0, 0.0};
-        for (int a = 0; a < up; a++) {
-            const double L = s->hi[a] - s->lo[a];
+        double across[3] = {0.0, 0.0, 0.0};
+        for (int a = 0; a < s->dim && weight > 0.0; a++) {
+            if (a == c->up)
+                continue;
             across[a] = q[a] - c->at[a];
             if (s->periodic[a])
-                across[a] -= L * round(across[a] / L);
-            weight *= across[a] < c->lo[a] || across[a] > c->hi[a] ? 0.0 : hat(c, across[a]);
+                across[a] = remainder(across[a], s->hi[a] - s->lo[a]);
+            weight *= share_across(s, c, a, across[a]);
         }
-        if (weight > 0.0 && !(c->walled && is_hidden(s, c, across, q[up] - c->at[up])))
+        if (weight > 0.0 &&
+            !(c->walled && is_hidden(s, c, across, c->sign * (q[c->up] - c->at[c->up]))))
             volume += weight;
     }
     return volume;
@@ -181,5 +220,5 @@ double level_gauge(struct sph *s, const double *at)
         volume += volume_in(q, &c);
     MPI_Allreduce(MPI_IN_PLACE, &volume, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     const double level = c.floor + volume / c.section;
-    return level > c.roof + 0.5 * s->dx ? level + c.drowned : level; /* no roof: NAN */
+    return c.sign * (level > c.roof + 0.5 * s->dx ? level + c.drowned : level); /* no roof: NAN */
 }

@@ -1,0 +1,82 @@
+/* test_gauges.c - a gauge of the level reads the same water whichever way gravity points, beside a
+ * wall, too; a coupled job knows how deep that water is. ranks: 1 2.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "test.h"
+
+#include "../common/crossing.h"
+#include "../sph/output/probes.h"
+#include "sph_case.h"
+
+enum { CELLS = 50, GAUGES = 3 };
+static const double depth = 0.3, across[GAUGES] = {0.51, 0.992, 0.0};
+
+/* Water 0.3 deep at the end of axis a to which gravity draws it. */
+static void tank(struct sph_case *c, int a, double gravity)
+{
+    sph_case_set(c, 2, CELLS);
+    struct scene *s = &c->run.scene;
+    s->initial.field = FIELD_REST;
+    s->initial.level = LEVEL_TOP;
+    s->fluid.nu = 0.0;
+    s->fluid.gravity[a] = gravity;
+    s->domain.periodic[0] = s->domain.periodic[1] = false;
+    s->nshapes = 1;
+    s->shapes[0].form = SHAPE_BOX;
+    s->shapes[0].box[1][0] = s->shapes[0].box[1][1] = 1.0;
+    s->shapes[0].box[gravity < 0.0][a] = gravity < 0.0 ? depth : 1.0 - depth;
+    s->nprobes = GAUGES;
+    for (int k = 0; k < GAUGES; k++) {
+        s->probes[k] = (struct scene_probe){.kind = PROBE_LEVEL};
+        s->probes[k].at[1 - a] = across[k];
+    }
+    c->prm.surface = SURFACE_YES;
+    c->prm.scheme = SCHEME_RIEMANN;
+}
+
+static void levels_are_read_along_gravity(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        struct sph_case c;
+        double row[GAUGES];
+        const double gravity = k % 2 ? 9.81 : -9.81;
+        tank(&c, k / 2, gravity);
+        sph_case_start(&c, NULL);
+        integrate_gradients(c.s);
+        probes_row(c.s, row);
+        for (int q = 0; q < GAUGES; q++)
+            assert_close(row[q], gravity < 0.0 ? depth : 1.0 - depth, 1e-9);
+        sph_free(&c.s);
+    }
+}
+
+static void depths_are_measured_from_where_gravity_points(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        struct sph_case c;
+        const int a = k / 2;
+        tank(&c, a, k % 2 ? 9.81 : -9.81);
+        struct scene *s = &c.run.scene;
+        assert_close(crossing_depth(s, a), depth, 1e-12);
+        assert_close(crossing_time(s), sqrt(depth / 9.81), 1e-12);
+        s->shapes[0].form = SHAPE_DISC;
+        s->shapes[0].radius = 0.1;
+        s->shapes[0].centre[a] = k % 2 ? 0.9 : 0.1;
+        assert_close(crossing_depth(s, a), 0.2, 1e-12);
+        s->initial.level = k % 2 ? -0.6 : 0.4; /* against gravity, from the origin */
+        assert_close(crossing_depth(s, a), 0.4, 1e-12);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(levels_are_read_along_gravity),
+        cmocka_unit_test(depths_are_measured_from_where_gravity_points),
+    };
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
