@@ -1,9 +1,11 @@
 /* test_gauges.c - a gauge of the level reads the same water whichever way gravity points, beside a
- * wall, too; a coupled job knows how deep that water is. ranks: 1 2.
+ * wall, too; a coupled job knows how deep that water is; waves start as high as they are.
+ * ranks: 1 2.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include "../common/crossing.h"
+#include "../common/exact.h"
 #include "../sph/output/probes.h"
 #include "sph_case.h"
 
@@ -69,11 +71,52 @@ static void depths_are_measured_from_where_gravity_points(void **state)
     }
 }
 
+/* Lattices end on the surface of a wave of little more than a row, whichever its place. */
+static void waves_start_at_their_height(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        struct sph_case c;
+        double row[GAUGES], volume = 0.0, area = 0.0;
+        const int n = 4000;
+        sph_case_set(&c, 2, CELLS);
+        struct scene *s = &c.run.scene;
+        s->initial.field = FIELD_REGULAR;
+        s->initial.L = 2.0;
+        s->initial.amplitude = 0.026;
+        s->initial.crest = 0.13 * k;
+        s->initial.level = 0.503; /* on no row */
+        s->fluid.nu = 0.0;
+        s->fluid.gravity[1] = -9.81;
+        s->domain.max[0] = 2.0;
+        s->domain.periodic[1] = false;
+        s->nprobes = GAUGES;
+        for (int q = 0; q < GAUGES; q++)
+            s->probes[q] = (struct scene_probe){.kind = PROBE_LEVEL, .at = {0.37 + 0.5 * q}};
+        c.prm.surface = SURFACE_YES;
+        c.prm.scheme = SCHEME_RIEMANN;
+        sph_case_start(&c, NULL);
+        integrate_gradients(c.s);
+        probes_row(c.s, row);
+        const struct exact e = exact_create(s);
+        for (int q = 0; q < GAUGES; q++)
+            assert_close(row[q], exact_surface(&e, s->probes[q].at[0]), 0.05 * c.s->dx);
+        for (int i = 0; i < c.s->p.n; i++)
+            volume += state_row(&c.s->p, c.s->p.y, i)[at_volume(2)];
+        MPI_Allreduce(MPI_IN_PLACE, &volume, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+        for (int i = 0; i < n; i++)
+            area += exact_surface(&e, 2.0 * (i + 0.5) / n) * 2.0 / n;
+        assert_close(volume / area, 1.0, 1e-4);
+        sph_free(&c.s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_are_read_along_gravity),
         cmocka_unit_test(depths_are_measured_from_where_gravity_points),
+        cmocka_unit_test(waves_start_at_their_height),
     };
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

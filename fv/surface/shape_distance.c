@@ -5,17 +5,8 @@
 
 #include <math.h>
 
+#include "../../common/scene_fluid.h"
 #include "../boundary/blocked.h"
-
-/* Height against gravity (m); without gravity y, in 3D z. */
-static double height(const struct fv *s, const double *x)
-{
-    const double *g = s->run->scene.fluid.gravity;
-    const double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    if (size == 0.0)
-        return x[s->dim - 1];
-    return -(g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) / size;
-}
 
 /* Whether a side of the water is, seen from x, a box that is cut out: what lies half a cell beyond
  * it is, and x is in the water's half or in that box. Of rooms behind the box it is none. */
@@ -90,7 +81,7 @@ static double shape(const struct fv *s, const struct scene_shape *h, const doubl
     case SHAPE_DISC:
         return sqrt(r2) - h->radius;
     default:
-        return height(s, x) - h->level;
+        return scene_height(&s->run->scene, x) - h->level;
     }
 }
 

@@ -133,12 +133,29 @@ static void each_own_cell(struct sph *s, const struct lattice *l,
             }
 }
 
-/* Where the particle of a cell starts. */
-static void displace(const struct sph *s, int64_t cell, const double *centre, double *x)
+/* Height of the rows under the surface of a wave at x, in dx: as many as under its level, so that
+ * no row ends within the water, or more or fewer where they would be too high or too flat. They end
+ * on the surface: a staircase of whole rows had a wave of 1.3 dx a tenth too low, and with rows
+ * that end wherever one more fits shifting drove a current. */
+static double row_height(const struct sph *s, const struct exact *e, double x)
 {
+    const double most = 0.15, surface = exact_surface(e, x), depth = (surface - s->lo[1]) / s->dx;
+    const double still = round((e->bottom + e->height - s->lo[1]) / s->dx);
+    if (!scene_has_wave(&s->run->scene) || surface >= s->hi[1] || depth < 1.0)
+        return 1.0;
+    return depth / round(fmax(depth / (1.0 + most), fmin(still, depth / (1.0 - most))));
+}
+
+/* Where the particle of a cell starts; returns its volume in dx^D. */
+static double displace(const struct sph *s, const struct exact *e, int64_t cell,
+                       const double *centre, double *x)
+{
+    const double height = row_height(s, e, centre[0]);
     for (int a = 0; a < 3; a++)
         x[a] = centre[a] +
                (s->prm.noise > 0.0 && a < s->dim ? s->prm.noise * s->dx * random_of(cell, a) : 0.0);
+    x[1] = s->lo[1] + height * (x[1] - s->lo[1]);
+    return height;
 }
 
 static void cut_links(const struct sph *s, struct lattice *l)
@@ -163,7 +180,7 @@ static void mark(struct sph *s, const struct lattice *l, int64_t cell, const dou
 {
     struct look *k = ctx;
     double x[3];
-    displace(s, cell, centre, x);
+    (void)displace(s, &k->exact, cell, centre, x);
     if (!scene_is_fluid(&s->run->scene, &k->exact, x, NULL))
         return;
     if (!rooms_parted(s) && !scene_in_tanks(&s->run->scene, x))
@@ -182,14 +199,14 @@ static void add(struct sph *s, const struct lattice *l, int64_t cell, const doub
     double x[3], u[3], p, more[3];
     if (!lattice_has(l, cell))
         return;
-    displace(s, cell, centre, x);
+    const double height = displace(s, e, cell, centre, x);
     scene_is_fluid(&s->run->scene, e, x, more);
     exact_point(e, x, 0.0, u, &p, NULL);
     for (int a = 0; a < s->dim; a++)
         u[a] += more[a];
     particles_reserve(&s->p, s->p.n + 1);
     const int i = particles_add(&s->p, cell, ZONE_FREE);
-    particles_set(s, i, x, u, s->dxD, eos_rho(p, s->rho0, s->c0, s->gamma));
+    particles_set(s, i, x, u, height * s->dxD, eos_rho(p, s->rho0, s->c0, s->gamma));
 }
 
 /* Velocity and pressure of the first field where packing has moved a particle to. */
@@ -352,8 +369,8 @@ static void set_slopes(struct sph *s, const struct exact *e)
 static void set_fields(struct sph *q, const struct exact *e, bool keep_volumes, bool weighed)
 {
     for (int i = 0; i < q->p.n; i++) {
-        const double *y = state_row(&q->p, q->p.y, i),
-                     w = keep_volumes ? y[at_volume(q->dim)] : q->dxD;
+        const double *y = state_row(&q->p, q->p.y, i);
+        const double w = keep_volumes ? y[at_volume(q->dim)] : row_height(q, e, y[0]) * q->dxD;
         const double rho = y[at_mass(q->dim)] / y[at_volume(q->dim)];
         double x[3] = {0.0, 0.0, 0.0}, u[3], p, more[3];
         memcpy(x, y, (size_t)q->dim * sizeof *x);

@@ -19,6 +19,9 @@
 
 /* A window of accuracy: U T/L of the flow; omega T of waves, which add up errors over periods. */
 static const double flow_share = 0.03, wave_share = 0.1;
+/* Sound that no open side lets go is fed by what is late in the pressure outside: with omega T of
+ * 1.1 it grew tenfold in 0.1 s, and with longer memories as fast. */
+static const double sound_share = 0.5;
 /* Beyond it what is foreseen by a parabola, (2 sin(omega T/2))^3 of the signal off, is worth less
  * than the last value: omega T = pi/3. */
 static const double flow_most = 1.0 / 6.0, wave_most = M_PI / 3.0;
@@ -173,6 +176,26 @@ static double tiled(const struct scene *c, double T)
     return span / ceil(span / T * (1.0 - 1e-9));
 }
 
+/* s over a radian of the sound that swings between a partner's water and a box that is open at its
+ * top alone, under the partner's surface: what stands over it moves as a whole on the box's water
+ * as on a spring, and no side lets that sound go. INFINITY: another box. */
+static double sound_time(const struct run *r, const struct sph_params *prm)
+{
+    const struct scene *c = &r->scene;
+    const int up = axis_of_gravity(c);
+    bool open[6];
+    if (!r->crossed || up < 0)
+        return INFINITY;
+    sph_params_open(r, prm, open);
+    const int top = 2 * up + (c->fluid.gravity[up] < 0.0);
+    for (int side = 0; side < 2 * c->domain.dim; side++)
+        if (open[side] != (side == top))
+            return INFINITY;
+    const double height = prm->box[1][up] - prm->box[0][up];
+    const double over = fmax(crossing_depth(c, up) - height, 0.0);
+    return sqrt(height * over + 4.0 / (M_PI * M_PI) * height * height) / prm->c0;
+}
+
 static void shorten(struct windows *w, double T, const char *limit)
 {
     if (T < w->T) {
@@ -208,6 +231,7 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
     w.T_most = fmin(flow_share * w.L / w.U, w.omega > 0.0 ? wave_share / w.omega : INFINITY);
     shorten(&w, flow_share * w.L / w.U, "the flow");
     shorten(&w, w.omega > 0.0 ? wave_share / w.omega : INFINITY, "the waves");
+    shorten(&w, sound_share * sound_time(r, prm), "sound under the partner's water");
     const double box = box_motion_speed(r, prm);
     shorten(&w, transition / (w.U + box), "the way through the transition");
     /* cells are forced in a row or two ahead of it, and have values there; behind a crest the box
