@@ -1,4 +1,4 @@
-/* convection.c - fluxes of momentum by fourth-order face averages (see README.md):
+/* convection.c - fluxes of momentum by fourth-order face averages (see METHODS.md):
  *   face value  q_f = (-q_-2 + 7 q_-1 + 7 q_0 - q_1)/12
  *   flux        F = U q_f + 1/48 (U_t+1 - U_t-1)(q_f,t+1 - q_f,t-1), once for each tangent t: the
  * product of two face averages is not the average of the product

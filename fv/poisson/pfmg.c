@@ -1,5 +1,5 @@
 /* pfmg.c - see pfmg.h. Red-black relaxation with non-Galerkin coarse operators: this pair and no
- * wider stencil (README.md). SPDX-License-Identifier: BSD-3-Clause */
+ * wider stencil (METHODS.md). SPDX-License-Identifier: BSD-3-Clause */
 #include "pfmg.h"
 
 #include <HYPRE_struct_ls.h>

@@ -1,4 +1,4 @@
-/* projection.c - time steps with a projection each stage; formulas and measurements in README.md.
+/* projection.c - time steps with a projection each stage; formulas in METHODS.md.
  * rk3: three stages of low-storage Runge-Kutta (Spalart, Moser & Rogers 1991), convection explicit,
  * viscosity implicit, the gradient of the step's first pressure in all stages; its pressure stands
  * at t - dt/6. bdf2: two-step backward differences with extrapolated convection, for slow flows.
