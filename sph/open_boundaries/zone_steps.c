@@ -286,7 +286,7 @@ static void draw(const struct sph *s, int k, int side, double alpha, double *p, 
 /* Of u along the sides u <- a u_out + (1-a) u [6.8], a = depth into the transition over its width;
  * across them and of P only what enters, P - rho c u.n, n outwards: P + rho c u.n leaves as SPH
  * made it. To blend both as in [6.7] lets the coupled programs feed vorticity, or damp
- * (coupler/README.md). */
+ * (coupler/METHODS.md). */
 void zones_blend(struct sph *s)
 {
     struct zones *z = s->zones;
