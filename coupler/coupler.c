@@ -15,8 +15,7 @@
 #include "transport/failure.h"
 
 static const double look_every = 0.05, stall_first = 60.0; /* s */
-static const char help[] =
-    "brings the solvers of a job together: fields, time windows, restart points";
+static const char help[] = "couples the solvers of a job: fields, coupling steps, restart points";
 
 static _Noreturn void broken(const char *what) { fail("%s", what); }
 static void leave_note(const char *reason) { (void)failure_note(reason); }
@@ -39,7 +38,7 @@ static void tell_stall(struct coupler *c)
 {
     char text[TEXT] = "";
     if (c->nwindows > 0)
-        problem(text, "window %lld has been under way for %.0f s:", (long long)c->window,
+        problem(text, "coupling step %lld has been under way for %.0f s:", (long long)c->window,
                 c->stall_every);
     for (int i = 0; i < c->nsolvers; i++)
         if (!c->solver[i].ready)
@@ -61,7 +60,7 @@ static void look_around(struct coupler *c)
                                 */
         c->stopping = true;
         signals_handled();
-        log_say("stopping in order: one more window, restart files, end");
+        log_say("stopping in order: one more coupling step, restart files, end");
     }
     if (wall_time() > c->stall_at)
         tell_stall(c);
@@ -110,7 +109,7 @@ static bool meet(struct coupler *c, int faults)
     for (int n = 0; n < c->nsolvers; n++) {
         m = await(c, -1);
         if (m->head.kind != WIRE_MEET || m->peer >= c->nsolvers || c->solver[m->peer].met)
-            fail("message %d while programs meet", m->head.kind);
+            fail("message %d during the handshake", m->head.kind);
         plan_take_meet(c, &c->solver[m->peer], m);
         message_free(&m);
     }
@@ -142,7 +141,7 @@ static bool plan(struct coupler *c)
         struct message *m = await(c, c->rank == 0 ? -1 : c->own_peer);
         const int who = c->rank == 0 ? m->peer : m->head.field;
         if (m->head.kind != WIRE_READY || who >= c->nsolvers || c->solver[who].ready)
-            fail("message %d while programs draw their plan", m->head.kind);
+            fail("message %d while the plan is made", m->head.kind);
         if (c->rank == 0)
             forward(c, m);
         c->solver[who].restart_window = m->head.tick;
@@ -165,7 +164,7 @@ static bool plan(struct coupler *c)
 static void take_bye(struct coupler *c, struct solver *s, struct message *m)
 {
     if (c->rank == 0 && c->action != CPL_STOP)
-        fail("%s left in window %lld, before the end", s->name, (long long)c->window);
+        fail("%s left in coupling step %lld, before the end", s->name, (long long)c->window);
     const int code = (int)take_int(&c->wire, m);
     const double waited = take_real(&c->wire, m);
     s->code = code > s->code ? code : s->code;
@@ -217,7 +216,7 @@ static void say_doing(struct coupler *c)
     if (c->said == c->window)
         return;
     c->said = c->window;
-    snprintf(text, sizeof text, "in window %lld of %lld", (long long)c->window,
+    snprintf(text, sizeof text, "in coupling step %lld of %lld", (long long)c->window,
              (long long)c->nwindows);
     failure_doing(text);
     signals_heard(text);
@@ -301,10 +300,10 @@ static void describe_scene(const struct coupler *c)
     if (k->steps > 0)
         log_say("sph and fv exchange every %d steps of sph", k->steps);
     else
-        log_say("sph and fv exchange as often as sph finds that the flow wants");
+        log_say("sph and fv exchange as often as sph finds that the flow requires");
     log_say("  fv -> sph  velocity, pressure: %s, everywhere but the free zone",
             k->interpolation ? "cubic" : "linear");
-    log_say("  sph -> fv  velocity: %s, at the cells that fv leaves to sph",
+    log_say("  sph -> fv  velocity: %s, at the imposed cells of fv",
             k->mapping ? "moving least squares" : "Shepard");
     log_say("  transition %g m, buffer %g m (0: 1.25 R)", k->transition, k->buffer);
 }

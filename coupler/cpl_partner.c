@@ -57,7 +57,7 @@ static bool partner_window(void *ctx, double *t0, double *t1, bool *output, bool
     must(ctx, cpl_window(ctx, t0, t1, &action, code));
     *output = action & CPL_OUTPUT;
     *save = action & CPL_SAVE;
-    snprintf(text, sizeof text, "coupler heard %.1f s before window %lld", cpl_heard(ctx),
+    snprintf(text, sizeof text, "coupler heard %.1f s before coupling step %lld", cpl_heard(ctx),
              (long long)cpl_window_number(ctx));
     signals_heard(text);
     return !(action & CPL_STOP);

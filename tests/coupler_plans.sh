@@ -85,9 +85,9 @@ job "$two" "2 giver grid=g:8:8 put=T:g:1:3:start" "1 taker points=x:2:60:0 patch
 off taker T 1e-11 "a patch, followed in time"
 job "$two" "1 giver points=a:2:900:0 put=T:a:1:1:end" "1 taker points=x:2:60:0.15 get=T:x:1:1:2:0.5"
 [ $code = 4 ] || bad "nothing at the start: exit $code, wanted 4"
-says 'taker wants T of giver as it was at the start of window 0, but giver has put none' "nothing at the start"
+says 'taker wants T of giver as it was at the start of coupling step 0, but giver has put none' "nothing at the start"
 job "$two" "1 giver points=a:2:9:0 put=T:a:1:1:end" "1 taker points=x:2:6:2 get=T:x:1:1:1:1.5"
-refused 'T: t = 0.375 s is not in the window 0 .. 0.25 s' "a read outside of the window"
+refused 'T: t = 0.375 s is not in the coupling step 0 .. 0.25 s' "a read outside of the window"
 
 # conservative: sums to rounding for all kinds, also where nobody is in reach, on any ranks; periodic, too
 for how in 16 17 18; do
@@ -127,7 +127,7 @@ done
 job "$two" "1 giver points=a:2:40:0:1 put=T:a:1:1:end" "1 taker shift=0.9 points=x:2:9:0.3 get=T:x:1:2:1:1"
 [ "$(awk '$5 == 1' o/taker.0 | wc -l)" = 18 ] || bad "the giver's period is not used"
 job "$two" "1 giver points=a:2:40:0:1 put=T:a:1:1:end" "1 taker points=x:2:9:0.3:2 get=T:x:1:2:1:1"
-refused 'a of giver repeats itself by 1 m, x of taker by 2 m' "different periods"
+refused 'a of giver has the period 1 m, x of taker 2 m' "different periods"
 
 # a start that is not 0, windows by the case, by the shortest wish
 job "time: { end = 3.0; }; coupler: { start = 2.0; window = 0.25; };" \
@@ -136,7 +136,7 @@ good "a late start"
 off taker T 1e-10 "a late start"
 grep -q '"windows": 4' o/summary.json || bad "coupler.window: $(grep windows o/summary.json)"
 job "$two" "1 giver t0=1 points=a:2:9:0 put=T:a:1:1:end" "1 taker points=x:2:9:0.3 get=T:x:1:1:1:1"
-refused 'giver starts at t = 1 s, but window 0' "another start"
+refused 'giver starts at t = 1 s, but coupling step 0' "another start"
 job "$two coupler: { programs = \"giver other\"; };" "1 giver points=a:2:9:0 put=T:a:1:1:end" "1 taker points=x:2:9:0.3 get=T:x:1:1:1:1"
 refused 'coupler.programs names `other., but it is not in this job' "a program that is not there"
 refused 'program `taker. is in this job, but not in coupler.programs' "a program too many"
@@ -178,7 +178,7 @@ refused 'T: giver gives 2 components, taker takes 1' "another number of componen
 job "$two" "1 giver points=a:2:9:0 put=T:a:1:1:end" "1 taker points=x:2:9:0 get=T:x:1:0:1:1"
 refused 'T: x of taker has no support radius' "no support radius"
 job "$two" "1 giver restart=3 points=a:2:9:0 put=T:a:1:1:end" "1 taker points=x:2:9:0.3 get=T:x:1:0:1:1"
-refused 'taker starts at window -1, giver at window 3: restart all from one manifest' "another restart window"
+refused 'taker starts at coupling step -1, giver at coupling step 3: restart all from one manifest' "another restart window"
 job "$two" "1 giver zone=box points=a:2:9:0 put=T:a:1:1:end" "1 taker zone=box faults=2 points=x:2:9:0.3 get=T:x:1:0:1:1"
 refused 'zone box is published by taker and by giver' "a zone twice"
 refused 'taker: 2 faults in its input' "faults of a partner"

@@ -57,7 +57,7 @@ judge() {
     for p in sph coupler fv; do # who, where, when
         [ $p = "$victim" ] && continue
         grep "^$p rank 0: " "$name.txt" | grep "$victim rank 0" |
-            grep -q 'in window [0-9]\|before the first window\|last heard' ||
+            grep -q 'in coupling step [0-9]\|before the first coupling step\|last heard' ||
             bad "$name (exit $code): $p says nothing of $victim: $(grep "^$p rank" "$name.txt")"
     done
 }

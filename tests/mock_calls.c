@@ -124,7 +124,7 @@ static void take(double t0, double t1, int put, int get, int patch)
     order(cpl_patch_get(c, get, here, hi), "comes from points");
     order(cpl_get(c, put, 2, v, NULL), "not a field to get");
     order(cpl_get_at(c, get, (enum cpl_when)9, t0, 2, v, NULL), "9 is no enum cpl_when");
-    input(cpl_get_at(c, get, CPL_START, t1 + 1.0, 2, v, NULL), "is not in the window");
+    input(cpl_get_at(c, get, CPL_START, t1 + 1.0, 2, v, NULL), "is not in the coupling step");
     input(cpl_get(c, get, 1, v, NULL), "1 targets, but cpl_move placed 2 of p");
     good(cpl_get_at(c, get, CPL_START, t0, 2, v, NULL));
     good(cpl_patch_get(c, patch, here, hi));
@@ -139,7 +139,7 @@ static int window(int put, int get, int patch)
     int action, code;
     good(cpl_window(c, &t0, &t1, &action, &code));
     if (action & CPL_STOP) {
-        order(cpl_put(c, put, t1, 2, two_values, NULL), "outside of a window");
+        order(cpl_put(c, put, t1, 2, two_values, NULL), "outside of a coupling step");
         return 0;
     }
     order(cpl_window(c, &other, &other, &action, &code), "after cpl_ready or cpl_advance");
@@ -147,8 +147,8 @@ static int window(int put, int get, int patch)
         take(t0, t1, put, get, patch);
     input(cpl_tell(c, key, 1.0), "a key of 199 bytes, 95 are possible");
     input(cpl_saved(c, file), "a file's name of 399 bytes, 255 are possible");
-    input(cpl_saved(c, "my file.h5"), "`my file.h5': a file's name without spaces");
-    input(cpl_advance(c, t1 + 0.5, 0), "window");
+    input(cpl_saved(c, "my file.h5"), "`my file.h5': expected a file's name without spaces");
+    input(cpl_advance(c, t1 + 0.5, 0), "coupling step");
     good(cpl_advance(c, t1, 0));
     order(cpl_advance(c, t1, 0), "after cpl_window");
     return 1;

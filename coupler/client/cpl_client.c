@@ -79,7 +79,7 @@ static struct message *from_inbox(struct cpl *c, enum wire_kind kind, int field,
 static void at_work(const struct cpl *c)
 {
     char doing[64];
-    snprintf(doing, sizeof doing, "at work in window %lld", (long long)c->window);
+    snprintf(doing, sizeof doing, "at work in coupling step %lld", (long long)c->window);
     failure_doing(doing);
 }
 
@@ -89,7 +89,8 @@ struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int6
     struct message *found = NULL;
     struct nap nap;
     char doing[256];
-    snprintf(doing, sizeof doing, "in window %lld, waiting for %s", (long long)c->window, what);
+    snprintf(doing, sizeof doing, "in coupling step %lld, waiting for %s", (long long)c->window,
+             what);
     failure_doing(doing);
     nap_begin(&nap);
     for (;;) {
@@ -305,7 +306,8 @@ int cpl_window(struct cpl *c, double *t0, double *t1, int *action, int *code)
         return c->error;
     if (c->state != PLANNED && c->state != BETWEEN)
         return client_out_of_order(c, "cpl_window", "after cpl_ready or cpl_advance");
-    struct message *m = client_await(c, WIRE_WINDOW, -1, 0, 0, "the other programs' windows");
+    struct message *m =
+        client_await(c, WIRE_WINDOW, -1, 0, 0, "the other programs' coupling steps");
     if (!m)
         return c->error;
     *action = (int)take_int(&c->wire, m);
@@ -354,7 +356,7 @@ int cpl_advance(struct cpl *c, double t1, int stop)
     if (c->state != IN_WINDOW)
         return client_out_of_order(c, "cpl_advance", "after cpl_window");
     if (!(fabs(t1 - c->t1) <= 1e-9 * (fabs(c->t1) + (c->t1 - c->t0))))
-        return client_error(c, CPL_EINPUT, "window %lld ends at %.17g s, not at %.17g s",
+        return client_error(c, CPL_EINPUT, "coupling step %lld ends at %.17g s, not at %.17g s",
                             (long long)c->window, c->t1, t1);
     if (c->rank == 0) {
         pack_begin(&p, WIRE_ADVANCE, 0, c->window);
@@ -377,8 +379,8 @@ int cpl_saved(struct cpl *c, const char *file)
         return client_error(c, CPL_EINPUT, "cpl_saved: a file's name of %zu bytes, %d are possible",
                             strlen(file), SAVED_NAME - 1);
     if (!file[0] || strcspn(file, " \t\n") != strlen(file)) /* a line of the manifest */
-        return client_error(c, CPL_EINPUT,
-                            "cpl_saved: `%s': a file's name without spaces is wanted", file);
+        return client_error(c, CPL_EINPUT, "cpl_saved: `%s': expected a file's name without spaces",
+                            file);
     if (c->rank == 0) {
         pack_begin(&p, WIRE_SAVED, 0, c->window);
         pack_text(&p, file);
@@ -401,9 +403,9 @@ void cpl_fail(struct cpl *c, int code, const char *reason)
     if (c->error == CPL_EPARTNER)
         failure_die(code, c->text); /* somebody else's failure: said as it was heard */
     if (c->state >= PLANNED)
-        snprintf(text, sizeof text, "in window %lld: %s", (long long)c->window, reason);
+        snprintf(text, sizeof text, "in coupling step %lld: %s", (long long)c->window, reason);
     else
-        snprintf(text, sizeof text, "before the first window: %s", reason);
+        snprintf(text, sizeof text, "before the first coupling step: %s", reason);
     failure_die(code, text);
 }
 
@@ -425,7 +427,7 @@ static int goodbye(struct cpl *c, int code)
             pack_int(&p, 0);
         wire_send(&c->wire, 0, r, &p);
     }
-    struct message *m = client_await(c, WIRE_BYE_ACK, -1, 0, 0, "the other programs' goodbye");
+    struct message *m = client_await(c, WIRE_BYE_ACK, -1, 0, 0, "the other programs' end");
     if (!m)
         return c->error;
     const int job = (int)take_int(&c->wire, m);

@@ -37,7 +37,7 @@ int client_check_field(struct cpl *c, int field, int d, const char *call)
         return client_error(c, CPL_EORDER, "%s: number %d is not a field to %s", call, field,
                             d == CPL_PUT ? "put" : "get");
     if (!in_window(c))
-        return client_error(c, CPL_EORDER, "%s of %s outside of a window", call,
+        return client_error(c, CPL_EORDER, "%s of %s outside of a coupling step", call,
                             c->field[field].name);
     return CPL_OK;
 }
@@ -293,7 +293,7 @@ int cpl_put_course(struct cpl *c, int field, double t, long n, int nterms,
     if (tick <= f->last_tick) /* else who reads sees the one or the other, as messages come */
         return client_error(c, CPL_EORDER,
                             "%s: a second put at t = %g s, or one before the last: the end of a "
-                            "window is the start of the next",
+                            "coupling step is the start of the next",
                             f->name, t);
     struct slot *s = &f->slot[tick & 1];
     clear_slot(s);

@@ -137,8 +137,8 @@ static int check_read(struct cpl *c, int field, bool patch, enum cpl_when when, 
         return code;
     const struct client_field *f = &c->field[field];
     if (f->from_grid != patch || c->state != IN_WINDOW)
-        return client_error(c, CPL_EORDER, "%s: %s comes from %s, or no window is under way", call,
-                            f->name, f->from_grid ? "a grid" : "points");
+        return client_error(c, CPL_EORDER, "%s: %s comes from %s, or no coupling step is under way",
+                            call, f->name, f->from_grid ? "a grid" : "points");
     if (when != CPL_START && when != CPL_END && when != CPL_BETWEEN)
         return client_error(c, CPL_EORDER, "%s: %s: %d is no enum cpl_when", call, f->name,
                             (int)when);
@@ -160,8 +160,9 @@ int cpl_get_at(struct cpl *c, int field, enum cpl_when when, double t, long n, d
     if ((f->how & CPL_CONSERVATIVE) && n > 0 && !s->places->gid)
         return client_error(c, CPL_EORDER, "%s: the points of %s have no ids", f->name, s->name);
     if (!(t >= c->t0 - slack && t <= c->t1 + slack))
-        return client_error(c, CPL_EINPUT, "%s: t = %.17g s is not in the window %.17g .. %.17g s",
-                            f->name, t, c->t0, c->t1);
+        return client_error(c, CPL_EINPUT,
+                            "%s: t = %.17g s is not in the coupling step %.17g .. %.17g s", f->name,
+                            t, c->t0, c->t1);
     if (when == CPL_BETWEEN)
         return take_between(c, field, t, n, v, mask);
     return take_points(c, field, when == CPL_START ? c->window : c->window + 1, &t, v, mask);

@@ -61,7 +61,7 @@ void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m)
     const int i = (int)(s - c->solver);
     struct save *const save = &c->save[m->head.tick & 1];
     if (m->head.tick != save->window) {
-        log_warn("%s saved window %lld, asked for was %lld: no restart point", s->name,
+        log_warn("%s saved coupling step %lld, requested was %lld: no restart point", s->name,
                  (long long)m->head.tick, (long long)save->window);
         return;
     }

@@ -12,7 +12,7 @@ static const struct param rows[] = {
     PARAM(P, programs, "-", "", 0, 0, "names of all programs of the job beside the coupler, as \"sph exact\"; empty: sph and fv where the case has their groups, and any other"),
     PARAM(P, window,   "s", "0.0", 0, 1e9, "longest time between two exchanges; 0: as the programs wish"),
     PARAM(P, start,    "s", "0.0", -1e9, 1e9, "time at which the job starts"),
-    PARAM(P, period,   "m", "(0.0, 0.0, 0.0)", 0, 1e9, "by which places repeat themselves, for sets that declare none; 0: not, or as domain says"),
+    PARAM(P, period,   "m", "(0.0, 0.0, 0.0)", 0, 1e9, "period of the sets of points that declare none; 0: not periodic, or as domain.periodic says"),
 };
 #undef P
 /* clang-format on */
@@ -25,7 +25,7 @@ void job_groups(struct job *j, struct scene *s, struct param_group *groups)
 {
     scene_groups(s, groups);
     groups[SCENE_GROUPS] = (struct param_group){.name = "coupler",
-                                                .help = "What the coupler brings together",
+                                                .help = "The coupler",
                                                 .rows = rows,
                                                 .nrows = (int)(sizeof rows / sizeof *rows),
                                                 .target = j};

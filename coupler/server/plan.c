@@ -90,7 +90,8 @@ void plan_check_meet(struct coupler *c, char *text)
                     s->name, (unsigned long long)s->hash, (unsigned long long)c->hash);
         if (s->restart_window != first->restart_window && s->faults == 0 && first->faults == 0)
             problem(text,
-                    "%s starts at window %lld, %s at window %lld: restart all from one manifest",
+                    "%s starts at coupling step %lld, %s at coupling step %lld: restart all from "
+                    "one manifest",
                     s->name, (long long)s->restart_window, first->name,
                     (long long)first->restart_window);
         for (int j = 0; j < i; j++)
@@ -185,8 +186,7 @@ static void check_link(const struct link *l, const struct solver *g, const struc
     if (from->is_grid && (take->how & CPL_CONSERVATIVE))
         problem(text,
                 "field %s: %s takes it conservatively, but %s gives it on a grid: that is "
-                "interpolated (CPL_LINEAR, CPL_CUBIC); cells are dealt out as points "
-                "(cpl_move_cells)",
+                "interpolated (CPL_LINEAR, CPL_CUBIC); cells are mapped as points (cpl_move_cells)",
                 give->name, t->name, g->name);
     else if (from->is_grid ? take->how != CPL_LINEAR && take->how != CPL_CUBIC
                            : (take->how & ~CPL_CONSERVATIVE) > CPL_SUM || take->how < 0 ||
@@ -195,7 +195,7 @@ static void check_link(const struct link *l, const struct solver *g, const struc
                 take->how);
     for (int a = 0; a < 3; a++)
         if (from->period[a] > 0.0 && to->period[a] > 0.0 && from->period[a] != to->period[a])
-            problem(text, "field %s: %s of %s repeats itself by %g m, %s of %s by %g m", give->name,
+            problem(text, "field %s: %s of %s has the period %g m, %s of %s %g m", give->name,
                     from->name, g->name, from->period[a], to->name, t->name, to->period[a]);
 }
 
@@ -320,8 +320,8 @@ static const char *way_of(const struct link *l, int how)
 {
     static const char *const grid[] = {"linear", "cubic"};
     static const char *const points[] = {"Shepard", "moving least squares", "nearest", "sum"};
-    static const char *const dealt[] = {"dealt out as Shepard", "dealt out as moving least squares",
-                                        "dealt out to the nearest"};
+    static const char *const dealt[] = {
+        "conservative, Shepard", "conservative, moving least squares", "conservative, nearest"};
     const int kind = how & ~CPL_CONSERVATIVE;
     return l->from_grid ? grid[kind == CPL_CUBIC] : how != kind ? dealt[kind] : points[kind];
 }
@@ -335,6 +335,6 @@ void plan_describe(const struct coupler *c)
         log_say("  %-20s %s -> %s  %d x %s, %s", f->name, c->solver[l->giver].name,
                 c->solver[l->taker].name, f->ncomp, f->unit, way_of(l, how));
     }
-    log_say("  %lld windows of %.6g s", (long long)c->nwindows,
+    log_say("  %lld coupling steps of %.6g s", (long long)c->nwindows,
             (c->t_end - c->t_start) / (double)c->nwindows);
 }

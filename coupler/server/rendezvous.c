@@ -13,7 +13,7 @@
 
 static _Noreturn void not_planned(const struct solver *s, const struct message *m)
 {
-    fail("%s rank %d speaks of a field (number %d) that is not in the plan", s->name, m->rank,
+    fail("%s rank %d names a field (number %d) that is not in the plan", s->name, m->rank,
          m->head.field);
 }
 

@@ -26,8 +26,9 @@ void report_told(struct wire *w, struct message *m, struct told *t)
             k++;
         if (k == TOLD_KEYS) {
             if (!t->full)
-                log_warn("a program tells more than %d numbers: `%s' and what follows is left out",
-                         TOLD_KEYS, key);
+                log_warn(
+                    "a program reports more than %d numbers: `%s' and what follows is left out",
+                    TOLD_KEYS, key);
             t->full = true;
             continue;
         }

@@ -9,7 +9,7 @@ void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *
 {
     const int64_t n = take_int(&c->wire, m);
     if (n != s->nfields)
-        fail("%s speaks of %lld fields, the plan has %d", s->name, (long long)n, s->nfields);
+        fail("%s names %lld fields, the plan has %d", s->name, (long long)n, s->nfields);
     for (int i = 0; i < s->nfields; i++)
         s->field[i].last_tick = take_int(&c->wire, m);
 }
@@ -35,7 +35,7 @@ static bool waits_in_a_circle(const struct coupler *c, int solver, char *text)
     if (!l || l->giver != solver)
         return false;
     for (l = missing(c, solver);; l = missing(c, l->giver)) {
-        problem(text, "%s waits in window %lld for %s of %s, which has not been given",
+        problem(text, "%s waits in coupling step %lld for %s of %s, which has not been given",
                 c->solver[l->taker].name, (long long)c->window,
                 c->solver[l->taker].field[l->tfield].name, c->solver[l->giver].name);
         if (l->giver == solver)
@@ -48,7 +48,7 @@ bool rendezvous_starved(const struct coupler *c, char *text)
     for (int i = 0; i < c->nsolvers; i++) {
         const struct link *l = missing(c, i);
         if (l && c->solver[l->giver].advanced == c->window) {
-            problem(text, "%s waits for %s, but %s has ended window %lld without giving it",
+            problem(text, "%s waits for %s, but %s has ended coupling step %lld without giving it",
                     c->solver[i].name, c->solver[i].field[l->tfield].name, c->solver[l->giver].name,
                     (long long)c->window);
             return true;
@@ -72,8 +72,8 @@ bool rendezvous_skipped(const struct coupler *c, char *text)
             if (there || b->tick <= l->asked_tick || !b->put[r])
                 continue;
             problem(text,
-                    "%s wants %s of %s as it was at the start of window %lld, but %s has put none "
-                    "there: before the first window, values are put after cpl_ready",
+                    "%s wants %s of %s as it was at the start of coupling step %lld, but %s has "
+                    "put none there: before the first one, values are put after cpl_ready",
                     c->solver[l->taker].name, g->field[l->gfield].name, g->name,
                     (long long)l->asked_tick, g->name);
             return true;

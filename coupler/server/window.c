@@ -26,12 +26,12 @@ static void divide(struct coupler *c, double dt, char *text)
     const double every = c->scene.output.every, span = c->t_end - c->t_start;
     const bool outputs = every > 0.0 && every < span;
     if (!(dt > 0.0)) {
-        problem(text, "a program asks for windows of %g s", dt);
+        problem(text, "a program asks for coupling steps of %g s", dt);
         return;
     }
     const double least = ceil(span / fmin(dt, outputs ? every : span) * (1.0 - same_time));
     if (least > 1e15) {
-        problem(text, "windows of %g s are too short for a run of %g s", dt, span);
+        problem(text, "coupling steps of %g s are too short for a run of %g s", dt, span);
         return;
     }
     c->nwindows = least < 1.0 ? 1 : (int64_t)least;
@@ -45,7 +45,8 @@ static void divide(struct coupler *c, double dt, char *text)
             return;
     }
     problem(text,
-            "output.every = %g s and time.end = %g s have no common divisor: no window fits both",
+            "output.every = %g s and time.end = %g s have no common divisor: no coupling step fits "
+            "both",
             every, span);
 }
 
@@ -73,7 +74,7 @@ void window_divide(struct coupler *c, char *text)
     for (int i = 0; i < c->nsolvers; i++)
         if (!at(c, start, c->solver[i].t))
             problem(text,
-                    "%s starts at t = %.9g s, but window %lld of %lld starts at %.9g s "
+                    "%s starts at t = %.9g s, but coupling step %lld of %lld starts at %.9g s "
                     "(coupler.start: another start)",
                     c->solver[i].name, c->solver[i].t, (long long)start, (long long)c->nwindows,
                     window_start(c, start));
@@ -132,8 +133,8 @@ void window_announce(struct coupler *c)
 void window_advance(struct coupler *c, struct solver *s, struct message *m)
 {
     if (m->head.tick != c->window || s->advanced == c->window)
-        fail("%s ends window %lld, but window %lld is under way", s->name, (long long)m->head.tick,
-             (long long)c->window);
+        fail("%s ends coupling step %lld, but coupling step %lld is under way", s->name,
+             (long long)m->head.tick, (long long)c->window);
     s->advanced = m->head.tick;
     if (take_int(&c->wire, m) && !c->stopping) {
         log_say("%s asks for an orderly end", s->name);

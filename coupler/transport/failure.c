@@ -125,7 +125,7 @@ bool failure_witness(void)
             continue;
         char text[TEXT] = "";
         append(text, self.watched[i].who);
-        append(text, " is gone: killed, out of memory, or it left without a word; seen by ");
+        append(text, " is gone: killed, out of memory, or it left without a message; seen by ");
         append(text, self.who);
         append(text, " ");
         append(text, self.doing);
@@ -157,7 +157,7 @@ void failure_obituary(int fd)
         append(text, self.seen);
     } else {
         append(text, self.absent);
-        append(text, self.absent[0]      ? " was gone when programs met: killed, or out of memory"
+        append(text, self.absent[0]      ? " was gone at the handshake: killed, or out of memory"
                      : self.elsewhere[0] ? self.elsewhere
                                          : "no reason was left");
         append(text, "; this rank was ");
@@ -245,7 +245,7 @@ static void at_exit(void)
     MPI_Initialized(&ready);
     MPI_Finalized(&over);
     if (self.open && !self.dying && ready && !over) {
-        char text[TEXT] = "left without saying goodbye ";
+        char text[TEXT] = "left without cpl_close ";
         append(text, self.doing);
         failure_die(EXIT_PARTNER, text);
     }
@@ -284,7 +284,7 @@ void failure_open(MPI_Comm world, const char *program, int rank)
     self.world = world;
     self.open = true;
     snprintf(self.who, sizeof self.who, "%.63s rank %d", program, rank);
-    failure_doing("before the first window");
+    failure_doing("before the first coupling step");
     if (!hooked) {
         int key;
         hooked = true;

@@ -40,7 +40,7 @@ static _Noreturn void too_late(MPI_Comm world, const struct hello *all, const in
     int rank, size;
     MPI_Comm_rank(world, &rank);
     MPI_Comm_size(world, &size);
-    int n = snprintf(text, sizeof text, "after %g s no word from world rank", s);
+    int n = snprintf(text, sizeof text, "after %g s no message from world rank", s);
     for (int r = 0; r < size && n < 250; r++)
         if (!heard[r])
             n += snprintf(text + n, sizeof text - (size_t)n, " %d", r);
