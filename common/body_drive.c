@@ -81,18 +81,18 @@ bool body_term_fault(const struct body_drive *v, int term, const char *dir, char
     const struct scene_motion *m = t->is;
     *text = '\0';
     if (m->kind == MOTION_FILE && !*m->file)
-        snprintf(text, size, "a term of kind file wants the file's name");
+        snprintf(text, size, "a term of kind file needs the name of the file");
     else if (m->kind == MOTION_FILE && t->n <= 0)
         snprintf(text, size, "motion %s/%s: %s", dir, m->file,
                  t->n < 0      ? "no such file"
-                 : v->dim == 2 ? "rows of t, x, y, angle with rising times are wanted"
-                               : "rows of t, x, y, z, rx, ry, rz with rising times are wanted");
+                 : v->dim == 2 ? "expected rows of t, x, y, angle with increasing times"
+                               : "expected rows of t, x, y, z, rx, ry, rz with increasing times");
     else if (m->kind == MOTION_FILE)
         return false;
     else if (v->dim == 2 && (m->axis == AXIS_Z || m->axis == AXIS_RX || m->axis == AXIS_RY))
         snprintf(text, size, "axis %s in a case of 2 dimensions", names[m->axis]);
     else if (m->kind == MOTION_HARMONIC && (m->period <= 0.0 || m->amplitude == 0.0))
-        snprintf(text, size, "a harmonic term wants amplitude and period, not 0");
+        snprintf(text, size, "a harmonic term needs an amplitude and a period other than 0");
     else if (m->kind == MOTION_POLYNOMIAL && m->until <= m->from)
         snprintf(text, size, "it ends at %g s (until), before its start at %g s (from)", m->until,
                  m->from);

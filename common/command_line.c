@@ -36,9 +36,9 @@ static void usage(const char *name, const char *help)
            "  -o, --output DIR  where the run writes (out/CASE)\n"
            "      --check       reads and validates the case, says what it uses and costs; no run\n"
            "      --check=picture  draws the scene as well, to DIR/PROGRAM-scene.svg\n"
-           "      --restart     goes on from the last restart file in DIR\n"
+           "      --restart     continues from the last restart file in DIR\n"
            "      --force       replaces an earlier run in DIR\n"
-           "      --deadline S  time to meet the other programs of a coupled job (30 s)\n"
+           "      --deadline S  time to find the other programs of a coupled job (30 s)\n"
            "      --patience S  time without a sign of life after which a partner counts as hung "
            "(120 s)\n"
            "      --help [KEY]  this text and all keys, or one key or group\n"
@@ -151,7 +151,7 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
             c->check = true;
             c->picture = optarg != NULL;
             if (optarg && strcmp(optarg, "picture") != 0)
-                return refuse(name, "--check or --check=picture is wanted, not", optarg);
+                return refuse(name, "expected --check or --check=picture, not", optarg);
             break;
         case 'p':
             overrides[c->noverrides++] = optarg;
@@ -172,13 +172,13 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
             c->as = optarg;
             if (strncmp(optarg, name, strlen(name)) != 0 || optarg[strlen(name)] != '_' ||
                 strlen(optarg) > 40)
-                return refuse(name, "a name that begins with the program's and _ is wanted, not",
+                return refuse(name, "expected a name that begins with the program's and _, not",
                               optarg);
             break;
         case 'd':
         case 't':
             if (!(atof(optarg) > 0.0))
-                return refuse(name, "a time in s above 0 is wanted, not", optarg);
+                return refuse(name, "expected a time in s above 0, not", optarg);
             *(option == 'd' ? &c->deadline : &c->patience) = atof(optarg);
             break;
         case ':':

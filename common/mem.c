@@ -20,8 +20,8 @@ void *mem_new(size_t n, size_t size)
     char *p = aligned_alloc(LINE, bytes);
     if (!p)
         fail_with(RUN_INPUT,
-                  "out of memory: %.3g MB wanted, %.3g MB held by this rank; a coarser resolution "
-                  "or more hosts",
+                  "out of memory: %.3g MB requested, %.3g MB held by this rank; a coarser "
+                  "resolution or more hosts",
                   1e-6 * (double)bytes, 1e-6 * (double)held);
     memset(p, 0, bytes);
     memcpy(p, &bytes, sizeof bytes);

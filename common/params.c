@@ -257,7 +257,9 @@ static void read_row(struct params *p, const struct param_group *g, const struct
     else if (element >= 0 && strcmp(r->key, "name") == 0 && r->type == PARAM_TEXT &&
              !heads_columns((char *)target + r->offset))
         params_add_fault(
-            f, place, "a name heads columns of series.csv: a word or two, without , ; and quotes");
+            f, place,
+            "a name heads columns of series.csv: a word or two, without commas, semicolons and "
+            "quotes");
     else if (r->dflt && same_value(r, before, (char *)target + r->offset))
         mark_given(p, g->name, element, r->key, "=");
     mem_free(before);
@@ -318,7 +320,7 @@ static void read_plain(struct params *p, const struct param_group *g, const conf
     char place[1300];
     if (s && !config_setting_is_group(s)) {
         place_of(p, s, place, sizeof place, g->name, "");
-        params_add_fault(f, place, "a group { ... } is wanted");
+        params_add_fault(f, place, "expected a group { ... }");
         return;
     }
     for (int k = 0; k < g->nrows; k++)
@@ -336,7 +338,7 @@ static void read_list(struct params *p, const struct param_group *g, const confi
         return;
     if (!config_setting_is_list(s) || config_setting_length(s) > g->max) {
         place_of(p, s, place, sizeof place, g->name, "");
-        params_add_fault(f, place, "a list ( { ... }, { ... } ) of at most %d groups is wanted",
+        params_add_fault(f, place, "expected a list ( { ... }, { ... } ) of at most %d groups",
                          g->max);
         return;
     }
@@ -345,7 +347,7 @@ static void read_list(struct params *p, const struct param_group *g, const confi
         void *target = (char *)g->target + g->stride * (size_t)k;
         if (!config_setting_is_group(e)) {
             place_of(p, e, place, sizeof place, g->name, "");
-            params_add_fault(f, place, "element %d: a group { ... } is wanted", k + 1);
+            params_add_fault(f, place, "element %d: expected a group { ... }", k + 1);
             continue;
         }
         for (int r = 0; r < g->nrows; r++) {
@@ -493,7 +495,7 @@ static void check_format(const struct params *p, struct faults *f)
     char place[1300];
     if (s && !(param_number(s, &v) && v == 1.0)) {
         snprintf(place, sizeof place, "%s:%u: format", p->path, config_setting_source_line(s));
-        params_add_fault(f, place, "1 is wanted: this program reads format 1");
+        params_add_fault(f, place, "expected 1: this program reads format 1");
     }
 }
 

@@ -281,7 +281,7 @@ const char *hint_no_text(const char *text, size_t n)
         return "is text in UTF-16: save it as UTF-8";
     for (size_t k = 0; k < n; k++)
         if (b[k] < ' ' && !strchr("\t\n\v\f\r", b[k] ? b[k] : 'x'))
-            return "is no text: a case is a text file in UTF-8";
+            return "is not text: a case is a text file in UTF-8";
     return NULL;
 }
 

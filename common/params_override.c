@@ -27,7 +27,7 @@ void override_read(struct override *o, const char *text, struct faults *f)
         eq - dot > 60) {
         params_add_fault(
             f, place,
-            "GROUP.KEY=VALUE is wanted, as in sph.dx=0.01, or a whole list, as in 'accept=()'");
+            "expected GROUP.KEY=VALUE, as in sph.dx=0.01, or a whole list, as in 'accept=()'");
         return;
     }
     snprintf(o->group, sizeof o->group, "%.*s", (int)(dot - text), text);
@@ -54,7 +54,7 @@ void override_read(struct override *o, const char *text, struct faults *f)
         return;
     snprintf(line, sizeof line, "value = \"%s\";", value);
     if (config_read_string(&o->cfg, line) != CONFIG_TRUE)
-        params_add_fault(f, place, "`%s' is no value", value);
+        params_add_fault(f, place, "`%s' is not a value", value);
 }
 
 static void copy_scalar(config_setting_t *to, const config_setting_t *from)
@@ -104,6 +104,6 @@ void override_graft(struct override *o, config_t *cfg, struct faults *f)
     (void)config_setting_remove(root, o->group); /* it need not be there */
     snprintf(place, sizeof place, "command line: -p %s", o->text);
     if (!copy(root, o->group, value))
-        params_add_fault(f, place, "`%s' is no name of a group", o->group);
+        params_add_fault(f, place, "`%s' is not the name of a group", o->group);
     o->used = true;
 }

@@ -48,12 +48,12 @@ static bool get_number(const struct param *r, const config_setting_t *s, void *t
 {
     double v;
     if (!param_number(s, &v)) {
-        snprintf(why, size, "a plain number%s%s is wanted, no text",
+        snprintf(why, size, "expected a plain number%s%s, not text",
                  strcmp(r->unit, "-") ? " in " : "", strcmp(r->unit, "-") ? r->unit : "");
         return false;
     }
     if (is_integer(r) && (v != floor(v) || fabs(v) > 2147483647.0)) {
-        snprintf(why, size, "%g is no whole number", v);
+        snprintf(why, size, "%g is not a whole number", v);
         return false;
     }
     if (!(v >= r->min && v <= r->max)) {
@@ -82,7 +82,7 @@ static bool get_choice(const struct param *r, const config_setting_t *s, void *t
             break;
         c = end + 1;
     }
-    snprintf(why, size, "%s%s%sone of %s is wanted", word ? "`" : "", word ? word : "",
+    snprintf(why, size, "%s%s%sexpected one of %s", word ? "`" : "", word ? word : "",
              word ? "' is not known: " : "", r->choices);
     return false;
 }
@@ -92,7 +92,7 @@ static bool get_text(const struct param *r, const config_setting_t *s, void *tar
 {
     const char *word = config_setting_get_string(s);
     if (!word || strlen(word) >= PARAM_TEXT_SIZE) {
-        snprintf(why, size, "text in quotes is wanted, at most %d characters", PARAM_TEXT_SIZE - 1);
+        snprintf(why, size, "expected text in quotes, at most %d characters", PARAM_TEXT_SIZE - 1);
         return false;
     }
     memset((char *)target + r->offset, 0, PARAM_TEXT_SIZE);
@@ -103,7 +103,7 @@ static bool get_text(const struct param *r, const config_setting_t *s, void *tar
 static bool get_bool(const config_setting_t *s, bool *to, char *why, size_t size)
 {
     if (config_setting_type(s) != CONFIG_TYPE_BOOL) {
-        snprintf(why, size, "true or false is wanted");
+        snprintf(why, size, "expected true or false");
         return false;
     }
     *to = config_setting_get_bool(s);
@@ -117,7 +117,7 @@ static bool get_vector(const struct param *r, const config_setting_t *s, void *t
     const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : 0;
     bool *flags = (bool *)(void *)((char *)target + r->offset);
     if (config_setting_is_group(s) || n < 2 || n > 3) {
-        snprintf(why, size, "two or three %s in ( ) are wanted",
+        snprintf(why, size, "expected two or three %s in ( )",
                  r->type == PARAM_BOOLS ? "truth values" : "numbers");
         return false;
     }
@@ -141,7 +141,7 @@ static bool get_box(const struct param *r, const config_setting_t *s, void *targ
 {
     if (config_setting_is_group(s) || !config_setting_is_aggregate(s) ||
         config_setting_length(s) != 2) {
-        snprintf(why, size, "two corners are wanted: ((x, y), (x, y))");
+        snprintf(why, size, "expected two corners: ((x, y), (x, y))");
         return false;
     }
     return get_vector(r, config_setting_get_elem(s, 0), target, 0, why, size) &&
@@ -172,14 +172,14 @@ static bool get_points(const struct param *r, const config_setting_t *s, void *t
     int *count = plane ? &points->n : &places->n;
     *count = 0;
     if (config_setting_is_group(s) || n < 0 || n > most) {
-        snprintf(why, size, "at most %d points are wanted: ((x, y%s), ...)", most,
+        snprintf(why, size, "expected at most %d points: ((x, y%s), ...)", most,
                  plane ? "" : ", z");
         return false;
     }
     for (int k = 0; k < n; k++) {
         double *v = plane ? points->x[k] : places->x[k];
         if (!get_point(r, config_setting_get_elem(s, (unsigned)k), dim, v)) {
-            snprintf(why, size, "point %d: %s numbers in ( ) from %g to %g are wanted", k + 1,
+            snprintf(why, size, "point %d: expected %s numbers in ( ) from %g to %g", k + 1,
                      plane ? "two" : "three", r->min, r->max);
             return false;
         }
@@ -199,7 +199,7 @@ static bool get_numbers(const struct param *r, const config_setting_t *s, void *
     one.offset += offsetof(struct param_numbers, v);
     memset(to, 0, sizeof *to);
     if (many && config_setting_length(s) > PARAM_NUMBERS_MAX) {
-        snprintf(why, size, "at most %d numbers in ( ) are wanted", PARAM_NUMBERS_MAX);
+        snprintf(why, size, "expected at most %d numbers in ( )", PARAM_NUMBERS_MAX);
         return false;
     }
     to->n = many ? config_setting_length(s) : 1;
@@ -269,7 +269,7 @@ void param_default(const struct param_group *g, const struct param *r, void *tar
     const bool text = r->type == PARAM_CHOICE || r->type == PARAM_TEXT;
     snprintf(line, sizeof line, text ? "value = \"%s\";" : "value = %s;", r->dflt);
     if (config_read_string(&c, line) != CONFIG_TRUE)
-        fail("default of %s.%s is no value: %s", g->name, r->key, r->dflt);
+        fail("default of %s.%s is not a value: %s", g->name, r->key, r->dflt);
     struct param any = *r; /* a default may lie outside the range: "not given" */
     any.min = -INFINITY;
     any.max = INFINITY;

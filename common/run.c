@@ -384,7 +384,7 @@ static int loop_alone(struct life *l)
             files_checkpoint(&l->files, r->step, file);
         if (ends) {
             l->status = "stopped";
-            log_say("stopped on request at t = %g s; --restart goes on", r->t);
+            log_say("stopped on request at t = %g s; --restart continues", r->t);
             return RUN_STOPPED;
         }
     }
@@ -515,7 +515,7 @@ static int run_state(struct life *l, struct h5 *restart)
 {
     struct run *r = &l->r;
     if (restart && !files_read_clock(&l->files, restart))
-        fail("the restart file lacks its clock");
+        fail("the restart file has no time");
     r->restart = restart != NULL;
     l->s = l->p->create(r, restart);
     l->files.state = l->s;

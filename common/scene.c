@@ -30,7 +30,7 @@ static const struct param domain_rows[] = {
     PARAM(P, dim,      "-", "2", 2, 3, "dimensions"),
     PARAM(P, min,      "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "lower corner"),
     PARAM(P, max,      "m", NULL, -1e9, 1e9, "upper corner"),
-    PARAM(P, periodic, "-", "(false, false, false)", 0, 0, "directions in which the domain repeats itself"),
+    PARAM(P, periodic, "-", "(false, false, false)", 0, 0, "directions in which the domain is periodic"),
 };
 #undef P
 #define P struct scene_initial
@@ -38,28 +38,28 @@ static const struct param initial_rows[] = {
     CHOICE(P, field, "rest|uniform|taylor_green|two_modes|poiseuille|couette|standing_wave|patch|drop|beltrami|stokes|regular|solitary", "rest", "field at the start, and the exact solution after it"),
     PARAM(P, U,        "m/s", "1.0", 0, 1e6, "scale of velocity: amplitude of the field, unit of errors"),
     PARAM(P, L,        "m",   "1.0", 1e-9, 1e9, "length of the field: of a wave, side of the patch, radius of the drop, height of a channel"),
-    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "uniform velocity, or the one that carries the field"),
+    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "uniform velocity, or the mean velocity that is added to the field"),
     PARAM(P, amplitude, "m",  "0.0", -1e6, 1e6, "amplitude of a wave; regular: half its height from trough to crest; solitary: its height"),
     PARAM(P, L_z,      "m",   "0.0", 0, 1e6, "length of a standing wave along z; 0: the same for all z"),
     PARAM(P, crest,    "m",   "0.0", -1e9, 1e9, "x of the crest of a regular or solitary wave, which run to +x"),
     PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "height against gravity where p = 0; by default the top of each water"),
-    PARAM(P, seed,     "m",   "()", -1e9, 1e9, "points in the fluid, where meshes leave it open which of the rooms that they part hold it; sph in 3D"),
+    PARAM(P, seed,     "m",   "()", -1e9, 1e9, "points in the fluid, needed where meshes do not say which of the regions that they separate hold fluid; sph in 3D"),
 };
 #undef P
 #define P struct scene_wall
 static const struct param wall_rows[] = {
     CHOICE(P, side, "none|x_min|x_max|y_min|y_max|z_min|z_max", "none", "side of the domain; none: points"),
-    PARAM(P, points,   "m",   "()", -1e9, 1e9, "polyline with the fluid on its left (turned, and said, where it plainly is on the other side)"),
+    PARAM(P, points,   "m",   "()", -1e9, 1e9, "polyline with the fluid on its left (reversed, with a line in the log, where it clearly is on the other side)"),
     PARAM(P, closed,   "-",   "false", 0, 0, "join the last point with the first"),
     SURFACE_ROWS(P),
-    CHOICE(P, fluid_side, "auto|inside|outside|sheet", "auto", "of a mesh: where the fluid is; sheet: where its normals come from; auto: where the shapes have it"),
-    PARAM(P, flip,     "-",   "false", 0, 0, "turn the normals of an open mesh: they point out of the fluid"),
-    PARAM(P, thin,     "-",   "false", 0, 0, "of a mesh: the fluid on one side does not see that on the other through it; for walls thinner than the support"),
-    CHOICE(P, kind, "slip|no_slip|inflow|outflow|absorbing", "slip", "what it does to the flow"),
-    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, of the inflow, of the far flow that an absorbing side meets"),
+    CHOICE(P, fluid_side, "auto|inside|outside|sheet", "auto", "of a mesh: where the fluid is; sheet: on the side that its normals point away from; auto: where the shapes have it"),
+    PARAM(P, flip,     "-",   "false", 0, 0, "reverse the normals of an open mesh, which must point out of the fluid"),
+    PARAM(P, thin,     "-",   "false", 0, 0, "of a mesh: fluid on one side does not interact with that on the other; for walls thinner than the support"),
+    CHOICE(P, kind, "slip|no_slip|inflow|outflow|absorbing", "slip", "kind of boundary"),
+    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, of the inflow, or of the far field beyond an absorbing side"),
     CHOICE(P, profile, "uniform|parabolic", "uniform", "of an inflow; parabolic: over each opening (blocks that touch are one), velocity is the largest one"),
     PARAM(P, pressure, "Pa",  "0.0", -1e12, 1e12, "at an outflow"),
-    PARAM(P, carried,  "-",   "false", 0, 1, "at an outflow (fv): the flow leaves as it is carried, p is not given"),
+    PARAM(P, carried,  "-",   "false", 0, 1, "at an outflow (fv): convective outflow, dw/dt + U dw/dn = 0, the pressure is not given"),
 };
 #undef P
 #define P struct scene_shape
@@ -71,8 +71,8 @@ static const struct param shape_rows[] = {
     PARAM(P, centre,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "of a disc"),
     PARAM(P, radius,   "m",   "0.0", 0, 1e9, "of a disc"),
     PARAM(P, level,    "m",   "0.0", -1e9, 1e9, "below: height against gravity"),
-    PARAM(P, hole,     "-",   "false", 0, 0, "take the region out of earlier shapes"),
-    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "added to the field's"),
+    PARAM(P, hole,     "-",   "false", 0, 0, "remove the region from earlier shapes"),
+    PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "added to that of initial.field"),
 };
 #undef P
 #define P struct scene_probe
@@ -80,20 +80,20 @@ static const struct param probe_rows[] = {
     PARAM(P, name, "-", NULL, 0, 0, "its name in series.csv"),
     CHOICE(P, kind, "pressure|level|shore", "pressure", "what it reads: pressure at a point; height of the surface in the column over it, which stands on the floor or body next below it (sph); height of the water's edge on a beach, to both sides of a place in the water (sph in 2D)"),
     PARAM(P, at,   "m", NULL, -1e9, 1e9, "place"),
-    PARAM(P, radius, "m", "0.0", 0, 1e9, "of a pressure (sph): its face; it reads the mean over a disc, in 3D a sphere, of this radius, and less the less of that is wet below a quarter (3D: an eighth); the same whatever the particles' size; 0 and below their R: their R"),
+    PARAM(P, radius, "m", "0.0", 0, 1e9, "of a pressure gauge (sph): it reads the mean over a disc (3D: sphere) of this radius, whatever the particle size; where less than a quarter (3D: an eighth) of it is wet the reading falls in proportion; 0, or less than R of the particles: R"),
 };
 #undef P
 #define P struct scene_coupling
 static const struct param coupling_rows[] = {
-    PARAM(P, steps,      "-", "0",   0, 100000, "SPH steps in a window between two exchanges; 0: as many as the flow bears"),
+    PARAM(P, steps,      "-", "0",   0, 100000, "SPH steps in a coupling step, from one exchange to the next; 0: as many as the flow allows"),
     PARAM(P, transition, "m", "0.0", 0, 1e6, "width of the zone where SPH is blended with FV; 0: 1.25 R"),
     PARAM(P, buffer,     "m", "0.0", 0, 1e6, "width of the zone where SPH takes FV's fields; 0: 1.25 R"),
-    PARAM(P, overlap,    "m", "0.0", 0, 1e6, "width of the rim of SPH's free zone where FV is free, too; 0: 1.25 R"),
-    PARAM(P, memory,     "-", "0",   0, 1000, "windows over which FV's pressure is smoothed, level and trend; 1: none; 0: as many as the gain of the loop wants"),
-    PARAM(P, keep_mass,  "-", "true", 0, 0, "SPH's part without a surface: what its mass gained in a window goes out by the openings in the next"),
-    CHOICE(P, mapping, "shepard|mls", "mls", "from particles to forced cells"),
+    PARAM(P, overlap,    "m", "0.0", 0, 1e6, "width of the border of SPH's free zone where FV is free, too; 0: 1.25 R"),
+    PARAM(P, memory,     "-", "0",   0, 1000, "coupling steps over which FV's pressure is smoothed (level and trend); 1: none; 0: as many as the gain of the coupling loop requires"),
+    PARAM(P, keep_mass,  "-", "true", 0, 0, "SPH's part without a surface: the mass gained in a coupling step leaves through the open sides in the next"),
+    CHOICE(P, mapping, "shepard|mls", "mls", "from particles to imposed cells"),
     CHOICE(P, interpolation, "linear|cubic", "cubic", "from cells to particles"),
-    PARAM(P, deadline,   "s", "30.0", 0.1, 1e6, "to meet the other programs of the job"),
+    PARAM(P, deadline,   "s", "30.0", 0.1, 1e6, "to find the other programs of the job"),
 };
 #undef P
 #define P struct scene_output
@@ -130,16 +130,16 @@ void scene_groups(struct scene *s, struct param_group *groups)
         {"initial", "How it starts", ROWS(initial_rows), &s->initial, NULL, 0, 0, NULL},
         {"walls", "List of walls, inlets and outlets", ROWS(wall_rows), s->walls, NULL,
          sizeof s->walls[0], WALLS_MAX, &s->nwalls},
-        {"bodies", "List of bodies with prescribed motion", scene_body_rows, scene_body_nrows,
+        {"bodies", "List of bodies: fixed, driven or free", scene_body_rows, scene_body_nrows,
          s->bodies, NULL, sizeof s->bodies[0], BODIES_MAX, &s->nbodies},
         {"shapes", "List of regions that hold fluid at the start; none: everywhere",
          ROWS(shape_rows), s->shapes, NULL, sizeof s->shapes[0], SHAPES_MAX, &s->nshapes},
         {"probes", "List of gauges in series.csv", ROWS(probe_rows), s->probes, NULL,
          sizeof s->probes[0], PROBES_MAX, &s->nprobes},
-        {"coupling", "How the programs of a coupled job meet", ROWS(coupling_rows), &s->coupling,
+        {"coupling", "How sph and fv are coupled", ROWS(coupling_rows), &s->coupling,
          &s->has_coupling, 0, 0, NULL},
         {"output", "What is written", ROWS(output_rows), &s->output, &s->has_output, 0, 0, NULL},
-        {"accept", "List of what the result must keep for exit code 0", ROWS(accept_rows),
+        {"accept", "List of criteria that the result must meet for exit code 0", ROWS(accept_rows),
          s->accept, NULL, sizeof s->accept[0], ACCEPT_MAX, &s->naccept},
     };
     memcpy(groups, all, sizeof all);
@@ -208,12 +208,12 @@ static void check_shapes(const struct scene *s, const struct params *p, struct f
         if (s->bodies[k].points.n > 0 && *s->bodies[k].surface.mesh)
             params_fault(p, f, "bodies", "body %d: give points or a mesh, not both", k + 1);
         else if (s->bodies[k].points.n < 3 && !*s->bodies[k].surface.mesh)
-            params_fault(p, f, "bodies", "body %d: three points or more are wanted%s", k + 1,
+            params_fault(p, f, "bodies", "body %d: expected three points or more%s", k + 1,
                          s->domain.dim == 3 ? ", or a mesh" : "");
     for (int k = 0; k < s->nshapes; k++) {
         const struct scene_shape *h = s->shapes + k;
         if (h->form == SHAPE_POLYGON && h->points.n < 3)
-            params_fault(p, f, "shapes", "shape %d: three points or more are wanted", k + 1);
+            params_fault(p, f, "shapes", "shape %d: expected three points or more", k + 1);
         if (h->form == SHAPE_DISC && h->radius <= 0.0)
             params_fault(p, f, "shapes", "shape %d: the radius must be given", k + 1);
         if (h->form == SHAPE_MESH && !*h->surface.mesh)
@@ -244,9 +244,9 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
     if (field == FIELD_BELTRAMI && s->domain.dim < 3)
         params_fault(p, f, "initial.field", "beltrami: a field of three dimensions");
     if (scene_has_wave(s) && !(s->fluid.gravity[1] < 0.0))
-        params_fault(p, f, "fluid.gravity", "a wave wants some along -y");
+        params_fault(p, f, "fluid.gravity", "a wave needs gravity along -y");
     if (scene_has_steady_wave(s) && !(s->initial.level < LEVEL_TOP))
-        params_fault(p, f, "initial.level", "a wave wants the level of the still water");
+        params_fault(p, f, "initial.level", "a wave needs the level of the water at rest");
     else if (scene_has_steady_wave(s)) {
         const struct exact e = exact_create(s);
         if (!(e.steady.c > 0.0))
@@ -257,7 +257,7 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
                 s->initial.amplitude);
     }
     if (s->initial.L_z > 0.0 && (field != FIELD_STANDING_WAVE || s->domain.dim < 3))
-        params_fault(p, f, "initial.L_z", "wants a standing wave in three dimensions");
+        params_fault(p, f, "initial.L_z", "needs a standing wave in three dimensions");
     const double H = s->domain.max[1] - s->domain.min[1];
     if ((field == FIELD_POISEUILLE || field == FIELD_COUETTE) && params_given(p, "initial.L") &&
         fabs(s->initial.L - H) > 1e-9 * H)
@@ -271,7 +271,7 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
         if (s->domain.periodic[a] && fabs(n - round(n)) > 1e-9)
             params_fault(
                 p, f, "initial.L",
-                "%g m: the periodic domain holds %g wave lengths, a whole number is wanted",
+                "%g m: the periodic domain holds %g wave lengths, it must be a whole number",
                 s->initial.L, n);
     }
 }

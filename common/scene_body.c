@@ -19,7 +19,7 @@ static const struct param motion_rows[] = {
     PARAM(P, coefficients, "m/s^k or rad/s^k", "0.0", -1e12, 1e12, "c0 + c1 t + c2 t^2 + .. up to the fifth power, t from `from' on"),
     PARAM(P, from,      "s",   "0.0", 0, 1e9, "start of the polynomial; before, and after `until', its value there holds"),
     PARAM(P, until,     "s",   "1e9", 0, 1e9, "its end"),
-    PARAM(P, ramp,      "s",   "0.0", 0, 1e9, "the term grows from nothing within this time, velocity and acceleration without jumps"),
+    PARAM(P, ramp,      "s",   "0.0", 0, 1e9, "the term grows from zero within this time, with continuous velocity and acceleration"),
 };
 #undef P
 #define P struct scene_line
@@ -28,7 +28,7 @@ static const struct param line_rows[] = {
     PARAM(P, to,        "m",     NULL, -1e9, 1e9, "anchor, or point of the other body at the start"),
     PARAM(P, body,      "-",     "", 0, 0, "name of the other body; by default the anchor is fixed in space"),
     PARAM(P, stiffness, "N/m",   "0.0", 0, 1e15, "force over elongation (in 2D per metre of width)"),
-    PARAM(P, length,    "m",     "-1.0", 0, 1e9, "without force; by default that of the start"),
+    PARAM(P, length,    "m",     "-1.0", 0, 1e9, "length at zero force; by default that at the start"),
     PARAM(P, damping,   "N s/m", "0.0", 0, 1e15, "force over the rate of its length (in 2D per metre of width)"),
     PARAM(P, pull_only, "-",     "false", 0, 0, "a mooring line: it cannot push"),
 };
@@ -51,7 +51,7 @@ static const struct param slider_rows[] = {
 static const struct param contact_rows[] = {
     PARAM(P, restitution, "-",  "0.3", 0.01, 1.0, "speed after over speed before"),
     PARAM(P, friction,    "-",  "0.3", 0, 100, "Coulomb's coefficient"),
-    PARAM(P, gap,         "dx", "1.5", 0.1, 4.0, "distance that it holds, in sph.dx: a row of particles stays between"),
+    PARAM(P, gap,         "dx", "1.5", 0.1, 4.0, "distance at which contact begins, in sph.dx: a layer of particles stays between"),
 };
 #undef P
 
@@ -65,20 +65,20 @@ static const struct param_list contacts = INNER(struct scene_contacts, contact_r
 #define P struct scene_body
 const struct param scene_body_rows[] = {
     PARAM(P, name,     "-",   "body", 0, 0, "its name in the outputs"),
-    PARAM(P, points,   "m",   "()", -1e9, 1e9, "corners in order, clockwise (turned, and said, if not)"),
+    PARAM(P, points,   "m",   "()", -1e9, 1e9, "corners in order, clockwise (reversed, with a line in the log, if not)"),
     SURFACE_ROWS(P),
-    PARAM(P, thin,     "-",   "false", 0, 0, "of a mesh: fluid on either side does not see that on the other through it"),
-    CHOICE(P, kind, "slip|no_slip", "slip", "what its surface does to the flow"),
+    PARAM(P, thin,     "-",   "false", 0, 0, "of a mesh: fluid on one side does not interact with that on the other"),
+    CHOICE(P, kind, "slip|no_slip", "slip", "kind of boundary on its surface"),
     PARAM(P, centre,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "centre of rotation and of moments at the start; of a free body with mass: its mass centre"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the centre; of a free body: at the start"),
     TURN(P, spin,      "rad/s", "0.0", -1e6, 1e6, "rate of rotation (3D: vector); of a free body: at the start"),
-    LIST(P, motion, &scene_motion_list, "motion as told, its terms add up; a plain text: one file"),
+    LIST(P, motion, &scene_motion_list, "prescribed motion, the sum of its terms; a plain text: one file"),
     PARAM(P, force,    "N/m", "(0.0, 0.0, 0.0)", -1e12, 1e12, "known mean force of the fluid on the first body: for error.force"),
     PARAM(P, free,     "-",      "false", 0, 0, "moved by the forces on it"),
     PARAM(P, density,  "kg/m^3", "0.0", 0, 1e9, "of a free body, uniform: gives mass, centre and inertia"),
     PARAM(P, mass,     "kg",     "0.0", 0, 1e15, "of a free body, instead of density (in 2D per metre of width)"),
     PARAM(P, inertia,  "kg m^2", "0.0", -1e15, 1e15, "with mass: about the centre; 2D: one number (per metre), 3D: (xx, yy, zz) or (xx, yy, zz, xy, yz, zx), the latter as sums of - m x y"),
-    PARAM(P, lock,     "-",      "", 0, 0, "of a free body: degrees that forces do not move, as in \"x rz\"; motion and velocity drive them"),
+    PARAM(P, lock,     "-",      "", 0, 0, "of a free body: degrees of freedom that forces do not move, as in \"x rz\"; motion and velocity drive them"),
     PARAM(P, release,  "s",      "0.0", 0, 1e9, "a free body is held until then"),
     CHOICE(P, force_rule, "conserving|average", "conserving", "force on a free body: momentum that the fluid loses, or kernel averages of pressure and friction"),
     PARAM(P, load,     "N",      "(0.0, 0.0, 0.0)", -1e15, 1e15, "constant force on a free body beside its weight (in 2D per metre of width)"),

@@ -136,15 +136,15 @@ void scene_check_grains(const struct scene *s, const struct params *p, const dou
     }
     if (s->nshapes > 0 && !any) {
         params_fault(p, f, "shapes",
-                     "no %s lies in what they leave, at a spacing of %g m: there is no water; a "
-                     "larger shape, a finer spacing, or a smaller hole",
+                     "no %s lies in the shapes less their holes, at a spacing of %g m: there is no "
+                     "water; a larger shape, a finer spacing, or a smaller hole",
                      grain, h[0]);
         return;
     }
     for (int k = 0; k < s->nshapes; k++)
         if (!holds[k] && !s->shapes[k].hole)
-            log_warn("shape %d holds no %s, at a spacing of %g m: its water is not there", k + 1,
-                     grain, h[0]);
+            log_warn("shape %d contains no %s at a spacing of %g m: it has no water", k + 1, grain,
+                     h[0]);
 }
 
 bool scene_is_room(const struct scene *s, const double *x)

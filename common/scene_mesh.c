@@ -118,7 +118,8 @@ enum scene_matter scene_matter(const struct scene *s, const struct exact *e, con
 
 static void say_one(const struct scene_mesh *m)
 {
-    static const char *const sides[] = {"", "inside", "outside", "before its normals' tails"};
+    static const char *const sides[] = {"", "inside", "outside",
+                                        "on the side that its normals point away from"};
     const struct trimesh *t = &m->mesh;
     char parts[32] = "";
     if (t->nparts > 1)
@@ -134,7 +135,7 @@ static void say_one(const struct scene_mesh *m)
         log_say("mesh %s: %d of its %d part(s) inside out in the file: turned", m->name, m->parts,
                 t->nparts);
     if (m->turned)
-        log_say("mesh %s: its normals pointed into the fluid: turned (flip has the last word)",
+        log_say("mesh %s: its normals pointed into the fluid: reversed (walls.flip overrides)",
                 m->name);
 }
 

@@ -55,7 +55,7 @@ static void check_line(const struct params *p, struct faults *f, const char *gro
     static const char *const what[] = {
         "", "the same point twice in a row: leave one out",
         "encloses no area: its points lie on one straight line",
-        "goes back over itself: a wall without thickness has no two sides, give it some",
+        "runs back over itself: a wall needs a thickness",
         "crosses or touches itself: order the points along the outline, or make two lines of it"};
     struct line l = line_of(points, closed);
     char key[64];

@@ -23,8 +23,8 @@ static void check_initial(const struct scene *s, const struct params *p, struct 
          "this initial.field has no length of its own"},
         {"initial.velocity",
          BIT(FIELD_UNIFORM) | BIT(FIELD_TAYLOR_GREEN) | BIT(FIELD_TWO_MODES) | BIT(FIELD_BELTRAMI),
-         "only the fields uniform, taylor_green, two_modes and beltrami are carried; a stream "
-         "everywhere is initial.field = \"uniform\""},
+         "only the fields uniform, taylor_green, two_modes and beltrami take a mean velocity; a "
+         "uniform stream is initial.field = \"uniform\""},
         {"initial.amplitude",
          BIT(FIELD_STANDING_WAVE) | BIT(FIELD_STOKES) | BIT(FIELD_REGULAR) | BIT(FIELD_SOLITARY),
          "only the fields standing_wave, stokes, regular and solitary have a wave"},
@@ -33,7 +33,7 @@ static void check_initial(const struct scene *s, const struct params *p, struct 
         {"initial.L_z", BIT(FIELD_STANDING_WAVE), "only the field standing_wave has it"},
     };
     params_unused(p, f, "initial.seed", scene_has_meshes(s),
-                  "no mesh parts the room: the shapes say where the fluid is");
+                  "no mesh divides the domain: the shapes say where the fluid is");
     for (size_t k = 0; !params_has_group(p, "blocks") && k < sizeof rows / sizeof rows[0]; k++)
         params_unused(p, f, rows[k].key, rows[k].fields & BIT(s->initial.field), rows[k].why);
 }
@@ -77,7 +77,7 @@ static void check_wall(const struct scene *s, const struct params *p, struct fau
     check_key(p, f, "walls", k, "thin", mesh, "it is of a mesh");
     check_key(p, f, "walls", k, "velocity", w->kind != WALL_SLIP && (!out || w->carried),
               out ? "at an outflow the pressure is given, the velocity is found"
-                  : "the fluid slips: a slip wall drags nothing along; no_slip does");
+                  : "a slip wall exerts no friction; no_slip does");
     check_key(p, f, "walls", k, "profile", w->kind == WALL_INFLOW, "only an inflow has a profile");
     check_key(p, f, "walls", k, "pressure", (out && !w->carried) || w->kind == WALL_ABSORBING,
               opening ? "the velocity is given here, the pressure is found"
@@ -116,7 +116,7 @@ static void check_free(const struct scene *s, const struct params *p, struct fau
     char group[48];
     for (size_t i = 0; i < sizeof only / sizeof only[0]; i++)
         check_key(p, f, "bodies", k, only[i], b->free,
-                  "no force moves this body: it wants free = true");
+                  "no force moves this body: it needs free = true");
     if (!b->free)
         return;
     check_key(p, f, "bodies", k, "inertia", b->density <= 0.0, "the density gives it");

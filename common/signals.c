@@ -55,7 +55,7 @@ static bool print_note(void)
         return false;
     close(fd);
     if (n <= 0) {
-        static const char empty[] = "a rank that could write no note: a full disk?";
+        static const char empty[] = "a rank that could not write its error report: a full disk?";
         n = (ssize_t)sizeof empty - 1;
         memcpy(text, empty, sizeof empty);
     }

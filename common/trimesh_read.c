@@ -110,7 +110,7 @@ bool trimesh_read(const char *path, struct trimesh *m, char *why, size_t size)
 {
     *m = (struct trimesh){0};
     if (!is_known(path)) {
-        snprintf(why, size, "a file of STL, OBJ or PLY is wanted, named so: .stl, .obj, .ply");
+        snprintf(why, size, "expected a file of STL, OBJ or PLY, named .stl, .obj or .ply");
         return false;
     }
     if (!is_file(path)) {

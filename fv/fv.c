@@ -36,10 +36,9 @@ static void describe_rows(const struct run *r)
     double *h = NEW(double, n);
     const double ratio =
         rows_heights(n, even, prm->graded[0] - d->min[1], d->max[1] - d->min[1], h);
-    log_say(
-        "rows: %d of %g m above y = %g m, %d below it that grow to %g m, by %.1f %% from one to "
-        "the next at most",
-        even, h[n - 1], prm->graded[0], n - even, h[0], 100.0 * (ratio - 1.0));
+    log_say("layers: %d of %g m above y = %g m, %d below it that grow to %g m, by %.1f %% from one "
+            "to the next at most",
+            even, h[n - 1], prm->graded[0], n - even, h[0], 100.0 * (ratio - 1.0));
     mem_free(h);
 }
 

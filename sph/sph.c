@@ -165,8 +165,8 @@ static void warn_of(const struct run *r)
         log_warn("sph.cfl = %g is close to the stability bound of this scheme, %g", prm->cfl,
                  bound);
     if (v.moves && prm->c0 < 8.0 * v.speed)
-        log_warn("sph.c0 = %g m/s is below 8 times the %.3g m/s that the scene lets expect (%s): "
-                 "the density will vary by %.2g %% and more; raise it to %.3g m/s",
+        log_warn("sph.c0 = %g m/s is below 8 times the %.3g m/s expected in the scene (%s): the "
+                 "density will vary by %.2g %% and more; raise it to %.3g m/s",
                  prm->c0, v.speed, v.from, 100.0 * pow(v.speed / prm->c0, 2.0), 10.0 * v.speed);
     else if (prm->c0 * prm->c0 < 30.0 * v.pressure)
         log_warn("sph.c0 = %g m/s: the static pressure alone compresses by %.2g %%; raise it to "
@@ -200,7 +200,7 @@ static void describe(const struct run *r)
             prm->c0, 1e-6 * all * bytes_per_particle(r));
     regions_describe(r, prm);
     const struct scene_speed v = sph_params_speed(r);
-    log_say("speed to expect %.3g m/s: %s; c0 is %.3g times that", v.speed, v.from,
+    log_say("expected speed %.3g m/s: %s; c0 is %.3g times that", v.speed, v.from,
             prm->c0 / v.speed);
     const double steps = ceil(r->scene.time.end / dt);
     const struct apr_params *apr = apr_params_of(r);

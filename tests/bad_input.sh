@@ -78,9 +78,9 @@ with sph 's/"taylor_green"/"taylor_green/' 'case.cfg:5: .*quote .*not closed' sp
 with sph 's/^sph:.*/walls: ( { side = "y_min"; }, );\nsph: { dx = 0.02; };/' 'case.cfg:6: .*none after the last' sph
 with sph 's/^sph:.*/walls: ( { side = "y_min"; } { side = "y_max"; } );\nsph: { dx = 0.02; };/' 'case.cfg:6: .*comma is missing' sph
 with sph 's/^sph:.*/walls: { { side = "y_min"; } };\nsph: { dx = 0.02; };/' 'case.cfg:6: .*list in ( )' sph
-with sph 's/^sph:.*/walls: { side = "y_min"; };\nsph: { dx = 0.02; };/' 'case.cfg:6: walls: a list' sph
+with sph 's/^sph:.*/walls: { side = "y_min"; };\nsph: { dx = 0.02; };/' 'case.cfg:6: walls: expected a list' sph
 printf '\000\001\002' >binary.cfg
-says "binary.cfg: is no text" "$b/sph" binary.cfg -o result
+says "binary.cfg: is not text" "$b/sph" binary.cfg -o result
 printf '\377\376f\000' >wide.cfg
 says "wide.cfg: .*UTF-16.*save it as UTF-8" "$b/sph" wide.cfg -o result
 { printf '\357\273\277'; grep '^fluid' sph.cfg; } >part.inc
@@ -105,9 +105,9 @@ with sph 's/dx = 0.02/dx = 0.5/' 'case.cfg:6: sph.dx: ' sph
 with sph 's/dx = 0.02/dx = 0.02; box = ((0.2, 0.2), (0.35, 0.8))/' 'sph.box: ' sph
 with fv 's/cells = (16, 16)/cells = (16, 2)/' 'fv.cells: ' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 8)/' 'case.cfg:6: fv.graded: y is periodic' fv
-with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.9, 6)/; s/(true, true)/(true, false)/' 'fv.graded: rows grow by' fv
+with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.9, 6)/; s/(true, true)/(true, false)/' 'fv.graded: layers grow by' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 12)/; s/(true, true)/(true, false)/' 'fv.graded: no heights' fv
-with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 6.5)/; s/(true, true)/(true, false)/' 'fv.graded: 6.5 is no number' fv
+with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 6.5)/; s/(true, true)/(true, false)/' 'fv.graded: 6.5 is not a number' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); cfl = 7/' 'case.cfg:6: fv.cfl: ' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); cfl = 1.25/' 'case.cfg:6: fv.cfl: 1.25: rk3 is stable up to 1.2' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); cfl = 0.8; integrator = "bdf2"/' 'fv.cfl: 0.8: bdf2 is stable up to 0.7' fv
@@ -158,14 +158,14 @@ box 'blocked.\[0\].max: box "b": from 0.5 to 0.5 m along x it is no whole cell' 
 box 'blocked.\[0\].min: box "b": it lies outside the domain along y' 's/max = (0.5, 0.5)/max = (0.5, -0.5)/'
 box 'box "b": only 2 cells along x are left' 's/min = (0.25, 0)/min = (0.125, 0)/'
 box 'box "b": only 2 cells along y are left' 's/max = (0.5, 0.5)/max = (0.5, 0.9)/'
-box 'blocked: the boxes cut the domain into parts' 's/max = (0.5, 0.5)/max = (0.5, 1)/'
+box 'blocked: the boxes cut the domain into separate parts' 's/max = (0.5, 0.5)/max = (0.5, 1)/'
 box 'blocked: nothing is left' 's/min = (0.25, 0)/min = (0, 0)/; s/max = (0.5, 0.5)/max = (1, 1)/'
 box 'blocked.\[0\].kind: box "b": without viscosity' 's/nu = 0.01/nu = 0.0/; s/no_slip/slip/g; s/"b";/"b"; kind = "no_slip";/'
 box 'blocked.\[0\].min: box "b": it stands on the wall y_min, which moves' 's/"y_min";/"y_min"; velocity = (1, 0);/'
 box 'blocked.\[0\].min: box "b": it stands on the side y_min, which is no wall' 's/"y_min"; kind = "no_slip";/"y_min"; kind = "outflow";/'
 box 'probes.\[0\].at: probe "p" lies in the box "b"' 's/^walls:/probes: ( { name = "p"; at = (0.3, 0.2); } );\n&/'
 box 'blocked: not with newton' 's/16);/16); integrator = "newton";/'
-box 'initial.field: its solution knows no boxes' 's/^walls:/initial: { field = "two_modes"; U = 1.0; L = 1.0; };\n&/'
+box 'initial.field: its exact solution has no boxes' 's/^walls:/initial: { field = "two_modes"; U = 1.0; L = 1.0; };\n&/'
 with block 's/^fv:/blocked: ( { name = "b"; min = (0.25, 0); max = (0.5, 0.5); } );\n&/' 'blocked: not with blocks' fv
 with tank 's/max = (1, 1)/max = (1000, 1)/; s/(0.5, 0.5)/(500, 0.5)/' 'fv.cells: cells 1000 times as long as high' fv
 with basin 's/nu = 0.01/& ; gravity = (0, -9.81)/; s/^fv:/initial: { field = "standing_wave"; L = 1.0; level = 0.7; amplitude = 0.2; };\n&/' 'initial.amplitude: .*k a = 1.26' fv
@@ -185,8 +185,8 @@ with basin 's/"x_min"; kind = "no_slip";/"x_min"; kind = "slip"; velocity = (0, 
 with basin 's/16);/16); tol_newton = 1e-8;/' 'fv.tol_newton: is not used' fv
 with basin 's/16);/16); integrator = "newton"; upwind = 0.5;/' 'fv.upwind: is not used' fv
 with basin 's/16);/16); integrator = "newton"; tol_pressure = 1e-3;/' 'fv.tol_pressure: is not used' fv
-with basin 's/nu = 0.01/nu = 0.0/' 'case.cfg:5: walls.\[0\]: .*nothing sticks to a wall' fv
-with block 's/nu = 0.01/nu = 0.0/' 'blocks.\[0\].i_min: .*nothing sticks to a wall' fv
+with basin 's/nu = 0.01/nu = 0.0/' 'case.cfg:5: walls.\[0\]: .*a wall exerts no friction' fv
+with block 's/nu = 0.01/nu = 0.0/' 'blocks.\[0\].i_min: .*a wall exerts no friction' fv
 with basin 's/nu = 0.01/nu = 0.0/; s/no_slip/slip/g; s/16);/16); tol_viscous = 1e-5;/' 'fv.tol_viscous: is not used' fv
 with basin 's/16);/16); force = (1.0, 0.0, 0.0);/' 'fv.force: is not used' fv
 with basin 's/max = (1, 1)/max = (1, 1, 1)/' 'domain.max: .*component' fv
@@ -272,7 +272,7 @@ with channel 's/kind = "inflow"/kind = "inflow"; pressure = 3.0/' 'walls.\[0\].p
 with tank 's/(1.2, 0.4), (1.2, 0.2)/(1.2, 0.2), (1.2, 0.4)/' 'case.cfg:8: bodies.\[0\].points: at (1, 0.3) m: crosses' sph
 with tank 's/(1.2, 0.4),/(1.2, 0.4), (1.2, 0.4),/' 'bodies.\[0\].points: at (1.2, 0.4) m: .*twice' sph
 with tank 's/(0.8, 0.4), (1.2, 0.4), (1.2, 0.2)/(1, 0.2), (1.2, 0.2)/' 'bodies.\[0\].points: .*no area' sph
-with tank 's/(1.2, 0.2))/(1.2, 0.2), (1.2, 0.3))/' 'bodies.\[0\].points: .*goes back' sph
+with tank 's/(1.2, 0.2))/(1.2, 0.2), (1.2, 0.3))/' 'bodies.\[0\].points: .*runs back' sph
 with tank 's/points = ((0.8, 0.2), .*; }/points = ((0.8, 0.2), (0.9, 0.4)); }/' 'three points' sph
 # bodies and walls
 with tank 's/(1.2, 0.4), (1.2, 0.2)/(2.2, 0.4), (2.2, 0.2)/' 'case.cfg:8: bodies.\[0\]: .*leaves the domain' sph
@@ -287,7 +287,7 @@ with tank 's/^walls:   (/walls: ( { points = ((1, 0), (1, 0.3)); },/' 'body 1 (b
 with tank 's/"b"/"b"; velocity = (20, 0)/; s/end = 0.5/end = 0.01/' 'half the speed of sound.*raise sph.c0' sph
 with channel 's/"y_min"; }/"y_min"; kind = "no_slip"; velocity = (0, 1); }/' 'walls.\[2\].velocity: 1 m.s across the wall' sph
 printf '0 0 0 0\n0.2 0 0 0\n0.2 0.1 0 0\n' >motion.txt
-with tank 's/"b"/"b"; motion = "motion.txt"/' 'bodies.\[0\].motion: .*rising times' sph
+with tank 's/"b"/"b"; motion = "motion.txt"/' 'bodies.\[0\].motion: .*increasing times' sph
 printf '0 0 0 0\n0.2 nan 0 0\n1 0 0 0\n' >motion.txt
 with tank 's/"b"/"b"; motion = "motion.txt"/' 'bodies.\[0\].motion: row 2 .*not a number' sph
 printf '0 0 0 0\n0.2 0.1 0 0\n' >motion.txt
@@ -305,11 +305,11 @@ with tank "s/\"b\"/$free; mass = 3.0; inertia = -1.0/" 'bodies.\[0\].mass: with 
 with tank "s/\"b\"/$free; mass = 3.0; density = 500.0/" 'bodies.\[0\].density: density or mass, not both' sph
 with tank "s/\"b\"/$free; density = 500.0; inertia = 1.0/" 'bodies.\[0\].inertia: is not used' sph
 with tank "s/\"b\"/$free; density = 500.0; centre = (1, 0.3)/" 'bodies.\[0\].centre: is not used' sph
-with tank "s/\"b\"/$free; density = 500.0; lock = \"x ry\"/" 'bodies.\[0\].lock: words of x y rz' sph
+with tank "s/\"b\"/$free; density = 500.0; lock = \"x ry\"/" 'bodies.\[0\].lock: expected words of x y rz' sph
 with tank "s/\"b\"/$free; density = 500.0; lock = \"x, y rz\"/" 'bodies.\[0\].lock: all degrees are locked' sph
 with tank "s/\"b\"/$free; density = 500.0; lock = \"x\"; hinge = { at = (1, 0.5); }/" 'bodies.\[0\].lock: is not used: a hinge' sph
-with tank "s/\"b\"/$free; density = 500.0; slider = { axis = (0, 0); }/" 'bodies.\[0\].slider.axis: a direction' sph
-with tank "s/\"b\"/$free; density = 500.0; slider = { axis = (0, 1); }; lock = \"y\"/" 'slider: .*take x, y, z out of lock' sph
+with tank "s/\"b\"/$free; density = 500.0; slider = { axis = (0, 0); }/" 'bodies.\[0\].slider.axis: expected a direction' sph
+with tank "s/\"b\"/$free; density = 500.0; slider = { axis = (0, 1); }; lock = \"y\"/" 'slider: .*remove x, y, z from lock' sph
 with tank "s/\"b\"/$free; density = 500.0; slider = { axis = (0, 1); }; hinge = { at = (1, 0.5); }/" 'a hinge or a slider' sph
 with tank "s/\"b\"/$free; density = 500.0; hinge = { stiffness = 3.0; }/" 'bodies.\[0\].hinge.at: must be given' sph
 with tank "s/\"b\"/$free; density = 500.0; hinge = { at = (1, 0.5); stiffnes = 3.0; }/" 'bodies.\[0\].hinge.stiffnes: .*did you mean .stiffness' sph
@@ -325,13 +325,13 @@ with tank "s/\"b\"/$free; density = 500.0/; s/c0 = 30.0/c0 = 30.0; walls = \"gho
 with tank "s/\"b\"/$free; density = 500.0/; s/(0.8, 0.2), (0.8, 0.4), (1.2, 0.4), (1.2, 0.2)/(1.59, 0.2), (1.59, 0.4), (1.99, 0.4), (1.99, 0.2)/" 'bodies.\[0\]: .*starts in contact with wall .*move it away' sph
 with tank "s/\"b\"/$free; density = 500.0/; s/^bodies:  (/bodies: ( { name = \"c\"; points = ((1.21, 0.2), (1.21, 0.4), (1.4, 0.4), (1.4, 0.2)); },/" 'starts in contact with body 1 (c)' sph
 with tank "s/\"b\"/$free; density = 500.0/; s/^walls:   (/walls: ( { points = ((1, 0), (1, 0.3)); },/" 'body 1 (b) cuts wall 1' sph
-with tank 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "x"; amplitude = 0.1; } )/' 'motion.\[0\]: a harmonic term wants amplitude and period' sph
+with tank 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "x"; amplitude = 0.1; } )/' 'motion.\[0\]: a harmonic term needs an amplitude and a period' sph
 with tank 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "z"; amplitude = 0.1; period = 1.0; } )/' 'motion.\[0\]: axis z in a case of 2 dimensions' sph
 with tank 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "w"; amplitude = 0.1; period = 1.0; } )/' 'motion.axis: .*one of x|y|z|rx|ry|rz' sph
 with tank 's/"b"/"b"; motion = ( { kind = "harmonic"; amplitude = 0.1; period = 1.0; coefficients = (1, 2); } )/' 'motion.\[0\].coefficients: is not used' sph
 with tank 's/"b"/"b"; motion = ( { kind = "polynomial"; coefficients = (0, 0.1); from = 0.2; until = 0.1; } )/' 'motion.\[0\]: it ends at 0.1 s' sph
 with tank 's/"b"/"b"; motion = ( { kind = "polynomial"; coefficients = (0, 9); } )/; s/end = 0.5/end = 0.01/; s/c0 = 30.0/c0 = 10.0/' 'half the speed of sound' sph
-with tank 's/"b"/"b"; motion = ( { axis = "y"; } )/' 'bodies.\[0\].motion: .* wants the file' sph
+with tank 's/"b"/"b"; motion = ( { axis = "y"; } )/' 'bodies.\[0\].motion: .* needs the name of the file' sph
 with tank 's/"b"/"b"; spin = (1, 0, 0)/' 'bodies.\[0\].spin: in 2 dimensions a number' sph
 printf '0 0 0 0\n0.1 0.001 0 0\n0.2 0.002 0 0\n0.205 0.1 0 0\n0.3 0.101 0 0\n1 0.11 0 0\n' >motion.txt
 with tank 's/"b"/"b"; motion = "motion.txt"/; s/c0 = 30.0;//' 'bodies.\[0\].motion: jumps at t = 0.2 s, row 4: 0.098 m in 0.005 s' sph
@@ -455,7 +455,7 @@ else
     with mesh 's/solid.stl/nothing.stl/' 'case.cfg:6: walls.\[5\].mesh: nothing.stl: there is no such file' sph
     with mesh 's/solid.stl/empty.stl/' 'walls.\[5\].mesh: empty.stl: .*nothing in it' sph
     with mesh 's/solid.stl/none.stl/' 'walls.\[5\].mesh: none.stl: ' sph
-    with mesh 's/solid.stl/mesh.cfg/' 'mesh.cfg: a file of STL, OBJ or PLY is wanted' sph
+    with mesh 's/solid.stl/mesh.cfg/' 'mesh.cfg: expected a file of STL, OBJ or PLY' sph
     with mesh 's/solid.stl/not_finite.stl/' 'not_finite.stl: .*not finite' sph
     with mesh 's/solid.stl/far.stl/' 'far.stl: its coordinates reach 5.23.*e+06 .*Shift it to the origin' sph
     with mesh 's/solid.stl/mm.stl/' 'mm.stl lies outside the domain: .*scale = 0.001' sph
@@ -509,11 +509,11 @@ sed 's/domain:.*/domain: { min = (0, 0); max = (2, 1); periodic = (false, true);
 s/"x_max"/"x_max"; kind = "outflow"/; s/, { side = "y_min"; }//; /^shapes/d; s/, gravity.*/;/; s/gravity[^;]*;//' apr.cfg >apr_open.cfg
 timeout 60 "$b/sph" apr.cfg --check >out.txt 2>&1 && timeout 60 "$b/sph" apr_open.cfg --check -p 'apr.regions=({ min = (0.6, 0.3); max = (1.2, 0.7); })' -p apr.levels=1 >out.txt 2>&1 ||
     { failed=$((failed + 1)); echo "FAIL: regions in order are refused"; cat out.txt; }
-with apr 's/levels = 2/levels = 2; method = "graded"/' 'case.cfg:3: .*gravity: graded particles know no weight' sph
-with apr 's/levels = 2/levels = 2; method = "graded"/; s/, gravity = (0, -9.81)//' 'apr.regions: graded wants one box' sph
-with apr 's/levels = 2/levels = 2; method = "weights"/; s/{ side = "y_min"; }/{ points = ((2, 0), (0, 0)); }/' 'walls: particles of mixed sizes know plane sides' sph
-with apr 's/levels = 2/levels = 2; method = "coalescence"/; s/dx = 0.02;/dx = 0.02; scheme = "delta";/' 'sph.scheme: particles of mixed sizes know riemann' sph
-with apr 's/levels = 2/levels = 2; method = "weights"/; s/"y_min"/"y_min"; kind = "no_slip"/' 'walls: particles of mixed sizes know slip walls' sph
+with apr 's/levels = 2/levels = 2; method = "graded"/' 'case.cfg:3: .*gravity: graded particles have no gravity' sph
+with apr 's/levels = 2/levels = 2; method = "graded"/; s/, gravity = (0, -9.81)//' 'apr.regions: graded needs one box' sph
+with apr 's/levels = 2/levels = 2; method = "weights"/; s/{ side = "y_min"; }/{ points = ((2, 0), (0, 0)); }/' 'walls: particles of mixed sizes need plane sides' sph
+with apr 's/levels = 2/levels = 2; method = "coalescence"/; s/dx = 0.02;/dx = 0.02; scheme = "delta";/' 'sph.scheme: particles of mixed sizes need riemann' sph
+with apr 's/levels = 2/levels = 2; method = "weights"/; s/"y_min"/"y_min"; kind = "no_slip"/' 'walls: particles of mixed sizes need slip walls' sph
 with apr 's/levels = 2/levels = 1/' 'case.cfg:10: .*level: 2 is above apr.levels = 1' sph
 with apr 's/levels = 2/levels = 3/' 'case.cfg:8: apr.levels: 3, but no region' sph
 with apr 's/max = (0.9, 0.3)/max = (0.4, 0.3)/' 'case.cfg:10: .*max: 0.4 m is not larger than min, 0.5 m' sph
@@ -524,14 +524,14 @@ with apr 's/min = (0.2, -0.1); max = (1.2/min = (2.2, -0.1); max = (3.2/' 'case.
 with apr 's/max = (1.2, 0.6);/max = (1.2, 0.6); radius = 0.1;/' 'case.cfg:9: .*radius: is not used: only a sphere' sph
 with apr 's/max = (1.2, 0.6);/max = (1.2, 0.6); along = "x";/' 'case.cfg:9: .*along: is not used: nothing is followed' sph
 with apr 's/max = (1.2, 0.6);/max = (1.2, 0.6); follow = "hull";/' 'case.cfg:9: .*follow: no body has the name `hull' sph
-with apr 's/max = (1.2, 0.6);/max = (1.2, 0.6); follow = "peak"; along = "w";/' 'case.cfg:9: .*along: `w. are no axes' sph
+with apr 's/max = (1.2, 0.6);/max = (1.2, 0.6); follow = "peak"; along = "w";/' 'case.cfg:9: .*along: `w. is not a list of axes' sph
 with apr 's/{ level = 1; .*/{ shape = "sphere"; level = 1; centre = (0.4, 0.3); },/' 'case.cfg:8: apr.regions: region 1: a sphere needs a radius' sph
 with apr 's/{ level = 1; .*/{ shape = "body"; level = 1; body = "hull"; offset = 0.3; },/' 'case.cfg:9: .*body: no body has the name `hull' sph
 with apr 's/{ level = 1; .*/{ shape = "wall"; level = 1; wall = 2; offset = 0.3; },/' 'case.cfg:9: .*wall: wall 2 is a side of the domain' sph
-with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); velocity = (60, 0);/' 'case.cfg:10: .*velocity: 60 m/s: the region goes .* dx of level 2 in a step' sph
+with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); velocity = (60, 0);/' 'case.cfg:10: .*velocity: 60 m/s: the region moves .* dx of level 2 in a step' sph
 with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); velocity = (3, 0);/' 'case.cfg:10: .*velocity: the region has left .* along x at t = ' sph
 with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = ({ kind = "harmonic"; axis = "rz"; amplitude = 1; period = 1; });/' 'case.cfg:10: .*motion: term 1: a region does not turn' sph
-with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = "nothing.txt";/' 'case.cfg:10: .*motion: term 1: nothing.txt is no file' sph
+with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = "nothing.txt";/' 'case.cfg:10: .*motion: term 1: nothing.txt is not a file' sph
 with apr 's/levels = 2;/levels = 2; around = 4;/' 'case.cfg:8: apr.around: is not used' sph
 with apr 's/levels = 2;/levels = 2; particles = 1e5;/' 'case.cfg:8: apr.particles: is not used' sph
 with apr 's/levels = 2;/levels = 2; criteria = ({ kind = "vorticity"; });/' 'case.cfg:8: apr.criteria: criterion 1 needs .above' sph

@@ -26,14 +26,14 @@ refuses() { # WHAT REASON CASE ARGS...
 }
 what=windows
 accepts taylor_green -p coupling.steps=0
-says 'windows of 15 steps, 0.03 s, by the flow: U T/L = 0.030'
+says 'coupling steps of 15 steps, 0.03 s, limited by the flow: U T/L = 0.030'
 accepts taylor_green -p coupling.steps=0 -p 'initial.velocity=(0.8,0.6)' -p sph.c0=10 # twice the speed
-says 'windows of 7 steps, 0.014 s, by the flow'
+says 'coupling steps of 7 steps, 0.014 s, limited by the flow'
 accepts standing_wave -p coupling.steps=0 -p coupling.memory=0
-says 'by the waves'
+says 'limited by the waves'
 accepts taylor_green -p coupling.steps=50
-says 'times what this flow wants'
-refuses "windows too long" 'nothing can be foreseen' taylor_green -p coupling.steps=150
+says 'times what this flow allows'
+refuses "windows too long" 'values cannot be extrapolated in time' taylor_green -p coupling.steps=150
 refuses "windows too short for their memory" 'is unstable above' standing_wave -p coupling.steps=1 -p coupling.memory=1
 for case in taylor_green uniform_flow standing_wave standing_wave_3d breaking_wave beltrami; do
     accepts $case
@@ -93,7 +93,7 @@ else
     solid 'bodies: ( { name = "cube"; mesh = "cube.stl"; velocity = (0.5, 0, 0); } );'
     accepts solid.cfg -p 'sph.box_follows="cube"'
     solid '' ', { mesh = "cube.stl"; translate = (0.9, 0, 0); fluid_side = "outside"; }'
-    refuses "a wall of triangles in fv's flow" 'walls.\[6\].mesh: at (1.3.*fv, which knows of no wall but' solid.cfg
+    refuses "a wall of triangles in fv's flow" 'walls.\[6\].mesh: at (1.3.*fv, which has no walls but' solid.cfg
     solid 'shapes: ( { form = "mesh"; mesh = "cube.stl"; } );'
     refuses "water given by triangles" 'shapes.\[0\].mesh: surfaces of triangles are for sph in 3D' solid.cfg
 fi
@@ -129,7 +129,7 @@ accepts basin.cfg -p 'sph.box=((0.5,0.0),(1.5,0.4))' # or is fv's alone
 accepts standing_wave_3d -p 'sph.box=((0.25,0,0),(1.75,1.25,2))' # and in 3D
 sed 's|walls:   (|walls: ( { points = ((1.2, 0), (2, 0.8)); },|' basin.cfg >beach.cfg
 accepts beach.cfg -p 'sph.box=((0.5,0.0),(2,1.2))' # a beach where sph gives the flow
-refuses "a beach that reaches into fv" 'fv, which knows of no wall but the domain' beach.cfg -p 'sph.box=((1,0),(2,1.2))'
+refuses "a beach that reaches into fv" 'fv, which has no walls but the domain' beach.cfg -p 'sph.box=((1,0),(2,1.2))'
 sed '/x_max/s/, { side = "x_max"; }//' basin.cfg >open.cfg
 refuses "a side without a wall" 'which has no wall' open.cfg
 cat >body.cfg <<'CASE'

@@ -587,7 +587,7 @@ static void faults_are_told(void **state)
     finds("{ name = \"a\"; cells = (8, 8); stretch = (-1.0, 0.0); " PERIODIC " }", "only the map");
     finds("{ name = \"a\"; cells = (8, 8); lid = \"i_max\"; i_max = \"wall\"; i_min = "
           "\"wall\"; j_min = \"wall\"; j_max = \"wall\"; }",
-          "velocity of the lid");
+          "velocity of the moving wall");
     finds("{ name = \"a\"; cells = (8, 8); lid = \"i_max\"; velocity = (1.0, 0.0); i_max = "
           "\"wall\"; i_min = \"wall\"; j_min = \"wall\"; j_max = \"wall\"; }",
           "along itself");

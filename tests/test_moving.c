@@ -188,7 +188,7 @@ static void faults_are_told(void **state)
                 "); }",
          "fv.cfl=1.0", "axis z in a case of 2 dimensions"},
         {WALLED "motion = ( { kind = \"harmonic\"; axis = \"x\"; amplitude = 0.1; } ); }",
-         "fv.cfl=1.0", "wants amplitude and period"}};
+         "fv.cfl=1.0", "needs an amplitude and a period"}};
     for (size_t k = 0; k < sizeof of / sizeof of[0]; k++) {
         struct mesh_case c;
         bool found = false;

@@ -92,7 +92,7 @@ static void groups_within_groups(void **state)
     FAULTY("trees: ( { parts = ( { y = 3; } ); } );", 1, "trees.[0].parts.y: unknown key");
     FAULTY("trees: ( { parts = ( { x = 10; } ); } );", 1, "trees.[0].parts.x: 10 is not allowed");
     FAULTY("trees: ( { parts = ( {}, {}, {}, {} ); } );", 1, "trees.[0].parts: ", "at most 3");
-    FAULTY("trees: ( { root = ( {} ); } );", 1, "trees.[0].root: a group");
+    FAULTY("trees: ( { root = ( {} ); } );", 1, "trees.[0].root: expected a group");
 }
 
 static void all_faults_are_found_at_once(void **state)

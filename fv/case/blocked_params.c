@@ -18,7 +18,7 @@ const struct param blocked_rows[BLOCKED_ROWS] = {
     PARAM(P, name, "-", NULL, 0, 0, "its name in outputs and messages"),
     PARAM(P, min,  "m", NULL, -1e9, 1e9, "lower corner; corners go to the nearest faces of cells"),
     PARAM(P, max,  "m", NULL, -1e9, 1e9, "upper corner"),
-    CHOICE(P, kind, "slip|no_slip", "slip", "what its faces do to the flow"),
+    CHOICE(P, kind, "slip|no_slip", "slip", "kind of boundary on its faces"),
 };
 /* clang-format on */
 #undef P
@@ -200,8 +200,8 @@ static void check_whole(const struct run *r, const struct coarse *g, struct faul
         params_fault(r->params, f, "blocked", "nothing is left of the domain");
     else if (left > 0 && !surface_wanted(r))
         params_fault(r->params, f, "blocked",
-                     "the boxes cut the domain into parts that do not meet: each would want a "
-                     "pressure of its own; run them one by one, or leave a gap of %d cells",
+                     "the boxes cut the domain into separate parts: each would need a pressure of "
+                     "its own; run them one by one, or leave a gap of %d cells",
                      BLOCKED_GAP);
     mem_free(queue);
 }
@@ -226,7 +226,7 @@ static void check_sides(const struct run *r, int k, const int *lo, const int *hi
                   "xyz"[a], side % 2 ? "max" : "min", BLOCKED_GAP);
         else if (moves && w->kind == WALL_NO_SLIP)
             fault(r, f, k, side % 2 ? "max" : "min",
-                  "it stands on the wall %c_%s, which moves along: leave %d cells between",
+                  "it stands on the wall %c_%s, which moves along itself: leave %d cells between",
                   "xyz"[a], side % 2 ? "max" : "min", BLOCKED_GAP);
     }
 }
@@ -246,8 +246,9 @@ static bool check_box(const struct run *r, int k, struct faults *f)
                   "from %g to %g m along %c it is no whole cell: cells are %g m there", p->min[a],
                   p->max[a], "xyz"[a], spacing(r, a));
     if (p->kind == WALL_NO_SLIP && !(r->scene.fluid.nu > 0.0))
-        fault(r, f, k, "kind",
-              "without viscosity (fluid.nu) nothing sticks to it: kind = \"slip\", or a viscosity");
+        fault(
+            r, f, k, "kind",
+            "without viscosity (fluid.nu) it exerts no friction: kind = \"slip\", or a viscosity");
     for (int q = 0; q < k; q++)
         if (strcmp(p->name, blocked_given[q].name) == 0)
             fault(r, f, k, "name", "another box has this name");
@@ -276,16 +277,16 @@ static void check_mode(const struct run *r, struct faults *f)
         params_fault(r->params, f, "blocked",
                      "not with blocks: leave them out there, and give their sides kinds");
     if (r->coupled)
-        params_fault(r->params, f, "blocked", "a coupled job knows no boxes: use bodies");
+        params_fault(r->params, f, "blocked", "not in a coupled job: use bodies");
     if (prm->integrator == INTEGRATOR_NEWTON)
         params_fault(r->params, f, "blocked", "not with newton: fv.integrator = \"rk3\"");
     if (prm->graded[1] > 0.0)
-        params_fault(r->params, f, "blocked", "not with rows of unequal height (fv.graded)");
+        params_fault(r->params, f, "blocked", "not with graded layers (fv.graded)");
     if (prm->hole[1][0] > prm->hole[0][0])
         params_fault(r->params, f, "blocked", "not with fv.hole");
     if (field != FIELD_REST && field != FIELD_UNIFORM)
         params_fault(r->params, f, "initial.field",
-                     "its solution knows no boxes: \"rest\" or \"uniform\" with blocked");
+                     "its exact solution has no boxes: \"rest\" or \"uniform\" with blocked");
 }
 
 void blocked_check(const struct run *r, struct faults *f)

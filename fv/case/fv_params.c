@@ -18,7 +18,7 @@ static struct fv_params given;
 /* clang-format off */
 static const struct param rows[] = {
     PARAM(P, cells,        "-", "(0, 0, 0)", 1, 1e6, "cells in each direction; even, rich in factors of two; none with blocks"),
-    PARAM(P, graded,       "-", "(0.0, 0.0)", -1e9, 1e9, "height in m, rows: above this y that many even rows of cells, below it the others grow downwards; (0, 0): all even"),
+    PARAM(P, graded,       "-", "(0.0, 0.0)", -1e9, 1e9, "(y in m, n): n layers of cells of equal height above y, below it the others grow downwards; (0, 0): all equal"),
     PARAM(P, cfl,          "-", "0.0",  0, 1e4, "largest sum over the axes of |u_a| dt/h_a in a cell; at most 1.2 (rk3), 0.7 (bdf2); 0: 1.1 (rk3), 0.5 (bdf2), 1 (newton)"),
     CHOICE(P, integrator, "rk3|bdf2|newton", "rk3", "three projected stages, two-step backward for slow flows, fully implicit"),
     PARAM(P, tol_pressure, "-", "1e-2", 1e-14, 1, "of the last projection of a step, relative to its divergence"),
@@ -26,13 +26,13 @@ static const struct param rows[] = {
     PARAM(P, tol_newton,   "-", "0.0",  0, 1,     "of newton's residual, as a velocity relative to the largest; 0: 1e-6, of a steady state 32/n^5, n cells a side, 1e-11 to 1e-6"),
     CHOICE(P, flux, "central|upwind", "central", "newton's convection: with a small dissipation, or upwind (kappa = 1/3)"),
     PARAM(P, c0,           "m/s", "0.0", 0, 1e9,  "newton's sound speed; 0: incompressible"),
-    PARAM(P, steady,       "-", "false", 0, 1,    "newton marches to a steady state in pseudo-time; time.end: when it must be there"),
-    PARAM(P, hole,         "m", "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "box whose cells take the exact solution; none by default"),
+    PARAM(P, steady,       "-", "false", 0, 1,    "newton marches to a steady state in pseudo time, which time.end limits"),
+    PARAM(P, hole,         "m", "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "box of imposed cells, which take the exact solution; none by default"),
     PARAM(P, upwind,       "-", "-1.0", -1, 1e6,   "rk3, bdf2: strength of the upwind bias where the flow is finer than the cells; 0: none, -1: 1 with walls and where U h/nu is above 200, else none"),
     PARAM(P, extrema,      "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema"),
-    CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: with shapes or a wave, alone"),
+    CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: with shapes or a wave; in a coupled job where sph.box ends in the water at an upright side"),
     PARAM(P, force,        "-", "(0.0, 0.0, 0.0)", -1e9, 1e9, "known mean of the force x on the walls of blocks, amplitude of force y (N), its frequency (1/s), over the second half of the run: for error.force"),
-    PARAM(P, forced_order, "-", "2",    1, 2,     "in time, of a partner's velocities within a window"),
+    PARAM(P, forced_order, "-", "2",    1, 2,     "order in time of a partner's velocities within a coupling step"),
 };
 /* clang-format on */
 #undef P
@@ -54,11 +54,11 @@ static void check_axis(const struct run *r, int a, struct faults *f)
     static const char axes[] = "xyz";
     const int n = given.cells[a];
     if (n < 4)
-        params_fault(r->params, f, "fv.cells", "%d cells along %c: at least 4 are wanted", n,
+        params_fault(r->params, f, "fv.cells", "%d cells along %c: at least 4 are needed", n,
                      axes[a]);
     if (r->scene.domain.periodic[a] && n % 2)
         params_fault(r->params, f, "fv.cells",
-                     "%d cells along the periodic %c: an even number is wanted (the multigrid of "
+                     "%d cells along the periodic %c: an even number is needed (the multigrid of "
                      "the pressure halves it)",
                      n, axes[a]);
 }
@@ -76,23 +76,22 @@ static void check_graded(const struct run *r, struct faults *f)
     mem_free(h);
     if (surface_wanted(r) && still_upright(&r->scene) != 1)
         params_fault(r->params, f, "fv.graded",
-                     "with a free surface gravity must act along y, as the rows lie");
+                     "with a free surface gravity must act along y, across the layers");
     if (given.extrema[0] != 0.0)
         params_fault(r->params, f, "fv.graded", "not with fv.extrema");
     if (d->periodic[1])
         params_fault(r->params, f, "fv.graded", "y is periodic");
     else if (given.graded[1] != floor(given.graded[1]))
-        params_fault(r->params, f, "fv.graded", "%g is no number of rows", given.graded[1]);
+        params_fault(r->params, f, "fv.graded", "%g is not a number of layers", given.graded[1]);
     else if (!(ratio > 0.0))
-        params_fault(
-            r->params, f, "fv.graded",
-            "no heights of rows do that: of %d rows at least %d must be left below y = %g m, "
-            "and be no lower there than above",
-            n, ROWS_BOTTOM + ROWS_GROWING, given.graded[0]);
+        params_fault(r->params, f, "fv.graded",
+                     "no heights of layers fit: of %d layers at least %d must be left below y = %g "
+                     "m, and be no lower there than above",
+                     n, ROWS_BOTTOM + ROWS_GROWING, given.graded[0]);
     else if (ratio > 1.3)
         params_fault(r->params, f, "fv.graded",
-                     "rows grow by %.2f from one to the next: at most 1.3; more rows below y = %g "
-                     "m, or fewer even ones",
+                     "layers grow by %.2f from one to the next: at most 1.3; more layers below y = "
+                     "%g m, or fewer equal ones",
                      ratio, given.graded[0]);
 }
 
@@ -107,7 +106,7 @@ static void check_extrema(const struct run *r, struct faults *f)
                      "error.extrema is relative to each of them: none may be 0");
     for (int a = 0; a < 2 && mesh_block_count() == 0; a++)
         if (given.cells[a] < 8)
-            params_fault(r->params, f, "fv.extrema", "at least 8 cells along %c are wanted",
+            params_fault(r->params, f, "fv.extrema", "at least 8 cells along %c are needed",
                          "xy"[a]);
 }
 
@@ -141,8 +140,9 @@ void fv_params_check(const struct run *r, struct faults *f)
     for (int a = 0; a < r->scene.domain.dim; a++) {
         check_axis(r, a, f);
         if (given.hole[1][a] > given.hole[0][a] && (r->coupled || !exact))
-            params_fault(r->params, f, "fv.hole",
-                         "only a lone run with an exact solution (initial.field) can fill a hole");
+            params_fault(
+                r->params, f, "fv.hole",
+                "only an uncoupled run with an exact solution (initial.field) can fill fv.hole");
     }
     fv_scene_check(r, f);
 }

@@ -36,12 +36,12 @@ static void check_wall(const struct run *r, struct faults *f, int k)
     if (w->kind == WALL_ABSORBING)
         wall_fault(r, f, k, "\"absorbing\" is not for this solver");
     if (w->carried && w->kind != WALL_OUTFLOW)
-        wall_fault(r, f, k, "carried is for an outflow");
+        wall_fault(r, f, k, "carried (convective outflow) is for an outflow");
     else if (w->carried && steady)
-        wall_fault(r, f, k, "carried is for an outflow of a run in time");
+        wall_fault(r, f, k, "carried (convective outflow) is for an outflow of a run in time");
     if (w->kind == WALL_NO_SLIP && !(r->scene.fluid.nu > 0.0))
         wall_fault(r, f, k,
-                   "without viscosity (fluid.nu) nothing sticks to a wall: kind = \"slip\", or a "
+                   "without viscosity (fluid.nu) a wall exerts no friction: kind = \"slip\", or a "
                    "viscosity");
     if (w->side == SIDE_NONE)
         return;
@@ -153,11 +153,10 @@ static void check_falling(const struct run *r, struct faults *f)
         most = fmax(most, height);
     }
     if (most - least > 1e-9 * size)
-        params_fault(
-            r->params, f, "fluid.gravity",
-            "two outflows at different heights: the flow would fall from one to the other, "
-            "and this solver leaves gravity across sides to the pressure; make that "
-            "direction periodic, or give one of them as an \"inflow\"");
+        params_fault(r->params, f, "fluid.gravity",
+                     "two outflows at different heights: the flow would fall from one to the "
+                     "other, and this solver balances gravity across sides by the pressure; make "
+                     "that direction periodic, or give one of them as an \"inflow\"");
 }
 
 /* --- free surface --- */
@@ -240,8 +239,8 @@ static void check_aspect(const struct run *r, struct faults *f)
     }
     if (most > ASPECT_MOST * least)
         params_fault(r->params, f, "fv.cells",
-                     "cells %.4g times as long as high: a free surface wants at most %g; more "
-                     "cells along the one side, or fewer along the other",
+                     "cells %.4g times as long as high: with a free surface at most %g; more cells "
+                     "along the one side, or fewer along the other",
                      most / least, ASPECT_MOST);
 }
 
@@ -280,8 +279,8 @@ static void check_shores(const struct run *r, struct faults *f)
         snprintf(key, sizeof key, "probes.[%d].at", k);
         if (r->scene.probes[k].kind == PROBE_SHORE && r->crossed && !r->gauge_inside[k])
             params_fault(r->params, f, key,
-                         "probe \"%s\": (%g, %g) m lies in fv's part, which looks at no shore; put "
-                         "it into sph.box",
+                         "probe \"%s\": (%g, %g) m lies in fv's part, and only sph reads a shore; "
+                         "put it into sph.box",
                          r->scene.probes[k].name, r->scene.probes[k].at[0],
                          r->scene.probes[k].at[1]);
     }
@@ -298,7 +297,7 @@ void surface_check(const struct run *r, struct faults *f)
                          "sph.box ends in the water at an upright side: both programs have the "
                          "surface; leave it on auto, or let the box span the domain");
         if (!r->coupled && scene_has_wave(s))
-            params_fault(r->params, f, "initial.field", "a wave wants a free surface: fv.surface");
+            params_fault(r->params, f, "initial.field", "a wave needs a free surface: fv.surface");
         return;
     }
     if (r->coupled && !r->crossed)
@@ -336,7 +335,7 @@ void surface_check(const struct run *r, struct faults *f)
         heavy = heavy || g[a] != 0.0;
     if (!heavy) {
         params_fault(r->params, f, "fluid.gravity",
-                     "a free surface wants gravity: nothing else holds the water together");
+                     "a free surface needs gravity: nothing else holds the water together");
         return;
     }
     for (int k = 0; k < s->nshapes; k++)
@@ -388,9 +387,10 @@ static void check_wave(const struct run *r, struct faults *f)
     double crest =
         e.height > 0.0 && standing ? s->initial.level + fabs(s->initial.amplitude) : -INFINITY;
     if (!(g[1] < 0.0) || g[0] != 0.0 || g[2] != 0.0)
-        params_fault(r->params, f, "fluid.gravity", "a wave wants some along -y, and no other");
+        params_fault(r->params, f, "fluid.gravity",
+                     "a wave needs gravity along -y, and no other component");
     if (s->initial.amplitude == 0.0)
-        params_fault(r->params, f, "initial.amplitude", "a wave wants one");
+        params_fault(r->params, f, "initial.amplitude", "a wave needs an amplitude");
     const double steep =
         fabs(s->initial.amplitude) * hypot(2.0 * M_PI / L[0], L[2] > 0.0 ? 2.0 * M_PI / L[2] : 0.0);
     if (standing && steep > STANDING_MOST)
@@ -401,7 +401,7 @@ static void check_wave(const struct run *r, struct faults *f)
             s->initial.amplitude, steep, STANDING_MOST);
     if (!(s->initial.level > d->min[1] && s->initial.level < d->max[1]))
         params_fault(r->params, f, "initial.level",
-                     "a wave wants its still level, between %g and %g m", d->min[1], d->max[1]);
+                     "a wave needs its level at rest, between %g and %g m", d->min[1], d->max[1]);
     if (e.steady.c > 0.0)
         crest = s->initial.level + e.steady.crest;
     for (int k = 0; k < 100 && e.height > 0.0 && s->initial.field == FIELD_STOKES; k++)

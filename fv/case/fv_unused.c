@@ -286,27 +286,27 @@ static bool no_spin(const struct run *r, int k)
 /* clang-format off */
 static const struct rule rules[] = {
     {"fluid.gravity",     gravity_unseen,    "no direction along it is periodic, and nothing shows the pressure: no wall, no probe, no snapshot of it", true},
-    {"fluid.central",     always,            "the finite volumes know no central force", false},
+    {"fluid.central",     always,            "fv has no central force", false},
     {"domain.periodic",   no_periodic_side,  "no side of the blocks is \"periodic\"", false},
     {"initial.L",         no_length,         "the field has no length", true},
-    {"initial.velocity",  nothing_carried,   "the field is not carried along: initial.field = \"uniform\" for a uniform stream", true},
+    {"initial.velocity",  nothing_carried,   "the field takes no mean velocity: initial.field = \"uniform\" for a uniform stream", true},
     {"initial.amplitude", no_wave,           "initial.field is no wave", false},
     {"initial.crest",     no_crest,          "only the fields regular and solitary have it", false},
     {"initial.level",     surface_of_shapes, "p = 0 on the free surface, wherever that is", true},
     {"initial.level",     level_unseen,      "no gravity acts across closed sides, or nothing shows the pressure", true},
     {"walls.closed",      straight,          "it is for a polyline, and this wall is a side", false},
-    {"walls.velocity",    is_slip,           "a slip wall does not take the fluid along; \"no_slip\" does", true},
-    {"walls.velocity",    let_out,           "at an outflow the flow leaves as it comes", true},
+    {"walls.velocity",    is_slip,           "a slip wall exerts no friction; \"no_slip\" does", true},
+    {"walls.velocity",    let_out,           "at an outflow the velocity is part of the solution", true},
     {"walls.profile",     not_let_in,        "it is for an inflow", false},
     {"walls.pressure",    not_let_out,       "it is for an outflow", false},
-    {"walls.pressure",    is_carried,        "a carried outflow has no given pressure", false},
+    {"walls.pressure",    is_carried,        "a convective outflow (carried) has no given pressure", false},
     {"shapes.box",        no_box,            "this shape is no box", true},
     {"shapes.points",     no_polygon,        "this shape is no polygon", true},
     {"shapes.centre",     no_disc,           "this shape is no disc", true},
     {"shapes.radius",     no_disc,           "this shape is no disc", true},
     {"shapes.level",      no_level,          "form = \"below\" alone has a level", true},
     {"shapes.velocity",   is_hole,           "a hole holds no fluid", true},
-    {"probes.radius",     always,            "the finite volumes read the pressure between their cells", true},
+    {"probes.radius",     always,            "fv reads the pressure at the point, between its cells", true},
     {"coupling.steps",         alone, "this is no coupled job: it has no group sph", false},
     {"coupling.transition",    alone, "this is no coupled job: it has no group sph", false},
     {"coupling.buffer",        alone, "this is no coupled job: it has no group sph", false},
@@ -318,20 +318,20 @@ static const struct rule rules[] = {
     {"coupling.deadline",      alone, "this is no coupled job: it has no group sph", false},
     {"output.fields",     no_pictures,       "output.snapshots = false", true},
     {"fv.cells",          blocks,            "each block has cells of its own", false},
-    {"fv.graded",         no_rows,           "the number of even rows is 0", false},
-    {"fv.graded", graded_of_three, "there are two numbers, a height and a number of rows: the third is too much", false},
+    {"fv.graded",         no_rows,           "the number of equal layers is 0", false},
+    {"fv.graded", graded_of_three, "there are two numbers, a height and a number of layers: the third is too much", false},
     {"fv.tol_pressure",   is_newton,         "newton solves for all unknowns at once: see fv.tol_newton", false},
     {"fv.tol_viscous",    is_newton,         "newton solves for all unknowns at once: see fv.tol_newton", false},
     {"fv.tol_viscous",    inviscid,          "fluid.nu = 0: there is no viscous solver", false},
-    {"fv.tol_newton",     not_newton,        "it wants fv.integrator = \"newton\"", false},
-    {"fv.flux",           not_newton,        "it wants fv.integrator = \"newton\"; rk3 and bdf2 have fv.upwind", false},
-    {"fv.c0",             not_newton,        "it wants fv.integrator = \"newton\"", false},
-    {"fv.steady",         not_newton,        "it wants fv.integrator = \"newton\"", false},
+    {"fv.tol_newton",     not_newton,        "it needs fv.integrator = \"newton\"", false},
+    {"fv.flux",           not_newton,        "it needs fv.integrator = \"newton\"; rk3 and bdf2 have fv.upwind", false},
+    {"fv.c0",             not_newton,        "it needs fv.integrator = \"newton\"", false},
+    {"fv.steady",         not_newton,        "it needs fv.integrator = \"newton\"", false},
     {"fv.hole",           no_hole,           "no cell lies wholly in the box", false},
     {"fv.upwind",         is_newton,         "newton has fv.flux", false},
     {"fv.extrema",        no_extrema,        "the first of them is 0", false},
     {"fv.force",          no_forces,         "no block has a side that is a \"wall\"", false},
-    {"fv.forced_order",   alone,             "this is no coupled job: nobody gives velocities", false},
+    {"fv.forced_order",   alone,             "this is no coupled job: no partner imposes velocities", false},
     {"blocks.cells",      is_file,           "the file has its own number of cells", false},
     {"blocks.min",        plane_ring,        "a ring of the plane has centre, radius and arc", false},
     {"blocks.max",        plane_ring,        "a ring of the plane has centre, radius and arc", false},
@@ -340,17 +340,17 @@ static const struct rule rules[] = {
     {"blocks.centre",     no_centre,         "nothing is turned about it: no angle, no ring, no wall with a moment", false},
     {"blocks.angle",      is_ring,           "a ring is turned by its arc", false},
     {"blocks.angle",      is_file,           "the file has the places of the vertices", false},
-    {"blocks.focus",      no_focus,          "it wants mapping = \"stretched\" with a stretch > 0", false},
-    {"blocks.stretch",    even,              "only the mappings \"stretched\" and \"annulus\" know it", false},
+    {"blocks.focus",      no_focus,          "it needs mapping = \"stretched\" with a stretch > 0", false},
+    {"blocks.stretch",    even,              "only the mappings \"stretched\" and \"annulus\" have it", false},
     {"blocks.stretch",    around,            "a ring is stretched outwards alone, by the first number", false},
-    {"blocks.radius",     no_ring,           "it wants mapping = \"annulus\"", false},
+    {"blocks.radius",     no_ring,           "it needs mapping = \"annulus\"", false},
     {"blocks.radius",     radius_of_three,   "there are two, inner and outer: the third is too much", false},
-    {"blocks.arc",        no_ring,           "it wants mapping = \"annulus\"", false},
+    {"blocks.arc",        no_ring,           "it needs mapping = \"annulus\"", false},
     {"blocks.arc",        arc_of_three,      "there are two angles, first and last: the third is too much", false},
-    {"blocks.shear",      no_shear,          "it wants mapping = \"sheared\"", false},
-    {"blocks.wave",       no_shear,          "it wants mapping = \"sheared\"", false},
-    {"blocks.file",       no_file,           "it wants mapping = \"file\"", false},
-    {"blocks.zone",       no_zone,           "it wants mapping = \"file\" and a file of Plot3D", false},
+    {"blocks.shear",      no_shear,          "it needs mapping = \"sheared\"", false},
+    {"blocks.wave",       no_shear,          "it needs mapping = \"sheared\"", false},
+    {"blocks.file",       no_file,           "it needs mapping = \"file\"", false},
+    {"blocks.zone",       no_zone,           "it needs mapping = \"file\" and a file of Plot3D", false},
     {"blocks.k_min",      planar,            "the case has two dimensions", false},
     {"blocks.k_max",      planar,            "the case has two dimensions", false},
     {"blocks.velocity",   no_moving_side,    "none of the block's sides is \"wall\" or \"inflow\"", false},
@@ -395,8 +395,8 @@ static void check_elements(const struct run *r, struct faults *f)
     for (int k = 0; k < s->nbodies; k++) {
         snprintf(key, sizeof key, "bodies.[%d]", k);
         params_fault(r->params, f, key,
-                     "is not used: the finite volumes know no bodies; a body that rests can be a "
-                     "block's side (blocks.i_min = \"wall\"), others are for sph");
+                     "is not used: fv has no bodies; a body that rests can be a block's side "
+                     "(blocks.i_min = \"wall\"), others are for sph");
     }
     for (int k = 0; k < s->nshapes && dry(r, 0); k++) {
         snprintf(key, sizeof key, "shapes.[%d]", k);
@@ -478,9 +478,9 @@ static void check_fields(const struct run *r, struct faults *f)
         for (int k = 0; k < 4; k++)
             is = is || (n == (int)strlen(known[k]) && strncmp(c, known[k], (size_t)n) == 0);
         if (n > 0 && !is)
-            params_fault(r->params, f, "output.fields",
-                         "%.*s: this solver knows velocity, pressure, vorticity, vorticity_exact",
-                         n, c);
+            params_fault(
+                r->params, f, "output.fields",
+                "%.*s: the fields of fv are velocity, pressure, vorticity, vorticity_exact", n, c);
         n += c[n] != '\0';
     }
     if (!fv_field_wanted(r, "vorticity_exact"))

@@ -18,7 +18,7 @@
 /* clang-format off */
 const struct param mesh_rows_of[MESH_ROWS] = {
     PARAM(P, name,     "-", NULL, 0, 0, "its name in outputs and messages"),
-    CHOICE(P, mapping, "box|stretched|annulus|sheared|file", "box", "shape: uniform box, box with finer cells at a place, ring (cells: outwards, around), box that leans or waves, vertices from a file"),
+    CHOICE(P, mapping, "box|stretched|annulus|sheared|file", "box", "shape: uniform box, box with finer cells at a place, ring (cells: outwards, around), sheared or waving box, vertices from a file"),
     PARAM(P, cells,    "-", "(1, 1, 1)", 1, 1e6, "cells in each direction; with a file the file's own"),
     PARAM(P, min,      "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "lower corner before the rotation; z of a ring"),
     PARAM(P, max,      "m", "(1.0, 1.0, 1.0)", -1e9, 1e9, "upper corner"),
@@ -32,16 +32,16 @@ const struct param mesh_rows_of[MESH_ROWS] = {
     PARAM(P, wave,     "-", "0.0", -0.15, 0.15, "sheared: displacement by sin sin, over the length of a side"),
     PARAM(P, file,     "-", "", 0, 0, "file beside the case: .h5 (dataset x[k][j][i][dim] of vertices), else Plot3D"),
     PARAM(P, zone,     "-", "1", 1, 1e4, "block of a Plot3D file"),
-    CHOICE(P, i_min, SIDES, "overlap", "what is behind the side where i is least; overlap on a side of the domain: its entry of walls, if it has one"),
-    CHOICE(P, i_max, SIDES, "overlap", "what is behind the side where i is largest"),
+    CHOICE(P, i_min, SIDES, "overlap", "condition on the side of least i; overlap on a side of the domain: that side's entry of walls, if any"),
+    CHOICE(P, i_max, SIDES, "overlap", "condition on the side of largest i"),
     CHOICE(P, j_min, SIDES, "overlap", "the same along j"),
     CHOICE(P, j_max, SIDES, "overlap", "the same along j"),
     CHOICE(P, k_min, SIDES, "overlap", "the same along k"),
     CHOICE(P, k_max, SIDES, "overlap", "the same along k"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls along themselves, of its inflow"),
-    CHOICE(P, lid, "all|i_min|i_max|j_min|j_max|k_min|k_max", "all", "the only one of its walls that has the velocity"),
+    CHOICE(P, lid, "all|i_min|i_max|j_min|j_max|k_min|k_max", "all", "moving wall: the only one of its walls that has the velocity"),
     PARAM(P, spin,     "rad/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls i_min and i_max about the centre"),
-    LIST(P, motion, &scene_motion_list, "how the block moves as a whole, joined blocks with it, its walls too: terms add up, rotation is about its centre; a plain text: one file"),
+    LIST(P, motion, &scene_motion_list, "rigid motion of the block, of blocks joined to it and of its walls: the sum of its terms, rotation about its centre; a plain text: one file"),
 };
 /* clang-format on */
 #undef P
@@ -117,7 +117,7 @@ static void check_lid(const struct run *r, struct faults *f, int k)
     if (a >= r->scene.domain.dim || kind[side] != MESH_WALL)
         mesh_fault(r, f, k, "lid", "this side is no wall");
     else if (b->velocity[0] == 0.0 && b->velocity[1] == 0.0 && b->velocity[2] == 0.0)
-        mesh_fault(r, f, k, "velocity", "the velocity of the lid is wanted");
+        mesh_fault(r, f, k, "velocity", "the velocity of the moving wall (lid) is missing");
 }
 
 /* Kinds of sides that the dimension has. */
@@ -127,16 +127,16 @@ static void check_block(const struct run *r, struct faults *f, int k)
     const int dim = r->scene.domain.dim;
     for (int a = 0; a < dim && b->mapping != MAPPING_FILE; a++)
         if (b->cells[a] < 6)
-            mesh_fault(r, f, k, "cells", "%d cells along %c: at least 6 are wanted", b->cells[a],
+            mesh_fault(r, f, k, "cells", "%d cells along %c: at least 6 are needed", b->cells[a],
                        "ijk"[a]);
     for (int a = 0; a < dim; a++)
         if (b->mapping != MAPPING_FILE && (b->mapping != MAPPING_ANNULUS || a == 2) &&
             !(b->max[a] > b->min[a]))
             mesh_fault(r, f, k, "max", "max of %c must lie above min", "xyz"[a]);
     if (b->mapping == MAPPING_ANNULUS && !(b->radius[1] > b->radius[0] && b->radius[0] > 0.0))
-        mesh_fault(r, f, k, "radius", "0 < inner < outer is wanted");
+        mesh_fault(r, f, k, "radius", "expected 0 < inner < outer");
     if (b->mapping == MAPPING_ANNULUS && !(b->arc[1] > b->arc[0]))
-        mesh_fault(r, f, k, "arc", "first < last is wanted");
+        mesh_fault(r, f, k, "arc", "expected first < last");
     if (b->mapping == MAPPING_ANNULUS && fabs(b->arc[1] - b->arc[0] - 360.0) < 1e-9 &&
         (b->j_min == MESH_OVERLAP || b->j_max == MESH_OVERLAP))
         mesh_fault(r, f, k, "j_min",
@@ -149,7 +149,7 @@ static void check_block(const struct run *r, struct faults *f, int k)
     if (b->mapping == MAPPING_SHEARED && b->shear == 0.0 && b->wave == 0.0)
         mesh_fault(r, f, k, "mapping", "\"sheared\" without a shear or a wave is a \"box\"");
     if (b->mapping == MAPPING_FILE && !*b->file)
-        mesh_fault(r, f, k, "file", "the name of the file with the vertices is wanted");
+        mesh_fault(r, f, k, "file", "the name of the file with the vertices is missing");
     check_lid(r, f, k);
 }
 
@@ -165,7 +165,8 @@ static void check_wall(const struct run *r, struct faults *f, int k)
         params_fault(r->params, f, key,
                      "walls within the domain are a block's sides here (blocks.i_min = \"wall\")");
     else if (w->carried && (w->kind != WALL_OUTFLOW || fv_params_of(r)->steady))
-        params_fault(r->params, f, key, "carried is for an outflow of a run in time");
+        params_fault(r->params, f, key,
+                     "carried (convective outflow) is for an outflow of a run in time");
 }
 
 /* A wall of the scene that no block has is a mistake. */
@@ -192,7 +193,7 @@ static void check_hole(const struct run *r, struct faults *f)
         return;
     if (!fv_measures_errors(r) || (mesh_ring(r) && !fv_params_of(r)->steady))
         params_fault(r->params, f, "fv.hole",
-                     "only a run with an exact solution (initial.field) can fill a hole");
+                     "only a run with an exact solution (initial.field) can fill fv.hole");
     if (mesh_motion_any())
         params_fault(r->params, f, "fv.hole", "not with blocks that move");
 }
@@ -200,10 +201,11 @@ static void check_hole(const struct run *r, struct faults *f)
 static void check_coupled(const struct run *r, struct faults *f)
 {
     if (mesh_motion_any())
-        params_fault(r->params, f, "blocks.motion", "a coupled job knows no blocks that move");
+        params_fault(r->params, f, "blocks.motion", "blocks cannot move in a coupled job");
     if (fv_hole(r))
-        params_fault(r->params, f, "fv.hole",
-                     "only a lone run with an exact solution (initial.field) can fill a hole");
+        params_fault(
+            r->params, f, "fv.hole",
+            "only an uncoupled run with an exact solution (initial.field) can fill fv.hole");
 }
 
 void mesh_check(const struct run *r, struct faults *f)
@@ -215,7 +217,7 @@ void mesh_check(const struct run *r, struct faults *f)
     limits_check(r, f);
     surface_check(r, f);
     if (prm->graded[1] > 0.0)
-        params_fault(r->params, f, "fv.graded", "not with blocks: they have maps of their own");
+        params_fault(r->params, f, "fv.graded", "not with blocks: they have mappings of their own");
     check_hole(r, f);
     if (mesh_motion_any() && prm->steady)
         params_fault(r->params, f, "fv.steady", "blocks that move have no steady state");

@@ -117,15 +117,14 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
             if (!t.any)
                 continue;
             if (kind == MESH_WALL && t.worst > 0.01)
-                mesh_fault(
-                    r, f, k, sides[side],
-                    "the wall would pump fluid through itself: it moves along itself alone, "
-                    "and its velocity has a part of %.0f %% across; name one wall by lid, or "
-                    "make an \"inflow\"",
-                    100.0 * t.worst);
+                mesh_fault(r, f, k, sides[side],
+                           "the wall would pump fluid through itself: it moves along itself alone, "
+                           "and its velocity has a part of %.0f %% across; name the moving wall by "
+                           "lid, or make an \"inflow\"",
+                           100.0 * t.worst);
             if (kind == MESH_WALL && !(r->scene.fluid.nu > 0.0))
                 mesh_fault(r, f, k, sides[side],
-                           "without viscosity (fluid.nu) nothing sticks to a wall: \"slip\", or a "
+                           "without viscosity (fluid.nu) a wall exerts no friction: \"slip\", or a "
                            "viscosity");
             if (kind == MESH_INFLOW && !(t.most > 0.0))
                 mesh_fault(r, f, k, sides[side],
@@ -147,11 +146,10 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
     for (int a = 0; a < m->dim; a++)
         size += fabs(r->scene.fluid.gravity[a]) * (r->scene.domain.max[a] - r->scene.domain.min[a]);
     if (most - least > 1e-9 * size)
-        params_fault(
-            r->params, f, "fluid.gravity",
-            "two outflows at different heights: the flow would fall from one to the other, "
-            "and this solver leaves gravity across sides to the pressure; make that "
-            "direction periodic, or give one of them as an \"inflow\"");
+        params_fault(r->params, f, "fluid.gravity",
+                     "two outflows at different heights: the flow would fall from one to the "
+                     "other, and this solver balances gravity across sides by the pressure; make "
+                     "that direction periodic, or give one of them as an \"inflow\"");
     if (!out && fabs(net) > (exact ? 0.01 : 1e-6) * all)
         params_fault(r->params, f, "blocks",
                      "an %s without an outflow: %g m^%d/s more flow %s, and no side is an "

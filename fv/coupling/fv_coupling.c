@@ -263,7 +263,7 @@ static void make_patch(struct fv *s, struct link *k, const double (*given)[2][3]
     if (patch_create(s, k->n, (const double(*)[2][3])box, given, &k->patch, where))
         return;
     snprintf(reason, sizeof reason,
-             "blocks: sph.box wants the flow at (%g, %g, %g) m, within two cells of it, and no "
+             "blocks: sph.box needs the flow at (%g, %g, %g) m, within two cells of it, and no "
              "block computes it there: move the box away from walls that it does not share, or let "
              "blocks reach further",
              where[0], where[1], where[2]);
@@ -388,8 +388,8 @@ void coupling_create(struct fv *s)
     if (s->m && mesh_bc_pressure_given(s) && s->forcing->net == NET_OTHERS)
         refuse(k,
                "blocks: the cells that sph gives lie in blocks that overlap there, so what flows "
-               "through their outline cannot be balanced, and an outflow would let it swing: "
-               "let them lie in one block, or in blocks that are joined");
+               "through their interface cannot be balanced, and with an outflow the pressure would "
+               "oscillate: let them lie in one block, or in blocks that are joined");
     if (s->m)
         compare_walls(s, k, (const double(*)[2][3])all);
     make_patch(s, k, (const double(*)[2][3])all);
@@ -405,9 +405,9 @@ void coupling_create(struct fv *s)
     k->unmapped = (struct watch){
         .key = "unmapped_cells",
         .what = "share of the cells at sph's edge that hold no particle of sph",
-        .likely = "its surface or a void has come to where fv looks: set the open sides of sph.box "
-                  "deeper into the water, or lower coupling.overlap; cells of fv finer than sph.dx "
-                  "want coarser fv.cells",
+        .likely = "the surface or an air cavity has come to the edge of what fv takes from sph: "
+                  "set the open sides of sph.box deeper into the water, or lower coupling.overlap; "
+                  "if cells of fv are finer than sph.dx, take coarser fv.cells",
         .warn = 0.05,
         .stop = 0.25};
 }
@@ -531,7 +531,7 @@ void coupling_judge(struct fv *s, struct diagnosis *d)
         snprintf(d->reason, sizeof d->reason, "%s", k->lost);
         snprintf(d->where, sizeof d->where, "t = %.4g s", s->t);
         snprintf(d->likely, sizeof d->likely,
-                 "another way of the box, finer cells or blocks that overlap by more there");
+                 "another path of the box, finer cells or blocks that overlap by more there");
     }
     if (s->surface && !isnan(k->of_water.start))
         water_budget_judge(s, &k->of_water, d);
@@ -564,7 +564,7 @@ static void move_patch(struct fv *s, struct link *k, const double (*given)[2][3]
     all_boxes(k, box);
     if (!patch_renew(s, k->n, (const double(*)[2][3])box, given, &k->patch, where))
         snprintf(k->lost, sizeof k->lost,
-                 "sph wants the flow at (%g, %g, %g) m, and no block computes it there", where[0],
+                 "sph needs the flow at (%g, %g, %g) m, and no block computes it there", where[0],
                  where[1], where[2]);
 }
 

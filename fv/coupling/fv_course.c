@@ -199,8 +199,8 @@ void course_try(struct fv *s, struct course *c, double t1)
     if (!d.bad)
         look(s, c, c->tried);
     else if (!c->failed)
-        log_warn("t = %.4g s: fv cannot try the window to %.4g s (%s): sph gets what the windows "
-                 "before say; lower coupling.steps",
+        log_warn("t = %.4g s: fv cannot run its trial of the coupling step to %.4g s (%s): sph "
+                 "gets values extrapolated from the steps before; lower coupling.steps",
                  c->t[0], t1, d.reason);
     c->failed = c->failed || d.bad;
     s->predicts = false;

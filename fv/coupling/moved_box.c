@@ -237,7 +237,7 @@ bool moved_box(struct fv *s, int n, const double (*box)[2][3], char why[256])
     }
     if (s->m && mesh_bc_pressure_given(s) && f->net == NET_OTHERS)
         snprintf(why, 256,
-                 "what flows through the outline of the cells that sph gives, in blocks "
-                 "that overlap there, cannot be balanced, and an outflow lets it swing");
+                 "what flows through the interface of the cells that sph gives, in blocks that "
+                 "overlap there, cannot be balanced, and with an outflow the pressure oscillates");
     return true;
 }

@@ -21,12 +21,14 @@ struct water_budget water_budget_create(int n)
     return (struct water_budget){
         .n = n,
         .start = NAN,
-        .watched = {.key = "water_missing",
-                    .what = "water of both programs that came or went unbooked, over all of it",
-                    .likely = "waves break at an open side of sph.box, or drops cross it: move the "
-                              "side to calmer water; or windows too long: coupling.steps",
-                    .warn = 0.003,
-                    .stop = 0.02}};
+        .watched = {
+            .key = "water_missing",
+            .what =
+                "water of both programs that was gained or lost without account, over all of it",
+            .likely = "waves break at an open side of sph.box, or drops cross it: move the side to "
+                      "calmer water; or lower coupling.steps",
+            .warn = 0.003,
+            .stop = 0.02}};
 }
 
 static double share_within(const struct fv *s, const double box[2][3], const double *x,

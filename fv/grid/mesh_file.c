@@ -232,7 +232,7 @@ double *mesh_file_read(const struct run *r, struct faults *f, int block,
     for (int a = 0; a < dim; a++) {
         n *= cells[a] + 1;
         if (cells[a] < 6) {
-            mesh_fault(r, f, block, "file", "%d cells along %c: at least 6 are wanted", cells[a],
+            mesh_fault(r, f, block, "file", "%d cells along %c: at least 6 are needed", cells[a],
                        "ijk"[a]);
             mem_free(x);
             return NULL;

@@ -151,9 +151,8 @@ static bool restore_grids(struct fv *s, struct h5 *f)
     int fits = h5_rows(f, "p") == s->size;
     MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, s->comm);
     if (!l && !fits)
-        log_say(
-            "the restart file is of another grid or another number of ranks, and of an age that "
-            "does not say which");
+        log_say("the restart file is of another grid or another number of ranks, and of an older "
+                "version that does not say which");
     else
         fits = 1;
     for (int k = 0; l && fits && k < (s->m ? s->m->nblocks : 1); k++)

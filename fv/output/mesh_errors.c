@@ -463,7 +463,7 @@ void mesh_describe(const struct run *r)
         for (int64_t c = 0; c < (int64_t)b->n[0] * b->n[1] * b->n[2]; c++)
             count[b->status[c]]++;
         log_say("block %d \"%s\": %s, %d x %d x %d cells: %lld computed, %lld interpolated, %lld "
-                "given, %lld cut out",
+                "imposed, %lld cut out",
                 k + 1, b->prm->name, shapes[b->prm->mapping], b->n[0], b->n[1], b->n[2],
                 (long long)count[CELL_COMPUTED], (long long)count[CELL_FRINGE],
                 (long long)count[CELL_GIVEN], (long long)count[CELL_HOLE]);

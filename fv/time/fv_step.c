@@ -169,8 +169,8 @@ static bool crawls(const struct fv *s, double n, const struct step_limit *most, 
     if (!s->run->coupled || n < MOST_OF_A_WINDOW)
         return false;
     d->bad = true;
-    snprintf(d->reason, sizeof d->reason, "the step has shrunk to %.3g s, %.3g of them to a window",
-             most->dt, n);
+    snprintf(d->reason, sizeof d->reason,
+             "the step has shrunk to %.3g s, %.3g of them to a coupling step", most->dt, n);
     snprintf(d->where, sizeof d->where, "limited by %s; largest velocity %.3g m/s",
              limit_name(most->by), fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
     snprintf(d->likely, sizeof d->likely,

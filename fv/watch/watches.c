@@ -26,11 +26,11 @@ static const struct watch kinds[WATCHES] = {
      .warn = 0.01,
      .stop = 0.10},
     {.key = "odd_even_velocity",
-     .what = "velocity in waves of two cells, over all of it",
+     .what = "odd-even (two-cell) waves of velocity, over the velocity",
      .warn = 0.04,
      .stop = INFINITY},
     {.key = "odd_even_pressure",
-     .what = "pressure in waves of two cells, over all of it (at least rho u^2/20)",
+     .what = "odd-even (two-cell) waves of pressure, over the pressure (at least rho u^2/20)",
      .likely = "the flow is finer than the cells: more cells; pressures near there are not to be "
                "trusted",
      .warn = 0.20,
@@ -42,7 +42,7 @@ static const struct watch kinds[WATCHES] = {
      .warn = 1.25,
      .stop = INFINITY},
     {.key = "volume_returned",
-     .what = "volume that the level set lost and got back elsewhere",
+     .what = "volume that the level set lost and that was restored elsewhere",
      .likely = "water thinner than a cell: more cells",
      .warn = 0.01,
      .stop = INFINITY}};
@@ -220,7 +220,7 @@ void watches_summarise(const struct watches *w, struct summary *to)
             watch_summary(watch_of(w, k), to);
     if (w->has_surface && !(w->returned.worst < RETURNED_MOST))
         summary_text(to, "not_accepted",
-                     "5 % of the volume or more was lost by the level set and put back elsewhere: "
+                     "5 % of the volume or more was lost by the level set and restored elsewhere: "
                      "more cells");
 }
 

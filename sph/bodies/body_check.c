@@ -121,7 +121,7 @@ static void check_term(const struct run *r, const struct sph_params *used, int k
                     t->rows[(ptrdiff_t)b->drive.columns * row + column] != 0.0) {
                     params_fault(r->params, f, key,
                                  "the file moves %s, which forces move, too: add it to lock, or "
-                                 "have zeros there",
+                                 "give zeros there",
                                  names[a]);
                     break;
                 }
@@ -145,8 +145,7 @@ static void check_degrees(const struct run *r, int k, int dim, struct faults *f)
     const int turns = (locked >> AXIS_RX & 1) + (locked >> AXIS_RY & 1) + (locked >> AXIS_RZ & 1);
     char key[KEY];
     if (locked < 0) {
-        params_fault(r->params, f, key_of(key, k, ".lock"),
-                     "words of %s are wanted, as in \"x %s\"",
+        params_fault(r->params, f, key_of(key, k, ".lock"), "expected words of %s, as in \"x %s\"",
                      dim == 2 ? "x y rz" : "x y z rx ry rz", dim == 2 ? "rz" : "rx ry");
         return;
     }
@@ -167,21 +166,22 @@ static void check_degrees(const struct run *r, int k, int dim, struct faults *f)
                          "be driven");
     if (locked == (dim == 2 ? 1 << AXIS_X | 1 << AXIS_Y | 1 << AXIS_RZ : (1 << BODY_AXES) - 1))
         params_fault(r->params, f, key_of(key, k, ".lock"),
-                     "all degrees are locked: leave out free and mass, it moves as told");
+                     "all degrees are locked: leave out free and mass, it moves as prescribed");
     if (b->slider.n > 0 && locked & (1 << AXIS_X | 1 << AXIS_Y | 1 << AXIS_Z))
         params_fault(r->params, f, key_of(key, k, ".slider"),
-                     "a slider leaves one way: take x, y, z out of lock");
+                     "a slider leaves one direction: remove x, y, z from lock");
     if (b->slider.n > 0 && b->hinge.n > 0)
         params_fault(r->params, f, key_of(key, k, ".slider"), "a hinge or a slider, not both");
     if (b->slider.n > 0 &&
         (vec3_length(b->slider.of[0].axis) == 0.0 || (dim == 2 && b->slider.of[0].axis[2] != 0.0)))
         params_fault(r->params, f, key_of(key, k, ".slider.axis"),
-                     "a direction of the case's %d dimensions is wanted", dim);
+                     "expected a direction of the case's %d dimensions", dim);
     if (b->hinge.n > 0 && dim == 3 && vec3_length(b->hinge.of[0].axis) == 0.0)
-        params_fault(r->params, f, key_of(key, k, ".hinge.axis"), "a direction is wanted, not 0");
+        params_fault(r->params, f, key_of(key, k, ".hinge.axis"),
+                     "expected a direction other than 0");
     if (b->hinge.n > 0 && b->motion.n > 0)
         params_fault(r->params, f, key_of(key, k, ".motion"),
-                     "a hinge holds the body: nothing of it moves as told");
+                     "a hinge holds the body: it has no prescribed motion");
 }
 
 /* Largest stiffness and damping that a step of dt follows: sqrt(k/M) dt <= 0.2, beyond which the
@@ -269,7 +269,7 @@ static void check_names(const struct run *r, struct faults *f)
                 (scene_body_moves(c->bodies + k) || scene_body_moves(c->bodies + m))) {
                 char key[KEY];
                 params_fault(r->params, f, key_of(key, k, ".name"),
-                             "`%s' is body %d already: moving bodies want names of their own",
+                             "`%s' is body %d already: moving bodies need names of their own",
                              c->bodies[k].name, m + 1);
             }
 }

@@ -280,11 +280,11 @@ static void say_rooms(const struct basins *b)
     int wet, dry;
     basins_rooms(b, &wet, &dry);
     if (dry > 0)
-        log_say("meshes part the water of the shapes in %d rooms: %d hold(s) fluid", wet + dry,
-                wet);
+        log_say("meshes divide the water of the shapes into %d regions: %d hold(s) fluid",
+                wet + dry, wet);
     if (wet == 0)
-        log_warn("no room on the fluid's side of the meshes holds any water: see walls.fluid_side, "
-                 "walls.flip and initial.seed");
+        log_warn("no region on the fluid's side of the meshes holds any water: see "
+                 "walls.fluid_side, walls.flip and initial.seed");
 }
 
 static void say_pockets(const struct basins *b)

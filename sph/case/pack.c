@@ -209,8 +209,8 @@ void pack_start(struct sph *s, int steps)
     }
     find_crowding(s);
     if (by_meshes(s))
-        log_say("packing: %d steps, R times the crowding vector %.3g on average near meshes", k,
-                crowding(s));
+        log_say("packing: %d steps, R times the concentration gradient %.3g on average near meshes",
+                k, crowding(s));
     set_volumes(s);
     if (by_meshes(s))
         fill_enclosed(s);

@@ -121,8 +121,8 @@ bool rooms_are_wet(const struct sph *s, const double *x)
         const double w = trimesh_winding(&m->of->mesh, own) - threshold(m->of->fluid_side);
         if (fabs(w) < doubt)
             fail_with(RUN_INPUT,
-                      "mesh %s does not say whether the room around (%g, %g, %g) m holds fluid: it "
-                      "is open there. Close it, or name points in the fluid by initial.seed",
+                      "mesh %s does not say whether the region around (%g, %g, %g) m holds fluid: "
+                      "it is open there. Close it, or name points in the fluid by initial.seed",
                       m->of->name, x[0], x[1], x[2]);
         if (w < 0.0)
             return false;
@@ -151,10 +151,10 @@ void rooms_refuse_sheet(const struct sph *s, const double *a, const double *b)
         const struct tree_foot f = tree_nearest(m->tree, p, INFINITY),
                                g = tree_nearest(m->tree, q, INFINITY);
         if (!f.rim && !g.rim && (f.distance > 0.0) != (g.distance > 0.0))
-            fail_with(RUN_INPUT,
-                      "mesh %s has fluid on both sides at (%g, %g, %g) m, joined around its rim: "
-                      "close it or prolong it beyond the domain; a plate in the fluid wants thin = "
-                      "true",
-                      m->of->name, f.foot[0], f.foot[1], f.foot[2]);
+            fail_with(
+                RUN_INPUT,
+                "mesh %s has fluid on both sides at (%g, %g, %g) m, connected around its edge: "
+                "close it or extend it beyond the domain; a plate in the fluid needs thin = true",
+                m->of->name, f.foot[0], f.foot[1], f.foot[2]);
     }
 }

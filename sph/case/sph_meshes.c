@@ -176,9 +176,9 @@ static void warn_gaps(const struct run *r, const struct scene_mesh *m, double dx
         first = n++ == 0 ? is : first;
     }
     if (n > 0)
-        log_warn("mesh %s: %d of the triangles looked at face others across less than 2 dx = "
-                 "%.3g m of fluid, the first %.3g m apart at (%g, %g, %g) m: one row of particles "
-                 "or none, a flow there is noise. Take sph.dx = %.2g or less, or close the gap",
+        log_warn("mesh %s: %d of the triangles looked at face others across less than 2 dx = %.3g "
+                 "m of fluid, the first %.3g m apart at (%g, %g, %g) m: one layer of particles or "
+                 "none, a flow there is noise. Take sph.dx = %.2g or less, or close the gap",
                  m->name, n, 2.0 * dx, first.width, first.from[0], first.from[1], first.from[2],
                  0.25 * first.width);
 }

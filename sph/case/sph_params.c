@@ -27,14 +27,14 @@ static bool present;
 static const struct param rows[] = {
     PARAM(P, dx, "m", NULL, 1e-9, 1e6, "initial particle spacing"),
     PARAM(P, R_dx, "-", "4.0", 1.5, 8.0, "radius of the kernel's support over dx"),
-    PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the largest speed that the scene lets expect, and density within 1 % at rest and in slow viscous flow"),
+    PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the largest speed expected in the scene, and density within 1 % at rest and in slow viscous flow"),
     PARAM(P, gamma, "-", "7.0", 1.0, 7.0, "exponent of the equation of state, 7 or 1"),
     CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface, else riemann_ale"),
     CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles"),
     CHOICE(P, transport, "tvs|tvo|none|eulerian|xsph", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest; xsph: smoothed velocity"),
     CHOICE(P, viscosity, "morris|monaghan|auto", "auto", "form of the viscous term; auto: monaghan with a free surface, where it leaves no stress, else morris"),
     PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)"),
-    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface and where walls carry the weight of a fluid that fills its room, else 0"),
+    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface and where walls support the weight of a fluid that fills its room, else 0"),
     PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure"),
     PARAM(P, alpha, "-", "-1.0", -1.0, 1.0, "artificial viscosity of schemes delta and standard; -1: 0.01, in a viscous fluid 0"),
     PARAM(P, delta, "-", "0.05", 0.0, 0.2, "diffusion of density of scheme delta: delta c0 R"),
@@ -44,8 +44,8 @@ static const struct param rows[] = {
     PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan), with no-slip walls 0.05 to 0.012; j3 of the Riemann schemes 1.18 times that"),
     PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
     PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
-    PARAM(P, box_velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the box: it moves through the fluid, particles come into being ahead of it and end behind it"),
-    PARAM(P, box_follows, "-", "", 0, 0, "name of a body with which the box goes, along the axes whose both sides are open; \"breaker\": it goes with the crest in it, above initial.level"),
+    PARAM(P, box_velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "velocity of the box: it moves through the fluid, particles are created ahead of it and removed behind it"),
+    PARAM(P, box_follows, "-", "", 0, 0, "name of a body with which the box moves, along the axes whose both sides are open; \"breaker\": it moves with the crest in it, above initial.level"),
     CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
     PARAM(P, density_limit, "-", "0.0", 0.0, 10.0, "|rho/rho0 - 1| that ends the run; 0: 0.1, compression at rest and twice the largest Mach number so far, at most 0.5"),
     CHOICE(P, walls, "nfm|ghosts|auto", "auto", "normal flux (any polyline or mesh; not with scheme standard), mirrored ghosts (plane sides); auto: nfm, but ghosts where schemes delta and standard meet no polyline or mesh"),
@@ -443,7 +443,7 @@ static void check_axis(const struct run *r, int a, struct faults *f)
     else if (wants_rows(r, a) && !whole(length, given.dx))
         params_fault(r->params, f, "sph.dx",
                      "%g m: %c from %g to %g m is no whole number of dx, which a period, two walls "
-                     "or open sides want; %.6g and %.6g m are",
+                     "or open sides need; %.6g and %.6g m are",
                      given.dx, axes[a], lo[a], hi[a], length / ceil(length / given.dx),
                      length / fmax(floor(length / given.dx), 1.0));
     if (periodic[a] && length <= 2.0 * 1.15 * R)
@@ -605,7 +605,7 @@ static void check_ends(const struct run *r, struct faults *f)
     snprintf(key, sizeof key, "walls.[%d].points", e.wall);
     params_fault(r->params, f, key,
                  "the line %s ends inside the domain at (%g, %g), so that fluid comes to its back, "
-                 "where a line is no wall: let it go on to a wall or to a side of the domain, or "
+                 "where a line is no wall: extend it to a wall or to a side of the domain, or "
                  "draw both of its faces, %.3g m (0.7 sph.R_dx sph.dx) apart or more",
                  e.stands ? "stands on another wall and" : "has water at its end: it", e.at[0],
                  e.at[1], 0.7 * given.R_dx * given.dx);
@@ -619,7 +619,7 @@ static void check_local_steps(const struct run *r, struct faults *f)
         any_free = any_free || r->scene.bodies[k].free;
     if (is_coupled(r) || any_free)
         params_fault(r->params, f, "apr.local_steps", "%s: leave it out",
-                     any_free ? "bodies that the fluid moves go with all levels at once"
+                     any_free ? "bodies that the fluid moves need one step for all levels"
                               : "levels of a coupled job step together");
 }
 
@@ -664,10 +664,11 @@ void sph_params_check(const struct run *r, struct faults *f)
                      "which polylines and bodies need: take riemann, riemann_ale or delta");
     for (int k = 0; k < r->scene.nwalls; k++)
         if (is_coupled(r) && !r->crossed && r->scene.walls[k].carried)
-            params_fault(r->params, f, "walls",
-                         "wall %d: without a surface that crosses sph.box nothing but an outflow "
-                         "sets the pressure of a coupled job: give it one, leave out carried",
-                         k + 1);
+            params_fault(
+                r->params, f, "walls",
+                "wall %d: without a surface that crosses sph.box nothing but an outflow sets the "
+                "pressure of a coupled job: give it one, leave out carried (convective outflow)",
+                k + 1);
     if (sph_params_of(r)->c0 <= 0.0)
         params_fault(r->params, f, "sph.c0", "must be given: the scene has no scale of velocity");
     check_steps(r, f);

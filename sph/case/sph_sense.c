@@ -51,9 +51,9 @@ static void check_outlet(const struct run *r, int side, struct faults *f)
             rise += c->fluid.rho * fabs(still[a]) * (c->domain.max[a] - c->domain.min[a]);
     if (rise > 0.0)
         params_fault(r->params, f, key,
-                     "one pressure all over this side, where gravity wants %g Pa more at its foot "
-                     "than at its head: leave fluid.gravity out, which without a free surface only "
-                     "adds the weight of the column to the pressure",
+                     "one pressure all over this side, where gravity requires %g Pa more at its "
+                     "bottom than at its top: leave fluid.gravity out, which without a free "
+                     "surface only adds the weight of the column to the pressure",
                      rise);
 }
 

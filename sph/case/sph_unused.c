@@ -99,7 +99,7 @@ static const struct {
     {"sph.walls", WALLS, "the particles meet no wall and no body"},
     {"sph.wall_integrals", TRIANGLES, "no normal flux walls of triangles: those are of 3D"},
     {"sph.wall_squares", CLIPPED, "sph.wall_integrals is not clipped"},
-    {"sph.packing", PACKED, "without walls, bodies and noise the lattice is as even as can be"},
+    {"sph.packing", PACKED, "without walls, bodies and noise the lattice is uniform already"},
     {"sph.extrema", PLANE, "centre lines are read in two dimensions only"},
     {"sph.outer", OUTER,
      "no side of the particles' region is open, or inlets and boxes say what is "
@@ -120,10 +120,10 @@ static const struct {
     {"coupling.buffer", ZONES, "no side of the particles' region is open"},
     {"coupling.overlap", COUPLED, "the case has one program: no cells lie under the particles"},
     {"coupling.memory", COUPLED, "the case has one program: no pressure is handed over"},
-    {"coupling.keep_mass", COUPLED, "the case has one program: there are no windows"},
-    {"coupling.mapping", COUPLED, "the case has one program: there are no forced cells"},
+    {"coupling.keep_mass", COUPLED, "the case has one program: there are no coupling steps"},
+    {"coupling.mapping", COUPLED, "the case has one program: there are no imposed cells"},
     {"coupling.interpolation", COUPLED, "the case has one program: there are no cells"},
-    {"coupling.deadline", COUPLED, "the case has one program: there is nobody to meet"},
+    {"coupling.deadline", COUPLED, "the case has one program: there is no other one to find"},
 };
 
 /* Whether a polyline comes near the region of the particles. */
@@ -157,11 +157,11 @@ static void check_wall(const struct run *r, const struct sph_params *used, const
                   "it lies outside the region of the particles");
     snprintf(key, sizeof key, "walls.[%d].kind", k);
     params_unused(r->params, f, key, w->kind != WALL_NO_SLIP || has[VISCOUS],
-                  "without viscosity (fluid.nu) nothing sticks to a wall: give slip");
+                  "without viscosity (fluid.nu) a wall exerts no friction: give slip");
     params_unused(r->params, f, key, w->kind < WALL_INFLOW || has[OPENINGS_COUNT],
                   "the flow around the particles (sph.outer) is known otherwise");
     snprintf(key, sizeof key, "walls.[%d].carried", k);
-    params_unused(r->params, f, key, false, "particles know no such outflow");
+    params_unused(r->params, f, key, false, "sph has no convective outflow");
 }
 
 static void check_body(const struct run *r, const bool *has, int k, struct faults *f)
@@ -169,7 +169,7 @@ static void check_body(const struct run *r, const bool *has, int k, struct fault
     char key[64];
     snprintf(key, sizeof key, "bodies.[%d].kind", k);
     params_unused(r->params, f, key, r->scene.bodies[k].kind != WALL_NO_SLIP || has[VISCOUS],
-                  "without viscosity (fluid.nu) nothing sticks to a body: give slip");
+                  "without viscosity (fluid.nu) a body exerts no friction: give slip");
 }
 
 /* Words of output.fields that no particle has. */

@@ -94,13 +94,12 @@ static void check_water(const struct run *r, const struct water *w, struct fault
                         0.5 * count(d->dim, dx, d->min, d->max, in_edge, w, (double[3]){0.0}))
         return;
     const double(*box)[3] = outside ? w->given : w->hidden;
-    params_fault(r->params, f, "sph.box",
-                 "at (%g, %g, %g) m there is no water: outside of (%g, %g, %g) to (%g, %g, %g) m, "
-                 "what fv takes from sph, it knows of no surface; let the box reach the sides and "
-                 "the top of the domain, set its bottom lower, or make transition, buffer and "
-                 "overlap thinner, or fv.cells finer",
-                 x[0], x[1], x[2], box[0][0], box[0][1], box[0][2], box[1][0], box[1][1],
-                 box[1][2]);
+    params_fault(
+        r->params, f, "sph.box",
+        "at (%g, %g, %g) m there is no water: outside of (%g, %g, %g) to (%g, %g, %g) m, what fv "
+        "takes from sph, fv has no surface; let the box reach the sides and the top of the domain, "
+        "set its bottom lower, or make transition, buffer and overlap thinner, or fv.cells finer",
+        x[0], x[1], x[2], box[0][0], box[0][1], box[0][2], box[1][0], box[1][1], box[1][2]);
 }
 
 /* Where the box reaches the domain's side, SPH ends: at a wall, or above the water. */
@@ -152,7 +151,7 @@ static void check_cells(const struct run *r, const struct sph_params *prm, struc
             continue;
         params_fault(r->params, f, "coupling.overlap",
                      "no cell of fv (%g m along %c) lies wholly in %g to %g m, what sph gives: fv "
-                     "would learn nothing of sph; refine fv.cells, enlarge sph.box, or lower "
+                     "would get nothing from sph; refine fv.cells, enlarge sph.box, or lower "
                      "coupling.overlap, transition and buffer",
                      h, axes[a], given[0][a], given[1][a]);
         return;
@@ -226,7 +225,7 @@ static bool gives(const struct run *r, const struct sph_params *prm, const struc
         params_fault(r->params, f, params_given(r->params, "sph.free") ? "sph.free" : "sph.box",
                      "transition, buffer and overlap (each 1.25 R = %g m by default, at each open "
                      "side) leave nothing along %c of what sph gives to fv: %.4g m and a cell of "
-                     "fv are wanted; enlarge it, refine sph.dx, or give these widths",
+                     "fv are needed; enlarge it, refine sph.dx, or give these widths",
                      1.25 * prm->R_dx * prm->dx, axes[a], fmax(0.0, -wide - 1e-9 * prm->dx));
         return false;
     }
@@ -275,8 +274,8 @@ void coupling_check(const struct run *r, struct faults *f)
     const struct sph_params *prm = sph_params_of(r);
     if (!sph_params_zones(r)) {
         params_fault(r->params, f, "sph.box",
-                     "no side of it lies in fv's flow: the programs would never meet; make it "
-                     "smaller than the domain, or leave out group fv");
+                     "no side of it lies in fv's flow: the programs would exchange nothing; make "
+                     "it smaller than the domain, or leave out group fv");
         return;
     }
     struct water w = {.scene = &r->scene, .dx = prm->dx, .exact = exact_create(&r->scene)};

@@ -83,9 +83,9 @@ void coupling_check_bodies(const struct run *r, const struct sph_params *prm, st
         snprintf(key, sizeof key, "bodies.[%d]", k);
         if (when < INFINITY)
             params_fault(r->params, f, key,
-                         "body `%s' is outside of %s m at t = %.4g s: fv, which "
-                         "knows of no body, takes that from sph alone; enlarge sph.box, or lower "
-                         "coupling.overlap, time.end or the body's way",
+                         "body `%s' is outside of %s m at t = %.4g s: fv, which has no bodies, "
+                         "takes that from sph alone; enlarge sph.box, or lower coupling.overlap, "
+                         "time.end or the body's path",
                          r->scene.bodies[k].name, zones_extent(r->scene.domain.dim, given), when);
     }
 }
@@ -158,9 +158,9 @@ void coupling_check_walls(const struct run *r, const struct sph_params *prm, str
              line_leaves(r, line, box, open, 0.5 * prm->dx, at)) ||
             (mesh && mesh_leaves(r, &mesh->mesh, box, open, 0.5 * prm->dx, at)))
             params_fault(r->params, f, key,
-                         "at (%g, %g, %g) m it is outside of %s m: fv, which knows "
-                         "of no wall but the domain's sides, takes only what lies deeper from sph; "
-                         "enlarge sph.box, lower coupling.overlap, or refine fv.cells",
+                         "at (%g, %g, %g) m it is outside of %s m: fv, which has no walls but the "
+                         "domain's sides, takes only what lies deeper from sph; enlarge sph.box, "
+                         "lower coupling.overlap, or refine fv.cells",
                          at[0], at[1], at[2], zones_extent(r->scene.domain.dim, box));
     }
 }

@@ -67,9 +67,8 @@ struct overlap *overlap_create(struct sph *s)
     o->dry = (struct watch){
         .key = "surface_in_zones",
         .what = "share of the open sides in front of which a free surface lies in the transition",
-        .likely =
-            "fv knows of no surface: move the open sides of sph.box deeper into the water, or "
-            "make coupling.transition and coupling.buffer thinner",
+        .likely = "fv has no surface there: move the open sides of sph.box deeper into the water, "
+                  "or make coupling.transition and coupling.buffer thinner",
         .warn = 0.02,
         .stop = 0.1};
     return o;
@@ -154,7 +153,7 @@ void overlap_judge(struct sph *s, struct diagnosis *d)
     watch_judge(&o->pressure, o->dp_mean, s->t, s->run->step, d);
     if (d->bad && !was_bad)
         snprintf(d->where, sizeof d->where,
-                 "the rim of the free zone, %g m wide, t = %.4g s, step %lld", s->zones->overlap,
+                 "the border of the free zone, %g m wide, t = %.4g s, step %lld", s->zones->overlap,
                  s->t, (long long)s->run->step);
 }
 

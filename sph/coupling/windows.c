@@ -233,12 +233,12 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
     shorten(&w, w.omega > 0.0 ? wave_share / w.omega : INFINITY, "the waves");
     shorten(&w, sound_share * sound_time(r, prm), "sound under the partner's water");
     const double box = box_motion_speed(r, prm);
-    shorten(&w, transition / (w.U + box), "the way through the transition");
+    shorten(&w, transition / (w.U + box), "the path through the transition");
     /* cells are forced in a row or two ahead of it, and have values there; behind a crest the box
      * goes half as fast as it may at most, and shorter windows want more memory */
     const double cells = strcmp(prm->box_follows, BOX_CHASE) == 0 ? 2.0 : 1.0;
     if (box > 0.0)
-        shorten(&w, cells * least_cell(r) / box, "the way of the box through a cell");
+        shorten(&w, cells * least_cell(r) / box, "the path of the box through a cell");
     w.steps = c->steps > 0 ? c->steps : (int)fmax(floor(w.T / dt * (1.0 + 1e-9)), 1.0);
     w.limit = c->steps > 0 ? "coupling.steps" : w.limit;
     w.T = w.steps * dt;
@@ -251,20 +251,23 @@ void windows_describe(const struct run *r, const struct sph_params *prm)
 {
     const struct windows w = windows_choose(r, prm);
     const double left = w.memory > 1 ? w.gain * windows_smoothed(w.memory) : w.gain;
-    log_say("windows of %d steps, %.3g s, by %s: U T/L = %.3f (U %.3g m/s, L %.3g m)", w.steps, w.T,
-            w.limit, w.U * w.T / w.L, w.U, w.L);
+    log_say(
+        "coupling steps of %d steps, %.3g s, limited by %s: U T/L = %.3f (U %.3g m/s, L %.3g m)",
+        w.steps, w.T, w.limit, w.U * w.T / w.L, w.U, w.L);
     if (w.memory > 1)
-        log_say("gain of the loop %.2g: pressure outside smoothed over %d windows, %.2g is left",
+        log_say("gain of the coupling loop %.2g: fv's pressure smoothed over %d coupling steps, "
+                "%.2g is left",
                 w.gain, w.memory, left);
     else
-        log_say("gain of the loop %.2g: pressure outside as it is tried ahead", w.gain);
+        log_say("gain of the coupling loop %.2g: fv's pressure as in its trial, not smoothed",
+                w.gain);
     if (w.T > 2.0 * w.T_most)
-        log_warn("coupling.steps = %d: windows of %.3g s are %.1f times what this flow wants; 0 "
-                 "takes %.3g s",
+        log_warn("coupling.steps = %d: coupling steps of %.3g s are %.1f times what this flow "
+                 "allows; 0 takes %.3g s",
                  w.steps, w.T, w.T / w.T_most, w.T_most);
     if (left > (w.memory > 1 ? gain_smoothed : gain_raw) * (1.0 + 1e-9))
-        log_warn("gain of the loop %.2g: near its limit of %g; longer windows (coupling.steps), a "
-                 "longer coupling.memory or a wider coupling.overlap lower it",
+        log_warn("gain of the coupling loop %.2g: near its limit of %g; longer coupling steps "
+                 "(coupling.steps), a longer coupling.memory or a wider coupling.overlap lower it",
                  left, gain_most);
 }
 
@@ -276,23 +279,22 @@ void windows_check(const struct run *r, const struct sph_params *prm, struct fau
     const double left = w.memory > 1 ? w.gain * windows_smoothed(w.memory) : w.gain;
     const double lag = w.memory > 1 ? w.omega * w.T * w.memory : 0.0;
     if (flow > flow_most || wave > wave_most)
-        params_fault(
-            r->params, f, given ? "coupling.steps" : "sph.dx",
-            "windows of %d steps are %.3g s: %s = %.2g, above %.2g nothing can be foreseen "
-            "in time; %s",
-            w.steps, w.T, flow > flow_most ? "U T/L" : "omega T of the waves",
-            flow > flow_most ? flow : wave, flow > flow_most ? flow_most : wave_most,
-            given ? "lower coupling.steps, 0 takes what the flow wants"
-                  : "a single step of sph is too long for this flow: refine sph.dx");
+        params_fault(r->params, f, given ? "coupling.steps" : "sph.dx",
+                     "coupling steps of %d steps are %.3g s: %s = %.2g, above %.2g values cannot "
+                     "be extrapolated in time; %s",
+                     w.steps, w.T, flow > flow_most ? "U T/L" : "omega T of the waves",
+                     flow > flow_most ? flow : wave, flow > flow_most ? flow_most : wave_most,
+                     given ? "lower coupling.steps, 0 takes what the flow allows"
+                           : "a single step of sph is too long for this flow: refine sph.dx");
     if (left > gain_most)
         params_fault(r->params, f,
                      r->scene.coupling.memory > 0 ? "coupling.memory" : "coupling.steps",
-                     "gain of the loop %.2g, %.2g smoothed over %d windows, is unstable above %g: "
-                     "raise coupling.steps, or leave memory and steps at 0",
+                     "gain of the coupling loop %.2g, %.2g smoothed over %d coupling steps, is "
+                     "unstable above %g: raise coupling.steps, or leave memory and steps at 0",
                      w.gain, left, w.memory, gain_most);
     if (lag > 1.0)
         params_fault(r->params, f, "coupling.overlap",
-                     "pressure outside must be smoothed over %d windows, %.2g s, as long as the "
-                     "waves take: widen coupling.overlap (sph.box lower), or raise sph.c0",
+                     "fv's pressure must be smoothed over %d coupling steps, %.2g s, as long as "
+                     "the waves take: widen coupling.overlap (sph.box lower), or raise sph.c0",
                      w.memory, w.T * w.memory);
 }

@@ -38,9 +38,9 @@ struct level_gap *level_gap_create(const struct sph *s)
     colour_profile(s->dim, g->profile);
     g->watched = (struct watch){
         .key = "level_gap",
-        .what = "levels of sph and fv at an open side, difference in dx over ten windows",
+        .what = "levels of sph and fv at an open side, difference in dx over ten coupling steps",
         .likely = "waves too steep or too near to breaking at the side: move the side of sph.box; "
-                  "or windows too long: coupling.steps",
+                  "or lower coupling.steps",
         .warn = 0.5,
         .stop = 3.0};
     return g;

@@ -478,7 +478,7 @@ bool sph_restore(struct sph *s, struct h5 *f)
     const char *lacks = missing(s, f);
     if (lacks && h5_ranks(f) == 0)
         log_say("the restart file is of another number of ranks, or has no %s that fit this case: "
-                "files of this age are read by the number of ranks that wrote them",
+                "files of this version are read by the number of ranks that wrote them",
                 lacks);
     else if (lacks)
         log_say("the restart file has no %s that fit this case", lacks);

@@ -18,7 +18,7 @@ static const struct param region_rows[] = {
     PARAM(P, wall,     "-", "0", 0, 1000, "of shape wall: number of the wall in the list, from 1; points or a mesh"),
     PARAM(P, offset,   "m", "0.0", 0, 1e9, "of shapes body and wall: width of the region in front of the surface"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of a box or sphere"),
-    LIST(P, motion, &scene_motion_list, "motion of a box or sphere as told, like that of bodies, without rotations; a plain text: one file"),
+    LIST(P, motion, &scene_motion_list, "prescribed motion of a box or sphere, like that of bodies, without rotations; a plain text: one file"),
     PARAM(P, follow,   "-", "", 0, 0, "a box or sphere moves with the body of this name, or with the largest pressure of the flow: \"peak\"; or with a box of particles that moves: \"sph.box\""),
     PARAM(P, along,    "-", "", 0, 0, "axes along which it follows, as in \"x\"; all if none are named"),
     PARAM(P, pressure, "Pa", "0.0", 0, 1e12, "with follow = \"peak\": least pressure of a peak that is followed"),
@@ -42,7 +42,7 @@ static const struct param_list criteria = {
 
 #define P struct apr_params
 const struct param apr_rows[APR_ROWS] = {
-    CHOICE(P, method, "guards|weights|coalescence|graded", "guards", "how: levels with guards between them; the others are for comparison, in 2D on one rank: mothers and children together, weighted (Barcarolo); splitting and merging in pairs (Vacondio); spacing that grows by 2.5 % a particle away from a box"),
+    CHOICE(P, method, "guards|weights|coalescence|graded", "guards", "method: levels with guard particles between them; the others are for comparison, in 2D on one rank: parents and children together, weighted (Barcarolo); splitting and merging in pairs (Vacondio); spacing that grows by 2.5 % a particle away from a box"),
     PARAM(P, levels,    "-", "0", 0, APR_LEVELS_MAX, "levels of refinement: dx of the finest is sph.dx / 2^levels; 0: the largest level of regions and criteria, 1 if none is given"),
     PARAM(P, margin,    "-", "3.0", 1.5, 100, "a region of level 2 and more has one of each coarser level around it, made where the case gives none: distance of their edges, in R of the level outside of both"),
     PARAM(P, around,    "-", "3", 2, 20, "cells, as wide as R of the coarser level, that are refined around those where a criterion asks for it"),
@@ -50,7 +50,7 @@ const struct param apr_rows[APR_ROWS] = {
     PARAM(P, local_steps, "-", "false", 0, 1, "each level steps with a time step of its own: the next finer one halves it, or takes as many steps as it needs"),
     PARAM(P, unshifted_finest, "-", "false", 0, 1, "the law of shifting moves particles of coarser levels alone, not those of the finest: to compare"),
     LIST(P, regions, &regions, "where particles are refined; regions of one level are united"),
-    LIST(P, criteria, &criteria, "what of the flow asks for refinement"),
+    LIST(P, criteria, &criteria, "quantities of the flow that ask for refinement"),
 };
 #undef P
 /* clang-format on */

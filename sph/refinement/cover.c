@@ -39,9 +39,9 @@ static struct held count(const struct sph *s, const struct body *b, int level)
 
 static void say_left(const struct sph *s, const struct body *b, int level, const struct held *now)
 {
-    log_warn("t = %g s: body %s has left the region of level %d at (%g, %g, %g) m; there dx = %.3g "
-             "m meets it, and its force is as good as with that: let the region go with it "
-             "(apr.regions: follow = \"%s\", or shape = \"body\"), or make it larger",
+    log_warn("t = %g s: body %s has left the region of level %d at (%g, %g, %g) m; there the "
+             "spacing is dx = %.3g m, and its force is as accurate as that: let the region move "
+             "with it (apr.regions: follow = \"%s\", or shape = \"body\"), or make it larger",
              s->t, b->is->name, level, now->at[0], now->at[1], now->at[2], ldexp(s->dx, 1 - level),
              b->is->name);
 }

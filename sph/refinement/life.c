@@ -306,7 +306,7 @@ static void watch_zones(struct sph *s)
             continue;
         r->met = true;
         log_warn("t = %.4g s: a region of refinement has come to the zones at an open side, at "
-                 "(%g, %g, %g) m: the flow there is wrong; let it go with the box (follow = "
+                 "(%g, %g, %g) m: the flow there is wrong; let it move with the box (follow = "
                  "\"sph.box\"), or make it smaller",
                  s->t, x[0], x[1], x[2]);
     }

@@ -381,22 +381,22 @@ void mixed_check(const struct run *r, const struct sph_params *used, const struc
     refuse(r, f, r->size > 1, "apr.method", "this one runs on one rank");
     refuse(r, f, c->has_fv && c->has_sph, "apr.method", "this one is not for a coupled job");
     refuse(r, f, used->scheme > SCHEME_RIEMANN, "sph.scheme",
-           "particles of mixed sizes know riemann and riemann_ale");
+           "particles of mixed sizes need riemann or riemann_ale");
     refuse(r, f, used->transport != TRANSPORT_TVS && used->transport != TRANSPORT_NONE,
-           "sph.transport", "particles of mixed sizes know tvs and none");
-    refuse(r, f, c->nbodies > 0, "bodies", "particles of mixed sizes know plane sides as walls");
+           "sph.transport", "particles of mixed sizes need tvs or none");
+    refuse(r, f, c->nbodies > 0, "bodies", "particles of mixed sizes need plane sides as walls");
     refuse(r, f, points || used->walls == WALLS_NFM, "walls",
-           "particles of mixed sizes know plane sides as walls, with sph.walls = ghosts");
-    refuse(r, f, rub, "walls", "particles of mixed sizes know slip walls");
-    refuse(r, f, sph_params_zones(r), "apr.method", "this one knows no open sides");
-    refuse(r, f, used->background, "sph.background", "particles of mixed sizes know none");
+           "particles of mixed sizes need plane sides as walls, with sph.walls = ghosts");
+    refuse(r, f, rub, "walls", "particles of mixed sizes need slip walls");
+    refuse(r, f, sph_params_zones(r), "apr.method", "this one has no open sides");
+    refuse(r, f, used->background, "sph.background", "not with particles of mixed sizes");
     refuse(r, f, prm->criteria.n > 0, "apr.criteria", "this method follows regions alone");
     refuse(r, f, graded && (prm->regions.n != 1 || prm->regions.of[0].shape != REGION_BOX),
-           "apr.regions", "graded wants one box");
-    refuse(r, f, graded && moves, "apr.regions", "graded particles know no region that moves");
+           "apr.regions", "graded needs one box");
+    refuse(r, f, graded && moves, "apr.regions", "graded particles need regions at rest");
     refuse(r, f, graded && (used->noise > 0.0 || used->packing > 0),
            graded && used->noise > 0.0 ? "sph.noise" : "sph.packing",
-           "graded particles stand where they are put");
+           "graded particles start without noise and packing");
     refuse(r, f, graded && hypot(c->fluid.gravity[0], c->fluid.gravity[1]) > 0.0, "fluid.gravity",
-           "graded particles know no weight");
+           "graded particles have no gravity");
 }

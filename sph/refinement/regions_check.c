@@ -102,7 +102,7 @@ static void check_extent(const struct check *c, int a, double lo, double hi)
     if (length < least * (1.0 - 1e-9))
         params_fault(c->r->params, c->f, key_of(c, c->is->shape == REGION_BOX ? "max" : "radius"),
                      "%c from %g to %g m: guards R = %.4g m deep of level %d at %d edge%s leave "
-                     "nothing to refine; at least %.4g m are wanted, or a smaller level",
+                     "nothing to refine; at least %.4g m are needed, or a smaller level",
                      "xyz"[a], lo, hi, R, c -> is -> level, faces, faces > 1 ? "s" : "", least);
 }
 
@@ -141,7 +141,7 @@ static void check_shell(const struct check *c)
     if (c->is->offset < least * (1.0 - 1e-9))
         params_fault(c->r->params, c->f, key_of(c, "offset"),
                      "%g m: guards R = %.4g m deep at the edge of level %d leave nothing to "
-                     "refine; at least %.4g m are wanted",
+                     "refine; at least %.4g m are needed",
                      c->is->offset, least - 2.0 * ldexp(c->used->dx, 1 - c->is->level),
                      c->is->level, least);
 }
@@ -414,17 +414,18 @@ static bool check_motion_keys(const struct check *c)
         snprintf(path, sizeof path, "%s/%s", c->r->case_dir, t->file);
         if (t->kind == MOTION_FILE && body_read_rows(path, c->dim == 2 ? 4 : 7, &rows) <= 0)
             params_fault(c->r->params, c->f, key_of(c, "motion"),
-                         "term %d: %s is no file of rows of %d numbers, times rising", m + 1,
-                         t->file, c->dim == 2 ? 4 : 7);
+                         "term %d: %s is not a file of rows of %d numbers with increasing times",
+                         m + 1, t->file, c->dim == 2 ? 4 : 7);
         mem_free(rows);
     }
     if (region_axes(c->is->along, c->dim) < 0)
-        params_fault(c->r->params, c->f, key_of(c, "along"), "`%s' are no axes: %s is meant",
-                     c->is->along, c->dim == 2 ? "x, y or x y" : "some of x y z");
+        params_fault(c->r->params, c->f, key_of(c, "along"),
+                     "`%s' is not a list of axes: expected %s", c->is->along,
+                     c->dim == 2 ? "x, y or x y" : "some of x y z");
     if (*c->is->follow && motion_is_told(c->is))
-        params_fault(c->r->params, c->f, key_of(c, "follow"),
-                     "a region that follows something has no motion of its own: take velocity and "
-                     "motion out");
+        params_fault(
+            c->r->params, c->f, key_of(c, "follow"),
+            "a region that follows something has no motion of its own: remove velocity and motion");
     const bool with_box = strcmp(c->is->follow, "sph.box") == 0;
     if (with_box && !box_motion_wanted(c->used))
         params_fault(c->r->params, c->f, key_of(c, "follow"),
@@ -450,11 +451,10 @@ static void check_motion(const struct check *c, const struct regions *g)
     const double dt = sph_params_dt(&fine, c->r->scene.fluid.nu, fine.c0, NULL);
     const double most = 0.5 * ldexp(c->used->dx, -s->finest);
     if (s->speed * dt > most) {
-        params_fault(
-            c->r->params, c->f, key,
-            "%.4g m/s: the region goes %.3g dx of level %d in a step of %.3g s, at most 0.5 "
-            "are allowed; %.4g m/s are, or a larger sph.c0",
-            s->speed, s->speed * dt / (2.0 * most), s->finest, dt, most / dt);
+        params_fault(c->r->params, c->f, key,
+                     "%.4g m/s: the region moves %.3g dx of level %d in a step of %.3g s, at most "
+                     "0.5 are allowed; %.4g m/s are, or a larger sph.c0",
+                     s->speed, s->speed * dt / (2.0 * most), s->finest, dt, most / dt);
         return;
     }
     double lo[3], hi[3], d[BODY_AXES], dd[BODY_AXES], ddd[BODY_AXES];

@@ -182,7 +182,8 @@ static void describe_cause(const struct sph *s, const struct culprit *c, const s
     const double expected = s->watch.reference;
     const double speed = c->fault < 1e300 ? c->speed : c->started[0];
     if (s->prm.cfl > bound)
-        snprintf(d->likely, n, "sph.cfl = %.3g is above what this scheme bears, %.2g: lower it",
+        snprintf(d->likely, n,
+                 "sph.cfl = %.3g is above the stability bound of this scheme, %.2g: lower it",
                  s->prm.cfl, bound);
     else if (s->max_mach > 0.2 && s->c0 < 5.0 * expected)
         snprintf(d->likely, n,
@@ -201,11 +202,10 @@ static void describe_cause(const struct sph *s, const struct culprit *c, const s
                  "leave it out, or raise sph.c0 = %.4g m/s",
                  s->prm.density_limit, s->max_mach, s->c0);
     else if (p->wall < s->dx && speed > 2.0 * expected)
-        snprintf(
-            d->likely, n,
-            "a wall throws it out: the scene makes %.3g m/s at most; refine sph.dx = %.3g m at "
-            "this corner, or take another sph.walls",
-            expected, s->dx);
+        snprintf(d->likely, n,
+                 "a wall ejects it: the scene makes %.3g m/s at most; refine sph.dx = %.3g m at "
+                 "this corner, or take another sph.walls",
+                 expected, s->dx);
     else if (p->near > 0 && p->pair < 0.2 * s->dx)
         snprintf(d->likely, n,
                  "two particles have run into each other: set sph.transport = \"tvs\", refine "
@@ -213,8 +213,8 @@ static void describe_cause(const struct sph *s, const struct culprit *c, const s
                  s->dx, s->c0);
     else if (speed > 0.2 * s->c0)
         snprintf(d->likely, n,
-                 "the flow is faster than the %.3g m/s that the scene lets expect: raise sph.c0 = "
-                 "%.4g m/s to ten times its speed",
+                 "the flow is faster than the %.3g m/s expected in the scene: raise sph.c0 = %.4g "
+                 "m/s to ten times its speed",
                  expected, s->c0);
     else
         snprintf(d->likely, n,

@@ -91,7 +91,7 @@ void sph_watch_create(struct sph *s)
              "refine sph.dx = %.4g m, lower sph.cfl = %.3g, or raise sph.c0 = %.4g m/s", s->dx,
              s->prm.cfl, s->c0);
     snprintf(w->remedy[REMEDY_WALLS], sizeof w->remedy[REMEDY_WALLS],
-             "particles pass the walls and are put back: refine sph.dx = %.4g m, or try another "
+             "particles pass the walls and are returned: refine sph.dx = %.4g m, or try another "
              "sph.walls",
              s->dx);
     snprintf(w->remedy[REMEDY_SCHEME], sizeof w->remedy[REMEDY_SCHEME],
@@ -102,13 +102,13 @@ void sph_watch_create(struct sph *s)
                                            .likely = w->remedy[REMEDY_C0],
                                            .warn = 0.3,
                                            .stop = 1.0};
-    w->of[SPH_WATCH_ENERGY] =
-        (struct watch){.key = "energy_gain",
-                       .what = "energy that the flow gained from nowhere in 100 steps, over its "
-                               "kinetic energy and 5 % of that of the reference speed",
-                       .likely = w->remedy[REMEDY_DX],
-                       .warn = sph_watch_moves(&s->run->scene) ? 0.03 : 0.01,
-                       .stop = 0.1};
+    w->of[SPH_WATCH_ENERGY] = (struct watch){
+        .key = "energy_gain",
+        .what = "energy that the flow gained beyond the work done on it in 100 steps, over its "
+                "kinetic energy and 5 % of that of the reference speed",
+        .likely = w->remedy[REMEDY_DX],
+        .warn = sph_watch_moves(&s->run->scene) ? 0.03 : 0.01,
+        .stop = 0.1};
     w->of[SPH_WATCH_PAIRED] = (struct watch){.key = "paired",
                                              .what = "share of particles within 0.1 dx of another",
                                              .likely = clump_remedy(&s->prm),
@@ -116,7 +116,7 @@ void sph_watch_create(struct sph *s)
                                              .stop = 0.9};
     w->of[SPH_WATCH_PUT_BACK] =
         (struct watch){.key = "put_back",
-                       .what = "share of particles put back from behind walls in 100 steps",
+                       .what = "share of particles returned from behind walls in 100 steps",
                        .likely = w->remedy[REMEDY_WALLS],
                        .warn = 0.5,
                        .stop = 5.0};
