@@ -192,7 +192,7 @@ static const char *slip(const char *s)
     if (has_decimal_comma(s))
         return "decimal numbers take a point, as in 0.01";
     if (open && strchr(open, ','))
-        return "use ( ) for vectors: [ ] wants all numbers of one kind";
+        return "use ( ) for vectors: [ ] needs all numbers of one kind";
     if (has_bare_word(s))
         return "truth values are true and false; text stands in quotes";
     if (has_unit(s))

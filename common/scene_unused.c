@@ -76,11 +76,11 @@ static void check_wall(const struct scene *s, const struct params *p, struct fau
     check_key(p, f, "walls", k, "flip", mesh, "it turns the normals of a mesh: turn the points");
     check_key(p, f, "walls", k, "thin", mesh, "it is of a mesh");
     check_key(p, f, "walls", k, "velocity", w->kind != WALL_SLIP && (!out || w->carried),
-              out ? "at an outflow the pressure is given, the velocity is found"
+              out ? "at an outflow the pressure is given, the velocity follows"
                   : "a slip wall exerts no friction; no_slip does");
     check_key(p, f, "walls", k, "profile", w->kind == WALL_INFLOW, "only an inflow has a profile");
     check_key(p, f, "walls", k, "pressure", (out && !w->carried) || w->kind == WALL_ABSORBING,
-              opening ? "the velocity is given here, the pressure is found"
+              opening ? "the velocity is given here, the pressure follows"
                       : "a wall has none; outflow and absorbing have");
     check_key(p, f, "walls", k, "carried", out, "only an outflow can be");
 }

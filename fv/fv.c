@@ -69,7 +69,7 @@ static void describe(const struct run *r)
     const struct log_use uses[] = {
         {viscous, "implicit viscosity", NULL}, {water, "free surface (level set)", NULL},
         {walls, "walls and openings", NULL},   {blocked_count() > 0, "blocked boxes", NULL},
-        {hole, "given cells", NULL},           {r->coupled, "coupling", NULL}};
+        {hole, "imposed cells", NULL},         {r->coupled, "coupling", NULL}};
     log_say("%dD, fourth-order averages, %s, %s", d->dim, report_method(r),
             closed  ? "exact velocity on sides without a wall"
             : walls ? "walls"

@@ -85,7 +85,7 @@ job "$two" "2 giver grid=g:8:8 put=T:g:1:3:start" "1 taker points=x:2:60:0 patch
 off taker T 1e-11 "a patch, followed in time"
 job "$two" "1 giver points=a:2:900:0 put=T:a:1:1:end" "1 taker points=x:2:60:0.15 get=T:x:1:1:2:0.5"
 [ $code = 4 ] || bad "nothing at the start: exit $code, wanted 4"
-says 'taker wants T of giver as it was at the start of coupling step 0, but giver has put none' "nothing at the start"
+says 'taker needs T of giver as it was at the start of coupling step 0, but giver has put none' "nothing at the start"
 job "$two" "1 giver points=a:2:9:0 put=T:a:1:1:end" "1 taker points=x:2:6:2 get=T:x:1:1:1:1.5"
 refused 'T: t = 0.375 s is not in the coupling step 0 .. 0.25 s' "a read outside of the window"
 

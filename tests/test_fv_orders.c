@@ -22,7 +22,8 @@ static void errors_fall(const char *const *common, const char *more, double t, d
 }
 
 /* At CFL 1, as the case has it. The default of tol_viscous falls with the cells, or its error would
- * stay where that of the cells falls (from 64 to 128 by 2.5 orders, and not at all in vorticity). */
+ * stay where that of the cells falls (from 64 to 128 by 2.5 orders, and not at all in vorticity).
+ */
 static void taylor_green_converges(void **state)
 {
     static const char *const step[] = {"fv.cfl=1", NULL};

@@ -44,7 +44,7 @@ def _doubles(v, n, what):
     a = v if isinstance(v, array) and v.typecode == "d" else array("d", memoryview(v).cast("B").cast("d") if
                                                                   hasattr(v, "__array_interface__") else v)
     if n is not None and len(a) != n:
-        raise Error(-2, "%s: %d numbers, wanted %d" % (what, len(a), n))
+        raise Error(-2, "%s: %d numbers, expected %d" % (what, len(a), n))
     return (C.c_double * len(a)).from_buffer(a) if len(a) else (C.c_double * 1)()
 
 

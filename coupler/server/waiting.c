@@ -72,7 +72,7 @@ bool rendezvous_skipped(const struct coupler *c, char *text)
             if (there || b->tick <= l->asked_tick || !b->put[r])
                 continue;
             problem(text,
-                    "%s wants %s of %s as it was at the start of coupling step %lld, but %s has "
+                    "%s needs %s of %s as it was at the start of coupling step %lld, but %s has "
                     "put none there: before the first one, values are put after cpl_ready",
                     c->solver[l->taker].name, g->field[l->gfield].name, g->name,
                     (long long)l->asked_tick, g->name);

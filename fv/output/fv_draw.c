@@ -81,6 +81,6 @@ void fv_draw(const struct run *r, struct picture *p)
     if (prm->graded[1] > 0.0 && d->dim == 2) {
         const double y = prm->graded[0], line[2][2] = {{d->min[0], y}, {d->max[0], y}};
         picture_line(p, PICTURE_CELLS, 2, line, false, false, false);
-        picture_text(p, (const double[]){d->min[0], y, 0.0}, "even rows above");
+        picture_text(p, (const double[]){d->min[0], y, 0.0}, "equal layers above");
     }
 }

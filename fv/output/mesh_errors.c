@@ -418,7 +418,7 @@ static void describe_scene(const struct run *r, const struct mesh *m)
                                    {m->has_fringe, "interpolation where blocks overlap", NULL},
                                    {g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0, "gravity", NULL},
                                    {moves, "moving blocks", NULL},
-                                   {m->has_given, "given cells", NULL},
+                                   {m->has_given, "imposed cells", NULL},
                                    {r->coupled, "coupling", NULL}};
     log_say("%dD, fourth-order averages, %s; sides: %s", m->dim, report_method(r), sides);
     log_uses(uses, (int)(sizeof uses / sizeof *uses));

@@ -83,8 +83,8 @@ static void check_openings(const struct run *r, const struct sph_params *used, s
         snprintf(key, sizeof key, "walls.[%d].kind", k);
         if (surface && c->walls[k].kind >= WALL_INFLOW)
             params_fault(r->params, f, key,
-                         "inlets and outlets do not know where a free surface stands: fill the "
-                         "domain (no shapes), make it periodic, or close it with walls");
+                         "inlets and outlets have no level of a free surface: fill the domain (no "
+                         "shapes), make it periodic, or close it with walls");
     }
     for (int side = 0; side < 2 * c->domain.dim && !surface; side++)
         check_outlet(r, side, f);
@@ -241,7 +241,7 @@ static void check_gauges(const struct run *r, struct faults *f)
             params_fault(r->params, f, key,
                          "%s: gauges of levels read columns along gravity, which must point along "
                          "an axis (its part along a periodic one does not count). A pressure gauge "
-                         "knows no such rule",
+                         "stands anywhere",
                          c->probes[k].name);
         else if (c->probes[k].kind == PROBE_SHORE && !(g[1] < 0.0))
             params_fault(r->params, f, key, "%s: a shore is read where gravity points along -y",

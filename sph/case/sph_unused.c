@@ -96,14 +96,14 @@ static const struct {
     {"sph.viscosity", VISCOUS, "fluid.nu is 0: nothing viscous is computed"},
     {"sph.cfl_viscous", VISCOUS, "fluid.nu is 0: nothing viscous limits dt"},
     {"sph.background", NO_SURFACE, "the pressure of a free surface is 0"},
-    {"sph.walls", WALLS, "the particles meet no wall and no body"},
+    {"sph.walls", WALLS, "the particles have no wall and no body"},
     {"sph.wall_integrals", TRIANGLES, "no normal flux walls of triangles: those are of 3D"},
     {"sph.wall_squares", CLIPPED, "sph.wall_integrals is not clipped"},
     {"sph.packing", PACKED, "without walls, bodies and noise the lattice is uniform already"},
     {"sph.extrema", PLANE, "centre lines are read in two dimensions only"},
     {"sph.outer", OUTER,
-     "no side of the particles' region is open, or inlets and boxes say what is "
-     "outside; sides wants an inlet or an outlet among the walls"},
+     "no side of the particles' region is open, or inlets and boxes say what is outside; sides "
+     "needs an inlet or an outlet among the walls"},
 };
 
 /* Of the shared groups: counted by a partner, if there is one. */

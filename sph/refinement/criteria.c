@@ -86,7 +86,7 @@ struct criteria *criteria_create(struct regions *g)
         struct grid *q = c->grid + n;
         if (!marks_create(&q->cells, g->dim, g->domain.lo, g->domain.hi, g->periodic, g->open,
                           regions_R(g, n - 1), CELLS_MOST))
-            fail("criteria of level %d want more than %g cells", n, CELLS_MOST);
+            fail("criteria of level %d need more than %g cells", n, CELLS_MOST);
         const size_t cells = marks_count(&q->cells);
         q->value = NEW(double, cells);
         q->until = NEW(double, cells);
