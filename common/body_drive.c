@@ -1,4 +1,4 @@
-/* body_drive.c - motion as told: files, harmonic terms, polynomials; they add up. Velocities are
+/* body_drive.c - prescribed motion: files, harmonic terms, polynomials; they add up. Velocities are
  * the exact derivatives of the places. SPDX-License-Identifier: BSD-3-Clause */
 #include "body_drive.h"
 

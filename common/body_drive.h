@@ -1,5 +1,5 @@
-/* body_drive.h - motion as told of rigid bodies: files, harmonic terms, polynomials; they add up.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* body_drive.h - prescribed motion of rigid bodies: files, harmonic terms, polynomials; they add
+ * up. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_BODY_DRIVE_H
 #define COMMON_BODY_DRIVE_H
 

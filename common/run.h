@@ -88,15 +88,17 @@ struct program {
      * last steps are shared out evenly); returns the dt done and sets d->bad (on all ranks) when
      * the state cannot be trusted. */
     double (*step)(void *s, double t_stop, struct diagnosis *d);
-    /* Coupled: longest window that suits it, s; NULL: no wish. */
+    /* Coupled: longest coupling step that suits it, s; NULL: no wish. */
     double (*window_wish)(void *s);
-    /* Coupled: what a giver of fields hands over before the first window; NULL if nothing. */
+    /* Coupled: what a giver of fields hands over before the first coupling step; NULL if nothing.
+     */
     void (*first)(void *s);
-    /* Coupled: before the first step of a window and after its last; NULL when never coupled. */
+    /* Coupled: before the first step of a coupling step and after its last; NULL when never
+     * coupled. */
     void (*window_begin)(void *s, double t0, double t1);
     void (*window_end)(void *s, double t1);
-    /* Coupled: sums over its own part of the flow at the end of a window, as "sum.kinetic"; the
-     * coupler adds them up. NULL: none. Collective. */
+    /* Coupled: sums over its own part of the flow at the end of a coupling step, as "sum.kinetic";
+     * the coupler adds them up. NULL: none. Collective. */
     void (*tell)(void *s, struct summary *report);
     /* Columns of series.csv beyond "t [s]", "dt [s]", and their values (on rank 0); collective. */
     const char *const *columns;
@@ -129,12 +131,12 @@ struct partner {
     int (*ready)(void *ctx, double t, double dt_wish);
     /* Next window. false: the end, *code says which (RUN_DONE, RUN_STOPPED or RUN_DIVERGED). */
     bool (*window)(void *ctx, double *t0, double *t1, bool *output, bool *save, int *code);
-    /* The window is done; numbers of `report' go to the coupler's progress line and summary; stop:
-     * asks for an orderly end. */
+    /* The coupling step is done; numbers of `report' go to the coupler's progress line and summary;
+     * stop: asks for an orderly end. */
     void (*advance)(void *ctx, double t1, const struct summary *report, bool stop);
-    /* A restart file of this window is complete on disk. */
+    /* A restart file of this coupling step is complete on disk. */
     void (*saved)(void *ctx, int64_t window, const char *file);
-    int64_t (*window_number)(void *ctx); /* of the window under way or last done */
+    int64_t (*window_number)(void *ctx); /* of the coupling step under way or last done */
     double (*waited)(void *ctx);         /* s spent waiting for partners */
     /* (In calls: (p->fail)(...), for fail() is a macro.) Tells all partners why this program stops
      * and ends the job with this code; does not return. */
@@ -168,7 +170,7 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
  * restart is set. On force the program's old files are removed. Collective. */
 int run_folder(MPI_Comm comm, const char *dir, const char *name, bool force, bool restart);
 /* Removes the restart files of a program in its folder that come before the newest, but for the one
- * before it. What is newer (of a window under way) stays. */
+ * before it. What is newer (of a coupling step under way) stays. */
 /* A fault at `key' if n units (particles, cells), bytes in all, are more than this program's ranks
  * can count or their hosts can hold. Collective. */
 void run_check_memory(const struct run *r, struct faults *f, const char *key, double n,

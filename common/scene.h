@@ -87,7 +87,7 @@ struct scene {
         double velocity[3]; /* m/s: of the wall along itself, or of the inflow */
         int profile;        /* of an inflow */
         double pressure;    /* Pa: at an outflow */
-        bool carried;       /* fv: velocity of an outflow carried, instead of p given */
+        bool carried;       /* fv: velocity of a convective outflow, instead of p given */
     } walls[WALLS_MAX];
     int nwalls;
     struct scene_body bodies[BODIES_MAX]; /* scene_body.h */
@@ -112,11 +112,11 @@ struct scene {
     } probes[PROBES_MAX];
     int nprobes;
     struct scene_coupling {
-        int steps;         /* SPH steps in a window; 0: automatic */
+        int steps;         /* SPH steps in a coupling step; 0: automatic */
         double transition; /* m; 0: 1.25 R */
         double buffer;     /* m; 0: 1.25 R */
         double overlap;    /* m; 0: 1.25 R: of the free zone, outside the forced cells */
-        int memory;        /* windows over which FV's pressure is smoothed; 0: automatic */
+        int memory;        /* coupling steps over which FV's pressure is smoothed; 0: automatic */
         bool keep_mass;    /* what SPH's part gained goes out by the openings; without a surface */
         int mapping;       /* 0 shepard, 1 mls: particles to forced cells */
         int interpolation; /* 0 linear, 1 cubic: patch to particles */

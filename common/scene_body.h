@@ -13,7 +13,7 @@ enum body_axis { AXIS_X, AXIS_Y, AXIS_Z, AXIS_RX, AXIS_RY, AXIS_RZ, BODY_AXES };
 enum force_rule { FORCE_CONSERVING, FORCE_AVERAGE };
 enum { MOTIONS_MAX = 32, LINES_MAX = 8, BODY_NEVER = 1000000000 };
 
-/* One term of a motion as told; all of a body's add up. */
+/* One term of a prescribed motion; all of a body's add up. */
 struct scene_motion {
     int kind, axis;                    /* enum motion_kind, body_axis */
     char file[PARAM_TEXT_SIZE];        /* rows t, x, y, angle; 3D: t, x, y, z, rx, ry, rz */

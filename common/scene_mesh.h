@@ -1,5 +1,5 @@
-/* scene_mesh.h - the triangles of a scene's walls, bodies and shapes: read, mended, given the sense
- * that they must have. SPDX-License-Identifier: BSD-3-Clause */
+/* scene_mesh.h - the triangles of a scene's walls, bodies and shapes: read, repaired, given the
+ * sense that they must have. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_SCENE_MESH_H
 #define COMMON_SCENE_MESH_H
 

@@ -22,7 +22,7 @@ struct tree_foot {
     double foot[3];  /* m */
     double n[3];     /* unit pseudonormal */
     int triangle;
-    bool rim; /* on the rim of an open surface: the side means nothing */
+    bool rim; /* on the boundary edge of an open surface: the side means nothing */
 };
 struct tree_foot tree_nearest(const struct tree *t, const double x[3], double reach);
 /* Whether the segment a -> b meets a triangle; where: share of the way to the first, may be NULL.

@@ -12,7 +12,7 @@ struct trimesh {
     int nvertices, ntriangles;
     double (*x)[3];      /* [nvertices], m */
     int (*vertex)[3];    /* [ntriangles] */
-    int (*neighbour)[3]; /* [ntriangles] across the edge k -> k+1; -1: rim of an open surface */
+    int (*neighbour)[3]; /* [ntriangles] across the edge k -> k+1; -1: edge of an open surface */
     int *part;           /* [ntriangles] connected part, from 0 */
     int nparts;
     bool closed; /* every part is */

@@ -22,8 +22,8 @@ struct trimesh_sizes trimesh_sizes(const struct trimesh *m);
 /* A closed part with its normals into what it encloses, a part inside of another one the other
  * way round; sign -1: all the reverse. Returns how many parts were turned. */
 int trimesh_orient_closed(struct trimesh *m, int sign);
-/* Of an open surface: volume under a lid from the middle of its rim, and its mean normal by area,
- * of length 0 of a closed one, 1 of a plane. Returns that length. */
+/* Of an open surface: volume under a cover from the middle of its boundary, and its mean normal by
+ * area, of length 0 of a closed one, 1 of a plane. Returns that length. */
 double trimesh_openness(const struct trimesh *m, double *volume, double normal[3]);
 /* 64-bit FNV-1a of vertices and triples. */
 uint64_t trimesh_hash(const struct trimesh *m);
