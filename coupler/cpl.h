@@ -1,6 +1,7 @@
 /* cpl.h - what a solver calls to take part in a coupled job.
  * The only header that a third-party solver needs; link with -lcpl and MPI. coupler/README.md has a
- * page "your solver in ten calls", coupler/examples/ a plain partner.
+ * page "your solver in ten calls", coupler/examples/ a plain partner. A window is a coupling
+ * step: the time from one exchange to the next.
  *
  * All calls are collective over the solver's communicator, but cpl_fail, cpl_waited, cpl_heard,
  * cpl_window_number, cpl_version, cpl_strerror, cpl_cell and cpl_patch_eval. Lengths are in m,
@@ -61,9 +62,9 @@ int cpl_version(void);
 /* cpl_open for those who cannot include this header: `version' is the one they were written for. */
 int cpl_open_as(int version, MPI_Comm world, const char *name, double deadline_s, struct cpl **c,
                 MPI_Comm *mine);
-/* Meets all ranks of `world' within `deadline_s'. Programs are told apart by `name', not by place.
- * *mine: the ranks of this name (belongs to the library). *c is NULL, and all is well, when no
- * other program is there: the solver runs alone. */
+/* Handshake with all ranks of `world' within `deadline_s'. Programs are told apart by `name', not
+ * by place. *mine: the ranks of this name (belongs to the library). *c is NULL, and all is well,
+ * when no other program is there: the solver runs alone. */
 static inline int cpl_open(MPI_Comm world, const char *name, double deadline_s, struct cpl **c,
                            MPI_Comm *mine)
 {
@@ -80,7 +81,7 @@ int cpl_zone(struct cpl *c, const char *zone, const double lo[3], const double h
 /* Compares the hash of the case, the restart window (-1: fresh start) and the number of faults that
  * each program found in its input; CPL_EINPUT on all programs if any differs or is not zero.
  * case_hash 0: this solver does not read the case (-p and all), so that nothing can be compared.
- * dir: the job's output folder (death note, manifest). */
+ * dir: the job's output folder (error report, manifest). */
 int cpl_meet(struct cpl *c, uint64_t case_hash, int64_t restart_window, int faults,
              const char *dir);
 /* CPL_EINPUT if nobody published it. */
@@ -162,8 +163,8 @@ int cpl_tell(struct cpl *c, const char *key, double value);
 int cpl_advance(struct cpl *c, double t1, int stop);
 /* A restart file (a name of at most 255 bytes, without spaces) of the current window is complete.
  * The manifest DIR/checkpoint.txt is written when all have said so: lines "window N", "t T",
- * "PROGRAM FILE". To go on from there: the coupler with --restart, cpl_meet with N, cpl_ready with
- * T. */
+ * "PROGRAM FILE". To continue from there: the coupler with --restart, cpl_meet with N, cpl_ready
+ * with T. */
 int cpl_saved(struct cpl *c, const char *file);
 
 int64_t cpl_window_number(const struct cpl *c);
@@ -177,7 +178,7 @@ const char *cpl_strerror(const struct cpl *c);
 /* Leaves a note with the reason and ends the whole job with this exit code; any rank may call. Does
  * not return. */
 void cpl_fail(struct cpl *c, int code, const char *reason);
-/* Says goodbye and waits for the others to do so; sets *c to NULL. Returns the exit code of the
+/* Leaves the job and waits for the others to do so; sets *c to NULL. Returns the exit code of the
  * job, which is 1 on all programs when the job's results are not accepted; `code' when c is NULL or
  * the job was refused. Before CPL_STOP it is a failure of this program. */
 int cpl_close(struct cpl **c, int code);

@@ -42,7 +42,7 @@ while (w := job.window()):
         job.put(out, t0, [1.0, 2.0])
         sys.exit("no error of a list that is too short")
     except estran.Error as e:
-        assert "2 numbers, wanted 16" in e.args[1]
+        assert "2 numbers, expected 16" in e.args[1]
     got, mask = job.get(t_, t1)
     assert list(mask) == [1] * 6 and max(abs(v - f(*p, t1)) for v, p in zip(got, at)) < 1e-11
     job.patch(g_, (0, 0), (1, 1), estran.END)

@@ -81,7 +81,7 @@ struct cpl {
     int nsets, nfields;
     struct client_set set[LIMIT_SETS];
     struct client_field field[LIMIT_FIELDS];
-    int64_t window; /* number of the window under way or last done; before: of the first */
+    int64_t window; /* number of the coupling step under way or last done; before: of the first */
     double t0, t1, waited, heard;
     struct pack told; /* key, value; empty: not begun */
     int64_t ntold;

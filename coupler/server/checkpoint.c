@@ -1,5 +1,5 @@
 /* checkpoint.c - a restart point exists when its manifest does: written, by rename, when every
- * program has its file of the same window on disk. SPDX-License-Identifier: BSD-3-Clause */
+ * program has its file of the same coupling step on disk. SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
 #include <stdio.h>

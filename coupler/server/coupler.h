@@ -1,6 +1,6 @@
 /* coupler.h - the whole state of the coupler and what its modules offer each other. Its ranks know
- * the same plan; rank 0 alone decides windows and writes files, all of them bring fields together.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * the same plan; rank 0 alone decides coupling steps and writes files, all of them bring fields
+ * together. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_COUPLER_H
 #define COUPLER_COUPLER_H
 
@@ -18,7 +18,7 @@
 
 enum { TEXT = 4096 };
 
-/* What one program told: its last word for each key, in the order of their first mention. */
+/* What one program reported: its last value for each key, in the order of their first mention. */
 struct told {
     int n;
     bool full; /* and said so */
@@ -55,8 +55,8 @@ struct solver {
         int ntakers, taker[LIMIT_TAKERS]; /* giver: the links of its takers */
         int64_t last_tick; /* giver: of its last put, as of its last advance or get */
     } field[LIMIT_FIELDS];
-    int64_t advanced;                      /* last window done, -1: none */
-    int byes, code;                        /* ranks that said goodbye; the worst code among them */
+    int64_t advanced;                      /* last coupling step done, -1: none */
+    int byes, code;                        /* ranks that have closed; the worst code among them */
     double waited, cpu;                    /* s; cpu summed over ranks, known at the end */
     double heard;                          /* wire_time of its last message */
     double advanced_at;                    /* wall time of its last advance */
@@ -116,7 +116,7 @@ struct coupler {
     struct solver solver[HANDSHAKE_PROGRAMS];
     int nlinks;
     struct link link[LIMIT_LINKS];
-    /* time: window k of n spans k/n to (k+1)/n of the way from t_start to t_end */
+    /* time: coupling step k of n spans k/n to (k+1)/n of the way from t_start to t_end */
     double t_start, t_end;
     int64_t nwindows, window, first_window, output_every; /* window: under way */
     int action;
@@ -124,22 +124,22 @@ struct coupler {
     int code;
     double start, line_at, line_every, save_wall, stall_at, stall_every;
     double idle, bound;  /* s waited; simulated time of the next checkpoint */
-    int64_t said;        /* window that failure_doing knows */
+    int64_t said;        /* coupling step that failure_doing knows */
     int64_t line_window; /* of the last progress line */
-    /* A solver tells of its restart file after it has ended the window, when the next may be under
-     * way; never two later. By window & 1. */
+    /* A solver tells of its restart file after it has ended the coupling step, when the next may be
+     * under way; never two later. By window & 1. */
     struct save {
         int64_t window;
         int n; /* solvers whose file is complete */
         char file[HANDSHAKE_PROGRAMS][SAVED_NAME];
     } save[2], last;   /* last: the restart point before */
-    struct sums *sums; /* sums.c; NULL: nobody tells any */
+    struct sums *sums; /* sums.c; NULL: nobody reports any */
 };
 
 /* One more problem in a list that all programs print. */
 void problem(char *text, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 
-/* plan.c: what the programs have told about themselves. */
+/* plan.c: what the programs have declared. */
 void plan_take_meet(struct coupler *c, struct solver *s, struct message *m);
 void plan_take_ready(struct coupler *c, struct solver *s, struct message *m);
 void plan_check_meet(struct coupler *c, char *text);
@@ -172,7 +172,7 @@ void rendezvous_close(struct coupler *c);
 void checkpoint_resume(struct coupler *c); /* rank 0, at a restart */
 void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m);
 
-/* sums.c: rank 0; at the end of a window, at the end of the job. */
+/* sums.c: rank 0; at the end of a coupling step, at the end of the job. */
 void sums_window(struct coupler *c);
 void sums_summarise(const struct coupler *c, struct summary *to);
 void sums_free(struct coupler *c);

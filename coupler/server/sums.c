@@ -1,5 +1,5 @@
-/* sums.c - sums over the whole flow at the end of every window, each program adding its own part:
- * series.csv of the job, and what an oscillation with an exact solution shows at the end.
+/* sums.c - sums over the whole flow at the end of every coupling step, each program adding its own
+ * part: series.csv of the job, and what an oscillation with an exact solution shows at the end.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 

@@ -1,5 +1,5 @@
-/* window.c - integer time. All windows of a job are equal and known by number: window k spans
- * k/n to (k+1)/n of the job's time, and all programs get the same two doubles.
+/* window.c - integer time. All coupling steps of a job are equal and known by number: coupling step
+ * k spans k/n to (k+1)/n of the job's time, and all programs get the same two doubles.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 

@@ -1,6 +1,6 @@
-/* failure.h - how a job ends when one of its programs fails: a note on disk says why, everybody
- * prints it. Open MPI 4.1 reports no error for a dead peer; whoever waits therefore looks whether
- * the processes of its own host still live. Part of libcpl.a: depends on MPI alone.
+/* failure.h - how a job ends when one of its programs fails: an error report on disk, which
+ * everybody prints. Open MPI 4.1 reports no error for a dead peer; whoever waits therefore looks
+ * whether the processes of its own host still live. Part of libcpl.a: depends on MPI alone.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_FAILURE_H
 #define COUPLER_FAILURE_H
@@ -19,7 +19,8 @@ void failure_elsewhere(const char *program, const char *host);
 const char *failure_hint(void);
 /* Where the note goes; before, there is none. */
 void failure_path(const char *path);
-/* What is going on, for the last words: "in window 12, waiting for velocity of sph". Copied. */
+/* What is going on, for the last words: "in coupling step 12, waiting for velocity of sph". Copied.
+ */
 void failure_doing(const char *text);
 
 /* True if a watched process is gone; the note then says so. Safe in signal handlers. */

@@ -1,4 +1,4 @@
-/* handshake.h - who is in this job: every rank tells every other its program's name, within a
+/* handshake.h - who is in this job: every rank sends every other its program's name, within a
  * deadline; then one communicator per program and one intercommunicator per solver with "coupler".
  * Part of libcpl.a: depends on MPI alone. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_HANDSHAKE_H

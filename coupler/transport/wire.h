@@ -17,16 +17,16 @@ enum { TOLD_KEYS = 192, TOLD_KEY = 96, SAVED_NAME = 256 }; /* bytes with the clo
 
 /* Solver to coupler, or coupler to solver (>), in the order of a job. */
 enum wire_kind {
-    WIRE_MEET = 1, /* hash, restart window, faults, zones */
+    WIRE_MEET = 1, /* hash, restart coupling step, faults, zones */
     WIRE_MET,      /* > accepted, or all problems; all zones */
-    WIRE_READY,    /* sets and fields, time, longest window */
+    WIRE_READY,    /* sets and fields, time, longest coupling step */
     WIRE_PLAN,     /* > accepted, or all problems; where fields come from */
     WIRE_WINDOW,   /* > number, start, end, action */
     WIRE_GET,      /* wants a field at a tick: new places or box, if they changed */
     WIRE_NEED,     /* > from now on, values in this region are wanted */
     WIRE_PUT,      /* values in that region */
     WIRE_VALUES,   /* > the answer to WIRE_GET */
-    WIRE_ADVANCE,  /* window done, told numbers, stop wanted */
+    WIRE_ADVANCE,  /* coupling step done, told numbers, stop wanted */
     WIRE_SAVED,    /* restart file complete */
     WIRE_BYE,      /* last message to each coupler rank */
     WIRE_BYE_ACK,  /* > exit code of the job */
@@ -40,7 +40,7 @@ struct wire_head {
     int32_t generation; /* of the region that a put answers, of the places that values belong to */
     int32_t taker;      /* needs and puts: which of the field's takers, from 0 */
     int32_t terms;      /* puts and values: coefficients in time of each component, from 1 */
-    int64_t tick;       /* number of windows before the time of the values, or of the window */
+    int64_t tick;       /* coupling steps before the time of the values, or of the step */
     int64_t count;      /* items */
     int64_t bytes;      /* of the body */
     double t;           /* s */
