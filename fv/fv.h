@@ -45,7 +45,7 @@ struct fv_params {
     double extrema[3];   /* m/s: known ones on the centre lines, see fv_lines.c; 0: none */
     int surface;         /* enum fv_surface */
     double force[3];  /* N, N, 1/s: known mean along x, amplitude along y, its frequency; 0: none */
-    int forced_order; /* in time, of partners' data within a window: 1 linear, 2 quadratic */
+    int forced_order; /* in time, of partners' data within a coupling step: 1 linear, 2 quadratic */
 };
 
 struct mesh;     /* blocks; grid/mesh.h */
@@ -57,7 +57,7 @@ struct moving;   /* blocks that move; time/moving.h; NULL: none do */
 struct bc;       /* walls and openings; bc.h; NULL: none */
 struct blocked;  /* boxes cut out; boundary/blocked.h; NULL: none */
 struct forcing;  /* cells whose velocity is imposed; forcing.h; NULL: none */
-struct outflows; /* sides that the flow leaves as it is carried; outflow.h; NULL: none */
+struct outflows; /* convective outflows; outflow.h; NULL: none */
 struct surface;  /* free surface; levelset.h; NULL: none */
 struct newton;   /* the implicit integrator; newton.h; NULL: another one */
 struct link;     /* place in a coupled job; fv_coupling.c; NULL alone */
@@ -121,14 +121,14 @@ struct fv {
     struct newton *newton;
     struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;
-    double datum;  /* Pa: the partner's pressure over ours, to be added in output; 0 alone */
-    bool predicts; /* its steps will be taken back: nothing in them is to be judged or counted */
-    double dt_now; /* s: of the step under way */
+    double datum;      /* Pa: the partner's pressure over ours, to be added in output; 0 alone */
+    bool predicts;     /* its steps will be undone: nothing in them is to be judged or counted */
+    double dt_now;     /* s: of the step under way */
     double dt, dt_old; /* s: last step, 0 before the first; the one before it */
     int npartners;
     double partner[PARTNERS_MAX][2][3]; /* m: box that each partner counts as its own */
     bool partner_moves[3];              /* one of these moves along the axis */
-    double *past[2][3];   /* m/s: then, where the last window began and the one before */
+    double *past[2][3];   /* m/s: then, where the last coupling step began and the one before */
     unsigned char *born;  /* of blocks with bdf2: 1: computed since born_at, when the box moved */
     double born_at;       /* s */
     double partner_speed; /* m/s: to expect where it has bodies; 0: none */

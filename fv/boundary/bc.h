@@ -12,14 +12,13 @@ struct bc {
     enum mesh_side kind[6]; /* side 2 a + (1 if upper) of axis a */
     bool slides[6];         /* a wall that moves along itself */
     int64_t n[6]; /* places of a side on this rank, ghosts of its tangents included; 0: not here */
-    double *w[6][3];     /* m/s: velocity on the side, averages over faces */
-    double *slip[6][3];  /* m/s: what the next projection takes off the side's velocity */
-    double pressure[6];  /* m^2/s^2: p/rho of an outflow, 0 elsewhere */
-    bool driven;         /* some of it not 0 */
-    bool pressure_given; /* at an outflow: the pressure problem is regular */
-    double
-        *change[6][3]; /* m/s: of w within the step, of carried outflows (outflow.h); else NULL */
-    double outflux;    /* m^dim/s: through this rank's faces of given velocity, outwards */
+    double *w[6][3];      /* m/s: velocity on the side, averages over faces */
+    double *slip[6][3];   /* m/s: what the next projection takes off the side's velocity */
+    double pressure[6];   /* m^2/s^2: p/rho of an outflow, 0 elsewhere */
+    bool driven;          /* some of it not 0 */
+    bool pressure_given;  /* at an outflow: the pressure problem is regular */
+    double *change[6][3]; /* m/s: of w in the step, of convective outflows; else NULL */
+    double outflux;       /* m^dim/s: through this rank's faces of given velocity, outwards */
     double speed, speed_along[3]; /* m/s: largest velocity imposed, and of each component */
     double wall_area;             /* m^(dim-1) of walls, over all ranks; 0: none */
 };

@@ -1,4 +1,4 @@
-/* carried.h - lists of the places of sides that the flow leaves as it is carried (outflow.h).
+/* carried.h - lists of the places of convective outflows (outflow.h).
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_CARRIED_H
 #define FV_CARRIED_H

@@ -8,28 +8,29 @@
 #include "../fv.h"
 
 enum {
-    NEAR = 4,  /* layers of forced cells that get values */
+    NEAR = 4,  /* layers of imposed cells that get values */
     AHEAD = 3, /* more of them where a partner's box moves: they have a past when they come near */
     REACH = 3  /* cells to either side in a one-sided gradient */
 };
 
-/* How a field goes on into forced cells: evenly (psi), by a cubic (p), or as a variation of p. */
+/* How a field is extrapolated into imposed cells: zero gradient (psi), by a cubic (p), or as a
+ * variation of p. */
 enum continuation { CONTINUE_EVEN, CONTINUE_CUBIC, CONTINUE_VARIATION };
 
-/* What the gradient of a free cell near the outline has beyond the plain form: weights of the cells
- * from -REACH to REACH along the axis, 1/m. */
+/* What the gradient of a free cell near the interface has beyond the plain form: weights of the
+ * cells from -REACH to REACH along the axis, 1/m. */
 struct fix {
     int64_t cell;
     double cubic[2 * REACH + 1], even[2 * REACH + 1];
     double given; /* what an outflow's pressure adds to the cubic one, m/s^2 */
 };
 
-/* Who takes the net flux of the outline. A partner knows of no constant density: what it has too
+/* Who takes the net flux of the interface. A partner knows of no constant density: what it has too
  * much must not drive what lies between it and an outflow. */
 enum net_flux {
-    NET_OUTLINE, /* its faces, evenly: it has a whole inside */
+    NET_OUTLINE, /* its faces, uniformly: it has a whole inside */
     NET_SIDES,   /* they do, with that of walls and inflows: nothing leaves elsewhere */
-    NET_OTHERS   /* an outflow, or all cells in the solve for psi: the outline ends there */
+    NET_OTHERS   /* an outflow, or all cells in the solve for psi: the interface ends there */
 };
 
 struct one_sided; /* given_cells.c */
@@ -39,21 +40,21 @@ struct forcing {
     unsigned char *forced; /* [size] 1: forced (ghosts too), 2: behind a closed side, 3: in a
                               blocked box, 4: of blocks: no cell */
     unsigned char
-        *layer; /* [size] of a forced cell: distance from the free ones, 1 ..; 0: deep or free */
-    int64_t nlocal, *local; /* forced cells of this rank */
+        *layer; /* [size] of an imposed cell: distance from the free ones, 1 ..; 0: deep or free */
+    int64_t nlocal, *local; /* imposed cells of this rank */
     int64_t nset,
         *set; /* cells that this rank gives values: local near ones, ghosts behind closed sides */
     int64_t npartner, nrim,
         *partner; /* in the order of a partner's values: npartner local near cells of the hole, then
-                     nrim free ones beside its outline, whose values serve the fluxes alone */
-    int near;     /* layers of forced cells that get values */
+                     nrim free ones beside its interface, whose values serve the fluxes alone */
+    int near;     /* layers of imposed cells that get values */
     bool *known;  /* [size] a partner gives it, ghosts too */
     double *given[3]; /* [size] its velocities at the time of a flux */
     int64_t nfix[3];
     struct fix *fix[3];         /* one-sided gradients along each axis */
     struct one_sided *gradient; /* those of blocks; NULL: no blocks */
-    /* faces of the outline: index in U, sign of the flow out of the fluid, whether this rank counts
-     * it */
+    /* faces of the interface: index in U, sign of the flow out of the fluid, whether this rank
+     * counts it */
     int64_t nface[3], *face[3];
     signed char *sign[3];
     bool *counts[3];
@@ -64,34 +65,34 @@ struct forcing {
                    does */
     bool imposed; /* some rank gives cells the exact velocity */
     enum net_flux net;
-    double *v[3], *v_next[3],
-        *v_old[3]; /* [npartner + nrim] partner's velocities at t0, t1, and the window before */
-    double inflow; /* m/s: added to the flow through the outline, into the free cells, whose surface
-                      lets it in; 0 without a surface */
+    double *v[3], *v_next[3], *v_old[3]; /* [npartner + nrim] partner's velocities at t0, t1, and
+                                            the coupling step before */
+    double inflow; /* m/s: added to the flow through the interface, into the free cells, whose
+                      surface lets it in; 0 without a surface */
     double t0, t1, t_old; /* s */
     int levels;           /* of them known, the newest first: v_next, v, v_old */
 };
 
-/* NULL if nothing is forced. partner: the n boxes (lower, upper corner) are filled by partners,
- * else by the exact solution; cells all of whose corners lie inside one are forced. lo >= hi: no
+/* NULL if nothing is imposed. partner: the n boxes (lower, upper corner) are filled by partners,
+ * else by the exact solution; cells all of whose corners lie inside one are imposed. lo >= hi: no
  * box. */
 struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2][3], bool partner);
 void forcing_free(struct forcing **f);
 /* Ghosts of nf fields from other cells, of either kind of grid. */
 void forcing_halo(const struct fv *s, int nf, double *const *f);
-/* Zero in the forced cells of this rank. */
+/* Zero in the imposed cells of this rank. */
 void forcing_zero(const struct forcing *f, double *q);
-/* The next window, t0 to t1, begins: v_next is v now, and its new values are those of the last
- * windows extrapolated, by a parabola as soon as there are three. A cubic would feed noise back
- * where the loop's gain is half of what parabolas bear. */
+/* The next coupling step, t0 to t1, begins: v_next is v now, and its new values are those of the
+ * last coupling steps extrapolated, by a parabola as soon as there are three. A cubic would feed
+ * noise back where the loop's gain is half of what parabolas bear. */
 void forcing_shift(struct forcing *f, double t0, double t1);
-/* Sets u in the forced cells to their values at time t. */
+/* Sets u in the imposed cells to their values at time t. */
 void forcing_velocity(const struct fv *s, double t, double *const u[3]);
 /* delta -= u in these cells. */
 void forcing_subtract(const struct forcing *f, double *const u[3], double *const delta[3]);
-/* Fluxes of the outline at time t: exact ones where the exact solution is imposed, a partner's
+/* Fluxes of the interface at time t: exact ones where the exact solution is imposed, a partner's
  * where its values reach two cells to both sides, else as they are interpolated; then corrected
- * evenly to no net flux, which a free surface takes. The free cells' own velocities hold the
+ * uniformly to no net flux, which a free surface takes. The free cells' own velocities hold the
  * pressure of the step before: fluxes made of them would let the pressure lag. */
 void forcing_fluxes(const struct fv *s, double t, double *const U[3]);
 /* The partner's newest values where it gave none (mask 0): means of those beside them, layer by
@@ -99,13 +100,13 @@ void forcing_fluxes(const struct fv *s, double t, double *const U[3]);
 void forcing_fill(const struct fv *s, const unsigned char *mask);
 /* How they vary with the velocity that U was interpolated from. */
 void forcing_fluxes_variation(const struct fv *s, double *const U[3]);
-/* Adds to the gradient `out' of q along axis a what continues q into the forced cells: evenly, or
- * by a cubic (of lower degree where fewer than four free cells stand in line). */
+/* Adds to the gradient `out' of q along axis a what extrapolates q into the imposed cells: zero
+ * gradient, or by a cubic (of lower degree where fewer than four free cells stand in line). */
 void forcing_gradient(const struct fv *s, int a, enum continuation how, const double *q,
                       double *out);
 /* forcing_fixes.c: their weights, along axis a. */
 void forcing_list_fixes(const struct fv *s, struct forcing *f, int a);
-/* Extends p into the near forced cells from the free side, `layers' of them, one by one. */
+/* Extends p into the near imposed cells from the free side, `layers' of them, one by one. */
 void forcing_extend(const struct fv *s, int layers, double *p);
 
 /* Exact average over a cell of this rank at t; centre; number in the whole grid, or among the cells
@@ -119,12 +120,12 @@ double forcing_face_area(const struct fv *s, int64_t c, int a);
 /* given_cells.c: of blocks. */
 void given_rows_create(const struct fv *s, struct forcing *f);
 void given_rows_free(struct one_sided **g);
-/* Gradients of computed cells near given ones are those of q continued along the indices. */
+/* Gradients of computed cells near imposed ones are those of q continued along the indices. */
 void given_gradient(const struct fv *s, enum continuation how, const double *q, double *const g[3]);
 /* The i-th cell with such a gradient, and the n places of its stencil; false: there is none. */
 bool given_stencil(const struct forcing *f, int64_t i, int64_t *cell, int64_t *n,
                    const int64_t **place);
-/* psi of given cells beside free ones: the mean of those, as the rows of the matrix have it; sets
+/* psi of imposed cells beside free ones: the mean of those, as the rows of the matrix have it; sets
  * ghosts. */
 void given_mirror(const struct fv *s, double *psi);
 /* m^dim/s: flux of volume through the lower face of c along a: the exact solution's; that of

@@ -1,6 +1,6 @@
-/* forcing_fixes.c - what free cells make of forced ones beside them: one-sided gradients of even
- * cells and rows (of blocks: given_cells.c), and a field that goes on into the forced cells.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* forcing_fixes.c - what free cells make of imposed ones beside them: one-sided gradients of even
+ * cells and rows (of blocks: given_cells.c), and a field that is extrapolated into the imposed
+ * cells. SPDX-License-Identifier: BSD-3-Clause */
 #include "forcing.h"
 
 #include "../../common/mem.h"

@@ -1,8 +1,8 @@
-/* given_cells.c - what computed cells of blocks make of given ones beside them. A gradient is the
- * operators' own (mesh_ops.c) of q that goes on into given cells along the axis of each face value:
- * evenly, or by the cubic through the free cells in line; where the whole line is given, its face
- * values go on from the lines beside it. As cells do not move, each such gradient is one list of
- * weights. SPDX-License-Identifier: BSD-3-Clause */
+/* given_cells.c - what computed cells of blocks make of imposed ones beside them. A gradient is the
+ * operators' own (mesh_ops.c) of q extrapolated into imposed cells along the axis of each face
+ * value: with zero gradient, or by the cubic through the free cells in line; where the whole line
+ * is given, its face values are extrapolated from the lines beside it. As cells do not move, each
+ * such gradient is one list of weights. SPDX-License-Identifier: BSD-3-Clause */
 #include "forcing.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* outflow.h - sides through which the flow leaves as it is carried: dw/dt + U dw/dn = 0 with the
+/* outflow.h - convective outflow: dw/dt + U dw/dn = 0 with the
  * mean velocity U of the domain's side, and pressure free, where vortices pass that a given
  * pressure would reflect. Under a free surface U is that of long waves more, sqrt(g H) (Orlanski
  * 1976, with a known speed), and the level is free. SPDX-License-Identifier: BSD-3-Clause */

@@ -1,6 +1,6 @@
 /* fv_coupling.c - FV's place in a coupled job: its free zone's partner fills a hole, and takes
  * patches of velocity and pressure with their course in time. In window_begin FV tells what it
- * expects of the window (fv_course.h), then waits for the forced velocities at its end.
+ * expects of the coupling step (fv_course.h), then waits for the forced velocities at its end.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>

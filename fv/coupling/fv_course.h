@@ -1,8 +1,8 @@
 /* fv_course.h - what a partner is told of FV's fields: velocity and pressure of the cells, and how
- * they go on in time. FV tries the next window with forced cells that it extrapolates, looks, and
- * takes the window back; a partner then interpolates where it would extrapolate. Where the loop of
- * the two has too much gain, the pressure of past windows is smoothed and extrapolated instead.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * they go on in time. FV tries the next coupling step with imposed cells that it extrapolates,
+ * samples it, and restores its state; a partner then interpolates where it would extrapolate. Where
+ * the loop of the two has too much gain, the pressure of past coupling steps is smoothed and
+ * extrapolated instead. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_COURSE_H
 #define FV_COURSE_H
 
@@ -12,17 +12,17 @@
 #include "../time/steps.h"
 
 enum {
-    COURSE_LEVELS = 3, /* ends of windows that are remembered */
+    COURSE_LEVELS = 3, /* ends of coupling steps that are remembered */
     COURSE_TERMS = 4   /* of velocity in time */
 };
 
 struct course {
     struct patch *patch;      /* where it is told; borrowed */
     int64_t n;                /* local cells of that */
-    int dim, memory;          /* windows over which the pressure is smoothed; 1: none */
+    int dim, memory;          /* coupling steps over which the pressure is smoothed; 1: none */
     int width;                /* values of a cell */
     double *q[COURSE_LEVELS]; /* [n][width] velocity, pressure, phi with a surface; newest first */
-    double *tried;            /* the same at the end of the next window */
+    double *tried;            /* the same at the end of the next coupling step */
     double t[COURSE_LEVELS];  /* s: their times */
     double t_tried;           /* s; before t[0]: not known */
     int levels;               /* of them known */

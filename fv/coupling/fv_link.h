@@ -20,7 +20,7 @@ double coupling_unmapped(const struct fv *s);
 /* m^dim that both programs have lost since the start. */
 double coupling_water_missing(const struct fv *s);
 void coupling_summary(const struct fv *s, struct summary *to);
-/* s: the longest window that suits FV. */
+/* s: the longest coupling step that suits FV. */
 double coupling_wish(void *s);
 void coupling_first(void *s);
 void coupling_window_begin(void *s, double t0, double t1);

@@ -1,6 +1,6 @@
-/* moved_box.h - a partner's box that has moved: other cells are forced. Those that come free start
+/* moved_box.h - a partner's box that has moved: other cells are imposed. Those that come free start
  * from the partner's velocity, which they had, and from the pressure continued from the free side;
- * those that become forced have a past of their own. Blocks are cut anew around the box.
+ * those that become imposed have a past of their own. Blocks are cut anew around the box.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_MOVED_BOX_H
 #define FV_MOVED_BOX_H

@@ -1,6 +1,6 @@
 /* patch.h - what a partner is given: the cells of a uniform grid. Of fv.cells those themselves;
- * where the partner may come to uneven rows, the even ones go on below, with averages by cubics; of
- * blocks a box around the partners', whose averages come from the blocks' cells by cubics. Where
+ * where the partner may come to unequal layers, the even ones go on below, with averages by cubics;
+ * of blocks a box around the partners', whose averages come from the blocks' cells by cubics. Where
  * the finest block there is a plain box, they are its cells.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_PATCH_H
@@ -26,8 +26,8 @@ struct patch {
     struct mesh_exchange sample; /* of blocks */
 };
 
-/* box (lower, upper corner): where each of n partners may look, NULL: in even rows alone; inner:
- * within it and away from its outline it does not look, so blocks need not have values there.
+/* box (lower, upper corner): where each of n partners may look, NULL: in equal layers alone; inner:
+ * within it and away from its interface it does not look, so blocks need not have values there.
  * where: a place (m) that wants a value and finds none; false then. Collective. */
 bool patch_create(const struct fv *s, int n, const double (*box)[2][3], const double (*inner)[2][3],
                   struct patch *p, double *where);

@@ -1,7 +1,7 @@
 /* water_budget.h - the water of both programs where a free surface crosses from one into the other:
- * the partner's where FV's cells are forced and FV's outside of that. What crosses the outline is
- * the partner's velocity, seen through a mapping, so that the sum drifts; what is missing comes
- * back by a slow flow through the outline. SPDX-License-Identifier: BSD-3-Clause */
+ * the partner's where FV's cells are imposed and FV's outside of that. What crosses the interface
+ * is the partner's velocity, seen through a mapping, so that the sum drifts; what is missing comes
+ * back by a slow flow through the interface. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_WATER_BUDGET_H
 #define FV_WATER_BUDGET_H
 
@@ -10,8 +10,8 @@
 
 struct water_budget {
     int n;
-    double box[PARTNERS_MAX][2][3]; /* m: what lies within is a partner's; forced cells fill it */
-    double partners;                /* m^dim: in there, at the end of the window */
+    double box[PARTNERS_MAX][2][3]; /* m: what lies within is a partner's; imposed cells fill it */
+    double partners;                /* m^dim: in there, at the end of the coupling step */
     double drops;   /* m^dim: that left partners over FV's water and fell into it, evenly */
     double start;   /* m^dim: all at the start; NAN: not known yet */
     double missing; /* m^dim: now */
@@ -23,10 +23,11 @@ struct water_budget {
 struct water_budget water_budget_create(int n);
 /* Part of a cell of centre x and size h outside the box that a partner counts as its own. */
 double water_budget_share(const struct fv *s, const double *x, const double *h);
-/* The partners' at the end of the window: their water, and drops that have left them since the
- * start, which become FV's. */
+/* The partners' at the end of the coupling step: their water, and drops that have left them since
+ * the start, which become FV's. */
 void water_budget_take(struct fv *s, struct water_budget *w, const double water[2]);
-/* At the end of a window of T s: the flow through the outline for the next one. Collective. */
+/* At the end of a coupling step of T s: the flow through the interface for the next one.
+ * Collective. */
 void water_budget_close(struct fv *s, struct water_budget *w, double T);
 void water_budget_judge(const struct fv *s, struct water_budget *w, struct diagnosis *d);
 void water_budget_save(const struct water_budget *w, struct h5 *f);

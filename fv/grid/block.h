@@ -1,6 +1,5 @@
-/* block.h - a rank's part of a Cartesian grid, even or with rows of unequal height: places, storage
- * with ghost layers, halo.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* block.h - a rank's part of a Cartesian grid, even or with layers of unequal height: places,
+ * storage with ghost layers, halo. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_BLOCK_H
 #define FV_BLOCK_H
 

@@ -17,10 +17,10 @@
 
 enum {
     MESH_BLOCKS_MAX = 16,
-    MESH_BOXES_MAX = 8,   /* of given cells */
+    MESH_BOXES_MAX = 8,   /* of imposed cells */
     MESH_GHOSTS = 3,      /* layers of cells */
     MESH_VERTICES = 5,    /* layers of vertices behind the sides */
-    MESH_GIVEN_LAYERS = 4 /* of given cells that get values */
+    MESH_GIVEN_LAYERS = 4 /* of imposed cells that get values */
 };
 enum mesh_mapping {
     MAPPING_BOX,
@@ -36,7 +36,7 @@ struct mesh_boxes {
     int n;
     double box[MESH_BOXES_MAX][2][3];
     double period[3]; /* m: of the domain, 0: none */
-    int layers;       /* of given cells that get values */
+    int layers;       /* of imposed cells that get values */
 };
 
 struct mesh_block_params {
@@ -138,7 +138,7 @@ struct mesh {
     unsigned char *status; /* with ghosts: CELL_HOLE behind sides that are no cells */
     struct mesh_exchange halo, fringe;
     double *grid[3];        /* m^dim/s: flux of the moving cells' own velocity, see mesh_motion.h */
-    struct overset *search; /* of blocks, or a box of given cells, that move; else NULL */
+    struct overset *search; /* of blocks, or a box of imposed cells, that move; else NULL */
     char trouble[600];      /* a cell without donors on this rank, after a move; "" : none */
 };
 
@@ -194,7 +194,7 @@ void mesh_fault(const struct run *r, struct faults *f, int block, const char *ke
                 ...) __attribute__((format(printf, 5, 6)));
 
 /* mesh_given.c: status of the cells in m->given; what lies deep in it becomes a hole; no psi passes
- * the faces of given cells. */
+ * the faces of imposed cells. */
 void mesh_given_mark(struct mesh *m);
 /* Whether all corners of a cell lie in one of the boxes, some periods away. */
 bool mesh_given_holds(const struct mesh *m, const struct mesh_block *b, int64_t c);
@@ -207,8 +207,8 @@ void mesh_open_faces(struct mesh *m);
  */
 bool mesh_recut_wanted(const struct mesh *m, const double (*box)[2][3]);
 void mesh_recut(struct mesh *m, const double (*box)[2][3]);
-/* The computed neighbours of a given cell c of this rank whose mean its psi is, as steps along the
- * indices; their number, 0: none is near. */
+/* The computed neighbours of an imposed cell c of this rank whose mean its psi is, as steps along
+ * the indices; their number, 0: none is near. */
 enum { MESH_SOURCES = 12 };
 int mesh_given_sources(const struct mesh *m, const struct part *p, int64_t c, int (*offset)[3]);
 

@@ -1,7 +1,7 @@
-/* mesh_motion.h - blocks that move as told, rigidly: their places at a time, the velocity of their
- * cells. Volumes and the tensor G do not change; face vectors turn with the block. The flux of the
- * cells' own velocity through a face, w.S + omega.int r cross dS, is exact for its edges, so that
- * those of a cell sum to zero: a uniform flow stays uniform whatever the motion.
+/* mesh_motion.h - blocks that move as prescribed, rigidly: their places at a time, the velocity of
+ * their cells. Volumes and the tensor G do not change; face vectors turn with the block. The flux
+ * of the cells' own velocity through a face, w.S + omega.int r cross dS, is exact for its edges, so
+ * that those of a cell sum to zero: a uniform flow stays uniform whatever the motion.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_MESH_MOTION_H
 #define FV_MESH_MOTION_H

@@ -1,4 +1,4 @@
-/* rows.h - rows of cells of unequal height along y: even ones at the top, where a partner or a
+/* rows.h - layers of cells of unequal height along y: equal ones at the top, where a partner or a
  * surface needs them, growing ones below. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_ROWS_H
 #define FV_ROWS_H

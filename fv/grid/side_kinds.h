@@ -15,7 +15,7 @@ enum mesh_side {
     MESH_INFLOW,
     MESH_OUTFLOW,
     MESH_EXACT,
-    MESH_CARRIED /* an outflow whose velocity is carried; from `walls' alone */
+    MESH_CARRIED /* convective outflow; from `walls' alone */
 };
 
 static inline enum mesh_side side_of_wall(const struct scene_wall *w)

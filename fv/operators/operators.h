@@ -1,4 +1,4 @@
-/* operators.h - operators on a uniform grid and on rows of unequal height.
+/* operators.h - operators on a uniform grid and on layers of unequal height.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_OPERATORS_H
 #define FV_OPERATORS_H
@@ -28,12 +28,12 @@ bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const
 /* Whether delta is best left as it is for the next solve to start from. */
 bool viscous_keeps_increment(const struct fv *s);
 
-/* gradient.c: cell gradient along axis a, (8 (q_1 - q_-1) - (q_2 - q_-2))/12 h; q goes on into
- * forced cells evenly (psi) or by a cubic (p), which at an outflow
- * holds the given p, or for a variation of p none. */
+/* gradient.c: cell gradient along axis a, (8 (q_1 - q_-1) - (q_2 - q_-2))/12 h; q is extrapolated
+ * into imposed cells with zero gradient (psi) or by a cubic (p), which at an outflow holds the
+ * given p, or for a variation of p none. */
 void gradient(const struct fv *s, const double *q, int a, enum continuation c, double *out);
 
-/* smooth.c: takes an odd-even mode out of p, which no gradient feels but the one-sided ones at the
+/* smooth.c: removes an odd-even mode from p, which no gradient sees but the one-sided ones at the
  * boundary do: p -= 0.1 C'C p/64 along each axis, C the third difference within the fluid; p with
  * its ghosts. d, sum: scratch. */
 void smooth_odd_even(const struct fv *s, double *p, double *d, double *sum);

@@ -1,6 +1,6 @@
 /* viscous.c - nu Lap q of cell averages, fourth order: differences of the face gradient
  * (15 (q_0 - q_-1) - (q_1 - q_-2))/12 h; implicit part (helmholtz.h) by conjugate gradients; walls
- * and rows of unequal height make it unsymmetric: Chebyshev's iteration there, and with a surface
+ * and layers of unequal height make it unsymmetric: Chebyshev's iteration there, and with a surface
  * BiCGStab. SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 

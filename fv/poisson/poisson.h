@@ -1,5 +1,5 @@
 /* poisson.h - the pressure of the projection, by the back end that suits the cells (backend.h).
- * Forced cells take no part in it; closed and forced sides have no flux of psi.
+ * Imposed cells take no part in it; closed and imposed sides have no flux of psi.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_POISSON_H
 #define FV_POISSON_H
@@ -11,12 +11,13 @@ void poisson_create(struct fv *s);
 void poisson_free(struct poisson **p);
 const char *poisson_name(const struct poisson *p);
 /* A psi = -div/tau; even cells: Lap psi = div (1/s^2). div (blocks: m^dim/s) is changed; what it
- * has too much where no side gives the pressure is taken out evenly. psi: start and result; of
- * blocks without a surface the start is `start', kept for the next solve. false: did not converge.
+ * lacks to be compatible, where no side gives the pressure, is removed uniformly. psi: start and
+ * result; of blocks without a surface the start is `start', kept for the next solve. false: did not
+ * converge.
  */
 bool poisson_solve(struct fv *s, double tau, double *div, double tol, double *start, double *psi);
 /* psi ~ the solution of (A + shift V) psi = div (even cells: (shift - Lap) psi; both over the cells
- * of this rank, 0 in forced ones) by one cycle, a linear map; without a shift and where no side
+ * of this rank, 0 in imposed ones) by one cycle, a linear map; without a shift and where no side
  * gives the pressure, without its mean. div is changed. */
 void poisson_cycle(struct fv *s, double *div, double *psi);
 /* The matrix of the surface as it is now. */

@@ -40,7 +40,7 @@ struct surface {
     struct surface_forced *forced;
     bool *closed; /* even cells whose values are nobody's: behind sides, boxes, deep in a partner's
                      part */
-    struct surface_mesh *mesh;    /* NULL: even cells or rows of unequal height */
+    struct surface_mesh *mesh;    /* NULL: even cells or layers of unequal height */
     double *phi, *phi_new, *rate; /* m, m, m/s */
     double *kept;                 /* scratch of reinit */
     double *before[24];           /* state at the start of a step, see surface_keep_state */
@@ -58,9 +58,9 @@ struct surface {
     double *weight, *grad;
     int64_t ndeep, *deep;     /* local cells */
     int64_t wet, cuts;        /* over all ranks */
-    double volume0, returned; /* m^dim: to be kept, with what has come in through openings; put back
+    double volume0, returned; /* m^dim: to be kept, with what has come in through openings; restored
                                  by the shifts, all in all */
-    double passed;            /* m^dim: through openings and a partner's outline, in and out */
+    double passed;            /* m^dim: through openings and a partner's interface, in and out */
     double entered;           /* m^dim: through openings, in less out */
     double through[3];        /* m^dim/s: at the start of a step, see flows() */
     double travelled;         /* -: cells since the last reinit */
@@ -102,7 +102,7 @@ void surface_ghosts(const struct fv *s, double *phi);
 void surface_advance(struct fv *s, double dt);
 /* The same of blocks that move, from where they stand to their places at time t. */
 void surface_advance_to(struct fv *s, double t, double dt);
-/* Moves phi evenly to the volume of the start. */
+/* Shifts phi uniformly to the volume of the start. */
 void surface_keep_volume(struct fv *s);
 /* m^dim of water, a partner's part apart; *area: its change with phi, < 0. Over all ranks. */
 double surface_volume(const struct fv *s, double *area);
@@ -179,7 +179,7 @@ void surface_line_slopes(const struct fv *s, int a, const double *psi, bool chan
 /* surface_steps.c */
 /* Velocities, fluxes and cuts of the start. */
 void surface_start(struct fv *s);
-/* Other cells are forced than before, when the free ones held `before' m^dim. Collective. */
+/* Other cells are imposed than before, when the free ones held `before' m^dim. Collective. */
 void surface_outline_moved(struct fv *s, double before);
 /* Velocity beyond the surface where it stands now, with ghosts, and the fluxes there. */
 void surface_extend(struct fv *s, int layers);

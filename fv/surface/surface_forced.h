@@ -6,25 +6,25 @@
 #include "../fv.h"
 
 struct surface_forced {
-    int64_t nforced, n, *cell; /* local: forced ones, then free ones beside the outline */
+    int64_t nforced, n, *cell; /* local: imposed ones, then free ones beside the interface */
     bool *holds;               /* [size] of blocks: the former; NULL: even cells */
     int64_t nplaces, *first;   /* [n + 1] places of each cell: its centre, images beyond walls */
     double *x;                 /* [nplaces][3] m */
     double h, R;               /* m: largest spacing of these cells; support of the kernel */
     double *profile;           /* of colour.h */
-    double *phi[2];            /* [size] m: at the start and at the end of the window */
+    double *phi[2];            /* [size] m: at the start and at the end of the coupling step */
     double t[2];               /* s */
-    double step;               /* m: phi of the free cells less the partner's, at the outline */
+    double step;               /* m: phi of the free cells less the partner's, at the interface */
 };
 
 /* Of s->forcing; NULL without. */
 struct surface_forced *surface_forced_create(const struct fv *s);
 void surface_forced_free(struct surface_forced **f);
-/* The next window: phi[0] is phi[1] now, and its new values are extrapolated. */
+/* The next coupling step: phi[0] is phi[1] now, and its new values are extrapolated. */
 void surface_forced_shift(struct fv *s, double t0, double t1);
 /* phi[1] from the shares at the places. Collective. */
 void surface_forced_take(struct fv *s, const double *share);
-/* phi of forced cells at time t, and its ghosts. */
+/* phi of imposed cells at time t, and its ghosts. */
 void surface_forced_impose(struct fv *s, double t);
 
 #endif

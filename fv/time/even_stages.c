@@ -1,4 +1,4 @@
-/* even_stages.c - stages on a uniform grid and on graded rows, with forced cells and a free
+/* even_stages.c - stages on a uniform grid and on graded rows, with imposed cells and a free
  * surface. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>

@@ -28,7 +28,8 @@ struct newton_step {
     double rate;       /* 1/s: of convection and diffusion through a cell */
 };
 
-/* What the equations are made of on each kind of cells; sides and given cells of a variation are 0.
+/* What the equations are made of on each kind of cells; sides and imposed cells of a variation are
+ * 0.
  */
 struct newton_cells {
     /* Rates and local scales of the step's start; called by newton_set_step. */

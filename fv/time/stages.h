@@ -15,7 +15,7 @@ struct stages {
     void (*set_slip)(struct fv *s, double tau, const double *psi);
     /* Conditions on the sides dt after outflow_begin, at t. */
     void (*set_sides)(struct fv *s, double t, double dt);
-    /* Ghosts and given cells must be there for the next two. */
+    /* Ghosts and imposed cells must be there for the next two. */
     void (*convection)(struct fv *s, double *const N[3]);
     void (*viscous)(struct fv *s, int q, double *out);
     /* Right sides: averages over volumes become those over indices; NULL: they are. */
