@@ -1,10 +1,9 @@
 /* pack.c - rearranges the first particles so that they fill the room evenly, between oblique walls
  * or from a lattice with noise (after Colagrossi, Bouscasse, Antuono & Marrone, Comput. Phys.
- * Commun. 183, 2012): steps along the crowding vector with its wall terms, no flow; then volumes
- * such that the kernel sum is that of a wall's neighbours, one, or without walls a lattice's. In 3D
- * only those near meshes of files move, as long as it helps: ten steps do most of the work, later
- * ones melt the lattice.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * Commun. 183, 2012): steps along the concentration gradient with its wall terms, no flow; then
+ * volumes such that the kernel sum is that of a wall's neighbours, one, or without walls a
+ * lattice's. In 3D only those near meshes of files move, as long as it helps: ten steps do most of
+ * the work, later ones melt the lattice. SPDX-License-Identifier: BSD-3-Clause */
 #include "../sph.h"
 
 #include <math.h>

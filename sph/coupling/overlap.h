@@ -15,8 +15,8 @@ struct overlap {
     double U, p;             /* m/s, Pa: scales */
     bool fresh;              /* looked at since it was judged last */
     double du, dp, on;       /* of the last look */
-    double du_mean, dp_mean; /* over some windows: what is judged */
-    bool asks;               /* for the surface, once a window */
+    double du_mean, dp_mean; /* over some coupling steps: what is judged */
+    bool asks;               /* for the surface, once a coupling step */
     double found;            /* particles of this rank on a surface in transition and buffer */
     double where[3];         /* m: one of them */
 };

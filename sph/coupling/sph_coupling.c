@@ -1,6 +1,6 @@
 /* sph_coupling.c - SPH's place in a coupled job: gives its particles, takes patches of the flow
- * outside. Order of a window (Chiron 2017, 6.2): SPH runs first on the extrapolated patch, hands
- * its particles over, and takes the next patch when its partner has followed.
+ * outside. Order of a coupling step (Chiron 2017, 6.2): SPH runs first on the extrapolated patch,
+ * hands its particles over, and takes the next patch when its partner has followed.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>

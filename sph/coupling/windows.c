@@ -1,7 +1,7 @@
 /* windows.c - see windows.h. Outside there is a flow of constant density: velocities forced on it
- * that change by du over a window T make a pressure rho A du/T, A the added mass of its region, and
- * SPH answers by p/(rho c0): a gain G = A/(c0 T). A cubic in time foresees a window to about
- * (omega T)^3, so that T must be short beside the flow's own times.
+ * that change by du over a coupling step T make a pressure rho A du/T, A the added mass of its
+ * region, and SPH answers by p/(rho c0): a gain G = A/(c0 T). A cubic in time foresees a coupling
+ * step to about (omega T)^3, so that T must be short beside the flow's own times.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "windows.h"
 

@@ -1,5 +1,5 @@
-/* level_gap.h - the level of the particles over that of the flow outside, along each open side that
- * a free surface crosses. Velocity and pressure tell neither program the other's level: a step
+/* level_gap.h - the level of the particles over that of the outer solution, along each open side
+ * that a free surface crosses. Velocity and pressure tell neither program the other's level: a step
  * between them would die by what the blending lets through alone. A small outflow in proportion to
  * it, by Flather's condition, closes it and feeds nothing. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_LEVEL_GAP_H
@@ -16,7 +16,7 @@ struct level_gap {
     double gap[6];     /* m: now, over that */
     double lasting[6]; /* m/s: part of it that a lasting gap has called for */
     bool started;      /* at_rest is known */
-    double mean;       /* m: of |gap| over some windows, the largest side: what is judged */
+    double mean;       /* m: of |gap| over some coupling steps, the largest side: what is judged */
     struct watch watched;
     int probes; /* places that were compared, last time */
 };
@@ -28,7 +28,7 @@ void level_gap_look(struct sph *s, double dt);
 /* Names and values of LEVEL_COLUMNS columns. Collective. */
 extern const char *const level_gap_columns[LEVEL_COLUMNS];
 void level_gap_row(struct sph *s, double *values);
-/* Once a window: fills d where the levels have parted. */
+/* Once a coupling step: fills d where the levels have parted. */
 void level_gap_judge(struct sph *s, struct diagnosis *d);
 void level_gap_summary(const struct sph *s, struct summary *to);
 void level_gap_save(const struct sph *s, struct h5 *f);

@@ -1,6 +1,6 @@
 /* openings.c - the faces of the open sides and what they hold; see openings.h.
- * A face with booked mass f rho dx^D stands for a lattice whose next row is (1/2 - f) dx behind it:
- * that is where the transport law sees neighbours beyond the open side.
+ * A face with accumulated mass f rho dx^D stands for a lattice whose next row is (1/2 - f) dx
+ * behind it: that is where the transport law sees neighbours beyond the open side.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "openings.h"
 

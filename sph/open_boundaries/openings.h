@@ -1,14 +1,14 @@
 /* openings.h - the open sides of a particle region, cut into faces of side dx. The flow through a
- * face is booked as mass; a face that holds a whole particle gives birth to it, a particle that
- * leaves gives its mass to the nearest face (Chiron 2017, eqs. 6.13-6.14), with threshold 1 and
- * birth dx/2 inside, the pair that keeps a lattice. SPDX-License-Identifier: BSD-3-Clause */
+ * face is accumulated as mass; a face that holds a whole particle gives birth to it, a particle
+ * that leaves gives its mass to the nearest face (Chiron 2017, eqs. 6.13-6.14), with threshold 1
+ * and birth dx/2 inside, the pair that keeps a lattice. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_OPENINGS_H
 #define SPH_OPENINGS_H
 
 #include "../sph.h"
 
-/* What a face that cannot give birth holds beyond this, in particles, goes to its neighbours; what
- * it owes beyond this is a void that went out. */
+/* What a face that cannot give birth holds beyond this, in particles, goes to its neighbours; a
+ * deficit beyond this is an air cavity that crossed the open side. */
 static const double openings_most_debt = 1.5;
 
 static inline double openings_inward(int side) { return side % 2 ? -1.0 : 1.0; }
@@ -19,12 +19,11 @@ struct openings {
     bool open[6], bounded[3]; /* sides that are open; axes that do not repeat */
     int cells[3];             /* faces along each axis */
     int first[7];             /* of side 2a (low), 2a+1 (high); first[2 dim]: number of faces */
-    double *mass;             /* kg: booked, the same on all ranks */
+    double *mass;             /* kg: accumulated, the same on all ranks */
     double *change;           /* kg: of this step, this rank, then summed */
     double *flux;             /* kg/s of the faces this rank owns, 0 elsewhere: inward */
-    double owed;              /* kg: what voids that went out left to be drained, by zones' `drain';
-                                 all ranks' */
-    double *room;             /* -: of each face that no line of the walls cuts off */
+    double owed;    /* kg, all ranks': deficits of air cavities, to be drained by zones' `drain' */
+    double *room;   /* -: of each face that no line of the walls cuts off */
     double *share;  /* -: of each face that the water outside wets; without a surface there, room */
     double rain[4]; /* kg, kg m/s: drops that left over the water, this rank */
     double films;   /* kg: of that what ran along a wall */
@@ -44,7 +43,7 @@ struct openings *openings_create(struct sph *s);
 void openings_free(struct openings **o);
 /* What walls leave of faces where they stand now. */
 void openings_find_room(const struct sph *s, struct openings *o);
-/* From the booked masses (after a restart, too): what is to be drained, and where the lattice
+/* From the accumulated masses (after a restart, too): what is to be drained, and where the lattice
  * behind each face stands. */
 void openings_settle(struct sph *s);
 int openings_faces(const struct openings *o);
@@ -58,7 +57,8 @@ int openings_face(const struct openings *o, int side, const int *at);
 double openings_age(const struct sph *s, int64_t id);
 /* Takes mass (kg) from all faces alike; the same on all ranks. */
 void openings_let_out(struct openings *o, double mass);
-/* kg: booked by all faces, less what voids left to be drained; the same on all ranks. */
+/* kg: accumulated by all faces, less the deficits of air cavities to be drained; the same on all
+ * ranks. */
 double openings_held(const struct sph *s);
 
 #endif

@@ -10,13 +10,13 @@
 void wet_faces_find(struct sph *s, double t);
 /* Share below phi = 0 of a face of side dx, by the plane through its centre; g: gradient of phi. */
 double wet_faces_share(int dim, int axis, double dx, double phi, const double *g);
-/* The face that books a particle leaving by `side' at x: that there, or the topmost wet one below.
- * -1: none, it is a drop over the water. */
+/* The face that takes the mass of a particle leaving by `side' at x: that there, or the topmost wet
+ * one below. -1: none, it is a drop over the water. */
 int wet_faces_for(struct sph *s, int side, const double *x);
 /* Counts a particle with the state y as such: mass, momentum, and of them what runs as a film along
  * a wall. */
 void wet_faces_rain(struct sph *s, const double *y);
-/* kg: voids that have gone out: what faces wait for beyond openings_most_debt. */
+/* kg: air cavities that crossed the open sides: deficits of faces beyond openings_most_debt. */
 double wet_faces_voids(const struct sph *s);
 /* Moves the n places x[n][3] at s->t to at least `depth' below the surface, m. */
 void wet_faces_lower(struct sph *s, double depth, int n, double *x);

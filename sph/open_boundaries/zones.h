@@ -24,8 +24,8 @@ struct zones {
     double dx, lo[3], hi[3]; /* m: of the region */
     bool open[6];
     double transition, buffer; /* m: widths */
-    double overlap;            /* m: of the rim of the free zone where a partner is free, too */
-    double counted[2][3];      /* m: zones_counted_box, as the window has begun */
+    double overlap;            /* m: of the border of the free zone where a partner is free, too */
+    double counted[2][3];      /* m: zones_counted_box, as the coupling step has begun */
     bool along[3];             /* the box moves along this axis */
     double way[3], speed[3];   /* m, m/s: of the box since the start, over the last step */
     double fastest;            /* m/s: as fast as it will be */

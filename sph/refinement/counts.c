@@ -1,6 +1,6 @@
-/* counts.c - see counts.h. The gap at a mother is the kernel sum, at her place, of the children
- * that all mothers would have if they gave birth now, less that of the children there are: 0 beside
- * walls, surfaces and edges as well. It is averaged over the mothers that flow in her support, for
+/* counts.c - see counts.h. The gap at a parent is the kernel sum, at her place, of the children
+ * that all parents would have if they gave birth now, less that of the children there are: 0 beside
+ * walls, surfaces and edges as well. It is averaged over the parents that flow in her support, for
  * families are no lattice. SPDX-License-Identifier: BSD-3-Clause */
 #include "counts.h"
 

@@ -1,8 +1,8 @@
 /* counts.h - as many guards as there are particles that flow beside them. Both generations are
- * moved apart by what bounds and shifts each; guards near the outer edge stray out while no mother
- * enters. Where children are missing beside mothers that flow some are born, where there are too
+ * moved apart by what bounds and shifts each; guards near the outer edge stray out while no parent
+ * enters. Where children are missing beside parents that flow some are born, where there are too
  * many some die. None of them flows, so that this makes no mass; what it keeps is the mass that
- * wakes where as much goes to sleep. The number of mothers is left alone: that of the coarsest
+ * wakes where as much goes to sleep. The number of parents is left alone: that of the coarsest
  * level is what keeps the mass in the end. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_COUNTS_H
 #define SPH_COUNTS_H

@@ -3,10 +3,10 @@
  * both, so that what one gives the other takes. In 2D, on one rank, with Riemann schemes, plane
  * sides as mirrors. Simple on purpose.
  *   graded       the spacing grows away from a box, by less than 3 % from neighbour to neighbour
- *   weights      mothers stay beside their children; each source counts with a weight chi that goes
+ *   weights      parents stay beside their children; each source counts with a weight chi that goes
  *                from 0 to 1 within R inside the edge, of the other generation the rest (Barcarolo:
  *                [5.12-5.13])
- *   coalescence  mothers split into four, which merge in pairs outside (Vacondio: [5.6-5.11])
+ *   coalescence  parents split into four, which merge in pairs outside (Vacondio: [5.6-5.11])
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_MIXED_H
 #define SPH_MIXED_H

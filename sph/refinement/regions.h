@@ -22,7 +22,8 @@ double regions_distance(const struct regions *g, int level, const double *x);
 /* Once a step, to the time t, s, after the places of bodies and the peak were set: what follows
  * these goes at most half a spacing of its finest level a call. */
 void regions_move(struct regions *g, double t);
-/* Largest step, s: no region may move by more than that in one. INFINITY: none moves as told. */
+/* Largest step, s: no region may move by more than that in one. INFINITY: none moves as prescribed.
+ */
 double regions_dt(const struct regions *g);
 /* The same for the steps of one level, where regions of the next finer one are moved after each: by
  * half of its spacing. */

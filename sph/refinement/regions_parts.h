@@ -32,7 +32,7 @@ struct region_set {
     bool peak, box, along[3]; /* it follows the peak, sph.box */
     double shift[3];          /* m: now */
     double centre[3];         /* m: of its finest region at the start */
-    double speed;             /* m/s: largest of the motion as told */
+    double speed;             /* m/s: largest of the prescribed motion */
     int finest;               /* level */
 };
 

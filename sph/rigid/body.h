@@ -1,5 +1,5 @@
-/* body.h - rigid bodies: where they are, driven as told or moved by forces. In 2D the same in the
- * plane, rotations about z, masses per metre. SPDX-License-Identifier: BSD-3-Clause */
+/* body.h - rigid bodies: where they are, driven as prescribed or moved by forces. In 2D the same in
+ * the plane, rotations about z, masses per metre. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_BODY_H
 #define SPH_BODY_H
 

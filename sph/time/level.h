@@ -1,5 +1,5 @@
 /* level.h - one level of particles (without refinement: all of them) within a step: list and
- * ghosts, rates of a stage, what follows from these, and who is put back or removed at its end.
+ * ghosts, rates of a stage, what follows from these, and who is returned or removed at its end.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_LEVEL_H
 #define SPH_LEVEL_H

@@ -1,5 +1,5 @@
 /* forces.h - momentum that the fluid gives to bodies and to the walls at rest: what the wall
- * model credits to them at each stage, and what particles that are put back leave there. Summed
+ * model credits to them at each stage, and what particles that are returned leave there. Summed
  * with the weights of the stages, so that the balance of momentum closes to the last
  * digit. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_FORCES_H

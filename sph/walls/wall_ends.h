@@ -1,5 +1,5 @@
 /* wall_ends.h - lines that end in the fluid: their back is no wall, and what lies behind them is
- * felt through them. 2D. SPDX-License-Identifier: BSD-3-Clause
+ * acts through them. 2D. SPDX-License-Identifier: BSD-3-Clause
  */
 #ifndef SPH_WALL_ENDS_H
 #define SPH_WALL_ENDS_H

@@ -83,7 +83,7 @@ static inline struct wall_moments wall_moments(double distance, double from, dou
     const double gamma = (d * d2 * d2 * (15.0 * d2 + 126.0) * p.J0 - 6.0 * p.angle +
                           wall_shepard(b, p.rb, d) - wall_shepard(a, p.ra, d)) /
                          (12.0 * M_PI);
-    if (!(W > 0.0)) /* of the last digits, at the rim of the support */
+    if (!(W > 0.0)) /* of the last digits, at the edge of the support */
         return (struct wall_moments){.gamma = distance >= -1e-9 ? gamma : -gamma};
     return (struct wall_moments){.gamma = distance >= -1e-9 ? gamma : -gamma,
                                  .W = W,

@@ -41,7 +41,7 @@ struct wall_mesh {
     double X[3], Q[3][3]; /* m, -: pose now */
 };
 
-/* One way to make walls felt by particles, picked by name. What it does not need is NULL. */
+/* One way to make walls act on particles, picked by name. What it does not need is NULL. */
 struct walls;
 struct wall_model {
     const char *name;
@@ -73,7 +73,7 @@ struct wall_forces {
     struct force step[BODIES_MAX + 1];    /* impulses in the step under way; this rank */
     struct force now[BODIES_MAX + 1];     /* mean over the last step; all ranks */
     struct force impulse[BODIES_MAX + 1]; /* since the start; all ranks */
-    struct force hit[BODIES_MAX + 1];     /* impulses of particles put back in this step */
+    struct force hit[BODIES_MAX + 1];     /* impulses of particles returned in this step */
     bool credited, known;                 /* the model tells; a step is over */
 };
 
@@ -100,7 +100,7 @@ struct walls {
     struct wall_forces forces;
     bool shown;        /* NAME_walls.h5 is written; wall_files.h */
     struct xdmf *view; /* its XDMF file; rank 0 */
-    int64_t returned;  /* particles found behind walls and put back; this rank */
+    int64_t returned;  /* particles found behind walls and returned; this rank */
     int64_t gone;      /* the same, too far behind or round an open end, and removed */
     double gone_at[3]; /* m: where the first of them was */
 };

@@ -1,5 +1,5 @@
 /* sph_watch.h - what is watched while particles run: energy against its budget, speeds against the
- * sound, particles put back behind walls, particles that pair up; and when a state cannot be
+ * sound, particles returned behind walls, particles that pair up; and when a state cannot be
  * trusted, and why. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_SPH_WATCH_H
 #define SPH_SPH_WATCH_H
@@ -29,7 +29,7 @@ struct sph_watch {
     struct watch_budget budget;
     double work;           /* J: done on the flow from outside since the start, all ranks */
     double power, power_t; /* W, s: at the last sample */
-    /* At the last samples: all particles put back; size of the moving walls' work, J. */
+    /* At the last samples: all particles returned; size of the moving walls' work, J. */
     double put_back[WATCH_STEPS / SPH_WATCH_EVERY], walls[WATCH_STEPS / SPH_WATCH_EVERY];
     double removed; /* J: energy of particles removed since the last sample; this rank */
     /* The sample of this step, this rank's part until it is judged. */
