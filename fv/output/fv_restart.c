@@ -60,6 +60,7 @@ static void save_newton(const struct newton *w, struct h5 *f)
 {
     h5_attribute_real(f, "dtau", w->dtau);
     h5_attribute_real(f, "longest_step", w->longest_step);
+    h5_attribute_real(f, "pace", w->pace);
     h5_attribute_real(f, "residual", w->norm);
     h5_attribute_real(f, "steady", w->steady);
     h5_attribute_real(f, "best", w->best);
@@ -99,6 +100,7 @@ static bool restore_newton(struct newton *w, struct h5 *f)
     double steady = 0.0, newtons = 0.0, krylovs = 0.0, best_at = 0.0, steps = 0.0;
     const bool there = h5_read_attribute_real(f, "dtau", &w->dtau) &&
                        h5_read_attribute_real(f, "longest_step", &w->longest_step) &&
+                       h5_read_attribute_real(f, "pace", &w->pace) &&
                        h5_read_attribute_real(f, "residual", &w->norm) &&
                        h5_read_attribute_real(f, "steady", &steady) &&
                        h5_read_attribute_real(f, "best", &w->best) &&

@@ -350,14 +350,19 @@ static double growth(double left, double gain)
     return left > 0.8 ? 0.5 : fmin(fmax(gain, least), 10.0);
 }
 
-/* The next pseudo step. Where GMRES leaves the linear system unsolved it was too long, too: beyond
- * the time in which the flow forgets its start little is gained by length, while the
- * preconditioner, whose sweeps reach some cells, is worth less and less. That is kept in mind. */
-static void next_pseudo_step(struct newton *w, double factor, int64_t vectors)
+/* The next pseudo step. Where GMRES leaves the linear system unsolved and the residual falls much
+ * less a vector than it did lately, the step was too long: beyond the time in which the flow
+ * forgets its start little is gained by length, while the preconditioner, whose sweeps reach some
+ * cells, is worth less and less. That bounds the steps to come. In flows that are hard to solve
+ * all steps are slow, and unsolved ones still help. */
+static void next_pseudo_step(struct newton *w, double factor, double gain, int64_t vectors)
 {
+    const double pace = log(fmax(gain, 1.0)) / (double)(vectors > 0 ? vectors : 1);
+    const bool unsolved = vectors >= KRYLOV && pace < 0.25 * w->pace;
+    w->pace = fmax(pace, 0.9 * w->pace);
     w->longest_step *= 1.5;
-    if (vectors >= KRYLOV || w->longest_step == 0.0)
-        w->longest_step = vectors >= KRYLOV ? 0.1 * w->dtau : INFINITY;
+    if (unsolved || w->longest_step == 0.0)
+        w->longest_step = unsolved ? 0.25 * w->dtau : INFINITY;
     w->dtau = fmin(w->dtau * factor, w->longest_step);
 }
 
@@ -382,7 +387,8 @@ static void march(struct fv *s, struct diagnosis *d)
         newton_describe(s, "a pseudo step that was cut to nothing", d);
     w->steady = w->norm <= s->prm.tol_newton;
     if (before > 0.0 && w->norm > 0.0)
-        next_pseudo_step(w, growth(w->left / before, before / w->norm), w->krylovs - vectors);
+        next_pseudo_step(w, growth(w->left / before, before / w->norm), before / w->norm,
+                         w->krylovs - vectors);
 }
 
 double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagnosis *d)

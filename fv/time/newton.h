@@ -71,6 +71,7 @@ struct newton {
     double dtau, norm;   /* s, -: pseudo step; scaled residual (rms) after the last one */
     double longest_step; /* s: bound of dtau that unsolved linear systems leave; 0 or INFINITY: none
                           */
+    double pace;         /* -: lately best fall of the logarithm of norm a Krylov vector */
     double left;         /* -: residual that the last pseudo step left in its own equation */
     double best;         /* -: least norm so far, reached at the pseudo step best_at */
     int64_t best_at, pseudo_steps;
