@@ -64,6 +64,12 @@ $(B)/o/%.o: %.c
 ifneq ($(ASSIMP_LIBS),)
 $(B)/o/common/trimesh_read.o: CFLAGS += -DHAVE_ASSIMP $(patsubst -I%,-isystem %,$(shell pkg-config --cflags assimp))
 endif
+# the script beside each run's output, as lines of C
+$(B)/o/common/run_view.o: $(B)/o/common/view.inc
+$(B)/o/common/run_view.o: CFLAGS += -I$(B)/o/common
+$(B)/o/common/view.inc: common/view.py
+	@mkdir -p $(@D)
+	@sed 's/[\\"]/\\&/g; s/.*/"&\\n",/' $< >$@
 $(B)/pic/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "CC $@"

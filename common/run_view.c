@@ -1,5 +1,5 @@
 /* run_view.c - view.py beside a run's output: a script for ParaView that shows all programs of the
- * run at its last time: water without the air, particles in their size, bodies.
+ * run; what it knows of the scene stands here, the rest is common/view.py.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
@@ -7,90 +7,36 @@
 #include "run.h"
 #include "run_files.h"
 
-static const char begin[] =
-    "# paraview --script=view.py: all programs of the run at its last time\n"
-    "import glob, os, re\n"
-    "from paraview.simple import *\n"
-    "here = os.path.dirname(os.path.abspath(__file__)) if '__file__' in globals() else "
-    "os.getcwd()\n";
-static const char rest[] =
-    "view = GetActiveViewOrCreate('RenderView')\n"
-    "sources, shows, times = {}, [], []\n"
-    "for case in sorted(glob.glob(os.path.join(here, '*-case.cfg'))):\n"
-    "    name = os.path.basename(case)[:-9]\n"
-    "    path = os.path.join(here, name + '.xdmf')\n"
-    "    if os.path.exists(path):\n"
-    "        sources[name] = XDMFReader(FileNames=[path], guiName=name)\n"
-    "        times += list(sources[name].TimestepValues)\n"
-    "GetAnimationScene().UpdateAnimationUsingDataTimeSteps()\n"
-    "last = max(times) if times else 0.0\n"
-    "GetAnimationScene().AnimationTime = last\n"
-    "view.ViewTime = last\n"
-    "\n"
-    "def between(source, where, field, low, high):  # what has a field within these bounds\n"
-    "    part = Threshold(Input=source)\n"
-    "    part.Scalars = [where, field]\n"
-    "    if hasattr(part, 'LowerThreshold'):\n"
-    "        part.LowerThreshold, part.UpperThreshold = low, high\n"
-    "    else:\n"
-    "        part.ThresholdRange = [low, high]\n"
-    "    part.UpdatePipeline(last)\n"
-    "    return part\n"
-    "\n"
-    "for name, source in sources.items():\n"
-    "    source.UpdatePipeline(last)\n"
-    "    if not name.startswith('sph'):\n"
-    "        if 'level_set' in source.CellData.keys():  # the water\n"
-    "            source = between(source, 'CELLS', 'level_set', -1e30, 0)\n"
-    "        if len(sources) > 1 and 'forced' in source.CellData.keys():  # not where sph is\n"
-    "            source = between(source, 'CELLS', 'forced', -0.5, 0.5)\n"
-    "        shown = Show(source, view)\n"
-    "        shown.SetRepresentationType('Surface')\n"
-    "        if dim == 2:  # as bright as particles\n"
-    "            shown.Ambient, shown.Diffuse = 1.0, 0.0\n"
-    "        shows.append((source.CellData, 'CELLS', shown))\n"
-    "        continue\n"
-    "    text = open(os.path.join(here, name + '-case.cfg')).read()\n"
-    "    dx = re.search(r'^ *dx = ([-+.0-9e]+)', text, re.M)\n"
-    "    refined = 'level' in source.PointData.keys()\n"
-    "    levels = source.PointData['level'].GetRange()[1] if refined else 0\n"
-    "    for level in range(int(levels) + 1):\n"
-    "        part = source\n"
-    "        if levels:\n"
-    "            part = between(source, 'POINTS', 'level', level - 0.5, level + 0.5)\n"
-    "        shown = Show(part, view)\n"
-    "        if dx:\n"
-    "            shown.SetRepresentationType('Point Gaussian')\n"
-    "            shown.ShaderPreset = 'Plain circle' if dim == 2 else 'Sphere'\n"
-    "            shown.GaussianRadius = 0.6 * float(dx.group(1)) / 2**level\n"
-    "        shows.append((part.PointData, 'POINTS', shown))\n"
-    "for field in fields:\n"
-    "    has = [d[field].GetRange(-1 if d[field].GetNumberOfComponents() > 1 else 0)\n"
-    "           for d, where, shown in shows if field in d.keys()]\n"
-    "    if not has:\n"
-    "        continue\n"
-    "    low, high = min(r[0] for r in has), max(r[1] for r in has)\n"
-    "    if low < 0 < high and field == 'vorticity':  # walls have most of it\n"
-    "        high = max(-low, high) / 3\n"
-    "        low = -high\n"
-    "    for data, where, shown in shows:\n"
-    "        if field in data.keys():\n"
-    "            ColorBy(shown, (where, field))\n"
-    "            shown.SetScalarBarVisibility(view, True)\n"
-    "    if high > low:\n"
-    "        GetColorTransferFunction(field).RescaleTransferFunction(low, high)\n"
-    "    break\n"
-    "for path in glob.glob(os.path.join(here, 'sph*_walls.xdmf')):\n"
-    "    walls = XDMFReader(FileNames=[path], guiName=os.path.basename(path)[:-5])\n"
-    "    shown = Show(walls, view)\n"
-    "    shown.Opacity = 0.3 if dim == 3 else 1.0\n"
-    "view.InteractionMode = '2D' if dim == 2 else '3D'\n"
-    "if dim == 3:\n"
-    "    view.CameraFocalPoint = [0, 0, 0]\n"
-    "    view.CameraPosition = [-1 + 2 * up[0], -2 + 4 * up[1], 0.3 + 0.7 * up[2]]\n"
-    "    view.CameraViewUp = up\n"
-    "ResetCamera(view)\n"
-    "Render(view)\n";
+static const char begin[] = "# paraview --script=view.py\n"
+                            "import glob, os, re\n"
+                            "from paraview.simple import *\n"
+                            "here = os.path.dirname(os.path.abspath(__file__)) if '__file__' in "
+                            "globals() else os.getcwd()\n";
+static const char *const rest[] = {
+#include "view.inc"
+};
+
+static void write_scene(FILE *f, const struct scene *s)
+{
+    const double *g = s->fluid.gravity, *a = s->domain.min, *b = s->domain.max;
+    const double all = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]), G = all > 0.0 ? all : 1.0;
+    fprintf(f, "dim, up = %d, [%g, %g, %g]\n", s->domain.dim, -g[0] / G, -g[1] / G,
+            all > 0.0 ? -g[2] / G : 1.0);
+    fprintf(f, "low, high = [%.9g, %.9g, %.9g], [%.9g, %.9g, %.9g]\n", a[0], a[1], a[2], b[0], b[1],
+            b[2]);
+    fprintf(f, "walls = [\n");
+    for (const struct scene_wall *w = s->walls; w < s->walls + s->nwalls; w++) {
+        if (w->points.n == 0)
+            continue;
+        fprintf(f, "    [");
+        for (int i = 0; i < w->points.n + w->closed; i++)
+            fprintf(f, "%s%.9g, %.9g, 0", i > 0 ? ", " : "", w->points.x[i % w->points.n][0],
+                    w->points.x[i % w->points.n][1]);
+        fprintf(f, "],\n");
+    }
+    fprintf(f, "]\nfields = ('%s', '%s', 'pressure')\n", all > 0.0 ? "velocity" : "vorticity",
+            all > 0.0 ? "vorticity" : "velocity");
+}
 
 void files_view(const struct run *r)
 {
@@ -99,12 +45,9 @@ void files_view(const struct run *r)
     FILE *f = r->rank == 0 ? fopen(path, "w") : NULL;
     if (!f)
         return;
-    const double *g = r->scene.fluid.gravity, all = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     fputs(begin, f);
-    fprintf(f, "dim, up = %d, [%g, %g, %g]\n", r->scene.domain.dim, all > 0.0 ? -g[0] / all : 0.0,
-            all > 0.0 ? -g[1] / all : 0.0, all > 0.0 ? -g[2] / all : 1.0);
-    fprintf(f, "fields = ('%s', '%s', 'pressure')\n", all > 0.0 ? "velocity" : "vorticity",
-            all > 0.0 ? "vorticity" : "velocity");
-    fputs(rest, f);
+    write_scene(f, &r->scene);
+    for (size_t k = 0; k < sizeof rest / sizeof rest[0]; k++)
+        fputs(rest[k], f);
     fclose(f);
 }

@@ -64,6 +64,9 @@ moves() { # DIR RANKS ARGS...
 }
 moves whole 2:1:1
 below "$(number whole velocity_l2)" 0.003 || bad "moving box: velocity error $(number whole velocity_l2), wanted at most 0.003"
+for f in whole/sph_0*.h5; do :; done
+outside=$(h5dump -d /position -y -w 0 "$f" | sed -n '/DATA {/,/}/p' | tr ',' '\n' | awk 'NF == 1 && $1 + 0 == $1 && ($1 < 0 || $1 > 1)' | wc -l)
+[ "$outside" = 0 ] || bad "moving box: $outside coordinates of the snapshot $f are outside of the periodic domain"
 moves half 2:1:1 -p time.end=0.12
 moves half 2:1:1 --restart
 same_bits whole half || bad "a restarted run gives other bits: $(tail -n 2 diff.txt)"

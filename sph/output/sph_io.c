@@ -1,6 +1,7 @@
 /* sph_io.c - snapshots and restart files. SPDX-License-Identifier: BSD-3-Clause */
 #include "../sph.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -110,15 +111,21 @@ static int64_t shown_here(const struct sph *s)
     return n;
 }
 
+/* Within the periodic domain: a box that moves carries its particles past the sides. */
+static double within(const struct scene_domain *d, int a, double x)
+{
+    const double length = d->max[a] - d->min[a];
+    return d->periodic[a] ? x - floor((x - d->min[a]) / length) * length : x;
+}
+
 static void write_positions(const struct sph *s, struct h5 *f, int64_t n, double *v)
 {
     double *to = v;
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++)
-            if (shows(q, i)) {
-                memcpy(to, prim_line(&q->p, i), (size_t)q->dim * sizeof(double));
-                to += q->dim;
-            }
+            if (shows(q, i))
+                for (int a = 0; a < q->dim; a++)
+                    *to++ = within(&s->run->scene.domain, a, prim_line(&q->p, i)[a]);
     h5_write_real(f, "position", "m", n, s->dim, v, true);
 }
 

@@ -1,0 +1,324 @@
+# All programs of the run at its last time: water without the air, particles in their size, bodies,
+# walls. Lines above: dim, up, the corners low and high of the domain (m), the walls within it as
+# polylines, the fields to colour by.
+# A script of a filter is run among our names and brings its own max, sum, ...: np.max here.
+from vtkmodules.util.numpy_support import vtk_to_numpy
+import numpy as np
+
+view = GetActiveViewOrCreate('RenderView')
+LoadPalette(paletteName='WhiteBackground')
+text, sources, shows = {}, {}, []
+for path in sorted(glob.glob(os.path.join(here, '*-case.cfg'))):
+    name = os.path.basename(path)[:-9]
+    data = os.path.join(here, name + '.xdmf')
+    if os.path.exists(data):
+        with open(path) as file:
+            text[name] = file.read()
+        sources[name] = XDMFReader(FileNames=[data], guiName=name)
+times = [t for s in sources.values() for t in s.TimestepValues]
+last = max(times) if times else 0.0
+GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
+GetAnimationScene().AnimationTime = last
+view.ViewTime = last
+across = float(np.linalg.norm(np.subtract(high, low)))
+
+# Cells hold means; a picture wants values at points: here at the centres of cells, and at the rim
+# of a block those of the next cell. Cells without numbers (air, what a partner or a body covers)
+# take those of their neighbours, for the water is cut at level_set = 0, the rest at shown = 0.5.
+centres = '''
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkStructuredGrid
+
+def part(v, axis, first, end):
+    return v[(slice(None),) * axis + (slice(first, end),)]
+
+def rim(v, axes, inner):
+    for a in axes:
+        v = np.concatenate([part(v, a, 0, 1), inner(v, a), part(v, a, -1, None)], a)
+    return v
+
+def middles(v, a):
+    return (part(v, a, 1, None) + part(v, a, 0, -1)) / 2
+
+def filled(v, axes):
+    known = np.isfinite(v)
+    total, count = np.where(known, v, 0), known.astype(float)
+    for a in axes:
+        for q in (total, count):
+            given = q.copy()
+            part(q, a, 1, None)[...] += part(given, a, 0, -1)
+            part(q, a, 0, -1)[...] += part(given, a, 1, None)
+    return np.where(known, v, total / np.where(count > 0, count, np.nan))
+
+def vertices(grid, n):
+    if grid.IsA('vtkPointSet'):
+        return vtk_to_numpy(grid.GetPoints().GetData()).astype(float).reshape(n[::-1] + [3])
+    step = [1, n[0], n[0] * n[1]]
+    edges = [[grid.GetPoint(i * step[a])[a] for i in range(n[a])] for a in range(3)]
+    return np.stack(np.meshgrid(*edges[::-1], indexing='ij')[::-1], 3)
+
+def fields_of(grid, cells):
+    data = grid.GetCellData()
+    arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
+    return {a.GetName(): vtk_to_numpy(a).astype(float).reshape(cells + [-1]) for a in arrays}
+
+def shown_of(fields, cells):
+    shown = np.ones(cells + [1])
+    if 'forced' in fields:
+        shown *= fields['forced'] < 0.5
+    wet = fields['level_set'] < 0 if 'level_set' in fields else shown > 0
+    for name, v in fields.items():  # what other blocks cover has no numbers
+        shown *= np.isfinite(v).all(3, keepdims=True) | ~(wet | (name == 'level_set'))
+    return shown
+
+def at_centres(grid, k):
+    n = [1, 1, 1]
+    grid.GetDimensions(n)
+    axes = [a for a in range(3) if n[2 - a] > 1]
+    cells = [i - 1 or 1 for i in n[::-1]]
+    x = rim(vertices(grid, n), axes, middles)
+    if len(axes) == 2:  # later blocks are drawn over earlier ones
+        x[..., 2] += LIFT * k
+    to, points = vtkStructuredGrid(), vtkPoints()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(x.reshape(-1, 3)), deep=True))
+    to.SetDimensions(x.shape[2], x.shape[1], x.shape[0])
+    to.SetPoints(points)
+    fields = fields_of(grid, cells)
+    fields['shown'] = shown_of(fields, cells)
+    for name, v in fields.items():
+        v = rim(filled(v, axes), axes, lambda w, a: w)
+        one = numpy_to_vtk(np.ascontiguousarray(v.reshape(-1, v.shape[-1])), deep=True)
+        one.SetName(name)
+        to.GetPointData().AddArray(one)
+    return to
+
+for k, block in enumerate(leaves(self.GetInputDataObject(0, 0))):
+    self.GetOutputDataObject(0).SetBlock(k, at_centres(block, k))
+'''
+# Closed lines as polygons
+inside = '''
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+points, polygons = vtkPoints(), vtkCellArray()
+for line in leaves(self.GetInputDataObject(0, 0)):
+    polygons.InsertNextCell(line.GetNumberOfPoints())
+    for i in range(line.GetNumberOfPoints()):
+        polygons.InsertCellPoint(points.InsertNextPoint(line.GetPoint(i)))
+to = self.GetOutputDataObject(0)
+to.SetPoints(points)
+to.SetPolys(polygons)
+'''
+# The pieces of a dataset
+pieces = '''
+def leaves(data):
+    if not data.IsA('vtkCompositeDataSet'):
+        return [data]
+    found, at = [], data.NewIterator()
+    at.InitTraversal()
+    while not at.IsDoneWithTraversal():
+        found.append(at.GetCurrentDataObject())
+        at.GoToNextItem()
+    return found
+'''
+exec(pieces)
+
+
+def scripted(source, kind, script):
+    part = ProgrammableFilter(Input=source)
+    RenameSource('values at points' if 'level_set' in script else 'filled', part)
+    known = part.GetProperty('OutputDataSetType').GetAvailable()
+    part.OutputDataSetType = [k for k in known if k.lower() == kind.lower()][0]
+    part.Script = pieces + script
+    part.UpdatePipeline(last)
+    return part
+
+
+def cut(source, field, value, below, name):
+    part = Clip(Input=source, ClipType='Scalar')
+    RenameSource(name, part)
+    part.Scalars, part.Value, part.Invert = ['POINTS', field], value, below
+    return part
+
+
+def show_cells(source, name):
+    part = scripted(source, 'vtkMultiBlockDataSet', centres.replace('LIFT', repr(1e-5 * across)))
+    part = cut(part, 'shown', 0.5, 0, name + ', its own cells')
+    part.UpdatePipeline(last)
+    if 'level_set' in part.PointData.keys():
+        part = cut(part, 'level_set', 0.0, 1, name + ', water')
+        part.UpdatePipeline(last)
+    shown = Show(part, view)
+    shown.SetRepresentationType('Surface')
+    if dim == 2:  # as bright as particles
+        shown.Ambient, shown.Diffuse = 1.0, 0.0
+    shows.append((part, shown))
+
+
+def of_level(source, level):
+    part = Threshold(Input=source)
+    part.Scalars = ['POINTS', 'level']
+    if hasattr(part, 'LowerThreshold'):
+        part.LowerThreshold, part.UpperThreshold = level - 0.5, level + 0.5
+    else:
+        part.ThresholdRange = [level - 0.5, level + 0.5]
+    part.UpdatePipeline(last)
+    return part
+
+
+def show_particles(source, case):
+    dx = re.search(r'^ *dx = ([-+.0-9e]+)', case, re.M)
+    refined = 'level' in source.PointData.keys()
+    levels = int(source.PointData['level'].GetRange()[1]) if refined else 0
+    for level in range(levels + 1):
+        part = of_level(source, level) if levels else source
+        shown = Show(part, view)
+        if dx:  # discs that leave no holes in a square lattice
+            shown.SetRepresentationType('Point Gaussian')
+            shown.ShaderPreset = 'Plain circle' if dim == 2 else 'Sphere'
+            shown.GaussianRadius = (0.72 if dim == 2 else 0.6) * float(dx.group(1)) / 2**level
+        if dim == 2:  # over the cells
+            shown.Position = [0, 0, (1 + 0.1 * level) * 1e-3 * across]
+        shows.append((part, shown))
+
+
+def show_solid(name, source, colour, opacity=1.0, kind='Surface'):
+    RenameSource(name, source)
+    shown = Show(source, view)
+    shown.SetRepresentationType(kind)
+    shown.ColorArrayName = ['POINTS', '']
+    shown.AmbientColor = shown.DiffuseColor = colour
+    shown.Opacity, shown.LineWidth = opacity, 2.0
+    if dim == 2:
+        shown.Ambient, shown.Diffuse, shown.Position = 1.0, 0.0, [0, 0, 2e-3 * across]
+
+
+def box(least, most):
+    return Box(XLength=most[0] - least[0], YLength=most[1] - least[1], ZLength=most[2] - least[2],
+               Center=[(a + b) / 2 for a, b in zip(least, most)])
+
+
+def show_walls():
+    grey, dark = [0.6, 0.6, 0.6], [0.2, 0.2, 0.2]
+    show_solid('domain', box(low, high), dark, 1.0, 'Outline')
+    for line in walls:
+        show_solid('wall', PolyLineSource(Points=line), dark)
+    for path in glob.glob(os.path.join(here, 'sph*_walls.xdmf')):
+        name = os.path.basename(path)[:-5]
+        solid = XDMFReader(FileNames=[path], guiName=name)
+        solid.UpdatePipeline(last)
+        show_solid(name, solid, dark if dim == 2 else grey, 1.0 if dim == 2 else 0.3)
+        if dim == 2:
+            show_solid('bodies', Triangulate(Input=scripted(solid, 'vtkPolyData', inside)), grey)
+    number = r' = \(([^)]*)\)'
+    for case in text.values():
+        for group in re.findall(r'^blocked: \((.*?)^\);', case, re.M | re.S):
+            least, most = (re.findall(k + number, group) for k in ('min', 'max'))
+            for a, b in zip(least, most):
+                ends = [[float(v) for v in c.split(',')] for c in (a, b)]
+                show_solid('blocked', box(*ends), grey)
+
+
+def values(source, field):  # all numbers at the last time; of a vector its length
+    parts = []
+    for leaf in leaves(servermanager.Fetch(source)):
+        array = leaf.GetPointData().GetArray(field)
+        if array:
+            v = vtk_to_numpy(array)
+            x = vtk_to_numpy(leaf.GetPoints().GetData())
+            v = v if v.ndim == 1 else np.sqrt((v.astype(float)**2).sum(1))
+            parts.append((x[np.isfinite(v)], v[np.isfinite(v)]))
+    return parts
+
+
+def colour(field):
+    found = [p for source, shown in shows for p in values(source, field) if len(p[1]) > 0]
+    ends = [np.percentile(v, [0.5, 99.5]) for x, v in found]
+    least, most = float(np.min(ends)), float(np.max(ends))
+    least = 0.0 if field == 'velocity' else least
+    signed = dim == 2 and field == 'vorticity'
+    if signed:
+        most = float(np.max(np.abs(ends)))
+        least = -most
+    table = GetColorTransferFunction(field)
+    table.ApplyPreset('Cool to Warm' if signed else 'Plasma (matplotlib)', True)
+    for source, shown in shows:
+        if field in source.PointData.keys():
+            ColorBy(shown, ('POINTS', field))
+    if most > least:
+        table.RescaleTransferFunction(least, most)
+    bar = GetScalarBar(table, view)
+    unit = {'velocity': 'm/s', 'vorticity': '1/s', 'pressure': 'Pa'}[field]
+    bar.Title, bar.ComponentTitle = '%s (%s)' % (field, unit), ''
+    bar.RangeLabelFormat = '%-#.3g'
+    bar.WindowLocation, bar.Position, bar.ScalarBarLength = 'Any Location', [0.88, 0.25], 0.5
+    if hasattr(bar, 'DrawBackground'):
+        bar.DrawBackground, bar.BackgroundColor = 1, [1, 1, 1, 0.8]
+    bar.Visibility = 1
+    return found, least, most
+
+
+# The part of the domain to look at: all of it, or where the field differs from its middle by more
+# than a twentieth of its range, if that is but a small part.
+def corners(found, least, most):
+    of = np.concatenate([v for x, v in found])
+    differs = np.abs(of - np.median(of)) > 0.05 * (most - least)
+    x = np.concatenate([x for x, v in found])[differs]
+    a, b = np.array(low, float), np.array(high, float)
+    if len(x) > 0:
+        first, end = np.percentile(x, [1, 99], 0)
+        share = (end - first)[:dim] / (b - a)[:dim]
+        if share.max() < 0.4 and share.prod() < 0.2**dim:
+            margin = 0.7 * (end - first).max()
+            return np.maximum(a, first - margin), np.minimum(b, end + margin)
+    return a, b
+
+
+def look(a, b):
+    centre, wide = (a + b) / 2, b - a
+    view.InteractionMode = '2D' if dim == 2 else '3D'
+    if dim == 2:
+        axes.UseCustomBounds = 1
+        axes.CustomBounds = [a[0], b[0], a[1], b[1]] + 2 * [3e-3 * across]
+        shape = view.ViewSize[0] / view.ViewSize[1]
+        high_enough = float(np.max([1.3 * wide[1], 1.35 * wide[0] / shape]))
+        centre[0] += 0.06 * shape * high_enough  # the colours stand on the right
+        view.CameraFocalPoint = [centre[0], centre[1], 0]
+        view.CameraPosition = [centre[0], centre[1], 2 * across]
+        view.CameraParallelScale = 0.5 * high_enough
+    else:
+        side = np.eye(3)[0 if wide[0] < wide[1] and up[1] < 0.5 else 2 if up[1] > 0.5 else 1]
+        along = np.cross(side, up)
+        view.CameraFocalPoint = [0, 0, 0]
+        front = 2.0 if up[1] > 0.5 else -2.0  # x to the right
+        view.CameraPosition = list(front * side - 0.8 * np.abs(along) + 1.2 * np.array(up))
+        view.CameraViewUp = up
+        ResetCamera(view)
+        view.GetActiveCamera().Zoom(0.9)
+
+
+for name, source in sources.items():
+    source.UpdatePipeline(last)
+    if name.startswith('sph'):
+        show_particles(source, text[name])
+    else:
+        show_cells(source, name)
+show_walls()
+axes = view.AxesGrid
+axes.Visibility = 1
+if dim == 2:
+    view.OrientationAxesVisibility, axes.AxesToLabel = 0, 3  # least x, least y
+axes.XTitle, axes.YTitle, axes.ZTitle = 'x (m)', 'y (m)', 'z (m)'
+Render(view)  # the first one sets the camera
+for field in [f for f in fields if [1 for p, shown in shows if f in p.PointData.keys()]][:1]:
+    look(*corners(*colour(field)))
+if times:
+    clock = AnnotateTimeFilter(Input=list(sources.values())[0])
+    new = '{' in clock.Format
+    clock.Format = os.path.basename(here) + (', t = {time:.4g} s' if new else ', t = %.4g s')
+    Show(clock, view).WindowLocation = 'Upper Center'
+if shows:
+    SetActiveSource(shows[0][0])
+Render(view)

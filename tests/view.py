@@ -1,0 +1,48 @@
+# What view.py knows of the scene, and its arithmetic of cells, without ParaView: python3 view.py FILE. Needs numpy.
+# SPDX-License-Identifier: BSD-3-Clause
+import sys
+import types
+
+import numpy as np
+
+text = open(sys.argv[1]).read()
+compile(text, 'view.py', 'exec')
+head = {}
+exec(text[text.index('dim, up'):text.index('# All programs')], head)
+assert head['dim'] == 2 and head['up'] == [0, 1, 0], head['up']
+assert head['low'] == [-0.25, 0, 0] and head['high'] == [2, 1, 0], (head['low'], head['high'])
+assert head['walls'] == [[1, 0, 0, 2, 0.4, 0]], head['walls']
+assert head['fields'][0] == 'velocity'
+
+for name in ('vtkmodules', 'vtkmodules.util', 'vtkmodules.util.numpy_support', 'vtkmodules.vtkCommonCore',
+             'vtkmodules.vtkCommonDataModel'):
+    module = types.ModuleType(name)
+    module.__getattr__ = lambda what: None
+    sys.modules[name] = module
+script = text.split("centres = '''")[1].split("'''")[0]
+own = {}
+exec(script[:script.index('for k, block')], own)
+
+# vertices of a skewed plane: centres are means of four, the rim lies on it, corners stay
+i, j = np.meshgrid(np.arange(5), np.arange(4))
+x = np.stack([i + 0.25 * j, 2.0 * j + 0.1 * i, 0 * i], 2)[None]
+points = own['rim'](x, [1, 2], own['middles'])
+assert points.shape == (1, 5, 6, 3)
+assert np.allclose(points[0, 1:-1, 1:-1], (x[0, 1:, 1:] + x[0, :-1, 1:] + x[0, 1:, :-1] + x[0, :-1, :-1]) / 4)
+for a in (0, -1):
+    for b in (0, -1):
+        assert np.array_equal(points[0, a, b], x[0, a, b])
+
+# what is known stays, what lies next to it, also across a corner, becomes its mean, further cells stay unknown
+v = np.full((1, 4, 5, 1), np.nan)
+v[0, 0, :2, 0] = 3.0, 5.0
+filled = own['filled'](v, [1, 2])[0, :, :, 0]
+assert filled[0, 0] == 3 and filled[0, 1] == 5 and filled[1, 0] == 4 and filled[1, 1] == 4 and filled[1, 2] == 5, filled
+assert np.isnan(filled[2:]).all() and np.isnan(filled[:, 3:]).all()
+
+# shown: water and air; not what is forced, nor what another block covers
+level = np.array([-1.0, 1.0, -1.0, -1.0, np.nan]).reshape(1, 1, 5, 1)
+speed = np.array([1.0, np.nan, np.nan, np.nan, np.nan]).reshape(1, 1, 5, 1)
+forced = np.array([0.0, 0.0, 1.0, 0.0, 0.0]).reshape(1, 1, 5, 1)
+shown = own['shown_of']({'level_set': level, 'velocity': speed, 'forced': forced}, [1, 1, 5])
+assert list(shown.ravel()) == [1, 1, 0, 0, 0], shown.ravel()
