@@ -9,7 +9,7 @@
 #include "mem.h"
 #include "picture_section.h"
 
-enum { WIDTH = 900, MARGIN = 60, LEGEND = 22, TICKS = 12 };
+enum { WIDTH = 900, MARGIN = 60, LEGEND = 22, TICKS = 12, LABELS = 64, LETTER = 7, LINE = 13 };
 
 struct picture {
     FILE *f;
@@ -19,6 +19,8 @@ struct picture {
     double lo[2], hi[2];       /* m: what is shown */
     double scale, top, height; /* px/m; px above the view; px of all views */
     bool used[PICTURE_KINDS];
+    double label[LABELS][3]; /* px: left, right and foot of what is written */
+    int nlabels;
 };
 
 static const struct {
@@ -50,10 +52,26 @@ static void paint(struct picture *p, enum picture_kind kind, bool fill)
             kind == PICTURE_PERIODIC || kind == PICTURE_ZONE ? " stroke-dasharray=\"7 4\"" : "");
 }
 
+/* The first foot from y upwards at which a label of this width is on no other. */
+static double free_line(struct picture *p, double x, double width, double y)
+{
+    for (int k = 0; k < p->nlabels; k++)
+        if (x < p->label[k][1] && x + width > p->label[k][0] && fabs(y - p->label[k][2]) < LINE) {
+            y = p->label[k][2] - LINE;
+            k = -1;
+        }
+    if (p->nlabels < LABELS) {
+        double *to = p->label[p->nlabels++];
+        to[0] = x, to[1] = x + width, to[2] = y;
+    }
+    return y;
+}
+
 void picture_text(struct picture *p, const double at[3], const char *text)
 {
-    fprintf(p->f, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"12\">", px(p, at[p->axis[0]]) + 4,
-            py(p, at[p->axis[1]]) - 4);
+    const double x = px(p, at[p->axis[0]]) + 4, y = py(p, at[p->axis[1]]) - 4;
+    fprintf(p->f, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"12\">", x,
+            free_line(p, x, LETTER * (double)strlen(text), y));
     for (; *text; text++)
         if (*text == '<' || *text == '&')
             fputs(*text == '<' ? "&lt;" : "&amp;", p->f);
