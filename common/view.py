@@ -23,7 +23,7 @@ view.ViewTime = last
 across = float(np.linalg.norm(np.subtract(high, low)))
 
 # Cells hold means; a picture wants values at points: here at the centres of cells, and at the rim
-# of a block those of the next cell. Cells without numbers (air, what a partner or a body covers)
+# of a block on a line with the next ones. Cells without numbers (air, what a partner or a body covers)
 # take those of their neighbours, for the water is cut at level_set = 0, the rest at shown = 0.5.
 centres = '''
 import numpy as np
@@ -34,23 +34,47 @@ from vtkmodules.vtkCommonDataModel import vtkStructuredGrid
 def part(v, axis, first, end):
     return v[(slice(None),) * axis + (slice(first, end),)]
 
-def rim(v, axes, inner):
+def rim(v, axes, inner, end):
     for a in axes:
-        v = np.concatenate([part(v, a, 0, 1), inner(v, a), part(v, a, -1, None)], a)
+        first, last = end(v, a, 0, 1), end(v, a, -1, -2)
+        v = np.concatenate([first, inner(v, a), last], a)
     return v
+
+def end_of(v, a, i, j):
+    return v.take([i], a)
+
+def line_to(v, a, i, j):  # half a cell beyond
+    one, two = v.take([i], a), v.take([j if v.shape[a] > 1 else i], a)
+    return np.where(np.isfinite(two), 1.5 * one - 0.5 * two, one)
 
 def middles(v, a):
     return (part(v, a, 1, None) + part(v, a, 0, -1)) / 2
 
-def filled(v, axes):
-    known = np.isfinite(v)
-    total, count = np.where(known, v, 0), known.astype(float)
+def shifted(v, a, k):  # those k cells on, NaN beyond the rim
+    q = np.full(v.shape, np.nan)
+    if k > 0:
+        part(q, a, 0, -k)[...] = part(v, a, k, None)
+    else:
+        part(q, a, -k, None)[...] = part(v, a, 0, k)
+    return q
+
+def mean_of(guesses):
+    total, count = np.zeros(guesses[0].shape), np.zeros(guesses[0].shape)
+    for g in guesses:
+        total += np.where(np.isfinite(g), g, 0)
+        count += np.isfinite(g)
+    return total / np.where(count > 0, count, np.nan)
+
+def filled(v, axes):  # along lines of cells, then round corners
+    lines, round_corners = [], [v]
     for a in axes:
-        for q in (total, count):
-            given = q.copy()
-            part(q, a, 1, None)[...] += part(given, a, 0, -1)
-            part(q, a, 0, -1)[...] += part(given, a, 1, None)
-    return np.where(known, v, total / np.where(count > 0, count, np.nan))
+        for k in (-1, 1):
+            one, two = shifted(v, a, k), shifted(v, a, 2 * k)
+            lines.append(np.where(np.isfinite(two), 2 * one - two, one))
+        round_corners = [q for r in round_corners for q in (r, shifted(r, a, 1), shifted(r, a, -1))]
+    for guess in (mean_of(lines), mean_of(round_corners)):
+        v = np.where(np.isfinite(v), v, guess)
+    return v
 
 def vertices(grid, n):
     if grid.IsA('vtkPointSet'):
@@ -64,13 +88,16 @@ def fields_of(grid, cells):
     arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
     return {a.GetName(): vtk_to_numpy(a).astype(float).reshape(cells + [-1]) for a in arrays}
 
-def shown_of(fields, cells):
+def shown_of(fields, cells, axes):
     shown = np.ones(cells + [1])
     if 'forced' in fields:
         shown *= fields['forced'] < 0.5
     wet = fields['level_set'] < 0 if 'level_set' in fields else shown > 0
-    for name, v in fields.items():  # what other blocks cover has no numbers
-        shown *= np.isfinite(v).all(3, keepdims=True) | ~(wet | (name == 'level_set'))
+    # What other blocks cover has no numbers. Blocks meet between cells that take from each other and
+    # have none either: one more layer closes the gap.
+    for name, v in fields.items():
+        known = np.isfinite(filled(v, axes)).all(3, keepdims=True)
+        shown *= known | ~(wet | (name == 'level_set'))
     return shown
 
 def at_centres(grid, k):
@@ -78,7 +105,7 @@ def at_centres(grid, k):
     grid.GetDimensions(n)
     axes = [a for a in range(3) if n[2 - a] > 1]
     cells = [i - 1 or 1 for i in n[::-1]]
-    x = rim(vertices(grid, n), axes, middles)
+    x = rim(vertices(grid, n), axes, middles, end_of)
     if len(axes) == 2:  # later blocks are drawn over earlier ones
         x[..., 2] += LIFT * k
     to, points = vtkStructuredGrid(), vtkPoints()
@@ -86,9 +113,10 @@ def at_centres(grid, k):
     to.SetDimensions(x.shape[2], x.shape[1], x.shape[0])
     to.SetPoints(points)
     fields = fields_of(grid, cells)
-    fields['shown'] = shown_of(fields, cells)
+    fields['shown'] = shown_of(fields, cells, axes)
     for name, v in fields.items():
-        v = rim(filled(v, axes), axes, lambda w, a: w)
+        v = filled(filled(v, axes), axes)  # of one layer beyond what is shown, too
+        v = rim(v, axes, lambda w, a: w, end_of if name == 'shown' else line_to)
         one = numpy_to_vtk(np.ascontiguousarray(v.reshape(-1, v.shape[-1])), deep=True)
         one.SetName(name)
         to.GetPointData().AddArray(one)

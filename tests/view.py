@@ -26,23 +26,36 @@ exec(script[:script.index('for k, block')], own)
 # vertices of a skewed plane: centres are means of four, the rim lies on it, corners stay
 i, j = np.meshgrid(np.arange(5), np.arange(4))
 x = np.stack([i + 0.25 * j, 2.0 * j + 0.1 * i, 0 * i], 2)[None]
-points = own['rim'](x, [1, 2], own['middles'])
+points = own['rim'](x, [1, 2], own['middles'], own['end_of'])
 assert points.shape == (1, 5, 6, 3)
 assert np.allclose(points[0, 1:-1, 1:-1], (x[0, 1:, 1:] + x[0, :-1, 1:] + x[0, 1:, :-1] + x[0, :-1, :-1]) / 4)
 for a in (0, -1):
     for b in (0, -1):
         assert np.array_equal(points[0, a, b], x[0, a, b])
 
-# what is known stays, what lies next to it, also across a corner, becomes its mean, further cells stay unknown
+# a field that is linear in the indices is so up to the rim
+i, j = np.meshgrid(np.arange(4) + 0.5, np.arange(3) + 0.5)
+linear = own['rim']((1 + 2 * i - 3 * j)[None, :, :, None], [1, 2], lambda v, a: v, own['line_to'])[0, :, :, 0]
+I, J = np.meshgrid([0, 0.5, 1.5, 2.5, 3.5, 4], [0, 0.5, 1.5, 2.5, 3])
+assert np.allclose(linear, 1 + 2 * I - 3 * J)
+
+# what is known stays; what lies next to it goes on as it is, or by a line where two cells are known, also round a
+# corner; further cells stay unknown
 v = np.full((1, 4, 5, 1), np.nan)
 v[0, 0, :2, 0] = 3.0, 5.0
 filled = own['filled'](v, [1, 2])[0, :, :, 0]
-assert filled[0, 0] == 3 and filled[0, 1] == 5 and filled[1, 0] == 4 and filled[1, 1] == 4 and filled[1, 2] == 5, filled
+assert list(filled[0, :3]) == [3, 5, 7] and list(filled[1, :3]) == [3, 5, 5], filled
 assert np.isnan(filled[2:]).all() and np.isnan(filled[:, 3:]).all()
+i, j = np.meshgrid(np.arange(6.0), np.arange(5.0))
+plane = (1 + 2 * i - 3 * j)[None, :, :, None]
+holed = plane.copy()
+holed[0, 2:, 3:] = np.nan
+filled = own['filled'](holed, [1, 2])
+assert np.allclose(filled[0, 2, 3:], plane[0, 2, 3:]) and np.allclose(filled[0, 2:, 3], plane[0, 2:, 3])
 
-# shown: water and air; not what is forced, nor what another block covers
-level = np.array([-1.0, 1.0, -1.0, -1.0, np.nan]).reshape(1, 1, 5, 1)
-speed = np.array([1.0, np.nan, np.nan, np.nan, np.nan]).reshape(1, 1, 5, 1)
-forced = np.array([0.0, 0.0, 1.0, 0.0, 0.0]).reshape(1, 1, 5, 1)
-shown = own['shown_of']({'level_set': level, 'velocity': speed, 'forced': forced}, [1, 1, 5])
-assert list(shown.ravel()) == [1, 1, 0, 0, 0], shown.ravel()
+# shown: water and air; not what is forced, nor what another block covers but for one layer, where blocks meet
+level = np.array([-1.0, 1.0, -1.0, -1.0, np.nan, np.nan]).reshape(1, 1, 6, 1)
+speed = np.array([1.0, np.nan, np.nan, 1.0, np.nan, np.nan]).reshape(1, 1, 6, 1)
+forced = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]).reshape(1, 1, 6, 1)
+shown = own['shown_of']({'level_set': level, 'velocity': speed, 'forced': forced}, [1, 1, 6], [2])
+assert list(shown.ravel()) == [1, 1, 0, 1, 1, 0], shown.ravel()
