@@ -24,8 +24,10 @@ static void write_scene(FILE *f, const struct scene *s)
             all > 0.0 ? -g[2] / G : 1.0);
     fprintf(f, "low, high = [%.9g, %.9g, %.9g], [%.9g, %.9g, %.9g]\n", a[0], a[1], a[2], b[0], b[1],
             b[2]);
+    bool tank = false;
     fprintf(f, "walls = [\n");
     for (const struct scene_wall *w = s->walls; w < s->walls + s->nwalls; w++) {
+        tank = tank || *w->surface.mesh != '\0';
         if (w->points.n == 0)
             continue;
         fprintf(f, "    [");
@@ -34,8 +36,9 @@ static void write_scene(FILE *f, const struct scene *s)
                     w->points.x[i % w->points.n][1]);
         fprintf(f, "],\n");
     }
-    fprintf(f, "]\nfields = ('%s', '%s', 'pressure')\n", all > 0.0 ? "velocity" : "vorticity",
-            all > 0.0 ? "vorticity" : "velocity");
+    fprintf(f, "]\nfields = ('%s', '%s', 'pressure')\nsurface, opaque = %s, %s\n",
+            all > 0.0 ? "velocity" : "vorticity", all > 0.0 ? "vorticity" : "velocity",
+            scene_has_surface(s) ? "True" : "False", tank ? "False" : "True");
 }
 
 void files_view(const struct run *r)

@@ -1,7 +1,9 @@
 # All programs of the run at its last time: water without the air, particles in their size, bodies,
 # walls. Lines above: dim, up, the corners low and high of the domain (m), the walls within it as
-# polylines, the fields to colour by.
-# A script of a filter is run among our names and brings its own max, sum, ...: np.max here.
+# polylines, the fields to colour by, whether the water has a surface, whether solids are opaque (a
+# tank of triangles would hide what is in it).
+# A script of a filter is run among our names, with all of numpy's: none of ours may be one of them,
+# and max, sum, ... are others then.
 from vtkmodules.util.numpy_support import vtk_to_numpy
 import numpy as np
 
@@ -16,7 +18,7 @@ for path in sorted(glob.glob(os.path.join(here, '*-case.cfg'))):
             text[name] = file.read()
         sources[name] = XDMFReader(FileNames=[data], guiName=name)
 times = [t for s in sources.values() for t in s.TimestepValues]
-last = max(times) if times else 0.0
+last = float(np.max(times)) if times else 0.0
 GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
 GetAnimationScene().AnimationTime = last
 view.ViewTime = last
@@ -92,12 +94,10 @@ def shown_of(fields, cells, axes):
     shown = np.ones(cells + [1])
     if 'forced' in fields:
         shown *= fields['forced'] < 0.5
-    wet = fields['level_set'] < 0 if 'level_set' in fields else shown > 0
-    # What other blocks cover has no numbers. Blocks meet between cells that take from each other and
-    # have none either: one more layer closes the gap.
-    for name, v in fields.items():
-        known = np.isfinite(filled(v, axes)).all(3, keepdims=True)
-        shown *= known | ~(wet | (name == 'level_set'))
+    # Air, and what other blocks cover, have no numbers. Blocks meet between cells that take from each
+    # other and have none either: one more layer closes the gap, and holds the surface.
+    for v in fields.values():
+        shown *= np.isfinite(filled(v, axes)).all(3, keepdims=True)
     return shown
 
 def at_centres(grid, k):
@@ -171,6 +171,27 @@ def cut(source, field, value, below, name):
     return part
 
 
+# In the plane that looks at x and the height: from the front, x to the right.
+side = [0, 0, 1] if up[1] > 0.5 else [0, -1, 0]
+
+
+def cut_open(source, name):  # what fills a closed space, through its bodies or in the middle
+    if surface or dim == 2:
+        return source
+    a, b = np.array(low, float), np.array(high, float)
+    for path in glob.glob(os.path.join(here, 'sph*_walls.xdmf')):
+        bodies = XDMFReader(FileNames=[path])
+        bodies.UpdatePipeline(last)
+        bounds = bodies.GetDataInformation().GetBounds()
+        a, b = np.array(bounds[::2]), np.array(bounds[1::2])
+        Delete(bodies)
+    part = Clip(Input=source, ClipType='Plane')
+    RenameSource(name + ', cut open', part)
+    part.ClipType.Origin, part.ClipType.Normal, part.Invert = list((a + b) / 2), side, 1
+    part.UpdatePipeline(last)
+    return part
+
+
 def show_cells(source, name):
     part = scripted(source, 'vtkMultiBlockDataSet', centres.replace('LIFT', repr(1e-5 * across)))
     part = cut(part, 'shown', 0.5, 0, name + ', its own cells')
@@ -178,10 +199,10 @@ def show_cells(source, name):
     if 'level_set' in part.PointData.keys():
         part = cut(part, 'level_set', 0.0, 1, name + ', water')
         part.UpdatePipeline(last)
+    part = cut_open(part, name)
     shown = Show(part, view)
     shown.SetRepresentationType('Surface')
-    if dim == 2:  # as bright as particles
-        shown.Ambient, shown.Diffuse = 1.0, 0.0
+    shown.Ambient, shown.Diffuse = (1.0, 0.0) if dim == 2 else (0.35, 0.75)  # as bright as particles
     shows.append((part, shown))
 
 
@@ -196,12 +217,15 @@ def of_level(source, level):
     return part
 
 
-def show_particles(source, case):
+def show_particles(source, case, name):
     dx = re.search(r'^ *dx = ([-+.0-9e]+)', case, re.M)
     refined = 'level' in source.PointData.keys()
     levels = int(source.PointData['level'].GetRange()[1]) if refined else 0
+    if dim == 3 and 'vorticity' in source.PointData.keys():  # fv has its z component alone
+        source = Calculator(Input=source, Function='vorticity_Z', ResultArrayName='vorticity')
+        source.UpdatePipeline(last)
     for level in range(levels + 1):
-        part = of_level(source, level) if levels else source
+        part = cut_open(of_level(source, level) if levels else source, name)
         shown = Show(part, view)
         if dx:  # discs that leave no holes in a square lattice
             shown.SetRepresentationType('Point Gaussian')
@@ -237,7 +261,7 @@ def show_walls():
         name = os.path.basename(path)[:-5]
         solid = XDMFReader(FileNames=[path], guiName=name)
         solid.UpdatePipeline(last)
-        show_solid(name, solid, dark if dim == 2 else grey, 1.0 if dim == 2 else 0.3)
+        show_solid(name, solid, dark if dim == 2 else grey, 1.0 if opaque else 0.3)
         if dim == 2:
             show_solid('bodies', Triangulate(Input=scripted(solid, 'vtkPolyData', inside)), grey)
     number = r' = \(([^)]*)\)'
@@ -266,7 +290,7 @@ def colour(field):
     ends = [np.percentile(v, [0.5, 99.5]) for x, v in found]
     least, most = float(np.min(ends)), float(np.max(ends))
     least = 0.0 if field == 'velocity' else least
-    signed = dim == 2 and field == 'vorticity'
+    signed = field == 'vorticity'
     if signed:
         most = float(np.max(np.abs(ends)))
         least = -most
@@ -279,7 +303,8 @@ def colour(field):
         table.RescaleTransferFunction(least, most)
     bar = GetScalarBar(table, view)
     unit = {'velocity': 'm/s', 'vorticity': '1/s', 'pressure': 'Pa'}[field]
-    bar.Title, bar.ComponentTitle = '%s (%s)' % (field, unit), ''
+    along = ' z' if signed and dim == 3 else ''
+    bar.Title, bar.ComponentTitle = '%s%s (%s)' % (field, along, unit), ''
     bar.RangeLabelFormat = '%-#.3g'
     bar.WindowLocation, bar.Position, bar.ScalarBarLength = 'Any Location', [0.88, 0.25], 0.5
     if hasattr(bar, 'DrawBackground'):
@@ -317,22 +342,20 @@ def look(a, b):
         view.CameraPosition = [centre[0], centre[1], 2 * across]
         view.CameraParallelScale = 0.5 * high_enough
     else:
-        side = np.eye(3)[0 if wide[0] < wide[1] and up[1] < 0.5 else 2 if up[1] > 0.5 else 1]
-        along = np.cross(side, up)
+        along = np.abs(np.cross(side, up))
         view.CameraFocalPoint = [0, 0, 0]
-        front = 2.0 if up[1] > 0.5 else -2.0  # x to the right
-        view.CameraPosition = list(front * side - 0.8 * np.abs(along) + 1.2 * np.array(up))
+        view.CameraPosition = list(2 * np.array(side) - 0.8 * along + 1.2 * np.array(up))
         view.CameraViewUp = up
         ResetCamera(view)
         view.GetActiveCamera().Zoom(0.9)
 
 
-for name, source in sources.items():
-    source.UpdatePipeline(last)
+for name, reader in sources.items():
+    reader.UpdatePipeline(last)
     if name.startswith('sph'):
-        show_particles(source, text[name])
+        show_particles(reader, text[name], name)
     else:
-        show_cells(source, name)
+        show_cells(reader, name)
 show_walls()
 axes = view.AxesGrid
 axes.Visibility = 1
@@ -348,5 +371,6 @@ if times:
     clock.Format = os.path.basename(here) + (', t = {time:.4g} s' if new else ', t = %.4g s')
     Show(clock, view).WindowLocation = 'Upper Center'
 if shows:
-    SetActiveSource(shows[0][0])
+    # (a plane that cuts would show its handles)
+    SetActiveSource(shows[0][0] if surface or dim == 2 else list(sources.values())[0])
 Render(view)

@@ -1,5 +1,6 @@
 # What view.py knows of the scene, and its arithmetic of cells, without ParaView: python3 view.py FILE. Needs numpy.
 # SPDX-License-Identifier: BSD-3-Clause
+import ast
 import sys
 import types
 
@@ -12,7 +13,16 @@ exec(text[text.index('dim, up'):text.index('# All programs')], head)
 assert head['dim'] == 2 and head['up'] == [0, 1, 0], head['up']
 assert head['low'] == [-0.25, 0, 0] and head['high'] == [2, 1, 0], (head['low'], head['high'])
 assert head['walls'] == [[1, 0, 0, 2, 0.4, 0]], head['walls']
-assert head['fields'][0] == 'velocity'
+assert head['fields'][0] == 'velocity' and head['surface'] and head['opaque']
+
+# ParaView runs the scripts of filters among these names with numpy's over them
+tree = ast.parse(text)
+ours = [n.name for n in tree.body if isinstance(n, ast.FunctionDef)]
+outer = [n for n in tree.body if not isinstance(n, ast.FunctionDef)]
+ours += [n.id for top in outer for n in ast.walk(top) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
+assert not set(ours) & set(dir(np)), set(ours) & set(dir(np))
+used = {n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
+assert not used & {'abs', 'all', 'any', 'divmod', 'max', 'min', 'pow', 'round', 'sum'}, used
 
 for name in ('vtkmodules', 'vtkmodules.util', 'vtkmodules.util.numpy_support', 'vtkmodules.vtkCommonCore',
              'vtkmodules.vtkCommonDataModel'):
@@ -53,9 +63,10 @@ holed[0, 2:, 3:] = np.nan
 filled = own['filled'](holed, [1, 2])
 assert np.allclose(filled[0, 2, 3:], plane[0, 2, 3:]) and np.allclose(filled[0, 2:, 3], plane[0, 2:, 3])
 
-# shown: water and air; not what is forced, nor what another block covers but for one layer, where blocks meet
-level = np.array([-1.0, 1.0, -1.0, -1.0, np.nan, np.nan]).reshape(1, 1, 6, 1)
-speed = np.array([1.0, np.nan, np.nan, 1.0, np.nan, np.nan]).reshape(1, 1, 6, 1)
-forced = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]).reshape(1, 1, 6, 1)
-shown = own['shown_of']({'level_set': level, 'velocity': speed, 'forced': forced}, [1, 1, 6], [2])
-assert list(shown.ravel()) == [1, 1, 0, 1, 1, 0], shown.ravel()
+# shown: water and the air next to it; not what is forced, nor what another block covers but for one layer, where
+# blocks meet
+level = np.array([3.0, 2.0, 1.0, -1.0, -1.0, -1.0, np.nan, np.nan]).reshape(1, 1, 8, 1)
+speed = np.array([np.nan, np.nan, np.nan, 1.0, np.nan, 1.0, np.nan, np.nan]).reshape(1, 1, 8, 1)
+forced = np.array([0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]).reshape(1, 1, 8, 1)
+shown = own['shown_of']({'level_set': level, 'velocity': speed, 'forced': forced}, [1, 1, 8], [2])
+assert list(shown.ravel()) == [0, 0, 1, 1, 0, 1, 1, 0], shown.ravel()
