@@ -3,18 +3,28 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "run.h"
 #include "run_files.h"
 
 static const char begin[] = "# paraview --script=view.py\n"
                             "import glob, os, re\n"
-                            "from paraview.simple import *\n"
-                            "here = os.path.dirname(os.path.abspath(__file__)) if '__file__' in "
-                            "globals() else os.getcwd()\n";
+                            "from paraview.simple import *\n";
 static const char *const rest[] = {
 #include "view.inc"
 };
+
+/* The run's folder, as a string of Python. */
+static void write_folder(FILE *f, const char *dir)
+{
+    char *path = realpath(dir, NULL);
+    fputs("written = '", f);
+    for (const char *c = path ? path : dir; *c; c++)
+        fprintf(f, *c == '\\' || *c == '\'' ? "\\%c" : "%c", *c);
+    fputs("'\n", f);
+    free(path);
+}
 
 static void write_scene(FILE *f, const struct scene *s)
 {
@@ -49,6 +59,7 @@ void files_view(const struct run *r)
     if (!f)
         return;
     fputs(begin, f);
+    write_folder(f, r->dir);
     write_scene(f, &r->scene);
     for (size_t k = 0; k < sizeof rest / sizeof rest[0]; k++)
         fputs(rest[k], f);

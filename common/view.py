@@ -7,6 +7,18 @@
 from vtkmodules.util.numpy_support import vtk_to_numpy
 import numpy as np
 
+# The run's folder. ParaView's window does not tell a script its file: what it was started with does
+# on Linux; else the current folder, or the one that the run wrote to.
+places = [os.path.dirname(os.path.abspath(__file__))] if '__file__' in globals() else []
+if os.path.exists('/proc/self/cmdline'):
+    with open('/proc/self/cmdline') as file:
+        words = [w.split('=', 1)[-1] for w in file.read().split('\0')]
+    places += [os.path.dirname(os.path.abspath(w)) for w in words if w.endswith('.py')]
+places = [p for p in places + [os.getcwd(), written] if glob.glob(os.path.join(p, '*-case.cfg'))]
+if not places:
+    raise RuntimeError('no run here: start paraview in the folder of view.py')
+here = places[0]
+
 view = GetActiveViewOrCreate('RenderView')
 LoadPalette(paletteName='WhiteBackground')
 text, sources, shows = {}, {}, []

@@ -1,6 +1,8 @@
 # What view.py knows of the scene, and its arithmetic of cells, without ParaView: python3 view.py FILE. Needs numpy.
 # SPDX-License-Identifier: BSD-3-Clause
 import ast
+import glob
+import os
 import sys
 import types
 
@@ -14,6 +16,16 @@ assert head['dim'] == 2 and head['up'] == [0, 1, 0], head['up']
 assert head['low'] == [-0.25, 0, 0] and head['high'] == [2, 1, 0], (head['low'], head['high'])
 assert head['walls'] == [[1, 0, 0, 2, 0.4, 0]], head['walls']
 assert head['fields'][0] == 'velocity' and head['surface'] and head['opaque']
+
+# the folder: from the command line, as ParaView's window hides it; moved, from what the run wrote
+script = text[text.index("# The run's folder"):text.index('view = GetActive')]
+folder = os.path.dirname(os.path.abspath(sys.argv[1]))
+found = {'glob': glob, 'os': os, 'written': '/nowhere'}
+if os.path.exists('/proc/self/cmdline'):
+    exec(script, found)
+    assert found['here'] == folder, found['here']
+exec(script, {'glob': glob, 'os': os, 'written': folder})
+assert "\nwritten = '" + folder + "'\n" in text
 
 # ParaView runs the scripts of filters among these names with numpy's over them
 tree = ast.parse(text)
