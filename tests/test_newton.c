@@ -272,8 +272,9 @@ static void steady_cavity_takes_few_iterations(void **state)
     assert_true(n.norm < 1e-6);
 }
 
-/* Cells of aspect 100: a pseudo step whose linear system stays unsolved is not made again and again
- * (GMRES has 200 vectors an iteration; all of them were used in most, 175 on average). */
+/* Cells of aspect 100: a pseudo step whose linear system stays unsolved is not made again and
+ * again. GMRES has 200 vectors an iteration; 22 of 26 used all of them. No more now than 20 such.
+ */
 static void pseudo_steps_stay_within_what_gmres_solves(void **state)
 {
     (void)state;
@@ -283,7 +284,7 @@ static void pseudo_steps_stay_within_what_gmres_solves(void **state)
     const struct newton *n = c.s->newton;
     print_message("aspect 100: %lld iterations, %lld vectors\n", (long long)n->newtons,
                   (long long)n->krylovs);
-    assert_true(n->steady && n->newtons < 60 && n->krylovs < 133 * n->newtons);
+    assert_true(n->steady && n->newtons < 60 && n->krylovs < 20 * 200);
     fv_free(&c.s);
 }
 
