@@ -33,7 +33,7 @@ static void gained_energy_ends_a_run(void **state)
         struct fv_case c;
         fv_case_set(&c, MPI_COMM_SELF,
                     (const char *const[]){"initial.field=\"two_modes\"", "fluid.nu=1e-4",
-                                          "initial.velocity=(3,3)", NULL});
+                                          "initial.velocity=(3,3)", "fv.upwind=0", NULL});
         struct fv *s = fv_case_start(&c, NULL);
         s->prm.cfl = cfl[k];
         assert_false(fv_case_run(&c, 1000, 1.0));
@@ -112,9 +112,9 @@ static void blocks_are_watched(void **state)
     (void)state;
     for (int k = 0; k < 2; k++) {
         struct mesh_case c;
-        struct fv *s =
-            mesh_case_start(&c, MPI_COMM_WORLD, waving,
-                            (const char *const[]){"initial.velocity=(3,3)", "fluid.nu=1e-4", NULL});
+        struct fv *s = mesh_case_start(
+            &c, MPI_COMM_WORLD, waving,
+            (const char *const[]){"initial.velocity=(3,3)", "fluid.nu=1e-4", "fv.upwind=0", NULL});
         s->prm.cfl = k ? 2.2 : 1.1;
         assert_int_equal(mesh_case_run(s, 1000, 0.5), k == 0);
         if (k)
@@ -125,12 +125,13 @@ static void blocks_are_watched(void **state)
     }
 }
 
-/* v = 0.1 (-1)^i needs no pressure and nothing carries it away: it stays in an inviscid flow. */
+/* v = 0.1 (-1)^i needs no pressure and nothing carries it away: it stays in an inviscid flow
+ * without bias. */
 static void waves_of_two_cells_are_seen(void **state)
 {
     struct fv_case c;
     (void)state;
-    fv_case_set(&c, MPI_COMM_SELF, (const char *const[]){"fluid.nu=0", NULL});
+    fv_case_set(&c, MPI_COMM_SELF, (const char *const[]){"fluid.nu=0", "fv.upwind=0", NULL});
     struct fv *s = fv_case_start(&c, NULL);
     BLOCK_CELLS (&s->b, i, j, k, at)
         s->u[1][at] += i % 2 ? 0.1 : -0.1;
@@ -210,6 +211,31 @@ static void lost_water_is_not_accepted(void **state)
     fv_free(&c.s);
 }
 
+/* Water that fills the domain flows on through its outlet, but the loss of its surface is told; a
+ * river whose surface stays is none. */
+static void a_full_domain_is_told(void **state)
+{
+    (void)state;
+    for (int full = 0; full < 2; full++) {
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_SELF,
+                    (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED,
+                                          "initial.level=0.5", "fluid.gravity=(0,-9.81)", NULL});
+        for (int side = SIDE_X_MIN; side <= SIDE_Y_MAX; side++)
+            wall_add(&c, (enum scene_side)side,
+                     side == SIDE_X_MIN   ? WALL_INFLOW
+                     : side == SIDE_X_MAX ? WALL_OUTFLOW
+                                          : WALL_SLIP,
+                     side == SIDE_X_MIN ? 0.1 : 0.0);
+        c.run.scene.shapes[c.run.scene.nshapes++] =
+            (struct scene_shape){.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, full ? 2 : 0.5, 0}}};
+        struct fv *s = fv_case_start(&c, NULL);
+        assert_true(fv_case_run(&c, 2, 1.0));
+        assert_int_equal(s->watches->filled, full);
+        fv_free(&c.s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(gained_energy_ends_a_run),
@@ -219,7 +245,8 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(waves_of_two_cells_are_seen),
                                        cmocka_unit_test(sudden_growth_is_seen),
                                        cmocka_unit_test(walls_and_openings_are_in_the_budget),
-                                       cmocka_unit_test(lost_water_is_not_accepted)};
+                                       cmocka_unit_test(lost_water_is_not_accepted),
+                                       cmocka_unit_test(a_full_domain_is_told)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

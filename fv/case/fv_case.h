@@ -14,6 +14,8 @@ void fv_unused_check(const struct run *r, struct faults *f);
 void fv_scene_check(const struct run *r, struct faults *f);
 /* The same of its free surface alone, on any grid. */
 void surface_check(const struct run *r, struct faults *f);
+/* hanging_water.c: of water that would hang from the side of the domain above it. */
+void surface_check_hanging(const struct run *r, struct faults *f);
 
 /* fv_state.c, mesh_state.c */
 struct fv *fv_create(struct run *r, struct h5 *f);

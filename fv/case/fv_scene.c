@@ -341,9 +341,27 @@ void surface_check(const struct run *r, struct faults *f)
     for (int k = 0; k < s->nshapes; k++)
         check_shape(r, f, k);
     check_grains(r, f);
+    surface_check_hanging(r, f);
 }
 
 /* --- fields that are exact at all times --- */
+
+/* Of a stream across closed sides nothing is left after the first projection. */
+static void check_stream(const struct run *r, struct faults *f)
+{
+    const struct scene *s = &r->scene;
+    if (surface_wanted(r) || r->coupled || mesh_block_count() > 0)
+        return;
+    for (int a = 0; a < s->domain.dim; a++) {
+        const struct scene_wall *low = wall_on(s, a, 0), *high = wall_on(s, a, 1);
+        if (low && high && low->kind <= WALL_NO_SLIP && high->kind <= WALL_NO_SLIP &&
+            s->initial.velocity[a] != 0.0)
+            params_fault(r->params, f, "initial.velocity",
+                         "uniform: along %c both sides are walls, which stop it at once: give an "
+                         "\"inflow\" and an \"outflow\", or make that direction periodic",
+                         axes[a]);
+    }
+}
 
 static void check_channel(const struct run *r, struct faults *f)
 {
@@ -431,6 +449,9 @@ static void check_field(const struct run *r, struct faults *f)
     case FIELD_POISEUILLE:
     case FIELD_COUETTE:
         check_channel(r, f);
+        break;
+    case FIELD_UNIFORM:
+        check_stream(r, f);
         break;
     case FIELD_STANDING_WAVE:
     case FIELD_STOKES:

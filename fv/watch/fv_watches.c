@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "../../common/log.h"
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
@@ -326,6 +327,21 @@ void fv_watches_end(struct fv *s)
     watches_summarise(s->watches, s->run->summary);
 }
 
+/* Once: with an outlet it flows on, as in a pipe, but the level that the case has is gone. */
+static void look_for_surface(struct fv *s, int64_t step)
+{
+    struct watches *w = s->watches;
+    if (w->filled || s->surface->cuts > 0 || s->surface->wet == 0 || s->surface->forced)
+        return;
+    w->filled = true;
+    log_warn("t = %.4g s, step %lld: no free surface is left, the domain is full of water%s", s->t,
+             (long long)step,
+             sides_of(s) & 1u << MESH_INFLOW
+                 ? ": the velocity of an inflow is given whatever the level, so more comes in the "
+                   "higher it rises; a higher domain, or less inflow"
+                 : "");
+}
+
 void fv_watches_look(struct fv *s, struct diagnosis *d)
 {
     struct watches *w = s->watches;
@@ -338,6 +354,8 @@ void fv_watches_look(struct fv *s, struct diagnosis *d)
     }
     if (watches_want_waves(w, step))
         look_at_waves(s, step, d);
+    if (s->surface)
+        look_for_surface(s, step);
     if (s->surface)
         watch_judge(&w->returned, fabs(s->surface->returned) / surface_volume_scale(s), s->t, step,
                     d);

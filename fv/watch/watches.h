@@ -23,6 +23,7 @@ struct flow_waves {
 struct watches {
     struct watch energy, velocity, pressure, growth, returned;
     bool has_energy, has_growth, has_surface, periodic;
+    bool filled;                       /* that no surface is left was told */
     int energy_every, waves_every;     /* steps */
     struct watch_budget budget, peaks; /* of the energy less work; its largest so far */
     double speed;                      /* m/s: of the scene */
