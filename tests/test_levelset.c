@@ -193,6 +193,32 @@ static void pressure_is_second_order(void **state)
     assert_true(0.5 * fv_case_order(coarse, fine) > 1.8);
 }
 
+/* Water drawn up to the walls and beyond them is the same: phi is the distance of its surface. */
+static void walls_are_no_surface(void **state)
+{
+    static const double corners[2][4][2] = {{{0, 0}, {0, 0.3}, {1, 0.4}, {1, 0}},
+                                            {{-1, -1}, {-1, 0.2}, {2, 0.5}, {2, -1}}};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct fv_case c;
+        double x[3], most = 0.0;
+        struct scene_shape water = {.form = SHAPE_POLYGON, .points.n = 4};
+        memcpy(water.points.x, corners[k], sizeof corners[k]);
+        struct fv *s = start(
+            &c, MPI_COMM_WORLD,
+            (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "fv.cells=(24,24)", NULL},
+            &water, WALL_SLIP);
+        BLOCK_CELLS (&s->b, i, j, l, at) {
+            block_centre(&s->b, i, j, l, x);
+            const double far = (x[1] - 0.3 - 0.1 * x[0]) / hypot(1.0, 0.1);
+            most = fmax(most, fabs(surface_distance(s, x) - far));
+            (void)at;
+        }
+        assert_close(most_of(most), 0.0, 1e-12);
+        fv_free(&c.s);
+    }
+}
+
 static void still_water_stays(void **state)
 {
     static const double slope[] = {0.0, 0.3, -1.0};
@@ -612,6 +638,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {cmocka_unit_test(disc_turns_once),
                                        cmocka_unit_test(reinit_does_not_move_the_surface),
                                        cmocka_unit_test(pressure_is_second_order),
+                                       cmocka_unit_test(walls_are_no_surface),
                                        cmocka_unit_test(still_water_stays),
                                        cmocka_unit_test(axes_are_alike),
                                        cmocka_unit_test(reach_is_that_on_the_wall),

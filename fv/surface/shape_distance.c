@@ -51,7 +51,21 @@ static double box(const struct fv *s, const struct scene_shape *h, const double 
     return out2 > 0.0 ? sqrt(out2) : in;
 }
 
-static double polygon(const struct param_points *p, const double *x)
+/* Whether an edge lies on a side of the domain, or beyond it: that is where water ends at a wall,
+ * no surface. */
+static bool on_side(const struct fv *s, const double *a, const double *b)
+{
+    const struct scene_domain *domain = &s->run->scene.domain;
+    for (int t = 0; t < 2; t++) {
+        const double low = domain->min[t], high = domain->max[t], eps = 1e-9 * (high - low);
+        if ((a[t] <= low + eps && b[t] <= low + eps) || (a[t] >= high - eps && b[t] >= high - eps))
+            return true;
+    }
+    return false;
+}
+
+/* Of edges that end where one on a side begins, the whole line counts. */
+static double polygon(const struct fv *s, const struct param_points *p, const double *x)
 {
     double least = INFINITY;
     bool in = false;
@@ -59,11 +73,15 @@ static double polygon(const struct param_points *p, const double *x)
         const double *a = p->x[k], *b = p->x[l];
         const double e[2] = {b[0] - a[0], b[1] - a[1]}, r[2] = {x[0] - a[0], x[1] - a[1]};
         const double ee = e[0] * e[0] + e[1] * e[1];
-        const double m = ee > 0.0 ? fmin(1.0, fmax(0.0, (e[0] * r[0] + e[1] * r[1]) / ee)) : 0.0;
-        least = fmin(least, hypot(r[0] - m * e[0], r[1] - m * e[1]));
+        double m = ee > 0.0 ? (e[0] * r[0] + e[1] * r[1]) / ee : 0.0;
         if ((a[1] > x[1]) != (b[1] > x[1]) &&
             x[0] < a[0] + (b[0] - a[0]) * (x[1] - a[1]) / (b[1] - a[1]))
             in = !in;
+        if (on_side(s, a, b))
+            continue;
+        m = m < 0.0 && !on_side(s, a, p->x[(k + 1) % p->n]) ? 0.0 : m;
+        m = m > 1.0 && !on_side(s, b, p->x[(l + p->n - 1) % p->n]) ? 1.0 : m;
+        least = fmin(least, hypot(r[0] - m * e[0], r[1] - m * e[1]));
     }
     return in ? -least : least;
 }
@@ -77,7 +95,7 @@ static double shape(const struct fv *s, const struct scene_shape *h, const doubl
     case SHAPE_BOX:
         return box(s, h, x);
     case SHAPE_POLYGON:
-        return polygon(&h->points, x);
+        return polygon(s, &h->points, x);
     case SHAPE_DISC:
         return sqrt(r2) - h->radius;
     default:
