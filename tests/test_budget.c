@@ -78,6 +78,31 @@ static void walls_take_what_the_flow_loses(void **state)
     fv_free(&c.s);
 }
 
+/* The same of all four walls of a cavity, pressures in its corners too, whose steady sum is 0. */
+static void so_do_walls_of_a_cavity(void **state)
+{
+    (void)state;
+    double sums[4], force[3];
+    struct fv_case c;
+    fv_case_set(&c, MPI_COMM_WORLD,
+                (const char *const[]){CLOSED, "initial.field=\"rest\"", "fluid.nu=0.02", NULL});
+    for (int side = SIDE_X_MIN; side <= SIDE_Y_MAX; side++)
+        wall_add(&c, (enum scene_side)side, WALL_NO_SLIP, side == SIDE_Y_MAX ? 1.0 : 0.0);
+    struct fv *s = fv_case_start(&c, NULL);
+    for (int k = 0; k < 2; k++) {
+        assert_true(fv_case_run(&c, 100000, k ? 12.0 : 0.2)); /* 2.4 L^2/nu: steady */
+        rates(s, sums);
+        force_of(s, force);
+        for (int a = 0; a < 2; a++) {
+            print_message("cavity, t = %g s, %c: %g of %g, force %g\n", s->t, "xy"[a],
+                          sums[a] + force[a], sums[3], force[a]);
+            assert_true(fabs(sums[a] + force[a]) < 1e-10 * sums[3]);
+            assert_true(!k || fabs(force[a]) < 1e-3 * sums[3]);
+        }
+    }
+    fv_free(&c.s);
+}
+
 /* Largest divergence in units of the speed 1 over a cell of 1/32. */
 static double largest_divergence(struct fv *s)
 {
@@ -167,9 +192,9 @@ static void so_do_curved_walls(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(walls_take_what_the_flow_loses),
-                                       cmocka_unit_test(so_do_walls_of_blocks),
-                                       cmocka_unit_test(so_do_curved_walls)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(walls_take_what_the_flow_loses), cmocka_unit_test(so_do_walls_of_a_cavity),
+        cmocka_unit_test(so_do_walls_of_blocks), cmocka_unit_test(so_do_curved_walls)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

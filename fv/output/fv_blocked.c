@@ -34,19 +34,19 @@ static void add_face(const struct fv *s, const struct near_box *x, int a, int up
     const int64_t c = x->cell, in = up ? -b->stride[a] : b->stride[a];
     const double out = up ? 1.0 : -1.0, h = b->h[a], area = block_volume(b, 0) / h;
     int at[3];
-    double p[4], place[3];
+    double p[3], place[3];
     bool deep = x->free[!up] == 3;
     if (!is_wet(s, c) || (s->surface && 3.0 * s->surface->phi[c] > s->surface->phi[c + in]))
         return;
     for (int n = 1; n < 4; n++)
         deep = deep && is_wet(s, c + n * in);
-    for (int n = 0; n < 4; n++)
+    for (int n = 0; n < 3; n++)
         p[n] = fv_pressure(s, deep ? c + n * in : c);
     block_place(b, c, at);
     block_centre(b, at[0], at[1], at[2], place);
     place[a] += 0.5 * out * h;
     force[a] += out * area *
-                ((25.0 * p[0] - 23.0 * p[1] + 13.0 * p[2] - 3.0 * p[3]) / 12.0 +
+                (fv_wall_pressure(p, blocked_params(x->box[up])->kind == WALL_SLIP) +
                  fv_still_pressure(s, place));
     for (int q = 0; q < b->dim && blocked_params(x->box[up])->kind == WALL_NO_SLIP; q++) {
         const double *u = s->u[q] + c;

@@ -18,33 +18,37 @@ static bool is_dry_wall(const struct fv *s, int64_t c, int64_t in)
     return is_dry(s, c) || (s->surface && 3.0 * s->surface->phi[c] > s->surface->phi[c + in]);
 }
 
-/* Of one face of side k, beside the cell at c: pressure by the cubic, shear by the fourth-order
- * face gradient. A dry wall feels nothing; beside one that is wet the cell's own pressure counts.
- */
+double fv_wall_pressure(const double p[3], bool slip)
+{
+    return slip ? (7.0 * p[0] - p[1]) / 6.0 : (11.0 * p[0] - 7.0 * p[1] + 2.0 * p[2]) / 6.0;
+}
+
+/* Of one face of side k, beside the cell at c: the fluxes of the momentum equation, so that walls
+ * take what the flow loses. A dry wall feels nothing; beside one that is wet the cell's own
+ * pressure counts. */
 static void add_face(const struct fv *s, int k, const int *at, double area, double *force)
 {
     const struct block *b = &s->b;
     const int a = k / 2;
     const int64_t c = block_at(b, at[0], at[1], at[2]), in = k % 2 ? -b->stride[a] : b->stride[a];
     const double out = k % 2 ? 1.0 : -1.0, mu = s->run->scene.fluid.rho * s->nu;
-    double p[4], x[3];
+    double p[3], x[3];
     bool deep = true;
     if (is_blocked(s, c) || is_dry_wall(s, c, in))
         return;
     for (int n = 1; n < 4; n++)
         deep = deep && !is_dry(s, c + n * in);
-    for (int n = 0; n < 4; n++)
+    for (int n = 0; n < 3; n++)
         p[n] = fv_pressure(s, deep ? c + n * in : c);
     block_centre(b, at[0], at[1], at[2], x);
     x[a] += 0.5 * out * block_size(b, a, at[a]);
-    force[a] += out * area *
-                ((25.0 * p[0] - 23.0 * p[1] + 13.0 * p[2] - 3.0 * p[3]) / 12.0 +
-                 fv_still_pressure(s, x) + s->datum);
+    force[a] +=
+        out * area *
+        (fv_wall_pressure(p, s->bc->kind[k] == MESH_SLIP) + fv_still_pressure(s, x) + s->datum);
     for (int q = 0; q < b->dim; q++) {
         const double *u = s->u[q] + c;
-        if (q != a)
-            force[q] += area * mu / (12.0 * block_size(b, a, at[a])) *
-                        (15.0 * (u[0] - u[-in]) - (u[in] - u[-2 * in]));
+        force[q] += area * mu / (12.0 * block_size(b, a, at[a])) *
+                    (15.0 * (u[0] - u[-in]) - (u[in] - u[-2 * in]));
     }
 }
 

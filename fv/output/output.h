@@ -35,6 +35,9 @@ void fv_probe(struct fv *s, double *values);
 
 /* fv_forces.c: force of the flow on all walls, N (per metre in 2D), over all ranks. */
 void fv_wall_force(const struct fv *s, double force[3]);
+/* Pressure on a wall beside the cells p[0] to p[2], as the gradient has it: its ghosts are those of
+ * the quadratic behind a no-slip wall, mirrored behind a slip wall (forcing_fixes.c). */
+double fv_wall_pressure(const double p[3], bool slip);
 
 /* fv_blocked.c: forces on boxes that are cut out; number of columns and their names (static). */
 int fv_blocked_columns(const struct run *r, const char **columns);
