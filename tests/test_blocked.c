@@ -243,6 +243,29 @@ static void duct_has_its_parabola(void **state)
     end(&c);
 }
 
+/* Steady flow that a body force drives past a bar in a duct: bar and walls take the force on what
+ * flows, 0.1 (4 - 0.25). */
+static void bar_and_walls_take_the_weight(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    double wall[3], bar[3];
+    BOX("bar", WALL_NO_SLIP, 0.75, 0.75, 0, 1.25, 1.25, 0);
+    struct fv *s =
+        start(&c, MPI_COMM_WORLD,
+              (const char *const[]){"initial.field=\"rest\"", "fluid.nu=0.05",
+                                    "fluid.gravity=(0.1,0)", "domain.max=(2,2)",
+                                    "domain.periodic=(true,false)", "domain.dim=2", NULL},
+              NULL, WALL_NO_SLIP);
+    assert_true(fv_case_run(&c, 100000, 80.0)); /* H^2/(pi^2 nu) = 8 s */
+    fv_wall_force(s, wall);
+    fv_blocked_forces(s, bar);
+    print_message("bar %g, walls %g: %.6f of 0.375 N\n", bar[0], wall[0], bar[0] + wall[0]);
+    assert_close(bar[0] + wall[0], 0.375, 1e-3 * 0.375);
+    assert_close(bar[1] + wall[1], 0.0, 1e-9);
+    end(&c);
+}
+
 /* A stream through boxes in a periodic domain loses energy, whoever has it; the watch of what a
  * flow has over its mean knows that a box stirs it. */
 static void stream_loses_energy(void **state)
@@ -309,11 +332,15 @@ static void ranks_agree(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_water_stays),      cmocka_unit_test(boxes_are_walls),
-        cmocka_unit_test(thin_wall_parts_basins), cmocka_unit_test(shafts_have_their_own_levels),
-        cmocka_unit_test(gauges_read_over_boxes), cmocka_unit_test(duct_has_its_parabola),
-        cmocka_unit_test(stream_loses_energy),    cmocka_unit_test(ranks_agree)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(still_water_stays),
+                                       cmocka_unit_test(boxes_are_walls),
+                                       cmocka_unit_test(thin_wall_parts_basins),
+                                       cmocka_unit_test(shafts_have_their_own_levels),
+                                       cmocka_unit_test(gauges_read_over_boxes),
+                                       cmocka_unit_test(duct_has_its_parabola),
+                                       cmocka_unit_test(stream_loses_energy),
+                                       cmocka_unit_test(bar_and_walls_take_the_weight),
+                                       cmocka_unit_test(ranks_agree)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

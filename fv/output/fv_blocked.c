@@ -50,10 +50,9 @@ static void add_face(const struct fv *s, const struct near_box *x, int a, int up
                  fv_still_pressure(s, place));
     for (int q = 0; q < b->dim && blocked_params(x->box[up])->kind == WALL_NO_SLIP; q++) {
         const double *u = s->u[q] + c;
-        if (q != a)
-            force[q] += area * s->run->scene.fluid.rho * s->nu / (12.0 * h) *
-                        (15.0 * (u[0] - blocked_ghost(u, in, 1, GHOST_NO_SLIP)) -
-                         (u[in] - blocked_ghost(u, in, 2, GHOST_NO_SLIP)));
+        force[q] += area * s->run->scene.fluid.rho * s->nu / (12.0 * h) *
+                    (15.0 * (u[0] - blocked_ghost(u, in, 1, GHOST_NO_SLIP)) -
+                     (u[in] - blocked_ghost(u, in, 2, GHOST_NO_SLIP)));
     }
 }
 
