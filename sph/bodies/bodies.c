@@ -80,7 +80,7 @@ void bodies_begin(struct sph *s)
         struct body *b = s->walls->bodies + k;
         if (!b->free)
             continue;
-        b->free->held = s->t < b->is->release * (1.0 - 1e-12);
+        body_hold(b, s->t);
         memcpy(b->free->y0, b->free->y, sizeof b->free->y0);
         memset(b->free->sum, 0, sizeof b->free->sum);
     }

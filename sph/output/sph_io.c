@@ -321,6 +321,10 @@ void sph_checkpoint(void *state, struct h5 *f)
     for (const struct sph *q = s; q; q = q->finer)
         save_particles(q, f);
     h5_write_real(f, "lost", "-", 1, 1, &s->lost, false);
+    double back = 0.0;
+    for (const struct sph *q = s; q && q->walls; q = q->finer)
+        back += (double)q->walls->returned;
+    h5_write_real(f, "put_back", "-", 1, 1, &back, false);
     if (s->refinement)
         save_levels(s, f);
     if (s->signal_fit.n > 0)
@@ -395,6 +399,9 @@ static bool read_numbers(struct sph *s, struct h5 *f)
 {
     if (!read_next_id(s, f) || !h5_read_parts(f, "lost", 1, &s->lost))
         return false;
+    double back;
+    if (s->walls && h5_read_parts(f, "put_back", 1, &back))
+        s->walls->returned = (int64_t)back;
     for (int k = 0; k < NUMBERS; k++)
         if (!h5_read_attribute_real(f, numbers[k].name, number(s, k)))
             return false;
@@ -492,6 +499,8 @@ bool sph_restore(struct sph *s, struct h5 *f)
     for (struct sph *q = s; q; q = q->finer) {
         if (q->surface)
             read_surface(q, f);
+        if (q->walls) /* the first list reaches as far as it would have */
+            walls_expect_speed(q);
         q->ready = false;
     }
     read_signal(s, f);

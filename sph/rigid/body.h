@@ -62,6 +62,8 @@ double body_volume_of(const struct scene_body *is, const struct trimesh *mesh);
 void body_create(struct body *b, const struct scene_body *is, const struct trimesh *mesh, int dim,
                  const char *dir);
 void body_destroy(struct body *b);
+/* From t on it is held, or no longer. */
+void body_hold(struct body *b, double t);
 /* now, of the state and the time. */
 void body_move(struct body *b, double t);
 /* Where a point at `from' at the start is now; its velocity (NULL: not wanted). */

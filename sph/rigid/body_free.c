@@ -210,6 +210,8 @@ static void accelerate(const struct body *b, struct body_motion *m)
     }
 }
 
+void body_hold(struct body *b, double t) { b->free->held = t < b->is->release * (1.0 - 1e-12); }
+
 void body_move(struct body *b, double t)
 {
     struct body_motion *m = &b->now;

@@ -126,7 +126,7 @@ static void plan_next(struct sph *s)
     for (struct sph *q = s; q; q = q->finer) {
         q->dt_most = s->dt_most;
         if (q->walls)
-            walls_expect_speed(q->walls);
+            walls_expect_speed(q);
         q->skin = fmax(2.2 * q->dt_most * q->stray, 0.01 * (q->mixed ? mixed_least(q) : q->R));
         q->ready = false;
     }

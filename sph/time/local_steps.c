@@ -49,7 +49,7 @@ static void expect_step(struct sph *s, double dt)
 {
     s->dt_most = dt;
     if (s->walls)
-        walls_expect_speed(s->walls);
+        walls_expect_speed(s);
     s->skin = fmin(fmax(2.2 * dt * s->stray, 0.01 * s->R), s->skin_most);
     s->ready = false;
 }

@@ -467,8 +467,13 @@ static void find_open_ends(const struct sph *s, struct walls *w)
         }
 }
 
-void walls_expect_speed(struct walls *w)
+void walls_expect_speed(struct sph *s)
 {
+    struct walls *w = s->walls;
+    for (int k = 0; k < w->nbodies; k++)
+        if (w->bodies[k].free)
+            body_hold(w->bodies + k, s->t);
+    walls_move(s, s->t);
     w->speed = 0.0;
     for (int k = 0; k < w->nbodies; k++)
         w->speed = fmax(w->speed, 1.1 * body_speed(w->bodies + k));
@@ -509,8 +514,7 @@ struct walls *walls_create(struct sph *s)
         memcpy(w->start, w->segments, (size_t)w->nsegments * sizeof *w->start);
     w->model = models[s->prm.walls];
     w->state = w->model->create(s); /* of the walls as they are at t = 0 */
-    walls_move(s, s->t);
-    walls_expect_speed(w);
+    walls_expect_speed(s);
     return w;
 }
 

@@ -110,8 +110,8 @@ struct walls *walls_create(struct sph *s);
 void walls_free(struct walls **w);
 /* Segments and bodies at time t. */
 void walls_move(struct sph *s, double t);
-/* Sets `speed' by what bodies have now. */
-void walls_expect_speed(struct walls *w);
+/* Sets `speed' by what bodies have at s->t, who are moved there; those released are free. */
+void walls_expect_speed(struct sph *s);
 /* Velocity and acceleration of a segment's material point x, m/s and m/s^2 (du may be NULL). */
 void walls_velocity(const struct walls *w, const struct segment *g, const double *x, double *u,
                     double *du);
