@@ -116,5 +116,16 @@ near "$fall" 1650 200 || bad "the pressure falls by $fall instead of 1500 to 180
 grep -q '"particles_returned": 0,' narrows/summary.json && grep -q '"particles_lost": 0,' narrows/summary.json ||
     bad "particles come round the ends of a line on an open side" narrows.txt
 
+# A tank that the domain cuts off is refused at each of the sides that cut it
+cat >cut.cfg <<END
+format = 1;
+time:   { end = 0.1; };
+domain: { min = (-1.2, -1.2); max = (1.2, 1.4); };
+walls:  ( { closed = true; points = ((-0.366, -1.366), (1.366, -0.366), (0.366, 1.366), (-1.366, 0.366)); } );
+sph:    { dx = 0.05; };
+END
+run cut 2
+[ "$(grep -c 'which is open, cuts the tank at' cut.txt)" = 3 ] || bad "a tank that the domain cuts off" cut.txt
+
 echo "exact: torque $(column couette 'inner moment') of 209.4 N, running down at $(cat rate) of 0.105 1/s, fall of pressure $fall of 1500 to 1800 Pa; $failed faults"
 [ $failed = 0 ]

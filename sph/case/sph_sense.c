@@ -146,19 +146,53 @@ static void check_islands(const struct run *r, const struct sph_params *used, st
         }
 }
 
+/* Whether a tank that is a closed line reaches beyond a side of the plane domain, with fluid there:
+ * at some place of the side well inside it, off all lines by dx; x: the first. */
+static bool cuts_tank(const struct scene *c, int side, double dx, double x[3])
+{
+    const struct exact e = exact_create(c);
+    const int a = side / 2, b = 1 - a;
+    const double from = c->domain.min[b], to = c->domain.max[b];
+    const int n = (int)fmin(1e5, ceil((to - from) / dx));
+    for (int i = 0; i < n; i++) {
+        bool inside = false, near = false;
+        x[a] = side % 2 ? c->domain.max[a] : c->domain.min[a];
+        x[b] = from + (i + 0.5) / n * (to - from);
+        x[2] = 0.0;
+        for (int k = 0; k < c->nwalls; k++) {
+            const struct line l = line_of(&c->walls[k].points, c->walls[k].closed);
+            near = near || (l.n > 1 && line_distance(&l, x) < dx);
+            inside = inside || (c->walls[k].closed && line_area(&l) > 0.0 && line_inside(&l, x));
+        }
+        if (inside && !near && scene_is_room(c, x) && scene_is_fluid(c, &e, x, NULL))
+            return true;
+    }
+    return false;
+}
+
 /* Fluid that fills the domain up to a side where nothing is. */
 static void check_bare(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;
-    if (used->outer == OUTER_EXACT || used->outer == OUTER_PARTNER ||
-        used->surface == SURFACE_YES || has_tank(c))
+    const bool tank = has_tank(c), plane = c->domain.dim == 2;
+    double x[3];
+    if (used->outer == OUTER_EXACT || used->outer == OUTER_PARTNER)
         return;
-    for (int side = 0; side < 2 * c->domain.dim; side++)
-        if (!c->domain.periodic[side / 2] && !scene_wall_of(c, SIDE_X_MIN + side))
+    for (int side = 0; side < 2 * c->domain.dim; side++) {
+        if (c->domain.periodic[side / 2] || scene_wall_of(c, SIDE_X_MIN + side))
+            continue;
+        if (!tank && used->surface != SURFACE_YES)
             params_fault(r->params, f, "domain",
                          "the fluid fills it up to its side %s, which is open: give this side a "
                          "wall, an outflow or a period; or say by shapes where the fluid ends",
                          side_names[side]);
+        else if (tank && plane && c->nshapes == 0 && cuts_tank(c, side, used->dx, x))
+            params_fault(r->params, f, "domain",
+                         "its side %s, which is open, cuts the tank at (%g, %g), where fluid is: "
+                         "make the domain larger than the tank, or give this side a wall, an "
+                         "outflow or a period",
+                         side_names[side], x[0], x[1]);
+    }
 }
 
 /* Gravity along a period that meets no resistance. */
