@@ -128,6 +128,40 @@ close_to "$(number wave2 velocity_l2)" "$(number wave velocity_l2)" 1e-6 ||
     bad "wave on 2:2:2: velocity error $(number wave2 velocity_l2), on one rank each $(number wave velocity_l2)"
 same_bits wave half || bad "a restarted run gives other bits: $(tail -n 2 diff.txt)"
 
+# water over a box on the floor, from wall to wall: sound in it finds no side that lets it go (before windows followed it
+# the velocity error was 3.4 at t = 1, with exit code 0)
+cat >cup.cfg <<'CASE'
+format = 1;
+time:    { end = 0.8; };
+fluid:   { rho = 1000.0; nu = 1e-6; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (2, 1); };
+initial: { field = "standing_wave"; L = 2.0; amplitude = 0.05; level = 0.7; U = 0.2; };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+sph:     { dx = 0.025; free = ((0, 0), (2, 0.3)); };
+fv:      { cells = (40, 20); };
+output:  { snapshots = false; };
+CASE
+job cup 1:1:1 cup.cfg
+below "$(number cup velocity_linf)" 0.02 || bad "cup: velocity error $(number cup velocity_linf) m/s, wanted at most 0.02 of 0.2"
+below "$(number cup overlap_velocity)" 0.05 || bad "cup: velocities $(number cup overlap_velocity) apart, wanted at most 0.05"
+
+# oil on a slope in a period: gravity's part along it drives, and the level does not lean
+cat >film.cfg <<'CASE'
+format = 1;
+time:    { end = 0.3; };
+fluid:   { rho = 900.0; nu = 0.02; gravity = (0.98, -9.76); };
+domain:  { dim = 2; min = (0, 0); max = (1, 0.3); periodic = (true, false); };
+initial: { U = 0.5; };
+shapes:  ( { form = "below"; level = 0.2; } );
+walls:   ( { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; } );
+sph:     { dx = 0.02; free = ((0.3, 0), (0.7, 0.3)); };
+fv:      { cells = (32, 12); };
+output:  { snapshots = false; };
+CASE
+job film 1:1:1 film.cfg
+below "$(number film level_gap)" 0.02 || bad "film: levels $(number film level_gap) dx apart, wanted at most 0.02"
+below "$(number film water_missing)" 1e-4 || bad "film: $(number film water_missing) of the water is missing, wanted at most 1e-4"
+
 # on blocks: two joined ones whose seam lies in sph's box, turned cells under a box that moves, bdf2; a bed that rises
 # through both programs, which a side of fv's block follows; restart
 blocks() { # FILE BLOCKS...: the still water with these

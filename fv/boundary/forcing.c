@@ -240,8 +240,28 @@ double forcing_face_area(const struct fv *s, int64_t c, int a)
     return sqrt(S2);
 }
 
-/* By whether the vectors of the outline's faces sum to zero, alone or with those of the sides of
- * blocks: it has a whole inside, or the rest of the fluid has. */
+/* Vectors of closed sides of the domain behind cells of the hole: nothing flows there. */
+static void add_closed_sides(const struct fv *s, const struct forcing *f, double sum[3])
+{
+    const struct block *b = &s->b;
+    if (s->m)
+        mesh_bc_partners_walls(s, f->forced, sum);
+    for (int side = 0; side < 2 * f->dim && !s->m; side++) {
+        const int a = side / 2, last = side % 2 ? b->cells[a] - 1 : 0;
+        const struct scene_wall *w =
+            scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
+        if (b->periodic[a] || !w || (w->kind != WALL_SLIP && w->kind != WALL_NO_SLIP))
+            continue;
+        BLOCK_CELLS (b, i, j, k, c) {
+            const int at[3] = {b->lo[0] + i, b->lo[1] + j, b->lo[2] + k};
+            if (at[a] == last && f->forced[c] == 1)
+                sum[a] += (side % 2 ? -1.0 : 1.0) * forcing_face_area(s, c, a);
+        }
+    }
+}
+
+/* By whether the vectors of the outline's faces sum to zero, with those of the walls that close it
+ * or with those of the sides of blocks: it has a whole inside, or the rest of the fluid has. */
 static enum net_flux net_of(const struct fv *s, const struct forcing *f)
 {
     const bool open = s->m ? mesh_bc_pressure_given(s) : s->bc && s->bc->pressure_given;
@@ -256,11 +276,14 @@ static enum net_flux net_of(const struct fv *s, const struct forcing *f)
                 sum[e] += f->sign[a][i] * S;
                 sum[3] += fabs(S);
             }
+    double whole[3] = {sum[0], sum[1], sum[2]};
+    add_closed_sides(s, f, whole);
     MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, s->comm);
+    MPI_Allreduce(MPI_IN_PLACE, whole, 3, MPI_DOUBLE, MPI_SUM, s->comm);
     if (s->m)
         mesh_bc_vectors(s, sides);
     const double small = 1e-9 * sum[3], *to = sides;
-    const bool closed = hypot(hypot(sum[0], sum[1]), sum[2]) <= small;
+    const bool closed = hypot(hypot(whole[0], whole[1]), whole[2]) <= small;
     if (closed && (open || (s->m && s->m->has_fringe)))
         return NET_OUTLINE;
     const bool closes =

@@ -39,6 +39,8 @@ double mesh_bc_rate(const struct fv *s, double *speed);
 double mesh_bc_net_flux(const struct fv *s);
 /* The sum of the vectors of their faces, m^(dim-1). */
 void mesh_bc_vectors(const struct fv *s, double sum[3]);
+/* Adds those of this rank's walls behind cells that the partner has, inwards. */
+void mesh_bc_partners_walls(const struct fv *s, const unsigned char *forced, double sum[3]);
 /* Through this rank's inflows and outflows, m^dim/s: adds what comes in less what leaves, and the
  * sum of both, of each face the share of the cell inside that counts. */
 void mesh_bc_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c),
