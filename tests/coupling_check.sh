@@ -41,6 +41,8 @@ done
 
 # scenes without a place for the coupling
 refuses "no cell of fv in what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p coupling.overlap=0.19
+refuses "cells finer than the particles" 'fv.cells: cells of 0.005 m are finer than' taylor_green -p 'fv.cells=(200,200)'
+accepts taylor_green -p 'fv.cells=(150,150)'
 refuses "cells wider than what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p 'fv.cells=(4,4)'
 refuses "no room left for what sph gives" 'leave nothing along x of what sph gives' taylor_green -p coupling.overlap=0.4
 refuses "sph everywhere" 'no side of it lies in fv' taylor_green -p 'sph.free=((0,0),(1,1))'

@@ -134,11 +134,26 @@ static bool holds_cell(double lo, double h, double a, double b)
     return lo + (ceil((a - lo) / h - 1e-9) + 1.0) * h <= b + 1e-9 * h;
 }
 
-/* FV must be told something: a cell at least whose corners all lie where SPH gives the flow. */
+/* Cells whose kernel (forced_points of fv) is narrower than the gaps between particles find none.
+ */
+static void check_fineness(const struct run *r, const struct sph_params *prm, double h,
+                           struct faults *f)
+{
+    const double least = 0.6 * prm->dx;
+    if (h < least)
+        params_fault(r->params, f, "fv.cells",
+                     "cells of %.3g m are finer than the particles (sph.dx = %.3g m), most would "
+                     "find none of them: %.3g m and more are wanted; fewer fv.cells, or refine "
+                     "sph.dx",
+                     h, prm->dx, least);
+}
+
+/* FV must be told something: a cell at least whose corners all lie where SPH gives the flow, and a
+ * particle in each. */
 static void check_cells(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
-    double cells[3], graded[3], given[2][3];
+    double cells[3], graded[3], given[2][3], widest = 0.0;
     zones_given_box(r, prm, given[0], given[1]);
     if (!params_peek(r->params, r->comm, "fv.cells", cells))
         return; /* blocks: another fault */
@@ -147,6 +162,7 @@ static void check_cells(const struct run *r, const struct sph_params *prm, struc
         const bool rows = a == 1 && graded[1] > 0.0;
         const double lo = rows ? graded[0] : d->min[a];
         const double h = (d->max[a] - lo) / (rows ? graded[1] : cells[a]);
+        widest = fmax(widest, h);
         if (!(h > 0.0) || holds_cell(lo, h, given[0][a], given[1][a]))
             continue;
         params_fault(r->params, f, "coupling.overlap",
@@ -156,6 +172,7 @@ static void check_cells(const struct run *r, const struct sph_params *prm, struc
                      h, axes[a], given[0][a], given[1][a]);
         return;
     }
+    check_fineness(r, prm, widest, f);
 }
 
 /* The box of another group of particles with its zones; false: it has none of its own. */
