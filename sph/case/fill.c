@@ -133,29 +133,80 @@ static void each_own_cell(struct sph *s, const struct lattice *l,
             }
 }
 
-/* Height of the rows under the surface of a wave at x, in dx: as many as under its level, so that
- * no row ends within the water, or more or fewer where they would be too high or too flat. They end
- * on the surface: a staircase of whole rows had a wave of 1.3 dx a tenth too low, and with rows
- * that end wherever one more fits shifting drove a current. */
-static double row_height(const struct sph *s, const struct exact *e, double x)
+/* Where particles start under a wave: columns of equal volumes, each from the floor to the surface,
+ * in rows of equal heights, so that all particles have one volume and lie as a wave moves them. A
+ * staircase of whole rows had a wave of 1.3 dx a tenth too low; upright columns whose volumes
+ * differ are evened out by shifting, which fed a wave of k a = 0.13 tenfold in two periods. */
+struct columns {
+    int n;
+    double *x, *height; /* m: middle; of a row over dx. NULL: the plain lattice */
+    double volume;      /* of a particle, dx^D */
+};
+
+enum { FINE = 16 }; /* depths to a column */
+
+/* Depth in strip k of n between the sides, m. */
+static double depth_at(const struct sph *s, const struct exact *e, int k, int n, double *x)
 {
-    const double most = 0.15, surface = exact_surface(e, x), depth = (surface - s->lo[1]) / s->dx;
-    const double still = round((e->bottom + e->height - s->lo[1]) / s->dx);
-    if (!scene_has_wave(&s->run->scene) || surface >= s->hi[1] || depth < 1.0)
-        return 1.0;
-    return depth / round(fmax(depth / (1.0 + most), fmin(still, depth / (1.0 - most))));
+    *x = s->lo[0] + (k + 0.5) * (s->hi[0] - s->lo[0]) / n;
+    return exact_surface(e, *x) - s->lo[1];
 }
 
-/* Where the particle of a cell starts; returns its volume in dx^D. */
-static double displace(const struct sph *s, const struct exact *e, int64_t cell,
-                       const double *centre, double *x)
+/* Waves far higher than dx keep their staircase: rows would be too flat or too high. */
+static double mean_depth(const struct sph *s, const struct exact *e, int strips)
 {
-    const double height = row_height(s, e, centre[0]);
-    for (int a = 0; a < 3; a++)
-        x[a] = centre[a] +
-               (s->prm.noise > 0.0 && a < s->dim ? s->prm.noise * s->dx * random_of(cell, a) : 0.0);
-    x[1] = s->lo[1] + height * (x[1] - s->lo[1]);
-    return height;
+    double x, sum = 0.0, least = INFINITY, most = 0.0;
+    for (int k = 0; k < strips && scene_has_wave(&s->run->scene); k++) {
+        const double depth = depth_at(s, e, k, strips, &x);
+        sum += depth / strips;
+        least = fmin(least, depth);
+        most = fmax(most, depth);
+    }
+    const bool drawn = most < s->hi[1] - s->lo[1] && least > 0.85 * sum && most < 1.15 * sum;
+    return drawn && sum > 2.0 * s->dx ? sum : 0.0;
+}
+
+static struct columns columns_create(const struct sph *s, const struct exact *e)
+{
+    struct columns c = {.n = (int)fill_lattice_cells(s->lo[0], s->hi[0], s->dx), .volume = 1.0};
+    const int strips = FINE * c.n;
+    const double mean = mean_depth(s, e, strips), rows = round(mean / s->dx);
+    double x, sum = 0.0;
+    if (mean == 0.0)
+        return c;
+    c.x = NEW(double, c.n);
+    c.height = NEW(double, c.n);
+    c.volume = mean / (rows * s->dx);
+    for (int k = 0, i = 0; k < strips && i < c.n; k++) {
+        const double depth = depth_at(s, e, k, strips, &x), next = sum + depth / mean / FINE;
+        for (; i < c.n && i + 0.5 <= next; i++) { /* half of its volume lies in this strip's part */
+            const double part = (i + 0.5 - sum) / (next - sum) - 0.5;
+            c.x[i] = x + part * (s->hi[0] - s->lo[0]) / strips;
+            c.height[i] = (exact_surface(e, c.x[i]) - s->lo[1]) / (rows * s->dx);
+        }
+        sum = next;
+    }
+    return c;
+}
+
+static void columns_free(struct columns *c)
+{
+    mem_free(c->x);
+    mem_free(c->height);
+}
+
+/* Where the particle of a cell starts. */
+static void displace(const struct sph *s, const struct columns *c, int64_t cell,
+                     const double *centre, double *x)
+{
+    const int i = (int)floor((centre[0] - s->lo[0]) / s->dx);
+    memcpy(x, centre, 3 * sizeof *x);
+    if (c->x && i >= 0 && i < c->n) {
+        x[0] = c->x[i];
+        x[1] = s->lo[1] + c->height[i] * (centre[1] - s->lo[1]);
+    }
+    for (int a = 0; a < s->dim && s->prm.noise > 0.0; a++)
+        x[a] += s->prm.noise * s->dx * random_of(cell, a);
 }
 
 static void cut_links(const struct sph *s, struct lattice *l)
@@ -172,6 +223,7 @@ static void cut_links(const struct sph *s, struct lattice *l)
 /* What the cells are looked through with. */
 struct look {
     struct exact exact;
+    struct columns columns;
     int64_t wet, taken; /* cells with fluid by the shapes; of these behind walls or in bodies */
 };
 
@@ -180,7 +232,7 @@ static void mark(struct sph *s, const struct lattice *l, int64_t cell, const dou
 {
     struct look *k = ctx;
     double x[3];
-    (void)displace(s, &k->exact, cell, centre, x);
+    displace(s, &k->columns, cell, centre, x);
     if (!scene_is_fluid(&s->run->scene, &k->exact, x, NULL))
         return;
     if (!rooms_parted(s) && !scene_in_tanks(&s->run->scene, x))
@@ -195,18 +247,19 @@ static void mark(struct sph *s, const struct lattice *l, int64_t cell, const dou
 static void add(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
                 void *ctx)
 {
-    const struct exact *e = &((struct look *)ctx)->exact;
+    const struct look *k = ctx;
+    const struct exact *e = &k->exact;
     double x[3], u[3], p, more[3];
     if (!lattice_has(l, cell))
         return;
-    const double height = displace(s, e, cell, centre, x);
+    displace(s, &k->columns, cell, centre, x);
     scene_is_fluid(&s->run->scene, e, x, more);
     exact_point(e, x, 0.0, u, &p, NULL);
     for (int a = 0; a < s->dim; a++)
         u[a] += more[a];
     particles_reserve(&s->p, s->p.n + 1);
     const int i = particles_add(&s->p, cell, ZONE_FREE);
-    particles_set(s, i, x, u, height * s->dxD, eos_rho(p, s->rho0, s->c0, s->gamma));
+    particles_set(s, i, x, u, k->columns.volume * s->dxD, eos_rho(p, s->rho0, s->c0, s->gamma));
 }
 
 /* Velocity and pressure of the first field where packing has moved a particle to. */
@@ -313,6 +366,7 @@ static void warn_of_taken(const struct sph *s, const struct look *k)
 void fill_lattice(struct sph *s)
 {
     struct look look = {.exact = exact_create(&s->run->scene)};
+    look.columns = columns_create(s, &look.exact);
     struct lattice l = lattice_create(s);
     const int64_t all = lattice_cells(&l), ranks = s->run->size;
     each_own_cell(s, &l, mark, &look);
@@ -334,6 +388,7 @@ void fill_lattice(struct sph *s)
     weigh(s, b);
     basins_free(&b);
     lattice_free(&l);
+    columns_free(&look.columns);
     s->next_id = (all + ranks - 1) / ranks * ranks + s->run->rank;
 }
 
@@ -366,11 +421,12 @@ static void set_slopes(struct sph *s, const struct exact *e)
 }
 
 /* Fields of the case where particles stand; those that are weighed keep their densities. */
-static void set_fields(struct sph *q, const struct exact *e, bool keep_volumes, bool weighed)
+static void set_fields(struct sph *q, const struct exact *e, bool keep_volumes, bool weighed,
+                       double volume)
 {
     for (int i = 0; i < q->p.n; i++) {
         const double *y = state_row(&q->p, q->p.y, i);
-        const double w = keep_volumes ? y[at_volume(q->dim)] : row_height(q, e, y[0]) * q->dxD;
+        const double w = keep_volumes ? y[at_volume(q->dim)] : volume * q->dxD;
         const double rho = y[at_mass(q->dim)] / y[at_volume(q->dim)];
         double x[3] = {0.0, 0.0, 0.0}, u[3], p, more[3];
         memcpy(x, y, (size_t)q->dim * sizeof *x);
@@ -390,13 +446,15 @@ void fill_finer(struct sph *s)
     set_slopes(s, &e);
     if (!s->finer) {
         mixed_start(s);
-        set_fields(s, &e, true, weighed);
+        set_fields(s, &e, true, weighed, 1.0);
         return;
     }
     /* Gaps are at walls, or between families of displaced mothers, twice as wide for each level. */
     const bool gaps = s->walls || (s->prm.noise > 0.0 && s->finer->finer);
+    struct columns c = columns_create(s, &e);
     refinement_begin(s, s->prm.packing > 0 && gaps ? pack_finer : NULL);
     for (struct sph *q = s->finer; q; q = q->finer)
-        set_fields(q, &e, s->prm.packing > 0, weighed);
+        set_fields(q, &e, s->prm.packing > 0, weighed, c.volume);
+    columns_free(&c);
     refinement_remember(s);
 }
