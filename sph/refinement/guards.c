@@ -370,6 +370,15 @@ INLINE void update(struct sph *const *all, struct sph *s, int n, const int dim)
     }
 }
 
+/* What deep guards are given in the first stage holds for all of the step, which starts from y0. */
+static void keep_deep(struct sph *s)
+{
+    const struct guards *g = s->guards;
+    const size_t size = (size_t)s->p.nstate * sizeof(double);
+    for (int k = g->nshallow; k < g->n; k++)
+        memcpy(state_row(&s->p, s->p.y0, g->who[k]), state_row(&s->p, s->p.y, g->who[k]), size);
+}
+
 static void update_level(struct sph *const *all, struct sph *s)
 {
     struct guards *g = s->guards;
@@ -378,6 +387,8 @@ static void update_level(struct sph *const *all, struct sph *s)
         update(all, s, n, 2);
     else
         update(all, s, n, 3);
+    if (g->fresh)
+        keep_deep(s);
     g->fresh = false;
 }
 
