@@ -108,9 +108,9 @@ static void set_tank(struct sph_case *c, int scheme, int walls)
     refine(0.45, -0.1, 1.3, 1.1);
 }
 
-/* Sum of the squares of all places and momenta, those of guards, too, after ten steps of a tank that
- * sloshes through the edge of a box, where some of the coarse guards are deep; shown: slopes are
- * made for an output after each step. */
+/* Sum of the squares of all places and momenta, those of guards, too, after ten steps of a tank
+ * that sloshes through the edge of a box, where some of the coarse guards are deep; shown: slopes
+ * are made for an output after each step. */
 static double state_of(bool shown)
 {
     struct sph_case c;
@@ -224,10 +224,9 @@ static void a_body_moves_as_in_the_fine_fluid(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_scheme_keeps_its_order),
-                                       cmocka_unit_test(an_output_leaves_no_trace),
-                                       cmocka_unit_test(water_at_rest_stays),
-                                       cmocka_unit_test(a_body_moves_as_in_the_fine_fluid)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_scheme_keeps_its_order), cmocka_unit_test(an_output_leaves_no_trace),
+        cmocka_unit_test(water_at_rest_stays), cmocka_unit_test(a_body_moves_as_in_the_fine_fluid)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
