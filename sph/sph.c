@@ -271,6 +271,7 @@ static void check(const struct run *r, struct faults *f)
     if (f->n == 0) {
         const double n = lattice(r) + regions_particles(r, sph_params_of(r));
         run_check_memory(r, f, "sph.dx", n, "particles", n * bytes_per_particle(r));
+        regions_check_budget(r, n, f);
     }
 }
 

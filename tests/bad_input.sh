@@ -536,6 +536,7 @@ with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = ({ kind = "harmonic"; a
 with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = "nothing.txt";/' 'case.cfg:10: .*motion: term 1: nothing.txt is not a file' sph
 with apr 's/levels = 2;/levels = 2; around = 4;/' 'case.cfg:8: apr.around: is not used' sph
 with apr 's/levels = 2;/levels = 2; particles = 1e5;/' 'case.cfg:8: apr.particles: is not used' sph
+with apr 's/levels = 2;/levels = 2; particles = 1000; criteria = ( { kind = "surface"; distance = 1; } );/' 'apr.particles: level 0 and the regions .* could refine nothing within 1000' sph
 with apr 's/levels = 2;/levels = 2; criteria = ({ kind = "vorticity"; });/' 'case.cfg:8: apr.criteria: criterion 1 needs .above' sph
 with apr 's/levels = 2;/levels = 2; criteria = ({ kind = "surface"; above = 0.1; });/' 'case.cfg:8: .*above: is not used: this kind has a bound `distance' sph
 with apr 's/levels = 2;/levels = 2; margin = 1.0;/' 'case.cfg:8: apr.margin: 1 is not allowed' sph

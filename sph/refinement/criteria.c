@@ -14,8 +14,6 @@
 
 /* 2^30 cells of 20 bytes are more than a rank can hold; 2^25 are 700 MB. */
 #define CELLS_MOST 33554432.0
-/* The budget is kept by forecasts; between two of them particles cross edges. */
-#define BUDGET_SHARE 0.9
 
 struct grid {
     struct marks cells;
@@ -267,7 +265,7 @@ static double mark_all(struct regions *g, double factor, double t, bool patient)
  * than it is asked for. */
 static double find_factor(struct regions *g, double t, bool patient)
 {
-    const double budget = BUDGET_SHARE * g->prm->particles;
+    const double budget = CRITERIA_SHARE * g->prm->particles;
     double low = 1.0, high = 1.0;
     if (g->prm->particles <= 0.0 || mark_all(g, 1.0, t, patient) <= budget)
         return 1.0;

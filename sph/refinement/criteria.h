@@ -11,6 +11,9 @@
 struct regions;
 struct h5;
 
+/* Of the budget: it is kept by forecasts; between two of them particles cross edges. */
+#define CRITERIA_SHARE 0.9
+
 /* What a particle that flows has to say. */
 struct flow_sample {
     double volume;      /* m^dim */

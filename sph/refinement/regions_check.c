@@ -9,6 +9,7 @@
 #include "../../common/scene_mesh.h"
 #include "../open_boundaries/box_motion.h"
 #include "../rigid/body.h"
+#include "criteria.h"
 #include "regions.h"
 #include "regions_parts.h"
 
@@ -516,6 +517,17 @@ static void check_criteria(const struct run *r, const struct sph_params *used,
             r->params, f, "apr.criteria",
             "%.2g cells of R = %.3g m in the domain are too many for criteria: fewer levels", cells,
             ldexp(used->R_dx * used->dx, 1 - prm->levels));
+}
+
+void regions_check_budget(const struct run *r, double n, struct faults *f)
+{
+    const struct apr_params *prm = apr_params_of(r);
+    const double least = n / CRITERIA_SHARE;
+    if (prm && prm->criteria.n > 0 && prm->particles > 0.0 && prm->particles <= least)
+        params_fault(r->params, f, "apr.particles",
+                     "level 0 and the regions of the case hold about %.0f particles already, so "
+                     "criteria could refine nothing within %.0f: give well above %.0f",
+                     n, prm->particles, least);
 }
 
 /* --- all --- */

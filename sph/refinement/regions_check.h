@@ -9,6 +9,8 @@ struct picture;
 
 /* used: sph_params_of. Collective. */
 void regions_check(const struct run *r, const struct sph_params *used, struct faults *f);
+/* Whether apr.particles leaves criteria anything beyond the n particles that are there anyhow. */
+void regions_check_budget(const struct run *r, double n, struct faults *f);
 /* regions_describe.c: lines of --check: levels, dx, about how many particles of each. */
 void regions_describe(const struct run *r, const struct sph_params *used);
 /* About how many particles fixed regions have at the start, of all levels above 0; those that
