@@ -36,18 +36,24 @@ static void ghosts_on_blocks(const struct fv *s, double *phi)
     mesh_bc_level(s, s->surface && s->surface->mesh->keeps, phi);
 }
 
-void surface_ghosts(const struct fv *s, double *phi)
+/* How phi goes on behind a side. */
+enum beyond { MIRRORED, LINEAR };
+
+static enum beyond beyond_side(const struct fv *s, int side, enum beyond wanted)
+{
+    const bool wall = s->bc && (s->bc->kind[side] == MESH_WALL || s->bc->kind[side] == MESH_SLIP);
+    return wall ? wanted : MIRRORED;
+}
+
+static void ghosts(const struct fv *s, enum beyond walls, double *phi)
 {
     const struct block *b = &s->b;
-    if (s->m) {
-        ghosts_on_blocks(s, phi);
-        return;
-    }
     block_halo(b, 1, &phi);
     for (int a = 0; a < b->dim; a++)
         for (int upper = 0; upper < 2; upper++) {
             if (!side_here(b, a, upper))
                 continue;
+            const bool linear = beyond_side(s, 2 * a + upper, walls) == LINEAR;
             const int64_t out = upper ? b->stride[a] : -b->stride[a];
             int lo[3], hi[3];
             for (int t = 0; t < 3; t++) {
@@ -59,9 +65,17 @@ void surface_ghosts(const struct fv *s, double *phi)
                     for (int i = lo[0]; i < hi[0]; i++) {
                         double *q = phi + block_at(b, i, j, k);
                         for (int m = 1; m <= GHOSTS; m++)
-                            q[m * out] = q[(1 - m) * out];
+                            q[m * out] = linear ? q[0] + m * (q[0] - q[-out]) : q[(1 - m) * out];
                     }
         }
+}
+
+void surface_ghosts(const struct fv *s, double *phi)
+{
+    if (s->m)
+        ghosts_on_blocks(s, phi);
+    else
+        ghosts(s, MIRRORED, phi);
 }
 
 /* Of the cells of local row j. */
@@ -168,6 +182,16 @@ static void blend(const struct fv *s, double w, const double *p, double dt, cons
         q[i] = w * p[i] + (1.0 - w) * (q[i] + dt * rate[i]);
 }
 
+/* Ghosts while phi goes on: that it is mirrored by walls is a kink, which WENO5 takes for the
+ * surface's own where it is near. */
+static void ghosts_of_stage(const struct fv *s, double *phi)
+{
+    if (s->m)
+        ghosts_on_blocks(s, phi);
+    else
+        ghosts(s, LINEAR, phi);
+}
+
 /* One step of SSP-RK3. */
 static void advance(struct fv *s, double dt)
 {
@@ -175,10 +199,12 @@ static void advance(struct fv *s, double dt)
     struct surface *f = s->surface;
     memcpy(f->phi_new, f->phi, (size_t)s->size * sizeof(double));
     for (int k = 0; k < 3; k++) {
+        if (k > 0 || !s->m)
+            ghosts_of_stage(s, f->phi_new);
         rate_of(s, f->phi_new, f->rate);
         blend(s, w[k], f->phi, dt, f->rate, f->phi_new);
-        surface_ghosts(s, f->phi_new);
     }
+    surface_ghosts(s, f->phi_new);
     double *t = f->phi;
     f->phi = f->phi_new;
     f->phi_new = t;
@@ -250,6 +276,17 @@ static double share_below(int dim, const double *n, double alpha)
     return fmin(1.0, fmax(0.0, sum / scale));
 }
 
+/* Difference of phi over two cells along the step d, one-sided beside closed sides and boxes. */
+static double difference(const struct fv *s, int64_t c, int64_t d)
+{
+    const double *q = s->surface->phi + c;
+    if (s->m)
+        return blocked_beside(s, s->surface->phi, c, d) - blocked_beside(s, s->surface->phi, c, -d);
+    const bool low = surface_holds_none(s, c - d), high = surface_holds_none(s, c + d);
+    return (high ? low ? 0.0 : q[0] - q[-d] : q[d] - q[0]) +
+           (low ? high ? 0.0 : q[d] - q[0] : q[0] - q[-d]);
+}
+
 /* Height of a cell over the mean distance to those above and below. */
 static double across_row(const struct block *b, int64_t c)
 {
@@ -264,8 +301,7 @@ static double share_at(const struct fv *s, const struct part *p, int64_t c, doub
     const double *q = s->surface->phi + c;
     double n[3], sum = 0.0, alpha;
     for (int a = 0; a < s->dim; a++) {
-        n[a] = 0.5 * fabs(blocked_beside(s, s->surface->phi, c, p->stride[a]) -
-                          blocked_beside(s, s->surface->phi, c, -p->stride[a]));
+        n[a] = 0.5 * fabs(difference(s, c, p->stride[a]));
         if (a == 1 && b->rows)
             n[a] *= across_row(b, c);
         sum += n[a];

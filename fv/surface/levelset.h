@@ -127,8 +127,14 @@ double surface_distance(const struct fv *s, const double *x);
 /* The shape that the water at x belongs to; NULL: none. */
 const struct scene_shape *surface_shape(const struct fv *s, const double *x);
 
-/* reinit.c */
+/* closest.c: distance of cell c from phi = 0, with its sign; false: the cells around do not resolve
+ * the surface, or it is more than two cells off. phi: with ghosts. */
+bool surface_closest(const struct fv *s, const double *phi, int64_t c, double *distance);
+
+/* reinit.c: phi a distance again, by so many pseudo steps. */
 void surface_reinit(struct fv *s, int steps);
+/* The same after a small change: exact beside the surface, a pseudo step elsewhere near it. */
+void surface_redistance(struct fv *s);
 /* Largest | |grad phi| - 1 | within two cells of the surface. */
 double surface_distortion(const struct fv *s);
 

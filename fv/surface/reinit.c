@@ -1,8 +1,10 @@
 /* reinit.c - phi_tau + S(phi_0)(|grad phi| - 1) = 0 to the steady state in a band (Godunov's
- * Hamiltonian, RK2). Beside the surface, differences towards it end at its place on the axis, by
- * the quadratic through phi_0, which pins it (Russo & Smereka, J. Comput. Phys. 163, 2000; Min &
- * Gibou, J. Comput. Phys. 225, 2007); where the slope there is good already, phi is left alone,
- * which pins it better still. WENO5 elsewhere. SPDX-License-Identifier: BSD-3-Clause */
+ * Hamiltonian, RK2). On even cells and rows the distances that closest.c knows are held, two cells
+ * on either side of a smooth surface. Elsewhere beside the surface, differences towards it end at
+ * its place on the axis, by the quadratic through phi_0, which pins it (Russo & Smereka, J. Comput.
+ * Phys. 163, 2000; Min & Gibou, J. Comput. Phys. 225, 2007); where the slope there is good already,
+ * phi is left alone, which pins it better still. WENO5 elsewhere.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
 #include <math.h>
@@ -14,7 +16,10 @@
 #include "surface_forced.h"
 #include "weno.h"
 
-enum { WIDTH = 8 };             /* cells on either side of the surface that are worked on */
+enum {
+    WIDTH = 8, /* cells on either side of the surface that are worked on */
+    NARROW = 6 /* the same each half step: those that are advected, and one */
+};
 static const double good = 0.1; /* | |grad phi| - 1 | of cells beside the surface that stay as is */
 
 /* A run of cells of the band along x. */
@@ -25,11 +30,12 @@ struct strip {
     double dtau; /* m: pseudo step of those that are no spots; on blocks each cell has its own */
 };
 
-/* A cell of the band between which and a neighbour the surface passes. */
+/* A cell of the band between which and a neighbour the surface passes, or whose distance from it
+ * closest.c knows. */
 struct spot {
     const struct part *part;
     int64_t cell;
-    double sign, dtau;  /* -, m */
+    double sign, dtau;  /* -, m; 0: phi is held */
     double reach[3][2]; /* m, on blocks cells: way to the surface along each axis, down and up; 0:
                            none */
 };
@@ -271,14 +277,14 @@ static bool is_left_out(const struct fv *s, int64_t c)
     return s->m->status[c] != CELL_COMPUTED && !(p && p->holds[c]);
 }
 
-/* mark = 1 within WIDTH cells of the surface, whatever phi says there: it may be old. */
-static void mark_band(const struct fv *s, double *mark)
+/* mark = 1 within `width' cells of the surface, whatever phi says there: it may be old. */
+static void mark_band(const struct fv *s, int width, double *mark)
 {
     memset(mark, 0, (size_t)s->size * sizeof(double));
     FLOW_ROWS(s, c, len)
     for (int64_t i = c; i < c + len; i++)
         mark[i] = !is_left_out(s, i) && beside_surface(s, p_, s->surface->phi, i);
-    for (int k = 1; k < WIDTH; k++)
+    for (int k = 1; k < width; k++)
         for (int a = 0; a < s->dim; a++) {
             double *const next = s->surface->kept;
             if (s->m)
@@ -304,12 +310,23 @@ static double least_size(const struct block *b, int j)
     return least;
 }
 
-/* The band's cells; all others are at least as far off as it is wide. */
-static void list_band(struct fv *s, struct band *w)
+/* Whether differences around c end at a closed side or a box. */
+static bool near_side(const struct fv *s, int64_t c)
 {
-    double *phi = s->surface->phi, *mark = s->surface->phi_new;
-    const double far = s->surface->least * (WIDTH - 1);
-    mark_band(s, mark);
+    for (int a = 0; a < s->dim; a++)
+        for (int m = 1; m <= GHOSTS; m++)
+            if (surface_holds_none(s, c + m * s->b.stride[a]) ||
+                surface_holds_none(s, c - m * s->b.stride[a]))
+                return true;
+    return false;
+}
+
+/* The band's cells; all others are at least as far off as it is wide. */
+static void list_band(struct fv *s, int width, struct band *w)
+{
+    double *phi = s->surface->phi, *mark = s->surface->phi_new, *exact = s->surface->rate;
+    const double far = s->surface->least * (width - 1);
+    mark_band(s, width, mark);
     FLOW_ROWS(s, c, len)
     for (int64_t i = c; i < c + len; i++)
         if (mark[i] == 0.0 || is_blocked(s, i))
@@ -326,7 +343,11 @@ static void list_band(struct fv *s, struct band *w)
                                .row = j_,
                                .dtau = s->m ? 0.0 : pseudo_cfl(s) * least_size(&s->b, j_)};
         w->strips[w->nstrips - 1].n++;
-        if (beside_surface(s, p_, phi, i))
+        exact[i] = phi[i];
+        if (!s->m &&
+            (surface_closest(s, phi, i, exact + i) || (width == NARROW && near_side(s, i))))
+            w->spots[w->nspots++] = (struct spot){.part = p_, .cell = i};
+        else if (beside_surface(s, p_, phi, i))
             w->spots[w->nspots++] = look(s, p_, phi, i, j_);
     }
 }
@@ -337,37 +358,63 @@ static void keep_slopes(const struct fv *s, bool keep)
         s->surface->mesh->keeps = keep;
 }
 
-void surface_reinit(struct fv *s, int steps)
+/* Distances that are known take their places. */
+static void set_exact(struct fv *s, const struct band *w)
 {
-    struct surface *f = s->surface;
+    double *phi = s->surface->phi;
+    const double *exact = s->surface->rate;
+    if (s->m)
+        return;
+    for (int64_t k = 0; k < w->nspots; k++)
+        if (w->spots[k].sign == 0.0)
+            phi[w->spots[k].cell] = exact[w->spots[k].cell];
+    surface_ghosts(s, phi);
+}
+
+/* RK2; where rates are 0 phi is held. */
+static void pseudo_step(struct fv *s, const struct band *w)
+{
+    double *restrict phi = s->surface->phi, *restrict old = s->surface->kept;
+    double *restrict rate = s->surface->rate;
+    memcpy(old, phi, (size_t)s->size * sizeof(double));
+    rates(s, phi, old, w, rate);
+    for (int64_t k = 0; k < w->nstrips; k++)
+        for (int64_t i = w->strips[k].cell; i < w->strips[k].cell + w->strips[k].n; i++)
+            phi[i] += rate[i];
+    surface_ghosts(s, phi);
+    rates(s, phi, old, w, rate);
+    for (int64_t k = 0; k < w->nstrips; k++)
+        for (int64_t i = w->strips[k].cell; i < w->strips[k].cell + w->strips[k].n; i++) {
+            const double q = 0.5 * (old[i] + phi[i] + rate[i]);
+            phi[i] = (q < 0.0) == (old[i] < 0.0) ? q : old[i]; /* the surface stays */
+        }
+    surface_ghosts(s, phi);
+}
+
+static void redistance(struct fv *s, int width, int steps)
+{
     int64_t cells = 0;
     FLOW_ROWS(s, c, len)
     cells += c >= 0 ? len : 0;
     struct band w = {.strips = NEW(struct strip, cells), .spots = NEW(struct spot, cells)};
-    list_band(s, &w);
+    list_band(s, width, &w);
+    set_exact(s, &w);
     keep_slopes(s, true);
-    double *restrict phi = f->phi, *restrict old = f->kept, *restrict rate = f->rate;
-    for (int it = 0; it < steps; it++) {
-        memcpy(old, phi, (size_t)s->size * sizeof(double));
-        rates(s, phi, old, &w, rate);
-        for (int64_t k = 0; k < w.nstrips; k++)
-            for (int64_t i = w.strips[k].cell; i < w.strips[k].cell + w.strips[k].n; i++)
-                phi[i] += rate[i];
-        surface_ghosts(s, phi);
-        rates(s, phi, old, &w, rate);
-        for (int64_t k = 0; k < w.nstrips; k++)
-            for (int64_t i = w.strips[k].cell; i < w.strips[k].cell + w.strips[k].n; i++) {
-                const double q = 0.5 * (old[i] + phi[i] + rate[i]);
-                phi[i] = (q < 0.0) == (old[i] < 0.0) ? q : old[i]; /* the surface stays */
-            }
-        surface_ghosts(s, phi);
-    }
+    for (int k = 0; k < steps; k++)
+        pseudo_step(s, &w);
     keep_slopes(s, false);
     mem_free(w.strips);
     mem_free(w.spots);
-    f->travelled = 0.0;
-    f->reinits++;
 }
+
+void surface_reinit(struct fv *s, int steps)
+{
+    redistance(s, WIDTH, steps);
+    s->surface->travelled = 0.0;
+    s->surface->reinits++;
+}
+
+void surface_redistance(struct fv *s) { redistance(s, NARROW, 1); }
 
 double surface_distortion(const struct fv *s)
 {

@@ -167,11 +167,16 @@ void surface_start(struct fv *s)
     surface_extend(s, LAYERS);
 }
 
-/* What the band has not seen yet must be told before the surface comes there. */
-static void refresh(struct fv *s)
+/* phi becomes a distance again each time that the surface has travelled a tenth of a cell: what its
+ * slopes are off by gives waves energy. Water at rest is left alone. What the band has not seen yet
+ * must be told before the surface comes there. before: what it had travelled at the last call. */
+static void refresh(struct fv *s, double before)
 {
-    if (s->surface->travelled > 2.0)
+    const double travelled = s->surface->travelled;
+    if (travelled > 2.0)
         surface_reinit(s, REINIT_STEPS);
+    else if (!s->m && floor(10.0 * travelled) > floor(10.0 * before))
+        surface_redistance(s);
 }
 
 /* Of projected steps: the normal stress of the last stage is part of the surface's pressure: clean
@@ -282,6 +287,7 @@ static void flows(const struct fv *s, double sums[3])
 
 void surface_first_half(struct fv *s, double dt)
 {
+    const double before = s->surface->travelled;
     s->surface->theta_least = least_theta(s, dt);
     flows(s, s->surface->through);
     if (s->moving) {
@@ -291,7 +297,7 @@ void surface_first_half(struct fv *s, double dt)
         surface_advance(s, 0.5 * dt);
     }
     impose(s, s->t + 0.5 * dt);
-    refresh(s);
+    refresh(s, before);
     if (s->surface->half)
         go_ahead(s, dt);
     rebuild(s);
@@ -305,6 +311,7 @@ void surface_first_half(struct fv *s, double dt)
 void surface_second_half(struct fv *s, double dt)
 {
     struct surface *f = s->surface;
+    const double before = f->travelled;
     double now[3];
     if (f->half)
         memcpy(f->phi, f->half, (size_t)s->size * sizeof(double));
@@ -321,7 +328,7 @@ void surface_second_half(struct fv *s, double dt)
     f->volume0 += 0.5 * dt * (f->through[0] + now[0]);
     f->passed += 0.5 * dt * (f->through[1] + now[1]);
     f->entered += 0.5 * dt * (f->through[2] + now[2]);
-    refresh(s);
+    refresh(s, before);
     surface_keep_volume(s);
     surface_sample(s);
 }
