@@ -30,7 +30,7 @@ struct around {
     int dim;
     int64_t stride[3];
     double x[3][NODES]; /* m: centres along each axis, from the cell's */
-    int lo[3], hi[3];   /* of the centres that hold cells, not what lies behind closed sides */
+    int lo[3], hi[3];   /* of the centres before sides and boxes */
     double h;           /* m: the smallest spacing */
 };
 
@@ -155,28 +155,33 @@ static double move(const struct around *w, struct cubic q[3], double *x)
     return moved;
 }
 
-/* Nothing behind a closed side is read: what is mirrored there has a kink, but where the surface
- * meets the side upright. */
+/* Cells that follow c along the step d, before a side or a box, at most REACH. */
+static int free_along(const struct fv *s, int64_t c, int64_t d)
+{
+    int n = 0;
+    while (n < REACH && !surface_holds_none(s, c + (n + 1) * d))
+        n++;
+    return n;
+}
+
+/* Nothing behind a side or a box is read: what is mirrored there has a kink, but where the surface
+ * meets it upright. */
 static bool look_around(const struct fv *s, const double *phi, int64_t c, struct around *w)
 {
     const struct block *b = &s->b;
-    int at[3];
-    block_place(b, c, at);
+    const int row = block_row(b, c);
     *w = (struct around){
         .phi = phi + c, .closed = s->surface->closed + c, .dim = s->dim, .h = INFINITY};
     for (int a = 0; a < s->dim; a++) {
-        const bool low = !b->periodic[a] && b->lo[a] == 0,
-                   high = !b->periodic[a] && b->hi[a] == b->cells[a];
-        const int above = b->n[a] - 1 - at[a];
-        w->lo[a] = low && at[a] < REACH ? REACH - at[a] : 0;
-        w->hi[a] = REACH + (high && above < REACH ? above : REACH);
+        w->stride[a] = b->stride[a];
+        w->lo[a] = REACH - free_along(s, c, -b->stride[a]);
+        w->hi[a] = REACH + free_along(s, c, b->stride[a]);
         if (w->hi[a] - w->lo[a] < 3)
             return false;
-        w->stride[a] = b->stride[a];
         for (int k = -REACH; k <= REACH; k++)
             w->x[a][k + REACH] =
-                a == 1 && b->rows ? b->rows->y[at[1] + k] - b->rows->y[at[1]] : k * b->h[a];
-        w->h = fmin(w->h, block_size(b, a, at[a]));
+                a == 1 && b->rows ? b->rows->y[row + k] - b->rows->y[row] : k * b->h[a];
+        w->h = fmin(w->h, block_size(b, a, row));
     }
     return true;
 }
