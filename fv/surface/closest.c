@@ -14,10 +14,10 @@ enum {
     TERMS = 5,             /* of a product: four, five on a centre */
     PASSES = 20
 };
-/* Second differences of phi (over h) up to which the cubics are trusted: a radius of one and a half
- * cells. The ridge within a film has 2. Tighter bounds leave more to reinit.c, which loses water
+/* Second differences of phi (over h) up to which the cubics are trusted: a radius of one
+ * cell. The ridge within a film has 2. Tighter bounds leave more to reinit.c, which loses water
  * where its cells lie beside these: 0.25 twice as much in the tongue of a dam break. */
-static const double BENT = 0.7;
+static const double BENT = 1.0;
 /* |grad phi|, or 1 over it, at the point. */
 static const double STEEP = 2.0;
 /* Square of the last pass over h^2, which is an error of the distance, as that is stationary. */
