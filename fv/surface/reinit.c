@@ -326,11 +326,16 @@ static void list_band(struct fv *s, int width, struct band *w)
 {
     double *phi = s->surface->phi, *mark = s->surface->phi_new, *exact = s->surface->rate;
     const double far = s->surface->least * (width - 1);
+    int64_t cells = 0;
     mark_band(s, width, mark);
     FLOW_ROWS(s, c, len)
-    for (int64_t i = c; i < c + len; i++)
+    for (int64_t i = c; i < c + len; i++) {
+        cells += mark[i] > 0.0;
         if (mark[i] == 0.0 || is_blocked(s, i))
             phi[i] = copysign(fmax(far, fabs(phi[i])), phi[i]);
+    }
+    w->strips = NEW(struct strip, cells);
+    w->spots = NEW(struct spot, cells);
     surface_ghosts(s, phi);
     FLOW_ROWS(s, c, len)
     for (int64_t i = c; i < c + len; i++) {
@@ -393,10 +398,7 @@ static void pseudo_step(struct fv *s, const struct band *w)
 
 static void redistance(struct fv *s, int width, int steps)
 {
-    int64_t cells = 0;
-    FLOW_ROWS(s, c, len)
-    cells += c >= 0 ? len : 0;
-    struct band w = {.strips = NEW(struct strip, cells), .spots = NEW(struct spot, cells)};
+    struct band w = {0};
     list_band(s, width, &w);
     set_exact(s, &w);
     keep_slopes(s, true);
