@@ -7,18 +7,6 @@
 
 #include "scene_fluid.h"
 
-/* Axis along which gravity holds the water down, -1: none. */
-static int upright(const struct scene *c)
-{
-    double g[3];
-    int up = 0;
-    if (scene_still_gravity(c, g) == 0.0)
-        return -1;
-    for (int a = 1; a < c->domain.dim; a++)
-        up = fabs(g[a]) > fabs(g[up]) ? a : up;
-    return up;
-}
-
 bool crossing_box(const struct run *r, const char *group, double box[2][3])
 {
     static const char *const keys[] = {"box", "free"};
@@ -65,7 +53,7 @@ bool crossing_find(const struct run *r)
     bool ends = false;
     if (!r->coupled || !r->scene.has_sph || !r->scene.has_fv || !scene_has_surface(&r->scene))
         return false;
-    const int up = upright(&r->scene);
+    const int up = scene_still_axis(&r->scene);
     if (up < 0)
         return false;
     const int n = peek_boxes(r, NULL, box);
@@ -87,7 +75,7 @@ static bool holds(const struct scene *c, int up, double box[2][3], const struct 
 void crossing_deal(struct run *r)
 {
     const struct scene *c = &r->scene;
-    const int up = upright(c);
+    const int up = scene_still_axis(c);
     double box[PARAM_KIN_MAX][2][3];
     const int n = peek_boxes(r, strncmp(r->name, "sph", 3) == 0 ? r->name : NULL, box);
     for (int k = 0; k < c->nprobes; k++) {
@@ -101,7 +89,7 @@ double crossing_time(const struct scene *c)
 {
     double g[3];
     const double size = scene_still_gravity(c, g);
-    const int up = upright(c);
+    const int up = scene_still_axis(c);
     return up < 0 ? INFINITY : sqrt(crossing_depth(c, up) / size);
 }
 

@@ -18,6 +18,17 @@ double scene_still_gravity(const struct scene *s, double still[3])
     return sqrt(g2);
 }
 
+int scene_still_axis(const struct scene *s)
+{
+    double g[3];
+    int axis = 0;
+    if (scene_still_gravity(s, g) == 0.0)
+        return -1;
+    for (int a = 1; a < s->domain.dim; a++)
+        axis = fabs(g[a]) > fabs(g[axis]) ? a : axis;
+    return axis;
+}
+
 double scene_height(const struct scene *s, const double *x)
 {
     double g[3];

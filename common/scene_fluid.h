@@ -9,6 +9,8 @@
 /* Gravity without its part along periodic axes, m/s^2, which drives a flow and lets no pressure
  * rise; returns its size. */
 double scene_still_gravity(const struct scene *s, double still[3]);
+/* The axis that it mostly points along; -1: there is none. */
+int scene_still_axis(const struct scene *s);
 /* Height of x against that gravity, m; without gravity y, in 3D z. */
 double scene_height(const struct scene *s, const double *x);
 /* Least and largest height in the domain, m. */

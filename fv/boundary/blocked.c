@@ -155,6 +155,8 @@ enum blocked_ghost blocked_rule(int box, int q, int a)
 
 double blocked_ghost(const double *q, int64_t in, int depth, enum blocked_ghost rule)
 {
+    if (rule == GHOST_LINEAR)
+        return q[0] + depth * (q[0] - q[in]);
     if (rule != GHOST_NO_SLIP)
         return (rule == GHOST_ODD ? -1.0 : 1.0) * q[(depth - 1) * in];
     return depth == 1 ? -(13.0 * q[0] - 5.0 * q[in] + q[2 * in]) / 3.0

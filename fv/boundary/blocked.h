@@ -16,7 +16,7 @@ struct blocked_params {
     int kind;              /* WALL_SLIP or WALL_NO_SLIP */
 };
 
-enum blocked_ghost { GHOST_EVEN, GHOST_ODD, GHOST_NO_SLIP };
+enum blocked_ghost { GHOST_EVEN, GHOST_ODD, GHOST_NO_SLIP, GHOST_LINEAR };
 
 /* A free cell near a box along an axis. */
 struct near_box {

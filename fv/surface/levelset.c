@@ -101,21 +101,11 @@ static bool next_run(const double *phi, double band, int64_t end, int64_t *from,
     return *n > 0;
 }
 
-/* v[-3 .. 3] of a cell near a box, behind which phi goes on linearly. */
-static void line_past_box(const struct near_box *x, const double *phi, int64_t d, double *v)
-{
-    for (int way = -1; way <= 1; way += 2)
-        for (int m = 1, n = x->free[way > 0]; m <= 3; m++)
-            v[way * m] = phi[x->cell + way * (m < n ? m : n) * d];
-    v[0] = phi[x->cell];
-    for (int way = -1; way <= 1; way += 2)
-        for (int n = x->free[way > 0], m = n + 1; m <= 3; m++)
-            v[way * m] = v[way * n] + (m - n) * (v[way * n] - v[way * (n - 1)]);
-}
-
-/* In place of what a stencil that ends at a box gave. Boxes have even rows. */
+/* In place of what a stencil that ends at a box gave: phi goes on linearly there. Boxes have even
+ * rows. */
 static void rate_beside_boxes(const struct fv *s, const double *phi, double *rate)
 {
+    static const enum blocked_ghost linear[2] = {GHOST_LINEAR, GHOST_LINEAR};
     const double band = BAND * largest_spacing(&s->b, 0);
     for (int a = 0; a < s->b.dim; a++)
         for (int64_t k = 0; k < s->blocked->nnear[a]; k++) {
@@ -124,7 +114,7 @@ static void rate_beside_boxes(const struct fv *s, const double *phi, double *rat
             double v[7], was = 0.0, is = 0.0;
             if (!x->own || !(fabs(phi[c]) < band))
                 continue;
-            line_past_box(x, phi, d, v + 3);
+            blocked_line(x, phi, d, 3, linear, v + 3);
             weno_advect(phi + c, s->u[a] + c, d, 1.0 / s->b.h[a], 1, &was);
             weno_advect(v + 3, s->u[a] + c, 1, 1.0 / s->b.h[a], 1, &is);
             rate[c] += is - was;

@@ -95,6 +95,7 @@ struct newton *newton_create(struct fv *s)
     int64_t all;
     w->cells_of = s->m ? &newton_blocks : &newton_even;
     w->longest = longest_row(s);
+    w->longest_step = INFINITY;
     for (int q = 0; q < s->nparts; q++)
         w->cells += (int64_t)s->part[q].n[0] * s->part[q].n[1] * s->part[q].n[2];
     MPI_Allreduce(&w->cells, &all, 1, MPI_INT64_T, MPI_SUM, comm);
@@ -360,9 +361,7 @@ static void next_pseudo_step(struct newton *w, double factor, double gain, int64
     const double pace = log(fmax(gain, 1.0)) / (double)(vectors > 0 ? vectors : 1);
     const bool unsolved = vectors >= KRYLOV && pace < 0.25 * w->pace;
     w->pace = fmax(pace, 0.9 * w->pace);
-    w->longest_step *= 1.5;
-    if (unsolved || w->longest_step == 0.0)
-        w->longest_step = unsolved ? 0.25 * w->dtau : INFINITY;
+    w->longest_step = unsolved ? 0.25 * w->dtau : 1.5 * w->longest_step;
     w->dtau = fmin(w->dtau * factor, w->longest_step);
 }
 

@@ -69,8 +69,7 @@ struct newton {
     double *A[7];         /* the momentum operator of the preconditioner: 1/diagonal, -x, +x, .. */
     double *x[3], *r[3], *phi, *div; /* its unknowns and right sides */
     double dtau, norm;   /* s, -: pseudo step; scaled residual (rms) after the last one */
-    double longest_step; /* s: bound of dtau that unsolved linear systems leave; 0 or INFINITY: none
-                          */
+    double longest_step; /* s: bound of dtau that unsolved linear systems leave */
     double pace;         /* -: lately best fall of the logarithm of norm a Krylov vector */
     double left;         /* -: residual that the last pseudo step left in its own equation */
     double best;         /* -: least norm so far, reached at the pseudo step best_at */

@@ -10,6 +10,7 @@
 
 #include "../../common/crossing.h"
 #include "../../common/log.h"
+#include "../../common/scene_fluid.h"
 #include "../../common/scene_mesh.h"
 #include "../../common/vec3.h"
 #include "../sph_params.h"
@@ -49,17 +50,6 @@ static double speed_of_bodies(const struct scene *c)
     return U;
 }
 
-/* Axis across which gravity holds the water down, -1: none. */
-static int axis_of_gravity(const struct scene *c)
-{
-    int axis = -1;
-    for (int a = 0; a < c->domain.dim; a++)
-        if (!c->domain.periodic[a] && c->fluid.gravity[a] != 0.0 &&
-            (axis < 0 || fabs(c->fluid.gravity[a]) > fabs(c->fluid.gravity[axis])))
-            axis = a;
-    return axis;
-}
-
 static bool is_given(const struct run *r, const char *key)
 {
     return r->params && params_given(r->params, key); /* a test has a scene without a case */
@@ -68,7 +58,7 @@ static bool is_given(const struct run *r, const char *key)
 static void scales(const struct run *r, const struct sph_params *prm, struct windows *w)
 {
     const struct scene *c = &r->scene;
-    const int field = c->initial.field, down = axis_of_gravity(c);
+    const int field = c->initial.field, down = scene_still_axis(c);
     const double carried = length_of(c->initial.velocity);
     const bool own = field != FIELD_REST || is_given(r, "initial.U");
     const bool periodic_field = scene_has_wave(c) || field == FIELD_TAYLOR_GREEN ||
@@ -121,7 +111,7 @@ static double mass_at(const struct run *r, const struct sph_params *prm, const b
     const int a = side / 2;
     const double k = lateral(r, prm, open, a);
     if (r->crossed) { /* a surface bounds it: Westergaard, decaying over the overlap */
-        const double H = crossing_depth(&r->scene, axis_of_gravity(&r->scene));
+        const double H = crossing_depth(&r->scene, scene_still_axis(&r->scene));
         return 0.55 * H * exp(-1.6 * D / H);
     }
     const bool walled = scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + side)) != NULL;
@@ -182,7 +172,7 @@ static double tiled(const struct scene *c, double T)
 static double sound_time(const struct run *r, const struct sph_params *prm)
 {
     const struct scene *c = &r->scene;
-    const int up = axis_of_gravity(c);
+    const int up = scene_still_axis(c);
     bool open[6];
     if (!r->crossed || up < 0)
         return INFINITY;

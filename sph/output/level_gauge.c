@@ -143,12 +143,10 @@ static void sound_all(const struct sph *s, struct column *c)
 
 static void set_axis(const struct sph *s, struct column *c)
 {
-    double g[3];
-    const bool still = scene_still_gravity(&s->run->scene, g) > 0.0;
-    c->up = s->dim - 1;
-    for (int a = 0; a < s->dim && still; a++)
-        c->up = fabs(g[a]) > fabs(g[c->up]) ? a : c->up;
-    c->sign = g[c->up] > 0.0 ? -1.0 : 1.0;
+    const struct scene *is = &s->run->scene;
+    const int axis = scene_still_axis(is);
+    c->up = axis < 0 ? s->dim - 1 : axis;
+    c->sign = axis >= 0 && is->fluid.gravity[axis] > 0.0 ? -1.0 : 1.0;
     c->bottom = c->sign > 0.0 ? s->lo[c->up] : -s->hi[c->up];
     c->top = c->sign > 0.0 ? s->hi[c->up] : -s->lo[c->up];
 }
