@@ -346,7 +346,7 @@ for role in sph coupler fv; do
     "$root/cases/run" taylor_green -n 1:1:1 -o "kill$role" -p sph.dx=0.0125 -p "fv.cells=(24,24)" >"kill$role.txt" 2>&1 &
     job=$!
     under_way "kill$role"
-    pid=$(pgrep -f "$b/$role .*kill$role" | while read -r p; do [ "$(readlink /proc/$p/exe)" = "$b/$role" ] && echo $p; done | head -n 1)
+    pid=$(pgrep -f "$b/$role .*kill$role" | while read -r p; do [ "$(readlink /proc/$p/exe)" = "$(readlink -f "$b/$role")" ] && echo $p; done | head -n 1)
     start=$(date +%s%N)
     [ -n "$pid" ] && kill -KILL "$pid" || bad "no $role to kill"
     wait $job

@@ -145,7 +145,7 @@ named() { # PROGRAM "what" "of what": both ranks of PROGRAM say it
 slow="fault=sleep at=3"
 
 # a program killed on the other host: its own neighbour there leaves the note
-fv_process() { ip netns pids $west | while read -r p; do [ "$(readlink /proc/$p/exe)" = "$b/tests/mock" ] && echo $p; done | head -n 1; }
+fv_process() { ip netns pids $west | while read -r p; do [ "$(readlink /proc/$p/exe)" = "$(readlink -f "$b/tests/mock")" ] && echo $p; done | head -n 1; }
 kill_fv() { kill -KILL "$(fv_process)"; }
 happens kill_fv &
 sleep 0.1

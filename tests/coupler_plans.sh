@@ -304,7 +304,8 @@ else
     $mpi -np 1 $python "$root/tests/partner.py" o : -np 1 "$b/coupler" job.cfg -o o : -np 2 "$b/tests/mock_any" mock o points=a:2:900:0 grid=g:8:8 \
         points=x:2:40:0 put=T:a:1:1:end put=G:g:2:1:end patch=P:x:1:1:0:0.6 >text 2>&1 || bad "python, every call: exit $?"
     off mock P 1e-11 "what python gives"
-    case="$root/cases/taylor_green/case.cfg -o py --force -p sph.dx=0.02 -p time.end=0.24 -p output.every=0 -p output.snapshots=false"
+    cp "$root/cases/taylor_green/case.cfg" exact.cfg # $root may have a space
+    case="exact.cfg -o py --force -p sph.dx=0.02 -p time.end=0.24 -p output.every=0 -p output.snapshots=false"
     named='coupler.programs="sph exact"'
     # shellcheck disable=SC2086
     $mpi -np 1 "$b/sph" $case -p "$named" : -np 1 "$b/coupler" $case -p "$named" : -np 1 $python "$root/coupler/examples/exact.py" py >text 2>&1 ||
