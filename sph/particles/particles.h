@@ -12,9 +12,8 @@ struct sph;
 enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
 /* Bits of what a particle is where there are levels (refinement/refinement.h): its fields are those
  * of others; it has given birth; a guard too far from flow for its slopes to count; one whose
- * support its level does not fill; it flows, within R of the surface; it is one guard too many; it
- * is within R of where its level and the next one take over from each other; from bit ROLE_SOURCE
- * on the finer of a guard's two sources. */
+ * support its level does not fill; it flows, within R of the surface; it is one guard too many;
+ * from bit ROLE_SOURCE on the finer of a guard's two sources. */
 enum sph_role {
     ROLE_GUARD = 1,
     ROLE_MOTHER = 2,
@@ -22,8 +21,7 @@ enum sph_role {
     ROLE_EDGE = 8,
     ROLE_SURFACE = 16,
     ROLE_SURPLUS = 32,
-    ROLE_SWITCH = 64,
-    ROLE_SOURCE = 7
+    ROLE_SOURCE = 6
 };
 enum { PRIM = 8 }; /* doubles of a line of prim */
 

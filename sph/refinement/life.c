@@ -45,21 +45,14 @@ static void depths_free(struct depths *is)
     mem_free(is->next);
 }
 
-/* Within R of where s and the next coarser or finer level take over from each other. */
-static bool is_at_switch(const struct sph *s, const struct depths *is, int i)
-{
-    return (is->own && fabs(is->own[i] - 2.0 * s->R) < s->R) ||
-           (is->next && fabs(is->next[i] - s->R) < s->R);
-}
-
 /* Bits of enum sph_role of particle i but ROLE_MOTHER, with the source. */
 static int role_of(const struct regions *g, const struct sph *s, const struct depths *is, int i)
 {
-    int role = is_at_switch(s, is, i) ? ROLE_SWITCH : 0, source = s->level;
+    int role = 0, source = s->level;
     /* With local steps births come up to a coarser step late. */
     const double edge = (s->guards->own_rates ? 1.25 : 1.0) * s->R;
     if (is->own && is->own[i] < 2.0 * s->R) /* guards of the finer level */
-        return role | ROLE_GUARD | (is->own[i] < edge ? ROLE_EDGE : 0) | source << ROLE_SOURCE;
+        return ROLE_GUARD | (is->own[i] < edge ? ROLE_EDGE : 0) | source << ROLE_SOURCE;
     for (int n = s->level + 1; n <= regions_levels(g); n++) {
         const double R = ldexp(s->R, s->level + 1 - n);
         const double d =
@@ -252,7 +245,7 @@ static void book_energy(struct sph *s, double gained)
 
 static void give_roles(const struct regions *g, struct sph *s, const struct depths *is, bool held)
 {
-    const int kept = ROLE_MOTHER | ROLE_SURFACE | (held ? ROLE_SURPLUS | ROLE_SWITCH : 0);
+    const int kept = ROLE_MOTHER | ROLE_SURFACE | (held ? ROLE_SURPLUS : 0);
     double woken = 0.0, kinetic;
     for (int i = 0; i < s->p.n; i++) {
         const int before = s->p.role[i];

@@ -63,16 +63,17 @@ static void make_workless(struct sph *s)
     }
 }
 
-/* Share of the bound |u|/4 that counts where levels take over from each other. Their numbers agree
- * on average only, and what shifts across carries weight that no density knows: the side that gains
- * it pushes back where pressure is high, at the floor, so that water at rest turns about the edge,
- * the faster the more the shift, bounded by |u| alone, lets pass. Largest |u| of 1e5 steps 5e-3 c0,
- * in bursts; 9e-4, at the start, with what is below, 4e-3 with a share that grows as |u|. With none
- * jets stay crowded there until steps are too long for them, with densities off by 15 %. */
-static double share_at_switch(const struct sph *s, int i, double u2)
+/* Share of the bound |u|/4 that counts with levels. Their numbers agree on average only where one
+ * takes over from the other, and what shifts across carries weight that no density knows: the side
+ * that gains it pushes back where pressure is high, at the floor, so that water at rest turns about
+ * the edge, the faster the more the shift, bounded by |u| alone, lets pass. Largest |u| of 1e5
+ * steps 9e-3 c0, in bursts; with what is below 9e-4 at the start, as without levels, 1e-3 once,
+ * else 1e-4 to 5e-4. Not within R of the switch alone: what others shift then crowds there until
+ * particles clump and the run ends. */
+static double share_with_levels(const struct sph *s, double u2)
 {
     static const double swift = 0.03; /* c0: a third of the speed that a scene lets expect */
-    return s->p.role[i] & ROLE_SWITCH ? fmin(1.0, u2 / pow(swift * s->c0, 2.0)) : 1.0;
+    return s->coarser || s->finer ? fmin(1.0, u2 / pow(swift * s->c0, 2.0)) : 1.0;
 }
 
 void transport_finish(struct sph *s)
@@ -100,7 +101,7 @@ void transport_finish(struct sph *s)
         }
         const double most2 = 0.0625 * (by_own ? u2 : U * U);
         const double bounded_share = size2 > most2 ? sqrt(most2 / size2) : 1.0;
-        const double factor = bounded_share * (by_own ? share_at_switch(s, i, u2) : 1.0);
+        const double factor = bounded_share * (by_own ? share_with_levels(s, u2) : 1.0);
         for (int a = 0; a < dim; a++)
             u0[a] = u[a] + factor * delta[a];
     }
