@@ -165,7 +165,7 @@ static int open_folder(struct life *l, struct h5 **restart)
     l->window = -1;
     *restart = NULL;
     if (code == 0 && l->line.restart) {
-        *restart = files_open_restart(r, &l->window);
+        *restart = files_open_restart(r, l->p, &l->window);
         code = *restart ? 0 : RUN_INPUT;
     }
     return code;

@@ -64,6 +64,9 @@ struct diagnosis {
 struct program {
     const char *name;                 /* "sph": name of its group, of its files */
     const char *help;                 /* one sentence */
+    /* Of what its restart files hold: raised when a name, a unit, a column, a bit or what a number
+     * stands for changes, so that files of before are refused; 0 in files that do not say. */
+    int meaning;
     const struct param_group *groups; /* its own groups beside the scene's */
     int ngroups;
     const char *const *other_groups; /* groups that other programs check; NULL-terminated */

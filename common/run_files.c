@@ -81,6 +81,7 @@ void files_checkpoint(struct run_files *f, int64_t n, char *file)
     timer_start(&r->timers, "checkpoint");
     struct h5 *h = h5_create_restart(r->comm, path);
     write_clock(f, h);
+    h5_attribute_int(h, "meaning", f->program->meaning);
     f->program->checkpoint(f->state, h);
     h5_close(&h);
     if (!r->coupled && r->rank == 0) {
@@ -127,7 +128,27 @@ static bool ends_before(const struct run *r, struct h5 *h)
     return true;
 }
 
-struct h5 *files_open_restart(struct run *r, int64_t *window)
+/* Says why this program does not read the file. */
+static bool reads(const struct program *p, struct h5 *h)
+{
+    int64_t format = 0, meaning = 0;
+    if (!h5_read_attribute_int(h, "format", &format) || format != 1) {
+        log_say("--restart: %s has format %lld, this program reads 1", h5_path(h),
+                (long long)format);
+        return false;
+    }
+    const bool says = h5_read_attribute_int(h, "meaning", &meaning);
+    if (says && meaning == p->meaning)
+        return true;
+    char *version = h5_read_attribute_text(h, "version");
+    log_say("--restart: %s is of version %s of %s, which means other things by the numbers in it "
+            "(%lld, this version: %d): go on with that version, or run without --restart",
+            h5_path(h), version ? version : "unknown", p->name, (long long)meaning, p->meaning);
+    mem_free(version);
+    return false;
+}
+
+struct h5 *files_open_restart(struct run *r, const struct program *p, int64_t *window)
 {
     char file[300], path[1400];
     int good = 0;
@@ -152,13 +173,10 @@ struct h5 *files_open_restart(struct run *r, int64_t *window)
         return NULL;
     }
     struct h5 *h = h5_open(r->comm, path);
-    int64_t format = 0;
     if (!h)
         log_say("--restart: %s is missing or no HDF5 file", path);
-    else if (!h5_read_attribute_int(h, "format", &format) || format != 1) {
-        log_say("--restart: %s has format %lld, this program reads 1", path, (long long)format);
+    else if (!reads(p, h))
         h5_close(&h);
-    }
     return h && ends_before(r, h) ? NULL : h;
 }
 

@@ -22,7 +22,7 @@ void files_snapshot(struct run_files *f, const char *what);
 void files_checkpoint(struct run_files *f, int64_t n, char *file);
 /* Opens the restart file that DIR/checkpoint.txt names for this program; NULL with the reason
  * logged. *window: of the manifest, -1 if it is of a lone run. */
-struct h5 *files_open_restart(struct run *r, int64_t *window);
+struct h5 *files_open_restart(struct run *r, const struct program *p, int64_t *window);
 /* What a restart file holds for the run itself. */
 bool files_read_clock(struct run_files *f, struct h5 *h);
 /* Names the keys in which the case of a restart file differs from this one; those of time and

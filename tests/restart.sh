@@ -104,6 +104,22 @@ else
     family meshes kinetic 1e-9 2 "1 2 3" 0.1 meshes.cfg
 fi
 
+# What restart files hold, by name. Whoever changes it, or what stands under a name, raises `meaning' of the program
+# (struct program), so that files of before are refused, and writes this list anew: what "$names" has then
+names=names.txt
+if command -v h5dump >/dev/null; then
+    for p in sph fv; do
+        [ $p = sph ] && runs="dam-half regions-half" || runs="sloshing-half outflow-half blocks-half"
+        for run in $runs; do
+            for f in "$run"/$p-checkpoint-*.h5; do
+                h5dump -n 1 "$f" | awk -v p=$p '$1 == "attribute" || $1 == "dataset" { print p, $1, $2 }'
+            done
+            h5dump -a /meaning "$f" | sed -n "s/^ *(0): */$p meaning /p"
+        done
+    done | LC_ALL=C sort -u >$names
+    diff "$root/tests/data/restart_names.txt" $names || bad "restart files hold other things than tests/data/restart_names.txt says"
+fi
+
 # a run of another case: what differs, and from what
 refuses() { # SAYS ARGS...
     says=$1

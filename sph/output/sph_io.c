@@ -346,20 +346,6 @@ void sph_checkpoint(void *state, struct h5 *f)
         bodies_save(s, f);
 }
 
-/* Whether all guards name the levels that they take from. Collective. */
-static bool guards_have_sources(const struct sph *s)
-{
-    int without = 0;
-    for (int i = 0; i < s->p.n; i++)
-        without += particles_is_guard(&s->p, i) && s->p.role[i] >> ROLE_SOURCE == 0;
-    MPI_Allreduce(MPI_IN_PLACE, &without, 1, MPI_INT, MPI_SUM, s->run->comm);
-    if (without > 0)
-        log_say("the restart file is of an older version: %d guards of level %d do not say which "
-                "levels they take from; begin the run anew",
-                without, s->level);
-    return without == 0;
-}
-
 static bool read_particles(struct sph *s, struct h5 *f)
 {
     const int64_t n = h5_share(f, name(s, "state"));
@@ -378,7 +364,7 @@ static bool read_particles(struct sph *s, struct h5 *f)
     s->p.n = fits ? (int)n : 0;
     mem_free(kind);
     if (!fits || !s->refinement || apr_params_of(s->run)->method == APR_GUARDS)
-        return fits && guards_have_sources(s);
+        return fits;
     return mixed_restart(s, f);
 }
 

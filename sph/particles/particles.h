@@ -13,7 +13,8 @@ enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
 /* Bits of what a particle is where there are levels (refinement/refinement.h): its fields are those
  * of others; it has given birth; a guard too far from flow for its slopes to count; one whose
  * support its level does not fill; it flows, within R of the surface; it is one guard too many;
- * from bit ROLE_SOURCE on the finer of a guard's two sources. */
+ * from bit ROLE_SOURCE on the finer of a guard's two sources. Restart files hold them: struct
+ * program, meaning. */
 enum sph_role {
     ROLE_GUARD = 1,
     ROLE_MOTHER = 2,
