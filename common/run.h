@@ -62,8 +62,8 @@ struct diagnosis {
 
 /* What a solver provides. s is its state, made by create. */
 struct program {
-    const char *name;                 /* "sph": name of its group, of its files */
-    const char *help;                 /* one sentence */
+    const char *name; /* "sph": name of its group, of its files */
+    const char *help; /* one sentence */
     /* Of what its restart files hold: raised when a name, a unit, a column, a bit or what a number
      * stands for changes, so that files of before are refused; 0 in files that do not say. */
     int meaning;

@@ -1,6 +1,6 @@
 /* test_restart_file.c - a restart file of a program that meant other things by its numbers is
- * refused, whatever it holds; that of the same meaning is opened. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * refused, whatever it holds; that of the same meaning is opened.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include <unistd.h>
