@@ -19,14 +19,17 @@
 /* What gaps, in children, ask for: of mothers that flow, averaged, in units of what one child
  * changes, one is born beyond few; at a single place, where means say little of sheets and drops,
  * a child that is so many too many dies. Both give way to what the mass of the fluid is short of:
- * they would not be even by themselves. */
+ * they would not be even by themselves. Of all within R/2 of each other, who feel the same gap,
+ * one gets its way: that which asks for most, whatever the order of the particles, the side or
+ * the rank. */
 static const double few = 0.4, many = 1.2;
 static const double most_off = 1e-3; /* of the mass: beyond this they give way no further */
 static const double hole = 0.6;      /* spacings from the next one: room for one more */
 enum {
-    EVERY = 2, /* steps */
-    TURNS = 2, /* along each axis: mothers nearer than so many spacings wait for each other */
-    PLACES = 4 /* along each axis: where a hole is looked for */
+    EVERY = 2,           /* steps: mothers are looked at */
+    CHILDREN_EVERY = 16, /* and children */
+    ROUNDS = 4,          /* of wishes, of those that nobody near has outbid */
+    PLACES = 4           /* along each axis: where a hole is looked for */
 };
 static const double nothing = 1e30; /* no gap is known */
 
@@ -36,11 +39,11 @@ struct found {
     int *j;
 };
 
-/* One look at both levels; gap: of the mothers, then of their ghosts. */
+/* One look at both levels; gap: of the mothers, then of their ghosts; hole: places near mothers. */
 struct census {
     struct sph *s, *fine;
     const struct regions *regions;
-    double *gap, *ghost_gap, *depth;
+    double *gap, *ghost_gap, *depth, (*hole)[3];
     double off;         /* -1 .. 1: how much more mass flows than at the start */
     struct found found; /* a list to reuse */
 };
@@ -48,18 +51,6 @@ struct census {
 static int role_of(const struct sph *s, int i)
 {
     return i < s->p.n ? s->p.role[i] : s->guards->ghost[i - s->p.n];
-}
-
-/* Whether those of a level at x are looked at now, of `turns' along each axis. */
-static bool is_turn(const struct sph *s, const double *x, int turns)
-{
-    int64_t turn = s->run->step / EVERY;
-    for (int a = 0; a < s->dim; a++, turn /= turns) {
-        const double cell = floor((x[a] - s->lo[a]) / s->dx);
-        if (cell - turns * floor(cell / turns) != (double)(turn % turns))
-            return false;
-    }
-    return true;
 }
 
 static double distance(int dim, const double *x, const double *y)
@@ -156,14 +147,12 @@ static double mean_gap(const struct census *c, int i, double *one)
     return sum / total;
 }
 
-/* Distance from x to the next one of those found, and of those that are to be born. */
+/* Distance from x to the next one of those found. */
 static double room_at(const struct sph *at, const struct found *near, const double *x)
 {
     double least = INFINITY;
     for (int k = 0; k < near->n; k++)
         least = fmin(least, distance(at->dim, x, prim_line(&at->p, near->j[k])));
-    for (int k = 0; k < at->guards->nnewborn; k++)
-        least = fmin(least, distance(at->dim, x, at->guards->newborn[k].x));
     return least;
 }
 
@@ -205,32 +194,89 @@ static void conceive(struct sph *at, const double *x, const struct sph *from, in
     memcpy(to->slope, slope_line(&from->p, i), (size_t)from->p.nslope * sizeof(double));
 }
 
-/* A hole near mother i that flows gets a child. */
-static void fill_hole(struct census *c, int i)
+/* Whether there is a hole near mother i that flows, in sight of her. */
+static bool has_hole(struct census *c, int i)
 {
     struct sph *s = c->s, *fine = c->fine;
     const double *x = prim_line(&s->p, i);
-    double y[3], d[3] = {0.0, 0.0, 0.0};
+    double *y = c->hole[i], d[3] = {0.0, 0.0, 0.0};
     look_around(fine, x, s->dx + fine->dx, &c->found);
     if (find_hole(fine, &c->found, x, s->dx, y) < (s->dim == 2 ? hole : 1.22 * hole))
-        return;
+        return false;
     for (int a = 0; a < s->dim; a++)
         d[a] = y[a] - x[a];
-    if (!s->walls || walls_meet(s, x, d) >= 1.0)
-        conceive(fine, y, s, i);
+    return !s->walls || walls_meet(s, x, d) >= 1.0;
 }
+
+/* Of two that ask for as much: the one that is first along x, then y, then z. */
+static bool is_before(const struct sph *s, int i, int j)
+{
+    const double *x = prim_line(&s->p, i), *y = prim_line(&s->p, j);
+    int a = 0;
+    while (a < s->dim - 1 && fabs(x[a] - y[a]) < 1e-6 * s->dx)
+        a++;
+    return x[a] < y[a];
+}
+
+enum { GRANTED = -1 }; /* instead of a wish */
+
+/* Whether nobody within R/2 of i wishes for more or has been granted what it wished for. */
+static bool leads(const struct sph *s, int i, const double *wish, const double *ghost_wish)
+{
+    const double same = 1e-9 * wish[i];
+    const struct neighbours *l = s->list;
+    for (int64_t k = l->start[i]; k < l->start[i] + l->count[i]; k++) {
+        const int j = l->j[k], ghost = j - s->p.n;
+        const double its = ghost < 0 ? wish[j] : ghost < s->p.nhalo ? ghost_wish[ghost] : 0.0;
+        if (its == 0.0 || (its > 0.0 && its < wish[i] - same) ||
+            distance(s->dim, prim_line(&s->p, i), prim_line(&s->p, j)) >= 0.5 * s->R)
+            continue;
+        if (its < 0.0 || its > wish[i] + same || is_before(s, j, i))
+            return false;
+    }
+    return true;
+}
+
+/* Does what is asked for, of one level, where it is asked for most; then where nobody near has been
+ * granted anything, and so on. Collective. */
+static void grant(struct census *c, struct sph *s, double *wish,
+                  void (*act)(struct census *c, int i))
+{
+    double *ghosts = NEW(double, s->p.nghost);
+    bool *leading = NEW(bool, s->p.n);
+    for (int round = 0; round < ROUNDS; round++) {
+        domain_share(s, wish, 1, ghosts);
+        for (int i = 0; i < s->p.n; i++)
+            leading[i] = wish[i] > 0.0 && leads(s, i, wish, ghosts);
+        for (int i = 0; i < s->p.n; i++)
+            if (leading[i]) {
+                act(c, i);
+                wish[i] = GRANTED;
+            }
+    }
+    mem_free(leading);
+    mem_free(ghosts);
+}
+
+static void give_child(struct census *c, int i) { conceive(c->fine, c->hole[i], c->s, i); }
 
 static void look_at_flowing(struct census *c)
 {
     struct sph *s = c->s;
+    double *wish = NEW(double, s->p.n);
     find_gaps(c);
+    c->hole = mem_new((size_t)s->p.n, sizeof *c->hole);
     for (int i = 0; i < s->p.n; i++) {
         double one;
-        if (c->gap[i] < nothing && c->depth[i] < s->R - s->dx &&
-            is_turn(s, prim_line(&s->p, i), TURNS) &&
-            mean_gap(c, i, &one) > few * (1.0 + c->off) * one)
-            fill_hole(c, i);
+        wish[i] = 0.0;
+        if (c->gap[i] >= nothing || c->depth[i] >= s->R - s->dx)
+            continue;
+        const double more = mean_gap(c, i, &one) - few * (1.0 + c->off) * one;
+        if (more > 0.0 && has_hole(c, i))
+            wish[i] = more / one;
     }
+    grant(c, s, wish, give_child);
+    mem_free(wish);
 }
 
 /* Of one level: its guards where it does not flow itself. */
@@ -239,17 +285,21 @@ static bool is_outside(const struct sph *s, int i)
     return particles_is_guard(&s->p, i) && s->p.role[i] >> ROLE_SOURCE == s->level;
 }
 
+static void mark_surplus(struct census *c, int i) { c->fine->p.role[i] |= ROLE_SURPLUS; }
+
 /* Guards of the finer level outside of where it flows. */
 static void look_at_children(struct census *c)
 {
     struct sph *fine = c->fine;
+    double *wish = NEW(double, fine->p.n);
     for (int i = 0; i < fine->p.n; i++) {
         const double *x = prim_line(&fine->p, i);
-        if (is_outside(fine, i) && is_turn(fine, x, 2 * TURNS) &&
-            regions_distance(c->regions, fine->level, x) >= 0.5 * c->s->dx &&
-            gap_at(c, x) < -many * (1.0 - 0.4 * c->off))
-            fine->p.role[i] |= ROLE_SURPLUS;
+        wish[i] = 0.0;
+        if (is_outside(fine, i) && regions_distance(c->regions, fine->level, x) >= 0.5 * c->s->dx)
+            wish[i] = fmax(0.0, -gap_at(c, x) - many * (1.0 - 0.4 * c->off));
     }
+    grant(c, fine, wish, mark_surplus);
+    mem_free(wish);
 }
 
 static void mark_level(struct sph *s, const struct refinement *r)
@@ -257,8 +307,10 @@ static void mark_level(struct sph *s, const struct refinement *r)
     struct census c = {.s = s, .fine = s->finer, .regions = r->regions};
     c.off = fmax(-1.0, fmin(r->debt / most_off, 1.0));
     look_at_flowing(&c);
-    look_at_children(&c);
+    if (s->run->step % CHILDREN_EVERY == 0)
+        look_at_children(&c);
     mem_free(c.gap);
+    mem_free(c.hole);
     mem_free(c.ghost_gap);
     mem_free(c.depth);
     mem_free(c.found.j);
