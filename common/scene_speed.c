@@ -355,16 +355,51 @@ static bool has_jumps(const struct scene *s)
     return jumps;
 }
 
-/* Pressures of slow flow (Morris, Fox & Zhu 1997): nu U/L, and F L where something stands in the
- * way of a body force. Where the velocity jumps nu U/r, r the distance (Taylor 1962), to whatever
- * the run resolves. */
+/* Sum of 12/h^2 over the axes that no-slip sides h apart bound, 3/h^2 with one of them: the
+ * friction nu U of it holds back a stream along axis a between planes; of a square duct it is 5/6
+ * (White 1991, 3-3). */
+static double narrowness(const struct scene *s, int a)
+{
+    double sum = 0.0;
+    for (int b = 0; b < s->domain.dim; b++) {
+        const double h = extent(s, b);
+        int n = 0;
+        for (int end = 0; end < 2 && b != a; end++) {
+            const struct scene_wall *w = scene_wall_of(s, SIDE_X_MIN + 2 * b + end);
+            n += w && w->kind == WALL_NO_SLIP;
+        }
+        sum += (n == 2 ? 12.0 : n == 1 ? 3.0 : 0.0) / (h * h);
+    }
+    return sum;
+}
+
+/* What pushes an inflow through a channel as long as the domain. */
+static double channel_pressure(const struct scene *s)
+{
+    double most = 0.0;
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        if (w->kind != WALL_INFLOW)
+            continue;
+        const int a = (w->side - SIDE_X_MIN) / 2;
+        const double mean =
+            fabs(w->velocity[a]) * (w->profile == PROFILE_PARABOLIC ? 2.0 / 3.0 : 1.0);
+        most = fmax(most, s->fluid.nu * mean * extent(s, a) * narrowness(s, a));
+    }
+    return most;
+}
+
+/* Pressures of slow flow (Morris, Fox & Zhu 1997): nu U/L, F L where something stands in the way of
+ * a body force, and the friction along a channel. Where the velocity jumps nu U/r, r the distance
+ * (Taylor 1962), to whatever the run resolves. */
 static double viscous_pressure(const struct scene *s, double U, double spacing)
 {
     const double L = shortest(s);
     if (!(s->fluid.nu > 0.0 && L < INFINITY))
         return 0.0;
     const double least = spacing > 0.0 && has_jumps(s) ? fmin(L, spacing) : L;
-    return fmax(s->fluid.nu * U / least, has_obstacles(s) ? driving_force(s) * L : 0.0);
+    const double held = has_obstacles(s) ? driving_force(s) * L : 0.0;
+    return fmax(fmax(s->fluid.nu * U / least, held), channel_pressure(s));
 }
 
 static void take(struct scene_speed *v, double speed, const char *from)

@@ -55,6 +55,26 @@ static void a_column_scales_with_its_units(void **state)
     assert_close(scene_reference_speed(&small) / scene_reference_speed(&s), sqrt(1e-3), 1e-12);
 }
 
+/* Between plates p = 12 nu U L/h^2 holds the stream back, whichever axis it flows along. */
+static void a_channel_holds_its_stream_back(void **state)
+{
+    (void)state;
+    struct scene s = box(); /* 2 m along x */
+    s.fluid.nu = 0.1;
+    s.nwalls = 4;
+    for (int k = 0; k < 4; k++)
+        s.walls[k] = (struct scene_wall){.side = SIDE_X_MIN + k, .kind = WALL_NO_SLIP};
+    s.walls[0].kind = WALL_INFLOW;
+    s.walls[1].kind = WALL_OUTFLOW;
+    s.walls[0].velocity[0] = 3.0;
+    s.walls[0].profile = PROFILE_PARABOLIC; /* of mean 2 */
+    assert_close(scene_speed_of(&s, 0.0, 0.0).viscous, 12.0 * 0.1 * 2.0 * 2.0, 1e-12);
+    s.walls[3].kind = WALL_SLIP; /* half of a channel of twice the width */
+    assert_close(scene_speed_of(&s, 0.0, 0.0).viscous, 3.0 * 0.1 * 2.0 * 2.0, 1e-12);
+    s.walls[2].kind = WALL_SLIP; /* nothing but the stream's own length */
+    assert_close(scene_speed_of(&s, 0.0, 0.0).viscous, 0.1 * 3.0 / 1.0, 1e-12);
+}
+
 static void water_below_one_level_does_not_fall(void **state)
 {
     (void)state;
@@ -202,6 +222,7 @@ static void slow_flows_have_the_pressure_of_friction(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_channel_holds_its_stream_back),
         cmocka_unit_test(water_falls_from_its_top_to_the_bottom),
         cmocka_unit_test(a_column_scales_with_its_units),
         cmocka_unit_test(water_below_one_level_does_not_fall),
