@@ -257,6 +257,8 @@ double marks_distance(const struct marks *c, const double *x)
     switch (depth) {
     case 1:
         return nearest(c, home, x, false);
+    case 2: /* levels take over from each other a cell deep */
+        return fmin(nearest(c, home, x, false), 2.0 * h + to_face(c, home, x));
     case -1:
         return -nearest(c, home, x, true);
     default:

@@ -34,8 +34,8 @@ void marks_dilate(const struct marks *c, unsigned char *bits, int by);
 void marks_cover(struct marks *c, const struct marks *fine, int by);
 /* After the marks have changed. */
 void marks_measure(struct marks *c);
-/* m, positive in marked cells: the distance to the edge where that is less than a cell, else no
- * more than it and no less than a cell; the same outside with the other sign. */
+/* m, positive in marked cells: the distance to the edge where that is less than two cells, else no
+ * more than it and no less than two; outside, with the other sign, the same with one cell. */
 double marks_distance(const struct marks *c, const double *x);
 
 #endif
