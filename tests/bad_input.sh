@@ -533,7 +533,12 @@ with apr 's/{ level = 1; .*/{ shape = "wall"; level = 1; wall = 2; offset = 0.3;
 with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); velocity = (60, 0);/' 'case.cfg:10: .*velocity: 60 m/s: the region moves .* dx of level 2 in a step' sph
 with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); velocity = (3, 0);/' 'case.cfg:10: .*velocity: the region has left .* along x at t = ' sph
 with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = ({ kind = "harmonic"; axis = "rz"; amplitude = 1; period = 1; });/' 'case.cfg:10: .*motion: term 1: a region does not turn' sph
-with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = "nothing.txt";/' 'case.cfg:10: .*motion: term 1: nothing.txt is not a file' sph
+with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = "nothing.txt";/' 'case.cfg:10: .*motion: term 1: motion .*nothing.txt: no such file' sph
+with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = ({ kind = "harmonic"; axis = "z"; amplitude = 0.1; period = 1; });/' 'case.cfg:10: .*motion: term 1: axis z in a case of 2 dim' sph
+with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = ({ kind = "harmonic"; axis = "x"; period = 1; });/' 'case.cfg:10: .*motion: term 1: a harmonic term needs an amplitude' sph
+with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = ({ kind = "polynomial"; axis = "x"; coefficients = (0, 0.1); amplitude = 1; });/' 'case.cfg:10: .*motion.*amplitude: is not used: only a harmonic' sph
+with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3, 0.2);/' 'case.cfg:10: .*max: z component 0.2 in a case of 2 dim' sph
+with apr 's/max = (0.9, 0.3);/max = (0.9, 0.3); velocity = (0, 0, 1);/' 'case.cfg:10: .*velocity: z component 1 in a case of 2 dim' sph
 with apr 's/levels = 2;/levels = 2; around = 4;/' 'case.cfg:8: apr.around: is not used' sph
 with apr 's/levels = 2;/levels = 2; particles = 1e5;/' 'case.cfg:8: apr.particles: is not used' sph
 with apr 's/levels = 2;/levels = 2; particles = 1000; criteria = ( { kind = "surface"; distance = 1; } );/' 'apr.particles: level 0 and the regions .* could refine nothing within 1000' sph

@@ -34,7 +34,7 @@ struct criteria {
     double next;                              /* s: of the next evaluation */
     double factor;                            /* on all bounds */
     double forecast;                          /* particles */
-    double asked;                             /* those that no fixed region could do without */
+    bool told;                                /* that the budget leaves nothing */
     int64_t fluid, fixed[APR_LEVELS_MAX + 1]; /* units: all; within fixed regions of a level */
 };
 
@@ -319,6 +319,28 @@ static void remember(struct regions *g, double t, double sound, bool patient)
     }
 }
 
+/* Whether any cell of level 1 is marked, or asks for it. */
+static bool any_cell(const struct grid *q, bool asks)
+{
+    bool any = false;
+    for (size_t i = 0; i < marks_count(&q->cells) && !any; i++)
+        any = asks ? q->value[i] > 1.0 && q->allowed[i] : q->cells.mark[i];
+    return any;
+}
+
+/* Once: criteria that a budget keeps from everything are as good as none. */
+static void tell_budget(struct regions *g, double t, double wanted)
+{
+    struct criteria *c = g->criteria;
+    if (c->told || c->factor <= 1.0 || any_cell(c->grid + 1, false) || !any_cell(c->grid + 1, true))
+        return;
+    c->told = true;
+    log_warn("t = %.4g s: criteria ask for refinement that takes about %.0f particles of all "
+             "levels, and the least of it is too much for apr.particles = %.0f: nothing is "
+             "refined by them; give more, fewer levels or a smaller apr.around",
+             t, wanted, g->prm->particles);
+}
+
 void criteria_end(struct regions *g, double t, double sound)
 {
     struct criteria *c = g->criteria;
@@ -326,12 +348,14 @@ void criteria_end(struct regions *g, double t, double sound)
     for (int n = 1; n <= c->levels; n++)
         add_surface(g, n);
     bool patient = true;
+    const double wanted = mark_all(g, 1.0, t, false);
     c->factor = find_factor(g, t, patient);
     if (c->factor == INFINITY) {
         patient = false;
         c->factor = find_factor(g, t, patient);
     }
     c->forecast = mark_all(g, c->factor, t, patient);
+    tell_budget(g, t, wanted);
     remember(g, t, sound, patient);
     c->next = t + 0.5 * regions_R(g, c->levels - 1) / sound * (1.0 - 1e-9);
 }

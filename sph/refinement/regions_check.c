@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/scene_check.h"
 #include "../../common/scene_mesh.h"
 #include "../open_boundaries/box_motion.h"
 #include "../rigid/body.h"
@@ -72,6 +72,22 @@ static void check_unused(const struct check *c)
 }
 
 /* --- size and place --- */
+
+/* A component along an axis that the case does not have is a mistake. */
+static void check_flat(const struct check *c)
+{
+    const struct {
+        const char *name;
+        double z;
+    } rows[] = {{"min", c->is->min[2]},
+                {"max", c->is->max[2]},
+                {"centre", c->is->centre[2]},
+                {"velocity", c->is->velocity[2]}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0] && c->dim == 2; i++)
+        if (rows[i].z != 0.0)
+            params_fault(c->r->params, c->f, key_of(c, rows[i].name),
+                         "z component %g in a case of 2 dimensions", rows[i].z);
+}
 
 /* Bounds of a box or sphere at the start. */
 static void bounds(const struct apr_region *is, double lo[3], double hi[3])
@@ -402,23 +418,19 @@ static void check_open_sides(const struct run *r, const struct sph_params *used,
 static bool check_motion_keys(const struct check *c)
 {
     const int before = c->f->n;
-    for (int m = 0; m < c->is->motion.n; m++) {
+    struct body_drive drive;
+    body_drive_terms(&drive, &c->is->motion, c->dim, c->r->case_dir);
+    for (int m = 0; m < drive.nterms; m++) {
         const struct scene_motion *t = c->is->motion.of + m;
-        char path[1024 + PARAM_TEXT_SIZE];
-        double *rows = NULL;
-        if (t->kind != MOTION_FILE && t->axis >= AXIS_RX)
+        char text[1400];
+        if (body_term_fault(&drive, m, c->r->case_dir, text, sizeof text))
+            params_fault(c->r->params, c->f, key_of(c, "motion"), "term %d: %s", m + 1, text);
+        else if (t->kind != MOTION_FILE && t->axis >= AXIS_RX)
             params_fault(c->r->params, c->f, key_of(c, "motion"),
                          "term %d: a region does not turn: axis x, y or z", m + 1);
-        if (t->kind == MOTION_HARMONIC && t->period <= 0.0)
-            params_fault(c->r->params, c->f, key_of(c, "motion"),
-                         "term %d: a harmonic motion needs a period", m + 1);
-        snprintf(path, sizeof path, "%s/%s", c->r->case_dir, t->file);
-        if (t->kind == MOTION_FILE && body_read_rows(path, c->dim == 2 ? 4 : 7, &rows) <= 0)
-            params_fault(c->r->params, c->f, key_of(c, "motion"),
-                         "term %d: %s is not a file of rows of %d numbers with increasing times",
-                         m + 1, t->file, c->dim == 2 ? 4 : 7);
-        mem_free(rows);
     }
+    body_drive_free(&drive);
+    scene_check_motion(&c->is->motion, "apr.regions", c->k, c->r->params, c->f);
     if (region_axes(c->is->along, c->dim) < 0)
         params_fault(c->r->params, c->f, key_of(c, "along"),
                      "`%s' is not a list of axes: expected %s", c->is->along,
@@ -535,6 +547,7 @@ void regions_check_budget(const struct run *r, double n, struct faults *f)
 static void check_region(struct check *c)
 {
     check_unused(c);
+    check_flat(c);
     if (c->is->shape < REGION_BODY)
         check_box_and_ball(c);
     else

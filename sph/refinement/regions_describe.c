@@ -43,8 +43,8 @@ static struct box bounds_of(const struct regions *g, int n)
     return b;
 }
 
-/* Fluid in the fixed regions of a level at the start, m^dim, by samples. */
-static double volume_of(const struct run *r, const struct regions *g, int n)
+/* Fluid deeper than this in the fixed regions of a level at the start, m^dim, by samples. */
+static double volume_of(const struct run *r, const struct regions *g, int n, double depth)
 {
     const int m = g->dim == 2 ? 160 : 32;
     const struct exact e = exact_create(&r->scene);
@@ -60,15 +60,15 @@ static double volume_of(const struct run *r, const struct regions *g, int n)
                 double x[3] = {0.0, 0.0, 0.0};
                 for (int a = 0; a < g->dim; a++)
                     x[a] = b.lo[a] + (at[a] + 0.5) / m * (b.hi[a] - b.lo[a]);
-                in += regions_fixed_distance(g, n, x) > 0.0 &&
+                in += regions_fixed_distance(g, n, x) > depth &&
                       scene_matter(&r->scene, &e, x) == MATTER_FLUID;
             }
     return in * volume;
 }
 
-static double particles_of(const struct run *r, const struct regions *g, int n)
+static double particles_of(const struct run *r, const struct regions *g, int n, double depth)
 {
-    return volume_of(r, g, n) / pow(ldexp(g->dx, -n), g->dim);
+    return volume_of(r, g, n, depth) / pow(ldexp(g->dx, -n), g->dim);
 }
 
 double regions_particles(const struct run *r, const struct sph_params *used)
@@ -76,9 +76,27 @@ double regions_particles(const struct run *r, const struct sph_params *used)
     struct regions *g = regions_create(r, used);
     double sum = 0.0;
     for (int n = 1; g && n <= g->prm->levels; n++)
-        sum += particles_of(r, g, n);
+        sum += particles_of(r, g, n, 0.0);
     regions_free(&g);
     return sum;
+}
+
+/* Guards fill a region as deep as R of the level outside of it. */
+static void describe_level(const struct run *r, const struct regions *g, int n)
+{
+    const double R = regions_R(g, n - 1), all = particles_of(r, g, n, 0.0);
+    const double deep = all > 0.0 ? particles_of(r, g, n, R) : 0.0;
+    char guards[48] = "";
+    if (all > 0.0)
+        snprintf(guards, sizeof guards, ", %.0f of them guards", all - deep);
+    log_say("level %d: dx %g m, R %g m, about %.0f particles in regions of the case%s%s", n,
+            ldexp(g->dx, -n), regions_R(g, n), all, guards,
+            g->level[n].cells ? ", more where criteria ask for it" : "");
+    if (all > 0.0 && deep <= 0.0 && !g->level[n].cells)
+        log_warn("level %d: all fluid in its regions lies within R = %g m of their edges, where only "
+                 "guards are: at the start nothing is refined; let the regions reach deeper into "
+                 "the fluid",
+                 n, R);
 }
 
 void regions_describe(const struct run *r, const struct sph_params *used)
@@ -87,9 +105,7 @@ void regions_describe(const struct run *r, const struct sph_params *used)
     if (!g)
         return;
     for (int n = 1; n <= g->prm->levels; n++)
-        log_say("level %d: dx %g m, R %g m, about %.0f particles in regions of the case%s", n,
-                ldexp(g->dx, -n), regions_R(g, n), particles_of(r, g, n),
-                g->level[n].cells ? ", more where criteria ask for it" : "");
+        describe_level(r, g, n);
     if (g->criteria && g->prm->particles > 0.0)
         log_say("criteria keep to %.4g particles of all levels", g->prm->particles);
     regions_free(&g);
