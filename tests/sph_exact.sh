@@ -162,5 +162,14 @@ run rest 0
 grep -q '^warning' rest.txt && bad "water at rest warns" rest.txt
 awk -v m="$(value rest max_mach)" 'BEGIN { exit !(m > 0 && m < 1e-3) }' || bad "water at rest: $(value rest max_mach) c0" rest.txt
 
+# What is asked for and cannot be has a warning: a ball that touches the water within R of its edge alone; criteria
+# whose least region is too much for the budget.
+sed 's/end = 4/end = 0.02/; s/regions = .*/regions = ( { shape = "sphere"; centre = (-0.3, -0.3); radius = 0.5; } ); };/' rest.cfg >thin.cfg
+sed 's/end = 4/end = 0.02/; s/regions = .*/levels = 1; particles = 300; criteria = ( { kind = "surface"; distance = 0; } ); };/' rest.cfg >poor.cfg
+run thin 0
+run poor 0
+grep -q '^warning: level 1: all fluid in its regions lies within R' thin.txt || bad "a region of guards alone is not told" thin.txt
+grep -q '^warning: .*too much for apr.particles = 300' poor.txt || bad "a budget that leaves nothing is not told" poor.txt
+
 echo "exact: torque $(column couette 'inner moment') of 209.4 N, running down at $(cat rate) of 0.105 1/s, fall of pressure $fall of 1500 to 1800 Pa; $failed faults"
 [ $failed = 0 ]
