@@ -180,6 +180,33 @@ static void rest_stays_between_equal_pressures(void **state)
     fv_free(&c.s);
 }
 
+/* Kinetic energy of a duct at t = 0.5 whose stream starts at once, past a no-slip floor. */
+static double energy_of_duct(double pressure)
+{
+    struct fv_case c;
+    double sum = 0.0;
+    fv_case_set(&c, MPI_COMM_SELF, (const char *const[]){CLOSED, "initial.field=\"rest\"", NULL});
+    wall_add(&c, SIDE_X_MIN, WALL_INFLOW, 1.0);
+    wall_add(&c, SIDE_X_MAX, WALL_OUTFLOW, 0.0)->pressure = pressure;
+    wall_add(&c, SIDE_Y_MIN, WALL_NO_SLIP, 0.0);
+    wall_add(&c, SIDE_Y_MAX, WALL_SLIP, 0.0);
+    struct fv *s = fv_case_start(&c, NULL);
+    assert_true(fv_case_run(&c, 1000, 0.5));
+    BLOCK_ROWS (&s->b, 0, at, n)
+        for (int64_t i = at; i < at + n; i++)
+            sum += s->u[0][i] * s->u[0][i] + s->u[1][i] * s->u[1][i];
+    fv_free(&c.s);
+    return sum;
+}
+
+static void the_level_of_pressure_moves_nothing(void **state)
+{
+    (void)state;
+    const double E = energy_of_duct(0.0);
+    assert_close(energy_of_duct(1e-6) / E, 1.0, 1e-6); /* as well as psi is solved for */
+    assert_close(energy_of_duct(1e3) / E, 1.0, 1e-6);
+}
+
 /* A vortex of Gaussian stream function in a uniform flow, averages and fluxes. */
 static void vortex_fill(struct fv *s, double x0, double y0)
 {
@@ -293,6 +320,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(lids_drag_alike_on_all_sides),
                                        cmocka_unit_test(rest_stays_under_gravity),
                                        cmocka_unit_test(rest_stays_between_equal_pressures),
+                                       cmocka_unit_test(the_level_of_pressure_moves_nothing),
                                        cmocka_unit_test(vortices_leave),
                                        cmocka_unit_test(viscous_solve_keeps_its_word)};
     MPI_Init(&argc, &argv);

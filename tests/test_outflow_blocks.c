@@ -161,6 +161,37 @@ static void each_opening_has_its_parabola(void **state)
     mesh_case_end(&c, &s);
 }
 
+/* Largest velocity at t = 0.3 of a stream that starts at once through a waving block. */
+static double fastest(double pressure)
+{
+    static const char block[] = "{ name = \"a\"; mapping = \"sheared\"; wave = 0.05; cells = (16, "
+                                "16); min = (0, 0); max = (1, 1); j_min = \"wall\"; j_max = "
+                                "\"slip\"; }";
+    struct mesh_case c;
+    mesh_case_read(&c, MPI_COMM_SELF, block,
+                   (const char *const[]){"initial.field=\"rest\"", "domain.min=(0,0)",
+                                         "domain.max=(1,1)", "fluid.nu=0.1", NULL});
+    c.run.scene.walls[c.run.scene.nwalls++] =
+        (struct scene_wall){.side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {1.0, 0.0, 0.0}};
+    c.run.scene.walls[c.run.scene.nwalls++] =
+        (struct scene_wall){.side = SIDE_X_MAX, .kind = WALL_OUTFLOW, .pressure = pressure};
+    fv_params_check(&c.run, &c.faults);
+    assert_int_equal(params_report(&c.faults), 0);
+    struct fv *s = fv_create(&c.run, NULL);
+    assert_true(mesh_case_run(s, 1000, 0.3));
+    const double most = s->umax[0];
+    mesh_case_end(&c, &s);
+    return most;
+}
+
+static void the_level_of_pressure_moves_nothing(void **state)
+{
+    (void)state;
+    const double u = fastest(0.0);
+    assert_close(fastest(1e-6) / u, 1.0, 1e-6); /* as well as psi is solved for */
+    assert_close(fastest(1e3) / u, 1.0, 1e-6);
+}
+
 static double energy(const struct fv *s)
 {
     double sum = 0.0;
@@ -212,6 +243,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {cmocka_unit_test(vortices_leave),
                                        cmocka_unit_test(what_comes_in_goes_out),
                                        cmocka_unit_test(each_opening_has_its_parabola),
+                                       cmocka_unit_test(the_level_of_pressure_moves_nothing),
                                        cmocka_unit_test(ranks_agree_and_a_restart_is_exact)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
