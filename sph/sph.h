@@ -181,6 +181,12 @@ double fill_lattice_cells(double lo, double hi, double dx);
 double fill_lattice_begin(const struct scene *c, int a, double lo, double hi, double dx);
 /* The first particles of the finer levels: born of the coarser ones, with the exact field. */
 void fill_finer(struct sph *s);
+/* Whether walls and bodies leave room for a particle of this level at x. */
+bool fill_has_room(const struct sph *s, const double *x);
+/* Cells of the first lattice of s, the coarsest level, in and around this rank's part of a domain:
+ * their centres, m. */
+void fill_each_near(const struct sph *s, const struct domain *part,
+                    void (*at)(const double *centre, double dx, void *ctx), void *ctx);
 /* Takes out the locals that packing has pressed into seams of walls narrower than dx. */
 void fill_clear_seams(struct sph *s);
 

@@ -12,6 +12,7 @@
 #include "../../common/scene_fluid.h"
 #include "basins.h"
 #include "rooms.h"
+#include "surface_rows.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
 #include "../refinement/mixed.h"
@@ -61,8 +62,7 @@ void fill_clear_seams(struct sph *s)
         }
 }
 
-/* Whether walls and bodies leave room for a particle at x. */
-static bool has_room(const struct sph *s, const double *x)
+bool fill_has_room(const struct sph *s, const double *x)
 {
     if (rooms_parted(s))
         return rooms_have_place(s, x);
@@ -133,6 +133,23 @@ static void each_own_cell(struct sph *s, const struct lattice *l,
             }
 }
 
+void fill_each_near(const struct sph *s, const struct domain *part,
+                    void (*at)(const double *centre, double dx, void *ctx), void *ctx)
+{
+    const struct lattice l = lattice_create(s);
+    double lo[3], hi[3], x[3];
+    int first[3], last[3], ic[3];
+    domain_bounds(part, lo, hi);
+    own_cells(s, &l, lo, hi, first, last);
+    for (ic[2] = first[2]; ic[2] < last[2]; ic[2]++)
+        for (ic[1] = first[1]; ic[1] < last[1]; ic[1]++)
+            for (ic[0] = first[0]; ic[0] < last[0]; ic[0]++) {
+                lattice_centre(&l, ic, s->dim, x);
+                at(x, l.dx, ctx);
+            }
+    lattice_free(&l);
+}
+
 /* Where particles start under a wave: columns of equal volumes, each from the floor to the surface,
  * in rows of equal heights, so that all particles have one volume and lie as a wave moves them. A
  * staircase of whole rows had a wave of 1.3 dx a tenth too low; upright columns whose volumes
@@ -195,18 +212,30 @@ static void columns_free(struct columns *c)
     mem_free(c->height);
 }
 
-/* Where the particle of a cell starts. */
-static void displace(const struct sph *s, const struct columns *c, int64_t cell,
-                     const double *centre, double *x)
+/* What the cells are looked through with. */
+struct look {
+    struct exact exact;
+    struct columns columns;
+    bool rows;          /* that end at the surface; surface_rows.h */
+    int64_t wet, taken; /* cells with fluid by the shapes; of these behind walls or in bodies */
+};
+
+/* Where the particle of a cell starts; its volume, dx^D. */
+static double displace(const struct sph *s, const struct look *look, int64_t cell,
+                       const double *centre, double *x)
 {
+    const struct columns *c = &look->columns;
     const int i = (int)floor((centre[0] - s->lo[0]) / s->dx);
     memcpy(x, centre, 3 * sizeof *x);
+    if (look->rows)
+        return surface_rows_place(s, &look->exact, x);
     if (c->x && i >= 0 && i < c->n) {
         x[0] = c->x[i];
         x[1] = s->lo[1] + c->height[i] * (centre[1] - s->lo[1]);
     }
     for (int a = 0; a < s->dim && s->prm.noise > 0.0; a++)
         x[a] += s->prm.noise * s->dx * random_of(cell, a);
+    return c->volume;
 }
 
 static void cut_links(const struct sph *s, struct lattice *l)
@@ -220,25 +249,18 @@ static void cut_links(const struct sph *s, struct lattice *l)
         lattice_share(l, l->cut[a], s->run->comm);
 }
 
-/* What the cells are looked through with. */
-struct look {
-    struct exact exact;
-    struct columns columns;
-    int64_t wet, taken; /* cells with fluid by the shapes; of these behind walls or in bodies */
-};
-
 static void mark(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
                  void *ctx)
 {
     struct look *k = ctx;
     double x[3];
-    displace(s, &k->columns, cell, centre, x);
+    displace(s, k, cell, centre, x);
     if (!scene_is_fluid(&s->run->scene, &k->exact, x, NULL))
         return;
     if (!rooms_parted(s) && !scene_in_tanks(&s->run->scene, x))
         return; /* a shape may reach beyond its tank */
     k->wet++;
-    if (!has_room(s, x))
+    if (!fill_has_room(s, x))
         k->taken++;
     else
         lattice_set(l->bits, cell);
@@ -252,14 +274,14 @@ static void add(struct sph *s, const struct lattice *l, int64_t cell, const doub
     double x[3], u[3], p, more[3];
     if (!lattice_has(l, cell))
         return;
-    displace(s, &k->columns, cell, centre, x);
+    const double volume = displace(s, k, cell, centre, x);
     scene_is_fluid(&s->run->scene, e, x, more);
     exact_point(e, x, 0.0, u, &p, NULL);
     for (int a = 0; a < s->dim; a++)
         u[a] += more[a];
     particles_reserve(&s->p, s->p.n + 1);
     const int i = particles_add(&s->p, cell, ZONE_FREE);
-    particles_set(s, i, x, u, k->columns.volume * s->dxD, eos_rho(p, s->rho0, s->c0, s->gamma));
+    particles_set(s, i, x, u, volume * s->dxD, eos_rho(p, s->rho0, s->c0, s->gamma));
 }
 
 /* Velocity and pressure of the first field where packing has moved a particle to. */
@@ -367,6 +389,7 @@ void fill_lattice(struct sph *s)
 {
     struct look look = {.exact = exact_create(&s->run->scene)};
     look.columns = columns_create(s, &look.exact);
+    look.rows = surface_rows_wanted(s);
     struct lattice l = lattice_create(s);
     const int64_t all = lattice_cells(&l), ranks = s->run->size;
     each_own_cell(s, &l, mark, &look);
@@ -439,6 +462,13 @@ static void set_fields(struct sph *q, const struct exact *e, bool keep_volumes, 
     }
 }
 
+static void settle(struct sph *level)
+{
+    surface_rows_renew(level);
+    if (level->prm.packing > 0)
+        pack_finer(level);
+}
+
 void fill_finer(struct sph *s)
 {
     const struct exact e = exact_create(&s->run->scene);
@@ -452,9 +482,10 @@ void fill_finer(struct sph *s)
     /* Gaps are at walls, or between families of displaced mothers, twice as wide for each level. */
     const bool gaps = s->walls || (s->prm.noise > 0.0 && s->finer->finer);
     struct columns c = columns_create(s, &e);
-    refinement_begin(s, s->prm.packing > 0 && gaps ? pack_finer : NULL);
+    const bool rows = surface_rows_wanted(s), packed = s->prm.packing > 0;
+    refinement_begin(s, rows || (packed && gaps) ? settle : NULL);
     for (struct sph *q = s->finer; q; q = q->finer)
-        set_fields(q, &e, s->prm.packing > 0, weighed, c.volume);
+        set_fields(q, &e, packed || rows, weighed, c.volume);
     columns_free(&c);
     refinement_remember(s);
 }

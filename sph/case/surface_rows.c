@@ -1,0 +1,263 @@
+/* surface_rows.c - see surface_rows.h. SPDX-License-Identifier: BSD-3-Clause
+ *
+ * A lattice meets an inclined surface in steps, and each step that lands on a wall is a hammer of
+ * its own: at 10 degrees a front of six spacings at once. Here each row of cells that ends at a
+ * free surface is stretched or shortened, by half a spacing at most, so that its last particle
+ * lies half of its spacing inside: over the last ROWS particles, along the axis on which the
+ * surface is inclined by 45 degrees at most. Where one row has a particle more than the next, the
+ * two lie a whole spacing apart at the surface, which is the lattice again, and in between
+ * staggered. Volumes go with the spacings along the row, so that all of the shape is filled. A
+ * surface along the lattice keeps its rows. */
+#include "surface_rows.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/scene_fluid.h"
+#include "../parallel/domain.h"
+#include "../particles/eos.h"
+#include "../refinement/refinement.h"
+#include "../walls/walls.h"
+#include "rooms.h"
+
+enum { ROWS = 8 };
+
+/* What shapes and walls have at a place. */
+struct water {
+    const struct sph *s;
+    const struct exact *e;
+};
+
+static bool has_fluid(const struct water *w, const double *x)
+{
+    return scene_is_fluid(&w->s->run->scene, w->e, x, NULL);
+}
+
+static bool has_walls(const struct water *w, const double *x)
+{
+    for (int a = 0; a < w->s->dim; a++)
+        if (x[a] <= w->s->lo[a] || x[a] >= w->s->hi[a])
+            return true;
+    return !rooms_parted(w->s) &&
+           !(scene_in_tanks(&w->s->run->scene, x) && scene_is_room(&w->s->run->scene, x));
+}
+
+static bool is_wet(const struct water *w, const double *x)
+{
+    return has_fluid(w, x) && !has_walls(w, x);
+}
+
+/* Along an axis between x, which is wet, and x + reach, which is not: how far the fluid goes, m. */
+static double find_end(const struct water *w, const double *x, int axis, double reach)
+{
+    double lo = 0.0, hi = reach;
+    for (int k = 0; k < 48; k++) {
+        double y[3] = {x[0], x[1], x[2]};
+        y[axis] += 0.5 * (lo + hi);
+        *(is_wet(w, y) ? &lo : &hi) = 0.5 * (lo + hi);
+    }
+    return lo;
+}
+
+/* Whether the fluid ends at x + way in air. */
+static bool is_free(const struct water *w, const double *x, int axis, double way)
+{
+    double y[3] = {x[0], x[1], x[2]};
+    y[axis] += way + copysign(1e-6 * w->s->dx, way);
+    return !has_walls(w, y);
+}
+
+/* Where the surface is one row aside, from x, m; NAN: none within 2 dx. */
+static double end_aside(const struct water *w, const double *x, int axis, double sign)
+{
+    const double far = 2.0 * sign * w->s->dx;
+    double from[3] = {x[0], x[1], x[2]}, to[3] = {x[0], x[1], x[2]};
+    from[axis] -= far;
+    to[axis] += far;
+    return is_wet(w, from) && !is_wet(w, to) ? find_end(w, from, axis, 2.0 * far) - far : NAN;
+}
+
+/* Whether rows along this axis are fitted to the surface that is b from the last centre x: it is
+ * inclined to them, by no more than to the other axes. */
+static bool is_inclined(const struct water *w, const double *x, int axis, double b)
+{
+    const double dx = w->s->dx, sign = b > 0.0 ? 1.0 : -1.0, even = 1e-6;
+    bool inclined = false;
+    for (int a = 0; a < w->s->dim; a++) {
+        double slope = 0.0;
+        int n = 0;
+        for (int side = -1; side <= 1 && a != axis; side += 2) {
+            double y[3] = {x[0], x[1], x[2]};
+            y[a] += 0.5 * side * dx;
+            const double more = (end_aside(w, y, axis, sign) - b) / (0.5 * dx);
+            if (isnan(more)) /* the surface ends here */
+                continue;
+            inclined = inclined || fabs(more) > even;
+            slope += side * more;
+            n++;
+        }
+        slope = n > 0 ? fabs(slope) / n : 0.0;
+        if ((a != axis && n == 0) || slope > 1.0 + even || (slope > 1.0 - even && a < axis))
+            return false;
+    }
+    return inclined;
+}
+
+/* Wet cells beyond the one at x on this way, `most' at most. */
+static int count_beyond(const struct water *w, const double *x, int axis, double step, int most)
+{
+    int n = 0;
+    for (double y[3] = {x[0], x[1], x[2]}; n < most; n++) {
+        y[axis] += step;
+        if (!is_wet(w, y))
+            break;
+    }
+    return n;
+}
+
+/* How far the last face of a row, n cells beyond the one at x, has to move to be the surface. */
+static double shift_of_end(const struct water *w, const double *x, int axis, double step, int n)
+{
+    double last[3] = {x[0], x[1], x[2]};
+    last[axis] += n * step;
+    const double b = find_end(w, last, axis, step);
+    return is_free(w, last, axis, b) && is_inclined(w, last, axis, b) ? b - 0.5 * step : 0.0;
+}
+
+bool surface_rows_wanted(const struct sph *s)
+{
+    const struct scene *c = &s->run->scene;
+    double still[3];
+    bool inclined = c->nshapes == 0 && c->initial.field == FIELD_DROP;
+    for (int k = 0; k < c->nshapes; k++)
+        inclined =
+            inclined || c->shapes[k].form == SHAPE_POLYGON || c->shapes[k].form == SHAPE_DISC;
+    return inclined && s->surface && !s->zones && s->prm.noise == 0.0 && !scene_has_wave(c) &&
+           scene_still_gravity(c, still) == 0.0;
+}
+
+double surface_rows_place(const struct sph *s, const struct exact *e, double *x)
+{
+    const struct water w = {s, e};
+    const double centre[3] = {x[0], x[1], x[2]};
+    double volume = 1.0;
+    if (!is_wet(&w, centre))
+        return volume;
+    for (int a = 0; a < s->dim; a++) {
+        const int n[2] = {count_beyond(&w, centre, a, -s->dx, ROWS),
+                          count_beyond(&w, centre, a, s->dx, ROWS)};
+        const double length = fmin(ROWS, n[0] + n[1] + 1);
+        double factor = 1.0;
+        for (int k = 0; k < 2; k++) {
+            if (n[k] >= length)
+                continue;
+            const double step = k ? s->dx : -s->dx;
+            const double shift = shift_of_end(&w, centre, a, step, n[k]);
+            x[a] += shift * (1.0 - (n[k] + 0.5) / length);
+            factor += shift / (step * length);
+        }
+        volume *= factor;
+    }
+    return volume;
+}
+
+/* --- finer levels --- */
+
+/* Whether rows of the next coarser level are moved here. */
+static bool is_near(const struct water *coarser, const double *x)
+{
+    const double dx = coarser->s->dx;
+    if (!is_wet(coarser, x))
+        return true;
+    for (int a = 0; a < coarser->s->dim; a++)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            double last[3] = {x[0], x[1], x[2]};
+            const int n = count_beyond(coarser, x, a, sign * dx, ROWS + 1);
+            last[a] += n * sign * dx;
+            if (n <= ROWS && is_free(coarser, last, a, find_end(coarser, last, a, sign * dx)))
+                return true;
+        }
+    return false;
+}
+
+static void remove_near(struct sph *s, const struct water *coarser)
+{
+    for (int i = 0; i < s->p.n;) {
+        double x[3] = {0.0, 0.0, 0.0};
+        memcpy(x, state_row(&s->p, s->p.y, i), (size_t)s->dim * sizeof *x);
+        if (is_near(coarser, x))
+            particles_copy(&s->p, i, --s->p.n);
+        else
+            i++;
+    }
+}
+
+static void add_at(struct sph *s, const struct water *w, const double *centre)
+{
+    double x[3] = {centre[0], centre[1], centre[2]}, u[3], more[3], p;
+    const double volume = surface_rows_place(s, w->e, x);
+    if (!fill_has_room(s, x))
+        return;
+    scene_is_fluid(&s->run->scene, w->e, x, more);
+    exact_point(w->e, x, 0.0, u, &p, NULL);
+    for (int a = 0; a < s->dim; a++)
+        u[a] += more[a];
+    particles_reserve(&s->p, s->p.n + 1);
+    const int i = particles_add(&s->p, s->next_id, ZONE_FREE);
+    s->next_id += s->run->size;
+    particles_set(s, i, x, u, volume * s->dxD, eos_rho(p, s->rho0, s->c0, s->gamma));
+    memset(slope_line(&s->p, i), 0, (size_t)s->p.nslope * sizeof(double));
+    s->p.role[i] = ROLE_GUARD; /* until it gets its role */
+}
+
+struct renewal {
+    struct sph *s;
+    const struct regions *regions;
+    struct water own, coarser;
+    double lo[3], hi[3]; /* m: of this rank's part */
+};
+
+/* Cells of the level within one of a coarser level, of spacing dx around x. */
+static void add_within(const struct renewal *r, const double *x, int level, double dx)
+{
+    struct sph *s = r->s;
+    const double d = regions_distance(r->regions, s->level, x);
+    if (level < s->level) {
+        for (int k = 0; k < 1 << s->dim && d > -dx; k++) {
+            double y[3] = {x[0], x[1], x[2]};
+            for (int a = 0; a < s->dim; a++)
+                y[a] += (k >> a & 1 ? 0.25 : -0.25) * dx;
+            add_within(r, y, level + 1, 0.5 * dx);
+        }
+        return;
+    }
+    for (int a = 0; a < s->dim; a++)
+        if (x[a] < r->lo[a] || x[a] >= r->hi[a])
+            return;
+    if (d >= 0.0 && is_wet(&r->own, x) && is_near(&r->coarser, x))
+        add_at(s, &r->own, x);
+}
+
+static void add_in_cell(const double *centre, double dx, void *ctx)
+{
+    add_within(ctx, centre, 0, dx);
+}
+
+void surface_rows_renew(struct sph *s)
+{
+    struct sph *coarsest = s;
+    while (coarsest->coarser)
+        coarsest = coarsest->coarser;
+    if (!surface_rows_wanted(coarsest) || rooms_parted(coarsest))
+        return;
+    const struct exact e = exact_create(&s->run->scene);
+    struct renewal r = {.s = s,
+                        .regions = coarsest->refinement->regions,
+                        .own = {s, &e},
+                        .coarser = {s->coarser, &e}};
+    domain_bounds(s->domain, r.lo, r.hi);
+    s->p.nghost = 0;
+    remove_near(s, &r.coarser);
+    fill_each_near(coarsest, s->domain, add_in_cell, &r);
+    s->ready = false;
+}

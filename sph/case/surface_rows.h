@@ -1,0 +1,18 @@
+/* surface_rows.h - first particles in rows that end at the free surface of the shapes, whatever its
+ * slope. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_SURFACE_ROWS_H
+#define SPH_SURFACE_ROWS_H
+
+#include "../../common/exact.h"
+#include "../sph.h"
+
+/* Whether the scene has free surfaces that a lattice meets in steps, and no weight to heed. */
+bool surface_rows_wanted(const struct sph *s);
+/* Moves x, the centre of a cell of the lattice of this level, to where its particle starts; its
+ * volume over dx^D. */
+double surface_rows_place(const struct sph *s, const struct exact *e, double *x);
+/* Of a finer level, after its birth: near a free surface children stand as their mothers' rows end;
+ * they give way to a lattice of their own spacing with rows of its own. */
+void surface_rows_renew(struct sph *s);
+
+#endif
