@@ -172,15 +172,17 @@ void pack_finer(struct sph *level);
 
 /* fill.c: whether there is fluid at x at the start, and the velocity that its shape adds. */
 struct exact;
+struct fill; /* the lattice and its waters, for the finer levels; NULL: there is none */
 /* lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
-void fill_lattice(struct sph *s);
+struct fill *fill_lattice(struct sph *s);
+void fill_free(struct fill **f);
 /* Cells of that lattice along an axis of a region from lo to hi, m, and its lower end along axis a:
  * from the lower corner; from the upper one where only that has a wall of the domain. The last
  * cell may reach out of a domain that dx does not divide. */
 double fill_lattice_cells(double lo, double hi, double dx);
 double fill_lattice_begin(const struct scene *c, int a, double lo, double hi, double dx);
 /* The first particles of the finer levels: born of the coarser ones, with the exact field. */
-void fill_finer(struct sph *s);
+void fill_finer(struct sph *s, const struct fill *f);
 /* Whether walls and bodies leave room for a particle of this level at x. */
 bool fill_has_room(const struct sph *s, const double *x);
 /* Cells of the first lattice of s, the coarsest level, in and around this rank's part of a domain:

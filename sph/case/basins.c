@@ -17,6 +17,7 @@
 #include "../sph_params.h"
 #include "../walls/walls.h"
 #include "rooms.h"
+#include "surface_rows.h"
 
 /* Parts of fewer cells that walls cut off are no water that could flow. */
 enum { LEAST_CELLS = 8 };
@@ -38,7 +39,7 @@ struct basins {
     const struct lattice *l;
     struct exact exact;
     int up, sign, across[2]; /* axis of the runs, where up is on it, the others */
-    bool oblique;
+    bool oblique, rows;      /* rows end at the surface; surface_rows.h */
     double g;
     int columns, nruns, *start; /* runs of column c: start[c] .. start[c + 1] - 1 */
     struct basin_run *runs;
@@ -73,6 +74,7 @@ static void find_axes(struct basins *b)
         if (fabs(g[a]) > fabs(g[b->up]) * (1.0 + 1e-9))
             b->up = a;
     b->sign = g[b->up] > 0.0 ? -1 : 1;
+    b->rows = surface_rows_wanted(b->s);
     b->oblique = b->g - fabs(g[b->up]) > 1e-9 * b->g;
     b->across[0] = b->up == 0 ? 1 : 0;
     b->across[1] = b->up == 2 ? 1 : 2;
@@ -242,16 +244,19 @@ static enum beyond look(const struct basins *b, const int *ic, int axis, int way
     return blocked(b, from, x) ? BEYOND_WALL : BEYOND_AIR;
 }
 
-/* The top of a run with air above. Where gravity is along the lattice its upper face: the column
- * weighs what it holds. Else steps of the lattice would be waves of its size: there it is where the
- * shapes end. */
+/* The top of a run with air above. Where gravity is along the lattice its upper face, as rows end
+ * there: the column weighs what it holds. Else steps of the lattice would be waves of its size:
+ * there it is where the shapes end. */
 static double top_of(const struct basins *b, const int *ic)
 {
     const struct scene *c = &b->s->run->scene;
     double x[3], lo = 0.0, hi = b->l->dx;
     lattice_centre(b->l, ic, b->s->dim, x);
-    if (!b->oblique)
+    if (!b->oblique && !b->rows)
         return scene_height(c, x) + 0.5 * b->l->dx;
+    if (!b->oblique)
+        return scene_height(c, x) + 0.5 * b->l->dx +
+               b->sign * surface_rows_shift(b->s, &b->exact, x, b->up, b->sign);
     for (int k = 0; k < 40; k++) {
         const double mid = 0.5 * (lo + hi);
         double y[3] = {x[0], x[1], x[2]};

@@ -136,7 +136,7 @@ static void each_own_cell(struct sph *s, const struct lattice *l,
 void fill_each_near(const struct sph *s, const struct domain *part,
                     void (*at)(const double *centre, double dx, void *ctx), void *ctx)
 {
-    const struct lattice l = lattice_create(s);
+    struct lattice l = lattice_create(s);
     double lo[3], hi[3], x[3];
     int first[3], last[3], ic[3];
     domain_bounds(part, lo, hi);
@@ -318,6 +318,13 @@ static bool has_open_top(const struct sph *s, const double *still)
     return false;
 }
 
+/* Under which level the water of a cell stands, m; NAN: it falls. */
+static double level_of(const struct sph *s, const struct basins *b, int64_t cell)
+{
+    const double given = s->run->scene.initial.level, level = basins_level(b, cell);
+    return isnan(level) || given == LEVEL_TOP ? level : given;
+}
+
 /* Masses under gravity: p = 0 at the given height, or on top of each water. A wave and a channel
  * have their own pressure; gravity along a periodic axis drives. */
 static void weigh(struct sph *s, const struct basins *b)
@@ -330,11 +337,10 @@ static void weigh(struct sph *s, const struct basins *b)
         return;
     for (int i = 0; i < s->p.n; i++) {
         double *y = state_row(&s->p, s->p.y, i), x[3] = {0.0, 0.0, 0.0};
-        double level = basins_level(b, s->p.id[i]);
+        const double level = level_of(s, b, s->p.id[i]);
         if (isnan(level)) /* falls */
             continue;
-        off = f->level < LEVEL_TOP ? fmax(off, fabs(f->level - level)) : 0.0;
-        level = f->level < LEVEL_TOP ? f->level : level;
+        off = fmax(off, fabs(level - basins_level(b, s->p.id[i])));
         memcpy(x, y, (size_t)s->dim * sizeof *x);
         const double m = y[at_mass(s->dim)];
         const double more =
@@ -385,34 +391,50 @@ static void warn_of_taken(const struct sph *s, const struct look *k)
             n[1], n[0]);
 }
 
-void fill_lattice(struct sph *s)
+struct fill {
+    struct lattice lattice;
+    struct basins *basins;
+};
+
+void fill_free(struct fill **f)
+{
+    if (!*f)
+        return;
+    basins_free(&(*f)->basins);
+    lattice_free(&(*f)->lattice);
+    mem_free(*f);
+    *f = NULL;
+}
+
+struct fill *fill_lattice(struct sph *s)
 {
     struct look look = {.exact = exact_create(&s->run->scene)};
     look.columns = columns_create(s, &look.exact);
     look.rows = surface_rows_wanted(s);
-    struct lattice l = lattice_create(s);
-    const int64_t all = lattice_cells(&l), ranks = s->run->size;
-    each_own_cell(s, &l, mark, &look);
-    lattice_share(&l, l.bits, s->run->comm);
+    struct fill *f = NEW(struct fill, 1);
+    struct lattice *l = &f->lattice;
+    *l = lattice_create(s);
+    const int64_t all = lattice_cells(l), ranks = s->run->size;
+    each_own_cell(s, l, mark, &look);
+    lattice_share(l, l->bits, s->run->comm);
     const bool parted = rooms_parted(s);
     if (parted)
-        cut_links(s, &l);
+        cut_links(s, l);
     else
         warn_of_taken(s, &look);
-    struct basins *b = basins_create(s, &l);
+    const struct basins *b = f->basins = basins_create(s, l);
     if (parted)
         say_rooms(b);
     say_pockets(b);
-    basins_clear(b, &l);
-    each_own_cell(s, &l, add, &look);
+    basins_clear(b, l);
+    each_own_cell(s, l, add, &look);
     pack_start(s, s->prm.packing);
     if (s->prm.packing > 0)
         refresh(s, &look.exact);
     weigh(s, b);
-    basins_free(&b);
-    lattice_free(&l);
     columns_free(&look.columns);
     s->next_id = (all + ranks - 1) / ranks * ranks + s->run->rank;
+    return f;
 }
 
 /* Whether the masses of the first particles are those of a fluid at rest. */
@@ -443,18 +465,45 @@ static void set_slopes(struct sph *s, const struct exact *e)
     }
 }
 
-/* Fields of the case where particles stand; those that are weighed keep their densities. */
+/* The density of water at rest at x: that of the nearest cell which holds some; NAN: none, or it
+ * falls. */
+static double density_near(const struct sph *q, const struct fill *f, const double *x)
+{
+    const struct lattice *l = &f->lattice;
+    double still[3], level = NAN, least = INFINITY;
+    for (int k = 0; k < (q->dim == 3 ? 27 : 9); k++) {
+        const int way[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - (q->dim == 3)};
+        double y[3] = {0.0, 0.0, 0.0}, d2 = 0.0;
+        for (int a = 0; a < q->dim; a++)
+            y[a] = x[a] + way[a] * l->dx;
+        const int64_t cell = lattice_find(l, q->dim, y);
+        if (cell < 0 || !lattice_has(l, cell))
+            continue;
+        lattice_place(l, cell, q->dim, y);
+        for (int a = 0; a < q->dim; a++)
+            d2 += (y[a] - x[a]) * (y[a] - x[a]);
+        if (d2 < least)
+            level = level_of(q, f->basins, cell);
+        least = fmin(least, d2);
+    }
+    const double g = scene_still_gravity(&q->run->scene, still);
+    return density_at_rest(q, g, level - scene_height(&q->run->scene, x));
+}
+
+/* Fields of the case where particles stand; those that are weighed keep their densities, or are
+ * given those of the water that they are in. */
 static void set_fields(struct sph *q, const struct exact *e, bool keep_volumes, bool weighed,
-                       double volume)
+                       const struct fill *f, double volume)
 {
     for (int i = 0; i < q->p.n; i++) {
         const double *y = state_row(&q->p, q->p.y, i);
         const double w = keep_volumes ? y[at_volume(q->dim)] : volume * q->dxD;
-        const double rho = y[at_mass(q->dim)] / y[at_volume(q->dim)];
         double x[3] = {0.0, 0.0, 0.0}, u[3], p, more[3];
         memcpy(x, y, (size_t)q->dim * sizeof *x);
         if (!scene_is_fluid(&q->run->scene, e, x, more)) /* beyond its shape */
             continue;
+        const double given = weighed && f ? density_near(q, f, x) : NAN;
+        const double rho = isnan(given) ? y[at_mass(q->dim)] / y[at_volume(q->dim)] : given;
         exact_point(e, x, 0.0, u, &p, NULL);
         for (int a = 0; a < q->dim; a++)
             u[a] += more[a];
@@ -469,14 +518,14 @@ static void settle(struct sph *level)
         pack_finer(level);
 }
 
-void fill_finer(struct sph *s)
+void fill_finer(struct sph *s, const struct fill *f)
 {
     const struct exact e = exact_create(&s->run->scene);
     const bool weighed = is_weighed(&s->run->scene);
     set_slopes(s, &e);
     if (!s->finer) {
         mixed_start(s);
-        set_fields(s, &e, true, weighed, 1.0);
+        set_fields(s, &e, true, weighed, NULL, 1.0);
         return;
     }
     /* Gaps are at walls, or between families of displaced mothers, twice as wide for each level. */
@@ -485,7 +534,7 @@ void fill_finer(struct sph *s)
     const bool rows = surface_rows_wanted(s), packed = s->prm.packing > 0;
     refinement_begin(s, rows || (packed && gaps) ? settle : NULL);
     for (struct sph *q = s->finer; q; q = q->finer)
-        set_fields(q, &e, packed || rows, weighed, c.volume);
+        set_fields(q, &e, packed || rows, weighed, rows ? f : NULL, c.volume);
     columns_free(&c);
     refinement_remember(s);
 }

@@ -158,14 +158,16 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
             sph_free(&s);
         return s;
     }
+    struct fill *fill = NULL;
     if (s->refinement && apr_params_of(r)->method == APR_GRADED)
         graded_fill(s);
     else
-        fill_lattice(s);
+        fill = fill_lattice(s);
     if (is_dry(s)) {
         log_say("%s: walls and bodies leave no place for a particle: no water, nothing to compute; "
                 "nothing was started",
                 r->case_name);
+        fill_free(&fill);
         sph_free(&s);
         return NULL;
     }
@@ -174,7 +176,8 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
         refinement_look(s);
     }
     if (s->refinement)
-        fill_finer(s);
+        fill_finer(s, fill);
+    fill_free(&fill);
     integrate_start(s);
     remember_start(s);
     return s;

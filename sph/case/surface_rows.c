@@ -124,16 +124,33 @@ static double shift_of_end(const struct water *w, const double *x, int axis, dou
     return is_free(w, last, axis, b) && is_inclined(w, last, axis, b) ? b - 0.5 * step : 0.0;
 }
 
+/* Boxes stand along the lattice; so does a level, unless gravity is oblique to it. */
+static bool has_slope(const struct scene *c, const struct scene_shape *h)
+{
+    double still[3];
+    const double g = scene_still_gravity(c, still);
+    bool oblique = g > 0.0;
+    for (int a = 0; a < c->domain.dim; a++)
+        oblique = oblique && fabs(still[a]) < (1.0 - 1e-9) * g;
+    return h->form == SHAPE_POLYGON || h->form == SHAPE_DISC || (h->form == SHAPE_BELOW && oblique);
+}
+
 bool surface_rows_wanted(const struct sph *s)
 {
     const struct scene *c = &s->run->scene;
-    double still[3];
     bool inclined = c->nshapes == 0 && c->initial.field == FIELD_DROP;
     for (int k = 0; k < c->nshapes; k++)
-        inclined =
-            inclined || c->shapes[k].form == SHAPE_POLYGON || c->shapes[k].form == SHAPE_DISC;
-    return inclined && s->surface && !s->zones && s->prm.noise == 0.0 && !scene_has_wave(c) &&
-           scene_still_gravity(c, still) == 0.0;
+        inclined = inclined || has_slope(c, c->shapes + k);
+    return inclined && s->surface && !s->zones && s->prm.noise == 0.0 && !scene_has_wave(c);
+}
+
+double surface_rows_shift(const struct sph *s, const struct exact *e, const double *x, int axis,
+                          int sign)
+{
+    const struct water w = {s, e};
+    double beyond[3] = {x[0], x[1], x[2]};
+    beyond[axis] += sign * s->dx;
+    return is_wet(&w, x) && !is_wet(&w, beyond) ? shift_of_end(&w, x, axis, sign * s->dx, 0) : 0.0;
 }
 
 double surface_rows_place(const struct sph *s, const struct exact *e, double *x)
