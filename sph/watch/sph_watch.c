@@ -37,7 +37,7 @@
 
 enum { HISTORY = WATCH_STEPS / SPH_WATCH_EVERY };
 /* What is summed over particles and ranks. */
-enum { ENERGY, KINETIC, POWER, WALL_WORK, REMOVED, PUT_BACK, PAIRED };
+enum { ENERGY, KINETIC, POWER, WALL_WORK, REMOVED, PUT_BACK, PAIRED, CROWDED, COUNTED };
 
 static const double near_pair = 0.1; /* dx: closer than that two particles are one */
 
@@ -120,6 +120,12 @@ void sph_watch_create(struct sph *s)
                        .likely = w->remedy[REMEDY_WALLS],
                        .warn = 0.5,
                        .stop = 5.0};
+    w->of[SPH_WATCH_CROWDED] =
+        (struct watch){.key = "crowded",
+                       .what = "share of particles that overlap others of their level",
+                       .likely = w->crowd_place,
+                       .warn = 0.1,
+                       .stop = INFINITY};
 }
 
 void sph_watch_free(struct sph *s) { mem_free(s->watch.rate); }
@@ -212,8 +218,14 @@ static void sample(struct sph *s)
     sums[PUT_BACK] = 0.0;
     for (const struct sph *q = s; q && q->walls; q = q->finer)
         sums[PUT_BACK] += (double)q->walls->returned;
-    if (s->run->step % SPH_WATCH_PAIRS == 0)
-        sums[PAIRED] = count_paired(s);
+    if (s->run->step % SPH_WATCH_PAIRS != 0)
+        return;
+    sums[PAIRED] = count_paired(s);
+    if (!s->finer)
+        return;
+    w->crowd = sph_watch_crowd(s);
+    sums[CROWDED] = w->crowd.crowded;
+    sums[COUNTED] = w->crowd.counted;
 }
 
 void sph_watch_stage(struct sph *s, bool first, double weight)
@@ -287,8 +299,15 @@ static void judge_sample(struct sph *s, double t, struct diagnosis *d)
     }
     if (w->budget_closed)
         judge_energy(s, t, sums, d);
-    if (step % SPH_WATCH_PAIRS == 0)
-        watch_judge(w->of + SPH_WATCH_PAIRED, sums[PAIRED] / all, t, step, d);
+    if (step % SPH_WATCH_PAIRS != 0)
+        return;
+    watch_judge(w->of + SPH_WATCH_PAIRED, sums[PAIRED] / all, t, step, d);
+    struct watch *crowded = w->of + SPH_WATCH_CROWDED;
+    const double share = sums[CROWDED] / fmax(sums[COUNTED], 1.0);
+    if (s->finer && share > crowded->warn && !crowded->warned)
+        sph_watch_say_crowd(s, w->crowd_place, sizeof w->crowd_place);
+    if (s->finer)
+        watch_judge(crowded, share, t, step, d);
 }
 
 void sph_watch_judge(struct sph *s, struct diagnosis *d)
@@ -309,6 +328,7 @@ static bool is_judged(const struct sph *s, int kind)
 {
     return kind == SPH_WATCH_ENERGY     ? s->watch.budget_closed
            : kind == SPH_WATCH_PUT_BACK ? s->walls != NULL
+           : kind == SPH_WATCH_CROWDED  ? s->finer != NULL
                                         : true;
 }
 

@@ -1,10 +1,11 @@
 /* sph_watch.h - what is watched while particles run: energy against its budget, speeds against the
- * sound, particles returned behind walls, particles that pair up; and when a state cannot be
- * trusted, and why. SPDX-License-Identifier: BSD-3-Clause */
+ * sound, particles returned behind walls, particles that pair up or overlap; and when a state
+ * cannot be trusted, and why. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_SPH_WATCH_H
 #define SPH_SPH_WATCH_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "../../common/watch.h"
 
@@ -13,19 +14,35 @@ struct h5;
 struct run;
 struct scene;
 
-enum sph_watch_remedy { REMEDY_C0, REMEDY_DX, REMEDY_WALLS, REMEDY_SCHEME };
-enum sph_watch_kind { SPH_WATCH_MACH, SPH_WATCH_ENERGY, SPH_WATCH_PAIRED, SPH_WATCH_PUT_BACK };
+enum sph_watch_remedy { REMEDY_C0, REMEDY_DX, REMEDY_WALLS, REMEDY_SCHEME, REMEDIES };
+enum sph_watch_kind {
+    SPH_WATCH_MACH,
+    SPH_WATCH_ENERGY,
+    SPH_WATCH_PAIRED,
+    SPH_WATCH_PUT_BACK,
+    SPH_WATCH_CROWDED,
+    SPH_WATCHES
+};
 /* Energies are taken every SPH_WATCH_EVERY steps, distances every SPH_WATCH_PAIRS. */
-enum { SPH_WATCHES = 4, SPH_WATCH_EVERY = 10, SPH_WATCH_PAIRS = 50, SPH_WATCH_SUMS = 7 };
+enum { SPH_WATCH_EVERY = 10, SPH_WATCH_PAIRS = 50, SPH_WATCH_SUMS = 9 };
+
+/* crowding.c: of a refined flow, this rank: particles of all levels that count, those which
+ * overlap, and the largest sum w W. */
+struct sph_crowd {
+    double counted, crowded, most, place[3];
+    int level;
+};
 
 struct sph_watch {
     struct watch of[SPH_WATCHES];
-    char remedy[4][160]; /* by enum sph_watch_remedy */
-    bool budget_closed;  /* all work done on the flow is known, so that its energy is judged */
-    double reference;    /* m/s: largest speed that the scene lets expect */
-    double rest;         /* static pressure over rho0 c0^2: compression at rest */
-    double friction;     /* the same of the pressures of slow viscous flow */
-    double settles;      /* m^2/s^2: what a row of water gains by settling, see SETTLES */
+    char remedy[REMEDIES][160]; /* by enum sph_watch_remedy */
+    struct sph_crowd crowd;     /* at the last sample */
+    char crowd_place[256];
+    bool budget_closed; /* all work done on the flow is known, so that its energy is judged */
+    double reference;   /* m/s: largest speed that the scene lets expect */
+    double rest;        /* static pressure over rho0 c0^2: compression at rest */
+    double friction;    /* the same of the pressures of slow viscous flow */
+    double settles;     /* m^2/s^2: what a row of water gains by settling, see SETTLES */
     struct watch_budget budget;
     double work;           /* J: done on the flow from outside since the start, all ranks */
     double power, power_t; /* W, s: at the last sample */
@@ -52,6 +69,10 @@ void sph_watch_after_walls(struct sph *s);
 /* After the rates of a stage that counts by `weight', s: the walls' work; in the first stage of a
  * step that takes a sample the sums over this rank's particles. */
 void sph_watch_stage(struct sph *s, bool first, double weight);
+/* crowding.c: of the list and the lines of this place. */
+struct sph_crowd sph_watch_crowd(const struct sph *s);
+/* Where it is worst, and what to do; the same on all ranks. Collective. */
+void sph_watch_say_crowd(const struct sph *s, char *text, size_t size);
 /* Particle i is about to be removed: its energy goes with it. */
 void sph_watch_removed(struct sph *s, int i);
 /* After the step; same on all ranks. Collective. */

@@ -1,0 +1,71 @@
+/* crowding.c - whether particles of a refined flow overlap. Where births and removals, or guards
+ * that stray, do not keep up with a jet across the edge of a region, a level holds more volume than
+ * there is room for: sum w W, 1 where water fills its place, at most 1.15 in flows of one size,
+ * however violent, rises to 2, and densities know nothing of it. Those deep in a finer region,
+ * which nobody takes anything from, do not count. SPDX-License-Identifier: BSD-3-Clause */
+#include "sph_watch.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../pairs/kernel.h"
+#include "../pairs/neighbours.h"
+#include "../sph.h"
+
+static const double overlap = 1.35; /* sum w W that is too much */
+
+static double kernel_sum(const struct sph *s, int i)
+{
+    const double *x = prim_line(&s->p, i);
+    const int *j = s->list->j + s->list->start[i];
+    double sum = x[at_volume(s->dim)] * kernel_w0(s->dim, s->R);
+    for (int k = 0; k < s->list->count[i]; k++) {
+        const double *q = prim_line(&s->p, j[k]);
+        double r2 = 0.0;
+        for (int a = 0; a < s->dim; a++)
+            r2 += (q[a] - x[a]) * (q[a] - x[a]);
+        sum += q[at_volume(s->dim)] * kernel_w(s->dim, sqrt(r2), s->R);
+    }
+    return sum;
+}
+
+struct sph_crowd sph_watch_crowd(const struct sph *s)
+{
+    struct sph_crowd c = {0};
+    for (; s; s = s->finer)
+        for (int i = 0; i < s->p.n; i++) {
+            if (s->p.role[i] & ROLE_DEEP)
+                continue;
+            const double sum = kernel_sum(s, i);
+            c.counted += 1.0;
+            c.crowded += sum > overlap;
+            if (sum <= c.most)
+                continue;
+            c.most = sum;
+            c.level = s->level;
+            memcpy(c.place, prim_line(&s->p, i), (size_t)s->dim * sizeof *c.place);
+        }
+    return c;
+}
+
+void sph_watch_say_crowd(const struct sph *s, char *text, size_t size)
+{
+    const struct sph_crowd *c = &s->watch.crowd;
+    struct {
+        double most;
+        int rank;
+    } worst = {c->most, s->run->rank};
+    double at[4] = {c->place[0], c->place[1], c->place[2], c->level};
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
+    MPI_Bcast(at, 4, MPI_DOUBLE, worst.rank, s->run->comm);
+    char place[64];
+    if (s->dim == 2)
+        snprintf(place, sizeof place, "(%.4g, %.4g)", at[0], at[1]);
+    else
+        snprintf(place, sizeof place, "(%.4g, %.4g, %.4g)", at[0], at[1], at[2]);
+    snprintf(text, size,
+             "%.3g at %s m, level %d: pressures near are those of too much water; keep the edges "
+             "of apr.regions clear of jets and sheets there, or refine one level less",
+             worst.most, place, (int)at[3]);
+}
