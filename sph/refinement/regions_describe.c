@@ -93,10 +93,11 @@ static void describe_level(const struct run *r, const struct regions *g, int n)
             ldexp(g->dx, -n), regions_R(g, n), all, guards,
             g->level[n].cells ? ", more where criteria ask for it" : "");
     if (all > 0.0 && deep <= 0.0 && !g->level[n].cells)
-        log_warn("level %d: all fluid in its regions lies within R = %g m of their edges, where only "
-                 "guards are: at the start nothing is refined; let the regions reach deeper into "
-                 "the fluid",
-                 n, R);
+        log_warn(
+            "level %d: all fluid in its regions lies within R = %g m of their edges, where only "
+            "guards are: at the start nothing is refined; let the regions reach deeper into "
+            "the fluid",
+            n, R);
 }
 
 void regions_describe(const struct run *r, const struct sph_params *used)
