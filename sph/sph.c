@@ -161,6 +161,7 @@ static void warn_of(const struct run *r)
     const double bound = sph_params_cfl_bound(prm, r->scene.domain.dim);
     warn_narrow(r, prm);
     sph_meshes_warn(r, prm);
+    sph_falls_warn(r, prm);
     if (prm->cfl > 0.85 * bound)
         log_warn("sph.cfl = %g is close to the stability bound of this scheme, %g", prm->cfl,
                  bound);

@@ -121,6 +121,22 @@ grep -q '^warning: 2 particles between the walls along x' lid.txt || bad "two pa
 "$b/sph" lid.cfg --check -p sph.dx=1 >lid.txt 2>&1
 grep -q 'sph.dx: 1 m: one particle has no room between the walls along x' lid.txt || bad "one particle across: no word" lid.txt
 
+# water that nothing catches is told before it falls, and not where it is caught: by a tank of lines, of which "below"
+# is meant to fill the inside alone, by a bowl under a drop, by a side that gravity at a slant leads to
+scene falls 1 0.04 'max = (2, 1.2);' '(0, -9.81)' '{ side = "x_min"; }, { side = "y_max"; }' '{ form = "box"; box = ((0, 0.2), (0.5, 0.6)); }'
+scene upward 1 0.04 'max = (1, 1.2);' '(0, 9.81)' "$sides" '{ form = "box"; box = ((0, 0), (1, 0.6)); }'
+scene spout 1 0.04 'max = (2, 1.2);' '(0, -9.81)' '{ points = ((0, 1.2), (0, 0.4), (0.6, 0.4)); }' \
+    '{ form = "box"; box = ((0.2, 0.4), (0.6, 0.8)); velocity = (3, 0); }'
+for name in falls upward spout; do
+    "$b/sph" $name.cfg --check >$name.txt 2>&1
+    grep -q '^warning: nothing catches .* % of the water' $name.txt || bad "$name: water falls out without a word" $name.txt
+done
+scene vat 0.1 0.05 'min = (-2, -2); max = (3, 2);' '(0, -9.81)' '{ points = ((0, 1), (0, 0), (1, 0), (1, 1)); }' '{ form = "below"; level = 0.6; }'
+scene bowl 0.1 0.04 'max = (2, 1.2);' '(0, -9.81)' '{ points = ((0.4, 0.5), (0.6, 0.2), (1, 0.2), (1.2, 0.5)); }' \
+    '{ form = "disc"; centre = (0.8, 0.8); radius = 0.2; }'
+scene slant 0.1 0.04 'max = (1, 1.2);' '(-5, -7)' '{ side = "x_min"; }, { side = "y_min"; }' '{ form = "box"; box = ((0, 0), (0.4, 0.4)); }'
+for name in vat bowl slant; do runs $name; done
+
 # steps beyond the bound
 refused() { # ARGS: the step is beyond the bound
     "$b/sph" jets.cfg -o never "$@" >cfl.txt 2>&1

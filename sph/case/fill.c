@@ -216,8 +216,11 @@ static void columns_free(struct columns *c)
 struct look {
     struct exact exact;
     struct columns columns;
-    bool rows;          /* that end at the surface; surface_rows.h */
-    int64_t wet, taken; /* cells with fluid by the shapes; of these behind walls or in bodies */
+    bool rows;  /* that end at the surface; surface_rows.h */
+    bool drawn; /* some shape has an extent of its own */
+    /* cells with fluid by the shapes that have an extent of their own, without such by all; of
+     * these behind walls or in bodies */
+    int64_t wet, taken;
 };
 
 /* Where the particle of a cell starts; its volume, dx^D. */
@@ -249,6 +252,17 @@ static void cut_links(const struct sph *s, struct lattice *l)
         lattice_share(l, l->cut[a], s->run->comm);
 }
 
+/* Whether x is in a shape that somebody drew; "below" only names a level, and walls and bodies take
+ * what they like of it. x: NULL: is there any? */
+static bool is_drawn(const struct scene *c, const double *x)
+{
+    bool any = false;
+    for (int k = 0; k < c->nshapes; k++)
+        any = any || (c->shapes[k].form != SHAPE_BELOW && !c->shapes[k].hole &&
+                      (!x || scene_in_shape(c, c->shapes + k, x)));
+    return any;
+}
+
 static void mark(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
                  void *ctx)
 {
@@ -259,10 +273,10 @@ static void mark(struct sph *s, const struct lattice *l, int64_t cell, const dou
         return;
     if (!rooms_parted(s) && !scene_in_tanks(&s->run->scene, x))
         return; /* a shape may reach beyond its tank */
-    k->wet++;
-    if (!fill_has_room(s, x))
-        k->taken++;
-    else
+    const bool room = fill_has_room(s, x), meant = !k->drawn || is_drawn(&s->run->scene, x);
+    k->wet += meant;
+    k->taken += meant && !room;
+    if (room)
         lattice_set(l->bits, cell);
 }
 
@@ -384,7 +398,7 @@ static void warn_of_taken(const struct sph *s, const struct look *k)
 {
     long long n[2] = {k->wet, k->taken};
     MPI_Allreduce(MPI_IN_PLACE, n, 2, MPI_LONG_LONG, MPI_SUM, s->run->comm);
-    if (2 * n[1] > n[0])
+    if (k->drawn ? 2 * n[1] > n[0] : n[1] > 0 && n[1] == n[0])
         log_warn(
             "walls and bodies take %lld of %lld particles that the shapes give: do their points "
             "run the right way (fluid on the left, bodies clockwise)?",
@@ -408,7 +422,8 @@ void fill_free(struct fill **f)
 
 struct fill *fill_lattice(struct sph *s)
 {
-    struct look look = {.exact = exact_create(&s->run->scene)};
+    struct look look = {.exact = exact_create(&s->run->scene),
+                        .drawn = is_drawn(&s->run->scene, NULL)};
     look.columns = columns_create(s, &look.exact);
     look.rows = surface_rows_wanted(s);
     struct fill *f = NEW(struct fill, 1);

@@ -12,6 +12,8 @@ void sph_sense_check(const struct run *r, const struct sph_params *given,
 void sph_meshes_check(const struct run *r, const struct sph_params *used, struct faults *f);
 /* What it takes at a price, through log_warn. Collective. */
 void sph_meshes_warn(const struct run *r, const struct sph_params *used);
+/* sph_falls.c: a warning if nothing in the scene catches water that falls. */
+void sph_falls_warn(const struct run *r, const struct sph_params *used);
 /* sph_bodies.c: motion files, bodies that leave the domain or meet walls and each other; 2D. */
 void sph_bodies_check(const struct run *r, const struct sph_params *used, struct faults *f);
 
