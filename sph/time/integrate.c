@@ -266,13 +266,19 @@ static int64_t gone_behind(const struct sph *s, double at[3])
     return n;
 }
 
-/* The first time, and whenever the number has grown tenfold. */
+/* The first time, whenever the number has grown tenfold, and when nothing is left. */
 static void report_lost(struct sph *s, double lost)
 {
-    double sum = s->lost;
+    double sums[2] = {s->lost, 0.0};
     if (lost <= 0.0)
         return;
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (const struct sph *q = s; q; q = q->finer)
+        sums[1] += q->p.n;
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    const double sum = sums[0];
+    if (sums[1] == 0.0)
+        log_warn("t = %g s: all particles have left the region: the run goes on without fluid",
+                 s->t);
     if (sum < 10.0 * s->lost_said)
         return;
     s->lost_said = sum;

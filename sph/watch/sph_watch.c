@@ -11,6 +11,9 @@
  * to some percent only, for the division by gamma is theirs, too: five times its size is added to
  * the scale, and the warning comes at 3 % instead of 1 %.
  *
+ * Particles behind walls: where water splashes impacts press some through, and they come back to a
+ * jet that is none the worse; a fluid that fills its room has no reason to.
+ *
  * Not judged: openings and partners, which carry energy in and out, and moving walls made of
  * ghosts, whose forces are not told from those of particles. */
 #include "sph_watch.h"
@@ -118,8 +121,8 @@ void sph_watch_create(struct sph *s)
         (struct watch){.key = "put_back",
                        .what = "share of particles returned from behind walls in 100 steps",
                        .likely = w->remedy[REMEDY_WALLS],
-                       .warn = 0.5,
-                       .stop = 5.0};
+                       .warn = s->surface ? 0.5 : 0.1,
+                       .stop = s->surface ? 5.0 : 1.0};
     w->of[SPH_WATCH_CROWDED] =
         (struct watch){.key = "crowded",
                        .what = "share of particles that overlap others of their level",
