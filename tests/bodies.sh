@@ -164,5 +164,26 @@ run fall fall.cfg
 up3=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i ~ /octa z /) z = i; if ($i ~ /octa w /) w = i } next }
     $w > 0 { up = 1 } up && $z > most { most = $z } BEGIN { most = -1 } END { print (most + 0.125) / 0.275 / 0.36 }' fall/series.csv)
 holds "$up3 > 0.88 && $up3 < 1.08" || bad "drop in 3D: rebound of $up3 times the wanted height"
+# A gate that stands on a point, hinged there on the floor, between two levels: a spring bears
+# rho g (h1^3 - h2^3)/6 = 99.7 N and what acts on the slopes of its foot, rho g (h1 - h2) 0.15^2/18 = 1.2 N
+cat >gate.cfg <<'EOF'
+format = 1;
+time:    { end = 0.4; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { max = (1.2, 0.8); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "box"; box = ((0, 0), (0.6, 0.5)); }, { form = "box"; box = ((0.6, 0), (1.2, 0.4)); } );
+bodies:  ( { name = "gate"; points = ((0.6, 0), (0.55, 0.15), (0.55, 0.7), (0.65, 0.7), (0.65, 0.15)); free = true; density = 500;
+             hinge = { at = (0.6, 0); stiffness = 5e4; damping = 2000; }; } );
+sph:     { dx = 0.025; };
+output:  { snapshots = false; };
+EOF
+run gate gate.cfg
+gate=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /gate angle/) a = i; next } $1 > 0.2 { sum -= 5e4 * $a; n++ } END { print sum / n }' gate/series.csv)
+holds "$gate > 95 && $gate < 107" || bad "the spring of a gate bears $gate instead of 101 N"
+sed 's/points = .*; free/points = ((0.55, 0), (0.55, 0.7), (0.65, 0.7), (0.65, 0)); free/' gate.cfg >foot.cfg
+"$b/sph" foot.cfg --check >log.txt 2>&1
+grep -q 'starts in contact with wall 3.*let it stand on a point there' log.txt || bad "a gate on a broad foot: $(tail -n 2 log.txt)"
+
 echo "bodies: block $low, $high N/m; rebound $up, in 3D $up3; momentum $defect, $defect3; $failed faults"
 [ $failed = 0 ]

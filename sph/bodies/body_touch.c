@@ -101,6 +101,24 @@ void pair_add(const struct walls *w, struct pair *p, const double *x, const doub
     vec3_add(t->u, -1.0, other);
 }
 
+/* What a joint holds cannot be pushed away from what it is fixed to. */
+bool pair_is_held(const struct walls *w, const struct pair *p, const double *x, double gap)
+{
+    const int of[2] = {p->a, p->b};
+    bool held = false;
+    for (int e = 0; e < 2; e++) {
+        const struct body *b = of[e] >= 0 ? w->bodies + of[e] : NULL;
+        double arm[3] = {0.0, 0.0, 0.0};
+        if (!b || !b->free || !b->free->hinged)
+            continue;
+        for (int a = 0; a < b->dim; a++)
+            arm[a] = x[a] - b->free->hinge[a];
+        vec3_add(arm, -vec3_dot(arm, b->free->axis), b->free->axis);
+        held = held || vec3_length(arm) < gap;
+    }
+    return held;
+}
+
 /* Corners of one line that are nearer to the other than gap. */
 static void find_corners(const struct walls *w, struct pair *p, const struct box *near, double gap,
                          bool mine)
@@ -116,7 +134,7 @@ static void find_corners(const struct walls *w, struct pair *p, const struct box
         for (int e = 0; e < (of < 0 ? 2 : 1); e++) { /* lines at rest may be open */
             const double *x = e ? g->b : g->a;
             const double d = holds(near, x) ? nearest(w, against, x, 4.0 * gap, out) : INFINITY;
-            if (d < gap)
+            if (d < gap && !pair_is_held(w, p, x, gap))
                 pair_add(w, p, x, out, gap - d, mine);
         }
     }

@@ -21,7 +21,7 @@ static void try_vertex(const struct walls *w, struct pair *p, const struct wall_
     double own[3], foot[3], out[3];
     wall_mesh_to_own(m, x, own);
     const struct tree_foot f = tree_nearest(m->tree, own, 4.0 * gap);
-    if (f.triangle < 0 || f.rim || !(f.distance < gap))
+    if (f.triangle < 0 || f.rim || !(f.distance < gap) || pair_is_held(w, p, x, gap))
         return;
     wall_mesh_to_world(m, f.foot, foot);
     wall_mesh_turn_to_world(m, f.n, out); /* into what is touched */

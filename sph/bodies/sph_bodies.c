@@ -10,6 +10,7 @@
 #include "../../common/scene_geometry.h"
 #include "../../common/scene_mesh.h"
 #include "../../common/solids.h"
+#include "../../common/vec3.h"
 #include "../case/sph_sense.h"
 #include "../walls/walls.h"
 #include "body_check.h"
@@ -116,6 +117,51 @@ static bool is_free(const struct scene *c, const struct bound *b)
     return b->body >= 0 && c->bodies[b->body].free;
 }
 
+/* Whether x is so near to the axis of a free body's hinge that contact leaves it alone: see
+ * body_touch.h. */
+static bool is_held(const struct scene_body *b, const double *x, double gap)
+{
+    static const double z[3] = {0.0, 0.0, 1.0};
+    double axis[3], arm[3] = {0.0, 0.0, 0.0};
+    if (b->hinge.n == 0)
+        return false;
+    const bool flat = b->points.n > 0;
+    const struct scene_hinge *h = b->hinge.of;
+    memcpy(axis, flat ? z : h->axis, sizeof axis);
+    vec3_unit(axis);
+    for (int a = 0; a < (flat ? 2 : 3); a++)
+        arm[a] = x[a] - h->at[a];
+    vec3_add(arm, -vec3_dot(arm, axis), axis);
+    return vec3_length(arm) < gap;
+}
+
+static const char *hinge_hint(const struct scene_body *b)
+{
+    return b->hinge.n > 0 ? "; only corners that near to its hinge may touch, so let it stand on a "
+                            "point there"
+                          : "";
+}
+
+/* Least distance of two lines, and of those corners of each that no hinge of b holds. */
+static double free_gap(const struct scene_body *b, const struct line *mine,
+                       const struct line *other, double gap, double at[2])
+{
+    double least = INFINITY;
+    if (b->hinge.n == 0)
+        return line_gap(mine, other, at);
+    for (int e = 0; e < 2; e++) {
+        const struct line *of = e ? other : mine, *against = e ? mine : other;
+        for (int i = 0; i < of->n; i++) {
+            const double d = line_distance(against, of->x[i]);
+            if (d >= least || is_held(b, of->x[i], gap))
+                continue;
+            least = d;
+            memcpy(at, of->x[i], 2 * sizeof *at);
+        }
+    }
+    return least;
+}
+
 /* Contact must not push from the start. */
 static void check_contacts(const struct run *r, const struct sph_params *used,
                            const struct bound *all, int n, struct faults *f)
@@ -128,13 +174,13 @@ static void check_contacts(const struct run *r, const struct sph_params *used,
             char key[64];
             if (m == k || !b->free || (is_free(&r->scene, all + m) && m > k))
                 continue;
-            const double d = line_gap(&all[k].line, &all[m].line, at);
+            const double d = free_gap(b, &all[k].line, &all[m].line, gap, at);
             snprintf(key, sizeof key, "bodies.[%d]", k);
             if (d < gap)
                 params_fault(r->params, f, key,
                              "%s starts in contact with %s: %g m apart at (%g, %g) m, where "
-                             "contact holds %g m (contact.gap): move it away by that",
-                             all[k].name, all[m].name, d, at[0], at[1], gap);
+                             "contact holds %g m (contact.gap): move it away by that%s",
+                             all[k].name, all[m].name, d, at[0], at[1], gap, hinge_hint(b));
         }
 }
 
@@ -177,16 +223,18 @@ static double side_distance(const struct scene *c, const double *x, char *what, 
     return least;
 }
 
-/* Vertices of free body k against a mesh, those of the mesh against the body: nearest of all. */
-static double mesh_distance(const struct scene_mesh *m, const struct scene_mesh *n, double reach,
-                            double at[3])
+/* Vertices of free body b, whose mesh is m, against another, those of that against the body:
+ * nearest of all that its hinge does not hold. reach: of contact, of the search. */
+static double mesh_distance(const struct scene_body *b, const struct scene_mesh *m,
+                            const struct scene_mesh *n, const double reach[2], double at[3])
 {
     double least = INFINITY;
     for (int e = 0; e < 2; e++) {
         const struct scene_mesh *of = e ? n : m, *against = e ? m : n;
         for (int i = 0; i < of->mesh.nvertices; i++) {
-            const struct tree_foot t = tree_nearest(against->tree, of->mesh.x[i], reach);
-            if (t.triangle < 0 || t.rim || t.distance >= least)
+            const struct tree_foot t = tree_nearest(against->tree, of->mesh.x[i], reach[1]);
+            if (t.triangle < 0 || t.rim || t.distance >= least ||
+                is_held(b, of->mesh.x[i], reach[0]))
                 continue;
             least = t.distance;
             memcpy(at, of->mesh.x[i], 3 * sizeof *at);
@@ -207,8 +255,8 @@ static void fault_contact(const struct run *r, int k, const char *other, double 
     else
         params_fault(r->params, f, key,
                      "%s starts in contact with %s: %g m apart at (%g, %g, %g) m, where contact "
-                     "holds %g m (contact.gap): move it away by that",
-                     name, other, d, at[0], at[1], at[2], gap);
+                     "holds %g m (contact.gap): move it away by that%s",
+                     name, other, d, at[0], at[1], at[2], gap, hinge_hint(r->scene.bodies + k));
 }
 
 /* A free body in 3D against sides, walls and other bodies at the start. */
@@ -225,7 +273,7 @@ static void check_start3(const struct run *r, const struct sph_params *used, int
         size = fmax(size, m->hi[a] - m->lo[a]);
     for (int i = 0; i < m->mesh.nvertices; i++) {
         const double d = side_distance(c, m->mesh.x[i], what, sizeof what);
-        if (d < gap) {
+        if (d < gap && !is_held(b, m->mesh.x[i], gap)) {
             fault_contact(r, k, what, d, gap, m->mesh.x[i], f);
             return;
         }
@@ -235,7 +283,7 @@ static void check_start3(const struct run *r, const struct sph_params *used, int
         if (n == m || n->owner == MESH_SHAPE ||
             (n->owner == MESH_BODY && c->bodies[n->index].free && n->index > k))
             continue;
-        const double d = mesh_distance(m, n, fmax(size, gap), at);
+        const double d = mesh_distance(b, m, n, (const double[2]){gap, fmax(size, gap)}, at);
         snprintf(what, sizeof what, "%s", n->name);
         if (d < gap)
             fault_contact(r, k, what, d, gap, at, f);
