@@ -310,9 +310,8 @@ void zones_blend(struct sph *s)
     }
 }
 
-void zones_openings(struct sph *s, double dt, struct diagnosis *d)
+void zones_openings(struct sph *s, double dt)
 {
-    box_motion_step(s, dt, d);
     births_step(s, dt);
     if (s->zones->gap)
         level_gap_look(s, dt);

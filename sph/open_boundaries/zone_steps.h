@@ -20,9 +20,9 @@ double zones_mass(const struct sph *s);
 void zones_gauge(struct sph *s);
 /* After the RK cycle: transition particles are blended with the outside [6.7-6.8]. */
 void zones_blend(struct sph *s);
-/* After the positions moved by dt: the box follows, then removals, face masses, births [6.13-6.14].
- * d: filled where the box can go no further. Collective. */
-void zones_openings(struct sph *s, double dt, struct diagnosis *d);
+/* After the positions moved by dt, and the box with them: removals, face masses, births
+ * [6.13-6.14]. Lists and slopes do not hold any longer. Collective. */
+void zones_openings(struct sph *s, double dt);
 void zones_save(struct sph *s, struct h5 *f);
 bool zones_load(struct sph *s, struct h5 *f);
 

@@ -18,6 +18,7 @@
 #include "../refinement/guards.h"
 #include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
+#include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/openings.h"
 #include "../pairs/scheme.h"
 #include "../sph_params.h"
@@ -201,6 +202,22 @@ static void take_stages(struct sph *s, double dt, double t_end, double most[LEVE
     }
 }
 
+/* What regions follow, and guards with the state at the end of the step: slopes, marks of the
+ * surface and lists of guards know nothing of births and removals. */
+static void look_at_levels(struct sph *s)
+{
+    if (s->refinement)
+        refinement_look(s);
+    if (!s->finer)
+        return;
+    start(s, "update");
+    for (struct sph *q = s; q; q = q->finer) /* guards that wake now are as the others are */
+        particles_lines(q);
+    stop(s, "update");
+    if (!s->local_steps)
+        guards_update(s);
+}
+
 /* What follows the stages: imposed values, births and removals; lost: this rank had lost so many
  * before the step. */
 static void finish_step(struct sph *s, double dt, double lost, double *most, struct diagnosis *d)
@@ -209,20 +226,15 @@ static void finish_step(struct sph *s, double dt, double lost, double *most, str
         start(s, "zones");
         zones_stage(s); /* buffer particles end the step with what is imposed, volumes too */
         zones_blend(s);
-        zones_openings(s, dt, d);
+        box_motion_step(s, dt, d);
         stop(s, "zones");
     }
-    if (s->finer) {
-        refinement_look(s);
-        start(s, "update");
-        for (struct sph *q = s; q; q = q->finer) /* guards that wake now are as the others are */
-            particles_lines(q);
-        stop(s, "update");
-        if (!s->local_steps)
-            guards_update(s); /* its lists know nothing of removals */
+    look_at_levels(s);
+    if (s->zones) {
+        start(s, "zones");
+        zones_openings(s, dt);
+        stop(s, "zones");
     }
-    if (s->mixed)
-        refinement_look(s);
     for (struct sph *q = s; q; q = q->finer)
         s->lost += level_clean(q);
     extremes_raise(most + MOST_LOST, s->lost - lost);
