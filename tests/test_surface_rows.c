@@ -3,6 +3,7 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
+#include "../sph/particles/eos.h"
 #include "../sph/refinement/apr_params.h"
 #include "../sph/refinement/refinement.h"
 #include "sph_case.h"
@@ -38,7 +39,7 @@ static double area_of(const struct triangle *t)
 }
 
 /* Water at rest in the triangle, without weight; levels of refinement everywhere. */
-static struct sph *start(struct sph_case *c, const struct triangle *t, double L, int levels)
+static void set(struct sph_case *c, const struct triangle *t, double L, int levels)
 {
     sph_case_set(c, 2, CELLS);
     struct scene *s = &c->run.scene;
@@ -62,6 +63,11 @@ static struct sph *start(struct sph_case *c, const struct triangle *t, double L,
         apr_given.regions.of[0].min[a] = -L;
         apr_given.regions.of[0].max[a] = 2.0 * L;
     }
+}
+
+static struct sph *start(struct sph_case *c, const struct triangle *t, double L, int levels)
+{
+    set(c, t, L, levels);
     return sph_case_start(c, NULL);
 }
 
@@ -162,10 +168,44 @@ static void mirrors_and_units_agree(void **state)
     }
 }
 
+/* Under gravity each column stands under the surface above it, at every level: to what the surface
+ * falls over half a coarse spacing and the half of it that a row moves aside. */
+static void columns_weigh_what_is_above_them(void **state)
+{
+    (void)state;
+    const double g = 9.81, left = 0.63, right = 0.38, slope = (left - right) / 0.75;
+    const double x[4][2] = {{0.125, 0.0}, {0.875, 0.0}, {0.875, right}, {0.125, left}};
+    const struct triangle t = triangle_of(0, false);
+    struct sph_case c;
+    set(&c, &t, 1.0, LEVELS);
+    struct scene *s = &c.run.scene;
+    s->fluid.gravity[1] = -g;
+    s->initial.level = LEVEL_TOP;
+    s->nwalls = 1;
+    s->walls[0].side = SIDE_Y_MIN;
+    s->shapes[0].points.n = 4;
+    memcpy(s->shapes[0].points.x, x, sizeof x);
+    c.prm.c0 = 1000.0 * sqrt(g); /* density hardly varies */
+    int level = 0;
+    for (const struct sph *q = sph_case_start(&c, NULL); q; q = q->finer, level++) {
+        double worst = 0.0;
+        for (int i = 0; i < q->p.n; i++) {
+            const double *y = state_row(&q->p, q->p.y, i);
+            const double p = eos_p(y[at_mass(2)] / y[at_volume(2)], q->rho0, q->c0, q->gamma);
+            worst = fmax(worst, fabs(p / g - (left - slope * (y[0] - 0.125) - y[1])));
+        }
+        assert_true(max_anywhere(worst) < slope * c.prm.dx);
+        assert_close(volume(q), 0.375 * (left + right), 2.0 * q->dxD);
+    }
+    assert_int_equal(level, LEVELS + 1);
+    finish(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(levels_end_at_the_surface),
-                                       cmocka_unit_test(mirrors_and_units_agree)};
+                                       cmocka_unit_test(mirrors_and_units_agree),
+                                       cmocka_unit_test(columns_weigh_what_is_above_them)};
     MPI_Init(NULL, NULL);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
