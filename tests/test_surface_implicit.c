@@ -101,6 +101,33 @@ static void columns_fall(void **state)
     }
 }
 
+/* A column of honey, 12 cells of 1 mm a side, nu/(h sqrt(g h)) = 101: creeps down as slowly by rk3
+ * as by newton in steps fifty times as long, each its own discretisation in time. */
+static void honey_creeps(void **state)
+{
+    static const struct scene_shape column = {.form = SHAPE_BOX,
+                                              .box = {{-1.0, -1.0, 0.0}, {0.012, 0.012, 0.0}}};
+    double speed[2], energy[2];
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct fv_case c;
+        struct fv *s =
+            start(&c, MPI_COMM_WORLD,
+                  (const char *const[]){SURFACE, "fluid.nu=1e-2", "fluid.gravity=(0,-9.81)",
+                                        "fv.cells=(24,16)", "domain.max=(0.024,0.016)",
+                                        k ? NEWTON : "fv.integrator=\"rk3\"", NULL},
+                  &column, WALL_NO_SLIP);
+        assert_true(fv_case_run(&c, 2000, 0.08));
+        speed[k] = fmax(s->umax[0], s->umax[1]);
+        energy[k] = surface_energy(s);
+        print_message("honey: %d steps, %.4g m/s, energy %.4g\n", (int)c.run.step, speed[k],
+                      energy[k]);
+        fv_free(&c.s);
+    }
+    assert_close(speed[1] / speed[0], 1.0, 0.05);
+    assert_close(energy[1] / energy[0], 1.0, 0.1);
+}
+
 /* As uniform as it came, at six times the step of rk3. */
 static void currents_pass_openings(void **state)
 {
@@ -134,9 +161,8 @@ static void currents_pass_openings(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_water_stays),
-        cmocka_unit_test(waves_swing_as_theory_says),
-        cmocka_unit_test(columns_fall),
+        cmocka_unit_test(still_water_stays),      cmocka_unit_test(waves_swing_as_theory_says),
+        cmocka_unit_test(columns_fall),           cmocka_unit_test(honey_creeps),
         cmocka_unit_test(currents_pass_openings),
     };
     MPI_Init(&argc, &argv);
