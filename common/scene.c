@@ -56,6 +56,7 @@ static const struct param wall_rows[] = {
     PARAM(P, flip,     "-",   "false", 0, 0, "reverse the normals of an open mesh, which must point out of the fluid"),
     PARAM(P, thin,     "-",   "false", 0, 0, "of a mesh: fluid on one side does not interact with that on the other; for walls thinner than the support"),
     CHOICE(P, kind, "slip|no_slip|inflow|outflow|absorbing", "slip", "kind of boundary"),
+    PARAM(P, friction, "-",   "0.0", 0, 1, "of a slip wall (sph): coefficient c_f of quadratic bed friction, whose shear stress is rho c_f |u| u of the velocity along the wall next to it"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, of the inflow, or of the far field beyond an absorbing side"),
     CHOICE(P, profile, "uniform|parabolic", "uniform", "of an inflow; parabolic: over each opening (blocks that touch are one), velocity is the largest one"),
     PARAM(P, pressure, "Pa",  "0.0", -1e12, 1e12, "at an outflow"),

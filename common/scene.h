@@ -84,6 +84,7 @@ struct scene {
         bool closed;        /* the last point is joined with the first */
         bool turned;        /* by scene_orient */
         int kind;           /* enum wall_kind */
+        double friction;    /* -: c_f of a slip wall's quadratic bed friction */
         double velocity[3]; /* m/s: of the wall along itself, or of the inflow */
         int profile;        /* of an inflow */
         double pressure;    /* Pa: at an outflow */

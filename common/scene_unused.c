@@ -75,6 +75,9 @@ static void check_wall(const struct scene *s, const struct params *p, struct fau
     check_key(p, f, "walls", k, "fluid_side", mesh, "it is of a mesh");
     check_key(p, f, "walls", k, "flip", mesh, "it turns the normals of a mesh: turn the points");
     check_key(p, f, "walls", k, "thin", mesh, "it is of a mesh");
+    check_key(p, f, "walls", k, "friction", w->kind == WALL_SLIP,
+              opening ? "an opening has none; a slip wall has"
+                      : "no_slip is friction by viscosity: bed friction is a slip wall's");
     check_key(p, f, "walls", k, "velocity", w->kind != WALL_SLIP && (!out || w->carried),
               out ? "at an outflow the pressure is given, the velocity follows"
                   : "a slip wall exerts no friction; no_slip does");

@@ -103,6 +103,11 @@ with sph 's/nu = 0.005/nu = -0.005/' 'case.cfg:3: fluid.nu: ' sph
 with sph 's/dx = 0.02/dx = 0.03/' 'case.cfg:6: sph.dx: ' sph
 with sph 's/dx = 0.02/dx = 0.5/' 'case.cfg:6: sph.dx: ' sph
 with sph 's/dx = 0.02/dx = 0.02; box = ((0.2, 0.2), (0.35, 0.8))/' 'sph.box: ' sph
+rough='s/(true, true)/(true, false)/; s/"taylor_green"/"rest"/; s/^sph/walls: ( { side = "y_min"; friction = 0.01; } );\n&/; s/^fv/walls: ( { side = "y_min"; friction = 0.01; } );\n&/'
+with sph "$rough; s/friction = 0.01/friction = -0.01/" 'walls.friction: -0.01' sph
+with sph "$rough; s/friction/kind = \"no_slip\"; friction/" 'walls.\[0\].friction: .*bed friction is a slip wall' sph
+with sph "$rough; s/dx = 0.02/dx = 0.02; walls = \"ghosts\"/" 'walls.\[0\].friction: mirrored ghosts' sph
+with fv "$rough" 'walls.\[0\].friction: is not used: fv has no bed friction' fv
 with fv 's/cells = (16, 16)/cells = (16, 2)/' 'fv.cells: ' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 8)/' 'case.cfg:6: fv.graded: y is periodic' fv
 with fv 's/cells = (16, 16)/cells = (16, 16); graded = (0.9, 6)/; s/(true, true)/(true, false)/' 'fv.graded: layers grow by' fv

@@ -171,5 +171,30 @@ run poor 0
 grep -q '^warning: level 1: all fluid in its regions lies within R' thin.txt || bad "a region of guards alone is not told" thin.txt
 grep -q '^warning: .*too much for apr.particles = 300' poor.txt || bad "a budget that leaves nothing is not told" poor.txt
 
+# Bed friction tau = rho c_f u^2. A sheet 0.1 m deep slows down, u = u0/(1 + c_f u0 t/d); on an incline it keeps
+# u^2 = g sin(a) d/c_f. Viscosity enough that it moves as one (nu/(c_f u d) = 10). The layers beside the wall count by
+# their Shepard factors, which makes the sheet 0.4 dx thinner: 3 % in u, half of it at half the spacing. 3D as 2D.
+cat >sheet.cfg <<'END'
+format = 1;
+time:   { end = 2; };
+fluid:  { nu = 0.05; gravity = (0, -9.81); };
+domain: { max = (0.2, 0.2); periodic = (true, false); };
+shapes: ( { box = ((0, 0), (0.2, 0.1)); velocity = (1, 0); } );
+walls:  ( { side = "y_min"; friction = 0.05; } );
+sph:    { dx = 0.01; };
+output: { snapshots = false; };
+END
+mean() { awk -v p="$(column "$1" 'momentum x')" -v m="$(column "$1" mass)" 'BEGIN { print p / m }'; }
+run sheet 0
+near "$(mean sheet)" 0.5 0.025 || bad "a sheet on a rough floor has $(mean sheet) instead of 0.5 m/s" sheet.txt
+awk -v d="$(value sheet defect)" 'BEGIN { exit !(d != "" && d * d < 1e-20) }' || bad "momentum of a sheet on a rough floor" sheet.txt
+sed 's/gravity = (0, -9.81)/gravity = (0.5, -9.81)/; s/end = 2/end = 3/' sheet.cfg >incline.cfg
+run incline 0
+near "$(mean incline)" 1 0.05 || bad "a sheet on an incline has $(mean incline) instead of 1 m/s" incline.txt
+sed 's/, -9.81)/, 0, -9.81)/; s/(0.2, 0.2)/(0.2, 0.2, 0.15)/; s/(true, false)/(true, true, false)/; s/((0, 0), (0.2, 0.1))/((0, 0, 0), (0.2, 0.2, 0.1))/
+    s/(1, 0)/(1, 0, 0)/; s/"y_min"/"z_min"/; s/end = 2/end = 0.5/; s/domain: {/domain: { dim = 3;/; s/dx = 0.01/dx = 0.02/' sheet.cfg >sheet_3d.cfg
+run sheet_3d 0
+near "$(mean sheet_3d)" 0.8 0.025 || bad "a sheet on a rough floor in 3D has $(mean sheet_3d) instead of 0.8 m/s" sheet_3d.txt
+
 echo "exact: torque $(column couette 'inner moment') of 209.4 N, running down at $(cat rate) of 0.105 1/s, fall of pressure $fall of 1500 to 1800 Pa; $failed faults"
 [ $failed = 0 ]

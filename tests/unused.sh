@@ -80,6 +80,7 @@ walls.points ((-1,-0.5),(1,-0.5))
 walls.closed true
 walls.kind no_slip
 walls.velocity (0.2,0)
+walls.friction 0.05
 walls.profile "parabolic"
 walls.pressure 100.0
 walls.carried true

@@ -295,6 +295,7 @@ static const struct rule rules[] = {
     {"initial.level",     surface_of_shapes, "p = 0 on the free surface, wherever that is", true},
     {"initial.level",     level_unseen,      "no gravity acts across closed sides, or nothing shows the pressure", true},
     {"walls.closed",      straight,          "it is for a polyline, and this wall is a side", false},
+    {"walls.friction",    always,            "fv has no bed friction, sph has: its slip walls slip, its no_slip walls have that of fluid.nu", true},
     {"walls.velocity",    is_slip,           "a slip wall exerts no friction; \"no_slip\" does", true},
     {"walls.velocity",    let_out,           "at an outflow the velocity is part of the solution", true},
     {"walls.profile",     not_let_in,        "it is for an inflow", false},

@@ -374,6 +374,16 @@ static void start_past(struct fv *s, double before)
     }
 }
 
+/* Of walls that both programs have. */
+static void tell_of_friction(const struct fv *s)
+{
+    const struct scene *c = &s->run->scene;
+    for (int w = 0; w < c->nwalls; w++)
+        if (c->walls[w].friction > 0.0)
+            log_say("walls.[%d].friction acts in the particles' part alone: in fv's the wall slips",
+                    w);
+}
+
 void coupling_create(struct fv *s)
 {
     struct link *k = s->link;
@@ -397,6 +407,7 @@ void coupling_create(struct fv *s)
     k->wish = s->m && k->of[0].pace > 0.0 ? least_height(s) / k->of[0].pace : INFINITY;
     if (s->surface)
         s->surface->forced = surface_forced_create(s);
+    tell_of_friction(s);
     declare(s, k);
     k->course = course_create(s, &k->patch, longest_memory(k));
     make_room(s, k);

@@ -203,6 +203,15 @@ static bool has_no_slip(const struct scene *c, const struct sph_params *prm)
 
 static bool is_coupled(const struct run *r) { return r->scene.has_sph && r->scene.has_fv; }
 
+/* The first wall that has it; -1: none. */
+static int bed_with_friction(const struct run *r)
+{
+    for (int k = 0; k < r->scene.nwalls; k++)
+        if (r->scene.walls[k].friction > 0.0)
+            return k;
+    return -1;
+}
+
 static bool is_riemann(int scheme)
 {
     return scheme == SCHEME_RIEMANN_ALE || scheme == SCHEME_RIEMANN;
@@ -306,7 +315,10 @@ const struct sph_params *sph_params_of(const struct run *r)
     if (used.walls == WALLS_AUTO && apr && apr->method != APR_GUARDS)
         used.walls = WALLS_GHOSTS;
     if (used.walls == WALLS_AUTO) /* delta without polylines: as it is known */
-        used.walls = is_riemann(used.scheme) || has_polylines(&r->scene) ? WALLS_NFM : WALLS_GHOSTS;
+        used.walls =
+            is_riemann(used.scheme) || has_polylines(&r->scene) || bed_with_friction(r) >= 0
+                ? WALLS_NFM
+                : WALLS_GHOSTS;
     if (used.integrator == INTEGRATOR_AUTO)
         used.integrator = INTEGRATOR_J3;
     if (used.cfl <= 0.0)
@@ -678,6 +690,12 @@ void sph_params_check(const struct run *r, struct faults *f)
     else if (polylines && given.walls == WALLS_GHOSTS)
         params_fault(r->params, f, "sph.walls",
                      "mirrored ghosts need plane sides: take nfm for polylines, bodies and meshes");
+    if (bed_with_friction(r) >= 0 && sph_params_of(r)->walls == WALLS_GHOSTS) {
+        char key[32];
+        snprintf(key, sizeof key, "walls.[%d].friction", bed_with_friction(r));
+        params_fault(r->params, f, key,
+                     "mirrored ghosts have no bed friction: take sph.walls = \"nfm\"");
+    }
     if (given.outer == OUTER_PARTNER && !is_coupled(r))
         params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
     for (int a = 0; a < r->scene.domain.dim; a++)

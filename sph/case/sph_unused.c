@@ -143,12 +143,28 @@ static bool is_near(const struct scene *c, const struct sph_params *used,
     return near;
 }
 
+static bool is_beyond(const struct run *r, const struct sph_params *used, int k)
+{
+    const struct scene_wall *w = r->scene.walls + k;
+    return w->side != SIDE_NONE &&
+           !sph_params_reaches(&r->scene.domain, used, w->side - SIDE_X_MIN);
+}
+
+/* Of coupled jobs, too: no partner has it. */
+static void check_friction(const struct run *r, const struct sph_params *used, int k,
+                           struct faults *f)
+{
+    char key[64];
+    snprintf(key, sizeof key, "walls.[%d].friction", k);
+    params_unused(r->params, f, key, !is_beyond(r, used, k),
+                  "sph.box does not reach this side, and fv has no bed friction");
+}
+
 static void check_wall(const struct run *r, const struct sph_params *used, const bool *has, int k,
                        struct faults *f)
 {
     const struct scene_wall *w = r->scene.walls + k;
-    const bool beyond =
-        w->side != SIDE_NONE && !sph_params_reaches(&r->scene.domain, used, w->side - SIDE_X_MIN);
+    const bool beyond = is_beyond(r, used, k);
     char key[64];
     snprintf(key, sizeof key, "walls.[%d].side", k);
     params_unused(r->params, f, key, !beyond, "sph.box does not reach this side");
@@ -196,6 +212,8 @@ void sph_unused_check(const struct run *r, const struct sph_params *given,
     find_needs(r, given, used, has);
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++)
         params_unused(r->params, f, rows[k].key, has[rows[k].need], rows[k].why);
+    for (int k = 0; k < r->scene.nwalls; k++)
+        check_friction(r, used, k, f);
     if (r->scene.has_fv)
         return;
     for (size_t k = 0; k < sizeof shared / sizeof shared[0]; k++)

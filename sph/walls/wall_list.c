@@ -79,6 +79,7 @@ static int list_group(const struct walls *w, struct wall_list *l, int group, con
             l->touch[n++] = (struct wall_touch){.piece = k,
                                                 .plane = -1, /* segments in one line are one */
                                                 .body = w->segments[k].body,
+                                                .friction = w->segments[k].friction,
                                                 .no_slip = w->segments[k].no_slip};
     return n;
 }

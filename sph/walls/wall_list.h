@@ -18,6 +18,7 @@ struct wall_touch {
     int piece, of;           /* 2D: segment, -; 3D: place in the frames of mesh `of' */
     int plane;               /* pieces of `of' alike in it have one flux; -1: this one alone */
     int body;                /* -1: at rest */
+    double friction;         /* -: c_f of quadratic bed friction */
     bool no_slip, foot;      /* foot: that of the particle lies on the piece */
     bool joined;             /* with an earlier one of its plane, which has its integrals */
 };

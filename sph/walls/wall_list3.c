@@ -165,6 +165,7 @@ static int touch(const struct sph *s, struct wall_list *l, int i, int nnear, dou
                 .of = q->mesh,
                 .plane = m->plane ? m->plane[l->of3[q->mesh].triangle[q->facet]] : -1,
                 .body = m->body,
+                .friction = m->friction,
                 .no_slip = m->no_slip};
     }
     return touches;

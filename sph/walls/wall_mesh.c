@@ -159,11 +159,13 @@ static void add_sides(struct sph *s, struct walls *w)
             scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
         struct wall_mesh *m = add_mesh(w);
         m->no_slip = is->kind == WALL_NO_SLIP;
+        m->friction = is->friction;
         memcpy(m->u, is->velocity, sizeof m->u);
         for (int other = side; other < 6; other++) {
             const struct scene_wall *q =
                 scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + other));
             if (done[other] || !is_wall_side(s, other) || q->kind != is->kind ||
+                q->friction != is->friction ||
                 memcmp(q->velocity, is->velocity, sizeof q->velocity))
                 continue;
             struct trimesh more = triangles_of(s, other);
@@ -284,6 +286,7 @@ static void add_lent(struct sph *s, struct walls *w)
         m->body = body ? is->index : -1;
         m->no_slip = (body ? c->bodies[is->index].kind : c->walls[is->index].kind) == WALL_NO_SLIP;
         m->thin = body ? c->bodies[is->index].thin : c->walls[is->index].thin;
+        m->friction = body ? 0.0 : c->walls[is->index].friction;
         if (!body)
             memcpy(m->u, c->walls[is->index].velocity, sizeof m->u);
         for (int a = 0; a < 3 && !body; a++)

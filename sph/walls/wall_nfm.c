@@ -232,6 +232,22 @@ INLINE double wave_factor(const struct sph *s, const struct wall_list *l, int k,
     return most > most_of_wave ? most_of_wave / most : 1.0;
 }
 
+/* Quadratic bed friction, tau = rho c_f |u_t| u_t with the velocity along the wall; twice, as the
+ * pressure of i and of the wall: half of a flat wall's weight is in the fluid. */
+INLINE void add_bed_friction(const struct wall_touch *t, const struct seen *i, const double *uw,
+                             double *q, const int dim)
+{
+    double ut[3], across = 0.0, u2 = 0.0;
+    for (int a = 0; a < dim; a++)
+        across += (i->u[a] - uw[a]) * t->n[a];
+    for (int a = 0; a < dim; a++) {
+        ut[a] = i->u[a] - uw[a] - across * t->n[a];
+        u2 += ut[a] * ut[a];
+    }
+    for (int a = 0; a < dim; a++)
+        q[a] -= 2.0 * t->is.W * i->rho * t->friction * sqrt(u2) * ut[a];
+}
+
 /* One piece: pressure, volume, friction, and for ALE what runs with u - u0 [4.26-4.29]. */
 INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const struct seen *i,
                          double wave, const int dim)
@@ -252,6 +268,8 @@ INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const 
     struct given to = {.w = W * across, .m = -W * m};
     for (int a = 0; a < dim; a++)
         to.q[a] = -W * (m * i->u[a] + P * t->n[a]);
+    if (t->friction > 0.0)
+        add_bed_friction(t, i, uw, to.q, dim);
     /* not from a face seen at grazing angle */
     if (t->no_slip && mu > 0.0 && (t->foot || t->height > 0.25 * s->dx))
         for (int a = 0; a < dim; a++)

@@ -23,16 +23,24 @@ static void set_frame(struct segment *g)
     g->n[1] = -g->t[0];
 }
 
-static void add_segment(struct walls *w, const double *a, const double *b, bool no_slip, int body,
-                        const double *u)
+/* What a wall of the case is beside its place. */
+static struct segment kind_of(const struct scene_wall *is)
+{
+    return (struct segment){.body = -1,
+                            .no_slip = is->kind == WALL_NO_SLIP,
+                            .friction = is->friction,
+                            .u = {is->velocity[0], is->velocity[1]}};
+}
+
+/* As `like', at another place. */
+static void add_segment(struct walls *w, const double *a, const double *b,
+                        const struct segment *like)
 {
     if (w->nsegments % 64 == 0)
         GROW(w->segments, w->nsegments, w->nsegments + 64);
-    struct segment g = {.body = body, .no_slip = no_slip};
+    struct segment g = *like;
     memcpy(g.a, a, sizeof g.a);
     memcpy(g.b, b, sizeof g.b);
-    if (u)
-        memcpy(g.u, u, sizeof g.u);
     set_frame(&g);
     if (g.length > 0.0)
         w->segments[w->nsegments++] = g;
@@ -68,7 +76,7 @@ static bool goes_on(const double *a, const double *b, const double *c)
 }
 
 static void add_polyline(struct sph *s, struct walls *w, const struct param_points *p, bool closed,
-                         bool no_slip, int body, const double *u)
+                         const struct segment *like)
 {
     const int n = closed ? p->n : p->n - 1;
     double a[2], b[2];
@@ -83,7 +91,7 @@ static void add_polyline(struct sph *s, struct walls *w, const struct param_poin
             extend(s, a, p->x[1]);
         if (!closed && k == n - 1)
             extend(s, b, p->x[n - 1]);
-        add_segment(w, a, b, no_slip, body, u);
+        add_segment(w, a, b, like);
     }
 }
 
@@ -123,7 +131,8 @@ static void add_side(struct sph *s, struct walls *w, const struct scene_wall *is
     a[other] -= low_wall || is_corner(s, a) ? 0.0 : 2.5 * s->R;
     b[other] += high_wall || is_corner(s, b) ? 0.0 : 2.5 * s->R;
     const bool forward = (axis == 1) != high; /* fluid on the left: bottom goes along +x */
-    add_segment(w, forward ? a : b, forward ? b : a, is->kind == WALL_NO_SLIP, -1, is->velocity);
+    const struct segment like = kind_of(is);
+    add_segment(w, forward ? a : b, forward ? b : a, &like);
 }
 
 static void add_plane(const struct sph *s, struct walls *w, const struct scene_wall *is)
@@ -421,7 +430,7 @@ static void leave_out_covered(const struct sph *s, struct walls *w)
         double a[2], b[2];
         part_end(g, parts.part[k].from, 4.0 * near, a);
         part_end(g, parts.part[k].to, 4.0 * near, b);
-        add_segment(w, a, b, g->no_slip, -1, g->u);
+        add_segment(w, a, b, g);
         length -= w->segments[w->nsegments - 1].length;
     }
     mem_free(old);
@@ -443,7 +452,8 @@ static void add_bodies(struct sph *s, struct walls *w)
         }
         w->any_free = w->any_free || b->free;
         b->first = w->nsegments;
-        add_polyline(s, w, &b->is->points, true, b->is->kind == WALL_NO_SLIP, k, NULL);
+        const struct segment like = {.body = k, .no_slip = b->is->kind == WALL_NO_SLIP};
+        add_polyline(s, w, &b->is->points, true, &like);
         b->n = w->nsegments - b->first;
     }
 }
@@ -496,12 +506,13 @@ struct walls *walls_create(struct sph *s)
         const struct scene_wall *is = c->walls + k;
         if (!is_wall(s, is))
             continue;
+        const struct segment like = kind_of(is);
         if (is->side != SIDE_NONE)
             add_plane(s, w, is);
         if (is->side != SIDE_NONE && s->dim == 2)
             add_side(s, w, is);
         else if (is->side == SIDE_NONE)
-            add_polyline(s, w, &is->points, is->closed, is->kind == WALL_NO_SLIP, -1, is->velocity);
+            add_polyline(s, w, &is->points, is->closed, &like);
     }
     if (s->dim == 2)
         leave_out_covered(s, w);

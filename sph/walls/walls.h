@@ -15,7 +15,8 @@ struct segment {
     double u[2];       /* m/s: of a wall along itself (bodies: walls_velocity) */
     int body;          /* -1: at rest */
     bool no_slip;
-    bool open[2]; /* a, b end where no wall goes on: beyond them nothing is behind it */
+    double friction; /* -: c_f of quadratic bed friction */
+    bool open[2];    /* a, b end where no wall goes on: beyond them nothing is behind it */
 };
 
 /* A plane side of the domain, as mirrored ghosts need it. */
@@ -36,6 +37,7 @@ struct wall_mesh {
     const struct scene_mesh *of; /* of a file; NULL: sides */
     int body;                    /* -1: at rest */
     bool no_slip;
+    double friction;      /* -: c_f of quadratic bed friction */
     bool thin;            /* fluid on either side does not see that on the other */
     double u[3];          /* m/s: of a wall along itself (bodies: wall_mesh_velocity) */
     double X[3], Q[3][3]; /* m, -: pose now */
