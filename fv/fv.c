@@ -65,6 +65,7 @@ static void describe(const struct run *r)
     }
     const struct step_limit step_most = limits_estimate(r, h);
     const double dt = fmin(step_most.dt, r->scene.time.end);
+    limits_warn(r, fmax(h[0], fmax(h[1], d->dim > 2 ? h[2] : 0.0)));
     const int fields = 4 + 6 * d->dim + (viscous ? 2 * d->dim : 0) + 4;
     const struct log_use uses[] = {
         {viscous, "implicit viscosity", NULL}, {water, "free surface (level set)", NULL},

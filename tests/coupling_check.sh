@@ -39,6 +39,11 @@ for case in taylor_green uniform_flow standing_wave standing_wave_3d breaking_wa
     accepts $case
 done
 
+# bdf2 under a violent surface: a warning with its steps; none where the flow is slow and viscous
+slow() { "$b/fv" "$root/cases/dam_break_fv/case.cfg" --check -p fv.integrator=bdf2 -p fluid.nu="$1" 2>&1 | grep -c 'warning: fv.integrator: bdf2 is for slow'; }
+[ "$(slow 1e-6)" = 1 ] || bad "bdf2 in water that breaks: not a word"
+[ "$(slow 1e-2)" = 0 ] || bad "bdf2 in honey: a warning"
+
 # scenes without a place for the coupling
 refuses "no cell of fv in what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p coupling.overlap=0.19
 refuses "cells finer than the particles" 'fv.cells: cells of 0.005 m are finer than' taylor_green -p 'fv.cells=(200,200)'

@@ -442,6 +442,7 @@ static void describe_step(const struct run *r, const struct mesh *m)
             speed = fmax(speed, fabs(b->spin[side]) * b->radius[side]);
     }
     const double cfl = limits_cfl(fv_params_of(r)), h = least_height(m);
+    limits_warn(r, h);
     log_say("%lld cells computed, the flattest %.3g m high; about %.0f MB", (long long)m->computed,
             h, 8e-6 * (double)m->cells * 80.0 + 1.0);
     if (fv_params_of(r)->steady)
