@@ -185,6 +185,11 @@ static void columns_weigh_what_is_above_them(void **state)
     s->walls[0].side = SIDE_Y_MIN;
     s->shapes[0].points.n = 4;
     memcpy(s->shapes[0].points.x, x, sizeof x);
+    s->nshapes = 2; /* a drop above it falls, without weight */
+    s->shapes[1].form = SHAPE_DISC;
+    s->shapes[1].centre[0] = 0.6;
+    s->shapes[1].centre[1] = 0.8;
+    s->shapes[1].radius = 0.1;
     c.prm.c0 = 1000.0 * sqrt(g); /* density hardly varies */
     int level = 0;
     for (const struct sph *q = sph_case_start(&c, NULL); q; q = q->finer, level++) {
@@ -192,10 +197,11 @@ static void columns_weigh_what_is_above_them(void **state)
         for (int i = 0; i < q->p.n; i++) {
             const double *y = state_row(&q->p, q->p.y, i);
             const double p = eos_p(y[at_mass(2)] / y[at_volume(2)], q->rho0, q->c0, q->gamma);
-            worst = fmax(worst, fabs(p / g - (left - slope * (y[0] - 0.125) - y[1])));
+            const double head = y[1] < 0.65 ? left - slope * (y[0] - 0.125) - y[1] : 0.0;
+            worst = fmax(worst, fabs(p / g - head));
         }
         assert_true(max_anywhere(worst) < slope * c.prm.dx);
-        assert_close(volume(q), 0.375 * (left + right), 2.0 * q->dxD);
+        assert_close(volume(q), 0.375 * (left + right) + 0.01 * pi, 3.0 * q->dxD);
     }
     assert_int_equal(level, LEVELS + 1);
     finish(&c);

@@ -336,7 +336,7 @@ static bool has_open_top(const struct sph *s, const double *still)
 static double level_of(const struct sph *s, const struct basins *b, int64_t cell)
 {
     const double given = s->run->scene.initial.level, level = basins_level(b, cell);
-    return isnan(level) || given == LEVEL_TOP ? level : given;
+    return isnan(level) || !(given < LEVEL_TOP) ? level : given;
 }
 
 /* Masses under gravity: p = 0 at the given height, or on top of each water. A wave and a channel
@@ -502,7 +502,7 @@ static double density_near(const struct sph *q, const struct fill *f, const doub
         least = fmin(least, d2);
     }
     const double g = scene_still_gravity(&q->run->scene, still);
-    return density_at_rest(q, g, level - scene_height(&q->run->scene, x));
+    return isnan(level) ? NAN : density_at_rest(q, g, level - scene_height(&q->run->scene, x));
 }
 
 /* Fields of the case where particles stand; those that are weighed keep their densities, or are
