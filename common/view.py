@@ -218,26 +218,28 @@ def show_cells(source, name):
     shows.append((part, shown))
 
 
-def of_level(source, level):
+def having(source, field, value):
     part = Threshold(Input=source)
-    part.Scalars = ['POINTS', 'level']
+    part.Scalars = ['POINTS', field]
     if hasattr(part, 'LowerThreshold'):
-        part.LowerThreshold, part.UpperThreshold = level - 0.5, level + 0.5
+        part.LowerThreshold, part.UpperThreshold = value - 0.5, value + 0.5
     else:
-        part.ThresholdRange = [level - 0.5, level + 0.5]
+        part.ThresholdRange = [value - 0.5, value + 0.5]
     part.UpdatePipeline(last)
     return part
 
 
 def show_particles(source, case, name):
     dx = re.search(r'^ *dx = ([-+.0-9e]+)', case, re.M)
+    if 'guard' in source.PointData.keys():  # where another level flows: no more water
+        source = having(source, 'guard', 0)
     refined = 'level' in source.PointData.keys()
     levels = int(source.PointData['level'].GetRange()[1]) if refined else 0
     if dim == 3 and 'vorticity' in source.PointData.keys():  # fv has its z component alone
         source = Calculator(Input=source, Function='vorticity_Z', ResultArrayName='vorticity')
         source.UpdatePipeline(last)
     for level in range(levels + 1):
-        part = cut_open(of_level(source, level) if levels else source, name)
+        part = cut_open(having(source, 'level', level) if levels else source, name)
         shown = Show(part, view)
         if dx:  # discs that leave no holes in a square lattice
             shown.SetRepresentationType('Point Gaussian')

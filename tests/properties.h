@@ -46,9 +46,10 @@ struct shape {
     bool hole;
 };
 
-struct region { /* of refinement: a box, or with a radius a sphere about lo */
+struct region { /* of refinement: a box, with a radius a sphere about lo, with an offset around body
+                   0 */
     int level;
-    double lo[3], hi[3], radius;
+    double lo[3], hi[3], radius, offset, velocity[3];
 };
 
 struct probe {
@@ -76,6 +77,9 @@ struct scene {
     struct side sides[6];
     int nwalls, nbodies, nshapes, nprobes, nblocks, nregions;
     struct region regions[LISTS];
+    const char *criterion; /* of refinement, level 1; NULL: none */
+    double bound;          /* of it */
+    bool local_steps;
     struct wall walls[LISTS];
     struct body bodies[LISTS];
     struct shape shapes[LISTS];

@@ -73,6 +73,8 @@ function factor(name, t,    d, l, u, r) {
 function scale(name,    d, l, u, r, p) {
     d = know["dim"]; l = know["length"]; u = know["speed"]; r = know["rho"]
     p = u * u + know["gravity"] * l
+    if (name ~ /mass of level changes/) return know["mass"]
+    if (name ~ /^(particles|guards) level/) return 1e5 * max(2, 0.01 * value["base", 1, column("particles [-]")]) # who crosses an edge now, rounding decides
     if (name ~ /moment/ && name !~ /momentum/) return r * p * l ^ d
     if (name ~ /\[J\]/) return know["mass"] * u * u
     if (name ~ /\[m\^dim\/s\^2\]/) return u * u * l ^ (d - 2)

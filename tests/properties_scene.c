@@ -273,7 +273,7 @@ static void know(const struct twins *t)
     } facts[] = {{"standard", s->standard},           {"closed", s->closed},
                  {"open_above", s->open_above},       {"unforced", s->unforced},
                  {"free_of_walls", s->free_of_walls}, {"still", s->still},
-                 {"refined", s->nregions > 0}};
+                 {"refined", s->nregions > 0 || s->criterion}};
     for (int k = 0; k < 7; k++)
         fprintf(t->plan, "know %s %d\n", facts[k].name, facts[k].is);
     fprintf(t->plan, "know stream %.17g\n", s->stream ? fmax(fabs(s->V[0]), fabs(s->V[1])) : 0.0);

@@ -437,11 +437,14 @@ static void add_region(struct scene *s, struct random *r, int level)
 {
     struct region *is = s->regions + s->nregions++;
     const double least = 12.5 * ldexp(s->dx, 1 - level);
+    const bool flows = s->sides[0].kind && !strcmp(s->sides[0].kind, "inflow");
+    const double off = flows ? 0.45 : 0.05; /* away from open sides */
     is->level = level;
     is->radius = chance(r, 0.3) ? least * uniform(r, 0.55, 0.8) : 0.0;
     for (int a = 0; a < s->dim; a++) {
-        const double L = s->hi[a] - s->lo[a], length = fmin(least * uniform(r, 1.0, 2.0), 0.9 * L);
-        const double from = s->lo[a] + uniform(r, 0.05, 0.95) * (L - length);
+        const double L = s->hi[a] - s->lo[a],
+                     length = fmin(least * uniform(r, 1.0, flows ? 1.2 : 2.0), 0.9 * L);
+        const double from = s->lo[a] + uniform(r, off, 1.0 - off) * (L - length);
         is->lo[a] = is->radius > 0.0 ? s->lo[a] + uniform(r, 0.45, 0.55) * L : from;
         is->hi[a] = from + length;
     }
@@ -468,23 +471,62 @@ static bool add_slab(struct scene *s, struct random *r)
     return true;
 }
 
-static void refined(struct scene *s, struct random *r)
+/* Regions that move go at most three spacings, and stay in the domain; slowly enough for births. */
+static void set_in_motion(struct scene *s, struct random *r)
 {
-    void (*const make[])(struct scene *, struct random *) = {fields, closed, channel, tank};
-    int level = whole(r, 1, 2);
-    make[whole(r, 0, 3)](s, r);
+    for (int k = 0; k < s->nregions; k++)
+        for (int a = 0; a < s->dim && s->regions[k].offset == 0.0; a++)
+            s->regions[k].velocity[a] =
+                fmin(3.0 * s->dx / s->end, 0.5 * s->speed) * uniform(r, -1.0, 1.0);
+}
+
+/* What the flow asks for, of a kind that the scene has. */
+static void ask(struct scene *s, struct random *r)
+{
+    const bool wet = s->nshapes > 0, still = s->still;
+    s->criterion = wet && chance(r, 0.5)     ? "surface"
+                   : still || chance(r, 0.3) ? "pressure"
+                                             : "vorticity";
+    s->bound = !strcmp(s->criterion, "surface") ? whole(r, 0, 1) : decades(r, 0.02, 0.5);
+}
+
+static bool add_regions(struct scene *s, struct random *r)
+{
+    int level = s->sides[0].profile || s->stream ? 1 : whole(r, 1, 2);
     bool room = s->dim == 2;
     for (int a = 0; a < s->dim; a++)
         room = room && s->hi[a] - s->lo[a] > 14.0 * s->dx;
     if (s->dim == 3 ? !add_slab(s, r) : !room)
-        return;
-    if (s->dim == 3)
-        level = 1;
-    else
+        return false;
+    if (s->nbodies > 0 && chance(r, 0.6)) /* R and two spacings, and some that flow */
+        s->regions[s->nregions++] =
+            (struct region){.level = 1, .offset = s->dx * uniform(r, 6.5, 9.0)};
+    else if (s->dim == 2)
         add_region(s, r, level);
-    if (s->dim == 2 && chance(r, 0.2))
+    if (s->dim == 2 && level == 1 && chance(r, 0.2))
         add_region(s, r, 1);
-    s->end *= s->dim == 3 ? 0.08 : level == 1 ? 0.2 : 0.05;
+    return true;
+}
+
+static void refined(struct scene *s, struct random *r)
+{
+    void (*const make[])(struct scene *, struct random *) = {fields, closed, channel,  tank,
+                                                             driven, tilted, openings, jets};
+    make[whole(r, 0, 7)](s, r);
+    for (int a = 0; a < 2 && s->sides[0].kind && !strcmp(s->sides[0].kind, "inflow"); a++)
+        s->hi[a] += 32.0 * s->dx; /* room between the zones */
+    const bool asked = s->dim == 2 && chance(r, 0.25);
+    if (asked)
+        ask(s, r);
+    else if (!add_regions(s, r))
+        return;
+    int most = asked ? 1 : 0;
+    for (int k = 0; k < s->nregions; k++)
+        most = s->regions[k].level > most ? s->regions[k].level : most;
+    s->end *= s->dim == 3 ? 0.08 : most == 1 ? 0.2 : 0.05;
+    if (chance(r, 0.35))
+        set_in_motion(s, r);
+    s->local_steps = chance(r, 0.25);
     s->carried = false; /* the regions stay */
     s->error = 0.0;     /* of waves that have gone through edges there is no table */
 }

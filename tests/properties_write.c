@@ -130,11 +130,13 @@ void scene_move(struct scene *s, const struct motion *m)
     }
     for (int k = 0; k < s->nprobes; k++)
         place(m, s->probes[k].at);
-    for (int k = 0; k < s->nregions; k++)
+    for (int k = 0; k < s->nregions; k++) {
+        turn(m, s->regions[k].velocity);
         if (s->regions[k].radius > 0.0)
             place(m, s->regions[k].lo);
         else
             box(m, s->regions[k].lo, s->regions[k].hi);
+    }
     for (int k = 0; k < s->nblocks; k++) /* blocks are shifted only */
         for (int a = 0; a < 3; a++) {
             struct block *b = s->blocks + k;
@@ -178,7 +180,9 @@ static void scale_lists(struct scene *s, double l, double u, double d)
     for (int k = 0; k < s->nregions; k++) {
         times(s->regions[k].lo, 3, l);
         times(s->regions[k].hi, 3, l);
+        times(s->regions[k].velocity, 3, u);
         s->regions[k].radius *= l;
+        s->regions[k].offset *= l;
     }
     for (int k = 0; k < s->nblocks; k++) {
         struct block *b = s->blocks + k;
@@ -373,21 +377,39 @@ static void write_block(const struct block *b, int dim, FILE *f)
             fprintf(f, " %s = \"%s\";", names[k], b->sides[k]);
 }
 
-static void write_regions(const struct scene *s, FILE *f)
+static void write_region(const struct region *is, int dim, FILE *f)
 {
-    for (int k = 0; k < s->nregions; k++) {
-        const struct region *is = s->regions + k;
-        fprintf(f, "%s{ level = %d;", k ? ",\n  " : "apr: { regions = ( ", is->level);
-        if (is->radius > 0.0) {
-            vector(f, "centre", is->lo, s->dim);
-            fprintf(f, " shape = \"sphere\"; radius = %.17g;", is->radius);
-        } else {
-            vector(f, "min", is->lo, s->dim);
-            vector(f, "max", is->hi, s->dim);
-        }
-        fprintf(f, " }");
+    fprintf(f, "{ level = %d;", is->level);
+    if (is->offset > 0.0) {
+        fprintf(f, " shape = \"body\"; body = \"b0\"; offset = %.17g; }", is->offset);
+        return;
     }
-    fprintf(f, s->nregions ? " ); };\n" : "");
+    if (is->radius > 0.0) {
+        vector(f, "centre", is->lo, dim);
+        fprintf(f, " shape = \"sphere\"; radius = %.17g;", is->radius);
+    } else {
+        vector(f, "min", is->lo, dim);
+        vector(f, "max", is->hi, dim);
+    }
+    if (!is_zero(is->velocity))
+        vector(f, "velocity", is->velocity, dim);
+    fprintf(f, " }");
+}
+
+static void write_refinement(const struct scene *s, FILE *f)
+{
+    if (s->nregions == 0 && !s->criterion)
+        return;
+    fprintf(f, "apr: {%s", s->local_steps ? " local_steps = true;" : "");
+    for (int k = 0; k < s->nregions; k++) {
+        fprintf(f, k ? ",\n  " : " regions = ( ");
+        write_region(s->regions + k, s->dim, f);
+    }
+    fprintf(f, s->nregions ? " );" : "");
+    if (s->criterion)
+        fprintf(f, " criteria = ( { level = 1; kind = \"%s\"; %s = %.17g; } );", s->criterion,
+                strcmp(s->criterion, "surface") ? "above" : "distance", s->bound);
+    fprintf(f, " };\n");
 }
 
 static void write_solvers(const struct scene *s, FILE *f)
@@ -477,6 +499,6 @@ void scene_write(const struct scene *s, const char *name, FILE *f)
     write_bodies(s, name, f);
     write_shapes(s, f);
     write_solvers(s, f);
-    write_regions(s, f);
+    write_refinement(s, f);
     fprintf(f, "output: { snapshots = false; series = 1; };\n");
 }

@@ -7,6 +7,7 @@
 #include "../common/h5.h"
 #include "../sph/pairs/neighbours.h"
 #include "../sph/pairs/scheme.h"
+#include "../sph/time/extremes.h"
 #include "../sph/time/runge_kutta.h"
 #include "sph_case.h"
 
@@ -240,6 +241,24 @@ static double *run_with(bool zones, bool rows, bool restart, int *n)
     return y;
 }
 
+/* A level that takes several steps within one of the coarser level says after each what it shows:
+ * speeds all of them, none the square of one. */
+static void extremes_of_several_steps_are_speeds(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    sph_case_set(&c, 2, 16);
+    sph_case_start(&c, NULL);
+    double most[LEVELS][EXTREMES], once[EXTREMES];
+    extremes_clear(most);
+    extremes_of_lines(c.s, most[0]);
+    memcpy(once, most[0], sizeof once);
+    assert_true(once[MOST_RELATIVE] > 0.0 && once[MOST_RELATIVE] < 0.999);
+    extremes_of_lines(c.s, most[0]);
+    assert_memory_equal(once, most[0], sizeof once);
+    sph_free(&c.s);
+}
+
 static void restart_and_rows_leave_no_trace(void **state)
 {
     (void)state;
@@ -267,6 +286,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(particles_collide),
                                        cmocka_unit_test(steps_are_shared_out_evenly),
                                        cmocka_unit_test(a_broken_state_is_found_and_placed),
+                                       cmocka_unit_test(extremes_of_several_steps_are_speeds),
                                        cmocka_unit_test(restart_and_rows_leave_no_trace)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,6 +12,7 @@ void extremes_of_lines(struct sph *s, double *most)
 {
     timer_start(&s->run->timers, "update");
     const int dim = s->dim;
+    double shift = 0.0, stray = 0.0, relative = 0.0; /* squared */
     for (int i = 0; i < s->p.n; i++) {
         const double *q = prim_line(&s->p, i);
         const double *u0 = slope_line(&s->p, i) + dim + dim * dim;
@@ -24,18 +25,17 @@ void extremes_of_lines(struct sph *s, double *most)
             extremes_raise(most + MOST_U0 + a, u0[a]);
             extremes_raise(most + LEAST_U0 + a, -u0[a]);
         }
-        extremes_raise(most + MOST_STRAY, stray2);
+        extremes_raise(&stray, stray2);
         if (particles_is_guard(&s->p, i))
             continue;
         extremes_raise(most + MOST_C, c);
-        extremes_raise(most + MOST_SHIFT, shift2);
+        extremes_raise(&shift, shift2);
         extremes_raise(most + MOST_SIGNAL, c + sqrt(shift2));
-        extremes_raise(most + MOST_RELATIVE, relative2);
+        extremes_raise(&relative, relative2);
     }
-    for (int k = 0; k < 3; k++) {
-        static const int squared[3] = {MOST_SHIFT, MOST_STRAY, MOST_RELATIVE};
-        most[squared[k]] = most[squared[k]] > 0.0 ? sqrt(most[squared[k]]) : 0.0;
-    }
+    extremes_raise(most + MOST_SHIFT, sqrt(shift));
+    extremes_raise(most + MOST_STRAY, sqrt(stray));
+    extremes_raise(most + MOST_RELATIVE, sqrt(relative));
     timer_stop(&s->run->timers, "update");
 }
 
