@@ -270,9 +270,12 @@ static void know(const struct twins *t)
     const struct {
         const char *name;
         bool is;
-    } facts[] = {{"standard", s->standard},           {"closed", s->closed},
-                 {"open_above", s->open_above},       {"unforced", s->unforced},
-                 {"free_of_walls", s->free_of_walls}, {"still", s->still},
+    } facts[] = {{"standard", s->standard},
+                 {"closed", s->closed},
+                 {"open_above", s->open_above},
+                 {"unforced", s->unforced},
+                 {"free_of_walls", s->free_of_walls},
+                 {"still", s->still},
                  {"refined", s->nregions > 0 || s->criterion}};
     for (int k = 0; k < 7; k++)
         fprintf(t->plan, "know %s %d\n", facts[k].name, facts[k].is);
