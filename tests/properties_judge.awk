@@ -134,7 +134,7 @@ function tolerance(t, name) {
 function compare(t,    i, j, from, n, row, big, d, worst, what, name, last, s) {
     n = rows["base"] < rows[t] ? rows["base"] : rows[t]
     if (t == "units" && rows["base"] != rows[t]) { bad(t, rows["base"] " steps become " rows[t]); return }
-    if (t != "units" && n > 12) n = 12
+    if (t != "units" && n > (know["refined"] ? 24 : 12)) n = know["refined"] ? 24 : 12 # births and deaths act from row 4 on
     for (i = 3; i <= columns["base"]; i++) {
         name = names["base", i]
         if (!compared(name, t)) continue

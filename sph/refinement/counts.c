@@ -19,8 +19,8 @@
 /* What gaps, in children, ask for: of mothers that flow, averaged, in units of what one child
  * changes, one is born beyond few; at a single place, where means say little of sheets and drops,
  * a child that is so many too many dies. Both give way to what the mass of the fluid is short of:
- * they would not be even by themselves. Of all within R/2 of each other, who feel the same gap,
- * one gets its way: that which asks for most, whatever the order of the particles, the side or
+ * they would not be even by themselves. Of all within R/2 (2 dx) of each other, who feel the same
+ * gap, one gets its way: that which asks for most, whatever the order of the particles, the side or
  * the rank. */
 static const double few = 0.4, many = 1.2;
 static const double most_off = 1e-3; /* of the mass: beyond this they give way no further */
@@ -29,7 +29,7 @@ enum {
     EVERY = 2,           /* steps: mothers are looked at */
     CHILDREN_EVERY = 16, /* and children */
     ROUNDS = 4,          /* of wishes, of those that nobody near has outbid */
-    PLACES = 4           /* along each axis: where a hole is looked for */
+    PLACES = 5           /* along each axis: where a hole is looked for, births' among them */
 };
 static const double nothing = 1e30; /* no gap is known */
 
@@ -164,7 +164,7 @@ static double find_hole(const struct sph *at, const struct found *near, const do
     for (int k = 0; k < (at->dim == 2 ? PLACES * PLACES : PLACES * PLACES * PLACES); k++) {
         double y[3] = {0.0, 0.0, 0.0};
         for (int a = 0, n = k; a < at->dim; a++, n /= PLACES)
-            y[a] = x[a] + ((n % PLACES + 0.5) / PLACES - 0.5) * wide;
+            y[a] = x[a] + (n % PLACES / (PLACES - 1.0) - 0.5) * wide;
         const double room = room_at(at, near, y) / at->dx;
         if (room > most) {
             most = room;
@@ -229,7 +229,8 @@ static bool leads(const struct sph *s, int i, const double *wish, const double *
         const int j = l->j[k], ghost = j - s->p.n;
         const double its = ghost < 0 ? wish[j] : ghost < s->p.nhalo ? ghost_wish[ghost] : 0.0;
         if (its == 0.0 || (its > 0.0 && its < wish[i] - same) ||
-            distance(s->dim, prim_line(&s->p, i), prim_line(&s->p, j)) >= 0.5 * s->R)
+            distance(s->dim, prim_line(&s->p, i), prim_line(&s->p, j)) >=
+                fmax(0.5 * s->R, 2.0 * s->dx))
             continue;
         if (its < 0.0 || its > wish[i] + same || is_before(s, j, i))
             return false;

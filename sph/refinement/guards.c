@@ -14,7 +14,16 @@
 #include "apr_params.h"
 #include "refinement.h"
 
-static const double thin = 1e-3; /* sum of w W: nobody is there */
+static const double thin = 1e-3;               /* sum of w W: nobody is there */
+static const double narrow = 0.8, least = 2.4; /* of R; finer dx: supports of guards */
+
+/* Within which guards take from what flows, `fine' the finer of their two sources. All of R takes
+ * energy out of vortices at each edge, 0.65 R puts some in; near a free surface what levels have
+ * at rest (excess) was measured with R. */
+static double reach_of(const struct sph *fine)
+{
+    return fine->surface ? fine->R : fmin(fine->R, fmax(narrow * fine->R, least * fine->dx));
+}
 
 struct guards *guards_create(void) { return NEW(struct guards, 1); }
 
@@ -178,7 +187,7 @@ static void list_level(struct sph *const *all, struct sph *s)
     find(s);
     for (int k = 0; k < g->n;) {
         const struct sph *fine = all[g->source[k]], *sources[2] = {fine->coarser, fine};
-        const double reach = fine->R + fine->skin;
+        const double reach = reach_of(fine) + fine->skin;
         double lo[3], hi[3];
         const int end = k + find_group(s, k, lo, hi);
         for (int m = 0; m < 2; m++) {
@@ -341,7 +350,7 @@ INLINE void take(struct sph *s, int i, struct sums sum[2], const struct sph *fin
         join_sums(sum, sum + 1, dim);
         W = mean_of(sum, f, dim);
     }
-    if (!(kernel_w0(dim, fine->R) * W > thin))
+    if (!(kernel_w0(dim, reach_of(fine)) * W > thin))
         return;
     const double m = y[at_mass(dim)], rho = f[0];
     for (int a = 0; a < dim; a++) {
@@ -361,7 +370,7 @@ INLINE void update(struct sph *const *all, struct sph *s, int n, const int dim)
     const struct guards *g = s->guards;
     for (int k = 0; k < n; k++) {
         const struct sph *fine = all[g->source[k]];
-        const double *x = prim_line(&s->p, g->who[k]), R_1 = 1.0 / fine->R;
+        const double *x = prim_line(&s->p, g->who[k]), R_1 = 1.0 / reach_of(fine);
         struct sums sum[2];
         memset(sum, 0, sizeof sum);
         add_sources(fine->coarser, x, R_1, g->j + g->first[k][0], g->count[k][0], sum, dim);
