@@ -216,6 +216,8 @@ with basin 's/(16, 16)/(2, 1)/' '1 cells along y: at least 4' fv
 with block 's/(16, 16)/(1, 2)/' '2 cells along j: at least 6' fv
 with tank 's/gravity = (0, -9.81)/rho = 2.0/' 'a free surface.* gravity' fv
 with tank 's/box = ((0, 0), (0.5, 0.5))/box = ((0, 0.5), (0.5, 1))/' 'water touches the side y_max' fv
+with tank 's/(0, -9.81)/(9, -4)/; s/max = (1, 1)/&; periodic = (true, false)/; s/{ side = "x_m[a-z]*"; }, //g; s/((0, 0), (0.5, 0.5))/((-1, 0.5), (2, 1))/' \
+    'water touches the side y_max' fv
 with basin 's/^fv:/initial: { field = "uniform"; velocity = (1, 0); };\n&/' 'initial.velocity: uniform: along x both sides are walls' fv
 with tank 's/(0.5, 0.5)/(0.5, 1.5)/' 'its water .* above the domain' fv
 with tank 's/box = ((0, 0), (0.5, 0.5))/box = ((2, 0), (3, 0.5))/' 'lies outside the domain' fv

@@ -313,6 +313,41 @@ static void still_water_stays(void **state)
         }
 }
 
+/* A film down a slope of 60 degrees, along a periodic axis: what the floor holds back is its weight
+ * along the slope (Nusselt), it stays as thick as it was, and its speed is a parabola's. */
+static void films_run_as_theory_says(void **state)
+{
+    static const char *const of[3] = {"fv.integrator=\"rk3\"", "fv.integrator=\"bdf2\"",
+                                      "fv.integrator=\"newton\""};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        struct fv_case c;
+        double force[3];
+        fv_case_set(&c, MPI_COMM_SELF,
+                    (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"rest\"",
+                                          "fluid.nu=0.5", "domain.periodic=(true,false)",
+                                          "fv.cells=(4,12)", of[k], NULL});
+        c.run.scene.fluid.gravity[0] = sqrt(0.75);
+        c.run.scene.fluid.gravity[1] = -0.5;
+        c.run.scene.walls[0] = (struct scene_wall){.side = SIDE_Y_MIN, .kind = WALL_NO_SLIP};
+        c.run.scene.walls[1] = (struct scene_wall){.side = SIDE_Y_MAX, .kind = WALL_SLIP};
+        c.run.scene.nwalls = 2;
+        c.run.scene.shapes[c.run.scene.nshapes++] =
+            (struct scene_shape){.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, 0.5, 0}}};
+        struct fv *s = fv_case_start(&c, NULL);
+        assert_true(fv_case_run(&c, 2000, 10.0));
+        fv_wall_force(s, force);
+        print_message("film: friction %.9f of its weight, %.6f m/s\n", force[0] / sqrt(0.1875),
+                      s->umax[0]);
+        assert_close(force[0], sqrt(0.75) * 0.5, 1e-4);
+        assert_close(force[1], -0.25, 1e-9);
+        assert_close(s->umax[0], sqrt(0.75) * 0.25 / (2.0 * 0.5),
+                     0.02); /* in the middle of a cell */
+        assert_close(surface_volume(s, NULL), 0.5, 1e-12);
+        fv_free(&c.s);
+    }
+}
+
 /* A wedge of 45 degrees: its foot on the bottom, not where it is half a cell above. */
 static void reach_is_that_on_the_wall(void **state)
 {
@@ -712,6 +747,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(still_water_stays),
                                        cmocka_unit_test(axes_are_alike),
                                        cmocka_unit_test(reach_is_that_on_the_wall),
+                                       cmocka_unit_test(films_run_as_theory_says),
                                        cmocka_unit_test(still_water_stays_on_graded_rows),
                                        cmocka_unit_test(disc_sinks_through_graded_rows),
                                        cmocka_unit_test(currents_pass_openings),

@@ -120,6 +120,24 @@ static void levels_stand_against_gravity(void **state)
     }
 }
 
+/* What runs down along a periodic axis, steeper than 45 degrees, stands on the floor across it. */
+static void films_stand_across_their_flow(void **state)
+{
+    (void)state;
+    double row[COLUMNS] = {0};
+    row_of("format = 1;\ntime: { end = 0.1; };\nfluid: { rho = 1000; nu = 0.01; gravity = (8, -5); "
+           "};\n"
+           "domain: { dim = 2; min = (0, 0); max = (1, 1); periodic = (true, false); };\n"
+           "shapes: ( { box = ((-1, -1), (2, 0.5)); } );\n"
+           "walls: ( { side = \"y_min\"; kind = \"no_slip\"; }, { side = \"y_max\"; } );\n"
+           "probes: ( { name = \"h\"; kind = \"level\"; at = (0.3, 0); }, { name = \"p\"; at = "
+           "(0.3, 0); } );\n"
+           "fv: { cells = (8, 8); };\n",
+           row, NULL);
+    assert_close(row[8], 0.5, 1e-6);
+    assert_close(row[9], 1000 * 5 * 0.5, 1e-3);
+}
+
 static void blocks_know_the_whole_pressure(void **state)
 {
     (void)state;
@@ -163,6 +181,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(cells_know_the_whole_pressure),
         cmocka_unit_test(walls_under_a_free_surface_feel_the_water_alone),
         cmocka_unit_test(levels_stand_against_gravity),
+        cmocka_unit_test(films_stand_across_their_flow),
         cmocka_unit_test(blocks_know_the_whole_pressure),
         cmocka_unit_test(a_partners_level_counts),
     };

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "../../common/scene_fluid.h"
+
 void still_split(const struct scene *scene, double drive[3], double still[3], double *level)
 {
     double g = 0.0, top = 0.0;
@@ -33,8 +35,9 @@ double still_pressure(const struct scene *scene, const double still[3], double l
 
 int still_upright(const struct scene *scene)
 {
-    const double *g = scene->fluid.gravity;
+    double g[3];
     int up = scene->domain.dim - 1;
+    scene_still_gravity(scene, g);
     for (int a = 0; a < scene->domain.dim; a++)
         up = fabs(g[a]) > fabs(g[up]) ? a : up;
     return up;

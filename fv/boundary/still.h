@@ -16,7 +16,7 @@ double fv_still_in_exact(const struct fv *s, const double *x);
 /* still.c: along a periodic axis gravity drives the flow; across closed sides the pressure takes it
  * up, 0 at the height `level'. */
 void still_split(const struct scene *scene, double drive[3], double still[3], double *level);
-/* Axis along which gravity is strongest; without gravity the last. */
+/* Axis along which the gravity that the pressure takes up is strongest; without any the last. */
 int still_upright(const struct scene *scene);
 /* That pressure at x, Pa. */
 double still_pressure(const struct scene *scene, const double still[3], double level,

@@ -8,10 +8,12 @@
 #include "../grid/mesh.h"
 #include "fv_case.h"
 
-/* The axis that gravity lies along, to some 45 degrees; -1: none. */
+/* The axis that gravity lies along, to some 45 degrees; -1: none. What drives the flow along
+ * periodic axes holds no water up or down. */
 static int axis_of_gravity(const struct scene *s)
 {
-    const double *g = s->fluid.gravity, size = hypot(hypot(g[0], g[1]), g[2]);
+    double g[3];
+    const double size = scene_still_gravity(s, g);
     for (int a = 0; a < s->domain.dim; a++)
         if (fabs(g[a]) > 0.7 * size)
             return a;
@@ -41,7 +43,7 @@ void surface_check_hanging(const struct run *r, struct faults *f)
     const struct scene *s = &r->scene;
     const struct scene_domain *d = &s->domain;
     const int up = axis_of_gravity(s), one = up == 0 ? 1 : 0, other = up == 2 ? 1 : 2;
-    if (up < 0 || d->periodic[up] || mesh_block_count() > 0 || blocked_count() > 0 || r->coupled)
+    if (up < 0 || mesh_block_count() > 0 || blocked_count() > 0 || r->coupled)
         return;
     const struct exact e = exact_create(s);
     const bool down = s->fluid.gravity[up] > 0.0;

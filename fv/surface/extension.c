@@ -343,7 +343,7 @@ static void make_room(struct surface *f, int64_t n, int64_t ngrad)
  */
 static bool creeps(const struct fv *s, double h)
 {
-    const double *g = s->run->scene.fluid.gravity;
+    const double *g = s->still;
     const double fall = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
     return s->nu * s->nu > 100.0 * sqrt(fall) * h * h * h;
 }

@@ -143,7 +143,7 @@ static void rate_on_blocks(const struct fv *s, const double *near, const double 
 static void rate_on_moving_blocks(const struct fv *s, const double *near, const double *eta,
                                   double *rate)
 {
-    const double *g = s->run->scene.fluid.gravity;
+    const double *g = s->still;
     rate_on_blocks(s, near, eta, rate);
     FLOW_ROWS(s, c, n)
     {
@@ -466,7 +466,7 @@ struct surface *surface_create(const struct fv *s)
         return NULL;
     struct surface *f = NEW(struct surface, 1);
     double **const fields[] = {&f->phi, &f->phi_new, &f->rate, &f->kept, &f->stress};
-    const double *g = s->run->scene.fluid.gravity;
+    const double *g = s->still;
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
         *fields[k] = NEW(double, s->size);
     for (int a = 0; a < s->dim; a++)

@@ -22,7 +22,7 @@ double surface_rise(const struct fv *s, const double *e)
     const double g = s->surface->g;
     double up = 0.0;
     for (int a = 0; a < s->dim && g > 0.0; a++)
-        up -= e[a] * s->run->scene.fluid.gravity[a] / g;
+        up -= e[a] * s->still[a] / g;
     return s->surface->rise * g * fmax(0.0, up) / fmax(up * up, 0.5);
 }
 
