@@ -416,11 +416,12 @@ double norm_rms_mean_free(const struct norm *n)
     return n->vol > 0.0 ? sqrt(fmax(n->e2 / n->vol - m * m, 0.0)) : 0.0;
 }
 
-void norm_tell(struct summary *to, const char *name, const struct norm *n)
+void norm_tell(struct summary *to, const char *name, const struct norm *n, double unit)
 {
-    static const char *const part[] = {"vol", "e1", "e2", "r2", "emax"};
-    const double v[] = {n->vol, n->e1, n->e2, n->r2, n->emax};
-    for (size_t k = 0; k < sizeof v / sizeof v[0]; k++) {
+    static const char *const part[] = {"vol", "e1", "e2", "r2", "emax", "unit"};
+    const double v[] = {n->vol, n->e1, n->e2, n->r2, n->emax, unit};
+    const size_t parts = sizeof v / sizeof v[0] - (unit > 0.0 ? 0 : 1);
+    for (size_t k = 0; k < parts; k++) {
         char key[96];
         snprintf(key, sizeof key, "norm.%s.%s", name, part[k]);
         summary_real(to, key, v[k]);

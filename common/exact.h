@@ -82,7 +82,8 @@ double norm_rms(const struct norm *n);                      /* sqrt(e2/vol) */
 double norm_mean(const struct norm *n);                     /* e1/vol */
 double norm_rms_mean_free(const struct norm *n);            /* sqrt(e2/vol - (e1/vol)^2) */
 
-/* The sums as "norm.NAME.vol", .e1, .e2, .r2, .emax: a coupler adds them up over programs. */
-void norm_tell(struct summary *to, const char *name, const struct norm *n);
+/* The sums as "norm.NAME.vol", .e1, .e2, .r2, .emax: a coupler adds them up over programs; as .unit
+ * what errors are told in, in the field's own unit, unless it is 0. */
+void norm_tell(struct summary *to, const char *name, const struct norm *n, double unit);
 
 #endif

@@ -156,8 +156,8 @@ int cpl_patch_get(struct cpl *c, int field, const double lo[3], const double hi[
 void cpl_patch_eval(const struct cpl *c, int field, double t, long n, const double *x, double *v,
                     double *grad);
 /* Number for the coupler's progress line and summary, sent with the next advance or close. Sums of
- * norms "norm.velocity.e2" add up over programs. Rank 0's value counts; a key has at most 95 bytes,
- * a program 192 keys. */
+ * norms "norm.velocity.e2" add up over programs; errors are told in "norm.velocity.unit". Rank 0's
+ * value counts; a key has at most 95 bytes, a program 192 keys. */
 int cpl_tell(struct cpl *c, const char *key, double value);
 /* The window is done. stop: asks for an orderly end of the job. */
 int cpl_advance(struct cpl *c, double t1, int stop);

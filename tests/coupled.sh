@@ -43,6 +43,16 @@ for n in 2:1:1 4:1:1; do
         bad "ranks $n: velocity error $(number "ranks$n" velocity_l2), one rank each: $(number one velocity_l2)"
 done
 
+# another density, and mm: the errors are numbers
+job heavy 1:1:1 -p fluid.rho=1000 || bad "the job in water ended with $?"
+job mm 1:1:1 -p 'domain.max=(1000,1000)' -p initial.U=1000 -p initial.L=1000 -p fluid.nu=5000 -p sph.dx=12.5 \
+    -p 'sph.free=((300,300),(700,700))' -p coupling.overlap=100 || bad "the job in mm ended with $?"
+for what in velocity_l2 velocity_linf pressure_rms pressure_l2; do
+    for units in heavy mm; do
+        close_to "$(number $units $what)" "$(number one $what)" 1e-6 || bad "$units: $what $(number $units $what), one $(number one $what)"
+    done
+done
+
 # a carried flow, windows and memory as the flow wants them: at least as good as the flow at rest
 still="-p sph.dx=0.02 -p fv.cells=(16,16) -p sph.c0=18 -p time.end=0.5 -p output.every=0 -p coupling.steps=0 -p coupling.overlap=0.08"
 for carried in "0.0,0.0" "0.8,0.6"; do

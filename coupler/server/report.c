@@ -108,6 +108,7 @@ void report_progress(struct coupler *c)
 struct norm {
     char name[TOLD_KEY];
     double vol, e1, e2, r2, emax;
+    double unit; /* of _rms and _linf, as the solvers have it; else that of the field */
 };
 
 static struct norm *norm_named(struct norm *all, int *n, const char *name, size_t length)
@@ -118,7 +119,7 @@ static struct norm *norm_named(struct norm *all, int *n, const char *name, size_
     if (*n == NORMS)
         return NULL;
     struct norm *new = &all[(*n)++];
-    *new = (struct norm){.emax = -1.0}; /* not told */
+    *new = (struct norm){.emax = -1.0, .unit = 1.0}; /* not told */
     memcpy(new->name, name, length);
     return new;
 }
@@ -142,6 +143,8 @@ static int add_norms(const struct coupler *c, struct norm *all)
             m->r2 += strcmp(dot, ".r2") == 0 ? t->value : 0.0;
             if (strcmp(dot, ".emax") == 0)
                 m->emax = fmax(m->emax, t->value);
+            if (strcmp(dot, ".unit") == 0 && t->value > 0.0)
+                m->unit = t->value;
         }
     return n;
 }
@@ -164,14 +167,14 @@ static void put_errors(const struct coupler *c, struct summary *s)
         if (strcmp(m->name, "pressure") == 0) {
             const double mean = m->e1 / m->vol;
             const double rms = sqrt(fmax(m->e2 / m->vol - mean * mean, 0.0));
-            put_number(s, "error", m->name, "_rms", rms);
+            put_number(s, "error", m->name, "_rms", rms / m->unit);
             if (m->r2 > 0.0)
                 put_number(s, "error", m->name, "_l2", rms / sqrt(m->r2 / m->vol));
         } else {
             if (m->r2 > 0.0)
                 put_number(s, "error", m->name, "_l2", sqrt(m->e2 / m->r2));
             if (m->emax >= 0.0)
-                put_number(s, "error", m->name, "_linf", m->emax);
+                put_number(s, "error", m->name, "_linf", m->emax / m->unit);
         }
     }
 }

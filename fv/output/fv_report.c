@@ -64,8 +64,9 @@ static void summarise_errors(struct fv *s)
     if (U > 0.0)
         summary_real(r->summary, "error.pressure_offset",
                      norm_mean(n + 1) / (r->scene.fluid.rho * U * U));
+    const double units[] = {U, r->scene.fluid.rho * U * U};
     for (int k = 0; r->coupled && k < NORMS; k++)
-        norm_tell(r->summary, norm_names[k], n + k);
+        norm_tell(r->summary, norm_names[k], n + k, k < 2 ? units[k] : 0.0);
 }
 
 /* Kinetic energy, largest speed, divergence, the error if there is an exact field, forces on walls;

@@ -370,8 +370,9 @@ static void summarise_errors(const struct sph *s)
     summary_real(to, "error.pressure_offset", norm_mean(n + 1) / scale);
     if (n[2].r2 > 0.0)
         summary_real(to, "error.vorticity_l2", norm_relative_l2(n + 2));
+    const double units[] = {U, scale};
     for (int k = 0; s->run->coupled && k < NORM_WALL; k++)
-        norm_tell(to, norm_names[k], n + k);
+        norm_tell(to, norm_names[k], n + k, k < 2 ? units[k] : 0.0);
 }
 
 /* m^2/s^2: of a fluid at the lowest point of the domain, so that energies do not depend on where
