@@ -63,30 +63,42 @@ void openings_free(struct openings **o)
     *o = NULL;
 }
 
+/* Walls other than sides. */
 static bool has_lines(const struct sph *s)
 {
     bool any = false;
     for (int k = 0; k < s->run->scene.nwalls; k++)
-        any = any || s->run->scene.walls[k].points.n > 1;
-    return any && s->dim == 2 && s->walls;
+        any = any || s->run->scene.walls[k].side == SIDE_NONE;
+    return any && s->walls;
+}
+
+/* Distance of x to the walls, m: negative behind them. */
+static double before_walls(const struct sph *s, const double *x)
+{
+    int mesh;
+    return s->dim == 2 ? walls_distance(s->walls, x, INFINITY)
+                       : wall_meshes_nearest(s->walls, x, INFINITY, &mesh).distance;
 }
 
 void openings_find_room(const struct sph *s, struct openings *o)
 {
-    enum { POINTS = 8 }; /* of a face */
+    enum { POINTS = 8 }; /* along a face */
     const int n = has_lines(s) ? openings_faces(o) : 0;
     for (int f = 0; f < n; f++) {
         double x[3], y[3];
-        const int along = 1 - openings_place(o, f, x) / 2;
-        const double middle = walls_distance(s->walls, x, INFINITY);
+        const int across = openings_place(o, f, x) / 2;
+        const int b = (across + 1) % s->dim, c = (across + 2) % s->dim;
+        const int rows = s->dim == 3 ? POINTS : 1;
+        const double middle = before_walls(s, x);
         const bool cut = fabs(middle) < o->dx;
-        int before = !cut && middle > 0.0 ? POINTS : 0;
-        for (int k = 0; k < POINTS && cut; k++) {
+        int before = !cut && middle > 0.0 ? POINTS * rows : 0;
+        for (int k = 0; k < POINTS * rows && cut; k++) {
             memcpy(y, x, sizeof y);
-            y[along] += ((k + 0.5) / POINTS - 0.5) * o->dx;
-            before += walls_distance(s->walls, y, INFINITY) > 0.0;
+            y[b] += ((k % POINTS + 0.5) / POINTS - 0.5) * o->dx;
+            y[c] += rows > 1 ? ((k / POINTS + 0.5) / POINTS - 0.5) * o->dx : 0.0;
+            before += before_walls(s, y) > 0.0;
         }
-        o->room[f] = o->share[f] = (double)before / POINTS;
+        o->room[f] = o->share[f] = (double)before / (POINTS * rows);
     }
 }
 

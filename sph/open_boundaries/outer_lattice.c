@@ -49,6 +49,8 @@ static void list_side(struct sph *s, int side, const double *lo, const double *h
         for (I[1] = first[1]; I[1] <= last[1]; I[1]++)
             for (I[0] = first[0]; I[0] <= last[0]; I[0]++) {
                 double y[3] = {0.0, 0.0, 0.0};
+                if (o->room[openings_face(o, side, I)] < 0.5)
+                    continue;
                 for (int b = 0; b < o->dim; b++) {
                     y[b] = o->lo[b] + (I[b] + 0.5) * o->dx;
                     const int beyond = I[b] < 0 ? 2 * b : I[b] >= o->cells[b] ? 2 * b + 1 : -1;
