@@ -12,6 +12,7 @@
 
 #include "../../common/mem.h"
 #include "../particles/eos.h"
+#include "../walls/walls.h"
 
 /* What is averaged, and what a bin sums: weight, its place in the bin, each in units of dx. */
 enum { PRESSURE, VELOCITY, FIELDS = VELOCITY + 3 };
@@ -220,6 +221,21 @@ static void absorb(const struct sph *s, int side, const struct side *of, const d
     u[a] = sign * (near - far) / (2.0 * Z);
 }
 
+/* What runs at a wall within R slows down with its distance, as a fluid must that passes none. The
+ * means know that on average only, and what is left carries particles into the wall as long as they
+ * are in the buffer: in a round pipe half of those beside it. */
+static void turn_along_walls(const struct sph *s, const double *x, double *u)
+{
+    double way[3] = {0.0, 0.0, 0.0}, across = 0.0;
+    const double h = s->walls ? walls_way(s, x, s->R, way) : s->R;
+    if (!(h > 0.0 && h < s->R))
+        return;
+    for (int a = 0; a < s->dim; a++)
+        across += u[a] * way[a] / h;
+    for (int a = 0; a < s->dim && across > 0.0; a++)
+        u[a] -= (1.0 - h / s->R) * across * way[a] / h;
+}
+
 static void eval_side(const struct sides *d, int side, const double *x, double *u, double *p)
 {
     const struct sph *s = d->s;
@@ -228,6 +244,8 @@ static void eval_side(const struct sides *d, int side, const double *x, double *
     const struct plane *bin = d->planes + bin_of(d, side, x, place);
     for (int q = 0; q < FIELDS; q++)
         in[q] = value(bin, q, place);
+    if (of->is->kind != WALL_INFLOW)
+        turn_along_walls(s, x, in + VELOCITY);
     if (of->is->kind == WALL_ABSORBING) {
         absorb(s, side, of, in, u, p);
         return;

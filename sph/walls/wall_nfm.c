@@ -116,6 +116,25 @@ static double crowding(const struct sph *s, const struct nfm *m, const struct wa
     return t->is.W * (m->crowding[k] + (at - k) * (m->crowding[k + 1] - m->crowding[k]));
 }
 
+/* Takes from a shift what presses a particle nearer than dx/4 to a wall against it, by its
+ * distance. A row on the wall itself is as good a rest for the crowding vector as one dx/2 before
+ * it, whole rows fill the half space either way; but there the least shift leads behind the wall.
+ * In a pipe of Re 25, 8 dx wide, a quarter of the outlet's particles lay on the wall and came back
+ * at each step. */
+static void shift_before_walls(const struct sph *s, const struct wall_list *l, int k, double *shift)
+{
+    const double near = 0.25 * s->dx;
+    for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
+        double across = 0.0;
+        if (!t->foot || t->height >= near || t->height < 0.0)
+            continue;
+        for (int a = 0; a < s->dim; a++)
+            across += shift[a] * t->n[a];
+        for (int a = 0; a < s->dim && across > 0.0; a++)
+            shift[a] -= (1.0 - t->height / near) * across * t->n[a];
+    }
+}
+
 /* Adds what the wall does to the crowding vector [4.89]. */
 static void add_crowding(const struct sph *s, const struct nfm *m, int k)
 {
@@ -136,8 +155,13 @@ static void add_crowding(const struct sph *s, const struct nfm *m, int k)
     const double R = oger ? fmin(2.0 * s->dx, s->R) : s->R;
     const double factor = (oger ? 1.0 : 2.0) * s->shift_speed * R;
     const double gamma = fmax(l->gamma[k], least_gamma);
+    double shift[3];
     for (int a = 0; a < dim; a++)
-        u0[a] = u[a] + (u0[a] - u[a] - factor * sum[a]) / gamma;
+        shift[a] = (u0[a] - u[a] - factor * sum[a]) / gamma;
+    if (!s->surface)
+        shift_before_walls(s, l, k, shift);
+    for (int a = 0; a < dim; a++)
+        u0[a] = u[a] + shift[a];
 }
 
 static void slopes(struct sph *s)
