@@ -336,7 +336,7 @@ static void missing_children_are_born_again(void **state)
     fine->p.n = n;
     fine->ready = false;
     assert_true(guards_of(fine) < 0.85 * before);
-    assert_true(sph_case_run(&c, 60, 100.0));
+    assert_true(sph_case_run(&c, 100, 100.0)); /* one for each disc of R/2 in two steps */
     const double after = guards_of(fine);
     print_message("guards: %.0f, %.0f after losses\n", before, after);
     assert_true(after > 0.9 * before && after < 1.02 * before);
