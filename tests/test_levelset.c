@@ -342,7 +342,7 @@ static void films_run_as_theory_says(void **state)
         assert_close(force[0], sqrt(0.75) * 0.5, 1e-4);
         assert_close(force[1], -0.25, 1e-9);
         assert_close(s->umax[0], sqrt(0.75) * 0.25 / (2.0 * 0.5),
-                     0.02); /* in the middle of a cell */
+                     0.004); /* in the middle of a cell */
         assert_close(surface_volume(s, NULL), 0.5, 1e-12);
         fv_free(&c.s);
     }

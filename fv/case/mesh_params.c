@@ -40,7 +40,7 @@ const struct param mesh_rows_of[MESH_ROWS] = {
     CHOICE(P, k_max, SIDES, "overlap", "the same along k"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls along themselves, of its inflow"),
     CHOICE(P, lid, "all|i_min|i_max|j_min|j_max|k_min|k_max", "all", "moving wall: the only one of its walls that has the velocity"),
-    PARAM(P, spin,     "rad/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of its walls i_min and i_max about the centre"),
+    PARAM(P, spin,     "rad/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "(of its wall i_min, of its wall i_max) about the centre"),
     LIST(P, motion, &scene_motion_list, "rigid motion of the block, of blocks joined to it and of its walls: the sum of its terms, rotation about its centre; a plain text: one file"),
 };
 /* clang-format on */
