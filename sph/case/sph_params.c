@@ -658,11 +658,28 @@ static void check_levels(const struct run *r, struct faults *f)
                      "levels of refinement would each lift their own least pressure: leave it out");
 }
 
+/* Whether the walls' form and the model of walls fit. */
+static void check_wall_model(const struct run *r, struct faults *f)
+{
+    const int bed = bed_with_friction(r);
+    char key[32];
+    if (has_points(&r->scene) && r->scene.domain.dim == 3)
+        params_fault(r->params, f, "walls",
+                     "walls and bodies of points need 2 dimensions: in space give a mesh");
+    else if (has_polylines(&r->scene) && given.walls == WALLS_GHOSTS)
+        params_fault(r->params, f, "sph.walls",
+                     "mirrored ghosts need plane sides: take nfm for polylines, bodies and meshes");
+    snprintf(key, sizeof key, "walls.[%d].friction", bed);
+    if (bed >= 0 && sph_params_of(r)->walls == WALLS_GHOSTS)
+        params_fault(r->params, f, key,
+                     "mirrored ghosts have no bed friction: take sph.walls = \"nfm\"");
+}
+
 void sph_params_check(const struct run *r, struct faults *f)
 {
     if (f->n > 0) /* values that were refused are not there to be compared */
         return;
-    const bool in_3d = r->scene.domain.dim == 3, polylines = has_polylines(&r->scene);
+    const bool in_3d = r->scene.domain.dim == 3;
     if (given.gamma != 7.0 && given.gamma != 1.0)
         params_fault(r->params, f, "sph.gamma", "%g, must be 7 or 1", given.gamma);
     if (sph_params_of(r)->scheme != SCHEME_RIEMANN_ALE && given.transport == TRANSPORT_EULERIAN)
@@ -684,18 +701,7 @@ void sph_params_check(const struct run *r, struct faults *f)
     if (sph_params_of(r)->c0 <= 0.0)
         params_fault(r->params, f, "sph.c0", "must be given: the scene has no scale of velocity");
     check_steps(r, f);
-    if (has_points(&r->scene) && in_3d)
-        params_fault(r->params, f, "walls",
-                     "walls and bodies of points need 2 dimensions: in space give a mesh");
-    else if (polylines && given.walls == WALLS_GHOSTS)
-        params_fault(r->params, f, "sph.walls",
-                     "mirrored ghosts need plane sides: take nfm for polylines, bodies and meshes");
-    if (bed_with_friction(r) >= 0 && sph_params_of(r)->walls == WALLS_GHOSTS) {
-        char key[32];
-        snprintf(key, sizeof key, "walls.[%d].friction", bed_with_friction(r));
-        params_fault(r->params, f, key,
-                     "mirrored ghosts have no bed friction: take sph.walls = \"nfm\"");
-    }
+    check_wall_model(r, f);
     if (given.outer == OUTER_PARTNER && !is_coupled(r))
         params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
     for (int a = 0; a < r->scene.domain.dim; a++)
