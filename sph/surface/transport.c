@@ -67,9 +67,9 @@ static void make_workless(struct sph *s)
  * takes over from the other, and what shifts across carries weight that no density knows: the side
  * that gains it pushes back where pressure is high, at the floor, so that water at rest turns about
  * the edge, the faster the more the shift, bounded by |u| alone, lets pass. Largest |u| of 1e5
- * steps 9e-3 c0, in bursts; with what is below 9e-4 at the start, as without levels, 1e-3 once,
- * else 1e-4 to 5e-4. Not within R of the switch alone: what others shift then crowds there until
- * particles clump and the run ends. */
+ * steps of 20 x 10 particles 9e-3 c0; with what is below 9e-4 at the start, as without levels, and
+ * 1.1 to 1.6e-3 late; of 40 x 20 6e-4. Not within R of the switch alone: what others shift then
+ * crowds there until particles clump and the run ends. */
 static double share_with_levels(const struct sph *s, double u2)
 {
     static const double swift = 0.03; /* c0: a third of the speed that a scene lets expect */
