@@ -185,6 +185,9 @@ double fill_lattice_begin(const struct scene *c, int a, double lo, double hi, do
 void fill_finer(struct sph *s, const struct fill *f);
 /* Whether walls and bodies leave room for a particle of this level at x. */
 bool fill_has_room(const struct sph *s, const double *x);
+/* Adds the first particle at x with the velocity and pressure of the case there; volume: over
+ * dx^dim. Returns its place. */
+int fill_add(struct sph *s, const struct exact *e, int64_t id, const double *x, double volume);
 /* Cells of the first lattice of s, the coarsest level, in and around this rank's part of a domain:
  * their centres, m. */
 void fill_each_near(const struct sph *s, const struct domain *part,

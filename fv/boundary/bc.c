@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../../common/mem.h"
+#include "../grid/mesh.h"
 #include "blocked.h"
 #include "carried.h"
 #include "ghosts.h"
@@ -400,4 +401,15 @@ void bc_set_slip(const struct fv *s, double tau, const double *psi)
             mem_free(line);
         }
     }
+}
+
+unsigned bc_kinds(const struct fv *s)
+{
+    unsigned kinds = 0;
+    for (int k = 0; k < (s->m ? s->m->nblocks : 1); k++)
+        for (int side = 0; side < 2 * s->dim; side++)
+            kinds |= 1u << (s->m    ? s->m->block[k].side[side]
+                            : s->bc ? s->bc->kind[side]
+                                    : MESH_NONE);
+    return kinds;
 }

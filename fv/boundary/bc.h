@@ -46,5 +46,7 @@ void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u);
 void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
 /* Takes note of tau grad psi along the walls, for BC_AHEAD. */
 void bc_set_slip(const struct fv *s, double tau, const double *psi);
+/* One bit (1 << kind) for each kind of the sides of the domain, or of the blocks. */
+unsigned bc_kinds(const struct fv *s);
 
 #endif

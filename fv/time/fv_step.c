@@ -125,23 +125,13 @@ static void diagnose(const struct fv *s, double dt, double before, bool good, st
     }
 }
 
-static bool has_inflow(const struct fv *s)
-{
-    for (int k = 0; k < (s->m ? s->m->nblocks : 1); k++)
-        for (int side = 0; side < 2 * s->dim; side++)
-            if ((s->m    ? s->m->block[k].side[side]
-                 : s->bc ? s->bc->kind[side]
-                         : MESH_NONE) == MESH_INFLOW)
-                return true;
-    return false;
-}
-
 /* Pressure that belongs to the velocities of the start: short steps from the same state, until
  * their increments have made it. An inflow that starts at once pushes the whole flow, the harder
  * the shorter these steps are: there the first step finds the pressure, whatever its level. */
 void pressure_start(struct fv *s)
 {
-    if (s->newton || has_inflow(s)) /* newton has no use for the pressure before */
+    /* newton has no use for the pressure before */
+    if (s->newton || bc_kinds(s) & 1u << MESH_INFLOW)
         return;
     const size_t bytes = (size_t)s->size * sizeof(double);
     const double dt = 1e-3 * fmin(limits_of(s).dt, s->run->scene.time.end);

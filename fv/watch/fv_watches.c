@@ -11,18 +11,6 @@
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
 
-/* One bit a kind: what the sides are. */
-static unsigned sides_of(const struct fv *s)
-{
-    unsigned kinds = 0;
-    for (int k = 0; k < (s->m ? s->m->nblocks : 1); k++)
-        for (int side = 0; side < 2 * s->dim; side++)
-            kinds |= 1u << (s->m    ? s->m->block[k].side[side]
-                            : s->bc ? s->bc->kind[side]
-                                    : MESH_NONE);
-    return kinds;
-}
-
 static bool is_periodic(const struct fv *s, unsigned sides)
 {
     bool all = !s->surface && !s->blocked;
@@ -50,7 +38,7 @@ static double speed_of_sides(const struct fv *s)
 struct watches *fv_watches_create(const struct fv *s)
 {
     const struct mesh *m = s->m;
-    const unsigned sides = sides_of(s);
+    const unsigned sides = bc_kinds(s);
     const bool filled = s->run->coupled || s->prm.hole[1][0] > s->prm.hole[0][0],
                open = sides & (1u << MESH_INFLOW | 1u << MESH_OUTFLOW | 1u << MESH_CARRIED),
                works = speed_of_sides(s) > 0.0 || open, moves = m && m->moves;
@@ -336,7 +324,7 @@ static void look_for_surface(struct fv *s, int64_t step)
     w->filled = true;
     log_warn("t = %.4g s, step %lld: no free surface is left, the domain is full of water%s", s->t,
              (long long)step,
-             sides_of(s) & 1u << MESH_INFLOW
+             bc_kinds(s) & 1u << MESH_INFLOW
                  ? ": the velocity of an inflow is given whatever the level, so more comes in the "
                    "higher it rises; a higher domain, or less inflow"
                  : "");

@@ -252,11 +252,10 @@ static double top_of(const struct basins *b, const int *ic)
     const struct scene *c = &b->s->run->scene;
     double x[3], lo = 0.0, hi = b->l->dx;
     lattice_centre(b->l, ic, b->s->dim, x);
-    if (!b->oblique && !b->rows)
-        return scene_height(c, x) + 0.5 * b->l->dx;
-    if (!b->oblique)
-        return scene_height(c, x) + 0.5 * b->l->dx +
-               b->sign * surface_rows_shift(b->s, &b->exact, x, b->up, b->sign);
+    if (!b->oblique) {
+        const double shift = b->rows ? surface_rows_shift(b->s, &b->exact, x, b->up, b->sign) : 0.0;
+        return scene_height(c, x) + 0.5 * b->l->dx + b->sign * shift;
+    }
     for (int k = 0; k < 40; k++) {
         const double mid = 0.5 * (lo + hi);
         double y[3] = {x[0], x[1], x[2]};

@@ -280,22 +280,28 @@ static void mark(struct sph *s, const struct lattice *l, int64_t cell, const dou
         lattice_set(l->bits, cell);
 }
 
-static void add(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
-                void *ctx)
+int fill_add(struct sph *s, const struct exact *e, int64_t id, const double *x, double volume)
 {
-    const struct look *k = ctx;
-    const struct exact *e = &k->exact;
-    double x[3], u[3], p, more[3];
-    if (!lattice_has(l, cell))
-        return;
-    const double volume = displace(s, k, cell, centre, x);
+    double u[3], p, more[3];
     scene_is_fluid(&s->run->scene, e, x, more);
     exact_point(e, x, 0.0, u, &p, NULL);
     for (int a = 0; a < s->dim; a++)
         u[a] += more[a];
     particles_reserve(&s->p, s->p.n + 1);
-    const int i = particles_add(&s->p, cell, ZONE_FREE);
+    const int i = particles_add(&s->p, id, ZONE_FREE);
     particles_set(s, i, x, u, volume * s->dxD, eos_rho(p, s->rho0, s->c0, s->gamma));
+    return i;
+}
+
+static void add(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
+                void *ctx)
+{
+    const struct look *k = ctx;
+    double x[3];
+    if (!lattice_has(l, cell))
+        return;
+    const double volume = displace(s, k, cell, centre, x);
+    fill_add(s, &k->exact, cell, x, volume);
 }
 
 /* Velocity and pressure of the first field where packing has moved a particle to. */

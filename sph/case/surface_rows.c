@@ -15,7 +15,6 @@
 
 #include "../../common/scene_fluid.h"
 #include "../parallel/domain.h"
-#include "../particles/eos.h"
 #include "../refinement/refinement.h"
 #include "../walls/walls.h"
 #include "rooms.h"
@@ -211,18 +210,12 @@ static void remove_near(struct sph *s, const struct water *coarser)
 
 static void add_at(struct sph *s, const struct water *w, const double *centre)
 {
-    double x[3] = {centre[0], centre[1], centre[2]}, u[3], more[3], p;
+    double x[3] = {centre[0], centre[1], centre[2]};
     const double volume = surface_rows_place(s, w->e, x);
     if (!fill_has_room(s, x))
         return;
-    scene_is_fluid(&s->run->scene, w->e, x, more);
-    exact_point(w->e, x, 0.0, u, &p, NULL);
-    for (int a = 0; a < s->dim; a++)
-        u[a] += more[a];
-    particles_reserve(&s->p, s->p.n + 1);
-    const int i = particles_add(&s->p, s->next_id, ZONE_FREE);
+    const int i = fill_add(s, w->e, s->next_id, x, volume);
     s->next_id += s->run->size;
-    particles_set(s, i, x, u, volume * s->dxD, eos_rho(p, s->rho0, s->c0, s->gamma));
     memset(slope_line(&s->p, i), 0, (size_t)s->p.nslope * sizeof(double));
     s->p.role[i] = ROLE_GUARD; /* until it gets its role */
 }
