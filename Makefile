@@ -62,19 +62,19 @@ $(B)/o/%.o: %.c
 	@echo "CC $@"
 	@$(CC) $(CFLAGS) -MMD -MP -c -o $@ $<
 ifneq ($(ASSIMP_LIBS),)
-$(B)/o/common/trimesh_read.o: CFLAGS += -DHAVE_ASSIMP $(patsubst -I%,-isystem %,$(shell pkg-config --cflags assimp))
+$(B)/o/common/geometry/trimesh_read.o: CFLAGS += -DHAVE_ASSIMP $(patsubst -I%,-isystem %,$(shell pkg-config --cflags assimp))
 endif
 # the script beside each run's output, as lines of C
-$(B)/o/common/run_view.o: $(B)/o/common/view.inc
-$(B)/o/common/run_view.o: CFLAGS += -I$(B)/o/common
-$(B)/o/common/view.inc: common/view.py
+$(B)/o/common/run/run_view.o: $(B)/o/common/run/view.inc
+$(B)/o/common/run/run_view.o: CFLAGS += -I$(B)/o/common/run
+$(B)/o/common/run/view.inc: common/run/view.py
 	@mkdir -p $(@D)
 	@sed 's/[\\"]/\\&/g; s/.*/"&\\n",/' $< >$@
 $(B)/pic/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "CC $@"
 	@$(CC) $(CFLAGS) -fPIC -MMD -MP -c -o $@ $<
-$(B)/o/common/version.o: CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
+$(B)/o/common/base/version.o: CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
 
 # ---- tests: every tests/test_X.c is a program; tests/mock*.c know cpl.h alone -------------------------
 tests_bin = $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c tests/bench_*.c tests/toy*.c))

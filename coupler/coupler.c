@@ -7,10 +7,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../common/accept.h"
-#include "../common/log.h"
-#include "../common/mem.h"
-#include "../common/timer.h"
+#include "../common/base/log.h"
+#include "../common/base/mem.h"
+#include "../common/base/timer.h"
+#include "../common/run/accept.h"
 #include "transport/alive.h"
 #include "transport/failure.h"
 

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "../common/log.h"
+#include "../common/base/log.h"
 #include "cpl.h"
 #include "transport/failure.h"
 

@@ -3,7 +3,7 @@
 #ifndef COUPLER_CPL_PARTNER_H
 #define COUPLER_CPL_PARTNER_H
 
-#include "../common/run.h"
+#include "../common/run/run.h"
 
 extern const struct partner cpl_partner; /* ctx is a struct cpl * */
 

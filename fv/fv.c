@@ -4,25 +4,25 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../common/forecast.h"
-#include "../common/log.h"
-#include "../common/mem.h"
+#include "../common/base/log.h"
+#include "../common/base/mem.h"
+#include "../common/run/forecast.h"
 #include "../coupler/cpl_partner.h"
 #include "boundary/blocked.h"
-#include "surface/levelset.h"
-#include "time/newton.h"
-#include "watch/limits.h"
-#include "output/mesh_output.h"
+#include "case/fv_case.h"
+#include "coupling/fv_link.h"
 #include "fv.h"
 #include "grid/mesh.h"
 #include "grid/rows.h"
-#include "watch/watches.h"
-#include "case/fv_case.h"
-#include "time/steps.h"
+#include "output/mesh_output.h"
 #include "output/output.h"
 #include "output/report.h"
-#include "coupling/fv_link.h"
+#include "surface/levelset.h"
 #include "surface/surface_forced.h"
+#include "time/newton.h"
+#include "time/steps.h"
+#include "watch/limits.h"
+#include "watch/watches.h"
 
 /* Those of rows, forces and watches at most, blocks and gauges. */
 static const char *columns[40 + 3 * MESH_BLOCKS_MAX + 3 * BLOCKED_MAX + PROBES_MAX];

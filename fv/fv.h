@@ -7,9 +7,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "../common/exact.h"
-#include "../common/fit.h"
-#include "../common/run.h"
+#include "../common/base/fit.h"
+#include "../common/run/run.h"
+#include "../common/scene/exact.h"
 #include "grid/block.h"
 #include "grid/part.h"
 

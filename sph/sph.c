@@ -5,24 +5,24 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../common/exact.h"
-#include "../common/forecast.h"
-#include "../common/log.h"
-#include "../common/picture.h"
-#include "../common/scene_fluid.h"
-#include "../common/scene_mesh.h"
-#include "../common/solids.h"
+#include "../common/base/log.h"
+#include "../common/run/forecast.h"
+#include "../common/run/solids.h"
+#include "../common/scene/exact.h"
+#include "../common/scene/picture.h"
+#include "../common/scene/scene_fluid.h"
+#include "../common/scene/scene_mesh.h"
 #include "../coupler/cpl_partner.h"
-#include "parallel/domain.h"
-#include "coupling/overlap.h"
-#include "sph_params.h"
 #include "case/sph_sense.h"
+#include "coupling/overlap.h"
 #include "coupling/windows.h"
 #include "open_boundaries/level_gap.h"
 #include "open_boundaries/zones.h"
+#include "pairs/vec.h"
+#include "parallel/domain.h"
 #include "refinement/apr_params.h"
 #include "refinement/regions_check.h"
-#include "pairs/vec.h"
+#include "sph_params.h"
 
 static const char *columns[SPH_COLUMNS];
 static struct program sph_program; /* its columns depend on the scene */

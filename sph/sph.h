@@ -7,8 +7,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "../common/fit.h"
-#include "../common/run.h"
+#include "../common/base/fit.h"
+#include "../common/run/run.h"
 #include "particles/particles.h"
 #include "watch/sph_watch.h"
 

@@ -3,7 +3,7 @@
 #ifndef SPH_SPH_PARAMS_H
 #define SPH_SPH_PARAMS_H
 
-#include "../common/scene_speed.h"
+#include "../common/scene/scene_speed.h"
 #include "sph.h"
 
 enum { SPH_GROUPS = 2 };

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "../common/timer.h"
+#include "../common/base/timer.h"
 #include "../fv/fv.h"
 
 /* GFLOP/s of fused multiply-adds in registers and the innermost cache. */

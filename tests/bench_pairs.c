@@ -3,11 +3,11 @@
  * repeats. SPDX-License-Identifier: BSD-3-Clause */
 #include <stdio.h>
 
-#include "../common/timer.h"
-#include "../sph/parallel/domain.h"
+#include "../common/base/timer.h"
 #include "../sph/pairs/neighbours.h"
 #include "../sph/pairs/scheme.h"
 #include "../sph/pairs/vec.h"
+#include "../sph/parallel/domain.h"
 #include "../sph/time/runge_kutta.h"
 #include "sph_case.h"
 

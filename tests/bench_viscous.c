@@ -31,11 +31,11 @@ static void report(int n, double peak)
     double best = INFINITY;
     for (int repeat = 0; repeat < REPEATS; repeat++) {
         for (int a = 0; a < 2; a++)
-            FLOW_ROWS(s, at, len)
-        for (int64_t i = at; i < at + len; i++) {
-            s->rhs[a][i] = 1e-3 * (double)(i * 2654435761u >> 7 & 1023);
-            s->delta[a][i] = 0.0;
-        }
+            FLOW_ROWS (s, at, len)
+                for (int64_t i = at; i < at + len; i++) {
+                    s->rhs[a][i] = 1e-3 * (double)(i * 2654435761u >> 7 & 1023);
+                    s->delta[a][i] = 0.0;
+                }
         s->viscous_iterations = 0;
         const double t = cpu_time();
         viscous_solve(s, 37.0 / 160.0 * 1.1 / n, s->delta, s->rhs, 1e-5);

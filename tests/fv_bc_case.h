@@ -5,10 +5,10 @@
 #define TESTS_FV_BC_CASE_H
 
 #include "../fv/boundary/bc.h"
-#include "fv_case.h"
-#include "../fv/case/fv_case.h"
 #include "../fv/boundary/still.h"
+#include "../fv/case/fv_case.h"
 #include "../fv/output/output.h"
+#include "fv_case.h"
 
 #define CLOSED "domain.periodic=(false,false)"
 

@@ -9,12 +9,12 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "../common/h5.h"
-#include "../common/mem.h"
-#include "../fv/fv.h"
+#include "../common/base/mem.h"
+#include "../common/files/h5.h"
 #include "../fv/case/fv_case.h"
-#include "../fv/time/steps.h"
+#include "../fv/fv.h"
 #include "../fv/output/output.h"
+#include "../fv/time/steps.h"
 
 struct fv_case {
     struct run run;

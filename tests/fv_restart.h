@@ -16,13 +16,13 @@ static inline int64_t fv_case_differences(const struct fv *one, const struct fv 
 {
     int64_t differ = one->t != two->t;
     differ += one->newton && one->newton->dtau != two->newton->dtau;
-    FLOW_ROWS(one, at, n)
-    for (int64_t i = at; i < at + n; i++) {
-        for (int a = 0; a < one->dim; a++)
-            differ += one->u[a][i] != two->u[a][i] || one->U[a][i] != two->U[a][i];
-        differ += one->p[i] != two->p[i];
-        differ += one->surface && one->surface->phi[i] != two->surface->phi[i];
-    }
+    FLOW_ROWS (one, at, n)
+        for (int64_t i = at; i < at + n; i++) {
+            for (int a = 0; a < one->dim; a++)
+                differ += one->u[a][i] != two->u[a][i] || one->U[a][i] != two->U[a][i];
+            differ += one->p[i] != two->p[i];
+            differ += one->surface && one->surface->phi[i] != two->surface->phi[i];
+        }
     MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
     return differ;
 }

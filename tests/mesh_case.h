@@ -9,15 +9,15 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../common/h5.h"
-#include "../common/mem.h"
-#include "../fv/output/mesh_output.h"
+#include "../common/base/mem.h"
+#include "../common/files/h5.h"
+#include "../fv/case/fv_case.h"
 #include "../fv/fv.h"
 #include "../fv/grid/mesh.h"
-#include "../fv/case/fv_case.h"
-#include "../fv/time/steps.h"
+#include "../fv/output/mesh_output.h"
 #include "../fv/output/output.h"
 #include "../fv/surface/levelset.h"
+#include "../fv/time/steps.h"
 
 #define PERIODIC                                                                                   \
     "i_min = \"periodic\"; i_max = \"periodic\"; j_min = \"periodic\"; j_max = \"periodic\"; "
@@ -143,10 +143,10 @@ static inline int64_t mesh_case_restart(struct mesh_case *one, struct fv *s, str
     struct fv *z = fv_create(&two->run, f);
     h5_close(&f);
     good = z && mesh_case_run(s, steps, 100.0) && mesh_case_run(z, steps, 100.0) && good;
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n && good; i++)
-        differ += s->surface->phi[i] != z->surface->phi[i] || s->u[0][i] != z->u[0][i] ||
-                  s->p[i] != z->p[i];
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n && good; i++)
+            differ += s->surface->phi[i] != z->surface->phi[i] || s->u[0][i] != z->u[0][i] ||
+                      s->p[i] != z->p[i];
     MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
     mesh_case_end(one, &s);
     mesh_case_end(two, &z);

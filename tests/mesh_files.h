@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../common/trimesh.h"
+#include "../common/geometry/trimesh.h"
 
 static inline FILE *mesh_file(const char *name)
 {

@@ -7,8 +7,8 @@
 
 #include <unistd.h>
 
-#include "../common/mem.h"
-#include "../common/params.h"
+#include "../common/base/mem.h"
+#include "../common/params/params.h"
 
 enum { ITEMS = 3 };
 

@@ -4,8 +4,8 @@
 
 #include <unistd.h>
 
-#include "../common/accept.h"
-#include "../common/table.h"
+#include "../common/files/table.h"
+#include "../common/run/accept.h"
 
 enum { N = 201 };
 

@@ -3,7 +3,7 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/scene_fluid.h"
+#include "../common/scene/scene_fluid.h"
 #include "../sph/particles/eos.h"
 #include "../sph/walls/walls.h"
 #include "sph_case.h"

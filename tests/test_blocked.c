@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "../fv/boundary/blocked.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/output/output.h"
 #include "../fv/surface/levelset.h"
 #include "../fv/watch/watches.h"
 #include "fv_case.h"
-#include "../fv/case/fv_case.h"
-#include "../fv/output/output.h"
 
 #define CLOSED "domain.periodic=(false,false,false)"
 #define SURFACE "fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED

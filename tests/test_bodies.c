@@ -4,10 +4,10 @@
 
 #include <stdio.h>
 
-#include "../common/scene_geometry.h"
+#include "../common/geometry/body_math.h"
+#include "../common/scene/scene_geometry.h"
 #include "../sph/bodies/bodies.h"
 #include "../sph/rigid/body_impedance.h"
-#include "../common/body_math.h"
 
 /* A box of unit sides about `centre' in the plane. */
 static struct scene_body square(double x, double y)

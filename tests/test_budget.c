@@ -30,13 +30,13 @@ static void rates(struct fv *s, double sums[4])
         s->stages->viscous(s, a, s->rhs[a]);
         if (!s->m)
             gradient(s, s->p, a, CONTINUE_CUBIC, s->step_p[a]);
-        FLOW_ROWS(s, c, n)
-        for (int64_t i = c; i < c + n; i++) {
-            const double V = s->m ? s->free[i] * s->m->V[i] : s->b.h[0] * s->b.h[1] * s->b.h[2];
-            part[0] -= rho * V * s->N[a][i];
-            part[1] += rho * V * s->rhs[a][i];
-            part[2] -= rho * V * s->step_p[a][i];
-        }
+        FLOW_ROWS (s, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                const double V = s->m ? s->free[i] * s->m->V[i] : s->b.h[0] * s->b.h[1] * s->b.h[2];
+                part[0] -= rho * V * s->N[a][i];
+                part[1] += rho * V * s->rhs[a][i];
+                part[2] -= rho * V * s->step_p[a][i];
+            }
         MPI_Allreduce(MPI_IN_PLACE, part, 3, MPI_DOUBLE, MPI_SUM, s->comm);
         sums[a] = part[0] + part[1] + part[2];
         for (int k = 0; k < 3; k++)
@@ -108,9 +108,9 @@ static double largest_divergence(struct fv *s)
 {
     double div = 0.0;
     mesh_divergence(s, s->U, s->flux);
-    FLOW_ROWS(s, at, n)
-    for (int64_t i = at; i < at + n; i++)
-        div = fmax(div, fabs(s->flux[i]) * 32.0);
+    FLOW_ROWS (s, at, n)
+        for (int64_t i = at; i < at + n; i++)
+            div = fmax(div, fabs(s->flux[i]) * 32.0);
     MPI_Allreduce(MPI_IN_PLACE, &div, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     return div;
 }

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "../common/colour.h"
+#include "../common/waves/colour.h"
 #include "../coupler/mapping/map.h"
 #include "../sph/open_boundaries/wet_faces.h"
 

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "../fv/boundary/forcing.h"
+#include "../fv/case/fv_case.h"
 #include "../fv/coupling/fv_course.h"
 #include "fv_case.h"
-#include "../fv/case/fv_case.h"
 
 static const double box[2][3] = {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}};
 

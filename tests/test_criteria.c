@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "../common/h5.h"
+#include "../common/files/h5.h"
 #include "../sph/refinement/criteria.h"
 #include "../sph/refinement/regions.h"
 #include "../sph/refinement/regions_parts.h"

@@ -4,9 +4,9 @@
 
 #include <stdlib.h>
 
-#include "../common/mem.h"
-#include "../sph/parallel/domain.h"
+#include "../common/base/mem.h"
 #include "../sph/pairs/neighbours.h"
+#include "../sph/parallel/domain.h"
 #include "sph_case.h"
 
 /* Deterministic number in [0, 1). */

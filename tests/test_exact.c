@@ -2,7 +2,7 @@
  * Navier-Stokes, balance of faces. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/exact.h"
+#include "../common/scene/exact.h"
 enum { POINTS = 50, PRESSURE = 3, VORTICITY = 4 };
 
 /* All of the fields, rho and nu not 1. two_modes is carried by a velocity. */

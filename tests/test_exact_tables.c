@@ -2,7 +2,7 @@
  * the fields, and norms. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/exact.h"
+#include "../common/scene/exact.h"
 
 static struct exact taylor_green(double Re)
 {

@@ -1,7 +1,7 @@
 /* test_fit.c - period and damping of known oscillations. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/fit.h"
+#include "../common/base/fit.h"
 
 static void decaying_sine(void **state)
 {

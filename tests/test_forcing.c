@@ -3,9 +3,9 @@
 #include "test.h"
 
 #include "../fv/boundary/forcing.h"
-#include "fv_bc_case.h"
 #include "../fv/case/fv_case.h"
 #include "../fv/operators/operators.h"
+#include "fv_bc_case.h"
 
 static void fill_partner(const struct fv *s, struct forcing *f)
 {

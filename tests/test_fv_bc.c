@@ -5,11 +5,11 @@
 
 #include <string.h>
 
-#include "fv_bc_case.h"
+#include "../fv/boundary/still.h"
 #include "../fv/case/fv_case.h"
 #include "../fv/operators/operators.h"
-#include "../fv/boundary/still.h"
 #include "../fv/output/output.h"
+#include "fv_bc_case.h"
 
 static void no_slip_walls_keep_the_order(void **state)
 {

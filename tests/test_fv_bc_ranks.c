@@ -2,10 +2,10 @@
  * restart nothing at all. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "fv_bc_case.h"
-#include "fv_restart.h"
 #include "../fv/case/fv_case.h"
 #include "../fv/output/output.h"
+#include "fv_bc_case.h"
+#include "fv_restart.h"
 
 enum trial { CAVITY, DUCT, CARRIED, CAVITY_3D, GRADED, GRADED_3D, FLOWS };
 

@@ -6,11 +6,11 @@
 #include "fv_bc_case.h"
 #include "mesh_case.h"
 
+#include "../fv/case/fv_case.h"
+#include "../fv/output/output.h"
 #include "../fv/surface/levelset.h"
 #include "../fv/watch/limits.h"
 #include "../fv/watch/watches.h"
-#include "../fv/case/fv_case.h"
-#include "../fv/output/output.h"
 
 #define CARRIED "initial.field=\"two_modes\"", "fv.cells=(32,32)"
 #define SMALL 0.28 /* a quarter of the default: what is left is the error of space */

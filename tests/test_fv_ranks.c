@@ -2,10 +2,10 @@
  * the same ranks it changes nothing at all. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "fv_case.h"
-#include "../fv/case/fv_case.h"
 #include "../fv/boundary/still.h"
+#include "../fv/case/fv_case.h"
 #include "../fv/output/output.h"
+#include "fv_case.h"
 
 #define TWO_MODES "initial.field=\"two_modes\"", "initial.velocity=(0.5,0.25)"
 #define HOLE "fv.hole=((0.3125,0.3125),(0.6875,0.6875))"

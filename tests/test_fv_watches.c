@@ -5,9 +5,9 @@
 #include "fv_bc_case.h"
 #include "mesh_case.h"
 
+#include "../fv/case/fv_case.h"
 #include "../fv/surface/levelset.h"
 #include "../fv/watch/watches.h"
-#include "../fv/case/fv_case.h"
 
 static void say(const char *what, const struct watches *w)
 {

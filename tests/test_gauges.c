@@ -4,8 +4,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/crossing.h"
-#include "../common/exact.h"
+#include "../common/run/crossing.h"
+#include "../common/scene/exact.h"
 #include "../sph/output/probes.h"
 #include "sph_case.h"
 

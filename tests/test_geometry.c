@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/scene_fluid.h"
-#include "../common/scene_geometry.h"
+#include "../common/scene/scene_fluid.h"
+#include "../common/scene/scene_geometry.h"
 
 /* In [0, 1): the same on every machine (Numerical Recipes' quick generator). */
 static double dice(void)

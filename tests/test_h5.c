@@ -5,8 +5,8 @@
 #include <hdf5.h>
 #include <unistd.h>
 
-#include "../common/h5.h"
-#include "../common/mem.h"
+#include "../common/base/mem.h"
+#include "../common/files/h5.h"
 
 enum { MOST = 16 };
 

@@ -6,7 +6,7 @@
 #include <hdf5.h>
 #include <unistd.h>
 
-#include "../common/h5.h"
+#include "../common/files/h5.h"
 
 static char path[512], part[520];
 static int rank, size;

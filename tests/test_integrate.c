@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "../common/h5.h"
+#include "../common/files/h5.h"
 #include "../sph/pairs/neighbours.h"
 #include "../sph/pairs/scheme.h"
 #include "../sph/time/extremes.h"

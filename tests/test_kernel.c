@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../sph/particles/eos.h"
 #include "../sph/pairs/kernel.h"
+#include "../sph/particles/eos.h"
 
 /* Gauss-Legendre of three points on each of n intervals: exact for the kernel's polynomial on one.
  */

@@ -6,13 +6,13 @@
 #include "test.h"
 
 #include "../fv/boundary/bc.h"
-#include "../fv/surface/levelset.h"
+#include "../fv/case/fv_case.h"
+#include "../fv/output/output.h"
 #include "../fv/poisson/poisson.h"
+#include "../fv/surface/levelset.h"
+#include "../fv/time/steps.h"
 #include "fv_case.h"
 #include "fv_restart.h"
-#include "../fv/case/fv_case.h"
-#include "../fv/time/steps.h"
-#include "../fv/output/output.h"
 
 #define CLOSED "domain.periodic=(false,false,false)"
 #define SURFACE "fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../common/mem.h"
+#include "../common/base/mem.h"
 #include "../coupler/mapping/map.h"
 #include "../coupler/transport/region.h"
 

@@ -2,13 +2,13 @@
  * restart. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "mesh_case.h"
 #include "../fv/boundary/mesh_bc.h"
+#include "mesh_case.h"
 
-#include "../fv/watch/watches.h"
 #include "../fv/case/fv_case.h"
-#include "../fv/time/steps.h"
 #include "../fv/output/output.h"
+#include "../fv/time/steps.h"
+#include "../fv/watch/watches.h"
 
 #define WAVE "name = \"a\"; mapping = \"sheared\"; wave = 0.06; " PERIODIC
 #define RING                                                                                       \

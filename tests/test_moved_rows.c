@@ -3,10 +3,10 @@
  * 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
+#include "../fv/case/fv_case.h"
 #include "../fv/coupling/forced_points.h"
 #include "../fv/coupling/patch.h"
 #include "fv_case.h"
-#include "../fv/case/fv_case.h"
 
 static const double box[2][3] = {{0.25, 0.1, 0.0}, {0.75, 0.6, 0.0}};
 

@@ -5,12 +5,12 @@
 
 #include <kinsol/kinsol.h>
 
-#include "../common/series.h"
-#include "../fv/time/newton.h"
-#include "fv_bc_case.h"
+#include "../common/files/series.h"
 #include "../fv/case/fv_case.h"
-#include "../fv/time/steps.h"
 #include "../fv/output/output.h"
+#include "../fv/time/newton.h"
+#include "../fv/time/steps.h"
+#include "fv_bc_case.h"
 
 #define NEWTON "fv.integrator=\"newton\""
 #define MODES NEWTON, "initial.field=\"two_modes\"", "initial.velocity=(0.5,0.25)"

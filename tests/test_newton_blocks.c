@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
+#include "../fv/case/fv_case.h"
 #include "../fv/time/newton.h"
 #include "mesh_case.h"
-#include "../fv/case/fv_case.h"
 
 #define NEWTON "fv.integrator=\"newton\""
 #define STEADY NEWTON, "fv.steady=true", "initial.field=\"couette\""
@@ -58,11 +58,12 @@ static double energy_with_sound(const char *blocks, const char *c0, double *vect
     struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, blocks,
                                    (const char *const[]){NEWTON, "fv.cfl=2", c0, NULL});
     assert_true(mesh_case_run(s, 1000, 0.3));
-    FLOW_ROWS(s, at, n)
-    for (int64_t i = at; i < at + n; i++) {
-        sums[0] += s->free[i] * s->m->V[i];
-        sums[1] += s->free[i] * s->m->V[i] * (s->u[0][i] * s->u[0][i] + s->u[1][i] * s->u[1][i]);
-    }
+    FLOW_ROWS (s, at, n)
+        for (int64_t i = at; i < at + n; i++) {
+            sums[0] += s->free[i] * s->m->V[i];
+            sums[1] +=
+                s->free[i] * s->m->V[i] * (s->u[0][i] * s->u[0][i] + s->u[1][i] * s->u[1][i]);
+        }
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     *vectors = (double)s->newton->krylovs / (double)s->newton->newtons;
     mesh_case_end(&c, &s);
@@ -129,9 +130,9 @@ static void a_stream_becomes_uniform(void **state)
                         (const char *const[]){NEWTON, "fv.steady=true", "initial.field=\"rest\"",
                                               "fluid.nu=0.01", NULL});
     assert_true(mesh_case_run(s, 1000, 1.0) && s->newton->steady);
-    FLOW_ROWS(s, at, n)
-    for (int64_t i = at; i < at + n; i++)
-        most = fmax(most, hypot(s->u[0][i] - 1.0, s->u[1][i]));
+    FLOW_ROWS (s, at, n)
+        for (int64_t i = at; i < at + n; i++)
+            most = fmax(most, hypot(s->u[0][i] - 1.0, s->u[1][i]));
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     print_message("%.3g off a uniform stream, %lld iterations\n", most,
                   (long long)s->newton->newtons);

@@ -2,11 +2,11 @@
  * nothing at all. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
+#include "../fv/case/fv_case.h"
+#include "../fv/output/output.h"
 #include "../fv/time/newton.h"
 #include "fv_bc_case.h"
 #include "fv_restart.h"
-#include "../fv/case/fv_case.h"
-#include "../fv/output/output.h"
 
 #define NEWTON "fv.integrator=\"newton\"", "fv.tol_newton=1e-10"
 #define MODES NEWTON, "initial.field=\"two_modes\"", "initial.velocity=(0.5,0.25)", "fv.cfl=4"

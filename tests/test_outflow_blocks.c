@@ -76,10 +76,10 @@ static double left_behind(const char *blocks, int step, bool carried)
     struct fv *s = start(&c, MPI_COMM_WORLD, blocks, step, carried, NULL);
     add_vortex(s, 0.6, 0.5);
     assert_true(mesh_case_run(s, 100000, 1.0));
-    FLOW_ROWS(s, at, n)
-    for (int64_t i = at; i < at + n; i++)
-        if (s->free[i] > 0.0)
-            most = fmax(most, hypot(s->u[0][i] - 1.0, s->u[1][i]));
+    FLOW_ROWS (s, at, n)
+        for (int64_t i = at; i < at + n; i++)
+            if (s->free[i] > 0.0)
+                most = fmax(most, hypot(s->u[0][i] - 1.0, s->u[1][i]));
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     mesh_case_end(&c, &s);
     return most / 0.25;
@@ -195,10 +195,10 @@ static void the_level_of_pressure_moves_nothing(void **state)
 static double energy(const struct fv *s)
 {
     double sum = 0.0;
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        sum += s->free[i] * s->m->V[i] *
-               ((s->u[0][i] - 1.0) * (s->u[0][i] - 1.0) + s->u[1][i] * s->u[1][i]);
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            sum += s->free[i] * s->m->V[i] *
+                   ((s->u[0][i] - 1.0) * (s->u[0][i] - 1.0) + s->u[1][i] * s->u[1][i]);
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
     return sum;
 }
@@ -226,9 +226,9 @@ static void ranks_agree_and_a_restart_is_exact(void **state)
     assert_non_null(y);
     y->t = z->t;
     assert_true(mesh_case_run(y, 3, 1.0) && mesh_case_run(z, 3, 1.0));
-    FLOW_ROWS(y, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        differ += y->u[0][i] != z->u[0][i] || y->p[i] != z->p[i];
+    FLOW_ROWS (y, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            differ += y->u[0][i] != z->u[0][i] || y->p[i] != z->p[i];
     MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
     assert_int_equal(differ, 0);
     mesh_case_end(&one, &s);

@@ -2,10 +2,10 @@
  * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../fv/grid/overset.h"
-#include "mesh_case.h"
 #include "../fv/case/fv_case.h"
+#include "../fv/grid/overset.h"
 #include "../fv/output/output.h"
+#include "mesh_case.h"
 
 /* A box over the periodic square, turned by 30 degrees. */
 static void turned(char *text, size_t size, int n)

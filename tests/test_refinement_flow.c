@@ -3,7 +3,7 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/exact.h"
+#include "../common/scene/exact.h"
 #include "../sph/refinement/apr_params.h"
 #include "../sph/walls/walls.h"
 #include "sph_case.h"

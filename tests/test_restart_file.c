@@ -5,8 +5,8 @@
 
 #include <unistd.h>
 
-#include "../common/h5.h"
-#include "../common/run_files.h"
+#include "../common/files/h5.h"
+#include "../common/run/run_files.h"
 
 enum { UNSAID = -1 };
 

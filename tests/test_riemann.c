@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../sph/particles/eos.h"
 #include "../sph/pairs/riemann.h"
+#include "../sph/particles/eos.h"
 
 static const struct dissipation full = {.factor = 0.3, .least = 1.0};
 static const struct dissipation low = {.factor = 0.3, .least = 0.0}; /* c0 = 10 m/s */

@@ -2,10 +2,10 @@
  * flows over them. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../fv/grid/rows.h"
-#include "fv_bc_case.h"
 #include "../fv/case/fv_case.h"
+#include "../fv/grid/rows.h"
 #include "../fv/output/output.h"
+#include "fv_bc_case.h"
 
 static void heights_fill_the_domain(void **state)
 {

@@ -3,10 +3,10 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/mem.h"
-#include "../common/scene_mesh.h"
-#include "../common/trimesh_read.h"
-#include "../common/vec3.h"
+#include "../common/base/mem.h"
+#include "../common/base/vec3.h"
+#include "../common/geometry/trimesh_read.h"
+#include "../common/scene/scene_mesh.h"
 #include "mesh_files.h"
 
 static int rank;

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "../common/scene_speed.h"
+#include "../common/scene/scene_speed.h"
 
 /* A plane box of 2 m x 1 m, at rest, no gravity, 10 s. */
 static struct scene box(void)

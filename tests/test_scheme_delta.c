@@ -5,8 +5,8 @@
 
 #include <mpi.h>
 
-#include "../sph/particles/eos.h"
 #include "../sph/pairs/kernel.h"
+#include "../sph/particles/eos.h"
 #include "sph_toy.h"
 
 enum { OFF = 2 };

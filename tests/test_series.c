@@ -4,7 +4,7 @@
 
 #include <unistd.h>
 
-#include "../common/series.h"
+#include "../common/files/series.h"
 
 static char path[512];
 static const char *const columns[] = {"t [s]", "dt [s]", "Ma"};

@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../sph/particles/eos.h"
 #include "../sph/open_boundaries/sides.h"
+#include "../sph/particles/eos.h"
 #include "sph_case.h"
 
 /* A square of 40 x 40 particles, periodic along y, with `kind' on both sides across x. */

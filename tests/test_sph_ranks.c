@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "../common/h5.h"
+#include "../common/files/h5.h"
 #include "../sph/open_boundaries/openings.h"
 #include "../sph/open_boundaries/zones.h"
 #include "sph_case.h"

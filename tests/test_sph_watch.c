@@ -4,7 +4,7 @@
  * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/h5.h"
+#include "../common/files/h5.h"
 #include "sph_case.h"
 
 static double gain_of(const struct sph_case *c) { return c->s->watch.of[SPH_WATCH_ENERGY].worst; }

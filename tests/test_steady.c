@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "../common/steady.h"
+#include "../common/waves/steady.h"
 
 /* c^2 k/g = 1 + e^2 + e^4/2 + e^6/4 - ... in deep water, e = kH/2 (Stokes's expansion). */
 static void deep_waves_have_stokes_speed(void **state)

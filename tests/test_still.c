@@ -5,13 +5,13 @@
 
 #include <unistd.h>
 
-#include "../common/mem.h"
-#include "../fv/output/mesh_output.h"
+#include "../common/base/mem.h"
+#include "../fv/case/fv_case.h"
 #include "../fv/fv.h"
 #include "../fv/grid/mesh.h"
-#include "../fv/case/fv_case.h"
-#include "../fv/time/steps.h"
+#include "../fv/output/mesh_output.h"
 #include "../fv/output/output.h"
+#include "../fv/time/steps.h"
 
 enum { COLUMNS = 40 };
 

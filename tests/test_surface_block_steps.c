@@ -188,10 +188,10 @@ static struct fv *start_current(struct mesh_case *c, const char *blocks, const c
 static double farthest(const struct fv *s, double U)
 {
     double most = 0.0;
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        if (s->surface->layer[i] == 0 && !(s->m && s->free[i] == 0.0))
-            most = fmax(most, hypot(s->u[0][i] - U, s->u[1][i]));
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            if (s->surface->layer[i] == 0 && !(s->m && s->free[i] == 0.0))
+                most = fmax(most, hypot(s->u[0][i] - U, s->u[1][i]));
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     return most;
 }

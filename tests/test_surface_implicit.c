@@ -4,8 +4,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "surface_case.h"
 #include "../fv/time/newton.h"
+#include "surface_case.h"
 
 /* Upright, askew over graded rows, in 3D: the surface cuts the cells in all ways. */
 static void still_water_stays(void **state)

@@ -3,9 +3,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/mem.h"
-#include "../common/tree.h"
-#include "../common/vec3.h"
+#include "../common/base/mem.h"
+#include "../common/base/vec3.h"
+#include "../common/geometry/tree.h"
 
 static uint64_t seed = 88172645463325252u;
 

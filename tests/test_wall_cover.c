@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../common/mem.h"
+#include "../common/base/mem.h"
 #include "../sph/walls/wall_cover.h"
 
 enum { ROOM = 64 };

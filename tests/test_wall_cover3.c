@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../common/mem.h"
+#include "../common/base/mem.h"
 #include "../sph/walls/wall_cover3.h"
 
 static double any(double lo, double hi) { return lo + (hi - lo) * rand() / RAND_MAX; }

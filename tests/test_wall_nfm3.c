@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/h5.h"
+#include "../common/files/h5.h"
 #include "../sph/pairs/neighbours.h"
 #include "../sph/surface/surface.h"
 #include "../sph/walls/facet.h"

@@ -3,10 +3,10 @@
  * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/h5.h"
+#include "../common/files/h5.h"
+#include "../sph/output/probes.h"
 #include "../sph/pairs/kernel.h"
 #include "../sph/pairs/neighbours.h"
-#include "../sph/output/probes.h"
 #include "../sph/surface/surface.h"
 #include "../sph/walls/wall_moments.h"
 #include "../sph/walls/walls.h"

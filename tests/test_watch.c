@@ -2,8 +2,8 @@
  * stop. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/run.h"
-#include "../common/watch.h"
+#include "../common/run/run.h"
+#include "../common/run/watch.h"
 
 static void a_falling_energy_gains_nothing(void **state)
 {

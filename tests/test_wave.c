@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../common/exact.h"
+#include "../common/scene/exact.h"
 
 static void eigenvalues(void **state)
 {

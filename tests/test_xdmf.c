@@ -5,7 +5,7 @@
 #include <ctype.h>
 #include <unistd.h>
 
-#include "../common/xdmf.h"
+#include "../common/files/xdmf.h"
 
 static char path[512];
 static const struct xdmf_field fields[] = {{"velocity", 2}, {"pressure", 1}, {"force", 3}};

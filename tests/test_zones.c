@@ -2,12 +2,12 @@
  * the mass, blending follows its law. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
-#include "../common/exact.h"
+#include "../common/scene/exact.h"
+#include "../sph/coupling/overlap.h"
 #include "../sph/open_boundaries/box_chase.h"
 #include "../sph/open_boundaries/openings.h"
-#include "../sph/coupling/overlap.h"
-#include "../sph/surface/surface.h"
 #include "../sph/open_boundaries/zone_steps.h"
+#include "../sph/surface/surface.h"
 #include "sph_case.h"
 
 /* Uniform flow through a box of the unit square or cube, no shifting. */

@@ -6,11 +6,11 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "../common/h5.h"
-#include "../common/log.h"
-#include "../common/mem.h"
-#include "../common/run.h"
-#include "../common/xdmf.h"
+#include "../common/base/log.h"
+#include "../common/base/mem.h"
+#include "../common/files/h5.h"
+#include "../common/files/xdmf.h"
+#include "../common/run/run.h"
 
 static struct toy_params {
     double dt;   /* s */

@@ -7,9 +7,9 @@
 #include <stdbool.h>
 
 #include "../cpl.h"
-#include "cpl_patch.h"
 #include "../transport/region.h"
 #include "../transport/wire.h"
+#include "cpl_patch.h"
 
 enum { CPL_TEXT = 4096 };
 

@@ -7,8 +7,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
 
 void map_cloud_free(struct map_cloud *c)
 {

@@ -8,10 +8,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "../../common/run.h"
+#include "../../common/run/run.h"
 #include "../cpl.h"
-#include "../transport/handshake.h"
 #include "../mapping/map.h"
+#include "../transport/handshake.h"
 #include "../transport/region.h"
 #include "../transport/wire.h"
 #include "job.h"

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../../common/run.h"
+#include "../../common/base/mem.h"
+#include "../../common/run/run.h"
 
 /* clang-format off */
 #define P struct job

@@ -9,8 +9,8 @@
 #include <mpi.h>
 #include <stdbool.h>
 
-#include "../../common/params.h"
-#include "../../common/scene.h"
+#include "../../common/params/params.h"
+#include "../../common/scene/scene.h"
 #include "../transport/handshake.h"
 
 struct command_line;

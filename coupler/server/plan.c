@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/log.h"
+#include "../../common/base/log.h"
 
 void problem(char *text, const char *fmt, ...)
 {

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../../common/timer.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/base/timer.h"
 
 static _Noreturn void not_planned(const struct solver *s, const struct message *m)
 {

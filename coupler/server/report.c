@@ -8,9 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/accept.h"
-#include "../../common/log.h"
-#include "../../common/timer.h"
+#include "../../common/base/log.h"
+#include "../../common/base/timer.h"
+#include "../../common/base/version.h"
+#include "../../common/run/accept.h"
 
 enum { LINE = 2048, NORMS = 16 };
 

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/exact.h"
-#include "../../common/fit.h"
-#include "../../common/mem.h"
+#include "../../common/base/fit.h"
+#include "../../common/base/mem.h"
+#include "../../common/scene/exact.h"
 
 enum { KINETIC, POTENTIAL, ENSTROPHY, SIGNAL, WATER, SUMS }; /* WATER: where both have a surface */
 

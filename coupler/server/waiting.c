@@ -3,7 +3,7 @@
  */
 #include "coupler.h"
 
-#include "../../common/log.h"
+#include "../../common/base/log.h"
 
 void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *m)
 {

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/timer.h"
+#include "../../common/base/log.h"
+#include "../../common/base/timer.h"
 
 static const double same_time = 1e-9; /* relative */
 static const int64_t longest_search = 1000000;

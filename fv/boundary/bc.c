@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../grid/mesh.h"
 #include "blocked.h"
 #include "carried.h"
@@ -106,8 +106,7 @@ static void make_outflow(struct fv *s, struct bc *bc, int k)
     struct outflow *o = carried_add(s, k, bc->n[k], bc->n[k]);
     const double h = block_size(b, d.a, k % 2 ? b->n[1] - 1 : 0); /* a row, if it is along y */
     o->in = d.in;
-    SIDE_PLACES(b, d, i, j, m, c)
-    {
+    SIDE_PLACES (b, d, i, j, m, c) {
         o->place[o->n] = m;
         o->cell[o->n] = c;
         o->S[d.a][o->n] = (k % 2 ? 1.0 : -1.0) * face_area(b, &d, i, j);
@@ -157,8 +156,7 @@ static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall
     }
     if (bc->kind[k] == MESH_CARRIED)
         make_outflow(s, bc, k);
-    SIDE_PLACES(b, inner, i, j, m, c)
-    {
+    SIDE_PLACES (b, inner, i, j, m, c) {
         bc->outflux += (k % 2 ? 1.0 : -1.0) * face_area(b, &inner, i, j) * bc->w[k][a][m];
         (void)c;
     }
@@ -227,8 +225,7 @@ static void fill(const struct bc *bc, const struct block *b, int k, enum mesh_si
 {
     const struct side d = side_of(bc, b, k, true);
     const bool even = kind == MESH_OUTFLOW || (kind == MESH_SLIP && q != d.a);
-    SIDE_PLACES(b, d, i, j, m, c)
-    {
+    SIDE_PLACES (b, d, i, j, m, c) {
         const double v = (w ? w[m] : 0.0) + (slip ? slip[m] : 0.0);
         if (even)
             ghosts_mirrored(u + c, d.in, 1.0, 0.0);
@@ -271,8 +268,7 @@ static void fill_zero(const struct bc *bc, const struct block *b, int k, int q,
                       const struct side *d, double *u)
 {
     const enum mesh_side kind = bc->kind[k];
-    SIDE_PLACES(b, *d, i, j, m, c)
-    {
+    SIDE_PLACES (b, *d, i, j, m, c) {
         (void)m;
         if (kind == MESH_OUTFLOW || (kind == MESH_SLIP && q != d->a))
             ghosts_mirrored(u + c, d->in, 1.0, 0.0);
@@ -332,8 +328,8 @@ void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
         const struct side d = side_of(s->bc, b, k, true);
         const int64_t face = k % 2 ? b->stride[d.a] : 0;
         const double *w = s->bc->w[k][d.a];
-        SIDE_PLACES(b, d, i, j, m, c)
-        U[d.a][c + face] = what == BC_ZERO ? 0.0 : w[m];
+        SIDE_PLACES (b, d, i, j, m, c)
+            U[d.a][c + face] = what == BC_ZERO ? 0.0 : w[m];
     }
 }
 

@@ -1,7 +1,7 @@
 /* blocked.c - see blocked.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "blocked.h"
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 
 /* Number of the box in which a cell of the whole grid lies, from 1; 0: none. Behind closed sides as
  * before them. */

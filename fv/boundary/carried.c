@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 
 void carried_create(struct fv *s)
 {

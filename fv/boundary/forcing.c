@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "bc.h"
 #include "blocked.h"
 #include "mesh_bc.h"
@@ -149,10 +149,10 @@ static void mark_known(const struct fv *s, struct forcing *f)
 
 static void list_partner(const struct fv *s, struct forcing *f)
 {
-    FLOW_ROWS(s, at, n)
-    for (int64_t c = at; c < at + n; c++)
-        if (is_rim(s, p_, f, c))
-            f->partner[f->npartner + f->nrim++] = c;
+    FLOW_ROWS (s, at, n)
+        for (int64_t c = at; c < at + n; c++)
+            if (is_rim(s, p_, f, c))
+                f->partner[f->npartner + f->nrim++] = c;
     mark_known(s, f);
     for (int a = 0; a < f->dim; a++) {
         f->v[a] = NEW(double, f->npartner + f->nrim);

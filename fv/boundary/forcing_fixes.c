@@ -3,7 +3,7 @@
  * cells. SPDX-License-Identifier: BSD-3-Clause */
 #include "forcing.h"
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../grid/rows.h"
 #include "bc.h"
 #include "blocked.h"

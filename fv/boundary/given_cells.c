@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../grid/rows.h"
 #include "mesh_bc.h"
 
@@ -185,14 +185,14 @@ void given_rows_create(const struct fv *s, struct forcing *f)
     struct one_sided *g = f->gradient = NEW(struct one_sided, 1);
     int64_t room = 0, n = 0;
     for (int pass = 0; pass < 2; pass++) {
-        FLOW_ROWS(s, at, len)
-        for (int64_t c = at; c < at + len; c++) {
-            if (s->m->status[c] != CELL_COMPUTED || !is_beside_given(s->m, p_, c))
-                continue;
-            if (pass == 1)
-                add_cell(s->m, p_, c, g, &room);
-            n += pass == 0;
-        }
+        FLOW_ROWS (s, at, len)
+            for (int64_t c = at; c < at + len; c++) {
+                if (s->m->status[c] != CELL_COMPUTED || !is_beside_given(s->m, p_, c))
+                    continue;
+                if (pass == 1)
+                    add_cell(s->m, p_, c, g, &room);
+                n += pass == 0;
+            }
         if (pass == 0) {
             g->cell = NEW(int64_t, n);
             g->first = NEW(int64_t, n + 1);

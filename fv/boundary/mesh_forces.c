@@ -204,8 +204,7 @@ double mesh_bc_power(struct fv *s)
         const struct side *d = s->sides->side + k;
         if (d->kind == MESH_SLIP)
             continue;
-        SIDE_PLACES(d, 0, i, j, at, c)
-        {
+        SIDE_PLACES (d, 0, i, j, at, c) {
             sum += s->free[c] > 0.0 ? face_power(s, d, c, i, j) : 0.0;
             (void)at;
         }
@@ -224,8 +223,7 @@ void mesh_bc_force(struct fv *s, const double *phi, double (*force)[4])
         const struct side *d = s->sides->side + k;
         if (!d->body)
             continue;
-        SIDE_PLACES(d, 0, i, j, at, c)
-        {
+        SIDE_PLACES (d, 0, i, j, at, c) {
             double one[4] = {0.0, 0.0, 0.0, 0.0};
             if (phi ? s->m->status[c] == CELL_COMPUTED : s->free[c] > 0.0)
                 face_force(s, d, phi, c, i, j, one);

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "ghosts.h"
 
 /* wS: flux that the wall itself makes. */
@@ -75,8 +75,7 @@ void mesh_bc_slope_ghosts(const struct fv *s, double tau, double *psi)
         const struct side *d = s->sides->side + k;
         if (!accelerates(s, d))
             continue;
-        SIDE_PLACES(d, 1, i, j, at, c)
-        {
+        SIDE_PLACES (d, 1, i, j, at, c) {
             /* a cell's way across the wall, by its volume */
             const double S2 = area2(m, d, c), step = m->V[c] / S2;
             const double rise = gain(s, d, at, c) * step * (d->k % 2 ? -1.0 : 1.0) / tau;
@@ -92,7 +91,9 @@ void mesh_bc_slope_fluxes(const struct fv *s, double tau, int a, double *F)
         const struct side *d = s->sides->side + k;
         if (d->a != a || !accelerates(s, d))
             continue;
-        SIDE_PLACES(d, 0, i, j, at, c) { F[c + d->face] = -gain(s, d, at, c) / tau; }
+        SIDE_PLACES (d, 0, i, j, at, c) {
+            F[c + d->face] = -gain(s, d, at, c) / tau;
+        }
     }
 }
 
@@ -112,8 +113,7 @@ void mesh_bc_velocity(const struct fv *s, enum bc_value what, double *const u[3]
     const struct mesh *m = s->m;
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        SIDE_PLACES(d, 1, i, j, at, c)
-        {
+        SIDE_PLACES (d, 1, i, j, at, c) {
             const double late = (what == BC_AHEAD || what == BC_CHANGE) && accelerates(s, d)
                                     ? gain(s, d, at, c)
                                     : 0.0;
@@ -138,8 +138,7 @@ void mesh_bc_even(const struct fv *s, bool odd, double *q)
 {
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        SIDE_PLACES(d, 1, i, j, at, c)
-        {
+        SIDE_PLACES (d, 1, i, j, at, c) {
             ghosts_mirrored(q + c, d->in, odd && d->kind == MESH_OUTFLOW ? -1.0 : 1.0, 0.0);
             (void)at;
         }
@@ -167,8 +166,7 @@ void mesh_bc_level(const struct fv *s, bool keep, double *phi)
         struct side *d = s->sides->side + k;
         if (!d->tilt)
             d->tilt = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
-        SIDE_PLACES(d, 1, i, j, at, c)
-        {
+        SIDE_PLACES (d, 1, i, j, at, c) {
             double *q = phi + c;
             if (!keep)
                 d->tilt[at] = is_slanting(s, d, c) ? q[0] - q[d->in] : 0.0;
@@ -188,8 +186,7 @@ void mesh_bc_extend(const struct fv *s, double *q)
 {
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        SIDE_PLACES(d, 1, i, j, at, c)
-        {
+        SIDE_PLACES (d, 1, i, j, at, c) {
             extended(q + c, d->in);
             (void)at;
         }
@@ -200,8 +197,7 @@ void mesh_bc_pressure(const struct fv *s, double *p)
 {
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        SIDE_PLACES(d, 1, i, j, at, c)
-        {
+        SIDE_PLACES (d, 1, i, j, at, c) {
             if (d->kind == MESH_OUTFLOW)
                 ghosts_given(p + c, d->in, d->pressure);
             else

@@ -10,8 +10,7 @@ void mesh_bc_fluxes(const struct fv *s, double *const U[3])
         const struct side *d = s->sides->side + k;
         if (d->kind != MESH_WALL && d->kind != MESH_SLIP)
             continue;
-        SIDE_PLACES(d, 1, i, j, at, c)
-        {
+        SIDE_PLACES (d, 1, i, j, at, c) {
             U[d->a][c + d->face] = d->moves ? s->m->grid[d->a][c + d->face] : 0.0;
             (void)at;
         }
@@ -38,8 +37,7 @@ double mesh_bc_rate(const struct fv *s, double *speed)
     double rate = 0.0;
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        SIDE_PLACES(d, 0, i, j, at, c)
-        {
+        SIDE_PLACES (d, 0, i, j, at, c) {
             double w2 = 0.0, sum = 0.0;
             for (int a = 0; a < m->dim; a++) {
                 const int64_t f = c + (a == d->a ? d->face : 0);
@@ -63,8 +61,7 @@ void mesh_bc_passing(const struct fv *s, double (*share)(const struct fv *s, int
         const struct side *d = s->sides->side + k;
         if (d->kind != MESH_INFLOW && d->kind != MESH_OUTFLOW && d->kind != MESH_CARRIED)
             continue;
-        SIDE_PLACES(d, 0, i, j, at, c)
-        {
+        SIDE_PLACES (d, 0, i, j, at, c) {
             const double in = (d->k % 2 ? -1.0 : 1.0) * s->U[d->a][c + d->face] * share(s, c);
             sums[0] += in;
             sums[1] += fabs(in);
@@ -95,8 +92,7 @@ double mesh_bc_given_flux(const struct fv *s)
         const struct side *d = s->sides->side + k;
         if (d->kind != MESH_INFLOW && d->kind != MESH_EXACT)
             continue;
-        SIDE_PLACES(d, 0, i, j, at, c)
-        {
+        SIDE_PLACES (d, 0, i, j, at, c) {
             sum += s->m->status[c] == CELL_COMPUTED ? given_flux(s->m, d, at, c) : 0.0;
         }
     }
@@ -108,8 +104,7 @@ double mesh_bc_net_flux(const struct fv *s)
     double sum = 0.0;
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        SIDE_PLACES(d, 0, i, j, at, c)
-        {
+        SIDE_PLACES (d, 0, i, j, at, c) {
             sum += s->free[c] * (d->k % 2 ? 1.0 : -1.0) * s->U[d->a][c + d->face];
             (void)at;
         }
@@ -123,8 +118,7 @@ void mesh_bc_vectors(const struct fv *s, double sum[3])
     sum[0] = sum[1] = sum[2] = 0.0;
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        SIDE_PLACES(d, 0, i, j, at, c)
-        {
+        SIDE_PLACES (d, 0, i, j, at, c) {
             for (int e = 0; e < s->dim; e++)
                 sum[e] += s->free[c] * (d->k % 2 ? 1.0 : -1.0) * s->m->S[d->a][e][c + d->face];
             (void)at;
@@ -154,8 +148,7 @@ void mesh_bc_partners_walls(const struct fv *s, const unsigned char *forced, dou
         const struct side *d = s->sides->side + k;
         if (d->kind != MESH_WALL && d->kind != MESH_SLIP)
             continue;
-        SIDE_PLACES(d, 0, i, j, at, c)
-        {
+        SIDE_PLACES (d, 0, i, j, at, c) {
             const double sign = is_partners(s, d, i, j, c, forced) ? (d->k % 2 ? -1.0 : 1.0) : 0.0;
             for (int e = 0; e < s->dim; e++)
                 sum[e] += sign * s->m->S[d->a][e][c + d->face];

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../grid/mesh_motion.h"
 #include "carried.h"
 
@@ -42,8 +42,7 @@ static void set_slopes(const struct fv *s, const struct side *d, int i, int j, i
 
 static void turn_slopes(const struct fv *s, const struct side *d)
 {
-    SIDE_PLACES(d, 1, i, j, at, c)
-    {
+    SIDE_PLACES (d, 1, i, j, at, c) {
         set_slopes(s, d, i, j, at);
         (void)c;
     }
@@ -57,8 +56,7 @@ static void add_outflow(struct fv *s, const struct side *d)
     const int64_t n = d->width * (d->n[1] + 2 * d->g[1]);
     struct outflow *o = carried_add(s, wall->side - SIDE_X_MIN, n, n);
     o->in = d->in;
-    SIDE_PLACES(d, 1, i, j, at, c)
-    {
+    SIDE_PLACES (d, 1, i, j, at, c) {
         const bool inside = i >= 0 && i < d->n[0] && j >= 0 && j < d->n[1];
         double S2 = 0.0;
         for (int q = 0; q < m->dim; q++) {
@@ -156,8 +154,7 @@ static void find_beyond(struct mesh *m, struct mesh_bc *bc)
         const size_t most = (size_t)(bc->nbeyond + around);
         request = mem_grow(request, (size_t)bc->nbeyond, most, sizeof *request);
         bc->beyond = mem_grow(bc->beyond, (size_t)bc->nbeyond, most, sizeof *bc->beyond);
-        SIDE_PLACES(d, 1, i, j, at, c)
-        {
+        SIDE_PLACES (d, 1, i, j, at, c) {
             one.in = c - d->in;
             if ((i >= 0 && i < d->n[0] && j >= 0 && j < d->n[1]) || !find_wall(m, d, i, j, &one))
                 continue;
@@ -252,8 +249,7 @@ static int face_points(const struct fv *s, const struct side *d, int i, int j, d
 
 static void set_values(const struct fv *s, struct side *d, double t)
 {
-    SIDE_PLACES(d, 1, i, j, m, c)
-    {
+    SIDE_PLACES (d, 1, i, j, m, c) {
         double x[4][3], sum[3] = {0.0, 0.0, 0.0}, own = 0.0, w[3], rigid[3];
         const int n = face_points(s, d, i, j, x);
         for (int g = 0; g < n; g++) {
@@ -324,8 +320,7 @@ static void take_slip(const struct fv *s)
         const struct side *d = bc->side + k;
         if (!slips(d->kind))
             continue;
-        SIDE_PLACES(d, 0, i, j, at, c)
-        {
+        SIDE_PLACES (d, 0, i, j, at, c) {
             for (int e = 0; e < s->m->dim; e++)
                 s->faces[e][c - d->in] = d->slip[e][at];
         }
@@ -345,8 +340,7 @@ void mesh_bc_set_slip(const struct fv *s, double tau, const double *psi)
         const struct side *d = s->sides->side + k;
         if (!slips(d->kind))
             continue;
-        SIDE_PLACES(d, 1, i, j, at, c)
-        {
+        SIDE_PLACES (d, 1, i, j, at, c) {
             if (i >= -1 && i <= d->n[0] && j >= -1 && j <= d->n[1])
                 slip_at(s, d, at, c, tau, psi);
             else

@@ -21,9 +21,9 @@ static double sum_up(struct fv *s)
     double sum = 0.0;
     if (s->m)
         s->outflows->given = mesh_bc_given_flux(s);
-    OUTFLOWS(s, o)
-    for (int64_t i = 0; i < o->n; i++)
-        sum += o->own[i] ? carried_flux(o, s->dim, i) : 0.0;
+    OUTFLOWS (s, o)
+        for (int64_t i = 0; i < o->n; i++)
+            sum += o->own[i] ? carried_flux(o, s->dim, i) : 0.0;
     s->outflows->all = s->outflows->given + sum;
     if (s->bc)
         s->bc->outflux = s->outflows->all;
@@ -40,43 +40,43 @@ static bool pressure_given(const struct fv *s)
 static void balance(struct fv *s)
 {
     double sums[3] = {sum_up(s), 0.0, 0.0}; /* flux, area, forced faces */
-    OUTFLOWS(s, o)
-    for (int64_t i = 0; i < o->n; i++)
-        sums[1] += o->own[i] ? carried_area(o, i) : 0.0;
+    OUTFLOWS (s, o)
+        for (int64_t i = 0; i < o->n; i++)
+            sums[1] += o->own[i] ? carried_area(o, i) : 0.0;
     for (int a = 0; s->forcing && a < s->dim; a++)
         sums[2] += (double)s->forcing->nface[a];
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->comm);
     if (pressure_given(s) || sums[2] > 0.0 || sums[1] == 0.0)
         return;
     const double excess = sums[0] / sums[1];
-    OUTFLOWS(s, o)
-    for (int64_t i = 0; i < o->n; i++) {
-        const double area = carried_area(o, i);
-        for (int q = 0; q < s->dim && area > 0.0; q++)
-            o->w[q][o->place[i]] -= excess * (o->S[q][i] / area);
-    }
+    OUTFLOWS (s, o)
+        for (int64_t i = 0; i < o->n; i++) {
+            const double area = carried_area(o, i);
+            for (int q = 0; q < s->dim && area > 0.0; q++)
+                o->w[q][o->place[i]] -= excess * (o->S[q][i] / area);
+        }
     sum_up(s);
 }
 
 static void keep(struct fv *s)
 {
-    OUTFLOWS(s, o)
-    for (int q = 0; q < s->dim; q++)
-        for (int64_t i = 0; i < o->n; i++)
-            s->outflows->kept[q][o->cell[i] - o->in] = o->w[q][o->place[i]];
+    OUTFLOWS (s, o)
+        for (int q = 0; q < s->dim; q++)
+            for (int64_t i = 0; i < o->n; i++)
+                s->outflows->kept[q][o->cell[i] - o->in] = o->w[q][o->place[i]];
 }
 
 void outflow_start(struct fv *s)
 {
     if (!s->outflows)
         return;
-    OUTFLOWS(s, o)
-    for (int q = 0; q < s->dim; q++)
-        for (int64_t i = 0; i < o->n; i++) {
-            const double *u = s->u[q] + o->cell[i];
-            o->w[q][o->place[i]] = (11.0 * u[0] - 7.0 * u[o->in] + 2.0 * u[2 * o->in]) / 6.0;
-            o->change[q][o->place[i]] = 0.0;
-        }
+    OUTFLOWS (s, o)
+        for (int q = 0; q < s->dim; q++)
+            for (int64_t i = 0; i < o->n; i++) {
+                const double *u = s->u[q] + o->cell[i];
+                o->w[q][o->place[i]] = (11.0 * u[0] - 7.0 * u[o->in] + 2.0 * u[2 * o->in]) / 6.0;
+                o->change[q][o->place[i]] = 0.0;
+            }
     balance(s);
     keep(s);
 }
@@ -85,10 +85,10 @@ void outflow_restore(struct fv *s)
 {
     if (!s->outflows)
         return;
-    OUTFLOWS(s, o)
-    for (int q = 0; q < s->dim; q++)
-        for (int64_t i = 0; i < o->n; i++)
-            o->w[q][o->place[i]] = s->outflows->kept[q][o->cell[i] - o->in];
+    OUTFLOWS (s, o)
+        for (int q = 0; q < s->dim; q++)
+            for (int64_t i = 0; i < o->n; i++)
+                o->w[q][o->place[i]] = s->outflows->kept[q][o->cell[i] - o->in];
     sum_up(s);
 }
 
@@ -114,8 +114,7 @@ void outflow_begin(struct fv *s)
     double sums[2][6] = {{0.0}};
     if (!s->outflows)
         return;
-    OUTFLOWS(s, o)
-    {
+    OUTFLOWS (s, o) {
         for (int64_t i = 0; i < o->n; i++)
             if (o->own[i]) {
                 sums[0][o->side] += o->share[i] * carried_flux(o, s->dim, i);
@@ -133,20 +132,20 @@ void outflow_set(struct fv *s, double dt)
 {
     if (!s->outflows)
         return;
-    OUTFLOWS(s, o)
-    for (int q = 0; q < s->dim; q++)
-        for (int64_t i = 0; i < o->n; i++) {
-            const double *line = o->line[q] + 3 * i;
-            const double x =
-                fmin(s->outflows->speed[o->side] / o->h[i] * dt, 1.5); /* it ends at 2 */
-            double *w = o->w[q] + o->place[i];
-            o->change[q][o->place[i]] = -*w;
-            *w = line[0] + x * (line[1] + x * line[2]);
-        }
+    OUTFLOWS (s, o)
+        for (int q = 0; q < s->dim; q++)
+            for (int64_t i = 0; i < o->n; i++) {
+                const double *line = o->line[q] + 3 * i;
+                const double x =
+                    fmin(s->outflows->speed[o->side] / o->h[i] * dt, 1.5); /* it ends at 2 */
+                double *w = o->w[q] + o->place[i];
+                o->change[q][o->place[i]] = -*w;
+                *w = line[0] + x * (line[1] + x * line[2]);
+            }
     balance(s);
-    OUTFLOWS(s, o)
-    for (int q = 0; q < s->dim; q++)
-        for (int64_t i = 0; i < o->n; i++)
-            o->change[q][o->place[i]] += o->w[q][o->place[i]];
+    OUTFLOWS (s, o)
+        for (int q = 0; q < s->dim; q++)
+            for (int64_t i = 0; i < o->n; i++)
+                o->change[q][o->place[i]] += o->w[q][o->place[i]];
     keep(s);
 }

@@ -1,11 +1,11 @@
 /* still.c - gravity and the pressure of water at rest, which the equations leave out.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../fv.h"
 #include "still.h"
+#include "../fv.h"
 
 #include <math.h>
 
-#include "../../common/scene_fluid.h"
+#include "../../common/scene/scene_fluid.h"
 
 void still_split(const struct scene *scene, double drive[3], double still[3], double *level)
 {

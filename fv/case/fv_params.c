@@ -3,14 +3,14 @@
 
 #include <math.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/blocked.h"
-#include "../surface/levelset.h"
-#include "../watch/limits.h"
+#include "../boundary/still.h"
 #include "../grid/mesh.h"
 #include "../grid/rows.h"
+#include "../surface/levelset.h"
+#include "../watch/limits.h"
 #include "fv_case.h"
-#include "../boundary/still.h"
 
 static struct fv_params given;
 

@@ -5,11 +5,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../common/scene_fluid.h"
+#include "../../common/scene/scene_fluid.h"
+#include "../boundary/still.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
 #include "fv_case.h"
-#include "../boundary/still.h"
 
 static const char axes[] = "xyz";
 

@@ -7,11 +7,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/blocked.h"
-#include "../surface/levelset.h"
 #include "../grid/mesh.h"
 #include "../grid/rows.h"
+#include "../surface/levelset.h"
 #include "fv_case.h"
 
 /* Whether the run leaves the key out; k: element of a list. */

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../../common/scene_fluid.h"
+#include "../../common/scene/scene_fluid.h"
 #include "../boundary/blocked.h"
 #include "../fv.h"
 #include "../grid/mesh.h"

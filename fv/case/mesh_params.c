@@ -1,5 +1,5 @@
 /* mesh_params.c - parameters of the list blocks. SPDX-License-Identifier: BSD-3-Clause */
-#include "../../common/scene_check.h"
+#include "../../common/scene/scene_check.h"
 #include "../grid/mesh.h"
 #include "../grid/mesh_motion.h"
 

@@ -3,11 +3,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../common/exact.h"
+#include "../../common/scene/exact.h"
+#include "../boundary/still.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 #include "../grid/mesh_motion.h"
-#include "../boundary/still.h"
 #include "../grid/overset.h"
 #include "../output/output.h"
 #include "../surface/levelset.h"

@@ -3,29 +3,29 @@
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "../boundary/outflow.h"
-#include "../operators/mesh_ops.h"
-#include "../poisson/poisson.h"
-#include "../surface/levelset.h"
-#include "../output/mesh_output.h"
 #include "../boundary/still.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
+#include "../operators/mesh_ops.h"
+#include "../output/mesh_output.h"
+#include "../poisson/poisson.h"
+#include "../surface/levelset.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../watch/limits.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../coupling/fv_link.h"
 #include "../grid/mesh_motion.h"
 #include "../grid/overset.h"
 #include "../time/moving.h"
 #include "../time/newton.h"
 #include "../time/stages.h"
-#include "../watch/watches.h"
-#include "../coupling/fv_link.h"
-#include "fv_case.h"
 #include "../time/steps.h"
+#include "../watch/limits.h"
+#include "../watch/watches.h"
+#include "fv_case.h"
 
 static void make_fields(struct fv *s)
 {

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../grid/mesh.h"
 
 enum { MOST = 8 }; /* points of a cell along an axis */

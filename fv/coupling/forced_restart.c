@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-#include "../../common/h5.h"
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
 #include "../boundary/forcing.h"
 #include "../grid/layout.h"
 

@@ -6,24 +6,24 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../../common/watch.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
+#include "../../common/run/watch.h"
 #include "../../coupler/cpl.h"
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
+#include "../boundary/still.h"
+#include "../grid/mesh.h"
+#include "../surface/levelset.h"
+#include "../surface/surface_forced.h"
 #include "forced_points.h"
 #include "forced_restart.h"
 #include "fv_course.h"
-#include "../grid/mesh.h"
-#include "../boundary/still.h"
 #include "fv_link.h"
 #include "moved_box.h"
 #include "shared_walls.h"
 #include "water_budget.h"
-#include "../surface/levelset.h"
-#include "../surface/surface_forced.h"
 
 /* One program of particles. */
 struct giver {
@@ -366,12 +366,12 @@ static void start_past(struct fv *s, double before)
         for (int a = 0; a < s->dim; a++)
             memcpy(s->past[m][a], s->u[a], (size_t)s->size * sizeof(double));
     for (int m = 0; m < 2 && exact; m++)
-        FLOW_ROWS(s, at, n)
-    for (int64_t c = at; c < at + n; c++) {
-        forcing_average(s, c, s->t - (m + 1) * before, u, NULL);
-        for (int a = 0; a < s->dim; a++)
-            s->past[m][a][c] = u[a];
-    }
+        FLOW_ROWS (s, at, n)
+            for (int64_t c = at; c < at + n; c++) {
+                forcing_average(s, c, s->t - (m + 1) * before, u, NULL);
+                for (int a = 0; a < s->dim; a++)
+                    s->past[m][a][c] = u[a];
+            }
 }
 
 /* Of walls that both programs have. */

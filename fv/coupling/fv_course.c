@@ -4,15 +4,15 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/fit.h"
-#include "../../common/h5.h"
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/fit.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
 #include "../boundary/mesh_bc.h"
-#include "../grid/layout.h"
-#include "../time/steps.h"
 #include "../boundary/still.h"
+#include "../grid/layout.h"
 #include "../surface/levelset.h"
+#include "../time/steps.h"
 
 struct course *course_create(const struct fv *s, struct patch *p, int memory)
 {

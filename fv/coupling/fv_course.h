@@ -8,8 +8,8 @@
 
 #include "../boundary/forcing.h"
 #include "../fv.h"
-#include "patch.h"
 #include "../time/steps.h"
+#include "patch.h"
 
 enum {
     COURSE_LEVELS = 3, /* ends of coupling steps that are remembered */

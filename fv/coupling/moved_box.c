@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "../grid/overset.h"

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/scene_geometry.h"
+#include "../../common/scene/scene_geometry.h"
 #include "../grid/block_walls.h"
 #include "../grid/overset.h"
 

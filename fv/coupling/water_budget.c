@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../common/crossing.h"
-#include "../../common/h5.h"
+#include "../../common/files/h5.h"
+#include "../../common/run/crossing.h"
 #include "../boundary/forcing.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"

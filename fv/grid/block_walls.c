@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../../common/vec3.h"
+#include "../../common/base/mem.h"
+#include "../../common/base/vec3.h"
 
 enum { WALLS_MOST = 3 }; /* that meet at a corner */
 

@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
 #include "block.h"
 
 enum { NUMBERS = 11 }; /* that make a box: grid, lo, n, g, base */

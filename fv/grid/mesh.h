@@ -10,8 +10,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "../../common/run.h"
-#include "../../common/scene_body.h"
+#include "../../common/run/run.h"
+#include "../../common/scene/scene_body.h"
 #include "part.h"
 #include "side_kinds.h"
 

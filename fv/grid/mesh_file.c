@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 
 static double *read_hdf5(const char *path, int dim, int *cells)
 {

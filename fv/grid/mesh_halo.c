@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "mesh.h"
 
 static int stencil(const struct mesh *m, const struct mesh_exchange *x)

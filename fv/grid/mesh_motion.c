@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/body_math.h"
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../../common/geometry/body_math.h"
 
 bool mesh_motion_told(int block) { return mesh_block_params()[block].motion.n > 0; }
 

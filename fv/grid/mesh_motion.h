@@ -6,7 +6,7 @@
 #ifndef FV_MESH_MOTION_H
 #define FV_MESH_MOTION_H
 
-#include "../../common/body_drive.h"
+#include "../../common/scene/body_drive.h"
 #include "mesh.h"
 
 struct mesh_motion {

@@ -3,7 +3,7 @@
 #ifndef FV_SIDE_KINDS_H
 #define FV_SIDE_KINDS_H
 
-#include "../../common/scene.h"
+#include "../../common/scene/scene.h"
 
 enum mesh_side {
     MESH_NONE, /* of the uniform grid: periodic, or the exact velocity */

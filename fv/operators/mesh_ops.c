@@ -6,13 +6,13 @@
  * ones from face values by (8 d_2 - d_4)/12
  *   volume average to average over indices: less sum over a of dq_a dV_a/48/V
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh_ops.h"
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
-#include "mesh_ops.h"
-#include "operators.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
+#include "operators.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,11 +4,11 @@
  * of very different size want; between joins of like cells conjugate gradients.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
-#include "helmholtz.h"
-#include "mesh_ops.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
+#include "helmholtz.h"
+#include "mesh_ops.h"
 #include "operators.h"
 
 #include <math.h>
@@ -101,18 +101,18 @@ static double step(struct fv *s, const struct course *k, double *const x[3], dou
     mesh_bc_velocity(s, BC_ZERO, x);
     for (int a = 0; a < s->dim; a++) {
         mesh_viscous(s, x[a], L);
-        FLOW_ROWS(s, at, n)
-        sum += step_row(x[a] + at, L + at, r[a] + at, s->free + at, k->c, k->alpha, k->beta, n,
-                        y[a] + at);
+        FLOW_ROWS (s, at, n)
+            sum += step_row(x[a] + at, L + at, r[a] + at, s->free + at, k->c, k->alpha, k->beta, n,
+                            y[a] + at);
     }
     return sum;
 }
 
 static void zero(const struct fv *s, double *x)
 {
-    FLOW_ROWS(s, at, n)
-    for (int64_t i = at; i < at + n; i++)
-        x[i] *= s->free[i];
+    FLOW_ROWS (s, at, n)
+        for (int64_t i = at; i < at + n; i++)
+            x[i] *= s->free[i];
     if (s->surface)
         surface_zero(s, x);
 }
@@ -139,9 +139,9 @@ static void start_residual(struct fv *s, double c)
         const double *restrict d = s->delta[a];
         double *restrict r = s->rhs[a];
         mesh_viscous(s, s->delta[a], L);
-        FLOW_ROWS(s, at, n)
-        for (int64_t i = at; i < at + n; i++)
-            r[i] += s->free[i] * (c * L[i] - d[i]);
+        FLOW_ROWS (s, at, n)
+            for (int64_t i = at; i < at + n; i++)
+                r[i] += s->free[i] * (c * L[i] - d[i]);
     }
 }
 
@@ -168,9 +168,9 @@ bool mesh_viscous_solve(struct fv *s, double c, double tol)
         helmholtz_chebyshev(&h, s->delta, s->rhs, rr, share * rr, NULL))
         return true;
     for (int a = 0; a < s->dim; a++)
-        FLOW_ROWS(s, at, n)
-    for (int64_t i = at; i < at + n; i++)
-        s->rhs[a][i] /= 1.0 + c * s->scale[i];
+        FLOW_ROWS (s, at, n)
+            for (int64_t i = at; i < at + n; i++)
+                s->rhs[a][i] /= 1.0 + c * s->scale[i];
     const double scaled = square(s, s->rhs);
     return (s->symmetric && !s->surface ? helmholtz_cg : helmholtz_bicgstab)(
         &h, s->delta, s->rhs, scaled, share * scaled);

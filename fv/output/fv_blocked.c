@@ -1,8 +1,8 @@
 /* fv_blocked.c - forces of the flow on boxes that are cut out of the grid.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/blocked.h"
-#include "../surface/levelset.h"
 #include "../boundary/still.h"
+#include "../surface/levelset.h"
 #include "output.h"
 
 #include <stdio.h>

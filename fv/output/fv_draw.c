@@ -2,8 +2,8 @@
  * blocks by what they are. SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
-#include "../../common/mem.h"
-#include "../../common/picture.h"
+#include "../../common/base/mem.h"
+#include "../../common/scene/picture.h"
 #include "../boundary/blocked.h"
 #include "../grid/mesh.h"
 #include "output.h"

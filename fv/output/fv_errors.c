@@ -6,17 +6,17 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
+#include "../boundary/still.h"
 #include "../coupling/water_budget.h"
 #include "../grid/mesh.h"
 #include "../grid/overset.h"
 #include "../operators/mesh_ops.h"
 #include "../surface/levelset.h"
-#include "../boundary/still.h"
 #include "mesh_output.h"
 #include "output.h"
 
@@ -76,8 +76,7 @@ void fv_errors(struct fv *s, struct norm n[NORMS])
         fv_vorticity(s, vorticity);
     for (int k = 0; k < NORMS; k++)
         n[k] = (struct norm){0};
-    COMPUTED_CELLS(s, part, i, c, of)
-    {
+    COMPUTED_CELLS (s, part, i, c, of) {
         exact_at(s, part, i, &of, u, &p, &w);
         for (int a = 0; a < s->dim; a++)
             norm_add(n, of.volume, s->u[a][c] - u[a], u[a]);
@@ -96,8 +95,7 @@ void fv_energies(struct fv *s, double sum[2])
     sum[1] = 0.0;
     if (s->surface)
         return;
-    COMPUTED_CELLS(s, part, i, c, of)
-    {
+    COMPUTED_CELLS (s, part, i, c, of) {
         if (s->has_exact)
             exact_at(s, part, i, &of, u, &p, &w);
         for (int a = 0; a < s->dim; a++) {
@@ -133,8 +131,7 @@ void fv_tell(void *state, struct summary *report)
     const double rho = s->run->scene.fluid.rho, *g = s->run->scene.fluid.gravity;
     double sum[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
     int i[3];
-    COMPUTED_CELLS(s, p, i, c, of)
-    {
+    COMPUTED_CELLS (s, p, i, c, of) {
         const double *x = of.x;
         if (o && mesh_counts_twice(s, o, p->block, x))
             continue;

@@ -4,8 +4,8 @@
 
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
-#include "../surface/levelset.h"
 #include "../boundary/still.h"
+#include "../surface/levelset.h"
 #include "output.h"
 
 /* Whether the cell holds no water; whether none stands at the wall, beyond the cell's centre. */

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/mem.h"
-#include "../../common/xdmf.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
+#include "../../common/files/xdmf.h"
 #include "../boundary/forcing.h"
 #include "../boundary/still.h"
 #include "../grid/mesh.h"
@@ -45,8 +45,8 @@ static void centroid(const struct fv *s, const struct part *p, const int *i, dou
 static void velocity(struct fv *s, double *const q[3])
 {
     for (int a = 0; a < s->dim; a++) {
-        FLOW_ROWS(s, c, n)
-        memcpy(q[a] + c, s->u[a] + c, (size_t)n * sizeof(double));
+        FLOW_ROWS (s, c, n)
+            memcpy(q[a] + c, s->u[a] + c, (size_t)n * sizeof(double));
         if (s->m)
             mesh_to_volume(s, q[a], s->flux);
     }
@@ -54,9 +54,9 @@ static void velocity(struct fv *s, double *const q[3])
 
 static void pressure(struct fv *s, double *const q[3])
 {
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        q[0][i] = fv_pressure(s, i) + s->datum;
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            q[0][i] = fv_pressure(s, i) + s->datum;
     if (s->m && !s->surface) /* p ends at the surface: no differences there */
         mesh_to_volume(s, q[0], s->flux);
     for (const struct part *p = s->part; p < s->part + s->nparts; p++) {

@@ -5,11 +5,11 @@
 
 #include <math.h>
 
-#include "../../common/mem.h"
-#include "mesh_output.h"
+#include "../../common/base/mem.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 #include "../grid/overset.h"
+#include "mesh_output.h"
 #include "output.h"
 
 /* Value at the middle of the domain along the stride, from the cell c right of it (or around it,

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "../boundary/blocked.h"
-#include "../surface/levelset.h"
 #include "../boundary/still.h"
+#include "../surface/levelset.h"
 #include "output.h"
 
 /* The same among rows of unequal height. */

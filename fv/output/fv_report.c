@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/log.h"
+#include "../../common/base/log.h"
 #include "../boundary/blocked.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"

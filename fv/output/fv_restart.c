@@ -3,9 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/log.h"
+#include "../../common/base/log.h"
+#include "../../common/files/h5.h"
 #include "../boundary/outflow.h"
+#include "../coupling/fv_link.h"
 #include "../fv.h"
 #include "../grid/layout.h"
 #include "../grid/mesh.h"
@@ -15,10 +16,9 @@
 #include "../time/moving.h"
 #include "../time/newton.h"
 #include "../time/stages.h"
-#include "../watch/watches.h"
 #include "../time/steps.h"
+#include "../watch/watches.h"
 #include "output.h"
-#include "../coupling/fv_link.h"
 
 enum { SURFACE_NUMBERS = 4 };
 static const char *const surface_numbers[SURFACE_NUMBERS] = {"volume0", "returned", "travelled",

@@ -1,26 +1,26 @@
 /* mesh_errors.c - rows of the series and the summary of a flow on blocks: forces on walls, gauges.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
-#include "../operators/mesh_ops.h"
 #include "../coupling/water_budget.h"
+#include "../fv.h"
+#include "../grid/mesh.h"
+#include "../operators/mesh_ops.h"
 #include "mesh_output.h"
 #include "output.h"
 #include "report.h"
-#include "../fv.h"
-#include "../grid/mesh.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/forecast.h"
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../watch/limits.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/run/forecast.h"
+#include "../boundary/still.h"
 #include "../grid/mesh_motion.h"
 #include "../grid/overset.h"
 #include "../surface/levelset.h"
-#include "../boundary/still.h"
+#include "../watch/limits.h"
 
 bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, const double *x)
 {

@@ -4,11 +4,11 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../../common/exact.h"
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../../common/scene/exact.h"
 #include "../boundary/forcing.h"
-#include "output.h"
 #include "../surface/levelset.h"
+#include "output.h"
 
 enum { HARMONICS = 5 }; /* 1, cos, sin, cos 2, sin 2 */
 

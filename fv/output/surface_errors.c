@@ -4,28 +4,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
+#include "../boundary/still.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
 #include "../surface/surface_forced.h"
-#include "../boundary/still.h"
 #include "output.h"
 
 double surface_energy(const struct fv *s)
 {
     double sum = 0.0;
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++) {
-        double square = 0.0;
-        if (s->forcing && s->forcing->forced[i])
-            continue;
-        for (int a = 0; a < s->dim; a++)
-            square += s->u[a][i] * s->u[a][i];
-        sum +=
-            square > 0.0 ? 0.5 * square * surface_share(s, i) * surface_cell_volume(s, i, j_) : 0.0;
-    }
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            double square = 0.0;
+            if (s->forcing && s->forcing->forced[i])
+                continue;
+            for (int a = 0; a < s->dim; a++)
+                square += s->u[a][i] * s->u[a][i];
+            sum += square > 0.0 ? 0.5 * square * surface_share(s, i) * surface_cell_volume(s, i, j_)
+                                : 0.0;
+        }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
     return sum;
 }
@@ -100,17 +100,17 @@ static double reach_on_blocks(const struct fv *s, int a)
     const struct surface_mesh *w = s->surface->mesh;
     const double *phi = s->surface->phi, *x = w->x[a];
     double most = -INFINITY;
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        for (int b = 0; b < 2 * s->dim && has_water(s, i); b++) {
-            const int64_t d = b % 2 ? p_->stride[b / 2] : -p_->stride[b / 2], to = i + d;
-            const bool inside = w->out[to] || phi[to] < 0.0;
-            const double way = inside ? 0.5 : phi[i] / (phi[i] - phi[to]);
-            const double end = x[i] + way * (x[to] - x[i]);
-            most = fmax(most, end);
-            if (!inside && end > x[i])
-                most = fmax(most, end + foot_on_blocks(s, p_, i, d, a, end));
-        }
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            for (int b = 0; b < 2 * s->dim && has_water(s, i); b++) {
+                const int64_t d = b % 2 ? p_->stride[b / 2] : -p_->stride[b / 2], to = i + d;
+                const bool inside = w->out[to] || phi[to] < 0.0;
+                const double way = inside ? 0.5 : phi[i] / (phi[i] - phi[to]);
+                const double end = x[i] + way * (x[to] - x[i]);
+                most = fmax(most, end);
+                if (!inside && end > x[i])
+                    most = fmax(most, end + foot_on_blocks(s, p_, i, d, a, end));
+            }
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     return most;
 }
@@ -206,19 +206,20 @@ static double mode_on_blocks(const struct fv *s)
 {
     const struct exact *e = &s->exact;
     double *const *x = s->surface->mesh->x, sum = 0.0;
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++) {
-        const double kx = e->wave.k * e->along[0], kz = e->crossed ? e->wave.k * e->along[1] : 0.0,
-                     y = e->wave.k * (x[1][i] - e->bottom), count = s->surface->mesh->count[i];
-        double m = 0.0;
-        if (s->surface->layer[i] > 2 || count == 0.0)
-            continue;
-        m = cos(kz * x[2][i]) * (s->u[1][i] * sinh(y) * cos(kx * x[0][i]) -
-                                 e->along[0] * s->u[0][i] * cosh(y) * sin(kx * x[0][i]));
-        if (e->crossed)
-            m -= e->along[1] * s->u[2][i] * cosh(y) * cos(kx * x[0][i]) * sin(kz * x[2][i]);
-        sum += count * surface_share(s, i) * m;
-    }
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            const double kx = e->wave.k * e->along[0],
+                         kz = e->crossed ? e->wave.k * e->along[1] : 0.0,
+                         y = e->wave.k * (x[1][i] - e->bottom), count = s->surface->mesh->count[i];
+            double m = 0.0;
+            if (s->surface->layer[i] > 2 || count == 0.0)
+                continue;
+            m = cos(kz * x[2][i]) * (s->u[1][i] * sinh(y) * cos(kx * x[0][i]) -
+                                     e->along[0] * s->u[0][i] * cosh(y) * sin(kx * x[0][i]));
+            if (e->crossed)
+                m -= e->along[1] * s->u[2][i] * cosh(y) * cos(kx * x[0][i]) * sin(kz * x[2][i]);
+            sum += count * surface_share(s, i) * m;
+        }
     return sum;
 }
 

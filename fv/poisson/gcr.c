@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 
 void gcr_create(struct gcr *g, MPI_Comm comm, int n, void *of,
                 void (*apply)(void *of, double *x, double *Ax),

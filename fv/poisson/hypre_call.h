@@ -5,7 +5,7 @@
 
 #include <HYPRE_utilities.h>
 
-#include "../../common/log.h"
+#include "../../common/base/log.h"
 
 #define HYPRE(call)                                                                                \
     do {                                                                                           \

@@ -5,8 +5,8 @@
 
 #include <HYPRE_IJ_mv.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
 #include "../fv.h"
 #include "backend.h"
 #include "hypre_call.h"

@@ -8,9 +8,9 @@
  * Conjugate residuals with one cycle of BoomerAMG; if the residual is not small enough again with
  * BiCGSTAB and a stronger cycle. SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
-#include "../operators/mesh_ops.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
+#include "../operators/mesh_ops.h"
 
 #include <HYPRE.h>
 #include <HYPRE_IJ_mv.h>
@@ -19,8 +19,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
 #include "backend.h"
 #include "gcr.h"
 #include "ij_rows.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/mesh_bc.h"
 #include "../grid/mesh.h"
 #include "backend.h"
@@ -30,9 +30,9 @@ static void make_rows(const struct fv *s, struct poisson *p)
     p->b = NEW(double, p->n);
     p->x = NEW(double, p->n);
     p->psi = NEW(double, p->n);
-    FLOW_ROWS(s, c, len)
-    for (int64_t i = c; i < c + len; i++)
-        p->place[k++] = i;
+    FLOW_ROWS (s, c, len)
+        for (int64_t i = c; i < c + len; i++)
+            p->place[k++] = i;
     set_volumes(s, p);
 }
 
@@ -85,8 +85,7 @@ static double squares(const double *restrict f, const double *restrict q, int64_
 static bool negligible(struct fv *s, const double *div)
 {
     double sum[2] = {0.0, 0.0};
-    FLOW_ROWS(s, c, n)
-    {
+    FLOW_ROWS (s, c, n) {
         sum[0] += squares(s->free + c, div + c, n);
         for (int64_t i = c; i < c + n && s->jump; i++)
             if (s->m->status[i] == CELL_FRINGE && s->jump[i] != 0.0)

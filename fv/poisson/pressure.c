@@ -7,12 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "backend.h"
-#include "pfmg.h"
+#include "../../common/base/mem.h"
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
 #include "../surface/levelset.h"
+#include "backend.h"
+#include "pfmg.h"
 
 enum { MOST = 50 }; /* iterations */
 

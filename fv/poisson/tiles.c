@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 
 enum { TRIAL = 20 }; /* cycles that the rough right side may take: as dear as 4 of BoomerAMG */
 

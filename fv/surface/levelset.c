@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
@@ -125,8 +125,7 @@ static void rate_beside_boxes(const struct fv *s, const double *phi, double *rat
 static void rate_on_blocks(const struct fv *s, const double *near, const double *phi, double *rate)
 {
     const struct surface_mesh *w = s->surface->mesh;
-    FLOW_ROWS(s, c, n)
-    {
+    FLOW_ROWS (s, c, n) {
         const double *size = w->size[p_ - s->part];
         const double band = BAND * surface_mesh_spacing(s, p_);
         memset(rate + c, 0, (size_t)n * sizeof(double));
@@ -145,8 +144,7 @@ static void rate_on_moving_blocks(const struct fv *s, const double *near, const 
 {
     const double *g = s->still;
     rate_on_blocks(s, near, eta, rate);
-    FLOW_ROWS(s, c, n)
-    {
+    FLOW_ROWS (s, c, n) {
         const double band = BAND * surface_mesh_spacing(s, p_);
         for (int64_t from = c, m = 0; next_run(near, band, c + n, &from, &m);)
             for (int a = 0; a < s->dim; a++)
@@ -178,9 +176,9 @@ static void rate_of(const struct fv *s, const double *phi, double *rate)
 static void blend(const struct fv *s, double w, const double *p, double dt, const double *rate,
                   double *q)
 {
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        q[i] = w * p[i] + (1.0 - w) * (q[i] + dt * rate[i]);
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            q[i] = w * p[i] + (1.0 - w) * (q[i] + dt * rate[i]);
 }
 
 /* Ghosts while phi goes on: that it is mirrored by walls is a kink, which WENO5 takes for the
@@ -378,8 +376,7 @@ static void correct_shared(const struct fv *s, double sums[2])
 double surface_volume(const struct fv *s, double *area)
 {
     double sums[2] = {0.0, 0.0};
-    FLOW_ROWS(s, c, n)
-    {
+    FLOW_ROWS (s, c, n) {
         const double h = s->m ? surface_mesh_spacing(s, p_) : largest_spacing(&s->b, j_);
         const double e = 1e-4 * h;
         for (int64_t i = c; i < c + n; i++) {

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/blocked.h"
 #include "mesh_view.h"
 #include "surface_forced.h"
@@ -281,9 +281,9 @@ static bool is_left_out(const struct fv *s, int64_t c)
 static void mark_band(const struct fv *s, int width, double *mark)
 {
     memset(mark, 0, (size_t)s->size * sizeof(double));
-    FLOW_ROWS(s, c, len)
-    for (int64_t i = c; i < c + len; i++)
-        mark[i] = !is_left_out(s, i) && beside_surface(s, p_, s->surface->phi, i);
+    FLOW_ROWS (s, c, len)
+        for (int64_t i = c; i < c + len; i++)
+            mark[i] = !is_left_out(s, i) && beside_surface(s, p_, s->surface->phi, i);
     for (int k = 1; k < width; k++)
         for (int a = 0; a < s->dim; a++) {
             double *const next = s->surface->kept;
@@ -291,14 +291,13 @@ static void mark_band(const struct fv *s, int width, double *mark)
                 mesh_halo(s->m, 1, &mark);
             else
                 block_halo(&s->b, 1, &mark);
-            FLOW_ROWS(s, c, len)
-            {
+            FLOW_ROWS (s, c, len) {
                 const int64_t d = p_->stride[a];
                 for (int64_t i = c; i < c + len; i++)
                     next[i] = fmax(mark[i], fmax(mark[i - d], mark[i + d]));
             }
-            FLOW_ROWS(s, c, len)
-            memcpy(mark + c, next + c, (size_t)len * sizeof(double));
+            FLOW_ROWS (s, c, len)
+                memcpy(mark + c, next + c, (size_t)len * sizeof(double));
         }
 }
 
@@ -328,33 +327,33 @@ static void list_band(struct fv *s, int width, struct band *w)
     const double far = s->surface->least * (width - 1);
     int64_t cells = 0;
     mark_band(s, width, mark);
-    FLOW_ROWS(s, c, len)
-    for (int64_t i = c; i < c + len; i++) {
-        cells += mark[i] > 0.0;
-        if (mark[i] == 0.0 || is_blocked(s, i))
-            phi[i] = copysign(fmax(far, fabs(phi[i])), phi[i]);
-    }
+    FLOW_ROWS (s, c, len)
+        for (int64_t i = c; i < c + len; i++) {
+            cells += mark[i] > 0.0;
+            if (mark[i] == 0.0 || is_blocked(s, i))
+                phi[i] = copysign(fmax(far, fabs(phi[i])), phi[i]);
+        }
     w->strips = NEW(struct strip, cells);
     w->spots = NEW(struct spot, cells);
     surface_ghosts(s, phi);
-    FLOW_ROWS(s, c, len)
-    for (int64_t i = c; i < c + len; i++) {
-        if (!(mark[i] > 0.0) || is_left_out(s, i))
-            continue;
-        if (i == c || !(mark[i - 1] > 0.0) || is_left_out(s, i - 1))
-            w->strips[w->nstrips++] =
-                (struct strip){.part = p_,
-                               .cell = i,
-                               .row = j_,
-                               .dtau = s->m ? 0.0 : pseudo_cfl(s) * least_size(&s->b, j_)};
-        w->strips[w->nstrips - 1].n++;
-        exact[i] = phi[i];
-        if (!s->m &&
-            (surface_closest(s, phi, i, exact + i) || (width == NARROW && near_side(s, i))))
-            w->spots[w->nspots++] = (struct spot){.part = p_, .cell = i};
-        else if (beside_surface(s, p_, phi, i))
-            w->spots[w->nspots++] = look(s, p_, phi, i, j_);
-    }
+    FLOW_ROWS (s, c, len)
+        for (int64_t i = c; i < c + len; i++) {
+            if (!(mark[i] > 0.0) || is_left_out(s, i))
+                continue;
+            if (i == c || !(mark[i - 1] > 0.0) || is_left_out(s, i - 1))
+                w->strips[w->nstrips++] =
+                    (struct strip){.part = p_,
+                                   .cell = i,
+                                   .row = j_,
+                                   .dtau = s->m ? 0.0 : pseudo_cfl(s) * least_size(&s->b, j_)};
+            w->strips[w->nstrips - 1].n++;
+            exact[i] = phi[i];
+            if (!s->m &&
+                (surface_closest(s, phi, i, exact + i) || (width == NARROW && near_side(s, i))))
+                w->spots[w->nspots++] = (struct spot){.part = p_, .cell = i};
+            else if (beside_surface(s, p_, phi, i))
+                w->spots[w->nspots++] = look(s, p_, phi, i, j_);
+        }
 }
 
 static void keep_slopes(const struct fv *s, bool keep)
@@ -422,10 +421,10 @@ double surface_distortion(const struct fv *s)
 {
     const double *phi = s->surface->phi, h = s->surface->largest;
     double most = 0.0;
-    FLOW_ROWS(s, c, len)
-    for (int64_t i = c; i < c + len; i++)
-        if (fabs(phi[i]) < 2.0 * h && !is_left_out(s, i))
-            most = fmax(most, fabs(slope_of(s, p_, phi, i, j_) - 1.0));
+    FLOW_ROWS (s, c, len)
+        for (int64_t i = c; i < c + len; i++)
+            if (fabs(phi[i]) < 2.0 * h && !is_left_out(s, i))
+                most = fmax(most, fabs(slope_of(s, p_, phi, i, j_) - 1.0));
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     return most;
 }

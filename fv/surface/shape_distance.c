@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "../../common/scene_fluid.h"
+#include "../../common/scene/scene_fluid.h"
 #include "../boundary/blocked.h"
 
 /* Whether a side of the water is, seen from x, a box that is cut out: what lies half a cell beyond

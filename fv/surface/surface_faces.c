@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "../boundary/still.h"

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/colour.h"
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../../common/waves/colour.h"
 #include "../boundary/forcing.h"
 #include "../grid/block_walls.h"
 #include "levelset.h"
@@ -100,10 +100,10 @@ struct surface_forced *surface_forced_create(const struct fv *s)
         return NULL;
     struct surface_forced *f = NEW(struct surface_forced, 1);
     f->cell = NEW(int64_t, s->size);
-    FLOW_ROWS(s, at, n)
-    for (int64_t c = at; c < at + n; c++)
-        if (g->forced[c] == 1 || (s->m && is_deep(s, p_, c)))
-            f->cell[f->n++] = c;
+    FLOW_ROWS (s, at, n)
+        for (int64_t c = at; c < at + n; c++)
+            if (g->forced[c] == 1 || (s->m && is_deep(s, p_, c)))
+                f->cell[f->n++] = c;
     f->nforced = f->n;
     f->holds = s->m ? NEW(bool, s->size) : NULL;
     for (int64_t i = 0; i < f->n && s->m; i++)

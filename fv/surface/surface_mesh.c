@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/forcing.h"
 #include "../grid/mesh_motion.h"
 #include "../grid/overset.h"

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../grid/overset.h"
 
 /* --- polygons: convex, counter-clockwise --- */

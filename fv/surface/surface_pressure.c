@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/forcing.h"
 #include "../boundary/still.h"
 #include "mesh_view.h"
@@ -78,9 +78,9 @@ static void count(struct fv *s)
 {
     struct surface *f = s->surface;
     int64_t n[2] = {0, 0};
-    FLOW_ROWS(s, c, len)
-    for (int64_t i = c; i < c + len; i++)
-        n[0] += f->layer[i] == 0 && !(f->forced && s->forcing->forced[i]);
+    FLOW_ROWS (s, c, len)
+        for (int64_t i = c; i < c + len; i++)
+            n[0] += f->layer[i] == 0 && !(f->forced && s->forcing->forced[i]);
     for (int a = 0; a < s->dim; a++)
         n[1] += f->ncut[a];
     MPI_Allreduce(MPI_IN_PLACE, n, 2, MPI_INT64_T, MPI_SUM, s->comm);
@@ -91,9 +91,9 @@ static void count(struct fv *s)
 /* On blocks dry cells take no part in the flow. */
 static void set_free(struct fv *s)
 {
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        s->free[i] = s->m->status[i] == CELL_COMPUTED && s->surface->layer[i] == 0;
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            s->free[i] = s->m->status[i] == CELL_COMPUTED && s->surface->layer[i] == 0;
 }
 
 void surface_rebuild(struct fv *s)
@@ -126,9 +126,9 @@ void surface_set_pressure(struct fv *s)
 void surface_zero(const struct fv *s, double *q)
 {
     const unsigned char *layer = s->surface->layer;
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        q[i] = layer[i] ? 0.0 : q[i];
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            q[i] = layer[i] ? 0.0 : q[i];
 }
 
 void surface_add_pressure(const struct fv *s, double *div)

@@ -3,13 +3,13 @@
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "../boundary/outflow.h"
+#include "../fv.h"
+#include "../grid/mesh.h"
 #include "../operators/helmholtz.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
-#include "../fv.h"
-#include "../grid/mesh.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -79,9 +79,9 @@ static void ghosts(struct fv *s, enum bc_value what, double *const u[3])
 static void finish_rhs(struct fv *s)
 {
     for (int a = 0; a < s->dim; a++)
-        FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        s->rhs[a][i] *= s->free[i];
+        FLOW_ROWS (s, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                s->rhs[a][i] *= s->free[i];
     if (!s->uneven)
         return;
     mesh_fill(s->m, s->dim, s->rhs);
@@ -104,9 +104,9 @@ static bool solve_viscous(struct fv *s, double c, double t, double scale)
     if (s->moving)
         moving_change(s);
     for (int a = 0; a < s->dim; a++)
-        FLOW_ROWS(s, at, n)
-    for (int64_t i = at; i < at + n; i++)
-        s->delta[a][i] *= share;
+        FLOW_ROWS (s, at, n)
+            for (int64_t i = at; i < at + n; i++)
+                s->delta[a][i] *= share;
     if (s->forcing) {
         forcing_velocity(s, t, s->delta);
         forcing_subtract(s->forcing, s->u, s->delta);

@@ -8,11 +8,11 @@
 #include "../boundary/outflow.h"
 #include "../operators/blocked_cells.h"
 #include "../operators/helmholtz.h"
+#include "../operators/operators.h"
 #include "../poisson/poisson.h"
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
 #include "stages.h"
-#include "../operators/operators.h"
 
 static void pressure_gradient(struct fv *s)
 {

@@ -2,14 +2,14 @@
  * restart file holds, in memory. SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/carried.h"
 #include "../boundary/outflow.h"
+#include "../fv.h"
+#include "../operators/operators.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
-#include "../fv.h"
 #include "newton.h"
-#include "../operators/operators.h"
 #include "steps.h"
 
 /* All fields that a step starts from, ghosts and all: bit for bit on the same ranks. */

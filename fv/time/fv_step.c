@@ -6,16 +6,16 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
 #include "../boundary/outflow.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
+#include "../watch/watches.h"
 #include "moving.h"
 #include "newton.h"
-#include "../watch/watches.h"
 #include "steps.h"
 
 void measure(struct fv *s) { s->stages->measure(s); }
@@ -69,14 +69,14 @@ static void find_worst(const struct fv *s, double before, struct diagnosis *d)
     int64_t at = -1;
     char place[PARAM_TEXT_SIZE + 64];
     for (int a = 0; a < s->dim; a++)
-        FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++) {
-        const double v = isfinite(s->u[a][i]) ? fabs(s->u[a][i]) : 1e300;
-        if (v <= worst || (s->m && s->free[i] == 0.0))
-            continue;
-        worst = v;
-        at = i;
-    }
+        FLOW_ROWS (s, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                const double v = isfinite(s->u[a][i]) ? fabs(s->u[a][i]) : 1e300;
+                if (v <= worst || (s->m && s->free[i] == 0.0))
+                    continue;
+                worst = v;
+                at = i;
+            }
     if (at < 0)
         return;
     d->bad = true;

@@ -19,9 +19,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/body_math.h"
-#include "../../common/h5.h"
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
+#include "../../common/geometry/body_math.h"
 #include "../boundary/mesh_bc.h"
 #include "../grid/mesh_motion.h"
 #include "../grid/overset.h"

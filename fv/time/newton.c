@@ -10,8 +10,8 @@
 #include <string.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
 #include "../boundary/forcing.h"
 #include "../boundary/outflow.h"
 #include "moving.h"
@@ -198,8 +198,7 @@ static bool solve(struct fv *s)
 /* Place in the fields of a cell of the packed vectors. */
 static int64_t cell_of(const struct fv *s, int64_t k)
 {
-    FLOW_ROWS(s, c, n)
-    {
+    FLOW_ROWS (s, c, n) {
         if (k < n)
             return c + k;
         k -= n;

@@ -40,20 +40,20 @@ static void set_rates(struct fv *s)
     o->rate = 0.0;
     for (int64_t c = 0; c < s->size; c++)
         w->d[c] = 1.0 / o->c0;
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++, k++) {
-        const double rate = s->free[i] > 0.0 ? rate_of(s, i, p_->stride) : 0.0;
-        const double h = pow(s->m->V[i], 1.0 / s->dim);
-        const double scale = s->prm.steady && rate > 0.0 ? 1.0 / rate : 1.0 / (o->c0 + rate);
-        o->rate = fmax(o->rate, rate);
-        w->d[i] = 1.0 / (o->c0 + rate);
-        u[k] = 1.0 / (o->U * o->U);
-        f[k] = h / o->U;
-        for (int a = 1; a <= s->dim; a++) {
-            u[k + a * w->cells] = 1.0 / o->U;
-            f[k + a * w->cells] = scale / o->U;
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++, k++) {
+            const double rate = s->free[i] > 0.0 ? rate_of(s, i, p_->stride) : 0.0;
+            const double h = pow(s->m->V[i], 1.0 / s->dim);
+            const double scale = s->prm.steady && rate > 0.0 ? 1.0 / rate : 1.0 / (o->c0 + rate);
+            o->rate = fmax(o->rate, rate);
+            w->d[i] = 1.0 / (o->c0 + rate);
+            u[k] = 1.0 / (o->U * o->U);
+            f[k] = h / o->U;
+            for (int a = 1; a <= s->dim; a++) {
+                u[k + a * w->cells] = 1.0 / o->U;
+                f[k + a * w->cells] = scale / o->U;
+            }
         }
-    }
     MPI_Allreduce(MPI_IN_PLACE, &o->rate, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     mesh_fill(s->m, 1, &w->d);
 }
@@ -91,9 +91,9 @@ static void add_pressure_flux(struct fv *s)
 
 static void clear(const struct fv *s, double *q)
 {
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        q[i] = s->free[i] > 0.0 ? q[i] : 0.0;
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            q[i] = s->free[i] > 0.0 ? q[i] : 0.0;
 }
 
 /* Velocity and pressure beyond the surface, and the pressure on it. */
@@ -145,23 +145,23 @@ static void remove_mean(struct fv *s, double *q)
     double sums[2] = {0.0, 0.0};
     if (mesh_bc_pressure_given(s) || (s->surface && s->surface->cuts > 0))
         return;
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++) {
-        const double V = s->free[i] > 0.0 ? s->m->V[i] : 0.0;
-        sums[0] += V > 0.0 ? V * q[i] : 0.0;
-        sums[1] += V;
-    }
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            const double V = s->free[i] > 0.0 ? s->m->V[i] : 0.0;
+            sums[0] += V > 0.0 ? V * q[i] : 0.0;
+            sums[1] += V;
+        }
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        q[i] -= sums[0] / sums[1];
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            q[i] -= sums[0] / sums[1];
 }
 
 static void per_volume(const struct fv *s, double *q)
 {
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        q[i] /= s->m->V[i];
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            q[i] /= s->m->V[i];
 }
 
 static void evaluate(struct fv *s)
@@ -172,9 +172,9 @@ static void evaluate(struct fv *s)
     for (int a = 0; a < s->dim; a++) {
         if (s->nu > 0.0)
             mesh_viscous(s, s->u[a], s->delta[a]);
-        FLOW_ROWS(s, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            s->rhs[a][i] = s->N[a][i] + w->G[a][i] - s->delta[a][i] - s->drive[a];
+        FLOW_ROWS (s, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                s->rhs[a][i] = s->N[a][i] + w->G[a][i] - s->delta[a][i] - s->drive[a];
     }
     s->stages->finish_rhs(s);
     mesh_divergence(s, s->U, s->face);
@@ -188,14 +188,14 @@ static void close_wet_rows(struct fv *s)
     const unsigned char *layer = s->surface->layer;
     double *const *A = s->newton->A;
     for (int e = 1; e <= 2 * s->dim; e++)
-        FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++) {
-        const int64_t to = i + (e % 2 ? -1 : 1) * p_->stride[(e - 1) / 2];
-        if (s->free[i] > 0.0 && layer[to] && s->m->status[to] != CELL_HOLE) {
-            A[0][i] += A[e][i];
-            A[e][i] = 0.0;
-        }
-    }
+        FLOW_ROWS (s, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                const int64_t to = i + (e % 2 ? -1 : 1) * p_->stride[(e - 1) / 2];
+                if (s->free[i] > 0.0 && layer[to] && s->m->status[to] != CELL_HOLE) {
+                    A[0][i] += A[e][i];
+                    A[e][i] = 0.0;
+                }
+            }
 }
 
 /* First-order upwind, as on even cells; what lies behind closed sides goes into the diagonal, with
@@ -205,22 +205,23 @@ static void fill_rows(struct fv *s)
 {
     const struct mesh *m = s->m;
     double *const *A = s->newton->A;
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++) {
-        A[0][i] = s->newton->of.c0;
-        for (int e = 1; e <= 2 * s->dim; e++) {
-            const int a = (e - 1) / 2;
-            const int64_t d = p_->stride[a], face = e % 2 ? i : i + d, to = e % 2 ? i - d : i + d;
-            const double U = relative_flux(s, a, face), in = e % 2 ? U : -U;
-            const double w = (0.5 * (in + fabs(in)) + 1.2 * s->nu * m->G[a][a][face]) / m->V[i];
-            const bool inside = m->status[to] < CELL_HOLE;
-            A[e][i] = s->free[i] > 0.0 && inside ? -w : 0.0;
-            A[0][i] += inside || m->status[to] == CELL_GIVEN ? w
-                       : m->open[a][face] == 1.0             ? 0.0
-                                                             : 2.0 * w;
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            A[0][i] = s->newton->of.c0;
+            for (int e = 1; e <= 2 * s->dim; e++) {
+                const int a = (e - 1) / 2;
+                const int64_t d = p_->stride[a], face = e % 2 ? i : i + d,
+                              to = e % 2 ? i - d : i + d;
+                const double U = relative_flux(s, a, face), in = e % 2 ? U : -U;
+                const double w = (0.5 * (in + fabs(in)) + 1.2 * s->nu * m->G[a][a][face]) / m->V[i];
+                const bool inside = m->status[to] < CELL_HOLE;
+                A[e][i] = s->free[i] > 0.0 && inside ? -w : 0.0;
+                A[0][i] += inside || m->status[to] == CELL_GIVEN ? w
+                           : m->open[a][face] == 1.0             ? 0.0
+                                                                 : 2.0 * w;
+            }
+            A[0][i] = s->free[i] > 0.0 ? A[0][i] : 1.0;
         }
-        A[0][i] = s->free[i] > 0.0 ? A[0][i] : 1.0;
-    }
     if (s->surface)
         close_wet_rows(s);
     if (s->prm.c0 > 0.0)
@@ -241,33 +242,34 @@ static void subtract_divergence(struct fv *s, double *const x[3], double *div)
         extension_apply(s, x, EXTEND_CHANGE, STENCILS);
         fill_ghosts(s, x);
     }
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++) {
-        double sum = 0.0;
-        for (int a = 0; a < s->dim; a++) {
-            const int64_t d = p_->stride[a];
-            for (int k = 0; k < s->dim; k++) {
-                const double *u = x[k] + i;
-                sum += m->S[a][k][i + d] * (u[d] + u[0]) *
-                           (m->status[i + d] >= CELL_HOLE && m->open[a][i + d] != 1.0 ? 0.0 : 0.5) -
-                       m->S[a][k][i] * (u[0] + u[-d]) *
-                           (m->status[i - d] >= CELL_HOLE && m->open[a][i] != 1.0 ? 0.0 : 0.5);
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            double sum = 0.0;
+            for (int a = 0; a < s->dim; a++) {
+                const int64_t d = p_->stride[a];
+                for (int k = 0; k < s->dim; k++) {
+                    const double *u = x[k] + i;
+                    sum += m->S[a][k][i + d] * (u[d] + u[0]) *
+                               (m->status[i + d] >= CELL_HOLE && m->open[a][i + d] != 1.0 ? 0.0
+                                                                                          : 0.5) -
+                           m->S[a][k][i] * (u[0] + u[-d]) *
+                               (m->status[i - d] >= CELL_HOLE && m->open[a][i] != 1.0 ? 0.0 : 0.5);
+                }
             }
+            w->phi[i] = s->free[i] > 0.0 ? sum / m->V[i] : 0.0;
         }
-        w->phi[i] = s->free[i] > 0.0 ? sum / m->V[i] : 0.0;
-    }
     if (s->prm.c0 > 0.0) /* else the cycle takes it out */
         remove_mean(s, w->phi);
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        div[i] -= w->phi[i];
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            div[i] -= w->phi[i];
 }
 
 static void cycle(struct fv *s, double *div, double *phi)
 {
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        div[i] *= s->free[i] * s->m->V[i];
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            div[i] *= s->free[i] * s->m->V[i];
     poisson_cycle(s, div, phi);
     if (s->forcing)
         given_mirror(s, phi);

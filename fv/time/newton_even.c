@@ -7,11 +7,11 @@
 
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
+#include "../operators/operators.h"
 #include "../poisson/poisson.h"
 #include "../surface/levelset.h"
-#include "newton.h"
-#include "../operators/operators.h"
 #include "../watch/limits.h"
+#include "newton.h"
 
 /* ---- faces ---------------------------------------------------------------------------------- */
 

@@ -16,9 +16,9 @@ int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscal
     double *restrict diagonal = s->newton->A[0];
     (void)q, (void)uscale, (void)f, (void)fscale;
     s->newton->cells_of->fill_rows(s);
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        diagonal[i] = 1.0 / diagonal[i];
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            diagonal[i] = 1.0 / diagonal[i];
     return 0;
 }
 
@@ -90,12 +90,11 @@ static void apply_to_pressure(const struct fv *s, const double *restrict x, doub
 {
     double *const *A = s->newton->A;
     const double c0 = s->newton->of.c0;
-    FLOW_ROWS(s, c, n)
-    for (int64_t i = c; i < c + n; i++)
-        out[i] = c0 * x[i];
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            out[i] = c0 * x[i];
     for (int e = 1; e <= 2 * s->dim; e++)
-        FLOW_ROWS(s, c, n)
-        {
+        FLOW_ROWS (s, c, n) {
             const int64_t d = (e % 2 ? -1 : 1) * p_->stride[(e - 1) / 2];
             for (int64_t i = c; i < c + n; i++)
                 out[i] += A[e][i] * (x[i + d] - x[i]);
@@ -120,9 +119,9 @@ int newton_precond_solve(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscal
     of->gradient(s, w->phi, w->r);
     for (int a = 0; a < s->dim; a++) {
         double *restrict x = w->x[a], *restrict g = w->r[a];
-        FLOW_ROWS(s, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            x[i] -= g[i];
+        FLOW_ROWS (s, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                x[i] -= g[i];
         of->clear(s, x);
     }
     of->clear(s, w->div);

@@ -16,8 +16,7 @@
 
 static double *pack(const struct fv *s, const double *q, double *to)
 {
-    FLOW_ROWS(s, c, n)
-    {
+    FLOW_ROWS (s, c, n) {
         memcpy(to, q + c, (size_t)n * sizeof(double));
         to += n;
     }
@@ -26,8 +25,7 @@ static double *pack(const struct fv *s, const double *q, double *to)
 
 static const double *unpack(const struct fv *s, const double *from, double *q)
 {
-    FLOW_ROWS(s, c, n)
-    {
+    FLOW_ROWS (s, c, n) {
         memcpy(q + c, from, (size_t)n * sizeof(double));
         from += n;
     }

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../boundary/bc.h"
 #include "../boundary/carried.h"
 #include "../boundary/forcing.h"

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "../../common/log.h"
+#include "../../common/base/log.h"
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
@@ -189,8 +189,7 @@ static void momentum_of_row(const struct fv *s, const struct part *p, int64_t c,
 
 static void sum_energy(struct fv *s, double sums[6])
 {
-    FLOW_ROWS(s, c, n)
-    {
+    FLOW_ROWS (s, c, n) {
         double row[5] = {0.0};
         const double *weight = weights_of_row(s, c, n, j_);
         add_row(s, c, n, weight, row);
@@ -247,8 +246,7 @@ static const double *mask_of(struct fv *s)
 static double squares(const struct fv *s, const double *q, int a, const double *flows)
 {
     double sum = 0.0;
-    FLOW_ROWS(s, c, n)
-    {
+    FLOW_ROWS (s, c, n) {
         const int64_t d = p_->stride[a];
         double row = 0.0;
         for (int64_t i = c; i < c + n; i++) {
@@ -267,8 +265,7 @@ static double squares(const struct fv *s, const double *q, int a, const double *
 static void moments(const struct fv *s, const double *q, const double *flows, double sums[3])
 {
     sums[0] = sums[1] = sums[2] = 0.0;
-    FLOW_ROWS(s, c, n)
-    {
+    FLOW_ROWS (s, c, n) {
         double row[3] = {0.0};
         for (int64_t i = c; i < c + n; i++) {
             const double v = flows[i] > 0.0 ? q[i] : 0.0;

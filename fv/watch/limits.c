@@ -11,11 +11,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../common/log.h"
-#include "../../common/scene_speed.h"
+#include "../../common/base/log.h"
+#include "../../common/scene/scene_speed.h"
 #include "../boundary/bc.h"
-#include "../surface/levelset.h"
 #include "../boundary/still.h"
+#include "../surface/levelset.h"
 
 #define RK3_CFL 1.1      /* default */
 #define RK3_MOST 1.2     /* refused above */

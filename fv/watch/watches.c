@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
 #include "limits.h"
 
 enum { WATCHES = 5 };

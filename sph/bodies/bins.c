@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 
 /* Boxes of this width that hold everything up to hi; their number along each axis. */
 static double count(const struct bins *b, const double *hi, int n[3])

@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../../common/geometry/body_math.h"
+#include "../rigid/body_impedance.h"
 #include "../sph_params.h"
 #include "../walls/forces.h"
-#include "../rigid/body_impedance.h"
-#include "../../common/body_math.h"
 
 /* --- the start --- */
 

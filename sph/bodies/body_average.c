@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../../common/vec3.h"
+#include "../../common/base/mem.h"
+#include "../../common/base/vec3.h"
 #include "../pairs/kernel.h"
 #include "../particles/eos.h"
 

@@ -4,12 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../../common/scene_mesh.h"
-#include "../../common/scene_fluid.h"
+#include "../../common/base/mem.h"
+#include "../../common/geometry/body_math.h"
+#include "../../common/scene/scene_fluid.h"
+#include "../../common/scene/scene_mesh.h"
 #include "../sph_params.h"
 #include "bodies.h"
-#include "../../common/body_math.h"
 
 enum { KEY = 96 };
 

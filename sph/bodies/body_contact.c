@@ -6,10 +6,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../../common/geometry/body_math.h"
 #include "bodies.h"
 #include "body_touch.h"
-#include "../../common/body_math.h"
 
 /* How many of the largest steps a contact lasts: a body that comes at c0/10 goes 0.3 dx deep. */
 enum { CONTACT_STEPS = 6 };

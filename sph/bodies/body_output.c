@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
+#include "../../common/geometry/body_math.h"
 #include "bodies.h"
-#include "../../common/body_math.h"
 
 enum { MOTION_COLUMNS = 12, TEXT = PARAM_TEXT_SIZE + 24 };
 

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../../common/body_math.h"
+#include "../../common/base/mem.h"
+#include "../../common/geometry/body_math.h"
 
 struct box {
     double lo[2], hi[2];

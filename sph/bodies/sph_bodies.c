@@ -5,17 +5,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../../common/scene_fluid.h"
-#include "../../common/scene_geometry.h"
-#include "../../common/scene_mesh.h"
-#include "../../common/solids.h"
-#include "../../common/vec3.h"
+#include "../../common/base/mem.h"
+#include "../../common/base/vec3.h"
+#include "../../common/run/solids.h"
+#include "../../common/scene/scene_fluid.h"
+#include "../../common/scene/scene_geometry.h"
+#include "../../common/scene/scene_mesh.h"
 #include "../case/sph_sense.h"
-#include "../walls/walls.h"
-#include "body_check.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
+#include "../walls/walls.h"
+#include "body_check.h"
 
 enum { VERTICES = 2000, LEAST_TIMES = 20, MOST_TIMES = 2000 };
 

@@ -11,9 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../../common/scene_fluid.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/scene/scene_fluid.h"
 #include "../sph_params.h"
 #include "../walls/walls.h"
 #include "rooms.h"

@@ -6,19 +6,19 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/exact.h"
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../../common/scene_fluid.h"
-#include "basins.h"
-#include "rooms.h"
-#include "surface_rows.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/scene/exact.h"
+#include "../../common/scene/scene_fluid.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
 #include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
 #include "../sph_params.h"
 #include "../walls/walls.h"
+#include "basins.h"
+#include "rooms.h"
+#include "surface_rows.h"
 
 /* In [-1, 1), a function of the particle alone, so the same on any number of ranks
  * (splitmix64: Steele, Lea & Flood, OOPSLA 2014). */

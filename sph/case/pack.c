@@ -8,9 +8,9 @@
 
 #include <math.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../../common/scene_mesh.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/scene/scene_mesh.h"
 #include "../pairs/kernel.h"
 #include "../pairs/neighbours.h"
 #include "../surface/surface.h"

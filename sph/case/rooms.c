@@ -4,10 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../../common/scene_mesh.h"
-#include "../../common/vec3.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/base/vec3.h"
+#include "../../common/scene/scene_mesh.h"
 #include "../walls/walls.h"
 
 /* Winding numbers nearer to the threshold than this say nothing. */

@@ -3,12 +3,12 @@
  * sph_sense.h. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../../common/exact.h"
-#include "../../common/log.h"
-#include "../../common/scene_fluid.h"
-#include "../../common/scene_geometry.h"
-#include "../../common/scene_mesh.h"
-#include "../../common/tree.h"
+#include "../../common/base/log.h"
+#include "../../common/geometry/tree.h"
+#include "../../common/scene/exact.h"
+#include "../../common/scene/scene_fluid.h"
+#include "../../common/scene/scene_geometry.h"
+#include "../../common/scene/scene_mesh.h"
 #include "sph_sense.h"
 
 enum { PLACES = 20000, FLIGHTS = 200, STRIDES = 4000 };

@@ -5,12 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../time/runge_kutta.h"
-#include "sph_sense.h"
-#include "sph_unused.h"
-#include "../walls/wall_ends.h"
-#include "../walls/wall_thin.h"
+#include "../../common/base/mem.h"
 #include "../bodies/body_check.h"
 #include "../open_boundaries/box_chase.h"
 #include "../open_boundaries/box_motion.h"
@@ -18,6 +13,11 @@
 #include "../refinement/apr_params.h"
 #include "../refinement/mixed.h"
 #include "../refinement/regions_check.h"
+#include "../time/runge_kutta.h"
+#include "../walls/wall_ends.h"
+#include "../walls/wall_thin.h"
+#include "sph_sense.h"
+#include "sph_unused.h"
 
 static struct sph_params given; /* as the case has it: the target of the table */
 static bool present;

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../common/exact.h"
-#include "../../common/scene_fluid.h"
-#include "../../common/scene_geometry.h"
-#include "../../common/scene_mesh.h"
+#include "../../common/scene/exact.h"
+#include "../../common/scene/scene_fluid.h"
+#include "../../common/scene/scene_geometry.h"
+#include "../../common/scene/scene_mesh.h"
 #include "../sph.h"
 
 static const char *const side_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};

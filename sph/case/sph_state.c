@@ -6,12 +6,16 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../parallel/domain.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../bodies/bodies.h"
+#include "../open_boundaries/box_motion.h"
+#include "../open_boundaries/openings.h"
+#include "../open_boundaries/zone_steps.h"
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/scheme.h"
+#include "../parallel/domain.h"
 #include "../refinement/apr_params.h"
 #include "../refinement/criteria.h"
 #include "../refinement/guards.h"
@@ -19,12 +23,8 @@
 #include "../refinement/refinement.h"
 #include "../sph_params.h"
 #include "../surface/surface.h"
-#include "../bodies/bodies.h"
 #include "../time/runge_kutta.h"
 #include "../walls/walls.h"
-#include "../open_boundaries/box_motion.h"
-#include "../open_boundaries/openings.h"
-#include "../open_boundaries/zone_steps.h"
 
 /* Half a period must hold R and the skin, see check_axis in sph_params.c. */
 static double widest_skin(const struct sph *s)

@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/exact.h"
-#include "../../common/scene_fluid.h"
+#include "../../common/scene/exact.h"
+#include "../../common/scene/scene_fluid.h"
 #include "../walls/walls.h"
 
 /* What keys need. */

@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/scene_fluid.h"
+#include "../../common/scene/scene_fluid.h"
 #include "../parallel/domain.h"
 #include "../refinement/refinement.h"
 #include "../walls/walls.h"

@@ -3,7 +3,7 @@
 #ifndef SPH_SURFACE_ROWS_H
 #define SPH_SURFACE_ROWS_H
 
-#include "../../common/exact.h"
+#include "../../common/scene/exact.h"
 #include "../sph.h"
 
 /* Whether the scene has free surfaces that a lattice meets in steps. */

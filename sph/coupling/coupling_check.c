@@ -5,15 +5,15 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/exact.h"
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../../common/scene_fluid.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/scene/exact.h"
+#include "../../common/scene/scene_fluid.h"
+#include "../open_boundaries/box_motion.h"
+#include "../open_boundaries/zones.h"
 #include "../sph_params.h"
 #include "coupling_solids.h"
 #include "windows.h"
-#include "../open_boundaries/box_motion.h"
-#include "../open_boundaries/zones.h"
 
 static const char axes[] = "xyz";
 

@@ -4,10 +4,10 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../common/log.h"
-#include "../../common/scene_mesh.h"
-#include "../../common/solids.h"
-#include "../../common/vec3.h"
+#include "../../common/base/log.h"
+#include "../../common/base/vec3.h"
+#include "../../common/run/solids.h"
+#include "../../common/scene/scene_mesh.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
 #include "../rigid/body.h"

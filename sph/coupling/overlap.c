@@ -5,15 +5,15 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../particles/eos.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
 #include "../open_boundaries/level_gap.h"
 #include "../open_boundaries/openings.h"
+#include "../open_boundaries/zones.h"
+#include "../particles/eos.h"
 #include "../surface/surface.h"
 #include "windows.h"
-#include "../open_boundaries/zones.h"
 
 const char *const overlap_columns[OVERLAP_COLUMNS] = {
     "overlap velocity [-]", "overlap pressure [-]", "surface in the zones [-]"};

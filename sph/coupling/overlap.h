@@ -4,7 +4,7 @@
 #ifndef SPH_OVERLAP_H
 #define SPH_OVERLAP_H
 
-#include "../../common/watch.h"
+#include "../../common/run/watch.h"
 #include "../sph.h"
 
 enum { OVERLAP_COLUMNS = 3 };

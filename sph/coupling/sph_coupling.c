@@ -6,19 +6,19 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
 #include "../../coupler/cpl.h"
-#include "../parallel/domain.h"
-#include "../particles/eos.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/level_gap.h"
-#include "overlap.h"
-#include "../sph_params.h"
-#include "windows.h"
 #include "../open_boundaries/wet_faces.h"
 #include "../open_boundaries/zone_steps.h"
 #include "../open_boundaries/zones.h"
+#include "../parallel/domain.h"
+#include "../particles/eos.h"
+#include "../sph_params.h"
+#include "overlap.h"
+#include "windows.h"
 
 /* Ids of the sets and fields, and scratch for what is sent. */
 struct link {

@@ -8,15 +8,15 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/crossing.h"
-#include "../../common/log.h"
-#include "../../common/scene_fluid.h"
-#include "../../common/scene_mesh.h"
-#include "../../common/vec3.h"
-#include "../sph_params.h"
+#include "../../common/base/log.h"
+#include "../../common/base/vec3.h"
+#include "../../common/run/crossing.h"
+#include "../../common/scene/scene_fluid.h"
+#include "../../common/scene/scene_mesh.h"
 #include "../open_boundaries/box_chase.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
+#include "../sph_params.h"
 
 /* A window of accuracy: U T/L of the flow; omega T of waves, which add up errors over periods. */
 static const double flow_share = 0.03, wave_share = 0.1;

@@ -20,7 +20,7 @@ struct windows {
 };
 
 struct windows windows_choose(const struct run *r, const struct sph_params *prm);
-/* Share of an alternation that smoothing over m coupling steps leaves, see common/fit.h. */
+/* Share of an alternation that smoothing over m coupling steps leaves, see common/base/fit.h. */
 double windows_smoothed(int memory);
 /* A line for --check and the start; warnings. */
 void windows_describe(const struct run *r, const struct sph_params *prm);

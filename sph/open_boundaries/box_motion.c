@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/scene_mesh.h"
+#include "../../common/scene/scene_mesh.h"
 #include "../parallel/domain.h"
 #include "../rigid/body.h"
 #include "../sph_params.h"

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/colour.h"
-#include "../../common/h5.h"
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
+#include "../../common/waves/colour.h"
 #include "../pairs/kernel.h"
 #include "openings.h"
 #include "wet_faces.h"

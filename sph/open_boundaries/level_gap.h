@@ -5,7 +5,7 @@
 #ifndef SPH_LEVEL_GAP_H
 #define SPH_LEVEL_GAP_H
 
-#include "../../common/watch.h"
+#include "../../common/run/watch.h"
 #include "../sph.h"
 
 enum { LEVEL_COLUMNS = 8 };

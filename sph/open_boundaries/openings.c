@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../sph_params.h"
 #include "../walls/walls.h"
 #include "zones.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
 #include "../sph_params.h"

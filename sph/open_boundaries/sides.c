@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../particles/eos.h"
 #include "../walls/walls.h"
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/h5.h"
+#include "../../common/files/h5.h"
 #include "../walls/walls.h"
 #include "zones.h"
 

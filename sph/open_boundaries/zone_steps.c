@@ -8,9 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/exact.h"
-#include "../../common/h5.h"
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
+#include "../../common/scene/exact.h"
 #include "../particles/eos.h"
 #include "births.h"
 #include "box_motion.h"

@@ -9,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/scene.h"
-#include "../../common/scene_fluid.h"
+#include "../../common/scene/scene.h"
+#include "../../common/scene/scene_fluid.h"
 #include "../walls/walls.h"
 
 enum { SAMPLES_2D = 16, SAMPLES_3D = 8 }; /* of a floor, along an axis */

@@ -5,13 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../particles/eos.h"
 #include "../bodies/bodies.h"
-#include "../walls/forces.h"
 #include "../pairs/kernel.h"
+#include "../particles/eos.h"
+#include "../walls/forces.h"
+#include "../walls/walls.h"
 #include "level_gauge.h"
 #include "shore.h"
-#include "../walls/walls.h"
 
 /* Where a surface crosses, fv reads the gauges outside of the box. */
 static bool is_mine(const struct run *r, int k) { return !r->crossed || r->gauge_inside[k]; }

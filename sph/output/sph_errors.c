@@ -6,21 +6,21 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../common/scene_mesh.h"
-#include "../../common/exact.h"
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../../common/scene/exact.h"
+#include "../../common/scene/scene_mesh.h"
+#include "../bodies/bodies.h"
+#include "../open_boundaries/openings.h"
+#include "../open_boundaries/zones.h"
+#include "../pairs/neighbours.h"
 #include "../parallel/domain.h"
+#include "../particles/eos.h"
 #include "../refinement/apr_params.h"
 #include "../refinement/refinement.h"
-#include "../particles/eos.h"
-#include "../bodies/bodies.h"
-#include "../walls/forces.h"
-#include "../pairs/neighbours.h"
-#include "../open_boundaries/openings.h"
-#include "probes.h"
 #include "../sph_params.h"
+#include "../walls/forces.h"
 #include "../walls/walls.h"
-#include "../open_boundaries/zones.h"
+#include "probes.h"
 
 /* The last: of the velocity, over the particles whose support a wall cuts; not over programs. */
 enum { NORM_VELOCITY, NORM_PRESSURE, NORM_VORTICITY, NORM_WALL, NORMS };

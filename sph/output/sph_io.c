@@ -6,23 +6,23 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../../common/xdmf.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
+#include "../../common/files/xdmf.h"
+#include "../bodies/bodies.h"
+#include "../coupling/overlap.h"
+#include "../open_boundaries/box_motion.h"
+#include "../open_boundaries/openings.h"
+#include "../open_boundaries/zone_steps.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
 #include "../refinement/guards.h"
 #include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
-#include "../bodies/bodies.h"
-#include "../walls/forces.h"
-#include "../open_boundaries/box_motion.h"
-#include "../open_boundaries/openings.h"
 #include "../sph_params.h"
 #include "../surface/surface.h"
-#include "../coupling/overlap.h"
-#include "../open_boundaries/zone_steps.h"
+#include "../walls/forces.h"
 #include "wall_files.h"
 
 /* What particle i shows in a snapshot, v[ncomp]. */

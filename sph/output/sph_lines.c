@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../pairs/kernel.h"
 
 enum { SUMS = 9 }; /* moments 1 x y xx xy yy, then f, x f, y f */

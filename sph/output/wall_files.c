@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../../common/scene_mesh.h"
-#include "../../common/xdmf.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
+#include "../../common/files/xdmf.h"
+#include "../../common/scene/scene_mesh.h"
 #include "../walls/walls.h"
 
 enum { SURFACES = WALLS_MAX + BODIES_MAX };

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
 #include "vec.h"
 
 /* Cells [0, cells) along each axis, the outermost for ghosts only. */

@@ -8,10 +8,10 @@
 
 #include <string.h>
 
+#include "../sph.h"
 #include "kernel.h"
 #include "neighbours.h"
 #include "riemann.h"
-#include "../sph.h"
 #include "vec.h"
 
 enum { SUMS = 4, VISCOSITY_OFF = 2, BATCH = 8 };

@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
 #include "../pairs/neighbours.h"
 
 /* WORK: of a particle besides its pairs, as a number of them: sort, list, update, row overhead.

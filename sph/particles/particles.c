@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
 #include "eos.h"
 
 /* The line that pads neighbour rows: outside every support and without volume, yet harmless in any

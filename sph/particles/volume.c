@@ -5,7 +5,7 @@
  * densities by one factor, which makes no force. SPDX-License-Identifier: BSD-3-Clause */
 #include "../sph.h"
 
-#include "../../common/scene.h"
+#include "../../common/scene/scene.h"
 
 /* Neither a free surface nor an opening; walls slide along themselves and bodies are rigid. */
 static bool is_closed(const struct sph *s)

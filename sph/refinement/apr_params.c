@@ -1,7 +1,7 @@
 /* apr_params.c - parameter table of group apr. SPDX-License-Identifier: BSD-3-Clause */
 #include "apr_params.h"
 
-#include "../../common/run.h"
+#include "../../common/run/run.h"
 
 struct apr_params apr_given;
 

@@ -7,12 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../pairs/kernel.h"
 #include "../pairs/neighbours.h"
 #include "../parallel/domain.h"
-#include "guards.h"
 #include "../walls/walls.h"
+#include "guards.h"
 #include "refinement.h"
 #include "regions.h"
 

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
 #include "../walls/walls.h"
 
 enum { LOOK_EVERY = 20, VERTICES = 500 };

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
 #include "regions_parts.h"
 
 /* 2^30 cells of 20 bytes are more than a rank can hold; 2^25 are 700 MB. */

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/exact.h"
-#include "../../common/scene_fluid.h"
+#include "../../common/scene/exact.h"
+#include "../../common/scene/scene_fluid.h"
 #include "../particles/eos.h"
 
 static const double growth = 0.025;

@@ -4,12 +4,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../pairs/kernel.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/vec.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
-#include "../pairs/kernel.h"
 #include "../walls/walls.h"
 #include "apr_params.h"
 #include "refinement.h"

@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
 #include "../walls/walls.h"
 
 static const double hysteresis = 0.5;                   /* coarser dx */

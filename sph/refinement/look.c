@@ -4,10 +4,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "../open_boundaries/zones.h"
 #include "../pairs/neighbours.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
-#include "../open_boundaries/zones.h"
 #include "../surface/surface.h"
 #include "../walls/walls.h"
 #include "criteria.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 
 bool marks_create(struct marks *c, int dim, const double lo[3], const double hi[3],
                   const bool periodic[3], const bool open[6], double width, double most)

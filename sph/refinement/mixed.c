@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/mem.h"
-#include "../../common/params.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
+#include "../../common/params/params.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/vec.h"
 #include "../parallel/domain.h"

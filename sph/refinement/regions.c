@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/mem.h"
-#include "../../common/scene_geometry.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
+#include "../../common/scene/scene_geometry.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
 #include "criteria.h"

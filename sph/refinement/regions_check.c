@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/scene_check.h"
-#include "../../common/scene_mesh.h"
+#include "../../common/scene/scene_check.h"
+#include "../../common/scene/scene_mesh.h"
 #include "../open_boundaries/box_motion.h"
 #include "../rigid/body.h"
 #include "criteria.h"

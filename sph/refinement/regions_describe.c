@@ -4,12 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/exact.h"
-#include "../../common/log.h"
-#include "../../common/picture.h"
-#include "../../common/scene_mesh.h"
-#include "regions_check.h"
+#include "../../common/base/log.h"
+#include "../../common/scene/exact.h"
+#include "../../common/scene/picture.h"
+#include "../../common/scene/scene_mesh.h"
 #include "regions.h"
+#include "regions_check.h"
 #include "regions_parts.h"
 
 double regions_finest(const struct run *r, const struct sph_params *used)

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../../common/tree.h"
-#include "../../common/body_math.h"
+#include "../../common/base/mem.h"
+#include "../../common/geometry/body_math.h"
+#include "../../common/geometry/tree.h"
 
 static void strip(struct trimesh *m, const struct param_points *p, bool closed, double half)
 {

@@ -3,7 +3,7 @@
 #ifndef SPH_SHELL_H
 #define SPH_SHELL_H
 
-#include "../../common/scene_mesh.h"
+#include "../../common/scene/scene_mesh.h"
 #include "../rigid/body.h"
 
 /* The surface in the frame of the start, and where that has moved to. In 2D each segment is two

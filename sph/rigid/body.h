@@ -3,9 +3,9 @@
 #ifndef SPH_BODY_H
 #define SPH_BODY_H
 
-#include "../../common/body_drive.h"
-#include "../../common/scene.h"
-#include "../../common/trimesh.h"
+#include "../../common/geometry/trimesh.h"
+#include "../../common/scene/body_drive.h"
+#include "../../common/scene/scene.h"
 
 struct run;
 

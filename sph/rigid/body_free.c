@@ -3,11 +3,11 @@
  * equations, so that nothing drifts from them. SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../../common/scene_mesh.h"
-#include "../../common/vec3.h"
+#include "../../common/base/mem.h"
+#include "../../common/base/vec3.h"
+#include "../../common/geometry/body_math.h"
+#include "../../common/scene/scene_mesh.h"
 #include "body.h"
-#include "../../common/body_math.h"
 
 /* --- the start --- */
 

@@ -4,8 +4,8 @@
  * dS; the largest bounds an explicit step. SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
+#include "../../common/geometry/body_math.h"
 #include "body_impedance.h"
-#include "../../common/body_math.h"
 
 void impedance_add(struct impedance *z, const double *arm, const double *n, double along,
                    double across)

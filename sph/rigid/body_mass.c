@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/scene_geometry.h"
-#include "../../common/scene_mesh.h"
+#include "../../common/geometry/body_math.h"
+#include "../../common/scene/scene_geometry.h"
+#include "../../common/scene/scene_mesh.h"
 #include "body.h"
-#include "../../common/body_math.h"
 
 static bool no(char *why, size_t size, const char *what)
 {

@@ -5,11 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../parallel/domain.h"
+#include "../../common/base/mem.h"
 #include "../pairs/kernel.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/vec.h"
+#include "../parallel/domain.h"
 #include "../walls/walls.h"
 
 static const double spray = 0.20, inside = 0.75; /* bounds of the eigenvalue */

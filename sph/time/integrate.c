@@ -7,27 +7,27 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../parallel/domain.h"
+#include "../../common/base/log.h"
 #include "../bodies/bodies.h"
-#include "../walls/forces.h"
+#include "../open_boundaries/box_motion.h"
+#include "../open_boundaries/openings.h"
+#include "../open_boundaries/zone_steps.h"
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
+#include "../pairs/scheme.h"
+#include "../parallel/domain.h"
 #include "../refinement/apr_params.h"
 #include "../refinement/counts.h"
 #include "../refinement/guards.h"
 #include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
-#include "../open_boundaries/box_motion.h"
-#include "../open_boundaries/openings.h"
-#include "../pairs/scheme.h"
 #include "../sph_params.h"
+#include "../walls/forces.h"
+#include "../walls/walls.h"
 #include "extremes.h"
 #include "level.h"
 #include "local_steps.h"
 #include "runge_kutta.h"
-#include "../walls/walls.h"
-#include "../open_boundaries/zone_steps.h"
 
 enum { BALANCE_EVERY = 50, COUNT_EVERY = 20 };
 

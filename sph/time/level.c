@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 #include "../open_boundaries/outer_lattice.h"
 #include "../open_boundaries/zone_steps.h"
 #include "../pairs/neighbours.h"

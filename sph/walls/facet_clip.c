@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/vec3.h"
+#include "../../common/base/vec3.h"
 #include "../pairs/kernel.h"
 
 enum { CORNERS = 8 };

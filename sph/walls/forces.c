@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
 
 enum { REST = BODIES_MAX, SIDES = BODIES_MAX + 1, PARTS = sizeof(struct force) / sizeof(double) };
 

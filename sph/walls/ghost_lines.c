@@ -4,10 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../particles/eos.h"
+#include "../../common/base/mem.h"
 #include "../pairs/kernel.h"
 #include "../pairs/neighbours.h"
+#include "../particles/eos.h"
 
 double ghost_density(const struct sph *s, double rho, double K, double d)
 {

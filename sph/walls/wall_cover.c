@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 
 /* A line that parts the plane: a segment of a wall, or an open side of the domain. */
 struct line {

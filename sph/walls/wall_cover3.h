@@ -3,7 +3,7 @@
 #ifndef SPH_WALL_COVER3_H
 #define SPH_WALL_COVER3_H
 
-#include "../../common/tree.h"
+#include "../../common/geometry/tree.h"
 
 /* A plane rectangle across an axis, normal towards +axis if high; m. */
 struct cover_side {

@@ -4,7 +4,7 @@
 #ifndef SPH_WALL_ENDS_H
 #define SPH_WALL_ENDS_H
 
-#include "../../common/scene.h"
+#include "../../common/scene/scene.h"
 
 struct wall_end {
     int wall;     /* in the scene's list */

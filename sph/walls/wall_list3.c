@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
+#include "../../common/base/mem.h"
 
 /* What is known of a mesh: frames of the triangles that some particle has seen. */
 struct wall_frames {

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../../common/scene_mesh.h"
-#include "../../common/vec3.h"
-#include "../../common/xdmf.h"
+#include "../../common/base/mem.h"
+#include "../../common/base/vec3.h"
+#include "../../common/files/xdmf.h"
+#include "../../common/scene/scene_mesh.h"
 #include "../sph_params.h"
 #include "wall_cover3.h"
 

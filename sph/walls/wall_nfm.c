@@ -7,12 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../particles/eos.h"
-#include "forces.h"
+#include "../../common/base/mem.h"
 #include "../pairs/kernel.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/scheme.h"
+#include "../particles/eos.h"
+#include "forces.h"
 #include "wall_list.h"
 #include "wall_share.h"
 

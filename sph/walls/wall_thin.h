@@ -3,7 +3,7 @@
 #ifndef SPH_WALL_THIN_H
 #define SPH_WALL_THIN_H
 
-#include "../../common/scene.h"
+#include "../../common/scene/scene.h"
 
 /* Where a wall is too thin or a gap too narrow. */
 struct wall_thin {

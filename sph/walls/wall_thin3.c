@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/mem.h"
-#include "../../common/vec3.h"
+#include "../../common/base/mem.h"
+#include "../../common/base/vec3.h"
 #include "../pairs/neighbours.h"
 
 bool wall_list3_any_thin(const struct walls *w)

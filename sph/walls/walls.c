@@ -6,12 +6,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../../common/scene_mesh.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/scene/scene_mesh.h"
+#include "../sph_params.h"
 #include "forces.h"
 #include "wall_cover.h"
-#include "../sph_params.h"
 
 static void set_frame(struct segment *g)
 {

@@ -4,7 +4,7 @@
 #ifndef SPH_WALLS_H
 #define SPH_WALLS_H
 
-#include "../../common/tree.h"
+#include "../../common/geometry/tree.h"
 #include "../rigid/body.h"
 #include "../sph.h"
 

@@ -22,17 +22,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/h5.h"
-#include "../../common/log.h"
-#include "../../common/mem.h"
-#include "../../common/scene_fluid.h"
-#include "../pairs/neighbours.h"
+#include "../../common/base/log.h"
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
+#include "../../common/scene/scene_fluid.h"
 #include "../open_boundaries/openings.h"
+#include "../open_boundaries/zones.h"
+#include "../pairs/neighbours.h"
 #include "../refinement/refinement.h"
 #include "../sph.h"
 #include "../sph_params.h"
 #include "../walls/walls.h"
-#include "../open_boundaries/zones.h"
 
 /* Of g dx: rows at the surface and at walls find their places within some hundredths of dx, up as
  * well as down. Of water a row deep that is a tenth of all the energy it has. */

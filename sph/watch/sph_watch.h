@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "../../common/watch.h"
+#include "../../common/run/watch.h"
 
 struct sph;
 struct h5;

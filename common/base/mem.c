@@ -1,0 +1,55 @@
+/* mem.c - see mem.h. A header of one cache line before each block keeps its size.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "mem.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "exit.h"
+#include "log.h"
+
+enum { LINE = 64 };
+static size_t held, peak; /* bytes of this process */
+
+void *mem_new(size_t n, size_t size)
+{
+    if (size && n > (SIZE_MAX / 2 - 2 * LINE) / size)
+        fail_with(RUN_INPUT, "%zu elements of %zu bytes are more than memory can hold", n, size);
+    const size_t bytes = (n * size + LINE - 1) / LINE * LINE + LINE;
+    char *p = aligned_alloc(LINE, bytes);
+    if (!p)
+        fail_with(RUN_INPUT,
+                  "out of memory: %.3g MB requested, %.3g MB held by this rank; a coarser "
+                  "resolution or more hosts",
+                  1e-6 * (double)bytes, 1e-6 * (double)held);
+    memset(p, 0, bytes);
+    memcpy(p, &bytes, sizeof bytes);
+    held += bytes;
+    if (held > peak)
+        peak = held;
+    return p + LINE;
+}
+
+void *mem_grow(void *p, size_t n_old, size_t n, size_t size)
+{
+    void *q = mem_new(n, size);
+    if (p)
+        memcpy(q, p, (n_old < n ? n_old : n) * size);
+    mem_free(p);
+    return q;
+}
+
+void mem_free(void *p)
+{
+    if (!p)
+        return;
+    char *block = (char *)p - LINE;
+    size_t bytes;
+    memcpy(&bytes, block, sizeof bytes);
+    held -= bytes;
+    free(block);
+}
+
+size_t mem_held(void) { return held; }
+size_t mem_peak(void) { return peak; }

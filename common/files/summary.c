@@ -1,0 +1,206 @@
+/* summary.c - summary.json: keys with dots become nested objects.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "series.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../base/mem.h"
+#include "disk.h"
+
+struct entry {
+    char key[96];
+    bool number;
+    double value;
+    char *text; /* JSON text of what is no double; owned */
+};
+
+struct summary {
+    int n, capacity;
+    struct entry *of;
+};
+
+struct summary *summary_create(void) { return NEW(struct summary, 1); }
+
+void summary_free(struct summary **s)
+{
+    for (int k = 0; *s && k < (*s)->n; k++)
+        mem_free((*s)->of[k].text);
+    if (*s)
+        mem_free((*s)->of);
+    mem_free(*s);
+    *s = NULL;
+}
+
+/* The entry of this key, emptied; made if need be. */
+static struct entry *entry(struct summary *s, const char *key)
+{
+    for (int k = 0; k < s->n; k++)
+        if (strcmp(s->of[k].key, key) == 0) {
+            mem_free(s->of[k].text);
+            s->of[k].text = NULL;
+            return s->of + k;
+        }
+    if (s->n == s->capacity) {
+        GROW(s->of, s->capacity, 2 * s->capacity + 32);
+        s->capacity = 2 * s->capacity + 32;
+    }
+    struct entry *e = s->of + s->n++;
+    *e = (struct entry){0};
+    snprintf(e->key, sizeof e->key, "%s", key);
+    return e;
+}
+
+void summary_real(struct summary *s, const char *key, double v)
+{
+    struct entry *e = entry(s, key);
+    e->number = true;
+    e->value = v;
+}
+
+void summary_int(struct summary *s, const char *key, long long v)
+{
+    struct entry *e = entry(s, key);
+    e->number = true;
+    e->value = (double)v;
+    e->text = mem_new(32, 1);
+    snprintf(e->text, 32, "%lld", v);
+}
+
+static size_t quote(char *to, const char *v)
+{
+    size_t n = 0;
+    to[n++] = '"';
+    for (; *v; v++) {
+        if (*v == '"' || *v == '\\')
+            to[n++] = '\\';
+        to[n++] = (unsigned char)*v < 32 ? ' ' : *v;
+    }
+    to[n++] = '"';
+    to[n] = '\0';
+    return n;
+}
+
+void summary_bool(struct summary *s, const char *key, bool v)
+{
+    struct entry *e = entry(s, key);
+    e->number = false;
+    e->text = mem_new(8, 1);
+    strcpy(e->text, v ? "true" : "false");
+}
+
+void summary_text(struct summary *s, const char *key, const char *v)
+{
+    struct entry *e = entry(s, key);
+    e->number = false;
+    e->text = mem_new(2 * strlen(v) + 3, 1);
+    quote(e->text, v);
+}
+
+void summary_texts(struct summary *s, const char *key, int n, const char *const *v)
+{
+    struct entry *e = entry(s, key);
+    size_t room = 8, at = 1;
+    for (int k = 0; k < n; k++)
+        room += 2 * strlen(v[k]) + 5;
+    e->number = false;
+    e->text = mem_new(room, 1);
+    e->text[0] = '[';
+    for (int k = 0; k < n; k++) {
+        at += quote(e->text + at, v[k]);
+        if (k < n - 1)
+            at += (size_t)snprintf(e->text + at, room - at, ", ");
+    }
+    snprintf(e->text + at, room - at, "]");
+}
+
+bool summary_find(const struct summary *s, const char *key, double *v)
+{
+    for (int k = 0; k < s->n; k++)
+        if (s->of[k].number && strcmp(s->of[k].key, key) == 0) {
+            *v = s->of[k].value;
+            return true;
+        }
+    return false;
+}
+
+const char *summary_find_text(const struct summary *s, const char *key)
+{
+    for (int k = 0; k < s->n; k++)
+        if (!s->of[k].number && strcmp(s->of[k].key, key) == 0)
+            return s->of[k].text;
+    return NULL;
+}
+
+void summary_each(const struct summary *s, void (*f)(void *ctx, const char *key, double v),
+                  void *ctx)
+{
+    for (int k = 0; k < s->n; k++)
+        if (s->of[k].number)
+            f(ctx, s->of[k].key, s->of[k].value);
+}
+
+static void print_value(FILE *f, const struct entry *e)
+{
+    if (e->text)
+        fputs(e->text, f);
+    else if (isfinite(e->value))
+        fprintf(f, "%.12g", e->value);
+    else
+        fputs("null", f);
+}
+
+/* Entries [0, n) whose key begins with prefix, each object where its first key stood. */
+static void print_object(FILE *f, const struct summary *s, const char *prefix, int depth)
+{
+    const size_t skip = strlen(prefix);
+    bool first = true;
+    fputs("{", f);
+    for (int k = 0; k < s->n; k++) {
+        const struct entry *e = s->of + k;
+        if (strncmp(e->key, prefix, skip) != 0)
+            continue;
+        const char *rest = e->key + skip;
+        const size_t head = strcspn(rest, ".");
+        bool seen = false;
+        for (int j = 0; j < k && rest[head]; j++)
+            seen = seen || strncmp(s->of[j].key, e->key, skip + head + 1) == 0;
+        if (seen)
+            continue;
+        fprintf(f, "%s\n%*s\"%.*s\": ", first ? "" : ",", 2 * depth + 2, "", (int)head, rest);
+        first = false;
+        if (rest[head]) {
+            char deeper[128];
+            snprintf(deeper, sizeof deeper, "%.*s.", (int)(skip + head), e->key);
+            print_object(f, s, deeper, depth + 1);
+        } else {
+            print_value(f, e);
+        }
+    }
+    fprintf(f, "\n%*s}", 2 * depth, "");
+}
+
+void summary_extrema(struct summary *s, const double found[3], const double known[3])
+{
+    static const char *const names[3] = {"extrema.u_min", "extrema.v_max", "extrema.v_min"};
+    double worst = 0.0;
+    for (int k = 0; k < 3; k++) {
+        summary_real(s, names[k], found[k]);
+        worst = fmax(worst, fabs(found[k] / known[k] - 1.0));
+    }
+    summary_real(s, "error.extrema", worst);
+}
+
+void summary_write(const struct summary *s, const char *path)
+{
+    char part[1200];
+    snprintf(part, sizeof part, "%s.part", path);
+    FILE *f = fopen(part, "w");
+    if (!f)
+        disk_failed(part);
+    print_object(f, s, "", 0);
+    fputs("\n", f);
+    if (fclose(f) != 0 || rename(part, path) != 0)
+        disk_failed(path);
+}

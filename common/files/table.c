@@ -1,0 +1,99 @@
+/* table.c - CSV files of numbers. SPDX-License-Identifier: BSD-3-Clause */
+#include "table.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../base/mem.h"
+
+enum { LINE_SIZE = 1 << 14 };
+
+static int count_fields(const char *line)
+{
+    int n = 1;
+    for (; *line; line++)
+        n += *line == ',';
+    return n;
+}
+
+/* The next field, without blanks at its ends; *line goes past it. */
+static char *next_field(char **line)
+{
+    char *at = *line, *end = at + strcspn(at, ",\r\n");
+    *line = *end == ',' ? end + 1 : end;
+    *end = '\0';
+    while (end > at && end[-1] == ' ')
+        *--end = '\0';
+    return at + strspn(at, " ");
+}
+
+static void read_names(struct table *t, char *line)
+{
+    t->ncolumns = count_fields(line);
+    t->name = NEW(char *, t->ncolumns);
+    for (int k = 0; k < t->ncolumns; k++) {
+        char *field = next_field(&line), *unit = strstr(field, " [");
+        if (unit)
+            *unit = '\0';
+        t->name[k] = NEW(char, strlen(field) + 1);
+        memcpy(t->name[k], field, strlen(field) + 1);
+    }
+}
+
+static void read_row(struct table *t, char *line)
+{
+    const int n = t->ncolumns, at = t->nrows * n;
+    if ((t->nrows & (t->nrows - 1)) == 0) /* room doubles */
+        GROW(t->v, at, (t->nrows ? 2 * t->nrows : 1) * n);
+    for (int k = 0; k < n; k++) {
+        char *field = next_field(&line), *end;
+        t->v[at + k] = strtod(field, &end);
+        if (end == field)
+            t->v[at + k] = NAN;
+    }
+    t->nrows++;
+}
+
+struct table *table_read(const char *path)
+{
+    FILE *f = fopen(path, "r");
+    if (!f)
+        return NULL;
+    struct table *t = NEW(struct table, 1);
+    char *line = NEW(char, LINE_SIZE);
+    while (fgets(line, LINE_SIZE, f)) {
+        if (line[0] == '#' || line[strspn(line, " \r\n")] == '\0')
+            continue;
+        if (!t->name)
+            read_names(t, line);
+        else
+            read_row(t, line);
+    }
+    fclose(f);
+    mem_free(line);
+    if (t->nrows == 0)
+        table_free(&t);
+    return t;
+}
+
+void table_free(struct table **t)
+{
+    if (!*t)
+        return;
+    for (int k = 0; k < (*t)->ncolumns; k++)
+        mem_free((*t)->name[k]);
+    mem_free((*t)->name);
+    mem_free((*t)->v);
+    mem_free(*t);
+    *t = NULL;
+}
+
+int table_column(const struct table *t, const char *name)
+{
+    for (int k = 0; k < t->ncolumns; k++)
+        if (strcmp(t->name[k], name) == 0)
+            return k;
+    return -1;
+}

@@ -1,0 +1,279 @@
+/* params_value.c - values of the parameter table: from libconfig settings into the members of a
+ * struct. SPDX-License-Identifier: BSD-3-Clause */
+#include "params_value.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../base/log.h"
+#include "params_hints.h"
+
+bool param_number(const config_setting_t *s, double *v)
+{
+    switch (config_setting_type(s)) {
+    case CONFIG_TYPE_INT:
+        *v = config_setting_get_int(s);
+        return true;
+    case CONFIG_TYPE_INT64:
+        *v = (double)config_setting_get_int64(s);
+        return true;
+    case CONFIG_TYPE_FLOAT:
+        *v = config_setting_get_float(s);
+        return true;
+    default:
+        return false;
+    }
+}
+
+static void set_real(const struct param *r, void *target, int k, double v)
+{
+    char *at = (char *)target + r->offset;
+    if (r->type == PARAM_INT || r->type == PARAM_CHOICE)
+        *(int *)(void *)at = (int)v;
+    else if (r->type == PARAM_INTS)
+        ((int *)(void *)at)[k] = (int)v;
+    else
+        ((double *)(void *)at)[k] = v;
+}
+
+static bool is_integer(const struct param *r)
+{
+    return r->type == PARAM_INT || r->type == PARAM_INTS;
+}
+
+/* Reads one number into component k; what is wrong with it goes to why. */
+static bool get_number(const struct param *r, const config_setting_t *s, void *target, int k,
+                       char *why, size_t size)
+{
+    double v;
+    if (!param_number(s, &v)) {
+        snprintf(why, size, "expected a plain number%s%s, not text",
+                 strcmp(r->unit, "-") ? " in " : "", strcmp(r->unit, "-") ? r->unit : "");
+        return false;
+    }
+    if (is_integer(r) && (v != floor(v) || fabs(v) > 2147483647.0)) {
+        snprintf(why, size, "%g is not a whole number", v);
+        return false;
+    }
+    if (!(v >= r->min && v <= r->max)) {
+        snprintf(why, size, "%g is not allowed: from %g to %g%s%s", v, r->min, r->max,
+                 strcmp(r->unit, "-") ? " " : "", strcmp(r->unit, "-") ? r->unit : "");
+        return false;
+    }
+    set_real(r, target, k, v);
+    return true;
+}
+
+static bool get_choice(const struct param *r, const config_setting_t *s, void *target, char *why,
+                       size_t size)
+{
+    const char *word = config_setting_get_string(s);
+    const size_t n = word ? strlen(word) : 0;
+    int k = 0;
+    for (const char *c = r->choices; word; k++) {
+        const char *end = strchr(c, '|');
+        const size_t m = end ? (size_t)(end - c) : strlen(c);
+        if (m == n && strncmp(c, word, n) == 0) {
+            set_real(r, target, 0, k);
+            return true;
+        }
+        if (!end)
+            break;
+        c = end + 1;
+    }
+    snprintf(why, size, "%s%s%sexpected one of %s", word ? "`" : "", word ? word : "",
+             word ? "' is not known: " : "", r->choices);
+    return false;
+}
+
+static bool get_text(const struct param *r, const config_setting_t *s, void *target, char *why,
+                     size_t size)
+{
+    const char *word = config_setting_get_string(s);
+    if (!word || strlen(word) >= PARAM_TEXT_SIZE) {
+        snprintf(why, size, "expected text in quotes, at most %d characters", PARAM_TEXT_SIZE - 1);
+        return false;
+    }
+    memset((char *)target + r->offset, 0, PARAM_TEXT_SIZE);
+    memcpy((char *)target + r->offset, word, strlen(word));
+    return true;
+}
+
+static bool get_bool(const config_setting_t *s, bool *to, char *why, size_t size)
+{
+    if (config_setting_type(s) != CONFIG_TYPE_BOOL) {
+        snprintf(why, size, "expected true or false");
+        return false;
+    }
+    *to = config_setting_get_bool(s);
+    return true;
+}
+
+/* (a, b) or (a, b, c): components from `first' on; the rest keeps `rest'. */
+static bool get_vector(const struct param *r, const config_setting_t *s, void *target, int first,
+                       char *why, size_t size)
+{
+    const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : 0;
+    bool *flags = (bool *)(void *)((char *)target + r->offset);
+    if (config_setting_is_group(s) || n < 2 || n > 3) {
+        snprintf(why, size, "expected two or three %s in ( )",
+                 r->type == PARAM_BOOLS ? "truth values" : "numbers");
+        return false;
+    }
+    for (int k = 0; k < 3; k++) {
+        const config_setting_t *c = k < n ? config_setting_get_elem(s, (unsigned)k) : NULL;
+        if (r->type == PARAM_BOOLS) {
+            flags[k] = false;
+            if (c && !get_bool(c, flags + k, why, size))
+                return false;
+        } else if (!c) {
+            set_real(r, target, first + k, r->type == PARAM_INTS ? 1.0 : 0.0);
+        } else if (!get_number(r, c, target, first + k, why, size)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool get_box(const struct param *r, const config_setting_t *s, void *target, char *why,
+                    size_t size)
+{
+    if (config_setting_is_group(s) || !config_setting_is_aggregate(s) ||
+        config_setting_length(s) != 2) {
+        snprintf(why, size, "expected two corners: ((x, y), (x, y))");
+        return false;
+    }
+    return get_vector(r, config_setting_get_elem(s, 0), target, 0, why, size) &&
+           get_vector(r, config_setting_get_elem(s, 1), target, 3, why, size);
+}
+
+/* One point of a list: as many finite numbers as it has components. */
+static bool get_point(const struct param *r, const config_setting_t *s, int dim, double *v)
+{
+    const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : 0;
+    for (int a = 0; a < dim; a++) {
+        const config_setting_t *c = a < n ? config_setting_get_elem(s, (unsigned)a) : NULL;
+        if (!c || !param_number(c, v + a) || !(v[a] >= r->min && v[a] <= r->max))
+            return false;
+    }
+    return true;
+}
+
+/* ((x, y), (x, y), ...): at most PARAM_POINTS_MAX; with three components PARAM_PLACES_MAX. */
+static bool get_points(const struct param *r, const config_setting_t *s, void *target, char *why,
+                       size_t size)
+{
+    const bool plane = r->type == PARAM_POINTS;
+    const int dim = plane ? 2 : 3, most = plane ? PARAM_POINTS_MAX : PARAM_PLACES_MAX;
+    struct param_points *points = (struct param_points *)(void *)((char *)target + r->offset);
+    struct param_places *places = (struct param_places *)(void *)((char *)target + r->offset);
+    const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : -1;
+    int *count = plane ? &points->n : &places->n;
+    *count = 0;
+    if (config_setting_is_group(s) || n < 0 || n > most) {
+        snprintf(why, size, "expected at most %d points: ((x, y%s), ...)", most,
+                 plane ? "" : ", z");
+        return false;
+    }
+    for (int k = 0; k < n; k++) {
+        double *v = plane ? points->x[k] : places->x[k];
+        if (!get_point(r, config_setting_get_elem(s, (unsigned)k), dim, v)) {
+            snprintf(why, size, "point %d: expected %s numbers in ( ) from %g to %g", k + 1,
+                     plane ? "two" : "three", r->min, r->max);
+            return false;
+        }
+    }
+    *count = n;
+    return true;
+}
+
+/* A number, or (a, b, ...): at most PARAM_NUMBERS_MAX. */
+static bool get_numbers(const struct param *r, const config_setting_t *s, void *target, char *why,
+                        size_t size)
+{
+    struct param_numbers *to = (struct param_numbers *)(void *)((char *)target + r->offset);
+    const bool many = config_setting_is_aggregate(s) && !config_setting_is_group(s);
+    struct param one = *r;
+    one.type = PARAM_REALS;
+    one.offset += offsetof(struct param_numbers, v);
+    memset(to, 0, sizeof *to);
+    if (many && config_setting_length(s) > PARAM_NUMBERS_MAX) {
+        snprintf(why, size, "expected at most %d numbers in ( )", PARAM_NUMBERS_MAX);
+        return false;
+    }
+    to->n = many ? config_setting_length(s) : 1;
+    for (int k = 0; k < to->n; k++)
+        if (!get_number(&one, many ? config_setting_get_elem(s, (unsigned)k) : s, target, k, why,
+                        size))
+            return false;
+    return true;
+}
+
+static bool get_turn(const struct param *r, const config_setting_t *s, void *target, char *why,
+                     size_t size)
+{
+    double v;
+    if (!param_number(s, &v))
+        return get_vector(r, s, target, 0, why, size);
+    set_real(r, target, 0, 0.0);
+    set_real(r, target, 1, 0.0);
+    return get_number(r, s, target, 2, why, size);
+}
+
+bool param_read(const struct param *r, const config_setting_t *s, void *target, char *why,
+                size_t size)
+{
+    switch (r->type) {
+    case PARAM_REAL:
+    case PARAM_INT:
+        return get_number(r, s, target, 0, why, size);
+    case PARAM_BOOL:
+        return get_bool(s, (bool *)(void *)((char *)target + r->offset), why, size);
+    case PARAM_CHOICE:
+        return get_choice(r, s, target, why, size);
+    case PARAM_TEXT:
+        return get_text(r, s, target, why, size);
+    case PARAM_REALS:
+    case PARAM_INTS:
+    case PARAM_BOOLS:
+        return get_vector(r, s, target, 0, why, size);
+    case PARAM_TURN:
+        return get_turn(r, s, target, why, size);
+    case PARAM_NUMBERS:
+        return get_numbers(r, s, target, why, size);
+    case PARAM_POINTS:
+    case PARAM_PLACES:
+        return get_points(r, s, target, why, size);
+    default:
+        return get_box(r, s, target, why, size);
+    }
+}
+
+void param_default(const struct param_group *g, const struct param *r, void *target)
+{
+    char line[512], why[256];
+    config_t c;
+    if (r->type == PARAM_LIST) {
+        char *list = (char *)target + r->offset;
+        memset(list, 0, param_size(r));
+        for (int k = 0; k < r->list->max; k++)
+            for (int i = 0; i < r->list->nrows; i++)
+                param_default(g, r->list->rows + i, list + r->list->first + r->list->stride * k);
+        return;
+    }
+    if (!r->dflt)
+        return;
+    config_init(&c);
+    config_set_auto_convert(&c, CONFIG_TRUE);
+    const bool text = r->type == PARAM_CHOICE || r->type == PARAM_TEXT;
+    snprintf(line, sizeof line, text ? "value = \"%s\";" : "value = %s;", r->dflt);
+    if (config_read_string(&c, line) != CONFIG_TRUE)
+        fail("default of %s.%s is not a value: %s", g->name, r->key, r->dflt);
+    struct param any = *r; /* a default may lie outside the range: "not given" */
+    any.min = -INFINITY;
+    any.max = INFINITY;
+    if (!param_read(&any, config_lookup(&c, "value"), target, why, sizeof why))
+        fail("default of %s.%s: %s", g->name, r->key, why);
+    config_destroy(&c);
+}

@@ -1,0 +1,209 @@
+/* accept.c - a case's own criteria. SPDX-License-Identifier: BSD-3-Clause */
+#include "accept.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../base/log.h"
+#include "../base/mem.h"
+#include "../files/series.h"
+#include "../files/table.h"
+
+static const char *const measures[] = {"rms", "peak", "impulse", "arrival"};
+
+/* --- measures --- */
+
+/* Linear between rows; t lies within the series. */
+static double value_at(struct accept_series s, double t)
+{
+    int lo = 0, hi = s.n - 1;
+    while (hi - lo > 1) {
+        const int mid = (lo + hi) / 2;
+        *(s.t[mid] <= t ? &lo : &hi) = mid;
+    }
+    const double dt = s.t[hi] - s.t[lo], w = dt > 0.0 ? (t - s.t[lo]) / dt : 0.0;
+    return (1.0 - w) * s.v[lo] + w * s.v[hi];
+}
+
+static double largest(struct accept_series s, double from, double to)
+{
+    double most = -INFINITY;
+    for (int k = 0; k < s.n; k++)
+        if (s.t[k] >= from && s.t[k] <= to)
+            most = fmax(most, s.v[k]);
+    return most;
+}
+
+static double integral(struct accept_series s, double from, double to)
+{
+    double sum = 0.0;
+    for (int k = 1; k < s.n; k++) {
+        const double a = fmax(s.t[k - 1], from), b = fmin(s.t[k], to);
+        if (b > a)
+            sum += 0.5 * (b - a) * (value_at(s, a) + value_at(s, b));
+    }
+    return sum;
+}
+
+static double passes(struct accept_series s, double from, double to, double level)
+{
+    for (int k = 0; k < s.n; k++)
+        if (s.t[k] >= from && s.t[k] <= to && s.v[k] >= level)
+            return s.t[k];
+    return NAN;
+}
+
+static double rms(struct accept_series run, struct accept_series ref, double from, double to)
+{
+    double sum = 0.0, least = INFINITY, most = -INFINITY;
+    int n = 0;
+    for (int k = 0; k < ref.n; k++)
+        if (ref.t[k] >= from && ref.t[k] <= to) {
+            const double d = value_at(run, ref.t[k]) - ref.v[k];
+            sum += d * d;
+            n++;
+            least = fmin(least, ref.v[k]);
+            most = fmax(most, ref.v[k]);
+        }
+    return n > 0 && most > least ? sqrt(sum / n) / (most - least) : NAN;
+}
+
+static double relative(double a, double b) { return b != 0.0 ? fabs(a / b - 1.0) : NAN; }
+
+double accept_distance(int measure, struct accept_series run, struct accept_series ref, double from,
+                       double to)
+{
+    if (run.n < 2 || ref.n < 2)
+        return NAN;
+    from = fmax(from, fmax(run.t[0], ref.t[0]));
+    to = fmin(to, fmin(run.t[run.n - 1], ref.t[ref.n - 1]));
+    if (!(to > from))
+        return NAN;
+    const double half = 0.5 * largest(ref, from, to);
+    switch (measure) {
+    case ACCEPT_PEAK:
+        return relative(largest(run, from, to), 2.0 * half);
+    case ACCEPT_IMPULSE:
+        return relative(integral(run, from, to), integral(ref, from, to));
+    case ACCEPT_ARRIVAL:
+        return relative(passes(run, from, to, half), passes(ref, from, to, half));
+    default:
+        return rms(run, ref, from, to);
+    }
+}
+
+/* --- the case --- */
+
+static const char *column_of(const struct scene_accept *a)
+{
+    return *a->column ? a->column : a->what;
+}
+
+void accept_check(const struct scene *s, const char *case_dir, const struct params *p,
+                  struct faults *f)
+{
+    for (int k = 0; k < s->naccept; k++) {
+        const struct scene_accept *a = s->accept + k;
+        static const char *const with[] = {"column", "measure", "from", "until", "start", "unit"};
+        char key[64], path[1024 + PARAM_TEXT_SIZE];
+        for (int i = 0; i < 6; i++) {
+            snprintf(key, sizeof key, "accept.[%d].%s", k, with[i]);
+            params_unused(p, f, key, *a->reference, "no reference is given to compare with");
+        }
+        snprintf(key, sizeof key, "accept.[%d].reference", k);
+        if (!*a->reference)
+            continue;
+        snprintf(path, sizeof path, "%s/%s", case_dir, a->reference);
+        struct table *t = table_read(path);
+        if (!t)
+            params_fault(p, f, key, "%s cannot be read, or has no row of numbers", path);
+        else if (table_column(t, "t") != 0)
+            params_fault(p, f, key, "%s: its first column must be t", path);
+        else if (table_column(t, column_of(a)) < 0)
+            params_fault(p, f, key, "%s has no column %s", path, column_of(a));
+        table_free(&t);
+    }
+}
+
+/* A column of a table as a series, times and values scaled, rows that are no numbers left out. */
+static struct accept_series series_of(const struct table *t, int column, double *room, double start,
+                                      const double *unit)
+{
+    struct accept_series s = {.t = room, .v = room + t->nrows};
+    for (int k = 0; k < t->nrows; k++) {
+        const double *row = t->v + k * t->ncolumns;
+        if (!isfinite(row[0]) || !isfinite(row[column]))
+            continue;
+        room[s.n] = start + unit[0] * row[0];
+        room[t->nrows + s.n++] = unit[1] * row[column];
+    }
+    return s;
+}
+
+/* The series that has the column: of a program alone, or of one of a job. */
+static struct table *find_series(const char *dir, const char *what)
+{
+    static const char *const files[] = {"series.csv", "sph-series.csv", "fv-series.csv"};
+    for (int k = 0; k < 3; k++) {
+        char path[1200];
+        snprintf(path, sizeof path, "%s/%s", dir, files[k]);
+        struct table *t = table_read(path);
+        if (t && table_column(t, what) >= 0)
+            return t;
+        table_free(&t);
+    }
+    return NULL;
+}
+
+static double compare(const struct scene_accept *a, const char *case_dir, const char *dir)
+{
+    char path[1024 + PARAM_TEXT_SIZE];
+    snprintf(path, sizeof path, "%s/%s", case_dir, a->reference);
+    struct table *ref = table_read(path), *run = find_series(dir, a->what);
+    double d = NAN;
+    if (ref && run) {
+        double *room[2] = {NEW(double, 2 * run->nrows), NEW(double, 2 * ref->nrows)};
+        const struct accept_series of_run =
+            series_of(run, table_column(run, a->what), room[0], 0.0, (const double[]){1.0, 1.0});
+        const struct accept_series of_ref =
+            series_of(ref, table_column(ref, column_of(a)), room[1], a->start, a->unit);
+        d = accept_distance(a->measure, of_run, of_ref, a->from, a->until);
+        mem_free(room[0]);
+        mem_free(room[1]);
+    }
+    table_free(&ref);
+    table_free(&run);
+    return d;
+}
+
+static void name_of(const struct scene_accept *a, char *name, size_t size)
+{
+    snprintf(name, size, "compare.%.80s %s", a->what, measures[a->measure]);
+    for (char *c = name; *c; c++)
+        *c = (char)(*c == ' ' ? '_' : *c);
+}
+
+bool accept_judge(const struct scene *s, const char *case_dir, const char *dir,
+                  struct summary *summary)
+{
+    bool all = true;
+    for (int k = 0; k < s->naccept; k++) {
+        const struct scene_accept *a = s->accept + k;
+        char name[PARAM_TEXT_SIZE];
+        double v = NAN;
+        snprintf(name, sizeof name, "%.*s", (int)sizeof name - 1, a->what);
+        if (*a->reference) {
+            v = compare(a, case_dir, dir);
+            name_of(a, name, sizeof name);
+            summary_real(summary, name, v);
+        } else {
+            (void)summary_find(summary, a->what, &v);
+        }
+        const bool good = fabs(v) <= a->tolerance; /* false for NaN */
+        log_say("%-10s %s %.4g (<= %g)%s", good ? "accepted" : "NOT MET", name, v, a->tolerance,
+                isnan(v) ? ": there is no such number" : "");
+        all = all && good;
+    }
+    return all;
+}

@@ -1,0 +1,126 @@
+/* crossing.c - see crossing.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "crossing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../scene/scene_fluid.h"
+
+bool crossing_box(const struct run *r, const char *group, double box[2][3])
+{
+    static const char *const keys[] = {"box", "free"};
+    char key[80];
+    for (int i = 0; i < 2; i++) {
+        snprintf(key, sizeof key, ":%.63s.%s", group, keys[i]);
+        if (params_peek_pair(r->params, r->comm, key, box))
+            return true;
+    }
+    return false;
+}
+
+/* Boxes of the groups sph, sph_NAME; those of SPH's program `only' alone, NULL: all. Returns how
+ * many. Collective. */
+static int peek_boxes(const struct run *r, const char *only, double box[PARAM_KIN_MAX][2][3])
+{
+    char names[PARAM_KIN_MAX][64];
+    const int n = params_kin(r->params, "sph", names);
+    int found = 0;
+    for (int k = 0; k < n; k++)
+        if (!only || strcmp(only, names[k]) == 0)
+            found += crossing_box(r, names[k], box[found]);
+    return found;
+}
+
+/* Whether a box ends in the water at an upright side, or in the air. */
+static bool ends_inside(const struct scene *c, int up, double box[2][3])
+{
+    const struct scene_domain *d = &c->domain;
+    const bool falls = c->fluid.gravity[up] < 0.0; /* towards the lower side */
+    bool ends = false;
+    for (int a = 0; a < d->dim; a++) {
+        const double eps = 1e-9 * (d->max[a] - d->min[a]);
+        const bool low = box[0][a] > d->min[a] + eps, high = box[1][a] < d->max[a] - eps;
+        if (box[1][a] > box[0][a])
+            ends = ends || (a != up ? low || high : falls ? high : low);
+    }
+    return ends;
+}
+
+bool crossing_find(const struct run *r)
+{
+    double box[PARAM_KIN_MAX][2][3];
+    bool ends = false;
+    if (!r->coupled || !r->scene.has_sph || !r->scene.has_fv || !scene_has_surface(&r->scene))
+        return false;
+    const int up = scene_still_axis(&r->scene);
+    if (up < 0)
+        return false;
+    const int n = peek_boxes(r, NULL, box);
+    for (int k = 0; k < n; k++)
+        ends = ends || ends_inside(&r->scene, up, box[k]);
+    return ends;
+}
+
+/* Whether a gauge lies in a box; one of the level by its place on the ground alone. */
+static bool holds(const struct scene *c, int up, double box[2][3], const struct scene_probe *g)
+{
+    bool inside = true;
+    for (int a = 0; a < c->domain.dim; a++)
+        if (box[1][a] > box[0][a] && (a != up || g->kind == PROBE_PRESSURE))
+            inside = inside && g->at[a] >= box[0][a] && g->at[a] <= box[1][a];
+    return inside;
+}
+
+void crossing_deal(struct run *r)
+{
+    const struct scene *c = &r->scene;
+    const int up = scene_still_axis(c);
+    double box[PARAM_KIN_MAX][2][3];
+    const int n = peek_boxes(r, strncmp(r->name, "sph", 3) == 0 ? r->name : NULL, box);
+    for (int k = 0; k < c->nprobes; k++) {
+        r->gauge_inside[k] = false;
+        for (int q = 0; q < n; q++)
+            r->gauge_inside[k] = r->gauge_inside[k] || holds(c, up, box[q], c->probes + k);
+    }
+}
+
+double crossing_time(const struct scene *c)
+{
+    double g[3];
+    const double size = scene_still_gravity(c, g);
+    const int up = scene_still_axis(c);
+    return up < 0 ? INFINITY : sqrt(crossing_depth(c, up) / size);
+}
+
+/* Height of a shape's highest point, or of the water below a level, along sign times axis a. */
+static double top_of(const struct scene_shape *h, int a, double sign)
+{
+    double high = -INFINITY;
+    switch (h->form) {
+    case SHAPE_BOX:
+        return sign > 0.0 ? h->box[1][a] : -h->box[0][a];
+    case SHAPE_DISC:
+        return sign * h->centre[a] + h->radius;
+    case SHAPE_POLYGON:
+        for (int i = 0; i < h->points.n && a < 2; i++)
+            high = fmax(high, sign * h->points.x[i][a]);
+        return high;
+    default:
+        return h->level;
+    }
+}
+
+double crossing_depth(const struct scene *c, int a)
+{
+    const double sign = c->fluid.gravity[a] > 0.0 ? -1.0 : 1.0; /* heights are against gravity */
+    const double floor = sign > 0.0 ? c->domain.min[a] : -c->domain.max[a];
+    const double roof = sign > 0.0 ? c->domain.max[a] : -c->domain.min[a];
+    double top = c->nshapes > 0 ? floor : roof;
+    if (c->initial.level < LEVEL_TOP)
+        return c->initial.level - floor;
+    for (int k = 0; k < c->nshapes; k++)
+        if (!c->shapes[k].hole)
+            top = fmax(top, top_of(c->shapes + k, a, sign));
+    return fmin(top, roof) - floor;
+}

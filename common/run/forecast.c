@@ -1,0 +1,46 @@
+/* forecast.c - run time ahead of a run. SPDX-License-Identifier: BSD-3-Clause */
+#include "forecast.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "../base/log.h"
+
+/* bench.txt in the folder of this program; NULL: there is none. */
+static FILE *open_figures(void)
+{
+    char path[1100];
+    const ssize_t n = readlink("/proc/self/exe", path, sizeof path - 16);
+    if (n <= 0)
+        return NULL;
+    path[n] = '\0';
+    char *slash = strrchr(path, '/');
+    snprintf(slash ? slash + 1 : path, 16, "bench.txt");
+    return fopen(path, "r");
+}
+
+void forecast_say(const char *program, int dim, double units, double steps)
+{
+    char name[64];
+    double seconds = NAN, s;
+    int d;
+    FILE *f = open_figures();
+    while (f && fscanf(f, "%63s %d %lf", name, &d, &s) == 3)
+        if (strcmp(name, program) == 0 && d == dim)
+            seconds = s;
+    if (f)
+        fclose(f);
+    if (!isfinite(seconds)) {
+        log_say("run time: not known before `make bench' has measured this machine");
+        return;
+    }
+    const double cost = seconds * units * steps;
+    if (cost < 120.0)
+        log_say("run time: about %.2g s of processor time", cost);
+    else if (cost < 7200.0)
+        log_say("run time: about %.2g min of processor time", cost / 60.0);
+    else
+        log_say("run time: about %.3g h of processor time", cost / 3600.0);
+}

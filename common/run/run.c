@@ -1,0 +1,641 @@
+/* run.c - the life of a solver: see run.h. Data flow one way: case -> state -> step -> output.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "run.h"
+
+#include <hdf5.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "../base/log.h"
+#include "../base/mem.h"
+#include "../base/version.h"
+#include "../files/disk.h"
+#include "../files/h5.h"
+#include "../files/xdmf.h"
+#include "../scene/picture.h"
+#include "../scene/scene_fluid.h"
+#include "../scene/scene_mesh.h"
+#include "accept.h"
+#include "crossing.h"
+#include "run_files.h"
+
+enum { GROUPS_MAX = SCENE_GROUPS + 8, COLUMNS_MAX = 256 };
+
+/* A run with what only this file needs. */
+struct life {
+    struct run r;
+    const struct program *p;
+    struct command_line line;
+    struct param_group groups[GROUPS_MAX];
+    int ngroups;
+    struct faults faults;
+    struct params *params;
+    struct run_files files;
+    struct series *series;
+    void *s;
+    int64_t window;      /* of the restart file */
+    double began, wall0; /* s: wall time at the start of the program, of the time loop */
+    double said, every;  /* s: last progress line, and how often */
+    double saved;        /* s: wall time of the last restart file */
+    int64_t output;      /* number of the next output time */
+    struct diagnosis d;
+    const char *status;
+};
+
+bool run_diagnose(struct diagnosis *d, MPI_Comm comm)
+{
+    int rank, size, first;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+    first = d->bad ? rank : size;
+    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, comm);
+    if (first < size)
+        MPI_Bcast(d, (int)sizeof *d, MPI_BYTE, first, comm);
+    return first < size;
+}
+
+/* --- start --- */
+
+static void collect_groups(struct life *l)
+{
+    scene_groups(&l->r.scene, l->groups);
+    l->ngroups = SCENE_GROUPS;
+    for (int k = 0; k < l->p->ngroups; k++)
+        l->groups[l->ngroups++] = l->p->groups[k];
+    /* one of several programs of a kind has a name and a group of its own */
+    for (int k = 0; k < l->ngroups && l->line.as; k++)
+        if (strcmp(l->groups[k].name, l->p->name) == 0)
+            l->groups[k].name = l->line.as;
+}
+
+/* A case with both solvers is a coupled job; one without this program's group is not for it. */
+static void check_place(struct life *l)
+{
+    struct run *r = &l->r;
+    char kin[PARAM_KIN_MAX][64];
+    r->scene.has_sph = params_kin(l->params, "sph", kin) > 0;
+    r->scene.has_fv = params_has_group(l->params, "fv");
+    if (!params_has_group(l->params, r->name))
+        params_fault(l->params, &l->faults, r->name,
+                     "the case has no group %s: it is not for this program", r->name);
+    else if (r->scene.has_sph && r->scene.has_fv && !r->partner_ctx && !l->line.check)
+        params_fault(l->params, &l->faults, r->name,
+                     "this case is a coupled job (groups sph and fv): start it with cases/run, or "
+                     "leave a group out");
+}
+
+/* In a coupled job walls and bodies of triangles lie where the particles are, and the other program
+ * reads none; the water at the start is both programs' affair. */
+static void read_meshes(struct life *l)
+{
+    struct run *r = &l->r;
+    const bool partly = r->coupled && r->scene.has_sph;
+    for (enum mesh_owner owner = MESH_SHAPE; owner <= MESH_WALL; owner++)
+        if (!l->p->meshes ? owner == MESH_SHAPE || !partly : owner == MESH_SHAPE && r->coupled)
+            scene_meshes_refuse(&r->scene, owner, l->params,
+                                "surfaces of triangles are for sph in 3D, alone or, of walls and "
+                                "bodies, where it has its particles in a coupled job",
+                                &l->faults);
+    if (l->p->meshes && l->faults.n == 0)
+        l->p->meshes(&r->scene, r->case_dir, l->params, r->comm, &l->faults);
+}
+
+/* Reads and checks everything; returns the number of faults, the same on all ranks. */
+static int read_case(struct life *l)
+{
+    struct run *r = &l->r;
+    l->params = params_read(r->comm, l->line.case_file, l->line.noverrides, l->line.overrides,
+                            l->groups, l->ngroups, l->p->other_groups, &l->faults);
+    r->params = l->params;
+    if (l->line.as)
+        params_alias(l->params, l->p->name, l->line.as);
+    if (l->faults.n == 0)
+        check_place(l);
+    r->coupled = r->partner_ctx || (l->line.check && r->scene.has_sph && r->scene.has_fv);
+    if (l->faults.n == 0)
+        scene_check(&r->scene, l->params, &l->faults);
+    if (l->faults.n == 0)
+        scene_orient(&r->scene);
+    if (l->faults.n == 0)
+        read_meshes(l);
+    if (l->faults.n == 0)
+        r->crossed = crossing_find(r);
+    if (r->crossed)
+        crossing_deal(r);
+    if (l->faults.n == 0)
+        accept_check(&r->scene, r->case_dir, l->params, &l->faults);
+    if (l->faults.n == 0 && l->p->check)
+        l->p->check(r, &l->faults);
+    return params_report(&l->faults);
+}
+
+static void banner(const struct life *l)
+{
+    char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
+    unsigned a, b, c;
+    int n;
+    MPI_Get_library_version(mpi, &n);
+    mpi[strcspn(mpi, ",")] = '\0';
+    H5get_libversion(&a, &b, &c);
+    (l->r.coupled ? log_quiet : log_say)(
+        "estran %s %s (%s, HDF5 %u.%u.%u), %d rank%s on a machine of %ld cores", l->r.name,
+        run_version, mpi, a, b, c, l->r.size, l->r.size == 1 ? "" : "s",
+        sysconf(_SC_NPROCESSORS_ONLN));
+    (l->r.coupled ? log_quiet : log_say)("case %s -> %s", l->r.case_name, l->r.dir);
+}
+
+/* Partners compare notes: -1 to go on, else the exit code. */
+static int meet(struct life *l, int faults)
+{
+    struct run *r = &l->r;
+    if (!r->coupled || l->line.check)
+        return faults ? RUN_INPUT : -1;
+    if (!faults && l->p->offer)
+        l->p->offer(r);
+    const int code =
+        r->partner->meet(r->partner_ctx, faults, params_hash(l->params), l->window, r->dir);
+    return code ? code : -1;
+}
+
+static int open_folder(struct life *l, struct h5 **restart)
+{
+    struct run *r = &l->r;
+    int code = run_folder(r->comm, r->dir, r->name, l->line.force, l->line.restart);
+    l->window = -1;
+    *restart = NULL;
+    if (code == 0 && l->line.restart) {
+        *restart = files_open_restart(r, l->p, &l->window);
+        code = *restart ? 0 : RUN_INPUT;
+    }
+    return code;
+}
+
+static void start_files(struct life *l)
+{
+    struct run *r = &l->r;
+    char path[1200];
+    l->files.run = r;
+    l->files.program = l->p;
+    l->files.case_text = r->rank == 0 ? params_text(l->params) : NULL;
+    char *text = l->files.case_text;
+    int n = text ? (int)strlen(text) + 1 : 0;
+    MPI_Bcast(&n, 1, MPI_INT, 0, r->comm);
+    if (!text)
+        l->files.case_text = text = NEW(char, n);
+    MPI_Bcast(text, n, MPI_CHAR, 0, r->comm);
+    if (r->rank > 0)
+        return;
+    snprintf(path, sizeof path, "%s/%s-case.cfg", r->dir, r->name);
+    FILE *f = fopen(path, "w");
+    if (f) {
+        fprintf(f, "# the case as %s ran it, with its defaults\n%s", r->name, text);
+        fclose(f);
+    }
+    files_view(r);
+}
+
+static void start_series(struct life *l)
+{
+    struct run *r = &l->r;
+    const char *columns[COLUMNS_MAX] = {"t [s]", "dt [s]"};
+    char path[1400];
+    for (int k = 0; k < l->p->ncolumns; k++)
+        columns[k + 2] = l->p->columns[k];
+    files_path(r, "series.csv", path, sizeof path);
+    l->series =
+        series_create(r->rank == 0 ? path : NULL, l->p->ncolumns + 2, columns, r->restart, r->t);
+    snprintf(path, sizeof path, "%s/%s.xdmf", r->dir, r->name);
+    if (r->rank == 0)
+        l->files.xdmf = xdmf_create(path, r->restart, r->t * (1.0 + 1e-9));
+}
+
+/* --- while it runs --- */
+
+static void write_row(struct life *l)
+{
+    double v[COLUMNS_MAX] = {l->r.t, l->r.dt};
+    if (l->p->row)
+        l->p->row(l->s, v + 2);
+    series_row(l->series, v);
+}
+
+/* 1, 2, 5, 10, 30, 60 s apart as the run grows. */
+static void say_progress(struct life *l)
+{
+    static const double every[] = {1, 2, 5, 10, 30, 60},
+                        until[] = {5, 20, 120, 600, 3600, INFINITY};
+    struct run *r = &l->r;
+    const double now = wall_time(), gone = now - l->wall0, done = r->t / r->scene.time.end;
+    char text[512] = "";
+    if (r->rank != 0 || now - l->said < l->every)
+        return;
+    l->said = now;
+    for (int k = 0; k < 6; k++)
+        if (gone < until[k]) {
+            l->every = every[k];
+            break;
+        }
+    if (l->p->progress)
+        l->p->progress(l->s, text, sizeof text);
+    const double left = done > 0.0 ? gone * (1.0 - done) / done : 0.0;
+    (r->coupled ? log_quiet : log_say)("t %9.4g of %g s %4.0f %%  left %2d:%02d:%02d  %s", r->t,
+                                       r->scene.time.end, 100.0 * done, (int)left / 3600,
+                                       (int)left / 60 % 60, (int)left % 60, text);
+}
+
+/* One step; false when the state cannot be trusted. */
+static bool step(struct life *l, double t_stop)
+{
+    struct run *r = &l->r;
+    r->dt = l->p->step(l->s, t_stop, &l->d);
+    const bool reached = !l->d.bad && t_stop - r->t - r->dt < 1e-9 * r->dt;
+    r->t = reached ? t_stop : r->t + r->dt;
+    r->step++;
+    if (l->d.bad)
+        return false;
+    if (r->step % r->scene.output.series == 0)
+        write_row(l);
+    say_progress(l);
+    return true;
+}
+
+static bool stop_asked(const struct run *r)
+{
+    int stop = signals_stop();
+    if (r->size > 1)
+        MPI_Allreduce(MPI_IN_PLACE, &stop, 1, MPI_INT, MPI_MAX, r->comm);
+    if (stop)
+        signals_handled();
+    return stop;
+}
+
+static double sum_over_ranks(const struct run *r, double v)
+{
+    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_SUM, r->comm);
+    return v;
+}
+
+/* Largest over the ranks. Ranks may have met their timers in another order, or not at all: rank 0's
+ * names count. */
+static void summarise_timers(struct run *r)
+{
+    int n = r->timers.n;
+    MPI_Bcast(&n, 1, MPI_INT, 0, r->comm);
+    for (int k = 0; k < n; k++) {
+        char name[64] = "", key[96];
+        if (r->rank == 0)
+            snprintf(name, sizeof name, "%s", r->timers.of[k].name);
+        MPI_Bcast(name, sizeof name, MPI_CHAR, 0, r->comm);
+        double v = timer_wall(&r->timers, name);
+        MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_MAX, r->comm);
+        snprintf(key, sizeof key, "time_s.%s", name);
+        summary_real(r->summary, key, v);
+    }
+}
+
+static void summarise(struct life *l)
+{
+    struct run *r = &l->r;
+    struct summary *s = r->summary;
+    const double wall = wall_time() - l->began, cpu = sum_over_ranks(r, cpu_time());
+    summary_text(s, "status", l->status);
+    summary_text(s, "case", r->case_name);
+    summary_text(s, "program", r->name);
+    summary_text(s, "version", run_version);
+    summary_int(s, "ranks", r->size);
+    summary_int(s, "dim", r->scene.domain.dim);
+    summary_real(s, "wall_s", wall);
+    summary_real(s, "cpu_s", cpu);
+    summary_real(s, "start_s", l->wall0 - l->began); /* of wall_s: before the time loop */
+    summary_int(s, "steps", r->step);
+    summary_real(s, "t_end", r->t);
+    if (!l->d.bad && l->p->finish)
+        l->p->finish(l->s);
+    summarise_timers(r);
+}
+
+static void write_summary(const struct life *l)
+{
+    char path[1400];
+    files_path(&l->r, "summary.json", path, sizeof path);
+    if (l->r.rank == 0)
+        summary_write(l->r.summary, path);
+}
+
+static int diverged(struct life *l)
+{
+    struct run *r = &l->r;
+    log_say("diverged at t = %.6g s, step %lld: %s", r->t, (long long)r->step, l->d.reason);
+    log_say("  where   %s", l->d.where);
+    log_say("  likely  %s", l->d.likely);
+    files_snapshot(&l->files, "diverged");
+    if (r->scene.output.snapshots)
+        log_say("  files   %s/%s_diverged.h5 (the state that failed), last entry of %s.xdmf",
+                r->dir, r->name, r->name);
+    l->status = "diverged";
+    return RUN_DIVERGED;
+}
+
+static double next_output(const struct life *l)
+{
+    const double every = l->r.scene.output.every, end = l->r.scene.time.end;
+    const double t = (double)l->output * every;
+    return every > 0.0 && t < end * (1.0 - 1e-12) ? t : end;
+}
+
+static bool wants_checkpoint(struct life *l, double *next)
+{
+    const struct scene_output *o = &l->r.scene.output;
+    int wanted = 0;
+    if (o->checkpoint > 0.0 && l->r.t >= *next * (1.0 - 1e-12)) {
+        *next = (floor(l->r.t / o->checkpoint + 1e-9) + 1.0) * o->checkpoint;
+        wanted = 1;
+    }
+    if (o->checkpoint_wall > 0.0) {
+        if (l->r.rank == 0 && wall_time() - l->saved > o->checkpoint_wall)
+            wanted = 1;
+        MPI_Bcast(&wanted, 1, MPI_INT, 0, l->r.comm);
+    }
+    if (wanted)
+        l->saved = wall_time();
+    return wanted;
+}
+
+static int loop_alone(struct life *l)
+{
+    struct run *r = &l->r;
+    const double every = r->scene.output.checkpoint;
+    double save = every > 0.0 ? (floor(r->t / every + 1e-9) + 1.0) * every : INFINITY;
+    char file[256];
+    while (r->t < r->scene.time.end) {
+        const double out = next_output(l), target = fmin(out, save);
+        if (!step(l, target))
+            return diverged(l);
+        const bool stop = stop_asked(r);
+        if (r->t == out) {
+            l->output++;
+            files_snapshot(&l->files, NULL);
+        }
+        const bool ends = stop && r->t < r->scene.time.end;
+        if (ends && r->t != out) /* before the restart file, which counts it */
+            files_snapshot(&l->files, NULL);
+        if (wants_checkpoint(l, &save) || stop)
+            files_checkpoint(&l->files, r->step, file);
+        if (ends) {
+            l->status = "stopped";
+            log_say("stopped on request at t = %g s; --restart continues", r->t);
+            return RUN_STOPPED;
+        }
+    }
+    return RUN_DONE;
+}
+
+/* What the coupler shows while it runs. */
+static void report_progress(const struct life *l, struct summary *s)
+{
+    summary_real(s, "t", l->r.t);
+    summary_real(s, "dt", l->r.dt);
+    summary_real(s, "steps", (double)l->r.step);
+}
+
+static int loop_coupled(struct life *l)
+{
+    struct run *r = &l->r;
+    const struct partner *c = r->partner;
+    double t0, t1;
+    bool output, save;
+    int code = RUN_DONE;
+    char file[256];
+    while (c->window(r->partner_ctx, &t0, &t1, &output, &save, &code)) {
+        if (l->p->window_begin)
+            l->p->window_begin(l->s, t0, t1);
+        while (r->t < t1)
+            if (!step(l, t1)) {
+                diverged(l);
+                summarise(l);
+                write_summary(l);
+                (c->fail)(r->partner_ctx, RUN_DIVERGED, l->d.reason);
+            }
+        if (l->p->window_end)
+            l->p->window_end(l->s, t1);
+        struct summary *s = summary_create();
+        report_progress(l, s);
+        if (l->p->tell)
+            l->p->tell(l->s, s);
+        c->advance(r->partner_ctx, t1, s, stop_asked(r));
+        summary_free(&s);
+        if (output)
+            files_snapshot(&l->files, NULL);
+        if (save) {
+            files_checkpoint(&l->files, c->window_number(r->partner_ctx), file);
+            c->saved(r->partner_ctx, c->window_number(r->partner_ctx), file);
+        }
+    }
+    if (code == RUN_STOPPED)
+        l->status = "stopped";
+    return code;
+}
+
+/* --- end --- */
+
+/* What the program itself found wrong with a run that went through. */
+static bool sound(const struct life *l)
+{
+    const char *why = summary_find_text(l->r.summary, "not_accepted");
+    if (why)
+        log_warn("NOT ACCEPTED %s", why);
+    return !why;
+}
+
+static void say_number(void *ctx, const char *key, double v)
+{
+    (void)ctx;
+    if (strncmp(key, "error.", 6) == 0)
+        log_say("error      %-22s %10.4g", key + 6, v);
+}
+
+static void say_end(const struct life *l)
+{
+    const struct run *r = &l->r;
+    const double now = wall_time(), wall = now - l->began, loop = now - l->wall0;
+    const char *quote = strpbrk(r->dir, " \t()&;$'*?<>|") ? "'" : "";
+    double cpu = 0.0;
+    summary_each(r->summary, say_number, NULL);
+    summary_find(r->summary, "cpu_s", &cpu);
+    log_say("cost       %.3g s wall (start %.2g s) on %d rank%s, %.3g s cpu, %lld steps", wall,
+            wall - loop, r->size, r->size == 1 ? "" : "s", cpu, (long long)r->step);
+    for (int k = 0; k < r->timers.n; k++)
+        log_say("time       %-22s %10.3f s %5.1f %%", r->timers.of[k].name, r->timers.of[k].wall,
+                100.0 * r->timers.of[k].wall / loop);
+    if (r->scene.output.snapshots)
+        log_say("look       paraview --script=%s%s/view.py%s", quote, r->dir, quote);
+}
+
+static int end(struct life *l, int code)
+{
+    struct run *r = &l->r;
+    if (code == RUN_DONE && r->step % r->scene.output.series != 0)
+        write_row(l); /* the end itself */
+    summarise(l);
+    if (!r->coupled) {
+        say_end(l);
+        if (code == RUN_DONE && r->scene.naccept > 0) {
+            int good = r->rank == 0 && accept_judge(&r->scene, r->case_dir, r->dir, r->summary);
+            MPI_Bcast(&good, 1, MPI_INT, 0, r->comm);
+            summary_bool(r->summary, "accepted", good);
+            code = good ? RUN_DONE : RUN_NOT_ACCEPTED;
+        }
+    }
+    if (code == RUN_DONE && !sound(l))
+        code = RUN_NOT_ACCEPTED;
+    write_summary(l);
+    if (r->coupled)
+        r->partner->close(r->partner_ctx, code, r->summary);
+    return code;
+}
+
+static void free_life(struct life *l)
+{
+    if (l->s)
+        l->p->destroy(l->s);
+    if (l->series)
+        series_free(&l->series);
+    xdmf_free(&l->files.xdmf);
+    mem_free(l->files.case_text);
+    summary_free(&l->r.summary);
+    scene_meshes_free(&l->r.scene);
+    params_free(&l->params);
+    mem_free(l->faults.text);
+    log_file(NULL);
+    mem_free((void *)(uintptr_t)l->line.overrides);
+}
+
+static int run_state(struct life *l, struct h5 *restart)
+{
+    struct run *r = &l->r;
+    if (restart && !files_read_clock(&l->files, restart))
+        fail("the restart file has no time");
+    r->restart = restart != NULL;
+    l->s = l->p->create(r, restart);
+    l->files.state = l->s;
+    if (restart) /* of another case: why it does not fit, or what has changed on the way */
+        files_tell_difference(&l->files, restart);
+    h5_close(&restart);
+    if (!l->s) {
+        if (r->coupled)
+            (r->partner->fail)(r->partner_ctx, RUN_INPUT,
+                               r->restart ? "the restart file does not fit" : "nothing to compute");
+        return RUN_INPUT;
+    }
+    start_series(l);
+    if (r->coupled) {
+        const double wish = l->p->window_wish ? l->p->window_wish(l->s) : INFINITY;
+        const int code = r->partner->ready(r->partner_ctx, r->t, wish);
+        if (code)
+            return code;
+        if (l->p->first)
+            l->p->first(l->s);
+    }
+    const double every = r->scene.output.every;
+    l->output = every > 0.0 ? (int64_t)floor(r->t / every + 1e-9) + 1 : 1;
+    if (!r->restart) {
+        files_snapshot(&l->files, NULL);
+        write_row(l);
+    }
+    l->wall0 = l->said = l->saved = wall_time();
+    l->every = 1.0;
+    signals_started();
+    for (int k = 0; k < r->timers.n; k++)
+        r->timers.of[k].wall = 0.0; /* the start is not part of the loop */
+    return end(l, r->coupled ? loop_coupled(l) : loop_alone(l));
+}
+
+/* The scene as the programs have understood it. */
+static void draw(const struct life *l)
+{
+    char path[1400];
+    snprintf(path, sizeof path, "%s/%s-scene.svg", l->r.dir, l->r.name);
+    if (!run_make_folder(l->r.dir))
+        disk_failed(path);
+    struct picture *p = picture_create(path, &l->r.scene);
+    if (l->p->draw)
+        l->p->draw(&l->r, p);
+    picture_close(&p);
+    log_say("picture: %s", path);
+}
+
+/* From the case to the exit code. */
+static int live(struct life *l)
+{
+    struct run *r = &l->r;
+    struct h5 *restart = NULL;
+    char path[1400];
+    run_case_dir(l->line.case_file, r->case_dir, sizeof r->case_dir);
+    collect_groups(l);
+    int faults = read_case(l);
+    run_case_name(l->line.case_file, r->case_name, sizeof r->case_name);
+    snprintf(r->dir, sizeof r->dir, "%s", l->line.dir);
+    if (!faults && l->line.check) {
+        l->p->describe(r);
+        if (l->line.picture && r->rank == 0)
+            draw(l);
+        return RUN_DONE;
+    }
+    if (!faults)
+        faults = open_folder(l, &restart) != 0;
+    const int code = meet(l, faults);
+    if (code >= 0) {
+        h5_close(&restart);
+        return code;
+    }
+    signals_install(r->name, r->rank);
+    snprintf(path, sizeof path, "%s/.death", r->dir); /* so the coupler calls its notes, too */
+    if (!r->coupled && r->rank == 0)
+        unlink(path); /* of an earlier run */
+    MPI_Barrier(r->comm);
+    signals_note_path(path);
+    if (r->coupled)
+        snprintf(path, sizeof path, "%s/%s.log", r->dir, r->name);
+    else
+        snprintf(path, sizeof path, "%s/log.txt", r->dir);
+    log_file(path);
+    banner(l);
+    l->p->describe(r);
+    r->summary = summary_create();
+    l->status = "done";
+    start_files(l);
+    return run_state(l, restart);
+}
+
+int run_main(int argc, char **argv, const struct program *p, const struct partner *partner)
+{
+    const double began = wall_time();
+    struct life *l = NULL;
+    signals_start_mpi(&argc, &argv, p->name);
+    l = mem_new(1, sizeof *l);
+    l->began = began;
+    l->p = p;
+    l->r.name = p->name;
+    collect_groups(l);
+    int code = run_command_line(&l->line, argc, argv, p->name, p->help, l->groups, l->ngroups);
+    if (code < 0) {
+        code = 0;
+        l->r.comm = MPI_COMM_WORLD;
+        l->r.name = l->line.as ? l->line.as : p->name;
+        if (partner)
+            code = partner->open(MPI_COMM_WORLD, l->r.name, l->line.deadline, l->line.patience,
+                                 &l->r.comm, &l->r.partner_ctx);
+        l->r.partner = l->r.partner_ctx ? partner : NULL;
+        MPI_Comm_rank(l->r.comm, &l->r.rank);
+        MPI_Comm_size(l->r.comm, &l->r.size);
+        log_open(l->r.comm, l->r.name);
+        if (code == 0)
+            code = live(l);
+    }
+    free_life(l);
+    mem_free(l);
+    MPI_Finalize();
+    return code;
+}

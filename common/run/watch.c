@@ -1,0 +1,61 @@
+/* watch.c - figures that stay small in a sound run. SPDX-License-Identifier: BSD-3-Clause */
+#include "watch.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../base/log.h"
+#include "../files/series.h"
+#include "run.h"
+
+bool watch_judge(struct watch *w, double value, double t, int64_t step, struct diagnosis *d)
+{
+    w->now = value;
+    if (!(value <= w->worst))
+        w->worst = value;
+    const bool stop = !(value <= w->stop);
+    if (stop && !d->bad) {
+        d->bad = true;
+        snprintf(d->reason, sizeof d->reason, "%s: %.3g, limit %.3g", w->what, value, w->stop);
+        snprintf(d->where, sizeof d->where, "the whole flow, t = %.4g s, step %lld", t,
+                 (long long)step);
+        snprintf(d->likely, sizeof d->likely, "%s", w->likely);
+    } else if (!(value <= w->warn) && !w->warned) {
+        char end[48] = "";
+        if (isfinite(w->stop))
+            snprintf(end, sizeof end, " (the run ends at %.3g)", w->stop);
+        log_warn("t = %.4g s, step %lld: %s: %.3g, sound below %.3g%s; %s", t, (long long)step,
+                 w->what, value, w->warn, end, w->likely);
+        w->warned = true;
+    }
+    return stop;
+}
+
+void watch_summary(const struct watch *w, struct summary *s)
+{
+    char key[96];
+    snprintf(key, sizeof key, "watch.%s", w->key);
+    summary_real(s, key, w->worst);
+}
+
+double watch_budget_gain(struct watch_budget *b, int64_t step, double energy_less_work)
+{
+    const int64_t slot = step * WATCH_SLOTS / WATCH_STEPS;
+    int kept = 0;
+    for (int k = 0; k < b->n; k++) /* what is older than the window is forgotten */
+        if (b->slot[k] > slot - WATCH_SLOTS) {
+            b->slot[kept] = b->slot[k];
+            b->least[kept++] = b->least[k];
+        }
+    b->n = kept;
+    if (b->n > 0 && b->slot[b->n - 1] == slot) {
+        b->least[b->n - 1] = fmin(b->least[b->n - 1], energy_less_work);
+    } else {
+        b->slot[b->n] = slot;
+        b->least[b->n++] = energy_less_work;
+    }
+    double least = energy_less_work;
+    for (int k = 0; k < b->n; k++)
+        least = fmin(least, b->least[k]);
+    return energy_less_work - least;
+}

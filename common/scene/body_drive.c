@@ -1,0 +1,268 @@
+/* body_drive.c - prescribed motion: files, harmonic terms, polynomials; they add up. Velocities are
+ * the exact derivatives of the places. SPDX-License-Identifier: BSD-3-Clause */
+#include "body_drive.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../base/mem.h"
+#include "../geometry/body_math.h"
+
+int body_read_rows(const char *path, int columns, double **rows)
+{
+    FILE *f = fopen(path, "r");
+    char line[512];
+    int n = 0;
+    double *all = NULL;
+    bool sound = true;
+    if (!f)
+        return -1;
+    while (sound && fgets(line, sizeof line, f)) {
+        double v[8];
+        int got = 0;
+        char *at = line, *end;
+        for (; got < 8; got++, at = end) {
+            at += strspn(at, " ,;\t\r\n");
+            v[got] = strtod(at, &end);
+            if (end == at)
+                break;
+        }
+        if (line[0] == '#' || got == 0)
+            continue;
+        sound = got == columns && (n == 0 || v[0] > all[columns * (n - 1)]);
+        if (!sound)
+            break;
+        GROW(all, columns * n, columns * (n + 1));
+        memcpy(all + columns * n++, v, (size_t)columns * sizeof *v);
+    }
+    fclose(f);
+    if (!sound || n == 0) {
+        mem_free(all);
+        return 0;
+    }
+    *rows = all;
+    return n;
+}
+
+void body_drive_terms(struct body_drive *v, const struct scene_motions *is, int dim,
+                      const char *dir)
+{
+    *v = (struct body_drive){.dim = dim, .columns = dim == 2 ? 4 : 7};
+    for (int k = 0; k < is->n; k++) {
+        struct body_term *t = v->term + v->nterms++;
+        char path[1024 + PARAM_TEXT_SIZE];
+        t->is = is->of + k;
+        snprintf(path, sizeof path, "%s/%s", dir, t->is->file);
+        if (t->is->kind == MOTION_FILE)
+            t->n = body_read_rows(path, v->columns, &t->rows);
+    }
+}
+
+void body_drive_create(struct body_drive *v, const struct scene_body *is, int dim, const char *dir)
+{
+    const int locked = is->free ? scene_body_locked(is->lock, dim) : (1 << BODY_AXES) - 1;
+    body_drive_terms(v, &is->motion, dim, dir);
+    for (int a = 0; a < BODY_AXES; a++)
+        if (locked >> a & 1)
+            v->constant[a] = a < 3 ? is->velocity[a] : is->spin[a - 3];
+}
+
+void body_drive_free(struct body_drive *v)
+{
+    for (int k = 0; k < v->nterms; k++)
+        mem_free(v->term[k].rows);
+}
+
+bool body_term_fault(const struct body_drive *v, int term, const char *dir, char *text, size_t size)
+{
+    static const char *const names[BODY_AXES] = {"x", "y", "z", "rx", "ry", "rz"};
+    const struct body_term *t = v->term + term;
+    const struct scene_motion *m = t->is;
+    *text = '\0';
+    if (m->kind == MOTION_FILE && !*m->file)
+        snprintf(text, size, "a term of kind file needs the name of the file");
+    else if (m->kind == MOTION_FILE && t->n <= 0)
+        snprintf(text, size, "motion %s/%s: %s", dir, m->file,
+                 t->n < 0      ? "no such file"
+                 : v->dim == 2 ? "expected rows of t, x, y, angle with increasing times"
+                               : "expected rows of t, x, y, z, rx, ry, rz with increasing times");
+    else if (m->kind == MOTION_FILE)
+        return false;
+    else if (v->dim == 2 && (m->axis == AXIS_Z || m->axis == AXIS_RX || m->axis == AXIS_RY))
+        snprintf(text, size, "axis %s in a case of 2 dimensions", names[m->axis]);
+    else if (m->kind == MOTION_HARMONIC && (m->period <= 0.0 || m->amplitude == 0.0))
+        snprintf(text, size, "a harmonic term needs an amplitude and a period other than 0");
+    else if (m->kind == MOTION_POLYNOMIAL && m->until <= m->from)
+        snprintf(text, size, "it ends at %g s (until), before its start at %g s (from)", m->until,
+                 m->from);
+    return *text != '\0';
+}
+
+/* Cubic through the rows with slopes of central differences: value, rate, second rate. */
+static void interpolate(const struct body_term *b, int columns, int column, double t, double *v,
+                        double *dv, double *ddv)
+{
+    const double *rows = b->rows;
+    const int n = b->n;
+    int lo = 0, hi = n - 1;
+    *dv = *ddv = 0.0;
+    if (n < 1) {
+        *v = 0.0;
+        return;
+    }
+    if (n < 2 || t <= rows[0] || t >= rows[columns * (n - 1)]) {
+        *v = rows[columns * (n < 2 || t <= rows[0] ? 0 : n - 1) + column];
+        return;
+    }
+    while (hi - lo > 1) { /* the last row not after t */
+        const int mid = (lo + hi) / 2;
+        if (t >= rows[columns * mid])
+            lo = mid;
+        else
+            hi = mid;
+    }
+    double slope[2];
+    for (int e = 0; e < 2; e++) {
+        const int before = lo + e > 0 ? lo + e - 1 : 0, after = lo + e < n - 1 ? lo + e + 1 : n - 1;
+        slope[e] = (rows[columns * after + column] - rows[columns * before + column]) /
+                   (rows[columns * after] - rows[columns * before]);
+    }
+    const double *p = rows + columns * lo, *q = p + columns;
+    const double h = q[0] - p[0], z = (t - p[0]) / h;
+    const double c2 = 3.0 * (q[column] - p[column]) - h * (2.0 * slope[0] + slope[1]);
+    const double c3 = 2.0 * (p[column] - q[column]) + h * (slope[0] + slope[1]);
+    *v = p[column] + z * (h * slope[0] + z * (c2 + z * c3));
+    *dv = slope[0] + z * (2.0 * c2 + 3.0 * z * c3) / h;
+    *ddv = (2.0 * c2 + 6.0 * z * c3) / (h * h);
+}
+
+/* Value and two derivatives of a term that has one axis. */
+static void one_axis(const struct scene_motion *m, double t, double v[3])
+{
+    const double w = 2.0 * M_PI / m->period, z = w * t + m->phase;
+    if (m->kind == MOTION_HARMONIC) {
+        v[0] = m->amplitude * sin(z);
+        v[1] = m->amplitude * w * cos(z);
+        v[2] = -m->amplitude * w * w * sin(z);
+        return;
+    }
+    const bool within = t >= m->from && t < m->until;
+    const double T = (t < m->from ? m->from : t > m->until ? m->until : t) - m->from;
+    v[0] = v[1] = v[2] = 0.0;
+    for (int k = m->coefficients.n - 1; k >= 0; k--) { /* Horner, with derivatives */
+        v[2] = v[2] * T + 2.0 * v[1];
+        v[1] = v[1] * T + v[0];
+        v[0] = v[0] * T + m->coefficients.v[k];
+    }
+    if (!within)
+        v[1] = v[2] = 0.0;
+}
+
+/* s^3 (10 - 15 s + 6 s^2) and its derivatives. */
+static void ramp(double T, double t, double v[3])
+{
+    const double s = T > 0.0 ? t / T : 1.0;
+    v[0] = 1.0;
+    v[1] = v[2] = 0.0;
+    if (s >= 1.0)
+        return;
+    if (s <= 0.0) {
+        v[0] = 0.0;
+        return;
+    }
+    v[0] = s * s * s * (10.0 + s * (6.0 * s - 15.0));
+    v[1] = 30.0 * s * s * (1.0 - s) * (1.0 - s) / T;
+    v[2] = 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / (T * T);
+}
+
+static int axis_of_column(int columns, int column)
+{
+    return columns == 4 ? (column == 3 ? AXIS_RZ : column - 1) : column - 1;
+}
+
+static void add_term(const struct body_drive *v, const struct body_term *term, double t, double *d,
+                     double *dd, double *ddd)
+{
+    double f[3], w[3];
+    ramp(term->is->ramp, t, w);
+    for (int c = 1; c < v->columns; c++) {
+        const bool file = term->is->kind == MOTION_FILE;
+        const int a = file ? axis_of_column(v->columns, c) : term->is->axis;
+        if (file)
+            interpolate(term, v->columns, c, t, f, f + 1, f + 2);
+        else
+            one_axis(term->is, t, f);
+        d[a] += w[0] * f[0];
+        dd[a] += w[0] * f[1] + w[1] * f[0];
+        ddd[a] += w[0] * f[2] + 2.0 * w[1] * f[1] + w[2] * f[0];
+        if (!file)
+            return;
+    }
+}
+
+void body_drive_at(const struct body_drive *v, double t, double d[BODY_AXES], double dd[BODY_AXES],
+                   double ddd[BODY_AXES])
+{
+    for (int a = 0; a < BODY_AXES; a++) {
+        d[a] = v->constant[a] * t;
+        dd[a] = v->constant[a];
+        ddd[a] = 0.0;
+    }
+    for (int k = 0; k < v->nterms; k++)
+        add_term(v, v->term + k, t, d, dd, ddd);
+}
+
+void body_drive_motion(const struct body_drive *v, double t, struct body_motion *m)
+{
+    double d[BODY_AXES], dd[BODY_AXES], ddd[BODY_AXES];
+    body_drive_at(v, t, d, dd, ddd);
+    for (int a = 0; a < 3; a++) {
+        m->x[a] = d[a];
+        m->u[a] = dd[a];
+        m->du[a] = ddd[a];
+        m->r[a] = d[3 + a];
+    }
+    rotation_of_vector(m->r, m->Q);
+    spin_of_vector(m->r, dd + 3, m->omega);
+    if (v->dim == 2) {
+        memcpy(m->domega, ddd + 3, sizeof m->domega);
+    } else { /* by central differences: only averaged forces ask for it */
+        const double h = 1e-4 * (1.0 + vec3_length(m->r)) / (1.0 + vec3_length(dd + 3));
+        double a[3], b[3], low[3], high[3];
+        for (int k = 0; k < 3; k++) {
+            low[k] = m->r[k] - h * dd[3 + k];
+            high[k] = m->r[k] + h * dd[3 + k];
+        }
+        spin_of_vector(low, dd + 3, a);
+        spin_of_vector(high, dd + 3, b);
+        spin_of_vector(m->r, ddd + 3, m->domega);
+        for (int k = 0; k < 3; k++)
+            m->domega[k] += 0.5 * (b[k] - a[k]) / h;
+    }
+    m->angle = m->r[2];
+    m->spin = m->omega[2];
+    m->dspin = m->domega[2];
+}
+
+/* At even times, and between the rows of files. */
+double body_drive_speed(const struct body_drive *v, double reach, double end)
+{
+    enum { TIMES = 2000 };
+    double most = 0.0;
+    struct body_motion m;
+    for (int i = 0; i <= TIMES; i++) {
+        body_drive_motion(v, end * i / TIMES, &m);
+        most = fmax(most, vec3_length(m.u) + reach * vec3_length(m.omega));
+    }
+    for (int k = 0; k < v->nterms; k++)
+        for (int i = 1; i < v->term[k].n; i++) {
+            const double *p = v->term[k].rows + (ptrdiff_t)v->columns * (i - 1);
+            const double t = 0.5 * (p[0] + p[v->columns]);
+            if (p[0] >= end)
+                break;
+            body_drive_motion(v, t < end ? t : end, &m);
+            most = fmax(most, vec3_length(m.u) + reach * vec3_length(m.omega));
+        }
+    return most;
+}

@@ -1,0 +1,49 @@
+/* picture_section.c - see picture_section.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "picture_section.h"
+
+#include <math.h>
+
+#include "../base/vec3.h"
+
+double picture_water_middle(const struct scene *s, int axis)
+{
+    enum { N = 16 };
+    const struct exact e = exact_create(s);
+    const struct scene_domain *d = &s->domain;
+    double sum = 0.0;
+    int n = 0;
+    for (int k = 0; k < N * N * N; k++) {
+        const int i[3] = {k % N, k / N % N, k / N / N};
+        double x[3];
+        for (int a = 0; a < 3; a++)
+            x[a] = d->min[a] + (i[a] + 0.5) / N * (d->max[a] - d->min[a]);
+        if (scene_matter(s, &e, x) != MATTER_FLUID)
+            continue;
+        sum += x[axis];
+        n++;
+    }
+    return n > 0 ? sum / n : 0.5 * (d->min[axis] + d->max[axis]);
+}
+
+bool picture_cut(const struct trimesh *m, int triangle, int axis, double cut, double x[2][3])
+{
+    int n = 0;
+    for (int k = 0; k < 3 && n < 2; k++) {
+        const double *a = m->x[m->vertex[triangle][k]], *b = m->x[m->vertex[triangle][(k + 1) % 3]];
+        if ((a[axis] > cut) == (b[axis] > cut))
+            continue;
+        const double w = (cut - a[axis]) / (b[axis] - a[axis]);
+        for (int c = 0; c < 3; c++)
+            x[n][c] = a[c] + w * (b[c] - a[c]);
+        n++;
+    }
+    return n == 2;
+}
+
+bool picture_is_sharp(const struct trimesh *m, int a, int b)
+{
+    double n[3], q[3];
+    trimesh_normal(m, a, n);
+    trimesh_normal(m, b, q);
+    return vec3_dot(n, q) < cos(30.0 * M_PI / 180.0);
+}

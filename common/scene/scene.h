@@ -1,0 +1,169 @@
+/* scene.h - the groups of a case that every program reads: what is computed, not how.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_SCENE_H
+#define COMMON_SCENE_H
+
+#include <stdbool.h>
+
+#include "../params/params.h"
+#include "scene_body.h"
+#include "scene_surface.h"
+
+enum initial_field {
+    FIELD_REST,
+    FIELD_UNIFORM,
+    FIELD_TAYLOR_GREEN,
+    FIELD_TWO_MODES,
+    FIELD_POISEUILLE,
+    FIELD_COUETTE,
+    FIELD_STANDING_WAVE,
+    FIELD_PATCH,
+    FIELD_DROP,
+    FIELD_BELTRAMI,
+    FIELD_STOKES,
+    FIELD_REGULAR,
+    FIELD_SOLITARY
+};
+enum scene_side {
+    SIDE_NONE,
+    SIDE_X_MIN,
+    SIDE_X_MAX,
+    SIDE_Y_MIN,
+    SIDE_Y_MAX,
+    SIDE_Z_MIN,
+    SIDE_Z_MAX
+};
+enum wall_kind { WALL_SLIP, WALL_NO_SLIP, WALL_INFLOW, WALL_OUTFLOW, WALL_ABSORBING };
+enum wall_profile { PROFILE_UNIFORM, PROFILE_PARABOLIC };
+enum shape_form { SHAPE_BOX, SHAPE_POLYGON, SHAPE_DISC, SHAPE_BELOW, SHAPE_MESH };
+enum fluid_side { FLUID_AUTO, FLUID_INSIDE, FLUID_OUTSIDE, FLUID_SHEET };
+enum accept_measure { ACCEPT_RMS, ACCEPT_PEAK, ACCEPT_IMPULSE, ACCEPT_ARRIVAL };
+enum probe_kind { PROBE_PRESSURE, PROBE_LEVEL, PROBE_SHORE };
+enum {
+    ACCEPT_MAX = 16,
+    WALLS_MAX = 16,
+    BODIES_MAX = 8,
+    SHAPES_MAX = 16,
+    PROBES_MAX = 24,
+    SCENE_GROUPS = 11
+};
+
+struct scene {
+    struct scene_time {
+        double end; /* s */
+    } time;
+    struct scene_fluid {
+        double rho;        /* kg/m^3 */
+        double nu;         /* m^2/s; 0: inviscid, nothing viscous is computed */
+        double gravity[3]; /* m/s^2 */
+        double central;    /* 1/s: W of the acceleration -W^2 x towards the origin */
+    } fluid;
+    struct scene_domain {
+        int dim;               /* 2 or 3 */
+        double min[3], max[3]; /* m */
+        bool periodic[3];
+    } domain;
+    struct scene_initial {
+        int field;          /* enum initial_field */
+        double U, L;        /* m/s, m: scales of the field; errors are relative to them */
+        double velocity[3]; /* m/s: uniform velocity, or the one that carries two_modes */
+        double amplitude;   /* m: of a wave */
+        double L_z;         /* m: its length along z; 0: the same for all z */
+        double crest;       /* m: x of the crest of a travelling wave */
+        double level;       /* m: height against gravity where p = 0; LEVEL_TOP: the fluid's top */
+        struct param_places seed; /* m: points that are known to be fluid */
+    } initial;
+    /* Sides of the domain, polylines with the fluid on their left, and meshes. Sides without a wall
+     * that are not periodic: open (sph), or the exact solution (fv). */
+    struct scene_wall {
+        int side; /* enum scene_side; SIDE_NONE: points or a mesh */
+        struct param_points points;
+        struct scene_surface surface; /* 3D: triangles of a file */
+        int fluid_side;               /* enum fluid_side: of that */
+        bool flip, thin;
+        bool closed;        /* the last point is joined with the first */
+        bool turned;        /* by scene_orient */
+        int kind;           /* enum wall_kind */
+        double friction;    /* -: c_f of a slip wall's quadratic bed friction */
+        double velocity[3]; /* m/s: of the wall along itself, or of the inflow */
+        int profile;        /* of an inflow */
+        double pressure;    /* Pa: at an outflow */
+        bool carried;       /* fv: velocity of a convective outflow, instead of p given */
+    } walls[WALLS_MAX];
+    int nwalls;
+    struct scene_body bodies[BODIES_MAX]; /* scene_body.h */
+    int nbodies;
+    /* Where the fluid is at the start; none: everywhere. */
+    struct scene_shape {
+        int form; /* enum shape_form */
+        double box[2][3];
+        struct param_points points;
+        struct scene_surface surface;
+        double centre[3], radius; /* m */
+        double level;             /* m: below it, against gravity */
+        bool hole;                /* takes fluid of earlier shapes away */
+        double velocity[3];       /* m/s: added to the field's */
+    } shapes[SHAPES_MAX];
+    int nshapes;
+    struct scene_probe {
+        char name[PARAM_TEXT_SIZE];
+        int kind;      /* enum probe_kind */
+        double at[3];  /* m */
+        double radius; /* m: pressure: of what it reads the mean of; 0: R of the particles */
+    } probes[PROBES_MAX];
+    int nprobes;
+    struct scene_coupling {
+        int steps;         /* SPH steps in a coupling step; 0: automatic */
+        double transition; /* m; 0: 1.25 R */
+        double buffer;     /* m; 0: 1.25 R */
+        double overlap;    /* m; 0: 1.25 R: of the free zone, outside the forced cells */
+        int memory;        /* coupling steps over which FV's pressure is smoothed; 0: automatic */
+        bool keep_mass;    /* what SPH's part gained goes out by the openings; without a surface */
+        int mapping;       /* 0 shepard, 1 mls: particles to forced cells */
+        int interpolation; /* 0 linear, 1 cubic: patch to particles */
+        double deadline;   /* s to meet the other programs */
+    } coupling;
+    struct scene_output {
+        double every;                 /* s between snapshots; 0: first and last only */
+        bool snapshots;               /* write HDF5 at all */
+        char fields[PARAM_TEXT_SIZE]; /* "velocity pressure ..." */
+        int series;                   /* steps between rows of series.csv */
+        double checkpoint;      /* s of simulated time between restart files; 0: only at a stop */
+        double checkpoint_wall; /* s of wall time between restart files; 0: none */
+    } output;
+    int naccept;
+    struct scene_accept {
+        char what[PARAM_TEXT_SIZE]; /* key of summary.json: "error.velocity_l2"; of series.csv */
+        char reference[PARAM_TEXT_SIZE]; /* CSV file beside the case; "": none */
+        char column[PARAM_TEXT_SIZE];    /* of the reference; "": named like what */
+        int measure;                     /* enum accept_measure */
+        double from, until;              /* s: of the comparison */
+        double start;                    /* s: time of the run at which the reference's t is 0 */
+        double unit[3];   /* of the reference's times (s) and values (as in series.csv) */
+        double tolerance; /* accepted while the value is at most this */
+    } accept[ACCEPT_MAX];
+    bool has_coupling, has_output;
+    bool has_sph, has_fv;        /* groups of the solvers: both make a coupled job */
+    struct scene_meshes *meshes; /* what the files of surfaces hold; scene_mesh.h; NULL: none */
+};
+
+#define LEVEL_TOP 1e30
+
+/* The wall on a side of the domain; NULL: none. */
+const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side side);
+
+/* Whether the field is a wave under a surface of its own. */
+bool scene_has_wave(const struct scene *s);
+/* One of permanent form: steady.h. */
+bool scene_has_steady_wave(const struct scene *s);
+/* m: of a solitary wave that of the one as steep, 2 pi/K of its profile sech^2 Kx. */
+double scene_wave_length(const struct scene *s);
+/* Whether the water ends somewhere without a wall. */
+bool scene_has_surface(const struct scene *s);
+
+/* The table of the groups above, with s as target: fills groups[SCENE_GROUPS]. */
+void scene_groups(struct scene *s, struct param_group *groups);
+/* Faults between keys (max > min, L > 0, ...). */
+void scene_check(const struct scene *s, const struct params *p, struct faults *f);
+
+#endif

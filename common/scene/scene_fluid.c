@@ -1,0 +1,270 @@
+/* scene_fluid.c - see scene_fluid.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "scene_fluid.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../base/log.h"
+#include "scene_geometry.h"
+#include "scene_mesh.h"
+
+double scene_still_gravity(const struct scene *s, double still[3])
+{
+    double g2 = 0.0;
+    for (int a = 0; a < 3; a++) {
+        still[a] = a < s->domain.dim && !s->domain.periodic[a] ? s->fluid.gravity[a] : 0.0;
+        g2 += still[a] * still[a];
+    }
+    return sqrt(g2);
+}
+
+int scene_still_axis(const struct scene *s)
+{
+    double g[3];
+    int axis = 0;
+    if (scene_still_gravity(s, g) == 0.0)
+        return -1;
+    for (int a = 1; a < s->domain.dim; a++)
+        axis = fabs(g[a]) > fabs(g[axis]) ? a : axis;
+    return axis;
+}
+
+double scene_height(const struct scene *s, const double *x)
+{
+    double g[3];
+    const double size = scene_still_gravity(s, g);
+    if (size == 0.0)
+        return x[s->domain.dim - 1];
+    return -(g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) / size;
+}
+
+void scene_heights(const struct scene *s, double *low, double *high)
+{
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (int k = 0; k < 8; k++) {
+        double x[3] = {0.0, 0.0, 0.0};
+        for (int a = 0; a < s->domain.dim; a++)
+            x[a] = k >> a & 1 ? s->domain.max[a] : s->domain.min[a];
+        *low = fmin(*low, scene_height(s, x));
+        *high = fmax(*high, scene_height(s, x));
+    }
+}
+
+bool scene_in_shape(const struct scene *s, const struct scene_shape *h, const double *x)
+{
+    const struct line polygon = line_of(&h->points, true);
+    bool in = true;
+    double r2 = 0.0;
+    for (int a = 0; a < s->domain.dim; a++) {
+        const bool given =
+            a < 2 || h->box[1][a] > h->box[0][a]; /* a plane box in 3D goes through */
+        in = in && (!given || (x[a] > h->box[0][a] && x[a] < h->box[1][a]));
+        r2 += (x[a] - h->centre[a]) * (x[a] - h->centre[a]);
+    }
+    switch (h->form) {
+    case SHAPE_BOX:
+        return in;
+    case SHAPE_POLYGON:
+        return line_inside(&polygon, x);
+    case SHAPE_DISC:
+        return r2 < h->radius * h->radius;
+    case SHAPE_MESH: {
+        const struct scene_mesh *m = scene_mesh_of(s, MESH_SHAPE, (int)(h - s->shapes));
+        return m && scene_mesh_holds(m, x);
+    }
+    default:
+        return scene_height(s, x) < h->level;
+    }
+}
+
+bool scene_is_fluid(const struct scene *s, const struct exact *e, const double *x, double *velocity)
+{
+    const struct scene_initial *f = &s->initial;
+    const struct scene_shape *in = NULL;
+    bool fluid = s->nshapes == 0;
+    if (fluid && scene_has_wave(s))
+        fluid = x[1] < exact_surface(e, x[0]);
+    if (fluid && f->field == FIELD_PATCH)
+        fluid = fmax(fabs(x[0]), fabs(x[1])) < 0.5 * f->L;
+    if (fluid && f->field == FIELD_DROP)
+        fluid = x[0] * x[0] + x[1] * x[1] < f->L * f->L;
+    for (int k = 0; k < s->nshapes; k++)
+        if (scene_in_shape(s, s->shapes + k, x))
+            in = s->shapes + k;
+    for (int a = 0; velocity && a < 3; a++)
+        velocity[a] = in ? in->velocity[a] : 0.0;
+    return in ? !in->hole : fluid;
+}
+
+void scene_shape_extent(const struct scene_shape *h, double lo[3], double hi[3])
+{
+    const bool points = h->form == SHAPE_POLYGON && h->points.n > 0;
+    for (int a = 0; a < 3; a++) {
+        const bool box = h->form == SHAPE_BOX && (a < 2 || h->box[1][2] > h->box[0][2]);
+        const bool disc = h->form == SHAPE_DISC, flat = points && a < 2;
+        lo[a] = box ? h->box[0][a] : disc ? h->centre[a] - h->radius : flat ? INFINITY : -INFINITY;
+        hi[a] = box ? h->box[1][a] : disc ? h->centre[a] + h->radius : flat ? -INFINITY : INFINITY;
+    }
+    for (int k = 0; points && k < h->points.n; k++)
+        for (int a = 0; a < 2; a++) {
+            lo[a] = fmin(lo[a], h->points.x[k][a]);
+            hi[a] = fmax(hi[a], h->points.x[k][a]);
+        }
+}
+
+/* Whether shape k holds fluid at one of these places. */
+static bool holds_grain(const struct scene *s, const struct exact *e, int k, const double *first,
+                        const double *h, const int *n)
+{
+    double lo[3], hi[3], x[3] = {0.0, 0.0, 0.0};
+    int from[3] = {0, 0, 0}, to[3] = {0, 0, 0}, i[3];
+    scene_shape_extent(s->shapes + k, lo, hi);
+    for (int a = 0; a < s->domain.dim; a++) {
+        from[a] = (int)fmin(fmax(0.0, floor((lo[a] - first[a]) / h[a])), n[a]);
+        to[a] = (int)fmax(fmin(n[a] - 1.0, ceil((hi[a] - first[a]) / h[a])), -1.0);
+    }
+    for (i[2] = from[2]; i[2] <= to[2]; i[2]++)
+        for (i[1] = from[1]; i[1] <= to[1]; i[1]++)
+            for (i[0] = from[0]; i[0] <= to[0]; i[0]++) {
+                for (int a = 0; a < s->domain.dim; a++)
+                    x[a] = first[a] + i[a] * h[a];
+                if (scene_in_shape(s, s->shapes + k, x) && scene_is_fluid(s, e, x, NULL))
+                    return true;
+            }
+    return false;
+}
+
+void scene_check_grains(const struct scene *s, const struct params *p, const double *first,
+                        const double *h, const int *n, const char *grain, struct faults *f)
+{
+    const struct exact e = exact_create(s);
+    bool holds[SHAPES_MAX], any = scene_has_wave(s);
+    for (int k = 0; k < s->nshapes; k++) {
+        holds[k] = s->shapes[k].form == SHAPE_MESH ||
+                   (!s->shapes[k].hole && holds_grain(s, &e, k, first, h, n));
+        any = any || holds[k];
+    }
+    if (s->nshapes > 0 && !any) {
+        params_fault(p, f, "shapes",
+                     "no %s lies in the shapes less their holes, at a spacing of %g m: there is no "
+                     "water; a larger shape, a finer spacing, or a smaller hole",
+                     grain, h[0]);
+        return;
+    }
+    for (int k = 0; k < s->nshapes; k++)
+        if (!holds[k] && !s->shapes[k].hole)
+            log_warn("shape %d contains no %s at a spacing of %g m: it has no water", k + 1, grain,
+                     h[0]);
+}
+
+bool scene_is_room(const struct scene *s, const double *x)
+{
+    for (int k = 0; k < s->nbodies; k++) {
+        const struct line l = line_of(&s->bodies[k].points, true);
+        if (line_inside(&l, x))
+            return false;
+    }
+    return scene_in_tanks(s, x);
+}
+
+bool scene_in_tanks(const struct scene *s, const double *x)
+{
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct line l = line_of(&s->walls[k].points, true);
+        if (s->walls[k].closed && line_inside(&l, x) != (line_area(&l) > 0.0))
+            return false;
+    }
+    return true;
+}
+
+static bool wet(const struct scene *s, const struct exact *e, const double *x)
+{
+    for (int a = 0; a < 2; a++)
+        if (x[a] <= s->domain.min[a] || x[a] >= s->domain.max[a])
+            return false;
+    return scene_is_fluid(s, e, x, NULL);
+}
+
+/* Shares of a line's length that have fluid close by on the left and on the right. */
+static void sides_of(const struct scene *s, const struct line *l, double share[2])
+{
+    const struct exact e = exact_create(s);
+    const double whole = line_length(l), off = 1e-4 * line_size(l);
+    enum { PLACES = 400 };
+    share[0] = share[1] = 0.0;
+    for (int k = 0; k < line_segments(l); k++) {
+        const double *a = l->x[k], *b = l->x[(k + 1) % l->n];
+        const double d[2] = {b[0] - a[0], b[1] - a[1]}, length = hypot(d[0], d[1]);
+        const int n = 1 + (int)(PLACES * length / whole);
+        for (int i = 0; i < n && length > 0.0; i++)
+            for (int right = 0; right < 2; right++) {
+                const double f = (i + 0.5) / n, h = (right ? -off : off) / length;
+                const double x[3] = {a[0] + f * d[0] - h * d[1], a[1] + f * d[1] + h * d[0], 0.0};
+                share[right] += wet(s, &e, x) ? length / n / whole : 0.0;
+            }
+    }
+}
+
+/* Whether walls stand around wall k: sides of the domain, or a larger closed line. */
+static bool is_enclosed(const struct scene *s, int k)
+{
+    const struct line l = line_of(&s->walls[k].points, true);
+    bool any = false;
+    for (int m = 0; m < s->nwalls; m++) {
+        const struct scene_wall *w = s->walls + m;
+        const struct line o = line_of(&w->points, true);
+        any = any || (w->side != SIDE_NONE && w->kind < WALL_INFLOW) ||
+              (m != k && w->closed && line_inside(&o, l.x[0]) &&
+               fabs(line_area(&o)) > fabs(line_area(&l)));
+    }
+    return any;
+}
+
+/* An open line is turned when hardly half as much of it has fluid on its left as on its right:
+ * those of an island between two waters, or of a fillet in a corner, are equal or nearly so. A
+ * closed one may be a tank in which the shapes let water go on through its walls, or an island: it
+ * is turned if all fluid is on its right, or if it is a tank by its sense, with water around,
+ * inside other walls: an island. */
+static bool is_reversed(const struct scene *s, int k)
+{
+    const struct scene_wall *w = s->walls + k;
+    const struct line l = line_of(&w->points, w->closed);
+    double share[2];
+    sides_of(s, &l, share);
+    if (!w->closed)
+        return share[0] < 0.5 * share[1];
+    if (share[0] > 0.01 && share[1] > 0.01)
+        return line_area(&l) > 0.0 && is_enclosed(s, k);
+    return share[0] < share[1];
+}
+
+static void close_line(struct param_points *p, bool *closed)
+{
+    struct line l = line_of(p, *closed);
+    line_trim(&l);
+    p->n = l.n;
+    *closed = l.closed;
+}
+
+void scene_orient(struct scene *s)
+{
+    for (int k = 0; k < s->nbodies; k++) {
+        struct scene_body *b = s->bodies + k;
+        bool closed = true;
+        close_line(&b->points, &closed);
+        const struct line l = line_of(&b->points, true);
+        b->turned = l.n > 2 && line_area(&l) > 0.0;
+        if (b->turned)
+            points_reverse(&b->points);
+    }
+    for (int k = 0; k < s->nwalls; k++) {
+        struct scene_wall *w = s->walls + k;
+        if (w->side != SIDE_NONE || w->points.n < 2)
+            continue;
+        close_line(&w->points, &w->closed);
+        w->turned = is_reversed(s, k);
+        if (w->turned)
+            points_reverse(&w->points);
+    }
+}

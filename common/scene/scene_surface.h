@@ -1,0 +1,33 @@
+/* scene_surface.h - keys by which walls, bodies and shapes take their surface from a file of
+ * triangles. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_SCENE_SURFACE_H
+#define COMMON_SCENE_SURFACE_H
+
+#include "../params/params.h"
+
+struct scene_surface {
+    char mesh[PARAM_TEXT_SIZE];            /* file beside the case; "": none */
+    double scale, rotate[3], translate[3]; /* -, degrees times axis, m: in this order, about 0 */
+    double weld;                           /* m; 0: 1e-6 of the diagonal */
+};
+
+/* Rows of a table whose struct T has a member `surface'. */
+#define SURFACE_ROW(T, m, is, unit_, dflt_, min_, max_, help_)                                     \
+    {                                                                                              \
+        .key = #m, .type = is, .offset = offsetof(T, surface.m), .unit = unit_, .dflt = dflt_,     \
+        .min = min_, .max = max_, .help = help_                                                    \
+    }
+#define SURFACE_ROWS(T)                                                                            \
+    SURFACE_ROW(T, mesh, PARAM_TEXT, "-", "", 0, 0,                                                \
+                "file beside the case with its triangles: STL, OBJ or PLY; sph in 3D"),            \
+        SURFACE_ROW(T, scale, PARAM_REAL, "-", "1.0", 1e-9, 1e9,                                   \
+                    "factor on the mesh's coordinates: 0.001 for a file in mm"),                   \
+        SURFACE_ROW(T, rotate, PARAM_REALS, "degrees", "(0.0, 0.0, 0.0)", -3600, 3600,             \
+                    "then its rotation about the origin, axis times angle: (0, 0, 90) turns x "    \
+                    "to y"),                                                                       \
+        SURFACE_ROW(T, translate, PARAM_REALS, "m", "(0.0, 0.0, 0.0)", -1e9, 1e9,                  \
+                    "then its shift"),                                                             \
+        SURFACE_ROW(T, weld, PARAM_REAL, "m", "0.0", 0, 1e6,                                       \
+                    "vertices of the mesh closer than this are one; 0: 1e-6 of its diagonal")
+
+#endif

@@ -1,0 +1,283 @@
+/* steady.c - see steady.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "steady.h"
+
+#include <complex.h>
+#include <math.h>
+#include <string.h>
+
+#include "../base/mem.h"
+
+enum {
+    UNKNOWNS = STEADY_MODES + 2,
+    LONG = 40
+}; /* depths: length that stands for a solitary wave */
+
+/* Gauss with pivots: x becomes the solution; false: singular. */
+static bool solve(int n, double *A, double *x)
+{
+    for (int k = 0; k < n; k++) {
+        int p = k;
+        for (int i = k + 1; i < n; i++)
+            p = fabs(A[(size_t)i * n + k]) > fabs(A[(size_t)p * n + k]) ? i : p;
+        if (!(fabs(A[(size_t)p * n + k]) > 0.0))
+            return false;
+        for (int j = k; j < n && p != k; j++) {
+            const double t = A[(size_t)k * n + j];
+            A[(size_t)k * n + j] = A[(size_t)p * n + j];
+            A[(size_t)p * n + j] = t;
+        }
+        const double t = x[k];
+        x[k] = x[p];
+        x[p] = t;
+        for (int i = k + 1; i < n; i++) {
+            const double f = A[(size_t)i * n + k] / A[(size_t)k * n + k];
+            for (int j = k; j < n && f != 0.0; j++)
+                A[(size_t)i * n + j] -= f * A[(size_t)k * n + j];
+            x[i] -= f * x[k];
+        }
+    }
+    for (int k = n - 1; k >= 0; k--) {
+        for (int j = k + 1; j < n; j++)
+            x[k] -= A[(size_t)k * n + j] * x[j];
+        x[k] /= A[(size_t)k * n + k];
+    }
+    return true;
+}
+
+/* One row of equation (b - 2y)|z'|^2 - c^2 at xi, and its residual. q: Y_1 .., b, c^2. */
+static double row(const double *q, double strip, double xi, double *r)
+{
+    const double b = q[STEADY_MODES], c2 = q[STEADY_MODES + 1];
+    double y = 0.0, dx = 1.0, dy = 0.0;
+    for (int j = 1; j <= STEADY_MODES; j++) {
+        y += q[j - 1] * cos(j * xi);
+        dx += j / tanh(j * strip) * q[j - 1] * cos(j * xi);
+        dy -= j * q[j - 1] * sin(j * xi);
+    }
+    const double J = dx * dx + dy * dy, s = b - 2.0 * y;
+    for (int j = 1; j <= STEADY_MODES; j++)
+        r[j - 1] = -2.0 * cos(j * xi) * J +
+                   2.0 * s * (dx * j / tanh(j * strip) * cos(j * xi) - dy * j * sin(j * xi));
+    r[STEADY_MODES] = J;
+    r[STEADY_MODES + 1] = -1.0;
+    return s * J - c2;
+}
+
+static bool newton(double *q, double strip, double height)
+{
+    double *A = NEW(double, UNKNOWNS *UNKNOWNS), d[UNKNOWNS], most = INFINITY;
+    for (int it = 0; it < 30 && most > 1e-12; it++) {
+        for (int m = 0; m <= STEADY_MODES; m++)
+            d[m] = -row(q, strip, M_PI * m / STEADY_MODES, A + (size_t)m * UNKNOWNS);
+        double *last = A + (size_t)(UNKNOWNS - 1) * UNKNOWNS, h = 0.0;
+        memset(last, 0, UNKNOWNS * sizeof *last);
+        for (int j = 1; j <= STEADY_MODES; j += 2) {
+            last[j - 1] = 2.0;
+            h += 2.0 * q[j - 1];
+        }
+        d[UNKNOWNS - 1] = height - h;
+        most = solve(UNKNOWNS, A, d) ? 0.0 : NAN;
+        for (int j = 0; j < UNKNOWNS; j++) {
+            most = fabs(d[j]) > most || isnan(d[j]) ? fabs(d[j]) : most;
+            q[j] += d[j];
+        }
+        if (!(most < 10.0))
+            break;
+    }
+    mem_free(A);
+    return most < 1e-9;
+}
+
+/* Small waves are cosines, long ones solitary: c^2 = strip + height, y = height sech^2. */
+static void first_guess(double *q, double strip, double height, bool is_long)
+{
+    memset(q, 0, UNKNOWNS * sizeof *q);
+    if (!is_long) {
+        q[0] = 0.5 * height;
+        q[STEADY_MODES] = q[STEADY_MODES + 1] = tanh(strip);
+        return;
+    }
+    double low = 0.0;
+    const double K = sqrt(0.75 * height / strip) / strip;
+    for (int m = 0; m <= STEADY_MODES; m++) {
+        const double xi = M_PI * m / STEADY_MODES, s = 1.0 / cosh(fmin(K * xi, 300.0));
+        const double w = m == 0 || m == STEADY_MODES ? 0.5 : 1.0, y = height * s * s;
+        for (int j = 1; j <= STEADY_MODES; j++)
+            q[j - 1] += 2.0 / STEADY_MODES * w * y * cos(j * xi);
+        low += w * y / STEADY_MODES;
+    }
+    q[STEADY_MODES - 1] *= 0.5;
+    q[STEADY_MODES + 1] = strip + height;
+    q[STEADY_MODES] = q[STEADY_MODES + 1] - 2.0 * low; /* far away J = 1, y = -low */
+}
+
+/* Level of the mean of y over x. */
+static double level(const double *q, double strip)
+{
+    double sum = 0.0;
+    for (int j = 1; j <= STEADY_MODES; j++) /* mean of y x' */
+        sum += 0.5 * j / tanh(j * strip) * q[j - 1] * q[j - 1];
+    return -sum;
+}
+
+static double trough_of(const double *q)
+{
+    double y = 0.0;
+    for (int j = 1; j <= STEADY_MODES; j++)
+        y += (j % 2 ? -1.0 : 1.0) * q[j - 1];
+    return y;
+}
+
+/* In units of 1/k: the strip follows from the depth, which the wave itself changes. */
+static bool find(double *q, double *strip, bool solitary, double depth, double height)
+{
+    const bool is_long = solitary || height > depth * depth * depth;
+    const double part = is_long ? 0.08 * depth : 0.2;
+    const int steps = (int)ceil(height / part);
+    double old[UNKNOWNS], last[UNKNOWNS];
+    *strip = depth;
+    first_guess(q, depth, height / steps, is_long);
+    if (!newton(q, depth, height / steps))
+        return false;
+    memset(old, 0, sizeof old);
+    for (int k = 2; k <= steps; k++) {
+        memcpy(last, q, sizeof last);
+        for (int j = 0; j < UNKNOWNS && k > 2; j++)
+            q[j] = 2.0 * q[j] - old[j];
+        memcpy(old, last, sizeof old);
+        if (!newton(q, depth, k * height / steps))
+            return false;
+    }
+    for (int round = 0; round < 60; round++) {
+        const double before = *strip;
+        *strip = solitary ? depth - trough_of(q) : depth + level(q, *strip);
+        if (!newton(q, *strip, height))
+            return false;
+        if (fabs(*strip - before) < 1e-13)
+            break;
+    }
+    return true;
+}
+
+/* z and z' at zeta. */
+static double complex place(const struct steady *w, double complex zeta, double complex *slope)
+{
+    const double complex E = cexp(-I * zeta), G = cexp(I * zeta - 2.0 * w->strip);
+    double complex e = 1.0, g = 1.0, z = zeta + I * w->y0;
+    double far = 1.0;
+    *slope = 1.0;
+    for (int j = 1; j <= STEADY_MODES; j++) {
+        e *= E;
+        g *= G;
+        far *= exp(-2.0 * w->strip);
+        z += I * w->Y[j - 1] * (e - g) / (1.0 - far);
+        *slope += j * w->Y[j - 1] * (e + g) / (1.0 - far);
+    }
+    return z;
+}
+
+static bool create(struct steady *w, bool solitary, double depth, double length, double height)
+{
+    const double g = w->g;
+    double q[UNKNOWNS];
+    double complex slope;
+    w->k = 2.0 * M_PI / (solitary ? LONG * depth : length);
+    if (!(height > 0.0) || !(depth > 0.0) ||
+        !find(q, &w->strip, solitary, w->k * depth, w->k * height))
+        return false;
+    memcpy(w->Y, q, sizeof w->Y);
+    w->b = q[STEADY_MODES];
+    w->frame = sqrt(q[STEADY_MODES + 1]);
+    w->y0 = solitary ? -trough_of(q) : level(q, w->strip);
+    w->tail = fabs(q[STEADY_MODES - 1] / q[0]);
+    w->trough = cimag(place(w, M_PI, &slope)) / w->k;
+    w->back = solitary ? creal(w->frame * (1.0 - 1.0 / slope)) : 0.0;
+    w->crest = w->trough + height;
+    w->c = (w->frame - w->back) * sqrt(g / w->k);
+    return w->tail < 1e-5;
+}
+
+/* Newton's method takes as long as many steps of a flow, and one wave is asked for again and again:
+ * the last one is kept. */
+bool steady_create(struct steady *w, bool solitary, double depth, double length, double height,
+                   double x, double g, double rho)
+{
+    static struct {
+        bool any, solitary, good;
+        double of[6];
+        struct steady w;
+    } last;
+    const double of[6] = {depth, solitary ? 0.0 : length, height, x, g, rho};
+    if (!last.any || last.solitary != solitary || memcmp(of, last.of, sizeof of) != 0) {
+        last.w = (struct steady){.g = g, .rho = rho, .x = x};
+        last.good = create(&last.w, solitary, depth, length, height);
+        last.any = true;
+        last.solitary = solitary;
+        memcpy(last.of, of, sizeof of);
+    }
+    *w = last.w;
+    return last.good;
+}
+
+/* zeta of the place (x, y) in units of 1/k, |x| <= pi; above the surface of what is below it there.
+ */
+static double complex invert(const struct steady *w, double x, double y)
+{
+    const double most = 0.2 * fmin(1.0, w->strip);
+    double complex zeta = x + I * fmax(fmin(y, 0.0), -w->strip), slope;
+    for (int it = 0; it < 60; it++) {
+        double complex d = (x + I * y) - place(w, zeta, &slope), step = d / slope;
+        if (cimag(zeta) >= 0.0 && cimag(step) > 0.0) /* held on the surface */
+            step = creal(d) / creal(slope);
+        const double size = cabs(step);
+        step *= size > most ? most / size : 1.0;
+        zeta += step;
+        zeta = creal(zeta) + I * fmax(fmin(cimag(zeta), 0.0), -w->strip);
+        if (size < 1e-13)
+            break;
+    }
+    return zeta;
+}
+
+/* k times the distance from the crest, within half a length. */
+static double phase(const struct steady *w, double x, double t)
+{
+    const double a = w->k * (x - w->x - w->c * t);
+    return a - 2.0 * M_PI * round(a / (2.0 * M_PI));
+}
+
+/* A solitary wave is over half a length away. */
+static bool is_far(const struct steady *w, double x, double t)
+{
+    return w->back != 0.0 && fabs(w->k * (x - w->x - w->c * t)) > M_PI;
+}
+
+double steady_eta(const struct steady *w, double x, double t)
+{
+    double complex slope;
+    if (is_far(w, x, t))
+        return 0.0;
+    return cimag(place(w, creal(invert(w, phase(w, x, t), 1e3)), &slope)) / w->k;
+}
+
+void steady_point(const struct steady *w, double x, double y, double t, double *u, double *p)
+{
+    double complex slope;
+    double v[2] = {0.0, 0.0}, q = -w->rho * w->g * fmin(y, 0.0);
+    if (!is_far(w, x, t)) {
+        const double complex zeta = invert(w, phase(w, x, t), w->k * y);
+        const double up = cimag(place(w, zeta, &slope));
+        const double complex flow = w->frame * (1.0 - 1.0 / slope);
+        const double speed2 =
+            w->frame * w->frame / (creal(slope) * creal(slope) + cimag(slope) * cimag(slope));
+        v[0] = (creal(flow) - w->back) * sqrt(w->g / w->k);
+        v[1] = -cimag(flow) * sqrt(w->g / w->k);
+        q = w->rho * w->g / w->k * (0.5 * w->b + w->y0 - 0.5 * speed2 - up);
+    }
+    if (u) {
+        u[0] = v[0];
+        u[1] = v[1];
+    }
+    if (p)
+        *p = q;
+}
