@@ -26,17 +26,17 @@ FV_LIBS = -lHYPRE -lsundials_kinsol -lsundials_nvecparallel -lsundials_sunlinsol
 objects = $(patsubst %.c,$(B)/o/%.o,$(wildcard $(1)/*.c $(1)/*/*.c))
 cpl_o = $(call objects,coupler/client) $(call objects,coupler/transport)
 mains = $(B)/o/sph/sph.o $(B)/o/fv/fv.o $(B)/o/coupler/coupler.o
-sph_o = $(filter-out $(mains),$(call objects,sph)) $(B)/o/coupler/cpl_partner.o
-fv_o = $(filter-out $(mains),$(call objects,fv)) $(B)/o/coupler/cpl_partner.o
+sph_o = $(filter-out $(mains),$(call objects,sph))
+fv_o = $(filter-out $(mains),$(call objects,fv))
 soname := libcpl.so.$(shell sed -n 's/^ *CPL_VERSION = \([0-9]*\),.*/\1/p' coupler/cpl.h)
 coupler_o = $(call objects,coupler/server) $(call objects,coupler/mapping)
 
 all: $(B)/sph $(B)/fv $(B)/coupler $(B)/$(soname)
 
-$(B)/sph: $(B)/o/sph/sph.o $(B)/libsph.a $(B)/libcpl.a $(B)/libcommon.a
+$(B)/sph: $(B)/o/sph/sph.o $(B)/o/coupler/cpl_partner.o $(B)/libsph.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ $(ASSIMP_LIBS) $(LIBS)
-$(B)/fv: $(B)/o/fv/fv.o $(B)/libfv.a $(B)/libcpl.a $(B)/libcommon.a
+$(B)/fv: $(B)/o/fv/fv.o $(B)/o/coupler/cpl_partner.o $(B)/libfv.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ $(FV_LIBS) $(LIBS)
 $(B)/coupler: $(B)/o/coupler/coupler.o $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a

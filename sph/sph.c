@@ -238,7 +238,7 @@ static void *create(struct run *r, struct h5 *f)
     sph_program.ncolumns = n;
     struct sph *s = sph_create(r, sph_params_of(r), f);
     if (s && r->coupled)
-        coupling_create(s);
+        sph_coupling_create(s);
     if (s && f && r->coupled)
         overlap_load(s->zones->watched, f);
     return s;
@@ -248,7 +248,7 @@ static void destroy(void *state)
 {
     struct sph *s = state;
     if (s->run->coupled)
-        coupling_free(s);
+        sph_coupling_free(s);
     sph_free(&s);
 }
 
@@ -289,7 +289,7 @@ static void window_begin(void *state, double t0, double t1)
     for (struct sph *q = state; q; q = q->finer)
         q->ready = false;
     domain_balance(state, 0.1);
-    coupling_window_begin(state, t0, t1);
+    sph_coupling_window_begin(state, t0, t1);
 }
 
 static void progress(void *state, char *line, int size)
@@ -350,7 +350,7 @@ static struct program sph_program = {.name = "sph",
                                      .step = step,
                                      .window_wish = window_wish,
                                      .window_begin = window_begin,
-                                     .window_end = coupling_window_end,
+                                     .window_end = sph_coupling_window_end,
                                      .tell = tell,
                                      .columns = columns,
                                      .row = row,

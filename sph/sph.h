@@ -238,9 +238,10 @@ void sph_summarise_extrema(const struct sph *s);
 void coupling_check(const struct run *r, struct faults *f); /* coupling_check.c */
 void coupling_warn(const struct run *r); /* of what is allowed, and better otherwise */
 void coupling_offer(struct run *r);      /* publishes sph.box and sph.free */
-void coupling_create(struct sph *s); /* declares sets and fields; s->zones->eval reads the patch */
-void coupling_free(struct sph *s);
-void coupling_window_begin(void *s, double t0, double t1);
-void coupling_window_end(void *s, double t1);
+void sph_coupling_create(
+    struct sph *s); /* declares sets and fields; s->zones->eval reads the patch */
+void sph_coupling_free(struct sph *s);
+void sph_coupling_window_begin(void *s, double t0, double t1);
+void sph_coupling_window_end(void *s, double t1);
 
 #endif

@@ -95,7 +95,7 @@ static void make_forcing(struct fv *s)
     double box[PARTNERS_MAX][2][3];
     if (s->run->coupled) {
         coupling_boxes(s, box);
-        coupling_create(s);
+        fv_coupling_create(s);
     } else
         s->forcing = forcing_create(s, 1, (const double(*)[2][3]) & s->prm.hole, false);
 }
@@ -194,7 +194,7 @@ static void create_grid(struct fv *s)
     if (s->prm.upwind < 0.0)
         s->prm.upwind = limits_upwind(s->run, s->bc || s->blocked,
                                       (double)s->b.cells[0] * s->b.cells[1] * s->b.cells[2]);
-    s->surface = surface_create(s);
+    s->surface = levelset_create(s);
     make_fields(s);
     fill(s);
     fill_fluxes(s);
@@ -261,14 +261,14 @@ void fv_free(struct fv **sp)
     if (!s)
         return;
     if (s->link)
-        coupling_free(s);
+        fv_coupling_free(s);
     newton_free(&s->newton);
     poisson_free(&s->poisson);
     forcing_free(&s->forcing);
     blocked_free(&s->blocked);
     if (s->surface)
         surface_forced_free(&s->surface->forced);
-    surface_free(&s->surface);
+    levelset_free(&s->surface);
     fit_free(&s->swing);
     bc_free(&s->bc);
     carried_free(&s->outflows);

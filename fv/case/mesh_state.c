@@ -163,9 +163,9 @@ void mesh_state_create(struct fv *s)
     s->symmetric = mesh_viscous_symmetric(s);
     mesh_bc_create(s);
     s->moving = moving_create(s);
-    s->surface = surface_create(s);
+    s->surface = levelset_create(s);
     if (r->coupled)
-        coupling_create(s);
+        fv_coupling_create(s);
     else if (s->m->has_given)
         s->forcing = forcing_create(s, 0, NULL, false);
     poisson_create(s);

@@ -384,7 +384,7 @@ static void tell_of_friction(const struct fv *s)
                     w);
 }
 
-void coupling_create(struct fv *s)
+void fv_coupling_create(struct fv *s)
 {
     struct link *k = s->link;
     double all[PARTNERS_MAX][2][3];
@@ -423,7 +423,7 @@ void coupling_create(struct fv *s)
         .stop = 0.25};
 }
 
-void coupling_free(struct fv *s)
+void fv_coupling_free(struct fv *s)
 {
     struct link *k = s->link;
     course_free(&k->course);
@@ -692,7 +692,7 @@ static void take_surface(struct fv *s)
 }
 
 /* The partner's velocities at t1; cells that it does not reach keep theirs. */
-void coupling_window_begin(void *state, double t0, double t1)
+void fv_coupling_window_begin(void *state, double t0, double t1)
 {
     struct fv *s = state;
     struct link *k = s->link;
@@ -712,7 +712,7 @@ void coupling_window_begin(void *state, double t0, double t1)
         forcing_fill(s, k->mask);
 }
 
-void coupling_window_end(void *state, double t1)
+void fv_coupling_window_end(void *state, double t1)
 {
     struct fv *s = state;
     course_take(s, s->link->course);

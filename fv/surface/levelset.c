@@ -457,7 +457,7 @@ static void set_sizes(const struct block *b, const double *g, struct surface *f)
     }
 }
 
-struct surface *surface_create(const struct fv *s)
+struct surface *levelset_create(const struct fv *s)
 {
     if (!surface_wanted(s->run))
         return NULL;
@@ -485,7 +485,7 @@ struct surface *surface_create(const struct fv *s)
     return f;
 }
 
-void surface_free(struct surface **fp)
+void levelset_free(struct surface **fp)
 {
     struct surface *f = *fp;
     if (!f)

@@ -94,8 +94,8 @@ static inline void surface_fill(const struct fv *s, int nf, double *const *f)
 }
 
 /* levelset.c */
-struct surface *surface_create(const struct fv *s);
-void surface_free(struct surface **w);
+struct surface *levelset_create(const struct fv *s);
+void levelset_free(struct surface **w);
 /* Ghosts of a level set: halo, and mirrored beyond closed sides. */
 void surface_ghosts(const struct fv *s, double *phi);
 /* phi by dt with u as it is. */

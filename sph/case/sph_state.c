@@ -100,7 +100,7 @@ static struct sph *create_level(struct run *r, const struct sph_params *prm, str
     if (s->zones)
         openings_find_room(s, s->zones->openings);
     bodies_create(s);
-    s->surface = surface_create(s);
+    s->surface = sph_surface_create(s);
     s->passes = scheme_pick(s);
     s->scheme = &s->passes;
     s->stages = stages_of(prm->integrator, prm->scheme);
@@ -194,7 +194,7 @@ void sph_free(struct sph **s)
     domain_free(&(*s)->domain);
     zones_free(&(*s)->zones);
     walls_free(&(*s)->walls);
-    surface_free(&(*s)->surface);
+    sph_surface_free(&(*s)->surface);
     fit_free(&(*s)->signal_fit);
     sph_watch_free(*s);
     neighbours_free(&(*s)->list);

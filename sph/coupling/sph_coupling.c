@@ -90,7 +90,7 @@ static void eval_surface(void *ctx, double t, int n, const double *x, double *ph
     cpl_patch_eval(k->c, k->patch_phi, t, n, x, phi, gphi);
 }
 
-void coupling_create(struct sph *s)
+void sph_coupling_create(struct sph *s)
 {
     struct link *k = NEW(struct link, 1);
     const int how = s->run->scene.coupling.interpolation ? CPL_CUBIC : CPL_LINEAR;
@@ -123,7 +123,7 @@ void coupling_create(struct sph *s)
     s->zones->watched = overlap_create(s);
 }
 
-void coupling_free(struct sph *s)
+void sph_coupling_free(struct sph *s)
 {
     struct link *k = s->zones->ctx;
     overlap_free(&s->zones->watched);
@@ -162,7 +162,7 @@ static void take_surface(struct sph *s, double T)
 }
 
 /* The patch that this rank's particles and faces may need until the end of the window. */
-void coupling_window_begin(void *state, double t0, double t1)
+void sph_coupling_window_begin(void *state, double t0, double t1)
 {
     struct sph *s = state;
     const struct link *k = s->zones->ctx;
@@ -239,7 +239,7 @@ static void give_surface(struct sph *s, int n, double t)
 
 /* Particles of the free zone and the blended ones; never buffer particles, which would give the
  * partner its own values back. */
-void coupling_window_end(void *state, double t1)
+void sph_coupling_window_end(void *state, double t1)
 {
     struct sph *s = state;
     struct link *k = s->zones->ctx;

@@ -14,7 +14,7 @@
 
 static const double spray = 0.20, inside = 0.75; /* bounds of the eigenvalue */
 
-struct surface *surface_create(struct sph *s)
+struct surface *sph_surface_create(struct sph *s)
 {
     if (!s->prm.surface)
         return NULL;
@@ -23,7 +23,7 @@ struct surface *surface_create(struct sph *s)
     return f;
 }
 
-void surface_free(struct surface **f)
+void sph_surface_free(struct surface **f)
 {
     if (!*f)
         return;

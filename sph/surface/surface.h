@@ -20,8 +20,8 @@ struct surface {
 };
 
 /* NULL: no free surface in the scene. */
-struct surface *surface_create(struct sph *s);
-void surface_free(struct surface **f);
+struct surface *sph_surface_create(struct sph *s);
+void sph_surface_free(struct surface **f);
 /* Room for n locals. */
 void surface_room(struct surface *f, int n, int dim);
 /* After the first pass. Collective. */
