@@ -59,6 +59,7 @@ struct sph_params {
     double density_limit;   /* |rho/rho0 - 1| that ends the run; 0: as the flow has it */
     int packing;            /* steps; -1: as the walls need it */
     double noise;           /* random displacement of the first lattice, in dx */
+    double expected;        /* m/s: speed to expect, a tenth of the default c0; no key */
     double extrema[3];      /* m/s: known ones on the centre lines, see sph_lines.c; 0: none */
 };
 

@@ -303,8 +303,10 @@ const struct sph_params *sph_params_of(const struct run *r)
     used = given;
     for (int a = 0; a < 3; a++)
         find_box(r, &used, a);
+    const double c0 = default_c0(r);
     if (used.c0 <= 0.0)
-        used.c0 = default_c0(r);
+        used.c0 = c0;
+    used.expected = 0.1 * (c0 > 0.0 ? c0 : used.c0);
     if (used.surface == SURFACE_AUTO)
         used.surface = scene_has_surface(&r->scene) ? SURFACE_YES : SURFACE_NO;
     if (used.viscosity == VISCOSITY_AUTO)

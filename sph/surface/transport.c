@@ -69,11 +69,12 @@ static void make_workless(struct sph *s)
  * the edge, the faster the more the shift, bounded by |u| alone, lets pass. Largest |u| of 1e5
  * steps of 20 x 10 particles 9e-3 c0; with what is below 9e-4 at the start, as without levels, and
  * 1.1 to 1.6e-3 late; of 40 x 20 6e-4. Not within R of the switch alone: what others shift then
- * crowds there until particles clump and the run ends. */
+ * crowds there until particles clump and the run ends. The scale is the speed that the scene lets
+ * expect, not c0: with a c0 that is large for other reasons the shift would be off everywhere. */
 static double share_with_levels(const struct sph *s, double u2)
 {
-    static const double swift = 0.03; /* c0: a third of the speed that a scene lets expect */
-    return s->coarser || s->finer ? fmin(1.0, u2 / pow(swift * s->c0, 2.0)) : 1.0;
+    static const double swift = 0.3; /* of the speed that the scene lets expect */
+    return s->coarser || s->finer ? fmin(1.0, u2 / pow(swift * s->prm.expected, 2.0)) : 1.0;
 }
 
 void transport_finish(struct sph *s)
