@@ -585,5 +585,15 @@ before=$(ls -l kept | cksum)
 says "already" "$b/sph" sph.cfg -o kept
 [ "$before" = "$(ls -l kept | cksum)" ] || { echo "FAIL: a refused run touched its folder"; failed=$((failed + 1)); }
 
+# What a series is to be compared with is known once the columns are: before the first step.
+printf 't,E\n0,1\n1,1\n' >ref.csv
+"$b/fv" fv.cfg -p 'accept=({what="kinetic enrgy";reference="ref.csv";column="E";tolerance=1.0;})' -o accepted >out.txt 2>&1 </dev/null
+if [ $? = 2 ] && grep -q 'accept.*no column kinetic enrgy: did you mean kinetic energy?' out.txt; then
+    passed=$((passed + 1))
+else
+    failed=$((failed + 1))
+    echo "FAIL: accept.what that no series has"
+    tail -n 5 out.txt
+fi
 echo "bad_input: $passed refused as wanted, $failed not"
 [ $failed = 0 ]

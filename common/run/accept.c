@@ -9,6 +9,7 @@
 #include "../base/mem.h"
 #include "../files/series.h"
 #include "../files/table.h"
+#include "../params/params_hints.h"
 
 static const char *const measures[] = {"rms", "peak", "impulse", "arrival"};
 
@@ -123,6 +124,39 @@ void accept_check(const struct scene *s, const char *case_dir, const struct para
         else if (table_column(t, column_of(a)) < 0)
             params_fault(p, f, key, "%s has no column %s", path, column_of(a));
         table_free(&t);
+    }
+}
+
+/* Whether a column "H1 [m]" of a series is of this name. */
+static bool is_column(const char *column, const char *name)
+{
+    const size_t n = strlen(name);
+    return strncmp(column, name, n) == 0 &&
+           (column[n] == '\0' || strncmp(column + n, " [", 2) == 0);
+}
+
+void accept_check_columns(const struct scene *s, const struct params *p, int n,
+                          const char *const *columns, struct faults *f)
+{
+    for (int k = 0; k < s->naccept; k++) {
+        const struct scene_accept *a = s->accept + k;
+        struct hint_nearest near = hint_nearest_start(a->what);
+        bool found = !*a->reference; /* a number of the summary, which is made at the end */
+        char key[64], name[PARAM_TEXT_SIZE], word[PARAM_TEXT_SIZE] = "";
+        for (int i = 0; i < n && !found; i++) {
+            found = is_column(columns[i], a->what);
+            const int length = (int)strcspn(columns[i], "[");
+            snprintf(name, sizeof name, "%.*s", length > 1 ? length - 1 : 0, columns[i]);
+            hint_nearest_try(&near, name);
+            if (hint_nearest_word(&near) == name)
+                memcpy(word, name, sizeof word);
+            near.best = NULL; /* its distance counts on */
+        }
+        if (found)
+            continue;
+        snprintf(key, sizeof key, "accept.[%d].what", k);
+        params_fault(p, f, key, "series.csv of this run has no column %s%s%s%s", a->what,
+                     *word ? ": did you mean " : "", word, *word ? "?" : "");
     }
 }
 

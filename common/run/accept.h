@@ -23,6 +23,10 @@ double accept_distance(int measure, struct accept_series run, struct accept_seri
 /* References that cannot be read or lack their columns, faults with file and line. */
 void accept_check(const struct scene *s, const char *case_dir, const struct params *p,
                   struct faults *f);
+/* Criteria whose series is none of these n columns ("H1 [m]") of the run: faults with the nearest
+ * name. For a program alone, before its first step; of a job nobody has all columns. */
+void accept_check_columns(const struct scene *s, const struct params *p, int n,
+                          const char *const *columns, struct faults *f);
 /* Prints a line for each criterion and puts what was compared into the summary; false: not all are
  * met, or one is not to be found. Series are read from the run's folder (of all programs of a job).
  * Rank 0 of a program. */

@@ -5,8 +5,8 @@
 
 /* Says the processor time of a run of `steps' steps of `units' units (sph: particles times the
  * pairs of each, fv: cells) in `dim' dimensions. The figures stand beside the programs in
- * bench.txt, rows "PROGRAM DIM SECONDS", for a unit and step of one rank; without them it says how
- * to get them. */
+ * bench.txt, rows "PROGRAM DIM SECONDS", for a unit and step of one rank; without them it takes
+ * figures of another machine and says that they are rough. */
 void forecast_say(const char *program, int dim, double units, double steps);
 
 #endif

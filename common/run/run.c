@@ -37,6 +37,7 @@ struct life {
     void *s;
     int64_t window;      /* of the restart file */
     double began, wall0; /* s: wall time at the start of the program, of the time loop */
+    double t0;           /* s: flow time there: 0, or that of the restart file */
     double said, every;  /* s: last progress line, and how often */
     double saved;        /* s: wall time of the last restart file */
     int64_t output;      /* number of the next output time */
@@ -239,7 +240,8 @@ static void say_progress(struct life *l)
         }
     if (l->p->progress)
         l->p->progress(l->s, text, sizeof text);
-    const double left = done > 0.0 ? gone * (1.0 - done) / done : 0.0;
+    const double passed = r->t - l->t0;
+    const double left = passed > 0.0 ? gone * (r->scene.time.end - r->t) / passed : 0.0;
     (r->coupled ? log_quiet : log_say)("t %9.4g of %g s %4.0f %%  left %2d:%02d:%02d  %s", r->t,
                                        r->scene.time.end, 100.0 * done, (int)left / 3600,
                                        (int)left / 60 % 60, (int)left % 60, text);
@@ -529,6 +531,10 @@ static int run_state(struct life *l, struct h5 *restart)
                                r->restart ? "the restart file does not fit" : "nothing to compute");
         return RUN_INPUT;
     }
+    if (!r->coupled)
+        accept_check_columns(&r->scene, l->params, l->p->ncolumns, l->p->columns, &l->faults);
+    if (params_report(&l->faults))
+        return RUN_INPUT;
     start_series(l);
     if (r->coupled) {
         const double wish = l->p->window_wish ? l->p->window_wish(l->s) : INFINITY;
@@ -545,6 +551,7 @@ static int run_state(struct life *l, struct h5 *restart)
         write_row(l);
     }
     l->wall0 = l->said = l->saved = wall_time();
+    l->t0 = r->t;
     l->every = 1.0;
     signals_started();
     for (int k = 0; k < r->timers.n; k++)
