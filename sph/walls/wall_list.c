@@ -16,6 +16,8 @@ void wall_list_free(struct wall_list *l)
     mem_free(l->touch);
     mem_free(l->gamma);
     mem_free(l->boxes);
+    mem_free(l->share);
+    mem_free(l->asked);
     wall_list3_free(l);
 }
 
@@ -237,6 +239,50 @@ double wall_list_weight(const struct sph *s, const struct wall_list *l, const st
     struct wall_touch other;
     measure(s->walls->segments + t->piece, x, R, &other);
     return other.is.W;
+}
+
+static bool reaches(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
+                    const double *x)
+{
+    return s->dim == 3 ? wall_list3_reaches(s, l, t, x)
+                       : is_near(s->walls->segments + t->piece, x, s->R);
+}
+
+const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, int body,
+                               const double *x)
+{
+    const int n = l->first[k + 1] - l->first[k];
+    const struct wall_touch *t = l->touch + l->first[k];
+    bool any = false;
+    for (int j = 0; j < n && !any; j++)
+        any = t[j].body != body && reaches(s, l, t + j, x);
+    if (!any)
+        return NULL;
+    if (n > l->shares_capacity) {
+        GROW(l->share, l->shares_capacity, 2 * n);
+        GROW(l->asked, l->shares_capacity, 2 * n);
+        l->shares_capacity = 2 * n;
+    }
+    if (s->dim == 3)
+        wall_list3_shares(s, l, k, x);
+    for (int j = 0; j < n && s->dim == 2; j++) {
+        struct wall_touch there;
+        measure(s->walls->segments + t[j].piece, x, s->R, &there);
+        l->share[j] = there.is.gamma;
+    }
+    return l->share;
+}
+
+double wall_list_nearest(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
+                         const double *x, double *foot)
+{
+    if (s->dim == 3)
+        return wall_list3_nearest(s, l, t, x, foot);
+    const struct segment *g = s->walls->segments + t->piece;
+    const double along = (x[0] - g->a[0]) * g->t[0] + (x[1] - g->a[1]) * g->t[1];
+    for (int a = 0; a < 2; a++)
+        foot[a] = g->a[a] + fmax(0.0, fmin(along, g->length)) * g->t[a];
+    return hypot(foot[0] - x[0], foot[1] - x[1]);
 }
 
 void wall_list_velocity(const struct sph *s, const struct wall_touch *t, const double *x, double *u)

@@ -46,6 +46,9 @@ struct wall_list {
      * list and its time */
     int rims_capacity;
     double (*rim)[3], (*seen_from)[3], listed_at;
+    int shares_capacity;
+    double *share; /* see wall_list_shares */
+    struct wall_integrals *asked;
 };
 
 void wall_list_free(struct wall_list *l);
@@ -58,6 +61,14 @@ int wall_list_behind(const struct sph *s, const struct wall_list *l, int *who);
 /* int W dS over the piece of a touch with another support R, m^(1-dim). */
 double wall_list_weight(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
                         const double *x, double R);
+/* Parts of the Shepard factor at a place x near particle k, -, one for each of its touches from
+ * first[k] on; NULL: no face of another owner than `body' reaches there. Valid until the next
+ * call. */
+const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, int body,
+                               const double *x);
+/* The nearest point of its piece to x, m; returns the distance, m. */
+double wall_list_nearest(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
+                         const double *x, double *foot);
 /* Velocity of the wall's material point x, m/s. */
 void wall_list_velocity(const struct sph *s, const struct wall_touch *t, const double *x,
                         double *u);
@@ -71,6 +82,12 @@ void wall_list3_measure(const struct sph *s, struct wall_list *l);
 int wall_list3_behind(const struct sph *s, const struct wall_list *l, int *who);
 double wall_list3_weight(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
                          const double *x, double R);
+/* Whether its triangle is nearer than R to x. */
+bool wall_list3_reaches(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
+                        const double *x);
+void wall_list3_shares(const struct sph *s, struct wall_list *l, int k, const double *x);
+double wall_list3_nearest(const struct sph *s, const struct wall_list *l,
+                          const struct wall_touch *t, const double *x, double *foot);
 void wall_list3_free(struct wall_list *l);
 /* Of a touch: its triangle in the frame of the mesh, its number there; a place seen from there. */
 const struct facet *wall_list3_facet(const struct wall_list *l, const struct wall_touch *t);

@@ -262,6 +262,43 @@ double wall_list3_weight(const struct sph *s, const struct wall_list *l, const s
     return sum.W;
 }
 
+bool wall_list3_reaches(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
+                        const double *x)
+{
+    double own[3], on[3];
+    wall_mesh_to_own(s->walls->meshes + t->of, x, own);
+    return facet_nearest(wall_list3_facet(l, t), own, on) < s->R;
+}
+
+void wall_list3_shares(const struct sph *s, struct wall_list *l, int k, const double *x)
+{
+    struct facet_batch batch; /* 20 KB: not cleared */
+    batch.n = 0;
+    double own[3] = {0.0, 0.0, 0.0};
+    const int first = l->first[k], n = l->first[k + 1] - first;
+    for (int j = 0; j < n; j++) {
+        const struct wall_touch *t = l->touch + first + j;
+        if (j == 0 || t->of != t[-1].of)
+            wall_mesh_to_own(s->walls->meshes + t->of, x, own);
+        l->asked[j] = (struct wall_integrals){0};
+        facet_ask(&batch, wall_list3_facet(l, t), own, s->R, l->asked + j);
+    }
+    facet_finish(&batch);
+    for (int j = 0; j < n; j++)
+        l->share[j] = l->asked[j].gamma;
+}
+
+double wall_list3_nearest(const struct sph *s, const struct wall_list *l,
+                          const struct wall_touch *t, const double *x, double *foot)
+{
+    const struct wall_mesh *m = s->walls->meshes + t->of;
+    double own[3], on[3];
+    wall_mesh_to_own(m, x, own);
+    const double d = facet_nearest(wall_list3_facet(l, t), own, on);
+    wall_mesh_to_world(m, on, foot);
+    return d;
+}
+
 /* Those that were far from all walls at the last stage are not behind one now. */
 int wall_list3_behind(const struct sph *s, const struct wall_list *l, int *who)
 {

@@ -13,6 +13,7 @@
 #include "../pairs/scheme.h"
 #include "../particles/eos.h"
 #include "forces.h"
+#include "wall_gap.h"
 #include "wall_list.h"
 #include "wall_share.h"
 
@@ -27,7 +28,8 @@ struct nfm {
     double crowding[RATIOS + 1]; /* see tabulate */
     /* With levels [list.n]: whether the force of this row counts, see judge; of this list. */
     bool judged, *pushes;
-    int pushes_capacity;
+    int pushes_capacity, q_capacity;
+    double (*q)[3]; /* [q_capacity] N/m^dim: fluxes of the touches of the particle at hand */
 };
 
 /* int (W + 0.04 W^5/W(dx)^4) over int W of a plane at the distance k/RATIOS R: what the function
@@ -62,6 +64,7 @@ static void nfm_destroy(void *state)
     struct nfm *m = state;
     wall_list_free(&m->list);
     mem_free(m->pushes);
+    mem_free(m->q);
     mem_free(m);
 }
 
@@ -341,53 +344,121 @@ static bool takes_along(const struct sph *s)
            (s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO);
 }
 
-/* Sums of pairs and walls over gamma; what a particle so loses more or less than its partners gain
- * goes to the walls: each piece has its own flux, and of the pairs' sum what wall_share_out takes
- * it for. Bodies and fluid so exchange momentum to the last digit. */
-INLINE void add_walls(struct sph *s, const struct nfm *m, int k, const int dim)
+/* Fluxes q[dim] of the touches of particle k, from first[k] on, and their sum with the rims'. */
+INLINE struct given all_fluxes(const struct sph *s, struct nfm *m, int k, const struct seen *i,
+                               double wave, const int dim)
+{
+    const struct wall_list *l = &m->list;
+    const int n = l->first[k + 1] - l->first[k];
+    struct given all = {0};
+    if (n > m->q_capacity) {
+        mem_free(m->q);
+        m->q_capacity = 2 * n + 16;
+        m->q = mem_new((size_t)m->q_capacity, sizeof *m->q);
+    }
+    if (l->rim)
+        all = rim_flux(s, l->rim[k], i, dim);
+    for (int j = 0; j < n; j++) {
+        const struct wall_touch *t = l->touch + l->first[k] + j;
+        const struct given to = t->is.W > 0.0 ? flux(s, t, i, wave, dim) : (struct given){0};
+        for (int a = 0; a < dim; a++) {
+            m->q[j][a] = to.q[a];
+            all.q[a] += to.q[a];
+        }
+        all.w += to.w;
+        all.m += to.m;
+    }
+    return all;
+}
+
+/* Each owner of touches gets what its pieces have, times `share', from the volume w; the first
+ * `first' besides. */
+INLINE void credit_own(const struct sph *s, const struct nfm *m, int k, const double *x, double w,
+                       const double *first, const int dim)
+{
+    const struct wall_list *l = &m->list;
+    const struct wall_touch *t = l->touch + l->first[k];
+    double force[3] = {0.0, 0.0, 0.0}; /* of pieces of one body, which come together */
+    int body = t->body;
+    for (int a = 0; a < dim; a++)
+        force[a] = first[a];
+    for (int j = 0; t < l->touch + l->first[k + 1]; j++, t++) {
+        if (t->is.W == 0.0)
+            continue;
+        if (t->body != body) {
+            forces_add(s, body, x, force);
+            body = t->body;
+            force[0] = force[1] = force[2] = 0.0;
+        }
+        for (int a = 0; a < dim; a++)
+            force[a] -= w * m->q[j][a];
+    }
+    forces_add(s, body, x, force);
+}
+
+/* By what each touch takes from gamma. */
+INLINE void share_by_gamma(const struct sph *s, const struct wall_list *l, int k, const double *x,
+                           const double *rest, const int dim)
+{
+    const struct wall_touch *begin = l->touch + l->first[k], *end = l->touch + l->first[k + 1];
+    double all = 0.0, force[3];
+    for (const struct wall_touch *t = begin; t < end; t++)
+        all += fabs(t->is.gamma);
+    for (const struct wall_touch *t = begin; t < end; t++) {
+        const double share = all > 0.0 ? fabs(t->is.gamma) / all : t == begin ? 1.0 : 0.0;
+        for (int a = 0; a < dim; a++)
+            force[a] = share * rest[a];
+        if (share > 0.0)
+            forces_add(s, t->body, x, force);
+    }
+}
+
+/* What a particle so loses more or less than its partners gain goes to the walls: each piece has
+ * its own flux, and of the pairs' sum what wall_share_out takes it for. Bodies and fluid so
+ * exchange momentum to the last digit. Between faces of several owners each gets its flux whole,
+ * gamma's part of all that is left over, and what wall_gap.c says that the faces owe each other. */
+INLINE void credit(const struct sph *s, struct nfm *m, int k, const struct seen *i,
+                   const double *pairs, const struct given *all, double gamma_1, const int dim)
+{
+    struct wall_list *l = &m->list;
+    double rest[3], rim[3] = {0.0, 0.0, 0.0};
+    const bool gap = wall_gap_between(l, k);
+    const double share = gap ? 1.0 : gamma_1;
+    for (int a = 0; a < dim; a++)
+        rest[a] = (1.0 - gamma_1) * (pairs[a] + (gap ? i->w * all->q[a] : 0.0));
+    if (l->rim) {
+        const struct given of_rim = rim_flux(s, l->rim[k], i, dim);
+        for (int a = 0; a < dim; a++)
+            rim[a] = -i->w * of_rim.q[a] * share;
+    }
+    if (gap)
+        share_by_gamma(s, l, k, i->x, rest, dim);
+    else
+        wall_share_out(s, l, k, i->x, rest);
+    credit_own(s, m, k, i->x, i->w * share, rim, dim);
+    if (gap)
+        wall_gap_exchange(s, l, k, (const double(*)[3])m->q, i->w);
+}
+
+/* Sums of pairs and walls over gamma. */
+INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
 {
     const struct wall_list *l = &m->list;
     const int who = l->who[k];
     const struct seen i = look(s, who, dim);
     const double gamma = fmax(l->gamma[k], least_gamma), gamma_1 = 1.0 / gamma;
     const double mass = state_row(&s->p, s->p.y, who)[at_mass(dim)];
-    double *rate = state_row(&s->p, s->p.rate, who), pairs[3], lost[3], own[8] = {0.0};
+    double *rate = state_row(&s->p, s->p.rate, who), pairs[3], own[8] = {0.0};
     if (takes_along(s))
         scheme_take_along(s, who, own);
     for (int a = 0; a < dim; a++) {
         own[dim + a] += mass * s->gravity[a];
         pairs[a] = rate[dim + a] - own[dim + a];
-        lost[a] = (1.0 - gamma_1) * pairs[a];
     }
-    const bool pushes = !s->flows_at || m->pushes[k];
-    if (pushes)
-        wall_share_out(s, l, k, i.x, lost);
     const double wave = wave_factor(s, l, k, i.c * gamma_1, dim);
-    struct given all = {0};
-    double force[3] = {0.0, 0.0, 0.0}; /* of pieces of one body, which come together */
-    int body = l->touch[l->first[k]].body;
-    if (l->rim)
-        all = rim_flux(s, l->rim[k], &i, dim);
-    for (int a = 0; a < dim; a++)
-        force[a] -= i.w * all.q[a] * gamma_1;
-    for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
-        if (t->is.W == 0.0)
-            continue;
-        const struct given to = flux(s, t, &i, wave, dim);
-        if (t->body != body && pushes) {
-            forces_add(s, body, i.x, force);
-            body = t->body;
-            force[0] = force[1] = force[2] = 0.0;
-        }
-        for (int a = 0; a < dim; a++) {
-            all.q[a] += to.q[a];
-            force[a] -= i.w * to.q[a] * gamma_1;
-        }
-        all.w += to.w;
-        all.m += to.m;
-    }
-    if (pushes)
-        forces_add(s, body, i.x, force);
+    const struct given all = all_fluxes(s, m, k, &i, wave, dim);
+    if (!s->flows_at || m->pushes[k])
+        credit(s, m, k, &i, pairs, &all, gamma_1, dim);
     for (int a = 0; a < dim; a++)
         rate[dim + a] = (pairs[a] + i.w * all.q[a]) * gamma_1 + own[dim + a];
     const int V = at_volume(dim), M = at_mass(dim);
