@@ -10,6 +10,7 @@
 
 #include "../../common/base/log.h"
 #include "../../common/base/vec3.h"
+#include "../../common/run/coupling_steps.h"
 #include "../../common/run/crossing.h"
 #include "../../common/scene/scene_fluid.h"
 #include "../../common/scene/scene_mesh.h"
@@ -158,12 +159,11 @@ static int memory_for(double gain)
     return (int)fmax(ceil(g + sqrt(g * g - g)), 3.0);
 }
 
-/* Windows tile the time between outputs: they are shorter than what was asked for. */
+/* Coupling steps are equal and serve the outputs: they are shorter than what was asked for. */
 static double tiled(const struct scene *c, double T)
 {
-    const double every = c->output.every, end = c->time.end;
-    const double span = every > 0.0 && every < end ? every : end;
-    return span / ceil(span / T * (1.0 - 1e-9));
+    const int64_t n = coupling_steps_number(c->time.end, c->output.every, T);
+    return n > 0 ? c->time.end / (double)n : T;
 }
 
 /* s over a radian of the sound that swings between a partner's water and a box that is open at its
