@@ -243,6 +243,32 @@ CASE
 channel poiseuille 0.1 0.8 0.0
 channel couette 0.1 0.0 1.0
 
+# times of outputs that no coupling step fits: as many steps as without, and one for each output at most
+for every in 0.0333333 0.0317 0.0071 0.049; do
+    "$root/cases/run" taylor_green -n 1:1:1 -o outputs -p sph.dx=0.025 -p 'fv.cells=(16,16)' -p coupling.steps=0 -p coupling.overlap=0.08 -p time.end=0.1 \
+        -p output.snapshots=false -p output.every=$every --force >outputs.txt 2>&1 || bad "outputs every $every s: ended with $?: $(tail -n 3 outputs.txt)"
+    steps=$(number outputs windows)
+    below "$steps" "$(awk -v e=$every 'BEGIN { print 4 + int(0.1 / e) + 1 }')" || bad "outputs every $every s: $steps coupling steps, 4 without outputs"
+done
+
+# a band that a shape sets in motion crosses SPH's box: both programs have it. The energy is that of the heat equation, 0.4051 J
+cat >shear.cfg <<'CASE'
+format = 1;
+time:     { end = 0.5; };
+fluid:    { rho = 1.0; nu = 5.0e-3; };
+domain:   { dim = 2; min = (0, 0); max = (1, 1); periodic = (true, true); };
+initial:  { field = "uniform"; U = 1.0; L = 1.0; velocity = (-0.5, 0.8); };
+shapes:   ( { box = ((0, 0), (1, 1)); }, { box = ((0, 0.0), (1, 0.5)); velocity = (1.0, 0.0); } );
+sph:      { dx = 0.02; free = ((0.25, 0.3), (0.7, 0.7)); };
+CASE
+sed '$a fv: { cells = (24, 24); };' shear.cfg >shear_cells.cfg
+sed '$a fv: {};\nblocks: ( { name = "all"; cells = (24, 24); max = (1, 1); i_min = "periodic"; i_max = "periodic"; j_min = "periodic"; j_max = "periodic"; } );' shear.cfg >shear_blocks.cfg
+for d in shear_cells shear_blocks; do
+    "$root/cases/run" $d.cfg -n 1:1:1 -o $d -p output.snapshots=false >$d.txt 2>&1 || bad "$d ended with $?: $(tail -n 3 $d.txt)"
+    close_to "$(tail -n 1 $d/series.csv | cut -d, -f2)" 0.4051 0.01 || bad "$d: $(tail -n 1 $d/series.csv | cut -d, -f2) J, wanted 0.4051"
+    below "$(number $d overlap_velocity)" 0.15 || bad "$d: velocities $(number $d overlap_velocity) apart, wanted at most 0.15"
+done
+
 # a basin at rest: the level, the same datum of pressure in both programs
 basin() { # WIDTH SHAPES
     cat <<CASE
@@ -279,6 +305,13 @@ code=$?
 grep -q 'pressures of sph and fv where both are free' torn.txt || bad "pressures that drift apart: not said"
 grep -q 'likely .*set coupling.steps and coupling.memory to 0' torn.txt || bad "pressures that drift apart: no remedy"
 awk -F, 'END { exit !($1 < 0.4) }' torn/sph-series.csv || bad "pressures that drift apart: seen late"
+
+# the same ended before it is stopped: not a sound run, whatever the case accepts
+"$root/cases/run" flat.cfg -n 1:1:1 -o part -p time.end=0.28 -p coupling.steps=6 -p coupling.memory=8 >part.txt 2>&1
+code=$?
+[ $code = 1 ] || bad "pressures apart at the end: exit $code, wanted 1: $(tail -n 3 part.txt)"
+grep -q 'NOT ACCEPTED .*not sound at the end: pressures of sph and fv' part.txt || bad "pressures apart at the end: not said"
+grep -q '"accepted": true' part/summary.json && bad "pressures apart at the end: accepted"
 
 # a stream set in motion at once past a plate; the box spans it, so that all beyond can swing as a whole
 cat >plate.cfg <<'CASE'

@@ -47,6 +47,23 @@ for d in right strip off thick; do
     below "$(number $d level_gap)" 0.1 || bad "$d: levels $(number $d level_gap) dx apart, wanted at most 0.1"
 done
 
+# a tank as narrow as two supports: an imposed cell has images beyond both of its sides; 3D, gravity along -y
+cat >narrow.cfg <<'CASE'
+format = 1;
+time:    { end = 0.3; };
+fluid:   { rho = 1.0; gravity = (0, -1, 0); };
+domain:  { dim = 3; min = (0, 0, 0); max = (2, 1.2, 0.48); };
+initial: { field = "rest"; U = 0.1; level = 1.0; };
+shapes:  ( { form = "below"; level = 1.0; } );
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; }, { side = "z_min"; }, { side = "z_max"; } );
+sph:     { dx = 0.08; R_dx = 3.0; box = ((0.72, 0, 0), (2, 1.2, 0.48)); };
+fv:      { cells = (20, 16, 4); };
+CASE
+job narrow 1:1:1 narrow.cfg -p output.snapshots=false
+[ $code = 0 ] || bad "a narrow tank ended with $code: $(tail -n 3 narrow.txt)"
+below "$(number narrow water_missing)" 1e-3 || bad "narrow: $(number narrow water_missing) of the water is missing, wanted at most 1e-3"
+below "$(number narrow level_gap)" 0.1 || bad "narrow: levels $(number narrow level_gap) dx apart, wanted at most 0.1"
+
 # a gauge is read by the program in whose part it lies, and by that alone
 last() { # FILE COLUMN
     awk -F, -v c="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if (index($i, c) == 1) k = i } END { if (k) print $k }' "$1"

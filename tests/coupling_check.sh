@@ -39,6 +39,29 @@ for case in taylor_green uniform_flow standing_wave standing_wave_3d breaking_wa
     accepts $case
 done
 
+# cells as fine as the particles, and a loop whose gain only smoothing bounds: said, with a c0 that mends it
+what="cells and gain"
+accepts taylor_green -p 'fv.cells=(150,150)'
+says 'warning: fv.cells: cells of 0.00667 m are .* times sph.dx; below 1.5'
+accepts taylor_green
+grep -q 'times sph.dx' text && bad "$what: a word about cells that are coarse enough"
+cat >gain.cfg <<'CASE'
+format = 1;
+time:    { end = 3.0; };
+fluid:   { rho = 1.0; nu = 1.0e-3; };
+domain:  { dim = 2; min = (0, 0); max = (2.4, 0.6); };
+initial: { field = "uniform"; U = 0.3; velocity = (0.2, 0.0); };
+walls:   ( { side = "x_min"; kind = "inflow"; velocity = (0.2, 0); }, { side = "x_max"; kind = "outflow"; },
+           { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "no_slip"; } );
+sph:     { dx = 0.01; box = ((0.5, 0), (1.5, 0.46)); };
+fv:      { cells = (144, 36); };
+CASE
+accepts gain.cfg
+says 'warning: gain of the coupling loop .*, above 1: .* sph.c0 = [0-9.]* m/s lowers it to 1'
+c0=$(sed -n 's|.*; sph.c0 = \([0-9.]*\) m/s lowers.*|\1|p' text)
+accepts gain.cfg -p "sph.c0=$c0"
+grep -q 'above 1:' text && bad "$what: with the c0 proposed, $c0 m/s, the gain is still above 1"
+
 # bdf2 under a violent surface: a warning with its steps; none where the flow is slow and viscous
 slow() { "$b/fv" "$root/cases/dam_break_fv/case.cfg" --check -p fv.integrator=bdf2 -p fluid.nu="$1" 2>&1 | grep -c 'warning: fv.integrator: bdf2 is for slow'; }
 [ "$(slow 1e-6)" = 1 ] || bad "bdf2 in water that breaks: not a word"

@@ -33,9 +33,15 @@ bool watch_judge(struct watch *w, double value, double t, int64_t step, struct d
 
 void watch_summary(const struct watch *w, struct summary *s)
 {
-    char key[96];
-    snprintf(key, sizeof key, "watch.%s", w->key);
-    summary_real(s, key, w->worst);
+    const double sound = w->unsound > 0.0 ? w->unsound : w->warn;
+    char text[512];
+    snprintf(text, sizeof text, "watch.%s", w->key);
+    summary_real(s, text, w->worst);
+    if (w->now <= sound || summary_find_text(s, "not_accepted"))
+        return;
+    snprintf(text, sizeof text, "not sound at the end: %s: %.3g, sound below %.3g; %s", w->what,
+             w->now, sound, w->likely ? w->likely : "see the log");
+    summary_text(s, "not_accepted", text);
 }
 
 double watch_budget_gain(struct watch_budget *b, int64_t step, double energy_less_work)

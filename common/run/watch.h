@@ -15,6 +15,7 @@ struct watch {
     const char *what;   /* in a sentence: "energy gained over 100 steps, over the kinetic energy" */
     const char *likely; /* cause and remedy */
     double warn, stop;  /* levels; stop INFINITY: warns only */
+    double unsound;     /* a run that ends above it is not accepted; 0: warn */
     double now, worst;
     bool warned;
 };
@@ -22,7 +23,8 @@ struct watch {
 /* Takes the value of this moment; warns once above w->warn; above w->stop, or where the value is
  * not finite, fills d (unless it is bad already) and returns true. */
 bool watch_judge(struct watch *w, double value, double t, int64_t step, struct diagnosis *d);
-/* watch.KEY = the worst value so far. */
+/* watch.KEY = the worst value so far. A value that lies above the level of a sound run now, at the
+ * end, makes the run one that is not accepted. */
 void watch_summary(const struct watch *w, struct summary *s);
 
 /* What an energy has gained over its budget in the last `WATCH_STEPS' steps: energy less the work

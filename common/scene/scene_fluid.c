@@ -97,6 +97,16 @@ bool scene_is_fluid(const struct scene *s, const struct exact *e, const double *
     return in ? !in->hole : fluid;
 }
 
+bool scene_shapes_move(const struct scene *s)
+{
+    bool any = false;
+    for (int k = 0; k < s->nshapes; k++) {
+        const double *v = s->shapes[k].velocity;
+        any = any || (!s->shapes[k].hole && (v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0));
+    }
+    return any;
+}
+
 void scene_shape_extent(const struct scene_shape *h, double lo[3], double hi[3])
 {
     const bool points = h->form == SHAPE_POLYGON && h->points.n > 0;

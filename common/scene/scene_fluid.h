@@ -16,6 +16,8 @@ double scene_height(const struct scene *s, const double *x);
 /* Least and largest height in the domain, m. */
 void scene_heights(const struct scene *s, double *low, double *high);
 bool scene_in_shape(const struct scene *s, const struct scene_shape *h, const double *x);
+/* Whether a shape adds a velocity to that of the field. */
+bool scene_shapes_move(const struct scene *s);
 /* Box around a shape, m; infinite where it has no end, or where a file of triangles has it. */
 void scene_shape_extent(const struct scene_shape *h, double lo[3], double hi[3]);
 /* Faults and warnings of shapes that hold fluid at none of the places first + i h, 0 <= i < n, of

@@ -118,7 +118,7 @@ struct coupler {
     struct link link[LIMIT_LINKS];
     /* time: coupling step k of n spans k/n to (k+1)/n of the way from t_start to t_end */
     double t_start, t_end;
-    int64_t nwindows, window, first_window, output_every; /* window: under way */
+    int64_t nwindows, window, first_window; /* window: under way */
     int action;
     bool stopping, over;
     int code;

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "../../common/base/log.h"
+#include "../../common/run/coupling_steps.h"
 
 void problem(char *text, const char *fmt, ...)
 {
@@ -335,6 +336,11 @@ void plan_describe(const struct coupler *c)
         log_say("  %-20s %s -> %s  %d x %s, %s", f->name, c->solver[l->giver].name,
                 c->solver[l->taker].name, f->ncomp, f->unit, way_of(l, how));
     }
-    log_say("  %lld coupling steps of %.6g s", (long long)c->nwindows,
-            (c->t_end - c->t_start) / (double)c->nwindows);
+    const double span = c->t_end - c->t_start, every = c->scene.output.every;
+    const double off = coupling_steps_off(c->nwindows, span, every);
+    log_say("  %lld coupling steps of %.6g s", (long long)c->nwindows, span / (double)c->nwindows);
+    if (off > 0.0)
+        log_say("  output.every = %g s is no whole number of them: each output comes at the end of "
+                "the coupling step next to it, up to %.2g s off",
+                every, off);
 }

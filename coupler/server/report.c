@@ -335,6 +335,11 @@ int report_summary(struct coupler *c, double coupler_cpu)
         summary_bool(s, "accepted", good);
         code = good ? RUN_DONE : RUN_NOT_ACCEPTED;
     }
+    for (int i = 0; i < c->nsolvers; i++)
+        if (code == RUN_DONE && c->solver[i].code == RUN_NOT_ACCEPTED) {
+            log_say("not accepted: %s ended with a figure that is not sound", c->solver[i].name);
+            code = RUN_NOT_ACCEPTED;
+        }
     snprintf(path, sizeof path, "%s/summary.json", c->dir);
     summary_write(s, path);
     summary_free(&s);

@@ -8,9 +8,9 @@
 
 #include "../../common/base/log.h"
 #include "../../common/base/timer.h"
+#include "../../common/run/coupling_steps.h"
 
 static const double same_time = 1e-9; /* relative */
-static const int64_t longest_search = 1000000;
 
 double window_start(const struct coupler *c, int64_t k)
 {
@@ -18,36 +18,19 @@ double window_start(const struct coupler *c, int64_t k)
     return k == c->nwindows ? c->t_end : c->t_start + span * (double)k / (double)c->nwindows;
 }
 
-static bool whole(double x) { return fabs(x - rint(x)) <= same_time * fmax(1.0, fabs(x)); }
-
-/* The fewest windows, none longer than dt, that end at each output time and at the end. */
+/* The fewest coupling steps, none longer than dt, that serve the outputs and the end. */
 static void divide(struct coupler *c, double dt, char *text)
 {
-    const double every = c->scene.output.every, span = c->t_end - c->t_start;
-    const bool outputs = every > 0.0 && every < span;
+    const double span = c->t_end - c->t_start;
     if (!(dt > 0.0)) {
         problem(text, "a program asks for coupling steps of %g s", dt);
         return;
     }
-    const double least = ceil(span / fmin(dt, outputs ? every : span) * (1.0 - same_time));
-    if (least > 1e15) {
+    const int64_t n = coupling_steps_number(span, c->scene.output.every, dt);
+    if (n > 0)
+        c->nwindows = n;
+    else
         problem(text, "coupling steps of %g s are too short for a run of %g s", dt, span);
-        return;
-    }
-    c->nwindows = least < 1.0 ? 1 : (int64_t)least;
-    c->output_every = c->nwindows;
-    if (!outputs)
-        return;
-    for (int64_t tries = 0; tries < longest_search; tries++, c->nwindows++) {
-        const double per_output = (double)c->nwindows * every / span;
-        c->output_every = (int64_t)rint(per_output);
-        if (c->output_every > 0 && whole(per_output))
-            return;
-    }
-    problem(text,
-            "output.every = %g s and time.end = %g s have no common divisor: no coupling step fits "
-            "both",
-            every, span);
 }
 
 static bool at(const struct coupler *c, int64_t window, double t)
@@ -90,7 +73,8 @@ static int next_action(struct coupler *c)
 {
     const double t1 = window_start(c, c->window + 1), now = wall_time();
     int action = CPL_RUN;
-    if ((c->window + 1) % c->output_every == 0 || c->window + 1 == c->nwindows || c->stopping)
+    if (c->stopping || coupling_steps_output(c->nwindows, c->window + 1, c->t_end - c->t_start,
+                                             c->scene.output.every))
         action |= CPL_OUTPUT;
     if (c->stopping)
         action |= CPL_SAVE;

@@ -24,6 +24,10 @@ void fv_free(struct fv **s);
 void mesh_state_create(struct fv *s);
 void mesh_state_start(struct fv *s);
 void mesh_state_free(struct fv *s);
+/* shape_velocity.c: adds to u what the scene's shapes do, the mean over a cell of edges h (m)
+ * around x, or over a face, whose h is 0 across it; h NULL: at x. Nothing where fv has a surface.
+ */
+void fv_shape_velocity(const struct fv *s, const double *x, const double *h, double *u);
 /* After u and U have been set: ghosts, limits, the pressure that goes with them. */
 void fv_start(struct fv *s);
 

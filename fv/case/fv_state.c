@@ -67,6 +67,7 @@ static void fill(struct fv *s)
                 const int64_t c = block_at(b, i, j, k);
                 block_cell(b, i, j, k, x, h);
                 exact_average(&s->exact, x, h, 0.0, u, &p, NULL);
+                fv_shape_velocity(s, x, h, u);
                 for (int a = 0; a < b->dim; a++)
                     s->u[a][c] = u[a];
                 s->p[c] = s->p_before[c] = (p - fv_still_in_exact(s, x)) / s->exact.rho;
@@ -86,6 +87,8 @@ static void fill_fluxes(struct fv *s)
                     block_cell(b, i, j, k, x, h);
                     x[a] -= 0.5 * h[a];
                     exact_face(&s->exact, x, h, a, 0.0, u);
+                    h[a] = 0.0;
+                    fv_shape_velocity(s, x, h, u);
                     s->U[a][block_at(b, i, j, k)] = u[a];
                 }
 }

@@ -62,17 +62,17 @@ static void fill(struct fv *s)
             if (m->status[c] == CELL_HOLE && !all)
                 continue;
             mesh_exact_average(s, p, i, 0.0, u, &pr, &w);
+            if (at_rest)
+                memset(u, 0, sizeof u);
+            const struct mesh_block *b = m->block + p->block;
+            const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+            fv_shape_velocity(s, b->centre[mesh_cell(b, at)], NULL, u);
             for (int a = 0; a < m->dim; a++) {
-                s->u[a][c] = at_rest ? 0.0 : u[a];
+                s->u[a][c] = u[a];
                 diagonal += m->G[a][a][c] + m->G[a][a][c + p->stride[a]];
             }
-            pr -=
-                scene_has_wave(&s->run->scene)
-                    ? fv_still_pressure(
-                          s, s->m->block[p->block].centre[mesh_cell(
-                                 s->m->block + p->block,
-                                 (const int[]){p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]})])
-                    : 0.0;
+            pr -= scene_has_wave(&s->run->scene) ? fv_still_pressure(s, b->centre[mesh_cell(b, at)])
+                                                 : 0.0;
             s->p[c] = s->p_before[c] = at_rest ? 0.0 : pr / s->run->scene.fluid.rho;
             s->free[c] = m->status[c] == CELL_COMPUTED;
             s->scale[c] = 1.25 * s->nu * diagonal / m->V[c];

@@ -7,8 +7,6 @@
 #include "../../common/base/mem.h"
 #include "../../common/base/vec3.h"
 
-enum { WALLS_MOST = 3 }; /* that meet at a corner */
-
 struct face {
     double x[3], n[3]; /* m: centre; into the fluid, of length 1 */
     int cell[3];

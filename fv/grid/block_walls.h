@@ -5,7 +5,8 @@
 
 #include "mesh.h"
 
-enum { IMAGES_MOST = 8 }; /* of three walls */
+/* Walls within reach of one place, at most two across each axis, and its images beyond them. */
+enum { WALLS_MOST = 6, IMAGES_MOST = 1 << WALLS_MOST };
 
 struct block_walls;
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../../common/base/log.h"
 #include "../../common/base/mem.h"
 #include "../../common/waves/colour.h"
 #include "../boundary/forcing.h"
@@ -15,7 +16,8 @@
 /* --- cells and places --- */
 
 /* Images of x[0] beyond closed sides of even cells, behind it: a wall cuts the water, not its
- * surface. */
+ * surface. Where both sides of an axis are within reach there are images of images: at most four
+ * places along each axis, IMAGES_MOST in all. */
 static int images(const struct fv *s, double R, double (*x)[3])
 {
     const struct block *b = &s->b;
@@ -38,11 +40,17 @@ static void list_places(const struct fv *s, struct surface_forced *f)
 {
     double x[IMAGES_MOST][3];
     struct block_walls *walls = s->m ? block_walls_create(s->m) : NULL;
+    int64_t room = 0;
     f->first = NEW(int64_t, f->n + 1);
-    f->x = NEW(double, 3 * IMAGES_MOST * f->n);
     for (int64_t i = 0; i < f->n; i++) {
         forcing_centre(s, f->cell[i], x[0]);
         const int n = walls ? block_walls_images(walls, f->R, x) : images(s, f->R, x);
+        require(n <= IMAGES_MOST);
+        if (f->first[i] + n > room) {
+            const int64_t before = room;
+            room = 2 * room + IMAGES_MOST;
+            GROW(f->x, 3 * before, 3 * room);
+        }
         memcpy(f->x + 3 * f->first[i], x, (size_t)n * sizeof x[0]);
         f->first[i + 1] = f->first[i] + n;
     }

@@ -34,18 +34,21 @@ static const struct watch kinds[WATCHES] = {
      .likely = "the flow is finer than the cells: more cells; pressures near there are not to be "
                "trusted",
      .warn = 0.20,
-     .stop = INFINITY},
+     .stop = INFINITY,
+     .unsound = 0.40}, /* at the warning it is a place or two that the cells are too wide for */
     {.key = "growth",
      .what = "largest velocity over that of the step before",
      .likely = "what drives the flow begins suddenly, or it is unstable: fv.cfl at half its value "
                "tells which",
      .warn = 1.25,
-     .stop = INFINITY},
+     .stop = INFINITY,
+     .unsound = INFINITY}, /* of one step: that it was the last one says nothing */
     {.key = "volume_returned",
      .what = "volume that the level set lost and that was restored elsewhere",
      .likely = "water thinner than a cell: more cells",
      .warn = 0.01,
-     .stop = INFINITY}};
+     .stop = INFINITY,
+     .unsound = RETURNED_MOST}};
 
 static const char *const names[WATCHES] = {"energy gain [-]", "odd-even velocity [-]",
                                            "odd-even pressure [-]", "growth [-]",

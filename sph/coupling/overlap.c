@@ -132,8 +132,9 @@ void overlap_look(struct sph *s)
     o->du = sqrt(sums[1] / n) / o->U;
     o->dp = sqrt(fmax(sums[3] / n - mean * mean, 0.0)) / o->p;
     o->on = sums[4] / openings_faces(s->zones->openings);
-    o->du_mean += (o->du - o->du_mean) / several;
-    o->dp_mean += (o->dp - o->dp_mean) / several;
+    o->looks += 1.0; /* the mean of all there have been, and judged, from the first one on */
+    o->du_mean += (o->du - o->du_mean) / fmin(o->looks, several);
+    o->dp_mean += (o->dp - o->dp_mean) / fmin(o->looks, several);
     o->fresh = o->asks = true;
 }
 

@@ -15,6 +15,7 @@ struct overlap {
     double U, p;             /* m/s, Pa: scales */
     bool fresh;              /* looked at since it was judged last */
     double du, dp, on;       /* of the last look */
+    double looks;            /* so far */
     double du_mean, dp_mean; /* over some coupling steps: what is judged */
     bool asks;               /* for the surface, once a coupling step */
     double found;            /* particles of this rank on a surface in transition and buffer */

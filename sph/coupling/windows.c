@@ -6,10 +6,12 @@
 #include "windows.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../../common/base/log.h"
 #include "../../common/base/vec3.h"
+#include "../../common/run/coupling_steps.h"
 #include "../../common/run/crossing.h"
 #include "../../common/scene/scene_fluid.h"
 #include "../../common/scene/scene_mesh.h"
@@ -27,6 +29,10 @@ static const double sound_share = 0.5;
  * than the last value: omega T = pi/3. */
 static const double flow_most = 1.0 / 6.0, wave_most = M_PI / 3.0;
 static const double gain_raw = 0.3, gain_smoothed = 0.4, gain_most = 1.0;
+static const double c0_most =
+    10.0; /* times that of the case: no speed of sound is proposed beyond */
+static const double cells_least =
+    1.5;                             /* dx: 0.106 % of error at 2.5, 0.216 % at 1 (Taylor-Green) */
 static const double most_way = 24.0; /* R/c0: longer ones were never tried */
 
 static double length_of(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
@@ -158,12 +164,11 @@ static int memory_for(double gain)
     return (int)fmax(ceil(g + sqrt(g * g - g)), 3.0);
 }
 
-/* Windows tile the time between outputs: they are shorter than what was asked for. */
+/* Coupling steps are equal and serve the outputs: they are shorter than what was asked for. */
 static double tiled(const struct scene *c, double T)
 {
-    const double every = c->output.every, end = c->time.end;
-    const double span = every > 0.0 && every < end ? every : end;
-    return span / ceil(span / T * (1.0 - 1e-9));
+    const int64_t n = coupling_steps_number(c->time.end, c->output.every, T);
+    return n > 0 ? c->time.end / (double)n : T;
 }
 
 /* s over a radian of the sound that swings between a partner's water and a box that is open at its
@@ -237,6 +242,35 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
     return w;
 }
 
+double windows_c0(const struct run *r, const struct sph_params *prm)
+{
+    struct sph_params other = *prm;
+    while (other.c0 < c0_most * prm->c0) {
+        other.c0 *= 1.05;
+        if (windows_choose(r, &other).gain <= gain_most)
+            return other.c0;
+    }
+    return 0.0;
+}
+
+/* What runs, but not as well as it could. */
+static void advise(const struct run *r, const struct sph_params *prm, const struct windows *w)
+{
+    const double h = least_cell(r), c0 = w->gain > gain_most ? windows_c0(r, prm) : 0.0;
+    char mend[160] = "a wider coupling.overlap, or a box whose open sides lie nearer to walls";
+    if (h < cells_least * prm->dx * (1.0 - 1e-9))
+        log_warn("fv.cells: cells of %.3g m are %.2g times sph.dx; below %g the programs' errors "
+                 "grow, as much as twofold at 1: fewer cells, or refine sph.dx",
+                 h, h / prm->dx, cells_least);
+    if (c0 > 0.0)
+        snprintf(mend, sizeof mend, "sph.c0 = %.3g m/s lowers it to 1, at %.1f times the steps", c0,
+                 c0 / prm->c0);
+    if (w->gain > gain_most)
+        log_warn("gain of the coupling loop %.2g, above %g: smoothing alone keeps the programs "
+                 "together, and forces may be noisy; %s",
+                 w->gain, gain_most, mend);
+}
+
 void windows_describe(const struct run *r, const struct sph_params *prm)
 {
     const struct windows w = windows_choose(r, prm);
@@ -259,6 +293,7 @@ void windows_describe(const struct run *r, const struct sph_params *prm)
         log_warn("gain of the coupling loop %.2g: near its limit of %g; longer coupling steps "
                  "(coupling.steps), a longer coupling.memory or a wider coupling.overlap lower it",
                  left, gain_most);
+    advise(r, prm, &w);
 }
 
 void windows_check(const struct run *r, const struct sph_params *prm, struct faults *f)

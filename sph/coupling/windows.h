@@ -22,6 +22,8 @@ struct windows {
 struct windows windows_choose(const struct run *r, const struct sph_params *prm);
 /* Share of an alternation that smoothing over m coupling steps leaves, see common/base/fit.h. */
 double windows_smoothed(int memory);
+/* m/s: the lowest c0 with a gain of at most 1; 0: ten times that of the case is too low. */
+double windows_c0(const struct run *r, const struct sph_params *prm);
 /* A line for --check and the start; warnings. */
 void windows_describe(const struct run *r, const struct sph_params *prm);
 /* Faults of coupling.steps, coupling.memory. */
