@@ -1,0 +1,52 @@
+#!/bin/sh
+# Calls that run upward as the linker sees them: a name that a folder takes from a folder above it, although no include
+# shows it; and exported names that two libraries define. usage: tests/calls.sh BUILD
+# SPDX-License-Identifier: BSD-3-Clause
+b=$(cd "${1:-build}" && pwd)
+export LC_ALL=C
+failed=0
+bad() { echo "FAIL: $*"; failed=$((failed + 1)); }
+
+# Folders from the lowest floor to the highest, as in tests/style.sh; the main programs stand above all of them
+layers_common="base params files geometry waves scene run"
+layers_fv="grid boundary surface operators poisson watch time coupling output case"
+layers_sph="rigid particles pairs parallel walls surface open_boundaries bodies refinement time coupling watch output case"
+# Names that still run upward. This list must shrink: a name in it that runs upward no longer is a failure, too.
+known_common=""
+known_fv="blocked_cells blocked_count blocked_params fv_field_wanted fv_hole fv_measures_errors fv_params_of
+mesh_block_count mesh_block_is_body mesh_block_params mesh_fault mesh_side_is_body surface_sample"
+known_sph="sph_energy sph_fault_diagnose sph_fault_of sph_level_name sph_params_around sph_params_cfl_bound
+sph_params_dt sph_params_of sph_params_open sph_params_reaches sph_params_region sph_params_speed
+sph_params_walls sph_params_zones sph_sums sph_vorticity sph_watch_after_walls sph_watch_before_walls
+sph_watch_begin sph_watch_judge sph_watch_removed sph_watch_stage sph_watch_summarise surface_eigenvalue"
+
+upward() { # PROGRAM LAYERS: lines "name caller owner", files without their ending
+    (cd "$b/o" && nm -A "$1"/*/*.o) | awk -v layers="$2" '
+        BEGIN { n = split(layers, l, " "); for (i = 1; i <= n; i++) at[l[i]] = i }
+        { split($1, f, ":"); file = f[1]; sub(/\.o$/, "", file); split(file, d, "/"); kind = $(NF - 1); name = $NF
+          if (!(d[2] in at)) { if (!told[d[2]]++) print "-", file, "in-no-floor-of-tests/calls.sh" }
+          else if (kind ~ /^[TDBRVWC]$/) { has[name] = d[2]; owner[name] = file }
+          else if (kind == "U") uses[name] = uses[name] " " file }
+        END { for (name in has) { m = split(uses[name], u, " ")
+                  for (i = 1; i <= m; i++) { split(u[i], d, "/")
+                      if (at[has[name]] > at[d[2]]) print name, u[i], owner[name] } } }' | sort
+}
+for p in common fv sph; do
+    eval "layers=\$layers_$p known=\$known_$p"
+    ls "$b/o/$p"/*/*.o >/dev/null 2>&1 || bad "$b/o/$p has no objects: build first"
+    calls=$(upward $p "$layers")
+    found=$(echo "$calls" | awk -v known="$known" '
+        BEGIN { n = split(known, k, " "); for (i = 1; i <= n; i++) skip[k[i]] = 1 }
+        NF && !($1 in skip) { print $2 " calls " $1 " of " $3 ", a folder above it" }')
+    [ -z "$found" ] || bad "$found"
+    for name in $known; do
+        echo "$calls" | grep -q "^$name " || bad "$name runs upward no longer: take it out of known_$p in tests/calls.sh"
+    done
+done
+
+found=$(for a in sph fv common cpl; do
+    nm -A "$b/lib$a.a" 2>/dev/null | awk -v a=lib$a.a '{ split($1, f, ":") } $(NF - 1) ~ /^[TDBRC]$/ { print $NF, a ":" f[2] }'
+done | sort -u | awk '$1 == last { print $1 " is defined in " at " and in " $2 } { last = $1; at = $2 }')
+[ -z "$found" ] || bad "exported names in two libraries: $found"
+[ $failed = 0 ] && echo "calls: only downward, but for $(echo $known_common $known_fv $known_sph | wc -w) known names"
+[ $failed = 0 ]
