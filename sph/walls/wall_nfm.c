@@ -186,10 +186,12 @@ struct given {
     double q[3], w, m;
 };
 
-/* Pressure on the wall at e from the particle: state carried there and bounded [4.30-4.32], then
- * the wave that runs to the wall [4.14]. Its part `near' alone: what the carried velocity misses of
- * the wall's is an error of the distance squared, and c times that is a drag (C_D of a cylinder of
- * a/dx = 8 in full, by min(1, (dx/2)^2/e^2), by the square of that: 0.49, 0.32, 0.20). */
+/* Pressure on the wall at e from the particle, with the background pressure as pairs have it: a
+ * uniform pressure pushes nobody only if walls and pairs have the same. State carried there and
+ * bounded [4.30-4.32], then the wave that runs to the wall [4.14]. Its part `near' alone: what the
+ * carried velocity misses of the wall's is an error of the distance squared, and c times that is a
+ * drag (C_D of a cylinder of a/dx = 8 in full, by min(1, (dx/2)^2/e^2), by the square of that:
+ * 0.49, 0.32, 0.20). */
 INLINE double wall_pressure(const struct sph *s, const struct seen *i, const double *e, double near,
                             const double *uw, const double *n, const int dim)
 {
@@ -205,7 +207,7 @@ INLINE double wall_pressure(const struct sph *s, const struct seen *i, const dou
         const double q = fmax(-most, fmin(rho * (u - uw[a]), most));
         un += q / rho * n[a];
     }
-    return eos_p(rho, s->rho0, s->c0, s->gamma) +
+    return eos_p(rho, s->rho0, s->c0, s->gamma) + s->background +
            near * rho * eos_c(rho, s->rho0, s->c0, s->gamma) * un;
 }
 
@@ -329,7 +331,7 @@ INLINE struct seen look(const struct sph *s, int i, const int dim)
                          .grho = g,
                          .gu = g + dim,
                          .rho = rho,
-                         .p = eos_p(rho, s->rho0, s->c0, s->gamma),
+                         .p = eos_p(rho, s->rho0, s->c0, s->gamma) + s->background,
                          .c = eos_c(rho, s->rho0, s->c0, s->gamma),
                          .w = q[at_volume(dim)],
                          .damped = is_riemann(s) ? damper * divergence : 0.0};
