@@ -53,6 +53,21 @@ for scheme in riemann delta; do
     [ "$(number closed particles_returned)" = 0 ] || bad "closed, $scheme: particles put back"
 done
 
+# 2D dam break, 15 particles deep: what the shift gives back to gravity presses nobody through the floor
+cat >dam.cfg <<'END'
+format = 1;
+time:    { end = 1.2; };
+fluid:   { rho = 997.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (1.6, 1.2); };
+initial: { field = "rest"; U = 1.72; };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "box"; box = ((0, 0), (0.6, 0.3)); } );
+sph:     { dx = 0.02; c0 = 30.0; };
+output:  { series = 10; snapshots = false; };
+END
+timeout 60 "$b/sph" dam.cfg -o dam --force >log.txt 2>&1 || bad "dam ended with $?"
+holds "$(number dam particles_returned) <= 15" || bad "dam: $(number dam particles_returned) of 450 particles put back"
+
 # a tank with an oblique floor and a wall between two levels, 3 dx thick; delta takes normal flux walls, standard none
 cat >tank.cfg <<'END'
 format = 1;
