@@ -33,6 +33,41 @@ holds "$slope > 0.85 && $slope < 1.15" || bad "wedge: dF/dt is $slope of the sim
 defect=$(number wedge defect)
 holds "$defect < 1e-10" || bad "wedge: momentum off by $defect"
 
+# a closed tank full of water at rest: the background pressure is uniform and moves nothing, so p = -rho g (y - 0.5)
+cat >closed.cfg <<'END'
+format = 1;
+time:    { end = 0.6; };
+fluid:   { rho = 1000.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (1, 1); };
+initial: { level = 0.5; };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+probes:  ( { name = "floor"; at = (0.5, 0.0); }, { name = "top"; at = (0.5, 1.0); } );
+sph:     { dx = 0.05; c0 = 40.0; walls = "nfm"; background = true; };
+output:  { series = 10; snapshots = false; };
+END
+for scheme in riemann delta; do
+    timeout 60 "$b/sph" closed.cfg -o closed --force -p sph.scheme=$scheme >log.txt 2>&1 || bad "closed, $scheme ended with $?"
+    ends=$(awk -F, 'END { print $(NF - 1) / 4905, $NF / -4905 }' closed/series.csv)
+    echo "$ends" | awk '{ exit !($1 > 0.95 && $1 < 1.05 && $2 > 0.95 && $2 < 1.05) }' ||
+        bad "closed, $scheme: pressures at floor and roof are $ends of rho g h"
+    [ "$(number closed particles_returned)" = 0 ] || bad "closed, $scheme: particles put back"
+done
+
+# 2D dam break, 15 particles deep: what the shift gives back to gravity presses nobody through the floor
+cat >dam.cfg <<'END'
+format = 1;
+time:    { end = 1.2; };
+fluid:   { rho = 997.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (1.6, 1.2); };
+initial: { field = "rest"; U = 1.72; };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "box"; box = ((0, 0), (0.6, 0.3)); } );
+sph:     { dx = 0.02; c0 = 30.0; };
+output:  { series = 10; snapshots = false; };
+END
+timeout 60 "$b/sph" dam.cfg -o dam --force >log.txt 2>&1 || bad "dam ended with $?"
+holds "$(number dam particles_returned) <= 15" || bad "dam: $(number dam particles_returned) of 450 particles put back"
+
 # a tank with an oblique floor and a wall between two levels, 3 dx thick; delta takes normal flux walls, standard none
 cat >tank.cfg <<'END'
 format = 1;

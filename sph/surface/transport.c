@@ -9,6 +9,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
+#include "../walls/walls.h"
 #include "surface.h"
 
 /* Takes out the part of delta across the surface [5.14]: nothing may move it but the flow. */
@@ -22,9 +23,11 @@ static void along_surface(const struct surface *f, int i, double *delta, int dim
         delta[a] = f->is[i] == SURFACE_ON ? 0.0 : delta[a] - across * N[a];
 }
 
-/* Speed of a particle that the surface does not see; 0 of others. */
+/* Speed of a particle that neither the surface nor a wall sees; 0 of others. */
 static double inner_speed(const struct sph *s, int i)
 {
+    if (s->walls && s->walls->beside && s->walls->beside[i])
+        return 0.0;
     const double *u = prim_line(&s->p, i) + s->dim;
     double u2 = 0.0;
     for (int a = 0; a < s->dim; a++)
@@ -34,7 +37,9 @@ static double inner_speed(const struct sph *s, int i)
 
 /* Where densities do not know of the shift it lets the level sink, the faster the more moves. What
  * it takes from the potential energy of all is given back by a shift against gravity of those
- * inside, in proportion to their speeds as the shift's own bound is; guards by themselves. */
+ * inside, in proportion to their speeds as the shift's own bound is; guards by themselves. It knows
+ * nothing of walls, and pressed the first row of a dam break through the floor: those whose support
+ * meets a wall take no part. */
 static void make_workless(struct sph *s)
 {
     const int dim = s->dim;

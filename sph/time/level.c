@@ -99,6 +99,7 @@ static void pass(struct sph *s, void (*rows)(struct sph *s), const char *timer, 
 /* What follows the first pass and its halo. */
 static void finish_slopes(struct sph *s)
 {
+    const bool shifts = s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO;
     if (s->surface && !s->surface->known) {
         start(s, "surface");
         surface_detect(s);
@@ -108,6 +109,8 @@ static void finish_slopes(struct sph *s)
         at_walls(s, s->walls->model->slopes);
     if (s->walls || s->surface)
         transport_finish(s);
+    if (s->walls && shifts)
+        at_walls(s, s->walls->model->bound_shifts);
     if (s->surface && s->prm.damper > 0.0 && s->prm.scheme <= SCHEME_RIEMANN)
         surface_calm(s);
 }

@@ -119,6 +119,20 @@ static double crowding(const struct sph *s, const struct nfm *m, const struct wa
     return t->is.W * (m->crowding[k] + (at - k) * (m->crowding[k + 1] - m->crowding[k]));
 }
 
+/* Marks those whose support meets a wall: where no shift may press them against it. */
+static void mark_beside_walls(struct sph *s, const struct wall_list *l)
+{
+    struct walls *w = s->walls;
+    if (s->p.n > w->beside_capacity) {
+        mem_free(w->beside);
+        w->beside_capacity = s->p.n + s->p.n / 8;
+        w->beside = NEW(bool, w->beside_capacity);
+    }
+    memset(w->beside, 0, (size_t)s->p.n * sizeof *w->beside);
+    for (int k = 0; k < l->n; k++)
+        w->beside[l->who[k]] = l->gamma[k] < 1.0;
+}
+
 /* Takes from a shift what presses a particle nearer than dx/4 to a wall against it, by its
  * distance. A row on the wall itself is as good a rest for the crowding vector as one dx/2 before
  * it, whole rows fill the half space either way; but there the least shift leads behind the wall.
@@ -167,6 +181,23 @@ static void add_crowding(const struct sph *s, const struct nfm *m, int k)
         u0[a] = u[a] + shift[a];
 }
 
+/* The last word on shifts where there is a surface: that which keeps gravity workless came later
+ * than what add_crowding does without one. */
+static void bound_shifts(struct sph *s)
+{
+    const struct nfm *m = s->walls->state;
+    const int dim = s->dim;
+    for (int k = 0; s->surface && k < m->list.n; k++) {
+        const double *u = prim_line(&s->p, m->list.who[k]) + dim;
+        double *u0 = slope_line(&s->p, m->list.who[k]) + dim + dim * dim, shift[3];
+        for (int a = 0; a < dim; a++)
+            shift[a] = u0[a] - u[a];
+        shift_before_walls(s, &m->list, k, shift);
+        for (int a = 0; a < dim; a++)
+            u0[a] = u[a] + shift[a];
+    }
+}
+
 static void slopes(struct sph *s)
 {
     struct nfm *m = s->walls->state;
@@ -174,6 +205,8 @@ static void slopes(struct sph *s)
     if (!m->list.measured)
         wall_list_measure(s, &m->list);
     m->list.measured = false; /* the next stage has other places */
+    if (s->surface)
+        mark_beside_walls(s, &m->list);
     for (int k = 0; shifts && k < m->list.n; k++)
         add_crowding(s, m, k);
 }
@@ -189,10 +222,12 @@ struct given {
     double q[3], w, m;
 };
 
-/* Pressure on the wall at e from the particle: state carried there and bounded [4.30-4.32], then
- * the wave that runs to the wall [4.14]. Its part `near' alone: what the carried velocity misses of
- * the wall's is an error of the distance squared, and c times that is a drag (C_D of a cylinder of
- * a/dx = 8 in full, by min(1, (dx/2)^2/e^2), by the square of that: 0.49, 0.32, 0.20). */
+/* Pressure on the wall at e from the particle, with the background pressure as pairs have it: a
+ * uniform pressure pushes nobody only if walls and pairs have the same. State carried there and
+ * bounded [4.30-4.32], then the wave that runs to the wall [4.14]. Its part `near' alone: what the
+ * carried velocity misses of the wall's is an error of the distance squared, and c times that is a
+ * drag (C_D of a cylinder of a/dx = 8 in full, by min(1, (dx/2)^2/e^2), by the square of that:
+ * 0.49, 0.32, 0.20). */
 INLINE double wall_pressure(const struct sph *s, const struct seen *i, const double *e, double near,
                             const double *uw, const double *n, const int dim)
 {
@@ -208,7 +243,7 @@ INLINE double wall_pressure(const struct sph *s, const struct seen *i, const dou
         const double q = fmax(-most, fmin(rho * (u - uw[a]), most));
         un += q / rho * n[a];
     }
-    return eos_p(rho, s->rho0, s->c0, s->gamma) +
+    return eos_p(rho, s->rho0, s->c0, s->gamma) + s->background +
            near * rho * eos_c(rho, s->rho0, s->c0, s->gamma) * un;
 }
 
@@ -332,7 +367,7 @@ INLINE struct seen look(const struct sph *s, int i, const int dim)
                          .grho = g,
                          .gu = g + dim,
                          .rho = rho,
-                         .p = eos_p(rho, s->rho0, s->c0, s->gamma),
+                         .p = eos_p(rho, s->rho0, s->c0, s->gamma) + s->background,
                          .c = eos_c(rho, s->rho0, s->c0, s->gamma),
                          .w = q[at_volume(dim)],
                          .damped = is_riemann(s) ? damper * divergence : 0.0};
@@ -543,6 +578,7 @@ const struct wall_model wall_nfm = {.name = "normal_flux_walls",
                                     .destroy = nfm_destroy,
                                     .list = list,
                                     .slopes = slopes,
+                                    .bound_shifts = bound_shifts,
                                     .rates = rates,
                                     .moments = moments,
                                     .gammas = gammas,

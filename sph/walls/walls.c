@@ -540,6 +540,7 @@ void walls_free(struct walls **w)
         body_destroy((*w)->bodies + k);
     }
     wall_meshes_free(*w);
+    mem_free((*w)->beside);
     mem_free((*w)->segments);
     mem_free((*w)->start);
     mem_free(*w);

@@ -53,6 +53,7 @@ struct wall_model {
     void (*list)(struct sph *s);   /* once a step, after the list of pairs */
     void (*lines)(struct sph *s);  /* each stage: lines of the ghosts, before the first pass */
     void (*slopes)(struct sph *s); /* each stage: after the first pass, before its halo */
+    void (*bound_shifts)(struct sph *s); /* the same, after transport_finish */
     void (*ghost_slopes)(struct sph *s); /* after the halo of slopes */
     void (*rates)(struct sph *s);        /* after the second pass */
     /* Adds wall terms to M[n][dim^2] and sum w gradW, g[n][dim], of the locals and divides both by
@@ -94,7 +95,9 @@ struct walls {
     bool placed;   /* all have been moved to their places once */
     double t;      /* s: of `segments' */
     const struct wall_model *model;
-    void *state;       /* of the model */
+    void *state;  /* of the model */
+    bool *beside; /* [n] supports of the locals that meet a wall; NULL: the model does not tell */
+    int beside_capacity;
     double speed;      /* m/s: largest of a body in the next step, a tenth more */
     double dt_contact; /* s: step that contact is made for */
     double approach[BODIES_MAX][BODIES_MAX + 1]; /* m/s: at the first touch of a pair, last: walls
