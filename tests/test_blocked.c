@@ -291,6 +291,69 @@ static void stream_loses_energy(void **state)
     }
 }
 
+/* Discharge through the gap open[0] < y < open[1] of the section x = 1/2. */
+static double discharge(const struct fv *s, const double *open)
+{
+    const struct block *b = &s->b;
+    double sum = 0.0, area = b->dim == 3 ? b->h[1] * b->h[2] : b->h[1];
+    const int i = b->cells[0] / 2 - b->lo[0];
+    for (int k = 0; k < b->n[2] && i >= 0 && i < b->n[0]; k++)
+        for (int j = 0; j < b->n[1]; j++) {
+            const double y = b->origin[1] + (b->lo[1] + j + 0.5) * b->h[1];
+            sum += y > open[0] && y < open[1] ? area * s->U[0][block_at(b, i, j, k)] : 0.0;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
+    return sum;
+}
+
+/* An inflow that starts at once through an orifice: the flow of the start and that of each step
+ * carry the inflow's discharge through it, at no more than some times its mean speed there. */
+static void orifice_starts(void **state)
+{
+    static const struct {
+        const char *cells, *dim, *by;
+        double u, open[2], n; /* m/s; m of y; share of the section */
+    } of[] = {
+        {"fv.cells=(40,40)", "domain.dim=2", "fv.integrator=\"rk3\"", 0.1, {0.45, 0.55}, 0.1},
+        {"fv.cells=(40,40)", "domain.dim=2", "fv.integrator=\"rk3\"", 2.0, {0.0, 0.2}, 0.2},
+        {"fv.cells=(40,40)", "domain.dim=2", "fv.integrator=\"bdf2\"", 0.5, {0.4, 0.6}, 0.2},
+        {"fv.cells=(20,20,8)", "domain.dim=3", "fv.integrator=\"rk3\"", 0.3, {0.4, 0.6}, 0.2}};
+    (void)state;
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_WORLD,
+                    (const char *const[]){"initial.field=\"rest\"", CLOSED, "fluid.nu=1e-3",
+                                          "fv.tol_pressure=1e-6", of[k].cells, of[k].dim, of[k].by,
+                                          NULL});
+        struct scene *scene = &c.run.scene;
+        for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * scene->domain.dim; side++)
+            scene->walls[scene->nwalls++] =
+                (struct scene_wall){.side = side,
+                                    .kind = side == SIDE_X_MIN   ? WALL_INFLOW
+                                            : side == SIDE_X_MAX ? WALL_OUTFLOW
+                                                                 : WALL_SLIP,
+                                    .velocity = {side == SIDE_X_MIN ? of[k].u : 0.0, 0.0, 0.0}};
+        if (of[k].open[0] > 0.0)
+            BOX("lower", WALL_SLIP, 0.45, 0, 0, 0.55, of[k].open[0], 1);
+        BOX("upper", WALL_SLIP, 0.45, of[k].open[1], 0, 0.55, 1, 1);
+        memcpy(blocked_given, boxes, sizeof boxes);
+        blocked_given_count = nboxes;
+        nboxes = 0;
+        struct fv *s = fv_case_start(&c, NULL);
+        const double start = discharge(s, of[k].open);
+        assert_close(start, of[k].u, 1e-5 * of[k].u);
+        for (int n = 0; n < 3; n++) {
+            assert_true(fv_case_run(&c, 5, 1.0));
+            assert_close(discharge(s, of[k].open), of[k].u, 1e-3 * of[k].u);
+            assert_true(s->umax[0] > 0.9 * of[k].u / of[k].n &&
+                        s->umax[0] < 4.0 * of[k].u / of[k].n);
+        }
+        print_message("orifice of %g: discharge %.8g of %g m^2/s, fastest %.3g of %g m/s\n",
+                      of[k].n, start, of[k].u, s->umax[0], of[k].u / of[k].n);
+        end(&c);
+    }
+}
+
 static void sums_on(MPI_Comm comm, int dim, double sums[6])
 {
     struct fv_case c;
@@ -332,15 +395,12 @@ static void ranks_agree(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(still_water_stays),
-                                       cmocka_unit_test(boxes_are_walls),
-                                       cmocka_unit_test(thin_wall_parts_basins),
-                                       cmocka_unit_test(shafts_have_their_own_levels),
-                                       cmocka_unit_test(gauges_read_over_boxes),
-                                       cmocka_unit_test(duct_has_its_parabola),
-                                       cmocka_unit_test(stream_loses_energy),
-                                       cmocka_unit_test(bar_and_walls_take_the_weight),
-                                       cmocka_unit_test(ranks_agree)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(still_water_stays),      cmocka_unit_test(boxes_are_walls),
+        cmocka_unit_test(thin_wall_parts_basins), cmocka_unit_test(shafts_have_their_own_levels),
+        cmocka_unit_test(gauges_read_over_boxes), cmocka_unit_test(duct_has_its_parabola),
+        cmocka_unit_test(stream_loses_energy),    cmocka_unit_test(bar_and_walls_take_the_weight),
+        cmocka_unit_test(orifice_starts),         cmocka_unit_test(ranks_agree)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

@@ -236,6 +236,30 @@ static void viscous_starts_hold(void **state)
         assert_close(energy[k], energy[0], 0.01 * energy[0]);
 }
 
+/* Pressures on both ends of a channel a thousand times as long as it is high: the step knows how
+ * far they are apart, not how near the walls, and the flow is Poiseuille's, u = dp H^2/(8 mu L). */
+static void thin_channels_take_few_steps(void **state)
+{
+    struct fv_case c;
+    double most = 0.0;
+    (void)state;
+    fv_case_set(&c, MPI_COMM_SELF,
+                (const char *const[]){"initial.field=\"rest\"", CLOSED, "domain.max=(1,0.001)",
+                                      "fluid.nu=1e-6", "fv.cells=(16,16)", "time.end=3", NULL});
+    wall_add(&c, SIDE_Y_MIN, WALL_NO_SLIP, 0.0);
+    wall_add(&c, SIDE_Y_MAX, WALL_NO_SLIP, 0.0);
+    wall_add(&c, SIDE_X_MIN, WALL_OUTFLOW, 0.0)->pressure = 8.0 * c.run.scene.fluid.rho;
+    wall_add(&c, SIDE_X_MAX, WALL_OUTFLOW, 0.0);
+    struct fv *s = fv_case_start(&c, NULL);
+    assert_true(fv_case_run(&c, 1000, 3.0));
+    assert_close(s->t, 3.0, 1e-12);
+    for (int j = 0; j < s->b.n[1]; j++)
+        most = fmax(most, s->u[0][block_at(&s->b, 8, j, 0)]);
+    print_message("thin channel: %.6g of 1 m/s\n", most);
+    assert_close(most, 1.0, 0.01); /* average of a cell beside the axis: 1 - 0.0052 */
+    fv_free(&c.s);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(rk3_holds_where_nothing_is_resolved),
@@ -247,6 +271,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(convective_outflow_holds),
                                        cmocka_unit_test(viscous_surfaces_hold),
                                        cmocka_unit_test(viscous_starts_hold),
+                                       cmocka_unit_test(thin_channels_take_few_steps),
                                        cmocka_unit_test(unit_of_errors_sets_no_step)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,6 +14,7 @@
 #include "../../common/base/log.h"
 #include "../../common/scene/scene_speed.h"
 #include "../boundary/bc.h"
+#include "../boundary/blocked.h"
 #include "../boundary/still.h"
 #include "../surface/levelset.h"
 
@@ -159,17 +160,42 @@ static double imposed_rate(const struct scene *s, const double *h)
     return most;
 }
 
+static const struct scene_wall *opening_of(const struct scene *s, int side)
+{
+    const struct scene_wall *w = scene_wall_of(s, (enum scene_side)side);
+    return w && w->kind == WALL_OUTFLOW && !w->carried ? w : NULL;
+}
+
+/* Whether pressures are given on opposite sides alone, of which a straight channel between them
+ * makes a gradient along the axis that joins them. */
+static bool openings_face_each_other(const struct scene *s)
+{
+    int axes = 0;
+    for (int a = 0; a < s->domain.dim; a++)
+        axes += opening_of(s, SIDE_X_MIN + 2 * a) || opening_of(s, SIDE_X_MIN + 2 * a + 1);
+    return axes == 1 && blocked_count() == 0;
+}
+
+/* Gradient of pressure over rho between openings, m/s^2: along an axis over the distance of its two
+ * sides; round a corner or boxes any path may be the steepest. */
+static double gradient_along(const struct scene *s, int a)
+{
+    const struct scene_wall *lower = opening_of(s, SIDE_X_MIN + 2 * a),
+                            *upper = opening_of(s, SIDE_X_MIN + 2 * a + 1);
+    const double L = s->domain.max[a] - s->domain.min[a];
+    if (!openings_face_each_other(s))
+        return limits_pressure_difference(s) / L;
+    return lower && upper ? fabs(upper->pressure - lower->pressure) / (s->fluid.rho * L) : 0.0;
+}
+
 /* What forces add to that in a second, 1/s^2: gravity where it moves the fluid, differences of
  * pressure between sides. */
 static double rise_of(const struct scene *s, bool surface, const double *h)
 {
     double drive[3], still[3], level, sum = 0.0;
     still_split(s, drive, still, &level);
-    for (int a = 0; a < s->domain.dim; a++) {
-        const double L = s->domain.max[a] - s->domain.min[a];
-        sum += fabs(surface ? s->fluid.gravity[a] : drive[a]) / h[a] +
-               limits_pressure_difference(s) / (L * h[a]);
-    }
+    for (int a = 0; a < s->domain.dim; a++)
+        sum += (fabs(surface ? s->fluid.gravity[a] : drive[a]) + gradient_along(s, a)) / h[a];
     return sum;
 }
 
