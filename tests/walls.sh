@@ -33,6 +33,32 @@ holds "$slope > 0.85 && $slope < 1.15" || bad "wedge: dF/dt is $slope of the sim
 defect=$(number wedge defect)
 holds "$defect < 1e-10" || bad "wedge: momentum off by $defect"
 
+# a block at rest near a floor, beside a side and between both: Archimedes on each of its faces, 392.4 N/m, and the
+# balance of fluid, block and walls
+sum() { awk -v x="$1" 'BEGIN { print x + 0.2 }'; }
+gap() { # NAME X Y
+    cat >gap.cfg <<END
+format = 1;
+time:    { end = 0.4; };
+fluid:   { rho = 1000.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (1.0, 0.6); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "below"; level = 0.5; } );
+bodies:  ( { name = "b"; points = (($2, $3), ($2, $(sum "$3")), ($(sum "$2"), $(sum "$3")), ($(sum "$2"), $3)); } );
+sph:     { dx = 0.025; };
+output:  { series = 10; snapshots = false; };
+END
+    timeout 60 "$b/sph" gap.cfg -o gap --force >log.txt 2>&1 || bad "gap, $1: ended with $?"
+    up=$(number gap y) across=$(number gap x)
+    holds "$up > 380.6 && $up < 404.2" || bad "gap, $1: lift $up, Archimedes 392.4 N/m within 3 %"
+    holds "$across < 20 && $across > -20" || bad "gap, $1: pushed sideways by $across N/m"
+    holds "$(number gap defect) < 1e-10" || bad "gap, $1: momentum off by $(number gap defect)"
+}
+gap "1.6 dx over the floor" 0.4 0.04
+gap "2 dx over the floor" 0.4 0.05
+gap "1.5 dx from a side" 0.0375 0.15
+gap "2.5 dx from floor and side" 0.0625 0.0625
+
 # a closed tank full of water at rest: the background pressure is uniform and moves nothing, so p = -rho g (y - 0.5)
 cat >closed.cfg <<'END'
 format = 1;
