@@ -94,6 +94,24 @@ END
 timeout 60 "$b/sph" dam.cfg -o dam --force >log.txt 2>&1 || bad "dam ended with $?"
 holds "$(number dam particles_returned) <= 15" || bad "dam: $(number dam particles_returned) of 450 particles put back"
 
+# a particle and a layer of them under a roof, in air: walls hold nothing up, all falls with g
+for left in 0 -0.2; do
+    cat >roof.cfg <<END
+format = 1;
+time:    { end = 0.3; };
+fluid:   { rho = 1000.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (-0.5, 0); max = (0.5, 1.0); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+shapes:  ( { form = "box"; box = (($left, 0.98), (0.02, 1.0)); } );
+sph:     { dx = 0.02; };
+output:  { series = 5; snapshots = false; };
+END
+    timeout 20 "$b/sph" roof.cfg -o roof --force >log.txt 2>&1 || bad "roof ended with $?"
+    fall=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i ~ /momentum y/) k = i; if ($i ~ /^mass/) m = i }; next }
+        END { print -$k / ($m * 9.81 * $1) }' roof/series.csv)
+    holds "$fall > 0.999 && $fall < 1.001" || bad "under a roof water falls with $fall g"
+done
+
 # a tank with an oblique floor and a wall between two levels, 3 dx thick; delta takes normal flux walls, standard none
 cat >tank.cfg <<'END'
 format = 1;

@@ -215,6 +215,7 @@ static void slopes(struct sph *s)
 struct seen {
     const double *x, *u, *u0, *grho, *gu;
     double rho, p, c, w, damped;
+    bool in_air; /* a layer one particle thick, or less */
 };
 
 /* What the wall gives to a particle, over its volume. */
@@ -326,7 +327,11 @@ INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const 
     }
     const double m = ale ? i->rho * drift : 0.0;
     const double near = wave * share_of_wave(s, t);
-    const double P = i->p + wall_pressure(s, i, t->is.e, near, uw, t->n, dim) - 2.0 * i->damped;
+    double P = i->p + wall_pressure(s, i, t->is.e, near, uw, t->n, dim) - 2.0 * i->damped;
+    if (i->in_air) { /* which walls do not hold: a drop under a roof falls, air comes between */
+        P = fmax(P, 0.0);
+        across = i->p > 0.0 ? across : fmin(across, 0.0);
+    }
     struct given to = {.w = W * across, .m = -W * m};
     for (int a = 0; a < dim; a++)
         to.q[a] = -W * (m * i->u[a] + P * t->n[a]);
@@ -354,6 +359,15 @@ INLINE struct given rim_flux(const struct sph *s, const double *rim, const struc
     return to;
 }
 
+/* Whether there are too few neighbours for gradients: none are made then. */
+INLINE bool is_in_air(const struct sph *s, const double *slope, const int dim)
+{
+    bool none = s->surface != NULL;
+    for (int a = 0; a < dim + dim * dim && none; a++)
+        none = slope[a] == 0.0;
+    return none;
+}
+
 INLINE struct seen look(const struct sph *s, int i, const int dim)
 {
     const double *q = prim_line(&s->p, i), *g = slope_line(&s->p, i), rho = q[at_rho(dim)];
@@ -370,7 +384,8 @@ INLINE struct seen look(const struct sph *s, int i, const int dim)
                          .p = eos_p(rho, s->rho0, s->c0, s->gamma) + s->background,
                          .c = eos_c(rho, s->rho0, s->c0, s->gamma),
                          .w = q[at_volume(dim)],
-                         .damped = is_riemann(s) ? damper * divergence : 0.0};
+                         .damped = is_riemann(s) ? damper * divergence : 0.0,
+                         .in_air = is_in_air(s, g, dim)};
 }
 
 static bool takes_along(const struct sph *s)
