@@ -21,6 +21,7 @@
 #include "pairs/vec.h"
 #include "parallel/domain.h"
 #include "refinement/apr_params.h"
+#include "refinement/refinement.h"
 #include "refinement/regions_check.h"
 #include "sph_params.h"
 

@@ -207,19 +207,9 @@ void integrate_gradients(struct sph *s);
 /* First time step, skin and extremes from the state at t = 0. */
 void integrate_start(struct sph *s);
 
-/* ", level n" of a scene that is refined, "" of others; valid until the next call. */
-const char *sph_level_name(const struct sph *s);
-
 /* sph_io.c, sph_errors.c */
-enum { SUM_MASS, SUM_VOLUME, SUM_KINETIC, SUM_ENERGY, SUM_MOMENTUM, SUM_COUNT = SUM_MOMENTUM + 3 };
-/* Sums over all particles of all ranks: kg, m^dim, J, J (kinetic, elastic, potential), kg m/s. */
-void sph_sums(const struct sph *s, double sums[SUM_COUNT]);
-/* J of one row of the state: all kinds, and the kinetic one. */
-double sph_energy(const struct sph *s, const double *y, double *kinetic);
 /* Whether the scene has an exact solution at all times. */
 bool sph_has_exact(const struct run *r);
-/* Curl of u of a local particle, 1/s; needs slope of the present state. In 2D w[2] only. */
-void sph_vorticity(const struct sph *s, int i, double w[3]);
 /* Names of the columns that sph_row fills for this scene; returns their number, at most
  * SPH_COLUMNS. */
 enum { SPH_COLUMNS = 56 + PROBES_MAX + 32 * BODIES_MAX };

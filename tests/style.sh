@@ -22,7 +22,7 @@ found=$(find sph fv coupler common -name '*.[ch]' | sed 's,.*/,,' | sort | uniq 
 [ -z "$found" ] || bad "file names twice in the tree: $found"
 # Folders of a program from the lowest layer to the highest; "." is its state, the headers beside the main program
 layers_fv="grid . boundary surface operators poisson watch time coupling output case"
-layers_sph=". rigid particles pairs parallel walls surface open_boundaries bodies refinement time coupling watch output case"
+layers_sph=". rigid particles pairs parallel walls surface open_boundaries bodies refinement watch time coupling output case"
 # What still runs upward or in a circle: the state of sph holds particles and watches by value; walls and
 # bodies would have to be split from what they fill, push and check
 known="sph/sph.h sph/particles/particles.h

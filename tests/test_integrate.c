@@ -7,6 +7,7 @@
 #include "../common/files/h5.h"
 #include "../sph/pairs/neighbours.h"
 #include "../sph/pairs/scheme.h"
+#include "../sph/particles/state_sums.h"
 #include "../sph/time/extremes.h"
 #include "../sph/time/runge_kutta.h"
 #include "sph_case.h"

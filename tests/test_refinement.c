@@ -2,6 +2,7 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
+#include "../sph/particles/state_sums.h"
 #include "../sph/refinement/apr_params.h"
 #include "../sph/refinement/guards.h"
 #include "../sph/refinement/refinement.h"

@@ -4,6 +4,7 @@
 #include "test.h"
 
 #include "../common/scene/exact.h"
+#include "../sph/particles/state_sums.h"
 #include "../sph/refinement/apr_params.h"
 #include "../sph/walls/walls.h"
 #include "sph_case.h"

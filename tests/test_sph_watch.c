@@ -5,6 +5,7 @@
 #include "test.h"
 
 #include "../common/files/h5.h"
+#include "../sph/particles/state_sums.h"
 #include "sph_case.h"
 
 static double gain_of(const struct sph_case *c) { return c->s->watch.of[SPH_WATCH_ENERGY].worst; }

@@ -5,6 +5,7 @@
 
 #include "../common/files/h5.h"
 #include "../sph/pairs/neighbours.h"
+#include "../sph/particles/state_sums.h"
 #include "../sph/surface/surface.h"
 #include "../sph/walls/facet.h"
 #include "../sph/walls/forces.h"

@@ -7,6 +7,7 @@
 #include "../sph/output/probes.h"
 #include "../sph/pairs/kernel.h"
 #include "../sph/pairs/neighbours.h"
+#include "../sph/particles/state_sums.h"
 #include "../sph/surface/surface.h"
 #include "../sph/walls/wall_moments.h"
 #include "../sph/walls/walls.h"

@@ -16,6 +16,7 @@
 #include "../pairs/neighbours.h"
 #include "../pairs/scheme.h"
 #include "../parallel/domain.h"
+#include "../particles/state_sums.h"
 #include "../refinement/apr_params.h"
 #include "../refinement/criteria.h"
 #include "../refinement/guards.h"
@@ -140,13 +141,6 @@ static bool is_dry(const struct sph *s)
     int64_t n = s->p.n;
     MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT64_T, MPI_SUM, s->run->comm);
     return n == 0 && !s->zones;
-}
-
-const char *sph_level_name(const struct sph *s)
-{
-    static char text[32];
-    snprintf(text, sizeof text, ", level %d", s->level);
-    return s->guards ? text : "";
 }
 
 struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f)

@@ -15,6 +15,7 @@
 #include "../pairs/neighbours.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
+#include "../particles/state_sums.h"
 #include "../refinement/apr_params.h"
 #include "../refinement/refinement.h"
 #include "../sph_params.h"
@@ -27,46 +28,7 @@ enum { NORM_VELOCITY, NORM_PRESSURE, NORM_VORTICITY, NORM_WALL, NORMS };
 
 static const char *const norm_names[NORM_WALL] = {"velocity", "pressure", "vorticity"};
 
-/* Those of one level. */
-static void add_sums(const struct sph *s, double sums[SUM_COUNT])
-{
-    const int dim = s->dim;
-    for (int i = 0; i < s->p.n; i++) {
-        const double *y = state_row(&s->p, s->p.y, i), w = y[at_volume(dim)], m = y[at_mass(dim)];
-        double kinetic;
-        if (particles_is_guard(&s->p, i))
-            continue;
-        sums[SUM_ENERGY] += sph_energy(s, y, &kinetic);
-        for (int a = 0; a < dim; a++)
-            sums[SUM_MOMENTUM + a] += y[dim + a];
-        sums[SUM_MASS] += m;
-        sums[SUM_VOLUME] += w;
-        sums[SUM_KINETIC] += kinetic;
-    }
-}
-
-void sph_sums(const struct sph *s, double sums[SUM_COUNT])
-{
-    for (int k = 0; k < SUM_COUNT; k++)
-        sums[k] = 0.0;
-    for (const struct sph *q = s; q; q = q->finer)
-        add_sums(q, sums);
-    if (s->finer)
-        sums[SUM_MASS] = s->mass;
-    MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, s->run->comm);
-}
-
 bool sph_has_exact(const struct run *r) { return exact_at_all_times(&r->scene); }
-
-/* dv/dx - du/dy; 3D: all components. From the slopes: grad u [a][b] = du_a/dx_b. */
-void sph_vorticity(const struct sph *s, int i, double w[3])
-{
-    const int dim = s->dim;
-    const double *g = slope_line(&s->p, i) + dim;
-    w[0] = dim == 3 ? g[3 * 2 + 1] - g[3 * 1 + 2] : 0.0;
-    w[1] = dim == 3 ? g[3 * 0 + 2] - g[3 * 2 + 0] : 0.0;
-    w[2] = g[dim * 1 + 0] - g[dim * 0 + 1];
-}
 
 static bool cut_by_wall(const struct sph *s, const double *x)
 {

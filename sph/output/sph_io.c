@@ -17,6 +17,7 @@
 #include "../open_boundaries/zone_steps.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
+#include "../particles/state_sums.h"
 #include "../refinement/guards.h"
 #include "../refinement/mixed.h"
 #include "../refinement/refinement.h"

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "../surface/surface.h"
+#include "eigenvalue.h"
 #include "kernel.h"
 #include "neighbours.h"
 #include "vec.h"
@@ -144,7 +145,7 @@ static double trusted(const double *M, const int dim)
         return 0.0;
     double all[9];
     unpack(M, all, dim);
-    const double lambda = surface_eigenvalue(all, dim);
+    const double lambda = eigenvalue_smallest(all, dim);
     return (lambda - least) / (enough - least);
 }
 

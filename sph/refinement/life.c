@@ -8,10 +8,12 @@
 #include "refinement.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../../common/base/log.h"
 #include "../../common/base/mem.h"
+#include "../particles/state_sums.h"
 #include "../walls/walls.h"
 
 static const double hysteresis = 0.5;                   /* coarser dx */
@@ -423,4 +425,11 @@ void refinement_repay(struct sph *s)
                 y[k] *= 1.0 - part;
         }
     book_energy(s, -part * energy);
+}
+
+const char *sph_level_name(const struct sph *s)
+{
+    static char text[32];
+    snprintf(text, sizeof text, ", level %d", s->level);
+    return s->guards ? text : "";
 }

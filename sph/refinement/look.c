@@ -8,6 +8,7 @@
 #include "../pairs/neighbours.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
+#include "../particles/state_sums.h"
 #include "../surface/surface.h"
 #include "../walls/walls.h"
 #include "criteria.h"

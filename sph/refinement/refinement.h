@@ -67,4 +67,7 @@ void refinement_spread_mass(struct sph *s, double gained);
 
 void refinement_free(struct sph *s);
 
+/* life.c: ", level n" of a scene that is refined, "" of others; valid until the next call. */
+const char *sph_level_name(const struct sph *s);
+
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../../common/base/mem.h"
+#include "../pairs/eigenvalue.h"
 #include "../pairs/kernel.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/vec.h"
@@ -49,28 +50,6 @@ void surface_room(struct surface *f, int n, int dim)
     f->capacity = more;
 }
 
-double surface_eigenvalue(const double *M, int dim)
-{
-    if (dim == 2) {
-        const double mean = 0.5 * (M[0] + M[3]), half = 0.5 * (M[0] - M[3]);
-        const double off = 0.5 * (M[1] + M[2]);
-        return mean - sqrt(half * half + off * off);
-    }
-    /* Trigonometric form for symmetric matrices of three rows. */
-    const double a = M[0], b = M[4], c = M[8];
-    const double d = 0.5 * (M[1] + M[3]), e = 0.5 * (M[5] + M[7]), f = 0.5 * (M[2] + M[6]);
-    const double q = (a + b + c) / 3.0, off = d * d + e * e + f * f;
-    const double p2 = ((a - q) * (a - q) + (b - q) * (b - q) + (c - q) * (c - q) + 2.0 * off) / 6.0;
-    if (p2 <= 1e-28)
-        return q;
-    const double p = sqrt(p2), A = (a - q) / p, B = (b - q) / p, C = (c - q) / p;
-    const double D = d / p, E = e / p, F = f / p;
-    const double det = A * (B * C - E * E) - D * (D * C - E * F) + F * (D * E - B * F);
-    const double half = 0.5 * det < -1.0 ? -1.0 : 0.5 * det > 1.0 ? 1.0 : 0.5 * det;
-    const double phi = acos(half) / 3.0;
-    return q + 2.0 * p * cos(phi + 2.0 * M_PI / 3.0);
-}
-
 /* sum w gradW of a particle. */
 INLINE void add_crowding(const struct sph *s, int i, double *g, const int dim)
 {
@@ -107,9 +86,9 @@ static void moments(struct sph *s, struct surface *f)
         double *M = f->M + (size_t)dim * dim * i;
         if (s->list->whole[i])
             memset(M, 0, (size_t)dim * dim * sizeof *M);
-        else if (surface_eigenvalue(M, dim) < inside && dim == 2)
+        else if (eigenvalue_smallest(M, dim) < inside && dim == 2)
             add_crowding(s, i, f->g + (size_t)2 * i, 2);
-        else if (surface_eigenvalue(M, dim) < inside)
+        else if (eigenvalue_smallest(M, dim) < inside)
             add_crowding(s, i, f->g + (size_t)3 * i, 3);
     }
     if (s->walls && s->walls->model->moments)
@@ -175,7 +154,7 @@ static void classify(struct sph *s, struct surface *f, int i)
     double *N = f->normal + (size_t)dim * i;
     f->is[i] = SURFACE_INNER;
     memset(N, 0, (size_t)dim * sizeof *N);
-    f->lambda[i] = s->list->whole[i] ? 1.0 : surface_eigenvalue(M, dim);
+    f->lambda[i] = s->list->whole[i] ? 1.0 : eigenvalue_smallest(M, dim);
     if (f->lambda[i] >= inside)
         return;
     const bool has_normal = find_normal(M, f->g + (size_t)dim * i, N, dim);

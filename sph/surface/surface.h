@@ -29,8 +29,6 @@ void surface_detect(struct sph *s);
 /* Takes the divergence out of the gradients of u as far as the support lacks neighbours: lambda
  * from 1 (none of it) to 0.75 (all). For the damper. */
 void surface_calm(struct sph *s);
-/* Smallest eigenvalue of the symmetric part of M[dim][dim]. */
-double surface_eigenvalue(const double *M, int dim);
 
 /* transport.c: the last word on u0 = u + delta at every stage, after wall terms: nothing on a
  * surface, along it near it, and the largest size [2.113]. */

@@ -6,6 +6,7 @@
 
 #include "../../common/base/mem.h"
 #include "../../common/files/h5.h"
+#include "../particles/state_sums.h"
 
 enum { REST = BODIES_MAX, SIDES = BODIES_MAX + 1, PARTS = sizeof(struct force) / sizeof(double) };
 

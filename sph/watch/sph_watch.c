@@ -29,6 +29,7 @@
 #include "../open_boundaries/openings.h"
 #include "../open_boundaries/zones.h"
 #include "../pairs/neighbours.h"
+#include "../particles/state_sums.h"
 #include "../refinement/refinement.h"
 #include "../sph.h"
 #include "../sph_params.h"
@@ -137,28 +138,6 @@ void sph_watch_begin(struct sph *s)
 {
     struct sph_watch *w = &s->watch;
     w->due = s->run->step % SPH_WATCH_EVERY == 0;
-}
-
-/* Elastic energy per mass: integral of p/rho^2 from rho0, with r = rho/rho0. */
-static double elastic(const struct sph *s, double r)
-{
-    const double c2 = s->c0 * s->c0, r2 = r * r;
-    if (s->gamma == 1.0)
-        return c2 * (log(r) + 1.0 / r - 1.0);
-    return c2 / 7.0 * ((r2 * r2 * r2 - 1.0) / 6.0 + 1.0 / r - 1.0);
-}
-
-double sph_energy(const struct sph *s, const double *y, double *kinetic)
-{
-    const int dim = s->dim;
-    const double w = y[at_volume(dim)], m = y[at_mass(dim)], W2 = s->central * s->central;
-    double potential = 0.0;
-    *kinetic = 0.0;
-    for (int a = 0; a < dim; a++) {
-        *kinetic += 0.5 * y[dim + a] * y[dim + a] / m;
-        potential += m * y[a] * (0.5 * W2 * y[a] - (s->periodic[a] ? 0.0 : s->gravity[a]));
-    }
-    return *kinetic + potential + m * elastic(s, m / w / s->rho0);
 }
 
 /* Locals closer than near_pair to another particle; needs the list and lines of this place. */
