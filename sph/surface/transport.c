@@ -23,23 +23,25 @@ static void along_surface(const struct surface *f, int i, double *delta, int dim
         delta[a] = f->is[i] == SURFACE_ON ? 0.0 : delta[a] - across * N[a];
 }
 
-/* Speed of a particle that neither the surface nor a wall sees; 0 of others. */
+/* Speed of a particle that the surface does not see, 0 of others; beside walls of those alone that
+ * are nearly at rest, below 1e-3 c0: a small tank with nearly all of them beside walls else loses
+ * its pressure faster, 15 instead of 10 % at mid-depth after 2000 steps. */
 static double inner_speed(const struct sph *s, int i)
 {
-    if (s->walls && s->walls->beside && s->walls->beside[i])
-        return 0.0;
+    const bool beside = s->walls && s->walls->beside && s->walls->beside[i];
     const double *u = prim_line(&s->p, i) + s->dim;
     double u2 = 0.0;
     for (int a = 0; a < s->dim; a++)
         u2 += u[a] * u[a];
-    return s->surface->is[i] == SURFACE_INNER ? sqrt(u2) : 0.0;
+    const double share = beside ? fmax(0.0, 1.0 - u2 / pow(0.001 * s->c0, 2.0)) : 1.0;
+    return s->surface->is[i] == SURFACE_INNER ? share * sqrt(u2) : 0.0;
 }
 
 /* Where densities do not know of the shift it lets the level sink, the faster the more moves. What
  * it takes from the potential energy of all is given back by a shift against gravity of those
  * inside, in proportion to their speeds as the shift's own bound is; guards by themselves. It knows
  * nothing of walls, and pressed the first row of a dam break through the floor: those whose support
- * meets a wall take no part. */
+ * meets a wall take no part unless they are at rest. */
 static void make_workless(struct sph *s)
 {
     const int dim = s->dim;
