@@ -94,9 +94,10 @@ static struct message *await(struct coupler *c, int peer)
 static void print_problems(const char *text) { log_say("%s\nnothing was started", text); }
 
 /* False: the programs do not fit together; all have been told. */
-static bool meet(struct coupler *c, int faults)
+static bool meet(struct coupler *c, const struct faults *f)
 {
     char text[TEXT] = "", path[1100];
+    const int faults = f->n;
     struct message *m;
     if (c->rank > 0) {
         m = await(c, c->own_peer);
@@ -113,6 +114,7 @@ static bool meet(struct coupler *c, int faults)
         plan_take_meet(c, &c->solver[m->peer], m);
         message_free(&m);
     }
+    plan_say_faults(c, f->text);
     if (!faults)
         plan_check_meet(c, text);
     if (text[0])
@@ -278,7 +280,7 @@ static int couple(struct coupler *c, struct faults *faults)
     signals_note_path(path);
     alive_patience(c->command->patience);
     alive_begin(c->dir, "coupler", c->rank);
-    if (meet(c, faults->n)) { /* solvers have looked into the folder: what is new now is not another
+    if (meet(c, faults)) { /* solvers have looked into the folder: what is new now is not another
                                  run's */
         snprintf(path, sizeof path, "%s/log.txt", c->dir);
         log_file(path);
@@ -306,6 +308,10 @@ static void describe_scene(const struct coupler *c)
     log_say("  sph -> fv  velocity: %s, at the imposed cells of fv",
             k->mapping ? "moving least squares" : "Shepard");
     log_say("  transition %g m, buffer %g m (0: 1.25 R)", k->transition, k->buffer);
+    log_say("a third program may take, at the end of each coupling step:");
+    log_say(
+        "  sph.velocity (m/s), sph.pressure (Pa) of particles of the free zone and the transition");
+    log_say("  fv.velocity (m/s), fv.pressure (Pa) of cells, everywhere but in sph's free zone");
 }
 
 static void describe(const struct coupler *c)

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "../common/base/log.h"
+#include "client/cpl_client.h"
 #include "cpl.h"
 #include "transport/failure.h"
 
@@ -24,7 +25,7 @@ static int refused(struct cpl *c, int code)
         return RUN_DONE;
     if (code != CPL_EINPUT)
         must(c, code);
-    log_say("%s", cpl_strerror(c));
+    log_quiet("%s", cpl_strerror(c)); /* the coupler prints it, once for all */
     return RUN_INPUT;
 }
 
@@ -39,10 +40,14 @@ static int partner_open(MPI_Comm world, const char *name, double deadline, doubl
     return code == CPL_OK ? RUN_DONE : RUN_INPUT;
 }
 
-static int partner_meet(void *ctx, int faults, unsigned long long hash, int64_t window,
-                        const char *dir)
+static int partner_meet(void *ctx, const struct faults *f, bool sound, unsigned long long hash,
+                        int64_t window, const char *dir)
 {
-    return refused(ctx, cpl_meet(ctx, hash, window, faults, dir));
+    struct cpl *c = ctx;
+    c->faults = f->text;
+    const int code = cpl_meet(c, hash, window, f->n > 0 ? f->n : !sound, dir);
+    c->faults = NULL;
+    return refused(c, code);
 }
 
 static int partner_ready(void *ctx, double t, double dt_wish)

@@ -595,5 +595,27 @@ else
     echo "FAIL: accept.what that no series has"
     tail -n 5 out.txt
 fi
+# a coupled job: what all three programs find is printed once; -o is one folder; ranks of a solver alone are one number
+bad() { echo "FAIL: $*"; failed=$((failed + 1)); }
+cat >three.cfg <<'CASE'
+format = 1;
+time:    { end = 1.0; };
+fluid:   { rho = -1.0; nu = 0.01; };
+domain:  { dim = 2; min = (0, 0); max = (1, 1); periodic = (true, true); };
+initial: { field = "taylor_green"; U = 1.0; L = 1.0; };
+sph:     { dx = 0.0125; box = ((0.15, 0.15), (0.85, 0.85)); };
+fv:      { cells = (32, 32); };
+CASE
+for how in "-n 1:1:1" --check; do
+    # shellcheck disable=SC2086
+    ESTRAN_BUILD="$b" "$root/cases/run" three.cfg $how -o three >out.txt 2>&1
+    [ $? = 2 ] && [ "$(grep -c 'fluid.rho: -1 is not allowed' out.txt)" = 1 ] || bad "a fault of three programs, $how: $(cat out.txt)"
+done
+sed 's/rho = -1.0/rho = 1.0/' three.cfg >split.cfg
+timeout -k 1 60 mpirun --quiet --bind-to none --oversubscribe -np 1 "$b/sph" split.cfg -o one : -np 1 "$b/coupler" split.cfg -o two : \
+    -np 1 "$b/fv" split.cfg -o two >out.txt 2>&1
+[ $? = 2 ] && grep -q 'sph writes into one, coupler into two: give all programs the same -o' out.txt || bad "two folders: $(cat out.txt)"
+ESTRAN_BUILD="$b" "$root/cases/run" poiseuille_sph -n 1:1:1 >out.txt 2>&1
+[ $? = 2 ] && grep -q 'is for sph alone, which takes one number, as -n 1' out.txt || bad "three numbers for one program: $(cat out.txt)"
 echo "bad_input: $passed refused as wanted, $failed not"
 [ $failed = 0 ]

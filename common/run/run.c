@@ -129,6 +129,8 @@ static int read_case(struct life *l)
         accept_check(&r->scene, r->case_dir, l->params, &l->faults);
     if (l->faults.n == 0 && l->p->check)
         l->p->check(r, &l->faults);
+    if (r->partner_ctx && !l->line.check) /* the coupler prints what several programs find */
+        return l->faults.n;
     return params_report(&l->faults);
 }
 
@@ -155,8 +157,8 @@ static int meet(struct life *l, int faults)
         return faults ? RUN_INPUT : -1;
     if (!faults && l->p->offer)
         l->p->offer(r);
-    const int code =
-        r->partner->meet(r->partner_ctx, faults, params_hash(l->params), l->window, r->dir);
+    const int code = r->partner->meet(r->partner_ctx, &l->faults, !faults, params_hash(l->params),
+                                      l->window, r->dir);
     return code ? code : -1;
 }
 

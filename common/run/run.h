@@ -119,8 +119,10 @@ struct partner {
     int (*open)(MPI_Comm world, const char *name, double deadline, double patience, MPI_Comm *comm,
                 void **ctx);
     /* After reading the case and program.offer: all compare the case's hash and their faults.
+     * The lines of f are printed once for all programs. sound: none, and the folder is there.
      * Non-zero: the code to exit with. window: of the restart file, -1 for a fresh start. */
-    int (*meet)(void *ctx, int faults, unsigned long long hash, int64_t window, const char *dir);
+    int (*meet)(void *ctx, const struct faults *f, bool sound, unsigned long long hash,
+                int64_t window, const char *dir);
     /* After create (which declares sets and fields): the plan is checked. dt_wish: longest window.
      */
     int (*ready)(void *ctx, double t, double dt_wish);

@@ -189,7 +189,7 @@ static int verdict(struct cpl *c, struct message *m)
 int cpl_meet(struct cpl *c, uint64_t case_hash, int64_t restart_window, int faults, const char *dir)
 {
     struct pack p;
-    char path[1040];
+    char path[1040], lines[CPL_TEXT];
     if (c->state != OPENED)
         return client_out_of_order(c, "cpl_meet", "once, after cpl_open");
     if (snprintf(path, sizeof path, "%s/.death", dir) >= (int)sizeof path)
@@ -202,6 +202,9 @@ int cpl_meet(struct cpl *c, uint64_t case_hash, int64_t restart_window, int faul
         pack_int(&p, faults);
         pack_int(&p, c->nzones);
         pack_bytes(&p, c->zone, (size_t)c->nzones * sizeof *c->zone);
+        snprintf(lines, sizeof lines, "%s", c->faults ? c->faults : "");
+        pack_text(&p, lines);
+        pack_text(&p, dir);
         wire_send(&c->wire, 0, 0, &p);
     }
     struct message *m = client_await(c, WIRE_MET, -1, 0, 0, "the other programs' cases");

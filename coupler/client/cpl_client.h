@@ -71,6 +71,7 @@ struct cpl {
     enum client_state state;
     int error;           /* CPL_EPARTNER stays */
     char text[CPL_TEXT]; /* of the last error */
+    const char *faults;  /* lines for the coupler to print, borrowed until cpl_meet; NULL: none */
     struct wire wire;
     struct message *inbox; /* received, not yet asked for */
     int nzones;

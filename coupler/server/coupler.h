@@ -35,6 +35,7 @@ struct solver {
     int64_t restart_window;
     uint64_t hash;
     int faults, nzones;
+    char fault_lines[TEXT], dir[1024]; /* what is wrong with its input; -o */
     struct named_box {
         char name[CPL_NAME];
         double lo[3], hi[3];
@@ -142,6 +143,9 @@ void problem(char *text, const char *fmt, ...) __attribute__((format(printf, 2, 
 /* plan.c: what the programs have declared. */
 void plan_take_meet(struct coupler *c, struct solver *s, struct message *m);
 void plan_take_ready(struct coupler *c, struct solver *s, struct message *m);
+/* Prints what the solvers found wrong in their input, each line once, but for those of own (NULL:
+ * none), printed already. */
+void plan_say_faults(const struct coupler *c, const char *own);
 void plan_check_meet(struct coupler *c, char *text);
 /* Makes the links; the problems go to text. The same on all ranks. */
 void plan_make_links(struct coupler *c, char *text);

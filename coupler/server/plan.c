@@ -38,6 +38,8 @@ void plan_take_meet(struct coupler *c, struct solver *s, struct message *m)
     s->nzones = (int)take_int(&c->wire, m);
     require(s->nzones >= 0 && s->nzones <= (int)(sizeof s->zone / sizeof s->zone[0]));
     take_bytes(&c->wire, m, s->zone, (size_t)s->nzones * sizeof *s->zone);
+    take_text(&c->wire, m, s->fault_lines, sizeof s->fault_lines);
+    take_text(&c->wire, m, s->dir, sizeof s->dir);
     s->met = true;
 }
 
@@ -76,6 +78,37 @@ static void check_programs(const struct coupler *c, char *text)
                       "(coupler.programs: others in its place)");
 }
 
+/* Whether one of the n lines is in the text. */
+static bool holds_line(const char *text, const char *line, size_t n)
+{
+    for (const char *at = text; at && *at; at = strchr(at, '\n'), at += at != NULL)
+        if (strncmp(at, line, n) == 0)
+            return true;
+    return false;
+}
+
+void plan_say_faults(const struct coupler *c, const char *own)
+{
+    for (int i = 0; i < c->nsolvers; i++)
+        for (const char *at = c->solver[i].fault_lines; *at;) {
+            const size_t n = strcspn(at, "\n") + 1;
+            bool said = own && holds_line(own, at, n);
+            for (int j = 0; j < i; j++)
+                said = said || holds_line(c->solver[j].fault_lines, at, n);
+            if (!said)
+                log_say("%.*s", (int)n - 1, at);
+            at += strlen(at) < n ? strlen(at) : n;
+        }
+}
+
+/* Another folder than the coupler's would split the output of one job. */
+static void check_folder(const struct coupler *c, const struct solver *s, char *text)
+{
+    if (s->hash != 0 && s->faults == 0 && strcmp(s->dir, c->dir) != 0)
+        problem(text, "%s writes into %s, coupler into %s: give all programs the same -o", s->name,
+                s->dir, c->dir);
+}
+
 void plan_check_meet(struct coupler *c, char *text)
 {
     check_programs(c, text);
@@ -89,6 +122,7 @@ void plan_check_meet(struct coupler *c, char *text)
                     "%s reads another case than coupler (hash %016llx, not %016llx): give all "
                     "programs the same file and the same -p",
                     s->name, (unsigned long long)s->hash, (unsigned long long)c->hash);
+        check_folder(c, s, text);
         if (s->restart_window != first->restart_window && s->faults == 0 && first->faults == 0)
             problem(text,
                     "%s starts at coupling step %lld, %s at coupling step %lld: restart all from "

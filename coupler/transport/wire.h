@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { WIRE_VERSION = 3, WIRE_PEERS = 40 };
+enum { WIRE_VERSION = 4, WIRE_PEERS = 40 };
 
 /* What a program, or a job, can have; more is refused. */
 enum { LIMIT_SETS = 32, LIMIT_FIELDS = 64, LIMIT_TAKERS = 32, LIMIT_LINKS = 256, LIMIT_ZONES = 64 };
