@@ -26,6 +26,7 @@ enum limit {
     LIMIT_BDF2,
     LIMIT_VISCOUS,
     LIMIT_WAVES,
+    LIMIT_MOTION,
     LIMIT_OUTPUT
 };
 

@@ -171,6 +171,37 @@ static void friction_bounds_the_step(void **state)
     mesh_case_end(&c, &s);
 }
 
+/* A ring that shakes by a thousandth of its cells, later than the run starts: the flow would allow
+ * one step for all of it. Each period gets 40 steps, each step at most 0.1 rad, and one step ends
+ * where the motion starts. */
+static void steps_see_the_motion(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *motion;
+        double most, from;
+    } of[] = {{"kind = \"harmonic\"; axis = \"rz\"; amplitude = 1e-4; period = 1.0;", 0.025, 0.0},
+              {"kind = \"polynomial\"; axis = \"rz\"; coefficients = (0.0, 0.4); from = 0.3;", 0.25,
+               0.3}};
+    for (size_t k = 0; k < sizeof of / sizeof of[0]; k++) {
+        struct mesh_case c;
+        char blocks[1024];
+        bool met = of[k].from == 0.0;
+        snprintf(blocks, sizeof blocks, "%smotion = ( { %s } ); }", WALLED, of[k].motion);
+        struct fv *s =
+            mesh_case_start(&c, MPI_COMM_WORLD, blocks,
+                            (const char *const[]){"initial.field=\"rest\"", "fluid.nu=1e-3",
+                                                  "domain.min=(-1,-1)", "domain.max=(1,1)", NULL});
+        for (int n = 0; n < 12 && s->t < 0.99; n++) {
+            assert_true(mesh_case_run(s, 1, 1.0));
+            met = met || fabs(s->t - of[k].from) < 1e-12;
+            assert_true(s->t <= of[k].from + 1e-12 || s->dt <= of[k].most * (1.0 + 1e-9));
+        }
+        assert_true(met);
+        mesh_case_end(&c, &s);
+    }
+}
+
 /* What cannot move is refused, with the time if it is on the way. */
 static void faults_are_told(void **state)
 {
@@ -211,6 +242,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(a_known_flow_is_kept),
                                        cmocka_unit_test(a_turning_block_is_a_spinning_wall),
                                        cmocka_unit_test(friction_bounds_the_step),
+                                       cmocka_unit_test(steps_see_the_motion),
                                        cmocka_unit_test(faults_are_told)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,6 +2,7 @@
  * the exact derivatives of the places. SPDX-License-Identifier: BSD-3-Clause */
 #include "body_drive.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -265,4 +266,80 @@ double body_drive_speed(const struct body_drive *v, double reach, double end)
             most = fmax(most, vec3_length(m.u) + reach * vec3_length(m.omega));
         }
     return most;
+}
+
+/* --- steps --- */
+
+#define PERIOD_STEPS 40.0 /* the phase of a step is 9 degrees */
+#define COURSE_STEPS 20.0 /* of a polynomial that ends, of a ramp */
+#define LARGEST_TURN 0.1  /* rad a step */
+
+static double lesser(double a, double b) { return a < b ? a : b; }
+
+/* Files tell no period: 1/omega is taken as the largest rate over the largest second rate of a
+ * column, but no step is shorter than their rows are apart. */
+static double file_step(const struct body_term *b, int columns)
+{
+    double time = INFINITY;
+    const double first = b->rows[0], span = b->rows[columns * (b->n - 1)] - first;
+    for (int c = 1; c < columns; c++) {
+        double v, dv, ddv, rate = 0.0, change = 0.0;
+        for (int i = 0; i + 1 < b->n; i++) {
+            const double t = 0.5 * (b->rows[columns * i] + b->rows[columns * (i + 1)]);
+            interpolate(b, columns, c, t, &v, &dv, &ddv);
+            rate = fmax(rate, fabs(dv));
+            interpolate(b, columns, c, b->rows[columns * i], &v, &dv, &ddv);
+            change = fmax(change, fabs(ddv));
+        }
+        if (change > 0.0 && rate > 0.0)
+            time = lesser(time, rate / change);
+    }
+    return fmax(2.0 * M_PI / PERIOD_STEPS * time, span / (b->n - 1));
+}
+
+static double term_step(const struct body_term *b, int columns, double t)
+{
+    const struct scene_motion *m = b->is;
+    double dt = t < m->ramp ? m->ramp / COURSE_STEPS : INFINITY;
+    if (m->kind == MOTION_HARMONIC)
+        dt = lesser(dt, m->period / PERIOD_STEPS);
+    else if (m->kind == MOTION_POLYNOMIAL && t >= m->from && t < m->until)
+        dt = lesser(dt, (m->until - m->from) / COURSE_STEPS);
+    else if (m->kind == MOTION_FILE && b->n > 1 && t < b->rows[columns * (b->n - 1)])
+        dt = lesser(dt, file_step(b, columns));
+    return dt;
+}
+
+double body_drive_step(const struct body_drive *v, double t)
+{
+    double dt = INFINITY;
+    struct body_motion now;
+    for (int k = 0; k < v->nterms; k++)
+        dt = lesser(dt, term_step(v->term + k, v->columns, t));
+    for (int e = 0; e < 3; e++) { /* what turns now, and what will within the step */
+        body_drive_motion(v, t + (dt < INFINITY ? 0.5 * e * dt : 0.0), &now);
+        const double spin = vec3_length(now.omega);
+        dt = spin > 0.0 ? lesser(dt, LARGEST_TURN / spin) : dt;
+    }
+    return dt;
+}
+
+double body_drive_event(const struct body_drive *v, double t)
+{
+    double next = INFINITY;
+    for (int k = 0; k < v->nterms; k++) {
+        const struct body_term *b = v->term + k;
+        const bool polynomial = b->is->kind == MOTION_POLYNOMIAL,
+                   file = b->is->kind == MOTION_FILE && b->n > 1;
+        const double last = file ? b->rows[(ptrdiff_t)v->columns * (b->n - 1)] : 0.0;
+        const double at[] = {b->is->ramp,
+                             polynomial ? b->is->from
+                             : file     ? b->rows[0]
+                                        : 0.0,
+                             polynomial ? b->is->until : last};
+        for (int e = 0; e < 3; e++)
+            if (at[e] > t + 1e-9 * fmax(1.0, fabs(t)))
+                next = lesser(next, at[e]);
+    }
+    return next;
 }

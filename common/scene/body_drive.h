@@ -45,6 +45,12 @@ bool body_term_fault(const struct body_drive *v, int term, const char *dir, char
 void body_drive_at(const struct body_drive *v, double t, double d[BODY_AXES], double dd[BODY_AXES],
                    double ddd[BODY_AXES]);
 void body_drive_motion(const struct body_drive *v, double t, struct body_motion *m);
+/* Longest step from t that resolves the motion, s: a share of each period, of a polynomial's time
+ * and of the ramp while they last, of a turn. INFINITY: nothing moves, or evenly without turning.
+ */
+double body_drive_step(const struct body_drive *v, double t);
+/* Next time after t at which a term starts, ends or has its full size, s; INFINITY: none. */
+double body_drive_event(const struct body_drive *v, double t);
 /* Largest speed until `end' of a point as far from the centre as `reach', m/s. */
 double body_drive_speed(const struct body_drive *v, double reach, double end);
 

@@ -183,7 +183,8 @@ static bool crawls(const struct fv *s, double n, const struct step_limit *most, 
 double integrate(struct fv *s, double t_stop, struct diagnosis *d)
 {
     const struct step_limit most = limits_of(s);
-    const double left = t_stop - s->t, before = s->rate;
+    /* no step passes over the start or the end of a motion */
+    const double to = fmin(t_stop, limits_next_motion(s)), left = to - s->t, before = s->rate;
     const double n = fmax(ceil(left / most.dt - 1e-9), 1.0);
     if (crawls(s, n, &most, d))
         return 0.0;
@@ -200,7 +201,7 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
         newton_step(s, &dt, d);
     else
         good = projection_step(s, dt);
-    s->t = dt == left ? t_stop : s->t + dt;
+    s->t = dt == left ? to : s->t + dt;
     s->dt_old = s->dt;
     s->dt = dt;
     measure(s);

@@ -16,6 +16,7 @@
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
 #include "../boundary/still.h"
+#include "../grid/mesh_motion.h"
 #include "../surface/levelset.h"
 
 #define RK3_CFL 1.1      /* default */
@@ -36,8 +37,8 @@
 
 const char *limit_name(enum limit by)
 {
-    static const char *const names[] = {"nothing", "flow",      "forces", "outflow",
-                                        "bdf2",    "viscosity", "waves",  "output"};
+    static const char *const names[] = {"nothing",   "flow",  "forces", "outflow", "bdf2",
+                                        "viscosity", "waves", "motion", "output"};
     return names[by];
 }
 
@@ -279,6 +280,14 @@ static void lower_start(struct step_limit *l, const struct fv *s)
         lower(l, fmax(START_STIFF / stiffest, later), LIMIT_VISCOUS);
 }
 
+/* Prescribed motions, which the flow does not tell: small ones are slow beside their cells. */
+static void lower_motion(struct step_limit *l, const struct fv *s)
+{
+    for (int k = 0; k < s->m->nblocks && s->moving; k++)
+        if (s->m->block[k].motion && s->m->block[k].motion->block == k)
+            lower(l, body_drive_step(&s->m->block[k].motion->drive, s->t), LIMIT_MOTION);
+}
+
 /* Of cells of any shape: as the state was measured. */
 static struct step_limit limit_on_blocks(const struct fv *s)
 {
@@ -296,7 +305,17 @@ static struct step_limit limit_on_blocks(const struct fv *s)
     if (s->prm.integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(s->rate, s->Re), LIMIT_BDF2);
     lower_start(&l, s);
+    lower_motion(&l, s);
     return l;
+}
+
+double limits_next_motion(const struct fv *s)
+{
+    double next = INFINITY;
+    for (int k = 0; s->moving && k < s->m->nblocks; k++)
+        if (s->m->block[k].motion && s->m->block[k].motion->block == k)
+            next = fmin(next, body_drive_event(&s->m->block[k].motion->drive, s->t));
+    return next;
 }
 
 double fv_speed(const struct fv *s, int a)

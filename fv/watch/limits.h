@@ -23,6 +23,8 @@ double limits_time(double cfl, double rate, double rise);
 /* Largest |u_a| of what flows, or will soon. */
 double fv_speed(const struct fv *s, int a);
 struct step_limit limits_of(const struct fv *s);
+/* Next time after now at which a block's motion starts or ends, s; INFINITY: none. */
+double limits_next_motion(const struct fv *s);
 /* The same before the start, for --check: cells of size h[3]. */
 struct step_limit limits_estimate(const struct run *r, const double *h);
 
