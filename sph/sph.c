@@ -13,6 +13,7 @@
 #include "../common/scene/scene_fluid.h"
 #include "../common/scene/scene_mesh.h"
 #include "../coupler/cpl_partner.h"
+#include "case/sph_params.h"
 #include "case/sph_sense.h"
 #include "coupling/overlap.h"
 #include "coupling/windows.h"
@@ -23,7 +24,6 @@
 #include "refinement/apr_params.h"
 #include "refinement/refinement.h"
 #include "refinement/regions_check.h"
-#include "sph_params.h"
 
 static const char *columns[SPH_COLUMNS];
 static struct program sph_program; /* its columns depend on the scene */
@@ -80,7 +80,7 @@ static void describe_modules(const struct run *r, bool gravity, bool viscous)
 {
     static const char *const walls[] = {"normal flux walls", "walls by mirrored ghosts"};
     const struct sph_params *prm = sph_params_of(r);
-    const bool has_walls = sph_params_walls(r);
+    const bool has_walls = sph_params_walls(&r->scene, prm);
     const struct log_use uses[] = {
         {viscous, prm->viscosity == VISCOSITY_MORRIS ? "viscous (Morris)" : "viscous (Monaghan)",
          "viscosity"},
@@ -88,7 +88,7 @@ static void describe_modules(const struct run *r, bool gravity, bool viscous)
         {has_walls, walls[prm->walls], "walls"},
         {r->scene.nbodies > 0, "bodies", "bodies"},
         {prm->surface == SURFACE_YES, "free surface", "free surface"},
-        {sph_params_zones(r),
+        {sph_params_zones(r, prm),
          prm->outer == OUTER_SIDES ? "inlets and outlets" : "zones and openings",
          "zones and openings"},
         {prm->packing > 0, "packing", "packing"},
@@ -130,7 +130,7 @@ static void describe_scene(const struct run *r)
             prm->background ? ", background pressure" : "");
     describe_modules(r, gravity, viscous);
     say_turned(&r->scene);
-    if (sph_params_zones(r)) {
+    if (sph_params_zones(r, prm)) {
         double box[2][3], transition, buffer;
         zones_widths(r, prm, &transition, &buffer);
         zones_free_box(r, prm, box[0], box[1]);
@@ -158,7 +158,7 @@ static void warn_narrow(const struct run *r, const struct sph_params *prm)
 static void warn_of(const struct run *r)
 {
     const struct sph_params *prm = sph_params_of(r);
-    const struct scene_speed v = sph_params_speed(r);
+    const struct scene_speed v = prm->speed;
     const double bound = sph_params_cfl_bound(prm, r->scene.domain.dim);
     warn_narrow(r, prm);
     sph_meshes_warn(r, prm);
@@ -178,7 +178,7 @@ static void warn_of(const struct run *r)
         log_warn("sph.c0 = %g m/s: friction alone (nu U/L) compresses by %.2g %%; raise it to "
                  "%.3g m/s",
                  prm->c0, 100.0 * v.viscous / (prm->c0 * prm->c0), 10.0 * sqrt(v.viscous));
-    if (sph_params_zones(r)) {
+    if (sph_params_zones(r, prm)) {
         double transition, buffer;
         const double least = 1.25 * prm->R_dx * prm->dx * (1.0 - 1e-9);
         zones_widths(r, prm, &transition, &buffer);
@@ -201,7 +201,7 @@ static void describe(const struct run *r)
     log_say("about %.0f particles, dx %g m, R/dx %g, c0 %g m/s; %.0f MB", n, prm->dx, prm->R_dx,
             prm->c0, 1e-6 * all * bytes_per_particle(r));
     regions_describe(r, prm);
-    const struct scene_speed v = sph_params_speed(r);
+    const struct scene_speed v = prm->speed;
     log_say("expected speed %.3g m/s: %s; c0 is %.3g times that", v.speed, v.from,
             prm->c0 / v.speed);
     const double steps = ceil(r->scene.time.end / dt);
@@ -212,7 +212,7 @@ static void describe(const struct run *r)
     if (r->coupled)
         windows_describe(r, prm);
     if (r->coupled)
-        coupling_warn(r);
+        coupling_warn(r, prm);
     warn_of(r);
 }
 
@@ -221,7 +221,7 @@ static void draw(const struct run *r, struct picture *p)
     const struct sph_params *prm = sph_params_of(r);
     double lo[3], hi[3];
     regions_draw(r, prm, p);
-    if (!sph_params_zones(r))
+    if (!sph_params_zones(r, prm))
         return;
     zones_free_box(r, prm, lo, hi);
     picture_box(p, PICTURE_ZONE, prm->box[0], prm->box[1], "particles");
@@ -231,7 +231,7 @@ static void draw(const struct run *r, struct picture *p)
 static void *create(struct run *r, struct h5 *f)
 {
     solids_deal(r);
-    int n = sph_columns(r, columns);
+    int n = sph_columns(r, sph_params_of(r), columns);
     for (int k = 0; k < OVERLAP_COLUMNS && r->coupled; k++)
         columns[n++] = overlap_columns[k];
     for (int k = 0; k < LEVEL_COLUMNS && r->crossed; k++)
@@ -269,13 +269,15 @@ static void check(const struct run *r, struct faults *f)
 {
     sph_params_check(r, f);
     if (f->n == 0 && r->coupled)
-        coupling_check(r, f);
+        coupling_check(r, sph_params_of(r), f);
     if (f->n == 0) {
         const double n = lattice(r) + regions_particles(r, sph_params_of(r));
         run_check_memory(r, f, "sph.dx", n, "particles", n * bytes_per_particle(r));
         regions_check_budget(r, n, f);
     }
 }
+
+static void offer(struct run *r) { coupling_offer(r, sph_params_of(r)); }
 
 static double window_wish(void *state)
 {
@@ -345,7 +347,7 @@ static struct program sph_program = {.name = "sph",
                                      .check = check,
                                      .describe = describe,
                                      .draw = draw,
-                                     .offer = coupling_offer,
+                                     .offer = offer,
                                      .create = create,
                                      .destroy = destroy,
                                      .step = step,

@@ -9,6 +9,7 @@
 
 #include "../common/base/fit.h"
 #include "../common/run/run.h"
+#include "../common/scene/scene_speed.h"
 #include "particles/particles.h"
 #include "watch/sph_watch.h"
 
@@ -49,18 +50,19 @@ struct sph_params {
     double cfl_viscous;   /* CFL_v of [2.103] */
     double box[2][3];     /* outer face of the buffer; all 0: the whole domain, no zones */
     double free[2][3];    /* instead of box: the free zone; box is the widths of the zones larger */
-    double box_velocity[3]; /* m/s */
-    char box_follows[128];  /* name of a body, "": none */
-    int walls;              /* enum sph_walls */
-    int wall_integrals;     /* enum sph_integrals */
-    int wall_squares;       /* along each side, of clipped ones */
-    int surface;            /* enum sph_surface: the fluid has a free surface */
-    int outer;              /* what feeds the zones: none, exact, partner */
-    double density_limit;   /* |rho/rho0 - 1| that ends the run; 0: as the flow has it */
-    int packing;            /* steps; -1: as the walls need it */
-    double noise;           /* random displacement of the first lattice, in dx */
-    double expected;        /* m/s: speed to expect, a tenth of the default c0; no key */
-    double extrema[3];      /* m/s: known ones on the centre lines, see sph_lines.c; 0: none */
+    double box_velocity[3];   /* m/s */
+    char box_follows[128];    /* name of a body, "": none */
+    int walls;                /* enum sph_walls */
+    int wall_integrals;       /* enum sph_integrals */
+    int wall_squares;         /* along each side, of clipped ones */
+    int surface;              /* enum sph_surface: the fluid has a free surface */
+    int outer;                /* what feeds the zones: none, exact, partner */
+    double density_limit;     /* |rho/rho0 - 1| that ends the run; 0: as the flow has it */
+    int packing;              /* steps; -1: as the walls need it */
+    double noise;             /* random displacement of the first lattice, in dx */
+    double expected;          /* m/s: speed to expect, a tenth of the default c0; no key */
+    struct scene_speed speed; /* what the scene lets expect of its velocities; no key */
+    double extrema[3];        /* m/s: known ones on the centre lines, see sph_lines.c; 0: none */
 };
 
 struct sph;
@@ -213,7 +215,7 @@ bool sph_has_exact(const struct run *r);
 /* Names of the columns that sph_row fills for this scene; returns their number, at most
  * SPH_COLUMNS. */
 enum { SPH_COLUMNS = 56 + PROBES_MAX + 32 * BODIES_MAX };
-int sph_columns(const struct run *r, const char **names);
+int sph_columns(const struct run *r, const struct sph_params *prm, const char **names);
 void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void sph_checkpoint(void *s, struct h5 *f);
 bool sph_restore(struct sph *s, struct h5 *f);
@@ -226,9 +228,12 @@ void sph_tell(void *s, struct summary *report);
 void sph_summarise_extrema(const struct sph *s);
 
 /* sph_coupling.c: the only file here that knows cpl.h. */
-void coupling_check(const struct run *r, struct faults *f); /* coupling_check.c */
-void coupling_warn(const struct run *r); /* of what is allowed, and better otherwise */
-void coupling_offer(struct run *r);      /* publishes sph.box and sph.free */
+void coupling_check(const struct run *r, const struct sph_params *prm,
+                    struct faults *f); /* coupling_check.c */
+void coupling_warn(const struct run *r,
+                   const struct sph_params *prm); /* of what is allowed, and better otherwise */
+void coupling_offer(struct run *r,
+                    const struct sph_params *prm); /* publishes sph.box and sph.free */
 void sph_coupling_create(
     struct sph *s); /* declares sets and fields; s->zones->eval reads the patch */
 void sph_coupling_free(struct sph *s);

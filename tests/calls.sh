@@ -15,9 +15,7 @@ layers_sph="rigid particles pairs parallel walls surface open_boundaries bodies 
 known_common=""
 known_fv="blocked_cells blocked_count blocked_params fv_field_wanted fv_hole fv_measures_errors fv_params_of
 mesh_block_count mesh_block_is_body mesh_block_params mesh_fault mesh_side_is_body surface_sample"
-known_sph="sph_params_around sph_params_cfl_bound
-sph_params_dt sph_params_of sph_params_open sph_params_reaches sph_params_region sph_params_speed
-sph_params_walls sph_params_zones"
+known_sph=""
 
 upward() { # PROGRAM LAYERS: lines "name caller owner", files without their ending
     (cd "$b/o" && nm -A "$1"/*/*.o) | awk -v layers="$2" '

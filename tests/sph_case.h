@@ -7,8 +7,9 @@
 #include <string.h>
 
 #include "../common/base/mem.h"
+#include "../sph/bodies/body_check.h"
+#include "../sph/case/sph_params.h"
 #include "../sph/sph.h"
-#include "../sph/sph_params.h"
 
 struct sph_case {
     struct run run;
@@ -49,6 +50,8 @@ static inline struct sph *sph_case_start(struct sph_case *c, struct h5 *f)
 {
     memcpy(c->prm.box[0], c->run.scene.domain.min, sizeof c->prm.box[0]);
     memcpy(c->prm.box[1], c->run.scene.domain.max, sizeof c->prm.box[1]);
+    const double most = body_speeds(&c->run.scene, c->run.case_dir);
+    c->prm.speed = scene_speed_of(&c->run.scene, most, 0.0);
     c->s = sph_create(&c->run, &c->prm, f);
     return c->s;
 }

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "../../common/geometry/body_math.h"
+#include "../particles/params_derived.h"
 #include "../rigid/body_impedance.h"
-#include "../sph_params.h"
 #include "../walls/forces.h"
 
 /* --- the start --- */

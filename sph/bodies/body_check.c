@@ -8,7 +8,7 @@
 #include "../../common/geometry/body_math.h"
 #include "../../common/scene/scene_fluid.h"
 #include "../../common/scene/scene_mesh.h"
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 #include "bodies.h"
 
 enum { KEY = 96 };

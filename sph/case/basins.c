@@ -14,9 +14,9 @@
 #include "../../common/base/log.h"
 #include "../../common/base/mem.h"
 #include "../../common/scene/scene_fluid.h"
-#include "../sph_params.h"
 #include "../walls/walls.h"
 #include "rooms.h"
+#include "sph_params.h"
 #include "surface_rows.h"
 
 /* Parts of fewer cells that walls cut off are no water that could flow. */

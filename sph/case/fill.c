@@ -14,10 +14,10 @@
 #include "../particles/eos.h"
 #include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
-#include "../sph_params.h"
 #include "../walls/walls.h"
 #include "basins.h"
 #include "rooms.h"
+#include "sph_params.h"
 #include "surface_rows.h"
 
 /* In [-1, 1), a function of the particle alone, so the same on any number of ranks

@@ -1,5 +1,5 @@
 /* sph_params.c - parameter table of group sph. SPDX-License-Identifier: BSD-3-Clause */
-#include "../sph_params.h"
+#include "sph_params.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -80,16 +80,6 @@ static bool is_given(double box[2][3])
 
 static bool has_box(void) { return is_given(given.box) || is_given(given.free); }
 
-void sph_params_around(const struct run *r, const struct sph_params *prm, int a, double free[2][3],
-                       double *from, double *to)
-{
-    const double corner = r->scene.domain.min[a], dx = prm->dx;
-    double transition, buffer;
-    zones_widths(r, prm, &transition, &buffer);
-    *from = corner + dx * floor((free[0][a] - transition - buffer - corner) / dx + 1e-6);
-    *to = corner + dx * ceil((free[1][a] + transition + buffer - corner) / dx - 1e-6);
-}
-
 /* The outer box along an axis: as given, around the free zone with whole particles, or the domain.
  * A free zone that reaches a side of the domain ends there. */
 static void find_box(const struct run *r, struct sph_params *used, int a)
@@ -100,7 +90,7 @@ static void find_box(const struct run *r, struct sph_params *used, int a)
     const double hi = around ? given.free[1][a] : given.box[1][a];
     double from = lo, to = hi;
     if (around)
-        sph_params_around(r, used, a, given.free, &from, &to);
+        zones_around(r, used, a, given.free, &from, &to);
     bool plain = !has_box() || a >= d->dim;
     if (!plain && d->periodic[a] && hi - lo < d->max[a] - d->min[a] - 1e-6 * given.dx) {
         used->box[0][a] = from; /* it may go on beyond the periodic side */
@@ -111,7 +101,7 @@ static void find_box(const struct run *r, struct sph_params *used, int a)
     used->box[1][a] = plain || hi >= d->max[a] ? d->max[a] : to;
 }
 
-struct scene_speed sph_params_speed(const struct run *r)
+static struct scene_speed speed_of(const struct run *r)
 {
     const double most = body_speeds(&r->scene, r->case_dir);
     return scene_speed_of(&r->scene, most, given.dx);
@@ -119,38 +109,9 @@ struct scene_speed sph_params_speed(const struct run *r)
 
 /* Ten times the largest speed to expect, so that the density varies by about a percent [2.33-2.35];
  * by no more where the fluid is at rest or creeps, p/(rho c0^2) <= 0.01. */
-static double default_c0(const struct run *r)
+static double default_c0(const struct scene_speed *v)
 {
-    const struct scene_speed v = sph_params_speed(r);
-    return 10.0 * fmax(v.speed, sqrt(fmax(v.pressure, v.viscous)));
-}
-
-bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *prm, int side)
-{
-    const int a = side / 2;
-    const double near = 1e-6 * prm->dx;
-    if (d->periodic[a]) /* both or none */
-        return prm->box[1][a] - prm->box[0][a] >= d->max[a] - d->min[a] - near;
-    return side % 2 ? prm->box[1][a] >= d->max[a] - near : prm->box[0][a] <= d->min[a] + near;
-}
-
-static bool is_wall(const struct scene_wall *w)
-{
-    return w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP;
-}
-
-/* Walls that the particles can meet: polylines, bodies, sides of the domain that the region
- * reaches. */
-static bool has_walls(const struct scene *c, const struct sph_params *prm)
-{
-    bool any = c->nbodies > 0;
-    for (int k = 0; k < c->nwalls; k++) {
-        const int side = c->walls[k].side;
-        any =
-            any || (is_wall(c->walls + k) &&
-                    (side == SIDE_NONE || sph_params_reaches(&c->domain, prm, side - SIDE_X_MIN)));
-    }
-    return any;
+    return 10.0 * fmax(v->speed, sqrt(fmax(v->pressure, v->viscous)));
 }
 
 static bool has_openings(const struct scene *c)
@@ -188,7 +149,7 @@ static bool hangs(const struct scene *c, const struct sph_params *prm)
     bool weight = false;
     for (int a = 0; a < c->domain.dim; a++)
         weight = weight || (c->fluid.gravity[a] != 0.0 && !c->domain.periodic[a]);
-    return weight && has_walls(c, prm) && !has_openings(c) && !has_box();
+    return weight && sph_params_walls(c, prm) && !has_openings(c) && !has_box();
 }
 
 static bool has_no_slip(const struct scene *c, const struct sph_params *prm)
@@ -198,7 +159,7 @@ static bool has_no_slip(const struct scene *c, const struct sph_params *prm)
         any = any || c->walls[k].kind == WALL_NO_SLIP;
     for (int k = 0; k < c->nbodies; k++)
         any = any || c->bodies[k].kind == WALL_NO_SLIP;
-    return any && has_walls(c, prm);
+    return any && sph_params_walls(c, prm);
 }
 
 static bool is_coupled(const struct run *r) { return r->scene.has_sph && r->scene.has_fv; }
@@ -210,11 +171,6 @@ static int bed_with_friction(const struct run *r)
         if (r->scene.walls[k].friction > 0.0)
             return k;
     return -1;
-}
-
-static bool is_riemann(int scheme)
-{
-    return scheme == SCHEME_RIEMANN_ALE || scheme == SCHEME_RIEMANN;
 }
 
 /* No-slip walls that meet: a particle in the corner rubs at both. */
@@ -236,7 +192,7 @@ static bool has_no_slip_corner(const struct scene *c, const struct sph_params *p
 
 static bool has_nfm(const struct scene *c, const struct sph_params *prm)
 {
-    return prm->walls == WALLS_NFM && has_walls(c, prm);
+    return prm->walls == WALLS_NFM && sph_params_walls(c, prm);
 }
 
 /* Length of the stable part of the negative axis, over that of RK4. */
@@ -246,24 +202,18 @@ static double viscous_axis(const struct sph_params *prm)
     return stages_of(prm->integrator, prm->scheme)->real_axis / rk4->real_axis;
 }
 
-/* The acoustic damper lengthens the spectrum of the Riemann schemes on the real axis, with the
- * dissipation of velocity in full as (4.7 + 8.5 damper) c/R: what is left of the steps of 0.2. */
-static double damped_share(const struct sph_params *prm)
-{
-    return is_riemann(prm->scheme) ? fmin(1.0, 6.4 / (4.7 + 8.5 * prm->damper)) : 1.0;
-}
-
 /* See sph_params_cfl_bound. */
 static double default_cfl(const struct sph_params *prm, int dim)
 {
     const double free = prm->integrator == INTEGRATOR_RK4 ? 0.375 : dim == 2 ? 0.5 : 0.45;
-    return damped_share(prm) * free;
+    return sph_params_damped_share(prm) * free;
 }
 
 /* Whether the Riemann schemes correct Morris's term by gradients, see scheme_rates.c. */
 static bool sharpens_friction(const struct scene *c, const struct sph_params *prm)
 {
-    return is_riemann(prm->scheme) && prm->surface != SURFACE_YES && !has_walls(c, prm);
+    return sph_params_is_riemann(prm->scheme) && prm->surface != SURFACE_YES &&
+           !sph_params_walls(c, prm);
 }
 
 /* Bounds of plane waves on a lattice, with margin; of Monaghan's term beside normal flux walls,
@@ -292,18 +242,22 @@ static bool shears_lattice(const struct run *r, const struct sph_params *prm)
     bool periodic = true;
     for (int a = 0; a < c->domain.dim; a++)
         periodic = periodic && c->domain.periodic[a];
-    return periodic && !has_walls(c, prm) && prm->surface == SURFACE_NO &&
+    return periodic && !sph_params_walls(c, prm) && prm->surface == SURFACE_NO &&
            (prm->transport == TRANSPORT_TVS || prm->transport == TRANSPORT_TVO) &&
            (f == FIELD_TAYLOR_GREEN || f == FIELD_TWO_MODES || f == FIELD_BELTRAMI);
 }
 
-const struct sph_params *sph_params_of(const struct run *r)
+static struct sph_params used; /* given, with all that follows from it and from the scene */
+static bool resolved;
+
+/* Reads the motion files of bodies, so it is done once. */
+static void resolve(const struct run *r)
 {
-    static struct sph_params used;
     used = given;
     for (int a = 0; a < 3; a++)
         find_box(r, &used, a);
-    const double c0 = default_c0(r);
+    used.speed = speed_of(r);
+    const double c0 = default_c0(&used.speed);
     if (used.c0 <= 0.0)
         used.c0 = c0;
     used.expected = 0.1 * (c0 > 0.0 ? c0 : used.c0);
@@ -317,10 +271,10 @@ const struct sph_params *sph_params_of(const struct run *r)
     if (used.walls == WALLS_AUTO && apr && apr->method != APR_GUARDS)
         used.walls = WALLS_GHOSTS;
     if (used.walls == WALLS_AUTO) /* delta without polylines: as it is known */
-        used.walls =
-            is_riemann(used.scheme) || has_polylines(&r->scene) || bed_with_friction(r) >= 0
-                ? WALLS_NFM
-                : WALLS_GHOSTS;
+        used.walls = sph_params_is_riemann(used.scheme) || has_polylines(&r->scene) ||
+                             bed_with_friction(r) >= 0
+                         ? WALLS_NFM
+                         : WALLS_GHOSTS;
     if (used.integrator == INTEGRATOR_AUTO)
         used.integrator = INTEGRATOR_J3;
     if (used.cfl <= 0.0)
@@ -344,58 +298,14 @@ const struct sph_params *sph_params_of(const struct run *r)
                            ? (r->scene.domain.dim == 3 ? 40 : 200)
                        : used.noise > 0.0 ? 40
                                           : 0;
+    resolved = true;
+}
+
+const struct sph_params *sph_params_of(const struct run *r)
+{
+    if (!resolved)
+        resolve(r);
     return &used;
-}
-
-void sph_params_region(const struct scene_domain *d, const struct sph_params *prm, double lo[3],
-                       double hi[3], bool periodic[3])
-{
-    const double near = 1e-6 * prm->dx;
-    for (int a = 0; a < 3; a++) {
-        lo[a] = a < d->dim ? prm->box[0][a] : 0.0;
-        hi[a] = a < d->dim ? prm->box[1][a] : 0.0;
-        periodic[a] = a < d->dim && d->periodic[a] && hi[a] - lo[a] >= d->max[a] - d->min[a] - near;
-    }
-}
-
-double sph_params_dt(const struct sph_params *prm, double nu, double signal,
-                     const char **limited_by)
-{
-    const double R = prm->R_dx * prm->dx;
-    const double sound = prm->cfl * R / signal;
-    const double viscous = nu > 0.0 ? prm->cfl_viscous * R * R / nu : INFINITY;
-    if (limited_by)
-        *limited_by = sound <= viscous ? "sound" : "viscosity";
-    return fmin(sound, viscous);
-}
-
-/* Among given sides, those alone with a condition of their own are open; around a box all are but
- * those on the domain's own sides, where a partner ends too: walls, or the air above a surface. */
-void sph_params_open(const struct run *r, const struct sph_params *prm, bool open[6])
-{
-    const struct scene_domain *d = &r->scene.domain;
-    double lo[3], hi[3];
-    bool periodic[3];
-    sph_params_region(d, prm, lo, hi, periodic);
-    for (int side = 0; side < 6; side++) {
-        const bool reaches = side / 2 < d->dim && sph_params_reaches(d, prm, side);
-        const struct scene_wall *w = reaches ? scene_wall_of(&r->scene, SIDE_X_MIN + side) : NULL;
-        open[side] = side / 2 < d->dim && !periodic[side / 2] && prm->outer != OUTER_NONE;
-        if (prm->outer == OUTER_SIDES)
-            open[side] = open[side] && w && w->kind >= WALL_INFLOW;
-        else if (reaches)
-            open[side] = open[side] && (!w || w->kind >= WALL_INFLOW) &&
-                         prm->outer == OUTER_EXACT && prm->surface != SURFACE_YES;
-    }
-}
-
-bool sph_params_zones(const struct run *r)
-{
-    bool open[6], any = false;
-    sph_params_open(r, sph_params_of(r), open);
-    for (int side = 0; side < 6; side++)
-        any = any || open[side];
-    return any;
 }
 
 /* Whether length is a whole number of dx, but for the last digits of a typed decimal. */
@@ -410,7 +320,7 @@ static bool whole(double length, double dx)
 static bool wants_rows(const struct run *r, int a)
 {
     const struct scene *c = &r->scene;
-    return c->domain.periodic[a] || sph_params_zones(r) ||
+    return c->domain.periodic[a] || sph_params_zones(r, sph_params_of(r)) ||
            (scene_wall_of(c, SIDE_X_MIN + 2 * a) && scene_wall_of(c, SIDE_X_MIN + 2 * a + 1));
 }
 
@@ -441,7 +351,8 @@ static void check_axis(const struct run *r, int a, struct faults *f)
     }
     const struct scene_wall *w[2] = {scene_wall_of(&r->scene, SIDE_X_MIN + 2 * a),
                                      scene_wall_of(&r->scene, SIDE_X_MIN + 2 * a + 1)};
-    if (w[0] && w[1] && is_wall(w[0]) && is_wall(w[1]) && length < 1.5 * given.dx)
+    if (w[0] && w[1] && sph_params_is_wall(w[0]) && sph_params_is_wall(w[1]) &&
+        length < 1.5 * given.dx)
         params_fault(r->params, f, "sph.dx",
                      "%g m: one particle has no room between the walls along %c, %g m apart; take "
                      "%.3g m or less",
@@ -548,20 +459,6 @@ static void check_motion(const struct run *r, struct faults *f)
         check_way(r, prm, f);
 }
 
-bool sph_params_walls(const struct run *r) { return has_walls(&r->scene, sph_params_of(r)); }
-
-/* Measured on Taylor-Green flow, tanks at rest and dam breaks, R/dx 4 in 2D and 2.5 in 3D: the
- * Riemann schemes gain energy from 0.7 and 0.6 on, the central ones with RK4 from 1.2, with j3 they
- * run to 0.75 and more. Plane waves on a lattice, all dissipation: j3 0.57 in 2D, 0.52 in 3D, RK4
- * 0.53, 0.43; where nothing damps waves j3 runs to 0.55. */
-double sph_params_cfl_bound(const struct sph_params *prm, int dim)
-{
-    const bool rk4 = prm->integrator == INTEGRATOR_RK4;
-    if (!is_riemann(prm->scheme))
-        return rk4 ? 1.2 : 0.75;
-    return damped_share(prm) * (dim == 3 ? 0.55 : rk4 ? 0.65 : 0.6);
-}
-
 double sph_params_viscous_bound(const struct run *r, const struct sph_params *prm)
 {
     const bool nfm = has_nfm(&r->scene, prm);
@@ -640,22 +537,22 @@ static void check_local_steps(const struct run *r, struct faults *f)
 /* What levels of refinement do not go together with. */
 static void check_levels(const struct run *r, struct faults *f)
 {
-    const struct sph_params *used = sph_params_of(r);
+    const struct sph_params *prm = sph_params_of(r);
     const struct apr_params *apr = apr_params_of(r);
     params_unused(r->params, f, "apr.local_steps", apr->method == APR_GUARDS,
                   "this method has particles of all sizes in one set");
     params_unused(r->params, f, "apr.unshifted_finest",
                   apr->method == APR_GUARDS &&
-                      (used->transport == TRANSPORT_TVS || used->transport == TRANSPORT_TVO),
+                      (prm->transport == TRANSPORT_TVS || prm->transport == TRANSPORT_TVO),
                   apr->method == APR_GUARDS ? "sph.transport is no law of shifting"
                                             : "this method has particles of all sizes in one set");
     if (apr->method != APR_GUARDS) {
-        mixed_check(r, used, apr, f);
+        mixed_check(r, prm, apr, f);
         return;
     }
     if (apr->local_steps)
         check_local_steps(r, f);
-    if (used->background)
+    if (prm->background)
         params_fault(r->params, f, "sph.background",
                      "levels of refinement would each lift their own least pressure: leave it out");
 }
@@ -679,6 +576,7 @@ static void check_wall_model(const struct run *r, struct faults *f)
 
 void sph_params_check(const struct run *r, struct faults *f)
 {
+    resolved = false;
     if (f->n > 0) /* values that were refused are not there to be compared */
         return;
     const bool in_3d = r->scene.domain.dim == 3;
@@ -689,7 +587,7 @@ void sph_params_check(const struct run *r, struct faults *f)
             r->params, f, "sph.transport",
             "eulerian needs scheme \"riemann_ale\": without mass flux there is no Eulerian form");
     if (sph_params_of(r)->scheme == SCHEME_STANDARD && sph_params_of(r)->walls == WALLS_NFM &&
-        sph_params_walls(r))
+        sph_params_walls(&r->scene, sph_params_of(r)))
         params_fault(r->params, f, "sph.scheme",
                      "standard has no dissipation of density and diverges at normal flux walls, "
                      "which polylines and bodies need: take riemann, riemann_ale or delta");
@@ -708,7 +606,7 @@ void sph_params_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
     for (int a = 0; a < r->scene.domain.dim; a++)
         check_axis(r, a, f);
-    if (!in_3d && sph_params_walls(r))
+    if (!in_3d && sph_params_walls(&r->scene, sph_params_of(r)))
         if (is_given(given.box) && is_given(given.free))
             params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");
     if (f->n == 0 && has_box())

@@ -251,7 +251,7 @@ static void check_outer(const struct run *r, const struct sph_params *used, stru
     for (int a = 0; a < 3; a++)
         g += fabs(c->fluid.gravity[a]);
     const bool rest = c->initial.field == FIELD_REST && g == 0.0;
-    if (used->outer == OUTER_EXACT && sph_params_zones(r) && !rest && !exact_at_all_times(c))
+    if (used->outer == OUTER_EXACT && sph_params_zones(r, used) && !rest && !exact_at_all_times(c))
         params_fault(r->params, f, "sph.outer",
                      "no exact solution is known around the particles at all times: initial.field "
                      "has none in this scene. Leave the box out, or couple with fv");

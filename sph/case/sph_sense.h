@@ -3,7 +3,7 @@
 #ifndef SPH_SPH_SENSE_H
 #define SPH_SPH_SENSE_H
 
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 
 /* given: as the case has it; used: sph_params_of. */
 void sph_sense_check(const struct run *r, const struct sph_params *given,

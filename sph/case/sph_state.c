@@ -22,10 +22,10 @@
 #include "../refinement/guards.h"
 #include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
-#include "../sph_params.h"
 #include "../surface/surface.h"
 #include "../time/runge_kutta.h"
 #include "../walls/walls.h"
+#include "sph_params.h"
 
 /* Half a period must hold R and the skin, see check_axis in sph_params.c. */
 static double widest_skin(const struct sph *s)

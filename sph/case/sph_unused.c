@@ -42,15 +42,16 @@ static bool any_opening(const struct scene *c)
 
 /* "none" leaves the open sides of a box, and inlets, without what they need: it is read as not
  * given. Inlets are what they are without sides, and sides without them are nothing. */
-static bool outer_counts(const struct run *r, const struct sph_params *given)
+static bool outer_counts(const struct run *r, const struct sph_params *given,
+                         const struct sph_params *used)
 {
     switch (given->outer) {
     case OUTER_NONE:
-        return !sph_params_zones(r) && !any_opening(&r->scene);
+        return !sph_params_zones(r, used) && !any_opening(&r->scene);
     case OUTER_SIDES:
         return any_opening(&r->scene);
     default:
-        return sph_params_zones(r);
+        return sph_params_zones(r, used);
     }
 }
 
@@ -65,16 +66,16 @@ static void find_needs(const struct run *r, const struct sph_params *given,
     has[ARTIFICIAL] = !has[RIEMANN];
     has[DIFFUSIVE] = used->scheme == SCHEME_DELTA;
     has[VISCOUS] = c->fluid.nu > 0.0;
-    has[WALLS] = sph_params_walls(r);
+    has[WALLS] = sph_params_walls(c, used);
     has[TRIANGLES] = has[WALLS] && used->walls == WALLS_NFM && c->domain.dim == 3;
     has[CLIPPED] = has[TRIANGLES] && used->wall_integrals == INTEGRALS_CLIPPED;
     has[PACKED] = has[WALLS] || used->noise > 0.0;
     has[NO_SURFACE] = used->surface != SURFACE_YES;
     has[PLANE] = c->domain.dim == 2;
-    has[ZONES] = sph_params_zones(r);
+    has[ZONES] = sph_params_zones(r, used);
     has[HYDROSTATIC] =
         scene_has_wave(c) || (scene_still_gravity(c, still) > 0.0 && field != FIELD_POISEUILLE);
-    has[OUTER] = outer_counts(r, given);
+    has[OUTER] = outer_counts(r, given, used);
     has[COUPLED] = r->scene.has_fv;
     has[OPENINGS_COUNT] = used->outer == OUTER_SIDES;
 }

@@ -3,7 +3,7 @@
 #ifndef SPH_SPH_UNUSED_H
 #define SPH_SPH_UNUSED_H
 
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 
 /* given: as the case has it; used: sph_params_of. */
 void sph_unused_check(const struct run *r, const struct sph_params *given,

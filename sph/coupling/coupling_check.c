@@ -11,7 +11,7 @@
 #include "../../common/scene/scene_fluid.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 #include "coupling_solids.h"
 #include "windows.h"
 
@@ -195,7 +195,7 @@ static bool box_of_group(const struct run *r, const struct sph_params *prm, cons
     if (params_peek(r->params, r->comm, key, given))
         other.R_dx = given[0];
     for (int a = 0; a < r->scene.domain.dim; a++)
-        sph_params_around(r, &other, a, box, &box[0][a], &box[1][a]);
+        zones_around(r, &other, a, box, &box[0][a], &box[1][a]);
     return true;
 }
 
@@ -286,10 +286,9 @@ static void check_parted(const struct run *r, const struct sph_params *prm, cons
     }
 }
 
-void coupling_check(const struct run *r, struct faults *f)
+void coupling_check(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
-    const struct sph_params *prm = sph_params_of(r);
-    if (!sph_params_zones(r)) {
+    if (!sph_params_zones(r, prm)) {
         params_fault(r->params, f, "sph.box",
                      "no side of it lies in fv's flow: the programs would exchange nothing; make "
                      "it smaller than the domain, or leave out group fv");

@@ -10,8 +10,8 @@
 #include "../../common/scene/scene_mesh.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
+#include "../particles/params_derived.h"
 #include "../rigid/body.h"
-#include "../sph_params.h"
 
 void coupling_hidden(const struct run *r, const struct sph_params *prm, double box[2][3])
 {
@@ -165,9 +165,8 @@ void coupling_check_walls(const struct run *r, const struct sph_params *prm, str
     }
 }
 
-void coupling_warn(const struct run *r)
+void coupling_warn(const struct run *r, const struct sph_params *prm)
 {
-    const struct sph_params *prm = sph_params_of(r);
     double near[2][3];
     bool open[6];
     coupling_hidden(r, prm, near);

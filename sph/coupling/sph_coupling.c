@@ -16,7 +16,7 @@
 #include "../open_boundaries/zones.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 #include "overlap.h"
 #include "windows.h"
 
@@ -50,9 +50,8 @@ static const char *named(const struct run *r, const char *what)
     return text;
 }
 
-void coupling_offer(struct run *r)
+void coupling_offer(struct run *r, const struct sph_params *prm)
 {
-    const struct sph_params *prm = sph_params_of(r);
     double lo[3], hi[3];
     zones_free_box(r, prm, lo, hi);
     cpl_zone(r->partner_ctx, named(r, "box"), prm->box[0], prm->box[1]);
@@ -71,7 +70,7 @@ void coupling_offer(struct run *r)
     cpl_zone(r->partner_ctx, named(r, "moves"), moves, moves);
     const double pace[3] = {box_motion_speed(r, prm), 0.0, 0.0};
     cpl_zone(r->partner_ctx, named(r, "pace"), pace, pace);
-    const double speed[3] = {sph_params_speed(r).speed, 0.0, 0.0};
+    const double speed[3] = {prm->speed.speed, 0.0, 0.0};
     cpl_zone(r->partner_ctx, named(r, "speed"), speed, speed);
 }
 

@@ -18,7 +18,7 @@
 #include "../open_boundaries/box_chase.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 
 /* A window of accuracy: U T/L of the flow; omega T of waves, which add up errors over periods. */
 static const double flow_share = 0.03, wave_share = 0.1;

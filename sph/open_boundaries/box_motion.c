@@ -7,8 +7,8 @@
 
 #include "../../common/scene/scene_mesh.h"
 #include "../parallel/domain.h"
+#include "../particles/params_derived.h"
 #include "../rigid/body.h"
-#include "../sph_params.h"
 #include "../walls/walls.h"
 #include "box_chase.h"
 #include "openings.h"
@@ -103,7 +103,7 @@ double box_motion_speed(const struct run *r, const struct sph_params *prm)
         return sqrt(now[0] * now[0] + now[1] * now[1] + now[2] * now[2]);
     }
     if (!box_motion_foretold(r, prm, 0.0, before))
-        return sph_params_speed(r).speed;
+        return prm->speed.speed;
     for (int k = 1; k <= TIMES; k++) {
         double d2 = 0.0;
         box_motion_foretold(r, prm, k * step, now);

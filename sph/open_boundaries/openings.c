@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "../../common/base/mem.h"
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 #include "../walls/walls.h"
 #include "zones.h"
 

@@ -7,7 +7,7 @@
 #include "../../common/base/mem.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 #include "openings.h"
 #include "wet_faces.h"
 #include "zones.h"

@@ -8,7 +8,7 @@
 
 #include "../../common/base/mem.h"
 #include "../particles/eos.h"
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer)
@@ -16,6 +16,16 @@ void zones_widths(const struct run *r, const struct sph_params *prm, double *tra
     const double least = 1.25 * prm->R_dx * prm->dx; /* the sheet's rule s >= 1.25 R */
     *transition = r->scene.coupling.transition > 0.0 ? r->scene.coupling.transition : least;
     *buffer = r->scene.coupling.buffer > 0.0 ? r->scene.coupling.buffer : least;
+}
+
+void zones_around(const struct run *r, const struct sph_params *prm, int a, double free[2][3],
+                  double *from, double *to)
+{
+    const double corner = r->scene.domain.min[a], dx = prm->dx;
+    double transition, buffer;
+    zones_widths(r, prm, &transition, &buffer);
+    *from = corner + dx * floor((free[0][a] - transition - buffer - corner) / dx + 1e-6);
+    *to = corner + dx * ceil((free[1][a] + transition + buffer - corner) / dx - 1e-6);
 }
 
 const char *zones_extent(int dim, double box[2][3])

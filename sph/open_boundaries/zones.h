@@ -57,6 +57,10 @@ struct zones {
 /* Widths and box of the free zone from parameters alone (open sides: not s->periodic). */
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer);
+/* The outer box along axis a around a free zone, m: transition and buffer on either side, and what
+ * makes it whole particles. */
+void zones_around(const struct run *r, const struct sph_params *prm, int a, double free[2][3],
+                  double *from, double *to);
 double zones_overlap(const struct run *r, const struct sph_params *prm);
 /* "(0, 0) to (1, 1)": corners of a box as messages have them; valid until the next call. */
 const char *zones_extent(int dim, double box[2][3]);

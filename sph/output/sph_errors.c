@@ -15,10 +15,10 @@
 #include "../pairs/neighbours.h"
 #include "../parallel/domain.h"
 #include "../particles/eos.h"
+#include "../particles/params_derived.h"
 #include "../particles/state_sums.h"
 #include "../refinement/apr_params.h"
 #include "../refinement/refinement.h"
-#include "../sph_params.h"
 #include "../walls/forces.h"
 #include "../walls/walls.h"
 #include "probes.h"
@@ -264,17 +264,17 @@ static double *levels_row(const struct sph *s, double *values)
     return values;
 }
 
-int sph_columns(const struct run *r, const char **names)
+int sph_columns(const struct run *r, const struct sph_params *prm, const char **names)
 {
     int n = 0;
     for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
         if (k != 5 || r->scene.domain.dim == 3)
             names[n++] = columns[k];
-    n += sph_watch_columns(r, names + n);
+    n += sph_watch_columns(r, prm, names + n);
     if (sph_has_exact(r))
         names[n++] = "error velocity l2 [-]";
     n += levels_columns(r, names + n);
-    if (sph_params_zones(r)) {
+    if (sph_params_zones(r, prm)) {
         names[n++] = "born [-]";
         names[n++] = "gone [-]";
     }

@@ -11,7 +11,7 @@
 #include "../pairs/neighbours.h"
 #include "../pairs/vec.h"
 #include "../parallel/domain.h"
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 #include "refinement.h"
 
 enum { CLASSES = 2 * APR_LEVELS_MAX + 8, SORT_EVERY = 50 };
@@ -388,7 +388,7 @@ void mixed_check(const struct run *r, const struct sph_params *used, const struc
     refuse(r, f, points || used->walls == WALLS_NFM, "walls",
            "particles of mixed sizes need plane sides as walls, with sph.walls = ghosts");
     refuse(r, f, rub, "walls", "particles of mixed sizes need slip walls");
-    refuse(r, f, sph_params_zones(r), "apr.method", "this one has no open sides");
+    refuse(r, f, sph_params_zones(r, used), "apr.method", "this one has no open sides");
     refuse(r, f, used->background, "sph.background", "not with particles of mixed sizes");
     refuse(r, f, prm->criteria.n > 0, "apr.criteria", "this method follows regions alone");
     refuse(r, f, graded && (prm->regions.n != 1 || prm->regions.of[0].shape != REGION_BOX),

@@ -2,7 +2,7 @@
 #ifndef SPH_REGIONS_PARTS_H
 #define SPH_REGIONS_PARTS_H
 
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 #include "apr_params.h"
 #include "ball.h"
 #include "box_union.h"

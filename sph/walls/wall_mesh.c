@@ -9,7 +9,7 @@
 #include "../../common/base/vec3.h"
 #include "../../common/files/xdmf.h"
 #include "../../common/scene/scene_mesh.h"
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 #include "wall_cover3.h"
 
 void wall_mesh_turn_to_own(const struct wall_mesh *m, const double *v, double *own)

@@ -9,7 +9,7 @@
 #include "../../common/base/log.h"
 #include "../../common/base/mem.h"
 #include "../../common/scene/scene_mesh.h"
-#include "../sph_params.h"
+#include "../particles/params_derived.h"
 #include "forces.h"
 #include "wall_cover.h"
 

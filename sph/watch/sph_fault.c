@@ -8,8 +8,8 @@
 
 #include "../../common/base/mem.h"
 #include "../particles/eos.h"
+#include "../particles/params_derived.h"
 #include "../sph.h"
-#include "../sph_params.h"
 #include "../walls/walls.h"
 
 /* Everything a double, so that ranks can exchange it. */

@@ -29,10 +29,10 @@
 #include "../open_boundaries/openings.h"
 #include "../open_boundaries/zones.h"
 #include "../pairs/neighbours.h"
+#include "../particles/params_derived.h"
 #include "../particles/state_sums.h"
 #include "../refinement/refinement.h"
 #include "../sph.h"
-#include "../sph_params.h"
 #include "../walls/walls.h"
 
 /* Of g dx: rows at the surface and at walls find their places within some hundredths of dx, up as
@@ -81,7 +81,7 @@ static const char *clump_remedy(const struct sph_params *prm)
 void sph_watch_create(struct sph *s)
 {
     struct sph_watch *w = &s->watch;
-    const struct scene_speed v = sph_params_speed(s->run);
+    const struct scene_speed v = s->prm.speed;
     double still[3];
     w->reference = v.speed;
     w->rest = v.pressure / (s->c0 * s->c0);
@@ -315,13 +315,13 @@ static bool is_judged(const struct sph *s, int kind)
 }
 
 /* Mach number and least spacing have columns of their own. */
-int sph_watch_columns(const struct run *r, const char **names)
+int sph_watch_columns(const struct run *r, const struct sph_params *prm, const char **names)
 {
     int n = 0;
-    if (is_closed(r, sph_params_of(r)))
+    if (is_closed(r, prm))
         names[n++] = "energy gain [-]";
     names[n++] = "paired [-]";
-    if (sph_params_walls(r))
+    if (sph_params_walls(&r->scene, prm))
         names[n++] = "put back [-]";
     return n;
 }

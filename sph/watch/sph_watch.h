@@ -10,6 +10,7 @@
 #include "../../common/run/watch.h"
 
 struct sph;
+struct sph_params;
 struct h5;
 struct run;
 struct scene;
@@ -77,7 +78,7 @@ void sph_watch_say_crowd(const struct sph *s, char *text, size_t size);
 void sph_watch_removed(struct sph *s, int i);
 /* After the step; same on all ranks. Collective. */
 void sph_watch_judge(struct sph *s, struct diagnosis *d);
-int sph_watch_columns(const struct run *r, const char **names);
+int sph_watch_columns(const struct run *r, const struct sph_params *prm, const char **names);
 double *sph_watch_row(const struct sph *s, double *values); /* behind those filled */
 void sph_watch_summarise(const struct sph *s);
 void sph_watch_save(const struct sph *s, struct h5 *f);
