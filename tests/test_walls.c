@@ -5,6 +5,7 @@
 
 #include "../common/files/h5.h"
 #include "../sph/output/probes.h"
+#include "../sph/pairs/eigenvalue.h"
 #include "../sph/pairs/kernel.h"
 #include "../sph/pairs/neighbours.h"
 #include "../sph/particles/state_sums.h"
@@ -374,14 +375,14 @@ static void surface_is_found(void **state)
 static void eigenvalues(void **state)
 {
     const double M[9] = {2.0, 0.3, 0.1, 0.3, 1.5, -0.2, 0.1, -0.2, 0.7};
-    const double lambda = surface_eigenvalue(M, 3), shift = lambda + 1e-9;
+    const double lambda = eigenvalue_smallest(M, 3), shift = lambda + 1e-9;
     (void)state;
     /* det(M - lambda) changes sign there and M - lambda is positive semidefinite */
     const double a = M[0] - lambda, b = M[4] - lambda, c = M[8] - lambda;
     const double det = a * (b * c - 0.04) - 0.3 * (0.3 * c + 0.02) + 0.1 * (-0.06 - 0.1 * b);
     assert_close(det, 0.0, 1e-12);
     assert_true(a > 0.0 && a * b - 0.09 > 0.0 && shift < 0.7);
-    assert_close(surface_eigenvalue((double[4]){2.0, 1.0, 1.0, 2.0}, 2), 1.0, 1e-15);
+    assert_close(eigenvalue_smallest((double[4]){2.0, 1.0, 1.0, 2.0}, 2), 1.0, 1e-15);
 }
 
 static double energy_after(int walls, MPI_Comm comm)
