@@ -130,7 +130,7 @@ static void mark_beside_walls(struct sph *s, const struct wall_list *l)
     }
     memset(w->beside, 0, (size_t)s->p.n * sizeof *w->beside);
     for (int k = 0; k < l->n; k++)
-        w->beside[l->who[k]] = l->gamma[k] < 1.0;
+        w->beside[l->who[k]] = l->gamma[k] < 1.0 - 1e-6; /* not by the last digits */
 }
 
 /* Takes from a shift what presses a particle nearer than dx/4 to a wall against it, by its
