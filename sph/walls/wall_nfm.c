@@ -128,7 +128,8 @@ static void mark_beside_walls(struct sph *s, const struct wall_list *l)
         w->beside_capacity = s->p.n + s->p.n / 8;
         w->beside = NEW(bool, w->beside_capacity);
     }
-    memset(w->beside, 0, (size_t)s->p.n * sizeof *w->beside);
+    for (int i = 0; i < s->p.n; i++)
+        w->beside[i] = false;
     for (int k = 0; k < l->n; k++)
         w->beside[l->who[k]] = l->gamma[k] < 1.0 - 1e-6; /* not by the last digits */
 }
