@@ -46,6 +46,8 @@ int body_read_rows(const char *path, int columns, double **rows)
     return n;
 }
 
+static double file_step(const struct body_term *b, int columns);
+
 void body_drive_terms(struct body_drive *v, const struct scene_motions *is, int dim,
                       const char *dir)
 {
@@ -57,6 +59,8 @@ void body_drive_terms(struct body_drive *v, const struct scene_motions *is, int 
         snprintf(path, sizeof path, "%s/%s", dir, t->is->file);
         if (t->is->kind == MOTION_FILE)
             t->n = body_read_rows(path, v->columns, &t->rows);
+        if (t->n > 1)
+            t->step = file_step(t, v->columns);
     }
 }
 
@@ -306,7 +310,7 @@ static double term_step(const struct body_term *b, int columns, double t)
     else if (m->kind == MOTION_POLYNOMIAL && t >= m->from && t < m->until)
         dt = lesser(dt, (m->until - m->from) / COURSE_STEPS);
     else if (m->kind == MOTION_FILE && b->n > 1 && t < b->rows[columns * (b->n - 1)])
-        dt = lesser(dt, file_step(b, columns));
+        dt = lesser(dt, b->step);
     return dt;
 }
 

@@ -21,6 +21,7 @@ struct body_term {
     const struct scene_motion *is;
     int n;        /* rows of its file */
     double *rows; /* [n][columns]: t and displacements */
+    double step;  /* s: that resolves them; of two rows or more */
 };
 
 struct body_drive {
