@@ -15,7 +15,6 @@
 #include "forces.h"
 #include "wall_gap.h"
 #include "wall_list.h"
-#include "wall_share.h"
 
 #define INLINE static inline __attribute__((always_inline))
 
@@ -395,20 +394,19 @@ static bool takes_along(const struct sph *s)
            (s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO);
 }
 
-/* Fluxes q[dim] of the touches of particle k, from first[k] on, and their sum with the rims'. */
+/* Fluxes q[dim] of the touches of particle k, from first[k] on; returns their sum with the rims'.
+ */
 INLINE struct given all_fluxes(const struct sph *s, struct nfm *m, int k, const struct seen *i,
-                               double wave, const int dim)
+                               const struct given *rim, double wave, const int dim)
 {
     const struct wall_list *l = &m->list;
     const int n = l->first[k + 1] - l->first[k];
-    struct given all = {0};
+    struct given all = *rim;
     if (n > m->q_capacity) {
         mem_free(m->q);
         m->q_capacity = 2 * n + 16;
         m->q = mem_new((size_t)m->q_capacity, sizeof *m->q);
     }
-    if (l->rim)
-        all = rim_flux(s, l->rim[k], i, dim);
     for (int j = 0; j < n; j++) {
         const struct wall_touch *t = l->touch + l->first[k] + j;
         const struct given to = t->is.W > 0.0 ? flux(s, t, i, wave, dim) : (struct given){0};
@@ -464,29 +462,28 @@ INLINE void share_by_gamma(const struct sph *s, const struct wall_list *l, int k
     }
 }
 
-/* What a particle so loses more or less than its partners gain goes to the walls: each piece has
- * its own flux, and of the pairs' sum what wall_share_out takes it for. Bodies and fluid so
- * exchange momentum to the last digit. Between faces of several owners each gets its flux whole,
- * gamma's part of all that is left over, and what wall_gap.c says that the faces owe each other. */
+/* What a particle so loses more or less than its partners gain goes to the walls, so that bodies
+ * and fluid exchange momentum to the last digit: each piece has its own flux over gamma, and the
+ * owner of all pieces what gamma makes of the pairs' sum. Between faces of several owners each gets
+ * its flux whole, gamma's part of all that is left over, and what wall_gap.c says that the faces
+ * owe each other. */
 INLINE void credit(const struct sph *s, struct nfm *m, int k, const struct seen *i,
-                   const double *pairs, const struct given *all, double gamma_1, const int dim)
+                   const double *pairs, const struct given *rim, const struct given *all,
+                   double gamma_1, const int dim)
 {
     struct wall_list *l = &m->list;
-    double rest[3], rim[3] = {0.0, 0.0, 0.0};
+    double rest[3], of_rim[3];
     const bool gap = wall_gap_between(l, k);
     const double share = gap ? 1.0 : gamma_1;
-    for (int a = 0; a < dim; a++)
+    for (int a = 0; a < dim; a++) {
         rest[a] = (1.0 - gamma_1) * (pairs[a] + (gap ? i->w * all->q[a] : 0.0));
-    if (l->rim) {
-        const struct given of_rim = rim_flux(s, l->rim[k], i, dim);
-        for (int a = 0; a < dim; a++)
-            rim[a] = -i->w * of_rim.q[a] * share;
+        of_rim[a] = -i->w * rim->q[a] * share;
     }
     if (gap)
         share_by_gamma(s, l, k, i->x, rest, dim);
     else
-        wall_share_out(s, l, k, i->x, rest);
-    credit_own(s, m, k, i->x, i->w * share, rim, dim);
+        forces_add(s, l->touch[l->first[k]].body, i->x, rest);
+    credit_own(s, m, k, i->x, i->w * share, of_rim, dim);
     if (gap)
         wall_gap_exchange(s, l, k, (const double(*)[3])m->q, i->w);
 }
@@ -507,9 +504,10 @@ INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
         pairs[a] = rate[dim + a] - own[dim + a];
     }
     const double wave = wave_factor(s, l, k, i.c * gamma_1, dim);
-    const struct given all = all_fluxes(s, m, k, &i, wave, dim);
+    const struct given rim = l->rim ? rim_flux(s, l->rim[k], &i, dim) : (struct given){0};
+    const struct given all = all_fluxes(s, m, k, &i, &rim, wave, dim);
     if (!s->flows_at || m->pushes[k])
-        credit(s, m, k, &i, pairs, &all, gamma_1, dim);
+        credit(s, m, k, &i, pairs, &rim, &all, gamma_1, dim);
     for (int a = 0; a < dim; a++)
         rate[dim + a] = (pairs[a] + i.w * all.q[a]) * gamma_1 + own[dim + a];
     const int V = at_volume(dim), M = at_mass(dim);
