@@ -76,9 +76,11 @@ $(B)/pic/%.o: %.c
 	@$(CC) $(CFLAGS) -fPIC -MMD -MP -c -o $@ $<
 $(B)/o/common/base/version.o: CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
 
-# ---- tests: every tests/test_X.c is a program; tests/mock*.c know cpl.h alone -------------------------
-tests_bin = $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c tests/bench_*.c tests/toy*.c))
-$(B)/tests/mock $(B)/tests/mock_any $(B)/tests/mock_calls: $(B)/tests/%: $(B)/o/tests/%.o $(B)/libcpl.a
+# ---- tests: unit/ has one program a file, jobs/ scripts and their partners (mock*.c know cpl.h alone) -------
+tests_src = $(wildcard tests/unit/*/test_*.c tests/bench/bench_*.c tests/jobs/toy*.c)
+tests_bin = $(patsubst %.c,$(B)/tests/%,$(notdir $(tests_src)))
+mocks = $(B)/tests/mock $(B)/tests/mock_any $(B)/tests/mock_calls
+$(mocks): $(B)/tests/%: $(B)/o/tests/jobs/%.o $(B)/libcpl.a
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ -lm
@@ -87,19 +89,20 @@ $(B)/tests/heat: $(B)/o/coupler/examples/heat.o $(B)/public/libcpl.a # as an out
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ -lm
-$(B)/tests/%: $(B)/o/tests/%.o $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
+$(foreach f,$(tests_src),$(eval $(B)/tests/$(basename $(notdir $f)): $(B)/o/$(f:.c=.o)))
+$(tests_bin): $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
 	@mkdir -p $(@D)
 	@echo "LD $@"
-	@$(CC) $(SAN) -o $@ $< -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(FV_LIBS) $(ASSIMP_LIBS) $(LIBS) -lcmocka
-$(B)/tests/kill_at.so: tests/kill_at.c
+	@$(CC) $(SAN) -o $@ $(filter %.o,$^) -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(FV_LIBS) $(ASSIMP_LIBS) $(LIBS) -lcmocka
+$(B)/tests/kill_at.so: tests/jobs/kill_at.c
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(CC) $(filter-out -MMD,$(CFLAGS)) -shared -fPIC -o $@ $< -ldl
-$(B)/tests/properties_scene: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/properties_*.c)) # knows no other code
+$(B)/tests/properties_scene: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/properties/*.c)) # knows no other code
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@cc $(SAN) -o $@ $^ -lm
-tests: all $(tests_bin) $(B)/tests/mock $(B)/tests/mock_any $(B)/tests/mock_calls $(B)/tests/heat $(B)/tests/kill_at.so $(B)/tests/properties_scene
+tests: all $(tests_bin) $(mocks) $(B)/tests/heat $(B)/tests/kill_at.so $(B)/tests/properties_scene
 asan:
 	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-O2 -march=native -fno-math-errno" \
 	    SAN="-fsanitize=address,undefined -fno-sanitize=null,alignment,object-size -fno-omit-frame-pointer" tests
@@ -118,7 +121,7 @@ test-fast: # units alone, for development
 	@$(MAKE) --no-print-directory -j2 tests
 	@FAST=1 tests/run $(B)
 properties: all $(B)/tests/properties_scene # SEED=, N= or MINUTES=, JOBS=, KEEP=
-	@tests/properties $(B)
+	@tests/properties/run $(B)
 report: all
 	@cases/report
 stability: all

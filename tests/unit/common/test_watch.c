@@ -1,0 +1,86 @@
+/* test_watch.c - a rising energy is seen within its window, a falling one never; levels warn and
+ * stop. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../common/run/run.h"
+#include "../../../common/run/watch.h"
+
+static void a_falling_energy_gains_nothing(void **state)
+{
+    (void)state;
+    struct watch_budget b = {.n = 0};
+    for (int step = 0; step < 1000; step++)
+        assert_close(watch_budget_gain(&b, step, 2.0 - 1e-3 * step), 0.0, 0.0);
+}
+
+static void a_gain_is_that_of_the_last_hundred_steps(void **state)
+{
+    (void)state;
+    struct watch_budget b = {.n = 0};
+    double gain = 0.0;
+    for (int step = 0; step <= 1000; step++)
+        gain = watch_budget_gain(&b, step, 1e-3 * step);
+    assert_true(gain <= 0.1001 && gain >= 0.0959); /* 100 steps, to a slot of 3 or 4 */
+    for (int step = 1001; step <= 1102; step++)
+        gain = watch_budget_gain(&b, step, 1.0);
+    assert_close(gain, 0.0, 0.0);
+}
+
+static void every_tenth_step_is_enough(void **state)
+{
+    (void)state;
+    struct watch_budget b = {.n = 0};
+    double gain = 0.0;
+    for (int step = 0; step <= 1000; step += 10)
+        gain = watch_budget_gain(&b, step, 1e-3 * step);
+    assert_true(gain <= 0.1001 && gain >= 0.0899);
+}
+
+static void a_level_warns_and_another_stops(void **state)
+{
+    (void)state;
+    struct diagnosis d = {.bad = false};
+    struct watch w = {.key = "x", .what = "x", .likely = "-", .warn = 0.01, .stop = 0.1};
+    assert_false(watch_judge(&w, 0.001, 0.0, 0, &d));
+    assert_false(w.warned);
+    assert_false(watch_judge(&w, 0.05, 0.0, 1, &d));
+    assert_true(w.warned && !d.bad);
+    assert_false(watch_judge(&w, 0.02, 0.0, 2, &d));
+    assert_close(w.worst, 0.05, 0.0);
+    assert_true(watch_judge(&w, NAN, 0.0, 3, &d));
+    assert_true(d.bad);
+}
+
+/* What was too large for a while is a warning; what still is at the end is no sound run. */
+static void a_run_that_ends_beyond_the_warning_is_not_sound(void **state)
+{
+    (void)state;
+    const double last[] = {0.001, 0.02, NAN};
+    for (int k = 0; k < 3; k++)
+        for (int q = 0; q < 2; q++) {
+            struct diagnosis d = {.bad = false};
+            struct watch w = {.key = "x", .what = "x", .likely = "-", .warn = 0.01, .stop = 0.1};
+            struct summary *s = summary_create();
+            w.unsound = q ? 0.03 : 0.0;
+            watch_judge(&w, 0.05, 0.0, 0, &d);
+            watch_judge(&w, last[k], 0.0, 1, &d);
+            watch_summary(&w, s);
+            assert_int_equal(summary_find_text(s, "not_accepted") != NULL,
+                             !(last[k] <= (q ? 0.03 : 0.01)));
+            summary_free(&s);
+        }
+}
+
+int main(int argc, char **argv)
+{
+    MPI_Init(&argc, &argv);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_falling_energy_gains_nothing),
+        cmocka_unit_test(a_gain_is_that_of_the_last_hundred_steps),
+        cmocka_unit_test(every_tenth_step_is_enough),
+        cmocka_unit_test(a_level_warns_and_another_stops),
+        cmocka_unit_test(a_run_that_ends_beyond_the_warning_is_not_sound)};
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

@@ -1,0 +1,408 @@
+/* test_blocked.c - boxes that are cut out of the grid: water at rest beside them stays at rest, in
+ * 2D and 3D, and presses on them by its depth; walls made of boxes are walls; a box through which
+ * nothing flows parts two basins; a duct between boxes has its parabola; ranks change nothing but
+ * rounding. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include <string.h>
+
+#include "../../../fv/boundary/blocked.h"
+#include "../../../fv/case/fv_case.h"
+#include "../../../fv/output/output.h"
+#include "../../../fv/surface/levelset.h"
+#include "../../../fv/watch/watches.h"
+#include "fv_case.h"
+
+#define CLOSED "domain.periodic=(false,false,false)"
+#define SURFACE "fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED
+
+static struct blocked_params boxes[2]; /* of the next start */
+static int nboxes;
+
+static void add_box(const char *name, const double *min, const double *max, enum wall_kind kind)
+{
+    struct blocked_params *p = boxes + nboxes++;
+    snprintf(p->name, sizeof p->name, "%s", name);
+    memcpy(p->min, min, sizeof p->min);
+    memcpy(p->max, max, sizeof p->max);
+    p->kind = kind;
+}
+
+#define BOX(name, kind, x0, y0, z0, x1, y1, z1)                                                    \
+    add_box(name, (const double[]){x0, y0, z0}, (const double[]){x1, y1, z1}, kind)
+
+/* Of a case that is set. */
+static struct fv *start_set(struct fv_case *c, const struct scene_shape *shape, enum wall_kind kind)
+{
+    struct scene *scene = &c->run.scene;
+    for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * scene->domain.dim; side++)
+        if (!scene->domain.periodic[(side - SIDE_X_MIN) / 2])
+            scene->walls[scene->nwalls++] = (struct scene_wall){.side = side, .kind = kind};
+    if (shape)
+        scene->shapes[scene->nshapes++] = *shape;
+    memcpy(blocked_given, boxes, sizeof boxes);
+    blocked_given_count = nboxes;
+    nboxes = 0;
+    return fv_case_start(c, NULL);
+}
+
+static struct fv *start(struct fv_case *c, MPI_Comm comm, const char *const *overrides,
+                        const struct scene_shape *shape, enum wall_kind kind)
+{
+    fv_case_set(c, comm, overrides);
+    return start_set(c, shape, kind);
+}
+
+static void end(struct fv_case *c)
+{
+    fv_free(&c->s);
+    blocked_given_count = 0;
+}
+
+static void still_water_stays(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++)
+        for (int kind = WALL_SLIP; kind <= WALL_NO_SLIP; kind++) {
+            struct fv_case c;
+            double force[2 * 3];
+            const int up = dim - 1;
+            /* one through the surface, a cell thick; one under water; both on the floor */
+            if (dim == 2)
+                BOX("post", kind, 0.25, 0, 0, 0.3, 0.8, 0);
+            else
+                BOX("post", kind, 0.25, 0.25, 0, 0.35, 0.5, 0.8);
+            if (dim == 2)
+                BOX("sill", kind, 0.5, 0, 0, 0.8, 0.2, 0);
+            else
+                BOX("sill", kind, 0.6, 0.25, 0, 0.8, 0.75, 0.2);
+            const struct scene_shape water = {.form = SHAPE_BELOW, .level = 0.5123};
+            struct fv *s =
+                start(&c, MPI_COMM_WORLD,
+                      (const char *const[]){
+                          SURFACE, dim == 2 ? "domain.dim=2" : "domain.dim=3",
+                          dim == 2 ? "fluid.gravity=(0,-9.81)" : "fluid.gravity=(0,0,-9.81)",
+                          dim == 2 ? "fv.cells=(20,20)" : "fv.cells=(20,12,20)", NULL},
+                      &water, WALL_NO_SLIP);
+            assert_true(fv_case_run(&c, 5, 10.0));
+            for (int a = 0; a < dim; a++)
+                assert_close(s->umax[a], 0.0, 1e-10);
+            fv_blocked_forces(s, force);
+            for (int a = 0; a < up; a++) /* as much from either side */
+                assert_close(force[dim + a], 0.0, 1e-9);
+            assert_close(force[up], 0.0, 1e-9);
+            assert_close(force[dim + up], -9.81 * (0.5123 - 0.2) * (dim == 2 ? 0.3 : 0.2 * 0.5),
+                         1e-9);
+            end(&c);
+        }
+}
+
+static double swing(bool between, bool deep, enum wall_kind kind)
+{
+    struct fv_case c;
+    const bool solid = deep;
+    const struct scene_shape column = {.form = SHAPE_BOX, .box = {{0, 0, 0}, {0.4, 0.6, 0.6}}};
+    if (between && solid) {
+        BOX("left", kind, -1, -1, -1, 0, 2, 2);
+        BOX("low", kind, -1, -1, -1, 2, 2, 0);
+    } else if (between) {
+        BOX("left", kind, -1, -1, 0, 0, 2, 0);
+        BOX("low", kind, -1, -1, 0, 2, 0, 0);
+    }
+    struct fv *s =
+        start(&c, MPI_COMM_WORLD,
+              (const char *const[]){SURFACE, "fv.tol_pressure=1e-6", "fluid.nu=1e-3",
+                                    solid ? "domain.dim=3" : "domain.dim=2",
+                                    solid ? "fluid.gravity=(0,0,-9.81)" : "fluid.gravity=(0,-9.81)",
+                                    !solid ? between ? "domain.min=(-0.1,-0.1)" : "domain.min=(0,0)"
+                                    : between ? "domain.min=(-0.1,0,-0.1)"
+                                              : "domain.min=(0,0,0)",
+                                    !solid    ? between ? "fv.cells=(22,22)" : "fv.cells=(20,20)"
+                                    : between ? "fv.cells=(22,6,22)"
+                                              : "fv.cells=(20,6,20)",
+                                    NULL},
+              &column, kind);
+    assert_true(fv_case_run(&c, 1000, 0.2));
+    const double e = surface_energy(s);
+    end(&c);
+    return e;
+}
+
+/* The same flow as in a tank whose walls are the domain's sides, but for corner terms of O(h^2). */
+static void boxes_are_walls(void **state)
+{
+    (void)state;
+    for (int deep = 0; deep < 2; deep++)
+        for (int kind = WALL_SLIP; kind <= WALL_NO_SLIP; kind++) {
+            const double sides = swing(false, deep, kind), other = swing(true, deep, kind);
+            print_message("column, %dD, %s: energy %.8g, between boxes %.8g\n", deep ? 3 : 2,
+                          kind == WALL_SLIP ? "slip" : "no slip", sides, other);
+            assert_close(other, sides, 5e-3 * sides); /* 2 (h/H)^2 */
+        }
+}
+
+/* A wall of one cell: no water and no pressure passes, whatever the stencils reach. */
+static void thin_wall_parts_basins(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    const struct scene_shape column = {.form = SHAPE_BOX, .box = {{0, 0, 0}, {0.3, 0.8, 0}}};
+    BOX("wall", WALL_SLIP, 0.5, 0, 0, 0.55, 1, 0);
+    struct fv *s = start(&c, MPI_COMM_WORLD,
+                         (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "fluid.nu=0",
+                                               "domain.dim=2", "fv.cells=(20,20)", NULL},
+                         &column, WALL_SLIP);
+    assert_true(fv_case_run(&c, 1000, 0.6));
+    assert_true(surface_reach(s, 0) < 0.5 + 1e-9);
+    assert_close(surface_volume(s, NULL), s->surface->volume0, 1e-9);
+    end(&c);
+}
+
+/* Over all ranks. */
+static double level_at(const struct fv *s, double x)
+{
+    double level = surface_level(s, (const double[]){x, 0, 0});
+    MPI_Allreduce(MPI_IN_PLACE, &level, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return level;
+}
+
+/* Two shafts round a core: each has the level of its own shape, whatever box lies between, and the
+ * energy of what then swings is that of the fall. */
+static void shafts_have_their_own_levels(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    const struct scene_shape left = {.form = SHAPE_BOX, .box = {{0, 0, 0}, {0.5, 0.65, 0}}},
+                             right = {.form = SHAPE_BOX, .box = {{0.5, 0, 0}, {1, 0.55, 0}}};
+    BOX("core", WALL_SLIP, 0.25, 0.25, 0, 0.75, 1, 0);
+    fv_case_set(&c, MPI_COMM_WORLD,
+                (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "fluid.nu=0",
+                                      "domain.dim=2", "fv.cells=(32,32)", NULL});
+    c.run.scene.shapes[c.run.scene.nshapes++] = left;
+    struct fv *s = start_set(&c, &right, WALL_SLIP);
+    assert_close(level_at(s, 0.1), 0.65, 1e-9);
+    assert_close(level_at(s, 0.9), 0.55, 1e-9);
+    assert_true(fv_case_run(&c, 1000, 3.5)); /* more than a hundred steps, two periods */
+    print_message("U tube: %d steps, energy gained %.3g\n", (int)c.run.step,
+                  s->watches->energy.worst);
+    assert_true(c.run.step > 105 && s->watches->energy.worst < s->watches->energy.warn);
+    end(&c);
+}
+
+/* The height of the surface, over what stands on the floor and what hangs in the water, and the
+ * ground where there is no water. */
+static void gauges_read_over_boxes(void **state)
+{
+    (void)state;
+    static const struct {
+        double water, top, x, level; /* of the water, the sill; the gauge and what it reads */
+    } all[] = {{0.4, 0.2, 0.45, 0.4}, {0.4, 0.2, 0.2, 0.4}, {0.4, 0.2, 0.7, 0.4},
+               {0.4, 0.6, 0.2, 0.6},  {0.1, 0.2, 0.2, 0.2}, {0.1, 0.2, 0.7, 0.1}};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+        struct fv_case c;
+        const struct scene_shape water = {.form = SHAPE_BELOW, .level = all[k].water};
+        BOX("sill", WALL_SLIP, 0.1, 0, 0, 0.3, all[k].top, 0);
+        BOX("bar", WALL_SLIP, 0.6, 0.2, 0, 0.8, 0.3, 0);
+        struct fv *s = start(&c, MPI_COMM_WORLD,
+                             (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)",
+                                                   "domain.dim=2", "fv.cells=(20,20)", NULL},
+                             &water, WALL_SLIP);
+        assert_close(level_at(s, all[k].x), all[k].level, 1e-9);
+        end(&c);
+    }
+}
+
+static void duct_has_its_parabola(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    double most = 0.0, x[3], force[6];
+    BOX("floor", WALL_NO_SLIP, -1, -0.5, 0, 2, 0, 0);
+    BOX("roof", WALL_NO_SLIP, -1, 1, 0, 2, 2, 0);
+    struct fv *s =
+        start(&c, MPI_COMM_WORLD,
+              (const char *const[]){"initial.field=\"rest\"", "domain.periodic=(true,false,false)",
+                                    "domain.min=(0,-0.5)", "domain.max=(1,1.5)", "fluid.nu=0.1",
+                                    "fluid.gravity=(0.8,0)", "fv.tol_viscous=1e-9", "domain.dim=2",
+                                    "fv.cells=(8,16)", NULL},
+              NULL, WALL_SLIP);
+    assert_true(fv_case_run(&c, 1000, 30.0));
+    BLOCK_CELLS (&s->b, i, j, k, at) {
+        block_centre(&s->b, i, j, k, x);
+        const double y = x[1], h = s->b.h[1];
+        const double exact = y > 0.0 && y < 1.0 ? 4.0 * (y * (1.0 - y) - h * h / 12.0) : 0.0;
+        most = fmax(most, fabs(s->u[0][at] - exact));
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    fv_blocked_forces(s, force);
+    print_message("duct: %.3g off the parabola, friction %.8g and %.8g\n", most, force[0],
+                  force[2]);
+    assert_close(most, 0.0, 1e-6);
+    assert_close(force[0], 0.4, 1e-6); /* half of what gravity pulls */
+    assert_close(force[2], 0.4, 1e-6);
+    end(&c);
+}
+
+/* Steady flow that a body force drives past a bar in a duct: bar and walls take the force on what
+ * flows, 0.1 (4 - 0.25). */
+static void bar_and_walls_take_the_weight(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    double wall[3], bar[3];
+    BOX("bar", WALL_NO_SLIP, 0.75, 0.75, 0, 1.25, 1.25, 0);
+    struct fv *s =
+        start(&c, MPI_COMM_WORLD,
+              (const char *const[]){"initial.field=\"rest\"", "fluid.nu=0.05",
+                                    "fluid.gravity=(0.1,0)", "domain.max=(2,2)",
+                                    "domain.periodic=(true,false)", "domain.dim=2", NULL},
+              NULL, WALL_NO_SLIP);
+    assert_true(fv_case_run(&c, 100000, 80.0)); /* H^2/(pi^2 nu) = 8 s */
+    fv_wall_force(s, wall);
+    fv_blocked_forces(s, bar);
+    print_message("bar %g, walls %g: %.6f of 0.375 N\n", bar[0], wall[0], bar[0] + wall[0]);
+    assert_close(bar[0] + wall[0], 0.375, 1e-3 * 0.375);
+    assert_close(bar[1] + wall[1], 0.0, 1e-9);
+    end(&c);
+}
+
+/* A stream through boxes in a periodic domain loses energy, whoever has it; the watch of what a
+ * flow has over its mean knows that a box stirs it. */
+static void stream_loses_energy(void **state)
+{
+    (void)state;
+    for (int bdf2 = 0; bdf2 < 2; bdf2++) {
+        struct fv_case c;
+        double row[FV_CASE_ROW], before = INFINITY;
+        BOX("a", WALL_NO_SLIP, 0.25, 0.25, 0.25, 0.5, 0.6, 0.6);
+        start(&c, MPI_COMM_WORLD,
+              (const char *const[]){
+                  "initial.field=\"uniform\"", "initial.velocity=(1,0.2,0.1)", "domain.dim=3",
+                  "domain.periodic=(true,true,true)", "fluid.nu=1e-2", "fv.cells=(16,16,16)",
+                  bdf2 ? "fv.integrator=\"bdf2\"" : "fv.integrator=\"rk3\"", NULL},
+              NULL, WALL_SLIP);
+        for (int k = 0; k < 6; k++) {
+            assert_true(fv_case_run(&c, 1000, 0.2 * (k + 1)));
+            fv_row(c.s, row);
+            assert_true(row[0] < before);
+            before = row[0];
+        }
+        end(&c);
+    }
+}
+
+/* Discharge through the gap open[0] < y < open[1] of the section x = 1/2. */
+static double discharge(const struct fv *s, const double *open)
+{
+    const struct block *b = &s->b;
+    double sum = 0.0, area = b->dim == 3 ? b->h[1] * b->h[2] : b->h[1];
+    const int i = b->cells[0] / 2 - b->lo[0];
+    for (int k = 0; k < b->n[2] && i >= 0 && i < b->n[0]; k++)
+        for (int j = 0; j < b->n[1]; j++) {
+            const double y = b->origin[1] + (b->lo[1] + j + 0.5) * b->h[1];
+            sum += y > open[0] && y < open[1] ? area * s->U[0][block_at(b, i, j, k)] : 0.0;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
+    return sum;
+}
+
+/* An inflow that starts at once through an orifice: the flow of the start and that of each step
+ * carry the inflow's discharge through it, at no more than some times its mean speed there. */
+static void orifice_starts(void **state)
+{
+    static const struct {
+        const char *cells, *dim, *by;
+        double u, open[2], n; /* m/s; m of y; share of the section */
+    } of[] = {
+        {"fv.cells=(40,40)", "domain.dim=2", "fv.integrator=\"rk3\"", 0.1, {0.45, 0.55}, 0.1},
+        {"fv.cells=(40,40)", "domain.dim=2", "fv.integrator=\"rk3\"", 2.0, {0.0, 0.2}, 0.2},
+        {"fv.cells=(40,40)", "domain.dim=2", "fv.integrator=\"bdf2\"", 0.5, {0.4, 0.6}, 0.2},
+        {"fv.cells=(20,20,8)", "domain.dim=3", "fv.integrator=\"rk3\"", 0.3, {0.4, 0.6}, 0.2}};
+    (void)state;
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_WORLD,
+                    (const char *const[]){"initial.field=\"rest\"", CLOSED, "fluid.nu=1e-3",
+                                          "fv.tol_pressure=1e-6", of[k].cells, of[k].dim, of[k].by,
+                                          NULL});
+        struct scene *scene = &c.run.scene;
+        for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * scene->domain.dim; side++)
+            scene->walls[scene->nwalls++] =
+                (struct scene_wall){.side = side,
+                                    .kind = side == SIDE_X_MIN   ? WALL_INFLOW
+                                            : side == SIDE_X_MAX ? WALL_OUTFLOW
+                                                                 : WALL_SLIP,
+                                    .velocity = {side == SIDE_X_MIN ? of[k].u : 0.0, 0.0, 0.0}};
+        if (of[k].open[0] > 0.0)
+            BOX("lower", WALL_SLIP, 0.45, 0, 0, 0.55, of[k].open[0], 1);
+        BOX("upper", WALL_SLIP, 0.45, of[k].open[1], 0, 0.55, 1, 1);
+        memcpy(blocked_given, boxes, sizeof boxes);
+        blocked_given_count = nboxes;
+        nboxes = 0;
+        struct fv *s = fv_case_start(&c, NULL);
+        const double start = discharge(s, of[k].open);
+        assert_close(start, of[k].u, 1e-5 * of[k].u);
+        for (int n = 0; n < 3; n++) {
+            assert_true(fv_case_run(&c, 5, 1.0));
+            assert_close(discharge(s, of[k].open), of[k].u, 1e-3 * of[k].u);
+            assert_true(s->umax[0] > 0.9 * of[k].u / of[k].n &&
+                        s->umax[0] < 4.0 * of[k].u / of[k].n);
+        }
+        print_message("orifice of %g: discharge %.8g of %g m^2/s, fastest %.3g of %g m/s\n",
+                      of[k].n, start, of[k].u, s->umax[0], of[k].u / of[k].n);
+        end(&c);
+    }
+}
+
+static void sums_on(MPI_Comm comm, int dim, double sums[6])
+{
+    struct fv_case c;
+    const struct scene_shape column = {.form = SHAPE_BOX, .box = {{0, 0, 0}, {0.43, 1, 0.57}}};
+    const bool flat = dim == 2;
+    BOX("box", flat ? WALL_NO_SLIP : WALL_SLIP, 0.61, flat ? 0 : 0.3, 0, 0.74, flat ? 0.2 : 0.7,
+        0.2);
+    struct fv *s = start(
+        &c, comm,
+        (const char *const[]){SURFACE, flat ? "domain.dim=2" : "domain.dim=3", "fluid.nu=1e-3",
+                              flat ? "fluid.gravity=(0,-9.81)" : "fluid.gravity=(0,0,-9.81)",
+                              flat ? "fv.cells=(30,24)" : "fv.cells=(20,10,14)", NULL},
+        &column, WALL_SLIP);
+    const bool good = fv_case_run(&c, 12, 0.17);
+    sums[0] = good ? surface_energy(s) : NAN;
+    fv_blocked_forces(s, sums + 1);
+    sums[4] = surface_reach(s, 0);
+    sums[5] = s->t;
+    if (flat)
+        sums[3] = 0.0;
+    end(&c);
+}
+
+static void ranks_agree(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        double alone[6], shared[6];
+        sums_on(MPI_COMM_SELF, dim, alone);
+        sums_on(MPI_COMM_WORLD, dim, shared);
+        for (int k = 0; k < 6; k++) {
+            MPI_Bcast(alone + k, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+            assert_close(shared[k], alone[k], 1e-7 * fmax(1e-2, fabs(alone[k])));
+        }
+        print_message("%dD: energy %.10g, force %.6g, reach %.6g\n", dim, alone[0], alone[1],
+                      alone[4]);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(still_water_stays),      cmocka_unit_test(boxes_are_walls),
+        cmocka_unit_test(thin_wall_parts_basins), cmocka_unit_test(shafts_have_their_own_levels),
+        cmocka_unit_test(gauges_read_over_boxes), cmocka_unit_test(duct_has_its_parabola),
+        cmocka_unit_test(stream_loses_energy),    cmocka_unit_test(bar_and_walls_take_the_weight),
+        cmocka_unit_test(orifice_starts),         cmocka_unit_test(ranks_agree)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

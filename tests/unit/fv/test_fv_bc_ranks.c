@@ -1,0 +1,94 @@
+/* test_fv_bc_ranks.c - walls and openings: the number of ranks changes nothing but rounding, a
+ * restart nothing at all. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../fv/case/fv_case.h"
+#include "../../../fv/output/output.h"
+#include "fv_bc_case.h"
+#include "fv_restart.h"
+
+enum trial { CAVITY, DUCT, CARRIED, CAVITY_3D, GRADED, GRADED_3D, FLOWS };
+
+static struct fv *start(struct fv_case *c, MPI_Comm comm, enum trial flow, struct h5 *f)
+{
+    const bool solid = flow == CAVITY_3D || flow == GRADED_3D,
+               duct = flow == DUCT || flow == CARRIED;
+    fv_case_set(c, comm,
+                (const char *const[]){CLOSED, "initial.field=\"rest\"", "fluid.nu=0.01",
+                                      solid ? "domain.dim=3" : "domain.dim=2",
+                                      solid ? "fv.cells=(16,12,16)" : "fv.cells=(24,26)",
+                                      flow == GRADED      ? "fv.graded=(0.6,14)"
+                                      : flow == GRADED_3D ? "fv.graded=(0.8,4)"
+                                                          : "fv.graded=(0,0)",
+                                      NULL});
+    c->run.scene.domain.periodic[2] = false;
+    wall_add(c, SIDE_Y_MIN, WALL_NO_SLIP, 0.0);
+    wall_add(c, SIDE_Y_MAX, WALL_NO_SLIP, duct ? 0.0 : 1.0);
+    wall_add(c, SIDE_X_MIN, duct ? WALL_INFLOW : WALL_NO_SLIP, duct ? 1.0 : 0.0);
+    wall_add(c, SIDE_X_MAX, duct ? WALL_OUTFLOW : WALL_NO_SLIP, 0.0)->carried = flow == CARRIED;
+    if (solid) {
+        wall_add(c, SIDE_Z_MIN, WALL_SLIP, 0.0);
+        wall_add(c, SIDE_Z_MAX, WALL_NO_SLIP, 0.0);
+    }
+    return fv_case_start(c, f);
+}
+
+/* Largest speed, energy, forces, a weighted sum. */
+static void sums_on(MPI_Comm comm, enum trial flow, double sums[FV_CASE_ROW])
+{
+    struct fv_case c;
+    double row[FV_CASE_ROW] = {0.0}, x[3];
+    struct fv *s = start(&c, comm, flow, NULL);
+    const bool good = fv_case_run(&c, 8, 100.0);
+    fv_row(s, row);
+    for (int k = 0; k < FV_CASE_ROW; k++)
+        sums[k] = good && k != 2 ? row[k] : good ? 0.0 : NAN;
+    for (int k = 0; k < s->b.n[2]; k++)
+        for (int j = 0; j < s->b.n[1]; j++)
+            for (int i = 0; i < s->b.n[0]; i++) {
+                block_centre(&s->b, i, j, k, x);
+                sums[2] +=
+                    sin(7.0 * x[0] + 5.0 * x[1] + 3.0 * x[2]) * s->u[0][block_at(&s->b, i, j, k)];
+            }
+    MPI_Allreduce(MPI_IN_PLACE, sums + 2, 1, MPI_DOUBLE, MPI_SUM, comm);
+    fv_free(&c.s);
+}
+
+static void ranks_agree(void **state)
+{
+    (void)state;
+    for (int flow = 0; flow < FLOWS; flow++) {
+        double alone[FV_CASE_ROW], shared[FV_CASE_ROW], most = 0.0;
+        sums_on(MPI_COMM_SELF, (enum trial)flow, alone);
+        sums_on(MPI_COMM_WORLD, (enum trial)flow, shared);
+        for (int k = 0; k < FV_CASE_ROW; k++) {
+            const double e = fabs(alone[k] - shared[k]) / fmax(1.0, fabs(alone[k]));
+            most = e <= most ? most : e;
+        }
+        MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+        print_message("flow %d: %.3g\n", flow, most);
+        assert_close(most, 0.0, 1e-9);
+    }
+}
+
+static struct fv *start_again(struct fv_case *c, MPI_Comm comm, int flow, struct h5 *f)
+{
+    return start(c, comm, (enum trial)flow, f);
+}
+
+static void restart_is_exact(void **state)
+{
+    (void)state;
+    for (int flow = 0; flow < FLOWS; flow++)
+        assert_int_equal(fv_case_restart(start_again, flow, 3), 0);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(ranks_agree),
+                                       cmocka_unit_test(restart_is_exact)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

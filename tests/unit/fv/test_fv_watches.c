@@ -1,0 +1,254 @@
+/* test_fv_watches.c - the watches tell a flow that grows, waves of two cells and water that is lost
+ * from a sound flow, with walls, openings and a surface. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "fv_bc_case.h"
+#include "mesh_case.h"
+
+#include "../../../fv/case/fv_case.h"
+#include "../../../fv/surface/levelset.h"
+#include "../../../fv/watch/watches.h"
+
+static void say(const char *what, const struct watches *w)
+{
+    print_message("%s: energy %.2g, waves %.2g, %.2g, growth %.3g, volume %.2g\n", what,
+                  w->energy.worst, w->velocity.worst, w->pressure.worst, w->growth.worst,
+                  w->returned.worst);
+}
+
+static void is_sound(const char *what, const struct watches *w)
+{
+    say(what, w);
+    assert_true(w->energy.worst < w->energy.warn && w->velocity.worst < w->velocity.warn);
+    assert_true(w->pressure.worst < w->pressure.warn && w->growth.worst < w->growth.warn);
+    assert_true(w->returned.worst < w->returned.warn);
+}
+
+/* At a sum of 1.6 and 2, beyond the limit of 1.262. */
+static void gained_energy_ends_a_run(void **state)
+{
+    static const double cfl[2] = {1.6, 2.0};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_SELF,
+                    (const char *const[]){"initial.field=\"two_modes\"", "fluid.nu=1e-4",
+                                          "initial.velocity=(3,3)", "fv.upwind=0", NULL});
+        struct fv *s = fv_case_start(&c, NULL);
+        s->prm.cfl = cfl[k];
+        assert_false(fv_case_run(&c, 1000, 1.0));
+        say("beyond the limit", s->watches);
+        assert_true(s->watches->energy.worst > s->watches->energy.stop);
+        fv_free(&c.s);
+    }
+}
+
+/* Energy that grows from nothing, by 1.01 a step, ends a run on blocks that overlap. */
+static void growing_rest_ends_a_run(void **state)
+{
+    static const char over[] = "{ name = \"back\"; cells = (20, 14); max = (1.0, 0.7); i_min = "
+                               "\"slip\"; i_max = \"slip\"; "
+                               "j_min = \"slip\"; j_max = \"slip\"; }, { name = \"fine\"; cells = "
+                               "(16, 16); min = (0.3, 0.1); "
+                               "max = (0.7, 0.5); }";
+    const struct scene_shape water = {.form = SHAPE_BELOW, .level = 0.363};
+    struct mesh_case c;
+    struct diagnosis d = {0};
+    (void)state;
+    mesh_case_read(
+        &c, MPI_COMM_WORLD, over,
+        (const char *const[]){"fluid.gravity=(0,-9.81)", "initial.field=\"rest\"", NULL});
+    c.run.scene.shapes[c.run.scene.nshapes++] = water;
+    fv_params_check(&c.run, &c.faults);
+    assert_int_equal(params_report(&c.faults), 0);
+    struct fv *s = fv_create(&c.run, NULL);
+    for (int64_t k = 1; k <= 300 && !d.bad; k++) {
+        const struct flow_energy e = {.kinetic = 1e-3 * pow(1.01 * 1.01, (double)k - 300.0),
+                                      .volume = 0.4};
+        watches_energy(s->watches, &e, 0.01 * (double)k, k, &d);
+    }
+    assert_true(d.bad && d.reason[0] && d.likely[0]);
+    mesh_case_end(&c, &s);
+}
+
+/* Water that swings over the edge of a shelf, at half the step, whose hundred steps end at rest:
+ * the work of gravity is that of what the surface does, not of averages beside the edge. */
+static void edges_make_no_energy(void **state)
+{
+    static const char shelf[] =
+        "{ name = \"deep\"; cells = (32, 16); max = (1.0, 0.5); i_max = \"slip\"; j_max = "
+        "\"joined\"; i_min = \"slip\"; j_min = \"slip\"; }, "
+        "{ name = \"left\"; cells = (32, 16); min = (0.0, 0.5); max = (1.0, 1.0); i_min = "
+        "\"slip\"; "
+        "i_max = \"joined\"; j_min = \"joined\"; j_max = \"slip\"; }, "
+        "{ name = \"right\"; cells = (32, 16); min = (1.0, 0.5); max = (2.0, 1.0); i_min = "
+        "\"joined\"; i_max = \"slip\"; j_min = \"slip\"; j_max = \"slip\"; }";
+    struct scene_shape water = {.form = SHAPE_POLYGON, .points.n = 4};
+    static const double corner[4][2] = {{-1, -1}, {-1, 0.68}, {3, 0.72}, {3, -1}};
+    struct mesh_case c;
+    struct diagnosis d = {0};
+    (void)state;
+    memcpy(water.points.x, corner, sizeof corner);
+    mesh_case_read(&c, MPI_COMM_WORLD, shelf,
+                   (const char *const[]){"fluid.gravity=(0,-9.81)", "initial.field=\"rest\"",
+                                         "domain.max=(2,1)", NULL});
+    c.run.scene.shapes[c.run.scene.nshapes++] = water;
+    fv_params_check(&c.run, &c.faults);
+    assert_int_equal(params_report(&c.faults), 0);
+    struct fv *s = fv_create(&c.run, NULL);
+    while (!d.bad && c.run.step < 160) {
+        c.run.t += integrate(s, 10.0, &d);
+        c.run.step++;
+    }
+    say("a shelf", s->watches);
+    assert_true(!d.bad && s->watches->energy.worst < s->watches->energy.warn);
+    mesh_case_end(&c, &s);
+}
+
+static void blocks_are_watched(void **state)
+{
+    static const char waving[] =
+        "{ name = \"a\"; mapping = \"sheared\"; wave = 0.06; " PERIODIC "cells = (24, 24); }";
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct mesh_case c;
+        struct fv *s = mesh_case_start(
+            &c, MPI_COMM_WORLD, waving,
+            (const char *const[]){"initial.velocity=(3,3)", "fluid.nu=1e-4", "fv.upwind=0", NULL});
+        s->prm.cfl = k ? 2.2 : 1.1;
+        assert_int_equal(mesh_case_run(s, 1000, 0.5), k == 0);
+        if (k)
+            assert_true(s->watches->energy.worst > s->watches->energy.stop);
+        else
+            is_sound("blocks", s->watches);
+        mesh_case_end(&c, &s);
+    }
+}
+
+/* v = 0.1 (-1)^i needs no pressure and nothing carries it away: it stays in an inviscid flow
+ * without bias. */
+static void waves_of_two_cells_are_seen(void **state)
+{
+    struct fv_case c;
+    (void)state;
+    fv_case_set(&c, MPI_COMM_SELF, (const char *const[]){"fluid.nu=0", "fv.upwind=0", NULL});
+    struct fv *s = fv_case_start(&c, NULL);
+    BLOCK_CELLS (&s->b, i, j, k, at)
+        s->u[1][at] += i % 2 ? 0.1 : -0.1;
+    fv_start(s);
+    assert_true(fv_case_run(&c, 50, 100.0));
+    say("two cells", s->watches);
+    assert_true(s->watches->velocity.worst > s->watches->velocity.warn);
+    fv_free(&c.s);
+}
+
+static void sudden_growth_is_seen(void **state)
+{
+    struct fv_case c;
+    (void)state;
+    fv_case_set(&c, MPI_COMM_SELF, NULL);
+    struct fv *s = fv_case_start(&c, NULL);
+    assert_true(fv_case_run(&c, 8, 100.0));
+    is_sound("before", s->watches);
+    for (int a = 0; a < 2; a++)
+        BLOCK_ROWS (&s->b, 3, at, n)
+            for (int64_t i = at; i < at + n; i++) {
+                s->u[a][i] *= 1.5;
+                s->U[a][i] *= 1.5;
+            }
+    assert_true(fv_case_run(&c, 1, 100.0));
+    assert_true(s->watches->growth.worst > 1.4);
+    fv_free(&c.s);
+}
+
+/* A lid, and vortices that leave through an outflow of either kind: work of walls, fluxes of energy
+ * and of pressure are in the budget. */
+static void walls_and_openings_are_in_the_budget(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_SELF,
+                    (const char *const[]){CLOSED, "fluid.nu=1e-3", "fv.cells=(32,32)",
+                                          k ? "initial.velocity=(1,0)" : "initial.field=\"rest\"",
+                                          k ? "initial.U=0.3" : "initial.U=1", NULL});
+        for (int side = SIDE_Y_MIN; side <= SIDE_Y_MAX; side++)
+            wall_add(&c, (enum scene_side)side, k ? WALL_SLIP : WALL_NO_SLIP,
+                     k == 0 && side == SIDE_Y_MAX ? 1.0 : 0.0);
+        wall_add(&c, SIDE_X_MIN, k ? WALL_INFLOW : WALL_NO_SLIP, k ? 1.0 : 0.0);
+        if (k == 0)
+            c.run.scene.walls[2].velocity[0] = 0.0;
+        wall_add(&c, SIDE_X_MAX, k ? WALL_OUTFLOW : WALL_NO_SLIP, 0.0)->carried = k == 2;
+        struct fv *s = fv_case_start(&c, NULL);
+        assert_true(fv_case_run(&c, 300, 4.0));
+        is_sound(k == 0 ? "lid" : k == 1 ? "outflow" : "convective outflow", s->watches);
+        assert_true(s->watches->has_energy);
+        fv_free(&c.s);
+    }
+}
+
+/* A film of 0.64 cells that a slope makes run off. */
+static void lost_water_is_not_accepted(void **state)
+{
+    struct fv_case c;
+    double volume = 0.0;
+    (void)state;
+    fv_case_set(&c, MPI_COMM_SELF,
+                (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED,
+                                      "fluid.gravity=(2,-9.81)", "fluid.nu=1e-6", NULL});
+    for (int side = SIDE_X_MIN; side <= SIDE_Y_MAX; side++)
+        wall_add(&c, (enum scene_side)side, WALL_SLIP, 0.0);
+    c.run.scene.shapes[c.run.scene.nshapes++] =
+        (struct scene_shape){.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, 0.02, 0}}};
+    struct fv *s = fv_case_start(&c, NULL);
+    c.run.summary = summary_create();
+    assert_true(fv_case_run(&c, 1000, 0.6));
+    say("film", s->watches);
+    fv_watches_end(s);
+    assert_true(summary_find(c.run.summary, "watch.volume_returned", &volume) && volume > 0.05);
+    assert_non_null(summary_find_text(c.run.summary, "not_accepted"));
+    summary_free(&c.run.summary);
+    fv_free(&c.s);
+}
+
+/* Water that fills the domain flows on through its outlet, but the loss of its surface is told; a
+ * river whose surface stays is none. */
+static void a_full_domain_is_told(void **state)
+{
+    (void)state;
+    for (int full = 0; full < 2; full++) {
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_SELF,
+                    (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED,
+                                          "initial.level=0.5", "fluid.gravity=(0,-9.81)", NULL});
+        for (int side = SIDE_X_MIN; side <= SIDE_Y_MAX; side++)
+            wall_add(&c, (enum scene_side)side,
+                     side == SIDE_X_MIN   ? WALL_INFLOW
+                     : side == SIDE_X_MAX ? WALL_OUTFLOW
+                                          : WALL_SLIP,
+                     side == SIDE_X_MIN ? 0.1 : 0.0);
+        c.run.scene.shapes[c.run.scene.nshapes++] =
+            (struct scene_shape){.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, full ? 2 : 0.5, 0}}};
+        struct fv *s = fv_case_start(&c, NULL);
+        assert_true(fv_case_run(&c, 2, 1.0));
+        assert_int_equal(s->watches->filled, full);
+        fv_free(&c.s);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(gained_energy_ends_a_run),
+                                       cmocka_unit_test(growing_rest_ends_a_run),
+                                       cmocka_unit_test(edges_make_no_energy),
+                                       cmocka_unit_test(blocks_are_watched),
+                                       cmocka_unit_test(waves_of_two_cells_are_seen),
+                                       cmocka_unit_test(sudden_growth_is_seen),
+                                       cmocka_unit_test(walls_and_openings_are_in_the_budget),
+                                       cmocka_unit_test(lost_water_is_not_accepted),
+                                       cmocka_unit_test(a_full_domain_is_told)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

@@ -1,0 +1,195 @@
+/* test_still.c - the pressure of water at rest is the whole one, rho g times the depth below the
+ * level, at gauges and in forces, on cells, on blocks and under a free surface.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include <unistd.h>
+
+#include "../../../common/base/mem.h"
+#include "../../../fv/case/fv_case.h"
+#include "../../../fv/fv.h"
+#include "../../../fv/grid/mesh.h"
+#include "../../../fv/output/mesh_output.h"
+#include "../../../fv/output/output.h"
+#include "../../../fv/time/steps.h"
+
+enum { COLUMNS = 40 };
+
+#define HEAD                                                                                       \
+    "format = 1;\ntime: { end = 0.1; };\n"                                                         \
+    "domain: { dim = 2; min = (-1, -1); max = (1, 1); };\n"                                        \
+    "probes: ( { name = \"p\"; at = (0.85, -0.5); } );\n"
+#define CELLS                                                                                      \
+    "fv: { cells = (16, 16); };\nwalls: ( { side = \"x_min\"; }, { side = \"x_max\"; kind = "      \
+    "\"no_slip\"; }, { side = \"y_min\"; }, { side = \"y_max\"; } );\n"
+#define BOX                                                                                        \
+    "{ name = \"box\"; cells = (48, 48); min = (-1, -1); max = (1, 1); i_min = \"wall\"; i_max = " \
+    "\"wall\"; j_min = \"wall\"; j_max = \"wall\"; }"
+#define RING                                                                                       \
+    "{ name = \"ring\"; mapping = \"annulus\"; radius = (0.3, 0.8); cells = (16, 64); i_min = "    \
+    "\"wall\"; j_min = \"joined\"; j_max = \"joined\"; }"
+
+static struct run run;
+static struct param_group groups[SCENE_GROUPS + FV_GROUPS];
+static char path[512];
+static double datum; /* Pa: of a partner */
+
+/* The row of the series after the first step, and its headings. */
+static void row_of(const char *text, double *row, const char **columns)
+{
+    struct faults f = {0};
+    struct diagnosis d = {0};
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    memset(&run, 0, sizeof run);
+    run.comm = MPI_COMM_WORLD;
+    run.size = 1;
+    run.name = "fv";
+    scene_groups(&run.scene, groups);
+    memcpy(groups + SCENE_GROUPS, fv_groups, sizeof fv_groups);
+    struct params *p = params_read(run.comm, path, 0, NULL, groups, SCENE_GROUPS + FV_GROUPS,
+                                   (const char *const[]){NULL}, &f);
+    run.params = p;
+    fv_params_check(&run, &f);
+    assert_int_equal(params_report(&f), 0);
+    struct fv *s = fv_create(&run, NULL);
+    integrate(s, 0.1, &d);
+    s->datum = datum;
+    if (columns)
+        fv_columns(&run, columns);
+    fv_row(s, row);
+    fv_free(&s);
+    assert_false(d.bad);
+    params_free(&p);
+}
+
+/* Energy, speed, divergence, forces, then what the scene has. */
+static void cells_know_the_whole_pressure(void **state)
+{
+    (void)state;
+    double row[COLUMNS] = {0};
+    row_of(HEAD "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\n" CELLS, row, NULL);
+    assert_close(row[3], 0.0, 1e-6);
+    assert_close(row[4], -1000 * 9.81 * 4, 1e-6); /* the lid feels nothing, the floor the weight */
+    assert_close(row[5], 1000 * 9.81 * 1.5, 1e-6);
+    row_of(HEAD "initial: { level = 2; };\n" /* under pressure: the lid feels 1 m of water */
+                "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\n" CELLS,
+           row, NULL);
+    assert_close(row[4], -1000 * 9.81 * 4, 1e-6);
+    assert_close(row[5], 1000 * 9.81 * 2.5, 1e-6);
+}
+
+/* A wall without water feels nothing. */
+static void walls_under_a_free_surface_feel_the_water_alone(void **state)
+{
+    (void)state;
+    double row[COLUMNS] = {0};
+    row_of(HEAD "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\nshapes: ( { form = "
+                "\"below\"; level "
+                "= 0.2; } );\n" CELLS,
+           row, NULL);
+    assert_close(row[3], 0.0, 1e-6);
+    assert_close(row[4], -1000 * 9.81 * 2 * 1.2, 1e-6);
+    assert_close(row[8], 1000 * 9.81 * 0.7, 1e-6);
+}
+
+/* The level is a height against gravity, whichever way that points. */
+static void levels_stand_against_gravity(void **state)
+{
+    (void)state;
+    static const char *const walls =
+        "walls: ( { side = \"x_min\"; }, { side = \"x_max\"; }, { side = \"y_min\"; }, { side = "
+        "\"y_max\"; }, { side = \"z_min\"; }, { side = \"z_max\"; } );\n"
+        "probes: ( { name = \"h\"; kind = \"level\"; at = (0.5, 0.5, 0.5); } );\n"
+        "fv: { cells = (8, 8, 8); };\n";
+    static const double wanted[4] = {0.2, 0.2, 0.2, 0.8};
+    static const char *const gravity[4] = {"(-1, 0, 0)", "(0, -1, 0)", "(0, 0, -1)", "(0, 1, 0)"};
+    for (int k = 0; k < 4; k++) {
+        double row[COLUMNS] = {0};
+        char text[2048];
+        snprintf(
+            text, sizeof text,
+            "format = 1;\ntime: { end = 0.1; };\ndomain: { dim = 3; min = (0, 0, 0); max = (1, "
+            "1, 1); };\nfluid: { gravity = %s; };\nshapes: ( { form = \"below\"; level = %g; } "
+            ");\n%s",
+            gravity[k], k == 3 ? -0.8 : 0.2, walls);
+        row_of(text, row, NULL);
+        assert_close(row[10], wanted[k], 1e-9);
+    }
+}
+
+/* What runs down along a periodic axis, steeper than 45 degrees, stands on the floor across it. */
+static void films_stand_across_their_flow(void **state)
+{
+    (void)state;
+    double row[COLUMNS] = {0};
+    row_of("format = 1;\ntime: { end = 0.1; };\nfluid: { rho = 1000; nu = 0.01; gravity = (8, -5); "
+           "};\n"
+           "domain: { dim = 2; min = (0, 0); max = (1, 1); periodic = (true, false); };\n"
+           "shapes: ( { box = ((-1, -1), (2, 0.5)); } );\n"
+           "walls: ( { side = \"y_min\"; kind = \"no_slip\"; }, { side = \"y_max\"; } );\n"
+           "probes: ( { name = \"h\"; kind = \"level\"; at = (0.3, 0); }, { name = \"p\"; at = "
+           "(0.3, 0); } );\n"
+           "fv: { cells = (8, 8); };\n",
+           row, NULL);
+    assert_close(row[8], 0.5, 1e-6);
+    assert_close(row[9], 1000 * 5 * 0.5, 1e-3);
+}
+
+static void blocks_know_the_whole_pressure(void **state)
+{
+    (void)state;
+    const char *columns[COLUMNS];
+    double row[COLUMNS] = {0};
+    const double lift = 1000 * 9.81 * M_PI * 0.3 * 0.3;
+    row_of(HEAD "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\nfv: { };\nblocks: ( " BOX
+                ", " RING " );\n",
+           row, columns);
+    assert_string_equal(columns[7], "box force y [N]");
+    assert_string_equal(columns[9], "ring force y [N]");
+    assert_close(row[7], -1000 * 9.81 * 4, 1e-6);
+    assert_close(row[8], 0.0, 1e-6);
+    assert_close(row[9], lift, 1e-3 * lift); /* a circle of 64 corners */
+    assert_close(row[4], row[7] + row[9], 1e-6);
+    assert_close(row[10], 1000 * 9.81 * 1.5, 1e-6);
+}
+
+/* Gauges have it on all grids; it is no force on what is closed. */
+static void a_partners_level_counts(void **state)
+{
+    (void)state;
+    static const char *const grids[2] = {CELLS, "fv: { };\nblocks: ( " BOX " );\n"};
+    datum = 250.0;
+    for (int k = 0; k < 2; k++) {
+        double row[COLUMNS] = {0};
+        char text[2048];
+        snprintf(text, sizeof text,
+                 HEAD "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\n%s", grids[k]);
+        row_of(text, row, NULL);
+        assert_close(row[3], 0.0, 1e-6);
+        assert_close(row[4], -1000 * 9.81 * 4, 1e-6);
+        assert_close(row[k ? 6 : 5], 1000 * 9.81 * 1.5 + datum, 1e-6);
+    }
+    datum = 0.0;
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cells_know_the_whole_pressure),
+        cmocka_unit_test(walls_under_a_free_surface_feel_the_water_alone),
+        cmocka_unit_test(levels_stand_against_gravity),
+        cmocka_unit_test(films_stand_across_their_flow),
+        cmocka_unit_test(blocks_know_the_whole_pressure),
+        cmocka_unit_test(a_partners_level_counts),
+    };
+    const char *dir = getenv("TEST_SCRATCH");
+    MPI_Init(&argc, &argv);
+    snprintf(path, sizeof path, "%s/still_%d.cfg", dir ? dir : P_tmpdir, (int)getpid());
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    unlink(path);
+    MPI_Finalize();
+    return failed;
+}

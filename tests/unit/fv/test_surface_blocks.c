@@ -1,0 +1,277 @@
+/* test_surface_blocks.c - a free surface on blocks that are joined, lean or overlap: still water
+ * stays still, a wave swings as on one block, a canal with inclined walls as theory says; ranks
+ * change nothing but rounding, a restart nothing at all. ranks: 1 2.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "mesh_case.h"
+
+#include "../../../fv/surface/levelset.h"
+#include "../../../fv/surface/mesh_view.h"
+
+#define SLIP_I "i_min = \"slip\"; i_max = \"slip\"; "
+#define SLIP_J "j_min = \"slip\"; j_max = \"slip\"; "
+#define SLIP_K "k_min = \"slip\"; k_max = \"slip\"; "
+#define HEAVY "fluid.gravity=(0,-9.81)"
+#define REST "initial.field=\"rest\"", "fluid.nu=0"
+#define WAVE                                                                                       \
+    "initial.field=\"standing_wave\"", "initial.U=0.01", "initial.L=4", "initial.amplitude=0.01",  \
+        "initial.level=1", "fluid.nu=2e-3", "fluid.gravity=(0,-1)", "domain.max=(4,1.25)",         \
+        "domain.periodic=(true,false)", "time.end=20"
+
+static const char joined[] =
+    "{ name = \"l\"; cells = (10, 14); max = (0.5, 0.7); i_max = \"joined\"; i_min = "
+    "\"slip\"; " SLIP_J
+    "}, { name = \"r\"; cells = (10, 14); min = (0.5, 0.0); max = (1.0, 0.7); i_min = \"joined\"; "
+    "i_max = \"slip\"; " SLIP_J "}";
+static const char turned[] =
+    "{ name = \"back\"; cells = (30, 21); max = (1.0, 0.7); " SLIP_I SLIP_J
+    "}, { name = \"turned\"; cells = (14, 14); min = (0.3, 0.15); max = (0.7, 0.55); angle = 30.0; "
+    "centre = (0.5, 0.35); }";
+static const char canal[] = "{ name = \"v\"; cells = (32, 32); max = (1.2, 1.2); angle = 45.0; "
+                            "centre = (0.0, 0.0); " SLIP_I SLIP_J "}";
+
+static struct fv *start(struct mesh_case *c, MPI_Comm comm, const char *blocks,
+                        const char *const *overrides, const struct scene_shape *water)
+{
+    mesh_case_read(c, comm, blocks, overrides);
+    if (water)
+        c->run.scene.shapes[c->run.scene.nshapes++] = *water;
+    fv_params_check(&c->run, &c->faults);
+    if (params_report(&c->faults) > 0)
+        abort();
+    return fv_create(&c->run, NULL);
+}
+
+static void is_still(const char *blocks, double level, int dim)
+{
+    struct mesh_case c;
+    const struct scene_shape water = {.form = SHAPE_BELOW, .level = level};
+    struct fv *s =
+        start(&c, MPI_COMM_WORLD, blocks,
+              (const char *const[]){HEAVY, REST, dim == 3 ? "domain.dim=3" : NULL, NULL}, &water);
+    const double volume = surface_volume(s, NULL);
+    assert_true(s->surface->cuts > 0 && volume > 0.0);
+    assert_true(mesh_case_run(s, 20, 100.0));
+    assert_close(s->umax[0], 0.0, 1e-10);
+    assert_close(surface_volume(s, NULL) / volume, 1.0, 1e-12);
+    mesh_case_end(&c, &s);
+}
+
+static void still_water_stays(void **state)
+{
+    (void)state;
+    is_still(joined, 0.413, 2);
+    is_still(canal, 0.613, 2);
+    is_still(turned, 0.363, 2);
+    is_still(
+        "{ name = \"leans\"; mapping = \"sheared\"; shear = 0.5; angle = 20.0; cells = (20, 14); "
+        "max = (1.0, 0.7); " SLIP_I SLIP_J "}",
+        0.463, 2);
+    is_still("{ name = \"waves\"; mapping = \"sheared\"; wave = 0.05; cells = (20, 14); "
+             "max = (1.0, 0.7); " SLIP_I SLIP_J "}",
+             0.363, 2);
+    is_still(
+        "{ name = \"basin\"; mapping = \"annulus\"; radius = (0.3, 0.8); arc = (180.0, 360.0); "
+        "cells = (10, 40); " SLIP_I SLIP_J "}",
+        -0.05, 2);
+    is_still(
+        "{ name = \"l\"; cells = (6, 10, 6); max = (0.5, 0.7, 0.4); i_max = \"joined\"; i_min = "
+        "\"slip\"; " SLIP_J SLIP_K
+        "}, { name = \"r\"; cells = (6, 10, 6); min = (0.5, 0.0, 0.0); max = (1.0, 0.7, 0.4); "
+        "i_min = \"joined\"; i_max = \"slip\"; " SLIP_J SLIP_K "}",
+        0.363, 3);
+}
+
+static const char leaning[] = "{ name = \"v\"; cells = (24, 24); max = (1.0, 1.0); angle = 20.0; "
+                              "centre = (0.5, 0.5); " SLIP_I SLIP_J "}";
+static const char steep[] = "{ name = \"v\"; cells = (29, 29); max = (1.0, 1.0); angle = 74.647; "
+                            "centre = (0.5, 0.5); " SLIP_I SLIP_J "}";
+static const char sliver[] = "{ name = \"back\"; cells = (27, 21); max = (1.0, 0.7); " SLIP_I SLIP_J
+                             "}, { name = \"turned\"; cells = (28, 28); min = (0.3, 0.12); max = "
+                             "(0.66, 0.48); angle = 15.0; "
+                             "centre = (0.48, 0.3); }";
+static const char coarse_below[] =
+    "{ name = \"back\"; cells = (28, 15); max = (1.0, 0.7); " SLIP_I SLIP_J
+    "}, { name = \"turned\"; cells = (30, 30); min = (0.24, 0.13); max = (0.59, 0.48); angle = "
+    "16.0; "
+    "centre = (0.415, 0.305); }";
+
+/* The surface lies in the fringe of the finer block. */
+static const char along[] =
+    "{ name = \"back\"; cells = (30, 21); max = (1.0, 0.7); " SLIP_I SLIP_J
+    "}, { name = \"fine\"; cells = (16, 16); min = (0.3, 0.15); max = (0.5667, 0.4167); }";
+/* A vortex in the corner under the wall that leans over the water. */
+static const char corner[] = "{ name = \"v\"; cells = (19, 19); max = (1.0, 1.0); angle = 19.6; "
+                             "centre = (0.5, 0.5); " SLIP_I SLIP_J "}";
+
+/* Rough velocities of 1e-6 m/s do not grow in water at rest, at the largest step. */
+static void rough_water_calms(void **state)
+{
+    (void)state;
+    static const char *const blocks[] = {turned, leaning, sliver, coarse_below,
+                                         steep,  along,   corner};
+    static const double levels[] = {0.363, 0.533, 0.476, 0.455, 0.443, 0.3767, 0.592};
+    static const int steps[] = {90, 90, 90, 90, 90, 90, 300};
+    for (int k = 0; k < (SANITIZED ? 1 : 7); k++) {
+        struct mesh_case c;
+        const struct scene_shape water = {.form = SHAPE_BELOW, .level = levels[k]};
+        struct fv *s =
+            start(&c, MPI_COMM_WORLD, blocks[k], (const char *const[]){HEAVY, REST, NULL}, &water);
+        for (int64_t i = 0; i < s->size; i++)
+            for (int a = 0; a < 2; a++)
+                s->u[a][i] = 1e-6 * sin(1e3 * (s->surface->mesh->x[0][i] + a) +
+                                        1.7e3 * s->surface->mesh->x[1][i]);
+        assert_true(mesh_case_run(s, 30, 100.0));
+        const double before = s->umax[0];
+        assert_true(mesh_case_run(s, steps[k], 100.0));
+        print_message("rough water: %.3g, then %.3g m/s\n", before, s->umax[0]);
+        assert_true(s->umax[0] <= 2.0 * before);
+        mesh_case_end(&c, &s);
+    }
+}
+
+/* Errors of a viscous wave's period and damping over two periods. */
+static void swings(const char *blocks, double *period, double *damping)
+{
+    struct mesh_case c;
+    struct fv *s = start(&c, MPI_COMM_WORLD, blocks, (const char *const[]){WAVE, NULL}, NULL);
+    c.run.summary = summary_create();
+    const double volume = surface_volume(s, NULL);
+    assert_true(mesh_case_run(s, 1000, 13.2));
+    surface_summarise(s);
+    assert_true(summary_find(c.run.summary, "error.period", period) &&
+                summary_find(c.run.summary, "error.damping", damping));
+    print_message("wave: period %.3g, damping %.3g, put back %.3g\n", *period, *damping,
+                  s->surface->returned / volume);
+    assert_close(s->surface->returned / volume, 0.0, 5e-4);
+    assert_close(surface_volume(s, NULL) / volume, 1.0, 1e-9);
+    summary_free(&c.run.summary);
+    mesh_case_end(&c, &s);
+}
+
+#define ENDS "j_min = \"wall\"; j_max = \"slip\"; "
+static void waves_swing_as_on_one_block(void **state)
+{
+    (void)state;
+    double period[3], damping[3];
+    swings("{ name = \"one\"; cells = (32, 20); max = (4.0, 1.25); i_min = \"periodic\"; i_max = "
+           "\"periodic\"; " ENDS "}",
+           period, damping);
+    swings("{ name = \"l\"; cells = (16, 20); max = (2.0, 1.25); i_min = \"periodic\"; i_max = "
+           "\"joined\"; " ENDS "}, { name = \"r\"; cells = (16, 20); min = (2.0, 0.0); "
+           "max = (4.0, 1.25); i_min = \"joined\"; i_max = \"periodic\"; " ENDS "}",
+           period + 1, damping + 1);
+    swings("{ name = \"back\"; cells = (32, 20); max = (4.0, 1.25); i_min = \"periodic\"; i_max = "
+           "\"periodic\"; " ENDS "}, { name = \"over\"; cells = (18, 20); min = (0.9375, 0.0); "
+           "max = (3.1875, 1.25); " ENDS "}",
+           period + 2, damping + 2);
+    for (int k = 1; k < 3; k++) {
+        assert_true(period[k] <= 1.2 * period[0]);
+        assert_true(damping[k] <= 1.2 * damping[0]);
+    }
+}
+
+/* m^dim m: first moment of the water along x. */
+static double moment(const struct fv *s)
+{
+    double sum = 0.0;
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            sum += surface_cell_volume(s, i, j_) * surface_share(s, i) * s->surface->mesh->x[0][i];
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
+    return sum;
+}
+
+/* Between walls at 45 degrees a plane surface swings as a plane, w^2 = g/h: potential x y
+ * (Kirchhoff; Lamb, Hydrodynamics, art. 258). */
+static void water_between_inclined_walls_swings(void **state)
+{
+    (void)state;
+    struct mesh_case c;
+    static double corners[4][2] = {{-2.0, 0.56}, {2.0, 0.64}, {2.0, -1.0}, {-2.0, -1.0}};
+    struct scene_shape water = {.form = SHAPE_POLYGON, .points = {.n = 4}};
+    for (int k = 0; k < 4; k++)
+        memcpy(water.points.x[k], corners[k], sizeof corners[k]);
+    struct fv *s =
+        start(&c, MPI_COMM_WORLD, canal, (const char *const[]){HEAVY, REST, NULL}, &water);
+    double before = moment(s), t_before = 0.0, zeros[2] = {0.0, 0.0};
+    int found = 0;
+    while (found < 2 && s->t < 2.0) {
+        assert_true(mesh_case_run(s, 1, 2.0));
+        const double now = moment(s);
+        if (now * before <= 0.0)
+            zeros[found++] = t_before + (s->t - t_before) * before / (before - now);
+        before = now;
+        t_before = s->t;
+    }
+    const double period = 2.0 * (zeros[1] - zeros[0]), theory = 2.0 * M_PI * sqrt(0.6 / 9.81);
+    print_message("canal: period %.5g s, theory %.5g s\n", period, theory);
+    assert_close(period / theory, 1.0, 0.01);
+    mesh_case_end(&c, &s);
+}
+
+static const char *const exactly[] = {HEAVY, REST, "fv.tol_pressure=1e-9", NULL};
+static const struct scene_shape column = {.form = SHAPE_BOX, .box = {{-1.0, -1.0}, {0.35, 0.45}}};
+
+static void ranks_agree(void **state)
+{
+    (void)state;
+    struct mesh_case one, all;
+    struct fv *s = start(&one, MPI_COMM_SELF, turned, exactly, &column),
+              *z = start(&all, MPI_COMM_WORLD, turned, exactly, &column);
+    assert_true(mesh_case_run(s, 6, 100.0) && mesh_case_run(z, 6, 100.0));
+    assert_close(surface_energy(z) / surface_energy(s), 1.0, 1e-8);
+    assert_close(surface_volume(z, NULL) / surface_volume(s, NULL), 1.0, 1e-11);
+    mesh_case_end(&one, &s);
+    mesh_case_end(&all, &z);
+}
+
+static void restart_is_exact(void **state)
+{
+    (void)state;
+    struct mesh_case one, two;
+    struct fv *s = start(&one, MPI_COMM_WORLD, turned, exactly, &column);
+    mesh_case_read(&two, MPI_COMM_WORLD, turned, exactly);
+    two.run.scene.shapes[two.run.scene.nshapes++] = column;
+    assert_int_equal(mesh_case_restart(&one, s, &two, 4), 0);
+}
+
+/* Out of which water would fall, or beside which no field is known. */
+static void openings_that_cannot_be_are_refused(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {"{ name = \"a\"; cells = (20, 14); max = (1.0, 0.7); j_min = \"outflow\"; j_max = "
+         "\"slip\"; " SLIP_I "}",
+         "initial.level=0.3"},
+        {"{ name = \"a\"; cells = (20, 14); max = (1.0, 0.7); i_min = \"exact\"; i_max = "
+         "\"exact\"; " SLIP_J "}",
+         "fv.surface=\"yes\""}};
+    for (int k = 0; k < 2; k++) {
+        struct mesh_case c;
+        mesh_case_read(&c, MPI_COMM_WORLD, cases[k][0],
+                       (const char *const[]){HEAVY, REST, cases[k][1], NULL});
+        c.run.scene.shapes[c.run.scene.nshapes++] =
+            (struct scene_shape){.form = SHAPE_BELOW, .level = 0.3};
+        const int before = c.faults.n;
+        fv_params_check(&c.run, &c.faults);
+        assert_true(before == 0 && c.faults.n > 0);
+        params_free(&c.params);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(still_water_stays),
+                                       cmocka_unit_test(rough_water_calms),
+                                       cmocka_unit_test(waves_swing_as_on_one_block),
+                                       cmocka_unit_test(water_between_inclined_walls_swings),
+                                       cmocka_unit_test(ranks_agree),
+                                       cmocka_unit_test(restart_is_exact),
+                                       cmocka_unit_test(openings_that_cannot_be_are_refused)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

@@ -1,0 +1,115 @@
+/* test_surface_growth.c - tiny waves on water do not grow, wherever the surface stands between the
+ * rows of cells, nor where rows and gravity are at an angle. ranks: 1 2.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../fv/surface/levelset.h"
+#include "../../../fv/time/steps.h"
+#include "fv_case.h"
+
+static struct fv *start(struct fv_case *c, const char *const *overrides,
+                        const struct scene_shape *shape)
+{
+    fv_case_set(c, MPI_COMM_WORLD, overrides);
+    struct scene *scene = &c->run.scene;
+    for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 4; side++)
+        if (!scene->domain.periodic[(side - SIDE_X_MIN) / 2])
+            scene->walls[scene->nwalls++] = (struct scene_wall){.side = side, .kind = WALL_SLIP};
+    if (shape)
+        scene->shapes[scene->nshapes++] = *shape;
+    return fv_case_start(c, NULL);
+}
+
+/* Largest kinetic energy from now to time t. */
+static double swing(struct fv_case *c, double t)
+{
+    double most = 0.0;
+    while (c->s->t < t) {
+        assert_true(fv_case_run(c, 1, t));
+        most = fmax(most, surface_energy(c->s));
+    }
+    return most;
+}
+
+/* A standing wave of n cells, its surface theta above the centres of a row: energy of its last
+ * second over that of its first. */
+static double grows(int n, double theta, const char *integrator)
+{
+    const double h = 0.035;
+    struct fv_case c;
+    char cells[48], size[64], length[48], level[48];
+    snprintf(cells, sizeof cells, "fv.cells=(%d,20)", n);
+    snprintf(size, sizeof size, "domain.max=(%.17g,0.7)", n * h);
+    snprintf(length, sizeof length, "initial.L=%.17g", n * h);
+    snprintf(level, sizeof level, "initial.level=%.17g", (15.5 + theta) * h);
+    start(&c,
+          (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"standing_wave\"",
+                                "initial.U=0.001", "initial.amplitude=1e-5",
+                                "domain.periodic=(true,false)", "fluid.gravity=(0,-9.81)",
+                                "fluid.nu=0", integrator, cells, size, length, level, NULL},
+          NULL);
+    const double first = swing(&c, 1.0);
+    swing(&c, 3.0);
+    const double last = swing(&c, 4.0);
+    print_message("%d cells, theta %.2f, %s: %.3g\n", n, theta, integrator, last / first);
+    fv_free(&c.s);
+    return last / first;
+}
+
+static void waves_of_a_few_cells_do_not_grow(void **state)
+{
+    static const double theta[] = {0.02, 0.13, 0.36, 0.64, 0.93};
+    (void)state;
+    for (int k = 0; k < 5; k++) {
+        assert_true(grows(6, theta[k], "fv.integrator=\"rk3\"") < 3.0); /* 50 by mean slopes */
+        assert_true(grows(12, theta[k], "fv.integrator=\"rk3\"") < 1.1);
+    }
+    assert_true(grows(6, 0.2, "fv.integrator=\"newton\"") < 1.1);
+    assert_true(grows(12, 0.4, "fv.integrator=\"newton\"") < 1.1);
+}
+
+/* Gravity at an angle to the cells, and a surface that is not quite level. */
+static void water_rests_in_tanks_that_lean(void **state)
+{
+    static const double degrees[] = {10.6, -22.7, -70.9};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        const double angle = degrees[k] * M_PI / 180.0;
+        const struct scene_shape shape = {.form = SHAPE_BELOW, .level = 0.1};
+        struct fv_case c;
+        char gravity[80];
+        snprintf(gravity, sizeof gravity, "fluid.gravity=(%.17g,%.17g)", 9.81 * sin(angle),
+                 -9.81 * cos(angle));
+        struct fv *s =
+            start(&c,
+                  (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"rest\"",
+                                        "domain.periodic=(false,false)", gravity, "fluid.nu=0",
+                                        "domain.min=(-0.5,-0.4)", "domain.max=(0.5,0.4)",
+                                        "fv.cells=(25,20)", NULL},
+                  &shape);
+        double x[3], first = 0.0, last = 0.0;
+        BLOCK_CELLS (&s->b, i, j, k_, at) {
+            block_centre(&s->b, i, j, k_, x);
+            s->surface->phi[at] += 4e-5 * cos(9.0 * (x[0] * cos(angle) + x[1] * sin(angle)));
+        }
+        surface_ghosts(s, s->surface->phi);
+        for (int n = 0; n < 400; n++) {
+            assert_true(fv_case_run(&c, 1, 100.0));
+            double *most = n < 100 ? &first : &last;
+            *most = fmax(*most, surface_energy(s));
+        }
+        print_message("leaning by %.1f degrees: energy %.3g, then %.3g\n", degrees[k], first, last);
+        assert_true(last < 4.0 * first);
+        fv_free(&c.s);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(waves_of_a_few_cells_do_not_grow),
+                                       cmocka_unit_test(water_rests_in_tanks_that_lean)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

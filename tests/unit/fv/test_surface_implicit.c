@@ -1,0 +1,172 @@
+/* test_surface_implicit.c - a free surface with bdf2 and newton: still water stays still, waves
+ * swing as theory says at steps that rk3 cannot take (five cells of the wave's way, viscosity of 50
+ * h^2/dt, cells of aspect 100), columns fall, currents pass openings.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../fv/time/newton.h"
+#include "surface_case.h"
+
+/* Upright, askew over graded rows, in 3D: the surface cuts the cells in all ways. */
+static void still_water_stays(void **state)
+{
+    static const char *const of[3][3] = {
+        {"fluid.gravity=(0,-9.81)", "fv.cells=(24,20)", "fv.graded=(0,0)"},
+        {"fluid.gravity=(2.9,-9.81)", "fv.cells=(24,20)", "fv.graded=(0.75,7)"},
+        {"fluid.gravity=(2.9,1.3,-9.81)", "fv.cells=(12,10,16)", "domain.dim=3"}};
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        struct fv_case c;
+        const char *const *o = of[k / 2];
+        const struct scene_shape shape = {.form = SHAPE_BELOW, .level = k < 4 ? 0.4123 : 0.2};
+        struct fv *s =
+            start(&c, MPI_COMM_WORLD,
+                  (const char *const[]){SURFACE, o[0], o[1], o[2], integrators[k % 2], NULL},
+                  &shape, WALL_NO_SLIP);
+        assert_true(fv_case_run(&c, 5, 10.0));
+        print_message("still water: %.3g m/s\n", fmax(s->umax[0], s->umax[1]));
+        for (int a = 0; a < s->dim; a++)
+            assert_close(s->umax[a], 0.0, 1e-10);
+        fv_free(&c.s);
+    }
+}
+
+/* Errors of period and damping over most of two periods; the volume is kept. */
+static void swing(const char *cells, const char *graded, const char *integrator, const char *cfl,
+                  const char *nu, double *T, double *r)
+{
+    struct fv_case c;
+    double period, rate;
+    struct fv *s = start(&c, MPI_COMM_WORLD,
+                         (const char *const[]){WAVE, cells, graded, integrator, cfl, nu, NULL},
+                         NULL, WALL_NO_SLIP);
+    assert_true(exact_oscillation(&s->exact, &period, &rate));
+    assert_true(fv_case_run(&c, 10000, 1.9 * period));
+    *T = fit_period(&s->swing) / period - 1.0;
+    *r = fit_rate(&s->swing) / rate - 1.0;
+    double h = s->b.h[1];
+    print_message("wave, %s %s %s: c dt/h %.2g, nu dt/h^2 %.2g, %d steps: period %.3g, damping "
+                  "%.3g\n",
+                  cells, integrator, graded, 4.0 / period * s->dt / h, s->nu * s->dt / (h * h),
+                  (int)c.run.step, *T, *r);
+    assert_close(surface_volume(s, NULL) / s->surface->volume0, 1.0, 1e-10);
+    fv_free(&c.s);
+}
+
+static void waves_swing_as_theory_says(void **state)
+{
+    double T, r;
+    (void)state;
+    swing("fv.cells=(32,40)", "fv.graded=(0,0)", BDF2, "fv.cfl=0.5", "fluid.nu=2e-3", &T, &r);
+    assert_close(T, 0.0, 0.002);
+    assert_close(r, 0.0, 0.03);
+    swing("fv.cells=(16,24)", "fv.graded=(1.1,8)", NEWTON, "fv.cfl=0.7", "fluid.nu=2e-3", &T, &r);
+    assert_close(T, 0.0, 0.005);
+    if (SANITIZED)
+        return;
+    swing("fv.cells=(32,40)", "fv.graded=(0,0)", NEWTON, "fv.cfl=1.16", "fluid.nu=2e-3", &T, &r);
+    assert_close(T, 0.0, 0.002);
+    assert_close(r, 0.0, 0.03);
+    swing("fv.cells=(16,64)", "fv.graded=(0,0)", NEWTON, "fv.cfl=1.5", "fluid.nu=0.05", &T, &r);
+    assert_close(T, 0.0, 0.03);
+    assert_close(r, 0.0, 0.1); /* eleven steps a period */
+    swing("fv.cells=(8,256)", "fv.graded=(0,0)", NEWTON, "fv.cfl=0.7", "fluid.nu=2e-3", &T, &r);
+    assert_close(T, 0.0, 0.03); /* eight cells a length */
+}
+
+/* A column that falls, turns at the wall and comes back; steps that turn out too long are taken
+ * back. Volume is kept, and energy lost. */
+static void columns_fall(void **state)
+{
+    (void)state;
+    static const struct scene_shape column = {.form = SHAPE_BOX,
+                                              .box = {{0, 0, 0}, {0.31, 0.61, 0.57}}};
+    for (int k = SANITIZED; k < (SANITIZED ? 2 : 3); k++) {
+        struct fv_case c;
+        struct fv *s =
+            start(&c, MPI_COMM_WORLD,
+                  (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81,0)", k < 2 ? NEWTON : BDF2,
+                                        k == 1 ? "fv.cfl=3" : "fv.cfl=0.5",
+                                        k == 2 ? "fluid.nu=0.02" : "fluid.nu=1e-6",
+                                        "fv.cells=(24,24)", "domain.max=(1,1,1)", NULL},
+                  &column, WALL_SLIP);
+        const double whole = 9.81 * s->surface->volume0 * 0.61 / 2.0;
+        assert_true(fv_case_run(&c, 2000, k < 2 ? 0.8 : 0.3));
+        const double v = surface_volume(s, NULL) / s->surface->volume0 - 1.0, K = surface_energy(s);
+        print_message("column: %d steps, %d taken back, volume %.3g, energy %.3g of %.3g\n",
+                      (int)c.run.step, (int)s->surface->repeats, v, K, whole);
+        assert_close(v, 0.0, 1e-4);
+        assert_true(K < whole);
+        fv_free(&c.s);
+    }
+}
+
+/* A column of honey, 12 cells of 1 mm a side, nu/(h sqrt(g h)) = 101: creeps down as slowly by rk3
+ * as by newton in steps fifty times as long, each its own discretisation in time. */
+static void honey_creeps(void **state)
+{
+    static const struct scene_shape column = {.form = SHAPE_BOX,
+                                              .box = {{-1.0, -1.0, 0.0}, {0.012, 0.012, 0.0}}};
+    double speed[2], energy[2];
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct fv_case c;
+        struct fv *s =
+            start(&c, MPI_COMM_WORLD,
+                  (const char *const[]){SURFACE, "fluid.nu=1e-2", "fluid.gravity=(0,-9.81)",
+                                        "fv.cells=(24,16)", "domain.max=(0.024,0.016)",
+                                        k ? NEWTON : "fv.integrator=\"rk3\"", NULL},
+                  &column, WALL_NO_SLIP);
+        assert_true(fv_case_run(&c, 2000, 0.08));
+        speed[k] = fmax(s->umax[0], s->umax[1]);
+        energy[k] = surface_energy(s);
+        print_message("honey: %d steps, %.4g m/s, energy %.4g\n", (int)c.run.step, speed[k],
+                      energy[k]);
+        fv_free(&c.s);
+    }
+    assert_close(speed[1] / speed[0], 1.0, 0.05);
+    assert_close(energy[1] / energy[0], 1.0, 0.1);
+}
+
+/* As uniform as it came, at six times the step of rk3. */
+static void currents_pass_openings(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_WORLD,
+                    (const char *const[]){
+                        "fv.surface=\"yes\"", CLOSED, "fluid.gravity=(0,-9.81)", "fv.cells=(20,12)",
+                        "domain.max=(2,1)", "fluid.nu=1e-2", "initial.level=0.5", integrators[k],
+                        "initial.field=\"uniform\"", "initial.velocity=(0.5,0)", NULL});
+        const struct scene_wall walls[] = {
+            {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {0.5, 0.0, 0.0}},
+            {.side = SIDE_X_MAX, .kind = WALL_OUTFLOW},
+            {.side = SIDE_Y_MIN, .kind = WALL_SLIP},
+            {.side = SIDE_Y_MAX, .kind = WALL_SLIP}};
+        memcpy(c.run.scene.walls, walls, sizeof walls);
+        c.run.scene.nwalls = 4;
+        c.run.scene.shapes[c.run.scene.nshapes++] =
+            (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
+        struct fv *s = fv_case_start(&c, NULL);
+        assert_true(fv_case_run(&c, 10000, 1.0));
+        print_message("current: %.3g m/s off, passed %.4g\n",
+                      fabs(s->umax[0] - 0.5) + fabs(s->umax[1]), s->surface->passed);
+        assert_true(fabs(s->umax[0] - 0.5) + fabs(s->umax[1]) < 1e-6);
+        assert_close(s->surface->passed, 0.5, 1e-6);
+        fv_free(&c.s);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(still_water_stays),      cmocka_unit_test(waves_swing_as_theory_says),
+        cmocka_unit_test(columns_fall),           cmocka_unit_test(honey_creeps),
+        cmocka_unit_test(currents_pass_openings),
+    };
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

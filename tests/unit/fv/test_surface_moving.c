@@ -1,0 +1,203 @@
+/* test_surface_moving.c - a free surface on blocks of which one has a body's walls or moves: still
+ * water stays still, forces are those of theory, ranks and restarts agree. ranks: 1 2.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "mesh_case.h"
+
+#include "../../../fv/boundary/mesh_bc.h"
+#include "../../../fv/grid/overset.h"
+#include "../../../fv/surface/levelset.h"
+#include "../../../fv/surface/mesh_view.h"
+
+#define SLIP "i_min = \"slip\"; i_max = \"slip\"; j_min = \"slip\"; j_max = \"slip\"; "
+#define HEAVY "fluid.gravity=(0,-9.81)"
+#define REST "initial.field=\"rest\"", "fluid.nu=0"
+#define THIN "initial.field=\"rest\"", "fluid.nu=1e-7"
+#define RK3 "fv.integrator=\"rk3\""
+#define BDF2 "fv.integrator=\"bdf2\""
+#define NEWTON "fv.integrator=\"newton\""
+static const char *const steps[3] = {RK3, BDF2, NEWTON};
+
+static const char half[] =
+    "{ name = \"tank\"; cells = (48, 42); min = (-1.6, -1.6); max = (1.6, 1.2); " SLIP
+    "}, { name = \"ring\"; mapping = \"annulus\"; radius = (0.5, 1.15); cells = (10, 48); i_min = "
+    "\"slip\"; j_min = \"joined\"; j_max = \"joined\"; }";
+static const char short_one[] =
+    "{ name = \"tank\"; cells = (30, 28, 6); min = (-1.6, -1.6, 0.0); max = (1.6, 1.4, 0.4); " SLIP
+    "k_min = \"slip\"; k_max = \"slip\"; }, { name = \"ring\"; mapping = \"annulus\"; radius = "
+    "(0.5, 1.39); min = (0.0, 0.0, 0.0); max = (0.0, 0.0, 0.4); cells = (10, 36, 6); i_min = "
+    "\"slip\"; j_min = \"joined\"; j_max = \"joined\"; k_min = \"slip\"; k_max = \"slip\"; }";
+#define SWINGS                                                                                     \
+    "{ name = \"tank\"; cells = (30, 21); max = (1.0, 0.7); " SLIP                                 \
+    "}, { name = \"turned\"; cells = (14, 14); min = (0.3, 0.15); max = (0.7, 0.55); angle = "     \
+    "30.0; centre = (0.5, 0.35); motion = ( { kind = \"harmonic\"; axis = \"y\"; amplitude = "     \
+    "0.05; period = 1.0; }, { kind = \"harmonic\"; axis = \"x\"; amplitude = 0.05; period = 0.7; " \
+    "}, { kind = \"harmonic\"; axis = \"rz\"; amplitude = 0.5; period = 1.3; } ); }"
+
+static struct fv *start(struct mesh_case *c, MPI_Comm comm, const char *blocks,
+                        const char *const *overrides, double level, struct h5 *f)
+{
+    mesh_case_read(c, comm, blocks, overrides);
+    c->run.scene.shapes[c->run.scene.nshapes++] =
+        (struct scene_shape){.form = SHAPE_BELOW, .level = level};
+    fv_params_check(&c->run, &c->faults);
+    if (params_report(&c->faults) > 0)
+        abort();
+    (void)f;
+    return fv_create(&c->run, NULL);
+}
+
+/* Force along y on the bodies. */
+static double lift(struct fv *s)
+{
+    double force[MESH_BLOCKS_MAX][4];
+    surface_ghosts(s, s->surface->phi);
+    mesh_bc_force(s, s->surface->phi, force);
+    return force[1][1];
+}
+
+/* Area of the part of a circle of radius a below the height l over its centre. */
+static double segment(double a, double l)
+{
+    const double th = asin(l / a);
+    return a * a * (0.5 * M_PI + th + sin(th) * cos(th));
+}
+
+static void a_body_at_rest_has_its_buoyancy(void **state)
+{
+    (void)state;
+    static const double levels[2] = {0.0, 0.113};
+    for (int k = 0; k < 3; k++) {
+        struct mesh_case c;
+        const double level = levels[k % 2];
+        struct fv *s = start(&c, MPI_COMM_WORLD, k == 2 ? short_one : half,
+                             (const char *const[]){k == 2 ? "fluid.gravity=(0,-9.81,0)" : HEAVY,
+                                                   REST, k == 2 ? "domain.dim=3" : NULL, NULL},
+                             level, NULL);
+        const double volume = surface_volume(s, NULL);
+        assert_true(mesh_case_run(s, k == 2 ? 4 : 20, 100.0));
+        assert_close(s->umax[0], 0.0, 1e-10);
+        assert_close(surface_volume(s, NULL) / volume, 1.0, 1e-12);
+        const double buoyancy = 9.81 * segment(0.5, level) * (k == 2 ? 0.4 : 1.0);
+        assert_close(lift(s) / buoyancy, 1.0, 0.01);
+        if (k < 2) /* a polygon of 48 sides */
+            assert_close(volume, 3.2 * (1.6 + level) - segment(0.5, level), 5e-3);
+        mesh_case_end(&c, &s);
+    }
+}
+
+/* m^dim: what all cells hold together. */
+static double room(const struct fv *s)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < s->size; i++)
+        sum += s->surface->mesh->count[i];
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return sum;
+}
+
+/* Whatever a block without walls does in it, to rounding; and all cells together keep what they
+ * hold. */
+static void still_water_stays_where_a_block_moves(void **state)
+{
+    (void)state;
+    for (int q = 0; q < 3; q++) {
+        struct mesh_case c;
+        struct fv *s = start(&c, MPI_COMM_WORLD, SWINGS,
+                             (const char *const[]){HEAVY, THIN, steps[q], NULL}, 0.363, NULL);
+        double worst = 0.0;
+        for (int k = 0; k < (q == 0 ? 8 : 4); k++) {
+            assert_true(mesh_case_run(s, 3, 100.0));
+            worst = fmax(worst, s->umax[0]);
+            assert_close(room(s), 0.7, 1e-12);
+        }
+        print_message("%s: %.3g m/s, put back %.2g\n", steps[q], worst, s->surface->returned);
+        assert_close(worst, 0.0, 1e-10);
+        assert_close(surface_volume(s, NULL), 0.363, 1e-12);
+        assert_close(s->surface->returned, 0.0, 1e-12);
+        mesh_case_end(&c, &s);
+    }
+}
+
+/* Without gravity the potential is odd about the surface: half the force on a cylinder in a closed
+ * square of side 8 a, whose added mass is 1.1135 rho pi a^2. */
+static void a_body_that_speeds_up_has_its_added_mass(void **state)
+{
+    (void)state;
+    static const char blocks[] =
+        "{ name = \"tank\"; cells = (52, 44); min = (-2.0, -2.0); max = (2.0, 1.4); " SLIP
+        "}, { name = \"ring\"; mapping = \"annulus\"; radius = (0.5, 1.3); cells = (14, 64); "
+        "i_min = \"slip\"; j_min = \"joined\"; j_max = \"joined\"; motion = ( { kind = "
+        "\"polynomial\"; axis = \"y\"; coefficients = (0.0, 0.0, 0.05); } ); }";
+    for (int q = 0; q < 3; q++) {
+        struct mesh_case c;
+        struct fv *s = start(
+            &c, MPI_COMM_WORLD, blocks,
+            (const char *const[]){"fluid.gravity=(0,-1e-6)", THIN, steps[q], "time.end=0.3", NULL},
+            0.0, NULL);
+        const double all = room(s), volume = surface_volume(s, NULL);
+        bool good = true;
+        for (int k = 1; k <= 8; k++)
+            good = mesh_case_run(s, 100, 0.025 * k) && good;
+        const double mass = -lift(s) / 0.1 / (0.5 * M_PI * 0.25);
+        print_message("%s: added mass %.4f, wanted 1.1135; put back %.2g\n", steps[q], mass,
+                      s->surface->returned);
+        assert_true(good);
+        assert_close(mass / 1.1135, 1.0, 0.04);
+        assert_close(room(s), all, 1e-12);
+        assert_close(surface_volume(s, NULL), volume, 1e-9);
+        assert_close(s->surface->returned, 0.0, 3e-4); /* 2e-3 moved */
+        mesh_case_end(&c, &s);
+    }
+}
+
+static const char *const exactly[] = {HEAVY, REST, "fv.tol_pressure=1e-9", NULL};
+
+static void start_column(struct mesh_case *c, MPI_Comm comm)
+{
+    static const struct scene_shape column = {.form = SHAPE_BOX,
+                                              .box = {{-1.0, -1.0}, {0.35, 0.45}}};
+    mesh_case_read(c, comm, SWINGS, exactly);
+    c->run.scene.shapes[c->run.scene.nshapes++] = column;
+    fv_params_check(&c->run, &c->faults);
+    if (params_report(&c->faults) > 0)
+        abort();
+}
+
+static void ranks_agree(void **state)
+{
+    (void)state;
+    struct mesh_case one, all;
+    start_column(&one, MPI_COMM_SELF);
+    start_column(&all, MPI_COMM_WORLD);
+    struct fv *s = fv_create(&one.run, NULL), *z = fv_create(&all.run, NULL);
+    assert_true(mesh_case_run(s, 6, 100.0) && mesh_case_run(z, 6, 100.0));
+    assert_close(surface_energy(z) / surface_energy(s), 1.0, 1e-7);
+    assert_close(surface_volume(z, NULL) / surface_volume(s, NULL), 1.0, 1e-11);
+    mesh_case_end(&one, &s);
+    mesh_case_end(&all, &z);
+}
+
+static void restart_is_exact(void **state)
+{
+    (void)state;
+    struct mesh_case one, two;
+    start_column(&one, MPI_COMM_WORLD);
+    struct fv *s = fv_create(&one.run, NULL);
+    start_column(&two, MPI_COMM_WORLD);
+    assert_int_equal(mesh_case_restart(&one, s, &two, 6), 0);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_body_at_rest_has_its_buoyancy),
+                                       cmocka_unit_test(still_water_stays_where_a_block_moves),
+                                       cmocka_unit_test(a_body_that_speeds_up_has_its_added_mass),
+                                       cmocka_unit_test(ranks_agree),
+                                       cmocka_unit_test(restart_is_exact)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

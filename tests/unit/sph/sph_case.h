@@ -1,0 +1,95 @@
+/* sph_case.h - a small SPH run without a case file, for the tests of its modules.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef TESTS_SPH_CASE_H
+#define TESTS_SPH_CASE_H
+
+#include <math.h>
+#include <string.h>
+
+#include "../../../common/base/mem.h"
+#include "../../../sph/bodies/body_check.h"
+#include "../../../sph/case/sph_params.h"
+#include "../../../sph/sph.h"
+
+struct sph_case {
+    struct run run;
+    struct sph_params prm;
+    struct sph *s;
+};
+
+/* Unit square or cube of `cells' particles a side, Taylor-Green of Re 200 unless the caller changes
+ * c->run.scene before sph_case_start. */
+static inline void sph_case_set(struct sph_case *c, int dim, int cells)
+{
+    *c = (struct sph_case){.run = {.comm = MPI_COMM_WORLD, .name = "sph"}};
+    MPI_Comm_rank(MPI_COMM_WORLD, &c->run.rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &c->run.size);
+    struct scene *e = &c->run.scene;
+    e->fluid.rho = 1.0;
+    e->fluid.nu = 0.005;
+    e->domain.dim = dim;
+    e->initial.field = FIELD_TAYLOR_GREEN;
+    e->initial.U = e->initial.L = 1.0;
+    for (int a = 0; a < dim; a++) {
+        e->domain.max[a] = 1.0;
+        e->domain.periodic[a] = true;
+    }
+    c->prm = (struct sph_params){.dx = 1.0 / cells,
+                                 .R_dx = dim == 2 ? 4.0 : 2.7,
+                                 .c0 = 10.0,
+                                 .gamma = 7.0,
+                                 .low_dissipation = true,
+                                 .damper = 0.2,
+                                 .integrator = INTEGRATOR_J3,
+                                 .cfl = dim == 2 ? 0.5 : 0.45,
+                                 .cfl_viscous = 0.09,
+                                 .density_limit = 0.1};
+}
+
+static inline struct sph *sph_case_start(struct sph_case *c, struct h5 *f)
+{
+    memcpy(c->prm.box[0], c->run.scene.domain.min, sizeof c->prm.box[0]);
+    memcpy(c->prm.box[1], c->run.scene.domain.max, sizeof c->prm.box[1]);
+    const double most = body_speeds(&c->run.scene, c->run.case_dir);
+    c->prm.speed = scene_speed_of(&c->run.scene, most, 0.0);
+    c->s = sph_create(&c->run, &c->prm, f);
+    return c->s;
+}
+
+/* As run_main does it: steps up to t_stop. */
+static inline bool sph_case_run(struct sph_case *c, int steps, double t_stop)
+{
+    struct diagnosis d = {0};
+    for (int k = 0; k < steps && !d.bad; k++) {
+        c->run.dt = integrate_step(c->s, t_stop, &d);
+        c->run.t = c->s->t;
+        c->run.step++;
+    }
+    return !d.bad;
+}
+
+/* Whether `bad' is zero on all ranks; the same answer on all. */
+static inline bool none_anywhere(long bad)
+{
+    MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_LONG, MPI_SUM, MPI_COMM_WORLD);
+    return bad == 0;
+}
+
+static inline double max_anywhere(double v)
+{
+    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    return v;
+}
+
+/* State rows of the n particles of all ranks in the order of their ids, on all ranks; mem_free. */
+static inline double *sph_case_gather(const struct sph *s, int n)
+{
+    const size_t row = (size_t)s->p.nstate;
+    double *all = NEW(double, (size_t)n *row);
+    for (int i = 0; i < s->p.n; i++)
+        memcpy(all + (size_t)s->p.id[i] * row, s->p.y + (size_t)i * row, row * sizeof(double));
+    MPI_Allreduce(MPI_IN_PLACE, all, n * (int)row, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return all;
+}
+
+#endif

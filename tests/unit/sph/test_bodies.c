@@ -1,0 +1,376 @@
+/* test_bodies.c - rigid bodies by themselves: tops, pendulums, springs, motion as told, contact.
+ * ranks: 1. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include <stdio.h>
+
+#include "../../../common/geometry/body_math.h"
+#include "../../../common/scene/scene_geometry.h"
+#include "../../../sph/bodies/bodies.h"
+#include "../../../sph/rigid/body_impedance.h"
+
+/* A box of unit sides about `centre' in the plane. */
+static struct scene_body square(double x, double y)
+{
+    struct scene_body b = {.free = true, .density = 1.0};
+    const double p[4][2] = {{-0.5, -0.5}, {-0.5, 0.5}, {0.5, 0.5}, {0.5, -0.5}};
+    b.points.n = 4;
+    for (int k = 0; k < 4; k++) {
+        b.points.x[k][0] = x + p[k][0];
+        b.points.x[k][1] = y + p[k][1];
+    }
+    return b;
+}
+
+typedef void load_fn(struct body *b, double loads[6]);
+
+/* One step of the classical scheme, as a run makes it. */
+static void step(struct body *b, double t, double dt, load_fn *fn)
+{
+    static const double at[4] = {0.0, 0.5, 0.5, 1.0}, ahead[4] = {0.5, 0.5, 1.0, 0.0},
+                        part[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+    struct body_free *f = b->free;
+    memcpy(f->y0, f->y, sizeof f->y);
+    memset(f->sum, 0, sizeof f->sum);
+    for (int k = 0; k < 4; k++) {
+        double loads[6] = {0.0};
+        body_move(b, t + at[k] * dt);
+        if (fn)
+            fn(b, loads);
+        body_rates(b, loads, loads + 3);
+        for (int i = 0; i < BODY_STATE; i++) {
+            f->sum[i] += part[k] * dt * f->rate[i];
+            f->y[i] = f->y0[i] + (k == 3 ? f->sum[i] : ahead[k] * dt * f->rate[i]);
+        }
+    }
+    body_finish(b);
+    body_move(b, t + dt);
+}
+
+/* sn, cn, dn of u and the parameter m, by descending Landen transformation (Abramowitz & Stegun
+ * 16.4). */
+static void jacobi(double u, double m, double *sn, double *cn, double *dn)
+{
+    double a[16] = {1.0}, c[16] = {sqrt(m)}, b = sqrt(1.0 - m);
+    int n = 0;
+    for (; n < 14 && fabs(c[n]) > 1e-16; n++) {
+        a[n + 1] = 0.5 * (a[n] + b);
+        c[n + 1] = 0.5 * (a[n] - b);
+        b = sqrt(a[n] * b);
+    }
+    double phi = ldexp(a[n] * u, n), before = phi;
+    for (; n > 0; n--) {
+        before = phi;
+        phi = 0.5 * (phi + asin(c[n] / a[n] * sin(phi)));
+    }
+    *sn = sin(phi);
+    *cn = cos(phi);
+    *dn = cos(phi) / cos(before - phi);
+}
+
+/* Angular velocity in body axes of a torque-free top with moments 1, 2, 3 (Landau & Lifshitz,
+ * Mechanics, section 37) that starts with (1.2, 0, 0.8). */
+static void euler_top(double t, double omega[3])
+{
+    const double I[3] = {1.0, 2.0, 3.0}, w[3] = {1.2, 0.0, 0.8};
+    double E2 = 0.0, M2 = 0.0, sn, cn, dn;
+    for (int a = 0; a < 3; a++) {
+        E2 += I[a] * w[a] * w[a];
+        M2 += I[a] * I[a] * w[a] * w[a];
+    }
+    const bool swapped = M2 <= E2 * I[1]; /* turns about the axis of the least moment */
+    const double a1 = swapped ? I[2] : I[0], a2 = I[1], a3 = swapped ? I[0] : I[2];
+    const double rate = sqrt((a3 - a2) * (M2 - E2 * a1) / (a1 * a2 * a3));
+    const double m = (a2 - a1) * (E2 * a3 - M2) / ((a3 - a2) * (M2 - E2 * a1));
+    jacobi(rate * t, m, &sn, &cn, &dn);
+    const double first = sqrt((E2 * a3 - M2) / (a1 * (a3 - a1))) * cn;
+    const double third = sqrt((M2 - E2 * a1) / (a3 * (a3 - a1))) * dn;
+    omega[0] = swapped ? third : first;
+    omega[1] = (swapped ? -1.0 : 1.0) * sqrt((E2 * a3 - M2) / (a2 * (a3 - a2))) * sn;
+    omega[2] = swapped ? first : third;
+}
+
+static double error_of_top(int steps)
+{
+    struct scene_body is = {.free = true, .mass = 1.0, .inertia = {3, {1.0, 2.0, 3.0}}};
+    struct body b;
+    double exact[3], own[3], err = 0.0, other = 0.0;
+    is.spin[0] = 1.2;
+    is.spin[2] = 0.8;
+    body_create(&b, &is, NULL, 3, ".");
+    for (int k = 0; k < steps; k++)
+        step(&b, 6.0 * k / steps, 6.0 / steps, NULL);
+    const double L[3] = {1.2, 0.0, 2.4};
+    for (int a = 0; a < 3; a++) /* in space axes it is kept */
+        assert_close(b.free->y[BODY_L + a], L[a], 1e-12);
+    euler_top(6.0, exact);
+    turn_back3(b.now.Q, b.now.omega, own);
+    for (int a = 0; a < 3; a++) {
+        err = fmax(err, fabs(own[a] - exact[a]));
+        other = fmax(other, fabs(own[a] - (a == 1 ? -1.0 : 1.0) * exact[a]));
+    }
+    body_destroy(&b);
+    return fmin(err, other); /* the sense of the middle axis is a matter of convention */
+}
+
+static void torque_free_top(void **state)
+{
+    (void)state;
+    const double coarse = error_of_top(100), fine = error_of_top(200);
+    print_message("top: %.1e %.1e, order %.2f\n", coarse, fine, log2(coarse / fine));
+    assert_true(fine < 1e-7);
+    assert_true(log2(coarse / fine) > 3.8);
+}
+
+static void weight(struct body *b, double loads[6]) { loads[1] -= 9.81 * b->free->mass; }
+
+/* Complete elliptic integral K by the arithmetic-geometric mean. */
+static double elliptic(double k)
+{
+    double a = 1.0, b = sqrt(1.0 - k * k);
+    for (int i = 0; i < 8; i++) {
+        const double mean = 0.5 * (a + b);
+        b = sqrt(a * b);
+        a = mean;
+    }
+    return M_PI / (2.0 * a);
+}
+
+/* A square that hangs 1 m under its hinge, let go at 1 rad: back after 4 sqrt(J/(M g l)) K(sin
+ * 1/2), whose ratio to the small swing is 1.06633. */
+static void pendulum(void **state)
+{
+    const double l = 1.0, J = 1.0 / 6.0 + l * l, K = elliptic(sin(0.5));
+    const double T = 4.0 * sqrt(J / (9.81 * l)) * K;
+    struct scene_body is = square(sin(1.0) * l, -cos(1.0) * l);
+    struct body b;
+    enum { STEPS = 400 };
+    (void)state;
+    is.hinge.n = 1;
+    body_create(&b, &is, NULL, 2, ".");
+    assert_close(K / (M_PI / 2.0), 1.06633, 1e-5);
+    assert_close(b.free->J, J, 1e-12);
+    for (int k = 0; k < STEPS; k++) {
+        step(&b, T * k / STEPS, T / STEPS, weight);
+        const double r[2] = {b.centre[0] + b.now.x[0], b.centre[1] + b.now.x[1]};
+        assert_close(hypot(r[0], r[1]), l, 1e-12); /* nothing drifts */
+    }
+    assert_close(b.now.angle, 0.0, 1e-7);
+    assert_close(b.now.spin, 0.0, 1e-6);
+    body_destroy(&b);
+}
+
+static struct scene none;
+
+static void spring(struct body *b, double loads[6])
+{
+    double all[1][6] = {{0.0}};
+    body_lines_add(&none, b, 0, all);
+    memcpy(loads, all[0], sizeof all[0]);
+}
+
+/* Energy of a square on a spring at its corner is kept, to the order of the scheme. */
+static void spring_keeps_energy(void **state)
+{
+    const double g[3] = {0.0, 0.0, 0.0};
+    double drift[2];
+    (void)state;
+    for (int e = 0; e < 2; e++) {
+        struct scene_body is = square(0.0, 0.0);
+        struct body b;
+        double kinetic;
+        const int steps = e ? 800 : 400;
+        is.lines.n = 1;
+        is.lines.of[0] = (struct scene_line){
+            .from = {0.5, 0.5}, .to = {0.5, 3.0}, .stiffness = 10.0, .length = 1.5};
+        is.velocity[0] = 0.4;
+        body_create(&b, &is, NULL, 2, ".");
+        body_lines_slack(&b);
+        const double start = body_energy(&b, g, &kinetic) + body_lines_energy(&none, &b, 0);
+        assert_close(start, 0.5 * 0.16 + 0.5 * 10.0, 1e-12);
+        for (int k = 0; k < steps; k++)
+            step(&b, 4.0 * k / steps, 4.0 / steps, spring);
+        drift[e] = fabs(body_energy(&b, g, &kinetic) + body_lines_energy(&none, &b, 0) - start);
+        body_destroy(&b);
+    }
+    print_message("spring: energy off by %.1e, %.1e of 5.08\n", drift[0], drift[1]);
+    assert_true(drift[1] < 1e-6);
+    assert_true(drift[0] / drift[1] > 12.0);
+}
+
+/* A mooring line pulls alone. */
+static void mooring_is_slack(void **state)
+{
+    struct scene_body is = square(0.0, 0.0);
+    struct body b;
+    double loads[1][6] = {{0.0}};
+    (void)state;
+    is.lines.n = 1;
+    is.lines.of[0] = (struct scene_line){
+        .from = {0.0, 0.5}, .to = {0.0, 2.0}, .stiffness = 10.0, .length = 2.0, .pull_only = true};
+    body_create(&b, &is, NULL, 2, ".");
+    body_lines_slack(&b);
+    body_lines_add(&none, &b, 0, loads);
+    assert_close(loads[0][1], 0.0, 0.0);
+    b.is = &is;
+    is.lines.of[0].pull_only = false;
+    body_lines_add(&none, &b, 0, loads);
+    assert_close(loads[0][1], -5.0, 1e-12);
+    body_destroy(&b);
+}
+
+/* Outline of an L (Steiner's theorem), anywhere, either sense. */
+static void inertia_of_an_outline(void **state)
+{
+    struct scene_body is = {.free = true, .density = 3.0};
+    const double L[6][2] = {{0, 0}, {0, 3}, {1, 3}, {1, 1}, {2, 1}, {2, 0}};
+    struct body_mass m;
+    char why[256];
+    (void)state;
+    is.points.n = 6;
+    for (int k = 0; k < 6; k++) {
+        is.points.x[k][0] = 100.0 + L[k][0];
+        is.points.x[k][1] = -50.0 + L[k][1];
+    }
+    for (int e = 0; e < 2; e++, points_reverse(&is.points)) {
+        assert_true(body_mass_of(&is, NULL, 2, &m, why, sizeof why));
+        assert_close(m.mass, 12.0, 1e-10); /* 1 x 3 and 1 x 1 */
+        assert_close(m.centre[0], 100.75, 1e-10);
+        assert_close(m.centre[1], -48.75, 1e-10);
+        const double J = 3.0 * (3.0 * 10.0 / 12.0 + 3.0 * (0.25 * 0.25 + 0.25 * 0.25)) +
+                         3.0 * (2.0 / 12.0 + 0.75 * 0.75 + 0.75 * 0.75);
+        assert_close(m.inertia[2][2], J, 1e-8);
+    }
+    is.density = 0.0;
+    assert_false(body_mass_of(&is, NULL, 2, &m, why, sizeof why));
+    is.mass = 1.0;
+    is.inertia = (struct param_numbers){3, {1.0, 1.0, 3.0}};
+    assert_false(body_mass_of(&is, NULL, 3, &m, why, sizeof why)); /* 3 > 1 + 1 */
+    is.inertia.v[2] = 1.9;
+    assert_true(body_mass_of(&is, NULL, 3, &m, why, sizeof why));
+}
+
+/* Velocity and acceleration are derivatives of the place, rotation included. */
+static void motion_is_differentiable(void **state)
+{
+    struct scene_body is = {.motion = {.n = 4}};
+    struct body_drive v;
+    const double h = 1e-5;
+    (void)state;
+    is.motion.of[0] = (struct scene_motion){
+        .kind = MOTION_HARMONIC, .axis = AXIS_RX, .amplitude = 0.7, .period = 1.3, .phase = 0.4};
+    is.motion.of[1] = (struct scene_motion){
+        .kind = MOTION_HARMONIC, .axis = AXIS_RZ, .amplitude = 1.1, .period = 0.9, .ramp = 2.0};
+    is.motion.of[2] = (struct scene_motion){.kind = MOTION_POLYNOMIAL,
+                                            .axis = AXIS_RY,
+                                            .coefficients = {4, {0.3, -0.2, 0.5, -0.1}},
+                                            .from = 0.1,
+                                            .until = 3.0};
+    is.motion.of[3] = (struct scene_motion){.kind = MOTION_POLYNOMIAL,
+                                            .axis = AXIS_X,
+                                            .coefficients = {3, {0.0, 1.0, 2.0}},
+                                            .ramp = 1.5};
+    is.motion.of[3].until = 10.0;
+    is.velocity[1] = 0.3;
+    body_drive_create(&v, &is, 3, ".");
+    for (double t = 0.2; t < 1.4; t += 0.17) {
+        struct body_motion m, low, high;
+        double W[3][3] = {{0.0}};
+        body_drive_motion(&v, t, &m);
+        body_drive_motion(&v, t - h, &low);
+        body_drive_motion(&v, t + h, &high);
+        for (int a = 0; a < 3; a++) {
+            assert_close((high.x[a] - low.x[a]) / (2.0 * h), m.u[a], 1e-7);
+            assert_close((high.u[a] - low.u[a]) / (2.0 * h), m.du[a], 1e-6);
+            assert_close((high.omega[a] - low.omega[a]) / (2.0 * h), m.domega[a], 1e-5);
+            for (int b = 0; b < 3; b++)
+                for (int c = 0; c < 3; c++) /* dQ/dt Q^T is the matrix of omega x */
+                    W[a][b] += (high.Q[a][c] - low.Q[a][c]) / (2.0 * h) * m.Q[b][c];
+        }
+        assert_close(W[2][1], m.omega[0], 1e-7);
+        assert_close(W[0][2], m.omega[1], 1e-7);
+        assert_close(W[1][0], m.omega[2], 1e-7);
+    }
+    body_drive_free(&v);
+}
+
+/* Locked degrees stay where they are, or go as told; a slider keeps its line. */
+static void push(struct body *b, double loads[6])
+{
+    (void)b;
+    loads[0] = loads[1] = 1.0;
+    loads[5] = 1.0;
+}
+
+static void locks_hold(void **state)
+{
+    struct scene_body is = square(0.0, 0.0);
+    struct body b;
+    (void)state;
+    snprintf(is.lock, sizeof is.lock, "x rz");
+    is.velocity[0] = 2.0;
+    body_create(&b, &is, NULL, 2, ".");
+    for (int k = 0; k < 10; k++)
+        step(&b, 0.1 * k, 0.1, push);
+    assert_close(b.now.x[0], 2.0, 1e-12);
+    assert_close(b.now.x[1], 0.5, 1e-12);
+    assert_close(b.now.angle, 0.0, 0.0);
+    body_destroy(&b);
+    is.lock[0] = '\0';
+    is.velocity[0] = 0.0;
+    is.slider.n = 1;
+    is.slider.of[0] = (struct scene_slider){{3.0, 4.0}};
+    body_create(&b, &is, NULL, 2, ".");
+    for (int k = 0; k < 10; k++)
+        step(&b, 0.1 * k, 0.1, push);
+    assert_close(b.now.x[0] * 4.0, b.now.x[1] * 3.0, 1e-12);
+    assert_close(b.now.x[0], 0.5 * 1.4 * 0.6, 1e-12);
+    assert_close(b.now.angle, 0.5 / (1.0 / 6.0), 1e-12);
+    body_destroy(&b);
+}
+
+/* Plate of thickness H wet on both sides: 2 rho c/(rho_b H) across; with a hinge its own. */
+static void impedance_of_a_plate(void **state)
+{
+    struct scene_body is = {.free = true, .density = 2.0};
+    const double x[4][2] = {{0, 0}, {0, 0.1}, {4, 0.1}, {4, 0}};
+    struct impedance z = {{{0.0}}};
+    struct body b;
+    enum { PIECES = 1000 };
+    (void)state;
+    is.points.n = 4;
+    memcpy(is.points.x, x, sizeof x);
+    snprintf(is.lock, sizeof is.lock, "rz");
+    body_create(&b, &is, NULL, 2, ".");
+    for (int k = 0; k < PIECES; k++)
+        for (int e = -1; e < 2; e += 2) {
+            const double arm[3] = {-2.0 + 4.0 * (k + 0.5) / PIECES, 0.05 * e, 0.0};
+            const double n[3] = {0.0, -e, 0.0};
+            impedance_add(&z, arm, n, 1.0 * 4.0 / PIECES, 0.0);
+        }
+    assert_close(impedance_rate(&z, &b), 2.0 / (2.0 * 0.1), 1e-9);
+    body_destroy(&b);
+    is.lock[0] = '\0';
+    is.hinge.n = 1;
+    is.hinge.of[0] = (struct scene_hinge){.at = {0.0, 0.05}};
+    body_create(&b, &is, NULL, 2, ".");
+    const double J = 0.8 * (16.01 / 12.0 + 4.0); /* and Z = 2 int x^2 dx */
+    assert_close(impedance_rate(&z, &b), 2.0 * 64.0 / 3.0 / J, 1e-4);
+    body_destroy(&b);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(torque_free_top),
+                                       cmocka_unit_test(pendulum),
+                                       cmocka_unit_test(spring_keeps_energy),
+                                       cmocka_unit_test(mooring_is_slack),
+                                       cmocka_unit_test(inertia_of_an_outline),
+                                       cmocka_unit_test(motion_is_differentiable),
+                                       cmocka_unit_test(locks_hold),
+                                       cmocka_unit_test(impedance_of_a_plate)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

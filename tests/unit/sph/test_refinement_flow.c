@@ -1,0 +1,278 @@
+/* test_refinement_flow.c - flows through levels of refinement: every scheme, water at rest, a body
+ * that the fluid moves.
+ * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../common/scene/exact.h"
+#include "../../../sph/particles/state_sums.h"
+#include "../../../sph/refinement/apr_params.h"
+#include "../../../sph/walls/walls.h"
+#include "sph_case.h"
+
+/* A box of level 1; none where it is empty. */
+static void refine(double x0, double y0, double x1, double y1)
+{
+    apr_given = (struct apr_params){0};
+    if (x1 <= x0)
+        return;
+    apr_given.levels = apr_given.regions.n = apr_given.regions.of[0].level = 1;
+    memcpy(apr_given.regions.of[0].min, (double[2]){x0, y0}, 2 * sizeof(double));
+    memcpy(apr_given.regions.of[0].max, (double[2]){x1, y1}, 2 * sizeof(double));
+}
+
+/* Root of the mean square of u less the exact one, of all that flows. */
+static double error_of(const struct sph *s)
+{
+    const struct exact e = exact_create(&s->run->scene);
+    double sums[2] = {0.0, 0.0};
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            const double *y = state_row(&q->p, q->p.y, i), m = y[at_mass(2)];
+            const double x[3] = {y[0], y[1], 0.0};
+            double u[3], p;
+            if (particles_is_guard(&q->p, i))
+                continue;
+            exact_point(&e, x, s->t, u, &p, NULL);
+            for (int a = 0; a < 2; a++)
+                sums[0] += m * (y[2 + a] / m - u[a]) * (y[2 + a] / m - u[a]);
+            sums[1] += m;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return sqrt(sums[0] / sums[1]);
+}
+
+static double vortices(int scheme, int transport, bool refined)
+{
+    struct sph_case c;
+    sph_case_set(&c, 2, 32);
+    c.prm.scheme = scheme;
+    c.prm.transport = transport;
+    c.prm.limiter = LIMITER_KOREN;
+    c.prm.alpha = 0.02;
+    c.prm.delta = 0.1;
+    if (refined)
+        refine(0.2, 0.25, 0.75, 0.8);
+    struct sph *s = sph_case_start(&c, NULL);
+    assert_true((s->finer != NULL) == refined);
+    assert_true(sph_case_run(&c, refined ? 40 : 20, 100.0));
+    const double error = error_of(s);
+    sph_free(&c.s);
+    refine(0.0, 0.0, 0.0, 0.0);
+    return error;
+}
+
+/* Vortices through a box are no worse than without it, whatever the particles do to each other. */
+static void every_scheme_keeps_its_order(void **state)
+{
+    (void)state;
+    static const int of[][2] = {
+        {SCHEME_RIEMANN_ALE, TRANSPORT_TVS}, {SCHEME_RIEMANN_ALE, TRANSPORT_EULERIAN},
+        {SCHEME_RIEMANN, TRANSPORT_TVS},     {SCHEME_RIEMANN, TRANSPORT_TVO},
+        {SCHEME_RIEMANN, TRANSPORT_XSPH},    {SCHEME_DELTA, TRANSPORT_TVS},
+        {SCHEME_STANDARD, TRANSPORT_TVS}};
+    for (size_t k = SANITIZED ? 5 : 0; k < sizeof of / sizeof of[0]; k++) {
+        const double plain = vortices(of[k][0], of[k][1], false);
+        const double refined = vortices(of[k][0], of[k][1], true);
+        print_message("scheme %d, transport %d: %.2e, refined %.2e\n", of[k][0], of[k][1], plain,
+                      refined);
+        assert_true(refined < 1.1 * plain);
+    }
+}
+
+/* Kinetic energy of what flows, and how many particles there are of both levels, after 70 steps of
+ * vortices that a mirror at x = 1/2 leaves as they are, through a box that it does not. */
+static void run_mirrored(MPI_Comm comm, bool mirrored, double *kinetic, double *count)
+{
+    struct sph_case c;
+    double sums[SUM_COUNT];
+    sph_case_set(&c, 2, 32);
+    c.run.comm = comm;
+    MPI_Comm_rank(comm, &c.run.rank);
+    MPI_Comm_size(comm, &c.run.size);
+    c.prm.scheme = SCHEME_RIEMANN_ALE;
+    c.prm.transport = TRANSPORT_TVS;
+    c.prm.limiter = LIMITER_KOREN;
+    refine(mirrored ? 0.3 : 0.1, 0.2, mirrored ? 0.9 : 0.7, 0.7);
+    struct sph *s = sph_case_start(&c, NULL);
+    assert_true(sph_case_run(&c, 70, 100.0));
+    sph_sums(s, sums);
+    *kinetic = sums[SUM_KINETIC];
+    *count = s->p.n + s->finer->p.n;
+    MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_DOUBLE, MPI_SUM, comm);
+    sph_free(&c.s);
+    refine(0.0, 0.0, 0.0, 0.0);
+}
+
+/* Births and deaths know neither left nor right nor ranks: what is left is rounding and its growth
+ * (turns by the place of cells in the lattice: 8e-4 of the energy). */
+static void a_mirror_and_ranks_change_nothing(void **state)
+{
+    (void)state;
+    double kinetic[3], count[3];
+    run_mirrored(MPI_COMM_WORLD, false, kinetic, count);
+    run_mirrored(MPI_COMM_WORLD, true, kinetic + 1, count + 1);
+    run_mirrored(MPI_COMM_SELF, false, kinetic + 2, count + 2);
+    for (int k = 1; k < 3; k++) {
+        print_message("energy off by %.2e, %.0f particles, %.0f\n", kinetic[k] / kinetic[0] - 1.0,
+                      count[0], count[k]);
+        assert_close(kinetic[k], kinetic[0], 1e-8 * kinetic[0]);
+        assert_true(count[k] == count[0]);
+    }
+}
+
+/* Water 10 dx deep in a tank of 24 dx; a box from the middle to the wall and out of the water. */
+static void set_tank(struct sph_case *c, int scheme, int walls)
+{
+    sph_case_set(c, 2, 20);
+    struct scene *e = &c->run.scene;
+    e->initial.field = FIELD_REST;
+    e->initial.level = LEVEL_TOP;
+    e->fluid.nu = 0.0;
+    e->fluid.gravity[1] = -1.0;
+    e->time.end = 10.0;
+    e->nwalls = 3;
+    for (int k = 0; k < 3; k++) {
+        e->domain.periodic[k % 2] = false;
+        e->walls[k].side = SIDE_X_MIN + k;
+    }
+    e->domain.max[0] = 1.2;
+    e->nshapes = 1;
+    e->shapes[0].form = SHAPE_BOX;
+    e->shapes[0].box[1][0] = 1.2;
+    e->shapes[0].box[1][1] = 0.5;
+    c->prm.scheme = scheme;
+    c->prm.transport = TRANSPORT_NONE;
+    c->prm.surface = SURFACE_YES;
+    c->prm.walls = walls;
+    c->prm.alpha = 0.02;
+    c->prm.delta = 0.1;
+    c->prm.density_limit = 0.5;
+    refine(0.45, -0.1, 1.3, 1.1);
+}
+
+/* Sum of the squares of all places and momenta, those of guards, too, after ten steps of a tank
+ * that sloshes through the edge of a box, where some of the coarse guards are deep; shown: slopes
+ * are made for an output after each step. */
+static double state_of(bool shown)
+{
+    struct sph_case c;
+    double sums[2] = {0.0, 0.0};
+    set_tank(&c, SCHEME_RIEMANN, WALLS_NFM);
+    c.run.scene.fluid.gravity[0] = 0.5;
+    c.prm.transport = TRANSPORT_TVS;
+    c.prm.R_dx = 3.0;
+    refine(0.1, -0.1, 1.3, 1.1);
+    struct sph *s = sph_case_start(&c, NULL);
+    for (int k = 0; k < 10; k++) {
+        assert_true(sph_case_run(&c, 1, 100.0));
+        if (shown || k == 9) /* which gives guards the fields of the end */
+            integrate_gradients(s);
+    }
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            sums[0] += (q->p.role[i] & ROLE_DEEP) != 0;
+            for (int k = 0; k < 4; k++)
+                sums[1] += pow(state_row(&q->p, q->p.y, i)[k], 2.0);
+        }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    assert_true(sums[0] > 0.0);
+    sph_free(&c.s);
+    refine(0.0, 0.0, 0.0, 0.0);
+    return sums[1];
+}
+
+/* An output leaves no trace. Deep guards, given fields once a step, had them in its first stage
+ * only, so that with a surface they stood still unless an output came. */
+static void an_output_leaves_no_trace(void **state)
+{
+    (void)state;
+    const double shown = state_of(true), plain = state_of(false);
+    print_message("%.15g with outputs, %.15g without\n", shown, plain);
+    assert_true(fabs(shown - plain) < 1e-12 * shown);
+}
+
+/* It stays at rest; without a common pressure at rest a circulation stood at the box's edge. */
+static void water_at_rest_stays(void **state)
+{
+    (void)state;
+    static const int of[][2] = {{SCHEME_RIEMANN, WALLS_NFM}, {SCHEME_DELTA, WALLS_GHOSTS}};
+    for (int k = SANITIZED; k < 2; k++) {
+        struct sph_case c;
+        set_tank(&c, of[k][0], of[k][1]);
+        struct sph *s = sph_case_start(&c, NULL);
+        assert_non_null(s->finer);
+        while (s->t < 0.5)
+            assert_true(sph_case_run(&c, 1, 100.0));
+        print_message("tank at rest: %.2e c0\n", s->max_mach);
+        assert_true(s->max_mach < 1e-3);
+        sph_free(&c.s);
+    }
+    refine(0.0, 0.0, 0.0, 0.0);
+}
+
+/* A square that is pushed through a fluid in a full tank: its velocity after a while. from: corner
+ * of a box around it; 0: none. */
+static double pushed(int cells, double from)
+{
+    struct sph_case c;
+    sph_case_set(&c, 2, cells);
+    struct scene *e = &c.run.scene;
+    e->initial.field = FIELD_REST;
+    e->fluid.nu = 0.0;
+    e->time.end = 10.0;
+    e->nbodies = 1;
+    struct scene_body *b = e->bodies;
+    b->points.n = 4;
+    memcpy(b->points.x,
+           (double[4][2]){{0.375, 0.375}, {0.375, 0.625}, {0.625, 0.625}, {0.625, 0.375}},
+           8 * sizeof(double));
+    strcpy(b->name, "square");
+    b->free = true;
+    b->density = 2.0;
+    b->velocity[0] = 0.5;
+    b->spin[2] = 1.0;
+    c.prm.scheme = SCHEME_RIEMANN;
+    c.prm.walls = WALLS_NFM;
+    c.prm.density_limit = 0.5;
+    if (from > 0.0) {
+        refine(from, from, 1.0 - from, 1.0 - from);
+        strcpy(apr_given.regions.of[0].follow, "square");
+    }
+    struct sph *s = sph_case_start(&c, NULL);
+    while (s->t < 0.04)
+        assert_true(sph_case_run(&c, 1, 0.04));
+    for (const struct sph *q = s->finer; q; q = q->finer)
+        assert_true(q->walls->bodies[0].free == s->walls->bodies[0].free &&
+                    q->walls->bodies[0].now.x[0] == s->walls->bodies[0].now.x[0]);
+    assert_true(max_anywhere(s->lost) == 0.0);
+    const double u = s->walls->bodies[0].now.u[0];
+    sph_free(&c.s);
+    refine(0.0, 0.0, 0.0, 0.0);
+    return u;
+}
+
+/* What it feels is one kernel's worth, wherever the fine particles end. */
+static void a_body_moves_as_in_the_fine_fluid(void **state)
+{
+    (void)state;
+    if (SANITIZED)
+        skip();
+    const double fine = pushed(48, 0.0), both = pushed(24, 0.06), near = pushed(24, 0.15);
+    print_message("body at %.5f m/s, %.5f refined, %.5f with the edge near\n", fine, both, near);
+    assert_true(fine < 0.45); /* it has pushed */
+    assert_close(both, fine, 0.005);
+    assert_close(near, fine, 0.02);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_scheme_keeps_its_order),
+                                       cmocka_unit_test(a_mirror_and_ranks_change_nothing),
+                                       cmocka_unit_test(an_output_leaves_no_trace),
+                                       cmocka_unit_test(water_at_rest_stays),
+                                       cmocka_unit_test(a_body_moves_as_in_the_fine_fluid)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

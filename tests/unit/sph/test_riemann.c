@@ -1,0 +1,204 @@
+/* test_riemann.c - states at the middle of a pair and the Riemann problem between them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../sph/pairs/riemann.h"
+#include "../../../sph/particles/eos.h"
+
+static const struct dissipation full = {.factor = 0.3, .least = 1.0};
+static const struct dissipation low = {.factor = 0.3, .least = 0.0}; /* c0 = 10 m/s */
+
+/* The same with scalars; u: normal velocities. */
+static void solve(const struct dissipation *d, double Zi, double Zj, double ui, double uj,
+                  double pi, double pj, double *uE, double *pE)
+{
+    const double r = 0.37; /* must not matter */
+    const struct weights z = weigh(vec_all(r), vec_all(Zi), vec_all(Zj));
+    const vec p[2] = {vec_all(pi), vec_all(pj)}, v[2] = {vec_all(r * ui), vec_all(r * uj)};
+    vec vE, P;
+    star(d, &z, p, v, &vE, &P);
+    *uE = vE[LANES - 1] / r;
+    *pE = P[LANES - 1];
+}
+
+static void equal_states_stay(void **state)
+{
+    (void)state;
+    double uE, pE;
+    solve(&full, 1e4, 1e4, 0.7, 0.7, 123.0, 123.0, &uE, &pE);
+    assert_close(uE, 0.7, 1e-14);
+    assert_close(pE, 123.0, 1e-11);
+    solve(&low, 1e4, 1e4, 0.7, 0.7, 123.0, 123.0, &uE, &pE);
+    assert_close(uE, 0.7, 1e-14);
+    assert_close(pE, 123.0, 1e-11);
+}
+
+static void symmetric_collision_is_rho_c_u(void **state)
+{
+    (void)state;
+    double uE, pE;
+    solve(&full, 1e4, 1e4, 0.5, -0.5, 100.0, 100.0, &uE, &pE);
+    assert_close(uE, 0.0, 1e-14);
+    assert_close(pE, 100.0 + 1e4 * 0.5, 1e-9);
+}
+
+/* p_E - p_i = -Z_i (u_E - u_i), p_E - p_j = Z_j (u_E - u_j). */
+static void star_state_lies_on_both_waves(void **state)
+{
+    (void)state;
+    const double Zi = 1.1e4, Zj = 0.8e4, ui = 0.9, uj = 0.4, pi = 50.0, pj = 900.0;
+    double uE, pE;
+    solve(&full, Zi, Zj, ui, uj, pi, pj, &uE, &pE);
+    assert_close(pE - pi, -Zi * (uE - ui), 1e-8);
+    assert_close(pE - pj, Zj * (uE - uj), 1e-8);
+}
+
+/* Dissipation of p: none where particles part, (3/c0) jump^2 Z/2 for slow approach, full for a fast
+ * one. */
+static void low_dissipation_is_bounded(void **state)
+{
+    (void)state;
+    double uE, pE;
+    solve(&low, 1e4, 1e4, -0.5, 0.5, 100.0, 100.0, &uE, &pE);
+    assert_close(pE, 100.0, 1e-9);
+    solve(&low, 1e4, 1e4, 0.5, -0.5, 100.0, 100.0, &uE, &pE);
+    assert_close(pE, 100.0 + 0.5e4 * 0.3, 1e-9);
+    solve(&low, 1e4, 1e4, 2.5, -2.5, 100.0, 100.0, &uE, &pE);
+    assert_close(pE, 100.0 + 0.5e4 * 5.0, 1e-9);
+}
+
+static void states_of(double *left, double *right, double s_left, double s_right, int limiter)
+{
+    vec l = vec_all(*left), r = vec_all(*right);
+    const vec sl = vec_all(s_left), sr = vec_all(s_right);
+    if (limiter == LIMITER_KOREN)
+        reconstruct(&l, &r, sl, sr, LIMITER_KOREN, 0.0);
+    else if (limiter == LIMITER_MINMOD)
+        reconstruct(&l, &r, sl, sr, LIMITER_MINMOD, 0.0);
+    else
+        reconstruct(&l, &r, sl, sr, LIMITER_NONE, 0.0);
+    *left = l[0];
+    *right = r[LANES - 1];
+}
+
+static void linear_fields_meet_in_the_middle(void **state)
+{
+    (void)state;
+    for (int limiter = LIMITER_KOREN; limiter <= LIMITER_NONE; limiter++)
+        for (double D = -2.0; D <= 2.0; D += 0.5) {
+            double left = 3.0, right = 3.0 + D;
+            states_of(&left, &right, D, D, limiter);
+            assert_close(left, 3.0 + 0.5 * D, 1e-14);
+            assert_close(right, left, 1e-14);
+        }
+}
+
+/* [2.82-2.83] as printed, and Koren's form: psi(r) b/2, psi = max(0, min(2r, (1 + 2r)/3, 2)), r =
+ * D/b, b = 2s - D. */
+static double step(double D, double s, int limiter)
+{
+    if (limiter == LIMITER_NONE)
+        return (2.0 * s + D) / 6.0;
+    if (limiter == LIMITER_MINMOD) {
+        const double t = s / D;
+        return 0.5 * (fmin(0.0, fmax(1.0, t)) + fmax(0.0, fmin(1.0, t))) * D;
+    }
+    const double b = 2.0 * s - D, r = D / b;
+    return 0.5 * b * fmax(0.0, fmin(fmin(2.0 * r, (1.0 + 2.0 * r) / 3.0), 2.0));
+}
+
+static void limiters_are_the_printed_ones(void **state)
+{
+    (void)state;
+    for (int limiter = LIMITER_KOREN; limiter <= LIMITER_NONE; limiter++)
+        for (double D = -1.05; D < 1.1; D += 0.1)
+            for (double s = -3.01; s < 3.1; s += 0.07) {
+                double left = 0.2, right = 0.2 + D;
+                states_of(&left, &right, s, 0.5 * s, limiter);
+                assert_close(left, 0.2 + step(D, s, limiter), 1e-14);
+                assert_close(right, 0.2 + D - step(D, 0.5 * s, limiter), 1e-14);
+            }
+}
+
+/* A parabola through its exact slopes: third order, so exact at the middle where no bound acts. */
+static void koren_is_third_order(void **state)
+{
+    (void)state;
+    const double curvature = 0.1; /* f(x) = x + curvature x^2/2 in cell averages: b, D = 1 -+ ... */
+    double left = 0.0, right = 1.0 + 0.5 * curvature;
+    const double D = right, s = 1.0; /* f'(0) = 1, so b = 2s - D = 1 - curvature/2 */
+    states_of(&left, &right, s, 1.0 + curvature, LIMITER_KOREN);
+    assert_close(left, (2.0 * s + D) / 6.0, 1e-15);
+    assert_close(right, D - (2.0 * (1.0 + curvature) + D) / 6.0, 1e-15);
+}
+
+/* Both sides of a parabola meet wherever its extremum is, and pass the bounds by no more than the
+ * slack. */
+static void slack_keeps_extrema_smooth(void **state)
+{
+    (void)state;
+    const double a = 0.3, slack = 0.2;
+    for (double x = -1.0; x <= 0.0; x += 0.1) { /* f = a x^2 at x and x + 1 */
+        vec left = vec_all(a * x * x), right = vec_all(a * (x + 1.0) * (x + 1.0));
+        const vec sl = vec_all(2.0 * a * x), sr = vec_all(2.0 * a * (x + 1.0));
+        reconstruct(&left, &right, sl, sr, LIMITER_KOREN, slack);
+        assert_close(left[0], right[0], 1e-15);
+    }
+    for (double s = -5.0; s <= 5.0; s += 0.1) {
+        vec left = vec_all(-1.0), right = vec_all(2.0);
+        vec up = left, down = left, over = left + 1e-13, under = left - 1e-13;
+        reconstruct(&up, &over, vec_all(s), vec_all(s), LIMITER_KOREN, slack);
+        reconstruct(&down, &under, vec_all(s), vec_all(s), LIMITER_KOREN, slack);
+        assert_close(up[0], down[0], 1e-12); /* no step where the difference changes its sign */
+        reconstruct(&left, &right, vec_all(s), vec_all(-s), LIMITER_KOREN, slack);
+        assert_true(left[0] >= -1.0 - slack && left[0] <= 2.0 + slack);
+        assert_true(right[0] >= -1.0 - slack && right[0] <= 2.0 + slack);
+    }
+}
+
+static void no_bounded_state_overshoots(void **state)
+{
+    (void)state;
+    for (int limiter = LIMITER_KOREN; limiter <= LIMITER_MINMOD; limiter++)
+        for (double s = -5.0; s <= 5.0; s += 0.1) {
+            double left = -1.0, right = 2.0;
+            states_of(&left, &right, s, -s, limiter);
+            assert_true(left >= -1.0 && left <= 2.0 && right >= -1.0 && right <= 2.0);
+            left = right = 4.0;
+            states_of(&left, &right, s, -s, limiter);
+            assert_true(left == 4.0 && right == 4.0);
+        }
+}
+
+static void pressure_is_the_scalar_one(void **state)
+{
+    (void)state;
+    const double rho0 = 1000.0, c0 = 10.0;
+    for (double rho = 900.0; rho < 1100.0; rho += 7.0) {
+        const struct tait stiff = {.rho0_1 = 1.0 / rho0,
+                                   .B = rho0 * c0 * c0 / 7.0,
+                                   .at0 = rho0 * c0 * c0 / 7.0,
+                                   .Z0 = rho0 * c0};
+        const struct tait soft = {
+            .rho0_1 = 1.0 / rho0, .B = rho0 * c0 * c0, .at0 = rho0 * c0 * c0, .Z0 = rho0 * c0};
+        assert_close(pressure(&stiff, vec_all(rho), 7)[0], eos_p(rho, rho0, c0, 7.0), 1e-9);
+        assert_close(pressure(&soft, vec_all(rho), 1)[0], eos_p(rho, rho0, c0, 1.0), 1e-9);
+        assert_close(impedance(&stiff, vec_all(rho), 7)[0], rho * eos_c(rho, rho0, c0, 7.0), 1e-9);
+        assert_close(impedance(&soft, vec_all(rho), 1)[0], rho * c0, 1e-9);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(equal_states_stay),
+                                       cmocka_unit_test(symmetric_collision_is_rho_c_u),
+                                       cmocka_unit_test(star_state_lies_on_both_waves),
+                                       cmocka_unit_test(low_dissipation_is_bounded),
+                                       cmocka_unit_test(linear_fields_meet_in_the_middle),
+                                       cmocka_unit_test(limiters_are_the_printed_ones),
+                                       cmocka_unit_test(koren_is_third_order),
+                                       cmocka_unit_test(slack_keeps_extrema_smooth),
+                                       cmocka_unit_test(no_bounded_state_overshoots),
+                                       cmocka_unit_test(pressure_is_the_scalar_one)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

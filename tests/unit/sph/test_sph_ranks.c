@@ -1,0 +1,206 @@
+/* test_sph_ranks.c - the number of ranks changes nothing but rounding, that of a restart, too.
+ * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+#include "../../../common/files/h5.h"
+#include "../../../sph/open_boundaries/openings.h"
+#include "../../../sph/open_boundaries/zones.h"
+#include "../../../sph/particles/state_sums.h"
+#include "sph_case.h"
+
+static double *run_on(MPI_Comm comm, int dim, int cells, int steps, int n)
+{
+    struct sph_case c;
+    sph_case_set(&c, dim, cells);
+    c.run.comm = comm;
+    MPI_Comm_rank(comm, &c.run.rank);
+    MPI_Comm_size(comm, &c.run.size);
+    c.prm.noise = 0.1;
+    sph_case_start(&c, NULL);
+    sph_case_run(&c, steps, 100.0);
+    double *y = sph_case_gather(c.s, n);
+    sph_free(&c.s);
+    return y;
+}
+
+static void agree(int dim, int cells, int steps)
+{
+    const int n = dim == 2 ? cells * cells : cells * cells * cells, row = 2 * dim + 2;
+    double *alone = run_on(MPI_COMM_SELF, dim, cells, steps, n);
+    double *shared = run_on(MPI_COMM_WORLD, dim, cells, steps, n);
+    double most = 0.0;
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < row; k++) {
+            double e = fabs(alone[i * row + k] - shared[i * row + k]);
+            if (k < dim) /* on either side of the seam */
+                e = fmin(e, fabs(e - 1.0));
+            most = fmax(most, k < dim ? e * cells : e / alone[i * row + row - 1]);
+        }
+    assert_true(max_anywhere(most) < 1e-9);
+    mem_free(alone);
+    mem_free(shared);
+}
+
+static void ranks_agree_in_2d(void **state)
+{
+    (void)state;
+    agree(2, 30, 8);
+}
+
+static void ranks_agree_in_3d(void **state)
+{
+    (void)state;
+    agree(3, 12, 4);
+}
+
+static void set_open(struct sph_case *c, MPI_Comm comm)
+{
+    sph_case_set(c, 2, 40);
+    c->run.comm = comm;
+    MPI_Comm_rank(comm, &c->run.rank);
+    MPI_Comm_size(comm, &c->run.size);
+    c->run.scene.domain.periodic[0] = c->run.scene.domain.periodic[1] = false;
+    c->run.scene.domain.min[0] = c->run.scene.domain.min[1] = 0.1;
+    c->run.scene.domain.max[0] = c->run.scene.domain.max[1] = 0.9;
+    c->prm.outer = OUTER_EXACT;
+}
+
+/* Births are numbered by face, so sums over all particles must agree; order of births may not
+ * matter. */
+static void zone_sums(MPI_Comm comm, double *sums)
+{
+    struct sph_case c;
+    set_open(&c, comm);
+    sph_case_start(&c, NULL);
+    assert_true(sph_case_run(&c, 40, 100.0));
+    sph_sums(c.s, sums);
+    sph_free(&c.s);
+}
+
+static void ranks_agree_with_open_sides(void **state)
+{
+    (void)state;
+    double alone[SUM_COUNT], shared[SUM_COUNT];
+    zone_sums(MPI_COMM_SELF, alone);
+    zone_sums(MPI_COMM_WORLD, shared);
+    for (int k = 0; k < SUM_COUNT; k++)
+        assert_true(fabs(alone[k] - shared[k]) < 1e-8);
+}
+
+/* What a restart must keep over all ranks: sums of the flow, of the faces, of the counts. */
+enum { KEPT = SUM_COUNT + 5 };
+
+static void take_sums(struct sph_case *c, double *sums)
+{
+    const struct openings *o = c->s->zones ? c->s->zones->openings : NULL;
+    double counts[4] = {c->s->lost, o ? (double)o->born : 0.0, o ? o->inflow : 0.0,
+                        o ? o->born_mass - o->gone_mass : 0.0};
+    sph_sums(c->s, sums);
+    MPI_Allreduce(MPI_IN_PLACE, counts, 4, MPI_DOUBLE, MPI_SUM, c->run.comm);
+    memcpy(sums + SUM_COUNT, counts, sizeof counts);
+    sums[KEPT - 1] = o ? openings_held(c->s) : 0.0;
+}
+
+static void set(struct sph_case *c, MPI_Comm comm, int dim)
+{
+    if (dim == 0) {
+        set_open(c, comm);
+        return;
+    }
+    sph_case_set(c, dim, dim == 2 ? 30 : 12);
+    c->run.comm = comm;
+    MPI_Comm_rank(comm, &c->run.rank);
+    MPI_Comm_size(comm, &c->run.size);
+    c->prm.noise = 0.1;
+}
+
+/* Steps on these ranks and a restart file, then as many: their sums. */
+static void write_on(MPI_Comm comm, int dim, int steps, const char *path, double *sums)
+{
+    struct sph_case c;
+    set(&c, comm, dim);
+    sph_case_start(&c, NULL);
+    assert_true(sph_case_run(&c, steps, 100.0));
+    c.s->lost = c.run.rank + 1.0; /* as if some had been */
+    struct h5 *f = h5_create_restart(comm, path);
+    h5_attribute_real(f, "t", c.run.t);
+    sph_checkpoint(c.s, f);
+    h5_close(&f);
+    assert_true(sph_case_run(&c, steps, 100.0));
+    take_sums(&c, sums);
+    sph_free(&c.s);
+}
+
+static void go_on_on(MPI_Comm comm, int dim, int steps, const char *path, double *sums)
+{
+    struct sph_case c;
+    set(&c, comm, dim);
+    struct h5 *f = h5_open(comm, path);
+    assert_non_null(f);
+    assert_true(h5_read_attribute_real(f, "t", &c.run.t));
+    c.run.step = steps;
+    assert_non_null(sph_case_start(&c, f));
+    h5_close(&f);
+    assert_true(sph_case_run(&c, steps, 100.0));
+    take_sums(&c, sums);
+    sph_free(&c.s);
+}
+
+static void same(const double *a, const double *b)
+{
+    double most = 0.0;
+    for (int k = 0; k < KEPT; k++)
+        most = fmax(most, fabs(a[k] - b[k]) / fmax(1.0, fabs(a[k])));
+    assert_true(max_anywhere(most) < 1e-9);
+}
+
+static void goes_on_on_others(int dim, int steps)
+{
+    char path[1024];
+    int rank;
+    double straight[KEPT], restarted[KEPT];
+    const char *dir = getenv("TEST_SCRATCH");
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    snprintf(path, sizeof path, "%s/sph_ranks_%d.h5", dir ? dir : P_tmpdir, (int)getpid());
+    MPI_Bcast(path, sizeof path, MPI_CHAR, 0, MPI_COMM_WORLD);
+    write_on(MPI_COMM_WORLD, dim, steps, path, straight);
+    go_on_on(MPI_COMM_SELF, dim, steps, path, restarted);
+    same(straight, restarted);
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (rank == 0)
+        write_on(MPI_COMM_SELF, dim, steps, path, straight);
+    MPI_Bcast(straight, KEPT, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+    go_on_on(MPI_COMM_WORLD, dim, steps, path, restarted);
+    same(straight, restarted);
+    MPI_Barrier(MPI_COMM_WORLD);
+    remove(path);
+}
+
+/* Written by all, read by one, and the other way. */
+static void other_ranks_go_on(void **state)
+{
+    (void)state;
+    goes_on_on_others(2, 8);
+    goes_on_on_others(3, 3);
+}
+
+static void other_ranks_go_on_with_open_sides(void **state)
+{
+    (void)state;
+    goes_on_on_others(0, 20);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ranks_agree_in_2d), cmocka_unit_test(ranks_agree_in_3d),
+        cmocka_unit_test(ranks_agree_with_open_sides), cmocka_unit_test(other_ranks_go_on),
+        cmocka_unit_test(other_ranks_go_on_with_open_sides)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

@@ -1,0 +1,211 @@
+/* test_sph_watch.c - energy is watched against its budget: gains of an unstable step end the run, a
+ * driven flow and a moving wall gain nothing; the worst particle is named alike on any number of
+ * ranks; impacts are no faults; shifting knows neither initial.U nor what carries the flow.
+ * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../common/files/h5.h"
+#include "../../../sph/particles/state_sums.h"
+#include "sph_case.h"
+
+static double gain_of(const struct sph_case *c) { return c->s->watch.of[SPH_WATCH_ENERGY].worst; }
+
+static void a_sound_flow_gains_nothing(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    sph_case_set(&c, 2, 24);
+    sph_case_start(&c, NULL);
+    assert_true(sph_case_run(&c, 120, 100.0));
+    assert_true(gain_of(&c) < 1e-3);
+    sph_free(&c.s);
+}
+
+/* Beyond the bound of the Riemann schemes; strict bounds hold the densities meanwhile. */
+static void an_unstable_step_is_ended_by_its_energy(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    struct diagnosis d = {0};
+    sph_case_set(&c, 2, 24);
+    c.prm.cfl = 0.85;
+    c.prm.limiter = LIMITER_MINMOD;
+    c.prm.density_limit = 0.0;
+    sph_case_start(&c, NULL);
+    for (int k = 0; k < 400 && !d.bad; k++) {
+        integrate_step(c.s, 100.0, &d);
+        c.run.step++;
+    }
+    assert_true(d.bad);
+    assert_non_null(strstr(d.reason, "energy"));
+    assert_true(c.s->max_mach < 0.5); /* long before the speeds say so */
+    sph_free(&c.s);
+}
+
+/* A channel along x between no-slip walls; the upper one at U, or a force. */
+static void channel(struct sph_case *c, double U, double force)
+{
+    sph_case_set(c, 2, 20);
+    struct scene *e = &c->run.scene;
+    e->initial.field = FIELD_REST;
+    e->domain.periodic[1] = false;
+    e->fluid.nu = 0.05;
+    e->fluid.gravity[0] = force;
+    e->time.end = 10.0;
+    e->nwalls = 2;
+    e->walls[0] = (struct scene_wall){.side = SIDE_Y_MIN, .kind = WALL_NO_SLIP};
+    e->walls[1] = (struct scene_wall){.side = SIDE_Y_MAX, .kind = WALL_NO_SLIP, .velocity = {U}};
+    c->prm.walls = WALLS_NFM;
+    c->prm.cfl_viscous = 0.025;
+}
+
+static void work_from_outside_is_no_gain(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct sph_case c;
+        double sums[SUM_COUNT];
+        channel(&c, k ? 1.0 : 0.0, k ? 0.0 : 0.4);
+        sph_case_start(&c, NULL);
+        assert_true(c.s->watch.budget_closed);
+        assert_true(sph_case_run(&c, 150, 100.0));
+        sph_sums(c.s, sums);
+        const double U = c.s->watch.reference;
+        print_message("kinetic energy %.3g of M U^2, gain %.2g\n",
+                      sums[SUM_KINETIC] / (c.s->mass0 * U * U), gain_of(&c));
+        assert_true(sums[SUM_KINETIC] > 0.01 * c.s->mass0 * U * U); /* 20 % of the scale */
+        assert_true(gain_of(&c) < 0.01);
+        sph_free(&c.s);
+    }
+}
+
+/* Two faults, on different ranks where there are some: the worse is named, by its place. */
+static void the_worst_particle_is_named(void **state)
+{
+    (void)state;
+    static const double factor[2] = {3.0, 5.0};
+    for (int worse = 0; worse < 2; worse++) {
+        struct sph_case c;
+        struct diagnosis d = {0};
+        sph_case_set(&c, 2, 24);
+        c.prm.noise = 0.01;
+        sph_case_start(&c, NULL);
+        for (int i = 0; i < c.s->p.n; i++)
+            for (int k = 0; k < 2; k++)
+                if (c.s->p.id[i] == (k ? 24 * 20 + 20 : 24 * 3 + 3)) /* of 24 x 24 */
+                    c.s->p.y[(size_t)c.s->p.nstate * i + 5] *= factor[k == worse];
+        sph_fault_diagnose(c.s, &d);
+        double x = -1.0, y = -1.0;
+        assert_true(d.bad);
+        assert_int_equal(sscanf(d.where, "(%lf, %lf) m", &x, &y), 2);
+        assert_close(x, worse ? 20.5 / 24.0 : 3.5 / 24.0, 1e-2);
+        assert_close(y, worse ? 20.5 / 24.0 : 3.5 / 24.0, 1e-2);
+        assert_null(strstr(d.where, "rank"));
+        sph_free(&c.s);
+    }
+}
+
+/* A square at Mach 0.1 into a wall: compressed by a tenth, as rho c U wants it, and no fault. */
+static void an_impact_is_no_fault(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    sph_case_set(&c, 2, 24);
+    struct scene *e = &c.run.scene;
+    e->fluid.nu = 0.0;
+    e->initial.field = FIELD_REST;
+    e->domain.periodic[0] = e->domain.periodic[1] = false;
+    e->nwalls = 2;
+    e->walls[0].side = SIDE_X_MIN;
+    e->walls[1].side = SIDE_Y_MIN;
+    e->nshapes = 1;
+    e->shapes[0].box[1][0] = e->shapes[0].box[1][1] = 0.5;
+    e->shapes[0].velocity[0] = e->shapes[0].velocity[1] = -1.0;
+    c.prm.surface = SURFACE_YES;
+    c.prm.scheme = SCHEME_RIEMANN;
+    c.prm.walls = WALLS_NFM;
+    c.prm.c0 = 14.0;
+    c.prm.density_limit = 0.0;
+    sph_case_start(&c, NULL);
+    double most = 0.0;
+    for (int k = 0; k < 40; k++) {
+        assert_true(sph_case_run(&c, 1, 100.0));
+        most = fmax(most, c.s->rho_max / c.s->rho0 - 1.0);
+    }
+    print_message("compressed by %.3g\n", most);
+    assert_true(most > 0.07);
+    sph_free(&c.s);
+}
+
+static double shift_speed(enum initial_field field, double U, double V)
+{
+    struct sph_case c;
+    sph_case_set(&c, 2, 24);
+    c.run.scene.initial.field = field;
+    c.run.scene.initial.U = U;
+    c.run.scene.initial.velocity[0] = V;
+    c.prm.c0 = 30.0;
+    sph_case_start(&c, NULL);
+    assert_true(sph_case_run(&c, 3, 100.0));
+    const double speed = c.s->shift_speed;
+    sph_free(&c.s);
+    return speed;
+}
+
+static void shifting_has_the_scale_of_the_flow(void **state)
+{
+    (void)state;
+    assert_close(shift_speed(FIELD_TAYLOR_GREEN, 1.0, 0.0), 1.0, 0.02);
+    assert_close(shift_speed(FIELD_TAYLOR_GREEN, 1.0, 2.0), 1.0, 0.02);
+    assert_close(shift_speed(FIELD_UNIFORM, 5.0, 2.0), 0.0, 1e-9);
+}
+
+/* Worst values, budget and work after a restart are those of a run in one piece. */
+static void a_restart_judges_as_one_run(void **state)
+{
+    (void)state;
+    struct sph_watch after[2];
+    for (int restart = 0; restart < 2; restart++) {
+        char path[512];
+        const char *dir = getenv("TEST_SCRATCH");
+        struct sph_case c;
+        snprintf(path, sizeof path, "%s/test_sph_watch.h5", dir ? dir : "/tmp");
+        channel(&c, 0.0, 0.4);
+        sph_case_start(&c, NULL);
+        assert_true(sph_case_run(&c, 35, 100.0));
+        if (restart) {
+            struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
+            sph_checkpoint(c.s, f);
+            h5_close(&f);
+            sph_free(&c.s);
+            f = h5_open(MPI_COMM_WORLD, path);
+            sph_case_start(&c, f);
+            h5_close(&f);
+            assert_non_null(c.s);
+        }
+        assert_true(sph_case_run(&c, 30, 100.0));
+        after[restart] = c.s->watch;
+        sph_free(&c.s);
+    }
+    assert_true(after[0].work == after[1].work);
+    assert_int_equal(after[0].budget.n, after[1].budget.n);
+    for (int k = 0; k < after[0].budget.n; k++)
+        assert_true(after[0].budget.least[k] == after[1].budget.least[k]);
+    for (int k = 0; k < SPH_WATCHES; k++)
+        assert_true(after[0].of[k].worst == after[1].of[k].worst);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_sound_flow_gains_nothing),
+                                       cmocka_unit_test(an_unstable_step_is_ended_by_its_energy),
+                                       cmocka_unit_test(work_from_outside_is_no_gain),
+                                       cmocka_unit_test(the_worst_particle_is_named),
+                                       cmocka_unit_test(an_impact_is_no_fault),
+                                       cmocka_unit_test(shifting_has_the_scale_of_the_flow),
+                                       cmocka_unit_test(a_restart_judges_as_one_run)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

@@ -1,0 +1,169 @@
+/* test_wall_cover.c - of walls that cross what lies behind others is left out, in random tanks;
+ * walls that only touch stay as they are. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../../common/base/mem.h"
+#include "../../../sph/walls/wall_cover.h"
+
+enum { ROOM = 64 };
+
+static const double near = 1e-3;
+
+struct tank {
+    int n;
+    double ends[ROOM][2][2], lo[2], hi[2], angle;
+};
+
+static double any(double lo, double hi) { return lo + (hi - lo) * rand() / RAND_MAX; }
+
+static void add(struct tank *t, double ax, double ay, double bx, double by)
+{
+    const double c = cos(t->angle), s = sin(t->angle), x[2] = {ax, bx}, y[2] = {ay, by};
+    for (int k = 0; k < 2; k++) {
+        t->ends[t->n][k][0] = c * x[k] - s * y[k];
+        t->ends[t->n][k][1] = s * x[k] + c * y[k];
+    }
+    t->n++;
+}
+
+/* Open above, 2 m wide and 1 m high; upright it is the domain, else it stands in it. */
+static void tank_make(struct tank *t, bool upright)
+{
+    *t = (struct tank){.angle = upright ? 0.0 : any(0.0, 6.28)};
+    for (int a = 0; a < 2; a++) {
+        t->lo[a] = upright ? 0.0 : -4.0;
+        t->hi[a] = upright ? (a ? 1.0 : 2.0) : 4.0;
+    }
+    add(t, 0.0, upright ? 1.1 : 1.0, 0.0, 0.0); /* sides go on beyond an open one */
+    add(t, 0.0, 0.0, 2.0, 0.0);
+    add(t, 2.0, 0.0, 2.0, upright ? 1.1 : 1.0);
+}
+
+/* Length of the walls that are left. */
+static double left(const struct tank *t)
+{
+    double sum = 0.0;
+    struct wall_parts p = wall_cover(t->n, (const double(*)[2][2])t->ends, t->lo, t->hi, near);
+    for (int k = 0; k < t->n && !p.cut; k++) /* all are left */
+        sum += hypot(t->ends[k][1][0] - t->ends[k][0][0], t->ends[k][1][1] - t->ends[k][0][1]);
+    for (int k = 0; k < p.n; k++) {
+        assert_true(p.part[k].from < p.part[k].to);
+        assert_true(k == 0 || p.part[k].wall >= p.part[k - 1].wall);
+        sum += p.part[k].to - p.part[k].from;
+    }
+    mem_free(p.part);
+    return sum;
+}
+
+/* From the floor to the right side; longer by shares of it below the floor and beyond the side. */
+static void beaches_hide_the_floor(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 60; k++) {
+        struct tank t;
+        tank_make(&t, k % 2);
+        const double x = any(0.2, 1.8), y = any(0.1, 0.9), l = hypot(2.0 - x, y);
+        const double under = k % 3 == 1 ? any(0.1, 0.5) : 0.0, over = k % 3 ? any(0.1, 0.5) : 0.0;
+        const double all = k % 2 ? 4.2 : 4.0;
+        add(&t, x - under * (2.0 - x), -under * y, 2.0 + over * (2.0 - x), y + over * y);
+        assert_close(left(&t), all - (2.0 - x) - y + l, 1e-9);
+    }
+}
+
+static void bumps_hide_the_floor(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 60; k++) {
+        struct tank t;
+        tank_make(&t, k % 2);
+        const double a = any(0.1, 0.9), b = any(1.0, 1.9), x = any(0.0, 2.0), y = any(0.1, 0.9);
+        const bool below = k % 3 == 0; /* begins and ends under the floor */
+        const double all = k % 2 ? 4.2 : 4.0, more = below ? 0.3 : 0.0;
+        add(&t, a - more * (x - a), -more * y, x, y);
+        add(&t, x, y, b + more * (b - x), -more * y);
+        assert_close(left(&t), all - (b - a) + hypot(x - a, y) + hypot(x - b, y), 1e-9);
+    }
+}
+
+static void blocks_on_the_floor_have_no_bottom(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 40; k++) {
+        struct tank t;
+        tank_make(&t, k % 2);
+        const double a = any(0.1, 0.9), b = any(1.0, 1.9), y = any(0.1, 0.9);
+        add(&t, a, 0.0, a, y);
+        add(&t, a, y, b, y);
+        add(&t, b, y, b, 0.0);
+        add(&t, b, 0.0, a, 0.0);
+        assert_close(left(&t), (k % 2 ? 4.2 : 4.0) + 2.0 * y, 1e-9);
+    }
+}
+
+/* A bed that comes in through one open side and leaves through the other: the floor under it goes,
+ * with what it has beyond both sides. */
+static void beds_through_open_sides_hide_the_floor(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 40; k++) {
+        struct tank t = {.hi = {2.0, 1.0}};
+        const double low = any(0.05, 0.4), high = any(0.05, 0.9), more = any(0.0, 0.5);
+        const double rise = high - low, beyond = any(0.1, 1.0);
+        add(&t, -more, 0.0, 2.0 + more, 0.0);
+        add(&t, -beyond, fmax(low - 0.5 * beyond * rise, 0.01), 2.0 + beyond,
+            high + 0.5 * beyond * rise > 0.01 ? high + 0.5 * beyond * rise : 0.01);
+        const double *a = t.ends[1][0], *b = t.ends[1][1];
+        assert_close(left(&t), hypot(b[0] - a[0], b[1] - a[1]), 1e-9);
+    }
+}
+
+/* A plate that stands in the fluid, a triangle that floats in it, a deck that goes on from the rim
+ * (but not from a side that goes on beyond the domain). */
+static void what_hides_nothing_stays(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 40; k++) {
+        struct tank t;
+        tank_make(&t, k % 2);
+        const double x = any(0.3, 1.7), y = any(0.1, 0.9);
+        const double length = hypot(0.05, 0.6) + hypot(0.1, 0.3) + hypot(0.15, 0.3);
+        add(&t, x, 0.0, x, y);
+        add(&t, 0.1, 0.2, 0.15, 0.8);
+        add(&t, 0.15, 0.8, 0.25, 0.5);
+        add(&t, 0.25, 0.5, 0.1, 0.2);
+        add(&t, -1.0, 1.0, 0.0, 1.0);
+        assert_close(left(&t), (k % 2 ? 4.2 : 5.0) + y + length, 1e-9);
+    }
+}
+
+/* Walls that meet at their ends alone. */
+static void corners_cut_nothing(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 20; k++) {
+        struct tank t;
+        tank_make(&t, k % 2);
+        add(&t, 0.5, 0.2, 0.6, 0.8);
+        add(&t, 0.6, 0.8, 0.9, 0.5);
+        add(&t, 0.9, 0.5, 0.5, 0.2);
+        const struct wall_parts p =
+            wall_cover(t.n, (const double(*)[2][2])t.ends, t.lo, t.hi, near);
+        assert_false(p.cut);
+        assert_int_equal(p.n, 0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(beaches_hide_the_floor),
+                                       cmocka_unit_test(bumps_hide_the_floor),
+                                       cmocka_unit_test(blocks_on_the_floor_have_no_bottom),
+                                       cmocka_unit_test(beds_through_open_sides_hide_the_floor),
+                                       cmocka_unit_test(what_hides_nothing_stays),
+                                       cmocka_unit_test(corners_cut_nothing)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

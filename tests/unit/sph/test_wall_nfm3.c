@@ -1,0 +1,431 @@
+/* test_wall_nfm3.c - normal flux walls in 3D: what particles find of the walls around, operators
+ * near them, momentum, water at rest, ranks and restarts. ranks: 1 2 4.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../common/files/h5.h"
+#include "../../../sph/pairs/neighbours.h"
+#include "../../../sph/particles/state_sums.h"
+#include "../../../sph/surface/surface.h"
+#include "../../../sph/walls/facet.h"
+#include "../../../sph/walls/forces.h"
+#include "../../../sph/walls/walls.h"
+#include "sph_case.h"
+
+/* Box [0,1]^3 of still fluid under gravity; closed walls on all sides, or open above. */
+static void tank(struct sph_case *c, int cells, bool surface)
+{
+    sph_case_set(c, 3, cells);
+    struct scene *e = &c->run.scene;
+    e->fluid.rho = 1000.0;
+    e->fluid.nu = 0.0;
+    e->fluid.gravity[2] = -9.81;
+    e->initial.field = FIELD_REST;
+    e->initial.level = LEVEL_TOP;
+    e->nwalls = surface ? 5 : 6;
+    for (int k = 0; k < 6; k++) {
+        e->domain.periodic[k / 2] = false;
+        e->walls[k].side = SIDE_X_MIN + k;
+    }
+    if (surface) {
+        e->nshapes = 1;
+        e->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
+    }
+    c->prm.R_dx = 2.5;
+    c->prm.scheme = SCHEME_RIEMANN;
+    c->prm.walls = WALLS_NFM;
+    c->prm.dissipation = 0.1;
+    c->prm.surface = surface;
+    c->prm.c0 = 25.0;
+}
+
+/* --- what particles find --- */
+
+/* Shepard factor inside the box of the walls, by quadrature over its triangles one by one. */
+static double gamma_in_box(const double *x, double R)
+{
+    struct facet_batch b = {.n = 0};
+    struct wall_integrals sum = {0};
+    for (int k = 0; k < 12; k++) {
+        const int a = k / 4, high = k / 2 % 2;
+        double v[3][3];
+        for (int i = 0; i < 3; i++) {
+            const int corner = i == 0 ? 0 : i + k % 2; /* 0 1 2, 0 2 3 */
+            v[i][a] = high;
+            v[i][(a + 1) % 3] = corner == 1 || corner == 2;
+            v[i][(a + 2) % 3] = corner >= 2;
+        }
+        const struct facet f = high ? facet_of(v[0], v[1], v[2]) : facet_of(v[0], v[2], v[1]);
+        facet_ask(&b, &f, x, R, &sum);
+        facet_finish(&b);
+    }
+    return 1.0 + sum.gamma;
+}
+
+static void every_particle_finds_its_walls(void **state)
+{
+    struct sph_case c;
+    double worst = 0.0;
+    (void)state;
+    tank(&c, 8, false);
+    c.prm.noise = 0.4;
+    struct sph *s = sph_case_start(&c, NULL);
+    integrate_prepare(s);
+    double *gamma = NEW(double, s->p.n);
+    for (int i = 0; i < s->p.n; i++)
+        gamma[i] = 1.0;
+    s->walls->model->gammas(s, gamma);
+    for (int i = 0; i < s->p.n; i++)
+        worst = fmax(worst, fabs(gamma[i] - gamma_in_box(prim_line(&s->p, i), s->R)));
+    assert_close(max_anywhere(worst), 0.0, 1e-11);
+    mem_free(gamma);
+    sph_free(&c.s);
+}
+
+/* Periodic along y: as far from the ends of the walls as anywhere. */
+static void walls_go_on_beyond_periodic_sides(void **state)
+{
+    struct sph_case c;
+    double worst = 0.0;
+    (void)state;
+    tank(&c, 8, false);
+    struct scene *e = &c.run.scene;
+    e->domain.periodic[1] = true;
+    e->nwalls = 3;
+    e->walls[2].side = SIDE_Z_MIN;
+    e->walls[2].kind = WALL_NO_SLIP; /* in a mesh of its own */
+    struct sph *s = sph_case_start(&c, NULL);
+    integrate_prepare(s);
+    double *gamma = NEW(double, s->p.n);
+    for (int i = 0; i < s->p.n; i++)
+        gamma[i] = 1.0;
+    s->walls->model->gammas(s, gamma);
+    for (int i = 0; i < s->p.n; i++) {
+        double x[3];
+        memcpy(x, prim_line(&s->p, i), sizeof x);
+        x[1] = 0.5;
+        if (x[2] < 0.6) /* the reference has a lid */
+            worst = fmax(worst, fabs(gamma[i] - gamma_in_box(x, s->R)));
+    }
+    assert_close(max_anywhere(worst), 0.0, 1e-11);
+    mem_free(gamma);
+    sph_free(&c.s);
+}
+
+/* --- operators --- */
+
+/* nu Lap u of the particles in row `row' above a no-slip wall, u_x = z^power, over the rate by a
+ * step so short that nothing moves; R = 4 dx. */
+static double laplacian(int row, int power)
+{
+    enum { CELLS = 12 };
+    struct sph_case c;
+    sph_case_set(&c, 3, CELLS);
+    struct scene *e = &c.run.scene;
+    e->fluid.nu = 1.0;
+    e->domain.periodic[2] = false;
+    e->initial.field = FIELD_REST;
+    e->nwalls = 2;
+    for (int k = 0; k < 2; k++) {
+        e->walls[k].side = SIDE_Z_MIN + k;
+        e->walls[k].kind = WALL_NO_SLIP;
+        e->walls[k].velocity[0] = k;
+    }
+    c.prm.R_dx = 4.0;
+    c.prm.scheme = SCHEME_RIEMANN;
+    c.prm.transport = TRANSPORT_EULERIAN;
+    c.prm.limiter = LIMITER_NONE;
+    const struct sph *s = sph_case_start(&c, NULL);
+    for (int i = 0; i < s->p.n; i++) {
+        double *y = state_row(&s->p, s->p.y, i);
+        y[3] = y[7] * pow(y[2], power);
+    }
+    assert_true(sph_case_run(&c, 1, 1e-8));
+    double most = -1e300;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i);
+        if (fabs(y[2] - (row + 0.5) / CELLS) < 1e-6)
+            most = fmax(most, (y[3] / y[7] - pow(y[2], power)) / 1e-8);
+    }
+    sph_free(&c.s);
+    return max_anywhere(most);
+}
+
+/* The wall's share of the Laplacian; limits 0 and 2, at R/dx = 4 as near to them as in 2D. */
+static void laplacian_at_a_wall(void **state)
+{
+    const double R = 4.0 / 12.0;
+    (void)state;
+    print_message("Lap z %.3f %.3f /R, Lap z^2 %.3f %.3f\n", laplacian(0, 1) * R,
+                  laplacian(1, 1) * R, laplacian(0, 2), laplacian(1, 2));
+    assert_close(laplacian(0, 1) * R, 0.0, 0.15);
+    assert_close(laplacian(1, 1) * R, 0.0, 0.15);
+    assert_close(laplacian(0, 2), 2.0, 0.1);
+    assert_close(laplacian(1, 2), 2.0, 0.1);
+}
+
+/* A uniform flow along slip walls stays: no force, no change of volume. */
+static void a_stream_along_walls_stays(void **state)
+{
+    for (int scheme = SCHEME_RIEMANN_ALE; scheme <= SCHEME_DELTA; scheme++) {
+        struct sph_case c;
+        double worst = 0.0;
+        (void)state;
+        sph_case_set(&c, 3, 8);
+        struct scene *e = &c.run.scene;
+        e->fluid.nu = 0.0;
+        e->domain.periodic[1] = e->domain.periodic[2] = false;
+        e->initial.field = FIELD_UNIFORM;
+        e->initial.velocity[0] = 1.0;
+        e->nwalls = 4;
+        for (int k = 0; k < 4; k++)
+            e->walls[k].side = SIDE_Y_MIN + k;
+        c.prm.R_dx = 2.5;
+        c.prm.scheme = scheme;
+        c.prm.transport = TRANSPORT_NONE;
+        struct sph *s = sph_case_start(&c, NULL);
+        assert_true(sph_case_run(&c, 10, 100.0));
+        for (int i = 0; i < s->p.n; i++) {
+            const double *y = state_row(&s->p, s->p.y, i);
+            for (int a = 0; a < 3; a++)
+                worst = fmax(worst, fabs(y[3 + a] / y[7] - (a == 0)));
+        }
+        assert_close(max_anywhere(worst), 0.0, 1e-9);
+        sph_free(&c.s);
+    }
+}
+
+/* Flat surface: row 1 and no other; along walls, in edges and corners nobody. */
+static void surface_is_found(void **state)
+{
+    (void)state;
+    for (int noise = 0; noise < 2; noise++) {
+        struct sph_case c;
+        long missed = 0, falsely = 0;
+        tank(&c, 12, true);
+        c.prm.noise = 0.1 * noise;
+        struct sph *s = sph_case_start(&c, NULL);
+        integrate_gradients(s);
+        for (int i = 0; i < s->p.n; i++) {
+            const int64_t row = s->p.id[i] / 144;
+            missed += row == 5 && s->surface->is[i] != SURFACE_ON;
+            falsely += row < (noise ? 4 : 5) && s->surface->is[i] == SURFACE_ON;
+        }
+        assert_true(none_anywhere(missed));
+        assert_true(none_anywhere(falsely));
+        sph_free(&c.s);
+    }
+}
+
+/* --- runs --- */
+
+/* Sheared by a floor that moves, disordered, viscous. */
+static void busy(struct sph_case *c, int scheme, bool surface)
+{
+    tank(c, 10, surface);
+    struct scene *e = &c->run.scene;
+    e->fluid.nu = 0.01;
+    e->fluid.gravity[0] = 1.0;
+    for (int k = 0; k < 6; k++)
+        e->walls[k].kind = k % 2 ? WALL_SLIP : WALL_NO_SLIP;
+    e->walls[4].velocity[1] = 0.5;
+    c->prm.scheme = scheme;
+    c->prm.noise = 0.1;
+    c->prm.cfl_viscous = 0.025;
+}
+
+static double left_over(const struct sph *s, double *scale)
+{
+    double sums[SUM_COUNT], most = 0.0;
+    *scale = 0.0;
+    sph_sums(s, sums);
+    for (int a = 0; a < 3; a++) {
+        const double got = s->walls->forces.impulse[BODIES_MAX].F[a];
+        const double gravity = s->mass0 * s->gravity[a] * s->t;
+        most = fmax(most, fabs(sums[SUM_MOMENTUM + a] - s->momentum0[a] - gravity + got));
+        *scale = fmax(*scale, fabs(got));
+    }
+    return most;
+}
+
+static void momentum_is_balanced(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        struct sph_case c;
+        double scale, sums[SUM_COUNT];
+        busy(&c, k % 2 ? SCHEME_RIEMANN : SCHEME_RIEMANN_ALE, k / 2);
+        struct sph *s = sph_case_start(&c, NULL);
+        assert_true(sph_case_run(&c, 10, 100.0));
+        const double left = left_over(s, &scale);
+        assert_true(scale > 1.0);
+        assert_close(left / scale, 0.0, 1e-10);
+        sph_sums(s, sums);
+        assert_close(sums[SUM_MASS] / s->mass0, 1.0, 1e-12);
+        sph_free(&c.s);
+    }
+}
+
+/* The floor carries the water: force and its moment about the origin. */
+static void walls_carry_the_weight(void **state)
+{
+    struct sph_case c;
+    struct force sum = {0};
+    (void)state;
+    tank(&c, 12, true);
+    struct sph *s = sph_case_start(&c, NULL);
+    while (s->t < 0.6) {
+        struct force f;
+        assert_true(sph_case_run(&c, 1, 100.0));
+        assert_true(forces_of(s, BODIES_MAX, &f));
+        if (s->t < 0.2)
+            continue;
+        for (int a = 0; a < 3; a++) {
+            sum.F[a] += c.run.dt * f.F[a] / 0.4;
+            sum.M[a] += c.run.dt * f.M[a] / 0.4;
+        }
+    }
+    const double weight = 9.81 * s->mass0; /* in the middle of the floor */
+    assert_close(sum.F[0] / weight, 0.0, 0.01);
+    assert_close(sum.F[1] / weight, 0.0, 0.01);
+    assert_close(sum.F[2] / weight, -1.0, 0.02);
+    assert_close(sum.M[0] / weight, -0.5, 0.01);
+    assert_close(sum.M[1] / weight, 0.5, 0.01);
+    assert_close(sum.M[2] / weight, 0.0, 0.01);
+    sph_free(&c.s);
+}
+
+/* A side is cut into two triangles and yet its own mirror image: water at rest in a square tank has
+ * no way to go sideways. */
+static void a_square_tank_has_no_sense(void **state)
+{
+    struct sph_case c;
+    double sums[SUM_COUNT];
+    (void)state;
+    tank(&c, 8, true);
+    struct sph *s = sph_case_start(&c, NULL);
+    assert_true(sph_case_run(&c, 10, 100.0));
+    sph_sums(s, sums);
+    const double size = sqrt(2.0 * sums[SUM_MASS] * sums[SUM_KINETIC]);
+    assert_true(size > 0.0);
+    assert_close(sums[SUM_MOMENTUM] / size, 0.0, 1e-9);
+    assert_close(sums[SUM_MOMENTUM + 1] / size, 0.0, 1e-9);
+    sph_free(&c.s);
+}
+
+static void a_particle_behind_is_put_back(void **state)
+{
+    struct sph_case c;
+    double scale;
+    (void)state;
+    tank(&c, 8, true);
+    struct sph *s = sph_case_start(&c, NULL);
+    assert_true(sph_case_run(&c, 1, 100.0));
+    for (int i = 0; i < s->p.n; i++)
+        if (s->p.id[i] == 0) { /* in the corner; beyond two walls */
+            double *y = state_row(&s->p, s->p.y, i);
+            y[0] = y[1] = -1e-3;
+            y[3] = y[4] = -y[7];
+        }
+    left_over(s, &scale);
+    const double before = left_over(s, &scale);
+    s->ready = false;
+    assert_true(sph_case_run(&c, 1, 100.0));
+    assert_true(max_anywhere((double)s->walls->returned) > 0.0);
+    assert_close((left_over(s, &scale) - before) / scale, 0.0, 1e-10);
+    long outside = 0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i);
+        outside += y[0] < 0.0 || y[1] < 0.0 || y[2] < 0.0;
+    }
+    assert_true(none_anywhere(outside));
+    sph_free(&c.s);
+}
+
+static double *rows_after(MPI_Comm comm, int steps, int *n)
+{
+    struct sph_case c;
+    double *all = NULL;
+    busy(&c, SCHEME_RIEMANN_ALE, true);
+    c.run.comm = comm;
+    MPI_Comm_rank(comm, &c.run.rank);
+    MPI_Comm_size(comm, &c.run.size);
+    sph_case_start(&c, NULL);
+    assert_true(sph_case_run(&c, steps, 100.0));
+    *n = 1000; /* ids are those of the cells, the air above included */
+    all = sph_case_gather(c.s, *n);
+    sph_free(&c.s);
+    return all;
+}
+
+static void ranks_agree(void **state)
+{
+    int n;
+    double *together = rows_after(MPI_COMM_WORLD, 10, &n), *alone, worst = 0.0;
+    (void)state;
+    alone = rows_after(MPI_COMM_SELF, 10, &n);
+    for (int k = 0; k < 8 * n; k++)
+        worst = fmax(worst, fabs(together[k] - alone[k]));
+    assert_close(worst, 0.0, 1e-9);
+    mem_free(together);
+    mem_free(alone);
+}
+
+static double *run_scene(bool restart, int *n)
+{
+    char path[512];
+    const char *dir = getenv("TEST_SCRATCH");
+    struct sph_case c;
+    snprintf(path, sizeof path, "%s/test_wall_nfm3.h5", dir ? dir : "/tmp");
+    busy(&c, SCHEME_RIEMANN, true);
+    assert_non_null(sph_case_start(&c, NULL));
+    assert_true(sph_case_run(&c, 6, 100.0));
+    if (restart) {
+        struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
+        sph_checkpoint(c.s, f);
+        h5_close(&f);
+        sph_free(&c.s);
+        f = h5_open(MPI_COMM_WORLD, path);
+        sph_case_start(&c, f);
+        h5_close(&f);
+        assert_non_null(c.s);
+    }
+    assert_true(sph_case_run(&c, 6, 100.0));
+    *n = c.s->p.n * c.s->p.nstate;
+    double *y = NEW(double, *n);
+    memcpy(y, c.s->p.y, (size_t)*n * sizeof(double));
+    sph_free(&c.s);
+    return y;
+}
+
+static void restart_is_exact(void **state)
+{
+    int n[2];
+    double *straight = run_scene(false, n), *again = run_scene(true, n + 1);
+    (void)state;
+    const bool same = n[0] == n[1] && memcmp(straight, again, (size_t)n[0] * sizeof(double)) == 0;
+    assert_true(none_anywhere(!same));
+    mem_free(straight);
+    mem_free(again);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_particle_finds_its_walls),
+        cmocka_unit_test(walls_go_on_beyond_periodic_sides),
+        cmocka_unit_test(laplacian_at_a_wall),
+        cmocka_unit_test(a_stream_along_walls_stays),
+        cmocka_unit_test(surface_is_found),
+        cmocka_unit_test(momentum_is_balanced),
+        cmocka_unit_test(walls_carry_the_weight),
+        cmocka_unit_test(a_square_tank_has_no_sense),
+        cmocka_unit_test(a_particle_behind_is_put_back),
+        cmocka_unit_test(ranks_agree),
+        cmocka_unit_test(restart_is_exact),
+    };
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

@@ -1,0 +1,69 @@
+/* test_windows.c - what sets the windows of a coupled job: sound that a box of particles open at
+ * its top alone cannot let go. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../sph/coupling/windows.h"
+#include "sph_case.h"
+
+/* Water 0.7 deep between walls, a box on its floor, `height' with its zones, from wall to wall, or
+ * ending before one. */
+static struct windows windows_over(double height, double width, double gravity)
+{
+    struct sph_case c;
+    sph_case_set(&c, 2, 80);
+    struct scene *s = &c.run.scene;
+    const bool down = gravity < 0.0;
+    s->fluid.nu = 0.0;
+    s->fluid.gravity[1] = gravity;
+    s->initial.field = FIELD_UNIFORM;
+    s->initial.U = 0.2;
+    s->initial.level = down ? 0.7 : -0.3;
+    s->domain.max[0] = 2.0;
+    s->domain.periodic[0] = s->domain.periodic[1] = false;
+    s->nwalls = 4;
+    for (int k = 0; k < 4; k++)
+        s->walls[k] = (struct scene_wall){.side = SIDE_X_MIN + k, .kind = WALL_SLIP};
+    s->time.end = 1.0;
+    s->has_fv = s->has_sph = true;
+    c.run.coupled = c.run.crossed = true;
+    c.prm.c0 = 27.0;
+    c.prm.box[0][1] = down ? 0.0 : 1.0 - height;
+    c.prm.box[1][0] = width;
+    c.prm.box[1][1] = down ? height : 1.0;
+    c.prm.outer = OUTER_PARTNER;
+    return windows_choose(&c.run, &c.prm);
+}
+
+/* Lowest root w of w tan(w h/c) = c/over: water as a spring, h high, under water as a mass. */
+static double frequency(double h, double over, double c)
+{
+    double lo = 0.0, hi = 0.5 * M_PI;
+    for (int k = 0; k < 60; k++) {
+        const double mid = 0.5 * (lo + hi);
+        *(mid * tan(mid) < h / over ? &lo : &hi) = mid;
+    }
+    return lo * c / h;
+}
+
+static void sound_in_a_cup_is_followed(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const double height = 0.3 + 0.1 * (k / 2), gravity = k % 2 ? 9.81 : -9.81;
+        const struct windows w = windows_over(height, 2.0, gravity);
+        const double wT = frequency(height, 0.7 - height, 27.0) * w.T;
+        print_message("windows of %d steps, %g of a radian of its sound\n", w.steps, wT);
+        assert_true(wT < 0.55 && wT > 0.35);
+        assert_true(w.gain * windows_smoothed(w.memory) < 0.45);
+        assert_true(windows_over(height, 1.5, gravity).T > 1.5 * w.T); /* a side lets it go */
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_in_a_cup_is_followed)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}

@@ -1,0 +1,470 @@
+/* test_zones.c - a region of particles inside a known flow: births and removals keep a lattice and
+ * the mass, blending follows its law. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../common/scene/exact.h"
+#include "../../../sph/coupling/overlap.h"
+#include "../../../sph/open_boundaries/box_chase.h"
+#include "../../../sph/open_boundaries/openings.h"
+#include "../../../sph/open_boundaries/zone_steps.h"
+#include "../../../sph/surface/surface.h"
+#include "sph_case.h"
+
+/* Uniform flow through a box of the unit square or cube, no shifting. */
+static struct sph *start_moving(struct sph_case *c, int dim, double u, double v, const double *box)
+{
+    sph_case_set(c, dim, dim == 2 ? 50 : 20);
+    c->run.scene.initial.field = FIELD_UNIFORM;
+    c->run.scene.initial.velocity[0] = u;
+    c->run.scene.initial.velocity[1] = v;
+    c->prm.R_dx = dim == 2 ? 4.0 : 2.0;
+    c->prm.transport = TRANSPORT_NONE;
+    c->prm.outer = OUTER_EXACT;
+    for (int a = 0; a < dim; a++) {
+        c->prm.box[0][a] = 0.1;
+        c->prm.box[1][a] = 0.9;
+    }
+    for (int a = 0; a < 2; a++)
+        c->prm.box_velocity[a] = box[a];
+    c->s = sph_create(&c->run, &c->prm, NULL);
+    return c->s;
+}
+
+static struct sph *start(struct sph_case *c, int dim, double u, double v)
+{
+    static const double rest[2] = {0.0, 0.0};
+    return start_moving(c, dim, u, v, rest);
+}
+
+static double error_of_velocity(const struct sph *s, double u, double v)
+{
+    double most = 0.0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + (size_t)i * s->p.nstate, m = y[2 * s->dim + 1];
+        most = fmax(most, fmax(fabs(y[s->dim] / m - u), fabs(y[s->dim + 1] / m - v)));
+    }
+    return max_anywhere(most);
+}
+
+static double total_mass(const struct sph *s)
+{
+    double m = 0.0;
+    for (int i = 0; i < s->p.n; i++)
+        m += s->p.y[(size_t)i * s->p.nstate + 2 * s->dim + 1];
+    MPI_Allreduce(MPI_IN_PLACE, &m, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return m + openings_held(s);
+}
+
+/* Smallest distance of two local particles over dx. */
+static double spacing(const struct sph *s)
+{
+    double least = INFINITY;
+    for (int i = 0; i < s->p.n; i++)
+        for (int j = 0; j < i; j++) {
+            double r2 = 0.0;
+            for (int a = 0; a < s->dim; a++) {
+                const double d =
+                    s->p.y[(size_t)i * s->p.nstate + a] - s->p.y[(size_t)j * s->p.nstate + a];
+                r2 += d * d;
+            }
+            least = fmin(least, r2);
+        }
+    return -max_anywhere(-sqrt(least) / s->dx);
+}
+
+static void check_moving(int dim, double u, double v, const double *box, double least, int steps)
+{
+    struct sph_case c;
+    struct sph *s = start_moving(&c, dim, u, v, box);
+    const double mass = total_mass(s);
+    assert_true(sph_case_run(&c, steps, 100.0));
+    assert_true(max_anywhere((double)s->zones->openings->born) > 0.0);
+    assert_close(error_of_velocity(s, u, v), 0.0, 1e-12);
+    assert_close(total_mass(s) / mass, 1.0, 1e-11);
+    assert_true(spacing(s) > least);
+    assert_close(s->lo[0], 0.1 + box[0] * s->t, 1e-12);
+    assert_close(s->hi[1], 0.9 + box[1] * s->t, 1e-12);
+    sph_free(&c.s);
+}
+
+static void check_flow(int dim, double u, double v, double least, int steps)
+{
+    check_moving(dim, u, v, (const double[2]){0.0, 0.0}, least, steps);
+}
+
+/* Births ahead, removals behind: what a flow through a box at rest does, a box does that moves
+ * through the fluid. */
+static void a_box_moves_through_the_fluid(void **state)
+{
+    (void)state;
+    check_moving(2, 0.0, 0.0, (const double[2]){-0.9, 0.0}, 1.0 - 1e-9, 60);
+    check_moving(2, 0.3, 0.0, (const double[2]){1.0, 0.6}, 0.5, 120);
+    check_moving(3, 0.0, 0.0, (const double[2]){0.0, 1.0}, 1.0 - 1e-9, 25);
+}
+
+/* Along the lattice, births make the same lattice again, at any time step. */
+static void aligned_flow_keeps_the_lattice(void **state)
+{
+    (void)state;
+    check_flow(2, 1.0, 0.0, 1.0 - 1e-9, 60);
+    check_flow(2, 0.0, -0.7, 1.0 - 1e-9, 60);
+    check_flow(3, 1.0, 0.0, 1.0 - 1e-9, 25);
+}
+
+static void oblique_flow_leaves_no_clusters(void **state)
+{
+    (void)state;
+    check_flow(2, 0.8, 0.6, 0.5, 120);
+    check_flow(2, -0.3, 0.9, 0.5, 120);
+    check_flow(3, 0.8, 0.6, 0.45, 40);
+}
+
+/* Threshold 1 and birth dx/2 inside: one column born for each dx of travel, with the mass of a
+ * particle. */
+static void one_birth_a_face_and_spacing(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    struct sph *s = start(&c, 2, 1.0, 0.0);
+    double born = 0.0, gone = 0.0;
+    struct diagnosis d = {0};
+    while (s->t < 10.5 * s->dx) /* u = 1 */
+        integrate_step(s, 10.5 * s->dx, &d);
+    born = (double)s->zones->openings->born;
+    gone = (double)s->zones->openings->gone;
+    MPI_Allreduce(MPI_IN_PLACE, &born, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, &gone, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    assert_close(born, 10.0 * 40.0, 0.0);
+    assert_true(gone == 10.0 * 40.0 ||
+                gone == 11.0 * 40.0); /* the last column stands on the face */
+    sph_free(&c.s);
+}
+
+/* [6.8]: what is blended in is the depth into the transition over its width; across a side half of
+ * it, for one of two characteristics leaves as it was. */
+static void blending_follows_the_depth(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    struct sph *s = start(&c, 2, 1.0, 0.0);
+    for (int i = 0; i < s->p.n; i++)
+        s->p.y[6 * (size_t)i + 2] = 0.0; /* at rest in a moving flow */
+    zones_mark(s);
+    zones_blend(s);
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + 6 * (size_t)i, depth = zones_depth(s, y);
+        const double in = (depth - s->zones->buffer) / s->zones->transition;
+        const bool across = fmin(y[0] - s->lo[0], s->hi[0] - y[0]) <= depth;
+        const double want =
+            s->p.zone[i] == ZONE_TRANSITION ? (across ? 0.5 : 1.0) * (1.0 - in) : 0.0;
+        assert_close(y[2] / y[5], want, 1e-12);
+        assert_int_equal(s->p.zone[i], in < 0.0   ? ZONE_BUFFER
+                                       : in < 1.0 ? ZONE_TRANSITION
+                                                  : ZONE_FREE);
+    }
+    sph_free(&c.s);
+}
+
+/* A box that reaches the domain's sides: there it ends, below a surface or at a partner's wall, and
+ * only the sides inside the domain are open. */
+static void sides_of_the_domain_stay_closed(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    double lo[3], hi[3];
+    sph_case_set(&c, 2, 25);
+    struct scene *e = &c.run.scene;
+    e->domain.periodic[1] = false;
+    e->coupling.transition = e->coupling.buffer = 0.16;
+    e->coupling.overlap = 0.08;
+    e->walls[0] = (struct scene_wall){.side = SIDE_Y_MIN, .kind = WALL_NO_SLIP};
+    e->nwalls = 1;
+    c.prm.outer = OUTER_PARTNER;
+    c.prm.surface = SURFACE_YES;
+    c.prm.box[0][1] = 0.2;
+    c.prm.box[1][0] = c.prm.box[1][1] = 1.0;
+    bool open[6];
+    sph_params_open(&c.run, &c.prm, open);
+    for (int side = 0; side < 6; side++)
+        assert_int_equal(open[side], side == 2);
+    zones_free_box(&c.run, &c.prm, lo, hi);
+    assert_close(lo[1], 0.52, 1e-12);
+    assert_true(lo[0] == 0.0 && hi[0] == 1.0 && hi[1] == 1.0);
+    zones_given_box(&c.run, &c.prm, lo, hi);
+    assert_close(lo[1], 0.60, 1e-12);
+    assert_true(lo[0] == 0.0 && hi[0] == 1.0 && hi[1] == 1.0);
+    c.s = sph_create(&c.run, &c.prm, NULL);
+    assert_non_null(c.s->zones);
+    assert_null(c.s->walls); /* the wall below is the partner's */
+    sph_free(&c.s);
+    c.prm.box[0][1] = 0.0;
+    sph_params_open(&c.run, &c.prm, open);
+    assert_false(open[2]);
+}
+
+/* Mass that blending made is answered by the pressure outside, ten times its weight. */
+static void gauge_is_the_level_inside_and_weighs_the_missing_mass(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    sph_case_set(&c, 2, 50);
+    struct scene *e = &c.run.scene;
+    e->domain.periodic[1] = false;
+    e->fluid.gravity[1] = -2.0;
+    e->initial.field = FIELD_REST;
+    e->initial.level = LEVEL_TOP;
+    c.prm.outer = OUTER_EXACT;
+    c.prm.surface = SURFACE_YES;
+    c.prm.box[0][1] = 0.2;
+    c.prm.box[1][0] = c.prm.box[1][1] = 1.0;
+    struct sph *s = c.s = sph_create(&c.run, &c.prm, NULL);
+    zones_gauge(s);
+    /* the flow outside says 0 where the rim, rows at 0.41 and 0.43 m, bears 0.58 m of fluid */
+    const double level = s->zones->gauge, known = s->rho0 * 2.0 * 0.58;
+    assert_true(fabs(level / known - 1.0) < 0.01);
+    for (int i = 0; i < s->p.n; i++)
+        for (int k = 4; k < 6; k++) /* w and m: the same pressure */
+            s->p.y[6 * (size_t)i + k] *= 0.999;
+    zones_gauge(s);
+    assert_close(s->zones->gauge - level, 10.0 * 2.0 * 1e-3 * s->mass0, 1e-9); /* over 1 m */
+    sph_free(&c.s);
+}
+
+/* A void that went out leaves a face with the mass of 20 particles booked that never came: 20
+ * particles leave the region for it, by all faces, at the rate that drains it in 50 R/c0. */
+static void what_voids_left_is_drained(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    sph_case_set(&c, 2, 25);
+    struct scene *e = &c.run.scene;
+    e->domain.periodic[1] = false;
+    e->initial.field = FIELD_REST;
+    e->initial.level = LEVEL_TOP;
+    c.prm.outer = OUTER_EXACT;
+    c.prm.scheme = SCHEME_RIEMANN;
+    c.prm.surface = SURFACE_YES;
+    c.prm.box[0][1] = 0.2;
+    c.prm.box[1][0] = c.prm.box[1][1] = 1.0;
+    struct sph *s = c.s = sph_create(&c.run, &c.prm, NULL);
+    struct openings *o = s->zones->openings;
+    const double whole = s->rho0 * s->dxD, mass = zones_mass(s);
+    o->mass[7] = -20.0 * whole;
+    openings_settle(s);
+    assert_close(openings_held(s), -20.0 * whole, 1e-12);
+    assert_close(o->mass[7], -1.5 * whole, 1e-12);
+    assert_close(s->zones->drain, 18.5 * whole / s->rho0 * s->c0 / (50.0 * s->R),
+                 1e-12);                       /* over 1 m */
+    assert_true(sph_case_run(&c, 402, 100.0)); /* of 0.375 R/c0 */
+    assert_close(zones_mass(s) + openings_held(s), mass - 20.0 * whole, 1e-9);
+    assert_true(fabs(o->owed) < 0.06 * 18.5 * whole); /* three times as long: exp(-3) */
+    const double left = (mass - zones_mass(s)) / whole;
+    assert_true(left > 5.0 && left < 35.0); /* the rest is on the way: half a row of 25 */
+    sph_free(&c.s);
+}
+
+static void as_sph(void *ctx, double t, int n, const double *x, double *u, double *p, double *gu,
+                   double *gp)
+{
+    const struct exact *e = ctx;
+    double v[3];
+    (void)gu;
+    (void)gp;
+    for (int i = 0; i < n; i++) {
+        exact_point(e, x + 3 * i, t, v, p + i, NULL);
+        for (int a = 0; a < e->dim; a++)
+            u[e->dim * i + a] = v[a];
+    }
+}
+
+static struct diagnosis judge(struct sph *s)
+{
+    struct diagnosis d = {0};
+    s->zones->watched->du_mean = s->zones->watched->dp_mean = 0.0;
+    for (int window = 0; window < 40; window++) { /* what passes soon is no fault */
+        s->zones->look_inside(s);
+        overlap_look(s);
+        overlap_judge(s, &d);
+        if (window == 0)
+            assert_null(strstr(d.reason, "where both are free"));
+    }
+    return d;
+}
+
+/* The overlap is sound where both flows agree; another velocity, another pressure and a surface in
+ * the zones end the run, each by its name. */
+static void the_overlap_is_watched(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    sph_case_set(&c, 2, 25);
+    struct scene *e = &c.run.scene;
+    e->coupling.transition = e->coupling.buffer = 0.16;
+    e->coupling.overlap = 0.2;
+    e->domain.periodic[1] = false;
+    c.prm.outer = OUTER_PARTNER;
+    c.prm.surface = SURFACE_YES;
+    c.prm.box[0][0] = 0.0;
+    c.prm.box[1][0] = c.prm.box[1][1] = 1.0;
+    c.prm.box[0][1] = 0.12;
+    struct sph *s = c.s = sph_create(&c.run, &c.prm, NULL);
+    struct zones *z = s->zones;
+    struct exact exact = exact_create(e);
+    integrate_prepare(s);
+    z->watched = overlap_create(s);
+    z->eval = as_sph;
+    z->ctx = &exact;
+    struct diagnosis d = judge(s);
+    assert_false(d.bad);
+    assert_true(z->watched->du < 1e-12 && z->watched->dp < 1e-3);
+    exact.U *= 2.0;
+    exact.A[0] *= 2.0;
+    exact.A[1] *= 2.0;
+    d = judge(s);
+    assert_true(d.bad && strstr(d.reason, "velocities of sph and fv"));
+    exact = exact_create(e);
+    exact.rho *= 60.0;
+    d = judge(s);
+    assert_true(d.bad && strstr(d.reason, "pressures of sph and fv"));
+    exact = exact_create(e);
+    for (int i = 0; i < s->p.n; i++)
+        s->surface->is[i] = s->p.zone[i] == ZONE_FREE ? SURFACE_ON : SURFACE_INNER;
+    z->watched->asks = true;
+    assert_false(judge(s).bad); /* a surface in the free zone is none of FV's */
+    for (int i = 0; i < s->p.n; i++)
+        s->surface->is[i] = s->p.zone[i] == ZONE_TRANSITION ? SURFACE_ON : SURFACE_INNER;
+    z->watched->asks = true;
+    d = judge(s);
+    assert_true(d.bad && strstr(d.reason, "free surface lies in the transition"));
+    overlap_free(&z->watched);
+    z->eval = NULL;
+    sph_free(&c.s);
+}
+
+/* What faces wait for stays theirs where the outside has a surface, also before it is known: a
+ * restart. */
+static void voids_wait_where_a_surface_crosses(void **state)
+{
+    struct sph_case c;
+    (void)state;
+    struct sph *s = start(&c, 2, 1.0, 0.0);
+    struct openings *o = s->zones->openings;
+    struct surface none = {0};
+    const double owed = -10.0 * s->rho0 * s->dxD;
+    s->surface = &none;
+    c.run.crossed = true;
+    o->mass[0] = owed;
+    openings_settle(s);
+    assert_close(o->mass[0], owed, 1e-12);
+    c.run.crossed = false;
+    openings_settle(s);
+    assert_true(o->mass[0] > 0.5 * owed && s->zones->drain > 0.0);
+    s->surface = NULL;
+    sph_free(&c.s);
+}
+
+/* A crest at x, a fifth of the box wide, of particles that have a volume. */
+static void raise_crest(struct sph *s, double x)
+{
+    for (int i = 0; i < s->p.n; i++) {
+        double *y = s->p.y + (size_t)i * s->p.nstate;
+        const double far = (y[0] - x) / 0.08, eta = 0.5 + 0.3 / (1.0 + far * far);
+        y[2 * s->dim] = y[1] < eta ? s->dx * s->dx : 0.0;
+    }
+}
+
+static void stand(struct sph *s, double way)
+{
+    s->lo[0] = s->prm.box[0][0] + way;
+    s->hi[0] = s->prm.box[1][0] + way;
+}
+
+/* Behind one of constant speed it does not lag; it stays within the domain, and rests where there
+ * is none. */
+/* A bed rises through both open sides: their faces are cut off below it, however deep. */
+static void faces_end_at_a_bed(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        struct sph_case c;
+        const double low = 0.05 + 0.06 * k, high = 0.45 - 0.03 * k;
+        sph_case_set(&c, 2, 50);
+        struct scene *e = &c.run.scene;
+        e->domain.periodic[0] = e->domain.periodic[1] = false;
+        e->initial.field = FIELD_REST;
+        e->coupling.transition = e->coupling.buffer = e->coupling.overlap = 0.08;
+        e->walls[0] = (struct scene_wall){.side = SIDE_Y_MIN, .kind = WALL_SLIP};
+        e->walls[1] = (struct scene_wall){.side = SIDE_Y_MAX, .kind = WALL_SLIP};
+        e->walls[2] = (struct scene_wall){.kind = WALL_SLIP,
+                                          .points = {.n = 2, .x = {{0.0, low}, {1.0, high}}}};
+        e->nwalls = 3;
+        c.prm.outer = OUTER_PARTNER;
+        c.prm.box[0][0] = 0.2;
+        c.prm.box[1][0] = 0.8;
+        c.prm.box[1][1] = 1.0;
+        c.s = sph_create(&c.run, &c.prm, NULL);
+        const struct openings *o = c.s->zones->openings;
+        assert_true(openings_faces(o) == 100);
+        for (int f = 0; f < openings_faces(o); f++) {
+            double x[3];
+            (void)openings_place(o, f, x);
+            const double bed = low + x[0] * (high - low), above = (x[1] - bed) / o->dx + 0.5;
+            assert_close(o->room[f], fmin(1.0, fmax(0.0, above)), 0.07);
+        }
+        sph_free(&c.s);
+    }
+}
+
+static void a_box_goes_with_a_crest(void **state)
+{
+    static const bool along[3] = {true, false, false};
+    struct sph_case c;
+    double way[3] = {0.0, 0.0, 0.0}, t = 0.0;
+    (void)state;
+    struct sph *s = start(&c, 2, 0.0, 0.0);
+    c.run.scene.fluid.gravity[1] = -1.0;
+    c.run.scene.initial.level = 0.5;
+    c.run.scene.domain.periodic[0] = false;
+    s->prm.box[0][0] = 0.15;
+    s->prm.box[1][0] = 0.55;
+    assert_close(box_chase_speed(&c.run), 1.0, 1e-12);
+    for (; t < 1.0; t += 0.01) {
+        stand(s, way[0]);
+        raise_crest(s, 0.35 + 0.2 * t);
+        box_chase_step(s, 0.01, along, way);
+    }
+    assert_true(fabs(way[0] - 0.2 * t) < 0.2 * s->dx);
+    for (double last = t; t < last + 3.0; t += 0.01) {
+        stand(s, way[0]);
+        raise_crest(s, 0.35 + 0.2 * t);
+        box_chase_step(s, 0.01, along, way);
+    }
+    assert_true(s->prm.box[1][0] + way[0] <= 1.0 - s->R);
+    const double there = way[0];
+    raise_crest(s, 10.0);
+    for (int k = 0; k < 300; k++)
+        box_chase_step(s, 0.01, along, way);
+    assert_true(fabs(way[0] - there) < 0.5 * s->dx);
+    sph_free(&c.s);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_box_goes_with_a_crest),
+        cmocka_unit_test(faces_end_at_a_bed),
+        cmocka_unit_test(voids_wait_where_a_surface_crosses),
+        cmocka_unit_test(aligned_flow_keeps_the_lattice),
+        cmocka_unit_test(oblique_flow_leaves_no_clusters),
+        cmocka_unit_test(a_box_moves_through_the_fluid),
+        cmocka_unit_test(one_birth_a_face_and_spacing),
+        cmocka_unit_test(blending_follows_the_depth),
+        cmocka_unit_test(sides_of_the_domain_stay_closed),
+        cmocka_unit_test(gauge_is_the_level_inside_and_weighs_the_missing_mass),
+        cmocka_unit_test(what_voids_left_is_drained),
+        cmocka_unit_test(the_overlap_is_watched)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
