@@ -510,6 +510,7 @@ static void free_life(struct life *l)
     mem_free(l->files.case_text);
     summary_free(&l->r.summary);
     scene_meshes_free(&l->r.scene);
+    motion_files_free(l->r.motions);
     params_free(&l->params);
     mem_free(l->faults.text);
     log_file(NULL);
@@ -582,6 +583,7 @@ static int live(struct life *l)
     struct h5 *restart = NULL;
     char path[1400];
     run_case_dir(l->line.case_file, r->case_dir, sizeof r->case_dir);
+    r->motions = motion_files_create(r->case_dir);
     collect_groups(l);
     int faults = read_case(l);
     run_case_name(l->line.case_file, r->case_name, sizeof r->case_name);

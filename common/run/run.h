@@ -14,6 +14,7 @@
 #include "../base/timer.h"
 #include "../files/series.h"
 #include "../params/params.h"
+#include "../scene/motion_files.h"
 #include "../scene/scene.h"
 
 struct h5;
@@ -29,8 +30,9 @@ struct run {
     const struct params *params;
     char dir[1024]; /* output folder */
     char case_name[256];
-    char case_dir[1024]; /* folder of the case file */
-    bool restart;        /* state comes from the restart file */
+    char case_dir[1024];          /* folder of the case file */
+    struct motion_files *motions; /* read so far; motion_files.h */
+    bool restart;                 /* state comes from the restart file */
     bool coupled;
     bool crossed; /* coupled, and the free surface crosses open sides of sph.box: crossing.h */
     bool

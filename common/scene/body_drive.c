@@ -7,79 +7,39 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/mem.h"
 #include "../geometry/body_math.h"
-
-int body_read_rows(const char *path, int columns, double **rows)
-{
-    FILE *f = fopen(path, "r");
-    char line[512];
-    int n = 0;
-    double *all = NULL;
-    bool sound = true;
-    if (!f)
-        return -1;
-    while (sound && fgets(line, sizeof line, f)) {
-        double v[8];
-        int got = 0;
-        char *at = line, *end;
-        for (; got < 8; got++, at = end) {
-            at += strspn(at, " ,;\t\r\n");
-            v[got] = strtod(at, &end);
-            if (end == at)
-                break;
-        }
-        if (line[0] == '#' || got == 0)
-            continue;
-        sound = got == columns && (n == 0 || v[0] > all[columns * (n - 1)]);
-        if (!sound)
-            break;
-        GROW(all, columns * n, columns * (n + 1));
-        memcpy(all + columns * n++, v, (size_t)columns * sizeof *v);
-    }
-    fclose(f);
-    if (!sound || n == 0) {
-        mem_free(all);
-        return 0;
-    }
-    *rows = all;
-    return n;
-}
 
 static double file_step(const struct body_term *b, int columns);
 
 void body_drive_terms(struct body_drive *v, const struct scene_motions *is, int dim,
-                      const char *dir)
+                      struct motion_files *files)
 {
     *v = (struct body_drive){.dim = dim, .columns = dim == 2 ? 4 : 7};
     for (int k = 0; k < is->n; k++) {
         struct body_term *t = v->term + v->nterms++;
-        char path[1024 + PARAM_TEXT_SIZE];
         t->is = is->of + k;
-        snprintf(path, sizeof path, "%s/%s", dir, t->is->file);
-        if (t->is->kind == MOTION_FILE)
-            t->n = body_read_rows(path, v->columns, &t->rows);
+        const struct motion_file *m = t->is->kind == MOTION_FILE && *t->is->file
+                                          ? motion_files_read(files, t->is->file, v->columns)
+                                          : NULL;
+        t->n = m ? m->n : 0;
+        t->rows = m ? m->rows : NULL;
         if (t->n > 1)
             t->step = file_step(t, v->columns);
     }
 }
 
-void body_drive_create(struct body_drive *v, const struct scene_body *is, int dim, const char *dir)
+void body_drive_create(struct body_drive *v, const struct scene_body *is, int dim,
+                       struct motion_files *files)
 {
     const int locked = is->free ? scene_body_locked(is->lock, dim) : (1 << BODY_AXES) - 1;
-    body_drive_terms(v, &is->motion, dim, dir);
+    body_drive_terms(v, &is->motion, dim, files);
     for (int a = 0; a < BODY_AXES; a++)
         if (locked >> a & 1)
             v->constant[a] = a < 3 ? is->velocity[a] : is->spin[a - 3];
 }
 
-void body_drive_free(struct body_drive *v)
-{
-    for (int k = 0; k < v->nterms; k++)
-        mem_free(v->term[k].rows);
-}
-
-bool body_term_fault(const struct body_drive *v, int term, const char *dir, char *text, size_t size)
+bool body_term_fault(const struct body_drive *v, int term, const struct motion_files *files,
+                     char *text, size_t size)
 {
     static const char *const names[BODY_AXES] = {"x", "y", "z", "rx", "ry", "rz"};
     const struct body_term *t = v->term + term;
@@ -88,7 +48,7 @@ bool body_term_fault(const struct body_drive *v, int term, const char *dir, char
     if (m->kind == MOTION_FILE && !*m->file)
         snprintf(text, size, "a term of kind file needs the name of the file");
     else if (m->kind == MOTION_FILE && t->n <= 0)
-        snprintf(text, size, "motion %s/%s: %s", dir, m->file,
+        snprintf(text, size, "motion %s/%s: %s", files->dir, m->file,
                  t->n < 0      ? "no such file"
                  : v->dim == 2 ? "expected rows of t, x, y, angle with increasing times"
                                : "expected rows of t, x, y, z, rx, ry, rz with increasing times");

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "motion_files.h"
 #include "scene_body.h"
 
 /* Place and velocity of a body, relative to its start, in space axes. */
@@ -19,9 +20,9 @@ struct body_motion {
 
 struct body_term {
     const struct scene_motion *is;
-    int n;        /* rows of its file */
-    double *rows; /* [n][columns]: t and displacements */
-    double step;  /* s: that resolves them; of two rows or more */
+    int n;              /* rows of its file */
+    const double *rows; /* [n][columns]: t and displacements; the file's */
+    double step;        /* s: that resolves them; of two rows or more */
 };
 
 struct body_drive {
@@ -30,18 +31,16 @@ struct body_drive {
     double constant[BODY_AXES]; /* m/s, rad/s */
 };
 
-/* Rows of `columns' numbers, times rising. -1: no such file, 0: bad rows; *rows is the caller's. */
-int body_read_rows(const char *path, int columns, double **rows);
-/* Of the terms alone; they are borrowed. Files are beside the case in dir. */
+/* Of the terms alone; they are borrowed, and so are the rows of their files. */
 void body_drive_terms(struct body_drive *v, const struct scene_motions *is, int dim,
-                      const char *dir);
+                      struct motion_files *files);
 /* Of a body; degrees that forces move are left out. */
-void body_drive_create(struct body_drive *v, const struct scene_body *is, int dim, const char *dir);
-void body_drive_free(struct body_drive *v);
+void body_drive_create(struct body_drive *v, const struct scene_body *is, int dim,
+                       struct motion_files *files);
 /* What is wrong with a term: its file, its axis, numbers that are missing, into text; false:
  * nothing is. */
-bool body_term_fault(const struct body_drive *v, int term, const char *dir, char *text,
-                     size_t size);
+bool body_term_fault(const struct body_drive *v, int term, const struct motion_files *files,
+                     char *text, size_t size);
 /* Displacements x, y, z and components of the rotation vector, their rates and second rates. */
 void body_drive_at(const struct body_drive *v, double t, double d[BODY_AXES], double dd[BODY_AXES],
                    double ddd[BODY_AXES]);

@@ -160,10 +160,10 @@ static struct mesh_motion *create_one(const struct run *r, struct faults *f, str
     const int before = f->n;
     v->block = k;
     memcpy(v->centre, p->centre, sizeof v->centre);
-    body_drive_terms(&v->drive, &p->motion, m->dim, r->case_dir);
+    body_drive_terms(&v->drive, &p->motion, m->dim, r->motions);
     for (int i = 0; i < v->drive.nterms; i++) {
         char text[1400];
-        if (body_term_fault(&v->drive, i, r->case_dir, text, sizeof text))
+        if (body_term_fault(&v->drive, i, r->motions, text, sizeof text))
             mesh_fault(r, f, k, "motion", "term %d: %s", i + 1, text);
     }
     v->turns = f->n == before && ever_turns(&v->drive);
@@ -248,7 +248,6 @@ void mesh_motion_free(struct mesh *m)
     for (int k = 0; k < m->nblocks; k++) {
         struct mesh_block *b = m->block + k;
         if (b->motion && b->motion->block == k) {
-            body_drive_free(&b->motion->drive);
             mem_free(b->motion);
         }
         if (b->made && b->made != b) {

@@ -85,7 +85,7 @@ static void check_file(const struct run *r, const struct sph_params *used, const
                        const struct body *b, const struct body_term *t, struct faults *f)
 {
     char text[1400];
-    if (body_term_fault(&b->drive, (int)(t - b->drive.term), r->case_dir, text, sizeof text))
+    if (body_term_fault(&b->drive, (int)(t - b->drive.term), r->motions, text, sizeof text))
         params_fault(r->params, f, key, "body %s: %s", b->is->name, text);
     else
         check_rows(r, used, key, b, t, f);
@@ -129,7 +129,7 @@ static void check_term(const struct run *r, const struct sph_params *used, int k
         return;
     }
     char text[1400];
-    if (body_term_fault(&b->drive, i, r->case_dir, text, sizeof text))
+    if (body_term_fault(&b->drive, i, r->motions, text, sizeof text))
         params_fault(r->params, f, key, "%s", text);
     else if (is_open(b->is, dim, axis))
         params_fault(r->params, f, key, "forces move %s, too: add it to lock, or leave this out",
@@ -282,7 +282,7 @@ void body_check(const struct run *r, const struct sph_params *used, struct fault
     for (int k = 0; k < c->nbodies; k++) {
         struct body b;
         char key[KEY];
-        body_create(&b, c->bodies + k, scene_body_mesh(c, k), dim, r->case_dir);
+        body_create(&b, c->bodies + k, scene_body_mesh(c, k), dim, r->motions);
         if (dim == 2 && (c->bodies[k].spin[0] != 0.0 || c->bodies[k].spin[1] != 0.0))
             params_fault(r->params, f, key_of(key, k, ".spin"),
                          "in 2 dimensions a number, about z");
@@ -315,14 +315,14 @@ static double fall_of(const struct scene *c, const struct body *b)
     return sqrt(2.0 * g * (air + 0.5 * in_water));
 }
 
-double body_speeds(const struct scene *c, const char *dir)
+double body_speeds(const struct scene *c, struct motion_files *files)
 {
     double most = 0.0;
     for (int k = 0; k < c->nbodies; k++) {
         struct body b;
         if (!scene_body_moves(c->bodies + k))
             continue;
-        body_create(&b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, dir);
+        body_create(&b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, files);
         const double told = body_drive_speed(&b.drive, b.reach, c->time.end);
         const double start =
             b.free ? vec3_length(b.now.u) + b.reach * vec3_length(b.now.omega) : 0.0;

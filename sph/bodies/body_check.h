@@ -8,6 +8,6 @@
  * follow. */
 void body_check(const struct run *r, const struct sph_params *used, struct faults *f);
 /* Largest speed of a body that its motion and its fall let expect, m/s. */
-double body_speeds(const struct scene *c, const char *dir);
+double body_speeds(const struct scene *c, struct motion_files *files);
 
 #endif

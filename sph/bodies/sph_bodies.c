@@ -455,7 +455,7 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
         return;
     }
     for (int k = 0; k < c->nbodies; k++)
-        body_create(bodies + k, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, r->case_dir);
+        body_create(bodies + k, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, r->motions);
     const bool plane = c->domain.dim == 2;
     const int n = plane ? find_bounds(c, used, all) : 0;
     for (int k = 0; k < c->nbodies && plane; k++) {

@@ -103,7 +103,7 @@ static void find_box(const struct run *r, struct sph_params *used, int a)
 
 static struct scene_speed speed_of(const struct run *r)
 {
-    const double most = body_speeds(&r->scene, r->case_dir);
+    const double most = body_speeds(&r->scene, r->motions);
     return scene_speed_of(&r->scene, most, given.dx);
 }
 

@@ -53,7 +53,7 @@ static double leaves(const struct run *r, const struct sph_params *prm, int k, d
     const int dim = c->domain.dim;
     struct body b;
     double when = INFINITY;
-    body_create(&b, c->bodies + k, scene_body_mesh(c, k), dim, r->case_dir);
+    body_create(&b, c->bodies + k, scene_body_mesh(c, k), dim, r->motions);
     const int corners = b.mesh ? b.mesh->nvertices : b.is->points.n;
     for (int t = 0; t <= (b.free || !b.moves ? 0 : TIMES) && when == INFINITY; t++) {
         const double now = c->time.end * t / TIMES;

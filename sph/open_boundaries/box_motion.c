@@ -77,7 +77,7 @@ bool box_motion_foretold(const struct run *r, const struct sph_params *prm, doub
     if (prm->box_follows[0] && k >= 0) {
         struct body b;
         body_create(&b, r->scene.bodies + k, scene_body_mesh(&r->scene, k), r->scene.domain.dim,
-                    r->case_dir);
+                    r->motions);
         known = !b.free;
         if (known) {
             body_move(&b, t);

@@ -53,7 +53,7 @@ static void start_set(struct regions *g, struct region_set *s, const struct apr_
     *s = (struct region_set){.is = is, .body = -1};
     s->told.motion = is->motion;
     memcpy(s->told.velocity, is->velocity, sizeof is->velocity);
-    body_drive_create(&s->drive, &s->told, g->dim, r->case_dir);
+    body_drive_create(&s->drive, &s->told, g->dim, r->motions);
     s->speed = scene_body_moves(&s->told) ? body_drive_speed(&s->drive, 0.0, r->scene.time.end) : 0;
     s->peak = strcmp(is->follow, "peak") == 0;
     s->box = strcmp(is->follow, "sph.box") == 0;
@@ -83,12 +83,6 @@ void region_sets_create(struct regions *g)
             centre_of(is, g->sets[n].centre);
         }
     }
-}
-
-void region_sets_free(struct regions *g)
-{
-    for (int n = 0; n < g->nsets; n++)
-        body_drive_free(&g->sets[n].drive);
 }
 
 /* Goes towards a place, at most half a spacing of the finest level. */

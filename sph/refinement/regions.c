@@ -336,7 +336,6 @@ void regions_free(struct regions **of)
     }
     for (int n = 0; n < g->nshells; n++)
         shell_free(g->shells + n);
-    region_sets_free(g);
     criteria_free(g);
     mem_free(g);
     *of = NULL;

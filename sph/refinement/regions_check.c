@@ -356,7 +356,7 @@ static bool set_bodies(const struct run *r, struct regions *g, double t)
         told = told && !r->scene.bodies[k].free;
         if (r->scene.bodies[k].free)
             continue;
-        body_create(&b, r->scene.bodies + k, NULL, g->dim, r->case_dir);
+        body_create(&b, r->scene.bodies + k, NULL, g->dim, r->motions);
         body_move(&b, t);
         body_place(&b, b.centre, x);
         struct body_motion now = b.now;
@@ -419,17 +419,16 @@ static bool check_motion_keys(const struct check *c)
 {
     const int before = c->f->n;
     struct body_drive drive;
-    body_drive_terms(&drive, &c->is->motion, c->dim, c->r->case_dir);
+    body_drive_terms(&drive, &c->is->motion, c->dim, c->r->motions);
     for (int m = 0; m < drive.nterms; m++) {
         const struct scene_motion *t = c->is->motion.of + m;
         char text[1400];
-        if (body_term_fault(&drive, m, c->r->case_dir, text, sizeof text))
+        if (body_term_fault(&drive, m, c->r->motions, text, sizeof text))
             params_fault(c->r->params, c->f, key_of(c, "motion"), "term %d: %s", m + 1, text);
         else if (t->kind != MOTION_FILE && t->axis >= AXIS_RX)
             params_fault(c->r->params, c->f, key_of(c, "motion"),
                          "term %d: a region does not turn: axis x, y or z", m + 1);
     }
-    body_drive_free(&drive);
     scene_check_motion(&c->is->motion, "apr.regions", c->k, c->r->params, c->f);
     if (region_axes(c->is->along, c->dim) < 0)
         params_fault(c->r->params, c->f, key_of(c, "along"),

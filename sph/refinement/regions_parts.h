@@ -89,7 +89,6 @@ double regions_allowed(const struct regions *g, int level, int side);
 
 /* region_motion.c */
 void region_sets_create(struct regions *g);
-void region_sets_free(struct regions *g);
 /* Shifts at time t; whether any has changed. */
 bool region_sets_move(struct regions *g, double t);
 /* BODIES_MAX: no such body. */

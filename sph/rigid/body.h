@@ -58,9 +58,10 @@ bool body_mass_of(const struct scene_body *is, const struct trimesh *mesh, int d
                   struct body_mass *m, char *why, size_t size);
 /* Of what its surface encloses, m^3; 2D: m^2. */
 double body_volume_of(const struct scene_body *is, const struct trimesh *mesh);
-/* Drive, and for a free body its state at the start; files of motion are beside the case in dir. */
+/* Drive, and for a free body its state at the start; the files of its motion are read once a start.
+ */
 void body_create(struct body *b, const struct scene_body *is, const struct trimesh *mesh, int dim,
-                 const char *dir);
+                 struct motion_files *files);
 void body_destroy(struct body *b);
 /* From t on it is held, or no longer. */
 void body_hold(struct body *b, double t);

@@ -112,13 +112,13 @@ static void create_free(struct body *b, const struct body_mass *m)
 }
 
 void body_create(struct body *b, const struct scene_body *is, const struct trimesh *mesh, int dim,
-                 const char *dir)
+                 struct motion_files *files)
 {
     struct body_mass m;
     char why[256];
     *b = (struct body){.is = is, .mesh = mesh, .dim = dim, .moves = scene_body_moves(is)};
     memcpy(b->centre, is->centre, sizeof b->centre);
-    body_drive_create(&b->drive, is, dim, dir);
+    body_drive_create(&b->drive, is, dim, files);
     b->contact = scene_contact_of(is);
     b->volume = body_volume_of(is, mesh);
     if (is->free && body_mass_of(is, mesh, dim, &m, why, sizeof why)) {
@@ -136,11 +136,7 @@ void body_create(struct body *b, const struct scene_body *is, const struct trime
     body_move(b, 0.0);
 }
 
-void body_destroy(struct body *b)
-{
-    body_drive_free(&b->drive);
-    mem_free(b->free);
-}
+void body_destroy(struct body *b) { mem_free(b->free); }
 
 /* --- where it is --- */
 

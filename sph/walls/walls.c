@@ -445,7 +445,7 @@ static void add_bodies(struct sph *s, struct walls *w)
     const struct scene *c = &s->run->scene;
     for (int k = 0; k < c->nbodies; k++) {
         struct body *b = w->bodies + w->nbodies++;
-        body_create(b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, s->run->case_dir);
+        body_create(b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, s->run->motions);
         if (w->lent && b->free) { /* one body, one state */
             mem_free(b->free);
             b->free = s->coarser->walls->bodies[k].free;

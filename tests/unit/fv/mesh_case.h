@@ -53,6 +53,7 @@ static inline void mesh_case_read(struct mesh_case *c, MPI_Comm comm, const char
     MPI_Comm_size(comm, &c->run.size);
     snprintf(c->path, sizeof c->path, "%s/mesh_%d.cfg", dir ? dir : P_tmpdir, (int)getpid());
     snprintf(c->run.case_dir, sizeof c->run.case_dir, "%s", dir ? dir : P_tmpdir);
+    c->run.motions = motion_files_create(c->run.case_dir);
     for (; overrides && overrides[n]; n++) {
         dim = strcmp(overrides[n], "domain.dim=3") == 0 ? 3 : dim;
         newton = newton || strstr(overrides[n], "newton\"");
@@ -90,6 +91,7 @@ static inline void mesh_case_end(struct mesh_case *c, struct fv **s)
 {
     fv_free(s);
     params_free(&c->params);
+    motion_files_free(c->run.motions);
 }
 
 static inline bool mesh_case_run(struct fv *s, int steps, double t_stop)

@@ -97,7 +97,7 @@ static double error_of_top(int steps)
     double exact[3], own[3], err = 0.0, other = 0.0;
     is.spin[0] = 1.2;
     is.spin[2] = 0.8;
-    body_create(&b, &is, NULL, 3, ".");
+    body_create(&b, &is, NULL, 3, NULL);
     for (int k = 0; k < steps; k++)
         step(&b, 6.0 * k / steps, 6.0 / steps, NULL);
     const double L[3] = {1.2, 0.0, 2.4};
@@ -147,7 +147,7 @@ static void pendulum(void **state)
     enum { STEPS = 400 };
     (void)state;
     is.hinge.n = 1;
-    body_create(&b, &is, NULL, 2, ".");
+    body_create(&b, &is, NULL, 2, NULL);
     assert_close(K / (M_PI / 2.0), 1.06633, 1e-5);
     assert_close(b.free->J, J, 1e-12);
     for (int k = 0; k < STEPS; k++) {
@@ -184,7 +184,7 @@ static void spring_keeps_energy(void **state)
         is.lines.of[0] = (struct scene_line){
             .from = {0.5, 0.5}, .to = {0.5, 3.0}, .stiffness = 10.0, .length = 1.5};
         is.velocity[0] = 0.4;
-        body_create(&b, &is, NULL, 2, ".");
+        body_create(&b, &is, NULL, 2, NULL);
         body_lines_slack(&b);
         const double start = body_energy(&b, g, &kinetic) + body_lines_energy(&none, &b, 0);
         assert_close(start, 0.5 * 0.16 + 0.5 * 10.0, 1e-12);
@@ -208,7 +208,7 @@ static void mooring_is_slack(void **state)
     is.lines.n = 1;
     is.lines.of[0] = (struct scene_line){
         .from = {0.0, 0.5}, .to = {0.0, 2.0}, .stiffness = 10.0, .length = 2.0, .pull_only = true};
-    body_create(&b, &is, NULL, 2, ".");
+    body_create(&b, &is, NULL, 2, NULL);
     body_lines_slack(&b);
     body_lines_add(&none, &b, 0, loads);
     assert_close(loads[0][1], 0.0, 0.0);
@@ -272,7 +272,7 @@ static void motion_is_differentiable(void **state)
                                             .ramp = 1.5};
     is.motion.of[3].until = 10.0;
     is.velocity[1] = 0.3;
-    body_drive_create(&v, &is, 3, ".");
+    body_drive_create(&v, &is, 3, NULL);
     for (double t = 0.2; t < 1.4; t += 0.17) {
         struct body_motion m, low, high;
         double W[3][3] = {{0.0}};
@@ -291,7 +291,6 @@ static void motion_is_differentiable(void **state)
         assert_close(W[0][2], m.omega[1], 1e-7);
         assert_close(W[1][0], m.omega[2], 1e-7);
     }
-    body_drive_free(&v);
 }
 
 /* Locked degrees stay where they are, or go as told; a slider keeps its line. */
@@ -309,7 +308,7 @@ static void locks_hold(void **state)
     (void)state;
     snprintf(is.lock, sizeof is.lock, "x rz");
     is.velocity[0] = 2.0;
-    body_create(&b, &is, NULL, 2, ".");
+    body_create(&b, &is, NULL, 2, NULL);
     for (int k = 0; k < 10; k++)
         step(&b, 0.1 * k, 0.1, push);
     assert_close(b.now.x[0], 2.0, 1e-12);
@@ -320,7 +319,7 @@ static void locks_hold(void **state)
     is.velocity[0] = 0.0;
     is.slider.n = 1;
     is.slider.of[0] = (struct scene_slider){{3.0, 4.0}};
-    body_create(&b, &is, NULL, 2, ".");
+    body_create(&b, &is, NULL, 2, NULL);
     for (int k = 0; k < 10; k++)
         step(&b, 0.1 * k, 0.1, push);
     assert_close(b.now.x[0] * 4.0, b.now.x[1] * 3.0, 1e-12);
@@ -341,7 +340,7 @@ static void impedance_of_a_plate(void **state)
     is.points.n = 4;
     memcpy(is.points.x, x, sizeof x);
     snprintf(is.lock, sizeof is.lock, "rz");
-    body_create(&b, &is, NULL, 2, ".");
+    body_create(&b, &is, NULL, 2, NULL);
     for (int k = 0; k < PIECES; k++)
         for (int e = -1; e < 2; e += 2) {
             const double arm[3] = {-2.0 + 4.0 * (k + 0.5) / PIECES, 0.05 * e, 0.0};
@@ -353,15 +352,41 @@ static void impedance_of_a_plate(void **state)
     is.lock[0] = '\0';
     is.hinge.n = 1;
     is.hinge.of[0] = (struct scene_hinge){.at = {0.0, 0.05}};
-    body_create(&b, &is, NULL, 2, ".");
+    body_create(&b, &is, NULL, 2, NULL);
     const double J = 0.8 * (16.01 / 12.0 + 4.0); /* and Z = 2 int x^2 dx */
     assert_close(impedance_rate(&z, &b), 2.0 * 64.0 / 3.0 / J, 1e-4);
     body_destroy(&b);
 }
 
+/* A file of motion is read once, whoever asks: later changes of the file, or none of it any more,
+ * are not seen. */
+static void motion_files_are_read_once(void **state)
+{
+    (void)state;
+    struct motion_files *files = motion_files_create(P_tmpdir);
+    char name[64], path[256];
+    struct scene_motions is = {.n = 1};
+    struct body_drive first, second;
+    snprintf(name, sizeof name, "once_%d.txt", (int)getpid());
+    snprintf(path, sizeof path, "%s/%s", P_tmpdir, name);
+    snprintf(is.of[0].file, sizeof is.of[0].file, "%s", name);
+    FILE *f = fopen(path, "w");
+    assert_non_null(f);
+    fprintf(f, "# t x y angle\n0 0 0 0\n1, 2; 0 0\n");
+    fclose(f);
+    body_drive_terms(&first, &is, 2, files);
+    unlink(path);
+    body_drive_terms(&second, &is, 2, files);
+    assert_int_equal(first.term[0].n, 2);
+    assert_ptr_equal(first.term[0].rows, second.term[0].rows);
+    assert_close(second.term[0].rows[5], 2.0, 0.0);
+    motion_files_free(files);
+}
+
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(torque_free_top),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(motion_files_are_read_once),
+                                       cmocka_unit_test(torque_free_top),
                                        cmocka_unit_test(pendulum),
                                        cmocka_unit_test(spring_keeps_energy),
                                        cmocka_unit_test(mooring_is_slack),

@@ -1,0 +1,88 @@
+/* motion_files.c - see motion_files.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "motion_files.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../base/mem.h"
+#include "../params/params.h"
+
+enum { COLUMNS_MAX = 8 };
+
+/* Numbers of a line, separated by blanks, commas or semicolons, up to the first word. */
+static int numbers_of(const char *line, double *v)
+{
+    int got = 0;
+    char *end;
+    for (const char *at = line; got < COLUMNS_MAX; got++, at = end) {
+        at += strspn(at, " ,;\t\r\n");
+        v[got] = strtod(at, &end);
+        if (end == at)
+            break;
+    }
+    return line[0] == '#' ? 0 : got;
+}
+
+static void read_rows(struct motion_file *m)
+{
+    FILE *f = fopen(m->path, "r");
+    char line[512];
+    bool sound = true;
+    m->n = f ? 0 : -1;
+    while (f && sound && fgets(line, sizeof line, f)) {
+        double v[COLUMNS_MAX];
+        const int got = numbers_of(line, v), size = m->columns * m->n;
+        if (got == 0)
+            continue;
+        sound = got == m->columns && (m->n == 0 || v[0] > m->rows[size - m->columns]);
+        if (!sound)
+            break;
+        GROW(m->rows, size, size + m->columns);
+        memcpy(m->rows + size, v, (size_t)m->columns * sizeof *v);
+        m->n++;
+    }
+    if (f)
+        fclose(f);
+    if (!sound)
+        m->n = 0;
+}
+
+struct motion_files *motion_files_create(const char *dir)
+{
+    struct motion_files *all = NEW(struct motion_files, 1);
+    all->dir = dir;
+    return all;
+}
+
+void motion_files_free(struct motion_files *all)
+{
+    for (int k = 0; all && k < all->n; k++) {
+        mem_free(all->of[k]->path);
+        mem_free(all->of[k]->rows);
+        mem_free(all->of[k]);
+    }
+    if (all)
+        mem_free(all->of);
+    mem_free(all);
+}
+
+const struct motion_file *motion_files_read(struct motion_files *all, const char *file, int columns)
+{
+    char path[1024 + PARAM_TEXT_SIZE];
+    if (!all)
+        return NULL;
+    snprintf(path, sizeof path, "%s/%s", all->dir, file);
+    for (int k = 0; k < all->n; k++)
+        if (all->of[k]->columns == columns && strcmp(all->of[k]->path, path) == 0)
+            return all->of[k];
+    struct motion_file *m = NEW(struct motion_file, 1);
+    m->path = NEW(char, strlen(path) + 1);
+    strcpy(m->path, path);
+    m->columns = columns;
+    read_rows(m);
+    GROW(all->of, all->n, all->n + 1);
+    return all->of[all->n++] = m;
+}
