@@ -3,6 +3,7 @@
 #include "../test.h"
 
 #include <stdio.h>
+#include <unistd.h>
 
 #include "../../../common/geometry/body_math.h"
 #include "../../../common/scene/scene_geometry.h"
