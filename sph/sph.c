@@ -15,15 +15,19 @@
 #include "../coupler/cpl_partner.h"
 #include "case/sph_params.h"
 #include "case/sph_sense.h"
+#include "case/sph_state.h"
 #include "coupling/overlap.h"
+#include "coupling/sph_coupling.h"
 #include "coupling/windows.h"
 #include "open_boundaries/level_gap.h"
 #include "open_boundaries/zones.h"
+#include "output/sph_output.h"
 #include "pairs/vec.h"
 #include "parallel/domain.h"
 #include "refinement/apr_params.h"
 #include "refinement/refinement.h"
 #include "refinement/regions_check.h"
+#include "time/integrate.h"
 
 static const char *columns[SPH_COLUMNS];
 static struct program sph_program; /* its columns depend on the scene */

@@ -1,7 +1,7 @@
 /* fill.c - the first particles: a lattice at cell centres, each rank its own part, where the shapes
  * of the case have fluid and walls leave room for it; at rest under gravity with its pressure.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../sph.h"
+#include "fill.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,8 +14,11 @@
 #include "../particles/eos.h"
 #include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
+#include "../sph.h"
 #include "../walls/walls.h"
 #include "basins.h"
+#include "first_lattice.h"
+#include "pack.h"
 #include "rooms.h"
 #include "sph_params.h"
 #include "surface_rows.h"
@@ -29,125 +32,6 @@ static double random_of(int64_t id, int axis)
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     z ^= z >> 31;
     return (double)(z >> 11) * 0x1p-52 - 1.0;
-}
-
-/* In a seam: two walls that face each other are less than dx apart here. Nothing can flow there,
- * and a particle between them would be pressed out. */
-static bool in_seam(const struct walls *w, const double *x, double dx)
-{
-    double foot[2];
-    const struct segment *near = w->segments + walls_nearest(w, x, foot);
-    const double d = hypot(x[0] - foot[0], x[1] - foot[1]);
-    for (int k = 0; k < w->nsegments && d < dx; k++) {
-        const struct segment *g = w->segments + k;
-        const double facing = g->n[0] * near->n[0] + g->n[1] * near->n[1];
-        const double e[2] = {x[0] - g->a[0], x[1] - g->a[1]};
-        const double before = -(e[0] * g->n[0] + e[1] * g->n[1]);
-        const double along = e[0] * g->t[0] + e[1] * g->t[1];
-        if (facing < -0.5 && before >= 0.0 && along >= 0.0 && along <= g->length &&
-            d + before < (1.0 - 1e-6) * dx)
-            return true;
-    }
-    return false;
-}
-
-void fill_clear_seams(struct sph *s)
-{
-    for (int i = 0; i < s->p.n && s->walls->nsegments > 0;)
-        if (in_seam(s->walls, state_row(&s->p, s->p.y, i), s->dx)) {
-            particles_copy(&s->p, i, --s->p.n);
-            s->ready = false;
-        } else {
-            i++;
-        }
-}
-
-bool fill_has_room(const struct sph *s, const double *x)
-{
-    if (rooms_parted(s))
-        return rooms_have_place(s, x);
-    const double least = s->prm.packing > 0 ? 1e-3 * s->dx : 0.3 * s->dx;
-    return !s->walls || s->walls->nsegments == 0 ||
-           (scene_is_room(&s->run->scene, x) && walls_distance(s->walls, x, INFINITY) > least &&
-            !in_seam(s->walls, x, s->dx));
-}
-
-double fill_lattice_cells(double lo, double hi, double dx)
-{
-    return ceil((hi - lo) / dx - 1e-6); /* rounding makes no cell */
-}
-
-double fill_lattice_begin(const struct scene *c, int a, double lo, double hi, double dx)
-{
-    const struct scene_wall *low = scene_wall_of(c, SIDE_X_MIN + 2 * a);
-    const struct scene_wall *high = scene_wall_of(c, SIDE_X_MIN + 2 * a + 1);
-    const double n = (hi - lo) / dx, whole = fill_lattice_cells(lo, hi, dx);
-    return high && !low && whole - n > 1e-6 ? hi - whole * dx : lo;
-}
-
-static struct lattice lattice_create(const struct sph *s)
-{
-    struct lattice l = {.n = {1, 1, 1}, .dx = s->dx};
-    for (int a = 0; a < s->dim; a++) {
-        l.n[a] = (int)fill_lattice_cells(s->lo[a], s->hi[a], s->dx);
-        l.origin[a] = fill_lattice_begin(&s->run->scene, a, s->lo[a], s->hi[a], s->dx);
-    }
-    l.bits = NEW(unsigned char, (size_t)(lattice_cells(&l) / 8 + 1));
-    return l;
-}
-
-/* The range of cells that may have their centre in this rank's part. */
-static void own_cells(const struct sph *s, const struct lattice *l, const double *lo,
-                      const double *hi, int *first, int *last)
-{
-    for (int a = 0; a < 3; a++) {
-        first[a] = 0;
-        last[a] = 1;
-        if (a >= s->dim)
-            continue;
-        first[a] = (int)fmax(0.0, floor((lo[a] - l->origin[a]) / l->dx) - 1.0);
-        last[a] = (int)fmin(l->n[a], ceil((hi[a] - l->origin[a]) / l->dx) + 1.0);
-    }
-}
-
-static void each_own_cell(struct sph *s, const struct lattice *l,
-                          void (*at)(struct sph *s, const struct lattice *l, int64_t cell,
-                                     const double *centre, void *ctx),
-                          void *ctx)
-{
-    double lo[3], hi[3];
-    int first[3], last[3];
-    domain_bounds(s->domain, lo, hi);
-    own_cells(s, l, lo, hi, first, last);
-    for (int k = first[2]; k < last[2]; k++)
-        for (int j = first[1]; j < last[1]; j++)
-            for (int i = first[0]; i < last[0]; i++) {
-                const int64_t cell = i + l->n[0] * (j + l->n[1] * (int64_t)k);
-                double x[3];
-                bool own = true;
-                lattice_place(l, cell, s->dim, x);
-                for (int a = 0; a < s->dim; a++)
-                    own = own && x[a] >= lo[a] && x[a] < hi[a];
-                if (own)
-                    at(s, l, cell, x, ctx);
-            }
-}
-
-void fill_each_near(const struct sph *s, const struct domain *part,
-                    void (*at)(const double *centre, double dx, void *ctx), void *ctx)
-{
-    struct lattice l = lattice_create(s);
-    double lo[3], hi[3], x[3];
-    int first[3], last[3], ic[3];
-    domain_bounds(part, lo, hi);
-    own_cells(s, &l, lo, hi, first, last);
-    for (ic[2] = first[2]; ic[2] < last[2]; ic[2]++)
-        for (ic[1] = first[1]; ic[1] < last[1]; ic[1]++)
-            for (ic[0] = first[0]; ic[0] < last[0]; ic[0]++) {
-                lattice_centre(&l, ic, s->dim, x);
-                at(x, l.dx, ctx);
-            }
-    lattice_free(&l);
 }
 
 /* Where particles start under a wave: columns of equal volumes, each from the floor to the surface,
@@ -185,7 +69,7 @@ static double mean_depth(const struct sph *s, const struct exact *e, int strips)
 
 static struct columns columns_create(const struct sph *s, const struct exact *e)
 {
-    struct columns c = {.n = (int)fill_lattice_cells(s->lo[0], s->hi[0], s->dx), .volume = 1.0};
+    struct columns c = {.n = (int)first_lattice_cells(s->lo[0], s->hi[0], s->dx), .volume = 1.0};
     const int strips = FINE * c.n;
     const double mean = mean_depth(s, e, strips), rows = round(mean / s->dx);
     double x, sum = 0.0;
@@ -246,7 +130,7 @@ static void cut_links(const struct sph *s, struct lattice *l)
     double lo[3], hi[3];
     int first[3], last[3];
     domain_bounds(s->domain, lo, hi);
-    own_cells(s, l, lo, hi, first, last);
+    first_lattice_own(s, l, lo, hi, first, last);
     rooms_cut_links(s, l, first, last);
     for (int a = 0; a < 3; a++)
         lattice_share(l, l->cut[a], s->run->comm);
@@ -273,24 +157,11 @@ static void mark(struct sph *s, const struct lattice *l, int64_t cell, const dou
         return;
     if (!rooms_parted(s) && !scene_in_tanks(&s->run->scene, x))
         return; /* a shape may reach beyond its tank */
-    const bool room = fill_has_room(s, x), meant = !k->drawn || is_drawn(&s->run->scene, x);
+    const bool room = first_has_room(s, x), meant = !k->drawn || is_drawn(&s->run->scene, x);
     k->wet += meant;
     k->taken += meant && !room;
     if (room)
         lattice_set(l->bits, cell);
-}
-
-int fill_add(struct sph *s, const struct exact *e, int64_t id, const double *x, double volume)
-{
-    double u[3], p, more[3];
-    scene_is_fluid(&s->run->scene, e, x, more);
-    exact_point(e, x, 0.0, u, &p, NULL);
-    for (int a = 0; a < s->dim; a++)
-        u[a] += more[a];
-    particles_reserve(&s->p, s->p.n + 1);
-    const int i = particles_add(&s->p, id, ZONE_FREE);
-    particles_set(s, i, x, u, volume * s->dxD, eos_rho(p, s->rho0, s->c0, s->gamma));
-    return i;
 }
 
 static void add(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
@@ -301,7 +172,7 @@ static void add(struct sph *s, const struct lattice *l, int64_t cell, const doub
     if (!lattice_has(l, cell))
         return;
     const double volume = displace(s, k, cell, centre, x);
-    fill_add(s, &k->exact, cell, x, volume);
+    first_add(s, &k->exact, cell, x, volume);
 }
 
 /* Velocity and pressure of the first field where packing has moved a particle to. */
@@ -434,9 +305,9 @@ struct fill *fill_lattice(struct sph *s)
     look.rows = surface_rows_wanted(s);
     struct fill *f = NEW(struct fill, 1);
     struct lattice *l = &f->lattice;
-    *l = lattice_create(s);
+    *l = first_lattice_create(s);
     const int64_t all = lattice_cells(l), ranks = s->run->size;
-    each_own_cell(s, l, mark, &look);
+    first_lattice_each_own(s, l, mark, &look);
     lattice_share(l, l->bits, s->run->comm);
     const bool parted = rooms_parted(s);
     if (parted)
@@ -448,7 +319,7 @@ struct fill *fill_lattice(struct sph *s)
         say_rooms(b);
     say_pockets(b);
     basins_clear(b, l);
-    each_own_cell(s, l, add, &look);
+    first_lattice_each_own(s, l, add, &look);
     pack_start(s, s->prm.packing);
     if (s->prm.packing > 0)
         refresh(s, &look.exact);

@@ -4,7 +4,7 @@
  * volumes such that the kernel sum is that of a wall's neighbours, one, or without walls a
  * lattice's. In 3D only those near meshes of files move, as long as it helps: ten steps do most of
  * the work, later ones melt the lattice. SPDX-License-Identifier: BSD-3-Clause */
-#include "../sph.h"
+#include "pack.h"
 
 #include <math.h>
 
@@ -13,9 +13,12 @@
 #include "../../common/scene/scene_mesh.h"
 #include "../pairs/kernel.h"
 #include "../pairs/neighbours.h"
+#include "../sph.h"
 #include "../surface/surface.h"
+#include "../time/integrate.h"
 #include "../time/level.h"
 #include "../walls/walls.h"
+#include "first_lattice.h"
 #include "rooms.h"
 
 /* A lattice that meshes disturb stays as it is away from them. */
@@ -204,7 +207,7 @@ void pack_start(struct sph *s, int steps)
             break;
         move(s, dt);
         if (s->walls && (k == steps / 2 || k == steps - 1))
-            fill_clear_seams(s);
+            first_clear_seams(s);
     }
     find_crowding(s);
     if (by_meshes(s))

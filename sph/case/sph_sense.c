@@ -10,6 +10,7 @@
 #include "../../common/scene/scene_geometry.h"
 #include "../../common/scene/scene_mesh.h"
 #include "../sph.h"
+#include "first_lattice.h"
 
 static const char *const side_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
@@ -312,8 +313,8 @@ static void check_grains(const struct run *r, const struct sph_params *used, str
         const double cells = (hi[a] - lo[a]) / used->dx;
         if (!(cells < 1e9))
             return; /* a fault of its own */
-        n[a] = (int)fill_lattice_cells(lo[a], hi[a], used->dx);
-        first[a] = fill_lattice_begin(c, a, lo[a], hi[a], used->dx) + 0.5 * used->dx;
+        n[a] = (int)first_lattice_cells(lo[a], hi[a], used->dx);
+        first[a] = first_lattice_begin(c, a, lo[a], hi[a], used->dx) + 0.5 * used->dx;
     }
     scene_check_grains(c, r->params, first, h, n, "place of a particle", f);
 }

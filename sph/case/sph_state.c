@@ -1,6 +1,6 @@
 /* sph_state.c - struct sph from the case's parameters, at t = 0 or from a restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../sph.h"
+#include "sph_state.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,19 +12,24 @@
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/openings.h"
 #include "../open_boundaries/zone_steps.h"
+#include "../output/sph_output.h"
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/scheme.h"
 #include "../parallel/domain.h"
 #include "../particles/state_sums.h"
+#include "../particles/volume.h"
 #include "../refinement/apr_params.h"
 #include "../refinement/criteria.h"
 #include "../refinement/guards.h"
 #include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
+#include "../sph.h"
 #include "../surface/surface.h"
+#include "../time/integrate.h"
 #include "../time/runge_kutta.h"
 #include "../walls/walls.h"
+#include "fill.h"
 #include "sph_params.h"
 
 /* Half a period must hold R and the skin, see check_axis in sph_params.c. */

@@ -17,6 +17,7 @@
 #include "../parallel/domain.h"
 #include "../refinement/refinement.h"
 #include "../walls/walls.h"
+#include "first_lattice.h"
 #include "rooms.h"
 
 enum { ROWS = 8 };
@@ -212,9 +213,9 @@ static void add_at(struct sph *s, const struct water *w, const double *centre)
 {
     double x[3] = {centre[0], centre[1], centre[2]};
     const double volume = surface_rows_place(s, w->e, x);
-    if (!fill_has_room(s, x))
+    if (!first_has_room(s, x))
         return;
-    const int i = fill_add(s, w->e, s->next_id, x, volume);
+    const int i = first_add(s, w->e, s->next_id, x, volume);
     s->next_id += s->run->size;
     memset(slope_line(&s->p, i), 0, (size_t)s->p.nslope * sizeof(double));
     s->p.role[i] = ROLE_GUARD; /* until it gets its role */
@@ -268,6 +269,6 @@ void surface_rows_renew(struct sph *s)
     domain_bounds(s->domain, r.lo, r.hi);
     s->p.nghost = 0;
     remove_near(s, &r.coarser);
-    fill_each_near(coarsest, s->domain, add_in_cell, &r);
+    first_lattice_each_near(coarsest, s->domain, add_in_cell, &r);
     s->ready = false;
 }

@@ -13,6 +13,7 @@
 #include "../open_boundaries/zones.h"
 #include "../particles/params_derived.h"
 #include "coupling_solids.h"
+#include "sph_coupling.h"
 #include "windows.h"
 
 static const char axes[] = "xyz";

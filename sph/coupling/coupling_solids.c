@@ -12,6 +12,7 @@
 #include "../open_boundaries/zones.h"
 #include "../particles/params_derived.h"
 #include "../rigid/body.h"
+#include "sph_coupling.h"
 
 void coupling_hidden(const struct run *r, const struct sph_params *prm, double box[2][3])
 {

@@ -2,6 +2,8 @@
  * outside. Order of a coupling step (Chiron 2017, 6.2): SPH runs first on the extrapolated patch,
  * hands its particles over, and takes the next patch when its partner has followed.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "sph_coupling.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

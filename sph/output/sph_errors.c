@@ -1,8 +1,6 @@
 /* sph_errors.c - sums, errors against the exact solution, drifts: rows of the series and the
  * summary. Norms are weighted with the particles' volumes and taken over the free zone.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../sph.h"
-
 #include <math.h>
 #include <stdio.h>
 
@@ -19,16 +17,19 @@
 #include "../particles/state_sums.h"
 #include "../refinement/apr_params.h"
 #include "../refinement/refinement.h"
+#include "../sph.h"
+#include "../time/integrate.h"
 #include "../walls/forces.h"
 #include "../walls/walls.h"
 #include "probes.h"
+#include "sph_output.h"
 
 /* The last: of the velocity, over the particles whose support a wall cuts; not over programs. */
 enum { NORM_VELOCITY, NORM_PRESSURE, NORM_VORTICITY, NORM_WALL, NORMS };
 
 static const char *const norm_names[NORM_WALL] = {"velocity", "pressure", "vorticity"};
 
-bool sph_has_exact(const struct run *r) { return exact_at_all_times(&r->scene); }
+static bool has_exact(const struct run *r) { return exact_at_all_times(&r->scene); }
 
 static bool cut_by_wall(const struct sph *s, const double *x)
 {
@@ -271,7 +272,7 @@ int sph_columns(const struct run *r, const struct sph_params *prm, const char **
         if (k != 5 || r->scene.domain.dim == 3)
             names[n++] = columns[k];
     n += sph_watch_columns(r, prm, names + n);
-    if (sph_has_exact(r))
+    if (has_exact(r))
         names[n++] = "error velocity l2 [-]";
     n += levels_columns(r, names + n);
     if (sph_params_zones(r, prm)) {
@@ -299,7 +300,7 @@ void sph_row(void *state, double *values)
     *values++ = particles(s);
     *values++ = least_spacing(s);
     values = sph_watch_row(s, values);
-    if (sph_has_exact(s->run)) {
+    if (has_exact(s->run)) {
         struct norm n[NORMS];
         errors(s, n);
         *values++ = norm_relative_l2(n);
@@ -361,7 +362,7 @@ static void summarise_drifts(const struct sph *s)
         region *= s->hi[a] - s->lo[a];
         p2 += pow(sums[SUM_MOMENTUM + a] - s->momentum0[a], 2.0);
     }
-    if (sph_has_exact(s->run)) {
+    if (has_exact(s->run)) {
         const double expected = exact_kinetic(s);
         energy = (sums[SUM_KINETIC] - expected) / expected;
     } else {
@@ -431,7 +432,7 @@ void sph_finish(void *state)
     if (s->walls)
         summary_int(to, "particles_returned", llround(total(s, (double)s->walls->returned)));
     summary_int(to, "particles_lost", llround(total(s, s->lost)));
-    if (sph_has_exact(s->run))
+    if (has_exact(s->run))
         summarise_errors(s);
     summarise_oscillation(s);
     if (s->walls)

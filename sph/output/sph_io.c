@@ -1,6 +1,4 @@
 /* sph_io.c - snapshots and restart files. SPDX-License-Identifier: BSD-3-Clause */
-#include "../sph.h"
-
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -22,8 +20,11 @@
 #include "../refinement/guards.h"
 #include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
+#include "../sph.h"
 #include "../surface/surface.h"
+#include "../time/integrate.h"
 #include "../walls/forces.h"
+#include "sph_output.h"
 #include "wall_files.h"
 
 /* What particle i shows in a snapshot, v[ncomp]. */

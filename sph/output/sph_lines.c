@@ -2,12 +2,12 @@
  * (Botella & Peyret 1998). A point of a line takes the linear least-squares fit of the particles
  * around it (moving least squares), so that a linear field is exact up to the walls.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../sph.h"
-
 #include <math.h>
 
 #include "../../common/base/mem.h"
 #include "../pairs/kernel.h"
+#include "../sph.h"
+#include "sph_output.h"
 
 enum { SUMS = 9 }; /* moments 1 x y xx xy yy, then f, x f, y f */
 

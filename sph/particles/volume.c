@@ -3,9 +3,10 @@
  * by parts in a thousand, and with it the level of pressure by c0^2 times that (a full tank of 20
  * dx: -24 % of rho g H/2 in 0.5 s). Here it is known, and every step brings the sum back to it: all
  * densities by one factor, which makes no force. SPDX-License-Identifier: BSD-3-Clause */
-#include "../sph.h"
+#include "volume.h"
 
 #include "../../common/scene/scene.h"
+#include "../sph.h"
 
 /* Neither a free surface nor an opening; walls slide along themselves and bodies are rigid. */
 static bool is_closed(const struct sph *s)

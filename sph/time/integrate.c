@@ -1,7 +1,7 @@
 /* integrate.c - time step size [2.102-2.104], stages of a Runge-Kutta scheme, and the watch over
  * what comes out of it. The list of pairs and the ghosts are made once a step; the skin covers the
  * way that particles go within it. SPDX-License-Identifier: BSD-3-Clause */
-#include "../sph.h"
+#include "integrate.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,11 +17,13 @@
 #include "../pairs/scheme.h"
 #include "../parallel/domain.h"
 #include "../particles/params_derived.h"
+#include "../particles/volume.h"
 #include "../refinement/apr_params.h"
 #include "../refinement/counts.h"
 #include "../refinement/guards.h"
 #include "../refinement/mixed.h"
 #include "../refinement/refinement.h"
+#include "../sph.h"
 #include "../walls/forces.h"
 #include "../walls/walls.h"
 #include "extremes.h"

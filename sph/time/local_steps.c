@@ -7,6 +7,7 @@
 
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
+#include "../particles/volume.h"
 #include "../refinement/counts.h"
 #include "../refinement/guards.h"
 #include "../refinement/refinement.h"

@@ -9,7 +9,9 @@
 #include "../../../common/base/mem.h"
 #include "../../../sph/bodies/body_check.h"
 #include "../../../sph/case/sph_params.h"
+#include "../../../sph/case/sph_state.h"
 #include "../../../sph/sph.h"
+#include "../../../sph/time/integrate.h"
 
 struct sph_case {
     struct run run;

@@ -5,8 +5,10 @@
 #include <stdlib.h>
 
 #include "../../../common/base/mem.h"
+#include "../../../sph/case/sph_state.h"
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/parallel/domain.h"
+#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 /* Deterministic number in [0, 1). */

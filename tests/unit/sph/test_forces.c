@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 
+#include "../../../sph/case/sph_state.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/walls/forces.h"
 #include "sph_case.h"

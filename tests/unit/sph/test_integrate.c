@@ -5,10 +5,13 @@
 #include <stdlib.h>
 
 #include "../../../common/files/h5.h"
+#include "../../../sph/case/sph_state.h"
+#include "../../../sph/output/sph_output.h"
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/pairs/scheme.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/time/extremes.h"
+#include "../../../sph/time/integrate.h"
 #include "../../../sph/time/runge_kutta.h"
 #include "sph_case.h"
 

@@ -2,10 +2,12 @@
  * with: what holds for each of them. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
+#include "../../../sph/case/sph_state.h"
 #include "../../../sph/pairs/kernel.h"
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/refinement/mixed.h"
 #include "../../../sph/refinement/refinement.h"
+#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 static const int methods[] = {APR_WEIGHTS, APR_COALESCENCE, APR_GRADED};

@@ -4,8 +4,10 @@
 #include "../test.h"
 
 #include "../../../common/scene/exact.h"
+#include "../../../sph/case/sph_state.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/refinement/apr_params.h"
+#include "../../../sph/time/integrate.h"
 #include "../../../sph/walls/walls.h"
 #include "sph_case.h"
 

@@ -3,11 +3,13 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
+#include "../../../sph/case/sph_state.h"
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/refinement/criteria.h"
 #include "../../../sph/refinement/refinement.h"
 #include "../../../sph/refinement/regions_parts.h"
 #include "../../../sph/surface/surface.h"
+#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 static void ask(int kind, double above, double distance, int levels, double budget)

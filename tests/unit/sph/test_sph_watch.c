@@ -5,7 +5,10 @@
 #include "../test.h"
 
 #include "../../../common/files/h5.h"
+#include "../../../sph/case/sph_state.h"
+#include "../../../sph/output/sph_output.h"
 #include "../../../sph/particles/state_sums.h"
+#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 static double gain_of(const struct sph_case *c) { return c->s->watch.of[SPH_WATCH_ENERGY].worst; }

@@ -5,6 +5,7 @@
 
 #include "../../../common/base/vec3.h"
 #include "../../../common/scene/scene_mesh.h"
+#include "../../../sph/case/sph_state.h"
 #include "../../../sph/walls/walls.h"
 #include "sph_case.h"
 

@@ -4,9 +4,12 @@
 #include "../test.h"
 
 #include "../../../common/files/h5.h"
+#include "../../../sph/case/sph_state.h"
+#include "../../../sph/output/sph_output.h"
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/surface/surface.h"
+#include "../../../sph/time/integrate.h"
 #include "../../../sph/walls/facet.h"
 #include "../../../sph/walls/forces.h"
 #include "../../../sph/walls/walls.h"

@@ -3,11 +3,13 @@
 #include "../test.h"
 
 #include "../../../common/scene/exact.h"
+#include "../../../sph/case/sph_state.h"
 #include "../../../sph/coupling/overlap.h"
 #include "../../../sph/open_boundaries/box_chase.h"
 #include "../../../sph/open_boundaries/openings.h"
 #include "../../../sph/open_boundaries/zone_steps.h"
 #include "../../../sph/surface/surface.h"
+#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 /* Uniform flow through a box of the unit square or cube, no shifting. */

@@ -1,0 +1,22 @@
+/* sph_output.h - snapshots, restart files, rows of the series, the summary.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_OUTPUT_H
+#define SPH_OUTPUT_H
+
+#include "../sph.h"
+
+/* Names of the columns that sph_row fills for this scene; returns their number, at most
+ * SPH_COLUMNS. */
+enum { SPH_COLUMNS = 56 + PROBES_MAX + 32 * BODIES_MAX };
+int sph_columns(const struct run *r, const struct sph_params *prm, const char **names);
+void sph_row(void *s, double *values);
+void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
+void sph_checkpoint(void *s, struct h5 *f);
+bool sph_restore(struct sph *s, struct h5 *f);
+void sph_finish(void *s);
+/* Sums over the free zone for the coupler; see program.tell. */
+void sph_tell(void *s, struct summary *report);
+/* sph_lines.c: extrema on the centre lines into the summary; 2D. Collective. */
+void sph_summarise_extrema(const struct sph *s);
+
+#endif
