@@ -14,15 +14,15 @@
 #include "watch/sph_watch.h"
 
 struct sph;
-struct neighbours; /* cell grid and list of pairs; neighbours.h */
-struct domain;     /* partition over ranks, migration, halo; domain.h */
-struct walls;      /* walls and bodies; walls.h; NULL: none */
-struct surface;    /* free surface; surface.h; NULL: none */
-struct stages;     /* scheme in time; time/runge_kutta.h */
-struct refinement; /* regions and guards; refinement/refinement.h; NULL: none */
-struct guards;     /* of one level; refinement/guards.h */
-struct mixed;      /* particles of different sizes; refinement/mixed.h; NULL: all of one */
-struct zones;      /* transition, buffer, openings; zones.h; NULL: none */
+struct neighbours;   /* cell grid and list of pairs; neighbours.h */
+struct domain;       /* partition over ranks, migration, halo; domain.h */
+struct walls;        /* walls and bodies; walls.h; NULL: none */
+struct free_surface; /* free surface; surface.h; NULL: none */
+struct rk_stages;    /* scheme in time; time/runge_kutta.h */
+struct refinement;   /* regions and guards; refinement/refinement.h; NULL: none */
+struct guards;       /* of one level; refinement/guards.h */
+struct mixed;        /* particles of different sizes; refinement/mixed.h; NULL: all of one */
+struct zones;        /* transition, buffer, openings; zones.h; NULL: none */
 
 /* The two passes of a pair interaction; scheme.h. */
 struct scheme {
@@ -51,12 +51,12 @@ struct sph {
     struct particles p;
     struct neighbours *list;
     struct domain *domain;
-    struct scheme passes;        /* what the parameters name */
-    const struct scheme *scheme; /* &passes */
-    const struct stages *stages; /* borrowed for ever */
+    struct scheme passes;           /* what the parameters name */
+    const struct scheme *scheme;    /* &passes */
+    const struct rk_stages *stages; /* borrowed for ever */
     struct zones *zones;
     struct walls *walls;
-    struct surface *surface;
+    struct free_surface *surface;
     struct refinement *refinement; /* of all levels: the coarsest has it */
     /* Whether it is this level that flows at x; NULL: there is one level. refinement.h */
     bool (*flows_at)(const struct sph *s, const double *x);

@@ -189,13 +189,14 @@ char *h5_read_attribute_text(struct h5 *f, const char *name)
 /* --- datasets --- */
 
 /* Where a rank's part lies in a dataset, and its shape. */
-struct part {
+struct h5_part {
     int rank;
     hsize_t shape[4], first[4], count[4];
     bool empty;
 };
 
-static void transfer(struct h5 *f, hid_t set, const struct part *p, hid_t type, void *v, bool write)
+static void transfer(struct h5 *f, hid_t set, const struct h5_part *p, hid_t type, void *v,
+                     bool write)
 {
     hid_t space, memory;
     double nothing = 0.0;
@@ -216,7 +217,7 @@ static void transfer(struct h5 *f, hid_t set, const struct part *p, hid_t type, 
     H5(H5Sclose(space));
 }
 
-static void write_part(struct h5 *f, const char *name, const char *unit, const struct part *p,
+static void write_part(struct h5 *f, const char *name, const char *unit, const struct h5_part *p,
                        hid_t stored, hid_t type, const void *v)
 {
     hid_t space, set;
@@ -238,14 +239,14 @@ static void write_part(struct h5 *f, const char *name, const char *unit, const s
 }
 
 /* Rows of this rank behind those of the lower ranks. */
-static struct part rows_part(const struct h5 *f, int64_t n, int ncomp)
+static struct h5_part rows_part(const struct h5 *f, int64_t n, int ncomp)
 {
     int64_t first = 0, all = 0;
     MPI_Exscan(&n, &first, 1, MPI_INT64_T, MPI_SUM, f->comm);
     if (f->rank == 0)
         first = 0;
     MPI_Allreduce(&n, &all, 1, MPI_INT64_T, MPI_SUM, f->comm);
-    struct part p = {.rank = ncomp > 1 ? 2 : 1, .empty = n == 0};
+    struct h5_part p = {.rank = ncomp > 1 ? 2 : 1, .empty = n == 0};
     p.shape[0] = (hsize_t)all;
     p.first[0] = (hsize_t)first;
     p.count[0] = (hsize_t)n;
@@ -259,21 +260,21 @@ static void write_rows(struct h5 *f, const char *name, int64_t n)
     if (!f->restart)
         return;
     snprintf(rows, sizeof rows, "%s_rows", name);
-    const struct part p = rows_part(f, 1, 1);
+    const struct h5_part p = rows_part(f, 1, 1);
     write_part(f, rows, NULL, &p, H5T_NATIVE_INT64, H5T_NATIVE_INT64, &n);
 }
 
 void h5_write_real(struct h5 *f, const char *name, const char *unit, int64_t n, int ncomp,
                    const double *v, bool single)
 {
-    const struct part p = rows_part(f, n, ncomp);
+    const struct h5_part p = rows_part(f, n, ncomp);
     write_part(f, name, unit, &p, single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, v);
     write_rows(f, name, n);
 }
 
 void h5_write_int(struct h5 *f, const char *name, int64_t n, const int64_t *v)
 {
-    const struct part p = rows_part(f, n, 1);
+    const struct h5_part p = rows_part(f, n, 1);
     write_part(f, name, NULL, &p, H5T_STD_I64LE, H5T_NATIVE_INT64, v);
     write_rows(f, name, n);
 }
@@ -281,7 +282,7 @@ void h5_write_int(struct h5 *f, const char *name, int64_t n, const int64_t *v)
 void h5_write_block(struct h5 *f, const char *name, const char *unit, int dim, const int *cells,
                     const int *lo, const int *hi, int ncomp, const double *v, bool single)
 {
-    struct part p = {.rank = dim + (ncomp > 1)};
+    struct h5_part p = {.rank = dim + (ncomp > 1)};
     for (int a = 0; a < dim; a++) {
         const int k = dim - 1 - a;
         p.shape[k] = (hsize_t)cells[a];
@@ -311,7 +312,7 @@ static int shape_of(struct h5 *f, const char *name, hsize_t shape[4])
     return rank <= 4 ? rank : 0;
 }
 
-static bool read_rows(struct h5 *f, const char *name, const struct part *p, hid_t type, void *v)
+static bool read_rows(struct h5 *f, const char *name, const struct h5_part *p, hid_t type, void *v)
 {
     hid_t set;
     hsize_t shape[4];
@@ -331,7 +332,7 @@ int64_t h5_rows(struct h5 *f, const char *name)
     char rows[256];
     int64_t n = 0;
     snprintf(rows, sizeof rows, "%s_rows", name);
-    const struct part p = rows_part(f, 1, 1);
+    const struct h5_part p = rows_part(f, 1, 1);
     return read_rows(f, rows, &p, H5T_NATIVE_INT64, &n) ? n : -1;
 }
 
@@ -348,20 +349,20 @@ int64_t h5_share(struct h5 *f, const char *name)
 
 bool h5_read_real(struct h5 *f, const char *name, int64_t n, int ncomp, double *v)
 {
-    const struct part p = rows_part(f, n, ncomp);
+    const struct h5_part p = rows_part(f, n, ncomp);
     return read_rows(f, name, &p, H5T_NATIVE_DOUBLE, v);
 }
 
 bool h5_read_int(struct h5 *f, const char *name, int64_t n, int64_t *v)
 {
-    const struct part p = rows_part(f, n, 1);
+    const struct h5_part p = rows_part(f, n, 1);
     return read_rows(f, name, &p, H5T_NATIVE_INT64, v);
 }
 
 static bool read_at(struct h5 *f, const char *name, int64_t first, int64_t n, int ncomp, hid_t type,
                     void *v)
 {
-    struct part p = {.rank = ncomp > 1 ? 2 : 1, .empty = n == 0};
+    struct h5_part p = {.rank = ncomp > 1 ? 2 : 1, .empty = n == 0};
     hsize_t shape[4];
     int fits = shape_of(f, name, shape) == p.rank && (hsize_t)(first + n) <= shape[0];
     MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, f->comm);

@@ -51,14 +51,14 @@ void trimesh_append(struct trimesh *m, const struct trimesh *more)
 /* --- who lies beside whom --- */
 
 /* A side of a triangle, kept with the lesser of its vertices. */
-struct side {
+struct edge_side {
     int other; /* the greater vertex */
     int at;    /* 3 triangle + side */
 };
 
 static int by_other(const void *a, const void *b)
 {
-    const struct side *p = a, *q = b;
+    const struct edge_side *p = a, *q = b;
     return p->other != q->other ? (p->other > q->other) - (p->other < q->other)
                                 : (p->at > q->at) - (p->at < q->at);
 }
@@ -73,7 +73,7 @@ static void join(struct trimesh *m, int a, int b)
 
 /* Sides on one edge: two are neighbours; of more each that runs forward gets one that runs
  * back. */
-static void join_edge(struct trimesh *m, const struct side *s, int n)
+static void join_edge(struct trimesh *m, const struct edge_side *s, int n)
 {
     m->rims += n == 1;
     m->junctions += n > 2;
@@ -91,7 +91,7 @@ static void join_edge(struct trimesh *m, const struct side *s, int n)
 static void find_neighbours(struct trimesh *m)
 {
     int *start = NEW(int, m->nvertices + 2);
-    struct side *sides = NEW(struct side, 3 * (size_t)m->ntriangles);
+    struct edge_side *sides = NEW(struct edge_side, 3 * (size_t)m->ntriangles);
     for (int pass = 0; pass < 2; pass++) { /* count, then fill */
         for (int at = 0; at < 3 * m->ntriangles; at++) {
             const int a = tail_of(m, at), b = m->vertex[at / 3][(at + 1) % 3];
@@ -99,14 +99,14 @@ static void find_neighbours(struct trimesh *m)
             if (pass == 0)
                 start[least + 2]++;
             else
-                sides[start[least + 1]++] = (struct side){most, at};
+                sides[start[least + 1]++] = (struct edge_side){most, at};
         }
         for (int v = 0; pass == 0 && v < m->nvertices; v++)
             start[v + 2] += start[v + 1];
     }
     for (int v = 0; v < m->nvertices; v++) {
         const int n = start[v + 1] - start[v];
-        struct side *s = sides + start[v];
+        struct edge_side *s = sides + start[v];
         if (n > 1)
             qsort(s, (size_t)n, sizeof *s, by_other);
         for (int i = 0, k; i < n; i = k) {

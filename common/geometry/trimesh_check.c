@@ -118,20 +118,20 @@ struct trimesh_sizes trimesh_sizes(const struct trimesh *m)
 
 /* --- sense --- */
 
-struct part {
+struct surface_part {
     double lo[3], hi[3], volume;
     int first; /* a triangle of it */
 };
 
-static struct part *parts_of(const struct trimesh *m)
+static struct surface_part *parts_of(const struct trimesh *m)
 {
-    struct part *p = NEW(struct part, m->nparts);
+    struct surface_part *p = NEW(struct surface_part, m->nparts);
     for (int k = 0; k < m->nparts; k++)
-        p[k] = (struct part){.lo = {INFINITY, INFINITY, INFINITY},
-                             .hi = {-INFINITY, -INFINITY, -INFINITY},
-                             .first = -1};
+        p[k] = (struct surface_part){.lo = {INFINITY, INFINITY, INFINITY},
+                                     .hi = {-INFINITY, -INFINITY, -INFINITY},
+                                     .first = -1};
     for (int t = 0; t < m->ntriangles; t++) {
-        struct part *q = p + m->part[t];
+        struct surface_part *q = p + m->part[t];
         double lo[3], hi[3];
         box_of(m, t, lo, hi);
         q->first = q->first < 0 ? t : q->first;
@@ -141,7 +141,7 @@ static struct part *parts_of(const struct trimesh *m)
         }
     }
     for (int t = 0; t < m->ntriangles; t++) { /* about a corner of its own: little cancels */
-        struct part *q = p + m->part[t];
+        struct surface_part *q = p + m->part[t];
         double d[3][3], c[3];
         for (int k = 0; k < 3; k++)
             vec3_from(q->lo, m->x[m->vertex[t][k]], d[k]);
@@ -166,7 +166,7 @@ static double winding_of(const struct trimesh *m, int part, const double *x)
     return w;
 }
 
-static bool within(const struct part *a, const struct part *b)
+static bool within(const struct surface_part *a, const struct surface_part *b)
 {
     for (int k = 0; k < 3; k++)
         if (a->lo[k] < b->lo[k] || a->hi[k] > b->hi[k])
@@ -175,7 +175,7 @@ static bool within(const struct part *a, const struct part *b)
 }
 
 /* How many other parts a part lies in. */
-static int depth_of(const struct trimesh *m, const struct part *parts, int k)
+static int depth_of(const struct trimesh *m, const struct surface_part *parts, int k)
 {
     const double *x = m->x[m->vertex[parts[k].first][0]];
     int n = 0;
@@ -186,7 +186,7 @@ static int depth_of(const struct trimesh *m, const struct part *parts, int k)
 
 int trimesh_orient_closed(struct trimesh *m, int sign)
 {
-    struct part *parts = parts_of(m);
+    struct surface_part *parts = parts_of(m);
     bool *turn = NEW(bool, m->nparts);
     int n = 0;
     for (int k = 0; k < m->nparts; k++) {

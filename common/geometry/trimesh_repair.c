@@ -11,14 +11,14 @@
 
 /* --- weld --- */
 
-struct grid {
+struct repair_grid {
     const struct trimesh *m;
     double lo[3], cell; /* m */
     uint64_t mask;
     int *head, *next; /* chains of the vertices kept, by the hash of their cell */
 };
 
-static uint64_t hash_of(const struct grid *g, const int64_t *c)
+static uint64_t hash_of(const struct repair_grid *g, const int64_t *c)
 {
     uint64_t h = (uint64_t)c[0] * 0x9e3779b97f4a7c15u;
     h = (h ^ (h >> 29) ^ (uint64_t)c[1]) * 0xbf58476d1ce4e5b9u;
@@ -26,7 +26,7 @@ static uint64_t hash_of(const struct grid *g, const int64_t *c)
     return (h ^ (h >> 29)) & g->mask;
 }
 
-static void cell_of(const struct grid *g, const double *x, int64_t *c, int *beside)
+static void cell_of(const struct repair_grid *g, const double *x, int64_t *c, int *beside)
 {
     for (int a = 0; a < 3; a++) {
         const double at = (x[a] - g->lo[a]) / g->cell;
@@ -36,7 +36,7 @@ static void cell_of(const struct grid *g, const double *x, int64_t *c, int *besi
 }
 
 /* Of the vertices kept the first within the tolerance (half a cell) of v, or -1. */
-static int find_kept(const struct grid *g, int v)
+static int find_kept(const struct repair_grid *g, int v)
 {
     int64_t c[3];
     int beside[3], found = -1;
@@ -56,9 +56,9 @@ static int find_kept(const struct grid *g, int v)
     return found;
 }
 
-static struct grid grid_create(const struct trimesh *m, double tolerance)
+static struct repair_grid grid_create(const struct trimesh *m, double tolerance)
 {
-    struct grid g = {.m = m, .mask = 1};
+    struct repair_grid g = {.m = m, .mask = 1};
     double hi[3], size = 0.0;
     trimesh_bounds(m, g.lo, hi);
     for (int a = 0; a < 3; a++)
@@ -77,7 +77,7 @@ int trimesh_weld(struct trimesh *m, double tolerance)
 {
     if (m->nvertices == 0)
         return 0;
-    struct grid g = grid_create(m, tolerance);
+    struct repair_grid g = grid_create(m, tolerance);
     int *to = NEW(int, m->nvertices), kept = 0;
     for (int v = 0; v < m->nvertices; v++) {
         const int w = find_kept(&g, v);

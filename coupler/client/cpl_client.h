@@ -17,7 +17,7 @@ enum { CPL_TEXT = 4096 };
 enum client_state { OPENED, MET, PLANNED, IN_WINDOW, BETWEEN, ENDING, LEFT };
 
 /* Points of a set, shared by the set and by puts that have not been replaced: counted. */
-struct places {
+struct client_places {
     int users;
     long n;
     double *x; /* [n][3] */
@@ -31,7 +31,7 @@ struct client_set {
     int dim;
     double support, period[3]; /* m; period 0: not periodic */
     struct cpl_grid grid;
-    struct places *places;
+    struct client_places *places;
     int moves;            /* number of cpl_move calls */
     int64_t first, total; /* of this rank's points among all ranks' */
 };
@@ -42,7 +42,7 @@ struct slot {
     double t;
     int terms;
     double *v[CPL_TERMS]; /* terms in time; NULL: zero */
-    struct places *places;
+    struct client_places *places;
     int *served; /* [ntakers][ncoupler] generation of the region that was answered */
 };
 
@@ -55,13 +55,13 @@ struct client_field {
     struct need {
         int generation; /* 0: nothing wanted yet */
         struct region region;
-    } * need;             /* giver: [ntakers][ncoupler] */
-    struct slot slot[2];  /* giver: by tick & 1 */
-    int64_t last_tick;    /* giver: of the last put, -1 */
-    int64_t got_tick;     /* taker: of the last patch, -1 */
-    int asked_moves;      /* taker: moves of the set that the coupler knows */
-    struct patch patch;   /* taker */
-    struct cpl_grid grid; /* taker: the giver's grid */
+    } * need;                  /* giver: [ntakers][ncoupler] */
+    struct slot slot[2];       /* giver: by tick & 1 */
+    int64_t last_tick;         /* giver: of the last put, -1 */
+    int64_t got_tick;          /* taker: of the last patch, -1 */
+    int asked_moves;           /* taker: moves of the set that the coupler knows */
+    struct client_patch patch; /* taker */
+    struct cpl_grid grid;      /* taker: the giver's grid */
 };
 
 struct cpl {

@@ -8,7 +8,7 @@
 
 #include "cpl_client.h"
 
-static void places_release(struct places **p)
+static void places_release(struct client_places **p)
 {
     if (*p && --(*p)->users == 0) {
         free((*p)->x);
@@ -66,8 +66,8 @@ int cpl_move(struct cpl *c, int set, long n, const double *x, const int64_t *gid
         return client_error(c, CPL_EINPUT, "%s: place of point %zu on rank %d is not finite",
                             s->name, bad / 3, c->rank);
     places_release(&s->places);
-    struct places *p = s->places = wire_alloc(sizeof *p);
-    *p = (struct places){.users = 1, .n = n, .x = copy(x, 3 * (size_t)n * sizeof *x)};
+    struct client_places *p = s->places = wire_alloc(sizeof *p);
+    *p = (struct client_places){.users = 1, .n = n, .x = copy(x, 3 * (size_t)n * sizeof *x)};
     if (gid)
         p->gid = copy(gid, (size_t)n * sizeof *gid);
     if (volume)
@@ -111,7 +111,7 @@ int cpl_move_cells(struct cpl *c, int set, long n, const int *nvertex, const dou
 static void serve_points(const struct client_field *f, const struct slot *s, const struct need *d,
                          int dim, struct pack *p)
 {
-    const struct places *at = s->places;
+    const struct client_places *at = s->places;
     long *chosen = wire_alloc((size_t)at->n * sizeof *chosen), n = 0;
     for (long i = 0; i < at->n; i++)
         if (region_images(&d->region, at->x + 3 * i, NULL))

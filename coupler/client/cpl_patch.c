@@ -9,17 +9,17 @@
 
 enum { WIDEST = 4 };
 
-size_t patch_size(const struct patch *p)
+size_t patch_size(const struct client_patch *p)
 {
     return (size_t)p->n[0] * (size_t)p->n[1] * (size_t)p->n[2];
 }
 
-void patch_clear(struct patch *p)
+void patch_clear(struct client_patch *p)
 {
     free(p->v);
     free(p->now);
     free(p->now_at);
-    *p = (struct patch){0};
+    *p = (struct client_patch){0};
 }
 
 /* u = U - h^2/24 U'' along one line of cells, U averages. Second differences of averages are exact
@@ -41,7 +41,7 @@ static void point_values(double *line, int n, size_t stride, double *old)
     line[(size_t)(n - 1) * stride] -= last / 24.0;
 }
 
-static void make_points(struct patch *p)
+static void make_points(struct client_patch *p)
 {
     const size_t width = CPL_TERMS * (size_t)p->ncomp;
     const size_t step[3] = {width, width * (size_t)p->n[0],
@@ -62,7 +62,7 @@ static void make_points(struct patch *p)
     free(old);
 }
 
-void patch_prepare(struct patch *p)
+void patch_prepare(struct client_patch *p)
 {
     const size_t n = patch_size(p) * (size_t)p->ncomp;
     if (n == 0)
@@ -77,7 +77,7 @@ void patch_prepare(struct patch *p)
 }
 
 /* All cells at the time t, by Horner: there are fewer of them than of points that look. */
-static void move_to(const struct patch *p, double t)
+static void move_to(const struct client_patch *p, double t)
 {
     const size_t n = patch_size(p) * (size_t)p->ncomp;
     const double tau = t - p->t, *restrict v = p->v;
@@ -90,15 +90,15 @@ static void move_to(const struct patch *p, double t)
 }
 
 /* Nodes of a stencil along one direction: first node, weights and weights of the slope (1/m). */
-struct stencil {
+struct patch_stencil {
     int first, m;
     double w[WIDEST], d[WIDEST];
 };
 
-static const struct stencil one_cell = {.m = 1, .w = {1.0}};
+static const struct patch_stencil one_cell = {.m = 1, .w = {1.0}};
 
 /* Cubic Lagrange on nodes -1, 0, 1, 2 at s in their units. */
-static inline void cubic_weights(struct stencil *q, double s, double per_m)
+static inline void cubic_weights(struct patch_stencil *q, double s, double per_m)
 {
     const double a = s + 1.0, b = s, c = s - 1.0, e = s - 2.0;
     const double half = 0.5 * per_m, sixth = (1.0 / 6.0) * per_m;
@@ -114,8 +114,8 @@ static inline void cubic_weights(struct stencil *q, double s, double per_m)
 
 /* The place in its cell comes from the global index alone, so that all patches of a grid, whatever
  * their first cell, give the same bits. */
-static inline void stencil_at(const struct patch *p, int a, double per_m, double x,
-                              struct stencil *q)
+static inline void stencil_at(const struct client_patch *p, int a, double per_m, double x,
+                              struct patch_stencil *q)
 {
     const int n = p->n[a], lo = p->lo[a];
     /* in cells, 0 at the centre of the grid's first cell; huge and NaN places become places */
@@ -157,8 +157,8 @@ static inline void stencil_at(const struct patch *p, int a, double per_m, double
 
 /* One point: sums along x, then y, then z. ncomp, the stencil's width and grad are constants of the
  * callers, so that the inner loops unroll. */
-static inline __attribute__((always_inline)) void eval_point(const struct patch *p,
-                                                             const struct stencil q[3],
+static inline __attribute__((always_inline)) void eval_point(const struct client_patch *p,
+                                                             const struct patch_stencil q[3],
                                                              const int ncomp, const int mx,
                                                              double *v, double *grad)
 {
@@ -194,11 +194,12 @@ static inline __attribute__((always_inline)) void eval_point(const struct patch 
     }
 }
 
-typedef void point_body(const struct patch *p, const struct stencil q[3], double *v, double *grad);
+typedef void point_body(const struct client_patch *p, const struct patch_stencil q[3], double *v,
+                        double *grad);
 
 #define BODY(ncomp, mx)                                                                            \
-    static void point_##ncomp##_##mx(const struct patch *p, const struct stencil q[3], double *v,  \
-                                     double *grad)                                                 \
+    static void point_##ncomp##_##mx(const struct client_patch *p,                                 \
+                                     const struct patch_stencil q[3], double *v, double *grad)     \
     {                                                                                              \
         if (grad)                                                                                  \
             eval_point(p, q, ncomp, mx, v, grad);                                                  \
@@ -215,7 +216,8 @@ BODY(3, 4)
 BODY(4, 4)
 
 /* Any number of components, any width: one component at a time. */
-static void point_any(const struct patch *p, const struct stencil q[3], double *v, double *grad)
+static void point_any(const struct client_patch *p, const struct patch_stencil q[3], double *v,
+                      double *grad)
 {
     const size_t width = (size_t)p->ncomp;
     for (int a = 0; a < p->ncomp; a++) {
@@ -248,7 +250,8 @@ static point_body *body_of(int ncomp, int width)
     return width == 2 ? linear[ncomp - 1] : cubic[ncomp - 1];
 }
 
-void patch_eval(const struct patch *p, double t, long n, const double *x, double *v, double *grad)
+void patch_eval(const struct client_patch *p, double t, long n, const double *x, double *v,
+                double *grad)
 {
     const size_t nc = (size_t)p->ncomp;
     if (n <= 0)
@@ -262,7 +265,7 @@ void patch_eval(const struct patch *p, double t, long n, const double *x, double
     move_to(p, t);
     const int mx = p->n[0] < 2 ? 1 : p->cubic && p->n[0] >= 4 ? 4 : 2;
     point_body *const body = body_of(p->ncomp, mx);
-    struct stencil q[3] = {one_cell, one_cell, one_cell};
+    struct patch_stencil q[3] = {one_cell, one_cell, one_cell};
     double per_m[3];
     for (int a = 0; a < p->dim; a++)
         per_m[a] = 1.0 / p->spacing[a];

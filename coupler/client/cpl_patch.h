@@ -10,7 +10,7 @@
 
 #include "../cpl.h"
 
-struct patch {
+struct client_patch {
     int dim, ncomp;
     bool cubic;
     int lo[3], n[3];              /* first cell and number of cells; in 2D n[2] is 1 */
@@ -22,12 +22,13 @@ struct patch {
     double *now_at;
 };
 
-size_t patch_size(const struct patch *p); /* cells */
+size_t patch_size(const struct client_patch *p); /* cells */
 /* Once, after v is filled. Cubic: turns the cell averages in v into values at cell centres. */
-void patch_prepare(struct patch *p);
+void patch_prepare(struct client_patch *p);
 /* v[n ncomp], grad[n ncomp 3] (or NULL) at x[3 n] and time t. Outside the patch: as at its nearest
  * place. */
-void patch_eval(const struct patch *p, double t, long n, const double *x, double *v, double *grad);
-void patch_clear(struct patch *p); /* frees v, leaves an empty patch */
+void patch_eval(const struct client_patch *p, double t, long n, const double *x, double *v,
+                double *grad);
+void patch_clear(struct client_patch *p); /* frees v, leaves an empty patch */
 
 #endif

@@ -24,7 +24,7 @@ static void pack_targets(const struct cpl *c, const struct client_field *f, long
                          struct pack *p)
 {
     const struct client_set *s = &c->set[f->set];
-    const struct places *at = s->places;
+    const struct client_places *at = s->places;
     const bool all = f->how & CPL_CONSERVATIVE;
     pack_head(p)->count = all ? at->n : last - first;
     for (long i = all ? 0 : first; i < (all ? at->n : last); i++)
@@ -176,7 +176,7 @@ int cpl_get(struct cpl *c, int field, long n, double *v, unsigned char *mask)
 /* --- patches --- */
 
 static int take_patch(struct cpl *c, int field, int64_t tick, const double lo[3],
-                      const double hi[3], struct patch *q)
+                      const double hi[3], struct client_patch *q)
 {
     struct client_field *f = &c->field[field];
     const int to = c->rank % c->ncoupler;
@@ -192,7 +192,7 @@ static int take_patch(struct cpl *c, int field, int64_t tick, const double lo[3]
     struct message *m = client_await(c, WIRE_VALUES, field, tick, to, what);
     if (!m)
         return c->error;
-    *q = (struct patch){.dim = f->grid.dim, .ncomp = f->ncomp, .cubic = f->how == CPL_CUBIC};
+    *q = (struct client_patch){.dim = f->grid.dim, .ncomp = f->ncomp, .cubic = f->how == CPL_CUBIC};
     q->t = m->head.t;
     for (int a = 0; a < 3; a++) {
         q->lo[a] = (int)take_int(&c->wire, m);
@@ -209,7 +209,7 @@ static int take_patch(struct cpl *c, int field, int64_t tick, const double lo[3]
 }
 
 /* a's values at its time and b's at its own: a straight line. The same cells of both. */
-static void join_patches(struct patch *a, const struct patch *b)
+static void join_patches(struct client_patch *a, const struct client_patch *b)
 {
     const size_t n = CPL_TERMS * patch_size(a) * (size_t)a->ncomp;
     for (size_t i = 0; i < n; i += CPL_TERMS) {
@@ -227,7 +227,7 @@ int cpl_patch_get_at(struct cpl *c, int field, enum cpl_when when, const double 
         return code;
     struct client_field *f = &c->field[field];
     const int64_t tick = when == CPL_END ? c->window + 1 : c->window;
-    struct patch q = {0}, end = {0};
+    struct client_patch q = {0}, end = {0};
     code = take_patch(c, field, tick, lo, hi, &q);
     if (code == CPL_OK && when == CPL_BETWEEN)
         code = take_patch(c, field, tick + 1, lo, hi, &end);

@@ -19,13 +19,14 @@ void map_cloud_free(struct map_cloud *c)
     *c = (struct map_cloud){0};
 }
 
-struct place {
+struct near_place {
     int64_t gid;
     long i;
 };
 
 /* By gid; images of one point by place, and equal numbers too, whatever order they came in. */
-static bool before(const struct map_cloud *c, int dim, const struct place *a, const struct place *b)
+static bool before(const struct map_cloud *c, int dim, const struct near_place *a,
+                   const struct near_place *b)
 {
     if (a->gid != b->gid)
         return a->gid < b->gid;
@@ -36,8 +37,8 @@ static bool before(const struct map_cloud *c, int dim, const struct place *a, co
 }
 
 /* Merge sort: qsort has no argument for the cloud, and lists of ranks come presorted in pieces. */
-static void sort_places(const struct map_cloud *c, int dim, struct place *p, struct place *room,
-                        long n)
+static void sort_places(const struct map_cloud *c, int dim, struct near_place *p,
+                        struct near_place *room, long n)
 {
     for (long width = 1; width < n; width *= 2) {
         for (long lo = 0; lo < n; lo += 2 * width) {
@@ -51,7 +52,7 @@ static void sort_places(const struct map_cloud *c, int dim, struct place *p, str
     }
 }
 
-static void *reordered(const void *old, const struct place *p, long n, size_t size)
+static void *reordered(const void *old, const struct near_place *p, long n, size_t size)
 {
     unsigned char *out = mem_new((size_t)n, size);
     for (long i = 0; i < n; i++)
@@ -61,9 +62,9 @@ static void *reordered(const void *old, const struct place *p, long n, size_t si
 
 void near_sort(struct map_cloud *c, int dim, int ncomp)
 {
-    struct place *p = NEW(struct place, c->n), *room = NEW(struct place, c->n);
+    struct near_place *p = NEW(struct near_place, c->n), *room = NEW(struct near_place, c->n);
     for (long i = 0; i < c->n; i++)
-        p[i] = (struct place){.gid = c->gid[i], .i = i};
+        p[i] = (struct near_place){.gid = c->gid[i], .i = i};
     sort_places(c, dim, p, room, c->n);
     mem_free(room);
     struct map_cloud s = {.n = c->n,

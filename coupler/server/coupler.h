@@ -66,7 +66,7 @@ struct solver {
 };
 
 /* A field on its way from one solver to another: rendezvous.c. */
-struct link {
+struct partner_link {
     int giver, gfield, taker, tfield; /* solver and its field */
     bool from_grid;
     int ncomp, dim;
@@ -116,7 +116,7 @@ struct coupler {
     int nsolvers;
     struct solver solver[HANDSHAKE_PROGRAMS];
     int nlinks;
-    struct link link[LIMIT_LINKS];
+    struct partner_link link[LIMIT_LINKS];
     /* time: coupling step k of n spans k/n to (k+1)/n of the way from t_start to t_end */
     double t_start, t_end;
     int64_t nwindows, window, first_window; /* window: under way */
@@ -133,8 +133,8 @@ struct coupler {
         int64_t window;
         int n; /* solvers whose file is complete */
         char file[HANDSHAKE_PROGRAMS][SAVED_NAME];
-    } save[2], last;   /* last: the restart point before */
-    struct sums *sums; /* sums.c; NULL: nobody reports any */
+    } save[2], last;          /* last: the restart point before */
+    struct server_sums *sums; /* sums.c; NULL: nobody reports any */
 };
 
 /* One more problem in a list that all programs print. */

@@ -198,7 +198,7 @@ void plan_take_ready(struct coupler *c, struct solver *s, struct message *m)
     s->ready = true;
 }
 
-static void check_link(const struct link *l, const struct solver *g, const struct solver *t,
+static void check_link(const struct partner_link *l, const struct solver *g, const struct solver *t,
                        char *text)
 {
     const struct solver_field *give = &g->field[l->gfield], *take = &t->field[l->tfield];
@@ -266,22 +266,22 @@ static void make_link(struct coupler *c, int g, int gf, int t, int tf, char *tex
                 LIMIT_TAKERS, LIMIT_LINKS);
         return;
     }
-    struct link *l = &c->link[c->nlinks];
+    struct partner_link *l = &c->link[c->nlinks];
     const struct solver_set *from = &c->solver[g].set[give->set],
                             *to = &c->solver[t].set[take->set];
-    *l = (struct link){.giver = g,
-                       .gfield = gf,
-                       .taker = t,
-                       .tfield = tf,
-                       .from_grid = from->is_grid,
-                       .ncomp = give->ncomp,
-                       .dim = from->dim,
-                       .number = give->ntakers,
-                       .map = consistent(take->how),
-                       .deal = dealing(take->how),
-                       .grid = from->grid,
-                       .support = to->support,
-                       .asked_tick = -1};
+    *l = (struct partner_link){.giver = g,
+                               .gfield = gf,
+                               .taker = t,
+                               .tfield = tf,
+                               .from_grid = from->is_grid,
+                               .ncomp = give->ncomp,
+                               .dim = from->dim,
+                               .number = give->ntakers,
+                               .map = consistent(take->how),
+                               .deal = dealing(take->how),
+                               .grid = from->grid,
+                               .support = to->support,
+                               .asked_tick = -1};
     l->in[0].tick = l->in[1].tick = -1;
     find_period(c, from, to, l->period);
     check_link(l, &c->solver[g], &c->solver[t], text);
@@ -340,7 +340,7 @@ void plan_answer_ready(struct coupler *c, const char *text)
         pack_text(&p, text);
         for (int j = 0; j < s->nfields; j++) {
             const int k = s->field[j].link;
-            const struct link *l = k >= 0 ? &c->link[k] : NULL;
+            const struct partner_link *l = k >= 0 ? &c->link[k] : NULL;
             const struct cpl_grid none = {0};
             pack_text(&p, l ? c->solver[l->giver].name : "");
             pack_int(&p, l && l->from_grid);
@@ -351,7 +351,7 @@ void plan_answer_ready(struct coupler *c, const char *text)
     }
 }
 
-static const char *way_of(const struct link *l, int how)
+static const char *way_of(const struct partner_link *l, int how)
 {
     static const char *const grid[] = {"linear", "cubic"};
     static const char *const points[] = {"Shepard", "moving least squares", "nearest", "sum"};
@@ -364,7 +364,7 @@ static const char *way_of(const struct link *l, int how)
 void plan_describe(const struct coupler *c)
 {
     for (int i = 0; i < c->nlinks; i++) {
-        const struct link *l = &c->link[i];
+        const struct partner_link *l = &c->link[i];
         const struct solver_field *f = &c->solver[l->giver].field[l->gfield];
         const int how = c->solver[l->taker].field[l->tfield].how;
         log_say("  %-20s %s -> %s  %d x %s, %s", f->name, c->solver[l->giver].name,

@@ -17,16 +17,16 @@ static _Noreturn void not_planned(const struct solver *s, const struct message *
          m->head.field);
 }
 
-static struct link *link_of_taker(struct coupler *c, const struct solver *s,
-                                  const struct message *m)
+static struct partner_link *link_of_taker(struct coupler *c, const struct solver *s,
+                                          const struct message *m)
 {
     if (m->head.field < 0 || m->head.field >= s->nfields || s->field[m->head.field].link < 0)
         not_planned(s, m);
     return &c->link[s->field[m->head.field].link];
 }
 
-static struct link *link_of_giver(struct coupler *c, const struct solver *s,
-                                  const struct message *m)
+static struct partner_link *link_of_giver(struct coupler *c, const struct solver *s,
+                                          const struct message *m)
 {
     if (m->head.field < 0 || m->head.field >= s->nfields || m->head.taker < 0 ||
         m->head.taker >= s->field[m->head.field].ntakers)
@@ -37,7 +37,7 @@ static struct link *link_of_giver(struct coupler *c, const struct solver *s,
 void rendezvous_open(struct coupler *c)
 {
     for (int i = 0; i < c->nlinks; i++) {
-        struct link *l = &c->link[i];
+        struct partner_link *l = &c->link[i];
         const int takers = c->solver[l->taker].size, givers = c->solver[l->giver].size;
         l->asker = NEW(struct asker, takers);
         l->in[0].put = NEW(struct message *, givers);
@@ -47,7 +47,7 @@ void rendezvous_open(struct coupler *c)
     }
 }
 
-static void drop(const struct coupler *c, struct link *l, struct arrival *a)
+static void drop(const struct coupler *c, struct partner_link *l, struct arrival *a)
 {
     for (int r = 0; r < c->solver[l->giver].size; r++)
         message_free(&a->put[r]);
@@ -68,7 +68,7 @@ static void forget_targets(struct asker *a)
 void rendezvous_close(struct coupler *c)
 {
     for (int i = 0; i < c->nlinks; i++) {
-        struct link *l = &c->link[i];
+        struct partner_link *l = &c->link[i];
         if (!l->asker)
             continue; /* the plan was refused */
         for (int r = 0; r < c->solver[l->taker].size; r++)
@@ -84,7 +84,7 @@ void rendezvous_close(struct coupler *c)
 
 /* --- what is wanted --- */
 
-static long count_targets(const struct coupler *c, const struct link *l)
+static long count_targets(const struct coupler *c, const struct partner_link *l)
 {
     long n = 0;
     for (int r = 0; r < c->solver[l->taker].size; r++)
@@ -93,14 +93,15 @@ static long count_targets(const struct coupler *c, const struct link *l)
 }
 
 /* Of all targets, those that this rank maps: of a conservative mapping it knows the others, too. */
-static void own_share(const struct coupler *c, const struct link *l, long *first, long *last)
+static void own_share(const struct coupler *c, const struct partner_link *l, long *first,
+                      long *last)
 {
     const int64_t n = count_targets(c, l);
     *first = l->map ? 0 : (long)(n * c->rank / c->size);
     *last = l->map ? (long)n : (long)(n * (c->rank + 1) / c->size);
 }
 
-static double *all_targets(const struct coupler *c, const struct link *l, long n)
+static double *all_targets(const struct coupler *c, const struct partner_link *l, long n)
 {
     double *x = NEW(double, n * l->dim);
     long at = 0;
@@ -113,7 +114,7 @@ static double *all_targets(const struct coupler *c, const struct link *l, long n
     return x;
 }
 
-static struct region points_wanted(const struct coupler *c, const struct link *l, int slack)
+static struct region points_wanted(const struct coupler *c, const struct partner_link *l, int slack)
 {
     long first, last;
     own_share(c, l, &first, &last);
@@ -125,13 +126,13 @@ static struct region points_wanted(const struct coupler *c, const struct link *l
     return r;
 }
 
-static void box_of(const struct link *l, const struct asker *a, int lo[3], int hi[3])
+static void box_of(const struct partner_link *l, const struct asker *a, int lo[3], int hi[3])
 {
     const struct cpl_grid *g = &l->grid;
     region_cells(l->dim, g->origin, g->spacing, g->cells, g->periodic, a->lo, a->hi, lo, hi);
 }
 
-static struct region boxes_wanted(const struct coupler *c, const struct link *l, int slack)
+static struct region boxes_wanted(const struct coupler *c, const struct partner_link *l, int slack)
 {
     struct region r = {.dim = l->dim};
     r.box = wire_alloc((size_t)c->solver[l->taker].size * sizeof *r.box);
@@ -154,14 +155,14 @@ static struct region boxes_wanted(const struct coupler *c, const struct link *l,
     return r;
 }
 
-static struct region wanted(const struct coupler *c, const struct link *l, int slack)
+static struct region wanted(const struct coupler *c, const struct partner_link *l, int slack)
 {
     return l->from_grid ? boxes_wanted(c, l, slack) : points_wanted(c, l, slack);
 }
 
 /* Tells the giver what is wanted, if that is more than it knows. Sets that move get some slack, so
  * that it lasts. */
-static void announce(struct coupler *c, struct link *l)
+static void announce(struct coupler *c, struct partner_link *l)
 {
     const struct solver *g = &c->solver[l->giver];
     struct region exact = wanted(c, l, 0);
@@ -194,8 +195,8 @@ static const void *column(struct coupler *c, struct message *m, size_t width)
 }
 
 /* All that the giver's ranks have put, and its periodic images where somebody looks. */
-static struct map_cloud assemble(struct coupler *c, const struct link *l, const struct arrival *a,
-                                 long width)
+static struct map_cloud assemble(struct coupler *c, const struct partner_link *l,
+                                 const struct arrival *a, long width)
 {
     struct map_cloud s = {0};
     const size_t nd = (size_t)l->dim, nc = (size_t)width;
@@ -229,7 +230,7 @@ static struct map_cloud assemble(struct coupler *c, const struct link *l, const 
     return s;
 }
 
-static struct map_cloud target_cloud(const struct coupler *c, const struct link *l, long n)
+static struct map_cloud target_cloud(const struct coupler *c, const struct partner_link *l, long n)
 {
     struct map_cloud t = {.n = n, .x = all_targets(c, l, n)};
     long at = 0;
@@ -247,8 +248,8 @@ static struct map_cloud target_cloud(const struct coupler *c, const struct link 
 }
 
 /* v[last - first][width] and mask of the targets of this rank. */
-static void map_values(struct coupler *c, const struct link *l, const struct arrival *a, long width,
-                       long first, long last, double *v, unsigned char *mask)
+static void map_values(struct coupler *c, const struct partner_link *l, const struct arrival *a,
+                       long width, long first, long last, double *v, unsigned char *mask)
 {
     struct map_cloud cloud = assemble(c, l, a, width);
     if (l->map) {
@@ -266,7 +267,7 @@ static void map_values(struct coupler *c, const struct link *l, const struct arr
 }
 
 /* All ranks of a giver must speak alike. */
-static int terms_of(const struct coupler *c, const struct link *l, const struct arrival *a)
+static int terms_of(const struct coupler *c, const struct partner_link *l, const struct arrival *a)
 {
     const struct solver *g = &c->solver[l->giver];
     for (int r = 1; r < g->size; r++)
@@ -278,7 +279,7 @@ static int terms_of(const struct coupler *c, const struct link *l, const struct 
 }
 
 /* Without any target the answer is empty and needs nothing put. */
-static void answer_points(struct coupler *c, struct link *l, const struct arrival *a)
+static void answer_points(struct coupler *c, struct partner_link *l, const struct arrival *a)
 {
     long first, last, at = 0;
     own_share(c, l, &first, &last);
@@ -333,7 +334,8 @@ static int64_t paste(double *to, const int lo[3], const int hi[3], const double 
     return n;
 }
 
-static void answer_patch(struct coupler *c, struct link *l, const struct arrival *a, int asker)
+static void answer_patch(struct coupler *c, struct partner_link *l, const struct arrival *a,
+                         int asker)
 {
     int lo[3], hi[3];
     struct pack p;
@@ -368,7 +370,7 @@ static void answer_patch(struct coupler *c, struct link *l, const struct arrival
 }
 
 /* Nobody looks anywhere: no values are on their way. */
-static bool nothing_wanted(const struct coupler *c, const struct link *l)
+static bool nothing_wanted(const struct coupler *c, const struct partner_link *l)
 {
     int lo[3], hi[3];
     long first, last;
@@ -386,7 +388,7 @@ static bool nothing_wanted(const struct coupler *c, const struct link *l)
     return true;
 }
 
-static void try_answer(struct coupler *c, struct link *l)
+static void try_answer(struct coupler *c, struct partner_link *l)
 {
     const struct arrival *a = &l->in[l->asked_tick & 1];
     if (l->asked_tick < 0 || l->nasked < l->naskers)
@@ -409,7 +411,7 @@ static void try_answer(struct coupler *c, struct link *l)
     l->served++;
 }
 
-static void take_targets(struct coupler *c, const struct link *l, struct asker *a,
+static void take_targets(struct coupler *c, const struct partner_link *l, struct asker *a,
                          struct message *m)
 {
     const size_t n = (size_t)m->head.count, nd = (size_t)l->dim;
@@ -427,7 +429,7 @@ static void take_targets(struct coupler *c, const struct link *l, struct asker *
 
 void rendezvous_get(struct coupler *c, struct solver *s, struct message *m)
 {
-    struct link *l = link_of_taker(c, s, m);
+    struct partner_link *l = link_of_taker(c, s, m);
     struct asker *a = &l->asker[m->rank];
     if (a->asked || (l->asked_tick >= 0 && l->asked_tick != m->head.tick))
         fail("%s rank %d asks for %s at %lld while others wait for it at %lld", s->name, m->rank,
@@ -455,7 +457,7 @@ void rendezvous_get(struct coupler *c, struct solver *s, struct message *m)
 
 void rendezvous_put(struct coupler *c, struct solver *s, struct message **m)
 {
-    struct link *l = link_of_giver(c, s, *m);
+    struct partner_link *l = link_of_giver(c, s, *m);
     const int64_t tick = (*m)->head.tick;
     struct arrival *a = &l->in[tick & 1];
     if ((*m)->head.generation != l->generation)

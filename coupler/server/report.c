@@ -106,27 +106,28 @@ void report_progress(struct coupler *c)
 
 /* --- the end --- */
 
-struct norm {
+struct report_norm {
     char name[TOLD_KEY];
     double vol, e1, e2, r2, emax;
     double unit; /* of _rms and _linf, as the solvers have it; else that of the field */
 };
 
-static struct norm *norm_named(struct norm *all, int *n, const char *name, size_t length)
+static struct report_norm *norm_named(struct report_norm *all, int *n, const char *name,
+                                      size_t length)
 {
     for (int i = 0; i < *n; i++)
         if (strlen(all[i].name) == length && strncmp(all[i].name, name, length) == 0)
             return &all[i];
     if (*n == NORMS)
         return NULL;
-    struct norm *new = &all[(*n)++];
-    *new = (struct norm){.emax = -1.0, .unit = 1.0}; /* not told */
+    struct report_norm *new = &all[(*n)++];
+    *new = (struct report_norm){.emax = -1.0, .unit = 1.0}; /* not told */
     memcpy(new->name, name, length);
     return new;
 }
 
 /* "norm.velocity.e2" of all solvers. */
-static int add_norms(const struct coupler *c, struct norm *all)
+static int add_norms(const struct coupler *c, struct report_norm *all)
 {
     int n = 0;
     for (int i = 0; i < c->nsolvers; i++)
@@ -135,7 +136,7 @@ static int add_norms(const struct coupler *c, struct norm *all)
             const char *dot = strrchr(t->key, '.');
             if (!is_norm(t->key) || dot < t->key + 5)
                 continue;
-            struct norm *m = norm_named(all, &n, t->key + 5, (size_t)(dot - t->key - 5));
+            struct report_norm *m = norm_named(all, &n, t->key + 5, (size_t)(dot - t->key - 5));
             if (!m)
                 continue;
             m->vol += strcmp(dot, ".vol") == 0 ? t->value : 0.0;
@@ -161,10 +162,10 @@ static void put_number(struct summary *s, const char *group, const char *name, c
 /* Pressure of an incompressible flow is known up to a constant: its mean error does not count. */
 static void put_errors(const struct coupler *c, struct summary *s)
 {
-    struct norm all[NORMS];
+    struct report_norm all[NORMS];
     const int n = add_norms(c, all);
     for (int i = 0; i < n; i++) {
-        const struct norm *m = &all[i];
+        const struct report_norm *m = &all[i];
         if (strcmp(m->name, "pressure") == 0) {
             const double mean = m->e1 / m->vol;
             const double rms = sqrt(fmax(m->e2 / m->vol - mean * mean, 0.0));

@@ -13,7 +13,7 @@
 
 enum { KINETIC, POTENTIAL, ENSTROPHY, SIGNAL, WATER, SUMS }; /* WATER: where both have a surface */
 
-struct sums {
+struct server_sums {
     struct series *file;
     struct fit fit;
     double now[SUMS];
@@ -42,7 +42,7 @@ static bool add_up(const struct coupler *c, const char *key, double *sum)
 void sums_window(struct coupler *c)
 {
     const double t = window_start(c, c->window);
-    struct sums *s = c->sums;
+    struct server_sums *s = c->sums;
     double row[1 + SUMS] = {t};
     int n = 0;
     while (n < SUMS && add_up(c, keys[n], row + 1 + n))
@@ -52,7 +52,7 @@ void sums_window(struct coupler *c)
     if (!s) {
         char path[1100];
         snprintf(path, sizeof path, "%s/series.csv", c->dir);
-        s = c->sums = NEW(struct sums, 1);
+        s = c->sums = NEW(struct server_sums, 1);
         s->file = series_create(path, 1 + n, columns, c->command->restart,
                                 window_start(c, c->window - 1));
     }

@@ -15,10 +15,10 @@ void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *
 }
 
 /* The link on which a solver waits for values that have not been put; NULL: it does not wait. */
-static const struct link *missing(const struct coupler *c, int solver)
+static const struct partner_link *missing(const struct coupler *c, int solver)
 {
     for (int i = 0; i < c->nlinks; i++) {
-        const struct link *l = &c->link[i];
+        const struct partner_link *l = &c->link[i];
         if (l->taker == solver && l->asker[0].asked &&
             c->solver[l->giver].field[l->gfield].last_tick < l->asked_tick)
             return l;
@@ -28,7 +28,7 @@ static const struct link *missing(const struct coupler *c, int solver)
 
 static bool waits_in_a_circle(const struct coupler *c, int solver, char *text)
 {
-    const struct link *l = missing(c, solver);
+    const struct partner_link *l = missing(c, solver);
     int steps = 0;
     while (l && l->giver != solver && steps++ < c->nsolvers)
         l = missing(c, l->giver);
@@ -46,7 +46,7 @@ static bool waits_in_a_circle(const struct coupler *c, int solver, char *text)
 bool rendezvous_starved(const struct coupler *c, char *text)
 {
     for (int i = 0; i < c->nsolvers; i++) {
-        const struct link *l = missing(c, i);
+        const struct partner_link *l = missing(c, i);
         if (l && c->solver[l->giver].advanced == c->window) {
             problem(text, "%s waits for %s, but %s has ended coupling step %lld without giving it",
                     c->solver[i].name, c->solver[i].field[l->tfield].name, c->solver[l->giver].name,
@@ -62,7 +62,7 @@ bool rendezvous_starved(const struct coupler *c, char *text)
 bool rendezvous_skipped(const struct coupler *c, char *text)
 {
     for (int i = 0; i < c->nlinks; i++) {
-        const struct link *l = &c->link[i];
+        const struct partner_link *l = &c->link[i];
         const struct solver *g = &c->solver[l->giver];
         if (l->asked_tick < 0 || l->nasked < l->naskers)
             continue;
@@ -85,7 +85,7 @@ bool rendezvous_skipped(const struct coupler *c, char *text)
 void rendezvous_waiting(const struct coupler *c, char *text)
 {
     for (int i = 0; i < c->nlinks; i++) {
-        const struct link *l = &c->link[i];
+        const struct partner_link *l = &c->link[i];
         if (l->nasked > 0)
             problem(text, "  %s waits for %s of %s", c->solver[l->taker].name,
                     c->solver[l->taker].field[l->tfield].name, c->solver[l->giver].name);

@@ -8,7 +8,7 @@
 #include "../../common/base/mem.h"
 
 /* Boxes of this width that hold everything up to hi; their number along each axis. */
-static double count(const struct bins *b, const double *hi, int n[3])
+static double count(const struct body_bins *b, const double *hi, int n[3])
 {
     double all = 1.0;
     for (int a = 0; a < 3; a++) {
@@ -19,7 +19,7 @@ static double count(const struct bins *b, const double *hi, int n[3])
     return all;
 }
 
-static int box_of(const struct bins *b, const double *x)
+static int box_of(const struct body_bins *b, const double *x)
 {
     int at = 0;
     for (int a = b->dim - 1; a >= 0; a--)
@@ -27,9 +27,9 @@ static int box_of(const struct bins *b, const double *x)
     return at;
 }
 
-struct bins bins_create(int dim, int n, const double *x, size_t stride, double reach)
+struct body_bins bins_create(int dim, int n, const double *x, size_t stride, double reach)
 {
-    struct bins b = {.dim = dim, .width = reach, .n = {1, 1, 1}};
+    struct body_bins b = {.dim = dim, .width = reach, .n = {1, 1, 1}};
     double hi[3] = {0.0, 0.0, 0.0};
     for (int k = 0; k < n; k++)
         for (int a = 0; a < dim; a++) {
@@ -55,13 +55,13 @@ struct bins bins_create(int dim, int n, const double *x, size_t stride, double r
     return b;
 }
 
-void bins_free(struct bins *b)
+void bins_free(struct body_bins *b)
 {
     mem_free(b->start);
     mem_free(b->who);
 }
 
-int bins_near(const struct bins *b, const double *x, struct bins_run run[BINS_RUNS])
+int bins_near(const struct body_bins *b, const double *x, struct bins_run run[BINS_RUNS])
 {
     int lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0}, n = 0;
     for (int a = 0; a < b->dim; a++) {

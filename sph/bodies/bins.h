@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-struct bins {
+struct body_bins {
     int dim, n[3];    /* boxes along each axis */
     double lo[3];     /* m: corner of the first */
     double width;     /* m: edge of a box */
@@ -20,9 +20,9 @@ enum { BINS_RUNS = 9 };
 
 /* n places, the first at x, each `stride' doubles after the one before; boxes at least `reach'
  * wide, wider where they would outnumber the places by far. */
-struct bins bins_create(int dim, int n, const double *x, size_t stride, double reach);
-void bins_free(struct bins *b);
+struct body_bins bins_create(int dim, int n, const double *x, size_t stride, double reach);
+void bins_free(struct body_bins *b);
 /* Runs of all places that may lie within reach of x (and others); how many, at most BINS_RUNS. */
-int bins_near(const struct bins *b, const double *x, struct bins_run run[BINS_RUNS]);
+int bins_near(const struct body_bins *b, const double *x, struct bins_run run[BINS_RUNS]);
 
 #endif

@@ -18,7 +18,7 @@ struct said {
 enum { SAID = sizeof(struct said) / sizeof(double) };
 
 /* Points of a body's surface, dx/2 of the finest level apart or closer. */
-struct node {
+struct average_node {
     double x[3], n[3], u[3], du[3], area; /* area: 2D length */
     bool no_slip;
     struct said said;
@@ -26,17 +26,17 @@ struct node {
 
 struct nodes {
     int n, capacity;
-    struct node *node;
+    struct average_node *node;
 };
 
-static struct node *add_node(struct nodes *to)
+static struct average_node *add_node(struct nodes *to)
 {
     if (to->n == to->capacity) {
         const int more = 2 * to->capacity + 256;
         GROW(to->node, to->capacity, more);
         to->capacity = more;
     }
-    struct node *d = to->node + to->n++;
+    struct average_node *d = to->node + to->n++;
     memset(d, 0, sizeof *d);
     return d;
 }
@@ -52,7 +52,7 @@ static void lay_segment(const struct sph *s, const struct segment *g, struct nod
 {
     const int pieces = (int)ceil(g->length / distance_of_nodes(s));
     for (int i = 0; i < pieces; i++) {
-        struct node *d = add_node(to);
+        struct average_node *d = add_node(to);
         for (int a = 0; a < 2; a++) {
             d->x[a] = g->a[a] + (i + 0.5) / pieces * g->length * g->t[a];
             d->n[a] = g->n[a];
@@ -82,7 +82,7 @@ static void lay_part(const struct sph *s, const struct wall_mesh *m, const doubl
         lay_part(s, m, (const double *const[3]){mid, before, apex}, n, to);
         return;
     }
-    struct node *d = add_node(to);
+    struct average_node *d = add_node(to);
     double own[3], twice[3];
     for (int c = 0; c < 3; c++)
         own[c] = (v[0][c] + v[1][c] + v[2][c]) / 3.0;
@@ -129,7 +129,7 @@ static double carried_pressure(const struct sph *s, const double *q, const doubl
     return s->surface ? fmax(p + rho * more, fmin(p, 0.0)) : p + rho * more;
 }
 
-static void ask_particle(const struct sph *s, int i, struct node *d)
+static void ask_particle(const struct sph *s, int i, struct average_node *d)
 {
     const int dim = s->dim;
     const double *q = prim_line(&s->p, i), *u = q + dim;
@@ -159,7 +159,7 @@ static void ask_all(const struct sph *s, struct nodes *nodes)
 {
     if (nodes->n == 0)
         return;
-    struct bins bins =
+    struct body_bins bins =
         bins_create(s->dim, nodes->n, nodes->node->x, sizeof *nodes->node / sizeof(double), s->R);
     struct bins_run run[BINS_RUNS];
     for (int i = 0; i < s->p.n; i++) {
@@ -183,7 +183,7 @@ static void sum_over_ranks(const struct sph *s, struct nodes *nodes)
 }
 
 /* A wet plane has W = 1/2; of few particles the sum is theirs. */
-static void add_force(const struct sph *s, const struct body *b, const struct node *d,
+static void add_force(const struct sph *s, const struct body *b, const struct average_node *d,
                       struct force *to)
 {
     double f[3] = {0.0}, arm[3] = {0.0}, moment[3];

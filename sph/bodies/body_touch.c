@@ -6,13 +6,13 @@
 #include "../../common/base/mem.h"
 #include "../../common/geometry/body_math.h"
 
-struct box {
+struct touch_box {
     double lo[2], hi[2];
 };
 
-static struct box box_of(const struct walls *w, int first, int n, double more)
+static struct touch_box box_of(const struct walls *w, int first, int n, double more)
 {
-    struct box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    struct touch_box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     for (int k = first; k < first + n; k++)
         for (int a = 0; a < 2; a++) {
             b.lo[a] = fmin(b.lo[a], w->segments[k].a[a] - more);
@@ -21,7 +21,7 @@ static struct box box_of(const struct walls *w, int first, int n, double more)
     return b;
 }
 
-static bool meets(const struct box *b, const struct segment *g)
+static bool meets(const struct touch_box *b, const struct segment *g)
 {
     bool any = true;
     for (int a = 0; a < 2; a++)
@@ -29,7 +29,7 @@ static bool meets(const struct box *b, const struct segment *g)
     return any;
 }
 
-static bool holds(const struct box *b, const double *x)
+static bool holds(const struct touch_box *b, const double *x)
 {
     return x[0] >= b->lo[0] && x[0] <= b->hi[0] && x[1] >= b->lo[1] && x[1] <= b->hi[1];
 }
@@ -120,8 +120,8 @@ bool pair_is_held(const struct walls *w, const struct pair *p, const double *x, 
 }
 
 /* Corners of one line that are nearer to the other than gap. */
-static void find_corners(const struct walls *w, struct pair *p, const struct box *near, double gap,
-                         bool mine)
+static void find_corners(const struct walls *w, struct pair *p, const struct touch_box *near,
+                         double gap, bool mine)
 {
     const int of = mine ? p->a : p->b, against = mine ? p->b : p->a;
     int first, end;
@@ -141,7 +141,7 @@ static void find_corners(const struct walls *w, struct pair *p, const struct box
 }
 
 /* Whether anything of b comes near a's box. */
-static bool any_near(const struct walls *w, const struct pair *p, const struct box *near)
+static bool any_near(const struct walls *w, const struct pair *p, const struct touch_box *near)
 {
     int first, end;
     bool any = false;
@@ -153,8 +153,8 @@ static bool any_near(const struct walls *w, const struct pair *p, const struct b
 
 void pair_find2(const struct walls *w, struct pair *p, double gap)
 {
-    const struct box everywhere = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
-    const struct box near = box_of(w, w->bodies[p->a].first, w->bodies[p->a].n, gap);
+    const struct touch_box everywhere = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
+    const struct touch_box near = box_of(w, w->bodies[p->a].first, w->bodies[p->a].n, gap);
     if (!any_near(w, p, &near))
         return;
     find_corners(w, p, &everywhere, gap, true);

@@ -29,7 +29,7 @@ struct basin_run {
     double level;
 };
 
-struct link {
+struct basin_link {
     int run[2];
     double width; /* cells through which they touch */
 };
@@ -44,7 +44,7 @@ struct basins {
     int columns, nruns, *start; /* runs of column c: start[c] .. start[c + 1] - 1 */
     struct basin_run *runs;
     int nlinks;
-    struct link *links;
+    struct basin_link *links;
     int pockets, waters, wet, dry;
     int64_t lost;
     double where[3];
@@ -176,7 +176,7 @@ static void link_runs(struct basins *b, int r, int q, int column, int beside)
         return;
     if (b->nlinks % 256 == 0)
         GROW(b->links, b->nlinks, b->nlinks + 256);
-    b->links[b->nlinks++] = (struct link){{r, q}, width};
+    b->links[b->nlinks++] = (struct basin_link){{r, q}, width};
 }
 
 /* Runs of two columns side by side that touch. */

@@ -38,7 +38,7 @@ static double random_of(int64_t id, int axis)
  * in rows of equal heights, so that all particles have one volume and lie as a wave moves them. A
  * staircase of whole rows had a wave of 1.3 dx a tenth too low; upright columns whose volumes
  * differ are evened out by shifting, which fed a wave of k a = 0.13 tenfold in two periods. */
-struct columns {
+struct fill_columns {
     int n;
     double *x, *height; /* m: middle; of a row over dx. NULL: the plain lattice */
     double volume;      /* of a particle, dx^D */
@@ -67,9 +67,10 @@ static double mean_depth(const struct sph *s, const struct exact *e, int strips)
     return drawn && sum > 2.0 * s->dx ? sum : 0.0;
 }
 
-static struct columns columns_create(const struct sph *s, const struct exact *e)
+static struct fill_columns columns_create(const struct sph *s, const struct exact *e)
 {
-    struct columns c = {.n = (int)first_lattice_cells(s->lo[0], s->hi[0], s->dx), .volume = 1.0};
+    struct fill_columns c = {.n = (int)first_lattice_cells(s->lo[0], s->hi[0], s->dx),
+                             .volume = 1.0};
     const int strips = FINE * c.n;
     const double mean = mean_depth(s, e, strips), rows = round(mean / s->dx);
     double x, sum = 0.0;
@@ -90,7 +91,7 @@ static struct columns columns_create(const struct sph *s, const struct exact *e)
     return c;
 }
 
-static void columns_free(struct columns *c)
+static void columns_free(struct fill_columns *c)
 {
     mem_free(c->x);
     mem_free(c->height);
@@ -99,7 +100,7 @@ static void columns_free(struct columns *c)
 /* What the cells are looked through with. */
 struct look {
     struct exact exact;
-    struct columns columns;
+    struct fill_columns columns;
     bool rows;  /* that end at the surface; surface_rows.h */
     bool drawn; /* some shape has an extent of its own */
     /* cells with fluid by the shapes that have an extent of their own, without such by all; of
@@ -111,7 +112,7 @@ struct look {
 static double displace(const struct sph *s, const struct look *look, int64_t cell,
                        const double *centre, double *x)
 {
-    const struct columns *c = &look->columns;
+    const struct fill_columns *c = &look->columns;
     const int i = (int)floor((centre[0] - s->lo[0]) / s->dx);
     memcpy(x, centre, 3 * sizeof *x);
     if (look->rows)
@@ -422,7 +423,7 @@ void fill_finer(struct sph *s, const struct fill *f)
     }
     /* Gaps are at walls, or between families of displaced mothers, twice as wide for each level. */
     const bool gaps = s->walls || (s->prm.noise > 0.0 && s->finer->finer);
-    struct columns c = columns_create(s, &e);
+    struct fill_columns c = columns_create(s, &e);
     const bool rows = surface_rows_wanted(s), packed = s->prm.packing > 0;
     refinement_begin(s, rows || (packed && gaps) ? settle : NULL);
     for (struct sph *q = s->finer; q; q = q->finer)

@@ -115,13 +115,13 @@ static int leaves_by(const struct scene *c, struct parcel *p, const double *g, d
 
 /* Places of a lattice of dx in the domain, at most so many, evenly among all; whether there is
  * water at the k-th, and how it starts. */
-struct places {
+struct fall_places {
     int64_t all[3], step, n;
 };
 
-static struct places places_of(const struct scene *c, double dx)
+static struct fall_places places_of(const struct scene *c, double dx)
 {
-    struct places p = {.all = {1, 1, 1}};
+    struct fall_places p = {.all = {1, 1, 1}};
     for (int a = 0; a < c->domain.dim; a++)
         p.all[a] = (int64_t)fmax(1.0, ceil((c->domain.max[a] - c->domain.min[a]) / dx - 1e-6));
     const int64_t all = p.all[0] * p.all[1] * p.all[2];
@@ -130,7 +130,7 @@ static struct places places_of(const struct scene *c, double dx)
     return p;
 }
 
-static bool start_at(const struct scene *c, const struct exact *e, const struct places *of,
+static bool start_at(const struct scene *c, const struct exact *e, const struct fall_places *of,
                      int64_t k, struct parcel *p)
 {
     int64_t cell = k * of->step;
@@ -155,7 +155,7 @@ void sph_falls_warn(const struct run *r, const struct sph_params *used)
     static const char *const names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     const struct scene *c = &r->scene;
     const struct exact e = exact_create(c);
-    const struct places of = places_of(c, used->dx);
+    const struct fall_places of = places_of(c, used->dx);
     struct parcel p;
     double g[3];
     int64_t water = 0, flown = 0, out[6] = {0}, lost = 0;

@@ -198,7 +198,7 @@ static bool has_nfm(const struct scene *c, const struct sph_params *prm)
 /* Length of the stable part of the negative axis, over that of RK4. */
 static double viscous_axis(const struct sph_params *prm)
 {
-    const struct stages *rk4 = stages_of(INTEGRATOR_RK4, prm->scheme);
+    const struct rk_stages *rk4 = stages_of(INTEGRATOR_RK4, prm->scheme);
     return stages_of(prm->integrator, prm->scheme)->real_axis / rk4->real_axis;
 }
 

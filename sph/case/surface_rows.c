@@ -23,17 +23,17 @@
 enum { ROWS = 8 };
 
 /* What shapes and walls have at a place. */
-struct water {
+struct rows_water {
     const struct sph *s;
     const struct exact *e;
 };
 
-static bool has_fluid(const struct water *w, const double *x)
+static bool has_fluid(const struct rows_water *w, const double *x)
 {
     return scene_is_fluid(&w->s->run->scene, w->e, x, NULL);
 }
 
-static bool has_walls(const struct water *w, const double *x)
+static bool has_walls(const struct rows_water *w, const double *x)
 {
     for (int a = 0; a < w->s->dim; a++)
         if (x[a] <= w->s->lo[a] || x[a] >= w->s->hi[a])
@@ -42,13 +42,13 @@ static bool has_walls(const struct water *w, const double *x)
            !(scene_in_tanks(&w->s->run->scene, x) && scene_is_room(&w->s->run->scene, x));
 }
 
-static bool is_wet(const struct water *w, const double *x)
+static bool is_wet(const struct rows_water *w, const double *x)
 {
     return has_fluid(w, x) && !has_walls(w, x);
 }
 
 /* Along an axis between x, which is wet, and x + reach, which is not: how far the fluid goes, m. */
-static double find_end(const struct water *w, const double *x, int axis, double reach)
+static double find_end(const struct rows_water *w, const double *x, int axis, double reach)
 {
     double lo = 0.0, hi = reach;
     for (int k = 0; k < 48; k++) {
@@ -60,7 +60,7 @@ static double find_end(const struct water *w, const double *x, int axis, double 
 }
 
 /* Whether the fluid ends at x + way in air. */
-static bool is_free(const struct water *w, const double *x, int axis, double way)
+static bool is_free(const struct rows_water *w, const double *x, int axis, double way)
 {
     double y[3] = {x[0], x[1], x[2]};
     y[axis] += way + copysign(1e-6 * w->s->dx, way);
@@ -68,7 +68,7 @@ static bool is_free(const struct water *w, const double *x, int axis, double way
 }
 
 /* Where the surface is one row aside, from x, m; NAN: none within 2 dx. */
-static double end_aside(const struct water *w, const double *x, int axis, double sign)
+static double end_aside(const struct rows_water *w, const double *x, int axis, double sign)
 {
     const double far = 2.0 * sign * w->s->dx;
     double from[3] = {x[0], x[1], x[2]}, to[3] = {x[0], x[1], x[2]};
@@ -79,7 +79,7 @@ static double end_aside(const struct water *w, const double *x, int axis, double
 
 /* Whether rows along this axis are fitted to the surface that is b from the last centre x: it is
  * inclined to them, by no more than to the other axes. */
-static bool is_inclined(const struct water *w, const double *x, int axis, double b)
+static bool is_inclined(const struct rows_water *w, const double *x, int axis, double b)
 {
     const double dx = w->s->dx, sign = b > 0.0 ? 1.0 : -1.0, even = 1e-6;
     bool inclined = false;
@@ -104,7 +104,8 @@ static bool is_inclined(const struct water *w, const double *x, int axis, double
 }
 
 /* Wet cells beyond the one at x on this way, `most' at most. */
-static int count_beyond(const struct water *w, const double *x, int axis, double step, int most)
+static int count_beyond(const struct rows_water *w, const double *x, int axis, double step,
+                        int most)
 {
     int n = 0;
     for (double y[3] = {x[0], x[1], x[2]}; n < most; n++) {
@@ -116,7 +117,8 @@ static int count_beyond(const struct water *w, const double *x, int axis, double
 }
 
 /* How far the last face of a row, n cells beyond the one at x, has to move to be the surface. */
-static double shift_of_end(const struct water *w, const double *x, int axis, double step, int n)
+static double shift_of_end(const struct rows_water *w, const double *x, int axis, double step,
+                           int n)
 {
     double last[3] = {x[0], x[1], x[2]};
     last[axis] += n * step;
@@ -147,7 +149,7 @@ bool surface_rows_wanted(const struct sph *s)
 double surface_rows_shift(const struct sph *s, const struct exact *e, const double *x, int axis,
                           int sign)
 {
-    const struct water w = {s, e};
+    const struct rows_water w = {s, e};
     double beyond[3] = {x[0], x[1], x[2]};
     beyond[axis] += sign * s->dx;
     return is_wet(&w, x) && !is_wet(&w, beyond) ? shift_of_end(&w, x, axis, sign * s->dx, 0) : 0.0;
@@ -155,7 +157,7 @@ double surface_rows_shift(const struct sph *s, const struct exact *e, const doub
 
 double surface_rows_place(const struct sph *s, const struct exact *e, double *x)
 {
-    const struct water w = {s, e};
+    const struct rows_water w = {s, e};
     const double centre[3] = {x[0], x[1], x[2]};
     double volume = 1.0;
     if (!is_wet(&w, centre))
@@ -181,7 +183,7 @@ double surface_rows_place(const struct sph *s, const struct exact *e, double *x)
 /* --- finer levels --- */
 
 /* Whether rows of the next coarser level are moved here. */
-static bool is_near(const struct water *coarser, const double *x)
+static bool is_near(const struct rows_water *coarser, const double *x)
 {
     const double dx = coarser->s->dx;
     if (!is_wet(coarser, x))
@@ -197,7 +199,7 @@ static bool is_near(const struct water *coarser, const double *x)
     return false;
 }
 
-static void remove_near(struct sph *s, const struct water *coarser)
+static void remove_near(struct sph *s, const struct rows_water *coarser)
 {
     for (int i = 0; i < s->p.n;) {
         double x[3] = {0.0, 0.0, 0.0};
@@ -209,7 +211,7 @@ static void remove_near(struct sph *s, const struct water *coarser)
     }
 }
 
-static void add_at(struct sph *s, const struct water *w, const double *centre)
+static void add_at(struct sph *s, const struct rows_water *w, const double *centre)
 {
     double x[3] = {centre[0], centre[1], centre[2]};
     const double volume = surface_rows_place(s, w->e, x);
@@ -224,7 +226,7 @@ static void add_at(struct sph *s, const struct water *w, const double *centre)
 struct renewal {
     struct sph *s;
     const struct regions *regions;
-    struct water own, coarser;
+    struct rows_water own, coarser;
     double lo[3], hi[3]; /* m: of this rank's part */
 };
 

@@ -42,19 +42,19 @@ static double count(int dim, double dx, const double *lo, const double *hi, test
     return found;
 }
 
-struct water {
+struct box_water {
     const struct scene *scene;
     double dx;
     struct exact exact;
     double given[2][3], hidden[2][3]; /* what SPH gives, and of it what fv does not look at */
 };
 
-static bool is_wet(const struct water *w, const double *x)
+static bool is_wet(const struct box_water *w, const double *x)
 {
     return scene_is_fluid(w->scene, &w->exact, x, NULL);
 }
 
-static bool is_inside(const struct water *w, const double box[2][3], const double *x)
+static bool is_inside(const struct box_water *w, const double box[2][3], const double *x)
 {
     bool inside = true;
     for (int a = 0; a < w->scene->domain.dim; a++)
@@ -64,13 +64,13 @@ static bool is_inside(const struct water *w, const double box[2][3], const doubl
 
 static bool dry_outside(const void *ctx, const double *x)
 {
-    const struct water *w = ctx;
+    const struct box_water *w = ctx;
     return !is_inside(w, w->given, x) && !is_wet(w, x);
 }
 
 static bool in_edge(const void *ctx, const double *x)
 {
-    const struct water *w = ctx;
+    const struct box_water *w = ctx;
     return is_inside(w, w->given, x) && !is_inside(w, w->hidden, x);
 }
 
@@ -83,7 +83,7 @@ static bool wet(const void *ctx, const double *x) { return is_wet(ctx, x); }
 
 /* FV's flow has no surface: all that SPH does not give must be water at the start, and most of what
  * FV takes from it; the troughs of steep waves may reach there. */
-static void check_water(const struct run *r, const struct water *w, struct faults *f)
+static void check_water(const struct run *r, const struct box_water *w, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
     const double dx = w->dx;
@@ -104,7 +104,7 @@ static void check_water(const struct run *r, const struct water *w, struct fault
 }
 
 /* Where the box reaches the domain's side, SPH ends: at a wall, or above the water. */
-static void check_side(const struct run *r, const struct sph_params *prm, const struct water *w,
+static void check_side(const struct run *r, const struct sph_params *prm, const struct box_water *w,
                        int side, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -233,7 +233,7 @@ static void check_several(const struct run *r, const struct sph_params *prm, str
 }
 
 /* Whether transition, buffer and overlap leave anything of sph.box. */
-static bool gives(const struct run *r, const struct sph_params *prm, const struct water *w,
+static bool gives(const struct run *r, const struct sph_params *prm, const struct box_water *w,
                   struct faults *f)
 {
     for (int a = 0; a < r->scene.domain.dim; a++) {
@@ -263,8 +263,8 @@ static bool has_outlet(const struct scene *c, int a, int up)
 
 /* What sph gives from wall to wall cuts fv's flow in two. One without an outlet knows neither its
  * level of pressure nor where what sph gives too much is to go: the projection has no solution. */
-static void check_parted(const struct run *r, const struct sph_params *prm, const struct water *w,
-                         struct faults *f)
+static void check_parted(const struct run *r, const struct sph_params *prm,
+                         const struct box_water *w, struct faults *f)
 {
     const struct scene *c = &r->scene;
     const struct scene_domain *d = &c->domain;
@@ -295,7 +295,7 @@ void coupling_check(const struct run *r, const struct sph_params *prm, struct fa
                      "it smaller than the domain, or leave out group fv");
         return;
     }
-    struct water w = {.scene = &r->scene, .dx = prm->dx, .exact = exact_create(&r->scene)};
+    struct box_water w = {.scene = &r->scene, .dx = prm->dx, .exact = exact_create(&r->scene)};
     zones_given_box(r, prm, w.given[0], w.given[1]);
     coupling_hidden(r, prm, w.hidden);
     for (int side = 0; side < 2 * r->scene.domain.dim; side++)

@@ -23,7 +23,7 @@
 #include "windows.h"
 
 /* Ids of the sets and fields, and scratch for what is sent. */
-struct link {
+struct sph_link {
     struct cpl *c;
     int dim, particles, velocity, pressure, patch_velocity, patch_pressure;
     int budget, water;  /* one point, at the free zone's corner; wet_faces_water */
@@ -34,7 +34,7 @@ struct link {
     int capacity;
 };
 
-static void check(const struct link *k, int code)
+static void check(const struct sph_link *k, int code)
 {
     if (code == CPL_EPARTNER || code == CPL_EINPUT) {
         signals_handled(); /* cpl_fail says it */
@@ -80,20 +80,20 @@ void coupling_offer(struct run *r, const struct sph_params *prm)
 static void eval_patch(void *ctx, double t, int n, const double *x, double *u, double *p,
                        double *gu, double *gp)
 {
-    const struct link *k = ctx;
+    const struct sph_link *k = ctx;
     cpl_patch_eval(k->c, k->patch_velocity, t, n, x, u, gu);
     cpl_patch_eval(k->c, k->patch_pressure, t, n, x, p, gp);
 }
 
 static void eval_surface(void *ctx, double t, int n, const double *x, double *phi, double *gphi)
 {
-    const struct link *k = ctx;
+    const struct sph_link *k = ctx;
     cpl_patch_eval(k->c, k->patch_phi, t, n, x, phi, gphi);
 }
 
 void sph_coupling_create(struct sph *s)
 {
-    struct link *k = NEW(struct link, 1);
+    struct sph_link *k = NEW(struct sph_link, 1);
     const int how = s->run->scene.coupling.interpolation ? CPL_CUBIC : CPL_LINEAR;
     k->c = s->run->partner_ctx;
     k->dim = s->dim;
@@ -126,7 +126,7 @@ void sph_coupling_create(struct sph *s)
 
 void sph_coupling_free(struct sph *s)
 {
-    struct link *k = s->zones->ctx;
+    struct sph_link *k = s->zones->ctx;
     overlap_free(&s->zones->watched);
     mem_free(k->x);
     mem_free(k->u);
@@ -150,7 +150,7 @@ static double looks_beyond(const struct sph *s, int a, double T)
 /* All ranks know the surface around the whole region: faces and probes are everybody's. */
 static void take_surface(struct sph *s, double T)
 {
-    const struct link *k = s->zones->ctx;
+    const struct sph_link *k = s->zones->ctx;
     double lo[3], hi[3];
     for (int a = 0; a < 3; a++) {
         lo[a] = s->lo[a] - looks_beyond(s, a, T);
@@ -166,7 +166,7 @@ static void take_surface(struct sph *s, double T)
 void sph_coupling_window_begin(void *state, double t0, double t1)
 {
     struct sph *s = state;
-    const struct link *k = s->zones->ctx;
+    const struct sph_link *k = s->zones->ctx;
     double lo[3], hi[3];
     zones_counted_box(s->run, &s->prm, s->zones->way, s->zones->counted[0], s->zones->counted[1]);
     domain_bounds(s->domain, lo, hi);
@@ -182,7 +182,7 @@ void sph_coupling_window_begin(void *state, double t0, double t1)
     overlap_look(s);
 }
 
-static void room(struct link *k, int n)
+static void room(struct sph_link *k, int n)
 {
     if (n <= k->capacity)
         return;
@@ -209,7 +209,7 @@ static double into_domain(const struct sph *s, int a, double x)
 /* A point and a value that one rank has. */
 static void give_one(struct sph *s, int set, int field, double t, const double *value)
 {
-    struct link *k = s->zones->ctx;
+    struct sph_link *k = s->zones->ctx;
     const double start[3] = {0.0, 0.0, 0.0};
     const int mine = s->run->rank == 0 ? 1 : 0;
     const int64_t id = 0;
@@ -221,7 +221,7 @@ static void give_one(struct sph *s, int set, int field, double t, const double *
 /* How far the box has moved, and what of it will be counted as SPH's water in the next window. */
 static void give_way(struct sph *s, double t)
 {
-    const struct link *k = s->zones->ctx;
+    const struct sph_link *k = s->zones->ctx;
     double v[9];
     memcpy(v, s->zones->way, 3 * sizeof *v);
     zones_counted_box(s->run, &s->prm, v, v + 3, v + 6);
@@ -231,7 +231,7 @@ static void give_way(struct sph *s, double t)
 /* Where the n particles are that are given: ones; and how much water the free zone holds. */
 static void give_surface(struct sph *s, int n, double t)
 {
-    const struct link *k = s->zones->ctx;
+    const struct sph_link *k = s->zones->ctx;
     double water[2];
     wet_faces_water(s, water);
     check(k, cpl_put(k->c, k->one, t, n, k->ones, NULL));
@@ -243,7 +243,7 @@ static void give_surface(struct sph *s, int n, double t)
 void sph_coupling_window_end(void *state, double t1)
 {
     struct sph *s = state;
-    struct link *k = s->zones->ctx;
+    struct sph_link *k = s->zones->ctx;
     const int dim = s->dim;
     int n = 0;
     room(k, s->p.n);

@@ -84,13 +84,13 @@ static void add_fluxes(struct sph *s, double dt)
 }
 
 /* Places near the open sides in a hash of cells of side dx, to keep births apart. */
-struct strip {
+struct birth_strip {
     int n, capacity, heads;
     double (*x)[3];
     int *next, *head;
 };
 
-static int strip_cell(const struct strip *t, const struct openings *o, const double *x,
+static int strip_cell(const struct birth_strip *t, const struct openings *o, const double *x,
                       const int *off)
 {
     uint32_t key = 0;
@@ -99,7 +99,7 @@ static int strip_cell(const struct strip *t, const struct openings *o, const dou
     return (int)(key % (uint32_t)t->heads);
 }
 
-static void strip_add(struct strip *t, const struct openings *o, const double *y)
+static void strip_add(struct birth_strip *t, const struct openings *o, const double *y)
 {
     static const int here[3] = {0, 0, 0};
     if (t->n == t->capacity) {
@@ -115,15 +115,15 @@ static void strip_add(struct strip *t, const struct openings *o, const double *y
 }
 
 /* Locals where they are now, ghosts where the last stage saw them. */
-static struct strip strip_create(const struct sph *s)
+static struct birth_strip strip_create(const struct sph *s)
 {
     const struct openings *o = s->zones->openings;
     const int room = 4 * openings_faces(o) + 64;
-    struct strip t = {.capacity = room,
-                      .heads = room,
-                      .x = mem_new((size_t)room, sizeof *t.x),
-                      .next = NEW(int, room),
-                      .head = NEW(int, room)};
+    struct birth_strip t = {.capacity = room,
+                            .heads = room,
+                            .x = mem_new((size_t)room, sizeof *t.x),
+                            .next = NEW(int, room),
+                            .head = NEW(int, room)};
     for (int c = 0; c < t.heads; c++)
         t.head[c] = -1;
     for (int i = 0; i < s->p.n + o->first_ghost; i++) {
@@ -135,14 +135,14 @@ static struct strip strip_create(const struct sph *s)
     return t;
 }
 
-static void strip_free(struct strip *t)
+static void strip_free(struct birth_strip *t)
 {
     mem_free(t->x);
     mem_free(t->next);
     mem_free(t->head);
 }
 
-static bool crowded(const struct strip *t, const struct openings *o, const double *x)
+static bool crowded(const struct birth_strip *t, const struct openings *o, const double *x)
 {
     const double least2 = 0.25 * o->dx * o->dx;
     int off[3] = {0, 0, 0};
@@ -202,7 +202,7 @@ static void give_birth(struct sph *s)
     struct openings *o = s->zones->openings;
     struct zones *z = s->zones;
     const int looked = z->n, dim = o->dim;
-    struct strip near = strip_create(s);
+    struct birth_strip near = strip_create(s);
     s->p.nghost = 0; /* newborn take their place */
     for (int k = 0; k < looked; k++) {
         const int f = z->who[k];

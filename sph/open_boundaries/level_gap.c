@@ -23,7 +23,7 @@ static const double kappa = 0.1;
 static const double most = 0.05; /* of sqrt(g d) */
 
 /* The columns of one side: i along it inwards, j across it and across gravity (3D). */
-struct columns {
+struct gap_columns {
     int side, up, across, n[2];
     double sense;   /* 1: water lies at the lower end of axis `up' */
     double (*x)[3]; /* [n[0] n[1]] the probe */
@@ -63,10 +63,10 @@ static int upright(const struct sph *s)
     return up;
 }
 
-static struct columns columns_of(const struct sph *s, int side)
+static struct gap_columns columns_of(const struct sph *s, int side)
 {
     const struct zones *z = s->zones;
-    struct columns c = {.side = side, .up = upright(s), .across = -1};
+    struct gap_columns c = {.side = side, .up = upright(s), .across = -1};
     c.sense = s->gravity[c.up] < 0.0 ? 1.0 : -1.0;
     c.n[0] = (int)fmax(floor(z->transition / s->dx), 1.0);
     c.n[1] = 1;
@@ -82,7 +82,7 @@ static struct columns columns_of(const struct sph *s, int side)
     return c;
 }
 
-static void columns_free(struct columns *c)
+static void columns_free(struct gap_columns *c)
 {
     mem_free(c->x);
     mem_free(c->depth);
@@ -90,7 +90,7 @@ static void columns_free(struct columns *c)
 }
 
 /* Foot of column (i, j) on the lower end of the region. */
-static void foot(const struct sph *s, const struct columns *c, int i, int j, double *x)
+static void foot(const struct sph *s, const struct gap_columns *c, int i, int j, double *x)
 {
     const int a = c->side / 2;
     const double in = s->zones->buffer + (i + 0.5) * s->dx;
@@ -102,7 +102,7 @@ static void foot(const struct sph *s, const struct columns *c, int i, int j, dou
 }
 
 /* The topmost place of a column where phi changes its sign. */
-static void find_surface(struct sph *s, struct columns *c, int k)
+static void find_surface(struct sph *s, struct gap_columns *c, int k)
 {
     struct zones *z = s->zones;
     const int n = (int)ceil((s->hi[c->up] - s->lo[c->up]) / s->dx) + 1;
@@ -125,7 +125,7 @@ static void find_surface(struct sph *s, struct columns *c, int k)
 }
 
 /* Beside walls a kernel is cut. */
-static bool is_beside_wall(const struct sph *s, const struct columns *c, int j)
+static bool is_beside_wall(const struct sph *s, const struct gap_columns *c, int j)
 {
     const int a = c->across;
     if (a < 0 || s->periodic[a])
@@ -134,7 +134,7 @@ static bool is_beside_wall(const struct sph *s, const struct columns *c, int j)
     return (!s->open[2 * a] && x < s->R) || (!s->open[2 * a + 1] && x > L - s->R);
 }
 
-static void add_particle(const struct sph *s, struct columns *c, const double *y, double w)
+static void add_particle(const struct sph *s, struct gap_columns *c, const double *y, double w)
 {
     const int a = c->side / 2, more = (int)ceil(s->R / s->dx);
     const double in = (c->side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a]) - s->zones->buffer;
@@ -159,7 +159,7 @@ static void add_particle(const struct sph *s, struct columns *c, const double *y
 static void look_at_side(struct sph *s, int side, double dt)
 {
     struct level_gap *g = s->zones->gap;
-    struct columns c = columns_of(s, side);
+    struct gap_columns c = columns_of(s, side);
     const int n = c.n[0] * c.n[1];
     double sum = 0.0, weights = 0.0, depth = 0.0;
     for (int k = 0; k < n; k++)

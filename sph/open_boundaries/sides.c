@@ -19,11 +19,11 @@ enum { PRESSURE, VELOCITY, FIELDS = VELOCITY + 3 };
 enum { WEIGHT, PLACE, MEAN = PLACE + 2, BIN = MEAN + FIELDS };
 
 /* Mean at the middle of a bin and slopes along both tangents, over dx. */
-struct plane {
+struct side_plane {
     double mean[FIELDS], slope[FIELDS][2];
 };
 
-struct side {
+struct opening_side {
     const struct scene_wall *is; /* NULL: not open */
     int bins[2], tangent[2];     /* along each tangent axis */
     bool round[2];               /* periodic along it */
@@ -32,17 +32,17 @@ struct side {
 
 struct sides {
     const struct sph *s; /* borrowed */
-    struct side of[6];
+    struct opening_side of[6];
     int bins;
-    double *table;        /* [bins][BIN] sums, then means */
-    struct plane *planes; /* [bins]: velocity and pressure of the flow inside */
+    double *table;             /* [bins][BIN] sums, then means */
+    struct side_plane *planes; /* [bins]: velocity and pressure of the flow inside */
 };
 
 /* Bin at x, and where it is in that, from its middle in dx. */
 static int bin_of(const struct sides *d, int side, const double *x, double place[2])
 {
     const struct sph *s = d->s;
-    const struct side *of = d->of + side;
+    const struct opening_side *of = d->of + side;
     int bin = 0;
     place[0] = place[1] = 0.0;
     for (int k = s->dim - 2; k >= 0; k--) {
@@ -62,7 +62,7 @@ static double depth(const struct sph *s, int side, const double *x)
 }
 
 /* Bin beside I[2], off by o[2]; -1: none. */
-static int beside(const struct side *of, const int *I, const int *o)
+static int beside(const struct opening_side *of, const int *I, const int *o)
 {
     int at[2];
     for (int k = 0; k < 2; k++) {
@@ -77,12 +77,12 @@ static int beside(const struct side *of, const int *I, const int *o)
 }
 
 /* Weighted sums over a bin and those around it, of places from its middle and of the fields. */
-struct around {
+struct side_surround {
     double W, x[2], xx[3], f[FIELDS], xf[FIELDS][2];
 };
 
-static void look_around(const struct sides *d, const struct side *of, const int *I,
-                        struct around *to)
+static void look_around(const struct sides *d, const struct opening_side *of, const int *I,
+                        struct side_surround *to)
 {
     int o[2];
     memset(to, 0, sizeof *to);
@@ -110,7 +110,7 @@ static void look_around(const struct sides *d, const struct side *of, const int 
 
 /* Adds the plane of least squares through the means around a bin; its slope is small where their
  * places are within a tenth of dx. Nothing around: nothing added. */
-static void add_plane(const struct around *r, struct plane *to)
+static void add_plane(const struct side_surround *r, struct side_plane *to)
 {
     static const double spread = 0.01; /* dx^2 */
     if (r->W == 0.0)
@@ -129,9 +129,9 @@ static void add_plane(const struct around *r, struct plane *to)
     }
 }
 
-static void fit(struct sides *d, const struct side *of)
+static void fit(struct sides *d, const struct opening_side *of)
 {
-    struct around r;
+    struct side_surround r;
     int I[2];
     for (I[1] = 0; I[1] < of->bins[1]; I[1]++)
         for (I[0] = 0; I[0] < of->bins[0]; I[0]++) {
@@ -141,7 +141,7 @@ static void fit(struct sides *d, const struct side *of)
 }
 
 /* Value of a field at a place in a bin. */
-static double value(const struct plane *f, int q, const double place[2])
+static double value(const struct side_plane *f, int q, const double place[2])
 {
     return f->mean[q] + f->slope[q][0] * place[0] + f->slope[q][1] * place[1];
 }
@@ -194,7 +194,7 @@ static void look_inside(struct sph *s)
 }
 
 /* 4 z (1 - z) along the bounded tangents. */
-static double profile(const struct sph *s, const struct side *of, const double *x)
+static double profile(const struct sph *s, const struct opening_side *of, const double *x)
 {
     double f = 1.0;
     for (int k = 0; k < s->dim - 1; k++) {
@@ -208,7 +208,7 @@ static double profile(const struct sph *s, const struct side *of, const double *
 
 /* The wave that runs out keeps p + Z u.n of the flow inside, the one that runs in p - Z u.n of the
  * far state; n out of the domain. in: pressure and velocity inside. */
-static void absorb(const struct sph *s, int side, const struct side *of, const double *in,
+static void absorb(const struct sph *s, int side, const struct opening_side *of, const double *in,
                    double *u, double *p)
 {
     const double Z = s->rho0 * s->c0, sign = side % 2 ? 1.0 : -1.0;
@@ -239,9 +239,9 @@ static void turn_along_walls(const struct sph *s, const double *x, double *u)
 static void eval_side(const struct sides *d, int side, const double *x, double *u, double *p)
 {
     const struct sph *s = d->s;
-    const struct side *of = d->of + side;
+    const struct opening_side *of = d->of + side;
     double place[2], in[FIELDS];
-    const struct plane *bin = d->planes + bin_of(d, side, x, place);
+    const struct side_plane *bin = d->planes + bin_of(d, side, x, place);
     for (int q = 0; q < FIELDS; q++)
         in[q] = value(bin, q, place);
     if (of->is->kind != WALL_INFLOW)
@@ -283,7 +283,7 @@ void sides_create(struct sph *s, struct zones *z)
     struct sides *d = NEW(struct sides, 1);
     d->s = s;
     for (int side = 0; side < 2 * s->dim; side++) {
-        struct side *of = d->of + side;
+        struct opening_side *of = d->of + side;
         int k = 0;
         if (!s->open[side])
             continue;
@@ -299,7 +299,7 @@ void sides_create(struct sph *s, struct zones *z)
         d->bins += of->bins[0] * of->bins[1];
     }
     d->table = NEW(double, (size_t)BIN * d->bins);
-    d->planes = NEW(struct plane, d->bins);
+    d->planes = NEW(struct side_plane, d->bins);
     z->ctx = d;
     z->eval = eval_sides;
     z->update = look_inside;

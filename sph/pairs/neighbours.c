@@ -11,7 +11,7 @@
 #include "vec.h"
 
 /* Cells [0, cells) along each axis, the outermost for ghosts only. */
-struct grid {
+struct list_grid {
     int dim, n;
     double lo[3], edge_1; /* m, 1/m */
     int cells[3];
@@ -31,7 +31,7 @@ struct grid {
 struct neighbours *neighbours_create(void)
 {
     struct neighbours *l = NEW(struct neighbours, 1);
-    l->grid = NEW(struct grid, 1);
+    l->grid = NEW(struct list_grid, 1);
     return l;
 }
 
@@ -39,7 +39,7 @@ void neighbours_free(struct neighbours **l)
 {
     if (!*l)
         return;
-    struct grid *g = (*l)->grid;
+    struct list_grid *g = (*l)->grid;
     mem_free(g->first);
     mem_free(g->ghost);
     mem_free(g->order);
@@ -87,7 +87,7 @@ static void bound_locals(const struct sph *s, double lo[3], double hi[3])
 
 /* Box of the locals in cells of the reach, with one layer more for ghosts. Should particles fly
  * apart, cells grow instead of their number. */
-static void lay_grid(struct grid *g, const struct sph *s)
+static void lay_grid(struct list_grid *g, const struct sph *s)
 {
     double hi[3], edge = (1.0 + 1e-9) * (s->R + s->skin);
     const double most = 64.0 + 8.0 * s->p.n;
@@ -110,7 +110,7 @@ static void lay_grid(struct grid *g, const struct sph *s)
 }
 
 /* margin 1 for locals, 0 for ghosts. What lies outside goes to the outermost cells; so does NaN. */
-static int cell_of(const struct grid *g, const double *x, int margin)
+static int cell_of(const struct list_grid *g, const double *x, int margin)
 {
     int cell = 0;
     for (int a = g->dim - 1; a >= 0; a--) {
@@ -122,8 +122,8 @@ static int cell_of(const struct grid *g, const double *x, int margin)
 }
 
 /* Stable counting sort of n rows by cell: first[cell], order. */
-static void sort_rows(struct grid *g, const double *rows, int width, int n, int margin, int *first,
-                      int *order)
+static void sort_rows(struct list_grid *g, const double *rows, int width, int n, int margin,
+                      int *first, int *order)
 {
     ROOM(g->cell, g->cell_capacity, n);
     memset(first, 0, ((size_t)g->total + 1) * sizeof *first);
@@ -141,7 +141,7 @@ static void sort_rows(struct grid *g, const double *rows, int width, int n, int 
 
 void neighbours_sort(struct sph *s)
 {
-    struct grid *g = s->list->grid;
+    struct list_grid *g = s->list->grid;
     lay_grid(g, s);
     int ghost_capacity = g->first_capacity;
     ROOM(g->ghost, ghost_capacity, g->total + 1);
@@ -152,7 +152,7 @@ void neighbours_sort(struct sph *s)
 }
 
 /* Keeps what is there. */
-static void near_room(struct grid *g, int n)
+static void near_room(struct list_grid *g, int n)
 {
     if (n <= g->near_capacity)
         return;
@@ -164,14 +164,15 @@ static void near_room(struct grid *g, int n)
 }
 
 /* Box of the particles of a cell. */
-struct box {
+struct list_box {
     double lo[3], hi[3], reach2;
     int without; /* bits of enum sph_role that leave a particle out */
 };
 
-static struct box box_of(const struct sph *s, const struct grid *g, int cell, double reach)
+static struct list_box box_of(const struct sph *s, const struct list_grid *g, int cell,
+                              double reach)
 {
-    struct box b = {.reach2 = reach * reach};
+    struct list_box b = {.reach2 = reach * reach};
     for (int a = 0; a < g->dim; a++) {
         b.lo[a] = INFINITY;
         b.hi[a] = -INFINITY;
@@ -185,7 +186,7 @@ static struct box box_of(const struct sph *s, const struct grid *g, int cell, do
 }
 
 /* Copies a particle that is within reach of the box: written in any case, counted if so. */
-INLINE void copy_near(const struct sph *s, struct grid *g, const struct box *b, int id,
+INLINE void copy_near(const struct sph *s, struct list_grid *g, const struct list_box *b, int id,
                       const int dim)
 {
     const double *x = prim_line(&s->p, id);
@@ -201,7 +202,7 @@ INLINE void copy_near(const struct sph *s, struct grid *g, const struct box *b, 
 }
 
 /* First cells of the rows of three around `cell'; returns their number. */
-static int rows_around(const struct grid *g, int cell, int rows[9])
+static int rows_around(const struct list_grid *g, int cell, int rows[9])
 {
     const int nx = g->cells[0], ny = g->cells[1], layers = g->dim == 3 ? 1 : 0;
     int n = 0;
@@ -212,9 +213,10 @@ static int rows_around(const struct grid *g, int cell, int rows[9])
 }
 
 /* Particles of the cells around `cell': locals in ascending order, then ghosts. */
-INLINE void look_around(const struct sph *s, struct grid *g, int cell, double reach, const int dim)
+INLINE void look_around(const struct sph *s, struct list_grid *g, int cell, double reach,
+                        const int dim)
 {
-    const struct box box = box_of(s, g, cell, reach);
+    const struct list_box box = box_of(s, g, cell, reach);
     int rows[9], most = 0;
     const int nrows = rows_around(g, cell, rows);
     for (int k = 0; k < nrows; k++)
@@ -232,7 +234,7 @@ INLINE void look_around(const struct sph *s, struct grid *g, int cell, double re
 
 /* Appends those of the surroundings from .. end-1 that are within reach of x; may look and write up
  * to LANES - 1 entries further. least: gets the least square of their distances, or less. */
-INLINE int append(const struct grid *g, int from, int end, const double *x, double reach2,
+INLINE int append(const struct list_grid *g, int from, int end, const double *x, double reach2,
                   int *restrict j, vec *least, const int dim)
 {
     typedef double near_vec __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
@@ -290,7 +292,7 @@ static void add_close(const struct sph *s, int i, double close2)
 INLINE void list_cell(struct sph *s, int cell, const int dim)
 {
     struct neighbours *l = s->list;
-    struct grid *g = l->grid;
+    struct list_grid *g = l->grid;
     const double reach = s->R + s->skin, reach2 = reach * reach;
     const double enough = 0.88 * (dim == 2 ? M_PI : 4.0 / 3.0 * M_PI) * pow(reach / s->dx, dim);
     const double close = l->touching > 0.0 ? l->touching + reach - s->R : 0.0;
@@ -324,7 +326,7 @@ INLINE void list_cell(struct sph *s, int cell, const int dim)
 
 static void build_2d(struct sph *s)
 {
-    const struct grid *g = s->list->grid;
+    const struct list_grid *g = s->list->grid;
     for (int cell = 0; cell < g->total; cell++)
         if (g->first[cell + 1] > g->first[cell])
             list_cell(s, cell, 2);
@@ -332,7 +334,7 @@ static void build_2d(struct sph *s)
 
 static void build_3d(struct sph *s)
 {
-    const struct grid *g = s->list->grid;
+    const struct list_grid *g = s->list->grid;
     for (int cell = 0; cell < g->total; cell++)
         if (g->first[cell + 1] > g->first[cell])
             list_cell(s, cell, 3);
@@ -383,7 +385,7 @@ void neighbours_rows(struct neighbours *l, enum rows which)
 void neighbours_build(struct sph *s)
 {
     struct neighbours *l = s->list;
-    struct grid *g = l->grid;
+    struct list_grid *g = l->grid;
     const int n = s->p.n;
     require(n == g->n); /* neighbours_sort has been here */
     if (n + 1 > l->rows_capacity) {
@@ -413,7 +415,8 @@ void neighbours_build(struct sph *s)
 
 /* Range of cells along an axis that may hold a place within reach of x: what lies outside is in the
  * outermost ones. */
-static void cell_range(const struct grid *g, int a, double x, double reach, int *first, int *last)
+static void cell_range(const struct list_grid *g, int a, double x, double reach, int *first,
+                       int *last)
 {
     const int most = g->cells[a] - 1;
     const double lo = (x - reach - g->lo[a]) * g->edge_1 + 1.0;
@@ -423,8 +426,8 @@ static void cell_range(const struct grid *g, int a, double x, double reach, int 
 }
 
 /* Of the locals or ghosts of some cells that follow each other. */
-INLINE void gather_row(const struct sph *s, struct grid *g, const struct box *b, int from, int end,
-                       const unsigned short *ghost_role, const int dim)
+INLINE void gather_row(const struct sph *s, struct list_grid *g, const struct list_box *b, int from,
+                       int end, const unsigned short *ghost_role, const int dim)
 {
     for (int k = from; k < end; k++) {
         const int j = ghost_role ? g->n + g->order[k] : k;
@@ -435,10 +438,10 @@ INLINE void gather_row(const struct sph *s, struct grid *g, const struct box *b,
 }
 
 /* Cells are those of the last sort, from where particles have moved by the skin at most. */
-INLINE void gather(const struct sph *s, const struct box *b, double reach,
+INLINE void gather(const struct sph *s, const struct list_box *b, double reach,
                    const unsigned short *ghost_role, const int dim)
 {
-    struct grid *g = s->list->grid;
+    struct list_grid *g = s->list->grid;
     int first[3] = {0, 0, 0}, last[3] = {0, 0, 0}, unused;
     for (int a = 0; a < dim; a++) {
         cell_range(g, a, b->lo[a], reach, first + a, &unused);
@@ -459,7 +462,7 @@ INLINE void gather(const struct sph *s, const struct box *b, double reach,
 void neighbours_gather(const struct sph *s, const double *lo, const double *hi, double reach,
                        const unsigned short *ghost_role, int without)
 {
-    struct box b = {.reach2 = reach * reach, .without = without};
+    struct list_box b = {.reach2 = reach * reach, .without = without};
     memcpy(b.lo, lo, (size_t)s->dim * sizeof *lo);
     memcpy(b.hi, hi, (size_t)s->dim * sizeof *hi);
     reach += s->skin;
@@ -472,7 +475,7 @@ void neighbours_gather(const struct sph *s, const double *lo, const double *hi, 
 int neighbours_pick(const struct sph *s, const double *x, double reach, int n, int **found,
                     int *capacity)
 {
-    const struct grid *g = s->list->grid;
+    const struct list_grid *g = s->list->grid;
     vec least = vec_all(INFINITY);
     if (n + g->near + 2 * LANES > *capacity) {
         const int more = 2 * *capacity + g->near + 2 * LANES;

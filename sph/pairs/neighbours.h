@@ -7,7 +7,7 @@
 
 #include "../sph.h"
 
-struct grid; /* cells of the locals at hand */
+struct list_grid; /* cells of the locals at hand */
 
 struct neighbours {
     int n;            /* rows: locals */
@@ -33,7 +33,7 @@ struct neighbours {
     int begin, end;   /* places in order that a pass treats: neighbours_rows */
     bool first, last; /* part of the pass: sums begin with zeros; they are whole after it */
     int rows_capacity;
-    struct grid *grid;
+    struct list_grid *grid;
 };
 
 struct neighbours *neighbours_create(void);

@@ -15,12 +15,12 @@ enum { VISCOSITY_OFF = 2, BATCH = 8 };
 
 /* What an instance of the pass has fixed. Limiter and gamma are asked for as it runs: that cost
  * nothing measurable, and leaves 12 instances. */
-struct variant {
+struct riemann_variant {
     int dim, scheme, viscosity;
 };
 
 /* Numbers of the whole pass. */
-struct constants {
+struct riemann_constants {
     struct tait eos;
     struct dissipation dissipation;
     int limiter, gamma;
@@ -35,7 +35,7 @@ struct constants {
 };
 
 /* The particle of a row, the same in all lanes. */
-struct own {
+struct riemann_own {
     vec x[3], u[3], rho, grho[3], gu[3][3], u0[3];
     vec w;      /* with the kernel's constant */
     vec Z;      /* rho c */
@@ -43,7 +43,7 @@ struct own {
 };
 
 /* Vectors of neighbours of one row between the loops that treat them. */
-struct batch {
+struct riemann_batch {
     int n;
     vec d[3][BATCH]; /* x_j - x_i */
     vec f[BATCH];    /* 2 w_i w_j |W'|/r */
@@ -57,14 +57,14 @@ struct batch {
 };
 
 /* What the pairs give to their first particle. */
-struct sums {
+struct riemann_sums {
     vec q[3], w, m;
 };
 
-static struct constants constants_of(const struct sph *s)
+static struct riemann_constants constants_of(const struct sph *s)
 {
     const bool filled = !s->surface, free = filled && !s->zones, whole = filled && !s->walls;
-    return (struct constants){
+    return (struct riemann_constants){
         .eos = tait_of(s),
         .dissipation = {.factor = 3.0 / s->c0,
                         .least = s->prm.low_dissipation ? s->prm.dissipation : 1.0},
@@ -83,12 +83,12 @@ static struct constants constants_of(const struct sph *s)
     };
 }
 
-INLINE struct own load_own(const struct constants *c, const double *prim, const double *slope,
-                           const struct variant v)
+INLINE struct riemann_own load_own(const struct riemann_constants *c, const double *prim,
+                                   const double *slope, const struct riemann_variant v)
 {
     const int dim = v.dim;
     const double *g = slope + dim, *u0 = g + dim * dim;
-    struct own i;
+    struct riemann_own i;
     double divergence = 0.0;
     for (int a = 0; a < dim; a++) {
         i.x[a] = vec_all(prim[a]);
@@ -107,8 +107,9 @@ INLINE struct own load_own(const struct constants *c, const double *prim, const 
 }
 
 /* Second loop: states at the middle [2.78-2.83] of rho, pressures of both. */
-INLINE void densities(const struct constants *c, const struct own *i, const double *slope,
-                      const int *j, struct batch *t, const struct variant v)
+INLINE void densities(const struct riemann_constants *c, const struct riemann_own *i,
+                      const double *slope, const int *j, struct riemann_batch *t,
+                      const struct riemann_variant v)
 {
     const int dim = v.dim;
     for (int k = 0; k < t->n; k++, j += LANES) {
@@ -142,8 +143,9 @@ INLINE void load_gu(const double *slope, const int *j, vec gu[3][3], const int d
 }
 
 /* Third loop: the same of the components of u, and the acoustic damper of j. */
-INLINE void velocities(const struct constants *c, const struct own *i, const struct sph *s,
-                       const int *j, struct batch *t, const struct variant v)
+INLINE void velocities(const struct riemann_constants *c, const struct riemann_own *i,
+                       const struct sph *s, const int *j, struct riemann_batch *t,
+                       const struct riemann_variant v)
 {
     const int dim = v.dim;
     for (int k = 0; k < t->n; k++, j += LANES) {
@@ -189,7 +191,7 @@ INLINE void load_u0(const double *slope, const int *j, vec u0[3], const int dim)
 /* Rows of the sums: momentum, volume, mass; 8 doubles in 3D, where the mass has no place in the
  * first four. */
 INLINE void add_to_neighbours(double *sums, const int *j, const vec *q, vec w, vec m,
-                              const struct variant v)
+                              const struct riemann_variant v)
 {
     if (v.dim == 2) {
         vec_add_rows(sums, 4, j, q[0], q[1], w, m);
@@ -202,8 +204,9 @@ INLINE void add_to_neighbours(double *sums, const int *j, const vec *q, vec w, v
 }
 
 /* Fourth loop: star states and what goes along the line of centres. */
-INLINE void solve(const struct constants *c, const struct own *i, const struct sph *s, const int *j,
-                  struct batch *t, const struct variant v)
+INLINE void solve(const struct riemann_constants *c, const struct riemann_own *i,
+                  const struct sph *s, const int *j, struct riemann_batch *t,
+                  const struct riemann_variant v)
 {
     const int dim = v.dim;
     for (int k = 0; k < t->n; k++, j += LANES) {

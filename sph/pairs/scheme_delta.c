@@ -17,13 +17,13 @@
 enum { SUMS = 4, VISCOSITY_OFF = 2, BATCH = 8 };
 
 /* What an instance of the pass has fixed; diffusion: the term of delta is there. */
-struct variant {
+struct delta_variant {
     int dim, scheme, viscosity;
     bool diffusion;
 };
 
 /* Numbers of the whole pass. */
-struct constants {
+struct delta_constants {
     struct tait eos;
     int gamma;
     double R_1, eps2, soft2; /* 1/m; m^2: keeps r > 0; m^2: of [2.59] */
@@ -34,29 +34,29 @@ struct constants {
 };
 
 /* The particle of a row, the same in all lanes. */
-struct own {
+struct delta_own {
     vec x[3], u[3], w, rho, p, c, grho[3];
     vec rho_1; /* 1/rho, m^3/kg */
 };
 
 /* Vectors of neighbours of one row between the loops that treat them. */
-struct batch {
+struct delta_batch {
     int n;
     vec d[3][BATCH], f[BATCH]; /* x_j - x_i; w_i w_j |W'|/r */
     vec rho[BATCH], r2[BATCH];
 };
 
 /* What the pairs give to their first particle; diffused without the constants of [2.60]. */
-struct sums {
+struct delta_sums {
     vec q[3], w, diffused;
 };
 
-static struct constants constants_of(const struct sph *s)
+static struct delta_constants constants_of(const struct sph *s)
 {
     const double R = s->R, mu = s->rho0 * s->nu, monaghan = 2.0 * (s->dim + 2.0) * mu;
     const bool delta = s->prm.scheme == SCHEME_DELTA;
     const bool linear = s->nu > 0.0 && s->prm.viscosity == VISCOSITY_MONAGHAN;
-    return (struct constants){
+    return (struct delta_constants){
         .eos = tait_of(s),
         .gamma = (int)s->gamma,
         .R_1 = 1.0 / R,
@@ -71,12 +71,12 @@ static struct constants constants_of(const struct sph *s)
     };
 }
 
-INLINE struct own load_own(const struct constants *c, const double *prim, const double *slope,
-                           const struct variant v)
+INLINE struct delta_own load_own(const struct delta_constants *c, const double *prim,
+                                 const double *slope, const struct delta_variant v)
 {
     const int dim = v.dim;
     const double rho = prim[at_rho(dim)];
-    struct own i;
+    struct delta_own i;
     for (int a = 0; a < dim; a++) {
         i.x[a] = vec_all(prim[a]);
         i.u[a] = vec_all(prim[dim + a]);
@@ -92,8 +92,9 @@ INLINE struct own load_own(const struct constants *c, const double *prim, const 
 }
 
 /* First loop: distances and kernel. */
-INLINE void geometry(const struct constants *c, const struct own *i, const double *prim,
-                     const double *slope, const int *j, struct batch *t, const struct variant v)
+INLINE void geometry(const struct delta_constants *c, const struct delta_own *i, const double *prim,
+                     const double *slope, const int *j, struct delta_batch *t,
+                     const struct delta_variant v)
 {
     const int dim = v.dim;
     for (int k = 0; k < t->n; k++, j += LANES) {
@@ -129,8 +130,8 @@ INLINE void load_u(const double *prim, const int *j, vec u[3], const int dim)
 
 /* What [2.59] or [2.62] take from the sum of pressures; X = (u_j - u_i).(x_j - x_i). r2_1: 1/r^2.
  */
-INLINE vec viscous(const struct constants *c, const struct own *i, vec rho, vec X, vec r2, vec r2_1,
-                   const struct variant v)
+INLINE vec viscous(const struct delta_constants *c, const struct delta_own *i, vec rho, vec X,
+                   vec r2, vec r2_1, const struct delta_variant v)
 {
     if (v.scheme == SCHEME_DELTA)
         return c->alpha * X * r2_1;
@@ -142,7 +143,7 @@ INLINE vec viscous(const struct constants *c, const struct own *i, vec rho, vec 
 }
 
 /* sum of Psi.grad W [2.61] for i, over w_j; j gets the opposite. */
-INLINE vec psi(const struct own *i, const double *slope, const int *j, vec f, vec rho,
+INLINE vec psi(const struct delta_own *i, const double *slope, const int *j, vec f, vec rho,
                const vec d[3], const int dim)
 {
     const int nslope = dim == 2 ? 8 : 16;
@@ -156,9 +157,9 @@ INLINE vec psi(const struct own *i, const double *slope, const int *j, vec f, ve
 }
 
 /* Second loop: forces, to j as they are, to i with the opposite sign; volumes. */
-INLINE void forces(const struct constants *c, const struct own *i, const struct sph *s,
-                   const int *j, const struct batch *t, double *sums, struct sums *to,
-                   const struct variant v)
+INLINE void forces(const struct delta_constants *c, const struct delta_own *i, const struct sph *s,
+                   const int *j, const struct delta_batch *t, double *sums, struct delta_sums *to,
+                   const struct delta_variant v)
 {
     const int dim = v.dim;
     for (int k = 0; k < t->n; k++, j += LANES) {
@@ -197,16 +198,16 @@ INLINE void forces(const struct constants *c, const struct own *i, const struct 
 }
 
 /* Row i of the list from the first neighbour beyond i on. */
-INLINE void add_row(const struct sph *s, const struct constants *c, double *sums, int i,
-                    const struct variant v)
+INLINE void add_row(const struct sph *s, const struct delta_constants *c, double *sums, int i,
+                    const struct delta_variant v)
 {
     const struct neighbours *l = s->list;
     const int dim = v.dim;
-    const struct own own = load_own(c, prim_line(&s->p, i), slope_line(&s->p, i), v);
+    const struct delta_own own = load_own(c, prim_line(&s->p, i), slope_line(&s->p, i), v);
     const int *j = l->j + l->start[i] + l->tail[i];
-    struct sums to = {0};
+    struct delta_sums to = {0};
     for (int left = (l->count[i] - l->tail[i] + LANES - 1) / LANES; left > 0; left -= BATCH) {
-        struct batch t;
+        struct delta_batch t;
         t.n = left < BATCH ? left : BATCH;
         geometry(c, &own, s->p.prim, s->p.slope, j, &t, v);
         forces(c, &own, s, j, &t, sums, &to, v);
@@ -265,9 +266,9 @@ INLINE void write_rates(struct sph *s, const double *sums, const int dim)
     }
 }
 
-INLINE void rates(struct sph *s, const struct variant v)
+INLINE void rates(struct sph *s, const struct delta_variant v)
 {
-    const struct constants c = constants_of(s);
+    const struct delta_constants c = constants_of(s);
     double *sums = neighbours_sums(s, SUMS);
     for (int k = s->list->begin; k < s->list->end; k++)
         add_row(s, &c, sums, neighbours_row(s->list, k), v);
@@ -279,7 +280,7 @@ INLINE void rates(struct sph *s, const struct variant v)
 #define DEFINE(dim, kind, scheme, diffusion, viscosity)                                            \
     static void NAME(dim, kind, viscosity)(struct sph * s)                                         \
     {                                                                                              \
-        rates(s, (struct variant){dim, scheme, viscosity, diffusion});                             \
+        rates(s, (struct delta_variant){dim, scheme, viscosity, diffusion});                       \
     }
 #define ENTRY(dim, kind, scheme, diffusion, viscosity)                                             \
     [dim - 2][KIND_##kind][viscosity] = NAME(dim, kind, viscosity),

@@ -13,7 +13,7 @@
 
 enum { BATCH = 16 };
 
-struct constants {
+struct gradient_constants {
     double R_1, eps2; /* 1/m; m^2: keeps r > 0 */
     double kernel;    /* |W'|/r = kernel t^3, t = 1 - r/R */
     double W[2];      /* W/W(dx) = t^4 (W[0] - W[1] t) */
@@ -22,14 +22,14 @@ struct constants {
 };
 
 /* Vectors of neighbours of one row between the loops that treat them. */
-struct batch {
+struct gradient_batch {
     int n;
     vec d[3][BATCH]; /* x_j - x_i */
     vec t[BATCH];    /* 1 - r/R, 0 outside */
 };
 
 /* Sums over neighbours, without the kernel's constant. */
-struct sums {
+struct gradient_sums {
     vec M[6];    /* d_a d_b: 00 01 11 02 12 22 */
     vec rho[3];  /* (rho_j - rho_i) d_b */
     vec u[3][3]; /* (u_j - u_i)_a d_b */
@@ -37,8 +37,8 @@ struct sums {
 };
 
 /* Short loops instead of one: the square root is under way for several vectors at once. */
-INLINE void geometry(const struct constants *c, const double *i, const double *prim, const int *j,
-                     struct batch *near, const int dim)
+INLINE void geometry(const struct gradient_constants *c, const double *i, const double *prim,
+                     const int *j, struct gradient_batch *near, const int dim)
 {
     for (int k = 0; k < near->n; k++, j += LANES) {
         vec d[3], spare, r2 = vec_all(c->eps2);
@@ -55,7 +55,7 @@ INLINE void geometry(const struct constants *c, const double *i, const double *p
 }
 
 /* Weight of x_j - x_i in the crowding vector, over w0 and the kernel's constant. */
-INLINE vec crowding(const struct constants *c, vec t, const int transport)
+INLINE vec crowding(const struct gradient_constants *c, vec t, const int transport)
 {
     if (transport == TRANSPORT_TVO) { /* the kernel of radius R_delta <= R */
         const vec q = vec_max((1.0 - c->near) + c->near * t, vec_all(0.0));
@@ -65,9 +65,9 @@ INLINE vec crowding(const struct constants *c, vec t, const int transport)
     return t3 + 0.2 * t3 * (W2 * W2);
 }
 
-INLINE void add(const struct constants *c, const double *i, const double *prim, const int *j,
-                const struct batch *near, struct sums *s, const int dim, const int transport,
-                const bool velocity)
+INLINE void add(const struct gradient_constants *c, const double *i, const double *prim,
+                const int *j, const struct gradient_batch *near, struct gradient_sums *s,
+                const int dim, const int transport, const bool velocity)
 {
     for (int k = 0; k < near->n; k++, j += LANES) {
         const vec t = near->t[k];
@@ -177,7 +177,7 @@ struct totals {
 };
 
 /* What a variant has not summed is left out by the compiler. */
-INLINE struct totals total(const struct sums *s, const int dim)
+INLINE struct totals total(const struct gradient_sums *s, const int dim)
 {
     const vec none = vec_all(0.0);
     struct totals t;
@@ -246,8 +246,9 @@ INLINE void shift(const struct sph *s, double *delta, const double *u, const dou
             delta[a] *= sqrt(most2 / size2);
 }
 
-INLINE void write_slope(const struct sph *s, const struct constants *c, const struct sums *sum,
-                        int i, const int dim, const int transport, const bool velocity)
+INLINE void write_slope(const struct sph *s, const struct gradient_constants *c,
+                        const struct gradient_sums *sum, int i, const int dim, const int transport,
+                        const bool velocity)
 {
     const double *u = prim_line(&s->p, i) + dim;
     double *slope = slope_line(&s->p, i), *u0 = slope + dim + dim * dim;
@@ -274,19 +275,19 @@ INLINE void pass(struct sph *s, const int dim, const int transport, const bool v
 {
     const struct neighbours *l = s->list;
     const double R = s->R, Wdx = kernel_w(dim, s->dx, R) / kernel_w0(dim, R);
-    const struct constants c = {.R_1 = 1.0 / R,
-                                .eps2 = 1e-20 * R * R,
-                                .kernel = -kernel_dw_r(dim, 0.0, R),
-                                .W = {5.0 / Wdx, 4.0 / Wdx},
-                                .near = R / oger_radius(s),
-                                .smoothed = kernel_w0(dim, R)}; /* 2 eps = 1 */
+    const struct gradient_constants c = {.R_1 = 1.0 / R,
+                                         .eps2 = 1e-20 * R * R,
+                                         .kernel = -kernel_dw_r(dim, 0.0, R),
+                                         .W = {5.0 / Wdx, 4.0 / Wdx},
+                                         .near = R / oger_radius(s),
+                                         .smoothed = kernel_w0(dim, R)}; /* 2 eps = 1 */
     for (int k = l->begin; k < l->end; k++) {
         const int i = neighbours_row(l, k);
         const double *own = prim_line(&s->p, i);
         const int *j = l->j + l->start[i];
-        struct sums sum = {0};
+        struct gradient_sums sum = {0};
         for (int left = (l->count[i] + LANES - 1) / LANES; left > 0; left -= BATCH) {
-            struct batch near;
+            struct gradient_batch near;
             near.n = left < BATCH ? left : BATCH;
             geometry(&c, own, s->p.prim, j, &near, dim);
             add(&c, own, s->p.prim, j, &near, &sum, dim, transport, velocity);

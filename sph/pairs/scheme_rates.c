@@ -11,8 +11,9 @@
 #include "riemann_loops.h"
 
 /* First loop: distances, kernel, and what the Riemann problem needs of the particles themselves. */
-INLINE void geometry(const struct constants *c, const struct own *i, const double *prim,
-                     const double *slope, const int *j, struct batch *t, const struct variant v)
+INLINE void geometry(const struct riemann_constants *c, const struct riemann_own *i,
+                     const double *prim, const double *slope, const int *j, struct riemann_batch *t,
+                     const struct riemann_variant v)
 {
     const int dim = v.dim;
     for (int k = 0; k < t->n; k++, j += LANES) {
@@ -39,8 +40,8 @@ INLINE void geometry(const struct constants *c, const struct own *i, const doubl
 }
 
 /* Last loop: fluxes, to j as they are, to i with the opposite sign but for volumes. */
-INLINE void fluxes(const int *j, const struct batch *t, double *sums, struct sums *to,
-                   const struct variant v)
+INLINE void fluxes(const int *j, const struct riemann_batch *t, double *sums,
+                   struct riemann_sums *to, const struct riemann_variant v)
 {
     const int dim = v.dim;
     for (int k = 0; k < t->n; k++, j += LANES) {
@@ -70,16 +71,16 @@ INLINE void fluxes(const int *j, const struct batch *t, double *sums, struct sum
 /* Row i of the list from the first neighbour beyond i on; all others have added theirs before.
  * Short loops instead of one: chains of dependent operations are short enough then for several
  * vectors to be under way at once. */
-INLINE void add_row(const struct sph *s, const struct constants *c, double *sums, int i,
-                    const struct variant v)
+INLINE void add_row(const struct sph *s, const struct riemann_constants *c, double *sums, int i,
+                    const struct riemann_variant v)
 {
     const struct neighbours *l = s->list;
     const int dim = v.dim, nsums = dim == 2 ? 4 : 8;
-    const struct own own = load_own(c, prim_line(&s->p, i), slope_line(&s->p, i), v);
+    const struct riemann_own own = load_own(c, prim_line(&s->p, i), slope_line(&s->p, i), v);
     const int *j = l->j + l->start[i] + l->tail[i];
-    struct sums to = {0};
+    struct riemann_sums to = {0};
     for (int left = (l->count[i] - l->tail[i] + LANES - 1) / LANES; left > 0; left -= BATCH) {
-        struct batch t;
+        struct riemann_batch t;
         t.n = left < BATCH ? left : BATCH;
         geometry(c, &own, s->p.prim, s->p.slope, j, &t, v);
         densities(c, &own, s->p.slope, j, &t, v);
@@ -95,9 +96,9 @@ INLINE void add_row(const struct sph *s, const struct constants *c, double *sums
         row[4] += vec_sum(to.m);
 }
 
-INLINE void rates(struct sph *s, const struct variant v)
+INLINE void rates(struct sph *s, const struct riemann_variant v)
 {
-    const struct constants c = constants_of(s);
+    const struct riemann_constants c = constants_of(s);
     double *sums = neighbours_sums(s, v.dim == 2 ? 4 : 8);
     for (int k = s->list->begin; k < s->list->end; k++)
         add_row(s, &c, sums, neighbours_row(s->list, k), v);
@@ -110,7 +111,7 @@ INLINE void rates(struct sph *s, const struct variant v)
 #define DEFINE(dim, scheme, viscosity)                                                             \
     static void NAME(dim, scheme, viscosity)(struct sph * s)                                       \
     {                                                                                              \
-        rates(s, (struct variant){dim, scheme, viscosity});                                        \
+        rates(s, (struct riemann_variant){dim, scheme, viscosity});                                \
     }
 #define ENTRY(dim, scheme, viscosity) [dim - 2][scheme][viscosity] = NAME(dim, scheme, viscosity),
 #define EACH_VISCOSITY(X, ...)                                                                     \

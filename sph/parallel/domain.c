@@ -17,7 +17,7 @@
 enum { BINS = 256, PASSES = 2, TAG_COUNT = 31, TAG_LINES = 32, WORK = 8 };
 enum { PAIR = 8, DEEP_PAIR = 2, TAKEN = 6, DEEP_TAKEN = 2 };
 
-struct cut {
+struct domain_cut {
     int axis;
     double at;
 };
@@ -37,8 +37,8 @@ struct domain {
     int dim, rank, size;
     bool periodic[3];
     double lo[3], hi[3];
-    struct cut *cuts;    /* [size - 1] */
-    double (*box)[2][3]; /* [size] */
+    struct domain_cut *cuts; /* [size - 1] */
+    double (*box)[2][3];     /* [size] */
     int npeers;
     struct peer *peers;    /* ascending rank */
     MPI_Request *requests; /* [2 npeers] */
@@ -48,7 +48,7 @@ struct domain {
 };
 
 /* Part of the tree under construction: ranks, box, this rank's particles in it, of all levels. */
-struct node {
+struct domain_node {
     int first, end;
     double lo[3], hi[3];
     int *who;
@@ -57,7 +57,7 @@ struct node {
     int n;
 };
 
-static int longest_axis(const struct node *t, int dim)
+static int longest_axis(const struct domain_node *t, int dim)
 {
     int axis = 0;
     for (int a = 1; a < dim; a++)
@@ -71,7 +71,7 @@ int domain_owner(const struct domain *d, const double *x)
     int first = 0, end = d->size;
     while (end - first > 1) {
         const int m = first + (end - first) / 2;
-        const struct cut *c = d->cuts + m - 1;
+        const struct domain_cut *c = d->cuts + m - 1;
         if (x[c->axis] < c->at)
             end = m;
         else
@@ -95,7 +95,7 @@ static void make_boxes(struct domain *d)
         memcpy(d->box[r][1], d->hi, sizeof d->hi);
         while (end - first > 1) {
             const int m = first + (end - first) / 2;
-            const struct cut *c = d->cuts + m - 1;
+            const struct domain_cut *c = d->cuts + m - 1;
             d->box[r][r < m][c->axis] = c->at;
             if (r < m)
                 end = m;
@@ -182,7 +182,8 @@ static void cuts_changed(struct sph *s)
 {
     for (struct sph *q = s; q; q = q->finer) {
         if (q != s)
-            memcpy(q->domain->cuts, s->domain->cuts, (size_t)s->domain->size * sizeof(struct cut));
+            memcpy(q->domain->cuts, s->domain->cuts,
+                   (size_t)s->domain->size * sizeof(struct domain_cut));
         make_boxes(q->domain);
         find_peers(q->domain, 1.001 * (q->R + q->skin_most));
         q->ready = false;
@@ -190,7 +191,7 @@ static void cuts_changed(struct sph *s)
 }
 
 /* Halves the node in proportion to its ranks, on a lattice face: what a uniform filling needs. */
-static void cut_evenly(struct sph *s, const struct node *t)
+static void cut_evenly(struct sph *s, const struct domain_node *t)
 {
     struct domain *d = s->domain;
     if (t->end - t->first < 2)
@@ -198,8 +199,8 @@ static void cut_evenly(struct sph *s, const struct node *t)
     const int m = t->first + (t->end - t->first) / 2, a = longest_axis(t, d->dim);
     const double share = (double)(m - t->first) / (t->end - t->first);
     const double at = t->lo[a] + share * (t->hi[a] - t->lo[a]);
-    d->cuts[m - 1] = (struct cut){a, d->lo[a] + s->dx * round((at - d->lo[a]) / s->dx)};
-    struct node left = *t, right = *t;
+    d->cuts[m - 1] = (struct domain_cut){a, d->lo[a] + s->dx * round((at - d->lo[a]) / s->dx)};
+    struct domain_node left = *t, right = *t;
     left.end = right.first = m;
     left.hi[a] = right.lo[a] = d->cuts[m - 1].at;
     cut_evenly(s, &left);
@@ -208,8 +209,8 @@ static void cut_evenly(struct sph *s, const struct node *t)
 
 /* Work of the node's particles in each bin of [lo, hi) along an axis, over all ranks; the first
  * bin also counts what lies below, the last what lies above. */
-static void count_bins(const struct sph *s, const struct node *t, int axis, double lo, double hi,
-                       int64_t *bins)
+static void count_bins(const struct sph *s, const struct domain_node *t, int axis, double lo,
+                       double hi, int64_t *bins)
 {
     memset(bins, 0, BINS * sizeof *bins);
     for (int k = 0; k < t->n; k++) {
@@ -221,7 +222,7 @@ static void count_bins(const struct sph *s, const struct node *t, int axis, doub
 }
 
 /* Place with `share' of the node's work below it: bins refined around the quantile. */
-static double quantile(const struct sph *s, const struct node *t, int axis, double share)
+static double quantile(const struct sph *s, const struct domain_node *t, int axis, double share)
 {
     double lo = t->lo[axis], hi = t->hi[axis];
     int64_t bins[BINS], all = 0;
@@ -247,7 +248,7 @@ static double quantile(const struct sph *s, const struct node *t, int axis, doub
 
 /* Moves the particles below the cut to the front; returns their number. Order within does not
  * matter. */
-static int split(const struct node *t, const struct cut *c)
+static int split(const struct domain_node *t, const struct domain_cut *c)
 {
     int n = 0;
     for (int k = 0; k < t->n; k++)
@@ -259,15 +260,15 @@ static int split(const struct node *t, const struct cut *c)
     return n;
 }
 
-static void cut_by_work(struct sph *s, const struct node *t)
+static void cut_by_work(struct sph *s, const struct domain_node *t)
 {
     struct domain *d = s->domain;
     if (t->end - t->first < 2)
         return;
     const int m = t->first + (t->end - t->first) / 2, a = longest_axis(t, d->dim);
     const double share = (double)(m - t->first) / (t->end - t->first);
-    d->cuts[m - 1] = (struct cut){a, quantile(s, t, a, share)};
-    struct node left = *t, right = *t;
+    d->cuts[m - 1] = (struct domain_cut){a, quantile(s, t, a, share)};
+    struct domain_node left = *t, right = *t;
     left.end = right.first = m;
     left.hi[a] = right.lo[a] = d->cuts[m - 1].at;
     left.n = split(t, d->cuts + m - 1);
@@ -277,9 +278,9 @@ static void cut_by_work(struct sph *s, const struct node *t)
     cut_by_work(s, &right);
 }
 
-static struct node root(const struct domain *d)
+static struct domain_node root(const struct domain *d)
 {
-    struct node t = {.end = d->size};
+    struct domain_node t = {.end = d->size};
     memcpy(t.lo, d->lo, sizeof t.lo);
     memcpy(t.hi, d->hi, sizeof t.hi);
     return t;
@@ -297,10 +298,10 @@ struct domain *domain_create(struct sph *s)
         d->lo[a] = s->lo[a];
         d->hi[a] = s->hi[a];
     }
-    d->cuts = NEW(struct cut, d->size);
+    d->cuts = NEW(struct domain_cut, d->size);
     d->box = mem_new((size_t)d->size, sizeof *d->box);
     s->domain = d;
-    const struct node t = root(d);
+    const struct domain_node t = root(d);
     if (s->coarser)
         memcpy(d->cuts, s->coarser->domain->cuts, (size_t)d->size * sizeof *d->cuts);
     else
@@ -350,7 +351,7 @@ static int64_t find_work(const struct sph *s, double (*x)[3], int *work)
 /* The tree anew. */
 static void cut_anew(struct sph *s, int n, const double (*x)[3], const int *work)
 {
-    struct node t = root(s->domain);
+    struct domain_node t = root(s->domain);
     t.n = n;
     t.x = x;
     t.work = work;
@@ -702,7 +703,7 @@ bool domain_load(struct sph *s, struct h5 *f)
     double *rows = h5_read_all_real(f, "cuts", 2, &n);
     if (rows && n == d->size) {
         for (int k = 0; k < d->size - 1; k++)
-            d->cuts[k] = (struct cut){(int)rows[2 * k], rows[2 * k + 1]};
+            d->cuts[k] = (struct domain_cut){(int)rows[2 * k], rows[2 * k + 1]};
         cuts_changed(s);
     } else if (rows) {
         s->ready = false;

@@ -15,7 +15,7 @@
 /* 2^30 cells of 20 bytes are more than a rank can hold; 2^25 are 700 MB. */
 #define CELLS_MOST 33554432.0
 
-struct grid {
+struct criteria_grid {
     struct marks cells;
     double *value; /* [cells] largest indicator over its bound, of this evaluation */
     double *until; /* [cells] s: kept at least until then */
@@ -29,7 +29,7 @@ struct grid {
 
 struct criteria {
     int levels;
-    struct grid grid[APR_LEVELS_MAX + 1];
+    struct criteria_grid grid[APR_LEVELS_MAX + 1];
     double speed, gravity;                    /* m/s, largest so far; m/s^2 */
     double next;                              /* s: of the next evaluation */
     double factor;                            /* on all bounds */
@@ -54,7 +54,7 @@ static double particles_of(const struct regions *g, int n, double units)
 /* Cells whose guards would come into the zones at open sides are not marked. */
 static void allow(struct regions *g, int n)
 {
-    struct grid *q = g->criteria->grid + n;
+    struct criteria_grid *q = g->criteria->grid + n;
     const struct marks *c = &q->cells;
     for (size_t k = 0; k < marks_count(c); k++) {
         const size_t at[3] = {k % (size_t)c->n[0], k / (size_t)c->n[0] % (size_t)c->n[1],
@@ -81,7 +81,7 @@ struct criteria *criteria_create(struct regions *g)
     c->factor = 1.0;
     c->next = -INFINITY;
     for (int n = 1; n <= levels; n++) {
-        struct grid *q = c->grid + n;
+        struct criteria_grid *q = c->grid + n;
         if (!marks_create(&q->cells, g->dim, g->domain.lo, g->domain.hi, g->periodic, g->open,
                           regions_R(g, n - 1), CELLS_MOST))
             fail("criteria of level %d need more than %g cells", n, CELLS_MOST);
@@ -101,7 +101,7 @@ struct criteria *criteria_create(struct regions *g)
 void criteria_free(struct regions *g)
 {
     for (int n = 1; g->criteria && n <= g->criteria->levels; n++) {
-        struct grid *q = g->criteria->grid + n;
+        struct criteria_grid *q = g->criteria->grid + n;
         marks_free(&q->cells);
         mem_free(q->value);
         mem_free(q->until);
@@ -143,7 +143,7 @@ void criteria_begin(struct regions *g, double speed, double gravity)
     c->fluid = 0;
     memset(c->fixed, 0, sizeof c->fixed);
     for (int n = 1; n <= c->levels; n++) {
-        struct grid *q = c->grid + n;
+        struct criteria_grid *q = c->grid + n;
         const size_t cells = marks_count(&q->cells);
         memset(q->value, 0, cells * sizeof *q->value);
         memset(q->surface, 0, cells);
@@ -172,7 +172,7 @@ static void add_to_level(struct regions *g, int n, const double *x, const struct
                          int64_t units)
 {
     struct criteria *c = g->criteria;
-    struct grid *q = c->grid + n;
+    struct criteria_grid *q = c->grid + n;
     const size_t cell = marks_find(&q->cells, x);
     const double dx = ldexp(g->dx, 1 - n);
     for (int k = 0; k < g->prm->criteria.n; k++) {
@@ -215,7 +215,7 @@ static double surface_distance(const struct regions *g, int n)
 /* Cells near the surface count as much above their bound as they are nearer than it asks for. */
 static void add_surface(const struct regions *g, int n)
 {
-    struct grid *q = g->criteria->grid + n;
+    struct criteria_grid *q = g->criteria->grid + n;
     const size_t cells = marks_count(&q->cells);
     const int width = (int)ceil(surface_distance(g, n));
     if (surface_distance(g, n) < 0.0)
@@ -229,7 +229,7 @@ static void add_surface(const struct regions *g, int n)
     }
 }
 
-static bool is_kept(const struct grid *q, size_t i, double factor, double t, bool patient)
+static bool is_kept(const struct criteria_grid *q, size_t i, double factor, double t, bool patient)
 {
     if (q->value[i] > factor)
         return true;
@@ -244,7 +244,7 @@ static double mark_all(struct regions *g, double factor, double t, bool patient)
     for (int n = g->prm->levels; n > c->levels; n--)
         sum += particles_of(g, n, (double)c->fixed[n]);
     for (int n = c->levels; n >= 1; n--) {
-        struct grid *q = c->grid + n;
+        struct criteria_grid *q = c->grid + n;
         const size_t cells = marks_count(&q->cells);
         for (size_t i = 0; i < cells; i++)
             q->cells.mark[i] = is_kept(q, i, factor, t, patient);
@@ -295,7 +295,7 @@ static void reduce(struct regions *g)
     MPI_Allreduce(MPI_IN_PLACE, &c->fluid, 1, MPI_INT64_T, MPI_SUM, comm);
     MPI_Allreduce(MPI_IN_PLACE, c->fixed, APR_LEVELS_MAX + 1, MPI_INT64_T, MPI_SUM, comm);
     for (int n = 1; n <= c->levels; n++) {
-        struct grid *q = c->grid + n;
+        struct criteria_grid *q = c->grid + n;
         const int cells = (int)marks_count(&q->cells);
         MPI_Allreduce(MPI_IN_PLACE, q->value, cells, MPI_DOUBLE, MPI_MAX, comm);
         MPI_Allreduce(MPI_IN_PLACE, q->surface, cells, MPI_UNSIGNED_CHAR, MPI_MAX, comm);
@@ -308,7 +308,7 @@ static void remember(struct regions *g, double t, double sound, bool patient)
 {
     struct criteria *c = g->criteria;
     for (int n = 1; n <= c->levels; n++) {
-        struct grid *q = c->grid + n;
+        struct criteria_grid *q = c->grid + n;
         const double life = 20.0 * regions_R(g, n - 1) / sound;
         for (size_t i = 0; i < marks_count(&q->cells); i++) {
             q->seed[i] = is_kept(q, i, c->factor, t, patient);
@@ -320,7 +320,7 @@ static void remember(struct regions *g, double t, double sound, bool patient)
 }
 
 /* Whether any cell of level 1 is marked, or asks for it. */
-static bool any_cell(const struct grid *q, bool asks)
+static bool any_cell(const struct criteria_grid *q, bool asks)
 {
     bool any = false;
     for (size_t i = 0; i < marks_count(&q->cells) && !any; i++)
@@ -372,7 +372,7 @@ void criteria_save(const struct regions *g, struct h5 *f)
     h5_attribute_real(f, "apr_factor", c->factor);
     h5_attribute_real(f, "apr_speed", c->speed);
     for (int n = 1; n <= c->levels; n++) {
-        const struct grid *q = c->grid + n;
+        const struct criteria_grid *q = c->grid + n;
         const size_t cells = mine ? marks_count(&q->cells) : 0;
         char name[32];
         double(*row)[3] = mem_new(cells, sizeof *row);
@@ -387,7 +387,7 @@ void criteria_save(const struct regions *g, struct h5 *f)
     }
 }
 
-static bool load_level(struct grid *q, int n, struct h5 *f)
+static bool load_level(struct criteria_grid *q, int n, struct h5 *f)
 {
     int64_t rows = 0;
     char name[32];

@@ -220,12 +220,12 @@ void guards_list(struct sph *s)
 
 /* Sums over the sources, weighted with w W without the kernel's constant, which cancels: 1, their
  * places from the guard, values half way towards it by their own slopes, slopes. */
-struct sums {
+struct guard_sums {
     vec W, r[3], f[4], grad[4][3]; /* rho, u */
 };
 
 INLINE void add_sources(const struct sph *from, const double *x, double R_1, const int *j, int n,
-                        struct sums *to, const int dim)
+                        struct guard_sums *to, const int dim)
 {
     const double *prim = from->p.prim, *slope = from->p.slope;
     const ptrdiff_t width = dim == 2 ? 8 : 16;
@@ -264,7 +264,7 @@ INLINE void add_sources(const struct sph *from, const double *x, double R_1, con
  * any set where the slopes are of second order, and Shepard's mean [5.24] where these are 0. The
  * mean alone errs by half the kernel's second moment times the field's curvature: Taylor-Green
  * vortices through a box lost 9 % of their energy by that. Returns the sum of the weights. */
-INLINE double mean_of(const struct sums *sum, double f[4], const int dim)
+INLINE double mean_of(const struct guard_sums *sum, double f[4], const int dim)
 {
     const double W = vec_sum(sum->W), W_1 = W > 0.0 ? 1.0 / W : 0.0;
     for (int c = 0; c <= dim; c++) {
@@ -307,7 +307,7 @@ static double matched_density(const struct sph *s, double rho, double from, doub
 
 /* Near a free surface: each level's mean by itself, for what their pressures are at rest differs.
  */
-INLINE double take_near(struct sph *s, const struct sums sum[2], const struct sph *fine,
+INLINE double take_near(struct sph *s, const struct guard_sums sum[2], const struct sph *fine,
                         double f[4], const int dim)
 {
     const double *G = s->gravity, g = sqrt(G[0] * G[0] + G[1] * G[1] + G[2] * G[2]);
@@ -328,7 +328,7 @@ INLINE double take_near(struct sph *s, const struct sums sum[2], const struct sp
     return W;
 }
 
-static void join_sums(struct sums *to, const struct sums *more, int dim)
+static void join_sums(struct guard_sums *to, const struct guard_sums *more, int dim)
 {
     to->W += more->W;
     for (int a = 0; a < dim; a++)
@@ -340,7 +340,7 @@ static void join_sums(struct sums *to, const struct sums *more, int dim)
     }
 }
 
-INLINE void take(struct sph *s, int i, struct sums sum[2], const struct sph *fine, bool near,
+INLINE void take(struct sph *s, int i, struct guard_sums sum[2], const struct sph *fine, bool near,
                  const int dim)
 {
     double *y = state_row(&s->p, s->p.y, i), *q = prim_line(&s->p, i), f[4], W;
@@ -371,7 +371,7 @@ INLINE void update(struct sph *const *all, struct sph *s, int n, const int dim)
     for (int k = 0; k < n; k++) {
         const struct sph *fine = all[g->source[k]];
         const double *x = prim_line(&s->p, g->who[k]), R_1 = 1.0 / reach_of(fine);
-        struct sums sum[2];
+        struct guard_sums sum[2];
         memset(sum, 0, sizeof sum);
         add_sources(fine->coarser, x, R_1, g->j + g->first[k][0], g->count[k][0], sum, dim);
         add_sources(fine, x, R_1, g->j + g->first[k][1], g->count[k][1], sum + 1, dim);

@@ -184,15 +184,15 @@ void marks_measure(struct marks *c)
 /* The cells at most two off along an axis, in the order of their distance from the middle one:
  * squared distance of x from them, and what stands for them in the grid; -1: no marks there. */
 enum { NEAR = 5 };
-struct row {
+struct marks_row {
     double d2[NEAR];
     int at[NEAR];
 };
 
-static struct row row_of(const struct marks *c, int a, int home, double x)
+static struct marks_row row_of(const struct marks *c, int a, int home, double x)
 {
     static const int step[NEAR] = {0, -1, 1, -2, 2};
-    struct row r;
+    struct marks_row r;
     const double h = c->h[a], in = x - c->lo[a] - home * h;
     for (int k = 0; k < NEAR; k++) {
         const double off = step[k] > 0   ? step[k] * h - in
@@ -215,7 +215,7 @@ static struct row row_of(const struct marks *c, int a, int home, double x)
 static double nearest(const struct marks *c, const int *home, const double *x, bool mark)
 {
     const bool solid = c->dim == 3;
-    struct row r[3] = {row_of(c, 0, home[0], x[0]), row_of(c, 1, home[1], x[1])};
+    struct marks_row r[3] = {row_of(c, 0, home[0], x[0]), row_of(c, 1, home[1], x[1])};
     if (solid)
         r[2] = row_of(c, 2, home[2], x[2]);
     double best = INFINITY;

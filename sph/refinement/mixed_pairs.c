@@ -31,12 +31,12 @@ static void write_sizes(struct sph *s)
 /* --- first pass --- */
 
 /* Sums over neighbours without the kernel's constant. */
-struct moments {
+struct mixed_moments {
     vec M[3], rho[2], u[2][2], n[2];
 };
 
 INLINE void add_moments(const double *prim, const double *own, const int *j, int count,
-                        double Wdx_1, struct moments *to)
+                        double Wdx_1, struct mixed_moments *to)
 {
     const double eps2 = 1e-20 * own[LINE_R] * own[LINE_R], Ri_1 = 1.0 / own[LINE_R];
     for (const int *end = j + count; j < end; j += LANES) {
@@ -91,7 +91,7 @@ static void shift(const struct sph *s, const double *n, double R, double *delta)
             delta[a] *= 0.25 * U / sqrt(size2);
 }
 
-static void write_slopes(struct sph *s, int i, const struct moments *sum)
+static void write_slopes(struct sph *s, int i, const struct mixed_moments *sum)
 {
     const double *own = prim_line(&s->p, i), R = own[LINE_R];
     double M[3], delta[2] = {0.0, 0.0}, *slope = slope_line(&s->p, i);
@@ -128,7 +128,7 @@ void mixed_gradients(struct sph *s)
     const double Wdx_1 = 1.0 / (t * t * t * t * (1.0 + 4.0 * dx));
     write_sizes(s);
     for (int i = l->begin; i < l->end; i++) {
-        struct moments sum = {0};
+        struct mixed_moments sum = {0};
         add_moments(s->p.prim, prim_line(&s->p, i), l->j + l->start[i], l->count[i], Wdx_1, &sum);
         write_slopes(s, i, &sum);
     }
@@ -143,8 +143,9 @@ struct mixed_batch {
     vec R[BATCH], weight[BATCH];
 };
 
-INLINE void geometry(const struct constants *c, const struct own *i, double Ri, const double *prim,
-                     const int *j, struct batch *t, struct mixed_batch *m)
+INLINE void geometry(const struct riemann_constants *c, const struct riemann_own *i, double Ri,
+                     const double *prim, const int *j, struct riemann_batch *t,
+                     struct mixed_batch *m)
 {
     for (int k = 0; k < t->n; k++, j += LANES) {
         vec d[2], w, rho, R;
@@ -166,8 +167,8 @@ INLINE void geometry(const struct constants *c, const struct own *i, double Ri, 
 }
 
 /* The acoustic damper, as wide as the pair: beta rho0 c0 R div u is taken from either pressure. */
-INLINE void damp(const double *slope, const double *own, const int *j, double beta, struct batch *t,
-                 const struct mixed_batch *m)
+INLINE void damp(const double *slope, const double *own, const int *j, double beta,
+                 struct riemann_batch *t, const struct mixed_batch *m)
 {
     const double mine = own[2] + own[5];
     for (int k = 0; k < t->n; k++, j += LANES) {
@@ -179,8 +180,9 @@ INLINE void damp(const double *slope, const double *own, const int *j, double be
 }
 
 /* To j with the weight of i, to i with that of j. */
-INLINE void fluxes(const int *j, const struct batch *t, const struct mixed_batch *m, double chi,
-                   double *sums, struct sums *to, const struct variant v)
+INLINE void fluxes(const int *j, const struct riemann_batch *t, const struct mixed_batch *m,
+                   double chi, double *sums, struct riemann_sums *to,
+                   const struct riemann_variant v)
 {
     for (int k = 0; k < t->n; k++, j += LANES) {
         const vec weight = m->weight[k];
@@ -204,16 +206,16 @@ INLINE void fluxes(const int *j, const struct batch *t, const struct mixed_batch
     }
 }
 
-INLINE void add_row(const struct sph *s, const struct constants *c, double beta, double *sums,
-                    int i, const struct variant v)
+INLINE void add_row(const struct sph *s, const struct riemann_constants *c, double beta,
+                    double *sums, int i, const struct riemann_variant v)
 {
     const struct neighbours *l = s->list;
     const double *prim = prim_line(&s->p, i), *slope = slope_line(&s->p, i);
-    const struct own own = load_own(c, prim, slope, v);
+    const struct riemann_own own = load_own(c, prim, slope, v);
     const int *j = l->j + l->start[i] + l->tail[i];
-    struct sums to = {0};
+    struct riemann_sums to = {0};
     for (int left = (l->count[i] - l->tail[i] + LANES - 1) / LANES; left > 0; left -= BATCH) {
-        struct batch t;
+        struct riemann_batch t;
         struct mixed_batch m;
         t.n = left < BATCH ? left : BATCH;
         geometry(c, &own, prim[LINE_R], s->p.prim, j, &t, &m);
@@ -228,9 +230,9 @@ INLINE void add_row(const struct sph *s, const struct constants *c, double beta,
     *(vec4 *)(void *)(sums + 4 * (ptrdiff_t)i) += vec_sums(to.q[0], to.q[1], to.w, to.m);
 }
 
-INLINE void rates(struct sph *s, const struct variant v)
+INLINE void rates(struct sph *s, const struct riemann_variant v)
 {
-    struct constants c = constants_of(s);
+    struct riemann_constants c = constants_of(s);
     const double beta = s->prm.damper * s->rho0 * s->c0;
     double *sums = neighbours_sums(s, 4);
     c.kernel = 2.0 * slope_of_kernel;
@@ -244,7 +246,7 @@ INLINE void rates(struct sph *s, const struct variant v)
 #define RATES(scheme, viscosity)                                                                   \
     static void rates_##scheme##_##viscosity(struct sph *s)                                        \
     {                                                                                              \
-        rates(s, (struct variant){2, scheme, viscosity});                                          \
+        rates(s, (struct riemann_variant){2, scheme, viscosity});                                  \
     }
 RATES(SCHEME_RIEMANN_ALE, VISCOSITY_MORRIS)
 RATES(SCHEME_RIEMANN_ALE, VISCOSITY_MONAGHAN)

@@ -15,16 +15,16 @@
 
 static const double spray = 0.20, inside = 0.75; /* bounds of the eigenvalue */
 
-struct surface *sph_surface_create(struct sph *s)
+struct free_surface *sph_surface_create(struct sph *s)
 {
     if (!s->prm.surface)
         return NULL;
-    struct surface *f = NEW(struct surface, 1);
+    struct free_surface *f = NEW(struct free_surface, 1);
     f->reach = s->prm.transport == TRANSPORT_TVO ? 2.0 * s->dx : s->R;
     return f;
 }
 
-void sph_surface_free(struct surface **f)
+void sph_surface_free(struct free_surface **f)
 {
     if (!*f)
         return;
@@ -37,7 +37,7 @@ void sph_surface_free(struct surface **f)
     *f = NULL;
 }
 
-void surface_room(struct surface *f, int n, int dim)
+void surface_room(struct free_surface *f, int n, int dim)
 {
     if (n <= f->capacity)
         return;
@@ -77,7 +77,7 @@ INLINE void add_crowding(const struct sph *s, int i, double *g, const int dim)
 /* To the pairs' M of the first pass what walls add; g where a normal may be asked for, which walls
  * do not bring about. M is 0 for particles with so many neighbours that they cannot be on the
  * surface. */
-static void moments(struct sph *s, struct surface *f)
+static void moments(struct sph *s, struct free_surface *f)
 {
     const int dim = s->dim;
     if (s->p.n > 0)
@@ -147,7 +147,7 @@ static bool is_covered(const struct sph *s, int i, const double *N)
     return false;
 }
 
-static void classify(struct sph *s, struct surface *f, int i)
+static void classify(struct sph *s, struct free_surface *f, int i)
 {
     const int dim = s->dim;
     const double *M = f->M + (size_t)dim * dim * i;
@@ -165,7 +165,7 @@ static void classify(struct sph *s, struct surface *f, int i)
 }
 
 /* [nghost][1 + dim]: flag and normal of ghosts; those of walls and openings have none. */
-static double *share(struct sph *s, const struct surface *f)
+static double *share(struct sph *s, const struct free_surface *f)
 {
     const int dim = s->dim;
     double *own = NEW(double, (size_t)s->p.n *(1 + dim));
@@ -181,7 +181,7 @@ static double *share(struct sph *s, const struct surface *f)
 }
 
 /* A particle i near another with normal N takes it, weighted by the kernel. */
-static void take_normal(const struct sph *s, struct surface *f, int i, int j, const double *N)
+static void take_normal(const struct sph *s, struct free_surface *f, int i, int j, const double *N)
 {
     const int dim = s->dim;
     const double *x = prim_line(&s->p, i), *y = prim_line(&s->p, j);
@@ -196,7 +196,7 @@ static void take_normal(const struct sph *s, struct surface *f, int i, int j, co
 }
 
 /* Those near ghosts on the surface; ghosts stand at the end of a row. */
-static void find_near_ghosts(struct sph *s, struct surface *f)
+static void find_near_ghosts(struct sph *s, struct free_surface *f)
 {
     const struct neighbours *l = s->list;
     const int n = s->p.n, width = 1 + s->dim;
@@ -213,7 +213,7 @@ static void find_near_ghosts(struct sph *s, struct surface *f)
 }
 
 /* Particles within reach of the surface take its normal: from those on it, which are few. */
-static void find_near(struct sph *s, struct surface *f)
+static void find_near(struct sph *s, struct free_surface *f)
 {
     const int dim = s->dim, n = s->p.n;
     for (int i = 0; i < n; i++) {
@@ -236,7 +236,7 @@ static void find_near(struct sph *s, struct surface *f)
 
 void surface_detect(struct sph *s)
 {
-    struct surface *f = s->surface;
+    struct free_surface *f = s->surface;
     moments(s, f);
     for (int i = 0; i < s->p.n; i++)
         classify(s, f, i);

@@ -9,7 +9,7 @@
 
 enum surface_class { SURFACE_INNER, SURFACE_NEAR, SURFACE_ON };
 
-struct surface {
+struct free_surface {
     int capacity;
     unsigned char *is; /* [n] enum surface_class of the locals */
     double *normal;    /* [n][dim] out of the fluid: on and near the surface, else 0 */
@@ -20,10 +20,10 @@ struct surface {
 };
 
 /* NULL: no free surface in the scene. */
-struct surface *sph_surface_create(struct sph *s);
-void sph_surface_free(struct surface **f);
+struct free_surface *sph_surface_create(struct sph *s);
+void sph_surface_free(struct free_surface **f);
 /* Room for n locals. */
-void surface_room(struct surface *f, int n, int dim);
+void surface_room(struct free_surface *f, int n, int dim);
 /* After the first pass. Collective. */
 void surface_detect(struct sph *s);
 /* Takes the divergence out of the gradients of u as far as the support lacks neighbours: lambda

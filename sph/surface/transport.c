@@ -13,7 +13,7 @@
 #include "surface.h"
 
 /* Takes out the part of delta across the surface [5.14]: nothing may move it but the flow. */
-static void along_surface(const struct surface *f, int i, double *delta, int dim)
+static void along_surface(const struct free_surface *f, int i, double *delta, int dim)
 {
     const double *N = f->normal + (size_t)dim * i;
     double across = 0.0;

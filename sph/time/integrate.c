@@ -175,7 +175,7 @@ static void set_time(struct sph *s, double t)
 /* The stages from s->t to t_end; most gets what the last one shows of velocities. */
 static void take_stages(struct sph *s, double dt, double t_end, double most[LEVELS][EXTREMES])
 {
-    const struct stages *c = s->stages;
+    const struct rk_stages *c = s->stages;
     const double t = s->t;
     start(s, "update");
     for (struct sph *q = s; q; q = q->finer)

@@ -219,7 +219,7 @@ static void add_rates(struct sph *s, double b, bool first)
 
 void level_update(struct sph *s, int k, double dt)
 {
-    const struct stages *c = s->stages;
+    const struct rk_stages *c = s->stages;
     const bool summed = c->weight[0] != 0.0, last = k == c->n - 1;
     start(s, "update");
     if (summed)

@@ -132,7 +132,7 @@ static double gain(const struct sph *s)
 /* One level from s->t to t_end. */
 static void take_stages(struct sph *s, double t_end, struct common *all)
 {
-    const struct stages *c = s->stages;
+    const struct rk_stages *c = s->stages;
     const double t = s->t, dt = t_end - t;
     s->dt = dt;
     memcpy(s->p.y0, s->p.y, (size_t)s->p.n * s->p.nstate * sizeof(double));

@@ -12,26 +12,26 @@
 
 #include "../sph.h"
 
-static const struct stages rk4 = {.name = "rk4",
-                                  .n = 4,
-                                  .at = {0.0, 0.5, 0.5, 1.0},
-                                  .ahead = {0.5, 0.5, 1.0},
-                                  .weight = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0},
-                                  .real_axis = 2.785};
-static const struct stages j3_upwind = {.name = "j3",
-                                        .n = 3,
-                                        .at = {0.0, 0.23, 0.5},
-                                        .ahead = {0.23, 0.5},
-                                        .weight = {0.0, 0.0, 1.0},
-                                        .real_axis = 3.3};
-static const struct stages j3_central = {.name = "j3",
-                                         .n = 3,
-                                         .at = {0.0, 1.0 / 3.0, 0.5},
-                                         .ahead = {1.0 / 3.0, 0.5},
-                                         .weight = {0.0, 0.0, 1.0},
-                                         .real_axis = 2.51};
+static const struct rk_stages rk4 = {.name = "rk4",
+                                     .n = 4,
+                                     .at = {0.0, 0.5, 0.5, 1.0},
+                                     .ahead = {0.5, 0.5, 1.0},
+                                     .weight = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0},
+                                     .real_axis = 2.785};
+static const struct rk_stages j3_upwind = {.name = "j3",
+                                           .n = 3,
+                                           .at = {0.0, 0.23, 0.5},
+                                           .ahead = {0.23, 0.5},
+                                           .weight = {0.0, 0.0, 1.0},
+                                           .real_axis = 3.3};
+static const struct rk_stages j3_central = {.name = "j3",
+                                            .n = 3,
+                                            .at = {0.0, 1.0 / 3.0, 0.5},
+                                            .ahead = {1.0 / 3.0, 0.5},
+                                            .weight = {0.0, 0.0, 1.0},
+                                            .real_axis = 2.51};
 
-const struct stages *stages_of(int integrator, int scheme)
+const struct rk_stages *stages_of(int integrator, int scheme)
 {
     if (integrator == INTEGRATOR_RK4)
         return &rk4;

@@ -10,7 +10,7 @@
 
 enum { STAGES_MOST = 4 };
 
-struct stages {
+struct rk_stages {
     const char *name;
     int n;
     double at[STAGES_MOST];     /* dt: time of stage k after that of the step's start */
@@ -20,6 +20,6 @@ struct stages {
 };
 
 /* integrator: enum sph_integrator but auto. */
-const struct stages *stages_of(int integrator, int scheme);
+const struct rk_stages *stages_of(int integrator, int scheme);
 
 #endif

@@ -162,7 +162,7 @@ void facet_finish(struct facet_batch *b)
 
 /* Symmetric rules on a triangle of degree 1, 2 and 5 (Radon): parts of the corners, weight. */
 enum { POINTS = 8 };
-struct rule {
+struct facet_rule {
     double corner[3][POINTS], weight[POINTS];
 };
 
@@ -170,10 +170,10 @@ struct rule {
 #define B 0.47014206410511508 /* (6 + sqrt 15)/21 */
 #define T (1.0 / 3.0)
 #define S (1.0 / 6.0)
-static const struct rule rule1 __attribute__((aligned(64))) = {{{T}, {T}, {T}}, {1.0}};
-static const struct rule rule3 __attribute__((aligned(64))) = {
+static const struct facet_rule rule1 __attribute__((aligned(64))) = {{{T}, {T}, {T}}, {1.0}};
+static const struct facet_rule rule3 __attribute__((aligned(64))) = {
     {{1 - 2 * S, S, S}, {S, 1 - 2 * S, S}, {S, S, 1 - 2 * S}}, {T, T, T}};
-static const struct rule rule7 __attribute__((aligned(64))) = {
+static const struct facet_rule rule7 __attribute__((aligned(64))) = {
     {{1 - 2 * A, A, A, 1 - 2 * B, B, B, T},
      {A, 1 - 2 * A, A, B, 1 - 2 * B, B, T},
      {A, A, 1 - 2 * A, B, B, 1 - 2 * B, T}},
@@ -186,7 +186,7 @@ static const struct rule rule7 __attribute__((aligned(64))) = {
 
 /* Of LANES points: r is kept from 0, for those without weight lie anywhere. */
 INLINE void add_points(const struct facet *f, const double *x, double R, double D,
-                       const struct rule *q, int k, struct wall_integrals *to)
+                       const struct facet_rule *q, int k, struct wall_integrals *to)
 {
     const double R_1 = 1.0 / R;
     const vec one = vec_all(1.0), w = *(const vec *)(q->weight + k) * f->area;
@@ -215,7 +215,7 @@ INLINE void add_points(const struct facet *f, const double *x, double R, double 
 static void by_points(const struct facet *f, const double *x, double R, double D, int n,
                       struct wall_integrals *to)
 {
-    const struct rule *q = n == 1 ? &rule1 : n == 3 ? &rule3 : &rule7;
+    const struct facet_rule *q = n == 1 ? &rule1 : n == 3 ? &rule3 : &rule7;
     for (int k = 0; k < n; k += LANES)
         add_points(f, x, R, D, q, k, to);
 }

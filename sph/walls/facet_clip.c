@@ -12,7 +12,7 @@
 
 enum { CORNERS = 8 };
 
-struct polygon {
+struct clip_polygon {
     int n;
     double x[CORNERS][2];
 };
@@ -27,9 +27,9 @@ static double inside(const struct line2 *l, const double *x)
     return l->c - l->m[0] * x[0] - l->m[1] * x[1];
 }
 
-static struct polygon cut(const struct polygon *p, const struct line2 *l)
+static struct clip_polygon cut(const struct clip_polygon *p, const struct line2 *l)
 {
-    struct polygon q = {.n = 0};
+    struct clip_polygon q = {.n = 0};
     for (int k = 0; k < p->n; k++) {
         const double *a = p->x[k], *b = p->x[(k + 1) % p->n];
         const double ea = inside(l, a), eb = inside(l, b);
@@ -47,7 +47,7 @@ static struct polygon cut(const struct polygon *p, const struct line2 *l)
 }
 
 /* Area and centroid, from the first corner for the digits' sake. */
-static double area_of(const struct polygon *p, double *centre)
+static double area_of(const struct clip_polygon *p, double *centre)
 {
     double area = 0.0, sum[2] = {0.0, 0.0};
     for (int k = 1; k + 1 < p->n; k++) {
@@ -76,7 +76,7 @@ static double part_of(const struct line2 edge[3], const double *middle, double s
     }
     if (whole)
         return side * side;
-    struct polygon p = {4, {{x - h, y - h}, {x + h, y - h}, {x + h, y + h}, {x - h, y + h}}};
+    struct clip_polygon p = {4, {{x - h, y - h}, {x + h, y - h}, {x + h, y + h}, {x - h, y + h}}};
     for (int s = 0; s < 3 && p.n > 0; s++)
         p = cut(&p, edge + s);
     return area_of(&p, centre);

@@ -11,7 +11,7 @@
 #include "../../common/base/mem.h"
 
 /* A line that parts the plane: a segment of a wall, or an open side of the domain. */
-struct line {
+struct cover_line {
     double a[2], t[2], length;
     bool wall; /* else an open side */
 };
@@ -23,11 +23,11 @@ struct piece {
     double from, to; /* m along the line */
 };
 
-struct plane {
+struct cover_plane {
     double near; /* m: what is nearer than this meets */
     const double *lo, *hi;
     int nlines, npieces, ncuts, nnodes;
-    struct line *line;
+    struct cover_line *line;
     struct piece *piece;
     struct cut {
         int line;
@@ -38,16 +38,16 @@ struct plane {
     bool *shut; /* [2 npieces] by the face's number: a closed room that shows a wall's back */
 };
 
-static double *end_of(const struct line *l, double at, double x[2])
+static double *end_of(const struct cover_line *l, double at, double x[2])
 {
     for (int a = 0; a < 2; a++)
         x[a] = l->a[a] + at * l->t[a];
     return x;
 }
 
-static void add_line(struct plane *p, const double *a, const double *b, bool wall)
+static void add_line(struct cover_plane *p, const double *a, const double *b, bool wall)
 {
-    struct line l = {.a = {a[0], a[1]}, .wall = wall};
+    struct cover_line l = {.a = {a[0], a[1]}, .wall = wall};
     l.length = hypot(b[0] - a[0], b[1] - a[1]);
     for (int k = 0; k < 2; k++)
         l.t[k] = (b[k] - a[k]) / l.length;
@@ -56,7 +56,7 @@ static void add_line(struct plane *p, const double *a, const double *b, bool wal
     p->line[p->nlines++] = l;
 }
 
-static void add_cut(struct plane *p, int line, double at)
+static void add_cut(struct cover_plane *p, int line, double at)
 {
     if (p->ncuts % 64 == 0)
         GROW(p->cut, p->ncuts, p->ncuts + 64);
@@ -64,9 +64,9 @@ static void add_cut(struct plane *p, int line, double at)
 }
 
 /* Cuts of line i by line j: where they cross, and where an end of j lies on i. */
-static void cut_by(struct plane *p, int i, int j)
+static void cut_by(struct cover_plane *p, int i, int j)
 {
-    const struct line *l = p->line + i, *m = p->line + j;
+    const struct cover_line *l = p->line + i, *m = p->line + j;
     const double d[2] = {m->a[0] - l->a[0], m->a[1] - l->a[1]};
     const double turn = l->t[0] * m->t[1] - l->t[1] * m->t[0];
     if (fabs(turn) > 1e-9) {
@@ -87,7 +87,8 @@ static void cut_by(struct plane *p, int i, int j)
     }
 }
 
-static bool are_apart(const struct plane *p, const struct line *l, const struct line *m)
+static bool are_apart(const struct cover_plane *p, const struct cover_line *l,
+                      const struct cover_line *m)
 {
     double x[2], y[2];
     end_of(l, l->length, x);
@@ -100,7 +101,7 @@ static bool are_apart(const struct plane *p, const struct line *l, const struct 
 }
 
 /* Whether something meets a wall between its ends. */
-static bool cut_lines(struct plane *p)
+static bool cut_lines(struct cover_plane *p)
 {
     bool any = false;
     for (int i = 0; i < p->nlines; i++)
@@ -124,7 +125,7 @@ static int by_place(const void *a, const void *b)
     return (c->at > d->at) - (c->at < d->at);
 }
 
-static int node_at(struct plane *p, const double *x)
+static int node_at(struct cover_plane *p, const double *x)
 {
     for (int k = 0; k < p->nnodes; k++)
         if (hypot(p->node[k][0] - x[0], p->node[k][1] - x[1]) < 2.0 * p->near)
@@ -136,7 +137,7 @@ static int node_at(struct plane *p, const double *x)
 }
 
 /* Whether a wall runs between two nodes: no open side there. */
-static bool is_laid(const struct plane *p, const int node[2])
+static bool is_laid(const struct cover_plane *p, const int node[2])
 {
     for (int k = 0; k < p->npieces; k++)
         for (int end = 0; end < 2; end++)
@@ -145,7 +146,7 @@ static bool is_laid(const struct plane *p, const int node[2])
     return false;
 }
 
-static void lay_pieces(struct plane *p)
+static void lay_pieces(struct cover_plane *p)
 {
     for (int i = 0; i < p->nlines; i++) {
         add_cut(p, i, 0.0);
@@ -154,7 +155,7 @@ static void lay_pieces(struct plane *p)
     qsort(p->cut, (size_t)p->ncuts, sizeof *p->cut, by_place);
     p->piece = NEW(struct piece, p->ncuts);
     for (int k = 1; k < p->ncuts; k++) {
-        const struct line *l = p->line + p->cut[k].line;
+        const struct cover_line *l = p->line + p->cut[k].line;
         double x[2];
         if (p->cut[k].line != p->cut[k - 1].line)
             continue;
@@ -169,7 +170,7 @@ static void lay_pieces(struct plane *p)
 }
 
 /* Whether another piece in the same place looks the other way, or comes before it. */
-static bool is_double(const struct plane *p, int piece)
+static bool is_double(const struct cover_plane *p, int piece)
 {
     const struct piece *c = p->piece + piece;
     for (int k = 0; k < p->npieces; k++) {
@@ -183,7 +184,7 @@ static bool is_double(const struct plane *p, int piece)
 }
 
 /* Of two walls back to back nothing is felt, of two in one place one is enough. */
-static void drop_doubles(struct plane *p)
+static void drop_doubles(struct cover_plane *p)
 {
     struct piece *kept = NEW(struct piece, p->npieces);
     int n = 0;
@@ -196,15 +197,15 @@ static void drop_doubles(struct plane *p)
 }
 
 /* Angle of a half where it leaves its node. */
-static double heading(const struct plane *p, int half)
+static double heading(const struct cover_plane *p, int half)
 {
-    const struct line *l = p->line + p->piece[half / 2].line;
+    const struct cover_line *l = p->line + p->piece[half / 2].line;
     return half % 2 ? atan2(-l->t[1], -l->t[0]) : atan2(l->t[1], l->t[0]);
 }
 
 /* The half that goes on around the room on the left of `half': of those that leave its end, the
  * first to the right of the way back. */
-static int next_half(const struct plane *p, int half)
+static int next_half(const struct cover_plane *p, int half)
 {
     const int node = p->piece[half / 2].node[half % 2 ? 0 : 1], back = half ^ 1;
     double least = INFINITY;
@@ -223,13 +224,13 @@ static int next_half(const struct plane *p, int half)
     return next;
 }
 
-static bool is_wall(const struct plane *p, int half)
+static bool is_wall(const struct cover_plane *p, int half)
 {
     return p->line[p->piece[half / 2].line].wall;
 }
 
 /* Walks around the room on the left of a half that has none yet. */
-static void walk(struct plane *p, int first)
+static void walk(struct cover_plane *p, int first)
 {
     double area = 0.0;
     int half = first;
@@ -247,7 +248,7 @@ static void walk(struct plane *p, int first)
 
 /* Whether a piece that ends nowhere begins on the back of a wall that goes on to both sides: beyond
  * the tank. */
-static bool is_beyond(const struct plane *p, int piece)
+static bool is_beyond(const struct cover_plane *p, int piece)
 {
     const struct piece *c = p->piece + piece;
     int others[2] = {0, 0};
@@ -271,7 +272,7 @@ static bool is_beyond(const struct plane *p, int piece)
     return backs > 1;
 }
 
-static void find_rooms(struct plane *p)
+static void find_rooms(struct cover_plane *p)
 {
     p->face = NEW(int, 2 * p->npieces);
     p->shut = NEW(bool, 2 * p->npieces);
@@ -282,7 +283,7 @@ static void find_rooms(struct plane *p)
             walk(p, k);
 }
 
-static bool is_outside(const struct plane *p, int piece)
+static bool is_outside(const struct cover_plane *p, int piece)
 {
     const struct piece *c = p->piece + piece;
     double x[2];
@@ -292,7 +293,7 @@ static bool is_outside(const struct plane *p, int piece)
 
 /* Whether a piece goes on outside of the domain from one within, across an open side, that lies
  * before a closed room: that room goes on, too. */
-static bool goes_on(const struct plane *p, int piece)
+static bool goes_on(const struct cover_plane *p, int piece)
 {
     for (int k = piece - 1; k <= piece + 1 && is_outside(p, piece); k += 2)
         if (k >= 0 && k < p->npieces && p->piece[k].line == p->piece[piece].line &&
@@ -301,7 +302,7 @@ static bool goes_on(const struct plane *p, int piece)
     return false;
 }
 
-static bool is_covered(const struct plane *p, int piece)
+static bool is_covered(const struct cover_plane *p, int piece)
 {
     return p->shut[p->face[2 * piece]] || is_beyond(p, piece) || goes_on(p, piece);
 }
@@ -315,7 +316,7 @@ static void add_part(struct wall_parts *to, int line, double from, double until)
 
 /* What is left of line i, whose pieces begin with k; pieces that go on make one part. Returns the
  * first piece of the next line. */
-static int keep_seen(const struct plane *p, int i, int k, struct wall_parts *parts)
+static int keep_seen(const struct cover_plane *p, int i, int k, struct wall_parts *parts)
 {
     double from = -1.0, to = -1.0;
     for (; k < p->npieces && p->piece[k].line == i; k++) {
@@ -335,7 +336,7 @@ static int keep_seen(const struct plane *p, int i, int k, struct wall_parts *par
 }
 
 /* Open sides of the domain close rooms, too. */
-static void add_open_sides(struct plane *p, const double *lo, const double *hi)
+static void add_open_sides(struct cover_plane *p, const double *lo, const double *hi)
 {
     const double corner[4][2] = {{lo[0], lo[1]}, {hi[0], lo[1]}, {hi[0], hi[1]}, {lo[0], hi[1]}};
     for (int k = 0; k < 4; k++)
@@ -343,7 +344,7 @@ static void add_open_sides(struct plane *p, const double *lo, const double *hi)
 }
 
 /* Whether all walls are left, from end to end. */
-static bool are_whole(const struct plane *p, int n, const struct wall_parts *parts)
+static bool are_whole(const struct cover_plane *p, int n, const struct wall_parts *parts)
 {
     bool whole = parts->n == n;
     for (int i = 0; i < n && whole; i++)
@@ -356,7 +357,7 @@ struct wall_parts wall_cover(int n, const double (*ends)[2][2], const double *lo
                              double near)
 {
     struct wall_parts parts = {0};
-    struct plane p = {.near = near, .lo = lo, .hi = hi};
+    struct cover_plane p = {.near = near, .lo = lo, .hi = hi};
     for (int k = 0; k < n; k++)
         add_line(&p, ends[k][0], ends[k][1], true);
     add_open_sides(&p, lo, hi);

@@ -20,7 +20,7 @@ struct cover {
 };
 
 /* A rectangle in the two axes along the side. */
-struct box {
+struct cover_box {
     double lo[2], hi[2];
 };
 
@@ -53,7 +53,7 @@ static void emit(struct cover *c, int n, const double (*x)[3], bool turned)
     m->nvertices += n;
 }
 
-static void corners(const struct cover *c, const struct box *b, double (*x)[3])
+static void corners(const struct cover *c, const struct cover_box *b, double (*x)[3])
 {
     for (int k = 0; k < 4; k++)
         place(c, k == 1 || k == 2 ? b->hi[0] : b->lo[0], k > 1 ? b->hi[1] : b->lo[1], x[k]);
@@ -88,7 +88,7 @@ static int above(int n, const double (*x)[3], const double *h, double (*y)[3])
     return corners;
 }
 
-static enum state whole(struct cover *c, const struct box *b)
+static enum state whole(struct cover *c, const struct cover_box *b)
 {
     double x[4][3];
     corners(c, b, x);
@@ -97,7 +97,7 @@ static enum state whole(struct cover *c, const struct box *b)
 }
 
 /* A small rectangle, as far as it lies before the plane of the mesh. */
-static enum state clip(struct cover *c, const struct box *b, const struct tree_foot *f)
+static enum state clip(struct cover *c, const struct cover_box *b, const struct tree_foot *f)
 {
     double x[4][3], y[8][3], h[4];
     int hidden = 0;
@@ -128,7 +128,7 @@ static bool is_parallel(const struct cover *c, const struct tree_foot *f)
 
 /* A small rectangle at a mesh; where the mesh lies in the side, of two alike the side is kept, of
  * two back to back none, but for what sticks out at a corner. */
-static enum state cut(struct cover *c, const struct box *b, const struct tree_foot *f)
+static enum state cut(struct cover *c, const struct cover_box *b, const struct tree_foot *f)
 {
     double x[4][3];
     if (!is_parallel(c, f))
@@ -144,7 +144,7 @@ static enum state cut(struct cover *c, const struct box *b, const struct tree_fo
     return HIDDEN;
 }
 
-static enum state cover(struct cover *c, const struct box *b)
+static enum state cover(struct cover *c, const struct cover_box *b)
 {
     const double p = 0.5 * (b->lo[0] + b->hi[0]), q = 0.5 * (b->lo[1] + b->hi[1]);
     const double w[2] = {b->hi[0] - b->lo[0], b->hi[1] - b->lo[1]};
@@ -160,7 +160,7 @@ static enum state cover(struct cover *c, const struct box *b)
     if (fmax(w[0], w[1]) <= c->size)
         return no_side ? whole(c, b) : cut(c, b, &f);
     for (int half = 0; half < 2; half++) { /* the longer way is halved */
-        struct box part = *b;
+        struct cover_box part = *b;
         const int a = w[1] > w[0];
         (half ? part.lo : part.hi)[a] = a ? q : p;
         const enum state is = cover(c, &part);
@@ -178,7 +178,7 @@ struct trimesh wall_cover_side(const struct cover_side *is, int n, const struct 
                                double size)
 {
     struct cover c = {.is = is, .nmeshes = n, .mesh = mesh, .size = size};
-    struct box all;
+    struct cover_box all;
     for (int a = 0; a < 2; a++) {
         const int axis = (is->axis + 1 + a) % 3;
         all.lo[a] = is->lo[axis];

@@ -9,7 +9,7 @@
 #include "../../common/base/mem.h"
 
 /* A segment with the fluid on its left. */
-struct face {
+struct thin_face {
     double a[2], t[2], n[2], length; /* n out of the fluid */
     int piece;                       /* polyline, then body, then side of the domain */
     double from, total;              /* m: of a along its piece; all of a closed piece, else 0 */
@@ -17,11 +17,11 @@ struct face {
 
 struct faces {
     int n, capacity;
-    struct face *face;
+    struct thin_face *face;
     const struct scene *scene;
 };
 
-static void add_face(struct faces *f, const double *a, const double *b, struct face with)
+static void add_face(struct faces *f, const double *a, const double *b, struct thin_face with)
 {
     const double d[2] = {b[0] - a[0], b[1] - a[1]}, length = hypot(d[0], d[1]);
     if (length <= 0.0)
@@ -57,7 +57,7 @@ static void add_points(struct faces *f, const struct param_points *p, bool close
     for (int k = 0; k < n; k++) {
         const int i = backwards ? p->n - 1 - k : k;
         const int j = backwards ? (i + p->n - 1) % p->n : (i + 1) % p->n;
-        add_face(f, p->x[i], p->x[j], (struct face){.piece = piece, .from = at});
+        add_face(f, p->x[i], p->x[j], (struct thin_face){.piece = piece, .from = at});
         at += hypot(p->x[j][0] - p->x[i][0], p->x[j][1] - p->x[i][1]);
     }
     for (int k = first; k < f->n && closed; k++)
@@ -82,7 +82,8 @@ static struct faces faces_of(const struct scene *c, bool sides)
         const int side = c->walls[k].side - SIDE_X_MIN;
         if (c->walls[k].side == SIDE_NONE || side > 3 || c->walls[k].kind > WALL_NO_SLIP)
             continue;
-        add_face(&f, corner[start[side]], corner[(start[side] + 1) % 4], (struct face){.piece = k});
+        add_face(&f, corner[start[side]], corner[(start[side] + 1) % 4],
+                 (struct thin_face){.piece = k});
     }
     return f;
 }
@@ -93,7 +94,7 @@ static double cast(const struct faces *f, int own, const double *x, const double
 {
     double nearest = INFINITY;
     for (int k = 0; k < f->n; k++) {
-        const struct face *g = f->face + k;
+        const struct thin_face *g = f->face + k;
         const double across = d[0] * g->n[0] + d[1] * g->n[1];
         const double r[2] = {g->a[0] - x[0], g->a[1] - x[1]};
         if (k == own || fabs(across) < 1e-9)
@@ -110,7 +111,7 @@ static double cast(const struct faces *f, int own, const double *x, const double
 }
 
 /* Whether the end u of face p lies on face q; where, in m along q. */
-static bool joins(const struct face *p, double u, const struct face *q, double *v)
+static bool joins(const struct thin_face *p, double u, const struct thin_face *q, double *v)
 {
     const double d[2] = {p->a[0] + u * p->t[0] - q->a[0], p->a[1] + u * p->t[1] - q->a[1]};
     *v = fmax(0.0, fmin(d[0] * q->t[0] + d[1] * q->t[1], q->length));
@@ -119,16 +120,16 @@ static bool joins(const struct face *p, double u, const struct face *q, double *
 
 /* Way along the walls between the point s of face g and the point r of face h, m; over the place
  * where their pieces meet, if they do. */
-static double way(const struct faces *f, const struct face *g, double s, const struct face *h,
-                  double r)
+static double way(const struct faces *f, const struct thin_face *g, double s,
+                  const struct thin_face *h, double r)
 {
     double least = INFINITY, u, v;
     if (g->piece == h->piece) {
         const double d = fabs(g->from + s - h->from - r);
         return g->total > 0.0 ? fmin(d, g->total - d) : d;
     }
-    for (const struct face *p = f->face; p < f->face + f->n; p++)
-        for (const struct face *q = f->face; q < f->face + f->n; q++)
+    for (const struct thin_face *p = f->face; p < f->face + f->n; p++)
+        for (const struct thin_face *q = f->face; q < f->face + f->n; q++)
             for (int e = 0; p->piece == g->piece && q->piece == h->piece && e < 4; e++) {
                 const double end = e % 2 * (e < 2 ? p->length : q->length);
                 const bool meet = e < 2 ? joins(p, u = end, q, &v) : joins(q, v = end, p, &u);
@@ -141,8 +142,8 @@ static double way(const struct faces *f, const struct face *g, double s, const s
 
 /* Two faces that run together to a point are a corner, however sharp: the way round it is what the
  * angle says. Nor is it a wall where the way round is as short as across. */
-static bool is_corner(const struct faces *f, const struct face *g, double s, const struct face *h,
-                      double width)
+static bool is_corner(const struct faces *f, const struct thin_face *g, double s,
+                      const struct thin_face *h, double width)
 {
     const double x[2] = {g->a[0] + s * g->t[0] - h->a[0], g->a[1] + s * g->t[1] - h->a[1]};
     const double r = fmax(0.0, fmin(x[0] * h->t[0] + x[1] * h->t[1], h->length));
@@ -153,7 +154,7 @@ static bool is_corner(const struct faces *f, const struct face *g, double s, con
            (sine > 0.08 && round < 1.5 * width * (1.0 + cosine) / sine); /* 5 degrees */
 }
 
-static void name_face(const struct scene *c, const struct face *g, char *text, size_t size)
+static void name_face(const struct scene *c, const struct thin_face *g, char *text, size_t size)
 {
     if (g->piece >= WALLS_MAX)
         snprintf(text, size, "body %d (%.30s)", g->piece - WALLS_MAX + 1,
@@ -166,14 +167,14 @@ static void name_face(const struct scene *c, const struct face *g, char *text, s
 static bool is_thin(const struct faces *f, int k, double s, int into, double least,
                     struct wall_thin *t)
 {
-    const struct face *g = f->face + k;
+    const struct thin_face *g = f->face + k;
     const double x[2] = {g->a[0] + s * g->t[0], g->a[1] + s * g->t[1]};
     const double d[2] = {into * g->n[0], into * g->n[1]};
     int hit = -1;
     const double width = cast(f, k, x, d, least, &hit);
     if (hit < 0 || width < 1e-3 * least)
         return false;
-    const struct face *h = f->face + hit;
+    const struct thin_face *h = f->face + hit;
     if (g->n[0] * h->n[0] + g->n[1] * h->n[1] >= 0.0 || is_corner(f, g, s, h, width))
         return false;
     *t = (struct wall_thin){.at = {x[0] + 0.5 * width * d[0], x[1] + 0.5 * width * d[1]},

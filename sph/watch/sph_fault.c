@@ -22,7 +22,7 @@ struct culprit {
 enum { CULPRIT = sizeof(struct culprit) / sizeof(double) };
 
 /* What is around it. */
-struct place {
+struct fault_place {
     double pair; /* m: to the nearest particle */
     int near;    /* particles within R */
     double wall; /* m: to the nearest wall; INFINITY: none */
@@ -118,10 +118,10 @@ static double wall_distance(const struct sph *s, const double *x)
 
 /* Collective: what is around it is anywhere. What is not finite any more is looked at where it was.
  */
-static struct place survey(const struct sph *s, const struct culprit *c)
+static struct fault_place survey(const struct sph *s, const struct culprit *c)
 {
     const double *x = c->x, *rows = c->fault < 1e300 ? s->p.y : s->p.y0;
-    struct place p = {.pair = INFINITY, .wall = wall_distance(s, x)};
+    struct fault_place p = {.pair = INFINITY, .wall = wall_distance(s, x)};
     for (int i = 0; i < s->p.n; i++) {
         const double *y = rows + (size_t)i * s->p.nstate;
         double r2 = 0.0;
@@ -141,8 +141,8 @@ static struct place survey(const struct sph *s, const struct culprit *c)
     return p;
 }
 
-static void describe_where(const struct sph *s, const struct culprit *c, const struct place *p,
-                           struct diagnosis *d)
+static void describe_where(const struct sph *s, const struct culprit *c,
+                           const struct fault_place *p, struct diagnosis *d)
 {
     static const char *const zone[] = {"", ", in the transition", ", in the buffer"};
     char third[32] = "", wall[64] = "", pair[64] = ", alone";
@@ -174,8 +174,8 @@ static void describe_fault(const struct sph *s, const struct culprit *c, struct 
 }
 
 /* The first that the figures bear out. */
-static void describe_cause(const struct sph *s, const struct culprit *c, const struct place *p,
-                           struct diagnosis *d)
+static void describe_cause(const struct sph *s, const struct culprit *c,
+                           const struct fault_place *p, struct diagnosis *d)
 {
     const size_t n = sizeof d->likely;
     const double bound = sph_params_cfl_bound(&s->prm, s->dim);
@@ -233,7 +233,7 @@ void sph_fault_place(struct sph *base, struct diagnosis *d)
 {
     const struct culprit c = find_worst(base);
     const struct sph *s = level_of(base, &c);
-    const struct place p = survey(s, &c);
+    const struct fault_place p = survey(s, &c);
     describe_where(s, &c, &p, d);
 }
 
@@ -241,7 +241,7 @@ void sph_fault_diagnose(struct sph *base, struct diagnosis *d)
 {
     const struct culprit c = find_worst(base);
     const struct sph *s = level_of(base, &c);
-    const struct place p = survey(s, &c);
+    const struct fault_place p = survey(s, &c);
     d->bad = true;
     describe_fault(s, &c, d);
     describe_where(s, &c, &p, d);

@@ -17,7 +17,7 @@ static double noise(void) { return (double)rand() / RAND_MAX; }
 
 /* Averages over the cells by Gauss-Legendre with 3 points a direction: exact to degree 5. `point':
  * values at cell centres instead. */
-static void fill(struct patch *p, function *f, function *dfdt, bool point)
+static void fill(struct client_patch *p, function *f, function *dfdt, bool point)
 {
     static const double node[3] = {-0.3872983346207417, 0.0, 0.3872983346207417};
     static const double weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
@@ -44,20 +44,20 @@ static void fill(struct patch *p, function *f, function *dfdt, bool point)
             }
 }
 
-static struct patch make(int dim, int n, double h, bool cubic)
+static struct client_patch make(int dim, int n, double h, bool cubic)
 {
-    return (struct patch){.dim = dim,
-                          .ncomp = 1,
-                          .cubic = cubic,
-                          .lo = {3, -2, dim == 3 ? 1 : 0},
-                          .n = {n, n + 1, dim == 3 ? n - 1 : 1},
-                          .origin = {0.3, -0.2, 0.1},
-                          .spacing = {h, 1.1 * h, 0.9 * h},
-                          .t = 2.0};
+    return (struct client_patch){.dim = dim,
+                                 .ncomp = 1,
+                                 .cubic = cubic,
+                                 .lo = {3, -2, dim == 3 ? 1 : 0},
+                                 .n = {n, n + 1, dim == 3 ? n - 1 : 1},
+                                 .origin = {0.3, -0.2, 0.1},
+                                 .spacing = {h, 1.1 * h, 0.9 * h},
+                                 .t = 2.0};
 }
 
 /* Anywhere in the patch but for `inset' cells at its edges. */
-static void place(const struct patch *p, double inset, double *x)
+static void place(const struct client_patch *p, double inset, double *x)
 {
     for (int a = 0; a < 3; a++)
         x[a] = a < p->dim ? p->origin[a] + (p->lo[a] + inset + noise() * (p->n[a] - 2.0 * inset)) *
@@ -82,8 +82,8 @@ static double cubic3(const double *x)
 static double wave(const double *x) { return sin(2.0 * M_PI * x[0]) * cos(2.0 * M_PI * x[1]); }
 
 /* Largest error over random places, of the value and of the slopes by central differences of f. */
-static void errors(const struct patch *p, double inset, function *f, function *dfdt, double tau,
-                   double *value, double *slope)
+static void errors(const struct client_patch *p, double inset, function *f, function *dfdt,
+                   double tau, double *value, double *slope)
 {
     *value = *slope = 0.0;
     for (int m = 0; m < 2000; m++) {
@@ -103,7 +103,7 @@ static void errors(const struct patch *p, double inset, function *f, function *d
 
 static void check_exact(int dim, bool is_cubic, function *f)
 {
-    struct patch p = make(dim, 7, 0.1, is_cubic);
+    struct client_patch p = make(dim, 7, 0.1, is_cubic);
     double value, slope;
     fill(&p, f, f, false);
     patch_prepare(&p);
@@ -136,7 +136,7 @@ static double order(bool is_cubic, bool of_slope)
     for (int m = 0; m < 3; m++) {
         const int n = 16 << m;
         double slope, value;
-        struct patch p = make(2, n, 1.0 / n, is_cubic);
+        struct client_patch p = make(2, n, 1.0 / n, is_cubic);
         fill(&p, wave, NULL, !is_cubic);
         patch_prepare(&p);
         errors(&p, 2.0, wave, NULL, 0.0, &value, &slope);
@@ -162,7 +162,7 @@ static void orders_are_two_and_four_and_one_less_for_slopes(void **state)
 static void linear_is_the_printed_formula(void **state)
 {
     (void)state;
-    struct patch p = make(2, 2, 0.25, false);
+    struct client_patch p = make(2, 2, 0.25, false);
     p.n[1] = 2;
     fill(&p, wave, NULL, true);
     patch_prepare(&p);
@@ -185,7 +185,7 @@ static void linear_is_the_printed_formula(void **state)
 static void outside_is_as_at_the_nearest_place(void **state)
 {
     (void)state;
-    struct patch p = make(2, 8, 0.1, true);
+    struct client_patch p = make(2, 8, 0.1, true);
     fill(&p, cubic, NULL, false);
     patch_prepare(&p);
     const double right = p.origin[0] + (p.lo[0] + p.n[0]) * p.spacing[0];
@@ -205,7 +205,8 @@ static void periodic_patches_find_every_image(void **state)
     (void)state;
     const int n = 20;
     const double lo[3] = {-0.2, 0.4, 0.0}, hi[3] = {0.3, 1.4, 0.0};
-    struct patch p = {.dim = 2, .ncomp = 1, .cubic = true, .spacing = {1.0 / n, 1.0 / n, 1.0}};
+    struct client_patch p = {
+        .dim = 2, .ncomp = 1, .cubic = true, .spacing = {1.0 / n, 1.0 / n, 1.0}};
     const int cells[3] = {n, n, 1}, periodic[3] = {1, 1, 0};
     int last[3];
     region_cells(2, p.origin, p.spacing, cells, periodic, lo, hi, p.lo, last);
@@ -234,7 +235,7 @@ static void bits_do_not_depend_on_the_patch(void **state)
     const double x[3] = {1.5123, 0.4567, 0.0};
     double v[2];
     for (int m = 0; m < 2; m++) {
-        struct patch p = make(2, 20, 0.1, true);
+        struct client_patch p = make(2, 20, 0.1, true);
         p.lo[0] -= 3 * m;
         p.lo[1] -= m;
         fill(&p, wave, NULL, false);
@@ -249,7 +250,7 @@ static void thin_patches_and_many_components_work(void **state)
 {
     (void)state;
     for (int n = 1; n <= 4; n++) {
-        struct patch p = {
+        struct client_patch p = {
             .dim = 2, .ncomp = 5, .cubic = true, .n = {n, 5 - n, 1}, .spacing = {1, 1, 1}};
         p.v = calloc(CPL_TERMS * 5 * patch_size(&p), sizeof *p.v);
         for (size_t i = 0; i < patch_size(&p); i++)
@@ -263,7 +264,7 @@ static void thin_patches_and_many_components_work(void **state)
             assert_true(fabs(v[a] - 3.0 - a) < 1e-14 && fabs(grad[3 * a]) < 1e-13);
         patch_clear(&p);
     }
-    const struct patch none = {.dim = 2, .ncomp = 1};
+    const struct client_patch none = {.dim = 2, .ncomp = 1};
     double v = 1.0;
     patch_eval(&none, 0.0, 1, (double[3]){0}, &v, NULL);
     assert_true(v == 0.0);
@@ -273,7 +274,7 @@ static void thin_patches_and_many_components_work(void **state)
 static void values_follow_a_cubic_in_time(void **state)
 {
     (void)state;
-    struct patch p = make(2, 6, 0.1, true);
+    struct client_patch p = make(2, 6, 0.1, true);
     fill(&p, cubic, cubic, false);
     for (size_t i = 0; i < patch_size(&p); i++) {
         p.v[CPL_TERMS * i + 2] = -2.0 * p.v[CPL_TERMS * i];
@@ -300,7 +301,7 @@ static void report_speed(void **state)
     for (int dim = 2; dim <= 3; dim++)
         for (int ncomp = 1; ncomp <= dim; ncomp += dim - 1)
             for (int slopes = 0; slopes < 2; slopes++) {
-                struct patch p = make(dim, 40, 0.025, true);
+                struct client_patch p = make(dim, 40, 0.025, true);
                 struct timespec a, b;
                 p.ncomp = ncomp;
                 p.v = calloc(CPL_TERMS * (size_t)ncomp * patch_size(&p), sizeof *p.v);

@@ -80,7 +80,7 @@ static void stages_agree_with_their_polynomial(void **state)
     (void)state;
     const int schemes[2] = {SCHEME_RIEMANN_ALE, SCHEME_DELTA};
     for (int k = 0; k < 4; k++) {
-        const struct stages *c = stages_of(k / 2, schemes[k % 2]);
+        const struct rk_stages *c = stages_of(k / 2, schemes[k % 2]);
         double sum = 0.0, moment = 0.0;
         for (int m = 0; m < c->n; m++) {
             sum += c->weight[m];

@@ -351,7 +351,7 @@ static void voids_wait_where_a_surface_crosses(void **state)
     (void)state;
     struct sph *s = start(&c, 2, 1.0, 0.0);
     struct openings *o = s->zones->openings;
-    struct surface none = {0};
+    struct free_surface none = {0};
     const double owed = -10.0 * s->rho0 * s->dxD;
     s->surface = &none;
     c.run.crossed = true;
