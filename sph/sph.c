@@ -294,7 +294,7 @@ static double window_wish(void *state)
 static void window_begin(void *state, double t0, double t1)
 {
     for (struct sph *q = state; q; q = q->finer)
-        q->ready = false;
+        q->lists.ready = false;
     domain_balance(state, 0.1);
     sph_coupling_window_begin(state, t0, t1);
 }
@@ -303,11 +303,11 @@ static void progress(void *state, char *line, int size)
 {
     const struct sph *s = state;
     const struct sph *q = s;
-    while (q->finer && q->level < s->limited_level)
+    while (q->finer && q->level < s->step.limited_level)
         q = q->finer;
     snprintf(line, (size_t)size, "dt %.3g s (%s%s)  Ma %.3f  rho %+.2f .. %+.2f %%", s->dt,
-             s->limited_by, sph_level_name(q), s->max_speed / s->c0,
-             100.0 * (s->rho_min / s->rho0 - 1.0), 100.0 * (s->rho_max / s->rho0 - 1.0));
+             s->step.limited_by, sph_level_name(q), s->step.max_speed / s->c0,
+             100.0 * (s->step.rho_min / s->rho0 - 1.0), 100.0 * (s->step.rho_max / s->rho0 - 1.0));
 }
 
 static void row(void *state, double *values)

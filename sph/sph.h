@@ -32,6 +32,58 @@ struct scheme {
     bool slopes; /* the second pass loads those of neighbours, so ghosts must have them */
 };
 
+/* The list of neighbours and what was made of it. */
+struct list_state {
+    double skin;      /* m: the list holds pairs within R + skin */
+    double skin_most; /* m: what ghosts are prepared for, and half a period has room for */
+    bool ready;  /* list and ghosts belong to the positions of y; whoever moves, adds or removes
+                    particles outside a step clears it */
+    bool sloped; /* prim and slope, too, and the next stage may take them as they are */
+};
+
+/* The last step of this level, over all ranks, and what it means for the next one. */
+struct sph_step {
+    double max_speed, max_shift, rho_min, rho_max, max_c;
+    const char *limited_by; /* "sound", "viscosity", "speed", "body" or "region" */
+    int limited_level;      /* at which level the step is bound */
+    double signal;          /* m/s: max of c + |u - u0| */
+    double shift_speed;     /* m/s: U of the laws of shifting: largest |u| so far, without walls
+                               relative     to the mean velocity; with walls at least nu/R */
+    double drift[3], stray; /* m/s: middle of the velocities u0, largest distance from it */
+    double dt_most;         /* s: largest next step [2.102-2.104] */
+    double mass; /* kg: with refinement, of the fluid after it, this rank. Levels take over
+                    from each other across a spacing of the coarser one, lest a row of a
+                    lattice that passes there count at once */
+};
+
+/* What all steps since the start add up to. */
+struct sph_totals {
+    double max_mach;  /* |u|/c0 */
+    double mach_late; /* the same over the second half of the run */
+    /* with zones: |M/mass - 1|, with and without the mass that faces hold */
+    double fluctuation, fluctuation_particles;
+    double lost;           /* particles removed; this rank */
+    double lost_said;      /* of all ranks, when last reported */
+    int64_t pairs;         /* ordered pairs within R, counted once a stage; this rank */
+    int64_t pairs_now;     /* the same, of the present list */
+    double wall_s, cpu_s;  /* s: of all steps; this rank */
+    struct fit signal_fit; /* of a standing wave or of the drop, sampled with the series */
+};
+
+/* At t = 0, for drifts. */
+struct sph_start {
+    double mass, energy, momentum[3];
+    double volume; /* m^dim: of a closed room, kept; 0: not closed */
+};
+
+/* Force on the first body over the second half of the run: length of the sampled time, integrals of
+ * F and of |F|^2; the same from the averaged wall pressure, of rows: last time, length, integral of
+ * F. */
+struct mean_force {
+    double time, sum[3], sum2;
+    double average_t, average_time, average_sum[3];
+};
+
 struct sph {
     struct run *run;
     struct sph_params prm;
@@ -63,44 +115,15 @@ struct sph {
     struct guards *guards;
     struct mixed *mixed;
     double background; /* Pa: of this stage [2.105] */
-    double skin;       /* m: the list holds pairs within R + skin */
-    double skin_most;  /* m: what ghosts are prepared for, and half a period has room for */
-    bool ready;        /* list and ghosts belong to the positions of y; whoever moves, adds or
-                          removes particles outside a step clears it */
-    bool sloped;       /* prim and slope, too, and the next stage may take them as they are */
-    bool packing;      /* the first lattice is being rearranged, nothing flows */
-    bool broken;       /* the state cannot be trusted: no list is made of it any more */
-    int64_t next_id;   /* of the next particle born on this rank: rank + k size */
-    /* of the last step, over all ranks */
-    double max_speed, max_shift, rho_min, rho_max, max_c;
-    const char *limited_by; /* "sound", "viscosity", "speed", "body" or "region" */
-    int limited_level;      /* at which level the step is bound */
-    double signal;          /* m/s: max of c + |u - u0| */
-    double shift_speed;     /* m/s: U of the laws of shifting: largest |u| so far, without walls
-                               relative to the drift; with walls at least nu/R */
-    double drift[3], stray; /* m/s: middle of the velocities u0, largest distance from it */
-    double dt_most;         /* s: largest next step [2.102-2.104] */
-    double max_mach;        /* since the start: |u|/c0 */
-    double fluctuation, fluctuation_particles; /* since the start, with zones: |M/mass0 - 1|, with
-                                  and without the mass that faces hold */
-    double lost,
-        lost_said; /* particles removed since the start: this rank; all, when last reported */
-    int64_t pairs; /* ordered pairs within R, counted once a stage, summed over stages; this rank */
-    int64_t pairs_now;     /* the same, of the present list */
-    struct fit signal_fit; /* of a standing wave or of the drop, sampled with the series */
-    double mass0, energy0, momentum0[3]; /* at t = 0, for drifts */
-    double volume0;                      /* m^dim: of a closed room, kept; 0: not closed */
-    double mass; /* kg: with refinement, of the fluid after the last step, this rank. Levels take
-                    over from each other across a spacing of the coarser one, lest a row of a
-                    lattice that passes there count at once */
-    /* Force on the first body over the second half of the run: length of the sampled time,
-     * integrals of F and of |F|^2; the same from the averaged wall pressure, of rows: last time,
-     * length, integral of F. */
-    double force_time, force_sum[3], force_sum2;
-    double average_t, average_time, average_sum[3];
-    double mach_late; /* max |u|/c0 over the second half */
+    struct list_state lists;
+    bool packing;    /* the first lattice is being rearranged, nothing flows */
+    bool broken;     /* the state cannot be trusted: no list is made of it any more */
+    int64_t next_id; /* of the next particle born on this rank: rank + k size */
+    struct sph_step step;
+    struct sph_totals total;
+    struct sph_start start;
+    struct mean_force mean_force;
     struct sph_watch watch;
-    double wall_s, cpu_s; /* s: of all steps; this rank */
 };
 
 #endif

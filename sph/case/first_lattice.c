@@ -36,7 +36,7 @@ void first_clear_seams(struct sph *s)
     for (int i = 0; i < s->p.n && s->walls->nsegments > 0;)
         if (in_seam(s->walls, state_row(&s->p, s->p.y, i), s->dx)) {
             particles_copy(&s->p, i, --s->p.n);
-            s->ready = false;
+            s->lists.ready = false;
         } else {
             i++;
         }

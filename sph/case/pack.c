@@ -45,7 +45,7 @@ static double shift2(const struct sph *s, int i)
 static void move(struct sph *s, double dt)
 {
     const int dim = s->dim;
-    const double least2 = by_meshes(s) ? 1e-8 * s->shift_speed * s->shift_speed : 0.0;
+    const double least2 = by_meshes(s) ? 1e-8 * s->step.shift_speed * s->step.shift_speed : 0.0;
     for (int i = 0; i < s->p.n; i++) {
         const double *u = prim_line(&s->p, i) + dim;
         const double *u0 = slope_line(&s->p, i) + dim + dim * dim;
@@ -54,7 +54,7 @@ static void move(struct sph *s, double dt)
         for (int a = 0; a < dim; a++)
             s->p.y[(size_t)i * s->p.nstate + a] += dt * (u0[a] - u[a]);
     }
-    s->ready = false;
+    s->lists.ready = false;
 }
 
 static double kernel_sum(const struct sph *s, int i)
@@ -83,7 +83,7 @@ static double crowding(const struct sph *s)
             sum[1] += 1.0;
         }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sum[1] > 0.0 ? sqrt(sum[0] / sum[1]) / (2.0 * s->shift_speed) : 0.0;
+    return sum[1] > 0.0 ? sqrt(sum[0] / sum[1]) / (2.0 * s->step.shift_speed) : 0.0;
 }
 
 /* Even enough, or hardly better than five steps ago. */
@@ -182,7 +182,7 @@ static void find_crowding(struct sph *s)
         integrate_gradients(s);
         return;
     }
-    if (!s->ready)
+    if (!s->lists.ready)
         level_prepare(s);
     level_gradients(s, false);
 }
@@ -196,9 +196,9 @@ void pack_start(struct sph *s, int steps)
         return;
     s->prm.transport = TRANSPORT_TVS;
     s->packing = true;
-    s->shift_speed = U;
-    s->skin = 0.05 * s->R;
-    s->ready = false;
+    s->step.shift_speed = U;
+    s->lists.skin = 0.05 * s->R;
+    s->lists.ready = false;
     double past[5] = {0.0};
     int k = 0;
     for (; k < steps; k++) {
@@ -217,9 +217,9 @@ void pack_start(struct sph *s, int steps)
     if (by_meshes(s))
         fill_enclosed(s);
     s->packing = false;
-    s->shift_speed = 0.0;
+    s->step.shift_speed = 0.0;
     s->prm.transport = transport;
-    s->ready = false;
+    s->lists.ready = false;
 }
 
 /* Children of packed mothers stand evenly but beside walls, where what is a tenth of the spacing

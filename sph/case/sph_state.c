@@ -57,17 +57,17 @@ static void set_constants(struct sph *s)
     memcpy(s->gravity, c->fluid.gravity, sizeof s->gravity);
     sph_params_open(s->run, &s->prm, s->open);
     sph_params_region(&c->domain, &s->prm, s->lo, s->hi, s->periodic);
-    s->skin_most = widest_skin(s);
+    s->lists.skin_most = widest_skin(s);
 }
 
 static void remember_start(struct sph *s)
 {
     double sums[SUM_COUNT];
     sph_sums(s, sums);
-    s->mass0 = sums[SUM_MASS];
+    s->start.mass = sums[SUM_MASS];
     volume_remember(s, sums[SUM_VOLUME]);
-    s->energy0 = sums[SUM_ENERGY];
-    memcpy(s->momentum0, sums + SUM_MOMENTUM, sizeof s->momentum0);
+    s->start.energy = sums[SUM_ENERGY];
+    memcpy(s->start.momentum, sums + SUM_MOMENTUM, sizeof s->start.momentum);
 }
 
 /* Laid out once: as far as the box may come. */
@@ -194,7 +194,7 @@ void sph_free(struct sph **s)
     zones_free(&(*s)->zones);
     walls_free(&(*s)->walls);
     sph_surface_free(&(*s)->surface);
-    fit_free(&(*s)->signal_fit);
+    fit_free(&(*s)->total.signal_fit);
     sph_watch_free(*s);
     neighbours_free(&(*s)->list);
     particles_free(&(*s)->p);

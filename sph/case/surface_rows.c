@@ -272,5 +272,5 @@ void surface_rows_renew(struct sph *s)
     s->p.nghost = 0;
     remove_near(s, &r.coarser);
     first_lattice_each_near(coarsest, s->domain, add_in_cell, &r);
-    s->ready = false;
+    s->lists.ready = false;
 }

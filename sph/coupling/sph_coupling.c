@@ -157,7 +157,8 @@ static void take_surface(struct sph *s, double T)
         hi[a] = s->hi[a] + looks_beyond(s, a, T);
     }
     check(k, cpl_patch_get(k->c, k->patch_phi, lo, hi));
-    s->ready = false; /* the lattice behind the faces ends at the surface, which is another now */
+    s->lists.ready =
+        false; /* the lattice behind the faces ends at the surface, which is another now */
     if (!s->zones->gap->started)
         level_gap_look(s, 0.0);
 }

@@ -65,7 +65,7 @@ void outer_lattice_ghosts(struct sph *s)
 {
     struct openings *o = s->zones->openings;
     double lo[3], hi[3];
-    const double reach = s->R + s->skin;
+    const double reach = s->R + s->lists.skin;
     domain_bounds(s->domain, lo, hi);
     o->nghost = 0;
     for (int side = 0; side < 2 * o->dim; side++) {

@@ -234,13 +234,16 @@ double zones_mass(const struct sph *s)
     for (int i = 0; i < s->p.n && !s->refinement; i++)
         sum += s->p.y[(size_t)i * s->p.nstate + 2 * s->dim + 1];
     if (s->refinement)
-        sum = s->mass;
+        sum = s->step.mass;
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     return sum;
 }
 
 /* kg: what the region and its faces hold beyond the start. Collective. */
-static double gained(const struct sph *s) { return zones_mass(s) + openings_held(s) - s->mass0; }
+static double gained(const struct sph *s)
+{
+    return zones_mass(s) + openings_held(s) - s->start.mass;
+}
 
 /* Windows over which the level is smoothed: one that followed at once would be a wall to the sound
  * of impacts. */

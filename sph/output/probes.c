@@ -93,14 +93,15 @@ struct force probes_force(struct sph *s, int k)
 /* The second opinion on the first body, by rows, each for the time since the one before. */
 static void sample_average(struct sph *s)
 {
-    const double begin = fmax(s->average_t, 0.5 * s->run->scene.time.end), dt = s->t - begin;
-    s->average_t = s->t;
+    const double begin = fmax(s->mean_force.average_t, 0.5 * s->run->scene.time.end),
+                 dt = s->t - begin;
+    s->mean_force.average_t = s->t;
     if (dt <= 0.0)
         return;
     const struct force force = body_average(s, 0);
-    s->average_time += dt;
+    s->mean_force.average_time += dt;
     for (int a = 0; a < s->dim; a++)
-        s->average_sum[a] += dt * force.F[a];
+        s->mean_force.average_sum[a] += dt * force.F[a];
 }
 
 void probes_row(struct sph *s, double *values)

@@ -202,7 +202,7 @@ static void sample_signal(struct sph *s)
 {
     const struct exact e = exact_create(&s->run->scene);
     if (has_signal(s->run))
-        fit_add(&s->signal_fit, s->t, signal_now(s, &e, false));
+        fit_add(&s->total.signal_fit, s->t, signal_now(s, &e, false));
 }
 
 /* Period, damping and enstrophy against the exact ones; of a coupled job by the coupler. */
@@ -213,7 +213,7 @@ static void summarise_oscillation(struct sph *s)
     if (s->run->coupled || !has_signal(s->run) || !exact_oscillation(&e, &period, &rate))
         return;
     sample_signal(s);
-    const double T = fit_period(&s->signal_fit), r = fit_rate(&s->signal_fit);
+    const double T = fit_period(&s->total.signal_fit), r = fit_rate(&s->total.signal_fit);
     struct summary *to = s->run->summary;
     if (isfinite(T)) {
         summary_real(to, "period", T);
@@ -294,9 +294,9 @@ void sph_row(void *state, double *values)
     *values++ = sums[SUM_MASS];
     for (int a = 0; a < s->dim; a++)
         *values++ = sums[SUM_MOMENTUM + a];
-    *values++ = s->max_speed / s->c0;
-    *values++ = s->rho_min;
-    *values++ = s->rho_max;
+    *values++ = s->step.max_speed / s->c0;
+    *values++ = s->step.rho_min;
+    *values++ = s->step.rho_max;
     *values++ = particles(s);
     *values++ = least_spacing(s);
     values = sph_watch_row(s, values);
@@ -360,21 +360,22 @@ static void summarise_drifts(const struct sph *s)
     sph_sums(s, sums);
     for (int a = 0; a < s->dim; a++) {
         region *= s->hi[a] - s->lo[a];
-        p2 += pow(sums[SUM_MOMENTUM + a] - s->momentum0[a], 2.0);
+        p2 += pow(sums[SUM_MOMENTUM + a] - s->start.momentum[a], 2.0);
     }
     if (has_exact(s->run)) {
         const double expected = exact_kinetic(s);
         energy = (sums[SUM_KINETIC] - expected) / expected;
     } else {
-        const double start = s->energy0 - s->mass0 * lowest_potential(s);
-        energy = (sums[SUM_ENERGY] - s->energy0) / fmax(fabs(start), 0.5 * s->mass0 * U * U);
+        const double start = s->start.energy - s->start.mass * lowest_potential(s);
+        energy =
+            (sums[SUM_ENERGY] - s->start.energy) / fmax(fabs(start), 0.5 * s->start.mass * U * U);
     }
-    summary_real(to, "drift.mass", sums[SUM_MASS] / s->mass0 - 1.0);
+    summary_real(to, "drift.mass", sums[SUM_MASS] / s->start.mass - 1.0);
     summary_real(to, "drift.energy", energy);
-    summary_real(to, "drift.momentum", sqrt(p2) / (s->mass0 * U));
-    if (s->volume0 > 0.0 || !(s->surface || (s->walls && s->walls->nsegments > 0)))
+    summary_real(to, "drift.momentum", sqrt(p2) / (s->start.mass * U));
+    if (s->start.volume > 0.0 || !(s->surface || (s->walls && s->walls->nsegments > 0)))
         summary_real(to, "drift.volume", /* of what the fluid fills */
-                     sums[SUM_VOLUME] / (s->volume0 > 0.0 ? s->volume0 : region) - 1.0);
+                     sums[SUM_VOLUME] / (s->start.volume > 0.0 ? s->start.volume : region) - 1.0);
 }
 
 /* Pairs over the processor time of the stages: a loaded machine counts for nothing. */
@@ -386,8 +387,8 @@ static double pair_rate(const struct sph *s)
     for (size_t k = 0; k < sizeof stage / sizeof stage[0]; k++)
         time += timer_wall(&s->run->timers, stage[k]);
     time = total(s, time);
-    time *= total(s, s->cpu_s) / fmax(total(s, s->wall_s), 1e-300);
-    return time > 0.0 ? total(s, (double)s->pairs) / time : 0.0;
+    time *= total(s, s->total.cpu_s) / fmax(total(s, s->total.wall_s), 1e-300);
+    return time > 0.0 ? total(s, (double)s->total.pairs) / time : 0.0;
 }
 
 static void summarise_modules(const struct sph *s)
@@ -431,7 +432,7 @@ void sph_finish(void *state)
     summary_int(to, "particles", llround(particles(s)));
     if (s->walls)
         summary_int(to, "particles_returned", llround(total(s, (double)s->walls->returned)));
-    summary_int(to, "particles_lost", llround(total(s, s->lost)));
+    summary_int(to, "particles_lost", llround(total(s, s->total.lost)));
     if (has_exact(s->run))
         summarise_errors(s);
     summarise_oscillation(s);
@@ -442,17 +443,17 @@ void sph_finish(void *state)
         sph_summarise_extrema(s);
     summarise_drifts(s);
     if (s->finer)
-        summary_real(to, "levels.mass", total(s, s->refinement->added) / s->mass0);
+        summary_real(to, "levels.mass", total(s, s->refinement->added) / s->start.mass);
     if (s->run->size > 1)
         summary_real(to, "balance.tau", domain_tau(s->domain));
-    summary_real(to, "max_mach", s->max_mach);
-    summary_real(to, "max_mach_late", s->mach_late);
+    summary_real(to, "max_mach", s->total.max_mach);
+    summary_real(to, "max_mach_late", s->total.mach_late);
     summary_real(to, "spacing.min", least_spacing(s));
     summary_real(to, "pairs_per_s", rate);
     sph_watch_summarise(s);
     if (s->zones) {
-        summary_real(to, "mass_fluctuation", s->fluctuation);
-        summary_real(to, "mass_fluctuation_particles", s->fluctuation_particles);
+        summary_real(to, "mass_fluctuation", s->total.fluctuation);
+        summary_real(to, "mass_fluctuation_particles", s->total.fluctuation_particles);
         summary_int(to, "born", llround(births(s)));
         summary_int(to, "gone", llround(removals(s)));
     }

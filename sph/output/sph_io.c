@@ -210,22 +210,44 @@ static const struct number {
     const char *name;
     size_t offset;
 } numbers[] = {
-#define NUMBER(member)                                                                             \
+#define NUMBER(name, member)                                                                       \
     {                                                                                              \
-#member, offsetof(struct sph, member)                                                      \
+        name, offsetof(struct sph, member)                                                         \
     }
-    NUMBER(skin),           NUMBER(signal),         NUMBER(dt_most),
-    NUMBER(stray),          NUMBER(drift[0]),       NUMBER(drift[1]),
-    NUMBER(drift[2]),       NUMBER(max_speed),      NUMBER(max_shift),
-    NUMBER(max_c),          NUMBER(rho_min),        NUMBER(rho_max),
-    NUMBER(max_mach),       NUMBER(fluctuation),    NUMBER(fluctuation_particles),
-    NUMBER(mass0),          NUMBER(energy0),        NUMBER(dt),
-    NUMBER(momentum0[0]),   NUMBER(momentum0[1]),   NUMBER(momentum0[2]),
-    NUMBER(force_time),     NUMBER(force_sum[0]),   NUMBER(force_sum[1]),
-    NUMBER(force_sum[2]),   NUMBER(force_sum2),     NUMBER(mach_late),
-    NUMBER(average_t),      NUMBER(average_time),   NUMBER(average_sum[0]),
-    NUMBER(average_sum[1]), NUMBER(average_sum[2]), NUMBER(shift_speed),
-    NUMBER(volume0),
+    NUMBER("skin", lists.skin),
+    NUMBER("signal", step.signal),
+    NUMBER("dt_most", step.dt_most),
+    NUMBER("stray", step.stray),
+    NUMBER("drift[0]", step.drift[0]),
+    NUMBER("drift[1]", step.drift[1]),
+    NUMBER("drift[2]", step.drift[2]),
+    NUMBER("max_speed", step.max_speed),
+    NUMBER("max_shift", step.max_shift),
+    NUMBER("max_c", step.max_c),
+    NUMBER("rho_min", step.rho_min),
+    NUMBER("rho_max", step.rho_max),
+    NUMBER("max_mach", total.max_mach),
+    NUMBER("fluctuation", total.fluctuation),
+    NUMBER("fluctuation_particles", total.fluctuation_particles),
+    NUMBER("mass0", start.mass),
+    NUMBER("energy0", start.energy),
+    NUMBER("dt", dt),
+    NUMBER("momentum0[0]", start.momentum[0]),
+    NUMBER("momentum0[1]", start.momentum[1]),
+    NUMBER("momentum0[2]", start.momentum[2]),
+    NUMBER("force_time", mean_force.time),
+    NUMBER("force_sum[0]", mean_force.sum[0]),
+    NUMBER("force_sum[1]", mean_force.sum[1]),
+    NUMBER("force_sum[2]", mean_force.sum[2]),
+    NUMBER("force_sum2", mean_force.sum2),
+    NUMBER("mach_late", total.mach_late),
+    NUMBER("average_t", mean_force.average_t),
+    NUMBER("average_time", mean_force.average_time),
+    NUMBER("average_sum[0]", mean_force.average_sum[0]),
+    NUMBER("average_sum[1]", mean_force.average_sum[1]),
+    NUMBER("average_sum[2]", mean_force.average_sum[2]),
+    NUMBER("shift_speed", step.shift_speed),
+    NUMBER("volume0", start.volume),
 };
 enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 
@@ -234,7 +256,7 @@ static double *number(struct sph *s, int k) { return (double *)((char *)s + numb
 /* Samples of what swings, so that a restarted run fits all of them. */
 static void save_signal(const struct sph *s, struct h5 *f)
 {
-    const struct fit *g = &s->signal_fit;
+    const struct fit *g = &s->total.signal_fit;
     const int n = s->run->rank == 0 ? g->n : 0;
     double *rows = NEW(double, 2 * (size_t)g->n);
     for (int k = 0; k < g->n; k++) {
@@ -250,7 +272,7 @@ static void read_signal(struct sph *s, struct h5 *f)
     int64_t n;
     double *rows = h5_read_all_real(f, "signal", 2, &n);
     for (int64_t k = 0; rows && k < n; k++)
-        fit_add(&s->signal_fit, rows[2 * k], rows[2 * k + 1]);
+        fit_add(&s->total.signal_fit, rows[2 * k], rows[2 * k + 1]);
     mem_free(rows);
 }
 
@@ -307,12 +329,13 @@ static void save_particles(const struct sph *s, struct h5 *f)
 static void save_levels(struct sph *s, struct h5 *f)
 {
     const struct refinement *r = s->refinement;
-    h5_write_real(f, "levels_mass", "kg", 3, 1, (double[3]){r->added, s->mass, r->gone}, false);
+    h5_write_real(f, "levels_mass", "kg", 3, 1, (double[3]){r->added, s->step.mass, r->gone},
+                  false);
     h5_attribute_real(f, "levels_mass0", r->mass0);
     h5_attribute_real(f, "levels_debt", r->debt);
     for (struct sph *q = s->finer; q; q = q->finer) {
-        h5_attribute_real(f, name(q, "skin"), q->skin);
-        h5_attribute_real(f, name(q, "signal"), q->signal);
+        h5_attribute_real(f, name(q, "skin"), q->lists.skin);
+        h5_attribute_real(f, name(q, "signal"), q->step.signal);
     }
     regions_save(s->refinement->regions, f);
 }
@@ -322,18 +345,18 @@ void sph_checkpoint(void *state, struct h5 *f)
     struct sph *s = state;
     for (const struct sph *q = s; q; q = q->finer)
         save_particles(q, f);
-    h5_write_real(f, "lost", "-", 1, 1, &s->lost, false);
+    h5_write_real(f, "lost", "-", 1, 1, &s->total.lost, false);
     double back = 0.0;
     for (const struct sph *q = s; q && q->walls; q = q->finer)
         back += (double)q->walls->returned;
     h5_write_real(f, "put_back", "-", 1, 1, &back, false);
     if (s->refinement)
         save_levels(s, f);
-    if (s->signal_fit.n > 0)
+    if (s->total.signal_fit.n > 0)
         save_signal(s, f);
     for (int k = 0; k < NUMBERS; k++)
         h5_attribute_real(f, numbers[k].name, *number(s, k));
-    h5_attribute_text(f, "limited_by", s->limited_by);
+    h5_attribute_text(f, "limited_by", s->step.limited_by);
     write_region(s, f);
     wall_files_save(s, f);
     sph_watch_save(s, f);
@@ -385,7 +408,7 @@ static bool read_next_id(struct sph *s, struct h5 *f)
 
 static bool read_numbers(struct sph *s, struct h5 *f)
 {
-    if (!read_next_id(s, f) || !h5_read_parts(f, "lost", 1, &s->lost))
+    if (!read_next_id(s, f) || !h5_read_parts(f, "lost", 1, &s->total.lost))
         return false;
     double back;
     if (s->walls && h5_read_parts(f, "put_back", 1, &back))
@@ -393,7 +416,7 @@ static bool read_numbers(struct sph *s, struct h5 *f)
     for (int k = 0; k < NUMBERS; k++)
         if (!h5_read_attribute_real(f, numbers[k].name, number(s, k)))
             return false;
-    sph_params_dt(&s->prm, s->nu, s->signal, &s->limited_by);
+    sph_params_dt(&s->prm, s->nu, s->step.signal, &s->step.limited_by);
     return true;
 }
 
@@ -432,18 +455,21 @@ static bool read_levels(struct sph *s, struct h5 *f)
                 h5_read_attribute_real(f, "levels_mass0", &r->mass0) &&
                 h5_read_attribute_real(f, "levels_debt", &r->debt);
     r->added = parts[0];
-    s->mass = parts[1];
+    s->step.mass = parts[1];
     r->gone = parts[2];
     for (struct sph *q = s->finer; q && fits; q = q->finer) {
-        const struct number of_flow[] = {NUMBER(dt_most),   NUMBER(stray),    NUMBER(drift[0]),
-                                         NUMBER(drift[1]),  NUMBER(drift[2]), NUMBER(max_speed),
-                                         NUMBER(max_shift), NUMBER(max_c),    NUMBER(rho_min),
-                                         NUMBER(rho_max),   NUMBER(max_mach), NUMBER(shift_speed)};
+        const struct number of_flow[] = {
+            NUMBER("dt_most", step.dt_most),     NUMBER("stray", step.stray),
+            NUMBER("drift[0]", step.drift[0]),   NUMBER("drift[1]", step.drift[1]),
+            NUMBER("drift[2]", step.drift[2]),   NUMBER("max_speed", step.max_speed),
+            NUMBER("max_shift", step.max_shift), NUMBER("max_c", step.max_c),
+            NUMBER("rho_min", step.rho_min),     NUMBER("rho_max", step.rho_max),
+            NUMBER("max_mach", total.max_mach),  NUMBER("shift_speed", step.shift_speed)};
         for (size_t k = 0; k < sizeof of_flow / sizeof of_flow[0]; k++)
             *(double *)((char *)q + of_flow[k].offset) =
                 *(const double *)((const char *)s + of_flow[k].offset);
-        fits = read_next_id(q, f) && h5_read_attribute_real(f, name(q, "skin"), &q->skin) &&
-               h5_read_attribute_real(f, name(q, "signal"), &q->signal);
+        fits = read_next_id(q, f) && h5_read_attribute_real(f, name(q, "skin"), &q->lists.skin) &&
+               h5_read_attribute_real(f, name(q, "signal"), &q->step.signal);
     }
     return fits && regions_load(s->refinement->regions, f);
 }
@@ -489,7 +515,7 @@ bool sph_restore(struct sph *s, struct h5 *f)
             read_surface(q, f);
         if (q->walls) /* the first list reaches as far as it would have */
             walls_expect_speed(q);
-        q->ready = false;
+        q->lists.ready = false;
     }
     read_signal(s, f);
     return !lacks;

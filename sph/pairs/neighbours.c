@@ -89,7 +89,7 @@ static void bound_locals(const struct sph *s, double lo[3], double hi[3])
  * apart, cells grow instead of their number. */
 static void lay_grid(struct list_grid *g, const struct sph *s)
 {
-    double hi[3], edge = (1.0 + 1e-9) * (s->R + s->skin);
+    double hi[3], edge = (1.0 + 1e-9) * (s->R + s->lists.skin);
     const double most = 64.0 + 8.0 * s->p.n;
     g->dim = s->dim;
     g->n = s->p.n;
@@ -293,7 +293,7 @@ INLINE void list_cell(struct sph *s, int cell, const int dim)
 {
     struct neighbours *l = s->list;
     struct list_grid *g = l->grid;
-    const double reach = s->R + s->skin, reach2 = reach * reach;
+    const double reach = s->R + s->lists.skin, reach2 = reach * reach;
     const double enough = 0.88 * (dim == 2 ? M_PI : 4.0 / 3.0 * M_PI) * pow(reach / s->dx, dim);
     const double close = l->touching > 0.0 ? l->touching + reach - s->R : 0.0;
     const double close2 = close * close;
@@ -465,7 +465,7 @@ void neighbours_gather(const struct sph *s, const double *lo, const double *hi, 
     struct list_box b = {.reach2 = reach * reach, .without = without};
     memcpy(b.lo, lo, (size_t)s->dim * sizeof *lo);
     memcpy(b.hi, hi, (size_t)s->dim * sizeof *hi);
-    reach += s->skin;
+    reach += s->lists.skin;
     if (s->dim == 2)
         gather(s, &b, reach, ghost_role, 2);
     else

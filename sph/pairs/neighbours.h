@@ -41,7 +41,7 @@ void neighbours_free(struct neighbours **l);
 /* Sorts the locals by cell (stable), state, id and zone; before the halo is made. */
 void neighbours_sort(struct sph *s);
 /* Builds the list from prim of locals and ghosts: pairs within R and what they can move towards
- * each other in a step of dt_most, at most s->skin. */
+ * each other in a step of dt_most, at most s->lists.skin. */
 void neighbours_build(struct sph *s);
 /* Which rows the next passes treat: all (after neighbours_build), or inner ones while ghosts are
  * under way, then the outer ones. */

@@ -230,7 +230,7 @@ INLINE double oger_radius(const struct sph *s) { return 2.0 * s->dx < s->R ? 2.0
 INLINE void shift(const struct sph *s, double *delta, const double *u, const double *n,
                   const int dim, const int transport)
 {
-    const double U = s->shift_speed;
+    const double U = s->step.shift_speed;
     const double R = transport == TRANSPORT_TVO ? oger_radius(s) : s->R;
     const double factor =
         (transport == TRANSPORT_TVO ? U : 2.0 * U) * R * s->dxD * kernel_dw_r(dim, 0.0, R);

@@ -185,8 +185,8 @@ static void cuts_changed(struct sph *s)
             memcpy(q->domain->cuts, s->domain->cuts,
                    (size_t)s->domain->size * sizeof(struct domain_cut));
         make_boxes(q->domain);
-        find_peers(q->domain, 1.001 * (q->R + q->skin_most));
-        q->ready = false;
+        find_peers(q->domain, 1.001 * (q->R + q->lists.skin_most));
+        q->lists.ready = false;
     }
 }
 
@@ -325,7 +325,7 @@ static int work_of(const struct sph *s, int i)
 {
     const struct neighbours *l = s->list;
     const bool deep = (s->p.role[i] & ROLE_DEEP) != 0;
-    if (!s->ready)
+    if (!s->lists.ready)
         return 1;
     if (!l->taken)
         return l->count[i] + WORK;
@@ -387,7 +387,7 @@ bool domain_balance(struct sph *s, double tolerance)
     MPI_Allreduce(&mine, &sum, 1, MPI_INT64_T, MPI_SUM, d->comm);
     MPI_Allreduce(&mine, &most, 1, MPI_INT64_T, MPI_MAX, d->comm);
     const bool uneven = (double)most * d->size > (1.0 + tolerance) * (double)sum;
-    if (s->ready && most > 0) {
+    if (s->lists.ready && most > 0) {
         d->tau_sum += (double)sum / ((double)most * d->size);
         d->tau_n++;
     }
@@ -599,7 +599,7 @@ static void exchange_counts(struct domain *d)
 void domain_ghosts(struct sph *s)
 {
     struct domain *d = s->domain;
-    const double reach = s->R + s->skin;
+    const double reach = s->R + s->lists.skin;
     int *near = NEW(int, s->p.n), first = s->p.n;
     const int nnear = near_sides(s, reach, near);
     for (int k = 0; k < d->npeers; k++)
@@ -706,7 +706,7 @@ bool domain_load(struct sph *s, struct h5 *f)
             d->cuts[k] = (struct domain_cut){(int)rows[2 * k], rows[2 * k + 1]};
         cuts_changed(s);
     } else if (rows) {
-        s->ready = false;
+        s->lists.ready = false;
         domain_balance(s, -1.0);
     }
     mem_free(rows);

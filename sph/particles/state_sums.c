@@ -52,7 +52,7 @@ void sph_sums(const struct sph *s, double sums[SUM_COUNT])
     for (const struct sph *q = s; q; q = q->finer)
         add_sums(q, sums);
     if (s->finer)
-        sums[SUM_MASS] = s->mass;
+        sums[SUM_MASS] = s->step.mass;
     MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 

@@ -14,7 +14,10 @@ static bool is_closed(const struct sph *s)
     return !s->surface && !s->zones && !scene_has_surface(&s->run->scene);
 }
 
-void volume_remember(struct sph *s, double volume) { s->volume0 = is_closed(s) ? volume : 0.0; }
+void volume_remember(struct sph *s, double volume)
+{
+    s->start.volume = is_closed(s) ? volume : 0.0;
+}
 
 /* Of what flows, all levels and ranks. */
 static double sum_volumes(const struct sph *s)
@@ -31,9 +34,9 @@ static double sum_volumes(const struct sph *s)
 void volume_keep(struct sph *s)
 {
     const int at = at_volume(s->dim), row = s->p.nstate;
-    if (s->volume0 == 0.0)
+    if (s->start.volume == 0.0)
         return;
-    const double factor = s->volume0 / sum_volumes(s);
+    const double factor = s->start.volume / sum_volumes(s);
     for (; s; s = s->finer)
         for (int i = 0; i < s->p.n; i++)
             s->p.y[(size_t)row * i + at] *= factor;
@@ -41,14 +44,14 @@ void volume_keep(struct sph *s)
 
 void volume_change(struct sph *s, double by)
 {
-    if (s->volume0 == 0.0)
+    if (s->start.volume == 0.0)
         return;
     MPI_Allreduce(MPI_IN_PLACE, &by, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    s->volume0 += by;
+    s->start.volume += by;
 }
 
 void volume_renew(struct sph *s)
 {
-    if (s->volume0 != 0.0)
-        s->volume0 = sum_volumes(s);
+    if (s->start.volume != 0.0)
+        s->start.volume = sum_volumes(s);
 }

@@ -116,7 +116,7 @@ static void find(struct sph *s)
 static int find_group(const struct sph *s, int k, double *lo, double *hi)
 {
     const struct guards *g = s->guards;
-    const double widest = s->R + s->skin;
+    const double widest = s->R + s->lists.skin;
     int n = 0;
     for (; k + n < g->n && g->source[k + n] == g->source[k]; n++) {
         const double *x = prim_line(&s->p, g->who[k + n]);
@@ -187,7 +187,7 @@ static void list_level(struct sph *const *all, struct sph *s)
     find(s);
     for (int k = 0; k < g->n;) {
         const struct sph *fine = all[g->source[k]], *sources[2] = {fine->coarser, fine};
-        const double reach = reach_of(fine) + fine->skin;
+        const double reach = reach_of(fine) + fine->lists.skin;
         double lo[3], hi[3];
         const int end = k + find_group(s, k, lo, hi);
         for (int m = 0; m < 2; m++) {

@@ -120,14 +120,14 @@ static double mass_of_level(const struct sph *s, const struct depths *is)
 void refinement_remember(struct sph *s)
 {
     struct refinement *r = s->refinement;
-    s->mass = 0.0;
+    s->step.mass = 0.0;
     for (struct sph *q = s; q; q = q->finer) {
         struct depths is = depths_of(r->regions, q, false);
-        s->mass += mass_of_level(q, &is);
+        s->step.mass += mass_of_level(q, &is);
         depths_free(&is);
     }
     r->added = r->gone = s->watch.removed = 0.0;
-    MPI_Allreduce(&s->mass, &r->mass0, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    MPI_Allreduce(&s->step.mass, &r->mass0, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
 void refinement_removed(struct sph *s, int i)
@@ -292,7 +292,7 @@ static double adapt_level(const struct regions *g, struct sph *s, bool held)
         leave(s, &is);
     give_roles(g, s, &is, held);
     const double mass = mass_of_level(s, &is);
-    s->ready = false;
+    s->lists.ready = false;
     depths_free(&is);
     return mass;
 }
@@ -320,9 +320,9 @@ void refinement_adapt(struct sph *s)
     timer_start(&s->run->timers, "levels");
     const double before = flowing(s);
     regions_move(r->regions, s->t);
-    s->mass = 0.0;
+    s->step.mass = 0.0;
     for (struct sph *q = s; q; q = q->finer)
-        s->mass += adapt_level(r->regions, q, false);
+        s->step.mass += adapt_level(r->regions, q, false);
     r->added += flowing(s) - before;
     refinement_watch_bodies(s);
     watch_zones(s);
@@ -404,7 +404,7 @@ void refinement_free(struct sph *s)
 void refinement_repay(struct sph *s)
 {
     struct refinement *r = s->refinement;
-    double sums[2] = {s->mass, r->gone};
+    double sums[2] = {s->step.mass, r->gone};
     if (s->zones)
         return;
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
@@ -414,7 +414,7 @@ void refinement_repay(struct sph *s)
     if (fabs(debt) < 1e-12)
         return;
     double energy = 0.0, kinetic;
-    s->mass *= 1.0 - part;
+    s->step.mass *= 1.0 - part;
     for (struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
             double *y = state_row(&q->p, q->p.y, i);

@@ -52,7 +52,7 @@ static void begin(struct sph *s)
     s->passes.gradients = mixed_gradients;
     s->passes.rates = mixed_rates;
     s->passes.slopes = true;
-    s->ready = false;
+    s->lists.ready = false;
 }
 
 void mixed_start(struct sph *s)
@@ -101,7 +101,7 @@ void mixed_adapt(struct sph *s)
     else if (method == APR_COALESCENCE)
         mixed_split(s);
     find_least(s);
-    s->ready = false;
+    s->lists.ready = false;
     timer_stop(&s->run->timers, "levels");
 }
 
@@ -196,7 +196,7 @@ static int cell_at(const struct size_class *c, const double *x)
 
 static void lay_cells(struct size_class *c, const struct sph *s)
 {
-    double hi[2] = {-INFINITY, -INFINITY}, edge = (1.0 + 1e-9) * (c->R + s->skin);
+    double hi[2] = {-INFINITY, -INFINITY}, edge = (1.0 + 1e-9) * (c->R + s->lists.skin);
     c->lo[0] = c->lo[1] = INFINITY;
     for (int k = 0; k < c->n; k++)
         for (int a = 0; a < 2; a++) {
@@ -258,8 +258,8 @@ static void pair_with_class(const struct sph *s, const struct size_class *of, in
 {
     struct mixed *m = s->mixed;
     const int i = of->who[at];
-    const double x = of->x[at], y = of->y[at], half = of->half[at] + s->skin,
-                 reach = c->R + s->skin;
+    const double x = of->x[at], y = of->y[at], half = of->half[at] + s->lists.skin,
+                 reach = c->R + s->lists.skin;
     const bool counts = *mixed_weight(s, i) > 0.0;
     const int lo = cell_of(c, 0, x - reach), hi = cell_of(c, 0, x + reach);
     const int last = cell_of(c, 1, y + reach);

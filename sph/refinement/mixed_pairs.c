@@ -80,7 +80,7 @@ static double smallest_eigenvalue(const double *M)
 /* u0 - u: -2 U R times the crowding vector, U/4 at most. */
 static void shift(const struct sph *s, const double *n, double R, double *delta)
 {
-    const double U = s->shift_speed, factor = -2.0 * U * slope_of_kernel / (R * R * R);
+    const double U = s->step.shift_speed, factor = -2.0 * U * slope_of_kernel / (R * R * R);
     double size2 = 0.0;
     for (int a = 0; a < 2; a++) {
         delta[a] = factor * n[a];

@@ -90,9 +90,9 @@ void transport_finish(struct sph *s)
     const bool oger = s->prm.transport == TRANSPORT_TVO;
     const bool by_own =
         !s->packing && (oger || (s->surface && s->prm.scheme != SCHEME_RIEMANN_ALE));
-    const double now = fmax(s->max_speed, s->nu / s->R);
+    const double now = fmax(s->step.max_speed, s->nu / s->R);
     const bool bounded = !s->packing && s->walls && !s->surface && s->prm.scheme <= SCHEME_RIEMANN;
-    const double U = bounded ? fmin(s->shift_speed, now) : s->shift_speed;
+    const double U = bounded ? fmin(s->step.shift_speed, now) : s->step.shift_speed;
     if (!oger && s->prm.transport != TRANSPORT_TVS)
         return;
     for (int i = 0; i < s->p.n; i++) {

@@ -20,8 +20,8 @@ void extremes_of_lines(struct sph *s, double *most)
         double shift2 = 0.0, stray2 = 0.0, relative2 = 0.0;
         for (int a = 0; a < dim; a++) {
             shift2 += (q[dim + a] - u0[a]) * (q[dim + a] - u0[a]);
-            stray2 += (u0[a] - s->drift[a]) * (u0[a] - s->drift[a]);
-            relative2 += (q[dim + a] - s->drift[a]) * (q[dim + a] - s->drift[a]);
+            stray2 += (u0[a] - s->step.drift[a]) * (u0[a] - s->step.drift[a]);
+            relative2 += (q[dim + a] - s->step.drift[a]) * (q[dim + a] - s->step.drift[a]);
             extremes_raise(most + MOST_U0 + a, u0[a]);
             extremes_raise(most + LEAST_U0 + a, -u0[a]);
         }
@@ -63,25 +63,26 @@ void extremes_clear(double most[LEVELS][EXTREMES])
 /* What a level knows of the whole flow; its signal is its own. */
 static void learn(struct sph *s, const double *most, double signal)
 {
-    s->signal = signal;
-    s->max_c = most[MOST_C];
-    s->max_shift = most[MOST_SHIFT];
-    s->stray = most[MOST_STRAY];
+    s->step.signal = signal;
+    s->step.max_c = most[MOST_C];
+    s->step.max_shift = most[MOST_SHIFT];
+    s->step.stray = most[MOST_STRAY];
     for (int a = 0; a < s->dim; a++)
-        s->drift[a] = 0.5 * (most[MOST_U0 + a] - most[LEAST_U0 + a]);
+        s->step.drift[a] = 0.5 * (most[MOST_U0 + a] - most[LEAST_U0 + a]);
     const bool empty = most[MOST_RHO] < 0.0; /* water may yet come in by an open side */
-    s->max_speed = fmax(most[MOST_SPEED], 0.0);
-    s->rho_max = empty ? s->rho0 : most[MOST_RHO];
-    s->rho_min = empty ? s->rho0 : -most[LEAST_RHO];
+    s->step.max_speed = fmax(most[MOST_SPEED], 0.0);
+    s->step.rho_max = empty ? s->rho0 : most[MOST_RHO];
+    s->step.rho_min = empty ? s->rho0 : -most[LEAST_RHO];
     /* 0.1 c0 is the speed that a sound speed is chosen for; transport_finish bounds what comes of
      * it at walls. */
-    const double speed = s->walls ? fmax(s->max_speed, s->nu / s->R) : most[MOST_RELATIVE];
+    const double speed = s->walls ? fmax(s->step.max_speed, s->nu / s->R) : most[MOST_RELATIVE];
     const bool bounded = s->walls && s->prm.scheme <= SCHEME_RIEMANN;
-    s->shift_speed =
-        bounded ? 0.1 * s->c0 : fmin(fmax(s->shift_speed, speed), (s->walls ? 0.1 : 0.2) * s->c0);
-    s->max_mach = fmax(s->max_mach, s->max_speed / s->c0);
+    s->step.shift_speed =
+        bounded ? 0.1 * s->c0
+                : fmin(fmax(s->step.shift_speed, speed), (s->walls ? 0.1 : 0.2) * s->c0);
+    s->total.max_mach = fmax(s->total.max_mach, s->step.max_speed / s->c0);
     if (s->t >= 0.5 * s->run->scene.time.end)
-        s->mach_late = fmax(s->mach_late, s->max_speed / s->c0);
+        s->total.mach_late = fmax(s->total.mach_late, s->step.max_speed / s->c0);
 }
 
 void extremes_reduce(struct sph *s, double most[LEVELS][EXTREMES])
@@ -103,6 +104,6 @@ void extremes_reduce(struct sph *s, double most[LEVELS][EXTREMES])
 void extremes_reduce_level(struct sph *s, double *most)
 {
     MPI_Allreduce(MPI_IN_PLACE, most, EXTREMES, MPI_DOUBLE, MPI_MAX, s->run->comm);
-    s->signal = most[MOST_SIGNAL];
-    s->stray = most[MOST_STRAY];
+    s->step.signal = most[MOST_SIGNAL];
+    s->step.stray = most[MOST_STRAY];
 }

@@ -41,7 +41,7 @@ void integrate_prepare(struct sph *s)
 {
     bool ready = true;
     for (const struct sph *q = s; q; q = q->finer)
-        ready = ready && q->ready;
+        ready = ready && q->lists.ready;
     if (s->finer && !ready)
         guards_come_back(s);
     for (struct sph *q = s; q && !ready; q = q->finer)
@@ -59,7 +59,7 @@ void integrate_gradients(struct sph *s)
     const bool shared =
         !s->zones && s->scheme->gradients == scheme_gradients(s->dim, s->prm.transport);
     integrate_prepare(s);
-    if (s->sloped)
+    if (s->lists.sloped)
         return;
     for (struct sph *q = s; q; q = q->finer)
         particles_lines(q);
@@ -73,7 +73,7 @@ void integrate_gradients(struct sph *s)
 
 void integrate_rates(struct sph *s)
 {
-    const bool sloped = s->sloped;
+    const bool sloped = s->lists.sloped;
     for (struct sph *q = s; q; q = q->finer)
         level_begin_rates(q);
     if (s->finer && !sloped) {
@@ -97,23 +97,23 @@ void integrate_rates(struct sph *s)
 static void plan_dt(struct sph *s)
 {
     const double bodies = bodies_dt(s);
-    s->dt_most = INFINITY;
+    s->step.dt_most = INFINITY;
     for (const struct sph *q = s; q; q = q->finer) {
         const char *by;
         const double dt = level_dt(q, &by);
-        if (dt < s->dt_most) {
-            s->dt_most = dt;
-            s->limited_by = by;
-            s->limited_level = q->level;
+        if (dt < s->step.dt_most) {
+            s->step.dt_most = dt;
+            s->step.limited_by = by;
+            s->step.limited_level = q->level;
         }
     }
-    if (s->dt_most > bodies) {
-        s->dt_most = bodies;
-        s->limited_by = "body";
+    if (s->step.dt_most > bodies) {
+        s->step.dt_most = bodies;
+        s->step.limited_by = "body";
     }
-    if (s->refinement && s->dt_most > regions_dt(s->refinement->regions)) {
-        s->dt_most = regions_dt(s->refinement->regions);
-        s->limited_by = "region";
+    if (s->refinement && s->step.dt_most > regions_dt(s->refinement->regions)) {
+        s->step.dt_most = regions_dt(s->refinement->regions);
+        s->step.limited_by = "region";
     }
 }
 
@@ -127,26 +127,27 @@ static void plan_next(struct sph *s)
     }
     plan_dt(s);
     for (struct sph *q = s; q; q = q->finer) {
-        q->dt_most = s->dt_most;
+        q->step.dt_most = s->step.dt_most;
         if (q->walls)
             walls_expect_speed(q);
-        q->skin = fmax(2.2 * q->dt_most * q->stray, 0.01 * (q->mixed ? mixed_least(q) : q->R));
-        q->ready = false;
+        q->lists.skin =
+            fmax(2.2 * q->step.dt_most * q->step.stray, 0.01 * (q->mixed ? mixed_least(q) : q->R));
+        q->lists.ready = false;
     }
 }
 
 void integrate_start(struct sph *s)
 {
     for (struct sph *q = s; q; q = q->finer) {
-        q->skin = 0.05 * (q->mixed ? mixed_least(q) : q->R);
-        q->ready = false;
+        q->lists.skin = 0.05 * (q->mixed ? mixed_least(q) : q->R);
+        q->lists.ready = false;
     }
     if (s->zones && s->zones->update) /* what stands at open sides, for the first gradients */
         s->zones->update(s);
     for (int pass = 0; pass < 3; pass++) { /* the second knows the drift, the third the shift */
         double most[LEVELS][EXTREMES];
         for (struct sph *q = s; q && pass == 1; q = q->finer)
-            q->shift_speed = 0.0; /* of the drift alone */
+            q->step.shift_speed = 0.0; /* of the drift alone */
         integrate_gradients(s);
         extremes_clear(most);
         for (struct sph *q = s; q; q = q->finer) {
@@ -161,7 +162,7 @@ void integrate_start(struct sph *s)
 /* Steps of equal length to t_stop; the last lands on it. */
 static double choose_dt(const struct sph *s, double t_stop, bool *last)
 {
-    const double left = t_stop - s->t, n = ceil(left / s->dt_most - 1e-9);
+    const double left = t_stop - s->t, n = ceil(left / s->step.dt_most - 1e-9);
     *last = n <= 1.0;
     return *last ? left : left / n;
 }
@@ -238,8 +239,8 @@ static void finish_step(struct sph *s, double dt, double lost, double *most, str
         stop(s, "zones");
     }
     for (struct sph *q = s; q; q = q->finer)
-        s->lost += level_clean(q);
-    extremes_raise(most + MOST_LOST, s->lost - lost);
+        s->total.lost += level_clean(q);
+    extremes_raise(most + MOST_LOST, s->total.lost - lost);
     for (struct sph *q = s->finer; q && s->walls; q = q->finer)
         forces_join_step(s->walls, q->walls);
     if (s->walls)
@@ -283,7 +284,7 @@ static int64_t gone_behind(const struct sph *s, double at[3])
 /* The first time, whenever the number has grown tenfold, and when nothing is left. */
 static void report_lost(struct sph *s, double lost)
 {
-    double sums[2] = {s->lost, 0.0};
+    double sums[2] = {s->total.lost, 0.0};
     if (lost <= 0.0)
         return;
     for (const struct sph *q = s; q; q = q->finer)
@@ -293,9 +294,9 @@ static void report_lost(struct sph *s, double lost)
     if (sums[1] == 0.0)
         log_warn("t = %g s: all particles have left the region: the run goes on without fluid",
                  s->t);
-    if (sum < 10.0 * s->lost_said)
+    if (sum < 10.0 * s->total.lost_said)
         return;
-    s->lost_said = sum;
+    s->total.lost_said = sum;
     double at[3];
     const int64_t behind = gone_behind(s, at);
     if (behind > 0)
@@ -315,23 +316,23 @@ static void report_lost(struct sph *s, double lost)
 static void track_mass(struct sph *s)
 {
     const double m = zones_mass(s);
-    extremes_raise(&s->fluctuation_particles, fabs(m / s->mass0 - 1.0));
-    extremes_raise(&s->fluctuation, fabs((m + openings_held(s)) / s->mass0 - 1.0));
+    extremes_raise(&s->total.fluctuation_particles, fabs(m / s->start.mass - 1.0));
+    extremes_raise(&s->total.fluctuation, fabs((m + openings_held(s)) / s->start.mass - 1.0));
 }
 
 static void judge(struct sph *s, double fault, struct diagnosis *d)
 {
     const double nominal = sph_params_dt(&s->prm, s->nu, s->c0, NULL);
     const struct sph *level = s;
-    while (level->finer && level->level < s->limited_level)
+    while (level->finer && level->level < s->step.limited_level)
         level = level->finer;
     if (fault > 1.0)
         sph_fault_diagnose(s, d);
-    else if (!(s->dt_most >= 1e-6 * nominal)) {
+    else if (!(s->step.dt_most >= 1e-6 * nominal)) {
         d->bad = true;
         snprintf(d->reason, sizeof d->reason,
-                 "the time step fell to %g s, a millionth of R/c0 is the limit", s->dt_most);
-        snprintf(d->where, sizeof d->where, "c + |u - u0| reaches %g m/s%s", level->signal,
+                 "the time step fell to %g s, a millionth of R/c0 is the limit", s->step.dt_most);
+        snprintf(d->where, sizeof d->where, "c + |u - u0| reaches %g m/s%s", level->step.signal,
                  sph_level_name(level));
         snprintf(d->likely, sizeof d->likely,
                  "the state has broken down before: look at the last snapshots");
@@ -345,19 +346,19 @@ static void judge(struct sph *s, double fault, struct diagnosis *d)
 
 static void count_pairs(struct sph *s)
 {
-    if (s->pairs_now == 0 || s->run->step % COUNT_EVERY == 0) {
-        s->pairs_now = 0;
+    if (s->total.pairs_now == 0 || s->run->step % COUNT_EVERY == 0) {
+        s->total.pairs_now = 0;
         for (const struct sph *q = s; q; q = q->finer)
-            s->pairs_now += neighbours_pairs(q);
+            s->total.pairs_now += neighbours_pairs(q);
     }
-    s->pairs += s->stages->n * s->pairs_now;
+    s->total.pairs += s->stages->n * s->total.pairs_now;
 }
 
 double integrate_step(struct sph *s, double t_stop, struct diagnosis *d)
 {
     bool last;
     double most[LEVELS][EXTREMES];
-    const double wall = wall_time(), cpu = cpu_time(), lost = s->lost;
+    const double wall = wall_time(), cpu = cpu_time(), lost = s->total.lost;
     /* A coupled run cuts anew between windows only: within one, a rank holds the patch of its part.
      */
     if (!s->run->coupled && s->run->step % BALANCE_EVERY == 0) {
@@ -384,7 +385,7 @@ double integrate_step(struct sph *s, double t_stop, struct diagnosis *d)
     if (s->zones)
         track_mass(s);
     judge(s, most[0][MOST_FAULT], d);
-    s->wall_s += wall_time() - wall;
-    s->cpu_s += cpu_time() - cpu;
+    s->total.wall_s += wall_time() - wall;
+    s->total.cpu_s += cpu_time() - cpu;
     return s->dt;
 }

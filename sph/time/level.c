@@ -55,8 +55,8 @@ void level_prepare(struct sph *s)
         surface_room(s->surface, s->p.n, s->dim);
         s->surface->known = false;
     }
-    s->sloped = false;
-    s->ready = true;
+    s->lists.sloped = false;
+    s->lists.ready = true;
 }
 
 typedef void wall_hook(struct sph *s);
@@ -147,7 +147,7 @@ void level_gradients(struct sph *s, bool shared)
     (s->mixed ? mixed_gradients : scheme_gradients(s->dim, s->prm.transport))(s);
     stop(s, shared ? "gradients" : "output");
     slopes_done(s);
-    s->sloped = shared;
+    s->lists.sloped = shared;
 }
 
 void level_begin_rates(struct sph *s)
@@ -160,7 +160,7 @@ void level_begin_rates(struct sph *s)
         stop(s, "zones");
     }
     start(s, "update");
-    if (!s->sloped)
+    if (!s->lists.sloped)
         particles_lines(s);
     s->background = scheme_background(s);
     stop(s, "update");
@@ -169,7 +169,7 @@ void level_begin_rates(struct sph *s)
 void level_rates(struct sph *s)
 {
     const struct wall_model *w = s->walls ? s->walls->model : NULL;
-    if (s->scheme->gradients && !s->sloped) {
+    if (s->scheme->gradients && !s->lists.sloped) {
         pass(s, s->scheme->gradients, "gradients", false, w ? w->lines : NULL);
         slopes_done(s);
     }
@@ -178,7 +178,7 @@ void level_rates(struct sph *s)
         zones_slopes(s);
         stop(s, "zones");
     }
-    s->sloped = false;
+    s->lists.sloped = false;
     if (s->scheme->slopes || !s->scheme->gradients) {
         pass(s, s->scheme->rates, "rates", s->scheme->slopes, w ? w->ghost_slopes : NULL);
     } else {
@@ -286,10 +286,10 @@ double level_dt(const struct sph *s, const char **by)
     if (s->mixed) /* the smallest R asks for it */
         prm.dx = mixed_least(s) / prm.R_dx;
     *by = "speed";
-    if (s->signal > 0.0)
-        dt = sph_params_dt(&prm, s->nu, s->signal, by);
-    if (2.2 * dt * s->stray > s->skin_most) {
-        dt = s->skin_most / (2.2 * s->stray);
+    if (s->step.signal > 0.0)
+        dt = sph_params_dt(&prm, s->nu, s->step.signal, by);
+    if (2.2 * dt * s->step.stray > s->lists.skin_most) {
+        dt = s->lists.skin_most / (2.2 * s->step.stray);
         *by = "speed";
     }
     return dt;

@@ -37,7 +37,7 @@ static double bound_of(const struct sph *s, const struct sph *coarsest, const ch
 {
     const double regions = regions_dt_outside(coarsest->refinement->regions, s->level);
     double dt = level_dt(s, by);
-    if (s->signal <= 0.0 && s->finer)
+    if (s->step.signal <= 0.0 && s->finer)
         dt = fmin(dt, 2.0 * bound_of(s->finer, coarsest, by));
     if (dt <= regions)
         return dt;
@@ -48,11 +48,11 @@ static double bound_of(const struct sph *s, const struct sph *coarsest, const ch
 /* For steps of at most dt: two particles part by at most twice the stray velocity times that. */
 static void expect_step(struct sph *s, double dt)
 {
-    s->dt_most = dt;
+    s->step.dt_most = dt;
     if (s->walls)
         walls_expect_speed(s);
-    s->skin = fmin(fmax(2.2 * dt * s->stray, 0.01 * s->R), s->skin_most);
-    s->ready = false;
+    s->lists.skin = fmin(fmax(2.2 * dt * s->step.stray, 0.01 * s->R), s->lists.skin_most);
+    s->lists.ready = false;
 }
 
 void local_steps_plan(struct sph *s)
@@ -66,8 +66,8 @@ void local_steps_plan(struct sph *s)
         coarser = next;
         if (steps * dt < most) {
             most = steps * dt;
-            s->limited_by = by;
-            s->limited_level = q->level;
+            s->step.limited_by = by;
+            s->step.limited_level = q->level;
         }
     }
     for (struct sph *q = s; q; q = q->finer) {
@@ -90,8 +90,8 @@ static void show_coarser(struct sph *s)
 static void meet(struct sph *s, const struct common *all, double dt)
 {
     const char *by;
-    if (s->coarser ? s->ready
-                   : s->sloped) /* that has been done with a coarser one, or for output */
+    if (s->coarser ? s->lists.ready
+                   : s->lists.sloped) /* that has been done with a coarser one, or for output */
         return;
     if (s->coarser) {
         for (struct sph *q = s; q; q = q->finer) {
@@ -113,9 +113,9 @@ static void meet(struct sph *s, const struct common *all, double dt)
 
 static void count_pairs(struct sph *s, struct sph *coarsest)
 {
-    if (s->pairs_now == 0 || s->run->step % COUNT_EVERY == 0)
-        s->pairs_now = neighbours_pairs(s);
-    coarsest->pairs += s->stages->n * s->pairs_now;
+    if (s->total.pairs_now == 0 || s->run->step % COUNT_EVERY == 0)
+        s->total.pairs_now = neighbours_pairs(s);
+    coarsest->total.pairs += s->stages->n * s->total.pairs_now;
 }
 
 /* Mass that what flows has gained since y0. */
@@ -197,10 +197,10 @@ static void take(struct sph *s, double t_end, struct common *all)
         take_finer(s, all);
     if (!s->coarser || all->broken)
         return;
-    all->coarsest->lost += level_clean(s);
+    all->coarsest->total.lost += level_clean(s);
     if (s->finer)
         refinement_adapt_finer(all->coarsest, s);
-    s->ready = false;
+    s->lists.ready = false;
 }
 
 void local_steps_take(struct sph *s, double t_end, double most[LEVELS][EXTREMES])

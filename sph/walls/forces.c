@@ -102,10 +102,10 @@ static void sample(struct sph *s, double dt)
     const double part = fmin(dt, s->t - 0.5 * s->run->scene.time.end);
     if (part <= 0.0)
         return;
-    s->force_time += part;
+    s->mean_force.time += part;
     for (int a = 0; a < s->dim; a++) {
-        s->force_sum[a] += part * now[a];
-        s->force_sum2 += part * now[a] * now[a];
+        s->mean_force.sum[a] += part * now[a];
+        s->mean_force.sum2 += part * now[a] * now[a];
     }
 }
 
@@ -168,19 +168,20 @@ bool forces_load(struct sph *s, struct h5 *f)
 static void summarise_body(const struct sph *s)
 {
     struct summary *to = s->run->summary;
-    const double *wanted = s->run->scene.bodies[0].force, T = s->force_time;
+    const double *wanted = s->run->scene.bodies[0].force, T = s->mean_force.time;
     static const char *const names[2][3] = {
         {"force.x", "force.y", "force.z"},
         {"force.average_x", "force.average_y", "force.average_z"}};
-    double var = s->force_sum2 / T, size2 = 0.0, error2 = 0.0;
+    double var = s->mean_force.sum2 / T, size2 = 0.0, error2 = 0.0;
     for (int a = 0; a < s->dim; a++) {
-        const double mean = s->force_sum[a] / T;
+        const double mean = s->mean_force.sum[a] / T;
         var -= mean * mean;
         size2 += wanted[a] * wanted[a];
         error2 += (mean - wanted[a]) * (mean - wanted[a]);
         summary_real(to, names[0][a], mean);
-        if (s->average_time > 0.0)
-            summary_real(to, names[1][a], s->average_sum[a] / s->average_time);
+        if (s->mean_force.average_time > 0.0)
+            summary_real(to, names[1][a],
+                         s->mean_force.average_sum[a] / s->mean_force.average_time);
     }
     summary_real(to, "force.rms", sqrt(fmax(0.0, var)));
     if (size2 > 0.0)
@@ -194,15 +195,15 @@ static void summarise_body(const struct sph *s)
 static void summarise_balance(const struct sph *s)
 {
     const struct wall_forces *f = &s->walls->forces;
-    double sums[SUM_COUNT], defect2 = 0.0, scale = s->mass0 * s->run->scene.initial.U;
-    double lost = s->lost;
+    double sums[SUM_COUNT], defect2 = 0.0, scale = s->start.mass * s->run->scene.initial.U;
+    double lost = s->total.lost;
     MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     if (s->zones || s->central > 0.0 || s->finer || lost > 0.0)
         return;
     sph_sums(s, sums);
     for (int a = 0; a < s->dim; a++) {
-        const double gravity = s->mass0 * s->gravity[a] * s->t;
-        double left = sums[SUM_MOMENTUM + a] - s->momentum0[a] - gravity;
+        const double gravity = s->start.mass * s->gravity[a] * s->t;
+        double left = sums[SUM_MOMENTUM + a] - s->start.momentum[a] - gravity;
         for (int b = 0; b < SIDES; b++) {
             left += f->impulse[b].F[a];
             scale = fmax(scale, fabs(f->impulse[b].F[a]));
@@ -217,7 +218,7 @@ void forces_summarise(const struct sph *s)
 {
     if (!s->walls->forces.known)
         return;
-    if (s->walls->nbodies > 0 && s->force_time > 0.0)
+    if (s->walls->nbodies > 0 && s->mean_force.time > 0.0)
         summarise_body(s);
     summarise_balance(s);
 }

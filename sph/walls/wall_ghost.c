@@ -52,7 +52,7 @@ static void add(struct sph *s, struct mirror *m, int source, int plane)
 /* How far a line is seen: of different sizes by those up to twice its own. */
 static double reach_of(const struct sph *s, int i)
 {
-    return (s->p.size ? 1.5 * s->p.size[i][0] : s->R) + s->skin;
+    return (s->p.size ? 1.5 * s->p.size[i][0] : s->R) + s->lists.skin;
 }
 
 /* The sides that ghost k is mirrored at, last first; *root: the line that is no such ghost. */

@@ -89,7 +89,7 @@ static int list_group(const struct walls *w, struct wall_list *l, int group, con
 static void build(const struct sph *s, struct wall_list *l)
 {
     const struct walls *w = s->walls;
-    const double reach = s->R + s->skin + w->speed * s->dt_most;
+    const double reach = s->R + s->lists.skin + w->speed * s->step.dt_most;
     const int groups = lay_boxes(w, l, reach);
     int touches = 0;
     l->n = 0;

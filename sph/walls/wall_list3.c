@@ -173,14 +173,14 @@ static int touch(const struct sph *s, struct wall_list *l, int i, int nnear, dou
 
 void wall_list3_build(const struct sph *s, struct wall_list *l)
 {
-    const double reach = s->R + s->skin + s->walls->speed * s->dt_most;
+    const double reach = s->R + s->lists.skin + s->walls->speed * s->step.dt_most;
     int touches = 0;
     if (!l->of3)
         create_frames(s, l);
     l->n = 0;
     wall_list_room(l, 0);
     for (struct group g = {0}; g.begin < s->p.n; g.begin = g.end) {
-        g = next_group(s, g.begin, s->R + s->skin);
+        g = next_group(s, g.begin, s->R + s->lists.skin);
         const int nnear = find_near(s, l, &g, reach);
         for (int i = g.begin; i < g.end && nnear > 0; i++) {
             const int before = touches;

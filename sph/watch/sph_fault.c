@@ -34,7 +34,7 @@ double sph_fault_density_limit(const struct sph *s)
 {
     if (s->prm.density_limit > 0.0)
         return s->prm.density_limit;
-    return fmin(0.1 + fmax(s->watch.rest, s->watch.friction) + 2.0 * s->max_mach, 0.5);
+    return fmin(0.1 + fmax(s->watch.rest, s->watch.friction) + 2.0 * s->total.max_mach, 0.5);
 }
 
 double sph_fault_of(const struct sph *s, const double *y, double *speed, double *rho)
@@ -185,7 +185,7 @@ static void describe_cause(const struct sph *s, const struct culprit *c,
         snprintf(d->likely, n,
                  "sph.cfl = %.3g is above the stability bound of this scheme, %.2g: lower it",
                  s->prm.cfl, bound);
-    else if (s->max_mach > 0.2 && s->c0 < 5.0 * expected)
+    else if (s->total.max_mach > 0.2 && s->c0 < 5.0 * expected)
         snprintf(d->likely, n,
                  "sph.c0 = %.4g m/s is too low: raise it to %.3g m/s, ten times the speed that the "
                  "scene makes",
@@ -200,7 +200,7 @@ static void describe_cause(const struct sph *s, const struct culprit *c,
         snprintf(d->likely, n,
                  "sph.density_limit = %.3g is tight: impacts at Mach %.2g compress by as much; "
                  "leave it out, or raise sph.c0 = %.4g m/s",
-                 s->prm.density_limit, s->max_mach, s->c0);
+                 s->prm.density_limit, s->total.max_mach, s->c0);
     else if (p->wall < s->dx && speed > 2.0 * expected)
         snprintf(d->likely, n,
                  "a wall ejects it: the scene makes %.3g m/s at most; refine sph.dx = %.3g m at "

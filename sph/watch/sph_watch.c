@@ -254,7 +254,7 @@ static void judge_energy(struct sph *s, double t, const double *sums, struct dia
     const double gain = watch_budget_gain(&w->budget, step, sums[ENERGY] - w->work);
     const double U2 = w->reference * w->reference + w->rest * s->c0 * s->c0;
     double scale =
-        sums[KINETIC] + s->mass0 * (0.05 * U2 + pow(w->friction * s->c0, 2.0) + w->settles);
+        sums[KINETIC] + s->start.mass * (0.05 * U2 + pow(w->friction * s->c0, 2.0) + w->settles);
     w->walls[step / SPH_WATCH_EVERY % HISTORY] = fabs(sums[WALL_WORK]);
     for (int k = 0; k < HISTORY; k++)
         scale += 5.0 * w->walls[k];
@@ -296,7 +296,7 @@ void sph_watch_judge(struct sph *s, struct diagnosis *d)
 {
     struct sph_watch *w = &s->watch;
     const double t = s->t - s->dt; /* of the sample */
-    watch_judge(w->of + SPH_WATCH_MACH, s->max_speed / s->c0, s->t, s->run->step, d);
+    watch_judge(w->of + SPH_WATCH_MACH, s->step.max_speed / s->c0, s->t, s->run->step, d);
     if (w->due && !d->bad)
         judge_sample(s, t, d);
     w->due = false;

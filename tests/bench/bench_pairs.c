@@ -64,7 +64,7 @@ static double best_of(int repeats, void (*pass)(struct sph *s), struct sph *s)
 
 static void list(struct sph *s)
 {
-    s->ready = false;
+    s->lists.ready = false;
     integrate_prepare(s);
 }
 
@@ -97,7 +97,7 @@ static struct sph *start(struct sph_case *c, int dim, double R_dx, int cells, in
     c->prm.R_dx = R_dx;
     choose(c, kind);
     struct sph *s = sph_case_start(c, NULL);
-    s->skin = 0.05 * s->R;
+    s->lists.skin = 0.05 * s->R;
     list(s);
     integrate_rates(s);
     return s;
@@ -207,7 +207,7 @@ static void whole_run(int cells, int steps)
         sph_row(s, values);
     }
     printf("whole run of a falling column, %d particles, %d steps: %.1f M pairs/s\n", s->p.n, steps,
-           1e-6 * (double)s->pairs / (cpu_time() - t));
+           1e-6 * (double)s->total.pairs / (cpu_time() - t));
     sph_free(&c.s);
 }
 

@@ -40,9 +40,9 @@ static inline void toy_create(struct toy *t, int dim, int cells, double R_dx, do
     s->rho0 = 1000.0;
     s->nu = 1e-3;
     s->c0 = s->prm.c0 = 10.0;
-    s->shift_speed = 1.0;
+    s->step.shift_speed = 1.0;
     s->gamma = s->prm.gamma = 7.0;
-    s->skin = 0.05 * s->R;
+    s->lists.skin = 0.05 * s->R;
     particles_create(&s->p, dim, 0);
     s->list = neighbours_create();
     for (int k = 0; k < (dim == 3 ? cells : 1); k++)

@@ -39,7 +39,7 @@ static double swell(struct sph *s, double r, double factor)
 {
     double n[2] = {0.0, 0.0};
     for (struct sph *q = s; q; q = q->finer) {
-        q->ready = q->sloped = false;
+        q->lists.ready = q->lists.sloped = false;
         for (int i = 0; i < q->p.n; i++) {
             double *y = state_row(&q->p, q->p.y, i);
             const bool in = q->coarser && hypot(y[0] - 0.5, y[1] - 0.5) < r;

@@ -130,7 +130,7 @@ static double *expected_ghosts(const struct sph *s, int *n)
                 r2 += out_by * out_by;
             }
             const bool own = k == 13 && domain_owner(s->domain, x + 4 * i) == s->run->rank;
-            if (legal && !own && r2 <= (s->R + s->skin) * (s->R + s->skin))
+            if (legal && !own && r2 <= (s->R + s->lists.skin) * (s->R + s->lists.skin))
                 memcpy(out + 4 * found++, y, sizeof y);
         }
     mem_free(x);

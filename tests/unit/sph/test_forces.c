@@ -73,7 +73,8 @@ static double left_over(const struct sph *s, double *scale)
     *scale = 0.0;
     sph_sums(s, sums);
     for (int a = 0; a < 2; a++) {
-        double left = sums[SUM_MOMENTUM + a] - s->momentum0[a] - s->mass0 * s->gravity[a] * s->t;
+        double left =
+            sums[SUM_MOMENTUM + a] - s->start.momentum[a] - s->start.mass * s->gravity[a] * s->t;
         for (int b = 0; b <= BODIES_MAX; b++) {
             left += s->walls->forces.impulse[b].F[a];
             *scale = fmax(*scale, fabs(s->walls->forces.impulse[b].F[a]));
@@ -316,7 +317,7 @@ static void tilted_tank(void **state)
         assert_true(sph_case_run(&c, 600, 100.0));
         for (int j = 0; j < 300; j++) {
             assert_true(sph_case_run(&c, 1, 100.0));
-            late = fmax(late, s->max_speed);
+            late = fmax(late, s->step.max_speed);
         }
         print_message("tank at %.2f rad: |u| %.1e c0\n", angle[k], late / s->c0);
         assert_true(late < 1e-3 * s->c0);

@@ -48,7 +48,7 @@ static double toy_error(int integrator, int steps)
     c.s->scheme = &toy;
     c.s->nu = 0.0;
     for (int k = 0; k < steps; k++) {
-        c.s->dt_most = t_end / steps;
+        c.s->step.dt_most = t_end / steps;
         assert_true(sph_case_run(&c, 1, t_end));
     }
     assert_true(c.s->t == t_end); /* the last step lands on it exactly */
@@ -110,8 +110,8 @@ static void resting_lattice_stays_at_rest(void **state)
         c.run.scene.initial.field = FIELD_REST;
         sph_case_start(&c, NULL);
         assert_true(sph_case_run(&c, 10, 100.0));
-        assert_true(c.s->max_speed < 1e-11 * c.s->c0);
-        assert_true(fabs(c.s->rho_max - 1.0) < 1e-12 && fabs(c.s->rho_min - 1.0) < 1e-12);
+        assert_true(c.s->step.max_speed < 1e-11 * c.s->c0);
+        assert_true(fabs(c.s->step.rho_max - 1.0) < 1e-12 && fabs(c.s->step.rho_min - 1.0) < 1e-12);
         sph_free(&c.s);
     }
 }
@@ -153,7 +153,7 @@ static void particles_collide(void **state)
             y[0] = 0.5 + 0.2 * side * s->dx;
         y[2] -= 0.05 * side * s->c0 * y[5];
     }
-    s->ready = false;
+    s->lists.ready = false;
     sph_sums(s, before);
     for (int k = 0; k < 30; k++) {
         assert_true(sph_case_run(&c, 1, 100.0));
@@ -175,7 +175,7 @@ static void steps_are_shared_out_evenly(void **state)
     struct sph_case c;
     sph_case_set(&c, 2, 24);
     sph_case_start(&c, NULL);
-    const double most = c.s->dt_most, t_stop = 2.5 * most;
+    const double most = c.s->step.dt_most, t_stop = 2.5 * most;
     assert_true(sph_case_run(&c, 1, t_stop));
     assert_true(fabs(c.s->dt - t_stop / 3.0) < 1e-3 * most);
     assert_true(sph_case_run(&c, 2, t_stop));

@@ -85,7 +85,7 @@ static void pairs_conserve_mass_and_momentum(void **state)
         start(&c, 24, true, true);
         struct sph *s = c.s;
         assert_true(sph_case_run(&c, 5, 100.0));
-        s->ready = s->sloped = false;
+        s->lists.ready = s->lists.sloped = false;
         integrate_prepare(s);
         integrate_rates(s);
         for (int i = 0; i < s->p.n; i++) {

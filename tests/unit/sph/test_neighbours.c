@@ -22,7 +22,7 @@ static double distance2(const struct sph *s, int i, int j)
 static void check_row(const struct sph *s, int i)
 {
     const struct neighbours *l = s->list;
-    const double reach = s->R + s->skin;
+    const double reach = s->R + s->lists.skin;
     const int *j = l->j + l->start[i], total = s->p.n + s->p.nghost;
     int wanted = 0, before = 0;
     for (int k = 0; k < total; k++) {

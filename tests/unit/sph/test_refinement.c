@@ -150,7 +150,7 @@ static void guards_take_linear_fields(void **state)
     c.prm.noise = 0.2;
     refine(&c, 1, 0.1, 0.9);
     struct sph *s = sph_case_start(&c, NULL);
-    s->ready = false;
+    s->lists.ready = false;
     integrate_prepare(s);
     for (struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
@@ -197,7 +197,7 @@ static void guards_beside_walls_take_linear_fields(void **state)
     refine(&c, 1, 0.1, 0.9);
     apr_given.regions.of[0].min[1] = -1.0;
     struct sph *s = sph_case_start(&c, NULL);
-    s->ready = false;
+    s->lists.ready = false;
     integrate_prepare(s);
     for (struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
@@ -250,7 +250,7 @@ static void nobody_is_born_behind_walls(void **state)
     }
     assert_true(none_anywhere(behind));
     assert_true(sph_case_run(&c, 3, 100.0));
-    assert_true(max_anywhere(s->lost) == 0.0);
+    assert_true(max_anywhere(s->total.lost) == 0.0);
     sph_free(&c.s);
     refine_nothing();
 }
@@ -337,7 +337,7 @@ static void missing_children_are_born_again(void **state)
         if (!particles_is_guard(&fine->p, i) || fine->p.id[i] % 4 > 0)
             particles_copy(&fine->p, n++, i);
     fine->p.n = n;
-    fine->ready = false;
+    fine->lists.ready = false;
     assert_true(guards_of(fine) < 0.85 * before);
     assert_true(sph_case_run(&c, 100, 100.0)); /* one for each disc of R/2 in two steps */
     const double after = guards_of(fine);

@@ -98,7 +98,7 @@ enum { KEPT = SUM_COUNT + 5 };
 static void take_sums(struct sph_case *c, double *sums)
 {
     const struct openings *o = c->s->zones ? c->s->zones->openings : NULL;
-    double counts[4] = {c->s->lost, o ? (double)o->born : 0.0, o ? o->inflow : 0.0,
+    double counts[4] = {c->s->total.lost, o ? (double)o->born : 0.0, o ? o->inflow : 0.0,
                         o ? o->born_mass - o->gone_mass : 0.0};
     sph_sums(c->s, sums);
     MPI_Allreduce(MPI_IN_PLACE, counts, 4, MPI_DOUBLE, MPI_SUM, c->run.comm);
@@ -126,7 +126,7 @@ static void write_on(MPI_Comm comm, int dim, int steps, const char *path, double
     set(&c, comm, dim);
     sph_case_start(&c, NULL);
     assert_true(sph_case_run(&c, steps, 100.0));
-    c.s->lost = c.run.rank + 1.0; /* as if some had been */
+    c.s->total.lost = c.run.rank + 1.0; /* as if some had been */
     struct h5 *f = h5_create_restart(comm, path);
     h5_attribute_real(f, "t", c.run.t);
     sph_checkpoint(c.s, f);

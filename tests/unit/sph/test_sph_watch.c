@@ -41,7 +41,7 @@ static void an_unstable_step_is_ended_by_its_energy(void **state)
     }
     assert_true(d.bad);
     assert_non_null(strstr(d.reason, "energy"));
-    assert_true(c.s->max_mach < 0.5); /* long before the speeds say so */
+    assert_true(c.s->total.max_mach < 0.5); /* long before the speeds say so */
     sph_free(&c.s);
 }
 
@@ -75,8 +75,8 @@ static void work_from_outside_is_no_gain(void **state)
         sph_sums(c.s, sums);
         const double U = c.s->watch.reference;
         print_message("kinetic energy %.3g of M U^2, gain %.2g\n",
-                      sums[SUM_KINETIC] / (c.s->mass0 * U * U), gain_of(&c));
-        assert_true(sums[SUM_KINETIC] > 0.01 * c.s->mass0 * U * U); /* 20 % of the scale */
+                      sums[SUM_KINETIC] / (c.s->start.mass * U * U), gain_of(&c));
+        assert_true(sums[SUM_KINETIC] > 0.01 * c.s->start.mass * U * U); /* 20 % of the scale */
         assert_true(gain_of(&c) < 0.01);
         sph_free(&c.s);
     }
@@ -133,7 +133,7 @@ static void an_impact_is_no_fault(void **state)
     double most = 0.0;
     for (int k = 0; k < 40; k++) {
         assert_true(sph_case_run(&c, 1, 100.0));
-        most = fmax(most, c.s->rho_max / c.s->rho0 - 1.0);
+        most = fmax(most, c.s->step.rho_max / c.s->rho0 - 1.0);
     }
     print_message("compressed by %.3g\n", most);
     assert_true(most > 0.07);
@@ -150,7 +150,7 @@ static double shift_speed(enum initial_field field, double U, double V)
     c.prm.c0 = 30.0;
     sph_case_start(&c, NULL);
     assert_true(sph_case_run(&c, 3, 100.0));
-    const double speed = c.s->shift_speed;
+    const double speed = c.s->step.shift_speed;
     sph_free(&c.s);
     return speed;
 }

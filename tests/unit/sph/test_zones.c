@@ -228,7 +228,7 @@ static void gauge_is_the_level_inside_and_weighs_the_missing_mass(void **state)
         for (int k = 4; k < 6; k++) /* w and m: the same pressure */
             s->p.y[6 * (size_t)i + k] *= 0.999;
     zones_gauge(s);
-    assert_close(s->zones->gauge - level, 10.0 * 2.0 * 1e-3 * s->mass0, 1e-9); /* over 1 m */
+    assert_close(s->zones->gauge - level, 10.0 * 2.0 * 1e-3 * s->start.mass, 1e-9); /* over 1 m */
     sph_free(&c.s);
 }
 
