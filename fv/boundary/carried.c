@@ -28,8 +28,9 @@ struct outflow *carried_add(struct fv *s, int side, int64_t n, int64_t values)
     o->cell = NEW(int64_t, n);
     o->own = NEW(bool, n);
     o->share = NEW(double, n);
+    o->wet = NEW(double, n);
     for (int64_t i = 0; i < n; i++)
-        o->share[i] = 1.0;
+        o->share[i] = o->wet[i] = 1.0;
     o->h = NEW(double, n);
     for (int q = 0; q < s->dim; q++) {
         o->S[q] = NEW(double, n);
@@ -47,6 +48,7 @@ void carried_free(struct outflows **all)
         mem_free(o->cell);
         mem_free(o->own);
         mem_free(o->share);
+        mem_free(o->wet);
         mem_free(o->h);
         for (int q = 0; q < 3; q++) {
             mem_free(o->S[q]);

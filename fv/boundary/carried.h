@@ -13,7 +13,8 @@ struct outflow {
     int64_t *place;    /* in the side's arrays */
     int64_t *cell;     /* inside */
     bool *own;         /* its face is one of this rank's, once */
-    double *share;     /* -: of its face that is under water; 1 without a surface */
+    double *share;     /* -: of its face that is under water, all or nothing; 1 without a surface */
+    double *wet;       /* -: of the cell inside that is water, which the surface cuts */
     double *S[3];      /* m^(dim-1): of its face, outwards */
     double *h;         /* m: of the cell inside, across the side */
     double *w[3];      /* m/s: the side's own array */
@@ -24,8 +25,12 @@ struct outflow {
 struct outflows {
     int n;
     struct outflow *of;
-    double speed[6]; /* m/s: mean velocity outwards of each side of the domain, >= 0, and waves' */
+    double flow[6];  /* m/s: mean velocity outwards of each side of the domain, >= 0 */
     double waves[6]; /* m/s: of long waves under a surface, else 0 */
+    double pull[6];  /* m/s: by which the mean velocity of a side differs from its level's */
+    double hurry[6]; /* 1/s: how fast it returns to that */
+    double rest[6];  /* m/s: mean velocity of the start less 2 sqrt(g H) of it: what comes in from
+                      * outside under a surface */
     bool level_free; /* a surface takes what comes in and does not leave */
     double *kept[3]; /* m/s: fields: w in the first ghost behind the side, for restart files */
     double given;    /* m^dim/s: through this rank's other faces of given velocity, outwards */

@@ -1,14 +1,19 @@
 /* outflow.c - see outflow.h. The velocity on a side is the one that stood U dt inside it at the
  * step's start, by the quadratic through the face's average and those of two cells: third order,
- * and stable at any step. SPDX-License-Identifier: BSD-3-Clause */
+ * and stable at any step. Under a surface the mean over the water goes on with U + sqrt(g H): waves
+ * are nearly uniform from the surface to the bottom, and what is not is of the flow; carried as
+ * fast as waves, differences between neighbours grow. SPDX-License-Identifier: BSD-3-Clause */
 #include "outflow.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "bc.h"
 #include "carried.h"
 #include "forcing.h"
 #include "mesh_bc.h"
+
+#define RETURN 2.0 /* depths: kh of waves that feel it is below 1, where it is right */
 
 /* Visits the sides of this kind: o. */
 #define OUTFLOWS(s, o)                                                                             \
@@ -109,39 +114,108 @@ static void take_lines(const struct fv *s, struct outflow *o)
         }
 }
 
-void outflow_begin(struct fv *s)
+/* m/s: mean velocity outwards of the water on each side of the domain. Collective. */
+static void mean_velocities(const struct fv *s, double mean[6])
 {
     double sums[2][6] = {{0.0}};
-    if (!s->outflows)
-        return;
-    OUTFLOWS (s, o) {
+    OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n; i++)
             if (o->own[i]) {
-                sums[0][o->side] += o->share[i] * carried_flux(o, s->dim, i);
-                sums[1][o->side] += o->share[i] * carried_area(o, i);
+                sums[0][o->side] += o->wet[i] * carried_flux(o, s->dim, i);
+                sums[1][o->side] += o->wet[i] * carried_area(o, i);
             }
-        take_lines(s, o);
-    }
     MPI_Allreduce(MPI_IN_PLACE, sums, 12, MPI_DOUBLE, MPI_SUM, s->comm);
     for (int k = 0; k < 6; k++)
-        s->outflows->speed[k] =
-            fmax(sums[0][k] / fmax(sums[1][k], 1e-300), 0.0) + s->outflows->waves[k];
+        mean[k] = sums[0][k] / fmax(sums[1][k], 1e-300);
+}
+
+void outflow_meet_level(struct fv *s)
+{
+    struct outflows *all = s->outflows;
+    double mean[6];
+    if (!all)
+        return;
+    mean_velocities(s, mean);
+    for (int k = 0; k < 6; k++)
+        all->rest[k] = mean[k] - 2.0 * all->waves[k];
+}
+
+/* What leaves as it is carried knows no level: all errors of the discharge would stay in the
+ * domain. The wave that comes in from outside, u - 2 sqrt(g H) in shallow water, is that of the
+ * start for good: the mean velocity returns to what this makes of the level, in the time that a
+ * wave takes for RETURN depths. Where the flow is as fast as waves nothing comes in. */
+static void find_pull(const struct fv *s, int k, double mean)
+{
+    struct outflows *all = s->outflows;
+    const double c = all->waves[k], g = hypot(hypot(s->still[0], s->still[1]), s->still[2]);
+    all->pull[k] = all->hurry[k] = 0.0;
+    if (!(c > 0.0))
+        return;
+    all->pull[k] = all->rest[k] + 2.0 * c - mean;
+    all->hurry[k] = fmax(0.0, 1.0 - fabs(mean) / c) * g / (RETURN * c);
+}
+
+void outflow_begin(struct fv *s)
+{
+    double mean[6];
+    if (!s->outflows)
+        return;
+    OUTFLOWS (s, o)
+        take_lines(s, o);
+    mean_velocities(s, mean);
+    for (int k = 0; k < 6; k++) {
+        s->outflows->flow[k] = fmax(mean[k], 0.0);
+        find_pull(s, k, mean[k]);
+    }
+}
+
+/* The velocity that stood x cells inside at the step's start, at most 1.5: the line ends at 2. */
+static double along_line(const struct outflow *o, int q, int64_t i, double distance)
+{
+    const double x = fmin(distance / o->h[i], 1.5), *line = o->line[q] + 3 * i;
+    return line[0] + x * (line[1] + x * line[2]);
+}
+
+/* m/s: what the mean velocity of each side's water gains on what stands on it when that goes on
+ * with the flow alone: waves, whose velocity is nearly the same from the surface to the bottom,
+ * run ahead of it, and the pull. */
+static void find_waves(struct fv *s, double dt, double gain[6])
+{
+    struct outflows *all = s->outflows;
+    double sums[2][6] = {{0.0}};
+    memset(gain, 0, 6 * sizeof *gain);
+    if (!s->surface)
+        return;
+    OUTFLOWS (s, o)
+        for (int64_t i = 0; i < o->n; i++) {
+            const double flow = all->flow[o->side] * dt, wave = flow + all->waves[o->side] * dt;
+            for (int q = 0; q < s->dim && o->own[i]; q++)
+                sums[0][o->side] += o->wet[i] * o->S[q][i] *
+                                    (along_line(o, q, i, wave) - along_line(o, q, i, flow));
+            sums[1][o->side] += o->own[i] ? o->wet[i] * carried_area(o, i) : 0.0;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 12, MPI_DOUBLE, MPI_SUM, s->comm);
+    for (int k = 0; k < 6; k++)
+        gain[k] =
+            sums[0][k] / fmax(sums[1][k], 1e-300) + all->pull[k] * -expm1(-all->hurry[k] * dt);
 }
 
 void outflow_set(struct fv *s, double dt)
 {
+    double gain[6];
     if (!s->outflows)
         return;
+    find_waves(s, dt, gain);
     OUTFLOWS (s, o)
-        for (int q = 0; q < s->dim; q++)
-            for (int64_t i = 0; i < o->n; i++) {
-                const double *line = o->line[q] + 3 * i;
-                const double x =
-                    fmin(s->outflows->speed[o->side] / o->h[i] * dt, 1.5); /* it ends at 2 */
+        for (int64_t i = 0; i < o->n; i++) {
+            const double area = carried_area(o, i),
+                         more = o->share[i] > 0.0 && area > 0.0 ? gain[o->side] / area : 0.0;
+            for (int q = 0; q < s->dim; q++) {
                 double *w = o->w[q] + o->place[i];
                 o->change[q][o->place[i]] = -*w;
-                *w = line[0] + x * (line[1] + x * line[2]);
+                *w = along_line(o, q, i, s->outflows->flow[o->side] * dt) + more * o->S[q][i];
             }
+        }
     balance(s);
     OUTFLOWS (s, o)
         for (int q = 0; q < s->dim; q++)

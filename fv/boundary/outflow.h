@@ -9,6 +9,8 @@
 
 /* Velocities of the start, from inside. Nothing where no side is carried, as all that follow. */
 void outflow_start(struct fv *s);
+/* Under a surface, at the start: what comes in from outside is that of this state for good. */
+void outflow_meet_level(struct fv *s);
 /* Before a step: takes note of the flow inside. Collective, as the next. */
 void outflow_begin(struct fv *s);
 /* Velocity on the sides dt after outflow_begin, of as much net flux as the other sides leave. */

@@ -137,8 +137,8 @@ static void set_outflows(struct fv *s)
         struct outflow *o = all->of + k;
         for (int64_t i = 0; i < o->n; i++) {
             o->share[i] = s->surface->layer[o->cell[i]] == 0;
-            if (o->own[i])
-                wet[o->side] += surface_share(s, o->cell[i]) * carried_area(o, i);
+            o->wet[i] = o->own[i] ? surface_share(s, o->cell[i]) : 0.0;
+            wet[o->side] += o->own[i] ? o->wet[i] * carried_area(o, i) : 0.0;
         }
     }
     MPI_Allreduce(MPI_IN_PLACE, wet, 6, MPI_DOUBLE, MPI_SUM, s->comm);
@@ -164,6 +164,7 @@ void surface_start(struct fv *s)
     add_velocities(s);
     set_outflows(s);
     outflow_start(s);
+    outflow_meet_level(s);
     surface_extend(s, LAYERS);
 }
 
