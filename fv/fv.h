@@ -59,6 +59,7 @@ struct bc;       /* walls and openings; bc.h; NULL: none */
 struct blocked;  /* boxes cut out; boundary/blocked.h; NULL: none */
 struct forcing;  /* cells whose velocity is imposed; forcing.h; NULL: none */
 struct outflows; /* convective outflows; outflow.h; NULL: none */
+struct levels;   /* openings of given pressure under a surface; levels.h; NULL: newton */
 struct surface;  /* free surface; levelset.h; NULL: none */
 struct newton;   /* the implicit integrator; newton.h; NULL: another one */
 struct link;     /* place in a coupled job; fv_coupling.c; NULL alone */
@@ -115,6 +116,7 @@ struct fv {
     struct blocked *blocked;
     struct forcing *forcing;
     struct outflows *outflows;
+    struct levels *levels;
     struct surface *surface;
     struct mesh_bc *sides;
     struct poisson *poisson;

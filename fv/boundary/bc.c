@@ -11,6 +11,7 @@
 #include "blocked.h"
 #include "carried.h"
 #include "ghosts.h"
+#include "levels.h"
 
 /* Places of a side on this rank: tangents t0 < t1, from lo to hi; places count from -g, so that
  * those behind other sides have their own. */
@@ -98,14 +99,14 @@ static double profile_at(const struct fv *s, const struct scene_wall *wall, cons
     return f;
 }
 
-/* Places of an outflow and the cells inside. */
-static void make_outflow(struct fv *s, struct bc *bc, int k)
+/* Places of an opening and the cells inside. */
+static struct outflow *list_places(struct fv *s, struct bc *bc, int k, struct outflow **list,
+                                   int *count)
 {
     const struct block *b = &s->b;
     const struct side d = side_of(bc, b, k, true);
-    struct outflow *o = carried_add(s, k, bc->n[k], bc->n[k]);
+    struct outflow *o = carried_add(list, count, b->dim, k, d.a, d.in, bc->n[k], bc->n[k]);
     const double h = block_size(b, d.a, k % 2 ? b->n[1] - 1 : 0); /* a row, if it is along y */
-    o->in = d.in;
     SIDE_PLACES (b, d, i, j, m, c) {
         o->place[o->n] = m;
         o->cell[o->n] = c;
@@ -113,7 +114,13 @@ static void make_outflow(struct fv *s, struct bc *bc, int k)
         o->h[o->n] = h;
         o->own[o->n++] = i >= 0 && i < b->n[d.t[0]] && j >= 0 && j < b->n[d.t[1]];
     }
-    for (int q = 0; q < b->dim; q++) {
+    return o;
+}
+
+static void make_outflow(struct fv *s, struct bc *bc, int k)
+{
+    struct outflow *o = list_places(s, bc, k, &s->outflows->of, &s->outflows->n);
+    for (int q = 0; q < s->b.dim; q++) {
         o->w[q] = bc->w[k][q];
         bc->change[k][q] = o->change[q];
     }
@@ -156,6 +163,8 @@ static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall
     }
     if (bc->kind[k] == MESH_CARRIED)
         make_outflow(s, bc, k);
+    if (bc->kind[k] == MESH_OUTFLOW && s->levels)
+        list_places(s, bc, k, &s->levels->of, &s->levels->n);
     SIDE_PLACES (b, inner, i, j, m, c) {
         bc->outflux += (k % 2 ? 1.0 : -1.0) * face_area(b, &inner, i, j) * bc->w[k][a][m];
         (void)c;
@@ -188,6 +197,7 @@ struct bc *bc_create(struct fv *s)
         return NULL;
     struct bc *bc = NEW(struct bc, 1);
     carried_create(s);
+    levels_create(s);
     set_turns(scene, s->b.dim, bc->turn);
     for (int i = 0; i < scene->nwalls; i++)
         make_side(s, bc, scene->walls + i);

@@ -18,12 +18,12 @@ void carried_create(struct fv *s)
         s->outflows->kept[q] = NEW(double, s->size);
 }
 
-struct outflow *carried_add(struct fv *s, int side, int64_t n, int64_t values)
+struct outflow *carried_add(struct outflow **list, int *count, int dim, int side, int a, int64_t in,
+                            int64_t n, int64_t values)
 {
-    struct outflows *all = s->outflows;
-    GROW(all->of, all->n, all->n + 1);
-    struct outflow *o = all->of + all->n++;
-    *o = (struct outflow){.side = side};
+    GROW(*list, *count, *count + 1);
+    struct outflow *o = *list + (*count)++;
+    *o = (struct outflow){.side = side, .a = a, .in = in, .face = in < 0 ? -in : 0};
     o->place = NEW(int64_t, n);
     o->cell = NEW(int64_t, n);
     o->own = NEW(bool, n);
@@ -32,7 +32,7 @@ struct outflow *carried_add(struct fv *s, int side, int64_t n, int64_t values)
     for (int64_t i = 0; i < n; i++)
         o->share[i] = o->wet[i] = 1.0;
     o->h = NEW(double, n);
-    for (int q = 0; q < s->dim; q++) {
+    for (int q = 0; q < dim; q++) {
         o->S[q] = NEW(double, n);
         o->line[q] = NEW(double, 3 * n);
         o->change[q] = NEW(double, values);
@@ -40,10 +40,10 @@ struct outflow *carried_add(struct fv *s, int side, int64_t n, int64_t values)
     return o;
 }
 
-void carried_free(struct outflows **all)
+void carried_free_list(struct outflow **list, int n)
 {
-    for (int k = 0; *all && k < (*all)->n; k++) {
-        struct outflow *o = (*all)->of + k;
+    for (int k = 0; k < n; k++) {
+        struct outflow *o = *list + k;
         mem_free(o->place);
         mem_free(o->cell);
         mem_free(o->own);
@@ -56,10 +56,17 @@ void carried_free(struct outflows **all)
             mem_free(o->change[q]);
         }
     }
-    for (int q = 0; *all && q < 3; q++)
+    mem_free(*list);
+    *list = NULL;
+}
+
+void carried_free(struct outflows **all)
+{
+    if (!*all)
+        return;
+    carried_free_list(&(*all)->of, (*all)->n);
+    for (int q = 0; q < 3; q++)
         mem_free((*all)->kept[q]);
-    if (*all)
-        mem_free((*all)->of);
     mem_free(*all);
     *all = NULL;
 }

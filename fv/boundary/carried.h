@@ -1,4 +1,5 @@
-/* carried.h - lists of the places of convective outflows (outflow.h).
+/* carried.h - lists of the places of openings: of convective outflows (outflow.h), and of those
+ * whose pressure is given (levels.h).
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_CARRIED_H
 #define FV_CARRIED_H
@@ -8,7 +9,9 @@
 /* One of this rank's: of its block, or of one of its parts. */
 struct outflow {
     int side;          /* of the domain, as in bc.h */
+    int a;             /* axis across it */
     int64_t in;        /* step inwards */
+    int64_t face;      /* from a cell inside to its face in U */
     int64_t n;         /* places, ghosts of its tangents included */
     int64_t *place;    /* in the side's arrays */
     int64_t *cell;     /* inside */
@@ -39,9 +42,11 @@ struct outflows {
 
 /* Makes s->outflows where some side is carried, on all ranks. */
 void carried_create(struct fv *s);
-/* Adds one with room for n places, none filled; values: of w. */
-struct outflow *carried_add(struct fv *s, int side, int64_t n, int64_t values);
+/* Adds to a list one with room for n places, none filled, across axis a; values: of w. */
+struct outflow *carried_add(struct outflow **list, int *count, int dim, int side, int a, int64_t in,
+                            int64_t n, int64_t values);
 void carried_free(struct outflows **o);
+void carried_free_list(struct outflow **list, int n);
 /* Outwards through a face, m^dim/s, and its size. */
 double carried_flux(const struct outflow *o, int dim, int64_t i);
 double carried_area(const struct outflow *o, int64_t i);

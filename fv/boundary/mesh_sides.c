@@ -9,6 +9,7 @@
 #include "../../common/base/mem.h"
 #include "../grid/mesh_motion.h"
 #include "carried.h"
+#include "levels.h"
 
 static bool is_physical(enum mesh_side k)
 {
@@ -48,14 +49,16 @@ static void turn_slopes(const struct fv *s, const struct side *d)
     }
 }
 
-/* Places of a side through which the flow leaves as it is carried. */
-static void add_outflow(struct fv *s, const struct side *d)
+/* Places of an opening. */
+static struct outflow *list_places(struct fv *s, const struct side *d, struct outflow **list,
+                                   int *count)
 {
     const struct mesh *m = s->m;
     const struct scene_wall *wall = m->block[d->p->block].wall[d->k];
     const int64_t n = d->width * (d->n[1] + 2 * d->g[1]);
-    struct outflow *o = carried_add(s, wall->side - SIDE_X_MIN, n, n);
-    o->in = d->in;
+    struct outflow *o =
+        carried_add(list, count, m->dim, wall ? (int)wall->side - SIDE_X_MIN : LEVEL_GROUPS - 1,
+                    d->a, d->in, n, n);
     SIDE_PLACES (d, 1, i, j, at, c) {
         const bool inside = i >= 0 && i < d->n[0] && j >= 0 && j < d->n[1];
         double S2 = 0.0;
@@ -68,7 +71,13 @@ static void add_outflow(struct fv *s, const struct side *d)
         o->h[o->n] = sqrt(S2) / m->G[d->a][d->a][c + d->face]; /* infinite far beyond corners */
         o->own[o->n++] = inside && m->status[c] == CELL_COMPUTED;
     }
-    for (int q = 0; q < m->dim; q++)
+    return o;
+}
+
+static void add_outflow(struct fv *s, const struct side *d)
+{
+    struct outflow *o = list_places(s, d, &s->outflows->of, &s->outflows->n);
+    for (int q = 0; q < s->m->dim; q++)
         o->w[q] = d->w[q];
 }
 
@@ -102,6 +111,8 @@ static void add_side(struct fv *s, struct mesh_bc *bc, const struct part *p, int
     turn_slopes(s, d);
     if (d->kind == MESH_CARRIED)
         add_outflow(s, d);
+    if (d->kind == MESH_OUTFLOW && s->levels)
+        list_places(s, d, &s->levels->of, &s->levels->n);
 }
 
 /* That of a lid comes last: its ghosts go on through the corners (set_turns in bc.c). */
@@ -172,6 +183,7 @@ void mesh_bc_create(struct fv *s)
     struct mesh_bc *bc = s->sides = NEW(struct mesh_bc, 1);
     bc->side = NEW(struct side, 6 * m->nparts);
     carried_create(s);
+    levels_create(s);
     for (int turn = 0; turn < m->dim;
          turn++) /* axis by axis: corners take the values of the first */
         for (int q = 0; q < m->nparts; q++)

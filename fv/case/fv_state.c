@@ -11,6 +11,7 @@
 #include "../boundary/blocked.h"
 #include "../boundary/carried.h"
 #include "../boundary/forcing.h"
+#include "../boundary/levels.h"
 #include "../boundary/outflow.h"
 #include "../boundary/still.h"
 #include "../coupling/fv_link.h"
@@ -295,6 +296,7 @@ void fv_free(struct fv **sp)
     fit_free(&s->swing);
     bc_free(&s->bc);
     carried_free(&s->outflows);
+    levels_free(&s->levels);
     watches_free(&s->watches);
     double *const one[] = {s->p,    s->p_before, s->m ? NULL : s->face, s->flux, s->step_work,
                            s->free, s->scale};

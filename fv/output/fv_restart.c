@@ -5,6 +5,7 @@
 
 #include "../../common/base/log.h"
 #include "../../common/files/h5.h"
+#include "../boundary/levels.h"
 #include "../boundary/outflow.h"
 #include "../coupling/fv_link.h"
 #include "../fv.h"
@@ -23,6 +24,10 @@
 enum { SURFACE_NUMBERS = 4 };
 static const char *const surface_numbers[SURFACE_NUMBERS] = {"volume0", "returned", "travelled",
                                                              "passed"};
+
+static const char *const level_numbers[LEVEL_GROUPS] = {
+    "outflow_x_min", "outflow_x_max", "outflow_y_min", "outflow_y_max",
+    "outflow_z_min", "outflow_z_max", "outflow_others"};
 
 enum { FORCED_NUMBERS = 3 };
 static const char *const forced_numbers[FORCED_NUMBERS] = {"phi_start_t", "phi_end_t", "entered"};
@@ -89,6 +94,8 @@ void fv_checkpoint(void *state, struct h5 *f)
     if (s->surface)
         for (int k = 0; k < SURFACE_NUMBERS; k++)
             h5_attribute_real(f, surface_numbers[k], *surface_number(s->surface, k));
+    for (int k = 0; levels_set_any(s) && k < LEVEL_GROUPS; k++)
+        h5_attribute_real(f, level_numbers[k], s->levels->past[k]);
     for (int k = 0; s->surface && s->surface->forced && k < FORCED_NUMBERS; k++)
         h5_attribute_real(f, forced_numbers[k], *forced_number(s->surface, k));
     if (s->link)
@@ -179,6 +186,10 @@ bool fv_restore(struct fv *s, struct h5 *f)
     for (int k = 0; s->surface && k < SURFACE_NUMBERS; k++)
         if (!there(h5_read_attribute_real(f, surface_numbers[k], surface_number(s->surface, k)),
                    surface_numbers[k]))
+            return false;
+    for (int k = 0; levels_set_any(s) && k < LEVEL_GROUPS; k++)
+        if (!there(h5_read_attribute_real(f, level_numbers[k], s->levels->past + k),
+                   "mean velocity of the openings"))
             return false;
     for (int k = 0; s->surface && s->surface->forced && k < FORCED_NUMBERS; k++)
         if (!there(h5_read_attribute_real(f, forced_numbers[k], forced_number(s->surface, k)),

@@ -14,6 +14,7 @@
 
 #include "../../common/base/mem.h"
 #include "../boundary/forcing.h"
+#include "../boundary/levels.h"
 #include "../boundary/still.h"
 #include "mesh_view.h"
 
@@ -192,6 +193,8 @@ static void face_gradient(const struct fv *s, int a, const double *psi, bool cha
         const struct cut *x = f->cut[a] + i;
         out[x->face] = surface_cut_gradient(x, psi, change);
     }
+    if (!change)
+        levels_face_gradient(s, a, out);
     if (!f->forced)
         return;
     for (int64_t i = 0; i < s->forcing->nface[a]; i++) { /* into a partner's cells it goes on */

@@ -1,6 +1,7 @@
 /* block_stages.c - stages on structured blocks of any shape that are joined or overlap.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/forcing.h"
+#include "../boundary/levels.h"
 #include "../boundary/mesh_bc.h"
 #include "../boundary/outflow.h"
 #include "../fv.h"
@@ -68,6 +69,7 @@ static void set_sides(struct fv *s, double t, double dt)
         moving_stage(s, t);
     mesh_bc_time(s, t);
     outflow_set(s, dt);
+    levels_set(s);
 }
 
 static void ghosts(struct fv *s, enum bc_value what, double *const u[3])
@@ -134,6 +136,7 @@ static void predict_fluxes(struct fv *s, double t)
 static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
 {
     double *psi = s->psi[stage];
+    levels_fluxes(s, tau);
     mesh_divergence(s, s->U, s->flux);
     const bool good = poisson_solve(s, tau, s->flux, tol, s->start[stage], psi);
     if (s->forcing)
@@ -147,6 +150,7 @@ static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
 static void correct_fluxes(struct fv *s, double tau, double *psi)
 {
     mesh_subtract_psi(s, tau, psi, s->U);
+    levels_ghosts(s, psi);
     if (s->surface && s->moving)
         mesh_bc_slope_ghosts(s, tau, psi);
     mesh_gradient(s, psi, s->rhs);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../boundary/forcing.h"
+#include "../boundary/levels.h"
 #include "../boundary/outflow.h"
 #include "../operators/blocked_cells.h"
 #include "../operators/helmholtz.h"
@@ -37,6 +38,7 @@ static void set_sides(struct fv *s, double t, double dt)
 {
     (void)t; /* their velocities are constant, but of what is carried out */
     outflow_set(s, dt);
+    levels_set(s);
 }
 
 static void viscous(struct fv *s, int q, double *out)
@@ -105,6 +107,7 @@ static void divergence(struct fv *s, double tau, double *restrict div)
 
 static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
 {
+    levels_fluxes(s, tau);
     divergence(s, tau, s->rhs[0]);
     if (s->surface)
         surface_add_pressure(s, s->rhs[0]);
@@ -128,8 +131,10 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
     double *const *open = s->surface ? s->surface->open : s->forcing ? s->forcing->open : NULL;
     for (int a = 0; a < b->dim; a++) {
         gradient(s, psi, a, CONTINUE_EVEN, s->rhs[a]);
-        if (s->surface)
+        if (s->surface) {
+            levels_gradient(s, a, s->rhs[a]);
             surface_gradient(s, a, psi, s->rhs[a]);
+        }
         if (s->forcing)
             forcing_zero(s->forcing, s->rhs[a]);
         BLOCK_ROWS (b, 1, c, n)

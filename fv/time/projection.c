@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../boundary/levels.h"
 #include "../boundary/outflow.h"
 #include "../surface/levelset.h"
 #include "moving.h"
@@ -100,6 +101,7 @@ static void begin_step(struct fv *s)
     if (!s->surface) /* there each projection makes the whole pressure */
         s->stages->pressure_gradient(s);
     outflow_begin(s);
+    levels_begin(s, s->dt_now);
     stop(s, "operators");
 }
 

@@ -9,6 +9,7 @@
 #include "../boundary/bc.h"
 #include "../boundary/carried.h"
 #include "../boundary/forcing.h"
+#include "../boundary/levels.h"
 #include "../boundary/mesh_bc.h"
 #include "../boundary/outflow.h"
 #include "../boundary/still.h"
@@ -126,6 +127,16 @@ static double width_of(const struct fv *s, int side)
     return width;
 }
 
+/* What is under water of an opening; adds its area to that of its side. */
+static void measure_water(const struct fv *s, struct outflow *o, double *wet)
+{
+    for (int64_t i = 0; i < o->n; i++) {
+        o->share[i] = s->surface->layer[o->cell[i]] == 0;
+        o->wet[i] = o->own[i] ? surface_share(s, o->cell[i]) : 0.0;
+        wet[o->side] += o->own[i] ? o->wet[i] * carried_area(o, i) : 0.0;
+    }
+}
+
 /* What is under water of the sides that carry the flow out, and how fast waves run there. */
 static void set_outflows(struct fv *s)
 {
@@ -133,18 +144,25 @@ static void set_outflows(struct fv *s)
     double wet[6] = {0.0};
     if (!all)
         return;
-    for (int k = 0; k < all->n; k++) {
-        struct outflow *o = all->of + k;
-        for (int64_t i = 0; i < o->n; i++) {
-            o->share[i] = s->surface->layer[o->cell[i]] == 0;
-            o->wet[i] = o->own[i] ? surface_share(s, o->cell[i]) : 0.0;
-            wet[o->side] += o->own[i] ? o->wet[i] * carried_area(o, i) : 0.0;
-        }
-    }
+    for (int k = 0; k < all->n; k++)
+        measure_water(s, all->of + k, wet);
     MPI_Allreduce(MPI_IN_PLACE, wet, 6, MPI_DOUBLE, MPI_SUM, s->comm);
     for (int side = 0; side < 6; side++)
         all->waves[side] = sqrt(s->surface->g * wet[side] / width_of(s, side));
     all->level_free = s->surface->cuts > 0;
+}
+
+static void set_openings(struct fv *s)
+{
+    double wet[LEVEL_GROUPS] = {0.0};
+    set_outflows(s);
+    if (!s->levels)
+        return;
+    for (int k = 0; k < s->levels->n; k++)
+        measure_water(s, s->levels->of + k, wet);
+    MPI_Allreduce(MPI_IN_PLACE, wet, LEVEL_GROUPS, MPI_DOUBLE, MPI_SUM, s->comm);
+    for (int side = 0; side < 6; side++)
+        s->levels->waves[side] = sqrt(s->surface->g * wet[side] / width_of(s, side));
 }
 
 void surface_outline_moved(struct fv *s, double before)
@@ -162,9 +180,10 @@ void surface_start(struct fv *s)
     rebuild(s);
     set_level(s);
     add_velocities(s);
-    set_outflows(s);
+    set_openings(s);
     outflow_start(s);
     outflow_meet_level(s);
+    levels_start(s);
     surface_extend(s, LAYERS);
 }
 
@@ -302,7 +321,7 @@ void surface_first_half(struct fv *s, double dt)
     if (s->surface->half)
         go_ahead(s, dt);
     rebuild(s);
-    set_outflows(s);
+    set_openings(s);
     surface_smooth(s, dt);
     surface_extend(s, STENCILS);
     if (s->moving && s->prm.integrator == INTEGRATOR_BDF2)
@@ -368,6 +387,7 @@ void surface_keep_state(struct fv *s)
         memcpy(s->surface->before[k], f[k], (size_t)s->size * sizeof(double));
     }
     s->surface->travelled_before = s->surface->travelled;
+    levels_keep(s);
 }
 
 void surface_back(struct fv *s)
@@ -378,6 +398,7 @@ void surface_back(struct fv *s)
         memcpy(f[k], s->surface->before[k], (size_t)s->size * sizeof(double));
     outflow_restore(s);
     s->surface->travelled = s->surface->travelled_before;
+    levels_back(s);
     if (s->moving) {
         moving_back(s);
         surface_mesh_update(s);

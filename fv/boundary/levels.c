@@ -1,0 +1,176 @@
+/* levels.c - see levels.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "levels.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/base/mem.h"
+#include "../grid/mesh.h"
+#include "carried.h"
+
+#define TRANSITS 2.0
+
+/* Visits the openings of this kind: o. */
+#define LEVELS(s, o)                                                                               \
+    for (struct outflow *o = (s)->levels ? (s)->levels->of : NULL;                                 \
+         o && o < (s)->levels->of + (s)->levels->n; o++)
+
+void levels_create(struct fv *s)
+{
+    if (fv_params_of(s->run)->integrator != INTEGRATOR_NEWTON)
+        s->levels = NEW(struct levels, 1);
+}
+
+void levels_free(struct levels **l)
+{
+    if (!*l)
+        return;
+    carried_free_list(&(*l)->of, (*l)->n);
+    mem_free((*l)->p);
+    mem_free(*l);
+    *l = NULL;
+}
+
+bool levels_set_any(const struct fv *s) { return s->levels && s->levels->p; }
+
+/* m/s: velocity outwards through a face, by its projected flux. */
+static double velocity_out(const struct fv *s, const struct outflow *o, int64_t i)
+{
+    const double U = s->U[o->a][o->cell[i] + o->face];
+    return (o->in < 0 ? U : -U) / (s->m ? carried_area(o, i) : 1.0);
+}
+
+/* m/s: mean velocity outwards of the water in each opening. */
+static void mean_velocities(struct fv *s)
+{
+    double sums[2][LEVEL_GROUPS] = {{0.0}};
+    LEVELS(s, o)
+    for (int64_t i = 0; i < o->n; i++)
+        if (o->own[i] && o->share[i] > 0.0) {
+            sums[0][o->side] += o->wet[i] * carried_area(o, i) * velocity_out(s, o, i);
+            sums[1][o->side] += o->wet[i] * carried_area(o, i);
+        }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2 * LEVEL_GROUPS, MPI_DOUBLE, MPI_SUM, s->comm);
+    for (int k = 0; k < LEVEL_GROUPS; k++)
+        s->levels->mean[k] = sums[0][k] / fmax(sums[1][k], 1e-300);
+}
+
+void levels_start(struct fv *s)
+{
+    struct levels *l = s->levels;
+    if (!l || !s->surface)
+        return;
+    if (!l->p)
+        l->p = NEW(double, s->size);
+    for (int k = 0; k < LEVEL_GROUPS; k++)
+        l->level[k] = s->level;
+    mean_velocities(s);
+    for (int k = 0; k < LEVEL_GROUPS; k++)
+        l->past[k] = l->mean[k];
+}
+
+/* s: of a wave on its way through the domain and back. */
+static double memory_of(const struct fv *s, int k)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    const double c = s->levels->waves[k];
+    return k < 6 && c > 0.0 ? TRANSITS * (d->max[k / 2] - d->min[k / 2]) / c : 0.0;
+}
+
+void levels_begin(struct fv *s, double dt)
+{
+    if (!levels_set_any(s))
+        return;
+    mean_velocities(s);
+    for (int k = 0; k < LEVEL_GROUPS; k++) {
+        const double T = memory_of(s, k);
+        s->levels->past[k] +=
+            (s->levels->mean[k] - s->levels->past[k]) * (T > 0.0 ? -expm1(-dt / T) : 1.0);
+    }
+}
+
+void levels_keep(struct fv *s)
+{
+    if (s->levels)
+        memcpy(s->levels->kept, s->levels->past, sizeof s->levels->kept);
+}
+
+void levels_back(struct fv *s)
+{
+    if (s->levels)
+        memcpy(s->levels->past, s->levels->kept, sizeof s->levels->past);
+}
+
+/* m^2/s^2: p/rho on a face, less that of water at rest. */
+static double pressure_on(const struct fv *s, const struct outflow *o, int64_t i)
+{
+    const struct levels *l = s->levels;
+    const int k = o->side;
+    const double g = hypot(hypot(s->still[0], s->still[1]), s->still[2]);
+    const double u = fmin(velocity_out(s, o, i), 0.0), all = fmin(l->mean[k], 0.0);
+    return g * (l->level[k] - s->level) + l->waves[k] * (l->mean[k] - l->past[k]) - 0.5 * u * u +
+           (l->inlet[k] ? 0.5 * all * all : 0.0);
+}
+
+/* Flux outwards by a unit of psi on a face over that in the cell: half a cell away. */
+static double conductance(const struct fv *s, const struct outflow *o, int64_t i)
+{
+    return 2.0 * (s->m ? s->m->G[o->a][o->a][o->cell[i] + o->face] : 1.0 / o->h[i]);
+}
+
+void levels_set(struct fv *s)
+{
+    if (!levels_set_any(s))
+        return;
+    mean_velocities(s);
+    LEVELS(s, o)
+    for (int64_t i = 0; i < o->n; i++)
+        s->levels->p[o->cell[i] - o->in] = pressure_on(s, o, i);
+}
+
+void levels_fluxes(struct fv *s, double tau)
+{
+    if (!levels_set_any(s))
+        return;
+    LEVELS(s, o)
+    for (int64_t i = 0; i < o->n; i++)
+        if (o->share[i] > 0.0)
+            s->U[o->a][o->cell[i] + o->face] -= (o->in < 0 ? 1.0 : -1.0) * tau *
+                                                conductance(s, o, i) *
+                                                s->levels->p[o->cell[i] - o->in];
+}
+
+void levels_ghosts(const struct fv *s, double *psi)
+{
+    if (!levels_set_any(s))
+        return;
+    LEVELS(s, o)
+    for (int64_t i = 0; i < o->n; i++)
+        for (int m = 1; m <= MESH_GHOSTS; m++)
+            psi[o->cell[i] - m * o->in] += 2.0 * s->levels->p[o->cell[i] - o->in];
+}
+
+void levels_gradient(const struct fv *s, int a, double *out)
+{
+    if (!levels_set_any(s))
+        return;
+    LEVELS(s, o)
+    for (int64_t i = 0; i < o->n && o->a == a; i++) {
+        const double p = s->levels->p[o->cell[i] - o->in], way = o->in < 0 ? 1.0 : -1.0;
+        if (!o->own[i])
+            continue;
+        out[o->cell[i]] += way * 14.0 / 12.0 * p / o->h[i];
+        out[o->cell[i] + o->in] -= way * 2.0 / 12.0 * p / o->h[i];
+    }
+}
+
+void levels_face_gradient(const struct fv *s, int a, double *out)
+{
+    if (!levels_set_any(s))
+        return;
+    LEVELS(s, o)
+    for (int64_t i = 0; i < o->n && o->a == a; i++)
+        if (o->share[i] > 0.0)
+            out[o->cell[i] + o->face] +=
+                (o->in < 0 ? 2.0 : -2.0) * s->levels->p[o->cell[i] - o->in] / o->h[i];
+}

@@ -1,0 +1,51 @@
+/* levels.h - openings under a free surface whose pressure is given: hydrostatic from a level, less
+ * the dynamic pressure of what comes in there. Outside stands water at rest, out of which nothing
+ * comes faster than its head allows (Bernoulli; the directional do-nothing condition of Braack &
+ * Mucha 2014), so water that runs back brings no more energy than it had. Waves that reach an
+ * opening leave: g (eta - L) = c (u - U), c = sqrt(g H), U the mean velocity of the last two
+ * transits of the domain. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_LEVELS_H
+#define FV_LEVELS_H
+
+#include "../fv.h"
+
+enum { LEVEL_GROUPS = 7 }; /* sides of the domain, and those of blocks within it */
+
+struct outflow; /* carried.h */
+struct levels {
+    int n;
+    struct outflow *of;
+    double *p;                  /* m^2/s^2: field: p/rho on the face, in the first ghost behind it,
+                                 * less that of water at rest; NULL: no surface, nothing is set */
+    double level[LEVEL_GROUPS]; /* m: of the water outside */
+    bool inlet[LEVEL_GROUPS];   /* the level is that in the opening, not that far outside */
+    double waves[LEVEL_GROUPS]; /* m/s: c */
+    double mean[LEVEL_GROUPS];  /* m/s: velocity outwards of its water now */
+    double past[LEVEL_GROUPS];  /* m/s: U */
+    double kept[LEVEL_GROUPS];  /* m/s: U when a step began that may be taken back */
+};
+
+/* Before the sides are made, which list their places. */
+void levels_create(struct fv *s);
+void levels_free(struct levels **l);
+/* Whether pressures are set. */
+bool levels_set_any(const struct fv *s);
+/* At the start of a run under a surface. Collective, as the next. */
+void levels_start(struct fv *s);
+/* Before a step of dt: velocities and waves. */
+void levels_begin(struct fv *s, double dt);
+/* Keeps U, and puts it back. */
+void levels_keep(struct fv *s);
+void levels_back(struct fv *s);
+/* Before a stage: pressures on the faces, by the projected fluxes. */
+void levels_set(struct fv *s);
+/* Before a projection of length tau: what they do to the fluxes, so that psi is 0 on the faces in
+ * the solve. */
+void levels_fluxes(struct fv *s, double tau);
+/* After it: psi's ghosts on blocks; what the gradient along axis a of even cells has more. */
+void levels_ghosts(const struct fv *s, double *psi);
+void levels_gradient(const struct fv *s, int a, double *out);
+/* The same on the faces. */
+void levels_face_gradient(const struct fv *s, int a, double *out);
+
+#endif
