@@ -115,6 +115,7 @@ static int read_case(struct life *l)
     if (l->faults.n == 0)
         check_place(l);
     r->coupled = r->partner_ctx || (l->line.check && r->scene.has_sph && r->scene.has_fv);
+    scene_mark_levels(&r->scene);
     if (l->faults.n == 0)
         scene_check(&r->scene, l->params, &l->faults);
     if (l->faults.n == 0)

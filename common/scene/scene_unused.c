@@ -68,7 +68,8 @@ static void check_wall(const struct scene *s, const struct params *p, struct fau
 {
     const struct scene_wall *w = s->walls + k;
     const bool opening = w->kind >= WALL_INFLOW, out = w->kind == WALL_OUTFLOW;
-    const bool mesh = *w->surface.mesh != '\0';
+    const bool mesh = *w->surface.mesh != '\0', in = w->kind == WALL_INFLOW,
+               flows = w->has_level || w->discharge != 0.0;
     check_key(p, f, "walls", k, "closed", w->side == SIDE_NONE && !mesh,
               mesh ? "a mesh is closed or not" : "a side of the domain has no ends");
     check_surface(s, p, f, "walls", k, &w->surface, true, "");
@@ -78,14 +79,26 @@ static void check_wall(const struct scene *s, const struct params *p, struct fau
     check_key(p, f, "walls", k, "friction", w->kind == WALL_SLIP,
               opening ? "an opening has none; a slip wall has"
                       : "no_slip is friction by viscosity: bed friction is a slip wall's");
-    check_key(p, f, "walls", k, "velocity", w->kind != WALL_SLIP && (!out || w->carried),
-              out ? "at an outflow the pressure is given, the velocity follows"
-                  : "a slip wall exerts no friction; no_slip does");
-    check_key(p, f, "walls", k, "profile", w->kind == WALL_INFLOW, "only an inflow has a profile");
+    check_key(p, f, "walls", k, "velocity",
+              w->kind != WALL_SLIP && (!out || w->carried) && !(opening && flows),
+              opening && flows ? "a level or a discharge is given, the velocity follows"
+              : out            ? "at an outflow the pressure is given, the velocity follows"
+                               : "a slip wall exerts no friction; no_slip does");
+    check_key(p, f, "walls", k, "profile", in && !flows,
+              in ? "a level or a discharge is given: uniform over the water"
+                 : "only an inflow has a profile");
     check_key(p, f, "walls", k, "pressure", (out && !w->carried) || w->kind == WALL_ABSORBING,
               opening ? "the velocity is given here, the pressure follows"
                       : "a wall has none; outflow and absorbing have");
-    check_key(p, f, "walls", k, "carried", out, "only an outflow can be");
+    check_key(p, f, "walls", k, "carried", out && !flows,
+              out ? "a level or a discharge is given" : "only an outflow can be");
+    check_key(p, f, "walls", k, "level", (out || in) && !w->carried && w->discharge == 0.0,
+              w->discharge != 0.0 ? "a discharge is given, the level follows"
+              : w->carried        ? "a convective outflow (carried) keeps the level of the start"
+                                  : "it is for an inflow or an outflow");
+    check_key(p, f, "walls", k, "discharge", (out || in) && !w->carried,
+              w->carried ? "of a convective outflow (carried) it is part of the solution"
+                         : "it is for an inflow or an outflow");
 }
 
 /* Terms of a motion. */

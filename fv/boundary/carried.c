@@ -5,15 +5,23 @@
 
 #include "../../common/base/mem.h"
 
+double carried_discharge(const struct scene_wall *w)
+{
+    return w->kind == WALL_INFLOW ? -w->discharge : w->discharge;
+}
+
 void carried_create(struct fv *s)
 {
     const struct scene *scene = &s->run->scene;
-    bool any = false;
-    for (int k = 0; k < scene->nwalls; k++)
-        any = any || scene->walls[k].carried;
+    bool any = false, convects = false;
+    for (int k = 0; k < scene->nwalls; k++) {
+        convects = convects || scene->walls[k].carried;
+        any = any || convects || scene->walls[k].discharge != 0.0;
+    }
     if (!any)
         return;
     s->outflows = NEW(struct outflows, 1);
+    s->outflows->convects = convects;
     for (int q = 0; q < s->dim; q++)
         s->outflows->kept[q] = NEW(double, s->size);
 }

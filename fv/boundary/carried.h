@@ -22,6 +22,7 @@ struct outflow {
     double *h;         /* m: of the cell inside, across the side */
     double *w[3];      /* m/s: the side's own array */
     double *line[3];   /* [3 n]: the step's first velocity inwards, w + b x + c x^2, x in cells */
+    double discharge;  /* m^dim/s: outwards through the whole side; 0: convective */
     double *change[3]; /* [places of the side] m/s: of w at the last outflow_set */
 };
 
@@ -34,13 +35,17 @@ struct outflows {
     double hurry[6]; /* 1/s: how fast it returns to that */
     double rest[6];  /* m/s: mean velocity of the start less 2 sqrt(g H) of it: what comes in from
                       * outside under a surface */
+    double area[6];  /* m^(dim-1): of the water in each side of the domain */
+    bool convects;   /* one of them does, on any rank */
     bool level_free; /* a surface takes what comes in and does not leave */
     double *kept[3]; /* m/s: fields: w in the first ghost behind the side, for restart files */
     double given;    /* m^dim/s: through this rank's other faces of given velocity, outwards */
     double all;      /* with these */
 };
 
-/* Makes s->outflows where some side is carried, on all ranks. */
+/* m^dim/s: outwards, of an opening whose discharge is given; 0: of all others. */
+double carried_discharge(const struct scene_wall *w);
+/* Makes s->outflows where some side's velocity changes, on all ranks. */
 void carried_create(struct fv *s);
 /* Adds to a list one with room for n places, none filled, across axis a; values: of w. */
 struct outflow *carried_add(struct outflow **list, int *count, int dim, int side, int a, int64_t in,

@@ -64,6 +64,13 @@ void levels_start(struct fv *s)
         l->p = NEW(double, s->size);
     for (int k = 0; k < LEVEL_GROUPS; k++)
         l->level[k] = s->level;
+    for (int k = 0; k < s->run->scene.nwalls; k++) {
+        const struct scene_wall *w = s->run->scene.walls + k;
+        if (w->side == SIDE_NONE || !w->has_level)
+            continue;
+        l->level[w->side - SIDE_X_MIN] = w->level;
+        l->inlet[w->side - SIDE_X_MIN] = w->kind == WALL_INFLOW;
+    }
     mean_velocities(s);
     for (int k = 0; k < LEVEL_GROUPS; k++)
         l->past[k] = l->mean[k];

@@ -47,7 +47,7 @@ static void balance(struct fv *s)
     double sums[3] = {sum_up(s), 0.0, 0.0}; /* flux, area, forced faces */
     OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n; i++)
-            sums[1] += o->own[i] ? carried_area(o, i) : 0.0;
+            sums[1] += o->own[i] && o->discharge == 0.0 ? carried_area(o, i) : 0.0;
     for (int a = 0; s->forcing && a < s->dim; a++)
         sums[2] += (double)s->forcing->nface[a];
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->comm);
@@ -56,7 +56,7 @@ static void balance(struct fv *s)
     const double excess = sums[0] / sums[1];
     OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n; i++) {
-            const double area = carried_area(o, i);
+            const double area = o->discharge == 0.0 ? carried_area(o, i) : 0.0;
             for (int q = 0; q < s->dim && area > 0.0; q++)
                 o->w[q][o->place[i]] -= excess * (o->S[q][i] / area);
         }
@@ -71,6 +71,13 @@ static void keep(struct fv *s)
                 s->outflows->kept[q][o->cell[i] - o->in] = o->w[q][o->place[i]];
 }
 
+/* m/s: of a given discharge, over all of a side's water; the air above it moves along. */
+static double discharged(const struct fv *s, const struct outflow *o, int q, int64_t i)
+{
+    const double size = carried_area(o, i), all = s->outflows->area[o->side];
+    return size > 0.0 && all > 0.0 ? o->discharge / all * o->S[q][i] / size : 0.0;
+}
+
 void outflow_start(struct fv *s)
 {
     if (!s->outflows)
@@ -79,7 +86,9 @@ void outflow_start(struct fv *s)
         for (int q = 0; q < s->dim; q++)
             for (int64_t i = 0; i < o->n; i++) {
                 const double *u = s->u[q] + o->cell[i];
-                o->w[q][o->place[i]] = (11.0 * u[0] - 7.0 * u[o->in] + 2.0 * u[2 * o->in]) / 6.0;
+                o->w[q][o->place[i]] =
+                    o->discharge != 0.0 ? discharged(s, o, q, i)
+                                        : (11.0 * u[0] - 7.0 * u[o->in] + 2.0 * u[2 * o->in]) / 6.0;
                 o->change[q][o->place[i]] = 0.0;
             }
     balance(s);
@@ -213,7 +222,9 @@ void outflow_set(struct fv *s, double dt)
             for (int q = 0; q < s->dim; q++) {
                 double *w = o->w[q] + o->place[i];
                 o->change[q][o->place[i]] = -*w;
-                *w = along_line(o, q, i, s->outflows->flow[o->side] * dt) + more * o->S[q][i];
+                *w = o->discharge != 0.0
+                         ? discharged(s, o, q, i)
+                         : along_line(o, q, i, s->outflows->flow[o->side] * dt) + more * o->S[q][i];
             }
         }
     balance(s);

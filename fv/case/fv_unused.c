@@ -144,6 +144,7 @@ static bool straight(const struct run *r, int k) { return r->scene.walls[k].poin
 static bool let_out(const struct run *r, int k) { return r->scene.walls[k].kind == WALL_OUTFLOW; }
 static bool not_let_in(const struct run *r, int k) { return r->scene.walls[k].kind != WALL_INFLOW; }
 static bool not_let_out(const struct run *r, int k) { return !let_out(r, k); }
+static bool not_opening(const struct run *r, int k) { return r->scene.walls[k].kind < WALL_INFLOW; }
 static bool is_slip(const struct run *r, int k) { return r->scene.walls[k].kind == WALL_SLIP; }
 static bool is_carried(const struct run *r, int k) { return r->scene.walls[k].carried; }
 
@@ -300,6 +301,13 @@ static const struct rule rules[] = {
     {"walls.velocity",    let_out,           "at an outflow the velocity is part of the solution", true},
     {"walls.profile",     not_let_in,        "it is for an inflow", false},
     {"walls.pressure",    not_let_out,       "it is for an outflow", false},
+    {"walls.level",       not_opening,       "it is for an inflow or an outflow", false},
+    {"walls.level",       is_carried,        "a convective outflow (carried) keeps the level of the start", false},
+    {"walls.level",       dry,               "no water has a free surface", false},
+    {"walls.level",       is_newton,         "newton has no openings of given level: give it as initial.level, which an outflow has, or rk3 or bdf2", false},
+    {"walls.discharge",   not_opening,       "it is for an inflow or an outflow", false},
+    {"walls.discharge",   is_carried,        "of a convective outflow (carried) it is part of the solution", false},
+    {"walls.discharge",   dry,               "without a free surface the area of an opening is known: give the velocity", false},
     {"walls.pressure",    is_carried,        "a convective outflow (carried) has no given pressure", false},
     {"shapes.box",        no_box,            "this shape is no box", true},
     {"shapes.points",     no_polygon,        "this shape is no polygon", true},

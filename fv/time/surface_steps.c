@@ -147,6 +147,7 @@ static void set_outflows(struct fv *s)
     for (int k = 0; k < all->n; k++)
         measure_water(s, all->of + k, wet);
     MPI_Allreduce(MPI_IN_PLACE, wet, 6, MPI_DOUBLE, MPI_SUM, s->comm);
+    memcpy(all->area, wet, sizeof wet);
     for (int side = 0; side < 6; side++)
         all->waves[side] = sqrt(s->surface->g * wet[side] / width_of(s, side));
     all->level_free = s->surface->cuts > 0;

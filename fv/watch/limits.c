@@ -15,6 +15,7 @@
 #include "../../common/scene/scene_speed.h"
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
+#include "../boundary/carried.h"
 #include "../boundary/still.h"
 #include "../grid/mesh_motion.h"
 #include "../surface/levelset.h"
@@ -300,7 +301,7 @@ static struct step_limit limit_on_blocks(const struct fv *s)
                       s->prm.integrator == INTEGRATOR_RK3 ? h : s->surface->across,
                       (const double[]){h, h, h});
     }
-    if (s->outflows && s->prm.integrator != INTEGRATOR_NEWTON)
+    if (s->outflows && s->outflows->convects && s->prm.integrator != INTEGRATOR_NEWTON)
         lower(&l, limits_time(fmin(s->prm.cfl, OUTFLOW_CFL), s->rate, 0.0), LIMIT_OUTFLOW);
     if (s->prm.integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(s->rate, s->Re), LIMIT_BDF2);
@@ -338,7 +339,7 @@ struct step_limit limits_of(const struct fv *s)
     const struct scene *scene = &s->run->scene;
     const double rate = fmax(s->rate, imposed_rate(scene, h));
     struct step_limit l = bulk_limit(scene, &s->prm, rate, s->surface != NULL, h);
-    if (s->outflows && s->prm.integrator != INTEGRATOR_NEWTON)
+    if (s->outflows && s->outflows->convects && s->prm.integrator != INTEGRATOR_NEWTON)
         lower(&l, limits_time(fmin(cfl, OUTFLOW_CFL), rate, 0.0), LIMIT_OUTFLOW);
     if (s->prm.integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(rate, Re), LIMIT_BDF2);

@@ -179,6 +179,12 @@ static void check_wall(const struct run *r, const struct sph_params *used, const
                   "the flow around the particles (sph.outer) is known otherwise");
     snprintf(key, sizeof key, "walls.[%d].carried", k);
     params_unused(r->params, f, key, false, "sph has no convective outflow");
+    snprintf(key, sizeof key, "walls.[%d].level", k);
+    params_unused(r->params, f, key, false,
+                  "sph has no inlets and outlets under a free surface yet: fv has");
+    snprintf(key, sizeof key, "walls.[%d].discharge", k);
+    params_unused(r->params, f, key, false,
+                  "sph has no inlets and outlets under a free surface yet: fv has");
 }
 
 static void check_body(const struct run *r, const bool *has, int k, struct faults *f)
