@@ -344,6 +344,28 @@ void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
     }
 }
 
+static bool is_opening(enum mesh_side kind)
+{
+    return kind == MESH_INFLOW || kind == MESH_OUTFLOW || kind == MESH_CARRIED;
+}
+
+void bc_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c), double sums[2])
+{
+    const struct block *b = &s->b;
+    for (int k = 0; s->bc && k < 2 * b->dim; k++) {
+        if (s->bc->n[k] == 0 || !is_opening(s->bc->kind[k]))
+            continue;
+        const struct side d = side_of(s->bc, b, k, false);
+        SIDE_PLACES (b, d, i, j, m, c) {
+            const double out = s->U[d.a][k % 2 ? c + b->stride[d.a] : c];
+            const double in = (k % 2 ? -1.0 : 1.0) * face_area(b, &d, i, j) * out * share(s, c);
+            sums[0] += in;
+            sums[1] += fabs(in);
+            (void)m;
+        }
+    }
+}
+
 /* v[0 .. 4]: five values of a line around `at', that of cell c, even where a box begins. */
 static void line_beside_box(const struct fv *s, const double *at, int64_t c, int64_t d, double *v)
 {

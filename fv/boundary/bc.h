@@ -44,6 +44,9 @@ void bc_slab_ghosts(const struct fv *s, int q, int j, double *u);
 void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u);
 /* Fluxes through walls and inflow; those of outflow are left as they are. */
 void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
+/* Through this rank's openings, m^dim/s: adds what comes in less what leaves, and the sum of both,
+ * of each face the share of the cell inside that counts. */
+void bc_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c), double sums[2]);
 /* Takes note of tau grad psi along the walls, for BC_AHEAD. */
 void bc_set_slip(const struct fv *s, double tau, const double *psi);
 /* One bit (1 << kind) for each kind of the sides of the domain, or of the blocks. */

@@ -33,6 +33,8 @@ void mesh_bc_pressure(const struct fv *s, double *p);
 void mesh_bc_fluxes(const struct fv *s, double *const U[3]);
 /* See convection_beside_walls; of one part. */
 void mesh_bc_beside_walls(const struct fv *s, const struct part *p, int a, double *f);
+/* Whether a wall of this rank moves along itself. */
+bool mesh_bc_slides(const struct fv *s);
 /* Largest sum over the indices of |w.S|/V at the sides, over this rank; largest speed. */
 double mesh_bc_rate(const struct fv *s, double *speed);
 /* Through all sides of the case, outwards, over all ranks: what the overlap makes, m^dim/s. */

@@ -31,6 +31,14 @@ void mesh_bc_beside_walls(const struct fv *s, const struct part *p, int a, doubl
     }
 }
 
+bool mesh_bc_slides(const struct fv *s)
+{
+    bool any = false;
+    for (int k = 0; k < s->sides->n; k++)
+        any = any || s->sides->side[k].slides;
+    return any;
+}
+
 double mesh_bc_rate(const struct fv *s, double *speed)
 {
     const struct mesh *m = s->m;

@@ -268,29 +268,6 @@ static double share_that_counts(const struct fv *s, int64_t c)
     return surface_share(s, c) * surface_cell_volume(s, c, 0) / s->m->V[c];
 }
 
-/* Through the openings of an even grid. */
-static void add_openings(const struct fv *s, double sums[2])
-{
-    const struct block *b = &s->b;
-    for (int k = 0; s->bc && k < 2 * b->dim; k++) {
-        const int a = k / 2, t0 = a == 0 ? 1 : 0, t1 = a == 2 ? 1 : 2;
-        int at[3];
-        at[a] = k % 2 ? b->n[a] - 1 : 0;
-        if (s->bc->n[k] == 0 || (s->bc->kind[k] != MESH_INFLOW && s->bc->kind[k] != MESH_OUTFLOW &&
-                                 s->bc->kind[k] != MESH_CARRIED))
-            continue;
-        for (at[t1] = 0; at[t1] < b->n[t1]; at[t1]++)
-            for (at[t0] = 0; at[t0] < b->n[t0]; at[t0]++) {
-                const int64_t c = block_at(b, at[0], at[1], at[2]);
-                const double area = block_size(b, t0, at[t0]) * block_size(b, t1, at[t1]);
-                const double out = s->U[a][k % 2 ? c + b->stride[a] : c];
-                const double in = (k % 2 ? -area : area) * out * surface_share(s, c);
-                sums[0] += in;
-                sums[1] += fabs(in);
-            }
-    }
-}
-
 /* m^dim/s: water that comes in through openings less what leaves, their sum, and the former without
  * a partner's outline, over all ranks. */
 static void flows(const struct fv *s, double sums[3])
@@ -299,7 +276,7 @@ static void flows(const struct fv *s, double sums[3])
     if (s->m)
         mesh_bc_passing(s, share_that_counts, sums);
     else
-        add_openings(s, sums);
+        bc_passing(s, surface_share, sums);
     sums[2] = sums[0];
     if (s->surface->forced)
         add_outline(s, sums);

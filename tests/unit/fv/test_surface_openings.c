@@ -2,6 +2,7 @@
  * gives, for as long as the run lasts, on uniform cells, graded layers and blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../../../fv/boundary/blocked.h"
+#include "../../../fv/watch/watches.h"
 #include "../test.h"
 #include "mesh_case.h"
 
@@ -162,6 +163,7 @@ static void wakes_leave_without_gain(void **state)
         print_message("wake of a sill: %.3g m/s, level %.3g to %.3g m\n", fastest, least, most);
         assert_true(fastest < sqrt(2.0 * G * most + 0.16));
         assert_true(most - least < 0.1 * DEPTH);
+        assert_true(s->watches->has_energy && s->watches->energy.worst < 0.01);
         box = NULL;
         mesh_case_end(&c, &s);
     }
