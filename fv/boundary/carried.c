@@ -22,6 +22,10 @@ void carried_create(struct fv *s)
         return;
     s->outflows = NEW(struct outflows, 1);
     s->outflows->convects = convects;
+    for (int k = 0; k < scene->nwalls; k++)
+        if (scene->walls[k].side != SIDE_NONE)
+            s->outflows->leaves[scene->walls[k].side - SIDE_X_MIN] =
+                fmax(carried_discharge(scene->walls + k), 0.0);
     for (int q = 0; q < s->dim; q++)
         s->outflows->kept[q] = NEW(double, s->size);
 }

@@ -29,18 +29,19 @@ struct outflow {
 struct outflows {
     int n;
     struct outflow *of;
-    double flow[6];  /* m/s: mean velocity outwards of each side of the domain, >= 0 */
-    double waves[6]; /* m/s: of long waves under a surface, else 0 */
-    double pull[6];  /* m/s: by which the mean velocity of a side differs from its level's */
-    double hurry[6]; /* 1/s: how fast it returns to that */
-    double rest[6];  /* m/s: mean velocity of the start less 2 sqrt(g H) of it: what comes in from
-                      * outside under a surface */
-    double area[6];  /* m^(dim-1): of the water in each side of the domain */
-    bool convects;   /* one of them does, on any rank */
-    bool level_free; /* a surface takes what comes in and does not leave */
-    double *kept[3]; /* m/s: fields: w in the first ghost behind the side, for restart files */
-    double given;    /* m^dim/s: through this rank's other faces of given velocity, outwards */
-    double all;      /* with these */
+    double flow[6];   /* m/s: mean velocity outwards of each side of the domain, >= 0 */
+    double waves[6];  /* m/s: of long waves under a surface, else 0 */
+    double pull[6];   /* m/s: by which the mean velocity of a side differs from its level's */
+    double hurry[6];  /* 1/s: how fast it returns to that */
+    double rest[6];   /* m/s: mean velocity of the start less 2 sqrt(g H) of it: what comes in from
+                       * outside under a surface */
+    double leaves[6]; /* m^dim/s: given discharge of a side, outwards; 0: none, or inwards */
+    double area[6];   /* m^(dim-1): of the water in each side of the domain */
+    bool convects;    /* one of them does, on any rank */
+    bool level_free;  /* a surface takes what comes in and does not leave */
+    double *kept[3];  /* m/s: fields: w in the first ghost behind the side, for restart files */
+    double given;     /* m^dim/s: through this rank's other faces of given velocity, outwards */
+    double all;       /* with these */
 };
 
 /* m^dim/s: outwards, of an opening whose discharge is given; 0: of all others. */

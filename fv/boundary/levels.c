@@ -80,8 +80,10 @@ void levels_start(struct fv *s)
 static double memory_of(const struct fv *s, int k)
 {
     const struct scene_domain *d = &s->run->scene.domain;
-    const double c = s->levels->waves[k];
-    return k < 6 && c > 0.0 ? TRANSITS * (d->max[k / 2] - d->min[k / 2]) / c : 0.0;
+    const double c = s->levels->waves[k],
+                 Fr = fmin(fabs(s->levels->mean[k]) / fmax(c, 1e-300), 0.9);
+    return k < 6 && c > 0.0 ? TRANSITS * (d->max[k / 2] - d->min[k / 2]) / (c * (1.0 - Fr * Fr))
+                            : 0.0;
 }
 
 void levels_begin(struct fv *s, double dt)

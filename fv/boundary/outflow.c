@@ -187,7 +187,7 @@ static double along_line(const struct outflow *o, int q, int64_t i, double dista
 
 /* m/s: what the mean velocity of each side's water gains on what stands on it when that goes on
  * with the flow alone: waves, whose velocity is nearly the same from the surface to the bottom,
- * run ahead of it, and the pull. */
+ * run ahead of it, and the pull; or what a given discharge is more. */
 static void find_waves(struct fv *s, double dt, double gain[6])
 {
     struct outflows *all = s->outflows;
@@ -198,15 +198,16 @@ static void find_waves(struct fv *s, double dt, double gain[6])
     OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n; i++) {
             const double flow = all->flow[o->side] * dt, wave = flow + all->waves[o->side] * dt;
-            for (int q = 0; q < s->dim && o->own[i]; q++)
-                sums[0][o->side] += o->wet[i] * o->S[q][i] *
-                                    (along_line(o, q, i, wave) - along_line(o, q, i, flow));
+            for (int q = 0; q < s->dim && o->own[i]; q++) {
+                const double with = o->discharge > 0.0 ? 0.0 : along_line(o, q, i, wave);
+                sums[0][o->side] += o->wet[i] * o->S[q][i] * (with - along_line(o, q, i, flow));
+            }
             sums[1][o->side] += o->own[i] ? o->wet[i] * carried_area(o, i) : 0.0;
         }
     MPI_Allreduce(MPI_IN_PLACE, sums, 12, MPI_DOUBLE, MPI_SUM, s->comm);
     for (int k = 0; k < 6; k++)
-        gain[k] =
-            sums[0][k] / fmax(sums[1][k], 1e-300) + all->pull[k] * -expm1(-all->hurry[k] * dt);
+        gain[k] = (sums[0][k] + all->leaves[k]) / fmax(sums[1][k], 1e-300) +
+                  (all->leaves[k] > 0.0 ? 0.0 : all->pull[k] * -expm1(-all->hurry[k] * dt));
 }
 
 void outflow_set(struct fv *s, double dt)
@@ -218,11 +219,13 @@ void outflow_set(struct fv *s, double dt)
     OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n; i++) {
             const double area = carried_area(o, i),
-                         more = o->share[i] > 0.0 && area > 0.0 ? gain[o->side] / area : 0.0;
+                         more = (o->share[i] > 0.0 || o->discharge > 0.0) && area > 0.0
+                                    ? gain[o->side] / area
+                                    : 0.0;
             for (int q = 0; q < s->dim; q++) {
                 double *w = o->w[q] + o->place[i];
                 o->change[q][o->place[i]] = -*w;
-                *w = o->discharge != 0.0
+                *w = o->discharge < 0.0
                          ? discharged(s, o, q, i)
                          : along_line(o, q, i, s->outflows->flow[o->side] * dt) + more * o->S[q][i];
             }
