@@ -2,6 +2,7 @@
  * gives, for as long as the run lasts, on uniform cells, graded layers and blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../../../fv/boundary/blocked.h"
+#include "../../../fv/boundary/forcing.h"
 #include "../../../fv/watch/watches.h"
 #include "../test.h"
 #include "mesh_case.h"
@@ -18,6 +19,7 @@ static const char stretched[] =
     "{ name = \"one\"; mapping = \"stretched\"; stretch = (0.5, 0.5); focus = (1.0, 0.5); cells = "
     "(40, 24); max = (2.0, 1.0); }";
 
+static bool floor_is_of_block;           /* of the next start: y_min is no wall of the scene */
 static const struct blocked_params *box; /* of the next start; NULL: none */
 
 /* Water DEPTH deep between an opening on the left and one on the right, from rest or in uniform
@@ -27,8 +29,8 @@ static void read_case(struct mesh_case *c, const char *blocks, const char *const
 {
     const struct scene_wall walls[] = {*left,
                                        *right,
-                                       {.side = SIDE_Y_MIN, .kind = WALL_SLIP},
-                                       {.side = SIDE_Y_MAX, .kind = WALL_SLIP}};
+                                       {.side = SIDE_Y_MAX, .kind = WALL_SLIP},
+                                       {.side = SIDE_Y_MIN, .kind = WALL_SLIP}};
     mesh_case_read(
         c, MPI_COMM_WORLD, blocks,
         (const char *const[]){
@@ -38,7 +40,7 @@ static void read_case(struct mesh_case *c, const char *blocks, const char *const
     c->run.scene.initial.velocity[0] = U;
     c->run.scene.initial.velocity[1] = 0.0;
     memcpy(c->run.scene.walls, walls, sizeof walls);
-    c->run.scene.nwalls = 4;
+    c->run.scene.nwalls = floor_is_of_block ? 3 : 4;
     c->run.scene.shapes[c->run.scene.nshapes++] =
         (struct scene_shape){.form = SHAPE_BELOW, .level = DEPTH};
     blocked_given_count = box != NULL;
@@ -112,7 +114,7 @@ static void levels_after_ten_transits_are_those_of_theory(void **state)
     for (int q = 0; q < (int)(sizeof pairs / sizeof pairs[0]); q++)
         for (int k = 0; k < GRIDS; k++) {
             struct mesh_case c;
-            if (q > 1 && k != 0 && k != 2) /* these two have been on all */
+            if (q > 0 && k != 0 && k != 2 && !(q == 1 && k == 4)) /* the first has been on all */
                 continue;
             struct fv *s =
                 start(&c, grids[k].blocks, grids[k].with, 0.0, &pairs[q].in, &pairs[q].out);
@@ -123,6 +125,87 @@ static void levels_after_ten_transits_are_those_of_theory(void **state)
             assert_close(mean_level(s), theory, 0.01 * theory);
             mesh_case_end(&c, &s);
         }
+}
+
+/* Vertices of a channel 10 m x 0.8 m whose bed rises by b in its middle, as Plot3D. */
+static void write_sill(const char *path, double b, int nx, int ny)
+{
+    FILE *f = fopen(path, "w");
+    if (!f)
+        abort();
+    fprintf(f, "1\n%d %d\n", nx + 1, ny + 1);
+    for (int a = 0; a < 2; a++)
+        for (int j = 0; j <= ny; j++)
+            for (int i = 0; i <= nx; i++) {
+                const double x = 10.0 * i / nx, up = (double)j / ny,
+                             bed = b * exp(-0.5 * (x - 5.0) * (x - 5.0));
+                fprintf(f, "%.12g\n", a == 0 ? x : 0.8 * up + bed * (1.0 - up));
+            }
+    fclose(f);
+}
+
+/* m: highest water of a column through x. */
+static double level_at(const struct fv *s, double x)
+{
+    double top = 0.0;
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            double at[3], up[3];
+            const int64_t d = p_->stride[1];
+            const double *phi = s->surface->phi + i;
+            forcing_centre(s, i, at);
+            if (fabs(at[0] - x) > 0.11 || !(phi[0] < 0.0 && phi[d] >= 0.0))
+                continue;
+            forcing_centre(s, i + d, up);
+            top = fmax(top, at[1] + (up[1] - at[1]) * phi[0] / (phi[0] - phi[d]));
+        }
+    return top;
+}
+
+/* A current of Froude number 0.3 over a smooth sill: the discharge leaves as it came in, levels are
+ * Bernoulli's, and stay. */
+static void current_over_a_sill_has_bernoullis_levels(void **state)
+{
+    (void)state;
+    const double q = 0.3 * sqrt(G * DEPTH) * DEPTH, E = DEPTH + q * q / (2.0 * G * DEPTH * DEPTH),
+                 b = 0.1;
+    const struct scene_wall in = {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .discharge = q},
+                            out = {.side = SIDE_X_MAX,
+                                   .kind = WALL_OUTFLOW,
+                                   .level = DEPTH,
+                                   .has_level = true};
+    static const char *const with[3] = {RK3, "domain.max=(10,0.8)"};
+    double depth = DEPTH, past = 0.0;
+    struct mesh_case c;
+    char path[1100], blocks[200];
+    for (int k = 0; k < 100; k++)
+        depth = E - b - q * q / (2.0 * G * depth * depth);
+    const char *dir = getenv("TEST_SCRATCH");
+    snprintf(path, sizeof path, "%s/sill.xyz", dir ? dir : P_tmpdir);
+    snprintf(blocks, sizeof blocks,
+             "{ name = \"channel\"; mapping = \"file\"; file = \"sill.xyz\"; j_min = \"slip\"; }");
+    write_sill(path, b, 50, 12);
+    floor_is_of_block = true;
+    struct fv *s = start(&c, blocks, with, q / DEPTH, &in, &out);
+    floor_is_of_block = false;
+    for (int k = 1; k <= 2; k++) {
+        const double volume = surface_volume(s, NULL);
+        past = s->surface->volume0;
+        assert_true(mesh_case_run(s, 10000, k == 1 ? 40.0 : 50.0));
+        if (k == 2)
+            assert_close(surface_volume(s, NULL), volume, 0.005 * volume);
+    }
+    const double gained = s->surface->volume0 - past; /* over the last 10 s */
+    print_message(
+        "sill: crest %.5g m of %.5g m, upstream %.5g m, downstream %.5g m, %.3g m^2/s more "
+        "in than out of %.3g\n",
+        level_at(s, 5.0), depth + b, level_at(s, 1.0), level_at(s, 9.0), gained / 10.0, q);
+    assert_close(level_at(s, 5.0), depth + b, 0.02 * DEPTH);
+    assert_close(level_at(s, 1.0), DEPTH, 0.02 * DEPTH);
+    assert_close(level_at(s, 9.0), DEPTH, 0.02 * DEPTH);
+    assert_close(gained / 10.0, 0.0, 0.02 * q);
+    remove(path);
+    mesh_case_end(&c, &s);
 }
 
 /* A sill of half of the depth a metre ahead of an outflow, whose wake leaves with water that runs
@@ -188,6 +271,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_after_ten_transits_are_those_of_theory),
+        cmocka_unit_test(current_over_a_sill_has_bernoullis_levels),
         cmocka_unit_test(wakes_leave_without_gain), cmocka_unit_test(restart_is_exact)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
