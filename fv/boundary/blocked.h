@@ -7,7 +7,10 @@
 
 #include "../fv.h"
 
-enum { BLOCKED_MAX = 16, BLOCKED_GAP = 3 }; /* boxes of a case; cells that a ghost is made of */
+/* Boxes of a case; cells that a ghost is made of; cells between no-slip faces: of three the middle
+ * one is made of both walls' ghosts, and the flow grows from U h/nu = 3 on; of four it does not at
+ * 3e4. */
+enum { BLOCKED_MAX = 16, BLOCKED_GAP = 3, BLOCKED_GAP_NO_SLIP = 4 };
 
 /* Of the case. */
 struct blocked_params {

@@ -138,6 +138,14 @@ static struct coarse make_coarse(const struct run *r)
     return g;
 }
 
+/* Whether a gap ends at a no-slip face: at a box (from 1 on), or (0) at the side. */
+static bool has_friction(const struct run *r, int a, int up, int box)
+{
+    const struct scene_wall *w =
+        scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + 2 * a + up));
+    return box > 0 ? blocked_given[box - 1].kind == WALL_NO_SLIP : w && w->kind == WALL_NO_SLIP;
+}
+
 /* Ghosts are made of three cells: so wide at least must be what lies between a box and another, or
  * a side. */
 static void check_gaps(const struct run *r, const struct coarse *g, int a, struct faults *f)
@@ -157,11 +165,15 @@ static void check_gaps(const struct run *r, const struct coarse *g, int a, struc
                 if (!here && !end)
                     continue;
                 const int k = here ? here - 1 : box - 1;
-                if (k >= 0 && from >= 0 && at - from > 0 && at - from < BLOCKED_GAP && !told[k]) {
+                const int least = has_friction(r, a, 0, box) && has_friction(r, a, 1, here)
+                                      ? BLOCKED_GAP_NO_SLIP
+                                      : BLOCKED_GAP;
+                if (k >= 0 && from >= 0 && at - from > 0 && at - from < least && !told[k]) {
                     fault(r, f, k, "min",
                           "only %d cells along %c are left between it and what is next: at least "
-                          "%d, or none; more cells (fv.cells)",
-                          at - from, "xyz"[a], BLOCKED_GAP);
+                          "%d%s, or none; more cells (fv.cells)",
+                          at - from, "xyz"[a], least,
+                          least > BLOCKED_GAP ? " between no-slip faces" : "");
                     told[k] = true;
                 }
                 from = at + (end ? 0 : g->edge[a][i[a] + 1] - g->edge[a][i[a]]);
