@@ -28,7 +28,8 @@ double limits_next_motion(const struct fv *s);
 /* The same before the start, for --check: cells of size h[3]. */
 struct step_limit limits_estimate(const struct run *r, const double *h);
 
-/* Warns where bdf2 is no choice: cells of size h at most, m. */
+/* Warns where bdf2 is no choice, and where newton passes over a transient that the run ends in:
+ * cells of size h at most, m. */
 void limits_warn(const struct run *r, double h);
 
 /* m^2/s^2: of p/rho between outflows. */

@@ -60,6 +60,12 @@ grep -q 'above 1:' text && bad "$what: with the c0 proposed, $c0 m/s, the gain i
 slow() { "$b/fv" "$root/cases/dam_break_fv/case.cfg" --check -p fv.integrator=bdf2 -p fluid.nu="$1" 2>&1 | grep -c 'warning: fv.integrator: bdf2 is for slow'; }
 [ "$(slow 1e-6)" = 1 ] || bad "bdf2 in water that breaks: not a word"
 [ "$(slow 1e-2)" = 0 ] || bad "bdf2 in honey: a warning"
+# newton over the layers of a sudden start: a warning where the run ends in their midst in one step
+printf 'format = 1;\ntime: { end = 0.05; };\nfluid: { rho = 1.0; nu = 1.0; };\ndomain: { dim = 2; min = (0, 0); max = (0.25, 1); periodic = (true, false); };\nwalls: ( { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "no_slip"; velocity = (1, 0); } );\nfv: { cells = (4, 20); integrator = "newton"; };\n' >couette.cfg
+sudden() { "$b/fv" couette.cfg --check "$@" 2>&1 | grep -c 'warning: fv.integrator: newton.s steps of'; }
+[ "$(sudden)" = 1 ] || bad "newton in one step over a sudden start: no warning"
+[ "$(sudden -p fv.cfl=0.15)" = 0 ] || bad "newton in seven steps: a warning"
+[ "$(sudden -p time.end=1)" = 0 ] || bad "newton to the steady flow: a warning"
 
 # scenes without a place for the coupling
 refuses "no cell of fv in what sph gives" 'no cell of fv .* lies wholly in' taylor_green -p coupling.overlap=0.19
