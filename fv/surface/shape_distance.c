@@ -7,6 +7,7 @@
 
 #include "../../common/scene/scene_fluid.h"
 #include "../boundary/blocked.h"
+#include "../grid/mesh.h"
 
 /* Whether a side of the water is, seen from x, a box that is cut out: what lies half a cell beyond
  * it is, and x is in the water's half or in that box. Of rooms behind the box it is none. */
@@ -29,8 +30,40 @@ static bool is_wall(const struct fv *s, const double *x, int a, double side, dou
     return false;
 }
 
-/* Sides of the box that lie on or beyond the domain's, or beside a box that is cut out, are walls,
- * not surface. */
+/* Whether a side of the water is, seen from x, a closed side of a block, which lies across axis a
+ * there, with the block on the water's side of it. At the start: where blocks move to is no matter.
+ */
+static bool is_block_wall(const struct fv *s, const struct scene_shape *h, const double *x, int a,
+                          double side, double out)
+{
+    for (int k = 0; s->m && k < s->m->nblocks; k++)
+        for (int q = 0; q < 2 * s->dim; q++) {
+            const struct mesh_block *b = s->m->block + k;
+            const double *lo = b->opening[q][0], *hi = b->opening[q][1];
+            const double eps = 1e-6 * fabs(b->opening[q ^ 1][0][a] - side);
+            bool on = (b->side[q] == MESH_WALL || b->side[q] == MESH_SLIP) &&
+                      fabs(lo[a] - side) < eps && fabs(hi[a] - side) < eps &&
+                      out * (b->opening[q ^ 1][0][a] - side) < 0.0;
+            for (int t = 0; t < s->dim && on; t++) {
+                const bool flat = t == 2 && !(h->box[1][t] > h->box[0][t]);
+                const double y = flat ? x[t] : fmax(h->box[0][t], fmin(h->box[1][t], x[t]));
+                on = t == a || (y >= lo[t] - eps && y <= hi[t] + eps);
+            }
+            if (on)
+                return true;
+        }
+    return false;
+}
+
+static bool is_closed(const struct fv *s, const struct scene_shape *h, const double *x, int a,
+                      int upper)
+{
+    const double side = h->box[upper][a], out = upper ? 1.0 : -1.0;
+    return is_wall(s, x, a, side, out) || is_block_wall(s, h, x, a, side, out);
+}
+
+/* Sides of the box that lie on or beyond the domain's, on a wall of a block, or beside a box that
+ * is cut out, are walls, not surface. */
 static double box(const struct fv *s, const struct scene_shape *h, const double *x)
 {
     const struct scene_domain *domain = &s->run->scene.domain;
@@ -41,9 +74,9 @@ static double box(const struct fv *s, const struct scene_shape *h, const double 
         if (a == 2 && !(h->box[1][a] > h->box[0][a]))
             continue; /* a plane box in 3D goes through */
         double d = -INFINITY;
-        if (h->box[0][a] > low + eps && !is_wall(s, x, a, h->box[0][a], -1.0))
+        if (h->box[0][a] > low + eps && !is_closed(s, h, x, a, 0))
             d = h->box[0][a] - x[a];
-        if (h->box[1][a] < high - eps && !is_wall(s, x, a, h->box[1][a], 1.0))
+        if (h->box[1][a] < high - eps && !is_closed(s, h, x, a, 1))
             d = fmax(d, x[a] - h->box[1][a]);
         in = fmax(in, d);
         out2 += d > 0.0 ? d * d : 0.0;

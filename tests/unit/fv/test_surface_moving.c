@@ -165,6 +165,37 @@ static void start_column(struct mesh_case *c, MPI_Comm comm)
         abort();
 }
 
+/* Water drawn flush with the walls of a cup that then tilts by 20 degrees: its sides are walls and
+ * no surface, so the cup carries its weight. */
+static void a_cup_that_tilts_carries_its_water(void **state)
+{
+    (void)state;
+    static const char cup[] =
+        "{ name = \"cup\"; min = (-0.5, -0.3); max = (0.5, 0.4); cells = (30, 21); " SLIP
+        "motion = ( { kind = \"polynomial\"; axis = \"rz\"; coefficients = (0, 0.17453); until = "
+        "2.0; } ); }";
+    struct mesh_case c;
+    mesh_case_read(&c, MPI_COMM_WORLD, cup,
+                   (const char *const[]){HEAVY, "initial.field=\"rest\"", "fluid.nu=1e-2",
+                                         "time.end=4", NULL});
+    c.run.scene.shapes[c.run.scene.nshapes++] =
+        (struct scene_shape){.form = SHAPE_BOX, .box = {{-0.5, -0.3}, {0.5, 0.0}}};
+    fv_params_check(&c.run, &c.faults);
+    assert_int_equal(params_report(&c.faults), 0);
+    struct fv *s = fv_create(&c.run, NULL);
+    double force[MESH_BLOCKS_MAX][4];
+    assert_true(mesh_case_run(s, 10000, 4.0));
+    surface_ghosts(s, s->surface->phi);
+    mesh_bc_force(s, s->surface->phi, force);
+    const double weight = s->run->scene.fluid.rho * 9.81 * 0.3;
+    print_message("cup: force %.4g, %.5g of %.5g N, %.2g of the water restored\n", force[0][0],
+                  force[0][1], -weight, s->surface->returned / 0.3);
+    assert_close(force[0][1], -weight, 0.005 * weight);
+    assert_close(force[0][0], 0.0, 0.01 * weight);
+    assert_close(s->surface->returned, 0.0, 0.005 * 0.3);
+    mesh_case_end(&c, &s);
+}
+
 static void ranks_agree(void **state)
 {
     (void)state;
@@ -194,6 +225,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_body_at_rest_has_its_buoyancy),
                                        cmocka_unit_test(still_water_stays_where_a_block_moves),
                                        cmocka_unit_test(a_body_that_speeds_up_has_its_added_mass),
+                                       cmocka_unit_test(a_cup_that_tilts_carries_its_water),
                                        cmocka_unit_test(ranks_agree),
                                        cmocka_unit_test(restart_is_exact)};
     MPI_Init(&argc, &argv);
