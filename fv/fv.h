@@ -15,6 +15,7 @@
 
 enum { PARTNERS_MAX = PARAM_KIN_MAX };
 enum fv_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
+enum fv_volume { VOLUME_AUTO, VOLUME_SHIFT, VOLUME_FRACTION };
 enum fv_integrator { INTEGRATOR_RK3, INTEGRATOR_BDF2, INTEGRATOR_NEWTON };
 enum fv_flux { FLUX_CENTRAL, FLUX_UPWIND };
 /* What bounds a step, see limits.h. */
@@ -45,6 +46,7 @@ struct fv_params {
     double upwind;       /* C of the bias in convection.c; 0: none, -1: 1 with walls, else none */
     double extrema[3];   /* m/s: known ones on the centre lines, see fv_lines.c; 0: none */
     int surface;         /* enum fv_surface */
+    int volume;          /* enum fv_volume: how the surface keeps its water */
     double force[3];  /* N, N, 1/s: known mean along x, amplitude along y, its frequency; 0: none */
     int forced_order; /* in time, of partners' data within a coupling step: 1 linear, 2 quadratic */
 };

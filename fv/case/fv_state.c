@@ -21,6 +21,7 @@
 #include "../operators/blocked_cells.h"
 #include "../output/output.h"
 #include "../poisson/poisson.h"
+#include "../surface/fraction.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
 #include "../time/newton.h"
@@ -292,6 +293,8 @@ void fv_free(struct fv **sp)
     blocked_free(&s->blocked);
     if (s->surface)
         surface_forced_free(&s->surface->forced);
+    if (s->surface)
+        fraction_free(&s->surface->fraction);
     levelset_free(&s->surface);
     fit_free(&s->swing);
     bc_free(&s->bc);

@@ -224,7 +224,7 @@ bool moved_box(struct fv *s, int n, const double (*box)[2][3], char why[256])
     if (!f)
         return false;
     carry(s, f);
-    const double before = s->surface ? surface_volume(s, NULL) : 0.0;
+    const double before = s->surface ? surface_volume(s) : 0.0;
     forcing_free(&s->forcing);
     s->forcing = f;
     if (s->surface)

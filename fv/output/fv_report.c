@@ -111,7 +111,7 @@ void fv_row(void *state, double *values)
     n += of->forces(s, values + n);
     n += newton_values(s->newton, values + n);
     if (s->surface) {
-        values[n++] = surface_volume(s, NULL);
+        values[n++] = surface_volume(s);
         for (int a = 0; a < s->dim; a++)
             values[n++] = surface_reach(s, a);
     }

@@ -8,6 +8,7 @@
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
 #include "../boundary/still.h"
+#include "../surface/fraction.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
 #include "../surface/surface_forced.h"
@@ -294,11 +295,17 @@ void surface_summarise(struct fv *s)
 {
     const struct surface *f = s->surface;
     struct summary *to = s->run->summary;
-    const double volume = surface_volume(s, NULL);
+    const double volume = surface_volume(s);
     summarise_swing(s);
     summary_real(to, "largest_velocity", fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
     summary_real(to, "drift.volume", volume / f->volume0 - 1.0);
     summary_real(to, "volume_returned", f->returned / surface_volume_scale(s));
+    if (f->fraction) {
+        double moved = f->fraction->moved;
+        MPI_Allreduce(MPI_IN_PLACE, &moved, 1, MPI_DOUBLE, MPI_SUM, s->comm);
+        summary_real(to, "volume_moved", moved / surface_volume_scale(s));
+        summary_real(to, "level_volume", surface_level_volume(s, NULL) / volume - 1.0);
+    }
     summary_int(to, "reinitialisations", f->reinits);
     summary_int(to, "steps_repeated", f->repeats);
 }

@@ -12,6 +12,7 @@
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "mesh_view.h"
+#include "plane.h"
 #include "weno.h"
 
 enum { BAND = 5 }; /* cells on either side of the surface that are advected */
@@ -76,6 +77,16 @@ void surface_ghosts(const struct fv *s, double *phi)
         ghosts_on_blocks(s, phi);
     else
         ghosts(s, MIRRORED, phi);
+}
+
+void surface_mirror(const struct fv *s, double *q)
+{
+    if (s->m) {
+        mesh_fill(s->m, 1, &q);
+        mesh_bc_level(s, false, q);
+    } else {
+        ghosts(s, MIRRORED, q);
+    }
 }
 
 /* Of the cells of local row j. */
@@ -240,7 +251,7 @@ void surface_advance_to(struct fv *s, double t, double dt)
     surface_ghosts(s, f->phi);
 }
 
-void surface_advance(struct fv *s, double dt)
+int surface_advance(struct fv *s, double dt)
 {
     double cfl = 0.0;
     if (s->m)
@@ -252,27 +263,7 @@ void surface_advance(struct fv *s, double dt)
     const int n = cfl > 0.5 ? (int)ceil(2.0 * cfl) : 1;
     for (int k = 0; k < n; k++)
         advance(s, dt / n);
-}
-
-/* Share of the unit cube where n.x < alpha, n >= 0 (Scardovelli & Zaleski 2000): inclusion and
- * exclusion of the corners. */
-static double share_below(int dim, const double *n, double alpha)
-{
-    double sum = 0.0, scale = 1.0;
-    for (int a = 0; a < dim; a++)
-        scale *= n[a] * (a + 1);
-    for (int m = 0; m < 1 << dim; m++) {
-        double rest = alpha, sign = 1.0, power = 1.0;
-        for (int a = 0; a < dim; a++)
-            if (m >> a & 1) {
-                rest -= n[a];
-                sign = -sign;
-            }
-        for (int a = 0; a < dim && rest > 0.0; a++)
-            power *= rest;
-        sum += rest > 0.0 ? sign * power : 0.0;
-    }
-    return fmin(1.0, fmax(0.0, sum / scale));
+    return n;
 }
 
 /* Difference of phi over two cells along the step d, one-sided beside closed sides and boxes. */
@@ -293,27 +284,21 @@ static double across_row(const struct block *b, int64_t c)
     return 2.0 * b->rows->h[j] / (b->rows->step[j] + b->rows->step[j + 1]);
 }
 
-/* On blocks by a plane in the cell's indices. */
+/* On blocks of a plane in the cell's indices. */
+void surface_slopes(const struct fv *s, const struct part *p, int64_t c, double *n)
+{
+    for (int a = 0; a < s->dim; a++) {
+        n[a] = 0.5 * difference(s, c, p->stride[a]);
+        if (a == 1 && s->b.rows)
+            n[a] *= across_row(&s->b, c);
+    }
+}
+
 static double share_at(const struct fv *s, const struct part *p, int64_t c, double shift)
 {
-    const struct block *b = &s->b;
-    const double *q = s->surface->phi + c;
-    double n[3], sum = 0.0, alpha;
-    for (int a = 0; a < s->dim; a++) {
-        n[a] = 0.5 * fabs(difference(s, c, p->stride[a]));
-        if (a == 1 && b->rows)
-            n[a] *= across_row(b, c);
-        sum += n[a];
-    }
-    if (fabs(q[0] + shift) >= 0.5 * sum * 1.01)
-        return q[0] + shift < 0.0;
-    double whole = 0.0;
-    for (int a = 0; a < s->dim; a++) {
-        n[a] = fmax(n[a], 1e-3 * sum); /* the formula divides by it */
-        whole += n[a];
-    }
-    alpha = 0.5 * whole - (q[0] + shift);
-    return share_below(s->dim, n, alpha);
+    double n[3] = {0.0, 0.0, 0.0};
+    surface_slopes(s, p, c, n);
+    return plane_share(s->dim, n, -(s->surface->phi[c] + shift));
 }
 
 double surface_share(const struct fv *s, int64_t c)
@@ -331,23 +316,14 @@ double surface_face_share(const struct fv *s, int64_t c, int a)
     const struct part *p = surface_part(s, c);
     const double *q = s->surface->phi + c;
     const int64_t d = p->stride[a];
-    const double middle = 0.5 * (q[0] + q[-d]);
-    double n[3] = {0.0}, sum = 0.0;
+    double n[3] = {0.0, 0.0, 0.0};
     int m = 0;
     for (int t = 0; t < s->dim; t++)
         if (t != a) {
             const int64_t e = p->stride[t];
-            n[m] = 0.25 * fabs(q[e] - q[-e] + q[e - d] - q[-e - d]);
-            sum += n[m++];
+            n[m++] = 0.25 * (q[e] - q[-e] + q[e - d] - q[-e - d]);
         }
-    if (fabs(middle) >= 0.505 * sum)
-        return middle < 0.0;
-    double whole = 0.0;
-    for (int k = 0; k < m; k++) {
-        n[k] = fmax(n[k], 1e-3 * sum);
-        whole += n[k];
-    }
-    return share_below(m, n, 0.5 * whole - middle);
+    return plane_share(m, n, -0.5 * (q[0] + q[-d]));
 }
 
 /* Cells whose water counts. */
@@ -373,7 +349,7 @@ static void correct_shared(const struct fv *s, double sums[2])
     }
 }
 
-double surface_volume(const struct fv *s, double *area)
+double surface_level_volume(const struct fv *s, double *area)
 {
     double sums[2] = {0.0, 0.0};
     FLOW_ROWS (s, c, n) {
@@ -415,7 +391,7 @@ void surface_keep_volume(struct fv *s)
     const double h = f->largest, most = (f->forced ? 0.02 : 0.1) * h;
     double area, d = INFINITY;
     for (int it = 0; it < 5 && fabs(d) > 1e-4 * f->least; it++) {
-        const double volume = surface_volume(s, &area);
+        const double volume = surface_level_volume(s, &area);
         if (!(area < 0.0))
             return;
         d = fmax(-most, fmin(most, (f->volume0 - volume) / area));
@@ -507,7 +483,7 @@ void levelset_free(struct surface **fp)
         mem_free(f->cut[a]);
     }
     surface_mesh_free(&f->mesh);
-    for (int k = 0; k < 24; k++)
+    for (int k = 0; k < 26; k++)
         mem_free(f->before[k]);
     for (int l = 0; l <= LAYERS; l++)
         mem_free(f->carry[l]);

@@ -33,17 +33,19 @@ struct carry {
     double slope;   /* weight of the normal derivative */
 };
 
+struct fraction;       /* water of each cell, fraction.h; NULL: phi is shifted as a whole */
 struct surface_forced; /* phi in a partner's cells; surface_forced.h; NULL: none */
 struct surface_mesh;   /* blocks as the surface sees them, mesh_view.h */
 
 struct surface {
+    struct fraction *fraction;
     struct surface_forced *forced;
     bool *closed; /* even cells whose values are nobody's: behind sides, boxes, deep in a partner's
                      part */
     struct surface_mesh *mesh;    /* NULL: even cells or layers of unequal height */
     double *phi, *phi_new, *rate; /* m, m, m/s */
     double *kept;                 /* scratch of reinit */
-    double *before[24];           /* state at the start of a step, see surface_keep_state */
+    double *before[26];           /* state at the start of a step, see surface_keep_state */
     double *half; /* implicit steps: phi at half time, while phi stands where the step ends */
     double travelled_before;
     double *stress;       /* 1/s: n.(D n) of dry cells beside the water */
@@ -98,17 +100,23 @@ struct surface *levelset_create(const struct fv *s);
 void levelset_free(struct surface **w);
 /* Ghosts of a level set: halo, and mirrored beyond closed sides. */
 void surface_ghosts(const struct fv *s, double *phi);
-/* phi by dt with u as it is. */
-void surface_advance(struct fv *s, double dt);
+/* The same of any field that belongs to cells, mirrored beyond closed sides. */
+void surface_mirror(const struct fv *s, double *q);
+/* phi by dt with u as it is, in so many parts. */
+int surface_advance(struct fv *s, double dt);
 /* The same of blocks that move, from where they stand to their places at time t. */
 void surface_advance_to(struct fv *s, double t, double dt);
 /* Shifts phi uniformly to the volume of the start. */
 void surface_keep_volume(struct fv *s);
-/* m^dim of water, a partner's part apart; *area: its change with phi, < 0. Over all ranks. */
-double surface_volume(const struct fv *s, double *area);
+/* m^dim of water, a partner's part apart. Over all ranks. */
+double surface_volume(const struct fv *s);
+/* The same below phi = 0; *area: its change with phi, < 0. */
+double surface_level_volume(const struct fv *s, double *area);
 /* m^dim: what lost volumes are judged by: what was there and has come in, at least a hundredth of
  * the domain, so that the first drops in an empty one are no fault. */
 double surface_volume_scale(const struct fv *s);
+/* Slopes of phi at cell c, m a cell. */
+void surface_slopes(const struct fv *s, const struct part *p, int64_t c, double *n);
 /* Share of a cell below phi = 0, by the plane through its centre. */
 double surface_share(const struct fv *s, int64_t c);
 /* The same of the face below cell c along axis a. */

@@ -16,6 +16,7 @@
 #include "../operators/mesh_ops.h"
 #include "../operators/operators.h"
 #include "../poisson/poisson.h"
+#include "../surface/fraction.h"
 #include "../surface/mesh_view.h"
 #include "../surface/surface_forced.h"
 #include "moving.h"
@@ -169,7 +170,7 @@ static void set_openings(struct fv *s)
 void surface_outline_moved(struct fv *s, double before)
 {
     close_cells(s);
-    s->surface->volume0 += surface_volume(s, NULL) - before;
+    s->surface->volume0 += surface_volume(s) - before;
     rebuild(s);
 }
 
@@ -177,8 +178,12 @@ void surface_start(struct fv *s)
 {
     struct surface *f = s->surface;
     close_cells(s);
-    f->volume0 = surface_volume(s, NULL);
+    if (fraction_wanted(s))
+        fraction_start(s);
+    f->volume0 = surface_volume(s);
     rebuild(s);
+    if (f->fraction)
+        fraction_note_solved(s);
     set_level(s);
     add_velocities(s);
     set_openings(s);
@@ -283,6 +288,14 @@ static void flows(const struct fv *s, double sums[3])
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
+/* phi and the water of cells by dt. */
+static void carry_water(struct fv *s, double dt)
+{
+    const int parts = surface_advance(s, dt);
+    if (s->surface->fraction)
+        fraction_advance(s, dt, parts);
+}
+
 void surface_first_half(struct fv *s, double dt)
 {
     const double before = s->surface->travelled;
@@ -292,10 +305,12 @@ void surface_first_half(struct fv *s, double dt)
         moving_begin_surface(s, dt);
         surface_advance_to(s, s->t + 0.5 * dt, 0.5 * dt);
     } else {
-        surface_advance(s, 0.5 * dt);
+        carry_water(s, 0.5 * dt);
     }
     impose(s, s->t + 0.5 * dt);
     refresh(s, before);
+    if (s->surface->fraction)
+        fraction_correct_level(s);
     if (s->surface->half)
         go_ahead(s, dt);
     rebuild(s);
@@ -319,7 +334,9 @@ void surface_second_half(struct fv *s, double dt)
         surface_advance_to(s, s->t, 0.5 * dt);
         surface_mesh_count(s);
     } else {
-        surface_advance(s, 0.5 * dt);
+        if (f->fraction)
+            fraction_note_solved(s);
+        carry_water(s, 0.5 * dt);
     }
     impose(s, s->t);
     flows(s, now);
@@ -327,17 +344,24 @@ void surface_second_half(struct fv *s, double dt)
     f->passed += 0.5 * dt * (f->through[1] + now[1]);
     f->entered += 0.5 * dt * (f->through[2] + now[2]);
     refresh(s, before);
-    surface_keep_volume(s);
+    if (f->fraction)
+        fraction_correct_level(s);
+    else
+        surface_keep_volume(s);
     surface_sample(s);
 }
 
-enum { STATE = 24 };
+enum { STATE = 26 };
 
 /* Lists the fields of the state, convection's with bdf2, whose steps swap them; their number. */
 static int state(struct fv *s, double **f)
 {
     int n = 0;
     f[n++] = s->surface->phi;
+    if (s->surface->fraction) {
+        f[n++] = s->surface->fraction->C;
+        f[n++] = s->surface->fraction->solved;
+    }
     f[n++] = s->p;
     f[n++] = s->p_before;
     for (int a = 0; a < 3; a++) {

@@ -49,7 +49,7 @@ static void swing(const char *cells, const char *graded, const char *integrator,
                   "%.3g\n",
                   cells, integrator, graded, 4.0 / period * s->dt / h, s->nu * s->dt / (h * h),
                   (int)c.run.step, *T, *r);
-    assert_close(surface_volume(s, NULL) / s->surface->volume0, 1.0, 1e-10);
+    assert_close(surface_volume(s) / s->surface->volume0, 1.0, 1e-10);
     fv_free(&c.s);
 }
 
@@ -92,7 +92,7 @@ static void columns_fall(void **state)
                   &column, WALL_SLIP);
         const double whole = 9.81 * s->surface->volume0 * 0.61 / 2.0;
         assert_true(fv_case_run(&c, 2000, k < 2 ? 0.8 : 0.3));
-        const double v = surface_volume(s, NULL) / s->surface->volume0 - 1.0, K = surface_energy(s);
+        const double v = surface_volume(s) / s->surface->volume0 - 1.0, K = surface_energy(s);
         print_message("column: %d steps, %d taken back, volume %.3g, energy %.3g of %.3g\n",
                       (int)c.run.step, (int)s->surface->repeats, v, K, whole);
         assert_close(v, 0.0, 1e-4);

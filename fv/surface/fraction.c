@@ -1,0 +1,262 @@
+/* fraction.c - advection of the share of water in sweeps along the axes (Weymouth & Yue, J. Comput.
+ * Phys. 229, 2010): the water in the slab of the donor that crosses the face, below the plane in
+ * it; C += (F_a - F_a+1 + solved (V_a+1 - V_a))/volume with V the volumes that cross the faces.
+ * Over all axes the last term is 0 as far as the projection went; within a sweep it keeps full
+ * cells full. SPDX-License-Identifier: BSD-3-Clause */
+#include "fraction.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/base/mem.h"
+#include "../boundary/forcing.h"
+#include "levelset.h"
+#include "mesh_view.h"
+#include "plane.h"
+
+static const int none[3] = {0, 0, 0};
+
+bool fraction_possible(const struct fv *s)
+{
+    bool possible = !s->moving && !(s->m && s->m->has_fringe);
+    for (int q = 0; s->m && q < s->nparts; q++)
+        possible = possible && s->part[q].kind != PART_CURVED;
+    MPI_Allreduce(MPI_IN_PLACE, &possible, 1, MPI_C_BOOL, MPI_LAND, s->comm);
+    return possible;
+}
+
+bool fraction_wanted(const struct fv *s)
+{
+    return s->prm.volume == VOLUME_FRACTION && fraction_possible(s);
+}
+
+double fraction_size(const struct fv *s, int64_t c, int a)
+{
+    if (s->m)
+        return s->m->V[c] / s->m->S[a][a][c];
+    return block_size(&s->b, a, a == 1 && s->b.rows ? block_row(&s->b, c) : 0);
+}
+
+static void set_volumes(const struct fv *s, double *volume)
+{
+    for (int64_t c = 0; c < s->size; c++)
+        volume[c] = s->m ? s->m->V[c] : block_volume(&s->b, s->b.rows ? block_row(&s->b, c) : 0);
+}
+
+static struct fraction *create(const struct fv *s)
+{
+    struct fraction *f = NEW(struct fraction, 1);
+    double **const fields[] = {&f->C,    &f->solved, &f->alpha, &f->volume,
+                               &f->flux, &f->work,   &f->next};
+    for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
+        *fields[k] = NEW(double, s->size);
+    for (int a = 0; a < s->dim; a++) {
+        f->n[a] = NEW(double, s->size);
+        f->flow[a] = NEW(double, s->size);
+    }
+    f->smooth = NEW(unsigned char, s->size);
+    set_volumes(s, f->volume);
+    return f;
+}
+
+void fraction_free(struct fraction **fp)
+{
+    struct fraction *f = *fp;
+    if (!f)
+        return;
+    double *const fields[] = {f->C, f->solved, f->alpha, f->volume, f->flux, f->work, f->next};
+    for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
+        mem_free(fields[k]);
+    for (int a = 0; a < 3; a++) {
+        mem_free(f->n[a]);
+        mem_free(f->flow[a]);
+    }
+    mem_free(f->smooth);
+    mem_free(f);
+    *fp = NULL;
+}
+
+static bool is_imposed(const struct fv *s, int64_t c)
+{
+    return s->surface->forced && s->forcing->forced[c];
+}
+
+void fraction_take(const struct fv *s, bool all)
+{
+    struct fraction *f = s->surface->fraction;
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            if (all || is_imposed(s, i))
+                f->C[i] = surface_holds_none(s, i) ? 0.0 : surface_share(s, i);
+    surface_mirror(s, f->C);
+}
+
+void fraction_start(struct fv *s)
+{
+    s->surface->fraction = create(s);
+    fraction_take(s, true);
+}
+
+void fraction_note_solved(const struct fv *s)
+{
+    const struct surface *f = s->surface;
+    for (int64_t c = 0; c < s->size; c++)
+        f->fraction->solved[c] = f->layer[c] == 0 ? 1.0 : 0.0;
+}
+
+double fraction_volume(const struct fv *s)
+{
+    const struct fraction *f = s->surface->fraction;
+    double sum = 0.0;
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            sum += is_imposed(s, i) ? 0.0 : f->C[i] * f->volume[i];
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
+    return sum;
+}
+
+double surface_volume(const struct fv *s)
+{
+    return s->surface->fraction ? fraction_volume(s) : surface_level_volume(s, NULL);
+}
+
+/* --- planes --- */
+
+/* Sum over the 3^(dim-1) cells beside c + d of C, weights 1, 2, 1 along each tangent; cells that
+ * hold nothing count as c. */
+static double beside(const struct fv *s, const struct part *p, int64_t c, int a, int64_t d)
+{
+    const double *C = s->surface->fraction->C;
+    const int t0 = a == 0 ? 1 : 0, t1 = s->dim == 3 ? (a == 2 ? 1 : 2) : -1;
+    double sum = 0.0;
+    for (int k = t1 < 0 ? 0 : -1; k <= (t1 < 0 ? 0 : 1); k++)
+        for (int j = -1; j <= 1; j++) {
+            const int64_t i = c + d + j * p->stride[t0] + (t1 < 0 ? 0 : k * p->stride[t1]);
+            sum += (j ? 1.0 : 2.0) * (t1 >= 0 && k ? 1.0 : 2.0) * C[i];
+        }
+    return sum / 8.0 / (t1 < 0 ? 1.0 : 2.0);
+}
+
+bool fraction_normal(const struct fv *s, const struct part *p, int64_t c, double *n)
+{
+    double sum = 0.0;
+    for (int a = 0; a < s->dim; a++) {
+        const int64_t d = p->stride[a];
+        const double h = fraction_size(s, c, a);
+        const double over = 0.5 * (fraction_size(s, c - d, a) + fraction_size(s, c + d, a)) + h;
+        n[a] = -(beside(s, p, c, a, d) - beside(s, p, c, a, -d)) * h / over;
+        sum += fabs(n[a]);
+    }
+    return sum > 1e-12;
+}
+
+static bool is_mixed(double C) { return C > 0.0 && C < 1.0; }
+
+/* Planes of the mixed cells, with ghosts. */
+static void find_planes(struct fv *s)
+{
+    struct fraction *f = s->surface->fraction;
+    FLOW_ROWS (s, c, len)
+        for (int64_t i = c; i < c + len; i++) {
+            double n[3] = {0.0, 0.0, 0.0};
+            if (!is_mixed(f->C[i]))
+                continue;
+            if (!fraction_normal(s, p_, i, n)) /* as water lies */
+                for (int a = 0; a < s->dim; a++)
+                    n[a] = s->surface->g > 0.0 ? -s->still[a] : a == s->dim - 1;
+            for (int a = 0; a < s->dim; a++)
+                f->n[a][i] = n[a];
+            f->alpha[i] = plane_alpha(s->dim, n, f->C[i]);
+        }
+    double *fields[4] = {f->alpha, f->n[0], f->n[1], f->n[2]};
+    surface_fill(s, 1 + s->dim, fields);
+}
+
+/* --- fluxes --- */
+
+static void set_flows(struct fv *s)
+{
+    struct fraction *f = s->surface->fraction;
+    for (int a = 0; a < s->dim; a++) {
+        int up[3] = {0, 0, 0};
+        up[a] = 1;
+        for (const struct part *p = s->part; p < s->part + s->nparts; p++)
+            PART_ROWS (p, none, up, c, n)
+                for (int64_t i = c; i < c + n; i++)
+                    f->flow[a][i] =
+                        s->m ? s->U[a][i] : s->U[a][i] * f->volume[i] / fraction_size(s, i, a);
+    }
+}
+
+static double plane_in(const struct fv *s, int64_t c, int a, double lo, double hi)
+{
+    const struct fraction *f = s->surface->fraction;
+    const double n[3] = {f->n[0][c], f->n[1][c], s->dim == 3 ? f->n[2][c] : 0.0};
+    return plane_slab(s->dim, n, f->alpha[c], a, lo, hi);
+}
+
+/* Of the cell that the volume v (m^dim, up if > 0) through the lower face of c comes from: water in
+ * it. From behind a side it is as deep as it stands on this side of it. */
+static double water_across(const struct fv *s, int64_t c, int64_t d, int a, double v)
+{
+    const struct fraction *f = s->surface->fraction;
+    const int64_t from = v > 0.0 ? c - d : c;
+    const double C = f->C[from], part = fmin(1.0, fabs(v) / f->volume[from]);
+    if (!is_mixed(C))
+        return v * C;
+    if (surface_holds_none(s, from)) {
+        const int64_t in = v > 0.0 ? c : c - d;
+        const double e = 1e-6, lo = v > 0.0 ? -0.5 : 0.5 - e;
+        return v * plane_in(s, in, a, lo, lo + e) / e;
+    }
+    const double share =
+        v > 0.0 ? plane_in(s, from, a, 0.5 - part, 0.5) : plane_in(s, from, a, -0.5, part - 0.5);
+    const double kept = fmin(C, fmax(part - (1.0 - C), share));
+    return (v > 0.0 ? kept : -kept) * f->volume[from];
+}
+
+/* Water through the lower faces along a less, where `solved', the volume: see the head. */
+static void find_fluxes(struct fv *s, int a, double dt)
+{
+    struct fraction *f = s->surface->fraction;
+    int up[3] = {0, 0, 0};
+    up[a] = 1;
+    for (const struct part *p = s->part; p < s->part + s->nparts; p++) {
+        const int64_t d = p->stride[a];
+        PART_ROWS (p, none, up, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                const double v = dt * f->flow[a][i], low = f->C[i - d], high = f->C[i];
+                if (low == high && !is_mixed(low))
+                    f->flux[i] = v * low;
+                else
+                    f->flux[i] = v != 0.0 ? water_across(s, i, d, a, v) : 0.0;
+            }
+    }
+}
+
+static void sweep(struct fv *s, int a, double dt)
+{
+    struct fraction *f = s->surface->fraction;
+    find_planes(s);
+    find_fluxes(s, a, dt);
+    FLOW_ROWS (s, c, n) {
+        const int64_t d = p_->stride[a];
+        for (int64_t i = c; i < c + n; i++) {
+            const double v = dt * f->solved[i] * f->flow[a][i],
+                         w = dt * f->solved[i] * f->flow[a][i + d];
+            f->C[i] += ((f->flux[i] - v) - (f->flux[i + d] - w)) / f->volume[i];
+        }
+    }
+    surface_mirror(s, f->C);
+}
+
+void fraction_advance(struct fv *s, double dt, int n)
+{
+    struct fraction *f = s->surface->fraction;
+    set_flows(s);
+    for (int k = 0; k < n; k++, f->sweeps = (f->sweeps + 1) % s->dim) {
+        for (int a = 0; a < s->dim; a++)
+            sweep(s, (f->sweeps + a) % s->dim, dt / n);
+        fraction_bound(s);
+    }
+}

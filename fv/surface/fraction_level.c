@@ -1,0 +1,114 @@
+/* fraction_level.c - phi from the shares of water: the plane through a cell that has phi's slopes
+ * and the cell's share gives phi of its centre. SPDX-License-Identifier: BSD-3-Clause */
+#include "fraction.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../boundary/forcing.h"
+#include "levelset.h"
+#include "mesh_view.h"
+#include "plane.h"
+
+/* |grad phi|^2 of slopes n over a cell. */
+static double slope2(const struct fv *s, int64_t c, const double *n)
+{
+    double sum = 0.0;
+    for (int a = 0; a < s->dim; a++) {
+        const double g = n[a] / fraction_size(s, c, a);
+        sum += g * g;
+    }
+    return sum;
+}
+
+/* Whether phi bends little at a cell and is a distance. */
+static bool is_smooth(const struct fv *s, const struct part *p, int64_t c)
+{
+    const double *q = s->surface->phi + c;
+    double sum = 0.0;
+    for (int a = 0; a < s->dim; a++) {
+        const int64_t d = p->stride[a];
+        const double h = fraction_size(s, c, a), g = (q[d] - q[-d]) / (2.0 * h);
+        if (fabs(q[d] - 2.0 * q[0] + q[-d]) > 0.3 * h)
+            return false;
+        sum += g * g;
+    }
+    return sum > 0.6 && sum < 1.6;
+}
+
+static void find_smooth(const struct fv *s)
+{
+    struct fraction *f = s->surface->fraction;
+    const double band = 4.0 * s->surface->largest;
+    int more[3];
+    for (int a = 0; a < 3; a++)
+        more[a] = a < s->dim;
+    for (const struct part *p = s->part; p < s->part + s->nparts; p++)
+        PART_ROWS (p, more, more, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                f->smooth[i] = fabs(s->surface->phi[i]) < band && is_smooth(s, p, i);
+}
+
+static bool is_trusted(const struct fv *s, const struct part *p, int64_t c)
+{
+    const unsigned char *smooth = s->surface->fraction->smooth;
+    const int deep = s->dim == 3;
+    for (int k = -deep; k <= deep; k++)
+        for (int j = -1; j <= 1; j++)
+            for (int i = -1; i <= 1; i++)
+                if (!smooth[c + i + j * p->stride[1] + k * p->stride[2]])
+                    return false;
+    return true;
+}
+
+/* Where phi of a cell wants to be. */
+static double wanted(const struct fv *s, const struct part *p, int64_t c)
+{
+    const double C = s->surface->fraction->C[c], phi = s->surface->phi[c];
+    double n[3] = {0.0, 0.0, 0.0}, h = 0.0, size = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        h = fmax(h, fraction_size(s, c, a));
+    if (fabs(phi) > 2.0 * h)
+        return (C > 0.5) != (phi < 0.0) ? (0.5 - C) * h : phi;
+    surface_slopes(s, p, c, n);
+    double g2 = slope2(s, c, n);
+    if (!(g2 > 0.6 && g2 < 1.6)) {
+        if (!fraction_normal(s, p, c, n))
+            return (0.5 - C) * h;
+        g2 = 1.0 / sqrt(slope2(s, c, n));
+        for (int a = 0; a < s->dim; a++)
+            n[a] *= g2;
+    }
+    for (int a = 0; a < s->dim; a++)
+        size += 0.5 * fabs(n[a]);
+    if (C <= 0.0)
+        return fmax(phi, size);
+    if (C >= 1.0)
+        return fmin(phi, -size);
+    return -plane_alpha(s->dim, n, C);
+}
+
+/* How far phi goes there at once: all of the way where it is trusted; elsewhere signs would flip
+ * from step to step. */
+#define TRUSTED 1.0
+#define DOUBTED 0.3
+
+void fraction_correct_level(struct fv *s)
+{
+    struct surface *w = s->surface;
+    struct fraction *f = w->fraction;
+    const double band = 2.0 * w->largest;
+    find_smooth(s);
+    memcpy(f->next, w->phi, (size_t)s->size * sizeof(double));
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            const bool mixed = f->C[i] > 0.0 && f->C[i] < 1.0;
+            if ((!mixed && fabs(w->phi[i]) > band) || surface_holds_none(s, i) ||
+                (w->forced && s->forcing->forced[i]))
+                continue;
+            const double r = is_trusted(s, p_, i) ? TRUSTED : DOUBTED;
+            f->next[i] += r * (wanted(s, p_, i) - w->phi[i]);
+        }
+    memcpy(w->phi, f->next, (size_t)s->size * sizeof(double));
+    surface_ghosts(s, w->phi);
+}

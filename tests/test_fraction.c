@@ -1,0 +1,132 @@
+/* test_fraction.c - the share of water of each cell is carried without loss.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "test.h"
+
+#include "../fv/grid/block.h"
+#include "../fv/surface/fraction.h"
+#include "surface_case.h"
+
+#define FRACTION "fv.volume=\"fraction\""
+
+/* Velocities through faces by differences of a vector potential on the edges: no cell has a
+ * divergence. Two vortices in the unit square, turned around the other axes, too, in 3D. */
+static double potential(int a, const double *x)
+{
+    const double p = sin(M_PI * x[(a + 1) % 3]) * sin(M_PI * x[(a + 2) % 3]);
+    return p * p / M_PI;
+}
+
+static double edge(const struct fv *s, const int *at, int along, const int *up)
+{
+    const struct block *b = &s->b;
+    double x[3];
+    for (int a = 0; a < 3; a++)
+        x[a] =
+            a == along ? (b->lo[a] + at[a] + 0.5) * b->h[a] : (b->lo[a] + at[a] + up[a]) * b->h[a];
+    if (s->dim == 2)
+        x[2] = 0.5;
+    return s->dim == 2 && along != 2 ? 0.0 : potential(along, x);
+}
+
+static void set_vortex(struct fv *s, double sign)
+{
+    const struct block *b = &s->b;
+    int more[3], at[3];
+    for (int a = 0; a < 3; a++)
+        more[a] = a < s->dim;
+    for (int a = 0; a < s->dim; a++) {
+        const int t = (a + 1) % 3, w = (a + 2) % 3;
+        for (at[2] = 0; at[2] < b->n[2] + more[2]; at[2]++)
+            for (at[1] = 0; at[1] < b->n[1] + more[1]; at[1]++)
+                for (at[0] = 0; at[0] < b->n[0] + more[0]; at[0]++) {
+                    const int here[3] = {0, 0, 0};
+                    int up_t[3] = {0, 0, 0}, up_w[3] = {0, 0, 0};
+                    up_t[t] = up_w[w] = 1;
+                    const double along_w = (edge(s, at, w, up_t) - edge(s, at, w, here)) /
+                                           (t < s->dim ? b->h[t] : 1.0);
+                    const double along_t = (edge(s, at, t, up_w) - edge(s, at, t, here)) /
+                                           (w < s->dim ? b->h[w] : 1.0);
+                    s->U[a][block_at(b, at[0], at[1], at[2])] =
+                        sign * ((t < s->dim ? along_w : 0.0) - (w < s->dim ? along_t : 0.0));
+                }
+    }
+}
+
+static double sum_of(const struct fv *s) { return fraction_volume(s); }
+
+/* Steps of half a cell at most there and back; the sum of |C - C at the start|, of the water. */
+static double there_and_back(struct fv *s, int steps, double dt)
+{
+    struct fraction *f = s->surface->fraction;
+    double *first = NEW(double, s->size), off[2] = {0.0, 0.0}, worst = 0.0;
+    const double before = sum_of(s);
+    memcpy(first, f->C, (size_t)s->size * sizeof(double));
+    for (int k = 0; k < 2 * steps; k++) {
+        set_vortex(s, k < steps ? 1.0 : -1.0);
+        for (int64_t c = 0; c < s->size; c++)
+            f->solved[c] = f->C[c] > 0.5;
+        fraction_advance(s, dt, 1);
+        FLOW_ROWS (s, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                worst = fmax(worst, fmax(-f->C[i], f->C[i] - 1.0));
+    }
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            off[0] += fabs(f->C[i] - first[i]) * f->volume[i];
+            off[1] += first[i] * f->volume[i];
+        }
+    MPI_Allreduce(MPI_IN_PLACE, off, 2, MPI_DOUBLE, MPI_SUM, s->comm);
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, s->comm);
+    mem_free(first);
+    double moved = f->moved;
+    MPI_Allreduce(MPI_IN_PLACE, &moved, 1, MPI_DOUBLE, MPI_SUM, s->comm);
+    assert_close(sum_of(s) / before, 1.0, 1e-11); /* 1e-12 of a cell is cut a step */
+    assert_true(worst <= 0.0);
+    assert_true(moved == 0.0);
+    return off[0] / off[1];
+}
+
+static double vortex(int dim, int n)
+{
+    struct fv_case c;
+    char cells[64], dims[32];
+    snprintf(cells, sizeof cells, "fv.cells=(%d,%d,%d)", n, n, n);
+    snprintf(dims, sizeof dims, "domain.dim=%d", dim);
+    const struct scene_shape shape = {.form = SHAPE_DISC,
+                                      .centre = {0.5, 0.7, dim == 3 ? 0.5 : 0.0},
+                                      .radius = dim == 3 ? 0.25 : 0.2};
+    struct fv *s =
+        start(&c, MPI_COMM_WORLD, (const char *const[]){SURFACE, FRACTION, cells, dims, NULL},
+              &shape, WALL_SLIP);
+    const double h = 1.0 / n, dt = 0.24 * h;
+    const double off = there_and_back(s, (int)(0.5 / dt), dt);
+    fv_free(&c.s);
+    return off;
+}
+
+/* Without a divergence sweeps keep 0 <= C <= 1 and the sum to rounding; first to second order. */
+static void disc_in_a_vortex(void **state)
+{
+    (void)state;
+    const double coarse = vortex(2, 32), fine = vortex(2, 64);
+    print_message("disc: %.4f, %.4f\n", coarse, fine);
+    assert_true(fine < 0.55 * coarse && fine < 0.03);
+}
+
+static void sphere_in_a_vortex(void **state)
+{
+    (void)state;
+    const double coarse = vortex(3, 16), fine = vortex(3, 32);
+    print_message("sphere: %.4f, %.4f\n", coarse, fine);
+    assert_true(fine < 0.6 * coarse && fine < 0.06);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(disc_in_a_vortex),
+                                       cmocka_unit_test(sphere_in_a_vortex)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
