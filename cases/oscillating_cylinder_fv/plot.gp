@@ -9,4 +9,4 @@ set datafile commentschars '#'
 set xrange [25:30]; set yrange [-2:2]
 set xlabel 't [s]'; set ylabel 'force along x [N/m]'
 plot case . '/morison.csv' using ($1 + 25):2 with points pt 7 ps 0.6 lc rgb '#444444' title 'Morison, c_d 2.09, c_m 1.45', \
-     dir . '/series.csv' using 't [s]':'force x [N]' with lines lw 2 lc rgb '#c0392b' title 'fv'
+     dir . '/series.csv' using 't [s]':'cylinder force x [N]' with lines lw 2 lc rgb '#c0392b' title 'fv'

@@ -51,10 +51,11 @@ void mesh_bc_passing(const struct fv *s, double (*share)(const struct fv *s, int
 double mesh_bc_given_flux(const struct fv *s);
 
 /* mesh_forces.c */
-/* Forces on the walls of each block that are bodies, N (per metre in 2D), and the moment about its
- * centre. phi: level set (m) of a free surface with ghosts, water where it is < 0; NULL: all is
- * fluid. */
-void mesh_bc_force(struct fv *s, const double *phi, double (*force)[4]);
+/* Forces, N (per metre in 2D), and the moment about the block's centre, Nm: of each block on its
+ * no-slip walls and on the slip sides that lie within the domain; all: the sum over all no-slip
+ * walls and slip sides, NULL: not wanted. phi: level set (m) of a free surface with ghosts, water
+ * where it is < 0; NULL: all is fluid. Collective. */
+void mesh_bc_force(struct fv *s, const double *phi, double (*body)[4], double all[4]);
 /* What comes in through this rank's sides: energy, work of pressure and of friction, over rho. */
 double mesh_bc_power(struct fv *s);
 

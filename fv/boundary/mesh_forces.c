@@ -212,25 +212,31 @@ double mesh_bc_power(struct fv *s)
     return sum;
 }
 
-void mesh_bc_force(struct fv *s, const double *phi, double (*force)[4])
+void mesh_bc_force(struct fv *s, const double *phi, double (*body)[4], double all[4])
 {
-    double *both[2] = {s->p, s->p_before};
-    memset(force, 0, (size_t)s->m->nblocks * sizeof *force);
+    double *both[2] = {s->p, s->p_before}, sums[MESH_BLOCKS_MAX + 1][4] = {{0.0}};
+    const int n = s->m->nblocks;
     mesh_fill(s->m, 2, both);
     for (int k = 0; k < 2; k++)
         mesh_bc_pressure(s, both[k]);
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        if (!d->body)
+        if (d->kind != MESH_WALL && d->kind != MESH_SLIP)
             continue;
         SIDE_PLACES (d, 0, i, j, at, c) {
             double one[4] = {0.0, 0.0, 0.0, 0.0};
             if (phi ? s->m->status[c] == CELL_COMPUTED : s->free[c] > 0.0)
                 face_force(s, d, phi, c, i, j, one);
             for (int q = 0; q < 4; q++)
-                force[d->p->block][q] += one[q];
+                sums[d->body ? d->p->block : n][q] += one[q];
             (void)at;
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, force, 4 * s->m->nblocks, MPI_DOUBLE, MPI_SUM, s->m->comm);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 4 * (n + 1), MPI_DOUBLE, MPI_SUM, s->m->comm);
+    memcpy(body, sums, (size_t)n * sizeof *body);
+    for (int q = 0; all && q < 4; q++) {
+        all[q] = 0.0;
+        for (int k = 0; k <= n; k++)
+            all[q] += sums[k][q];
+    }
 }

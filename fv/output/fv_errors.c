@@ -150,7 +150,7 @@ void fv_tell(void *state, struct summary *report)
         summary_real(report, names[k], sum[k]);
 }
 
-/* Largest divergence of the fluxes, times h: what the projection left. */
+/* Largest divergence of the fluxes, 1/s: what the projection left. */
 static double largest_divergence(struct fv *s)
 {
     const struct block *b = &s->b;
@@ -162,7 +162,7 @@ static double largest_divergence(struct fv *s)
                 continue;
             for (int a = 0; a < b->dim; a++)
                 div += (s->U[a][i + b->stride[a]] - s->U[a][i]) / block_size(b, a, j_);
-            most = fmax(most, fabs(div) * b->h[0]);
+            most = fmax(most, fabs(div));
         }
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, b->cart);
     return most;
@@ -179,26 +179,41 @@ static double cells_of(const struct fv *s)
 static int force_columns(const struct run *r, const char **columns)
 {
     static const char *const names[] = {"force x [N]", "force y [N]", "force z [N]"};
+    const bool any = r->scene.nwalls > 0 || blocked_count() > 0;
     int n = 0;
-    for (int a = 0; r->scene.nwalls > 0 && a < r->scene.domain.dim; a++)
+    for (int a = 0; any && a < r->scene.domain.dim; a++)
         columns[n++] = names[a];
     return n + fv_blocked_columns(r, columns + n);
 }
 
+/* On all walls and boxes, then on each box. */
 static int forces(struct fv *s, double *values)
 {
-    double force[3];
-    int n = 0;
+    const int boxes = s->blocked ? blocked_count() : 0, n = s->bc || boxes > 0 ? s->dim : 0;
+    double force[3] = {0.0, 0.0, 0.0};
     if (s->bc)
         fv_wall_force(s, force);
-    for (int a = 0; s->bc && a < s->dim; a++)
-        values[n++] = force[a];
     fv_blocked_forces(s, values + n);
-    return n + (s->blocked ? blocked_count() * s->dim : 0);
+    for (int a = 0; a < n; a++) {
+        values[a] = force[a];
+        for (int k = 0; k < boxes; k++)
+            values[a] += values[n + k * s->dim + a];
+    }
+    return n + boxes * s->dim;
+}
+
+static void summarise_forces(struct fv *s)
+{
+    static const char *const names[] = {"force.x", "force.y", "force.z"};
+    double values[3 + 3 * BLOCKED_MAX];
+    const int n = forces(s, values);
+    for (int a = 0; n > 0 && a < s->dim; a++)
+        summary_real(s->run->summary, names[a], values[a]);
 }
 
 static void summarise(struct fv *s)
 {
+    summarise_forces(s);
     if (s->surface) {
         surface_summarise(s);
         steady_summarise(s);
@@ -206,8 +221,7 @@ static void summarise(struct fv *s)
     fv_summarise_blocked(s);
 }
 
-const struct report even_report = {.divergence = "divergence [m/s]",
-                                   .largest_divergence = largest_divergence,
+const struct report even_report = {.largest_divergence = largest_divergence,
                                    .cells = cells_of,
                                    .force_columns = force_columns,
                                    .forces = forces,

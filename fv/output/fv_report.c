@@ -79,7 +79,7 @@ int fv_columns(const struct run *r, const char **columns)
     int n = 0;
     columns[n++] = "kinetic energy [J]";
     columns[n++] = "largest velocity [m/s]";
-    columns[n++] = of->divergence;
+    columns[n++] = "divergence [1/s]";
     if (fv_measures_errors(r))
         columns[n++] = "error velocity l2 [-]";
     n += of->force_columns(r, columns + n);

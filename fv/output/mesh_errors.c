@@ -105,15 +105,24 @@ double mesh_value_at(const struct fv *s, const struct overset *o, const double *
     return value;
 }
 
-/* Blocks with walls of their own that forces count on: each has its own forces, too, where there
- * are others. */
+static bool has_closed_side(const struct mesh_block_params *b)
+{
+    const int kinds[6] = {b->i_min, b->i_max, b->j_min, b->j_max, b->k_min, b->k_max};
+    bool any = false;
+    for (int q = 0; q < 6; q++)
+        any = any || kinds[q] == MESH_WALL || kinds[q] == MESH_SLIP;
+    return any;
+}
+
+/* Whether the forces on a block's own body have columns of their own: where other sides are closed,
+ * too, so that the sum is not this body's. */
 static bool has_own_forces(const struct run *r, int k)
 {
     int n = 0;
     for (int w = 0; w < r->scene.nwalls; w++)
-        n += r->scene.walls[w].kind == WALL_NO_SLIP;
+        n += r->scene.walls[w].kind == WALL_NO_SLIP || r->scene.walls[w].kind == WALL_SLIP;
     for (int b = 0; b < mesh_block_count(); b++)
-        n += mesh_block_is_body(r, b);
+        n += has_closed_side(mesh_block_params() + b);
     return n > 1 && mesh_block_is_body(r, k);
 }
 
@@ -154,48 +163,54 @@ static int motion_values(const struct fv *s, double *values)
 static int force_columns(const struct run *r, const char **columns)
 {
     static const char *const forces[] = {"force x [N]", "force y [N]", "force z [N]"};
-    static char own[MESH_BLOCKS_MAX][3][PARAM_TEXT_SIZE + 24];
+    static char own[MESH_BLOCKS_MAX][4][PARAM_TEXT_SIZE + 24];
     int n = 0;
     for (int a = 0; a < r->scene.domain.dim; a++)
         columns[n++] = forces[a];
     columns[n++] = "moment z [Nm]";
-    for (int k = 0; k < mesh_block_count(); k++)
-        for (int a = 0; a < r->scene.domain.dim && has_own_forces(r, k); a++) {
-            snprintf(own[k][a], sizeof own[k][a], "%s force %c [N]", mesh_block_params()[k].name,
-                     "xyz"[a]);
+    for (int k = 0; k < mesh_block_count(); k++) {
+        const char *name = mesh_block_params()[k].name;
+        if (!has_own_forces(r, k))
+            continue;
+        for (int a = 0; a < r->scene.domain.dim; a++) {
+            snprintf(own[k][a], sizeof own[k][a], "%s force %c [N]", name, "xyz"[a]);
             columns[n++] = own[k][a];
         }
+        snprintf(own[k][3], sizeof own[k][3], "%s moment z [Nm]", name);
+        columns[n++] = own[k][3];
+    }
     return n + motion_columns(r, columns + n);
 }
 
-/* On all walls; of several blocks the moments have centres of their own. */
+/* On the body of each block and on all closed sides; moments are about each block's centre. */
 static void whole_force(struct fv *s, double (*of)[4], double whole[4])
 {
     if (s->surface)
         surface_ghosts(s, s->surface->phi);
-    mesh_bc_force(s, s->surface ? s->surface->phi : NULL, of);
-    for (int q = 0; q < 4; q++) {
-        whole[q] = 0.0;
-        for (int k = 0; k < s->m->nblocks; k++)
-            whole[q] += of[k][q];
-    }
+    mesh_bc_force(s, s->surface ? s->surface->phi : NULL, of, whole);
 }
 
 static int forces(struct fv *s, double *values)
 {
-    double force[4], of[MESH_BLOCKS_MAX][4];
+    double force[4], of[MESH_BLOCKS_MAX][4], bodies[2] = {0.0, 0.0};
     int n = 0;
     whole_force(s, of, force);
     for (int a = 0; a < s->dim; a++)
         values[n++] = force[a];
     values[n++] = force[3];
-    for (int k = 0; k < s->m->nblocks; k++)
-        for (int a = 0; a < s->dim && has_own_forces(s->run, k); a++)
+    for (int k = 0; k < s->m->nblocks; k++) {
+        for (int a = 0; a < 2; a++)
+            bodies[a] += of[k][a];
+        if (!has_own_forces(s->run, k))
+            continue;
+        for (int a = 0; a < s->dim; a++)
             values[n++] = of[k][a];
+        values[n++] = of[k][3];
+    }
     n += motion_values(s, values + n);
     GROW(s->history, s->nhistory, s->nhistory + 1);
     s->history[s->nhistory][0] = s->t;
-    memcpy(s->history[s->nhistory++] + 1, force, 2 * sizeof(double));
+    memcpy(s->history[s->nhistory++] + 1, bodies, sizeof bodies);
     return n;
 }
 
@@ -285,8 +300,8 @@ static void probes(struct fv *s, double *values)
     }
 }
 
-/* Mean and half range of the forces over the second half of the run, frequency of the one along y
- * by the crossings of its mean. */
+/* Mean and half range of the forces on bodies and no-slip walls over the second half of the run,
+ * frequency of the one along y by the crossings of its mean. */
 static void summarise_swing(const struct fv *s)
 {
     struct summary *to = s->run->summary;
@@ -340,11 +355,17 @@ static void summarise_forces(struct fv *s)
     for (int a = 0; a < s->m->dim; a++)
         summary_real(s->run->summary, names[a], force[a]);
     summary_real(s->run->summary, "force.moment", force[3]);
-    for (int k = 0; k < s->m->nblocks; k++)
-        for (int a = 0; a < s->m->dim && has_own_forces(s->run, k); a++) {
-            snprintf(key, sizeof key, "force.%s.%c", s->m->block[k].prm->name, "xyz"[a]);
+    for (int k = 0; k < s->m->nblocks; k++) {
+        const char *name = s->m->block[k].prm->name;
+        if (!has_own_forces(s->run, k))
+            continue;
+        for (int a = 0; a < s->m->dim; a++) {
+            snprintf(key, sizeof key, "force.%s.%c", name, "xyz"[a]);
             summary_real(s->run->summary, key, of[k][a]);
         }
+        snprintf(key, sizeof key, "force.%s.moment", name);
+        summary_real(s->run->summary, key, of[k][3]);
+    }
     summarise_swing(s);
 }
 
@@ -367,8 +388,7 @@ static void summarise(struct fv *s)
 
 static double cells_of(const struct fv *s) { return (double)s->m->computed; }
 
-const struct report block_report = {.divergence = "divergence [1/s]",
-                                    .largest_divergence = largest_divergence,
+const struct report block_report = {.largest_divergence = largest_divergence,
                                     .cells = cells_of,
                                     .force_columns = force_columns,
                                     .forces = forces,

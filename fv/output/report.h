@@ -8,10 +8,10 @@
 enum { NORMS = 3 }; /* velocity, pressure, vorticity */
 
 struct report {
-    const char *divergence; /* name of its column */
-    double (*largest_divergence)(struct fv *s);
-    double (*cells)(const struct fv *s); /* that are computed, of all ranks */
-    /* Forces on walls: number of columns and their (static) names; values, as many. */
+    double (*largest_divergence)(struct fv *s); /* 1/s */
+    double (*cells)(const struct fv *s);        /* that are computed, of all ranks */
+    /* Forces on all closed sides, then on each body: number of columns and their (static) names;
+     * values, as many. */
     int (*force_columns)(const struct run *r, const char **columns);
     int (*forces)(struct fv *s, double *values);
     void (*probes)(struct fv *s, double *values);

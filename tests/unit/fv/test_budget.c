@@ -51,7 +51,7 @@ static void force_of(struct fv *s, double *force)
         fv_wall_force(s, force);
         return;
     }
-    mesh_bc_force(s, NULL, of);
+    mesh_bc_force(s, NULL, of, NULL);
     memset(force, 0, 3 * sizeof(double));
     for (int k = 0; k < s->m->nblocks; k++)
         for (int a = 0; a < s->dim; a++)

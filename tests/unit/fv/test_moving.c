@@ -132,7 +132,7 @@ static void moment_of(const char *blocks, double *moment, double *size)
     bool good = true;
     for (int k = 1; k <= 10; k++) /* no flow bounds the steps of a wall that slides */
         good = mesh_case_run(s, 100, 0.01 * k) && good;
-    mesh_bc_force(s, NULL, force);
+    mesh_bc_force(s, NULL, force, NULL);
     *moment = good ? force[1][3] : NAN;
     *size = hypot(force[1][0], force[1][1]);
     mesh_case_end(&c, &s);

@@ -148,12 +148,14 @@ static void blocks_know_the_whole_pressure(void **state)
                 ", " RING " );\n",
            row, columns);
     assert_string_equal(columns[7], "box force y [N]");
-    assert_string_equal(columns[9], "ring force y [N]");
+    assert_string_equal(columns[10], "ring force y [N]");
+    assert_string_equal(columns[11], "ring moment z [Nm]");
     assert_close(row[7], -1000 * 9.81 * 4, 1e-6);
-    assert_close(row[8], 0.0, 1e-6);
-    assert_close(row[9], lift, 1e-3 * lift); /* a circle of 64 corners */
-    assert_close(row[4], row[7] + row[9], 1e-6);
-    assert_close(row[10], 1000 * 9.81 * 1.5, 1e-6);
+    assert_close(row[9], 0.0, 1e-6);
+    assert_close(row[10], lift, 1e-3 * lift); /* a circle of 64 corners */
+    assert_close(row[11], 0.0, 1e-6);
+    assert_close(row[4], row[7] + row[10], 1e-6);
+    assert_close(row[12], 1000 * 9.81 * 1.5, 1e-6);
 }
 
 /* Gauges have it on all grids; it is no force on what is closed. */

@@ -53,7 +53,7 @@ static double lift(struct fv *s)
 {
     double force[MESH_BLOCKS_MAX][4];
     surface_ghosts(s, s->surface->phi);
-    mesh_bc_force(s, s->surface->phi, force);
+    mesh_bc_force(s, s->surface->phi, force, NULL);
     return force[1][1];
 }
 

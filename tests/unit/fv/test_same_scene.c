@@ -1,0 +1,187 @@
+/* test_same_scene.c - a scene on uniform cells and the same scene as one block give one series:
+ * energy, speed, forces on all closed sides, volume, gauges; the divergence has one unit.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include <unistd.h>
+
+#include "../../../fv/case/fv_case.h"
+#include "../../../fv/fv.h"
+#include "../../../fv/grid/mesh.h"
+#include "../../../fv/output/output.h"
+#include "../../../fv/output/report.h"
+#include "../../../fv/time/steps.h"
+
+enum { COLUMNS = 40 };
+
+struct forms {
+    const char *name, *text;
+    const char *cells, *box; /* numbers of cells; box of the domain */
+    double end;              /* s */
+    double scale;            /* N: weight, or friction of a moving wall's speed over the height */
+    double tolerance;        /* of forces in scales, of all else relative to itself */
+};
+#define DOMAIN "domain: { dim = 2; min = (0, 0); max = (1, 0.5); };\n"
+#define PROBE "probes: ( { name = \"p\"; at = (0.4, 0.1); } );\n"
+static const struct forms scenes[] = {
+    {"still, slip",
+     DOMAIN PROBE "fluid: { rho = 1000.0; nu = 1e-3; gravity = (0, -10.0); };\n"
+                  "walls: ( { side = \"x_min\"; }, { side = \"x_max\"; }, { side = \"y_min\"; }, "
+                  "{ side = \"y_max\"; } );\nshapes: ( { form = \"below\"; level = 0.3; } );\n",
+     "(40, 20)", "min = (0, 0); max = (1, 0.5)", 0.05, 3000.0, 1e-9},
+    {"still, slip and no-slip, full",
+     DOMAIN PROBE
+     "fluid: { rho = 1000.0; nu = 1e-3; gravity = (0, -10.0); };\ninitial: { level = 0.7; };\n"
+     "walls: ( { side = \"x_min\"; }, { side = \"x_max\"; kind = \"no_slip\"; }, "
+     "{ side = \"y_min\"; }, { side = \"y_max\"; kind = \"no_slip\"; } );\n",
+     "(40, 20)", "min = (0, 0); max = (1, 0.5)", 0.05, 5000.0, 1e-9},
+    {"still, 3D",
+     "domain: { dim = 3; min = (0, 0, 0); max = (1, 0.5, 0.5); };\n"
+     "fluid: { rho = 1000.0; nu = 1e-3; gravity = (0, 0, -10.0); };\n"
+     "walls: ( { side = \"x_min\"; }, { side = \"x_max\"; kind = \"no_slip\"; }, { side = "
+     "\"y_min\"; }, { side = \"y_max\"; }, { side = \"z_min\"; }, { side = \"z_max\"; } );\n"
+     "shapes: ( { form = \"below\"; level = 0.3; } );\n",
+     "(20, 10, 10)", "min = (0, 0, 0); max = (1, 0.5, 0.5)", 0.05, 1500.0, 1e-9},
+    {"cavity",
+     DOMAIN PROBE
+     "fluid: { rho = 1000.0; nu = 1e-2; };\n"
+     "walls: ( { side = \"x_min\"; kind = \"no_slip\"; }, { side = \"x_max\"; kind = "
+     "\"no_slip\"; }, { side = \"y_min\"; }, { side = \"y_max\"; kind = \"no_slip\"; velocity = "
+     "(1, 0); } );\n",
+     "(32, 16)", "min = (0, 0); max = (1, 0.5)", 0.5, 20.0, 1e-3},
+    {"channel",
+     DOMAIN PROBE
+     "fluid: { rho = 1000.0; nu = 1e-2; gravity = (0, -1.0); };\n"
+     "walls: ( { side = \"x_min\"; kind = \"inflow\"; velocity = (1, 0); profile = "
+     "\"parabolic\"; }, { side = \"x_max\"; kind = \"outflow\"; pressure = 50.0; }, { side = "
+     "\"y_min\"; kind = \"no_slip\"; }, { side = \"y_max\"; } );\n",
+     "(32, 16)", "min = (0, 0); max = (1, 0.5)", 0.5, 500.0, 1e-3},
+    {"sloshing",
+     DOMAIN PROBE
+     "fluid: { rho = 1000.0; nu = 1e-3; gravity = (0, -10.0); };\n"
+     "walls: ( { side = \"x_min\"; }, { side = \"x_max\"; }, { side = \"y_min\"; }, "
+     "{ side = \"y_max\"; } );\n"
+     "shapes: ( { form = \"polygon\"; points = ((-1, 0.23), (2, 0.34), (2, -1), (-1, -1)); } );\n",
+     "(40, 20)", "min = (0, 0); max = (1, 0.5)", 0.3, 2850.0, 0.03},
+};
+
+static struct run run;
+static struct param_group groups[SCENE_GROUPS + FV_GROUPS];
+static char path[512];
+
+/* The flow at t = 0; the case stays in `p'. */
+static struct fv *start(const struct forms *of, bool block, struct params **p)
+{
+    struct faults f = {0};
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "format = 1;\ntime: { end = %g; };\n%s", of->end, of->text);
+    if (block)
+        fprintf(file, "fv: { };\nblocks: ( { name = \"a\"; cells = %s; %s; } );\n", of->cells,
+                of->box);
+    else
+        fprintf(file, "fv: { cells = %s; };\n", of->cells);
+    fclose(file);
+    memset(&run, 0, sizeof run);
+    run.comm = MPI_COMM_WORLD;
+    run.size = 1;
+    run.name = "fv";
+    scene_groups(&run.scene, groups);
+    memcpy(groups + SCENE_GROUPS, fv_groups, sizeof fv_groups);
+    run.params = *p = params_read(run.comm, path, 0, NULL, groups, SCENE_GROUPS + FV_GROUPS,
+                                  (const char *const[]){NULL}, &f);
+    fv_params_check(&run, &f);
+    assert_int_equal(params_report(&f), 0);
+    return fv_create(&run, NULL);
+}
+
+/* The row of the series at the end, and its headings; returns their number. */
+static int last_row(const struct forms *of, bool block, double *row, const char **columns)
+{
+    struct params *p;
+    struct diagnosis d = {0};
+    struct fv *s = start(of, block, &p);
+    while (s->t < of->end * (1.0 - 1e-9) && !d.bad)
+        integrate(s, of->end, &d);
+    assert_false(d.bad);
+    const int n = fv_columns(&run, columns);
+    fv_row(s, row);
+    fv_free(&s);
+    params_free(&p);
+    return n;
+}
+
+static double value(const char *name, int n, const char *const *columns, const double *row)
+{
+    for (int k = 0; k < n; k++)
+        if (strcmp(columns[k], name) == 0)
+            return row[k];
+    fail_msg("no column \"%s\"", name);
+    return NAN;
+}
+
+static void cells_and_a_block_give_one_series(void **state)
+{
+    (void)state;
+    for (size_t q = 0; q < sizeof scenes / sizeof scenes[0]; q++) {
+        const char *names[2][COLUMNS];
+        double row[2][COLUMNS] = {{0.0}};
+        const int n = last_row(scenes + q, false, row[0], names[0]),
+                  m = last_row(scenes + q, true, row[1], names[1]);
+        for (int k = 0; k < n; k++) {
+            const double here = row[0][k], there = value(names[0][k], m, names[1], row[1]);
+            print_message("%s: %s %.9g %.9g\n", scenes[q].name, names[0][k], here, there);
+            if (strncmp(names[0][k], "force", 5) == 0)
+                assert_close(there, here, scenes[q].tolerance * scenes[q].scale);
+            else if (!strstr(names[0][k], "divergence"))
+                assert_close(there, here, scenes[q].tolerance * fabs(here) + 1e-9);
+        }
+    }
+}
+
+/* rho g V of the water at rest. */
+static void closed_sides_carry_the_weight(void **state)
+{
+    (void)state;
+    for (int q = 0; q < 3; q++)
+        for (int block = 0; block < 2; block++) {
+            const char *names[COLUMNS];
+            double row[COLUMNS];
+            const int n = last_row(scenes + q, block, row, names);
+            const char *up = q == 2 ? "force z [N]" : "force y [N]";
+            assert_close(value(up, n, names, row), -scenes[q].scale, 1e-9 * scenes[q].scale);
+        }
+}
+
+/* Fluxes of the velocity (x, 0): its divergence is 1/s everywhere. */
+static void divergence_is_a_rate(void **state)
+{
+    (void)state;
+    for (int block = 0; block < 2; block++) {
+        struct params *p;
+        struct fv *s = start(scenes + 3, block, &p);
+        const struct part *own = s->part;
+        for (int64_t c = 0; c < s->size; c++)
+            s->U[0][c] = s->U[1][c] = 0.0;
+        for (int j = 0; j < own->n[1]; j++)
+            for (int i = 0; i <= own->n[0]; i++)
+                s->U[0][part_at(own, i, j, 0)] = i / 32.0 * (block ? 1.0 / 32.0 : 1.0);
+        assert_close((block ? &block_report : &even_report)->largest_divergence(s), 1.0, 1e-12);
+        fv_free(&s);
+        params_free(&p);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(cells_and_a_block_give_one_series),
+                                       cmocka_unit_test(closed_sides_carry_the_weight),
+                                       cmocka_unit_test(divergence_is_a_rate)};
+    const char *dir = getenv("TEST_SCRATCH");
+    MPI_Init(&argc, &argv);
+    snprintf(path, sizeof path, "%s/same_%d.cfg", dir ? dir : P_tmpdir, (int)getpid());
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    unlink(path);
+    MPI_Finalize();
+    return failed;
+}
