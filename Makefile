@@ -7,7 +7,7 @@ VERSION = 0.1
 COMMIT := $(shell git rev-parse --short HEAD 2>/dev/null || echo unknown)
 
 # ---- what it needs, as Debian 12 packages -------------------------------------------------------------
-PACKAGES = build-essential pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi-dev hdf5-tools \
+PACKAGES = build-essential pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi-dev hdf5-tools python3-h5py python3-matplotlib \
            libhypre-dev libsundials-dev libconfig-dev libcmocka-dev gnuplot-nox libassimp-dev
 
 # ---- how it is built ----------------------------------------------------------------------------------
@@ -145,7 +145,7 @@ install: all $(B)/public/libcpl.a
 	@install -m 644 coupler/cpl.h $(D)$(includedir)
 	@install -m 644 $(B)/public/libcpl.a $(D)$(libdir)
 	@install $(B)/$(soname) $(D)$(libdir) && ln -sf $(soname) $(D)$(libdir)/libcpl.so
-	@install -m 644 coupler/python/estran.py $(D)$(datadir)/python
+	@install -m 644 coupler/python/cpl.py $(D)$(datadir)/python
 	@install -m 644 coupler/examples/* $(D)$(datadir)/examples
 	@for f in $(case_files); do install -D -m $$([ -x $$f ] && echo 755 || echo 644) $$f $(D)$(datadir)/$$f || exit 1; done
 	@printf '#!/bin/sh\nESTRAN_BUILD=$${ESTRAN_BUILD:-%s} exec %s/cases/run "$$@"\n' $(bindir) $(datadir) >$(D)$(bindir)/estran-run

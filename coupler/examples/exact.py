@@ -4,18 +4,18 @@ import sys
 from array import array
 from math import cos, exp, pi, sin
 
-import estran
+import cpl
 
 n, nu, rho = int(sys.argv[2]) if len(sys.argv) > 2 else 32, 5e-3, 1.0
 h, k, rate = 1.0 / n, 2 * pi, 8 * pi * pi * nu
-job = estran.Job("exact")
+job = cpl.Job("exact")
 job.meet(sys.argv[1])
 lo, hi = job.find_zone("sph.free")
 cells = job.grid("cells", (0, 0), (h, h), (n, n), (1, 1))
-u = job.field(cells, "fv.velocity", "m/s", 2, estran.PUT)
-p = job.field(cells, "fv.pressure", "Pa", 1, estran.PUT)
+u = job.field(cells, "fv.velocity", "m/s", 2, cpl.PUT)
+p = job.field(cells, "fv.pressure", "Pa", 1, cpl.PUT)
 gauges = job.points("gauges", 2, 0.06)
-v = job.field(gauges, "sph.velocity", "m/s", 2, estran.GET, estran.MLS)
+v = job.field(gauges, "sph.velocity", "m/s", 2, cpl.GET, cpl.MLS)
 at = [(lo[0] + (i + 0.5) * (hi[0] - lo[0]) / 8, lo[1] + (j + 0.5) * (hi[1] - lo[1]) / 8) for j in range(8) for i in range(8)]
 mean, mean2 = (sin(pi * h) / (pi * h)) ** 2, sin(2 * pi * h) / (2 * pi * h)  # of a cell over the value at its centre
 centres = [((i + 0.5) * h, (j + 0.5) * h) for j in range(n) for i in range(n)] if job.comm.rank == 0 else []

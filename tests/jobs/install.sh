@@ -10,7 +10,7 @@ install() { make -C "$root" --no-print-directory B="$b" "$@" >text 2>&1 || bad "
 install install prefix="$tmp/p"
 so=$(sed -n 's/^ *CPL_VERSION = \([0-9]*\),.*/libcpl.so.\1/p' "$root/coupler/cpl.h")
 for f in bin/sph bin/fv bin/coupler bin/estran-run lib/libcpl.a lib/libcpl.so "lib/$so" lib/pkgconfig/cpl.pc include/cpl.h \
-    share/estran/python/estran.py share/estran/examples/heat.c share/estran/cases/taylor_green/case.cfg; do
+    share/estran/python/cpl.py share/estran/examples/heat.c share/estran/cases/taylor_green/case.cfg; do
     [ -e "p/$f" ] || bad "$f is not installed"
 done
 [ "$(objdump -p "p/lib/$so" | awk '$1 == "SONAME" { print $2 }')" = "$so" ] || bad "the shared library has another name within"

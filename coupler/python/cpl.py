@@ -1,4 +1,4 @@
-"""estran - coupler/cpl.h for Python: a partner of a coupled job in a few lines.
+"""cpl - coupler/cpl.h for Python: a partner of a coupled job in a few lines.
 
 Needs mpi4py and libcpl.so (environment variable ESTRAN_LIB: its path, else the loader finds it). One class, Job, with the
 calls of cpl.h by their names; errors are exceptions. Arrays are anything that holds doubles in a row: array('d'), numpy

@@ -1,0 +1,95 @@
+"""One page of a run, to be opened offline: verdict, pictures, curves, price, the case. SPDX-License-Identifier: BSD-3-Clause"""
+import base64
+import html
+import os
+
+from . import curves, drawing, reading
+
+head = '''<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>%s</title>
+<style>body{font:16px sans-serif;max-width:60em;margin:2em auto;padding:0 1em}table{border-collapse:collapse}
+td,th{padding:.15em .8em;text-align:left}tr:nth-child(even){background:#f4f4f4}img{max-width:100%%}
+.met{color:#070}.missed{color:#a50}pre{background:#f4f4f4;padding:.8em;overflow:auto;font-size:13px}</style>
+'''
+
+
+def image(path):
+    kind = 'svg+xml' if path.endswith('.svg') else 'png'
+    with open(path, 'rb') as f:
+        return '<p><img alt="%s" src="data:image/%s;base64,%s">' % (
+            html.escape(os.path.basename(path)), kind, base64.b64encode(f.read()).decode())
+
+
+def value_of(summary, name):
+    """A number of the summary by its path, "error.velocity_l2"; names may hold points and spaces themselves."""
+    if name in summary:
+        return summary[name]
+    for k, v in summary.items():
+        if isinstance(v, dict) and name.startswith(k + '.'):
+            found = value_of(v, name[len(k) + 1:])
+            if found is not None:
+                return found
+    return None
+
+
+def criteria(run):
+    """(name, measured, allowed) of what the case itself wants."""
+    summary = run.summary
+    for row in run.case.get('accept', []):
+        name = row['what']
+        if row.get('reference'):
+            name = 'compare.%s_%s' % (name.replace(' ', '_'), row.get('measure', 'rms'))
+        value = next((v for v in (value_of(summary, n) for n in (name, 'error.' + name)) if v is not None), None)
+        yield name, value, row.get('tolerance')
+
+
+def rows(table):
+    return '\n'.join('<tr>' + ''.join('<td%s>%s' % c if isinstance(c, tuple) else '<td>' + html.escape(str(c)) for c in r)
+                     for r in table)
+
+
+def short(v):
+    return '%.4g' % v if isinstance(v, (int, float)) and not isinstance(v, bool) else '' if v is None else str(v)
+
+
+def verdict(run):
+    to = []
+    for name, value, allowed in criteria(run):
+        met = isinstance(value, (int, float)) and allowed is not None and abs(value) <= allowed
+        to.append((name, short(value), short(allowed), (' class=met', 'met') if met else (' class=missed', 'missed')))
+    return '<table><tr><th>criterion<th>measured<th>allowed<th></tr>%s</table>' % rows(to) if to else '<p>The case has no criteria.'
+
+
+def price(run):
+    s = run.summary
+    to = [('status', s.get('status')), ('version', s.get('version')), ('ranks', s.get('ranks')),
+          ('wall time (s)', short(s.get('wall_s'))), ('processor time (s)', short(s.get('cpu_s')))]
+    to += [('processor time of %s (s)' % k, short(v)) for k, v in s.get('cpu_of', {}).items()]
+    for group in ('error', 'drift', 'watch', 'compare'):
+        to += [('%s.%s' % (group, k), short(v)) for k, v in s.get(group, {}).items() if not isinstance(v, dict)]
+    return '<table>%s</table>' % rows(r for r in to if r[1] not in (None, ''))
+
+
+def report(run, to=None, fields=None):
+    """Writes DIR/report.html and returns its name. fields: what to draw (default: of the usual ones those there are)."""
+    run = reading.read(run) if isinstance(run, (str, os.PathLike)) else run
+    name = os.path.basename(os.path.abspath(run.dir))
+    page = [head % html.escape(name), '<h1>%s</h1>' % html.escape(name), verdict(run)]
+    if run.times:
+        first = drawing.default_field(run)
+        others = [f for f in ('pressure', 'vorticity') if f in run.fields and f != first]
+        for field in fields or [first] + others[:1]:
+            page.append(image(drawing.plot(run, field)))
+    signals = curves.compare(run)
+    if signals:
+        page += ['<h2>Beside the references of the case</h2>', image(signals)]
+    energy = [k for k in ('kinetic energy', 'max Mach', 'dt') if k in run.series]
+    if energy:
+        page += ['<h2>Over the run</h2>', image(curves.draw(run, energy, {}, os.path.join(run.dir, 'series.png'), columns=3))]
+    page += ['<h2>Figures</h2>', price(run)]
+    for p in run.programs.values():
+        with open(os.path.join(run.dir, p.name + '-case.cfg')) as f:
+            page.append('<h2>Case of %s, with its defaults</h2><pre>%s</pre>' % (p.name, html.escape(f.read())))
+    to = to or os.path.join(run.dir, 'report.html')
+    with open(to, 'w') as f:
+        f.write('\n'.join(page))
+    return to

@@ -1,0 +1,44 @@
+#!/bin/sh
+# The Python package cases/estran on runs of seconds: what it reads against the runs' own figures and laws, what it draws.
+# SPDX-License-Identifier: BSD-3-Clause
+. "$(dirname "$0")/lib.sh"
+python=
+for p in /usr/bin/python3 python3; do
+    "$p" -c 'import numpy, h5py, matplotlib' 2>/dev/null && python=$p && break
+done
+[ -n "$python" ] || { bad "no python3 with h5py and matplotlib: make deps"; exit 1; }
+cat >pool.cfg <<'END'
+format = 1;
+time:    { end = 0.1; };
+fluid:   { rho = 1000.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (2, 1); };
+initial: { field = "rest"; U = 1.0; };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { points = ((1.5, 0), (2, 0.4)); } );
+shapes:  ( { form = "below"; level = 0.5; } );
+bodies:  ( { name = "box"; points = ((0.5, 0.3), (0.8, 0.3), (0.8, 0.7), (0.5, 0.7)); } );
+probes:  ( { name = "P"; at = (1.0, 0.1); } );
+sph:     { dx = 0.05; };
+output:  { every = 0.05; fields = "velocity pressure volume"; };
+accept:  ( { what = "particles_lost"; tolerance = 0; } );
+END
+cat >cube.cfg <<'END'
+format = 1;
+time:    { end = 0.01; };
+fluid:   { rho = 1000.0; gravity = (0, 0, -9.81); };
+domain:  { dim = 3; min = (0, 0, 0); max = (1, 1, 1); };
+initial: { field = "rest"; U = 1.0; };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; }, { side = "z_min"; }, { side = "z_max"; } );
+shapes:  ( { form = "below"; level = 0.53; } );
+fv:      { cells = (12, 12, 12); };
+blocked: ( { name = "block"; min = (0.25, 0.25, 0); max = (0.5, 0.5, 0.25); } );
+END
+"$b/sph" pool.cfg -o pool >log.txt 2>&1 || bad "pool.cfg" log.txt
+"$b/fv" cube.cfg -o cube >log.txt 2>&1 || bad "cube.cfg" log.txt
+$mpi -np 1 "$b/sph" "$root/cases/taylor_green" -o job -p time.end=0.06 : -np 1 "$b/coupler" "$root/cases/taylor_green" -o job -p time.end=0.06 \
+    : -np 1 "$b/fv" "$root/cases/taylor_green" -o job -p time.end=0.06 >log.txt 2>&1 || bad "taylor_green" log.txt
+"$python" "$root/tests/jobs/plots.py" "$root" pool cube job || bad "plots.py"
+"$root/cases/plot" pool depth >said.txt 2>&1 && bad "a field that is not there"
+grep -q 'no snapshot with a field depth, only: pressure, velocity, volume' said.txt || bad "message of a field that is not there" said.txt
+mkdir empty && "$root/cases/plot" empty >said.txt 2>&1 && bad "an empty folder"
+grep -q 'no run here' said.txt || bad "message of an empty folder" said.txt
+[ $failed = 0 ]
