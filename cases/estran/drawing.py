@@ -140,7 +140,7 @@ def frame(run, view, window, title, field, scale, width):
     place = axes.get_position()
     bar = figure.add_axes([place.x1 + 16 / full, low / tall, 20 / full, max(high, 150) / tall])
     mappable = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(*scale), colours(field))
-    ticks = figure.colorbar(mappable, bar, format=matplotlib.ticker.FuncFormatter(lambda v, _: '%.4g' % v))
+    ticks = figure.colorbar(mappable, bar, format=matplotlib.ticker.FuncFormatter(lambda v, _: '%.6g' % v))
     ticks.locator = matplotlib.ticker.MaxNLocator(max(3, min(6, int(max(high, 150) / 60))))
     ticks.update_ticks()
     return figure, axes, mappable
@@ -148,15 +148,11 @@ def frame(run, view, window, title, field, scale, width):
 
 def draw_cells(axes, part, field, view, mappable):
     for k, (x, value, show, phi) in enumerate(cells(part, field, view)):
-        fine = max(1, min(12, int(420 / max(value.shape)) + 1))
-        x, value, show = grids.refined(x, fine), grids.refined(value, fine), grids.refined(show, fine)
-        dry = show < 0.5
+        fine = [max(1, min(16, int(420 / n) + 1)) for n in value.shape]
+        x, value, dry = grids.refined(x, fine), grids.middles(grids.refined(value, fine)), grids.middles(grids.refined(show, fine)) < 0.5
         if phi is not None:
-            dry |= ~(grids.refined(phi, fine) < 0)
-        corner = [(slice(None, -1), slice(None, -1)), (slice(1, None), slice(None, -1)),
-                  (slice(None, -1), slice(1, None)), (slice(1, None), slice(1, None))]
-        v = np.mean([value[c] for c in corner], 0)
-        v[np.any([dry[c] for c in corner], 0)] = np.nan
+            dry |= ~(grids.middles(grids.refined(phi, fine)) < 0)
+        v = np.where(dry, np.nan, value)
         axes.pcolormesh(x[..., 0], x[..., 1], np.ma.masked_invalid(v), norm=mappable.norm, cmap=mappable.cmap,
                         shading='flat', zorder=1 + 0.01 * k, rasterized=True, linewidth=0)
 
@@ -221,8 +217,10 @@ def draw_solids(axes, program, part, view):
     lines, bodies = outlines(program, part, view)
     axes.add_collection(mcollections.PolyCollection(bodies, facecolors=grey, edgecolors=dark, linewidths=1.2, zorder=4))
     axes.add_collection(mcollections.LineCollection(lines, colors=dark, linewidths=2.2, zorder=5, capstyle='round'))
-    axes.add_collection(mcollections.LineCollection(list(walled_sides(program, view)), colors=dark, linewidths=3, zorder=5,
-                                                    clip_on=False))
+    a, b, c, d = axes.get_xlim() + axes.get_ylim()
+    for line in walled_sides(program, view):  # in its full width at the frame, not beyond it
+        within = all(a - 1e-9 <= x <= b + 1e-9 and c - 1e-9 <= y <= d + 1e-9 for x, y in line)
+        axes.add_collection(mcollections.LineCollection([line], colors=dark, linewidths=3, zorder=5, clip_on=not within))
 
 
 def window_of(run, view, parts):

@@ -58,13 +58,18 @@ def points(x):
 
 
 def refined(v, n):
-    """Linear between points, n - 1 new ones between two, over the first two axes."""
-    for a in range(2):
+    """Linear between points, n - 1 new ones between two, over the first two axes; n: of both, or one of each."""
+    for a, n in enumerate(n if np.iterable(n) else (n, n)):
         s = np.arange((v.shape[a] - 1) * n + 1) / n
         i = np.minimum(s.astype(int), v.shape[a] - 2)
         w = (s - i).reshape((-1,) + (1,) * (v.ndim - 1 - a))
         v = v.take(i, a) * (1 - w) + v.take(i + 1, a) * w
     return v
+
+
+def middles(v):
+    """Of the four corners of each face."""
+    return (v[1:, 1:] + v[:-1, 1:] + v[1:, :-1] + v[:-1, :-1]) / 4
 
 
 def shown(value, forced=None):
