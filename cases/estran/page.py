@@ -39,6 +39,9 @@ def criteria(run):
         if row.get('reference'):
             name = 'compare.%s_%s' % (name.replace(' ', '_'), row.get('measure', 'rms'))
         value = next((v for v in (value_of(summary, n) for n in (name, 'error.' + name)) if v is not None), None)
+        program, _, own = name.partition('.')
+        if value is None and program in run.programs:
+            value = value_of(run[program].summary, own)
         yield name, value, row.get('tolerance')
 
 

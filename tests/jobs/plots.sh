@@ -41,4 +41,15 @@ $mpi -np 1 "$b/sph" "$root/cases/taylor_green" -o job -p time.end=0.06 : -np 1 "
 grep -q 'no snapshot with a field depth, only: pressure, velocity, volume' said.txt || bad "message of a field that is not there" said.txt
 mkdir empty && "$root/cases/plot" empty >said.txt 2>&1 && bad "an empty folder"
 grep -q 'no run here' said.txt || bad "message of an empty folder" said.txt
+# a new case of each kind is sound as it stands
+for o in "-s sph --body fixed" "-s sph --body floating --gauges" "-s sph --dim 3" "-s fv --gauges" "-s fv --dim 3" "-s coupled --gauges"; do
+    # shellcheck disable=SC2086
+    "$root/cases/new" my/new $o --force >said.txt 2>&1 && "$root/cases/run" my/new.cfg --check -o new >said.txt 2>&1 || bad "cases/new $o" said.txt
+done
+"$root/cases/new" my/new -s fv >said.txt 2>&1 && bad "cases/new over a file that is there"
+# a sweep: the error of a parabola between plates falls with the cells; an ensemble of a case without chance scatters little
+"$root/cases/sweep" channel_fv 'fv.cells=(8,8),(8,16)' -p time.end=0.1 -o sweep >said.txt 2>&1 || bad "cases/sweep" said.txt
+[ "$(wc -l <sweep/sweep.csv)" = 3 ] && [ -s sweep/sweep.png ] || bad "files of cases/sweep" said.txt
+"$root/cases/ensemble" channel_fv -n 2 -p 'fv.cells=(8,8)' -p time.end=0.1 -o ensemble >said.txt 2>&1 || bad "cases/ensemble" said.txt
+grep -q '^cpu_s,' ensemble/ensemble.csv || bad "files of cases/ensemble" said.txt
 [ $failed = 0 ]
