@@ -1,9 +1,9 @@
-# Estran. The commands: make demo | check | test-fast | properties | all | report | stability | bench | deps | install | clean
+# Estran. The commands: make demo | check | test-fast | properties | all | report | stability | bench | deps | install | deb | clean
 # SPDX-License-Identifier: BSD-3-Clause
 SHELL = /bin/sh
 CC = mpicc
 B = build
-VERSION = 0.1
+VERSION = 1.0
 COMMIT := $(shell git rev-parse --short HEAD 2>/dev/null || echo unknown)
 
 # ---- what it needs, as Debian 12 packages -------------------------------------------------------------
@@ -138,25 +138,45 @@ libdir = $(prefix)/lib
 includedir = $(prefix)/include
 datadir = $(prefix)/share/estran
 D = $(DESTDIR)
-case_files = $(filter-out %.png %.svg,$(wildcard cases/*/*.*)) cases/run cases/tune cases/job.slurm
+case_files = $(filter-out %.png %.svg %.pyc,$(wildcard cases/*/*.*)) $(addprefix cases/,run tune plot new sweep ensemble report report.list parameters.md job.slurm)
+progdir = $(libdir)/estran
+programs = sph fv coupler
+scripts = run plot new sweep ensemble
+completions = $(prefix)/share/bash-completion/completions
 install: all $(B)/public/libcpl.a
-	@install -d $(D)$(bindir) $(D)$(libdir)/pkgconfig $(D)$(includedir) $(D)$(datadir)/python $(D)$(datadir)/examples
-	@install $(B)/sph $(B)/fv $(B)/coupler $(D)$(bindir)
+	@install -d $(D)$(bindir) $(D)$(progdir) $(D)$(libdir)/pkgconfig $(D)$(includedir) $(D)$(datadir)/python $(D)$(datadir)/examples $(D)$(completions)
+	@install $(addprefix $(B)/,$(programs)) $(D)$(progdir)
+	@for p in $(programs); do printf '#!/bin/sh\nexec %s/%s "$$@"\n' $(progdir) $$p >$(D)$(bindir)/estran-$$p && chmod 755 $(D)$(bindir)/estran-$$p || exit 1; done
+	@for p in $(scripts); do printf '#!/bin/sh\nESTRAN_BUILD=$${ESTRAN_BUILD:-%s} exec %s/cases/%s "$$@"\n' $(progdir) $(datadir) $$p >$(D)$(bindir)/estran-$$p && \
+	    chmod 755 $(D)$(bindir)/estran-$$p || exit 1; done
 	@install -m 644 coupler/cpl.h $(D)$(includedir)
 	@install -m 644 $(B)/public/libcpl.a $(D)$(libdir)
 	@install $(B)/$(soname) $(D)$(libdir) && ln -sf $(soname) $(D)$(libdir)/libcpl.so
 	@install -m 644 coupler/python/cpl.py $(D)$(datadir)/python
 	@install -m 644 coupler/examples/* $(D)$(datadir)/examples
 	@for f in $(case_files); do install -D -m $$([ -x $$f ] && echo 755 || echo 644) $$f $(D)$(datadir)/$$f || exit 1; done
-	@printf '#!/bin/sh\nESTRAN_BUILD=$${ESTRAN_BUILD:-%s} exec %s/cases/run "$$@"\n' $(bindir) $(datadir) >$(D)$(bindir)/estran-run
-	@chmod 755 $(D)$(bindir)/estran-run
+	@install -m 644 cases/completion.bash $(D)$(completions)/estran-run
+	@for p in plot sweep ensemble sph fv; do ln -sf estran-run $(D)$(completions)/estran-$$p; done
+	@! command -v help2man >/dev/null || { install -d $(D)$(prefix)/share/man/man1 && for p in $(programs) $(scripts); do \
+	    help2man --no-info --no-discard-stderr --version-string=$(VERSION) -n "estran-$$p of Estran, free-surface flow" -o $(D)$(prefix)/share/man/man1/estran-$$p.1 \
+	        $$(case " $(scripts) " in *" $$p "*) echo cases;; *) echo $(B);; esac)/$$p || exit 1; done; }
 	@printf 'prefix=%s\nlibdir=%s\nincludedir=%s\n\nName: cpl\nDescription: %s\nVersion: %s\nLibs: -L$${libdir} -lcpl\nLibs.private: -lm -lpthread\nCflags: -I$${includedir}\n' \
 	    $(prefix) $(libdir) $(includedir) 'client library of the Estran coupler (compile and link with mpicc)' $(VERSION) >$(D)$(libdir)/pkgconfig/cpl.pc
 	@echo "installed below $(D)$(prefix); as a shared library: ldconfig, or LD_LIBRARY_PATH=$(libdir)"
 uninstall:
-	rm -f $(addprefix $(D)$(bindir)/,sph fv coupler estran-run) $(addprefix $(D)$(libdir)/,libcpl.a libcpl.so $(soname) pkgconfig/cpl.pc) $(D)$(includedir)/cpl.h
-	rm -rf $(D)$(datadir)
+	rm -f $(addprefix $(D)$(bindir)/estran-,$(programs) $(scripts)) $(addprefix $(D)$(libdir)/,libcpl.a libcpl.so $(soname) pkgconfig/cpl.pc) $(D)$(includedir)/cpl.h
+	rm -f $(addprefix $(D)$(prefix)/share/man/man1/estran-,$(addsuffix .1,$(programs) $(scripts))) $(addprefix $(D)$(completions)/estran-,run plot sweep ensemble sph fv)
+	rm -rf $(D)$(datadir) $(D)$(progdir)
+# build/estran_VERSION_ARCH.deb of what make install installs, for this kind of processor (-march=native)
+arch := $(shell dpkg --print-architecture 2>/dev/null)
+depends = openmpi-bin, libopenmpi3, libhdf5-openmpi-103-1, libhypre-2.26.0, libsundials-kinsol6, libsundials-nvecparallel-mpi6, libconfig9, libassimp5, python3-h5py, python3-matplotlib
+deb: all
+	@rm -rf $(B)/deb && $(MAKE) --no-print-directory install prefix=/usr DESTDIR=$(abspath $(B))/deb >/dev/null
+	@install -D -m 644 LICENSE $(B)/deb/usr/share/doc/estran/copyright && mkdir $(B)/deb/DEBIAN
+	@printf 'Package: estran\nVersion: %s\nArchitecture: %s\nMaintainer: Estran <dev@estran>\nDepends: %s\nSuggests: ffmpeg, paraview\nDescription: %s\n' \
+	    $(VERSION) $(arch) '$(depends)' 'free-surface flow by SPH and finite volumes, alone or coupled' >$(B)/deb/DEBIAN/control
+	@dpkg-deb --root-owner-group --build $(B)/deb $(B)/estran_$(VERSION)_$(arch).deb
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .SECONDARY:
-.PHONY: install uninstall all tests asan deps demo check test-fast properties report stability bench clean
+.PHONY: install uninstall deb all tests asan deps demo check test-fast properties report stability bench clean

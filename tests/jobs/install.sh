@@ -9,8 +9,8 @@ install() { make -C "$root" --no-print-directory B="$b" "$@" >text 2>&1 || bad "
 
 install install prefix="$tmp/p"
 so=$(sed -n 's/^ *CPL_VERSION = \([0-9]*\),.*/libcpl.so.\1/p' "$root/coupler/cpl.h")
-for f in bin/sph bin/fv bin/coupler bin/estran-run lib/libcpl.a lib/libcpl.so "lib/$so" lib/pkgconfig/cpl.pc include/cpl.h \
-    share/estran/python/cpl.py share/estran/examples/heat.c share/estran/cases/taylor_green/case.cfg; do
+for f in bin/estran-sph bin/estran-fv bin/estran-coupler bin/estran-run bin/estran-plot lib/libcpl.a lib/libcpl.so "lib/$so" lib/pkgconfig/cpl.pc include/cpl.h \
+    share/estran/python/cpl.py share/estran/examples/heat.c share/estran/cases/taylor_green/case.cfg share/estran/cases/estran/reading.py; do
     [ -e "p/$f" ] || bad "$f is not installed"
 done
 [ "$(objdump -p "p/lib/$so" | awk '$1 == "SONAME" { print $2 }')" = "$so" ] || bad "the shared library has another name within"
@@ -30,7 +30,7 @@ printf '#include <cpl.h>\nint main() { return cpl_version() != CPL_VERSION; }\n'
 mpicxx -std=c++11 -DOMPI_SKIP_MPICXX -Wall -Wextra -Werror -o plus plus.cc $(pkg-config --cflags --libs cpl) >text 2>&1 || bad "cpl.h from C++"
 LD_LIBRARY_PATH="$tmp/p/lib" ./plus || bad "the library has another version than the header"
 ldd shared | grep -q "$so" || bad "heat.c is not linked with $so"
-$mpi -np 1 env LD_LIBRARY_PATH="$tmp/p/lib" ./shared left o 10 : -np 1 p/bin/coupler p/share/estran/examples/heat.cfg -o o --force \
+$mpi -np 1 env LD_LIBRARY_PATH="$tmp/p/lib" ./shared left o 10 : -np 1 p/bin/estran-coupler p/share/estran/examples/heat.cfg -o o --force \
     : -np 1 ./static right o 10 >text 2>&1 || bad "a job of what was installed"
 p/bin/estran-run taylor_green --check >text 2>&1 || bad "estran-run"
 [ -z "$ESTRAN_BUILD" ] && { grep -q 'taylor_green' text || bad "estran-run says nothing of the case"; }
@@ -41,7 +41,7 @@ install uninstall prefix="$tmp/p"
 # for packages: below DESTDIR, but speaks of prefix
 install install prefix=/usr/nowhere DESTDIR="$tmp/d"
 grep -q '^libdir=/usr/nowhere/lib$' d/usr/nowhere/lib/pkgconfig/cpl.pc || bad "cpl.pc below DESTDIR: $(cat d/usr/nowhere/lib/pkgconfig/cpl.pc)"
-grep -q '/usr/nowhere/bin' d/usr/nowhere/bin/estran-run || bad "estran-run below DESTDIR"
+grep -q '/usr/nowhere/lib/estran' d/usr/nowhere/bin/estran-run || bad "estran-run below DESTDIR"
 install uninstall prefix=/usr/nowhere DESTDIR="$tmp/d"
 [ -z "$(find d ! -type d)" ] || bad "uninstall leaves $(find d ! -type d)"
 [ $failed = 0 ]
