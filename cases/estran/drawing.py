@@ -126,22 +126,25 @@ def frame(run, view, window, title, field, scale, width):
     high = wide * (d - c) / (b - a)
     if high > 560:
         wide, high = 560 * (b - a) / (d - c), 560
-    full, tall = max(wide + left + right, 560), max(high, 150) + low + top
+    if high < 150:  # of a long channel more than its height
+        c, d = (c + d) / 2 - 75 * (b - a) / wide, (c + d) / 2 + 75 * (b - a) / wide
+        high = 150
+    full, tall = max(wide + left + right, 560), high + low + top
     figure = mfigure.Figure((full / dpi, tall / dpi), dpi)
-    axes = figure.add_axes([(left + (full - left - right - wide) / 2) / full, low / tall, wide / full, max(high, 150) / tall])
-    axes.set_aspect('equal', 'box' if high >= 150 else 'datalim')
+    axes = figure.add_axes([(left + (full - left - right - wide) / 2) / full, low / tall, wide / full, high / tall])
+    axes.set_aspect('equal')
     axes.set_xlim(a, b)
     axes.set_ylim(c, d)
     axes.set_xlabel('x (m)', labelpad=1)
     axes.set_ylabel('%s (m)' % 'xyz'[view.axes[1]], labelpad=1)
     axes.locator_params(axis='x', nbins=max(2, min(7, int(wide / 80))))
-    axes.locator_params(axis='y', nbins=max(2, min(6, int(max(high, 150) / 55))))
+    axes.locator_params(axis='y', nbins=max(2, min(6, int(high / 55))))
     axes.set_title(title, pad=10)
     place = axes.get_position()
-    bar = figure.add_axes([place.x1 + 16 / full, low / tall, 20 / full, max(high, 150) / tall])
+    bar = figure.add_axes([place.x1 + 16 / full, low / tall, 20 / full, high / tall])
     mappable = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(*scale), colours(field))
     ticks = figure.colorbar(mappable, bar, format=matplotlib.ticker.FuncFormatter(lambda v, _: '%.6g' % v))
-    ticks.locator = matplotlib.ticker.MaxNLocator(max(3, min(6, int(max(high, 150) / 60))))
+    ticks.locator = matplotlib.ticker.MaxNLocator(max(3, min(6, int(high / 60))))
     ticks.update_ticks()
     return figure, axes, mappable
 
@@ -259,9 +262,7 @@ def figure_of(run, field, snapshot, scale, window=None, plane=None, width=800):
             if field in part:
                 (draw_particles if part.particles else draw_cells)(axes, part, field, view, mappable)
             draw_solids(axes, run[name], part, view)
-        axes.set_xlim(window[:2])
-        if axes.get_adjustable() == 'box':
-            axes.set_ylim(window[2:])
+        axes.autoscale(False)
     return figure
 
 
