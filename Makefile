@@ -8,7 +8,7 @@ COMMIT := $(shell git rev-parse --short HEAD 2>/dev/null || echo unknown)
 
 # ---- what it needs, as Debian 12 packages -------------------------------------------------------------
 PACKAGES = build-essential pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi-dev hdf5-tools python3-h5py python3-matplotlib \
-           libhypre-dev libsundials-dev libconfig-dev libcmocka-dev gnuplot-nox libassimp-dev
+           libhypre-dev libsundials-dev libconfig-dev libcmocka-dev libassimp-dev
 
 # ---- how it is built ----------------------------------------------------------------------------------
 # No -ffast-math: it gains nothing here and lets NaN pass unseen. -fno-math-errno frees sqrt.
