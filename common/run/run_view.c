@@ -9,7 +9,7 @@
 #include "run_files.h"
 
 static const char begin[] = "# paraview --script=view.py\n"
-                            "import glob, os, re\n"
+                            "import glob, os, re, sys\n"
                             "from paraview.simple import *\n";
 static const char *const rest[] = {
 #include "view.inc"

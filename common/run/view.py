@@ -2,6 +2,7 @@
 # walls. Lines above: dim, up, the corners low and high of the domain (m), the walls within it as
 # polylines, the fields to colour by, whether the water has a surface, whether solids are opaque (a
 # tank of triangles would hide what is in it).
+# --png and --movie write view.png and view.avi beside it.
 # A script of a filter is run among our names, with all of numpy's: none of ours may be one of them,
 # and max, sum, ... are others then.
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -20,6 +21,8 @@ if not places:
 here = places[0]
 
 view = GetActiveViewOrCreate('RenderView')
+if '--png' in sys.argv or '--movie' in sys.argv:
+    view.ViewSize = [1200, 800]
 LoadPalette(paletteName='WhiteBackground')
 text, sources, shows = {}, {}, []
 for path in sorted(glob.glob(os.path.join(here, '*-case.cfg'))):
@@ -299,9 +302,24 @@ def values(source, field):  # all numbers at the last time; of a vector its leng
     return parts
 
 
+def found_now(field):
+    return [p for source, shown in shows for p in values(source, field) if len(p[1]) > 0]
+
+
+def ends_of(found):
+    return [np.percentile(v, [0.5, 99.5]) for x, v in found]
+
+
 def colour(field):
-    found = [p for source, shown in shows for p in values(source, field) if len(p[1]) > 0]
-    ends = [np.percentile(v, [0.5, 99.5]) for x, v in found]
+    ends = []
+    for t in times if '--movie' in sys.argv else []:  # one scale over the whole film
+        for source, shown in shows:
+            source.UpdatePipeline(t)
+        ends += ends_of(found_now(field))
+    for source, shown in shows:
+        source.UpdatePipeline(last)
+    found = found_now(field)
+    ends += ends_of(found)
     least, most = float(np.min(ends)), float(np.max(ends))
     least = 0.0 if field == 'velocity' else least
     signed = field == 'vorticity'
@@ -388,3 +406,8 @@ if shows:
     # (a plane that cuts would show its handles)
     SetActiveSource(shows[0][0] if surface or dim == 2 else list(sources.values())[0])
 Render(view)
+# In batch: pvbatch view.py --png --movie (without a display: xvfb-run -a pvbatch ...)
+if '--png' in sys.argv:
+    SaveScreenshot(os.path.join(here, 'view.png'), view)
+if '--movie' in sys.argv and times:
+    SaveAnimation(os.path.join(here, 'view.avi'), view, FrameRate=int(np.clip(len(times) // 5, 4, 25)))
