@@ -9,7 +9,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..'))
 import estran
 run = estran.read(sys.argv[1])
-t, force = (np.asarray(v) for v in run.column('force y'))
+t, force = (np.asarray(v) for v in run.column('cylinder force y'))
 T = float(run['fv'].case['blocks'][1]['motion'][0]['period'])
 w, z, M, C = 2 * np.pi / T, 0.05, 1000 * np.pi / 2, 2 * 9810.0
 K = round(w**2 / 9.81, 2)

@@ -186,7 +186,7 @@ static void a_cup_that_tilts_carries_its_water(void **state)
     double force[MESH_BLOCKS_MAX][4];
     assert_true(mesh_case_run(s, 10000, 4.0));
     surface_ghosts(s, s->surface->phi);
-    mesh_bc_force(s, s->surface->phi, force);
+    mesh_bc_force(s, s->surface->phi, force, NULL);
     const double weight = s->run->scene.fluid.rho * 9.81 * 0.3;
     print_message("cup: force %.4g, %.5g of %.5g N, %.2g of the water restored\n", force[0][0],
                   force[0][1], -weight, s->surface->returned / 0.3);
