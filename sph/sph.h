@@ -9,6 +9,7 @@
 
 #include "../common/base/fit.h"
 #include "../common/run/run.h"
+#include "../common/scene/scene_reference.h"
 #include "particles/particles.h"
 #include "sph_parameters.h"
 #include "watch/sph_watch.h"
@@ -91,11 +92,14 @@ struct sph {
     double R, dx, dxD; /* m, m, m^dim: volume of a particle at the start */
     double rho0, nu, c0, gamma;
     double gravity[3], central; /* m/s^2, 1/s */
-    double lo[3], hi[3];        /* region of the particles: the domain, or sph.box */
-    bool periodic[3];           /* of that region */
-    bool open[6];     /* its sides (2a: low, 2a+1: high) where particles come and go; zones.h */
-    int level;        /* of refinement: dx = dx_0/2^level */
-    bool local_steps; /* each level steps with a time step of its own */
+    /* The part of the pressure that eos_p leaves out, with the gravity that belongs to it: what
+     * comes in from sides and partners is reduced by it, all that is shown has it. */
+    struct scene_reference reference;
+    double lo[3], hi[3]; /* region of the particles: the domain, or sph.box */
+    bool periodic[3];    /* of that region */
+    bool open[6];        /* its sides (2a: low, 2a+1: high) where particles come and go; zones.h */
+    int level;           /* of refinement: dx = dx_0/2^level */
+    bool local_steps;    /* each level steps with a time step of its own */
     struct sph *coarser, *finer; /* the levels next to this one; NULL: none. The coarsest stands
                                     for all of them; what is of the whole flow is its own */
     double t;                    /* s: time of the state y; during a stage: of that stage */

@@ -7,6 +7,7 @@
 
 #include "exact.h"
 #include "scene_mesh.h"
+#include "scene_reference.h"
 
 static double size_of(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
@@ -133,11 +134,14 @@ static double body_speed(const struct scene *s)
     return speed;
 }
 
-/* Gravity along the axes that are not periodic. */
+/* Gravity along the axes that are not periodic, unless it is in the reference of the pressure. */
 static double weight(const struct scene *s, double g[3])
 {
+    const struct scene_reference of = scene_reference(s);
     for (int a = 0; a < 3; a++)
-        g[a] = a < s->domain.dim && !s->domain.periodic[a] ? s->fluid.gravity[a] : 0.0;
+        g[a] = a < s->domain.dim && !s->domain.periodic[a] && of.slope[a] == 0.0
+                   ? s->fluid.gravity[a]
+                   : 0.0;
     return size_of(g);
 }
 
@@ -277,14 +281,16 @@ static double driven_speed(const struct scene *s)
     return a > 0.0 ? driven(s, a) : 0.0;
 }
 
-/* Largest pressure of the outlets, and what their difference accelerates. */
+/* Largest pressure of the outlets over the reference, and what their difference accelerates. */
 static double outlet_speed(const struct scene *s, double *pressure)
 {
+    const struct scene_reference of = scene_reference(s);
     double lo = INFINITY, hi = -INFINITY, length = 0.0;
     for (int k = 0; k < s->nwalls; k++)
         if (s->walls[k].kind >= WALL_OUTFLOW) {
-            lo = fmin(lo, s->walls[k].pressure / s->fluid.rho);
-            hi = fmax(hi, s->walls[k].pressure / s->fluid.rho);
+            const double p = scene_reference_left(s, &of, s->walls + k) / s->fluid.rho;
+            lo = fmin(lo, p);
+            hi = fmax(hi, p);
         }
     *pressure = hi >= lo ? fmax(fabs(lo), fabs(hi)) : 0.0;
     if (!(hi > lo))

@@ -78,6 +78,7 @@ void bodies_begin(struct sph *s)
 {
     for (int k = 0; s->walls && k < s->walls->nbodies; k++) {
         struct body *b = s->walls->bodies + k;
+        s->walls->forces.reference[k] = body_reference(s, k);
         if (!b->free)
             continue;
         body_hold(b, s->t);
@@ -101,6 +102,8 @@ static void fluid_loads(struct sph *s, double weight, double (*loads)[6])
         struct body *b = w->bodies + k;
         if (!b->free)
             continue;
+        vec3_add(given[k].F, 1.0, w->forces.reference[k].F);
+        vec3_add(given[k].M, 1.0, w->forces.reference[k].M);
         memcpy(loads[k], given[k].F, sizeof given[k].F);
         memcpy(loads[k] + 3, given[k].M, sizeof given[k].M);
         if (b->is->force_rule == FORCE_AVERAGE) {
@@ -134,7 +137,7 @@ void bodies_stage(struct sph *s, double weight)
         struct body *b = w->bodies + k;
         if (!b->free)
             continue;
-        vec3_add(loads[k], b->free->mass, s->gravity);
+        vec3_add(loads[k], b->free->mass, s->run->scene.fluid.gravity);
         vec3_add(loads[k], 1.0, b->is->load);
         vec3_add(loads[k] + 3, 1.0, b->is->torque);
         body_rates(b, loads[k], loads[k] + 3);

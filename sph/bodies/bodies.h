@@ -39,6 +39,10 @@ void body_contacts_add(struct sph *s, double (*loads)[6]);
  * opinion. (What the walls' terms of the particles add up to is 1.39 times a constant pressure.)
  * Needs prim and slope. Collective. */
 struct force body_average(struct sph *s, int k);
+/* Of the reference of the pressure alone, which the particles leave out, on what the domain and
+ * other walls leave wet of the surface: nothing, or the weight of what the body displaces, unless
+ * they cut it. */
+struct force body_reference(const struct sph *s, int k);
 
 /* body_output.c */
 int bodies_columns(const struct run *r, int k, const char **names);

@@ -148,7 +148,8 @@ static void ask_particle(const struct sph *s, int i, struct average_node *d)
         return;
     const double W = q[at_volume(dim)] * kernel_w(dim, sqrt(r2), s->R);
     d->said.W += W;
-    d->said.P += W * carried_pressure(s, q, e, d->du);
+    d->said.P +=
+        W * (carried_pressure(s, q, e, d->du) + scene_reference_at(&s->reference, dim, d->x));
     for (int a = 0; a < dim && d->no_slip; a++)
         d->said.shear[a] +=
             W * s->rho0 * s->nu * (u[a] - d->u[a] - un * d->n[a]) / fmax(away, 0.25 * s->dx);
@@ -182,20 +183,26 @@ static void sum_over_ranks(const struct sph *s, struct nodes *nodes)
     mem_free(sums);
 }
 
+/* Adds a force at a point of the surface. */
+static void push(const struct body *b, const struct average_node *d, const double f[3],
+                 struct force *to)
+{
+    double arm[3], moment[3];
+    for (int a = 0; a < 3; a++)
+        arm[a] = d->x[a] - body_centre(b, a);
+    vec3_cross(arm, f, moment);
+    vec3_add(to->F, 1.0, f);
+    vec3_add(to->M, 1.0, moment);
+}
+
 /* A wet plane has W = 1/2; of few particles the sum is theirs. */
 static void add_force(const struct sph *s, const struct body *b, const struct average_node *d,
                       struct force *to)
 {
-    double f[3] = {0.0}, arm[3] = {0.0}, moment[3];
-    for (int a = 0; a < s->dim; a++) {
+    double f[3] = {0.0};
+    for (int a = 0; a < s->dim; a++)
         f[a] = d->area * (d->said.P * d->n[a] + d->said.shear[a]) / fmax(d->said.W, 0.4);
-        arm[a] = d->x[a] - body_centre(b, a);
-    }
-    vec3_cross(arm, f, moment);
-    for (int a = 0; a < 3; a++) {
-        to->F[a] += f[a];
-        to->M[a] += moment[a];
-    }
+    push(b, d, f, to);
 }
 
 struct force body_average(struct sph *s, int which)
@@ -208,6 +215,39 @@ struct force body_average(struct sph *s, int which)
     sum_over_ranks(s, &nodes);
     for (int k = 0; k < nodes.n; k++)
         add_force(s, w->bodies + which, nodes.node + k, &force);
+    mem_free(nodes.node);
+    return force;
+}
+
+/* Whether there is room for fluid before the surface there. */
+static bool is_wet(const struct sph *s, const struct average_node *d)
+{
+    const struct scene_domain *in = &s->run->scene.domain;
+    double x[3];
+    int mesh;
+    for (int a = 0; a < 3; a++) {
+        x[a] = d->x[a] - 0.25 * s->dx * d->n[a];
+        if (a < s->dim && !in->periodic[a] && (x[a] < in->min[a] || x[a] > in->max[a]))
+            return false;
+    }
+    return (s->dim == 2 ? walls_distance(s->walls, x, INFINITY)
+                        : wall_meshes_nearest(s->walls, x, INFINITY, &mesh).distance) > 0.0;
+}
+
+struct force body_reference(const struct sph *s, int which)
+{
+    const struct scene_reference *r = &s->reference;
+    struct force force = {0};
+    if (r->p == 0.0 && vec3_length(r->slope) == 0.0)
+        return force;
+    struct nodes nodes = lay_nodes(s, which);
+    for (int k = 0; k < nodes.n; k++) {
+        const struct average_node *d = nodes.node + k;
+        double f[3] = {0.0, 0.0, 0.0};
+        if (is_wet(s, d))
+            vec3_add(f, d->area * scene_reference_at(r, s->dim, d->x), d->n);
+        push(s->walls->bodies + which, d, f, &force);
+    }
     mem_free(nodes.node);
     return force;
 }

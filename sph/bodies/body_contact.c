@@ -82,7 +82,8 @@ static void push(struct sph *s, const struct pair *p, double (*loads)[6])
     const double first = first_rate(w, p),
                  d = first > 0.0 ? damping_of(c->restitution) / first : 0.0;
     const double v0 =
-        fmax(0.01 * sqrt(vec3_length(s->gravity) * w->bodies[p->a].reach), 1e-5 * s->c0);
+        fmax(0.01 * sqrt(vec3_length(s->run->scene.fluid.gravity) * w->bodies[p->a].reach),
+             1e-5 * s->c0);
     double all = 0.0;
     if (!isfinite(M))
         return;

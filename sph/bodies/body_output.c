@@ -88,7 +88,7 @@ static void summarise_free(const struct sph *s, int k)
     const struct body_free *f = b->free;
     struct summary *to = s->run->summary;
     double kinetic, lost[3];
-    const double energy = body_energy(b, s->gravity, &kinetic);
+    const double energy = body_energy(b, s->run->scene.fluid.gravity, &kinetic);
     put(to, b, "mass", f->mass);
     put(to, b, "inertia", f->inertia[2][2]);
     put(to, b, "kinetic", kinetic);

@@ -217,6 +217,16 @@ static double level_of(const struct sph *s, const struct basins *b, int64_t cell
     return isnan(level) || !(given < LEVEL_TOP) ? level : given;
 }
 
+/* Gravity against which pressure rises, m/s^2, unless the reference of the pressure has that. */
+static double weight_of(const struct sph *s, double still[3])
+{
+    const double g = scene_still_gravity(&s->run->scene, still);
+    for (int a = 0; a < s->dim; a++)
+        if (s->reference.slope[a] != 0.0)
+            return 0.0;
+    return g;
+}
+
 /* Masses under gravity: p = 0 at the given height, or on top of each water. A wave and a channel
  * have their own pressure; gravity along a periodic axis drives. */
 static void weigh(struct sph *s, const struct basins *b)
@@ -224,7 +234,7 @@ static void weigh(struct sph *s, const struct basins *b)
     const struct scene *c = &s->run->scene;
     const struct scene_initial *f = &c->initial;
     double still[3], off = 0.0;
-    const double g = scene_still_gravity(c, still);
+    const double g = weight_of(s, still);
     if (g == 0.0 || scene_has_wave(c) || f->field == FIELD_POISEUILLE)
         return;
     for (int i = 0; i < s->p.n; i++) {
@@ -331,18 +341,18 @@ struct fill *fill_lattice(struct sph *s)
 }
 
 /* Whether the masses of the first particles are those of a fluid at rest. */
-static bool is_weighed(const struct scene *c)
+static bool is_weighed(const struct sph *s)
 {
+    const struct scene *c = &s->run->scene;
     double still[3];
-    return scene_still_gravity(c, still) != 0.0 && !scene_has_wave(c) &&
-           c->initial.field != FIELD_POISEUILLE;
+    return weight_of(s, still) != 0.0 && !scene_has_wave(c) && c->initial.field != FIELD_POISEUILLE;
 }
 
 /* Slopes that children are born with: those of water at rest where its weight counts. */
 static void set_slopes(struct sph *s, const struct exact *e)
 {
     const int dim = s->dim;
-    const bool weighed = is_weighed(&s->run->scene);
+    const bool weighed = is_weighed(s);
     if (s->p.n > 0)
         memset(s->p.slope, 0, (size_t)s->p.n * s->p.nslope * sizeof(double));
     for (int i = 0; i < s->p.n && weighed; i++) {
@@ -414,7 +424,7 @@ static void settle(struct sph *level)
 void fill_finer(struct sph *s, const struct fill *f)
 {
     const struct exact e = exact_create(&s->run->scene);
-    const bool weighed = is_weighed(&s->run->scene);
+    const bool weighed = is_weighed(s);
     set_slopes(s, &e);
     if (!s->finer) {
         mixed_start(s);

@@ -55,6 +55,10 @@ static void set_constants(struct sph *s)
     s->gamma = s->prm.gamma;
     s->central = c->fluid.central;
     memcpy(s->gravity, c->fluid.gravity, sizeof s->gravity);
+    if (s->prm.surface != SURFACE_YES)
+        s->reference = scene_reference(c);
+    for (int a = 0; a < 3; a++)
+        s->gravity[a] = s->reference.slope[a] != 0.0 ? 0.0 : s->gravity[a];
     sph_params_open(s->run, &s->prm, s->open);
     sph_params_region(&c->domain, &s->prm, s->lo, s->hi, s->periodic);
     s->lists.skin_most = widest_skin(s);

@@ -32,6 +32,7 @@ struct sph_link {
     double *x, *u, *p, *w, *ones;
     int64_t *id;
     int capacity;
+    struct scene_reference reference; /* what the particles' pressure leaves out */
 };
 
 static void check(const struct sph_link *k, int code)
@@ -83,6 +84,8 @@ static void eval_patch(void *ctx, double t, int n, const double *x, double *u, d
     const struct sph_link *k = ctx;
     cpl_patch_eval(k->c, k->patch_velocity, t, n, x, u, gu);
     cpl_patch_eval(k->c, k->patch_pressure, t, n, x, p, gp);
+    for (int i = 0; i < n; i++)
+        p[i] -= scene_reference_at(&k->reference, k->dim, x + 3 * i);
 }
 
 static void eval_surface(void *ctx, double t, int n, const double *x, double *phi, double *gphi)
@@ -94,6 +97,7 @@ static void eval_surface(void *ctx, double t, int n, const double *x, double *ph
 void sph_coupling_create(struct sph *s)
 {
     struct sph_link *k = NEW(struct sph_link, 1);
+    k->reference = s->reference;
     const int how = s->run->scene.coupling.interpolation ? CPL_CUBIC : CPL_LINEAR;
     k->c = s->run->partner_ctx;
     k->dim = s->dim;
@@ -256,7 +260,8 @@ void sph_coupling_window_end(void *state, double t1)
             k->x[3 * n + a] = a < dim ? into_domain(s, a, y[a]) : 0.0;
         for (int a = 0; a < dim; a++)
             k->u[dim * n + a] = y[dim + a] / y[at_mass(dim)];
-        k->p[n] = eos_p(y[at_mass(dim)] / y[at_volume(dim)], s->rho0, s->c0, s->gamma);
+        k->p[n] = scene_reference_at(&s->reference, dim, y) +
+                  eos_p(y[at_mass(dim)] / y[at_volume(dim)], s->rho0, s->c0, s->gamma);
         k->w[n] = y[at_volume(dim)];
         k->id[n++] = s->p.id[i];
     }

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
 #include "../particles/eos.h"
 #include "../walls/walls.h"
 
@@ -25,6 +26,7 @@ struct side_plane {
 
 struct opening_side {
     const struct scene_wall *is; /* NULL: not open */
+    double pressure;             /* Pa: given, over the reference */
     int bins[2], tangent[2];     /* along each tangent axis */
     bool round[2];               /* periodic along it */
     int first;                   /* of its bins in the table */
@@ -34,6 +36,7 @@ struct sides {
     const struct sph *s; /* borrowed */
     struct opening_side of[6];
     int bins;
+    double fall[6], fall_t;    /* Pa/m: the pressure's slope into the domain; s: up to when */
     double *table;             /* [bins][BIN] sums, then means */
     struct side_plane *planes; /* [bins]: velocity and pressure of the flow inside */
 };
@@ -167,9 +170,52 @@ static void find_planes(struct sides *d)
     }
 }
 
+/* Sums over a line of least squares of p against the depth. */
+enum { LINE_W, LINE_D, LINE_P, LINE_DD, LINE_DP, LINE };
+
+static void add_to_lines(const struct sph *s, const struct sides *d, double lines[6][LINE])
+{
+    const double rim = s->zones->buffer + s->zones->transition;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i), w = y[at_volume(s->dim)];
+        for (int side = 0; side < 2 * s->dim; side++) {
+            const double in = depth(s, side, y) - rim;
+            if (!d->of[side].is || in < 0.0 || in > s->R)
+                continue;
+            const double p = eos_p(y[at_mass(s->dim)] / w, s->rho0, s->c0, s->gamma);
+            const double terms[LINE] = {w, w * in, w * p, w * in * in, w * in * p};
+            for (int k = 0; k < LINE; k++)
+                lines[side][k] += terms[k];
+        }
+    }
+}
+
+/* The pressure of an outlet is that at the domain's end; through buffer and transition it goes on
+ * with the slope that it has in the free zone beside them. The slope follows over the time that
+ * sound takes through the domain: at once it would answer its own change. */
+static void follow_slope(struct sph *s, struct sides *d)
+{
+    double lines[6][LINE] = {{0.0}};
+    const double dt = s->t - d->fall_t;
+    d->fall_t = s->t;
+    if (dt <= 0.0)
+        return;
+    add_to_lines(s, d, lines);
+    MPI_Allreduce(MPI_IN_PLACE, lines, 6 * LINE, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (int side = 0; side < 2 * s->dim; side++) {
+        const double *l = lines[side], W = fmax(l[LINE_W], 1e-300);
+        const double spread = l[LINE_DD] - l[LINE_D] * l[LINE_D] / W;
+        const double memory = (s->hi[side / 2] - s->lo[side / 2]) / s->c0;
+        if (spread > 0.01 * W * s->dx * s->dx)
+            d->fall[side] += (1.0 - exp(-dt / memory)) *
+                             ((l[LINE_DP] - l[LINE_D] * l[LINE_P] / W) / spread - d->fall[side]);
+    }
+}
+
 static void look_inside(struct sph *s)
 {
     struct sides *d = s->zones->ctx;
+    follow_slope(s, d);
     const struct zones *z = s->zones;
     const int dim = s->dim;
     memset(d->table, 0, (size_t)BIN * d->bins * sizeof *d->table);
@@ -213,7 +259,7 @@ static void absorb(const struct sph *s, int side, const struct opening_side *of,
 {
     const double Z = s->rho0 * s->c0, sign = side % 2 ? 1.0 : -1.0;
     const int a = side / 2;
-    const double far = of->is->pressure - Z * sign * of->is->velocity[a];
+    const double far = of->pressure - Z * sign * of->is->velocity[a];
     const double near = in[PRESSURE] + Z * sign * in[VELOCITY + a];
     *p = 0.5 * (near + far);
     for (int b = 0; b < s->dim; b++)
@@ -251,7 +297,8 @@ static void eval_side(const struct sides *d, int side, const double *x, double *
         return;
     }
     const double f = profile(s, of, x);
-    *p = of->is->kind == WALL_OUTFLOW ? of->is->pressure : in[PRESSURE];
+    *p = of->is->kind != WALL_OUTFLOW ? in[PRESSURE]
+                                      : of->pressure + d->fall[side] * depth(s, side, x);
     for (int a = 0; a < s->dim; a++)
         u[a] = of->is->kind == WALL_OUTFLOW ? in[VELOCITY + a] : f * of->is->velocity[a];
 }
@@ -282,12 +329,16 @@ void sides_create(struct sph *s, struct zones *z)
 {
     struct sides *d = NEW(struct sides, 1);
     d->s = s;
+    d->fall_t = s->t;
     for (int side = 0; side < 2 * s->dim; side++) {
         struct opening_side *of = d->of + side;
         int k = 0;
         if (!s->open[side])
             continue;
         of->is = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
+        of->pressure = scene_reference_left(&s->run->scene, &s->reference, of->is);
+        z->own_u[side] = of->is->kind == WALL_OUTFLOW;
+        z->own_p[side] = of->is->kind == WALL_INFLOW;
         of->bins[0] = of->bins[1] = 1;
         for (int a = 0; a < s->dim; a++)
             if (a != side / 2) {
@@ -311,4 +362,17 @@ void sides_free(struct zones *z)
     mem_free(d->table);
     mem_free(d->planes);
     mem_free(d);
+}
+
+void sides_save(const struct sph *s, struct h5 *f)
+{
+    const struct sides *d = s->zones->ctx;
+    h5_write_real(f, "sides_slope", "Pa/m", 6, 1, d->fall, false);
+}
+
+bool sides_load(struct sph *s, struct h5 *f)
+{
+    struct sides *d = s->zones->ctx;
+    d->fall_t = s->t;
+    return h5_read_same(f, "sides_slope", 6, d->fall);
 }

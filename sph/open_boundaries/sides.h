@@ -1,8 +1,8 @@
 /* sides.h - inlets and outlets on sides of the domain: what the zones of zones.h impose when the
  * flow outside is not known but for one half of it. Inflow: velocity given, pressure of the flow
- * inside; outflow: pressure given, velocity of the flow inside; absorbing: both from the
- * characteristics of the flow inside and of a far state (u, p of the case), so that sound leaves.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * inside; outflow: pressure given at the domain's end, velocity of the flow inside; absorbing: both
+ * from the characteristics of the flow inside and of a far state (u, p of the case), so that sound
+ * leaves. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_SIDES_H
 #define SPH_SIDES_H
 
@@ -10,5 +10,7 @@
 
 void sides_create(struct sph *s, struct zones *z);
 void sides_free(struct zones *z);
+void sides_save(const struct sph *s, struct h5 *f);
+bool sides_load(struct sph *s, struct h5 *f);
 
 #endif

@@ -280,16 +280,18 @@ static void draw(const struct sph *s, int k, int side, double alpha, double *p, 
     const struct zones *z = s->zones;
     const int dim = s->dim, n = side / 2;
     const double Z = (side % 2 ? 1.0 : -1.0) * s->rho0 * s->c0;
-    const double entering = z->p[k] - *p - Z * (z->u[dim * k + n] - u[n]);
+    const double dp = z->own_p[side] ? 0.0 : z->p[k] - *p, part = z->own_u[side] ? 0.0 : 1.0;
+    const double entering = dp - Z * part * (z->u[dim * k + n] - u[n]);
     for (int a = 0; a < dim; a++)
-        u[a] += a == n ? -0.5 * alpha * entering / Z : alpha * (z->u[dim * k + a] - u[a]);
+        u[a] += a == n ? -0.5 * alpha * entering / Z : part * alpha * (z->u[dim * k + a] - u[a]);
     *p += 0.5 * alpha * entering;
 }
 
 /* Of u along the sides u <- a u_out + (1-a) u [6.8], a = depth into the transition over its width;
  * across them and of P only what enters, P - rho c u.n, n outwards: P + rho c u.n leaves as SPH
- * made it. To blend both as in [6.7] lets the coupled programs feed vorticity, or damp
- * (coupler/METHODS.md). */
+ * made it. What sides take from the flow inside is left as it is: rho c times the error of a mean
+ * velocity is more than the pressure that drives a slow flow. To blend both as in [6.7] lets the
+ * coupled programs feed vorticity, or damp (coupler/METHODS.md). */
 void zones_blend(struct sph *s)
 {
     struct zones *z = s->zones;
@@ -336,6 +338,8 @@ void zones_save(struct sph *s, struct h5 *f)
     h5_write_real(f, "zones_way", "m", 3, 1, s->zones->way, false);
     if (s->prm.box_follows[0])
         h5_write_real(f, "zones_chase", "m/s", 3, 1, s->zones->chase, false);
+    if (s->prm.outer == OUTER_SIDES)
+        sides_save(s, f);
     if (s->zones->gap) {
         level_gap_save(s, f);
         wet_faces_save(o, f);
@@ -373,8 +377,8 @@ bool zones_load(struct sph *s, struct h5 *f)
         !h5_read_same(f, "zones_level", 1, &s->zones->level) ||
         !h5_read_same(f, "zones_owed", 1, &o->owed) || !h5_read_same(f, "zones_way", 3, way) ||
         (s->prm.box_follows[0] && !h5_read_same(f, "zones_chase", 3, s->zones->chase)) ||
-        !load_counts(s, f, counted) || (s->zones->gap && !level_gap_load(s, f)) ||
-        !wet_faces_load(s, f))
+        !load_counts(s, f, counted) || (s->prm.outer == OUTER_SIDES && !sides_load(s, f)) ||
+        (s->zones->gap && !level_gap_load(s, f)) || !wet_faces_load(s, f))
         return false;
     s->zones->blended = booked[0];
     o->born_mass = booked[1];

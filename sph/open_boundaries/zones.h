@@ -39,8 +39,10 @@ struct zones {
     void (*update)(struct sph *s); /* start of a stage: looks at the flow inside; NULL: no need */
     void *ctx;                     /* borrowed */
     struct openings *openings;
-    double drain;      /* m/s: outwards, added to the flow outside: see openings.h */
-    double outflow[6]; /* m/s: the same by side: see level_gap.h */
+    bool own_u[6], own_p[6]; /* by side: this half of the flow outside is taken from inside, so that
+                                blending leaves it alone */
+    double drain;            /* m/s: outwards, added to the flow outside: see openings.h */
+    double outflow[6];       /* m/s: the same by side: see level_gap.h */
     void (*look_inside)(struct sph *s); /* in a stage, when the surface has been detected; NULL */
     struct overlap *watched;            /* overlap.h; NULL without a partner */
     double gauge; /* Pa: added to the pressure outside, which an incompressible partner knows up to

@@ -74,7 +74,9 @@ static double pressure_at(struct sph *s, const struct scene_probe *g)
         add_pressure(q, g, sums);
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
     const double least = g->radius > 0.0 ? ldexp(1.0, -s->dim) : 0.05;
-    return sums[1] > 0.05 ? sums[0] / fmax(sums[1], least) : 0.0;
+    return sums[1] > 0.05
+               ? scene_reference_at(&s->reference, s->dim, g->at) + sums[0] / fmax(sums[1], least)
+               : 0.0;
 }
 
 static double value_at(struct sph *s, const struct scene_probe *g)

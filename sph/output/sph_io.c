@@ -36,7 +36,9 @@ static void get_velocity(const struct sph *s, int i, double *v)
 
 static void get_pressure(const struct sph *s, int i, double *v)
 {
-    *v = eos_p(prim_line(&s->p, i)[at_rho(s->dim)], s->rho0, s->c0, s->gamma);
+    const double *q = prim_line(&s->p, i);
+    *v = scene_reference_at(&s->reference, s->dim, q) +
+         eos_p(q[at_rho(s->dim)], s->rho0, s->c0, s->gamma);
 }
 
 static void get_density(const struct sph *s, int i, double *v)

@@ -16,7 +16,9 @@
 
 static double pressure(const struct sph *s, int i)
 {
-    return eos_p(prim_line(&s->p, i)[at_rho(s->dim)], s->rho0, s->c0, s->gamma);
+    const double *q = prim_line(&s->p, i);
+    return scene_reference_at(&s->reference, s->dim, q) +
+           eos_p(q[at_rho(s->dim)], s->rho0, s->c0, s->gamma);
 }
 
 /* Place of the largest pressure of all that flows; of equal ones the first rank's. */

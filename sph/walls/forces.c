@@ -89,9 +89,9 @@ void forces_stage(struct sph *s, double dt)
     for (int b = 0; b < SIDES; b++)
         add_times(f->step + b, dt, f->stage + b);
     for (int k = 0; k < s->walls->nbodies && s->run->rank == 0 && s->level == 0; k++) {
-        struct force turning = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-        forces_add_turning(s, k, turning.M);
-        add_times(f->step + k, dt, &turning);
+        struct force besides = f->reference[k];
+        forces_add_turning(s, k, besides.M);
+        add_times(f->step + k, dt, &besides);
     }
 }
 

@@ -77,6 +77,8 @@ struct wall_forces {
     struct force now[BODIES_MAX + 1];     /* mean over the last step; all ranks */
     struct force impulse[BODIES_MAX + 1]; /* since the start; all ranks */
     struct force hit[BODIES_MAX + 1];     /* impulses of particles returned in this step */
+    struct force reference[BODIES_MAX];   /* N: on each body, of the pressure that particles leave
+                                             out; all ranks have it */
     bool credited, known;                 /* the model tells; a step is over */
 };
 

@@ -197,5 +197,38 @@ sed 's/, -9.81)/, 0, -9.81)/; s/(0.2, 0.2)/(0.2, 0.2, 0.15)/; s/(true, false)/(t
 run sheet_3d 0
 near "$(mean sheet_3d)" 0.8 0.025 || bad "a sheet on a rough floor in 3D has $(mean sheet_3d) instead of 0.8 m/s" sheet_3d.txt
 
-echo "exact: torque $(column couette 'inner moment') of 209.4 N, running down at $(cat rate) of 0.105 1/s, fall of pressure $fall of 1500 to 1800 Pa; $failed faults"
+# Plane Poiseuille flow between outlets 10 Pa apart: a mean of dp h^2/(12 rho nu L) = 1/24 m/s. The same flow when a
+# constant is added to both pressures, with a body force in place of the pressures, and against gravity. A block on the floor
+# feels what is added to the pressure, one that is wet all round the weight of what it displaces.
+cat >poiseuille.cfg <<'END'
+format = 1;
+time:   { end = 3; };
+fluid:  { nu = 1e-4; };
+domain: { max = (0.08, 0.02); };
+walls:  ( { side = "x_min"; kind = "outflow"; pressure = 10; }, { side = "x_max"; kind = "outflow"; pressure = 0; },
+          { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "no_slip"; } );
+sph:    { dx = 0.002; };
+output: { snapshots = false; };
+END
+run poiseuille 0
+through=$(mean poiseuille)
+near "$through" 0.041667 0.0009 || bad "the flow between outlets has a mean of $through instead of 0.0417 m/s" poiseuille.txt
+sed 's/pressure = 10/pressure = 100010/; s/pressure = 0/pressure = 100000/' poiseuille.cfg >added.cfg
+sed 's/pressure = 10/pressure = 0/; s/nu = 1e-4;/nu = 1e-4; gravity = (0.125, 0);/' poiseuille.cfg >forced.cfg
+sed 's/pressure = 10/pressure = 794.8/; s/nu = 1e-4;/nu = 1e-4; gravity = (-9.81, 0);/' poiseuille.cfg >uphill.cfg
+for other in added forced uphill; do
+    run $other 0
+    near "$(mean $other)" "$through" "$(awk -v u="$through" 'BEGIN { print 0.01 * u }')" ||
+        bad "the same flow, $other, has a mean of $(mean $other) instead of $through m/s" $other.txt
+done
+sed 's/0.08, 0.02/0.1, 0.04/; s/end = 3/end = 0.1/; s/pressure = 10/pressure = 1000/; s/pressure = 0/pressure = 1000/
+    s/^sph:/bodies: ( { name = "sill"; points = ((0.045, 0), (0.055, 0), (0.055, 0.01), (0.045, 0.01)); },\n          { name = "free"; points = ((0.04, 0.02), (0.05, 0.02), (0.05, 0.03), (0.04, 0.03)); } );\nsph:/' poiseuille.cfg >blocks.cfg
+run blocks 0
+near "$(column blocks 'sill force y')" -10 0.3 || bad "1000 Pa press a sill 1 cm long with $(column blocks 'sill force y') instead of -10 N/m" blocks.txt
+near "$(column blocks 'free force y')" 0 0.3 || bad "1000 Pa press a block with $(column blocks 'free force y') N/m" blocks.txt
+sed 's/pressure = 1000;/pressure = 981;/; s/nu = 1e-4;/nu = 1e-4; gravity = (-9.81, 0);/; s/"x_max"; kind = "outflow"; pressure = 1000/"x_max"; kind = "outflow"; pressure = 0/' blocks.cfg >hanging.cfg
+run hanging 0
+near "$(column hanging 'free force x')" 0.981 0.03 || bad "buoyancy between outlets is $(column hanging 'free force x') instead of 0.981 N/m" hanging.txt
+
+echo "exact: torque $(column couette 'inner moment') of 209.4 N, running down at $(cat rate) of 0.105 1/s, fall of pressure $fall of 1500 to 1800 Pa, flow between outlets $through of 0.0417 m/s; $failed faults"
 [ $failed = 0 ]
