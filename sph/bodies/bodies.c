@@ -177,8 +177,8 @@ static void say_out(const struct sph *s, const struct body *b, const double *x, 
     snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, across %c", x[0], x[1],
              s->dim == 3 ? x[2] : 0.0, "xyz"[axis]);
     snprintf(d->likely, sizeof d->likely, "%s",
-             s->periodic[axis] ? "a body has no image across a periodic side: walls there, or a "
-                                 "larger domain"
+             s->periodic[axis] ? "a body may come up to a periodic side, not through it: walls "
+                                 "there, or a larger domain"
                                : "a larger domain, or walls that hold it");
 }
 

@@ -112,7 +112,9 @@ static struct nodes lay_nodes(const struct sph *s, int body)
     for (int k = b->first; s->dim == 2 && k < b->first + b->n; k++)
         lay_segment(s, w->segments + k, &to);
     for (int k = 0; k < w->nmeshes; k++)
-        for (int t = 0; w->meshes[k].body == body && t < w->meshes[k].mesh.ntriangles; t++)
+        for (int t = 0;
+             w->meshes[k].body == body && !w->meshes[k].image && t < w->meshes[k].mesh.ntriangles;
+             t++)
             lay_triangle(s, w->meshes + k, t, &to);
     return to;
 }
@@ -129,13 +131,14 @@ static double carried_pressure(const struct sph *s, const double *q, const doubl
     return s->surface ? fmax(p + rho * more, fmin(p, 0.0)) : p + rho * more;
 }
 
-static void ask_particle(const struct sph *s, int i, struct average_node *d)
+/* Particle i, or its image, at x. */
+static void ask_particle(const struct sph *s, int i, const double *x, struct average_node *d)
 {
     const int dim = s->dim;
     const double *q = prim_line(&s->p, i), *u = q + dim;
     double e[3], r2 = 0.0, away = 0.0, un = 0.0;
     for (int a = 0; a < dim; a++) {
-        e[a] = d->x[a] - q[a];
+        e[a] = d->x[a] - x[a];
         r2 += e[a] * e[a];
     }
     if (r2 >= s->R * s->R)
@@ -155,6 +158,35 @@ static void ask_particle(const struct sph *s, int i, struct average_node *d)
             W * s->rho0 * s->nu * (u[a] - d->u[a] - un * d->n[a]) / fmax(away, 0.25 * s->dx);
 }
 
+/* Particle i at x. */
+static void ask_at(const struct sph *s, int i, const double *x, const struct body_bins *bins,
+                   struct nodes *nodes)
+{
+    struct bins_run run[BINS_RUNS];
+    const int n = bins_near(bins, x, run);
+    for (int q = 0; q < n; q++)
+        for (int k = run[q].first; k < run[q].end; k++)
+            ask_particle(s, i, x, nodes->node + bins->who[k]);
+}
+
+/* Particle i at x, and images of it within R beyond the periodic sides from an axis on. */
+static void ask_images(const struct sph *s, int i, const double *x, int axis,
+                       const struct body_bins *bins, struct nodes *nodes)
+{
+    if (axis >= 3 || axis >= s->dim) {
+        ask_at(s, i, x, bins, nodes);
+        return;
+    }
+    ask_images(s, i, x, axis + 1, bins, nodes);
+    for (int way = -1; way <= 1 && s->periodic[axis]; way += 2) {
+        double y[3] = {0.0, 0.0, 0.0};
+        memcpy(y, x, (size_t)s->dim * sizeof *x);
+        y[axis] += way * (s->hi[axis] - s->lo[axis]);
+        if (y[axis] > s->lo[axis] - s->R && y[axis] < s->hi[axis] + s->R)
+            ask_images(s, i, y, axis + 1, bins, nodes);
+    }
+}
+
 /* All particles of one level; each node hears them in their order. */
 static void ask_all(const struct sph *s, struct nodes *nodes)
 {
@@ -162,13 +194,9 @@ static void ask_all(const struct sph *s, struct nodes *nodes)
         return;
     struct body_bins bins =
         bins_create(s->dim, nodes->n, nodes->node->x, sizeof *nodes->node / sizeof(double), s->R);
-    struct bins_run run[BINS_RUNS];
-    for (int i = 0; i < s->p.n; i++) {
-        const int n = particles_is_guard(&s->p, i) ? 0 : bins_near(&bins, prim_line(&s->p, i), run);
-        for (int q = 0; q < n; q++)
-            for (int k = run[q].first; k < run[q].end; k++)
-                ask_particle(s, i, nodes->node + bins.who[k]);
-    }
+    for (int i = 0; i < s->p.n; i++)
+        if (!particles_is_guard(&s->p, i))
+            ask_images(s, i, prim_line(&s->p, i), 0, &bins, nodes);
     bins_free(&bins);
 }
 

@@ -35,13 +35,13 @@ static void find_vertices(const struct walls *w, struct pair *p, double gap, boo
     const int of = mine ? p->a : p->b, against = mine ? p->b : p->a;
     for (int i = 0; i < w->nmeshes; i++) {
         const struct wall_mesh *m = w->meshes + i;
-        for (int k = 0; m->body == of && k < m->mesh.nvertices; k++) {
+        for (int k = 0; m->body == of && !m->image && k < m->mesh.nvertices; k++) {
             double x[3];
             wall_mesh_to_world(m, m->mesh.x[k], x);
             if (!is_near(w, p->a, x, gap) || (p->b >= 0 && !is_near(w, p->b, x, gap)))
                 continue;
             for (int j = 0; j < w->nmeshes; j++)
-                if (w->meshes[j].body == against)
+                if (w->meshes[j].body == against && !w->meshes[j].image)
                     try_vertex(w, p, w->meshes + j, x, gap, mine);
         }
     }
@@ -56,7 +56,7 @@ static bool any_near(const struct walls *w, const struct pair *p, double gap)
         const struct wall_mesh *m = w->meshes + j;
         const double centre[3] = {body_centre(a, 0), body_centre(a, 1), body_centre(a, 2)};
         double own[3];
-        if (m->body != p->b)
+        if (m->body != p->b || m->image)
             continue;
         wall_mesh_to_own(m, centre, own);
         any = tree_nearest(m->tree, own, a->reach + gap).triangle >= 0;

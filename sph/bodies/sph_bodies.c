@@ -200,8 +200,10 @@ static bool check_domain(const struct run *r, int k, const double *x, const char
             r->params, f, key, "%s %s %c at (%g, %g, %g) m, %s: %s", r->scene.bodies[k].name,
             d->periodic[a] ? "crosses the periodic side" : "leaves the domain across", "xyz"[a],
             x[0], x[1], x[2], when,
-            d -> periodic[a] ? "a body has no image there; shift the domain, or make it larger"
-                             : "make the domain larger, or the motion smaller");
+            d
+            -> periodic[a]
+                   ? "a body may come up to it, not through it; shift the domain, or make it larger"
+                   : "make the domain larger, or the motion smaller");
         return true;
     }
     return false;
@@ -369,10 +371,10 @@ static bool check_room(const struct run *r, const struct sph_params *used, const
                          : d->periodic[a] ? "crosses the periodic side"
                                           : "leaves the domain across",
                          "xy"[a], l -> x[i][0], l -> x[i][1], when,
-                         !leaves ? "only there it is known; make sph.box larger"
-                         : d->periodic[a]
-                             ? "a body has no image there; shift the domain, or make it larger"
-                             : "make the domain larger, or the motion smaller");
+                         !leaves          ? "only there it is known; make sph.box larger"
+                         : d->periodic[a] ? "a body may come up to it, not through it; shift the "
+                                            "domain, or make it larger"
+                                          : "make the domain larger, or the motion smaller");
             return false;
         }
     return true;

@@ -144,7 +144,7 @@ static double enclosed(const struct sph *s)
         whole *= s->hi[a] - s->lo[a];
     for (int k = 0; k < s->walls->nmeshes; k++) {
         const struct scene_mesh *m = s->walls->meshes[k].of;
-        if (!m)
+        if (!m || s->walls->meshes[k].image)
             continue;
         known = known && m->mesh.closed;
         inside += m->fluid_side == FLUID_INSIDE;

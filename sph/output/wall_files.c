@@ -13,7 +13,7 @@
 
 enum { SURFACES = WALLS_MAX + BODIES_MAX };
 
-static bool is_shown(const struct wall_mesh *m) { return m->of != NULL; }
+static bool is_shown(const struct wall_mesh *m) { return m->of && !m->image; }
 
 /* Vertices where the mesh is now; rank 0 writes them all. */
 static void write_vertices(const struct sph *s, struct h5 *f, const struct wall_mesh *m,

@@ -16,6 +16,14 @@ void forces_clear(struct walls *w)
     w->forces.credited = true;
 }
 
+/* From a body's centre to x, which may lie beside the body's image across a period: the nearer of
+ * both where the body is so small that this tells them apart. */
+static double arm_of(const struct sph *s, const struct body *b, const double *x, int axis)
+{
+    const double d = x[axis] - body_centre(b, axis), L = s->hi[axis] - s->lo[axis];
+    return s->periodic[axis] && b->reach + s->R < 0.5 * L ? d - L * round(d / L) : d;
+}
+
 static void add(const struct sph *s, struct force to[SIDES], int body, const double *x,
                 const double *f)
 {
@@ -23,7 +31,7 @@ static void add(const struct sph *s, struct force to[SIDES], int body, const dou
     double d[3] = {0.0, 0.0, 0.0}, F[3] = {0.0, 0.0, 0.0};
     for (int a = 0; a < s->dim; a++) {
         F[a] = f[a];
-        d[a] = x[a] - (body >= 0 ? body_centre(s->walls->bodies + body, a) : 0.0);
+        d[a] = body >= 0 ? arm_of(s, s->walls->bodies + body, x, a) : x[a];
     }
     for (int a = 0; a < 3; a++) {
         const int b = (a + 1) % 3, c = (a + 2) % 3;

@@ -51,7 +51,7 @@ void wall_mesh_velocity(const struct walls *w, const struct wall_mesh *m, const 
     const struct body_motion *now = &b->now;
     double d[3], v[3], turned[3], inward[3];
     for (int a = 0; a < 3; a++)
-        d[a] = x[a] - b->centre[a] - now->x[a];
+        d[a] = x[a] - m->shift[a] - b->centre[a] - now->x[a];
     vec3_cross(now->omega, d, v);
     vec3_cross(now->domega, d, turned);
     vec3_cross(now->omega, v, inward);
@@ -73,7 +73,7 @@ void wall_meshes_move(struct walls *w)
         memcpy(m->Q, b->now.Q, sizeof m->Q);
         wall_mesh_turn_to_world(m, b->centre, turned);
         for (int a = 0; a < 3; a++)
-            m->X[a] = b->centre[a] + b->now.x[a] - turned[a];
+            m->X[a] = b->centre[a] + b->now.x[a] + m->shift[a] - turned[a];
     }
 }
 
@@ -297,12 +297,35 @@ static void add_lent(struct sph *s, struct walls *w)
     }
 }
 
+/* Bodies stand beyond a periodic side, too, where particles on the other side may meet them; near
+ * the edge of two periods images have images. */
+static void add_images(const struct sph *s, struct walls *w)
+{
+    const double reach = 2.5 * s->R;
+    for (int a = 0; a < 3; a++) {
+        const int n = w->nmeshes;
+        for (int k = 0; k < n && s->periodic[a]; k++)
+            for (int way = -1; way <= 1; way += 2) {
+                const struct wall_mesh *m = w->meshes + k;
+                if (m->body < 0 || !(w->bodies[m->body].moves ||
+                                     (way > 0 ? m->of->lo[a] + m->shift[a] < s->lo[a] + reach
+                                              : m->of->hi[a] + m->shift[a] > s->hi[a] - reach)))
+                    continue;
+                struct wall_mesh copy = *m;
+                copy.image = true;
+                copy.shift[a] = way * (s->hi[a] - s->lo[a]);
+                *add_mesh(w) = copy;
+            }
+    }
+}
+
 void wall_meshes_create(struct sph *s, struct walls *w)
 {
     if (s->dim < 3 || s->prm.walls != WALLS_NFM)
         return;
     add_sides(s, w);
     add_lent(s, w);
+    add_images(s, w);
     for (int k = 0; k < w->nmeshes; k++) { /* trees point at their meshes: the list has its place */
         struct wall_mesh *m = w->meshes + k;
         if (!m->lent)

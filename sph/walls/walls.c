@@ -27,6 +27,7 @@ static void set_frame(struct segment *g)
 static struct segment kind_of(const struct scene_wall *is)
 {
     return (struct segment){.body = -1,
+                            .of = -1,
                             .no_slip = is->kind == WALL_NO_SLIP,
                             .friction = is->friction,
                             .u = {is->velocity[0], is->velocity[1]}};
@@ -53,8 +54,8 @@ static bool goes_beyond(const struct sph *s, int side)
     return s->periodic[side / 2] || (w && w->kind >= WALL_INFLOW);
 }
 
-/* Ends on a side through which fluid goes go on beyond it, as sides do. */
-static void extend(const struct sph *s, double *end, const double *other)
+/* Ends on a side through which fluid goes go on beyond it, as sides do; returns whether. */
+static bool extend(const struct sph *s, double *end, const double *other)
 {
     const double d[2] = {end[0] - other[0], end[1] - other[1]};
     const double length = sqrt(d[0] * d[0] + d[1] * d[1]);
@@ -63,8 +64,9 @@ static void extend(const struct sph *s, double *end, const double *other)
             (goes_beyond(s, 2 * a + 1) && fabs(end[a] - s->hi[a]) < 1e-9 * s->R)) {
             end[0] += 2.5 * s->R * d[0] / length;
             end[1] += 2.5 * s->R * d[1] / length;
-            return;
+            return true;
         }
+    return false;
 }
 
 /* Whether a polyline goes straight on at b, so that how a straight wall is cut changes nothing. */
@@ -78,7 +80,8 @@ static bool goes_on(const double *a, const double *b, const double *c)
 static void add_polyline(struct sph *s, struct walls *w, const struct param_points *p, bool closed,
                          const struct segment *like)
 {
-    const int n = closed ? p->n : p->n - 1;
+    const int n = closed ? p->n : p->n - 1, first = w->nsegments;
+    bool beyond = false;
     double a[2], b[2];
     for (int k = 0; k < n; k++) {
         const double *from = p->x[k], *to = p->x[(k + 1) % p->n], *next = p->x[(k + 2) % p->n];
@@ -88,11 +91,13 @@ static void add_polyline(struct sph *s, struct walls *w, const struct param_poin
         if (k < n - 1 && goes_on(from, to, next))
             continue;
         if (!closed && a[0] == p->x[0][0] && a[1] == p->x[0][1])
-            extend(s, a, p->x[1]);
+            beyond = extend(s, a, p->x[1]) || beyond;
         if (!closed && k == n - 1)
-            extend(s, b, p->x[n - 1]);
+            beyond = extend(s, b, p->x[n - 1]) || beyond;
         add_segment(w, a, b, like);
     }
+    for (int k = first; k < w->nsegments; k++)
+        w->segments[k].beyond = beyond;
 }
 
 /* A side of the domain that the region does not reach is no wall of its particles. */
@@ -131,7 +136,8 @@ static void add_side(struct sph *s, struct walls *w, const struct scene_wall *is
     a[other] -= low_wall || is_corner(s, a) ? 0.0 : 2.5 * s->R;
     b[other] += high_wall || is_corner(s, b) ? 0.0 : 2.5 * s->R;
     const bool forward = (axis == 1) != high; /* fluid on the left: bottom goes along +x */
-    const struct segment like = kind_of(is);
+    struct segment like = kind_of(is);
+    like.beyond = s->periodic[other];
     add_segment(w, forward ? a : b, forward ? b : a, &like);
 }
 
@@ -146,6 +152,16 @@ static void add_plane(const struct sph *s, struct walls *w, const struct scene_w
     memcpy(p.u, is->velocity, sizeof p.u);
     p.u[axis] = 0.0;
     w->planes[w->nplanes++] = p;
+}
+
+/* An image goes where the segment is. */
+static void follow(const struct walls *w, struct segment *image)
+{
+    for (int a = 0; a < 2; a++) {
+        image->a[a] = w->segments[image->of].a[a] + image->shift[a];
+        image->b[a] = w->segments[image->of].b[a] + image->shift[a];
+    }
+    set_frame(image);
 }
 
 void walls_move(struct sph *s, double t)
@@ -165,6 +181,8 @@ void walls_move(struct sph *s, double t)
             set_frame(w->segments + i);
         }
     }
+    for (int i = w->nsegments; i > 0 && w->segments[i - 1].of >= 0; i--)
+        follow(w, w->segments + i - 1);
     wall_meshes_move(w);
     w->placed = true;
 }
@@ -181,7 +199,8 @@ void walls_velocity(const struct walls *w, const struct segment *g, const double
     }
     const struct body *b = w->bodies + g->body;
     const struct body_motion *m = &b->now;
-    const double d[2] = {x[0] - body_centre(b, 0), x[1] - body_centre(b, 1)};
+    const double d[2] = {x[0] - g->shift[0] - body_centre(b, 0),
+                         x[1] - g->shift[1] - body_centre(b, 1)};
     u[0] = m->u[0] - m->spin * d[1];
     u[1] = m->u[1] + m->spin * d[0];
     if (du) {
@@ -452,7 +471,7 @@ static void add_bodies(struct sph *s, struct walls *w)
         }
         w->any_free = w->any_free || b->free;
         b->first = w->nsegments;
-        const struct segment like = {.body = k, .no_slip = b->is->kind == WALL_NO_SLIP};
+        const struct segment like = {.body = k, .of = -1, .no_slip = b->is->kind == WALL_NO_SLIP};
         add_polyline(s, w, &b->is->points, true, &like);
         b->n = w->nsegments - b->first;
     }
@@ -475,6 +494,36 @@ static void find_open_ends(const struct sph *s, struct walls *w)
             g->open[end] = !meets;
             w->any_open = w->any_open || !meets;
         }
+}
+
+/* Whether particles on the other side of the period along an axis may see segment g. */
+static bool needs_image(const struct sph *s, const struct walls *w, const struct segment *g,
+                        int axis, int way)
+{
+    const double reach = 2.5 * s->R;
+    const bool moves = g->body >= 0 && w->bodies[g->body].moves;
+    return !g->beyond && (moves || (way > 0 ? fmin(g->a[axis], g->b[axis]) < s->lo[axis] + reach
+                                            : fmax(g->a[axis], g->b[axis]) > s->hi[axis] - reach));
+}
+
+/* Lines near a periodic side stand beyond the other one, too; near a corner of two periods images
+ * have images. */
+static void add_images(const struct sph *s, struct walls *w)
+{
+    for (int axis = 0; axis < s->dim; axis++) {
+        const int n = w->nsegments;
+        for (int k = 0; k < n && s->periodic[axis]; k++)
+            for (int way = -1; way <= 1; way += 2) {
+                struct segment g = w->segments[k];
+                if (!needs_image(s, w, &g, axis, way))
+                    continue;
+                g.of = g.of < 0 ? k : g.of;
+                g.shift[axis] = way * (s->hi[axis] - s->lo[axis]);
+                g.a[axis] += g.shift[axis];
+                g.b[axis] += g.shift[axis];
+                add_segment(w, g.a, g.b, &g);
+            }
+    }
 }
 
 void walls_expect_speed(struct sph *s)
@@ -517,8 +566,10 @@ struct walls *walls_create(struct sph *s)
     if (s->dim == 2)
         leave_out_covered(s, w);
     add_bodies(s, w);
-    if (s->dim == 2)
+    if (s->dim == 2) {
         find_open_ends(s, w);
+        add_images(s, w);
+    }
     wall_meshes_create(s, w);
     w->start = NEW(struct segment, w->nsegments);
     if (w->nsegments > 0)

@@ -17,6 +17,9 @@ struct segment {
     bool no_slip;
     double friction; /* -: c_f of quadratic bed friction */
     bool open[2];    /* a, b end where no wall goes on: beyond them nothing is behind it */
+    bool beyond;     /* its wall has been prolonged across a periodic side */
+    int of;          /* across a period: the segment that it is the image of; -1: it is itself */
+    double shift[2]; /* m: from that to the image */
 };
 
 /* A plane side of the domain, as mirrored ghosts need it. */
@@ -41,6 +44,8 @@ struct wall_mesh {
     bool thin;            /* fluid on either side does not see that on the other */
     double u[3];          /* m/s: of a wall along itself (bodies: wall_mesh_velocity) */
     double X[3], Q[3][3]; /* m, -: pose now */
+    bool image;           /* of a body across a period, */
+    double shift[3];      /* m: that far from it */
 };
 
 /* One way to make walls act on particles, picked by name. What it does not need is NULL. */
@@ -84,7 +89,7 @@ struct wall_forces {
 
 struct walls {
     int nsegments;
-    struct segment *segments, *start; /* now; at t = 0 */
+    struct segment *segments, *start; /* now; at t = 0; images across periods stand last */
     int nplanes;
     struct wall_plane planes[6];
     int nmeshes; /* 3D */

@@ -54,6 +54,46 @@ holds "$lift > 392.4 * 0.97 && $lift < 392.4 * 1.03" || bad "square over the flo
 holds "($side)^2 < (0.02 * 491)^2" || bad "square beside another: $side N/m to the side"
 holds "$closed < 1e-12" || bad "momentum of fluid, two bodies and walls: $closed"
 
+# A square wherever it stands along a period, at any fraction of dx and 0.1 dx from the periodic side: Archimedes and
+# no force to the side by both rules, nothing put back; and a cube in the corner of two periods, 78.5 N.
+cat >period.cfg <<'EOF'
+format = 1;
+time:    { end = 0.3; };
+fluid:   { rho = 1000.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (1, 0.6); periodic = (true, false); };
+walls:   ( { side = "y_min"; } );
+shapes:  ( { form = "below"; level = 0.5; } );
+bodies:  ( { name = "b"; points = ((LEFT, 0.15), (LEFT, 0.35), (RIGHT, 0.35), (RIGHT, 0.15)); } );
+sph:     { dx = 0.025; };
+output:  { series = 10; snapshots = false; };
+EOF
+stands() { # NAME LIFT ALLOWED_ACROSS
+    up=$(number "$1" "$4") across=$(number "$1" x) mean=$(number "$1" average_x)
+    holds "$up > 0.97 * $2 && $up < 1.03 * $2" || bad "$1: lift of $up instead of $2 N"
+    holds "($across)^2 < $3^2 && ($mean)^2 < $3^2" || bad "$1: $across, on average $mean N to the side"
+    [ "$(number "$1" particles_returned)" = 0 ] || bad "$1: particles put back"
+    holds "$(number "$1" defect) < 1e-12" || bad "$1: momentum off by $(number "$1" defect)"
+}
+for left in 0.0025 0.0125 0.79; do
+    sed "s/LEFT/$left/g; s/RIGHT/$(awk "BEGIN { print $left + 0.2 }")/g" period.cfg >at.cfg
+    run period_$left at.cfg
+    stands period_$left 392.4 9.8 y
+done
+stl "0.025 0.025 0.15" "0.225 0.225 0.35" >corner.stl
+cat >corner.cfg <<'EOF'
+format = 1;
+time:    { end = 0.2; };
+fluid:   { rho = 1000.0; gravity = (0, 0, -9.81); };
+domain:  { dim = 3; min = (0, 0, 0); max = (0.7, 0.7, 0.6); periodic = (true, true, false); };
+walls:   ( { side = "z_min"; } );
+shapes:  ( { form = "below"; level = 0.5; } );
+bodies:  ( { name = "b"; mesh = "corner.stl"; } );
+sph:     { dx = 0.05; };
+output:  { series = 10; snapshots = false; };
+EOF
+run corner corner.cfg
+stands corner 78.48 1.6 z
+
 # Dropped by 0.75 m on a dry floor (a spacing and a half above it): up again to e^2 of that.
 cat >drop.cfg <<'EOF'
 format = 1;
