@@ -16,12 +16,13 @@ void forces_clear(struct walls *w)
     w->forces.credited = true;
 }
 
-/* From a body's centre to x, which may lie beside the body's image across a period: the nearer of
- * both where the body is so small that this tells them apart. */
-static double arm_of(const struct sph *s, const struct body *b, const double *x, int axis)
+/* From a body's centre to x, which may lie beside the body's image across a period: x is taken where
+ * it is nearest to the middle of the body itself. */
+static double arm_of(const struct sph *s, int body, const double *x, int axis)
 {
-    const double d = x[axis] - body_centre(b, axis), L = s->hi[axis] - s->lo[axis];
-    return s->periodic[axis] && b->reach + s->R < 0.5 * L ? d - L * round(d / L) : d;
+    const double middle = s->walls->middle[body][axis], L = s->hi[axis] - s->lo[axis];
+    const double off = s->periodic[axis] ? L * round((x[axis] - middle) / L) : 0.0;
+    return x[axis] - off - body_centre(s->walls->bodies + body, axis);
 }
 
 static void add(const struct sph *s, struct force to[SIDES], int body, const double *x,
@@ -31,7 +32,7 @@ static void add(const struct sph *s, struct force to[SIDES], int body, const dou
     double d[3] = {0.0, 0.0, 0.0}, F[3] = {0.0, 0.0, 0.0};
     for (int a = 0; a < s->dim; a++) {
         F[a] = f[a];
-        d[a] = body >= 0 ? arm_of(s, s->walls->bodies + body, x, a) : x[a];
+        d[a] = body >= 0 ? arm_of(s, body, x, a) : x[a];
     }
     for (int a = 0; a < 3; a++) {
         const int b = (a + 1) % 3, c = (a + 2) % 3;

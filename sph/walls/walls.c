@@ -164,6 +164,27 @@ static void follow(const struct walls *w, struct segment *image)
     set_frame(image);
 }
 
+/* Of the box round each body: its images stand a period from there. */
+static void find_middles(const struct sph *s, struct walls *w)
+{
+    for (int k = 0; k < w->nbodies; k++)
+        for (int a = 0; a < s->dim; a++) {
+            double lo = INFINITY, hi = -INFINITY;
+            const struct body *b = w->bodies + k;
+            for (int i = b->first; s->dim == 2 && i < b->first + b->n; i++) {
+                lo = fmin(lo, w->segments[i].a[a]);
+                hi = fmax(hi, w->segments[i].a[a]);
+            }
+            for (int v = 0; s->dim == 3 && b->mesh && v < b->mesh->nvertices; v++) {
+                double x[3];
+                body_place(b, b->mesh->x[v], x);
+                lo = fmin(lo, x[a]);
+                hi = fmax(hi, x[a]);
+            }
+            w->middle[k][a] = hi >= lo ? 0.5 * (lo + hi) : body_centre(b, a);
+        }
+}
+
 void walls_move(struct sph *s, double t)
 {
     struct walls *w = s->walls;
@@ -184,6 +205,8 @@ void walls_move(struct sph *s, double t)
     for (int i = w->nsegments; i > 0 && w->segments[i - 1].of >= 0; i--)
         follow(w, w->segments + i - 1);
     wall_meshes_move(w);
+    if (s->periodic[0] || s->periodic[1] || s->periodic[2])
+        find_middles(s, w);
     w->placed = true;
 }
 

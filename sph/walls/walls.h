@@ -96,6 +96,7 @@ struct walls {
     struct wall_mesh *meshes;
     int nbodies;
     struct body bodies[BODIES_MAX];
+    double middle[BODIES_MAX][3]; /* m: of each body now, where there are periods */
     bool any_free; /* some body moves by forces */
     bool any_open; /* 2D: some line ends in the open */
     bool lent;     /* the state of free bodies is that of the coarser level's walls */

@@ -78,6 +78,9 @@ for left in 0.0025 0.0125 0.79; do
     sed "s/LEFT/$left/g; s/RIGHT/$(awk "BEGIN { print $left + 0.2 }")/g" period.cfg >at.cfg
     run period_$left at.cfg
     stands period_$left 392.4 9.8 y
+    # the force acts at the middle of the square, not at that of its image
+    arm=$(awk "BEGIN { print $(last period_$left/series.csv 'b moment') / $(last period_$left/series.csv 'b force y') - $left - 0.1 }")
+    holds "$arm < 0.005 && $arm > -0.005" || bad "period_$left: the force acts $arm m beside the middle of the square"
 done
 stl "0.025 0.025 0.15" "0.225 0.225 0.35" >corner.stl
 cat >corner.cfg <<'EOF'
