@@ -16,8 +16,8 @@ void forces_clear(struct walls *w)
     w->forces.credited = true;
 }
 
-/* From a body's centre to x, which may lie beside the body's image across a period: x is taken where
- * it is nearest to the middle of the body itself. */
+/* From a body's centre to x, which may lie beside the body's image across a period: x is taken
+ * where it is nearest to the middle of the body itself. */
 static double arm_of(const struct sph *s, int body, const double *x, int axis)
 {
     const double middle = s->walls->middle[body][axis], L = s->hi[axis] - s->lo[axis];

@@ -97,11 +97,11 @@ struct walls {
     int nbodies;
     struct body bodies[BODIES_MAX];
     double middle[BODIES_MAX][3]; /* m: of each body now, where there are periods */
-    bool any_free; /* some body moves by forces */
-    bool any_open; /* 2D: some line ends in the open */
-    bool lent;     /* the state of free bodies is that of the coarser level's walls */
-    bool placed;   /* all have been moved to their places once */
-    double t;      /* s: of `segments' */
+    bool any_free;                /* some body moves by forces */
+    bool any_open;                /* 2D: some line ends in the open */
+    bool lent;   /* the state of free bodies is that of the coarser level's walls */
+    bool placed; /* all have been moved to their places once */
+    double t;    /* s: of `segments' */
     const struct wall_model *model;
     void *state;  /* of the model */
     bool *beside; /* [n] supports of the locals that meet a wall; NULL: the model does not tell */
