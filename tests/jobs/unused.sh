@@ -81,6 +81,8 @@ walls.friction 0.05
 walls.profile "parabolic"
 walls.pressure 100.0
 walls.carried true
+walls.level 0.3
+walls.discharge 0.02
 walls.mesh "other.stl"
 walls.scale 0.9
 walls.rotate (0,0,20)
