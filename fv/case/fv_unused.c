@@ -337,6 +337,7 @@ static const struct rule rules[] = {
     {"fv.c0",             not_newton,        "it needs fv.integrator = \"newton\"", false},
     {"fv.steady",         not_newton,        "it needs fv.integrator = \"newton\"", false},
     {"fv.hole",           no_hole,           "no cell lies wholly in the box", false},
+    {"fv.volume",         dry,               "without a free surface no cell holds less water than another", false},
     {"fv.upwind",         is_newton,         "newton has fv.flux", false},
     {"fv.extrema",        no_extrema,        "the first of them is 0", false},
     {"fv.force",          no_forces,         "no block has a side that is a \"wall\"", false},

@@ -317,6 +317,31 @@ static bool same(const struct seen *a, const struct seen *b)
     return a->n == b->n && memcmp(a->v, b->v, (size_t)a->n * sizeof(double)) == 0;
 }
 
+/* Bytes of a value of which others are made. */
+static size_t size_of(enum param_type type)
+{
+    switch (type) {
+    case PARAM_BOOL:
+        return sizeof(bool);
+    case PARAM_BOOLS:
+        return 3 * sizeof(bool);
+    case PARAM_INT:
+    case PARAM_CHOICE:
+        return sizeof(int);
+    case PARAM_INTS:
+        return 3 * sizeof(int);
+    case PARAM_REAL:
+        return sizeof(double);
+    case PARAM_REALS:
+    case PARAM_TURN:
+        return 3 * sizeof(double);
+    case PARAM_POINTS:
+        return sizeof(struct param_points);
+    default:
+        return 6 * sizeof(double);
+    }
+}
+
 /* Other values of a row, given the present one at `at'. Returns their number. */
 static int candidates(const struct param *row, const void *at, char value[][200])
 {
@@ -443,7 +468,7 @@ static int try_scene(const char *name, const char *text)
                 params_free(&p);
                 memcpy(values.bytes,
                        (const char *)group.target + group.stride * (size_t)e + row->offset,
-                       row->type == PARAM_POINTS ? sizeof(struct param_points) : 64);
+                       size_of(row->type));
                 bad += try_row(name, text, &plain, group.name, e, row, values.bytes);
             }
     }
