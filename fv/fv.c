@@ -44,13 +44,13 @@ static void describe_rows(const struct run *r)
 
 static void describe(const struct run *r)
 {
-    if (mesh_block_count() > 0) {
-        mesh_describe(r);
+    const struct fv_params *prm = fv_params_of(r);
+    if (prm->blocks.n > 0) {
+        mesh_describe(r, prm);
         return;
     }
-    const struct fv_params *prm = fv_params_of(r);
     const struct scene_domain *d = &r->scene.domain;
-    const bool viscous = r->scene.fluid.nu > 0.0, water = surface_wanted(r),
+    const bool viscous = r->scene.fluid.nu > 0.0, water = prm->water,
                hole = prm->hole[1][0] > prm->hole[0][0] || r->coupled;
     double cells = 1.0, h[3] = {1.0, 1.0, 1.0}, least = INFINITY;
     const bool walls = r->scene.nwalls > 0;
@@ -63,15 +63,15 @@ static void describe(const struct run *r)
         for (int k = 0; k < 2 && !d->periodic[a]; k++)
             closed = closed || !scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + 2 * a + k));
     }
-    const struct step_limit step_most = limits_estimate(r, h);
+    const struct step_limit step_most = limits_estimate(r, prm, h);
     const double dt = fmin(step_most.dt, r->scene.time.end);
-    limits_warn(r, fmax(h[0], fmax(h[1], d->dim > 2 ? h[2] : 0.0)));
+    limits_warn(r, prm, fmax(h[0], fmax(h[1], d->dim > 2 ? h[2] : 0.0)));
     const int fields = 4 + 6 * d->dim + (viscous ? 2 * d->dim : 0) + 4;
     const struct log_use uses[] = {
         {viscous, "implicit viscosity", NULL}, {water, "free surface (level set)", NULL},
-        {walls, "walls and openings", NULL},   {blocked_count() > 0, "blocked boxes", NULL},
+        {walls, "walls and openings", NULL},   {prm->nboxes > 0, "blocked boxes", NULL},
         {hole, "imposed cells", NULL},         {r->coupled, "coupling", NULL}};
-    log_say("%dD, fourth-order averages, %s, %s", d->dim, report_method(r),
+    log_say("%dD, fourth-order averages, %s, %s", d->dim, report_method(prm),
             closed  ? "exact velocity on sides without a wall"
             : walls ? "walls"
                     : "periodic");
@@ -95,9 +95,11 @@ static void describe(const struct run *r)
         forecast_say("fv", d->dim, cells, ceil(r->scene.time.end / dt));
 }
 
+static void draw(const struct run *r, struct picture *p) { fv_draw(r, fv_params_of(r), p); }
+
 static void *create(struct run *r, struct h5 *f)
 {
-    int n = fv_columns(r, columns);
+    int n = fv_columns(r, fv_params_of(r), columns);
     struct fv *s = fv_create(r, f);
     n += s ? watches_columns(s->watches, columns + n) : 0;
     if (r->coupled)
@@ -164,7 +166,7 @@ static struct program fv_program = {.name = "fv",
                                     .other_groups = others,
                                     .check = fv_params_check,
                                     .describe = describe,
-                                    .draw = fv_draw,
+                                    .draw = draw,
                                     .create = create,
                                     .destroy = destroy,
                                     .step = step,

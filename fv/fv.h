@@ -11,6 +11,7 @@
 #include "../common/run/run.h"
 #include "../common/scene/exact.h"
 #include "grid/block.h"
+#include "grid/mesh_blocks.h"
 #include "grid/part.h"
 
 enum { PARTNERS_MAX = PARAM_KIN_MAX };
@@ -31,6 +32,9 @@ enum limit {
     LIMIT_OUTPUT
 };
 
+struct blocked_params; /* boundary/blocked.h */
+
+/* The case as the run uses it: case/ writes it, all else reads it. */
 struct fv_params {
     int cells[3];
     double cfl; /* of the largest sum over the axes of |u_a| dt/h_a; 0: the integrator's own */
@@ -49,6 +53,12 @@ struct fv_params {
     int volume;          /* enum fv_volume: how the surface keeps its water */
     double force[3];  /* N, N, 1/s: known mean along x, amplitude along y, its frequency; 0: none */
     int forced_order; /* in time, of partners' data within a coupling step: 1 linear, 2 quadratic */
+    /* what follows from these and from the scene */
+    bool water;                         /* there is a free surface */
+    bool errors;                        /* those against the exact solution are measured */
+    struct mesh_blocks blocks;          /* n 0: cells */
+    int nboxes;                         /* boxes cut out of cells */
+    const struct blocked_params *boxes; /* borrowed from case/ for the whole run */
 };
 
 struct mesh;     /* blocks; grid/mesh.h */
@@ -175,14 +185,9 @@ static inline const struct part *part_of_place(const struct fv *s, int64_t c, in
                 for (int64_t c = part_at(p_, 0, j_, k_), len = p_->n[0], once_ = 1; once_;         \
                      once_ = 0)
 
-/* fv_params.c */
-enum { FV_GROUPS = 3 };
-extern const struct param_group fv_groups[FV_GROUPS];
-const struct fv_params *fv_params_of(const struct run *r);
-/* Whether errors against the exact solution are measured. */
-bool fv_measures_errors(const struct run *r);
 /* The box of fv.hole, lower and upper corner; NULL: none. */
-const double (*fv_hole(const struct run *r))[2][3];
-/* Whether output.fields has this word. */
-bool fv_field_wanted(const struct run *r, const char *name);
+static inline const double (*fv_hole(const struct fv_params *p))[2][3]
+{
+    return p->hole[1][0] > p->hole[0][0] ? (const double(*)[2][3]) & p->hole : NULL;
+}
 #endif

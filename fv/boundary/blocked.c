@@ -1,6 +1,8 @@
 /* blocked.c - see blocked.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "blocked.h"
 
+#include <math.h>
+
 #include "../../common/base/mem.h"
 
 /* Number of the box in which a cell of the whole grid lies, from 1; 0: none. Behind closed sides as
@@ -30,12 +32,12 @@ int blocked_stack(const struct fv *s, const int *at, int a, int way)
 {
     const struct block *b = &s->b;
     int cells[BLOCKED_MAX][2][3], i[3], n = 0;
-    for (int k = 0; k < blocked_count(); k++)
-        blocked_cells(s->run, k, cells[k][0], cells[k][1]);
+    for (int k = 0; k < s->prm.nboxes; k++)
+        blocked_cells(&s->run->scene.domain, &s->prm, k, cells[k][0], cells[k][1]);
     for (int t = 0; t < 3; t++)
         i[t] = b->lo[t] + at[t];
     for (i[a] += way; i[a] >= 0 && i[a] < b->cells[a]; i[a] += way, n++)
-        if (!box_of(b, (const int(*)[2][3])cells, blocked_count(), i))
+        if (!box_of(b, (const int(*)[2][3])cells, s->prm.nboxes, i))
             break;
     return n;
 }
@@ -44,9 +46,9 @@ static void mark(const struct fv *s, struct blocked *w)
 {
     const struct block *b = &s->b;
     int cells[BLOCKED_MAX][2][3];
-    const int n = blocked_count();
+    const int n = s->prm.nboxes;
     for (int k = 0; k < n; k++)
-        blocked_cells(s->run, k, cells[k][0], cells[k][1]);
+        blocked_cells(&s->run->scene.domain, &s->prm, k, cells[k][0], cells[k][1]);
     w->box = NEW(unsigned char, b->size);
     for (int64_t c = 0; c < b->size; c++) {
         int at[3];
@@ -112,10 +114,25 @@ static void list_beside(const struct block *b, struct blocked *w, int a, int t)
             }
 }
 
+void blocked_cells(const struct scene_domain *d, const struct fv_params *p, int k, int lo[3],
+                   int hi[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const int n = p->cells[a];
+        lo[a] = 0;
+        hi[a] = 1;
+        if (a >= d->dim)
+            continue;
+        const double h = (d->max[a] - d->min[a]) / n;
+        lo[a] = (int)lround(fmin(fmax((p->boxes[k].min[a] - d->min[a]) / h, 0.0), n));
+        hi[a] = (int)lround(fmin(fmax((p->boxes[k].max[a] - d->min[a]) / h, 0.0), n));
+    }
+}
+
 struct blocked *blocked_create(const struct fv *s)
 {
     const struct block *b = &s->b;
-    if (blocked_count() == 0)
+    if (s->prm.nboxes == 0)
         return NULL;
     struct blocked *w = NEW(struct blocked, 1);
     mark(s, w);
@@ -144,11 +161,11 @@ void blocked_free(struct blocked **wp)
     *wp = NULL;
 }
 
-enum blocked_ghost blocked_rule(int box, int q, int a)
+enum blocked_ghost blocked_rule(const struct fv *s, int box, int q, int a)
 {
     if (box < 0 || q < 0)
         return GHOST_EVEN;
-    if (blocked_params(box)->kind == WALL_NO_SLIP)
+    if (s->prm.boxes[box].kind == WALL_NO_SLIP)
         return GHOST_NO_SLIP;
     return q == a ? GHOST_ODD : GHOST_EVEN;
 }

@@ -46,31 +46,16 @@ struct blocked {
     struct beside_box *beside[3][3]; /* faces along a, boxes along t */
 };
 
-/* case/blocked_params.c: the case's boxes, their number, and cells lo <= i < hi of the whole grid,
- * to the nearest faces. */
-int blocked_count(void);
-const struct blocked_params *blocked_params(int k);
-void blocked_cells(const struct run *r, int k, int lo[3], int hi[3]);
-void blocked_check(const struct run *r, struct faults *f);
-/* Says where boxes stand that are not made of whole cells. */
-void blocked_describe(const struct run *r);
-enum { BLOCKED_ROWS = 4 };
-extern const struct param blocked_rows[BLOCKED_ROWS];
-extern struct blocked_params blocked_given[BLOCKED_MAX];
-extern int blocked_given_count;
-#define BLOCKED_GROUP                                                                              \
-    {                                                                                              \
-        "blocked", "Boxes that are cut out of fv.cells: bodies at rest", blocked_rows,             \
-            BLOCKED_ROWS, blocked_given, NULL, sizeof blocked_given[0], BLOCKED_MAX,               \
-            &blocked_given_count                                                                   \
-    }
-
+/* Cells lo <= i < hi of the whole grid that the k-th box of the case takes, to the nearest faces.
+ */
+void blocked_cells(const struct scene_domain *d, const struct fv_params *p, int k, int lo[3],
+                   int hi[3]);
 /* NULL if the case has none. */
 struct blocked *blocked_create(const struct fv *s);
 void blocked_free(struct blocked **w);
 
 /* What stands behind a box's face for component q along axis a (q < 0: of a scalar). */
-enum blocked_ghost blocked_rule(int box, int q, int a);
+enum blocked_ghost blocked_rule(const struct fv *s, int box, int q, int a);
 /* v[-reach .. reach] around the cell along the step d, with ghosts behind boxes. */
 void blocked_line(const struct near_box *x, const double *q, int64_t d, int reach,
                   const enum blocked_ghost rule[2], double *v);

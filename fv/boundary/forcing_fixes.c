@@ -87,8 +87,7 @@ static struct beside beside(const struct fv *s, const struct forcing *f, int64_t
     at[a] += 2 * way;
     if (f->forced[box] == 3)
         return (struct beside){
-            blocked_params(s->blocked->box[box] - 1)->kind == WALL_SLIP ? MESH_SLIP : MESH_WALL,
-            0.0};
+            s->prm.boxes[s->blocked->box[box] - 1].kind == WALL_SLIP ? MESH_SLIP : MESH_WALL, 0.0};
     if (f->forced[c + way * b->stride[a]] == 1)
         return (struct beside){MESH_NONE, 0.0};
     const enum mesh_side kind = bc_behind(s, at, a);

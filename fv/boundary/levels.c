@@ -17,7 +17,7 @@
 
 void levels_create(struct fv *s)
 {
-    if (fv_params_of(s->run)->integrator != INTEGRATOR_NEWTON)
+    if (s->prm.integrator != INTEGRATOR_NEWTON)
         s->levels = NEW(struct levels, 1);
 }
 

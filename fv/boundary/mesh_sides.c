@@ -90,7 +90,7 @@ static void add_side(struct fv *s, struct mesh_bc *bc, const struct part *p, int
         return;
     struct side *d = bc->side + bc->n++;
     *d = (struct side){.p = p, .a = a, .k = k, .kind = b->side[k], .moves = b->motion};
-    d->body = b->wall[k] ? d->kind == MESH_WALL : mesh_side_is_body(s->run, p->block, k);
+    d->body = b->wall[k] ? d->kind == MESH_WALL : mesh_side_is_body(s->run, b->prm, k);
     for (int t = 0, n = 0; t < 3; t++)
         if (t != a) {
             d->t[n] = t;

@@ -1,6 +1,6 @@
 /* blocked_params.c - the list blocked: boxes that are cut out of the grid, and what is wrong with
  * them. SPDX-License-Identifier: BSD-3-Clause */
-#include "../boundary/blocked.h"
+#include "fv_case.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -26,28 +26,10 @@ const struct param blocked_rows[BLOCKED_ROWS] = {
 struct blocked_params blocked_given[BLOCKED_MAX];
 int blocked_given_count;
 
-int blocked_count(void) { return blocked_given_count; }
-const struct blocked_params *blocked_params(int k) { return blocked_given + k; }
-
 static double spacing(const struct run *r, int a)
 {
     const struct scene_domain *d = &r->scene.domain;
     return (d->max[a] - d->min[a]) / fv_params_of(r)->cells[a];
-}
-
-void blocked_cells(const struct run *r, int k, int lo[3], int hi[3])
-{
-    const struct scene_domain *d = &r->scene.domain;
-    const struct blocked_params *p = blocked_given + k;
-    for (int a = 0; a < 3; a++) {
-        const int n = fv_params_of(r)->cells[a];
-        lo[a] = 0;
-        hi[a] = 1;
-        if (a >= d->dim)
-            continue;
-        lo[a] = (int)lround(fmin(fmax((p->min[a] - d->min[a]) / spacing(r, a), 0.0), n));
-        hi[a] = (int)lround(fmin(fmax((p->max[a] - d->min[a]) / spacing(r, a), 0.0), n));
-    }
 }
 
 static void fault(const struct run *r, struct faults *f, int k, const char *key, const char *fmt,
@@ -71,7 +53,7 @@ void blocked_describe(const struct run *r)
         int lo[3], hi[3];
         char text[200] = "";
         double off = 0.0;
-        blocked_cells(r, k, lo, hi);
+        blocked_cells(&r->scene.domain, fv_params_of(r), k, lo, hi);
         for (int a = 0; a < d->dim; a++) {
             const double h = spacing(r, a), x = d->min[a] + lo[a] * h, y = d->min[a] + hi[a] * h;
             off = fmax(off, fabs(fmax(blocked_given[k].min[a], d->min[a]) - x) / h);
@@ -119,7 +101,7 @@ static struct coarse make_coarse(const struct run *r)
         add_edge(&g, a, a < r->scene.domain.dim ? fv_params_of(r)->cells[a] : 1);
     }
     for (int k = 0; k < blocked_given_count; k++) {
-        blocked_cells(r, k, lo[k], hi[k]);
+        blocked_cells(&r->scene.domain, fv_params_of(r), k, lo[k], hi[k]);
         for (int a = 0; a < 3; a++) {
             add_edge(&g, a, lo[k][a]);
             add_edge(&g, a, hi[k][a]);
@@ -249,7 +231,7 @@ static bool check_box(const struct run *r, int k, struct faults *f)
     const struct blocked_params *p = blocked_given + k;
     const int before = f->n;
     int lo[3], hi[3];
-    blocked_cells(r, k, lo, hi);
+    blocked_cells(&r->scene.domain, fv_params_of(r), k, lo, hi);
     for (int a = 0; a < d->dim; a++)
         if (!(p->max[a] > d->min[a] && p->min[a] < d->max[a]))
             fault(r, f, k, "min", "it lies outside the domain along %c", "xyz"[a]);
@@ -285,7 +267,7 @@ static void check_mode(const struct run *r, struct faults *f)
 {
     const struct fv_params *prm = fv_params_of(r);
     const int field = r->scene.initial.field;
-    if (mesh_block_count() > 0)
+    if (mesh_given_count > 0)
         params_fault(r->params, f, "blocked",
                      "not with blocks: leave them out there, and give their sides kinds");
     if (r->coupled)

@@ -3,12 +3,22 @@
 #ifndef FV_CASE_H
 #define FV_CASE_H
 
+#include "../boundary/blocked.h"
 #include "../fv.h"
 
 /* fv_params.c */
+enum { FV_GROUPS = 3 };
+extern const struct param_group fv_groups[FV_GROUPS];
+/* The case's parameters with what follows from them; they last as long as the program. case/ and
+ * the main program alone ask for them, all others get them. */
+const struct fv_params *fv_params_of(const struct run *r);
+/* Whether the scene has a free surface that fv computes. */
+bool surface_wanted(const struct run *r);
 void fv_params_check(const struct run *r, struct faults *f);
 
-/* fv_unused.c: faults of keys that this run does not use. */
+/* fv_unused.c: whether errors against the exact solution are measured. */
+bool fv_measures_errors(const struct run *r);
+/* Faults of keys that this run does not use. */
 void fv_unused_check(const struct run *r, struct faults *f);
 /* fv_scene.c: faults of a scene on a grid of cells that contradicts itself. */
 void fv_scene_check(const struct run *r, struct faults *f);
@@ -16,6 +26,30 @@ void fv_scene_check(const struct run *r, struct faults *f);
 void surface_check(const struct run *r, struct faults *f);
 /* hanging_water.c: of water that would hang from the side of the domain above it. */
 void surface_check_hanging(const struct run *r, struct faults *f);
+
+/* mesh_params.c */
+enum { MESH_ROWS = 25 };
+extern const struct param mesh_rows_of[MESH_ROWS];
+extern struct mesh_block_params mesh_given[MESH_BLOCKS_MAX]; /* what the case has */
+extern int mesh_given_count;
+/* A ring between two walls that the case calls Couette flow: its steady flow is known. */
+bool mesh_ring(const struct run *r);
+/* Faults of the group blocks; makes and frees the mesh. */
+void mesh_check(const struct run *r, struct faults *f);
+/* mesh_scene.c: faults of a scene on blocks that contradicts itself. */
+void mesh_scene_check(const struct run *r, struct faults *f, const struct mesh *m);
+/* Faults of blocks that move within the run: out of the domain, cells without donors; the mesh ends
+ * where they end. */
+void mesh_motion_sweep(const struct run *r, struct faults *f, struct mesh *m);
+
+/* blocked_params.c */
+enum { BLOCKED_ROWS = 4 };
+extern const struct param blocked_rows[BLOCKED_ROWS];
+extern struct blocked_params blocked_given[BLOCKED_MAX];
+extern int blocked_given_count;
+void blocked_check(const struct run *r, struct faults *f);
+/* Says where boxes stand that are not made of whole cells. */
+void blocked_describe(const struct run *r);
 
 /* fv_state.c, mesh_state.c */
 struct fv *fv_create(struct run *r, struct h5 *f);

@@ -38,15 +38,33 @@ static const struct param rows[] = {
 /* clang-format on */
 #undef P
 
-const struct param_group fv_groups[FV_GROUPS] = {{"fv", "The finite-volume solver", rows,
-                                                  (int)(sizeof rows / sizeof *rows), &given, NULL,
-                                                  0, 0, NULL},
-                                                 MESH_GROUP,
-                                                 BLOCKED_GROUP};
+const struct param_group fv_groups[FV_GROUPS] = {
+    {"fv", "The finite-volume solver", rows, (int)(sizeof rows / sizeof *rows), &given, NULL, 0, 0,
+     NULL},
+    {"blocks",
+     "Structured blocks instead of fv.cells, joined or overlapping; later ones cover earlier ones",
+     mesh_rows_of, MESH_ROWS, mesh_given, NULL, sizeof mesh_given[0], MESH_BLOCKS_MAX,
+     &mesh_given_count},
+    {"blocked", "Boxes that are cut out of fv.cells: bodies at rest", blocked_rows, BLOCKED_ROWS,
+     blocked_given, NULL, sizeof blocked_given[0], BLOCKED_MAX, &blocked_given_count}};
+
+bool surface_wanted(const struct run *r)
+{
+    const struct scene *c = &r->scene;
+    if (given.surface != SURFACE_AUTO)
+        return given.surface == SURFACE_YES;
+    return r->crossed || (!r->coupled && (c->nshapes > 0 || scene_has_wave(c)));
+}
 
 const struct fv_params *fv_params_of(const struct run *r)
 {
-    (void)r;
+    given.water = surface_wanted(r);
+    given.errors = fv_measures_errors(r);
+    for (int k = 0; k < mesh_given_count; k++)
+        mesh_given[k].number = k;
+    given.blocks = (struct mesh_blocks){mesh_given_count, mesh_given};
+    given.nboxes = blocked_given_count;
+    given.boxes = blocked_given;
     return &given;
 }
 
@@ -105,7 +123,7 @@ static void check_extrema(const struct run *r, struct faults *f)
     if (e[1] == 0.0 || e[2] == 0.0)
         params_fault(r->params, f, "fv.extrema",
                      "error.extrema is relative to each of them: none may be 0");
-    for (int a = 0; a < 2 && mesh_block_count() == 0; a++)
+    for (int a = 0; a < 2 && mesh_given_count == 0; a++)
         if (given.cells[a] < 8)
             params_fault(r->params, f, "fv.extrema", "at least 8 cells along %c are needed",
                          "xy"[a]);
@@ -113,21 +131,22 @@ static void check_extrema(const struct run *r, struct faults *f)
 
 void fv_params_check(const struct run *r, struct faults *f)
 {
+    const struct fv_params *prm = fv_params_of(r);
     const bool exact = exact_at_all_times(&r->scene);
     const int field = r->scene.initial.field;
     fv_unused_check(r, f);
     if (r->scene.initial.U == 0.0 &&
-        (fv_measures_errors(r) || field == FIELD_TAYLOR_GREEN || field == FIELD_TWO_MODES ||
+        (prm->errors || field == FIELD_TAYLOR_GREEN || field == FIELD_TWO_MODES ||
          field == FIELD_BELTRAMI || field == FIELD_COUETTE))
         params_fault(r->params, f, "initial.U",
                      "0: the field would be none, and errors are relative to it");
     check_extrema(r, f);
     blocked_check(r, f);
-    if (mesh_block_count() > 0) {
+    if (mesh_given_count > 0) {
         mesh_check(r, f);
         return;
     }
-    limits_check(r, f);
+    limits_check(r, prm, f);
     if (given.upwind < 0.0 && given.upwind != -1.0)
         params_fault(r->params, f, "fv.upwind", "%g: 0 or more, or -1 for what suits the scene",
                      given.upwind);
@@ -146,10 +165,4 @@ void fv_params_check(const struct run *r, struct faults *f)
                 "only an uncoupled run with an exact solution (initial.field) can fill fv.hole");
     }
     fv_scene_check(r, f);
-}
-
-const double (*fv_hole(const struct run *r))[2][3]
-{
-    const struct fv_params *prm = fv_params_of(r);
-    return prm->hole[1][0] > prm->hole[0][0] ? (const double(*)[2][3]) & prm->hole : NULL;
 }

@@ -247,9 +247,9 @@ static void check_aspect(const struct run *r, struct faults *f)
 /* The exact velocity is that of a flow without a surface. */
 static void check_block_sides(const struct run *r, struct faults *f)
 {
-    for (int k = 0; k < mesh_block_count(); k++)
-        if (mesh_block_has(k, MESH_EXACT))
-            mesh_fault(r, f, k, "name",
+    for (int k = 0; k < mesh_given_count; k++)
+        if (mesh_block_has(mesh_given + k, MESH_EXACT))
+            mesh_fault(r, f, mesh_given + k, "name",
                        "with a free surface its sides are walls, openings, joined, periodic or "
                        "overlap: no field is known beside it");
 }
@@ -261,7 +261,7 @@ static void check_grains(const struct run *r, struct faults *f)
     const struct fv_params *prm = fv_params_of(r);
     double first[3], h[3];
     int n[3] = {1, 1, 1};
-    if (mesh_block_count() > 0 || prm->graded[1] > 0.0)
+    if (mesh_given_count > 0 || prm->graded[1] > 0.0)
         return;
     for (int a = 0; a < s->domain.dim; a++) {
         n[a] = prm->cells[a];
@@ -307,7 +307,7 @@ void surface_check(const struct run *r, struct faults *f)
     if (s->nshapes == 0 && !scene_has_wave(s))
         params_fault(r->params, f, "fv.surface",
                      "where is the water? shapes say it, or a wave (initial.field)");
-    if (mesh_block_count() == 0)
+    if (mesh_given_count == 0)
         check_aspect(r, f);
     if (prm->steady)
         params_fault(r->params, f, "fv.steady",
@@ -318,13 +318,13 @@ void surface_check(const struct run *r, struct faults *f)
                      "before");
     for (int k = 0; k < s->nwalls; k++)
         check_water_opening(r, f, k);
-    if (mesh_block_count() > 0)
+    if (mesh_given_count > 0)
         check_block_sides(r, f);
     check_shores(r, f);
     if (prm->hole[1][0] > prm->hole[0][0])
         params_fault(r->params, f, "fv.hole", "not with a free surface");
     for (int a = 0; a < s->domain.dim; a++)
-        for (int up = 0; up < 2 && !s->domain.periodic[a] && mesh_block_count() == 0; up++)
+        for (int up = 0; up < 2 && !s->domain.periodic[a] && mesh_given_count == 0; up++)
             if (!wall_on(s, a, up))
                 params_fault(r->params, f, "walls",
                              "a free surface needs all sides that are not "
@@ -350,7 +350,7 @@ void surface_check(const struct run *r, struct faults *f)
 static void check_stream(const struct run *r, struct faults *f)
 {
     const struct scene *s = &r->scene;
-    if (surface_wanted(r) || r->coupled || mesh_block_count() > 0)
+    if (surface_wanted(r) || r->coupled || mesh_given_count > 0)
         return;
     for (int a = 0; a < s->domain.dim; a++) {
         const struct scene_wall *low = wall_on(s, a, 0), *high = wall_on(s, a, 1);

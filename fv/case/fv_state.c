@@ -249,7 +249,7 @@ static double cells_a_side(const struct fv *s)
 struct fv *fv_create(struct run *r, struct h5 *f)
 {
     struct fv *s = NEW(struct fv, 1);
-    const bool blocks = mesh_block_count() > 0;
+    const bool blocks = mesh_given_count > 0;
     HYPRE_Init();
     s->run = r;
     s->prm = *fv_params_of(r);

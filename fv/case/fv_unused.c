@@ -11,6 +11,7 @@
 #include "../boundary/blocked.h"
 #include "../grid/mesh.h"
 #include "../grid/rows.h"
+#include "../output/output.h"
 #include "../surface/levelset.h"
 #include "fv_case.h"
 
@@ -27,7 +28,7 @@ struct rule {
 /* --- what the run is --- */
 
 static bool always(const struct run *r, int k) { return (void)r, (void)k, true; }
-static bool blocks(const struct run *r, int k) { return (void)r, (void)k, mesh_block_count() > 0; }
+static bool blocks(const struct run *r, int k) { return (void)r, (void)k, mesh_given_count > 0; }
 static bool alone(const struct run *r, int k) { return (void)k, !r->coupled; }
 static bool planar(const struct run *r, int k) { return (void)k, r->scene.domain.dim < 3; }
 static bool inviscid(const struct run *r, int k) { return (void)k, !(r->scene.fluid.nu > 0.0); }
@@ -54,15 +55,15 @@ static bool gravity_drives(const struct run *r)
 static bool some_block_has(enum mesh_side kind)
 {
     bool any = false; /* of its own: walls of the scene are looked at apart */
-    for (int k = 0; k < mesh_block_count(); k++)
-        any = any || mesh_block_has(k, kind);
+    for (int k = 0; k < mesh_given_count; k++)
+        any = any || mesh_block_has(mesh_given + k, kind);
     return any;
 }
 
 bool fv_measures_errors(const struct run *r)
 {
-    if (mesh_block_count() == 0)
-        return exact_at_all_times(&r->scene) && !surface_wanted(r) && blocked_count() == 0;
+    if (mesh_given_count == 0)
+        return exact_at_all_times(&r->scene) && !surface_wanted(r) && blocked_given_count == 0;
     if (mesh_ring(r))
         return true;
     return exact_at_all_times(&r->scene) && r->scene.nwalls == 0 && !some_block_has(MESH_WALL) &&
@@ -77,7 +78,7 @@ static bool pressure_unseen(const struct run *r)
     const struct scene *s = &r->scene;
     const bool pictures =
         s->output.snapshots || params_on_command_line(r->params, "output.snapshots");
-    bool walls = some_block_has(MESH_WALL) || blocked_count() > 0;
+    bool walls = some_block_has(MESH_WALL) || blocked_given_count > 0;
     for (int k = 0; k < s->nwalls; k++)
         walls = walls || s->walls[k].kind == WALL_SLIP || s->walls[k].kind == WALL_NO_SLIP;
     return !walls && s->nprobes == 0 && !(pictures && fv_field_wanted(r, "pressure"));
@@ -129,9 +130,9 @@ static bool nothing_carried(const struct run *r, int k)
 {
     const int f = r->scene.initial.field;
     bool inflow = false;
-    for (int b = 0; b < mesh_block_count(); b++)
-        inflow =
-            inflow || (mesh_block_has(b, MESH_INFLOW) && !is_set(mesh_block_params()[b].velocity));
+    for (int b = 0; b < mesh_given_count; b++)
+        inflow = inflow ||
+                 (mesh_block_has(mesh_given + b, MESH_INFLOW) && !is_set(mesh_given[b].velocity));
     return (void)k, !inflow && (f == FIELD_REST || (f >= FIELD_POISEUILLE && f != FIELD_BELTRAMI));
 }
 
@@ -215,7 +216,7 @@ static bool no_forces(const struct run *r, int k)
     return !any;
 }
 
-static const struct mesh_block_params *block(int k) { return mesh_block_params() + k; }
+static const struct mesh_block_params *block(int k) { return mesh_given + k; }
 static bool plane_ring(const struct run *r, int k)
 {
     return block(k)->mapping == MAPPING_ANNULUS && planar(r, k);
@@ -270,12 +271,13 @@ static bool turned(int k)
 }
 static bool no_centre(const struct run *r, int k)
 {
-    const bool walls = mesh_block_has(k, MESH_WALL) || turned(k);
+    const bool walls = mesh_block_has(mesh_given + k, MESH_WALL) || turned(k);
     return is_file(r, k) ? !walls : block(k)->angle == 0.0 && no_ring(r, k) && !walls;
 }
 static bool no_moving_side(const struct run *r, int k)
 {
-    return (void)r, !mesh_block_has(k, MESH_WALL) && !mesh_block_has(k, MESH_INFLOW);
+    return (void)r, !mesh_block_has(mesh_given + k, MESH_WALL) &&
+                        !mesh_block_has(mesh_given + k, MESH_INFLOW);
 }
 static bool no_spin(const struct run *r, int k)
 {
@@ -377,7 +379,7 @@ static int length_of(const struct run *r, const char *key)
     } lists[] = {{"walls.", s->nwalls},
                  {"shapes.", s->nshapes},
                  {"probes.", s->nprobes},
-                 {"blocks.", mesh_block_count()}};
+                 {"blocks.", mesh_given_count}};
     for (size_t k = 0; k < sizeof lists / sizeof lists[0]; k++)
         if (strncmp(key, lists[k].name, strlen(lists[k].name)) == 0)
             return lists[k].n;
@@ -495,21 +497,11 @@ static void check_fields(const struct run *r, struct faults *f)
     }
     if (!fv_field_wanted(r, "vorticity_exact"))
         return;
-    if (mesh_block_count() > 0)
+    if (mesh_given_count > 0)
         params_fault(r->params, f, "output.fields", "vorticity_exact: not with blocks");
     else if (!exact_at_all_times(&r->scene))
         params_fault(r->params, f, "output.fields",
                      "vorticity_exact: no exact solution of this scene is known at all times");
-}
-
-bool fv_field_wanted(const struct run *r, const char *name)
-{
-    const size_t n = strlen(name);
-    const char *all = r->scene.output.fields;
-    for (const char *c = all; (c = strstr(c, name)); c += n)
-        if ((c == all || strchr(" ,", c[-1])) && (!c[n] || strchr(" ,", c[n])))
-            return true;
-    return false;
 }
 
 void fv_unused_check(const struct run *r, struct faults *f)

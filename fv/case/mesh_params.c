@@ -9,7 +9,6 @@
 #include "fv_case.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -49,61 +48,12 @@ const struct param mesh_rows_of[MESH_ROWS] = {
 struct mesh_block_params mesh_given[MESH_BLOCKS_MAX];
 int mesh_given_count;
 
-int mesh_block_count(void) { return mesh_given_count; }
-const struct mesh_block_params *mesh_block_params(void) { return mesh_given; }
-
-void mesh_fault(const struct run *r, struct faults *f, int block, const char *key, const char *fmt,
-                ...)
-{
-    char text[900], path[64];
-    va_list args;
-    va_start(args, fmt);
-    vsnprintf(text, sizeof text, fmt, args);
-    va_end(args);
-    snprintf(path, sizeof path, "blocks.[%d].%s", block, key);
-    params_fault(r->params, f, path, "block \"%s\": %s", mesh_given[block].name, text);
-}
-
 bool mesh_ring(const struct run *r)
 {
     const struct mesh_block_params *b = mesh_given;
     return r->scene.initial.field == FIELD_COUETTE && mesh_given_count == 1 &&
            b->mapping == MAPPING_ANNULUS && b->i_min == MESH_WALL && b->i_max == MESH_WALL &&
            b->j_min == MESH_JOINED && b->j_max == MESH_JOINED;
-}
-
-bool mesh_block_has(int block, enum mesh_side kind)
-{
-    const struct mesh_block_params *b = mesh_given + block;
-    const int side[6] = {b->i_min, b->i_max, b->j_min, b->j_max, b->k_min, b->k_max};
-    bool any = false;
-    for (int q = 0; q < 6; q++)
-        any = any || side[q] == (int)kind;
-    return any;
-}
-
-bool mesh_side_is_body(const struct run *r, int block, int side)
-{
-    const struct mesh_block_params *b = mesh_given + block;
-    const int kinds[6] = {b->i_min, b->i_max, b->j_min, b->j_max, b->k_min, b->k_max};
-    const int a = side / 2;
-    const double *end = side % 2 ? r->scene.domain.max : r->scene.domain.min,
-                 *own = side % 2 ? b->max : b->min;
-    const bool upright =
-        (b->mapping == MAPPING_BOX || b->mapping == MAPPING_STRETCHED) && b->angle == 0.0;
-    const double L = r->scene.domain.max[a] - r->scene.domain.min[a];
-    if (kinds[side] == MESH_SLIP)
-        return (!upright && !(b->mapping == MAPPING_ANNULUS && a == 2)) ||
-               fabs(own[a] - end[a]) > 1e-9 * L;
-    return kinds[side] == MESH_WALL;
-}
-
-bool mesh_block_is_body(const struct run *r, int block)
-{
-    bool any = false;
-    for (int side = 0; side < 2 * r->scene.domain.dim; side++)
-        any = any || mesh_side_is_body(r, block, side);
-    return any;
 }
 
 /* A lid is a wall that moves. */
@@ -115,9 +65,10 @@ static void check_lid(const struct run *r, struct faults *f, int k)
     if (b->lid == 0)
         return;
     if (a >= r->scene.domain.dim || kind[side] != MESH_WALL)
-        mesh_fault(r, f, k, "lid", "this side is no wall");
+        mesh_fault(r, f, mesh_given + k, "lid", "this side is no wall");
     else if (b->velocity[0] == 0.0 && b->velocity[1] == 0.0 && b->velocity[2] == 0.0)
-        mesh_fault(r, f, k, "velocity", "the velocity of the moving wall (lid) is missing");
+        mesh_fault(r, f, mesh_given + k, "velocity",
+                   "the velocity of the moving wall (lid) is missing");
 }
 
 /* Kinds of sides that the dimension has. */
@@ -127,29 +78,31 @@ static void check_block(const struct run *r, struct faults *f, int k)
     const int dim = r->scene.domain.dim;
     for (int a = 0; a < dim && b->mapping != MAPPING_FILE; a++)
         if (b->cells[a] < 6)
-            mesh_fault(r, f, k, "cells", "%d cells along %c: at least 6 are needed", b->cells[a],
-                       "ijk"[a]);
+            mesh_fault(r, f, mesh_given + k, "cells", "%d cells along %c: at least 6 are needed",
+                       b->cells[a], "ijk"[a]);
     for (int a = 0; a < dim; a++)
         if (b->mapping != MAPPING_FILE && (b->mapping != MAPPING_ANNULUS || a == 2) &&
             !(b->max[a] > b->min[a]))
-            mesh_fault(r, f, k, "max", "max of %c must lie above min", "xyz"[a]);
+            mesh_fault(r, f, mesh_given + k, "max", "max of %c must lie above min", "xyz"[a]);
     if (b->mapping == MAPPING_ANNULUS && !(b->radius[1] > b->radius[0] && b->radius[0] > 0.0))
-        mesh_fault(r, f, k, "radius", "expected 0 < inner < outer");
+        mesh_fault(r, f, mesh_given + k, "radius", "expected 0 < inner < outer");
     if (b->mapping == MAPPING_ANNULUS && !(b->arc[1] > b->arc[0]))
-        mesh_fault(r, f, k, "arc", "expected first < last");
+        mesh_fault(r, f, mesh_given + k, "arc", "expected first < last");
     if (b->mapping == MAPPING_ANNULUS && fabs(b->arc[1] - b->arc[0] - 360.0) < 1e-9 &&
         (b->j_min == MESH_OVERLAP || b->j_max == MESH_OVERLAP))
-        mesh_fault(r, f, k, "j_min",
+        mesh_fault(r, f, mesh_given + k, "j_min",
                    "the ends of a full ring lie on each other: j_min and j_max = \"joined\"");
     bool stretched = false;
     for (int a = 0; a < dim; a++)
         stretched = stretched || b->stretch[a] != 0.0;
     if (b->mapping == MAPPING_STRETCHED && !stretched)
-        mesh_fault(r, f, k, "mapping", "\"stretched\" without a stretch is a \"box\"");
+        mesh_fault(r, f, mesh_given + k, "mapping", "\"stretched\" without a stretch is a \"box\"");
     if (b->mapping == MAPPING_SHEARED && b->shear == 0.0 && b->wave == 0.0)
-        mesh_fault(r, f, k, "mapping", "\"sheared\" without a shear or a wave is a \"box\"");
+        mesh_fault(r, f, mesh_given + k, "mapping",
+                   "\"sheared\" without a shear or a wave is a \"box\"");
     if (b->mapping == MAPPING_FILE && !*b->file)
-        mesh_fault(r, f, k, "file", "the name of the file with the vertices is missing");
+        mesh_fault(r, f, mesh_given + k, "file",
+                   "the name of the file with the vertices is missing");
     check_lid(r, f, k);
 }
 
@@ -189,20 +142,20 @@ static void check_taken(const struct run *r, struct faults *f, const struct mesh
 
 static void check_hole(const struct run *r, struct faults *f)
 {
-    if (!fv_hole(r))
+    if (!fv_hole(fv_params_of(r)))
         return;
     if (!fv_measures_errors(r) || (mesh_ring(r) && !fv_params_of(r)->steady))
         params_fault(r->params, f, "fv.hole",
                      "only a run with an exact solution (initial.field) can fill fv.hole");
-    if (mesh_motion_any())
+    if (mesh_blocks_move(&fv_params_of(r)->blocks))
         params_fault(r->params, f, "fv.hole", "not with blocks that move");
 }
 
 static void check_coupled(const struct run *r, struct faults *f)
 {
-    if (mesh_motion_any())
+    if (mesh_blocks_move(&fv_params_of(r)->blocks))
         params_fault(r->params, f, "blocks.motion", "blocks cannot move in a coupled job");
-    if (fv_hole(r))
+    if (fv_hole(fv_params_of(r)))
         params_fault(
             r->params, f, "fv.hole",
             "only an uncoupled run with an exact solution (initial.field) can fill fv.hole");
@@ -214,12 +167,12 @@ void mesh_check(const struct run *r, struct faults *f)
     const int before = f->n;
     if (r->coupled)
         check_coupled(r, f);
-    limits_check(r, f);
+    limits_check(r, prm, f);
     surface_check(r, f);
     if (prm->graded[1] > 0.0)
         params_fault(r->params, f, "fv.graded", "not with blocks: they have mappings of their own");
     check_hole(r, f);
-    if (mesh_motion_any() && prm->steady)
+    if (mesh_blocks_move(&fv_params_of(r)->blocks) && prm->steady)
         params_fault(r->params, f, "fv.steady", "blocks that move have no steady state");
     for (int k = 0; k < mesh_given_count; k++)
         scene_check_motion(&mesh_given[k].motion, "blocks", k, r->params, f);
@@ -232,7 +185,7 @@ void mesh_check(const struct run *r, struct faults *f)
         check_block(r, f, k);
     if (f->n > before)
         return;
-    struct mesh *m = mesh_create(r, fv_hole(r) != NULL, fv_hole(r), f);
+    struct mesh *m = mesh_create(r, &prm->blocks, fv_hole(prm) != NULL, fv_hole(prm), f);
     if (m) {
         check_taken(r, f, m);
         if (m->has_given && m->given_cells == 0)

@@ -11,6 +11,7 @@
 #include "../grid/overset.h"
 #include "../output/output.h"
 #include "../surface/levelset.h"
+#include "fv_case.h"
 
 static const char *const sides[] = {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};
 
@@ -117,20 +118,20 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
             if (!t.any)
                 continue;
             if (kind == MESH_WALL && t.worst > 0.01)
-                mesh_fault(r, f, k, sides[side],
+                mesh_fault(r, f, m->block[k].prm, sides[side],
                            "the wall would pump fluid through itself: it moves along itself alone, "
                            "and its velocity has a part of %.0f %% across; name the moving wall by "
                            "lid, or make an \"inflow\"",
                            100.0 * t.worst);
             if (kind == MESH_WALL && !(r->scene.fluid.nu > 0.0))
-                mesh_fault(r, f, k, sides[side],
+                mesh_fault(r, f, m->block[k].prm, sides[side],
                            "without viscosity (fluid.nu) a wall exerts no friction: \"slip\", or a "
                            "viscosity");
             if (kind == MESH_INFLOW && !(t.most > 0.0))
-                mesh_fault(r, f, k, sides[side],
+                mesh_fault(r, f, m->block[k].prm, sides[side],
                            "an inflow without a velocity across it: nothing flows in");
             if (kind == MESH_OUTFLOW && t.slant > 1e-6 && surface_wanted(r))
-                mesh_fault(r, f, k, sides[side],
+                mesh_fault(r, f, m->block[k].prm, sides[side],
                            "water would fall out of it: with a free surface an outflow stands "
                            "upright");
             if (kind == MESH_OUTFLOW) {
@@ -188,8 +189,8 @@ static void check_extent(const struct run *r, struct faults *f, const struct mes
     for (int k = 0; k < m->nblocks; k++) {
         double at[3] = {0.0, 0.0, 0.0};
         if (beyond_domain(r, m, m->block + k, at) > 1e-6)
-            mesh_fault(r, f, k, "name", "it reaches out of the domain, to (%g, %g, %g) m", at[0],
-                       at[1], at[2]);
+            mesh_fault(r, f, m->block[k].prm, "name",
+                       "it reaches out of the domain, to (%g, %g, %g) m", at[0], at[1], at[2]);
     }
 }
 
@@ -205,7 +206,7 @@ static bool sound_at(const struct run *r, struct faults *f, struct mesh *m, doub
     for (int k = 0; k < m->nblocks; k++) {
         double at[3] = {0.0, 0.0, 0.0};
         if (m->block[k].motion && beyond_domain(r, m, m->block + k, at) > 1e-6) {
-            mesh_fault(r, f, m->block[k].motion->block, "motion",
+            mesh_fault(r, f, m->block[m->block[k].motion->block].prm, "motion",
                        "at t = %g s it reaches out of the domain, to (%g, %g, %g) m: a smaller "
                        "motion, or a larger domain and background",
                        t, at[0], at[1], at[2]);
@@ -217,7 +218,7 @@ static bool sound_at(const struct run *r, struct faults *f, struct mesh *m, doub
     overset_cut(m, m->search);
     if (overset_sound(m, m->search, &o))
         return true;
-    mesh_fault(r, f, o.block, "name",
+    mesh_fault(r, f, m->block[o.block].prm, "name",
                "at t = %g s its cell (%d, %d, %d) at (%g, %g, %g) m has no donors: no other block "
                "has computed cells around it. A smaller motion, a background that reaches further, "
                "or 8 cells or more beyond the walls of the block that moves",

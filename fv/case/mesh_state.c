@@ -137,8 +137,9 @@ void mesh_state_create(struct fv *s)
     double box[PARTNERS_MAX][2][3];
     if (r->coupled)
         coupling_boxes(s, box);
-    s->m = r->coupled ? mesh_take(r, s->npartners, (const double(*)[2][3])box, &faults)
-                      : mesh_take(r, fv_hole(r) != NULL, fv_hole(r), &faults);
+    s->m = r->coupled
+               ? mesh_take(r, &s->prm.blocks, s->npartners, (const double(*)[2][3])box, &faults)
+               : mesh_take(r, &s->prm.blocks, fv_hole(&s->prm) != NULL, fv_hole(&s->prm), &faults);
     if (!s->m && r->coupled)
         coupling_refuse(s, faults.text);
     if (!s->m)

@@ -11,23 +11,15 @@
 #include <stdint.h>
 
 #include "../../common/run/run.h"
-#include "../../common/scene/scene_body.h"
+#include "mesh_blocks.h"
 #include "part.h"
 #include "side_kinds.h"
 
 enum {
-    MESH_BLOCKS_MAX = 16,
     MESH_BOXES_MAX = 8,   /* of imposed cells */
     MESH_GHOSTS = 3,      /* layers of cells */
     MESH_VERTICES = 5,    /* layers of vertices behind the sides */
     MESH_GIVEN_LAYERS = 4 /* of imposed cells that get values */
-};
-enum mesh_mapping {
-    MAPPING_BOX,
-    MAPPING_STRETCHED,
-    MAPPING_ANNULUS,
-    MAPPING_SHEARED,
-    MAPPING_FILE
 };
 enum mesh_status { CELL_COMPUTED, CELL_FRINGE, CELL_HOLE, CELL_GIVEN };
 
@@ -37,28 +29,6 @@ struct mesh_boxes {
     double box[MESH_BOXES_MAX][2][3];
     double period[3]; /* m: of the domain, 0: none */
     int layers;       /* of imposed cells that get values */
-};
-
-struct mesh_block_params {
-    char name[PARAM_TEXT_SIZE];
-    int mapping;
-    int cells[3];
-    double min[3], max[3]; /* m: of a box before its rotation; z of an annulus */
-    double centre[3];      /* m: of rotation, of an annulus, of the walls' spin */
-    double angle;          /* degrees about z */
-    double focus[3];       /* m: where stretched cells are finest */
-    double stretch[3];     /* strength; 0: uniform; < 0: finer towards both ends */
-    double radius[3];      /* m: inner, outer */
-    double arc[3];         /* degrees: first, last */
-    double shear;          /* dx/dy */
-    double wave;           /* displacement over the sides' lengths */
-    char file[PARAM_TEXT_SIZE];
-    int zone;                                     /* block of a file, from 1 */
-    int i_min, i_max, j_min, j_max, k_min, k_max; /* enum mesh_side */
-    double velocity[3];                           /* m/s: of walls along themselves, of an inflow */
-    int lid;        /* 0: all walls have the velocity; else the side that alone has it, from 1 */
-    double spin[3]; /* rad/s: of the walls i_min, i_max about the centre */
-    struct scene_motions motion; /* of the whole block, see mesh_motion.h */
 };
 
 /* Doubled indices X (vertex i: 2 i, cell i: 2 i + 1) behind a joined side are the neighbour's
@@ -158,41 +128,10 @@ static inline int64_t mesh_count(const struct mesh_block *b)
     return (int64_t)b->n[0] * b->n[1] * b->n[2];
 }
 
-/* mesh_params.c */
-enum { MESH_ROWS = 25 };
-extern const struct param mesh_rows_of[MESH_ROWS];
-extern struct mesh_block_params mesh_given[MESH_BLOCKS_MAX]; /* what the case has */
-extern int mesh_given_count;
-#define MESH_GROUP                                                                                 \
-    {                                                                                              \
-        "blocks",                                                                                  \
-            "Structured blocks instead of fv.cells, joined or overlapping; later ones cover "      \
-            "earlier ones",                                                                        \
-            mesh_rows_of, MESH_ROWS, mesh_given, NULL, sizeof mesh_given[0], MESH_BLOCKS_MAX,      \
-            &mesh_given_count                                                                      \
-    }
-int mesh_block_count(void);
-const struct mesh_block_params *mesh_block_params(void);
-/* A ring between two walls that the case calls Couette flow: its steady flow is known. */
-bool mesh_ring(const struct run *r);
-/* Whether one of the block's sides is of this kind. */
-bool mesh_block_has(int block, enum mesh_side kind);
-/* Whether forces on a side count: of no-slip walls, and of slip ones within the domain. */
-bool mesh_side_is_body(const struct run *r, int block, int side);
-bool mesh_block_is_body(const struct run *r, int block);
+/* mesh_walls.c */
 /* Velocity that a wall or an inflow of a block has at x, m/s. */
 void mesh_side_velocity(const struct run *r, const struct mesh_block *b, int side, const double *x,
                         double *w);
-/* mesh_scene.c: faults of a scene on blocks that contradicts itself. */
-void mesh_scene_check(const struct run *r, struct faults *f, const struct mesh *m);
-/* Faults of blocks that move within the run: out of the domain, cells without donors; the mesh ends
- * where they end. */
-void mesh_motion_sweep(const struct run *r, struct faults *f, struct mesh *m);
-/* Faults of the group blocks; makes and frees the mesh. */
-void mesh_check(const struct run *r, struct faults *f);
-void mesh_fault(const struct run *r, struct faults *f, int block, const char *key, const char *fmt,
-                ...) __attribute__((format(printf, 5, 6)));
-
 /* mesh_given.c: status of the cells in m->given; what lies deep in it becomes a hole; no psi passes
  * the faces of imposed cells. */
 void mesh_given_mark(struct mesh *m);
@@ -212,13 +151,16 @@ void mesh_recut(struct mesh *m, const double (*box)[2][3]);
 enum { MESH_SOURCES = 12 };
 int mesh_given_sources(const struct mesh *m, const struct part *p, int64_t c, int (*offset)[3]);
 
-/* mesh_create.c: NULL if there are faults. Cells within the n boxes (lo, hi) are given.
+/* mesh_create.c: the mesh of these blocks (borrowed, they must outlive it); NULL if there are
+ * faults. Cells within the n boxes (lo, hi) are given.
  * Collective. */
-struct mesh *mesh_create(const struct run *r, int n, const double (*box)[2][3], struct faults *f);
+struct mesh *mesh_create(const struct run *r, const struct mesh_blocks *of, int n,
+                         const double (*box)[2][3], struct faults *f);
 void mesh_free(struct mesh **m);
 /* That which was left for the same case and boxes, else a new one; leaves one to who takes it next.
  */
-struct mesh *mesh_take(const struct run *r, int n, const double (*box)[2][3], struct faults *f);
+struct mesh *mesh_take(const struct run *r, const struct mesh_blocks *of, int n,
+                       const double (*box)[2][3], struct faults *f);
 void mesh_leave(struct mesh **m);
 double *mesh_field(const struct mesh *m);
 /* What the local cells are, from what the blocks' are. */
@@ -230,7 +172,7 @@ int64_t mesh_row(const struct mesh *m, int block, const int *cell);
 void mesh_rows(const struct mesh *m, int rank, int64_t *first, int64_t *n);
 
 /* mesh_map.c: vertices of a block with all layers behind sides; false: a fault was added. */
-bool mesh_map_vertices(const struct run *r, struct faults *f, int block, struct mesh_block *b);
+bool mesh_map_vertices(const struct run *r, struct faults *f, struct mesh_block *b);
 /* Place and derivatives dx[a][c] = d x_c / d xi_a at xi (0 to 1) of a cell, also behind sides. */
 void mesh_map_point(const struct mesh_block *b, int dim, const int *cell, const double *xi,
                     double *x, double dx[3][3]);

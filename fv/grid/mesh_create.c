@@ -60,7 +60,7 @@ static bool set_cells(const struct run *r, struct faults *f, struct mesh *m, int
     if (bad == 0)
         return true;
     const double *x = b->centre[mesh_cell(b, first)];
-    mesh_fault(r, f, k, b->prm->mapping == MAPPING_FILE ? "file" : "mapping",
+    mesh_fault(r, f, b->prm, b->prm->mapping == MAPPING_FILE ? "file" : "mapping",
                "%lld of its %lld cells are inside out, the first (%d, %d, %d) at (%g, %g, %g) m, "
                "least determinant %g: i, j, k must make a right-handed system, cells must not fold",
                (long long)bad, (long long)n, first[0], first[1], first[2], x[0], x[1], x[2], worst);
@@ -193,15 +193,16 @@ static void set_boxes(const struct run *r, struct mesh *m, int n, const double (
         m->given.period[a] = d->periodic[a] ? d->max[a] - d->min[a] : 0.0;
 }
 
-struct mesh *mesh_create(const struct run *r, int n, const double (*box)[2][3], struct faults *f)
+struct mesh *mesh_create(const struct run *r, const struct mesh_blocks *of, int n,
+                         const double (*box)[2][3], struct faults *f)
 {
     struct mesh *m = NEW(struct mesh, 1);
-    const struct mesh_block_params *prm = mesh_block_params();
+    const struct mesh_block_params *prm = of->of;
     bool good = true;
     m->comm = r->comm;
     m->prm_of = r->params;
     m->dim = r->scene.domain.dim;
-    m->nblocks = mesh_block_count();
+    m->nblocks = of->n;
     set_boxes(r, m, n, box);
     MPI_Comm_rank(m->comm, &m->rank);
     MPI_Comm_size(m->comm, &m->size);
@@ -212,7 +213,7 @@ struct mesh *mesh_create(const struct run *r, int n, const double (*box)[2][3], 
         b->prm = prm + k;
         for (int s = 0; s < 6; s++)
             b->side[s] = (enum mesh_side)sides[s];
-        good = mesh_map_vertices(r, f, k, b) && good;
+        good = mesh_map_vertices(r, f, b) && good;
     }
     if (good)
         mesh_take_walls(r, m);
@@ -281,14 +282,15 @@ static bool same_boxes(const struct mesh *m, int n, const double (*box)[2][3])
     return m->given.n == n && (n == 0 || memcmp(m->given.box, box, (size_t)n * sizeof *box) == 0);
 }
 
-struct mesh *mesh_take(const struct run *r, int n, const double (*box)[2][3], struct faults *f)
+struct mesh *mesh_take(const struct run *r, const struct mesh_blocks *of, int n,
+                       const double (*box)[2][3], struct faults *f)
 {
     struct mesh *m = checked;
     checked = NULL;
     if (m && m->comm == r->comm && m->prm_of == r->params && !m->moves && same_boxes(m, n, box))
         return m;
     mesh_free(&m);
-    return mesh_create(r, n, box, f);
+    return mesh_create(r, of, n, box, f);
 }
 
 void mesh_leave(struct mesh **m)

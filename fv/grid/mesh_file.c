@@ -200,8 +200,8 @@ static double *read_plot3d(const char *path, int zone, int dim, int *cells)
     return x;
 }
 
-double *mesh_file_read(const struct run *r, struct faults *f, int block,
-                       const struct mesh_block_params *p, int *cells)
+double *mesh_file_read(const struct run *r, struct faults *f, const struct mesh_block_params *p,
+                       int *cells)
 {
     const int dim = r->scene.domain.dim;
     char path[1400];
@@ -218,11 +218,11 @@ double *mesh_file_read(const struct run *r, struct faults *f, int block,
     MPI_Bcast(&good, 1, MPI_INT, 0, r->comm);
     MPI_Bcast(cells, 3, MPI_INT, 0, r->comm);
     if (good < 0) {
-        mesh_fault(r, f, block, "file", "%s cannot be read: %s", path, strerror(-good));
+        mesh_fault(r, f, p, "file", "%s cannot be read: %s", path, strerror(-good));
         return NULL;
     }
     if (!good) {
-        mesh_fault(r, f, block, "file",
+        mesh_fault(r, f, p, "file",
                    "%s holds no vertices of %dD blocks (HDF5: dataset x[k][j][i][%d]; else Plot3D "
                    "with a zone %d)",
                    path, dim, dim, p->zone);
@@ -232,7 +232,7 @@ double *mesh_file_read(const struct run *r, struct faults *f, int block,
     for (int a = 0; a < dim; a++) {
         n *= cells[a] + 1;
         if (cells[a] < 6) {
-            mesh_fault(r, f, block, "file", "%d cells along %c: at least 6 are needed", cells[a],
+            mesh_fault(r, f, p, "file", "%d cells along %c: at least 6 are needed", cells[a],
                        "ijk"[a]);
             mem_free(x);
             return NULL;

@@ -7,7 +7,7 @@
 
 /* x[k][j][i][dim] and the numbers of cells; NULL: a fault was added. Owned by the caller. Rank 0
  * reads; collective. */
-double *mesh_file_read(const struct run *r, struct faults *f, int block,
-                       const struct mesh_block_params *p, int *cells);
+double *mesh_file_read(const struct run *r, struct faults *f, const struct mesh_block_params *p,
+                       int *cells);
 
 #endif

@@ -176,7 +176,7 @@ bool mesh_join_blocks(const struct run *r, struct faults *f, struct mesh *m)
             if (!is_joined(m->block + k, s) || find_join(r, m, k, s))
                 continue;
             all = false;
-            mesh_fault(r, f, k, sides[s],
+            mesh_fault(r, f, m->block[k].prm, sides[s],
                        m->block[k].side[s] == MESH_JOINED
                            ? "no other joined side meets this one vertex by vertex: make the "
                              "corners and numbers of cells equal, or let it overlap"

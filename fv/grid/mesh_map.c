@@ -82,14 +82,14 @@ static void extend(struct mesh_block *b, int dim)
     }
 }
 
-bool mesh_map_vertices(const struct run *r, struct faults *f, int block, struct mesh_block *b)
+bool mesh_map_vertices(const struct run *r, struct faults *f, struct mesh_block *b)
 {
     const struct mesh_block_params *p = b->prm;
     const int dim = r->scene.domain.dim;
     double *vertices = NULL;
     for (int a = 0; a < 3; a++)
         b->n[a] = a < dim ? p->cells[a] : 1;
-    if (p->mapping == MAPPING_FILE && !(vertices = mesh_file_read(r, f, block, p, b->n)))
+    if (p->mapping == MAPPING_FILE && !(vertices = mesh_file_read(r, f, p, b->n)))
         return false;
     for (int a = 0; a < 3; a++) {
         b->v0[a] = a < dim ? -MESH_VERTICES : 0;

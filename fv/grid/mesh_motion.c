@@ -7,16 +7,6 @@
 #include "../../common/base/mem.h"
 #include "../../common/geometry/body_math.h"
 
-bool mesh_motion_told(int block) { return mesh_block_params()[block].motion.n > 0; }
-
-bool mesh_motion_any(void)
-{
-    bool any = false;
-    for (int k = 0; k < mesh_block_count(); k++)
-        any = any || mesh_motion_told(k);
-    return any;
-}
-
 void mesh_motion_made(const struct mesh_block *b, const double *x, double *to)
 {
     struct mesh_motion *v = b->motion;
@@ -164,7 +154,7 @@ static struct mesh_motion *create_one(const struct run *r, struct faults *f, str
     for (int i = 0; i < v->drive.nterms; i++) {
         char text[1400];
         if (body_term_fault(&v->drive, i, r->motions, text, sizeof text))
-            mesh_fault(r, f, k, "motion", "term %d: %s", i + 1, text);
+            mesh_fault(r, f, m->block[k].prm, "motion", "term %d: %s", i + 1, text);
     }
     v->turns = f->n == before && ever_turns(&v->drive);
     m->moves = true;
@@ -183,7 +173,7 @@ static bool spread(const struct run *r, struct faults *f, struct mesh *m)
                 if (to < 0 || m->block[to].motion == m->block[k].motion)
                     continue;
                 if (m->block[to].motion) {
-                    mesh_fault(r, f, to, "motion",
+                    mesh_fault(r, f, m->block[to].prm, "motion",
                                "it is joined to block \"%s\", which has a motion, too: one of "
                                "them has it, the other moves with it",
                                m->block[k].prm->name);
@@ -207,11 +197,11 @@ static bool check_sides(const struct run *r, struct faults *f, const struct mesh
     for (int s = 0; s < 2 * m->dim; s++)
         if (b->wall[s] || b->side[s] == MESH_PERIODIC || b->side[s] == MESH_INFLOW ||
             b->side[s] == MESH_OUTFLOW || b->side[s] == MESH_EXACT)
-            mesh_fault(r, f, k, names[s],
+            mesh_fault(r, f, m->block[k].prm, names[s],
                        "a side of a block that moves is \"wall\", \"slip\", \"joined\" or "
                        "\"overlap\", within the domain");
     if (slides)
-        mesh_fault(r, f, k, "velocity",
+        mesh_fault(r, f, m->block[k].prm, "velocity",
                    "walls of a block that moves have its velocity; turn them by spin");
     return f->n == before;
 }
@@ -222,7 +212,7 @@ bool mesh_motion_create(const struct run *r, struct faults *f, struct mesh *m, d
     for (int k = 0; k < m->nblocks; k++)
         m->block[k].made = m->block + k;
     for (int k = 0; k < m->nblocks; k++)
-        if (mesh_motion_told(k))
+        if (m->block[k].prm->motion.n > 0)
             m->block[k].motion = create_one(r, f, m, k);
     if (!m->moves)
         return true;

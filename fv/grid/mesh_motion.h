@@ -20,9 +20,6 @@ struct mesh_motion {
     bool turns;       /* ever */
 };
 
-/* Whether a block of the case has a motion of its own; whether any has. */
-bool mesh_motion_told(int block);
-bool mesh_motion_any(void);
 /* Motions of the blocks that have one and of those joined to them; false: faults were added. The
  * blocks are placed at time t. */
 bool mesh_motion_create(const struct run *r, struct faults *f, struct mesh *m, double t);

@@ -127,7 +127,7 @@ static bool find_donors(const struct run *r, struct faults *f, struct mesh *m, s
         mesh_index(b, first, i);
         const double *x = b->centre[first];
         mesh_fault(
-            r, f, k, "name",
+            r, f, b->prm, "name",
             "%lld orphan cells, the first (%d, %d, %d) at (%g, %g, %g) m: no other block has "
             "computed cells around it. Let the blocks overlap by at least 8 cells, or give "
             "its sides a kind",

@@ -6,10 +6,11 @@
 #include "../boundary/forcing.h"
 #include "../surface/levelset.h"
 
-static void rules(const struct near_box *x, int q, int a, enum blocked_ghost rule[2])
+static void rules(const struct fv *s, const struct near_box *x, int q, int a,
+                  enum blocked_ghost rule[2])
 {
     for (int up = 0; up < 2; up++)
-        rule[up] = blocked_rule(x->box[up], q, a);
+        rule[up] = blocked_rule(s, x->box[up], q, a);
 }
 
 /* On the lower face of v[0]; with the bias of convection.c. */
@@ -37,7 +38,7 @@ void blocked_faces(const struct fv *s, int q, int a, const double *u, const doub
         const int64_t c = x->cell;
         enum blocked_ghost rule[2];
         double v[5];
-        rules(x, q, a, rule);
+        rules(s, x, q, a, rule);
         if (x->free[0] == 0)
             face[c] = wall_value(u + c, d, rule[0]);
         else if (x->free[0] < 2 || x->free[1] < 1) {
@@ -61,7 +62,7 @@ void blocked_face_velocities(const struct fv *s, double *const u[3], double *con
             const int64_t c = x->cell;
             enum blocked_ghost rule[2];
             double v[5];
-            rules(x, a, a, rule);
+            rules(s, x, a, a, rule);
             if (x->free[0] == 0)
                 U[a][c] = 0.0;
             else if ((x->free[0] < 2 || x->free[1] < 1) && (!layer || (layer[c] && layer[c - d]))) {
@@ -95,7 +96,8 @@ void blocked_fluxes(const struct fv *s, int q, int a, const double *U, const dou
         for (int64_t k = 0; k < w->nbeside[a][t]; k++) {
             const struct beside_box *x = w->beside[a][t] + k;
             F[x->face] +=
-                product(x, U, face, blocked_rule(x->box, a, t), blocked_rule(x->box, q, t)) / 48.0;
+                product(x, U, face, blocked_rule(s, x->box, a, t), blocked_rule(s, x->box, q, t)) /
+                48.0;
         }
     for (int64_t k = 0; k < w->nnear[a]; k++) {
         const struct near_box *x = w->near[a] + k;
@@ -119,7 +121,7 @@ void blocked_viscous(const struct fv *s, int q, const double *u, double *out)
             double v[5];
             if (!x->own || (x->free[0] > 1 && x->free[1] > 1))
                 continue;
-            rules(x, q, a, rule);
+            rules(s, x, q, a, rule);
             blocked_line(x, u, d, 2, rule, v + 2);
             out[x->cell] += c * (16.0 * ((v[1] - at[-d]) + (v[3] - at[d])) -
                                  ((v[0] - at[-2 * d]) + (v[4] - at[2 * d])));
@@ -157,7 +159,7 @@ void blocked_set_slip(const struct fv *s, double tau, const double *psi)
             for (int up = 0; up < 2 && w->near[a][k].own; up++) {
                 const struct near_box *x = w->near[a] + k;
                 const int64_t in = up ? -s->b.stride[a] : s->b.stride[a];
-                if (x->free[up] > 1 || blocked_params(x->box[up])->kind != WALL_NO_SLIP)
+                if (x->free[up] > 1 || s->prm.boxes[x->box[up]].kind != WALL_NO_SLIP)
                     continue;
                 const int64_t c = x->cell + (x->free[up] ? -in : 0); /* the one at the face */
                 for (int q = 0; q < s->b.dim; q++) {

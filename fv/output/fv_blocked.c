@@ -8,13 +8,13 @@
 #include <stdio.h>
 #include <string.h>
 
-int fv_blocked_columns(const struct run *r, const char **columns)
+int fv_blocked_columns(const struct run *r, const struct fv_params *prm, const char **columns)
 {
     static char names[BLOCKED_MAX][3][PARAM_TEXT_SIZE + 16];
     int n = 0;
-    for (int k = 0; k < blocked_count(); k++)
+    for (int k = 0; k < prm->nboxes; k++)
         for (int a = 0; a < r->scene.domain.dim; a++) {
-            snprintf(names[k][a], sizeof names[k][a], "%s force %c [N]", blocked_params(k)->name,
+            snprintf(names[k][a], sizeof names[k][a], "%s force %c [N]", prm->boxes[k].name,
                      "xyz"[a]);
             columns[n++] = names[k][a];
         }
@@ -46,9 +46,9 @@ static void add_face(const struct fv *s, const struct near_box *x, int a, int up
     block_centre(b, at[0], at[1], at[2], place);
     place[a] += 0.5 * out * h;
     force[a] += out * area *
-                (fv_wall_pressure(p, blocked_params(x->box[up])->kind == WALL_SLIP) +
+                (fv_wall_pressure(p, s->prm.boxes[x->box[up]].kind == WALL_SLIP) +
                  fv_still_pressure(s, place));
-    for (int q = 0; q < b->dim && blocked_params(x->box[up])->kind == WALL_NO_SLIP; q++) {
+    for (int q = 0; q < b->dim && s->prm.boxes[x->box[up]].kind == WALL_NO_SLIP; q++) {
         const double *u = s->u[q] + c;
         force[q] += area * s->run->scene.fluid.rho * s->nu / (12.0 * h) *
                     (15.0 * (u[0] - blocked_ghost(u, in, 1, GHOST_NO_SLIP)) -
@@ -71,7 +71,7 @@ void fv_blocked_forces(const struct fv *s, double *values)
                 if (w->near[a][k].own && w->near[a][k].free[up] == 0)
                     add_face(s, w->near[a] + k, a, up, force[w->near[a][k].box[up]]);
     MPI_Allreduce(MPI_IN_PLACE, force, 3 * BLOCKED_MAX, MPI_DOUBLE, MPI_SUM, s->b.cart);
-    for (int k = 0; k < blocked_count(); k++)
+    for (int k = 0; k < s->prm.nboxes; k++)
         memcpy(values + k * dim, force[k], (size_t)dim * sizeof(double));
 }
 
@@ -82,9 +82,9 @@ void fv_summarise_blocked(const struct fv *s)
     if (!s->blocked)
         return;
     fv_blocked_forces(s, values);
-    for (int k = 0; k < blocked_count(); k++)
+    for (int k = 0; k < s->prm.nboxes; k++)
         for (int a = 0; a < s->b.dim; a++) {
-            snprintf(key, sizeof key, "force.%s.%c", blocked_params(k)->name, "xyz"[a]);
+            snprintf(key, sizeof key, "force.%s.%c", s->prm.boxes[k].name, "xyz"[a]);
             summary_real(s->run->summary, key, values[k * s->b.dim + a]);
         }
 }

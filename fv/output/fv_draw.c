@@ -44,14 +44,14 @@ static void draw_side(const struct mesh_block *b, int up, int side, struct pictu
     mem_free(line);
 }
 
-static void draw_blocks(const struct run *r, struct picture *p)
+static void draw_blocks(const struct run *r, const struct fv_params *prm, struct picture *p)
 {
     struct run alone = *r; /* rank 0 draws */
     struct faults f = {0};
     alone.comm = MPI_COMM_SELF;
     alone.rank = 0;
     alone.size = 1;
-    struct mesh *m = mesh_create(&alone, fv_hole(r) != NULL, fv_hole(r), &f);
+    struct mesh *m = mesh_create(&alone, &prm->blocks, fv_hole(prm) != NULL, fv_hole(prm), &f);
     for (int k = 0; m && k < m->nblocks; k++) {
         const struct mesh_block *b = m->block + k;
         const int up = m->dim == 3 ? 2 : 1;
@@ -63,18 +63,17 @@ static void draw_blocks(const struct run *r, struct picture *p)
     mesh_free(&m);
 }
 
-void fv_draw(const struct run *r, struct picture *p)
+void fv_draw(const struct run *r, const struct fv_params *prm, struct picture *p)
 {
-    const struct fv_params *prm = fv_params_of(r);
     const struct scene_domain *d = &r->scene.domain;
-    if (fv_hole(r))
+    if (fv_hole(prm))
         picture_box(p, PICTURE_CELLS, prm->hole[0], prm->hole[1], "fv.hole");
-    if (mesh_block_count() > 0) {
-        draw_blocks(r, p);
+    if (prm->blocks.n > 0) {
+        draw_blocks(r, prm, p);
         return;
     }
-    for (int k = 0; k < blocked_count(); k++) {
-        const struct blocked_params *box = blocked_params(k);
+    for (int k = 0; k < prm->nboxes; k++) {
+        const struct blocked_params *box = prm->boxes + k;
         picture_box(p, box->kind == WALL_SLIP ? PICTURE_SLIP : PICTURE_NO_SLIP, box->min, box->max,
                     box->name);
     }

@@ -176,20 +176,20 @@ static double cells_of(const struct fv *s)
     return cells;
 }
 
-static int force_columns(const struct run *r, const char **columns)
+static int force_columns(const struct run *r, const struct fv_params *prm, const char **columns)
 {
     static const char *const names[] = {"force x [N]", "force y [N]", "force z [N]"};
-    const bool any = r->scene.nwalls > 0 || blocked_count() > 0;
+    const bool any = r->scene.nwalls > 0 || prm->nboxes > 0;
     int n = 0;
     for (int a = 0; any && a < r->scene.domain.dim; a++)
         columns[n++] = names[a];
-    return n + fv_blocked_columns(r, columns + n);
+    return n + fv_blocked_columns(r, prm, columns + n);
 }
 
 /* On all walls and boxes, then on each box. */
 static int forces(struct fv *s, double *values)
 {
-    const int boxes = s->blocked ? blocked_count() : 0, n = s->bc || boxes > 0 ? s->dim : 0;
+    const int boxes = s->blocked ? s->prm.nboxes : 0, n = s->bc || boxes > 0 ? s->dim : 0;
     double force[3] = {0.0, 0.0, 0.0};
     if (s->bc)
         fv_wall_force(s, force);

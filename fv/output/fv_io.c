@@ -16,6 +16,16 @@
 #include "../operators/mesh_ops.h"
 #include "../surface/levelset.h"
 
+bool fv_field_wanted(const struct run *r, const char *name)
+{
+    const size_t n = strlen(name);
+    const char *all = r->scene.output.fields;
+    for (const char *c = all; (c = strstr(c, name)); c += n)
+        if ((c == all || strchr(" ,", c[-1])) && (!c[n] || strchr(" ,", c[n])))
+            return true;
+    return false;
+}
+
 /* Mean place of a cell, over its volume. */
 static void centroid(const struct fv *s, const struct part *p, const int *i, double *mean)
 {

@@ -64,7 +64,7 @@ static void leave_box(const struct fv *s, const double *x, int *host)
     int axis = 0, way = 1;
     for (int a = 0; a < s->b.dim && box >= 0; a++)
         for (int up = 0; up < 2; up++) {
-            const double *face = up ? blocked_params(box)->max : blocked_params(box)->min;
+            const double *face = up ? s->prm.boxes[box].max : s->prm.boxes[box].min;
             int to[3] = {host[0], host[1], host[2]};
             to[a] += up ? 1 : -1;
             if (is_solid(s, to) || !(fabs(face[a] - x[a]) < nearest))

@@ -18,11 +18,10 @@ static const struct report *report_of(const struct fv *s)
     return s->m ? &block_report : &even_report;
 }
 
-const char *report_method(const struct run *r)
+const char *report_method(const struct fv_params *prm)
 {
     static const char *const integrators[] = {"rk3, three projections a step",
                                               "bdf2, one projection a step", "newton, all at once"};
-    const struct fv_params *prm = fv_params_of(r);
     return prm->steady ? "newton, to a steady state" : integrators[prm->integrator];
 }
 
@@ -71,20 +70,20 @@ static void summarise_errors(struct fv *s)
 
 /* Kinetic energy, largest speed, divergence, the error if there is an exact field, forces on walls;
  * what newton and a free surface add; gauges. */
-int fv_columns(const struct run *r, const char **columns)
+int fv_columns(const struct run *r, const struct fv_params *prm, const char **columns)
 {
     static const char *const reaches[] = {"water up to x [m]", "water up to y [m]",
                                           "water up to z [m]"};
-    const struct report *of = mesh_block_count() > 0 ? &block_report : &even_report;
+    const struct report *of = prm->blocks.n > 0 ? &block_report : &even_report;
     int n = 0;
     columns[n++] = "kinetic energy [J]";
     columns[n++] = "largest velocity [m/s]";
     columns[n++] = "divergence [1/s]";
-    if (fv_measures_errors(r))
+    if (prm->errors)
         columns[n++] = "error velocity l2 [-]";
-    n += of->force_columns(r, columns + n);
-    n += newton_columns(r, columns + n);
-    if (surface_wanted(r)) {
+    n += of->force_columns(r, prm, columns + n);
+    n += newton_columns(prm, columns + n);
+    if (prm->water) {
         columns[n++] = "volume [m^dim]";
         for (int a = 0; a < r->scene.domain.dim; a++)
             columns[n++] = reaches[a];

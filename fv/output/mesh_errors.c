@@ -105,29 +105,21 @@ double mesh_value_at(const struct fv *s, const struct overset *o, const double *
     return value;
 }
 
-static bool has_closed_side(const struct mesh_block_params *b)
-{
-    const int kinds[6] = {b->i_min, b->i_max, b->j_min, b->j_max, b->k_min, b->k_max};
-    bool any = false;
-    for (int q = 0; q < 6; q++)
-        any = any || kinds[q] == MESH_WALL || kinds[q] == MESH_SLIP;
-    return any;
-}
-
 /* Whether the forces on a block's own body have columns of their own: where other sides are closed,
  * too, so that the sum is not this body's. */
-static bool has_own_forces(const struct run *r, int k)
+static bool has_own_forces(const struct run *r, const struct fv_params *prm, int k)
 {
     int n = 0;
     for (int w = 0; w < r->scene.nwalls; w++)
         n += r->scene.walls[w].kind == WALL_NO_SLIP || r->scene.walls[w].kind == WALL_SLIP;
-    for (int b = 0; b < mesh_block_count(); b++)
-        n += has_closed_side(mesh_block_params() + b);
-    return n > 1 && mesh_block_is_body(r, k);
+    for (int b = 0; b < prm->blocks.n; b++)
+        n += mesh_block_has(prm->blocks.of + b, MESH_WALL) ||
+             mesh_block_has(prm->blocks.of + b, MESH_SLIP);
+    return n > 1 && mesh_block_is_body(r, prm->blocks.of + k);
 }
 
 /* Places of blocks that move: x y [z] of the centre, the angle or the rotation vector. */
-static int motion_columns(const struct run *r, const char **columns)
+static int motion_columns(const struct run *r, const struct fv_params *prm, const char **columns)
 {
     static const char *const axes[2][6] = {
         {"x [m]", "y [m]", "angle [rad]"},
@@ -135,9 +127,9 @@ static int motion_columns(const struct run *r, const char **columns)
     static char own[MESH_BLOCKS_MAX][6][PARAM_TEXT_SIZE + 24];
     const int dim = r->scene.domain.dim;
     int n = 0;
-    for (int k = 0; k < mesh_block_count(); k++)
-        for (int a = 0; a < (dim == 3 ? 6 : 3) && mesh_motion_told(k); a++) {
-            snprintf(own[k][a], sizeof own[k][a], "%s %s", mesh_block_params()[k].name,
+    for (int k = 0; k < prm->blocks.n; k++)
+        for (int a = 0; a < (dim == 3 ? 6 : 3) && prm->blocks.of[k].motion.n > 0; a++) {
+            snprintf(own[k][a], sizeof own[k][a], "%s %s", prm->blocks.of[k].name,
                      axes[dim == 3][a]);
             columns[n++] = own[k][a];
         }
@@ -160,7 +152,7 @@ static int motion_values(const struct fv *s, double *values)
     return n;
 }
 
-static int force_columns(const struct run *r, const char **columns)
+static int force_columns(const struct run *r, const struct fv_params *prm, const char **columns)
 {
     static const char *const forces[] = {"force x [N]", "force y [N]", "force z [N]"};
     static char own[MESH_BLOCKS_MAX][4][PARAM_TEXT_SIZE + 24];
@@ -168,9 +160,9 @@ static int force_columns(const struct run *r, const char **columns)
     for (int a = 0; a < r->scene.domain.dim; a++)
         columns[n++] = forces[a];
     columns[n++] = "moment z [Nm]";
-    for (int k = 0; k < mesh_block_count(); k++) {
-        const char *name = mesh_block_params()[k].name;
-        if (!has_own_forces(r, k))
+    for (int k = 0; k < prm->blocks.n; k++) {
+        const char *name = prm->blocks.of[k].name;
+        if (!has_own_forces(r, prm, k))
             continue;
         for (int a = 0; a < r->scene.domain.dim; a++) {
             snprintf(own[k][a], sizeof own[k][a], "%s force %c [N]", name, "xyz"[a]);
@@ -179,7 +171,7 @@ static int force_columns(const struct run *r, const char **columns)
         snprintf(own[k][3], sizeof own[k][3], "%s moment z [Nm]", name);
         columns[n++] = own[k][3];
     }
-    return n + motion_columns(r, columns + n);
+    return n + motion_columns(r, prm, columns + n);
 }
 
 /* On the body of each block and on all closed sides; moments are about each block's centre. */
@@ -201,7 +193,7 @@ static int forces(struct fv *s, double *values)
     for (int k = 0; k < s->m->nblocks; k++) {
         for (int a = 0; a < 2; a++)
             bodies[a] += of[k][a];
-        if (!has_own_forces(s->run, k))
+        if (!has_own_forces(s->run, &s->prm, k))
             continue;
         for (int a = 0; a < s->dim; a++)
             values[n++] = of[k][a];
@@ -357,7 +349,7 @@ static void summarise_forces(struct fv *s)
     summary_real(s->run->summary, "force.moment", force[3]);
     for (int k = 0; k < s->m->nblocks; k++) {
         const char *name = s->m->block[k].prm->name;
-        if (!has_own_forces(s->run, k))
+        if (!has_own_forces(s->run, &s->prm, k))
             continue;
         for (int a = 0; a < s->m->dim; a++) {
             snprintf(key, sizeof key, "force.%s.%c", name, "xyz"[a]);
@@ -414,7 +406,7 @@ static double least_height(const struct mesh *m)
 }
 
 /* What the sides are, and what the run uses and leaves out. */
-static void describe_scene(const struct run *r, const struct mesh *m)
+static void describe_scene(const struct run *r, const struct fv_params *prm, const struct mesh *m)
 {
     static const char *const kinds[] = {"overlap", "joined", "periodic", "walls",
                                         "slip",    "inflow", "outflow",  "exact velocity"};
@@ -433,24 +425,24 @@ static void describe_scene(const struct run *r, const struct mesh *m)
             snprintf(sides + n, sizeof sides - n, "%s%s", n ? ", " : "", kinds[kind]);
     }
     const struct log_use uses[] = {{r->scene.fluid.nu > 0.0, "implicit viscosity", NULL},
-                                   {surface_wanted(r), "free surface (level set)", NULL},
+                                   {prm->water, "free surface (level set)", NULL},
                                    {mesh_bc_has_walls(m), "walls", NULL},
                                    {m->has_fringe, "interpolation where blocks overlap", NULL},
                                    {g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0, "gravity", NULL},
                                    {moves, "moving blocks", NULL},
                                    {m->has_given, "imposed cells", NULL},
                                    {r->coupled, "coupling", NULL}};
-    log_say("%dD, fourth-order averages, %s; sides: %s", m->dim, report_method(r), sides);
+    log_say("%dD, fourth-order averages, %s; sides: %s", m->dim, report_method(prm), sides);
     log_uses(uses, (int)(sizeof uses / sizeof *uses));
-    log_say("%s", fv_measures_errors(r) ? "errors against the exact solution"
-                                        : "no exact solution to measure errors by");
+    log_say("%s", prm->errors ? "errors against the exact solution"
+                              : "no exact solution to measure errors by");
 }
 
 /* Of a cell and step, over that of the uniform grid: the cavity on 48 x 48 cells. */
 #define BLOCK_COST 3.6
 
 /* Speed of the scene and of the blocks' sides across the smallest cell. */
-static void describe_step(const struct run *r, const struct mesh *m)
+static void describe_step(const struct run *r, const struct fv_params *prm, const struct mesh *m)
 {
     double speed = limits_reference(r);
     for (int k = 0; k < m->nblocks; k++) {
@@ -461,11 +453,11 @@ static void describe_step(const struct run *r, const struct mesh *m)
         for (int side = 0; side < 2 && b->mapping == MAPPING_ANNULUS; side++)
             speed = fmax(speed, fabs(b->spin[side]) * b->radius[side]);
     }
-    const double cfl = limits_cfl(fv_params_of(r)), h = least_height(m);
-    limits_warn(r, h);
+    const double cfl = limits_cfl(prm), h = least_height(m);
+    limits_warn(r, prm, h);
     log_say("%lld cells computed, the flattest %.3g m high; about %.0f MB", (long long)m->computed,
             h, 8e-6 * (double)m->cells * 80.0 + 1.0);
-    if (fv_params_of(r)->steady)
+    if (prm->steady)
         return; /* marches in pseudo-time */
     log_say("dt about %.3g s if the fastest flow crosses the flattest cell (%s, CFL %g)",
             cfl * h / speed, limit_name(LIMIT_FLOW), cfl);
@@ -473,11 +465,11 @@ static void describe_step(const struct run *r, const struct mesh *m)
                  ceil(r->scene.time.end * speed / (cfl * h)));
 }
 
-void mesh_describe(const struct run *r)
+void mesh_describe(const struct run *r, const struct fv_params *prm)
 {
     static const char *const shapes[] = {"box", "stretched box", "ring", "sheared box", "file"};
     struct faults f = {0};
-    struct mesh *m = mesh_take(r, fv_hole(r) != NULL, fv_hole(r), &f);
+    struct mesh *m = mesh_take(r, &prm->blocks, fv_hole(prm) != NULL, fv_hole(prm), &f);
     for (int k = 0; m && k < m->nblocks; k++) {
         const struct mesh_block *b = m->block + k;
         int64_t count[4] = {0, 0, 0, 0};
@@ -490,8 +482,8 @@ void mesh_describe(const struct run *r)
                 (long long)count[CELL_GIVEN], (long long)count[CELL_HOLE]);
     }
     if (m) {
-        describe_scene(r, m);
-        describe_step(r, m);
+        describe_scene(r, prm, m);
+        describe_step(r, prm, m);
     }
     mesh_leave(&m);
 }

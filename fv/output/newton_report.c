@@ -2,11 +2,11 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../time/newton.h"
 
-int newton_columns(const struct run *r, const char **columns)
+int newton_columns(const struct fv_params *prm, const char **columns)
 {
     static const char *const names[] = {"residual [-]", "pseudo step [s]", "newton iterations [-]",
                                         "krylov vectors [-]"};
-    if (fv_params_of(r)->integrator != INTEGRATOR_NEWTON)
+    if (prm->integrator != INTEGRATOR_NEWTON)
         return 0;
     for (int k = 0; k < 4; k++)
         columns[k] = names[k];

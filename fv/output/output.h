@@ -17,7 +17,7 @@ void fv_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void fv_checkpoint(void *s, struct h5 *f);
 bool fv_restore(struct fv *s, struct h5 *f);
 /* fv_report.c: columns of the series, all but those of watches, and their (static) names. */
-int fv_columns(const struct run *r, const char **columns);
+int fv_columns(const struct run *r, const struct fv_params *prm, const char **columns);
 void fv_row(void *s, double *values);
 void fv_finish(void *s);
 /* Sums over what no partner counts, for the coupler; see program.tell. */
@@ -25,7 +25,7 @@ void fv_tell(void *s, struct summary *report);
 
 /* fv_draw.c: see program.draw. */
 struct picture;
-void fv_draw(const struct run *r, struct picture *p);
+void fv_draw(const struct run *r, const struct fv_params *prm, struct picture *p);
 
 /* fv_probes.c: the case's gauges; number of columns and their names (static), values on all ranks.
  * Of a coupled job those that are not its partner's. */
@@ -40,7 +40,7 @@ void fv_wall_force(const struct fv *s, double force[3]);
 double fv_wall_pressure(const double p[3], bool slip);
 
 /* fv_blocked.c: forces on boxes that are cut out; number of columns and their names (static). */
-int fv_blocked_columns(const struct run *r, const char **columns);
+int fv_blocked_columns(const struct run *r, const struct fv_params *prm, const char **columns);
 void fv_blocked_forces(const struct fv *s, double *values);
 void fv_summarise_blocked(const struct fv *s);
 
@@ -48,5 +48,8 @@ void fv_summarise_blocked(const struct fv *s);
 void steady_summarise(struct fv *s);
 /* fv_lines.c: extrema on the centre lines into the summary. */
 void fv_summarise_extrema(const struct fv *s);
+
+/* fv_io.c: whether output.fields has this word. */
+bool fv_field_wanted(const struct run *r, const char *name);
 
 #endif

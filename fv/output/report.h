@@ -12,7 +12,7 @@ struct report {
     double (*cells)(const struct fv *s);        /* that are computed, of all ranks */
     /* Forces on all closed sides, then on each body: number of columns and their (static) names;
      * values, as many. */
-    int (*force_columns)(const struct run *r, const char **columns);
+    int (*force_columns)(const struct run *r, const struct fv_params *prm, const char **columns);
     int (*forces)(struct fv *s, double *values);
     void (*probes)(struct fv *s, double *values);
     void (*summarise)(struct fv *s); /* what this kind alone has */
@@ -24,6 +24,6 @@ extern const struct report even_report, block_report;
 void fv_energies(struct fv *s, double sum[2]);
 void fv_errors(struct fv *s, struct norm n[NORMS]);
 /* How the run steps: "rk3, three projections a step". */
-const char *report_method(const struct run *r);
+const char *report_method(const struct fv_params *prm);
 
 #endif

@@ -17,15 +17,6 @@
 
 enum { BAND = 5 }; /* cells on either side of the surface that are advected */
 
-bool surface_wanted(const struct run *r)
-{
-    const struct scene *c = &r->scene;
-    const int asked = fv_params_of(r)->surface;
-    if (asked != SURFACE_AUTO)
-        return asked == SURFACE_YES;
-    return r->crossed || (!r->coupled && (c->nshapes > 0 || scene_has_wave(c)));
-}
-
 static bool side_here(const struct block *b, int a, bool upper)
 {
     return !b->periodic[a] && (upper ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
@@ -435,7 +426,7 @@ static void set_sizes(const struct block *b, const double *g, struct surface *f)
 
 struct surface *levelset_create(const struct fv *s)
 {
-    if (!surface_wanted(s->run))
+    if (!s->prm.water)
         return NULL;
     struct surface *f = NEW(struct surface, 1);
     double **const fields[] = {&f->phi, &f->phi_new, &f->rate, &f->kept, &f->stress};
@@ -447,7 +438,7 @@ struct surface *levelset_create(const struct fv *s)
     f->layer = NEW(unsigned char, s->size);
     f->deep = NEW(int64_t, s->size);
     f->closed = NEW(bool, s->size);
-    if (fv_params_of(s->run)->integrator != INTEGRATOR_RK3)
+    if (s->prm.integrator != INTEGRATOR_RK3)
         f->half = NEW(double, s->size);
     f->g = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     if (s->m) {

@@ -75,9 +75,6 @@ struct surface {
     int64_t setups, reinits, repeats;
 };
 
-/* Whether the scene has a surface that fv computes. */
-bool surface_wanted(const struct run *r);
-
 /* The part that place c is in. */
 static inline const struct part *surface_part(const struct fv *s, int64_t c)
 {

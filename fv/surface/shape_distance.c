@@ -15,10 +15,10 @@ static bool is_wall(const struct fv *s, const double *x, int a, double side, dou
 {
     const struct block *b = &s->b;
     const bool behind = out * (x[a] - side) > 0.0;
-    for (int k = 0; s->blocked && k < blocked_count(); k++) {
+    for (int k = 0; s->blocked && k < s->prm.nboxes; k++) {
         int lo[3], hi[3];
         bool in = true;
-        blocked_cells(s->run, k, lo, hi);
+        blocked_cells(&s->run->scene.domain, &s->prm, k, lo, hi);
         for (int t = 0; t < b->dim; t++) {
             const double y = t == a ? side + 0.5 * out * b->h[a] : x[t];
             const double at = (y - b->origin[t]) / b->h[t], own = (x[t] - b->origin[t]) / b->h[t];

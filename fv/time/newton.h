@@ -102,7 +102,7 @@ int newton_residual(N_Vector q, N_Vector r, void *user);
 int newton_jacobian_times(N_Vector v, N_Vector out, N_Vector q, booleantype *is_new, void *user);
 
 /* newton_report.c: their number; w NULL: none. */
-int newton_columns(const struct run *r, const char **columns);
+int newton_columns(const struct fv_params *prm, const char **columns);
 int newton_values(const struct newton *w, double *values);
 void newton_summarise(const struct newton *w, double steps, struct summary *to);
 

@@ -50,9 +50,8 @@ double limits_cfl(const struct fv_params *p)
     return p->cfl > 0.0 ? p->cfl : own[p->integrator];
 }
 
-void limits_check(const struct run *r, struct faults *f)
+void limits_check(const struct run *r, const struct fv_params *p, struct faults *f)
 {
-    const struct fv_params *p = fv_params_of(r);
     const bool bdf2 = p->integrator == INTEGRATOR_BDF2;
     const double most = bdf2 ? BDF2_MOST : RK3_MOST;
     if (p->integrator != INTEGRATOR_NEWTON && p->cfl > most)
@@ -171,34 +170,35 @@ static const struct scene_wall *opening_of(const struct scene *s, int side)
 
 /* Whether pressures are given on opposite sides alone, of which a straight channel between them
  * makes a gradient along the axis that joins them. */
-static bool openings_face_each_other(const struct scene *s)
+static bool openings_face_each_other(const struct scene *s, const struct fv_params *p)
 {
     int axes = 0;
     for (int a = 0; a < s->domain.dim; a++)
         axes += opening_of(s, SIDE_X_MIN + 2 * a) || opening_of(s, SIDE_X_MIN + 2 * a + 1);
-    return axes == 1 && blocked_count() == 0;
+    return axes == 1 && p->nboxes == 0;
 }
 
 /* Gradient of pressure over rho between openings, m/s^2: along an axis over the distance of its two
  * sides; round a corner or boxes any path may be the steepest. */
-static double gradient_along(const struct scene *s, int a)
+static double gradient_along(const struct scene *s, const struct fv_params *p, int a)
 {
     const struct scene_wall *lower = opening_of(s, SIDE_X_MIN + 2 * a),
                             *upper = opening_of(s, SIDE_X_MIN + 2 * a + 1);
     const double L = s->domain.max[a] - s->domain.min[a];
-    if (!openings_face_each_other(s))
+    if (!openings_face_each_other(s, p))
         return limits_pressure_difference(s) / L;
     return lower && upper ? fabs(upper->pressure - lower->pressure) / (s->fluid.rho * L) : 0.0;
 }
 
 /* What forces add to that in a second, 1/s^2: gravity where it moves the fluid, differences of
  * pressure between sides. */
-static double rise_of(const struct scene *s, bool surface, const double *h)
+static double rise_of(const struct scene *s, const struct fv_params *p, bool surface,
+                      const double *h)
 {
     double drive[3], still[3], level, sum = 0.0;
     still_split(s, drive, still, &level);
     for (int a = 0; a < s->domain.dim; a++)
-        sum += (fabs(surface ? s->fluid.gravity[a] : drive[a]) + gradient_along(s, a)) / h[a];
+        sum += (fabs(surface ? s->fluid.gravity[a] : drive[a]) + gradient_along(s, p, a)) / h[a];
     return sum;
 }
 
@@ -256,15 +256,14 @@ static double friction_time(const struct scene *s)
 /* newton has no bound by friction, for it goes to steady states; where the run ends in the midst of
  * the layers' growth, this is what it misses. Couette flow from rest to half of their time: energy
  * 24.6, 5.2, 1.2, 0.14 % off in 1, 2, 3, 5 steps. */
-static void warn_transient(const struct run *r, double h)
+static void warn_transient(const struct run *r, const struct fv_params *p, double h)
 {
     const struct scene *s = &r->scene;
-    const struct fv_params *p = fv_params_of(r);
     const double T = friction_time(s), whole = fmin(T, s->time.end);
     double dt = 0.0;
     if (p->integrator != INTEGRATOR_NEWTON || p->steady || s->time.end > 3.0 * T)
         return;
-    const double most = limits_estimate(r, (const double[]){h, h, h}).dt;
+    const double most = limits_estimate(r, p, (const double[]){h, h, h}).dt;
     dt = fmin(most, s->time.end);
     dt = s->output.every > 0.0 ? fmin(dt, s->output.every) : dt;
     if (dt > TRANSIENT * whole)
@@ -278,11 +277,11 @@ static void warn_transient(const struct run *r, double h)
 /* Under a surface it is the number of steps, too, at which the level set loses water: the dam of
  * dam_break_crossing, cell Reynolds numbers 70, 700, 7e4: put back 4.6, 5.3, 39 % of the volume
  * (rk3: 0.9 %); the last one ends by the water that is missing at t = 0.44 s. */
-void limits_warn(const struct run *r, double h)
+void limits_warn(const struct run *r, const struct fv_params *p, double h)
 {
     const double nu = r->scene.fluid.nu, Re = nu > 0.0 ? limits_reference(r) * h / nu : 0.0;
-    warn_transient(r, h);
-    if (fv_params_of(r)->integrator != INTEGRATOR_BDF2 || !surface_wanted(r) || Re < BDF2_SLOW)
+    warn_transient(r, p, h);
+    if (p->integrator != INTEGRATOR_BDF2 || !p->water || Re < BDF2_SLOW)
         return;
     log_warn("fv.integrator: bdf2 is for slow, viscous flow: at a cell Reynolds number U h/nu of "
              "%.2g its "
@@ -296,7 +295,7 @@ static struct step_limit bulk_limit(const struct scene *s, const struct fv_param
 {
     /* what falls within an implicit step is seen when it has: the step is taken back */
     const bool falls = surface && p->integrator != INTEGRATOR_NEWTON;
-    const double rise = surface && !falls ? 0.0 : rise_of(s, surface, h),
+    const double rise = surface && !falls ? 0.0 : rise_of(s, p, surface, h),
                  dt = limits_time(limits_cfl(p), rate, rise);
     struct step_limit l = {INFINITY, LIMIT_NONE};
     lower(&l, dt, rise * dt > rate ? LIMIT_FORCES : LIMIT_FLOW);
@@ -385,10 +384,9 @@ struct step_limit limits_of(const struct fv *s)
     return l;
 }
 
-struct step_limit limits_estimate(const struct run *r, const double *h)
+struct step_limit limits_estimate(const struct run *r, const struct fv_params *p, const double *h)
 {
     const struct scene *s = &r->scene;
-    const struct fv_params *p = fv_params_of(r);
     double rate = 0.0, shortest = INFINITY, longest = 0.0;
     for (int a = 0; a < s->domain.dim; a++) {
         rate += fabs(s->initial.velocity[a]) / h[a];
@@ -398,7 +396,7 @@ struct step_limit limits_estimate(const struct run *r, const double *h)
     if (s->initial.field > FIELD_UNIFORM && !scene_has_wave(s))
         rate += s->initial.U / shortest;
     rate = fmax(rate, imposed_rate(s, h));
-    struct step_limit l = bulk_limit(s, p, rate, surface_wanted(r), h);
+    struct step_limit l = bulk_limit(s, p, rate, p->water, h);
     for (int k = 0; k < s->nwalls; k++)
         if (s->walls[k].carried && p->integrator != INTEGRATOR_NEWTON)
             lower(&l, limits_time(OUTFLOW_CFL, rate, 0.0), LIMIT_OUTFLOW);

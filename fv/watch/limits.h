@@ -16,7 +16,7 @@ const char *limit_name(enum limit by);
 /* fv.cfl, or where it is 0 the integrator's own. */
 double limits_cfl(const struct fv_params *p);
 /* Faults of fv.cfl, and of bdf2 without viscosity. */
-void limits_check(const struct run *r, struct faults *f);
+void limits_check(const struct run *r, const struct fv_params *p, struct faults *f);
 /* Time in which a flow that crosses `rate' cells a second, and `rise' more each second, crosses
  * cfl of them, s. */
 double limits_time(double cfl, double rate, double rise);
@@ -26,11 +26,11 @@ struct step_limit limits_of(const struct fv *s);
 /* Next time after now at which a block's motion starts or ends, s; INFINITY: none. */
 double limits_next_motion(const struct fv *s);
 /* The same before the start, for --check: cells of size h[3]. */
-struct step_limit limits_estimate(const struct run *r, const double *h);
+struct step_limit limits_estimate(const struct run *r, const struct fv_params *p, const double *h);
 
 /* Warns where bdf2 is no choice, and where newton passes over a transient that the run ends in:
  * cells of size h at most, m. */
-void limits_warn(const struct run *r, double h);
+void limits_warn(const struct run *r, const struct fv_params *p, double h);
 
 /* m^2/s^2: of p/rho between outflows. */
 double limits_pressure_difference(const struct scene *s);

@@ -104,7 +104,7 @@ static int last_row(const struct forms *of, bool block, double *row, const char 
     while (s->t < of->end * (1.0 - 1e-9) && !d.bad)
         integrate(s, of->end, &d);
     assert_false(d.bad);
-    const int n = fv_columns(&run, columns);
+    const int n = fv_columns(&run, fv_params_of(&run), columns);
     fv_row(s, row);
     fv_free(&s);
     params_free(&p);

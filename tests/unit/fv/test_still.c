@@ -58,7 +58,7 @@ static void row_of(const char *text, double *row, const char **columns)
     integrate(s, 0.1, &d);
     s->datum = datum;
     if (columns)
-        fv_columns(&run, columns);
+        fv_columns(&run, fv_params_of(&run), columns);
     fv_row(s, row);
     fv_free(&s);
     assert_false(d.bad);

@@ -301,7 +301,7 @@ static void outcome(const char *text, struct seen *seen)
     if (f.n == 0) {
         seen->n = 0;
         run.summary = summary_create();
-        (mesh_block_count() > 0 ? run_blocks : run_cells)(&run, seen);
+        (mesh_given_count > 0 ? run_blocks : run_cells)(&run, seen);
         summary_each(run.summary, see, seen);
         summary_free(&run.summary);
     }
@@ -455,7 +455,7 @@ static int try_scene(const char *name, const char *text)
                 char key[80];
                 const struct param *row = group.rows + q;
                 snprintf(key, sizeof key, "%s.%s", group.name, row->key);
-                if (is_excepted(key, mesh_block_count() > 0) || is_idle(name, key))
+                if (is_excepted(key, mesh_given_count > 0) || is_idle(name, key))
                     continue;
                 struct faults f = {0};
                 FILE *file = fopen(path, "w"); /* the plain values again */

@@ -1,0 +1,62 @@
+/* mesh_blocks.h - the blocks as the case has them: plain data that case/ writes and hands down.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_MESH_BLOCKS_H
+#define FV_MESH_BLOCKS_H
+
+#include <stdbool.h>
+
+#include "../../common/run/run.h"
+#include "../../common/scene/scene_body.h"
+#include "side_kinds.h"
+
+enum { MESH_BLOCKS_MAX = 16 };
+enum mesh_mapping {
+    MAPPING_BOX,
+    MAPPING_STRETCHED,
+    MAPPING_ANNULUS,
+    MAPPING_SHEARED,
+    MAPPING_FILE
+};
+
+struct mesh_block_params {
+    char name[PARAM_TEXT_SIZE];
+    int mapping;
+    int cells[3];
+    double min[3], max[3]; /* m: of a box before its rotation; z of an annulus */
+    double centre[3];      /* m: of rotation, of an annulus, of the walls' spin */
+    double angle;          /* degrees about z */
+    double focus[3];       /* m: where stretched cells are finest */
+    double stretch[3];     /* strength; 0: uniform; < 0: finer towards both ends */
+    double radius[3];      /* m: inner, outer */
+    double arc[3];         /* degrees: first, last */
+    double shear;          /* dx/dy */
+    double wave;           /* displacement over the sides' lengths */
+    char file[PARAM_TEXT_SIZE];
+    int zone;                                     /* block of a file, from 1 */
+    int i_min, i_max, j_min, j_max, k_min, k_max; /* enum mesh_side */
+    double velocity[3];                           /* m/s: of walls along themselves, of an inflow */
+    int lid;        /* 0: all walls have the velocity; else the side that alone has it, from 1 */
+    double spin[3]; /* rad/s: of the walls i_min, i_max about the centre */
+    struct scene_motions motion; /* of the whole block, see mesh_motion.h */
+    int number;                  /* in the list of the case, from 0 */
+};
+
+/* The list of a case; n 0: it has none, but uniform cells. */
+struct mesh_blocks {
+    int n;
+    const struct mesh_block_params *of; /* borrowed from case/ for the whole run */
+};
+
+/* Whether one of the block's own sides is of this kind. */
+bool mesh_block_has(const struct mesh_block_params *b, enum mesh_side kind);
+/* Whether the forces on a side of the block count as those on its body: on a no-slip wall, and on a
+ * slip side that does not lie on a side of the domain. */
+bool mesh_side_is_body(const struct run *r, const struct mesh_block_params *b, int side);
+bool mesh_block_is_body(const struct run *r, const struct mesh_block_params *b);
+/* Whether one of the blocks has a motion of its own. */
+bool mesh_blocks_move(const struct mesh_blocks *all);
+/* Adds a fault of the block's key. */
+void mesh_fault(const struct run *r, struct faults *f, const struct mesh_block_params *b,
+                const char *key, const char *fmt, ...) __attribute__((format(printf, 5, 6)));
+
+#endif
