@@ -12,6 +12,7 @@
 #include "../grid/layout.h"
 #include "../grid/mesh.h"
 #include "../poisson/poisson.h"
+#include "../surface/fraction.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
 #include "../time/moving.h"
@@ -21,9 +22,18 @@
 #include "../watch/watches.h"
 #include "output.h"
 
-enum { SURFACE_NUMBERS = 4 };
-static const char *const surface_numbers[SURFACE_NUMBERS] = {"volume0", "returned", "travelled",
-                                                             "passed"};
+enum { SURFACE_NUMBERS = 6 };
+static const char *const surface_numbers[SURFACE_NUMBERS] = {"volume0", "returned",  "lost",
+                                                             "gained",  "travelled", "passed"};
+
+enum { FRACTION_NUMBERS = 3 };
+static const char *const fraction_numbers[FRACTION_NUMBERS] = {"carries", "calm", "first_axis"};
+
+static double *fraction_number(struct fraction *f, int k)
+{
+    double *const of[FRACTION_NUMBERS] = {&f->carries, &f->calm, &f->first};
+    return of[k];
+}
 
 static const char *const level_numbers[LEVEL_GROUPS] = {
     "outflow_x_min", "outflow_x_max", "outflow_y_min", "outflow_y_max",
@@ -39,7 +49,8 @@ static double *forced_number(struct surface *f, int k)
 
 static double *surface_number(struct surface *f, int k)
 {
-    double *const of[SURFACE_NUMBERS] = {&f->volume0, &f->returned, &f->travelled, &f->passed};
+    double *const of[SURFACE_NUMBERS] = {&f->volume0, &f->returned,  &f->lost,
+                                         &f->gained,  &f->travelled, &f->passed};
     return of[k];
 }
 
@@ -96,6 +107,8 @@ void fv_checkpoint(void *state, struct h5 *f)
             h5_attribute_real(f, surface_numbers[k], *surface_number(s->surface, k));
     for (int k = 0; levels_set_any(s) && k < LEVEL_GROUPS; k++)
         h5_attribute_real(f, level_numbers[k], s->levels->past[k]);
+    for (int k = 0; s->surface && s->surface->fraction && k < FRACTION_NUMBERS; k++)
+        h5_attribute_real(f, fraction_numbers[k], *fraction_number(s->surface->fraction, k));
     for (int k = 0; s->surface && s->surface->forced && k < FORCED_NUMBERS; k++)
         h5_attribute_real(f, forced_numbers[k], *forced_number(s->surface, k));
     if (s->link)
@@ -190,6 +203,11 @@ bool fv_restore(struct fv *s, struct h5 *f)
     for (int k = 0; levels_set_any(s) && k < LEVEL_GROUPS; k++)
         if (!there(h5_read_attribute_real(f, level_numbers[k], s->levels->past + k),
                    "mean velocity of the openings"))
+            return false;
+    for (int k = 0; s->surface && s->surface->fraction && k < FRACTION_NUMBERS; k++)
+        if (!there(h5_read_attribute_real(f, fraction_numbers[k],
+                                          fraction_number(s->surface->fraction, k)),
+                   fraction_numbers[k]))
             return false;
     for (int k = 0; s->surface && s->surface->forced && k < FORCED_NUMBERS; k++)
         if (!there(h5_read_attribute_real(f, forced_numbers[k], forced_number(s->surface, k)),

@@ -218,6 +218,8 @@ void surface_summarise(struct fv *s)
     summary_real(to, "largest_velocity", fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
     summary_real(to, "drift.volume", volume / f->volume0 - 1.0);
     summary_real(to, "volume_returned", f->returned / surface_volume_scale(s));
+    summary_real(to, "volume_lost", f->lost / surface_volume_scale(s));
+    summary_real(to, "volume_gained", f->gained / surface_volume_scale(s));
     if (f->fraction) {
         double moved = f->fraction->moved;
         MPI_Allreduce(MPI_IN_PLACE, &moved, 1, MPI_DOUBLE, MPI_SUM, s->comm);

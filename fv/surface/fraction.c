@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "../../common/base/mem.h"
-#include "../boundary/forcing.h"
 #include "levelset.h"
 #include "mesh_view.h"
 #include "plane.h"
@@ -18,7 +17,8 @@ static const int none[3] = {0, 0, 0};
 
 bool fraction_possible(const struct fv *s)
 {
-    bool possible = !s->moving && !(s->m && s->m->has_fringe);
+    bool possible =
+        !s->moving && !s->surface->forced && !s->surface->leans && !(s->m && s->m->has_fringe);
     for (int q = 0; s->m && q < s->nparts; q++)
         possible = possible && s->part[q].kind != PART_CURVED;
     MPI_Allreduce(MPI_IN_PLACE, &possible, 1, MPI_C_BOOL, MPI_LAND, s->comm);
@@ -54,6 +54,7 @@ static struct fraction *create(const struct fv *s)
         f->n[a] = NEW(double, s->size);
         f->flow[a] = NEW(double, s->size);
     }
+    f->air = NEW(int64_t, s->size);
     f->smooth = NEW(unsigned char, s->size);
     set_volumes(s, f->volume);
     return f;
@@ -71,30 +72,25 @@ void fraction_free(struct fraction **fp)
         mem_free(f->n[a]);
         mem_free(f->flow[a]);
     }
+    mem_free(f->air);
     mem_free(f->smooth);
     mem_free(f);
     *fp = NULL;
 }
 
-static bool is_imposed(const struct fv *s, int64_t c)
-{
-    return s->surface->forced && s->forcing->forced[c];
-}
-
-void fraction_take(const struct fv *s, bool all)
+void fraction_take(const struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
     FLOW_ROWS (s, c, n)
         for (int64_t i = c; i < c + n; i++)
-            if (all || is_imposed(s, i))
-                f->C[i] = surface_holds_none(s, i) ? 0.0 : surface_share(s, i);
+            f->C[i] = surface_holds_none(s, i) ? 0.0 : surface_share(s, i);
     surface_mirror(s, f->C);
 }
 
 void fraction_start(struct fv *s)
 {
     s->surface->fraction = create(s);
-    fraction_take(s, true);
+    fraction_take(s);
 }
 
 void fraction_note_solved(const struct fv *s)
@@ -110,14 +106,15 @@ double fraction_volume(const struct fv *s)
     double sum = 0.0;
     FLOW_ROWS (s, c, n)
         for (int64_t i = c; i < c + n; i++)
-            sum += is_imposed(s, i) ? 0.0 : f->C[i] * f->volume[i];
+            sum += f->C[i] * f->volume[i];
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
     return sum;
 }
 
 double surface_volume(const struct fv *s)
 {
-    return s->surface->fraction ? fraction_volume(s) : surface_level_volume(s, NULL);
+    const struct fraction *f = s->surface->fraction;
+    return f && f->carries > 0.0 ? fraction_volume(s) : surface_level_volume(s, NULL);
 }
 
 /* --- planes --- */
@@ -173,20 +170,6 @@ static void find_planes(struct fv *s)
 }
 
 /* --- fluxes --- */
-
-static void set_flows(struct fv *s)
-{
-    struct fraction *f = s->surface->fraction;
-    for (int a = 0; a < s->dim; a++) {
-        int up[3] = {0, 0, 0};
-        up[a] = 1;
-        for (const struct part *p = s->part; p < s->part + s->nparts; p++)
-            PART_ROWS (p, none, up, c, n)
-                for (int64_t i = c; i < c + n; i++)
-                    f->flow[a][i] =
-                        s->m ? s->U[a][i] : s->U[a][i] * f->volume[i] / fraction_size(s, i, a);
-    }
-}
 
 static double plane_in(const struct fv *s, int64_t c, int a, double lo, double hi)
 {
@@ -245,18 +228,43 @@ static void sweep(struct fv *s, int a, double dt)
             const double v = dt * f->solved[i] * f->flow[a][i],
                          w = dt * f->solved[i] * f->flow[a][i + d];
             f->C[i] += ((f->flux[i] - v) - (f->flux[i + d] - w)) / f->volume[i];
+            f->entered += f->flux[i] - f->flux[i + d]; /* all faces within cancel */
+            f->excess += w - v;
         }
     }
+    surface_mirror(s, f->C);
+}
+
+/* What the projection's tolerance left goes from, or to, the mixed cells, in proportion to how
+ * mixed they are: a millionth of the water. */
+static void balance(struct fv *s)
+{
+    struct fraction *f = s->surface->fraction;
+    double sums[3] = {f->entered, f->excess, 0.0};
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            sums[2] += is_mixed(f->C[i]) ? f->C[i] * (1.0 - f->C[i]) * f->volume[i] : 0.0;
+    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->comm);
+    f->entered = sums[0];
+    const double part = sums[2] > 10.0 * fabs(sums[1]) ? -sums[1] / sums[2] : 0.0;
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n && part != 0.0; i++)
+            if (is_mixed(f->C[i]))
+                f->C[i] += part * f->C[i] * (1.0 - f->C[i]);
+    surface_note_returned(s, part * sums[2]);
     surface_mirror(s, f->C);
 }
 
 void fraction_advance(struct fv *s, double dt, int n)
 {
     struct fraction *f = s->surface->fraction;
-    set_flows(s);
-    for (int k = 0; k < n; k++, f->sweeps = (f->sweeps + 1) % s->dim) {
+    fraction_set_flows(s);
+    f->entered = f->excess = 0.0;
+    for (int k = 0; k < n; k++) {
         for (int a = 0; a < s->dim; a++)
-            sweep(s, (f->sweeps + a) % s->dim, dt / n);
+            sweep(s, ((int)f->first + a) % s->dim, dt / n);
+        f->first = ((int)f->first + 1) % s->dim;
         fraction_bound(s);
     }
+    balance(s);
 }

@@ -1,7 +1,8 @@
 /* fraction.h - share C of each cell that is water, carried by the projection's own fluxes, so that
  * water stays where it is; phi, which is smooth, is corrected to it instead of being shifted as a
- * whole. On even cells, layers of unequal height and joined blocks of upright cells at rest.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * whole. Calm water, all of whose surface phi resolves, needs no shares: there phi is the better
+ * one, and what it loses is little. On even cells, layers of unequal height and joined blocks of
+ * upright cells at rest. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_FRACTION_H
 #define FV_FRACTION_H
 
@@ -15,32 +16,41 @@ struct fraction {
     double *flow[3]; /* m^dim/s: volume through the lower face of each cell */
     double *volume;  /* m^dim: of cells, with ghosts */
     double *flux, *work, *next;
+    int64_t nair, *air;    /* cells of air beside the water */
     unsigned char *smooth; /* 1: phi resolves the surface here */
-    int sweeps;            /* made, which says what axis is first */
-    double moved;   /* m^dim: put into neighbours, as cells were too full or less than empty */
-    double entered; /* m^dim: through openings and from imposed cells, of this advance */
-    double crossed; /* m^dim: the same in and out */
+    double carries;      /* 1: phi follows the shares; 0: the water is calm, and they follow phi */
+    double calm;         /* steps since it became calm */
+    double first;        /* axis of the next sweep */
+    double first_before; /* at the start of a step */
+    double moved;        /* m^dim: put into neighbours, as cells were too full or less than empty;
+                            this rank's */
+    double entered;      /* m^dim: through openings, of the last advance; over all ranks */
+    double excess;       /* m^dim: what the projection left, of this advance and rank */
 };
 
 /* Whether the cells can have it: upright ones at rest that do not overlap. */
 bool fraction_possible(const struct fv *s);
 /* Whether the case asks for it, and they can. */
 bool fraction_wanted(const struct fv *s);
-/* Shares of the present phi. */
+/* Shares of the present phi, which they follow. */
 void fraction_start(struct fv *s);
 void fraction_free(struct fraction **f);
-/* The same anew, in cells that are imposed alone or in all. */
-void fraction_take(const struct fv *s, bool all);
+/* The same anew. */
+void fraction_take(const struct fv *s);
 /* What the projection has just solved for: cells that are wet now. */
 void fraction_note_solved(const struct fv *s);
-/* By dt in n parts of it, with U as it is. */
+/* By dt in n parts of it, with U as it is. Collective. */
 void fraction_advance(struct fv *s, double dt, int n);
-/* m^dim of water in cells that are not imposed; over all ranks. */
+/* m^dim of water; over all ranks. */
 double fraction_volume(const struct fv *s);
+/* fraction_flow.c: volumes through faces, of U. */
+void fraction_set_flows(struct fv *s);
 /* fraction_bounds.c: moves what cells have beyond 1 or below 0 to cells around. Collective. */
 void fraction_bound(struct fv *s);
 /* fraction_level.c: phi moved towards the planes that have the shares. */
 void fraction_correct_level(struct fv *s);
+/* Whether phi resolves all of the surface and agrees with the shares. Collective. */
+bool fraction_is_calm(const struct fv *s);
 /* Normal of the plane in cell c by differences of C, not normalised; false: there is none. */
 bool fraction_normal(const struct fv *s, const struct part *p, int64_t c, double *n);
 /* m: size of cell c along axis a. */

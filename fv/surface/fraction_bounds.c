@@ -6,17 +6,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "../boundary/forcing.h"
 #include "levelset.h"
 #include "mesh_view.h"
 
 enum { PASSES = 12 };
 #define ROUNDING 1e-12
 
-static bool takes_part(const struct fv *s, int64_t c)
-{
-    return !surface_holds_none(s, c) && !(s->surface->forced && s->forcing->forced[c]);
-}
+static bool takes_part(const struct fv *s, int64_t c) { return !surface_holds_none(s, c); }
 
 /* What cell c has beyond its bounds; rounding apart. */
 static double excess(double C) { return C > 1.0 + ROUNDING ? C - 1.0 : C < -ROUNDING ? C : 0.0; }

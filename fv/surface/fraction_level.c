@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "../boundary/forcing.h"
 #include "levelset.h"
 #include "mesh_view.h"
 #include "plane.h"
@@ -61,8 +60,25 @@ static bool is_trusted(const struct fv *s, const struct part *p, int64_t c)
     return true;
 }
 
-/* Where phi of a cell wants to be. */
-static double wanted(const struct fv *s, const struct part *p, int64_t c)
+/* Slopes over cell c of a distance from the plane in it: phi's own, or by the shares around; false:
+ * they have none. */
+static bool slopes_of(const struct fv *s, const struct part *p, int64_t c, bool trusted, double *n)
+{
+    if (trusted) {
+        surface_slopes(s, p, c, n);
+        return true;
+    }
+    if (!fraction_normal(s, p, c, n))
+        return false;
+    const double size = 1.0 / sqrt(slope2(s, c, n));
+    for (int a = 0; a < s->dim; a++)
+        n[a] *= size;
+    return true;
+}
+
+/* Where phi of a cell wants to be: pure cells are no nearer the surface than half of their size;
+ * far from it a cell that is water by more than half makes a drop, one that is not a bubble. */
+static double wanted(const struct fv *s, const struct part *p, int64_t c, bool trusted)
 {
     const double C = s->surface->fraction->C[c], phi = s->surface->phi[c];
     double n[3] = {0.0, 0.0, 0.0}, h = 0.0, size = 0.0;
@@ -70,15 +86,8 @@ static double wanted(const struct fv *s, const struct part *p, int64_t c)
         h = fmax(h, fraction_size(s, c, a));
     if (fabs(phi) > 2.0 * h)
         return (C > 0.5) != (phi < 0.0) ? (0.5 - C) * h : phi;
-    surface_slopes(s, p, c, n);
-    double g2 = slope2(s, c, n);
-    if (!(g2 > 0.6 && g2 < 1.6)) {
-        if (!fraction_normal(s, p, c, n))
-            return (0.5 - C) * h;
-        g2 = 1.0 / sqrt(slope2(s, c, n));
-        for (int a = 0; a < s->dim; a++)
-            n[a] *= g2;
-    }
+    if (!slopes_of(s, p, c, trusted, n))
+        return (0.5 - C) * h;
     for (int a = 0; a < s->dim; a++)
         size += 0.5 * fabs(n[a]);
     if (C <= 0.0)
@@ -88,10 +97,10 @@ static double wanted(const struct fv *s, const struct part *p, int64_t c)
     return -plane_alpha(s->dim, n, C);
 }
 
-/* How far phi goes there at once: all of the way where it is trusted; elsewhere signs would flip
- * from step to step. */
+/* How far phi goes there at once: all of the way where it is trusted; elsewhere a drop or film
+ * would come and go from step to step. */
 #define TRUSTED 1.0
-#define DOUBTED 0.3
+#define DOUBTED 0.6
 
 void fraction_correct_level(struct fv *s)
 {
@@ -103,12 +112,29 @@ void fraction_correct_level(struct fv *s)
     FLOW_ROWS (s, c, n)
         for (int64_t i = c; i < c + n; i++) {
             const bool mixed = f->C[i] > 0.0 && f->C[i] < 1.0;
-            if ((!mixed && fabs(w->phi[i]) > band) || surface_holds_none(s, i) ||
-                (w->forced && s->forcing->forced[i]))
+            if ((!mixed && fabs(w->phi[i]) > band) || surface_holds_none(s, i))
                 continue;
-            const double r = is_trusted(s, p_, i) ? TRUSTED : DOUBTED;
-            f->next[i] += r * (wanted(s, p_, i) - w->phi[i]);
+            const bool trusted = is_trusted(s, p_, i);
+            f->next[i] += (trusted ? TRUSTED : DOUBTED) * (wanted(s, p_, i, trusted) - w->phi[i]);
         }
     memcpy(w->phi, f->next, (size_t)s->size * sizeof(double));
     surface_ghosts(s, w->phi);
+}
+
+bool fraction_is_calm(const struct fv *s)
+{
+    const struct surface *w = s->surface;
+    const struct fraction *f = w->fraction;
+    const double band = 1.5 * w->largest;
+    bool calm = true;
+    find_smooth(s);
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n && calm; i++) {
+            const bool mixed = f->carries && f->C[i] > 0.0 && f->C[i] < 1.0;
+            if ((!mixed && fabs(w->phi[i]) > band) || surface_holds_none(s, i))
+                continue;
+            calm = is_trusted(s, p_, i) && (!mixed || fabs(f->C[i] - surface_share(s, i)) < 0.1);
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &calm, 1, MPI_C_BOOL, MPI_LAND, s->comm);
+    return calm;
 }

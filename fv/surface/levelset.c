@@ -375,6 +375,13 @@ double surface_volume_scale(const struct fv *s)
     return fmax(s->surface->volume0 + s->surface->passed, least);
 }
 
+void surface_note_returned(struct fv *s, double volume)
+{
+    s->surface->returned += volume;
+    s->surface->lost += fmax(0.0, volume);
+    s->surface->gained += fmax(0.0, -volume);
+}
+
 /* Newton's iteration; once is enough for what a smooth step loses. */
 void surface_keep_volume(struct fv *s)
 {
@@ -388,7 +395,7 @@ void surface_keep_volume(struct fv *s)
         d = fmax(-most, fmin(most, (f->volume0 - volume) / area));
         for (int64_t i = 0; i < s->size; i++)
             f->phi[i] += is_own(s, i) ? d : 0.0;
-        f->returned += d * area;
+        surface_note_returned(s, d * area);
     }
 }
 

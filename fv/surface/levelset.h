@@ -62,8 +62,10 @@ struct surface {
     int64_t wet, cuts;        /* over all ranks */
     double volume0, returned; /* m^dim: to be kept, with what has come in through openings; restored
                                  by the shifts, all in all */
+    double lost, gained;      /* m^dim: of returned: what had been lost, what there was too much */
     double passed;            /* m^dim: through openings and a partner's interface, in and out */
     double entered;           /* m^dim: through openings, in less out */
+    double carried_in;        /* m^dim: the same of the first half of a step, by the shares */
     double through[3];        /* m^dim/s: at the start of a step, see flows() */
     double travelled;         /* -: cells since the last reinit */
     double least, largest;    /* m: sizes of cells */
@@ -105,6 +107,8 @@ int surface_advance(struct fv *s, double dt);
 void surface_advance_to(struct fv *s, double t, double dt);
 /* Shifts phi uniformly to the volume of the start. */
 void surface_keep_volume(struct fv *s);
+/* Counts water (m^dim, over all ranks) that was put back, or, < 0, taken away. */
+void surface_note_returned(struct fv *s, double volume);
 /* m^dim of water, a partner's part apart. Over all ranks. */
 double surface_volume(const struct fv *s);
 /* The same below phi = 0; *area: its change with phi, < 0. */

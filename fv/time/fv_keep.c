@@ -7,6 +7,7 @@
 #include "../boundary/outflow.h"
 #include "../fv.h"
 #include "../operators/operators.h"
+#include "../surface/fraction.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
 #include "newton.h"
@@ -33,6 +34,12 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
     if (s->surface) {
         f[n] = s->surface->phi;
         names[n++] = "phi";
+        if (s->surface->fraction) {
+            f[n] = s->surface->fraction->C;
+            names[n++] = "C";
+            f[n] = s->surface->fraction->solved;
+            names[n++] = "solved";
+        }
         for (int k = 0; k < 2 && s->surface->forced; k++) {
             f[n] = s->surface->forced->phi[k];
             names[n++] = k ? "phi_end" : "phi_start";
@@ -70,8 +77,9 @@ struct kept {
     double t, dt, dt_old, umax[3], rate, fastest, reference, u_limit, max_cfl;
     enum limit limit;
     int64_t iterations, viscous_iterations;
-    double volume0, returned, passed, entered, travelled; /* of a free surface */
-    double dtau, norm;                                    /* of newton */
+    double volume0, returned, lost, gained, passed, entered, travelled; /* of a free surface */
+    double carries, calm, first;                                        /* of its shares */
+    double dtau, norm;                                                  /* of newton */
     int64_t newtons, krylovs, cycles, halvings;
 };
 
@@ -127,9 +135,16 @@ static void carry(struct fv *s, struct kept *k, bool back)
     if (s->surface) {
         CARRY(k->volume0, s->surface->volume0);
         CARRY(k->returned, s->surface->returned);
+        CARRY(k->lost, s->surface->lost);
+        CARRY(k->gained, s->surface->gained);
         CARRY(k->passed, s->surface->passed);
         CARRY(k->entered, s->surface->entered);
         CARRY(k->travelled, s->surface->travelled);
+    }
+    if (s->surface && s->surface->fraction) {
+        CARRY(k->carries, s->surface->fraction->carries);
+        CARRY(k->calm, s->surface->fraction->calm);
+        CARRY(k->first, s->surface->fraction->first);
     }
     if (s->newton) {
         CARRY(k->dtau, s->newton->dtau);

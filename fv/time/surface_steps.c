@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/log.h"
 #include "../../common/base/mem.h"
 #include "../boundary/bc.h"
 #include "../boundary/carried.h"
@@ -178,8 +179,14 @@ void surface_start(struct fv *s)
 {
     struct surface *f = s->surface;
     close_cells(s);
-    if (fraction_wanted(s))
+    if (s->prm.volume == VOLUME_FRACTION && !fraction_possible(s))
+        log_warn(
+            "fv.volume: fraction needs even or layered cells that do not move, without overlaps "
+            "and partners; phi is shifted as a whole");
+    if (fraction_wanted(s)) {
         fraction_start(s);
+        f->fraction->carries = !fraction_is_calm(s);
+    }
     f->volume0 = surface_volume(s);
     rebuild(s);
     if (f->fraction)
@@ -288,12 +295,54 @@ static void flows(const struct fv *s, double sums[3])
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
+/* Whether phi follows the shares of water in cells. */
+static bool is_carried(const struct fv *s)
+{
+    return s->surface->fraction && s->surface->fraction->carries > 0.0;
+}
+
 /* phi and the water of cells by dt. */
-static void carry_water(struct fv *s, double dt)
+static void advance_water(struct fv *s, double dt)
 {
     const int parts = surface_advance(s, dt);
-    if (s->surface->fraction)
+    if (is_carried(s))
         fraction_advance(s, dt, parts);
+}
+
+enum { CALM = 20 }; /* steps until calm water is left to phi */
+
+/* The water at the end of a step: what phi has lost is put back, or it follows the shares, which
+ * may change from one to the other. */
+static void keep_water(struct fv *s)
+{
+    struct fraction *f = s->surface->fraction;
+    if (is_carried(s))
+        fraction_correct_level(s);
+    else
+        surface_keep_volume(s);
+    if (!f)
+        return;
+    const bool calm = fraction_is_calm(s);
+    f->calm = calm ? fmin(f->calm + 1.0, CALM) : 0.0;
+    if (is_carried(s) && f->calm == CALM) {
+        f->carries = 0.0;
+        surface_keep_volume(s);
+    } else if (!is_carried(s) && !calm) {
+        fraction_take(s);
+        f->carries = 1.0;
+    }
+}
+
+/* Through openings within a step dt: what the fluxes of the shares say, else half of the flows at
+ * its start and end (now). */
+static void note_openings(struct fv *s, double dt, const double now[3])
+{
+    struct surface *f = s->surface;
+    const double half = 0.5 * dt, *start = f->through;
+    const bool carried = is_carried(s);
+    f->volume0 += carried ? f->carried_in + f->fraction->entered : half * (start[0] + now[0]);
+    f->passed += half * (start[1] + now[1]);
+    f->entered += carried ? f->carried_in + f->fraction->entered : half * (start[2] + now[2]);
 }
 
 void surface_first_half(struct fv *s, double dt)
@@ -305,12 +354,14 @@ void surface_first_half(struct fv *s, double dt)
         moving_begin_surface(s, dt);
         surface_advance_to(s, s->t + 0.5 * dt, 0.5 * dt);
     } else {
-        carry_water(s, 0.5 * dt);
+        advance_water(s, 0.5 * dt);
     }
     impose(s, s->t + 0.5 * dt);
     refresh(s, before);
-    if (s->surface->fraction)
+    if (is_carried(s)) {
+        s->surface->carried_in = s->surface->fraction->entered;
         fraction_correct_level(s);
+    }
     if (s->surface->half)
         go_ahead(s, dt);
     rebuild(s);
@@ -336,18 +387,13 @@ void surface_second_half(struct fv *s, double dt)
     } else {
         if (f->fraction)
             fraction_note_solved(s);
-        carry_water(s, 0.5 * dt);
+        advance_water(s, 0.5 * dt);
     }
     impose(s, s->t);
     flows(s, now);
-    f->volume0 += 0.5 * dt * (f->through[0] + now[0]);
-    f->passed += 0.5 * dt * (f->through[1] + now[1]);
-    f->entered += 0.5 * dt * (f->through[2] + now[2]);
+    note_openings(s, dt, now);
     refresh(s, before);
-    if (f->fraction)
-        fraction_correct_level(s);
-    else
-        surface_keep_volume(s);
+    keep_water(s);
     surface_sample(s);
 }
 
@@ -390,6 +436,8 @@ void surface_keep_state(struct fv *s)
     }
     s->surface->travelled_before = s->surface->travelled;
     levels_keep(s);
+    if (s->surface->fraction)
+        s->surface->fraction->first_before = s->surface->fraction->first;
 }
 
 void surface_back(struct fv *s)
@@ -401,6 +449,8 @@ void surface_back(struct fv *s)
     outflow_restore(s);
     s->surface->travelled = s->surface->travelled_before;
     levels_back(s);
+    if (s->surface->fraction)
+        s->surface->fraction->first = s->surface->fraction->first_before;
     if (s->moving) {
         moving_back(s);
         surface_mesh_update(s);

@@ -1,9 +1,9 @@
 /* test_fraction.c - the share of water of each cell is carried without loss.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "test.h"
+#include "../test.h"
 
-#include "../fv/grid/block.h"
-#include "../fv/surface/fraction.h"
+#include "../../../fv/grid/block.h"
+#include "../../../fv/surface/fraction.h"
 #include "surface_case.h"
 
 #define FRACTION "fv.volume=\"fraction\""

@@ -1,9 +1,9 @@
 /* test_plane.c - the water below a plane in a cell. SPDX-License-Identifier: BSD-3-Clause */
-#include "test.h"
+#include "../test.h"
 
 #include <stdlib.h>
 
-#include "../fv/surface/plane.h"
+#include "../../../fv/surface/plane.h"
 
 static double random_real(void) { return rand() / (double)RAND_MAX; }
 
