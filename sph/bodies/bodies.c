@@ -54,6 +54,8 @@ void bodies_create(struct sph *s)
     if (!w)
         return;
     for (int k = 0; k < w->nbodies; k++)
+        w->forces.reference[k] = body_reference(s, k);
+    for (int k = 0; k < w->nbodies; k++)
         if (w->bodies[k].free) {
             double *lambda = &w->bodies[k].free->lambda;
             *lambda = fmax(*lambda, stopping_rate(s, w->bodies + k)); /* of the finest level */
@@ -78,7 +80,8 @@ void bodies_begin(struct sph *s)
 {
     for (int k = 0; s->walls && k < s->walls->nbodies; k++) {
         struct body *b = s->walls->bodies + k;
-        s->walls->forces.reference[k] = body_reference(s, k);
+        if (b->moves)
+            s->walls->forces.reference[k] = body_reference(s, k);
         if (!b->free)
             continue;
         body_hold(b, s->t);

@@ -39,6 +39,7 @@ struct body {
         *mesh; /* 3D: its surface as the case places it, normals into it; borrowed */
     int dim;
     double centre[3]; /* m: of rotation and moments at the start */
+    double middle[3]; /* m: of the box round it at the start */
     bool moves;       /* ever */
     double reach;     /* m: of the farthest point from it */
     double volume;    /* m^3; 2D: m^2 */

@@ -111,6 +111,22 @@ static void create_free(struct body *b, const struct body_mass *m)
     set_momenta(b);
 }
 
+/* Of the box round its surface. */
+static void set_middle(struct body *b)
+{
+    double lo[3] = {0.0}, hi[3] = {0.0};
+    if (b->mesh)
+        trimesh_bounds(b->mesh, lo, hi);
+    for (int k = 0; k < b->is->points.n; k++)
+        for (int a = 0; a < 2; a++) {
+            const double x = b->is->points.x[k][a];
+            lo[a] = k ? fmin(lo[a], x) : x;
+            hi[a] = k ? fmax(hi[a], x) : x;
+        }
+    for (int a = 0; a < 3; a++)
+        b->middle[a] = 0.5 * (lo[a] + hi[a]);
+}
+
 void body_create(struct body *b, const struct scene_body *is, const struct trimesh *mesh, int dim,
                  struct motion_files *files)
 {
@@ -118,6 +134,7 @@ void body_create(struct body *b, const struct scene_body *is, const struct trime
     char why[256];
     *b = (struct body){.is = is, .mesh = mesh, .dim = dim, .moves = scene_body_moves(is)};
     memcpy(b->centre, is->centre, sizeof b->centre);
+    set_middle(b);
     body_drive_create(&b->drive, is, dim, files);
     b->contact = scene_contact_of(is);
     b->volume = body_volume_of(is, mesh);

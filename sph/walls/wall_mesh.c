@@ -301,15 +301,14 @@ static void add_lent(struct sph *s, struct walls *w)
  * the edge of two periods images have images. */
 static void add_images(const struct sph *s, struct walls *w)
 {
-    const double reach = 2.5 * s->R;
     for (int a = 0; a < 3; a++) {
         const int n = w->nmeshes;
         for (int k = 0; k < n && s->periodic[a]; k++)
             for (int way = -1; way <= 1; way += 2) {
                 const struct wall_mesh *m = w->meshes + k;
-                if (m->body < 0 || !(w->bodies[m->body].moves ||
-                                     (way > 0 ? m->of->lo[a] + m->shift[a] < s->lo[a] + reach
-                                              : m->of->hi[a] + m->shift[a] > s->hi[a] - reach)))
+                if (m->body < 0 ||
+                    !walls_want_image(s, w->bodies[m->body].moves, m->of->lo[a] + m->shift[a],
+                                      m->of->hi[a] + m->shift[a], a, way))
                     continue;
                 struct wall_mesh copy = *m;
                 copy.image = true;

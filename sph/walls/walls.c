@@ -164,27 +164,6 @@ static void follow(const struct walls *w, struct segment *image)
     set_frame(image);
 }
 
-/* Of the box round each body: its images stand a period from there. */
-static void find_middles(const struct sph *s, struct walls *w)
-{
-    for (int k = 0; k < w->nbodies; k++)
-        for (int a = 0; a < s->dim; a++) {
-            double lo = INFINITY, hi = -INFINITY;
-            const struct body *b = w->bodies + k;
-            for (int i = b->first; s->dim == 2 && i < b->first + b->n; i++) {
-                lo = fmin(lo, w->segments[i].a[a]);
-                hi = fmax(hi, w->segments[i].a[a]);
-            }
-            for (int v = 0; s->dim == 3 && b->mesh && v < b->mesh->nvertices; v++) {
-                double x[3];
-                body_place(b, b->mesh->x[v], x);
-                lo = fmin(lo, x[a]);
-                hi = fmax(hi, x[a]);
-            }
-            w->middle[k][a] = hi >= lo ? 0.5 * (lo + hi) : body_centre(b, a);
-        }
-}
-
 void walls_move(struct sph *s, double t)
 {
     struct walls *w = s->walls;
@@ -196,6 +175,7 @@ void walls_move(struct sph *s, double t)
         if (w->placed && !b->moves)
             continue;
         body_move(b, t);
+        body_place(b, b->middle, w->middle[k]);
         for (int i = b->first; i < b->first + b->n; i++) {
             body_place(b, w->start[i].a, w->segments[i].a);
             body_place(b, w->start[i].b, w->segments[i].b);
@@ -205,8 +185,6 @@ void walls_move(struct sph *s, double t)
     for (int i = w->nsegments; i > 0 && w->segments[i - 1].of >= 0; i--)
         follow(w, w->segments + i - 1);
     wall_meshes_move(w);
-    if (s->periodic[0] || s->periodic[1] || s->periodic[2])
-        find_middles(s, w);
     w->placed = true;
 }
 
@@ -519,14 +497,10 @@ static void find_open_ends(const struct sph *s, struct walls *w)
         }
 }
 
-/* Whether particles on the other side of the period along an axis may see segment g. */
-static bool needs_image(const struct sph *s, const struct walls *w, const struct segment *g,
-                        int axis, int way)
+bool walls_want_image(const struct sph *s, bool moves, double lo, double hi, int axis, int way)
 {
     const double reach = 2.5 * s->R;
-    const bool moves = g->body >= 0 && w->bodies[g->body].moves;
-    return !g->beyond && (moves || (way > 0 ? fmin(g->a[axis], g->b[axis]) < s->lo[axis] + reach
-                                            : fmax(g->a[axis], g->b[axis]) > s->hi[axis] - reach));
+    return moves || (way > 0 ? lo < s->lo[axis] + reach : hi > s->hi[axis] - reach);
 }
 
 /* Lines near a periodic side stand beyond the other one, too; near a corner of two periods images
@@ -538,7 +512,9 @@ static void add_images(const struct sph *s, struct walls *w)
         for (int k = 0; k < n && s->periodic[axis]; k++)
             for (int way = -1; way <= 1; way += 2) {
                 struct segment g = w->segments[k];
-                if (!needs_image(s, w, &g, axis, way))
+                const bool moves = g.body >= 0 && w->bodies[g.body].moves;
+                if (g.beyond || !walls_want_image(s, moves, fmin(g.a[axis], g.b[axis]),
+                                                  fmax(g.a[axis], g.b[axis]), axis, way))
                     continue;
                 g.of = g.of < 0 ? k : g.of;
                 g.shift[axis] = way * (s->hi[axis] - s->lo[axis]);

@@ -96,7 +96,7 @@ struct walls {
     struct wall_mesh *meshes;
     int nbodies;
     struct body bodies[BODIES_MAX];
-    double middle[BODIES_MAX][3]; /* m: of each body now, where there are periods */
+    double middle[BODIES_MAX][3]; /* m: of each body now */
     bool any_free;                /* some body moves by forces */
     bool any_open;                /* 2D: some line ends in the open */
     bool lent;   /* the state of free bodies is that of the coarser level's walls */
@@ -117,6 +117,10 @@ struct walls {
     int64_t gone;      /* the same, too far behind or round an open end, and removed */
     double gone_at[3]; /* m: where the first of them was */
 };
+
+/* Whether what stands between lo and hi along an axis is to have an image one period further on
+ * (way 1) or back (-1): near the other side, or as it moves. */
+bool walls_want_image(const struct sph *s, bool moves, double lo, double hi, int axis, int way);
 
 /* NULL: the scene has no walls. Needs s->domain. */
 struct walls *walls_create(struct sph *s);
