@@ -216,8 +216,6 @@ static const struct number {
     {                                                                                              \
         name, offsetof(struct sph, member)                                                         \
     }
-    NUMBER("skin", lists.skin),
-    NUMBER("signal", step.signal),
     NUMBER("dt_most", step.dt_most),
     NUMBER("stray", step.stray),
     NUMBER("drift[0]", step.drift[0]),
@@ -229,6 +227,9 @@ static const struct number {
     NUMBER("rho_min", step.rho_min),
     NUMBER("rho_max", step.rho_max),
     NUMBER("max_mach", total.max_mach),
+    NUMBER("shift_speed", step.shift_speed),
+    NUMBER("skin", lists.skin),
+    NUMBER("signal", step.signal),
     NUMBER("fluctuation", total.fluctuation),
     NUMBER("fluctuation_particles", total.fluctuation_particles),
     NUMBER("mass0", start.mass),
@@ -248,10 +249,10 @@ static const struct number {
     NUMBER("average_sum[0]", mean_force.average_sum[0]),
     NUMBER("average_sum[1]", mean_force.average_sum[1]),
     NUMBER("average_sum[2]", mean_force.average_sum[2]),
-    NUMBER("shift_speed", step.shift_speed),
     NUMBER("volume0", start.volume),
 };
-enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
+/* The first of them belong to the flow, one for all levels. */
+enum { NUMBERS = sizeof numbers / sizeof numbers[0], NUMBERS_OF_FLOW = 12 };
 
 static double *number(struct sph *s, int k) { return (double *)((char *)s + numbers[k].offset); }
 
@@ -460,16 +461,8 @@ static bool read_levels(struct sph *s, struct h5 *f)
     s->step.mass = parts[1];
     r->gone = parts[2];
     for (struct sph *q = s->finer; q && fits; q = q->finer) {
-        const struct number of_flow[] = {
-            NUMBER("dt_most", step.dt_most),     NUMBER("stray", step.stray),
-            NUMBER("drift[0]", step.drift[0]),   NUMBER("drift[1]", step.drift[1]),
-            NUMBER("drift[2]", step.drift[2]),   NUMBER("max_speed", step.max_speed),
-            NUMBER("max_shift", step.max_shift), NUMBER("max_c", step.max_c),
-            NUMBER("rho_min", step.rho_min),     NUMBER("rho_max", step.rho_max),
-            NUMBER("max_mach", total.max_mach),  NUMBER("shift_speed", step.shift_speed)};
-        for (size_t k = 0; k < sizeof of_flow / sizeof of_flow[0]; k++)
-            *(double *)((char *)q + of_flow[k].offset) =
-                *(const double *)((const char *)s + of_flow[k].offset);
+        for (int k = 0; k < NUMBERS_OF_FLOW; k++)
+            *number(q, k) = *number(s, k);
         fits = read_next_id(q, f) && h5_read_attribute_real(f, name(q, "skin"), &q->lists.skin) &&
                h5_read_attribute_real(f, name(q, "signal"), &q->step.signal);
     }
