@@ -170,7 +170,8 @@ double surface_level(const struct fv *s, const double *x)
     }
     int rank;
     MPI_Comm_rank(b->cart, &rank);
-    return (down ? -sum : sum) + (rank == 0 ? b->origin[up] + (down ? b->length[up] : 0.0) : 0.0);
+    const double ground = down ? -(b->origin[up] + b->length[up]) : b->origin[up];
+    return sum + (rank == 0 ? ground : 0.0); /* against gravity, as keys of levels are */
 }
 
 static double enstrophy(const struct fv *s)

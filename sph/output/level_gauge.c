@@ -11,6 +11,7 @@
 
 #include "../../common/scene/scene.h"
 #include "../../common/scene/scene_fluid.h"
+#include "../surface/surface.h"
 #include "../walls/walls.h"
 
 enum { SAMPLES_2D = 16, SAMPLES_3D = 8 }; /* of a floor, along an axis */
@@ -24,6 +25,7 @@ struct column {
     double half;         /* m: half width of the hat function that weights it */
     bool walled;         /* by more than sides of the domain */
     double section, floor;
+    double ground, crest; /* m: highest place of the floor, of solids above the place */
     double roof, drowned; /* m: underside of a solid above the place, its mean height; NAN, 0 */
 };
 
@@ -92,7 +94,7 @@ static bool is_hidden(const struct sph *s, const struct column *c, const double 
 /* Floor and roof over one place of the section; sums: weight, floor, roof's weight, roof, height.
  */
 static void sound(const struct sph *s, const struct column *c, const double *across, double weight,
-                  double sums[5])
+                  double sums[5], struct column *to)
 {
     double x[3];
     memcpy(x, c->at, sizeof x);
@@ -102,7 +104,9 @@ static void sound(const struct sph *s, const struct column *c, const double *acr
         x[a] += a == c->up ? 0.0 : across[a];
     const double h = height_of(c, x);
     sums[0] += weight;
-    sums[1] += weight * (h + free_height(s, c, x, c->bottom - h));
+    const double floor = h + free_height(s, c, x, c->bottom - h);
+    sums[1] += weight * floor;
+    to->ground = fmax(to->ground, floor);
     const double room = c->top - h, roof = free_height(s, c, x, room);
     if (roof >= room)
         return;
@@ -114,12 +118,14 @@ static void sound(const struct sph *s, const struct column *c, const double *acr
     sums[2] += weight;
     sums[3] += weight * under;
     sums[4] += weight * (height + eps);
+    to->crest = fmax(to->crest, under + height);
 }
 
 static void sound_all(const struct sph *s, struct column *c)
 {
     const int n = s->dim == 2 ? SAMPLES_2D : SAMPLES_3D, m = s->dim == 2 ? 1 : n;
     double sums[5] = {0.0}, all = 0.0;
+    struct column highest = {.ground = -INFINITY, .crest = -INFINITY};
     for (int k = 0; k < n * m; k++) {
         int at = k;
         double across[3] = {0.0, 0.0, 0.0}, weight = 1.0;
@@ -131,12 +137,14 @@ static void sound_all(const struct sph *s, struct column *c)
             at /= n;
         }
         all += weight;
-        sound(s, c, across, weight, sums);
+        sound(s, c, across, weight, sums, &highest);
     }
     if (!(sums[0] > 0.0))
         return;
     c->section *= sums[0] / all;
     c->floor = sums[1] / sums[0];
+    c->ground = highest.ground;
+    c->crest = highest.crest;
     c->roof = sums[3] / sums[2]; /* NAN: none */
     c->drowned = sums[4] / sums[0];
 }
@@ -156,7 +164,7 @@ static struct column column_at(const struct sph *s, const double *at)
     struct column c = {
         .half = 2.0 * s->dx, .section = 1.0, .roof = NAN, .walled = has_walls_inside(s)};
     set_axis(s, &c);
-    c.floor = c.bottom;
+    c.floor = c.ground = c.bottom;
     memcpy(c.at, at, (size_t)s->dim * sizeof *at);
     if (c.walled)
         rise_from_solid(s, &c);
@@ -187,12 +195,24 @@ static double share_across(const struct sph *s, const struct column *c, int a, d
     return (hat_until(c, d + r) - hat_until(c, d - r)) / s->dx;
 }
 
-/* Volume of what flows of one level, weighted by the hat function. */
-static double volume_in(const struct sph *s, const struct column *c)
+/* What a column holds, m^dim: all; of it what the window between two heights has, whose edges are
+ * ramps, and what is above; whether a surface is in the window. */
+struct content {
+    double low, high, all, window, above;
+    double surface;
+};
+
+/* 0 below height h, 1 above it, 2 dx wide: sums over a lattice are exact. */
+static double ramp(double z, double h, double dx)
 {
-    double volume = 0.0;
+    return fmax(0.0, fmin(1.0, 0.5 + 0.5 * (z - h) / dx));
+}
+
+/* Adds the volumes of what flows of one level, weighted by the hat function. */
+static void add_level(const struct sph *s, const struct column *c, double dx, struct content *to)
+{
     for (int i = 0; i < s->p.n; i++) {
-        const double *q = prim_line(&s->p, i);
+        const double *q = prim_line(&s->p, i), z = height_of(c, q);
         double weight = particles_is_guard(&s->p, i) ? 0.0 : q[at_volume(s->dim)];
         double across[3] = {0.0, 0.0, 0.0};
         for (int a = 0; a < s->dim && weight > 0.0; a++) {
@@ -203,20 +223,46 @@ static double volume_in(const struct sph *s, const struct column *c)
                 across[a] = remainder(across[a], s->hi[a] - s->lo[a]);
             weight *= share_across(s, c, a, across[a]);
         }
-        if (weight > 0.0 &&
-            !(c->walled && is_hidden(s, c, across, c->sign * (q[c->up] - c->at[c->up]))))
-            volume += weight;
+        if (!(weight > 0.0) ||
+            (c->walled && is_hidden(s, c, across, c->sign * (q[c->up] - c->at[c->up]))))
+            continue;
+        const double above = ramp(z, to->high, dx), inside = ramp(z, to->low, dx) * (1.0 - above);
+        to->all += weight;
+        to->above += weight * above;
+        to->window += weight * inside;
+        to->surface += inside > 0.0 && s->surface && s->surface->is[i] == SURFACE_ON;
     }
-    return volume;
 }
 
+static struct content content_of(struct sph *s, const struct column *c, double low, double high)
+{
+    struct content sum = {.low = low, .high = high};
+    for (const struct sph *q = s; q; q = q->finer)
+        add_level(q, c, s->dx, &sum);
+    MPI_Allreduce(MPI_IN_PLACE, &sum.all, 4, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sum;
+}
+
+/* Level as if the water filled the column's section; drowned solids count as water. */
+static double level_of(const struct sph *s, const struct column *c, double volume)
+{
+    const double level = c->floor + volume / c->section;
+    return level > c->roof + 0.5 * s->dx ? level + c->drowned : level; /* no roof: NAN */
+}
+
+/* The section that water really fills is that of its inside, from above the ground to below the
+ * level: beside walls, where levels of refinement meet and where particles crowd, volumes do not
+ * add up to the column's. Water with air in it, or less than 5.5 dx deep, fills the section. */
 double level_gauge(struct sph *s, const double *at)
 {
     const struct column c = column_at(s, at);
-    double volume = 0.0;
-    for (const struct sph *q = s; q; q = q->finer)
-        volume += volume_in(q, &c);
-    MPI_Allreduce(MPI_IN_PLACE, &volume, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    const double level = c.floor + volume / c.section;
-    return c.sign * (level > c.roof + 0.5 * s->dx ? level + c.drowned : level); /* no roof: NAN */
+    const double level = level_of(s, &c, content_of(s, &c, INFINITY, INFINITY).all);
+    const double ground = isfinite(c.roof) ? c.crest : c.ground;
+    const double low = ground + s->dx, high = level - 2.5 * s->dx;
+    if (!(high - low >= 2.0 * s->dx))
+        return level;
+    const struct content v = content_of(s, &c, low, high);
+    const double section = v.window / (high - low);
+    const bool is_water = v.surface == 0.0 && fabs(section / c.section - 1.0) < 0.15;
+    return is_water ? high + v.above / section : level;
 }

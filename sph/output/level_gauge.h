@@ -5,7 +5,7 @@
 
 #include "../sph.h"
 
-/* m: its coordinate on the axis along which gravity points (the last one without gravity).
+/* m: its height against gravity on the axis along which that points (the last one without gravity).
  * Collective. */
 double level_gauge(struct sph *s, const double *at);
 

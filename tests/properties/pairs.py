@@ -1,0 +1,715 @@
+#!/usr/bin/env python3
+"""Two treatments within one support: random scenes of each pair against laws.
+
+A scene is water at rest, or a uniform stream, in which two treatments (a side, a line, a body, a period, an
+opening, a surface, an edge of refinement, a side of the SPH box ...) stand a random few dx apart. What must
+hold is known without any other code: Archimedes' force, rho g h, the level, nothing lost or put back, rest.
+
+usage: pairs.py [--build DIR] [--seed S] [-n N] [--pair NAME] [--keep DIR] [-j JOBS] | --table | --write SEED DIR
+Exit code 1: a law is broken; each is a line with the command that repeats it. SPDX-License-Identifier: BSD-3-Clause
+"""
+import argparse
+import concurrent.futures
+import csv
+import json
+import math
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+
+G = 9.81
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+# ------------------------------------------------------------------ scenes
+
+
+class Scene:
+    """A scene drawn with gravity along the last axis, and the turn, shift and unit in which it is written."""
+
+    def __init__(self, rng, dim):
+        self.rng, self.dim = rng, dim
+        self.lo, self.hi = [0.0] * dim, [1.0] * dim
+        self.periodic = [False] * dim
+        self.gravity = True
+        self.velocity = [0.0] * dim
+        self.nu = 0.0
+        self.sides, self.lines, self.bodies, self.shapes, self.probes, self.regions = {}, [], [], [], [], []
+        self.dx, self.end, self.sph, self.fv, self.meshes = 0.1, 1.0, "", None, {}
+        self.program = "sph"
+        self.level = None
+        self.blocked = []
+        self.laws = {}
+        self.unit = 2.0 ** rng.randint(-3, 3)
+        self.turn = rng.randrange(4) if dim == 2 else rng.randrange(3)
+        self.offset = [rng.choice([0, 0, -3, 5]) for _ in range(dim)]  # in units
+
+    # where the scene really lies: turned by quarters in 2D, by a cycle of axes in 3D
+    def vector(self, v):
+        if self.dim == 2:
+            x, y = v
+            return [(x, y), (-y, x), (-x, -y), (y, -x)][self.turn]
+        return tuple(v[(a + self.turn) % 3] for a in range(3))
+
+    def point(self, v):
+        w = self.vector(v)
+        return tuple(self.unit * (w[a] + self.offset[a]) for a in range(self.dim))
+
+    def side(self, axis, way):
+        v = [0.0] * self.dim
+        v[axis] = way
+        w = self.vector(v)
+        a = max(range(self.dim), key=lambda k: abs(w[k]))
+        return "xyz"[a] + ("_max" if w[a] > 0 else "_min")
+
+    def box(self, lo, hi):
+        p, q = self.point(lo), self.point(hi)
+        return [min(a, b) for a, b in zip(p, q)], [max(a, b) for a, b in zip(p, q)]
+
+    @property
+    def up(self):
+        return self.dim - 1
+
+    def speed_unit(self):
+        return math.sqrt(self.unit)  # g keeps its value
+
+    def text(self):
+        t = lambda v: "(" + ", ".join("%.15g" % (x + 0.0) for x in v) + ")"
+        down = [0.0] * self.dim
+        if self.gravity:
+            down[self.up] = -G
+        lo, hi = self.box(self.lo, self.hi)
+        axes = [max(range(self.dim), key=lambda k: abs(self.vector([float(a == b) for b in range(self.dim)])[k]))
+                for a in range(self.dim)]
+        periodic = [False] * self.dim
+        for a in range(self.dim):
+            periodic[axes[a]] = self.periodic[a]
+        out = ["# %s" % self.name, "format = 1;",
+               "time:   { end = %.15g; };" % (self.end * math.sqrt(self.unit)),
+               "fluid:  { rho = 1000.0; nu = %.15g; gravity = %s; };"
+               % (self.nu * self.unit * self.speed_unit(), t(self.vector(down))),
+               "domain: { dim = %d; min = %s; max = %s; periodic = (%s); };"
+               % (self.dim, t(lo), t(hi), ", ".join("true" if p else "false" for p in periodic))]
+        if any(self.velocity):
+            out.append('initial: { field = "uniform"; U = %.15g; velocity = %s; };'
+                       % (self.speed_unit() * max(map(abs, self.velocity)),
+                          t([self.speed_unit() * x for x in self.vector(self.velocity)])))
+        walls = []
+        for (axis, way), more in sorted(self.sides.items()):
+            words = ""
+            for key, value in more.items():
+                if key == "velocity":
+                    value = t([self.speed_unit() * x for x in self.vector(value)])
+                elif isinstance(value, str):
+                    value = '"%s"' % value
+                elif key == "level":
+                    value = "%.15g" % self.height(value)
+                words += " %s = %s;" % (key, value)
+            walls.append('{ side = "%s";%s }' % (self.side(axis, way), words))
+        for line in self.lines:
+            walls.append("{ points = (%s);%s }" % (", ".join(t(self.point(p)) for p in line["points"]),
+                                                   " closed = true;" if line.get("closed") else ""))
+        for name, mesh in self.meshes.items():
+            if mesh["of"] == "wall":
+                walls.append('{ mesh = "%s"; %s}' % (name, mesh.get("more", "")))
+        if walls:
+            out.append("walls:  ( %s );" % ",\n          ".join(walls))
+        shapes = []
+        for s in self.shapes:
+            if s[0] == "below":
+                shapes.append('{ form = "below"; level = %.15g; }' % self.height(s[1]))
+            else:
+                shapes.append('{ form = "box"; box = (%s, %s); }' % tuple(map(t, self.box(*s[1:]))))
+        if shapes:
+            out.append("shapes: ( %s );" % ", ".join(shapes))
+        bodies = []
+        for b in self.bodies:
+            where = ('mesh = "%s";' % b["mesh"] if "mesh" in b
+                     else "points = (%s);" % ", ".join(t(self.point(p)) for p in b["points"]))
+            bodies.append('{ name = "%s"; %s %s }' % (b["name"], where, b.get("more", "")))
+        if bodies:
+            out.append("bodies: ( %s );" % ",\n          ".join(bodies))
+        if self.blocked:
+            out.append("blocked: ( %s );" % ", ".join('{ name = "%s"; min = %s; max = %s; }' % ((n,) + tuple(
+                map(t, self.box(p, q)))) for n, p, q in self.blocked))
+        if self.probes:
+            out.append("probes: ( %s );" % ",\n          ".join(
+                '{ name = "%s"; kind = "%s"; at = %s; }' % (n, k, t(self.point(p))) for n, k, p in self.probes))
+        if self.regions:
+            out.append("apr:    { regions = ( %s ); };" % ", ".join(
+                "{ level = 1; min = %s; max = %s; }" % tuple(map(t, self.box(*r))) for r in self.regions))
+        if self.program != "fv":
+            box = ""
+            if self.program == "coupled":
+                box = " box = (%s, %s);" % tuple(map(t, self.box(*self.sph_box)))
+            out.append("sph:    { dx = %.15g;%s%s };" % (self.dx * self.unit, box, self.sph))
+        if self.fv:
+            cells = [1] * self.dim
+            for a in range(self.dim):
+                cells[axes[a]] = self.fv[a]
+            out.append("fv:     { cells = (%s); };" % ", ".join(map(str, cells)))
+        out.append("output: { snapshots = false; series = %d; };" % self.laws.get("series", 5))
+        return "\n".join(out) + "\n"
+
+    def height(self, h):
+        """Against gravity, as the keys `level' have it."""
+        v = [0.0] * self.dim
+        v[self.up] = h
+        up = [0.0] * self.dim
+        up[self.up] = 1.0
+        w, u = self.point(v), self.vector(up)
+        return sum(a * b for a, b in zip(w, u))
+
+    def stl(self, name, lo, hi, leave=()):
+        """A box of triangles, normals out of it."""
+        corners = [[(lo, hi)[i >> a & 1][a] for a in range(3)] for i in range(8)]
+        quads = {"x-": (0, 4, 6, 2), "x+": (1, 3, 7, 5), "y-": (0, 1, 5, 4), "y+": (2, 6, 7, 3),
+                 "z-": (0, 2, 3, 1), "z+": (4, 5, 7, 6)}
+        text = "solid s\n"
+        for key, q in quads.items():
+            if key in leave:
+                continue
+            for tri in ((q[0], q[1], q[2]), (q[0], q[2], q[3])):
+                text += "facet normal 0 0 0\nouter loop\n"
+                for i in tri:
+                    text += "vertex %.15g %.15g %.15g\n" % self.point(corners[i])
+                text += "endloop\nendfacet\n"
+        self.meshes[name] = {"text": text + "endsolid s\n", "of": "body"}
+
+    # ---------------------------------------------------------------- parts that scenes share
+    def tank(self, size, depth, sides="sides"):
+        """Cells of dx; open above the water. sides: which of the upright ones are walls."""
+        self.hi = [n * self.dx for n in size]
+        self.depth = depth * self.dx
+        self.level = self.depth
+        self.shapes.append(("below", self.depth))
+        if sides == "line":
+            x, h = self.hi[0], self.hi[1]
+            self.lines.append({"points": [(0.0, h), (0.0, 0.0), (x, 0.0), (x, h)]})
+        elif sides == "sides":
+            for a in range(self.up):
+                if not self.periodic[a]:
+                    self.sides[a, -1] = self.sides[a, 1] = {}
+            self.sides[self.up, -1] = {}
+        self.end = 4.0 * math.sqrt(self.depth / G)
+
+    def gauges(self, at):
+        for k, share in enumerate((0.3, 0.6)):
+            self.probes.append(("p%d" % k, "pressure", list(at) + [share * self.depth]))
+        self.probes.append(("level", "level", list(at) + [0.5 * self.dx]))
+        self.laws["gauges"] = [0.7 * self.depth, 0.4 * self.depth]
+
+    def block(self, name, lo, hi, more=""):
+        """A box-shaped body; remembers what Archimedes wants."""
+        if self.dim == 2:
+            self.bodies.append({"name": name, "more": more,
+                                "points": [(lo[0], lo[1]), (lo[0], hi[1]), (hi[0], hi[1]), (hi[0], lo[1])]})
+        else:
+            self.stl(name + ".stl", lo, hi)
+            self.bodies.append({"name": name, "mesh": name + ".stl", "more": more})
+        wet = [h for h in hi]
+        if self.level is not None:
+            wet[self.up] = min(hi[self.up], self.level)
+        volume = math.prod(w - l for w, l in zip(wet, lo))
+        sides = [math.prod(wet[b] - lo[b] for b in range(self.dim) if b != a) for a in range(self.dim)]
+        middle = self.level - 0.5 * (lo[self.up] + wet[self.up])
+        self.laws.setdefault("solids", []).append((name, volume, [1000 * G * middle * s for s in sides]))
+
+    def polygon(self, name, centre, radius, n, angle, more=""):
+        points = [(centre[0] + radius * math.cos(angle - 2 * math.pi * k / n),
+                   centre[1] + radius * math.sin(angle - 2 * math.pi * k / n)) for k in range(n)]
+        area = 0.5 * n * radius * radius * math.sin(2 * math.pi / n)
+        self.bodies.append({"name": name, "points": points, "more": more})
+        p = 1000 * G * (self.level - centre[1]) * 2 * radius
+        self.laws.setdefault("solids", []).append((name, area, [p, p]))
+        return points
+
+
+# ------------------------------------------------------------------ pairs: water at rest, sph
+
+def gap_of(rng):
+    return rng.uniform(1.0, 5.0)
+
+
+def tank2(rng, sides="sides", wide=(24, 40), deep=(14, 26)):
+    s = Scene(rng, 2)
+    s.dx = 1.0 / rng.choice([16, 20, 25, 32])
+    if sides == "period":
+        s.periodic[0] = True
+        sides = "sides"
+    size = [rng.randint(*wide), 0]
+    depth = rng.randint(*deep)
+    size[1] = depth + rng.randint(6, 10)
+    s.tank(size, depth, sides)
+    s.n, s.d = size, depth
+    return s
+
+
+def block_at(s, rng, near, name="b", more=""):
+    """Block of random size whose face stands a random gap from the floor, a side, the period or both."""
+    w, h = rng.uniform(4, 9) * s.dx, rng.uniform(4, min(9, s.d - 7)) * s.dx
+    x = 0.5 * (s.hi[0] - w) + rng.uniform(-2, 2) * s.dx
+    y = 0.5 * (s.depth - h)
+    if "floor" in near:
+        y = gap_of(rng) * s.dx
+    if "side" in near:
+        x = gap_of(rng) * s.dx if rng.random() < 0.5 else s.hi[0] - w - gap_of(rng) * s.dx
+    if "across" in near:  # of a period
+        x = rng.uniform(-0.4, 2.5) * s.dx
+    s.block(name, [x, y], [x + w, y + h], more)
+    s.gauges([(x + w + 0.5 * (s.hi[0] - x - w)) % s.hi[0]])
+
+
+def body_floor(rng):
+    s = tank2(rng, rng.choice(["sides", "line"]))
+    block_at(s, rng, ["floor"])
+    return s
+
+
+def body_side(rng):
+    s = tank2(rng, rng.choice(["sides", "line"]))
+    block_at(s, rng, ["side"])
+    return s
+
+
+def body_corner(rng):
+    s = tank2(rng, rng.choice(["sides", "line"]))
+    block_at(s, rng, ["side", "floor"])
+    return s
+
+
+def body_period(rng):
+    s = tank2(rng, "period")
+    block_at(s, rng, rng.choice([["across"], ["side"], ["across", "floor"]]))
+    return s
+
+
+def body_body(rng):
+    s = tank2(rng, wide=(34, 44))
+    y, w, h = 4 * s.dx, rng.uniform(4, 8) * s.dx, rng.uniform(4, s.d - 9) * s.dx
+    x = 6 * s.dx
+    s.block("b", [x, y], [x + w, y + h])
+    w2, h2 = rng.uniform(4, 8) * s.dx, rng.uniform(4, s.d - 9) * s.dx
+    x2 = x + w + gap_of(rng) * s.dx
+    s.block("c", [x2, y], [x2 + w2, y + h2])
+    s.gauges([0.5 * (x2 + w2 + s.hi[0])])
+    return s
+
+
+def polygon_floor(rng):
+    s = tank2(rng, rng.choice(["sides", "line"]), deep=(18, 26))
+    r, n = rng.uniform(3.5, 5.5) * s.dx, rng.choice([3, 4, 5, 6, 12, 40])
+    low = gap_of(rng) * s.dx
+    angle = rng.uniform(0, 6.28)
+    lowest = min(math.sin(angle - 2 * math.pi * k / n) for k in range(n))
+    s.polygon("b", (0.5 * s.hi[0], low - r * lowest), r, n, angle)
+    s.gauges([0.25 * (s.hi[0] - 2 * r)])
+    return s
+
+
+def body_surface(rng):
+    s = tank2(rng, wide=(30, 40), deep=(16, 24))
+    w = rng.uniform(6, 10) * s.dx
+    x, y = 0.5 * (s.hi[0] - w), s.depth - rng.uniform(4, 9) * s.dx
+    s.block("b", [x, y], [x + w, s.depth + rng.uniform(1.5, 4) * s.dx])
+    s.gauges([0.25 * (s.hi[0] - w)])
+    return s
+
+
+def body_lid(rng):  # a top under or at the surface
+    s = tank2(rng, wide=(30, 40), deep=(16, 24))
+    w, h = rng.uniform(6, 10) * s.dx, rng.uniform(4, 7) * s.dx
+    x, y = 0.5 * (s.hi[0] - w), s.depth - h - rng.uniform(2, 5) * s.dx
+    s.block("b", [x, y], [x + w, y + h])
+    s.gauges([0.25 * (s.hi[0] - w)])
+    return s
+
+
+def body_level_edge(rng):
+    s = tank2(rng, wide=(34, 44), deep=(18, 26))
+    block_at(s, rng, rng.choice([[], ["floor"]]))
+    x = [p[0] / s.dx for p in s.bodies[0]["points"]]
+    a, b = min(x) - rng.uniform(4, 8), max(x) + rng.uniform(4, 8)
+    s.regions.append(([max(0, round(a)) * s.dx, -s.dx], [min(s.n[0], round(b)) * s.dx, s.hi[1]]))
+    return s
+
+
+def side_level_edge(rng):
+    s = tank2(rng, rng.choice(["sides", "line"]))
+    s.regions.append(([-s.dx, -s.dx], [s.dx * rng.randint(5, s.n[0] - 5), s.hi[1]]))
+    s.gauges([s.dx * rng.uniform(2, s.n[0] - 2)])
+    return s
+
+
+def period_level_edge(rng):
+    s = tank2(rng, "period")
+    a = rng.randint(5, s.n[0] - 18)
+    s.regions.append(([a * s.dx, -s.dx], [(a + 13) * s.dx, s.hi[1]]))
+    s.gauges([s.dx * rng.uniform(2, s.n[0] - 2)])
+    return s
+
+
+def side_surface(rng):
+    s = tank2(rng, rng.choice(["sides", "line", "period"]))
+    s.gauges([s.dx * rng.uniform(1, s.n[0] - 1)])
+    return s
+
+
+def ghost_surface(rng):
+    s = tank2(rng, rng.choice(["sides", "period"]))
+    s.sph = ' walls = "ghosts";'
+    s.gauges([s.dx * rng.uniform(3, s.n[0] - 3)])
+    return s
+
+
+def line_line(rng):  # a step or a wedge that stands on the floor
+    s = tank2(rng, "sides", wide=(30, 40))
+    w, h = rng.uniform(4, 9) * s.dx, rng.uniform(3, s.d - 6) * s.dx
+    x = 0.5 * s.hi[0]
+    top = rng.choice([[(x - w, 0), (x, h), (x + w, 0)], [(x - w, 0), (x - w, h), (x + w, h), (x + w, 0)]])
+    s.lines.append({"points": [(0, s.hi[1]), (0, 0)] + top + [(s.hi[0], 0), (s.hi[0], s.hi[1])]})
+    s.sides = {}
+    s.gauges([s.dx * 4])
+    return s
+
+
+def free_floor(rng):
+    """A free body as heavy as the water it displaces stays where it is."""
+    s = tank2(rng)
+    block_at(s, rng, rng.choice([["floor"], ["side"], []]), more="free = true; density = 1000.0;")
+    s.laws["stays"] = s.laws.pop("solids")
+    return s
+
+
+def tank3(rng, deep=(8, 12)):
+    s = Scene(rng, 3)
+    s.dx = 1.0 / rng.choice([10, 16, 20])
+    s.d = rng.randint(*deep)
+    s.n = [rng.randint(10, 13), rng.randint(10, 13), s.d + 5]
+    if rng.random() < 0.3:
+        s.periodic[rng.randrange(2)] = True
+    s.tank(s.n, s.d)
+    s.end *= 0.6
+    return s
+
+
+def mesh_side(rng):
+    s = tank3(rng, (11, 14))
+    size = [rng.uniform(4, 5.5) * s.dx for _ in range(3)]
+    lo = [0.5 * (s.hi[0] - size[0]), 0.5 * (s.hi[1] - size[1]), 0.5 * (s.depth - size[2])]
+    for a in rng.choice([[2], [0], [1], [0, 2], [1, 2]]):
+        lo[a] = gap_of(rng) * s.dx
+    s.block("b", lo, [a + b for a, b in zip(lo, size)])
+    s.gauges([s.hi[0] - 2 * s.dx, s.hi[1] - 2 * s.dx])
+    return s
+
+
+def side_surface3(rng):
+    s = tank3(rng)
+    s.gauges([s.dx * rng.uniform(2, s.n[0] - 2), s.dx * rng.uniform(2, s.n[1] - 2)])
+    return s
+
+
+# ------------------------------------------------------------------ fv and coupled at rest
+
+def fv_tank(rng, dim=2):
+    s = Scene(rng, dim)
+    s.program = "fv"
+    s.dx = 1.0 / rng.choice([16, 20, 32])
+    s.n = [2 * rng.randint(8, 16), 2 * rng.randint(8, 14)] if dim == 2 else [2 * rng.randint(4, 7) for _ in range(3)]
+    s.d = rng.uniform(0.4, 0.8) * s.n[-1]
+    s.tank(s.n, s.d)
+    s.sides[s.up, 1] = {}
+    s.fv = s.n
+    s.laws["rest"] = 1e-6
+    return s
+
+
+def fv_side_surface(rng):
+    s = fv_tank(rng, rng.choice([2, 2, 3]))
+    s.gauges([rng.uniform(1, n - 1) * s.dx for n in s.n[:-1]])
+    return s
+
+
+def fv_blocked(rng):
+    s = fv_tank(rng)
+    lo = [rng.randint(4, s.n[0] - 9), rng.choice([0, 0, 4])]
+    hi = [lo[0] + 4, min(lo[1] + rng.randint(4, 8), s.n[1] - 4)]
+    s.blocked.append(("b", [x * s.dx for x in lo], [x * s.dx for x in hi]))
+    s.gauges([2 * s.dx])
+    return s
+
+
+def coupled_tank(rng):
+    s = tank2(rng, rng.choice(["sides", "period"]), wide=(64, 76), deep=(18, 26))
+    s.program = "coupled"
+    s.n[0] += s.n[0] % 4
+    s.hi = [s.n[0] * s.dx, s.n[1] * s.dx]
+    s.n[1] += s.n[1] % 2
+    s.hi[1] = s.n[1] * s.dx
+    s.fv = [s.n[0] // 2, s.n[1] // 2]
+    s.sides[1, 1] = {}
+    w = rng.randint(42, 48)
+    a = rng.choice([0, rng.randint(6, s.n[0] - w - 6)]) if not s.periodic[0] else rng.randint(6, s.n[0] - w - 6)
+    s.sph_box = ([a * s.dx, 0.0], [(a + w) * s.dx, s.hi[1]])
+    s.laws["series"] = 20
+    return s
+
+
+def box_surface(rng):
+    s = coupled_tank(rng)
+    s.gauges([0.5 * (s.sph_box[0][0] + s.sph_box[1][0])])
+    return s
+
+
+def box_body(rng):
+    s = coupled_tank(rng)
+    mid = 0.5 * (s.sph_box[0][0] + s.sph_box[1][0])
+    w, h = 4 * s.dx, rng.uniform(4, 8) * s.dx
+    y = rng.choice([gap_of(rng), 0.5 * (s.d - h / s.dx)]) * s.dx
+    s.block("b", [mid - 0.5 * w, y], [mid + 0.5 * w, y + h])
+    s.gauges([mid + 4.5 * s.dx])
+    return s
+
+
+# ------------------------------------------------------------------ uniform streams
+
+def stream(rng, program):
+    s = Scene(rng, 2)
+    s.program = program
+    s.gravity = False
+    s.dx = 1.0 / rng.choice([16, 20, 32])
+    s.n = [2 * rng.randint(14, 22), 2 * rng.randint(6, 11)]
+    s.hi = [n * s.dx for n in s.n]
+    s.velocity = [rng.uniform(0.2, 1.0), 0.0]
+    s.sides[0, -1] = {"kind": "inflow", "velocity": s.velocity}
+    s.sides[0, 1] = {"kind": "outflow"}
+    if rng.random() < 0.5:
+        s.periodic[1] = True
+    else:
+        s.sides[1, -1] = s.sides[1, 1] = {}
+    s.end = 1.5 * s.hi[0] / s.velocity[0]
+    s.laws["stream"] = 0.02
+    return s
+
+
+def opening_side(rng):
+    s = stream(rng, "sph")
+    if rng.random() < 0.5:
+        p = rng.choice([1e3, -1e3, 1e5])
+        s.sides[0, 1]["pressure"] = "%.15g" % (p * s.unit)
+        s.sides[0, 1]["pressure"] = p * s.unit
+    return s
+
+
+def opening_level_edge(rng):
+    s = stream(rng, "sph")
+    a = rng.randint(6, s.n[0] - 20)
+    s.regions.append(([a * s.dx, -s.dx], [(a + 14) * s.dx, s.hi[1] + s.dx]))
+    return s
+
+
+def absorbing_side(rng):
+    s = stream(rng, "sph")
+    s.sides[0, 1] = {"kind": "absorbing", "velocity": s.velocity}
+    return s
+
+
+def fv_opening_side(rng):
+    s = stream(rng, "fv")
+    s.fv = s.n
+    if rng.random() < 0.5:
+        s.sides[0, 1]["carried"] = "true"
+        s.sides[0, 1] = {"kind": "outflow", "carried": True}
+    s.laws["stream"] = 1e-6
+    return s
+
+
+PAIRS = [
+    # name, treatments, weight, scene
+    ("body-floor", "body x side or line (floor)", 2, body_floor),
+    ("body-side", "body x side or line (upright)", 2, body_side),
+    ("body-corner", "body x two sides", 1, body_corner),
+    ("body-period", "body x period", 2, body_period),
+    ("body-body", "body x body", 2, body_body),
+    ("polygon-floor", "body with edges at any angle x floor", 2, polygon_floor),
+    ("body-surface", "body x free surface", 1, body_surface),
+    ("body-lid", "top of a body x free surface", 1, body_lid),
+    ("body-edge", "body x level edge", 1, body_level_edge),
+    ("side-edge", "side or line x level edge", 1, side_level_edge),
+    ("period-edge", "period x level edge", 1, period_level_edge),
+    ("side-surface", "side, line or period x free surface", 1, side_surface),
+    ("ghost-surface", "ghost side x free surface", 1, ghost_surface),
+    ("line-line", "line x line", 1, line_line),
+    ("free-side", "free body as heavy as water x side", 2, free_floor),
+    ("mesh-side", "mesh of a body x sides and periods, 3D", 2, mesh_side),
+    ("side-surface3", "side or period x free surface, 3D", 1, side_surface3),
+    ("fv-side-surface", "fv: side x free surface", 1, fv_side_surface),
+    ("fv-blocked-surface", "fv: blocked box x free surface", 1, fv_blocked),
+    ("box-surface", "SPH box side x FV, free surface, side or period", 1, box_surface),
+    ("box-body", "SPH box side x body", 1, box_body),
+    ("opening-side", "inlet, outlet x side or period", 1, opening_side),
+    ("opening-edge", "inlet, outlet x level edge", 1, opening_level_edge),
+    ("absorbing-side", "absorbing side x inlet, side or period", 1, absorbing_side),
+    ("fv-opening-side", "fv: inlet, outlet x side or period", 1, fv_opening_side),
+]
+
+
+def draw(seed, only=None):
+    rng = random.Random(seed)
+    pairs = [p for p in PAIRS if not only or p[0] == only]
+    name, _, _, make = rng.choices(pairs, [p[2] for p in pairs])[0]
+    s = make(rng)
+    s.name = name
+    return s
+
+
+# ------------------------------------------------------------------ running and judging
+
+def command(s, build, case, out):
+    p = lambda name: [os.path.join(build, name), case, "-o", out]
+    if s.program != "coupled":
+        return p(s.program)
+    mpi = "mpirun --quiet --allow-run-as-root --bind-to none --oversubscribe --mca mpi_yield_when_idle 1 " \
+          "--mca btl_vader_single_copy_mechanism none"
+    return mpi.split() + ["-np", "1"] + p("sph") + [":", "-np", "1"] + p("coupler") + [":", "-np", "1"] + p("fv")
+
+
+def late(rows, title, share=0.35):
+    """Mean of a column over the last part of a run, by the beginning of its title; None: no such column."""
+    name = next((c for c in rows[0] if c.startswith(title)), None)
+    if name is None:
+        return None
+    values = [float(r[name]) for r in rows]
+    values = values[-max(1, int(share * len(values))):]
+    return sum(values) / len(values)
+
+
+def judge(s, out):
+    """Names of what is broken, with figures."""
+    part = "sph-" if s.program == "coupled" else ""
+    summary = json.load(open(os.path.join(out, part + "summary.json")))
+    rows = list(csv.DictReader(open(os.path.join(out, part + "series.csv"))))
+    bad = []
+    unit, laws = s.unit, s.laws
+    said = lambda *keys: next((summary[k] for k in keys if k in summary), 0)
+    if said("particles_returned") or said("particles_lost"):
+        bad.append("put back %d, lost %d" % (said("particles_returned"), said("particles_lost")))
+    up = [0.0] * s.dim
+    up[s.up] = 1.0
+    up = s.vector(up)
+    for name, volume, pa in laws.get("solids", []):
+        weight = 1000 * G * volume * unit ** s.dim
+        force = [late(rows, "%s force %s" % (name, "xyz"[a])) for a in range(s.dim)]
+        if None in force:
+            bad.append("no force of %s in the series" % name)
+            continue
+        lift = sum(a * b for a, b in zip(force, up))
+        if abs(lift - weight) > 0.03 * weight:
+            bad.append("lift of %s %.4g N for %.4g (%+.1f %%)" % (name, lift, weight, 100 * (lift / weight - 1)))
+        most = max(abs(f - lift * u) for f, u in zip(force, up))
+        if most > 0.03 * max(weight, max(pa[:-1]) * unit ** s.dim):
+            bad.append("sideways force of %s %.4g N, p A %.4g" % (name, most, max(pa[:-1]) * unit ** s.dim))
+    for name, volume, pa in laws.get("stays", []):
+        moved = [late(rows, "%s %s" % (name, "xyz"[a]), 0.01) for a in range(s.dim)]
+        start = [float(rows[0][next(c for c in rows[0] if c.startswith("%s %s" % (name, "xyz"[a])))]) for a in range(s.dim)]
+        far = max(abs(a - b) for a, b in zip(moved, start)) / (s.dx * unit)
+        if far > 0.1:
+            bad.append("a body as heavy as water has moved by %.2f dx" % far)
+    for k, depth in enumerate(laws.get("gauges", [])):
+        p, want, scale = late(rows, "p%d" % k), 1000 * G * depth * unit, 1000 * G * s.depth * unit
+        if p is None or not abs(p - want) <= 0.02 * scale:
+            bad.append("pressure %s Pa for %.5g" % (p and "%.5g (%+.1f %% of the largest)" % (p, 100 * (p - want) / scale), want))
+    if "gauges" in laws:
+        h, want = late(rows, "level"), s.height(s.level)
+        if h is None or not abs(h - want) <= 0.1 * s.dx * unit + 0.2 * s.dx * unit * (s.program != "sph"):
+            bad.append("level %s dx off" % (h and "%.2f" % ((h - want) / (s.dx * unit))))
+    mach = summary.get("max_mach_late")
+    if "stream" not in laws and mach is not None and mach > 2e-3:
+        bad.append("it does not rest: Mach %.2g late" % mach)
+    if "stream" in laws:
+        V, V2 = s.speed_unit() * s.velocity[0], None
+        e = [c for c in rows[0] if c.startswith("kinetic energy")]
+        if e:
+            V2 = float(rows[-1][e[0]]) / float(rows[0][e[0]])
+            if abs(V2 - 1) > 2 * laws["stream"]:
+                bad.append("energy of a uniform stream %.4f of that at the start" % V2)
+    return bad
+
+
+def one(args):
+    seed, options = args
+    s = draw(seed, options.pair)
+    work = tempfile.mkdtemp(prefix="pairs.")
+    case, out = os.path.join(work, "case.cfg"), os.path.join(work, "out")
+    write(s, case)
+    try:
+        run = subprocess.run(command(s, options.build, case, out), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                             timeout=options.limit, text=True, env=dict(os.environ, OMP_NUM_THREADS="1"))
+        code, said = run.returncode, run.stdout
+    except subprocess.TimeoutExpired:
+        code, said = 99, "not done in %d s" % options.limit
+    lines = [l for l in said.splitlines() if l.strip()]
+    if code == 2:
+        verdict, why = "refused", [next((l for l in lines if "error" in l or "remedy" not in l), "?")]
+    elif code != 0:
+        first = next((l for l in lines if "error" in l or "diverged" in l or "stopped" in l), lines[-1] if lines else "?")
+        verdict, why = "failed", ["exit code %d: %s" % (code, first)]
+    else:
+        try:
+            why = judge(s, out)
+        except (OSError, KeyError, ValueError, StopIteration) as e:
+            why = ["no figures: %r" % e]
+        verdict = "failed" if why else "passed"
+    if verdict == "failed" and options.keep:
+        shutil.copytree(work, os.path.join(options.keep, str(seed)), dirs_exist_ok=True)
+    shutil.rmtree(work)
+    return seed, s.name, verdict, why
+
+
+def write(s, case):
+    with open(case, "w") as f:
+        f.write(s.text())
+    for name, mesh in s.meshes.items():
+        with open(os.path.join(os.path.dirname(case), name), "w") as f:
+            f.write(mesh["text"])
+
+
+def main():
+    p = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    p.add_argument("--build", default=os.path.join(ROOT, "build"))
+    p.add_argument("--seed", type=int, default=1)
+    p.add_argument("-n", type=int, default=100)
+    p.add_argument("-j", type=int, default=2)
+    p.add_argument("--pair")
+    p.add_argument("--keep")
+    p.add_argument("--limit", type=float, default=120)
+    p.add_argument("--verbose", action="store_true")
+    p.add_argument("--table", action="store_true")
+    p.add_argument("--write", nargs=2, metavar=("SEED", "DIR"))
+    o = p.parse_args()
+    if o.table:
+        print("| pair | treatments |\n|---|---|")
+        for name, what, _, _ in PAIRS:
+            print("| `%s` | %s |" % (name, what))
+        return 0
+    if o.write:
+        os.makedirs(o.write[1], exist_ok=True)
+        write(draw(int(o.write[0]), o.pair), os.path.join(o.write[1], "case.cfg"))
+        return 0
+    count = {"passed": 0, "refused": 0, "failed": 0}
+    with concurrent.futures.ThreadPoolExecutor(o.j) as pool:
+        for seed, name, verdict, why in pool.map(one, ((k, o) for k in range(o.seed, o.seed + o.n))):
+            count[verdict] += 1
+            if verdict == "failed" or o.verbose:
+                again = "tests/properties/pairs.py -n 1 --seed %d%s" % (seed, " --pair " + o.pair if o.pair else "")
+                print("%s  %s: %s  [%s]" % (verdict.upper() if verdict == "failed" else verdict, name,
+                                            "; ".join(why) or "all laws hold", again), flush=True)
+    print("pairs: %(passed)d passed, %(refused)d refused, %(failed)d failed" % count)
+    return count["failed"] > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
