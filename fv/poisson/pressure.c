@@ -15,6 +15,8 @@
 #include "pfmg.h"
 
 enum { MOST = 50 }; /* iterations */
+static const double NO_RESIDUAL =
+    1e-200; /* square sum of a residual whose products are still numbers */
 
 struct pressure {
     struct pfmg *pfmg;
@@ -326,7 +328,7 @@ static bool solve(struct fv *s, double tau, double *div, double tol, double *psi
     if (s->surface) /* psi is the whole pressure: of its change */
         enough = fmax(tol * tol * rr, least_residual(s));
     int n = 0;
-    while (rr > 0.0 && (n == 0 || rr > enough) && n < MOST) {
+    while (rr > NO_RESIDUAL && (n == 0 || rr > enough) && n < MOST) {
         rz = next_direction(s, div, rz);
         rr = advance(s, rz, psi, div);
         n++;

@@ -152,6 +152,23 @@ static void convective_outflow_holds(void **state)
     fv_free(&c.s);
 }
 
+/* A uniform stream: what is not uniform leaves it, and nothing is left that products could hold. */
+static void streams_without_residual_hold(void **state)
+{
+    struct fv_case c;
+    (void)state;
+    fv_case_set(&c, MPI_COMM_SELF,
+                (const char *const[]){"initial.field=\"uniform\"", "initial.velocity=(-0.649,0)",
+                                      "initial.U=0.649", "fluid.nu=0", "domain.max=(1.1875,0.5625)",
+                                      "domain.periodic=(false,true)", "fv.cells=(38,18)", NULL});
+    wall_add(&c, SIDE_X_MAX, WALL_INFLOW, 0.0)->velocity[0] = -0.649;
+    wall_add(&c, SIDE_X_MIN, WALL_OUTFLOW, 0.0)->carried = true;
+    struct fv *s = fv_case_start(&c, NULL);
+    assert_true(fv_case_run(&c, 1000, 4.0));
+    assert_close(s->umax[0], 0.649, 1e-12);
+    fv_free(&c.s);
+}
+
 static struct fv *wave_or_column(struct fv_case *c, bool column)
 {
     fv_case_set(c, MPI_COMM_SELF,
@@ -269,6 +286,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(blocks_hold),
                                        cmocka_unit_test(starts_from_rest_hold),
                                        cmocka_unit_test(convective_outflow_holds),
+                                       cmocka_unit_test(streams_without_residual_hold),
                                        cmocka_unit_test(viscous_surfaces_hold),
                                        cmocka_unit_test(viscous_starts_hold),
                                        cmocka_unit_test(thin_channels_take_few_steps),
