@@ -1,6 +1,6 @@
-/* cover.c - whether regions still hold the bodies that they held at the start: where a body has
- * left one, particles of the level below meet it, and its force is theirs.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* cover.c - whether edges of regions cut bodies, and whether regions still hold the bodies that
+ * they held at the start: where a body has left one, particles of the level below meet it, and its
+ * force is theirs. SPDX-License-Identifier: BSD-3-Clause */
 #include "refinement.h"
 
 #include <math.h>
@@ -10,24 +10,40 @@
 #include "../../common/base/mem.h"
 #include "../walls/walls.h"
 
-enum { LOOK_EVERY = 20, VERTICES = 500 };
+enum { LOOK_EVERY = 20, VERTICES = 500, PARTS = 8 }; /* of a side of a polygon */
 
-/* Points of a body's surface that lie where a level flows; the one that lies least far from there.
- */
+/* Points of a body's surface, those that lie where a level flows, and of the others the one least
+ * far from there. */
 struct held {
-    int points;
+    int all, points;
     double best, at[3];
 };
+
+/* Point i of a body's surface in space: a vertex of its mesh, or one of PARTS on each side. */
+static void point_of(const struct body *b, int i, double *x)
+{
+    double at[3] = {0.0, 0.0, 0.0};
+    if (b->mesh) {
+        body_place(b, b->mesh->x[i], x);
+        return;
+    }
+    const int n = b->is->points.n, from = i / PARTS, to = (from + 1) % n;
+    const double part = (double)(i % PARTS) / PARTS;
+    for (int a = 0; a < 2; a++)
+        at[a] = (1.0 - part) * b->is->points.x[from][a] + part * b->is->points.x[to][a];
+    body_place(b, at, x);
+}
 
 static struct held count(const struct sph *s, const struct body *b, int level)
 {
     const double R = ldexp(s->R, 1 - level);
-    const int n = b->mesh ? b->mesh->nvertices : b->is->points.n, stride = 1 + n / VERTICES;
+    const int n = b->mesh ? b->mesh->nvertices : PARTS * b->is->points.n, stride = 1 + n / VERTICES;
     struct held to = {.best = -INFINITY};
     for (int i = 0; i < n; i += stride) {
         double x[3] = {0.0, 0.0, 0.0};
-        body_place(b, b->mesh ? b->mesh->x[i] : b->is->points.x[i], x);
+        point_of(b, i, x);
         const double d = regions_distance(s->refinement->regions, level, x);
+        to.all++;
         to.points += d >= R;
         if (d < R && d > to.best) {
             to.best = d;
@@ -46,6 +62,16 @@ static void say_left(const struct sph *s, const struct body *b, int level, const
              b->is->name);
 }
 
+static void say_cut(const struct sph *s, const struct body *b, int level, const struct held *is)
+{
+    const double R = ldexp(s->R, 1 - level);
+    log_warn("the edge of level %d cuts body %s at (%g, %g, %g) m: pressures there are right, but "
+             "each level pushes with its own particles, and the force may be off by a tenth of "
+             "the pressure times its area (force.average is better); let the region reach R = "
+             "%.3g m beyond the body, or end before it",
+             level, b->is->name, is->at[0], is->at[1], is->at[2], R);
+}
+
 /* Reported once for each body and level. */
 void refinement_watch_bodies(struct sph *s)
 {
@@ -56,13 +82,15 @@ void refinement_watch_bodies(struct sph *s)
     if (first)
         r->held = mem_new(BODIES_MAX, sizeof *r->held);
     for (int k = 0; k < s->walls->nbodies; k++)
-        for (int n = 1; n <= regions_levels(r->regions) && s->walls->bodies[k].moves; n++) {
+        for (int n = 1; n <= regions_levels(r->regions); n++) {
             int *before = &r->held[k][n];
-            if (!first && *before == 0)
+            if (!first && (*before == 0 || !s->walls->bodies[k].moves))
                 continue;
             const struct held now = count(s, s->walls->bodies + k, n);
             if (first) {
                 *before = now.points;
+                if (now.points > 0 && now.points < now.all)
+                    say_cut(s, s->walls->bodies + k, n, &now);
             } else if (now.points < *before) {
                 say_left(s, s->walls->bodies + k, n, &now);
                 *before = 0;

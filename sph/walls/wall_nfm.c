@@ -25,7 +25,7 @@ static const double least_gamma = 0.2; /* of corners below 72 degrees: 15 ran aw
 struct nfm {
     struct wall_list list;
     double crowding[RATIOS + 1]; /* see tabulate */
-    /* With levels [list.n]: whether the force of this row counts, see judge; of this list. */
+    /* With levels [touches of list]: whether its force counts, see judge; of this list. */
     bool judged, *pushes;
     int pushes_capacity, q_capacity;
     double (*q)[3]; /* [q_capacity] N/m^dim: fluxes of the touches of the particle at hand */
@@ -74,36 +74,37 @@ static void list(struct sph *s)
     m->judged = false;
 }
 
-/* The middle of what particle k of the list sees of walls. */
-static void wall_seen(const struct sph *s, const struct wall_list *l, int k, double *x)
-{
-    double sum[3] = {0.0, 0.0, 0.0}, W = 0.0;
-    for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
-        W += t->is.W;
-        for (int a = 0; a < s->dim; a++)
-            sum[a] += t->is.W * t->is.e[a];
-    }
-    for (int a = 0; a < s->dim; a++)
-        x[a] = prim_line(&s->p, l->who[k])[a] + (W > 0.0 ? sum[a] / W : 0.0);
-}
-
 /* A place of a wall is pushed by all particles that see it of the level that flows there, guards or
  * not: their kernels make up one. Of what flows alone, of both levels, they do not: coarse
  * particles behind fine ones push as well, 17 % too much with 0.7 R of fine ones. */
 static void judge(const struct sph *s, struct nfm *m)
 {
     const struct wall_list *l = &m->list;
-    if (l->n > m->pushes_capacity) {
+    if (l->first[l->n] > m->pushes_capacity) {
         mem_free(m->pushes);
-        m->pushes_capacity = l->capacity;
+        m->pushes_capacity = l->touches_capacity;
         m->pushes = NEW(bool, m->pushes_capacity);
     }
-    for (int k = 0; k < l->n; k++) {
-        double x[3];
-        wall_seen(s, l, k, x);
-        m->pushes[k] = s->flows_at(s, x);
-    }
+    for (int k = 0; k < l->n; k++)
+        for (int j = l->first[k]; j < l->first[k + 1]; j++) {
+            double x[3];
+            for (int a = 0; a < s->dim; a++)
+                x[a] = prim_line(&s->p, l->who[k])[a] + l->touch[j].is.e[a];
+            m->pushes[j] = l->touch[j].is.W > 0.0 && s->flows_at(s, x);
+        }
     m->judged = true;
+}
+
+/* Of what touches take from the gamma of particle k, the share of those that push. */
+static double share_that_pushes(const struct sph *s, const struct nfm *m, int k)
+{
+    const struct wall_list *l = &m->list;
+    double all = 0.0, pushing = 0.0;
+    for (int j = l->first[k]; j < l->first[k + 1] && s->flows_at; j++) {
+        all += fabs(l->touch[j].is.gamma);
+        pushing += m->pushes[j] ? fabs(l->touch[j].is.gamma) : 0.0;
+    }
+    return !s->flows_at ? 1.0 : all > 0.0 ? pushing / all : 0.0;
 }
 
 /* int G dS of one piece, G the function of the crowding vector: by the ratio of a plane as far away
@@ -420,6 +421,11 @@ INLINE struct given all_fluxes(const struct sph *s, struct nfm *m, int k, const 
     return all;
 }
 
+static bool pushes(const struct sph *s, const struct nfm *m, const struct wall_touch *t)
+{
+    return !s->flows_at || m->pushes[t - m->list.touch];
+}
+
 /* Each owner of touches gets what its pieces have, times `share', from the volume w; the first
  * `first' besides. */
 INLINE void credit_own(const struct sph *s, const struct nfm *m, int k, const double *x, double w,
@@ -432,7 +438,7 @@ INLINE void credit_own(const struct sph *s, const struct nfm *m, int k, const do
     for (int a = 0; a < dim; a++)
         force[a] = first[a];
     for (int j = 0; t < l->touch + l->first[k + 1]; j++, t++) {
-        if (t->is.W == 0.0)
+        if (t->is.W == 0.0 || !pushes(s, m, t))
             continue;
         if (t->body != body) {
             forces_add(s, body, x, force);
@@ -446,14 +452,17 @@ INLINE void credit_own(const struct sph *s, const struct nfm *m, int k, const do
 }
 
 /* By what each touch takes from gamma. */
-INLINE void share_by_gamma(const struct sph *s, const struct wall_list *l, int k, const double *x,
+INLINE void share_by_gamma(const struct sph *s, const struct nfm *m, int k, const double *x,
                            const double *rest, const int dim)
 {
+    const struct wall_list *l = &m->list;
     const struct wall_touch *begin = l->touch + l->first[k], *end = l->touch + l->first[k + 1];
     double all = 0.0, force[3];
     for (const struct wall_touch *t = begin; t < end; t++)
-        all += fabs(t->is.gamma);
+        all += pushes(s, m, t) ? fabs(t->is.gamma) : 0.0;
     for (const struct wall_touch *t = begin; t < end; t++) {
+        if (!pushes(s, m, t))
+            continue;
         const double share = all > 0.0 ? fabs(t->is.gamma) / all : t == begin ? 1.0 : 0.0;
         for (int a = 0; a < dim; a++)
             force[a] = share * rest[a];
@@ -466,25 +475,28 @@ INLINE void share_by_gamma(const struct sph *s, const struct wall_list *l, int k
  * and fluid exchange momentum to the last digit: each piece has its own flux over gamma, and the
  * owner of all pieces what gamma makes of the pairs' sum. Between faces of several owners each gets
  * its flux whole, gamma's part of all that is left over, and what wall_gap.c says that the faces
- * owe each other. */
+ * owe each other; the same between faces of which a finer or coarser level pushes some. */
 INLINE void credit(const struct sph *s, struct nfm *m, int k, const struct seen *i,
                    const double *pairs, const struct given *rim, const struct given *all,
                    double gamma_1, const int dim)
 {
     struct wall_list *l = &m->list;
     double rest[3], of_rim[3];
-    const bool gap = wall_gap_between(l, k);
-    const double share = gap ? 1.0 : gamma_1;
+    const double counts = share_that_pushes(s, m, k);
+    if (!(counts > 0.0))
+        return;
+    const bool gap = wall_gap_between(l, k), apart = gap || counts < 1.0;
+    const double share = apart ? 1.0 : gamma_1;
     for (int a = 0; a < dim; a++) {
-        rest[a] = (1.0 - gamma_1) * (pairs[a] + (gap ? i->w * all->q[a] : 0.0));
-        of_rim[a] = -i->w * rim->q[a] * share;
+        rest[a] = counts * (1.0 - gamma_1) * (pairs[a] + (apart ? i->w * all->q[a] : 0.0));
+        of_rim[a] = -counts * i->w * rim->q[a] * share;
     }
-    if (gap)
-        share_by_gamma(s, l, k, i->x, rest, dim);
+    if (apart)
+        share_by_gamma(s, m, k, i->x, rest, dim);
     else
         forces_add(s, l->touch[l->first[k]].body, i->x, rest);
     credit_own(s, m, k, i->x, i->w * share, of_rim, dim);
-    if (gap)
+    if (gap && counts > 0.5)
         wall_gap_exchange(s, l, k, (const double(*)[3])m->q, i->w);
 }
 
@@ -506,8 +518,7 @@ INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     const double wave = wave_factor(s, l, k, i.c * gamma_1, dim);
     const struct given rim = l->rim ? rim_flux(s, l->rim[k], &i, dim) : (struct given){0};
     const struct given all = all_fluxes(s, m, k, &i, &rim, wave, dim);
-    if (!s->flows_at || m->pushes[k])
-        credit(s, m, k, &i, pairs, &rim, &all, gamma_1, dim);
+    credit(s, m, k, &i, pairs, &rim, &all, gamma_1, dim);
     for (int a = 0; a < dim; a++)
         rate[dim + a] = (pairs[a] + i.w * all.q[a]) * gamma_1 + own[dim + a];
     const int V = at_volume(dim), M = at_mass(dim);

@@ -332,8 +332,8 @@ def body_level_edge(rng):
     s = tank2(rng, wide=(34, 44), deep=(18, 26))
     block_at(s, rng, rng.choice([[], ["floor"]]))
     x = [p[0] / s.dx for p in s.bodies[0]["points"]]
-    a, b = min(x) - rng.uniform(4, 8), max(x) + rng.uniform(4, 8)
-    s.regions.append(([max(0, round(a)) * s.dx, -s.dx], [min(s.n[0], round(b)) * s.dx, s.hi[1]]))
+    a, b = min(x) - rng.uniform(4.6, 8), max(x) + rng.uniform(4.6, 8)  # guards are R = 4 dx deep
+    s.regions.append(([max(0, math.floor(a)) * s.dx, -s.dx], [min(s.n[0], math.ceil(b)) * s.dx, s.hi[1]]))
     return s
 
 
