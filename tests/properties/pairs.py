@@ -5,7 +5,7 @@ A scene is water at rest, or a uniform stream, in which two treatments (a side, 
 opening, a surface, an edge of refinement, a side of the SPH box ...) stand a random few dx apart. What must
 hold is known without any other code: Archimedes' force, rho g h, the level, nothing lost or put back, rest.
 
-usage: pairs.py [--build DIR] [--seed S] [-n N] [--pair NAME] [--keep DIR] [-j JOBS] | --table | --write SEED DIR
+usage: pairs.py [--build DIR] [--seed S] [-n N] [--pair NAME] [--most N] [--keep DIR] [-j JOBS] | --table | --write SEED DIR
 Exit code 1: a law is broken; each is a line with the command that repeats it. SPDX-License-Identifier: BSD-3-Clause
 """
 import argparse
@@ -446,9 +446,9 @@ def fv_blocked(rng):
 def coupled_tank(rng):
     s = tank2(rng, rng.choice(["sides", "period"]), wide=(64, 76), deep=(18, 26))
     s.program = "coupled"
-    s.n[0] += s.n[0] % 4
+    s.n[0] += -s.n[0] % 4
     s.hi = [s.n[0] * s.dx, s.n[1] * s.dx]
-    s.n[1] += s.n[1] % 2
+    s.n[1] += -s.n[1] % 4
     s.hi[1] = s.n[1] * s.dx
     s.fv = [s.n[0] // 2, s.n[1] // 2]
     s.sides[1, 1] = {}
@@ -507,7 +507,10 @@ def opening_side(rng):
 
 def opening_level_edge(rng):
     s = stream(rng, "sph")
-    a = rng.randint(6, s.n[0] - 20)
+    s.n[0] += 2 * 28  # transition, buffer and R at each end
+    s.hi[0] = s.n[0] * s.dx
+    s.end = 0.8 * s.hi[0] / s.velocity[0]
+    a = rng.randint(16, s.n[0] - 32)
     s.regions.append(([a * s.dx, -s.dx], [(a + 14) * s.dx, s.hi[1] + s.dx]))
     return s
 
@@ -687,6 +690,7 @@ def main():
     p.add_argument("--pair")
     p.add_argument("--keep")
     p.add_argument("--limit", type=float, default=120)
+    p.add_argument("--most", type=int, default=0, help="scenes that may break a law")
     p.add_argument("--verbose", action="store_true")
     p.add_argument("--table", action="store_true")
     p.add_argument("--write", nargs=2, metavar=("SEED", "DIR"))
@@ -709,7 +713,7 @@ def main():
                 print("%s  %s: %s  [%s]" % (verdict.upper() if verdict == "failed" else verdict, name,
                                             "; ".join(why) or "all laws hold", again), flush=True)
     print("pairs: %(passed)d passed, %(refused)d refused, %(failed)d failed" % count)
-    return count["failed"] > 0
+    return count["failed"] > o.most
 
 
 if __name__ == "__main__":
