@@ -61,8 +61,8 @@ static const struct param wall_rows[] = {
     CHOICE(P, profile, "uniform|parabolic", "uniform", "of an inflow; parabolic: over each opening (blocks that touch are one), velocity is the largest one"),
     PARAM(P, pressure, "Pa",  "0.0", -1e12, 1e12, "at an outflow"),
     PARAM(P, carried,  "-",   "false", 0, 1, "at an outflow (fv): convective outflow, dw/dt + U dw/dn = 0, the pressure is not given"),
-    PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "at an opening under a free surface (fv): height of its water, against gravity; an inflow has it in the opening, an outflow far outside; by default initial.level, of an outflow alone"),
-    PARAM(P, discharge, "m^3/s", "0.0", 0, 1e12, "of an opening under a free surface (fv), whatever the level: in through an inflow, out through an outflow, uniform over its water; in 2D m^2/s"),
+    PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "at an opening under a free surface: height of its water, against gravity; an inflow has it in the opening, an outflow far outside; by default of an outflow alone, as at the start"),
+    PARAM(P, discharge, "m^3/s", "0.0", 0, 1e12, "of an opening under a free surface, whatever the level: in through an inflow, out through an outflow, uniform over its water; in 2D m^2/s"),
 };
 #undef P
 #define P struct scene_shape

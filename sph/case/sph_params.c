@@ -29,7 +29,7 @@ static const struct param rows[] = {
     PARAM(P, R_dx, "-", "4.0", 1.5, 8.0, "radius of the kernel's support over dx"),
     PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the largest speed expected in the scene, and density within 1 % at rest and in slow viscous flow"),
     PARAM(P, gamma, "-", "7.0", 1.0, 7.0, "exponent of the equation of state, 7 or 1"),
-    CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface, else riemann_ale"),
+    CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface but no inlet or outlet, else riemann_ale"),
     CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles"),
     CHOICE(P, transport, "tvs|tvo|none|eulerian|xsph", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest; xsph: smoothed velocity"),
     CHOICE(P, viscosity, "morris|monaghan|auto", "auto", "form of the viscous term; auto: monaghan with a free surface, where it leaves no stress, else morris"),
@@ -266,7 +266,8 @@ static void resolve(const struct run *r)
     if (used.viscosity == VISCOSITY_AUTO)
         used.viscosity = used.surface ? VISCOSITY_MONAGHAN : VISCOSITY_MORRIS;
     if (used.scheme == SCHEME_AUTO)
-        used.scheme = used.surface == SURFACE_YES ? SCHEME_RIEMANN : SCHEME_RIEMANN_ALE;
+        used.scheme = used.surface == SURFACE_YES && !has_openings(&r->scene) ? SCHEME_RIEMANN
+                                                                              : SCHEME_RIEMANN_ALE;
     const struct apr_params *apr = apr_params_of(r);
     if (used.walls == WALLS_AUTO && apr && apr->method != APR_GUARDS)
         used.walls = WALLS_GHOSTS;

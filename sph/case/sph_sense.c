@@ -75,18 +75,35 @@ static void check_ends(const struct run *r, int a, struct faults *f)
                      side_names[2 * a], side_names[2 * a + 1], weight);
 }
 
+/* Under a free surface the water outside stands at a level, against gravity along one axis. */
+static void check_level(const struct run *r, int k, struct faults *f)
+{
+    const struct scene_wall *w = r->scene.walls + k;
+    const int up = scene_still_axis(&r->scene);
+    char key[64];
+    snprintf(key, sizeof key, "walls.[%d].kind", k);
+    if (up < 0)
+        params_fault(r->params, f, key,
+                     "inlets and outlets under a free surface need gravity along one axis");
+    else if ((w->side - SIDE_X_MIN) / 2 == up)
+        params_fault(
+            r->params, f, key,
+            "gravity crosses this side: under a free surface inlets and outlets are upright, "
+            "on the sides whose water has a level");
+    else if (w->kind == WALL_ABSORBING)
+        params_fault(
+            r->params, f, key,
+            "absorbing is for sound in full channels: under a free surface give an outflow "
+            "a level, which lets waves of the water out");
+}
+
 static void check_openings(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;
     const bool surface = used->surface == SURFACE_YES;
-    for (int k = 0; k < c->nwalls; k++) {
-        char key[64];
-        snprintf(key, sizeof key, "walls.[%d].kind", k);
+    for (int k = 0; k < c->nwalls; k++)
         if (surface && c->walls[k].kind >= WALL_INFLOW)
-            params_fault(r->params, f, key,
-                         "inlets and outlets have no level of a free surface: fill the domain (no "
-                         "shapes), make it periodic, or close it with walls");
-    }
+            check_level(r, k, f);
     for (int side = 0; side < 2 * c->domain.dim && !surface; side++)
         check_outlet(r, side, f);
     for (int a = 0; a < c->domain.dim && !surface; a++)

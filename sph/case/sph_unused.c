@@ -165,7 +165,7 @@ static void check_wall(const struct run *r, const struct sph_params *used, const
                        struct faults *f)
 {
     const struct scene_wall *w = r->scene.walls + k;
-    const bool beyond = is_beyond(r, used, k);
+    const bool beyond = is_beyond(r, used, k), surface = used->surface == SURFACE_YES;
     char key[64];
     snprintf(key, sizeof key, "walls.[%d].side", k);
     params_unused(r->params, f, key, !beyond, "sph.box does not reach this side");
@@ -180,11 +180,16 @@ static void check_wall(const struct run *r, const struct sph_params *used, const
     snprintf(key, sizeof key, "walls.[%d].carried", k);
     params_unused(r->params, f, key, false, "sph has no convective outflow");
     snprintf(key, sizeof key, "walls.[%d].level", k);
-    params_unused(r->params, f, key, false,
-                  "sph has no inlets and outlets under a free surface yet: fv has");
+    params_unused(r->params, f, key, surface, "there is no free surface");
     snprintf(key, sizeof key, "walls.[%d].discharge", k);
-    params_unused(r->params, f, key, false,
-                  "sph has no inlets and outlets under a free surface yet: fv has");
+    params_unused(r->params, f, key, surface,
+                  "without a free surface the area of an opening is known: give the velocity");
+    snprintf(key, sizeof key, "walls.[%d].pressure", k);
+    params_unused(r->params, f, key, !surface,
+                  "under a free surface the level says it (walls.level)");
+    snprintf(key, sizeof key, "walls.[%d].profile", k);
+    params_unused(r->params, f, key, !surface,
+                  "under a free surface an inflow is uniform over its water");
 }
 
 static void check_body(const struct run *r, const bool *has, int k, struct faults *f)

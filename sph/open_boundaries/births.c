@@ -40,6 +40,7 @@ static void remove_leavers(struct sph *s)
         else
             wet_faces_rain(s, y);
         o->gone_mass += m;
+        o->through[side] -= m;
         o->gone++;
         particles_copy(p, i, --p->n);
     }
@@ -159,7 +160,7 @@ static bool crowded(const struct birth_strip *t, const struct openings *o, const
     return false;
 }
 
-static void born(struct sph *s, int f, const double *x, const double *u, double rho)
+static void born(struct sph *s, int f, int side, const double *x, const double *u, double rho)
 {
     struct openings *o = s->zones->openings;
     const int64_t id = o->first_id + f + llround(s->t / o->tick) * openings_faces(o);
@@ -167,6 +168,7 @@ static void born(struct sph *s, int f, const double *x, const double *u, double 
     particles_set(s, i, x, u, s->dxD, rho);
     o->change[f] -= rho * s->dxD;
     o->born_mass += rho * s->dxD;
+    o->through[side] += rho * s->dxD;
     o->born++;
 }
 
@@ -232,7 +234,7 @@ static void give_birth(struct sph *s)
                 pass_on(o, f, held - openings_most_debt * whole);
             continue;
         }
-        born(s, f, x, u, rho);
+        born(s, f, side, x, u, rho);
         strip_add(&near, o, x);
     }
     strip_free(&near);

@@ -31,8 +31,9 @@ struct openings {
     double *shift;                       /* m: place of the incoming lattice behind each face */
     int64_t born, gone, refused;         /* on this rank */
     double born_mass, gone_mass, inflow; /* kg: since the start, this rank */
-    int64_t first_id; /* the newborn's: first_id + time of birth in ticks * faces + face */
-    double tick;      /* s: far below a step */
+    double through[6]; /* kg: of particles created less removed at each side, too */
+    int64_t first_id;  /* the newborn's: first_id + time of birth in ticks * faces + face */
+    double tick;       /* s: far below a step */
     int nghost, first_ghost,
         ghost_capacity; /* the lattice behind the faces, last among the ghosts */
     double *ghost_x;    /* [nghost][3] at time ghost_t */

@@ -14,6 +14,7 @@
 #include "../../common/files/h5.h"
 #include "../particles/eos.h"
 #include "../walls/walls.h"
+#include "side_levels.h"
 
 /* What is averaged, and what a bin sums: weight, its place in the bin, each in units of dx. */
 enum { PRESSURE, VELOCITY, FIELDS = VELOCITY + 3 };
@@ -36,9 +37,10 @@ struct sides {
     const struct sph *s; /* borrowed */
     struct opening_side of[6];
     int bins;
-    double fall[6], fall_t;    /* Pa/m: the pressure's slope into the domain; s: up to when */
-    double *table;             /* [bins][BIN] sums, then means */
-    struct side_plane *planes; /* [bins]: velocity and pressure of the flow inside */
+    double fall[6], fall_t;     /* Pa/m: the pressure's slope into the domain; s: up to when */
+    double *table;              /* [bins][BIN] sums, then means */
+    struct side_plane *planes;  /* [bins]: velocity and pressure of the flow inside */
+    struct side_levels *levels; /* of the water outside; NULL: no free surface */
 };
 
 /* Bin at x, and where it is in that, from its middle in dx. */
@@ -215,7 +217,10 @@ static void follow_slope(struct sph *s, struct sides *d)
 static void look_inside(struct sph *s)
 {
     struct sides *d = s->zones->ctx;
-    follow_slope(s, d);
+    if (d->levels)
+        side_levels_look(s, d->levels);
+    else
+        follow_slope(s, d);
     const struct zones *z = s->zones;
     const int dim = s->dim;
     memset(d->table, 0, (size_t)BIN * d->bins * sizeof *d->table);
@@ -282,7 +287,9 @@ static void turn_along_walls(const struct sph *s, const double *x, double *u)
         u[a] -= (1.0 - h / s->R) * across * way[a] / h;
 }
 
-static void eval_side(const struct sides *d, int side, const double *x, double *u, double *p)
+/* gp[3]: gradient of p, NULL: not wanted. */
+static void eval_side(const struct sides *d, int side, const double *x, double *u, double *p,
+                      double *gp)
 {
     const struct sph *s = d->s;
     const struct opening_side *of = d->of + side;
@@ -292,6 +299,11 @@ static void eval_side(const struct sides *d, int side, const double *x, double *
         in[q] = value(bin, q, place);
     if (of->is->kind != WALL_INFLOW)
         turn_along_walls(s, x, in + VELOCITY);
+    if (d->levels) {
+        memcpy(u, in + VELOCITY, (size_t)s->dim * sizeof *u);
+        side_levels_eval(s, d->levels, side, x, u, p, gp);
+        return;
+    }
     if (of->is->kind == WALL_ABSORBING) {
         absorb(s, side, of, in, u, p);
         return;
@@ -309,6 +321,10 @@ static void eval_sides(void *ctx, double t, int n, const double *x, double *u, d
     const struct sides *d = ctx;
     const int dim = d->s->dim;
     (void)t;
+    if (gu) {
+        memset(gu, 0, 3 * (size_t)dim * n * sizeof *gu);
+        memset(gp, 0, 3 * (size_t)n * sizeof *gp);
+    }
     for (int i = 0; i < n; i++) {
         int nearest = 0;
         double least = INFINITY;
@@ -317,12 +333,15 @@ static void eval_sides(void *ctx, double t, int n, const double *x, double *u, d
                 least = depth(d->s, side, x + 3 * i);
                 nearest = side;
             }
-        eval_side(d, nearest, x + 3 * i, u + dim * i, p + i);
+        eval_side(d, nearest, x + 3 * i, u + dim * i, p + i, gu ? gp + 3 * i : NULL);
     }
-    if (gu) {
-        memset(gu, 0, 3 * (size_t)dim * n * sizeof *gu);
-        memset(gp, 0, 3 * (size_t)n * sizeof *gp);
-    }
+}
+
+static void water_outside(void *ctx, double t, int n, const double *x, double *phi, double *gphi)
+{
+    const struct sides *d = ctx;
+    (void)t;
+    side_levels_surface(d->s, d->levels, n, x, phi, gphi);
 }
 
 void sides_create(struct sph *s, struct zones *z)
@@ -330,6 +349,7 @@ void sides_create(struct sph *s, struct zones *z)
     struct sides *d = NEW(struct sides, 1);
     d->s = s;
     d->fall_t = s->t;
+    d->levels = side_levels_create(s);
     for (int side = 0; side < 2 * s->dim; side++) {
         struct opening_side *of = d->of + side;
         int k = 0;
@@ -337,8 +357,8 @@ void sides_create(struct sph *s, struct zones *z)
             continue;
         of->is = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
         of->pressure = scene_reference_left(&s->run->scene, &s->reference, of->is);
-        z->own_u[side] = of->is->kind == WALL_OUTFLOW;
-        z->own_p[side] = of->is->kind == WALL_INFLOW;
+        z->own_u[side] = d->levels ? side_levels_given(s, side) : of->is->kind == WALL_OUTFLOW;
+        z->own_p[side] = d->levels ? !z->own_u[side] : of->is->kind == WALL_INFLOW;
         of->bins[0] = of->bins[1] = 1;
         for (int a = 0; a < s->dim; a++)
             if (a != side / 2) {
@@ -353,7 +373,14 @@ void sides_create(struct sph *s, struct zones *z)
     d->planes = NEW(struct side_plane, d->bins);
     z->ctx = d;
     z->eval = eval_sides;
+    z->surface = d->levels ? water_outside : NULL;
     z->update = look_inside;
+}
+
+double sides_level(const struct sph *s, int side)
+{
+    const struct sides *d = s->zones->ctx;
+    return d->levels && d->of[side].is ? side_levels_level(d->levels, side) : NAN;
 }
 
 void sides_free(struct zones *z)
@@ -361,6 +388,7 @@ void sides_free(struct zones *z)
     struct sides *d = z->ctx;
     mem_free(d->table);
     mem_free(d->planes);
+    side_levels_free(&d->levels);
     mem_free(d);
 }
 
@@ -368,11 +396,14 @@ void sides_save(const struct sph *s, struct h5 *f)
 {
     const struct sides *d = s->zones->ctx;
     h5_write_real(f, "sides_slope", "Pa/m", 6, 1, d->fall, false);
+    if (d->levels)
+        side_levels_save(d->levels, f);
 }
 
 bool sides_load(struct sph *s, struct h5 *f)
 {
     struct sides *d = s->zones->ctx;
     d->fall_t = s->t;
-    return h5_read_same(f, "sides_slope", 6, d->fall);
+    return h5_read_same(f, "sides_slope", 6, d->fall) &&
+           (!d->levels || side_levels_load(d->levels, f));
 }

@@ -10,6 +10,8 @@
 
 void sides_create(struct sph *s, struct zones *z);
 void sides_free(struct zones *z);
+/* m: of the water outside a side under a free surface; NAN: none. */
+double sides_level(const struct sph *s, int side);
 void sides_save(const struct sph *s, struct h5 *f);
 bool sides_load(struct sph *s, struct h5 *f);
 

@@ -196,7 +196,7 @@ bool wet_faces_load(struct sph *s, struct h5 *f)
 {
     struct openings *o = s->zones->openings;
     double rain[6];
-    if (!s->zones->gap)
+    if (!s->zones->gap && !s->zones->surface)
         return true;
     if (!h5_read_parts(f, "zones_rain", 6, rain))
         return false;

@@ -332,6 +332,7 @@ void zones_save(struct sph *s, struct h5 *f)
     const double level[1] = {s->zones->level}, owed[1] = {o->owed};
     const int64_t counted[3] = {o->born, o->gone, o->refused};
     h5_write_real(f, "zones_booked", "kg", 4, 1, booked, false);
+    h5_write_real(f, "zones_through", "kg", 6, 1, o->through, false);
     h5_write_real(f, "zones_level", "Pa", 1, 1, level, false);
     h5_write_real(f, "zones_owed", "kg", 1, 1, owed, false);
     h5_write_int(f, "zones_counted", 3, counted);
@@ -340,10 +341,10 @@ void zones_save(struct sph *s, struct h5 *f)
         h5_write_real(f, "zones_chase", "m/s", 3, 1, s->zones->chase, false);
     if (s->prm.outer == OUTER_SIDES)
         sides_save(s, f);
-    if (s->zones->gap) {
+    if (s->zones->gap)
         level_gap_save(s, f);
+    if (s->zones->surface)
         wet_faces_save(o, f);
-    }
 }
 
 /* Counts of all ranks; on another number of ranks the first gets them. */
@@ -374,6 +375,7 @@ bool zones_load(struct sph *s, struct h5 *f)
     mem_free(mass);
     if (!same_faces || !h5_read_parts(f, "faces_flux", faces, o->flux) ||
         !h5_read_parts(f, "zones_booked", 4, booked) ||
+        !h5_read_parts(f, "zones_through", 6, o->through) ||
         !h5_read_same(f, "zones_level", 1, &s->zones->level) ||
         !h5_read_same(f, "zones_owed", 1, &o->owed) || !h5_read_same(f, "zones_way", 3, way) ||
         (s->prm.box_follows[0] && !h5_read_same(f, "zones_chase", 3, s->zones->chase)) ||

@@ -21,6 +21,7 @@
 #include "../time/integrate.h"
 #include "../walls/forces.h"
 #include "../walls/walls.h"
+#include "opening_columns.h"
 #include "probes.h"
 #include "sph_output.h"
 
@@ -279,6 +280,7 @@ int sph_columns(const struct run *r, const struct sph_params *prm, const char **
         names[n++] = "born [-]";
         names[n++] = "gone [-]";
     }
+    n += opening_columns(r, prm, names + n);
     return n + probes_columns(r, names + n);
 }
 
@@ -311,6 +313,7 @@ void sph_row(void *state, double *values)
         *values++ = births(s);
         *values++ = removals(s);
     }
+    values = opening_row(s, values);
     sample_signal(s);
     probes_row(s, values);
     timer_stop(&s->run->timers, "output");
@@ -456,5 +459,6 @@ void sph_finish(void *state)
         summary_real(to, "mass_fluctuation_particles", s->total.fluctuation_particles);
         summary_int(to, "born", llround(births(s)));
         summary_int(to, "gone", llround(removals(s)));
+        opening_summary(s, to);
     }
 }

@@ -365,7 +365,7 @@ with tank 's/at = (1, 0.1)/at = (1.9, 0.9)/; s/^walls.*/walls: ( { closed = true
 with tank 's/^walls:   (/walls: ( { points = ((3, 0), (4, 0.3)); },/' 'walls.\[0\].points: is not used: .*outside' sph
 # open sides
 with channel 's/{ side = "x_max"; kind = "outflow"; }/{ side = "x_max"; }/' 'walls.\[0\].kind: inflow into a closed box' sph
-with channel 's/^sph:/shapes: ( { box = ((0, 0), (2, 0.5)); } );\nsph:/' 'walls.\[0\].kind: inlets and outlets have no level of a free surface' sph
+with channel 's/^sph:/shapes: ( { box = ((0, 0), (2, 0.5)); } );\nsph:/' 'walls.\[0\].kind: inlets and outlets under a free surface need gravity' sph
 with channel 's/nu = 0.01/nu = 0.01; gravity = (0, -9.81)/' 'walls.\[1\].pressure: .*9.81 Pa more' sph
 with channel 's/"inflow"; velocity = (1, 0)/"outflow"/; s/nu = 0.01/gravity = (1, 0)/' 'fluid.gravity: .*open ends x_min and x_max.*differ by 2 Pa' sph
 with channel 's/{ side = "y_max"; }/{ side = "y_min"; }/' 'walls.\[3\]: .*has a wall already' sph

@@ -1,0 +1,311 @@
+/* side_levels.c - see side_levels.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "side_levels.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/base/mem.h"
+#include "../../common/files/h5.h"
+#include "../../common/scene/scene_fluid.h"
+#include "openings.h"
+
+/* Transits of the domain, there and back, over which the mean velocity forgets; and how long the
+ * measured level does, in R/c0, which is some steps. */
+static const double transits = 2.0, memory = 5.0;
+
+/* What is known of one side. Heights are against gravity, in m. */
+struct side_water {
+    const struct scene_wall *is; /* NULL: not open */
+    double given;                /* m: level; NAN: that inside */
+    double level;                /* m: of the water outside */
+    double rate;                 /* m/s: at which it rises */
+    double inside;               /* m: level of the water inside */
+    double mean, past;           /* m/s: velocity outwards, and that of the last two transits */
+    double bed, depth, area;     /* m, m, m^(dim-1): of the water in the opening */
+    double width;                /* m^(dim-2): of the opening, 1 in 2D */
+    double *room;                /* m^(dim-1): of each row of faces that no wall cuts off */
+};
+
+struct side_levels {
+    int up;
+    double sign, g; /* +1: gravity points down this axis; m/s^2 */
+    int rows;       /* of faces, upwards */
+    double bottom;  /* m: height of the lowest one's lower edge */
+    struct side_water of[6];
+    bool started; /* levels are known */
+    double t;     /* s: of the last look */
+};
+
+bool side_levels_given(const struct sph *s, int side)
+{
+    const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
+    return w->has_level || (w->kind == WALL_OUTFLOW && w->discharge == 0.0);
+}
+
+struct side_levels *side_levels_create(const struct sph *s)
+{
+    const int up = scene_still_axis(&s->run->scene);
+    if (s->prm.surface != SURFACE_YES || up < 0)
+        return NULL;
+    struct side_levels *l = NEW(struct side_levels, 1);
+    l->up = up;
+    l->sign = s->gravity[up] < 0.0 ? 1.0 : -1.0;
+    l->g = fabs(s->gravity[up]);
+    l->rows = (int)lround((s->hi[up] - s->lo[up]) / s->dx);
+    l->bottom = l->sign > 0.0 ? s->lo[up] : -s->hi[up];
+    l->t = s->t;
+    for (int side = 0; side < 2 * s->dim; side++) {
+        struct side_water *of = l->of + side;
+        if (!s->open[side])
+            continue;
+        of->is = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
+        of->given = of->is->has_level ? of->is->level : NAN;
+        of->room = NEW(double, l->rows);
+        of->width = 1.0;
+        for (int a = 0; a < s->dim; a++)
+            if (a != side / 2 && a != up)
+                of->width *= s->hi[a] - s->lo[a];
+    }
+    return l;
+}
+
+void side_levels_free(struct side_levels **l)
+{
+    for (int side = 0; *l && side < 6; side++)
+        mem_free((*l)->of[side].room);
+    mem_free(*l);
+    *l = NULL;
+}
+
+/* What walls leave of each row of faces. */
+static void find_room(const struct sph *s, struct side_levels *l)
+{
+    const struct openings *o = s->zones->openings;
+    double x[3];
+    for (int side = 0; side < 2 * s->dim; side++)
+        if (l->of[side].is) {
+            struct side_water *of = l->of + side;
+            memset(of->room, 0, (size_t)l->rows * sizeof *of->room);
+            for (int f = o->first[side]; f < o->first[side + 1]; f++) {
+                (void)openings_place(o, f, x);
+                const int row = (int)floor((l->sign * x[l->up] - l->bottom) / s->dx);
+                of->room[row] += o->room[f] * s->dxD / s->dx;
+            }
+            int first = 0;
+            while (first < l->rows - 1 && of->room[first] == 0.0)
+                first++;
+            of->bed = l->bottom +
+                      s->dx * (first + 1.0 - fmin(of->room[first] / (s->dx * of->width), 1.0));
+        }
+}
+
+/* Section of the water in an opening up to a level, and the level of a section. */
+static double section_below(const struct sph *s, const struct side_levels *l,
+                            const struct side_water *of, double level)
+{
+    double sum = 0.0;
+    for (int row = 0; row < l->rows; row++)
+        sum += of->room[row] * fmax(0.0, fmin((level - l->bottom) / s->dx - row, 1.0));
+    return sum;
+}
+
+static double level_of(const struct sph *s, const struct side_levels *l,
+                       const struct side_water *of, double section)
+{
+    double left = section;
+    int row = 0;
+    while (row < l->rows - 1 && left > of->room[row])
+        left -= of->room[row++];
+    const double room = of->room[row];
+    if (left <= 0.0 || room <= 0.0)
+        return of->bed;
+    return room < s->dx * of->width && left <= room && section == left
+               ? l->bottom + s->dx * (row + 1.0) - (room - left) / of->width
+               : l->bottom + s->dx * (row + fmin(left / room, 1.0));
+}
+
+/* What the band of the free zone beside the transition holds, as long as that: within the zones
+ * what comes in would measure itself, and the level wanders off. */
+enum { BAND_ALL, BAND_WINDOW, BAND_ABOVE, BAND_FLUX, BAND };
+
+/* 0 below height h, 1 above it, 2 dx wide: sums over a lattice are exact. */
+static double ramp(double z, double h, double dx)
+{
+    return fmax(0.0, fmin(1.0, 0.5 + 0.5 * (z - h) / dx));
+}
+
+/* Part of the lattice cell of a particle `in' deep that lies in the band. */
+static double part_in_band(const struct sph *s, double in)
+{
+    const struct zones *z = s->zones;
+    const double from = z->buffer + z->transition, to = from + z->transition, half = 0.5 * s->dx;
+    return fmax(0.0, (fmin(in + half, to) - fmax(in - half, from)) / s->dx);
+}
+
+static void sum_band(const struct sph *s, const struct side_levels *l, double bands[6][BAND])
+{
+    const int dim = s->dim;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i), w = y[at_volume(dim)];
+        const double height = l->sign * y[l->up];
+        for (int side = 0; side < 2 * dim; side++) {
+            const struct side_water *of = l->of + side;
+            const int a = side / 2;
+            const double in = side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a];
+            const double part = of->is ? w * part_in_band(s, in) : 0.0;
+            if (part == 0.0)
+                continue;
+            const double above = ramp(height, of->inside - 2.5 * s->dx, s->dx);
+            bands[side][BAND_ALL] += part;
+            bands[side][BAND_ABOVE] += part * above;
+            bands[side][BAND_WINDOW] += part * (1.0 - above) * ramp(height, of->bed + s->dx, s->dx);
+            bands[side][BAND_FLUX] +=
+                part * (side % 2 ? y[dim + a] : -y[dim + a]) / y[at_mass(dim)];
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, bands, 6 * BAND, MPI_DOUBLE, MPI_SUM, s->run->comm);
+}
+
+/* The level inside. As of level gauges, the section that the water fills is that of its inside:
+ * where particles have come in their volumes do not quite add up to it. */
+static double measured(const struct sph *s, const struct side_levels *l,
+                       const struct side_water *of, const double *band)
+{
+    const double length = s->zones->transition;
+    const double plain = level_of(s, l, of, band[BAND_ALL] / length);
+    const double low = of->bed + s->dx, high = of->inside - 2.5 * s->dx;
+    if (!l->started || !(high - low >= 2.0 * s->dx) || fabs(plain - of->inside) > s->dx)
+        return plain;
+    const double section = band[BAND_WINDOW] / length,
+                 room = section_below(s, l, of, high) - section_below(s, l, of, low);
+    const double filled = section / fmax(room, 1e-300);
+    return fabs(filled - 1.0) < 0.15
+               ? level_of(s, l, of,
+                          section_below(s, l, of, high) + band[BAND_ABOVE] / (length * filled))
+               : plain;
+}
+
+/* Where a level is given: the wave that leaves raises it. */
+static void let_waves_out(const struct sph *s, const struct side_levels *l, struct side_water *of,
+                          int side, double dt)
+{
+    const double depth = fmax(of->depth, s->dx), c = sqrt(l->g * depth),
+                 Fr = fmin(fabs(of->mean) / c, 0.9);
+    const double T = transits * (s->hi[side / 2] - s->lo[side / 2]) / (c * (1.0 - Fr * Fr));
+    of->past += (of->mean - of->past) * -expm1(-dt / T);
+    of->level = of->given + c / l->g * (of->mean - of->past);
+}
+
+static void look_at_side(const struct sph *s, const struct side_levels *l, struct side_water *of,
+                         int side, const double *band, double dt)
+{
+    const double now = measured(s, l, of, band), T = memory * s->R / s->c0;
+    const double share = l->started ? -expm1(-dt / T) : 1.0;
+    of->rate = l->started ? (now - of->inside) / T : 0.0;
+    of->inside += (now - of->inside) * share;
+    of->mean += (band[BAND_FLUX] / fmax(band[BAND_ALL], 1e-300) - of->mean) * share;
+    if (!l->started)
+        of->past = of->mean;
+    if (side_levels_given(s, side)) {
+        if (isnan(of->given))
+            of->given = of->inside;
+        let_waves_out(s, l, of, side, dt);
+    } else {
+        of->level = of->inside;
+    }
+    of->depth = of->level - of->bed;
+    of->area = section_below(s, l, of, of->level);
+}
+
+void side_levels_look(const struct sph *s, struct side_levels *l)
+{
+    double bands[6][BAND] = {{0.0}};
+    const double dt = fmax(s->t - l->t, 0.0);
+    if (!l->started)
+        find_room(s, l);
+    sum_band(s, l, bands);
+    for (int side = 0; side < 2 * s->dim; side++)
+        if (l->of[side].is)
+            look_at_side(s, l, l->of + side, side, bands[side], dt);
+    l->t = s->t;
+    l->started = true;
+}
+
+void side_levels_surface(const struct sph *s, const struct side_levels *l, int n, const double *x,
+                         double *phi, double *gphi)
+{
+    double below;
+    for (int i = 0; i < n; i++)
+        phi[i] =
+            l->sign * x[3 * i + l->up] - l->of[zones_nearest(s->zones, x + 3 * i, &below)].level;
+    for (int i = 0; gphi && i < 3 * n; i++)
+        gphi[i] = i % 3 == l->up ? l->sign : 0.0;
+}
+
+/* m/s: into the domain, of an opening whose velocity or discharge is given. */
+static double velocity_in(const struct sph *s, const struct side_water *of, int side)
+{
+    if (of->is->discharge != 0.0)
+        return (of->is->kind == WALL_INFLOW ? 1.0 : -1.0) * of->is->discharge /
+               fmax(of->area, 0.5 * s->dx * of->width);
+    return openings_inward(side) * of->is->velocity[side / 2];
+}
+
+/* Outside a given level stands water at rest, out of which nothing comes faster than its head
+ * allows: that keeps water which runs back from gaining. The level of an inflow is in the opening.
+ */
+void side_levels_eval(const struct sph *s, const struct side_levels *l, int side, const double *x,
+                      double *u, double *p, double *gp)
+{
+    const struct side_water *of = l->of + side;
+    const double height = l->sign * x[l->up], out = side % 2 ? u[side / 2] : -u[side / 2];
+    *p = s->rho0 * l->g * (of->level - height);
+    for (int a = 0; gp && a < 3; a++)
+        gp[a] = a == l->up ? -s->rho0 * l->g * l->sign : 0.0;
+    if (side_levels_given(s, side)) {
+        const double in = fmin(out, 0.0), all = fmin(of->mean, 0.0);
+        *p += 0.5 * s->rho0 * ((of->is->kind == WALL_INFLOW ? all * all : 0.0) - in * in);
+        return;
+    }
+    for (int a = 0; a < s->dim; a++)
+        u[a] = of->is->discharge != 0.0 ? 0.0 : of->is->velocity[a];
+    u[side / 2] = openings_inward(side) * velocity_in(s, of, side);
+    u[l->up] +=
+        l->sign * of->rate * fmax(0.0, fmin((height - of->bed) / fmax(of->depth, s->dx), 1.0));
+}
+
+double side_levels_level(const struct side_levels *l, int side) { return l->of[side].level; }
+
+enum { KEPT = 7 };
+
+void side_levels_save(const struct side_levels *l, struct h5 *f)
+{
+    double all[6 * KEPT];
+    for (int side = 0; side < 6; side++) {
+        const struct side_water *of = l->of + side;
+        const double kept[KEPT] = {of->given, of->level, of->rate, of->inside,
+                                   of->mean,  of->past,  l->t};
+        memcpy(all + KEPT * side, kept, sizeof kept);
+    }
+    h5_write_real(f, "sides_levels", "m", 6 * KEPT, 1, all, false);
+}
+
+bool side_levels_load(struct side_levels *l, struct h5 *f)
+{
+    double all[6 * KEPT];
+    if (!h5_read_same(f, "sides_levels", 6 * KEPT, all))
+        return false;
+    for (int side = 0; side < 6; side++) {
+        struct side_water *of = l->of + side;
+        const double *k = all + KEPT * side;
+        of->given = k[0];
+        of->level = k[1];
+        of->rate = k[2];
+        of->inside = k[3];
+        of->mean = k[4];
+        of->past = k[5];
+        l->t = k[6];
+    }
+    l->started = true;
+    return true;
+}
