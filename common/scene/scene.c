@@ -81,8 +81,9 @@ static const struct param shape_rows[] = {
 #define P struct scene_probe
 static const struct param probe_rows[] = {
     PARAM(P, name, "-", NULL, 0, 0, "its name in series.csv"),
-    CHOICE(P, kind, "pressure|level|shore", "pressure", "what it reads: pressure at a point; height against gravity of the surface in the column over it, which stands on the floor or body next below it (sph); height of the water's edge on a beach, to both sides of a place in the water (sph in 2D)"),
+    CHOICE(P, kind, "pressure|level|shore|discharge", "pressure", "what it reads: pressure at a point; height against gravity of the surface in the column over it, which stands on the floor or body next below it (sph); height of the water's edge on a beach, to both sides of a place in the water (sph in 2D); discharge (sph) through the line from at to `to`, to its right-hand side, in 3D through the rectangle between these corners, along the axis across it; an oblique line goes on 2 dx beyond the floor"),
     PARAM(P, at,   "m", NULL, -1e9, 1e9, "place"),
+    PARAM(P, to,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "of a discharge: the other end of its line, the other corner of its rectangle"),
     PARAM(P, radius, "m", "0.0", 0, 1e9, "of a pressure gauge (sph): it reads the mean over a disc (3D: sphere) of this radius, whatever the particle size; where less than a quarter (3D: an eighth) of it is wet the reading falls in proportion; 0, or less than R of the particles: R"),
 };
 #undef P

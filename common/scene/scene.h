@@ -38,7 +38,7 @@ enum wall_profile { PROFILE_UNIFORM, PROFILE_PARABOLIC };
 enum shape_form { SHAPE_BOX, SHAPE_POLYGON, SHAPE_DISC, SHAPE_BELOW, SHAPE_MESH };
 enum fluid_side { FLUID_AUTO, FLUID_INSIDE, FLUID_OUTSIDE, FLUID_SHEET };
 enum accept_measure { ACCEPT_RMS, ACCEPT_PEAK, ACCEPT_IMPULSE, ACCEPT_ARRIVAL };
-enum probe_kind { PROBE_PRESSURE, PROBE_LEVEL, PROBE_SHORE };
+enum probe_kind { PROBE_PRESSURE, PROBE_LEVEL, PROBE_SHORE, PROBE_DISCHARGE };
 enum {
     ACCEPT_MAX = 16,
     WALLS_MAX = 16,
@@ -112,6 +112,7 @@ struct scene {
         char name[PARAM_TEXT_SIZE];
         int kind;      /* enum probe_kind */
         double at[3];  /* m */
+        double to[3];  /* m: other end of the line of a discharge, 3D: corner of its rectangle */
         double radius; /* m: pressure: of what it reads the mean of; 0: R of the particles */
     } probes[PROBES_MAX];
     int nprobes;

@@ -199,13 +199,36 @@ static void check_water(const struct scene *s, const struct params *p, struct fa
 
 /* --- gauges --- */
 
+/* A discharge goes through a line, in 3D through a rectangle across an axis. */
+static void check_discharge(const struct scene *s, const struct params *p, int k, struct faults *f)
+{
+    const struct scene_probe *g = s->probes + k;
+    char key[64];
+    int same = 0;
+    for (int a = 0; a < s->domain.dim; a++)
+        same += g->at[a] == g->to[a];
+    snprintf(key, sizeof key, "probes.[%d].to", k);
+    if (g->kind != PROBE_DISCHARGE)
+        return;
+    if (!s->has_sph || s->has_fv)
+        params_fault(p, f, key, "%s: a discharge is read by sph alone, without a partner", g->name);
+    else if (s->domain.dim == 2 ? same == 2 : same != 1)
+        params_fault(p, f, key, "%s: %s", g->name,
+                     s->domain.dim == 2
+                         ? "the line has no length"
+                         : "a rectangle across an axis has one coordinate in common");
+}
+
 static void check_probes(const struct scene *s, const struct params *p, struct faults *f)
 {
     const struct scene_domain *d = &s->domain;
     for (int k = 0; k < s->nprobes; k++) {
         const struct scene_probe *g = s->probes + k;
-        const int axes = g->kind == PROBE_PRESSURE ? d->dim : d->dim - 1;
+        const int axes = g->kind == PROBE_DISCHARGE  ? 0
+                         : g->kind == PROBE_PRESSURE ? d->dim
+                                                     : d->dim - 1;
         char key[64];
+        check_discharge(s, p, k, f);
         snprintf(key, sizeof key, "probes.[%d].at", k);
         for (int a = 0; a < axes; a++)
             if (g->at[a] < d->min[a] - 1e-6 * (d->max[a] - d->min[a]) ||

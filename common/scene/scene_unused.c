@@ -184,6 +184,8 @@ static void check_probe(const struct scene *s, const struct params *p, struct fa
 {
     check_key(p, f, "probes", k, "radius", s->probes[k].kind == PROBE_PRESSURE,
               "a level is that of a column of the particles' size");
+    check_key(p, f, "probes", k, "to", s->probes[k].kind == PROBE_DISCHARGE,
+              "only a discharge goes through a line");
 }
 
 void scene_check_unused(const struct scene *s, const struct params *p, struct faults *f)

@@ -289,13 +289,14 @@ static void check_gauges(const struct run *r, struct faults *f)
     for (int k = 0; k < c->nprobes; k++) {
         char key[64];
         snprintf(key, sizeof key, "probes.[%d].kind", k);
-        if (c->probes[k].kind != PROBE_PRESSURE && axes > 1)
+        const int kind = c->probes[k].kind;
+        if ((kind == PROBE_LEVEL || kind == PROBE_SHORE) && axes > 1)
             params_fault(r->params, f, key,
                          "%s: gauges of levels read columns along gravity, which must point along "
                          "an axis (its part along a periodic one does not count). A pressure gauge "
                          "stands anywhere",
                          c->probes[k].name);
-        else if (c->probes[k].kind == PROBE_SHORE && !(g[1] < 0.0))
+        else if (kind == PROBE_SHORE && !(g[1] < 0.0))
             params_fault(r->params, f, key, "%s: a shore is read where gravity points along -y",
                          c->probes[k].name);
     }

@@ -10,11 +10,20 @@
 #include "../particles/eos.h"
 #include "../walls/forces.h"
 #include "../walls/walls.h"
+#include "discharge_gauge.h"
 #include "level_gauge.h"
 #include "shore.h"
 
 /* Where a surface crosses, fv reads the gauges outside of the box. */
 static bool is_mine(const struct run *r, int k) { return !r->crossed || r->gauge_inside[k]; }
+
+static const char *unit_of(const struct scene *c, int k)
+{
+    const char *discharge = c->domain.dim == 2 ? "m^2/s" : "m^3/s";
+    return c->probes[k].kind == PROBE_PRESSURE    ? "Pa"
+           : c->probes[k].kind == PROBE_DISCHARGE ? discharge
+                                                  : "m";
+}
 
 int probes_columns(const struct run *r, const char **names)
 {
@@ -26,8 +35,7 @@ int probes_columns(const struct run *r, const char **names)
     int n = 0;
     for (int k = 0; k < c->nprobes; k++)
         if (is_mine(r, k))
-            snprintf(text[n++], sizeof text[0], "%s [%s]", c->probes[k].name,
-                     c->probes[k].kind == PROBE_PRESSURE ? "Pa" : "m");
+            snprintf(text[n++], sizeof text[0], "%s [%s]", c->probes[k].name, unit_of(c, k));
     for (int k = 0; k < c->nbodies; k++)
         for (int a = 0; a < 3 * (c->domain.dim - 1); a++, n++)
             snprintf(text[n], sizeof text[n], "%s %s", c->bodies[k].name,
@@ -81,9 +89,10 @@ static double pressure_at(struct sph *s, const struct scene_probe *g)
 
 static double value_at(struct sph *s, const struct scene_probe *g)
 {
-    return g->kind == PROBE_LEVEL   ? level_gauge(s, g->at)
-           : g->kind == PROBE_SHORE ? shore_height(s, g->at[0])
-                                    : pressure_at(s, g);
+    return g->kind == PROBE_LEVEL       ? level_gauge(s, g->at)
+           : g->kind == PROBE_SHORE     ? shore_height(s, g->at[0])
+           : g->kind == PROBE_DISCHARGE ? discharge_gauge(s, g)
+                                        : pressure_at(s, g);
 }
 
 struct force probes_force(struct sph *s, int k)

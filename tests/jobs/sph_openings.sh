@@ -13,7 +13,8 @@ domain:  { dim = 2; max = (1, 0.4); };
 initial: { field = "uniform"; velocity = ($3, 0); };
 walls:   ( { side = "x_min"; kind = "inflow"; $5; }, { side = "x_max"; kind = "outflow"; $6 }, { side = "y_min"; } );
 shapes:  ( { form = "below"; level = $4; } );
-probes:  ( { name = "up"; kind = "level"; at = (0.25, 0.1); }, { name = "middle"; kind = "level"; at = (0.5, 0.1); }, { name = "down"; kind = "level"; at = (0.75, 0.1); } );
+probes:  ( { name = "up"; kind = "level"; at = (0.25, 0.1); }, { name = "middle"; kind = "level"; at = (0.5, 0.1); }, { name = "down"; kind = "level"; at = (0.75, 0.1); },
+           { name = "flow"; kind = "discharge"; at = (0.5, 0); to = (0.5, 0.4); }, { name = "slant"; kind = "discharge"; at = (0.375, -0.05); to = (0.6, 0.4); } );
 sph:     { dx = 0.02; c0 = 20.0; };
 output:  { snapshots = false; };
 END
@@ -40,6 +41,10 @@ level shifted 0.207 5 7 0.01
 level still 0.2 3 4 0.01
 close_to "$(number level x_min)" 490 0.02 || bad "discharge in: $(number level x_min) kg for 490" level.txt
 close_to "$(number level x_max)" -490 0.02 || bad "discharge out: $(number level x_max) kg for -490" level.txt
+# the same through any section, upright or not
+for gauge in flow slant; do
+    close_to "$(mean level $gauge 4 7)" 0.07 0.02 || bad "level: $gauge $(mean level $gauge 4 7) m^2/s for 0.07" level.txt
+done
 below "$(number level budget | tr -d -)" 0.02 || bad "mass lost or made: $(number level budget)" level.txt
 near "$(number still x_min)" 0 1 || bad "water at rest comes in: $(number still x_min) kg" still.txt
 # jump relations: u = (h2 - h1) sqrt(g (h1 + h2)/(2 h1 h2)) = 0.35 m/s
