@@ -8,7 +8,7 @@ COMMIT := $(shell git rev-parse --short HEAD 2>/dev/null || echo unknown)
 
 # ---- what it needs, as Debian 12 packages -------------------------------------------------------------
 PACKAGES = build-essential pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi-dev hdf5-tools python3-h5py python3-matplotlib \
-           libhypre-dev libsundials-dev libconfig-dev libcmocka-dev libassimp-dev
+           libhypre-dev libsundials-dev libconfig-dev libmuparser-dev libcmocka-dev libassimp-dev
 
 # ---- how it is built ----------------------------------------------------------------------------------
 # No -ffast-math: it gains nothing here and lets NaN pass unseen. -fno-math-errno frees sqrt.
@@ -18,7 +18,7 @@ HDF5_CFLAGS = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags hdf5-openmpi
 HDF5_LIBS = $(shell pkg-config --libs hdf5-openmpi 2>/dev/null)
 SAN =
 CFLAGS = -std=c11 -D_GNU_SOURCE -g $(OPT) $(WARN) $(HDF5_CFLAGS) -isystem /usr/include/hypre $(SAN)
-LIBS = $(HDF5_LIBS) -lconfig -lm
+LIBS = $(HDF5_LIBS) -lconfig -lmuparser -lm
 # Reads meshes; without it they are refused.
 ASSIMP_LIBS = $(strip $(shell pkg-config --libs assimp 2>/dev/null))
 FV_LIBS = -lHYPRE -lsundials_kinsol -lsundials_nvecparallel -lsundials_sunlinsolspgmr
@@ -169,7 +169,7 @@ uninstall:
 	rm -rf $(D)$(datadir) $(D)$(progdir)
 # build/estran_VERSION_ARCH.deb of what make install installs, for this kind of processor (-march=native)
 arch := $(shell dpkg --print-architecture 2>/dev/null)
-depends = openmpi-bin, libopenmpi3, libhdf5-openmpi-103-1, libhypre-2.26.0, libsundials-kinsol6, libsundials-nvecparallel-mpi6, libconfig9, libassimp5, python3-h5py, python3-matplotlib
+depends = openmpi-bin, libopenmpi3, libhdf5-openmpi-103-1, libhypre-2.26.0, libsundials-kinsol6, libsundials-nvecparallel-mpi6, libconfig9, libmuparser2v5, libassimp5, python3-h5py, python3-matplotlib
 deb: all
 	@rm -rf $(B)/deb && $(MAKE) --no-print-directory install prefix=/usr DESTDIR=$(abspath $(B))/deb >/dev/null
 	@install -D -m 644 LICENSE $(B)/deb/usr/share/doc/estran/copyright && mkdir $(B)/deb/DEBIAN

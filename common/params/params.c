@@ -13,6 +13,7 @@
 #include "../base/log.h"
 #include "../base/mem.h"
 #include "params_hints.h"
+#include "params_let.h"
 #include "params_override.h"
 #include "params_value.h"
 
@@ -25,6 +26,7 @@ struct params {
     bool read;                        /* rank 0: cfg holds a case */
     config_t cfg;
     struct override *overrides;
+    struct let *let; /* rank 0: variables of the case */
     unsigned long long hash;
     char kind[64], as[64];  /* keys of group `kind' are those of group `as'; "": none */
     char names[NAMES_SIZE]; /* " sph fv ": groups the case has, the same on all ranks */
@@ -400,7 +402,7 @@ static bool is_of_kind(const char *kind, const char *name)
 
 static bool known_group(const struct params *p, const char *const *others, const char *name)
 {
-    bool known = strcmp(name, "format") == 0;
+    bool known = strcmp(name, "format") == 0 || strcmp(name, "let") == 0;
     for (int k = 0; k < p->ngroups; k++)
         known = known || strcmp(p->groups[k].name, name) == 0;
     for (int k = 0; others && others[k]; k++)
@@ -511,6 +513,7 @@ static void read_case(struct params *p, const char *const *texts, const char *co
         return;
     for (int k = 0; k < p->noverrides; k++)
         override_graft(p->overrides + k, &p->cfg, f);
+    p->let = let_read(&p->cfg, p->path, p->overrides, p->noverrides, f);
     check_format(p, f);
     find_unknown_groups(p, others, f);
     find_unknown_overrides(p, others, f);
@@ -575,6 +578,7 @@ void params_free(struct params **p)
 {
     if (!*p)
         return;
+    let_free(&(*p)->let);
     config_destroy(&(*p)->cfg);
     for (int k = 0; k < (*p)->noverrides; k++)
         config_destroy(&(*p)->overrides[k].cfg);
@@ -745,8 +749,11 @@ bool params_list_groups(const char *path)
 
 char *params_text(const struct params *p)
 {
-    char *all = mem_new(32, 1);
-    size_t n = (size_t)snprintf(all, 32, "format = 1;\n");
+    char *variables = let_text(p->let);
+    const size_t room = 32 + strlen(variables);
+    char *all = mem_new(room, 1);
+    size_t n = (size_t)snprintf(all, room, "format = 1;\n%s", variables);
+    mem_free(variables);
     for (int k = 0; k < p->ngroups; k++) {
         if (!params_has_group(p, p->groups[k].name))
             continue;

@@ -8,6 +8,7 @@
 
 #include "../base/log.h"
 #include "params_hints.h"
+#include "params_let.h"
 
 bool param_number(const config_setting_t *s, double *v)
 {
@@ -22,7 +23,7 @@ bool param_number(const config_setting_t *s, double *v)
         *v = config_setting_get_float(s);
         return true;
     default:
-        return false;
+        return let_value(s, v, NULL);
     }
 }
 
@@ -42,16 +43,32 @@ static bool is_integer(const struct param *r)
     return r->type == PARAM_INT || r->type == PARAM_INTS;
 }
 
+static void not_a_number(const struct param *r, const config_setting_t *s, char *why, size_t size)
+{
+    const char *unit = strcmp(r->unit, "-") ? r->unit : "", *cause = NULL;
+    double v;
+    (void)let_value(s, &v, &cause);
+    snprintf(why, size, "expected a plain number%s%s%s%s", *unit ? " in " : "", unit,
+             cause ? " or an expression: " : "", cause ? cause : "");
+}
+
+/* "0.3/0.1" is 2.9999999999999996. */
+static double nearly_whole(double v)
+{
+    return fabs(v - round(v)) < 1e-9 * fmax(1.0, fabs(v)) ? round(v) : v;
+}
+
 /* Reads one number into component k; what is wrong with it goes to why. */
 static bool get_number(const struct param *r, const config_setting_t *s, void *target, int k,
                        char *why, size_t size)
 {
     double v;
     if (!param_number(s, &v)) {
-        snprintf(why, size, "expected a plain number%s%s, not text",
-                 strcmp(r->unit, "-") ? " in " : "", strcmp(r->unit, "-") ? r->unit : "");
+        not_a_number(r, s, why, size);
         return false;
     }
+    if (is_integer(r) && config_setting_type(s) == CONFIG_TYPE_STRING)
+        v = nearly_whole(v);
     if (is_integer(r) && (v != floor(v) || fabs(v) > 2147483647.0)) {
         snprintf(why, size, "%g is not a whole number", v);
         return false;
@@ -160,6 +177,16 @@ static bool get_point(const struct param *r, const config_setting_t *s, int dim,
     return true;
 }
 
+/* Why one of the numbers of a point is no expression; NULL: they all are, or none is a text. */
+static const char *cause_within(const config_setting_t *s)
+{
+    const char *cause = NULL;
+    double v;
+    for (int a = 0; config_setting_is_aggregate(s) && a < config_setting_length(s) && !cause; a++)
+        (void)let_value(config_setting_get_elem(s, (unsigned)a), &v, &cause);
+    return cause;
+}
+
 /* ((x, y), (x, y), ...): at most PARAM_POINTS_MAX; with three components PARAM_PLACES_MAX. */
 static bool get_points(const struct param *r, const config_setting_t *s, void *target, char *why,
                        size_t size)
@@ -179,8 +206,10 @@ static bool get_points(const struct param *r, const config_setting_t *s, void *t
     for (int k = 0; k < n; k++) {
         double *v = plane ? points->x[k] : places->x[k];
         if (!get_point(r, config_setting_get_elem(s, (unsigned)k), dim, v)) {
-            snprintf(why, size, "point %d: expected %s numbers in ( ) from %g to %g", k + 1,
-                     plane ? "two" : "three", r->min, r->max);
+            const char *cause = cause_within(config_setting_get_elem(s, (unsigned)k));
+            snprintf(why, size, "point %d: expected %s numbers in ( ) from %g to %g%s%s", k + 1,
+                     plane ? "two" : "three", r->min, r->max, cause ? ": " : "",
+                     cause ? cause : "");
             return false;
         }
     }

@@ -8,7 +8,7 @@
 
 #include "params.h"
 
-/* A number of any kind; false: the setting is none. */
+/* A number of any kind, or a text that is an expression (params_let.h); false: it is neither. */
 bool param_number(const config_setting_t *s, double *v);
 /* Reads a row's value into its member of target; false: why[size] says what is wrong with it. */
 bool param_read(const struct param *r, const config_setting_t *s, void *target, char *why,

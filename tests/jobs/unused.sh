@@ -160,6 +160,7 @@ shapes.velocity (0.2,0)
 probes.name "other"
 probes.kind "level"
 probes.at (0.2,-0.7)
+probes.to (0.3,-0.7)
 probes.radius 0.5
 apr.levels 3
 apr.margin 2.0

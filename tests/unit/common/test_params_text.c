@@ -2,6 +2,8 @@
  * read again. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "params_case.h"
 
+#include <math.h>
+
 static void the_command_line_goes_before_the_file(void **state)
 {
     (void)state;
@@ -212,6 +214,63 @@ static void a_fault_between_keys_stands_at_its_key(void **state)
     mem_free(f.text);
 }
 
+/* Numbers by expressions of the variables of group `let', in vectors, lists and on the command
+ * line. */
+static void numbers_are_expressions_of_variables(void **state)
+{
+    (void)state;
+    const char *text =
+        "let: { H = 0.3; n = 30; dx = \"H/n\"; };\n"
+        "box: { size = \"100*dx\"; lo = (\"-H\", 2); count = \"H/0.1\"; name = \"H\"; };\n"
+        "items: ( { weight = \"sqrt(n+6)\"; }, { weight = \"2*pi\"; } );\n"
+        "alien: { x = \"H\"; };";
+    struct faults f;
+    struct params *p = read_case(text, NULL, &f);
+    double v[3];
+    assert_int_equal(f.n, 0);
+    assert_close(box.size, 1.0, 1e-15);
+    assert_close(box.lo[0], -0.3, 0);
+    assert_int_equal(box.count, 3); /* though 0.3/0.1 is 2.9999999999999996 */
+    assert_string_equal(box.name, "H");
+    assert_close(items[0].weight, 6.0, 1e-15);
+    assert_close(items[1].weight, 2.0 * acos(-1.0), 1e-15);
+    assert_true(params_peek(p, MPI_COMM_WORLD, "alien.x", v)); /* of another program's group */
+    assert_close(v[0], 0.3, 0);
+    char *print = rank == 0 ? params_text(p) : NULL;
+    assert_true(rank > 0 || strstr(print, "# let: H = 0.29999999999999999, n = 30, dx = 0.01\n"));
+    params_free(&p);
+    sound(print ? print : "", NULL); /* all numbers are plain in it */
+    assert_close(box.size, 1.0, 1e-15);
+    mem_free(print);
+    sound(text, WITH("let.n=60", "let.H=2*0.3", "items.[0].weight=n/H"));
+    assert_close(box.size, 1.0, 1e-15);
+    assert_close(items[0].weight, 100.0, 1e-15);
+    assert_true(hash(text, NULL) != hash(text, WITH("let.n=60")));
+}
+
+static void a_fault_of_an_expression_says_what_is_known(void **state)
+{
+    (void)state;
+    FAULTY("let: { Hight = 0.3;\n  dx = \"Hihgt/3\"; };\nbox: { size = 1; };", 1,
+           ".cfg:2: let.dx: `Hihgt' in \"Hihgt/3\" is not known: did you mean `Hight'?; known "
+           "here: Hight\n");
+    FAULTY("let: { H = 0.3; };\nbox: { size = \"H/k\"; count = \"H\"; lo = (\"H+\", 1); };", 3,
+           ".cfg:2: box.size: expected a plain number in m or an expression: `k' in \"H/k\" is not "
+           "known",
+           "known here: H\n", "box.count: 0.3 is not a whole number",
+           "box.lo: expected a plain number in m or an expression: \"H+\" is no expression: ");
+    FAULTY("let: { H = 0.3;\n  g = 1; };\nbox: { size = \"H\"; };", 1,
+           ".cfg:2: let.g: is not used: no expression names this variable");
+    FAULTY("let: { H = true; a = \"b\"; b = 1; pi = 3; };\nbox: { size = 1; };", 3,
+           "let.H: expected a number or an expression", "let.a: `b' in \"b\" is not known",
+           "let.pi: is the name of a function or a constant");
+    FAULTY("let: ( 1, 2 );\nbox: { size = \"1/0\"; };", 2, "cfg:1: let: expected a group",
+           "box.size: expected a plain number in m or an expression: \"1/0\" is inf");
+    FAULTY("box: { size = \"H\"; };", 1, "`H' in \"H\" is not known; no variable is defined");
+    faulty("let: { H = 1; };\nbox: { size = \"H\"; };", WITH("let.h=3"), 1,
+           WITH("-p let.h=3: let.h: no such variable in the case; known here: H\n"));
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -223,6 +282,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_given_key_that_is_not_used_is_a_fault),
         cmocka_unit_test(the_default_asks_for_nothing),
         cmocka_unit_test(a_fault_between_keys_stands_at_its_key),
+        cmocka_unit_test(numbers_are_expressions_of_variables),
+        cmocka_unit_test(a_fault_of_an_expression_says_what_is_known),
     };
     RUN_PARAMS_TESTS(argc, argv, tests);
 }

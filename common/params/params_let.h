@@ -1,0 +1,29 @@
+/* params_let.h - numbers of a case by expressions, and the variables that these name.
+ * `let: { H = 0.3; dx = "H/30"; };' defines variables, each by a number or by an expression of
+ * those above it; wherever the case or the command line gives a number, a text in quotes may stand
+ * for it. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_PARAMS_LET_H
+#define COMMON_PARAMS_LET_H
+
+#include <libconfig.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "params.h"
+#include "params_override.h"
+
+struct let; /* the variables of a case: made by let_read, freed by let_free */
+
+/* Reads the group `let' of cfg (read from path) and what the command line gives of it, then
+ * computes all texts of cfg and of the overrides that are expressions: see let_value. Faults go to
+ * f: of variables alone, for other texts may be meant as such. */
+struct let *let_read(config_t *cfg, const char *path, struct override *o, int noverrides,
+                     struct faults *f);
+void let_free(struct let **l);
+/* The value of a text that is an expression; false: it is none, and *why (if not NULL) says why not
+ * or is NULL. Both are known once let_read has seen the setting; *why is borrowed from it. */
+bool let_value(const config_setting_t *s, double *v, const char **why);
+/* Appends the variables and their values as a comment of the case's text: "# let: H = 0.3". */
+char *let_text(const struct let *l);
+
+#endif
