@@ -73,7 +73,7 @@ function factor(name, t,    d, l, u, r) {
 function scale(name,    d, l, u, r, p) {
     d = know["dim"]; l = know["length"]; u = know["speed"]; r = know["rho"]
     p = u * u + know["gravity"] * l
-    if (name ~ /mass of level changes/) return know["mass"]
+    if (name ~ /mass of level changes|^through/) return know["mass"]
     if (name ~ /^(particles|guards) level/) return 1e5 * max(2, 0.01 * value["base", 1, column("particles [-]")]) # who crosses an edge now, rounding decides
     if (name ~ /moment/ && name !~ /momentum/) return r * p * l ^ d
     if (name ~ /\[J\]/) return know["mass"] * u * u
@@ -95,6 +95,12 @@ function answer(name, t,    a, b, letters, place) {
     moved = 0
     if (name ~ /^b[0-9] (angle|spin) /) turned = handed(t)
     if (name ~ /^b[0-9]/ && name ~ / [ro][xyz] \[/ || name ~ /moment/ && name !~ /momentum/) turned = handed(t)
+    if (match(name, /^(through|level) [xyz]_m/)) { # of a side
+        a = index("xyz", substr(name, RLENGTH - 2, 1)) - 1
+        b = substr(name, RLENGTH + 1, 2) == "ax"
+        if (sign[t, a] < 0) b = !b
+        return substr(name, 1, RLENGTH - 3) substr("xyz", axis[t, a] + 1, 1) (b ? "_max" : "_min") substr(name, RLENGTH + 3)
+    }
     letters = name ~ /^b[0-9] [uvw] \[/ ? "uvw" : "xyz"
     if (match(name, letters == "uvw" ? " [uvw] [[]" : " [ro]?[xyz] [[]") && name !~ /water up to|^moment z/) {
         place = RSTART + RLENGTH - 3

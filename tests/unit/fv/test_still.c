@@ -104,7 +104,7 @@ static void levels_stand_against_gravity(void **state)
         "\"y_max\"; }, { side = \"z_min\"; }, { side = \"z_max\"; } );\n"
         "probes: ( { name = \"h\"; kind = \"level\"; at = (0.5, 0.5, 0.5); } );\n"
         "fv: { cells = (8, 8, 8); };\n";
-    static const double wanted[4] = {0.2, 0.2, 0.2, 0.8};
+    static const double wanted[4] = {0.2, 0.2, 0.2, -0.8};
     static const char *const gravity[4] = {"(-1, 0, 0)", "(0, -1, 0)", "(0, 0, -1)", "(0, 1, 0)"};
     for (int k = 0; k < 4; k++) {
         double row[COLUMNS] = {0};
