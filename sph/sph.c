@@ -117,12 +117,11 @@ static void say_turned(const struct scene *c)
 /* What inlets and outlets under a free surface do. */
 static void describe_openings(const struct run *r, const struct sph_params *prm)
 {
-    static const char *const sides[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     const struct scene *c = &r->scene;
     for (int k = 0; k < c->nwalls && prm->outer == OUTER_SIDES; k++) {
         const struct scene_wall *w = c->walls + k;
         const bool in = w->kind == WALL_INFLOW;
-        const char *side = w->side == SIDE_NONE ? "" : sides[w->side - SIDE_X_MIN];
+        const char *side = w->side == SIDE_NONE ? "" : scene_side_names[w->side - SIDE_X_MIN];
         if (w->kind < WALL_INFLOW || prm->surface != SURFACE_YES)
             continue;
         if (w->discharge != 0.0)

@@ -149,6 +149,8 @@ void scene_groups(struct scene *s, struct param_group *groups)
     memcpy(groups, all, sizeof all);
 }
 
+const char *const scene_side_names[6] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+
 const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side side)
 {
     for (int k = 0; k < s->nwalls; k++)

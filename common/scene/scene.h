@@ -153,6 +153,8 @@ struct scene {
 
 #define LEVEL_TOP 1e30
 
+/* Of the sides from SIDE_X_MIN on, as the case names them. */
+extern const char *const scene_side_names[6];
 /* The wall on a side of the domain; NULL: none. */
 const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side side);
 

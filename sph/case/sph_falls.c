@@ -152,7 +152,6 @@ static bool start_at(const struct scene *c, const struct exact *e, const struct 
 
 void sph_falls_warn(const struct run *r, const struct sph_params *used)
 {
-    static const char *const names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     const struct scene *c = &r->scene;
     const struct exact e = exact_create(c);
     const struct fall_places of = places_of(c, used->dx);
@@ -180,5 +179,5 @@ void sph_falls_warn(const struct run *r, const struct sph_params *used)
                  "velocity take it out of the domain, most by the side %s, which is open, and it "
                  "is lost. If that is not meant give this side a wall, or turn fluid.gravity",
                  100.0 * (double)lost / (double)flown, c->fluid.gravity[0], c->fluid.gravity[1],
-                 c->fluid.gravity[2], names[most]);
+                 c->fluid.gravity[2], scene_side_names[most]);
 }

@@ -12,8 +12,6 @@
 #include "../sph.h"
 #include "first_lattice.h"
 
-static const char *const side_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
-
 static bool is_pressure(const struct scene_wall *w)
 {
     return w && (w->kind == WALL_OUTFLOW || w->kind == WALL_ABSORBING);
@@ -72,7 +70,7 @@ static void check_ends(const struct run *r, int a, struct faults *f)
         params_fault(r->params, f, "fluid.gravity",
                      "drives the fluid through the open ends %s and %s for ever, nothing holds it: "
                      "let their pressures differ by %g Pa, or make one of them an inflow",
-                     side_names[2 * a], side_names[2 * a + 1], weight);
+                     scene_side_names[2 * a], scene_side_names[2 * a + 1], weight);
 }
 
 /* Under a free surface the water outside stands at a level, against gravity along one axis. */
@@ -203,13 +201,13 @@ static void check_bare(const struct run *r, const struct sph_params *used, struc
             params_fault(r->params, f, "domain",
                          "the fluid fills it up to its side %s, which is open: give this side a "
                          "wall, an outflow or a period; or say by shapes where the fluid ends",
-                         side_names[side]);
+                         scene_side_names[side]);
         else if (tank && plane && c->nshapes == 0 && cuts_tank(c, side, used->dx, x))
             params_fault(r->params, f, "domain",
                          "its side %s, which is open, cuts the tank at (%g, %g), where fluid is: "
                          "make the domain larger than the tank, or give this side a wall, an "
                          "outflow or a period",
-                         side_names[side], x[0], x[1]);
+                         scene_side_names[side], x[0], x[1]);
     }
 }
 
@@ -257,7 +255,7 @@ static void check_box(const struct run *r, const struct sph_params *given,
         else if (g > 0.0 && !(still[a] < 0.0 ? high : low))
             params_fault(r->params, f, key,
                          "must hold the free surface: let it reach the side %s of the domain",
-                         side_names[2 * a + (still[a] < 0.0)]);
+                         scene_side_names[2 * a + (still[a] < 0.0)]);
     }
 }
 

@@ -10,8 +10,6 @@
 #include "../open_boundaries/zone_steps.h"
 #include "../particles/params_derived.h"
 
-static const char *const sides[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
-
 int opening_columns(const struct run *r, const struct sph_params *prm, const char **names)
 {
     static char text[6][2][32];
@@ -23,8 +21,8 @@ int opening_columns(const struct run *r, const struct sph_params *prm, const cha
     for (int side = 0; side < 2 * r->scene.domain.dim; side++) {
         if (!open[side])
             continue;
-        snprintf(text[side][0], sizeof text[side][0], "through %s [kg]", sides[side]);
-        snprintf(text[side][1], sizeof text[side][1], "level %s [m]", sides[side]);
+        snprintf(text[side][0], sizeof text[side][0], "through %s [kg]", scene_side_names[side]);
+        snprintf(text[side][1], sizeof text[side][1], "level %s [m]", scene_side_names[side]);
         names[n++] = text[side][0];
         if (prm->surface == SURFACE_YES)
             names[n++] = text[side][1];
@@ -66,7 +64,7 @@ void opening_summary(const struct sph *s, struct summary *to)
     for (int side = 0; side < 2 * s->dim; side++) {
         if (!s->open[side])
             continue;
-        snprintf(name, sizeof name, "through.%s", sides[side]);
+        snprintf(name, sizeof name, "through.%s", scene_side_names[side]);
         summary_real(to, name, through[side]);
         sum += through[side];
         in += fmax(through[side], 0.0);

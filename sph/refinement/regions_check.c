@@ -384,7 +384,6 @@ static void stand_at(const struct run *r, const struct sph_params *used, struct 
 static void check_open_sides(const struct run *r, const struct sph_params *used, struct regions *g,
                              struct faults *f)
 {
-    static const char *const names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     double way[3], x[3];
     bool moves = g->goes;
     for (int n = 0; n < g->nsets; n++)
@@ -407,7 +406,7 @@ static void check_open_sides(const struct run *r, const struct sph_params *used,
                 "level 1 reaches into the open side %s at (%g, %g, %g) m, t = %.4g s: regions and "
                 "what is made around them must stay %.4g m away, transition, buffer and R; make "
                 "them smaller, or the region of the particles larger%s",
-                names[side], x[0], x[1], x[2], t, fabs(end - x[side / 2]),
+                scene_side_names[side], x[0], x[1], x[2], t, fabs(end - x[side / 2]),
                 g->goes ? "; follow = \"sph.box\" moves them with the box" : "");
         }
     }
