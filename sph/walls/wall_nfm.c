@@ -95,16 +95,31 @@ static void judge(const struct sph *s, struct nfm *m)
     m->judged = true;
 }
 
-/* Of what touches take from the gamma of particle k, the share of those that push. */
+static bool pushes(const struct sph *s, const struct nfm *m, const struct wall_touch *t)
+{
+    return !s->flows_at || m->pushes[t - m->list.touch];
+}
+
+/* Of what the touches of particle k take from its gamma, that of those that push. */
+static double gamma_of_pushing(const struct sph *s, const struct nfm *m, int k)
+{
+    const struct wall_list *l = &m->list;
+    double sum = 0.0;
+    for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++)
+        sum += pushes(s, m, t) ? fabs(t->is.gamma) : 0.0;
+    return sum;
+}
+
+/* The same over that of all its touches. */
 static double share_that_pushes(const struct sph *s, const struct nfm *m, int k)
 {
     const struct wall_list *l = &m->list;
-    double all = 0.0, pushing = 0.0;
-    for (int j = l->first[k]; j < l->first[k + 1] && s->flows_at; j++) {
+    double all = 0.0;
+    if (!s->flows_at)
+        return 1.0;
+    for (int j = l->first[k]; j < l->first[k + 1]; j++)
         all += fabs(l->touch[j].is.gamma);
-        pushing += m->pushes[j] ? fabs(l->touch[j].is.gamma) : 0.0;
-    }
-    return !s->flows_at ? 1.0 : all > 0.0 ? pushing / all : 0.0;
+    return all > 0.0 ? gamma_of_pushing(s, m, k) / all : 0.0;
 }
 
 /* int G dS of one piece, G the function of the crowding vector: by the ratio of a plane as far away
@@ -421,11 +436,6 @@ INLINE struct given all_fluxes(const struct sph *s, struct nfm *m, int k, const 
     return all;
 }
 
-static bool pushes(const struct sph *s, const struct nfm *m, const struct wall_touch *t)
-{
-    return !s->flows_at || m->pushes[t - m->list.touch];
-}
-
 /* Each owner of touches gets what its pieces have, times `share', from the volume w; the first
  * `first' besides. */
 INLINE void credit_own(const struct sph *s, const struct nfm *m, int k, const double *x, double w,
@@ -457,9 +467,8 @@ INLINE void share_by_gamma(const struct sph *s, const struct nfm *m, int k, cons
 {
     const struct wall_list *l = &m->list;
     const struct wall_touch *begin = l->touch + l->first[k], *end = l->touch + l->first[k + 1];
-    double all = 0.0, force[3];
-    for (const struct wall_touch *t = begin; t < end; t++)
-        all += pushes(s, m, t) ? fabs(t->is.gamma) : 0.0;
+    const double all = gamma_of_pushing(s, m, k);
+    double force[3];
     for (const struct wall_touch *t = begin; t < end; t++) {
         if (!pushes(s, m, t))
             continue;
