@@ -48,7 +48,7 @@ static void place_of(const struct let *l, const config_setting_t *s, const char 
         snprintf(place, size, "%s:%u: let.%s", file, config_setting_source_line(s), name);
 }
 
-/* "the variables H, n (group let)", for a message. */
+/* "known here: H, n", for a message. */
 static void say_known(const struct let *l, char *to, size_t size)
 {
     size_t n =
@@ -91,7 +91,7 @@ static void mark_used(struct let *l)
 }
 
 /* Computes the text of one setting and hangs the result there. */
-static const struct expression *compute(struct let *l, config_setting_t *s)
+static void compute(struct let *l, config_setting_t *s)
 {
     const char *text = config_setting_get_string(s);
     struct expression *e = NEW(struct expression, 1);
@@ -108,7 +108,6 @@ static const struct expression *compute(struct let *l, config_setting_t *s)
         mark_used(l);
     mem_free(config_setting_get_hook(s));
     config_setting_set_hook(s, e);
-    return e;
 }
 
 static void compute_all(struct let *l, config_setting_t *s)

@@ -23,7 +23,8 @@ void let_free(struct let **l);
 /* The value of a text that is an expression; false: it is none, and *why (if not NULL) says why not
  * or is NULL. Both are known once let_read has seen the setting; *why is borrowed from it. */
 bool let_value(const config_setting_t *s, double *v, const char **why);
-/* Appends the variables and their values as a comment of the case's text: "# let: H = 0.3". */
+/* The variables and their values as a comment of a case: "# let: H = 0.3"; "": none. The caller
+ * frees it. l may be NULL. */
 char *let_text(const struct let *l);
 
 #endif
