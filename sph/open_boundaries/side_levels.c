@@ -7,23 +7,31 @@
 #include "../../common/base/mem.h"
 #include "../../common/files/h5.h"
 #include "../../common/scene/scene_fluid.h"
+#include "../surface/level_window.h"
 #include "openings.h"
 
 /* Transits of the domain, there and back, over which the mean velocity forgets; and how long the
  * measured level does, in R/c0, which is some steps. */
 static const double transits = 2.0, memory = 5.0;
 
+enum { KEPT = 6 };
+
 /* What is known of one side. Heights are against gravity, in m. */
 struct side_water {
     const struct scene_wall *is; /* NULL: not open */
-    double given;                /* m: level; NAN: that inside */
-    double level;                /* m: of the water outside */
-    double rate;                 /* m/s: at which it rises */
-    double inside;               /* m: level of the water inside */
-    double mean, past;           /* m/s: velocity outwards, and that of the last two transits */
-    double bed, depth, area;     /* m, m, m^(dim-1): of the water in the opening */
-    double width;                /* m^(dim-2): of the opening, 1 in 2D */
-    double *room;                /* m^(dim-1): of each row of faces that no wall cuts off */
+    union {
+        struct {
+            double given;      /* m: level; NAN: that inside */
+            double level;      /* m: of the water outside */
+            double rate;       /* m/s: at which it rises */
+            double inside;     /* m: level of the water inside */
+            double mean, past; /* m/s: velocity outwards, and that of the last two transits */
+        };
+        double kept[KEPT]; /* the same, as restart files hold it */
+    };
+    double bed, depth, area; /* m, m, m^(dim-1): of the water in the opening */
+    double width;            /* m^(dim-2): of the opening, 1 in 2D */
+    double *room;            /* m^(dim-1): of each row of faces that no wall cuts off */
 };
 
 struct side_levels {
@@ -32,15 +40,17 @@ struct side_levels {
     int rows;       /* of faces, upwards */
     double bottom;  /* m: height of the lowest one's lower edge */
     struct side_water of[6];
+    bool sounded; /* room and bed are known */
     bool started; /* levels are known */
-    double t;     /* s: of the last look */
+    double t;     /* s: of the last update */
 };
 
-bool side_levels_given(const struct sph *s, int side)
+static bool has_level(const struct scene_wall *w)
 {
-    const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
     return w->has_level || (w->kind == WALL_OUTFLOW && w->discharge == 0.0);
 }
+
+bool side_levels_given(const struct side_levels *l, int side) { return has_level(l->of[side].is); }
 
 struct side_levels *side_levels_create(const struct sph *s)
 {
@@ -96,7 +106,9 @@ static void find_room(const struct sph *s, struct side_levels *l)
                 first++;
             of->bed = l->bottom +
                       s->dx * (first + 1.0 - fmin(of->room[first] / (s->dx * of->width), 1.0));
+            of->depth = l->started ? of->level - of->bed : 0.0; /* of a restart file's level */
         }
+    l->sounded = true;
 }
 
 /* Section of the water in an opening up to a level, and the level of a section. */
@@ -128,12 +140,6 @@ static double level_of(const struct sph *s, const struct side_levels *l,
  * what comes in would measure itself, and the level wanders off. */
 enum { BAND_ALL, BAND_WINDOW, BAND_ABOVE, BAND_FLUX, BAND };
 
-/* 0 below height h, 1 above it, 2 dx wide: sums over a lattice are exact. */
-static double ramp(double z, double h, double dx)
-{
-    return fmax(0.0, fmin(1.0, 0.5 + 0.5 * (z - h) / dx));
-}
-
 /* Part of the lattice cell of a particle `in' deep that lies in the band. */
 static double part_in_band(const struct sph *s, double in)
 {
@@ -155,10 +161,11 @@ static void sum_band(const struct sph *s, const struct side_levels *l, double ba
             const double part = of->is ? w * part_in_band(s, in) : 0.0;
             if (part == 0.0)
                 continue;
-            const double above = ramp(height, of->inside - 2.5 * s->dx, s->dx);
+            const struct level_window window = level_window(of->bed, of->inside, s->dx);
+            const double above = level_window_above(&window, height);
             bands[side][BAND_ALL] += part;
             bands[side][BAND_ABOVE] += part * above;
-            bands[side][BAND_WINDOW] += part * (1.0 - above) * ramp(height, of->bed + s->dx, s->dx);
+            bands[side][BAND_WINDOW] += part * level_window_inside(&window, height, above);
             bands[side][BAND_FLUX] +=
                 part * (side % 2 ? y[dim + a] : -y[dim + a]) / y[at_mass(dim)];
         }
@@ -173,15 +180,14 @@ static double measured(const struct sph *s, const struct side_levels *l,
 {
     const double length = s->zones->transition;
     const double plain = level_of(s, l, of, band[BAND_ALL] / length);
-    const double low = of->bed + s->dx, high = of->inside - 2.5 * s->dx;
-    if (!l->started || !(high - low >= 2.0 * s->dx) || fabs(plain - of->inside) > s->dx)
+    const struct level_window window = level_window(of->bed, of->inside, s->dx);
+    if (!l->started || !level_window_fits(&window) || fabs(plain - of->inside) > s->dx)
         return plain;
-    const double section = band[BAND_WINDOW] / length,
-                 room = section_below(s, l, of, high) - section_below(s, l, of, low);
-    const double filled = section / fmax(room, 1e-300);
-    return fabs(filled - 1.0) < 0.15
-               ? level_of(s, l, of,
-                          section_below(s, l, of, high) + band[BAND_ABOVE] / (length * filled))
+    const double below = section_below(s, l, of, window.high),
+                 room = below - section_below(s, l, of, window.low);
+    const double filled = band[BAND_WINDOW] / length / fmax(room, 1e-300);
+    return level_window_is_water(filled)
+               ? level_of(s, l, of, below + band[BAND_ABOVE] / (length * filled))
                : plain;
 }
 
@@ -196,17 +202,18 @@ static void let_waves_out(const struct sph *s, const struct side_levels *l, stru
     of->level = of->given + c / l->g * (of->mean - of->past);
 }
 
-static void look_at_side(const struct sph *s, const struct side_levels *l, struct side_water *of,
-                         int side, const double *band, double dt)
+static void update_side(const struct sph *s, const struct side_levels *l, struct side_water *of,
+                        int side, const double *band, double dt)
 {
     const double now = measured(s, l, of, band), T = memory * s->R / s->c0;
     const double share = l->started ? -expm1(-dt / T) : 1.0;
-    of->rate = l->started ? (now - of->inside) / T : 0.0;
+    if (dt > 0.0)
+        of->rate = (now - of->inside) / T;
     of->inside += (now - of->inside) * share;
     of->mean += (band[BAND_FLUX] / fmax(band[BAND_ALL], 1e-300) - of->mean) * share;
     if (!l->started)
         of->past = of->mean;
-    if (side_levels_given(s, side)) {
+    if (has_level(of->is)) {
         if (isnan(of->given))
             of->given = of->inside;
         let_waves_out(s, l, of, side, dt);
@@ -217,16 +224,16 @@ static void look_at_side(const struct sph *s, const struct side_levels *l, struc
     of->area = section_below(s, l, of, of->level);
 }
 
-void side_levels_look(const struct sph *s, struct side_levels *l)
+void side_levels_update(const struct sph *s, struct side_levels *l)
 {
     double bands[6][BAND] = {{0.0}};
     const double dt = fmax(s->t - l->t, 0.0);
-    if (!l->started)
+    if (!l->sounded)
         find_room(s, l);
     sum_band(s, l, bands);
     for (int side = 0; side < 2 * s->dim; side++)
         if (l->of[side].is)
-            look_at_side(s, l, l->of + side, side, bands[side], dt);
+            update_side(s, l, l->of + side, side, bands[side], dt);
     l->t = s->t;
     l->started = true;
 }
@@ -262,7 +269,7 @@ void side_levels_eval(const struct sph *s, const struct side_levels *l, int side
     *p = s->rho0 * l->g * (of->level - height);
     for (int a = 0; gp && a < 3; a++)
         gp[a] = a == l->up ? -s->rho0 * l->g * l->sign : 0.0;
-    if (side_levels_given(s, side)) {
+    if (has_level(of->is)) {
         const double in = fmin(out, 0.0), all = fmin(of->mean, 0.0);
         *p += 0.5 * s->rho0 * ((of->is->kind == WALL_INFLOW ? all * all : 0.0) - in * in);
         return;
@@ -276,36 +283,23 @@ void side_levels_eval(const struct sph *s, const struct side_levels *l, int side
 
 double side_levels_level(const struct side_levels *l, int side) { return l->of[side].level; }
 
-enum { KEPT = 7 };
-
 void side_levels_save(const struct side_levels *l, struct h5 *f)
 {
-    double all[6 * KEPT];
-    for (int side = 0; side < 6; side++) {
-        const struct side_water *of = l->of + side;
-        const double kept[KEPT] = {of->given, of->level, of->rate, of->inside,
-                                   of->mean,  of->past,  l->t};
-        memcpy(all + KEPT * side, kept, sizeof kept);
-    }
-    h5_write_real(f, "sides_levels", "m", 6 * KEPT, 1, all, false);
+    double all[6][KEPT];
+    for (int side = 0; side < 6; side++)
+        memcpy(all[side], l->of[side].kept, sizeof all[side]);
+    h5_write_real(f, "sides_levels", "m", 6 * KEPT, 1, all[0], false);
+    h5_write_real(f, "sides_time", "s", 1, 1, &l->t, false);
 }
 
 bool side_levels_load(struct side_levels *l, struct h5 *f)
 {
-    double all[6 * KEPT];
-    if (!h5_read_same(f, "sides_levels", 6 * KEPT, all))
+    double all[6][KEPT];
+    if (!h5_read_same(f, "sides_levels", 6 * KEPT, all[0]) ||
+        !h5_read_same(f, "sides_time", 1, &l->t))
         return false;
-    for (int side = 0; side < 6; side++) {
-        struct side_water *of = l->of + side;
-        const double *k = all + KEPT * side;
-        of->given = k[0];
-        of->level = k[1];
-        of->rate = k[2];
-        of->inside = k[3];
-        of->mean = k[4];
-        of->past = k[5];
-        l->t = k[6];
-    }
+    for (int side = 0; side < 6; side++)
+        memcpy(l->of[side].kept, all[side], sizeof all[side]);
     l->started = true;
     return true;
 }

@@ -14,8 +14,8 @@ struct side_levels;
 /* NULL: no free surface. */
 struct side_levels *side_levels_create(const struct sph *s);
 void side_levels_free(struct side_levels **l);
-/* Looks at the flow inside at s->t. Collective. */
-void side_levels_look(const struct sph *s, struct side_levels *l);
+/* From the flow inside at s->t. Collective. */
+void side_levels_update(const struct sph *s, struct side_levels *l);
 /* Height over the water outside the nearest side (m) and its gradient, as zones_surface. */
 void side_levels_surface(const struct sph *s, const struct side_levels *l, int n, const double *x,
                          double *phi, double *gphi);
@@ -24,7 +24,7 @@ void side_levels_surface(const struct sph *s, const struct side_levels *l, int n
 void side_levels_eval(const struct sph *s, const struct side_levels *l, int side, const double *x,
                       double *u, double *p, double *gp);
 /* Whether a level is given at this side, so that the velocity is that of the flow inside. */
-bool side_levels_given(const struct sph *s, int side);
+bool side_levels_given(const struct side_levels *l, int side);
 /* m: of the water outside. */
 double side_levels_level(const struct side_levels *l, int side);
 void side_levels_save(const struct side_levels *l, struct h5 *f);

@@ -218,7 +218,7 @@ static void look_inside(struct sph *s)
 {
     struct sides *d = s->zones->ctx;
     if (d->levels)
-        side_levels_look(s, d->levels);
+        side_levels_update(s, d->levels);
     else
         follow_slope(s, d);
     const struct zones *z = s->zones;
@@ -357,7 +357,8 @@ void sides_create(struct sph *s, struct zones *z)
             continue;
         of->is = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
         of->pressure = scene_reference_left(&s->run->scene, &s->reference, of->is);
-        z->own_u[side] = d->levels ? side_levels_given(s, side) : of->is->kind == WALL_OUTFLOW;
+        z->own_u[side] =
+            d->levels ? side_levels_given(d->levels, side) : of->is->kind == WALL_OUTFLOW;
         z->own_p[side] = d->levels ? !z->own_u[side] : of->is->kind == WALL_INFLOW;
         of->bins[0] = of->bins[1] = 1;
         for (int a = 0; a < s->dim; a++)

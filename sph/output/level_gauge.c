@@ -11,6 +11,7 @@
 
 #include "../../common/scene/scene.h"
 #include "../../common/scene/scene_fluid.h"
+#include "../surface/level_window.h"
 #include "../surface/surface.h"
 #include "../walls/walls.h"
 
@@ -195,21 +196,13 @@ static double share_across(const struct sph *s, const struct column *c, int a, d
     return (hat_until(c, d + r) - hat_until(c, d - r)) / s->dx;
 }
 
-/* What a column holds, m^dim: all; of it what the window between two heights has, whose edges are
- * ramps, and what is above; whether a surface is in the window. */
-struct content {
-    double low, high, all, window, above;
-    double surface;
-};
-
-/* 0 below height h, 1 above it, 2 dx wide: sums over a lattice are exact. */
-static double ramp(double z, double h, double dx)
-{
-    return fmax(0.0, fmin(1.0, 0.5 + 0.5 * (z - h) / dx));
-}
+/* What a column holds, m^dim: all; of it what is in the window, and above; particles of a surface
+ * in the window. */
+enum { COLUMN_ALL, COLUMN_WINDOW, COLUMN_ABOVE, COLUMN_SURFACE, COLUMN };
 
 /* Adds the volumes of what flows of one level, weighted by the hat function. */
-static void add_level(const struct sph *s, const struct column *c, double dx, struct content *to)
+static void add_level(const struct sph *s, const struct column *c, const struct level_window *w,
+                      double sums[COLUMN])
 {
     for (int i = 0; i < s->p.n; i++) {
         const double *q = prim_line(&s->p, i), z = height_of(c, q);
@@ -226,21 +219,20 @@ static void add_level(const struct sph *s, const struct column *c, double dx, st
         if (!(weight > 0.0) ||
             (c->walled && is_hidden(s, c, across, c->sign * (q[c->up] - c->at[c->up]))))
             continue;
-        const double above = ramp(z, to->high, dx), inside = ramp(z, to->low, dx) * (1.0 - above);
-        to->all += weight;
-        to->above += weight * above;
-        to->window += weight * inside;
-        to->surface += inside > 0.0 && s->surface && s->surface->is[i] == SURFACE_ON;
+        const double above = level_window_above(w, z), inside = level_window_inside(w, z, above);
+        sums[COLUMN_ALL] += weight;
+        sums[COLUMN_ABOVE] += weight * above;
+        sums[COLUMN_WINDOW] += weight * inside;
+        sums[COLUMN_SURFACE] += inside > 0.0 && s->surface && s->surface->is[i] == SURFACE_ON;
     }
 }
 
-static struct content content_of(struct sph *s, const struct column *c, double low, double high)
+static void sum_column(const struct sph *s, const struct column *c, const struct level_window *w,
+                       double sums[COLUMN])
 {
-    struct content sum = {.low = low, .high = high};
     for (const struct sph *q = s; q; q = q->finer)
-        add_level(q, c, s->dx, &sum);
-    MPI_Allreduce(MPI_IN_PLACE, &sum.all, 4, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sum;
+        add_level(q, c, w, sums);
+    MPI_Allreduce(MPI_IN_PLACE, sums, COLUMN, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
 /* Level as if the water filled the column's section; drowned solids count as water. */
@@ -256,13 +248,15 @@ static double level_of(const struct sph *s, const struct column *c, double volum
 double level_gauge(struct sph *s, const double *at)
 {
     const struct column c = column_at(s, at);
-    const double level = level_of(s, &c, content_of(s, &c, INFINITY, INFINITY).all);
-    const double ground = isfinite(c.roof) ? c.crest : c.ground;
-    const double low = ground + s->dx, high = level - 2.5 * s->dx;
-    if (!(high - low >= 2.0 * s->dx))
+    const struct level_window none = level_window(INFINITY, INFINITY, s->dx);
+    double all[COLUMN] = {0.0}, sums[COLUMN] = {0.0};
+    sum_column(s, &c, &none, all);
+    const double level = level_of(s, &c, all[COLUMN_ALL]);
+    const struct level_window w = level_window(isfinite(c.roof) ? c.crest : c.ground, level, s->dx);
+    if (!level_window_fits(&w))
         return level;
-    const struct content v = content_of(s, &c, low, high);
-    const double section = v.window / (high - low);
-    const bool is_water = v.surface == 0.0 && fabs(section / c.section - 1.0) < 0.15;
-    return is_water ? high + v.above / section : level;
+    sum_column(s, &c, &w, sums);
+    const double section = sums[COLUMN_WINDOW] / (w.high - w.low);
+    const bool is_water = sums[COLUMN_SURFACE] == 0.0 && level_window_is_water(section / c.section);
+    return is_water ? w.high + sums[COLUMN_ABOVE] / section : level;
 }

@@ -55,8 +55,20 @@ shapes:  ( { form = "box"; box = ((0, 0), (0.6, 0.3)); } );
 sph:     { dx = 0.02; c0 = 30.0; };
 END
 
+cat >channel.cfg <<'END'
+format = 1;
+time:    { end = 0.4; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; max = (1, 0.4); };
+initial: { field = "uniform"; velocity = (0.35, 0); };
+walls:   ( { side = "x_min"; kind = "inflow"; discharge = 0.07; }, { side = "x_max"; kind = "outflow"; level = 0.2; }, { side = "y_min"; } );
+shapes:  ( { form = "below"; level = 0.2; } );
+sph:     { dx = 0.02; c0 = 20.0; };
+END
+
 # series.csv has 12 digits: 1e-9 leaves rounding three orders of magnitude to grow by
 family dam kinetic 1e-9 2 "1 3" 0.1 dam.cfg
+family channel kinetic 1e-9 2 "1 2" 0.4 channel.cfg
 family sloshing kinetic 1e-9 2 "1 3" 0.2 sloshing_fv
 family outflow kinetic 1e-9 2 "1 3" 0.1 "$root/cases/stress/outflow_fv.cfg"
 # the default tolerance of the pressure alone moves the fifth digit of the divergence
@@ -101,7 +113,7 @@ fi
 names=names.txt
 if command -v h5dump >/dev/null; then
     for p in sph fv; do
-        [ $p = sph ] && runs="dam-half regions-half" || runs="sloshing-half outflow-half blocks-half"
+        [ $p = sph ] && runs="dam-half regions-half channel-half" || runs="sloshing-half outflow-half blocks-half"
         for run in $runs; do
             for f in "$run"/$p-checkpoint-*.h5; do
                 h5dump -n 1 "$f" | awk -v p=$p '$1 == "attribute" || $1 == "dataset" { print p, $1, $2 }'
