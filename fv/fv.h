@@ -178,12 +178,15 @@ static inline const struct part *part_of_place(const struct fv *s, int64_t c, in
 }
 
 /* Rows of all cells of this rank: c is the place of a row's first cell, len its length. */
-#define FLOW_ROWS(s, c, len)                                                                       \
-    for (const struct part *p_ = (s)->part; p_ < (s)->part + (s)->nparts; p_++)                    \
-        for (int k_ = 0, j_; k_ < p_->n[2]; k_++)                                                  \
-            for (j_ = 0; j_ < p_->n[1]; j_++)                                                      \
-                for (int64_t c = part_at(p_, 0, j_, k_), len = p_->n[0], once_ = 1; once_;         \
-                     once_ = 0)
+#define FLOW_ROWS(s, c, len) FLOW_ROWS_AT (s, its_part_##c, its_row_##c, c, len)
+/* The same for those who want the part (part) and the row's place along y in it (j), too. */
+#define FLOW_ROWS_AT(s, part_, j, c, len)                                                          \
+    for (const struct part *part_ = (s)->part; part_ < (s)->part + (s)->nparts; part_++)           \
+        for (int its_layer_##c = 0, j; its_layer_##c < part_->n[2]; its_layer_##c++)               \
+            for (j = 0; j < part_->n[1]; j++)                                                      \
+                for (int64_t c = part_at(part_, 0, j, its_layer_##c), len = part_->n[0],           \
+                             its_once_##c = 1;                                                     \
+                     its_once_##c; its_once_##c = 0)
 
 /* The box of fv.hole, lower and upper corner; NULL: none. */
 static inline const double (*fv_hole(const struct fv_params *p))[2][3]

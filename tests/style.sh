@@ -20,6 +20,9 @@ found=$(grep -n '#include "\.\./\(client\|server\|mapping\|transport\|coupler\)'
 [ -z "$found" ] || bad "folders of the coupler: $found"
 found=$(find sph fv coupler common -name '*.[ch]' | sed 's,.*/,,' | sort | uniq -d)
 [ -z "$found" ] || bad "file names twice in the tree: $found"
+found=$(grep -oE '^struct [a-z_0-9]+ \{' $(find sph fv coupler common -name '*.[ch]') | awk -F '[: ]' '
+    $3 in at { print $3 " of " at[$3] " and " $1 } { at[$3] = $1 }')
+[ -z "$found" ] || bad "struct tags twice in the tree: $found"
 # Folders of a program from the lowest layer to the highest; "." is its state, the headers beside the main program
 layers_fv="grid . boundary surface operators poisson watch time coupling output case"
 layers_sph=". rigid particles pairs parallel walls surface open_boundaries bodies refinement watch time coupling output case"

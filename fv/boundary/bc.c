@@ -15,7 +15,7 @@
 
 /* Places of a side on this rank: tangents t0 < t1, from lo to hi; places count from -g, so that
  * those behind other sides have their own. */
-struct side {
+struct bc_side {
     int a, t[2], lo[2], hi[2];
     int width;  /* places along t[0] */
     int first;  /* cell along a that touches the side */
@@ -29,9 +29,9 @@ static bool has_side(const struct block *b, int k)
 }
 
 /* Tangents of an axis filled before have their ghosts by then: sides are filled axis by axis. */
-static struct side side_of(const struct bc *bc, const struct block *b, int k, bool corners)
+static struct bc_side side_of(const struct bc *bc, const struct block *b, int k, bool corners)
 {
-    struct side d = {.a = k / 2};
+    struct bc_side d = {.a = k / 2};
     int n = 0;
     for (int a = 0; a < 3; a++)
         if (a != d.a)
@@ -48,12 +48,12 @@ static struct side side_of(const struct bc *bc, const struct block *b, int k, bo
     return d;
 }
 
-static int64_t place(const struct block *b, const struct side *d, int i, int j)
+static int64_t place(const struct block *b, const struct bc_side *d, int i, int j)
 {
     return (i + b->g[d->t[0]]) + (int64_t)d->width * (j + b->g[d->t[1]]);
 }
 
-static int64_t cell(const struct block *b, const struct side *d, int i, int j)
+static int64_t cell(const struct block *b, const struct bc_side *d, int i, int j)
 {
     int at[3];
     at[d->a] = d->first;
@@ -66,10 +66,10 @@ static int64_t cell(const struct block *b, const struct side *d, int i, int j)
 #define SIDE_PLACES(b, d, i, j, m, c)                                                              \
     for (int j = (d).lo[1]; j < (d).hi[1]; j++)                                                    \
         for (int i = (d).lo[0]; i < (d).hi[0]; i++)                                                \
-            for (int64_t m = place(b, &(d), i, j), c = cell(b, &(d), i, j), once_ = 1; once_;      \
-                 once_ = 0)
+            for (int64_t m = place(b, &(d), i, j), c = cell(b, &(d), i, j), its_once_##c = 1;      \
+                 its_once_##c; its_once_##c = 0)
 
-static double face_area(const struct block *b, const struct side *d, int i, int j)
+static double face_area(const struct block *b, const struct bc_side *d, int i, int j)
 {
     return block_size(b, d->t[0], i) * block_size(b, d->t[1], j);
 }
@@ -80,7 +80,7 @@ static double parabola(double x, double h)
     return 2.0 * (2.0 * x + h) - 4.0 / 3.0 * (3.0 * x * x + 3.0 * x * h + h * h);
 }
 
-static double profile_at(const struct fv *s, const struct scene_wall *wall, const struct side *d,
+static double profile_at(const struct fv *s, const struct scene_wall *wall, const struct bc_side *d,
                          int i, int j)
 {
     const struct block *b = &s->b;
@@ -104,7 +104,7 @@ static struct outflow *list_places(struct fv *s, struct bc *bc, int k, struct ou
                                    int *count)
 {
     const struct block *b = &s->b;
-    const struct side d = side_of(bc, b, k, true);
+    const struct bc_side d = side_of(bc, b, k, true);
     struct outflow *o = carried_add(list, count, b->dim, k, d.a, d.in, bc->n[k], bc->n[k]);
     const double h = block_size(b, d.a, k % 2 ? b->n[1] - 1 : 0); /* a row, if it is along y */
     SIDE_PLACES (b, d, i, j, m, c) {
@@ -153,7 +153,7 @@ static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall
         bc->wall_area += area;
     if (!has_side(b, k))
         return;
-    const struct side d = side_of(bc, b, k, true), inner = side_of(bc, b, k, false);
+    const struct bc_side d = side_of(bc, b, k, true), inner = side_of(bc, b, k, false);
     bc->n[k] = (int64_t)d.width * (b->n[d.t[1]] + 2 * b->g[d.t[1]]);
     for (int q = 0; q < b->dim; q++) {
         bc->w[k][q] = NEW(double, bc->n[k]);
@@ -234,7 +234,7 @@ enum mesh_side bc_behind(const struct fv *s, const int *at, int a)
 static void fill(const struct bc *bc, const struct block *b, int k, enum mesh_side kind, int q,
                  const double *w, const double *slip, double *u)
 {
-    const struct side d = side_of(bc, b, k, true);
+    const struct bc_side d = side_of(bc, b, k, true);
     const bool even = kind == MESH_OUTFLOW || (kind == MESH_SLIP && q != d.a);
     SIDE_PLACES (b, d, i, j, m, c) {
         const double v = (w ? w[m] : 0.0) + (slip ? slip[m] : 0.0);
@@ -276,7 +276,7 @@ void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3])
 
 /* Along a side whose places are given; of a difference. */
 static void fill_zero(const struct bc *bc, const struct block *b, int k, int q,
-                      const struct side *d, double *u)
+                      const struct bc_side *d, double *u)
 {
     const enum mesh_side kind = bc->kind[k];
     SIDE_PLACES (b, *d, i, j, m, c) {
@@ -298,7 +298,7 @@ void bc_slab_ghosts(const struct fv *s, int q, int j, double *u)
         const int a = k / 2;
         int n = b->n[a];
         if (s->bc && s->bc->n[k] > 0) {
-            struct side d = side_of(s->bc, b, k, false);
+            struct bc_side d = side_of(s->bc, b, k, false);
             const int m = d.t[0] == last ? 0 : 1;
             d.lo[m] = j;
             d.hi[m] = j + 1;
@@ -326,7 +326,7 @@ void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u)
     const int k = 2 * (s->b.dim - 1) + upper;
     if (!s->bc || s->bc->n[k] == 0)
         return;
-    const struct side d = side_of(s->bc, &s->b, k, false);
+    const struct bc_side d = side_of(s->bc, &s->b, k, false);
     fill_zero(s->bc, &s->b, k, q, &d, u);
 }
 
@@ -336,7 +336,7 @@ void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
     for (int k = 0; s->bc && k < 2 * b->dim; k++) {
         if (s->bc->n[k] == 0 || s->bc->kind[k] == MESH_OUTFLOW)
             continue;
-        const struct side d = side_of(s->bc, b, k, true);
+        const struct bc_side d = side_of(s->bc, b, k, true);
         const int64_t face = k % 2 ? b->stride[d.a] : 0;
         const double *w = s->bc->w[k][d.a];
         SIDE_PLACES (b, d, i, j, m, c)
@@ -355,7 +355,7 @@ void bc_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t 
     for (int k = 0; s->bc && k < 2 * b->dim; k++) {
         if (s->bc->n[k] == 0 || !is_opening(s->bc->kind[k]))
             continue;
-        const struct side d = side_of(s->bc, b, k, false);
+        const struct bc_side d = side_of(s->bc, b, k, false);
         SIDE_PLACES (b, d, i, j, m, c) {
             const double out = s->U[d.a][k % 2 ? c + b->stride[d.a] : c];
             const double in = (k % 2 ? -1.0 : 1.0) * face_area(b, &d, i, j) * out * share(s, c);
@@ -383,8 +383,8 @@ static void line_beside_box(const struct fv *s, const double *at, int64_t c, int
 
 /* psi on the side, continued evenly: (7 psi_1 - psi_2)/6; its gradient along the side by fourth
  * order differences, again even at the ends. line: scratch of the length of a row with ghosts. */
-static void slip_row(const struct fv *s, const struct side *d, int m, double tau, const double *psi,
-                     int64_t c, double *line, double *slip, int64_t step)
+static void slip_row(const struct fv *s, const struct bc_side *d, int m, double tau,
+                     const double *psi, int64_t c, double *line, double *slip, int64_t step)
 {
     const struct block *b = &s->b;
     const int t = d->t[m], n = b->n[t], g = b->g[t];
@@ -418,7 +418,7 @@ void bc_set_slip(const struct fv *s, double tau, const double *psi)
     for (int k = 0; s->bc && k < 2 * b->dim; k++) {
         if (s->bc->n[k] == 0 || s->bc->kind[k] == MESH_SLIP || s->bc->kind[k] == MESH_OUTFLOW)
             continue;
-        const struct side d = side_of(s->bc, b, k, false);
+        const struct bc_side d = side_of(s->bc, b, k, false);
         for (int m = 0; m < 2 && d.t[m] < b->dim; m++) {
             const int other = d.t[1 - m];
             double *line = NEW(double, b->n[d.t[m]] + 2 * b->g[d.t[m]]);

@@ -15,7 +15,8 @@
         for (at[2] = -p->g[2]; at[2] < p->n[2] + p->g[2]; at[2]++)                                 \
             for (at[1] = -p->g[1]; at[1] < p->n[1] + p->g[1]; at[1]++)                             \
                 for (at[0] = -p->g[0]; at[0] < p->n[0] + p->g[0]; at[0]++)                         \
-                    for (int64_t c = part_at(p, at[0], at[1], at[2]), once_ = 1; once_; once_ = 0)
+                    for (int64_t c = part_at(p, at[0], at[1], at[2]), its_once_##c = 1;            \
+                         its_once_##c; its_once_##c = 0)
 
 static bool is_local(const struct part *p, const int *at)
 {
@@ -149,9 +150,9 @@ static void mark_known(const struct fv *s, struct forcing *f)
 
 static void list_partner(const struct fv *s, struct forcing *f)
 {
-    FLOW_ROWS (s, at, n)
+    FLOW_ROWS_AT (s, part, j, at, n)
         for (int64_t c = at; c < at + n; c++)
-            if (is_rim(s, p_, f, c))
+            if (is_rim(s, part, f, c))
                 f->partner[f->npartner + f->nrim++] = c;
     mark_known(s, f);
     for (int a = 0; a < f->dim; a++) {

@@ -107,17 +107,17 @@ void forcing_list_fixes(const struct fv *s, struct forcing *f, int a)
     const struct block *b = &s->b;
     const int64_t d = b->stride[a];
     int64_t room = 0;
-    BLOCK_ROWS (b, 0, at, n)
+    BLOCK_ROWS_AT (b, 0, j, at, n)
         for (int64_t c = at; c < at + n; c++) {
             struct fix x = {.cell = c};
             bool any = false;
             double plain[5];
             if (f->forced[c])
                 continue;
-            plain_weights(b, a, j_, plain);
+            plain_weights(b, a, j, plain);
             for (int way = 1; way >= -1; way -= 2) {
                 const struct beside side = beside(s, f, c, a, way);
-                const struct line_at l = {a == 1 ? b->rows : NULL, j_, way};
+                const struct line_at l = {a == 1 ? b->rows : NULL, j, way};
                 any = add_side(f, c, way * d, &l, plain + 2, &side, &x) || any;
             }
             if (!any)
@@ -145,7 +145,7 @@ void forcing_gradient(const struct fv *s, int a, enum continuation how, const do
     }
 }
 
-struct line {
+struct line_sum {
     double sum, n;
 };
 
@@ -156,10 +156,10 @@ static bool is_known(const struct forcing *f, int64_t c, int layer)
 
 /* What the known lines along the axes say: cubic where three cells behind are known, else constant.
  */
-static struct line along_axes(const struct forcing *f, const struct part *part, int64_t c,
-                              int layer, const double *p)
+static struct line_sum along_axes(const struct forcing *f, const struct part *part, int64_t c,
+                                  int layer, const double *p)
 {
-    struct line all = {0.0, 0.0};
+    struct line_sum all = {0.0, 0.0};
     for (int way = 0; way < 2 * f->dim; way++) {
         const int64_t d = (way % 2 ? 1 : -1) * part->stride[way / 2];
         if (!is_known(f, c + d, layer))
@@ -174,10 +174,10 @@ static struct line along_axes(const struct forcing *f, const struct part *part, 
 }
 
 /* Of a corner cell: its diagonal neighbours. */
-static struct line across(const struct forcing *f, const struct part *part, int64_t c, int layer,
-                          const double *p)
+static struct line_sum across(const struct forcing *f, const struct part *part, int64_t c,
+                              int layer, const double *p)
 {
-    struct line all = {0.0, 0.0};
+    struct line_sum all = {0.0, 0.0};
     for (int q = 0; q < 4; q++) {
         const int64_t d = (q % 2 ? 1 : -1) * part->stride[0] + (q / 2 ? 1 : -1) * part->stride[1];
         if (is_known(f, c + d, layer)) {
@@ -200,7 +200,7 @@ void forcing_extend(const struct fv *s, int layers, double *p)
             if (f->layer[c] != layer || f->forced[c] != 1)
                 continue;
             const struct part *part = part_of_place(s, c, NULL);
-            struct line all = along_axes(f, part, c, layer, p);
+            struct line_sum all = along_axes(f, part, c, layer, p);
             if (all.n == 0.0)
                 all = across(f, part, c, layer, p);
             if (all.n > 0.0)

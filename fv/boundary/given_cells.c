@@ -185,12 +185,12 @@ void given_rows_create(const struct fv *s, struct forcing *f)
     struct one_sided *g = f->gradient = NEW(struct one_sided, 1);
     int64_t room = 0, n = 0;
     for (int pass = 0; pass < 2; pass++) {
-        FLOW_ROWS (s, at, len)
+        FLOW_ROWS_AT (s, part, j, at, len)
             for (int64_t c = at; c < at + len; c++) {
-                if (s->m->status[c] != CELL_COMPUTED || !is_beside_given(s->m, p_, c))
+                if (s->m->status[c] != CELL_COMPUTED || !is_beside_given(s->m, part, c))
                     continue;
                 if (pass == 1)
-                    add_cell(s->m, p_, c, g, &room);
+                    add_cell(s->m, part, c, g, &room);
                 n += pass == 0;
             }
         if (pass == 0) {

@@ -44,12 +44,12 @@ static double velocity_out(const struct fv *s, const struct outflow *o, int64_t 
 static void mean_velocities(struct fv *s)
 {
     double sums[2][LEVEL_GROUPS] = {{0.0}};
-    LEVELS(s, o)
-    for (int64_t i = 0; i < o->n; i++)
-        if (o->own[i] && o->share[i] > 0.0) {
-            sums[0][o->side] += o->wet[i] * carried_area(o, i) * velocity_out(s, o, i);
-            sums[1][o->side] += o->wet[i] * carried_area(o, i);
-        }
+    LEVELS (s, o)
+        for (int64_t i = 0; i < o->n; i++)
+            if (o->own[i] && o->share[i] > 0.0) {
+                sums[0][o->side] += o->wet[i] * carried_area(o, i) * velocity_out(s, o, i);
+                sums[1][o->side] += o->wet[i] * carried_area(o, i);
+            }
     MPI_Allreduce(MPI_IN_PLACE, sums, 2 * LEVEL_GROUPS, MPI_DOUBLE, MPI_SUM, s->comm);
     for (int k = 0; k < LEVEL_GROUPS; k++)
         s->levels->mean[k] = sums[0][k] / fmax(sums[1][k], 1e-300);
@@ -132,54 +132,54 @@ void levels_set(struct fv *s)
     if (!levels_set_any(s))
         return;
     mean_velocities(s);
-    LEVELS(s, o)
-    for (int64_t i = 0; i < o->n; i++)
-        s->levels->p[o->cell[i] - o->in] = pressure_on(s, o, i);
+    LEVELS (s, o)
+        for (int64_t i = 0; i < o->n; i++)
+            s->levels->p[o->cell[i] - o->in] = pressure_on(s, o, i);
 }
 
 void levels_fluxes(struct fv *s, double tau)
 {
     if (!levels_set_any(s))
         return;
-    LEVELS(s, o)
-    for (int64_t i = 0; i < o->n; i++)
-        if (o->share[i] > 0.0)
-            s->U[o->a][o->cell[i] + o->face] -= (o->in < 0 ? 1.0 : -1.0) * tau *
-                                                conductance(s, o, i) *
-                                                s->levels->p[o->cell[i] - o->in];
+    LEVELS (s, o)
+        for (int64_t i = 0; i < o->n; i++)
+            if (o->share[i] > 0.0)
+                s->U[o->a][o->cell[i] + o->face] -= (o->in < 0 ? 1.0 : -1.0) * tau *
+                                                    conductance(s, o, i) *
+                                                    s->levels->p[o->cell[i] - o->in];
 }
 
 void levels_ghosts(const struct fv *s, double *psi)
 {
     if (!levels_set_any(s))
         return;
-    LEVELS(s, o)
-    for (int64_t i = 0; i < o->n; i++)
-        for (int m = 1; m <= MESH_GHOSTS; m++)
-            psi[o->cell[i] - m * o->in] += 2.0 * s->levels->p[o->cell[i] - o->in];
+    LEVELS (s, o)
+        for (int64_t i = 0; i < o->n; i++)
+            for (int m = 1; m <= MESH_GHOSTS; m++)
+                psi[o->cell[i] - m * o->in] += 2.0 * s->levels->p[o->cell[i] - o->in];
 }
 
 void levels_gradient(const struct fv *s, int a, double *out)
 {
     if (!levels_set_any(s))
         return;
-    LEVELS(s, o)
-    for (int64_t i = 0; i < o->n && o->a == a; i++) {
-        const double p = s->levels->p[o->cell[i] - o->in], way = o->in < 0 ? 1.0 : -1.0;
-        if (!o->own[i])
-            continue;
-        out[o->cell[i]] += way * 14.0 / 12.0 * p / o->h[i];
-        out[o->cell[i] + o->in] -= way * 2.0 / 12.0 * p / o->h[i];
-    }
+    LEVELS (s, o)
+        for (int64_t i = 0; i < o->n && o->a == a; i++) {
+            const double p = s->levels->p[o->cell[i] - o->in], way = o->in < 0 ? 1.0 : -1.0;
+            if (!o->own[i])
+                continue;
+            out[o->cell[i]] += way * 14.0 / 12.0 * p / o->h[i];
+            out[o->cell[i] + o->in] -= way * 2.0 / 12.0 * p / o->h[i];
+        }
 }
 
 void levels_face_gradient(const struct fv *s, int a, double *out)
 {
     if (!levels_set_any(s))
         return;
-    LEVELS(s, o)
-    for (int64_t i = 0; i < o->n && o->a == a; i++)
-        if (o->share[i] > 0.0)
-            out[o->cell[i] + o->face] +=
-                (o->in < 0 ? 2.0 : -2.0) * s->levels->p[o->cell[i] - o->in] / o->h[i];
+    LEVELS (s, o)
+        for (int64_t i = 0; i < o->n && o->a == a; i++)
+            if (o->share[i] > 0.0)
+                out[o->cell[i] + o->face] +=
+                    (o->in < 0 ? 2.0 : -2.0) * s->levels->p[o->cell[i] - o->in] / o->h[i];
 }

@@ -60,7 +60,7 @@ static inline int64_t side_cell(const struct side *s, int i, int j)
 #define SIDE_PLACES(s, more, i, j, m, c)                                                           \
     for (int j = -(more) * (s)->g[1]; j < (s)->n[1] + (more) * (s)->g[1]; j++)                     \
         for (int i = -(more) * (s)->g[0]; i < (s)->n[0] + (more) * (s)->g[0]; i++)                 \
-            for (int64_t m = side_place(s, i, j), c = side_cell(s, i, j), once_ = 1; once_;        \
-                 once_ = 0)
+            for (int64_t m = side_place(s, i, j), c = side_cell(s, i, j), its_once_##c = 1;        \
+                 its_once_##c; its_once_##c = 0)
 
 #endif

@@ -16,17 +16,18 @@
 static const char *const sides[] = {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};
 
 /* A face of a side: the cell inside, the area outwards (m^(dim-1)) and the centre. */
-struct face {
+struct scene_face {
     int cell[3];
     double S[3], x[3];
 };
 
-static struct face face_at(const struct mesh *m, const struct mesh_block *b, int side, int p, int q)
+static struct scene_face face_at(const struct mesh *m, const struct mesh_block *b, int side, int p,
+                                 int q)
 {
     const int a = side / 2, t[2] = {(a + 1) % 3, (a + 2) % 3};
     const double out = side % 2 ? 1.0 : -1.0;
     double e[2][3] = {{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}};
-    struct face f = {{0, 0, 0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    struct scene_face f = {{0, 0, 0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
     int v[3];
     v[a] = side % 2 ? b->n[a] : 0;
     v[t[0]] = f.cell[t[0]] = p;
@@ -75,7 +76,7 @@ static struct total sum_side(const struct run *r, const struct mesh *m, int k, i
     struct total sum = {.height = INFINITY, .height_most = -INFINITY};
     for (int q = 0; q < q1; q++)
         for (int p = 0; p < p1; p++) {
-            const struct face f = face_at(m, b, side, p, q);
+            const struct scene_face f = face_at(m, b, side, p, q);
             double w[3] = {0.0, 0.0, 0.0}, rigid[3], wS = 0.0, w2 = 0.0, S2 = 0.0, height = 0.0,
                    gS = 0.0, g2 = 0.0;
             if (b->status[mesh_cell(b, f.cell)] != CELL_COMPUTED)

@@ -21,8 +21,9 @@ struct patch {
         int row;     /* of fv.cells, this rank's: the first of four */
         double w[4]; /* that make a row of the patch */
     } * blend;       /* [of.n[1]]; NULL: rows of fv.cells are its own */
-    struct box of;   /* what this rank has; its own rows of fv.cells are counted from the grid's */
-    int64_t n;       /* number of those */
+    struct layout_box
+        of;    /* what this rank has; its own rows of fv.cells are counted from the grid's */
+    int64_t n; /* number of those */
     struct mesh_exchange sample; /* of blocks */
 };
 

@@ -103,15 +103,19 @@ void block_pack_from(const struct block *b, int first, const double *f, double *
     for (int k = 0; k < (b)->n[2]; k++)                                                            \
         for (int j = 0; j < (b)->n[1]; j++)                                                        \
             for (int i = 0; i < (b)->n[0]; i++)                                                    \
-                for (int64_t c = block_at(b, i, j, k), once_ = 1; once_; once_ = 0)
+                for (int64_t c = block_at(b, i, j, k), its_once_##c = 1; its_once_##c;             \
+                     its_once_##c = 0)
 
 /* Rows of local cells, `more' layers of ghosts included in the active directions: c is the index of
- * the row's first cell, n its length; j_, k_ are its place. */
-#define BLOCK_ROWS(b, more, c, len)                                                                \
-    for (int k_ = (b)->g[2] ? -(more) : 0, j_; k_ < (b)->n[2] + ((b)->g[2] ? (more) : 0); k_++)    \
-        for (j_ = -(more); j_ < (b)->n[1] + (more); j_++)                                          \
-            for (int64_t c = block_at(b, -(more), j_, k_), len = (b)->n[0] + 2 * (more),           \
-                         once_ = 1;                                                                \
-                 once_; once_ = 0)
+ * the row's first cell, len its length. */
+#define BLOCK_ROWS(b, more, c, len) BLOCK_ROWS_AT (b, more, its_row_##c, c, len)
+/* The same for those who want the row's place along y (j), too. */
+#define BLOCK_ROWS_AT(b, more, j, c, len)                                                          \
+    for (int its_layer_##c = (b)->g[2] ? -(more) : 0, j;                                           \
+         its_layer_##c < (b)->n[2] + ((b)->g[2] ? (more) : 0); its_layer_##c++)                    \
+        for (j = -(more); j < (b)->n[1] + (more); j++)                                             \
+            for (int64_t c = block_at(b, -(more), j, its_layer_##c), len = (b)->n[0] + 2 * (more), \
+                         its_once_##c = 1;                                                         \
+                 its_once_##c; its_once_##c = 0)
 
 #endif

@@ -14,7 +14,7 @@ struct face {
 };
 
 /* A closed side of a block. */
-struct side {
+struct closed_side {
     int block;
     int64_t first, n; /* of its faces */
     double min[3], max[3];
@@ -22,7 +22,7 @@ struct side {
 
 struct block_walls {
     int dim, nsides;
-    struct side side[6 * MESH_BLOCKS_MAX];
+    struct closed_side side[6 * MESH_BLOCKS_MAX];
     struct face *face;
 };
 
@@ -33,7 +33,7 @@ static bool is_closed(enum mesh_side s)
 
 /* Face of the cell `at' on the side along a, and the box around it. */
 static void add_face(const struct mesh_block *b, int dim, int a, bool upper, const int *at,
-                     struct face *f, struct side *s)
+                     struct face *f, struct closed_side *s)
 {
     const int t0 = (a + 1) % dim, t1 = dim == 3 ? (a + 2) % 3 : 2, corners = dim == 3 ? 4 : 2;
     double v[4][3], e[2][3], in[3];
@@ -68,12 +68,12 @@ static void add_side(struct block_walls *w, const struct mesh *m, int block, int
 {
     const struct mesh_block *b = m->block + block;
     const int a = k / 2, t0 = a == 0 ? 1 : 0, t1 = a == 2 ? 1 : 2;
-    struct side *s = w->side + w->nsides;
-    *s = (struct side){.block = block,
-                       .first = w->nsides ? s[-1].first + s[-1].n : 0,
-                       .n = (int64_t)b->n[t0] * (w->dim == 3 ? b->n[t1] : 1),
-                       .min = {INFINITY, INFINITY, INFINITY},
-                       .max = {-INFINITY, -INFINITY, -INFINITY}};
+    struct closed_side *s = w->side + w->nsides;
+    *s = (struct closed_side){.block = block,
+                              .first = w->nsides ? s[-1].first + s[-1].n : 0,
+                              .n = (int64_t)b->n[t0] * (w->dim == 3 ? b->n[t1] : 1),
+                              .min = {INFINITY, INFINITY, INFINITY},
+                              .max = {-INFINITY, -INFINITY, -INFINITY}};
     if (s->first + s->n > *room) {
         const int64_t more = 2 * *room + s->n;
         GROW(w->face, s->first, more);
@@ -112,7 +112,7 @@ void block_walls_free(struct block_walls **wp)
 }
 
 /* m: from x to the box around a side. */
-static double beyond(const struct block_walls *w, const struct side *s, const double *x)
+static double beyond(const struct block_walls *w, const struct closed_side *s, const double *x)
 {
     double d2 = 0.0;
     for (int a = 0; a < w->dim; a++) {
@@ -124,8 +124,8 @@ static double beyond(const struct block_walls *w, const struct side *s, const do
 
 /* The face of a side with its middle nearest to x, less than R m away; NULL: none. *d2: its
  * distance, squared. */
-static const struct face *nearest(const struct block_walls *w, const struct side *s, double R,
-                                  const double *x, double *d2)
+static const struct face *nearest(const struct block_walls *w, const struct closed_side *s,
+                                  double R, const double *x, double *d2)
 {
     const struct face *best = NULL;
     *d2 = INFINITY;
@@ -154,8 +154,8 @@ static double height(const struct face *f, const double *x)
 
 /* The face of a side that x stands over, less than R from it; NULL: none. *off: how far the foot
  * lies from its middle, of its radius. */
-static const struct face *find_face(const struct block_walls *w, const struct side *s, double R,
-                                    const double *x, double *off)
+static const struct face *find_face(const struct block_walls *w, const struct closed_side *s,
+                                    double R, const double *x, double *off)
 {
     double d2;
     const struct face *best = nearest(w, s, R, x, &d2);

@@ -10,16 +10,16 @@
 
 enum { NUMBERS = 11 }; /* that make a box: grid, lo, n, g, base */
 
-struct box layout_block(const struct block *b)
+struct layout_box layout_block(const struct block *b)
 {
-    struct box x = {0};
+    struct layout_box x = {0};
     memcpy(x.lo, b->lo, sizeof x.lo);
     memcpy(x.n, b->n, sizeof x.n);
     memcpy(x.g, b->g, sizeof x.g);
     return x;
 }
 
-void layout_save(struct h5 *f, const char *name, int n, const struct box *of)
+void layout_save(struct h5 *f, const char *name, int n, const struct layout_box *of)
 {
     int64_t *rows = NEW(int64_t, NUMBERS * (size_t)n), *to = rows;
     for (int k = 0; k < n; k++) {
@@ -36,9 +36,9 @@ void layout_save(struct h5 *f, const char *name, int n, const struct box *of)
     mem_free(rows);
 }
 
-static struct box box_from(const int64_t *row)
+static struct layout_box box_from(const int64_t *row)
 {
-    struct box x = {.grid = (int)row[0], .base = row[NUMBERS - 1]};
+    struct layout_box x = {.grid = (int)row[0], .base = row[NUMBERS - 1]};
     for (int a = 0; a < 3; a++) {
         x.lo[a] = (int)row[1 + a];
         x.n[a] = (int)row[4 + a];
@@ -55,7 +55,7 @@ struct layout *layout_load(struct h5 *f, const char *name)
     if (l) {
         l->writers = h5_ranks(f);
         l->nboxes = (int)(n / NUMBERS);
-        l->of = NEW(struct box, l->nboxes);
+        l->of = NEW(struct layout_box, l->nboxes);
         l->writer = NEW(int, l->nboxes);
     }
     for (int k = 0, w = 0; l && k < l->nboxes; k++) {
@@ -105,9 +105,9 @@ bool layout_fits(const struct layout *l, int grid, const int cells[3])
     return false;
 }
 
-static int width(const struct box *x, int a) { return x->n[a] + 2 * x->g[a]; }
+static int width(const struct layout_box *x, int a) { return x->n[a] + 2 * x->g[a]; }
 
-static int64_t volume(const struct box *x)
+static int64_t volume(const struct layout_box *x)
 {
     return x->n[0] > 0 && x->n[1] > 0 && x->n[2] > 0
                ? (int64_t)width(x, 0) * width(x, 1) * width(x, 2)
@@ -116,8 +116,8 @@ static int64_t volume(const struct box *x)
 
 /* Pairs of places along an axis, in the ghosted rows of mine and of `from', that are the same cell;
  * from's own, or beside its own beyond a closed end. Returns their number. */
-static int match(const struct box *mine, const struct box *from, int a, int cells, bool wraps,
-                 int (*pair)[2])
+static int match(const struct layout_box *mine, const struct layout_box *from, int a, int cells,
+                 bool wraps, int (*pair)[2])
 {
     int n = 0;
     for (int i = 0; i < width(mine, a); i++) {
@@ -136,8 +136,8 @@ static int match(const struct box *mine, const struct box *from, int a, int cell
 }
 
 /* What the box `from' has for mine; its rows are in v. */
-static void copy(const struct box *mine, const struct box *from, int (*const pair[3])[2],
-                 const int *n, int ncomp, const double *v, double *to)
+static void copy(const struct layout_box *mine, const struct layout_box *from,
+                 int (*const pair[3])[2], const int *n, int ncomp, const double *v, double *to)
 {
     for (int k = 0; k < n[2]; k++)
         for (int j = 0; j < n[1]; j++) {
@@ -151,7 +151,7 @@ static void copy(const struct box *mine, const struct box *from, int (*const pai
 }
 
 bool layout_read(const struct layout *l, struct h5 *f, const char *name, int ncomp,
-                 const struct box *mine, const bool *wraps, double *to)
+                 const struct layout_box *mine, const bool *wraps, double *to)
 {
     int cells[3], (*pair[3])[2];
     int64_t *first = h5_first_rows(f, name);
@@ -160,7 +160,7 @@ bool layout_read(const struct layout *l, struct h5 *f, const char *name, int nco
     for (int a = 0; a < 3; a++)
         pair[a] = mem_new((size_t)width(mine, a), sizeof *pair[a]);
     for (int k = 0; good && k < l->nboxes; k++) {
-        const struct box *from = l->of + k;
+        const struct layout_box *from = l->of + k;
         int n[3] = {0, 0, 0};
         if (from->grid != mine->grid)
             continue;

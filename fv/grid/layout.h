@@ -11,7 +11,7 @@ struct h5;
 struct block;
 
 /* A rank's cells lo .. lo + n - 1 of a grid, and g layers of ghosts around them, x fastest. */
-struct box {
+struct layout_box {
     int grid; /* which, where a file is of several */
     int lo[3], n[3], g[3];
     int64_t base; /* of its first row, counted from the rank's own */
@@ -19,13 +19,13 @@ struct box {
 
 struct layout {
     int nboxes, writers;
-    struct box *of; /* [nboxes] of all writers */
-    int *writer;    /* [nboxes] */
+    struct layout_box *of; /* [nboxes] of all writers */
+    int *writer;           /* [nboxes] */
 };
 
-struct box layout_block(const struct block *b);
+struct layout_box layout_block(const struct block *b);
 /* Leaves the boxes of all ranks in the file under this name. */
-void layout_save(struct h5 *f, const char *name, int n, const struct box *of);
+void layout_save(struct h5 *f, const char *name, int n, const struct layout_box *of);
 /* NULL: there are none. */
 struct layout *layout_load(struct h5 *f, const char *name);
 void layout_free(struct layout **l);
@@ -39,5 +39,5 @@ void layout_cells(const struct layout *l, int grid, int cells[3]);
  * from the box that owns it; ghosts beyond its end the same along axes that wrap, else from the box
  * that owns the cell they stand beside. Collective. to[0]: corner of mine. */
 bool layout_read(const struct layout *l, struct h5 *f, const char *name, int ncomp,
-                 const struct box *mine, const bool *wraps, double *to);
+                 const struct layout_box *mine, const bool *wraps, double *to);
 #endif

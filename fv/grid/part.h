@@ -34,17 +34,21 @@ static inline void part_index(const struct part *p, int64_t c, int *at)
 /* Rows of a part's cells; `down' and `up' layers (int[3]) more: c is the place of the row's first
  * cell, len its length. */
 #define PART_ROWS(p, down, up, c, len)                                                             \
-    for (int k_ = -(down)[2], j_; k_ < (p)->n[2] + (up)[2]; k_++)                                  \
-        for (j_ = -(down)[1]; j_ < (p)->n[1] + (up)[1]; j_++)                                      \
-            for (int64_t c = part_at(p, -(down)[0], j_, k_),                                       \
-                         len = (p)->n[0] + (down)[0] + (up)[0], once_ = 1;                         \
-                 once_; once_ = 0)
+    PART_ROWS_AT (p, down, up, its_row_##c, its_layer_##c, c, len)
+/* The same for those who want the row's place along y and z (j, k), too. */
+#define PART_ROWS_AT(p, down, up, j, k, c, len)                                                    \
+    for (int k = -(down)[2], j; k < (p)->n[2] + (up)[2]; k++)                                      \
+        for (j = -(down)[1]; j < (p)->n[1] + (up)[1]; j++)                                         \
+            for (int64_t c = part_at(p, -(down)[0], j, k), len = (p)->n[0] + (down)[0] + (up)[0],  \
+                         its_once_##c = 1;                                                         \
+                 its_once_##c; its_once_##c = 0)
 
 /* Visits a part's cells: i (int[3]) has place c. */
 #define PART_CELLS(p, i, c)                                                                        \
     for ((i)[2] = 0; (i)[2] < (p)->n[2]; (i)[2]++)                                                 \
         for ((i)[1] = 0; (i)[1] < (p)->n[1]; (i)[1]++)                                             \
             for ((i)[0] = 0; (i)[0] < (p)->n[0]; (i)[0]++)                                         \
-                for (int64_t c = part_at(p, (i)[0], (i)[1], (i)[2]), once_ = 1; once_; once_ = 0)
+                for (int64_t c = part_at(p, (i)[0], (i)[1], (i)[2]), its_once_##c = 1;             \
+                     its_once_##c; its_once_##c = 0)
 
 #endif

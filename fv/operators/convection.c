@@ -38,8 +38,8 @@ static void weighted_row(const double *restrict q, const double *w, int64_t alon
 void convection_face_values(const struct block *b, const double *q, int a, double *out)
 {
     if (a == 1 && b->rows)
-        BLOCK_ROWS (b, 1, c, n)
-            weighted_row(q + c, b->rows->face[j_], b->stride[a], n, out + c);
+        BLOCK_ROWS_AT (b, 1, j, c, n)
+            weighted_row(q + c, b->rows->face[j], b->stride[a], n, out + c);
     else
         BLOCK_ROWS (b, 1, c, n)
             face_row(q + c, b->stride[a], n, out + c);
@@ -145,7 +145,7 @@ void convection(struct fv *s, double *const N[3])
                 }
             if (s->blocked)
                 blocked_fluxes(s, q, a, s->U[a], s->face, s->flux);
-            BLOCK_ROWS (b, 0, c, n)
-                add_divergence(s->flux + c, along, 1.0 / block_size(b, a, j_), n, a == 0, N[q] + c);
+            BLOCK_ROWS_AT (b, 0, j, c, n)
+                add_divergence(s->flux + c, along, 1.0 / block_size(b, a, j), n, a == 0, N[q] + c);
         }
 }

@@ -132,13 +132,13 @@ bool helmholtz_bicgstab(const struct helmholtz *h, double *const delta[3], doubl
     return false;
 }
 
-static struct course course_of(const struct helmholtz *h)
+static struct helmholtz_course course_of(const struct helmholtz *h)
 {
     const double most = 1.0 + h->c * h->largest, sigma = (most + 1.0) / (most - 1.0);
-    return (struct course){.c = h->c, .most = most, .sigma = sigma, .rho = 1.0 / sigma};
+    return (struct helmholtz_course){.c = h->c, .most = most, .sigma = sigma, .rho = 1.0 / sigma};
 }
 
-void helmholtz_next(struct course *k)
+void helmholtz_next(struct helmholtz_course *k)
 {
     const double next = 1.0 / (2.0 * k->sigma - k->rho);
     k->alpha = 4.0 * next / (k->most - 1.0);
@@ -178,11 +178,11 @@ static void start(const struct fv *s, double f, double *const x[3], double *cons
 /* A sum is of the x before its step, which takes rho off what is left. */
 bool helmholtz_chebyshev(const struct helmholtz *h, double *const delta[3], double *const r[3],
                          double rr, double goal,
-                         double (*at_once)(struct fv *s, struct course *k, int n, double *x[3],
-                                           double *const r[3], double *y[3]))
+                         double (*at_once)(struct fv *s, struct helmholtz_course *k, int n,
+                                           double *x[3], double *const r[3], double *y[3]))
 {
     struct fv *s = h->s;
-    struct course k = course_of(h);
+    struct helmholtz_course k = course_of(h);
     const int wanted = helmholtz_steps(h, rr, goal), most = 2 * wanted + 4;
     double *x[3] = {h->work[0][0], h->work[0][1], h->work[0][2]},
            *y[3] = {h->work[1][0], h->work[1][1], h->work[1][2]}, left = rr, sum = 0.0;

@@ -7,7 +7,7 @@
 
 /* A step of Chebyshev's iteration between 1 and `most': y = x + beta (x - y) + alpha (r - x + c L
  * x); it takes rho off what is left, and rho goes from step to step. */
-struct course {
+struct helmholtz_course {
     double c, most, sigma, rho, alpha, beta;
 };
 
@@ -21,8 +21,8 @@ struct helmholtz {
     /* x = 0 in cells that are not solved for; NULL: they hold it. */
     void (*zero)(const struct fv *s, double *x);
     /* A step; sum over this rank's cells of the squares of what alpha has. */
-    double (*step)(struct fv *s, const struct course *k, double *const x[3], double *const r[3],
-                   double *const y[3]);
+    double (*step)(struct fv *s, const struct helmholtz_course *k, double *const x[3],
+                   double *const r[3], double *const y[3]);
     double *const *work[4]; /* scratch of three fields each: CG uses the first and the last,
                                Chebyshev's iteration the first two, BiCGStab all */
 };
@@ -46,12 +46,12 @@ bool helmholtz_bicgstab(const struct helmholtz *h, double *const delta[3], doubl
  */
 bool helmholtz_chebyshev(const struct helmholtz *h, double *const delta[3], double *const r[3],
                          double rr, double goal,
-                         double (*at_once)(struct fv *s, struct course *k, int n, double *x[3],
-                                           double *const r[3], double *y[3]));
+                         double (*at_once)(struct fv *s, struct helmholtz_course *k, int n,
+                                           double *x[3], double *const r[3], double *y[3]));
 /* How many steps it will take. */
 int helmholtz_steps(const struct helmholtz *h, double rr, double goal);
 /* The coefficients of the next step. */
-void helmholtz_next(struct course *k);
+void helmholtz_next(struct helmholtz_course *k);
 
 enum { AT_ONCE = 24 }; /* steps, whose slabs a cache can hold */
 

@@ -93,8 +93,8 @@ static double step_row(const double *restrict x, const double *restrict L, const
            ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
-static double step(struct fv *s, const struct course *k, double *const x[3], double *const r[3],
-                   double *const y[3])
+static double step(struct fv *s, const struct helmholtz_course *k, double *const x[3],
+                   double *const r[3], double *const y[3])
 {
     double sum = 0.0, *L = s->krylov[2][0];
     mesh_fill(s->m, s->dim, x);

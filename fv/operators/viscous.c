@@ -58,8 +58,8 @@ static void laplace_row(const struct fv *s, int j, const double *q, int64_t n, d
 
 void viscous_apply(const struct fv *s, const double *q, double *out)
 {
-    BLOCK_ROWS (&s->b, 0, at, n)
-        laplace_row(s, j_, q + at, n, out + at);
+    BLOCK_ROWS_AT (&s->b, 0, j, at, n)
+        laplace_row(s, j, q + at, n, out + at);
 }
 
 /* out = x - c L x of component q, zero in forced cells. */
@@ -150,7 +150,7 @@ static double step_slab_summed(const struct fv *s, int j, double c, double alpha
 
 /* One step of component q; boxes make their own of some cells, so that all of L x is there first.
  */
-static double step_of(const struct fv *s, int q, const struct course *k, const double *x,
+static double step_of(const struct fv *s, int q, const struct helmholtz_course *k, const double *x,
                       const double *r, double *y)
 {
     const struct block *b = &s->b;
@@ -159,10 +159,10 @@ static double step_of(const struct fv *s, int q, const struct course *k, const d
         viscous_apply(s, x, s->flux);
         blocked_viscous(s, q, x, s->flux);
     }
-    BLOCK_ROWS (b, 0, at, n) {
+    BLOCK_ROWS_AT (b, 0, j, at, n) {
         double *const line = s->blocked ? s->flux + at : s->face;
         if (!s->blocked)
-            laplace_row(s, j_, x + at, n, line);
+            laplace_row(s, j, x + at, n, line);
         sum += step_row(x + at, line, r + at, k->c, k->alpha, k->beta, n, y + at);
     }
     if (!s->forcing)
@@ -241,8 +241,8 @@ static void start_slab(const struct fv *s, int j, double f, const double *restri
 /* The start r/theta and n steps of component q, each three slabs behind the one before it, so that
  * what all of them need is in the cache: x has their result if they are even in number, else y. The
  * sum of the last one. */
-static double steps_at_once(const struct fv *s, int q, const struct course *step, int n, double *x,
-                            const double *r, double *y)
+static double steps_at_once(const struct fv *s, int q, const struct helmholtz_course *step, int n,
+                            double *x, const double *r, double *y)
 {
     const int slabs = s->b.n[s->b.dim - 1];
     double sum = 0.0;
@@ -250,7 +250,7 @@ static double steps_at_once(const struct fv *s, int q, const struct course *step
         for (int k = 0; k <= n; k++) {
             const int j = t - 3 * k;
             double *const from = k % 2 ? x : y, *const to = k % 2 ? y : x;
-            const struct course *e = step + k;
+            const struct helmholtz_course *e = step + k;
             if (j < 0 || j >= slabs)
                 continue;
             if (k == 0)
@@ -270,10 +270,10 @@ static double steps_at_once(const struct fv *s, int q, const struct course *step
     return sum;
 }
 
-static double all_at_once(struct fv *s, struct course *k, int n, double *x[3], double *const r[3],
-                          double *y[3])
+static double all_at_once(struct fv *s, struct helmholtz_course *k, int n, double *x[3],
+                          double *const r[3], double *y[3])
 {
-    struct course step[AT_ONCE + 1];
+    struct helmholtz_course step[AT_ONCE + 1];
     double sum = 0.0;
     step[0] = *k;
     for (int i = 1; i <= n; i++) {
@@ -285,8 +285,8 @@ static double all_at_once(struct fv *s, struct course *k, int n, double *x[3], d
     return sum;
 }
 
-static double step(struct fv *s, const struct course *k, double *const x[3], double *const r[3],
-                   double *const y[3])
+static double step(struct fv *s, const struct helmholtz_course *k, double *const x[3],
+                   double *const r[3], double *const y[3])
 {
     double sum = 0.0;
     bc_ghosts(s, BC_ZERO, x);
@@ -350,8 +350,8 @@ static void start_residual(const struct fv *s, int q, double c, const double *st
         sums[0] += helmholtz_dot(s, rhs, rhs);
         return;
     }
-    BLOCK_ROWS (&s->b, 0, at, n) {
-        laplace_row(s, j_, start + at, n, s->face);
+    BLOCK_ROWS_AT (&s->b, 0, j, at, n) {
+        laplace_row(s, j, start + at, n, s->face);
         residual_row(start + at, s->face, c, n, rhs + at, sums);
     }
 }

@@ -23,10 +23,9 @@
 void fv_vorticity(const struct fv *s, double *w)
 {
     const struct block *b = &s->b;
-    BLOCK_ROWS (b, 0, c, n)
+    BLOCK_ROWS_AT (b, 0, j, c, n)
         for (int64_t i = c; i < c + n; i++)
-            w[i] =
-                block_derivative(b, s->u[1] + i, 0, j_) - block_derivative(b, s->u[0] + i, 1, j_);
+            w[i] = block_derivative(b, s->u[1] + i, 0, j) - block_derivative(b, s->u[0] + i, 1, j);
 }
 
 /* What a cell has: its volume, m^dim, 0 where none is computed, centre and sides. */
@@ -155,13 +154,13 @@ static double largest_divergence(struct fv *s)
 {
     const struct block *b = &s->b;
     double most = 0.0;
-    BLOCK_ROWS (b, 0, c, n)
+    BLOCK_ROWS_AT (b, 0, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             double div = 0.0;
             if ((s->forcing && s->forcing->forced[i]) || (s->surface && s->surface->layer[i]))
                 continue;
             for (int a = 0; a < b->dim; a++)
-                div += (s->U[a][i + b->stride[a]] - s->U[a][i]) / block_size(b, a, j_);
+                div += (s->U[a][i + b->stride[a]] - s->U[a][i]) / block_size(b, a, j);
             most = fmax(most, fabs(div));
         }
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, b->cart);

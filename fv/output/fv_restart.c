@@ -56,14 +56,14 @@ static double *surface_number(struct surface *f, int k)
 
 /* What this rank has of each grid: of the uniform one, or of each block; empty where it has none.
  */
-static int boxes_of(const struct fv *s, struct box *of)
+static int boxes_of(const struct fv *s, struct layout_box *of)
 {
     const int n = s->m ? s->m->nblocks : 1;
     for (int k = 0; k < n; k++)
-        of[k] = (struct box){.grid = k};
+        of[k] = (struct layout_box){.grid = k};
     for (int q = 0; q < s->nparts; q++) {
         const struct part *p = s->part + q;
-        struct box *x = of + p->block;
+        struct layout_box *x = of + p->block;
         memcpy(x->lo, p->lo, sizeof x->lo);
         memcpy(x->n, p->n, sizeof x->n);
         memcpy(x->g, p->g, sizeof x->g);
@@ -91,7 +91,7 @@ void fv_checkpoint(void *state, struct h5 *f)
     struct fv *s = state;
     double *fields[FV_RESTART_FIELDS];
     const char *names[FV_RESTART_FIELDS];
-    struct box mine[MESH_BLOCKS_MAX];
+    struct layout_box mine[MESH_BLOCKS_MAX];
     const int n = fv_restart_fields(s, fields, names), grids = boxes_of(s, mine);
     layout_save(f, "layout", grids, mine);
     for (int k = 0; k < n; k++)
@@ -141,7 +141,7 @@ static bool gather(const struct fv *s, const struct layout *l, struct h5 *f, con
                    double *q)
 {
     static const bool never[3] = {false, false, false};
-    struct box mine[MESH_BLOCKS_MAX];
+    struct layout_box mine[MESH_BLOCKS_MAX];
     const int n = boxes_of(s, mine);
     bool good = true;
     for (int k = 0; good && k < n; k++)

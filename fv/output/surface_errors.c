@@ -17,14 +17,14 @@
 double surface_energy(const struct fv *s)
 {
     double sum = 0.0;
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             double square = 0.0;
             if (s->forcing && s->forcing->forced[i])
                 continue;
             for (int a = 0; a < s->dim; a++)
                 square += s->u[a][i] * s->u[a][i];
-            sum += square > 0.0 ? 0.5 * square * surface_share(s, i) * surface_cell_volume(s, i, j_)
+            sum += square > 0.0 ? 0.5 * square * surface_share(s, i) * surface_cell_volume(s, i, j)
                                 : 0.0;
         }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
@@ -101,16 +101,16 @@ static double reach_on_blocks(const struct fv *s, int a)
     const struct surface_mesh *w = s->surface->mesh;
     const double *phi = s->surface->phi, *x = w->x[a];
     double most = -INFINITY;
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++)
             for (int b = 0; b < 2 * s->dim && has_water(s, i); b++) {
-                const int64_t d = b % 2 ? p_->stride[b / 2] : -p_->stride[b / 2], to = i + d;
+                const int64_t d = b % 2 ? part->stride[b / 2] : -part->stride[b / 2], to = i + d;
                 const bool inside = w->out[to] || phi[to] < 0.0;
                 const double way = inside ? 0.5 : phi[i] / (phi[i] - phi[to]);
                 const double end = x[i] + way * (x[to] - x[i]);
                 most = fmax(most, end);
                 if (!inside && end > x[i])
-                    most = fmax(most, end + foot_on_blocks(s, p_, i, d, a, end));
+                    most = fmax(most, end + foot_on_blocks(s, part, i, d, a, end));
             }
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     return most;
@@ -178,10 +178,10 @@ static double enstrophy(const struct fv *s)
 {
     const struct block *b = &s->b;
     double sum = 0.0;
-    BLOCK_ROWS (b, 0, c, n)
+    BLOCK_ROWS_AT (b, 0, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             const double part = surface_share(s, i);
-            sum += part > 0.0 ? 0.5 * part * fv_curl_squared(s, i, j_) * block_volume(b, j_) : 0.0;
+            sum += part > 0.0 ? 0.5 * part * fv_curl_squared(s, i, j) * block_volume(b, j) : 0.0;
         }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
     return sum;

@@ -112,9 +112,9 @@ static void make_matrix(const struct fv *s, struct pressure *p)
     double *values = NEW(double, (int64_t)m * b->n[0] * b->n[1] * b->n[2]), *row = values;
     if (s->surface)
         add_cuts(s, p->z);
-    BLOCK_ROWS (b, 0, c, n)
+    BLOCK_ROWS_AT (b, 0, j, c, n)
         for (int64_t i = c; i < c + n; i++, row += m)
-            p->diagonal[i] = fill_row(s, p, i, j_, row);
+            p->diagonal[i] = fill_row(s, p, i, j, row);
     pfmg_set_matrix(p->pfmg, &values);
     mem_free(values);
 }
@@ -182,15 +182,15 @@ static void apply(const struct fv *s, const double *restrict x, double *restrict
     const struct block *b = &s->b;
     const double *restrict d = own(s)->diagonal;
     const int64_t y = b->stride[1], z = b->stride[2];
-    BLOCK_ROWS (b, 0, c, n) {
-        const double cx = coefficient(b, 0, j_), low = coefficient(b, 1, j_),
-                     up = coefficient(b, 1, j_ + 1);
+    BLOCK_ROWS_AT (b, 0, j, c, n) {
+        const double cx = coefficient(b, 0, j), low = coefficient(b, 1, j),
+                     up = coefficient(b, 1, j + 1);
         for (int64_t i = c; i < c + n; i++)
             q[i] = d[i] * x[i] - cx * (x[i - 1] + x[i + 1]) - (low * x[i - y] + up * x[i + y]);
     }
     if (b->dim == 3)
-        BLOCK_ROWS (b, 0, c, n) {
-            const double cz = coefficient(b, 2, j_);
+        BLOCK_ROWS_AT (b, 0, j, c, n) {
+            const double cz = coefficient(b, 2, j);
             for (int64_t i = c; i < c + n; i++)
                 q[i] -= cz * (x[i - z] + x[i + z]);
         }
@@ -314,9 +314,9 @@ static double least_residual(const struct fv *s)
 static void weight_rows(const struct block *b, double *r)
 {
     if (b->rows)
-        BLOCK_ROWS (b, 0, c, n)
+        BLOCK_ROWS_AT (b, 0, j, c, n)
             for (int64_t i = c; i < c + n; i++)
-                r[i] *= weight(b, j_);
+                r[i] *= weight(b, j);
 }
 
 static bool solve(struct fv *s, double tau, double *div, double tol, double *psi)

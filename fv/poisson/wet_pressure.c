@@ -248,10 +248,10 @@ static void ask_donors(struct fv *s, struct wet_pressure *p)
 {
     memset(p->beyond[1], 0, (size_t)s->size * sizeof(double));
     memcpy(p->beyond[0], s->surface->phi, (size_t)s->size * sizeof(double));
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++)
             if (s->m->status[i] != CELL_HOLE && s->surface->layer[i] == 0)
-                p->beyond[1][i] = surface_pressure_near(s, p_, i);
+                p->beyond[1][i] = surface_pressure_near(s, part, i);
     mesh_exchange(s->m, &p->donors, 2, p->beyond);
 }
 
@@ -328,9 +328,9 @@ static void make_rows(struct fv *s, struct wet_pressure *p)
             p->special[a][w->face[a][q].face] = (int)q + 1;
     }
     p->nentry = 0;
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++, k++) {
-            make_row(s, p, p_, i, p->first + k, fringe, &r);
+            make_row(s, p, part, i, p->first + k, fringe, &r);
             keep_row(p, k, &r);
         }
     mem_free(fringe);

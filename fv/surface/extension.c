@@ -524,14 +524,14 @@ void extension_build(struct fv *s)
     f->nstencil = f->ngrad = f->ndeep = 0;
     for (int l = 0; l <= LAYERS; l++)
         f->ncarry[l] = 0;
-    FLOW_ROWS (s, at, n)
+    FLOW_ROWS_AT (s, part, j, at, n)
         for (int64_t c = at; c < at + n; c++) {
             const int l = f->layer[c];
             if (s->m && s->m->status[c] != CELL_COMPUTED &&
                 !(s->m->status[c] == CELL_FRINGE && l == 1))
                 continue;
             if (l >= 1 && l <= LAYERS)
-                add_carry(s, p_, c, l);
+                add_carry(s, part, c, l);
             else if (l == DEEP)
                 f->deep[f->ndeep++] = c;
         }

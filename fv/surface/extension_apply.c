@@ -10,12 +10,12 @@
 enum { STENCIL = 128 };
 
 /* What the cells of a stencil hold. */
-struct around {
+struct stencil_values {
     double v[3][STENCIL];
 };
 
 static void look(const struct surface *f, const struct carry *x, int dim, double *const *u,
-                 struct around *r)
+                 struct stencil_values *r)
 {
     const int *at = f->at + x->first;
     for (int q = 0; q < dim; q++) {
@@ -35,7 +35,7 @@ static double within(const double *v, int n, int layer, double value)
 }
 
 /* Normal derivatives of the components for a cell of the first layer; n.(D n) to stress. */
-static void normal_slopes(const struct fv *s, const struct carry *x, const struct around *r,
+static void normal_slopes(const struct fv *s, const struct carry *x, const struct stencil_values *r,
                           enum extend how, double *slope)
 {
     const struct surface *f = s->surface;
@@ -65,7 +65,7 @@ static void normal_slopes(const struct fv *s, const struct carry *x, const struc
 /* No more than a quarter faster than what is around: bounds on components alone let a rough
  * surface overshoot in each layer anew, to three times the water's speed beside a breaking front.
  * A wave's velocity grows by exp(2 pi/n) over a cell, n cells a length: all of 28 and more pass. */
-static void slow_down(int dim, const struct around *r, int n, double u[3])
+static void slow_down(int dim, const struct stencil_values *r, int n, double u[3])
 {
     double own = 0.0, least, most, square[STENCIL];
     for (int k = 0; k < n; k++)
@@ -89,7 +89,7 @@ static void carry_velocity(const struct fv *s, const struct carry *x, int layer,
     const int dim = s->dim;
     const bool clip = how != EXTEND_CHANGE;
     double slope[3] = {0.0, 0.0, 0.0}, own[3] = {0.0, 0.0, 0.0};
-    struct around r;
+    struct stencil_values r;
     look(f, x, dim, u, &r);
     if (x->has_slope)
         normal_slopes(s, x, &r, how, slope);
@@ -138,7 +138,7 @@ static double slope_of(const struct surface *f, const struct carry *x, int dim, 
 void extension_scalar(const struct fv *s, double *q)
 {
     const struct surface *f = s->surface;
-    struct around r;
+    struct stencil_values r;
     for (int l = 1; l <= 2; l++) {
         surface_fill(s, 1, &q);
         for (int64_t i = 0; i < f->ncarry[l]; i++) {
@@ -155,7 +155,7 @@ void extension_scalar(const struct fv *s, double *q)
 void extension_beyond(const struct fv *s, double *q)
 {
     const struct surface *f = s->surface;
-    struct around r;
+    struct stencil_values r;
     for (int l = 3; l <= LAYERS; l++) {
         block_halo(&s->b, 1, &q);
         for (int64_t i = 0; i < f->ncarry[l]; i++) {

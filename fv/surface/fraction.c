@@ -153,12 +153,12 @@ static bool is_mixed(double C) { return C > 0.0 && C < 1.0; }
 static void find_planes(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
-    FLOW_ROWS (s, c, len)
+    FLOW_ROWS_AT (s, part, j, c, len)
         for (int64_t i = c; i < c + len; i++) {
             double n[3] = {0.0, 0.0, 0.0};
             if (!is_mixed(f->C[i]))
                 continue;
-            if (!fraction_normal(s, p_, i, n)) /* as water lies */
+            if (!fraction_normal(s, part, i, n)) /* as water lies */
                 for (int a = 0; a < s->dim; a++)
                     n[a] = s->surface->g > 0.0 ? -s->still[a] : a == s->dim - 1;
             for (int a = 0; a < s->dim; a++)
@@ -222,8 +222,8 @@ static void sweep(struct fv *s, int a, double dt)
     struct fraction *f = s->surface->fraction;
     find_planes(s);
     find_fluxes(s, a, dt);
-    FLOW_ROWS (s, c, n) {
-        const int64_t d = p_->stride[a];
+    FLOW_ROWS_AT (s, part, j, c, n) {
+        const int64_t d = part->stride[a];
         for (int64_t i = c; i < c + n; i++) {
             const double v = dt * f->solved[i] * f->flow[a][i],
                          w = dt * f->solved[i] * f->flow[a][i + d];

@@ -35,7 +35,7 @@ static bool find_shares(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
     bool any = false;
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             const double e = takes_part(s, i) ? excess(f->C[i]) : 0.0;
             double sum = 0.0, sum_on = 0.0;
@@ -44,8 +44,8 @@ static bool find_shares(struct fv *s)
                 continue;
             for (int a = 0; a < s->dim; a++)
                 for (int up = -1; up <= 1; up += 2) {
-                    sum += weight(s, e, i, i + up * p_->stride[a], false);
-                    sum_on += weight(s, e, i, i + up * p_->stride[a], true);
+                    sum += weight(s, e, i, i + up * part->stride[a], false);
+                    sum_on += weight(s, e, i, i + up * part->stride[a], true);
                 }
             any = true;
             if (sum > 0.1 * fabs(e) * f->volume[i])
@@ -79,9 +79,9 @@ static void exchange(struct fv *s)
     struct fraction *f = s->surface->fraction;
     double *const fields[2] = {f->work, f->next};
     surface_fill(s, 2, fields);
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++)
-            f->flux[i] = takes_part(s, i) ? received(s, p_, i) / f->volume[i] : 0.0;
+            f->flux[i] = takes_part(s, i) ? received(s, part, i) / f->volume[i] : 0.0;
     FLOW_ROWS (s, c, n)
         for (int64_t i = c; i < c + n; i++) {
             if (f->work[i] != 0.0 || f->next[i] != 0.0) {

@@ -109,13 +109,13 @@ void fraction_correct_level(struct fv *s)
     const double band = 2.0 * w->largest;
     find_smooth(s);
     memcpy(f->next, w->phi, (size_t)s->size * sizeof(double));
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             const bool mixed = f->C[i] > 0.0 && f->C[i] < 1.0;
             if ((!mixed && fabs(w->phi[i]) > band) || surface_holds_none(s, i))
                 continue;
-            const bool trusted = is_trusted(s, p_, i);
-            f->next[i] += (trusted ? TRUSTED : DOUBTED) * (wanted(s, p_, i, trusted) - w->phi[i]);
+            const bool trusted = is_trusted(s, part, i);
+            f->next[i] += (trusted ? TRUSTED : DOUBTED) * (wanted(s, part, i, trusted) - w->phi[i]);
         }
     memcpy(w->phi, f->next, (size_t)s->size * sizeof(double));
     surface_ghosts(s, w->phi);
@@ -128,12 +128,12 @@ bool fraction_is_calm(const struct fv *s)
     const double band = 1.5 * w->largest;
     bool calm = true;
     find_smooth(s);
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n && calm; i++) {
             const bool mixed = f->carries && f->C[i] > 0.0 && f->C[i] < 1.0;
             if ((!mixed && fabs(w->phi[i]) > band) || surface_holds_none(s, i))
                 continue;
-            calm = is_trusted(s, p_, i) && (!mixed || fabs(f->C[i] - surface_share(s, i)) < 0.1);
+            calm = is_trusted(s, part, i) && (!mixed || fabs(f->C[i] - surface_share(s, i)) < 0.1);
         }
     MPI_Allreduce(MPI_IN_PLACE, &calm, 1, MPI_C_BOOL, MPI_LAND, s->comm);
     return calm;

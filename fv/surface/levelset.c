@@ -127,13 +127,13 @@ static void rate_beside_boxes(const struct fv *s, const double *phi, double *rat
 static void rate_on_blocks(const struct fv *s, const double *near, const double *phi, double *rate)
 {
     const struct surface_mesh *w = s->surface->mesh;
-    FLOW_ROWS (s, c, n) {
-        const double *size = w->size[p_ - s->part];
-        const double band = BAND * surface_mesh_spacing(s, p_);
+    FLOW_ROWS_AT (s, part, j, c, n) {
+        const double *size = w->size[part - s->part];
+        const double band = BAND * surface_mesh_spacing(s, part);
         memset(rate + c, 0, (size_t)n * sizeof(double));
         for (int64_t from = c, m = 0; next_run(near, band, c + n, &from, &m);)
             for (int a = 0; a < s->dim; a++)
-                weno_advect(phi + from, w->speed[a] + from, p_->stride[a], 1.0 / size[a], m,
+                weno_advect(phi + from, w->speed[a] + from, part->stride[a], 1.0 / size[a], m,
                             rate + from);
     }
 }
@@ -146,8 +146,8 @@ static void rate_on_moving_blocks(const struct fv *s, const double *near, const 
 {
     const double *g = s->still;
     rate_on_blocks(s, near, eta, rate);
-    FLOW_ROWS (s, c, n) {
-        const double band = BAND * surface_mesh_spacing(s, p_);
+    FLOW_ROWS_AT (s, part, j, c, n) {
+        const double band = BAND * surface_mesh_spacing(s, part);
         for (int64_t from = c, m = 0; next_run(near, band, c + n, &from, &m);)
             for (int a = 0; a < s->dim; a++)
                 for (int64_t i = from; i < from + m; i++)
@@ -162,13 +162,13 @@ static void rate_of(const struct fv *s, const double *phi, double *rate)
         rate_on_blocks(s, phi, phi, rate);
         return;
     }
-    BLOCK_ROWS (b, 0, c, n) {
-        const double band = BAND * largest_spacing(b, j_);
+    BLOCK_ROWS_AT (b, 0, j, c, n) {
+        const double band = BAND * largest_spacing(b, j);
         memset(rate + c, 0, (size_t)n * sizeof(double));
         for (int64_t from = c, m = 0; next_run(phi, band, c + n, &from, &m);)
             for (int a = 0; a < b->dim; a++)
-                weno_advect(phi + from, s->u[a] + from, b->stride[a], 1.0 / block_scale(b, a, j_),
-                            m, rate + from);
+                weno_advect(phi + from, s->u[a] + from, b->stride[a], 1.0 / block_scale(b, a, j), m,
+                            rate + from);
     }
     if (s->blocked)
         rate_beside_boxes(s, phi, rate);
@@ -343,19 +343,19 @@ static void correct_shared(const struct fv *s, double sums[2])
 double surface_level_volume(const struct fv *s, double *area)
 {
     double sums[2] = {0.0, 0.0};
-    FLOW_ROWS (s, c, n) {
-        const double h = s->m ? surface_mesh_spacing(s, p_) : largest_spacing(&s->b, j_);
+    FLOW_ROWS_AT (s, part, j, c, n) {
+        const double h = s->m ? surface_mesh_spacing(s, part) : largest_spacing(&s->b, j);
         const double e = 1e-4 * h;
         for (int64_t i = c; i < c + n; i++) {
             if (!is_own(s, i))
                 continue;
-            const double volume = surface_cell_volume(s, i, j_);
+            const double volume = surface_cell_volume(s, i, j);
             if (fabs(s->surface->phi[i]) > 3.0 * h) {
                 sums[0] += s->surface->phi[i] < 0.0 ? volume : 0.0;
                 continue;
             }
-            sums[0] += volume * share_at(s, p_, i, 0.0);
-            sums[1] += volume * (share_at(s, p_, i, e) - share_at(s, p_, i, -e)) / (2.0 * e);
+            sums[0] += volume * share_at(s, part, i, 0.0);
+            sums[1] += volume * (share_at(s, part, i, e) - share_at(s, part, i, -e)) / (2.0 * e);
         }
     }
     if (s->m)

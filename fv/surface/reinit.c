@@ -281,9 +281,9 @@ static bool is_left_out(const struct fv *s, int64_t c)
 static void mark_band(const struct fv *s, int width, double *mark)
 {
     memset(mark, 0, (size_t)s->size * sizeof(double));
-    FLOW_ROWS (s, c, len)
+    FLOW_ROWS_AT (s, part, j, c, len)
         for (int64_t i = c; i < c + len; i++)
-            mark[i] = !is_left_out(s, i) && beside_surface(s, p_, s->surface->phi, i);
+            mark[i] = !is_left_out(s, i) && beside_surface(s, part, s->surface->phi, i);
     for (int k = 1; k < width; k++)
         for (int a = 0; a < s->dim; a++) {
             double *const next = s->surface->kept;
@@ -291,8 +291,8 @@ static void mark_band(const struct fv *s, int width, double *mark)
                 mesh_halo(s->m, 1, &mark);
             else
                 block_halo(&s->b, 1, &mark);
-            FLOW_ROWS (s, c, len) {
-                const int64_t d = p_->stride[a];
+            FLOW_ROWS_AT (s, part, j, c, len) {
+                const int64_t d = part->stride[a];
                 for (int64_t i = c; i < c + len; i++)
                     next[i] = fmax(mark[i], fmax(mark[i - d], mark[i + d]));
             }
@@ -336,23 +336,23 @@ static void list_band(struct fv *s, int width, struct band *w)
     w->strips = NEW(struct strip, cells);
     w->spots = NEW(struct spot, cells);
     surface_ghosts(s, phi);
-    FLOW_ROWS (s, c, len)
+    FLOW_ROWS_AT (s, part, j, c, len)
         for (int64_t i = c; i < c + len; i++) {
             if (!(mark[i] > 0.0) || is_left_out(s, i))
                 continue;
             if (i == c || !(mark[i - 1] > 0.0) || is_left_out(s, i - 1))
                 w->strips[w->nstrips++] =
-                    (struct strip){.part = p_,
+                    (struct strip){.part = part,
                                    .cell = i,
-                                   .row = j_,
-                                   .dtau = s->m ? 0.0 : pseudo_cfl(s) * least_size(&s->b, j_)};
+                                   .row = j,
+                                   .dtau = s->m ? 0.0 : pseudo_cfl(s) * least_size(&s->b, j)};
             w->strips[w->nstrips - 1].n++;
             exact[i] = phi[i];
             if (!s->m &&
                 (surface_closest(s, phi, i, exact + i) || (width == NARROW && near_side(s, i))))
-                w->spots[w->nspots++] = (struct spot){.part = p_, .cell = i};
-            else if (beside_surface(s, p_, phi, i))
-                w->spots[w->nspots++] = look(s, p_, phi, i, j_);
+                w->spots[w->nspots++] = (struct spot){.part = part, .cell = i};
+            else if (beside_surface(s, part, phi, i))
+                w->spots[w->nspots++] = look(s, part, phi, i, j);
         }
 }
 
@@ -421,10 +421,10 @@ double surface_distortion(const struct fv *s)
 {
     const double *phi = s->surface->phi, h = s->surface->largest;
     double most = 0.0;
-    FLOW_ROWS (s, c, len)
+    FLOW_ROWS_AT (s, part, j, c, len)
         for (int64_t i = c; i < c + len; i++)
             if (fabs(phi[i]) < 2.0 * h && !is_left_out(s, i))
-                most = fmax(most, fabs(slope_of(s, p_, phi, i, j_) - 1.0));
+                most = fmax(most, fabs(slope_of(s, part, phi, i, j) - 1.0));
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     return most;
 }

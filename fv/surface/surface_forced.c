@@ -108,9 +108,9 @@ struct surface_forced *surface_forced_create(const struct fv *s)
         return NULL;
     struct surface_forced *f = NEW(struct surface_forced, 1);
     f->cell = NEW(int64_t, s->size);
-    FLOW_ROWS (s, at, n)
+    FLOW_ROWS_AT (s, part, j, at, n)
         for (int64_t c = at; c < at + n; c++)
-            if (g->forced[c] == 1 || (s->m && is_deep(s, p_, c)))
+            if (g->forced[c] == 1 || (s->m && is_deep(s, part, c)))
                 f->cell[f->n++] = c;
     f->nforced = f->n;
     f->holds = s->m ? NEW(bool, s->size) : NULL;

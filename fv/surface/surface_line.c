@@ -59,13 +59,13 @@ static void solve(double theta, double cut, const double F[3], double g[2])
 
 /* A line from its cut face down: the slopes of its two cells, the means of their faces', the step
  * into the water. */
-struct line {
+struct gauge_line {
     double slope[2], mean[2];
     int64_t d;
 };
 
 static bool look(const struct fv *s, int a, const struct cut *x, const double *psi, bool change,
-                 struct line *to)
+                 struct gauge_line *to)
 {
     const struct part *p = surface_part(s, x->wet);
     const bool above = x->up > 0.0; /* the dry cell is */
@@ -91,7 +91,7 @@ bool surface_takes_lines(const struct fv *s, const struct part *p)
 
 void surface_line_slopes(const struct fv *s, int a, const double *psi, bool change, double *out)
 {
-    struct line x;
+    struct gauge_line x;
     for (int64_t i = 0; i < s->surface->ncut[a]; i++) {
         const struct cut *cut = s->surface->cut[a] + i;
         if (look(s, a, cut, psi, change, &x))
@@ -117,7 +117,7 @@ static void add_change(const struct fv *s, int a, int64_t c, double change, doub
 void surface_mesh_line_slopes(const struct fv *s, const double *psi, bool change,
                               double *const out[3])
 {
-    struct line x;
+    struct gauge_line x;
     for (int a = 0; a < s->dim; a++)
         for (int64_t i = 0; i < s->surface->ncut[a]; i++) {
             const struct cut *cut = s->surface->cut[a] + i;

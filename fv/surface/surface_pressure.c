@@ -165,9 +165,9 @@ void surface_dry_fluxes(const struct fv *s)
     for (int a = 0; a < s->b.dim; a++) {
         const int64_t d = s->b.stride[a];
         const double *u = s->u[a];
-        BLOCK_ROWS (&s->b, 1, c, n) {
+        BLOCK_ROWS_AT (&s->b, 1, j, c, n) {
             static const double even[4] = {-1.0 / 12.0, 7.0 / 12.0, 7.0 / 12.0, -1.0 / 12.0};
-            const double *w = a == 1 && s->b.rows ? s->b.rows->face[j_] : even;
+            const double *w = a == 1 && s->b.rows ? s->b.rows->face[j] : even;
             for (int64_t i = c; i < c + n; i++)
                 if (layer[i] && layer[i - d])
                     s->U[a][i] =
@@ -181,8 +181,8 @@ static void face_gradient(const struct fv *s, int a, const double *psi, bool cha
 {
     const struct surface *f = s->surface;
     const int64_t d = s->b.stride[a];
-    BLOCK_ROWS (&s->b, 1, c, n) {
-        const double w = 1.0 / block_step(&s->b, a, j_);
+    BLOCK_ROWS_AT (&s->b, 1, j, c, n) {
+        const double w = 1.0 / block_step(&s->b, a, j);
         for (int64_t i = c; i < c + n; i++) {
             out[i] = f->open[a][i] * w * (psi[i] - psi[i - d]);
             if (f->open[a][i] == 2.0) /* outflow: psi is 0 on the face */

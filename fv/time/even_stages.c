@@ -100,8 +100,8 @@ static void divergence(struct fv *s, double tau, double *restrict div)
     for (int a = 0; a < b->dim; a++) {
         const int64_t d = b->stride[a];
         const double *restrict U = s->U[a];
-        BLOCK_ROWS (b, 0, c, n)
-            divide_row(U + c, d, 1.0 / (block_size(b, a, j_) * tau), a == 0, n, div + c);
+        BLOCK_ROWS_AT (b, 0, j, c, n)
+            divide_row(U + c, d, 1.0 / (block_size(b, a, j) * tau), a == 0, n, div + c);
     }
 }
 
@@ -137,8 +137,8 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
         }
         if (s->forcing)
             forcing_zero(s->forcing, s->rhs[a]);
-        BLOCK_ROWS (b, 1, c, n)
-            subtract_row(s->U[a] + c, psi + c, b->stride[a], tau / block_step(b, a, j_),
+        BLOCK_ROWS_AT (b, 1, j, c, n)
+            subtract_row(s->U[a] + c, psi + c, b->stride[a], tau / block_step(b, a, j),
                          open ? open[a] + c : NULL, n);
     }
 }
@@ -183,8 +183,8 @@ static void measure_even(struct fv *s)
 {
     const struct block *b = &s->b;
     double most[4] = {0.0, 0.0, 0.0, 0.0};
-    BLOCK_ROWS (b, 0, c, n) {
-        const double weight[3] = {1.0 / b->h[0], 1.0 / block_size(b, 1, j_),
+    BLOCK_ROWS_AT (b, 0, j, c, n) {
+        const double weight[3] = {1.0 / b->h[0], 1.0 / block_size(b, 1, j),
                                   b->dim == 3 ? 1.0 / b->h[2] : 0.0};
         measure_row(s->u[0] + c, s->u[1] + c, s->u[b->dim == 3 ? 2 : 1] + c, weight, n, most);
     }

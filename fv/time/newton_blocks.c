@@ -40,9 +40,9 @@ static void set_rates(struct fv *s)
     o->rate = 0.0;
     for (int64_t c = 0; c < s->size; c++)
         w->d[c] = 1.0 / o->c0;
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++, k++) {
-            const double rate = s->free[i] > 0.0 ? rate_of(s, i, p_->stride) : 0.0;
+            const double rate = s->free[i] > 0.0 ? rate_of(s, i, part->stride) : 0.0;
             const double h = pow(s->m->V[i], 1.0 / s->dim);
             const double scale = s->prm.steady && rate > 0.0 ? 1.0 / rate : 1.0 / (o->c0 + rate);
             o->rate = fmax(o->rate, rate);
@@ -188,9 +188,9 @@ static void close_wet_rows(struct fv *s)
     const unsigned char *layer = s->surface->layer;
     double *const *A = s->newton->A;
     for (int e = 1; e <= 2 * s->dim; e++)
-        FLOW_ROWS (s, c, n)
+        FLOW_ROWS_AT (s, part, j, c, n)
             for (int64_t i = c; i < c + n; i++) {
-                const int64_t to = i + (e % 2 ? -1 : 1) * p_->stride[(e - 1) / 2];
+                const int64_t to = i + (e % 2 ? -1 : 1) * part->stride[(e - 1) / 2];
                 if (s->free[i] > 0.0 && layer[to] && s->m->status[to] != CELL_HOLE) {
                     A[0][i] += A[e][i];
                     A[e][i] = 0.0;
@@ -205,12 +205,12 @@ static void fill_rows(struct fv *s)
 {
     const struct mesh *m = s->m;
     double *const *A = s->newton->A;
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             A[0][i] = s->newton->of.c0;
             for (int e = 1; e <= 2 * s->dim; e++) {
                 const int a = (e - 1) / 2;
-                const int64_t d = p_->stride[a], face = e % 2 ? i : i + d,
+                const int64_t d = part->stride[a], face = e % 2 ? i : i + d,
                               to = e % 2 ? i - d : i + d;
                 const double U = relative_flux(s, a, face), in = e % 2 ? U : -U;
                 const double w = (0.5 * (in + fabs(in)) + 1.2 * s->nu * m->G[a][a][face]) / m->V[i];
@@ -242,11 +242,11 @@ static void subtract_divergence(struct fv *s, double *const x[3], double *div)
         extension_apply(s, x, EXTEND_CHANGE, STENCILS);
         fill_ghosts(s, x);
     }
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             double sum = 0.0;
             for (int a = 0; a < s->dim; a++) {
-                const int64_t d = p_->stride[a];
+                const int64_t d = part->stride[a];
                 for (int k = 0; k < s->dim; k++) {
                     const double *u = x[k] + i;
                     sum += m->S[a][k][i + d] * (u[d] + u[0]) *

@@ -76,9 +76,9 @@ static void complete(struct fv *s, const struct flow *q, bool variation)
     double *const *open = s->surface ? s->surface->open : s->forcing ? s->forcing->open : NULL;
     convection_face_velocities(s, q->u, q->U);
     for (int a = 0; a < b->dim; a++)
-        BLOCK_ROWS (b, 1, c, n)
+        BLOCK_ROWS_AT (b, 1, j, c, n)
             add_pressure_flux(q->U[a] + c, q->p + c, q->G[a] + c, open ? open[a] + c : NULL,
-                              b->stride[a], s->newton->of.d, 1.0 / block_step(b, a, j_), n);
+                              b->stride[a], s->newton->of.d, 1.0 / block_step(b, a, j), n);
     if (s->surface)
         add_cut_flux(s, q);
     if (s->forcing && variation)
@@ -175,8 +175,8 @@ static void add_convection(struct fv *s, int q, int a, const struct flow *v, dou
                 flux_row(s->U[a] + c, w->face + c, s->u[q] + c, along, tangent, nt, eps, least, n,
                          s->flux + c);
         }
-    BLOCK_ROWS (b, 0, c, n)
-        add_difference(s->flux + c, along, 1.0 / block_size(b, a, j_), n, out + c);
+    BLOCK_ROWS_AT (b, 0, j, c, n)
+        add_difference(s->flux + c, along, 1.0 / block_size(b, a, j), n, out + c);
 }
 
 /* ---- space ----- -------------------------------------------------------------------------------
@@ -202,8 +202,8 @@ static void apply_space(struct fv *s, const struct flow *v)
     }
     memset(s->face, 0, (size_t)b->size * sizeof(double));
     for (int a = 0; a < b->dim; a++)
-        BLOCK_ROWS (b, 0, c, n)
-            add_difference((v ? v->U[a] : s->U[a]) + c, b->stride[a], 1.0 / block_size(b, a, j_), n,
+        BLOCK_ROWS_AT (b, 0, j, c, n)
+            add_difference((v ? v->U[a] : s->U[a]) + c, b->stride[a], 1.0 / block_size(b, a, j), n,
                            s->face + c);
     if (s->forcing) {
         forcing_zero(s->forcing, s->face);
@@ -264,10 +264,10 @@ static void fill_open_rows(struct fv *s)
         const double *restrict U = s->U[a];
         double *restrict lower = w->A[1 + 2 * a], *restrict upper = w->A[2 + 2 * a];
         const int64_t d = b->stride[a];
-        BLOCK_ROWS (b, 0, c, n) {
-            const double h = block_size(b, a, j_), half = 0.5 / h;
-            const double low = 1.2 * s->nu / (h * block_step(b, a, j_)),
-                         up = 1.2 * s->nu / (h * block_step(b, a, j_ + 1));
+        BLOCK_ROWS_AT (b, 0, j, c, n) {
+            const double h = block_size(b, a, j), half = 0.5 / h;
+            const double low = 1.2 * s->nu / (h * block_step(b, a, j)),
+                         up = 1.2 * s->nu / (h * block_step(b, a, j + 1));
             for (int64_t i = c; i < c + n; i++) {
                 const double below = U[i], above = U[i + d];
                 lower[i] = -half * (below + fabs(below)) - low;
@@ -353,8 +353,8 @@ static void subtract_divergence(struct fv *s, double *const x[3], double *restri
         const int64_t d = b->stride[a];
         const double *restrict u = x[a];
         const double *restrict open = s->forcing ? s->forcing->open[a] : NULL;
-        BLOCK_ROWS (b, 0, c, n) {
-            const double w = 0.5 / block_size(b, a, j_);
+        BLOCK_ROWS_AT (b, 0, j, c, n) {
+            const double w = 0.5 / block_size(b, a, j);
             for (int64_t i = c; i < c + n; i++) {
                 const double below = open ? fmin(open[i], 1.0) : 1.0,
                              above = open ? fmin(open[i + d], 1.0) : 1.0;

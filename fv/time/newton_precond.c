@@ -94,8 +94,8 @@ static void apply_to_pressure(const struct fv *s, const double *restrict x, doub
         for (int64_t i = c; i < c + n; i++)
             out[i] = c0 * x[i];
     for (int e = 1; e <= 2 * s->dim; e++)
-        FLOW_ROWS (s, c, n) {
-            const int64_t d = (e % 2 ? -1 : 1) * p_->stride[(e - 1) / 2];
+        FLOW_ROWS_AT (s, part, j, c, n) {
+            const int64_t d = (e % 2 ? -1 : 1) * part->stride[(e - 1) / 2];
             for (int64_t i = c; i < c + n; i++)
                 out[i] += A[e][i] * (x[i + d] - x[i]);
         }

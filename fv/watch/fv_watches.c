@@ -223,14 +223,14 @@ static double power_of_openings(const struct fv *s)
 
 static void sum_energy(struct fv *s, double sums[6])
 {
-    FLOW_ROWS (s, c, n) {
+    FLOW_ROWS_AT (s, part, j, c, n) {
         double row[5] = {0.0};
-        const double *weight = weights_of_row(s, c, n, j_);
+        const double *weight = weights_of_row(s, c, n, j);
         add_row(s, c, n, weight, row);
         if (s->surface)
-            momentum_of_row(s, p_, c, n, weight, row);
+            momentum_of_row(s, part, c, n, weight, row);
         for (int m = 0; m < 5; m++)
-            sums[m] += volume_of_row(s, j_) * row[m];
+            sums[m] += volume_of_row(s, j) * row[m];
     }
     if (s->surface)
         sums[5] = power_of_openings(s);
@@ -266,9 +266,9 @@ static const double *mask_of(struct fv *s)
     const struct part *p = &s->whole;
     if (s->m)
         return s->free;
-    PART_ROWS (p, p->g, p->g, c, n)
+    PART_ROWS_AT (p, p->g, p->g, j, k, c, n)
         for (int64_t i = c; i < c + n; i++) {
-            const int at[3] = {(int)(i - c) - p->g[0], j_, k_};
+            const int at[3] = {(int)(i - c) - p->g[0], j, k};
             bool in = !(idle && idle[i]);
             for (int a = 0; a < s->dim && in; a++)
                 in = (at[a] >= 0 || !closed_here(&s->b, 2 * a)) &&
@@ -282,8 +282,8 @@ static const double *mask_of(struct fv *s)
 static double squares(const struct fv *s, const double *q, int a, const double *flows)
 {
     double sum = 0.0;
-    FLOW_ROWS (s, c, n) {
-        const int64_t d = p_->stride[a];
+    FLOW_ROWS_AT (s, part, j, c, n) {
+        const int64_t d = part->stride[a];
         double row = 0.0;
         for (int64_t i = c; i < c + n; i++) {
             const double v =
@@ -292,7 +292,7 @@ static double squares(const struct fv *s, const double *q, int a, const double *
                 flows[i - 2 * d] * flows[i - d] * flows[i] * flows[i + d] * flows[i + 2 * d];
             row += in > 0.0 ? v * v : 0.0;
         }
-        sum += volume_of_row(s, j_) * (row / 256.0);
+        sum += volume_of_row(s, j) * (row / 256.0);
     }
     return sum;
 }
@@ -301,7 +301,7 @@ static double squares(const struct fv *s, const double *q, int a, const double *
 static void moments(const struct fv *s, const double *q, const double *flows, double sums[3])
 {
     sums[0] = sums[1] = sums[2] = 0.0;
-    FLOW_ROWS (s, c, n) {
+    FLOW_ROWS_AT (s, part, j, c, n) {
         double row[3] = {0.0};
         for (int64_t i = c; i < c + n; i++) {
             const double v = flows[i] > 0.0 ? q[i] : 0.0;
@@ -310,7 +310,7 @@ static void moments(const struct fv *s, const double *q, const double *flows, do
             row[2] += v * v;
         }
         for (int m = 0; m < 3; m++)
-            sums[m] += volume_of_row(s, j_) * row[m];
+            sums[m] += volume_of_row(s, j) * row[m];
     }
 }
 

@@ -9,14 +9,14 @@
 static const double half = 2.0; /* dx: half width of the hat function */
 
 /* The section: direction across it, the extents along it. */
-struct section {
+struct gauge_section {
     double across[3], along[2][3], length[2];
     int n; /* of extents */
 };
 
-static struct section section_of(const struct sph *s, const struct scene_probe *g)
+static struct gauge_section section_of(const struct sph *s, const struct scene_probe *g)
 {
-    struct section c = {.n = 0};
+    struct gauge_section c = {.n = 0};
     double d[3] = {0.0, 0.0, 0.0};
     for (int a = 0; a < s->dim; a++)
         d[a] = g->to[a] - g->at[a];
@@ -47,8 +47,8 @@ static double project(const double *direction, const double *x, const double *fr
     return sum;
 }
 
-static double flow_of(const struct sph *s, const struct scene_probe *g, const struct section *c,
-                      double dx)
+static double flow_of(const struct sph *s, const struct scene_probe *g,
+                      const struct gauge_section *c, double dx)
 {
     double sum = 0.0;
     for (int i = 0; i < s->p.n; i++) {
@@ -68,7 +68,7 @@ static double flow_of(const struct sph *s, const struct scene_probe *g, const st
 
 double discharge_gauge(struct sph *s, const struct scene_probe *g)
 {
-    const struct section c = section_of(s, g);
+    const struct gauge_section c = section_of(s, g);
     double sum = 0.0;
     for (const struct sph *q = s; q; q = q->finer)
         sum += flow_of(q, g, &c, s->dx);

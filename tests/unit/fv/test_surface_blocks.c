@@ -176,9 +176,9 @@ static void waves_swing_as_on_one_block(void **state)
 static double moment(const struct fv *s)
 {
     double sum = 0.0;
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++)
-            sum += surface_cell_volume(s, i, j_) * surface_share(s, i) * s->surface->mesh->x[0][i];
+            sum += surface_cell_volume(s, i, j) * surface_share(s, i) * s->surface->mesh->x[0][i];
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
     return sum;
 }

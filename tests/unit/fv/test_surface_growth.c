@@ -88,8 +88,8 @@ static void water_rests_in_tanks_that_lean(void **state)
                                         "fv.cells=(25,20)", NULL},
                   &shape);
         double x[3], first = 0.0, last = 0.0;
-        BLOCK_CELLS (&s->b, i, j, k_, at) {
-            block_centre(&s->b, i, j, k_, x);
+        BLOCK_CELLS (&s->b, i, j, layer, at) {
+            block_centre(&s->b, i, j, layer, x);
             s->surface->phi[at] += 4e-5 * cos(9.0 * (x[0] * cos(angle) + x[1] * sin(angle)));
         }
         surface_ghosts(s, s->surface->phi);

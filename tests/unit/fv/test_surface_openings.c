@@ -148,10 +148,10 @@ static void write_sill(const char *path, double b, int nx, int ny)
 static double level_at(const struct fv *s, double x)
 {
     double top = 0.0;
-    FLOW_ROWS (s, c, n)
+    FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             double at[3], up[3];
-            const int64_t d = p_->stride[1];
+            const int64_t d = part->stride[1];
             const double *phi = s->surface->phi + i;
             forcing_centre(s, i, at);
             if (fabs(at[0] - x) > 0.11 || !(phi[0] < 0.0 && phi[d] >= 0.0))
