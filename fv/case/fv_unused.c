@@ -141,20 +141,7 @@ static bool no_periodic_side(const struct run *r, int k)
     return blocks(r, k) && !some_block_has(MESH_PERIODIC);
 }
 
-static bool straight(const struct run *r, int k) { return r->scene.walls[k].points.n == 0; }
 static bool let_out(const struct run *r, int k) { return r->scene.walls[k].kind == WALL_OUTFLOW; }
-static bool not_let_in(const struct run *r, int k) { return r->scene.walls[k].kind != WALL_INFLOW; }
-static bool not_let_out(const struct run *r, int k) { return !let_out(r, k); }
-static bool not_opening(const struct run *r, int k) { return r->scene.walls[k].kind < WALL_INFLOW; }
-static bool is_slip(const struct run *r, int k) { return r->scene.walls[k].kind == WALL_SLIP; }
-static bool is_carried(const struct run *r, int k) { return r->scene.walls[k].carried; }
-
-static int form(const struct run *r, int k) { return r->scene.shapes[k].form; }
-static bool no_box(const struct run *r, int k) { return form(r, k) != SHAPE_BOX; }
-static bool no_polygon(const struct run *r, int k) { return form(r, k) != SHAPE_POLYGON; }
-static bool no_disc(const struct run *r, int k) { return form(r, k) != SHAPE_DISC; }
-static bool no_level(const struct run *r, int k) { return form(r, k) != SHAPE_BELOW; }
-static bool is_hole(const struct run *r, int k) { return r->scene.shapes[k].hole; }
 
 static bool no_pictures(const struct run *r, int k)
 {
@@ -297,26 +284,11 @@ static const struct rule rules[] = {
     {"initial.crest",     no_crest,          "only the fields regular and solitary have it", false},
     {"initial.level",     surface_of_shapes, "p = 0 on the free surface, wherever that is", true},
     {"initial.level",     level_unseen,      "no gravity acts across closed sides, or nothing shows the pressure", true},
-    {"walls.closed",      straight,          "it is for a polyline, and this wall is a side", false},
     {"walls.friction",    always,            "fv has no bed friction, sph has: its slip walls slip, its no_slip walls have that of fluid.nu", true},
-    {"walls.velocity",    is_slip,           "a slip wall exerts no friction; \"no_slip\" does", true},
     {"walls.velocity",    let_out,           "at an outflow the velocity is part of the solution", true},
-    {"walls.profile",     not_let_in,        "it is for an inflow", false},
-    {"walls.pressure",    not_let_out,       "it is for an outflow", false},
-    {"walls.level",       not_opening,       "it is for an inflow or an outflow", false},
-    {"walls.level",       is_carried,        "a convective outflow (carried) keeps the level of the start", false},
     {"walls.level",       dry,               "no water has a free surface", false},
     {"walls.level",       is_newton,         "newton has no openings of given level: give it as initial.level, which an outflow has, or rk3 or bdf2", false},
-    {"walls.discharge",   not_opening,       "it is for an inflow or an outflow", false},
-    {"walls.discharge",   is_carried,        "of a convective outflow (carried) it is part of the solution", false},
     {"walls.discharge",   dry,               "without a free surface the area of an opening is known: give the velocity", false},
-    {"walls.pressure",    is_carried,        "a convective outflow (carried) has no given pressure", false},
-    {"shapes.box",        no_box,            "this shape is no box", true},
-    {"shapes.points",     no_polygon,        "this shape is no polygon", true},
-    {"shapes.centre",     no_disc,           "this shape is no disc", true},
-    {"shapes.radius",     no_disc,           "this shape is no disc", true},
-    {"shapes.level",      no_level,          "form = \"below\" alone has a level", true},
-    {"shapes.velocity",   is_hole,           "a hole holds no fluid", true},
     {"probes.radius",     always,            "fv reads the pressure at the point, between its cells", true},
     {"coupling.steps",         alone, "this is no coupled job: it has no group sph", false},
     {"coupling.transition",    alone, "this is no coupled job: it has no group sph", false},
