@@ -7,6 +7,7 @@
 #include "../common/base/log.h"
 #include "../common/base/mem.h"
 #include "../common/run/forecast.h"
+#include "../common/scene/scene_openings.h"
 #include "../coupler/cpl_partner.h"
 #include "boundary/blocked.h"
 #include "case/fv_case.h"
@@ -47,6 +48,8 @@ static void describe(const struct run *r)
     const struct fv_params *prm = fv_params_of(r);
     if (prm->blocks.n > 0) {
         mesh_describe(r, prm);
+        if (prm->water)
+            openings_describe(&r->scene);
         return;
     }
     const struct scene_domain *d = &r->scene.domain;
@@ -77,6 +80,8 @@ static void describe(const struct run *r)
                     : "periodic");
     log_uses(uses, (int)(sizeof uses / sizeof *uses));
     blocked_describe(r);
+    if (water)
+        openings_describe(&r->scene);
     if (prm->graded[1] > 0.0)
         describe_rows(r);
     log_say("%.0f cells, h %g m; about %.0f MB", cells, least, 8e-6 * cells * fields + 1.0);

@@ -12,6 +12,7 @@
 #include "../common/scene/picture.h"
 #include "../common/scene/scene_fluid.h"
 #include "../common/scene/scene_mesh.h"
+#include "../common/scene/scene_openings.h"
 #include "../coupler/cpl_partner.h"
 #include "case/sph_params.h"
 #include "case/sph_sense.h"
@@ -114,31 +115,6 @@ static void say_turned(const struct scene *c)
                     c->bodies[k].name);
 }
 
-/* What inlets and outlets under a free surface do. */
-static void describe_openings(const struct run *r, const struct sph_params *prm)
-{
-    const struct scene *c = &r->scene;
-    for (int k = 0; k < c->nwalls && prm->outer == OUTER_SIDES; k++) {
-        const struct scene_wall *w = c->walls + k;
-        const bool in = w->kind == WALL_INFLOW;
-        const char *side = w->side == SIDE_NONE ? "" : scene_side_names[w->side - SIDE_X_MIN];
-        if (w->kind < WALL_INFLOW || prm->surface != SURFACE_YES)
-            continue;
-        if (w->discharge != 0.0)
-            log_say("%s: %g m^%d/s %s, uniform over the water, whose level is that inside", side,
-                    w->discharge, c->domain.dim, in ? "in" : "out");
-        else if (w->has_level)
-            log_say("%s: water %g m high %s, waves leave; the velocity is that inside", side,
-                    w->level, in ? "in the inlet" : "outside");
-        else if (in)
-            log_say("%s: velocity given, the level is that inside", side);
-        else
-            log_say("%s: water outside as high as here at the start, waves leave; the velocity is "
-                    "that inside",
-                    side);
-    }
-}
-
 static void describe_scene(const struct run *r)
 {
     static const char *const schemes[] = {"Riemann ALE (Vila)", "Riemann without mass flux (Leduc)",
@@ -165,7 +141,8 @@ static void describe_scene(const struct run *r)
         zones_free_box(r, prm, box[0], box[1]);
         log_say("free zone %s m, transition %g m, buffer %g m, around it: %s",
                 zones_extent(r->scene.domain.dim, box), transition, buffer, outers[prm->outer]);
-        describe_openings(r, prm);
+        if (prm->outer == OUTER_SIDES && prm->surface == SURFACE_YES)
+            openings_describe(&r->scene);
     }
 }
 

@@ -17,6 +17,7 @@
 #include "../scene/picture.h"
 #include "../scene/scene_fluid.h"
 #include "../scene/scene_mesh.h"
+#include "../scene/scene_openings.h"
 #include "accept.h"
 #include "crossing.h"
 #include "run_files.h"
@@ -115,9 +116,11 @@ static int read_case(struct life *l)
     if (l->faults.n == 0)
         check_place(l);
     r->coupled = r->partner_ctx || (l->line.check && r->scene.has_sph && r->scene.has_fv);
-    scene_mark_levels(&r->scene);
+    wall_histories_read(&r->scene, r->motions);
     if (l->faults.n == 0)
         scene_check(&r->scene, l->params, &l->faults);
+    if (l->faults.n == 0)
+        wall_histories_check(&r->scene, l->params, &l->faults);
     if (l->faults.n == 0)
         scene_orient(&r->scene);
     if (l->faults.n == 0)

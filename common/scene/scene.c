@@ -63,6 +63,8 @@ static const struct param wall_rows[] = {
     PARAM(P, carried,  "-",   "false", 0, 1, "at an outflow (fv): convective outflow, dw/dt + U dw/dn = 0, the pressure is not given"),
     PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "at an opening under a free surface: height of its water, against gravity; an inflow has it in the opening, an outflow far outside; by default of an outflow alone, as at the start"),
     PARAM(P, discharge, "m^3/s", "0.0", 0, 1e12, "of an opening under a free surface, whatever the level: in through an inflow, out through an outflow, uniform over its water; in 2D m^2/s"),
+    PARAM(P, level_file, "-", "\"\"", 0, 0, "level over time (a tide): file beside the case, rows of t (s) and level (m), linear between them"),
+    PARAM(P, discharge_file, "-", "\"\"", 0, 0, "discharge over time (a hydrograph): file beside the case, rows of t (s) and discharge, linear between them"),
 };
 #undef P
 #define P struct scene_shape
@@ -280,12 +282,6 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
                 "%g m: the periodic domain holds %g wave lengths, it must be a whole number",
                 s->initial.L, n);
     }
-}
-
-void scene_mark_levels(struct scene *s)
-{
-    for (int k = 0; k < s->nwalls; k++)
-        s->walls[k].has_level = s->walls[k].level < LEVEL_TOP;
 }
 
 void scene_check(const struct scene *s, const struct params *p, struct faults *f)

@@ -90,8 +90,10 @@ struct scene {
         double pressure;    /* Pa: at an outflow */
         bool carried;       /* fv: velocity of a convective outflow, instead of p given */
         double level;       /* m: of the water in an opening, if has_level */
-        bool has_level;     /* by scene_mark_levels */
-        double discharge;   /* m^dim/s: in through an inflow, out through an outflow; 0: none */
+        double discharge;   /* m^dim/s: in through an inflow, out through an outflow */
+        char level_file[PARAM_TEXT_SIZE], discharge_file[PARAM_TEXT_SIZE]; /* both over time */
+        bool has_level, has_discharge;                 /* by wall_histories_read, as the next */
+        const struct motion_file *levels, *discharges; /* of these files; NULL: constant */
     } walls[WALLS_MAX];
     int nwalls;
     struct scene_body bodies[BODIES_MAX]; /* scene_body.h */
@@ -169,8 +171,6 @@ bool scene_has_surface(const struct scene *s);
 
 /* The table of the groups above, with s as target: fills groups[SCENE_GROUPS]. */
 void scene_groups(struct scene *s, struct param_group *groups);
-/* Notes which openings have a level. */
-void scene_mark_levels(struct scene *s);
 /* Faults between keys (max > min, L > 0, ...). */
 void scene_check(const struct scene *s, const struct params *p, struct faults *f);
 

@@ -110,7 +110,7 @@ static void check_pumping(const struct scene *s, const struct params *p, struct 
 static void check_openings(const struct scene *s, const struct params *p, struct faults *f)
 {
     int in = -1;
-    bool out = false;
+    bool out = scene_has_surface(s); /* under one the level rises */
     for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * s->domain.dim; side++) {
         const struct scene_wall *w = scene_wall_of(s, (enum scene_side)side);
         if (w && w->kind == WALL_INFLOW)

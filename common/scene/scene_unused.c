@@ -69,7 +69,7 @@ static void check_wall(const struct scene *s, const struct params *p, struct fau
     const struct scene_wall *w = s->walls + k;
     const bool opening = w->kind >= WALL_INFLOW, out = w->kind == WALL_OUTFLOW;
     const bool mesh = *w->surface.mesh != '\0', in = w->kind == WALL_INFLOW,
-               flows = w->has_level || w->discharge != 0.0;
+               flows = w->has_level || w->has_discharge;
     check_key(p, f, "walls", k, "closed", w->side == SIDE_NONE && !mesh,
               mesh ? "a mesh is closed or not" : "a side of the domain has no ends");
     check_surface(s, p, f, "walls", k, &w->surface, true, "");
@@ -92,13 +92,16 @@ static void check_wall(const struct scene *s, const struct params *p, struct fau
                       : "a wall has none; outflow and absorbing have");
     check_key(p, f, "walls", k, "carried", out && !flows,
               out ? "a level or a discharge is given" : "only an outflow can be");
-    check_key(p, f, "walls", k, "level", (out || in) && !w->carried && w->discharge == 0.0,
-              w->discharge != 0.0 ? "a discharge is given, the level follows"
-              : w->carried        ? "a convective outflow (carried) keeps the level of the start"
-                                  : "it is for an inflow or an outflow");
-    check_key(p, f, "walls", k, "discharge", (out || in) && !w->carried,
-              w->carried ? "of a convective outflow (carried) it is part of the solution"
-                         : "it is for an inflow or an outflow");
+    for (int i = 0; i < 2; i++) {
+        check_key(p, f, "walls", k, i ? "level_file" : "level",
+                  (out || in) && !w->carried && !w->has_discharge,
+                  w->has_discharge ? "a discharge is given, the level follows"
+                  : w->carried     ? "a convective outflow (carried) keeps the level of the start"
+                                   : "it is for an inflow or an outflow");
+        check_key(p, f, "walls", k, i ? "discharge_file" : "discharge", (out || in) && !w->carried,
+                  w->carried ? "of a convective outflow (carried) it is part of the solution"
+                             : "it is for an inflow or an outflow");
+    }
 }
 
 /* Terms of a motion. */

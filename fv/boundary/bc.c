@@ -117,10 +117,10 @@ static struct outflow *list_places(struct fv *s, struct bc *bc, int k, struct ou
     return o;
 }
 
-static void make_outflow(struct fv *s, struct bc *bc, int k, double discharge)
+static void make_outflow(struct fv *s, struct bc *bc, int k, enum outflow_kind kind)
 {
     struct outflow *o = list_places(s, bc, k, &s->outflows->of, &s->outflows->n);
-    o->discharge = discharge;
+    o->kind = kind;
     for (int q = 0; q < s->b.dim; q++) {
         o->w[q] = bc->w[k][q];
         bc->change[k][q] = o->change[q];
@@ -163,7 +163,7 @@ static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall
                 bc->w[k][q][place(b, &d, i, j)] = wall->velocity[q] * profile_at(s, wall, &d, i, j);
     }
     if (bc->kind[k] == MESH_CARRIED)
-        make_outflow(s, bc, k, carried_discharge(wall));
+        make_outflow(s, bc, k, carried_kind(wall));
     if (bc->kind[k] == MESH_OUTFLOW && s->levels)
         list_places(s, bc, k, &s->levels->of, &s->levels->n);
     SIDE_PLACES (b, inner, i, j, m, c) {

@@ -4,10 +4,29 @@
 #include <math.h>
 
 #include "../../common/base/mem.h"
+#include "../../common/scene/scene_openings.h"
 
-double carried_discharge(const struct scene_wall *w)
+enum outflow_kind carried_kind(const struct scene_wall *w)
 {
-    return w->kind == WALL_INFLOW ? -w->discharge : w->discharge;
+    return !w->has_discharge        ? OUTFLOW_CONVECTS
+           : w->kind == WALL_INFLOW ? OUTFLOW_GIVEN_IN
+                                    : OUTFLOW_GIVEN_OUT;
+}
+
+void carried_set_discharges(struct fv *s, double t)
+{
+    struct outflows *all = s->outflows;
+    double out[6] = {0.0};
+    for (int k = 0; k < 6; k++) {
+        const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + k);
+        if (w && w->has_discharge)
+            out[k] = (w->kind == WALL_INFLOW ? -1.0 : 1.0) * wall_discharge(w, t);
+        all->given_out[k] = w && carried_kind(w) == OUTFLOW_GIVEN_OUT;
+        all->leaves[k] = fmax(out[k], 0.0);
+    }
+    for (int k = 0; k < all->n; k++)
+        if (all->of[k].side < 6)
+            all->of[k].discharge = out[all->of[k].side];
 }
 
 void carried_create(struct fv *s)
@@ -16,16 +35,12 @@ void carried_create(struct fv *s)
     bool any = false, convects = false;
     for (int k = 0; k < scene->nwalls; k++) {
         convects = convects || scene->walls[k].carried;
-        any = any || convects || scene->walls[k].discharge != 0.0;
+        any = any || convects || scene->walls[k].has_discharge;
     }
     if (!any)
         return;
     s->outflows = NEW(struct outflows, 1);
     s->outflows->convects = convects;
-    for (int k = 0; k < scene->nwalls; k++)
-        if (scene->walls[k].side != SIDE_NONE)
-            s->outflows->leaves[scene->walls[k].side - SIDE_X_MIN] =
-                fmax(carried_discharge(scene->walls + k), 0.0);
     for (int q = 0; q < s->dim; q++)
         s->outflows->kept[q] = NEW(double, s->size);
 }

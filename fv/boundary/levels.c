@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../../common/base/mem.h"
+#include "../../common/scene/scene_openings.h"
 #include "../grid/mesh.h"
 #include "carried.h"
 
@@ -55,6 +56,16 @@ static void mean_velocities(struct fv *s)
         s->levels->mean[k] = sums[0][k] / fmax(sums[1][k], 1e-300);
 }
 
+/* Levels outside at time t, where they are given. */
+static void set_given(struct fv *s, double t)
+{
+    for (int k = 0; k < s->run->scene.nwalls; k++) {
+        const struct scene_wall *w = s->run->scene.walls + k;
+        if (w->side != SIDE_NONE && w->has_level)
+            s->levels->level[w->side - SIDE_X_MIN] = wall_level(w, t);
+    }
+}
+
 void levels_start(struct fv *s)
 {
     struct levels *l = s->levels;
@@ -68,9 +79,9 @@ void levels_start(struct fv *s)
         const struct scene_wall *w = s->run->scene.walls + k;
         if (w->side == SIDE_NONE || !w->has_level)
             continue;
-        l->level[w->side - SIDE_X_MIN] = w->level;
         l->inlet[w->side - SIDE_X_MIN] = w->kind == WALL_INFLOW;
     }
+    set_given(s, s->t);
     mean_velocities(s);
     for (int k = 0; k < LEVEL_GROUPS; k++)
         l->past[k] = l->mean[k];
@@ -127,10 +138,11 @@ static double conductance(const struct fv *s, const struct outflow *o, int64_t i
     return 2.0 * (s->m ? s->m->G[o->a][o->a][o->cell[i] + o->face] : 1.0 / o->h[i]);
 }
 
-void levels_set(struct fv *s)
+void levels_set(struct fv *s, double t)
 {
     if (!levels_set_any(s))
         return;
+    set_given(s, t);
     mean_velocities(s);
     LEVELS (s, o)
         for (int64_t i = 0; i < o->n; i++)

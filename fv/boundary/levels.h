@@ -37,8 +37,8 @@ void levels_begin(struct fv *s, double dt);
 /* Keeps U, and puts it back. */
 void levels_keep(struct fv *s);
 void levels_back(struct fv *s);
-/* Before a stage: pressures on the faces, by the projected fluxes. */
-void levels_set(struct fv *s);
+/* Before a stage that ends at t: pressures on the faces, by the projected fluxes. */
+void levels_set(struct fv *s, double t);
 /* Before a projection of length tau: what they do to the fluxes, so that psi is 0 on the faces in
  * the solve. */
 void levels_fluxes(struct fv *s, double tau);

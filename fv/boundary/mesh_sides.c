@@ -77,7 +77,7 @@ static struct outflow *list_places(struct fv *s, const struct side *d, struct ou
 static void add_outflow(struct fv *s, const struct side *d)
 {
     struct outflow *o = list_places(s, d, &s->outflows->of, &s->outflows->n);
-    o->discharge = carried_discharge(s->m->block[d->p->block].wall[d->k]);
+    o->kind = carried_kind(s->m->block[d->p->block].wall[d->k]);
     for (int q = 0; q < s->m->dim; q++)
         o->w[q] = d->w[q];
 }

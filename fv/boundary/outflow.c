@@ -47,7 +47,7 @@ static void balance(struct fv *s)
     double sums[3] = {sum_up(s), 0.0, 0.0}; /* flux, area, forced faces */
     OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n; i++)
-            sums[1] += o->own[i] && o->discharge == 0.0 ? carried_area(o, i) : 0.0;
+            sums[1] += o->own[i] && o->kind == OUTFLOW_CONVECTS ? carried_area(o, i) : 0.0;
     for (int a = 0; s->forcing && a < s->dim; a++)
         sums[2] += (double)s->forcing->nface[a];
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->comm);
@@ -56,7 +56,7 @@ static void balance(struct fv *s)
     const double excess = sums[0] / sums[1];
     OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n; i++) {
-            const double area = o->discharge == 0.0 ? carried_area(o, i) : 0.0;
+            const double area = o->kind == OUTFLOW_CONVECTS ? carried_area(o, i) : 0.0;
             for (int q = 0; q < s->dim && area > 0.0; q++)
                 o->w[q][o->place[i]] -= excess * (o->S[q][i] / area);
         }
@@ -82,13 +82,15 @@ void outflow_start(struct fv *s)
 {
     if (!s->outflows)
         return;
+    carried_set_discharges(s, s->t);
     OUTFLOWS (s, o)
         for (int q = 0; q < s->dim; q++)
             for (int64_t i = 0; i < o->n; i++) {
                 const double *u = s->u[q] + o->cell[i];
                 o->w[q][o->place[i]] =
-                    o->discharge != 0.0 ? discharged(s, o, q, i)
-                                        : (11.0 * u[0] - 7.0 * u[o->in] + 2.0 * u[2 * o->in]) / 6.0;
+                    o->kind != OUTFLOW_CONVECTS
+                        ? discharged(s, o, q, i)
+                        : (11.0 * u[0] - 7.0 * u[o->in] + 2.0 * u[2 * o->in]) / 6.0;
                 o->change[q][o->place[i]] = 0.0;
             }
     balance(s);
@@ -199,7 +201,7 @@ static void find_waves(struct fv *s, double dt, double gain[6])
         for (int64_t i = 0; i < o->n; i++) {
             const double flow = all->flow[o->side] * dt, wave = flow + all->waves[o->side] * dt;
             for (int q = 0; q < s->dim && o->own[i]; q++) {
-                const double with = o->discharge > 0.0 ? 0.0 : along_line(o, q, i, wave);
+                const double with = o->kind == OUTFLOW_GIVEN_OUT ? 0.0 : along_line(o, q, i, wave);
                 sums[0][o->side] += o->wet[i] * o->S[q][i] * (with - along_line(o, q, i, flow));
             }
             sums[1][o->side] += o->own[i] ? o->wet[i] * carried_area(o, i) : 0.0;
@@ -207,7 +209,7 @@ static void find_waves(struct fv *s, double dt, double gain[6])
     MPI_Allreduce(MPI_IN_PLACE, sums, 12, MPI_DOUBLE, MPI_SUM, s->comm);
     for (int k = 0; k < 6; k++)
         gain[k] = (sums[0][k] + all->leaves[k]) / fmax(sums[1][k], 1e-300) +
-                  (all->leaves[k] > 0.0 ? 0.0 : all->pull[k] * -expm1(-all->hurry[k] * dt));
+                  (all->given_out[k] ? 0.0 : all->pull[k] * -expm1(-all->hurry[k] * dt));
 }
 
 void outflow_set(struct fv *s, double dt)
@@ -215,17 +217,18 @@ void outflow_set(struct fv *s, double dt)
     double gain[6];
     if (!s->outflows)
         return;
+    carried_set_discharges(s, s->t + dt);
     find_waves(s, dt, gain);
     OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n; i++) {
             const double area = carried_area(o, i),
-                         more = (o->share[i] > 0.0 || o->discharge > 0.0) && area > 0.0
+                         more = (o->share[i] > 0.0 || o->kind == OUTFLOW_GIVEN_OUT) && area > 0.0
                                     ? gain[o->side] / area
                                     : 0.0;
             for (int q = 0; q < s->dim; q++) {
                 double *w = o->w[q] + o->place[i];
                 o->change[q][o->place[i]] = -*w;
-                *w = o->discharge < 0.0
+                *w = o->kind == OUTFLOW_GIVEN_IN
                          ? discharged(s, o, q, i)
                          : along_line(o, q, i, s->outflows->flow[o->side] * dt) + more * o->S[q][i];
             }

@@ -21,7 +21,7 @@ enum mesh_side {
 static inline enum mesh_side side_of_wall(const struct scene_wall *w)
 {
     static const enum mesh_side kinds[] = {MESH_SLIP, MESH_WALL, MESH_INFLOW, MESH_OUTFLOW};
-    if (w->carried || w->discharge != 0.0) /* both have velocities that change */
+    if (w->carried || w->has_discharge) /* both have velocities that change */
         return MESH_CARRIED;
     return w->kind == WALL_INFLOW && w->has_level ? MESH_OUTFLOW : kinds[w->kind];
 }

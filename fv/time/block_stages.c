@@ -69,7 +69,7 @@ static void set_sides(struct fv *s, double t, double dt)
         moving_stage(s, t);
     mesh_bc_time(s, t);
     outflow_set(s, dt);
-    levels_set(s);
+    levels_set(s, t);
 }
 
 static void ghosts(struct fv *s, enum bc_value what, double *const u[3])

@@ -36,9 +36,8 @@ static void set_slip(struct fv *s, double tau, const double *psi)
 
 static void set_sides(struct fv *s, double t, double dt)
 {
-    (void)t; /* their velocities are constant, but of what is carried out */
     outflow_set(s, dt);
-    levels_set(s);
+    levels_set(s, t);
 }
 
 static void viscous(struct fv *s, int q, double *out)

@@ -179,11 +179,15 @@ static void check_wall(const struct run *r, const struct sph_params *used, const
                   "the flow around the particles (sph.outer) is known otherwise");
     snprintf(key, sizeof key, "walls.[%d].carried", k);
     params_unused(r->params, f, key, false, "sph has no convective outflow");
-    snprintf(key, sizeof key, "walls.[%d].level", k);
-    params_unused(r->params, f, key, surface, "there is no free surface");
-    snprintf(key, sizeof key, "walls.[%d].discharge", k);
-    params_unused(r->params, f, key, surface,
-                  "without a free surface the area of an opening is known: give the velocity");
+    static const char *const level[] = {"level", "level_file"}, *const discharge[] = {
+                                                                    "discharge", "discharge_file"};
+    for (int i = 0; i < 2; i++) {
+        snprintf(key, sizeof key, "walls.[%d].%s", k, level[i]);
+        params_unused(r->params, f, key, surface, "there is no free surface");
+        snprintf(key, sizeof key, "walls.[%d].%s", k, discharge[i]);
+        params_unused(r->params, f, key, surface,
+                      "without a free surface the area of an opening is known: give the velocity");
+    }
     snprintf(key, sizeof key, "walls.[%d].pressure", k);
     params_unused(r->params, f, key, !surface,
                   "under a free surface the level says it (walls.level)");

@@ -7,6 +7,7 @@
 #include "../../common/base/mem.h"
 #include "../../common/files/h5.h"
 #include "../../common/scene/scene_fluid.h"
+#include "../../common/scene/scene_openings.h"
 #include "../surface/level_window.h"
 #include "openings.h"
 
@@ -47,7 +48,7 @@ struct side_levels {
 
 static bool has_level(const struct scene_wall *w)
 {
-    return w->has_level || (w->kind == WALL_OUTFLOW && w->discharge == 0.0);
+    return w->has_level || (w->kind == WALL_OUTFLOW && !w->has_discharge);
 }
 
 bool side_levels_given(const struct side_levels *l, int side) { return has_level(l->of[side].is); }
@@ -69,7 +70,7 @@ struct side_levels *side_levels_create(const struct sph *s)
         if (!s->open[side])
             continue;
         of->is = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
-        of->given = of->is->has_level ? of->is->level : NAN;
+        of->given = of->is->has_level ? wall_level(of->is, s->t) : NAN;
         of->room = NEW(double, l->rows);
         of->width = 1.0;
         for (int a = 0; a < s->dim; a++)
@@ -214,7 +215,9 @@ static void update_side(const struct sph *s, const struct side_levels *l, struct
     if (!l->started)
         of->past = of->mean;
     if (has_level(of->is)) {
-        if (isnan(of->given))
+        if (of->is->has_level)
+            of->given = wall_level(of->is, s->t);
+        else if (isnan(of->given))
             of->given = of->inside;
         let_waves_out(s, l, of, side, dt);
     } else {
@@ -252,8 +255,8 @@ void side_levels_surface(const struct sph *s, const struct side_levels *l, int n
 /* m/s: into the domain, of an opening whose velocity or discharge is given. */
 static double velocity_in(const struct sph *s, const struct side_water *of, int side)
 {
-    if (of->is->discharge != 0.0)
-        return (of->is->kind == WALL_INFLOW ? 1.0 : -1.0) * of->is->discharge /
+    if (of->is->has_discharge)
+        return (of->is->kind == WALL_INFLOW ? 1.0 : -1.0) * wall_discharge(of->is, s->t) /
                fmax(of->area, 0.5 * s->dx * of->width);
     return openings_inward(side) * of->is->velocity[side / 2];
 }
@@ -275,7 +278,7 @@ void side_levels_eval(const struct sph *s, const struct side_levels *l, int side
         return;
     }
     for (int a = 0; a < s->dim; a++)
-        u[a] = of->is->discharge != 0.0 ? 0.0 : of->is->velocity[a];
+        u[a] = of->is->has_discharge ? 0.0 : of->is->velocity[a];
     u[side / 2] = openings_inward(side) * velocity_in(s, of, side);
     u[l->up] +=
         l->sign * of->rate * fmax(0.0, fmin((height - of->bed) / fmax(of->depth, s->dx), 1.0));

@@ -95,9 +95,13 @@ static void levels_after_ten_transits_are_those_of_theory(void **state)
 #define OUT .side = SIDE_X_MAX, .kind = WALL_OUTFLOW
         {"velocity, convective", {IN, .velocity = {0.5}}, {OUT, .carried = true}, 0.5, 0.0},
         {"velocity, level", {IN, .velocity = {0.5}}, {OUT}, 0.0, 0.5},
-        {"discharge, convective", {IN, .discharge = 0.3093597}, {OUT, .carried = true}, 0.5, 0.0},
+        {"discharge, convective",
+         {IN, .discharge = 0.3093597, .has_discharge = true},
+         {OUT, .carried = true},
+         0.5,
+         0.0},
         {"discharge, level",
-         {IN, .discharge = 0.25},
+         {IN, .discharge = 0.25, .has_discharge = true},
          {OUT, .level = 0.52, .has_level = true},
          0.0,
          0.52},
@@ -108,7 +112,7 @@ static void levels_after_ten_transits_are_those_of_theory(void **state)
          0.6},
         {"level, discharge",
          {IN, .level = 0.5, .has_level = true},
-         {OUT, .discharge = 0.1},
+         {OUT, .discharge = 0.1, .has_discharge = true},
          0.0,
          0.5}};
     for (int q = 0; q < (int)(sizeof pairs / sizeof pairs[0]); q++)
@@ -169,11 +173,9 @@ static void current_over_a_sill_has_bernoullis_levels(void **state)
     (void)state;
     const double q = 0.3 * sqrt(G * DEPTH) * DEPTH, E = DEPTH + q * q / (2.0 * G * DEPTH * DEPTH),
                  b = 0.1;
-    const struct scene_wall in = {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .discharge = q},
-                            out = {.side = SIDE_X_MAX,
-                                   .kind = WALL_OUTFLOW,
-                                   .level = DEPTH,
-                                   .has_level = true};
+    const struct scene_wall
+        in = {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .discharge = q, .has_discharge = true},
+        out = {.side = SIDE_X_MAX, .kind = WALL_OUTFLOW, .level = DEPTH, .has_level = true};
     static const char *const with[3] = {RK3, "domain.max=(10,0.8)"};
     double depth = DEPTH, past = 0.0;
     struct mesh_case c;

@@ -1,0 +1,141 @@
+/* scene_openings.c - see scene_openings.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "scene_openings.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../base/log.h"
+
+enum { COLUMNS = 2, TEXT = 160 };
+
+void wall_histories_read(struct scene *s, struct motion_files *files)
+{
+    for (int k = 0; k < s->nwalls; k++) {
+        struct scene_wall *w = s->walls + k;
+        w->levels = *w->level_file ? motion_files_read(files, w->level_file, COLUMNS) : NULL;
+        w->discharges =
+            *w->discharge_file ? motion_files_read(files, w->discharge_file, COLUMNS) : NULL;
+        w->has_level = w->level < LEVEL_TOP || *w->level_file;
+        w->has_discharge = w->discharge != 0.0 || *w->discharge_file;
+    }
+}
+
+static double value_at(const struct motion_file *m, double t)
+{
+    int lo = 0, hi = m->n - 1;
+    if (!(t > m->rows[0]))
+        return m->rows[1];
+    if (t >= m->rows[COLUMNS * hi])
+        return m->rows[COLUMNS * hi + 1];
+    while (hi - lo > 1) {
+        const int mid = (lo + hi) / 2;
+        if (m->rows[COLUMNS * mid] <= t)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    const double *a = m->rows + COLUMNS * lo, *b = m->rows + COLUMNS * hi;
+    return a[1] + (t - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
+}
+
+double wall_level(const struct scene_wall *w, double t)
+{
+    return w->levels && w->levels->n > 0 ? value_at(w->levels, t) : w->level;
+}
+
+double wall_discharge(const struct scene_wall *w, double t)
+{
+    return w->discharges && w->discharges->n > 0 ? value_at(w->discharges, t) : w->discharge;
+}
+
+static void range_of(const struct motion_file *m, double range[2])
+{
+    range[0] = range[1] = m->rows[1];
+    for (int k = 1; k < m->n; k++) {
+        range[0] = fmin(range[0], m->rows[COLUMNS * k + 1]);
+        range[1] = fmax(range[1], m->rows[COLUMNS * k + 1]);
+    }
+}
+
+static void check_file(const struct params *p, struct faults *f, int k, const char *name,
+                       const char *file, const struct motion_file *m, bool also_constant)
+{
+    char key[64];
+    double range[2];
+    if (!m)
+        return;
+    snprintf(key, sizeof key, "walls.[%d].%s_file", k, name);
+    if (m->n < 0)
+        params_fault(p, f, key, "%s: no such file beside the case", file);
+    else if (m->n == 0)
+        params_fault(p, f, key, "%s: expected rows of a time and a %s with increasing times", file,
+                     name);
+    else if (also_constant)
+        params_fault(p, f, key, "%s and a constant %s: give one of the two", file, name);
+    if (m->n <= 0 || *name == 'l')
+        return;
+    range_of(m, range);
+    if (range[0] < 0.0)
+        params_fault(p, f, key,
+                     "%s: a discharge of %g: it is positive, in through an inflow and out through "
+                     "an outflow",
+                     file, range[0]);
+}
+
+void wall_histories_check(const struct scene *s, const struct params *p, struct faults *f)
+{
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        check_file(p, f, k, "level", w->level_file, w->levels, w->level < LEVEL_TOP);
+        check_file(p, f, k, "discharge", w->discharge_file, w->discharges, w->discharge != 0.0);
+    }
+}
+
+static const char *text_of(const struct motion_file *m, const char *file, double constant,
+                           const char *unit, char *text)
+{
+    double range[2];
+    if (!m || m->n <= 0) {
+        snprintf(text, TEXT, "%g %s", constant, unit);
+        return text;
+    }
+    range_of(m, range);
+    snprintf(text, TEXT, "%g to %g %s by %.80s", range[0], range[1], unit, file);
+    return text;
+}
+
+static const char *level_text(const struct scene_wall *w, char *text)
+{
+    return text_of(w->levels, w->level_file, w->level, "m high", text);
+}
+
+static const char *discharge_text(const struct scene_wall *w, int dim, char *text)
+{
+    return text_of(w->discharges, w->discharge_file, w->discharge, dim == 2 ? "m^2/s" : "m^3/s",
+                   text);
+}
+
+void openings_describe(const struct scene *s)
+{
+    char text[TEXT];
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        const bool in = w->kind == WALL_INFLOW;
+        const char *side = w->side == SIDE_NONE ? "" : scene_side_names[w->side - SIDE_X_MIN];
+        if (w->kind < WALL_INFLOW)
+            continue;
+        if (w->has_discharge)
+            log_say("%s: %s %s, uniform over the water, whose level is that inside", side,
+                    discharge_text(w, s->domain.dim, text), in ? "in" : "out");
+        else if (w->has_level)
+            log_say("%s: water %s %s, waves leave; the velocity is that inside", side,
+                    level_text(w, text), in ? "in the inlet" : "outside");
+        else if (w->carried)
+            log_say("%s: a channel without end in the state of the start, waves leave", side);
+        else
+            log_say("%s: %s", side,
+                    in ? "velocity given, the level is that inside"
+                       : "water outside as high as here at the start, waves leave; the velocity is "
+                         "that inside");
+    }
+}

@@ -1,0 +1,24 @@
+/* scene_openings.h - inlets and outlets under a free surface: what each does, and levels and
+ * discharges that change over time (a tide, a hydrograph), from files beside the case: rows of a
+ * time in s, which rises, and a value. Between the rows it is linear, before the first and after
+ * the last constant.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_SCENE_OPENINGS_H
+#define COMMON_SCENE_OPENINGS_H
+
+#include "motion_files.h"
+#include "scene.h"
+
+/* Reads the files of all walls, once a start; they belong to `files'. Notes which openings have a
+ * level and which a discharge. */
+void wall_histories_read(struct scene *s, struct motion_files *files);
+/* Faults of the files: no such file, rows that are none, values out of range. */
+void wall_histories_check(const struct scene *s, const struct params *p, struct faults *f);
+/* m, against gravity: of the water in an opening whose level is given (has_level) at time t. */
+double wall_level(const struct scene_wall *w, double t);
+/* m^dim/s: through an opening whose discharge is given (has_discharge) at time t, >= 0. */
+double wall_discharge(const struct scene_wall *w, double t);
+/* Says in the log what each inlet and outlet under a free surface does. */
+void openings_describe(const struct scene *s);
+
+#endif
