@@ -82,6 +82,8 @@ walls.profile "parabolic"
 walls.pressure 100.0
 walls.carried true
 walls.level 0.3
+walls.level_file "nowhere.txt"
+walls.discharge_file "nowhere.txt"
 walls.discharge 0.02
 walls.mesh "other.stl"
 walls.scale 0.9
