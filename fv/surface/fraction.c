@@ -46,8 +46,8 @@ static void set_volumes(const struct fv *s, double *volume)
 static struct fraction *create(const struct fv *s)
 {
     struct fraction *f = NEW(struct fraction, 1);
-    double **const fields[] = {&f->C,    &f->solved, &f->alpha, &f->volume,
-                               &f->flux, &f->work,   &f->next};
+    double **const fields[] = {&f->C,    &f->layer, &f->alpha, &f->volume,
+                               &f->flux, &f->work,  &f->next};
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
         *fields[k] = NEW(double, s->size);
     for (int a = 0; a < s->dim; a++) {
@@ -65,7 +65,7 @@ void fraction_free(struct fraction **fp)
     struct fraction *f = *fp;
     if (!f)
         return;
-    double *const fields[] = {f->C, f->solved, f->alpha, f->volume, f->flux, f->work, f->next};
+    double *const fields[] = {f->C, f->layer, f->alpha, f->volume, f->flux, f->work, f->next};
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
         mem_free(fields[k]);
     for (int a = 0; a < 3; a++) {
@@ -93,11 +93,11 @@ void fraction_start(struct fv *s)
     fraction_take(s);
 }
 
-void fraction_note_solved(const struct fv *s)
+void fraction_note_layers(const struct fv *s)
 {
     const struct surface *f = s->surface;
     for (int64_t c = 0; c < s->size; c++)
-        f->fraction->solved[c] = f->layer[c] == 0 ? 1.0 : 0.0;
+        f->fraction->layer[c] = f->layer[c];
 }
 
 double fraction_volume(const struct fv *s)
@@ -147,8 +147,6 @@ bool fraction_normal(const struct fv *s, const struct part *p, int64_t c, double
     return sum > 1e-12;
 }
 
-static bool is_mixed(double C) { return C > 0.0 && C < 1.0; }
-
 /* Planes of the mixed cells, with ghosts. */
 static void find_planes(struct fv *s)
 {
@@ -156,7 +154,7 @@ static void find_planes(struct fv *s)
     FLOW_ROWS_AT (s, part, j, c, len)
         for (int64_t i = c; i < c + len; i++) {
             double n[3] = {0.0, 0.0, 0.0};
-            if (!is_mixed(f->C[i]))
+            if (!fraction_is_mixed(f->C[i]))
                 continue;
             if (!fraction_normal(s, part, i, n)) /* as water lies */
                 for (int a = 0; a < s->dim; a++)
@@ -185,7 +183,7 @@ static double water_across(const struct fv *s, int64_t c, int64_t d, int a, doub
     const struct fraction *f = s->surface->fraction;
     const int64_t from = v > 0.0 ? c - d : c;
     const double C = f->C[from], part = fmin(1.0, fabs(v) / f->volume[from]);
-    if (!is_mixed(C))
+    if (!fraction_is_mixed(C))
         return v * C;
     if (surface_holds_none(s, from)) {
         const int64_t in = v > 0.0 ? c : c - d;
@@ -209,7 +207,7 @@ static void find_fluxes(struct fv *s, int a, double dt)
         PART_ROWS (p, none, up, c, n)
             for (int64_t i = c; i < c + n; i++) {
                 const double v = dt * f->flow[a][i], low = f->C[i - d], high = f->C[i];
-                if (low == high && !is_mixed(low))
+                if (low == high && !fraction_is_mixed(low))
                     f->flux[i] = v * low;
                 else
                     f->flux[i] = v != 0.0 ? water_across(s, i, d, a, v) : 0.0;
@@ -225,8 +223,8 @@ static void sweep(struct fv *s, int a, double dt)
     FLOW_ROWS_AT (s, part, j, c, n) {
         const int64_t d = part->stride[a];
         for (int64_t i = c; i < c + n; i++) {
-            const double v = dt * f->solved[i] * f->flow[a][i],
-                         w = dt * f->solved[i] * f->flow[a][i + d];
+            const double solved = f->layer[i] == 0.0 ? dt : 0.0, v = solved * f->flow[a][i],
+                         w = solved * f->flow[a][i + d];
             f->C[i] += ((f->flux[i] - v) - (f->flux[i + d] - w)) / f->volume[i];
             f->entered += f->flux[i] - f->flux[i + d]; /* all faces within cancel */
             f->excess += w - v;
@@ -243,13 +241,13 @@ static void balance(struct fv *s)
     double sums[3] = {f->entered, f->excess, 0.0};
     FLOW_ROWS (s, c, n)
         for (int64_t i = c; i < c + n; i++)
-            sums[2] += is_mixed(f->C[i]) ? f->C[i] * (1.0 - f->C[i]) * f->volume[i] : 0.0;
+            sums[2] += fraction_is_mixed(f->C[i]) ? f->C[i] * (1.0 - f->C[i]) * f->volume[i] : 0.0;
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->comm);
     f->entered = sums[0];
     const double part = sums[2] > 10.0 * fabs(sums[1]) ? -sums[1] / sums[2] : 0.0;
     FLOW_ROWS (s, c, n)
         for (int64_t i = c; i < c + n && part != 0.0; i++)
-            if (is_mixed(f->C[i]))
+            if (fraction_is_mixed(f->C[i]))
                 f->C[i] += part * f->C[i] * (1.0 - f->C[i]);
     surface_note_returned(s, part * sums[2]);
     surface_mirror(s, f->C);

@@ -10,7 +10,8 @@
 
 struct fraction {
     double *C;       /* -: share, with ghosts */
-    double *solved;  /* 1: the projection made the divergence of the cell 0; else 0 */
+    double *layer;   /* -: of each cell when the projection was made; it made the divergence of
+                        those of layer 0 zero */
     double *n[3];    /* -: normals of the planes in mixed cells, see plane.h */
     double *alpha;   /* -: of the planes */
     double *flow[3]; /* m^dim/s: volume through the lower face of each cell */
@@ -37,8 +38,8 @@ void fraction_start(struct fv *s);
 void fraction_free(struct fraction **f);
 /* The same anew. */
 void fraction_take(const struct fv *s);
-/* What the projection has just solved for: cells that are wet now. */
-void fraction_note_solved(const struct fv *s);
+/* The layers for which the projection has just been made. */
+void fraction_note_layers(const struct fv *s);
 /* By dt in n parts of it, with U as it is. Collective. */
 void fraction_advance(struct fv *s, double dt, int n);
 /* m^dim of water; over all ranks. */
@@ -53,6 +54,8 @@ void fraction_correct_level(struct fv *s);
 bool fraction_is_calm(const struct fv *s);
 /* Normal of the plane in cell c by differences of C, not normalised; false: there is none. */
 bool fraction_normal(const struct fv *s, const struct part *p, int64_t c, double *n);
+/* Whether a cell holds both water and air. */
+static inline bool fraction_is_mixed(double C) { return C > 0.0 && C < 1.0; }
 /* m: size of cell c along axis a. */
 double fraction_size(const struct fv *s, int64_t c, int a);
 

@@ -18,16 +18,16 @@ static const int none[3] = {0, 0, 0};
 
 static bool is_air(const struct fv *s, int64_t c)
 {
-    const unsigned char layer = s->surface->layer[c];
-    return layer >= 1 && layer <= AIR && !surface_holds_none(s, c);
+    const double layer = s->surface->fraction->layer[c];
+    return layer >= 1.0 && layer <= AIR && !surface_holds_none(s, c);
 }
 
 /* Whether the potential changes the volume through the lower face of c: no face of a wet cell, nor
  * one of a cell that holds nothing. */
 static bool is_free(const struct fv *s, int64_t c, int64_t d)
 {
-    const struct surface *f = s->surface;
-    return f->layer[c] >= 1 && f->layer[c - d] >= 1 && !surface_holds_none(s, c) &&
+    const double *layer = s->surface->fraction->layer;
+    return layer[c] >= 1.0 && layer[c - d] >= 1.0 && !surface_holds_none(s, c) &&
            !surface_holds_none(s, c - d);
 }
 

@@ -111,7 +111,7 @@ void fraction_correct_level(struct fv *s)
     memcpy(f->next, w->phi, (size_t)s->size * sizeof(double));
     FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
-            const bool mixed = f->C[i] > 0.0 && f->C[i] < 1.0;
+            const bool mixed = fraction_is_mixed(f->C[i]);
             if ((!mixed && fabs(w->phi[i]) > band) || surface_holds_none(s, i))
                 continue;
             const bool trusted = is_trusted(s, part, i);
@@ -130,7 +130,7 @@ bool fraction_is_calm(const struct fv *s)
     find_smooth(s);
     FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n && calm; i++) {
-            const bool mixed = f->carries && f->C[i] > 0.0 && f->C[i] < 1.0;
+            const bool mixed = f->carries && fraction_is_mixed(f->C[i]);
             if ((!mixed && fabs(w->phi[i]) > band) || surface_holds_none(s, i))
                 continue;
             calm = is_trusted(s, part, i) && (!mixed || fabs(f->C[i] - surface_share(s, i)) < 0.1);

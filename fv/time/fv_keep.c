@@ -37,8 +37,8 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
         if (s->surface->fraction) {
             f[n] = s->surface->fraction->C;
             names[n++] = "C";
-            f[n] = s->surface->fraction->solved;
-            names[n++] = "solved";
+            f[n] = s->surface->fraction->layer;
+            names[n++] = "layer";
         }
         for (int k = 0; k < 2 && s->surface->forced; k++) {
             f[n] = s->surface->forced->phi[k];

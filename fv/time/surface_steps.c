@@ -190,7 +190,7 @@ void surface_start(struct fv *s)
     f->volume0 = surface_volume(s);
     rebuild(s);
     if (f->fraction)
-        fraction_note_solved(s);
+        fraction_note_layers(s);
     set_level(s);
     add_velocities(s);
     set_openings(s);
@@ -386,7 +386,7 @@ void surface_second_half(struct fv *s, double dt)
         surface_mesh_count(s);
     } else {
         if (f->fraction)
-            fraction_note_solved(s);
+            fraction_note_layers(s);
         advance_water(s, 0.5 * dt);
     }
     impose(s, s->t);
@@ -406,7 +406,7 @@ static int state(struct fv *s, double **f)
     f[n++] = s->surface->phi;
     if (s->surface->fraction) {
         f[n++] = s->surface->fraction->C;
-        f[n++] = s->surface->fraction->solved;
+        f[n++] = s->surface->fraction->layer;
     }
     f[n++] = s->p;
     f[n++] = s->p_before;

@@ -66,10 +66,21 @@ shapes:  ( { form = "below"; level = 0.2; } );
 sph:     { dx = 0.02; c0 = 20.0; };
 END
 
+cat >column.cfg <<'END'
+format = 1;
+time:    { end = 0.4; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; min = (-1, 0); max = (1, 1); };
+shapes:  ( { form = "box"; box = ((-0.25, 0), (0.25, 0.6)); } );
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+fv:      { cells = (40, 20); volume = "fraction"; };
+END
+
 # series.csv has 12 digits: 1e-9 leaves rounding three orders of magnitude to grow by
 family dam kinetic 1e-9 2 "1 3" 0.1 dam.cfg
 family channel kinetic 1e-9 2 "1 2" 0.4 channel.cfg
 family sloshing kinetic 1e-9 2 "1 3" 0.2 sloshing_fv
+family column kinetic 1e-9 2 "1 2 3" 0.4 column.cfg
 family outflow kinetic 1e-9 2 "1 3" 0.1 "$root/cases/stress/outflow_fv.cfg"
 # the default tolerance of the pressure alone moves the fifth digit of the divergence
 family blocks kinetic 1e-9 2 "1 3" 0.1 taylor_green_blocks -p fv.tol_pressure=1e-11 -p fv.tol_viscous=1e-11
