@@ -31,7 +31,7 @@ static const struct param rows[] = {
     PARAM(P, upwind,       "-", "-1.0", -1, 1e6,   "rk3, bdf2: strength of the upwind bias where the flow is finer than the cells; 0: none, -1: 1 with walls and where U h/nu is above 200, else none"),
     PARAM(P, extrema,      "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema"),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: with shapes or a wave; in a coupled job where sph.box ends in the water at an upright side"),
-    CHOICE(P, volume, "auto|shift|fraction", "auto", "how a free surface keeps its water: phi shifted as a whole, or the share of water of each cell carried by the fluxes and phi corrected to it; auto: a shift"),
+    CHOICE(P, volume, "auto|shift|fraction", "auto", "how a free surface keeps its water: fraction: the share of water of each cell is carried by the fluxes, and phi follows it where the water is not calm; shift: phi is shifted as a whole; auto: fraction where the cells are upright, at rest, do not overlap and have no partner, else shift"),
     PARAM(P, force,        "-", "(0.0, 0.0, 0.0)", -1e9, 1e9, "known mean of the force x on the walls of blocks, amplitude of force y (N), its frequency (1/s), over the second half of the run: for error.force"),
     PARAM(P, forced_order, "-", "2",    1, 2,     "order in time of a partner's velocities within a coupling step"),
 };

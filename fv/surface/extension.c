@@ -339,9 +339,7 @@ static void make_room(struct surface *f, int64_t n, int64_t ngrad)
     }
 }
 
-/* Water whose viscosity moves it over a cell faster than gravity does: nu/(h sqrt(g h)) above 10.
- */
-static bool creeps(const struct fv *s, double h)
+bool surface_creeps(const struct fv *s, double h)
 {
     const double *g = s->still;
     const double fall = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
@@ -357,7 +355,8 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
 {
     static const double origin[3] = {0.0, 0.0, 0.0};
     struct least_squares q;
-    const int dim = s->dim, order = surface_leans(s, p->part) || creeps(s, p->spacing) ? 1 : 2;
+    const int dim = s->dim,
+              order = surface_leans(s, p->part) || surface_creeps(s, p->spacing) ? 1 : 2;
     double e[TERMS] = {0.0}, w[3][STENCIL];
     memset(grad, 0, sizeof(double) * (size_t)(dim * p->n));
     if (fit(s, p, order, false, origin, &q) == 0)

@@ -17,8 +17,9 @@ static const int none[3] = {0, 0, 0};
 
 bool fraction_possible(const struct fv *s)
 {
-    bool possible =
-        !s->moving && !s->surface->forced && !s->surface->leans && !(s->m && s->m->has_fringe);
+    bool possible = !s->moving && !s->surface->forced && !s->surface->leans &&
+                    !(s->m && s->m->has_fringe) &&
+                    !(s->surface->g > 0.0 && surface_creeps(s, s->surface->least));
     for (int q = 0; s->m && q < s->nparts; q++)
         possible = possible && s->part[q].kind != PART_CURVED;
     MPI_Allreduce(MPI_IN_PLACE, &possible, 1, MPI_C_BOOL, MPI_LAND, s->comm);
@@ -27,7 +28,7 @@ bool fraction_possible(const struct fv *s)
 
 bool fraction_wanted(const struct fv *s)
 {
-    return s->prm.volume == VOLUME_FRACTION && fraction_possible(s);
+    return s->prm.volume != VOLUME_SHIFT && fraction_possible(s);
 }
 
 double fraction_size(const struct fv *s, int64_t c, int a)
@@ -87,9 +88,30 @@ void fraction_take(const struct fv *s)
     surface_mirror(s, f->C);
 }
 
+/* Sweeps begin along gravity, so that a scene that is turned flows alike. */
+static int first_axis(const struct fv *s)
+{
+    int first = 0;
+    for (int a = 1; a < s->dim; a++)
+        if (fabs(s->still[a]) > fabs(s->still[first]))
+            first = a;
+    return first;
+}
+
+static bool has_boxes(const struct fv *s)
+{
+    bool any = false;
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            any = any || surface_holds_none(s, i);
+    return any;
+}
+
 void fraction_start(struct fv *s)
 {
     s->surface->fraction = create(s);
+    s->surface->fraction->boxes = has_boxes(s);
+    s->surface->fraction->first = first_axis(s);
     fraction_take(s);
 }
 
@@ -119,17 +141,31 @@ double surface_volume(const struct fv *s)
 
 /* --- planes --- */
 
-/* Sum over the 3^(dim-1) cells beside c + d of C, weights 1, 2, 1 along each tangent; cells that
- * hold nothing count as c. */
+/* Of cell c + d + t: where that is within a box, of the one that mirrors it, which is on this side
+ * along d, or t, or both. */
+static double seen_from(const struct fv *s, int64_t c, int64_t d, int64_t t)
+{
+    const double *C = s->surface->fraction->C;
+    if (!surface_holds_none(s, c + d + t))
+        return C[c + d + t];
+    if (!surface_holds_none(s, c + t))
+        return C[c + t];
+    return surface_holds_none(s, c + d) ? C[c] : C[c + d];
+}
+
+/* Sum over the 3^(dim-1) cells beside c + d of C, weights 1, 2, 1 along each tangent. Ghosts behind
+ * sides mirror, boxes do not. */
 static double beside(const struct fv *s, const struct part *p, int64_t c, int a, int64_t d)
 {
     const double *C = s->surface->fraction->C;
+    const bool boxes = s->surface->fraction->boxes;
     const int t0 = a == 0 ? 1 : 0, t1 = s->dim == 3 ? (a == 2 ? 1 : 2) : -1;
     double sum = 0.0;
     for (int k = t1 < 0 ? 0 : -1; k <= (t1 < 0 ? 0 : 1); k++)
         for (int j = -1; j <= 1; j++) {
-            const int64_t i = c + d + j * p->stride[t0] + (t1 < 0 ? 0 : k * p->stride[t1]);
-            sum += (j ? 1.0 : 2.0) * (t1 >= 0 && k ? 1.0 : 2.0) * C[i];
+            const int64_t t = j * p->stride[t0] + (t1 < 0 ? 0 : k * p->stride[t1]);
+            const double weight = (j ? 1.0 : 2.0) * (t1 >= 0 && k ? 1.0 : 2.0);
+            sum += weight * (boxes ? seen_from(s, c, d, t) : C[c + d + t]);
         }
     return sum / 8.0 / (t1 < 0 ? 1.0 : 2.0);
 }

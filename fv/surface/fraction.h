@@ -19,6 +19,7 @@ struct fraction {
     double *flux, *work, *next;
     int64_t nair, *air;    /* cells of air beside the water */
     unsigned char *smooth; /* 1: phi resolves the surface here */
+    bool boxes;            /* there are some within this rank's cells */
     double carries;      /* 1: phi follows the shares; 0: the water is calm, and they follow phi */
     double calm;         /* steps since it became calm */
     double first;        /* axis of the next sweep */
@@ -29,7 +30,8 @@ struct fraction {
     double excess;       /* m^dim: what the projection left, of this advance and rank */
 };
 
-/* Whether the cells can have it: upright ones at rest that do not overlap. */
+/* Whether the cells can have it: upright ones at rest that do not overlap. Creeping water cannot:
+ * it breaks nothing off, and what the shares make phi rough by grows at steps of its viscosity. */
 bool fraction_possible(const struct fv *s);
 /* Whether the case asks for it, and they can. */
 bool fraction_wanted(const struct fv *s);

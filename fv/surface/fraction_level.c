@@ -20,17 +20,20 @@ static double slope2(const struct fv *s, int64_t c, const double *n)
     return sum;
 }
 
-/* Whether phi bends little at a cell and is a distance. */
+/* Whether phi bends little at a cell and is a distance. Ghosts behind walls mirror phi, which says
+ * nothing: there the side towards the fluid alone counts. */
 static bool is_smooth(const struct fv *s, const struct part *p, int64_t c)
 {
     const double *q = s->surface->phi + c;
     double sum = 0.0;
     for (int a = 0; a < s->dim; a++) {
         const int64_t d = p->stride[a];
-        const double h = fraction_size(s, c, a), g = (q[d] - q[-d]) / (2.0 * h);
-        if (fabs(q[d] - 2.0 * q[0] + q[-d]) > 0.3 * h)
+        const bool down = !surface_holds_none(s, c - d), up = !surface_holds_none(s, c + d);
+        const double h = fraction_size(s, c, a),
+                     g = ((up ? q[d] - q[0] : 0.0) + (down ? q[0] - q[-d] : 0.0)) / h;
+        if (up && down && fabs(q[d] - 2.0 * q[0] + q[-d]) > 0.3 * h)
             return false;
-        sum += g * g;
+        sum += up || down ? g * g / ((up + down) * (up + down)) : 0.0;
     }
     return sum > 0.6 && sum < 1.6;
 }
@@ -45,7 +48,8 @@ static void find_smooth(const struct fv *s)
     for (const struct part *p = s->part; p < s->part + s->nparts; p++)
         PART_ROWS (p, more, more, c, n)
             for (int64_t i = c; i < c + n; i++)
-                f->smooth[i] = fabs(s->surface->phi[i]) < band && is_smooth(s, p, i);
+                f->smooth[i] = surface_holds_none(s, i) ||
+                               (fabs(s->surface->phi[i]) < band && is_smooth(s, p, i));
 }
 
 static bool is_trusted(const struct fv *s, const struct part *p, int64_t c)
@@ -121,17 +125,31 @@ void fraction_correct_level(struct fv *s)
     surface_ghosts(s, w->phi);
 }
 
+/* Whether the surface passes within a cell and a half of cell c, counted across itself: phi is a
+ * distance in a band of the cells' least size alone. */
+static bool is_beside(const struct fv *s, const struct part *p, int64_t c)
+{
+    double n[3], across = 0.0, least = INFINITY;
+    surface_slopes(s, p, c, n);
+    for (int a = 0; a < s->dim; a++) {
+        across += fabs(n[a]);
+        least = fmin(least, fraction_size(s, c, a));
+    }
+    return fabs(s->surface->phi[c]) <= 1.5 * fmax(across, least);
+}
+
 bool fraction_is_calm(const struct fv *s)
 {
     const struct surface *w = s->surface;
     const struct fraction *f = w->fraction;
-    const double band = 1.5 * w->largest;
+    const double band = 1.5 * w->largest * sqrt(s->dim);
     bool calm = true;
     find_smooth(s);
     FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n && calm; i++) {
             const bool mixed = f->carries && fraction_is_mixed(f->C[i]);
-            if ((!mixed && fabs(w->phi[i]) > band) || surface_holds_none(s, i))
+            if (surface_holds_none(s, i) ||
+                (!mixed && (fabs(w->phi[i]) > band || !is_beside(s, part, i))))
                 continue;
             calm = is_trusted(s, part, i) && (!mixed || fabs(f->C[i] - surface_share(s, i)) < 0.1);
         }

@@ -38,7 +38,9 @@ static struct fv *disc(struct fv_case *c, int n, double x, double y, double radi
     char cells[64];
     snprintf(cells, sizeof cells, "fv.cells=(%d,%d)", n, n);
     const struct scene_shape shape = {.form = SHAPE_DISC, .centre = {x, y, 0.0}, .radius = radius};
-    return start(c, MPI_COMM_WORLD, (const char *const[]){SURFACE, cells, NULL}, &shape, WALL_SLIP);
+    return start(c, MPI_COMM_WORLD,
+                 (const char *const[]){SURFACE, cells, "fv.volume=\"shift\"", NULL}, &shape,
+                 WALL_SLIP);
 }
 
 static void set(struct fv *s, double *field, function f)
