@@ -124,7 +124,7 @@ fi
 names=names.txt
 if command -v h5dump >/dev/null; then
     for p in sph fv; do
-        [ $p = sph ] && runs="dam-half regions-half channel-half" || runs="sloshing-half outflow-half blocks-half"
+        [ $p = sph ] && runs="dam-half regions-half channel-half" || runs="sloshing-half column-half outflow-half blocks-half"
         for run in $runs; do
             for f in "$run"/$p-checkpoint-*.h5; do
                 h5dump -n 1 "$f" | awk -v p=$p '$1 == "attribute" || $1 == "dataset" { print p, $1, $2 }'
