@@ -1,6 +1,6 @@
 /* motion_files.h - the files of prescribed motions beside a case, and of what openings do over
- * time, each read once a start, whoever asks for it and how often. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * time, each read once a start, whoever asks for it and how often.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_MOTION_FILES_H
 #define COMMON_MOTION_FILES_H
 
