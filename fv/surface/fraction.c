@@ -104,6 +104,7 @@ static bool has_boxes(const struct fv *s)
     FLOW_ROWS (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             any = any || surface_holds_none(s, i);
+    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_C_BOOL, MPI_LOR, s->comm); /* ghosts see theirs */
     return any;
 }
 
