@@ -63,6 +63,7 @@ void bodies_create(struct sph *s)
                 body_lines_slack(w->bodies + k);
         }
     w->dt_contact = fmin(dt, bodies_dt(s));
+    body_contacts_start(s);
 }
 
 double bodies_dt(const struct sph *s)
@@ -129,6 +130,7 @@ void bodies_stage(struct sph *s, double weight)
     if (!w || !w->any_free)
         return;
     memset(loads, 0, sizeof loads);
+    body_seals_add(s);
     fluid_loads(s, weight, loads);
     for (int k = 0; k < w->nbodies; k++)
         if (w->bodies[k].free) {

@@ -31,7 +31,9 @@ double body_lines_energy(const struct scene *c, const struct body *bodies, int k
 void body_load(const struct body *b, const double *at, const double *F, double factor,
                double load[6]);
 
-/* body_contact.c: forces between free bodies and what they touch. */
+/* body_contact.c: forces between free bodies and what they touch. What is nearer at the start than
+ * contact holds rests there. */
+void body_contacts_start(struct sph *s);
 void body_contacts_add(struct sph *s, double (*loads)[6]);
 
 /* body_average.c: force on body k from the pressure on its surface, at each point the kernel
@@ -43,6 +45,11 @@ struct force body_average(struct sph *s, int k);
  * other walls leave wet of the surface: nothing, or the weight of what the body displaces, unless
  * they cut it. */
 struct force body_reference(const struct sph *s, int k);
+
+/* body_seal.c: adds to the forces of the stage what the water that seeps between a free body and
+ * what it has rested on since the start pushes them apart with. Needs prim and slope.
+ * Collective. */
+void body_seals_add(struct sph *s);
 
 /* body_output.c */
 int bodies_columns(const struct run *r, int k, const char **names);

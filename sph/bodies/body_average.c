@@ -2,6 +2,7 @@
  * surface. SPDX-License-Identifier: BSD-3-Clause */
 #include "bins.h"
 #include "bodies.h"
+#include "body_nodes.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,24 +11,6 @@
 #include "../../common/base/vec3.h"
 #include "../pairs/kernel.h"
 #include "../particles/eos.h"
-
-/* What particles say at a point of the surface. */
-struct said {
-    double W, P, shear[3];
-};
-enum { SAID = sizeof(struct said) / sizeof(double) };
-
-/* Points of a body's surface, dx/2 of the finest level apart or closer. */
-struct average_node {
-    double x[3], n[3], u[3], du[3], area; /* area: 2D length */
-    bool no_slip;
-    struct said said;
-};
-
-struct nodes {
-    int n, capacity;
-    struct average_node *node;
-};
 
 static struct average_node *add_node(struct nodes *to)
 {
@@ -104,7 +87,7 @@ static void lay_triangle(const struct sph *s, const struct wall_mesh *m, int tri
              to);
 }
 
-static struct nodes lay_nodes(const struct sph *s, int body)
+struct nodes body_nodes_lay(const struct sph *s, int body)
 {
     const struct walls *w = s->walls;
     const struct body *b = w->bodies + body;
@@ -211,6 +194,13 @@ static void sum_over_ranks(const struct sph *s, struct nodes *nodes)
     mem_free(sums);
 }
 
+void body_nodes_ask(const struct sph *s, struct nodes *nodes)
+{
+    for (const struct sph *q = s; q; q = q->finer)
+        ask_all(q, nodes);
+    sum_over_ranks(s, nodes);
+}
+
 /* Adds a force at a point of the surface. */
 static void push(const struct body *b, const struct average_node *d, const double f[3],
                  struct force *to)
@@ -236,11 +226,9 @@ static void add_force(const struct sph *s, const struct body *b, const struct av
 struct force body_average(struct sph *s, int which)
 {
     const struct walls *w = s->walls;
-    struct nodes nodes = lay_nodes(s, which);
+    struct nodes nodes = body_nodes_lay(s, which);
     struct force force = {0};
-    for (const struct sph *q = s; q; q = q->finer)
-        ask_all(q, &nodes);
-    sum_over_ranks(s, &nodes);
+    body_nodes_ask(s, &nodes);
     for (int k = 0; k < nodes.n; k++)
         add_force(s, w->bodies + which, nodes.node + k, &force);
     mem_free(nodes.node);
@@ -268,7 +256,7 @@ struct force body_reference(const struct sph *s, int which)
     struct force force = {0};
     if (r->p == 0.0 && vec3_length(r->slope) == 0.0)
         return force;
-    struct nodes nodes = lay_nodes(s, which);
+    struct nodes nodes = body_nodes_lay(s, which);
     for (int k = 0; k < nodes.n; k++) {
         const struct average_node *d = nodes.node + k;
         double f[3] = {0.0, 0.0, 0.0};

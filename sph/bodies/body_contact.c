@@ -73,12 +73,15 @@ static double mass_at(const struct walls *w, const struct pair *p, const struct 
     return 1.0 / yields;
 }
 
+/* 1/s */
+static double rate_of(const struct walls *w) { return M_PI / (CONTACT_STEPS * w->dt_contact); }
+
 static void push(struct sph *s, const struct pair *p, double (*loads)[6])
 {
     struct walls *w = s->walls;
     const struct scene_contact *c = &w->bodies[p->a].contact;
     const double M = 1.0 / (1.0 / mass_of(w, p->a) + 1.0 / mass_of(w, p->b));
-    const double rate = M_PI / (CONTACT_STEPS * w->dt_contact), k = M * rate * rate;
+    const double rate = rate_of(w), k = M * rate * rate;
     const double first = first_rate(w, p),
                  d = first > 0.0 ? damping_of(c->restitution) / first : 0.0;
     const double v0 =
@@ -106,26 +109,133 @@ static void push(struct sph *s, const struct pair *p, double (*loads)[6])
     }
 }
 
+/* Next pair of a free body (b: -1 the walls at rest) that can touch, two free ones once; false: no
+ * more. Begins with a = 0, b = -2. */
+static bool next_pair(const struct walls *w, struct pair *p)
+{
+    while (p->a < w->nbodies) {
+        p->b++;
+        if (p->b == w->nbodies || !w->bodies[p->a].free) {
+            p->a++;
+            p->b = -2;
+        } else if (p->b != p->a && !(p->b >= 0 && p->b < p->a && w->bodies[p->b].free))
+            return true;
+    }
+    return false;
+}
+
+static void find(const struct sph *s, struct pair *p)
+{
+    p->n = 0;
+    (s->dim == 2 ? pair_find2 : pair_find3)(s->walls, p,
+                                            s->walls->bodies[p->a].contact.gap * s->dx);
+}
+
+static double *start_gap(struct walls *w, const struct pair *p)
+{
+    return &w->start_gap[p->a][p->b < 0 ? BODIES_MAX : p->b];
+}
+
+/* dx: what is left between a body and what it stands on, or beside, at the start: faces that
+ * coincide have no order, and water would come through. Less below, so that what it stands on is
+ * the nearest at a corner. */
+static const double stand_off = 0.002, side_off = 0.003;
+enum { STAND_OFF_PASSES = 20 };
+
+/* Moves the free body of a touch, of two the one that lies above, out of what it stands on. */
+static bool lift(struct sph *s, const struct pair *p, const struct touch *t)
+{
+    struct walls *w = s->walls;
+    const int of = t->mine ? p->a : p->b, against = t->mine ? p->b : p->a;
+    const double down = -vec3_dot(s->gravity, t->out);
+    const bool other =
+        of < 0 || !w->bodies[of].free || (against >= 0 && w->bodies[against].free && down < 0.0);
+    struct body *b = w->bodies + (other ? against : of);
+    const double g = vec3_length(s->gravity), want = fabs(down) > 0.1 * g ? stand_off : side_off,
+                 gap = w->bodies[p->a].contact.gap * s->dx, way = want * s->dx - (gap - t->depth);
+    if (way <= 1e-6 * s->dx || b->free->hinged || b->free->slides)
+        return false;
+    for (int a = 0; a < b->dim; a++)
+        b->free->y[a] += (other ? -way : way) * t->out[a];
+    return true;
+}
+
+/* So that nothing that starts in contact begins with faces that coincide. */
+static void stand_apart(struct sph *s)
+{
+    bool any = true;
+    for (int pass = 0; pass < STAND_OFF_PASSES && any; pass++) {
+        struct pair p = {.b = -2};
+        any = false;
+        while (next_pair(s->walls, &p)) {
+            find(s, &p);
+            int deepest = 0;
+            for (int i = 1; i < p.n; i++)
+                if (p.touch[i].depth > p.touch[deepest].depth)
+                    deepest = i;
+            if (p.n > 0 && lift(s, &p, p.touch + deepest)) {
+                any = true;
+                walls_move(s, s->t);
+            }
+        }
+        mem_free(p.touch);
+    }
+}
+
+void body_contacts_start(struct sph *s)
+{
+    struct pair p = {.b = -2};
+    if (!s->coarser)
+        stand_apart(s);
+    while (next_pair(s->walls, &p)) {
+        double *from = start_gap(s->walls, &p);
+        *from = INFINITY;
+        find(s, &p);
+        for (int i = 0; i < p.n; i++)
+            *from = fmin(*from, s->walls->bodies[p.a].contact.gap * s->dx - p.touch[i].depth);
+    }
+    mem_free(p.touch);
+}
+
+/* m: how deep the spring of a touch is pressed by what rests there with its weight. */
+static double sag(const struct sph *s, const struct touch *t)
+{
+    const double down = (t->mine ? -1.0 : 1.0) * vec3_dot(s->gravity, t->out),
+                 rate = rate_of(s->walls);
+    return fmax(down, 0.0) / (rate * rate);
+}
+
+/* A pair that has been in contact since the start rests on the distance that it had there, by a
+ * spring that carries the weight from the first step on: else it would sink into what it stands on.
+ */
+static void keep_start(struct sph *s, struct pair *p)
+{
+    double *from = start_gap(s->walls, p);
+    const double less = s->walls->bodies[p->a].contact.gap * s->dx - *from;
+    int n = 0;
+    if (p->n == 0)
+        *from = INFINITY;
+    if (!isfinite(*from))
+        return;
+    for (int i = 0; i < p->n; i++) {
+        p->touch[n] = p->touch[i];
+        p->touch[n].depth += sag(s, p->touch + i) - less;
+        n += p->touch[n].depth > 0.0;
+    }
+    p->n = n;
+}
+
 void body_contacts_add(struct sph *s, double (*loads)[6])
 {
     struct walls *w = s->walls;
-    struct pair p = {0};
-    for (int a = 0; a < w->nbodies; a++) {
-        if (!w->bodies[a].free)
-            continue;
-        const double gap = w->bodies[a].contact.gap * s->dx;
-        for (int b = -1; b < w->nbodies; b++) {
-            if (b == a || (b >= 0 && b < a && w->bodies[b].free))
-                continue; /* two free ones once */
-            p.a = a;
-            p.b = b;
-            p.n = 0;
-            (s->dim == 2 ? pair_find2 : pair_find3)(w, &p, gap);
-            if (p.n > 0)
-                push(s, &p, loads);
-            else
-                w->approach[a][b < 0 ? BODIES_MAX : b] = 0.0;
-        }
+    struct pair p = {.b = -2};
+    while (next_pair(w, &p)) {
+        find(s, &p);
+        keep_start(s, &p);
+        if (p.n > 0)
+            push(s, &p, loads);
+        else
+            w->approach[p.a][p.b < 0 ? BODIES_MAX : p.b] = 0.0;
     }
     mem_free(p.touch);
 }

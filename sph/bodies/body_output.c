@@ -160,6 +160,8 @@ void bodies_save(const struct sph *s, struct h5 *f)
     mem_free(rows);
     h5_write_real(f, "contacts", "m/s", s->run->rank == 0 ? BODIES_MAX : 0, BODIES_MAX + 1,
                   &s->walls->approach[0][0], false);
+    h5_write_real(f, "contact gaps", "m", s->run->rank == 0 ? BODIES_MAX : 0, BODIES_MAX + 1,
+                  &s->walls->start_gap[0][0], false);
 }
 
 bool bodies_load(struct sph *s, struct h5 *f)
@@ -179,6 +181,10 @@ bool bodies_load(struct sph *s, struct h5 *f)
     rows = h5_read_all_real(f, "contacts", BODIES_MAX + 1, &n);
     if (rows && n == BODIES_MAX)
         memcpy(s->walls->approach, rows, sizeof s->walls->approach);
+    mem_free(rows);
+    rows = h5_read_all_real(f, "contact gaps", BODIES_MAX + 1, &n);
+    if (rows && n == BODIES_MAX)
+        memcpy(s->walls->start_gap, rows, sizeof s->walls->start_gap);
     mem_free(rows);
     walls_move(s, s->t);
     return fits;

@@ -77,6 +77,12 @@ static double nearest(const struct walls *w, int body, const double *x, double r
     return d;
 }
 
+double touch_distance(const struct walls *w, int dim, int body, const double *x, double reach,
+                      double out[3])
+{
+    return dim == 2 ? nearest(w, body, x, reach, out) : touch_distance3(w, body, x, reach, out);
+}
+
 static void velocity_of(const struct walls *w, int body, const double *x, double *u)
 {
     u[0] = u[1] = u[2] = 0.0;

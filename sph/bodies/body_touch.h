@@ -21,10 +21,16 @@ struct pair {
 /* A corner (mine: of a) at x that is `depth' nearer than contact holds. */
 void pair_add(const struct walls *w, struct pair *p, const double *x, const double *out,
               double depth, bool mine);
+/* Signed distance, m, of x to what a body (-1: walls at rest) has within reach, INFINITY: nothing
+ * there; unit normal out of it. */
+double touch_distance(const struct walls *w, int dim, int body, const double *x, double reach,
+                      double out[3]);
 /* Whether x is within gap of the axis that one of the two is hinged about. */
 bool pair_is_held(const struct walls *w, const struct pair *p, const double *x, double gap);
 /* Adds all corners nearer than gap: of polylines, of meshes (body_touch3.c). */
 void pair_find2(const struct walls *w, struct pair *p, double gap);
+double touch_distance3(const struct walls *w, int body, const double *x, double reach,
+                       double out[3]);
 void pair_find3(const struct walls *w, struct pair *p, double gap);
 
 #endif

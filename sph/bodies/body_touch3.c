@@ -30,6 +30,27 @@ static void try_vertex(const struct walls *w, struct pair *p, const struct wall_
     pair_add(w, p, x, out, gap - f.distance, mine);
 }
 
+double touch_distance3(const struct walls *w, int body, const double *x, double reach,
+                       double out[3])
+{
+    double least = INFINITY;
+    for (int j = 0; j < w->nmeshes; j++) {
+        const struct wall_mesh *m = w->meshes + j;
+        double own[3], n[3];
+        if (m->body != body || m->image)
+            continue;
+        wall_mesh_to_own(m, x, own);
+        const struct tree_foot f = tree_nearest(m->tree, own, reach);
+        if (f.triangle < 0 || f.rim || !(f.distance < least))
+            continue;
+        least = f.distance;
+        wall_mesh_turn_to_world(m, f.n, n); /* into what is there */
+        for (int a = 0; a < 3; a++)
+            out[a] = -n[a];
+    }
+    return least;
+}
+
 static void find_vertices(const struct walls *w, struct pair *p, double gap, bool mine)
 {
     const int of = mine ? p->a : p->b, against = mine ? p->b : p->a;

@@ -135,20 +135,14 @@ static bool is_held(const struct scene_body *b, const double *x, double gap)
     return vec3_length(arm) < gap;
 }
 
-static const char *hinge_hint(const struct scene_body *b)
-{
-    return b->hinge.n > 0 ? "; only corners that near to its hinge may touch, so let it stand on a "
-                            "point there"
-                          : "";
-}
+#define HINGE_HINT                                                                                 \
+    "; only corners that near to its hinge may touch, so let it stand on a point there"
 
 /* Least distance of two lines, and of those corners of each that no hinge of b holds. */
 static double free_gap(const struct scene_body *b, const struct line *mine,
                        const struct line *other, double gap, double at[2])
 {
     double least = INFINITY;
-    if (b->hinge.n == 0)
-        return line_gap(mine, other, at);
     for (int e = 0; e < 2; e++) {
         const struct line *of = e ? other : mine, *against = e ? mine : other;
         for (int i = 0; i < of->n; i++) {
@@ -162,7 +156,8 @@ static double free_gap(const struct scene_body *b, const struct line *mine,
     return least;
 }
 
-/* Contact must not push from the start. */
+/* What turns about a hinge would be jammed by what it touches at the start. Others stand where they
+ * are: body_contact.c. */
 static void check_contacts(const struct run *r, const struct sph_params *used,
                            const struct bound *all, int n, struct faults *f)
 {
@@ -172,15 +167,15 @@ static void check_contacts(const struct run *r, const struct sph_params *used,
             const double gap = scene_contact_of(b).gap * used->dx * (1.0 - 1e-6);
             double at[2] = {0.0, 0.0};
             char key[64];
-            if (m == k || !b->free || (is_free(&r->scene, all + m) && m > k))
+            if (m == k || !b->free || b->hinge.n == 0 || (is_free(&r->scene, all + m) && m > k))
                 continue;
             const double d = free_gap(b, &all[k].line, &all[m].line, gap, at);
             snprintf(key, sizeof key, "bodies.[%d]", k);
             if (d < gap)
                 params_fault(r->params, f, key,
                              "%s starts in contact with %s: %g m apart at (%g, %g) m, where "
-                             "contact holds %g m (contact.gap): move it away by that%s",
-                             all[k].name, all[m].name, d, at[0], at[1], gap, hinge_hint(b));
+                             "contact holds %g m (contact.gap): move it away by that" HINGE_HINT,
+                             all[k].name, all[m].name, d, at[0], at[1], gap);
         }
 }
 
@@ -257,8 +252,8 @@ static void fault_contact(const struct run *r, int k, const char *other, double 
     else
         params_fault(r->params, f, key,
                      "%s starts in contact with %s: %g m apart at (%g, %g, %g) m, where contact "
-                     "holds %g m (contact.gap): move it away by that%s",
-                     name, other, d, at[0], at[1], at[2], gap, hinge_hint(r->scene.bodies + k));
+                     "holds %g m (contact.gap): move it away by that" HINGE_HINT,
+                     name, other, d, at[0], at[1], at[2], gap);
 }
 
 /* A free body in 3D against sides, walls and other bodies at the start. */
@@ -268,14 +263,15 @@ static void check_start3(const struct run *r, const struct sph_params *used, int
     const struct scene *c = &r->scene;
     const struct scene_body *b = c->bodies + k;
     const struct scene_mesh *m = scene_mesh_of(c, MESH_BODY, k);
-    const double gap = scene_contact_of(b).gap * used->dx * (1.0 - 1e-6);
+    const double gap = scene_contact_of(b).gap * used->dx * (1.0 - 1e-6),
+                 least = b->hinge.n > 0 ? gap : -1e-6 * used->dx; /* as check_contacts */
     double at[3] = {0.0, 0.0, 0.0}, size = 0.0;
     char what[96];
     for (int a = 0; a < 3; a++)
         size = fmax(size, m->hi[a] - m->lo[a]);
     for (int i = 0; i < m->mesh.nvertices; i++) {
         const double d = side_distance(c, m->mesh.x[i], what, sizeof what);
-        if (d < gap && !is_held(b, m->mesh.x[i], gap)) {
+        if (d < least && !is_held(b, m->mesh.x[i], gap)) {
             fault_contact(r, k, what, d, gap, m->mesh.x[i], f);
             return;
         }
@@ -287,7 +283,7 @@ static void check_start3(const struct run *r, const struct sph_params *used, int
             continue;
         const double d = mesh_distance(b, m, n, (const double[2]){gap, fmax(size, gap)}, at);
         snprintf(what, sizeof what, "%s", n->name);
-        if (d < gap)
+        if (d < least)
             fault_contact(r, k, what, d, gap, at, f);
     }
 }

@@ -108,8 +108,10 @@ struct walls {
     int beside_capacity;
     double speed;      /* m/s: largest of a body in the next step, a tenth more */
     double dt_contact; /* s: step that contact is made for */
-    double approach[BODIES_MAX][BODIES_MAX + 1]; /* m/s: at the first touch of a pair, last: walls
-                                                    at rest; 0: apart */
+    double approach[BODIES_MAX][BODIES_MAX + 1];  /* m/s: at the first touch of a pair, last: walls
+                                                     at rest; 0: apart */
+    double start_gap[BODIES_MAX][BODIES_MAX + 1]; /* m: contact of a pair that has not parted since
+                                                     the start begins here; INFINITY: it has */
     struct wall_forces forces;
     bool shown;        /* NAME_walls.h5 is written; wall_files.h */
     struct xdmf *view; /* its XDMF file; rank 0 */

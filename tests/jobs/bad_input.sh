@@ -329,8 +329,8 @@ with tank "s/\"b\"/$free; density = 500.0; lines = ( { from = (1, 0.4); to = (1,
 with tank "s/\"b\"/$free; density = 500.0; motion = ( { kind = \"harmonic\"; axis = \"y\"; amplitude = 0.01; period = 0.2; } )/" 'bodies.\[0\].motion.\[0\]: forces move y, too: add it to lock' sph
 with tank "s/\"b\"/$free; density = 500.0; release = -1.0/" 'bodies.release: -1 is not allowed' sph
 with tank "s/\"b\"/$free; density = 500.0/; s/c0 = 30.0/c0 = 30.0; walls = \"ghosts\"/" 'sph.walls: ' sph
-with tank "s/\"b\"/$free; density = 500.0/; s/(0.8, 0.2), (0.8, 0.4), (1.2, 0.4), (1.2, 0.2)/(1.59, 0.2), (1.59, 0.4), (1.99, 0.4), (1.99, 0.2)/" 'bodies.\[0\]: .*starts in contact with wall .*move it away' sph
-with tank "s/\"b\"/$free; density = 500.0/; s/^bodies:  (/bodies: ( { name = \"c\"; points = ((1.21, 0.2), (1.21, 0.4), (1.4, 0.4), (1.4, 0.2)); },/" 'starts in contact with body 1 (c)' sph
+with tank "s/\"b\"/$free; density = 500.0; hinge = { at = (1.7, 0.3); }/; s/(0.8, 0.2), (0.8, 0.4), (1.2, 0.4), (1.2, 0.2)/(1.59, 0.2), (1.59, 0.4), (1.99, 0.4), (1.99, 0.2)/" 'bodies.\[0\]: .*starts in contact with wall .*move it away' sph
+with tank "s/\"b\"/$free; density = 500.0; hinge = { at = (1, 0.3); }/; s/^bodies:  (/bodies: ( { name = \"c\"; points = ((1.21, 0.2), (1.21, 0.4), (1.4, 0.4), (1.4, 0.2)); },/" 'starts in contact with body 1 (c)' sph
 with tank "s/\"b\"/$free; density = 500.0/; s/^walls:   (/walls: ( { points = ((1, 0), (1, 0.3)); },/" 'body 1 (b) cuts wall 1' sph
 with tank 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "x"; amplitude = 0.1; } )/' 'motion.\[0\]: a harmonic term needs an amplitude and a period' sph
 with tank 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "z"; amplitude = 0.1; period = 1.0; } )/' 'motion.\[0\]: axis z in a case of 2 dimensions' sph

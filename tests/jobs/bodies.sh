@@ -245,5 +245,32 @@ sed 's/points = .*; free/points = ((0.55, 0), (0.55, 0.7), (0.65, 0.7), (0.65, 0
 "$b/sph" foot.cfg --check >log.txt 2>&1
 grep -q 'starts in contact with wall 3.*let it stand on a point there' log.txt || bad "a gate on a broad foot: $(tail -n 2 log.txt)"
 
+# What stands on the floor, on the lid of a tank where gravity points up, or lies beside a wall from the start bears its weight
+# less its buoyancy (3 %), where no particle fits below it; a light one comes up (water has to seep
+# below it first) and floats by its density within dx
+cat >stands.cfg <<'EOF'
+format = 1;
+time:    { end = 1; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { max = (1, 0.8); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "below"; level = 0.5; } );
+bodies:  ( { name = "block"; free = true; density = 2000; points = ((0.4, 0), (0.4, 0.2), (0.6, 0.2), (0.6, 0)); } );
+sph:     { dx = 0.0125; };
+output:  { snapshots = false; };
+EOF
+sed 's/(0, -9.81)/(0, 1.62)/; s/max = (1, 0.8)/min = (0, -0.8); max = (1, 0)/; s/y_min/y_max/; s/0.2), (0.6, 0.2)/-0.2), (0.6, -0.2)/; s/((0.4, 0), (0.4, -0.2), (0.6, -0.2), (0.6, 0))/((0.4, -0.2), (0.4, 0), (0.6, 0), (0.6, -0.2))/' stands.cfg >hangs.cfg
+sed 's/level = 0.5/level = 0.1/' stands.cfg >shallow.cfg
+for name in stands hangs shallow; do run $name $name.cfg; done
+bears() { awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /block contact/) c = i; next } $1 > 0.7 { s += $c; n++ } END { print s / n }' "$1/series.csv"; }
+stands=$(bears stands) hangs=$(bears hangs) shallow=$(bears shallow)
+holds "($stands / 392.4 - 1)^2 < 0.03^2" || bad "a block on the floor under water bears $stands for 392.4 N"
+holds "($hangs / 64.8 - 1)^2 < 0.03^2" || bad "a block under a lid, gravity upwards, bears $hangs for 64.8 N"
+holds "($shallow / 588.6 - 1)^2 < 0.03^2" || bad "a block half under water bears $shallow for 588.6 N"
+sed 's/density = 2000/density = 500/; s/dx = 0.0125/dx = 0.02/; s/end = 1/end = 4/; s/((0.4, 0), (0.4, 0.2), (0.6, 0.2), (0.6, 0))/((0.35, 0), (0.35, 0.1), (0.65, 0.1), (0.65, 0))/' stands.cfg >rises.cfg
+run rises rises.cfg
+draught=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /block y /) y = i; next } $1 > 3 { s += $y; n++ } END { print 0.5 - s / n }' rises/series.csv)
+holds "($draught - 0.015)^2 < 0.02^2" || bad "the middle of a light block lies $draught m under the first level instead of 0.015"
+
 echo "bodies: block $low, $high N/m; in a gap $lift, $side N/m; rebound $up, in 3D $up3; momentum $defect, $defect3; $failed faults"
 [ $failed = 0 ]
