@@ -18,6 +18,7 @@
 #include "output/mesh_output.h"
 #include "output/output.h"
 #include "output/report.h"
+#include "surface/fraction.h"
 #include "surface/levelset.h"
 #include "surface/surface_forced.h"
 #include "time/newton.h"
@@ -80,8 +81,10 @@ static void describe(const struct run *r)
                     : "periodic");
     log_uses(uses, (int)(sizeof uses / sizeof *uses));
     blocked_describe(r);
-    if (water)
+    if (water) {
+        fraction_describe(r, prm, NULL, least);
         openings_describe(&r->scene);
+    }
     if (prm->graded[1] > 0.0)
         describe_rows(r);
     log_say("%.0f cells, h %g m; about %.0f MB", cells, least, 8e-6 * cells * fields + 1.0);

@@ -43,6 +43,25 @@ int still_upright(const struct scene *scene)
     return up;
 }
 
+static double size_of(const double still[3])
+{
+    return sqrt(still[0] * still[0] + still[1] * still[1] + still[2] * still[2]);
+}
+
+bool still_leans(const double still[3])
+{
+    const double g = size_of(still);
+    bool leans = false;
+    for (int a = 0; a < 3; a++)
+        leans = leans || (fabs(still[a]) > 1e-3 * g && fabs(still[a]) < (1.0 - 1e-6) * g);
+    return leans;
+}
+
+bool still_creeps(const double still[3], double nu, double h)
+{
+    return nu * nu > 100.0 * size_of(still) * h * h * h;
+}
+
 double fv_still_pressure(const struct fv *s, const double *x)
 {
     return still_pressure(&s->run->scene, s->still, s->level, x);

@@ -18,6 +18,10 @@ double fv_still_in_exact(const struct fv *s, const double *x);
 void still_split(const struct scene *scene, double drive[3], double still[3], double *level);
 /* Axis along which the gravity that the pressure takes up is strongest; without any the last. */
 int still_upright(const struct scene *scene);
+/* Whether it is neither along an axis nor across all others. */
+bool still_leans(const double still[3]);
+/* Whether viscosity nu moves water over h (m) faster than it does: nu/(h sqrt(g h)) above 10. */
+bool still_creeps(const double still[3], double nu, double h);
 /* That pressure at x, Pa. */
 double still_pressure(const struct scene *scene, const double still[3], double level,
                       const double *x);

@@ -19,6 +19,7 @@
 #include "../boundary/still.h"
 #include "../grid/mesh_motion.h"
 #include "../grid/overset.h"
+#include "../surface/fraction.h"
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
 
@@ -483,6 +484,8 @@ void mesh_describe(const struct run *r, const struct fv_params *prm)
     }
     if (m) {
         describe_scene(r, prm, m);
+        if (prm->water)
+            fraction_describe(r, prm, m, least_height(m));
         describe_step(r, prm, m);
     }
     mesh_leave(&m);

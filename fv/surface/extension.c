@@ -11,6 +11,7 @@
 #include "../../common/base/mem.h"
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
+#include "../boundary/still.h"
 #include "lanes.h"
 #include "mesh_view.h"
 
@@ -339,13 +340,6 @@ static void make_room(struct surface *f, int64_t n, int64_t ngrad)
     }
 }
 
-bool surface_creeps(const struct fv *s, double h)
-{
-    const double *g = s->still;
-    const double fall = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
-    return s->nu * s->nu > 100.0 * sqrt(fall) * h * h * h;
-}
-
 /* Gradient at the foot point by a quadratic without condition, from the frame to the axes. Linear
  * where a quadratic's makes rough water grow: where index lines slant waves of a few cells at rest,
  * where water creeps what viscosity makes at the edge of a column (honey, 20 x 20 cells of 1 mm:
@@ -356,7 +350,8 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
     static const double origin[3] = {0.0, 0.0, 0.0};
     struct least_squares q;
     const int dim = s->dim,
-              order = surface_leans(s, p->part) || surface_creeps(s, p->spacing) ? 1 : 2;
+              order =
+                  surface_leans(s, p->part) || still_creeps(s->still, s->nu, p->spacing) ? 1 : 2;
     double e[TERMS] = {0.0}, w[3][STENCIL];
     memset(grad, 0, sizeof(double) * (size_t)(dim * p->n));
     if (fit(s, p, order, false, origin, &q) == 0)

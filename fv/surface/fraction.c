@@ -8,27 +8,60 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/log.h"
 #include "../../common/base/mem.h"
+#include "../boundary/still.h"
 #include "levelset.h"
 #include "mesh_view.h"
 #include "plane.h"
 
 static const int none[3] = {0, 0, 0};
 
-bool fraction_possible(const struct fv *s)
+/* 1: some part of this rank has cells that are not upright. */
+static bool any_curved(const struct mesh *m)
 {
-    bool possible = !s->moving && !s->surface->forced && !s->surface->leans &&
-                    !(s->m && s->m->has_fringe) &&
-                    !(s->surface->g > 0.0 && surface_creeps(s, s->surface->least));
-    for (int q = 0; s->m && q < s->nparts; q++)
-        possible = possible && s->part[q].kind != PART_CURVED;
-    MPI_Allreduce(MPI_IN_PLACE, &possible, 1, MPI_C_BOOL, MPI_LAND, s->comm);
-    return possible;
+    bool curved = false;
+    for (int q = 0; q < m->nparts; q++)
+        curved = curved || m->part[q].kind == PART_CURVED;
+    MPI_Allreduce(MPI_IN_PLACE, &curved, 1, MPI_C_BOOL, MPI_LOR, m->comm);
+    return curved;
+}
+
+const char *fraction_obstacle(const struct run *r, const struct mesh *m, double least)
+{
+    double drive[3], still[3] = {0.0, 0.0, 0.0}, level;
+    still_split(&r->scene, drive, still, &level);
+    if (r->crossed)
+        return "a partner has part of the water";
+    if (m && m->moves)
+        return "blocks move";
+    if (m && m->has_fringe)
+        return "blocks overlap";
+    if ((m && any_curved(m)) || still_leans(still))
+        return "cells are not upright";
+    const bool falls = still[0] != 0.0 || still[1] != 0.0 || still[2] != 0.0;
+    if (falls && still_creeps(still, r->scene.fluid.nu, least))
+        return "the water creeps: nu/(h sqrt(g h)) is above 10";
+    return NULL;
+}
+
+void fraction_describe(const struct run *r, const struct fv_params *prm, const struct mesh *m,
+                       double least)
+{
+    const char *why =
+        prm->volume == VOLUME_SHIFT ? "fv.volume says so" : fraction_obstacle(r, m, least);
+    if (!why)
+        log_say("water is kept where it is: the fluxes carry the share of it in each cell");
+    else if (prm->volume == VOLUME_FRACTION)
+        log_warn("fv.volume: fraction is not to be had, shift is used: %s", why);
+    else
+        log_say("water is kept as a whole: a shift of the level set puts back what is lost (%s)",
+                why);
 }
 
 bool fraction_wanted(const struct fv *s)
 {
-    return s->prm.volume != VOLUME_SHIFT && fraction_possible(s);
+    return s->prm.volume != VOLUME_SHIFT && !fraction_obstacle(s->run, s->m, s->surface->least);
 }
 
 double fraction_size(const struct fv *s, int64_t c, int a)

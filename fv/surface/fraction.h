@@ -30,10 +30,15 @@ struct fraction {
     double excess;       /* m^dim: what the projection left, of this advance and rank */
 };
 
-/* Whether the cells can have it: upright ones at rest that do not overlap. Creeping water cannot:
- * it breaks nothing off, and what the shares make phi rough by grows at steps of its viscosity. */
-bool fraction_possible(const struct fv *s);
-/* Whether the case asks for it, and they can. */
+/* What keeps a scene from having it, m (blocks) NULL: even cells; least: smallest size of a cell,
+ * m; NULL: nothing, cells are upright, at rest and do not overlap. Creeping water cannot: it breaks
+ * nothing off, and what the shares make phi rough by grows at steps of its viscosity. Collective.
+ */
+const char *fraction_obstacle(const struct run *r, const struct mesh *m, double least);
+/* Says how the water is kept, and why so. */
+void fraction_describe(const struct run *r, const struct fv_params *prm, const struct mesh *m,
+                       double least);
+/* Whether the case asks for it, and nothing does. Collective. */
 bool fraction_wanted(const struct fv *s);
 /* Shares of the present phi, which they follow. */
 void fraction_start(struct fv *s);

@@ -11,6 +11,7 @@
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
+#include "../boundary/still.h"
 #include "mesh_view.h"
 #include "plane.h"
 #include "weno.h"
@@ -421,9 +422,9 @@ static void fill_blocks(const struct fv *s, const struct surface_mesh *w, double
 static void set_sizes(const struct block *b, const double *g, struct surface *f)
 {
     f->least = f->across = INFINITY;
+    f->leans = still_leans(g);
     for (int a = 0; a < b->dim; a++) {
         const double along = fabs(g[a]);
-        f->leans = f->leans || (along > 1e-3 * f->g && along < (1.0 - 1e-6) * f->g);
         if (along < 0.7 * f->g)
             f->across = fmin(f->across, b->h[a]);
         f->least = fmin(f->least, b->h[a]);

@@ -151,9 +151,6 @@ double surface_distortion(const struct fv *s);
 void extension_build(struct fv *s);
 /* Whether a cell holds nothing: behind sides, in boxes and holes. */
 bool surface_holds_none(const struct fv *s, int64_t c);
-/* Whether viscosity moves the water over a cell of size h (m) faster than gravity does:
- * nu/(h sqrt(g h)) above 10. */
-bool surface_creeps(const struct fv *s, double h);
 enum extend {
     EXTEND_FREE,  /* goes on as it comes */
     EXTEND_SHEAR, /* no shear stress at the surface; takes note of the normal one */

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
 #include "../../common/base/mem.h"
 #include "../boundary/bc.h"
 #include "../boundary/carried.h"
@@ -175,19 +174,10 @@ void surface_outline_moved(struct fv *s, double before)
     rebuild(s);
 }
 
-#define SHIFTED                                                                                    \
-    "the level set is shifted as a whole: the share of water of each cell needs upright cells "    \
-    "that do not move, without overlaps and partners, and water that does not creep "              \
-    "(nu/(h sqrt(g h)) at most 10)"
-
 void surface_start(struct fv *s)
 {
     struct surface *f = s->surface;
     close_cells(s);
-    if (s->prm.volume == VOLUME_FRACTION && !fraction_possible(s))
-        log_warn("fv.volume: " SHIFTED);
-    else if (s->prm.volume == VOLUME_AUTO && !fraction_possible(s))
-        log_say("volume     " SHIFTED);
     if (fraction_wanted(s)) {
         fraction_start(s);
         f->fraction->carries = !fraction_is_calm(s);

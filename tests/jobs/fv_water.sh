@@ -20,5 +20,22 @@ done
 near "$(number fraction volume_returned)" 0 0.001 || bad "$(number fraction volume_returned) of the water put back" fraction.txt
 near "$(last fraction/series.csv left)" "$(last fraction/series.csv right)" 0.025 ||
     bad "levels left and right: $(last fraction/series.csv left), $(last fraction/series.csv right) m"
+# the check says how, and why not otherwise
+how() { # CASE ARGUMENTS...: what it says
+    "$b/fv" "$@" --check 2>&1 | sed -n 's/^.*water is kept //p; s/^warning: fv.volume: //p'
+}
+heaving=$root/cases/heaving_cylinder_fv/case.cfg half=$root/cases/half_cylinder_fv/case.cfg
+expect() { # WORDS CASE ARGUMENTS...
+    words=$1
+    shift
+    case $(how "$@") in $words*) ;; *) bad "$*: $(how "$@"), not $words" ;; esac
+}
+expect 'where it is' column.cfg
+expect 'as a whole*(fv.volume says so)' column.cfg -p fv.volume=shift
+expect 'as a whole*(the water creeps' column.cfg -p fluid.nu=10
+expect 'as a whole*(cells are not upright)' column.cfg -p 'fluid.gravity=(3, -9)'
+expect 'as a whole*(blocks move)' "$heaving"
+expect 'as a whole*(blocks overlap)' "$half"
+expect 'fraction is not to be had*blocks move' "$heaving" -p fv.volume=fraction
 echo "fv_water: put back $(number shift volume_returned) with shifts, $(number fraction volume_returned) with shares; $failed faults"
 [ $failed = 0 ]
