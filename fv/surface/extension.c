@@ -487,15 +487,20 @@ bool surface_holds_none(const struct fv *s, int64_t c)
     return s->m ? s->surface->mesh->out[c] : s->surface->closed[c];
 }
 
+/* h: what the surface may stand below a wet centre. Rounding along level water that stands at
+ * centres would make wet and dry ones in turns. */
+#define ON_CENTRE 1e-6
+
 /* Layers by spreading over faces and corners from the wet cells, along one axis after the other;
  * cells behind closed sides and deep in a hole do not count. */
 static void find_layers(struct fv *s)
 {
     struct surface *f = s->surface;
     double *field = f->rate, *wall = f->kept;
+    const double level = ON_CENTRE * f->least;
     for (int64_t c = 0; c < s->size; c++) {
         wall[c] = surface_holds_none(s, c) ? 1.0 : 0.0;
-        field[c] = f->phi[c] < 0.0 && wall[c] == 0.0 ? 0.0 : DEEP;
+        field[c] = f->phi[c] < level && wall[c] == 0.0 ? 0.0 : DEEP;
     }
     for (int l = 1; l <= LAYERS; l++) {
         share(s, field);

@@ -25,13 +25,20 @@ static void look(const struct surface *f, const struct carry *x, int dim, double
     }
 }
 
-/* No more than half as much again beyond what the stencil has, nothing far from the water. */
+/* No more than half as much again beyond what the stencil has, nothing far from the water. A film
+ * over a wall is slower in the second layer than all of it, by three times as much where the
+ * surface lies just above a wet centre; slower, but not the other way, needs no bound. */
 static double within(const double *v, int n, int layer, double value)
 {
     double low, high;
     lanes_bounds(v, n, &low, &high);
-    const double more = layer <= 2 ? 0.5 * (high - low) : 0.0;
-    return fmax(low - more, fmin(high + more, value));
+    const double range = high - low, more = layer <= 2 ? 0.5 * range : 0.0;
+    double least = low - more, most = high + more;
+    if (layer == 2) {
+        least = fmin(least, fmax(0.0, low - 3.0 * range));
+        most = fmax(most, fmin(0.0, high + 3.0 * range));
+    }
+    return fmax(least, fmin(most, value));
 }
 
 /* Normal derivatives of the components for a cell of the first layer; n.(D n) to stress. */

@@ -72,7 +72,7 @@ static void add_cut(struct fv *s, int a, int64_t face, int64_t d)
                     .wet = here ? face : face - d,
                     .dry = here ? face - d : face,
                     .up = here ? -1.0 : 1.0};
-    const double theta = f->phi[x.wet] / (f->phi[x.wet] - f->phi[x.dry]);
+    const double inside = fmin(0.0, f->phi[x.wet]), theta = inside / (inside - f->phi[x.dry]);
     double at[3], e[3];
     for (int k = 0; k < 3; k++) {
         e[k] = w->x[k][x.dry] - w->x[k][x.wet];

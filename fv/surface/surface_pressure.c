@@ -36,7 +36,7 @@ static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
                     .wet = wet_here ? face : face - d,
                     .dry = wet_here ? face - d : face,
                     .up = wet_here ? -1.0 : 1.0};
-    const double theta = f->phi[x.wet] / (f->phi[x.wet] - f->phi[x.dry]);
+    const double inside = fmin(0.0, f->phi[x.wet]), theta = inside / (inside - f->phi[x.dry]);
     double at_surface[3], e[3] = {0.0, 0.0, 0.0};
     e[a] = x.up;
     block_centre(b, at[0], at[1], at[2], at_surface);

@@ -350,6 +350,36 @@ static void films_run_as_theory_says(void **state)
     }
 }
 
+/* Films down a slope of 30 degrees, from the middle of one cell to the middle of the next but one,
+ * level with a centre, too: each rubs by its weight, alike all along. */
+static void thin_films_rub_at_any_level(void **state)
+{
+    static const double cells[] = {1.8, 2.0, 2.25, 2.5, 2.6, 2.75, 3.0, 3.25, 3.5, 3.6};
+    (void)state;
+    for (size_t k = 0; k < sizeof cells / sizeof *cells; k++) {
+        struct fv_case c;
+        double force[3];
+        fv_case_set(&c, MPI_COMM_SELF,
+                    (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"rest\"",
+                                          "fluid.nu=0.5", "domain.periodic=(true,false)",
+                                          "fv.cells=(8,10)", NULL});
+        c.run.scene.fluid.gravity[0] = 0.5;
+        c.run.scene.fluid.gravity[1] = -sqrt(0.75);
+        c.run.scene.walls[0] = (struct scene_wall){.side = SIDE_Y_MIN, .kind = WALL_NO_SLIP};
+        c.run.scene.walls[1] = (struct scene_wall){.side = SIDE_Y_MAX, .kind = WALL_SLIP};
+        c.run.scene.nwalls = 2;
+        c.run.scene.shapes[c.run.scene.nshapes++] =
+            (struct scene_shape){.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, 0.1 * cells[k], 0}}};
+        struct fv *s = fv_case_start(&c, NULL);
+        assert_true(fv_case_run(&c, 4000, 2.0));
+        fv_wall_force(s, force);
+        print_message("film of %g cells: friction %.6f of its weight\n", cells[k],
+                      force[0] / (0.05 * cells[k]));
+        assert_close(force[0] / (0.05 * cells[k]), 1.0, 1e-3);
+        fv_free(&c.s);
+    }
+}
+
 /* A wedge of 45 degrees: its foot on the bottom, not where it is half a cell above. */
 static void reach_is_that_on_the_wall(void **state)
 {
@@ -750,6 +780,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(axes_are_alike),
                                        cmocka_unit_test(reach_is_that_on_the_wall),
                                        cmocka_unit_test(films_run_as_theory_says),
+                                       cmocka_unit_test(thin_films_rub_at_any_level),
                                        cmocka_unit_test(still_water_stays_on_graded_rows),
                                        cmocka_unit_test(disc_sinks_through_graded_rows),
                                        cmocka_unit_test(currents_pass_openings),
