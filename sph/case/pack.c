@@ -11,8 +11,7 @@
 #include "../../common/base/log.h"
 #include "../../common/base/mem.h"
 #include "../../common/scene/scene_mesh.h"
-#include "../pairs/kernel.h"
-#include "../pairs/neighbours.h"
+#include "../pairs/kernel_sums.h"
 #include "../sph.h"
 #include "../surface/surface.h"
 #include "../time/integrate.h"
@@ -57,21 +56,6 @@ static void move(struct sph *s, double dt)
     s->lists.ready = false;
 }
 
-static double kernel_sum(const struct sph *s, int i)
-{
-    const int dim = s->dim, *j = s->list->j + s->list->start[i];
-    const double *x = prim_line(&s->p, i);
-    double sum = x[at_volume(dim)] * kernel_w0(dim, s->R);
-    for (int k = 0; k < s->list->count[i]; k++) {
-        const double *q = prim_line(&s->p, j[k]);
-        double r2 = 0.0;
-        for (int a = 0; a < dim; a++)
-            r2 += (q[a] - x[a]) * (q[a] - x[a]);
-        sum += q[at_volume(dim)] * kernel_w(dim, sqrt(r2), s->R);
-    }
-    return sum;
-}
-
 /* Root of the mean square of R times the crowding vector of those within R of meshes: the shift is
  * 2 U R of it, at most U/4. Collective. */
 static double crowding(const struct sph *s)
@@ -96,26 +80,13 @@ static bool is_settled(const struct sph *s, int step, double past[5])
     return now < 0.04 || (step >= 5 && now > 0.9 * before);
 }
 
-/* sum dx^D W over a lattice, which differs from 1 by the error of the quadrature: 1.0012 in 2D with
- * R = 4 dx. */
-static double lattice_sum(const struct sph *s)
-{
-    const int n = (int)(s->R / s->dx) + 1, deep = s->dim == 3 ? n : 0;
-    double sum = 0.0;
-    for (int k = -deep; k <= deep; k++)
-        for (int j = -n; j <= n; j++)
-            for (int i = -n; i <= n; i++)
-                sum += kernel_w(s->dim, s->dx * sqrt(i * i + j * j + k * k), s->R);
-    return sum * s->dxD;
-}
-
 /* Away from a free surface w = dx^D gamma / sum dx^D W; the mass follows. With volumes dx^D after
  * noise the kernel sums are not even, and as transport evens them out later, volumes follow and the
  * pressure's level goes (by -0.9 rho U^2 in Taylor-Green flow from noise of 0.3 dx). Beside a
  * lattice that stays as it is, its sum counts. */
 static void set_volumes(struct sph *s)
 {
-    const double whole = s->walls && !by_meshes(s) ? 1.0 : lattice_sum(s);
+    const double whole = s->walls && !by_meshes(s) ? 1.0 : kernel_lattice_sum(s);
     double *gamma = NEW(double, s->p.n);
     for (int i = 0; i < s->p.n; i++)
         gamma[i] = 1.0;

@@ -26,6 +26,7 @@
 #include "../refinement/refinement.h"
 #include "../sph.h"
 #include "../surface/surface.h"
+#include "../surface/volume_feedback.h"
 #include "../time/integrate.h"
 #include "../time/runge_kutta.h"
 #include "../walls/walls.h"
@@ -152,6 +153,17 @@ static bool is_dry(const struct sph *s)
     return n == 0 && !s->zones;
 }
 
+/* Four times: volumes beside each other depend on each other. */
+static void fill_volumes(struct sph *s)
+{
+    for (int k = 0; k < 4; k++) {
+        if (k > 0)
+            integrate_gradients(s);
+        if (!volume_feedback_fill(s))
+            return;
+    }
+}
+
 struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f)
 {
     struct sph *s = create_level(r, prm, NULL);
@@ -182,6 +194,7 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
         fill_finer(s, fill);
     fill_free(&fill);
     integrate_start(s);
+    fill_volumes(s);
     remember_start(s);
     return s;
 }

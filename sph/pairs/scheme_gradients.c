@@ -18,6 +18,7 @@ struct gradient_constants {
     double kernel;    /* |W'|/r = kernel t^3, t = 1 - r/R */
     double W[2];      /* W/W(dx) = t^4 (W[0] - W[1] t) */
     double near;      /* R/R_delta of the law of Oger */
+    double W0, Wdx;   /* W(0), W(dx) */
     double smoothed;  /* of X-SPH: 2 eps W(0) */
 };
 
@@ -34,6 +35,7 @@ struct gradient_sums {
     vec rho[3];  /* (rho_j - rho_i) d_b */
     vec u[3][3]; /* (u_j - u_i)_a d_b */
     vec n[3];    /* crowding */
+    vec W;       /* W/W(dx), where volumes follow it */
 };
 
 /* Short loops instead of one: the square root is under way for several vectors at once. */
@@ -54,20 +56,22 @@ INLINE void geometry(const struct gradient_constants *c, const double *i, const 
     }
 }
 
-/* Weight of x_j - x_i in the crowding vector, over w0 and the kernel's constant. */
-INLINE vec crowding(const struct gradient_constants *c, vec t, const int transport)
+/* Weight of x_j - x_i in the crowding vector, over w0 and the kernel's constant; of the law over
+ * the whole support W/W(dx), too. */
+INLINE vec crowding(const struct gradient_constants *c, vec t, const int transport, vec *W_dx)
 {
     if (transport == TRANSPORT_TVO) { /* the kernel of radius R_delta <= R */
         const vec q = vec_max((1.0 - c->near) + c->near * t, vec_all(0.0));
         return q * q * q;
     }
     const vec t2 = t * t, t3 = t2 * t, W = t2 * t2 * (c->W[0] - c->W[1] * t), W2 = W * W;
+    *W_dx = W;
     return t3 + 0.2 * t3 * (W2 * W2);
 }
 
 INLINE void add(const struct gradient_constants *c, const double *i, const double *prim,
                 const int *j, const struct gradient_batch *near, struct gradient_sums *s,
-                const int dim, const int transport, const bool velocity)
+                const int dim, const int transport, const bool velocity, const bool filled)
 {
     for (int k = 0; k < near->n; k++, j += LANES) {
         const vec t = near->t[k];
@@ -101,9 +105,12 @@ INLINE void add(const struct gradient_constants *c, const double *i, const doubl
                 s->M[m++] += d[a] * gd;
         }
         if (transport == TRANSPORT_TVS || transport == TRANSPORT_TVO) {
-            const vec weight = crowding(c, t, transport);
+            vec W;
+            const vec weight = crowding(c, t, transport, &W);
             for (int a = 0; a < dim; a++)
                 s->n[a] += weight * d[a];
+            if (filled)
+                s->W += W * w;
         }
     }
 }
@@ -173,7 +180,7 @@ INLINE void invert(const double *M, double B[3][3], const int dim)
 
 /* Sums over neighbours, over the lanes too. */
 struct totals {
-    double M[6], rho[3], u[3][3], n[3];
+    double M[6], rho[3], u[3][3], n[3], W;
 };
 
 /* What a variant has not summed is left out by the compiler. */
@@ -182,11 +189,12 @@ INLINE struct totals total(const struct gradient_sums *s, const int dim)
     const vec none = vec_all(0.0);
     struct totals t;
     if (dim == 2) {
-        const vec4 M = vec_sums(s->M[0], s->M[1], s->M[2], none);
+        const vec4 M = vec_sums(s->M[0], s->M[1], s->M[2], s->W);
         const vec4 f = vec_sums(s->rho[0], s->rho[1], s->n[0], s->n[1]);
         const vec4 u = vec_sums(s->u[0][0], s->u[0][1], s->u[1][0], s->u[1][1]);
         for (int a = 0; a < 3; a++)
             t.M[a] = M[a];
+        t.W = M[3];
         for (int a = 0; a < 2; a++) {
             t.rho[a] = f[a];
             t.n[a] = f[2 + a];
@@ -203,9 +211,10 @@ INLINE struct totals total(const struct gradient_sums *s, const int dim)
     t.M[4] = rho[3];
     t.M[5] = n[3];
     for (int a = 0; a < 3; a++) {
-        const vec4 u = vec_sums(s->u[a][0], s->u[a][1], s->u[a][2], none);
+        const vec4 u = vec_sums(s->u[a][0], s->u[a][1], s->u[a][2], a == 0 ? s->W : none);
         t.rho[a] = rho[a];
         t.n[a] = n[a];
+        t.W = a == 0 ? u[3] : t.W;
         for (int b = 0; b < 3; b++)
             t.u[a][b] = u[b];
     }
@@ -248,7 +257,7 @@ INLINE void shift(const struct sph *s, double *delta, const double *u, const dou
 
 INLINE void write_slope(const struct sph *s, const struct gradient_constants *c,
                         const struct gradient_sums *sum, int i, const int dim, const int transport,
-                        const bool velocity)
+                        const bool velocity, const bool filled)
 {
     const double *u = prim_line(&s->p, i) + dim;
     double *slope = slope_line(&s->p, i), *u0 = slope + dim + dim * dim;
@@ -258,6 +267,8 @@ INLINE void write_slope(const struct sph *s, const struct gradient_constants *c,
         t.M[k] *= c->kernel;
     if (s->surface && !s->surface->known)
         unpack(t.M, s->surface->M + (ptrdiff_t)(dim * dim) * i, dim);
+    if (filled)
+        s->surface->change[i] = u[at_volume(dim) - dim] * c->W0 + c->Wdx * t.W;
     invert(t.M, B, dim);
     renormalise(slope, t.rho, B, c->kernel, dim);
     for (int a = 0; a < dim && velocity; a++)
@@ -271,7 +282,8 @@ INLINE void write_slope(const struct sph *s, const struct gradient_constants *c,
         u0[a] = transport == TRANSPORT_EULERIAN ? 0.0 : u[a] + delta[a];
 }
 
-INLINE void pass(struct sph *s, const int dim, const int transport, const bool velocity)
+INLINE void pass(struct sph *s, const int dim, const int transport, const bool velocity,
+                 const bool filled)
 {
     const struct neighbours *l = s->list;
     const double R = s->R, Wdx = kernel_w(dim, s->dx, R) / kernel_w0(dim, R);
@@ -280,6 +292,8 @@ INLINE void pass(struct sph *s, const int dim, const int transport, const bool v
                                          .kernel = -kernel_dw_r(dim, 0.0, R),
                                          .W = {5.0 / Wdx, 4.0 / Wdx},
                                          .near = R / oger_radius(s),
+                                         .W0 = kernel_w0(dim, R),
+                                         .Wdx = kernel_w(dim, s->dx, R),
                                          .smoothed = kernel_w0(dim, R)}; /* 2 eps = 1 */
     for (int k = l->begin; k < l->end; k++) {
         const int i = neighbours_row(l, k);
@@ -290,20 +304,32 @@ INLINE void pass(struct sph *s, const int dim, const int transport, const bool v
             struct gradient_batch near;
             near.n = left < BATCH ? left : BATCH;
             geometry(&c, own, s->p.prim, j, &near, dim);
-            add(&c, own, s->p.prim, j, &near, &sum, dim, transport, velocity);
+            add(&c, own, s->p.prim, j, &near, &sum, dim, transport, velocity, filled);
             j += BATCH * LANES;
         }
-        write_slope(s, &c, &sum, i, dim, transport, velocity);
+        write_slope(s, &c, &sum, i, dim, transport, velocity, filled);
     }
 }
 
+/* Whether the surface is yet to be found, where volumes follow kernel sums. */
+static bool asks_how_filled(const struct sph *s)
+{
+    return s->surface && s->surface->follows && !s->surface->known;
+}
+
 #define LAWS(dim)                                                                                  \
-    static void tvs_##dim(struct sph *s) { pass(s, dim, TRANSPORT_TVS, true); }                    \
-    static void tvo_##dim(struct sph *s) { pass(s, dim, TRANSPORT_TVO, true); }                    \
-    static void none_##dim(struct sph *s) { pass(s, dim, TRANSPORT_NONE, true); }                  \
-    static void eulerian_##dim(struct sph *s) { pass(s, dim, TRANSPORT_EULERIAN, true); }          \
-    static void xsph_##dim(struct sph *s) { pass(s, dim, TRANSPORT_XSPH, true); }                  \
-    static void density_##dim(struct sph *s) { pass(s, dim, TRANSPORT_NONE, false); }
+    static void tvs_##dim(struct sph *s)                                                           \
+    {                                                                                              \
+        if (asks_how_filled(s))                                                                    \
+            pass(s, dim, TRANSPORT_TVS, true, true);                                               \
+        else                                                                                       \
+            pass(s, dim, TRANSPORT_TVS, true, false);                                              \
+    }                                                                                              \
+    static void tvo_##dim(struct sph *s) { pass(s, dim, TRANSPORT_TVO, true, false); }             \
+    static void none_##dim(struct sph *s) { pass(s, dim, TRANSPORT_NONE, true, false); }           \
+    static void eulerian_##dim(struct sph *s) { pass(s, dim, TRANSPORT_EULERIAN, true, false); }   \
+    static void xsph_##dim(struct sph *s) { pass(s, dim, TRANSPORT_XSPH, true, false); }           \
+    static void density_##dim(struct sph *s) { pass(s, dim, TRANSPORT_NONE, false, false); }
 
 LAWS(2)
 LAWS(3)

@@ -15,8 +15,11 @@ struct free_surface {
     double *normal;    /* [n][dim] out of the fluid: on and near the surface, else 0 */
     double *M, *g;     /* [n][dim^2], [n][dim] moments with wall terms */
     double *lambda;    /* [n] smallest eigenvalue of M; 1 where there are neighbours enough */
-    double reach;      /* m: near is within this of a particle on the surface */
-    bool known;        /* detected for the present places; else the first pass fills M */
+    double *change; /* [n] volume_feedback.h: sum w W of the first pass, then 1/s; if `follows' */
+    int change_capacity;
+    bool follows;
+    double reach; /* m: near is within this of a particle on the surface */
+    bool known;   /* detected for the present places; else the first pass fills M */
 };
 
 /* NULL: no free surface in the scene. */

@@ -13,6 +13,7 @@
 #include "../refinement/guards.h"
 #include "../refinement/mixed.h"
 #include "../surface/surface.h"
+#include "../surface/volume_feedback.h"
 #include "../walls/walls.h"
 #include "runge_kutta.h"
 
@@ -54,6 +55,7 @@ void level_prepare(struct sph *s)
     if (s->surface) {
         surface_room(s->surface, s->p.n, s->dim);
         s->surface->known = false;
+        volume_feedback_prepare(s);
     }
     s->lists.sloped = false;
     s->lists.ready = true;
@@ -103,6 +105,7 @@ static void finish_slopes(struct sph *s)
     if (s->surface && !s->surface->known) {
         start(s, "surface");
         surface_detect(s);
+        volume_feedback_find(s);
         stop(s, "surface");
     }
     if (s->walls)
@@ -191,6 +194,8 @@ void level_rates(struct sph *s)
         at_walls(s, w->rates);
         sph_watch_after_walls(s);
     }
+    if (s->surface)
+        volume_feedback_add(s);
     if (s->central > 0.0)
         add_central(s);
     if (s->guards)

@@ -14,6 +14,7 @@
 #include "../particles/eos.h"
 #include "forces.h"
 #include "wall_gap.h"
+#include "wall_layers.h"
 #include "wall_list.h"
 
 #define INLINE static inline __attribute__((always_inline))
@@ -25,6 +26,7 @@ static const double least_gamma = 0.2; /* of corners below 72 degrees: 15 ran aw
 struct nfm {
     struct wall_list list;
     double crowding[RATIOS + 1]; /* see tabulate */
+    double *room;                /* [RATIOS + 1] wall_layers.h; NULL until somebody asks */
     /* With levels [touches of list]: whether its force counts, see judge; of this list. */
     bool judged, *pushes;
     int pushes_capacity, q_capacity;
@@ -63,6 +65,7 @@ static void nfm_destroy(void *state)
     struct nfm *m = state;
     wall_list_free(&m->list);
     mem_free(m->pushes);
+    mem_free(m->room);
     mem_free(m->q);
     mem_free(m);
 }
@@ -122,6 +125,14 @@ static double share_that_pushes(const struct sph *s, const struct nfm *m, int k)
     return all > 0.0 ? gamma_of_pushing(s, m, k) / all : 0.0;
 }
 
+/* Of a table over distances from 0 to R, in units of R. */
+static double ratio_at(const double *table, double distance)
+{
+    const double at = RATIOS * fmin(distance, 1.0);
+    const int k = at < RATIOS ? (int)at : RATIOS - 1;
+    return table[k] + (at - k) * (table[k + 1] - table[k]);
+}
+
 /* int G dS of one piece, G the function of the crowding vector: by the ratio of a plane as far away
  * as the piece, or for Oger's, whose support is shorter, the kernel of that. */
 static double crowding(const struct sph *s, const struct nfm *m, const struct wall_touch *t,
@@ -129,9 +140,7 @@ static double crowding(const struct sph *s, const struct nfm *m, const struct wa
 {
     if (s->prm.transport == TRANSPORT_TVO)
         return wall_list_weight(s, &m->list, t, x, fmin(2.0 * s->dx, s->R));
-    const double at = RATIOS * fmin(t->distance / s->R, 1.0);
-    const int k = at < RATIOS ? (int)at : RATIOS - 1;
-    return t->is.W * (m->crowding[k] + (at - k) * (m->crowding[k + 1] - m->crowding[k]));
+    return t->is.W * ratio_at(m->crowding, t->distance / s->R);
 }
 
 /* Marks those whose support meets a wall: where no shift may press them against it. */
@@ -591,6 +600,24 @@ static void gammas(struct sph *s, double *gamma)
         gamma[m->list.who[k]] = m->list.gamma[k];
 }
 
+/* By the ratio of a plane as far away as that of the piece: pieces of one plane, or of one that
+ * bends little, share it. */
+static void rooms(struct sph *s, double *room)
+{
+    struct nfm *m = s->walls->state;
+    const struct wall_list *l = &m->list;
+    if (!m->room) {
+        m->room = NEW(double, RATIOS + 1);
+        wall_layers_rooms(s, RATIOS, m->room);
+    }
+    for (int k = 0; k < l->n; k++) {
+        double *to = room + l->who[k];
+        for (int j = l->first[k]; j < l->first[k + 1]; j++)
+            *to += l->touch[j].is.gamma * ratio_at(m->room, fabs(l->touch[j].height) / s->R);
+        *to = *to > 1.0 + 1e-6 ? *to - 1.0 : *to; /* as gamma */
+    }
+}
+
 static void back(struct sph *s)
 {
     const struct nfm *m = s->walls->state;
@@ -616,5 +643,6 @@ const struct wall_model wall_nfm = {.name = "normal_flux_walls",
                                     .rates = rates,
                                     .moments = moments,
                                     .gammas = gammas,
+                                    .rooms = rooms,
                                     .back = back,
                                     .behind = behind};

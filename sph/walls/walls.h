@@ -65,6 +65,8 @@ struct wall_model {
      * gamma [4.86-4.87]. */
     void (*moments)(struct sph *s, double *M, double *g);
     void (*gammas)(struct sph *s, double *gamma); /* Shepard factors of the locals near walls */
+    void (*rooms)(struct sph *s, double *room); /* takes from sum w W over that of a lattice, of the
+                                                   locals, what walls keep out; after moments */
     void (*back)(struct sph *s); /* puts those back that have gone through thin walls */
     int (*behind)(const struct sph *s, int *who); /* lists locals that are behind a wall */
 };

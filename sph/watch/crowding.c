@@ -9,26 +9,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../pairs/kernel.h"
-#include "../pairs/neighbours.h"
+#include "../pairs/kernel_sums.h"
 #include "../sph.h"
 
 static const double overlap = 1.35; /* sum w W that is too much */
-
-static double kernel_sum(const struct sph *s, int i)
-{
-    const double *x = prim_line(&s->p, i);
-    const int *j = s->list->j + s->list->start[i];
-    double sum = x[at_volume(s->dim)] * kernel_w0(s->dim, s->R);
-    for (int k = 0; k < s->list->count[i]; k++) {
-        const double *q = prim_line(&s->p, j[k]);
-        double r2 = 0.0;
-        for (int a = 0; a < s->dim; a++)
-            r2 += (q[a] - x[a]) * (q[a] - x[a]);
-        sum += q[at_volume(s->dim)] * kernel_w(s->dim, sqrt(r2), s->R);
-    }
-    return sum;
-}
 
 struct sph_crowd sph_watch_crowd(const struct sph *s)
 {

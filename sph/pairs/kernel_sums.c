@@ -1,0 +1,33 @@
+/* kernel_sums.c - see kernel_sums.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "kernel_sums.h"
+
+#include <math.h>
+
+#include "kernel.h"
+#include "neighbours.h"
+
+double kernel_sum(const struct sph *s, int i)
+{
+    const int dim = s->dim, *j = s->list->j + s->list->start[i];
+    const double *x = prim_line(&s->p, i);
+    double sum = x[at_volume(dim)] * kernel_w0(dim, s->R);
+    for (int k = 0; k < s->list->count[i]; k++) {
+        const double *q = prim_line(&s->p, j[k]);
+        double r2 = 0.0;
+        for (int a = 0; a < dim; a++)
+            r2 += (q[a] - x[a]) * (q[a] - x[a]);
+        sum += q[at_volume(dim)] * kernel_w(dim, sqrt(r2), s->R);
+    }
+    return sum;
+}
+
+double kernel_lattice_sum(const struct sph *s)
+{
+    const int n = (int)(s->R / s->dx) + 1, deep = s->dim == 3 ? n : 0;
+    double sum = 0.0;
+    for (int k = -deep; k <= deep; k++)
+        for (int j = -n; j <= n; j++)
+            for (int i = -n; i <= n; i++)
+                sum += kernel_w(s->dim, s->dx * sqrt(i * i + j * j + k * k), s->R);
+    return sum * s->dxD;
+}

@@ -1,0 +1,48 @@
+/* wall_layers.c - see wall_layers.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "wall_layers.h"
+
+#include <math.h>
+
+#include "../pairs/kernel.h"
+#include "../pairs/kernel_sums.h"
+
+/* int W dS over the plane at the height h, 1/m. Midpoints. */
+static double over_plane(const struct sph *s, double h)
+{
+    enum { POINTS = 400 };
+    const double R = s->R, half = h < R ? sqrt(R * R - h * h) : 0.0;
+    double sum = 0.0;
+    for (int j = 0; j < POINTS; j++) {
+        const double y = (j + 0.5) / POINTS * half;
+        sum += (s->dim == 3 ? 2.0 * M_PI * y : 2.0) * kernel_w(s->dim, hypot(h, y), R);
+    }
+    return sum * half / POINTS;
+}
+
+/* sum dx^D W over the layer of a lattice at the height h, one of whose places is the foot. */
+static double over_layer(const struct sph *s, double h)
+{
+    const int n = (int)(s->R / s->dx) + 1, deep = s->dim == 3 ? n : 0;
+    double sum = 0.0;
+    for (int k = -deep; k <= deep; k++)
+        for (int j = -n; j <= n; j++)
+            sum += kernel_w(s->dim, sqrt(h * h + s->dx * s->dx * (j * j + k * k)), s->R);
+    return sum * s->dxD;
+}
+
+void wall_layers_rooms(const struct sph *s, int n, double *ratio)
+{
+    enum { FINE = 50 };
+    const double lattice = kernel_lattice_sum(s), step = s->R / (n * FINE);
+    double behind = 0.0; /* int W dV */
+    ratio[n] = 0.0;
+    for (int k = n - 1; k >= 0; k--) {
+        const double d = k * s->R / n;
+        double layers = 0.0;
+        for (int j = 0; j < FINE; j++)
+            behind += step * over_plane(s, d + (j + 0.5) * step);
+        for (double h = d + 0.5 * s->dx; h < s->R; h += s->dx)
+            layers += over_layer(s, h);
+        ratio[k] = layers / (lattice * behind);
+    }
+}
