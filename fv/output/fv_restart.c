@@ -22,36 +22,120 @@
 #include "../watch/watches.h"
 #include "output.h"
 
-enum { SURFACE_NUMBERS = 6 };
-static const char *const surface_numbers[SURFACE_NUMBERS] = {"volume0", "returned",  "lost",
-                                                             "gained",  "travelled", "passed"};
+/* A number that a run goes on with; one of the three places is given. */
+struct kept_number {
+    const char *name, *of; /* of the attribute; what it belongs to */
+    double *real;
+    int64_t *count;
+    bool *flag;
+};
+enum { NUMBERS_MAX = 48 };
+struct kept_numbers {
+    int n;
+    struct kept_number is[NUMBERS_MAX];
+};
 
-enum { FRACTION_NUMBERS = 3 };
-static const char *const fraction_numbers[FRACTION_NUMBERS] = {"carries", "calm", "first_axis"};
-
-static double *fraction_number(struct fraction *f, int k)
+static void add(struct kept_numbers *to, const char *of, const struct kept_number *list, int n)
 {
-    double *const of[FRACTION_NUMBERS] = {&f->carries, &f->calm, &f->first};
-    return of[k];
+    for (int k = 0; k < n; k++) {
+        to->is[to->n] = list[k];
+        to->is[to->n++].of = of;
+    }
 }
 
-static const char *const level_numbers[LEVEL_GROUPS] = {
-    "outflow_x_min", "outflow_x_max", "outflow_y_min", "outflow_y_max",
-    "outflow_z_min", "outflow_z_max", "outflow_others"};
+#define ADD(to, of, list) add(to, of, list, (int)(sizeof(list) / sizeof *(list)))
 
-enum { FORCED_NUMBERS = 3 };
-static const char *const forced_numbers[FORCED_NUMBERS] = {"phi_start_t", "phi_end_t", "entered"};
-
-static double *forced_number(struct surface *f, int k)
+static void add_surface(struct kept_numbers *to, struct surface *f)
 {
-    return k < 2 ? f->forced->t + k : &f->entered;
+    const struct kept_number volumes[] = {
+        {"volume0", .real = &f->volume0},     {"returned", .real = &f->returned},
+        {"lost", .real = &f->lost},           {"gained", .real = &f->gained},
+        {"travelled", .real = &f->travelled}, {"passed", .real = &f->passed}};
+    ADD(to, "surface", volumes);
+    if (f->fraction) {
+        struct fraction *q = f->fraction;
+        const struct kept_number shares[] = {{"carries", .real = &q->carries},
+                                             {"calm", .real = &q->calm},
+                                             {"first_axis", .real = &q->first}};
+        ADD(to, "shares of water", shares);
+    }
+    if (f->forced) {
+        const struct kept_number forced[] = {{"phi_start_t", .real = f->forced->t},
+                                             {"phi_end_t", .real = f->forced->t + 1},
+                                             {"entered", .real = &f->entered}};
+        ADD(to, "surface of a partner", forced);
+    }
 }
 
-static double *surface_number(struct surface *f, int k)
+static void add_openings(struct kept_numbers *to, struct levels *l)
 {
-    double *const of[SURFACE_NUMBERS] = {&f->volume0, &f->returned,  &f->lost,
-                                         &f->gained,  &f->travelled, &f->passed};
-    return of[k];
+    static const char *const names[LEVEL_GROUPS] = {
+        "outflow_x_min", "outflow_x_max", "outflow_y_min", "outflow_y_max",
+        "outflow_z_min", "outflow_z_max", "outflow_others"};
+    for (int k = 0; k < LEVEL_GROUPS; k++) {
+        const struct kept_number mean[] = {{names[k], .real = l->past + k}};
+        ADD(to, "mean velocity of the openings", mean);
+    }
+}
+
+static void add_newton(struct kept_numbers *to, struct newton *w)
+{
+    const struct kept_number newton[] = {
+        {"dtau", .real = &w->dtau},        {"longest_step", .real = &w->longest_step},
+        {"pace", .real = &w->pace},        {"residual", .real = &w->norm},
+        {"steady", .flag = &w->steady},    {"best", .real = &w->best},
+        {"best_at", .count = &w->best_at}, {"pseudo_steps", .count = &w->pseudo_steps},
+        {"newtons", .count = &w->newtons}, {"krylovs", .count = &w->krylovs}};
+    ADD(to, "state of Newton's method", newton);
+}
+
+static struct kept_numbers numbers_of(struct fv *s)
+{
+    struct kept_numbers all = {0};
+    const struct kept_number steps[] = {{"dt", .real = &s->dt}, {"dt_old", .real = &s->dt_old}};
+    ADD(&all, "time step", steps);
+    if (s->newton)
+        add_newton(&all, s->newton);
+    if (s->surface)
+        add_surface(&all, s->surface);
+    if (levels_set_any(s))
+        add_openings(&all, s->levels);
+    return all;
+}
+
+static void save_numbers(struct fv *s, struct h5 *f)
+{
+    const struct kept_numbers all = numbers_of(s);
+    for (const struct kept_number *x = all.is; x < all.is + all.n; x++)
+        h5_attribute_real(f, x->name,
+                          x->real    ? *x->real
+                          : x->count ? (double)*x->count
+                                     : (double)*x->flag);
+}
+
+/* Says what is not there. */
+static bool there(bool good, const char *what)
+{
+    if (!good)
+        log_say("the restart file has no %s that fits this case", what);
+    return good;
+}
+
+static bool load_numbers(struct fv *s, struct h5 *f)
+{
+    const struct kept_numbers all = numbers_of(s);
+    for (const struct kept_number *x = all.is; x < all.is + all.n; x++) {
+        double value = 0.0;
+        if (!there(h5_read_attribute_real(f, x->name, &value), x->of))
+            return false;
+        if (x->real)
+            *x->real = value;
+        else if (x->count)
+            *x->count = llround(value);
+        else
+            *x->flag = value != 0.0;
+    }
+    return true;
 }
 
 /* What this rank has of each grid: of the uniform one, or of each block; empty where it has none.
@@ -72,20 +156,6 @@ static int boxes_of(const struct fv *s, struct layout_box *of)
     return n;
 }
 
-static void save_newton(const struct newton *w, struct h5 *f)
-{
-    h5_attribute_real(f, "dtau", w->dtau);
-    h5_attribute_real(f, "longest_step", w->longest_step);
-    h5_attribute_real(f, "pace", w->pace);
-    h5_attribute_real(f, "residual", w->norm);
-    h5_attribute_real(f, "steady", w->steady);
-    h5_attribute_real(f, "best", w->best);
-    h5_attribute_real(f, "best_at", (double)w->best_at);
-    h5_attribute_real(f, "pseudo_steps", (double)w->pseudo_steps);
-    h5_attribute_real(f, "newtons", (double)w->newtons);
-    h5_attribute_real(f, "krylovs", (double)w->krylovs);
-}
-
 void fv_checkpoint(void *state, struct h5 *f)
 {
     struct fv *s = state;
@@ -96,44 +166,11 @@ void fv_checkpoint(void *state, struct h5 *f)
     layout_save(f, "layout", grids, mine);
     for (int k = 0; k < n; k++)
         h5_write_real(f, names[k], "-", s->size, 1, fields[k], false);
-    h5_attribute_real(f, "dt", s->dt);
-    h5_attribute_real(f, "dt_old", s->dt_old);
-    if (s->newton)
-        save_newton(s->newton, f);
+    save_numbers(s, f);
     watches_save(s->watches, f);
     moving_save(s, f);
-    if (s->surface)
-        for (int k = 0; k < SURFACE_NUMBERS; k++)
-            h5_attribute_real(f, surface_numbers[k], *surface_number(s->surface, k));
-    for (int k = 0; levels_set_any(s) && k < LEVEL_GROUPS; k++)
-        h5_attribute_real(f, level_numbers[k], s->levels->past[k]);
-    for (int k = 0; s->surface && s->surface->fraction && k < FRACTION_NUMBERS; k++)
-        h5_attribute_real(f, fraction_numbers[k], *fraction_number(s->surface->fraction, k));
-    for (int k = 0; s->surface && s->surface->forced && k < FORCED_NUMBERS; k++)
-        h5_attribute_real(f, forced_numbers[k], *forced_number(s->surface, k));
     if (s->link)
         coupling_save(s, f);
-}
-
-static bool restore_newton(struct newton *w, struct h5 *f)
-{
-    double steady = 0.0, newtons = 0.0, krylovs = 0.0, best_at = 0.0, steps = 0.0;
-    const bool there = h5_read_attribute_real(f, "dtau", &w->dtau) &&
-                       h5_read_attribute_real(f, "longest_step", &w->longest_step) &&
-                       h5_read_attribute_real(f, "pace", &w->pace) &&
-                       h5_read_attribute_real(f, "residual", &w->norm) &&
-                       h5_read_attribute_real(f, "steady", &steady) &&
-                       h5_read_attribute_real(f, "best", &w->best) &&
-                       h5_read_attribute_real(f, "best_at", &best_at) &&
-                       h5_read_attribute_real(f, "pseudo_steps", &steps) &&
-                       h5_read_attribute_real(f, "newtons", &newtons) &&
-                       h5_read_attribute_real(f, "krylovs", &krylovs);
-    w->steady = steady != 0.0;
-    w->best_at = llround(best_at);
-    w->pseudo_steps = llround(steps);
-    w->newtons = llround(newtons);
-    w->krylovs = llround(krylovs);
-    return there;
 }
 
 /* A field of all grids; ghosts behind sides of blocks are those that were beside the same cells. */
@@ -184,36 +221,11 @@ static bool restore_grids(struct fv *s, struct h5 *f)
     return fits;
 }
 
-/* Says what is not there. */
-static bool there(bool good, const char *what)
-{
-    if (!good)
-        log_say("the restart file has no %s that fits this case", what);
-    return good;
-}
-
 bool fv_restore(struct fv *s, struct h5 *f)
 {
     if (!there(coupling_stand(s, f), "place of sph.box") || !restore_grids(s, f))
         return false;
-    for (int k = 0; s->surface && k < SURFACE_NUMBERS; k++)
-        if (!there(h5_read_attribute_real(f, surface_numbers[k], surface_number(s->surface, k)),
-                   surface_numbers[k]))
-            return false;
-    for (int k = 0; levels_set_any(s) && k < LEVEL_GROUPS; k++)
-        if (!there(h5_read_attribute_real(f, level_numbers[k], s->levels->past + k),
-                   "mean velocity of the openings"))
-            return false;
-    for (int k = 0; s->surface && s->surface->fraction && k < FRACTION_NUMBERS; k++)
-        if (!there(h5_read_attribute_real(f, fraction_numbers[k],
-                                          fraction_number(s->surface->fraction, k)),
-                   fraction_numbers[k]))
-            return false;
-    for (int k = 0; s->surface && s->surface->forced && k < FORCED_NUMBERS; k++)
-        if (!there(h5_read_attribute_real(f, forced_numbers[k], forced_number(s->surface, k)),
-                   forced_numbers[k]))
-            return false;
-    if (!there(moving_restore(s, f), "cut of blocks that move"))
+    if (!load_numbers(s, f) || !there(moving_restore(s, f), "cut of blocks that move"))
         return false;
     if (s->surface) {
         surface_rebuild(s);
@@ -221,9 +233,5 @@ bool fv_restore(struct fv *s, struct h5 *f)
     }
     outflow_restore(s);
     watches_load(s->watches, f);
-    return there(h5_read_attribute_real(f, "dt", &s->dt) &&
-                     h5_read_attribute_real(f, "dt_old", &s->dt_old),
-                 "time step") &&
-           there(!s->newton || restore_newton(s->newton, f), "state of Newton's method") &&
-           there(!s->link || coupling_load(s, f), "past of the coupling");
+    return there(!s->link || coupling_load(s, f), "past of the coupling");
 }
