@@ -80,6 +80,11 @@ static bool slopes_of(const struct fv *s, const struct part *p, int64_t c, bool 
     return true;
 }
 
+/* What a cell that is water or air by phi may miss or hold: the projection's tolerance leaves as much
+ * here and there, deep in the water, too, where a surface that touches such a cell would be a hole
+ * from nothing, and grow. */
+#define NOTHING 1e-3
+
 /* Where phi of a cell wants to be: pure cells are no nearer the surface than half of their size;
  * far from it a cell that is water by more than half makes a drop, one that is not a bubble. */
 static double wanted(const struct fv *s, const struct part *p, int64_t c, bool trusted)
@@ -90,10 +95,12 @@ static double wanted(const struct fv *s, const struct part *p, int64_t c, bool t
         h = fmax(h, fraction_size(s, c, a));
     if (fabs(phi) > 2.0 * h)
         return (C > 0.5) != (phi < 0.0) ? (0.5 - C) * h : phi;
-    if (!slopes_of(s, p, c, trusted, n))
-        return (0.5 - C) * h;
+    if (!slopes_of(s, p, c, trusted, n)) /* amid water, or air, alone */
+        return (C > 0.5) == (phi < 0.0) && fabs(phi) > 0.5 * h ? phi : (0.5 - C) * h;
     for (int a = 0; a < s->dim; a++)
         size += 0.5 * fabs(n[a]);
+    if (fabs(phi) >= size && fabs(C - (phi < 0.0)) < NOTHING)
+        return phi;
     if (C <= 0.0)
         return fmax(phi, size);
     if (C >= 1.0)
@@ -147,7 +154,7 @@ bool fraction_is_calm(const struct fv *s)
     find_smooth(s);
     FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n && calm; i++) {
-            const bool mixed = f->carries && fraction_is_mixed(f->C[i]);
+            const bool mixed = f->carries && f->C[i] > NOTHING && f->C[i] < 1.0 - NOTHING;
             if (surface_holds_none(s, i) ||
                 (!mixed && (fabs(w->phi[i]) > band || !is_beside(s, part, i))))
                 continue;
