@@ -277,28 +277,64 @@ static bool is_left_out(const struct fv *s, int64_t c)
     return s->m->status[c] != CELL_COMPUTED && !(p && p->holds[c]);
 }
 
-/* mark = 1 within `width' cells of the surface, whatever phi says there: it may be old. */
+/* mark = 1 in cells of a row between which and a neighbour along the step d the surface passes;
+ * first: instead of what is there. */
+static void mark_row(const double *restrict phi, int64_t d, bool first, int64_t n,
+                     double *restrict mark)
+{
+    for (int64_t i = 0; i < n; i++) {
+        const bool in = phi[i] < 0.0, low = phi[i - d] < 0.0, up = phi[i + d] < 0.0;
+        const double is = (in != low) | (in != up) ? 1.0 : 0.0;
+        mark[i] = first || is > mark[i] ? is : mark[i];
+    }
+}
+
+/* The same of all cells beside the surface. */
+static void mark_surface(const struct fv *s, double *mark)
+{
+    const double *phi = s->surface->phi;
+    const bool plain = !s->m && !s->blocked;
+    FLOW_ROWS_AT (s, part, j, c, len) {
+        for (int a = 0; a < s->dim && plain; a++)
+            mark_row(phi + c, part->stride[a], a == 0, len, mark + c);
+        for (int64_t i = c; i < c + len && !plain; i++)
+            mark[i] = !is_left_out(s, i) && beside_surface(s, part, phi, i);
+    }
+}
+
+/* next = the largest of mark within m cells along the step d. */
+static void widen_row(const double *restrict mark, int64_t d, int m, int64_t n,
+                      double *restrict next)
+{
+    for (int64_t i = 0; i < n; i++)
+        next[i] = mark[i];
+    for (int k = 1; k <= m; k++)
+        for (int64_t i = 0; i < n; i++) {
+            const double low = mark[i - k * d], up = mark[i + k * d], most = low > up ? low : up;
+            next[i] = most > next[i] ? most : next[i];
+        }
+}
+
+/* mark = 1 within `width' cells of the surface, whatever phi says there: it may be old. As far at
+ * once as ghosts reach. */
 static void mark_band(const struct fv *s, int width, double *mark)
 {
+    double *const next = s->surface->kept;
     memset(mark, 0, (size_t)s->size * sizeof(double));
-    FLOW_ROWS_AT (s, part, j, c, len)
-        for (int64_t i = c; i < c + len; i++)
-            mark[i] = !is_left_out(s, i) && beside_surface(s, part, s->surface->phi, i);
-    for (int k = 1; k < width; k++)
+    mark_surface(s, mark);
+    for (int done = 1, m; done < width; done += m) {
+        m = width - done < GHOSTS ? width - done : GHOSTS;
         for (int a = 0; a < s->dim; a++) {
-            double *const next = s->surface->kept;
             if (s->m)
                 mesh_halo(s->m, 1, &mark);
             else
                 block_halo(&s->b, 1, &mark);
-            FLOW_ROWS_AT (s, part, j, c, len) {
-                const int64_t d = part->stride[a];
-                for (int64_t i = c; i < c + len; i++)
-                    next[i] = fmax(mark[i], fmax(mark[i - d], mark[i + d]));
-            }
+            FLOW_ROWS_AT (s, part, j, c, len)
+                widen_row(mark + c, part->stride[a], m, len, next + c);
             FLOW_ROWS (s, c, len)
                 memcpy(mark + c, next + c, (size_t)len * sizeof(double));
         }
+    }
 }
 
 static double least_size(const struct block *b, int j)
