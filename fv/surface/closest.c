@@ -7,6 +7,7 @@
 #include "levelset.h"
 
 #include <math.h>
+#include <string.h>
 
 enum {
     REACH = 3,             /* cells around that are read: the ghosts of a rank */
@@ -30,8 +31,10 @@ struct around {
     int dim;
     int64_t stride[3];
     double x[3][NODES]; /* m: centres along each axis, from the cell's */
-    int lo[3], hi[3];   /* of the centres before sides and boxes */
-    double h;           /* m: the smallest spacing */
+    double per[3][4]; /* 1/m: where they are even 1 over the distance of centres k apart, [k]; else
+                         0 */
+    int lo[3], hi[3]; /* of the centres before sides and boxes */
+    double h;         /* m: the smallest spacing */
 };
 
 /* Value and slope along an axis: weights of n centres from `first' on. */
@@ -40,17 +43,19 @@ struct cubic {
     double value[TERMS], slope[TERMS];
 };
 
-/* Those of the cubic through four centres, times `share'. */
-static void add_cubic(const double *X, double x, double share, double *value, double *slope)
+/* Those of the cubic through four centres, times `share'; per: see struct around. */
+static void add_cubic(const double *X, const double *per, double x, double share, double *value,
+                      double *slope)
 {
+    const bool even = per[1] > 0.0;
     for (int k = 0; k < 4; k++) {
         double v = share, e = 0.0;
         for (int m = 0; m < 4; m++) {
             if (m == k)
                 continue;
-            const double per = 1.0 / (X[k] - X[m]);
-            e = (e * (x - X[m]) + v) * per;
-            v *= (x - X[m]) * per;
+            const double p = !even ? 1.0 / (X[k] - X[m]) : k > m ? per[k - m] : -per[m - k];
+            e = (e * (x - X[m]) + v) * p;
+            v *= (x - X[m]) * p;
         }
         value[k] += v;
         slope[k] += e;
@@ -68,7 +73,7 @@ static struct cubic cubic_at(const struct around *w, int a, double x)
     const bool on = i < last && x > X[i + 1] - near;
     struct cubic q = {.first = i - 1, .n = 4 + on};
     for (int k = 0; k <= on; k++)
-        add_cubic(X + q.first + k, x, on ? 0.5 : 1.0, q.value + k, q.slope + k);
+        add_cubic(X + q.first + k, w->per[a], x, on ? 0.5 : 1.0, q.value + k, q.slope + k);
     return q;
 }
 
@@ -80,29 +85,63 @@ static int64_t corner_of(const struct around *w, const struct cubic *q)
     return c;
 }
 
-/* phi at x, m from the cell, and its gradient; q: the weights that give them. */
-static double value_at(const struct around *w, const double *x, struct cubic q[3], double *g)
+/* Sum of the product of weights of n[a] centres along each axis, and its gradient. */
+static inline __attribute__((always_inline)) double
+product(const struct around *w, const struct cubic q[3], const int n[3], double *g)
 {
-    static const struct cubic none = {.n = 1, .value = {1.0}};
-    double sum = 0.0;
-    for (int a = 0; a < 3; a++)
-        q[a] = a < w->dim ? cubic_at(w, a, x[a]) : none;
     const double *corner = w->phi + corner_of(w, q);
-    g[0] = g[1] = g[2] = 0.0;
-    for (int k = 0; k < q[2].n; k++)
-        for (int j = 0; j < q[1].n; j++) {
+    double sum = 0.0, slope[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < n[2]; k++)
+        for (int j = 0; j < n[1]; j++) {
             const double *row = corner + j * w->stride[1] + k * w->stride[2];
             double v = 0.0, e = 0.0;
-            for (int i = 0; i < q[0].n; i++) {
+            for (int i = 0; i < n[0]; i++) {
                 v += q[0].value[i] * row[i];
                 e += q[0].slope[i] * row[i];
             }
             sum += q[1].value[j] * q[2].value[k] * v;
-            g[0] += q[1].value[j] * q[2].value[k] * e;
-            g[1] += q[1].slope[j] * q[2].value[k] * v;
-            g[2] += q[1].value[j] * q[2].slope[k] * v;
+            slope[0] += q[1].value[j] * q[2].value[k] * e;
+            slope[1] += q[1].slope[j] * q[2].value[k] * v;
+            slope[2] += q[1].value[j] * q[2].slope[k] * v;
         }
+    memcpy(g, slope, sizeof slope);
     return sum;
+}
+
+/* phi at x, m from the cell, and its gradient; q: the weights that give them. */
+static double value_at(const struct around *w, const double *x, struct cubic q[3], double *g)
+{
+    static const struct cubic none = {.n = 1, .value = {1.0}};
+    for (int a = 0; a < 3; a++)
+        q[a] = a < w->dim ? cubic_at(w, a, x[a]) : none;
+    const bool plain = q[0].n == 4 && q[1].n == 4; /* nearly all: loops of known length */
+    if (plain && q[2].n == 1)
+        return product(w, q, (const int[]){4, 4, 1}, g);
+    if (plain && q[2].n == 4)
+        return product(w, q, (const int[]){4, 4, 4}, g);
+    return product(w, q, (const int[]){q[0].n, q[1].n, q[2].n}, g);
+}
+
+/* The same at the cell's own centre, where the cubics are phi itself and each slope is a line's. */
+static double value_at_centre(const struct around *w, struct cubic q[3], double *g)
+{
+    for (int a = 0; a < w->dim; a++) {
+        q[a] = cubic_at(w, a, 0.0);
+        g[a] = 0.0;
+        for (int k = 0; k < q[a].n; k++)
+            g[a] += q[a].slope[k] * w->phi[(q[a].first + k - REACH) * w->stride[a]];
+    }
+    return w->phi[0];
+}
+
+/* Second derivative along axis a of phi, 1/m, at a centre: c, and its place X. */
+static double bend_at(const struct around *w, int a, const double *c, const double *X)
+{
+    const int64_t d = w->stride[a];
+    const double per = w->per[a][1];
+    if (per > 0.0)
+        return per * per * (c[d] - 2.0 * c[0] + c[-d]);
+    return 2.0 / (X[1] - X[-1]) * ((c[d] - c[0]) / (X[1] - X[0]) - (c[0] - c[-d]) / (X[0] - X[-1]));
 }
 
 /* Whether the centres that the cubics at a point are through are known, and bent little. */
@@ -117,27 +156,20 @@ static bool is_resolved(const struct around *w, const struct cubic q[3])
                 const double *c = w->phi + at_cell;
                 if (w->closed[at_cell])
                     return false;
-                for (int a = 0; a < w->dim; a++) {
-                    const double *X = w->x[a] + q[a].first + at[a];
-                    const int64_t d = w->stride[a];
-                    if (at[a] == 0 || at[a] == q[a].n - 1)
-                        continue;
-                    const double bend =
-                        2.0 / (X[1] - X[-1]) *
-                        ((c[d] - c[0]) / (X[1] - X[0]) - (c[0] - c[-d]) / (X[0] - X[-1]));
-                    if (!(fabs(bend) * w->h <= BENT))
+                for (int a = 0; a < w->dim; a++)
+                    if (at[a] > 0 && at[a] < q[a].n - 1 &&
+                        !(fabs(bend_at(w, a, c, w->x[a] + q[a].first + at[a])) * w->h <= BENT))
                         return false;
-                }
             }
     return true;
 }
 
-/* One pass towards the closest point; the square of what it moves x by, m^2; INFINITY: it leads
- * away, more than two cells or behind a side. */
-static double move(const struct around *w, struct cubic q[3], double *x)
+/* One pass towards the closest point, the first one from the centre; the square of what it moves x
+ * by, m^2; INFINITY: it leads away, more than two cells or behind a side. */
+static double move(const struct around *w, struct cubic q[3], double *x, bool first)
 {
     double g[3], g2 = 0.0, along = 0.0, moved = 0.0;
-    const double p = value_at(w, x, q, g);
+    const double p = first ? value_at_centre(w, q, g) : value_at(w, x, q, g);
     for (int a = 0; a < w->dim; a++) {
         g2 += g[a] * g[a];
         along += x[a] * g[a];
@@ -155,11 +187,11 @@ static double move(const struct around *w, struct cubic q[3], double *x)
     return moved;
 }
 
-/* Cells that follow c along the step d, before a side or a box, at most REACH. */
-static int free_along(const struct fv *s, int64_t c, int64_t d)
+/* Cells that follow one along the step d, before a side or a box, at most REACH. */
+static int free_along(const bool *closed, int64_t d)
 {
     int n = 0;
-    while (n < REACH && !surface_holds_none(s, c + (n + 1) * d))
+    while (n < REACH && !closed[(n + 1) * d])
         n++;
     return n;
 }
@@ -174,13 +206,15 @@ static bool look_around(const struct fv *s, const double *phi, int64_t c, struct
         .phi = phi + c, .closed = s->surface->closed + c, .dim = s->dim, .h = INFINITY};
     for (int a = 0; a < s->dim; a++) {
         w->stride[a] = b->stride[a];
-        w->lo[a] = REACH - free_along(s, c, -b->stride[a]);
-        w->hi[a] = REACH + free_along(s, c, b->stride[a]);
+        w->lo[a] = REACH - free_along(w->closed, -b->stride[a]);
+        w->hi[a] = REACH + free_along(w->closed, b->stride[a]);
         if (w->hi[a] - w->lo[a] < 3)
             return false;
         for (int k = -REACH; k <= REACH; k++)
             w->x[a][k + REACH] =
                 a == 1 && b->rows ? b->rows->y[row + k] - b->rows->y[row] : k * b->h[a];
+        for (int k = 1; k < 4 && !(a == 1 && b->rows); k++)
+            w->per[a][k] = 1.0 / (k * b->h[a]);
         w->h = fmin(w->h, block_size(b, a, row));
     }
     return true;
@@ -189,12 +223,12 @@ static bool look_around(const struct fv *s, const double *phi, int64_t c, struct
 bool surface_closest(const struct fv *s, const double *phi, int64_t c, double *distance)
 {
     struct around w;
-    struct cubic q[3];
+    struct cubic q[3] = {{.n = 1}, {.n = 1}, {.n = 1}};
     double x[3] = {0.0, 0.0, 0.0}, moved = INFINITY, square = 0.0;
     if (fabs(phi[c]) > 3.0 * s->surface->largest || !look_around(s, phi, c, &w))
         return false;
     for (int k = 0; k < PASSES && moved > EXACT * w.h * w.h; k++) {
-        moved = move(&w, q, x);
+        moved = move(&w, q, x, k == 0);
         if (!isfinite(moved))
             return false;
     }
