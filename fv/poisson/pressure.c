@@ -10,6 +10,7 @@
 #include "../../common/base/mem.h"
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
+#include "../operators/helmholtz.h"
 #include "../surface/levelset.h"
 #include "backend.h"
 #include "pfmg.h"
@@ -197,42 +198,27 @@ static void apply(const struct fv *s, const double *restrict x, double *restrict
     zero_idle(s, q);
 }
 
-/* Adds sum x y and sum x of a row. */
-static void add_row(const double *restrict x, const double *restrict y, int64_t n, double *sums)
+/* Over all ranks. */
+static double dot(const struct fv *s, const double *x, const double *y)
 {
-    double part[8] = {0.0};
-    int64_t i = 0;
-    for (; i + 4 <= n; i += 4)
-        for (int m = 0; m < 4; m++) {
-            part[m] += x[i + m] * y[i + m];
-            part[4 + m] += x[i + m];
-        }
-    for (; i < n; i++) {
-        part[0] += x[i] * y[i];
-        part[4] += x[i];
-    }
-    sums[0] += (part[0] + part[1]) + (part[2] + part[3]);
-    sums[1] += (part[4] + part[5]) + (part[6] + part[7]);
-}
-
-/* sums[0] = sum x y, sums[1] = sum x, over all ranks. */
-static void add_up(const struct block *b, const double *x, const double *y, double sums[2])
-{
-    sums[0] = sums[1] = 0.0;
-    BLOCK_ROWS (b, 0, c, n)
-        add_row(x + c, y + c, n, sums);
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, b->cart);
+    double sum = helmholtz_dot(s, x, y);
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
+    return sum;
 }
 
 /* Takes the mean over the free cells out: the rows of A sum to zero. Returns the sum of the squares
  * then. */
 static double remove_mean(const struct fv *s, double *restrict x)
 {
-    double sums[2];
+    double sums[2] = {0.0, 0.0};
     zero_idle(s, x);
-    add_up(&s->b, x, x, sums);
     if (!own(s)->singular)
-        return sums[0];
+        return dot(s, x, x);
+    sums[0] = helmholtz_dot(s, x, x);
+    BLOCK_ROWS (&s->b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            sums[1] += x[i];
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     const double mean = sums[1] / own(s)->free_cells;
     BLOCK_ROWS (&s->b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
@@ -253,50 +239,45 @@ static void cycle(struct pressure *p, double *r, double *x)
 static double next_direction(const struct fv *s, double *r, double rz_last)
 {
     struct pressure *p = own(s);
-    double sums[2];
     cycle(p, r, p->z);
     if (s->surface)
         surface_zero(s, p->z);
-    add_up(&s->b, r, p->z, sums);
-    const double beta = rz_last > 0.0 ? sums[0] / rz_last : 0.0, *restrict z = p->z;
+    const double rz = dot(s, r, p->z), beta = rz_last > 0.0 ? rz / rz_last : 0.0;
+    const double *restrict z = p->z;
     double *restrict d = p->p;
     BLOCK_ROWS (&s->b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             d[i] = z[i] + beta * d[i];
-    return sums[0];
+    return rz;
 }
 
 /* x += alpha p, r -= alpha A p with the alpha of the smallest error. Returns r.r. */
 static double advance(const struct fv *s, double rz, double *restrict x, double *restrict r)
 {
     struct pressure *p = own(s);
-    double *restrict d = p->p, *restrict Ad = p->Ap, sums[2];
+    double *restrict d = p->p, *restrict Ad = p->Ap;
     block_halo(&s->b, 1, &p->p);
     apply(s, p->p, p->Ap);
-    add_up(&s->b, p->p, p->Ap, sums);
-    const double alpha = rz / sums[0];
+    const double alpha = rz / dot(s, p->p, p->Ap);
     BLOCK_ROWS (&s->b, 0, c, n)
         for (int64_t i = c; i < c + n; i++) {
             x[i] += alpha * d[i];
             r[i] -= alpha * Ad[i];
         }
-    add_up(&s->b, r, r, sums);
-    return sums[0];
+    return dot(s, r, r);
 }
 
 /* r = -div - A psi in place of div. Returns r.r. */
 static double first_residual(const struct fv *s, double *psi, double *restrict div)
 {
     const double *restrict q = own(s)->Ap;
-    double sums[2];
     zero_idle(s, psi);
     block_halo(&s->b, 1, &psi);
     apply(s, psi, own(s)->Ap);
     BLOCK_ROWS (&s->b, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             div[i] = -div[i] - q[i];
-    add_up(&s->b, div, div, sums);
-    return sums[0];
+    return dot(s, div, div);
 }
 
 /* Square sum of a residual that rounding leaves: g L/h^2 in all wet cells. */

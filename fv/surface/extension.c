@@ -482,11 +482,6 @@ static void next_layer(const struct part *p, double l, const double *wall, doubl
         next_layer_row((deep ? x : xy) + c, wall + c, l, n, field + c);
 }
 
-bool surface_holds_none(const struct fv *s, int64_t c)
-{
-    return s->m ? s->surface->mesh->out[c] : s->surface->closed[c];
-}
-
 /* h: what the surface may stand below a wet centre. Rounding along level water that stands at
  * centres would make wet and dry ones in turns. */
 #define ON_CENTRE 1e-6

@@ -88,7 +88,6 @@ static struct fraction *create(const struct fv *s)
         f->n[a] = NEW(double, s->size);
         f->flow[a] = NEW(double, s->size);
     }
-    f->air = NEW(int64_t, s->size);
     f->smooth = NEW(unsigned char, s->size);
     set_volumes(s, f->volume);
     return f;

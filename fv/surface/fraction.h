@@ -8,6 +8,14 @@
 
 #include "../fv.h"
 
+/* A cell of air beside the water, whose potential takes its divergence away: fraction_flow.c. */
+struct air_cell {
+    int64_t cell, step[3];
+    double g[3][2]; /* m^(dim-2): conductance of its lower and upper faces; 0: not free */
+    double out;     /* m^dim/s: its divergence */
+    double per;     /* 1/m^(dim-2): change of the potential with what is left of it */
+};
+
 struct fraction {
     double *C;       /* -: share, with ghosts */
     double *layer;   /* -: of each cell when the projection was made; it made the divergence of
@@ -17,7 +25,8 @@ struct fraction {
     double *flow[3]; /* m^dim/s: volume through the lower face of each cell */
     double *volume;  /* m^dim: of cells, with ghosts */
     double *flux, *work, *next;
-    int64_t nair, *air;    /* cells of air beside the water */
+    int64_t nair, air_room, first_air[3];
+    struct air_cell *air;  /* those of one colour behind those of the other */
     unsigned char *smooth; /* 1: phi resolves the surface here */
     bool boxes;            /* there are some within this rank's cells */
     double carries;      /* 1: phi follows the shares; 0: the water is calm, and they follow phi */

@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "../../common/base/mem.h"
 #include "levelset.h"
 #include "mesh_view.h"
 
@@ -38,50 +39,71 @@ static double conductance(const struct fv *s, int64_t c, int64_t d, int a)
     return s->surface->fraction->volume[c] / h / (0.5 * (h + fraction_size(s, c - d, a)));
 }
 
-/* What a cell's potential q is to change by so that nothing is left of its divergence. */
-static double change_of(const struct fv *s, const struct part *p, int64_t c, const double *q)
+/* A cell of air as the sweeps see it. */
+static struct air_cell look(const struct fv *s, const struct part *p, int64_t c)
 {
     const struct fraction *f = s->surface->fraction;
-    double sum = 0.0, out = 0.0;
+    struct air_cell x = {.cell = c};
+    double sum = 0.0;
     for (int a = 0; a < s->dim; a++) {
         const int64_t d = p->stride[a];
-        out += f->flow[a][c + d] - f->flow[a][c];
+        x.step[a] = d;
+        x.out += f->flow[a][c + d] - f->flow[a][c];
         for (int up = 0; up < 2; up++) {
             const int64_t face = c + up * d;
-            if (!is_free(s, face, d))
-                continue;
-            const double g = conductance(s, face, d, a);
-            sum += g;
-            out -= g * (q[up ? c + d : c - d] - q[c]);
+            if (is_free(s, face, d))
+                x.g[a][up] = conductance(s, face, d, a);
+            sum += x.g[a][up];
         }
     }
-    return sum > 0.0 ? -out / sum : 0.0;
+    x.per = sum > 0.0 ? -RELAXATION / sum : 0.0;
+    return x;
 }
 
-/* Gauss and Seidel's step of the cells of one colour. */
+/* The cells of air, those of one colour behind those of the other. */
+static void list_air(struct fv *s)
+{
+    struct fraction *f = s->surface->fraction;
+    int at[3];
+    f->nair = 0;
+    for (int colour = 0; colour < 2; colour++) {
+        f->first_air[colour] = f->nair;
+        FLOW_ROWS_AT (s, p, j, c, n) {
+            part_index(p, c, at);
+            const int odd = (at[0] + p->lo[0]) ^ (at[1] + p->lo[1]) ^ (at[2] + p->lo[2]);
+            for (int64_t i = c + ((odd ^ colour) & 1); i < c + n; i += 2) {
+                if (!is_air(s, i))
+                    continue;
+                if (f->nair == f->air_room) {
+                    const int64_t more = 2 * f->air_room + 256;
+                    GROW(f->air, f->nair, more);
+                    f->air_room = more;
+                }
+                f->air[f->nair++] = look(s, p, i);
+            }
+        }
+    }
+    f->first_air[2] = f->nair;
+}
+
+/* Gauss and Seidel's step of the cells of one colour: nothing is to be left of their divergence. */
 static void relax(struct fv *s, int colour)
 {
     struct fraction *f = s->surface->fraction;
-    const struct part *p = s->part;
-    int at[3];
-    for (int64_t k = 0; k < f->nair; k++) {
-        const int64_t c = f->air[k];
-        while (c >= p->base + p->size)
-            p++;
-        part_index(p, c, at);
-        if (((at[0] + p->lo[0]) ^ (at[1] + p->lo[1]) ^ (at[2] + p->lo[2])) % 2 == colour)
-            f->work[c] += RELAXATION * change_of(s, p, c, f->work);
+    double *const work = f->work;
+    for (const struct air_cell *x = f->air + f->first_air[colour];
+         x < f->air + f->first_air[colour + 1]; x++) {
+        double *const q = work + x->cell, own = *q, out = x->out;
+        for (int a = 0; a < s->dim; a++)
+            out -= x->g[a][0] * (q[-x->step[a]] - own) + x->g[a][1] * (q[x->step[a]] - own);
+        *q = own + x->per * out;
     }
 }
 
 static void take_divergence_away(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
-    f->nair = 0;
-    FLOW_ROWS (s, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            if (is_air(s, i))
-                f->air[f->nair++] = i;
+    list_air(s);
     memset(f->work, 0, (size_t)s->size * sizeof(double));
     for (int k = 0; k < 2 * SWEEPS; k++) {
         relax(s, k % 2);

@@ -446,11 +446,13 @@ struct surface *levelset_create(const struct fv *s)
     f->layer = NEW(unsigned char, s->size);
     f->deep = NEW(int64_t, s->size);
     f->closed = NEW(bool, s->size);
+    f->none = (const unsigned char *)f->closed;
     if (s->prm.integrator != INTEGRATOR_RK3)
         f->half = NEW(double, s->size);
     f->g = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     if (s->m) {
         f->mesh = surface_mesh_create(s, f);
+        f->none = f->mesh->out;
         fill_blocks(s, f->mesh, f->phi);
     } else {
         set_sizes(&s->b, g, f);

@@ -42,6 +42,8 @@ struct surface {
     struct surface_forced *forced;
     bool *closed; /* even cells whose values are nobody's: behind sides, boxes, deep in a partner's
                      part */
+    const unsigned char *none; /* not 0: the former, or those of blocks that are out, see mesh_view.h
+                                */
     struct surface_mesh *mesh;    /* NULL: even cells or layers of unequal height */
     double *phi, *phi_new, *rate; /* m, m, m/s */
     double *kept;                 /* scratch of reinit */
@@ -150,7 +152,7 @@ double surface_distortion(const struct fv *s);
 /* extension.c: layers and stencils of the present phi; u of dry cells, layers 1 .. n. */
 void extension_build(struct fv *s);
 /* Whether a cell holds nothing: behind sides, in boxes and holes. */
-bool surface_holds_none(const struct fv *s, int64_t c);
+static inline bool surface_holds_none(const struct fv *s, int64_t c) { return s->surface->none[c]; }
 enum extend {
     EXTEND_FREE,  /* goes on as it comes */
     EXTEND_SHEAR, /* no shear stress at the surface; takes note of the normal one */

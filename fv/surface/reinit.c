@@ -366,8 +366,8 @@ static void list_band(struct fv *s, int width, struct band *w)
     FLOW_ROWS (s, c, len)
         for (int64_t i = c; i < c + len; i++) {
             cells += mark[i] > 0.0;
-            if (mark[i] == 0.0 || is_blocked(s, i))
-                phi[i] = copysign(fmax(far, fabs(phi[i])), phi[i]);
+            if ((mark[i] == 0.0 || is_blocked(s, i)) && fabs(phi[i]) < far)
+                phi[i] = copysign(far, phi[i]);
         }
     w->strips = NEW(struct strip, cells);
     w->spots = NEW(struct spot, cells);
