@@ -31,10 +31,9 @@ struct around {
     int dim;
     int64_t stride[3];
     double x[3][NODES]; /* m: centres along each axis, from the cell's */
-    double per[3][4]; /* 1/m: where they are even 1 over the distance of centres k apart, [k]; else
-                         0 */
-    int lo[3], hi[3]; /* of the centres before sides and boxes */
-    double h;         /* m: the smallest spacing */
+    double per[3];      /* 1/m: 1 over their distance where they are even, else 0 */
+    int lo[3], hi[3];   /* of the centres before sides and boxes */
+    double h;           /* m: the smallest spacing */
 };
 
 /* Value and slope along an axis: weights of n centres from `first' on. */
@@ -43,38 +42,54 @@ struct cubic {
     double value[TERMS], slope[TERMS];
 };
 
-/* Those of the cubic through four centres, times `share'; per: see struct around. */
-static void add_cubic(const double *X, const double *per, double x, double share, double *value,
-                      double *slope)
+/* Those of the cubic through four centres, times `share'. */
+static void add_cubic(const double *X, double x, double share, double *value, double *slope)
 {
-    const bool even = per[1] > 0.0;
     for (int k = 0; k < 4; k++) {
         double v = share, e = 0.0;
         for (int m = 0; m < 4; m++) {
             if (m == k)
                 continue;
-            const double p = !even ? 1.0 / (X[k] - X[m]) : k > m ? per[k - m] : -per[m - k];
-            e = (e * (x - X[m]) + v) * p;
-            v *= (x - X[m]) * p;
+            const double per = 1.0 / (X[k] - X[m]);
+            e = (e * (x - X[m]) + v) * per;
+            v *= (x - X[m]) * per;
         }
         value[k] += v;
         slope[k] += e;
     }
 }
 
-/* On a centre the mean of the cubics on either side, so that no side comes first. */
-static struct cubic cubic_at(const struct around *w, int a, double x)
+/* The same of even ones, 1/per apart, at t spacings from the second. */
+static void add_even_cubic(double per, double t, double share, double *value, double *slope)
 {
-    const double *X = w->x[a], near = 1e-9 * w->h;
+    const double a = t + 1.0, b = t, c = t - 1.0, d = t - 2.0, sixth = share / 6.0,
+                 half = 0.5 * share;
+    value[0] -= sixth * (b * c * d);
+    value[1] += half * (a * c * d);
+    value[2] -= half * (a * b * d);
+    value[3] += sixth * (a * b * c);
+    slope[0] -= sixth * per * (c * d + b * (c + d));
+    slope[1] += half * per * (c * d + a * (c + d));
+    slope[2] -= half * per * (b * d + a * (b + d));
+    slope[3] += sixth * per * (b * c + a * (b + c));
+}
+
+/* On a centre the mean of the cubics on either side, so that no side comes first. */
+static void set_cubic(const struct around *w, int a, double x, struct cubic *q)
+{
+    const double *X = w->x[a], near = 1e-9 * w->h, per = w->per[a];
     const int last = w->hi[a] - 2;
     int i = w->lo[a] + 1;
     while (i < last && x > X[i + 1] + near)
         i++;
     const bool on = i < last && x > X[i + 1] - near;
-    struct cubic q = {.first = i - 1, .n = 4 + on};
+    const double share = on ? 0.5 : 1.0;
+    *q = (struct cubic){.first = i - 1, .n = 4 + on};
     for (int k = 0; k <= on; k++)
-        add_cubic(X + q.first + k, w->per[a], x, on ? 0.5 : 1.0, q.value + k, q.slope + k);
-    return q;
+        if (per > 0.0)
+            add_even_cubic(per, (x - X[i + k]) * per, share, q->value + k, q->slope + k);
+        else
+            add_cubic(X + q->first + k, x, share, q->value + k, q->slope + k);
 }
 
 static int64_t corner_of(const struct around *w, const struct cubic *q)
@@ -111,9 +126,8 @@ product(const struct around *w, const struct cubic q[3], const int n[3], double 
 /* phi at x, m from the cell, and its gradient; q: the weights that give them. */
 static double value_at(const struct around *w, const double *x, struct cubic q[3], double *g)
 {
-    static const struct cubic none = {.n = 1, .value = {1.0}};
-    for (int a = 0; a < 3; a++)
-        q[a] = a < w->dim ? cubic_at(w, a, x[a]) : none;
+    for (int a = 0; a < w->dim; a++)
+        set_cubic(w, a, x[a], q + a);
     const bool plain = q[0].n == 4 && q[1].n == 4; /* nearly all: loops of known length */
     if (plain && q[2].n == 1)
         return product(w, q, (const int[]){4, 4, 1}, g);
@@ -126,7 +140,7 @@ static double value_at(const struct around *w, const double *x, struct cubic q[3
 static double value_at_centre(const struct around *w, struct cubic q[3], double *g)
 {
     for (int a = 0; a < w->dim; a++) {
-        q[a] = cubic_at(w, a, 0.0);
+        set_cubic(w, a, 0.0, q + a);
         g[a] = 0.0;
         for (int k = 0; k < q[a].n; k++)
             g[a] += q[a].slope[k] * w->phi[(q[a].first + k - REACH) * w->stride[a]];
@@ -138,7 +152,7 @@ static double value_at_centre(const struct around *w, struct cubic q[3], double 
 static double bend_at(const struct around *w, int a, const double *c, const double *X)
 {
     const int64_t d = w->stride[a];
-    const double per = w->per[a][1];
+    const double per = w->per[a];
     if (per > 0.0)
         return per * per * (c[d] - 2.0 * c[0] + c[-d]);
     return 2.0 / (X[1] - X[-1]) * ((c[d] - c[0]) / (X[1] - X[0]) - (c[0] - c[-d]) / (X[0] - X[-1]));
@@ -213,8 +227,7 @@ static bool look_around(const struct fv *s, const double *phi, int64_t c, struct
         for (int k = -REACH; k <= REACH; k++)
             w->x[a][k + REACH] =
                 a == 1 && b->rows ? b->rows->y[row + k] - b->rows->y[row] : k * b->h[a];
-        for (int k = 1; k < 4 && !(a == 1 && b->rows); k++)
-            w->per[a][k] = 1.0 / (k * b->h[a]);
+        w->per[a] = a == 1 && b->rows ? 0.0 : 1.0 / b->h[a];
         w->h = fmin(w->h, block_size(b, a, row));
     }
     return true;
@@ -223,7 +236,7 @@ static bool look_around(const struct fv *s, const double *phi, int64_t c, struct
 bool surface_closest(const struct fv *s, const double *phi, int64_t c, double *distance)
 {
     struct around w;
-    struct cubic q[3] = {{.n = 1}, {.n = 1}, {.n = 1}};
+    struct cubic q[3] = {{.n = 1}, {.n = 1}, {.n = 1, .value = {1.0}}}; /* beyond dim 1 */
     double x[3] = {0.0, 0.0, 0.0}, moved = INFINITY, square = 0.0;
     if (fabs(phi[c]) > 3.0 * s->surface->largest || !look_around(s, phi, c, &w))
         return false;

@@ -11,6 +11,7 @@
 #include "../../common/base/log.h"
 #include "../../common/base/mem.h"
 #include "../boundary/still.h"
+#include "lanes.h"
 #include "levelset.h"
 #include "mesh_view.h"
 #include "plane.h"
@@ -172,6 +173,21 @@ double surface_volume(const struct fv *s)
     return f && f->carries > 0.0 ? fraction_volume(s) : surface_level_volume(s, NULL);
 }
 
+/* --- rows in short pieces: those that are all water or all air are passed over --- */
+
+enum { PIECE = 16 };
+
+static int64_t piece(int64_t i, int64_t n) { return n - i < PIECE ? n - i : PIECE; }
+
+/* Whether some cell of a row and the cell a step d below are not the same, all water or all air. */
+static bool any_mixed(const double *C, int64_t d, int64_t n)
+{
+    int odd = 0;
+    for (int64_t i = 0; i < n; i++)
+        odd |= (C[i] != C[i - d]) | ((C[i] > 0.0) & (C[i] < 1.0));
+    return odd;
+}
+
 /* --- planes --- */
 
 /* Of cell c + d + t: where that is within a box, of the one that mirrors it, which is on this side
@@ -216,21 +232,30 @@ bool fraction_normal(const struct fv *s, const struct part *p, int64_t c, double
     return sum > 1e-12;
 }
 
+static void set_plane(const struct fv *s, const struct part *p, int64_t c)
+{
+    struct fraction *f = s->surface->fraction;
+    double n[3] = {0.0, 0.0, 0.0};
+    if (!fraction_normal(s, p, c, n)) /* as water lies */
+        for (int a = 0; a < s->dim; a++)
+            n[a] = s->surface->g > 0.0 ? -s->still[a] : a == s->dim - 1;
+    for (int a = 0; a < s->dim; a++)
+        f->n[a][c] = n[a];
+    f->alpha[c] = plane_alpha(s->dim, n, f->C[c]);
+}
+
 /* Planes of the mixed cells, with ghosts. */
 static void find_planes(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
     FLOW_ROWS_AT (s, part, j, c, len)
-        for (int64_t i = c; i < c + len; i++) {
-            double n[3] = {0.0, 0.0, 0.0};
-            if (!fraction_is_mixed(f->C[i]))
+        for (int64_t from = 0; from < len; from += PIECE) {
+            const int64_t n = piece(from, len);
+            if (!any_mixed(f->C + c + from, 0, n))
                 continue;
-            if (!fraction_normal(s, part, i, n)) /* as water lies */
-                for (int a = 0; a < s->dim; a++)
-                    n[a] = s->surface->g > 0.0 ? -s->still[a] : a == s->dim - 1;
-            for (int a = 0; a < s->dim; a++)
-                f->n[a][i] = n[a];
-            f->alpha[i] = plane_alpha(s->dim, n, f->C[i]);
+            for (int64_t i = c + from; i < c + from + n; i++)
+                if (fraction_is_mixed(f->C[i]))
+                    set_plane(s, part, i);
         }
     double *fields[4] = {f->alpha, f->n[0], f->n[1], f->n[2]};
     surface_fill(s, 1 + s->dim, fields);
@@ -265,22 +290,56 @@ static double water_across(const struct fv *s, int64_t c, int64_t d, int a, doub
     return (v > 0.0 ? kept : -kept) * f->volume[from];
 }
 
-/* Water through the lower faces along a less, where `solved', the volume: see the head. */
-static void find_fluxes(struct fv *s, int a, double dt)
+/* Water through the lower faces of n cells of a row along a. */
+static void fluxes_of_piece(const struct fv *s, int64_t c, int64_t d, int a, double dt, int64_t n)
 {
     struct fraction *f = s->surface->fraction;
+    const double *restrict C = f->C, *restrict flow = f->flow[a];
+    double *restrict flux = f->flux;
+    for (int64_t i = c; i < c + n; i++)
+        flux[i] = dt * flow[i] * C[i];
+    if (!any_mixed(C + c, d, n))
+        return;
+    for (int64_t i = c; i < c + n; i++) {
+        const double v = dt * flow[i];
+        if (C[i] != C[i - d] || fraction_is_mixed(C[i]))
+            flux[i] = v != 0.0 ? water_across(s, i, d, a, v) : 0.0;
+    }
+}
+
+static void find_fluxes(const struct fv *s, int a, double dt)
+{
     int up[3] = {0, 0, 0};
     up[a] = 1;
-    for (const struct part *p = s->part; p < s->part + s->nparts; p++) {
-        const int64_t d = p->stride[a];
-        PART_ROWS (p, none, up, c, n)
-            for (int64_t i = c; i < c + n; i++) {
-                const double v = dt * f->flow[a][i], low = f->C[i - d], high = f->C[i];
-                if (low == high && !fraction_is_mixed(low))
-                    f->flux[i] = v * low;
-                else
-                    f->flux[i] = v != 0.0 ? water_across(s, i, d, a, v) : 0.0;
-            }
+    for (const struct part *p = s->part; p < s->part + s->nparts; p++)
+        PART_ROWS (p, none, up, c, len)
+            for (int64_t i = 0; i < len; i += PIECE)
+                fluxes_of_piece(s, c + i, p->stride[a], a, dt, piece(i, len));
+}
+
+/* Sum over a row of what comes in through the lower faces less what leaves through the upper. */
+static double gain_of_row(const double *q, int64_t d, int64_t n)
+{
+    double part[LANES] = {0.0};
+    int64_t i = 0;
+    for (; i + LANES <= n; i += LANES)
+        for (int m = 0; m < LANES; m++)
+            part[m] += q[i + m] - q[i + m + d];
+    for (; i < n; i++)
+        part[0] += q[i] - q[i + d];
+    return lanes_sum(part);
+}
+
+/* C of a row; see the head. */
+static void update_row(const struct fraction *f, int a, int64_t c, int64_t d, double dt, int64_t n)
+{
+    const double *restrict flux = f->flux, *restrict flow = f->flow[a], *restrict layer = f->layer,
+                           *restrict volume = f->volume;
+    double *restrict C = f->C;
+    for (int64_t i = c; i < c + n; i++) {
+        const double solved = layer[i] == 0.0 ? dt : 0.0, v = solved * flow[i],
+                     w = solved * flow[i + d];
+        C[i] += ((flux[i] - v) - (flux[i + d] - w)) / volume[i];
     }
 }
 
@@ -291,15 +350,22 @@ static void sweep(struct fv *s, int a, double dt)
     find_fluxes(s, a, dt);
     FLOW_ROWS_AT (s, part, j, c, n) {
         const int64_t d = part->stride[a];
-        for (int64_t i = c; i < c + n; i++) {
-            const double solved = f->layer[i] == 0.0 ? dt : 0.0, v = solved * f->flow[a][i],
-                         w = solved * f->flow[a][i + d];
-            f->C[i] += ((f->flux[i] - v) - (f->flux[i + d] - w)) / f->volume[i];
-            f->entered += f->flux[i] - f->flux[i + d]; /* all faces within cancel */
-            f->excess += w - v;
-        }
+        update_row(f, a, c, d, dt, n);
+        f->entered += gain_of_row(f->flux + c, d, n); /* all faces within cancel */
     }
     surface_mirror(s, f->C);
+}
+
+/* m^dim that the projection left in wet cells, in dt; this rank's. */
+static double excess_of(const struct fv *s, double dt)
+{
+    const struct fraction *f = s->surface->fraction;
+    double sum = 0.0;
+    FLOW_ROWS_AT (s, part, j, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            for (int a = 0; a < s->dim && f->layer[i] == 0.0; a++)
+                sum += f->flow[a][i + part->stride[a]] - f->flow[a][i];
+    return dt * sum;
 }
 
 /* What the projection's tolerance left goes from, or to, the mixed cells, in proportion to how
@@ -326,7 +392,8 @@ void fraction_advance(struct fv *s, double dt, int n)
 {
     struct fraction *f = s->surface->fraction;
     fraction_set_flows(s);
-    f->entered = f->excess = 0.0;
+    f->entered = 0.0;
+    f->excess = excess_of(s, dt);
     for (int k = 0; k < n; k++) {
         for (int a = 0; a < s->dim; a++)
             sweep(s, ((int)f->first + a) % s->dim, dt / n);

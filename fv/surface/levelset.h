@@ -42,8 +42,9 @@ struct surface {
     struct surface_forced *forced;
     bool *closed; /* even cells whose values are nobody's: behind sides, boxes, deep in a partner's
                      part */
-    const unsigned char *none; /* not 0: the former, or those of blocks that are out, see mesh_view.h
-                                */
+    const unsigned char
+        *none; /* not 0: the former, or those of blocks that are out, see mesh_view.h
+                */
     struct surface_mesh *mesh;    /* NULL: even cells or layers of unequal height */
     double *phi, *phi_new, *rate; /* m, m, m/s */
     double *kept;                 /* scratch of reinit */
