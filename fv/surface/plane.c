@@ -75,6 +75,8 @@ double plane_share(int dim, const double *n, double alpha)
     return alpha > 0.0 ? 1.0 - share : share;
 }
 
+#define ROUNDING 4e-16 /* of a share */
+
 /* t within [lo, hi] that has the share: Newton's iteration, by halves where it leaves the bracket.
  */
 static double iterate(const double m[3], double share, double lo, double hi)
@@ -82,6 +84,8 @@ static double iterate(const double m[3], double share, double lo, double hi)
     double t = 0.5 * (lo + hi);
     for (int it = 0; it < 60; it++) {
         const double off = share_sorted(m, t) - share;
+        if (fabs(off) <= ROUNDING)
+            return t;
         const double low = t - m[0];
         const double slope =
             (area(m[1], m[2], t) - (low > 0.0 ? area(m[1], m[2], low) : 0.0)) / m[0];
