@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "lanes.h"
+
 enum {
     REACH = 3,             /* cells around that are read: the ghosts of a rank */
     NODES = 2 * REACH + 1, /* centres along an axis */
@@ -195,7 +197,8 @@ static double move(const struct around *w, struct cubic q[3], double *x, bool fi
         moved += d * d;
         x[a] += d;
         const double *X = w->x[a], low = X[w->lo[a]], high = X[w->hi[a]];
-        if (x[a] < fmax(X[1], low - 0.5 * w->h) || x[a] > fmin(X[NODES - 2], high + 0.5 * w->h))
+        if (x[a] < greater(X[1], low - 0.5 * w->h) ||
+            x[a] > lesser(X[NODES - 2], high + 0.5 * w->h))
             return INFINITY;
     }
     return moved;
@@ -228,7 +231,7 @@ static bool look_around(const struct fv *s, const double *phi, int64_t c, struct
             w->x[a][k + REACH] =
                 a == 1 && b->rows ? b->rows->y[row + k] - b->rows->y[row] : k * b->h[a];
         w->per[a] = a == 1 && b->rows ? 0.0 : 1.0 / b->h[a];
-        w->h = fmin(w->h, block_size(b, a, row));
+        w->h = lesser(w->h, block_size(b, a, row));
     }
     return true;
 }

@@ -35,11 +35,11 @@ static double within(const double *v, int n, int layer, bool film, double value)
     lanes_bounds(v, n, &low, &high);
     const double range = high - low, more = layer <= 2 ? 0.5 * range : 0.0;
     double least = low - more, most = high + more;
-    if (film && layer == 2) {
-        least = fmin(least, fmax(0.0, low - 3.0 * range));
-        most = fmax(most, fmin(0.0, high + 3.0 * range));
+    if (layer == 2) {
+        least = lesser(least, greater(0.0, low - 3.0 * range));
+        most = greater(most, lesser(0.0, high + 3.0 * range));
     }
-    return fmax(least, fmin(most, value));
+    return greater(least, lesser(most, value));
 }
 
 /* Whether viscosity crosses a cell while a wave does: nu/(h sqrt(g h)) above 0.1. Faster water,
@@ -181,7 +181,7 @@ void extension_beyond(const struct fv *s, double *q)
             if (x->n > 0)
                 lanes_bounds(r.v[0], x->n, &low, &high);
             const double v = lanes_dot(f->weight + x->first, r.v[0], x->n);
-            q[x->cell] = fmax(low, fmin(high, v));
+            q[x->cell] = greater(low, lesser(high, v));
         }
     }
     block_halo(&s->b, 1, &q);

@@ -276,7 +276,7 @@ static double water_across(const struct fv *s, int64_t c, int64_t d, int a, doub
 {
     const struct fraction *f = s->surface->fraction;
     const int64_t from = v > 0.0 ? c - d : c;
-    const double C = f->C[from], part = fmin(1.0, fabs(v) / f->volume[from]);
+    const double C = f->C[from], part = lesser(1.0, fabs(v) / f->volume[from]);
     if (!fraction_is_mixed(C))
         return v * C;
     if (surface_holds_none(s, from)) {
@@ -286,7 +286,7 @@ static double water_across(const struct fv *s, int64_t c, int64_t d, int a, doub
     }
     const double share =
         v > 0.0 ? plane_in(s, from, a, 0.5 - part, 0.5) : plane_in(s, from, a, -0.5, part - 0.5);
-    const double kept = fmin(C, fmax(part - (1.0 - C), share));
+    const double kept = lesser(C, greater(part - (1.0 - C), share));
     return (v > 0.0 ? kept : -kept) * f->volume[from];
 }
 

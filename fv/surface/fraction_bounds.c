@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "lanes.h"
 #include "levelset.h"
 #include "mesh_view.h"
 
@@ -21,7 +22,7 @@ static double excess(double C) { return C > 1.0 + ROUNDING ? C - 1.0 : C < -ROUN
 static double weight(const struct fv *s, double e, int64_t from, int64_t i, bool passes_on)
 {
     const struct fraction *f = s->surface->fraction;
-    const double C = fmin(1.0, fmax(0.0, f->C[i])), *phi = s->surface->phi;
+    const double C = lesser(1.0, greater(0.0, f->C[i])), *phi = s->surface->phi;
     if (!takes_part(s, i))
         return 0.0;
     if (passes_on)

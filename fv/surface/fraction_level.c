@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "lanes.h"
 #include "levelset.h"
 #include "mesh_view.h"
 #include "plane.h"
@@ -92,7 +93,7 @@ static double wanted(const struct fv *s, const struct part *p, int64_t c, bool t
     const double C = s->surface->fraction->C[c], phi = s->surface->phi[c];
     double n[3] = {0.0, 0.0, 0.0}, h = 0.0, size = 0.0;
     for (int a = 0; a < s->dim; a++)
-        h = fmax(h, fraction_size(s, c, a));
+        h = greater(h, fraction_size(s, c, a));
     if (fabs(phi) > 2.0 * h)
         return (C > 0.5) != (phi < 0.0) ? (0.5 - C) * h : phi;
     if (!slopes_of(s, p, c, trusted, n)) /* amid water, or air, alone */
@@ -102,9 +103,9 @@ static double wanted(const struct fv *s, const struct part *p, int64_t c, bool t
     if (fabs(phi) >= size && fabs(C - (phi < 0.0)) < NOTHING)
         return phi;
     if (C <= 0.0)
-        return fmax(phi, size);
+        return greater(phi, size);
     if (C >= 1.0)
-        return fmin(phi, -size);
+        return lesser(phi, -size);
     return -plane_alpha(s->dim, n, C);
 }
 
@@ -140,9 +141,9 @@ static bool is_beside(const struct fv *s, const struct part *p, int64_t c)
     surface_slopes(s, p, c, n);
     for (int a = 0; a < s->dim; a++) {
         across += fabs(n[a]);
-        least = fmin(least, fraction_size(s, c, a));
+        least = lesser(least, fraction_size(s, c, a));
     }
-    return fabs(s->surface->phi[c]) <= 1.5 * fmax(across, least);
+    return fabs(s->surface->phi[c]) <= 1.5 * greater(across, least);
 }
 
 bool fraction_is_calm(const struct fv *s)

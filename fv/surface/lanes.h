@@ -6,6 +6,10 @@
 
 enum { LANES = 8 };
 
+/* fmin and fmax are calls, for the sake of what is no number. */
+static inline double lesser(double a, double b) { return a < b ? a : b; }
+static inline double greater(double a, double b) { return a > b ? a : b; }
+
 static inline double lanes_sum(const double p[LANES])
 {
     return ((p[0] + p[1]) + (p[2] + p[3])) + ((p[4] + p[5]) + (p[6] + p[7]));

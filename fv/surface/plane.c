@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "lanes.h"
+
 /* Sorts the sizes of the components, smallest first, and divides them by their sum, which it
  * returns; the missing ones are 0. */
 static double sorted(int dim, const double *n, double m[3])
@@ -54,9 +56,9 @@ static double share_sorted(const double m[3], double t)
     if (t <= y)
         return 0.5 * mean_square(low, t) / y / z;
     /* shares of the places below y, beyond z, and between: they sum to 1 whatever is rounded */
-    const double beyond = t > z ? fmin(1.0, (t - z) / x) : 0.0;
-    const double below = low < y ? fmin(1.0 - beyond, (y - low) / x) : 0.0;
-    const double from = fmax(low, y), to = fmin(t, z);
+    const double beyond = t > z ? lesser(1.0, (t - z) / x) : 0.0;
+    const double below = low < y ? lesser(1.0 - beyond, (y - low) / x) : 0.0;
+    const double from = greater(low, y), to = lesser(t, z);
     double sum = (1.0 - beyond - below) * (0.5 * (from + to) - 0.5 * y) / z;
     if (below > 0.0)
         sum += below * 0.5 * mean_square(low, y) / y / z;
@@ -112,10 +114,10 @@ static double place_sorted(const double m[3], double share)
         return cbrt(6.0 * x * y * z * share);
     /* t^2 - x t + x^2/3 = 2 y z share */
     if (y > 0.0 && share < share_sorted(m, y)) /* at most 1/2, for y <= 1/2 */
-        return 0.5 * x + sqrt(fmax(0.0, 2.0 * y * z * share - x * x / 12.0));
+        return 0.5 * x + sqrt(greater(0.0, 2.0 * y * z * share - x * x / 12.0));
     if (x == 0.0)
         return z * share + 0.5 * y;
-    const double last = fmin(x + y, z);
+    const double last = lesser(x + y, z);
     if (share < share_sorted(m, last))
         return iterate(m, share, y, last);
     return x + y <= z ? z * share + 0.5 * (x + y) : iterate(m, share, last, 0.5);
