@@ -432,6 +432,7 @@ static void add_carry(struct fv *s, const struct part *part, int64_t c, int laye
         x.slope *= p.spacing;
         x.has_slope = true;
     }
+    x.slows = layer == 2 && !surface_any_leans(s); /* rough water at rest would grow faster there */
     if (f->ncarry[layer] == f->carry_room[layer]) {
         const int64_t more = 2 * f->carry_room[layer] + 256;
         GROW(f->carry[layer], f->ncarry[layer], more);

@@ -31,6 +31,7 @@ struct carry {
     double n3[3];   /* layer 1: normal, out of the water */
     bool has_slope; /* layer 1, unless the water is thin */
     double slope;   /* weight of the normal derivative */
+    bool slows;     /* layer 2: it may be much slower than its stencil, as films are */
 };
 
 struct fraction;       /* water of each cell, fraction.h; NULL: phi is shifted as a whole */
