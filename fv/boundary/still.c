@@ -57,9 +57,10 @@ bool still_leans(const double still[3])
     return leans;
 }
 
-bool still_creeps(const double still[3], double nu, double h)
+double still_creep(const double still[3], double nu, double h)
 {
-    return nu * nu > 100.0 * size_of(still) * h * h * h;
+    const double fall = h * sqrt(h * size_of(still));
+    return nu > 0.0 ? nu / fall : 0.0;
 }
 
 double fv_still_pressure(const struct fv *s, const double *x)

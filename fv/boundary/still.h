@@ -20,8 +20,10 @@ void still_split(const struct scene *scene, double drive[3], double still[3], do
 int still_upright(const struct scene *scene);
 /* Whether it is neither along an axis nor across all others. */
 bool still_leans(const double still[3]);
-/* Whether viscosity nu moves water over h (m) faster than it does: nu/(h sqrt(g h)) above 10. */
-bool still_creeps(const double still[3], double nu, double h);
+/* nu/(h sqrt(g h)): how fast viscosity nu moves water over h (m), over how fast gravity does;
+ * infinite without one. */
+double still_creep(const double still[3], double nu, double h);
+#define STILL_CREEPS 10.0 /* above: it creeps */
 /* That pressure at x, Pa. */
 double still_pressure(const struct scene *scene, const double still[3], double level,
                       const double *x);

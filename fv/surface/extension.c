@@ -349,9 +349,10 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
 {
     static const double origin[3] = {0.0, 0.0, 0.0};
     struct least_squares q;
-    const int dim = s->dim,
-              order =
-                  surface_leans(s, p->part) || still_creeps(s->still, s->nu, p->spacing) ? 1 : 2;
+    const int dim = s->dim, order = surface_leans(s, p->part) ||
+                                            still_creep(s->still, s->nu, p->spacing) > STILL_CREEPS
+                                        ? 1
+                                        : 2;
     double e[TERMS] = {0.0}, w[3][STENCIL];
     memset(grad, 0, sizeof(double) * (size_t)(dim * p->n));
     if (fit(s, p, order, false, origin, &q) == 0)
@@ -398,6 +399,13 @@ static bool keep_own(const struct fv *s, int64_t c, const struct place *p)
     return s->surface->mesh->keep[c];
 }
 
+/* Whether the second layer may be as slow as a film's: its profile wants some viscosity, without
+ * that jets get faster by it, and on blocks that lean rough water at rest grows faster. */
+static bool may_slow(const struct fv *s, double h)
+{
+    return still_creep(s->still, s->nu, h) > 0.01 && !surface_any_leans(s);
+}
+
 static void add_carry(struct fv *s, const struct part *part, int64_t c, int layer)
 {
     struct surface *f = s->surface;
@@ -432,7 +440,7 @@ static void add_carry(struct fv *s, const struct part *part, int64_t c, int laye
         x.slope *= p.spacing;
         x.has_slope = true;
     }
-    x.slows = layer == 2 && !surface_any_leans(s); /* rough water at rest would grow faster there */
+    x.slows = layer == 2 && may_slow(s, p.spacing);
     if (f->ncarry[layer] == f->carry_room[layer]) {
         const int64_t more = 2 * f->carry_room[layer] + 256;
         GROW(f->carry[layer], f->ncarry[layer], more);

@@ -41,7 +41,7 @@ const char *fraction_obstacle(const struct run *r, const struct mesh *m, double 
     if ((m && any_curved(m)) || still_leans(still))
         return "cells are not upright";
     const bool falls = still[0] != 0.0 || still[1] != 0.0 || still[2] != 0.0;
-    if (falls && still_creeps(still, r->scene.fluid.nu, least))
+    if (falls && still_creep(still, r->scene.fluid.nu, least) > STILL_CREEPS)
         return "the water creeps: nu/(h sqrt(g h)) is above 10";
     return NULL;
 }
