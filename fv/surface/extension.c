@@ -399,11 +399,12 @@ static bool keep_own(const struct fv *s, int64_t c, const struct place *p)
     return s->surface->mesh->keep[c];
 }
 
-/* Whether the second layer may be as slow as a film's: its profile wants some viscosity, without
- * that jets get faster by it, and on blocks that lean rough water at rest grows faster. */
+/* Whether the second layer may be as slow as a film's: where viscosity crosses a cell while a wave
+ * does. Faster water, rough as it is, wants the bound: a column that splashes made pressures odd
+ * and even; and on blocks that lean rough water at rest grows faster without. */
 static bool may_slow(const struct fv *s, double h)
 {
-    return still_creep(s->still, s->nu, h) > 0.01 && !surface_any_leans(s);
+    return still_creep(s->still, s->nu, h) > 0.1 && !surface_any_leans(s);
 }
 
 static void add_carry(struct fv *s, const struct part *part, int64_t c, int layer)

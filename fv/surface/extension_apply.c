@@ -25,28 +25,21 @@ static void look(const struct surface *f, const struct carry *x, int dim, double
     }
 }
 
-/* No more than half as much again beyond what the stencil has, nothing far from the water. A film
- * over a wall is slower in the second layer than all of it, by three times as much where the
- * surface lies just above a wet centre; slower, but not the other way, needs no bound. */
-static double within(const double *v, const struct carry *x, int layer, double value)
+/* No more than half as much again beyond what the stencil has, nothing far from the water. A
+ * viscous film over a wall (film) is slower in the second layer than all of it, by three times as
+ * much where the surface lies just above a wet centre; slower, but not the other way, needs no
+ * bound there. */
+static double within(const double *v, int n, int layer, bool film, double value)
 {
     double low, high;
-    lanes_bounds(v, x->n, &low, &high);
+    lanes_bounds(v, n, &low, &high);
     const double range = high - low, more = layer <= 2 ? 0.5 * range : 0.0;
     double least = low - more, most = high + more;
-    if (x->slows) {
+    if (film) {
         least = lesser(least, greater(0.0, low - 3.0 * range));
         most = greater(most, lesser(0.0, high + 3.0 * range));
     }
     return greater(least, lesser(most, value));
-}
-
-/* Whether viscosity crosses a cell while a wave does: nu/(h sqrt(g h)) above 0.1. Faster water,
- * rough as it is, wants the bound: a column that splashes made pressures odd and even. */
-static bool has_films(const struct fv *s)
-{
-    const double h = s->surface->least;
-    return s->nu * s->nu > 0.01 * s->surface->g * h * h * h;
 }
 
 /* Normal derivatives of the components for a cell of the first layer; n.(D n) to stress. */
@@ -102,7 +95,7 @@ static void carry_velocity(const struct fv *s, const struct carry *x, int layer,
 {
     const struct surface *f = s->surface;
     const int dim = s->dim;
-    const bool clip = how != EXTEND_CHANGE, film = has_films(s);
+    const bool clip = how != EXTEND_CHANGE;
     double slope[3] = {0.0, 0.0, 0.0}, own[3] = {0.0, 0.0, 0.0};
     struct stencil_values r;
     look(f, x, dim, u, &r);
@@ -113,7 +106,7 @@ static void carry_velocity(const struct fv *s, const struct carry *x, int layer,
     for (int q = 0; q < dim && x->n > 0; q++) {
         own[q] = x->slope * slope[q] + lanes_dot(f->weight + x->first, r.v[q], x->n);
         if (clip)
-            own[q] = within(r.v[q], x, layer, own[q]);
+            own[q] = within(r.v[q], x->n, layer, x->slows, own[q]);
     }
     if (clip && layer <= 2 && x->n > 0)
         slow_down(dim, &r, x->n, own);
@@ -161,7 +154,7 @@ void extension_scalar(const struct fv *s, double *q)
             look(f, x, 1, &q, &r);
             const double v = lanes_dot(f->weight + x->first, r.v[0], x->n) +
                              x->slope * slope_of(f, x, s->dim, r.v[0]);
-            q[x->cell] = x->n > 0 ? within(r.v[0], x, l, v) : 0.0;
+            q[x->cell] = x->n > 0 ? within(r.v[0], x->n, l, false, v) : 0.0;
         }
     }
     surface_fill(s, 1, &q);
