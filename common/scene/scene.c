@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "exact.h"
+#include "scene_beach.h"
 #include "scene_check.h"
 
 #define ROWS(r) (r), (int)(sizeof(r) / sizeof *(r))
@@ -57,6 +58,8 @@ static const struct param wall_rows[] = {
     PARAM(P, thin,     "-",   "false", 0, 0, "of a mesh: fluid on one side does not interact with that on the other; for walls thinner than the support"),
     CHOICE(P, kind, "slip|no_slip|inflow|outflow|absorbing", "slip", "kind of boundary"),
     PARAM(P, friction, "-",   "0.0", 0, 1, "of a slip wall (sph): coefficient c_f of quadratic bed friction, whose shear stress is rho c_f |u| u of the velocity along the wall next to it"),
+    PARAM(P, beach,    "m",   "0.0", 0, 1e9, "of an upright side: water is brought to rest over this length before it, and waves that run there are absorbed; one wave length, 1.5 for a sea"),
+    PARAM(P, beach_period, "s", "0.0", 0, 1e9, "of a beach: period of these waves; its rate at the side is 4 pi over it"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, of the inflow, or of the far field beyond an absorbing side"),
     CHOICE(P, profile, "uniform|parabolic", "uniform", "of an inflow; parabolic: over each opening (blocks that touch are one), velocity is the largest one"),
     PARAM(P, pressure, "Pa",  "0.0", -1e12, 1e12, "at an outflow"),
@@ -299,5 +302,6 @@ void scene_check(const struct scene *s, const struct params *p, struct faults *f
     if (f->n)
         return;
     scene_check_unused(s, p, f);
+    scene_beach_check(s, p, f);
     scene_check_sense(s, p, f);
 }

@@ -81,16 +81,17 @@ struct scene {
         struct scene_surface surface; /* 3D: triangles of a file */
         int fluid_side;               /* enum fluid_side: of that */
         bool flip, thin;
-        bool closed;        /* the last point is joined with the first */
-        bool turned;        /* by scene_orient */
-        int kind;           /* enum wall_kind */
-        double friction;    /* -: c_f of a slip wall's quadratic bed friction */
-        double velocity[3]; /* m/s: of the wall along itself, or of the inflow */
-        int profile;        /* of an inflow */
-        double pressure;    /* Pa: at an outflow */
-        bool carried;       /* fv: velocity of a convective outflow, instead of p given */
-        double level;       /* m: of the water in an opening, if has_level */
-        double discharge;   /* m^dim/s: in through an inflow, out through an outflow */
+        bool closed;                /* the last point is joined with the first */
+        bool turned;                /* by scene_orient */
+        int kind;                   /* enum wall_kind */
+        double friction;            /* -: c_f of a slip wall's quadratic bed friction */
+        double velocity[3];         /* m/s: of the wall along itself, or of the inflow */
+        int profile;                /* of an inflow */
+        double pressure;            /* Pa: at an outflow */
+        double beach, beach_period; /* m, s: scene_beach.h; 0: none */
+        bool carried;               /* fv: velocity of a convective outflow, instead of p given */
+        double level;               /* m: of the water in an opening, if has_level */
+        double discharge;           /* m^dim/s: in through an inflow, out through an outflow */
         char level_file[PARAM_TEXT_SIZE], discharge_file[PARAM_TEXT_SIZE]; /* both over time */
         bool has_level, has_discharge;                 /* by wall_histories_read, as the next */
         const struct motion_file *levels, *discharges; /* of these files; NULL: constant */

@@ -79,6 +79,10 @@ static void check_wall(const struct scene *s, const struct params *p, struct fau
     check_key(p, f, "walls", k, "friction", w->kind == WALL_SLIP,
               opening ? "an opening has none; a slip wall has"
                       : "no_slip is friction by viscosity: bed friction is a slip wall's");
+    for (int i = 0; i < 2; i++)
+        check_key(p, f, "walls", k, i ? "beach_period" : "beach", !opening && w->side != SIDE_NONE,
+                  opening ? "an opening lets waves out by itself"
+                          : "a beach stands before a side of the domain");
     check_key(p, f, "walls", k, "velocity",
               w->kind != WALL_SLIP && (!out || w->carried) && !(opening && flows),
               opening && flows ? "a level or a discharge is given, the velocity follows"

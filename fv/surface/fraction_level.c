@@ -81,9 +81,9 @@ static bool slopes_of(const struct fv *s, const struct part *p, int64_t c, bool 
     return true;
 }
 
-/* What a cell that is water or air by phi may miss or hold: the projection's tolerance leaves as much
- * here and there, deep in the water, too, where a surface that touches such a cell would be a hole
- * from nothing, and grow. */
+/* What a cell that is water or air by phi may miss or hold: the projection's tolerance leaves as
+ * much here and there, deep in the water, too, where a surface that touches such a cell would be a
+ * hole from nothing, and grow. */
 #define NOTHING 1e-3
 
 /* Where phi of a cell wants to be: pure cells are no nearer the surface than half of their size;

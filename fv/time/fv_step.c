@@ -14,6 +14,7 @@
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
 #include "../watch/watches.h"
+#include "beach.h"
 #include "moving.h"
 #include "newton.h"
 #include "steps.h"
@@ -210,6 +211,7 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
         surface_second_half(s, dt);
         timer_stop(&s->run->timers, "surface");
     }
+    beach_relax(s, dt);
     diagnose(s, dt, before * dt, good, d);
     const bool failed = run_diagnose(d, s->comm);
     if (s->predicts)

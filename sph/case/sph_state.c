@@ -8,6 +8,7 @@
 
 #include "../../common/base/log.h"
 #include "../../common/base/mem.h"
+#include "../../common/scene/scene_beach.h"
 #include "../bodies/bodies.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/openings.h"
@@ -55,6 +56,7 @@ static void set_constants(struct sph *s)
     s->c0 = s->prm.c0;
     s->gamma = s->prm.gamma;
     s->central = c->fluid.central;
+    s->beach = scene_has_beach(c);
     memcpy(s->gravity, c->fluid.gravity, sizeof s->gravity);
     if (s->prm.surface != SURFACE_YES)
         s->reference = scene_reference(c);

@@ -179,6 +179,11 @@ static void check_wall(const struct run *r, const struct sph_params *used, const
                   "the flow around the particles (sph.outer) is known otherwise");
     snprintf(key, sizeof key, "walls.[%d].carried", k);
     params_unused(r->params, f, key, false, "sph has no convective outflow");
+    static const char *const beach[] = {"beach", "beach_period"};
+    for (int i = 0; i < 2; i++) {
+        snprintf(key, sizeof key, "walls.[%d].%s", k, beach[i]);
+        params_unused(r->params, f, key, surface, "there is no free surface, so no waves");
+    }
     static const char *const level[] = {"level", "level_file"}, *const discharge[] = {
                                                                     "discharge", "discharge_file"};
     for (int i = 0; i < 2; i++) {

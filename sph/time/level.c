@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "../../common/base/mem.h"
+#include "../../common/scene/scene_beach.h"
 #include "../open_boundaries/outer_lattice.h"
 #include "../open_boundaries/zone_steps.h"
 #include "../pairs/neighbours.h"
@@ -14,6 +15,7 @@
 #include "../refinement/mixed.h"
 #include "../surface/surface.h"
 #include "../surface/volume_feedback.h"
+#include "../walls/forces.h"
 #include "../walls/walls.h"
 #include "runge_kutta.h"
 
@@ -131,6 +133,25 @@ static void add_central(struct sph *s)
     }
 }
 
+/* Beaches take momentum, which walls at rest get. */
+static void add_beach(struct sph *s)
+{
+    const int dim = s->dim;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *q = prim_line(&s->p, i), rate = scene_beach_rate(&s->run->scene, q);
+        double *momentum = state_row(&s->p, s->p.rate, i) + dim, taken[3] = {0.0, 0.0, 0.0};
+        const double m = state_row(&s->p, s->p.y, i)[at_mass(dim)];
+        if (rate == 0.0)
+            continue;
+        for (int a = 0; a < dim; a++) {
+            taken[a] = m * rate * q[dim + a];
+            momentum[a] -= taken[a];
+        }
+        if (s->walls && !particles_is_guard(&s->p, i))
+            forces_add(s, -1, q, taken);
+    }
+}
+
 /* What follows the slopes of one level: of its deep guards these stay for the step. */
 static void slopes_done(struct sph *s)
 {
@@ -198,6 +219,8 @@ void level_rates(struct sph *s)
         volume_feedback_add(s);
     if (s->central > 0.0)
         add_central(s);
+    if (s->beach)
+        add_beach(s);
     if (s->guards)
         guards_rates(s);
 }

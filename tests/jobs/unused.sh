@@ -78,6 +78,8 @@ walls.closed true
 walls.kind no_slip
 walls.velocity (0.2,0)
 walls.friction 0.05
+walls.beach 0.2
+walls.beach_period 0.7
 walls.profile "parabolic"
 walls.pressure 100.0
 walls.carried true
