@@ -8,7 +8,7 @@ COMMIT := $(shell git rev-parse --short HEAD 2>/dev/null || echo unknown)
 
 # ---- what it needs, as Debian 12 packages -------------------------------------------------------------
 PACKAGES = build-essential pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi-dev hdf5-tools python3-h5py python3-matplotlib \
-           libhypre-dev libsundials-dev libconfig-dev libmuparser-dev libcmocka-dev libassimp-dev
+           libhypre-dev libsundials-dev libconfig-dev liblapacke-dev libmuparser-dev libcmocka-dev libassimp-dev
 
 # ---- how it is built ----------------------------------------------------------------------------------
 # No -ffast-math: it gains nothing here and lets NaN pass unseen. -fno-math-errno frees sqrt.
@@ -18,7 +18,7 @@ HDF5_CFLAGS = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags hdf5-openmpi
 HDF5_LIBS = $(shell pkg-config --libs hdf5-openmpi 2>/dev/null)
 SAN =
 CFLAGS = -std=c11 -D_GNU_SOURCE -g $(OPT) $(WARN) $(HDF5_CFLAGS) -isystem /usr/include/hypre $(SAN)
-LIBS = $(HDF5_LIBS) -lconfig -lmuparser -lm
+LIBS = $(HDF5_LIBS) -llapacke -lconfig -lmuparser -lm
 # Reads meshes; without it they are refused.
 ASSIMP_LIBS = $(strip $(shell pkg-config --libs assimp 2>/dev/null))
 FV_LIBS = -lHYPRE -lsundials_kinsol -lsundials_nvecparallel -lsundials_sunlinsolspgmr

@@ -7,8 +7,8 @@
 #include "../common/base/log.h"
 #include "../common/base/mem.h"
 #include "../common/run/forecast.h"
-#include "../common/scene/scene_beach.h"
 #include "../common/scene/scene_openings.h"
+#include "../common/scene/scene_waves.h"
 #include "../coupler/cpl_partner.h"
 #include "boundary/blocked.h"
 #include "case/fv_case.h"
@@ -52,7 +52,7 @@ static void describe(const struct run *r)
         mesh_describe(r, prm);
         if (prm->water)
             openings_describe(&r->scene);
-        scene_beach_describe(&r->scene);
+        scene_waves_describe(&r->scene);
         return;
     }
     const struct scene_domain *d = &r->scene.domain;
@@ -86,7 +86,7 @@ static void describe(const struct run *r)
     if (water) {
         fraction_describe(r, prm, NULL, least);
         openings_describe(&r->scene);
-        scene_beach_describe(&r->scene);
+        scene_waves_describe(&r->scene);
     }
     if (prm->graded[1] > 0.0)
         describe_rows(r);

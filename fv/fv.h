@@ -127,6 +127,7 @@ struct fv {
     struct bc *bc;
     struct blocked *blocked;
     struct forcing *forcing;
+    struct wave_zones *wave_zones; /* common/scene/wave_zones.h; NULL: none */
     struct outflows *outflows;
     struct levels *levels;
     struct surface *surface;

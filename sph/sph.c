@@ -10,10 +10,10 @@
 #include "../common/run/solids.h"
 #include "../common/scene/exact.h"
 #include "../common/scene/picture.h"
-#include "../common/scene/scene_beach.h"
 #include "../common/scene/scene_fluid.h"
 #include "../common/scene/scene_mesh.h"
 #include "../common/scene/scene_openings.h"
+#include "../common/scene/scene_waves.h"
 #include "../coupler/cpl_partner.h"
 #include "case/sph_params.h"
 #include "case/sph_sense.h"
@@ -145,7 +145,7 @@ static void describe_scene(const struct run *r)
         if (prm->outer == OUTER_SIDES && prm->surface == SURFACE_YES)
             openings_describe(&r->scene);
     }
-    scene_beach_describe(&r->scene);
+    scene_waves_describe(&r->scene);
 }
 
 /* Two rows between walls have no particle that is not a wall's neighbour: a full tank of 2 dx stirs

@@ -91,8 +91,8 @@ struct sph {
     int dim;
     double R, dx, dxD; /* m, m, m^dim: volume of a particle at the start */
     double rho0, nu, c0, gamma;
-    double gravity[3], central; /* m/s^2, 1/s */
-    bool beach;                 /* some side has one */
+    double gravity[3], central;    /* m/s^2, 1/s */
+    struct wave_zones *wave_zones; /* before sides; NULL: none; owned */
     /* The part of the pressure that eos_p leaves out, with the gravity that belongs to it: what
      * comes in from sides and partners is reduced by it, all that is shown has it. */
     struct scene_reference reference;

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "exact.h"
-#include "scene_beach.h"
 #include "scene_check.h"
+#include "scene_waves.h"
 
 #define ROWS(r) (r), (int)(sizeof(r) / sizeof *(r))
 
@@ -56,10 +56,10 @@ static const struct param wall_rows[] = {
     CHOICE(P, fluid_side, "auto|inside|outside|sheet", "auto", "of a mesh: where the fluid is; sheet: on the side that its normals point away from; auto: where the shapes have it"),
     PARAM(P, flip,     "-",   "false", 0, 0, "reverse the normals of an open mesh, which must point out of the fluid"),
     PARAM(P, thin,     "-",   "false", 0, 0, "of a mesh: fluid on one side does not interact with that on the other; for walls thinner than the support"),
-    CHOICE(P, kind, "slip|no_slip|inflow|outflow|absorbing", "slip", "kind of boundary"),
+    CHOICE(P, kind, "slip|no_slip|inflow|outflow|absorbing|wave|beach", "slip", "kind of boundary; wave: an upright slip wall with a zone before it that makes the waves of the group waves, and lets pass what comes back; beach: with one that absorbs them"),
     PARAM(P, friction, "-",   "0.0", 0, 1, "of a slip wall (sph): coefficient c_f of quadratic bed friction, whose shear stress is rho c_f |u| u of the velocity along the wall next to it"),
-    PARAM(P, beach,    "m",   "0.0", 0, 1e9, "of an upright side: water is brought to rest over this length before it, and waves that run there are absorbed; one wave length, 1.5 for a sea"),
-    PARAM(P, beach_period, "s", "0.0", 0, 1e9, "of a beach: period of these waves; its rate at the side is 4 pi over it"),
+    PARAM(P, beach,    "m",   "0.0", 0, 1e9, "of an upright side: water is brought to rest over this length before it, and waves that run there are absorbed; one wave length, 1.5 for a sea; 0 with kind = beach: waves.zone"),
+    PARAM(P, beach_period, "s", "0.0", 0, 1e9, "of a beach: period of these waves; its rate at the side is 4 pi over it; 0 with kind = beach: that of the group waves"),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, of the inflow, or of the far field beyond an absorbing side"),
     CHOICE(P, profile, "uniform|parabolic", "uniform", "of an inflow; parabolic: over each opening (blocks that touch are one), velocity is the largest one"),
     PARAM(P, pressure, "Pa",  "0.0", -1e12, 1e12, "at an outflow"),
@@ -90,6 +90,22 @@ static const struct param probe_rows[] = {
     PARAM(P, at,   "m", NULL, -1e9, 1e9, "place"),
     PARAM(P, to,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "of a discharge: the other end of its line, the other corner of its rectangle"),
     PARAM(P, radius, "m", "0.0", 0, 1e9, "of a pressure gauge (sph): it reads the mean over a disc (3D: sphere) of this radius, whatever the particle size; where less than a quarter (3D: an eighth) of it is wet the reading falls in proportion; 0, or less than R of the particles: R"),
+};
+#undef P
+#define P struct scene_waves
+static const struct param waves_rows[] = {
+    CHOICE(P, kind, "regular|sea|focused", "regular", "of steady form; with JONSWAP's spectrum and random phases; a group of that spectrum whose crests meet"),
+    PARAM(P, height,    "m", NULL,  1e-9, 1e6, "from trough to crest; sea: significant height; focused: twice the linear crest"),
+    PARAM(P, length,    "m", "0.0", 0, 1e6, "of a wave, of a sea's peak; this or period"),
+    PARAM(P, period,    "s", "0.0", 0, 1e6, "of a wave, of a sea's peak; this or length"),
+    PARAM(P, depth,     "m", "0.0", 0, 1e6, "of the still water where the waves are made; 0: from the shapes' level to the floor of the domain"),
+    PARAM(P, direction, "-", "0.0", -360, 360, "degrees about the vertical in which they run; 0: along the first horizontal axis, +x; 90: along the second; 180: -x"),
+    PARAM(P, at,        "-", "(0.0, 0.0)", -1e9, 1e9, "(m, s): place along the direction and time of a crest of a regular wave, of the focus of a group"),
+    PARAM(P, start,     "-", "2.0", 0, 100, "periods over which the waves grow from water at rest; 0: at once"),
+    PARAM(P, zone,      "m", "0.0", 0, 1e9, "length of the zone before each side of kind wave or beach; 0: one wave length, 1.5 where the water is deep (kh > 2), for a sea 1.5 times its peak's"),
+    PARAM(P, peak,      "-", "3.3", 1, 10, "JONSWAP's gamma: how sharp the peak of the spectrum is"),
+    PARAM(P, repeat,    "s", "0.0", 0, 1e9, "after which a sea repeats itself; 0: the run's time and 10 periods"),
+    PARAM(P, seed,      "-", "1", 0, 2000000000, "of the random phases of a sea"),
 };
 #undef P
 #define P struct scene_coupling
@@ -145,6 +161,8 @@ void scene_groups(struct scene *s, struct param_group *groups)
          ROWS(shape_rows), s->shapes, NULL, sizeof s->shapes[0], SHAPES_MAX, &s->nshapes},
         {"probes", "List of gauges in series.csv", ROWS(probe_rows), s->probes, NULL,
          sizeof s->probes[0], PROBES_MAX, &s->nprobes},
+        {"waves", "Waves that sides of kind wave make", ROWS(waves_rows), &s->waves, &s->has_waves,
+         0, 0, NULL},
         {"coupling", "How sph and fv are coupled", ROWS(coupling_rows), &s->coupling,
          &s->has_coupling, 0, 0, NULL},
         {"output", "What is written", ROWS(output_rows), &s->output, &s->has_output, 0, 0, NULL},
@@ -287,7 +305,7 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
     }
 }
 
-void scene_check(const struct scene *s, const struct params *p, struct faults *f)
+void scene_check(struct scene *s, const struct params *p, struct faults *f)
 {
     static const char *const needed[] = {"time", "domain"};
     for (int k = 0; k < 2; k++)
@@ -295,6 +313,7 @@ void scene_check(const struct scene *s, const struct params *p, struct faults *f
             params_fault(p, f, needed[k], "the case must have this group");
     if (f->n)
         return; /* what follows needs sound values */
+    scene_waves_mark(s);
     check_domain(s, p, f);
     check_field(s, p, f);
     check_walls(s, p, f);
@@ -302,6 +321,8 @@ void scene_check(const struct scene *s, const struct params *p, struct faults *f
     if (f->n)
         return;
     scene_check_unused(s, p, f);
-    scene_beach_check(s, p, f);
+    scene_waves_check(s, p, f);
     scene_check_sense(s, p, f);
+    if (f->n == 0)
+        scene_waves_resolve(s);
 }

@@ -33,7 +33,17 @@ enum scene_side {
     SIDE_Z_MIN,
     SIDE_Z_MAX
 };
-enum wall_kind { WALL_SLIP, WALL_NO_SLIP, WALL_INFLOW, WALL_OUTFLOW, WALL_ABSORBING };
+/* The last two are slip walls behind zones: scene_waves_resolve makes them so. */
+enum wall_kind {
+    WALL_SLIP,
+    WALL_NO_SLIP,
+    WALL_INFLOW,
+    WALL_OUTFLOW,
+    WALL_ABSORBING,
+    WALL_WAVE,
+    WALL_BEACH
+};
+enum wall_zone { ZONE_NONE, ZONE_BEACH, ZONE_WAVE };
 enum wall_profile { PROFILE_UNIFORM, PROFILE_PARABOLIC };
 enum shape_form { SHAPE_BOX, SHAPE_POLYGON, SHAPE_DISC, SHAPE_BELOW, SHAPE_MESH };
 enum fluid_side { FLUID_AUTO, FLUID_INSIDE, FLUID_OUTSIDE, FLUID_SHEET };
@@ -45,7 +55,7 @@ enum {
     BODIES_MAX = 8,
     SHAPES_MAX = 16,
     PROBES_MAX = 24,
-    SCENE_GROUPS = 11
+    SCENE_GROUPS = 12
 };
 
 struct scene {
@@ -88,7 +98,8 @@ struct scene {
         double velocity[3];         /* m/s: of the wall along itself, or of the inflow */
         int profile;                /* of an inflow */
         double pressure;            /* Pa: at an outflow */
-        double beach, beach_period; /* m, s: scene_beach.h; 0: none */
+        double beach, beach_period; /* m, s: length and period of its zone; 0: none */
+        int zone;                   /* enum wall_zone, by scene_waves_resolve */
         bool carried;               /* fv: velocity of a convective outflow, instead of p given */
         double level;               /* m: of the water in an opening, if has_level */
         double discharge;           /* m^dim/s: in through an inflow, out through an outflow */
@@ -119,6 +130,20 @@ struct scene {
         double radius; /* m: pressure: of what it reads the mean of; 0: R of the particles */
     } probes[PROBES_MAX];
     int nprobes;
+    /* Waves that sides of kind wave make; scene_waves.h. */
+    struct scene_waves {
+        int kind;              /* enum wave_kind */
+        double height;         /* m */
+        double length, period; /* m, s */
+        double depth;          /* m; 0: from the level to the domain's floor */
+        double direction;      /* degrees about the vertical */
+        double at[3];          /* m, s: of a crest; the third is not used */
+        double start;          /* periods of the soft start */
+        double zone;           /* m; 0: by the waves */
+        double peak, repeat;   /* -, s */
+        int seed;
+        double made[2]; /* m, m/s: highest crest, fastest water, by scene_waves_resolve */
+    } waves;
     struct scene_coupling {
         int steps;         /* SPH steps in a coupling step; 0: automatic */
         double transition; /* m; 0: 1.25 R */
@@ -149,7 +174,7 @@ struct scene {
         double unit[3];   /* of the reference's times (s) and values (as in series.csv) */
         double tolerance; /* accepted while the value is at most this */
     } accept[ACCEPT_MAX];
-    bool has_coupling, has_output;
+    bool has_coupling, has_output, has_waves;
     bool has_sph, has_fv;        /* groups of the solvers: both make a coupled job */
     struct scene_meshes *meshes; /* what the files of surfaces hold; scene_mesh.h; NULL: none */
 };
@@ -172,7 +197,7 @@ bool scene_has_surface(const struct scene *s);
 
 /* The table of the groups above, with s as target: fills groups[SCENE_GROUPS]. */
 void scene_groups(struct scene *s, struct param_group *groups);
-/* Faults between keys (max > min, L > 0, ...). */
-void scene_check(const struct scene *s, const struct params *p, struct faults *f);
+/* Faults between keys (max > min, L > 0, ...); then fills in what follows from several keys. */
+void scene_check(struct scene *s, const struct params *p, struct faults *f);
 
 #endif

@@ -205,6 +205,20 @@ static void room_of(const struct scene *s, double lo[3], double hi[3])
     }
 }
 
+/* Whether a box of water lies on the floor from side to side, in a tank with waves: as below a
+ * level. */
+static bool spans(const struct scene *s, const struct scene_shape *h)
+{
+    bool all = s->has_waves && h->form == SHAPE_BOX;
+    for (int a = 0; a < s->domain.dim; a++) {
+        const double room = 1e-9 * extent(s, a);
+        const bool up = s->fluid.gravity[a] != 0.0, low = h->box[0][a] <= s->domain.min[a] + room,
+                   high = h->box[1][a] >= s->domain.max[a] - room;
+        all = all && (up ? (s->fluid.gravity[a] < 0.0 ? low : high) : low && high);
+    }
+    return all;
+}
+
 /* Depth of the water and the height that it can fall. */
 static void find_fall(const struct scene *s, double *depth, double *fall)
 {
@@ -223,7 +237,8 @@ static void find_fall(const struct scene *s, double *depth, double *fall)
     }
     *depth = range[1] - range[0];
     for (int k = 0; k < s->nshapes; k++) {
-        still = still && s->shapes[k].form == SHAPE_BELOW && !s->shapes[k].hole;
+        still = still && (s->shapes[k].form == SHAPE_BELOW || spans(s, s->shapes + k)) &&
+                !s->shapes[k].hole;
         if (!s->shapes[k].hole)
             top = fmax(top, shape_top(s, g, s->shapes + k));
     }
@@ -233,6 +248,10 @@ static void find_fall(const struct scene *s, double *depth, double *fall)
         still = still && s->walls[k].kind < WALL_OUTFLOW;
     if (scene_has_surface(s) || !still)
         *fall = still && s->nshapes > 0 ? 0.0 : *depth;
+    if (s->has_waves && still) { /* crests and troughs of a standing wave, before a wall */
+        *depth += 2.0 * s->waves.made[0];
+        *fall = 4.0 * s->waves.made[0];
+    }
 }
 
 static bool has_friction(const struct scene *s)
@@ -444,6 +463,7 @@ struct scene_speed scene_speed_of(const struct scene *s, double file, double spa
     take(&v, inflow_speed(s), "the inflow");
     take(&v, wall_speed(s), "the moving walls");
     take(&v, fmax(body_speed(s), file), "the moving bodies");
+    take(&v, s->waves.made[1], "the waves");
     take(&v, driven_speed(s), "the body force along periodic axes");
     take(&v, outlet_speed(s, &pressure), "the pressures of the outlets");
     take(&v, s->fluid.central * sqrt(central), "the central force");

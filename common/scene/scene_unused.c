@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_check.h"
 #include "scene_mesh.h"
+#include "scene_waves.h"
 
 #include <stdio.h>
 
@@ -80,9 +81,11 @@ static void check_wall(const struct scene *s, const struct params *p, struct fau
               opening ? "an opening has none; a slip wall has"
                       : "no_slip is friction by viscosity: bed friction is a slip wall's");
     for (int i = 0; i < 2; i++)
-        check_key(p, f, "walls", k, i ? "beach_period" : "beach", !opening && w->side != SIDE_NONE,
-                  opening ? "an opening lets waves out by itself"
-                          : "a beach stands before a side of the domain");
+        check_key(p, f, "walls", k, i ? "beach_period" : "beach",
+                  !opening && w->side != SIDE_NONE && w->zone != ZONE_WAVE,
+                  opening                ? "an opening lets waves out by itself"
+                  : w->zone == ZONE_WAVE ? "its zone is waves.zone long, of their period"
+                                         : "a beach stands before a side of the domain");
     check_key(p, f, "walls", k, "velocity",
               w->kind != WALL_SLIP && (!out || w->carried) && !(opening && flows),
               opening && flows ? "a level or a discharge is given, the velocity follows"
@@ -195,8 +198,18 @@ static void check_probe(const struct scene *s, const struct params *p, struct fa
               "only a discharge goes through a line");
 }
 
+static void check_waves(const struct scene *s, const struct params *p, struct faults *f)
+{
+    const bool sea = s->waves.kind == WAVE_SEA, sums = s->waves.kind != WAVE_REGULAR;
+    params_unused(p, f, "waves.at", !sea, "the phases of a sea are random");
+    params_unused(p, f, "waves.peak", sums, "regular waves have no spectrum");
+    params_unused(p, f, "waves.repeat", sums, "regular waves repeat themselves every period");
+    params_unused(p, f, "waves.seed", sea, "only the phases of a sea are random");
+}
+
 void scene_check_unused(const struct scene *s, const struct params *p, struct faults *f)
 {
+    check_waves(s, p, f);
     check_initial(s, p, f);
     for (int k = 0; k < s->nwalls; k++)
         check_wall(s, p, f, k);

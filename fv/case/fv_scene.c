@@ -35,6 +35,8 @@ static void check_wall(const struct run *r, struct faults *f, int k)
         wall_fault(r, f, k, "a polyline is not for this solver");
     if (w->kind == WALL_ABSORBING)
         wall_fault(r, f, k, "\"absorbing\" is not for this solver");
+    if (w->zone != ZONE_NONE && fv_params_of(r)->integrator == INTEGRATOR_NEWTON)
+        wall_fault(r, f, k, "newton has no beaches and makes no waves: rk3 or bdf2 do");
     if (w->carried && w->kind != WALL_OUTFLOW)
         wall_fault(r, f, k, "carried (convective outflow) is for an outflow");
     else if (w->carried && steady)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../../common/base/mem.h"
+#include "../../common/scene/wave_zones.h"
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
 #include "../boundary/carried.h"
@@ -257,6 +258,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     s->nu = r->scene.fluid.nu;
     s->t = r->t;
     s->exact = exact_create(&r->scene);
+    s->wave_zones = wave_zones_create(&r->scene);
     still_split(&r->scene, s->drive, s->still, &s->level);
     if (blocks)
         mesh_state_create(s);
@@ -290,6 +292,7 @@ void fv_free(struct fv **sp)
     newton_free(&s->newton);
     poisson_free(&s->poisson);
     forcing_free(&s->forcing);
+    wave_zones_free(&s->wave_zones);
     blocked_free(&s->blocked);
     if (s->surface)
         surface_forced_free(&s->surface->forced);

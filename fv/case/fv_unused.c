@@ -290,8 +290,6 @@ static const struct rule rules[] = {
     {"walls.level_file",       dry,               "no water has a free surface", false},
     {"walls.beach",        dry,               "no water has a free surface: there are no waves", false},
     {"walls.beach_period", dry,               "no water has a free surface: there are no waves", false},
-    {"walls.beach",        is_newton,         "newton has no beaches: rk3 or bdf2 have", false},
-    {"walls.beach_period", is_newton,         "newton has no beaches: rk3 or bdf2 have", false},
     {"walls.level",       is_newton,         "newton has no openings of given level: give it as initial.level, which an outflow has, or rk3 or bdf2", false},
     {"walls.level_file",       is_newton,         "newton has no openings of given level: give it as initial.level, which an outflow has, or rk3 or bdf2", false},
     {"walls.discharge",   dry,               "without a free surface the area of an opening is known: give the velocity", false},

@@ -14,9 +14,9 @@
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
 #include "../watch/watches.h"
-#include "beach.h"
 #include "moving.h"
 #include "newton.h"
+#include "relax.h"
 #include "steps.h"
 
 void measure(struct fv *s) { s->stages->measure(s); }
@@ -211,7 +211,7 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
         surface_second_half(s, dt);
         timer_stop(&s->run->timers, "surface");
     }
-    beach_relax(s, dt);
+    relax_zones(s, dt);
     diagnose(s, dt, before * dt, good, d);
     const bool failed = run_diagnose(d, s->comm);
     if (s->predicts)

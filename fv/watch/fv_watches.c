@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "../../common/base/log.h"
+#include "../../common/scene/wave_zones.h"
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
@@ -221,6 +222,28 @@ static double power_of_openings(const struct fv *s)
     return sums[0];
 }
 
+/* m^dim+2/s^3: work over rho that zones do which make waves. */
+static double power_of_zones(struct fv *s)
+{
+    double sum = 0.0;
+    if (!s->wave_zones || !wave_zones_drive(s->wave_zones))
+        return 0.0;
+    FLOW_ROWS_AT (s, part, j, c, n) {
+        const double *weight = weights_of_row(s, c, n, j);
+        double row = 0.0;
+        for (int64_t i = c; i < c + n; i++) {
+            double x[3], u_w[3], uf = 0.0;
+            forcing_centre(s, i, x);
+            const double rate = wave_zones_rate(s->wave_zones, x, u_w);
+            for (int a = 0; a < s->dim && rate > 0.0; a++)
+                uf += rate * (u_w[a] - s->u[a][i]) * s->u[a][i];
+            row += weight[i - c] * uf;
+        }
+        sum += volume_of_row(s, j) * row;
+    }
+    return sum;
+}
+
 static void sum_energy(struct fv *s, double sums[6])
 {
     FLOW_ROWS_AT (s, part, j, c, n) {
@@ -233,7 +256,7 @@ static void sum_energy(struct fv *s, double sums[6])
             sums[m] += volume_of_row(s, j) * row[m];
     }
     if (s->surface)
-        sums[5] = power_of_openings(s);
+        sums[5] = power_of_openings(s) + power_of_zones(s);
     if (s->m && !s->watches->periodic && !s->surface)
         sums[5] = mesh_bc_power(s);
     for (int k = 0; k < 2 * s->dim && !s->m && !s->surface; k++)

@@ -8,7 +8,7 @@
 
 #include "../../common/base/log.h"
 #include "../../common/base/mem.h"
-#include "../../common/scene/scene_beach.h"
+#include "../../common/scene/wave_zones.h"
 #include "../bodies/bodies.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/openings.h"
@@ -56,7 +56,7 @@ static void set_constants(struct sph *s)
     s->c0 = s->prm.c0;
     s->gamma = s->prm.gamma;
     s->central = c->fluid.central;
-    s->beach = scene_has_beach(c);
+    s->wave_zones = wave_zones_create(c);
     memcpy(s->gravity, c->fluid.gravity, sizeof s->gravity);
     if (s->prm.surface != SURFACE_YES)
         s->reference = scene_reference(c);
@@ -211,6 +211,7 @@ void sph_free(struct sph **s)
     mixed_free(*s);
     domain_free(&(*s)->domain);
     zones_free(&(*s)->zones);
+    wave_zones_free(&(*s)->wave_zones);
     walls_free(&(*s)->walls);
     sph_surface_free(&(*s)->surface);
     fit_free(&(*s)->total.signal_fit);

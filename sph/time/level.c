@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "../../common/base/mem.h"
-#include "../../common/scene/scene_beach.h"
+#include "../../common/scene/wave_zones.h"
 #include "../open_boundaries/outer_lattice.h"
 #include "../open_boundaries/zone_steps.h"
 #include "../pairs/neighbours.h"
@@ -133,23 +133,30 @@ static void add_central(struct sph *s)
     }
 }
 
-/* Beaches take momentum, which walls at rest get. */
-static void add_beach(struct sph *s)
+/* Zones before sides take momentum, which walls at rest get, and do work where they make waves. */
+static void add_wave_zones(struct sph *s)
 {
     const int dim = s->dim;
+    double power = 0.0;
+    wave_zones_at(s->wave_zones, s->t);
     for (int i = 0; i < s->p.n; i++) {
-        const double *q = prim_line(&s->p, i), rate = scene_beach_rate(&s->run->scene, q);
-        double *momentum = state_row(&s->p, s->p.rate, i) + dim, taken[3] = {0.0, 0.0, 0.0};
+        const double *q = prim_line(&s->p, i), at[3] = {q[0], q[1], dim > 2 ? q[2] : 0.0};
+        double u_w[3], taken[3] = {0.0, 0.0, 0.0};
+        const double rate = wave_zones_rate(s->wave_zones, at, u_w);
+        double *momentum = state_row(&s->p, s->p.rate, i) + dim;
         const double m = state_row(&s->p, s->p.y, i)[at_mass(dim)];
         if (rate == 0.0)
             continue;
         for (int a = 0; a < dim; a++) {
-            taken[a] = m * rate * q[dim + a];
+            taken[a] = m * rate * (q[dim + a] - u_w[a]);
             momentum[a] -= taken[a];
+            power -= taken[a] * q[dim + a];
         }
         if (s->walls && !particles_is_guard(&s->p, i))
             forces_add(s, -1, q, taken);
     }
+    if (wave_zones_drive(s->wave_zones))
+        s->watch.wall_power += power;
 }
 
 /* What follows the slopes of one level: of its deep guards these stay for the step. */
@@ -219,8 +226,8 @@ void level_rates(struct sph *s)
         volume_feedback_add(s);
     if (s->central > 0.0)
         add_central(s);
-    if (s->beach)
-        add_beach(s);
+    if (s->wave_zones)
+        add_wave_zones(s);
     if (s->guards)
         guards_rates(s);
 }

@@ -43,7 +43,7 @@ refused() {
 }
 refused 's/beach_period = 0.836;//' 'walls.\[1\].beach: a beach needs its length and the period' sph
 refused 's/beach = 1.5/beach = 3/' 'walls.\[1\].beach: 3 m: the domain is 2.5 m long there' fv
-refused 's/"y_min"; }/"y_min"; beach = 0.1; beach_period = 1; }/' 'a beach is before an upright side' sph
+refused 's/"y_min"; }/"y_min"; beach = 0.1; beach_period = 1; }/' 'a zone is before an upright side' sph
 refused 's/beach = 1.5/kind = "outflow"; beach = 1.5/' 'an opening lets waves out by itself' fv
 echo "beach: $first m; later fv $late, bdf2 $slow, sph $grains, without $alone m; $failed faults"
 [ $failed = 0 ]

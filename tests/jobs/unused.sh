@@ -80,6 +80,18 @@ walls.velocity (0.2,0)
 walls.friction 0.05
 walls.beach 0.2
 walls.beach_period 0.7
+waves.kind sea
+waves.height 0.12
+waves.length 1.2
+waves.period 0.8
+waves.depth 0.9
+waves.direction 10.0
+waves.at (0.2,0.1)
+waves.start 1.0
+waves.zone 0.4
+waves.peak 2.0
+waves.repeat 50.0
+waves.seed 3
 walls.profile "parabolic"
 walls.pressure 100.0
 walls.carried true
@@ -318,6 +330,15 @@ walls: ( { side = "y_min"; kind = "no_slip"; #walls
  } );
 initial: { field = "standing_wave"; U = 0.1; L = 2.0; amplitude = 0.05; level = 0.0; };
 sph: { dx = 0.1; c0 = 10.0; };' ;;
+    train) echo 'fluid: { rho = 1000.0; gravity = (0, -9.81); };
+domain: { dim = 2; min = (-1, -1); max = (1, 1); };
+initial: { U = 3.0; };
+walls: ( { side = "x_min"; kind = "wave"; #walls
+ }, { side = "x_max"; kind = "beach"; beach = 0.5; beach_period = 0.6; }, { side = "y_min"; } );
+shapes: ( { form = "below"; level = 0.0; #shapes
+ } );
+waves: { kind = "focused"; height = 0.05; length = 0.7; start = 0.05; };
+sph: { dx = 0.1; c0 = 30.0; };' ;;
     drop) echo 'fluid: { rho = 1.0; central = 1.0; };
 domain: { dim = 2; min = (-1, -1); max = (1, 1); };
 initial: { field = "drop"; L = 0.5; };
@@ -344,7 +365,7 @@ try() { # MODE KEY VALUE
     case $mode:$key in
     float:bodies.free | hinge:bodies.free | touch:bodies.free) value=false ;;
     float:bodies.contact | hinge:bodies.contact) return ;; # they touch nothing
-    float:sph.surface | hinge:sph.surface | mesh:sph.surface | dam:sph.surface | cube:sph.surface | wave:sph.surface | drop:sph.surface | lines:sph.surface) value=no ;;
+    float:sph.surface | hinge:sph.surface | mesh:sph.surface | dam:sph.surface | cube:sph.surface | wave:sph.surface | train:sph.surface | drop:sph.surface | lines:sph.surface) value=no ;;
     cube:sph.walls) value=nfm ;;
     dam:domain.max) value='(0.3,1.2)' ;; # the water is far from the wall
     float:sph.viscosity | hinge:sph.viscosity | mesh:sph.viscosity | wave:sph.viscosity | lines:sph.viscosity) value=morris ;; # monaghan is what auto takes there
@@ -391,8 +412,8 @@ for key in $("$b/sph" --params | sed -n 's/^| `\([a-z_A-Z0-9]*\.[a-zA-Z_0-9.]*\)
     case $key in accept.*) continue ;; esac
     echo "$known" | grep -qx "$key" || { echo "FAIL: no other value is known for $key: add it here"; failed=$((failed + 1)); }
 done
-[ "${1:-}" = all ] && set -- vortices delta dam body float hinge touch box channel cube mesh wave drop lines regions swirls
-[ $# -gt 0 ] || set -- dam channel float hinge touch mesh swirls
+[ "${1:-}" = all ] && set -- vortices delta dam body float hinge touch box channel cube mesh wave train drop lines regions swirls
+[ $# -gt 0 ] || set -- dam channel float hinge touch mesh train swirls
 for solid in "tank -0.8 0.8 zp" "cube -0.3 0.1" "other -0.5 0.3" "water -1 0.5"; do # NAME LOW HIGH [open face]
     echo "$solid" | while read -r name low high open; do
         awk -v lo="$low $low $low" -v hi="$high $high $high" -v drop="$open" -f "$root/tests/jobs/stl.awk" >"$name.stl"

@@ -122,6 +122,13 @@ static const struct {
      "\"outflow\"; j_min = \"slip\"; j_max = \"slip\"; }, { name = \"c\"; mapping = \"annulus\"; "
      "radius = (0.5, 2.4); stretch = (1.0, 0); cells = (18, 48); i_min = \"wall\"; j_min = "
      "\"joined\"; j_max = \"joined\"; } );\nfv: { };\n"},
+    {"wave zone", HEAD
+     "domain: { dim = 2; max = (3, 1); };\n"
+     "fluid: { gravity = (0, -9.81); };\nshapes: ( { form = \"below\"; level = 0.5; } );\n"
+     "walls: ( { side = \"x_min\"; kind = \"wave\"; }, { side = \"x_max\"; kind = \"beach\"; }, "
+     "{ side = \"y_min\"; }, { side = \"y_max\"; } );\n"
+     "waves: { kind = \"focused\"; height = 0.05; length = 0.9; zone = 0.8; start = 0.1; };\n"
+     "fv: { cells = (24, 12); };\n"},
     {"lid on a block", HEAD SQUARE
      "fluid: { nu = 0.01; };\nblocks: ( { name = \"a\"; cells = (8, 8); velocity = (1, 0); lid = "
      "\"j_max\"; i_min = \"wall\"; i_max = \"wall\"; j_min = \"wall\"; j_max = \"wall\"; } );\n"

@@ -1,0 +1,309 @@
+/* scene_waves.c - see scene_waves.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "scene_waves.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../base/log.h"
+#include "../base/mem.h"
+#include "../base/vec3.h"
+#include "scene_fluid.h"
+
+void scene_waves_mark(struct scene *s)
+{
+    for (int k = 0; k < s->nwalls; k++) {
+        struct scene_wall *w = s->walls + k;
+        w->zone = w->kind == WALL_WAVE                                               ? ZONE_WAVE
+                  : w->kind == WALL_BEACH || w->beach > 0.0 || w->beach_period > 0.0 ? ZONE_BEACH
+                                                                                     : ZONE_NONE;
+        w->kind = w->kind >= WALL_WAVE ? WALL_SLIP : w->kind;
+    }
+}
+
+bool scene_makes_waves(const struct scene *s)
+{
+    bool any = false;
+    for (int k = 0; k < s->nwalls; k++)
+        any = any || s->walls[k].zone == ZONE_WAVE;
+    return any;
+}
+
+double scene_waves_level(const struct scene *s)
+{
+    const int up = scene_still_axis(s);
+    double level = NAN;
+    for (int k = 0; k < s->nshapes && up >= 0; k++) {
+        const struct scene_shape *is = s->shapes + k;
+        const double top = s->fluid.gravity[up] < 0.0 ? is->box[1][up] : -is->box[0][up];
+        if (!is->hole && is->form == SHAPE_BELOW)
+            level = fmax(level, is->level);
+        else if (!is->hole && is->form == SHAPE_BOX)
+            level = fmax(level, top);
+    }
+    return scene_has_wave(s) && s->initial.level < LEVEL_TOP ? s->initial.level : level;
+}
+
+/* m: of the water over the domain's floor. */
+static double depth_of(const struct scene *s)
+{
+    const int up = scene_still_axis(s);
+    if (up < 0)
+        return NAN;
+    return scene_waves_level(s) -
+           (s->fluid.gravity[up] < 0.0 ? s->domain.min[up] : -s->domain.max[up]);
+}
+
+void scene_waves_direction(const struct scene *s, double *d)
+{
+    const int up = scene_still_axis(s), first = up == 0 ? 1 : 0, second = 3 - up - first;
+    const double angle = s->waves.direction * M_PI / 180.0;
+    d[0] = d[1] = d[2] = 0.0;
+    d[first] = cos(angle);
+    if (up >= 0 && s->domain.dim == 3)
+        d[second] = sin(angle);
+}
+
+int scene_zone_axis(const struct scene_wall *w, bool *low)
+{
+    *low = (w->side - SIDE_X_MIN) % 2 == 0;
+    return (w->side - SIDE_X_MIN) / 2;
+}
+
+/* Least and largest place along the direction in the zones that make waves. */
+static void window_of(const struct scene *s, double window[2])
+{
+    double d[3];
+    scene_waves_direction(s, d);
+    window[0] = INFINITY;
+    window[1] = -INFINITY;
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        bool low;
+        const int axis = scene_zone_axis(w, &low);
+        for (int corner = 0; corner < 8 && w->zone == ZONE_WAVE; corner++) {
+            double x = 0.0;
+            for (int a = 0; a < s->domain.dim; a++) {
+                double at = corner >> a & 1 ? s->domain.max[a] : s->domain.min[a];
+                if (a == axis && low != !(corner >> a & 1))
+                    at = low ? s->domain.min[a] + w->beach : s->domain.max[a] - w->beach;
+                x += at * d[a];
+            }
+            window[0] = fmin(window[0], x);
+            window[1] = fmax(window[1], x);
+        }
+    }
+}
+
+struct wave_spec scene_waves_spec(const struct scene *s)
+{
+    const struct scene_waves *w = &s->waves;
+    struct wave_spec of = {.kind = w->kind,
+                           .height = w->height,
+                           .length = w->length,
+                           .period = w->period,
+                           .depth = w->depth > 0.0 ? w->depth : depth_of(s),
+                           .g = vec3_length(s->fluid.gravity),
+                           .rho = s->fluid.rho,
+                           .at = {w->at[0], w->at[1]},
+                           .start = w->start,
+                           .closed = true,
+                           .peak = w->peak,
+                           .seed = w->seed};
+    of.repeat = w->repeat > 0.0 ? w->repeat : s->time.end + 10.0 * waves_period(&of);
+    window_of(s, of.window);
+    return of;
+}
+
+/* m: of zones whose length is not given. */
+static double zone_length(const struct scene *s, const struct waves *w)
+{
+    const bool deep = 2.0 * M_PI * w->of.depth / w->length > 2.0;
+    if (s->waves.zone > 0.0)
+        return s->waves.zone;
+    return (w->of.kind != WAVE_REGULAR || deep ? 1.5 : 1.0) * w->length;
+}
+
+void scene_waves_resolve(struct scene *s)
+{
+    if (!s->has_waves)
+        return;
+    const struct wave_spec of = scene_waves_spec(s);
+    struct waves *made = waves_create(&of);
+    for (int k = 0; k < s->nwalls; k++) {
+        struct scene_wall *w = s->walls + k;
+        if (w->zone == ZONE_NONE)
+            continue;
+        w->beach = w->beach > 0.0 ? w->beach : zone_length(s, made);
+        w->beach_period = w->beach_period > 0.0 ? w->beach_period : made->period;
+    }
+    s->waves.made[0] = made->crest;
+    s->waves.made[1] = made->speed;
+    waves_free(&made);
+}
+
+/* --- faults --- */
+
+static void check_zone(const struct scene *s, const struct params *p, int k, struct faults *f)
+{
+    const struct scene_wall *w = s->walls + k;
+    char key[64];
+    bool low;
+    const int axis = scene_zone_axis(w, &low);
+    snprintf(key, sizeof key, "walls.[%d].beach", k);
+    if (!params_given(p, key))
+        snprintf(key, sizeof key, "walls.[%d].kind", k);
+    if (w->side == SIDE_NONE)
+        params_fault(p, f, key, "a zone stands before a side of the domain, not along points");
+    else if (w->zone == ZONE_WAVE && !s->has_waves)
+        params_fault(p, f, key,
+                     "what waves? give the group waves: { height = ...; length = ...; }, or "
+                     "period");
+    else if (w->zone == ZONE_BEACH && !s->has_waves &&
+             (!(w->beach > 0.0) || !(w->beach_period > 0.0)))
+        params_fault(p, f, key,
+                     "a beach needs its length and the period of the waves that it is to absorb: "
+                     "give beach (m) and beach_period (s)");
+    else if (axis == scene_still_axis(s))
+        params_fault(p, f, key, "a zone is before an upright side, not below or above the water");
+    else if (!scene_has_surface(s))
+        params_fault(p, f, key, "no water has a free surface: there are no waves");
+    else if (w->beach >= s->domain.max[axis] - s->domain.min[axis])
+        params_fault(p, f, key, "%g m: the domain is %g m long there", w->beach,
+                     s->domain.max[axis] - s->domain.min[axis]);
+}
+
+/* Gravity along an axis, water over a floor: what a wave is made of. */
+static bool check_water(const struct scene *s, const struct params *p, struct faults *f)
+{
+    const double g = vec3_length(s->fluid.gravity);
+    const int up = scene_still_axis(s);
+    if (up < 0 || fabs(s->fluid.gravity[up]) < (1.0 - 1e-9) * g)
+        params_fault(p, f, "fluid.gravity", "waves are made under gravity along an axis");
+    else if (!(s->waves.depth > 0.0) && !(depth_of(s) > 0.0))
+        params_fault(p, f, "waves.depth",
+                     "no shape (a box, or below a level) tells how deep the water is: give it, m");
+    else
+        return true;
+    return false;
+}
+
+/* Zones that the waves give a length. */
+static void check_room(const struct scene *s, const struct params *p, struct faults *f)
+{
+    const struct wave_spec of = scene_waves_spec(s);
+    struct waves *made = waves_create(&of);
+    double left[3];
+    for (int a = 0; a < 3; a++)
+        left[a] = s->domain.max[a] - s->domain.min[a];
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        bool low;
+        if (w->zone != ZONE_NONE)
+            left[scene_zone_axis(w, &low)] -= w->beach > 0.0 ? w->beach : zone_length(s, made);
+    }
+    for (int a = 0; a < s->domain.dim; a++)
+        if (!(left[a] > 0.0))
+            params_fault(p, f, "domain.max",
+                         "along %c the zones before the sides leave no room between them: of these "
+                         "waves (%.4g m long) each takes %.4g m",
+                         "xyz"[a], made -> length, zone_length(s, made));
+        else if (left[a] < made->length && left[a] < s->domain.max[a] - s->domain.min[a])
+            log_warn("along %c the zones leave %.3g m between them, less than a wave length",
+                     "xyz"[a], left[a]);
+    waves_free(&made);
+}
+
+void scene_waves_check(const struct scene *s, const struct params *p, struct faults *f)
+{
+    const int before = f->n;
+    char text[256];
+    const char *key;
+    for (int k = 0; k < s->nwalls; k++)
+        if (s->walls[k].zone != ZONE_NONE)
+            check_zone(s, p, k, f);
+    if (!s->has_waves || f->n > before)
+        return;
+    if (!scene_makes_waves(s)) {
+        params_fault(p, f, "waves",
+                     "no side makes them: give a side of the domain kind = \"wave\"");
+        return;
+    }
+    if (!check_water(s, p, f))
+        return;
+    const struct wave_spec of = scene_waves_spec(s);
+    if (waves_refuse(&of, &key, text, sizeof text))
+        params_fault(p, f, key, "%s", text);
+    else
+        check_room(s, p, f);
+}
+
+/* --- the log --- */
+
+enum { LENGTHS = 4, DEPTHS = 3 };
+
+double zone_reflection(double kh, double lengths)
+{
+    static const double at[LENGTHS] = {0.5, 1.0, 1.5, 2.0}, depth[DEPTHS] = {0.5, 1.0, 3.0},
+                        R[DEPTHS][LENGTHS] = {{0.21, 0.017, 0.005, 0.002},
+                                              {0.18, 0.008, 0.003, 0.002},
+                                              {0.14, 0.023, 0.005, 0.004}};
+    const double z = fmin(fmax(kh, depth[0]), depth[DEPTHS - 1]);
+    const int d = z < depth[1] ? 0 : 1;
+    const double q = (z - depth[d]) / (depth[d + 1] - depth[d]);
+    double line[LENGTHS];
+    for (int k = 0; k < LENGTHS; k++)
+        line[k] = (1.0 - q) * log(R[d][k]) + q * log(R[d + 1][k]);
+    if (lengths <= at[0]) /* all of it without a zone */
+        return exp(line[0] * fmax(lengths, 0.0) / at[0]);
+    int k = 0;
+    while (k < LENGTHS - 2 && lengths > at[k + 1])
+        k++;
+    const double t = fmin(1.0, (lengths - at[k]) / (at[k + 1] - at[k]));
+    return exp((1.0 - t) * line[k] + t * line[k + 1]);
+}
+
+static void describe_made(const struct waves *w)
+{
+    static const char *const names[] = {"regular waves", "a sea", "a focused group"};
+    const double kh = 2.0 * M_PI * w->of.depth / w->length;
+    log_say("%s: height %g m, %s%.4g m long, period %.4g s, celerity %.4g m/s over %.4g m (kh "
+            "%.3g), %.0f %% of the highest; crest %.3g m, trough %.3g m, water up to %.3g m/s",
+            names[w->of.kind], w->of.height, w->of.kind == WAVE_REGULAR ? "" : "the peak's ",
+            w->length, w->period, w->celerity, w->of.depth, kh, 100.0 * w->of.height / w->limit,
+            w->crest, w->trough, w->speed);
+    if (w->of.kind != WAVE_REGULAR)
+        log_say("%d linear components, lengths %.3g to %.3g m", w->ncomponents, w->shortest,
+                w->longest);
+}
+
+void scene_waves_describe(const struct scene *s)
+{
+    const double g = vec3_length(s->fluid.gravity), h = depth_of(s);
+    if (s->has_waves) {
+        const struct wave_spec of = scene_waves_spec(s);
+        struct waves *made = waves_create(&of);
+        describe_made(made);
+        waves_free(&made);
+    }
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        if (w->zone == ZONE_NONE)
+            continue;
+        const char *side = scene_side_names[w->side - SIDE_X_MIN],
+                   *what = w->zone == ZONE_WAVE ? "wave zone" : "beach";
+        if (!(h > 0.0)) {
+            log_say("%s: %s over %g m, for waves of %g s", side, what, w->beach, w->beach_period);
+            continue;
+        }
+        const double number = waves_number(2.0 * M_PI / w->beach_period, g, h),
+                     length = 2.0 * M_PI / number,
+                     R = zone_reflection(number * h, w->beach / length);
+        log_say("%s: %s over %.4g m, %.2g lengths of waves of %.4g s (%.3g m): %.2g %% of their "
+                "height comes back",
+                side, what, w->beach, w->beach / length, w->beach_period, length, 100.0 * R);
+        if (w->beach < 0.8 * length)
+            log_warn("%s: a zone shorter than a wave length reflects; give %s = %.3g, or %.2g for "
+                     "a sea",
+                     side, w->zone == ZONE_WAVE ? "waves.zone" : "beach", length, 1.5 * length);
+    }
+}

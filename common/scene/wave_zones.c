@@ -1,0 +1,109 @@
+/* wave_zones.c - see wave_zones.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "wave_zones.h"
+
+#include <math.h>
+
+#include "../base/mem.h"
+#include "scene_fluid.h"
+#include "scene_waves.h"
+
+struct wave_zones {
+    int n, up;
+    struct {
+        int axis;
+        double edge, length; /* m: of the side (towards +: length > 0) */
+        double rate;         /* 1/s: at the side */
+        struct waves *waves; /* NULL: a beach; owned */
+    } zone[6];
+    double along[3], level, sign; /* of waves; height is sign times x[up] */
+};
+
+static struct waves *waves_of(const struct scene *s, const struct wave_zones *z, int k)
+{
+    struct wave_spec of = scene_waves_spec(s);
+    of.zone = fabs(z->zone[k].length);
+    of.rate = z->zone[k].rate;
+    of.cosine = z->along[z->zone[k].axis] * (z->zone[k].length > 0.0 ? 1.0 : -1.0);
+    return waves_create(&of);
+}
+
+struct wave_zones *wave_zones_create(const struct scene *s)
+{
+    struct wave_zones *z = NEW(struct wave_zones, 1);
+    *z = (struct wave_zones){.up = scene_still_axis(s)};
+    if (scene_makes_waves(s)) {
+        z->sign = s->fluid.gravity[z->up] < 0.0 ? 1.0 : -1.0;
+        z->level = scene_waves_level(s);
+        scene_waves_direction(s, z->along);
+    }
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        bool low;
+        const int axis = scene_zone_axis(w, &low);
+        if (w->zone == ZONE_NONE)
+            continue;
+        z->zone[z->n].axis = axis;
+        z->zone[z->n].edge = low ? s->domain.min[axis] : s->domain.max[axis];
+        z->zone[z->n].length = low ? w->beach : -w->beach;
+        z->zone[z->n].rate = 4.0 * M_PI / w->beach_period;
+        if (w->zone == ZONE_WAVE)
+            z->zone[z->n].waves = waves_of(s, z, z->n);
+        z->n++;
+    }
+    if (z->n > 0)
+        return z;
+    mem_free(z);
+    return NULL;
+}
+
+void wave_zones_free(struct wave_zones **z)
+{
+    if (!*z)
+        return;
+    for (int k = 0; k < (*z)->n; k++)
+        waves_free(&(*z)->zone[k].waves);
+    mem_free(*z);
+    *z = NULL;
+}
+
+void wave_zones_at(struct wave_zones *z, double t)
+{
+    for (int k = 0; k < z->n; k++)
+        if (z->zone[k].waves)
+            waves_at(z->zone[k].waves, t);
+}
+
+bool wave_zones_drive(const struct wave_zones *z)
+{
+    bool any = false;
+    for (int k = 0; k < z->n; k++)
+        any = any || z->zone[k].waves;
+    return any;
+}
+
+/* Adds rate times the velocity of a zone's waves at x. */
+static void add_velocity(const struct wave_zones *z, int k, double rate, const double *x, double *u)
+{
+    const double along = x[0] * z->along[0] + x[1] * z->along[1] + x[2] * z->along[2];
+    double v[2];
+    waves_velocity(z->zone[k].waves, along, z->sign * x[z->up] - z->level, v);
+    for (int a = 0; a < 3; a++)
+        u[a] += rate * v[0] * z->along[a];
+    u[z->up] += rate * z->sign * v[1];
+}
+
+double wave_zones_rate(const struct wave_zones *z, const double *x, double *u_w)
+{
+    double rate = 0.0;
+    u_w[0] = u_w[1] = u_w[2] = 0.0;
+    for (int k = 0; k < z->n; k++) {
+        const double chi = 1.0 - (x[z->zone[k].axis] - z->zone[k].edge) / z->zone[k].length;
+        const double r = chi > 0.0 ? z->zone[k].rate * fmin(chi * chi, 1.0) : 0.0;
+        rate += r;
+        if (r > 0.0 && z->zone[k].waves)
+            add_velocity(z, k, r, x, u_w);
+    }
+    for (int a = 0; a < 3 && rate > 0.0; a++) /* where zones meet, by their shares */
+        u_w[a] /= rate;
+    return rate;
+}

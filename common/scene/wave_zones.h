@@ -1,0 +1,17 @@
+/* wave_zones.h - the zones of scene_waves.h at work. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_WAVE_ZONES_H
+#define COMMON_WAVE_ZONES_H
+
+#include "scene.h"
+
+/* The zones of a resolved scene, made for one program; NULL: there are none. Free after use. */
+struct wave_zones *wave_zones_create(const struct scene *s);
+void wave_zones_free(struct wave_zones **z);
+/* Makes ready for the time t, s. */
+void wave_zones_at(struct wave_zones *z, double t);
+/* 1/s: the rate r at x[3], and u_w[3], m/s. */
+double wave_zones_rate(const struct wave_zones *z, const double *x, double *u_w);
+/* Whether some zone makes waves, which is work done on the water. */
+bool wave_zones_drive(const struct wave_zones *z);
+
+#endif

@@ -1,0 +1,31 @@
+/* relax.c - see relax.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "relax.h"
+
+#include <math.h>
+
+#include "../../common/scene/wave_zones.h"
+#include "../boundary/forcing.h"
+#include "stages.h"
+
+void relax_zones(struct fv *s, double dt)
+{
+    if (!s->wave_zones)
+        return;
+    wave_zones_at(s->wave_zones, s->t);
+    FLOW_ROWS (s, at, n)
+        for (int64_t i = at; i < at + n; i++) {
+            double x[3], u_w[3];
+            forcing_centre(s, i, x);
+            const double rate = wave_zones_rate(s->wave_zones, x, u_w);
+            if (rate == 0.0)
+                continue;
+            const double gone = 1.0 - exp(-rate * dt);
+            for (int a = 0; a < s->dim; a++) {
+                const double change = gone * (u_w[a] - s->u[a][i]);
+                s->u[a][i] += change;
+                if (s->u_old[a])
+                    s->u_old[a][i] += change;
+            }
+        }
+    s->stages->fill_velocity(s);
+}

@@ -1,0 +1,56 @@
+#!/bin/sh
+# Sides of kind wave and beach in both programs, gravity along -y and along +x: waves have the height that was asked for, the
+# level stays, --check tells them, waves and zones that cannot be are refused. SPDX-License-Identifier: BSD-3-Clause
+. "$(dirname "$0")/lib.sh"
+# tank NAME END WAVES SOLVER: 1 m long, 0.16 m deep (kh 1) unless told
+tank() {
+    cat >"$1.cfg" <<EOF
+format = 1;
+time:    { end = $2; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; max = (4.5, 0.24); };
+shapes:  ( { form = "below"; level = 0.16; } );
+walls:   ( { side = "x_min"; kind = "wave"; }, { side = "x_max"; kind = "beach"; }, { side = "y_min"; }, { side = "y_max"; } );
+waves:   { $3 };
+probes:  ( { name = "a"; kind = "level"; at = (1.9, 0.17); }, { name = "b"; kind = "level"; at = (2.15, 0.17); } );
+$4
+output:  { snapshots = false; };
+EOF
+}
+# swing NAME PROBE FROM TO: difference of the largest and the least level, m
+swing() { awk -F, -v p="$2 " -v from="$3" -v to="$4" 'NR == 1 { for (i = 1; i <= NF; i++) if (index($i, p) == 1) c = i; next }
+    $1 >= from && $1 <= to { if (!n++ || $c > hi) hi = $c; if (n == 1 || $c < lo) lo = $c } END { if (n) print hi - lo }' "$1/series.csv"; }
+regular='height = 0.03; length = 1.0;'
+tank regular 10 "$regular" 'fv: { cells = (144, 32); };'
+tank group 12 'kind = "focused"; height = 0.03; length = 1.0; at = (2.15, 9.0); zone = 1.2; start = 0;' 'fv: { cells = (144, 24); };'
+tank grains 8 "$regular" 'sph: { dx = 0.02; scheme = "riemann_ale"; };'
+sed 's/gravity = (0, -9.81)/gravity = (9.81, 0)/; s/max = (4.5, 0.24)/min = (-0.24, 0); max = (0, 4.5)/; s/(1.9, 0.17)/(-0.17, 1.9)/; s/(2.15, 0.17)/(-0.17, 2.15)/; s/x_m/q_m/g; s/"y_m/"x_m/g; s/q_m/y_m/g; s/"x_min"; },/"x_max"; },/; s/(144, 32)/(32, 144)/' regular.cfg |
+    sed 's/{ side = "x_max"; } );/{ side = "x_min"; } );/' >turned.cfg
+"$b/fv" regular.cfg --check 2>&1 | grep -q 'regular waves: height 0.03 m, 1 m long, period 0.911[0-9]* s, celerity 1.09[0-9]* m/s over 0.16 m' || bad "--check of waves"
+"$b/fv" regular.cfg --check 2>&1 | grep -q 'x_max: beach over 1 m, 1 lengths of waves of 0.911' || bad "--check of a beach by the waves"
+for name in regular turned group; do "$b/fv" $name.cfg -o $name >$name.log 2>&1 || bad "fv $name" $name.log; done
+"$b/sph" grains.cfg -o grains >grains.log 2>&1 || bad "sph, waves" grains.log
+height=$(swing regular a 7 10) other=$(swing regular b 7 10) turned=$(swing turned a 7 10) grains=$(swing grains a 5.5 8)
+holds "$height > 0.0285 && $height < 0.0315 && $other > 0.0285 && $other < 0.0315" || bad "fv: waves of 0.03 m are $height and $other m high"
+holds "($height - $turned)^2 < 1e-9" || bad "fv: waves of $height m are $turned m high with gravity along x"
+holds "$grains > 0.025 && $grains < 0.033" || bad "sph: waves of 0.03 m are $grains m high"
+first=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^b /) c = i; next } $c > hi { hi = $c; t = $1 } END { print t }' group/series.csv)
+holds "$first > 8.85 && $first < 9.15" || bad "fv: a group focuses at t = $first s, not at 9 s"
+below "$(number regular volume_gained)" 5e-3 || bad "fv: water gained $(number regular volume_gained)"
+# refused CHANGE MESSAGE PROGRAM
+refused() {
+    if [ "$3" = sph ]; then sed "$1" grains.cfg; else sed 's/^sph:.*/fv: { cells = (80, 16); };/' grains.cfg | sed "$1"; fi >faulty.cfg
+    "$b/$3" faulty.cfg --check >faulty.log 2>&1 && bad "accepted: $1"
+    grep -q "$2" faulty.log || bad "$3: $1: not told \"$2\"" faulty.log
+}
+refused 's/height = 0.03/height = 0.2/' 'waves.height: 0.2 m: at a length of 1 m over 0.16 m of water the highest wave has 0.101 m' sph
+refused 's/length = 1.0;//' 'waves.length: give one of length (m) and period (s)' fv
+refused 's/^waves:.*//' 'walls.\[0\].kind: what waves? give the group waves' fv
+refused 's/kind = "wave"/kind = "slip"/' 'waves: no side makes them' sph
+refused 's/length = 1.0/length = 2.5/' 'along x the zones before the sides leave no room between them' fv
+refused 's/"y_min";/"y_min"; kind = "wave";/' 'walls.\[2\].kind: a zone is before an upright side' sph
+refused 's/kind = "wave";/kind = "wave"; beach = 0.5;/' 'walls.\[0\].beach: ' sph
+refused 's/cells = (80, 16);/cells = (80, 16); integrator = "newton";/' 'newton has no beaches and makes no waves' fv
+refused 's/^shapes:.*//; s/^waves:/initial: { level = 0.16; };\n&/' 'walls.\[0\].kind: no water has a free surface' fv
+echo "waves: 0.03 m are $height, $other m (fv), $grains m (sph), focus at $first s; $failed faults"
+[ $failed = 0 ]
