@@ -21,6 +21,7 @@
 #include "accept.h"
 #include "crossing.h"
 #include "run_files.h"
+#include "wave_gauges.h"
 
 enum { GROUPS_MAX = SCENE_GROUPS + 8, COLUMNS_MAX = 256 };
 
@@ -125,6 +126,8 @@ static int read_case(struct life *l)
         scene_orient(&r->scene);
     if (l->faults.n == 0)
         read_meshes(l);
+    if (l->faults.n == 0)
+        wave_gauges_check(&r->scene, l->params, &l->faults);
     if (l->faults.n == 0)
         r->crossed = crossing_find(r);
     if (r->crossed)
@@ -481,12 +484,23 @@ static void say_end(const struct life *l)
         log_say("look       paraview --script=%s%s/view.py%s", quote, r->dir, quote);
 }
 
+static void judge_waves(const struct life *l)
+{
+    char path[1400];
+    if (l->r.rank != 0)
+        return;
+    files_path(&l->r, "series.csv", path, sizeof path);
+    wave_gauges_judge(&l->r.scene, path, l->r.dir, l->r.summary);
+}
+
 static int end(struct life *l, int code)
 {
     struct run *r = &l->r;
     if (code == RUN_DONE && r->step % r->scene.output.series != 0)
         write_row(l); /* the end itself */
     summarise(l);
+    if (code == RUN_DONE)
+        judge_waves(l);
     if (!r->coupled) {
         say_end(l);
         if (code == RUN_DONE && r->scene.naccept > 0) {

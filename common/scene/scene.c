@@ -108,6 +108,14 @@ static const struct param waves_rows[] = {
     PARAM(P, seed,      "-", "1", 0, 2000000000, "of the random phases of a sea"),
 };
 #undef P
+#define P struct scene_gauges
+static const struct param gauges_rows[] = {
+    PARAM(P, name,   "-", NULL, 0, 0, "its name in summary.json"),
+    PARAM(P, probes, "-", NULL, 0, 0, "names of 2 to 8 level gauges along the waves, as \"w1 w2 w3\"; good places are 0, 0.1 and 0.27 wave lengths from the first, never half a length apart"),
+    PARAM(P, from,   "s", "0.0", 0, 1e9, "from when waves are judged, over whole periods to the end; 0: the second half of the run"),
+    PARAM(P, period, "s", "0.0", 0, 1e6, "of the waves; 0: that of the group waves"),
+};
+#undef P
 #define P struct scene_coupling
 static const struct param coupling_rows[] = {
     PARAM(P, steps,      "-", "0",   0, 100000, "SPH steps in a coupling step, from one exchange to the next; 0: as many as the flow allows"),
@@ -161,6 +169,8 @@ void scene_groups(struct scene *s, struct param_group *groups)
          ROWS(shape_rows), s->shapes, NULL, sizeof s->shapes[0], SHAPES_MAX, &s->nshapes},
         {"probes", "List of gauges in series.csv", ROWS(probe_rows), s->probes, NULL,
          sizeof s->probes[0], PROBES_MAX, &s->nprobes},
+        {"gauges", "List of groups of level gauges that tell incident from reflected waves",
+         ROWS(gauges_rows), s->gauges, NULL, sizeof s->gauges[0], GAUGES_MAX, &s->ngauges},
         {"waves", "Waves that sides of kind wave make", ROWS(waves_rows), &s->waves, &s->has_waves,
          0, 0, NULL},
         {"coupling", "How sph and fv are coupled", ROWS(coupling_rows), &s->coupling,

@@ -55,7 +55,9 @@ enum {
     BODIES_MAX = 8,
     SHAPES_MAX = 16,
     PROBES_MAX = 24,
-    SCENE_GROUPS = 12
+    GAUGES_MAX = 8,
+    GAUGE_PROBES = 8,
+    SCENE_GROUPS = 13
 };
 
 struct scene {
@@ -130,6 +132,11 @@ struct scene {
         double radius; /* m: pressure: of what it reads the mean of; 0: R of the particles */
     } probes[PROBES_MAX];
     int nprobes;
+    struct scene_gauges { /* level gauges that together tell waves apart */
+        char name[PARAM_TEXT_SIZE], probes[PARAM_TEXT_SIZE];
+        double from, period; /* s */
+    } gauges[GAUGES_MAX];
+    int ngauges;
     /* Waves that sides of kind wave make; scene_waves.h. */
     struct scene_waves {
         int kind;              /* enum wave_kind */

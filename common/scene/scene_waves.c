@@ -7,6 +7,7 @@
 #include "../base/log.h"
 #include "../base/mem.h"
 #include "../base/vec3.h"
+#include "../waves/zone_gain.h"
 #include "scene_fluid.h"
 
 void scene_waves_mark(struct scene *s)
@@ -43,12 +44,11 @@ double scene_waves_level(const struct scene *s)
     return scene_has_wave(s) && s->initial.level < LEVEL_TOP ? s->initial.level : level;
 }
 
-/* m: of the water over the domain's floor. */
-static double depth_of(const struct scene *s)
+double scene_waves_depth(const struct scene *s)
 {
     const int up = scene_still_axis(s);
-    if (up < 0)
-        return NAN;
+    if (s->waves.depth > 0.0 || up < 0)
+        return s->waves.depth > 0.0 ? s->waves.depth : NAN;
     return scene_waves_level(s) -
            (s->fluid.gravity[up] < 0.0 ? s->domain.min[up] : -s->domain.max[up]);
 }
@@ -101,7 +101,7 @@ struct wave_spec scene_waves_spec(const struct scene *s)
                            .height = w->height,
                            .length = w->length,
                            .period = w->period,
-                           .depth = w->depth > 0.0 ? w->depth : depth_of(s),
+                           .depth = scene_waves_depth(s),
                            .g = vec3_length(s->fluid.gravity),
                            .rho = s->fluid.rho,
                            .at = {w->at[0], w->at[1]},
@@ -179,7 +179,7 @@ static bool check_water(const struct scene *s, const struct params *p, struct fa
     const int up = scene_still_axis(s);
     if (up < 0 || fabs(s->fluid.gravity[up]) < (1.0 - 1e-9) * g)
         params_fault(p, f, "fluid.gravity", "waves are made under gravity along an axis");
-    else if (!(s->waves.depth > 0.0) && !(depth_of(s) > 0.0))
+    else if (!(scene_waves_depth(s) > 0.0))
         params_fault(p, f, "waves.depth",
                      "no shape (a box, or below a level) tells how deep the water is: give it, m");
     else
@@ -239,29 +239,6 @@ void scene_waves_check(const struct scene *s, const struct params *p, struct fau
 
 /* --- the log --- */
 
-enum { LENGTHS = 4, DEPTHS = 3 };
-
-double zone_reflection(double kh, double lengths)
-{
-    static const double at[LENGTHS] = {0.5, 1.0, 1.5, 2.0}, depth[DEPTHS] = {0.5, 1.0, 3.0},
-                        R[DEPTHS][LENGTHS] = {{0.21, 0.017, 0.005, 0.002},
-                                              {0.18, 0.008, 0.003, 0.002},
-                                              {0.14, 0.023, 0.005, 0.004}};
-    const double z = fmin(fmax(kh, depth[0]), depth[DEPTHS - 1]);
-    const int d = z < depth[1] ? 0 : 1;
-    const double q = (z - depth[d]) / (depth[d + 1] - depth[d]);
-    double line[LENGTHS];
-    for (int k = 0; k < LENGTHS; k++)
-        line[k] = (1.0 - q) * log(R[d][k]) + q * log(R[d + 1][k]);
-    if (lengths <= at[0]) /* all of it without a zone */
-        return exp(line[0] * fmax(lengths, 0.0) / at[0]);
-    int k = 0;
-    while (k < LENGTHS - 2 && lengths > at[k + 1])
-        k++;
-    const double t = fmin(1.0, (lengths - at[k]) / (at[k + 1] - at[k]));
-    return exp((1.0 - t) * line[k] + t * line[k + 1]);
-}
-
 static void describe_made(const struct waves *w)
 {
     static const char *const names[] = {"regular waves", "a sea", "a focused group"};
@@ -278,7 +255,7 @@ static void describe_made(const struct waves *w)
 
 void scene_waves_describe(const struct scene *s)
 {
-    const double g = vec3_length(s->fluid.gravity), h = depth_of(s);
+    const double g = vec3_length(s->fluid.gravity), h = scene_waves_depth(s);
     if (s->has_waves) {
         const struct wave_spec of = scene_waves_spec(s);
         struct waves *made = waves_create(&of);
@@ -296,8 +273,8 @@ void scene_waves_describe(const struct scene *s)
             continue;
         }
         const double number = waves_number(2.0 * M_PI / w->beach_period, g, h),
-                     length = 2.0 * M_PI / number,
-                     R = zone_reflection(number * h, w->beach / length);
+                     length = 2.0 * M_PI / number, rate = 4.0 * M_PI / w->beach_period,
+                     R = zone_response(0.5 * rate, number, 1.0, g, h, w->beach, rate).reflected;
         log_say("%s: %s over %.4g m, %.2g lengths of waves of %.4g s (%.3g m): %.2g %% of their "
                 "height comes back",
                 side, what, w->beach, w->beach / length, w->beach_period, length, 100.0 * R);

@@ -20,12 +20,10 @@ void scene_waves_resolve(struct scene *s);
 bool scene_makes_waves(const struct scene *s);
 /* Says in the log what waves are made, and what comes back from each zone. */
 void scene_waves_describe(const struct scene *s);
-/* Share of the height that comes back of waves of k h over a zone of so many wave lengths, -:
- * linear theory of such zones. */
-double zone_reflection(double kh, double lengths);
-
 /* m, against gravity: of the highest water that a level or a box of the shapes tells; NAN: none. */
 double scene_waves_level(const struct scene *s);
+/* m: of the water over the domain's floor, or waves.depth. */
+double scene_waves_depth(const struct scene *s);
 /* Unit vector d[3] in which waves run. */
 void scene_waves_direction(const struct scene *s, double *d);
 /* The axis of a wall's side; low: whether it is the lower one. */

@@ -80,6 +80,10 @@ walls.velocity (0.2,0)
 walls.friction 0.05
 walls.beach 0.2
 walls.beach_period 0.7
+gauges.name other
+gauges.probes "a b"
+gauges.from 0.01
+gauges.period 0.3
 waves.kind sea
 waves.height 0.12
 waves.length 1.2

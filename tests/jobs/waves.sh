@@ -13,8 +13,9 @@ shapes:  ( { form = "below"; level = 0.16; } );
 walls:   ( { side = "x_min"; kind = "wave"; }, { side = "x_max"; kind = "beach"; }, { side = "y_min"; }, { side = "y_max"; } );
 waves:   { $3 };
 probes:  ( { name = "a"; kind = "level"; at = (1.9, 0.17); }, { name = "b"; kind = "level"; at = (2.15, 0.17); } );
+gauges:  ( { name = "tank"; probes = "a b"; } );
 $4
-output:  { snapshots = false; };
+output:  { snapshots = false; series = 2; };
 EOF
 }
 # swing NAME PROBE FROM TO: difference of the largest and the least level, m
@@ -34,6 +35,11 @@ height=$(swing regular a 7 10) other=$(swing regular b 7 10) turned=$(swing turn
 holds "$height > 0.0285 && $height < 0.0315 && $other > 0.0285 && $other < 0.0315" || bad "fv: waves of 0.03 m are $height and $other m high"
 holds "($height - $turned)^2 < 1e-9" || bad "fv: waves of $height m are $turned m high with gravity along x"
 holds "$grains > 0.025 && $grains < 0.033" || bad "sph: waves of 0.03 m are $grains m high"
+back=$(number regular R) half=$(number regular incident) wave=$(sed -n '/"a": {/,/}/s/.*"mean": \([0-9.e-]*\),*/\1/p' regular/summary.json)
+below "$back" 0.04 || bad "fv: $back of the waves come back"
+holds "$half > 0.0142 && $half < 0.0158" || bad "fv: incident waves of $half m, not 0.015 m"
+close_to "$wave" 0.03 0.05 || bad "fv: waves from crossing to crossing are $wave m high"
+[ "$(wc -l <regular/spectrum_tank.csv)" -gt 10 ] || bad "no spectrum"
 first=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^b /) c = i; next } $c > hi { hi = $c; t = $1 } END { print t }' group/series.csv)
 holds "$first > 8.85 && $first < 9.15" || bad "fv: a group focuses at t = $first s, not at 9 s"
 below "$(number regular volume_gained)" 5e-3 || bad "fv: water gained $(number regular volume_gained)"
@@ -43,6 +49,9 @@ refused() {
     "$b/$3" faulty.cfg --check >faulty.log 2>&1 && bad "accepted: $1"
     grep -q "$2" faulty.log || bad "$3: $1: not told \"$2\"" faulty.log
 }
+refused 's/probes = "a b"/probes = "a c"/' 'gauges.\[0\].probes: c is no level gauge' fv
+refused 's/probes = "a b"/probes = "a"/' 'gauges.\[0\].probes: two gauges or more' sph
+refused 's/probes = "a b"; /&from = 7; /' 'gauges.\[0\].from: 7 s: less than two periods' sph
 refused 's/height = 0.03/height = 0.2/' 'waves.height: 0.2 m: at a length of 1 m over 0.16 m of water the highest wave has 0.101 m' sph
 refused 's/length = 1.0;//' 'waves.length: give one of length (m) and period (s)' fv
 refused 's/^waves:.*//' 'walls.\[0\].kind: what waves? give the group waves' fv

@@ -1,0 +1,272 @@
+/* wave_gauges.c - see wave_gauges.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "wave_gauges.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../base/log.h"
+#include "../base/mem.h"
+#include "../base/vec3.h"
+#include "../files/table.h"
+#include "../scene/scene_fluid.h"
+#include "../scene/scene_waves.h"
+#include "../waves/reflection.h"
+#include "../waves/wave_statistics.h"
+
+/* The probes of a group by name; -1: a name is none; their number. */
+static int probes_of(const struct scene *s, const struct scene_gauges *g, int probe[GAUGE_PROBES],
+                     char wrong[PARAM_TEXT_SIZE])
+{
+    char names[PARAM_TEXT_SIZE];
+    int n = 0;
+    snprintf(names, sizeof names, "%s", g->probes);
+    for (char *rest = names, *name; (name = strtok_r(rest, " ,", &rest)) != NULL;) {
+        int k = 0;
+        while (k < s->nprobes &&
+               (strcmp(s->probes[k].name, name) != 0 || s->probes[k].kind != PROBE_LEVEL))
+            k++;
+        if (k == s->nprobes || n == GAUGE_PROBES) {
+            snprintf(wrong, PARAM_TEXT_SIZE, "%s", name);
+            return -1;
+        }
+        probe[n++] = k;
+    }
+    return n;
+}
+
+static double period_of(const struct scene *s, const struct scene_gauges *g)
+{
+    if (g->period > 0.0 || !s->has_waves)
+        return g->period;
+    const struct wave_spec of = scene_waves_spec(s);
+    if (of.kind != WAVE_REGULAR)
+        return waves_period(&of);
+    struct waves *w = waves_create(&of);
+    const double period = w->period;
+    waves_free(&w);
+    return period;
+}
+
+/* Wave number of the group's period: of the waves that are made, else of linear ones. */
+static double number_of(const struct scene *s, double period)
+{
+    const double g = vec3_length(s->fluid.gravity);
+    double k = waves_number(2.0 * M_PI / period, g, scene_waves_depth(s));
+    if (s->has_waves && s->waves.kind == WAVE_REGULAR) {
+        const struct wave_spec of = scene_waves_spec(s);
+        struct waves *w = waves_create(&of);
+        k = fabs(w->period / period - 1.0) < 1e-6 ? 2.0 * M_PI / w->length : k;
+        waves_free(&w);
+    }
+    return k;
+}
+
+/* m: places of the probes along the waves. */
+static void places_of(const struct scene *s, int n, const int *probe, double *x)
+{
+    double d[3];
+    scene_waves_direction(s, d);
+    for (int i = 0; i < n; i++)
+        x[i] = vec3_dot(s->probes[probe[i]].at, d);
+}
+
+void wave_gauges_check(const struct scene *s, const struct params *p, struct faults *f)
+{
+    for (int k = 0; k < s->ngauges; k++) {
+        const struct scene_gauges *g = s->gauges + k;
+        char key[64], wrong[PARAM_TEXT_SIZE];
+        int probe[GAUGE_PROBES];
+        const int n = probes_of(s, g, probe, wrong);
+        const double period = period_of(s, g);
+        snprintf(key, sizeof key, "gauges.[%d].probes", k);
+        if (n < 0)
+            params_fault(p, f, key, "%s is no level gauge of the list probes, or there are over %d",
+                         wrong, GAUGE_PROBES);
+        else if (n < 2)
+            params_fault(p, f, key, "two gauges or more tell incident from reflected waves");
+        else if (!(scene_waves_depth(s) > 0.0))
+            params_fault(p, f, key, "no shape tells how deep the water is (waves.depth)");
+        snprintf(key, sizeof key, "gauges.[%d].period", k);
+        if (!(period > 0.0))
+            params_fault(p, f, key, "no group waves tells the period: give it, s");
+        snprintf(key, sizeof key, "gauges.[%d].from", k);
+        if (g->from > 0.0 && period > 0.0 && s->time.end - g->from < 2.0 * period)
+            params_fault(p, f, key, "%g s: less than two periods (%.4g s) before time.end", g->from,
+                         period);
+        if (f->n > 0)
+            continue;
+        double x[GAUGE_PROBES];
+        const double complex none[GAUGE_PROBES] = {0.0};
+        places_of(s, n, probe, x);
+        const double condition = reflection_separate(n, x, none, number_of(s, period)).condition;
+        if (condition < 0.15)
+            log_warn("gauges %s: these places tell waves of %.3g m apart badly (%.2g of 1): gauges "
+                     "at 0, 0.1 and 0.27 of that do",
+                     g->name, 2.0 * M_PI / number_of(s, period), condition);
+    }
+}
+
+/* --- at the end --- */
+
+struct history {
+    int n;
+    double *t, *v[GAUGE_PROBES];
+};
+
+/* Rows from a time on in which all probes have a level; n < 0: a column is missing. */
+static struct history read_history(const struct scene *s, const struct table *t, int n,
+                                   const int *probe, double from)
+{
+    struct history h = {.t = NEW(double, t->nrows)};
+    int column[GAUGE_PROBES];
+    for (int i = 0; i < n; i++) {
+        column[i] = table_column(t, s->probes[probe[i]].name);
+        h.v[i] = NEW(double, t->nrows);
+        h.n = column[i] < 0 ? -1 : h.n;
+    }
+    for (int row = 0; row < t->nrows && h.n >= 0; row++) {
+        const double *v = t->v + (size_t)row * t->ncolumns;
+        bool good = v[0] >= from;
+        for (int i = 0; i < n; i++)
+            good = good && isfinite(v[column[i]]);
+        if (!good)
+            continue;
+        for (int i = 0; i < n; i++)
+            h.v[i][h.n] = v[column[i]];
+        h.t[h.n++] = v[0];
+    }
+    return h;
+}
+
+static void free_history(struct history *h, int n)
+{
+    mem_free(h->t);
+    for (int i = 0; i < n; i++)
+        mem_free(h->v[i]);
+}
+
+/* Squares of the heights of one frequency that run onward and back. */
+static bool separate(const struct history *h, int n, const double *x, double omega, double k,
+                     double squares[2])
+{
+    double complex A[GAUGE_PROBES];
+    for (int i = 0; i < n; i++)
+        A[i] = reflection_amplitude(h->n, h->t, h->v[i], omega);
+    if (n >= 4)
+        k = reflection_fit_number(n, x, A, k, 0.05);
+    const struct reflection r = reflection_separate(n, x, A, k);
+    squares[0] = creal(r.onward * conj(r.onward));
+    squares[1] = creal(r.back * conj(r.back));
+    return r.condition >= 0.15;
+}
+
+static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
+                            const struct history *h, int n, const int *probe, double period,
+                            struct summary *summary)
+{
+    const double all = h->t[h->n - 1] - h->t[0], gravity = vec3_length(s->fluid.gravity);
+    const bool sea = s->has_waves && s->waves.kind != WAVE_REGULAR && !(g->period > 0.0);
+    double x[GAUGE_PROBES], sums[2] = {0.0, 0.0}, squares[2];
+    places_of(s, n, probe, x);
+    if (!sea)
+        separate(h, n, x, 2.0 * M_PI / period, number_of(s, period), sums);
+    const int last = sea ? (int)(2.0 * all / period) : 0;
+    for (int j = (int)ceil(0.6 * all / period); j <= last; j++) { /* lines of the spectrum */
+        const double omega = 2.0 * M_PI * j / all;
+        if (separate(h, n, x, omega, waves_number(omega, gravity, scene_waves_depth(s)), squares))
+            for (int i = 0; i < 2; i++)
+                sums[i] += squares[i];
+    }
+    const bool onward = sums[0] >= sums[1];
+    const double incident = sqrt(fmax(sums[0], sums[1])), back = sqrt(fmin(sums[0], sums[1]));
+    char key[PARAM_TEXT_SIZE + 32];
+    snprintf(key, sizeof key, "reflection.%s.incident", g->name);
+    summary_real(summary, key, incident);
+    snprintf(key, sizeof key, "reflection.%s.reflected", g->name);
+    summary_real(summary, key, back);
+    snprintf(key, sizeof key, "reflection.%s.R", g->name);
+    summary_real(summary, key, back / incident);
+    log_say(
+        "waves      gauges %s: amplitude %.4g m %s, %.4g m back: R %.3g %% (period %.4g s, over "
+        "%.3g periods)",
+        g->name, incident, onward ? "onward" : "against waves.direction", back,
+        100.0 * back / incident, period, all / period);
+}
+
+static void tell_heights(const struct scene *s, const struct history *h, int n, const int *probe,
+                         struct summary *summary)
+{
+    for (int i = 0; i < n; i++) {
+        const char *name = s->probes[probe[i]].name;
+        const struct wave_heights w = wave_heights_of(h->n, h->t, h->v[i]);
+        static const char *const what[] = {"mean", "significant", "largest", "period", "waves"};
+        const double v[] = {w.mean, w.significant, w.largest, w.period, w.n};
+        for (int k = 0; k < 5; k++) {
+            char key[PARAM_TEXT_SIZE + 32];
+            snprintf(key, sizeof key, "height.%s.%s", name, what[k]);
+            summary_real(summary, key, v[k]);
+        }
+    }
+}
+
+static void write_spectra(const struct scene *s, const struct scene_gauges *g,
+                          const struct history *h, int n, const int *probe, double period,
+                          const char *dir)
+{
+    char path[1400];
+    double f[SPECTRUM_BINS], S[GAUGE_PROBES][SPECTRUM_BINS];
+    const double all = h->t[h->n - 1] - h->t[0];
+    const int segments = (int)fmax(1.0, floor(2.0 * all / (12.0 * period)) - 1.0); /* of 12 T */
+    for (int i = 0; i < n; i++)
+        wave_spectrum(h->n, h->t, h->v[i], segments, f, S[i]);
+    snprintf(path, sizeof path, "%s/spectrum_%s.csv", dir, g->name);
+    FILE *file = fopen(path, "w");
+    if (!file) {
+        log_warn("%s cannot be written", path);
+        return;
+    }
+    fprintf(file, "# Welch's method, %d segment%s\nf [Hz]", segments, segments > 1 ? "s" : "");
+    for (int i = 0; i < n; i++)
+        fprintf(file, ",%s [m^2/Hz]", s->probes[probe[i]].name);
+    fputc('\n', file);
+    for (int j = 0; j < SPECTRUM_BINS && f[j] * period < 8.0; j++) {
+        fprintf(file, "%.9g", f[j]);
+        for (int i = 0; i < n; i++)
+            fprintf(file, ",%.9g", S[i][j]);
+        fputc('\n', file);
+    }
+    fclose(file);
+}
+
+void wave_gauges_judge(const struct scene *s, const char *path, const char *dir,
+                       struct summary *summary)
+{
+    struct table *t = s->ngauges > 0 ? table_read(path) : NULL;
+    for (int k = 0; t && k < s->ngauges; k++) {
+        const struct scene_gauges *g = s->gauges + k;
+        char wrong[PARAM_TEXT_SIZE];
+        int probe[GAUGE_PROBES];
+        const int n = probes_of(s, g, probe, wrong);
+        const double period = period_of(s, g), end = t->v[(size_t)(t->nrows - 1) * t->ncolumns],
+                     from = g->from > 0.0 ? g->from : 0.5 * end,
+                     whole = floor((end - from) / period * (1.0 + 1e-9)) * period;
+        struct history h = read_history(s, t, n, probe, end - whole);
+        if (h.n >= 0 && (h.n < 16 || whole < period))
+            log_warn("gauges %s: %d rows over %.3g periods are too few to tell waves apart",
+                     g->name, h.n, whole / period);
+        else if (h.n >= 0) {
+            tell_reflection(s, g, &h, n, probe, period, summary);
+            tell_heights(s, &h, n, probe, summary);
+            if (h.n * period < 16.0 * whole)
+                log_warn(
+                    "gauges %s: %.1f rows a period miss crests: heights are low; output.series "
+                    "= %d or less",
+                    g->name, h.n * period / whole,
+                    (int)fmax(1.0, s->output.series * h.n * period / whole / 20.0));
+            write_spectra(s, g, &h, n, probe, period, dir);
+        }
+        free_history(&h, n);
+    }
+    table_free(&t);
+}

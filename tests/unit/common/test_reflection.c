@@ -1,0 +1,116 @@
+/* test_reflection.c - incident and reflected waves from gauges: exact for made-up ones, as Goda &
+ * Suzuki have it for two, insensitive to noise, as wrong as theory says with a wrong wave number;
+ * heights and spectra of known histories. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "../../../common/waves/reflection.h"
+#include "../../../common/waves/wave_statistics.h"
+
+enum { N = 2000, GAUGES = 3 };
+static const double places[GAUGES] = {0.0, 0.1, 0.27}; /* wave lengths */
+
+static void near(double a, double b, double within)
+{
+    if (fabs(a - b) > within)
+        print_message("%.9g, not %.9g\n", a, b);
+    assert_true(fabs(a - b) <= within);
+}
+
+/* Gauge g of a wave of 1 and one of R back, T = 1, over n periods with uneven steps, noise. */
+static double complex measured(int g, double R, int periods, double noise, double second)
+{
+    static double t[N], v[N];
+    const double k = 2.0 * M_PI, w = 2.0 * M_PI, x = places[g];
+    for (int i = 0; i < N; i++) {
+        t[i] = periods * (i + 0.3 * sin(0.7 * i) * (i > 0 && i < N - 1)) / (N - 1.0);
+        v[i] = 0.3 + cos(w * t[i] - k * x) + R * cos(w * t[i] + k * x + 0.4) +
+               second * cos(2.0 * w * t[i] - k * x) +
+               noise * 2.0 * sqrt(3.0) * (rand() / (RAND_MAX + 1.0) - 0.5);
+    }
+    return reflection_amplitude(N, t, v, w);
+}
+
+static double ratio(int n, double R, double k_off, double noise)
+{
+    double x[GAUGES];
+    double complex A[GAUGES];
+    for (int g = 0; g < n; g++) {
+        x[g] = places[g];
+        A[g] = measured(g, R, 10, noise, 0.1);
+    }
+    const struct reflection r = reflection_separate(n, x, A, 2.0 * M_PI * (1.0 + k_off));
+    return cabs(r.back) / cabs(r.onward);
+}
+
+static void waves_are_told_apart(void **state)
+{
+    (void)state;
+    near(ratio(3, 0.3, 0.0, 0.0), 0.3, 1e-9);
+    near(ratio(2, 0.05, 0.0, 0.0), 0.05, 1e-9);
+    near(ratio(3, 0.05, 0.0, 0.01), 0.05, 0.003);
+    const double wrong = ratio(3, 0.0, 0.01, 0.0); /* 0.006 of the incident wave */
+    assert_true(wrong > 0.003 && wrong < 0.009);
+}
+
+/* Two gauges: Goda & Suzuki's closed form; half a length apart tells nothing. */
+static void two_gauges_are_goda_and_suzukis(void **state)
+{
+    (void)state;
+    const double x[2] = {0.2, 0.31}, k = 2.0 * M_PI, d = k * (x[1] - x[0]);
+    const double complex A[2] = {1.0 + 0.2 * I, 0.4 - 0.9 * I};
+    const struct reflection r = reflection_separate(2, x, A, k);
+    const double complex onward = (A[0] * cexp(I * d) - A[1]) / (2.0 * I * sin(d)),
+                         back = (A[1] - A[0] * cexp(-I * d)) / (2.0 * I * sin(d));
+    near(cabs(r.onward), cabs(onward), 1e-13);
+    near(cabs(r.back), cabs(back), 1e-13);
+    near(r.rest, 0.0, 1e-13);
+    const double half[2] = {0.0, 0.5};
+    near(reflection_separate(2, half, A, k).condition, 0.0, 1e-12);
+}
+
+static void wave_numbers_are_found(void **state)
+{
+    (void)state;
+    const double x[4] = {0.0, 0.1, 0.27, 0.8}, k = 2.0 * M_PI;
+    double complex A[4];
+    for (int g = 0; g < 4; g++)
+        A[g] = cexp(-I * (k * x[g])) + 0.1 * cexp(I * (k * x[g] + 1.0));
+    near(reflection_fit_number(4, x, A, 1.02 * k, 0.05), k, 1e-6);
+}
+
+/* Heights of a sum of two waves of 1 and 1.2 Hz: their beats; a sine has one height. The spectrum
+ * holds the variance and peaks where the wave is. */
+static void heights_and_spectra(void **state)
+{
+    (void)state;
+    static double t[N], v[N];
+    double f[SPECTRUM_BINS], S[SPECTRUM_BINS], sum = 0.0;
+    for (int i = 0; i < N; i++) {
+        t[i] = 20.0 * i / (N - 1.0);
+        v[i] = 5.0 + 0.1 * sin(2.0 * M_PI * t[i] - 1.0);
+    }
+    const struct wave_heights h = wave_heights_of(N, t, v);
+    assert_true(h.n == 19);
+    near(h.mean, 0.2, 1e-4);
+    near(h.significant, 0.2, 1e-4);
+    near(h.period, 1.0, 1e-4);
+    wave_spectrum(N, t, v, 3, f, S);
+    int peak = 0;
+    for (int j = 0; j < SPECTRUM_BINS; j++) {
+        sum += S[j] * f[0];
+        peak = S[j] > S[peak] ? j : peak;
+    }
+    near(sum, 0.005, 1e-4);
+    near(f[peak], 1.0, 0.06);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(waves_are_told_apart), cmocka_unit_test(two_gauges_are_goda_and_suzukis),
+        cmocka_unit_test(wave_numbers_are_found), cmocka_unit_test(heights_and_spectra)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
