@@ -29,6 +29,55 @@ int scene_still_axis(const struct scene *s)
     return axis;
 }
 
+/* Whether an edge of a body lies on the plane x_a = at and covers lo to hi of the other axis. */
+static bool is_held(const struct scene *s, int a, double at, double lo, double hi)
+{
+    const double near = 1e-6 * (hi - lo);
+    for (int k = 0; k < s->nbodies; k++) {
+        const struct param_points *p = &s->bodies[k].points;
+        for (int i = 0; i < p->n && !s->bodies[k].free; i++) {
+            const double *from = p->x[i], *to = p->x[(i + 1) % p->n];
+            if (fabs(from[a] - at) <= near && fabs(to[a] - at) <= near &&
+                fmin(from[1 - a], to[1 - a]) <= lo + near &&
+                fmax(from[1 - a], to[1 - a]) >= hi - near)
+                return true;
+        }
+    }
+    return false;
+}
+
+bool scene_is_level(const struct scene *s, const struct scene_shape *h)
+{
+    const int up = scene_still_axis(s);
+    if (h->hole || h->velocity[0] != 0.0 || h->velocity[1] != 0.0 || h->velocity[2] != 0.0)
+        return false;
+    if (h->form != SHAPE_BOX || up < 0)
+        return h->form == SHAPE_BELOW;
+    double g[3];
+    const double size = scene_still_gravity(s, g);
+    bool level = fabs(g[up]) > (1.0 - 1e-9) * size;
+    for (int a = 0; a < s->domain.dim && level; a++) {
+        const double lo = s->domain.min[a], hi = s->domain.max[a], near = 1e-9 * (hi - lo);
+        const int b = 1 - up;
+        const bool flat = s->domain.dim == 2 && a == b;
+        bool low = h->box[0][a] <= lo + near, high = h->box[1][a] >= hi - near;
+        if (flat && !low)
+            low = is_held(s, a, h->box[0][a], h->box[0][up], h->box[1][up]);
+        if (flat && !high)
+            high = is_held(s, a, h->box[1][a], h->box[0][up], h->box[1][up]);
+        level = a != up ? low && high : g[up] < 0.0 ? low : high;
+    }
+    return level;
+}
+
+double scene_level(const struct scene *s, const struct scene_shape *h)
+{
+    const int up = scene_still_axis(s);
+    if (h->form == SHAPE_BELOW || up < 0)
+        return h->level;
+    return s->fluid.gravity[up] < 0.0 ? h->box[1][up] : -h->box[0][up];
+}
+
 double scene_height(const struct scene *s, const double *x)
 {
     double g[3];

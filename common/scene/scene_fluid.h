@@ -16,6 +16,11 @@ double scene_height(const struct scene *s, const double *x);
 /* Least and largest height in the domain, m. */
 void scene_heights(const struct scene *s, double *low, double *high);
 bool scene_in_shape(const struct scene *s, const struct scene_shape *h, const double *x);
+/* Whether a shape's water stands level from the start: below a level, or a box on the floor of the
+ * domain whose upright faces are sides of the domain or faces of bodies. */
+bool scene_is_level(const struct scene *s, const struct scene_shape *h);
+/* m: height of the surface of such a shape. */
+double scene_level(const struct scene *s, const struct scene_shape *h);
 /* Whether a shape adds a velocity to that of the field. */
 bool scene_shapes_move(const struct scene *s);
 /* Box around a shape, m; infinite where it has no end, or where a file of triangles has it. */

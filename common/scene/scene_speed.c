@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "exact.h"
+#include "scene_fluid.h"
 #include "scene_mesh.h"
 #include "scene_reference.h"
 
@@ -205,20 +206,6 @@ static void room_of(const struct scene *s, double lo[3], double hi[3])
     }
 }
 
-/* Whether a box of water lies on the floor from side to side, in a tank with waves: as below a
- * level. */
-static bool spans(const struct scene *s, const struct scene_shape *h)
-{
-    bool all = s->has_waves && h->form == SHAPE_BOX;
-    for (int a = 0; a < s->domain.dim; a++) {
-        const double room = 1e-9 * extent(s, a);
-        const bool up = s->fluid.gravity[a] != 0.0, low = h->box[0][a] <= s->domain.min[a] + room,
-                   high = h->box[1][a] >= s->domain.max[a] - room;
-        all = all && (up ? (s->fluid.gravity[a] < 0.0 ? low : high) : low && high);
-    }
-    return all;
-}
-
 /* Depth of the water and the height that it can fall. */
 static void find_fall(const struct scene *s, double *depth, double *fall)
 {
@@ -237,8 +224,7 @@ static void find_fall(const struct scene *s, double *depth, double *fall)
     }
     *depth = range[1] - range[0];
     for (int k = 0; k < s->nshapes; k++) {
-        still = still && (s->shapes[k].form == SHAPE_BELOW || spans(s, s->shapes + k)) &&
-                !s->shapes[k].hole;
+        still = still && scene_is_level(s, s->shapes + k);
         if (!s->shapes[k].hole)
             top = fmax(top, shape_top(s, g, s->shapes + k));
     }

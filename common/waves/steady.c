@@ -2,6 +2,7 @@
 #include "steady.h"
 
 #include <complex.h>
+#include <lapacke.h>
 #include <math.h>
 #include <string.h>
 
@@ -11,38 +12,6 @@ enum {
     UNKNOWNS = STEADY_MODES + 2,
     LONG = 40
 }; /* depths: length that stands for a solitary wave */
-
-/* Gauss with pivots: x becomes the solution; false: singular. */
-static bool solve(int n, double *A, double *x)
-{
-    for (int k = 0; k < n; k++) {
-        int p = k;
-        for (int i = k + 1; i < n; i++)
-            p = fabs(A[(size_t)i * n + k]) > fabs(A[(size_t)p * n + k]) ? i : p;
-        if (!(fabs(A[(size_t)p * n + k]) > 0.0))
-            return false;
-        for (int j = k; j < n && p != k; j++) {
-            const double t = A[(size_t)k * n + j];
-            A[(size_t)k * n + j] = A[(size_t)p * n + j];
-            A[(size_t)p * n + j] = t;
-        }
-        const double t = x[k];
-        x[k] = x[p];
-        x[p] = t;
-        for (int i = k + 1; i < n; i++) {
-            const double f = A[(size_t)i * n + k] / A[(size_t)k * n + k];
-            for (int j = k; j < n && f != 0.0; j++)
-                A[(size_t)i * n + j] -= f * A[(size_t)k * n + j];
-            x[i] -= f * x[k];
-        }
-    }
-    for (int k = n - 1; k >= 0; k--) {
-        for (int j = k + 1; j < n; j++)
-            x[k] -= A[(size_t)k * n + j] * x[j];
-        x[k] /= A[(size_t)k * n + k];
-    }
-    return true;
-}
 
 /* One row of equation (b - 2y)|z'|^2 - c^2 at xi, and its residual. q: Y_1 .., b, c^2. */
 static double row(const double *q, double strip, double xi, double *r)
@@ -66,6 +35,7 @@ static double row(const double *q, double strip, double xi, double *r)
 static bool newton(double *q, double strip, double height)
 {
     double *A = NEW(double, UNKNOWNS *UNKNOWNS), d[UNKNOWNS], most = INFINITY;
+    lapack_int pivots[UNKNOWNS];
     for (int it = 0; it < 30 && most > 1e-12; it++) {
         for (int m = 0; m <= STEADY_MODES; m++)
             d[m] = -row(q, strip, M_PI * m / STEADY_MODES, A + (size_t)m * UNKNOWNS);
@@ -76,7 +46,8 @@ static bool newton(double *q, double strip, double height)
             h += 2.0 * q[j - 1];
         }
         d[UNKNOWNS - 1] = height - h;
-        most = solve(UNKNOWNS, A, d) ? 0.0 : NAN;
+        most = LAPACKE_dgesv(LAPACK_ROW_MAJOR, UNKNOWNS, 1, A, UNKNOWNS, pivots, d, 1) == 0 ? 0.0
+                                                                                            : NAN;
         for (int j = 0; j < UNKNOWNS; j++) {
             most = fabs(d[j]) > most || isnan(d[j]) ? fabs(d[j]) : most;
             q[j] += d[j];
@@ -159,21 +130,36 @@ static bool find(double *q, double *strip, bool solitary, double depth, double h
     return true;
 }
 
-/* z and z' at zeta. */
+/* z and z' at zeta: sums of Y_j/(1 - e^(-2j h*)) (e^(-ij zeta) -+ e^(ij zeta - 2j h*)). */
 static double complex place(const struct steady *w, double complex zeta, double complex *slope)
 {
     const double complex E = cexp(-I * zeta), G = cexp(I * zeta - 2.0 * w->strip);
-    double complex e = 1.0, g = 1.0, z = zeta + I * w->y0;
-    double far = 1.0;
-    *slope = 1.0;
-    for (int j = 1; j <= STEADY_MODES; j++) {
-        e *= E;
-        g *= G;
-        far *= exp(-2.0 * w->strip);
-        z += I * w->Y[j - 1] * (e - g) / (1.0 - far);
-        *slope += j * w->Y[j - 1] * (e + g) / (1.0 - far);
+    const double Er = creal(E), Ei = cimag(E), Gr = creal(G), Gi = cimag(G);
+    double er = 1.0, ei = 0.0, gr = 1.0, gi = 0.0, zr = 0.0, zi = 0.0, sr = 0.0, si = 0.0;
+    for (int j = 0; j < w->modes; j++) { /* in reals: complex products look for NaN */
+        const double a = er * Er - ei * Ei, b = er * Ei + ei * Er;
+        const double c = gr * Gr - gi * Gi, d = gr * Gi + gi * Gr;
+        er = a;
+        ei = b;
+        gr = c;
+        gi = d;
+        zr += w->A[j] * (a - c);
+        zi += w->A[j] * (b - d);
+        sr += (j + 1) * w->A[j] * (a + c);
+        si += (j + 1) * w->A[j] * (b + d);
     }
-    return z;
+    *slope = 1.0 + sr + I * si;
+    return zeta + I * w->y0 + I * (zr + I * zi);
+}
+
+/* Coefficients of the sums, up to those that are lost in rounding. */
+static void set_modes(struct steady *w, const double *Y)
+{
+    w->modes = STEADY_MODES;
+    while (w->modes > 1 && fabs(Y[w->modes - 1]) < 1e-16 * fabs(Y[0]))
+        w->modes--;
+    for (int j = 0; j < STEADY_MODES; j++)
+        w->A[j] = Y[j] / (1.0 - exp(-2.0 * (j + 1) * w->strip));
 }
 
 static bool create(struct steady *w, bool solitary, double depth, double length, double height)
@@ -185,7 +171,7 @@ static bool create(struct steady *w, bool solitary, double depth, double length,
     if (!(height > 0.0) || !(depth > 0.0) ||
         !find(q, &w->strip, solitary, w->k * depth, w->k * height))
         return false;
-    memcpy(w->Y, q, sizeof w->Y);
+    set_modes(w, q);
     w->b = q[STEADY_MODES];
     w->frame = sqrt(q[STEADY_MODES + 1]);
     w->y0 = solitary ? -trough_of(q) : level(q, w->strip);

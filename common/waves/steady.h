@@ -14,15 +14,16 @@
 enum { STEADY_MODES = 128 };
 
 struct steady {
-    double k, g, rho;       /* 1/m, m/s^2, kg/m^3 */
-    double x;               /* m: of the crest at t = 0 */
-    double c;               /* m/s: to +x, over water that is still on average below the troughs */
-    double frame, b, y0;    /* -: speed in the frame of the wave; Bernoulli's constant; level */
-    double strip;           /* -: h* */
-    double back;            /* -: speed under the trough of a solitary wave, taken out */
-    double crest, trough;   /* m: over the still level */
-    double tail;            /* |Y_N/Y_1|: what the series leaves out */
-    double Y[STEADY_MODES]; /* of j = 1 .. */
+    double k, g, rho;     /* 1/m, m/s^2, kg/m^3 */
+    double x;             /* m: of the crest at t = 0 */
+    double c;             /* m/s: to +x, over water that is still on average below the troughs */
+    double frame, b, y0;  /* -: speed in the frame of the wave; Bernoulli's constant; level */
+    double strip;         /* -: h* */
+    double back;          /* -: speed under the trough of a solitary wave, taken out */
+    double crest, trough; /* m: over the still level */
+    double tail;          /* |Y_N/Y_1|: what the series leaves out */
+    int modes;
+    double A[STEADY_MODES]; /* Y_j/(1 - e^(-2j h*)), j = 1 .. modes */
 };
 
 /* Depth, length, height from trough to crest (m), crest at x; solitary: length is not used, depth

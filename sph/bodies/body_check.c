@@ -307,8 +307,10 @@ static double fall_of(const struct scene *c, const struct body *b)
     const double base = fmax(scene_height(c, b->centre) - b->reach - low, 0.0);
     double air = c->nshapes > 0 ? base : 0.0; /* above the highest water below a level */
     for (int k = 0; k < c->nshapes; k++)
-        if (c->shapes[k].form == SHAPE_BELOW && !c->shapes[k].hole)
-            air = fmin(air, fmax(scene_height(c, b->centre) - b->reach - c->shapes[k].level, 0.0));
+        if (scene_is_level(c, c->shapes + k))
+            air = fmin(
+                air,
+                fmax(scene_height(c, b->centre) - b->reach - scene_level(c, c->shapes + k), 0.0));
     const double size = b->dim == 2 ? b->free->mass / (c->fluid.rho * b->reach)
                                     : b->free->mass / (c->fluid.rho * b->reach * b->reach);
     const double in_water = fmin(fmax(2.0 * b->reach, size), fmax(base, 2.0 * b->reach));
