@@ -18,6 +18,7 @@
 #include "../scene/scene_fluid.h"
 #include "../scene/scene_mesh.h"
 #include "../scene/scene_openings.h"
+#include "../scene/scene_outlines.h"
 #include "accept.h"
 #include "crossing.h"
 #include "run_files.h"
@@ -118,6 +119,8 @@ static int read_case(struct life *l)
         check_place(l);
     r->coupled = r->partner_ctx || (l->line.check && r->scene.has_sph && r->scene.has_fv);
     wall_histories_read(&r->scene, r->motions);
+    if (l->faults.n == 0)
+        scene_outlines_read(&r->scene, r->case_dir, l->params, &l->faults);
     if (l->faults.n == 0)
         scene_check(&r->scene, l->params, &l->faults);
     if (l->faults.n == 0)

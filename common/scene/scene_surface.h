@@ -7,6 +7,7 @@
 
 struct scene_surface {
     char mesh[PARAM_TEXT_SIZE];            /* file beside the case; "": none */
+    char outline[PARAM_TEXT_SIZE];         /* the same in the plane: scene_outlines.h */
     double scale, rotate[3], translate[3]; /* -, degrees times axis, m: in this order, about 0 */
     double weld;                           /* m; 0: 1e-6 of the diagonal */
 };
@@ -20,8 +21,12 @@ struct scene_surface {
 #define SURFACE_ROWS(T)                                                                            \
     SURFACE_ROW(T, mesh, PARAM_TEXT, "-", "", 0, 0,                                                \
                 "file beside the case with its triangles: STL, OBJ or PLY; sph in 3D"),            \
+        SURFACE_ROW(T, outline, PARAM_TEXT, "-", "", 0, 0,                                         \
+                    "in 2D: file beside the case with its points: CSV (x, y) or an SVG drawing, "  \
+                    "\"hull.svg#path1\" its path of that id; the page's lower left corner is the " \
+                    "origin, lengths are its own units times scale"),                              \
         SURFACE_ROW(T, scale, PARAM_REAL, "-", "1.0", 1e-9, 1e9,                                   \
-                    "factor on the mesh's coordinates: 0.001 for a file in mm"),                   \
+                    "factor on the coordinates of a mesh or an outline: 0.001 for a file in mm"),  \
         SURFACE_ROW(T, rotate, PARAM_REALS, "degrees", "(0.0, 0.0, 0.0)", -3600, 3600,             \
                     "then its rotation about the origin, axis times angle: (0, 0, 90) turns x "    \
                     "to y"),                                                                       \

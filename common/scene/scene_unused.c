@@ -53,7 +53,7 @@ static void check_surface(const struct scene *s, const struct params *p, struct 
                           const char *group, int k, const struct scene_surface *is, bool used,
                           const char *why)
 {
-    static const char *const keys[] = {"scale", "rotate", "translate", "weld"};
+    static const char *const keys[] = {"scale", "rotate", "translate"};
     char key[64];
     snprintf(key, sizeof key, "%s.[%d].mesh", group, k);
     if (*is->mesh && s->domain.dim == 2)
@@ -61,8 +61,13 @@ static void check_surface(const struct scene *s, const struct params *p, struct 
                      "a surface of triangles bounds a fluid of 3 dimensions: in the "
                      "plane give points");
     check_key(p, f, group, k, "mesh", used, why);
-    for (int i = 0; i < 4; i++)
-        check_key(p, f, group, k, keys[i], used && *is->mesh, "no mesh is given");
+    snprintf(key, sizeof key, "%s.[%d].outline", group, k);
+    if (*is->outline && s->domain.dim == 3)
+        params_fault(p, f, key, "an outline bounds a fluid of 2 dimensions: in space give a mesh");
+    for (int i = 0; i < 3; i++)
+        check_key(p, f, group, k, keys[i], (used && *is->mesh) || *is->outline,
+                  "no mesh and no outline is given");
+    check_key(p, f, group, k, "weld", used && *is->mesh, "no mesh is given");
 }
 
 static void check_wall(const struct scene *s, const struct params *p, struct faults *f, int k)
@@ -182,6 +187,7 @@ static void check_shape(const struct scene *s, const struct params *p, struct fa
 {
     const struct scene_shape *h = s->shapes + k;
     check_key(p, f, "shapes", k, "box", h->form == SHAPE_BOX, "the form is not box");
+    check_key(p, f, "shapes", k, "outline", h->form == SHAPE_POLYGON, "the form is not polygon");
     check_key(p, f, "shapes", k, "points", h->form == SHAPE_POLYGON, "the form is not polygon");
     check_surface(s, p, f, "shapes", k, &h->surface, h->form == SHAPE_MESH, "the form is not mesh");
     check_key(p, f, "shapes", k, "centre", h->form == SHAPE_DISC, "the form is not disc");

@@ -5,6 +5,7 @@
 
 #include "../../common/base/mem.h"
 #include "../../common/run/run.h"
+#include "../../common/scene/scene_outlines.h"
 
 /* clang-format off */
 #define P struct job
@@ -17,8 +18,8 @@ static const struct param rows[] = {
 #undef P
 /* clang-format on */
 
-static const char *const of_scene[] = {"fluid",  "initial", "walls",   "bodies",
-                                       "shapes", "probes",  "coupling"};
+static const char *const of_scene[] = {"fluid",  "initial", "walls", "bodies",  "shapes",
+                                       "probes", "gauges",  "waves", "coupling"};
 enum { OF_SCENE = sizeof of_scene / sizeof *of_scene, OTHERS = OF_SCENE + HANDSHAKE_PROGRAMS + 8 };
 
 void job_groups(struct job *j, struct scene *s, struct param_group *groups)
@@ -96,9 +97,14 @@ struct params *job_read(struct job *j, struct scene *s, MPI_Comm comm, const str
         params_read(comm, l->case_file, l->noverrides, l->overrides, groups, n, others, f);
     if (f->n)
         return p;
-    if (j->shared)
+    if (j->shared) {
+        char dir[1024];
+        run_case_dir(l->case_file, dir, sizeof dir);
+        scene_outlines_read(s, dir, p, f);
+    }
+    if (j->shared && f->n == 0)
         scene_check(s, p, f);
-    else if (!params_has_group(p, "time"))
+    else if (!j->shared && !params_has_group(p, "time"))
         params_fault(p, f, "time", "the case must have this group");
     if (f->n == 0 && !(s->time.end > j->start))
         params_fault(p, f, "coupler.start", "%g s is not before time.end, %g s", j->start,

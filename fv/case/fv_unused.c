@@ -424,6 +424,7 @@ static void check_component(const struct run *r, struct faults *f, const struct 
         snprintf(key, sizeof key, "%s.%s", g->name, row->key);
     else
         snprintf(key, sizeof key, "%s.[%d].%s", g->name, k, row->key);
+    more = more && strcmp(row->key, "rotate") != 0; /* about z */
     params_unused(r->params, f, key, !more, "a third component in a case of two dimensions");
 }
 

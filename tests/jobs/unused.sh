@@ -104,6 +104,7 @@ walls.level_file "nowhere.txt"
 walls.discharge_file "nowhere.txt"
 walls.discharge 0.02
 walls.mesh "other.stl"
+walls.outline "other.csv"
 walls.scale 0.9
 walls.rotate (0,0,20)
 walls.translate (0.05,0,0)
@@ -113,6 +114,7 @@ walls.flip true
 walls.thin true
 bodies.name "other"
 bodies.mesh "other.stl"
+bodies.outline "other.csv"
 bodies.scale 0.9
 bodies.rotate (0,0,20)
 bodies.translate (0.05,0,0)
@@ -171,6 +173,7 @@ shapes.centre (0.1,0.1)
 shapes.radius 0.5
 shapes.level 0.3
 shapes.mesh "other.stl"
+shapes.outline "other.csv"
 shapes.scale 0.7
 shapes.rotate (0,20,0)
 shapes.translate (0.3,0,0)
@@ -423,6 +426,7 @@ for solid in "tank -0.8 0.8 zp" "cube -0.3 0.1" "other -0.5 0.3" "water -1 0.5";
         awk -v lo="$low $low $low" -v hi="$high $high $high" -v drop="$open" -f "$root/tests/jobs/stl.awk" >"$name.stl"
     done
 done
+printf "0,0\n0.3,0\n0,0.4\n0,0\n" >other.csv
 for mode; do
     scene "$mode" >base.cfg
     rm -rf base

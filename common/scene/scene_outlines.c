@@ -1,0 +1,56 @@
+/* scene_outlines.c - see scene_outlines.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "scene_outlines.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../base/mem.h"
+#include "../geometry/outline.h"
+
+/* Corners as scene_surface places them. */
+static void place(const struct scene_surface *is, const struct outline *o, struct param_points *to)
+{
+    const double angle = is->rotate[2] * M_PI / 180.0, c = cos(angle), s = sin(angle);
+    to->n = o->n;
+    for (int k = 0; k < o->n; k++) {
+        const double x = is->scale * o->x[k][0], y = is->scale * o->x[k][1];
+        to->x[k][0] = c * x - s * y + is->translate[0];
+        to->x[k][1] = s * x + c * y + is->translate[1];
+    }
+}
+
+/* Whether its file is closed. */
+static bool read_one(const char *dir, const char *group, int k, const struct scene_surface *is,
+                     struct param_points *to, const struct params *p, struct faults *f)
+{
+    char key[64], file[1024 + PARAM_TEXT_SIZE], text[1400];
+    struct outline o;
+    if (!*is->outline)
+        return false;
+    snprintf(key, sizeof key, "%s.[%d].outline", group, k);
+    snprintf(file, sizeof file, "%s%s%s", *is->outline == '/' ? "" : dir,
+             *is->outline == '/' ? "" : "/", is->outline);
+    if (to->n > 0)
+        params_fault(p, f, key, "points are given, too: leave one of them out");
+    else if (!outline_read(file, PARAM_POINTS_MAX, &o, text, sizeof text))
+        params_fault(p, f, key, "%s", text);
+    else {
+        const bool closed = o.closed;
+        place(is, &o, to);
+        mem_free(o.x);
+        return closed;
+    }
+    return false;
+}
+
+void scene_outlines_read(struct scene *s, const char *dir, const struct params *p, struct faults *f)
+{
+    for (int k = 0; k < s->nwalls; k++)
+        s->walls[k].closed =
+            read_one(dir, "walls", k, &s->walls[k].surface, &s->walls[k].points, p, f) ||
+            s->walls[k].closed;
+    for (int k = 0; k < s->nbodies; k++)
+        read_one(dir, "bodies", k, &s->bodies[k].surface, &s->bodies[k].points, p, f);
+    for (int k = 0; k < s->nshapes; k++)
+        read_one(dir, "shapes", k, &s->shapes[k].surface, &s->shapes[k].points, p, f);
+}
