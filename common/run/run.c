@@ -19,6 +19,7 @@
 #include "../scene/scene_mesh.h"
 #include "../scene/scene_openings.h"
 #include "../scene/scene_outlines.h"
+#include "../scene/wave_maker.h"
 #include "accept.h"
 #include "crossing.h"
 #include "run_files.h"
@@ -127,6 +128,8 @@ static int read_case(struct life *l)
         wall_histories_check(&r->scene, l->params, &l->faults);
     if (l->faults.n == 0)
         scene_orient(&r->scene);
+    if (l->faults.n == 0)
+        wave_makers_resolve(&r->scene, r->motions);
     if (l->faults.n == 0)
         read_meshes(l);
     if (l->faults.n == 0)

@@ -69,6 +69,18 @@ void motion_files_free(struct motion_files *all)
     mem_free(all);
 }
 
+/* An empty one of that name. */
+static struct motion_file *new_file(struct motion_files *all, const char *file, int columns)
+{
+    struct motion_file *m = NEW(struct motion_file, 1);
+    const size_t size = strlen(all->dir) + strlen(file) + 2;
+    m->path = NEW(char, size);
+    snprintf(m->path, size, "%s/%s", all->dir, file);
+    m->columns = columns;
+    GROW(all->of, all->n, all->n + 1);
+    return all->of[all->n++] = m;
+}
+
 const struct motion_file *motion_files_read(struct motion_files *all, const char *file, int columns)
 {
     char path[1024 + PARAM_TEXT_SIZE];
@@ -78,11 +90,14 @@ const struct motion_file *motion_files_read(struct motion_files *all, const char
     for (int k = 0; k < all->n; k++)
         if (all->of[k]->columns == columns && strcmp(all->of[k]->path, path) == 0)
             return all->of[k];
-    struct motion_file *m = NEW(struct motion_file, 1);
-    m->path = NEW(char, strlen(path) + 1);
-    strcpy(m->path, path);
-    m->columns = columns;
+    struct motion_file *m = new_file(all, file, columns);
     read_rows(m);
-    GROW(all->of, all->n, all->n + 1);
-    return all->of[all->n++] = m;
+    return m;
+}
+
+void motion_files_add(struct motion_files *all, const char *file, int n, int columns, double *rows)
+{
+    struct motion_file *m = new_file(all, file, columns);
+    m->n = n;
+    m->rows = rows;
 }

@@ -24,5 +24,8 @@ void motion_files_free(struct motion_files *all);
 /* The file as it was when it was first asked for; it belongs to the list. NULL if all is NULL. */
 const struct motion_file *motion_files_read(struct motion_files *all, const char *file,
                                             int columns);
+/* A file of that name that was never written: n rows, their times rising; they go over to the list.
+ */
+void motion_files_add(struct motion_files *all, const char *file, int n, int columns, double *rows);
 
 #endif

@@ -10,7 +10,7 @@
 /* clang-format off */
 #define P struct scene_motion
 static const struct param motion_rows[] = {
-    CHOICE(P, kind, "file|harmonic|polynomial", "file", "kind of motion"),
+    CHOICE(P, kind, "file|harmonic|polynomial|waves", "file", "kind of motion; waves: of a body as piston or flap, makes the waves of the group waves"),
     PARAM(P, file,      "-",   "", 0, 0, "rows t, x, y, angle; in 3D t, x, y, z, rx, ry, rz (rotation vector): displacement from the start"),
     CHOICE(P, axis, AXES, "y", "displacement along it, or rotation about it, through the centre"),
     PARAM(P, amplitude, "m or rad", "0.0", -1e9, 1e9, "of A sin(2 pi t/period + phase)"),

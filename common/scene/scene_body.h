@@ -8,7 +8,7 @@
 #include "../params/params.h"
 #include "scene_surface.h"
 
-enum motion_kind { MOTION_FILE, MOTION_HARMONIC, MOTION_POLYNOMIAL };
+enum motion_kind { MOTION_FILE, MOTION_HARMONIC, MOTION_POLYNOMIAL, MOTION_WAVES };
 enum body_axis { AXIS_X, AXIS_Y, AXIS_Z, AXIS_RX, AXIS_RY, AXIS_RZ, BODY_AXES };
 enum force_rule { FORCE_CONSERVING, FORCE_AVERAGE };
 enum { MOTIONS_MAX = 32, LINES_MAX = 8, BODY_NEVER = 1000000000 };
@@ -22,6 +22,7 @@ struct scene_motion {
     struct param_numbers coefficients; /* m/s^k or rad/s^k */
     double from, until;                /* s: of a polynomial */
     double ramp;                       /* s in which the term grows from nothing */
+    bool made;                         /* its file by wave_makers_resolve: wave_maker.h */
 };
 
 struct scene_motions {

@@ -6,6 +6,7 @@
 #include "scene_waves.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #define BIT(k) (1u << (k))
 
@@ -126,6 +127,10 @@ void scene_check_motion(const struct scene_motions *all, const char *list, int k
         const int kind = all->of[i].kind;
         const bool file = kind == MOTION_FILE, sine = kind == MOTION_HARMONIC;
         const bool power = kind == MOTION_POLYNOMIAL;
+        char key[80];
+        snprintf(key, sizeof key, "%s.[%d].kind", group, i);
+        if (kind == MOTION_WAVES && strcmp(list, "bodies") != 0)
+            params_fault(p, f, key, "only the motion of a body makes waves");
         check_key(p, f, group, i, "file", file, "the kind of this term is not file");
         check_key(p, f, group, i, "axis", !file, "the columns of a file say what moves");
         check_key(p, f, group, i, "amplitude", sine, "only a harmonic term has it");

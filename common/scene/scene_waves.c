@@ -9,6 +9,7 @@
 #include "../base/vec3.h"
 #include "../waves/zone_gain.h"
 #include "scene_fluid.h"
+#include "wave_maker.h"
 
 void scene_waves_mark(struct scene *s)
 {
@@ -76,6 +77,10 @@ static void window_of(const struct scene *s, double window[2])
     scene_waves_direction(s, d);
     window[0] = INFINITY;
     window[1] = -INFINITY;
+    if (!scene_makes_waves(s)) {
+        window[0] = window[1] = 0.0;
+        return;
+    }
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
         bool low;
@@ -221,11 +226,14 @@ void scene_waves_check(const struct scene *s, const struct params *p, struct fau
     for (int k = 0; k < s->nwalls; k++)
         if (s->walls[k].zone != ZONE_NONE)
             check_zone(s, p, k, f);
+    wave_makers_check(s, p, f);
     if (!s->has_waves || f->n > before)
         return;
-    if (!scene_makes_waves(s)) {
-        params_fault(p, f, "waves",
-                     "no side makes them: give a side of the domain kind = \"wave\"");
+    if (!scene_makes_waves(s) && !scene_has_wave_maker(s)) {
+        params_fault(
+            p, f, "waves",
+            "nobody makes them: give a side of the domain kind = \"wave\", or a body a motion of "
+            "kind = \"waves\"");
         return;
     }
     if (!check_water(s, p, f))
@@ -261,6 +269,7 @@ void scene_waves_describe(const struct scene *s)
         struct waves *made = waves_create(&of);
         describe_made(made);
         waves_free(&made);
+        wave_makers_describe(s);
     }
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;

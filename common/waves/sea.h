@@ -11,6 +11,8 @@ double sea_jonswap(double f, double gamma);
  * number in n; owned by the caller. Sea: sum a^2/2 is height^2/16; focused: sum a is half the
  * height. */
 struct wave_component *sea_components(const struct wave_spec *of, double period, int *n);
+/* What they make of a flat table's nodes; owned by the caller. */
+double *sea_profiles(const struct waves *w);
 /* Fills a table at the time t, s: linear theory, above the still level as on it. */
 void sea_frame(const struct waves *w, double t, struct wave_table *to);
 

@@ -214,6 +214,7 @@ static void make_sum(struct waves *w)
         if (f < WAVE_FRAMES)
             w->frame[f] = -1000000 - f;
     }
+    w->profile = sea_profiles(w);
 }
 
 struct waves *waves_create(const struct wave_spec *of)
@@ -237,6 +238,7 @@ void waves_free(struct waves **w)
     for (int f = 0; f < WAVE_FRAMES; f++)
         wave_table_free(&(*w)->frames[f]);
     mem_free((*w)->components);
+    mem_free((*w)->profile);
     mem_free(*w);
     *w = NULL;
 }

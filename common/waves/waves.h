@@ -48,6 +48,7 @@ struct waves {
     double gain, ahead; /* factor of a regular wave's velocities, m by which they are ahead */
     struct wave_component *components;
     int ncomponents;
+    double *profile; /* [ncomponents][WAVE_NODES][2]: velocities over a w, along and up */
     /* Regular: one table that travels. Else a blend of four frames dt apart. */
     struct wave_table table, frames[WAVE_FRAMES];
     long frame[WAVE_FRAMES]; /* which each holds */

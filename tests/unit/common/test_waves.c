@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../../common/scene/wave_maker.h"
 #include "../../../common/waves/waves.h"
 #include "../../../common/waves/zone_gain.h"
 
@@ -201,6 +202,18 @@ static void zones_answer_as_they_should(void **state)
     near(creal(one.make), 1.12, 0.02);
 }
 
+/* Biesel's transfer functions of pistons and of flaps hinged on the floor, kh 0.3, 1, 3. */
+static void paddles_have_biesels_ratios(void **state)
+{
+    (void)state;
+    static const double kh[] = {0.3, 1.0, 3.0}, piston[] = {0.2999, 0.9818, 1.9326},
+                        flap[] = {0.1511, 0.5281, 1.3495};
+    for (int i = 0; i < 3; i++) {
+        near(wave_maker_ratio(2.0 * kh[i], 0.5, -1.0), piston[i], 1e-4);
+        near(wave_maker_ratio(2.0 * kh[i], 0.5, 0.0), flap[i], 1e-4);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(tables_give_the_wave),
@@ -210,6 +223,7 @@ int main(void)
                                        cmocka_unit_test(seas_have_their_height),
                                        cmocka_unit_test(groups_focus),
                                        cmocka_unit_test(bits_do_not_depend_on_who_asks),
-                                       cmocka_unit_test(zones_answer_as_they_should)};
+                                       cmocka_unit_test(zones_answer_as_they_should),
+                                       cmocka_unit_test(paddles_have_biesels_ratios)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,179 @@
+/* wave_maker.c - see wave_maker.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "wave_maker.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../base/log.h"
+#include "../base/mem.h"
+#include "../base/vec3.h"
+#include "scene_fluid.h"
+#include "scene_waves.h"
+
+enum { COLUMNS_2D = 4, COLUMNS_3D = 7 };
+
+bool scene_has_wave_maker(const struct scene *s)
+{
+    for (int k = 0; k < s->nbodies; k++)
+        for (int i = 0; i < s->bodies[k].motion.n; i++)
+            if (s->bodies[k].motion.of[i].kind == MOTION_WAVES)
+                return true;
+    return false;
+}
+
+double wave_maker_ratio(double k, double h, double l)
+{
+    const double kh = fmin(k * h, 300.0), below = sinh(2.0 * kh) + 2.0 * kh;
+    if (l < 0.0)
+        return 4.0 * sinh(kh) * sinh(kh) / below;
+    return 4.0 * sinh(kh) * (sinh(kh) + (cosh(k * l) - cosh(kh)) / (k * (h - l))) / below;
+}
+
+/* Second order of a piston over its first; 0 where it does not hold. */
+static double second_order(double a, double k, double h)
+{
+    const double kh = k * h, n = 0.5 * (1.0 + 2.0 * kh / sinh(2.0 * kh)), sh = sinh(kh),
+                 length = 2.0 * M_PI / k;
+    if (kh > 1.5 || 2.0 * a * length * length / (h * h * h) > 8.0 * M_PI * M_PI / 3.0)
+        return 0.0;
+    return a / (2.0 * h * n) * (3.0 / (4.0 * sh * sh) - 0.5 * n);
+}
+
+static bool is_flap(const struct scene_motion *m) { return m->axis >= AXIS_RX; }
+
+/* m: of a flap's axis over the floor; a piston < 0. */
+static double axis_height(const struct scene *s, const struct scene_body *b,
+                          const struct scene_motion *m)
+{
+    const double depth = scene_waves_depth(s);
+    return is_flap(m) ? scene_height(s, b->centre) - (scene_waves_level(s) - depth) : -1.0;
+}
+
+/* m: along the waves, of the face that the water is at. */
+static double face_of(const struct scene *s, const struct scene_body *b)
+{
+    double d[3], x = -INFINITY;
+    scene_waves_direction(s, d);
+    for (int i = 0; i < b->points.n; i++)
+        x = fmax(x, d[0] * b->points.x[i][0] + d[1] * b->points.x[i][1]);
+    return isfinite(x) ? x : vec3_dot(b->centre, d);
+}
+
+/* What moves, over the displacement along the waves at the still level: +-1, or 1 over the height
+ * over a flap's axis, in the sense of its axis. 0: the axis makes no waves. */
+static double lever(const struct scene *s, const struct scene_body *b, const struct scene_motion *m)
+{
+    const int up = scene_still_axis(s);
+    double d[3], e[3] = {0.0, 0.0, 0.0}, r[3] = {0.0, 0.0, 0.0}, moves[3];
+    if (up < 0)
+        return 0.0;
+    scene_waves_direction(s, d);
+    if (!is_flap(m))
+        return fabs(d[m->axis]) > 1.0 - 1e-9 ? d[m->axis] : 0.0;
+    e[m->axis - AXIS_RX] = 1.0;
+    r[up] =
+        (s->fluid.gravity[up] < 0.0 ? 1.0 : -1.0) * (scene_waves_depth(s) - axis_height(s, b, m));
+    vec3_cross(e, r, moves);
+    const double along = vec3_dot(moves, d);
+    return fabs(along) > (1.0 - 1e-9) * fabs(r[up]) && r[up] != 0.0 ? 1.0 / along : 0.0;
+}
+
+void wave_makers_check(const struct scene *s, const struct params *p, struct faults *f)
+{
+    for (int k = 0; k < s->nbodies; k++)
+        for (int i = 0; i < s->bodies[k].motion.n; i++) {
+            const struct scene_body *b = s->bodies + k;
+            const struct scene_motion *m = b->motion.of + i;
+            char key[80];
+            snprintf(key, sizeof key, "bodies.[%d].motion.[%d].kind", k, i);
+            if (m->kind != MOTION_WAVES)
+                continue;
+            if (!s->has_waves)
+                params_fault(p, f, key, "what waves? give the group waves");
+            else if (!(scene_waves_depth(s) > 0.0))
+                params_fault(p, f, key, "no shape tells how deep the water is (waves.depth)");
+            else if (lever(s, b, m) == 0.0)
+                params_fault(p, f, key,
+                             "its axis makes no waves in waves.direction: a piston moves along "
+                             "it, a flap turns about a horizontal axis across it, below the water");
+        }
+}
+
+/* Displacement along the waves at the still level and time t; f: the paddle's face. */
+static double displacement(const struct waves *w, double face, double l, double t)
+{
+    const double h = w->of.depth, T = w->of.start * w->period,
+                 grown = !(T > 0.0) || t >= T ? 1.0
+                         : t <= 0.0           ? 0.0
+                                              : 0.5 * (1.0 - cos(M_PI * t / T));
+    double x = 0.0;
+    if (w->of.kind == WAVE_REGULAR) {
+        const double k = 2.0 * M_PI / w->length, a = 0.5 * w->of.height,
+                     turn = 2.0 * M_PI * (t - w->of.at[1]) / w->period - k * (face - w->of.at[0]),
+                     second = l < 0.0 ? second_order(a, k, h) : 0.0;
+        x = a / wave_maker_ratio(k, h, l) * (sin(turn) + second * sin(2.0 * turn));
+    }
+    for (int i = 0; i < w->ncomponents; i++) {
+        const struct wave_component *c = w->components + i;
+        x += c->a / wave_maker_ratio(c->k, h, l) * sin(c->w * t - c->k * face - c->phase);
+    }
+    return grown * x;
+}
+
+static void resolve_one(struct scene *s, struct scene_body *b, struct scene_motion *m,
+                        const struct waves *w, struct motion_files *files)
+{
+    const int columns = s->domain.dim == 2 ? COLUMNS_2D : COLUMNS_3D,
+              column = columns == COLUMNS_2D ? (is_flap(m) ? 3 : 1 + m->axis) : 1 + m->axis;
+    const double shortest = w->ncomponents > 0 ? 2.0 * M_PI / w->components[w->ncomponents - 1].w
+                                               : 0.5 * w->period,
+                 dt = shortest / 40.0, face = face_of(s, b), l = axis_height(s, b, m),
+                 per = lever(s, b, m);
+    const int n = (int)ceil(s->time.end / dt) + 3;
+    double *rows = NEW(double, (size_t)n *columns);
+    for (int k = 0; k < n; k++) {
+        rows[(size_t)k * columns] = k * dt;
+        rows[(size_t)k * columns + column] =
+            per * (displacement(w, face, l, k * dt) - displacement(w, face, l, 0.0));
+    }
+    snprintf(m->file, sizeof m->file, "(waves of %.80s)", b->name);
+    motion_files_add(files, m->file, n, columns, rows);
+    m->kind = MOTION_FILE;
+    m->made = true;
+}
+
+void wave_makers_resolve(struct scene *s, struct motion_files *files)
+{
+    if (!s->has_waves || !scene_has_wave_maker(s))
+        return;
+    const struct wave_spec of = scene_waves_spec(s);
+    struct waves *w = waves_create(&of);
+    for (int k = 0; k < s->nbodies; k++)
+        for (int i = 0; i < s->bodies[k].motion.n; i++)
+            if (s->bodies[k].motion.of[i].kind == MOTION_WAVES)
+                resolve_one(s, s->bodies + k, s->bodies[k].motion.of + i, w, files);
+    waves_free(&w);
+}
+
+void wave_makers_describe(const struct scene *s)
+{
+    for (int k = 0; k < s->nbodies; k++)
+        for (int i = 0; i < s->bodies[k].motion.n; i++) {
+            const struct scene_body *b = s->bodies + k;
+            const struct scene_motion *m = b->motion.of + i;
+            if (!m->made)
+                continue;
+            const struct wave_spec of = scene_waves_spec(s);
+            struct waves *w = waves_create(&of);
+            const double number = 2.0 * M_PI / w->length, l = axis_height(s, b, m),
+                         ratio = wave_maker_ratio(number, of.depth, l);
+            log_say("%s makes them as a %s: height over stroke %.3g, stroke at the still level "
+                    "%.4g m%s",
+                    b->name, is_flap(m) ? "flap" : "piston", ratio, of.height / ratio,
+                    of.kind != WAVE_REGULAR ? " of the peak, first order"
+                    : l < 0.0 && second_order(0.5 * of.height, number, of.depth) != 0.0
+                        ? ", second order"
+                        : ", first order");
+            waves_free(&w);
+        }
+}
