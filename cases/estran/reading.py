@@ -127,6 +127,8 @@ class Program:
     def __init__(self, run, name):
         self.run, self.name = run, name
         self.case = casefile.load(os.path.join(run.dir, name + '-case.cfg'))
+        domain = self.case.get('domain', {})  # its lower corner is the origin unless it is given
+        domain.setdefault('min', [0.0] * len(domain.get('max', [0, 0])))
         self.dim = int(self.case['domain'].get('dim', 2))
         self.files = sorted(glob.glob(os.path.join(glob.escape(run.dir), name + '_[0-9]*.h5')))
         self._times = None
