@@ -12,6 +12,7 @@ struct wave_zones {
     struct {
         int axis;
         double edge, length; /* m: of the side (towards +: length > 0) */
+        double per;          /* 1/m: over its length */
         double rate;         /* 1/s: at the side */
         struct waves *waves; /* NULL: a beach; owned */
     } zone[6];
@@ -45,6 +46,7 @@ struct wave_zones *wave_zones_create(const struct scene *s)
         z->zone[z->n].axis = axis;
         z->zone[z->n].edge = low ? s->domain.min[axis] : s->domain.max[axis];
         z->zone[z->n].length = low ? w->beach : -w->beach;
+        z->zone[z->n].per = 1.0 / z->zone[z->n].length;
         z->zone[z->n].rate = 4.0 * M_PI / w->beach_period;
         if (w->zone == ZONE_WAVE)
             z->zone[z->n].waves = waves_of(s, z, z->n);
@@ -97,13 +99,15 @@ double wave_zones_rate(const struct wave_zones *z, const double *x, double *u_w)
     double rate = 0.0;
     u_w[0] = u_w[1] = u_w[2] = 0.0;
     for (int k = 0; k < z->n; k++) {
-        const double chi = 1.0 - (x[z->zone[k].axis] - z->zone[k].edge) / z->zone[k].length;
+        const double chi = 1.0 - (x[z->zone[k].axis] - z->zone[k].edge) * z->zone[k].per;
         const double r = chi > 0.0 ? z->zone[k].rate * fmin(chi * chi, 1.0) : 0.0;
         rate += r;
         if (r > 0.0 && z->zone[k].waves)
             add_velocity(z, k, r, x, u_w);
     }
-    for (int a = 0; a < 3 && rate > 0.0; a++) /* where zones meet, by their shares */
+    if (rate == 0.0)
+        return 0.0;
+    for (int a = 0; a < 3; a++) /* where zones meet, by their shares */
         u_w[a] /= rate;
     return rate;
 }

@@ -24,7 +24,7 @@ void wave_table_free(struct wave_table *t)
 }
 
 /* From 0 on the surface to -1. */
-static double sigma(int node) { return 0.5 * (cos(M_PI * node / (WAVE_NODES - 1)) - 1.0); }
+static double sigma(int node) { return -(double)node / (WAVE_NODES - 1); }
 
 double wave_table_height(const struct wave_table *t, int column, int node)
 {
@@ -46,21 +46,25 @@ void wave_table_blend(struct wave_table *to, int n, const struct wave_table *of,
     }
 }
 
+/* Weights of four places a step apart, of which the second and the third are about s = 0 .. 1. */
+static void cubic(double s, double weight[4])
+{
+    weight[0] = -s * (s - 1.0) * (s - 2.0) / 6.0;
+    weight[1] = (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0;
+    weight[2] = -(s + 1.0) * s * (s - 2.0) / 2.0;
+    weight[3] = (s + 1.0) * s * (s - 1.0) / 6.0;
+}
+
 /* The four columns about x and their weights. */
 static void columns(const struct wave_table *t, double x, int column[4], double weight[4])
 {
     const double at = (x - t->first) / t->gap;
     const double lowest = t->periodic ? floor(at) : fmin(fmax(floor(at), 1.0), t->n - 3.0);
     const double s = t->periodic ? at - lowest : fmin(fmax(at - lowest, -1.0), 2.0);
-    const int shift = (int)fmod(lowest, t->n);
-    for (int k = 0; k < 4; k++) {
-        const int c = shift + k - 1;
-        column[k] = t->periodic ? ((c % t->n) + t->n) % t->n : c;
-    }
-    weight[0] = -s * (s - 1.0) * (s - 2.0) / 6.0;
-    weight[1] = (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0;
-    weight[2] = -(s + 1.0) * s * (s - 2.0) / 2.0;
-    weight[3] = (s + 1.0) * s * (s - 1.0) / 6.0;
+    int c = (int)(t->periodic ? lowest - t->n * floor(lowest / t->n) : lowest) - 1;
+    for (int k = 0; k < 4; k++, c++)
+        column[k] = !t->periodic ? c : c < 0 ? c + t->n : c >= t->n ? c - t->n : c;
+    cubic(s, weight);
 }
 
 double wave_table_eta(const struct wave_table *t, double x)
@@ -73,38 +77,23 @@ double wave_table_eta(const struct wave_table *t, double x)
     return eta;
 }
 
-/* Weights of the nodes at sigma s, which sum to 1: barycentric formula of the second kind. */
-static void nodes(double s, double weight[WAVE_NODES])
-{
-    double sum = 0.0;
-    for (int i = 0; i < WAVE_NODES; i++) {
-        const double d = s - sigma(i);
-        if (fabs(d) < 1e-12) {
-            memset(weight, 0, WAVE_NODES * sizeof *weight);
-            weight[i] = 1.0;
-            return;
-        }
-        weight[i] = (i % 2 ? -1.0 : 1.0) * (i == 0 || i == WAVE_NODES - 1 ? 0.5 : 1.0) / d;
-        sum += weight[i];
-    }
-    for (int i = 0; i < WAVE_NODES; i++)
-        weight[i] /= sum;
-}
-
 void wave_table_velocity(const struct wave_table *t, double x, double z, double u[2])
 {
     int column[4];
-    double across[4], along[WAVE_NODES], top = 0.0;
+    double across[4], along[4], top = 0.0;
     columns(t, x, column, across);
     for (int k = 0; k < 4 && !t->flat; k++)
         top += across[k] * t->eta[column[k]];
-    nodes(fmin(fmax((z - top) / (top + t->reach), -1.0), 0.0), along);
+    const double down = fmin(fmax((top - z) / (top + t->reach), 0.0), 1.0) * (WAVE_NODES - 1);
+    const int node = (int)fmin(fmax(floor(down), 1.0), WAVE_NODES - 3.0);
+    cubic(down - node, along);
     u[0] = u[1] = 0.0;
     for (int k = 0; k < 4; k++) {
-        const double *q = t->u + (size_t)column[k] * WAVE_NODES * 2;
-        for (int i = 0; i < WAVE_NODES; i++) {
-            u[0] += across[k] * along[i] * q[2 * i];
-            u[1] += across[k] * along[i] * q[2 * i + 1];
+        const double *q = t->u + ((size_t)column[k] * WAVE_NODES + (size_t)(node - 1)) * 2;
+        for (int i = 0; i < 4; i++) {
+            const double w = across[k] * along[i];
+            u[0] += w * q[2 * i];
+            u[1] += w * q[2 * i + 1];
         }
     }
     if (z < -t->reach && t->decay > 0.0) {

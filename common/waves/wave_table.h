@@ -1,13 +1,13 @@
 /* wave_table.h - the velocities of a wave at one time, tabulated over columns along its direction
  * and nodes between a depth and its surface, so that sampling costs the same whatever made them.
- * Cubic in x, barycentric over the Chebyshev nodes of sigma = (z - eta)/(eta + reach). Heights z
- * from the still level. SPDX-License-Identifier: BSD-3-Clause */
+ * Cubic in x and in sigma = (z - eta)/(eta + reach). Heights z from the still level.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_WAVE_TABLE_H
 #define COMMON_WAVE_TABLE_H
 
 #include <stdbool.h>
 
-enum { WAVE_NODES = 16 };
+enum { WAVE_NODES = 36 };
 
 struct wave_table {
     int n;             /* columns */

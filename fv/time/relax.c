@@ -5,6 +5,7 @@
 
 #include "../../common/scene/wave_zones.h"
 #include "../boundary/forcing.h"
+#include "../surface/levelset.h"
 #include "stages.h"
 
 void relax_zones(struct fv *s, double dt)
@@ -15,6 +16,8 @@ void relax_zones(struct fv *s, double dt)
     FLOW_ROWS (s, at, n)
         for (int64_t i = at; i < at + n; i++) {
             double x[3], u_w[3];
+            if (s->surface && s->surface->layer[i] == DEEP)
+                continue;
             forcing_centre(s, i, x);
             const double rate = wave_zones_rate(s->wave_zones, x, u_w);
             if (rate == 0.0)

@@ -234,7 +234,7 @@ static double power_of_zones(struct fv *s)
         for (int64_t i = c; i < c + n; i++) {
             double x[3], u_w[3], uf = 0.0;
             forcing_centre(s, i, x);
-            const double rate = wave_zones_rate(s->wave_zones, x, u_w);
+            const double rate = weight[i - c] > 0.0 ? wave_zones_rate(s->wave_zones, x, u_w) : 0.0;
             for (int a = 0; a < s->dim && rate > 0.0; a++)
                 uf += rate * (u_w[a] - s->u[a][i]) * s->u[a][i];
             row += weight[i - c] * uf;
