@@ -99,6 +99,15 @@ static void window_of(const struct scene *s, double window[2])
     }
 }
 
+/* s: so that a run which goes on to a somewhat later end sees the same sea. */
+static double repeat_of(const struct scene *s, double period)
+{
+    double repeat = 25.0 * period;
+    while (repeat < s->time.end + 10.0 * period)
+        repeat *= 2.0;
+    return repeat;
+}
+
 struct wave_spec scene_waves_spec(const struct scene *s)
 {
     const struct scene_waves *w = &s->waves;
@@ -114,7 +123,7 @@ struct wave_spec scene_waves_spec(const struct scene *s)
                            .closed = true,
                            .peak = w->peak,
                            .seed = w->seed};
-    of.repeat = w->repeat > 0.0 ? w->repeat : s->time.end + 10.0 * waves_period(&of);
+    of.repeat = w->repeat > 0.0 ? w->repeat : repeat_of(s, waves_period(&of));
     window_of(s, of.window);
     return of;
 }

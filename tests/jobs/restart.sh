@@ -101,6 +101,21 @@ family regions kinetic 1e-9 2 "1 3" 0.03 regions.cfg
 family regions_same kinetic 0 1 1 0.03 regions.cfg
 family regions_local kinetic 0 2 2 0.03 regions.cfg -p apr.local_steps=true
 
+# waves of a zone: a function of place and time alone
+cat >sea.cfg <<'END'
+format = 1;
+time:    { end = 1.0; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; max = (4.5, 0.3); };
+walls:   ( { side = "x_min"; kind = "wave"; }, { side = "x_max"; kind = "beach"; }, { side = "y_min"; }, { side = "y_max"; } );
+shapes:  ( { form = "below"; level = 0.2; } );
+waves:   { kind = "sea"; height = 0.03; length = 1.0; start = 0; };
+END
+sed '$a fv: { cells = (72, 12); };' sea.cfg >sea_fv.cfg
+sed '$a sph: { dx = 0.025; };' sea.cfg >sea_sph.cfg
+family sea_fv 'kinetic energy' 1e-6 1 "1 2" 1.0 sea_fv.cfg
+family sea_sph 'kinetic energy' 1e-3 2 "1 2" 0.4 sea_sph.cfg
+
 # meshes: a column of water in a tank without lid, an obstacle; the restart file knows its meshes
 awk -v lo="0 0 0" -v hi="1 0.4 0.6" -v drop=zp -f "$root/tests/jobs/stl.awk" >tank.stl
 awk -v lo="0.62 0.13 0" -v hi="0.78 0.27 0.17" -v drop=zm -f "$root/tests/jobs/stl.awk" >block.stl

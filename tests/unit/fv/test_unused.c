@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "../../../common/base/mem.h"
+#include "../../../common/scene/scene_outlines.h"
 #include "../../../fv/boundary/still.h"
 #include "../../../fv/case/fv_case.h"
 #include "../../../fv/fv.h"
@@ -300,6 +301,8 @@ static void outcome(const char *text, struct seen *seen)
                                    (const char *const[]){NULL}, &f);
     run.params = p;
     run.scene.has_fv = true;
+    if (f.n == 0)
+        scene_outlines_read(&run.scene, ".", p, &f);
     if (f.n == 0)
         scene_check(&run.scene, p, &f);
     if (f.n == 0)
