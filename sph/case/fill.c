@@ -16,6 +16,7 @@
 #include "../refinement/refinement.h"
 #include "../sph.h"
 #include "../walls/walls.h"
+#include "amount.h"
 #include "basins.h"
 #include "first_lattice.h"
 #include "pack.h"
@@ -108,7 +109,7 @@ struct look {
     int64_t wet, taken;
 };
 
-/* Where the particle of a cell starts; its volume, dx^D. */
+/* Where the particle of a cell starts; its volume, dx^D; 0: it has none. */
 static double displace(const struct sph *s, const struct look *look, int64_t cell,
                        const double *centre, double *x)
 {
@@ -153,8 +154,8 @@ static void mark(struct sph *s, const struct lattice *l, int64_t cell, const dou
 {
     struct look *k = ctx;
     double x[3];
-    displace(s, k, cell, centre, x);
-    if (!scene_is_fluid(&s->run->scene, &k->exact, x, NULL))
+    if (displace(s, k, cell, centre, x) == 0.0 ||
+        !scene_is_fluid(&s->run->scene, &k->exact, x, NULL))
         return;
     if (!rooms_parted(s) && !scene_in_tanks(&s->run->scene, x))
         return; /* a shape may reach beyond its tank */
@@ -419,6 +420,12 @@ static void settle(struct sph *level)
     surface_rows_renew(level);
     if (level->prm.packing > 0)
         pack_finer(level);
+}
+
+void fill_check(struct sph *s, const struct fill *f)
+{
+    if (f)
+        amount_check(s, &f->lattice);
 }
 
 void fill_finer(struct sph *s, const struct fill *f)

@@ -8,6 +8,8 @@ struct sph;
 
 /* Lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
 struct fill *fill_lattice(struct sph *s);
+/* Says so where the particles hold another amount of water than the shapes. Collective. */
+void fill_check(struct sph *s, const struct fill *f);
 void fill_free(struct fill **f);
 /* The first particles of the finer levels: born of the coarser ones, with the exact field. */
 void fill_finer(struct sph *s, const struct fill *f);

@@ -80,28 +80,29 @@ static bool is_settled(const struct sph *s, int step, double past[5])
     return now < 0.04 || (step >= 5 && now > 0.9 * before);
 }
 
-/* Away from a free surface w = dx^D gamma / sum dx^D W; the mass follows. With volumes dx^D after
+/* Away from a free surface volumes become such that sum w W is that of a lattice, beside walls that
+ * of one that they cut (see volume_feedback.c); the mass follows. With volumes dx^D after
  * noise the kernel sums are not even, and as transport evens them out later, volumes follow and the
  * pressure's level goes (by -0.9 rho U^2 in Taylor-Green flow from noise of 0.3 dx). Beside a
  * lattice that stays as it is, its sum counts. */
 static void set_volumes(struct sph *s)
 {
-    const double whole = s->walls && !by_meshes(s) ? 1.0 : kernel_lattice_sum(s);
-    double *gamma = NEW(double, s->p.n);
+    const double whole = kernel_lattice_sum(s);
+    double *room = NEW(double, s->p.n);
     for (int i = 0; i < s->p.n; i++)
-        gamma[i] = 1.0;
-    if (s->walls && s->walls->model->gammas)
-        s->walls->model->gammas(s, gamma);
+        room[i] = 1.0;
+    if (s->walls && s->walls->model->rooms)
+        s->walls->model->rooms(s, room);
     for (int i = 0; i < s->p.n; i++)
-        gamma[i] *= whole / kernel_sum(s, i);
+        room[i] *= whole / kernel_sum(s, i);
     for (int i = 0; i < s->p.n; i++) {
         double *y = state_row(&s->p, s->p.y, i);
         if ((s->surface && s->surface->is[i] != SURFACE_INNER) || !is_packed(s, i, 2.0 * s->R))
             continue;
         for (int k = s->dim; k < s->p.nstate; k++) /* momentum, volume, mass */
-            y[k] *= gamma[i];
+            y[k] *= room[i];
     }
-    mem_free(gamma);
+    mem_free(room);
 }
 
 /* The volume that meshes and sides enclose, where the fluid fills it; 0: not known. */

@@ -194,9 +194,10 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
     }
     if (s->refinement)
         fill_finer(s, fill);
-    fill_free(&fill);
     integrate_start(s);
     fill_volumes(s);
+    fill_check(s, fill);
+    fill_free(&fill);
     remember_start(s);
     return s;
 }

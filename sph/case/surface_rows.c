@@ -1,13 +1,14 @@
 /* surface_rows.c - see surface_rows.h. SPDX-License-Identifier: BSD-3-Clause
  *
  * A lattice meets an inclined surface in steps, and each step that lands on a wall is a hammer of
- * its own: at 10 degrees a front of six spacings at once. Here each row of cells that ends at a
- * free surface is stretched or shortened, by half a spacing at most, so that its last particle
- * lies half of its spacing inside: over the last ROWS particles, along the axis on which the
- * surface is inclined by 45 degrees at most. Where one row has a particle more than the next, the
- * two lie a whole spacing apart at the surface, which is the lattice again, and in between
- * staggered. Volumes go with the spacings along the row, so that all of the shape is filled. A
- * surface along the lattice keeps its rows. */
+ * its own: at 10 degrees a front of six spacings at once. One along the lattice, but between two
+ * of its rows, gains or loses up to half a row: 27 rows for 27.5, 2 % of the water. Here each row
+ * of cells that ends at a free surface is stretched or shortened, by half a spacing at most, so
+ * that its last particle lies half of its spacing inside: over the last ROWS particles, along the
+ * axis on which the surface is inclined by 45 degrees at most. Where one row has a particle more
+ * than the next, the two lie a whole spacing apart at the surface, which is the lattice again, and
+ * in between staggered. Volumes go with the spacings along the row, so that all of the shape is
+ * filled. A surface on faces of the lattice keeps its rows. */
 #include "surface_rows.h"
 
 #include <math.h>
@@ -21,6 +22,7 @@
 #include "rooms.h"
 
 enum { ROWS = 8 };
+static const double even = 1e-3; /* of dx: a surface that near to faces of the lattice is on them */
 
 /* What shapes and walls have at a place. */
 struct rows_water {
@@ -45,6 +47,21 @@ static bool has_walls(const struct rows_water *w, const double *x)
 static bool is_wet(const struct rows_water *w, const double *x)
 {
     return has_fluid(w, x) && !has_walls(w, x);
+}
+
+typedef bool is_water(const struct rows_water *w, const double *x);
+
+/* Whether the cell around x has a particle: its centre does, and is not on a face, where rounding
+ * would say yes in one row and no in the next. */
+static bool is_cell(const struct rows_water *w, is_water *has, const double *x)
+{
+    for (int k = 0; k < 2 * w->s->dim; k++) {
+        double y[3] = {x[0], x[1], x[2]};
+        y[k / 2] += (k % 2 ? 1e-6 : -1e-6) * w->s->dx;
+        if (!has(w, y))
+            return false;
+    }
+    return true;
 }
 
 /* Along an axis between x, which is wet, and x + reach, which is not: how far the fluid goes, m. */
@@ -77,12 +94,12 @@ static double end_aside(const struct rows_water *w, const double *x, int axis, d
     return is_wet(w, from) && !is_wet(w, to) ? find_end(w, from, axis, 2.0 * far) - far : NAN;
 }
 
-/* Whether rows along this axis are fitted to the surface that is b from the last centre x: it is
- * inclined to them, by no more than to the other axes. */
-static bool is_inclined(const struct rows_water *w, const double *x, int axis, double b)
+/* Whether rows along this axis are fitted to the surface that is b from the last centre x: it lies
+ * off the faces of the lattice or is inclined to them, by no more than to the other axes. */
+static bool is_fitted(const struct rows_water *w, const double *x, int axis, double b)
 {
-    const double dx = w->s->dx, sign = b > 0.0 ? 1.0 : -1.0, even = 1e-6;
-    bool inclined = false;
+    const double dx = w->s->dx, sign = b > 0.0 ? 1.0 : -1.0, same = 1e-6;
+    bool fitted = fabs(fabs(b) - 0.5 * dx) > even * dx;
     for (int a = 0; a < w->s->dim; a++) {
         double slope = 0.0;
         int n = 0;
@@ -92,28 +109,46 @@ static bool is_inclined(const struct rows_water *w, const double *x, int axis, d
             const double more = (end_aside(w, y, axis, sign) - b) / (0.5 * dx);
             if (isnan(more)) /* the surface ends here */
                 continue;
-            inclined = inclined || fabs(more) > even;
+            fitted = fitted || fabs(more) > same;
             slope += side * more;
             n++;
         }
         slope = n > 0 ? fabs(slope) / n : 0.0;
-        if ((a != axis && n == 0) || slope > 1.0 + even || (slope > 1.0 - even && a < axis))
+        if ((a != axis && n == 0) || slope > 1.0 + same || (slope > 1.0 - same && a < axis))
             return false;
     }
-    return inclined;
+    return fitted;
 }
 
-/* Wet cells beyond the one at x on this way, `most' at most. */
-static int count_beyond(const struct rows_water *w, const double *x, int axis, double step,
-                        int most)
+/* Cells with water beyond the one at x on this way, `most' at most. */
+static int count_beyond(const struct rows_water *w, is_water *has, const double *x, int axis,
+                        double step, int most)
 {
     int n = 0;
     for (double y[3] = {x[0], x[1], x[2]}; n < most; n++) {
         y[axis] += step;
-        if (!is_wet(w, y))
+        if (!is_cell(w, has, y))
             break;
     }
     return n;
+}
+
+/* Whether the shapes go on that far both ways: rows there end at walls, if at all. Walls are asked
+ * for last: their lines may have thousands of points. */
+static bool is_deep(const struct rows_water *w, const double *x, int axis)
+{
+    const double dx = w->s->dx;
+    return count_beyond(w, has_fluid, x, axis, dx, ROWS) == ROWS &&
+           count_beyond(w, has_fluid, x, axis, -dx, ROWS) == ROWS;
+}
+
+/* Whether a mesh stands between x and the end of its row, b from the last centre. */
+static bool is_behind_mesh(const struct sph *s, const double *x, const double *last, int axis,
+                           double b)
+{
+    double end[3] = {last[0], last[1], last[2]};
+    end[axis] += b;
+    return rooms_parted(s) && rooms_crossed(s, x, end);
 }
 
 /* How far the last face of a row, n cells beyond the one at x, has to move to be the surface. */
@@ -123,27 +158,51 @@ static double shift_of_end(const struct rows_water *w, const double *x, int axis
     double last[3] = {x[0], x[1], x[2]};
     last[axis] += n * step;
     const double b = find_end(w, last, axis, step);
-    return is_free(w, last, axis, b) && is_inclined(w, last, axis, b) ? b - 0.5 * step : 0.0;
+    return is_free(w, last, axis, b) && is_fitted(w, last, axis, b) &&
+                   !is_behind_mesh(w->s, x, last, axis, b)
+               ? b - 0.5 * step
+               : 0.0;
 }
 
-/* Boxes stand along the lattice; so does a level, unless gravity is oblique to it. */
-static bool has_slope(const struct scene *c, const struct scene_shape *h)
+/* Whether a face of a shape at x across axis a, inside the domain, lies between two rows. */
+static bool is_between(const struct sph *s, int a, double x)
 {
-    double still[3];
-    const double g = scene_still_gravity(c, still);
-    bool oblique = g > 0.0;
-    for (int a = 0; a < c->domain.dim; a++)
-        oblique = oblique && fabs(still[a]) < (1.0 - 1e-9) * g;
-    return h->form == SHAPE_POLYGON || h->form == SHAPE_DISC || (h->form == SHAPE_BELOW && oblique);
+    const double begin = first_lattice_begin(&s->run->scene, a, s->lo[a], s->hi[a], s->dx);
+    const double n = (x - begin) / s->dx;
+    return x > s->lo[a] && x < s->hi[a] && fabs(n - round(n)) > even;
+}
+
+/* Whether a level lies between two rows, or is oblique to the lattice. */
+static bool is_level_off(const struct sph *s, double level)
+{
+    const struct scene *c = &s->run->scene;
+    const double origin[3] = {0.0, 0.0, 0.0}, zero = scene_height(c, origin);
+    for (int a = 0; a < s->dim; a++) {
+        double unit[3] = {0.0, 0.0, 0.0};
+        unit[a] = 1.0;
+        const double rise = scene_height(c, unit) - zero; /* of the height along the axis */
+        if (fabs(rise) > 1.0 - 1e-9)
+            return is_between(s, a, (level - zero) / rise);
+    }
+    return true;
+}
+
+/* Boxes stand along the lattice, but may end between two rows. */
+static bool is_off(const struct sph *s, const struct scene_shape *h)
+{
+    bool off = h->form == SHAPE_POLYGON || h->form == SHAPE_DISC;
+    for (int a = 0; a < s->dim && h->form == SHAPE_BOX; a++)
+        off = off || is_between(s, a, h->box[0][a]) || is_between(s, a, h->box[1][a]);
+    return off || (h->form == SHAPE_BELOW && is_level_off(s, h->level));
 }
 
 bool surface_rows_wanted(const struct sph *s)
 {
     const struct scene *c = &s->run->scene;
-    bool inclined = c->nshapes == 0 && c->initial.field == FIELD_DROP;
+    bool off = c->nshapes == 0 && c->initial.field == FIELD_DROP;
     for (int k = 0; k < c->nshapes; k++)
-        inclined = inclined || has_slope(c, c->shapes + k);
-    return inclined && s->surface && !s->zones && s->prm.noise == 0.0 && !scene_has_wave(c);
+        off = off || is_off(s, c->shapes + k);
+    return off && s->surface && !s->zones && s->prm.noise == 0.0 && !scene_has_wave(c);
 }
 
 double surface_rows_shift(const struct sph *s, const struct exact *e, const double *x, int axis,
@@ -152,7 +211,9 @@ double surface_rows_shift(const struct sph *s, const struct exact *e, const doub
     const struct rows_water w = {s, e};
     double beyond[3] = {x[0], x[1], x[2]};
     beyond[axis] += sign * s->dx;
-    return is_wet(&w, x) && !is_wet(&w, beyond) ? shift_of_end(&w, x, axis, sign * s->dx, 0) : 0.0;
+    return is_cell(&w, is_wet, x) && !is_cell(&w, is_wet, beyond)
+               ? shift_of_end(&w, x, axis, sign * s->dx, 0)
+               : 0.0;
 }
 
 double surface_rows_place(const struct sph *s, const struct exact *e, double *x)
@@ -160,11 +221,15 @@ double surface_rows_place(const struct sph *s, const struct exact *e, double *x)
     const struct rows_water w = {s, e};
     const double centre[3] = {x[0], x[1], x[2]};
     double volume = 1.0;
-    if (!is_wet(&w, centre))
+    if (!is_cell(&w, has_fluid, centre))
+        return 0.0;
+    if (!is_cell(&w, is_wet, centre))
         return volume;
     for (int a = 0; a < s->dim; a++) {
-        const int n[2] = {count_beyond(&w, centre, a, -s->dx, ROWS),
-                          count_beyond(&w, centre, a, s->dx, ROWS)};
+        if (is_deep(&w, centre, a))
+            continue;
+        const int n[2] = {count_beyond(&w, is_wet, centre, a, -s->dx, ROWS),
+                          count_beyond(&w, is_wet, centre, a, s->dx, ROWS)};
         const double length = fmin(ROWS, n[0] + n[1] + 1);
         double factor = 1.0;
         for (int k = 0; k < 2; k++) {
@@ -186,12 +251,12 @@ double surface_rows_place(const struct sph *s, const struct exact *e, double *x)
 static bool is_near(const struct rows_water *coarser, const double *x)
 {
     const double dx = coarser->s->dx;
-    if (!is_wet(coarser, x))
+    if (!is_cell(coarser, is_wet, x))
         return true;
     for (int a = 0; a < coarser->s->dim; a++)
         for (int sign = -1; sign <= 1; sign += 2) {
             double last[3] = {x[0], x[1], x[2]};
-            const int n = count_beyond(coarser, x, a, sign * dx, ROWS + 1);
+            const int n = count_beyond(coarser, is_wet, x, a, sign * dx, ROWS + 1);
             last[a] += n * sign * dx;
             if (n <= ROWS && is_free(coarser, last, a, find_end(coarser, last, a, sign * dx)))
                 return true;
@@ -215,7 +280,7 @@ static void add_at(struct sph *s, const struct rows_water *w, const double *cent
 {
     double x[3] = {centre[0], centre[1], centre[2]};
     const double volume = surface_rows_place(s, w->e, x);
-    if (!first_has_room(s, x))
+    if (volume == 0.0 || !first_has_room(s, x))
         return;
     const int i = first_add(s, w->e, s->next_id, x, volume);
     s->next_id += s->run->size;
@@ -247,7 +312,7 @@ static void add_within(const struct renewal *r, const double *x, int level, doub
     for (int a = 0; a < s->dim; a++)
         if (x[a] < r->lo[a] || x[a] >= r->hi[a])
             return;
-    if (d >= 0.0 && is_wet(&r->own, x) && is_near(&r->coarser, x))
+    if (d >= 0.0 && is_cell(&r->own, is_wet, x) && is_near(&r->coarser, x))
         add_at(s, &r->own, x);
 }
 

@@ -6,10 +6,10 @@
 #include "../../common/scene/exact.h"
 #include "../sph.h"
 
-/* Whether the scene has free surfaces that a lattice meets in steps. */
+/* Whether the scene has free surfaces that a lattice meets in steps, or between two rows. */
 bool surface_rows_wanted(const struct sph *s);
 /* Moves x, the centre of a cell of the lattice of this level, to where its particle starts; its
- * volume over dx^D. */
+ * volume over dx^D; 0: the shapes have no water at its centre, or end there. */
 double surface_rows_place(const struct sph *s, const struct exact *e, double *x);
 /* How far the surface is from the face of the last cell of a row, with its centre at x, m, along
  * the axis; 0: the row stays as it is. sign: which end. */

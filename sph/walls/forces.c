@@ -199,15 +199,15 @@ static void summarise_body(const struct sph *s)
 
 /* Momentum now less that of the start, less gravity's impulse, plus what bodies and walls got, over
  * the largest of these or the momentum at the scale of velocity. Where openings or a central
- * acceleration add to it, or particles that left took it along, nobody has booked that; with levels
- * guards take momentum and give none back. */
+ * acceleration add to it, or particles that left took it along, nobody has booked that. With levels
+ * it also holds what guards take and do not give back. */
 static void summarise_balance(const struct sph *s)
 {
     const struct wall_forces *f = &s->walls->forces;
     double sums[SUM_COUNT], defect2 = 0.0, scale = s->start.mass * s->run->scene.initial.U;
     double lost = s->total.lost;
     MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    if (s->zones || s->central > 0.0 || s->finer || lost > 0.0)
+    if (s->zones || s->central > 0.0 || lost > 0.0)
         return;
     sph_sums(s, sums);
     for (int a = 0; a < s->dim; a++) {

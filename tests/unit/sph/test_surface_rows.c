@@ -1,6 +1,6 @@
-/* test_surface_rows.c - the first particles at free surfaces inclined to the lattice: no steps, and
- * the volume of the shape, at every level; ranks, mirrors and units agree.
- * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
+/* test_surface_rows.c - the first particles at free surfaces inclined to the lattice or between two
+ * of its rows: no steps, and the volume of the shape, at every level; ranks, mirrors and units
+ * agree. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../sph/case/sph_state.h"
@@ -208,9 +208,41 @@ static void columns_weigh_what_is_above_them(void **state)
     finish(&c);
 }
 
+/* A dam and a level whose surfaces lie anywhere between rows: all of their water is there, the last
+ * row half of its spacing inside. */
+static void flat_surfaces_hold_their_water(void **state)
+{
+    (void)state;
+    const struct triangle t = triangle_of(0, false);
+    for (int k = 0; k < 6; k++) {
+        const double dx = 1.0 / CELLS, width = (30.0 + 0.37 * k) * dx,
+                     height = (25.0 + 0.55 * k) * dx;
+        struct sph_case c;
+        set(&c, &t, 1.0, LEVELS);
+        struct scene *s = &c.run.scene;
+        s->nwalls = 1;
+        s->walls[0].side = SIDE_Y_MIN;
+        s->fluid.gravity[1] = -9.81;
+        s->shapes[0].form = k % 2 ? SHAPE_BOX : SHAPE_BELOW;
+        s->shapes[0].level = height;
+        s->shapes[0].box[1][0] = width;
+        s->shapes[0].box[1][1] = height;
+        c.prm.c0 = 1000.0;
+        for (const struct sph *q = sph_case_start(&c, NULL); q; q = q->finer) {
+            double top = 0.0;
+            for (int i = 0; i < q->p.n; i++)
+                top = fmax(top, state_row(&q->p, q->p.y, i)[1]);
+            assert_close(volume(q), (k % 2 ? width : 1.0) * height, 1e-9);
+            assert_close(max_anywhere(top), height - 0.5 * q->dx, 0.07 * q->dx);
+        }
+        finish(&c);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(levels_end_at_the_surface),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(flat_surfaces_hold_their_water),
+                                       cmocka_unit_test(levels_end_at_the_surface),
                                        cmocka_unit_test(mirrors_and_units_agree),
                                        cmocka_unit_test(columns_weigh_what_is_above_them)};
     MPI_Init(NULL, NULL);

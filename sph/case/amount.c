@@ -1,0 +1,104 @@
+/* amount.c - see amount.h. A cell with filled cells all around is full; of the others, which shapes
+ * or walls may cut, places on a lattice of their own are asked, SPLIT along each axis.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "amount.h"
+
+#include <math.h>
+
+#include "../../common/base/log.h"
+#include "../../common/scene/exact.h"
+#include "../../common/scene/scene_fluid.h"
+#include "../sph.h"
+#include "first_lattice.h"
+#include "rooms.h"
+
+static const double least_told = 0.005; /* of the water */
+
+/* Whether a cell has filled and unfilled ones around it, itself among them; beyond the lattice is
+ * none. */
+static void look_around(const struct sph *s, const struct lattice *l, int64_t cell, bool *any,
+                        bool *all)
+{
+    int ic[3], jc[3];
+    lattice_indices(l, cell, ic);
+    *any = false;
+    *all = true;
+    for (int k = 0; k < (s->dim == 3 ? 27 : 9); k++) {
+        const int way[3] = {k % 3 - 1, k / 3 % 3 - 1, s->dim == 3 ? k / 9 - 1 : 0};
+        bool in = true;
+        for (int a = 0; a < 3; a++) {
+            jc[a] = ic[a] + way[a];
+            if (s->periodic[a])
+                jc[a] = (jc[a] + l->n[a]) % l->n[a];
+            in = in && jc[a] >= 0 && jc[a] < l->n[a];
+        }
+        const bool filled = in && lattice_has(l, lattice_cell(l, jc));
+        *any = *any || filled;
+        *all = *all && filled;
+    }
+}
+
+static bool is_water(const struct sph *s, const struct exact *e, const double *x)
+{
+    for (int a = 0; a < s->dim; a++)
+        if (x[a] < s->lo[a] || x[a] > s->hi[a])
+            return false;
+    return scene_is_fluid(&s->run->scene, e, x, NULL) && scene_in_tanks(&s->run->scene, x) &&
+           scene_is_room(&s->run->scene, x);
+}
+
+/* Share of a cell that is water. */
+static double share_of(const struct sph *s, const struct exact *e, const double *centre)
+{
+    const int split = s->dim == 3 ? 4 : 8, places = (int)pow(split, s->dim);
+    int n = 0;
+    for (int k = 0; k < places; k++) {
+        double x[3] = {centre[0], centre[1], centre[2]};
+        for (int a = 0, rest = k; a < s->dim; a++, rest /= split)
+            x[a] += ((rest % split + 0.5) / split - 0.5) * s->dx;
+        n += is_water(s, e, x);
+    }
+    return (double)n / places;
+}
+
+struct asked {
+    struct exact exact;
+    double cells;
+};
+
+static void add_cell(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
+                     void *ctx)
+{
+    struct asked *to = ctx;
+    bool any, all;
+    look_around(s, l, cell, &any, &all);
+    if (any)
+        to->cells += all ? 1.0 : share_of(s, &to->exact, centre);
+}
+
+/* Open lines part what is before them from what is behind: places there are not told apart. */
+static bool has_open_lines(const struct scene *c)
+{
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || (c->walls[k].side == SIDE_NONE && !c->walls[k].closed);
+    return any;
+}
+
+void amount_check(struct sph *s, const struct lattice *l)
+{
+    if (rooms_parted(s) || s->zones || has_open_lines(&s->run->scene))
+        return;
+    struct asked asked = {.exact = exact_create(&s->run->scene)};
+    first_lattice_each_own(s, l, add_cell, &asked);
+    double sums[2] = {asked.cells * s->dxD, 0.0};
+    for (int i = 0; i < s->p.n; i++)
+        sums[1] += state_row(&s->p, s->p.y, i)[at_volume(s->dim)];
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    const double off = sums[1] / sums[0] - 1.0;
+    if (fabs(off) > least_told)
+        log_warn(
+            "the first particles hold %.2g %% %s than the shapes: %.4g of %.4g m^%d; a smaller "
+            "sph.dx than %g m follows them more closely",
+            100.0 * fabs(off), off > 0.0 ? "more" : "less", sums[1], sums[0], s->dim, s->dx);
+}
