@@ -219,6 +219,46 @@ static bool heads_columns(const char *name) { return *name && !strpbrk(name, ",;
 static void read_inner(struct params *p, const char *path, const struct param *r,
                        const config_setting_t *s, void *target, struct faults *f);
 
+static bool has_row(const struct param_group *g, const char *key)
+{
+    for (int k = 0; k < g->nrows; k++)
+        if (strcmp(g->rows[k].key, key) == 0)
+            return true;
+    return false;
+}
+
+/* The key of a group that an unknown one stands for, and what to say behind it; NULL: no idea. */
+static const char *meant_key(const struct param_group *g, const char *key, const char **remark)
+{
+    *remark = "";
+    for (const struct hint_name *n = hint_name_next(key, NULL); n; n = hint_name_next(key, n))
+        if (has_row(g, n->key)) {
+            *remark = n->remark;
+            return n->key;
+        }
+    struct hint_nearest n = hint_nearest_start(key);
+    for (int k = 0; k < g->nrows; k++)
+        hint_nearest_try(&n, g->rows[k].key);
+    return hint_nearest_word(&n);
+}
+
+/* Whether a group has the key under a wrong name: one fault, not two. */
+static bool is_misspelt(const struct param_group *g, const config_setting_t *group, const char *key)
+{
+    for (int k = 0; group && k < config_setting_length(group); k++) {
+        const char *name = config_setting_name(config_setting_get_elem(group, (unsigned)k));
+        if (!name || has_row(g, name))
+            continue;
+        const char *remark, *meant = meant_key(g, name, &remark);
+        bool same = meant && strcmp(meant, key) == 0;
+        for (const struct hint_name *n = hint_name_next(name, NULL); n; n = hint_name_next(name, n))
+            same = same || strcmp(n->key, key) == 0;
+        if (same)
+            return true;
+    }
+    return false;
+}
+
 /* element: of a list; -1: a plain group. The command line may give keys of both. */
 static void read_row(struct params *p, const struct param_group *g, const struct param *r,
                      const config_setting_t *group, void *target, int element, struct faults *f)
@@ -234,7 +274,8 @@ static void read_row(struct params *p, const struct param_group *g, const struct
     else
         place_of(p, s ? s : group, place, sizeof place, g->name, r->key);
     if (!s) {
-        if (!r->dflt && r->type != PARAM_LIST && (group || params_has_group(p, g->name)))
+        if (!r->dflt && r->type != PARAM_LIST && (group || params_has_group(p, g->name)) &&
+            !is_misspelt(g, group, r->key))
             params_add_fault(f, place, "must be given: %s%s%s", r->help,
                              strcmp(r->unit, "-") ? ", in " : "",
                              strcmp(r->unit, "-") ? r->unit : "");
@@ -267,22 +308,6 @@ static void read_row(struct params *p, const struct param_group *g, const struct
     mem_free(before);
 }
 
-static const char *nearest_key(const struct param_group *g, const char *key)
-{
-    struct hint_nearest n = hint_nearest_start(key);
-    for (int k = 0; k < g->nrows; k++)
-        hint_nearest_try(&n, g->rows[k].key);
-    return hint_nearest_word(&n);
-}
-
-static bool has_row(const struct param_group *g, const char *key)
-{
-    for (int k = 0; k < g->nrows; k++)
-        if (strcmp(g->rows[k].key, key) == 0)
-            return true;
-    return false;
-}
-
 /* The only group that has such a key; NULL if none has, or several. */
 static const struct param_group *group_with(const struct params *p, const char *key)
 {
@@ -302,17 +327,18 @@ static void find_unknown_keys(const struct params *p, const struct param_group *
     char place[1300];
     for (int k = 0; k < config_setting_length(group); k++) {
         const config_setting_t *s = config_setting_get_elem(group, (unsigned)k);
-        const char *key = config_setting_name(s), *near;
+        const char *key = config_setting_name(s), *near, *remark;
         if (!key || has_row(g, key))
             continue;
         place_of(p, s, place, sizeof place, g->name, key);
         const struct param_group *home = group_with(p, key);
-        near = nearest_key(g, key);
-        if (!near && home)
+        near = meant_key(g, key, &remark);
+        if (near)
+            params_add_fault(f, place, "unknown key; did you mean `%s'%s?", near, remark);
+        else if (home)
             params_add_fault(f, place, "unknown key; it is known in group `%s'", home->name);
         else
-            params_add_fault(f, place, near ? "unknown key; did you mean `%s'?" : "unknown key",
-                             near);
+            params_add_fault(f, place, "unknown key");
     }
 }
 
@@ -463,9 +489,9 @@ static void find_unknown_overrides(struct params *p, const char *const *others, 
             params_add_fault(f, place, near ? "unknown group; did you mean `%s'?" : "unknown group",
                              near);
         } else if (g && *o->key && !g->stride && !has_row(g, o->key) && !strstr(o->key, ".[")) {
-            const char *near = nearest_key(g, o->key);
-            params_add_fault(f, place, near ? "unknown key; did you mean `%s'?" : "unknown key",
-                             near);
+            const char *remark, *near = meant_key(g, o->key, &remark);
+            params_add_fault(f, place, near ? "unknown key; did you mean `%s'%s?" : "unknown key",
+                             near, remark);
         } else if (g) {
             o->known = true; /* if some list has such an element and key, seen once it is read */
         }

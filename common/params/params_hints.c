@@ -69,7 +69,7 @@ static int distance(const char *a, const char *b)
 
 struct hint_nearest hint_nearest_start(const char *word)
 {
-    const int most = 1 + (int)strlen(word) / 3;
+    const int third = (int)strlen(word) / 3, most = third > 1 ? third : 1;
     return (struct hint_nearest){.word = word, .distance = most + 1};
 }
 
@@ -83,6 +83,55 @@ void hint_nearest_try(struct hint_nearest *n, const char *known)
 }
 
 const char *hint_nearest_word(const struct hint_nearest *n) { return n->best; }
+
+/* What a newcomer calls a key, from other codes and papers: the first of a word whose key a group
+ * has is meant. */
+static const struct hint_name names[] = {{"density", "rho", ""},
+                                         {"rho0", "rho", ""},
+                                         {"viscosity", "nu", " (m^2/s)"},
+                                         {"mu", "nu", " = mu/rho"},
+                                         {"g", "gravity", ""},
+                                         {"endTime", "end", ""},
+                                         {"t_end", "end", ""},
+                                         {"duration", "end", ""},
+                                         {"type", "kind", ""},
+                                         {"patch", "side", ""},
+                                         {"size", "max", ""},
+                                         {"box", "min", " and `max'"},
+                                         {"box", "max", ""},
+                                         {"position", "at", ""},
+                                         {"location", "at", ""},
+                                         {"place", "at", ""},
+                                         {"floating", "free", ""},
+                                         {"vertices", "points", ""},
+                                         {"wavelength", "length", ""},
+                                         {"H", "height", ""},
+                                         {"T", "period", ""},
+                                         {"dt", "every", ""},
+                                         {"interval", "every", ""},
+                                         {"writeInterval", "every", ""},
+                                         {"dp", "dx", ""},
+                                         {"spacing", "dx", ""},
+                                         {"resolution", "dx", ""},
+                                         {"cells", "dx", ""},
+                                         {"h", "R_dx", ": the kernel's support R over dx"},
+                                         {"smoothing", "R_dx", ": the kernel's support R over dx"},
+                                         {"smoothing_length", "R_dx", ": R over dx"},
+                                         {"dx", "cells", ""},
+                                         {"resolution", "cells", ""},
+                                         {"deltaT", "cfl", ""},
+                                         {"dt", "cfl", ""},
+                                         {"maxCo", "cfl", ""},
+                                         {"courant", "cfl", ""}};
+
+const struct hint_name *hint_name_next(const char *word, const struct hint_name *after)
+{
+    const struct hint_name *end = names + sizeof names / sizeof names[0];
+    for (after = after ? after + 1 : names; after < end; after++)
+        if (strcmp(after->word, word) == 0)
+            return after;
+    return NULL;
+}
 
 static const char *line_at(const char *text, int line, char *copy, size_t size)
 {
@@ -129,6 +178,59 @@ static bool has_bare_word(const char *s)
         for (; at; at = strstr(at + 1, words[k]))
             if (at > s && strchr("=(, \t[", at[-1]) && !isalnum((unsigned char)at[n]))
                 return true;
+    }
+    return false;
+}
+
+/* 1.0.0 */
+static bool has_two_points(const char *s)
+{
+    bool quoted = false, number = false;
+    for (int points = 0; *s; s++) {
+        quoted = quoted != (*s == '"');
+        number = isdigit((unsigned char)*s) || (number && *s == '.');
+        points = number ? points + (*s == '.') : 0;
+        if (!quoted && points > 1)
+            return true;
+    }
+    return false;
+}
+
+/* (0 -9.81) */
+static bool has_two_numbers(const char *s)
+{
+    bool quoted = false;
+    for (; *s; s++) {
+        quoted = quoted != (*s == '"');
+        const char *next = s + 1 + strspn(s + 1, " \t");
+        if (!quoted && (isdigit((unsigned char)*s) || *s == '.') && next > s + 1 &&
+            (isdigit((unsigned char)*next) || strchr("-+.", *next)) && *next)
+            return true;
+    }
+    return false;
+}
+
+/* More ( than ), or less. */
+static int open_vectors(const char *s)
+{
+    int open = 0;
+    bool quoted = false;
+    for (; *s; s++) {
+        quoted = quoted != (*s == '"');
+        open += quoted ? 0 : (*s == '(') - (*s == ')');
+    }
+    return open;
+}
+
+/* apr.levels = 1: a name with a point. */
+static bool has_dotted_name(const char *s)
+{
+    bool quoted = false;
+    for (const char *c = s; *c; c++) {
+        quoted = quoted != (*c == '"');
+        if (!quoted && *c == '.' && c > s && isalpha((unsigned char)c[-1]) &&
+            isalpha((unsigned char)c[1]))
+            return true;
     }
     return false;
 }
@@ -197,8 +299,12 @@ static const char *slip(const char *s)
         return "truth values are true and false; text stands in quotes";
     if (has_unit(s))
         return "numbers are plain SI, without a unit, as in 0.01";
+    if (has_two_points(s))
+        return "a number has one point";
     if (has_open_quote(s))
         return OPEN_QUOTE;
+    if (has_dotted_name(s))
+        return "a key within a group: fv: { cfl = 1.0; }; not fv.cfl = 1.0";
     if (has_bare_text(s))
         return "text stands in quotes, as in kind = \"slip\"";
     if (has_no_colon(s))
@@ -207,6 +313,8 @@ static const char *slip(const char *s)
         return "a comma stands between two values, none after the last";
     if (has_marks(s, "})", "{("))
         return "a comma is missing between two elements, as in ( { ... }, { ... } )";
+    if (has_two_numbers(s))
+        return "a comma is missing between two numbers, as in (0, -9.81)";
     if (has_marks(s, "{", "{"))
         return "several groups are a list in ( ), as in walls: ( { ... }, { ... } );";
     return NULL;
@@ -271,6 +379,12 @@ int hint_syntax(const char *text, int line, const char *error, char *hint, size_
     const int open = open_group(text, name, sizeof name);
     if (open > 0)
         snprintf(hint, size, "group `%s', opened at line %d, is not closed", name, open);
+    const char *at = after_blanks(line_at(text, line, copy, sizeof copy));
+    if (!*hint)
+        snprintf(hint, size, "in or before the line `%s'%s", at,
+                 open_vectors(at) > 0   ? ", which opens more ( than it closes"
+                 : open_vectors(at) < 0 ? ", which closes more ( than it opens"
+                                        : "");
     return line;
 }
 

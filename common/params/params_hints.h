@@ -22,6 +22,13 @@ struct hint_nearest hint_nearest_start(const char *word);
 void hint_nearest_try(struct hint_nearest *n, const char *known);
 const char *hint_nearest_word(const struct hint_nearest *n); /* NULL if none is near */
 
+/* A name that other codes have for a key, and what to say behind the key. */
+struct hint_name {
+    const char *word, *key, *remark;
+};
+/* The next of a word; after: the one before, NULL for the first. NULL: there is none. */
+const struct hint_name *hint_name_next(const char *word, const struct hint_name *after);
+
 /* Line of a syntax fault (libconfig may name a later one) and a remedy by the looks of it. */
 int hint_syntax(const char *text, int line, const char *error, char *hint, size_t size);
 /* Why n bytes are no text that can be read; NULL if they may be. */

@@ -165,13 +165,18 @@ static bool get_box(const struct param *r, const config_setting_t *s, void *targ
            get_vector(r, config_setting_get_elem(s, 1), target, 3, why, size);
 }
 
-/* One point of a list: as many finite numbers as it has components. */
+/* One point of a list: as many finite numbers as it has components; more of them are 0. */
 static bool get_point(const struct param *r, const config_setting_t *s, int dim, double *v)
 {
     const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : 0;
     for (int a = 0; a < dim; a++) {
         const config_setting_t *c = a < n ? config_setting_get_elem(s, (unsigned)a) : NULL;
         if (!c || !param_number(c, v + a) || !(v[a] >= r->min && v[a] <= r->max))
+            return false;
+    }
+    for (int a = dim; a < n; a++) {
+        double more = 1.0;
+        if (!param_number(config_setting_get_elem(s, (unsigned)a), &more) || more != 0.0)
             return false;
     }
     return true;

@@ -273,7 +273,9 @@ static void check_domain(const struct scene *s, const struct params *p, struct f
     for (int a = d->dim; a < 3; a++)
         if (s->fluid.gravity[a] != 0.0 || s->initial.velocity[a] != 0.0)
             params_fault(p, f, s->fluid.gravity[a] != 0.0 ? "fluid.gravity" : "initial.velocity",
-                         "%c component in a case of %d dimensions", axes[a], d->dim);
+                         "%c component in a case of %d dimensions%s", axes[a], d->dim,
+                         d->dim == 2 ? ": the plane is x, y, as in (0, -9.81); or domain.dim = 3"
+                                     : "");
 }
 
 /* A wave field repeats itself only over whole wave lengths. */

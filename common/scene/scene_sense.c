@@ -20,7 +20,8 @@ static void check_flat(const struct scene *s, const struct params *p, struct fau
         snprintf(key, sizeof key, "%s", group);
     else
         snprintf(key, sizeof key, "%s.[%d].%s", group, k, name);
-    params_fault(p, f, key, "z component %g in a case of 2 dimensions", v[2]);
+    params_fault(p, f, key,
+                 "z component %g in a case of 2 dimensions: two numbers, or domain.dim = 3", v[2]);
 }
 
 static void check_components(const struct scene *s, const struct params *p, struct faults *f)

@@ -379,6 +379,20 @@ static void check_axis(const struct run *r, int a, struct faults *f)
             length, axes[a], 2.0 * 1.15 * R);
 }
 
+/* What check_axis says of a spacing in other units would be a fault an axis or two. */
+static void check_spacing(const struct run *r, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    for (int a = 0; a < d->dim; a++)
+        if (given.dx > d->max[a] - d->min[a] && d->max[a] > d->min[a]) {
+            params_fault(r->params, f, "sph.dx", "%g m: the domain is %g m along %c: all is in m",
+                         given.dx, d->max[a] - d->min[a], "xyz"[a]);
+            return;
+        }
+    for (int a = 0; a < d->dim; a++)
+        check_axis(r, a, f);
+}
+
 static void check_zones(const struct run *r, struct faults *f)
 {
     const struct sph_params *prm = sph_params_of(r);
@@ -605,8 +619,7 @@ void sph_params_check(const struct run *r, struct faults *f)
     check_wall_model(r, f);
     if (given.outer == OUTER_PARTNER && !is_coupled(r))
         params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
-    for (int a = 0; a < r->scene.domain.dim; a++)
-        check_axis(r, a, f);
+    check_spacing(r, f);
     if (!in_3d && sph_params_walls(&r->scene, sph_params_of(r)))
         if (is_given(given.box) && is_given(given.free))
             params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");

@@ -76,6 +76,11 @@ with sph 's/^sph:.*/walls: ( { side = "y_min"; }, );\nsph: { dx = 0.02; };/' 'ca
 with sph 's/^sph:.*/walls: ( { side = "y_min"; } { side = "y_max"; } );\nsph: { dx = 0.02; };/' 'case.cfg:6: .*comma is missing' sph
 with sph 's/^sph:.*/walls: { { side = "y_min"; } };\nsph: { dx = 0.02; };/' 'case.cfg:6: .*list in ( )' sph
 with sph 's/^sph:.*/walls: { side = "y_min"; };\nsph: { dx = 0.02; };/' 'case.cfg:6: walls: expected a list' sph
+with sph 's/dx = 0.02/dx = 0.0.2/' 'case.cfg:6: .*one point' sph
+with sph 's/min = (0, 0)/min = (0 0)/' 'case.cfg:4: .*comma is missing between two numbers' sph
+with sph 's/min = (0, 0)/min = (0, 0/' 'case.cfg:4: .*more ( than it closes' sph
+with sph 's/dx = 0.02/dx = 0.02; apr.levels = 1/' 'case.cfg:6: .*within a group' sph
+with sph 's/dx = 0.02/dx 0.02/' 'case.cfg:6: .*the line .sph:' sph
 printf '\000\001\002' >binary.cfg
 says "binary.cfg: is not text" "$b/sph" binary.cfg -o result
 printf '\377\376f\000' >wide.cfg
@@ -85,6 +90,11 @@ with sph 's/^fluid.*/@include "part.inc"/' 'part.inc:1: .*mark of UTF-8' sph
 
 # keys
 with sph 's/dx = 0.02/Dx = 0.02/' 'sph.Dx: .*did you mean .*dx' sph
+with sph 's/dx = 0.02/cells = (50, 50)/' '^1 fault' sph
+with sph 's/dx = 0.02/cells = (50, 50)/' 'case.cfg:6: sph.cells: .*did you mean .dx' sph
+with sph 's/nu = 0.005/mu = 0.005/' 'case.cfg:3: fluid.mu: .*.nu. = mu/rho' sph
+with sph 's/end = 0.01/endTime = 0.01/' '^1 fault' sph
+with sph 's/dx = 0.02/dx = 20/' '^1 fault' sph
 with sph 's/end = 0.01/end = 0.01; nu = 0.1/' 'time.nu: .*known in group .fluid' sph
 with sph 's/dx = 0.02/dx = 0.02; shceme = "riemann"/' 'case.cfg:6: sph.shceme: .*did you mean .*scheme' sph
 with sph 's/^output:/outptu:/' 'outptu: .*did you mean .*output' sph
@@ -358,6 +368,7 @@ with tank 's/at = (1, 0.1)/at = (1, -0.1)/' 'case.cfg:9: probes.\[0\].at: p: y =
 with tank 's/at = (1, 0.1)/at = (1, 0.3)/' 'probes.\[0\].at: p is inside body b' sph
 with tank 's/at = (1, 0.1); }/at = (1, 0.1); }, { name = "p"; at = (1.5, 0.1); }/' 'probes.\[1\].at: p: a gauge of this name' sph
 with tank 's/at = (1, 0.1)/at = (1, 0.1); kind = "level"/; s/(0, -9.81)/(1, -9.81)/' 'probes.\[0\].kind: p: gauges of levels read' sph
+with tank 's/gravity = (0, -9.81)/gravity = (0, 0, -9.81)/' 'fluid.gravity: .*as in (0, -9.81)' sph
 with tank 's/max = (2, 1)/max = (2, 1, 3)/' 'domain.max: z component 3' sph
 with tank 's/U = 3.0/U = 0.0/' 'case.cfg:5: initial.U: 0 m' sph
 with tank 's/(0, -9.81)/(0, -9.81); central = 1.0/; s/max = (2, 1)/max = (2, 1); periodic = (true, false)/; s/^walls.*/walls: ( { side = "y_min"; } );/' 'fluid.central: .*periodic' sph
