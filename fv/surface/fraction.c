@@ -38,8 +38,10 @@ const char *fraction_obstacle(const struct run *r, const struct mesh *m, double 
         return "blocks move";
     if (m && m->has_fringe)
         return "blocks overlap";
-    if ((m && any_curved(m)) || still_leans(still))
+    if (m && any_curved(m))
         return "cells are not upright";
+    if (still_leans(still))
+        return "gravity leans against the lines of the cells";
     const bool falls = still[0] != 0.0 || still[1] != 0.0 || still[2] != 0.0;
     if (falls && still_creep(still, r->scene.fluid.nu, least) > STILL_CREEPS)
         return "the water creeps: nu/(h sqrt(g h)) is above 10";
