@@ -121,14 +121,14 @@ def colours(field):
 def frame(run, view, window, title, field, scale, width):
     """A figure of that many pixels with axes for the window and a bar of colours."""
     a, b, c, d = window
-    left, right, low, top, dpi = 92, 128, 62, 46, 100
+    left, right, low, top, dpi = 106, 128, 62, 46, 100
     wide = width - left - right
     high = wide * (d - c) / (b - a)
     if high > 560:
         wide, high = 560 * (b - a) / (d - c), 560
-    if high < 150:  # of a long channel more than its height
-        c, d = (c + d) / 2 - 75 * (b - a) / wide, (c + d) / 2 + 75 * (b - a) / wide
-        high = 150
+    if high < 60:  # of a long channel more than its height, so that there is room for ticks
+        c, d = (c + d) / 2 - 30 * (b - a) / wide, (c + d) / 2 + 30 * (b - a) / wide
+        high = 60
     full, tall = max(wide + left + right, 560), high + low + top
     figure = mfigure.Figure((full / dpi, tall / dpi), dpi)
     axes = figure.add_axes([(left + (full - left - right - wide) / 2) / full, low / tall, wide / full, high / tall])
@@ -185,7 +185,7 @@ def walled_sides(program, view):
 
 def outlines(program, part, view):
     """Lines of walls and closed lines of bodies, in the plane."""
-    lines, bodies = [], []
+    lines, bodies = list(block_walls(program, part, view)), []
     names = [b.get('name') for b in program.case.get('bodies', [])]
     if view.dim == 2:
         bodies += [b for b in part.bodies if len(b) > 1]
@@ -207,12 +207,22 @@ def outlines(program, part, view):
     return lines, bodies + list(rings(program, part, view))
 
 
+def block_walls(program, part, view):
+    """Sides of blocks of cells that are walls, where they have moved to."""
+    if part.blocks and view.dim == 2:
+        for block, x in zip(program.case.get('blocks', []), part.x):
+            x = np.asarray(x, float)
+            for name, side in (('i_min', x[:, 0]), ('i_max', x[:, -1]), ('j_min', x[0]), ('j_max', x[-1])):
+                if block.get(name) in ('slip', 'wall'):
+                    yield side
+
+
 def rings(program, part, view):
     """Bodies within rings of cells: closed sides i_min that are walls."""
     if part.blocks and view.dim == 2:
         for block, x in zip(program.case.get('blocks', []), part.x):
             side = np.asarray(x[:, 0], float)
-            if block.get('i_min', 'no_slip') in ('slip', 'no_slip') and np.allclose(side[0], side[-1]):
+            if block.get('i_min') in ('slip', 'wall') and np.allclose(side[0], side[-1]):
                 yield side
 
 

@@ -1,4 +1,4 @@
-# What cases/estran reads and draws of three runs: plots.py ROOT POOL CUBE JOB. SPDX-License-Identifier: BSD-3-Clause
+# What cases/estran reads and draws of four runs: plots.py ROOT POOL CUBE JOB TANK. SPDX-License-Identifier: BSD-3-Clause
 import os
 import sys
 
@@ -9,7 +9,7 @@ import estran
 from estran import casefile, curves, drawing, grids
 from PIL import Image
 
-pool, cube, job = (estran.read(d) for d in sys.argv[2:])
+pool, cube, job, tank = (estran.read(d) for d in sys.argv[2:])
 
 
 def near(a, b, tolerance):
@@ -107,6 +107,9 @@ def pixel(x, y):  # of a place in m, from the walls: 2 m apart, the bed at the b
 assert (pixel(0.65, 0.6) == pixel(0.65, 0.4)).all() and np.ptp(pixel(0.65, 0.5)) == 0, 'the body is grey'
 assert (pixel(1.2, 0.8) == 255).all(), 'air is white'
 assert abs(pixel(0.25, 0.1) - pixel(0.25, 0.4)).max() > 60, 'pressure grows with depth'
+lines, bodies = drawing.outlines(tank.programs['fv'], tank.at()['fv'], drawing.View(tank, None))
+assert len(lines) == 4 and not bodies, 'a tank of cells has its four walls'
+near(max(line[:, 0].max() for line in lines), 0.5 + 0.1, 1e-9)  # where it has moved to
 film = Image.open(estran.movie(pool, 'velocity', to='film.apng'))
 assert film.n_frames == len(pool.times) == 3, film.n_frames
 for run, how in ((job, {}), (cube, {}), (cube, {'plane': 'space'})):

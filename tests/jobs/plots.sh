@@ -32,11 +32,22 @@ shapes:  ( { form = "below"; level = 0.53; } );
 fv:      { cells = (12, 12, 12); };
 blocked: ( { name = "block"; min = (0.25, 0.25, 0); max = (0.5, 0.5, 0.25); } );
 END
+cat >tank.cfg <<'END'
+format = 1;
+time:    { end = 0.1; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { min = (-1, -0.1); max = (1, 1); };
+shapes:  ( { form = "below"; level = 0.4; } );
+blocks:  ( { name = "tank"; min = (-0.5, 0); max = (0.5, 0.8); cells = (20, 16); i_min = "slip"; i_max = "slip"; j_min = "slip"; j_max = "slip";
+             motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0, 0, 10.0); } ); } );
+fv:      {};
+END
+"$b/fv" tank.cfg -o tank >log.txt 2>&1 || bad "tank.cfg" log.txt
 "$b/sph" pool.cfg -o pool >log.txt 2>&1 || bad "pool.cfg" log.txt
 "$b/fv" cube.cfg -o cube >log.txt 2>&1 || bad "cube.cfg" log.txt
 $mpi -np 1 "$b/sph" "$root/cases/taylor_green" -o job -p time.end=0.06 : -np 1 "$b/coupler" "$root/cases/taylor_green" -o job -p time.end=0.06 \
     : -np 1 "$b/fv" "$root/cases/taylor_green" -o job -p time.end=0.06 >log.txt 2>&1 || bad "taylor_green" log.txt
-"$python" "$root/tests/jobs/plots.py" "$root" pool cube job || bad "plots.py"
+"$python" "$root/tests/jobs/plots.py" "$root" pool cube job tank || bad "plots.py"
 "$root/cases/plot" pool depth >said.txt 2>&1 && bad "a field that is not there"
 grep -q 'no snapshot with a field depth, only: pressure, velocity, volume' said.txt || bad "message of a field that is not there" said.txt
 mkdir empty && "$root/cases/plot" empty >said.txt 2>&1 && bad "an empty folder"
