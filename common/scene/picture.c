@@ -8,6 +8,7 @@
 #include "../base/mem.h"
 #include "../files/disk.h"
 #include "picture_section.h"
+#include "scene_waves.h"
 
 enum { WIDTH = 900, MARGIN = 60, LEGEND = 22, TICKS = 12, LABELS = 64, LETTER = 7, LINE = 13 };
 
@@ -28,6 +29,7 @@ static const struct {
     double width;
 } style[PICTURE_KINDS] = {{"water", "none", "#9ecae1", 0},
                           {"taken out", "none", "#ffffff", 0},
+                          {"zone that makes or absorbs waves", "none", "#fec44f", 0},
                           {"slip wall", "#333333", "#cccccc", 2.5},
                           {"no-slip wall", "#a50f15", "#cccccc", 2.5},
                           {"inlet, outlet, absorbing side", "#238b45", "none", 3},
@@ -49,7 +51,9 @@ static void paint(struct picture *p, enum picture_kind kind, bool fill)
     p->used[kind] = true;
     fprintf(p->f, " stroke=\"%s\" stroke-width=\"%g\" fill=\"%s\"%s/>\n", style[kind].stroke,
             style[kind].width, fill ? style[kind].fill : "none",
-            kind == PICTURE_PERIODIC || kind == PICTURE_ZONE ? " stroke-dasharray=\"7 4\"" : "");
+            kind == PICTURE_WAVES                              ? " fill-opacity=\"0.3\""
+            : kind == PICTURE_PERIODIC || kind == PICTURE_ZONE ? " stroke-dasharray=\"7 4\""
+                                                               : "");
 }
 
 /* The first foot from y upwards at which a label of this width is on no other. */
@@ -119,7 +123,7 @@ void picture_box(struct picture *p, enum picture_kind kind, const double lo[3], 
 {
     double x[4][2];
     corners(p, lo, hi, x);
-    picture_line(p, kind, 4, (const double(*)[2])x, true, kind <= PICTURE_HOLE, false);
+    picture_line(p, kind, 4, (const double(*)[2])x, true, kind <= PICTURE_WAVES, false);
     if (label)
         picture_text(p, (const double[]){lo[0], lo[1], lo[2]}, label);
 }
@@ -194,6 +198,29 @@ static void side(struct picture *p, int number)
         picture_line(p, kind_of(w), 2, line, false, false, true);
     else if (d->periodic[a])
         picture_line(p, PICTURE_PERIODIC, 2, line, false, false, false);
+}
+
+/* Zones before sides that make waves or absorb them, over the depth of the domain. */
+static void wave_zones(struct picture *p)
+{
+    const struct scene_domain *d = &p->s->domain;
+    for (int k = 0; k < p->s->nwalls; k++) {
+        const struct scene_wall *w = p->s->walls + k;
+        bool low;
+        double lo[3], hi[3];
+        if (w->zone == ZONE_NONE)
+            continue;
+        const int a = scene_zone_axis(w, &low);
+        if (a != p->axis[0])
+            continue;
+        memcpy(lo, d->min, sizeof lo);
+        memcpy(hi, d->max, sizeof hi);
+        if (low)
+            hi[a] = lo[a] + w->beach;
+        else
+            lo[a] = hi[a] - w->beach;
+        picture_box(p, PICTURE_WAVES, lo, hi, w->zone == ZONE_WAVE ? "wave zone" : "beach");
+    }
 }
 
 /* --- sections through meshes --- */
@@ -325,6 +352,7 @@ static void scene(struct picture *p)
         picture_box(p, PICTURE_WATER, s->domain.min, s->domain.max, NULL);
     for (int k = 0; k < s->nshapes && !s->meshes; k++)
         shape(p, s->shapes + k);
+    wave_zones(p);
     for (int k = 0; k < 2 * s->domain.dim; k++)
         side(p, k);
     for (int k = 0; k < s->nwalls; k++)
@@ -422,7 +450,7 @@ void picture_close(struct picture **picture)
                      y = p->height + 1.7 * MARGIN + n / 3 * LEGEND;
         fprintf(p->f, "<rect x=\"%.0f\" y=\"%.0f\" width=\"24\" height=\"10\"", x, y - 10.0);
         paint(p, (enum picture_kind)k,
-              k == PICTURE_WATER || k == PICTURE_BODY || k == PICTURE_PROBE);
+              k <= PICTURE_WAVES || k == PICTURE_BODY || k == PICTURE_PROBE);
         fprintf(p->f, "<text x=\"%.0f\" y=\"%.0f\" font-size=\"13\">%s</text>\n", x + 32.0, y,
                 style[k].name);
         n++;

@@ -15,6 +15,7 @@ struct picture;
 enum picture_kind {
     PICTURE_WATER,
     PICTURE_HOLE,
+    PICTURE_WAVES,
     PICTURE_SLIP,
     PICTURE_NO_SLIP,
     PICTURE_OPENING,
