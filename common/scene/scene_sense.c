@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../base/log.h"
 #include "scene_check.h"
 #include "scene_fluid.h"
 #include "scene_geometry.h"
@@ -267,6 +268,19 @@ static void check_names(const struct scene *s, const struct params *p, struct fa
             }
 }
 
+/* Water on earth in other units than SI: 981 cm/s^2, 9810 mm/s^2, 1 mm^2/s. */
+static void warn_units(const struct scene *s)
+{
+    const double *v = s->fluid.gravity, g = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    const double nu = s->fluid.nu;
+    if (fabs(g / 981.0 - 1.0) < 0.01 || fabs(g / 9810.0 - 1.0) < 0.01)
+        log_warn("fluid.gravity: %g m/s^2 looks like %s/s^2: all is SI, 9.81 on earth", g,
+                 g < 2000.0 ? "cm" : "mm");
+    if (fabs(g / 9.81 - 1.0) < 0.01 && fabs(s->fluid.rho / 1000.0 - 1.0) < 0.05 && nu > 0.5 &&
+        nu < 2.0)
+        log_warn("fluid.nu: %g m^2/s looks like mm^2/s: all is SI, water has 1e-6", nu);
+}
+
 void scene_check_sense(const struct scene *s, const struct params *p, struct faults *f)
 {
     const int before = f->n;
@@ -278,4 +292,6 @@ void scene_check_sense(const struct scene *s, const struct params *p, struct fau
     check_water(s, p, f);
     check_probes(s, p, f);
     check_names(s, p, f);
+    if (f->n == before)
+        warn_units(s);
 }
