@@ -159,6 +159,9 @@ END
 for sound in basin block tank; do # or the faults below could come from something else
     "$b/fv" $sound.cfg --check >out.txt 2>&1 || { echo "FAIL: $sound.cfg is refused: $(head -n 1 out.txt)"; failed=$((failed + 1)); }
 done
+# lengths in cm: accepted, with a word
+sed 's/gravity = (0, -9.81)/gravity = (0, -981)/' tank.cfg >case.cfg
+"$b/fv" case.cfg --check >out.txt 2>&1 && grep -q 'fluid.gravity: 981 m/s^2 looks like cm/s^2' out.txt && grep -q 'run time' out.txt || { echo "FAIL: gravity in cm/s^2"; failed=$((failed + 1)); }
 # the picture of blocks has their names and what their sides are
 "$b/fv" block.cfg --check=picture -o drawn >out.txt 2>&1 && grep -q '>a<' drawn/fv-scene.svg && grep -q 'no-slip wall' drawn/fv-scene.svg &&
     grep -q 'run time' out.txt || { echo "FAIL: block.cfg is not drawn, or without its forecast"; failed=$((failed + 1)); }
