@@ -33,7 +33,7 @@ expect() { # WORDS CASE ARGUMENTS...
 expect 'where it is' column.cfg
 expect 'as a whole*(fv.volume says so)' column.cfg -p fv.volume=shift
 expect 'as a whole*(the water creeps' column.cfg -p fluid.nu=10
-expect 'as a whole*(cells are not upright)' column.cfg -p 'fluid.gravity=(3, -9)'
+expect 'as a whole*(gravity leans against the lines of the cells)' column.cfg -p 'fluid.gravity=(3, -9)'
 expect 'as a whole*(blocks move)' "$heaving"
 expect 'as a whole*(blocks overlap)' "$half"
 expect 'fraction is not to be had*blocks move' "$heaving" -p fv.volume=fraction
