@@ -53,7 +53,8 @@ grep -q 'no snapshot with a field depth, only: pressure, velocity, volume' said.
 mkdir empty && "$root/cases/plot" empty >said.txt 2>&1 && bad "an empty folder"
 grep -q 'no run here' said.txt || bad "message of an empty folder" said.txt
 # a new case of each kind is sound as it stands
-for o in "-s sph --body fixed" "-s sph --body floating --gauges" "-s sph --dim 3" "-s fv --gauges" "-s fv --dim 3" "-s coupled --gauges"; do
+for o in "-s sph --body fixed" "-s sph --body floating --gauges" "-s sph --dim 3" "-s fv --gauges" "-s fv --dim 3" "-s coupled --gauges" "-s fv --body fixed" \
+    "-s sph --waves --body floating" "-s fv --dim 3 --waves --body fixed" "-s coupled --waves --body floating" "-s coupled --dim 3 --body floating"; do
     # shellcheck disable=SC2086
     "$root/cases/new" my/new $o --force >said.txt 2>&1 && "$root/cases/run" my/new.cfg --check -o new >said.txt 2>&1 || bad "cases/new $o" said.txt
 done
