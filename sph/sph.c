@@ -164,12 +164,25 @@ static void warn_narrow(const struct run *r, const struct sph_params *prm)
     }
 }
 
+/* Pairs of a lattice transmit less than the pressure where the support is small (0.967 of it at
+ * R/dx 2.5 in 2D, 0.997 at 3), so that what presses uniformly does not cancel around a body. */
+static void warn_of_lift(const struct run *r, const struct sph_params *prm)
+{
+    const struct scene *c = &r->scene;
+    const double *g = c->fluid.gravity;
+    if (c->domain.dim == 2 && c->nbodies > 0 && prm->R_dx < 3.0 && hypot(g[0], g[1]) > 0.0)
+        log_warn("sph.R_dx = %g: the lift of bodies under water is 6 %% too large at 2.5, 0.5 %% "
+                 "at 3; take 3 or more",
+                 prm->R_dx);
+}
+
 static void warn_of(const struct run *r)
 {
     const struct sph_params *prm = sph_params_of(r);
     const struct scene_speed v = prm->speed;
     const double bound = sph_params_cfl_bound(prm, r->scene.domain.dim);
     warn_narrow(r, prm);
+    warn_of_lift(r, prm);
     if (prm->outer == OUTER_SIDES && prm->surface == SURFACE_YES &&
         prm->scheme != SCHEME_RIEMANN_ALE)
         log_warn(

@@ -104,6 +104,30 @@ void openings_find_room(const struct sph *s, struct openings *o)
 
 int openings_faces(const struct openings *o) { return o->first[2 * o->dim]; }
 
+int openings_beside(const struct openings *o, int f, double sense)
+{
+    double x[3], most = -INFINITY;
+    const int side = openings_place(o, f, x);
+    int to = f;
+    for (int k = 0; k < 2 * o->dim; k++) {
+        const int b = k / 2, way = k % 2 ? 1 : -1;
+        int I[3] = {0, 0, 0}, beside = side;
+        for (int a = 0; a < o->dim; a++)
+            I[a] = (int)floor((x[a] - o->lo[a]) / o->dx) + (a == b ? way : 0);
+        if (b == side / 2)
+            continue;
+        if (o->bounded[b] && (I[b] < 0 || I[b] >= o->cells[b]) && o->open[2 * b + (way > 0)])
+            beside = 2 * b + (way > 0);
+        const int g = openings_face(o, beside, I);
+        const double held = sense * (o->mass[g] + o->change[g]);
+        if (g != f && o->share[g] > 0.25 && held > most) {
+            most = held;
+            to = g;
+        }
+    }
+    return to;
+}
+
 double openings_age(const struct sph *s, int64_t id)
 {
     const struct openings *o = s->zones->openings;

@@ -54,6 +54,9 @@ int openings_face_at(const struct openings *o, int side, const double *x);
 /* Face of a side at lattice indices I (that of the side's axis does not matter); indices of bounded
  * axes are clamped, of periodic ones wrapped. */
 int openings_face(const struct openings *o, int side, const int *at);
+/* Of the faces beside face f, round the ends of its side too, the one that holds most (sense 1) or
+ * least (-1) after this step's changes; f itself where walls leave none. */
+int openings_beside(const struct openings *o, int f, double sense);
 /* s since the birth of the particle with this id, or since the start. */
 double openings_age(const struct sph *s, int64_t id);
 /* Takes mass (kg) from all faces alike; the same on all ranks. */

@@ -12,6 +12,7 @@
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/openings.h"
 #include "../open_boundaries/zone_steps.h"
+#include "../open_boundaries/zone_volumes.h"
 #include "../pairs/collisions.h"
 #include "../pairs/neighbours.h"
 #include "../pairs/scheme.h"
@@ -229,6 +230,7 @@ static void finish_step(struct sph *s, double dt, double lost, double *most, str
         start(s, "zones");
         zones_stage(s); /* buffer particles end the step with what is imposed, volumes too */
         zones_blend(s);
+        zone_volumes_step(s, dt);
         box_motion_step(s, dt, d);
         stop(s, "zones");
     }
