@@ -241,6 +241,8 @@ struct seen {
     const double *x, *u, *u0, *grho, *gu;
     double rho, p, c, w, damped;
     bool in_air; /* a layer one particle thick, or less */
+    bool closes; /* see friction_weight */
+    double pairs[3], walls[3];
 };
 
 /* What the wall gives to a particle, over its volume. */
@@ -336,6 +338,46 @@ INLINE void add_bed_friction(const struct wall_touch *t, const struct seen *i, c
         q[a] -= 2.0 * t->is.W * i->rho * t->friction * sqrt(u2) * ut[a];
 }
 
+/* Morris's term is exact for linear profiles if the weight of a wall is what pairs lack of
+ * sum w F d, F = -W'/r. Its integral W is that of a continuum: on rows of a lattice the sum
+ * is 1.03, 0.97, 0.81 and 0 times it in layers 1 to 4, and what is left works on the first
+ * derivative, so that the velocity of Poiseuille flow erred at order one. So the weight is the
+ * pairs' own sum. */
+INLINE void close_friction(const struct sph *s, const struct wall_list *l, int k, struct seen *i,
+                           const int dim)
+{
+    const int who = l->who[k], *j = s->list->j + s->list->start[who];
+    bool no_slip = false;
+    for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
+        no_slip = no_slip || t->no_slip;
+        for (int a = 0; a < dim; a++)
+            i->walls[a] += t->is.W * t->n[a];
+    }
+    i->closes = no_slip;
+    for (int b = 0; b < s->list->count[who] && no_slip; b++) {
+        const double *y = prim_line(&s->p, j[b]);
+        double d[3], r2 = 0.0;
+        for (int a = 0; a < dim; a++) {
+            d[a] = i->x[a] - y[a];
+            r2 += d[a] * d[a];
+        }
+        const double F = -y[at_volume(dim)] * kernel_dw_r(dim, sqrt(r2), s->R);
+        for (int a = 0; a < dim; a++)
+            i->pairs[a] += F * d[a];
+    }
+}
+
+/* Of a piece: its share of the pairs' sum, by its part of the walls' along its normal. */
+INLINE double friction_weight(const struct wall_touch *t, const struct seen *i, const int dim)
+{
+    double pairs = 0.0, walls = 0.0;
+    for (int a = 0; a < dim && i->closes; a++) {
+        pairs += i->pairs[a] * t->n[a];
+        walls += i->walls[a] * t->n[a];
+    }
+    return walls > 0.5 * t->is.W ? t->is.W * fmax(0.0, fmin(pairs / walls, 2.0)) : t->is.W;
+}
+
 /* One piece: pressure, volume, friction, and for ALE what runs with u - u0 [4.26-4.29]. */
 INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const struct seen *i,
                          double wave, const int dim)
@@ -363,9 +405,11 @@ INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const 
     if (t->friction > 0.0)
         add_bed_friction(t, i, uw, to.q, dim);
     /* not from a face seen at grazing angle */
-    if (t->no_slip && mu > 0.0 && (t->foot || t->height > 0.25 * s->dx))
+    if (t->no_slip && mu > 0.0 && (t->foot || t->height > 0.25 * s->dx)) {
+        const double rate = 2.0 * mu * friction_weight(t, i, dim) / fmax(t->height, 0.25 * s->dx);
         for (int a = 0; a < dim; a++)
-            to.q[a] -= 2.0 * mu * W * (i->u[a] - uw[a]) / fmax(t->height, 0.25 * s->dx);
+            to.q[a] -= rate * (i->u[a] - uw[a]);
+    }
     return to;
 }
 
@@ -523,7 +567,7 @@ INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
 {
     const struct wall_list *l = &m->list;
     const int who = l->who[k];
-    const struct seen i = look(s, who, dim);
+    struct seen i = look(s, who, dim);
     const double gamma = fmax(l->gamma[k], least_gamma), gamma_1 = 1.0 / gamma;
     const double mass = state_row(&s->p, s->p.y, who)[at_mass(dim)];
     double *rate = state_row(&s->p, s->p.rate, who), pairs[3], own[8] = {0.0};
@@ -533,6 +577,8 @@ INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
         own[dim + a] += mass * s->gravity[a];
         pairs[a] = rate[dim + a] - own[dim + a];
     }
+    if (s->nu > 0.0 && s->prm.viscosity == VISCOSITY_MORRIS)
+        close_friction(s, l, k, &i, dim);
     const double wave = wave_factor(s, l, k, i.c * gamma_1, dim);
     const struct given rim = l->rim ? rim_flux(s, l->rim[k], &i, dim) : (struct given){0};
     const struct given all = all_fluxes(s, m, k, &i, &rim, wave, dim);
