@@ -135,7 +135,7 @@ void fv_tell(void *state, struct summary *report)
         if (o && mesh_counts_twice(s, o, p->block, x))
             continue;
         const double u[3] = {s->u[0][c], s->u[1][c], s->dim == 3 ? s->u[2][c] : 0.0};
-        const double wet = s->surface ? surface_share(s, c) : 1.0;
+        const double wet = s->surface ? surface_water(s, c) : 1.0;
         const double part = of.volume * wet * water_budget_share(s, x, of.h);
         sum[0] += 0.5 * rho * part * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
         sum[1] += 0.5 * part * (s->m ? mesh_curl_squared(s, p, c) : fv_curl_squared(s, c, i[1]));

@@ -20,7 +20,7 @@ static int columns(const struct fv *s, double **eta, double **is)
     *eta = NEW(double, n);
     *is = NEW(double, n);
     BLOCK_CELLS (b, i, j, k, c) {
-        (*eta)[b->lo[0] + i] += block_size(b, 1, j) * surface_share(s, c) / b->cells[2];
+        (*eta)[b->lo[0] + i] += block_size(b, 1, j) * surface_water(s, c) / b->cells[2];
         if (b->lo[1] + j == 0 && b->lo[2] + k == 0)
             (*is)[b->lo[0] + i] = !(s->forcing && s->forcing->forced[c]);
     }

@@ -24,7 +24,7 @@ double surface_energy(const struct fv *s)
                 continue;
             for (int a = 0; a < s->dim; a++)
                 square += s->u[a][i] * s->u[a][i];
-            sum += square > 0.0 ? 0.5 * square * surface_share(s, i) * surface_cell_volume(s, i, j)
+            sum += square > 0.0 ? 0.5 * square * surface_water(s, i) * surface_cell_volume(s, i, j)
                                 : 0.0;
         }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
@@ -142,12 +142,12 @@ double surface_reach(const struct fv *s, int a)
 static double height_in_column(const struct fv *s, const int *at, int64_t c, int up, int way)
 {
     if (!s->blocked)
-        return surface_share(s, c);
+        return surface_water(s, c);
     const int stack = blocked_stack(s, at, up, way), i = s->b.lo[up] + at[up];
     const bool grounded = stack == (way < 0 ? i : s->b.cells[up] - 1 - i);
     if (is_blocked(s, c))
         return grounded;
-    const double share = surface_share(s, c);
+    const double share = surface_water(s, c);
     return share + (share > 0.0 && !grounded ? stack : 0);
 }
 
@@ -180,7 +180,7 @@ static double enstrophy(const struct fv *s)
     double sum = 0.0;
     BLOCK_ROWS_AT (b, 0, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
-            const double part = surface_share(s, i);
+            const double part = surface_water(s, i);
             sum += part > 0.0 ? 0.5 * part * fv_curl_squared(s, i, j) * block_volume(b, j) : 0.0;
         }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);

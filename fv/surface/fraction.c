@@ -169,6 +169,12 @@ double fraction_volume(const struct fv *s)
     return sum;
 }
 
+double surface_water(const struct fv *s, int64_t c)
+{
+    const struct fraction *f = s->surface->fraction;
+    return f && f->carries > 0.0 ? f->C[c] : surface_share(s, c);
+}
+
 double surface_volume(const struct fv *s)
 {
     const struct fraction *f = s->surface->fraction;

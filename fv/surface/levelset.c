@@ -293,9 +293,19 @@ static double share_at(const struct fv *s, const struct part *p, int64_t c, doub
     return plane_share(s->dim, n, -(s->surface->phi[c] + shift));
 }
 
+/* m: beyond this a cell is all water or all air, whatever the slopes of phi, which has steps where
+ * its band ends. */
+static double reach_at(const struct fv *s, const struct part *p, int64_t c)
+{
+    return 3.0 * (s->m ? surface_mesh_spacing(s, p)
+                       : largest_spacing(&s->b, s->b.rows ? block_row(&s->b, c) : 0));
+}
+
 double surface_share(const struct fv *s, int64_t c)
 {
-    return share_at(s, surface_part(s, c), c, 0.0);
+    const struct part *p = surface_part(s, c);
+    const double phi = s->surface->phi[c];
+    return fabs(phi) > reach_at(s, p, c) ? phi < 0.0 : share_at(s, p, c, 0.0);
 }
 
 double surface_cell_volume(const struct fv *s, int64_t c, int j)

@@ -124,6 +124,8 @@ double surface_volume_scale(const struct fv *s);
 void surface_slopes(const struct fv *s, const struct part *p, int64_t c, double *n);
 /* Share of a cell below phi = 0, by the plane through its centre. */
 double surface_share(const struct fv *s, int64_t c);
+/* Share of a cell that is water: what the fluxes have carried there, or phi's. */
+double surface_water(const struct fv *s, int64_t c);
 /* The same of the face below cell c along axis a. */
 double surface_face_share(const struct fv *s, int64_t c, int a);
 
