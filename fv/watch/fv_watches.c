@@ -2,6 +2,7 @@
 #include "watches.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "../../common/base/log.h"
 #include "../../common/scene/wave_zones.h"
@@ -9,6 +10,7 @@
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "../boundary/still.h"
+#include "../surface/fraction.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
 
@@ -134,7 +136,8 @@ static void add_row(const struct fv *s, int64_t c, int64_t n, const double *weig
         sums[4] += weight ? weight[i] : 1.0;
 }
 
-/* Share of water in a row of cells, as if the surface were parallel to one of their faces. */
+/* Share of water in a row of cells where phi is all that is known: as if the surface were parallel
+ * to one of their faces, to tell mixed cells. */
 static void share_row(const struct fv *s, int64_t c, int64_t n, double *restrict wet)
 {
     const struct block *b = &s->b;
@@ -148,16 +151,27 @@ static void share_row(const struct fv *s, int64_t c, int64_t n, double *restrict
     }
 }
 
+static void water_of_row(const struct fv *s, int64_t c, int64_t n, double *w)
+{
+    const struct fraction *f = s->surface->fraction;
+    const bool carried = f && f->carries > 0.0;
+    if (carried)
+        memcpy(w, f->C + c, (size_t)n * sizeof(double));
+    else
+        share_row(s, c, n, w);
+    for (int64_t i = 0; i < n && !carried; i++)
+        if (s->blocked || (w[i] > 0.0 && w[i] < 1.0)) /* phi in a box says nothing */
+            w[i] = surface_share(s, c + i);
+}
+
 /* What the cells of a row count beside block_volume, m^dim on blocks; NULL: 1. */
 static double *weights_of_row(const struct fv *s, int64_t c, int64_t n, int j)
 {
     double *w = s->flux + c; /* scratch */
-    if (s->surface && !s->m && !s->blocked)
-        share_row(s, c, n, w);
-    for (int64_t i = 0; i < n && s->surface && s->blocked; i++)
-        w[i] = surface_share(s, c + i); /* phi in a box says nothing */
+    if (s->surface && !s->m)
+        water_of_row(s, c, n, w);
     for (int64_t i = 0; i < n && s->m; i++)
-        w[i] = s->surface ? surface_cell_volume(s, c + i, j) * surface_share(s, c + i)
+        w[i] = s->surface ? surface_cell_volume(s, c + i, j) * surface_water(s, c + i)
                           : s->free[c + i] * s->m->V[c + i];
     return s->surface || s->m ? w : NULL;
 }
@@ -199,7 +213,7 @@ static void momentum_of_row(const struct fv *s, const struct part *p, int64_t c,
 /* m^2/s^2: kinetic energy and pressure of the water in a cell at an opening, times its share. */
 static double head_of(const struct fv *s, int64_t c)
 {
-    double share = surface_share(s, c), square = 0.0, x[3];
+    double share = surface_water(s, c), square = 0.0, x[3];
     if (s->m)
         share *= surface_cell_volume(s, c, 0) / s->m->V[c];
     if (s->surface->layer[c] || share == 0.0)

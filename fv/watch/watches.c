@@ -168,7 +168,8 @@ void watches_energy(struct watches *w, const struct flow_energy *e, double t, in
     w->work_least = fmin(w->work_least, w->work);
     w->work_most = fmax(w->work_most, w->work);
     w->kinetic_most = fmax(w->kinetic_most, e->kinetic);
-    double gain = watch_budget_gain(&w->budget, step, energy - w->work);
+    w->balance = energy - w->work;
+    double gain = watch_budget_gain(&w->budget, step, w->balance);
     const double more = watch_budget_gain(&w->peaks, step, w->kinetic_most);
     if (w->has_surface)
         gain = fmin(gain, more);
