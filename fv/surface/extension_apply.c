@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "fraction.h"
 #include "lanes.h"
 
 enum { STENCIL = 128 };
@@ -90,6 +91,39 @@ static void slow_down(int dim, const struct stencil_values *r, int n, double u[3
         u[q] *= 1.25 * sqrt(most / own);
 }
 
+static double square_of(int dim, const double *u)
+{
+    double sum = 0.0;
+    for (int q = 0; q < dim; q++)
+        sum += u[q] * u[q];
+    return sum;
+}
+
+/* Water that the pressure does not see, drops and films thinner than a cell, has the velocity of
+ * what is around: where that is thrown aside by an impact, the drop would be, too, without a force.
+ * It becomes no faster than by a fall of one cell, a third of it in each of a step's stages. What
+ * the cell had before: u. */
+static void keep_drop(const struct fv *s, int64_t c, double *const u[3], double own[3])
+{
+    const struct surface *f = s->surface;
+    double was[3];
+    for (int q = 0; q < s->dim; q++)
+        was[q] = u[q][c];
+    const double before = square_of(s->dim, was), most = before + 2.0 / 3.0 * f->g * f->across,
+                 is = square_of(s->dim, own);
+    for (int q = 0; q < s->dim && before > 0.0 && is > most; q++)
+        own[q] *= sqrt(most / is);
+}
+
+/* -: share of a cell from which on its water is a drop. */
+#define DROP 0.05
+
+static bool is_drop(const struct surface *f, const struct carry *x)
+{
+    return !x->has_slope && f->fraction && f->fraction->carries > 0.0 &&
+           f->fraction->C[x->cell] > DROP;
+}
+
 static void carry_velocity(const struct fv *s, const struct carry *x, int layer, enum extend how,
                            double *const u[3])
 {
@@ -110,6 +144,8 @@ static void carry_velocity(const struct fv *s, const struct carry *x, int layer,
     }
     if (clip && layer <= 2 && x->n > 0)
         slow_down(dim, &r, x->n, own);
+    if (clip && is_drop(f, x))
+        keep_drop(s, x->cell, u, own);
     for (int q = 0; q < dim; q++)
         u[q][x->cell] = own[q];
 }
