@@ -184,6 +184,18 @@ static void project_start(struct fv *s)
     set_limit(s);
 }
 
+/* Water at rest is not in balance where its surface is not level: p of the start is that which sets
+ * it in motion. A partner and walls that move give velocities later. */
+static void meet_surface(struct fv *s)
+{
+    if (!s->surface || s->run->coupled || s->moving ||
+        fmax(s->umax[0], fmax(s->umax[1], s->umax[2])) > 0.0)
+        return;
+    levels_keep(s);
+    pressure_start(s);
+    levels_back(s);
+}
+
 static void make_rows(struct fv *s)
 {
     const int n = s->b.cells[1], even = (int)s->prm.graded[1];
@@ -277,6 +289,8 @@ struct fv *fv_create(struct run *r, struct h5 *f)
             meet_pressures(s);
     }
     measure(s);
+    if (!f)
+        meet_surface(s);
     s->watches->sum_before = s->umax[0] + s->umax[1] + s->umax[2];
     s->reference = fmax(s->reference, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
     return s;

@@ -131,8 +131,8 @@ static void diagnose(const struct fv *s, double dt, double before, bool good, st
  * the shorter these steps are: there the first step finds the pressure, whatever its level. */
 void pressure_start(struct fv *s)
 {
-    /* newton has no use for the pressure before */
-    if (s->newton || bc_kinds(s) & 1u << MESH_INFLOW)
+    /* newton has no use for the pressure before, but the first output has */
+    if ((s->newton && !s->surface) || bc_kinds(s) & 1u << MESH_INFLOW)
         return;
     const size_t bytes = (size_t)s->size * sizeof(double);
     const double dt = 1e-3 * fmin(limits_of(s).dt, s->run->scene.time.end);
@@ -143,8 +143,10 @@ void pressure_start(struct fv *s)
         memcpy(keep[0][a], s->u[a], bytes);
         memcpy(keep[1][a], s->U[a], bytes);
     }
-    for (int k = 0; k < 8; k++) {
-        projection_step(s, dt);
+    memcpy(s->p_before, s->p, bytes);
+    for (int k = 0; k < (s->newton ? 1 : 8); k++) {
+        if (!(s->newton ? newton_try(s, dt) : projection_step(s, dt)) && s->newton)
+            memcpy(s->p, s->p_before, bytes);
         for (int a = 0; a < s->dim; a++) {
             memcpy(s->u[a], keep[0][a], bytes);
             memcpy(s->U[a], keep[1][a], bytes);
