@@ -142,6 +142,8 @@ static int read_case(struct life *l)
         accept_check(&r->scene, r->case_dir, l->params, &l->faults);
     if (l->faults.n == 0 && l->p->check)
         l->p->check(r, &l->faults);
+    if (l->faults.n == 0 && r->scene.output.series == 0)
+        r->scene.output.series = l->p->steps_between_rows ? l->p->steps_between_rows(r) : 10;
     if (r->partner_ctx && !l->line.check) /* the coupler prints what several programs find */
         return l->faults.n;
     return params_report(&l->faults);
@@ -232,9 +234,11 @@ static void start_series(struct life *l)
 static void write_row(struct life *l)
 {
     double v[COLUMNS_MAX] = {l->r.t, l->r.dt};
+    timer_start(&l->r.timers, "output");
     if (l->p->row)
         l->p->row(l->s, v + 2);
     series_row(l->series, v);
+    timer_stop(&l->r.timers, "output");
 }
 
 /* 1, 2, 5, 10, 30, 60 s apart as the run grows. */

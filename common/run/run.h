@@ -101,6 +101,8 @@ struct program {
     const char *const *columns;
     int ncolumns;
     void (*row)(void *s, double *values);
+    /* Steps between rows where the case does not say; NULL: 10. */
+    int (*steps_between_rows)(const struct run *r);
     /* One progress line, without t and %: "dt 0.75 ms (sound)  Ma 0.062 ..."; rank 0's text counts.
      */
     void (*progress)(void *s, char *line, int size);

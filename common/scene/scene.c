@@ -134,7 +134,7 @@ static const struct param output_rows[] = {
     PARAM(P, every,     "s", "0.0", 0, 1e9, "between snapshots; 0: the first and the last only"),
     PARAM(P, snapshots, "-", "true", 0, 0, "write HDF5 snapshots and their XDMF files"),
     PARAM(P, fields,    "-", "velocity pressure vorticity", 0, 0, "fields of a snapshot; vorticity_exact (fv): of the exact solution, too"),
-    PARAM(P, series,    "-", "10", 1, 1e9, "steps between rows of series.csv"),
+    PARAM(P, series,    "-", "0", 0, 1e9, "steps between rows of series.csv; 0: 3 with a free surface in fv alone, else 10"),
     PARAM(P, checkpoint,      "s", "0.0", 0, 1e9, "of simulated time between restart files; 0: only at a stop"),
     PARAM(P, checkpoint_wall, "s", "0.0", 0, 1e9, "of wall time between restart files; 0: none"),
 };

@@ -124,8 +124,9 @@ double surface_reach(const struct fv *s, int a)
     const double *phi = s->surface->phi;
     double most = -INFINITY, x[3];
     BLOCK_CELLS (b, i, j, k, c) {
-        if (!(phi[c] < 0.0))
-            continue;
+        const int above = (a == 0 ? i : a == 1 ? j : k) + 1;
+        if (!(phi[c] < 0.0) || (above < b->n[a] && phi[c + b->stride[a]] < 0.0))
+            continue; /* the next one reaches further */
         block_centre(b, i, j, k, x);
         const double next = phi[c + b->stride[a]];
         double end = foot_of_water(s, (const int[]){i, j, k}, c, a);
@@ -151,22 +152,42 @@ static double height_in_column(const struct fv *s, const int *at, int64_t c, int
     return share + (share > 0.0 && !grounded ? stack : 0);
 }
 
+/* The lower one of the two cells of this rank whose centres lie around x along an axis, and their
+ * weights. */
+static int columns_beside(const struct block *b, int a, double x, double weight[2])
+{
+    const double half = 0.5, top = b->cells[a] - half,
+                 place = fmin(top, fmax(half, (x - b->origin[a]) / b->h[a])) - half;
+    weight[1] = place - floor(place);
+    weight[0] = 1.0 - weight[1];
+    return (int)place - b->lo[a];
+}
+
 /* Two columns along gravity (in 3D four) around x, with weights, linear between their centres. */
 double surface_level(const struct fv *s, const double *x)
 {
     const struct block *b = &s->b;
     const int up = still_upright(&s->run->scene);
     const bool down = s->run->scene.fluid.gravity[up] > 0.0; /* the water hangs at the upper end */
-    double sum = 0.0;
-    BLOCK_CELLS (b, i, j, k, c) {
-        const int at[3] = {i, j, k};
-        double w = block_size(b, up, j);
-        for (int a = 0; a < b->dim; a++) {
-            const double half = 0.5, top = b->cells[a] - half;
-            const double place = fmin(top, fmax(half, (x[a] - b->origin[a]) / b->h[a])) - half;
-            w *= a == up ? 1.0 : fmax(0.0, 1.0 - fabs(place - (b->lo[a] + at[a])));
+    double weight[3][2] = {{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}}, sum = 0.0;
+    int first[3] = {0, 0, 0}, n[3] = {1, 1, 1}, at[3];
+    for (int a = 0; a < b->dim; a++) {
+        n[a] = a == up ? b->n[a] : 2;
+        if (a != up)
+            first[a] = columns_beside(b, a, x[a], weight[a]);
+    }
+    for (int m = 0; m < n[0] * n[1] * n[2]; m++) {
+        const int of[3] = {m % n[0], m / n[0] % n[1], m / n[0] / n[1]};
+        bool own = true;
+        double w = 1.0;
+        for (int a = 0; a < 3; a++) {
+            at[a] = first[a] + of[a];
+            own = own && at[a] >= 0 && at[a] < b->n[a];
+            w *= a == up ? 1.0 : weight[a][of[a]];
         }
-        sum += w > 0.0 ? w * height_in_column(s, at, c, up, down ? 1 : -1) : 0.0;
+        if (own && w > 0.0)
+            sum += w * block_size(b, up, at[up]) *
+                   height_in_column(s, at, block_at(b, at[0], at[1], at[2]), up, down ? 1 : -1);
     }
     int rank;
     MPI_Comm_rank(b->cart, &rank);
