@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../base/mem.h"
@@ -20,6 +21,9 @@ struct picture {
     double lo[2], hi[2];       /* m: what is shown */
     double scale, top, height; /* px/m; px above the view; px of all views */
     bool used[PICTURE_KINDS];
+    FILE *cells; /* outlines of them, of the first view; empty: the whole domain */
+    char *cells_text;
+    size_t cells_size;
     double label[LABELS][3]; /* px: left, right and foot of what is written */
     int nlabels;
 };
@@ -107,6 +111,14 @@ void picture_line(struct picture *p, enum picture_kind kind, int n, const double
     paint(p, kind, fill);
     for (int k = 0; with_normals && k + 1 < n + closed; k++)
         normals(p, kind, x[k], x[(k + 1) % n]);
+}
+
+void picture_cells(struct picture *p, int n, const double (*x)[2])
+{
+    fputs("<path d=\"", p->cells);
+    for (int k = 0; k < n; k++)
+        fprintf(p->cells, "%c%.2f %.2f ", k ? 'L' : 'M', px(p, x[k][0]), py(p, x[k][1]));
+    fputs("Z\"/>\n", p->cells);
 }
 
 static void corners(const struct picture *p, const double lo[3], const double hi[3], double x[4][2])
@@ -343,15 +355,26 @@ static void section(struct picture *p)
             px(p, p->lo[0]), p->top + MARGIN - 12.0, "xyz"[off], cut);
 }
 
-static void scene(struct picture *p)
+/* That of the first view is cut to the cells, which the program tells later. */
+static void water(struct picture *p, bool first)
 {
     const struct scene *s = p->s;
+    if (first)
+        fputs("<g clip-path=\"url(#cells)\">\n", p->f);
     if (s->meshes)
         section(p);
     else if (s->nshapes == 0)
         picture_box(p, PICTURE_WATER, s->domain.min, s->domain.max, NULL);
     for (int k = 0; k < s->nshapes && !s->meshes; k++)
         shape(p, s->shapes + k);
+    if (first)
+        fputs("</g>\n", p->f);
+}
+
+static void scene(struct picture *p, bool first)
+{
+    const struct scene *s = p->s;
+    water(p, first);
     wave_zones(p);
     for (int k = 0; k < 2 * s->domain.dim; k++)
         side(p, k);
@@ -393,10 +416,10 @@ static void set_view(struct picture *p, int a, int b)
 }
 
 /* The scene in one view, the places of its corners. */
-static void draw_view(struct picture *p)
+static void draw_view(struct picture *p, bool first)
 {
     const double height = p->scale * (p->hi[1] - p->lo[1]);
-    scene(p);
+    scene(p, first);
     for (int k = 0; k < 2; k++)
         fprintf(
             p->f,
@@ -434,9 +457,23 @@ struct picture *picture_create(const char *path, const struct scene *s)
         if (n > 1)
             set_view(p, views[k][0], views[k][1]);
         p->top = top[k];
-        draw_view(p);
+        draw_view(p, k == 0);
     }
+    p->cells = open_memstream(&p->cells_text, &p->cells_size);
+    if (!p->cells)
+        disk_failed(path);
     return p;
+}
+
+static void close_cells(struct picture *p)
+{
+    double x[4][2];
+    corners(p, p->s->domain.min, p->s->domain.max, x);
+    if (ftell(p->cells) == 0)
+        picture_cells(p, 4, (const double(*)[2])x);
+    fclose(p->cells);
+    fprintf(p->f, "<clipPath id=\"cells\">\n%s</clipPath>\n", p->cells_text);
+    free(p->cells_text);
 }
 
 void picture_close(struct picture **picture)
@@ -455,6 +492,7 @@ void picture_close(struct picture **picture)
                 style[k].name);
         n++;
     }
+    close_cells(p);
     fputs("</svg>\n", p->f);
     if (ferror(p->f) || fclose(p->f) != 0)
         disk_failed(p->path);

@@ -37,6 +37,9 @@ void picture_box(struct picture *p, enum picture_kind kind, const double lo[3], 
  * short ticks to the left, where the fluid is. */
 void picture_line(struct picture *p, enum picture_kind kind, int n, const double (*x)[2],
                   bool closed, bool fill, bool normals);
+/* Cells of the program lie within this outline, and the others that are told: there is no water but
+ * in them. */
+void picture_cells(struct picture *p, int n, const double (*x)[2]);
 void picture_text(struct picture *p, const double at[3], const char *text);
 /* Writes the legend and closes; sets *p to NULL. */
 void picture_close(struct picture **p);
