@@ -379,7 +379,7 @@ static void read_list(struct params *p, const struct param_group *g, const confi
             continue;
         }
         for (int r = 0; r < g->nrows; r++) {
-            param_default(g, g->rows + r, target);
+            param_default_of(g, g->rows + r, target, k);
             read_row(p, g, g->rows + r, e, target, k, f);
         }
         find_unknown_keys(p, g, e, f);

@@ -61,9 +61,11 @@ struct param_list {
 struct param {
     const char *key;
     enum param_type type;
-    size_t offset;       /* of the member in the group's struct */
-    const char *unit;    /* SI, "-" if none */
-    const char *dflt;    /* libconfig text; NULL: the key is required */
+    size_t offset;    /* of the member in the group's struct */
+    const char *unit; /* SI, "-" if none */
+    /* libconfig text; NULL: the key is required. `#' at the end of a name of a list's elements:
+     * their number, but for the first ("box", "box2", ..) */
+    const char *dflt;
     double min, max;     /* of each component, both allowed; not used by bool, text, choice */
     const char *choices; /* "a|b|c" of a PARAM_CHOICE, else NULL */
     const char *help;

@@ -44,6 +44,12 @@ static bool is_numeric(const struct param *r)
 
 static const char *default_of(const struct param *r)
 {
+    static char names[160];
+    if (r->type == PARAM_TEXT && r->dflt && strchr(r->dflt, '#')) {
+        const int n = (int)strcspn(r->dflt, "#");
+        snprintf(names, sizeof names, "%.*s, %.*s2, ..", n, r->dflt, n, r->dflt);
+        return names;
+    }
     return r->type == PARAM_LIST ? "none" : r->dflt ? r->dflt : "required";
 }
 

@@ -284,6 +284,18 @@ bool param_read(const struct param *r, const config_setting_t *s, void *target, 
     }
 }
 
+void param_default_of(const struct param_group *g, const struct param *r, void *target, int k)
+{
+    param_default(g, r, target);
+    if (r->type != PARAM_TEXT || !r->dflt)
+        return;
+    char *text = (char *)target + r->offset, *number = strchr(text, '#');
+    if (number && k > 0)
+        snprintf(number, (size_t)(text + PARAM_TEXT_SIZE - number), "%d", k + 1);
+    else if (number)
+        *number = 0;
+}
+
 void param_default(const struct param_group *g, const struct param *r, void *target)
 {
     char line[512], why[256];

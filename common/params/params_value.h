@@ -15,5 +15,7 @@ bool param_read(const struct param *r, const config_setting_t *s, void *target, 
                 size_t size);
 /* Fills in the row's default, if it has one. */
 void param_default(const struct param_group *g, const struct param *r, void *target);
+/* The same of element k of a list. */
+void param_default_of(const struct param_group *g, const struct param *r, void *target, int k);
 
 #endif

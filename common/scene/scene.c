@@ -85,7 +85,7 @@ static const struct param shape_rows[] = {
 #undef P
 #define P struct scene_probe
 static const struct param probe_rows[] = {
-    PARAM(P, name, "-", NULL, 0, 0, "its name in series.csv"),
+    PARAM(P, name, "-", "probe#", 0, 0, "its name in series.csv"),
     CHOICE(P, kind, "pressure|level|shore|discharge", "pressure", "what it reads: pressure at a point; height against gravity of the surface in the column over it, which stands on the floor or body next below it (sph); height of the water's edge on a beach, to both sides of a place in the water (sph in 2D); discharge (sph) through the line from at to `to`, to its right-hand side, in 3D through the rectangle between these corners, along the axis across it; an oblique line goes on 2 dx beyond the floor"),
     PARAM(P, at,   "m", NULL, -1e9, 1e9, "place"),
     PARAM(P, to,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "of a discharge: the other end of its line, the other corner of its rectangle"),
@@ -110,7 +110,7 @@ static const struct param waves_rows[] = {
 #undef P
 #define P struct scene_gauges
 static const struct param gauges_rows[] = {
-    PARAM(P, name,   "-", NULL, 0, 0, "its name in summary.json"),
+    PARAM(P, name,   "-", "gauges#", 0, 0, "its name in summary.json"),
     PARAM(P, probes, "-", NULL, 0, 0, "names of 2 to 8 level gauges along the waves, as \"w1 w2 w3\"; good places are 0, 0.1 and 0.27 wave lengths from the first, never half a length apart"),
     PARAM(P, from,   "s", "0.0", 0, 1e9, "from when waves are judged, over whole periods to the end; 0: the second half of the run"),
     PARAM(P, period, "s", "0.0", 0, 1e6, "of the waves; 0: that of the group waves"),

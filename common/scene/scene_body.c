@@ -64,7 +64,7 @@ static const struct param_list contacts = INNER(struct scene_contacts, contact_r
 
 #define P struct scene_body
 const struct param scene_body_rows[] = {
-    PARAM(P, name,     "-",   "body", 0, 0, "its name in the outputs"),
+    PARAM(P, name,     "-",   "body#", 0, 0, "its name in the outputs"),
     PARAM(P, points,   "m",   "()", -1e9, 1e9, "corners in order, clockwise (reversed, with a line in the log, if not)"),
     SURFACE_ROWS(P),
     PARAM(P, thin,     "-",   "false", 0, 0, "of a mesh: fluid on one side does not interact with that on the other"),

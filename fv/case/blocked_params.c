@@ -15,7 +15,7 @@
 #define P struct blocked_params
 /* clang-format off */
 const struct param blocked_rows[BLOCKED_ROWS] = {
-    PARAM(P, name, "-", NULL, 0, 0, "its name in outputs and messages"),
+    PARAM(P, name, "-", "box#", 0, 0, "its name in outputs and messages"),
     PARAM(P, min,  "m", NULL, -1e9, 1e9, "lower corner; corners go to the nearest faces of cells"),
     PARAM(P, max,  "m", NULL, -1e9, 1e9, "upper corner"),
     CHOICE(P, kind, "slip|no_slip", "slip", "kind of boundary on its faces"),

@@ -16,7 +16,7 @@
 #define P struct mesh_block_params
 /* clang-format off */
 const struct param mesh_rows_of[MESH_ROWS] = {
-    PARAM(P, name,     "-", NULL, 0, 0, "its name in outputs and messages"),
+    PARAM(P, name,     "-", "block#", 0, 0, "its name in outputs and messages"),
     CHOICE(P, mapping, "box|stretched|annulus|sheared|file", "box", "shape: uniform box, box with finer cells at a place, ring (cells: outwards, around), sheared or waving box, vertices from a file"),
     PARAM(P, cells,    "-", "(1, 1, 1)", 1, 1e6, "cells in each direction; with a file the file's own"),
     PARAM(P, min,      "m", "(0.0, 0.0, 0.0)", -1e9, 1e9, "lower corner before the rotation; z of a ring"),

@@ -31,7 +31,7 @@ struct watches {
     double work, power, t;             /* m^(dim+2)/s^2, of the last look, its time */
     double work_least, work_most, kinetic_most;
     double balance; /* m^(dim+2)/s^2: kinetic energy less the work, of the last look */
-    double least; /* with a surface: of the energy that the scene's velocity makes, what counts */
+    double least;   /* with a surface: of the energy that the scene's velocity makes, what counts */
     int looks;
     double sum_before; /* m/s: of the largest velocities, a step ago */
 };

@@ -37,5 +37,19 @@ expect 'as a whole*(gravity leans against the lines of the cells)' column.cfg -p
 expect 'as a whole*(blocks move)' "$heaving"
 expect 'as a whole*(blocks overlap)' "$half"
 expect 'fraction is not to be had*blocks move' "$heaving" -p fv.volume=fraction
+# boxes and gauges without names have some; a row of the series every third step and at the end
+sed 's/^fv: /blocked: ( { min = (0.5, 0); max = (0.6, 0.1); }, { min = (-0.6, 0); max = (-0.5, 0.1); } );\n&/; s/name = "[a-z]*"; //g' column.cfg >nameless.cfg
+timeout 100 "$b/fv" nameless.cfg -o nameless -p time.end=0.2 >nameless.txt 2>&1 || bad "boxes without names end with $?" nameless.txt
+for column in 'box force x' 'box2 force y' 'probe \[m\]' 'probe2 \[m\]'; do
+    head -n 1 nameless/series.csv | grep -q ",$column" || bad "no column $column" nameless.txt
+done
+steps=$(number nameless steps) rows=$(($(wc -l <nameless/series.csv) - 1))
+[ "$rows" = $((1 + (steps + 2) / 3)) ] || bad "$rows rows of $steps steps"
+# pictures: water is in cells alone, not in the cylinder; a coupled job has its particles
+clips() { sed -n '/<clipPath id="cells">/,/<.clipPath>/p' drawn/fv-scene.svg | grep -c '<path'; }
+"$b/fv" "$half" --check=picture -o drawn >drawn.txt 2>&1 && [ "$(clips)" -gt 40 ] || bad "the cylinder's holes are not cut out of the water" drawn.txt
+"$b/fv" column.cfg --check=picture -o drawn >drawn.txt 2>&1 && [ "$(clips)" = 1 ] || bad "the column's picture" drawn.txt
+"$b/fv" "$root/cases/still_water_crossing/case.cfg" --check=picture -o drawn >drawn.txt 2>&1 && grep -q '>particles<' drawn/fv-scene.svg ||
+    bad "no particles in the picture of a coupled job" drawn.txt
 echo "fv_water: put back $(number shift volume_returned) with shifts, $(number fraction volume_returned) with shares; $failed faults"
 [ $failed = 0 ]
