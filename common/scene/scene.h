@@ -166,7 +166,7 @@ struct scene {
         double every;                 /* s between snapshots; 0: first and last only */
         bool snapshots;               /* write HDF5 at all */
         char fields[PARAM_TEXT_SIZE]; /* "velocity pressure ..." */
-        int series;                   /* steps between rows of series.csv; run_main makes 0 the program's wish */
+        int series; /* steps between rows of series.csv; run_main makes 0 the program's wish */
         double checkpoint;      /* s of simulated time between restart files; 0: only at a stop */
         double checkpoint_wall; /* s of wall time between restart files; 0: none */
     } output;
