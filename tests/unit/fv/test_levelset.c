@@ -780,8 +780,11 @@ static void air_beyond_the_band_is_dry(void **state)
               &below, WALL_SLIP);
     for (int64_t i = 0; i < s->size; i++)
         s->surface->phi[i] += s->surface->phi[i] > 7.0 / 32.0 ? 1.0 : 0.0;
-    for (double x = 0.05; x < 1.0; x += 0.3)
-        assert_close(most_of(surface_level(s, (const double[]){x, 0.0, 0.0})), 0.31, 1e-9);
+    for (double x = 0.05; x < 1.0; x += 0.3) {
+        double level = surface_level(s, (const double[]){x, 0.0, 0.0}); /* this rank's part of it */
+        MPI_Allreduce(MPI_IN_PLACE, &level, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+        assert_close(level, 0.31, 1e-9);
+    }
     fv_free(&c.s);
 }
 
