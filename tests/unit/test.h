@@ -17,8 +17,8 @@
 
 #include <cmocka.h>
 
-/* Under the sanitizers, ten times slower, a test that takes the same code through several scenes
- * may leave some of them out. */
+/* Under the sanitizers, ten times slower, a test takes the same code through fewer scenes, steps or
+ * cells, and leaves to the plain run what holds after the whole of them alone. */
 #ifdef __SANITIZE_ADDRESS__
 enum { SANITIZED = 1 };
 #else

@@ -122,7 +122,7 @@ static double swing(bool between, bool deep, enum wall_kind kind)
                                               : "fv.cells=(20,6,20)",
                                     NULL},
               &column, kind);
-    assert_true(fv_case_run(&c, 1000, 0.2));
+    assert_true(fv_case_run(&c, 1000, SANITIZED ? 0.05 : 0.2));
     const double e = surface_energy(s);
     end(&c);
     return e;

@@ -12,8 +12,12 @@
 static void errors_fall(const char *const *common, const char *more, double t, double most_32,
                         double most_64, double order)
 {
-    const double e32 = fv_case_error_at(32, common, more, t),
-                 e64 = fv_case_error_at(64, common, more, t);
+    const double e32 = fv_case_error_at(SANITIZED ? 16 : 32, common, more, t);
+    if (SANITIZED) {
+        assert_true(e32 < 0.1);
+        return;
+    }
+    const double e64 = fv_case_error_at(64, common, more, t);
     print_message("%s: %.3g at 32, %.3g at 64, order %.2f\n", more ? more : "plain", e32, e64,
                   fv_case_order(e32, e64));
     assert_true(e32 <= most_32);
@@ -32,6 +36,8 @@ static void taylor_green_converges(void **state)
                  e32 = fv_case_error_at(32, step, NULL, 1.0);
     print_message("16: %.3g, order to 32 %.2f\n", e16, fv_case_order(e16, e32));
     assert_true(fv_case_order(e16, e32) >= 1.9);
+    if (SANITIZED)
+        return;
     errors_fall(step, NULL, 1.0, 3e-5, 2.5e-6, 3.5);
     const double e64 = fv_case_error_at(64, step, NULL, 1.0),
                  e128 = fv_case_error_at(128, step, NULL, 1.0);

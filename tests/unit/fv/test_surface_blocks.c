@@ -138,10 +138,11 @@ static void swings(const char *blocks, double *period, double *damping)
     struct fv *s = start(&c, MPI_COMM_WORLD, blocks, (const char *const[]){WAVE, NULL}, NULL);
     c.run.summary = summary_create();
     const double volume = surface_volume(s);
-    assert_true(mesh_case_run(s, 1000, 13.2));
+    assert_true(mesh_case_run(s, 1000, SANITIZED ? 1.3 : 13.2));
     surface_summarise(s);
-    assert_true(summary_find(c.run.summary, "error.period", period) &&
-                summary_find(c.run.summary, "error.damping", damping));
+    *period = *damping = 0.0;
+    assert_true(SANITIZED || (summary_find(c.run.summary, "error.period", period) &&
+                              summary_find(c.run.summary, "error.damping", damping)));
     print_message("wave: period %.3g, damping %.3g, put back %.3g\n", *period, *damping,
                   s->surface->returned / volume);
     assert_close(s->surface->returned / volume, 0.0, 5e-4);

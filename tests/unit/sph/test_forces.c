@@ -312,15 +312,15 @@ static void tilted_tank(void **state)
         }
         c.prm.c0 = 32.0;
         c.prm.dissipation = 0.1; /* as sph_params has it there */
-        c.prm.packing = 200;
+        c.prm.packing = SANITIZED ? 20 : 200;
         struct sph *s = sph_case_start(&c, NULL);
-        assert_true(sph_case_run(&c, 600, 100.0));
-        for (int j = 0; j < 300; j++) {
+        assert_true(sph_case_run(&c, SANITIZED ? 30 : 600, 100.0));
+        for (int j = 0; j < (SANITIZED ? 10 : 300); j++) {
             assert_true(sph_case_run(&c, 1, 100.0));
             late = fmax(late, s->step.max_speed);
         }
         print_message("tank at %.2f rad: |u| %.1e c0\n", angle[k], late / s->c0);
-        assert_true(late < 1e-3 * s->c0);
+        assert_true(SANITIZED || late < 1e-3 * s->c0);
         assert_close((double)s->walls->returned, 0.0, 0.0);
         sph_free(&c.s);
     }

@@ -144,7 +144,7 @@ static void waves_keep_their_energy(void **state)
     c.prm.transport = TRANSPORT_TVS;
     struct sph *s = sph_case_start(&c, NULL);
     const double start = kinetic_energy(s);
-    for (int k = 1; k <= 4; k++) {
+    for (int k = 1; k <= (SANITIZED ? 1 : 4); k++) {
         while (s->t < k - 1e-9)
             assert_true(sph_case_run(&c, 1, k));
         print_message("t = %d: kinetic energy %.3f of the start's\n", k, kinetic_energy(s) / start);

@@ -81,7 +81,7 @@ static void carry(bool local_steps)
     assert_true(s->finer != NULL && s->finer->finer == NULL);
     set_moving(s, U);
     const double n[2] = {flowing(s), flowing(s->finer)};
-    while (s->t < 1.0)
+    while (s->t < (SANITIZED ? 0.1 : 1.0))
         assert_true(sph_case_run(&c, 1, 1.0));
     assert_true(departure(s, U) < 1e-10);
     assert_true(flowing(s) == n[0] && flowing(s->finer) == n[1]);
@@ -330,7 +330,7 @@ static void missing_children_are_born_again(void **state)
     refine(&c, 1, 0.1, 0.9);
     struct sph *s = sph_case_start(&c, NULL), *fine = s->finer;
     const double before = guards_of(fine);
-    assert_true(sph_case_run(&c, 40, 100.0));
+    assert_true(sph_case_run(&c, SANITIZED ? 6 : 40, 100.0));
     assert_true(guards_of(fine) == before); /* nothing is missing */
     int n = 0;
     for (int i = 0; i < fine->p.n; i++)
@@ -339,12 +339,14 @@ static void missing_children_are_born_again(void **state)
     fine->p.n = n;
     fine->lists.ready = false;
     assert_true(guards_of(fine) < 0.85 * before);
-    assert_true(sph_case_run(&c, 100, 100.0)); /* one for each disc of R/2 in two steps */
+    assert_true(sph_case_run(&c, SANITIZED ? 20 : 100, 100.0)); /* one for each disc of R/2 in two steps */
     const double after = guards_of(fine);
     print_message("guards: %.0f, %.0f after losses\n", before, after);
-    assert_true(after > 0.9 * before && after < 1.02 * before);
-    assert_true(sph_case_run(&c, 40, 100.0));
-    assert_true(fabs(guards_of(fine) - after) < 0.02 * before);
+    if (!SANITIZED) {
+        assert_true(after > 0.9 * before && after < 1.02 * before);
+        assert_true(sph_case_run(&c, 40, 100.0));
+        assert_true(fabs(guards_of(fine) - after) < 0.02 * before);
+    }
     assert_true(departure(s, U) < 1e-3);
     sph_free(&c.s);
     refine_nothing();

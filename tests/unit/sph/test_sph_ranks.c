@@ -171,6 +171,10 @@ static void goes_on_on_others(int dim, int steps)
     write_on(MPI_COMM_WORLD, dim, steps, path, straight);
     go_on_on(MPI_COMM_SELF, dim, steps, path, restarted);
     same(straight, restarted);
+    if (is_alone()) {
+        remove(path);
+        return;
+    }
     MPI_Barrier(MPI_COMM_WORLD);
     if (rank == 0)
         write_on(MPI_COMM_SELF, dim, steps, path, straight);

