@@ -119,16 +119,16 @@ static const struct {
      "(2, "
      "0.5); } );\n"
      "blocks: ( { name = \"s\"; mapping = \"stretched\"; min = (-3, -3); max = (5, 3); cells = "
-     "(40, 36); focus = (0, 0); stretch = (2, 2); velocity = (1, 0); i_min = \"inflow\"; i_max = "
+     "(28, 26); focus = (0, 0); stretch = (2, 2); velocity = (1, 0); i_min = \"inflow\"; i_max = "
      "\"outflow\"; j_min = \"slip\"; j_max = \"slip\"; }, { name = \"c\"; mapping = \"annulus\"; "
-     "radius = (0.5, 2.4); stretch = (1.0, 0); cells = (18, 48); i_min = \"wall\"; j_min = "
+     "radius = (0.5, 2.4); stretch = (1.0, 0); cells = (12, 32); i_min = \"wall\"; j_min = "
      "\"joined\"; j_max = \"joined\"; } );\nfv: { };\n"},
     {"wave zone", HEAD
-     "domain: { dim = 2; max = (3, 1); };\n"
-     "fluid: { gravity = (0, -9.81); };\nshapes: ( { form = \"below\"; level = 0.5; } );\n"
+     "domain: { dim = 2; max = (3, 0.5); };\n"
+     "fluid: { gravity = (0, -9.81); };\nshapes: ( { form = \"below\"; level = 0.25; } );\n"
      "walls: ( { side = \"x_min\"; kind = \"wave\"; }, { side = \"x_max\"; kind = \"beach\"; }, "
      "{ side = \"y_min\"; }, { side = \"y_max\"; } );\n"
-     "waves: { kind = \"focused\"; height = 0.05; length = 0.9; zone = 0.8; start = 0.1; };\n"
+     "waves: { kind = \"focused\"; height = 0.05; length = 0.9; zone = 0.3; start = 0.1; };\n"
      "fv: { cells = (24, 12); };\n"},
     {"lid on a block", HEAD SQUARE
      "fluid: { nu = 0.01; };\nblocks: ( { name = \"a\"; cells = (8, 8); velocity = (1, 0); lid = "

@@ -339,7 +339,8 @@ static void missing_children_are_born_again(void **state)
     fine->p.n = n;
     fine->lists.ready = false;
     assert_true(guards_of(fine) < 0.85 * before);
-    assert_true(sph_case_run(&c, SANITIZED ? 20 : 100, 100.0)); /* one for each disc of R/2 in two steps */
+    assert_true(
+        sph_case_run(&c, SANITIZED ? 20 : 100, 100.0)); /* one for each disc of R/2 in two steps */
     const double after = guards_of(fine);
     print_message("guards: %.0f, %.0f after losses\n", before, after);
     if (!SANITIZED) {
