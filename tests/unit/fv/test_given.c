@@ -56,7 +56,8 @@ static void across_an_overlap_too(void **state)
 {
     double fine;
     (void)state;
-    assert_true(order(turned, true, "fv.hole=((0.2,0.2),(0.45,0.45))", &fine) > (SANITIZED ? 1.5 : 2.9));
+    assert_true(order(turned, true, "fv.hole=((0.2,0.2),(0.45,0.45))", &fine) >
+                (SANITIZED ? 1.5 : 2.9));
     assert_true(fine < (SANITIZED ? 1e-2 : 4e-4));
 }
 
