@@ -404,9 +404,10 @@ INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const 
         to.q[a] = -W * (m * i->u[a] + P * t->n[a]);
     if (t->friction > 0.0)
         add_bed_friction(t, i, uw, to.q, dim);
-    /* not from a face seen at grazing angle */
+    /* Not from a face seen at grazing angle; a row before a wall stands for half a spacing: nearer,
+     * it would rub more than the profile does, and steps be shorter. */
     if (t->no_slip && mu > 0.0 && (t->foot || t->height > 0.25 * s->dx)) {
-        const double rate = 2.0 * mu * friction_weight(t, i, dim) / fmax(t->height, 0.25 * s->dx);
+        const double rate = 2.0 * mu * friction_weight(t, i, dim) / fmax(t->height, 0.5 * s->dx);
         for (int a = 0; a < dim; a++)
             to.q[a] -= rate * (i->u[a] - uw[a]);
     }

@@ -169,17 +169,19 @@ static double laplacian(int row, int power)
     return max_anywhere(most) - 1e3;
 }
 
-/* The wall's share of the Laplacian, as it was worked out with exact integrals. */
+/* Friction on a wall leaves linear profiles as they are, and is 2 of y^2 as far as a lattice's
+ * second moment goes; with the kernel's own integrals a linear one had 0.103 and -0.036 /R in two
+ * rows. */
 static void laplacian_at_a_wall(void **state)
 {
     (void)state;
     const double R = 4.0 / 32.0;
     print_message("Lap y %.3f %.3f /R, Lap y^2 %.3f %.3f\n", laplacian(0, 1) * R,
                   laplacian(1, 1) * R, laplacian(0, 2), laplacian(1, 2));
-    assert_close(laplacian(0, 1) * R, 0.103, 0.01);
-    assert_close(laplacian(1, 1) * R, -0.036, 0.01);
-    assert_close(laplacian(0, 2), 1.986, 0.02);
-    assert_close(laplacian(1, 2), 1.966, 0.02);
+    for (int row = 0; row < 2; row++) {
+        assert_close(laplacian(row, 1) * R, 0.0, 1e-4);
+        assert_close(laplacian(row, 2), 2.0, 0.03);
+    }
 }
 
 /* Box [0,1]^2 of still fluid under gravity; closed walls on all sides, or open above. */
