@@ -60,7 +60,9 @@ for o in "-s sph --body fixed" "-s sph --body floating --gauges" "-s sph --dim 3
 done
 "$root/cases/new" my/new -s fv >said.txt 2>&1 && bad "cases/new over a file that is there"
 # a sweep: the error of a parabola between plates falls with the cells; an ensemble of a case without chance scatters little
-"$root/cases/sweep" channel_fv 'fv.cells=(8,8),(8,16)' -p time.end=0.1 -o sweep >said.txt 2>&1 || bad "cases/sweep" said.txt
+"$root/cases/sweep" channel_fv --together 'fv.cells=(8,8),(16,8)' fv.cfl=0.8,0.7 -p time.end=0.1 -o sweep >said.txt 2>&1 || bad "cases/sweep" said.txt
+grep -q 'cells=(16,8)  fv.cfl=0.7 .* order ' said.txt || bad "order of a sweep" said.txt
+"$root/cases/sweep" channel_fv --together 'fv.cells=(8,8),(16,8)' fv.cfl=0.8 -o sweep >said.txt 2>&1 && bad "a sweep of unlike lists" said.txt
 [ "$(wc -l <sweep/sweep.csv)" = 3 ] && [ -s sweep/sweep.png ] || bad "files of cases/sweep" said.txt
 "$root/cases/ensemble" channel_fv -n 2 -p 'fv.cells=(8,8)' -p time.end=0.1 -o ensemble >said.txt 2>&1 || bad "cases/ensemble" said.txt
 grep -q '^cpu_s,' ensemble/ensemble.csv || bad "files of cases/ensemble" said.txt
