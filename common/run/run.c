@@ -566,6 +566,7 @@ static int run_state(struct life *l, struct h5 *restart)
         accept_check_columns(&r->scene, l->params, l->p->ncolumns, l->p->columns, &l->faults);
     if (params_report(&l->faults))
         return RUN_INPUT;
+    signals_started(); /* from the first file on a stop is orderly */
     start_series(l);
     if (r->coupled) {
         const double wish = l->p->window_wish ? l->p->window_wish(l->s) : INFINITY;
@@ -584,7 +585,6 @@ static int run_state(struct life *l, struct h5 *restart)
     l->wall0 = l->said = l->saved = wall_time();
     l->t0 = r->t;
     l->every = 1.0;
-    signals_started();
     for (int k = 0; k < r->timers.n; k++)
         r->timers.of[k].wall = 0.0; /* the start is not part of the loop */
     return end(l, r->coupled ? loop_coupled(l) : loop_alone(l));

@@ -189,8 +189,8 @@ void signals_install(const char *program, int rank);
 void signals_start_mpi(int *argc, char ***argv, const char *program);
 bool signals_stop(void);    /* this rank's flag */
 void signals_handled(void); /* an orderly stop is under way: no deadline */
-void signals_started(void); /* the time loop looks at signals_stop from now on; before, a signal
-                               ends a program that runs alone at once */
+void signals_started(void); /* the time loop will look at signals_stop; before, a signal ends a
+                               program that runs alone at once */
 void signals_note_path(
     const char *path);                /* file of the death note (shared by the job's programs) */
 void signals_heard(const char *text); /* what the handler prints when there is no note; copied */

@@ -154,11 +154,11 @@ has ill/summary.json '"status": "diverged"'
 count 1 'ill/toy_diverged.h5'
 has ill/toy.xdmf toy_diverged.h5
 
-# an orderly stop, by each signal, also in slow steps; then on to the end
+# an orderly stop, by each signal, right behind the first file, also in slow steps; then on to the end
 for s in INT TERM USR1; do
     "$toy" swing -o "stop$s" -p toy.slow=1 -p toy.dt=0.05 -p output.every=0 >out.txt 2>&1 &
     job=$!
-    for tenth in $(seq 300); do [ -f "stop$s/series.csv" ] || sleep 0.1; done
+    until [ -f "stop$s/series.csv" ] || ! kill -0 $job 2>/dev/null; do :; done
     kill -$s $job
     wait $job
     code=$?
