@@ -88,21 +88,17 @@ static bool is_settled(const struct sph *s, int step, double past[5])
 static void set_volumes(struct sph *s)
 {
     const double whole = kernel_lattice_sum(s);
-    double *room = NEW(double, s->p.n);
+    double *factor = walls_rooms(s);
     for (int i = 0; i < s->p.n; i++)
-        room[i] = 1.0;
-    if (s->walls && s->walls->model->rooms)
-        s->walls->model->rooms(s, room);
-    for (int i = 0; i < s->p.n; i++)
-        room[i] *= whole / kernel_sum(s, i);
+        factor[i] *= whole / kernel_sum(s, i);
     for (int i = 0; i < s->p.n; i++) {
         double *y = state_row(&s->p, s->p.y, i);
         if ((s->surface && s->surface->is[i] != SURFACE_INNER) || !is_packed(s, i, 2.0 * s->R))
             continue;
         for (int k = s->dim; k < s->p.nstate; k++) /* momentum, volume, mass */
-            y[k] *= room[i];
+            y[k] *= factor[i];
     }
-    mem_free(room);
+    mem_free(factor);
 }
 
 /* The volume that meshes and sides enclose, where the fluid fills it; 0: not known. */

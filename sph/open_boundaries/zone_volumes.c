@@ -22,32 +22,20 @@ static const double memory = 4.0;     /* R/c0: short against the way through the
 static const double most = 0.1;       /* deviations beyond it are no packing's */
 static const double least_room = 0.4; /* of the support: in narrower places sums say nothing */
 
-/* What walls leave of the supports; NULL: all. */
-static double *rooms_of(struct sph *s)
-{
-    if (!s->walls || !s->walls->model->rooms)
-        return NULL;
-    double *room = NEW(double, s->p.n);
-    for (int i = 0; i < s->p.n; i++)
-        room[i] = 1.0;
-    s->walls->model->rooms(s, room);
-    return room;
-}
-
 void zone_volumes_step(struct sph *s, double dt)
 {
     const struct zones *z = s->zones;
-    const double theta = fmin(1.0, dt * s->c0 / (memory * s->R)), lattice = kernel_lattice_sum(s),
-                 rim = z->buffer + z->transition;
     if (s->surface || s->prm.transport == TRANSPORT_NONE) /* streamlines alone make no packing */
         return;
-    double *room = rooms_of(s);
+    const double theta = fmin(1.0, dt * s->c0 / (memory * s->R)), lattice = kernel_lattice_sum(s),
+                 rim = z->buffer + z->transition;
+    double *room = walls_rooms(s);
     for (int i = 0; i < s->p.n; i++) {
         double *y = state_row(&s->p, s->p.y, i);
-        const double d = zones_depth(s, prim_line(&s->p, i)), free = room ? room[i] : 1.0;
-        if (d < s->R || d > rim || free < least_room)
+        const double d = zones_depth(s, prim_line(&s->p, i));
+        if (d < s->R || d > rim || room[i] < least_room)
             continue;
-        const double more = kernel_sum(s, i) / (free * lattice) - 1.0;
+        const double more = kernel_sum(s, i) / (room[i] * lattice) - 1.0;
         const double factor = fabs(more) < most ? 1.0 - theta * more : 1.0;
         for (int k = s->dim; k < s->p.nstate; k++) /* momentum, volume, mass */
             y[k] *= factor;

@@ -48,11 +48,7 @@ void volume_feedback_find(struct sph *s)
     if (!f->follows)
         return;
     const double lattice = kernel_lattice_sum(s);
-    double *room = NEW(double, s->p.n);
-    for (int i = 0; i < s->p.n; i++)
-        room[i] = 1.0;
-    if (s->walls && s->walls->model->rooms)
-        s->walls->model->rooms(s, room);
+    double *room = walls_rooms(s);
     for (int i = 0; i < s->p.n; i++) {
         const bool counts = f->is[i] == SURFACE_INNER && room[i] > least_room;
         const double more = counts ? f->change[i] / (room[i] * lattice) - 1.0 : 0.0;

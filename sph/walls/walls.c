@@ -404,6 +404,16 @@ void walls_put_back_inside(struct sph *s)
     }
 }
 
+double *walls_rooms(struct sph *s)
+{
+    double *room = NEW(double, s->p.n);
+    for (int i = 0; i < s->p.n; i++)
+        room[i] = 1.0;
+    if (s->walls && s->walls->model->rooms)
+        s->walls->model->rooms(s, room);
+    return room;
+}
+
 void walls_keep_mass(struct sph *s, int n, const int *who)
 {
     const size_t width = (size_t)s->p.nstate, mass = width - 1;

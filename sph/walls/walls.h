@@ -164,6 +164,9 @@ void walls_put_before(struct sph *s, int i, const struct wall_foot *f);
 bool walls_put_back(struct sph *s, int i);
 /* The same for all locals beyond a side that is a wall. */
 void walls_put_back_inside(struct sph *s);
+/* What walls leave of the locals' supports: sum w W over that of a lattice, [n], to be freed; 1 for
+ * all where the model of walls does not tell. After moments. */
+double *walls_rooms(struct sph *s);
 /* ALE near walls: dividing pair fluxes by gamma, or ghosts with the weight of a still column, take
  * from them their antisymmetry. What mass they so make or lose is given back to the particles
  * who[n] (NULL: all) in proportion to theirs. Collective. */
