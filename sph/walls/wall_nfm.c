@@ -240,9 +240,8 @@ static void slopes(struct sph *s)
 struct seen {
     const double *x, *u, *u0, *grho, *gu;
     double rho, p, c, w, damped;
-    bool in_air; /* a layer one particle thick, or less */
-    bool closes; /* see friction_weight */
-    double pairs[3], walls[3];
+    bool in_air;               /* a layer one particle thick, or less */
+    double pairs[3], walls[3]; /* 0: no wall here rubs; see friction_weight */
 };
 
 /* What the wall gives to a particle, over its volume. */
@@ -347,14 +346,17 @@ INLINE void close_friction(const struct sph *s, const struct wall_list *l, int k
                            const int dim)
 {
     const int who = l->who[k], *j = s->list->j + s->list->start[who];
+    const struct wall_touch *const first = l->touch + l->first[k], *const end =
+                                                                       l->touch + l->first[k + 1];
     bool no_slip = false;
-    for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
+    for (const struct wall_touch *t = first; t < end; t++)
         no_slip = no_slip || t->no_slip;
+    if (!no_slip)
+        return;
+    for (const struct wall_touch *t = first; t < end; t++)
         for (int a = 0; a < dim; a++)
             i->walls[a] += t->is.W * t->n[a];
-    }
-    i->closes = no_slip;
-    for (int b = 0; b < s->list->count[who] && no_slip; b++) {
+    for (int b = 0; b < s->list->count[who]; b++) {
         const double *y = prim_line(&s->p, j[b]);
         double d[3], r2 = 0.0;
         for (int a = 0; a < dim; a++) {
@@ -371,7 +373,7 @@ INLINE void close_friction(const struct sph *s, const struct wall_list *l, int k
 INLINE double friction_weight(const struct wall_touch *t, const struct seen *i, const int dim)
 {
     double pairs = 0.0, walls = 0.0;
-    for (int a = 0; a < dim && i->closes; a++) {
+    for (int a = 0; a < dim; a++) {
         pairs += i->pairs[a] * t->n[a];
         walls += i->walls[a] * t->n[a];
     }
