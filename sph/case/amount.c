@@ -1,5 +1,5 @@
 /* amount.c - see amount.h. A cell with filled cells all around is full; of the others, which shapes
- * or walls may cut, places on a lattice of their own are asked, SPLIT along each axis.
+ * or walls may cut, 64 places on a lattice of their own are asked.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "amount.h"
 
@@ -38,27 +38,19 @@ static void look_around(const struct sph *s, const struct lattice *l, int64_t ce
     }
 }
 
-static bool is_water(const struct sph *s, const struct exact *e, const double *x)
-{
-    for (int a = 0; a < s->dim; a++)
-        if (x[a] < s->lo[a] || x[a] > s->hi[a])
-            return false;
-    return scene_is_fluid(&s->run->scene, e, x, NULL) && scene_in_tanks(&s->run->scene, x) &&
-           scene_is_room(&s->run->scene, x);
-}
-
 /* Share of a cell that is water. */
 static double share_of(const struct sph *s, const struct exact *e, const double *centre)
 {
-    const int split = s->dim == 3 ? 4 : 8, places = (int)pow(split, s->dim);
+    enum { PLACES = 64 };
+    const int split = s->dim == 3 ? 4 : 8; /* along each axis */
     int n = 0;
-    for (int k = 0; k < places; k++) {
+    for (int k = 0; k < PLACES; k++) {
         double x[3] = {centre[0], centre[1], centre[2]};
         for (int a = 0, rest = k; a < s->dim; a++, rest /= split)
             x[a] += ((rest % split + 0.5) / split - 0.5) * s->dx;
-        n += is_water(s, e, x);
+        n += scene_is_fluid(&s->run->scene, e, x, NULL) && first_in_walls(s, x);
     }
-    return (double)n / places;
+    return (double)n / PLACES;
 }
 
 struct asked {

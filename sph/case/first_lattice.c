@@ -42,6 +42,14 @@ void first_clear_seams(struct sph *s)
         }
 }
 
+bool first_in_walls(const struct sph *s, const double *x)
+{
+    for (int a = 0; a < s->dim; a++)
+        if (x[a] <= s->lo[a] || x[a] >= s->hi[a])
+            return false;
+    return rooms_parted(s) || scene_is_room(&s->run->scene, x);
+}
+
 bool first_has_room(const struct sph *s, const double *x)
 {
     if (rooms_parted(s))

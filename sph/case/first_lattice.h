@@ -27,6 +27,9 @@ void first_lattice_each_own(struct sph *s, const struct lattice *l,
 /* Calls at for the cells in and around this rank's part of a domain: their centres, m. */
 void first_lattice_each_near(const struct sph *s, const struct domain *part,
                              void (*at)(const double *centre, double dx, void *ctx), void *ctx);
+/* Whether x is within the domain and the closed lines of its walls, and in no body; what parts
+ * rooms of meshes is not asked. */
+bool first_in_walls(const struct sph *s, const double *x);
 /* Whether walls and bodies leave room for a particle of this level at x. */
 bool first_has_room(const struct sph *s, const double *x);
 /* Adds the first particle at x with the velocity and pressure of the case there; volume: over

@@ -37,11 +37,7 @@ static bool has_fluid(const struct rows_water *w, const double *x)
 
 static bool has_walls(const struct rows_water *w, const double *x)
 {
-    for (int a = 0; a < w->s->dim; a++)
-        if (x[a] <= w->s->lo[a] || x[a] >= w->s->hi[a])
-            return true;
-    return !rooms_parted(w->s) &&
-           !(scene_in_tanks(&w->s->run->scene, x) && scene_is_room(&w->s->run->scene, x));
+    return !first_in_walls(w->s, x);
 }
 
 static bool is_wet(const struct rows_water *w, const double *x)
