@@ -265,9 +265,9 @@ static void pass_debts(struct sph *s)
     const double least = -openings_most_debt * s->rho0 * s->dxD;
     for (int f = 0; f < openings_faces(o); f++) {
         const double owed = least - o->mass[f];
-        const int to = owed > 0.0 ? openings_beside(o, f, 1.0) : f;
         if (owed <= 0.0)
             continue;
+        const int to = openings_beside(o, f, 1.0);
         o->mass[f] += owed;
         o->mass[to] -= owed;
     }

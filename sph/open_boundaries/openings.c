@@ -112,10 +112,10 @@ int openings_beside(const struct openings *o, int f, double sense)
     for (int k = 0; k < 2 * o->dim; k++) {
         const int b = k / 2, way = k % 2 ? 1 : -1;
         int I[3] = {0, 0, 0}, beside = side;
-        for (int a = 0; a < o->dim; a++)
-            I[a] = (int)floor((x[a] - o->lo[a]) / o->dx) + (a == b ? way : 0);
         if (b == side / 2)
             continue;
+        for (int a = 0; a < o->dim; a++)
+            I[a] = (int)floor((x[a] - o->lo[a]) / o->dx) + (a == b ? way : 0);
         if (o->bounded[b] && (I[b] < 0 || I[b] >= o->cells[b]) && o->open[2 * b + (way > 0)])
             beside = 2 * b + (way > 0);
         const int g = openings_face(o, beside, I);
