@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../../../common/base/mem.h"
+#include "../../../common/scene/exact.h"
 #include "../../../sph/bodies/body_check.h"
 #include "../../../sph/case/sph_params.h"
 #include "../../../sph/case/sph_state.h"
@@ -93,6 +94,28 @@ static inline double *sph_case_gather(const struct sph *s, int n)
         memcpy(all + (size_t)s->p.id[i] * row, s->p.y + (size_t)i * row, row * sizeof(double));
     MPI_Allreduce(MPI_IN_PLACE, all, n * (int)row, MPI_DOUBLE, MPI_SUM, s->run->comm);
     return all;
+}
+
+/* Root of the mean square, by mass, of what the velocity misses of the exact one: free particles of
+ * all levels and ranks, without guards. Collective. */
+static inline double velocity_error(const struct sph *s)
+{
+    const struct exact e = exact_create(&s->run->scene);
+    double sums[2] = {0.0, 0.0};
+    for (const struct sph *q = s; q; q = q->finer)
+        for (int i = 0; i < q->p.n; i++) {
+            const double *y = state_row(&q->p, q->p.y, i), m = y[at_mass(q->dim)];
+            const double x[3] = {y[0], y[1], q->dim == 3 ? y[2] : 0.0};
+            double u[3];
+            if (particles_is_guard(&q->p, i) || q->p.zone[i] != ZONE_FREE)
+                continue;
+            exact_point(&e, x, s->t, u, NULL, NULL);
+            for (int a = 0; a < q->dim; a++)
+                sums[0] += m * pow(y[q->dim + a] / m - u[a], 2.0);
+            sums[1] += m;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return sqrt(sums[0] / sums[1]);
 }
 
 #endif

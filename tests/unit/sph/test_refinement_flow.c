@@ -22,27 +22,6 @@ static void refine(double x0, double y0, double x1, double y1)
     memcpy(apr_given.regions.of[0].max, (double[2]){x1, y1}, 2 * sizeof(double));
 }
 
-/* Root of the mean square of u less the exact one, of all that flows. */
-static double error_of(const struct sph *s)
-{
-    const struct exact e = exact_create(&s->run->scene);
-    double sums[2] = {0.0, 0.0};
-    for (const struct sph *q = s; q; q = q->finer)
-        for (int i = 0; i < q->p.n; i++) {
-            const double *y = state_row(&q->p, q->p.y, i), m = y[at_mass(2)];
-            const double x[3] = {y[0], y[1], 0.0};
-            double u[3], p;
-            if (particles_is_guard(&q->p, i))
-                continue;
-            exact_point(&e, x, s->t, u, &p, NULL);
-            for (int a = 0; a < 2; a++)
-                sums[0] += m * (y[2 + a] / m - u[a]) * (y[2 + a] / m - u[a]);
-            sums[1] += m;
-        }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    return sqrt(sums[0] / sums[1]);
-}
-
 static double vortices(int scheme, int transport, bool refined)
 {
     struct sph_case c;
@@ -57,7 +36,7 @@ static double vortices(int scheme, int transport, bool refined)
     struct sph *s = sph_case_start(&c, NULL);
     assert_true((s->finer != NULL) == refined);
     assert_true(sph_case_run(&c, refined ? 40 : 20, 100.0));
-    const double error = error_of(s);
+    const double error = velocity_error(s);
     sph_free(&c.s);
     refine(0.0, 0.0, 0.0, 0.0);
     return error;

@@ -121,27 +121,6 @@ static void oblique_flow_leaves_no_clusters(void **state)
     check_flow(3, 0.8, 0.6, 0.45, 40);
 }
 
-/* Root of the mean square of u less the exact one over the free zone, or all of a domain without.
- * Collective. */
-static double error_inside(const struct sph *s)
-{
-    const struct exact e = exact_create(&s->run->scene);
-    double sums[2] = {0.0, 0.0};
-    for (int i = 0; i < s->p.n; i++) {
-        const double *y = state_row(&s->p, s->p.y, i), m = y[at_mass(2)];
-        const double x[3] = {y[0], y[1], 0.0};
-        double u[3];
-        if (s->p.zone[i] != ZONE_FREE)
-            continue;
-        exact_point(&e, x, s->t, u, NULL, NULL);
-        for (int a = 0; a < 2; a++)
-            sums[0] += pow(y[2 + a] / m - u[a], 2.0);
-        sums[1] += 1.0;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    return sqrt(sums[0] / sums[1]);
-}
-
 /* Vortices of Re 200 carried by (u, v), in a box with the exact flow outside or alone, L/dx 40. */
 static double carried(double u, double v, bool boxed)
 {
@@ -164,7 +143,7 @@ static double carried(double u, double v, bool boxed)
     c.s = s;
     while (s->t < 0.5)
         assert_true(sph_case_run(&c, 1, 0.5));
-    const double error = error_inside(s);
+    const double error = velocity_error(s);
     if (boxed)
         assert_close(total_mass(s), s->start.mass, 0.01 * s->start.mass);
     sph_free(&c.s);
