@@ -236,10 +236,10 @@ INLINE double oger_radius(const struct sph *s) { return 2.0 * s->dx < s->R ? 2.0
 
 /* u0 - u from the crowding vector without its constants. Whole-support law: -2 U R n, at most U/4.
  * Law of Oger [2.113-2.114]: -U n R_delta, at most |u|/4. */
-INLINE void shift(const struct sph *s, double *delta, const double *u, const double *n,
+INLINE void shift(const struct sph *s, int i, double *delta, const double *u, const double *n,
                   const int dim, const int transport)
 {
-    const double U = s->step.shift_speed;
+    const double U = scheme_shift_speed(s, i);
     const double R = transport == TRANSPORT_TVO ? oger_radius(s) : s->R;
     const double factor =
         (transport == TRANSPORT_TVO ? U : 2.0 * U) * R * s->dxD * kernel_dw_r(dim, 0.0, R);
@@ -274,7 +274,7 @@ INLINE void write_slope(const struct sph *s, const struct gradient_constants *c,
     for (int a = 0; a < dim && velocity; a++)
         renormalise(slope + dim + dim * a, t.u[a], B, c->kernel, dim);
     if (transport == TRANSPORT_TVS || transport == TRANSPORT_TVO)
-        shift(s, delta, u, t.n, dim, transport);
+        shift(s, i, delta, u, t.n, dim, transport);
     if (transport == TRANSPORT_XSPH)
         for (int a = 0; a < dim; a++)
             delta[a] = c->smoothed * t.n[a];

@@ -9,6 +9,7 @@
 
 #include "../pairs/neighbours.h"
 #include "../pairs/riemann_loops.h"
+#include "../pairs/scheme.h"
 #include "../surface/surface.h"
 
 enum { LINE_WEIGHT = 6, LINE_R = 7 };
@@ -78,9 +79,9 @@ static double smallest_eigenvalue(const double *M)
 }
 
 /* u0 - u: -2 U R times the crowding vector, U/4 at most. */
-static void shift(const struct sph *s, const double *n, double R, double *delta)
+static void shift(const struct sph *s, int i, const double *n, double R, double *delta)
 {
-    const double U = s->step.shift_speed, factor = -2.0 * U * slope_of_kernel / (R * R * R);
+    const double U = scheme_shift_speed(s, i), factor = -2.0 * U * slope_of_kernel / (R * R * R);
     double size2 = 0.0;
     for (int a = 0; a < 2; a++) {
         delta[a] = factor * n[a];
@@ -110,7 +111,7 @@ static void write_slopes(struct sph *s, int i, const struct mixed_moments *sum)
     }
     if (s->prm.transport == TRANSPORT_TVS) {
         const double n[2] = {vec_sum(sum->n[0]), vec_sum(sum->n[1])};
-        shift(s, n, R, delta);
+        shift(s, i, n, R, delta);
     }
     for (int a = 0; a < 2; a++)
         slope[6 + a] = own[2 + a] + delta[a];

@@ -9,6 +9,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
+#include "../pairs/scheme.h"
 #include "../walls/walls.h"
 #include "surface.h"
 
@@ -92,7 +93,6 @@ void transport_finish(struct sph *s)
         !s->packing && (oger || (s->surface && s->prm.scheme != SCHEME_RIEMANN_ALE));
     const double now = fmax(s->step.max_speed, s->nu / s->R);
     const bool bounded = !s->packing && s->walls && !s->surface && s->prm.scheme <= SCHEME_RIEMANN;
-    const double U = bounded ? fmin(s->step.shift_speed, now) : s->step.shift_speed;
     if (!oger && s->prm.transport != TRANSPORT_TVS)
         return;
     for (int i = 0; i < s->p.n; i++) {
@@ -107,6 +107,7 @@ void transport_finish(struct sph *s)
             size2 += delta[a] * delta[a];
             u2 += u[a] * u[a];
         }
+        const double whole = scheme_shift_speed(s, i), U = bounded ? fmin(whole, now) : whole;
         const double most2 = 0.0625 * (by_own ? u2 : U * U);
         const double bounded_share = size2 > most2 ? sqrt(most2 / size2) : 1.0;
         const double factor = bounded_share * (by_own ? share_with_levels(s, u2) : 1.0);

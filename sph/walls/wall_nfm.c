@@ -195,7 +195,7 @@ static void add_crowding(const struct sph *s, const struct nfm *m, int k)
     for (int a = 0; l->rim && a < dim; a++)
         sum[a] += l->rim[k][a];
     const double R = oger ? fmin(2.0 * s->dx, s->R) : s->R;
-    const double factor = (oger ? 1.0 : 2.0) * s->step.shift_speed * R;
+    const double factor = (oger ? 1.0 : 2.0) * scheme_shift_speed(s, l->who[k]) * R;
     const double gamma = fmax(l->gamma[k], least_gamma);
     double shift[3];
     for (int a = 0; a < dim; a++)

@@ -151,19 +151,20 @@ static double carried(double u, double v, bool boxed)
 }
 
 /* What comes in through open sides disturbs no more than SPH by itself errs. With volumes dx^D that
- * the packing did not have it was 2.3 times that. */
+ * the packing did not have it was 2.3 times that, with no more shift in the zones than elsewhere
+ * 1.2 times where the flow is swift. */
 static void vortices_come_in_undisturbed(void **state)
 {
     (void)state;
-    static const double of[][2] = {{0.6, 0.25}, {-1.5, 0.0}};
+    static const double of[][2] = {{0.6, 0.25}, {-1.5, 0.0}, {0.3, -2.0}};
     int ranks;
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    for (int k = 0; k < (SANITIZED ? 0 : ranks == 1 ? 2 : 1); k++) {
+    for (int k = 0; k < (SANITIZED ? 0 : ranks == 1 ? 3 : 1); k++) {
         const double alone = carried(of[k][0], of[k][1], false),
                      boxed = carried(of[k][0], of[k][1], true);
         print_message("carried by (%g, %g): %.5f in a box, %.5f alone\n", of[k][0], of[k][1], boxed,
                       alone);
-        assert_true(boxed <= 1.5 * alone);
+        assert_true(boxed <= alone);
     }
 }
 
