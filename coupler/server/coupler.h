@@ -127,6 +127,7 @@ struct coupler {
     double idle, bound;  /* s waited; simulated time of the next checkpoint */
     int64_t said;        /* coupling step that failure_doing knows */
     int64_t line_window; /* of the last progress line */
+    double first_end;    /* s: when the first coupling step of this run, and its start, was over */
     /* A solver tells of its restart file after it has ended the coupling step, when the next may be
      * under way; never two later. By window & 1. */
     struct save {

@@ -77,9 +77,9 @@ void report_progress(struct coupler *c)
     char line[LINE];
     const double now = wall_time(), elapsed = fmax(now - c->start, 1e-9);
     const int64_t done = c->window - c->first_window, left = c->nwindows - c->window;
-    if (now < c->line_at || done == 0 || c->window == c->line_window)
+    if (now < c->line_at || done < 2 || c->window == c->line_window)
         return;
-    const long s = lrint(elapsed / (double)done * (double)left);
+    const long s = lrint((now - c->first_end) / (double)(done - 1) * (double)left);
     int n = print(line, 0, "%9.4g/%g s  %3.0f %%  left %ld:%02ld", window_start(c, c->window),
                   c->t_end, 100.0 * (double)c->window / (double)c->nwindows, s / 60, s % 60);
     for (int i = 0; i < c->nsolvers; i++) {

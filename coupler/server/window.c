@@ -133,7 +133,8 @@ void window_advance(struct coupler *c, struct solver *s, struct message *m)
             return;
     for (int i = 0; i < c->nsolvers; i++) /* all waited for the last one */
         c->solver[i].waited_for[s - c->solver] += s->advanced_at - c->solver[i].advanced_at;
-    c->window++;
+    if (c->window++ == c->first_window)
+        c->first_end = wall_time();
     sums_window(c);
     window_announce(c);
 }
