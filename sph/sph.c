@@ -236,7 +236,10 @@ static void describe(const struct run *r)
     const struct apr_params *apr = apr_params_of(r);
     log_say("dt about %.3g s (%s), %.0f steps%s", dt, limit, steps,
             apr && apr->local_steps ? " of the finest level; coarser ones take fewer" : "");
-    forecast_say("sph", r->scene.domain.dim, all * pairs_of_particle(r), steps);
+    if (all >= 1.0)
+        forecast_say("sph", r->scene.domain.dim, all * pairs_of_particle(r), steps);
+    else
+        log_say("run time: not known, as there is no water at the start");
     if (r->coupled)
         windows_describe(r, prm);
     if (r->coupled)
