@@ -329,6 +329,20 @@ void refinement_adapt(struct sph *s)
     timer_stop(&s->run->timers, "levels");
 }
 
+/* A level whose regions hold water within R of their edges alone, round a body say, has guards and
+ * nothing that flows: it refines nothing. */
+static void warn_of_idle(const struct sph *q)
+{
+    int64_t count[2] = {0, 0};
+    for (int i = 0; i < q->p.n; i++)
+        count[particles_is_guard(&q->p, i)]++;
+    MPI_Allreduce(MPI_IN_PLACE, count, 2, MPI_INT64_T, MPI_SUM, q->run->comm);
+    if (count[0] == 0 && count[1] > 0)
+        log_warn("level %d refines nothing at the start: all its %lld particles are guards, which "
+                 "fill R = %.3g m from the edges of its regions; make them larger",
+                 q->level, (long long)count[1], q->R);
+}
+
 void refinement_begin(struct sph *s, void (*settle)(struct sph *level))
 {
     const struct regions *g = s->refinement->regions;
@@ -341,6 +355,8 @@ void refinement_begin(struct sph *s, void (*settle)(struct sph *level))
             settle(q);
         }
         adapt_level(g, q, false);
+        if (q->coarser)
+            warn_of_idle(q);
     }
 }
 

@@ -129,6 +129,15 @@ scene bowl 0.1 0.04 'max = (2, 1.2);' '(0, -9.81)' '{ points = ((0.4, 0.5), (0.6
 scene slant 0.1 0.04 'max = (1, 1.2);' '(-5, -7)' '{ side = "x_min"; }, { side = "y_min"; }' '{ form = "box"; box = ((0, 0), (0.4, 0.4)); }'
 for name in vat bowl slant; do runs $name; done
 
+# a region that a body fills but for the guards at its edges refines nothing, and says so; a larger one does
+scene idle 0.005 0.04 'max = (2, 1.2);' '(0, -9.81)' "$sides" '{ form = "box"; box = ((0, 0), (2, 1)); }' \
+    'bodies: ( { points = ((0.84, 0.4), (0.84, 0.72), (1.16, 0.72), (1.16, 0.4)); } ); apr: { regions = ( { min = (0.68, 0.24); max = (1.32, 0.88); } ); };'
+"$b/sph" idle.cfg -o idle >idle.txt 2>&1
+grep -q '^warning: level 1 refines nothing' idle.txt || bad "a level without particles that flow: no word" idle.txt
+sed 's/min = (0.68, 0.24); max = (1.32, 0.88)/min = (0.52, 0.08); max = (1.48, 1.04)/' idle.cfg >busy.cfg
+"$b/sph" busy.cfg -o busy >busy.txt 2>&1
+grep -q 'refines nothing' busy.txt && bad "a level with particles that flow is called idle" busy.txt
+
 # steps beyond the bound
 refused() { # ARGS: the step is beyond the bound
     "$b/sph" jets.cfg -o never "$@" >cfl.txt 2>&1
