@@ -38,7 +38,7 @@ $(B)/sph: $(B)/o/sph/sph.o $(B)/o/coupler/cpl_partner.o $(B)/libsph.a $(B)/libcp
 	@$(CC) $(SAN) -o $@ $^ $(ASSIMP_LIBS) $(LIBS)
 $(B)/fv: $(B)/o/fv/fv.o $(B)/o/coupler/cpl_partner.o $(B)/libfv.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
-	@$(CC) $(SAN) -o $@ $^ $(FV_LIBS) $(LIBS)
+	@$(CC) $(SAN) -o $@ $^ $(FV_LIBS) $(ASSIMP_LIBS) $(LIBS)
 $(B)/coupler: $(B)/o/coupler/coupler.o $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ $(LIBS)

@@ -7,6 +7,7 @@
 #include "../common/base/log.h"
 #include "../common/base/mem.h"
 #include "../common/run/forecast.h"
+#include "../common/scene/scene_mesh.h"
 #include "../common/scene/scene_openings.h"
 #include "../common/scene/scene_waves.h"
 #include "../coupler/cpl_partner.h"
@@ -199,6 +200,8 @@ static struct program fv_program = {.name = "fv",
                                     .groups = fv_groups,
                                     .ngroups = FV_GROUPS,
                                     .other_groups = others,
+                                    .meshes = scene_meshes_read,
+                                    .mesh_owners = 1u << MESH_OF_BODY,
                                     .check = fv_params_check,
                                     .describe = describe,
                                     .draw = draw,

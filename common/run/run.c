@@ -97,13 +97,17 @@ static void read_meshes(struct life *l)
 {
     struct run *r = &l->r;
     const bool partly = r->coupled && r->scene.has_sph;
-    for (enum mesh_owner owner = MESH_SHAPE; owner <= MESH_WALL; owner++)
-        if (!l->p->meshes ? owner == MESH_SHAPE || !partly : owner == MESH_SHAPE && r->coupled)
+    const bool reads = l->p->meshes && (!r->coupled || l->p->mesh_owners == MESH_OF_ALL);
+    for (enum mesh_owner owner = MESH_OF_SHAPE; owner <= MESH_OF_WALL; owner++) {
+        const bool known = reads && (l->p->mesh_owners >> owner & 1u);
+        if (owner == MESH_OF_SHAPE ? !known || r->coupled : !known && !partly)
             scene_meshes_refuse(&r->scene, owner, l->params,
                                 "surfaces of triangles are for sph in 3D, alone or, of walls and "
-                                "bodies, where it has its particles in a coupled job",
+                                "bodies, where it has its particles in a coupled job; fv alone "
+                                "takes bodies that are boxes",
                                 &l->faults);
-    if (l->p->meshes && l->faults.n == 0)
+    }
+    if (reads && l->faults.n == 0)
         l->p->meshes(&r->scene, r->case_dir, l->params, r->comm, &l->faults);
 }
 

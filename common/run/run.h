@@ -68,6 +68,8 @@ struct program {
      * a case that has some is refused. */
     void (*meshes)(struct scene *s, const char *case_dir, const struct params *p, MPI_Comm comm,
                    struct faults *f);
+    unsigned
+        mesh_owners; /* whose it knows, bits 1 << enum mesh_owner; in a coupled job all or none */
     /* Faults that need more than one key; may be NULL. */
     void (*check)(const struct run *r, struct faults *f);
     /* Lines of --check and of the banner: what the scene uses and leaves out, sizes, memory, time

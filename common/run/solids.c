@@ -10,7 +10,8 @@
 static bool extent(const struct scene *s, enum mesh_owner owner, int k, double lo[3], double hi[3])
 {
     const struct scene_mesh *m = scene_mesh_of(s, owner, k);
-    const struct param_points *p = owner == MESH_BODY ? &s->bodies[k].points : &s->walls[k].points;
+    const struct param_points *p =
+        owner == MESH_OF_BODY ? &s->bodies[k].points : &s->walls[k].points;
     for (int a = 0; a < 3; a++) {
         lo[a] = m ? m->lo[a] : INFINITY;
         hi[a] = m ? m->hi[a] : -INFINITY;
@@ -61,16 +62,16 @@ void solids_deal(struct run *r)
     struct scene *s = &r->scene;
     int n = 0;
     for (int k = 0; k < s->nwalls; k++) {
-        const bool away = solids_elsewhere(r, MESH_WALL, k);
-        number_mesh(s, MESH_WALL, k, away ? -1 : n);
+        const bool away = solids_elsewhere(r, MESH_OF_WALL, k);
+        number_mesh(s, MESH_OF_WALL, k, away ? -1 : n);
         if (!away)
             s->walls[n++] = s->walls[k];
     }
     s->nwalls = n;
     n = 0;
     for (int k = 0; k < s->nbodies; k++) {
-        const bool away = solids_elsewhere(r, MESH_BODY, k);
-        number_mesh(s, MESH_BODY, k, away ? -1 : n);
+        const bool away = solids_elsewhere(r, MESH_OF_BODY, k);
+        number_mesh(s, MESH_OF_BODY, k, away ? -1 : n);
         if (!away)
             s->bodies[n++] = s->bodies[k];
     }

@@ -247,8 +247,8 @@ static double place_of_cut(const struct scene *s, int axis)
     for (int k = 0; k < s->meshes->n; k++) {
         const struct scene_mesh *m = s->meshes->of + k;
         const double at = 0.5 * (m->lo[axis] + m->hi[axis]);
-        if (m->owner != MESH_SHAPE && m->fluid_side == FLUID_OUTSIDE && at > s->domain.min[axis] &&
-            at < s->domain.max[axis])
+        if (m->owner != MESH_OF_SHAPE && m->fluid_side == FLUID_OUTSIDE &&
+            at > s->domain.min[axis] && at < s->domain.max[axis])
             return axis < 2 ? at : 0.5 * (at + water);
     }
     return water;
@@ -345,9 +345,9 @@ static void section(struct picture *p)
         edges(p, &s->meshes->of[k].mesh);
     for (int k = 0; k < s->meshes->n; k++) {
         const struct scene_mesh *m = s->meshes->of + k;
-        if (m->owner == MESH_BODY)
+        if (m->owner == MESH_OF_BODY)
             cut_lines(p, m, PICTURE_BODY, cut);
-        else if (m->owner == MESH_WALL)
+        else if (m->owner == MESH_OF_WALL)
             cut_lines(p, m, kind_of(s->walls + m->index), cut);
     }
     fputs("</g>\n", p->f);

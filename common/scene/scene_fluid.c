@@ -119,7 +119,7 @@ bool scene_in_shape(const struct scene *s, const struct scene_shape *h, const do
     case SHAPE_DISC:
         return r2 < h->radius * h->radius;
     case SHAPE_MESH: {
-        const struct scene_mesh *m = scene_mesh_of(s, MESH_SHAPE, (int)(h - s->shapes));
+        const struct scene_mesh *m = scene_mesh_of(s, MESH_OF_SHAPE, (int)(h - s->shapes));
         return m && scene_mesh_holds(m, x);
     }
     default:

@@ -15,14 +15,14 @@
 
 const struct scene_surface *scene_surface_of(const struct scene *s, enum mesh_owner owner, int k)
 {
-    return owner == MESH_WALL   ? &s->walls[k].surface
-           : owner == MESH_BODY ? &s->bodies[k].surface
-                                : &s->shapes[k].surface;
+    return owner == MESH_OF_WALL   ? &s->walls[k].surface
+           : owner == MESH_OF_BODY ? &s->bodies[k].surface
+                                   : &s->shapes[k].surface;
 }
 
 int scene_mesh_owners(const struct scene *s, enum mesh_owner owner)
 {
-    return owner == MESH_WALL ? s->nwalls : owner == MESH_BODY ? s->nbodies : s->nshapes;
+    return owner == MESH_OF_WALL ? s->nwalls : owner == MESH_OF_BODY ? s->nbodies : s->nshapes;
 }
 
 void scene_mesh_key(enum mesh_owner owner, int k, char key[64])
@@ -34,7 +34,7 @@ void scene_mesh_key(enum mesh_owner owner, int k, char key[64])
 bool scene_has_meshes(const struct scene *s)
 {
     bool any = false;
-    for (enum mesh_owner owner = MESH_SHAPE; owner <= MESH_WALL; owner++)
+    for (enum mesh_owner owner = MESH_OF_SHAPE; owner <= MESH_OF_WALL; owner++)
         for (int k = 0; k < scene_mesh_owners(s, owner); k++)
             any = any || *scene_surface_of(s, owner, k)->mesh;
     return any;
@@ -61,7 +61,7 @@ const struct scene_mesh *scene_mesh_of(const struct scene *s, enum mesh_owner ow
 
 const struct trimesh *scene_body_mesh(const struct scene *s, int k)
 {
-    const struct scene_mesh *m = scene_mesh_of(s, MESH_BODY, k);
+    const struct scene_mesh *m = scene_mesh_of(s, MESH_OF_BODY, k);
     return m ? &m->mesh : NULL;
 }
 
@@ -104,8 +104,8 @@ enum scene_matter scene_matter(const struct scene *s, const struct exact *e, con
     for (int k = 0; s->meshes && k < s->meshes->n; k++) {
         const struct scene_mesh *m = s->meshes->of + k;
         const bool closed = m->mesh.closed;
-        if (m->index < 0 || m->owner == MESH_SHAPE ||
-            (!closed && m->owner == MESH_WALL && s->walls[m->index].thin))
+        if (m->index < 0 || m->owner == MESH_OF_SHAPE ||
+            (!closed && m->owner == MESH_OF_WALL && s->walls[m->index].thin))
             continue;
         if (closed && m->fluid_side == FLUID_OUTSIDE && !scene_mesh_holds(m, x))
             return MATTER_SOLID;

@@ -8,7 +8,8 @@
 
 struct summary;
 
-enum mesh_owner { MESH_SHAPE, MESH_BODY, MESH_WALL };
+enum mesh_owner { MESH_OF_SHAPE, MESH_OF_BODY, MESH_OF_WALL };
+enum { MESH_OF_ALL = 7 }; /* bits 1 << owner */
 
 /* Of walls and bodies the normals point out of the fluid, of shapes out of it as well. */
 struct scene_mesh {

@@ -25,7 +25,7 @@ struct reading {
 static void set_name(const struct scene *s, struct scene_mesh *m, const struct scene_surface *is)
 {
     const char *slash = strrchr(is->mesh, '/'), *from = slash ? slash + 1 : is->mesh;
-    if (m->owner == MESH_BODY)
+    if (m->owner == MESH_OF_BODY)
         from = s->bodies[m->index].name;
     int n = 0, same = 0;
     for (; from[n] && from[n] != '.' && n < 48; n++)
@@ -127,12 +127,12 @@ static bool is_sound(const struct reading *r, const struct scene_mesh *m, const 
                      "%s: a surface with one side only (Moebius): its normals cannot all point to "
                      "one. Make two surfaces of it",
                      file);
-    else if (!t->closed && m->owner != MESH_WALL)
+    else if (!t->closed && m->owner != MESH_OF_WALL)
         params_fault(r->p, r->f, m->key,
                      "%s: a %s must be closed, and %d edges have one triangle only, the first of "
                      "part %d at triangle %d, (%g, %g, %g) m. Close its holes; cracks close by a "
                      "larger weld",
-                     file, m->owner == MESH_BODY ? "body" : "shape", t->rims + t->junctions,
+                     file, m->owner == MESH_OF_BODY ? "body" : "shape", t->rims + t->junctions,
                      t->part[at] + 1, at + 1, x[0], x[1], x[2]);
     else
         return true;
@@ -250,8 +250,8 @@ static void orient(const struct reading *r, struct scene_mesh *m)
         m->parts = trimesh_orient_closed(&m->mesh, 1);
     if (!m->mesh.closed) {
         orient_open(r, m);
-    } else if (m->owner != MESH_WALL) {
-        m->fluid_side = m->owner == MESH_BODY ? FLUID_OUTSIDE : FLUID_INSIDE;
+    } else if (m->owner != MESH_OF_WALL) {
+        m->fluid_side = m->owner == MESH_OF_BODY ? FLUID_OUTSIDE : FLUID_INSIDE;
     } else {
         m->fluid_side = FLUID_INSIDE;
         const int wanted = r->s->walls[m->index].fluid_side;
@@ -342,10 +342,10 @@ static void read_one(const struct reading *r, enum mesh_owner owner, int k,
     orient(r, m);
     measure(r, m);
     r->s->meshes->n++;
-    if (owner == MESH_BODY)
+    if (owner == MESH_OF_BODY)
         r->s->bodies[k].mesh = m;
     check_domain(r, m, is->mesh);
-    if (owner == MESH_WALL)
+    if (owner == MESH_OF_WALL)
         check_pumping(r, m);
 }
 
@@ -357,7 +357,8 @@ void scene_meshes_read(struct scene *s, const char *case_dir, const struct param
     if (!scene_has_meshes(s))
         return;
     s->meshes = NEW(struct scene_meshes, 1);
-    for (enum mesh_owner owner = MESH_SHAPE; owner <= MESH_WALL; owner++) /* walls look at shapes */
+    for (enum mesh_owner owner = MESH_OF_SHAPE; owner <= MESH_OF_WALL;
+         owner++) /* walls look at shapes */
         for (int k = 0; k < scene_mesh_owners(s, owner); k++)
             if (*scene_surface_of(s, owner, k)->mesh)
                 read_one(&r, owner, k, scene_surface_of(s, owner, k));

@@ -118,7 +118,7 @@ static double body_speed(const struct scene *s)
     double speed = 0.0;
     for (int k = 0; k < s->nbodies; k++) {
         const struct scene_body *b = s->bodies + k;
-        const struct scene_mesh *mesh = scene_mesh_of(s, MESH_BODY, k);
+        const struct scene_mesh *mesh = scene_mesh_of(s, MESH_OF_BODY, k);
         double reach = 0.0, centre[3];
         body_centre(b, mesh, centre);
         for (int i = 0; i < b->points.n; i++)
@@ -170,7 +170,7 @@ static double shape_top(const struct scene *s, const double *g, const struct sce
         lo[a] = h->centre[a] - h->radius;
         hi[a] = h->centre[a] + h->radius;
     }
-    const struct scene_mesh *mesh = scene_mesh_of(s, MESH_SHAPE, (int)(h - s->shapes));
+    const struct scene_mesh *mesh = scene_mesh_of(s, MESH_OF_SHAPE, (int)(h - s->shapes));
     if (mesh) {
         memcpy(lo, mesh->lo, sizeof lo);
         memcpy(hi, mesh->hi, sizeof hi);
@@ -196,7 +196,7 @@ static void room_of(const struct scene *s, double lo[3], double hi[3])
         sides = sides || s->walls[k].side != SIDE_NONE;
     for (int k = 0; !sides && k < s->meshes->n; k++) {
         const struct scene_mesh *m = s->meshes->of + k;
-        if (m->owner != MESH_WALL || m->fluid_side != FLUID_INSIDE)
+        if (m->owner != MESH_OF_WALL || m->fluid_side != FLUID_INSIDE)
             continue;
         for (int a = 0; a < 3; a++) {
             lo[a] = any ? fmin(lo[a], m->lo[a]) : m->lo[a];
@@ -338,7 +338,7 @@ static double shortest(const struct scene *s)
         }
     for (int k = 0; s->meshes && k < s->meshes->n; k++) {
         const struct scene_mesh *m = s->meshes->of + k;
-        for (int a = 0; a < 3 && m->owner != MESH_SHAPE; a++)
+        for (int a = 0; a < 3 && m->owner != MESH_OF_SHAPE; a++)
             least = m->mesh.closed ? fmin(least, m->hi[a] - m->lo[a]) : least;
     }
     return least;

@@ -17,6 +17,7 @@ struct blocked_params {
     char name[PARAM_TEXT_SIZE];
     double min[3], max[3]; /* m */
     int kind;              /* WALL_SLIP or WALL_NO_SLIP */
+    int body;              /* 1 + number of the body that it is; 0: of the list blocked */
 };
 
 enum blocked_ghost { GHOST_EVEN, GHOST_ODD, GHOST_NO_SLIP, GHOST_LINEAR };

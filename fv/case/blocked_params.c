@@ -42,26 +42,31 @@ static void fault(const struct run *r, struct faults *f, int k, const char *key,
     va_start(args, fmt);
     vsnprintf(text, sizeof text, fmt, args);
     va_end(args);
-    snprintf(path, sizeof path, "blocked.[%d].%s", k, key);
-    params_fault(r->params, f, path, "box \"%s\": %s", blocked_given[k].name, text);
+    const struct blocked_params *box = fv_params_of(r)->boxes + k;
+    if (box->body > 0)
+        snprintf(path, sizeof path, "bodies.[%d]", box->body - 1);
+    else
+        snprintf(path, sizeof path, "blocked.[%d].%s", k, key);
+    params_fault(r->params, f, path, "box \"%s\": %s", box->name, text);
 }
 
 void blocked_describe(const struct run *r)
 {
     const struct scene_domain *d = &r->scene.domain;
-    for (int k = 0; k < blocked_given_count; k++) {
+    const struct fv_params *prm = fv_params_of(r);
+    for (int k = 0; k < prm->nboxes; k++) {
         int lo[3], hi[3];
         char text[200] = "";
         double off = 0.0;
-        blocked_cells(&r->scene.domain, fv_params_of(r), k, lo, hi);
+        blocked_cells(&r->scene.domain, prm, k, lo, hi);
         for (int a = 0; a < d->dim; a++) {
             const double h = spacing(r, a), x = d->min[a] + lo[a] * h, y = d->min[a] + hi[a] * h;
-            off = fmax(off, fabs(fmax(blocked_given[k].min[a], d->min[a]) - x) / h);
-            off = fmax(off, fabs(fmin(blocked_given[k].max[a], d->max[a]) - y) / h);
+            off = fmax(off, fabs(fmax(prm->boxes[k].min[a], d->min[a]) - x) / h);
+            off = fmax(off, fabs(fmin(prm->boxes[k].max[a], d->max[a]) - y) / h);
             const size_t n = strlen(text);
             snprintf(text + n, sizeof text - n, "%s%g to %g", a ? " x " : "", x, y);
         }
-        log_say("box \"%s\": %s m%s", blocked_given[k].name, text,
+        log_say("box \"%s\": %s m%s", prm->boxes[k].name, text,
                 off > 1e-6 ? ", the nearest faces of cells" : "");
     }
 }
@@ -100,7 +105,7 @@ static struct coarse make_coarse(const struct run *r)
         g.edge[a][0] = 0;
         add_edge(&g, a, a < r->scene.domain.dim ? fv_params_of(r)->cells[a] : 1);
     }
-    for (int k = 0; k < blocked_given_count; k++) {
+    for (int k = 0; k < fv_params_of(r)->nboxes; k++) {
         blocked_cells(&r->scene.domain, fv_params_of(r), k, lo[k], hi[k]);
         for (int a = 0; a < 3; a++) {
             add_edge(&g, a, lo[k][a]);
@@ -110,7 +115,7 @@ static struct coarse make_coarse(const struct run *r)
     g.box = NEW(int, g.n[0] * g.n[1] * g.n[2]);
     for (int c = 0; c < g.n[0] * g.n[1] * g.n[2]; c++) {
         const int i[3] = {c % g.n[0], c / g.n[0] % g.n[1], c / (g.n[0] * g.n[1])};
-        for (int k = 0; k < blocked_given_count; k++) {
+        for (int k = 0; k < fv_params_of(r)->nboxes; k++) {
             bool in = true;
             for (int a = 0; a < 3; a++)
                 in = in && g.edge[a][i[a]] >= lo[k][a] && g.edge[a][i[a]] < hi[k][a];
@@ -125,7 +130,8 @@ static bool has_friction(const struct run *r, int a, int up, int box)
 {
     const struct scene_wall *w =
         scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + 2 * a + up));
-    return box > 0 ? blocked_given[box - 1].kind == WALL_NO_SLIP : w && w->kind == WALL_NO_SLIP;
+    return box > 0 ? fv_params_of(r)->boxes[box - 1].kind == WALL_NO_SLIP
+                   : w && w->kind == WALL_NO_SLIP;
 }
 
 /* Ghosts are made of three cells: so wide at least must be what lies between a box and another, or
@@ -191,9 +197,10 @@ static void check_whole(const struct run *r, const struct coarse *g, struct faul
     for (int c = 0; c < n; c++)
         left += g->box[c] == 0;
     if (tail == 0)
-        params_fault(r->params, f, "blocked", "nothing is left of the domain");
+        params_fault(r->params, f, blocked_given_count > 0 ? "blocked" : "bodies",
+                     "nothing is left of the domain");
     else if (left > 0 && !surface_wanted(r))
-        params_fault(r->params, f, "blocked",
+        params_fault(r->params, f, blocked_given_count > 0 ? "blocked" : "bodies",
                      "the boxes cut the domain into separate parts: each would need a pressure of "
                      "its own; run them one by one, or leave a gap of %d cells",
                      BLOCKED_GAP);
@@ -228,7 +235,7 @@ static void check_sides(const struct run *r, int k, const int *lo, const int *hi
 static bool check_box(const struct run *r, int k, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
-    const struct blocked_params *p = blocked_given + k;
+    const struct blocked_params *p = fv_params_of(r)->boxes + k;
     const int before = f->n;
     int lo[3], hi[3];
     blocked_cells(&r->scene.domain, fv_params_of(r), k, lo, hi);
@@ -244,7 +251,7 @@ static bool check_box(const struct run *r, int k, struct faults *f)
             r, f, k, "kind",
             "without viscosity (fluid.nu) it exerts no friction: kind = \"slip\", or a viscosity");
     for (int q = 0; q < k; q++)
-        if (strcmp(p->name, blocked_given[q].name) == 0)
+        if (strcmp(p->name, fv_params_of(r)->boxes[q].name) == 0)
             fault(r, f, k, "name", "another box has this name");
     if (f->n == before)
         check_sides(r, k, lo, hi, f);
@@ -267,32 +274,33 @@ static void check_mode(const struct run *r, struct faults *f)
 {
     const struct fv_params *prm = fv_params_of(r);
     const int field = r->scene.initial.field;
+    const char *group = blocked_given_count > 0 ? "blocked" : "bodies";
     if (mesh_given_count > 0)
-        params_fault(r->params, f, "blocked",
+        params_fault(r->params, f, group,
                      "not with blocks: leave them out there, and give their sides kinds");
     if (r->coupled)
-        params_fault(r->params, f, "blocked", "not in a coupled job: use bodies");
+        params_fault(r->params, f, group, "not in a coupled job: use bodies");
     if (prm->integrator == INTEGRATOR_NEWTON)
-        params_fault(r->params, f, "blocked", "not with newton: fv.integrator = \"rk3\"");
+        params_fault(r->params, f, group, "not with newton: fv.integrator = \"rk3\"");
     if (prm->graded[1] > 0.0)
-        params_fault(r->params, f, "blocked", "not with graded layers (fv.graded)");
+        params_fault(r->params, f, group, "not with graded layers (fv.graded)");
     if (prm->hole[1][0] > prm->hole[0][0])
-        params_fault(r->params, f, "blocked", "not with fv.hole");
+        params_fault(r->params, f, group, "not with fv.hole");
     if (field != FIELD_REST && field != FIELD_UNIFORM)
         params_fault(r->params, f, "initial.field",
-                     "its exact solution has no boxes: \"rest\" or \"uniform\" with blocked");
+                     "its exact solution has no boxes: \"rest\" or \"uniform\" with them");
 }
 
 void blocked_check(const struct run *r, struct faults *f)
 {
     const int before = f->n;
     bool good = true;
-    if (blocked_given_count == 0)
+    if (fv_params_of(r)->nboxes == 0)
         return;
     check_mode(r, f);
     for (int a = 0; a < r->scene.domain.dim; a++)
         good = good && fv_params_of(r)->cells[a] > 0;
-    for (int k = 0; k < blocked_given_count && f->n == before && good; k++)
+    for (int k = 0; k < fv_params_of(r)->nboxes && f->n == before && good; k++)
         good = check_box(r, k, f);
     if (f->n > before || !good)
         return;

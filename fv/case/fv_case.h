@@ -12,6 +12,8 @@ extern const struct param_group fv_groups[FV_GROUPS];
 /* The case's parameters with what follows from them; they last as long as the program. case/ and
  * the main program alone ask for them, all others get them. */
 const struct fv_params *fv_params_of(const struct run *r);
+/* Boxes that are cut out of the cells: of the list blocked, and bodies. */
+int fv_params_nboxes(const struct run *r);
 /* Whether the scene has a free surface that fv computes. */
 bool surface_wanted(const struct run *r);
 void fv_params_check(const struct run *r, struct faults *f);

@@ -2,6 +2,7 @@
 #include "../fv.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "../../common/base/mem.h"
 #include "../boundary/blocked.h"
@@ -10,6 +11,7 @@
 #include "../grid/rows.h"
 #include "../surface/levelset.h"
 #include "../watch/limits.h"
+#include "body_boxes.h"
 #include "fv_case.h"
 
 static struct fv_params given;
@@ -45,8 +47,9 @@ const struct param_group fv_groups[FV_GROUPS] = {
      "Structured blocks instead of fv.cells, joined or overlapping; later ones cover earlier ones",
      mesh_rows_of, MESH_ROWS, mesh_given, NULL, sizeof mesh_given[0], MESH_BLOCKS_MAX,
      &mesh_given_count},
-    {"blocked", "Boxes that are cut out of fv.cells: bodies at rest", blocked_rows, BLOCKED_ROWS,
-     blocked_given, NULL, sizeof blocked_given[0], BLOCKED_MAX, &blocked_given_count}};
+    {"blocked", "Boxes that are cut out of fv.cells, as bodies at rest that are boxes are",
+     blocked_rows, BLOCKED_ROWS, blocked_given, NULL, sizeof blocked_given[0], BLOCKED_MAX,
+     &blocked_given_count}};
 
 bool surface_wanted(const struct run *r)
 {
@@ -56,6 +59,15 @@ bool surface_wanted(const struct run *r)
     return r->crossed || (!r->coupled && (c->nshapes > 0 || scene_has_wave(c)));
 }
 
+/* Of the list blocked, then those that bodies are. */
+static struct blocked_params boxes[BLOCKED_MAX];
+
+int fv_params_nboxes(const struct run *r)
+{
+    memcpy(boxes, blocked_given, sizeof blocked_given);
+    return body_boxes(r, boxes, blocked_given_count);
+}
+
 const struct fv_params *fv_params_of(const struct run *r)
 {
     given.water = surface_wanted(r);
@@ -63,8 +75,8 @@ const struct fv_params *fv_params_of(const struct run *r)
     for (int k = 0; k < mesh_given_count; k++)
         mesh_given[k].number = k;
     given.blocks = (struct mesh_blocks){mesh_given_count, mesh_given};
-    given.nboxes = blocked_given_count;
-    given.boxes = blocked_given;
+    given.nboxes = fv_params_nboxes(r);
+    given.boxes = boxes;
     return &given;
 }
 

@@ -13,6 +13,7 @@
 #include "../grid/rows.h"
 #include "../output/output.h"
 #include "../surface/levelset.h"
+#include "body_boxes.h"
 #include "fv_case.h"
 
 /* Whether the run leaves the key out; k: element of a list. */
@@ -63,7 +64,7 @@ static bool some_block_has(enum mesh_side kind)
 bool fv_measures_errors(const struct run *r)
 {
     if (mesh_given_count == 0)
-        return exact_at_all_times(&r->scene) && !surface_wanted(r) && blocked_given_count == 0;
+        return exact_at_all_times(&r->scene) && !surface_wanted(r) && fv_params_nboxes(r) == 0;
     if (mesh_ring(r))
         return true;
     return exact_at_all_times(&r->scene) && r->scene.nwalls == 0 && !some_block_has(MESH_WALL) &&
@@ -78,7 +79,7 @@ static bool pressure_unseen(const struct run *r)
     const struct scene *s = &r->scene;
     const bool pictures =
         s->output.snapshots || params_on_command_line(r->params, "output.snapshots");
-    bool walls = some_block_has(MESH_WALL) || blocked_given_count > 0;
+    bool walls = some_block_has(MESH_WALL) || fv_params_nboxes(r) > 0;
     for (int k = 0; k < s->nwalls; k++)
         walls = walls || s->walls[k].kind == WALL_SLIP || s->walls[k].kind == WALL_NO_SLIP;
     return !walls && s->nprobes == 0 && !(pictures && fv_field_wanted(r, "pressure"));
@@ -379,13 +380,19 @@ static void apply(const struct run *r, const struct rule *rule, struct faults *f
 /* Elements of lists of which nothing is used. */
 static void check_elements(const struct run *r, struct faults *f)
 {
+    static const char *const of_others[] = {"centre", "force", "contact"};
     const struct scene *s = &r->scene;
-    char key[32];
+    char key[64];
     for (int k = 0; k < s->nbodies; k++) {
+        struct blocked_params box;
+        const char *why = body_box(r, k, &box);
         snprintf(key, sizeof key, "bodies.[%d]", k);
-        params_fault(r->params, f, key,
-                     "is not used: fv has no bodies; a body that rests can be a block's side "
-                     "(blocks.i_min = \"wall\"), others are for sph");
+        if (why)
+            params_fault(r->params, f, key, "is not used: %s", why);
+        for (size_t i = 0; !why && i < sizeof of_others / sizeof of_others[0]; i++) {
+            snprintf(key, sizeof key, "bodies.[%d].%s", k, of_others[i]);
+            params_unused(r->params, f, key, false, "fv has the force on a box alone");
+        }
     }
     for (int k = 0; k < s->nshapes && dry(r, 0); k++) {
         snprintf(key, sizeof key, "shapes.[%d]", k);

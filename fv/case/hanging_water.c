@@ -43,7 +43,7 @@ void surface_check_hanging(const struct run *r, struct faults *f)
     const struct scene *s = &r->scene;
     const struct scene_domain *d = &s->domain;
     const int up = axis_of_gravity(s), one = up == 0 ? 1 : 0, other = up == 2 ? 1 : 2;
-    if (up < 0 || mesh_given_count > 0 || blocked_given_count > 0 || r->coupled)
+    if (up < 0 || mesh_given_count > 0 || fv_params_nboxes(r) > 0 || r->coupled)
         return;
     const struct exact e = exact_create(s);
     const bool down = s->fluid.gravity[up] > 0.0;

@@ -262,7 +262,7 @@ static void check_start3(const struct run *r, const struct sph_params *used, int
 {
     const struct scene *c = &r->scene;
     const struct scene_body *b = c->bodies + k;
-    const struct scene_mesh *m = scene_mesh_of(c, MESH_BODY, k);
+    const struct scene_mesh *m = scene_mesh_of(c, MESH_OF_BODY, k);
     const double gap = scene_contact_of(b).gap * used->dx * (1.0 - 1e-6),
                  least = b->hinge.n > 0 ? gap : -1e-6 * used->dx; /* as check_contacts */
     double at[3] = {0.0, 0.0, 0.0}, size = 0.0;
@@ -278,8 +278,8 @@ static void check_start3(const struct run *r, const struct sph_params *used, int
     }
     for (int j = 0; j < c->meshes->n; j++) {
         const struct scene_mesh *n = c->meshes->of + j;
-        if (n == m || n->owner == MESH_SHAPE ||
-            (n->owner == MESH_BODY && c->bodies[n->index].free && n->index > k))
+        if (n == m || n->owner == MESH_OF_SHAPE ||
+            (n->owner == MESH_OF_BODY && c->bodies[n->index].free && n->index > k))
             continue;
         const double d = mesh_distance(b, m, n, (const double[2]){gap, fmax(size, gap)}, at);
         snprintf(what, sizeof what, "%s", n->name);
@@ -459,7 +459,7 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
     for (int k = 0; k < c->nbodies && plane; k++) {
         all[k].line = line_of(&c->bodies[k].points, true);
         all[k].line.x = (const double(*)[2])now[k].x;
-        all[k].elsewhere = solids_elsewhere(r, MESH_BODY, k);
+        all[k].elsewhere = solids_elsewhere(r, MESH_OF_BODY, k);
     }
     for (int k = 0; k < c->nbodies; k++)
         speed = fmax(speed, body_drive_speed(&bodies[k].drive, bodies[k].reach, c->time.end));

@@ -51,7 +51,7 @@ static bool is_stopped(const struct scene *c, const double *x, const double *d)
     }
     for (int k = 0; c->meshes && k < c->meshes->n && !met; k++) {
         const struct scene_mesh *m = c->meshes->of + k;
-        met = m->owner != MESH_SHAPE && tree_crosses(m->tree, x, to, NULL);
+        met = m->owner != MESH_OF_SHAPE && tree_crosses(m->tree, x, to, NULL);
     }
     return met;
 }

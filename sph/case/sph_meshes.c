@@ -21,7 +21,7 @@ static const char *file_of(const struct scene *c, const struct scene_mesh *m)
 
 static bool is_thin(const struct scene *c, const struct scene_mesh *m)
 {
-    return m->owner == MESH_WALL ? c->walls[m->index].thin : c->bodies[m->index].thin;
+    return m->owner == MESH_OF_WALL ? c->walls[m->index].thin : c->bodies[m->index].thin;
 }
 
 static void check_size(const struct run *r, const struct scene_mesh *m, double dx, struct faults *f)
@@ -69,7 +69,7 @@ static struct facing look_across(const struct scene_meshes *all, const struct sc
     }
     for (int k = 0; k < all->n; k++) {
         double at;
-        if (all->of[k].owner == MESH_SHAPE || !tree_crosses(all->of[k].tree, f.from, end, &at) ||
+        if (all->of[k].owner == MESH_OF_SHAPE || !tree_crosses(all->of[k].tree, f.from, end, &at) ||
             at >= least)
             continue;
         least = at;
@@ -132,7 +132,7 @@ static void check_probes(const struct run *r, const struct scene_mesh *m, double
     const struct scene *c = &r->scene;
     for (int k = 0; k < c->nprobes && m->mesh.closed; k++) {
         const struct scene_probe *g = c->probes + k;
-        const double least = m->owner == MESH_BODY ? 1e-6 * dx : dx;
+        const double least = m->owner == MESH_OF_BODY ? 1e-6 * dx : dx;
         char key[64];
         if (g->kind != PROBE_PRESSURE || scene_mesh_holds(m, g->at) ||
             fabs(tree_nearest(m->tree, g->at, INFINITY).distance) <= least)
@@ -151,7 +151,7 @@ void sph_meshes_check(const struct run *r, const struct sph_params *used, struct
     for (int k = 0; c->meshes && k < c->meshes->n; k++) {
         const struct scene_mesh *m = c->meshes->of + k;
         check_size(r, m, used->dx, f);
-        if (m->owner == MESH_SHAPE || f->n > 0)
+        if (m->owner == MESH_OF_SHAPE || f->n > 0)
             continue;
         check_thin(r, m, used, f);
         check_probes(r, m, used->dx, f);
@@ -192,7 +192,7 @@ static void warn_pairs(const struct run *r)
             const struct scene_mesh *a = all->of + k, *b = all->of + q;
             int first;
             double x[3];
-            if (a->owner == MESH_SHAPE || b->owner == MESH_SHAPE)
+            if (a->owner == MESH_OF_SHAPE || b->owner == MESH_OF_SHAPE)
                 continue;
             const int n = trimesh_crossings(&a->mesh, b->tree, &b->mesh, r->comm, &first);
             if (n == 0)
@@ -210,7 +210,7 @@ void sph_meshes_warn(const struct run *r, const struct sph_params *used)
     const double dx = used->dx;
     for (int k = 0; c->meshes && k < c->meshes->n; k++) {
         const struct scene_mesh *m = c->meshes->of + k;
-        if (m->owner == MESH_SHAPE)
+        if (m->owner == MESH_OF_SHAPE)
             continue;
         if (m->sizes.mean < 0.3 * dx)
             log_warn("mesh %s: edges of %.3g m on average, finer than the particles (sph.dx = %g "

@@ -121,7 +121,7 @@ static bool has_tank(const struct scene *c)
 {
     bool any = false;
     for (int k = 0; k < c->nwalls; k++) {
-        const struct scene_mesh *m = scene_mesh_of(c, MESH_WALL, k);
+        const struct scene_mesh *m = scene_mesh_of(c, MESH_OF_WALL, k);
         const bool holds = m ? m->fluid_side == FLUID_INSIDE : !is_island(c->walls + k);
         any = any || (c->walls[k].side == SIDE_NONE && holds);
     }

@@ -80,7 +80,7 @@ void coupling_check_bodies(const struct run *r, const struct sph_params *prm, st
     for (int k = 0; k < r->scene.nbodies; k++) {
         char key[32];
         const double when =
-            solids_elsewhere(r, MESH_BODY, k) ? INFINITY : leaves(r, prm, k, given, open);
+            solids_elsewhere(r, MESH_OF_BODY, k) ? INFINITY : leaves(r, prm, k, given, open);
         snprintf(key, sizeof key, "bodies.[%d]", k);
         if (when < INFINITY)
             params_fault(r->params, f, key,
@@ -150,10 +150,10 @@ void coupling_check_walls(const struct run *r, const struct sph_params *prm, str
     sph_params_open(r, prm, open);
     for (int k = 0; k < r->scene.nwalls; k++) {
         const struct scene_wall *line = r->scene.walls + k;
-        const struct scene_mesh *mesh = scene_mesh_of(&r->scene, MESH_WALL, k);
+        const struct scene_mesh *mesh = scene_mesh_of(&r->scene, MESH_OF_WALL, k);
         char key[64];
         snprintf(key, sizeof key, "walls.[%d].%s", k, mesh ? "mesh" : "points");
-        if (solids_elsewhere(r, MESH_WALL, k))
+        if (solids_elsewhere(r, MESH_OF_WALL, k))
             continue;
         if ((line->points.n > 1 && !params_has_group(r->params, "blocks") && /* fv looks at them */
              line_leaves(r, line, box, open, 0.5 * prm->dx, at)) ||
@@ -173,7 +173,7 @@ void coupling_warn(const struct run *r, const struct sph_params *prm)
     coupling_hidden(r, prm, near);
     sph_params_open(r, prm, open);
     for (int k = 0; k < r->scene.nbodies; k++)
-        if (!solids_elsewhere(r, MESH_BODY, k) && leaves(r, prm, k, near, open) < INFINITY)
+        if (!solids_elsewhere(r, MESH_OF_BODY, k) && leaves(r, prm, k, near, open) < INFINITY)
             log_warn(
                 "body `%s' comes within two cells of fv of what fv takes from sph: it mixes the "
                 "particles on all its sides there; enlarge sph.box, or refine fv.cells",

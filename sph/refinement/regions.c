@@ -72,7 +72,7 @@ static bool is_solid(const struct regions *g, const double *x)
     const struct scene *c = &g->run->scene;
     bool solid = false;
     for (int k = 0; k < c->nwalls && !solid; k++) {
-        const struct scene_mesh *m = scene_mesh_of(c, MESH_WALL, k);
+        const struct scene_mesh *m = scene_mesh_of(c, MESH_OF_WALL, k);
         const struct line l = line_of(&c->walls[k].points, true);
         if (m)
             solid = m->mesh.closed && !scene_mesh_holds(m, x);
@@ -111,7 +111,7 @@ static bool has_closed_walls(const struct regions *g)
     const struct scene *c = &g->run->scene;
     bool any = false;
     for (int k = 0; k < c->nwalls; k++)
-        any = any || c->walls[k].closed || scene_mesh_of(c, MESH_WALL, k);
+        any = any || c->walls[k].closed || scene_mesh_of(c, MESH_OF_WALL, k);
     return any;
 }
 
@@ -284,7 +284,7 @@ static void add_shells(struct regions *g)
         const int n = g->shell_of[k] = g->nshells++;
         const int index = body ? region_body(c, is->body) : is->wall - 1;
         g->body_of[n] = body ? index : -1;
-        g->shells[n] = shell_create(c, body ? MESH_BODY : MESH_WALL, index, widest(g, k));
+        g->shells[n] = shell_create(c, body ? MESH_OF_BODY : MESH_OF_WALL, index, widest(g, k));
     }
 }
 

@@ -29,7 +29,7 @@ static void strip(struct trimesh *m, const struct param_points *p, bool closed, 
 
 struct shell shell_create(const struct scene *s, enum mesh_owner owner, int index, double reach)
 {
-    const bool body = owner == MESH_BODY;
+    const bool body = owner == MESH_OF_BODY;
     const struct scene_mesh *file = scene_mesh_of(s, owner, index);
     struct shell to = {.dim = s->domain.dim};
     if (file) {

@@ -133,7 +133,7 @@ static struct trimesh triangles_of(const struct sph *s, int side)
     }
     is.at = is.high ? s->hi[is.axis] : s->lo[is.axis];
     for (int k = 0; c->meshes && k < c->meshes->n; k++)
-        if (c->meshes->of[k].owner == MESH_WALL && !c->walls[c->meshes->of[k].index].thin)
+        if (c->meshes->of[k].owner == MESH_OF_WALL && !c->walls[c->meshes->of[k].index].thin)
             cover[n++] = c->meshes->of[k].tree;
     return wall_cover_side(&is, n, cover, s->dx);
 }
@@ -275,10 +275,10 @@ static void add_lent(struct sph *s, struct walls *w)
     const struct scene *c = &s->run->scene;
     for (int k = 0; c->meshes && k < c->meshes->n; k++) {
         const struct scene_mesh *is = c->meshes->of + k;
-        if (is->owner == MESH_SHAPE)
+        if (is->owner == MESH_OF_SHAPE)
             continue;
         struct wall_mesh *m = add_mesh(w);
-        const bool body = is->owner == MESH_BODY;
+        const bool body = is->owner == MESH_OF_BODY;
         m->mesh = is->mesh;
         m->tree = is->tree;
         m->lent = true;

@@ -45,6 +45,45 @@ for column in 'box force x' 'box2 force y' 'probe \[m\]' 'probe2 \[m\]'; do
 done
 steps=$(number nameless steps) rows=$(($(wc -l <nameless/series.csv) - 1))
 [ "$rows" = $((1 + (steps + 2) / 3)) ] || bad "$rows rows of $steps steps"
+# a body at rest that is a box is one that is cut out: the scene of the particles runs in cells and gives the same as the list
+# blocked; water at rest lifts it by what it displaces, in both programs. Other bodies are refused, each with its reason
+tank() { # NAME: water at rest round what is on standard input
+    cat - >"$1.cfg"
+    cat >>"$1.cfg" <<END
+format = 1;
+time:    { end = 0.3; };
+fluid:   { rho = 1000.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (1.6, 1); };
+shapes:  ( { form = "box"; box = ((0, 0), (1.6, 0.7)); } );
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+fv:      { cells = (64, 40); };
+output:  { snapshots = false; };
+END
+}
+echo 'bodies: ( { name = "b"; points = ((0.6, 0.3), (0.6, 0.5), (1, 0.5), (1, 0.3)); } );' | tank body
+echo 'blocked: ( { name = "b"; min = (0.6, 0.3); max = (1, 0.5); } );' | tank box
+for name in body box; do "$b/fv" $name.cfg -o $name >$name.txt 2>&1 || bad "$name at rest ends with $?" $name.txt; done
+cmp -s body/series.csv box/series.csv || bad "a body and the box that it is give two answers" body.txt
+near "$(last body/series.csv 'b force y')" 784.8 0.001 || bad "the body is lifted by $(last body/series.csv 'b force y') N, not 784.8" body.txt
+{ sed '/^fv: /d' body.cfg; echo 'sph: { dx = 0.025; };'; } >particles.cfg
+"$b/sph" particles.cfg -o particles >particles.txt 2>&1 || bad "the same scene in particles ends with $?" particles.txt
+lift=$(awk -F, 'NR == 1 { while ($(++k) !~ /^b force y/) ; next } { sum += $k; n++ } END { print sum / n }' particles/series.csv)
+close_to "$lift" 784.8 0.01 || bad "particles lift it by $lift N on average" particles.txt
+stl "0.4 0.3 0.2" "0.8 0.7 0.4" >cube.stl
+sed 's/dim = 2; min = (0, 0); max = (1.6, 1)/dim = 3; min = (0, 0, 0); max = (1.2, 1, 0.8)/; s/(0, -9.81)/(0, 0, -9.81)/; s/((0, 0), (1.6, 0.7))/((0, 0, 0), (1.2, 1, 0.6))/
+    s/{ side = "y_max"; }/&, { side = "z_min"; }, { side = "z_max"; }/; s/points = [^;]*;/mesh = "cube.stl";/; s/(64, 40)/(24, 20, 16)/' body.cfg >cube.cfg
+"$b/fv" cube.cfg -o cube >cube.txt 2>&1 || bad "a cube of triangles in cells ends with $?" cube.txt
+near "$(last cube/series.csv 'b force z')" 313.92 0.001 || bad "the cube is lifted by $(last cube/series.csv 'b force z') N, not 313.92" cube.txt
+refuses() { # WORDS BODY: the fault that cells find in it
+    echo "bodies: ( { $2 } );" | tank refused
+    "$b/fv" refused.cfg --check >refused.txt 2>&1
+    [ $? = 2 ] && grep -q "bodies.\[0\].*$1" refused.txt || bad "no word of $1" refused.txt
+}
+refuses 'boxes along the axes alone' 'points = ((0.6, 0.3), (0.6, 0.5), (1, 0.3));'
+refuses 'boxes along the axes alone' 'points = ((0.6, 0.4), (0.8, 0.5), (1, 0.4), (0.8, 0.3));'
+refuses 'no bodies that move' 'points = ((0.6, 0.3), (0.6, 0.5), (1, 0.5), (1, 0.3)); velocity = (1, 0);'
+refuses 'the force on a box alone' 'points = ((0.6, 0.3), (0.6, 0.5), (1, 0.5), (1, 0.3)); centre = (1, 0.3);'
+refuses 'only 1 cells along y' 'points = ((0.6, 0.025), (0.6, 0.5), (1, 0.5), (1, 0.025));'
 # pictures: water is in cells alone, not in the cylinder; a coupled job has its particles
 clips() { sed -n '/<clipPath id="cells">/,/<.clipPath>/p' drawn/fv-scene.svg | grep -c '<path'; }
 "$b/fv" "$half" --check=picture -o drawn >drawn.txt 2>&1 && [ "$(clips)" -gt 40 ] || bad "the cylinder's holes are not cut out of the water" drawn.txt

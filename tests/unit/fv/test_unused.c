@@ -410,7 +410,7 @@ static int candidates(const struct param *row, const void *at, char value[][200]
     case PARAM_POINTS:
         snprintf(value[n++], 200, "((0.61, 0.12), (0.9, 0.1), (0.75, 0.45))");
         break;
-    case PARAM_TURN: /* fv, whose scenes these are, knows no bodies */
+    case PARAM_TURN: /* fv, whose scenes these are, has boxes among bodies alone */
     case PARAM_NUMBERS:
     case PARAM_LIST:
         break;

@@ -38,7 +38,8 @@ static struct scene *basin(struct sph_case *c, int cells, double level)
 static struct scene_mesh *add_wall(struct scene *s, struct trimesh m, int fluid_side)
 {
     struct scene_mesh *is = s->meshes->of + s->meshes->n++;
-    *is = (struct scene_mesh){.name = "wall", .owner = MESH_WALL, .index = s->nwalls++, .mesh = m};
+    *is =
+        (struct scene_mesh){.name = "wall", .owner = MESH_OF_WALL, .index = s->nwalls++, .mesh = m};
     is->fluid_side = fluid_side;
     is->tree = tree_create(&is->mesh);
     is->volume = is->mesh.closed ? fabs(trimesh_solid(&is->mesh, -1).volume) : 0.0;

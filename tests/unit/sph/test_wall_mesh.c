@@ -101,7 +101,7 @@ static void meshes_repeat_with_the_domain(void **state)
     e->meshes = NEW(struct scene_meshes, 1);
     for (int k = 0; k < 2; k++) {
         struct scene_mesh *m = e->meshes->of + e->meshes->n++;
-        *m = (struct scene_mesh){.owner = MESH_WALL, .index = e->nwalls++};
+        *m = (struct scene_mesh){.owner = MESH_OF_WALL, .index = e->nwalls++};
         m->fluid_side = k ? FLUID_OUTSIDE : FLUID_SHEET;
         m->mesh = trimesh_sphere(o, 0.15, 2);
         if (k == 0) {
