@@ -168,9 +168,14 @@ def draw_particles(axes, part, field, view, mappable):
     x, v, size = x[here], v[here], size[here]
     place = axes.get_window_extent()
     point = 72 / axes.figure.dpi * min(place.width / (b - a), place.height / (d - c))  # points a metre
+    def scatter(of, factor, zorder):
+        axes.scatter(x[of, 0], x[of, 1], (factor * size[of] * point) ** 2, v[of], 'o', norm=mappable.norm, cmap=mappable.cmap,
+                     linewidths=0, zorder=zorder, rasterized=True)
     if len(x):
-        axes.scatter(x[:, 0], x[:, 1], (1.42 * size * point) ** 2, v, 'o', norm=mappable.norm, cmap=mappable.cmap,
-                     linewidths=0, zorder=2, rasterized=True)
+        coarse = size > 1.01 * size.min()
+        if coarse.any():  # beneath the finer ones they fill the half spacing that is left at the edge between two levels
+            scatter(coarse, 2.0, 1.9)
+        scatter(slice(None), 1.42, 2)
 
 
 def walled_sides(program, view):
