@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../../common/base/mem.h"
+#include "../pairs/neighbours.h"
 #include "wall_moments.h"
 
 enum { WALL_GROUP = 8 };
@@ -16,6 +17,9 @@ void wall_list_free(struct wall_list *l)
     mem_free(l->touch);
     mem_free(l->gamma);
     mem_free(l->boxes);
+    wall_joints_free(&l->joints);
+    mem_free(l->parted);
+    mem_free(l->cut);
     mem_free(l->share);
     mem_free(l->asked);
     wall_list3_free(l);
@@ -79,12 +83,115 @@ static int list_group(const struct walls *w, struct wall_list *l, int group, con
     for (int k = WALL_GROUP * group; k < WALL_GROUP * (group + 1) && k < w->nsegments; k++)
         if (is_near(w->segments + k, x, reach))
             l->touch[n++] = (struct wall_touch){.piece = k,
+                                                .of = -1,
                                                 .plane = -1, /* segments in one line are one */
                                                 .body = w->segments[k].body,
                                                 .friction = w->segments[k].friction,
                                                 .no_slip = w->segments[k].no_slip};
     return n;
 }
+
+/* --- joints --- */
+
+/* Of the part of a segment that touch t has, that from `from' to `to' is left. */
+static void cut_touch(struct wall_list *l, struct wall_touch *t, double from, double to)
+{
+    if (l->ncuts == l->cuts_capacity) {
+        GROW(l->cut, l->cuts_capacity, 2 * l->cuts_capacity + 64);
+        l->cuts_capacity = 2 * l->cuts_capacity + 64;
+    }
+    l->cut[l->ncuts][0] = t->of < 0 ? from : fmax(from, l->cut[t->of][0]);
+    l->cut[l->ncuts][1] = t->of < 0 ? to : fmin(to, l->cut[t->of][1]);
+    t->of = l->ncuts++;
+}
+
+/* The segment of a touch, or the part of it that is seen. */
+static struct segment part_of(const struct walls *w, const struct wall_list *l,
+                              const struct wall_touch *t)
+{
+    struct segment g = w->segments[t->piece];
+    for (int a = 0; t->of >= 0 && a < 2; a++) {
+        g.b[a] = g.a[a] + l->cut[t->of][1] * g.t[a];
+        g.a[a] += l->cut[t->of][0] * g.t[a];
+    }
+    g.length = t->of >= 0 ? l->cut[t->of][1] - l->cut[t->of][0] : g.length;
+    return g;
+}
+
+/* Of touches [first, n) of a particle at x those go that a joint hides from it; returns the new n.
+ */
+static int leave_seen(struct wall_list *l, const struct wall_joint *j, const double *x, int first,
+                      int n)
+{
+    const int fluid = wall_joint_fluid(j, x);
+    int kept = first;
+    for (int k = first; k < n; k++) {
+        const struct wall_touch *t = l->touch + k;
+        const struct joint_face *f = wall_joint_face(j, t->piece, fluid);
+        bool hidden = false;
+        for (int other = 0; other < j->nfluids && !f; other++)
+            hidden = hidden || wall_joint_face(j, t->piece, other);
+        if (hidden)
+            continue;
+        l->touch[kept] = *t;
+        if (f && (f->from > 0.0 || f->to < f->is.length))
+            cut_touch(l, l->touch + kept, f->from, f->to);
+        kept++;
+    }
+    return kept;
+}
+
+static void make_room_for_parted(struct wall_list *l)
+{
+    if (l->n < l->parted_capacity)
+        return;
+    GROW(l->parted, l->parted_capacity, l->capacity);
+    l->parted_capacity = l->capacity;
+}
+
+/* Of the l->n-th to be, at x, with touches [first, n); returns the new n. */
+static int part(struct wall_list *l, const double *x, double reach, int first, int n)
+{
+    bool any = false;
+    for (int k = 0; k < l->joints.n && n > first + 1; k++) {
+        if (!wall_joint_parts(l->joints.of + k, x, reach))
+            continue;
+        any = true;
+        n = leave_seen(l, l->joints.of + k, x, first, n);
+    }
+    if (l->joints.n > 0) {
+        make_room_for_parted(l);
+        l->parted[l->n] = any;
+    }
+    return n;
+}
+
+static bool sees(const struct sph *s, const struct wall_list *l, int k, const double *x)
+{
+    bool hidden = false;
+    for (int i = 0; i < l->joints.n && !hidden; i++)
+        hidden = wall_joint_hides(l->joints.of + i, prim_line(&s->p, l->who[k]), x);
+    return !hidden;
+}
+
+/* The gap is filled with dummies. */
+void wall_list_cut_row(const struct sph *s, const struct wall_list *l, int k, wall_sees *asked)
+{
+    struct neighbours *of = s->list;
+    const int i = l->who[k], before = of->count[i];
+    int *j = of->j + of->start[i], n = 0, tail = of->tail[i];
+    for (int m = 0; m < before; m++)
+        if (asked(s, l, k, prim_line(&s->p, j[m])))
+            j[n++] = j[m];
+        else
+            tail -= m < of->tail[i];
+    for (int m = n; m < before; m++)
+        j[m] = s->p.capacity;
+    of->count[i] = n;
+    of->tail[i] = tail;
+}
+
+static bool is_parted(const struct wall_list *l, int k) { return l->joints.n > 0 && l->parted[k]; }
 
 static void build(const struct sph *s, struct wall_list *l)
 {
@@ -93,6 +200,8 @@ static void build(const struct sph *s, struct wall_list *l)
     const int groups = lay_boxes(w, l, reach);
     int touches = 0;
     l->n = 0;
+    l->ncuts = 0;
+    wall_joints_find(s, &l->joints);
     wall_list_room(l, 0);
     for (int i = 0; i < s->p.n; i++) {
         const double *x = prim_line(&s->p, i);
@@ -101,11 +210,20 @@ static void build(const struct sph *s, struct wall_list *l)
             touches = list_group(w, l, k, x, reach, touches);
         if (touches > before) {
             wall_list_room(l, touches);
+            touches = part(l, x, reach, before, touches);
             l->who[l->n] = i;
             l->first[l->n++] = before;
         }
     }
     l->first[l->n] = touches;
+    for (int k = 0; k < l->n && l->joints.n > 0; k++)
+        if (l->parted[k])
+            wall_list_cut_row(s, l, k, sees);
+}
+
+static const double *cut_of(const struct wall_list *l, const struct wall_touch *t)
+{
+    return t->of < 0 ? NULL : l->cut[t->of];
 }
 
 /* Whether x lies beyond an open end of g and behind its line: from there it sees no wall. */
@@ -114,11 +232,13 @@ static bool is_round(const struct segment *g, double height, double from, double
     return height < 0.0 && ((from > 0.0 && g->open[0]) || (to < 0.0 && g->open[1]));
 }
 
-static void measure(const struct segment *g, const double *x, double R, struct wall_touch *t)
+/* cut: which part of g, m along it; NULL: all. */
+static void measure(const struct segment *g, const double *cut, const double *x, double R,
+                    struct wall_touch *t)
 {
     const double d[2] = {g->a[0] - x[0], g->a[1] - x[1]};
-    const double height = g->n[0] * d[0] + g->n[1] * d[1];
-    const double from = g->t[0] * d[0] + g->t[1] * d[1], to = from + g->length;
+    const double height = g->n[0] * d[0] + g->n[1] * d[1], begin = g->t[0] * d[0] + g->t[1] * d[1];
+    const double from = cut ? begin + cut[0] : begin, to = begin + (cut ? cut[1] : g->length);
     const struct wall_moments m = is_round(g, height, from, to)
                                       ? (struct wall_moments){0}
                                       : wall_moments(height / R, from / R, to / R);
@@ -215,7 +335,8 @@ void wall_list_measure(const struct sph *s, struct wall_list *l)
         const double *x = prim_line(&s->p, l->who[k]);
         double gamma = 1.0;
         for (int j = l->first[k]; j < l->first[k + 1] && s->dim == 2; j++)
-            measure(s->walls->segments + l->touch[j].piece, x, s->R, l->touch + j);
+            measure(s->walls->segments + l->touch[j].piece, cut_of(l, l->touch + j), x, s->R,
+                    l->touch + j);
         join_planes(l->touch + l->first[k], l->first[k + 1] - l->first[k]);
         for (int j = l->first[k]; j < l->first[k + 1]; j++) {
             struct wall_touch *t = l->touch + j;
@@ -237,7 +358,7 @@ double wall_list_weight(const struct sph *s, const struct wall_list *l, const st
     if (s->dim == 3)
         return wall_list3_weight(s, l, t, x, R);
     struct wall_touch other;
-    measure(s->walls->segments + t->piece, x, R, &other);
+    measure(s->walls->segments + t->piece, cut_of(l, t), x, R, &other);
     return other.is.W;
 }
 
@@ -267,7 +388,7 @@ const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, 
         wall_list3_shares(s, l, k, x);
     for (int j = 0; j < n && s->dim == 2; j++) {
         struct wall_touch there;
-        measure(s->walls->segments + t[j].piece, x, s->R, &there);
+        measure(s->walls->segments + t[j].piece, cut_of(l, t + j), x, s->R, &there);
         l->share[j] = there.is.gamma;
     }
     return l->share;
@@ -279,9 +400,10 @@ double wall_list_nearest(const struct sph *s, const struct wall_list *l, const s
     if (s->dim == 3)
         return wall_list3_nearest(s, l, t, x, foot);
     const struct segment *g = s->walls->segments + t->piece;
+    const double *cut = cut_of(l, t), from = cut ? cut[0] : 0.0, to = cut ? cut[1] : g->length;
     const double along = (x[0] - g->a[0]) * g->t[0] + (x[1] - g->a[1]) * g->t[1];
     for (int a = 0; a < 2; a++)
-        foot[a] = g->a[a] + fmax(0.0, fmin(along, g->length)) * g->t[a];
+        foot[a] = g->a[a] + fmax(from, fmin(along, to)) * g->t[a];
     return hypot(foot[0] - x[0], foot[1] - x[1]);
 }
 
@@ -294,18 +416,49 @@ void wall_list_velocity(const struct sph *s, const struct wall_touch *t, const d
         wall_mesh_velocity(w, w->meshes + t->of, x, u, NULL);
 }
 
+/* Distance of x from the walls that the k-th sees, negative behind them. */
+static double distance_of(const struct sph *s, const struct wall_list *l, int k, const double *x)
+{
+    struct wall_side side = wall_side_none(s->R);
+    for (int j = l->first[k]; j < l->first[k + 1]; j++) {
+        const struct wall_touch *t = l->touch + j;
+        if (t->of < 0) {
+            wall_side_add(&side, s->walls->segments + t->piece, x);
+            continue;
+        }
+        const struct segment part = part_of(s->walls, l, t);
+        wall_side_add(&side, &part, x);
+    }
+    return side.distance;
+}
+
 int wall_list_behind(const struct sph *s, const struct wall_list *l, int *who)
 {
     int n = 0;
     if (s->dim == 3)
         return wall_list3_behind(s, l, who);
-    for (int k = 0; k < l->n; k++) {
-        const double *x = state_row(&s->p, s->p.y, l->who[k]);
-        struct wall_side side = wall_side_none(s->R);
-        for (int j = l->first[k]; j < l->first[k + 1]; j++)
-            wall_side_add(&side, s->walls->segments + l->touch[j].piece, x);
-        if (side.distance < 0.0)
+    for (int k = 0; k < l->n; k++)
+        if (distance_of(s, l, k, state_row(&s->p, s->p.y, l->who[k])) < 0.0)
             who[n++] = l->who[k];
-    }
     return n;
+}
+
+bool wall_list_strayed(const struct sph *s, const struct wall_list *l, int k, struct wall_foot *f)
+{
+    const double *x = state_row(&s->p, s->p.y, l->who[k]);
+    double least = INFINITY;
+    if (s->dim == 3 || !is_parted(l, k) || !(distance_of(s, l, k, x) < 0.0))
+        return false;
+    for (int j = l->first[k]; j < l->first[k + 1]; j++) {
+        const struct wall_touch *t = l->touch + j;
+        double foot[2];
+        const double d = wall_list_nearest(s, l, t, x, foot);
+        if (d >= least)
+            continue;
+        least = d;
+        *f = (struct wall_foot){.x = {foot[0], foot[1]}, .body = t->body};
+        memcpy(f->n, s->walls->segments[t->piece].n, 2 * sizeof *f->n);
+        wall_list_velocity(s, t, f->x, f->u);
+    }
+    return isfinite(least);
 }

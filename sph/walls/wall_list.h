@@ -6,6 +6,7 @@
 #define SPH_WALL_LIST_H
 
 #include "facet.h"
+#include "wall_joint.h"
 #include "walls.h"
 
 /* One piece as one particle sees it. */
@@ -15,7 +16,8 @@ struct wall_touch {
     double n[3];
     double height, distance; /* m: over the plane of the piece, from the piece or those joined */
     double near;             /* -: min(1, (dx/2)^2/e^2) */
-    int piece, of;           /* 2D: segment, -; 3D: place in the frames of mesh `of' */
+    int piece, of;           /* 2D: segment, of which `cut' of the list, -1: all of it; 3D: place in
+                                the frames of mesh `of' */
     int plane;               /* pieces of `of' alike in it have one flux; -1: this one alone */
     int body;                /* -1: at rest */
     double friction;         /* -: c_f of quadratic bed friction */
@@ -37,6 +39,12 @@ struct wall_list {
     bool measured;            /* touch and gamma are of the present places */
     int boxes_capacity;
     double (*boxes)[4]; /* 2D: around groups of segments: low x, y, high x, y */
+    /* 2D, where walls touch: points that part the fluid, which particles are beside one [n, NULL:
+     * there are none], parts of segments that they see, m along these */
+    struct wall_joints joints;
+    int parted_capacity, ncuts, cuts_capacity;
+    bool *parted;
+    double (*cut)[2];
     /* 3D: triangles that were seen, by mesh; what a tree found; what is near a group */
     int nframes, found_capacity, near_capacity;
     struct wall_frames *of3;
@@ -73,7 +81,15 @@ double wall_list_nearest(const struct sph *s, const struct wall_list *l, const s
 void wall_list_velocity(const struct sph *s, const struct wall_touch *t, const double *x,
                         double *u);
 
+/* Whether the k-th of the list, beside a joint, is behind the faces of its own fluid now: where it
+ * came through. */
+bool wall_list_strayed(const struct sph *s, const struct wall_list *l, int k, struct wall_foot *f);
+
 /* --- of wall_list.c and wall_list3.c --- */
+
+/* Takes those out of the k-th's row of the list of pairs that it does not see. */
+typedef bool wall_sees(const struct sph *s, const struct wall_list *l, int k, const double *x);
+void wall_list_cut_row(const struct sph *s, const struct wall_list *l, int k, wall_sees *sees);
 
 /* Room for one particle more and so many touches. */
 void wall_list_room(struct wall_list *l, int touches);

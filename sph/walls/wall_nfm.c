@@ -670,9 +670,9 @@ static void rooms(struct sph *s, double *room)
 static void back(struct sph *s)
 {
     const struct nfm *m = s->walls->state;
-    for (int k = 0; k < m->list.n && m->list.rim; k++) {
+    for (int k = 0; k < m->list.n && (m->list.rim || m->list.joints.n > 0); k++) {
         struct wall_foot f;
-        if (wall_list3_crossed(s, &m->list, k, &f))
+        if (wall_list_strayed(s, &m->list, k, &f) || wall_list3_crossed(s, &m->list, k, &f))
             walls_put_before(s, m->list.who[k], &f);
     }
 }

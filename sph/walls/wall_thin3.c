@@ -10,7 +10,6 @@
 
 #include "../../common/base/mem.h"
 #include "../../common/base/vec3.h"
-#include "../pairs/neighbours.h"
 
 bool wall_list3_any_thin(const struct walls *w)
 {
@@ -73,30 +72,13 @@ static bool has_thin(const struct sph *s, const struct wall_list *l, int k)
     return any;
 }
 
-/* Takes those out of a row that the particle does not see; the gap is filled with dummies. */
-static void cut_row(const struct sph *s, const struct wall_list *l, int k)
-{
-    struct neighbours *of = s->list;
-    const int i = l->who[k], before = of->count[i];
-    int *j = of->j + of->start[i], n = 0, tail = of->tail[i];
-    for (int m = 0; m < before; m++)
-        if (sees(s, l, k, prim_line(&s->p, j[m])))
-            j[n++] = j[m];
-        else
-            tail -= m < of->tail[i];
-    for (int m = n; m < before; m++)
-        j[m] = s->p.capacity;
-    of->count[i] = n;
-    of->tail[i] = tail;
-}
-
 void wall_list3_cut(const struct sph *s, struct wall_list *l)
 {
     if (!wall_list3_any_thin(s->walls))
         return;
     for (int k = 0; k < l->n; k++)
         if (has_thin(s, l, k))
-            cut_row(s, l, k);
+            wall_list_cut_row(s, l, k, sees);
     if (l->n > l->rims_capacity) {
         GROW(l->rim, l->rims_capacity, l->n + l->n / 2);
         GROW(l->seen_from, l->rims_capacity, l->n + l->n / 2);

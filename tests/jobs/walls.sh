@@ -52,6 +52,37 @@ gap "2 dx over the floor" 0.4 0.05
 gap "1.5 dx from a side" 0.0375 0.15
 gap "2.5 dx from floor and side" 0.0625 0.0625
 
+# walls that stand on a point between waters of different depth let nothing pass: once the first particles have found
+# their places, the levels stay within dx/10
+stands() { # NAME WALLS BODIES
+    cat >stands.cfg <<END
+format = 1;
+time:    { end = 1.2; };
+fluid:   { rho = 1000.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (1.2, 1.0); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }$2 );
+shapes:  ( { form = "box"; box = ((0, 0), (0.6, 0.6)); }, { form = "box"; box = ((0.6, 0), (1.2, 0.3)); } );
+$3
+probes:  ( { name = "deep"; kind = "level"; at = (0.2, 0.2); }, { name = "low"; kind = "level"; at = (1.0, 0.2); } );
+sph:     { dx = 0.025; };
+output:  { series = 5; snapshots = false; };
+END
+    timeout 60 "$b/sph" stands.cfg -o stands --force >log.txt 2>&1 || bad "$1: ended with $?"
+    holds "$(number stands particles_lost) + $(number stands particles_returned) == 0" ||
+        bad "$1: $(number stands particles_lost) particles lost, $(number stands particles_returned) put back"
+    for what in deep low; do
+        moved=$(awk -F, -v w=$what 'NR == 1 { for (i = 1; i <= NF; i++) if (index($i, w) == 1) k = i; next }
+            $1 > 0.4 && !n++ { first = $k } { z = $k } END { print z - first }' stands/series.csv)
+        near "$moved" 0 0.0025 || bad "$1: the $what water moved by $moved m, wanted dx/10"
+    done
+}
+stands "flap on a point" "" 'bodies: ( { name = "f"; points = ((0.6, 0), (0.55, 0.15), (0.55, 0.9), (0.65, 0.9), (0.65, 0.15)); } );'
+stands "blunt wall on a point" ', { closed = true; points = ((0.6, 0), (0.5, 0.1), (0.5, 0.9), (0.7, 0.9), (0.7, 0.1)); }' ""
+stands "body on the tip of another" "" 'bodies: ( { name = "a"; points = ((0.4, 0), (0.4, 0.1), (0.6, 0.2), (0.8, 0.1), (0.8, 0)); },
+    { name = "b"; points = ((0.6, 0.2), (0.55, 0.35), (0.55, 0.9), (0.65, 0.9), (0.65, 0.35)); } );'
+stands "flap on the ridge of a floor" ', { points = ((0, 0), (0.6, 0.15), (1.2, 0)); }' 'bodies: ( { name = "f"; points = ((0.6, 0.15),
+    (0.55, 0.3), (0.55, 0.9), (0.65, 0.9), (0.65, 0.3)); } );'
+
 # a closed tank full of water at rest: the background pressure is uniform and moves nothing, so p = -rho g (y - 0.5)
 cat >closed.cfg <<'END'
 format = 1;

@@ -1,0 +1,263 @@
+/* wall_joint.c - see wall_joint.h. From a joint the walls leave as rays, sorted by angle; between
+ * two that face each other is a fluid. A joint has two fluids or more.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "wall_joint.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/base/mem.h"
+
+enum { JOINT_RAYS = 16 };
+
+static const double least_angle = 0.02; /* rad: less is no fluid but a face on a face */
+
+/* What leaves a joint along a segment, to its end b (on: the fluid is on the left) or a. */
+struct ray {
+    int piece;
+    bool on;
+    double angle, from, to; /* m along the segment */
+};
+
+static bool is_fixed(const struct walls *w, const struct segment *g)
+{
+    return g->body < 0 || !w->bodies[g->body].moves;
+}
+
+/* Distance of x from a segment, the place of its foot along it, both in m. */
+static double distance_to(const struct segment *g, const double *x, double *along)
+{
+    const double d[2] = {x[0] - g->a[0], x[1] - g->a[1]};
+    *along = fmax(0.0, fmin(d[0] * g->t[0] + d[1] * g->t[1], g->length));
+    return hypot(d[0] - *along * g->t[0], d[1] - *along * g->t[1]);
+}
+
+static int find_rays(const struct walls *w, const double *x, double near, struct ray *ray)
+{
+    int n = 0;
+    for (int k = 0; k < w->nsegments; k++) {
+        const struct segment *g = w->segments + k;
+        double at;
+        if (fabs(x[0] - g->a[0]) > g->length + near || distance_to(g, x, &at) > near)
+            continue;
+        if (at > near && n < JOINT_RAYS)
+            ray[n++] = (struct ray){k, false, atan2(-g->t[1], -g->t[0]), 0.0, at};
+        if (at < g->length - near && n < JOINT_RAYS)
+            ray[n++] = (struct ray){k, true, atan2(g->t[1], g->t[0]), at, g->length};
+    }
+    for (int k = 1; k < n; k++)
+        for (int i = k; i > 0 && ray[i].angle < ray[i - 1].angle; i--) {
+            const struct ray r = ray[i];
+            ray[i] = ray[i - 1];
+            ray[i - 1] = r;
+        }
+    return n;
+}
+
+static bool has_piece(const struct wall_joint *j, int piece)
+{
+    for (int k = 0; k < j->nfaces; k++)
+        if (j->face[k].piece == piece)
+            return true;
+    return false;
+}
+
+static void add_face(const struct walls *w, struct wall_joint *j, int piece, int fluid, double from,
+                     double to)
+{
+    const struct segment *g = w->segments + piece;
+    struct joint_face *f = j->face + j->nfaces++;
+    *f = (struct joint_face){.is = *g, .piece = piece, .fluid = fluid, .from = from, .to = to};
+    for (int a = 0; a < 2; a++) {
+        f->is.a[a] = g->a[a] + from * g->t[a];
+        f->is.b[a] = g->a[a] + to * g->t[a];
+    }
+    f->is.length = to - from;
+}
+
+/* Where the wall goes on at an end of a segment: the piece, -1: nowhere. */
+static int next_piece(const struct walls *w, int piece, bool on, double near)
+{
+    const double *x = on ? w->segments[piece].b : w->segments[piece].a;
+    for (int k = 0; k < w->nsegments; k++) {
+        const double *y = on ? w->segments[k].a : w->segments[k].b;
+        if (k != piece && hypot(x[0] - y[0], x[1] - y[1]) < near)
+            return k;
+    }
+    return -1;
+}
+
+/* The faces of a fluid from a ray on. */
+static void follow_ray(const struct walls *w, struct wall_joint *j, const struct ray *r, int fluid,
+                       double near, double reach)
+{
+    double from = r->from, to = r->to;
+    int piece = r->piece;
+    while (piece >= 0 && j->nfaces < JOINT_FACES) {
+        const struct segment *g = w->segments + piece;
+        const double *end = r->on ? g->b : g->a;
+        add_face(w, j, piece, fluid, from, to);
+        if (hypot(end[0] - j->x[0], end[1] - j->x[1]) > reach)
+            return;
+        piece = next_piece(w, piece, r->on, near);
+        if (piece >= 0 && has_piece(j, piece))
+            return;
+        from = 0.0;
+        to = piece >= 0 ? w->segments[piece].length : 0.0;
+    }
+}
+
+/* Whether walls part fluids at x. */
+static bool make_joint(const struct walls *w, const double *x, double near, double reach,
+                       struct wall_joint *j)
+{
+    struct ray ray[JOINT_RAYS];
+    const int n = find_rays(w, x, near, ray);
+    int fluid[JOINT_RAYS], nfluids = 0;
+    for (int k = 0; k < n; k++) {
+        const struct ray *r = ray + k, *q = ray + (k + 1) % n;
+        const double turn = q->angle - r->angle, width = turn < 0.0 ? turn + 2.0 * M_PI : turn;
+        fluid[k] = r->on && !q->on && width > least_angle ? nfluids++ : -1;
+    }
+    if (nfluids < 2)
+        return false;
+    *j = (struct wall_joint){.x = {x[0], x[1]}, .nfluids = nfluids};
+    for (int k = 0; k < n; k++)
+        for (int end = 0; end < 2 && fluid[k] >= 0; end++)
+            follow_ray(w, j, ray + (k + end) % n, fluid[k], near, reach);
+    return true;
+}
+
+static bool is_there(const struct wall_joints *to, const double *x, double near)
+{
+    for (int k = 0; k < to->n; k++)
+        if (hypot(to->of[k].x[0] - x[0], to->of[k].x[1] - x[1]) < 2.0 * near)
+            return true;
+    return false;
+}
+
+static void try_at(const struct sph *s, struct wall_joints *to, const double *x)
+{
+    const double near = 0.1 * s->dx;
+    if (is_there(to, x, near))
+        return;
+    if (to->n == to->capacity) {
+        GROW(to->of, to->capacity, to->capacity + 4);
+        to->capacity += 4;
+    }
+    to->n += make_joint(s->walls, x, near, 2.0 * s->R, to->of + to->n);
+}
+
+/* Ends of one segment on another: of fixed ones, or of two of which one at least moves. Two of one
+ * polyline that follow each other are a corner. */
+static void look_at_pair(const struct sph *s, struct wall_joints *to, int k, int o, bool fixed)
+{
+    const struct walls *w = s->walls;
+    const struct segment *g = w->segments + k, *h = w->segments + o;
+    const double near = 0.1 * s->dx;
+    if (k == o || (is_fixed(w, g) && is_fixed(w, h)) != fixed || (!fixed && g->body == h->body))
+        return;
+    for (int end = 0; end < 2; end++) {
+        const double *x = end ? g->b : g->a, *follows = end ? h->a : h->b;
+        double at;
+        if (x[0] == follows[0] && x[1] == follows[1])
+            continue;
+        if (fabs(x[0] - h->a[0]) < h->length + near && fabs(x[1] - h->a[1]) < h->length + near &&
+            distance_to(h, x, &at) < near)
+            try_at(s, to, x);
+    }
+}
+
+static bool any_moves(const struct walls *w)
+{
+    bool any = false;
+    for (int k = 0; k < w->nbodies; k++)
+        any = any || w->bodies[k].moves;
+    return any;
+}
+
+void wall_joints_find(const struct sph *s, struct wall_joints *to)
+{
+    const struct walls *w = s->walls;
+    const bool moves = any_moves(w);
+    if (to->known && !moves)
+        return;
+    to->n = to->nfixed;
+    for (int k = 0; k < w->nsegments && !to->known; k++)
+        for (int o = 0; o < w->nsegments; o++)
+            look_at_pair(s, to, k, o, true);
+    to->nfixed = to->n;
+    to->known = true;
+    for (int k = 0; k < w->nsegments; k++)
+        for (int o = 0; o < w->nsegments && !is_fixed(w, w->segments + k); o++) {
+            look_at_pair(s, to, k, o, false);
+            look_at_pair(s, to, o, k, false);
+        }
+}
+
+void wall_joints_free(struct wall_joints *to)
+{
+    mem_free(to->of);
+    *to = (struct wall_joints){0};
+}
+
+int wall_joint_fluid(const struct wall_joint *j, const double *x)
+{
+    int nearest = 0;
+    double least = INFINITY;
+    for (int fluid = 0; fluid < j->nfluids; fluid++) {
+        struct wall_side side = wall_side_none(INFINITY);
+        for (int k = 0; k < j->nfaces; k++)
+            if (j->face[k].fluid == fluid)
+                wall_side_add(&side, &j->face[k].is, x);
+        if (side.distance > 0.0 && side.distance < least * (1.0 - 1e-9)) {
+            least = side.distance;
+            nearest = fluid;
+        }
+    }
+    return nearest;
+}
+
+static bool crosses(const struct segment *g, const double *x, const double *y)
+{
+    const double p[2] = {x[0] - g->a[0], x[1] - g->a[1]}, q[2] = {y[0] - g->a[0], y[1] - g->a[1]};
+    const double hp = p[0] * g->n[0] + p[1] * g->n[1], hq = q[0] * g->n[0] + q[1] * g->n[1];
+    if ((hp > 0.0) == (hq > 0.0))
+        return false;
+    const double u = hp / (hp - hq), from = p[0] * g->t[0] + p[1] * g->t[1];
+    const double at = from + u * (q[0] * g->t[0] + q[1] * g->t[1] - from);
+    return at >= 0.0 && at <= g->length;
+}
+
+bool wall_joint_hides(const struct wall_joint *j, const double *x, const double *y)
+{
+    const int fx = wall_joint_fluid(j, x), fy = wall_joint_fluid(j, y);
+    for (int k = 0; k < j->nfaces && fx != fy; k++) {
+        const struct joint_face *f = j->face + k;
+        if ((f->fluid == fx || f->fluid == fy) && crosses(&f->is, x, y))
+            return true;
+    }
+    return false;
+}
+
+const struct joint_face *wall_joint_face(const struct wall_joint *j, int piece, int fluid)
+{
+    for (int k = 0; k < j->nfaces; k++)
+        if (j->face[k].piece == piece && j->face[k].fluid == fluid)
+            return j->face + k;
+    return NULL;
+}
+
+bool wall_joint_parts(const struct wall_joint *j, const double *x, double reach)
+{
+    int seen = -1;
+    for (int k = 0; k < j->nfaces; k++) {
+        double at;
+        if (j->face[k].fluid == seen || distance_to(&j->face[k].is, x, &at) >= reach)
+            continue;
+        if (seen >= 0)
+            return true;
+        seen = j->face[k].fluid;
+    }
+    return false;
+}

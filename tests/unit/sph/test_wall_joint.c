@@ -1,0 +1,112 @@
+/* test_wall_joint.c - points where walls touch and part the fluid: which are found, as bodies move
+ * too, and who sees whom across them. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../sph/walls/wall_joint.h"
+#include "sph_case.h"
+
+enum { CELLS = 20 };
+
+/* A tank of 1 m, dx 0.05 m, half full, and a body. */
+static struct sph *tank(struct sph_case *c, int n, double x[][2])
+{
+    sph_case_set(c, 2, CELLS);
+    struct scene *e = &c->run.scene;
+    e->fluid.nu = 0.0;
+    e->fluid.gravity[1] = -9.81;
+    e->initial.field = FIELD_REST;
+    e->domain.periodic[0] = e->domain.periodic[1] = false;
+    e->nwalls = 3;
+    for (int k = 0; k < 3; k++)
+        e->walls[k].side = SIDE_X_MIN + k;
+    e->nshapes = 1;
+    e->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
+    e->nbodies = 1;
+    e->bodies[0].points.n = n;
+    memcpy(e->bodies[0].points.x, x, (size_t)n * sizeof *x);
+    c->prm.scheme = SCHEME_RIEMANN;
+    c->prm.surface = true;
+    c->prm.c0 = 40.0;
+    return sph_case_start(c, NULL);
+}
+
+static int joints_of(int n, double x[][2])
+{
+    struct sph_case c;
+    struct wall_joints found = {0};
+    wall_joints_find(tank(&c, n, x), &found);
+    const int joints = found.n;
+    wall_joints_free(&found);
+    sph_free(&c.s);
+    return joints;
+}
+
+static void walls_that_part_are_found(void **state)
+{
+    const double far = 0.2 / CELLS; /* in which water may pass */
+    (void)state;
+    assert_int_equal(joints_of(3, (double[][2]){{0.5, 0.0}, {0.4, 0.9}, {0.6, 0.9}}),
+                     1); /* on its tip */
+    assert_int_equal(joints_of(3, (double[][2]){{0.5, far}, {0.4, 0.9}, {0.6, 0.9}}), 0);
+    assert_int_equal(joints_of(4, (double[][2]){{0.3, 0.0}, {0.3, 0.3}, {0.7, 0.3}, {0.7, 0.0}}),
+                     0); /* flat */
+    assert_int_equal(joints_of(4, (double[][2]){{0.3, 0.3}, {0.3, 0.7}, {0.7, 0.7}, {0.7, 0.3}}),
+                     0);
+    assert_int_equal(joints_of(3, (double[][2]){{0.0, 0.5}, {0.5, 0.9}, {0.5, 0.1}}),
+                     1); /* beside a side */
+}
+
+/* Beside the tip of a wedge those on one side see each other and not the others; over its top they
+ * do. */
+static void nobody_sees_through(void **state)
+{
+    struct sph_case c;
+    struct wall_joints found = {0};
+    (void)state;
+    wall_joints_find(tank(&c, 3, (double[][2]){{0.5, 0.0}, {0.4, 0.6}, {0.6, 0.6}}), &found);
+    assert_int_equal(found.n, 1);
+    const struct wall_joint *j = found.of;
+    const double left[2] = {0.45, 0.02}, low[2] = {0.3, 0.01}, right[2] = {0.54, 0.05};
+    assert_int_equal(j->nfluids, 2);
+    assert_int_equal(wall_joint_fluid(j, left), wall_joint_fluid(j, low));
+    assert_int_not_equal(wall_joint_fluid(j, left), wall_joint_fluid(j, right));
+    assert_false(wall_joint_hides(j, left, low));
+    assert_true(wall_joint_hides(j, left, right));
+    assert_true(wall_joint_hides(j, right, low));
+    assert_false(wall_joint_hides(j, (double[2]){0.35, 0.65}, (double[2]){0.65, 0.65}));
+    assert_true(wall_joint_parts(j, left, c.s->R));
+    assert_false(wall_joint_parts(j, low, 0.1));
+    wall_joints_free(&found);
+    sph_free(&c.s);
+}
+
+/* A driven tip that leaves the floor opens it, one that comes down closes it. */
+static void joints_come_and_go(void **state)
+{
+    struct sph_case c;
+    struct wall_joints found = {0};
+    (void)state;
+    struct sph *s = tank(&c, 3, (double[][2]){{0.5, 0.0}, {0.4, 0.9}, {0.6, 0.9}});
+    s->walls->bodies[0].moves = true;
+    for (int up = 0; up < 3; up++) {
+        for (int k = s->walls->bodies[0].first; k < s->walls->nsegments; k++)
+            s->walls->segments[k].a[1] += up == 1 ? 0.1 : up == 2 ? -0.1 : 0.0;
+        for (int k = s->walls->bodies[0].first; k < s->walls->nsegments; k++)
+            s->walls->segments[k].b[1] += up == 1 ? 0.1 : up == 2 ? -0.1 : 0.0;
+        wall_joints_find(s, &found);
+        assert_int_equal(found.n, up == 1 ? 0 : 1);
+    }
+    wall_joints_free(&found);
+    sph_free(&c.s);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(walls_that_part_are_found),
+                                       cmocka_unit_test(nobody_sees_through),
+                                       cmocka_unit_test(joints_come_and_go)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
