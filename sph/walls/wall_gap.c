@@ -8,14 +8,22 @@
  * counted once more in the proportion that is missing, (w/2) q c/gamma with the Shepard factor at
  * the foot, on the face itself and, turned round, on the one that cuts: both faces together get
  * (1 - 2 |c|) (1 + 2 |c|/(1 - 2 |c|)) = 1, fluid and faces keep their momentum, and what stands
- * alone or beyond the support gets nothing. */
+ * alone or beyond the support gets nothing.
+ *
+ * Faces that meet at an angle theta (normals n, m out of the fluid, n.m = -cos theta): beside each
+ * wall the fluid carries less momentum than p, over a thickness d, and the wall carries the rest
+ * along itself, p d. In the corner that ends. Of uniform pressure the first face lacks there
+ * p D n + p d t, D the integral of 2 |c| over it and t along it, out of the corner; the other the
+ * opposite, for both together are at rest: so D = d cot(theta/2), and what they owe each other is
+ * p D (n - m)/(1 + cos theta), the rule of above times 2/(1 - n.m). Without it a face of ten
+ * particles that stands on the floor gets 2 to 5 % less than p A. */
 #include "wall_gap.h"
 
 #include <math.h>
 
 #include "forces.h"
 
-static const double least_gamma = 0.15;
+static const double least_gamma = 0.15, least_turn = 0.5;
 
 bool wall_gap_between(const struct wall_list *l, int k)
 {
@@ -35,7 +43,7 @@ static int pick_faces(const struct sph *s, const struct wall_list *l, int k, int
 {
     int n = 0;
     for (int j = l->first[k]; j < l->first[k + 1]; j++) {
-        if (l->touch[j].is.W == 0.0 || is_thin(s, l->touch + j))
+        if (l->touch[j].is.W == 0.0 || l->touch[j].on >= 0 || is_thin(s, l->touch + j))
             continue;
         int at = n < GAP_FACES ? n++ : GAP_FACES;
         for (; at > 0 && l->touch[face[at - 1]].is.W < l->touch[j].is.W; at--)
@@ -47,39 +55,27 @@ static int pick_faces(const struct sph *s, const struct wall_list *l, int k, int
     return n;
 }
 
-/* The foot of x on the nearest piece of a touch's plane, a little way into the fluid. */
-static void foot_of(const struct sph *s, const struct wall_list *l, int k, int j, const double *x,
-                    double *foot)
-{
-    const struct wall_touch *t = l->touch + j;
-    double least = INFINITY;
-    for (int i = j; i < l->first[k + 1]; i++) {
-        const struct wall_touch *o = l->touch + i;
-        double y[3];
-        if (i > j && !(o->joined && o->of == t->of && o->plane == t->plane))
-            continue;
-        const double d = wall_list_nearest(s, l, o, x, y);
-        for (int a = 0; a < s->dim && d < least; a++)
-            foot[a] = y[a] - 1e-4 * s->R * t->n[a];
-        least = fmin(least, d);
-    }
-}
-
 /* A face that is seen from behind counts where its foot is wet. */
 static double share_of_face(const struct wall_touch *t, double gamma)
 {
     return t->height > 0.0 ? 1.0 : fmax(0.0, fmin((gamma - 0.25) / 0.05, 1.0));
 }
 
-/* Along the normal of the face that cuts; between two bodies neither is before the other. */
-static void part_along(const struct sph *s, const double *q, const double *n, bool bodies,
-                       double *part)
+/* How much more than between faces that are parallel: see above. */
+static double of_angle(const struct sph *s, const struct wall_touch *t, const struct wall_touch *o)
 {
     double along = 0.0;
     for (int a = 0; a < s->dim; a++)
-        along += q[a] * n[a];
+        along += t->n[a] * o->n[a];
+    return 2.0 / fmax(1.0 - (o->on >= 0 ? -along : along), least_turn);
+}
+
+/* The foot of x on the nearest piece of a touch's plane, or beyond its ends what it has of the
+ * kernel; a little way into the fluid. */
+static void foot_of(const struct sph *s, const struct wall_touch *t, const double *x, double *foot)
+{
     for (int a = 0; a < s->dim; a++)
-        part[a] = bodies ? 0.5 * (q[a] + along * n[a]) : along * n[a];
+        foot[a] = x[a] + (t->foot ? t->height * t->n[a] : t->is.e[a]) - 1e-4 * s->R * t->n[a];
 }
 
 /* Face j with the faces of other owners. */
@@ -90,7 +86,7 @@ static void exchange(const struct sph *s, struct wall_list *l, int k, int j, con
     const int n = l->first[k + 1] - l->first[k];
     const double *x = prim_line(&s->p, l->who[k]);
     double foot[3], gamma = 1.0, sum[3] = {0.0, 0.0, 0.0};
-    foot_of(s, l, k, j, x, foot);
+    foot_of(s, t, x, foot);
     const double *share = wall_list_shares(s, l, k, t->body, foot);
     if (!share)
         return;
@@ -98,18 +94,29 @@ static void exchange(const struct sph *s, struct wall_list *l, int k, int j, con
         gamma += share[m];
     const double factor = 0.5 * w * share_of_face(t, gamma) / fmax(gamma, least_gamma);
     for (int m = 0; m < n && factor > 0.0; m++, o++) {
-        double f[3], back[3];
+        double f, back[3];
         if (o->body == t->body || share[m] == 0.0 || is_thin(s, o))
             continue;
-        part_along(s, q, o->n, o->body >= 0 && t->body >= 0, f);
+        f = factor * share[m] * of_angle(s, t, o);
         for (int a = 0; a < s->dim; a++) {
-            f[a] *= factor * share[m];
-            back[a] = -f[a];
-            sum[a] += f[a];
+            back[a] = -f * q[a];
+            sum[a] += f * q[a];
         }
         forces_add(s, o->body, x, back);
     }
     forces_add(s, t->body, x, sum);
+}
+
+/* The flux of face j without what is covered of it. */
+static void flux_of(const struct sph *s, const struct wall_list *l, int k, int j,
+                    const double (*q)[3], double *sum)
+{
+    const int first = l->first[k];
+    for (int a = 0; a < s->dim; a++)
+        sum[a] = q[j - first][a];
+    for (int m = first; m < l->first[k + 1]; m++)
+        for (int a = 0; l->touch[m].on == j - first && a < s->dim; a++)
+            sum[a] += q[m - first][a];
 }
 
 void wall_gap_exchange(const struct sph *s, struct wall_list *l, int k, const double (*q)[3],
@@ -117,6 +124,9 @@ void wall_gap_exchange(const struct sph *s, struct wall_list *l, int k, const do
 {
     int face[GAP_FACES];
     const int n = pick_faces(s, l, k, face);
-    for (int i = 0; i < n; i++)
-        exchange(s, l, k, face[i], q[face[i] - l->first[k]], w);
+    for (int i = 0; i < n; i++) {
+        double flux[3];
+        flux_of(s, l, k, face[i], q, flux);
+        exchange(s, l, k, face[i], flux, w);
+    }
 }

@@ -84,6 +84,7 @@ static int list_group(const struct walls *w, struct wall_list *l, int group, con
         if (is_near(w->segments + k, x, reach))
             l->touch[n++] = (struct wall_touch){.piece = k,
                                                 .of = -1,
+                                                .on = -1,
                                                 .plane = -1, /* segments in one line are one */
                                                 .body = w->segments[k].body,
                                                 .friction = w->segments[k].friction,
@@ -326,6 +327,36 @@ static void close_open_ends(const struct sph *s, struct wall_list *l)
     }
 }
 
+static int owner_of(const struct walls *w, const struct wall_touch *t, int dim)
+{
+    return dim == 2 ? w->segments[t->piece].body : w->meshes[t->of].body;
+}
+
+/* Whether one is the back of the other, which lies on it. */
+static bool lies_on(const struct sph *s, const struct wall_touch *t, const struct wall_touch *o)
+{
+    double turn = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        turn += t->n[a] * o->n[a];
+    return o->height > 0.0 && turn < -0.99 && fabs(t->height + o->height) < 0.1 * s->dx;
+}
+
+/* A face that stands on that of another owner is seen from behind by the fluid beside it, and the
+ * other on through it. Together they are nothing, so both have one owner. */
+static void own_covered(const struct sph *s, struct wall_list *l, int k)
+{
+    struct wall_touch *begin = l->touch + l->first[k], *end = l->touch + l->first[k + 1];
+    for (struct wall_touch *t = begin; t < end; t++) {
+        t->body = owner_of(s->walls, t, s->dim);
+        t->on = -1;
+        for (const struct wall_touch *o = begin; o < end && t->height < 0.0; o++)
+            if (t->is.W > 0.0 && owner_of(s->walls, o, s->dim) != t->body && lies_on(s, t, o)) {
+                t->body = owner_of(s->walls, o, s->dim);
+                t->on = (int)(o - begin);
+            }
+    }
+}
+
 void wall_list_measure(const struct sph *s, struct wall_list *l)
 {
     const double q = 0.5 * s->dx;
@@ -347,6 +378,8 @@ void wall_list_measure(const struct sph *s, struct wall_list *l)
             gamma += t->is.gamma;
         }
         l->gamma[k] = gamma > 1.0 + 1e-6 ? gamma - 1.0 : gamma; /* behind a wall one more */
+        if (s->walls->nbodies > 0)
+            own_covered(s, l, k);
     }
     close_open_ends(s, l);
     l->measured = true;

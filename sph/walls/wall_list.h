@@ -22,7 +22,9 @@ struct wall_touch {
     int body;                /* -1: at rest */
     double friction;         /* -: c_f of quadratic bed friction */
     bool no_slip, foot;      /* foot: that of the particle lies on the piece */
-    bool joined;             /* with an earlier one of its plane, which has its integrals */
+    int on; /* lies on the face of another owner, counted from the particle's first, and is that
+               owner's: see own_covered; -1: on none */
+    bool joined; /* with an earlier one of its plane, which has its integrals */
 };
 
 /* A triangle near some particles, in 3D. */

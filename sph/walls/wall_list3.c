@@ -163,6 +163,7 @@ static int touch(const struct sph *s, struct wall_list *l, int i, int nnear, dou
             l->touch[touches++] = (struct wall_touch){
                 .piece = q->facet,
                 .of = q->mesh,
+                .on = -1,
                 .plane = m->plane ? m->plane[l->of3[q->mesh].triangle[q->facet]] : -1,
                 .body = m->body,
                 .friction = m->friction,

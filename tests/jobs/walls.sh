@@ -52,6 +52,30 @@ gap "2 dx over the floor" 0.4 0.05
 gap "1.5 dx from a side" 0.0375 0.15
 gap "2.5 dx from floor and side" 0.0625 0.0625
 
+# faces that stand on the floor at an angle, and a block in a corner: p A on each, 3 % of the whole
+corner() { # NAME WANTED_X WANTED_Y POINTS
+    cat >corner.cfg <<END
+format = 1;
+time:    { end = 0.4; };
+fluid:   { rho = 1000.0; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (1.0, 0.8); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "below"; level = 0.5; } );
+bodies:  ( { name = "b"; points = ($4); } );
+sph:     { dx = 0.025; };
+output:  { series = 10; snapshots = false; };
+END
+    timeout 60 "$b/sph" corner.cfg -o corner --force >log.txt 2>&1 || bad "corner, $1: ended with $?"
+    off=$(awk -v x="$(number corner x)" -v y="$(number corner y)" -v wx="$2" -v wy="$3" 'BEGIN {
+        print sqrt((x - wx) ^ 2 + (y - wy) ^ 2) / sqrt(wx ^ 2 + wy ^ 2) }')
+    holds "$off < 0.03" || bad "corner, $1: force off by $off, wanted 3 %: ($(number corner x), $(number corner y)) N/m"
+    holds "$(number corner defect) < 1e-10" || bad "corner, $1: momentum off by $(number corner defect)"
+}
+corner "block on the floor" 0 -588.6 "(0.4, 0), (0.4, 0.2), (0.6, 0.2), (0.6, 0)"
+corner "block in the corner" 784.8 -588.6 "(0.8, 0), (0.8, 0.2), (1, 0.2), (1, 0)"
+corner "45 degrees" 1226.25 784.8 "(0.8, 0), (0.6, 0.2), (0.6, 0.8), (1, 0.8), (1, 0)"
+corner "120 degrees" 1226.25 -453.1 "(0.6, 0), (0.71547, 0.2), (0.71547, 0.8), (1, 0.8), (1, 0)"
+
 # walls that stand on a point between waters of different depth let nothing pass: once the first particles have found
 # their places, the levels stay within dx/10
 stands() { # NAME WALLS BODIES
