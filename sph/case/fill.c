@@ -20,6 +20,7 @@
 #include "basins.h"
 #include "first_lattice.h"
 #include "pack.h"
+#include "rims.h"
 #include "rooms.h"
 #include "sph_params.h"
 #include "surface_rows.h"
@@ -331,6 +332,8 @@ struct fill *fill_lattice(struct sph *s)
         say_rooms(b);
     say_pockets(b);
     basins_clear(b, l);
+    if (parted)
+        rims_check(s, l);
     first_lattice_each_own(s, l, add, &look);
     pack_start(s, s->prm.packing);
     if (s->prm.packing > 0)

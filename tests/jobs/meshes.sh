@@ -71,5 +71,29 @@ done
 awk -v v="$(number float-2 volume)" 'BEGIN { exit !(v > 0.00799 && v < 0.00801 || v > 0.2879 && v < 0.2881) }' || bad "volume of a mesh in summary.json: $(number float-2 volume)"
 awk -v up="$(last float-2/series.csv 'cube z')" 'BEGIN { exit !(up > 0.2503) }' || bad "the light cube does not rise: z = $(last float-2/series.csv 'cube z')"
 
+# a tank without a floor: refused where its rim ends in the water, run where that is closed by a side of the domain, or
+# as a thin wall; an open top in the air is none of this
+stl "0.3 0.3 0.3" "0.7 0.7 0.9" "zm zp" -1 >tube.stl
+stl "0.3 0.3 0.3" "0.7 0.7 0.9" "zp" -1 >bowl.stl
+rim() { # NAME MESH SIDE_OF_THE_FLOOR MORE
+    cat >"$1.cfg" <<END
+format = 1;
+time:    { end = 0.01; };
+fluid:   { rho = 1000.0; gravity = (0, 0, -9.81); };
+domain:  { dim = 3; min = (0, 0, $3); max = (1, 1, 1); };
+walls:   ( { mesh = "$2.stl"; $4 }, { side = "z_min"; }, { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+shapes:  ( { form = "box"; box = ((0.3, 0.3, 0.3), (0.7, 0.7, 0.6)); } );
+sph:     { dx = 0.05; R_dx = 2.5; };
+END
+}
+rim hole tube 0
+timeout 60 "$b/sph" hole.cfg -o hole --force >out.txt 2>&1
+[ $? = 2 ] || bad "a rim in the water is not refused"
+grep -q 'mesh tube ends in the water at .*thin = true' out.txt || bad "a rim in the water: its message"
+rim thin tube 0 "thin = true;"
+rim floor tube 0.3
+rim bowl bowl 0
+for name in thin floor bowl; do run $name 1; done
+
 echo "meshes: $failed faults"
 [ $failed = 0 ]
