@@ -41,6 +41,9 @@ void body_contacts_add(struct sph *s, double (*loads)[6]);
  * opinion. (What the walls' terms of the particles add up to is 1.39 times a constant pressure.)
  * Needs prim and slope. Collective. */
 struct force body_average(struct sph *s, int k);
+/* The same with what pushes on it, |p| times area, N, of the axis where that is largest, half of
+ * both sides; and the mean of |p|, Pa. */
+struct force body_average_pushed(struct sph *s, int k, double *pushed, double *pressure);
 /* Of the reference of the pressure alone, which the particles leave out, on what the domain and
  * other walls leave wet of the surface: nothing, or the weight of what the body displaces, unless
  * they cut it. */

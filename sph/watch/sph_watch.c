@@ -130,6 +130,14 @@ void sph_watch_create(struct sph *s)
                        .likely = w->crowd_place,
                        .warn = 0.1,
                        .stop = INFINITY};
+    w->of[SPH_WATCH_FORCES] = (struct watch){
+        .key = "rest_forces",
+        .what = "difference of the force on a body in water at rest from the average "
+                "of the pressure on it, over pressure times area",
+        .likely = w->still_place,
+        .warn = 0.05,
+        .stop = INFINITY,
+        .unsound = INFINITY};
 }
 
 void sph_watch_free(struct sph *s) { mem_free(s->watch.rate); }
@@ -262,6 +270,15 @@ static void judge_energy(struct sph *s, double t, const double *sums, struct dia
     watch_judge(w->of + SPH_WATCH_ENERGY, scale > 0.0 ? gain / scale : 0.0, t, step, d);
 }
 
+static bool is_judged(const struct sph *s, int kind)
+{
+    return kind == SPH_WATCH_ENERGY     ? s->watch.budget_closed
+           : kind == SPH_WATCH_PUT_BACK ? s->walls != NULL
+           : kind == SPH_WATCH_CROWDED  ? s->finer != NULL
+           : kind == SPH_WATCH_FORCES   ? sph_watch_has_forces(s->run, &s->prm)
+                                        : true;
+}
+
 /* Sums of the sample, taken at the start of this step. */
 static void judge_sample(struct sph *s, double t, struct diagnosis *d)
 {
@@ -281,6 +298,8 @@ static void judge_sample(struct sph *s, double t, struct diagnosis *d)
     }
     if (w->budget_closed)
         judge_energy(s, t, sums, d);
+    if (step % SPH_WATCH_FORCES_EVERY == 0 && is_judged(s, SPH_WATCH_FORCES))
+        sph_watch_rest_forces(s, t, d);
     if (step % SPH_WATCH_PAIRS != 0)
         return;
     watch_judge(w->of + SPH_WATCH_PAIRED, sums[PAIRED] / all, t, step, d);
@@ -304,14 +323,6 @@ void sph_watch_judge(struct sph *s, struct diagnosis *d)
         sph_fault_place(s, d);
     if (d->bad && s->run->summary)
         sph_watch_summarise(s);
-}
-
-static bool is_judged(const struct sph *s, int kind)
-{
-    return kind == SPH_WATCH_ENERGY     ? s->watch.budget_closed
-           : kind == SPH_WATCH_PUT_BACK ? s->walls != NULL
-           : kind == SPH_WATCH_CROWDED  ? s->finer != NULL
-                                        : true;
 }
 
 /* Mach number and least spacing have columns of their own. */
@@ -344,7 +355,7 @@ void sph_watch_summarise(const struct sph *s)
 
 /* What a restart needs to judge as if nothing had been; the same on all ranks but for energy
  * removed and walls' work. */
-enum { KEPT = 5 + 3 * SPH_WATCHES + 2 * HISTORY + 1 + 2 * WATCH_SLOTS };
+enum { KEPT = 5 + 3 * SPH_WATCHES + 2 * HISTORY + 1 + 2 * WATCH_SLOTS + 6 * BODIES_MAX };
 
 /* x to, or from, the next place of v. */
 static double keep(double **v, double x, bool load)
@@ -375,6 +386,14 @@ static void flatten(struct sph_watch *w, double *v, bool load)
     for (int k = 0; k < WATCH_SLOTS; k++) {
         w->budget.least[k] = keep(&v, w->budget.least[k], load);
         w->budget.slot[k] = (int64_t)keep(&v, (double)w->budget.slot[k], load);
+    }
+    for (int k = 0; k < BODIES_MAX; k++) {
+        struct rest_forces *r = w->still + k;
+        r->n = (int)keep(&v, r->n, load);
+        for (int a = 0; a < 3; a++)
+            r->off[a] = keep(&v, r->off[a], load);
+        r->pushed = keep(&v, r->pushed, load);
+        r->pressure = keep(&v, r->pressure, load);
     }
 }
 

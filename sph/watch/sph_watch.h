@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "../../common/run/watch.h"
+#include "../../common/scene/scene.h"
 
 struct sph;
 struct sph_params;
@@ -22,10 +23,16 @@ enum sph_watch_kind {
     SPH_WATCH_PAIRED,
     SPH_WATCH_PUT_BACK,
     SPH_WATCH_CROWDED,
+    SPH_WATCH_FORCES,
     SPH_WATCHES
 };
-/* Energies are taken every SPH_WATCH_EVERY steps, distances every SPH_WATCH_PAIRS. */
-enum { SPH_WATCH_EVERY = 10, SPH_WATCH_PAIRS = 50, SPH_WATCH_SUMS = 9 };
+/* Energies are taken every SPH_WATCH_EVERY steps, the others every multiple of that. */
+enum {
+    SPH_WATCH_EVERY = 10,
+    SPH_WATCH_FORCES_EVERY = 20,
+    SPH_WATCH_PAIRS = 50,
+    SPH_WATCH_SUMS = 9
+};
 
 /* crowding.c: of a refined flow, this rank: particles of all levels that count, those which
  * overlap, and the largest sum w W. */
@@ -34,11 +41,21 @@ struct sph_crowd {
     int level;
 };
 
+/* rest_forces.c: of a body, samples in a row at rest; the same on all ranks. */
+struct rest_forces {
+    int n, body;
+    double off[3], pushed; /* N: sums of force less average, and of pressure times area */
+    double pressure;       /* Pa: mean over the surface at the last sample; 0: there was none */
+    double share;          /* -: the first over the second */
+};
+
 struct sph_watch {
     struct watch of[SPH_WATCHES];
     char remedy[REMEDIES][160]; /* by enum sph_watch_remedy */
     struct sph_crowd crowd;     /* at the last sample */
     char crowd_place[256];
+    struct rest_forces still[BODIES_MAX];
+    char still_place[256];
     bool budget_closed; /* all work done on the flow is known, so that its energy is judged */
     double reference;   /* m/s: largest speed that the scene lets expect */
     double rest;        /* static pressure over rho0 c0^2: compression at rest */
@@ -74,6 +91,9 @@ void sph_watch_stage(struct sph *s, bool first, double weight);
 struct sph_crowd sph_watch_crowd(const struct sph *s);
 /* Where it is worst, and what to do; the same on all ranks. Collective. */
 void sph_watch_say_crowd(const struct sph *s, char *text, size_t size);
+/* rest_forces.c: forces on bodies against averages of the pressure. Collective. */
+bool sph_watch_has_forces(const struct run *r, const struct sph_params *prm);
+void sph_watch_rest_forces(struct sph *s, double t, struct diagnosis *d);
 /* Particle i is about to be removed: its energy goes with it. */
 void sph_watch_removed(struct sph *s, int i);
 /* After the step; same on all ranks. Collective. */

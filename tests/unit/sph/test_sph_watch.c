@@ -1,14 +1,16 @@
 /* test_sph_watch.c - energy is watched against its budget: gains of an unstable step end the run, a
- * driven flow and a moving wall gain nothing; the worst particle is named alike on any number of
- * ranks; impacts are no faults; shifting knows neither initial.U nor what carries the flow.
- * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+ * driven flow and a moving wall gain nothing; forces are compared at rest; the worst particle is
+ * named alike on any number of ranks; impacts are no faults; shifting knows neither initial.U nor
+ * what carries the flow. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../common/files/h5.h"
+#include "../../../sph/bodies/bodies.h"
 #include "../../../sph/case/sph_state.h"
 #include "../../../sph/output/sph_output.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/time/integrate.h"
+#include "../../../sph/walls/walls.h"
 #include "sph_case.h"
 
 static double gain_of(const struct sph_case *c) { return c->s->watch.of[SPH_WATCH_ENERGY].worst; }
@@ -199,9 +201,54 @@ static void a_restart_judges_as_one_run(void **state)
         assert_true(after[0].of[k].worst == after[1].of[k].worst);
 }
 
+/* A square at rest in a tank at rest; what the fluid loses to it is said to be more by a tenth of
+ * the pressure on its faces than it is. */
+static void forces_are_compared_at_rest(void **state)
+{
+    (void)state;
+    for (int wrong = 0; wrong < 3; wrong++) { /* the third moves */
+        struct sph_case c;
+        struct diagnosis d = {0};
+        double pushed, pressure;
+        sph_case_set(&c, 2, 20);
+        struct scene *e = &c.run.scene;
+        const double square[4][2] = {{0.4, 0.4}, {0.4, 0.6}, {0.6, 0.6}, {0.6, 0.4}};
+        e->initial.field = FIELD_REST;
+        e->initial.level = LEVEL_TOP;
+        e->fluid.nu = 0.0;
+        e->fluid.gravity[1] = -1.0;
+        e->time.end = 10.0;
+        e->domain.periodic[0] = e->domain.periodic[1] = false;
+        e->nwalls = 4;
+        for (int k = 0; k < 4; k++)
+            e->walls[k].side = SIDE_X_MIN + k;
+        e->nbodies = 1;
+        e->bodies[0].points.n = 4;
+        memcpy(e->bodies[0].points.x, square, sizeof square);
+        c.prm.walls = WALLS_NFM;
+        sph_case_start(&c, NULL);
+        struct watch *w = c.s->watch.of + SPH_WATCH_FORCES;
+        assert_true(sph_case_run(&c, 5, 100.0));
+        body_average_pushed(c.s, 0, &pushed, &pressure);
+        c.s->walls->speed = wrong == 2 ? 1.0 : 0.0;
+        for (int k = 0; k < 24; k++) {
+            struct force *f = c.s->walls->forces.now;
+            f->F[0] = wrong ? 0.1 * pushed : 0.0;
+            f->F[1] = body_average(c.s, 0).F[1];
+            sph_watch_rest_forces(c.s, c.s->t, &d);
+        }
+        assert_false(d.bad);
+        assert_int_equal(w->warned, wrong == 1);
+        if (wrong == 1)
+            assert_close(w->worst, 0.1, 0.005);
+        sph_free(&c.s);
+    }
+}
+
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_sound_flow_gains_nothing),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(forces_are_compared_at_rest),
+                                       cmocka_unit_test(a_sound_flow_gains_nothing),
                                        cmocka_unit_test(an_unstable_step_is_ended_by_its_energy),
                                        cmocka_unit_test(work_from_outside_is_no_gain),
                                        cmocka_unit_test(the_worst_particle_is_named),
