@@ -51,6 +51,7 @@ static bool is_wet(const struct scene *c, const struct exact *e, const double *x
  * the fluid) meets within reach: a face, of this mesh or another, that looks the other way. */
 struct facing {
     bool any;
+    const struct scene_mesh *met;
     double width, from[3], to[3], n[3];
 };
 
@@ -85,6 +86,7 @@ static struct facing look_across(const struct scene_meshes *all, const struct sc
     trimesh_normal(&met->mesh, hit.triangle, other);
     f.any = vec3_dot(other, f.n) < -0.5;
     f.width = least * reach + off;
+    f.met = met;
     return f;
 }
 
@@ -183,6 +185,59 @@ static void warn_gaps(const struct run *r, const struct scene_mesh *m, double dx
                  0.25 * first.width);
 }
 
+/* Whether first water one width away sees the middle of a passage. */
+static bool has_water(const struct run *r, const struct facing *is)
+{
+    const struct exact e = exact_create(&r->scene);
+    const struct scene_meshes *all = r->scene.meshes;
+    bool wet = false;
+    for (int k = 0; k < 27 && !wet; k++) {
+        const double way[3] = {k % 3 - 1.0, k / 3 % 3 - 1.0, k / 9 - 1.0};
+        double x[3], y[3];
+        for (int a = 0; a < 3; a++) {
+            x[a] = 0.5 * (is->from[a] + is->to[a]);
+            y[a] = x[a] + way[a] * is->width;
+        }
+        wet = is_wet(&r->scene, &e, y);
+        for (int m = 0; m < all->n && wet; m++)
+            wet = all->of[m].owner == MESH_OF_SHAPE || !tree_crosses(all->of[m].tree, x, y, NULL);
+    }
+    return wet;
+}
+
+/* Of one mesh to others: the narrowest passage, if it is narrower than `least'. */
+static void find_passage(const struct run *r, const struct scene_mesh *m, double dx,
+                         struct facing *least)
+{
+    const int stride = 1 + m->mesh.ntriangles / RAYS;
+    const struct scene_domain *d = &r->scene.domain;
+    for (int t = 0; t < m->mesh.ntriangles && m->owner != MESH_OF_SHAPE; t += stride) {
+        const struct facing is = look_across(r->scene.meshes, m, t, -1, SPH_PASSAGE * dx);
+        bool counts = is.any && is.met != m && is.width > dx && is.width < least->width;
+        for (int a = 0; a < 3; a++) {
+            const double x = 0.5 * (is.from[a] + is.to[a]);
+            counts = counts && x > d->min[a] && x < d->max[a];
+        }
+        if (counts && has_water(r, &is))
+            *least = is;
+    }
+}
+
+/* See sph.c. */
+static void warn_passage(const struct run *r, double dx)
+{
+    struct facing least = {.width = INFINITY};
+    for (int k = 0; k < r->scene.meshes->n; k++)
+        find_passage(r, r->scene.meshes->of + k, dx, &least);
+    const double n = least.width / dx;
+    if (least.any)
+        log_warn("mesh %s is %.3g m apart from another at (%g, %g, %g) m, %.2g particles across: "
+                 "of a flow through there some %.0f %% are missing; sph.dx = %.2g m has ten "
+                 "particles there, and 10 %%",
+                 least.met->name, least.width, least.from[0], least.from[1], least.from[2], n,
+                 fmin(90.0, 1000.0 / (n * n)), least.width / SPH_PASSAGE);
+}
+
 /* Surfaces that pierce each other. */
 static void warn_pairs(const struct run *r)
 {
@@ -227,4 +282,6 @@ void sph_meshes_warn(const struct run *r, const struct sph_params *used)
     }
     if (c->meshes)
         warn_pairs(r);
+    if (c->meshes && used->speed.moves)
+        warn_passage(r, dx);
 }

@@ -5,6 +5,9 @@
 
 #include "../particles/params_derived.h"
 
+/* Particles across a passage below which more than 10 % of a flow are missing. */
+#define SPH_PASSAGE 10.0
+
 /* given: as the case has it; used: sph_params_of. */
 void sph_sense_check(const struct run *r, const struct sph_params *given,
                      const struct sph_params *used, struct faults *f);

@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "../../common/base/mem.h"
+#include "../../common/scene/exact.h"
+#include "../../common/scene/scene_fluid.h"
 
 /* A segment with the fluid on its left. */
 struct thin_face {
@@ -19,6 +21,7 @@ struct faces {
     int n, capacity;
     struct thin_face *face;
     const struct scene *scene;
+    bool passages; /* between different pieces, not both sides of the domain */
 };
 
 static void add_face(struct faces *f, const double *a, const double *b, struct thin_face with)
@@ -163,6 +166,35 @@ static void name_face(const struct scene *c, const struct thin_face *g, char *te
         snprintf(text, size, "wall %d", g->piece + 1);
 }
 
+static bool is_side(const struct scene *c, const struct thin_face *g)
+{
+    return g->piece < WALLS_MAX && c->walls[g->piece].side != SIDE_NONE;
+}
+
+static bool is_no_passage(const struct faces *f, const struct thin_face *g,
+                          const struct thin_face *h)
+{
+    return f->passages && (g->piece == h->piece || (is_side(f->scene, g) && is_side(f->scene, h)));
+}
+
+/* Whether first water within one and a half widths sees the middle x of a passage: a gap that is
+ * dry and out of its way is none. */
+static bool has_water(const struct faces *f, const double *x, double width)
+{
+    enum { WAYS = 16 };
+    const struct exact e = exact_create(f->scene);
+    bool wet = false;
+    for (int k = 0; k < 3 * WAYS && !wet; k++) {
+        const double angle = 2.0 * M_PI * k / WAYS, r = 0.5 * (1.0 + floor(k / WAYS)) * width;
+        const double d[2] = {cos(angle), sin(angle)};
+        const double y[3] = {x[0] + r * d[0], x[1] + r * d[1], 0.0};
+        int hit;
+        wet = scene_is_fluid(f->scene, &e, y, NULL) && scene_is_room(f->scene, y) &&
+              !isfinite(cast(f, -1, x, d, r, &hit));
+    }
+    return wet;
+}
+
 /* Whether across the solid (into = 1) or the fluid (-1) something faces the point s of face k. */
 static bool is_thin(const struct faces *f, int k, double s, int into, double least,
                     struct wall_thin *t)
@@ -175,10 +207,13 @@ static bool is_thin(const struct faces *f, int k, double s, int into, double lea
     if (hit < 0 || width < 1e-3 * least)
         return false;
     const struct thin_face *h = f->face + hit;
-    if (g->n[0] * h->n[0] + g->n[1] * h->n[1] >= 0.0 || is_corner(f, g, s, h, width))
+    if (g->n[0] * h->n[0] + g->n[1] * h->n[1] >= 0.0 || is_no_passage(f, g, h) ||
+        is_corner(f, g, s, h, width))
         return false;
     *t = (struct wall_thin){.at = {x[0] + 0.5 * width * d[0], x[1] + 0.5 * width * d[1]},
                             .width = width};
+    if (f->passages && !has_water(f, t->at, width))
+        return false;
     char what[2][72];
     name_face(f->scene, g, what[0], sizeof what[0]);
     name_face(f->scene, h, what[1], sizeof what[1]);
@@ -190,9 +225,11 @@ static bool is_thin(const struct faces *f, int k, double s, int into, double lea
 }
 
 /* The thinnest place that is so along a face for `stretch' at least. */
-static bool find(const struct scene *c, int into, double least, double stretch, struct wall_thin *t)
+static bool find(const struct scene *c, int into, double least, double stretch, bool passages,
+                 struct wall_thin *t)
 {
     struct faces f = faces_of(c, into < 0);
+    f.passages = passages;
     t->width = INFINITY;
     for (int k = 0; k < f.n; k++) {
         const int points = 1 + (int)(4.0 * f.face[k].length / least);
@@ -212,10 +249,15 @@ static bool find(const struct scene *c, int into, double least, double stretch, 
 
 bool wall_thin_solid(const struct scene *c, double least, struct wall_thin *t)
 {
-    return find(c, 1, least, 0.0, t);
+    return find(c, 1, least, 0.0, false, t);
 }
 
 bool wall_thin_gap(const struct scene *c, double least, struct wall_thin *t)
 {
-    return find(c, -1, least, 4.0 * least, t);
+    return find(c, -1, least, 4.0 * least, false, t);
+}
+
+bool wall_thin_passage(const struct scene *c, double least, struct wall_thin *t)
+{
+    return find(c, -1, least, least / 6.0, true, t);
 }

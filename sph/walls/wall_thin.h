@@ -16,5 +16,8 @@ struct wall_thin {
 bool wall_thin_solid(const struct scene *c, double least, struct wall_thin *t);
 /* Fluid narrower than `least' between faces along 4 `least' and more; faces that touch are none. */
 bool wall_thin_gap(const struct scene *c, double least, struct wall_thin *t);
+/* The narrowest passage between two walls or bodies, one of which is no side of the domain, if it
+ * is narrower than `least' along a sixth of that: a free body has none. */
+bool wall_thin_passage(const struct scene *c, double least, struct wall_thin *t);
 
 #endif

@@ -118,11 +118,47 @@ static void gaps(void **state)
     free(c);
 }
 
+/* A slot between two plates is a passage, and one between a plate and a side; a tank that is as
+ * narrow is none, nor are the two sides of a nozzle that one line draws, nor a block that is far.
+ */
+static void passages(void **state)
+{
+    struct scene *c = scene_new();
+    struct wall_thin t;
+    double left[4][2] = {{-2.0, 0.0}, {-0.1, 0.0}, {-0.1, -0.2}, {-2.0, -0.2}};
+    double right[4][2] = {{0.1, 0.0}, {2.0, 0.0}, {2.0, -0.2}, {0.1, -0.2}};
+    (void)state;
+    c->nbodies = 2;
+    c->fluid.gravity[1] = -9.81;
+    set_points(&c->bodies[0].points, 4, left, 0.0, false);
+    set_points(&c->bodies[1].points, 4, right, 0.0, false);
+    c->nshapes = 1;
+    c->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = -1.0}; /* out of its way */
+    assert_false(wall_thin_passage(c, 0.21, &t));
+    c->shapes[0].level = 0.5;
+    assert_true(wall_thin_passage(c, 0.21, &t));
+    assert_close(t.width, 0.2, 1e-9);
+    assert_close(t.at[0], 0.0, 1e-9);
+    assert_false(wall_thin_passage(c, 0.19, &t));
+    c->bodies[1].free = true;
+    assert_false(wall_thin_passage(c, 0.21, &t));
+    c->nbodies = 0;
+    c->nwalls = 2;
+    c->walls[0].side = SIDE_X_MIN;
+    c->walls[1].side = SIDE_X_MAX;
+    assert_false(wall_thin_passage(c, 2.0 * (c->domain.max[0] - c->domain.min[0]), &t));
+    c->nbodies = 1;
+    set_points(&c->bodies[0].points, 4, left, 0.0, false);
+    assert_true(wall_thin_passage(c, 6.0, &t)); /* to the side */
+    assert_close(t.width, 3.0, 1e-9);
+    free(c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(plates_are_thin),
                                        cmocka_unit_test(corners_are_not_thin),
-                                       cmocka_unit_test(gaps)};
+                                       cmocka_unit_test(gaps), cmocka_unit_test(passages)};
     srand(11);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
