@@ -64,6 +64,8 @@ struct sph_totals {
     /* with zones: |M/mass - 1|, with and without the mass that faces hold */
     double fluctuation, fluctuation_particles;
     double lost;           /* particles removed; this rank */
+    double lost_at[3];     /* m: the first of a level beyond a side; this rank */
+    bool lost_any;         /* there is one */
     double lost_said;      /* of all ranks, when last reported */
     int64_t pairs;         /* ordered pairs within R, counted once a stage; this rank */
     int64_t pairs_now;     /* the same, of the present list */

@@ -185,24 +185,29 @@ static void warn_gaps(const struct run *r, const struct scene_mesh *m, double dx
                  0.25 * first.width);
 }
 
-/* Whether first water one width away sees the middle of a passage. */
-static bool has_water(const struct run *r, const struct facing *is)
+/* Whether the middle of a passage sees water and a dry place one width away, at the start. */
+static bool leads_out(const struct run *r, const struct facing *is)
 {
     const struct exact e = exact_create(&r->scene);
+    const struct scene_domain *d = &r->scene.domain;
     const struct scene_meshes *all = r->scene.meshes;
-    bool wet = false;
-    for (int k = 0; k < 27 && !wet; k++) {
+    bool wet = false, dry = false;
+    for (int k = 0; k < 27 && !(wet && dry); k++) {
         const double way[3] = {k % 3 - 1.0, k / 3 % 3 - 1.0, k / 9 - 1.0};
         double x[3], y[3];
+        bool seen = k != 13;
         for (int a = 0; a < 3; a++) {
             x[a] = 0.5 * (is->from[a] + is->to[a]);
             y[a] = x[a] + way[a] * is->width;
+            seen = seen && y[a] > d->min[a] && y[a] < d->max[a];
         }
-        wet = is_wet(&r->scene, &e, y);
-        for (int m = 0; m < all->n && wet; m++)
-            wet = all->of[m].owner == MESH_OF_SHAPE || !tree_crosses(all->of[m].tree, x, y, NULL);
+        for (int m = 0; m < all->n && seen; m++)
+            seen = all->of[m].owner == MESH_OF_SHAPE || !tree_crosses(all->of[m].tree, x, y, NULL);
+        const bool fluid = seen && is_wet(&r->scene, &e, y);
+        wet = wet || fluid;
+        dry = dry || (seen && !fluid);
     }
-    return wet;
+    return wet && dry;
 }
 
 /* Of one mesh to others: the narrowest passage, if it is narrower than `least'. */
@@ -218,7 +223,7 @@ static void find_passage(const struct run *r, const struct scene_mesh *m, double
             const double x = 0.5 * (is.from[a] + is.to[a]);
             counts = counts && x > d->min[a] && x < d->max[a];
         }
-        if (counts && has_water(r, &is))
+        if (counts && leads_out(r, &is))
             *least = is;
     }
 }

@@ -262,25 +262,60 @@ static void finish_step(struct sph *s, double dt, double lost, double *most, str
     }
 }
 
-/* Of all ranks: particles that were removed behind walls, and where the first of them was on the
- * lowest rank that has some. Collective. */
-static int64_t gone_behind(const struct sph *s, double at[3])
+/* at[3] of the lowest rank that has one. Collective. */
+static void of_first_rank(const struct sph *s, bool any, double *at)
 {
     struct {
         int none, rank;
-    } who = {1, s->run->rank};
+    } who = {!any, s->run->rank};
+    MPI_Allreduce(MPI_IN_PLACE, &who, 1, MPI_2INT, MPI_MINLOC, s->run->comm);
+    MPI_Bcast(at, 3, MPI_DOUBLE, who.rank, s->run->comm);
+}
+
+/* Of all ranks: particles that were removed behind walls, and where one of the first was.
+ * Collective. */
+static int64_t gone_behind(const struct sph *s, double at[3])
+{
     int64_t n = 0;
+    bool any = false;
     memset(at, 0, 3 * sizeof *at);
     for (const struct sph *q = s; q; q = q->finer)
         if (q->walls && q->walls->gone > 0) {
             n += q->walls->gone;
             memcpy(at, q->walls->gone_at, 3 * sizeof *at);
-            who.none = 0;
+            any = true;
         }
     MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT64_T, MPI_SUM, s->run->comm);
-    MPI_Allreduce(MPI_IN_PLACE, &who, 1, MPI_2INT, MPI_MINLOC, s->run->comm);
-    MPI_Bcast(at, 3, MPI_DOUBLE, who.rank, s->run->comm);
+    of_first_rank(s, any, at);
     return n;
+}
+
+/* Through which side a particle at x has left, and whether that is a wall. */
+static const char *side_left(const struct sph *s, const double *x, bool *wall)
+{
+    int side = -1;
+    for (int a = 0; a < s->dim; a++)
+        side = s->periodic[a] ? side : x[a] < s->lo[a] ? 2 * a : x[a] > s->hi[a] ? 2 * a + 1 : side;
+    const struct scene_wall *is =
+        side >= 0 ? scene_wall_of(&s->run->scene, SIDE_X_MIN + side) : NULL;
+    *wall = is && (is->kind == WALL_SLIP || is->kind == WALL_NO_SLIP);
+    return side >= 0 ? scene_side_names[side] : "a side";
+}
+
+static void say_left(const struct sph *s, double n)
+{
+    double at[3] = {0.0, 0.0, 0.0};
+    bool any = false, wall;
+    for (const struct sph *q = s; q; q = q->finer)
+        if (q->total.lost_any && !any) {
+            memcpy(at, q->total.lost_at, sizeof at);
+            any = true;
+        }
+    of_first_rank(s, any, at);
+    const char *side = side_left(s, at, &wall);
+    log_warn("t = %g s: %.0f particle(s) left the region since the start, the first across %s at "
+             "(%g, %g, %g) m%s",
+             s->t, n, side, at[0], at[1], at[2], wall ? ", which is a wall: refine sph.dx" : "");
 }
 
 /* The first time, whenever the number has grown tenfold, and when nothing is left. */
@@ -310,8 +345,7 @@ static void report_lost(struct sph *s, double lost)
                              : "where water may come round an open mesh give it both faces, or "
                                "thin = true");
     else
-        log_warn("t = %g s: %.0f particle(s) left the region at an open side since the start", s->t,
-                 sum);
+        say_left(s, sum);
 }
 
 /* Mass of the region: particles, and what the faces hold of particles that are partly in. */

@@ -2,6 +2,7 @@
 #include "level.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "../../common/base/mem.h"
 #include "../../common/scene/wave_zones.h"
@@ -281,10 +282,14 @@ static int remove_lost(struct sph *s)
         bool inside = true;
         for (int a = 0; a < s->dim; a++)
             inside = inside && (s->periodic[a] || !(y[a] < s->lo[a] || y[a] > s->hi[a]));
-        if (inside)
+        if (inside) {
             particles_copy(&s->p, n++, i);
-        else
-            sph_watch_removed(s, i);
+            continue;
+        }
+        if (!s->total.lost_any)
+            memcpy(s->total.lost_at, y, (size_t)s->dim * sizeof *y);
+        s->total.lost_any = true;
+        sph_watch_removed(s, i);
     }
     s->p.n = n;
     return before - n;

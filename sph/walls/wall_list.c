@@ -350,7 +350,8 @@ static void own_covered(const struct sph *s, struct wall_list *l, int k)
         t->body = owner_of(s->walls, t, s->dim);
         t->on = -1;
         for (const struct wall_touch *o = begin; o < end && t->height < 0.0; o++)
-            if (t->is.W > 0.0 && owner_of(s->walls, o, s->dim) != t->body && lies_on(s, t, o)) {
+            if ((t->is.W > 0.0 || t->joined) && owner_of(s->walls, o, s->dim) != t->body &&
+                lies_on(s, t, o)) {
                 t->body = owner_of(s->walls, o, s->dim);
                 t->on = (int)(o - begin);
             }

@@ -177,22 +177,27 @@ static bool is_no_passage(const struct faces *f, const struct thin_face *g,
     return f->passages && (g->piece == h->piece || (is_side(f->scene, g) && is_side(f->scene, h)));
 }
 
-/* Whether first water within one and a half widths sees the middle x of a passage: a gap that is
- * dry and out of its way is none. */
-static bool has_water(const struct faces *f, const double *x, double width)
+/* Whether the middle x of a passage sees water and a dry place within one and a half widths at the
+ * start: between two waters at rest, or in the air, nothing is known of a flow. */
+static bool leads_out(const struct faces *f, const double *x, double width)
 {
     enum { WAYS = 16 };
+    const struct scene_domain *in = &f->scene->domain;
     const struct exact e = exact_create(f->scene);
-    bool wet = false;
-    for (int k = 0; k < 3 * WAYS && !wet; k++) {
-        const double angle = 2.0 * M_PI * k / WAYS, r = 0.5 * (1.0 + floor(k / WAYS)) * width;
+    bool wet = false, dry = false;
+    for (int k = 0; k < 3 * WAYS && !(wet && dry); k++) {
+        const double angle = 2.0 * M_PI * k / WAYS, r = 0.5 * (1 + k / WAYS) * width;
         const double d[2] = {cos(angle), sin(angle)};
         const double y[3] = {x[0] + r * d[0], x[1] + r * d[1], 0.0};
         int hit;
-        wet = scene_is_fluid(f->scene, &e, y, NULL) && scene_is_room(f->scene, y) &&
-              !isfinite(cast(f, -1, x, d, r, &hit));
+        if (y[0] < in->min[0] || y[1] < in->min[1] || y[0] > in->max[0] || y[1] > in->max[1] ||
+            !scene_is_room(f->scene, y) || isfinite(cast(f, -1, x, d, r, &hit)))
+            continue;
+        const bool fluid = scene_is_fluid(f->scene, &e, y, NULL);
+        wet = wet || fluid;
+        dry = dry || !fluid;
     }
-    return wet;
+    return wet && dry;
 }
 
 /* Whether across the solid (into = 1) or the fluid (-1) something faces the point s of face k. */
@@ -212,7 +217,7 @@ static bool is_thin(const struct faces *f, int k, double s, int into, double lea
         return false;
     *t = (struct wall_thin){.at = {x[0] + 0.5 * width * d[0], x[1] + 0.5 * width * d[1]},
                             .width = width};
-    if (f->passages && !has_water(f, t->at, width))
+    if (f->passages && !leads_out(f, t->at, width))
         return false;
     char what[2][72];
     name_face(f->scene, g, what[0], sizeof what[0]);

@@ -68,6 +68,13 @@ for k in 0.0009765625 1 1024; do
 done >units.txt
 [ "$(sort -u units.txt | wc -l)" = 1 ] || bad "a column in other units is another flow" units.txt
 
+# water that runs out where no wall is: the place, the same on two ranks
+scene spill 0.4 0.05 'max = (1, 0.8);' '(0, -9.81)' '{ side = "x_min"; }, { side = "y_min"; }' '{ form = "box"; box = ((0, 0), (0.5, 0.4)); }'
+for n in 1 2; do
+    timeout -k 5 60 mpirun --oversubscribe -np $n "$b/sph" spill.cfg -o spill --force >spill.txt 2>&1 || bad "spill on $n ranks ended with $?" spill.txt
+    grep -q 'left the region since the start, the first across x_max at (1' spill.txt || bad "spill on $n ranks: not told where" spill.txt
+done
+
 # c0 too low: the remedy is c0, the place is the same on any number of ranks
 for n in 1 2 4; do
     timeout -k 5 60 mpirun --oversubscribe -np $n "$b/sph" column.cfg -o low --force -p sph.c0=3.0 >low$n.txt 2>&1

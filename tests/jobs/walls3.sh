@@ -51,6 +51,25 @@ for c in plate sheet; do
     holds "$(number $c defect) < 1e-10" || bad "$c: momentum off by $(number $c defect)"
 done
 
+# a cube of eight particles that stands on the floor under water: p A on its top, 3 %, and nothing to a side
+stl "0.3 0.3 0" "0.7 0.7 0.4" >block.stl
+cat >block.cfg <<'END2'
+format = 1;
+time:    { end = 0.3; };
+fluid:   { rho = 1000.0; gravity = (0, 0, -9.81); };
+domain:  { dim = 3; min = (0, 0, 0); max = (1, 1, 1); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; }, { side = "z_min"; } );
+shapes:  ( { form = "below"; level = 0.7; } );
+bodies:  ( { name = "block"; mesh = "block.stl"; } );
+sph:     { dx = 0.05; };
+output:  { series = 10; snapshots = false; };
+END2
+run block
+holds "$(number block z) < -456.8 && $(number block z) > -485.1" || bad "block: $(number block z) N, wanted -470.9 N within 3 %"
+for way in x y; do
+    holds "$(number block $way) < 1 && $(number block $way) > -1" || bad "block: pushed along $way by $(number block $way) N"
+done
+
 # the same tank as sides of the domain, as a mesh, and turned by 30 degrees: nobody lost, and when what the start has
 # stirred is over, |u| below 1e-3 c0 in the mean of squares
 stl "0 0 0" "0.6 0.6 0.8" >tank.stl

@@ -135,7 +135,9 @@ static void passages(void **state)
     c->nshapes = 1;
     c->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = -1.0}; /* out of its way */
     assert_false(wall_thin_passage(c, 0.21, &t));
-    c->shapes[0].level = 0.5;
+    c->shapes[0].level = 5.0;
+    assert_false(wall_thin_passage(c, 0.21, &t));
+    c->shapes[0] = (struct scene_shape){.form = SHAPE_BOX, .box = {{-2.0, 0.0}, {2.0, 1.0}}};
     assert_true(wall_thin_passage(c, 0.21, &t));
     assert_close(t.width, 0.2, 1e-9);
     assert_close(t.at[0], 0.0, 1e-9);
@@ -148,9 +150,12 @@ static void passages(void **state)
     c->walls[1].side = SIDE_X_MAX;
     assert_false(wall_thin_passage(c, 2.0 * (c->domain.max[0] - c->domain.min[0]), &t));
     c->nbodies = 1;
+    left[0][0] = left[3][0] = -4.8;
     set_points(&c->bodies[0].points, 4, left, 0.0, false);
-    assert_true(wall_thin_passage(c, 6.0, &t)); /* to the side */
-    assert_close(t.width, 3.0, 1e-9);
+    c->shapes[0].box[0][0] = -5.0;
+    assert_true(wall_thin_passage(c, 0.21, &t)); /* to the side */
+    assert_close(t.width, 0.2, 1e-9);
+    assert_close(t.at[0], -4.9, 1e-9);
     free(c);
 }
 
