@@ -148,7 +148,7 @@ struct scene {
         double start;          /* periods of the soft start */
         double zone;           /* m; 0: by the waves */
         double peak, repeat;   /* -, s */
-        int seed;
+        int order, seed;
         double made[2]; /* m, m/s: highest crest, fastest water, by scene_waves_resolve */
     } waves;
     struct scene_coupling {

@@ -215,6 +215,9 @@ static void check_waves(const struct scene *s, const struct params *p, struct fa
     params_unused(p, f, "waves.at", !sea, "the phases of a sea are random");
     params_unused(p, f, "waves.peak", sums, "regular waves have no spectrum");
     params_unused(p, f, "waves.repeat", sums, "regular waves repeat themselves every period");
+    params_unused(p, f, "waves.order", sums && scene_makes_waves(s),
+                  sums ? "a paddle makes the linear waves; a side of kind wave makes bound ones"
+                       : "regular waves are of steady form, exact");
     params_unused(p, f, "waves.seed", sea, "only the phases of a sea are random");
 }
 

@@ -7,6 +7,8 @@
 #include "../base/log.h"
 #include "../base/mem.h"
 #include "../base/vec3.h"
+#include "../waves/sea.h"
+#include "../waves/second_order.h"
 #include "../waves/zone_gain.h"
 #include "scene_fluid.h"
 #include "wave_maker.h"
@@ -122,7 +124,8 @@ struct wave_spec scene_waves_spec(const struct scene *s)
                            .start = w->start,
                            .closed = true,
                            .peak = w->peak,
-                           .seed = w->seed};
+                           .seed = w->seed,
+                           .order = w->kind != WAVE_REGULAR && scene_makes_waves(s) ? w->order : 1};
     of.repeat = w->repeat > 0.0 ? w->repeat : repeat_of(s, waves_period(&of));
     window_of(s, of.window);
     return of;
@@ -265,9 +268,14 @@ static void describe_made(const struct waves *w)
             names[w->of.kind], w->of.height, w->of.kind == WAVE_REGULAR ? "" : "the peak's ",
             w->length, w->period, w->celerity, w->of.depth, kh, 100.0 * w->of.height / w->limit,
             w->crest, w->trough, w->speed);
-    if (w->of.kind != WAVE_REGULAR)
-        log_say("%d linear components, lengths %.3g to %.3g m", w->ncomponents, w->shortest,
-                w->longest);
+    if (w->of.kind == WAVE_REGULAR)
+        return;
+    log_say("%d linear components, lengths %.3g to %.3g m", w->ncomponents, w->shortest,
+            w->longest);
+    if (w->second)
+        log_say(
+            "second order: pairs of %d frequencies; waves take a zone %.2g s a period to compute",
+            second_order_frequencies(w->second), sea_seconds(w));
 }
 
 void scene_waves_describe(const struct scene *s)

@@ -1,9 +1,8 @@
-/* sea.c - see sea.h. SPDX-License-Identifier: BSD-3-Clause */
+/* sea.c - the components: see sea.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "sea.h"
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
 #include "../base/mem.h"
 
@@ -50,40 +49,4 @@ struct wave_component *sea_components(const struct wave_spec *of, double period,
     for (int i = 0; i < *n; i++)
         c[i].a *= scale;
     return c;
-}
-
-double *sea_profiles(const struct waves *w)
-{
-    double *profile = NEW(double, (size_t)w->ncomponents *WAVE_NODES * 2);
-    for (int c = 0; c < w->ncomponents; c++)
-        for (int j = 0; j < WAVE_NODES; j++) {
-            const double k = w->components[c].k, depth = w->of.depth,
-                         z = wave_table_height(&w->table, 0, j), all = 1.0 - exp(-2.0 * k * depth);
-            const double up = exp(k * z), down = exp(-k * (z + 2.0 * depth));
-            double *q = profile + ((size_t)c * WAVE_NODES + (size_t)j) * 2;
-            q[0] = (up + down) / all;
-            q[1] = (up - down) / all;
-        }
-    return profile;
-}
-
-void sea_frame(const struct waves *w, double t, struct wave_table *to)
-{
-    memset(to->eta, 0, (size_t)to->n * sizeof *to->eta);
-    memset(to->u, 0, (size_t)to->n * WAVE_NODES * 2 * sizeof *to->u);
-    for (int i = 0; i < to->n; i++) {
-        const double x = to->first + i * to->gap;
-        double *u = to->u + (size_t)i * WAVE_NODES * 2;
-        for (int c = 0; c < w->ncomponents; c++) {
-            const struct wave_component *q = w->components + c;
-            const double *profile = w->profile + (size_t)c * WAVE_NODES * 2;
-            const double turn = q->k * x - q->w * t + q->phase, co = q->a * cos(turn),
-                         si = q->a * sin(turn);
-            to->eta[i] += co;
-            for (int j = 0; j < WAVE_NODES; j++) {
-                u[2 * j] += q->w * co * profile[2 * j];
-                u[2 * j + 1] += q->w * si * profile[2 * j + 1];
-            }
-        }
-    }
 }

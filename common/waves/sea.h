@@ -1,7 +1,9 @@
-/* sea.h - irregular waves as sums of linear ones: JONSWAP's spectrum with random phases, or all
- * crests at one place and time. SPDX-License-Identifier: BSD-3-Clause */
+/* sea.h - irregular waves as sums: JONSWAP's spectrum with random phases, or all crests at one
+ * place and time; frames of them. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_SEA_H
 #define COMMON_SEA_H
+
+#include <complex.h>
 
 #include "waves.h"
 
@@ -11,9 +13,15 @@ double sea_jonswap(double f, double gamma);
  * number in n; owned by the caller. Sea: sum a^2/2 is height^2/16; focused: sum a is half the
  * height. */
 struct wave_component *sea_components(const struct wave_spec *of, double period, int *n);
-/* What they make of a flat table's nodes; owned by the caller. */
-double *sea_profiles(const struct waves *w);
-/* Fills a table at the time t, s: linear theory, above the still level as on it. */
-void sea_frame(const struct waves *w, double t, struct wave_table *to);
+/* Fills in the waves of a sea or a group. */
+void sea_make(struct waves *w);
+/* Makes its table ready for the time t, s: linear theory, and of second order what pairs bind. */
+void sea_at(struct waves *w, double t);
+/* Factor of the velocities of one frequency that makes up for the zone. */
+double complex sea_gain(const struct wave_spec *of, double omega, double k);
+/* s: of computing that a period of them costs, about. */
+double sea_seconds(const struct waves *w);
+/* m: as deep as a table reaches for waves of that length. */
+double sea_reach(double depth, double length);
 
 #endif

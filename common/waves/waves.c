@@ -7,11 +7,13 @@
 
 #include "../base/mem.h"
 #include "sea.h"
-#include "zone_gain.h"
+#include "second_order.h"
 
 enum { COLUMNS = 192 }; /* a length of a regular wave */
 
 static const double steepest = 0.9; /* of the limit: steady.h */
+/* Second order over first above which troughs have a crest of their own, which no wave has. */
+static const double bound = 0.25;
 
 double waves_limit(double depth, double length)
 {
@@ -68,7 +70,7 @@ static bool find_steady(const struct wave_spec *of, struct steady *w)
     return true;
 }
 
-static double peak_length(const struct wave_spec *of)
+double waves_length(const struct wave_spec *of)
 {
     return of->length > 0.0 ? of->length
                             : 2.0 * M_PI / waves_number(2.0 * M_PI / of->period, of->g, of->depth);
@@ -76,7 +78,7 @@ static double peak_length(const struct wave_spec *of)
 
 double waves_period(const struct wave_spec *of)
 {
-    const double k = 2.0 * M_PI / peak_length(of);
+    const double k = 2.0 * M_PI / waves_length(of);
     return of->period > 0.0 ? of->period
                             : 2.0 * M_PI / sqrt(of->g * k * tanh(fmin(k * of->depth, 300.0)));
 }
@@ -94,7 +96,7 @@ bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size
         snprintf(text, size, "give one of length (m) and period (s)");
         return true;
     }
-    const double length = peak_length(of), limit = waves_limit(of->depth, length);
+    const double length = waves_length(of), limit = waves_limit(of->depth, length);
     /* a sea's highest waves are about twice its significant height */
     const double share = of->kind == WAVE_SEA ? 0.5 : steepest;
     if (of->height > share * limit) {
@@ -105,6 +107,14 @@ bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size
                  of->kind == WAVE_SEA ? "a sea of steeper ones breaks: at most"
                                       : "waves of up to 0.9 of it can be made: at most",
                  share * limit);
+        return true;
+    }
+    const double second = bound_wave_stokes(0.5 * of->height, 2.0 * M_PI / length, of->depth);
+    if (of->kind != WAVE_REGULAR && of->order > 1 && second > bound) {
+        snprintf(text, size,
+                 "%g m: at a length of %.4g m over %.4g m of water the second order is %.2g of the "
+                 "first, more than %g: at most %.3g m, or waves.order = 1",
+                 of->height, length, of->depth, second, bound, of->height * bound / second);
         return true;
     }
     if (of->kind != WAVE_REGULAR && of->repeat < 5.0 * waves_period(of)) {
@@ -123,19 +133,6 @@ bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size
     return false;
 }
 
-/* Deep water needs no nodes down to its bottom. */
-static double reach_of(double depth, double length) { return fmin(depth, 1.2 * length); }
-
-/* Factor of the velocities of one frequency. */
-static double complex gain_at(const struct wave_spec *of, double omega, double k)
-{
-    if (!(of->zone > 0.0))
-        return 1.0;
-    const struct zone_response is =
-        zone_response(omega, k, fabs(of->cosine), of->g, of->depth, of->zone, of->rate);
-    return of->cosine > 0.0 ? is.make : is.pass;
-}
-
 static void make_regular(struct waves *w)
 {
     const struct wave_spec *of = &w->of;
@@ -147,7 +144,8 @@ static void make_regular(struct waves *w)
     w->period = w->length / w->celerity;
     w->crest = s->crest;
     w->trough = s->trough;
-    w->table = wave_table_create(COLUMNS, 0.0, w->length / COLUMNS, reach_of(of->depth, w->length));
+    w->table = wave_table_create(COLUMNS, 0.0, w->length / COLUMNS, sea_reach(of->depth, w->length),
+                                 false);
     w->table.periodic = true;
     w->table.decay = w->table.reach < of->depth ? s->k : 0.0;
     for (int i = 0; i < COLUMNS; i++) {
@@ -159,62 +157,9 @@ static void make_regular(struct waves *w)
     }
     w->speed = fmax(fabs(w->table.u[0] + w->current), fabs(w->current));
     const double complex gain =
-        gain_at(of, sqrt(of->g * s->k * tanh(fmin(s->k * of->depth, 300.0))), s->k);
+        sea_gain(of, sqrt(of->g * s->k * tanh(fmin(s->k * of->depth, 300.0))), s->k);
     w->gain = cabs(gain);
     w->ahead = carg(gain) / s->k;
-}
-
-enum { GAINS = 16 };
-
-/* Components make up for their zone: gains of some frequencies, linear between them. */
-static void apply_gains(struct waves *w)
-{
-    const double low = w->components[0].w,
-                 gap = (w->components[w->ncomponents - 1].w - low) / (GAINS - 1);
-    double complex gain[GAINS];
-    for (int i = 0; i < GAINS; i++)
-        gain[i] = gain_at(&w->of, low + i * gap, waves_number(low + i * gap, w->of.g, w->of.depth));
-    for (int c = 0; c < w->ncomponents; c++) {
-        struct wave_component *q = w->components + c;
-        const double at = (q->w - low) / gap;
-        const int i = (int)fmin(fmax(floor(at), 0.0), GAINS - 2);
-        const double complex G = gain[i] + (at - i) * (gain[i + 1] - gain[i]);
-        q->a *= cabs(G);
-        q->phase -= carg(G);
-    }
-}
-
-static void make_sum(struct waves *w)
-{
-    const struct wave_spec *of = &w->of;
-    w->length = peak_length(of);
-    const double k = 2.0 * M_PI / w->length;
-    w->period = of->period > 0.0 ? of->period
-                                 : 2.0 * M_PI / sqrt(of->g * k * tanh(fmin(k * of->depth, 300.0)));
-    w->celerity = w->length / w->period;
-    w->components = sea_components(of, w->period, &w->ncomponents);
-    if (of->zone > 0.0)
-        apply_gains(w);
-    const struct wave_component *low = w->components, *high = low + w->ncomponents - 1;
-    w->longest = 2.0 * M_PI / low->k;
-    w->shortest = 2.0 * M_PI / high->k;
-    /* of 1000 waves the highest is 1.86 times the significant height (Rayleigh) */
-    w->crest = of->kind == WAVE_SEA ? 0.93 * of->height : 0.5 * of->height;
-    w->trough = -w->crest;
-    const double omega = 2.0 * M_PI / w->period;
-    w->speed = 1.3 * w->crest * omega / tanh(fmin(k * of->depth, 300.0));
-    w->dt = 2.0 * M_PI / high->w / 20.0;
-    const double gap = w->shortest / 8.0;
-    const int n = (int)ceil((of->window[1] - of->window[0]) / gap) + 5;
-    for (int f = 0; f <= WAVE_FRAMES; f++) {
-        struct wave_table *t = f < WAVE_FRAMES ? w->frames + f : &w->table;
-        *t = wave_table_create(n, of->window[0] - 2.0 * gap, gap, reach_of(of->depth, w->longest));
-        t->decay = t->reach < of->depth ? low->k : 0.0;
-        t->flat = true;
-        if (f < WAVE_FRAMES)
-            w->frame[f] = -1000000 - f;
-    }
-    w->profile = sea_profiles(w);
 }
 
 struct waves *waves_create(const struct wave_spec *of)
@@ -224,7 +169,7 @@ struct waves *waves_create(const struct wave_spec *of)
     if (of->kind == WAVE_REGULAR)
         make_regular(w);
     else
-        make_sum(w);
+        sea_make(w);
     w->limit = waves_limit(of->depth, w->length);
     w->now = NAN;
     return w;
@@ -239,29 +184,9 @@ void waves_free(struct waves **w)
         wave_table_free(&(*w)->frames[f]);
     mem_free((*w)->components);
     mem_free((*w)->profile);
+    second_order_free(&(*w)->second);
     mem_free(*w);
     *w = NULL;
-}
-
-/* Cubic through the frames dt apart of which t lies between the middle two; each frame has its own
- * slot, so that it is computed once. */
-static void blend_frames(struct waves *w, double t)
-{
-    const long m = (long)floor(t / w->dt);
-    const double s = t / w->dt - (double)m;
-    const double of[WAVE_FRAMES] = {
-        -s * (s - 1.0) * (s - 2.0) / 6.0, (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0,
-        -(s + 1.0) * s * (s - 2.0) / 2.0, (s + 1.0) * s * (s - 1.0) / 6.0};
-    double weight[WAVE_FRAMES];
-    for (int k = 0; k < WAVE_FRAMES; k++) {
-        const long f = m + k - 1;
-        const int slot = (int)(((f % WAVE_FRAMES) + WAVE_FRAMES) % WAVE_FRAMES);
-        if (w->frame[slot] != f)
-            sea_frame(w, (double)f * w->dt, w->frames + slot);
-        w->frame[slot] = f;
-        weight[slot] = of[k];
-    }
-    wave_table_blend(&w->table, WAVE_FRAMES, w->frames, weight);
 }
 
 void waves_at(struct waves *w, double t)
@@ -270,7 +195,7 @@ void waves_at(struct waves *w, double t)
         return;
     w->now = t;
     if (w->of.kind != WAVE_REGULAR)
-        blend_frames(w, t);
+        sea_at(w, t);
 }
 
 /* Share of the waves that are there: none before t = 0, all after `start' periods. */

@@ -1,8 +1,9 @@
 /* waves.h - waves that zones of a tank make: the velocities and the surface that they are to have
  * at any place and time, the same bits whoever asks when. Regular: steady.h, with no net transport
- * (closed tank) or none of its own below the troughs. Sea and focused group: sums of linear waves;
- * above the still level velocities are as on it. x along the direction of travel, z up from the
- * still level. SPDX-License-Identifier: BSD-3-Clause */
+ * (closed tank) or none of its own below the troughs. Sea and focused group: sums of linear waves
+ * with, of second order, what their pairs bind (second_order.h); velocities go on above the still
+ * level by their slope there, of first order they are as on it. x along the direction of travel, z
+ * up from the still level. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_WAVES_H
 #define COMMON_WAVES_H
 
@@ -26,6 +27,7 @@ struct wave_spec {
     double peak;           /* -: JONSWAP's gamma */
     int seed;              /* of the phases of a sea */
     double repeat;         /* s: after which a sea repeats itself */
+    int order;             /* 2: sea, focused: with bound waves */
     double window[2];      /* m: least and largest x that will be asked for */
     /* Of the zone that velocities are for, whose shares they make up for (zone_gain.h): m, 1/s at
      * its side, cosine of the angle between the direction and the side's inner normal. 0 m: none,
@@ -44,10 +46,11 @@ struct waves {
     double limit;                    /* m: height of the highest wave of that length and depth */
     double shortest, longest;        /* m: lengths of what carries energy */
     struct steady steady;
-    double current;     /* m/s: of the frame, so that there is no net transport */
+    double current;     /* m/s: so that there is no net transport; regular: of the frame */
     double gain, ahead; /* factor of a regular wave's velocities, m by which they are ahead */
     struct wave_component *components;
     int ncomponents;
+    struct second_order *second; /* NULL: first order */
     double *profile; /* [ncomponents][WAVE_NODES][2]: velocities over a w, along and up */
     /* Regular: one table that travels. Else a blend of four frames dt apart. */
     struct wave_table table, frames[WAVE_FRAMES];
@@ -60,6 +63,8 @@ struct waves {
 bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size_t size);
 /* s: of the peak, by linear theory where the length is given. */
 double waves_period(const struct wave_spec *of);
+/* m: of the peak, or of a regular wave by linear theory. */
+double waves_length(const struct wave_spec *of);
 /* Of a wave that is not refused; owned by the caller. */
 struct waves *waves_create(const struct wave_spec *of);
 void waves_free(struct waves **w);

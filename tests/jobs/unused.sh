@@ -96,6 +96,7 @@ waves.zone 0.4
 waves.peak 2.0
 waves.repeat 50.0
 waves.seed 3
+waves.order 1
 walls.profile "parabolic"
 walls.pressure 100.0
 walls.carried true

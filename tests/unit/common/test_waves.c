@@ -31,6 +31,7 @@ static struct wave_spec spec(int kind, double height, double length, double dept
                               .peak = 3.3,
                               .seed = 1,
                               .repeat = 60.0,
+                              .order = 1,
                               .window = {0.0, 3.0}};
 }
 
