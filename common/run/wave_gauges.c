@@ -66,7 +66,7 @@ static double number_of(const struct scene *s, double period)
 static void places_of(const struct scene *s, int n, const int *probe, double *x)
 {
     double d[3];
-    scene_waves_direction(s, d);
+    scene_waves_direction(s, d, NULL);
     for (int i = 0; i < n; i++)
         x[i] = vec3_dot(s->probes[probe[i]].at, d);
 }

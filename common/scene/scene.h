@@ -148,6 +148,7 @@ struct scene {
         double start;          /* periods of the soft start */
         double zone;           /* m; 0: by the waves */
         double peak, repeat;   /* -, s */
+        double spread;         /* -: s of cos^2s(b/2); 0: long crests */
         int order, seed;
         double made[2]; /* m, m/s: highest crest, fastest water, by scene_waves_resolve */
     } waves;

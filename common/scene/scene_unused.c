@@ -218,6 +218,13 @@ static void check_waves(const struct scene *s, const struct params *p, struct fa
     params_unused(p, f, "waves.order", sums && scene_makes_waves(s),
                   sums ? "a paddle makes the linear waves; a side of kind wave makes bound ones"
                        : "regular waves are of steady form, exact");
+    params_unused(p, f, "waves.order", !(s->waves.spread > 0.0),
+                  "a sea of several directions (waves.spread) is a sum of linear waves");
+    params_unused(p, f, "waves.spread", sea && s->domain.dim == 3 && scene_makes_waves(s),
+                  !sea ? "only a sea has several directions"
+                  : s->domain.dim == 2
+                      ? "in 2D waves have one direction"
+                      : "a paddle makes long crests: only sides of kind wave do not");
     params_unused(p, f, "waves.seed", sea, "only the phases of a sea are random");
 }
 

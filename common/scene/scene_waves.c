@@ -56,14 +56,22 @@ double scene_waves_depth(const struct scene *s)
            (s->fluid.gravity[up] < 0.0 ? s->domain.min[up] : -s->domain.max[up]);
 }
 
-void scene_waves_direction(const struct scene *s, double *d)
+void scene_waves_direction(const struct scene *s, double *d, double *across)
 {
     const int up = scene_still_axis(s), first = up == 0 ? 1 : 0, second = 3 - up - first;
     const double angle = s->waves.direction * M_PI / 180.0;
+    const bool space = up >= 0 && s->domain.dim == 3;
     d[0] = d[1] = d[2] = 0.0;
     d[first] = cos(angle);
-    if (up >= 0 && s->domain.dim == 3)
+    if (space)
         d[second] = sin(angle);
+    if (!across)
+        return;
+    across[0] = across[1] = across[2] = 0.0;
+    if (space) {
+        across[first] = -sin(angle);
+        across[second] = cos(angle);
+    }
 }
 
 int scene_zone_axis(const struct scene_wall *w, bool *low)
@@ -72,33 +80,38 @@ int scene_zone_axis(const struct scene_wall *w, bool *low)
     return (w->side - SIDE_X_MIN) / 2;
 }
 
-/* Least and largest place along the direction in the zones that make waves. */
-static void window_of(const struct scene *s, double window[2])
+/* A corner of a side's zone. */
+static void corner_of(const struct scene *s, const struct scene_wall *w, int corner, double x[3])
 {
-    double d[3];
-    scene_waves_direction(s, d);
-    window[0] = INFINITY;
-    window[1] = -INFINITY;
-    if (!scene_makes_waves(s)) {
-        window[0] = window[1] = 0.0;
-        return;
+    bool low;
+    const int axis = scene_zone_axis(w, &low);
+    for (int a = 0; a < 3; a++) {
+        x[a] = corner >> a & 1 ? s->domain.max[a] : s->domain.min[a];
+        if (a == axis && low != !(corner >> a & 1))
+            x[a] = low ? s->domain.min[a] + w->beach : s->domain.max[a] - w->beach;
     }
-    for (int k = 0; k < s->nwalls; k++) {
-        const struct scene_wall *w = s->walls + k;
-        bool low;
-        const int axis = scene_zone_axis(w, &low);
-        for (int corner = 0; corner < 8 && w->zone == ZONE_WAVE; corner++) {
-            double x = 0.0;
-            for (int a = 0; a < s->domain.dim; a++) {
-                double at = corner >> a & 1 ? s->domain.max[a] : s->domain.min[a];
-                if (a == axis && low != !(corner >> a & 1))
-                    at = low ? s->domain.min[a] + w->beach : s->domain.max[a] - w->beach;
-                x += at * d[a];
+    if (s->domain.dim == 2)
+        x[2] = 0.0;
+}
+
+/* Least and largest place along the direction and across it in the zones that make waves. */
+static void window_of(const struct scene *s, double window[2][2])
+{
+    double d[2][3], x[3];
+    scene_waves_direction(s, d[0], d[1]);
+    const bool any = scene_makes_waves(s);
+    for (int k = 0; k < 2; k++) {
+        window[k][0] = any ? INFINITY : 0.0;
+        window[k][1] = any ? -INFINITY : 0.0;
+    }
+    for (int k = 0; k < s->nwalls; k++)
+        for (int corner = 0; corner < 8 && s->walls[k].zone == ZONE_WAVE; corner++) {
+            corner_of(s, s->walls + k, corner, x);
+            for (int i = 0; i < 2; i++) {
+                window[i][0] = fmin(window[i][0], vec3_dot(x, d[i]));
+                window[i][1] = fmax(window[i][1], vec3_dot(x, d[i]));
             }
-            window[0] = fmin(window[0], x);
-            window[1] = fmax(window[1], x);
         }
-    }
 }
 
 /* s: so that a run which goes on to a somewhat later end sees the same sea. */
@@ -113,19 +126,22 @@ static double repeat_of(const struct scene *s, double period)
 struct wave_spec scene_waves_spec(const struct scene *s)
 {
     const struct scene_waves *w = &s->waves;
-    struct wave_spec of = {.kind = w->kind,
-                           .height = w->height,
-                           .length = w->length,
-                           .period = w->period,
-                           .depth = scene_waves_depth(s),
-                           .g = vec3_length(s->fluid.gravity),
-                           .rho = s->fluid.rho,
-                           .at = {w->at[0], w->at[1]},
-                           .start = w->start,
-                           .closed = true,
-                           .peak = w->peak,
-                           .seed = w->seed,
-                           .order = w->kind != WAVE_REGULAR && scene_makes_waves(s) ? w->order : 1};
+    struct wave_spec of = {
+        .kind = w->kind,
+        .height = w->height,
+        .length = w->length,
+        .period = w->period,
+        .depth = scene_waves_depth(s),
+        .g = vec3_length(s->fluid.gravity),
+        .rho = s->fluid.rho,
+        .at = {w->at[0], w->at[1]},
+        .start = w->start,
+        .closed = true,
+        .peak = w->peak,
+        .seed = w->seed,
+        .spread = w->spread,
+        .order =
+            w->kind != WAVE_REGULAR && scene_makes_waves(s) && !(w->spread > 0.0) ? w->order : 1};
     of.repeat = w->repeat > 0.0 ? w->repeat : repeat_of(s, waves_period(&of));
     window_of(s, of.window);
     return of;
@@ -259,7 +275,7 @@ void scene_waves_check(const struct scene *s, const struct params *p, struct fau
 
 /* --- the log --- */
 
-static void describe_made(const struct waves *w)
+static void describe_made(const struct scene *s, const struct waves *w)
 {
     static const char *const names[] = {"regular waves", "a sea", "a focused group"};
     const double kh = 2.0 * M_PI * w->of.depth / w->length;
@@ -272,10 +288,15 @@ static void describe_made(const struct waves *w)
         return;
     log_say("%d linear components, lengths %.3g to %.3g m", w->ncomponents, w->shortest,
             w->longest);
-    if (w->second)
+    if (w->of.spread > 0.0)
         log_say(
-            "second order: pairs of %d frequencies; waves take a zone %.2g s a period to compute",
-            second_order_frequencies(w->second), sea_seconds(w));
+            "directions about the mean as cos^%g(b/2): within %.0f degrees on both sides in the "
+            "mean",
+            2.0 * w->of.spread, 180.0 / M_PI * sqrt(2.0 / (w->of.spread + 1.0)));
+    if (w->second)
+        log_say("second order: pairs of %d frequencies", second_order_frequencies(w->second));
+    if (scene_makes_waves(s))
+        log_say("a zone's waves take %.1g s a period to compute on each rank", sea_seconds(w));
 }
 
 void scene_waves_describe(const struct scene *s)
@@ -284,7 +305,7 @@ void scene_waves_describe(const struct scene *s)
     if (s->has_waves) {
         const struct wave_spec of = scene_waves_spec(s);
         struct waves *made = waves_create(&of);
-        describe_made(made);
+        describe_made(s, made);
         waves_free(&made);
         wave_makers_describe(s);
     }

@@ -24,8 +24,8 @@ void scene_waves_describe(const struct scene *s);
 double scene_waves_level(const struct scene *s);
 /* m: of the water over the domain's floor, or waves.depth. */
 double scene_waves_depth(const struct scene *s);
-/* Unit vector d[3] in which waves run. */
-void scene_waves_direction(const struct scene *s, double *d);
+/* Unit vectors: in which waves run, and horizontal across it; across may be NULL. */
+void scene_waves_direction(const struct scene *s, double *d, double *across);
 /* The axis of a wall's side; low: whether it is the lower one. */
 int scene_zone_axis(const struct scene_wall *w, bool *low);
 /* What the group waves asks for. */

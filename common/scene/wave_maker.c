@@ -53,7 +53,7 @@ static double axis_height(const struct scene *s, const struct scene_body *b,
 static double face_of(const struct scene *s, const struct scene_body *b)
 {
     double d[3], x = -INFINITY;
-    scene_waves_direction(s, d);
+    scene_waves_direction(s, d, NULL);
     for (int i = 0; i < b->points.n; i++)
         x = fmax(x, d[0] * b->points.x[i][0] + d[1] * b->points.x[i][1]);
     return isfinite(x) ? x : vec3_dot(b->centre, d);
@@ -67,7 +67,7 @@ static double lever(const struct scene *s, const struct scene_body *b, const str
     double d[3], e[3] = {0.0, 0.0, 0.0}, r[3] = {0.0, 0.0, 0.0}, moves[3];
     if (up < 0)
         return 0.0;
-    scene_waves_direction(s, d);
+    scene_waves_direction(s, d, NULL);
     if (!is_flap(m))
         return fabs(d[m->axis]) > 1.0 - 1e-9 ? d[m->axis] : 0.0;
     e[m->axis - AXIS_RX] = 1.0;

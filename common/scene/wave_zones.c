@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "../base/mem.h"
+#include "../base/vec3.h"
 #include "scene_fluid.h"
 #include "scene_waves.h"
 
@@ -16,7 +17,7 @@ struct wave_zones {
         double rate;         /* 1/s: at the side */
         struct waves *waves; /* NULL: a beach; owned */
     } zone[6];
-    double along[3], level, sign; /* of waves; height is sign times x[up] */
+    double along[3], across[3], level, sign; /* of waves; height is sign times x[up] */
 };
 
 static struct waves *waves_of(const struct scene *s, const struct wave_zones *z, int k)
@@ -24,7 +25,9 @@ static struct waves *waves_of(const struct scene *s, const struct wave_zones *z,
     struct wave_spec of = scene_waves_spec(s);
     of.zone = fabs(z->zone[k].length);
     of.rate = z->zone[k].rate;
-    of.cosine = z->along[z->zone[k].axis] * (z->zone[k].length > 0.0 ? 1.0 : -1.0);
+    const double inward = z->zone[k].length > 0.0 ? 1.0 : -1.0;
+    of.normal[0] = inward * z->along[z->zone[k].axis];
+    of.normal[1] = inward * z->across[z->zone[k].axis];
     return waves_create(&of);
 }
 
@@ -35,7 +38,7 @@ struct wave_zones *wave_zones_create(const struct scene *s)
     if (scene_makes_waves(s)) {
         z->sign = s->fluid.gravity[z->up] < 0.0 ? 1.0 : -1.0;
         z->level = scene_waves_level(s);
-        scene_waves_direction(s, z->along);
+        scene_waves_direction(s, z->along, z->across);
     }
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
@@ -86,11 +89,11 @@ bool wave_zones_drive(const struct wave_zones *z)
 /* Adds rate times the velocity of a zone's waves at x. */
 static void add_velocity(const struct wave_zones *z, int k, double rate, const double *x, double *u)
 {
-    const double along = x[0] * z->along[0] + x[1] * z->along[1] + x[2] * z->along[2];
-    double v[2];
-    waves_velocity(z->zone[k].waves, along, z->sign * x[z->up] - z->level, v);
+    double v[3];
+    waves_velocity(z->zone[k].waves, vec3_dot(x, z->along), vec3_dot(x, z->across),
+                   z->sign * x[z->up] - z->level, v);
     for (int a = 0; a < 3; a++)
-        u[a] += rate * v[0] * z->along[a];
+        u[a] += rate * (v[0] * z->along[a] + v[2] * z->across[a]);
     u[z->up] += rate * z->sign * v[1];
 }
 

@@ -24,6 +24,29 @@ double sea_jonswap(double f, double gamma)
            pow(gamma, exp(-(f - 1.0) * (f - 1.0) / (2.0 * s * s)));
 }
 
+enum { DIRECTIONS = 400 };
+static const double widest = 75.0 * M_PI / 180.0; /* waves along a side leave no zone before it */
+
+/* Directions of a sea, one of each component, by the share of D(b) ~ cos^2s(b/2) below them; the
+ * phases are those of the same sea without them. */
+static void draw_directions(const struct wave_spec *of, int n, struct wave_component *c)
+{
+    double share[DIRECTIONS + 1] = {0.0};
+    uint64_t state = (uint64_t)of->seed ^ 0x5a17c0de5a17c0deu;
+    const double gap = 2.0 * widest / DIRECTIONS;
+    for (int i = 0; i < DIRECTIONS; i++)
+        share[i + 1] = share[i] + pow(cos(0.5 * ((i + 0.5) * gap - widest)), 2.0 * of->spread);
+    for (int k = 0; k < n; k++) {
+        const double at = uniform(&state) * share[DIRECTIONS];
+        int i = 0;
+        while (i + 1 < DIRECTIONS && share[i + 1] < at)
+            i++;
+        const double b = gap * (i + (at - share[i]) / (share[i + 1] - share[i])) - widest;
+        c[k].way[0] = cos(b);
+        c[k].way[1] = sin(b);
+    }
+}
+
 struct wave_component *sea_components(const struct wave_spec *of, double period, int *n)
 {
     const double df = 1.0 / of->repeat, peak = 1.0 / period;
@@ -40,6 +63,7 @@ struct wave_component *sea_components(const struct wave_spec *of, double period,
         c[i] = (struct wave_component){.a = random ? sqrt(2.0 * S) : S,
                                        .w = w,
                                        .k = k,
+                                       .way = {1.0, 0.0},
                                        .phase = random ? phase : w * of->at[1] - k * of->at[0]};
         sum += c[i].a;
         squares += 0.5 * c[i].a * c[i].a;
@@ -48,5 +72,7 @@ struct wave_component *sea_components(const struct wave_spec *of, double period,
         of->kind == WAVE_SEA ? 0.25 * of->height / sqrt(squares) : 0.5 * of->height / sum;
     for (int i = 0; i < *n; i++)
         c[i].a *= scale;
+    if (of->spread > 0.0)
+        draw_directions(of, *n, c);
     return c;
 }

@@ -17,8 +17,9 @@ struct wave_component *sea_components(const struct wave_spec *of, double period,
 void sea_make(struct waves *w);
 /* Makes its table ready for the time t, s: linear theory, and of second order what pairs bind. */
 void sea_at(struct waves *w, double t);
-/* Factor of the velocities of one frequency that makes up for the zone. */
-double complex sea_gain(const struct wave_spec *of, double omega, double k);
+/* Factor of the velocities of one frequency, at that cosine with the side's normal, that makes up
+ * for the zone. */
+double complex sea_gain(const struct wave_spec *of, double omega, double k, double cosine);
 /* s: of computing that a period of them costs, about. */
 double sea_seconds(const struct waves *w);
 /* m: as deep as a table reaches for waves of that length. */

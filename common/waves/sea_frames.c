@@ -10,39 +10,84 @@
 #include "second_order.h"
 #include "zone_gain.h"
 
-enum { GAINS = 16 };
+enum { GAINS = 16, COSINES = 5 };
 
 /* Deep water needs no nodes down to its bottom. */
 double sea_reach(double depth, double length) { return fmin(depth, 1.2 * length); }
 
-double complex sea_gain(const struct wave_spec *of, double omega, double k)
+/* --- gains --- */
+
+double complex sea_gain(const struct wave_spec *of, double omega, double k, double cosine)
 {
     if (!(of->zone > 0.0))
         return 1.0;
     const struct zone_response is =
-        zone_response(omega, k, fabs(of->cosine), of->g, of->depth, of->zone, of->rate);
-    return of->cosine > 0.0 ? is.make : is.pass;
+        zone_response(omega, k, fabs(cosine), of->g, of->depth, of->zone, of->rate);
+    return cosine > 0.0 ? is.make : is.pass;
 }
 
-/* Components make up for their zone: gains of some frequencies, linear between them. */
+/* Gains of some frequencies and directions; of a long-crested sea the direction is one. */
+struct gains {
+    double low, gap;
+    int n; /* cosines of directions, from 0.2 to 1; long-crested: 1, that of the sea */
+    double complex of[COSINES][GAINS][2]; /* to the side, from it */
+};
+
+static double cosine_of(const struct gains *is, int i) { return 0.2 + 0.8 * i / (is->n - 1); }
+
+static void find_gains(const struct waves *w, struct gains *is)
+{
+    is->low = w->components[0].w;
+    is->gap = (w->components[w->ncomponents - 1].w - is->low) / (GAINS - 1);
+    is->n = w->of.spread > 0.0 ? COSINES : 1;
+    for (int c = 0; c < is->n; c++)
+        for (int i = 0; i < GAINS; i++) {
+            const double omega = is->low + i * is->gap,
+                         k = waves_number(omega, w->of.g, w->of.depth),
+                         cosine = is->n > 1 ? cosine_of(is, c) : fabs(w->of.normal[0]);
+            const struct zone_response at =
+                zone_response(omega, k, cosine, w->of.g, w->of.depth, w->of.zone, w->of.rate);
+            is->of[c][i][0] = at.pass;
+            is->of[c][i][1] = at.make;
+        }
+}
+
+/* Linear between frequencies and between cosines; below the least nothing is to be made up for. */
+static double complex gain_between(const struct gains *is, double omega, double cosine)
+{
+    const double at = (omega - is->low) / is->gap;
+    const int i = (int)fmin(fmax(floor(at), 0.0), GAINS - 2), way = cosine > 0.0;
+    double complex sum = 0.0;
+    if (is->n == 1)
+        return is->of[0][i][way] + (at - i) * (is->of[0][i + 1][way] - is->of[0][i][way]);
+    const double turn = (fabs(cosine) - 0.2) / 0.8 * (is->n - 1);
+    const int c = (int)fmin(fmax(floor(turn), 0.0), is->n - 2);
+    if (turn < 0.0)
+        return 1.0;
+    for (int k = 0; k < 2; k++) {
+        const double complex *q = &is->of[c + k][i][way];
+        sum += (k ? turn - c : 1.0 - turn + c) * (q[0] + (at - i) * (q[2] - q[0]));
+    }
+    return sum;
+}
+
 static void apply_gains(struct waves *w)
 {
-    const double low = w->components[0].w,
-                 gap = (w->components[w->ncomponents - 1].w - low) / (GAINS - 1);
-    double complex gain[GAINS];
-    for (int i = 0; i < GAINS; i++)
-        gain[i] =
-            sea_gain(&w->of, low + i * gap, waves_number(low + i * gap, w->of.g, w->of.depth));
+    struct gains *is = NEW(struct gains, 1);
+    find_gains(w, is);
     for (int c = 0; c < w->ncomponents; c++) {
         struct wave_component *q = w->components + c;
-        const double at = (q->w - low) / gap;
-        const int i = (int)fmin(fmax(floor(at), 0.0), GAINS - 2);
-        const double complex G = gain[i] + (at - i) * (gain[i + 1] - gain[i]);
+        const double complex G =
+            gain_between(is, q->w, q->way[0] * w->of.normal[0] + q->way[1] * w->of.normal[1]);
         q->a *= cabs(G);
         q->phase -= carg(G);
     }
+    mem_free(is);
 }
 
+/* --- frames --- */
+
+/* [component][2][WAVE_NODES]: cosh and sinh over sinh at the still level. */
 static double *profiles_of(const struct waves *w)
 {
     double *profile = NEW(double, (size_t)w->ncomponents *WAVE_NODES * 2);
@@ -51,46 +96,82 @@ static double *profiles_of(const struct waves *w)
             const double k = w->components[c].k, depth = w->of.depth,
                          z = wave_table_height(&w->table, 0, j), all = 1.0 - exp(-2.0 * k * depth);
             const double up = exp(k * z), down = exp(-k * (z + 2.0 * depth));
-            double *q = profile + ((size_t)c * WAVE_NODES + (size_t)j) * 2;
+            double *q = profile + (size_t)c * WAVE_NODES * 2 + j;
             q[0] = (up + down) / all;
-            q[1] = (up - down) / all;
+            q[WAVE_NODES] = (up - down) / all;
         }
     return profile;
 }
 
-/* d/dz of the linear velocities at the still level, where profile holds cosh and sinh over sinh. */
-static void add_slope(const struct wave_component *q, const double *profile, double co, double si,
-                      double *slope)
+/* Velocities at a column's nodes: along, up, across. */
+struct column_velocities {
+    double u[3][WAVE_NODES];
+};
+
+static void add_component(struct column_velocities *to, const struct wave_component *q,
+                          const double *profile, double co, double si)
 {
-    slope[0] += q->k * q->w * co * profile[1];
-    slope[1] += q->k * q->w * si * profile[0];
+    const double along = q->w * co * q->way[0], up = q->w * si;
+    for (int j = 0; j < WAVE_NODES; j++) {
+        to->u[0][j] += along * profile[j];
+        to->u[1][j] += up * profile[WAVE_NODES + j];
+    }
+    if (q->way[1] == 0.0)
+        return;
+    const double across = q->w * co * q->way[1];
+    for (int j = 0; j < WAVE_NODES; j++)
+        to->u[2][j] += across * profile[j];
 }
 
-static void make_frame(const struct waves *w, double t, struct wave_table *to)
+/* e: of each component a e^(i th) at the column. */
+static void make_column(const struct waves *w, const double complex *e, struct wave_table *to,
+                        size_t at)
 {
-    if (to->slope)
-        memset(to->slope, 0, (size_t)to->n * 2 * sizeof *to->slope);
-    memset(to->eta, 0, (size_t)to->n * sizeof *to->eta);
-    memset(to->u, 0, (size_t)to->n * WAVE_NODES * 2 * sizeof *to->u);
-    for (int i = 0; i < to->n; i++) {
-        const double x = to->first + i * to->gap;
-        double *u = to->u + (size_t)i * WAVE_NODES * 2;
-        for (int c = 0; c < w->ncomponents; c++) {
-            const struct wave_component *q = w->components + c;
-            const double *profile = w->profile + (size_t)c * WAVE_NODES * 2;
-            const double turn = q->k * x - q->w * t + q->phase, co = q->a * cos(turn),
-                         si = q->a * sin(turn);
-            to->eta[i] += co;
-            for (int j = 0; j < WAVE_NODES; j++) {
-                u[2 * j] += q->w * co * profile[2 * j];
-                u[2 * j + 1] += q->w * si * profile[2 * j + 1];
-            }
-            if (to->slope)
-                add_slope(q, profile, co, si, to->slope + 2 * i);
+    double *u = to->u + at * WAVE_NODES * (size_t)to->parts;
+    struct column_velocities is = {.u = {{0.0}}};
+    for (int c = 0; c < w->ncomponents; c++) {
+        const struct wave_component *q = w->components + c;
+        const double *profile = w->profile + (size_t)c * WAVE_NODES * 2;
+        const double co = creal(e[c]), si = cimag(e[c]);
+        to->eta[at] += co;
+        add_component(&is, q, profile, co, si);
+        if (to->slope) { /* d/dz of cosh and sinh */
+            to->slope[2 * at] += q->k * q->w * co * profile[WAVE_NODES];
+            to->slope[2 * at + 1] += q->k * q->w * si * profile[0];
         }
-        if (w->second)
-            second_order_add(w->second, x, t, to->eta + i, u);
     }
+    for (int j = 0; j < WAVE_NODES; j++)
+        for (int a = 0; a < to->parts; a++)
+            u[to->parts * j + a] = is.u[a][j];
+}
+
+/* Phases turn from column to column of a row. */
+static void make_row(struct waves *w, double t, struct wave_table *to, int row)
+{
+    const double y = to->first_row + row * to->gap;
+    double complex *e = w->turning, *step = e + w->ncomponents;
+    for (int c = 0; c < w->ncomponents; c++) {
+        const struct wave_component *q = w->components + c;
+        const double along = q->k * q->way[0];
+        e[c] = q->a * cexp(I * (along * to->first + q->k * q->way[1] * y - q->w * t + q->phase));
+        step[c] = cexp(I * (along * to->gap));
+    }
+    for (int i = 0; i < to->n; i++) {
+        const size_t at = (size_t)row * (size_t)to->n + (size_t)i;
+        make_column(w, e, to, at);
+        if (w->second)
+            second_order_add(w->second, to->first + i * to->gap, t, to->eta + at,
+                             to->u + at * WAVE_NODES * 2);
+        for (int c = 0; c < w->ncomponents; c++)
+            e[c] *= step[c];
+    }
+}
+
+static void make_frame(struct waves *w, double t, struct wave_table *to)
+{
+    wave_table_blend(to, 0, NULL, NULL); /* all 0 */
+    for (int row = 0; row < to->rows; row++)
+        make_row(w, t, to, row);
 }
 
 /* m/s: takes out what the sea carries along. */
@@ -111,18 +192,22 @@ static void make_tables(struct waves *w)
     w->longest = 2.0 * M_PI / low->k;
     w->shortest = 2.0 * M_PI / high->k;
     w->dt = 2.0 * M_PI / high->w / 20.0;
-    const double gap = w->shortest / 8.0;
-    const int n = (int)ceil((of->window[1] - of->window[0]) / gap) + 5;
+    const double gap = w->shortest / (of->spread > 0.0 ? 4.0 : 8.0);
+    const int n = (int)ceil((of->window[0][1] - of->window[0][0]) / gap) + 5,
+              rows =
+                  of->spread > 0.0 ? (int)ceil((of->window[1][1] - of->window[1][0]) / gap) + 5 : 1;
     for (int f = 0; f <= WAVE_FRAMES; f++) {
         struct wave_table *t = f < WAVE_FRAMES ? w->frames + f : &w->table;
-        *t = wave_table_create(n, of->window[0] - 2.0 * gap, gap, sea_reach(of->depth, w->longest),
-                               of->order > 1);
+        *t = wave_table_create(n, rows, gap, sea_reach(of->depth, w->longest), of->order > 1);
+        t->first = of->window[0][0] - 2.0 * gap;
+        t->first_row = of->window[1][0] - 2.0 * gap;
         t->decay = t->reach < of->depth ? low->k : 0.0;
         t->flat = true;
         if (f < WAVE_FRAMES)
             w->frame[f] = -1000000 - f;
     }
     w->profile = profiles_of(w);
+    w->turning = NEW(double complex, (size_t)w->ncomponents * 2);
 }
 
 /* A group keeps the mean that it has below it: there is still water before and after it. */
@@ -185,9 +270,9 @@ void sea_make(struct waves *w)
 
 double sea_seconds(const struct waves *w)
 {
-    const double column = 150.0 * WAVE_NODES + 3.0 * w->ncomponents * WAVE_NODES +
+    const double column = (double)w->ncomponents * WAVE_NODES * w->table.parts +
                           (w->second ? second_order_products(w->second) : 0.0);
-    return 1e-9 * column * w->table.n * w->period / w->dt;
+    return 0.3e-9 * column * w->table.n * w->table.rows * w->period / w->dt;
 }
 
 /* Cubic through the frames dt apart of which t lies between the middle two; each frame has its own

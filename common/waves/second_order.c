@@ -10,11 +10,12 @@
 #include "../base/mem.h"
 #include "waves.h"
 
-enum { FREQUENCIES = 40, LEVELS = 18 };
+enum { FREQUENCIES = 40, LEVELS = 16 };
 
-/* Of p <= q, halves and both orders counted: sum and difference. */
+/* Of p <= q, halves and both orders counted: what the sum and the difference of their phases make
+ * of the level and of the velocities along and up at the levels. */
 struct kernel {
-    double sum, difference;
+    double eta[2], along[2][LEVELS], up[2][LEVELS];
 };
 struct share {
     int first; /* of four frequencies */
@@ -26,8 +27,7 @@ struct second_order {
     struct wave_component *of; /* owned */
     struct share *shares;      /* [ncomponents] */
     double *w, *k;             /* [n]: the frequencies between which pairs are told */
-    struct kernel *eta;        /* [npairs] */
-    struct kernel *u, *up;     /* [LEVELS][npairs] */
+    struct kernel *kernels;    /* [npairs] */
     struct share node[WAVE_NODES];
     double mean[1 + LEVELS]; /* level and velocities to be taken out */
     double complex *E, *pairs;
@@ -81,17 +81,17 @@ static void make_kernels(struct second_order *s, double g, double h, const doubl
     int at = 0;
     for (int p = 0; p < s->n; p++)
         for (int q = p; q < s->n; q++, at++) {
-            const double count = p == q ? 0.5 : 1.0;
-            const struct bound_wave sum = along_line(s->w[p], s->w[q], 1, g, h),
-                                    less = along_line(s->w[p], s->w[q], -1, g, h);
-            s->eta[at] = (struct kernel){count * sum.eta, count * less.eta};
-            for (int j = 0; j < LEVELS; j++) {
-                double c[2], d[2];
-                decay(sum.K, level[j], h, c, c + 1);
-                decay(less.K, level[j], h, d, d + 1);
-                const size_t to = (size_t)(j * s->npairs + at);
-                s->u[to] = (struct kernel){count * sum.u * c[0], count * less.u * d[0]};
-                s->up[to] = (struct kernel){count * sum.w * c[1], count * less.w * d[1]};
+            struct kernel *to = s->kernels + at;
+            for (int k = 0; k < 2; k++) {
+                const struct bound_wave b = along_line(s->w[p], s->w[q], k ? -1 : 1, g, h);
+                const double count = p == q ? 0.5 : 1.0;
+                to->eta[k] = count * b.eta;
+                for (int j = 0; j < LEVELS; j++) {
+                    double c, d;
+                    decay(b.K, level[j], h, &c, &d);
+                    to->along[k][j] = count * b.u * c;
+                    to->up[k][j] = count * b.w * d;
+                }
             }
         }
 }
@@ -136,9 +136,9 @@ static void find_mean(struct second_order *s)
             for (int q = p; q < s->n; q++, at++) {
                 if (own[p] == 0.0 || own[q] == 0.0)
                     continue;
-                s->mean[0] += own[p] * own[q] * s->eta[at].difference;
+                s->mean[0] += own[p] * own[q] * s->kernels[at].eta[1];
                 for (int j = 0; j < LEVELS; j++)
-                    s->mean[1 + j] += own[p] * own[q] * s->u[j * s->npairs + at].difference;
+                    s->mean[1 + j] += own[p] * own[q] * s->kernels[at].along[1][j];
             }
     }
 }
@@ -156,9 +156,7 @@ struct second_order *second_order_create(int n, const struct wave_component *of,
     s->shares = NEW(struct share, n);
     s->w = NEW(double, s->n);
     s->k = NEW(double, s->n);
-    s->eta = NEW(struct kernel, s->npairs);
-    s->u = NEW(struct kernel, (size_t)s->npairs * LEVELS);
-    s->up = NEW(struct kernel, (size_t)s->npairs * LEVELS);
+    s->kernels = NEW(struct kernel, s->npairs);
     s->E = NEW(double complex, s->n);
     s->pairs = NEW(double complex, (size_t)s->npairs * 2);
     for (int j = 0; j < LEVELS; j++) {
@@ -182,9 +180,7 @@ void second_order_free(struct second_order **s)
     mem_free((*s)->shares);
     mem_free((*s)->w);
     mem_free((*s)->k);
-    mem_free((*s)->eta);
-    mem_free((*s)->u);
-    mem_free((*s)->up);
+    mem_free((*s)->kernels);
     mem_free((*s)->E);
     mem_free((*s)->pairs);
     mem_free(*s);
@@ -195,7 +191,7 @@ int second_order_frequencies(const struct second_order *s) { return s->n; }
 
 double second_order_products(const struct second_order *s)
 {
-    return 4.0 * s->npairs * (LEVELS + 2) + 40.0 * s->ncomponents;
+    return 4.0 * s->npairs * (LEVELS + 1) + 200.0 * s->ncomponents;
 }
 
 /* --- a column --- */
@@ -222,26 +218,24 @@ static void make_pairs(struct second_order *s, double x, double t)
 
 void second_order_add(struct second_order *s, double x, double t, double *eta, double *u)
 {
-    double level[LEVELS][2];
+    double along[LEVELS], up[LEVELS] = {0.0};
     make_pairs(s, x, t);
     *eta -= s->mean[0];
-    for (int at = 0; at < s->npairs; at++)
-        *eta += s->eta[at].sum * creal(s->pairs[2 * at]) +
-                s->eta[at].difference * creal(s->pairs[2 * at + 1]);
-    for (int j = 0; j < LEVELS; j++) {
-        const struct kernel *a = s->u + (size_t)j * (size_t)s->npairs,
-                            *b = s->up + (size_t)j * (size_t)s->npairs;
-        double along = -s->mean[1 + j], up = 0.0;
-        for (int at = 0; at < s->npairs; at++) {
-            const double complex sum = s->pairs[2 * at], less = s->pairs[2 * at + 1];
-            along += a[at].sum * creal(sum) + a[at].difference * creal(less);
-            up += b[at].sum * cimag(sum) + b[at].difference * cimag(less);
+    for (int j = 0; j < LEVELS; j++)
+        along[j] = -s->mean[1 + j];
+    for (int at = 0; at < s->npairs; at++) {
+        const struct kernel *k = s->kernels + at;
+        const double complex sum = s->pairs[2 * at], less = s->pairs[2 * at + 1];
+        const double c[2] = {creal(sum), creal(less)}, d[2] = {cimag(sum), cimag(less)};
+        *eta += k->eta[0] * c[0] + k->eta[1] * c[1];
+        for (int j = 0; j < LEVELS; j++) {
+            along[j] += k->along[0][j] * c[0] + k->along[1][j] * c[1];
+            up[j] += k->up[0][j] * d[0] + k->up[1][j] * d[1];
         }
-        level[j][0] = along;
-        level[j][1] = up;
     }
     for (int i = 0; i < WAVE_NODES; i++)
-        for (int k = 0; k < 4; k++)
-            for (int a = 0; a < 2; a++)
-                u[2 * i + a] += s->node[i].weight[k] * level[s->node[i].first + k][a];
+        for (int k = 0; k < 4; k++) {
+            u[2 * i] += s->node[i].weight[k] * along[s->node[i].first + k];
+            u[2 * i + 1] += s->node[i].weight[k] * up[s->node[i].first + k];
+        }
 }

@@ -6,15 +6,18 @@
 
 #include "../base/mem.h"
 
-struct wave_table wave_table_create(int n, double first, double gap, double reach, bool slope)
+struct wave_table wave_table_create(int n, int rows, double gap, double reach, bool slope)
 {
+    const int parts = rows > 1 ? 3 : 2;
+    const size_t columns = (size_t)n * (size_t)rows;
     return (struct wave_table){.n = n,
-                               .first = first,
+                               .rows = rows,
+                               .parts = parts,
                                .gap = gap,
                                .reach = reach,
-                               .eta = NEW(double, n),
-                               .u = NEW(double, (size_t)n *WAVE_NODES * 2),
-                               .slope = slope ? NEW(double, (size_t)n * 2) : NULL};
+                               .eta = NEW(double, columns),
+                               .u = NEW(double, columns *WAVE_NODES *(size_t)parts),
+                               .slope = slope ? NEW(double, columns * 2) : NULL};
 }
 
 void wave_table_free(struct wave_table *t)
@@ -41,17 +44,18 @@ double wave_table_height(const struct wave_table *t, int column, int node)
 void wave_table_blend(struct wave_table *to, int n, const struct wave_table *of,
                       const double *weight)
 {
-    const size_t values = (size_t)to->n * WAVE_NODES * 2;
-    memset(to->eta, 0, (size_t)to->n * sizeof *to->eta);
+    const size_t all = (size_t)to->n * (size_t)to->rows,
+                 values = all * WAVE_NODES * (size_t)to->parts;
+    memset(to->eta, 0, all * sizeof *to->eta);
     memset(to->u, 0, values * sizeof *to->u);
     if (to->slope)
-        memset(to->slope, 0, (size_t)to->n * 2 * sizeof *to->slope);
+        memset(to->slope, 0, all * 2 * sizeof *to->slope);
     for (int k = 0; k < n; k++) {
-        for (int i = 0; i < to->n; i++)
+        for (size_t i = 0; i < all; i++)
             to->eta[i] += weight[k] * of[k].eta[i];
         for (size_t i = 0; i < values; i++)
             to->u[i] += weight[k] * of[k].u[i];
-        for (int i = 0; i < 2 * to->n && to->slope; i++)
+        for (size_t i = 0; i < 2 * all && to->slope; i++)
             to->slope[i] += weight[k] * of[k].slope[i];
     }
 }
@@ -65,8 +69,15 @@ static void cubic(double s, double weight[4])
     weight[3] = (s + 1.0) * s * (s - 1.0) / 6.0;
 }
 
-/* The four columns about x and their weights. */
-static void columns(const struct wave_table *t, double x, int column[4], double weight[4])
+/* Columns about a place and their weights. */
+struct about {
+    int n; /* 4, of several rows 16 */
+    int column[16];
+    double weight[16];
+};
+
+/* The four columns of a row about x. */
+static void along_row(const struct wave_table *t, double x, int column[4], double weight[4])
 {
     const double at = (x - t->first) / t->gap;
     const double lowest = t->periodic ? floor(at) : fmin(fmax(floor(at), 1.0), t->n - 3.0);
@@ -77,43 +88,84 @@ static void columns(const struct wave_table *t, double x, int column[4], double 
     cubic(s, weight);
 }
 
-double wave_table_eta(const struct wave_table *t, double x)
+static void columns_about(const struct wave_table *t, double x, double y, struct about *a)
 {
+    a->n = 4;
+    along_row(t, x, a->column, a->weight);
+    if (t->rows == 1)
+        return;
+    const double at = (y - t->first_row) / t->gap, lowest = fmin(fmax(floor(at), 1.0), t->rows - 3);
+    double across[4], along[4];
     int column[4];
-    double weight[4], eta = 0.0;
-    columns(t, x, column, weight);
-    for (int k = 0; k < 4; k++)
-        eta += weight[k] * t->eta[column[k]];
+    memcpy(along, a->weight, sizeof along);
+    memcpy(column, a->column, sizeof column);
+    cubic(fmin(fmax(at - lowest, -1.0), 2.0), across);
+    a->n = 16;
+    for (int k = 0; k < 16; k++) {
+        a->column[k] = column[k % 4] + t->n * ((int)lowest - 1 + k / 4);
+        a->weight[k] = along[k % 4] * across[k / 4];
+    }
+}
+
+static double eta_of(const struct wave_table *t, const struct about *a)
+{
+    double eta = 0.0;
+    for (int k = 0; k < a->n; k++)
+        eta += a->weight[k] * t->eta[a->column[k]];
     return eta;
 }
 
-void wave_table_velocity(const struct wave_table *t, double x, double z, double u[2])
+double wave_table_eta(const struct wave_table *t, double x, double y)
 {
-    int column[4];
-    double across[4], along[4], eta = 0.0;
-    columns(t, x, column, across);
-    for (int k = 0; k < 4 && (!t->flat || t->slope); k++)
-        eta += across[k] * t->eta[column[k]];
-    const double top = t->flat ? 0.0 : eta, over = t->slope ? fmin(z, eta) : 0.0;
-    const double share = fmin(fmax((top - (t->slope ? over : z)) / (top + t->reach), 0.0), 1.0),
+    struct about a;
+    columns_about(t, x, y, &a);
+    return eta_of(t, &a);
+}
+
+/* Nodes from the surface on to z; the four about it begin with `node'. */
+static int nodes_about(const struct wave_table *t, double top, double z, double weight[4])
+{
+    const double share = fmin(fmax((top - z) / (top + t->reach), 0.0), 1.0),
                  down = (t->flat ? sqrt(share) : share) * (WAVE_NODES - 1);
     const int node = (int)fmin(fmax(floor(down), 1.0), WAVE_NODES - 3.0);
-    cubic(down - node, along);
-    u[0] = u[1] = 0.0;
-    for (int k = 0; k < 4; k++) {
-        const double *q = t->u + ((size_t)column[k] * WAVE_NODES + (size_t)(node - 1)) * 2;
+    cubic(down - node, weight);
+    return node - 1;
+}
+
+/* parts is a constant of each caller. */
+static inline __attribute__((always_inline)) void sum_nodes(const struct wave_table *t,
+                                                            const struct about *at, int node,
+                                                            const double along[4], const int parts,
+                                                            double *u)
+{
+    for (int k = 0; k < at->n; k++) {
+        const double *q =
+            t->u + ((size_t)at->column[k] * WAVE_NODES + (size_t)node) * (size_t)parts;
         for (int i = 0; i < 4; i++) {
-            const double w = across[k] * along[i];
-            u[0] += w * q[2 * i];
-            u[1] += w * q[2 * i + 1];
+            const double w = at->weight[k] * along[i];
+            for (int a = 0; a < parts; a++)
+                u[a] += w * q[parts * i + a];
         }
     }
-    for (int k = 0; k < 4 && over > 0.0; k++)
+}
+
+void wave_table_velocity(const struct wave_table *t, double x, double y, double z, double u[3])
+{
+    struct about at;
+    double along[4];
+    columns_about(t, x, y, &at);
+    const double eta = !t->flat || t->slope ? eta_of(t, &at) : 0.0;
+    const double top = t->flat ? 0.0 : eta, over = t->slope ? fmin(z, eta) : 0.0;
+    const int node = nodes_about(t, top, t->slope ? over : z, along);
+    u[0] = u[1] = u[2] = 0.0;
+    if (t->parts == 2)
+        sum_nodes(t, &at, node, along, 2, u);
+    else
+        sum_nodes(t, &at, node, along, 3, u);
+    for (int k = 0; k < at.n && over > 0.0; k++)
         for (int a = 0; a < 2; a++)
-            u[a] += across[k] * over * t->slope[2 * column[k] + a];
-    if (z < -t->reach && t->decay > 0.0) {
-        const double left = exp(t->decay * (z + t->reach));
-        u[0] *= left;
-        u[1] *= left;
-    }
+            u[a] += at.weight[k] * over * t->slope[2 * at.column[k] + a];
+    const double left = z < -t->reach && t->decay > 0.0 ? exp(t->decay * (z + t->reach)) : 1.0;
+    for (int a = 0; a < 3; a++)
+        u[a] *= left;
 }

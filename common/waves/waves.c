@@ -144,8 +144,8 @@ static void make_regular(struct waves *w)
     w->period = w->length / w->celerity;
     w->crest = s->crest;
     w->trough = s->trough;
-    w->table = wave_table_create(COLUMNS, 0.0, w->length / COLUMNS, sea_reach(of->depth, w->length),
-                                 false);
+    w->table =
+        wave_table_create(COLUMNS, 1, w->length / COLUMNS, sea_reach(of->depth, w->length), false);
     w->table.periodic = true;
     w->table.decay = w->table.reach < of->depth ? s->k : 0.0;
     for (int i = 0; i < COLUMNS; i++) {
@@ -157,7 +157,7 @@ static void make_regular(struct waves *w)
     }
     w->speed = fmax(fabs(w->table.u[0] + w->current), fabs(w->current));
     const double complex gain =
-        sea_gain(of, sqrt(of->g * s->k * tanh(fmin(s->k * of->depth, 300.0))), s->k);
+        sea_gain(of, sqrt(of->g * s->k * tanh(fmin(s->k * of->depth, 300.0))), s->k, of->normal[0]);
     w->gain = cabs(gain);
     w->ahead = carg(gain) / s->k;
 }
@@ -184,6 +184,7 @@ void waves_free(struct waves **w)
         wave_table_free(&(*w)->frames[f]);
     mem_free((*w)->components);
     mem_free((*w)->profile);
+    mem_free((*w)->turning);
     second_order_free(&(*w)->second);
     mem_free(*w);
     *w = NULL;
@@ -215,15 +216,16 @@ static double place(const struct waves *w, double x)
                : x;
 }
 
-double waves_eta(const struct waves *w, double x)
+double waves_eta(const struct waves *w, double x, double y)
 {
-    return grown(w) * wave_table_eta(&w->table, place(w, x));
+    return grown(w) * wave_table_eta(&w->table, place(w, x), y);
 }
 
-void waves_velocity(const struct waves *w, double x, double z, double u[2])
+void waves_velocity(const struct waves *w, double x, double y, double z, double u[3])
 {
     const double r = grown(w) * (w->of.kind == WAVE_REGULAR ? w->gain : 1.0);
-    wave_table_velocity(&w->table, place(w, x), z, u);
+    wave_table_velocity(&w->table, place(w, x), y, z, u);
     u[0] = r * (u[0] + w->current);
     u[1] *= r;
+    u[2] *= r;
 }

@@ -2,11 +2,12 @@
  * at any place and time, the same bits whoever asks when. Regular: steady.h, with no net transport
  * (closed tank) or none of its own below the troughs. Sea and focused group: sums of linear waves
  * with, of second order, what their pairs bind (second_order.h); velocities go on above the still
- * level by their slope there, of first order they are as on it. x along the direction of travel, z
- * up from the still level. SPDX-License-Identifier: BSD-3-Clause */
+ * level by their slope there, of first order they are as on it. x along the direction of travel, y
+ * across it, z up from the still level. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_WAVES_H
 #define COMMON_WAVES_H
 
+#include <complex.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -28,15 +29,18 @@ struct wave_spec {
     int seed;              /* of the phases of a sea */
     double repeat;         /* s: after which a sea repeats itself */
     int order;             /* 2: sea, focused: with bound waves */
-    double window[2];      /* m: least and largest x that will be asked for */
+    double spread;         /* -: s of a sea's directions, cos^2s(b/2); 0: all one */
+    double window[2][2];   /* m: least and largest x, y that will be asked for */
     /* Of the zone that velocities are for, whose shares they make up for (zone_gain.h): m, 1/s at
-     * its side, cosine of the angle between the direction and the side's inner normal. 0 m: none,
-     * velocities are those of the waves. */
-    double zone, rate, cosine;
+     * its side, the side's inner normal along and across the direction. 0 m: none, velocities are
+     * those of the waves. */
+    double zone, rate, normal[2];
 };
 
 struct wave_component {
-    double a, w, k, phase; /* m, 1/s, 1/m, -: eta = a cos(k x - w t + phase) */
+    double a, w, k, phase; /* m, 1/s, 1/m, - */
+    double way[2];         /* cosine, sine of its direction b, from that of the waves:
+                            * eta = a cos(k (x cos b + y sin b) - w t + phase) */
 };
 
 struct waves {
@@ -51,7 +55,8 @@ struct waves {
     struct wave_component *components;
     int ncomponents;
     struct second_order *second; /* NULL: first order */
-    double *profile; /* [ncomponents][WAVE_NODES][2]: velocities over a w, along and up */
+    double *profile;         /* [ncomponents][2][WAVE_NODES]: velocities over a w, along and up */
+    double complex *turning; /* [2][ncomponents] */
     /* Regular: one table that travels. Else a blend of four frames dt apart. */
     struct wave_table table, frames[WAVE_FRAMES];
     long frame[WAVE_FRAMES]; /* which each holds */
@@ -70,10 +75,10 @@ struct waves *waves_create(const struct wave_spec *of);
 void waves_free(struct waves **w);
 /* Makes ready for the time t, s, before the functions below. */
 void waves_at(struct waves *w, double t);
-/* m at x. */
-double waves_eta(const struct waves *w, double x);
-/* m/s at (x, z): along and up. */
-void waves_velocity(const struct waves *w, double x, double z, double u[2]);
+/* m at x, y. */
+double waves_eta(const struct waves *w, double x, double y);
+/* m/s at (x, y), z: along, up, across. */
+void waves_velocity(const struct waves *w, double x, double y, double z, double u[3]);
 /* m: height from trough to crest of the highest wave of that length (Fenton 1990). */
 double waves_limit(double depth, double length);
 /* 1/m: of linear waves of the angular frequency omega. */

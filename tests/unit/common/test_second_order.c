@@ -171,7 +171,7 @@ static struct wave_spec sea_of(double height, double length, double depth)
                            .peak = 3.3,
                            .seed = 4,
                            .order = 2,
-                           .window = {0.0, 3.0}};
+                           .window = {{0.0, 3.0}, {0.0, 0.0}}};
     of.repeat = 30.0 * waves_period(&of);
     return of;
 }
@@ -233,17 +233,18 @@ static double leaves_its_surface(double height, int order)
     double most = 0.0;
     for (int i = 0; i < 400; i++) {
         const double x = 0.3 + fmod(0.137 * i, 2.4), t = 0.31 * i;
-        double u[2];
+        double u[3];
         waves_at(w, t + e);
-        const double later = waves_eta(w, x);
+        const double later = waves_eta(w, x, 0.0);
         waves_at(w, t - e);
-        const double earlier = waves_eta(w, x);
+        const double earlier = waves_eta(w, x, 0.0);
         waves_at(w, t);
-        const double eta = waves_eta(w, x);
-        waves_velocity(w, x, eta, u);
+        const double eta = waves_eta(w, x, 0.0);
+        waves_velocity(w, x, 0.0, eta, u);
         u[0] -= w->current; /* of third order here */
-        most = fmax(most, fabs((later - earlier) / (2.0 * e) - u[1] +
-                               u[0] * (waves_eta(w, x + e) - waves_eta(w, x - e)) / (2.0 * e)));
+        most = fmax(most,
+                    fabs((later - earlier) / (2.0 * e) - u[1] +
+                         u[0] * (waves_eta(w, x + e, 0.0) - waves_eta(w, x - e, 0.0)) / (2.0 * e)));
     }
     waves_free(&w);
     return most;
@@ -269,10 +270,10 @@ static void seas_transport_nothing(void **state)
     double flux = 0.0;
     for (int i = 0; i < TIMES; i++) {
         waves_at(w, of.repeat * i / TIMES);
-        const double eta = waves_eta(w, 1.3);
+        const double eta = waves_eta(w, 1.3, 0.0);
         for (int j = 0; j < PARTS; j++) {
-            double u[2];
-            waves_velocity(w, 1.3, -0.5 + (j + 0.5) / PARTS * (eta + 0.5), u);
+            double u[3];
+            waves_velocity(w, 1.3, 0.0, -0.5 + (j + 0.5) / PARTS * (eta + 0.5), u);
             flux += u[0] * (eta + 0.5) / PARTS / TIMES;
         }
     }
@@ -294,13 +295,13 @@ static void groups_stand_in_still_water(void **state)
     of.at[1] = 40.0;
     struct waves *w = waves_create(&of);
     waves_at(w, 40.0);
-    const double eta = waves_eta(w, 1.5);
+    const double eta = waves_eta(w, 1.5, 0.0);
     near(eta, w->crest, 1e-3 * eta);
     assert_true(eta > 0.06 * 1.025 && eta < 0.06 * 1.05);
-    double u[2];
+    double u[3];
     waves_at(w, 10.0);
-    near(waves_eta(w, 1.5), 0.0, 0.02 * 0.06);
-    waves_velocity(w, 1.5, -0.5, u);
+    near(waves_eta(w, 1.5, 0.0), 0.0, 0.02 * 0.06);
+    waves_velocity(w, 1.5, 0.0, -0.5, u);
     near(u[0], 0.0, 0.02 * w->speed);
     waves_free(&w);
 }

@@ -1,14 +1,16 @@
 /* test_waves.c - waves that zones make: tables give what the theory gives; no net transport; a
  * given period is met; a sea has the height that was asked for and its velocities belong to its
- * surface; a group focuses; the same bits whoever asks when; what zones let through by energy.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * surface; short crests are a sum; a group focuses; the same bits whoever asks when; what zones let
+ * through by energy. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include <complex.h>
 #include <math.h>
 #include <string.h>
 
+#include "../../../common/base/mem.h"
 #include "../../../common/scene/wave_maker.h"
+#include "../../../common/waves/sea.h"
 #include "../../../common/waves/waves.h"
 #include "../../../common/waves/zone_gain.h"
 
@@ -32,7 +34,7 @@ static struct wave_spec spec(int kind, double height, double length, double dept
                               .seed = 1,
                               .repeat = 60.0,
                               .order = 1,
-                              .window = {0.0, 3.0}};
+                              .window = {{0.0, 3.0}, {0.0, 0.0}}};
 }
 
 /* Against steady.h itself, inside and on the surface, deep and shallow; above it as on it. */
@@ -46,16 +48,17 @@ static void tables_give_the_wave(void **state)
         for (int i = 0; i < 40; i++) {
             const double t = 0.037 * i, x = 0.31 * i;
             waves_at(w, t);
-            const double eta = waves_eta(w, x), z = eta - 0.02 * (i % 5) * fmin(depths[d], 1.0);
-            double u[2], v[2];
-            waves_velocity(w, x, z, u);
+            const double eta = waves_eta(w, x, 0.0),
+                         z = eta - 0.02 * (i % 5) * fmin(depths[d], 1.0);
+            double u[3], v[3];
+            waves_velocity(w, x, 0.0, z, u);
             steady_point(&w->steady, x - w->current * t, z, t, v, NULL);
             near(eta, steady_eta(&w->steady, x - w->current * t, t), 1e-6);
             near(u[0], v[0] + w->current, 1e-4 * w->speed);
             near(u[1], v[1], 1e-4 * w->speed);
-            waves_velocity(w, x, eta + 1.0, v);
-            waves_velocity(w, x, eta, u);
-            assert_memory_equal(u, v, sizeof u);
+            waves_velocity(w, x, 0.0, eta + 1.0, v);
+            waves_velocity(w, x, 0.0, eta, u);
+            assert_memory_equal(u, v, 2 * sizeof *u);
         }
         waves_free(&w);
     }
@@ -70,10 +73,10 @@ static void closed_tanks_transport_nothing(void **state)
     double flux = 0.0, size = 0.0;
     waves_at(w, 0.0);
     for (int i = 0; i < 256; i++) {
-        const double x = i / 256.0, eta = waves_eta(w, x);
+        const double x = i / 256.0, eta = waves_eta(w, x, 0.0);
         for (int j = 0; j < 200; j++) {
-            double u[2];
-            waves_velocity(w, x, -0.3 + (j + 0.5) / 200.0 * (eta + 0.3), u);
+            double u[3];
+            waves_velocity(w, x, 0.0, -0.3 + (j + 0.5) / 200.0 * (eta + 0.3), u);
             flux += u[0] * (eta + 0.3);
             size += fabs(u[0]) * (eta + 0.3);
         }
@@ -92,9 +95,9 @@ static void periods_are_met(void **state)
     near(w->period, 1.3, 1e-9);
     near(w->length, w->celerity * 1.3, 1e-9);
     waves_at(w, 0.0);
-    const double eta = waves_eta(w, 0.4);
+    const double eta = waves_eta(w, 0.4, 0.0);
     waves_at(w, 1.3);
-    near(waves_eta(w, 0.4), eta, 1e-9);
+    near(waves_eta(w, 0.4, 0.0), eta, 1e-9);
     waves_free(&w);
 }
 
@@ -127,24 +130,83 @@ static void seas_have_their_height(void **state)
     enum { N = 6000 };
     for (int i = 0; i < N; i++) {
         waves_at(w, of.repeat * i / N);
-        square += pow(waves_eta(w, 1.3), 2.0) / N;
+        square += pow(waves_eta(w, 1.3, 0.0), 2.0) / N;
     }
     near(4.0 * sqrt(square), 0.06, 0.06 * 2e-3);
     /* d eta/dt = w at z = 0 of linear theory, and div u = 0 below it */
     const double t = 7.3, x = 1.1, h = 1e-3;
-    double a[2], b[2], c[2], d[2], u[2];
+    double a[3], b[3], c[3], d[3], u[3];
     waves_at(w, t + h);
-    const double later = waves_eta(w, x);
+    const double later = waves_eta(w, x, 0.0);
     waves_at(w, t - h);
-    const double earlier = waves_eta(w, x);
+    const double earlier = waves_eta(w, x, 0.0);
     waves_at(w, t);
-    waves_velocity(w, x, fmin(0.0, waves_eta(w, x)), u);
+    waves_velocity(w, x, 0.0, fmin(0.0, waves_eta(w, x, 0.0)), u);
     near((later - earlier) / (2.0 * h), u[1], 0.05 * w->speed);
-    waves_velocity(w, x + 0.01, -0.2, a);
-    waves_velocity(w, x - 0.01, -0.2, b);
-    waves_velocity(w, x, -0.19, c);
-    waves_velocity(w, x, -0.21, d);
+    waves_velocity(w, x + 0.01, 0.0, -0.2, a);
+    waves_velocity(w, x - 0.01, 0.0, -0.2, b);
+    waves_velocity(w, x, 0.0, -0.19, c);
+    waves_velocity(w, x, 0.0, -0.21, d);
     near(a[0] - b[0], -(c[1] - d[1]), 2e-5);
+    waves_free(&w);
+}
+
+/* cos^2s(b/2) has the mean cosine s/(s+1); as many to the left as to the right. */
+static void directions_have_their_spread(void **state)
+{
+    (void)state;
+    struct wave_spec of = spec(WAVE_SEA, 0.06, 2.0, 0.5);
+    of.repeat = 3000.0;
+    for (int i = 0; i < 2; i++) {
+        of.spread = i ? 50.0 : 10.0;
+        int n;
+        struct wave_component *c = sea_components(&of, waves_period(&of), &n);
+        double mean = 0.0, across = 0.0;
+        for (int k = 0; k < n; k++) {
+            near(hypot(c[k].way[0], c[k].way[1]), 1.0, 1e-12);
+            mean += c[k].way[0] / n;
+            across += c[k].way[1] / n;
+        }
+        const double wide = sqrt(2.0 / (of.spread + 1.0)); /* of b, about */
+        near(mean, of.spread / (of.spread + 1.0), 3.0 * wide * wide / sqrt(n));
+        near(across, 0.0, 4.0 * wide / sqrt(n));
+        mem_free(c);
+    }
+}
+
+/* Level and velocities of a short-crested sea against its sum; div u = 0. */
+static void short_crests_are_their_sum(void **state)
+{
+    (void)state;
+    struct wave_spec of = spec(WAVE_SEA, 0.06, 2.0, 0.5);
+    of.spread = 10.0;
+    of.window[1][1] = 2.0;
+    struct waves *w = waves_create(&of);
+    const double e = 0.02;
+    assert_int_equal(w->table.parts, 3);
+    for (int i = 0; i < 40; i++) {
+        const double x = fmod(0.37 * i, 3.0), y = fmod(0.73 * i, 2.0), t = 0.41 * i;
+        double eta = 0.0, v = 0.0, u[3], div = 0.0;
+        waves_at(w, t);
+        for (int k = 0; k < w->ncomponents; k++) {
+            const struct wave_component *c = w->components + k;
+            const double th = c->k * (x * c->way[0] + y * c->way[1]) - c->w * t + c->phase;
+            eta += c->a * cos(th);
+            v += c->a * c->w * c->way[1] * cos(th) * cosh(c->k * 0.4) / sinh(c->k * 0.5);
+        }
+        near(waves_eta(w, x, y), eta, 0.02 * 0.06);
+        waves_velocity(w, x, y, -0.1, u);
+        near(u[2], v, 0.02 * w->speed);
+        for (int q = 0; q < 2; q++) {
+            const double way = q ? 1.0 : -1.0;
+            double a[3], b[3], c[3];
+            waves_velocity(w, x + way * e, y, -0.2, a);
+            waves_velocity(w, x, y + way * e, -0.2, b);
+            waves_velocity(w, x, y, -0.2 + way * e, c);
+            div += way * (a[0] + b[2] + c[1]) / (2.0 * e);
+        }
+        near(div, 0.0, 0.02 * w->speed * 2.0 * M_PI / w->length);
+    }
     waves_free(&w);
 }
 
@@ -158,10 +220,10 @@ static void groups_focus(void **state)
     double most = 0.0;
     for (int i = 0; i <= 2000; i++) {
         waves_at(w, 0.01 * i);
-        most = fmax(most, waves_eta(w, 1.5));
+        most = fmax(most, waves_eta(w, 1.5, 0.0));
     }
     waves_at(w, 12.0);
-    near(waves_eta(w, 1.5), 0.06, 1e-4);
+    near(waves_eta(w, 1.5, 0.0), 0.06, 1e-4);
     near(most, 0.06, 1e-4);
     waves_free(&w);
 }
@@ -171,15 +233,15 @@ static void bits_do_not_depend_on_who_asks(void **state)
     (void)state;
     struct wave_spec of = spec(WAVE_SEA, 0.06, 2.0, 0.5);
     struct waves *one = waves_create(&of), *other = waves_create(&of);
-    double u[2], v[2];
+    double u[3], v[3];
     for (int i = 0; i < 50; i++)
         waves_at(one, 0.05 * i);
     waves_at(one, 1.2345);
     waves_at(other, 9.0);
     waves_at(other, 1.2345);
-    waves_velocity(one, 0.7, -0.1, u);
-    waves_velocity(other, 0.7, -0.1, v);
-    assert_memory_equal(u, v, sizeof u);
+    waves_velocity(one, 0.7, 0.0, -0.1, u);
+    waves_velocity(other, 0.7, 0.0, -0.1, v);
+    assert_memory_equal(u, v, 2 * sizeof *u);
     waves_free(&one);
     waves_free(&other);
 }
@@ -222,6 +284,8 @@ int main(void)
                                        cmocka_unit_test(periods_are_met),
                                        cmocka_unit_test(waves_that_break_are_refused),
                                        cmocka_unit_test(seas_have_their_height),
+                                       cmocka_unit_test(directions_have_their_spread),
+                                       cmocka_unit_test(short_crests_are_their_sum),
                                        cmocka_unit_test(groups_focus),
                                        cmocka_unit_test(bits_do_not_depend_on_who_asks),
                                        cmocka_unit_test(zones_answer_as_they_should),
