@@ -37,6 +37,7 @@ static void usage(const char *name, const char *help)
            "  -o, --output DIR  where the run writes (out/CASE)\n"
            "      --check       reads and validates the case, says what it uses and costs; no run\n"
            "      --check=picture  draws the scene as well, to DIR/PROGRAM-scene.svg\n"
+           "      --check=waves    says and draws the waves alone, to DIR/PROGRAM-waves.svg\n"
            "      --restart     continues from the last restart file in DIR\n"
            "      --force       replaces an earlier run in DIR\n"
            "      --deadline S  time to find the other programs of a coupled job (30 s)\n"
@@ -150,9 +151,11 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
             return print_and_end(option, name, help, NULL, groups, ngroups);
         case 'c':
             c->check = true;
-            c->picture = optarg != NULL;
-            if (optarg && strcmp(optarg, "picture") != 0)
-                return refuse(name, "expected --check or --check=picture, not", optarg);
+            c->waves = optarg && strcmp(optarg, "waves") == 0;
+            c->picture = optarg && !c->waves;
+            if (c->picture && strcmp(optarg, "picture") != 0)
+                return refuse(name, "expected --check, --check=picture or --check=waves, not",
+                              optarg);
             break;
         case 'p':
             overrides[c->noverrides++] = optarg;

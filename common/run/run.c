@@ -19,7 +19,9 @@
 #include "../scene/scene_mesh.h"
 #include "../scene/scene_openings.h"
 #include "../scene/scene_outlines.h"
+#include "../scene/scene_waves.h"
 #include "../scene/wave_maker.h"
+#include "../scene/wave_picture.h"
 #include "accept.h"
 #include "crossing.h"
 #include "run_files.h"
@@ -608,6 +610,26 @@ static void draw(const struct life *l)
     log_say("picture: %s", path);
 }
 
+/* The waves of the scene alone. */
+static int draw_waves(const struct life *l)
+{
+    char path[1400];
+    if (!l->r.scene.has_waves) {
+        if (l->r.rank == 0)
+            log_warn("--check=waves: the case has no group waves: give waves: { height = ...; "
+                     "length = ...; }, or period");
+        return RUN_INPUT;
+    }
+    if (l->r.rank > 0)
+        return RUN_DONE;
+    snprintf(path, sizeof path, "%s/%s-waves.svg", l->r.dir, l->r.name);
+    if (!run_make_folder(l->r.dir))
+        disk_failed(path);
+    scene_waves_describe(&l->r.scene);
+    wave_picture(path, &l->r.scene);
+    return RUN_DONE;
+}
+
 /* From the case to the exit code. */
 static int live(struct life *l)
 {
@@ -620,6 +642,8 @@ static int live(struct life *l)
     int faults = read_case(l);
     run_case_name(l->line.case_file, r->case_name, sizeof r->case_name);
     snprintf(r->dir, sizeof r->dir, "%s", l->line.dir);
+    if (!faults && l->line.waves)
+        return draw_waves(l);
     if (!faults && l->line.check) {
         l->p->describe(r);
         if (l->line.picture && r->rank == 0)

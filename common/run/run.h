@@ -158,7 +158,7 @@ struct command_line {
     const char *as;        /* name of one of several programs of a kind; NULL: the kind's own */
     int noverrides;
     const char *const *overrides;
-    bool check, picture, restart, force, groups;
+    bool check, picture, waves, restart, force, groups;
     double deadline; /* s to meet the other programs */
     double patience; /* s without a sign of life of a partner */
 };

@@ -30,6 +30,11 @@ sed 's/gravity = (0, -9.81)/gravity = (9.81, 0)/; s/max = (4.5, 0.24)/min = (-0.
 "$b/fv" regular.cfg --check 2>&1 | grep -q 'regular waves: height 0.03 m, 1 m long, period 0.911[0-9]* s, celerity 1.09[0-9]* m/s over 0.16 m' || bad "--check of waves"
 "$b/fv" regular.cfg --check 2>&1 | grep -q 'x_max: beach over 1 m, 1 lengths of waves of 0.911' || bad "--check of a beach by the waves"
 "$b/fv" regular.cfg --check=picture -o drawn >drawn.log 2>&1 && grep -q '>wave zone<' drawn/fv-scene.svg && grep -q '>beach<' drawn/fv-scene.svg || bad "zones of waves in the picture"
+"$b/fv" regular.cfg --check=waves -o drawn >drawn.log 2>&1 && grep -q 'Regular waves: height 0.03 m, 1 m long' drawn/fv-waves.svg || bad "the picture of waves alone" drawn.log
+"$b/fv" group.cfg --check=waves -o drawn >drawn.log 2>&1 && grep -q 'amplitudes of the components' drawn/fv-waves.svg && grep -q 'second order: pairs' drawn.log || bad "the picture of a group" drawn.log
+sed '/^waves:/d; s/kind = "wave"/kind = "slip"/; s/kind = "beach"/kind = "slip"/; /^gauges/d' regular.cfg >calm.cfg
+"$b/fv" calm.cfg --check=waves -o drawn >drawn.log 2>&1
+[ $? = 2 ] && grep -q 'no group waves' drawn.log || bad "--check=waves of a case without" drawn.log
 for name in regular turned group; do "$b/fv" $name.cfg -o $name >$name.log 2>&1 || bad "fv $name" $name.log; done
 "$b/sph" grains.cfg -o grains >grains.log 2>&1 || bad "sph, waves" grains.log
 height=$(swing regular a 7 10) other=$(swing regular b 7 10) turned=$(swing turned a 7 10) grains=$(swing grains a 5.5 8)
