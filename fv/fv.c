@@ -29,7 +29,7 @@
 #include "watch/watches.h"
 
 /* Those of rows, forces and watches at most, blocks and gauges. */
-static const char *columns[40 + 10 * MESH_BLOCKS_MAX + 3 * BLOCKED_MAX + PROBES_MAX];
+static const char *columns[40 + 10 * MESH_BLOCKS_MAX + 3 * BLOCKED_MAX + 3 * PROBES_MAX];
 static struct program fv_program; /* its columns depend on the scene */
 
 static void describe_rows(const struct run *r)

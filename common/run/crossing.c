@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../scene/scene_fluid.h"
+#include "../scene/scene_probe.h"
 
 bool crossing_box(const struct run *r, const char *group, double box[2][3])
 {
@@ -67,7 +68,7 @@ static bool holds(const struct scene *c, int up, double box[2][3], const struct 
 {
     bool inside = true;
     for (int a = 0; a < c->domain.dim; a++)
-        if (box[1][a] > box[0][a] && (a != up || g->kind == PROBE_PRESSURE))
+        if (box[1][a] > box[0][a] && (a != up || probe_is_point(g)))
             inside = inside && g->at[a] >= box[0][a] && g->at[a] <= box[1][a];
     return inside;
 }

@@ -24,6 +24,7 @@
 #include "../scene/wave_picture.h"
 #include "accept.h"
 #include "crossing.h"
+#include "discharge_gauges.h"
 #include "run_files.h"
 #include "wave_gauges.h"
 
@@ -500,13 +501,14 @@ static void say_end(const struct life *l)
         log_say("look       paraview --script=%s%s/view.py%s", quote, r->dir, quote);
 }
 
-static void judge_waves(const struct life *l)
+static void judge_gauges(const struct life *l)
 {
     char path[1400];
     if (l->r.rank != 0)
         return;
     files_path(&l->r, "series.csv", path, sizeof path);
     wave_gauges_judge(&l->r.scene, path, l->r.dir, l->r.summary);
+    discharge_gauges_judge(&l->r.scene, path, l->r.summary);
 }
 
 static int end(struct life *l, int code)
@@ -516,7 +518,7 @@ static int end(struct life *l, int code)
         write_row(l); /* the end itself */
     summarise(l);
     if (code == RUN_DONE)
-        judge_waves(l);
+        judge_gauges(l);
     if (!r->coupled) {
         say_end(l);
         if (code == RUN_DONE && r->scene.naccept > 0) {

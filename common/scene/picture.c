@@ -9,6 +9,7 @@
 #include "../base/mem.h"
 #include "../files/disk.h"
 #include "picture_section.h"
+#include "scene_probe.h"
 #include "scene_waves.h"
 
 enum { WIDTH = 900, MARGIN = 60, LEGEND = 22, TICKS = 12, LABELS = 64, LETTER = 7, LINE = 13 };
@@ -396,7 +397,7 @@ static void scene(struct picture *p, bool first)
         const double *at = s->probes[k].at;
         fprintf(p->f, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\"", px(p, at[p->axis[0]]),
                 py(p, at[p->axis[1]]));
-        paint(p, PICTURE_PROBE, s->probes[k].kind == PROBE_PRESSURE);
+        paint(p, PICTURE_PROBE, probe_is_point(s->probes + k));
         picture_text(p, at, s->probes[k].name);
     }
 }

@@ -9,6 +9,7 @@
 #include "scene_check.h"
 #include "scene_fluid.h"
 #include "scene_geometry.h"
+#include "scene_probe.h"
 
 /* A component along an axis that the case does not have is a mistake. */
 static void check_flat(const struct scene *s, const struct params *p, struct faults *f,
@@ -212,8 +213,9 @@ static void check_discharge(const struct scene *s, const struct params *p, int k
     snprintf(key, sizeof key, "probes.[%d].to", k);
     if (g->kind != PROBE_DISCHARGE)
         return;
-    if (!s->has_sph || s->has_fv)
-        params_fault(p, f, key, "%s: a discharge is read by sph alone, without a partner", g->name);
+    if (s->has_sph && s->has_fv)
+        params_fault(p, f, key, "%s: a discharge is read by one program, without a partner",
+                     g->name);
     else if (s->domain.dim == 2 ? same == 2 : same != 1)
         params_fault(p, f, key, "%s: %s", g->name,
                      s->domain.dim == 2
@@ -226,9 +228,7 @@ static void check_probes(const struct scene *s, const struct params *p, struct f
     const struct scene_domain *d = &s->domain;
     for (int k = 0; k < s->nprobes; k++) {
         const struct scene_probe *g = s->probes + k;
-        const int axes = g->kind == PROBE_DISCHARGE  ? 0
-                         : g->kind == PROBE_PRESSURE ? d->dim
-                                                     : d->dim - 1;
+        const int axes = g->kind == PROBE_DISCHARGE ? 0 : probe_is_point(g) ? d->dim : d->dim - 1;
         char key[64];
         check_discharge(s, p, k, f);
         snprintf(key, sizeof key, "probes.[%d].at", k);
@@ -241,7 +241,7 @@ static void check_probes(const struct scene *s, const struct params *p, struct f
             }
         if (g->kind == PROBE_SHORE && (!s->has_sph || d->dim == 3))
             params_fault(p, f, key, "%s: a shore is read by sph alone, in 2D", g->name);
-        for (int b = 0; b < s->nbodies && g->kind == PROBE_PRESSURE; b++) {
+        for (int b = 0; b < s->nbodies && probe_is_point(g); b++) {
             const struct line l = line_of(&s->bodies[b].points, true);
             if (l.n > 2 && line_inside(&l, g->at) &&
                 line_distance(&l, g->at) > 1e-6 * line_size(&l))

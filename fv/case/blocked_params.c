@@ -9,6 +9,7 @@
 
 #include "../../common/base/log.h"
 #include "../../common/base/mem.h"
+#include "../../common/scene/scene_probe.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
 
@@ -258,7 +259,7 @@ static bool check_box(const struct run *r, int k, struct faults *f)
     for (int q = 0; q < r->scene.nprobes; q++) {
         const struct scene_probe *g = r->scene.probes + q;
         char key[32];
-        bool in = g->kind == PROBE_PRESSURE;
+        bool in = probe_is_point(g);
         for (int a = 0; a < d->dim; a++)
             in = in && g->at[a] > p->min[a] + 1e-9 && g->at[a] < p->max[a] - 1e-9;
         snprintf(key, sizeof key, "probes.[%d].at", q);

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "../../common/scene/scene_fluid.h"
+#include "../../common/scene/scene_probe.h"
 #include "../boundary/still.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
@@ -485,7 +486,8 @@ static void check_probe(const struct run *r, struct faults *f, int k)
     snprintf(key, sizeof key, "probes.[%d].at", k);
     for (int a = 0; a < s->domain.dim; a++) {
         const double eps = 1e-9 * (s->domain.max[a] - s->domain.min[a]);
-        const bool needed = p->kind == PROBE_PRESSURE || a != still_upright(s);
+        const bool needed =
+            probe_is_point(p) || (p->kind != PROBE_DISCHARGE && a != still_upright(s));
         in_hole = in_hole && p->at[a] > hole[0][a] && p->at[a] < hole[1][a];
         if (needed && !(p->at[a] >= s->domain.min[a] - eps && p->at[a] <= s->domain.max[a] + eps))
             params_fault(r->params, f, key, "probe \"%s\" lies outside the domain along %c: %g m",
@@ -493,7 +495,7 @@ static void check_probe(const struct run *r, struct faults *f, int k)
     }
     if (p->kind == PROBE_LEVEL && !surface_wanted(r) && !r->coupled)
         params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
-    if (in_hole)
+    if (in_hole && p->kind != PROBE_DISCHARGE)
         params_fault(r->params, f, key, "probe \"%s\" lies in fv.hole, where nothing is computed",
                      p->name);
 }

@@ -1,15 +1,18 @@
-/* fv_probes.c - gauges of the case in series.csv: pressure at a point, linear between the centres
- * of cells and beyond them at a wall; level of the water. SPDX-License-Identifier: BSD-3-Clause */
+/* fv_probes.c - gauges of the case in series.csv: pressure and velocity at a point, linear between
+ * the centres of cells and beyond them at a wall; level of the water; discharge.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "../../common/scene/scene_probe.h"
 #include "../boundary/blocked.h"
 #include "../boundary/still.h"
 #include "../surface/levelset.h"
 #include "output.h"
+#include "probe_flow.h"
 
 /* The same among rows of unequal height. */
 static int row_below(const struct block *b, double y, double *weight)
@@ -95,33 +98,39 @@ static void look_past_boxes(const struct fv *s, const double *x, int *i, double 
     }
 }
 
-/* A corner of the cells around may still lie in a box: the host's value there. */
-static double pressure_of(const struct fv *s, const int *at, const int *i, const double *w)
+/* A corner of the cells around may still lie in a box: the host's value there. q NULL: pressure. */
+static double corner_of(const struct fv *s, const double *q, const int *at, const int *i,
+                        const double *w)
 {
-    if (!is_blocked(s, block_at(&s->b, at[0], at[1], at[2])))
-        return fv_pressure(s, block_at(&s->b, at[0], at[1], at[2]));
+    int64_t c = block_at(&s->b, at[0], at[1], at[2]);
     int host[3];
     for (int a = 0; a < 3; a++)
         host[a] = i[a] + (a < s->b.dim && w[a] > 0.5);
-    return fv_pressure(s, block_at(&s->b, host[0], host[1], host[2]));
+    if (is_blocked(s, c))
+        c = block_at(&s->b, host[0], host[1], host[2]);
+    return q ? q[c] : fv_pressure(s, c);
 }
 
-/* What this rank has to say: 0 unless the lower cell is its own. */
-static double pressure_at(const struct fv *s, const double *x)
+/* The cells about x and their weights. false: the lower one is another rank's. */
+static bool locate(const struct fv *s, const double *x, int i[3], double w[3])
 {
     const struct block *b = &s->b;
-    int i[3] = {0, 0, 0};
-    double w[3] = {0.0, 0.0, 0.0}, sum = 0.0;
+    for (int a = 0; a < 3; a++) {
+        i[a] = 0;
+        w[a] = 0.0;
+    }
     for (int a = 0; a < b->dim; a++) {
         i[a] = base(b, a, x[a], w + a) - b->lo[a];
         if (i[a] < 0 || i[a] >= b->n[a])
-            return 0.0;
+            return false;
     }
-    if (s->blocked)
-        look_past_boxes(s, x, i, w);
-    if (s->surface && dry_at(s, i, w))
-        return 0.0;
-    for (int m = 0; m < 1 << b->dim; m++) {
+    return true;
+}
+
+static double linear(const struct fv *s, const double *q, const int *i, const double *w)
+{
+    double sum = 0.0;
+    for (int m = 0; m < 1 << s->b.dim; m++) {
         double f = 1.0;
         int at[3];
         for (int a = 0; a < 3; a++) {
@@ -129,43 +138,126 @@ static double pressure_at(const struct fv *s, const double *x)
             at[a] = i[a] + up;
             f *= up ? w[a] : 1.0 - w[a];
         }
-        sum += f * pressure_of(s, at, i, w);
+        sum += f * corner_of(s, q, at, i, w);
     }
-    return sum + fv_still_pressure(s, x) + s->datum;
+    return sum;
+}
+
+/* Whether water is at a place of this rank. */
+static bool find_water(const struct fv *s, const double *x, int i[3], double w[3])
+{
+    if (!locate(s, x, i, w))
+        return false;
+    if (s->blocked)
+        look_past_boxes(s, x, i, w);
+    return !s->surface || !dry_at(s, i, w);
+}
+
+/* What this rank has to say: 0 unless the lower cell is its own. */
+static double pressure_at(const struct fv *s, const double *x)
+{
+    int i[3];
+    double w[3];
+    if (!find_water(s, x, i, w))
+        return 0.0;
+    return linear(s, NULL, i, w) + fv_still_pressure(s, x) + s->datum;
+}
+
+/* The same of the velocity, and 1 if water is there. */
+static void velocity_at(const struct fv *s, const double *x, double *u)
+{
+    int i[3];
+    double w[3];
+    if (!find_water(s, x, i, w))
+        return;
+    for (int a = 0; a < s->dim; a++)
+        u[a] = linear(s, s->u[a], i, w);
+    u[s->dim] = 1.0;
+}
+
+/* This rank's samples; those in boxes are dry. */
+static double discharge_of(const struct fv *s, const struct scene_probe *g)
+{
+    struct flow_samples f = flow_samples_create(s, g);
+    for (int k = 0; k < f.n; k++) {
+        int i[3], host[3] = {0, 0, 0};
+        double w[3], *v = f.value[k];
+        v[3] = f.step;
+        if (!locate(s, f.x[k], i, w))
+            continue;
+        for (int a = 0; a < s->dim; a++)
+            host[a] = i[a] + (w[a] > 0.5);
+        if (is_blocked(s, block_at(&s->b, host[0], host[1], host[2])))
+            continue;
+        if (s->blocked)
+            look_past_boxes(s, f.x[k], i, w);
+        for (int a = 0; a < s->dim; a++)
+            v[a] = linear(s, s->u[a], i, w);
+        v[3] = s->surface ? linear(s, s->surface->phi, i, w) : -f.step;
+    }
+    const double sum = flow_samples_sum(&f, s->dim);
+    flow_samples_free(&f);
+    return sum;
 }
 
 bool fv_probe_mine(const struct run *r, int k)
 {
     if (r->crossed)
         return !r->gauge_inside[k];
-    return r->scene.probes[k].kind == PROBE_PRESSURE || !r->coupled;
+    return probe_is_point(r->scene.probes + k) || !r->coupled;
 }
 
 int fv_probe_columns(const struct run *r, const char **columns)
 {
-    static char names[PROBES_MAX][PARAM_TEXT_SIZE + 8];
+    static char names[3 * PROBES_MAX][PARAM_TEXT_SIZE + 12];
+    const int dim = r->scene.domain.dim;
     int n = 0;
     for (int k = 0; k < r->scene.nprobes; k++)
-        if (fv_probe_mine(r, k)) {
-            snprintf(names[n], sizeof names[n], "%s [%s]", r->scene.probes[k].name,
-                     r->scene.probes[k].kind == PROBE_PRESSURE ? "Pa" : "m");
+        for (int a = 0; a < probe_columns(r->scene.probes + k, dim) && fv_probe_mine(r, k); a++) {
+            probe_heading(r->scene.probes + k, dim, a, names[n], sizeof names[n]);
             columns[n] = names[n];
             n++;
         }
     return n;
 }
 
+/* A gauge's share of this rank; returns how many numbers there are. */
+static int share_of(struct fv *s, const struct scene_probe *g, double *here)
+{
+    if (g->kind == PROBE_VELOCITY) {
+        velocity_at(s, g->at, here);
+        return s->dim + 1;
+    }
+    *here = g->kind == PROBE_LEVEL       ? surface_level(s, g->at)
+            : g->kind == PROBE_DISCHARGE ? discharge_of(s, g)
+                                         : pressure_at(s, g->at);
+    return 1;
+}
+
 void fv_probe(struct fv *s, double *values)
 {
     const struct scene *scene = &s->run->scene;
+    double here[4 * PROBES_MAX] = {0.0};
+    bool velocities = false;
+    for (int k = 0; k < scene->nprobes; k++)
+        velocities = velocities || scene->probes[k].kind >= PROBE_DISCHARGE;
     if (scene->nprobes == 0)
         return;
     block_halo(&s->b, 2, (double *const[]){s->p, s->p_before});
+    if (velocities)
+        block_halo(&s->b, s->dim, s->u);
     int n = 0;
     for (int k = 0; k < scene->nprobes; k++)
         if (fv_probe_mine(s->run, k))
-            values[n++] = scene->probes[k].kind == PROBE_LEVEL
-                              ? surface_level(s, scene->probes[k].at)
-                              : pressure_at(s, scene->probes[k].at);
-    MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, s->b.cart);
+            n += share_of(s, scene->probes + k, here + n);
+    MPI_Allreduce(MPI_IN_PLACE, here, n, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    const double *from = here;
+    for (int k = 0; k < scene->nprobes; k++) {
+        if (!fv_probe_mine(s->run, k))
+            continue;
+        const bool velocity = scene->probes[k].kind == PROBE_VELOCITY;
+        for (int a = 0; a < (velocity ? s->dim : 1); a++)
+            *values++ = velocity && from[s->dim] == 0.0 ? NAN : from[a];
+        from += velocity ? s->dim + 1 : 1;
+    }
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../../common/base/log.h"
+#include "../../common/scene/scene_probe.h"
 #include "../boundary/blocked.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
@@ -116,7 +117,7 @@ void fv_row(void *state, double *values)
     }
     of->probes(s, values + n);
     for (int k = 0; k < s->run->scene.nprobes; k++)
-        n += fv_probe_mine(s->run, k);
+        n += fv_probe_mine(s->run, k) ? probe_columns(s->run->scene.probes + k, s->dim) : 0;
     watches_values(s->watches, values + n);
 }
 

@@ -207,92 +207,6 @@ static int forces(struct fv *s, double *values)
     return n;
 }
 
-static bool mesh_covers(const struct fv *s, const struct overset *o, const double *x)
-{
-    for (int k = 0; k < s->m->nblocks; k++) {
-        int cell[3], from[3];
-        double xi[3], w[64];
-        if (overset_locate(s->m, o, k, x, cell, xi) &&
-            overset_weights(s->m, k, cell, xi, 1, 2, from, w))
-            return true;
-    }
-    return false;
-}
-
-/* Values of phi at places along gravity over x, from the top of the domain; `far' where no cells
- * are. */
-enum { ALONG = 400 };
-
-static void levels_along(struct fv *s, const double *at, int up, bool down, double *phi)
-{
-    const struct scene_domain *d = &s->run->scene.domain;
-    const double L = d->max[up] - d->min[up];
-    for (int n = 0; n <= ALONG; n++) {
-        double x[3] = {at[0], at[1], at[2]};
-        x[up] = down ? d->min[up] + n * L / ALONG : d->max[up] - n * L / ALONG;
-        phi[n] = mesh_value_at(s, s->search, x, 2, s->surface->phi);
-    }
-    MPI_Allreduce(MPI_IN_PLACE, phi, ALONG + 1, MPI_DOUBLE, MPI_SUM, s->comm);
-}
-
-/* Whether some cell over x is computed: a partner's part moves, and has no level of FV's. */
-static bool is_known(const struct fv *s, const double *at, int up)
-{
-    const struct scene_domain *d = &s->run->scene.domain;
-    for (int n = 0; n <= ALONG && s->past[0][0]; n++) {
-        double x[3] = {at[0], at[1], at[2]};
-        x[up] = d->min[up] + n * (d->max[up] - d->min[up]) / ALONG;
-        if (mesh_covers(s, s->search, x))
-            return true;
-    }
-    return !s->past[0][0];
-}
-
-/* Place along gravity of the highest water over x; the domain's end if there is none, NAN where
- * FV does not compute. */
-static double level_at(struct fv *s, const double *x)
-{
-    const struct scene_domain *d = &s->run->scene.domain;
-    const int up = still_upright(&s->run->scene);
-    const bool down = s->run->scene.fluid.gravity[up] > 0.0;
-    const double top = down ? d->min[up] : d->max[up], end = down ? d->max[up] : d->min[up];
-    double phi[ALONG + 1];
-    if (!is_known(s, x, up))
-        return NAN;
-    levels_along(s, x, up, down, phi);
-    for (int n = 0; n <= ALONG; n++) {
-        if (!(phi[n] < 0.0))
-            continue;
-        const double back = n > 0 && phi[n - 1] > 0.0 ? phi[n] / (phi[n] - phi[n - 1]) : 0.0;
-        return top + (end - top) * (n - back) / ALONG;
-    }
-    return end;
-}
-
-static void probes(struct fv *s, double *values)
-{
-    const struct scene *scene = &s->run->scene;
-    for (int k = 0; k < scene->nprobes; k++) {
-        const struct scene_probe *p = scene->probes + k;
-        double here[2] = {0.0, 0.0};
-        if (!fv_probe_mine(s->run, k))
-            continue;
-        if (p->kind == PROBE_LEVEL) {
-            *values++ = level_at(s, p->at);
-            continue;
-        }
-        here[0] = mesh_value_at(s, s->search, p->at, s->surface ? 2 : 0, NULL);
-        here[1] = s->surface ? mesh_value_at(s, s->search, p->at, 2, s->surface->phi) : -1.0;
-        MPI_Allreduce(MPI_IN_PLACE, here, 2, MPI_DOUBLE, MPI_SUM, s->comm);
-        if ((s->m->moves || s->past[0][0]) &&
-            !mesh_covers(s, s->search, p->at)) { /* where a body or a partner is there is none */
-            *values++ = NAN;
-            continue;
-        }
-        *values++ = here[1] < 0.0 ? here[0] + fv_still_pressure(s, p->at) + s->datum : 0.0;
-    }
-}
-
 /* Mean and half range of the forces on bodies and no-slip walls over the second half of the run,
  * frequency of the one along y by the crossings of its mean. */
 static void summarise_swing(const struct fv *s)
@@ -385,7 +299,7 @@ const struct report block_report = {.largest_divergence = largest_divergence,
                                     .cells = cells_of,
                                     .force_columns = force_columns,
                                     .forces = forces,
-                                    .probes = probes,
+                                    .probes = mesh_probes,
                                     .summarise = summarise,
                                     .extrema = mesh_summarise_extrema};
 

@@ -10,6 +10,8 @@
  * pressure. width 2: linear, 4: cubic from averages, 0: that where it can, else linear. */
 double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int width,
                      const double *q);
+/* mesh_probes.c: values of the case's gauges, on all ranks. */
+void mesh_probes(struct fv *s, double *values);
 /* fv_lines.c: extrema on the centre lines of the domain into the summary. */
 void mesh_summarise_extrema(const struct fv *s);
 

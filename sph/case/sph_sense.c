@@ -9,6 +9,7 @@
 #include "../../common/scene/scene_fluid.h"
 #include "../../common/scene/scene_geometry.h"
 #include "../../common/scene/scene_mesh.h"
+#include "../../common/scene/scene_probe.h"
 #include "../sph.h"
 #include "first_lattice.h"
 
@@ -310,7 +311,7 @@ static void check_hidden(const struct run *r, const struct sph_params *used, str
             const double *at = c->probes[k].at;
             char key[64];
             snprintf(key, sizeof key, "probes.[%d].at", k);
-            if (c->probes[k].kind == PROBE_PRESSURE && c->walls[m].closed &&
+            if (probe_is_point(c->probes + k) && c->walls[m].closed &&
                 line_inside(&l, at) != (line_area(&l) > 0.0) && line_distance(&l, at) > used->dx)
                 params_fault(r->params, f, key, "%s is behind wall %d: put it before it",
                              c->probes[k].name, m + 1);

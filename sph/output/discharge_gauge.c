@@ -6,38 +6,9 @@
 
 #include <math.h>
 
+#include "../../common/scene/scene_probe.h"
+
 static const double half = 2.0; /* dx: half width of the hat function */
-
-/* The section: direction across it, the extents along it. */
-struct gauge_section {
-    double across[3], along[2][3], length[2];
-    int n; /* of extents */
-};
-
-static struct gauge_section section_of(const struct sph *s, const struct scene_probe *g)
-{
-    struct gauge_section c = {.n = 0};
-    double d[3] = {0.0, 0.0, 0.0};
-    for (int a = 0; a < s->dim; a++)
-        d[a] = g->to[a] - g->at[a];
-    if (s->dim == 2) {
-        c.length[0] = hypot(d[0], d[1]);
-        for (int a = 0; a < 2; a++)
-            c.along[0][a] = d[a] / c.length[0];
-        c.across[0] = c.along[0][1];
-        c.across[1] = -c.along[0][0];
-        c.n = 1;
-        return c;
-    }
-    for (int a = 0; a < 3; a++)
-        if (d[a] == 0.0) {
-            c.across[a] = 1.0;
-        } else {
-            c.along[c.n][a] = d[a] > 0.0 ? 1.0 : -1.0;
-            c.length[c.n++] = fabs(d[a]);
-        }
-    return c;
-}
 
 static double project(const double *direction, const double *x, const double *from, int dim)
 {
@@ -48,7 +19,7 @@ static double project(const double *direction, const double *x, const double *fr
 }
 
 static double flow_of(const struct sph *s, const struct scene_probe *g,
-                      const struct gauge_section *c, double dx)
+                      const struct probe_section *c, double dx)
 {
     double sum = 0.0;
     for (int i = 0; i < s->p.n; i++) {
@@ -68,7 +39,7 @@ static double flow_of(const struct sph *s, const struct scene_probe *g,
 
 double discharge_gauge(struct sph *s, const struct scene_probe *g)
 {
-    const struct gauge_section c = section_of(s, g);
+    const struct probe_section c = probe_section_of(g, s->dim);
     double sum = 0.0;
     for (const struct sph *q = s; q; q = q->finer)
         sum += flow_of(q, g, &c, s->dx);

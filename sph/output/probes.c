@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../../common/scene/scene_probe.h"
 #include "../bodies/bodies.h"
 #include "../pairs/kernel.h"
 #include "../particles/eos.h"
@@ -17,14 +18,6 @@
 /* Where a surface crosses, fv reads the gauges outside of the box. */
 static bool is_mine(const struct run *r, int k) { return !r->crossed || r->gauge_inside[k]; }
 
-static const char *unit_of(const struct scene *c, int k)
-{
-    const char *discharge = c->domain.dim == 2 ? "m^2/s" : "m^3/s";
-    return c->probes[k].kind == PROBE_PRESSURE    ? "Pa"
-           : c->probes[k].kind == PROBE_DISCHARGE ? discharge
-                                                  : "m";
-}
-
 int probes_columns(const struct run *r, const char **names)
 {
     static char text[PROBE_COLUMNS][PARAM_TEXT_SIZE + 24];
@@ -34,8 +27,8 @@ int probes_columns(const struct run *r, const char **names)
     const struct scene *c = &r->scene;
     int n = 0;
     for (int k = 0; k < c->nprobes; k++)
-        if (is_mine(r, k))
-            snprintf(text[n++], sizeof text[0], "%s [%s]", c->probes[k].name, unit_of(c, k));
+        for (int a = 0; a < probe_columns(c->probes + k, c->domain.dim) && is_mine(r, k); a++)
+            probe_heading(c->probes + k, c->domain.dim, a, text[n++], sizeof text[0]);
     for (int k = 0; k < c->nbodies; k++)
         for (int a = 0; a < 3 * (c->domain.dim - 1); a++, n++)
             snprintf(text[n], sizeof text[n], "%s %s", c->bodies[k].name,
@@ -87,6 +80,28 @@ static double pressure_at(struct sph *s, const struct scene_probe *g)
                : 0.0;
 }
 
+/* Kernel average of the velocity; blank where there is hardly any fluid. */
+static void velocity_at(struct sph *s, const struct scene_probe *g, double *u)
+{
+    double sums[4] = {0.0, 0.0, 0.0, 0.0};
+    for (const struct sph *f = s; f; f = f->finer)
+        for (int i = 0; i < f->p.n; i++) {
+            const double *q = prim_line(&f->p, i), R = f->p.size ? f->p.size[i][0] : f->R;
+            double r2 = 0.0;
+            for (int a = 0; a < s->dim; a++)
+                r2 += (g->at[a] - q[a]) * (g->at[a] - q[a]);
+            if (r2 >= R * R || particles_is_guard(&f->p, i))
+                continue;
+            const double W = q[at_volume(s->dim)] * kernel_w(s->dim, sqrt(r2), R);
+            for (int a = 0; a < s->dim; a++)
+                sums[a] += W * q[s->dim + a];
+            sums[3] += W;
+        }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (int a = 0; a < s->dim; a++)
+        u[a] = sums[3] > 0.05 ? sums[a] / sums[3] : NAN;
+}
+
 static double value_at(struct sph *s, const struct scene_probe *g)
 {
     return g->kind == PROBE_LEVEL       ? level_gauge(s, g->at)
@@ -118,9 +133,15 @@ static void sample_average(struct sph *s)
 void probes_row(struct sph *s, double *values)
 {
     const struct scene *c = &s->run->scene;
-    for (int k = 0; k < c->nprobes; k++)
-        if (is_mine(s->run, k))
-            *values++ = value_at(s, c->probes + k);
+    for (int k = 0; k < c->nprobes; k++) {
+        if (!is_mine(s->run, k))
+            continue;
+        if (c->probes[k].kind == PROBE_VELOCITY)
+            velocity_at(s, c->probes + k, values);
+        else
+            *values = value_at(s, c->probes + k);
+        values += probe_columns(c->probes + k, s->dim);
+    }
     for (int k = 0; k < c->nbodies; k++, values += 3 * (s->dim - 1)) {
         const struct force f = probes_force(s, k);
         const double plane[3] = {f.F[0], f.F[1], f.M[2]};

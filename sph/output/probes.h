@@ -7,7 +7,7 @@
 #include "../walls/walls.h"
 
 /* Names of the columns of this scene (static storage); returns their number. */
-enum { PROBE_COLUMNS = PROBES_MAX + 6 * BODIES_MAX };
+enum { PROBE_COLUMNS = 3 * PROBES_MAX + 6 * BODIES_MAX };
 int probes_columns(const struct run *r, const char **names);
 /* Their values; needs prim and slope of the present state. Collective. */
 void probes_row(struct sph *s, double *values);

@@ -7,7 +7,7 @@
 
 /* Names of the columns that sph_row fills for this scene; returns their number, at most
  * SPH_COLUMNS. */
-enum { SPH_COLUMNS = 56 + PROBES_MAX + 32 * BODIES_MAX };
+enum { SPH_COLUMNS = 56 + 3 * PROBES_MAX + 32 * BODIES_MAX };
 int sph_columns(const struct run *r, const struct sph_params *prm, const char **names);
 void sph_row(void *s, double *values);
 void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);

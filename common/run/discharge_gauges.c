@@ -1,0 +1,55 @@
+/* discharge_gauges.c - see discharge_gauges.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "discharge_gauges.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../base/log.h"
+#include "../files/table.h"
+
+/* Volume of both signs between two rows, linear between them. */
+static void add_interval(double dt, double a, double b, double volume[2])
+{
+    if (a * b >= 0.0) {
+        volume[a + b < 0.0] += 0.5 * dt * fabs(a + b);
+        return;
+    }
+    const double share = a / (a - b);
+    volume[a < 0.0] += 0.5 * dt * share * fabs(a);
+    volume[b < 0.0] += 0.5 * dt * (1.0 - share) * fabs(b);
+}
+
+static void judge_one(const struct scene *s, const struct scene_probe *g, const struct table *t,
+                      struct summary *summary)
+{
+    const int column = table_column(t, g->name);
+    static const char *const what[] = {"volume", "forward", "back", "largest"};
+    double volume[2] = {0.0, 0.0}, largest = 0.0;
+    for (int row = 0; row < t->nrows && column >= 0; row++) {
+        const double *v = t->v + (size_t)row * t->ncolumns;
+        largest = fmax(largest, fabs(v[column]));
+        if (row > 0)
+            add_interval(v[0] - v[-t->ncolumns], v[column - t->ncolumns], v[column], volume);
+    }
+    const double all[] = {volume[0] - volume[1], volume[0], volume[1], largest};
+    for (int k = 0; k < 4 && column >= 0; k++) {
+        char key[PARAM_TEXT_SIZE + 32];
+        snprintf(key, sizeof key, "discharge.%s.%s", g->name, what[k]);
+        summary_real(summary, key, all[k]);
+    }
+    if (column >= 0)
+        log_say("discharge  %s: %.4g m^%d in all, %.4g onward and %.4g back, at most %.3g m^%d/s",
+                g->name, all[0], s->domain.dim, all[1], all[2], largest, s->domain.dim);
+}
+
+void discharge_gauges_judge(const struct scene *s, const char *path, struct summary *summary)
+{
+    bool any = false;
+    for (int k = 0; k < s->nprobes; k++)
+        any = any || s->probes[k].kind == PROBE_DISCHARGE;
+    struct table *t = any ? table_read(path) : NULL;
+    for (int k = 0; t && k < s->nprobes; k++)
+        if (s->probes[k].kind == PROBE_DISCHARGE)
+            judge_one(s, s->probes + k, t, summary);
+    table_free(&t);
+}

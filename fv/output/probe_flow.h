@@ -1,0 +1,22 @@
+/* probe_flow.h - what flows through the section of a discharge gauge, from samples of the velocity
+ * and the distance to the surface over it. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_PROBE_FLOW_H
+#define FV_PROBE_FLOW_H
+
+#include "../fv.h"
+
+enum { FLOW_VALUES = 4 }; /* of a sample: velocity, phi (m, < 0: in water) */
+
+struct flow_samples {
+    int n;
+    double (*x)[3];               /* m */
+    double (*value)[FLOW_VALUES]; /* all 0: to be filled */
+    double across[3];
+    double area, step; /* m^(dim-1) of a sample; m: distance of two */
+};
+struct flow_samples flow_samples_create(const struct fv *s, const struct scene_probe *g);
+void flow_samples_free(struct flow_samples *f);
+/* m^dim/s: of samples that are filled. */
+double flow_samples_sum(const struct flow_samples *f, int dim);
+
+#endif

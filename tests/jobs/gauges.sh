@@ -1,0 +1,74 @@
+#!/bin/sh
+# Gauges of velocity and discharge in both programs: a level channel that carries q = u h has it through any section, upright
+# or oblique, and the volume q t at the end; a section over the water has none; blocks say the same as cells, two ranks the
+# same as one; of a column that falls half goes through the middle. SPDX-License-Identifier: BSD-3-Clause
+. "$(dirname "$0")/lib.sh"
+# channel NAME SOLVER: 1 m long, 0.2 m deep, 0.35 m/s
+channel() {
+    cat >"$1.cfg" <<END
+format = 1;
+time:    { end = 2; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; max = (1, 0.4); };
+initial: { field = "uniform"; velocity = (0.35, 0); };
+walls:   ( { side = "x_min"; kind = "inflow"; discharge = 0.07; }, { side = "x_max"; kind = "outflow"; level = 0.2; }, { side = "y_min"; }$3 );
+shapes:  ( { form = "below"; level = 0.2; } );
+probes:  ( { name = "flow"; kind = "discharge"; at = (0.5, 0); to = (0.5, 0.4); }, { name = "slant"; kind = "discharge"; at = (0.4, 0); to = (0.6, 0.4); },
+           { name = "turned"; kind = "discharge"; at = (0.5, 0.4); to = (0.5, 0); }, { name = "over"; kind = "discharge"; at = (0.5, 0.26); to = (0.5, 0.4); },
+           { name = "in"; kind = "velocity"; at = (0.5, 0.1); }, { name = "air"; kind = "velocity"; at = (0.5, 0.35); } );
+$2
+output:  { snapshots = false; series = 2; };
+END
+}
+top=', { side = "y_max"; }'
+channel cells 'fv: { cells = (50, 20); };' "$top"
+channel grains 'sph: { dx = 0.02; c0 = 20.0; };'
+cp cells.cfg ranks.cfg
+for name in cells grains; do
+    solver=fv
+    [ $name = grains ] && solver=sph
+    timeout -k 5 120 "$b/$solver" $name.cfg -o $name --force >$name.txt 2>&1 || bad "$name: exit code $?" $name.txt
+done
+timeout -k 5 120 $mpi -n 2 "$b/fv" ranks.cfg -o ranks --force >ranks.txt 2>&1 || bad "two ranks" ranks.txt
+for name in cells grains; do
+    for gauge in flow slant; do
+        q=$(last $name/series.csv $gauge)
+        close_to "$q" 0.07 0.03 || bad "$name: discharge $gauge $q, not 0.07 m^2/s" $name.txt
+        volume=$(sed -n "/\"$gauge\": {/,/}/s/.*\"volume\": \([-+0-9.e]*\).*/\1/p" $name/summary.json)
+        close_to "$volume" 0.14 0.03 || bad "$name: volume $gauge $volume, not 0.14 m^2" $name.txt
+    done
+    sum=$(awk -v a="$(last $name/series.csv flow)" -v b="$(last $name/series.csv turned)" 'BEGIN { print a + b }')
+    near "$sum" 0 1e-9 || bad "$name: a section turned round adds $sum"
+    near "$(last $name/series.csv over)" 0 1e-6 || bad "$name: $(last $name/series.csv over) m^2/s through the air"
+    close_to "$(last $name/series.csv 'in u')" 0.35 0.03 && near "$(last $name/series.csv 'in v')" 0 0.01 ||
+        bad "$name: velocity $(last $name/series.csv 'in u') $(last $name/series.csv 'in v'), not 0.35 0 m/s"
+    [ "$(last $name/series.csv 'air u')" = nan ] || [ -z "$(last $name/series.csv 'air u')" ] || bad "$name: a velocity of air: $(last $name/series.csv 'air u')"
+    grep -q 'discharge  flow: 0.1[34]' $name.txt || bad "$name: no volume in the log" $name.txt
+done
+for gauge in flow slant 'in u'; do
+    close_to "$(last cells/series.csv "$gauge")" "$(last ranks/series.csv "$gauge")" 1e-6 || bad "two ranks say another $gauge"
+done
+# A column of honey that falls in a closed tank, in cells and in two joined blocks: at rest half of it is beyond the middle.
+tank() {
+    cat >"$1.cfg" <<END
+format = 1;
+time:    { end = $2; };
+fluid:   { nu = 0.05; gravity = (0, -9.81); };
+domain:  { dim = 2; max = (0.8, 0.3); };
+initial: { U = 2.0; };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+shapes:  ( { form = "box"; box = ((0, 0), (0.2, 0.2)); } );
+probes:  ( { name = "flow"; kind = "discharge"; at = (0.4, 0); to = (0.4, 0.3); } );
+$3
+output:  { snapshots = false; series = 1; };
+END
+}
+tank even 5 'fv: { cells = (64, 24); };'
+sed '/^walls/d' even.cfg | sed 's/^fv:.*/blocks: ( { name = "a"; min = (0, 0); max = (0.4, 0.3); cells = (32, 24); i_min = "slip"; i_max = "joined"; j_min = "slip"; j_max = "slip"; }, { name = "b"; min = (0.4, 0); max = (0.8, 0.3); cells = (32, 24); i_min = "joined"; i_max = "slip"; j_min = "slip"; j_max = "slip"; } ); fv: { };/' >blocks.cfg
+for name in even blocks; do timeout -k 5 120 "$b/fv" $name.cfg -o $name --force >$name.txt 2>&1 || bad "$name: exit code $?" $name.txt; done
+for name in even blocks; do
+    v=$(sed -n '/"flow": {/,/}/s/.*"volume": \([-+0-9.e]*\).*/\1/p' $name/summary.json)
+    close_to "$v" 0.02 0.03 || bad "$name: $v m^2 of 0.04 m^2 went through the middle" $name.txt
+done
+echo "$failed faults"
+[ $failed = 0 ]
