@@ -12,6 +12,7 @@
 #include "../scene/scene_fluid.h"
 #include "../scene/scene_waves.h"
 #include "../waves/reflection.h"
+#include "../waves/sea.h"
 #include "../waves/wave_statistics.h"
 
 /* The probes of a group by name; -1: a name is none; their number. */
@@ -194,15 +195,24 @@ static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
         100.0 * back / incident, period, all / period);
 }
 
+static bool makes_sea(const struct scene *s) { return s->has_waves && s->waves.kind == WAVE_SEA; }
+
 static void tell_heights(const struct scene *s, const struct history *h, int n, const int *probe,
                          struct summary *summary)
 {
     for (int i = 0; i < n; i++) {
         const char *name = s->probes[probe[i]].name;
         const struct wave_heights w = wave_heights_of(h->n, h->t, h->v[i]);
-        static const char *const what[] = {"mean", "significant", "largest", "period", "waves"};
-        const double v[] = {w.mean, w.significant, w.largest, w.period, w.n};
-        for (int k = 0; k < 5; k++) {
+        static const char *const what[] = {"mean",  "significant", "largest", "period",
+                                           "waves", "spectral",    "error"};
+        const double v[] = {w.mean,
+                            w.significant,
+                            w.largest,
+                            w.period,
+                            w.n,
+                            w.spectral,
+                            fabs(w.spectral / s->waves.height - 1.0)};
+        for (int k = 0; k < (makes_sea(s) ? 7 : 6); k++) {
             char key[PARAM_TEXT_SIZE + 32];
             snprintf(key, sizeof key, "height.%s.%s", name, what[k]);
             summary_real(summary, key, v[k]);
@@ -229,11 +239,15 @@ static void write_spectra(const struct scene *s, const struct scene_gauges *g,
     fprintf(file, "# Welch's method, %d segment%s\nf [Hz]", segments, segments > 1 ? "s" : "");
     for (int i = 0; i < n; i++)
         fprintf(file, ",%s [m^2/Hz]", s->probes[probe[i]].name);
-    fputc('\n', file);
+    const bool sea = makes_sea(s);
+    const struct wave_spec of = sea ? scene_waves_spec(s) : (struct wave_spec){.kind = 0};
+    fputs(sea ? ",target [m^2/Hz]\n" : "\n", file);
     for (int j = 0; j < SPECTRUM_BINS && f[j] * period < 8.0; j++) {
         fprintf(file, "%.9g", f[j]);
         for (int i = 0; i < n; i++)
             fprintf(file, ",%.9g", S[i][j]);
+        if (sea)
+            fprintf(file, ",%.9g", sea_spectrum(&of, f[j]));
         fputc('\n', file);
     }
     fclose(file);

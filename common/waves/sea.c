@@ -47,6 +47,19 @@ static void draw_directions(const struct wave_spec *of, int n, struct wave_compo
     }
 }
 
+double sea_spectrum(const struct wave_spec *of, double f)
+{
+    enum { PARTS = 2000 };
+    const double T = waves_period(of);
+    double sum = 0.0;
+    for (int k = 0; k < PARTS; k++)
+        sum += sea_jonswap(lowest + (k + 0.5) * (highest - lowest) / PARTS, of->peak);
+    sum *= (highest - lowest) / PARTS / T;
+    return f * T < lowest || f * T > highest
+               ? 0.0
+               : of->height * of->height / 16.0 * sea_jonswap(f * T, of->peak) / sum;
+}
+
 struct wave_component *sea_components(const struct wave_spec *of, double period, int *n)
 {
     const double df = 1.0 / of->repeat, peak = 1.0 / period;

@@ -9,6 +9,8 @@
 
 /* JONSWAP's spectrum over A f_p^-5, f in units of f_p, -. */
 double sea_jonswap(double f, double gamma);
+/* m^2/Hz: of a sea at f Hz; 0 beyond its components. */
+double sea_spectrum(const struct wave_spec *of, double f);
 /* The components, by frequency from half to three times that of the peak, 1/repeat apart; their
  * number in n; owned by the caller. Sea: sum a^2/2 is height^2/16; focused: sum a is half the
  * height. */

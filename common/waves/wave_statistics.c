@@ -15,6 +15,16 @@ static double mean_of(int n, const double *t, const double *v)
     return n > 1 && t[n - 1] > t[0] ? sum / (t[n - 1] - t[0]) : 0.0;
 }
 
+static double deviation_of(int n, const double *t, const double *v, double mean)
+{
+    double sum = 0.0;
+    for (int i = 1; i < n; i++) {
+        const double a = v[i - 1] - mean, b = v[i] - mean;
+        sum += (a * a + a * b + b * b) / 3.0 * (t[i] - t[i - 1]); /* linear between samples */
+    }
+    return n > 1 && t[n - 1] > t[0] ? sqrt(sum / (t[n - 1] - t[0])) : 0.0;
+}
+
 static int falling(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -27,7 +37,7 @@ struct wave_heights wave_heights_of(int n, const double *t, const double *v)
     double *height = NEW(double, n > 0 ? n : 1), hi = -INFINITY, lo = INFINITY, first = 0.0,
            last = 0.0;
     int crossings = 0;
-    struct wave_heights h = {0};
+    struct wave_heights h = {.spectral = 4.0 * deviation_of(n, t, v, mean)};
     for (int i = 1; i < n; i++) {
         if (v[i - 1] < mean && v[i] >= mean) {
             last = t[i - 1] + (t[i] - t[i - 1]) * (mean - v[i - 1]) / (v[i] - v[i - 1]);

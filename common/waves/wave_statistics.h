@@ -7,6 +7,7 @@ struct wave_heights {
     int n;                             /* waves: from one crossing of the mean upward to the next */
     double mean, significant, largest; /* m: of all, of the highest third, of the highest */
     double period;                     /* s: mean */
+    double spectral;                   /* m: four times the standard deviation */
 };
 /* Of n samples v at the times t (rising). */
 struct wave_heights wave_heights_of(int n, const double *t, const double *v);

@@ -97,6 +97,7 @@ static void heights_and_spectra(void **state)
     near(h.mean, 0.2, 1e-4);
     near(h.significant, 0.2, 1e-4);
     near(h.period, 1.0, 1e-4);
+    near(h.spectral, 0.2 * sqrt(2.0), 1e-4); /* 4 a/sqrt(2) */
     wave_spectrum(N, t, v, 3, f, S);
     int peak = 0;
     for (int j = 0; j < SPECTRUM_BINS; j++) {
