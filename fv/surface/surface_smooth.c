@@ -95,7 +95,10 @@ void surface_smooth(struct fv *s, double dt)
         for (int a = 0; a < s->dim; a++)
             share[a] = share_of(s, p, a, dt);
         for (int a = 0; a < s->dim; a++)
-            for (int k = 0; k < (leans ? PASSES : 1); k++)
+            for (int k = 0; k < (leans ? PASSES : 1); k++) {
+                if (k > 0 && !s->m) /* a pass sees two cells beyond a rank's own */
+                    block_halo(&s->b, 1, &s->u[a]);
                 smooth_part(s, p, overlaps ? 3 : 2, share, s->u[a]);
+            }
     }
 }

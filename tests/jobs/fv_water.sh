@@ -37,6 +37,14 @@ expect 'as a whole*(gravity leans against the lines of the cells)' column.cfg -p
 expect 'as a whole*(blocks move)' "$heaving"
 expect 'as a whole*(blocks overlap)' "$half"
 expect 'fraction is not to be had*blocks move' "$heaving" -p fv.volume=fraction
+# gravity that leans: four ranks, each with a corner of the others beside it, give what one gives
+for ranks in 1 4; do
+    mpirun --quiet --bind-to none --oversubscribe -np $ranks "$b/fv" column.cfg -o leans$ranks -p 'fluid.gravity=(3, -9)' -p time.end=0.2 \
+        -p 'fv.cells=(40, 20)' -p 'walls=( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } )' >leans$ranks.txt 2>&1
+    [ $? -le 1 ] || bad "leaning gravity on $ranks ranks ends with $?" leans$ranks.txt
+done
+close_to "$(last leans4/series.csv 'kinetic energy')" "$(last leans1/series.csv 'kinetic energy')" 1e-7 ||
+    bad "leaning gravity: $(last leans1/series.csv 'kinetic energy') J, on four ranks $(last leans4/series.csv 'kinetic energy')"
 # boxes and gauges without names have some; a row of the series every third step and at the end
 sed 's/^fv: /blocked: ( { min = (0.5, 0); max = (0.6, 0.1); }, { min = (-0.6, 0); max = (-0.5, 0.1); } );\n&/; s/name = "[a-z]*"; //g' column.cfg >nameless.cfg
 timeout 100 "$b/fv" nameless.cfg -o nameless -p time.end=0.2 >nameless.txt 2>&1 || bad "boxes without names end with $?" nameless.txt
