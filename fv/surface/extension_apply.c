@@ -116,7 +116,7 @@ static void keep_drop(const struct fv *s, int64_t c, double *const u[3], double 
 }
 
 /* -: share of a cell from which on its water is a drop. */
-#define DROP 0.05
+static const double DROP = 0.05;
 
 static bool is_drop(const struct surface *f, const struct carry *x)
 {

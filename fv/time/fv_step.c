@@ -126,6 +126,15 @@ static void diagnose(const struct fv *s, double dt, double before, bool good, st
     }
 }
 
+/* A step that makes a pressure; what newton leaves where it does not converge is none. */
+static void find_pressure(struct fv *s, double dt)
+{
+    if (!s->newton)
+        projection_step(s, dt);
+    else if (!newton_try(s, dt))
+        memcpy(s->p, s->p_before, (size_t)s->size * sizeof(double));
+}
+
 /* Pressure that belongs to the velocities of the start: short steps from the same state, until
  * their increments have made it. An inflow that starts at once pushes the whole flow, the harder
  * the shorter these steps are: there the first step finds the pressure, whatever its level. */
@@ -145,8 +154,7 @@ void pressure_start(struct fv *s)
     }
     memcpy(s->p_before, s->p, bytes);
     for (int k = 0; k < (s->newton ? 1 : 8); k++) {
-        if (!(s->newton ? newton_try(s, dt) : projection_step(s, dt)) && s->newton)
-            memcpy(s->p, s->p_before, bytes);
+        find_pressure(s, dt);
         for (int a = 0; a < s->dim; a++) {
             memcpy(s->u[a], keep[0][a], bytes);
             memcpy(s->U[a], keep[1][a], bytes);

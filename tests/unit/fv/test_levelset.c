@@ -768,26 +768,6 @@ static void axes_are_alike(void **state)
     }
 }
 
-/* A column's level is that of its water, whatever steps phi has beyond its band. */
-static void air_beyond_the_band_is_dry(void **state)
-{
-    const struct scene_shape below = {.form = SHAPE_BELOW, .level = 0.31};
-    struct fv_case c;
-    (void)state;
-    struct fv *s =
-        start(&c, MPI_COMM_WORLD,
-              (const char *const[]){SURFACE, "fluid.gravity=(0,-1)", "fv.volume=\"shift\"", NULL},
-              &below, WALL_SLIP);
-    for (int64_t i = 0; i < s->size; i++)
-        s->surface->phi[i] += s->surface->phi[i] > 7.0 / 32.0 ? 1.0 : 0.0;
-    for (double x = 0.05; x < 1.0; x += 0.3) {
-        double level = surface_level(s, (const double[]){x, 0.0, 0.0}); /* this rank's part of it */
-        MPI_Allreduce(MPI_IN_PLACE, &level, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-        assert_close(level, 0.31, 1e-9);
-    }
-    fv_free(&c.s);
-}
-
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(disc_turns_once),
@@ -810,8 +790,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(odd_water_runs_or_says_why_not),
                                        cmocka_unit_test(crossed_waves_swing_as_theory_says),
                                        cmocka_unit_test(rough_water_is_carried_on_within_bounds),
-                                       cmocka_unit_test(water_survives_impacts),
-                                       cmocka_unit_test(air_beyond_the_band_is_dry)};
+                                       cmocka_unit_test(water_survives_impacts)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
