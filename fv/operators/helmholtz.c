@@ -132,6 +132,18 @@ bool helmholtz_bicgstab(const struct helmholtz *h, double *const delta[3], doubl
     return false;
 }
 
+/* A r is r - c L r, so that r + c L r = 2 r - A r. */
+void helmholtz_once(const struct helmholtz *h, double *const delta[3], double *const r[3])
+{
+    double *const *Ar = h->work[0];
+    for (int a = 0; a < h->s->dim; a++)
+        helmholtz_add(h->s, 2.0, r[a], delta[a]); /* before the product fills the air of r */
+    h->apply(h->s, h->c, r, Ar);
+    for (int a = 0; a < h->s->dim; a++)
+        helmholtz_add(h->s, -1.0, Ar[a], delta[a]);
+    h->s->viscous_iterations++;
+}
+
 static struct helmholtz_course course_of(const struct helmholtz *h)
 {
     const double most = 1.0 + h->c * h->largest, sigma = (most + 1.0) / (most - 1.0);

@@ -42,6 +42,14 @@ bool helmholtz_cg(const struct helmholtz *h, double *const delta[3], double *con
                   double goal);
 bool helmholtz_bicgstab(const struct helmholtz *h, double *const delta[3], double *const r[3],
                         double rr, double goal);
+/* Whether r + c L r is the solution to this tolerance: what it leaves is (c L)^2 r. Twice the
+ * largest eigenvalue, as the air beside a surface bends more than water does. */
+static inline bool helmholtz_is_weak(const struct helmholtz *h, double tol)
+{
+    const double weak = 2.0 * h->c * h->largest;
+    return weak * weak <= tol;
+}
+void helmholtz_once(const struct helmholtz *h, double *const delta[3], double *const r[3]);
 /* r stays. at_once: does n steps from the start r/theta and gives the last one's sum; NULL: none.
  */
 bool helmholtz_chebyshev(const struct helmholtz *h, double *const delta[3], double *const r[3],

@@ -163,6 +163,10 @@ bool mesh_viscous_solve(struct fv *s, double c, double tol)
     const double rr = square(s, s->rhs), share = tol * tol * fmax(1.0, whole / rr);
     if (!(rr > 0.0) || share >= 1.0)
         return rr == rr;
+    if (s->stiffest > 0.0 && s->surface && helmholtz_is_weak(&h, sqrt(share))) {
+        helmholtz_once(&h, s->delta, s->rhs);
+        return true;
+    }
     if (s->stiffest > 0.0 && !s->surface && rr < 1e300 &&
         helmholtz_steps(&h, rr, share * rr) <= FEW &&
         helmholtz_chebyshev(&h, s->delta, s->rhs, rr, share * rr, NULL))
