@@ -103,7 +103,7 @@ static double turned(int n, double *lost)
     const double h = s->b.h[0], dt = 0.5 * h / M_PI;
     const int steps = (int)ceil(1.0 / dt);
     double x[3];
-    s->umax[0] = s->umax[1] = M_PI;
+    s->rate = 2.0 * M_PI / h;
     for (int j = -3; j < s->b.n[1] + 3; j++)
         for (int i = -3; i < s->b.n[0] + 3; i++) {
             const int64_t at = block_at(&s->b, i, j, 0);
@@ -442,7 +442,7 @@ static void disc_sinks_through_graded_rows(void **state)
               &shape, WALL_SLIP);
     const double before = surface_level_volume(s, &area), dt = 0.005;
     assert_close(before, M_PI * 0.15 * 0.15, 2e-3);
-    s->umax[1] = 1.0;
+    s->rate = 1.0 / s->b.h[1];
     for (int k = 0; k < 80; k++) { /* by 0.4 */
         for (int64_t i = 0; i < s->b.size; i++)
             s->u[1][i] = -1.0;
