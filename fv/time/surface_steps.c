@@ -195,15 +195,21 @@ void surface_start(struct fv *s)
     surface_extend(s, LAYERS);
 }
 
-/* phi becomes a distance again each time that the surface has travelled a tenth of a cell: what its
- * slopes are off by gives waves energy. Water at rest is left alone. What the band has not seen yet
- * must be told before the surface comes there. before: what it had travelled at the last call. */
-static void refresh(struct fv *s, double before)
+/* What the band has not seen yet must be told before the surface comes there. */
+static void refresh_band(struct fv *s)
 {
-    const double travelled = s->surface->travelled;
+    if (s->surface->travelled > 2.0)
+        surface_reinit(s, REINIT_STEPS);
+}
+
+/* phi becomes a distance again at the end of a step in which the surface has travelled a tenth of a
+ * cell more: what its slopes are off by gives waves energy. Water at rest is left alone. */
+static void refresh(struct fv *s)
+{
+    const double travelled = s->surface->travelled, before = s->surface->travelled_before;
     if (travelled > 2.0)
         surface_reinit(s, REINIT_STEPS);
-    else if (!s->m && floor(10.0 * travelled) > floor(10.0 * before))
+    else if (!s->m && floor(10.0 * travelled) != floor(10.0 * before))
         surface_redistance(s);
 }
 
@@ -342,7 +348,6 @@ static void note_openings(struct fv *s, double dt, const double now[3])
 
 void surface_first_half(struct fv *s, double dt)
 {
-    const double before = s->surface->travelled;
     s->surface->theta_least = least_theta(s, dt);
     flows(s, s->surface->through);
     if (s->moving) {
@@ -352,7 +357,7 @@ void surface_first_half(struct fv *s, double dt)
         advance_water(s, 0.5 * dt);
     }
     impose(s, s->t + 0.5 * dt);
-    refresh(s, before);
+    refresh_band(s);
     if (is_carried(s)) {
         s->surface->carried_in = s->surface->fraction->entered;
         fraction_correct_level(s);
@@ -370,7 +375,6 @@ void surface_first_half(struct fv *s, double dt)
 void surface_second_half(struct fv *s, double dt)
 {
     struct surface *f = s->surface;
-    const double before = f->travelled;
     double now[3];
     if (f->half)
         memcpy(f->phi, f->half, (size_t)s->size * sizeof(double));
@@ -387,7 +391,7 @@ void surface_second_half(struct fv *s, double dt)
     impose(s, s->t);
     flows(s, now);
     note_openings(s, dt, now);
-    refresh(s, before);
+    refresh(s);
     keep_water(s);
     surface_sample(s);
 }
