@@ -226,23 +226,30 @@ static void fill_lanes(struct place *p, int n)
     p->self[1] = p->self[2] = 0.0;
 }
 
-/* Known cells of a window of 5 cells a side, moved one cell into the water. */
+/* Cells on either side of the middle of a cell's window. Layers further out carry phi where it is
+ * made a distance again: nearer cells do for them. Where blocks overlap they are donors, too. */
+static int reach_of(const struct fv *s, int layer)
+{
+    return layer <= 2 || (s->m && s->m->has_fringe) ? 2 : 1;
+}
+
+/* Known cells of a window of 3 or 5 cells a side, moved one cell into the water. */
 static void look_around(const struct fv *s, int64_t c, int layer, struct place *p)
 {
     const struct block *b = &s->b;
     const unsigned char *known = s->surface->layer + c;
     const bool *out = s->surface->closed + c;
-    const int deep = b->dim == 3 ? 2 : 0;
+    const int reach = reach_of(s, layer), deep = b->dim == 3 ? reach : 0;
     const double per = 1.0 / p->spacing, *y = b->rows ? b->rows->y + block_row(b, c) : NULL;
     int shift[3], n = 0;
     p->room = 0;
     for (int a = 0; a < 3; a++)
         shift[a] = a < b->dim ? -(int)lround(p->e[0][a] * 1.2) : 0;
-    const int corner[3] = {shift[0] - 2, shift[1] - 2, shift[2] - deep};
+    const int corner[3] = {shift[0] - 2, shift[1] - 2, shift[2] - (b->dim == 3 ? 2 : 0)};
     bool seen[125], *const some = s->blocked && look_past_boxes(s, c, corner, seen) ? seen : NULL;
     for (int k = -deep; k <= deep; k++)
-        for (int j = -2; j <= 2; j++) {
-            const int row = 5 * (j + 2 + 5 * (k + deep));
+        for (int j = -reach; j <= reach; j++) {
+            const int row = 5 * (j + 2 + 5 * (deep ? k + 2 : 0));
             const int step =
                 (int)(shift[0] - 2 + (j + shift[1]) * b->stride[1] + (k + shift[2]) * b->stride[2]);
             double x[3], r[3];
@@ -251,7 +258,8 @@ static void look_around(const struct fv *s, int64_t c, int layer, struct place *
             x[2] = deep ? (shift[2] + k) * b->h[2] + p->depth * p->e[0][2] : 0.0;
             for (int a = 0; a < 3; a++)
                 r[a] = (x[0] * p->e[a][0] + x[1] * p->e[a][1] + x[2] * p->e[a][2]) * per;
-            for (int i = 0; i < 5; i++) { /* kept without a branch: n goes on if it is known */
+            for (int i = 2 - reach; i <= 2 + reach;
+                 i++) { /* kept without a branch: n goes on if it is known */
                 const bool there = !out[step + i] && !(some && !some[row + i]);
                 p->room += there;
                 for (int a = 0; a < 3; a++)
@@ -270,7 +278,7 @@ static void look_around_on_blocks(const struct fv *s, int64_t c, int layer, stru
     const struct mesh *m = s->m;
     const struct surface_mesh *w = s->surface->mesh;
     const struct part *part = p->part;
-    const int deep = m->dim == 3 ? 2 : 0;
+    const int reach = reach_of(s, layer), deep = m->dim == 3 ? reach : 0;
     int shift[3] = {0, 0, 0}, n = 0;
     p->room = 0;
     for (int a = 0; a < m->dim; a++) {
@@ -283,8 +291,8 @@ static void look_around_on_blocks(const struct fv *s, int64_t c, int layer, stru
         shift[a] = -(int)lround(1.2 * along / sqrt(size));
     }
     for (int k = -deep; k <= deep; k++)
-        for (int j = -2; j <= 2; j++)
-            for (int i = -2; i <= 2; i++) {
+        for (int j = -reach; j <= reach; j++)
+            for (int i = -reach; i <= reach; i++) {
                 const int64_t step = shift[0] + i + (shift[1] + j) * part->stride[1] +
                                      (shift[2] + k) * part->stride[2];
                 const int64_t at = c + step;
@@ -370,8 +378,10 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
 /* A film has no slope worth knowing: a quadratic through it overshoots, each layer of dry cells
  * more than the last, and convection feeds on it. Flat water fills 0.6 of the window, two cells
  * 0.4. */
-static bool is_thin(const struct fv *s, const struct place *p)
+static bool is_thin(const struct fv *s, const struct place *p, int layer)
 {
+    if (reach_of(s, layer) == 1)
+        return 2 * p->known < p->room;
     /* slopes over what two blocks have, each for itself, drive them apart */
     if (p->mixed && s->surface->mesh->slanting)
         return true;
@@ -426,7 +436,7 @@ static void add_carry(struct fv *s, const struct part *part, int64_t c, int laye
     double *w = f->weight + f->nstencil;
     for (int k = 0; k < p.n; k++)
         f->at[f->nstencil + k] = p.step[k];
-    const bool thin = is_thin(s, &p);
+    const bool thin = is_thin(s, &p, layer);
     const int order = fit(s, &p, thin ? 0 : layer <= 2 ? 2 : 1, layer == 1, p.self, &q);
     terms_at(dim, order, layer == 1, p.self, e);
     weights(&q, p.n, e, w);
