@@ -189,6 +189,29 @@ static inline const struct part *part_of_place(const struct fv *s, int64_t c, in
                              its_once_##c = 1;                                                     \
                      its_once_##c; its_once_##c = 0)
 
+/* The same of cells near water alone: of all without a surface. Elsewhere velocity, fluxes and
+ * pressure are 0, and phi is beyond its band. */
+#define FLOW_NEAR(s, c, len) FLOW_NEAR_AT (s, its_part_##c, its_row_##c, c, len)
+#define FLOW_NEAR_AT(s, part_, j, c, len)                                                          \
+    for (const struct part *part_ = (s)->part; part_ < (s)->part + (s)->nparts; part_++)           \
+        for (int its_layer_##c = 0, j; its_layer_##c < part_->n[2]; its_layer_##c++)               \
+            for (j = 0; j < part_->n[1]; j++)                                                      \
+                for (int64_t c = part_at(part_, part_near(part_, 0, j, its_layer_##c), j,          \
+                                         its_layer_##c),                                           \
+                             len = part_nears(part_, 0, 0, j, its_layer_##c), its_once_##c = 1;    \
+                     its_once_##c; its_once_##c = 0)
+/* Rows of the uniform grid, `more' layers around, likewise. */
+#define BLOCK_NEAR(s, more, c, len) BLOCK_NEAR_AT (s, more, its_row_##c, c, len)
+#define BLOCK_NEAR_AT(s, more, j, c, len)                                                          \
+    for (int its_layer_##c = (s)->whole.g[2] ? -(more) : 0, j;                                     \
+         its_layer_##c < (s)->whole.n[2] + ((s)->whole.g[2] ? (more) : 0); its_layer_##c++)        \
+        for (j = -(more); j < (s)->whole.n[1] + (more); j++)                                       \
+            for (int64_t c = part_at(&(s)->whole, part_near(&(s)->whole, more, j, its_layer_##c),  \
+                                     j, its_layer_##c),                                            \
+                         len = part_nears(&(s)->whole, more, more, j, its_layer_##c),              \
+                         its_once_##c = 1;                                                         \
+                 its_once_##c; its_once_##c = 0)
+
 /* The box of fv.hole, lower and upper corner; NULL: none. */
 static inline const double (*fv_hole(const struct fv_params *p))[2][3]
 {

@@ -24,6 +24,7 @@
 #include "../poisson/poisson.h"
 #include "../surface/fraction.h"
 #include "../surface/levelset.h"
+#include "../surface/near_water.h"
 #include "../surface/surface_forced.h"
 #include "../time/newton.h"
 #include "../time/stages.h"
@@ -312,6 +313,7 @@ void fv_free(struct fv **sp)
         surface_forced_free(&s->surface->forced);
     if (s->surface)
         fraction_free(&s->surface->fraction);
+    near_water_free(s);
     levelset_free(&s->surface);
     fit_free(&s->swing);
     bc_free(&s->bc);

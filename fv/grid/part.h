@@ -15,7 +15,24 @@ struct part {
     int lo[3], n[3];
     int g[3]; /* layers of ghosts; 0 beyond dim */
     int64_t base, stride[3], size;
+    int (*near)[2]; /* first cell and number of those near water, of each row and of those of ghosts
+                       (surface/near_water.c); NULL: all */
 };
+
+static inline int part_row(const struct part *p, int j, int k)
+{
+    return j + p->g[1] + (k + p->g[2]) * (p->n[1] + 2 * p->g[1]);
+}
+/* First cell and number of those near water in a row, `down' and `up' more beside them. */
+static inline int part_near(const struct part *p, int down, int j, int k)
+{
+    return (p->near ? p->near[part_row(p, j, k)][0] : 0) - down;
+}
+static inline int part_nears(const struct part *p, int down, int up, int j, int k)
+{
+    const int n = p->near ? p->near[part_row(p, j, k)][1] : p->n[0];
+    return n > 0 ? n + down + up : 0;
+}
 
 static inline int64_t part_at(const struct part *p, int i, int j, int k)
 {
@@ -40,6 +57,17 @@ static inline void part_index(const struct part *p, int64_t c, int *at)
     for (int k = -(down)[2], j; k < (p)->n[2] + (up)[2]; k++)                                      \
         for (j = -(down)[1]; j < (p)->n[1] + (up)[1]; j++)                                         \
             for (int64_t c = part_at(p, -(down)[0], j, k), len = (p)->n[0] + (down)[0] + (up)[0],  \
+                         its_once_##c = 1;                                                         \
+                 its_once_##c; its_once_##c = 0)
+
+/* The same of cells near water alone. */
+#define PART_NEAR(p, down, up, c, len)                                                             \
+    for (int its_layer_##c = -(down)[2], its_row_##c; its_layer_##c < (p)->n[2] + (up)[2];         \
+         its_layer_##c++)                                                                          \
+        for (its_row_##c = -(down)[1]; its_row_##c < (p)->n[1] + (up)[1]; its_row_##c++)           \
+            for (int64_t c = part_at(p, part_near(p, (down)[0], its_row_##c, its_layer_##c),       \
+                                     its_row_##c, its_layer_##c),                                  \
+                         len = part_nears(p, (down)[0], (up)[0], its_row_##c, its_layer_##c),      \
                          its_once_##c = 1;                                                         \
                  its_once_##c; its_once_##c = 0)
 

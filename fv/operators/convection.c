@@ -35,13 +35,14 @@ static void weighted_row(const double *restrict q, const double *w, int64_t alon
 }
 
 /* q on the lower faces along axis a of all cells and one layer more. */
-void convection_face_values(const struct block *b, const double *q, int a, double *out)
+void convection_face_values(const struct fv *s, const double *q, int a, double *out)
 {
+    const struct block *b = &s->b;
     if (a == 1 && b->rows)
-        BLOCK_ROWS_AT (b, 1, j, c, n)
+        BLOCK_NEAR_AT (s, 1, j, c, n)
             weighted_row(q + c, b->rows->face[j], b->stride[a], n, out + c);
     else
-        BLOCK_ROWS (b, 1, c, n)
+        BLOCK_NEAR (s, 1, c, n)
             face_row(q + c, b->stride[a], n, out + c);
 }
 
@@ -63,7 +64,7 @@ void convection_face_velocities(struct fv *s, double *const u[3], double *const 
 {
     const struct block *b = &s->b;
     for (int a = 0; a < b->dim; a++)
-        convection_face_values(b, u[a], a, U[a]);
+        convection_face_values(s, u[a], a, U[a]);
     if (s->blocked)
         blocked_face_velocities(s, u, U, false);
 }
@@ -117,6 +118,7 @@ static void add_divergence(const double *restrict F, int64_t along, double per_h
 
 void convection(struct fv *s, double *const N[3])
 {
+    static const int none[3] = {0, 0, 0};
     const struct block *b = &s->b;
     for (int a = 0; a < b->dim; a++)
         convection_beside_walls(s, a, s->U[a]);
@@ -128,24 +130,20 @@ void convection(struct fv *s, double *const N[3])
             for (int t = 0; t < b->dim; t++)
                 if (t != a)
                     tangent[nt++] = b->stride[t];
-            convection_face_values(b, s->u[q], a, s->face);
+            convection_face_values(s, s->u[q], a, s->face);
             if (s->prm.upwind > 0.0)
-                BLOCK_ROWS (b, 1, c, n)
+                BLOCK_NEAR (s, 1, c, n)
                     bias_row(s->u[q] + c, s->U[a] + c, along, n, s->prm.upwind, s->face + c);
             if (s->blocked)
                 blocked_faces(s, q, a, s->u[q], s->U[a], s->prm.upwind, s->face);
             convection_beside_walls(s, a, s->face);
-            /* faces of the cells and the upper one: rows of n + 1, planes one more in direction a
-             */
-            for (int k = 0; k < b->n[2] + (a == 2); k++)
-                for (int j = 0; j < b->n[1] + (a == 1); j++) {
-                    const int64_t c = block_at(b, 0, j, k);
-                    flux_row(s->U[a] + c, s->face + c, tangent, nt, b->n[0] + (a == 0),
-                             s->flux + c);
-                }
+            /* faces of the cells and the upper one */
+            const int up[3] = {a == 0, a == 1, a == 2};
+            PART_NEAR (&s->whole, none, up, c, n)
+                flux_row(s->U[a] + c, s->face + c, tangent, nt, n, s->flux + c);
             if (s->blocked)
                 blocked_fluxes(s, q, a, s->U[a], s->face, s->flux);
-            BLOCK_ROWS_AT (b, 0, j, c, n)
+            BLOCK_NEAR_AT (s, 0, j, c, n)
                 add_divergence(s->flux + c, along, 1.0 / block_size(b, a, j), n, a == 0, N[q] + c);
         }
 }

@@ -31,14 +31,14 @@ static double dot_row(const double *restrict a, const double *restrict b, int64_
 double helmholtz_dot(const struct fv *s, const double *x, const double *y)
 {
     double sum = 0.0;
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         sum += dot_row(x + c, y + c, n);
     return sum;
 }
 
 void helmholtz_add(const struct fv *s, double a, const double *restrict x, double *restrict y)
 {
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             y[i] += a * x[i];
 }
@@ -46,7 +46,7 @@ void helmholtz_add(const struct fv *s, double a, const double *restrict x, doubl
 /* y = x + beta y */
 static void direct(const struct fv *s, const double *restrict x, double beta, double *restrict y)
 {
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             y[i] = x[i] + beta * y[i];
 }
@@ -181,7 +181,7 @@ static void start(const struct fv *s, double f, double *const x[3], double *cons
         const double *restrict from = r[a];
         memset(to, 0, (size_t)s->size * sizeof(double));
         memset(y[a], 0, (size_t)s->size * sizeof(double));
-        FLOW_ROWS (s, c, n)
+        FLOW_NEAR (s, c, n)
             for (int64_t i = c; i < c + n; i++)
                 to[i] = f * from[i];
     }

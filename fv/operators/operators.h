@@ -9,7 +9,7 @@
  * U. */
 void convection(struct fv *s, double *const N[3]);
 /* q on the lower faces along axis a of all cells and one layer more. */
-void convection_face_values(const struct block *b, const double *q, int a, double *out);
+void convection_face_values(const struct fv *s, const double *q, int a, double *out);
 /* U = I(u).n on all faces that this rank's stencils see. */
 void convection_face_velocities(struct fv *s, double *const u[3], double *const U[3]);
 

@@ -58,7 +58,7 @@ static void laplace_row(const struct fv *s, int j, const double *q, int64_t n, d
 
 void viscous_apply(const struct fv *s, const double *q, double *out)
 {
-    BLOCK_ROWS_AT (&s->b, 0, j, at, n)
+    BLOCK_NEAR_AT (s, 0, j, at, n)
         laplace_row(s, j, q + at, n, out + at);
 }
 
@@ -68,7 +68,7 @@ static void helmholtz(const struct fv *s, int q, double c, const double *x, doub
     viscous_apply(s, x, out);
     if (s->blocked)
         blocked_viscous(s, q, x, out);
-    BLOCK_ROWS (&s->b, 0, at, n)
+    BLOCK_NEAR (s, 0, at, n)
         for (int64_t i = at; i < at + n; i++)
             out[i] = x[i] - c * out[i];
     if (s->forcing)
@@ -330,9 +330,6 @@ static void residual_row(const double *restrict d, const double *restrict L, dou
         sums[k] += (part[k][0] + part[k][1]) + (part[k][2] + part[k][3]);
 }
 
-/* Whether something is known of the increment before it is solved for. */
-static bool has_start(const struct fv *s) { return s->forcing || viscous_keeps_increment(s); }
-
 /* rhs of component q becomes what the start leaves of it; zero in forced cells. */
 static void start_residual(const struct fv *s, int q, double c, const double *start, double *rhs,
                            double sums[2])
@@ -341,12 +338,6 @@ static void start_residual(const struct fv *s, int q, double c, const double *st
         forcing_zero(s->forcing, rhs);
     if (s->surface)
         surface_zero(s, rhs);
-    if (!has_start(s)) {
-        const double all = helmholtz_dot(s, rhs, rhs);
-        sums[0] += all;
-        sums[1] += all;
-        return;
-    }
     if (s->blocked || s->surface || (s->forcing && s->forcing->nlocal > 0)) {
         helmholtz(s, q, c, start, s->face);
         if (s->blocked) { /* start - c L start */
@@ -359,7 +350,7 @@ static void start_residual(const struct fv *s, int q, double c, const double *st
         sums[0] += helmholtz_dot(s, rhs, rhs);
         return;
     }
-    BLOCK_ROWS_AT (&s->b, 0, j, at, n) {
+    BLOCK_NEAR_AT (s, 0, j, at, n) {
         laplace_row(s, j, start + at, n, s->face);
         residual_row(start + at, s->face, c, n, rhs + at, sums);
     }
@@ -378,8 +369,7 @@ bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const
                                 .zero = s->surface ? surface_zero : NULL,
                                 .step = step,
                                 .work = {s->work, s->krylov[0], s->krylov[1], scratch}};
-    if (has_start(s))
-        block_halo(b, b->dim, delta);
+    block_halo(b, b->dim, delta);
     for (int a = 0; a < b->dim; a++)
         start_residual(s, a, c, delta[a], rhs[a], sums);
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, b->cart);

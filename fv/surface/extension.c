@@ -14,6 +14,7 @@
 #include "../boundary/still.h"
 #include "lanes.h"
 #include "mesh_view.h"
+#include "near_water.h"
 
 enum {
     TERMS = 10,
@@ -227,10 +228,12 @@ static void fill_lanes(struct place *p, int n)
 }
 
 /* Cells on either side of the middle of a cell's window. Layers further out carry phi where it is
- * made a distance again: nearer cells do for them. Where blocks overlap they are donors, too. */
+ * made a distance again: nearer cells do for them, but where blocks overlap, whose donors they are,
+ * and where the surface goes several cells a step. */
 static int reach_of(const struct fv *s, int layer)
 {
-    return layer <= 2 || (s->m && s->m->has_fringe) ? 2 : 1;
+    const bool donors = s->m && s->m->has_fringe, far = s->prm.integrator != INTEGRATOR_RK3;
+    return layer <= 2 || donors || far ? 2 : 1;
 }
 
 /* Known cells of a window of 3 or 5 cells a side, moved one cell into the water. */
@@ -491,14 +494,14 @@ static void next_layer(const struct part *p, double l, const double *wall, doubl
 {
     const bool deep = p->g[2] > 0;
     const int none[3] = {0, 0, 0}, one[3] = {1, 1, deep}, above[3] = {0, 0, deep};
-    PART_ROWS (p, one, one, c, n)
+    PART_NEAR (p, one, one, c, n)
         least_row(field + c, 1, n, x + c);
-    PART_ROWS (p, above, above, c, n)
+    PART_NEAR (p, above, above, c, n)
         least_row(x + c, p->stride[1], n, xy + c);
     if (deep)
-        PART_ROWS (p, none, none, c, n)
+        PART_NEAR (p, none, none, c, n)
             least_row(xy + c, p->stride[2], n, x + c);
-    PART_ROWS (p, none, none, c, n)
+    PART_NEAR (p, none, none, c, n)
         next_layer_row((deep ? x : xy) + c, wall + c, l, n, field + c);
 }
 
@@ -517,6 +520,8 @@ static void find_layers(struct fv *s)
         wall[c] = surface_holds_none(s, c) ? 1.0 : 0.0;
         field[c] = f->phi[c] < level && wall[c] == 0.0 ? 0.0 : DEEP;
     }
+    for (int64_t c = 0; c < s->size; c++) /* scratch of rows that are not near water */
+        s->face[c] = s->flux[c] = DEEP;
     for (int l = 1; l <= LAYERS; l++) {
         share(s, field);
         for (int q = 0; q < s->nparts; q++)
@@ -525,6 +530,7 @@ static void find_layers(struct fv *s)
     share(s, field);
     for (int64_t c = 0; c < s->size; c++)
         f->layer[c] = (unsigned char)field[c];
+    near_water_find(s);
 }
 
 void extension_build(struct fv *s)
@@ -538,7 +544,7 @@ void extension_build(struct fv *s)
     f->nstencil = f->ngrad = f->ndeep = 0;
     for (int l = 0; l <= LAYERS; l++)
         f->ncarry[l] = 0;
-    FLOW_ROWS_AT (s, part, j, at, n)
+    FLOW_NEAR_AT (s, part, j, at, n)
         for (int64_t c = at; c < at + n; c++) {
             const int l = f->layer[c];
             if (s->m && s->m->status[c] != CELL_COMPUTED &&

@@ -117,7 +117,7 @@ void fraction_free(struct fraction **fp)
 void fraction_take(const struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             f->C[i] = surface_holds_none(s, i) ? 0.0 : surface_share(s, i);
     surface_mirror(s, f->C);
@@ -136,7 +136,7 @@ static int first_axis(const struct fv *s)
 static bool has_boxes(const struct fv *s)
 {
     bool any = false;
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             any = any || surface_holds_none(s, i);
     MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_C_BOOL, MPI_LOR, s->comm); /* ghosts see theirs */
@@ -162,7 +162,7 @@ double fraction_volume(const struct fv *s)
 {
     const struct fraction *f = s->surface->fraction;
     double sum = 0.0;
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             sum += f->C[i] * f->volume[i];
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
@@ -256,7 +256,7 @@ static void set_plane(const struct fv *s, const struct part *p, int64_t c)
 static void find_planes(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
-    FLOW_ROWS_AT (s, part, j, c, len)
+    FLOW_NEAR_AT (s, part, j, c, len)
         for (int64_t from = 0; from < len; from += PIECE) {
             const int64_t n = piece(from, len);
             if (!any_mixed(f->C + c + from, 0, n))
@@ -320,7 +320,7 @@ static void find_fluxes(const struct fv *s, int a, double dt)
     int up[3] = {0, 0, 0};
     up[a] = 1;
     for (const struct part *p = s->part; p < s->part + s->nparts; p++)
-        PART_ROWS (p, none, up, c, len)
+        PART_NEAR (p, none, up, c, len)
             for (int64_t i = 0; i < len; i += PIECE)
                 fluxes_of_piece(s, c + i, p->stride[a], a, dt, piece(i, len));
 }
@@ -355,8 +355,9 @@ static void sweep(struct fv *s, int a, double dt)
 {
     struct fraction *f = s->surface->fraction;
     find_planes(s);
+    memset(f->flux, 0, (size_t)s->size * sizeof(double)); /* beside cells near water, too */
     find_fluxes(s, a, dt);
-    FLOW_ROWS_AT (s, part, j, c, n) {
+    FLOW_NEAR_AT (s, part, j, c, n) {
         const int64_t d = part->stride[a];
         update_row(f, a, c, d, dt, n);
         f->entered += gain_of_row(f->flux + c, d, n); /* all faces within cancel */
@@ -369,7 +370,7 @@ static double excess_of(const struct fv *s, double dt)
 {
     const struct fraction *f = s->surface->fraction;
     double sum = 0.0;
-    FLOW_ROWS_AT (s, part, j, c, n)
+    FLOW_NEAR_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++)
             for (int a = 0; a < s->dim && f->layer[i] == 0.0; a++)
                 sum += f->flow[a][i + part->stride[a]] - f->flow[a][i];
@@ -382,13 +383,13 @@ static void balance(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
     double sums[3] = {f->entered, f->excess, 0.0};
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             sums[2] += fraction_is_mixed(f->C[i]) ? f->C[i] * (1.0 - f->C[i]) * f->volume[i] : 0.0;
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->comm);
     f->entered = sums[0];
     const double part = sums[2] > 10.0 * fabs(sums[1]) ? -sums[1] / sums[2] : 0.0;
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n && part != 0.0; i++)
             if (fraction_is_mixed(f->C[i]))
                 f->C[i] += part * f->C[i] * (1.0 - f->C[i]);

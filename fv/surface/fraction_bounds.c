@@ -36,7 +36,7 @@ static bool find_shares(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
     bool any = false;
-    FLOW_ROWS_AT (s, part, j, c, n)
+    FLOW_NEAR_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             const double e = takes_part(s, i) ? excess(f->C[i]) : 0.0;
             double sum = 0.0, sum_on = 0.0;
@@ -80,10 +80,10 @@ static void exchange(struct fv *s)
     struct fraction *f = s->surface->fraction;
     double *const fields[2] = {f->work, f->next};
     surface_fill(s, 2, fields);
-    FLOW_ROWS_AT (s, part, j, c, n)
+    FLOW_NEAR_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++)
             f->flux[i] = takes_part(s, i) ? received(s, part, i) / f->volume[i] : 0.0;
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++) {
             if (f->work[i] != 0.0 || f->next[i] != 0.0) {
                 const double e = excess(f->C[i]);
@@ -99,7 +99,7 @@ static void exchange(struct fv *s)
 static void cut(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++) {
             if (fabs(f->C[i]) <= ROUNDING)
                 f->C[i] = 0.0;

@@ -68,7 +68,7 @@ static void list_air(struct fv *s)
     f->nair = 0;
     for (int colour = 0; colour < 2; colour++) {
         f->first_air[colour] = f->nair;
-        FLOW_ROWS_AT (s, p, j, c, n) {
+        FLOW_NEAR_AT (s, p, j, c, n) {
             part_index(p, c, at);
             const int odd = (at[0] + p->lo[0]) ^ (at[1] + p->lo[1]) ^ (at[2] + p->lo[2]);
             for (int64_t i = c + ((odd ^ colour) & 1); i < c + n; i += 2) {
@@ -114,7 +114,7 @@ static void take_divergence_away(struct fv *s)
         up[a] = 1;
         for (const struct part *p = s->part; p < s->part + s->nparts; p++) {
             const int64_t d = p->stride[a];
-            PART_ROWS (p, none, up, c, n)
+            PART_NEAR (p, none, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
                     if (f->work[i] != f->work[i - d] && is_free(s, i, d))
                         f->flow[a][i] -= conductance(s, i, d, a) * (f->work[i] - f->work[i - d]);
@@ -129,7 +129,7 @@ void fraction_set_flows(struct fv *s)
         int up[3] = {0, 0, 0};
         up[a] = 1;
         for (const struct part *p = s->part; p < s->part + s->nparts; p++)
-            PART_ROWS (p, none, up, c, n)
+            PART_NEAR (p, none, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
                     f->flow[a][i] =
                         s->m ? s->U[a][i] : s->U[a][i] * f->volume[i] / fraction_size(s, i, a);

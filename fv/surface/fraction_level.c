@@ -47,7 +47,7 @@ static void find_smooth(const struct fv *s)
     for (int a = 0; a < 3; a++)
         more[a] = a < s->dim;
     for (const struct part *p = s->part; p < s->part + s->nparts; p++)
-        PART_ROWS (p, more, more, c, n)
+        PART_NEAR (p, more, more, c, n)
             for (int64_t i = c; i < c + n; i++)
                 f->smooth[i] = surface_holds_none(s, i) ||
                                (fabs(s->surface->phi[i]) < band && is_smooth(s, p, i));
@@ -121,7 +121,7 @@ void fraction_correct_level(struct fv *s)
     const double band = 2.0 * w->largest;
     find_smooth(s);
     memcpy(f->next, w->phi, (size_t)s->size * sizeof(double));
-    FLOW_ROWS_AT (s, part, j, c, n)
+    FLOW_NEAR_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             const bool mixed = fraction_is_mixed(f->C[i]);
             if ((!mixed && fabs(w->phi[i]) > band) || surface_holds_none(s, i))
@@ -153,7 +153,7 @@ bool fraction_is_calm(const struct fv *s)
     const double band = 1.5 * w->largest * sqrt(s->dim);
     bool calm = true;
     find_smooth(s);
-    FLOW_ROWS_AT (s, part, j, c, n)
+    FLOW_NEAR_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n && calm; i++) {
             const bool mixed = f->carries && f->C[i] > NOTHING && f->C[i] < 1.0 - NOTHING;
             if (surface_holds_none(s, i) ||

@@ -132,7 +132,7 @@ static void rate_beside_boxes(const struct fv *s, const double *phi, double *rat
 static void rate_on_blocks(const struct fv *s, const double *near, const double *phi, double *rate)
 {
     const struct surface_mesh *w = s->surface->mesh;
-    FLOW_ROWS_AT (s, part, j, c, n) {
+    FLOW_NEAR_AT (s, part, j, c, n) {
         const double *size = w->size[part - s->part];
         const double band = BAND * surface_mesh_spacing(s, part);
         memset(rate + c, 0, (size_t)n * sizeof(double));
@@ -151,7 +151,7 @@ static void rate_on_moving_blocks(const struct fv *s, const double *near, const 
 {
     const double *g = s->still;
     rate_on_blocks(s, near, eta, rate);
-    FLOW_ROWS_AT (s, part, j, c, n) {
+    FLOW_NEAR_AT (s, part, j, c, n) {
         const double band = BAND * surface_mesh_spacing(s, part);
         for (int64_t from = c, m = 0; next_run(near, band, c + n, &from, &m);)
             for (int a = 0; a < s->dim; a++)
@@ -167,7 +167,7 @@ static void rate_of(const struct fv *s, const double *phi, double *rate)
         rate_on_blocks(s, phi, phi, rate);
         return;
     }
-    BLOCK_ROWS_AT (b, 0, j, c, n) {
+    BLOCK_NEAR_AT (s, 0, j, c, n) {
         const double band = BAND * largest_spacing(b, j);
         memset(rate + c, 0, (size_t)n * sizeof(double));
         for (int64_t from = c, m = 0; next_run(phi, band, c + n, &from, &m);)
@@ -183,7 +183,7 @@ static void rate_of(const struct fv *s, const double *phi, double *rate)
 static void blend(const struct fv *s, double w, const double *p, double dt, const double *rate,
                   double *q)
 {
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             q[i] = w * p[i] + (1.0 - w) * (q[i] + dt * rate[i]);
 }
@@ -355,7 +355,7 @@ static void correct_shared(const struct fv *s, double sums[2])
 double surface_level_volume(const struct fv *s, double *area)
 {
     double sums[2] = {0.0, 0.0};
-    FLOW_ROWS_AT (s, part, j, c, n) {
+    FLOW_NEAR_AT (s, part, j, c, n) {
         const double h = s->m ? surface_mesh_spacing(s, part) : largest_spacing(&s->b, j);
         const double e = 1e-4 * h;
         for (int64_t i = c; i < c + n; i++) {
@@ -405,8 +405,10 @@ void surface_keep_volume(struct fv *s)
         if (!(area < 0.0))
             return;
         d = fmax(-most, fmin(most, (f->volume0 - volume) / area));
-        for (int64_t i = 0; i < s->size; i++)
-            f->phi[i] += is_own(s, i) ? d : 0.0;
+        FLOW_NEAR (s, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                f->phi[i] += is_own(s, i) ? d : 0.0;
+        surface_ghosts(s, f->phi);
         surface_note_returned(s, d * area);
     }
 }

@@ -8,9 +8,10 @@
 #include "../grid/mesh.h"
 
 enum {
-    LAYERS = 6,   /* of dry cells that carry a velocity, for the advection of phi */
-    STENCILS = 2, /* of them that stencils of wet cells reach */
-    DEEP = 99     /* layer of dry cells further off */
+    LAYERS = 6,    /* of dry cells that carry a velocity, for the advection of phi */
+    STENCILS = 2,  /* of them that stencils of wet cells reach */
+    DEEP = 99,     /* layer of dry cells further off */
+    BAND_WIDTH = 8 /* cells on either side of the surface that are reinitialised */
 };
 
 /* A face between a wet and a dry cell. */

@@ -17,7 +17,6 @@
 #include "weno.h"
 
 enum {
-    WIDTH = 8, /* cells on either side of the surface that are worked on */
     NARROW = 6 /* the same each half step: those that are advected, and one */
 };
 static const double good = 0.1; /* | |grad phi| - 1 | of cells beside the surface that stay as is */
@@ -294,7 +293,7 @@ static void mark_surface(const struct fv *s, double *mark)
 {
     const double *phi = s->surface->phi;
     const bool plain = !s->m && !s->blocked;
-    FLOW_ROWS_AT (s, part, j, c, len) {
+    FLOW_NEAR_AT (s, part, j, c, len) {
         for (int a = 0; a < s->dim && plain; a++)
             mark_row(phi + c, part->stride[a], a == 0, len, mark + c);
         for (int64_t i = c; i < c + len && !plain; i++)
@@ -329,9 +328,9 @@ static void mark_band(const struct fv *s, int width, double *mark)
                 mesh_halo(s->m, 1, &mark);
             else
                 block_halo(&s->b, 1, &mark);
-            FLOW_ROWS_AT (s, part, j, c, len)
+            FLOW_NEAR_AT (s, part, j, c, len)
                 widen_row(mark + c, part->stride[a], m, len, next + c);
-            FLOW_ROWS (s, c, len)
+            FLOW_NEAR (s, c, len)
                 memcpy(mark + c, next + c, (size_t)len * sizeof(double));
         }
     }
@@ -363,7 +362,7 @@ static void list_band(struct fv *s, int width, struct band *w)
     const double far = s->surface->least * (width - 1);
     int64_t cells = 0;
     mark_band(s, width, mark);
-    FLOW_ROWS (s, c, len)
+    FLOW_NEAR (s, c, len)
         for (int64_t i = c; i < c + len; i++) {
             cells += mark[i] > 0.0;
             if ((mark[i] == 0.0 || is_blocked(s, i)) && fabs(phi[i]) < far)
@@ -372,7 +371,7 @@ static void list_band(struct fv *s, int width, struct band *w)
     w->strips = NEW(struct strip, cells);
     w->spots = NEW(struct spot, cells);
     surface_ghosts(s, phi);
-    FLOW_ROWS_AT (s, part, j, c, len)
+    FLOW_NEAR_AT (s, part, j, c, len)
         for (int64_t i = c; i < c + len; i++) {
             if (!(mark[i] > 0.0) || is_left_out(s, i))
                 continue;
@@ -446,7 +445,7 @@ static void redistance(struct fv *s, int width, int steps)
 
 void surface_reinit(struct fv *s, int steps)
 {
-    redistance(s, WIDTH, steps);
+    redistance(s, BAND_WIDTH, steps);
     s->surface->travelled = 0.0;
     s->surface->reinits++;
 }
@@ -457,7 +456,7 @@ double surface_distortion(const struct fv *s)
 {
     const double *phi = s->surface->phi, h = s->surface->largest;
     double most = 0.0;
-    FLOW_ROWS_AT (s, part, j, c, len)
+    FLOW_NEAR_AT (s, part, j, c, len)
         for (int64_t i = c; i < c + len; i++)
             if (fabs(phi[i]) < 2.0 * h && !is_left_out(s, i))
                 most = fmax(most, fabs(slope_of(s, part, phi, i, j) - 1.0));

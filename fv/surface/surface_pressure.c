@@ -27,11 +27,13 @@ double surface_rise(const struct fv *s, const double *e)
     return s->surface->rise * g * fmax(0.0, up) / fmax(up * up, 0.5);
 }
 
-static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
+static void add_cut(struct fv *s, int a, int64_t face, bool wet_here)
 {
     struct surface *f = s->surface;
     const struct block *b = &s->b;
-    const int64_t face = block_at(b, at[0], at[1], at[2]), d = b->stride[a];
+    const int64_t d = b->stride[a];
+    int at[3];
+    block_place(b, face, at);
     struct cut x = {.face = face,
                     .wet = wet_here ? face : face - d,
                     .dry = wet_here ? face - d : face,
@@ -58,28 +60,27 @@ static void add_cut(struct fv *s, int a, const int *at, bool wet_here)
 static void find_cuts(struct fv *s, int a)
 {
     struct surface *f = s->surface;
-    const struct block *b = &s->b;
-    const int more = 1, deep = b->g[2] ? 1 : 0;
+    const int64_t d = s->b.stride[a];
+    const int deep = s->dim == 3, down[3] = {1, 1, deep},
+              up[3] = {1 + (a == 0), 1 + (a == 1), deep + (a == 2)};
     f->ncut[a] = 0;
-    for (int k = -deep; k < b->n[2] + deep + (a == 2); k++)
-        for (int j = -more; j < b->n[1] + more + (a == 1); j++)
-            for (int i = -more; i < b->n[0] + more + (a == 0); i++) {
-                const int64_t c = block_at(b, i, j, k);
-                const double free = s->forcing ? s->forcing->open[a][c] : 1.0;
-                const bool here = f->layer[c] == 0, below = f->layer[c - b->stride[a]] == 0;
-                f->open[a][c] = (here && below) || free == 2.0 ? free : 0.0;
-                if (free == 2.0 && !here && !below)
-                    f->open[a][c] = 0.0;
-                if (free == 1.0 && here != below)
-                    add_cut(s, a, (const int[3]){i, j, k}, here);
-            }
+    PART_NEAR (&s->whole, down, up, at, n)
+        for (int64_t c = at; c < at + n; c++) {
+            const double free = s->forcing ? s->forcing->open[a][c] : 1.0;
+            const bool here = f->layer[c] == 0, below = f->layer[c - d] == 0;
+            f->open[a][c] = (here && below) || free == 2.0 ? free : 0.0;
+            if (free == 2.0 && !here && !below)
+                f->open[a][c] = 0.0;
+            if (free == 1.0 && here != below)
+                add_cut(s, a, c, here);
+        }
 }
 
 static void count(struct fv *s)
 {
     struct surface *f = s->surface;
     int64_t n[2] = {0, 0};
-    FLOW_ROWS (s, c, len)
+    FLOW_NEAR (s, c, len)
         for (int64_t i = c; i < c + len; i++)
             n[0] += f->layer[i] == 0 && !(f->forced && s->forcing->forced[i]);
     for (int a = 0; a < s->dim; a++)
@@ -92,7 +93,7 @@ static void count(struct fv *s)
 /* On blocks dry cells take no part in the flow. */
 static void set_free(struct fv *s)
 {
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             s->free[i] = s->m->status[i] == CELL_COMPUTED && s->surface->layer[i] == 0;
 }
@@ -127,7 +128,7 @@ void surface_set_pressure(struct fv *s)
 void surface_zero(const struct fv *s, double *q)
 {
     const unsigned char *layer = s->surface->layer;
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             q[i] = layer[i] ? 0.0 : q[i];
 }
@@ -165,7 +166,7 @@ void surface_dry_fluxes(const struct fv *s)
     for (int a = 0; a < s->b.dim; a++) {
         const int64_t d = s->b.stride[a];
         const double *u = s->u[a];
-        BLOCK_ROWS_AT (&s->b, 1, j, c, n) {
+        BLOCK_NEAR_AT (s, 1, j, c, n) {
             static const double even[4] = {-1.0 / 12.0, 7.0 / 12.0, 7.0 / 12.0, -1.0 / 12.0};
             const double *w = a == 1 && s->b.rows ? s->b.rows->face[j] : even;
             for (int64_t i = c; i < c + n; i++)
@@ -181,7 +182,7 @@ static void face_gradient(const struct fv *s, int a, const double *psi, bool cha
 {
     const struct surface *f = s->surface;
     const int64_t d = s->b.stride[a];
-    BLOCK_ROWS_AT (&s->b, 1, j, c, n) {
+    BLOCK_NEAR_AT (s, 1, j, c, n) {
         const double w = 1.0 / block_step(&s->b, a, j);
         for (int64_t i = c; i < c + n; i++) {
             out[i] = f->open[a][i] * w * (psi[i] - psi[i - d]);
@@ -230,7 +231,7 @@ static void near_gradient(const struct fv *s, int a, const double *psi, bool cha
     const int64_t d = s->b.stride[a];
     double *F = f->rate;
     face_gradient(s, a, psi, change, F);
-    BLOCK_ROWS (&s->b, 0, c, n)
+    BLOCK_NEAR (s, 0, c, n)
         for (int64_t i = c; i < c + n; i++) {
             if (f->layer[i])
                 out[i] = 0.0;

@@ -56,13 +56,13 @@ static void smooth_part(const struct fv *s, const struct part *p, int m, const d
     static const int none[3] = {0, 0, 0};
     double *const sum = s->surface->rate;
     const double part = 1.0 / (m == 3 ? 64.0 : 16.0) / s->dim;
-    PART_ROWS (p, none, none, c, n)
+    PART_NEAR (p, none, none, c, n)
         for (int64_t i = c; i < c + n; i++) {
             sum[i] = 0.0;
             for (int a = 0; a < s->dim && is_smoothed(s, i); a++)
                 sum[i] += share[a] * bent(s, m, q, i, p->stride[a]);
         }
-    PART_ROWS (p, none, none, c, n)
+    PART_NEAR (p, none, none, c, n)
         for (int64_t i = c; i < c + n; i++)
             q[i] -= part * sum[i];
 }

@@ -99,7 +99,7 @@ static void divergence(struct fv *s, double tau, double *restrict div)
     for (int a = 0; a < b->dim; a++) {
         const int64_t d = b->stride[a];
         const double *restrict U = s->U[a];
-        BLOCK_ROWS_AT (b, 0, j, c, n)
+        BLOCK_NEAR_AT (s, 0, j, c, n)
             divide_row(U + c, d, 1.0 / (block_size(b, a, j) * tau), a == 0, n, div + c);
     }
 }
@@ -107,6 +107,8 @@ static void divergence(struct fv *s, double tau, double *restrict div)
 static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
 {
     levels_fluxes(s, tau);
+    if (s->surface) /* far from water */
+        memset(s->rhs[0], 0, (size_t)s->size * sizeof(double));
     divergence(s, tau, s->rhs[0]);
     if (s->surface)
         surface_add_pressure(s, s->rhs[0]);
@@ -136,7 +138,7 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
         }
         if (s->forcing)
             forcing_zero(s->forcing, s->rhs[a]);
-        BLOCK_ROWS_AT (b, 1, j, c, n)
+        BLOCK_NEAR_AT (s, 1, j, c, n)
             subtract_row(s->U[a] + c, psi + c, b->stride[a], tau / block_step(b, a, j),
                          open ? open[a] + c : NULL, n);
     }
@@ -182,7 +184,7 @@ static void measure_even(struct fv *s)
 {
     const struct block *b = &s->b;
     double most[4] = {0.0, 0.0, 0.0, 0.0};
-    BLOCK_ROWS_AT (b, 0, j, c, n) {
+    BLOCK_NEAR_AT (s, 0, j, c, n) {
         const double weight[3] = {1.0 / b->h[0], 1.0 / block_size(b, 1, j),
                                   b->dim == 3 ? 1.0 / b->h[2] : 0.0};
         measure_row(s->u[0] + c, s->u[1] + c, s->u[b->dim == 3 ? 2 : 1] + c, weight, n, most);

@@ -159,9 +159,9 @@ static void add_convection(struct fv *s, int q, int a, const struct flow *v, dou
     int64_t tangent[2];
     const int nt = tangents(b, a, tangent);
     const int64_t along = b->stride[a];
-    convection_face_values(b, s->u[q], a, w->face);
+    convection_face_values(s, s->u[q], a, w->face);
     if (v)
-        convection_face_values(b, v->u[q], a, w->dface);
+        convection_face_values(s, v->u[q], a, w->dface);
     convection_beside_walls(s, a, w->face);
     if (v)
         convection_beside_walls(s, a, w->dface);

@@ -41,7 +41,7 @@ void projection(struct fv *s, double t, int stage, double tau, double tol)
     for (int a = 0; a < s->dim; a++) {
         double *restrict u = s->u[a];
         const double *restrict g = s->rhs[a];
-        FLOW_ROWS (s, c, n)
+        FLOW_NEAR (s, c, n)
             for (int64_t i = c; i < c + n; i++)
                 u[i] -= tau * g[i];
     }
@@ -60,7 +60,7 @@ static bool add_increment(struct fv *s, double c, double t, double scale)
     for (int a = 0; a < s->dim; a++) {
         double *restrict u = s->u[a];
         const double *restrict d = viscous ? s->delta[a] : s->rhs[a];
-        FLOW_ROWS (s, at, n)
+        FLOW_NEAR (s, at, n)
             for (int64_t i = at; i < at + n; i++)
                 u[i] += d[i];
     }
@@ -87,7 +87,7 @@ static void stage_rhs(struct fv *s, double dt, double ab, double gamma, double z
             s->stages->viscous(s, a, r);
         else
             memset(r, 0, (size_t)s->size * sizeof(double));
-        FLOW_ROWS (s, c, n)
+        FLOW_NEAR (s, c, n)
             for (int64_t i = c; i < c + n; i++)
                 r[i] = dt * (ab * (r[i] - g[i] + drive) - gamma * N[i] - zeta * M[i]);
     }
@@ -118,7 +118,7 @@ static void add_pressure(struct fv *s, const double *restrict psi)
     memcpy(s->p_before, s->p, (size_t)s->size * sizeof(double));
     double *restrict p = s->p;
     const double keep = s->surface ? 0.0 : 1.0;
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             p[i] = keep * p[i] + psi[i];
 }
@@ -128,7 +128,7 @@ static void add_pressure(struct fv *s, const double *restrict psi)
 static void add_mean_pressure(struct fv *s)
 {
     add_pressure(s, s->psi[2]);
-    FLOW_ROWS (s, c, n)
+    FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++) {
             s->p[i] = 0.0;
             for (int k = 0; k < 3; k++)

@@ -13,7 +13,7 @@ void relax_zones(struct fv *s, double dt)
     if (!s->wave_zones)
         return;
     wave_zones_at(s->wave_zones, s->t);
-    FLOW_ROWS (s, at, n)
+    FLOW_NEAR (s, at, n)
         for (int64_t i = at; i < at + n; i++) {
             double x[3], u_w[3];
             if (s->surface && s->surface->layer[i] == DEEP)

@@ -10,6 +10,7 @@
 #include "../../../fv/output/output.h"
 #include "../../../fv/poisson/poisson.h"
 #include "../../../fv/surface/levelset.h"
+#include "../../../fv/surface/near_water.h"
 #include "../../../fv/time/steps.h"
 #include "fv_case.h"
 #include "fv_restart.h"
@@ -104,6 +105,7 @@ static double turned(int n, double *lost)
     const int steps = (int)ceil(1.0 / dt);
     double x[3];
     s->rate = 2.0 * M_PI / h;
+    near_water_free(s); /* all cells move */
     for (int j = -3; j < s->b.n[1] + 3; j++)
         for (int i = -3; i < s->b.n[0] + 3; i++) {
             const int64_t at = block_at(&s->b, i, j, 0);
@@ -443,6 +445,7 @@ static void disc_sinks_through_graded_rows(void **state)
     const double before = surface_level_volume(s, &area), dt = 0.005;
     assert_close(before, M_PI * 0.15 * 0.15, 2e-3);
     s->rate = 1.0 / s->b.h[1];
+    near_water_free(s);            /* all cells move */
     for (int k = 0; k < 80; k++) { /* by 0.4 */
         for (int64_t i = 0; i < s->b.size; i++)
             s->u[1][i] = -1.0;

@@ -1,0 +1,148 @@
+/* near_water.c - see near_water.h. Each row of cells has one run of them: first and last of those
+ * whose layer is no more than LAYERS, or that hold some water, widened by what stencils reach in
+ * all directions. The surface travels less than that between two calls, so that what becomes near
+ * is what it was: air. Runs start and end on multiples of eight: sums over rows take the same
+ * order. SPDX-License-Identifier: BSD-3-Clause */
+#include "near_water.h"
+
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+#include "../../common/base/mem.h"
+#include "../boundary/bc.h"
+#include "../boundary/forcing.h"
+#include "../grid/side_kinds.h"
+#include "fraction.h"
+#include "levelset.h"
+
+enum { EVEN_ENDS = 8 };
+
+/* Water comes from the water that is there: through no side, and in no cell that is imposed. */
+static bool is_wanted(const struct fv *s)
+{
+    bool closed = !s->m && !(s->forcing && (s->forcing->from_partner || s->forcing->imposed)) &&
+                  s->prm.integrator == INTEGRATOR_RK3;
+    for (int side = 0; side < 2 * s->dim && closed; side++) {
+        const int kind = s->bc ? s->bc->kind[side] : MESH_NONE;
+        closed = s->b.periodic[side / 2] || kind == MESH_WALL || kind == MESH_SLIP;
+    }
+    return closed;
+}
+
+static int rows_of(const struct part *p, int a) { return p->n[a] + 2 * p->g[a]; }
+
+static bool is_near(const struct surface *f, int64_t c)
+{
+    return f->layer[c] != DEEP || (f->fraction && f->fraction->C[c] != 0.0);
+}
+
+/* First cell of each row, ghosts too, that is near, and the one behind the last. */
+static void scan(const struct fv *s, int (*ends)[2])
+{
+    const struct part *p = &s->whole;
+    for (int k = -p->g[2]; k < p->n[2] + p->g[2]; k++)
+        for (int j = -p->g[1]; j < p->n[1] + p->g[1]; j++) {
+            const int64_t c = part_at(p, 0, j, k);
+            int first = -p->g[0], end = p->n[0] + p->g[0];
+            while (first < end && !is_near(s->surface, c + first))
+                first++;
+            while (end > first && !is_near(s->surface, c + end - 1))
+                end--;
+            int *e = ends[part_row(p, j, k)];
+            e[0] = first < end ? first - GHOSTS : INT_MAX;
+            e[1] = first < end ? end + GHOSTS : INT_MIN;
+        }
+}
+
+/* Each row has what those within GHOSTS of it along axis a have. */
+static void widen(const struct part *p, int a, int (*from)[2], int (*to)[2])
+{
+    const int stride = a == 1 ? 1 : rows_of(p, 1), n = rows_of(p, a),
+              rows = rows_of(p, 1) * rows_of(p, 2);
+    for (int r = 0; r < rows; r++) {
+        const int at = r / stride % n, low = at < GHOSTS ? -at : -GHOSTS,
+                  up = n - 1 - at < GHOSTS ? n - 1 - at : GHOSTS;
+        to[r][0] = INT_MAX;
+        to[r][1] = INT_MIN;
+        for (int m = low; m <= up; m++) {
+            const int *e = from[r + m * stride];
+            to[r][0] = e[0] < to[r][0] ? e[0] : to[r][0];
+            to[r][1] = e[1] > to[r][1] ? e[1] : to[r][1];
+        }
+    }
+}
+
+/* Within the row of n cells, from first cell and end to first cell and number. */
+static void round_ends(int n, int e[2])
+{
+    const int first = e[0] < 0 ? 0 : e[0], end = e[1] > n ? n : e[1];
+    if (first >= end) {
+        e[0] = e[1] = 0;
+        return;
+    }
+    e[0] = first / EVEN_ENDS * EVEN_ENDS;
+    e[1] = (end + EVEN_ENDS - 1) / EVEN_ENDS * EVEN_ENDS;
+    e[1] = (e[1] > n ? n : e[1]) - e[0];
+}
+
+/* What no one looks after any more: air, farther off than a band is wide. */
+static void leave(struct fv *s, int64_t c)
+{
+    struct surface *f = s->surface;
+    const double far = f->least * (BAND_WIDTH - 1);
+    f->phi[c] = fmax(f->phi[c], far);
+    f->stress[c] = s->p[c] = s->p_before[c] = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        s->u[a][c] = s->U[a][c] = f->open[a][c] = 0.0;
+    for (int k = 0; k < 3; k++)
+        if (s->psi[k])
+            s->psi[k][c] = 0.0;
+}
+
+static void leave_row(struct fv *s, int j, int k, const int old[2], const int now[2])
+{
+    for (int i = old[0]; i < old[0] + old[1]; i++)
+        if (i < now[0] || i >= now[0] + now[1])
+            leave(s, part_at(&s->whole, i, j, k));
+}
+
+static int (*make_rows(const struct part *p, int rows))[2]
+{
+    int(*near)[2] = (int(*)[2])NEW(int, 2 * rows);
+    for (int r = 0; r < rows; r++)
+        near[r][1] = p->n[0];
+    return near;
+}
+
+void near_water_find(struct fv *s)
+{
+    struct part *p = &s->whole;
+    if (!is_wanted(s))
+        return;
+    const int rows = rows_of(p, 1) * rows_of(p, 2);
+    const size_t bytes = (size_t)rows * sizeof *p->near;
+    int(*now)[2] = make_rows(p, rows), (*work)[2] = make_rows(p, rows);
+    if (!p->near)
+        p->near = make_rows(p, rows);
+    scan(s, now);
+    widen(p, 1, now, work);
+    if (s->dim == 3)
+        widen(p, 2, work, now);
+    else
+        memcpy(now, work, bytes);
+    for (int r = 0; r < rows; r++)
+        round_ends(p->n[0], now[r]);
+    for (int k = 0; k < p->n[2]; k++)
+        for (int j = 0; j < p->n[1]; j++)
+            leave_row(s, j, k, p->near[part_row(p, j, k)], now[part_row(p, j, k)]);
+    memcpy(p->near, now, bytes);
+    mem_free(now);
+    mem_free(work);
+}
+
+void near_water_free(struct fv *s)
+{
+    mem_free(s->whole.near);
+    s->whole.near = NULL;
+}
