@@ -14,6 +14,7 @@
 #include "../surface/levelset.h"
 #include "backend.h"
 #include "pfmg.h"
+#include "wet_boxes.h"
 
 enum { MOST = 50 }; /* iterations */
 static const double NO_RESIDUAL =
@@ -21,24 +22,26 @@ static const double NO_RESIDUAL =
 
 struct pressure {
     struct pfmg *pfmg;
-    int outer[2][3];    /* the cells of a field, ghosts too, as the cycle counts them */
-    double *diagonal;   /* 1/m^2: sum of 1/h^2 over the open faces */
-    double *p, *Ap, *z; /* direction, its image, residual after a cycle */
-    double free_cells;  /* of all ranks */
-    bool singular;      /* no side gives the pressure */
-    double shift;       /* 1/m^2: on the diagonal of the cycle's matrix, beside the least one */
+    struct wet_boxes boxes; /* its cells */
+    int outer[2][3];        /* the cells of a field, ghosts too, as the cycle counts them */
+    double *diagonal;       /* 1/m^2: sum of 1/h^2 over the open faces */
+    double *p, *Ap, *z;     /* direction, its image, residual after a cycle */
+    double free_cells;      /* of all ranks */
+    bool singular;          /* no side gives the pressure */
+    double shift;           /* 1/m^2: on the diagonal of the cycle's matrix, beside the least one */
 };
 
 static struct pressure *own(const struct fv *s) { return s->poisson->of; }
 
-static struct pfmg *make_pfmg(const struct block *b)
+static struct pfmg *make_pfmg(const struct block *b, const struct wet_boxes *w)
 {
-    int lo[1][3], hi[1][3];
-    struct pfmg_grid g = {
-        .comm = b->cart, .dim = b->dim, .uneven = b->rows, .nboxes = 1, .lo = lo, .hi = hi};
+    struct pfmg_grid g = {.comm = b->cart,
+                          .dim = b->dim,
+                          .uneven = b->rows,
+                          .nboxes = w->n,
+                          .lo = w->lo,
+                          .hi = w->hi};
     for (int a = 0; a < 3; a++) {
-        lo[0][a] = b->lo[a];
-        hi[0][a] = b->hi[a] - 1;
         g.cells[a] = b->cells[a];
         g.periodic[a] = b->periodic[a];
         g.h[a] = b->length[a] / b->cells[a];
@@ -106,17 +109,36 @@ static void add_cuts(const struct fv *s, double *z)
             z[f->cut[a][i].wet] += cut_coefficient(&s->b, f->cut[a] + i);
 }
 
-static void make_matrix(const struct fv *s, struct pressure *p)
+/* Rows of a box of cells. */
+static void fill_box(const struct fv *s, struct pressure *p, int q, double *row)
 {
     const struct block *b = &s->b;
-    const int m = 2 * b->dim + 1;
-    double *values = NEW(double, (int64_t)m * b->n[0] * b->n[1] * b->n[2]), *row = values;
+    const int *lo = p->boxes.lo[q], *hi = p->boxes.hi[q], m = 2 * b->dim + 1;
+    for (int k = lo[2]; k <= hi[2]; k++)
+        for (int j = lo[1]; j <= hi[1]; j++) {
+            const int64_t c = block_at(b, lo[0] - b->lo[0], j - b->lo[1], k - b->lo[2]);
+            for (int64_t i = c; i <= c + hi[0] - lo[0]; i++, row += m)
+                p->diagonal[i] = fill_row(s, p, i, j - b->lo[1], row);
+        }
+}
+
+static void make_matrix(const struct fv *s, struct pressure *p)
+{
+    const struct wet_boxes *w = &p->boxes;
+    double *values = NEW(double, (2 * s->dim + 1) * w->cells), *row = values,
+           **rows = NEW(double *, w->n);
     if (s->surface)
         add_cuts(s, p->z);
-    BLOCK_ROWS_AT (b, 0, j, c, n)
-        for (int64_t i = c; i < c + n; i++, row += m)
-            p->diagonal[i] = fill_row(s, p, i, j, row);
-    pfmg_set_matrix(p->pfmg, &values);
+    for (int q = 0; q < w->n; q++) {
+        int64_t cells = 2 * s->dim + 1;
+        for (int a = 0; a < 3; a++)
+            cells *= w->hi[q][a] - w->lo[q][a] + 1;
+        fill_box(s, p, q, row);
+        rows[q] = row;
+        row += cells;
+    }
+    pfmg_set_matrix(p->pfmg, rows);
+    mem_free(rows);
     mem_free(values);
 }
 
@@ -142,7 +164,8 @@ static void *create(struct fv *s)
         p->outer[0][a] = b->lo[a] - b->g[a];
         p->outer[1][a] = b->hi[a] - 1 + b->g[a];
     }
-    p->pfmg = make_pfmg(b);
+    wet_boxes_find(s, &p->boxes);
+    p->pfmg = make_pfmg(b, &p->boxes);
     make_matrix(s, p);
     return p;
 }
@@ -153,6 +176,7 @@ static void free_pressure(void **of)
     if (!p)
         return;
     pfmg_free(&p->pfmg);
+    wet_boxes_free(&p->boxes);
     mem_free(p->diagonal);
     mem_free(p->p);
     mem_free(p->Ap);
@@ -166,6 +190,10 @@ static void rebuild(struct fv *s, void *of)
     struct pressure *p = of;
     p->singular = s->surface->cuts == 0 && (!s->bc || !s->bc->pressure_given);
     p->free_cells = fmax(1.0, (double)s->surface->wet);
+    if (wet_boxes_find(s, &p->boxes)) {
+        pfmg_free(&p->pfmg);
+        p->pfmg = make_pfmg(&s->b, &p->boxes);
+    }
     make_matrix(s, p);
 }
 
@@ -183,14 +211,14 @@ static void apply(const struct fv *s, const double *restrict x, double *restrict
     const struct block *b = &s->b;
     const double *restrict d = own(s)->diagonal;
     const int64_t y = b->stride[1], z = b->stride[2];
-    BLOCK_ROWS_AT (b, 0, j, c, n) {
+    BLOCK_NEAR_AT (s, 0, j, c, n) {
         const double cx = coefficient(b, 0, j), low = coefficient(b, 1, j),
                      up = coefficient(b, 1, j + 1);
         for (int64_t i = c; i < c + n; i++)
             q[i] = d[i] * x[i] - cx * (x[i - 1] + x[i + 1]) - (low * x[i - y] + up * x[i + y]);
     }
     if (b->dim == 3)
-        BLOCK_ROWS_AT (b, 0, j, c, n) {
+        BLOCK_NEAR_AT (s, 0, j, c, n) {
             const double cz = coefficient(b, 2, j);
             for (int64_t i = c; i < c + n; i++)
                 q[i] -= cz * (x[i - z] + x[i + z]);
@@ -215,12 +243,12 @@ static double remove_mean(const struct fv *s, double *restrict x)
     if (!own(s)->singular)
         return dot(s, x, x);
     sums[0] = helmholtz_dot(s, x, x);
-    BLOCK_ROWS (&s->b, 0, c, n)
+    BLOCK_NEAR (s, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             sums[1] += x[i];
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     const double mean = sums[1] / own(s)->free_cells;
-    BLOCK_ROWS (&s->b, 0, c, n)
+    BLOCK_NEAR (s, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             x[i] -= mean;
     zero_idle(s, x);
@@ -228,24 +256,29 @@ static double remove_mean(const struct fv *s, double *restrict x)
 }
 
 /* x = one cycle on r. */
-static void cycle(struct pressure *p, double *r, double *x)
+static void cycle(const struct fv *s, double *r, double *x)
 {
-    pfmg_put(p->pfmg, 0, p->outer, r);
+    struct pressure *p = own(s);
+    for (int q = 0; q < p->boxes.n; q++)
+        pfmg_put(p->pfmg, q, p->outer, r);
     pfmg_cycle(p->pfmg);
-    pfmg_get(p->pfmg, 0, p->outer, x);
+    if (s->surface) /* beside the boxes */
+        memset(x, 0, (size_t)s->size * sizeof(double));
+    for (int q = 0; q < p->boxes.n; q++)
+        pfmg_get(p->pfmg, q, p->outer, x);
 }
 
 /* z = one cycle on r, and p = z + beta p with the beta that makes p conjugate. Returns r.z. */
 static double next_direction(const struct fv *s, double *r, double rz_last)
 {
     struct pressure *p = own(s);
-    cycle(p, r, p->z);
+    cycle(s, r, p->z);
     if (s->surface)
         surface_zero(s, p->z);
     const double rz = dot(s, r, p->z), beta = rz_last > 0.0 ? rz / rz_last : 0.0;
     const double *restrict z = p->z;
     double *restrict d = p->p;
-    BLOCK_ROWS (&s->b, 0, c, n)
+    BLOCK_NEAR (s, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             d[i] = z[i] + beta * d[i];
     return rz;
@@ -259,7 +292,7 @@ static double advance(const struct fv *s, double rz, double *restrict x, double 
     block_halo(&s->b, 1, &p->p);
     apply(s, p->p, p->Ap);
     const double alpha = rz / dot(s, p->p, p->Ap);
-    BLOCK_ROWS (&s->b, 0, c, n)
+    BLOCK_NEAR (s, 0, c, n)
         for (int64_t i = c; i < c + n; i++) {
             x[i] += alpha * d[i];
             r[i] -= alpha * Ad[i];
@@ -274,7 +307,7 @@ static double first_residual(const struct fv *s, double *psi, double *restrict d
     zero_idle(s, psi);
     block_halo(&s->b, 1, &psi);
     apply(s, psi, own(s)->Ap);
-    BLOCK_ROWS (&s->b, 0, c, n)
+    BLOCK_NEAR (s, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             div[i] = -div[i] - q[i];
     return dot(s, div, div);
@@ -292,10 +325,11 @@ static double least_residual(const struct fv *s)
     return one * one * (double)s->surface->wet;
 }
 
-static void weight_rows(const struct block *b, double *r)
+static void weight_rows(const struct fv *s, double *r)
 {
+    const struct block *b = &s->b;
     if (b->rows)
-        BLOCK_ROWS_AT (b, 0, j, c, n)
+        BLOCK_NEAR_AT (s, 0, j, c, n)
             for (int64_t i = c; i < c + n; i++)
                 r[i] *= weight(b, j);
 }
@@ -303,7 +337,7 @@ static void weight_rows(const struct block *b, double *r)
 static bool solve(struct fv *s, double tau, double *div, double tol, double *psi)
 {
     (void)tau; /* div is over it */
-    weight_rows(&s->b, div);
+    weight_rows(s, div);
     double enough = tol * tol * remove_mean(s, div);
     double rr = first_residual(s, psi, div), rz = 0.0;
     if (s->surface) /* psi is the whole pressure: of its change */
@@ -323,10 +357,10 @@ static bool solve(struct fv *s, double tau, double *div, double tol, double *psi
 static void cycle_field(struct fv *s, double *r, double *x)
 {
     struct pressure *p = own(s);
-    weight_rows(&s->b, r);
+    weight_rows(s, r);
     if (p->shift == 0.0)
         remove_mean(s, r);
-    cycle(p, r, x);
+    cycle(s, r, x);
     if (p->shift == 0.0)
         remove_mean(s, x);
     else if (s->forcing)

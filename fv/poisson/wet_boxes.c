@@ -1,0 +1,149 @@
+/* wet_boxes.c - see wet_boxes.h. Rows of cells are taken together in tiles across; each tile has
+ * one run of cells, to whole tiles along x, so that coarser grids fit; tiles with the same run that
+ * follow one another along y are one box. Boxes stay while they hold the water and are not much
+ * larger than they need be: other ones are another grid. Grids with a period are whole.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "wet_boxes.h"
+
+#include <limits.h>
+#include <string.h>
+
+#include "../../common/base/mem.h"
+#include "../surface/levelset.h"
+
+enum { TILE = 8, SPARE = 2 }; /* cells; how many times what is needed boxes may have */
+
+/* Tiles are those of the whole grid: ranks make no difference. Of a local cell its tile, counted
+ * from the rank's first. */
+static int tile_of(const struct block *b, int a, int i)
+{
+    return (b->lo[a] + i) / TILE - b->lo[a] / TILE;
+}
+static int tiles_of(const struct block *b, int a) { return tile_of(b, a, b->n[a] - 1) + 1; }
+
+/* First tile and the one behind the last that holds water in a row from c on. */
+static void look(const struct block *b, const unsigned char *layer, int run[2])
+{
+    int first = 0, end = b->n[0];
+    while (first < end && layer[first])
+        first++;
+    while (end > first && layer[end - 1])
+        end--;
+    if (first == end)
+        return;
+    const int low = tile_of(b, 0, first), up = tile_of(b, 0, end - 1) + 1;
+    run[0] = low < run[0] ? low : run[0];
+    run[1] = up > run[1] ? up : run[1];
+}
+
+/* The run of each tile across, in tiles; ny * nz of them. */
+static void find_runs(const struct fv *s, int ny, int (*run)[2])
+{
+    const struct block *b = &s->b;
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++)
+            look(b, s->surface->layer + block_at(b, 0, j, k),
+                 run[tile_of(b, 1, j) + ny * tile_of(b, 2, k)]);
+}
+
+/* lo, hi: tiles. */
+static void add_box(const struct block *b, const int lo[3], const int hi[3], struct wet_boxes *w)
+{
+    int64_t cells = 1;
+    if (w->n == w->room) {
+        const int more = 2 * w->room + 8;
+        GROW(w->lo, w->n, more);
+        GROW(w->hi, w->n, more);
+        w->room = more;
+    }
+    for (int a = 0; a < 3; a++) {
+        const int from = b->lo[a] / TILE;
+        w->lo[w->n][a] = (from + lo[a]) * TILE > b->lo[a] ? (from + lo[a]) * TILE : b->lo[a];
+        w->hi[w->n][a] = ((from + hi[a]) * TILE < b->hi[a] ? (from + hi[a]) * TILE : b->hi[a]) - 1;
+        cells *= w->hi[w->n][a] - w->lo[w->n][a] + 1;
+    }
+    w->cells += cells;
+    w->n++;
+}
+
+static void make_boxes(const struct block *b, int ny, int nz, int (*run)[2], struct wet_boxes *w)
+{
+    w->n = 0;
+    w->cells = 0;
+    for (int k = 0; k < nz; k++)
+        for (int j = 0, end; j < ny; j = end) {
+            const int *of = run[j + ny * k];
+            for (end = j + 1; end < ny && memcmp(run[end + ny * k], of, sizeof *run) == 0;)
+                end++;
+            const int lo[3] = {of[0], j, k}, hi[3] = {of[1], end, k + 1};
+            if (of[1] > of[0])
+                add_box(b, lo, hi, w);
+        }
+}
+
+static void take_all(const struct block *b, struct wet_boxes *w)
+{
+    static const int none[3] = {0, 0, 0};
+    const int all[3] = {tiles_of(b, 0), tiles_of(b, 1), tiles_of(b, 2)};
+    w->n = 0;
+    w->cells = 0;
+    add_box(b, none, all, w);
+}
+
+/* Whether some water lies in no box. */
+static bool misses_some(const struct fv *s, const struct wet_boxes *w)
+{
+    const struct block *b = &s->b;
+    int64_t all = 0, in = 0;
+    BLOCK_ROWS (b, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            all += s->surface->layer[i] == 0;
+    for (int q = 0; q < w->n; q++)
+        for (int k = w->lo[q][2]; k <= w->hi[q][2]; k++)
+            for (int j = w->lo[q][1]; j <= w->hi[q][1]; j++) {
+                const unsigned char *layer =
+                    s->surface->layer +
+                    block_at(b, w->lo[q][0] - b->lo[0], j - b->lo[1], k - b->lo[2]);
+                for (int i = 0; i <= w->hi[q][0] - w->lo[q][0]; i++)
+                    in += layer[i] == 0;
+            }
+    return in < all;
+}
+
+bool wet_boxes_find(const struct fv *s, struct wet_boxes *w)
+{
+    const struct block *b = &s->b;
+    const int ny = tiles_of(b, 1), nz = tiles_of(b, 2);
+    struct wet_boxes now = {0};
+    bool changes = w->n == 0;
+    const bool periodic = b->periodic[0] || b->periodic[1] || b->periodic[2];
+    if (!s->surface || s->surface->wet == 0 || periodic) {
+        if (changes)
+            take_all(b, w);
+        return changes;
+    }
+    int(*run)[2] = (int(*)[2])NEW(int, 2 * ny * nz);
+    for (int t = 0; t < ny * nz; t++) {
+        run[t][0] = INT_MAX;
+        run[t][1] = INT_MIN;
+    }
+    find_runs(s, ny, run);
+    make_boxes(b, ny, nz, run, &now);
+    changes = misses_some(s, w) || w->cells > SPARE * now.cells;
+    MPI_Allreduce(MPI_IN_PLACE, &changes, 1, MPI_C_BOOL, MPI_LOR, s->comm);
+    if (changes) {
+        wet_boxes_free(w);
+        *w = now;
+    } else {
+        wet_boxes_free(&now);
+    }
+    mem_free(run);
+    return changes;
+}
+
+void wet_boxes_free(struct wet_boxes *w)
+{
+    mem_free(w->lo);
+    mem_free(w->hi);
+    *w = (struct wet_boxes){0};
+}

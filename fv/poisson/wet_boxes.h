@@ -1,0 +1,20 @@
+/* wet_boxes.h - boxes of cells that hold all of this rank's water: the solver for the pressure has
+ * no more air than lies beside it in a tile.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_WET_BOXES_H
+#define FV_WET_BOXES_H
+
+#include "../fv.h"
+
+struct wet_boxes {
+    int n, room;
+    int (*lo)[3], (*hi)[3]; /* first and last cells, of the whole grid */
+    int64_t cells;
+};
+
+/* Of a surface; without one, without water, or with a period all cells of the rank. Whether they
+ * are others than before, on some rank. Collective. */
+bool wet_boxes_find(const struct fv *s, struct wet_boxes *w);
+void wet_boxes_free(struct wet_boxes *w);
+
+#endif
