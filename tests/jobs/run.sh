@@ -60,7 +60,7 @@ has out/strict/summary.json '"accepted": false'
 count 0 'out/strict/*.h5'
 cat >film.cfg <<'END'
 format = 1;
-time:    { end = 0.3; };
+time:    { end = 0.8; };
 fluid:   { nu = 1e-06; gravity = (2, -9.81); };
 domain:  { dim = 2; min = (0, 0); max = (1, 1); };
 walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
