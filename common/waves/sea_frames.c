@@ -280,11 +280,8 @@ double sea_seconds(const struct waves *w)
 void sea_at(struct waves *w, double t)
 {
     const long m = (long)floor(t / w->dt);
-    const double s = t / w->dt - (double)m;
-    const double of[WAVE_FRAMES] = {
-        -s * (s - 1.0) * (s - 2.0) / 6.0, (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0,
-        -(s + 1.0) * s * (s - 2.0) / 2.0, (s + 1.0) * s * (s - 1.0) / 6.0};
-    double weight[WAVE_FRAMES];
+    double of[WAVE_FRAMES], weight[WAVE_FRAMES];
+    wave_table_cubic(t / w->dt - (double)m, of);
     for (int k = 0; k < WAVE_FRAMES; k++) {
         const long f = m + k - 1;
         const int slot = (int)(((f % WAVE_FRAMES) + WAVE_FRAMES) % WAVE_FRAMES);

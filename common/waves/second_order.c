@@ -26,7 +26,7 @@ struct second_order {
     int n, ncomponents, npairs;
     struct wave_component *of; /* owned */
     struct share *shares;      /* [ncomponents] */
-    double *w, *k;             /* [n]: the frequencies between which pairs are told */
+    double *w;                 /* [n]: the frequencies between which pairs are told */
     struct kernel *kernels;    /* [npairs] */
     struct share node[WAVE_NODES];
     double mean[1 + LEVELS]; /* level and velocities to be taken out */
@@ -101,22 +101,19 @@ static void make_kernels(struct second_order *s, double g, double h, const doubl
 /* Four of n places 0, 1, .. about x. */
 static struct share cubic_share(double x, int n)
 {
-    const double first = fmin(fmax(floor(x) - 1.0, 0.0), n - 4.0), t = x - first - 1.0;
-    return (struct share){(int)first,
-                          {-t * (t - 1.0) * (t - 2.0) / 6.0,
-                           (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
-                           -(t + 1.0) * t * (t - 2.0) / 2.0, (t + 1.0) * t * (t - 1.0) / 6.0}};
+    const double first = fmin(fmax(floor(x) - 1.0, 0.0), n - 4.0);
+    struct share is = {.first = (int)first};
+    wave_table_cubic(x - first - 1.0, is.weight);
+    return is;
 }
 
-static void choose_frequencies(struct second_order *s, double g, double h)
+static void choose_frequencies(struct second_order *s)
 {
     const struct wave_component *of = s->of;
     const bool all = s->ncomponents <= FREQUENCIES;
     const double gap = (of[s->ncomponents - 1].w - of[0].w) / (FREQUENCIES - 1);
-    for (int p = 0; p < s->n; p++) {
+    for (int p = 0; p < s->n; p++)
         s->w[p] = all ? of[p].w : of[0].w + p * gap;
-        s->k[p] = waves_number(s->w[p], g, h);
-    }
     for (int i = 0; i < s->ncomponents; i++)
         if (all)
             s->shares[i] = (struct share){i, {1.0}};
@@ -155,7 +152,6 @@ struct second_order *second_order_create(int n, const struct wave_component *of,
     memcpy(s->of, of, (size_t)n * sizeof *of);
     s->shares = NEW(struct share, n);
     s->w = NEW(double, s->n);
-    s->k = NEW(double, s->n);
     s->kernels = NEW(struct kernel, s->npairs);
     s->E = NEW(double complex, s->n);
     s->pairs = NEW(double complex, (size_t)s->npairs * 2);
@@ -165,7 +161,7 @@ struct second_order *second_order_create(int n, const struct wave_component *of,
     }
     for (int j = 0; j < WAVE_NODES; j++)
         s->node[j] = cubic_share(sqrt(nodes[j] / nodes[WAVE_NODES - 1]) * (LEVELS - 1), LEVELS);
-    choose_frequencies(s, g, depth);
+    choose_frequencies(s);
     make_kernels(s, g, depth, level);
     if (!mean)
         find_mean(s);
@@ -179,7 +175,6 @@ void second_order_free(struct second_order **s)
     mem_free((*s)->of);
     mem_free((*s)->shares);
     mem_free((*s)->w);
-    mem_free((*s)->k);
     mem_free((*s)->kernels);
     mem_free((*s)->E);
     mem_free((*s)->pairs);

@@ -60,8 +60,7 @@ void wave_table_blend(struct wave_table *to, int n, const struct wave_table *of,
     }
 }
 
-/* Weights of four places a step apart, of which the second and the third are about s = 0 .. 1. */
-static void cubic(double s, double weight[4])
+void wave_table_cubic(double s, double weight[4])
 {
     weight[0] = -s * (s - 1.0) * (s - 2.0) / 6.0;
     weight[1] = (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0;
@@ -85,7 +84,7 @@ static void along_row(const struct wave_table *t, double x, int column[4], doubl
     int c = (int)(t->periodic ? lowest - t->n * floor(lowest / t->n) : lowest) - 1;
     for (int k = 0; k < 4; k++, c++)
         column[k] = !t->periodic ? c : c < 0 ? c + t->n : c >= t->n ? c - t->n : c;
-    cubic(s, weight);
+    wave_table_cubic(s, weight);
 }
 
 static void columns_about(const struct wave_table *t, double x, double y, struct about *a)
@@ -99,7 +98,7 @@ static void columns_about(const struct wave_table *t, double x, double y, struct
     int column[4];
     memcpy(along, a->weight, sizeof along);
     memcpy(column, a->column, sizeof column);
-    cubic(fmin(fmax(at - lowest, -1.0), 2.0), across);
+    wave_table_cubic(fmin(fmax(at - lowest, -1.0), 2.0), across);
     a->n = 16;
     for (int k = 0; k < 16; k++) {
         a->column[k] = column[k % 4] + t->n * ((int)lowest - 1 + k / 4);
@@ -128,7 +127,7 @@ static int nodes_about(const struct wave_table *t, double top, double z, double 
     const double share = fmin(fmax((top - z) / (top + t->reach), 0.0), 1.0),
                  down = (t->flat ? sqrt(share) : share) * (WAVE_NODES - 1);
     const int node = (int)fmin(fmax(floor(down), 1.0), WAVE_NODES - 3.0);
-    cubic(down - node, weight);
+    wave_table_cubic(down - node, weight);
     return node - 1;
 }
 

@@ -26,6 +26,8 @@ struct wave_table {
     double *slope;
 };
 
+/* Weights of four places a step apart, of which the second and the third are about s = 0 .. 1. */
+void wave_table_cubic(double s, double weight[4]);
 /* n >= 4 columns, one row or rows >= 4; all values 0; slope: with one. */
 struct wave_table wave_table_create(int n, int rows, double gap, double reach, bool slope);
 void wave_table_free(struct wave_table *t);
