@@ -598,13 +598,19 @@ static int run_state(struct life *l, struct h5 *restart)
     return end(l, r->coupled ? loop_coupled(l) : loop_alone(l));
 }
 
+/* DIR/PROGRAM-WHAT.svg; its folder is made. */
+static void picture_path(const struct life *l, const char *what, char path[1400])
+{
+    snprintf(path, 1400, "%s/%s-%s.svg", l->r.dir, l->r.name, what);
+    if (!run_make_folder(l->r.dir))
+        disk_failed(path);
+}
+
 /* The scene as the programs have understood it. */
 static void draw(const struct life *l)
 {
     char path[1400];
-    snprintf(path, sizeof path, "%s/%s-scene.svg", l->r.dir, l->r.name);
-    if (!run_make_folder(l->r.dir))
-        disk_failed(path);
+    picture_path(l, "scene", path);
     struct picture *p = picture_create(path, &l->r.scene);
     if (l->p->draw)
         l->p->draw(&l->r, p);
@@ -624,9 +630,7 @@ static int draw_waves(const struct life *l)
     }
     if (l->r.rank > 0)
         return RUN_DONE;
-    snprintf(path, sizeof path, "%s/%s-waves.svg", l->r.dir, l->r.name);
-    if (!run_make_folder(l->r.dir))
-        disk_failed(path);
+    picture_path(l, "waves", path);
     scene_waves_describe(&l->r.scene);
     wave_picture(path, &l->r.scene);
     return RUN_DONE;
