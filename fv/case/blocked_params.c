@@ -27,6 +27,9 @@ const struct param blocked_rows[BLOCKED_ROWS] = {
 struct blocked_params blocked_given[BLOCKED_MAX];
 int blocked_given_count;
 
+/* What faults of all boxes are told of. */
+static const char *group_of(void) { return blocked_given_count > 0 ? "blocked" : "bodies"; }
+
 static double spacing(const struct run *r, int a)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -77,6 +80,7 @@ void blocked_describe(const struct run *r)
 struct coarse {
     int n[3], edge[3][2 * BLOCKED_MAX + 2]; /* cells of the whole grid */
     int *box;                               /* 0 free, else 1 + number */
+    const struct fv_params *prm;
 };
 
 static int coarse_at(const struct coarse *g, int i, int j, int k)
@@ -100,14 +104,14 @@ static void add_edge(struct coarse *g, int a, int at)
 
 static struct coarse make_coarse(const struct run *r)
 {
-    struct coarse g = {.n = {0, 0, 0}};
+    struct coarse g = {.prm = fv_params_of(r)};
     int lo[BLOCKED_MAX][3], hi[BLOCKED_MAX][3];
     for (int a = 0; a < 3; a++) {
         g.edge[a][0] = 0;
-        add_edge(&g, a, a < r->scene.domain.dim ? fv_params_of(r)->cells[a] : 1);
+        add_edge(&g, a, a < r->scene.domain.dim ? g.prm->cells[a] : 1);
     }
-    for (int k = 0; k < fv_params_of(r)->nboxes; k++) {
-        blocked_cells(&r->scene.domain, fv_params_of(r), k, lo[k], hi[k]);
+    for (int k = 0; k < g.prm->nboxes; k++) {
+        blocked_cells(&r->scene.domain, g.prm, k, lo[k], hi[k]);
         for (int a = 0; a < 3; a++) {
             add_edge(&g, a, lo[k][a]);
             add_edge(&g, a, hi[k][a]);
@@ -116,7 +120,7 @@ static struct coarse make_coarse(const struct run *r)
     g.box = NEW(int, g.n[0] * g.n[1] * g.n[2]);
     for (int c = 0; c < g.n[0] * g.n[1] * g.n[2]; c++) {
         const int i[3] = {c % g.n[0], c / g.n[0] % g.n[1], c / (g.n[0] * g.n[1])};
-        for (int k = 0; k < fv_params_of(r)->nboxes; k++) {
+        for (int k = 0; k < g.prm->nboxes; k++) {
             bool in = true;
             for (int a = 0; a < 3; a++)
                 in = in && g.edge[a][i[a]] >= lo[k][a] && g.edge[a][i[a]] < hi[k][a];
@@ -127,12 +131,11 @@ static struct coarse make_coarse(const struct run *r)
 }
 
 /* Whether a gap ends at a no-slip face: at a box (from 1 on), or (0) at the side. */
-static bool has_friction(const struct run *r, int a, int up, int box)
+static bool has_friction(const struct run *r, const struct coarse *g, int a, int up, int box)
 {
     const struct scene_wall *w =
         scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + 2 * a + up));
-    return box > 0 ? fv_params_of(r)->boxes[box - 1].kind == WALL_NO_SLIP
-                   : w && w->kind == WALL_NO_SLIP;
+    return box > 0 ? g->prm->boxes[box - 1].kind == WALL_NO_SLIP : w && w->kind == WALL_NO_SLIP;
 }
 
 /* Ghosts are made of three cells: so wide at least must be what lies between a box and another, or
@@ -154,7 +157,7 @@ static void check_gaps(const struct run *r, const struct coarse *g, int a, struc
                 if (!here && !end)
                     continue;
                 const int k = here ? here - 1 : box - 1;
-                const int least = has_friction(r, a, 0, box) && has_friction(r, a, 1, here)
+                const int least = has_friction(r, g, a, 0, box) && has_friction(r, g, a, 1, here)
                                       ? BLOCKED_GAP_NO_SLIP
                                       : BLOCKED_GAP;
                 if (k >= 0 && from >= 0 && at - from > 0 && at - from < least && !told[k]) {
@@ -198,10 +201,9 @@ static void check_whole(const struct run *r, const struct coarse *g, struct faul
     for (int c = 0; c < n; c++)
         left += g->box[c] == 0;
     if (tail == 0)
-        params_fault(r->params, f, blocked_given_count > 0 ? "blocked" : "bodies",
-                     "nothing is left of the domain");
+        params_fault(r->params, f, group_of(), "nothing is left of the domain");
     else if (left > 0 && !surface_wanted(r))
-        params_fault(r->params, f, blocked_given_count > 0 ? "blocked" : "bodies",
+        params_fault(r->params, f, group_of(),
                      "the boxes cut the domain into separate parts: each would need a pressure of "
                      "its own; run them one by one, or leave a gap of %d cells",
                      BLOCKED_GAP);
@@ -236,10 +238,11 @@ static void check_sides(const struct run *r, int k, const int *lo, const int *hi
 static bool check_box(const struct run *r, int k, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
-    const struct blocked_params *p = fv_params_of(r)->boxes + k;
+    const struct fv_params *prm = fv_params_of(r);
+    const struct blocked_params *p = prm->boxes + k;
     const int before = f->n;
     int lo[3], hi[3];
-    blocked_cells(&r->scene.domain, fv_params_of(r), k, lo, hi);
+    blocked_cells(&r->scene.domain, prm, k, lo, hi);
     for (int a = 0; a < d->dim; a++)
         if (!(p->max[a] > d->min[a] && p->min[a] < d->max[a]))
             fault(r, f, k, "min", "it lies outside the domain along %c", "xyz"[a]);
@@ -252,7 +255,7 @@ static bool check_box(const struct run *r, int k, struct faults *f)
             r, f, k, "kind",
             "without viscosity (fluid.nu) it exerts no friction: kind = \"slip\", or a viscosity");
     for (int q = 0; q < k; q++)
-        if (strcmp(p->name, fv_params_of(r)->boxes[q].name) == 0)
+        if (strcmp(p->name, prm->boxes[q].name) == 0)
             fault(r, f, k, "name", "another box has this name");
     if (f->n == before)
         check_sides(r, k, lo, hi, f);
@@ -275,7 +278,7 @@ static void check_mode(const struct run *r, struct faults *f)
 {
     const struct fv_params *prm = fv_params_of(r);
     const int field = r->scene.initial.field;
-    const char *group = blocked_given_count > 0 ? "blocked" : "bodies";
+    const char *group = group_of();
     if (mesh_given_count > 0)
         params_fault(r->params, f, group,
                      "not with blocks: leave them out there, and give their sides kinds");
@@ -296,12 +299,13 @@ void blocked_check(const struct run *r, struct faults *f)
 {
     const int before = f->n;
     bool good = true;
-    if (fv_params_of(r)->nboxes == 0)
+    const struct fv_params *prm = fv_params_of(r);
+    if (prm->nboxes == 0)
         return;
     check_mode(r, f);
     for (int a = 0; a < r->scene.domain.dim; a++)
-        good = good && fv_params_of(r)->cells[a] > 0;
-    for (int k = 0; k < fv_params_of(r)->nboxes && f->n == before && good; k++)
+        good = good && prm->cells[a] > 0;
+    for (int k = 0; k < prm->nboxes && f->n == before && good; k++)
         good = check_box(r, k, f);
     if (f->n > before || !good)
         return;

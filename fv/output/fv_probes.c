@@ -39,13 +39,18 @@ static int base(const struct block *b, int a, double x, double *weight)
     return b->periodic[a] ? (i % b->cells[a] + b->cells[a]) % b->cells[a] : i;
 }
 
-/* Whether the cell that x lies in is dry. */
-static bool dry_at(const struct fv *s, const int *i, const double *w)
+/* The cell that x lies in, of those about it. */
+static void host_of(const int *i, const double *w, int host[3])
 {
-    int at[3];
     for (int a = 0; a < 3; a++)
-        at[a] = i[a] + (w[a] > 0.5);
-    return s->surface->layer[block_at(&s->b, at[0], at[1], at[2])] != 0;
+        host[a] = i[a] + (w[a] > 0.5); /* no weight beyond dim */
+}
+
+static int64_t host_at(const struct fv *s, const int *i, const double *w)
+{
+    int host[3];
+    host_of(i, w, host);
+    return block_at(&s->b, host[0], host[1], host[2]);
 }
 
 /* Whether no fluid is there: in a box, behind a closed side. */
@@ -85,8 +90,7 @@ static void look_past_boxes(const struct fv *s, const double *x, int *i, double 
 {
     const struct block *b = &s->b;
     int host[3];
-    for (int a = 0; a < 3; a++)
-        host[a] = i[a] + (a < b->dim && w[a] > 0.5);
+    host_of(i, w, host);
     leave_box(s, x, host);
     for (int a = 0; a < b->dim; a++) {
         const double at = (x[a] - b->origin[a]) / b->h[a] - 0.5 - b->lo[a];
@@ -103,11 +107,8 @@ static double corner_of(const struct fv *s, const double *q, const int *at, cons
                         const double *w)
 {
     int64_t c = block_at(&s->b, at[0], at[1], at[2]);
-    int host[3];
-    for (int a = 0; a < 3; a++)
-        host[a] = i[a] + (a < s->b.dim && w[a] > 0.5);
     if (is_blocked(s, c))
-        c = block_at(&s->b, host[0], host[1], host[2]);
+        c = host_at(s, i, w);
     return q ? q[c] : fv_pressure(s, c);
 }
 
@@ -150,7 +151,7 @@ static bool find_water(const struct fv *s, const double *x, int i[3], double w[3
         return false;
     if (s->blocked)
         look_past_boxes(s, x, i, w);
-    return !s->surface || !dry_at(s, i, w);
+    return !s->surface || s->surface->layer[host_at(s, i, w)] == 0;
 }
 
 /* What this rank has to say: 0 unless the lower cell is its own. */
@@ -180,14 +181,12 @@ static double discharge_of(const struct fv *s, const struct scene_probe *g)
 {
     struct flow_samples f = flow_samples_create(s, g);
     for (int k = 0; k < f.n; k++) {
-        int i[3], host[3] = {0, 0, 0};
+        int i[3];
         double w[3], *v = f.value[k];
         v[3] = f.step;
         if (!locate(s, f.x[k], i, w))
             continue;
-        for (int a = 0; a < s->dim; a++)
-            host[a] = i[a] + (w[a] > 0.5);
-        if (is_blocked(s, block_at(&s->b, host[0], host[1], host[2])))
+        if (is_blocked(s, host_at(s, i, w)))
             continue;
         if (s->blocked)
             look_past_boxes(s, f.x[k], i, w);
