@@ -217,8 +217,8 @@ static void build(const struct sph *s, struct wall_list *l)
         }
     }
     l->first[l->n] = touches;
-    for (int k = 0; k < l->n && l->joints.n > 0; k++)
-        if (l->parted[k])
+    for (int k = 0; k < l->n; k++)
+        if (is_parted(l, k))
             wall_list_cut_row(s, l, k, sees);
 }
 

@@ -346,8 +346,8 @@ INLINE void close_friction(const struct sph *s, const struct wall_list *l, int k
                            const int dim)
 {
     const int who = l->who[k], *j = s->list->j + s->list->start[who];
-    const struct wall_touch *const first = l->touch + l->first[k], *const end =
-                                                                       l->touch + l->first[k + 1];
+    const struct wall_touch *const first = l->touch + l->first[k];
+    const struct wall_touch *const end = l->touch + l->first[k + 1];
     bool no_slip = false;
     for (const struct wall_touch *t = first; t < end; t++)
         no_slip = no_slip || t->no_slip;
