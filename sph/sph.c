@@ -165,23 +165,20 @@ static void warn_narrow(const struct run *r, const struct sph_params *prm)
     }
 }
 
-/* Pairs of a lattice transmit less than the pressure where the support is small (0.967 of it at
- * R/dx 2.5 in 2D, 0.997 at 3), so that what presses uniformly does not cancel around a body. */
-/* Water leaves a tank through a slot of n particles, a plate as thick as it is wide, with 0.32,
- * 0.66, 0.84, 0.94, 0.97 of the discharge at n = 4, 6, 8, 12, 16: 10/n^2 is missing. */
 static void warn_of_passage(const struct run *r, const struct sph_params *prm)
 {
     struct wall_thin t;
     if (r->scene.domain.dim == 3 || !prm->speed.moves ||
         !wall_thin_passage(&r->scene, SPH_PASSAGE * prm->dx, &t))
         return;
-    const double n = t.width / prm->dx;
-    log_warn("%s are %.3g m apart at (%g, %g), %.2g particles across: of a flow through there some "
-             "%.0f %% are missing; sph.dx = %.2g m has ten particles there, and 10 %%",
-             t.what, t.width, t.at[0], t.at[1], n, fmin(90.0, 1000.0 / (n * n)),
-             t.width / SPH_PASSAGE);
+    char where[320];
+    snprintf(where, sizeof where, "%s are %.3g m apart at (%g, %g)", t.what, t.width, t.at[0],
+             t.at[1]);
+    sph_passage_warn(where, t.width, prm->dx);
 }
 
+/* Pairs of a lattice transmit less than the pressure where the support is small (0.967 of it at
+ * R/dx 2.5 in 2D, 0.997 at 3), so that what presses uniformly does not cancel around a body. */
 static void warn_of_lift(const struct run *r, const struct sph_params *prm)
 {
     const struct scene *c = &r->scene;

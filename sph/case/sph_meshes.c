@@ -228,19 +228,18 @@ static void find_passage(const struct run *r, const struct scene_mesh *m, double
     }
 }
 
-/* See sph.c. */
+/* The same in the plane: sph.c. */
 static void warn_passage(const struct run *r, double dx)
 {
     struct facing least = {.width = INFINITY};
     for (int k = 0; k < r->scene.meshes->n; k++)
         find_passage(r, r->scene.meshes->of + k, dx, &least);
-    const double n = least.width / dx;
-    if (least.any)
-        log_warn("mesh %s is %.3g m apart from another at (%g, %g, %g) m, %.2g particles across: "
-                 "of a flow through there some %.0f %% are missing; sph.dx = %.2g m has ten "
-                 "particles there, and 10 %%",
-                 least.met->name, least.width, least.from[0], least.from[1], least.from[2], n,
-                 fmin(90.0, 1000.0 / (n * n)), least.width / SPH_PASSAGE);
+    if (!least.any)
+        return;
+    char where[200];
+    snprintf(where, sizeof where, "mesh %s is %.3g m apart from another at (%g, %g, %g) m",
+             least.met->name, least.width, least.from[0], least.from[1], least.from[2]);
+    sph_passage_warn(where, least.width, dx);
 }
 
 /* Surfaces that pierce each other. */

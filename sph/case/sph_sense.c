@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../../common/base/log.h"
 #include "../../common/scene/exact.h"
 #include "../../common/scene/scene_fluid.h"
 #include "../../common/scene/scene_geometry.h"
@@ -334,6 +335,15 @@ static void check_grains(const struct run *r, const struct sph_params *used, str
         first[a] = first_lattice_begin(c, a, lo[a], hi[a], used->dx) + 0.5 * used->dx;
     }
     scene_check_grains(c, r->params, first, h, n, "place of a particle", f);
+}
+
+void sph_passage_warn(const char *where, double width, double dx)
+{
+    const double n = width / dx;
+    log_warn(
+        "%s, %.2g particles across: of a flow through there some %.0f %% are missing; sph.dx = "
+        "%.2g m has ten particles there, and 10 %%",
+        where, n, fmin(90.0, 1000.0 / (n * n)), width / SPH_PASSAGE);
 }
 
 void sph_sense_check(const struct run *r, const struct sph_params *given,

@@ -40,6 +40,19 @@ int probes_columns(const struct run *r, const char **names)
     return n;
 }
 
+/* w W of local particle i at a gauge; 0: out of reach, or a guard. */
+static double weight_at(const struct sph *s, int i, const struct scene_probe *g)
+{
+    const double *q = prim_line(&s->p, i);
+    const double R = fmax(s->p.size ? s->p.size[i][0] : s->R, g->radius);
+    double r2 = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        r2 += (g->at[a] - q[a]) * (g->at[a] - q[a]);
+    return r2 >= R * R || particles_is_guard(&s->p, i)
+               ? 0.0
+               : q[at_volume(s->dim)] * kernel_w(s->dim, sqrt(r2), R);
+}
+
 /* Of one level, what flows there: sums of w W p, p carried to the place by its gradient, and of w
  * W. */
 static void add_pressure(const struct sph *s, const struct scene_probe *g, double sums[2])
@@ -47,17 +60,13 @@ static void add_pressure(const struct sph *s, const struct scene_probe *g, doubl
     const double *at = g->at;
     const int dim = s->dim;
     for (int i = 0; i < s->p.n; i++) {
-        const double *q = prim_line(&s->p, i), rho = q[at_rho(dim)];
+        const double *q = prim_line(&s->p, i), rho = q[at_rho(dim)], W = weight_at(s, i, g);
         const double *grho = slope_line(&s->p, i);
-        const double R = fmax(s->p.size ? s->p.size[i][0] : s->R, g->radius);
-        double r2 = 0.0, more = 0.0;
-        for (int a = 0; a < dim; a++) {
-            r2 += (at[a] - q[a]) * (at[a] - q[a]);
-            more += (at[a] - q[a]) * grho[a];
-        }
-        if (r2 >= R * R || particles_is_guard(&s->p, i))
+        double more = 0.0;
+        if (W == 0.0)
             continue;
-        const double W = q[at_volume(dim)] * kernel_w(dim, sqrt(r2), R);
+        for (int a = 0; a < dim; a++)
+            more += (at[a] - q[a]) * grho[a];
         const double c = eos_c(rho, s->rho0, s->c0, s->gamma);
         sums[0] += W * (eos_p(rho, s->rho0, s->c0, s->gamma) + c * c * more);
         sums[1] += W;
@@ -86,14 +95,8 @@ static void velocity_at(struct sph *s, const struct scene_probe *g, double *u)
     double sums[4] = {0.0, 0.0, 0.0, 0.0};
     for (const struct sph *f = s; f; f = f->finer)
         for (int i = 0; i < f->p.n; i++) {
-            const double *q = prim_line(&f->p, i), R = f->p.size ? f->p.size[i][0] : f->R;
-            double r2 = 0.0;
-            for (int a = 0; a < s->dim; a++)
-                r2 += (g->at[a] - q[a]) * (g->at[a] - q[a]);
-            if (r2 >= R * R || particles_is_guard(&f->p, i))
-                continue;
-            const double W = q[at_volume(s->dim)] * kernel_w(s->dim, sqrt(r2), R);
-            for (int a = 0; a < s->dim; a++)
+            const double *q = prim_line(&f->p, i), W = weight_at(f, i, g);
+            for (int a = 0; a < s->dim && W > 0.0; a++)
                 sums[a] += W * q[s->dim + a];
             sums[3] += W;
         }
