@@ -3,6 +3,8 @@
 # or oblique, and the volume q t at the end; a section over the water has none; blocks say the same as cells, two ranks the
 # same as one; of a column that falls half goes through the middle. SPDX-License-Identifier: BSD-3-Clause
 . "$(dirname "$0")/lib.sh"
+# volume_of DIR GAUGE
+volume_of() { sed -n "/\"$2\": {/,/}/s/.*\"volume\": \([-+0-9.e]*\).*/\1/p" "$1/summary.json"; }
 # channel NAME SOLVER: 1 m long, 0.2 m deep, 0.35 m/s
 channel() {
     cat >"$1.cfg" <<END
@@ -34,7 +36,7 @@ for name in cells grains; do
     for gauge in flow slant; do
         q=$(last $name/series.csv $gauge)
         close_to "$q" 0.07 0.03 || bad "$name: discharge $gauge $q, not 0.07 m^2/s" $name.txt
-        volume=$(sed -n "/\"$gauge\": {/,/}/s/.*\"volume\": \([-+0-9.e]*\).*/\1/p" $name/summary.json)
+        volume=$(volume_of $name $gauge)
         close_to "$volume" 0.14 0.03 || bad "$name: volume $gauge $volume, not 0.14 m^2" $name.txt
     done
     sum=$(awk -v a="$(last $name/series.csv flow)" -v b="$(last $name/series.csv turned)" 'BEGIN { print a + b }')
@@ -67,7 +69,7 @@ tank even 5 'fv: { cells = (64, 24); };'
 sed '/^walls/d' even.cfg | sed 's/^fv:.*/blocks: ( { name = "a"; min = (0, 0); max = (0.4, 0.3); cells = (32, 24); i_min = "slip"; i_max = "joined"; j_min = "slip"; j_max = "slip"; }, { name = "b"; min = (0.4, 0); max = (0.8, 0.3); cells = (32, 24); i_min = "joined"; i_max = "slip"; j_min = "slip"; j_max = "slip"; } ); fv: { };/' >blocks.cfg
 for name in even blocks; do timeout -k 5 120 "$b/fv" $name.cfg -o $name --force >$name.txt 2>&1 || bad "$name: exit code $?" $name.txt; done
 for name in even blocks; do
-    v=$(sed -n '/"flow": {/,/}/s/.*"volume": \([-+0-9.e]*\).*/\1/p' $name/summary.json)
+    v=$(volume_of $name flow)
     close_to "$v" 0.02 0.03 || bad "$name: $v m^2 of 0.04 m^2 went through the middle" $name.txt
 done
 echo "$failed faults"

@@ -29,19 +29,23 @@ holds "$defect < 1e-10" || bad "wedge: momentum off by $defect"
 # a block at rest near a floor, beside a side and between both: Archimedes on each of its faces, 392.4 N/m, and the
 # balance of fluid, block and walls
 sum() { awk -v x="$1" 'BEGIN { print x + 0.2 }'; }
-gap() { # NAME X Y
-    cat >gap.cfg <<END
+# resting NAME HEIGHT POINTS: a body at rest in water of 0.5 m, in a tank of that height
+resting() {
+    cat >"$1.cfg" <<END
 format = 1;
 time:    { end = 0.4; };
 fluid:   { rho = 1000.0; gravity = (0, -9.81); };
-domain:  { dim = 2; min = (0, 0); max = (1.0, 0.6); };
+domain:  { dim = 2; min = (0, 0); max = (1.0, $2); };
 walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
 shapes:  ( { form = "below"; level = 0.5; } );
-bodies:  ( { name = "b"; points = (($2, $3), ($2, $(sum "$3")), ($(sum "$2"), $(sum "$3")), ($(sum "$2"), $3)); } );
+bodies:  ( { name = "b"; points = ($3); } );
 sph:     { dx = 0.025; };
 output:  { series = 10; snapshots = false; };
 END
-    timeout 60 "$b/sph" gap.cfg -o gap --force >log.txt 2>&1 || bad "gap, $1: ended with $?"
+    timeout 60 "$b/sph" "$1.cfg" -o "$1" --force >log.txt 2>&1 || bad "$1: ended with $?" log.txt
+}
+gap() { # NAME X Y
+    resting gap 0.6 "($2, $3), ($2, $(sum "$3")), ($(sum "$2"), $(sum "$3")), ($(sum "$2"), $3)"
     up=$(number gap y) across=$(number gap x)
     holds "$up > 380.6 && $up < 404.2" || bad "gap, $1: lift $up, Archimedes 392.4 N/m within 3 %"
     holds "$across < 20 && $across > -20" || bad "gap, $1: pushed sideways by $across N/m"
@@ -54,18 +58,7 @@ gap "2.5 dx from floor and side" 0.0625 0.0625
 
 # faces that stand on the floor at an angle, and a block in a corner: p A on each, 3 % of the whole
 corner() { # NAME WANTED_X WANTED_Y POINTS
-    cat >corner.cfg <<END
-format = 1;
-time:    { end = 0.4; };
-fluid:   { rho = 1000.0; gravity = (0, -9.81); };
-domain:  { dim = 2; min = (0, 0); max = (1.0, 0.8); };
-walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
-shapes:  ( { form = "below"; level = 0.5; } );
-bodies:  ( { name = "b"; points = ($4); } );
-sph:     { dx = 0.025; };
-output:  { series = 10; snapshots = false; };
-END
-    timeout 60 "$b/sph" corner.cfg -o corner --force >log.txt 2>&1 || bad "corner, $1: ended with $?"
+    resting corner 0.8 "$4"
     off=$(awk -v x="$(number corner x)" -v y="$(number corner y)" -v wx="$2" -v wy="$3" 'BEGIN {
         print sqrt((x - wx) ^ 2 + (y - wy) ^ 2) / sqrt(wx ^ 2 + wy ^ 2) }')
     holds "$off < 0.03" || bad "corner, $1: force off by $off, wanted 3 %: ($(number corner x), $(number corner y)) N/m"

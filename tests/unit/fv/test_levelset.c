@@ -597,46 +597,6 @@ static void restart_is_exact(void **state)
         assert_int_equal(fv_case_restart(start_again, flow, 5), 0);
 }
 
-/* Some steps; NULL, or why the run stopped. */
-static const char *odd(const struct scene_shape *shape, int steps)
-{
-    static struct diagnosis d;
-    struct fv_case c;
-    struct fv *s =
-        start(&c, MPI_COMM_WORLD,
-              (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "fv.cells=(16,16)", NULL},
-              shape, WALL_NO_SLIP);
-    d = (struct diagnosis){0};
-    for (int k = 0; k < steps && !d.bad; k++)
-        integrate(s, 10.0, &d);
-    print_message("odd water: %.3g m/s, %d wet cells %s\n", s->umax[1], (int)s->surface->wet,
-                  d.bad ? d.reason : "");
-    assert_true(d.bad || isfinite(s->umax[0] + s->umax[1]));
-    fv_free(&c.s);
-    return d.bad ? d.reason : NULL;
-}
-
-/* A drop of a few cells, a surface through the corners of cells, a full tank; water that is finer
- * than the cells may stop the run, but says so. */
-static void odd_water_runs_or_says_why_not(void **state)
-{
-    (void)state;
-    static const struct scene_shape runs[] = {
-        {.form = SHAPE_DISC, .centre = {0.5, 0.52, 0}, .radius = 0.1},
-        {.form = SHAPE_BELOW, .level = 0.5},
-        {.form = SHAPE_BELOW, .level = 0.53125}, /* through centres */
-        {.form = SHAPE_BOX, .box = {{0.25, 0.25, 0}, {0.75, 0.75, 0}}},
-        {.form = SHAPE_BELOW, .level = 2.0}};
-    static const struct scene_shape speck = {.form = SHAPE_DISC,
-                                             .centre = {0.5, 0.52, 0},
-                                             .radius = 0.05},
-                                    none = {.form = SHAPE_BELOW, .level = -1.0};
-    for (int k = 0; k < 5; k++)
-        assert_null(odd(runs + k, 6));
-    odd(&speck, 6);
-    assert_non_null(odd(&none, 1));
-}
-
 /* cos cos of lengths 4 and 3 m over a no-slip bottom: half a length of each between slip sides. */
 static void crossed_waves_swing_as_theory_says(void **state)
 {
@@ -790,7 +750,6 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(wave_swings_as_theory_says),
                                        cmocka_unit_test(ranks_agree),
                                        cmocka_unit_test(restart_is_exact),
-                                       cmocka_unit_test(odd_water_runs_or_says_why_not),
                                        cmocka_unit_test(crossed_waves_swing_as_theory_says),
                                        cmocka_unit_test(rough_water_is_carried_on_within_bounds),
                                        cmocka_unit_test(water_survives_impacts)};
