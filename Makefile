@@ -30,16 +30,17 @@ sph_o = $(filter-out $(mains),$(call objects,sph))
 fv_o = $(filter-out $(mains),$(call objects,fv))
 soname := libcpl.so.$(shell sed -n 's/^ *CPL_VERSION = \([0-9]*\),.*/\1/p' coupler/cpl.h)
 coupler_o = $(call objects,coupler/server) $(call objects,coupler/mapping)
+version_o = $(B)/o/common/base/version.o
 
 all: $(B)/sph $(B)/fv $(B)/coupler $(B)/$(soname)
 
-$(B)/sph: $(B)/o/sph/sph.o $(B)/o/coupler/cpl_partner.o $(B)/libsph.a $(B)/libcpl.a $(B)/libcommon.a
+$(B)/sph: $(B)/o/sph/sph.o $(version_o) $(B)/o/coupler/cpl_partner.o $(B)/libsph.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ $(ASSIMP_LIBS) $(LIBS)
-$(B)/fv: $(B)/o/fv/fv.o $(B)/o/coupler/cpl_partner.o $(B)/libfv.a $(B)/libcpl.a $(B)/libcommon.a
+$(B)/fv: $(B)/o/fv/fv.o $(version_o) $(B)/o/coupler/cpl_partner.o $(B)/libfv.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ $(FV_LIBS) $(ASSIMP_LIBS) $(LIBS)
-$(B)/coupler: $(B)/o/coupler/coupler.o $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
+$(B)/coupler: $(B)/o/coupler/coupler.o $(version_o) $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ $(LIBS)
 $(B)/$(soname): $(patsubst $(B)/o/%,$(B)/pic/%,$(cpl_o)) coupler/cpl.map
@@ -49,7 +50,7 @@ $(B)/$(soname): $(patsubst $(B)/o/%,$(B)/pic/%,$(cpl_o)) coupler/cpl.map
 $(B)/public/libcpl.a: $(cpl_o)
 	@mkdir -p $(@D)
 	@rm -f $@; ld -r -o $(@D)/cpl.o $^ && objcopy --wildcard --keep-global-symbol='cpl_*' $(@D)/cpl.o && ar rcs $@ $(@D)/cpl.o
-$(B)/libcommon.a: $(call objects,common)
+$(B)/libcommon.a: $(filter-out $(version_o),$(call objects,common))
 $(B)/libcpl.a: $(cpl_o)
 $(B)/libsph.a: $(sph_o)
 $(B)/libfv.a: $(fv_o)
@@ -74,7 +75,9 @@ $(B)/pic/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "CC $@"
 	@$(CC) $(CFLAGS) -fPIC -MMD -MP -c -o $@ $<
-$(B)/o/common/base/version.o: CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
+# anew with each commit, and with it the programs; tests do not mind
+$(version_o): CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
+$(version_o): $(wildcard .git/logs/HEAD)
 
 # ---- tests: unit/ has one program a file, jobs/ scripts and their partners (mock*.c know cpl.h alone) -------
 tests_src = $(wildcard tests/unit/*/test_*.c tests/bench/bench_*.c tests/jobs/toy*.c)
@@ -90,10 +93,10 @@ $(B)/tests/heat: $(B)/o/coupler/examples/heat.o $(B)/public/libcpl.a # as an out
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ -lm
 $(foreach f,$(tests_src),$(eval $(B)/tests/$(basename $(notdir $f)): $(B)/o/$(f:.c=.o)))
-$(tests_bin): $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
+$(tests_bin): $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a | $(version_o)
 	@mkdir -p $(@D)
 	@echo "LD $@"
-	@$(CC) $(SAN) -o $@ $(filter %.o,$^) -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(FV_LIBS) $(ASSIMP_LIBS) $(LIBS) -lcmocka
+	@$(CC) $(SAN) -o $@ $(filter %.o,$^) $(version_o) -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(FV_LIBS) $(ASSIMP_LIBS) $(LIBS) -lcmocka
 $(B)/tests/kill_at.so: tests/jobs/kill_at.c
 	@mkdir -p $(@D)
 	@echo "LD $@"
