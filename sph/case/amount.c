@@ -1,5 +1,6 @@
 /* amount.c - see amount.h. A cell with filled cells all around is full; of the others, which shapes
- * or walls may cut, 64 places on a lattice of their own are asked.
+ * or walls may cut, 64 places on a lattice of their own are asked, so askew that a level across an
+ * axis is known to a 128th of a cell.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "amount.h"
 
@@ -11,6 +12,7 @@
 #include "../sph.h"
 #include "first_lattice.h"
 #include "rooms.h"
+#include "sph_sense.h"
 
 static const double least_told = 0.005; /* of the water */
 
@@ -38,23 +40,51 @@ static void look_around(const struct sph *s, const struct lattice *l, int64_t ce
     }
 }
 
-/* Share of a cell that is water. */
-static double share_of(const struct sph *s, const struct exact *e, const double *centre)
+/* Open lines part what is before them from what is behind. */
+static bool has_open_lines(const struct scene *c)
+{
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || (c->walls[k].side == SIDE_NONE && !c->walls[k].closed);
+    return any;
+}
+
+/* Whether x is on the water's side of open lines: some filled cell around has no line before it. */
+static bool is_before_lines(const struct sph *s, const struct lattice *l, const double *x)
+{
+    bool sees = false;
+    for (int k = 0; k < 9 && !sees; k++) {
+        const double near[3] = {x[0] + (k % 3 - 1) * l->dx, x[1] + (k / 3 - 1) * l->dx, 0.0};
+        const int64_t cell = lattice_find(l, s->dim, near);
+        double c[3] = {0.0, 0.0, 0.0};
+        if (cell < 0 || !lattice_has(l, cell))
+            continue;
+        lattice_place(l, cell, s->dim, c);
+        sees = !sph_falls_stopped(&s->run->scene, x, (double[3]){c[0] - x[0], c[1] - x[1], 0.0});
+    }
+    return sees;
+}
+
+/* Share of a cell that is water; lines: open ones are to be asked for. */
+static double share_of(const struct sph *s, const struct lattice *l, const struct exact *e,
+                       bool lines, const double *centre)
 {
     enum { PLACES = 64 };
-    const int split = s->dim == 3 ? 4 : 8; /* along each axis */
+    static const int stride[3] = {1, 19, 37}; /* so that along each axis all places differ */
     int n = 0;
     for (int k = 0; k < PLACES; k++) {
         double x[3] = {centre[0], centre[1], centre[2]};
-        for (int a = 0, rest = k; a < s->dim; a++, rest /= split)
-            x[a] += ((rest % split + 0.5) / split - 0.5) * s->dx;
-        n += scene_is_fluid(&s->run->scene, e, x, NULL) && first_in_walls(s, x);
+        for (int a = 0; a < s->dim; a++)
+            x[a] += ((k * stride[a] % PLACES + 0.5) / PLACES - 0.5) * s->dx;
+        n += scene_is_fluid(&s->run->scene, e, x, NULL) && first_in_walls(s, x) &&
+             (!lines || is_before_lines(s, l, x));
     }
     return (double)n / PLACES;
 }
 
 struct asked {
     struct exact exact;
+    bool lines;
     double cells;
 };
 
@@ -65,23 +95,15 @@ static void add_cell(struct sph *s, const struct lattice *l, int64_t cell, const
     bool any, all;
     look_around(s, l, cell, &any, &all);
     if (any)
-        to->cells += all ? 1.0 : share_of(s, &to->exact, centre);
-}
-
-/* Open lines part what is before them from what is behind: places there are not told apart. */
-static bool has_open_lines(const struct scene *c)
-{
-    bool any = false;
-    for (int k = 0; k < c->nwalls; k++)
-        any = any || (c->walls[k].side == SIDE_NONE && !c->walls[k].closed);
-    return any;
+        to->cells += all ? 1.0 : share_of(s, l, &to->exact, to->lines, centre);
 }
 
 void amount_check(struct sph *s, const struct lattice *l)
 {
-    if (rooms_parted(s) || s->zones || has_open_lines(&s->run->scene))
+    if (rooms_parted(s) || s->zones)
         return;
-    struct asked asked = {.exact = exact_create(&s->run->scene)};
+    struct asked asked = {.exact = exact_create(&s->run->scene),
+                          .lines = has_open_lines(&s->run->scene)};
     first_lattice_each_own(s, l, add_cell, &asked);
     double sums[2] = {asked.cells * s->dxD, 0.0};
     for (int i = 0; i < s->p.n; i++)

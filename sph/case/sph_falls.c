@@ -37,7 +37,7 @@ static bool meets_line(const struct line *l, const double *x, const double *d)
     return false;
 }
 
-static bool is_stopped(const struct scene *c, const double *x, const double *d)
+bool sph_falls_stopped(const struct scene *c, const double *x, const double *d)
 {
     const double to[3] = {x[0] + d[0], x[1] + d[1], x[2] + d[2]};
     bool met = false;
@@ -97,7 +97,7 @@ static int leaves_by(const struct scene *c, struct parcel *p, const double *g, d
             d[a] = dt * (p->u[a] + 0.5 * dt * g[a]);
             p->u[a] += dt * g[a];
         }
-        if (is_stopped(c, p->x, d))
+        if (sph_falls_stopped(c, p->x, d))
             return NONE;
         t += dt;
         for (int a = 0; a < c->domain.dim; a++) {

@@ -21,6 +21,8 @@ void sph_meshes_check(const struct run *r, const struct sph_params *used, struct
 void sph_meshes_warn(const struct run *r, const struct sph_params *used);
 /* sph_falls.c: a warning if nothing in the scene catches water that falls. */
 void sph_falls_warn(const struct run *r, const struct sph_params *used);
+/* Whether lines and surfaces of walls and bodies stand in the way d from x, m. */
+bool sph_falls_stopped(const struct scene *c, const double *x, const double *d);
 /* sph_bodies.c: motion files, bodies that leave the domain or meet walls and each other; 2D. */
 void sph_bodies_check(const struct run *r, const struct sph_params *used, struct faults *f);
 

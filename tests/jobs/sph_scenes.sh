@@ -54,6 +54,14 @@ grep -q 'walls.\[3\].points: the line stands on another wall .*both of its faces
 runs corner -p 'sph.scheme="riemann_ale"'
 runs jets -p 'sph.scheme="delta"'
 
+# what a coarse lattice cannot fill of a tank that is one open line is told beside what was asked; a fine one can
+scene asked 0.01 0.05 'min = (-0.12, -0.12); max = (1.12, 1);' '(0, -9.81)' '{ points = ((0, 0.8), (0, 0), (1, 0), (1, 0.8)); }' \
+    '{ form = "below"; level = 0.28; }'
+runs asked
+grep -q 'more than the shapes: 0.2[0-9]* of 0.2[78][0-9]* m^2' asked.txt || bad "the water asked for between open lines is not told" asked.txt
+runs asked -p sph.dx=0.02
+grep -q '^warning' asked.txt && bad "a lattice that fits is warned of" asked.txt
+
 # the same column 1024 times smaller and larger. Lengths by a power of four scale times by a power of two:
 # nothing is rounded otherwise, so every figure without a unit is the same to its last digit
 for k in 0.0009765625 1 1024; do
