@@ -70,6 +70,7 @@ static void describe(const struct run *r)
     const struct fv_params *prm = fv_params_of(r);
     if (prm->blocks.n > 0) {
         mesh_describe(r, prm);
+        fv_scene_describe(r);
         if (prm->water)
             openings_describe(&r->scene);
         scene_waves_describe(&r->scene);
@@ -102,6 +103,7 @@ static void describe(const struct run *r)
             : walls ? "walls"
                     : "periodic");
     log_uses(uses, (int)(sizeof uses / sizeof *uses));
+    fv_scene_describe(r);
     blocked_describe(r);
     if (water) {
         fraction_describe(r, prm, NULL, least);
@@ -202,6 +204,7 @@ static struct program fv_program = {.name = "fv",
                                     .other_groups = others,
                                     .meshes = scene_meshes_read,
                                     .mesh_owners = 1u << MESH_OF_BODY,
+                                    .complete = fv_scene_complete,
                                     .check = fv_params_check,
                                     .describe = describe,
                                     .draw = draw,

@@ -143,9 +143,9 @@ static void describe_scene(const struct run *r)
         zones_free_box(r, prm, box[0], box[1]);
         log_say("free zone %s m, transition %g m, buffer %g m, around it: %s",
                 zones_extent(r->scene.domain.dim, box), transition, buffer, outers[prm->outer]);
-        if (prm->outer == OUTER_SIDES && prm->surface == SURFACE_YES)
-            openings_describe(&r->scene);
     }
+    if (!r->coupled && prm->surface == SURFACE_YES)
+        openings_describe(&r->scene);
     scene_waves_describe(&r->scene);
 }
 
@@ -310,6 +310,17 @@ static double step(void *state, double t_stop, struct diagnosis *d)
     return d->bad ? 0.0 : integrate_step(s, t_stop, d);
 }
 
+/* Outflows beyond which nothing stands are ends of the region, and no zones. */
+static void complete(struct run *r)
+{
+    struct scene *c = &r->scene;
+    if (r->coupled || sph_params_of(r)->surface != SURFACE_YES)
+        return;
+    openings_resolve(c);
+    for (int k = 0; k < c->nwalls; k++)
+        c->walls[k].kind = c->walls[k].falls ? WALL_FALLS : c->walls[k].kind;
+}
+
 static void check(const struct run *r, struct faults *f)
 {
     sph_params_check(r, f);
@@ -390,6 +401,7 @@ static struct program sph_program = {.name = "sph",
                                      .other_groups = others,
                                      .meshes = scene_meshes_read,
                                      .mesh_owners = MESH_OF_ALL,
+                                     .complete = complete,
                                      .check = check,
                                      .describe = describe,
                                      .draw = draw,

@@ -63,7 +63,8 @@ struct sph_totals {
     double mach_late; /* the same over the second half of the run */
     /* with zones: |M/mass - 1|, with and without the mass that faces hold */
     double fluctuation, fluctuation_particles;
-    double lost;           /* particles removed; this rank */
+    double fallen[6];      /* kg: of a level, gone out where water falls; this rank */
+    double lost;           /* other particles removed; this rank */
     double lost_at[3];     /* m: the first of a level beyond a side; this rank */
     bool lost_any;         /* there is one */
     double lost_said;      /* of all ranks, when last reported */

@@ -114,6 +114,19 @@ static void read_meshes(struct life *l)
         l->p->meshes(&r->scene, r->case_dir, l->params, r->comm, &l->faults);
 }
 
+/* The case as it is read, before anything that follows from it is put into the scene. */
+static void keep_text(struct life *l)
+{
+    struct run *r = &l->r;
+    char *text = r->rank == 0 ? params_text(l->params) : NULL;
+    int n = text ? (int)strlen(text) + 1 : 0;
+    MPI_Bcast(&n, 1, MPI_INT, 0, r->comm);
+    if (!text)
+        text = NEW(char, n);
+    MPI_Bcast(text, n, MPI_CHAR, 0, r->comm);
+    l->files.case_text = text;
+}
+
 /* Reads and checks everything; returns the number of faults, the same on all ranks. */
 static int read_case(struct life *l)
 {
@@ -123,6 +136,8 @@ static int read_case(struct life *l)
     r->params = l->params;
     if (l->line.as)
         params_alias(l->params, l->p->name, l->line.as);
+    if (l->faults.n == 0)
+        keep_text(l);
     if (l->faults.n == 0)
         check_place(l);
     r->coupled = r->partner_ctx || (l->line.check && r->scene.has_sph && r->scene.has_fv);
@@ -147,6 +162,8 @@ static int read_case(struct life *l)
         crossing_deal(r);
     if (l->faults.n == 0)
         accept_check(&r->scene, r->case_dir, l->params, &l->faults);
+    if (l->faults.n == 0 && l->p->complete)
+        l->p->complete(r);
     if (l->faults.n == 0 && l->p->check)
         l->p->check(r, &l->faults);
     if (l->faults.n == 0 && r->scene.output.series == 0)
@@ -201,15 +218,9 @@ static void start_files(struct life *l)
 {
     struct run *r = &l->r;
     char path[1200];
+    const char *text = l->files.case_text;
     l->files.run = r;
     l->files.program = l->p;
-    l->files.case_text = r->rank == 0 ? params_text(l->params) : NULL;
-    char *text = l->files.case_text;
-    int n = text ? (int)strlen(text) + 1 : 0;
-    MPI_Bcast(&n, 1, MPI_INT, 0, r->comm);
-    if (!text)
-        l->files.case_text = text = NEW(char, n);
-    MPI_Bcast(text, n, MPI_CHAR, 0, r->comm);
     if (r->rank > 0)
         return;
     snprintf(path, sizeof path, "%s/%s-case.cfg", r->dir, r->name);

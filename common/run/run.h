@@ -70,6 +70,9 @@ struct program {
                    struct faults *f);
     unsigned
         mesh_owners; /* whose it knows, bits 1 << enum mesh_owner; in a coupled job all or none */
+    /* Adds to the scene what the case may leave open to this program, before check; NULL: nothing.
+     */
+    void (*complete)(struct run *r);
     /* Faults that need more than one key; may be NULL. */
     void (*check)(const struct run *r, struct faults *f);
     /* Lines of --check and of the banner: what the scene uses and leaves out, sizes, memory, time

@@ -33,7 +33,9 @@ enum scene_side {
     SIDE_Z_MIN,
     SIDE_Z_MAX
 };
-/* The last two are slip walls behind zones: scene_waves_resolve makes them so. */
+/* Wave and beach are slip walls behind zones: scene_waves_resolve makes them so. Falls is none that
+ * a case names: an outflow beyond which nothing stands (openings_resolve), so that the region just
+ * ends there, and what leaves is meant to. */
 enum wall_kind {
     WALL_SLIP,
     WALL_NO_SLIP,
@@ -41,7 +43,8 @@ enum wall_kind {
     WALL_OUTFLOW,
     WALL_ABSORBING,
     WALL_WAVE,
-    WALL_BEACH
+    WALL_BEACH,
+    WALL_FALLS
 };
 enum wall_zone { ZONE_NONE, ZONE_BEACH, ZONE_WAVE };
 enum wall_profile { PROFILE_UNIFORM, PROFILE_PARABOLIC };
@@ -108,6 +111,11 @@ struct scene {
         char level_file[PARAM_TEXT_SIZE], discharge_file[PARAM_TEXT_SIZE]; /* both over time */
         bool has_level, has_discharge;                 /* by wall_histories_read, as the next */
         const struct motion_file *levels, *discharges; /* of these files; NULL: constant */
+        /* By openings_resolve, of an outflow under a free surface that has neither: m: of the water
+         * that stands in it at the start, NAN: not known; falls: none does, so water falls out. */
+        double stands;
+        bool falls,
+            lower; /* lower: than the highest water, by a millionth of the domain's height */
     } walls[WALLS_MAX];
     int nwalls;
     struct scene_body bodies[BODIES_MAX]; /* scene_body.h */
@@ -193,6 +201,12 @@ struct scene {
 extern const char *const scene_side_names[6];
 /* The wall on a side of the domain; NULL: none. */
 const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side side);
+
+/* Whether a wall is an opening, with something outside. */
+static inline bool scene_wall_opens(const struct scene_wall *w)
+{
+    return w->kind >= WALL_INFLOW && w->kind != WALL_FALLS;
+}
 
 /* Whether the field is a wave under a surface of its own. */
 bool scene_has_wave(const struct scene *s);

@@ -5,6 +5,9 @@
 #include <stdio.h>
 
 #include "../base/log.h"
+#include "exact.h"
+#include "scene_fluid.h"
+#include "scene_speed.h"
 
 enum { COLUMNS = 2, TEXT = 160 };
 
@@ -17,6 +20,70 @@ void wall_histories_read(struct scene *s, struct motion_files *files)
             *w->discharge_file ? motion_files_read(files, w->discharge_file, COLUMNS) : NULL;
         w->has_level = w->level < LEVEL_TOP || *w->level_file;
         w->has_discharge = w->discharge != 0.0 || *w->discharge_file;
+    }
+}
+
+/* Height of the highest place of fluid along the line from x upwards, of n places, - infinity:
+ * none; exact to 1e-9 of the line where there is air above it. */
+static double top_along(const struct scene *s, const struct exact *e, int up, double *x)
+{
+    enum { PLACES = 256, HALVINGS = 24 };
+    const double lo = s->domain.min[up], length = s->domain.max[up] - lo;
+    const bool down = s->fluid.gravity[up] > 0.0; /* gravity along the axis */
+    double wet = -1.0;
+    for (int k = 0; k < PLACES; k++) {
+        const double part = (k + 0.5) / PLACES;
+        x[up] = lo + length * (down ? 1.0 - part : part);
+        wet = scene_is_fluid(s, e, x, NULL) ? part : wet;
+    }
+    if (wet < 0.0)
+        return -INFINITY;
+    double dry = wet + 1.0 / PLACES;
+    for (int k = 0; k < HALVINGS; k++) {
+        const double part = 0.5 * (wet + dry);
+        x[up] = lo + length * (down ? 1.0 - part : part);
+        *(scene_is_fluid(s, e, x, NULL) ? &wet : &dry) = part;
+    }
+    x[up] = lo + length * (down ? 1.0 - wet : wet);
+    return scene_height(s, x);
+}
+
+/* The same along an upright side, just inside it. */
+static double top_at(const struct scene *s, const struct exact *e, int side, int up)
+{
+    enum { ROWS = 64 };
+    const struct scene_domain *d = &s->domain;
+    const int a = side / 2, across = 3 - a - up;
+    double top = -INFINITY, x[3] = {0.0, 0.0, 0.0};
+    x[a] = side % 2 ? d->max[a] - 1e-3 * (d->max[a] - d->min[a])
+                    : d->min[a] + 1e-3 * (d->max[a] - d->min[a]);
+    for (int k = 0; k < (d->dim == 3 ? ROWS : 1); k++) {
+        if (d->dim == 3)
+            x[across] = d->min[across] + (k + 0.5) / ROWS * (d->max[across] - d->min[across]);
+        top = fmax(top, top_along(s, e, up, x));
+    }
+    return top;
+}
+
+void openings_resolve(struct scene *s)
+{
+    const struct exact e = exact_create(s);
+    const int up = scene_still_axis(s);
+    double low, high;
+    scene_heights(s, &low, &high);
+    const double highest = fmin(scene_water_top(s), high) - 1e-6 * (high - low);
+    for (int k = 0; k < s->nwalls; k++) {
+        struct scene_wall *w = s->walls + k;
+        const int side = w->side - SIDE_X_MIN;
+        w->stands = NAN;
+        if (up < 0 || w->kind != WALL_OUTFLOW || w->side == SIDE_NONE || side / 2 == up ||
+            side / 2 >= s->domain.dim || s->domain.periodic[side / 2] || w->has_level ||
+            w->has_discharge || w->carried || scene_has_wave(s))
+            continue;
+        const double top = top_at(s, &e, side, up);
+        w->falls = !isfinite(top);
+        w->stands = w->falls ? NAN : top;
+        w->lower = !w->falls && top < highest;
     }
 }
 
@@ -132,10 +199,17 @@ void openings_describe(const struct scene *s)
                     level_text(w, text), in ? "in the inlet" : "outside");
         else if (w->carried)
             log_say("%s: a channel without end in the state of the start, waves leave", side);
+        else if (in)
+            log_say("%s: velocity given, the level is that inside", side);
+        else if (w->falls)
+            log_say("%s: nothing stands there at the start: water that comes falls out", side);
+        else if (isfinite(w->stands))
+            log_say("%s: water %g m high outside, as inside at the start, waves leave; the "
+                    "velocity is that inside",
+                    side, w->stands);
         else
-            log_say("%s: %s", side,
-                    in ? "velocity given, the level is that inside"
-                       : "water outside as high as here at the start, waves leave; the velocity is "
-                         "that inside");
+            log_say("%s: water outside as high as at the start, waves leave; the velocity is that "
+                    "inside",
+                    side);
     }
 }

@@ -18,6 +18,9 @@ void wall_histories_check(const struct scene *s, const struct params *p, struct 
 double wall_level(const struct scene_wall *w, double t);
 /* m^dim/s: through an opening whose discharge is given (has_discharge) at time t, >= 0. */
 double wall_discharge(const struct scene_wall *w, double t);
+/* Finds what stands at the start in outflows under a free surface that are given no level: see
+ * scene_wall. */
+void openings_resolve(struct scene *s);
 /* Says in the log what each inlet and outlet under a free surface does. */
 void openings_describe(const struct scene *s);
 

@@ -188,6 +188,15 @@ static double shape_top(const struct scene *s, const double *g, const struct sce
     return range[1];
 }
 
+double scene_water_top(const struct scene *s)
+{
+    double g[3], top = -INFINITY;
+    const bool heavy = weight(s, g) > 0.0;
+    for (int k = 0; k < s->nshapes && heavy; k++)
+        top = fmax(top, s->shapes[k].hole ? -INFINITY : shape_top(s, g, s->shapes + k));
+    return top;
+}
+
 /* Box around the meshes that hold the fluid, where no side of the domain does; else no extent. */
 static void room_of(const struct scene *s, double lo[3], double hi[3])
 {
@@ -209,7 +218,7 @@ static void room_of(const struct scene *s, double lo[3], double hi[3])
 /* Depth of the water and the height that it can fall. */
 static void find_fall(const struct scene *s, double *depth, double *fall)
 {
-    double g[3], range[2], top = -INFINITY, lo[3] = {0.0}, hi[3] = {0.0};
+    double g[3], range[2], lo[3] = {0.0}, hi[3] = {0.0};
     bool still = true;
     *depth = *fall = 0.0;
     if (weight(s, g) == 0.0)
@@ -223,13 +232,10 @@ static void find_fall(const struct scene *s, double *depth, double *fall)
         return;
     }
     *depth = range[1] - range[0];
-    for (int k = 0; k < s->nshapes; k++) {
+    for (int k = 0; k < s->nshapes; k++)
         still = still && scene_is_level(s, s->shapes + k);
-        if (!s->shapes[k].hole)
-            top = fmax(top, shape_top(s, g, s->shapes + k));
-    }
     if (s->nshapes > 0)
-        *depth = fmax(fmin(top, range[1]) - range[0], 0.0);
+        *depth = fmax(fmin(scene_water_top(s), range[1]) - range[0], 0.0);
     for (int k = 0; k < s->nwalls; k++) /* it can run out */
         still = still && s->walls[k].kind < WALL_OUTFLOW;
     if (scene_has_surface(s) || !still)

@@ -23,6 +23,8 @@ struct scene_speed {
  * corners; 0: not known. */
 struct scene_speed scene_speed_of(const struct scene *s, double file, double spacing);
 
+/* m, against gravity: highest water of the shapes; - infinity: without gravity or shapes. */
+double scene_water_top(const struct scene *s);
 /* Its speed alone, m/s; motion files count as rest. */
 double scene_reference_speed(const struct scene *s);
 

@@ -109,11 +109,8 @@ void forcing_list_fixes(const struct fv *s, struct forcing *f, int a);
 /* Extends p into the near imposed cells from the free side, `layers' of them, one by one. */
 void forcing_extend(const struct fv *s, int layers, double *p);
 
-/* Exact average over a cell of this rank at t; centre; number in the whole grid, or among the cells
- * of all blocks. pressure: Pa, or NULL. */
+/* Exact average over a cell of this rank at t. pressure: Pa, or NULL. */
 void forcing_average(const struct fv *s, int64_t c, double t, double *v, double *pressure);
-void forcing_centre(const struct fv *s, int64_t c, double *x);
-int64_t forcing_number(const struct fv *s, int64_t c);
 /* m^(dim-1): of the lower face of cell c along a. */
 double forcing_face_area(const struct fv *s, int64_t c, int a);
 

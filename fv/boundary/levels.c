@@ -1,5 +1,6 @@
 /* levels.c - see levels.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "levels.h"
+#include "cell_places.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,6 +9,7 @@
 #include "../../common/scene/scene_openings.h"
 #include "../grid/mesh.h"
 #include "carried.h"
+#include "still.h"
 
 #define TRANSITS 2.0
 
@@ -77,9 +79,13 @@ void levels_start(struct fv *s)
         l->level[k] = s->level;
     for (int k = 0; k < s->run->scene.nwalls; k++) {
         const struct scene_wall *w = s->run->scene.walls + k;
-        if (w->side == SIDE_NONE || !w->has_level)
+        const int side = w->side - SIDE_X_MIN;
+        if (w->side == SIDE_NONE)
             continue;
-        l->inlet[w->side - SIDE_X_MIN] = w->kind == WALL_INFLOW;
+        l->inlet[side] = w->has_level && w->kind == WALL_INFLOW;
+        l->falls[side] = w->falls;
+        if (w->lower && s->run->scene.initial.level >= LEVEL_TOP)
+            l->level[side] = w->stands;
     }
     set_given(s, s->t);
     mean_velocities(s);
@@ -121,6 +127,16 @@ void levels_back(struct fv *s)
         memcpy(s->levels->past, s->levels->kept, sizeof s->levels->past);
 }
 
+/* m^2/s^2: p/rho on a face of water at rest under s->level. */
+static double at_rest(const struct fv *s, const struct outflow *o, int64_t i)
+{
+    double x[3];
+    cell_centre(s, o->cell[i], x);
+    for (int q = 0; q < s->dim; q++)
+        x[q] += 0.5 * o->h[i] * o->S[q][i] / carried_area(o, i);
+    return fv_still_pressure(s, x) / s->run->scene.fluid.rho;
+}
+
 /* m^2/s^2: p/rho on a face, less that of water at rest. */
 static double pressure_on(const struct fv *s, const struct outflow *o, int64_t i)
 {
@@ -128,6 +144,8 @@ static double pressure_on(const struct fv *s, const struct outflow *o, int64_t i
     const int k = o->side;
     const double g = hypot(hypot(s->still[0], s->still[1]), s->still[2]);
     const double u = fmin(velocity_out(s, o, i), 0.0), all = fmin(l->mean[k], 0.0);
+    if (l->falls[k])
+        return -at_rest(s, o, i) - 0.5 * u * u;
     return g * (l->level[k] - s->level) + l->waves[k] * (l->mean[k] - l->past[k]) - 0.5 * u * u +
            (l->inlet[k] ? 0.5 * all * all : 0.0);
 }

@@ -3,7 +3,8 @@
  * comes faster than its head allows (Bernoulli; the directional do-nothing condition of Braack &
  * Mucha 2014), so water that runs back brings no more energy than it had. Waves that reach an
  * opening leave: g (eta - L) = c (u - U), c = sqrt(g H), U the mean velocity of the last two
- * transits of the domain. SPDX-License-Identifier: BSD-3-Clause */
+ * transits of the domain. Where nothing stands outside water falls, p = 0 on the faces.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_LEVELS_H
 #define FV_LEVELS_H
 
@@ -19,6 +20,7 @@ struct levels {
                                  * less that of water at rest; NULL: no surface, nothing is set */
     double level[LEVEL_GROUPS]; /* m: of the water outside */
     bool inlet[LEVEL_GROUPS];   /* the level is that in the opening, not that far outside */
+    bool falls[LEVEL_GROUPS];   /* nothing stands outside: p = 0 on the faces */
     double waves[LEVEL_GROUPS]; /* m/s: c */
     double mean[LEVEL_GROUPS];  /* m/s: velocity outwards of its water now */
     double past[LEVEL_GROUPS];  /* m/s: U */

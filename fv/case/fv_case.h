@@ -22,7 +22,13 @@ void fv_params_check(const struct run *r, struct faults *f);
 bool fv_measures_errors(const struct run *r);
 /* Faults of keys that this run does not use. */
 void fv_unused_check(const struct run *r, struct faults *f);
-/* fv_scene.c: faults of a scene on a grid of cells that contradicts itself. */
+/* fv_scene.c: with a free surface finds what stands in outflows, and closes the air above by a slip
+ * wall on each side of the domain that gravity points away from and that the case leaves open
+ * (blocks name the kinds of their sides). */
+void fv_scene_complete(struct run *r);
+/* Says which sides these are. */
+void fv_scene_describe(const struct run *r);
+/* Faults of a scene on a grid of cells that contradicts itself. */
 void fv_scene_check(const struct run *r, struct faults *f);
 /* The same of its free surface alone, on any grid. */
 void surface_check(const struct run *r, struct faults *f);

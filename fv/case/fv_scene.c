@@ -5,7 +5,9 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../../common/base/log.h"
 #include "../../common/scene/scene_fluid.h"
+#include "../../common/scene/scene_openings.h"
 #include "../../common/scene/scene_probe.h"
 #include "../boundary/still.h"
 #include "../grid/mesh.h"
@@ -17,6 +19,32 @@ static const char axes[] = "xyz";
 static const struct scene_wall *wall_on(const struct scene *s, int a, int up)
 {
     return scene_wall_of(s, (enum scene_side)(SIDE_X_MIN + 2 * a + up));
+}
+
+void fv_scene_complete(struct run *r)
+{
+    struct scene *s = &r->scene;
+    const double *g = s->fluid.gravity;
+    if (!surface_wanted(r))
+        return;
+    openings_resolve(s);
+    for (int a = 0; a < s->domain.dim && mesh_given_count == 0; a++) {
+        const int up = g[a] < 0.0;
+        if (g[a] != 0.0 && !s->domain.periodic[a] && !wall_on(s, a, up) && s->nwalls < WALLS_MAX)
+            s->walls[s->nwalls++] = (struct scene_wall){
+                .side = SIDE_X_MIN + 2 * a + up, .kind = WALL_SLIP, .level = LEVEL_TOP};
+    }
+}
+
+void fv_scene_describe(const struct run *r)
+{
+    char key[32];
+    for (int k = 0; k < r->scene.nwalls; k++) {
+        snprintf(key, sizeof key, "walls.[%d].side", k);
+        if (r->scene.walls[k].side != SIDE_NONE && !params_given(r->params, key))
+            log_say("%s, which has no wall, is closed by one that slips, above the air",
+                    scene_side_names[r->scene.walls[k].side - SIDE_X_MIN]);
+    }
 }
 
 static void wall_fault(const struct run *r, struct faults *f, int k, const char *what)
@@ -214,7 +242,8 @@ static void check_shape(const struct run *r, struct faults *f, int k)
  * level. */
 static void check_water_opening(const struct run *r, struct faults *f, int k)
 {
-    const struct scene_wall *w = r->scene.walls + k;
+    const struct scene *s = &r->scene;
+    const struct scene_wall *w = s->walls + k;
     if (w->side == SIDE_NONE || (w->kind != WALL_INFLOW && w->kind != WALL_OUTFLOW))
         return;
     if (w->kind == WALL_OUTFLOW && r->scene.fluid.gravity[(w->side - SIDE_X_MIN) / 2] != 0.0)
@@ -224,6 +253,13 @@ static void check_water_opening(const struct run *r, struct faults *f, int k)
         wall_fault(
             r, f, k,
             "with a free surface the pressure of an outflow is that of the level (initial.level)");
+    if (fv_params_of(r)->integrator == INTEGRATOR_NEWTON &&
+        (w->falls || (w->lower && s->initial.level >= LEVEL_TOP)))
+        wall_fault(r, f, k,
+                   w->falls ? "nothing stands there at the start, so that water would fall out, "
+                              "which newton cannot do: rk3 and bdf2 can"
+                            : "newton has one level outside, that of the highest water "
+                              "(initial.level), and less stands here: rk3 and bdf2 take that");
 }
 
 /* Between columns of flat cells a sloping surface jumps by as many rows as the cells are long, and
@@ -330,8 +366,9 @@ void surface_check(const struct run *r, struct faults *f)
         for (int up = 0; up < 2 && !s->domain.periodic[a] && mesh_given_count == 0; up++)
             if (!wall_on(s, a, up))
                 params_fault(r->params, f, "walls",
-                             "a free surface needs all sides that are not "
-                             "periodic: %c_%s has none",
+                             "with a free surface each side that is not periodic is a wall or an "
+                             "opening (but the one above, which is closed if none is given): "
+                             "%c_%s is neither",
                              axes[a], up ? "max" : "min");
     bool heavy = false;
     for (int a = 0; a < s->domain.dim; a++)

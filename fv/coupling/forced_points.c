@@ -1,5 +1,6 @@
 /* forced_points.c - see forced_points.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "forced_points.h"
+#include "../boundary/cell_places.h"
 
 #include <math.h>
 #include <string.h>
@@ -59,7 +60,7 @@ static int points_of(const struct fv *s, int64_t i, double h, double *x)
             n[a] = divide(length[a], h, apart + a);
     const int all = n[0] * n[1] * n[2];
     if (x && all == 1)
-        forcing_centre(s, c, x);
+        cell_centre(s, c, x);
     for (int k = 0; x && all > 1 && k < all; k++) {
         const int of[3] = {k % n[0], k / n[0] % n[1], k / n[0] / n[1]};
         double xi[3];
@@ -83,7 +84,7 @@ struct forced_points forced_points_create(const struct fv *s, double h)
     for (int64_t i = 0; i < p.ncells; i++) {
         points_of(s, i, h, p.x + 3 * p.first[i]);
         for (int64_t k = p.first[i]; k < p.first[i + 1]; k++)
-            p.id[k] = forcing_number(s, f->partner[i]) * MOST * MOST * MOST + (k - p.first[i]);
+            p.id[k] = cell_number(s, f->partner[i]) * MOST * MOST * MOST + (k - p.first[i]);
     }
     return p;
 }

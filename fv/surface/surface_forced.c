@@ -1,5 +1,6 @@
 /* surface_forced.c - see surface_forced.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "surface_forced.h"
+#include "../boundary/cell_places.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -43,7 +44,7 @@ static void list_places(const struct fv *s, struct surface_forced *f)
     int64_t room = 0;
     f->first = NEW(int64_t, f->n + 1);
     for (int64_t i = 0; i < f->n; i++) {
-        forcing_centre(s, f->cell[i], x[0]);
+        cell_centre(s, f->cell[i], x[0]);
         const int n = walls ? block_walls_images(walls, f->R, x) : images(s, f->R, x);
         require(n <= IMAGES_MOST);
         if (f->first[i] + n > room) {

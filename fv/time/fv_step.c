@@ -1,5 +1,6 @@
 /* fv_step.c - size of a step, what it may not do, and the surface around it.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "../boundary/cell_places.h"
 #include "stages.h"
 
 #include <math.h>
@@ -8,7 +9,6 @@
 
 #include "../../common/base/mem.h"
 #include "../boundary/bc.h"
-#include "../boundary/forcing.h"
 #include "../boundary/outflow.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
@@ -60,7 +60,7 @@ void cell_place(const struct fv *s, int64_t c, char *text, size_t size, double x
                            p->lo[2] + at[2]);
     if (s->m)
         snprintf(text + n, size - (size_t)n, " of block \"%s\"", s->m->block[p->block].prm->name);
-    forcing_centre(s, c, x);
+    cell_centre(s, c, x);
 }
 
 /* Fills d with the fastest cell, if this rank has it. */

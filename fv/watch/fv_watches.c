@@ -1,4 +1,5 @@
 /* fv_watches.c - looks at the flow on any grid. SPDX-License-Identifier: BSD-3-Clause */
+#include "../boundary/cell_places.h"
 #include "watches.h"
 
 #include <math.h>
@@ -220,7 +221,7 @@ static double head_of(const struct fv *s, int64_t c)
         return 0.0;
     for (int a = 0; a < s->dim; a++)
         square += s->u[a][c] * s->u[a][c];
-    forcing_centre(s, c, x);
+    cell_centre(s, c, x);
     return share *
            (0.5 * square + (fv_pressure(s, c) + fv_still_pressure(s, x)) / s->run->scene.fluid.rho);
 }
@@ -247,7 +248,7 @@ static double power_of_zones(struct fv *s)
         double row = 0.0;
         for (int64_t i = c; i < c + n; i++) {
             double x[3], u_w[3], uf = 0.0;
-            forcing_centre(s, i, x);
+            cell_centre(s, i, x);
             const double rate = weight[i - c] > 0.0 ? wave_zones_rate(s->wave_zones, x, u_w) : 0.0;
             for (int a = 0; a < s->dim && rate > 0.0; a++)
                 uf += rate * (u_w[a] - s->u[a][i]) * s->u[a][i];

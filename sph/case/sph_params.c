@@ -118,7 +118,7 @@ static bool has_openings(const struct scene *c)
 {
     bool any = false;
     for (int k = 0; k < c->nwalls; k++)
-        any = any || c->walls[k].kind >= WALL_INFLOW;
+        any = any || scene_wall_opens(c->walls + k);
     return any;
 }
 

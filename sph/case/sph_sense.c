@@ -102,7 +102,7 @@ static void check_openings(const struct run *r, const struct sph_params *used, s
     const struct scene *c = &r->scene;
     const bool surface = used->surface == SURFACE_YES;
     for (int k = 0; k < c->nwalls; k++)
-        if (surface && c->walls[k].kind >= WALL_INFLOW)
+        if (surface && scene_wall_opens(c->walls + k))
             check_level(r, k, f);
     for (int side = 0; side < 2 * c->domain.dim && !surface; side++)
         check_outlet(r, side, f);

@@ -36,7 +36,7 @@ static bool any_opening(const struct scene *c)
 {
     bool any = false;
     for (int k = 0; k < c->nwalls; k++)
-        any = any || c->walls[k].kind >= WALL_INFLOW;
+        any = any || scene_wall_opens(c->walls + k);
     return any;
 }
 
@@ -175,7 +175,7 @@ static void check_wall(const struct run *r, const struct sph_params *used, const
     snprintf(key, sizeof key, "walls.[%d].kind", k);
     params_unused(r->params, f, key, w->kind != WALL_NO_SLIP || has[VISCOUS],
                   "without viscosity (fluid.nu) a wall exerts no friction: give slip");
-    params_unused(r->params, f, key, w->kind < WALL_INFLOW || has[OPENINGS_COUNT],
+    params_unused(r->params, f, key, !scene_wall_opens(w) || has[OPENINGS_COUNT],
                   "the flow around the particles (sph.outer) is known otherwise");
     snprintf(key, sizeof key, "walls.[%d].carried", k);
     params_unused(r->params, f, key, false, "sph has no convective outflow");

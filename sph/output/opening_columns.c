@@ -10,43 +10,60 @@
 #include "../open_boundaries/zone_steps.h"
 #include "../particles/params_derived.h"
 
+/* What a side of the region is to what passes it. */
+enum passing { PASSES_NOTHING, PASSES_FALLING, PASSES_ZONE };
+
+static enum passing passing(const struct run *r, const bool open[6], int side)
+{
+    const struct scene_wall *w = scene_wall_of(&r->scene, SIDE_X_MIN + side);
+    return w && w->kind == WALL_FALLS ? PASSES_FALLING : open[side] ? PASSES_ZONE : PASSES_NOTHING;
+}
+
 int opening_columns(const struct run *r, const struct sph_params *prm, const char **names)
 {
     static char text[6][2][32];
-    bool open[6];
+    bool open[6] = {false};
     int n = 0;
-    if (prm->outer != OUTER_SIDES)
-        return 0;
-    sph_params_open(r, prm, open);
+    if (prm->outer == OUTER_SIDES)
+        sph_params_open(r, prm, open);
     for (int side = 0; side < 2 * r->scene.domain.dim; side++) {
-        if (!open[side])
-            continue;
+        const enum passing is = passing(r, open, side);
         snprintf(text[side][0], sizeof text[side][0], "through %s [kg]", scene_side_names[side]);
         snprintf(text[side][1], sizeof text[side][1], "level %s [m]", scene_side_names[side]);
-        names[n++] = text[side][0];
-        if (prm->surface == SURFACE_YES)
+        if (is != PASSES_NOTHING)
+            names[n++] = text[side][0];
+        if (is == PASSES_ZONE && prm->surface == SURFACE_YES)
             names[n++] = text[side][1];
     }
     return n;
 }
 
+/* Sides of zones that this run's own inlets and outlets feed, if there are any. */
+static const bool *open_sides(const struct sph *s)
+{
+    static const bool none[6];
+    return s->zones && s->prm.outer == OUTER_SIDES ? s->open : none;
+}
+
 static void sum_through(const struct sph *s, double through[6])
 {
-    memcpy(through, s->zones->openings->through, 6 * sizeof *through);
+    for (int side = 0; side < 6; side++) {
+        through[side] = open_sides(s)[side] ? s->zones->openings->through[side] : 0.0;
+        for (const struct sph *q = s; q; q = q->finer)
+            through[side] -= q->total.fallen[side];
+    }
     MPI_Allreduce(MPI_IN_PLACE, through, 6, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
 double *opening_row(const struct sph *s, double *values)
 {
     double through[6];
-    if (!s->zones || s->prm.outer != OUTER_SIDES)
-        return values;
     sum_through(s, through);
     for (int side = 0; side < 2 * s->dim; side++) {
-        if (!s->open[side])
-            continue;
-        *values++ = through[side];
-        if (s->surface)
+        const enum passing is = passing(s->run, open_sides(s), side);
+        if (is != PASSES_NOTHING)
+            *values++ = through[side];
+        if (is == PASSES_ZONE && s->surface)
             *values++ = sides_level(s, side);
     }
     return values;
@@ -57,17 +74,18 @@ double *opening_row(const struct sph *s, double *values)
 void opening_summary(const struct sph *s, struct summary *to)
 {
     double through[6], sum = 0.0, in = s->start.mass;
+    bool any = false;
     char name[32];
-    if (s->prm.outer != OUTER_SIDES)
-        return;
     sum_through(s, through);
     for (int side = 0; side < 2 * s->dim; side++) {
-        if (!s->open[side])
+        if (passing(s->run, open_sides(s), side) == PASSES_NOTHING)
             continue;
+        any = true;
         snprintf(name, sizeof name, "through.%s", scene_side_names[side]);
         summary_real(to, name, through[side]);
         sum += through[side];
         in += fmax(through[side], 0.0);
     }
-    summary_real(to, "drift.budget", (zones_mass(s) - sum - s->start.mass) / in);
+    if (any)
+        summary_real(to, "drift.budget", (zones_mass(s) - sum - s->start.mass) / in);
 }

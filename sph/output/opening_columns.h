@@ -1,5 +1,6 @@
-/* opening_columns.h - what passes inlets and outlets, in series and summary: mass through each of
- * them, and the level of the water outside. SPDX-License-Identifier: BSD-3-Clause */
+/* opening_columns.h - what passes inlets, outlets and sides where water falls out, in series and
+ * summary: mass through each of them, and the level of the water outside.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_OPENING_COLUMNS_H
 #define SPH_OPENING_COLUMNS_H
 

@@ -459,6 +459,6 @@ void sph_finish(void *state)
         summary_real(to, "mass_fluctuation_particles", s->total.fluctuation_particles);
         summary_int(to, "born", llround(births(s)));
         summary_int(to, "gone", llround(removals(s)));
-        opening_summary(s, to);
     }
+    opening_summary(s, to);
 }

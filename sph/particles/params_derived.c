@@ -61,10 +61,10 @@ void sph_params_open(const struct run *r, const struct sph_params *prm, bool ope
         const struct scene_wall *w = reaches ? scene_wall_of(&r->scene, SIDE_X_MIN + side) : NULL;
         open[side] = side / 2 < d->dim && !periodic[side / 2] && prm->outer != OUTER_NONE;
         if (prm->outer == OUTER_SIDES)
-            open[side] = open[side] && w && w->kind >= WALL_INFLOW;
+            open[side] = open[side] && w && scene_wall_opens(w);
         else if (reaches)
-            open[side] = open[side] && (!w || w->kind >= WALL_INFLOW) &&
-                         prm->outer == OUTER_EXACT && prm->surface != SURFACE_YES;
+            open[side] = open[side] && (!w || scene_wall_opens(w)) && prm->outer == OUTER_EXACT &&
+                         prm->surface != SURFACE_YES;
     }
 }
 

@@ -272,11 +272,26 @@ void level_update(struct sph *s, int k, double dt)
     stop(s, "update");
 }
 
-/* Particles beyond a side where nothing holds them; their number. */
+/* Whether a particle has gone out where water is to fall. */
+static bool has_fallen(struct sph *s, const double *y)
+{
+    for (int side = 0; side < 2 * s->dim; side++) {
+        const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
+        if (w && w->kind == WALL_FALLS &&
+            (side % 2 ? y[side / 2] > s->hi[side / 2] : y[side / 2] < s->lo[side / 2])) {
+            s->total.fallen[side] += y[at_mass(s->dim)];
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Removes particles beyond a side where nothing holds them; the number of those that were to stay.
+ */
 static int remove_lost(struct sph *s)
 {
     const int before = s->p.n;
-    int n = 0;
+    int n = 0, lost = 0;
     for (int i = 0; i < before; i++) {
         const double *y = state_row(&s->p, s->p.y, i);
         bool inside = true;
@@ -286,13 +301,16 @@ static int remove_lost(struct sph *s)
             particles_copy(&s->p, n++, i);
             continue;
         }
+        sph_watch_removed(s, i);
+        if (has_fallen(s, y))
+            continue;
         if (!s->total.lost_any)
             memcpy(s->total.lost_at, y, (size_t)s->dim * sizeof *y);
         s->total.lost_any = true;
-        sph_watch_removed(s, i);
+        lost++;
     }
     s->p.n = n;
-    return before - n;
+    return lost;
 }
 
 /* Particles that walls have let through are put back; removed are those too far behind. */

@@ -51,7 +51,7 @@ static void add_segment(struct walls *w, const double *a, const double *b,
 static bool goes_beyond(const struct sph *s, int side)
 {
     const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
-    return s->periodic[side / 2] || (w && w->kind >= WALL_INFLOW);
+    return s->periodic[side / 2] || (w && scene_wall_opens(w));
 }
 
 /* Ends on a side through which fluid goes go on beyond it, as sides do; returns whether. */
