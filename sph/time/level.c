@@ -273,13 +273,15 @@ void level_update(struct sph *s, int k, double dt)
 }
 
 /* Whether a particle has gone out where water is to fall. */
-static bool has_fallen(struct sph *s, const double *y)
+static bool has_fallen(struct sph *s, int i)
 {
+    const double *y = state_row(&s->p, s->p.y, i);
     for (int side = 0; side < 2 * s->dim; side++) {
         const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
         if (w && w->kind == WALL_FALLS &&
             (side % 2 ? y[side / 2] > s->hi[side / 2] : y[side / 2] < s->lo[side / 2])) {
-            s->total.fallen[side] += y[at_mass(s->dim)];
+            if (!particles_is_guard(&s->p, i))
+                s->total.fallen[side] += y[at_mass(s->dim)];
             return true;
         }
     }
@@ -302,7 +304,7 @@ static int remove_lost(struct sph *s)
             continue;
         }
         sph_watch_removed(s, i);
-        if (has_fallen(s, y))
+        if (has_fallen(s, i))
             continue;
         if (!s->total.lost_any)
             memcpy(s->total.lost_at, y, (size_t)s->dim * sizeof *y);

@@ -43,6 +43,10 @@ close_to "$(last dry_fv/series.csv 'volume [')" "$(awk -v m="$(last dry_sph/seri
     bad "left in the domain: $(last dry_fv/series.csv 'volume [') m^2 in fv, $(last dry_sph/series.csv mass) kg in sph"
 near "$(number dry_sph budget)" 0 1e-9 || bad "sph: the water that fell out is not all told: $(number dry_sph budget)"
 [ "$(number dry_sph particles_lost)" = 0 ] || bad 'sph: what falls out counts as lost'
+# with levels, whose guards leave beside what they stand for
+timeout -k 5 100 "$b/sph" dry_sph.cfg -o levels --force -p 'apr.regions=( { min = (0.6, -1); max = (2, 0.3); } )' -p sph.dx=0.04 >levels.txt 2>&1 ||
+    bad 'refined to the end' levels.txt
+near "$(number levels budget)" 0 0.02 || bad "levels: the water that fell out is told $(number levels budget) wrong"
 # restart bit for bit, with what has fallen
 for end in 0.5 0.7; do go sph dry_sph -p time.end=$end -p output.checkpoint=0.5 -o parts $([ $end = 0.5 ] || echo --restart); done
 [ "$(last parts/series.csv 'through x_max')" = "$(last dry_sph/series.csv 'through x_max')" ] ||
