@@ -10,9 +10,8 @@
 #include "../common/base/fit.h"
 #include "../common/run/run.h"
 #include "../common/scene/exact.h"
-#include "grid/block.h"
+#include "grid/grid.h"
 #include "grid/mesh_blocks.h"
-#include "grid/part.h"
 
 enum { PARTNERS_MAX = PARAM_KIN_MAX };
 enum fv_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
@@ -61,7 +60,6 @@ struct fv_params {
     const struct blocked_params *boxes; /* borrowed from case/ for the whole run */
 };
 
-struct mesh;     /* blocks; grid/mesh.h */
 struct mesh_bc;  /* their sides; boundary/mesh_sides.h */
 struct poisson;  /* poisson/poisson.h */
 struct overset;  /* search in blocks; grid/overset.h */
@@ -80,8 +78,9 @@ struct watches;  /* figures that a sound run keeps small; watches.h */
 struct fv {
     struct run *run;
     struct fv_params prm;
-    struct block b; /* the uniform grid, or one of graded rows; empty with blocks */
-    struct mesh *m; /* the blocks; NULL: none */
+    struct block b;   /* the uniform grid, or one of graded rows; empty with blocks */
+    struct mesh *m;   /* the blocks; NULL: none */
+    struct grid grid; /* either of them, to those who need not tell which */
     int dim;
     MPI_Comm comm;
     int64_t size; /* of a field */
@@ -166,17 +165,6 @@ struct fv {
     int nhistory;
     double (*history)[3]; /* t, force x, force y of each row of the series */
 };
-
-/* The part that holds a place of the fields, ghosts too, and the cell there (at: or NULL). */
-static inline const struct part *part_of_place(const struct fv *s, int64_t c, int *at)
-{
-    const struct part *p = s->part;
-    while (c < p->base || c >= p->base + p->size)
-        p++;
-    if (at)
-        part_index(p, c, at);
-    return p;
-}
 
 /* Rows of all cells of this rank: c is the place of a row's first cell, len its length. */
 #define FLOW_ROWS(s, c, len) FLOW_ROWS_AT (s, its_part_##c, its_row_##c, c, len)

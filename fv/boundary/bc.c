@@ -431,14 +431,3 @@ void bc_set_slip(const struct fv *s, double tau, const double *psi)
         }
     }
 }
-
-unsigned bc_kinds(const struct fv *s)
-{
-    unsigned kinds = 0;
-    for (int k = 0; k < (s->m ? s->m->nblocks : 1); k++)
-        for (int side = 0; side < 2 * s->dim; side++)
-            kinds |= 1u << (s->m    ? s->m->block[k].side[side]
-                            : s->bc ? s->bc->kind[side]
-                                    : MESH_NONE);
-    return kinds;
-}

@@ -47,9 +47,9 @@ void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
 /* Through this rank's openings, m^dim/s: adds what comes in less what leaves, and the sum of both,
  * of each face the share of the cell inside that counts. */
 void bc_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c), double sums[2]);
+/* side_power.c: what comes in through this rank's sides: energy, work of pressure and of friction,
+ * over rho. */
+double bc_power(const struct fv *s);
 /* Takes note of tau grad psi along the walls, for BC_AHEAD. */
 void bc_set_slip(const struct fv *s, double tau, const double *psi);
-/* One bit (1 << kind) for each kind of the sides of the domain, or of the blocks. */
-unsigned bc_kinds(const struct fv *s);
-
 #endif

@@ -7,6 +7,7 @@
 #include "../../common/base/mem.h"
 #include "bc.h"
 #include "blocked.h"
+#include "fv_sides.h"
 #include "mesh_bc.h"
 
 /* Visits all cells of all parts with their ghosts: at (int[3]) of part p has place c. */
@@ -27,14 +28,6 @@ static bool is_local(const struct part *p, const int *at)
 }
 
 static double *new_field(const struct fv *s) { return NEW(double, s->size); }
-
-void forcing_halo(const struct fv *s, int nf, double *const *f)
-{
-    if (s->m)
-        mesh_halo(s->m, nf, f);
-    else
-        block_halo(&s->b, nf, f);
-}
 
 /* 1: inside the box, 2: behind a closed side, 0: free. */
 static unsigned char kind_of(const struct block *b, const int *at, const double (*box)[3])
@@ -108,7 +101,7 @@ static void find_layers(const struct fv *s, struct forcing *f)
         ALL_CELLS (s, p, at, c)
             if (field[c] == 99.0 && beside_layer(p, field, at, layer - 1.0))
                 field[c] = layer;
-        forcing_halo(s, 1, fields);
+        grid_halo(&s->grid, 1, fields);
     }
     for (int64_t c = 0; c < s->size; c++)
         f->layer[c] = field[c] < 99.0 ? (unsigned char)field[c] : 0;
@@ -141,7 +134,7 @@ static void mark_known(const struct fv *s, struct forcing *f)
     double *field = new_field(s), *const fields[1] = {field};
     for (int64_t i = 0; i < f->npartner + f->nrim; i++)
         field[f->partner[i]] = 1.0;
-    forcing_halo(s, 1, fields);
+    grid_halo(&s->grid, 1, fields);
     f->known = NEW(bool, s->size);
     for (int64_t c = 0; c < s->size; c++)
         f->known[c] = field[c] == 1.0;
@@ -228,19 +221,6 @@ static void list_faces(const struct fv *s, struct forcing *f, int a)
     }
 }
 
-double forcing_face_area(const struct fv *s, int64_t c, int a)
-{
-    int at[3];
-    double S2 = 0.0;
-    if (!s->m) {
-        block_place(&s->b, c, at);
-        return block_volume(&s->b, at[1]) / block_size(&s->b, a, at[1]);
-    }
-    for (int k = 0; k < s->dim; k++)
-        S2 += s->m->S[a][k][c] * s->m->S[a][k][c];
-    return sqrt(S2);
-}
-
 /* Vectors of closed sides of the domain behind cells of the hole: nothing flows there. */
 static void add_closed_sides(const struct fv *s, const struct forcing *f, double sum[3])
 {
@@ -256,7 +236,7 @@ static void add_closed_sides(const struct fv *s, const struct forcing *f, double
         BLOCK_CELLS (b, i, j, k, c) {
             const int at[3] = {b->lo[0] + i, b->lo[1] + j, b->lo[2] + k};
             if (at[a] == last && f->forced[c] == 1)
-                sum[a] += (side % 2 ? -1.0 : 1.0) * forcing_face_area(s, c, a);
+                sum[a] += (side % 2 ? -1.0 : 1.0) * grid_face_area(&s->grid, c, a);
         }
     }
 }
@@ -265,17 +245,17 @@ static void add_closed_sides(const struct fv *s, const struct forcing *f, double
  * or with those of the sides of blocks: it has a whole inside, or the rest of the fluid has. */
 static enum net_flux net_of(const struct fv *s, const struct forcing *f)
 {
-    const bool open = s->m ? mesh_bc_pressure_given(s) : s->bc && s->bc->pressure_given;
+    const bool open = sides_give_pressure(s);
     double sum[4] = {0.0}, sides[3] = {0.0};
     for (int a = 0; a < s->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
-            for (int e = 0; e < s->dim && f->counts[a][i]; e++) {
-                const int64_t c = f->face[a][i];
-                const double S = s->m     ? s->m->S[a][e][c]
-                                 : e == a ? forcing_face_area(s, c, a)
-                                          : 0.0;
-                sum[e] += f->sign[a][i] * S;
-                sum[3] += fabs(S);
+            if (f->counts[a][i]) {
+                double S[3];
+                grid_face_vector(&s->grid, f->face[a][i], a, S);
+                for (int e = 0; e < s->dim; e++) {
+                    sum[e] += f->sign[a][i] * S[e];
+                    sum[3] += fabs(S[e]);
+                }
             }
     double whole[3] = {sum[0], sum[1], sum[2]};
     add_closed_sides(s, f, whole);
@@ -285,7 +265,7 @@ static enum net_flux net_of(const struct fv *s, const struct forcing *f)
         mesh_bc_vectors(s, sides);
     const double small = 1e-9 * sum[3], *to = sides;
     const bool closed = hypot(hypot(whole[0], whole[1]), whole[2]) <= small;
-    if (closed && (open || (s->m && s->m->has_fringe)))
+    if (closed && (open || grid_overlaps(&s->grid)))
         return NET_OUTLINE;
     const bool closes =
         !s->m || hypot(hypot(sum[0] + to[0], sum[1] + to[1]), sum[2] + to[2]) <= small;
@@ -391,7 +371,7 @@ static void fill_round(const struct fv *s, const double *has, double *next)
     const struct forcing *f = s->forcing;
     memcpy(next, has, (size_t)s->size * sizeof *next);
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
-        const int64_t c = f->partner[i], *stride = part_of_place(s, c, (int[3]){0})->stride;
+        const int64_t c = f->partner[i], *stride = grid_part(&s->grid, c, (int[3]){0})->stride;
         double sum[3] = {0.0, 0.0, 0.0}, n = 0.0;
         for (int way = 0; way < 2 * f->dim && has[c] == 0.0; way++) {
             const int64_t d = c + (way % 2 ? 1 : -1) * stride[way / 2];
@@ -418,8 +398,8 @@ void forcing_fill(const struct fv *s, const unsigned char *mask)
     }
     for (int round = 0; round < f->near; round++) {
         double *spare = has;
-        forcing_halo(s, 1, (double *const[]){has});
-        forcing_halo(s, f->dim, f->given);
+        grid_halo(&s->grid, 1, (double *const[]){has});
+        grid_halo(&s->grid, f->dim, f->given);
         fill_round(s, has, next);
         has = next;
         next = spare;
@@ -435,13 +415,20 @@ void forcing_average(const struct fv *s, int64_t c, double t, double *v, double 
 {
     double x[3], h[3], p, w;
     int at[3];
-    const struct part *part = part_of_place(s, c, at);
+    const struct part *part = grid_part(&s->grid, c, at);
     if (s->m) {
         mesh_exact_average(s, part, at, t, v, pressure ? pressure : &p, &w);
         return;
     }
     block_cell(&s->b, at[0], at[1], at[2], x, h);
     exact_average(&s->exact, x, h, t, v, pressure, NULL);
+}
+
+void forcing_centre(const struct fv *s, int64_t c, double *x)
+{
+    int at[3];
+    const struct part *p = grid_part(&s->grid, c, at);
+    grid_centre(&s->grid, p, at, x);
 }
 
 void forcing_velocity(const struct fv *s, double t, double *const u[3])
@@ -493,7 +480,7 @@ static void look_at_partner(const struct fv *s, double t)
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->npartner + f->nrim; i++)
             f->given[a][f->partner[i]] = partner_value(f, s->prm.forced_order == 2, a, i, t);
-    forcing_halo(s, f->dim, f->given);
+    grid_halo(&s->grid, f->dim, f->given);
 }
 
 /* Whether the flux through the lower face of c is a partner's alone. */
@@ -508,12 +495,13 @@ static double partner_flux(const double *u, int64_t d)
     return (7.0 * (u[-d] + u[0]) - (u[-2 * d] + u[d])) / 12.0;
 }
 
-/* m/s of even cells, m^dim/s of blocks: through the lower face of c, less `excess' m/s outwards. */
+/* U of a face of the outline, less `excess' m/s outwards. */
 static void take_off(const struct fv *s, int a, int64_t i, double excess, double *U)
 {
     const struct forcing *f = s->forcing;
     const int64_t c = f->face[a][i];
-    U[c] -= f->sign[a][i] * excess * (s->m ? forcing_face_area(s, c, a) : 1.0);
+    U[c] -=
+        f->sign[a][i] * excess * (grid_face_area(&s->grid, c, a) / grid_flow_area(&s->grid, c, a));
 }
 
 /* Flux outwards through the outline, and its area; of all ranks. */
@@ -524,9 +512,9 @@ static void sum_outline(const struct fv *s, double *const U[3], double sums[2])
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
             if (f->counts[a][i]) {
-                const double area = forcing_face_area(s, f->face[a][i], a);
-                sums[0] += f->sign[a][i] * U[a][f->face[a][i]] * (s->m ? 1.0 : area);
-                sums[1] += area;
+                const int64_t c = f->face[a][i];
+                sums[0] += f->sign[a][i] * U[a][c] * grid_flow_area(&s->grid, c, a);
+                sums[1] += grid_face_area(&s->grid, c, a);
             }
 }
 
@@ -568,7 +556,7 @@ void forcing_fluxes(const struct fv *s, double t, double *const U[3])
         look_at_partner(s, t);
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++) {
-            const int64_t c = f->face[a][i], d = part_of_place(s, c, NULL)->stride[a];
+            const int64_t c = f->face[a][i], d = grid_part(&s->grid, c, NULL)->stride[a];
             if (is_exact(f, c, d))
                 U[a][c] = exact_flux(s, c, a, t);
             else
@@ -584,7 +572,7 @@ void forcing_fluxes_variation(const struct fv *s, double *const U[3])
     const struct forcing *f = s->forcing;
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++) {
-            const int64_t c = f->face[a][i], d = part_of_place(s, c, NULL)->stride[a];
+            const int64_t c = f->face[a][i], d = grid_part(&s->grid, c, NULL)->stride[a];
             if (is_exact(f, c, d) || is_partners(f, c, d))
                 U[a][c] = 0.0;
         }

@@ -78,8 +78,6 @@ struct forcing {
  * box. */
 struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2][3], bool partner);
 void forcing_free(struct forcing **f);
-/* Ghosts of nf fields from other cells, of either kind of grid. */
-void forcing_halo(const struct fv *s, int nf, double *const *f);
 /* Zero in the imposed cells of this rank. */
 void forcing_zero(const struct forcing *f, double *q);
 /* The next coupling step, t0 to t1, begins: v_next is v now, and its new values are those of the
@@ -109,10 +107,9 @@ void forcing_list_fixes(const struct fv *s, struct forcing *f, int a);
 /* Extends p into the near imposed cells from the free side, `layers' of them, one by one. */
 void forcing_extend(const struct fv *s, int layers, double *p);
 
-/* Exact average over a cell of this rank at t. pressure: Pa, or NULL. */
+/* Exact average over a cell of this rank at t; its centre. pressure: Pa, or NULL. */
 void forcing_average(const struct fv *s, int64_t c, double t, double *v, double *pressure);
-/* m^(dim-1): of the lower face of cell c along a. */
-double forcing_face_area(const struct fv *s, int64_t c, int a);
+void forcing_centre(const struct fv *s, int64_t c, double *x);
 
 /* given_cells.c: of blocks. */
 void given_rows_create(const struct fv *s, struct forcing *f);

@@ -194,12 +194,12 @@ void forcing_extend(const struct fv *s, int layers, double *p)
     const struct forcing *f = s->forcing;
     double *const fields[1] = {p};
     for (int layer = 1; layer <= layers; layer++) {
-        forcing_halo(s, 1, fields);
+        grid_halo(&s->grid, 1, fields);
         for (int64_t i = 0; i < f->nlocal; i++) {
             const int64_t c = f->local[i];
             if (f->layer[c] != layer || f->forced[c] != 1)
                 continue;
-            const struct part *part = part_of_place(s, c, NULL);
+            const struct part *part = grid_part(&s->grid, c, NULL);
             struct line_sum all = along_axes(f, part, c, layer, p);
             if (all.n == 0.0)
                 all = across(f, part, c, layer, p);
@@ -207,5 +207,5 @@ void forcing_extend(const struct fv *s, int layers, double *p)
                 p[c] = all.sum / all.n;
         }
     }
-    forcing_halo(s, 1, fields);
+    grid_halo(&s->grid, 1, fields);
 }

@@ -245,7 +245,7 @@ void given_mirror(const struct fv *s, double *psi)
     mesh_halo(s->m, 1, &psi);
     for (int64_t i = 0; i < f->nlocal; i++) {
         const int64_t c = f->local[i];
-        const struct part *p = part_of_place(s, c, NULL);
+        const struct part *p = grid_part(&s->grid, c, NULL);
         int offset[MESH_SOURCES][3];
         const int n = f->layer[c] == 1 ? mesh_given_sources(s->m, p, c, offset) : 0;
         double sum = 0.0;
@@ -274,7 +274,7 @@ double given_exact_flux(const struct fv *s, int64_t c, int a, double t)
     const int n = s->dim == 3 ? 4 : 2, t0 = (a + 1) % s->dim, t1 = (a + 2) % s->dim;
     double sum = 0.0;
     int at[3];
-    const struct part *p = part_of_place(s, c, at);
+    const struct part *p = grid_part(&s->grid, c, at);
     const int cell[3] = {p->lo[0] + at[0], p->lo[1] + at[1], p->lo[2] + at[2]};
     for (int g = 0; g < n; g++) {
         double xi[3] = {0.0, 0.0, 0.0}, x[3], dx[3][3], u[3];
@@ -297,7 +297,7 @@ static double face_value(const double *q, int64_t d)
 double given_flux_of(const struct fv *s, double *const v[3], int64_t c, int a)
 {
     const struct mesh *m = s->m;
-    const struct part *p = part_of_place(s, c, NULL);
+    const struct part *p = grid_part(&s->grid, c, NULL);
     const int64_t d = p->stride[a];
     const bool *known = s->forcing->known;
     double sum = 0.0;

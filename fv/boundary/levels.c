@@ -1,6 +1,5 @@
 /* levels.c - see levels.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "levels.h"
-#include "cell_places.h"
 
 #include <math.h>
 #include <string.h>
@@ -131,7 +130,9 @@ void levels_back(struct fv *s)
 static double at_rest(const struct fv *s, const struct outflow *o, int64_t i)
 {
     double x[3];
-    cell_centre(s, o->cell[i], x);
+    int at[3];
+    const struct part *p = grid_part(&s->grid, o->cell[i], at);
+    grid_centre(&s->grid, p, at, x);
     for (int q = 0; q < s->dim; q++)
         x[q] += 0.5 * o->h[i] * o->S[q][i] / carried_area(o, i);
     return fv_still_pressure(s, x) / s->run->scene.fluid.rho;

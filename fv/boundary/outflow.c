@@ -11,6 +11,7 @@
 #include "bc.h"
 #include "carried.h"
 #include "forcing.h"
+#include "fv_sides.h"
 #include "mesh_bc.h"
 
 #define RETURN 2.0 /* depths: kh of waves that feel it is below 1, where it is right */
@@ -37,7 +38,7 @@ static double sum_up(struct fv *s)
 
 static bool pressure_given(const struct fv *s)
 {
-    return s->outflows->level_free || (s->m ? mesh_bc_pressure_given(s) : s->bc->pressure_given);
+    return s->outflows->level_free || sides_give_pressure(s);
 }
 
 /* Net flux of all sides to nothing, evenly over these; where cells are forced their fluxes are what

@@ -8,10 +8,10 @@
 
 #include "../../common/base/mem.h"
 #include "../../common/scene/wave_zones.h"
-#include "../boundary/bc.h"
 #include "../boundary/blocked.h"
 #include "../boundary/carried.h"
 #include "../boundary/forcing.h"
+#include "../boundary/fv_sides.h"
 #include "../boundary/levels.h"
 #include "../boundary/outflow.h"
 #include "../boundary/still.h"
@@ -145,9 +145,8 @@ static void set_limit(struct fv *s)
 void fv_start(struct fv *s)
 {
     outflow_start(s);
-    bc_ghosts(s, BC_GIVEN, s->u);
-    block_halo(&s->b, s->b.dim, s->u);
-    bc_fluxes(s, BC_GIVEN, s->U);
+    sides_velocity(s, BC_GIVEN, s->u);
+    sides_fluxes(s, BC_GIVEN, s->U);
     measure(s);
     set_limit(s);
     if (fmax(s->umax[0], fmax(s->umax[1], s->umax[2])) > 0.0)
@@ -174,7 +173,7 @@ static void meet_pressures(struct fv *s)
  * step is made for its speeds. A partner gives its cells later. */
 static void project_start(struct fv *s)
 {
-    const bool pushed = bc_kinds(s) & 1u << MESH_INFLOW || s->blocked;
+    const bool pushed = sides_kinds(s) & 1u << MESH_INFLOW || s->blocked;
     if (!pushed || s->surface || s->run->coupled)
         return;
     projection(s, s->t, 0, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
@@ -223,6 +222,7 @@ static void create_grid(struct fv *s)
     s->whole = block_part(&s->b);
     s->nparts = 1;
     s->part = &s->whole;
+    s->grid = (struct grid){d->dim, 1, &s->whole, &s->b, NULL};
     s->stages = &even_stages;
     s->ring = -1;
     s->blocked = blocked_create(s);
@@ -238,9 +238,8 @@ static void create_grid(struct fv *s)
     empty_hole(s);
     empty_boxes(s);
     outflow_start(s);
-    bc_ghosts(s, BC_GIVEN, s->u);
-    block_halo(&s->b, d->dim, s->u);
-    bc_fluxes(s, BC_GIVEN, s->U);
+    sides_velocity(s, BC_GIVEN, s->u);
+    sides_fluxes(s, BC_GIVEN, s->U);
     if (s->surface)
         surface_start(s);
     poisson_create(s);

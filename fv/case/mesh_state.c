@@ -1,6 +1,7 @@
 /* mesh_state.c - the state of a flow on blocks, at t = 0 or from a restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/forcing.h"
+#include "../boundary/fv_sides.h"
 #include "../boundary/mesh_bc.h"
 #include "../boundary/outflow.h"
 #include "../boundary/still.h"
@@ -149,6 +150,7 @@ void mesh_state_create(struct fv *s)
     s->size = s->m->size_local;
     s->nparts = s->m->nparts;
     s->part = s->m->part;
+    s->grid = (struct grid){s->dim, s->nparts, s->part, NULL, s->m};
     s->stages = &block_stages;
     s->ring = mesh_ring(r) ? 0 : -1;
     s->has_exact = fv_measures_errors(r);
@@ -172,8 +174,7 @@ void mesh_state_create(struct fv *s)
     poisson_create(s);
     if (r->scene.nprobes > 0)
         s->search = overset_search(r, s->m);
-    mesh_fill(s->m, s->m->dim, s->u);
-    mesh_bc_velocity(s, BC_GIVEN, s->u);
+    sides_velocity(s, BC_GIVEN, s->u);
     if (s->outflows) {
         outflow_start(s);
         mesh_bc_velocity(s, BC_GIVEN, s->u);

@@ -1,6 +1,5 @@
 /* forced_points.c - see forced_points.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "forced_points.h"
-#include "../boundary/cell_places.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,20 +8,6 @@
 #include "../grid/mesh.h"
 
 enum { MOST = 8 }; /* points of a cell along an axis */
-
-/* Lengths of a cell along its axes, m. */
-static void lengths(const struct fv *s, const struct part *p, const int *at, double *length)
-{
-    double x[3], dx[3][3];
-    if (!s->m) {
-        block_cell(&s->b, at[0], at[1], at[2], x, length);
-        return;
-    }
-    const int cell[3] = {p->lo[0] + at[0], p->lo[1] + at[1], p->lo[2] + at[2]};
-    mesh_map_point(s->m->block + p->block, s->dim, cell, (double[3]){0.5, 0.5, 0.5}, x, dx);
-    for (int a = 0; a < s->dim; a++)
-        length[a] = sqrt(dx[a][0] * dx[a][0] + dx[a][1] * dx[a][1] + dx[a][2] * dx[a][2]);
-}
 
 /* Points along an axis of a cell of this length: their number; *apart: from each other, in cells.
  */
@@ -33,40 +18,26 @@ static int divide(double length, double h, double *apart)
     return n > 1 ? n : 1;
 }
 
-static void place(const struct fv *s, const struct part *p, const int *at, const double *xi,
-                  double *x)
-{
-    double h[3], dx[3][3];
-    if (s->m) {
-        const int cell[3] = {p->lo[0] + at[0], p->lo[1] + at[1], p->lo[2] + at[2]};
-        mesh_map_point(s->m->block + p->block, s->dim, cell, xi, x, dx);
-        return;
-    }
-    block_cell(&s->b, at[0], at[1], at[2], x, h);
-    for (int a = 0; a < s->dim; a++)
-        x[a] += (xi[a] - 0.5) * h[a];
-}
-
 /* Points of cell i of the list: their number; x: filled, or NULL. */
 static int points_of(const struct fv *s, int64_t i, double h, double *x)
 {
     const int64_t c = s->forcing->partner[i];
     int at[3], n[3] = {1, 1, 1};
     double length[3], apart[3] = {0.0, 0.0, 0.0};
-    const struct part *p = part_of_place(s, c, at);
-    lengths(s, p, at, length);
+    const struct part *p = grid_part(&s->grid, c, at);
+    grid_lengths(&s->grid, p, at, length);
     for (int a = 0; a < s->dim; a++)
         if (s->m ? s->past[0][0] != NULL : a == 1 && s->b.rows)
             n[a] = divide(length[a], h, apart + a);
     const int all = n[0] * n[1] * n[2];
     if (x && all == 1)
-        cell_centre(s, c, x);
+        forcing_centre(s, c, x);
     for (int k = 0; x && all > 1 && k < all; k++) {
         const int of[3] = {k % n[0], k / n[0] % n[1], k / n[0] / n[1]};
         double xi[3];
         for (int a = 0; a < 3; a++)
             xi[a] = 0.5 + (of[a] - 0.5 * (n[a] - 1)) * apart[a];
-        place(s, p, at, xi, x + 3 * k);
+        grid_point(&s->grid, p, at, xi, x + 3 * k);
     }
     return all;
 }
@@ -83,8 +54,9 @@ struct forced_points forced_points_create(const struct fv *s, double h)
     p.id = NEW(int64_t, p.n);
     for (int64_t i = 0; i < p.ncells; i++) {
         points_of(s, i, h, p.x + 3 * p.first[i]);
+        const int64_t number = grid_number(&s->grid, f->partner[i]);
         for (int64_t k = p.first[i]; k < p.first[i + 1]; k++)
-            p.id[k] = cell_number(s, f->partner[i]) * MOST * MOST * MOST + (k - p.first[i]);
+            p.id[k] = number * MOST * MOST * MOST + (k - p.first[i]);
     }
     return p;
 }

@@ -1,6 +1,5 @@
 /* forced_restart.c - see forced_restart.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "forced_restart.h"
-#include "../boundary/cell_places.h"
 
 #include <stdlib.h>
 
@@ -24,7 +23,7 @@ void forced_save(const struct fv *s, struct h5 *f)
     const int64_t n = c->npartner + c->nrim;
     int64_t *number = NEW(int64_t, n);
     for (int64_t i = 0; i < n; i++)
-        number[i] = cell_number(s, c->partner[i]);
+        number[i] = grid_number(&s->grid, c->partner[i]);
     h5_write_int(f, "forced_cells", n, number);
     mem_free(number);
     h5_write_real(f, "forced_levels", "-", 4, 1, clock, false);
@@ -58,7 +57,7 @@ static bool find_rows(const struct fv *s, struct h5 *f, int64_t *row)
     if (number)
         qsort(all, (size_t)n, sizeof *all, by_number);
     for (int64_t i = 0; good && i < c->npartner + c->nrim; i++) {
-        const struct numbered key = {cell_number(s, c->partner[i]), 0};
+        const struct numbered key = {grid_number(&s->grid, c->partner[i]), 0};
         const struct numbered *at = bsearch(&key, all, (size_t)n, sizeof *all, by_number);
         good = at != NULL;
         row[i] = at ? at->row : 0;

@@ -11,7 +11,6 @@
 #include "../../common/files/h5.h"
 #include "../../common/run/watch.h"
 #include "../../coupler/cpl.h"
-#include "../boundary/cell_places.h"
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "../boundary/still.h"
@@ -444,7 +443,7 @@ static void find_datum(struct fv *s)
     for (int64_t i = f->npartner; i < f->npartner + f->nrim; i++) {
         if (!k->mask[i])
             continue;
-        cell_centre(s, f->partner[i], x);
+        forcing_centre(s, f->partner[i], x);
         sum[0] += k->p[i] - fv_pressure(s, f->partner[i]) - fv_still_pressure(s, x);
         sum[1] += 1.0;
     }
@@ -521,7 +520,7 @@ static void count_missing(struct fv *s)
             continue;
         sum[1] += 1.0;
         if (!k->mask[i]) {
-            cell_centre(s, c, k->where);
+            forcing_centre(s, c, k->where);
             sum[0] += 1.0;
         }
     }

@@ -1,6 +1,5 @@
 /* fv_course.c - see fv_course.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "fv_course.h"
-#include "../boundary/cell_places.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,7 +8,7 @@
 #include "../../common/base/log.h"
 #include "../../common/base/mem.h"
 #include "../../common/files/h5.h"
-#include "../boundary/mesh_bc.h"
+#include "../boundary/fv_sides.h"
 #include "../boundary/still.h"
 #include "../grid/layout.h"
 #include "../surface/levelset.h"
@@ -69,7 +68,7 @@ static void take_out_level(const struct fv *s, const struct course *c, const dou
         double one = p ? p[f->partner[m]] : 0.0;
         if (!p)
             forcing_average(s, f->partner[m], t, u, &one);
-        cell_centre(s, f->partner[m], x);
+        forcing_centre(s, f->partner[m], x);
         sum[0] += one - (p ? 0.0 : fv_still_pressure(s, x));
         sum[1] += 1.0;
     }
@@ -206,8 +205,7 @@ void course_try(struct fv *s, struct course *c, double t1)
     c->failed = c->failed || d.bad;
     s->predicts = false;
     kept_put_back(c->kept, s);
-    if (s->m) /* sides are those of the start again */
-        mesh_bc_time(s, s->t);
+    sides_time(s, s->t); /* those of the start again */
 }
 
 /* The polynomial through the newest level and up to three others, value f[j] at x[j] s after it:

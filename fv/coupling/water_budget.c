@@ -130,7 +130,7 @@ static double wet_area(const struct fv *s)
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
             if (f->counts[a][i])
-                sum += forcing_face_area(s, f->face[a][i], a) *
+                sum += grid_face_area(&s->grid, f->face[a][i], a) *
                        surface_face_share(s, f->face[a][i], a);
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
     return sum;

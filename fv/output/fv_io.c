@@ -26,30 +26,6 @@ bool fv_field_wanted(const struct run *r, const char *name)
     return false;
 }
 
-/* Mean place of a cell, over its volume. */
-static void centroid(const struct fv *s, const struct part *p, const int *i, double *mean)
-{
-    static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
-    const int cell[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-    double whole = 0.0;
-    if (!s->m) {
-        block_centre(&s->b, i[0], i[1], i[2], mean);
-        return;
-    }
-    mean[0] = mean[1] = mean[2] = 0.0;
-    for (int g = 0; g < 1 << s->dim; g++) {
-        const double xi[3] = {gauss[g & 1], gauss[g >> 1 & 1], gauss[g >> 2]};
-        double x[3], dx[3][3];
-        mesh_map_point(s->m->block + p->block, s->dim, cell, xi, x, dx);
-        const double V = mesh_determinant(dx);
-        whole += V;
-        for (int c = 0; c < 3; c++)
-            mean[c] += V * x[c];
-    }
-    for (int c = 0; c < 3; c++)
-        mean[c] /= whole;
-}
-
 /* ---- the fields: their components in all cells of this rank ---- */
 
 static void velocity(struct fv *s, double *const q[3])
@@ -73,7 +49,7 @@ static void pressure(struct fv *s, double *const q[3])
         double x[3];
         int i[3];
         PART_CELLS (p, i, c) {
-            centroid(s, p, i, x);
+            grid_mean_place(&s->grid, p, i, x);
             q[0][c] += fv_still_pressure(s, x);
         }
     }
@@ -152,12 +128,6 @@ static bool is_blank(const struct fv *s, bool flows, int64_t c)
            ((s->forcing && s->forcing->forced[c]) || (s->surface && s->surface->phi[c] >= 0.0));
 }
 
-static int nblocks(const struct fv *s) { return s->m ? s->m->nblocks : 1; }
-static const int *cells_of(const struct fv *s, int k)
-{
-    return s->m ? s->m->block[k].n : s->b.cells;
-}
-
 /* This rank's cells of a block: [lo, hi), empty if it has none. */
 static const struct part *range(const struct fv *s, int k, int lo[3], int hi[3])
 {
@@ -182,22 +152,9 @@ static void write(const struct fv *s, struct h5 *f, int k, const struct field *o
             for (int a = 0; a < of->ncomp; a++)
                 *to++ = is_blank(s, of->flows, c) ? NAN : q[a][c];
     snprintf(name, sizeof name, "%s_%d", of->name, k + 1);
-    h5_write_block(f, s->m ? name : of->name, of->unit, s->dim, cells_of(s, k), lo, hi, of->ncomp,
-                   v, true);
+    h5_write_block(f, s->m ? name : of->name, of->unit, s->dim, grid_cells(&s->grid, k), lo, hi,
+                   of->ncomp, v, true);
     mem_free(v);
-}
-
-/* Of vertex i. */
-static void place(const struct fv *s, int k, const int *i, double *x)
-{
-    const struct block *b = &s->b;
-    if (s->m) {
-        const struct mesh_block *of = s->m->block + k;
-        memcpy(x, of->x[mesh_vertex(of, i[0], i[1], i[2])], (size_t)s->dim * sizeof *x);
-        return;
-    }
-    x[0] = b->origin[0] + i[0] * b->h[0];
-    x[1] = b->rows ? b->rows->edge[i[1]] : b->origin[1] + i[1] * b->h[1];
 }
 
 static void write_vertices(const struct fv *s, struct h5 *f, int k)
@@ -207,18 +164,20 @@ static void write_vertices(const struct fv *s, struct h5 *f, int k)
     const bool any = range(s, k, lo, hi);
     int64_t count = 1;
     for (int a = 0; a < 3; a++) {
-        n[a] = cells_of(s, k)[a] + (a < s->dim);
+        n[a] = grid_cells(&s->grid, k)[a] + (a < s->dim);
         hi[a] += any && a < s->dim && hi[a] == n[a] - 1;
         count *= hi[a] - lo[a];
     }
-    double *x = NEW(double, count * s->dim), *to = x;
+    double *all = NEW(double, count * s->dim), *to = all, x[3];
     for (i[2] = lo[2]; i[2] < hi[2]; i[2]++)
         for (i[1] = lo[1]; i[1] < hi[1]; i[1]++)
-            for (i[0] = lo[0]; i[0] < hi[0]; i[0]++, to += s->dim)
-                place(s, k, i, to);
+            for (i[0] = lo[0]; i[0] < hi[0]; i[0]++, to += s->dim) {
+                grid_vertex(&s->grid, k, i, x);
+                memcpy(to, x, (size_t)s->dim * sizeof *x);
+            }
     snprintf(name, sizeof name, "x_%d", k + 1);
-    h5_write_block(f, s->m ? name : "vertices", "m", s->dim, n, lo, hi, s->dim, x, false);
-    mem_free(x);
+    h5_write_block(f, s->m ? name : "vertices", "m", s->dim, n, lo, hi, s->dim, all, false);
+    mem_free(all);
 }
 
 /* Of a flat grid, in the first snapshot alone: they stay. */
@@ -243,10 +202,10 @@ static void view(const struct fv *s, struct xdmf *x, const char *file, int n,
 {
     const struct block *b = &s->b;
     int cells[MESH_BLOCKS_MAX][3];
-    for (int k = 0; k < nblocks(s); k++)
-        memcpy(cells[k], cells_of(s, k), sizeof cells[k]);
+    for (int k = 0; k < grid_blocks(&s->grid); k++)
+        memcpy(cells[k], grid_cells(&s->grid, k), sizeof cells[k]);
     if (s->m)
-        xdmf_curved(x, s->t, file, s->dim, nblocks(s), (const int(*)[3])cells, n, of);
+        xdmf_curved(x, s->t, file, s->dim, grid_blocks(&s->grid), (const int(*)[3])cells, n, of);
     else if (s->dim == 2)
         xdmf_flat(x, s->t, file, first_snapshot, b->cells, n, of);
     else
@@ -264,7 +223,7 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
         write_frame(s, f);
     if (s->run->coupled) /* Pa: what the pressures below have of the partner's level */
         h5_attribute_real(f, "datum", s->datum);
-    for (int k = 0; k < nblocks(s); k++)
+    for (int k = 0; k < grid_blocks(&s->grid); k++)
         if (s->m || (s->dim == 2 && strcmp(file, first_snapshot) == 0))
             write_vertices(s, f, k);
     for (const struct field *one = fields; one < fields + FIELDS; one++) {
@@ -274,7 +233,7 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
         for (int a = 0; a < one->ncomp; a++)
             q[a] = NEW(double, s->size);
         one->fill(s, q);
-        for (int k = 0; k < nblocks(s); k++)
+        for (int k = 0; k < grid_blocks(&s->grid); k++)
             write(s, f, k, one, q);
         for (int a = 0; a < one->ncomp; a++)
             mem_free(q[a]);

@@ -142,7 +142,7 @@ static bool load_numbers(struct fv *s, struct h5 *f)
  */
 static int boxes_of(const struct fv *s, struct layout_box *of)
 {
-    const int n = s->m ? s->m->nblocks : 1;
+    const int n = grid_blocks(&s->grid);
     for (int k = 0; k < n; k++)
         of[k] = (struct layout_box){.grid = k};
     for (int q = 0; q < s->nparts; q++) {
@@ -177,12 +177,11 @@ void fv_checkpoint(void *state, struct h5 *f)
 static bool gather(const struct fv *s, const struct layout *l, struct h5 *f, const char *name,
                    double *q)
 {
-    static const bool never[3] = {false, false, false};
     struct layout_box mine[MESH_BLOCKS_MAX];
     const int n = boxes_of(s, mine);
     bool good = true;
     for (int k = 0; good && k < n; k++)
-        good = layout_read(l, f, name, 1, mine + k, s->m ? never : s->b.periodic, q + mine[k].base);
+        good = layout_read(l, f, name, 1, mine + k, grid_periodic(&s->grid), q + mine[k].base);
     return good;
 }
 
@@ -214,8 +213,8 @@ static bool restore_grids(struct fv *s, struct h5 *f)
                 "version that does not say which");
     else
         fits = 1;
-    for (int k = 0; l && fits && k < (s->m ? s->m->nblocks : 1); k++)
-        fits = layout_fits(l, k, s->m ? s->m->block[k].n : s->b.cells);
+    for (int k = 0; l && fits && k < grid_blocks(&s->grid); k++)
+        fits = layout_fits(l, k, grid_cells(&s->grid, k));
     fits = fits && restore_fields(s, f, l);
     layout_free(&l);
     return fits;

@@ -148,7 +148,7 @@ static void keep_rows(const struct fv *s, struct mesh_pressure *p)
     p->row_col = NEW(HYPRE_BigInt, room);
     p->row_value = NEW(double, room);
     for (int k = 0; k < p->n; k++) {
-        const struct part *part = part_of_place(s, p->rows->place[k], i);
+        const struct part *part = grid_part(&s->grid, p->rows->place[k], i);
         computed_row(s->m, part, i, &r);
         if (n + r.n > room) {
             GROW(p->row_col, room, 2 * room);

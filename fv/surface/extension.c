@@ -232,7 +232,7 @@ static void fill_lanes(struct place *p, int n)
  * and where the surface goes several cells a step. */
 static int reach_of(const struct fv *s, int layer)
 {
-    const bool donors = s->m && s->m->has_fringe, far = s->prm.integrator != INTEGRATOR_RK3;
+    const bool donors = grid_overlaps(&s->grid), far = s->prm.integrator != INTEGRATOR_RK3;
     return layer <= 2 || donors || far ? 2 : 1;
 }
 
@@ -479,15 +479,6 @@ static void next_layer_row(const double *restrict least, const double *restrict 
         field[i] = field[i] == DEEP && wall[i] == 0.0 && least[i] == layer - 1.0 ? layer : field[i];
 }
 
-/* Halo of one field. */
-static void share(const struct fv *s, double *field)
-{
-    if (s->m)
-        mesh_halo(s->m, 1, &field);
-    else
-        block_halo(&s->b, 1, &field);
-}
-
 /* Spreads layer l - 1 over one part's cells. */
 static void next_layer(const struct part *p, double l, const double *wall, double *x, double *xy,
                        double *field)
@@ -523,11 +514,11 @@ static void find_layers(struct fv *s)
     for (int64_t c = 0; c < s->size; c++) /* scratch of rows that are not near water */
         s->face[c] = s->flux[c] = DEEP;
     for (int l = 1; l <= LAYERS; l++) {
-        share(s, field);
+        grid_halo(&s->grid, 1, &field);
         for (int q = 0; q < s->nparts; q++)
             next_layer(s->part + q, l, wall, s->face, s->flux, field);
     }
-    share(s, field);
+    grid_halo(&s->grid, 1, &field);
     for (int64_t c = 0; c < s->size; c++)
         f->layer[c] = (unsigned char)field[c];
     near_water_find(s);

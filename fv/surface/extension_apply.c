@@ -155,7 +155,7 @@ static void carry_velocity(const struct fv *s, const struct carry *x, int layer,
 void extension_apply(const struct fv *s, double *const u[3], enum extend how, int layers)
 {
     const struct surface *f = s->surface;
-    const bool overlaps = s->m && s->m->has_fringe;
+    const bool overlaps = grid_overlaps(&s->grid);
     const int last = overlaps ? LAYERS : layers;
     for (int64_t i = 0; i < f->ndeep; i++)
         for (int q = 0; q < s->dim; q++)
@@ -164,7 +164,7 @@ void extension_apply(const struct fv *s, double *const u[3], enum extend how, in
         memset(f->stress, 0, (size_t)s->size * sizeof(double));
     for (int pass = 0; pass < (overlaps ? 2 : 1); pass++)
         for (int l = 1; l <= last; l++) {
-            surface_fill(s, s->dim, u);
+            grid_fill(&s->grid, s->dim, u);
             for (int64_t i = 0; i < f->ncarry[l]; i++)
                 carry_velocity(s, f->carry[l] + i, l, how, u);
         }
@@ -184,7 +184,7 @@ void extension_scalar(const struct fv *s, double *q)
     const struct surface *f = s->surface;
     struct stencil_values r;
     for (int l = 1; l <= 2; l++) {
-        surface_fill(s, 1, &q);
+        grid_fill(&s->grid, 1, &q);
         for (int64_t i = 0; i < f->ncarry[l]; i++) {
             const struct carry *x = f->carry[l] + i;
             look(f, x, 1, &q, &r);
@@ -193,7 +193,7 @@ void extension_scalar(const struct fv *s, double *q)
             q[x->cell] = x->n > 0 ? within(r.v[0], x->n, l, false, v) : 0.0;
         }
     }
-    surface_fill(s, 1, &q);
+    grid_fill(&s->grid, 1, &q);
 }
 
 void extension_beyond(const struct fv *s, double *q)

@@ -67,19 +67,6 @@ bool fraction_wanted(const struct fv *s)
     return s->prm.volume != VOLUME_SHIFT && !fraction_obstacle(s->run, s->m, s->surface->least);
 }
 
-double fraction_size(const struct fv *s, int64_t c, int a)
-{
-    if (s->m)
-        return s->m->V[c] / s->m->S[a][a][c];
-    return block_size(&s->b, a, a == 1 && s->b.rows ? block_row(&s->b, c) : 0);
-}
-
-static void set_volumes(const struct fv *s, double *volume)
-{
-    for (int64_t c = 0; c < s->size; c++)
-        volume[c] = s->m ? s->m->V[c] : block_volume(&s->b, s->b.rows ? block_row(&s->b, c) : 0);
-}
-
 static struct fraction *create(const struct fv *s)
 {
     struct fraction *f = NEW(struct fraction, 1);
@@ -92,7 +79,8 @@ static struct fraction *create(const struct fv *s)
         f->flow[a] = NEW(double, s->size);
     }
     f->smooth = NEW(unsigned char, s->size);
-    set_volumes(s, f->volume);
+    for (int64_t c = 0; c < s->size; c++)
+        f->volume[c] = grid_volume(&s->grid, c);
     return f;
 }
 
@@ -232,8 +220,9 @@ bool fraction_normal(const struct fv *s, const struct part *p, int64_t c, double
     double sum = 0.0;
     for (int a = 0; a < s->dim; a++) {
         const int64_t d = p->stride[a];
-        const double h = fraction_size(s, c, a);
-        const double over = 0.5 * (fraction_size(s, c - d, a) + fraction_size(s, c + d, a)) + h;
+        const double h = grid_height(&s->grid, c, a);
+        const double over =
+            0.5 * (grid_height(&s->grid, c - d, a) + grid_height(&s->grid, c + d, a)) + h;
         n[a] = -(beside(s, p, c, a, d) - beside(s, p, c, a, -d)) * h / over;
         sum += fabs(n[a]);
     }
@@ -266,7 +255,7 @@ static void find_planes(struct fv *s)
                     set_plane(s, part, i);
         }
     double *fields[4] = {f->alpha, f->n[0], f->n[1], f->n[2]};
-    surface_fill(s, 1 + s->dim, fields);
+    grid_fill(&s->grid, 1 + s->dim, fields);
 }
 
 /* --- fluxes --- */

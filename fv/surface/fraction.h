@@ -72,7 +72,5 @@ bool fraction_is_calm(const struct fv *s);
 bool fraction_normal(const struct fv *s, const struct part *p, int64_t c, double *n);
 /* Whether a cell holds both water and air. */
 static inline bool fraction_is_mixed(double C) { return C > 0.0 && C < 1.0; }
-/* m: size of cell c along axis a. */
-double fraction_size(const struct fv *s, int64_t c, int a);
 
 #endif

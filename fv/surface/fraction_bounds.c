@@ -79,7 +79,7 @@ static void exchange(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
     double *const fields[2] = {f->work, f->next};
-    surface_fill(s, 2, fields);
+    grid_fill(&s->grid, 2, fields);
     FLOW_NEAR_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++)
             f->flux[i] = takes_part(s, i) ? received(s, part, i) / f->volume[i] : 0.0;

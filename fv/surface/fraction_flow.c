@@ -35,8 +35,8 @@ static bool is_free(const struct fv *s, int64_t c, int64_t d)
 /* m^(dim-2): area of the lower face over the distance of the centres. */
 static double conductance(const struct fv *s, int64_t c, int64_t d, int a)
 {
-    const double h = fraction_size(s, c, a);
-    return s->surface->fraction->volume[c] / h / (0.5 * (h + fraction_size(s, c - d, a)));
+    const double h = grid_height(&s->grid, c, a);
+    return s->surface->fraction->volume[c] / h / (0.5 * (h + grid_height(&s->grid, c - d, a)));
 }
 
 /* A cell of air as the sweeps see it. */
@@ -107,7 +107,7 @@ static void take_divergence_away(struct fv *s)
     memset(f->work, 0, (size_t)s->size * sizeof(double));
     for (int k = 0; k < 2 * SWEEPS; k++) {
         relax(s, k % 2);
-        surface_fill(s, 1, &f->work);
+        grid_fill(&s->grid, 1, &f->work);
     }
     for (int a = 0; a < s->dim; a++) {
         int up[3] = {0, 0, 0};
@@ -132,7 +132,7 @@ void fraction_set_flows(struct fv *s)
             PART_NEAR (p, none, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
                     f->flow[a][i] =
-                        s->m ? s->U[a][i] : s->U[a][i] * f->volume[i] / fraction_size(s, i, a);
+                        s->m ? s->U[a][i] : s->U[a][i] * f->volume[i] / grid_height(&s->grid, i, a);
     }
     take_divergence_away(s);
 }

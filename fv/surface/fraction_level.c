@@ -15,7 +15,7 @@ static double slope2(const struct fv *s, int64_t c, const double *n)
 {
     double sum = 0.0;
     for (int a = 0; a < s->dim; a++) {
-        const double g = n[a] / fraction_size(s, c, a);
+        const double g = n[a] / grid_height(&s->grid, c, a);
         sum += g * g;
     }
     return sum;
@@ -30,7 +30,7 @@ static bool is_smooth(const struct fv *s, const struct part *p, int64_t c)
     for (int a = 0; a < s->dim; a++) {
         const int64_t d = p->stride[a];
         const bool down = !surface_holds_none(s, c - d), up = !surface_holds_none(s, c + d);
-        const double h = fraction_size(s, c, a),
+        const double h = grid_height(&s->grid, c, a),
                      g = ((up ? q[d] - q[0] : 0.0) + (down ? q[0] - q[-d] : 0.0)) / h;
         if (up && down && fabs(q[d] - 2.0 * q[0] + q[-d]) > 0.3 * h)
             return false;
@@ -93,7 +93,7 @@ static double wanted(const struct fv *s, const struct part *p, int64_t c, bool t
     const double C = s->surface->fraction->C[c], phi = s->surface->phi[c];
     double n[3] = {0.0, 0.0, 0.0}, h = 0.0, size = 0.0;
     for (int a = 0; a < s->dim; a++)
-        h = greater(h, fraction_size(s, c, a));
+        h = greater(h, grid_height(&s->grid, c, a));
     if (fabs(phi) > 2.0 * h)
         return (C > 0.5) != (phi < 0.0) ? (0.5 - C) * h : phi;
     if (!slopes_of(s, p, c, trusted, n)) /* amid water, or air, alone */
@@ -141,7 +141,7 @@ static bool is_beside(const struct fv *s, const struct part *p, int64_t c)
     surface_slopes(s, p, c, n);
     for (int a = 0; a < s->dim; a++) {
         across += fabs(n[a]);
-        least = lesser(least, fraction_size(s, c, a));
+        least = lesser(least, grid_height(&s->grid, c, a));
     }
     return fabs(s->surface->phi[c]) <= 1.5 * greater(across, least);
 }

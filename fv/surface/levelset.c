@@ -304,7 +304,7 @@ static double reach_at(const struct fv *s, const struct part *p, int64_t c)
 
 double surface_share(const struct fv *s, int64_t c)
 {
-    const struct part *p = surface_part(s, c);
+    const struct part *p = grid_part(&s->grid, c, NULL);
     const double phi = s->surface->phi[c];
     return fabs(phi) > reach_at(s, p, c) ? phi < 0.0 : share_at(s, p, c, 0.0);
 }
@@ -314,9 +314,14 @@ double surface_cell_volume(const struct fv *s, int64_t c, int j)
     return s->m ? s->surface->mesh->count[c] : block_volume(&s->b, j);
 }
 
+double surface_counted(const struct fv *s, int64_t c, double share)
+{
+    return s->m ? share * s->surface->mesh->count[c] / s->m->V[c] : share;
+}
+
 double surface_face_share(const struct fv *s, int64_t c, int a)
 {
-    const struct part *p = surface_part(s, c);
+    const struct part *p = grid_part(&s->grid, c, NULL);
     const double *q = s->surface->phi + c;
     const int64_t d = p->stride[a];
     double n[3] = {0.0, 0.0, 0.0};
@@ -341,7 +346,7 @@ static void correct_shared(const struct fv *s, double sums[2])
     const struct surface_mesh *w = s->surface->mesh;
     for (int64_t k = 0; k < w->nshared; k++) {
         const struct shared_cell *x = w->shared + k;
-        const struct part *p = surface_part(s, x->cell);
+        const struct part *p = grid_part(&s->grid, x->cell, NULL);
         const double h = surface_mesh_spacing(s, p), e = 1e-4 * h, volume = w->count[x->cell];
         if (fabs(s->surface->phi[x->cell]) > 3.0 * h)
             continue;

@@ -82,23 +82,6 @@ struct surface {
     int64_t setups, reinits, repeats;
 };
 
-/* The part that place c is in. */
-static inline const struct part *surface_part(const struct fv *s, int64_t c)
-{
-    const struct part *p = s->part;
-    while (c >= p->base + p->size)
-        p++;
-    return p;
-}
-/* Ghosts of nf fields between parts, on blocks the fringe, too. */
-static inline void surface_fill(const struct fv *s, int nf, double *const *f)
-{
-    if (s->m)
-        mesh_fill(s->m, nf, f);
-    else
-        block_halo(&s->b, nf, f);
-}
-
 /* levelset.c */
 struct surface *levelset_create(const struct fv *s);
 void levelset_free(struct surface **w);
@@ -132,6 +115,8 @@ double surface_face_share(const struct fv *s, int64_t c, int a);
 
 /* m^dim: volume of cell c, in local row j, that counts: of places where blocks overlap once. */
 double surface_cell_volume(const struct fv *s, int64_t c, int j);
+/* -: the part of a share of cell c that counts, where blocks share the cell. */
+double surface_counted(const struct fv *s, int64_t c, double share);
 /* Further off (m) than any cell can be: phi within boxes that are cut out, which are no water. */
 static inline double surface_far(const struct fv *s)
 {

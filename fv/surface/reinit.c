@@ -324,10 +324,7 @@ static void mark_band(const struct fv *s, int width, double *mark)
     for (int done = 1, m; done < width; done += m) {
         m = width - done < GHOSTS ? width - done : GHOSTS;
         for (int a = 0; a < s->dim; a++) {
-            if (s->m)
-                mesh_halo(s->m, 1, &mark);
-            else
-                block_halo(&s->b, 1, &mark);
+            grid_halo(&s->grid, 1, &mark);
             FLOW_NEAR_AT (s, part, j, c, len)
                 widen_row(mark + c, part->stride[a], m, len, next + c);
             FLOW_NEAR (s, c, len)

@@ -224,7 +224,7 @@ void surface_mesh_interpolate(const struct fv *s, const double *d, double *const
     for (int a = 0; a < s->dim; a++)
         for (int64_t k = 0; k < w->nface[a]; k++) {
             const struct wet_face *x = w->face[a] + k;
-            const int64_t c = x->face, below = c - surface_part(s, c)->stride[a];
+            const int64_t c = x->face, below = c - grid_part(&s->grid, c, NULL)->stride[a];
             const double each = is_wet(s, below) ? d[below] : d[c],
                          other = is_wet(s, c) ? d[c] : d[below];
             double mean = 0.0;
@@ -312,7 +312,7 @@ static void gradient_beside_partner(const struct fv *s, double *const F[3], doub
     int64_t cell, n;
     for (int a = 0; a < s->dim; a++)
         for (int64_t i = 0; i < g->nface[a]; i++) {
-            const int64_t face = g->face[a][i], d = surface_part(s, face)->stride[a];
+            const int64_t face = g->face[a][i], d = grid_part(&s->grid, face, NULL)->stride[a];
             if (g->counts[a][i])
                 F[a][face] = F[a][face - g->sign[a][i] * d];
         }
@@ -321,7 +321,7 @@ static void gradient_beside_partner(const struct fv *s, double *const F[3], doub
         for (int64_t k = 0; k < n; k++)
             leaves = leaves || is_air(s, place[k]);
         if (leaves && s->free[cell] > 0.0)
-            mean_of_faces(s, surface_part(s, cell), cell, F, out);
+            mean_of_faces(s, grid_part(&s->grid, cell, NULL), cell, F, out);
     }
 }
 

@@ -1,6 +1,5 @@
 /* surface_forced.c - see surface_forced.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "surface_forced.h"
-#include "../boundary/cell_places.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,7 +43,7 @@ static void list_places(const struct fv *s, struct surface_forced *f)
     int64_t room = 0;
     f->first = NEW(int64_t, f->n + 1);
     for (int64_t i = 0; i < f->n; i++) {
-        cell_centre(s, f->cell[i], x[0]);
+        forcing_centre(s, f->cell[i], x[0]);
         const int n = walls ? block_walls_images(walls, f->R, x) : images(s, f->R, x);
         require(n <= IMAGES_MOST);
         if (f->first[i] + n > room) {
@@ -66,7 +65,7 @@ static double largest(const struct fv *s, const struct surface_forced *f)
     for (int a = 0; a < s->dim && !s->m; a++)
         h = fmax(h, s->b.h[a]);
     for (int64_t i = 0; s->m && i < f->n; i++) {
-        const struct part *p = surface_part(s, f->cell[i]);
+        const struct part *p = grid_part(&s->grid, f->cell[i], NULL);
         const struct surface_mesh *w = s->surface->mesh;
         for (int a = 0; a < s->dim; a++)
             h = fmax(h, w->size[p - s->part][a] / sqrt(w->K[a][a][f->cell[i]]));

@@ -67,7 +67,7 @@ struct gauge_line {
 static bool look(const struct fv *s, int a, const struct cut *x, const double *psi, bool change,
                  struct gauge_line *to)
 {
-    const struct part *p = surface_part(s, x->wet);
+    const struct part *p = grid_part(&s->grid, x->wet, NULL);
     const bool above = x->up > 0.0; /* the dry cell is */
     const int64_t up = p->stride[a], d = above ? -up : up, face = above ? x->wet : x->wet + d;
     if (!surface_takes_lines(s, p) || !is_deep(s, x->wet, d))
@@ -86,7 +86,7 @@ static bool look(const struct fv *s, int a, const struct cut *x, const double *p
 
 bool surface_takes_lines(const struct fv *s, const struct part *p)
 {
-    return !surface_leans(s, p) && !(s->m && s->m->has_fringe);
+    return !surface_leans(s, p) && !grid_overlaps(&s->grid);
 }
 
 void surface_line_slopes(const struct fv *s, int a, const double *psi, bool change, double *out)
@@ -103,7 +103,7 @@ void surface_line_slopes(const struct fv *s, int a, const double *psi, bool chan
 /* grad psi of a part's own cell by the change of what its faces along a have for it. */
 static void add_change(const struct fv *s, int a, int64_t c, double change, double *const out[3])
 {
-    const struct part *p = surface_part(s, c);
+    const struct part *p = grid_part(&s->grid, c, NULL);
     double *const *x = s->surface->mesh->x;
     int at[3];
     part_index(p, c, at);

@@ -283,7 +283,7 @@ double surface_mesh_shared_water(const struct fv *s, const struct shared_cell *x
     const struct surface_mesh *w = s->surface->mesh;
     const double *phi = s->surface->phi;
     double g[3], sum;
-    surface_mesh_gradient(s, surface_part(s, x->cell), x->cell, phi, g);
+    surface_mesh_gradient(s, grid_part(&s->grid, x->cell, NULL), x->cell, phi, g);
     const double d = g[0] * w->x[0][x->cell] + g[1] * w->x[1][x->cell] - phi[x->cell] - shift;
     struct polygon p = x->own;
     clip(&p, g[0], g[1], d);

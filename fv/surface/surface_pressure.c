@@ -117,7 +117,7 @@ void surface_set_pressure(struct fv *s)
 {
     struct surface *f = s->surface;
     if (s->nu > 0.0)
-        surface_fill(s, 1, &f->stress);
+        grid_fill(&s->grid, 1, &f->stress);
     for (int a = 0; a < s->dim; a++)
         for (int64_t i = 0; i < f->ncut[a]; i++) {
             struct cut *x = f->cut[a] + i;

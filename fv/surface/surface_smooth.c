@@ -81,7 +81,7 @@ static double share_of(const struct fv *s, const struct part *p, int a, double d
     const double calm = fmax(0.0, 1.0 - 2.0 * s->rate * dt);
     if (surface_leans(s, p))
         return 1.0;
-    if (s->m && s->m->has_fringe)
+    if (grid_overlaps(&s->grid))
         return s->surface->mesh->slanting ? 1.0 : 0.5;
     return calm * flatness(s, p, a) * fmin(0.5, 2.0 * s->surface->g * dt * dt / s->surface->across);
 }
@@ -90,7 +90,7 @@ void surface_smooth(struct fv *s, double dt)
 {
     for (int q = 0; q < s->nparts; q++) {
         const struct part *p = s->part + q;
-        const bool leans = surface_leans(s, p), overlaps = s->m && s->m->has_fringe && !leans;
+        const bool leans = surface_leans(s, p), overlaps = grid_overlaps(&s->grid) && !leans;
         double share[3];
         for (int a = 0; a < s->dim; a++)
             share[a] = share_of(s, p, a, dt);

@@ -72,12 +72,6 @@ static void set_sides(struct fv *s, double t, double dt)
     levels_set(s, t);
 }
 
-static void ghosts(struct fv *s, enum bc_value what, double *const u[3])
-{
-    mesh_fill(s->m, s->dim, u);
-    mesh_bc_velocity(s, what, u);
-}
-
 static void finish_rhs(struct fv *s)
 {
     for (int a = 0; a < s->dim; a++)
@@ -159,8 +153,6 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
     if (s->surface)
         surface_mesh_psi_gradient(s, tau, psi, false, s->rhs);
 }
-
-static void fill_velocity(struct fv *s) { ghosts(s, BC_GIVEN, s->u); }
 
 static void dry_fluxes(struct fv *s)
 {
@@ -286,6 +278,5 @@ const struct stages block_stages = {.pressure_gradient = pressure_gradient,
                                     .predict_fluxes = predict_fluxes,
                                     .solve_pressure = solve_pressure,
                                     .correct_fluxes = correct_fluxes,
-                                    .fill_velocity = fill_velocity,
                                     .dry_fluxes = dry_fluxes,
                                     .measure = measure_blocks};

@@ -144,12 +144,6 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
     }
 }
 
-static void fill_velocity(struct fv *s)
-{
-    bc_ghosts(s, BC_GIVEN, s->u);
-    block_halo(&s->b, s->dim, s->u);
-}
-
 static void dry_fluxes(struct fv *s)
 {
     surface_dry_fluxes(s);
@@ -206,6 +200,5 @@ const struct stages even_stages = {.pressure_gradient = pressure_gradient,
                                    .predict_fluxes = predict_fluxes,
                                    .solve_pressure = solve_pressure,
                                    .correct_fluxes = correct_fluxes,
-                                   .fill_velocity = fill_velocity,
                                    .dry_fluxes = dry_fluxes,
                                    .measure = measure_even};

@@ -1,6 +1,5 @@
 /* fv_step.c - size of a step, what it may not do, and the surface around it.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../boundary/cell_places.h"
 #include "stages.h"
 
 #include <math.h>
@@ -8,7 +7,8 @@
 #include <string.h>
 
 #include "../../common/base/mem.h"
-#include "../boundary/bc.h"
+#include "../boundary/forcing.h"
+#include "../boundary/fv_sides.h"
 #include "../boundary/outflow.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
@@ -55,12 +55,12 @@ static bool step_with_surface(struct fv *s, double *dt, struct diagnosis *d)
 void cell_place(const struct fv *s, int64_t c, char *text, size_t size, double x[3])
 {
     int at[3];
-    const struct part *p = part_of_place(s, c, at);
+    const struct part *p = grid_part(&s->grid, c, at);
     const int n = snprintf(text, size, "cell (%d, %d, %d)", p->lo[0] + at[0], p->lo[1] + at[1],
                            p->lo[2] + at[2]);
-    if (s->m)
-        snprintf(text + n, size - (size_t)n, " of block \"%s\"", s->m->block[p->block].prm->name);
-    cell_centre(s, c, x);
+    if (grid_name(&s->grid, p->block))
+        snprintf(text + n, size - (size_t)n, " of block \"%s\"", grid_name(&s->grid, p->block));
+    grid_centre(&s->grid, p, at, x);
 }
 
 /* Fills d with the fastest cell, if this rank has it. */
@@ -95,9 +95,9 @@ static void diagnose(const struct fv *s, double dt, double before, bool good, st
     const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
     if (!isfinite(most) || !(most <= s->u_limit)) {
         find_worst(s, before, d);
-    } else if (*moving_trouble(s)) {
+    } else if (*grid_trouble(&s->grid)) {
         d->bad = true;
-        snprintf(d->reason, sizeof d->reason, "%s", moving_trouble(s));
+        snprintf(d->reason, sizeof d->reason, "%s", grid_trouble(&s->grid));
         snprintf(d->where, sizeof d->where, "step of %g s", dt);
         snprintf(d->likely, sizeof d->likely,
                  "a smaller motion, a background that reaches further or is as fine as the block "
@@ -141,7 +141,7 @@ static void find_pressure(struct fv *s, double dt)
 void pressure_start(struct fv *s)
 {
     /* newton has no use for the pressure before, but the first output has */
-    if ((s->newton && !s->surface) || bc_kinds(s) & 1u << MESH_INFLOW)
+    if ((s->newton && !s->surface) || sides_kinds(s) & 1u << MESH_INFLOW)
         return;
     const size_t bytes = (size_t)s->size * sizeof(double);
     const double dt = 1e-3 * fmin(limits_of(s).dt, s->run->scene.time.end);

@@ -114,8 +114,6 @@ void moving_free(struct moving **vp)
     *vp = NULL;
 }
 
-const char *moving_trouble(const struct fv *s) { return s->m ? s->m->trouble : ""; }
-
 /* --- what cells are --- */
 
 /* All blocks' status and the store change places. */

@@ -43,8 +43,6 @@ void moving_change(struct fv *s);
 void moving_end(struct fv *s);
 /* Cells that moving blocks pass a second now or within a step, 1/s. */
 double moving_rate(const struct fv *s);
-/* What stops the run, over this rank: "": nothing. */
-const char *moving_trouble(const struct fv *s);
 void moving_save(const struct fv *s, struct h5 *f);
 bool moving_restore(struct fv *s, struct h5 *f);
 

@@ -78,12 +78,7 @@ static double tolerance(const struct fv *s, double all)
 
 static int longest_row(const struct fv *s)
 {
-    int most = 0;
-    for (int q = 0; q < s->nparts; q++)
-        for (int a = 0; a < s->dim; a++)
-            most = s->part[q].n[a] > most ? s->part[q].n[a] : most;
-    for (int a = 0; !s->m && a < s->dim; a++)
-        most = s->b.cells[a] > most ? s->b.cells[a] : most;
+    int most = grid_longest(&s->grid);
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_INT, MPI_MAX, s->comm);
     return most;
 }

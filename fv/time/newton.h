@@ -40,7 +40,6 @@ struct newton_cells {
     void (*evaluate_variation)(struct fv *s);
     /* Rows A of the preconditioner from the fluxes of the state. */
     void (*fill_rows)(struct fv *s);
-    void (*fill_ghosts)(struct fv *s, double *const x[3]);
     /* div -= D I(x) */
     void (*subtract_divergence)(struct fv *s, double *const x[3], double *div);
     /* phi ~ (shift - Lap)^-1 div by one cycle, with ghosts. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../boundary/forcing.h"
+#include "../boundary/fv_sides.h"
 #include "../boundary/mesh_bc.h"
 #include "../operators/mesh_ops.h"
 #include "../poisson/poisson.h"
@@ -120,8 +121,7 @@ static void complete(struct fv *s)
         forcing_velocity(s, s->newton->of.t, s->u);
         forcing_extend(s, 1, s->p); /* for slopes along faces */
     }
-    mesh_fill(s->m, s->dim, s->u);
-    mesh_bc_velocity(s, BC_GIVEN, s->u);
+    sides_velocity(s, BC_GIVEN, s->u);
     mesh_fill(s->m, 1, &s->p);
     mesh_bc_pressure(s, s->p);
     mesh_gradient(s, s->p, s->newton->G);
@@ -228,19 +228,13 @@ static void fill_rows(struct fv *s)
         poisson_shift(s, pow(s->newton->of.c0 / s->prm.c0, 2.0));
 }
 
-static void fill_ghosts(struct fv *s, double *const x[3])
-{
-    mesh_fill(s->m, s->dim, x);
-    mesh_bc_velocity(s, BC_ZERO, x);
-}
-
 static void subtract_divergence(struct fv *s, double *const x[3], double *div)
 {
     const struct mesh *m = s->m;
     const struct newton *w = s->newton;
     if (s->surface) {
         extension_apply(s, x, EXTEND_CHANGE, STENCILS);
-        fill_ghosts(s, x);
+        sides_velocity(s, BC_ZERO, x);
     }
     FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
@@ -290,7 +284,6 @@ static void gradient_of(struct fv *s, const double *phi, double *const g[3])
 const struct newton_cells newton_blocks = {.set_rates = set_rates,
                                            .evaluate = evaluate,
                                            .fill_rows = fill_rows,
-                                           .fill_ghosts = fill_ghosts,
                                            .subtract_divergence = subtract_divergence,
                                            .cycle = cycle,
                                            .gradient = gradient_of,

@@ -7,6 +7,7 @@
 
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
+#include "../boundary/fv_sides.h"
 #include "../operators/operators.h"
 #include "../poisson/poisson.h"
 #include "../surface/levelset.h"
@@ -335,19 +336,13 @@ static void fill_rows(struct fv *s)
     poisson_shift(s, a * c0 * c0);
 }
 
-static void zero_ghosts(struct fv *s, double *const x[3])
-{
-    bc_ghosts(s, BC_ZERO, x);
-    block_halo(&s->b, s->dim, x);
-}
-
 /* div -= D I(x) */
 static void subtract_divergence(struct fv *s, double *const x[3], double *restrict div)
 {
     const struct block *b = &s->b;
     if (s->surface) {
         extension_apply(s, x, EXTEND_CHANGE, STENCILS);
-        zero_ghosts(s, x);
+        sides_velocity(s, BC_ZERO, x);
     }
     for (int a = 0; a < b->dim; a++) {
         const int64_t d = b->stride[a];
@@ -391,7 +386,6 @@ const struct newton_cells newton_even = {.set_rates = set_rates,
                                          .evaluate = evaluate,
                                          .evaluate_variation = evaluate_variation,
                                          .fill_rows = fill_rows,
-                                         .fill_ghosts = zero_ghosts,
                                          .subtract_divergence = subtract_divergence,
                                          .cycle = cycle,
                                          .gradient = gradients,

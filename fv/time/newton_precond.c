@@ -10,6 +10,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "../boundary/fv_sides.h"
+
 int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, void *user)
 {
     struct fv *s = user;
@@ -80,7 +82,7 @@ static void smooth(struct fv *s, double *const r[3], double *const x[3])
     for (int k = 0; k < n; k++) {
         for (int q = 0; q < s->nparts; q++)
             sweep_part(s, s->part + q, r, x, k % 2);
-        s->newton->cells_of->fill_ghosts(s, x);
+        sides_velocity(s, BC_ZERO, x);
     }
 }
 

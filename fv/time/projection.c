@@ -47,7 +47,7 @@ void projection(struct fv *s, double t, int stage, double tau, double tol)
     }
     if (s->surface)
         end_surface_stage(s, tau, psi, stage == 2 || s->prm.integrator == INTEGRATOR_BDF2);
-    s->stages->fill_velocity(s);
+    sides_velocity(s, BC_GIVEN, s->u);
     if (s->surface)
         s->stages->dry_fluxes(s);
     stop(s, "operators");
@@ -199,7 +199,7 @@ static bool step_bdf2(struct fv *s, double dt)
     const double tau = dt / c0;
     begin_step(s);
     /* fringes interpolate from air, too, where it would be that of two steps before */
-    for (int a = 0; s->surface && s->m && s->m->has_fringe && a < s->dim; a++)
+    for (int a = 0; s->surface && grid_overlaps(&s->grid) && a < s->dim; a++)
         memset(s->N_old[a], 0, (size_t)s->size * sizeof(double));
     step_convection(s);
     for (int a = 0; s->surface && a < s->dim; a++)

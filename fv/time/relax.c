@@ -1,10 +1,10 @@
 /* relax.c - see relax.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "relax.h"
-#include "../boundary/cell_places.h"
 
 #include <math.h>
 
 #include "../../common/scene/wave_zones.h"
+#include "../boundary/forcing.h"
 #include "../surface/levelset.h"
 #include "stages.h"
 
@@ -18,7 +18,7 @@ void relax_zones(struct fv *s, double dt)
             double x[3], u_w[3];
             if (s->surface && s->surface->layer[i] == DEEP)
                 continue;
-            cell_centre(s, i, x);
+            forcing_centre(s, i, x);
             const double rate = wave_zones_rate(s->wave_zones, x, u_w);
             if (rate == 0.0)
                 continue;
@@ -30,5 +30,5 @@ void relax_zones(struct fv *s, double dt)
                     s->u_old[a][i] += change;
             }
         }
-    s->stages->fill_velocity(s);
+    sides_velocity(s, BC_GIVEN, s->u);
 }

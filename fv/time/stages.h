@@ -3,7 +3,7 @@
 #ifndef FV_STAGES_H
 #define FV_STAGES_H
 
-#include "../boundary/bc.h"
+#include "../boundary/fv_sides.h"
 #include "../fv.h"
 #include "../operators/operators.h"
 #include "steps.h"
@@ -29,8 +29,6 @@ struct stages {
     bool (*solve_pressure)(struct fv *s, int stage, double tau, double tol);
     /* U less tau times the flux of psi; rhs = grad psi. */
     void (*correct_fluxes)(struct fv *s, double tau, double *psi);
-    /* Ghosts of the projected velocity. */
-    void (*fill_velocity)(struct fv *s);
     /* With a surface: U of faces between dry cells, from u with its ghosts. */
     void (*dry_fluxes)(struct fv *s);
     void (*measure)(struct fv *s);

@@ -73,7 +73,7 @@ static void add_velocities(struct fv *s)
     if (!any && !s->m)
         return;
     extension_apply(s, s->u, EXTEND_FREE, LAYERS);
-    s->stages->fill_velocity(s);
+    sides_velocity(s, BC_GIVEN, s->u);
     if (s->m)
         mesh_face_velocities(s, s->u, s->U);
     else
@@ -84,7 +84,7 @@ void surface_extend(struct fv *s, int layers)
 {
     extension_apply(s, s->u, EXTEND_SHEAR, layers);
     surface_set_pressure(s);
-    s->stages->fill_velocity(s);
+    sides_velocity(s, BC_GIVEN, s->u);
     s->stages->dry_fluxes(s);
 }
 
@@ -265,20 +265,20 @@ static void add_outline(const struct fv *s, double sums[2])
     const struct forcing *g = s->forcing;
     for (int a = 0; a < s->dim; a++)
         for (int64_t i = 0; i < g->nface[a]; i++) {
-            const int64_t c = g->face[a][i], d = surface_part(s, c)->stride[a];
+            const int64_t c = g->face[a][i], d = grid_part(&s->grid, c, NULL)->stride[a];
             if (!g->counts[a][i] || (g->forced[c] != 1 && g->forced[c - d] != 1))
                 continue;
-            const double area = s->m ? 1.0 : forcing_face_area(s, c, a);
-            const double in = -g->sign[a][i] * area * s->U[a][c] * surface_face_share(s, c, a);
+            const double in = -g->sign[a][i] * grid_flow_area(&s->grid, c, a) * s->U[a][c] *
+                              surface_face_share(s, c, a);
             sums[0] += in;
             sums[1] += fabs(in);
         }
 }
 
-/* Of a cell on blocks: water in it that counts. */
+/* Of a cell: water in it that counts. */
 static double share_that_counts(const struct fv *s, int64_t c)
 {
-    return surface_share(s, c) * surface_cell_volume(s, c, 0) / s->m->V[c];
+    return surface_counted(s, c, surface_share(s, c));
 }
 
 /* m^dim/s: water that comes in through openings less what leaves, their sum, and the former without
@@ -286,10 +286,7 @@ static double share_that_counts(const struct fv *s, int64_t c)
 static void flows(const struct fv *s, double sums[3])
 {
     sums[0] = sums[1] = 0.0;
-    if (s->m)
-        mesh_bc_passing(s, share_that_counts, sums);
-    else
-        bc_passing(s, surface_share, sums);
+    sides_passing(s, share_that_counts, sums);
     sums[2] = sums[0];
     if (s->surface->forced)
         add_outline(s, sums);
@@ -459,13 +456,8 @@ void surface_back(struct fv *s)
 
 const char *surface_trouble(const struct fv *s)
 {
-    bool fills = false, leaves = s->m ? mesh_bc_pressure_given(s) : s->bc && s->bc->pressure_given;
-    for (int k = 0; s->bc && k < 6; k++)
-        fills = fills || s->bc->kind[k] == MESH_INFLOW;
-    for (int k = 0; s->m && k < s->m->nblocks; k++)
-        for (int side = 0; side < 6; side++)
-            fills = fills || s->m->block[k].side[side] == MESH_INFLOW;
-    if (s->surface->cuts == 0 && fills && !leaves)
+    const bool fills = sides_kinds(s) & 1u << MESH_INFLOW;
+    if (s->surface->cuts == 0 && fills && !sides_give_pressure(s))
         return "the domain is full of water, and more flows in";
     return s->surface->wet > 0 || s->surface->forced ? NULL : "no cell holds water any more";
 }

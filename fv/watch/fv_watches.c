@@ -1,5 +1,4 @@
 /* fv_watches.c - looks at the flow on any grid. SPDX-License-Identifier: BSD-3-Clause */
-#include "../boundary/cell_places.h"
 #include "watches.h"
 
 #include <math.h>
@@ -7,9 +6,8 @@
 
 #include "../../common/base/log.h"
 #include "../../common/scene/wave_zones.h"
-#include "../boundary/bc.h"
 #include "../boundary/forcing.h"
-#include "../boundary/mesh_bc.h"
+#include "../boundary/fv_sides.h"
 #include "../boundary/still.h"
 #include "../surface/fraction.h"
 #include "../surface/levelset.h"
@@ -22,18 +20,13 @@
 
 static bool is_periodic(const struct fv *s, unsigned sides)
 {
-    bool all = !s->surface && !s->blocked;
-    for (int a = 0; a < s->dim && !s->m; a++)
-        all = all && s->b.periodic[a];
-    return all && (!s->m || sides < 1u << MESH_WALL);
+    return !s->surface && !s->blocked && sides < 1u << MESH_WALL;
 }
 
 /* Whether a wall moves along itself, on any rank. */
 static bool walls_slide(const struct fv *s)
 {
-    bool any = s->m && mesh_bc_slides(s);
-    for (int k = 0; s->bc && k < 6; k++)
-        any = any || s->bc->slides[k];
+    bool any = sides_slide(s);
     MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_C_BOOL, MPI_LOR, s->comm);
     return any;
 }
@@ -45,19 +38,19 @@ static bool walls_slide(const struct fv *s)
  * a surface. */
 struct watches *fv_watches_create(const struct fv *s)
 {
-    const struct mesh *m = s->m;
-    const unsigned sides = bc_kinds(s);
+    const unsigned sides = sides_kinds(s);
+    const bool overlaps = grid_overlaps(&s->grid);
     const bool filled = s->run->coupled || s->prm.hole[1][0] > s->prm.hole[0][0],
                open = sides & (1u << MESH_INFLOW | 1u << MESH_OUTFLOW | 1u << MESH_CARRIED),
-               slides = walls_slide(s), moves = m && m->moves;
+               slides = walls_slide(s), moves = grid_moves(&s->grid);
     struct watches *w = watches_create(s->run, &s->prm, is_periodic(s, sides), s->surface != NULL);
-    if ((m && m->has_fringe) || (s->surface && surface_any_leans(s))) {
+    if (overlaps || (s->surface && surface_any_leans(s))) {
         w->energy.warn *= 10.0;
         if (!s->surface)
             w->energy.stop *= 10.0;
         w->least = 1e-6; /* work of rough velocities that hardly move is not known at all */
     }
-    if (m && m->has_fringe && s->surface)
+    if (overlaps && s->surface)
         w->energy.likely = "the step or the cells are too large for this flow (fv.cfl at half its "
                            "value tells which), or a block ends where the surface runs along its "
                            "side: let it end some cells further up or down";
@@ -70,7 +63,7 @@ struct watches *fv_watches_create(const struct fv *s)
     w->has_energy =
         !filled && !moves && !s->prm.steady && s->prm.c0 == 0.0 && !(s->surface && slides);
     w->has_growth = !s->run->coupled && !moves && !s->surface && !s->newton;
-    if (m) { /* faces are mapped anew; walls and openings of blocks count, too */
+    if (s->sides) { /* faces are mapped anew; walls and openings of blocks count, too */
         w->energy_every = 20;
         w->speed = fmax(w->speed, s->reference);
     }
@@ -80,38 +73,6 @@ struct watches *fv_watches_create(const struct fv *s)
 }
 
 /* --- energy --- */
-
-/* Power that comes in through a side, of the fluxes of energy, of pressure and of friction on its
- * faces: values there by the scheme's own interpolation into the ghosts, pressure by the cubic. */
-static double side_power(const struct fv *s, int k)
-{
-    const struct block *b = &s->b;
-    const int a = k / 2, t0 = a == 0 ? 1 : 0, t1 = a == 2 ? 1 : 2;
-    const double out = k % 2 ? 1.0 : -1.0, rho = s->run->scene.fluid.rho;
-    const int64_t in = k % 2 ? -b->stride[a] : b->stride[a], up = k % 2 ? b->stride[a] : 0;
-    double sum = 0.0;
-    int at[3];
-    at[a] = k % 2 ? b->n[a] - 1 : 0;
-    for (at[t1] = 0; at[t1] < b->n[t1]; at[t1]++)
-        for (at[t0] = 0; at[t0] < b->n[t0]; at[t0]++) {
-            const int64_t c = block_at(b, at[0], at[1], at[2]);
-            const double area = block_size(b, t0, at[t0]) * block_size(b, t1, at[t1]);
-            double p[4], square = 0.0, friction = 0.0;
-            for (int n = 0; n < 4; n++)
-                p[n] = fv_pressure(s, c + n * in) / rho;
-            for (int q = 0; q < b->dim; q++) {
-                const double *u = s->u[q] + c;
-                const double w = (7.0 * (u[0] + u[-in]) - (u[in] + u[-2 * in])) / 12.0;
-                const double slope = (15.0 * (u[0] - u[-in]) - (u[in] - u[-2 * in])) /
-                                     (12.0 * block_size(b, a, at[a]));
-                square += w * w;
-                friction -= s->nu * w * slope;
-            }
-            const double pf = (25.0 * p[0] - 23.0 * p[1] + 13.0 * p[2] - 3.0 * p[3]) / 12.0;
-            sum += area * (friction - out * s->U[a][c + up] * (0.5 * square + pf));
-        }
-    return sum;
-}
 
 static bool closed_here(const struct block *b, int k)
 {
@@ -214,14 +175,12 @@ static void momentum_of_row(const struct fv *s, const struct part *p, int64_t c,
 /* m^2/s^2: kinetic energy and pressure of the water in a cell at an opening, times its share. */
 static double head_of(const struct fv *s, int64_t c)
 {
-    double share = surface_water(s, c), square = 0.0, x[3];
-    if (s->m)
-        share *= surface_cell_volume(s, c, 0) / s->m->V[c];
+    double share = surface_counted(s, c, surface_water(s, c)), square = 0.0, x[3];
     if (s->surface->layer[c] || share == 0.0)
         return 0.0;
     for (int a = 0; a < s->dim; a++)
         square += s->u[a][c] * s->u[a][c];
-    cell_centre(s, c, x);
+    forcing_centre(s, c, x);
     return share *
            (0.5 * square + (fv_pressure(s, c) + fv_still_pressure(s, x)) / s->run->scene.fluid.rho);
 }
@@ -230,10 +189,7 @@ static double head_of(const struct fv *s, int64_t c)
 static double power_of_openings(const struct fv *s)
 {
     double sums[2] = {0.0, 0.0};
-    if (s->m)
-        mesh_bc_passing(s, head_of, sums);
-    else
-        bc_passing(s, head_of, sums);
+    sides_passing(s, head_of, sums);
     return sums[0];
 }
 
@@ -248,7 +204,7 @@ static double power_of_zones(struct fv *s)
         double row = 0.0;
         for (int64_t i = c; i < c + n; i++) {
             double x[3], u_w[3], uf = 0.0;
-            cell_centre(s, i, x);
+            forcing_centre(s, i, x);
             const double rate = weight[i - c] > 0.0 ? wave_zones_rate(s->wave_zones, x, u_w) : 0.0;
             for (int a = 0; a < s->dim && rate > 0.0; a++)
                 uf += rate * (u_w[a] - s->u[a][i]) * s->u[a][i];
@@ -272,11 +228,8 @@ static void sum_energy(struct fv *s, double sums[6])
     }
     if (s->surface)
         sums[5] = power_of_openings(s) + power_of_zones(s);
-    if (s->m && !s->watches->periodic && !s->surface)
-        sums[5] = mesh_bc_power(s);
-    for (int k = 0; k < 2 * s->dim && !s->m && !s->surface; k++)
-        if (closed_here(&s->b, k))
-            sums[5] += side_power(s, k);
+    else if (!s->watches->periodic)
+        sums[5] = sides_power(s);
 }
 
 static struct flow_energy energy_of(struct fv *s)
@@ -395,7 +348,7 @@ static void look_for_surface(struct fv *s, int64_t step)
     w->filled = true;
     log_warn("t = %.4g s, step %lld: no free surface is left, the domain is full of water%s", s->t,
              (long long)step,
-             bc_kinds(s) & 1u << MESH_INFLOW
+             sides_kinds(s) & 1u << MESH_INFLOW
                  ? ": the velocity of an inflow is given whatever the level, so more comes in the "
                    "higher it rises; a higher domain, or less inflow"
                  : "");

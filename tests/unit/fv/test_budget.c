@@ -16,7 +16,7 @@ static void rates(struct fv *s, double sums[4])
     const double rho = s->run->scene.fluid.rho;
     memset(sums, 0, 4 * sizeof(double));
     memcpy(s->p_before, s->p, (size_t)s->size * sizeof(double));
-    s->stages->fill_velocity(s);
+    sides_velocity(s, BC_GIVEN, s->u);
     s->stages->convection(s, s->N);
     if (!s->m)
         block_halo(&s->b, 1, &s->p);

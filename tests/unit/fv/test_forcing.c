@@ -1,6 +1,5 @@
 /* test_forcing.c - fluxes through the outline of a hole that a partner fills: of fourth order,
  * whatever the free cells hold. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
-#include "../../../fv/boundary/cell_places.h"
 #include "../test.h"
 
 #include "../../../fv/boundary/forcing.h"
@@ -100,7 +99,7 @@ static void an_outlet_feels_no_source(void **state)
     struct forcing *f = s->forcing = forcing_create(s, 1, &box, true);
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         double x[3];
-        cell_centre(s, f->partner[i], x);
+        forcing_centre(s, f->partner[i], x);
         for (int a = 0; a < 2; a++)
             f->v[a][i] = f->v_next[a][i] = 0.5 * x[a];
     }

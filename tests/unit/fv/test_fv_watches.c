@@ -1,6 +1,5 @@
 /* test_fv_watches.c - the watches tell a flow that grows, waves of two cells and water that is lost
  * from a sound flow, with walls, openings and a surface. SPDX-License-Identifier: BSD-3-Clause */
-#include "../../../fv/boundary/cell_places.h"
 #include "../test.h"
 
 #include "fv_bc_case.h"
@@ -224,7 +223,7 @@ static double energy_of_water(const struct fv *s)
         for (int64_t i = c; i < c + n; i++) {
             const double C = s->surface->fraction->C[i], h = block_size(&s->b, 1, j);
             double x[3], n3[3] = {0.0, 1.0, 0.0}, height = 0.0;
-            cell_centre(s, i, x);
+            forcing_centre(s, i, x);
             if (fraction_is_mixed(C)) {
                 fraction_normal(s, part, i, n3);
                 const double alpha = plane_alpha(2, n3, C);

@@ -1,6 +1,5 @@
 /* test_given.c - cells of blocks whose velocity is given: a hole with the exact solution in joined,
  * waving and overlapping blocks. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
-#include "../../../fv/boundary/cell_places.h"
 #include "../test.h"
 
 #include "../../../fv/boundary/forcing.h"
@@ -106,7 +105,7 @@ static void an_outline_may_end_at_sides(void **state)
     struct forcing *f = s->forcing = forcing_create(s, 0, NULL, true);
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         double x[3];
-        cell_centre(s, f->partner[i], x);
+        forcing_centre(s, f->partner[i], x);
         f->v[1][i] = f->v_next[1][i] = x[1];
     }
     forcing_fluxes(s, 0.0, s->U);

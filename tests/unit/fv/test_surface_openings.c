@@ -2,7 +2,6 @@
  * gives, for as long as the run lasts, on uniform cells, graded layers and blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../../../fv/boundary/blocked.h"
-#include "../../../fv/boundary/cell_places.h"
 #include "../../../fv/boundary/forcing.h"
 #include "../../../fv/watch/watches.h"
 #include "../test.h"
@@ -158,10 +157,10 @@ static double level_at(const struct fv *s, double x)
             double at[3], up[3];
             const int64_t d = part->stride[1];
             const double *phi = s->surface->phi + i;
-            cell_centre(s, i, at);
+            forcing_centre(s, i, at);
             if (fabs(at[0] - x) > 0.11 || !(phi[0] < 0.0 && phi[d] >= 0.0))
                 continue;
-            cell_centre(s, i + d, up);
+            forcing_centre(s, i + d, up);
             top = fmax(top, at[1] + (up[1] - at[1]) * phi[0] / (phi[0] - phi[d]));
         }
     return top;

@@ -1,0 +1,29 @@
+/* fv_sides.h - physical sides of the domain and of blocks, whatever the cells: what stands above
+ * this folder asks here and need not know whether bc.h or mesh_bc.h has them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FV_SIDES_H
+#define FV_SIDES_H
+
+#include "bc.h"
+
+/* One bit (1 << kind) for each kind of the sides; behind those of uniform cells that are neither
+ * periodic nor have an entry of `walls' stands the exact velocity. */
+unsigned sides_kinds(const struct fv *s);
+/* Whether one of them gives the pressure: the problem for it is regular then. */
+bool sides_give_pressure(const struct fv *s);
+/* Whether a wall of this rank moves along itself. */
+bool sides_slide(const struct fv *s);
+/* All ghosts of a velocity: from cells and by the sides. */
+void sides_velocity(const struct fv *s, enum bc_value what, double *const u[3]);
+/* U of the faces whose velocity is given. */
+void sides_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
+/* Their values of time t, where they change with it; those before are kept. */
+void sides_time(struct fv *s, double t);
+/* Through this rank's openings, m^dim/s: adds what comes in less what leaves, and the sum of both,
+ * of each face the share of the cell inside that counts. */
+void sides_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c),
+                   double sums[2]);
+/* What comes in through this rank's sides: energy, work of pressure and of friction, over rho. */
+double sides_power(struct fv *s);
+
+#endif

@@ -1,0 +1,180 @@
+/* grid.c - see grid.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "grid.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Indices in the whole block. */
+static void cell_of(const struct part *p, const int *at, int cell[3])
+{
+    for (int a = 0; a < 3; a++)
+        cell[a] = p->lo[a] + at[a];
+}
+
+void grid_centre(const struct grid *g, const struct part *p, const int *at, double x[3])
+{
+    int cell[3];
+    if (g->even) {
+        block_centre(g->even, at[0], at[1], at[2], x);
+        return;
+    }
+    const struct mesh_block *b = g->mesh->block + p->block;
+    cell_of(p, at, cell);
+    memcpy(x, b->centre[mesh_cell(b, cell)], 3 * sizeof *x);
+}
+
+void grid_point(const struct grid *g, const struct part *p, const int *at, const double *xi,
+                double x[3])
+{
+    double h[3], dx[3][3];
+    int cell[3];
+    if (g->mesh) {
+        cell_of(p, at, cell);
+        mesh_map_point(g->mesh->block + p->block, g->dim, cell, xi, x, dx);
+        return;
+    }
+    block_cell(g->even, at[0], at[1], at[2], x, h);
+    for (int a = 0; a < g->dim; a++)
+        x[a] += (xi[a] - 0.5) * h[a];
+}
+
+void grid_mean_place(const struct grid *g, const struct part *p, const int *at, double x[3])
+{
+    static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
+    double whole = 0.0;
+    int cell[3];
+    if (g->even) {
+        block_centre(g->even, at[0], at[1], at[2], x);
+        return;
+    }
+    cell_of(p, at, cell);
+    x[0] = x[1] = x[2] = 0.0;
+    for (int n = 0; n < 1 << g->dim; n++) {
+        const double xi[3] = {gauss[n & 1], gauss[n >> 1 & 1], gauss[n >> 2]};
+        double y[3], dx[3][3];
+        mesh_map_point(g->mesh->block + p->block, g->dim, cell, xi, y, dx);
+        const double V = mesh_determinant(dx);
+        whole += V;
+        for (int c = 0; c < 3; c++)
+            x[c] += V * y[c];
+    }
+    for (int c = 0; c < 3; c++)
+        x[c] /= whole;
+}
+
+void grid_lengths(const struct grid *g, const struct part *p, const int *at, double length[3])
+{
+    double x[3], dx[3][3];
+    int cell[3];
+    if (g->even) {
+        block_cell(g->even, at[0], at[1], at[2], x, length);
+        return;
+    }
+    cell_of(p, at, cell);
+    mesh_map_point(g->mesh->block + p->block, g->dim, cell, (double[3]){0.5, 0.5, 0.5}, x, dx);
+    for (int a = 0; a < g->dim; a++)
+        length[a] = sqrt(dx[a][0] * dx[a][0] + dx[a][1] * dx[a][1] + dx[a][2] * dx[a][2]);
+}
+
+int64_t grid_number(const struct grid *g, int64_t c)
+{
+    int at[3], cell[3];
+    const struct part *p = grid_part(g, c, at);
+    const int *n = grid_cells(g, p->block);
+    int64_t first = 0;
+    for (int k = 0; k < p->block; k++) {
+        const int *m = grid_cells(g, k);
+        first += (int64_t)m[0] * m[1] * m[2];
+    }
+    cell_of(p, at, cell);
+    return first + cell[0] + (int64_t)n[0] * (cell[1] + (int64_t)n[1] * cell[2]);
+}
+
+int grid_blocks(const struct grid *g) { return g->mesh ? g->mesh->nblocks : 1; }
+
+const int *grid_cells(const struct grid *g, int k)
+{
+    return g->mesh ? g->mesh->block[k].n : g->even->cells;
+}
+
+const char *grid_name(const struct grid *g, int k)
+{
+    return g->mesh ? g->mesh->block[k].prm->name : NULL;
+}
+
+void grid_vertex(const struct grid *g, int k, const int *i, double x[3])
+{
+    if (g->mesh) {
+        const struct mesh_block *b = g->mesh->block + k;
+        memcpy(x, b->x[mesh_vertex(b, i[0], i[1], i[2])], 3 * sizeof *x);
+        return;
+    }
+    const struct block *b = g->even;
+    for (int a = 0; a < 3; a++)
+        x[a] = a == 1 && b->rows ? b->rows->edge[i[1]] : b->origin[a] + i[a] * b->h[a];
+}
+
+double grid_computed(const struct grid *g)
+{
+    double cells = 1.0;
+    for (int a = 0; g->even && a < g->dim; a++)
+        cells *= g->even->cells[a];
+    return g->mesh ? (double)g->mesh->computed : cells;
+}
+
+const bool *grid_periodic(const struct grid *g)
+{
+    static const bool never[3] = {false, false, false};
+    return g->even ? g->even->periodic : never;
+}
+
+int grid_longest(const struct grid *g)
+{
+    int most = 0;
+    for (int a = 0; a < g->dim; a++) {
+        for (int q = 0; q < g->nparts; q++)
+            most = g->part[q].n[a] > most ? g->part[q].n[a] : most;
+        most = g->even && g->even->cells[a] > most ? g->even->cells[a] : most;
+    }
+    return most;
+}
+
+const char *grid_trouble(const struct grid *g) { return g->mesh ? g->mesh->trouble : ""; }
+
+double grid_face_area(const struct grid *g, int64_t c, int a)
+{
+    int at[3];
+    double S2 = 0.0;
+    if (g->even) {
+        block_place(g->even, c, at);
+        return block_volume(g->even, at[1]) / block_size(g->even, a, at[1]);
+    }
+    for (int k = 0; k < g->dim; k++)
+        S2 += g->mesh->S[a][k][c] * g->mesh->S[a][k][c];
+    return sqrt(S2);
+}
+
+void grid_face_vector(const struct grid *g, int64_t c, int a, double S[3])
+{
+    S[0] = S[1] = S[2] = 0.0;
+    if (g->even)
+        S[a] = grid_face_area(g, c, a);
+    for (int k = 0; g->mesh && k < g->dim; k++)
+        S[k] = g->mesh->S[a][k][c];
+}
+
+void grid_halo(const struct grid *g, int nf, double *const *f)
+{
+    if (g->mesh)
+        mesh_halo(g->mesh, nf, f);
+    else
+        block_halo(g->even, nf, f);
+}
+
+void grid_fill(const struct grid *g, int nf, double *const *f)
+{
+    if (g->mesh)
+        mesh_fill(g->mesh, nf, f);
+    else
+        block_halo(g->even, nf, f);
+}
