@@ -63,7 +63,7 @@ struct fv_params {
 struct mesh_bc;  /* their sides; boundary/mesh_sides.h */
 struct poisson;  /* poisson/poisson.h */
 struct overset;  /* search in blocks; grid/overset.h */
-struct stages;   /* time/stages.h */
+struct flow_ops; /* operators/flow_ops.h */
 struct moving;   /* blocks that move; time/moving.h; NULL: none do */
 struct bc;       /* walls and openings; bc.h; NULL: none */
 struct blocked;  /* boxes cut out; boundary/blocked.h; NULL: none */
@@ -88,7 +88,7 @@ struct fv {
     const struct part *part;
     double cells_a_side; /* the square or cubic root of how many there are */
     struct part whole;   /* that of the uniform grid */
-    const struct stages *stages;
+    const struct flow_ops *ops;
     struct exact exact;
     double nu;
     double t;

@@ -223,7 +223,7 @@ static void create_grid(struct fv *s)
     s->nparts = 1;
     s->part = &s->whole;
     s->grid = (struct grid){d->dim, 1, &s->whole, &s->b, NULL};
-    s->stages = &even_stages;
+    s->ops = &even_ops;
     s->ring = -1;
     s->blocked = blocked_create(s);
     s->bc = bc_create(s);

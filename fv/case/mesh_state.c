@@ -151,7 +151,7 @@ void mesh_state_create(struct fv *s)
     s->nparts = s->m->nparts;
     s->part = s->m->part;
     s->grid = (struct grid){s->dim, s->nparts, s->part, NULL, s->m};
-    s->stages = &block_stages;
+    s->ops = &block_ops;
     s->ring = mesh_ring(r) ? 0 : -1;
     s->has_exact = fv_measures_errors(r);
     if (s->prm.upwind < 0.0)

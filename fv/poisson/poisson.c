@@ -7,6 +7,7 @@
 #include "../../common/base/mem.h"
 #include "../boundary/mesh_bc.h"
 #include "../grid/mesh.h"
+#include "../operators/flow_ops.h"
 #include "backend.h"
 
 static void set_volumes(const struct fv *s, struct poisson *p)
@@ -122,12 +123,11 @@ static double tolerance(const struct fv *s, double tol)
     return fmax(by->last * tol, fmin(by->stage * tol, 1e-9));
 }
 
-bool poisson_solve(struct fv *s, double tau, double *div, double tol, double *start, double *psi)
+static bool solve_rows(struct fv *s, double tau, double *div, double tol, double *start,
+                       double *psi)
 {
     struct poisson *p = s->poisson;
     double c = 0.0;
-    if (p->by->solve_field)
-        return p->by->solve_field(s, tau, div, tol, psi);
     if (negligible(s, div)) {
         memset(psi, 0, (size_t)s->size * sizeof(double));
         return true;
@@ -146,13 +146,19 @@ bool poisson_solve(struct fv *s, double tau, double *div, double tol, double *st
     return good;
 }
 
-void poisson_cycle(struct fv *s, double *div, double *psi)
+bool poisson_solve(struct fv *s, double tau, double *div, double tol, double *start, double *psi)
+{
+    const struct backend *by = s->poisson->by;
+    const bool good = by->solve_field ? by->solve_field(s, tau, div, tol, psi)
+                                      : solve_rows(s, tau, div, tol, start, psi);
+    if (s->ops->psi_ghosts)
+        s->ops->psi_ghosts(s, psi);
+    return good;
+}
+
+static void cycle_rows(struct fv *s, double *div, double *psi)
 {
     struct poisson *p = s->poisson;
-    if (p->by->cycle_field) {
-        p->by->cycle_field(s, div, psi);
-        return;
-    }
     const bool singular = !mesh_bc_pressure_given(s) && p->shift == 0.0;
     double excess = 0.0;
     for (int k = 0; k < p->n; k++)
@@ -164,6 +170,19 @@ void poisson_cycle(struct fv *s, double *div, double *psi)
     }
     p->by->cycle(s, p->of, p->b, p->x);
     set_psi(s, p, p->x, psi);
+}
+
+void poisson_cycle(struct fv *s, double *div, double *psi)
+{
+    const struct backend *by = s->poisson->by;
+    for (int k = 0; k < s->poisson->n; k++) /* of blocks: m^dim/s */
+        div[s->poisson->place[k]] *= s->free[s->poisson->place[k]] * s->m->V[s->poisson->place[k]];
+    if (by->cycle_field)
+        by->cycle_field(s, div, psi);
+    else
+        cycle_rows(s, div, psi);
+    if (s->ops->psi_ghosts)
+        s->ops->psi_ghosts(s, psi);
 }
 
 void poisson_rebuild(struct fv *s)

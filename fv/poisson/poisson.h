@@ -10,15 +10,14 @@
 void poisson_create(struct fv *s);
 void poisson_free(struct poisson **p);
 const char *poisson_name(const struct poisson *p);
-/* A psi = -div/tau; even cells: Lap psi = div (1/s^2). div (blocks: m^dim/s) is changed; what it
- * lacks to be compatible, where no side gives the pressure, is removed uniformly. psi: start and
- * result; of blocks without a surface the start is `start', kept for the next solve. false: did not
- * converge.
+/* A psi = -div/tau; even cells: Lap psi = div (1/s^2). div, of flow_ops, is changed; what it lacks
+ * to be compatible, where no side gives the pressure, is removed uniformly. psi: start and result,
+ * with its ghosts; of blocks without a surface the start is `start', kept for the next solve.
+ * false: did not converge.
  */
 bool poisson_solve(struct fv *s, double tau, double *div, double tol, double *start, double *psi);
-/* psi ~ the solution of (A + shift V) psi = div (even cells: (shift - Lap) psi; both over the cells
- * of this rank, 0 in imposed ones) by one cycle, a linear map; without a shift and where no side
- * gives the pressure, without its mean. div is changed. */
+/* psi ~ the solution of (shift - Lap) psi = div (1/s) by one cycle, a linear map, with its ghosts;
+ * without a shift and where no side gives the pressure, without its mean. div is changed. */
 void poisson_cycle(struct fv *s, double *div, double *psi);
 /* The matrix of the surface as it is now. */
 void poisson_rebuild(struct fv *s);

@@ -365,6 +365,7 @@ static void cycle_field(struct fv *s, double *r, double *x)
         remove_mean(s, x);
     else if (s->forcing)
         forcing_zero(s->forcing, x);
+    block_halo(&s->b, 1, &x);
 }
 
 static void set_shift(struct fv *s, void *of, double given)

@@ -19,8 +19,6 @@
 #include "relax.h"
 #include "steps.h"
 
-void measure(struct fv *s) { s->stages->measure(s); }
-
 /* The velocity of an impact is not known before it: a step that turns out too long is taken back
  * and done again in half the time. */
 static bool step_with_surface(struct fv *s, double *dt, struct diagnosis *d)

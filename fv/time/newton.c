@@ -262,7 +262,7 @@ static void take_levels(struct fv *s)
 static bool solve_step(struct fv *s, double dt)
 {
     s->newton->of.t = s->t + dt;
-    s->stages->set_sides(s, s->t + dt, dt);
+    stage_set_sides(s, s->t + dt, dt);
     newton_set_step(s, dt, s->dt);
     set_levels(s, dt, s->dt);
     return solve(s);

@@ -42,11 +42,6 @@ struct newton_cells {
     void (*fill_rows)(struct fv *s);
     /* div -= D I(x) */
     void (*subtract_divergence)(struct fv *s, double *const x[3], double *div);
-    /* phi ~ (shift - Lap)^-1 div by one cycle, with ghosts. */
-    void (*cycle)(struct fv *s, double *div, double *phi);
-    void (*gradient)(struct fv *s, const double *phi, double *const g[3]);
-    /* Zero where nothing is solved for. */
-    void (*clear)(const struct fv *s, double *q);
 };
 extern const struct newton_cells newton_even, newton_blocks;
 
@@ -98,6 +93,8 @@ void newton_set_step(struct fv *s, double dt, double dt_old);
 /* r = R(q), and out = R'(q) v at the q of the last residual. KINSOL's kinds of function: user is
  * struct fv. */
 int newton_residual(N_Vector q, N_Vector r, void *user);
+/* q = 0 in cells that are not solved for. */
+void newton_clear(const struct fv *s, double *q);
 int newton_jacobian_times(N_Vector v, N_Vector out, N_Vector q, booleantype *is_new, void *user);
 
 /* newton_report.c: their number; w NULL: none. */

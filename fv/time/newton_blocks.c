@@ -90,13 +90,6 @@ static void add_pressure_flux(struct fv *s)
         }
 }
 
-static void clear(const struct fv *s, double *q)
-{
-    FLOW_ROWS (s, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            q[i] = s->free[i] > 0.0 ? q[i] : 0.0;
-}
-
 /* Velocity and pressure beyond the surface, and the pressure on it. */
 static void extend_state(struct fv *s)
 {
@@ -123,10 +116,7 @@ static void complete(struct fv *s)
     }
     sides_velocity(s, BC_GIVEN, s->u);
     mesh_fill(s->m, 1, &s->p);
-    mesh_bc_pressure(s, s->p);
-    mesh_gradient(s, s->p, s->newton->G);
-    if (s->forcing)
-        given_gradient(s, CONTINUE_CUBIC, s->p, s->newton->G);
+    s->ops->pressure_gradient(s, s->p, s->newton->G);
     if (s->surface)
         extend_gradient(s);
     mesh_fill(s->m, s->dim, s->newton->G);
@@ -176,7 +166,7 @@ static void evaluate(struct fv *s)
             for (int64_t i = c; i < c + n; i++)
                 s->rhs[a][i] = s->N[a][i] + w->G[a][i] - s->delta[a][i] - s->drive[a];
     }
-    s->stages->finish_rhs(s);
+    s->ops->to_index(s);
     mesh_divergence(s, s->U, s->face);
     per_volume(s, s->face);
     remove_mean(s, s->face);
@@ -259,32 +249,7 @@ static void subtract_divergence(struct fv *s, double *const x[3], double *div)
             div[i] -= w->phi[i];
 }
 
-static void cycle(struct fv *s, double *div, double *phi)
-{
-    FLOW_ROWS (s, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            div[i] *= s->free[i] * s->m->V[i];
-    poisson_cycle(s, div, phi);
-    if (s->forcing)
-        given_mirror(s, phi);
-    else
-        mesh_halo(s->m, 1, &phi);
-    mesh_bc_even(s, true, phi);
-}
-
-static void gradient_of(struct fv *s, const double *phi, double *const g[3])
-{
-    mesh_gradient(s, phi, g);
-    if (s->forcing)
-        given_gradient(s, CONTINUE_EVEN, phi, g);
-    if (s->surface)
-        surface_mesh_psi_gradient(s, 1.0, phi, true, g);
-}
-
 const struct newton_cells newton_blocks = {.set_rates = set_rates,
                                            .evaluate = evaluate,
                                            .fill_rows = fill_rows,
-                                           .subtract_divergence = subtract_divergence,
-                                           .cycle = cycle,
-                                           .gradient = gradient_of,
-                                           .clear = clear};
+                                           .subtract_divergence = subtract_divergence};

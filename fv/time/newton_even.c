@@ -359,34 +359,8 @@ static void subtract_divergence(struct fv *s, double *const x[3], double *restri
     }
 }
 
-static void cycle(struct fv *s, double *div, double *phi)
-{
-    poisson_cycle(s, div, phi);
-    block_halo(&s->b, 1, &phi);
-}
-
-static void gradients(struct fv *s, const double *phi, double *const g[3])
-{
-    for (int a = 0; a < s->dim; a++) {
-        gradient(s, phi, a, CONTINUE_EVEN, g[a]);
-        if (s->surface)
-            surface_gradient_change(s, a, phi, g[a]);
-    }
-}
-
-static void clear(const struct fv *s, double *q)
-{
-    if (s->forcing)
-        forcing_zero(s->forcing, q);
-    if (s->surface)
-        surface_zero(s, q);
-}
-
 const struct newton_cells newton_even = {.set_rates = set_rates,
                                          .evaluate = evaluate,
                                          .evaluate_variation = evaluate_variation,
                                          .fill_rows = fill_rows,
-                                         .subtract_divergence = subtract_divergence,
-                                         .cycle = cycle,
-                                         .gradient = gradients,
-                                         .clear = clear};
+                                         .subtract_divergence = subtract_divergence};

@@ -11,6 +11,8 @@
 #include <string.h>
 
 #include "../boundary/fv_sides.h"
+#include "../operators/flow_ops.h"
+#include "../poisson/poisson.h"
 
 int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, void *user)
 {
@@ -108,25 +110,24 @@ int newton_precond_solve(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscal
 {
     struct fv *s = user;
     struct newton *w = s->newton;
-    const struct newton_cells *of = w->cells_of;
     (void)q, (void)uscale, (void)f, (void)fscale;
     newton_unpack(s, v, w->div, w->r);
     smooth(s, w->r, w->x);
-    of->subtract_divergence(s, w->x, w->div);
+    w->cells_of->subtract_divergence(s, w->x, w->div);
     timer_start(&s->run->timers, "pressure");
-    of->cycle(s, w->div, w->phi);
+    poisson_cycle(s, w->div, w->phi);
     w->cycles++;
     timer_stop(&s->run->timers, "pressure");
     apply_to_pressure(s, w->phi, w->div);
-    of->gradient(s, w->phi, w->r);
+    s->ops->change_gradient(s, w->phi, w->r);
     for (int a = 0; a < s->dim; a++) {
         double *restrict x = w->x[a], *restrict g = w->r[a];
         FLOW_ROWS (s, c, n)
             for (int64_t i = c; i < c + n; i++)
                 x[i] -= g[i];
-        of->clear(s, x);
+        newton_clear(s, x);
     }
-    of->clear(s, w->div);
+    newton_clear(s, w->div);
     newton_pack(s, w->div, w->x, v);
     return 0;
 }

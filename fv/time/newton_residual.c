@@ -12,6 +12,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "../boundary/forcing.h"
+#include "../surface/levelset.h"
+
 /* ---- layout --------------------------------------------------------------------------------- */
 
 static double *pack(const struct fv *s, const double *q, double *to)
@@ -77,16 +80,30 @@ double newton_dissipation(const struct fv *s)
     return s->prm.flux == FLUX_UPWIND ? 1.0 / 12.0 : 1.0 / 96.0;
 }
 
+void newton_clear(const struct fv *s, double *q)
+{
+    if (s->free) {
+        FLOW_ROWS (s, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                q[i] = s->free[i] > 0.0 ? q[i] : 0.0;
+        return;
+    }
+    if (s->forcing)
+        forcing_zero(s->forcing, q);
+    if (s->surface)
+        surface_zero(s, q);
+}
+
 /* Given cells hold no equation: their values are set, not solved for. Fields with ghosts are
  * scratch. */
 static void clear_given(const struct fv *s, N_Vector r)
 {
-    if (!s->m && !s->forcing && !s->surface)
+    if (!s->free && !s->forcing && !s->surface)
         return;
     newton_unpack(s, r, s->face, s->rhs);
-    s->newton->cells_of->clear(s, s->face);
+    newton_clear(s, s->face);
     for (int a = 0; a < s->dim; a++)
-        s->newton->cells_of->clear(s, s->rhs[a]);
+        newton_clear(s, s->rhs[a]);
     newton_pack(s, s->face, s->rhs, r);
 }
 

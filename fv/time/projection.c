@@ -31,13 +31,13 @@ void projection(struct fv *s, double t, int stage, double tau, double tol)
 {
     double *psi = s->psi[stage];
     start(s, "operators");
-    s->stages->predict_fluxes(s, t);
+    stage_predict_fluxes(s, t);
     stop(s, "operators");
     start(s, "pressure");
-    s->failed = !s->stages->solve_pressure(s, stage, tau, tol) || s->failed;
+    s->failed = !stage_solve_pressure(s, stage, tau, tol) || s->failed;
     stop(s, "pressure");
     start(s, "operators");
-    s->stages->correct_fluxes(s, tau, psi);
+    s->ops->correct_fluxes(s, tau, psi);
     for (int a = 0; a < s->dim; a++) {
         double *restrict u = s->u[a];
         const double *restrict g = s->rhs[a];
@@ -49,14 +49,14 @@ void projection(struct fv *s, double t, int stage, double tau, double tol)
         end_surface_stage(s, tau, psi, stage == 2 || s->prm.integrator == INTEGRATOR_BDF2);
     sides_velocity(s, BC_GIVEN, s->u);
     if (s->surface)
-        s->stages->dry_fluxes(s);
+        s->ops->dry_fluxes(s);
     stop(s, "operators");
 }
 
 /* u += delta with (1 - c L) delta = rhs; without viscosity delta = rhs. */
 static bool add_increment(struct fv *s, double c, double t, double scale)
 {
-    const bool viscous = s->nu > 0.0, good = !viscous || s->stages->solve_viscous(s, c, t, scale);
+    const bool viscous = s->nu > 0.0, good = !viscous || stage_solve_viscous(s, c, t, scale);
     for (int a = 0; a < s->dim; a++) {
         double *restrict u = s->u[a];
         const double *restrict d = viscous ? s->delta[a] : s->rhs[a];
@@ -84,22 +84,22 @@ static void stage_rhs(struct fv *s, double dt, double ab, double gamma, double z
         const double *restrict g = s->step_p[a], *restrict N = s->N[a], *restrict M = s->N_old[a];
         const double drive = s->drive[a];
         if (s->nu > 0.0)
-            s->stages->viscous(s, a, r);
+            s->ops->viscous(s, a, r);
         else
             memset(r, 0, (size_t)s->size * sizeof(double));
         FLOW_NEAR (s, c, n)
             for (int64_t i = c; i < c + n; i++)
                 r[i] = dt * (ab * (r[i] - g[i] + drive) - gamma * N[i] - zeta * M[i]);
     }
-    if (s->stages->finish_rhs)
-        s->stages->finish_rhs(s);
+    if (s->ops->to_index)
+        s->ops->to_index(s);
 }
 
 static void begin_step(struct fv *s)
 {
     start(s, "operators");
     if (!s->surface) /* there each projection makes the whole pressure */
-        s->stages->pressure_gradient(s);
+        stage_pressure_gradient(s);
     outflow_begin(s);
     levels_begin(s, s->dt_now);
     stop(s, "operators");
@@ -109,7 +109,7 @@ static void step_convection(struct fv *s)
 {
     start(s, "convection");
     swap(s->N, s->N_old);
-    s->stages->convection(s, s->N);
+    stage_convection(s, s->N);
     stop(s, "convection");
 }
 
@@ -159,9 +159,9 @@ static bool step_rk3(struct fv *s, double dt)
         const double t_stage = t + rk3_at[k] * dt, ab = rk3_alpha[k] + rk3_beta[k];
         step_convection(s);
         start(s, "viscous");
-        s->stages->set_slip(s, ab * dt, s->psi[k]);
+        stage_set_slip(s, ab * dt, s->psi[k]);
         stage_rhs(s, dt, ab, rk3_gamma[k], rk3_zeta[k]);
-        s->stages->set_sides(s, t_stage, rk3_at[k] * dt);
+        stage_set_sides(s, t_stage, rk3_at[k] * dt);
         good = add_increment(s, rk3_beta[k] * dt, t_stage, before > 0.0 ? ab * dt / before : 0.0) &&
                good;
         before = ab * dt;
@@ -205,12 +205,12 @@ static bool step_bdf2(struct fv *s, double dt)
     for (int a = 0; s->surface && a < s->dim; a++)
         extension_scalar(s, s->N[a]); /* for cells that the next step finds wet */
     start(s, "viscous");
-    s->stages->set_slip(s, tau, s->psi[0]);
+    stage_set_slip(s, tau, s->psi[0]);
     /* increment from u^n: (1 - tau L) d = tau [L u - (1+r) N + r N_old - Gc p] + (c2/c0)(u^n -
      * u^n-1) */
     stage_rhs(s, tau, 1.0, 1.0 + r, -r);
     add_history(s, c2 / c0);
-    s->stages->set_sides(s, s->t + dt, dt);
+    stage_set_sides(s, s->t + dt, dt);
     const bool good = add_increment(s, tau, s->t + dt, 0.0);
     stop(s, "viscous");
     projection(s, s->t + dt, 0, tau, last_tolerance(s));

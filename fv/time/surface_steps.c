@@ -74,10 +74,7 @@ static void add_velocities(struct fv *s)
         return;
     extension_apply(s, s->u, EXTEND_FREE, LAYERS);
     sides_velocity(s, BC_GIVEN, s->u);
-    if (s->m)
-        mesh_face_velocities(s, s->u, s->U);
-    else
-        convection_face_velocities(s, s->u, s->U);
+    s->ops->face_velocities(s, s->u, s->U);
 }
 
 void surface_extend(struct fv *s, int layers)
@@ -85,7 +82,7 @@ void surface_extend(struct fv *s, int layers)
     extension_apply(s, s->u, EXTEND_SHEAR, layers);
     surface_set_pressure(s);
     sides_velocity(s, BC_GIVEN, s->u);
-    s->stages->dry_fluxes(s);
+    s->ops->dry_fluxes(s);
 }
 
 /* p = 0 at the highest water, if the case does not say where. */

@@ -60,7 +60,7 @@ static void pressure(struct fv *s)
     for (int64_t i = 0; i < s->size; i++)
         s->U[0][i] += 1e-6 * ((double)(i * 2654435761u >> 7 & 1023) - 511.5);
     const double t = cpu_time();
-    s->stages->solve_pressure(s, 2, 1.0, 1e-6);
+    stage_solve_pressure(s, 2, 1.0, 1e-6);
     printf("  pressure by %s: %.1f ns a cell and cycle, %d cycles to 1e-6 of the step's\n",
            poisson_name(s->poisson),
            1e9 * (cpu_time() - t) / (double)(s->iterations - before) / (N * N),

@@ -17,22 +17,15 @@ static void rates(struct fv *s, double sums[4])
     memset(sums, 0, 4 * sizeof(double));
     memcpy(s->p_before, s->p, (size_t)s->size * sizeof(double));
     sides_velocity(s, BC_GIVEN, s->u);
-    s->stages->convection(s, s->N);
-    if (!s->m)
-        block_halo(&s->b, 1, &s->p);
-    else {
-        mesh_fill(s->m, 1, &s->p);
-        mesh_bc_pressure(s, s->p);
-        mesh_gradient(s, s->p, s->step_p);
-    }
+    s->ops->convection(s, s->N);
+    grid_fill(&s->grid, 1, &s->p);
+    s->ops->pressure_gradient(s, s->p, s->step_p);
     for (int a = 0; a < s->dim; a++) {
         double part[3] = {0.0, 0.0, 0.0};
-        s->stages->viscous(s, a, s->rhs[a]);
-        if (!s->m)
-            gradient(s, s->p, a, CONTINUE_CUBIC, s->step_p[a]);
+        s->ops->viscous(s, a, s->rhs[a]);
         FLOW_ROWS (s, c, n)
             for (int64_t i = c; i < c + n; i++) {
-                const double V = s->m ? s->free[i] * s->m->V[i] : s->b.h[0] * s->b.h[1] * s->b.h[2];
+                const double V = grid_volume(&s->grid, i) * (s->free ? s->free[i] : 1.0);
                 part[0] -= rho * V * s->N[a][i];
                 part[1] += rho * V * s->rhs[a][i];
                 part[2] -= rho * V * s->step_p[a][i];

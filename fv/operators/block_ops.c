@@ -1,78 +1,36 @@
-/* block_stages.c - stages on structured blocks of any shape that are joined or overlap.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* block_ops.c - the operators of a stage on structured blocks of any shape that are joined or
+ * overlap. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+
 #include "../boundary/forcing.h"
 #include "../boundary/levels.h"
 #include "../boundary/mesh_bc.h"
-#include "../boundary/outflow.h"
-#include "../fv.h"
-#include "../grid/mesh.h"
-#include "../operators/helmholtz.h"
-#include "../operators/mesh_ops.h"
-#include "../poisson/poisson.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../watch/limits.h"
-#include "moving.h"
-#include "stages.h"
+#include "flow_ops.h"
+#include "helmholtz.h"
+#include "mesh_ops.h"
+#include "operators.h"
 
 static const int none[3] = {0, 0, 0};
 
-static void pressure_gradient(struct fv *s)
+static bool smooth_pressure(struct fv *s)
 {
-    mesh_fill(s->m, 1, &s->p);
-    if (s->prm.upwind > 0.0 || s->m->has_fringe) {
-        mesh_smooth_pressure(s);
-        mesh_fill(s->m, 1, &s->p);
-    }
-    if (s->moving)
-        moving_begin(s);
-    mesh_bc_pressure(s, s->p);
-    mesh_gradient(s, s->p, s->step_p);
+    if (!(s->prm.upwind > 0.0) && !s->m->has_fringe)
+        return false;
+    mesh_smooth_pressure(s);
+    return true;
+}
+
+static void pressure_gradient(struct fv *s, double *p, double *const g[3])
+{
+    mesh_bc_pressure(s, p);
+    mesh_gradient(s, p, g);
     if (s->forcing)
-        given_gradient(s, CONTINUE_CUBIC, s->p, s->step_p);
-    if (s->moving)
-        moving_gradient(s);
+        given_gradient(s, CONTINUE_CUBIC, p, g);
 }
 
-static void set_slip(struct fv *s, double tau, const double *psi)
-{
-    if (s->moving)
-        moving_turn_pressure(s, tau);
-    mesh_bc_set_slip(s, tau, psi);
-}
-
-/* Cells that a partner's box has left have no convection of the step before. */
-static void begin_born(struct fv *s, double *const N[3])
-{
-    for (int64_t c = 0; c < s->size; c++)
-        for (int a = 0; a < s->dim && s->born[c]; a++)
-            s->N_old[a][c] = N[a][c];
-}
-
-static void convect(struct fv *s, double *const N[3])
-{
-    mesh_convection(s, N);
-    if (s->born && s->t == s->born_at)
-        begin_born(s, N);
-    if (s->moving)
-        moving_convection(s, N);
-}
-
-static void set_sides(struct fv *s, double t, double dt)
-{
-    if (s->moving)
-        moving_stage(s, t);
-    mesh_bc_time(s, t);
-    outflow_set(s, dt);
-    levels_set(s, t);
-}
-
-static void finish_rhs(struct fv *s)
+static void to_index(struct fv *s)
 {
     for (int a = 0; a < s->dim; a++)
         FLOW_ROWS (s, c, n)
@@ -97,8 +55,6 @@ static void viscous(struct fv *s, int q, double *out) { mesh_viscous(s, s->u[q],
 static bool solve_viscous(struct fv *s, double c, double t, double scale)
 {
     const double share = viscous_keeps_increment(s) ? scale : 0.0;
-    if (s->moving)
-        moving_change(s);
     for (int a = 0; a < s->dim; a++)
         FLOW_ROWS (s, at, n)
             for (int64_t i = at; i < at + n; i++)
@@ -110,35 +66,20 @@ static bool solve_viscous(struct fv *s, double c, double t, double scale)
     return mesh_viscous_solve(s, c, helmholtz_tolerance(s));
 }
 
-static void predict_fluxes(struct fv *s, double t)
+static double *divergence(struct fv *s, double tau)
 {
-    if (s->forcing)
-        forcing_velocity(s, t, s->u);
-    if (s->surface)
-        extension_apply(s, s->u, EXTEND_FREE, STENCILS);
-    if (s->moving)
-        moving_fill(s, s->u);
-    else
-        mesh_fill(s->m, s->dim, s->u);
-    mesh_bc_velocity(s, BC_AHEAD, s->u);
-    mesh_face_velocities(s, s->u, s->U);
-    mesh_bc_fluxes(s, s->U);
-    if (s->forcing)
-        forcing_fluxes(s, t, s->U);
+    (void)tau; /* the solve has it */
+    mesh_divergence(s, s->U, s->flux);
+    return s->flux;
 }
 
-static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
+static void psi_ghosts(struct fv *s, double *psi)
 {
-    double *psi = s->psi[stage];
-    levels_fluxes(s, tau);
-    mesh_divergence(s, s->U, s->flux);
-    const bool good = poisson_solve(s, tau, s->flux, tol, s->start[stage], psi);
     if (s->forcing)
         given_mirror(s, psi);
     else
         mesh_halo(s->m, 1, &psi);
     mesh_bc_even(s, true, psi);
-    return good;
 }
 
 static void correct_fluxes(struct fv *s, double tau, double *psi)
@@ -152,6 +93,15 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
         given_gradient(s, s->forcing->whole ? CONTINUE_CUBIC : CONTINUE_EVEN, psi, s->rhs);
     if (s->surface)
         surface_mesh_psi_gradient(s, tau, psi, false, s->rhs);
+}
+
+static void change_gradient(struct fv *s, double *phi, double *const g[3])
+{
+    mesh_gradient(s, phi, g);
+    if (s->forcing)
+        given_gradient(s, CONTINUE_EVEN, phi, g);
+    if (s->surface)
+        surface_mesh_psi_gradient(s, 1.0, phi, true, g);
 }
 
 static void dry_fluxes(struct fv *s)
@@ -171,16 +121,6 @@ static void dry_fluxes(struct fv *s)
                         s->U[a][i] = s->rhs[a][i];
         }
     mesh_bc_fluxes(s, s->U);
-}
-
-/* m/s^2: of differences of pressure between sides. */
-static double push_of(const struct fv *s)
-{
-    const struct scene_domain *d = &s->run->scene.domain;
-    double L = INFINITY;
-    for (int a = 0; a < s->dim; a++)
-        L = fmin(L, d->max[a] - d->min[a]);
-    return limits_pressure_difference(&s->run->scene) / L;
 }
 
 /* Into most: largest sum over the indices of the rates of crossing cells, 1/s; square of the
@@ -218,9 +158,8 @@ static bool measure_alike(const struct fv *s, const struct part *p, double push,
 }
 
 /* The same of all parts. */
-static void measure_blocks(struct fv *s)
+static void measure_blocks(struct fv *s, double push, double motion)
 {
-    const double push = push_of(s);
     const struct mesh *m = s->m;
     double most[4] = {0.0}, speed = 0.0, poison = 0.0;
     for (int q = 0; q < m->nparts; q++) {
@@ -259,8 +198,7 @@ static void measure_blocks(struct fv *s)
     }
     most[1] = poison == 0.0 ? sqrt(most[1]) : INFINITY;
     most[0] = fmax(most[0], mesh_bc_rate(s, &speed));
-    if (s->moving)
-        most[0] = fmax(most[0], moving_rate(s));
+    most[0] = fmax(most[0], motion);
     MPI_Allreduce(MPI_IN_PLACE, most, 4, MPI_DOUBLE, MPI_MAX, m->comm);
     s->rate = most[0];
     s->umax[0] = most[1];
@@ -268,15 +206,17 @@ static void measure_blocks(struct fv *s)
     s->Re = most[3] / fmax(s->nu, 1e-300);
 }
 
-const struct stages block_stages = {.pressure_gradient = pressure_gradient,
-                                    .set_slip = set_slip,
-                                    .set_sides = set_sides,
-                                    .convection = convect,
-                                    .viscous = viscous,
-                                    .finish_rhs = finish_rhs,
-                                    .solve_viscous = solve_viscous,
-                                    .predict_fluxes = predict_fluxes,
-                                    .solve_pressure = solve_pressure,
-                                    .correct_fluxes = correct_fluxes,
-                                    .dry_fluxes = dry_fluxes,
-                                    .measure = measure_blocks};
+const struct flow_ops block_ops = {.smooth_pressure = smooth_pressure,
+                                   .pressure_gradient = pressure_gradient,
+                                   .set_slip = mesh_bc_set_slip,
+                                   .convection = mesh_convection,
+                                   .viscous = viscous,
+                                   .to_index = to_index,
+                                   .solve_viscous = solve_viscous,
+                                   .face_velocities = mesh_face_velocities,
+                                   .divergence = divergence,
+                                   .psi_ghosts = psi_ghosts,
+                                   .correct_fluxes = correct_fluxes,
+                                   .change_gradient = change_gradient,
+                                   .dry_fluxes = dry_fluxes,
+                                   .measure = measure_blocks};

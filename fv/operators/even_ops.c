@@ -1,43 +1,36 @@
-/* even_stages.c - stages on a uniform grid and on graded rows, with imposed cells and a free
- * surface. SPDX-License-Identifier: BSD-3-Clause */
+/* even_ops.c - the operators of a stage on uniform cells and on layers, with imposed cells, boxes
+ * that are cut out and a free surface. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../boundary/forcing.h"
+#include "../boundary/fv_sides.h"
 #include "../boundary/levels.h"
-#include "../boundary/outflow.h"
-#include "../operators/blocked_cells.h"
-#include "../operators/helmholtz.h"
-#include "../operators/operators.h"
-#include "../poisson/poisson.h"
 #include "../surface/levelset.h"
-#include "../watch/limits.h"
-#include "stages.h"
+#include "blocked_cells.h"
+#include "flow_ops.h"
+#include "helmholtz.h"
+#include "operators.h"
 
-static void pressure_gradient(struct fv *s)
+static bool smooth_pressure(struct fv *s)
 {
-    double *const fields[1] = {s->p};
-    block_halo(&s->b, 1, fields);
-    if (s->bc || s->blocked) {
-        smooth_odd_even(s, s->p, s->face, s->flux);
-        block_halo(&s->b, 1, fields);
-    }
-    for (int a = 0; a < s->dim; a++)
-        gradient(s, s->p, a, CONTINUE_CUBIC, s->step_p[a]);
+    if (!s->bc && !s->blocked)
+        return false;
+    smooth_odd_even(s, s->p, s->face, s->flux);
+    return true;
 }
 
-static void set_slip(struct fv *s, double tau, const double *psi)
+static void pressure_gradient(struct fv *s, double *p, double *const g[3])
+{
+    for (int a = 0; a < s->dim; a++)
+        gradient(s, p, a, CONTINUE_CUBIC, g[a]);
+}
+
+static void set_slip(const struct fv *s, double tau, const double *psi)
 {
     bc_set_slip(s, tau, psi);
     if (s->blocked)
         blocked_set_slip(s, tau, psi);
-}
-
-static void set_sides(struct fv *s, double t, double dt)
-{
-    outflow_set(s, dt);
-    levels_set(s, t);
 }
 
 static void viscous(struct fv *s, int q, double *out)
@@ -69,20 +62,9 @@ static bool solve_viscous(struct fv *s, double c, double t, double scale)
     return viscous_solve(s, c, s->delta, s->rhs, helmholtz_tolerance(s));
 }
 
-static void predict_fluxes(struct fv *s, double t)
+static void face_velocities(struct fv *s, double *const u[3], double *const U[3])
 {
-    if (s->forcing)
-        forcing_velocity(s, t, s->u);
-    if (s->surface)
-        extension_apply(s, s->u, EXTEND_FREE, STENCILS);
-    for (int a = 0; s->blocked && a < s->dim; a++)
-        blocked_zero(s, s->u[a]);
-    bc_ghosts(s, BC_AHEAD, s->u);
-    block_halo(&s->b, s->dim, s->u);
-    convection_face_velocities(s, s->u, s->U);
-    if (s->forcing)
-        forcing_fluxes(s, t, s->U);
-    bc_fluxes(s, BC_GIVEN, s->U);
+    convection_face_velocities(s, u, U);
 }
 
 static void divide_row(const double *restrict U, int64_t d, double w, bool first, int64_t n,
@@ -92,27 +74,22 @@ static void divide_row(const double *restrict U, int64_t d, double w, bool first
         div[i] = (first ? 0.0 : div[i]) + w * (U[i + d] - U[i]);
 }
 
-/* div = D U over the local cells, divided by tau. */
-static void divergence(struct fv *s, double tau, double *restrict div)
+/* D U over the local cells, divided by tau; with the surface's pressure. */
+static double *divergence(struct fv *s, double tau)
 {
     const struct block *b = &s->b;
+    double *restrict div = s->rhs[0];
+    if (s->surface) /* far from water */
+        memset(div, 0, (size_t)s->size * sizeof(double));
     for (int a = 0; a < b->dim; a++) {
         const int64_t d = b->stride[a];
         const double *restrict U = s->U[a];
         BLOCK_NEAR_AT (s, 0, j, c, n)
             divide_row(U + c, d, 1.0 / (block_size(b, a, j) * tau), a == 0, n, div + c);
     }
-}
-
-static bool solve_pressure(struct fv *s, int stage, double tau, double tol)
-{
-    levels_fluxes(s, tau);
-    if (s->surface) /* far from water */
-        memset(s->rhs[0], 0, (size_t)s->size * sizeof(double));
-    divergence(s, tau, s->rhs[0]);
     if (s->surface)
-        surface_add_pressure(s, s->rhs[0]);
-    return poisson_solve(s, tau, s->rhs[0], tol, NULL, s->psi[stage]);
+        surface_add_pressure(s, div);
+    return div;
 }
 
 static void subtract_row(double *restrict U, const double *restrict psi, int64_t d, double w,
@@ -141,6 +118,15 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
         BLOCK_NEAR_AT (s, 1, j, c, n)
             subtract_row(s->U[a] + c, psi + c, b->stride[a], tau / block_step(b, a, j),
                          open ? open[a] + c : NULL, n);
+    }
+}
+
+static void change_gradient(struct fv *s, double *phi, double *const g[3])
+{
+    for (int a = 0; a < s->dim; a++) {
+        gradient(s, phi, a, CONTINUE_EVEN, g[a]);
+        if (s->surface)
+            surface_gradient_change(s, a, phi, g[a]);
     }
 }
 
@@ -174,10 +160,11 @@ static void measure_row(const double *restrict u, const double *restrict v,
     most[3] = bad ? INFINITY : fmax(most[3], all);
 }
 
-static void measure_even(struct fv *s)
+static void measure_even(struct fv *s, double push, double motion)
 {
     const struct block *b = &s->b;
     double most[4] = {0.0, 0.0, 0.0, 0.0};
+    (void)push, (void)motion;
     BLOCK_NEAR_AT (s, 0, j, c, n) {
         const double weight[3] = {1.0 / b->h[0], 1.0 / block_size(b, 1, j),
                                   b->dim == 3 ? 1.0 / b->h[2] : 0.0};
@@ -191,14 +178,15 @@ static void measure_even(struct fv *s)
     s->rate = most[3];
 }
 
-const struct stages even_stages = {.pressure_gradient = pressure_gradient,
-                                   .set_slip = set_slip,
-                                   .set_sides = set_sides,
-                                   .convection = convection,
-                                   .viscous = viscous,
-                                   .solve_viscous = solve_viscous,
-                                   .predict_fluxes = predict_fluxes,
-                                   .solve_pressure = solve_pressure,
-                                   .correct_fluxes = correct_fluxes,
-                                   .dry_fluxes = dry_fluxes,
-                                   .measure = measure_even};
+const struct flow_ops even_ops = {.smooth_pressure = smooth_pressure,
+                                  .pressure_gradient = pressure_gradient,
+                                  .set_slip = set_slip,
+                                  .convection = convection,
+                                  .viscous = viscous,
+                                  .solve_viscous = solve_viscous,
+                                  .face_velocities = face_velocities,
+                                  .divergence = divergence,
+                                  .correct_fluxes = correct_fluxes,
+                                  .change_gradient = change_gradient,
+                                  .dry_fluxes = dry_fluxes,
+                                  .measure = measure_even};

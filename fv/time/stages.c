@@ -1,0 +1,105 @@
+/* stages.c - see stages.h: what the operators of the cells make, and what stands around them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "stages.h"
+
+#include "../boundary/forcing.h"
+#include "../boundary/levels.h"
+#include "../boundary/mesh_bc.h"
+#include "../boundary/outflow.h"
+#include "../operators/blocked_cells.h"
+#include "../poisson/poisson.h"
+#include "../surface/levelset.h"
+#include "../watch/limits.h"
+#include "moving.h"
+
+#include <math.h>
+
+void stage_pressure_gradient(struct fv *s)
+{
+    grid_fill(&s->grid, 1, &s->p);
+    if (s->ops->smooth_pressure(s))
+        grid_fill(&s->grid, 1, &s->p);
+    if (s->moving)
+        moving_begin(s);
+    s->ops->pressure_gradient(s, s->p, s->step_p);
+    if (s->moving)
+        moving_gradient(s);
+}
+
+void stage_set_slip(struct fv *s, double tau, const double *psi)
+{
+    if (s->moving)
+        moving_turn_pressure(s, tau);
+    s->ops->set_slip(s, tau, psi);
+}
+
+/* Cells that a partner's box has left have no convection of the step before. */
+static void begin_born(struct fv *s, double *const N[3])
+{
+    for (int64_t c = 0; c < s->size; c++)
+        for (int a = 0; a < s->dim && s->born[c]; a++)
+            s->N_old[a][c] = N[a][c];
+}
+
+void stage_convection(struct fv *s, double *const N[3])
+{
+    s->ops->convection(s, N);
+    if (s->born && s->t == s->born_at)
+        begin_born(s, N);
+    if (s->moving)
+        moving_convection(s, N);
+}
+
+void stage_set_sides(struct fv *s, double t, double dt)
+{
+    if (s->moving)
+        moving_stage(s, t);
+    sides_time(s, t);
+    outflow_set(s, dt);
+    levels_set(s, t);
+}
+
+bool stage_solve_viscous(struct fv *s, double c, double t, double scale)
+{
+    if (s->moving)
+        moving_change(s);
+    return s->ops->solve_viscous(s, c, t, scale);
+}
+
+void stage_predict_fluxes(struct fv *s, double t)
+{
+    if (s->forcing)
+        forcing_velocity(s, t, s->u);
+    if (s->surface)
+        extension_apply(s, s->u, EXTEND_FREE, STENCILS);
+    for (int a = 0; s->blocked && a < s->dim; a++)
+        blocked_zero(s, s->u[a]);
+    if (s->moving) {
+        moving_fill(s, s->u);
+        mesh_bc_velocity(s, BC_AHEAD, s->u);
+    } else {
+        sides_velocity(s, BC_AHEAD, s->u);
+    }
+    s->ops->face_velocities(s, s->u, s->U);
+    sides_fluxes(s, BC_GIVEN, s->U);
+    if (s->forcing)
+        forcing_fluxes(s, t, s->U);
+}
+
+bool stage_solve_pressure(struct fv *s, int stage, double tau, double tol)
+{
+    levels_fluxes(s, tau);
+    return poisson_solve(s, tau, s->ops->divergence(s, tau), tol, s->start[stage], s->psi[stage]);
+}
+
+/* m/s^2: of differences of pressure between sides. */
+static double push_of(const struct fv *s)
+{
+    const struct scene_domain *d = &s->run->scene.domain;
+    double L = INFINITY;
+    for (int a = 0; a < s->dim; a++)
+        L = fmin(L, d->max[a] - d->min[a]);
+    return limits_pressure_difference(&s->run->scene) / L;
+}
+
+void measure(struct fv *s) { s->ops->measure(s, push_of(s), s->moving ? moving_rate(s) : 0.0); }
