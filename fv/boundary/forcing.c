@@ -411,19 +411,6 @@ void forcing_fill(const struct fv *s, const unsigned char *mask)
     mem_free(next);
 }
 
-void forcing_average(const struct fv *s, int64_t c, double t, double *v, double *pressure)
-{
-    double x[3], h[3], p, w;
-    int at[3];
-    const struct part *part = grid_part(&s->grid, c, at);
-    if (s->m) {
-        mesh_exact_average(s, part, at, t, v, pressure ? pressure : &p, &w);
-        return;
-    }
-    block_cell(&s->b, at[0], at[1], at[2], x, h);
-    exact_average(&s->exact, x, h, t, v, pressure, NULL);
-}
-
 void forcing_centre(const struct fv *s, int64_t c, double *x)
 {
     int at[3];

@@ -78,6 +78,11 @@ struct forcing {
  * box. */
 struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2][3], bool partner);
 void forcing_free(struct forcing **f);
+/* Whether a cell of this rank is solved for: on blocks no dry one is. */
+static inline bool forcing_is_free(const struct fv *s, int64_t c)
+{
+    return s->free ? s->free[c] > 0.0 : !(s->forcing && s->forcing->forced[c]);
+}
 /* Zero in the imposed cells of this rank. */
 void forcing_zero(const struct forcing *f, double *q);
 /* The next coupling step, t0 to t1, begins: v_next is v now, and its new values are those of the
@@ -107,7 +112,10 @@ void forcing_list_fixes(const struct fv *s, struct forcing *f, int a);
 /* Extends p into the near imposed cells from the free side, `layers' of them, one by one. */
 void forcing_extend(const struct fv *s, int layers, double *p);
 
-/* Exact average over a cell of this rank at t; its centre. pressure: Pa, or NULL. */
+/* mesh_exact.c: averages of the exact solution at t over cell `at' of a part; pressure (Pa), w
+ * (1/s): NULL if not wanted. Of the cell at place c; its centre. */
+void cell_exact(const struct fv *s, const struct part *p, const int *at, double t, double *u,
+                double *pressure, double *w);
 void forcing_average(const struct fv *s, int64_t c, double t, double *v, double *pressure);
 void forcing_centre(const struct fv *s, int64_t c, double *x);
 

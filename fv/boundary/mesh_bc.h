@@ -59,9 +59,7 @@ void mesh_bc_force(struct fv *s, const double *phi, double (*body)[4], double al
 /* What comes in through this rank's sides: energy, work of pressure and of friction, over rho. */
 double mesh_bc_power(struct fv *s);
 
-/* mesh_exact.c: the exact solution, averaged over a cell or at a place. */
-void mesh_exact_average(const struct fv *s, const struct part *p, const int *i, double t, double *u,
-                        double *pressure, double *w);
+/* mesh_exact.c: the exact solution at a place. */
 void mesh_exact_at(const struct fv *s, const double *x, double t, double *u, double *p, double *w);
 
 #endif

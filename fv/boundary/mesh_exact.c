@@ -1,6 +1,8 @@
-/* mesh_exact.c - the exact solution on blocks. SPDX-License-Identifier: BSD-3-Clause */
+/* mesh_exact.c - the exact solution in cells, on blocks with a ring among its fields.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
+#include "forcing.h"
 #include "mesh_bc.h"
 
 /* Couette flow in a ring: u_theta = A r + B/r. */
@@ -31,8 +33,8 @@ void mesh_exact_at(const struct fv *s, const double *x, double t, double *u, dou
         exact_point(&s->exact, x, t, u, p, w);
 }
 
-void mesh_exact_average(const struct fv *s, const struct part *p, const int *i, double t, double *u,
-                        double *pressure, double *w)
+static void average(const struct fv *s, const struct part *p, const int *i, double t, double *u,
+                    double *pressure, double *w)
 {
     static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
     const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]}, n = 1 << s->m->dim;
@@ -47,4 +49,23 @@ void mesh_exact_average(const struct fv *s, const struct part *p, const int *i, 
         *pressure += q / n;
         *w += o / n;
     }
+}
+
+void cell_exact(const struct fv *s, const struct part *p, const int *at, double t, double *u,
+                double *pressure, double *w)
+{
+    double x[3], h[3], spare[2];
+    if (s->m) {
+        average(s, p, at, t, u, pressure ? pressure : spare, w ? w : spare + 1);
+        return;
+    }
+    block_cell(&s->b, at[0], at[1], at[2], x, h);
+    exact_average(&s->exact, x, h, t, u, pressure, w);
+}
+
+void forcing_average(const struct fv *s, int64_t c, double t, double *v, double *pressure)
+{
+    int at[3];
+    const struct part *p = grid_part(&s->grid, c, at);
+    cell_exact(s, p, at, t, v, pressure, NULL);
 }

@@ -59,10 +59,10 @@ static void fill(struct fv *s)
         const struct part *p = m->part + q;
         int i[3];
         PART_CELLS (p, i, c) {
-            double u[3], pr, w, diagonal = 0.0;
+            double u[3], pr, diagonal = 0.0;
             if (m->status[c] == CELL_HOLE && !all)
                 continue;
-            mesh_exact_average(s, p, i, 0.0, u, &pr, &w);
+            cell_exact(s, p, i, 0.0, u, &pr, NULL);
             if (at_rest)
                 memset(u, 0, sizeof u);
             const struct mesh_block *b = m->block + p->block;

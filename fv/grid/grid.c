@@ -76,6 +76,16 @@ void grid_lengths(const struct grid *g, const struct part *p, const int *at, dou
         length[a] = sqrt(dx[a][0] * dx[a][0] + dx[a][1] * dx[a][1] + dx[a][2] * dx[a][2]);
 }
 
+void grid_box(const struct grid *g, const struct part *p, const int *at, double h[3])
+{
+    double x[3];
+    if (g->even) {
+        block_cell(g->even, at[0], at[1], at[2], x, h);
+        return;
+    }
+    h[0] = h[1] = h[2] = pow(g->mesh->V[part_at(p, at[0], at[1], at[2])], 1.0 / g->dim);
+}
+
 int64_t grid_number(const struct grid *g, int64_t c)
 {
     int at[3], cell[3];

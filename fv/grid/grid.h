@@ -25,6 +25,8 @@ void grid_point(const struct grid *g, const struct part *p, const int *at, const
 void grid_mean_place(const struct grid *g, const struct part *p, const int *at, double x[3]);
 /* m: its lengths along the indices. */
 void grid_lengths(const struct grid *g, const struct part *p, const int *at, double length[3]);
+/* m: sides of the box that stands for it: its own, on blocks those of a cube of its volume. */
+void grid_box(const struct grid *g, const struct part *p, const int *at, double h[3]);
 /* Number of the cell at place c in the whole grid, or among the cells of all blocks. */
 int64_t grid_number(const struct grid *g, int64_t c);
 

@@ -475,23 +475,3 @@ void mesh_smooth_pressure(struct fv *s)
             for (int64_t i = c; i < c + n; i++)
                 p[i] -= s->free[i] * (0.1 / 64.0) * sum[i];
 }
-
-void mesh_vorticity(struct fv *s, double *w)
-{
-    static const int none[3] = {0, 0, 0};
-    const struct mesh *m = s->m;
-    mesh_gradient(s, s->u[0], s->rhs);
-    for (int r = 0; r < m->nparts; r++)
-        PART_ROWS (m->part + r, none, none, c, n)
-            memcpy(w + c, s->rhs[1] + c, (size_t)n * sizeof(double));
-    mesh_gradient(s, s->u[1], s->rhs);
-    for (int r = 0; r < m->nparts; r++)
-        PART_ROWS (m->part + r, none, none, c, n)
-            for (int64_t i = c; i < c + n; i++)
-                w[i] = s->rhs[0][i] - w[i];
-    mesh_fill(s->m, 1, &w);
-    if (s->forcing)
-        forcing_extend(s, 1, w);
-    mesh_bc_even(s, false, w);
-    mesh_to_index(s, w, s->flux);
-}

@@ -25,6 +25,5 @@ void mesh_to_index(const struct fv *s, double *q, double *work);
 /* The other way, to fourth order, also beside sides; sets the ghosts of q. */
 void mesh_to_volume(struct fv *s, double *q, double *work);
 void mesh_smooth_pressure(struct fv *s);
-void mesh_vorticity(struct fv *s, double *w);
 
 #endif

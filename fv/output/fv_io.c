@@ -13,7 +13,7 @@
 #include "../boundary/forcing.h"
 #include "../boundary/still.h"
 #include "../grid/mesh.h"
-#include "../operators/mesh_ops.h"
+#include "../operators/flow_measures.h"
 #include "../surface/levelset.h"
 
 bool fv_field_wanted(const struct run *r, const char *name)
@@ -33,8 +33,7 @@ static void velocity(struct fv *s, double *const q[3])
     for (int a = 0; a < s->dim; a++) {
         FLOW_ROWS (s, c, n)
             memcpy(q[a] + c, s->u[a] + c, (size_t)n * sizeof(double));
-        if (s->m)
-            mesh_to_volume(s, q[a], s->flux);
+        flow_to_volume(s, q[a]);
     }
 }
 
@@ -43,8 +42,8 @@ static void pressure(struct fv *s, double *const q[3])
     FLOW_ROWS (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             q[0][i] = fv_pressure(s, i) + s->datum;
-    if (s->m && !s->surface) /* p ends at the surface: no differences there */
-        mesh_to_volume(s, q[0], s->flux);
+    if (!s->surface) /* p ends there: no differences */
+        flow_to_volume(s, q[0]);
     for (const struct part *p = s->part; p < s->part + s->nparts; p++) {
         double x[3];
         int i[3];
@@ -57,12 +56,8 @@ static void pressure(struct fv *s, double *const q[3])
 
 static void vorticity(struct fv *s, double *const q[3])
 {
-    if (!s->m) {
-        fv_vorticity(s, q[0]);
-        return;
-    }
-    mesh_vorticity(s, q[0]);
-    mesh_to_volume(s, q[0], s->flux);
+    flow_vorticity(s, q[0]);
+    flow_to_volume(s, q[0]);
 }
 
 static bool has_exact_vorticity(const struct fv *s)
@@ -119,6 +114,9 @@ void output_fill(struct fv *s, enum output_field what, double *const q[3])
 
 /* ---- the file ---- */
 
+/* Datasets of the blocks have their numbers, and vertices are written at all times. */
+static bool in_blocks(const struct fv *s) { return grid_name(&s->grid, 0) != NULL; }
+
 /* Forced and dry cells hold what the stencils need, not a flow: no number in a picture. */
 static bool is_blank(const struct fv *s, bool flows, int64_t c)
 {
@@ -152,8 +150,8 @@ static void write(const struct fv *s, struct h5 *f, int k, const struct field *o
             for (int a = 0; a < of->ncomp; a++)
                 *to++ = is_blank(s, of->flows, c) ? NAN : q[a][c];
     snprintf(name, sizeof name, "%s_%d", of->name, k + 1);
-    h5_write_block(f, s->m ? name : of->name, of->unit, s->dim, grid_cells(&s->grid, k), lo, hi,
-                   of->ncomp, v, true);
+    h5_write_block(f, in_blocks(s) ? name : of->name, of->unit, s->dim, grid_cells(&s->grid, k), lo,
+                   hi, of->ncomp, v, true);
     mem_free(v);
 }
 
@@ -176,7 +174,7 @@ static void write_vertices(const struct fv *s, struct h5 *f, int k)
                 memcpy(to, x, (size_t)s->dim * sizeof *x);
             }
     snprintf(name, sizeof name, "x_%d", k + 1);
-    h5_write_block(f, s->m ? name : "vertices", "m", s->dim, n, lo, hi, s->dim, all, false);
+    h5_write_block(f, in_blocks(s) ? name : "vertices", "m", s->dim, n, lo, hi, s->dim, all, false);
     mem_free(all);
 }
 
@@ -204,7 +202,7 @@ static void view(const struct fv *s, struct xdmf *x, const char *file, int n,
     int cells[MESH_BLOCKS_MAX][3];
     for (int k = 0; k < grid_blocks(&s->grid); k++)
         memcpy(cells[k], grid_cells(&s->grid, k), sizeof cells[k]);
-    if (s->m)
+    if (in_blocks(s))
         xdmf_curved(x, s->t, file, s->dim, grid_blocks(&s->grid), (const int(*)[3])cells, n, of);
     else if (s->dim == 2)
         xdmf_flat(x, s->t, file, first_snapshot, b->cells, n, of);
@@ -217,14 +215,14 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
     struct fv *s = state;
     struct xdmf_field of[FIELDS];
     int n = 0;
-    if (s->m)
-        h5_attribute_int(f, "blocks", s->m->nblocks);
+    if (in_blocks(s))
+        h5_attribute_int(f, "blocks", grid_blocks(&s->grid));
     else
         write_frame(s, f);
     if (s->run->coupled) /* Pa: what the pressures below have of the partner's level */
         h5_attribute_real(f, "datum", s->datum);
     for (int k = 0; k < grid_blocks(&s->grid); k++)
-        if (s->m || (s->dim == 2 && strcmp(file, first_snapshot) == 0))
+        if (in_blocks(s) || (s->dim == 2 && strcmp(file, first_snapshot) == 0))
             write_vertices(s, f, k);
     for (const struct field *one = fields; one < fields + FIELDS; one++) {
         double *q[3] = {NULL, NULL, NULL};

@@ -65,13 +65,12 @@ static double extremum(const double *line, int n, double sign)
     return sign * best;
 }
 
-void fv_summarise_extrema(const struct fv *s)
+static void on_even_cells(const struct fv *s, double found[3])
 {
     double *const lines[2] = {line_of(s, 0, 0), line_of(s, 1, 1)};
-    const double found[3] = {extremum(lines[0], s->b.cells[1], -1.0),
-                             extremum(lines[1], s->b.cells[0], 1.0),
-                             extremum(lines[1], s->b.cells[0], -1.0)};
-    summary_extrema(s->run->summary, found, s->prm.extrema);
+    found[0] = extremum(lines[0], s->b.cells[1], -1.0);
+    found[1] = extremum(lines[1], s->b.cells[0], 1.0);
+    found[2] = extremum(lines[1], s->b.cells[0], -1.0);
     mem_free(lines[0]);
     mem_free(lines[1]);
 }
@@ -99,12 +98,24 @@ static void search_line(const struct fv *s, const struct overset *o, int q, doub
     mem_free(line);
 }
 
-void mesh_summarise_extrema(const struct fv *s)
+static void on_blocks(const struct fv *s, double found[3])
 {
     struct overset *o = overset_search(s->run, s->m);
     double u[2], v[2];
     search_line(s, o, 0, u);
     search_line(s, o, 1, v);
-    summary_extrema(s->run->summary, (const double[]){u[0], v[1], v[0]}, s->prm.extrema);
+    found[0] = u[0];
+    found[1] = v[1];
+    found[2] = v[0];
     overset_free(&o);
+}
+
+void fv_summarise_extrema(const struct fv *s)
+{
+    double found[3];
+    if (s->m)
+        on_blocks(s, found);
+    else
+        on_even_cells(s, found);
+    summary_extrema(s->run->summary, found, s->prm.extrema);
 }

@@ -8,7 +8,7 @@
 #include "../../common/base/log.h"
 #include "../../common/scene/scene_probe.h"
 #include "../boundary/blocked.h"
-#include "../grid/mesh.h"
+#include "../operators/flow_measures.h"
 #include "../surface/levelset.h"
 #include "../time/newton.h"
 #include "../watch/watches.h"
@@ -102,7 +102,7 @@ void fv_row(void *state, double *values)
     values[0] = s->run->scene.fluid.rho * sum[0];
     values[1] = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
     s->fastest = fmax(s->fastest, values[1]);
-    values[2] = of->largest_divergence(s);
+    values[2] = flow_largest_divergence(s);
     if (s->has_exact) {
         struct norm norms[NORMS];
         fv_errors(s, norms);
@@ -144,7 +144,7 @@ void fv_finish(void *state)
     struct fv *s = state;
     struct run *r = s->run;
     const struct report *of = report_of(s);
-    const double cells = of->cells(s);
+    const double cells = grid_computed(&s->grid);
     double sum[2];
     summary_int(r->summary, "cells", llround(cells));
     if (r->scene.initial.U > 0.0)
@@ -154,10 +154,10 @@ void fv_finish(void *state)
     fv_energies(s, sum);
     summary_real(r->summary, "drift.energy",
                  s->has_exact && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
-    summary_real(r->summary, "divergence", of->largest_divergence(s));
+    summary_real(r->summary, "divergence", flow_largest_divergence(s));
     of->summarise(s);
     if (s->prm.extrema[0] != 0.0)
-        of->extrema(s);
+        fv_summarise_extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);
     fv_watches_end(s);
     summarise_cost(s, cells);

@@ -36,40 +36,6 @@ bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, c
     return false;
 }
 
-double mesh_curl_squared(const struct fv *s, const struct part *p, int64_t c)
-{
-    const struct mesh *m = s->m;
-    double g[3][3] = {{0.0}}, sum = 0.0;
-    for (int q = 0; q < m->dim; q++) /* by face values: second order */
-        for (int a = 0; a < m->dim; a++)
-            for (int k = 0; k < m->dim; k++) {
-                const int64_t d = p->stride[a];
-                g[q][k] += 0.5 *
-                           (m->S[a][k][c + d] * (s->u[q][c] + s->u[q][c + d]) -
-                            m->S[a][k][c] * (s->u[q][c] + s->u[q][c - d])) /
-                           m->V[c];
-            }
-    for (int a = m->dim == 3 ? 0 : 2; a < 3; a++) {
-        const double w = g[(a + 2) % 3][(a + 1) % 3] - g[(a + 1) % 3][(a + 2) % 3];
-        sum += w * w;
-    }
-    return sum;
-}
-
-/* Largest |div U|, 1/s. */
-static double largest_divergence(struct fv *s)
-{
-    static const int none[3] = {0, 0, 0};
-    double most = 0.0;
-    mesh_divergence(s, s->U, s->flux);
-    for (int q = 0; q < s->m->nparts; q++)
-        PART_ROWS (s->m->part + q, none, none, c, n)
-            for (int64_t i = c; i < c + n; i++)
-                most = fmax(most, fabs(s->flux[i]) / s->m->V[i]);
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->m->comm);
-    return most;
-}
-
 double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int wanted,
                      const double *q)
 {
@@ -293,15 +259,10 @@ static void summarise(struct fv *s)
     summary_real(to, "poisson_retries", (double)s->retries);
 }
 
-static double cells_of(const struct fv *s) { return (double)s->m->computed; }
-
-const struct report block_report = {.largest_divergence = largest_divergence,
-                                    .cells = cells_of,
-                                    .force_columns = force_columns,
+const struct report block_report = {.force_columns = force_columns,
                                     .forces = forces,
                                     .probes = mesh_probes,
-                                    .summarise = summarise,
-                                    .extrema = mesh_summarise_extrema};
+                                    .summarise = summarise};
 
 /* Least distance of opposite faces of a computed cell, m, about: volume over the largest face. */
 static double least_height(const struct mesh *m)

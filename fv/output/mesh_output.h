@@ -12,13 +12,10 @@ double mesh_value_at(const struct fv *s, const struct overset *o, const double *
                      const double *q);
 /* mesh_probes.c: values of the case's gauges, on all ranks. */
 void mesh_probes(struct fv *s, double *values);
-/* fv_lines.c: extrema on the centre lines of the domain into the summary. */
-void mesh_summarise_extrema(const struct fv *s);
 
 /* mesh_errors.c */
 void mesh_describe(const struct run *r, const struct fv_params *prm);
 /* Whether a later block computes the place of a cell of `block', too. */
 bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, const double *x);
-double mesh_curl_squared(const struct fv *s, const struct part *p, int64_t c); /* 1/s^2 */
 
 #endif

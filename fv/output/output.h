@@ -6,10 +6,6 @@
 #include "../fv.h"
 
 /* fv_io.c, fv_errors.c */
-/* |curl u|^2 of a cell in local row j, 1/s^2. */
-double fv_curl_squared(const struct fv *s, int64_t c, int j);
-void fv_vorticity(const struct fv *s,
-                  double *w); /* dv/dx - du/dy, all local cells (with ghosts' layout) */
 /* Averages over the volumes of cells as snapshots have them, m/s, Pa, 1/s. */
 enum output_field { OUTPUT_VELOCITY, OUTPUT_PRESSURE, OUTPUT_VORTICITY };
 void output_fill(struct fv *s, enum output_field what, double *const q[3]);

@@ -8,15 +8,12 @@
 enum { NORMS = 3 }; /* velocity, pressure, vorticity */
 
 struct report {
-    double (*largest_divergence)(struct fv *s); /* 1/s */
-    double (*cells)(const struct fv *s);        /* that are computed, of all ranks */
     /* Forces on all closed sides, then on each body: number of columns and their (static) names;
      * values, as many. */
     int (*force_columns)(const struct run *r, const struct fv_params *prm, const char **columns);
     int (*forces)(struct fv *s, double *values);
     void (*probes)(struct fv *s, double *values);
     void (*summarise)(struct fv *s); /* what this kind alone has */
-    void (*extrema)(const struct fv *s);
 };
 extern const struct report even_report, block_report;
 

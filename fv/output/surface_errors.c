@@ -8,6 +8,7 @@
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
 #include "../boundary/still.h"
+#include "../operators/flow_measures.h"
 #include "../surface/fraction.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
@@ -197,14 +198,15 @@ double surface_level(const struct fv *s, const double *x)
 
 static double enstrophy(const struct fv *s)
 {
-    const struct block *b = &s->b;
     double sum = 0.0;
-    BLOCK_ROWS_AT (b, 0, j, c, n)
+    FLOW_ROWS_AT (s, p, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             const double part = surface_water(s, i);
-            sum += part > 0.0 ? 0.5 * part * fv_curl_squared(s, i, j) * block_volume(b, j) : 0.0;
+            sum += part > 0.0
+                       ? 0.5 * part * flow_curl_squared(s, p, i) * surface_cell_volume(s, i, j)
+                       : 0.0;
         }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, b->cart);
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
     return sum;
 }
 

@@ -47,7 +47,7 @@ static bool is_smoothed(const struct fv *s, int64_t c)
     const struct surface *f = s->surface;
     if (!(f->phi[c] > -DEPTH * f->largest))
         return false;
-    return s->m ? s->free[c] > 0.0 : f->layer[c] == 0 && !(s->forcing && s->forcing->forced[c]);
+    return f->layer[c] == 0 && forcing_is_free(s, c);
 }
 
 static void smooth_part(const struct fv *s, const struct part *p, int m, const double share[3],

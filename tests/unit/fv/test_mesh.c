@@ -2,6 +2,7 @@
  * restart. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
+#include "../../../fv/boundary/forcing.h"
 #include "../../../fv/boundary/mesh_bc.h"
 #include "mesh_case.h"
 
@@ -160,7 +161,7 @@ static void output_errors(const char *text, const char *const *overrides, double
             int i[3];
             PART_CELLS (p, i, at) {
                 double u[3], pressure, w;
-                mesh_exact_average(s, p, i, 0.0, u, &pressure, &w);
+                cell_exact(s, p, i, 0.0, u, &pressure, &w);
                 s->u[0][at] = u[0];
                 s->u[1][at] = u[1];
                 s->p[at] = s->p_before[at] = pressure;
