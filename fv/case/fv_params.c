@@ -108,8 +108,6 @@ static void check_graded(const struct run *r, struct faults *f)
     if (surface_wanted(r) && still_upright(&r->scene) != 1)
         params_fault(r->params, f, "fv.graded",
                      "with a free surface gravity must act along y, across the layers");
-    if (given.extrema[0] != 0.0)
-        params_fault(r->params, f, "fv.graded", "not with fv.extrema");
     if (d->periodic[1])
         params_fault(r->params, f, "fv.graded", "y is periodic");
     else if (given.graded[1] != floor(given.graded[1]))

@@ -12,6 +12,8 @@
 #include "mesh_output.h"
 #include "output.h"
 
+enum { POINTS = 4000 }; /* at which a line is looked at */
+
 /* Value at the middle of the domain along the stride, from the cell c right of it (or around it,
  * for an odd count): face average, or centre of a cell average. */
 static double middle(const double *q, int64_t d, bool odd)
@@ -21,20 +23,66 @@ static double middle(const double *q, int64_t d, bool odd)
     return (7.0 * (q[0] + q[-d]) - (q[d] + q[-2 * d])) / 12.0;
 }
 
+/* Value at y between the edges of n layers with averages q: the derivative of the polynomial
+ * through their integral at the six edges around. */
+static double in_layers(const double *edge, const double *q, int n, double y)
+{
+    int first = 0;
+    double integral = 0.0, sum = 0.0;
+    while (first < n - 5 && edge[first + 3] <= y)
+        first++;
+    const double *e = edge + first;
+    for (int m = 0; m < 6; m++) {
+        double slope = 0.0; /* of the polynomial that is 1 at edge m, 0 at the others */
+        for (int k = 0; k < 6; k++) {
+            double part = k == m ? 0.0 : 1.0 / (e[m] - e[k]);
+            for (int l = 0; l < 6; l++)
+                part *= l == m || l == k ? 1.0 : (y - e[l]) / (e[m] - e[l]);
+            slope += part;
+        }
+        sum += slope * integral;
+        integral += m < 5 ? q[first + m] * (e[m + 1] - e[m]) : 0.0;
+    }
+    return sum;
+}
+
+/* The layer that y lies in. */
+static int layer_at(const struct block *b, double y)
+{
+    int j = 0;
+    while (j < b->cells[1] - 1 && b->rows->edge[j + 1] <= y)
+        j++;
+    return j;
+}
+
+/* The same as middle, in layers: q at the one in which the middle lies. */
+static double middle_of_layers(const struct block *b, const double *q, int layer)
+{
+    double near[5];
+    for (int m = 0; m < 5; m++)
+        near[m] = q[(m - 2) * b->stride[1]];
+    return in_layers(b->rows->edge + layer - 2, near, 5, b->origin[1] + 0.5 * b->length[1]);
+}
+
 /* Averages along the line of component q at the middle of axis `across', cell by cell along the
  * other one, on all ranks; NEW, with a ghost on each side. */
 static double *line_of(const struct fv *s, int q, int across)
 {
     const struct block *b = &s->b;
-    const int along = 1 - across, n = b->cells[along], centre = b->cells[across] / 2;
+    const int along = 1 - across, n = b->cells[along];
+    const bool layers = across == 1 && b->rows;
+    const int centre =
+        layers ? layer_at(b, b->origin[1] + 0.5 * b->length[1]) : b->cells[across] / 2;
     double *line = NEW(double, n + 2);
     int at[3] = {0, 0, b->cells[2] / 2 - b->lo[2]};
     at[across] = centre - b->lo[across];
     if (at[across] >= 0 && at[across] < b->n[across] && at[2] >= 0 && at[2] < b->n[2])
         for (int i = 0; i < b->n[along]; i++) {
             at[along] = i;
-            line[1 + b->lo[along] + i] = middle(s->u[q] + block_at(b, at[0], at[1], at[2]),
-                                                b->stride[across], b->cells[across] % 2);
+            const double *u = s->u[q] + block_at(b, at[0], at[1], at[2]);
+            line[1 + b->lo[along] + i] = layers
+                                             ? middle_of_layers(b, u, centre)
+                                             : middle(u, b->stride[across], b->cells[across] % 2);
         }
     MPI_Allreduce(MPI_IN_PLACE, line, n + 2, MPI_DOUBLE, MPI_SUM, b->cart);
     return line;
@@ -65,10 +113,22 @@ static double extremum(const double *line, int n, double sign)
     return sign * best;
 }
 
+/* Largest value of sign f(y) where f has these averages in layers. */
+static double extremum_in_layers(const struct block *b, const double *line, double sign)
+{
+    double best = -INFINITY;
+    for (int k = 0; k < POINTS; k++) {
+        const double y = b->origin[1] + (k + 0.5) / POINTS * b->length[1];
+        best = fmax(best, sign * in_layers(b->rows->edge, line + 1, b->cells[1], y));
+    }
+    return sign * best;
+}
+
 static void on_even_cells(const struct fv *s, double found[3])
 {
     double *const lines[2] = {line_of(s, 0, 0), line_of(s, 1, 1)};
-    found[0] = extremum(lines[0], s->b.cells[1], -1.0);
+    found[0] = s->b.rows ? extremum_in_layers(&s->b, lines[0], -1.0)
+                         : extremum(lines[0], s->b.cells[1], -1.0);
     found[1] = extremum(lines[1], s->b.cells[0], 1.0);
     found[2] = extremum(lines[1], s->b.cells[0], -1.0);
     mem_free(lines[0]);
@@ -79,7 +139,6 @@ static void on_even_cells(const struct fv *s, double found[3])
  * cubics through the averages, looked at closely. */
 static void search_line(const struct fv *s, const struct overset *o, int q, double ends[2])
 {
-    enum { POINTS = 4000 };
     const double *min = s->run->scene.domain.min, *max = s->run->scene.domain.max;
     double *line = NEW(double, POINTS), x[3];
     for (int a = 0; a < 3; a++)

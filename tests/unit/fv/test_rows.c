@@ -219,6 +219,47 @@ static void cavity_is_the_same(void **state)
     assert_true(fabs(graded / fine - 1.0) < 5e-4);
 }
 
+/* u = -exp(-(y - 0.3)^2/b^2), v = sin(2 pi x) cos(y - 0.5), as averages: error of the extrema on
+ * the centre lines, which are 1. */
+static double extrema_error(int cells, int even)
+{
+    const double b = 0.15, two_pi = 2.0 * M_PI;
+    struct fv_case c;
+    double error = NAN, x[3], h[3];
+    char size[48], graded[48];
+    snprintf(size, sizeof size, "fv.cells=(%d,%d)", cells, cells);
+    snprintf(graded, sizeof graded, "fv.graded=(0.6,%d)", even);
+    fv_case_set(&c, MPI_COMM_SELF,
+                (const char *const[]){CLOSED, "initial.field=\"rest\"", size, graded,
+                                      "fv.extrema=(-1,1,-1)", NULL});
+    for (int k = SIDE_X_MIN; k <= SIDE_Y_MAX; k++)
+        wall_add(&c, (enum scene_side)k, WALL_NO_SLIP, 0.0);
+    struct fv *s = fv_case_start(&c, NULL);
+    assert_non_null(s->b.rows);
+    BLOCK_CELLS (&s->b, i, j, k, at) {
+        block_cell(&s->b, i, j, k, x, h);
+        const double low = x[1] - 0.5 * h[1], up = x[1] + 0.5 * h[1], left = x[0] - 0.5 * h[0];
+        s->u[0][at] = -0.5 * b * sqrt(M_PI) * (erf((up - 0.3) / b) - erf((low - 0.3) / b)) / h[1];
+        s->u[1][at] = (cos(two_pi * left) - cos(two_pi * (left + h[0]))) / (two_pi * h[0]) *
+                      (sin(up - 0.5) - sin(low - 0.5)) / h[1];
+    }
+    c.run.summary = summary_create();
+    fv_summarise_extrema(s);
+    assert_true(summary_find(c.run.summary, "error.extrema", &error));
+    summary_free(&c.run.summary);
+    fv_free(&c.s);
+    return error;
+}
+
+/* As the scheme is: fourth order. */
+static void extrema_are_of_the_order_of_the_scheme(void **state)
+{
+    (void)state;
+    const double coarse = extrema_error(32, 16), fine = extrema_error(64, 32);
+    print_message("extrema: %.3g, %.3g\n", coarse, fine);
+    assert_true(fv_case_order(coarse, fine) > 3.5 && fine < 1e-4);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(heights_fill_the_domain),
@@ -229,7 +270,8 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(slip_walls_keep_the_order),
                                        cmocka_unit_test(channel_is_exact),
                                        cmocka_unit_test(duct_is_exact),
-                                       cmocka_unit_test(cavity_is_the_same)};
+                                       cmocka_unit_test(cavity_is_the_same),
+                                       cmocka_unit_test(extrema_are_of_the_order_of_the_scheme)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
