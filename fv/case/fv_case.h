@@ -63,6 +63,8 @@ void blocked_describe(const struct run *r);
 struct fv *fv_create(struct run *r, struct h5 *f);
 void fv_free(struct fv **s);
 /* What blocks add to fv_create and fv_free. */
+/* Those of the cells that s has. */
+void fv_make_fields(struct fv *s);
 void mesh_state_create(struct fv *s);
 void mesh_state_start(struct fv *s);
 void mesh_state_free(struct fv *s);

@@ -33,32 +33,50 @@
 #include "../watch/watches.h"
 #include "fv_case.h"
 
-static void make_fields(struct fv *s)
+/* What is solved for along axis a, and its scratch. */
+static void make_vectors(struct fv *s, int a)
 {
-    const struct block *b = &s->b;
-    s->p = block_field(b);
-    s->p_before = block_field(b);
-    s->face = block_field(b);
-    s->flux = block_field(b);
-    if (b->dim == 3)
-        s->step_work = block_field(b);
-    for (int a = 0; a < 3; a++)
-        if (a == 0 || s->prm.integrator == INTEGRATOR_RK3)
-            s->psi[a] = block_field(b);
-    for (int a = 0; a < b->dim; a++) {
-        double **const all[] = {&s->u[a],     &s->U[a],   &s->N[a],
-                                &s->N_old[a], &s->rhs[a], &s->step_p[a]};
-        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-            *all[k] = block_field(b);
-        if (s->nu > 0.0) {
-            s->delta[a] = block_field(b);
-            s->work[a] = block_field(b);
-            for (int k = 0; k < 2 && (s->bc || s->surface || s->blocked || b->rows); k++)
-                s->krylov[k][a] = block_field(b);
-        }
-        if (s->prm.integrator != INTEGRATOR_RK3)
-            s->u_old[a] = block_field(b);
+    double **const all[] = {&s->u[a], &s->U[a], &s->N[a], &s->N_old[a], &s->rhs[a], &s->step_p[a]};
+    const bool walls = s->bc || s->surface || s->blocked || s->b.rows, viscous = s->nu > 0.0;
+    const int scratch = s->m ? 4 : viscous && walls ? 2 : 0;
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+        *all[k] = NEW(double, s->size);
+    if (s->m || viscous)
+        s->delta[a] = NEW(double, s->size);
+    if (s->m)
+        s->faces[a] = NEW(double, s->size);
+    else if (viscous)
+        s->work[a] = NEW(double, s->size);
+    for (int k = 0; k < scratch; k++)
+        s->krylov[k][a] = NEW(double, s->size);
+    if (s->prm.integrator != INTEGRATOR_RK3)
+        s->u_old[a] = NEW(double, s->size);
+}
+
+void fv_make_fields(struct fv *s)
+{
+    s->p = NEW(double, s->size);
+    s->p_before = NEW(double, s->size);
+    s->flux = NEW(double, s->size);
+    for (int a = 0; a < s->dim; a++)
+        make_vectors(s, a);
+    for (int a = 0; a < 3; a++) {
+        if (s->m || a == 0 || s->prm.integrator == INTEGRATOR_RK3)
+            s->psi[a] = NEW(double, s->size);
+        if (s->m)
+            s->start[a] = NEW(double, s->size);
     }
+    if (s->m) {
+        if (s->dim < 3) /* stays 0 */
+            s->u[2] = NEW(double, s->size);
+        s->free = NEW(double, s->size);
+        s->scale = NEW(double, s->size);
+        s->face = s->faces[0];
+        return;
+    }
+    s->face = NEW(double, s->size);
+    if (s->dim == 3)
+        s->step_work = NEW(double, s->size);
 }
 
 /* Exact averages, in forced cells and ghosts too; p less what gravity makes at rest. */
@@ -157,13 +175,18 @@ void fv_start(struct fv *s)
  * their mean, then what goes with the velocities. */
 static void meet_pressures(struct fv *s)
 {
-    double sum = 0.0, n = 0.0;
-    for (int k = 0; k < 6; k++)
-        if (s->bc->kind[k] == MESH_OUTFLOW) {
-            sum += s->bc->pressure[k];
-            n += 1.0;
-        }
-    for (int64_t c = 0; c < s->b.size; c++)
+    double sum = 0.0, n = 0.0, size = 0.0;
+    for (int k = 0; k < 2 * s->dim; k++) {
+        const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + k);
+        if (!w || side_of_wall(w) != MESH_OUTFLOW)
+            continue;
+        sum += w->pressure / s->run->scene.fluid.rho;
+        size += fabs(w->pressure);
+        n += 1.0;
+    }
+    if (size == 0.0)
+        return;
+    for (int64_t c = 0; c < s->size; c++)
         s->p[c] = s->p_before[c] = sum / n;
     pressure_start(s);
 }
@@ -231,7 +254,7 @@ static void create_grid(struct fv *s)
         s->prm.upwind = limits_upwind(s->run, s->bc || s->blocked,
                                       (double)s->b.cells[0] * s->b.cells[1] * s->b.cells[2]);
     s->surface = levelset_create(s);
-    make_fields(s);
+    fv_make_fields(s);
     fill(s);
     fill_fluxes(s);
     make_forcing(s);
@@ -283,11 +306,10 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     }
     if (!f && blocks)
         mesh_state_start(s);
-    else if (!f) {
+    else if (!f)
         project_start(s);
-        if (s->bc && s->bc->driven)
-            meet_pressures(s);
-    }
+    if (!f)
+        meet_pressures(s);
     measure(s);
     if (!f)
         meet_surface(s);

@@ -28,27 +28,6 @@
 #include "../watch/watches.h"
 #include "fv_case.h"
 
-static void make_fields(struct fv *s)
-{
-    const struct mesh *m = s->m;
-    double **const one[] = {&s->p, &s->p_before, &s->flux, &s->free, &s->scale};
-    for (size_t k = 0; k < sizeof one / sizeof one[0]; k++)
-        *one[k] = mesh_field(m);
-    for (int a = 0; a < 3; a++) {
-        double **const all[] = {&s->u[a],         &s->U[a],         &s->N[a],
-                                &s->N_old[a],     &s->rhs[a],       &s->delta[a],
-                                &s->step_p[a],    &s->faces[a],     &s->krylov[0][a],
-                                &s->krylov[1][a], &s->krylov[2][a], &s->krylov[3][a]};
-        s->start[a] = mesh_field(m);
-        s->psi[a] = mesh_field(m);
-        for (size_t k = 0; k < sizeof all / sizeof all[0] && (a < m->dim || k == 0); k++)
-            *all[k] = mesh_field(m);
-        if (s->prm.integrator != INTEGRATOR_RK3 && a < m->dim)
-            s->u_old[a] = mesh_field(m);
-    }
-    s->face = s->faces[0];
-}
-
 static void fill(struct fv *s)
 {
     const struct mesh *m = s->m;
@@ -92,31 +71,6 @@ static void fill(struct fv *s)
     }
 }
 
-/* The mean of the pressures at outflows; false: all of them are 0. */
-static bool mean_pressure(const struct fv *s, double *mean)
-{
-    double sum = 0.0, n = 0.0, size = 0.0;
-    for (int k = 0; k < s->run->scene.nwalls; k++)
-        if (s->run->scene.walls[k].kind == WALL_OUTFLOW) {
-            sum += s->run->scene.walls[k].pressure / s->run->scene.fluid.rho;
-            size += fabs(s->run->scene.walls[k].pressure);
-            n += 1.0;
-        }
-    *mean = n > 0.0 ? sum / n : 0.0;
-    return size > 0.0;
-}
-
-/* Pressures at outflows drive a flow from rest as gently as they would later. */
-static void meet_pressures(struct fv *s)
-{
-    double mean;
-    if (!mean_pressure(s, &mean))
-        return;
-    for (int64_t c = 0; c < s->size; c++)
-        s->p[c] = s->p_before[c] = mean;
-    pressure_start(s);
-}
-
 /* Divergence-free fluxes for the velocities of the start. */
 void mesh_state_start(struct fv *s)
 {
@@ -128,7 +82,6 @@ void mesh_state_start(struct fv *s)
     memset(s->start[2], 0, (size_t)s->size * sizeof(double));
     memset(s->psi[2], 0, (size_t)s->size * sizeof(double));
     measure(s);
-    meet_pressures(s);
 }
 
 void mesh_state_create(struct fv *s)
@@ -160,7 +113,7 @@ void mesh_state_create(struct fv *s)
         s->prm.upwind = 0.0;
         s->dissipation = newton_dissipation(s);
     }
-    make_fields(s);
+    fv_make_fields(s);
     fill(s);
     s->stiffest = mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
     s->symmetric = mesh_viscous_symmetric(s);

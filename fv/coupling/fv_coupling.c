@@ -12,6 +12,7 @@
 #include "../../common/run/watch.h"
 #include "../../coupler/cpl.h"
 #include "../boundary/forcing.h"
+#include "../boundary/fv_sides.h"
 #include "../boundary/mesh_bc.h"
 #include "../boundary/still.h"
 #include "../grid/mesh.h"
@@ -84,7 +85,7 @@ static double seen_size(const struct fv *s)
     for (int a = 0; a < s->b.dim && !s->m; a++)
         h = fmax(h, s->b.h[a]);
     for (int64_t i = 0; s->m && i < f->npartner; i++)
-        h = fmax(h, pow(s->m->V[f->partner[i]], 1.0 / s->dim));
+        h = fmax(h, pow(grid_volume(&s->grid, f->partner[i]), 1.0 / s->dim));
     if (s->m)
         MPI_Allreduce(MPI_IN_PLACE, &h, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     return h;
@@ -98,10 +99,7 @@ static double least_height(const struct fv *s)
     for (int64_t i = 0; i < f->npartner; i++)
         for (int a = 0; a < s->dim; a++) {
             const int64_t c = f->partner[i];
-            double S2 = 0.0;
-            for (int e = 0; e < s->dim; e++)
-                S2 += s->m->S[a][e][c] * s->m->S[a][e][c];
-            h = fmin(h, s->m->V[c] / sqrt(S2));
+            h = fmin(h, grid_volume(&s->grid, c) / grid_face_area(&s->grid, c, a));
         }
     MPI_Allreduce(MPI_IN_PLACE, &h, 1, MPI_DOUBLE, MPI_MIN, s->comm);
     return h;
@@ -347,8 +345,8 @@ static int longest_memory(const struct link *k)
 /* Where the next window begins. */
 static void remember(struct fv *s)
 {
-    if (s->m && s->past[0][0])
-        mesh_fill(s->m, s->dim, s->u);
+    if (s->past[0][0])
+        grid_fill(&s->grid, s->dim, s->u);
     for (int a = 0; a < s->dim && s->past[0][a]; a++) {
         double *const oldest = s->past[1][a];
         s->past[1][a] = s->past[0][a];
@@ -395,7 +393,7 @@ void fv_coupling_create(struct fv *s)
     if (!s->forcing)
         refuse(k, "no cell of fv lies wholly in the box that sph gives: refine fv.cells (or the "
                   "blocks), enlarge sph.box or lower coupling.overlap");
-    if (s->m && mesh_bc_pressure_given(s) && s->forcing->net == NET_OTHERS)
+    if (s->m && sides_give_pressure(s) && s->forcing->net == NET_OTHERS)
         refuse(k,
                "blocks: the cells that sph gives lie in blocks that overlap there, so what flows "
                "through their interface cannot be balanced, and with an outflow the pressure would "

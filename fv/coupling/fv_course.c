@@ -96,14 +96,12 @@ static void look(struct fv *s, const struct course *c, double *q)
     double *one = NEW(double, c->n), *p = NEW(double, s->size), x[3];
     for (int64_t i = 0; i < s->size; i++)
         p[i] = fv_pressure(s, i);
-    if (s->m)
-        mesh_fill(s->m, 1, &p);
+    grid_fill(&s->grid, 1, &p);
     if (s->surface)
         extension_beyond(s, p);
     if (s->forcing)
         forcing_extend(s, s->forcing->near, p);
-    if (s->m)
-        mesh_fill(s->m, s->dim, s->u);
+    grid_fill(&s->grid, s->dim, s->u);
     if (s->surface)
         look_at_surface(s, c, q);
     for (int m = 0; m <= c->dim; m++) {

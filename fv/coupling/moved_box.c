@@ -6,6 +6,7 @@
 
 #include "../../common/base/mem.h"
 #include "../boundary/forcing.h"
+#include "../boundary/fv_sides.h"
 #include "../boundary/mesh_bc.h"
 #include "../grid/overset.h"
 #include "../operators/mesh_ops.h"
@@ -235,7 +236,7 @@ bool moved_box(struct fv *s, int n, const double (*box)[2][3], char why[256])
         surface_outline_moved(s, before);
         return true;
     }
-    if (s->m && mesh_bc_pressure_given(s) && f->net == NET_OTHERS)
+    if (s->m && sides_give_pressure(s) && f->net == NET_OTHERS)
         snprintf(why, 256,
                  "what flows through the interface of the cells that sph gives, in blocks that "
                  "overlap there, cannot be balanced, and with an outflow the pressure oscillates");

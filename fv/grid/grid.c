@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "mesh_motion.h"
+
 /* Indices in the whole block. */
 static void cell_of(const struct part *p, const int *at, int cell[3])
 {
@@ -150,6 +152,30 @@ int grid_longest(const struct grid *g)
 }
 
 const char *grid_trouble(const struct grid *g) { return g->mesh ? g->mesh->trouble : ""; }
+
+/* The motion that block k tells; NULL: none, or another does. */
+static const struct mesh_motion *motion_of(const struct mesh_block *b, int k)
+{
+    return b[k].motion && b[k].motion->block == k ? b[k].motion : NULL;
+}
+
+double grid_motion_step(const struct grid *g, double t)
+{
+    double step = INFINITY;
+    for (int k = 0; g->mesh && k < g->mesh->nblocks; k++)
+        if (motion_of(g->mesh->block, k))
+            step = fmin(step, body_drive_step(&g->mesh->block[k].motion->drive, t));
+    return step;
+}
+
+double grid_motion_event(const struct grid *g, double t)
+{
+    double next = INFINITY;
+    for (int k = 0; g->mesh && k < g->mesh->nblocks; k++)
+        if (motion_of(g->mesh->block, k))
+            next = fmin(next, body_drive_event(&g->mesh->block[k].motion->drive, t));
+    return next;
+}
 
 double grid_face_area(const struct grid *g, int64_t c, int a)
 {

@@ -45,6 +45,11 @@ int grid_longest(const struct grid *g);
 /* Why cells that move have no donors; "": they have. */
 const char *grid_trouble(const struct grid *g);
 
+/* s: the longest step from time t that motions bear, and the next time at which one starts or ends;
+ * INFINITY: none moves. */
+double grid_motion_step(const struct grid *g, double t);
+double grid_motion_event(const struct grid *g, double t);
+
 /* m^(dim-1): size of the lower face of place c along a; its vector along the axes. */
 double grid_face_area(const struct grid *g, int64_t c, int a);
 void grid_face_vector(const struct grid *g, int64_t c, int a, double S[3]);

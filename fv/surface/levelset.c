@@ -294,12 +294,17 @@ static double share_at(const struct fv *s, const struct part *p, int64_t c, doub
     return plane_share(s->dim, n, -(s->surface->phi[c] + shift));
 }
 
+/* m: of the cells of local row j of a part, of blocks of the whole part. */
+static double spacing_of(const struct fv *s, const struct part *p, int j)
+{
+    return s->m ? surface_mesh_spacing(s, p) : largest_spacing(&s->b, j);
+}
+
 /* m: beyond this a cell is all water or all air, whatever the slopes of phi, which has steps where
  * its band ends. */
 static double reach_at(const struct fv *s, const struct part *p, int64_t c)
 {
-    return 3.0 * (s->m ? surface_mesh_spacing(s, p)
-                       : largest_spacing(&s->b, s->b.rows ? block_row(&s->b, c) : 0));
+    return 3.0 * spacing_of(s, p, s->b.rows ? block_row(&s->b, c) : 0);
 }
 
 double surface_share(const struct fv *s, int64_t c)
@@ -361,7 +366,7 @@ double surface_level_volume(const struct fv *s, double *area)
 {
     double sums[2] = {0.0, 0.0};
     FLOW_NEAR_AT (s, part, j, c, n) {
-        const double h = s->m ? surface_mesh_spacing(s, part) : largest_spacing(&s->b, j);
+        const double h = spacing_of(s, part, j);
         const double e = 1e-4 * h;
         for (int64_t i = c; i < c + n; i++) {
             if (!is_own(s, i))

@@ -71,7 +71,7 @@ static void find_worst(const struct fv *s, double before, struct diagnosis *d)
         FLOW_ROWS (s, c, n)
             for (int64_t i = c; i < c + n; i++) {
                 const double v = isfinite(s->u[a][i]) ? fabs(s->u[a][i]) : 1e300;
-                if (v <= worst || (s->m && s->free[i] == 0.0))
+                if (v <= worst || (s->free && s->free[i] == 0.0))
                     continue;
                 worst = v;
                 at = i;

@@ -134,7 +134,7 @@ static double *weights_of_row(const struct fv *s, int64_t c, int64_t n, int j)
         water_of_row(s, c, n, w);
     for (int64_t i = 0; i < n && s->m; i++)
         w[i] = s->surface ? surface_cell_volume(s, c + i, j) * surface_water(s, c + i)
-                          : s->free[c + i] * s->m->V[c + i];
+                          : s->free[c + i] * grid_volume(&s->grid, c + i);
     return s->surface || s->m ? w : NULL;
 }
 
@@ -155,7 +155,7 @@ static double by_faces(const struct fv *s, const struct part *p, int64_t c, int 
         const int64_t d = p->stride[b];
         sum += 0.5 * ((x[c] - x[c - d]) * s->U[b][c] + (x[c + d] - x[c]) * s->U[b][c + d]);
     }
-    return sum / s->m->V[c];
+    return sum / grid_volume(&s->grid, c);
 }
 
 /* Momentum of a row of cells, times the weights: that which gravity works on. */
@@ -165,7 +165,7 @@ static void momentum_of_row(const struct fv *s, const struct part *p, int64_t c,
     for (int a = 0; a < s->dim; a++) {
         sums[a] = 0.0;
         for (int64_t i = c; i < c + n; i++) {
-            const bool flows = s->surface->layer[i] == 0 && (!s->m || s->free[i] > 0.0);
+            const bool flows = s->surface->layer[i] == 0 && (!s->free || s->free[i] > 0.0);
             if (weight[i - c] > 0.0)
                 sums[a] += weight[i - c] * (flows ? by_faces(s, p, i, a) : s->u[a][i]);
         }

@@ -304,14 +304,21 @@ static struct step_limit bulk_limit(const struct scene *s, const struct fv_param
     return l;
 }
 
+/* 1/s: of uniform cells between walls. */
+static double friction_rate(const struct fv *s)
+{
+    double sum = 0.0;
+    for (int a = 0; a < s->dim && s->bc; a++)
+        sum += STIFFEST * s->nu / (s->b.h[a] * s->b.h[a]);
+    return sum;
+}
+
 /* After a sudden start layers of sqrt(nu t) grow from walls; steps that pass over them leave the
  * pressure, which each step corrects once, behind the walls' friction: 15 steps and more. 1/s:
  * largest eigenvalue of the viscous terms. */
 static void lower_start(struct step_limit *l, const struct fv *s)
 {
-    double stiffest = s->stiffest;
-    for (int a = 0; a < s->dim && !s->m && s->bc; a++)
-        stiffest += STIFFEST * s->nu / (s->b.h[a] * s->b.h[a]);
+    const double stiffest = s->stiffest > 0.0 ? s->stiffest : friction_rate(s);
     const double later =
         s->moving ? MOVED_STIFF / fmax(stiffest, 1e-300) : START_SHARE * fabs(s->t);
     if (stiffest > 0.0 && s->prm.integrator != INTEGRATOR_NEWTON)
@@ -321,9 +328,7 @@ static void lower_start(struct step_limit *l, const struct fv *s)
 /* Prescribed motions, which the flow does not tell: small ones are slow beside their cells. */
 static void lower_motion(struct step_limit *l, const struct fv *s)
 {
-    for (int k = 0; k < s->m->nblocks && s->moving; k++)
-        if (s->m->block[k].motion && s->m->block[k].motion->block == k)
-            lower(l, body_drive_step(&s->m->block[k].motion->drive, s->t), LIMIT_MOTION);
+    lower(l, grid_motion_step(&s->grid, s->t), LIMIT_MOTION);
 }
 
 /* Of cells of any shape: as the state was measured. */
@@ -347,14 +352,7 @@ static struct step_limit limit_on_blocks(const struct fv *s)
     return l;
 }
 
-double limits_next_motion(const struct fv *s)
-{
-    double next = INFINITY;
-    for (int k = 0; s->moving && k < s->m->nblocks; k++)
-        if (s->m->block[k].motion && s->m->block[k].motion->block == k)
-            next = fmin(next, body_drive_event(&s->m->block[k].motion->drive, s->t));
-    return next;
-}
+double limits_next_motion(const struct fv *s) { return grid_motion_event(&s->grid, s->t); }
 
 double fv_speed(const struct fv *s, int a)
 {
