@@ -136,6 +136,7 @@ static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall
     if (a >= b->dim || b->periodic[a])
         return;
     bc->kind[k] = side_of_wall(wall);
+    bc->wall[k] = wall;
     bc->pressure_given = bc->pressure_given || bc->kind[k] == MESH_OUTFLOW;
     if (bc->kind[k] == MESH_OUTFLOW)
         bc->pressure[k] = wall->pressure / s->run->scene.fluid.rho;
@@ -344,23 +345,20 @@ void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
     }
 }
 
-static bool is_opening(enum mesh_side kind)
-{
-    return kind == MESH_INFLOW || kind == MESH_OUTFLOW || kind == MESH_CARRIED;
-}
-
-void bc_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c), double sums[2])
+void bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with), void *with)
 {
     const struct block *b = &s->b;
     for (int k = 0; s->bc && k < 2 * b->dim; k++) {
-        if (s->bc->n[k] == 0 || !is_opening(s->bc->kind[k]))
+        if (s->bc->n[k] == 0)
             continue;
         const struct bc_side d = side_of(s->bc, b, k, false);
+        struct side_face f = {
+            .kind = s->bc->kind[k], .side = k, .a = d.a, .in = d.in, .wall = s->bc->wall[k]};
         SIDE_PLACES (b, d, i, j, m, c) {
-            const double out = s->U[d.a][k % 2 ? c + b->stride[d.a] : c];
-            const double in = (k % 2 ? -1.0 : 1.0) * face_area(b, &d, i, j) * out * share(s, c);
-            sums[0] += in;
-            sums[1] += fabs(in);
+            f.cell = c;
+            f.face = k % 2 ? c + b->stride[d.a] : c;
+            f.flow_area = face_area(b, &d, i, j);
+            visit(&f, with);
             (void)m;
         }
     }

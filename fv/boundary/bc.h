@@ -8,9 +8,10 @@
 #include "../grid/side_kinds.h"
 
 struct bc {
-    int turn[3];            /* of the axes, when sides are filled: 0 first */
-    enum mesh_side kind[6]; /* side 2 a + (1 if upper) of axis a */
-    bool slides[6];         /* a wall that moves along itself */
+    int turn[3];                      /* of the axes, when sides are filled: 0 first */
+    enum mesh_side kind[6];           /* side 2 a + (1 if upper) of axis a */
+    const struct scene_wall *wall[6]; /* of the scene; NULL: none */
+    bool slides[6];                   /* a wall that moves along itself */
     int64_t n[6]; /* places of a side on this rank, ghosts of its tangents included; 0: not here */
     double *w[6][3];      /* m/s: velocity on the side, averages over faces */
     double *slip[6][3];   /* m/s: what the next projection takes off the side's velocity */
@@ -21,6 +22,16 @@ struct bc {
     double outflux;       /* m^dim/s: through this rank's faces of given velocity, outwards */
     double speed, speed_along[3]; /* m/s: largest velocity imposed, and of each component */
     double wall_area;             /* m^(dim-1) of walls, over all ranks; 0: none */
+};
+
+/* A face of a physical side and the cell of this rank beside it. */
+struct side_face {
+    enum mesh_side kind;
+    int side, a;                   /* of the domain or of the block: 2 a + (1 if upper) */
+    int64_t cell, in;              /* in: step inwards */
+    int64_t face;                  /* place in U[a] */
+    double flow_area;              /* makes a flow in m^dim/s of U there */
+    const struct scene_wall *wall; /* of the scene; NULL: a side of a block alone */
 };
 
 enum bc_value {
@@ -44,9 +55,8 @@ void bc_slab_ghosts(const struct fv *s, int q, int j, double *u);
 void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u);
 /* Fluxes through walls and inflow; those of outflow are left as they are. */
 void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
-/* Through this rank's openings, m^dim/s: adds what comes in less what leaves, and the sum of both,
- * of each face the share of the cell inside that counts. */
-void bc_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c), double sums[2]);
+/* See sides_visit. */
+void bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with), void *with);
 /* side_power.c: what comes in through this rank's sides: energy, work of pressure and of friction,
  * over rho. */
 double bc_power(const struct fv *s);

@@ -1,6 +1,8 @@
 /* fv_sides.c - see fv_sides.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "fv_sides.h"
 
+#include <math.h>
+
 #include "mesh_bc.h"
 
 /* Of side k of uniform cells. */
@@ -57,13 +59,36 @@ void sides_time(struct fv *s, double t)
         mesh_bc_time(s, t);
 }
 
+void sides_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
+                 void *with)
+{
+    if (s->sides)
+        mesh_bc_visit(s, visit, with);
+    else
+        bc_visit(s, visit, with);
+}
+
+struct passing {
+    const struct fv *s;
+    double (*share)(const struct fv *s, int64_t c);
+    double *sums;
+};
+
+static void add_passing(const struct side_face *f, void *with)
+{
+    const struct passing *p = with;
+    if (f->kind != MESH_INFLOW && f->kind != MESH_OUTFLOW && f->kind != MESH_CARRIED)
+        return;
+    const double in = (f->side % 2 ? -1.0 : 1.0) * f->flow_area * p->s->U[f->a][f->face] *
+                      p->share(p->s, f->cell);
+    p->sums[0] += in;
+    p->sums[1] += fabs(in);
+}
+
 void sides_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c),
                    double sums[2])
 {
-    if (s->sides)
-        mesh_bc_passing(s, share, sums);
-    else
-        bc_passing(s, share, sums);
+    sides_visit(s, add_passing, &(struct passing){s, share, sums});
 }
 
 double sides_power(struct fv *s) { return s->sides ? mesh_bc_power(s) : bc_power(s); }

@@ -19,6 +19,9 @@ void sides_velocity(const struct fv *s, enum bc_value what, double *const u[3]);
 void sides_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
 /* Their values of time t, where they change with it; those before are kept. */
 void sides_time(struct fv *s, double t);
+/* Visits the faces of this rank's physical sides, those of openings and walls alike. */
+void sides_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
+                 void *with);
 /* Through this rank's openings, m^dim/s: adds what comes in less what leaves, and the sum of both,
  * of each face the share of the cell inside that counts. */
 void sides_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c),

@@ -43,10 +43,9 @@ double mesh_bc_net_flux(const struct fv *s);
 void mesh_bc_vectors(const struct fv *s, double sum[3]);
 /* Adds those of this rank's walls behind cells that the partner has, inwards. */
 void mesh_bc_partners_walls(const struct fv *s, const unsigned char *forced, double sum[3]);
-/* Through this rank's inflows and outflows, m^dim/s: adds what comes in less what leaves, and the
- * sum of both, of each face the share of the cell inside that counts. */
-void mesh_bc_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c),
-                     double sums[2]);
+/* See sides_visit. */
+void mesh_bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
+                   void *with);
 /* Through this rank's faces whose velocity is given for good, outwards, m^dim/s. */
 double mesh_bc_given_flux(const struct fv *s);
 

@@ -62,17 +62,21 @@ double mesh_bc_rate(const struct fv *s, double *speed)
     return rate;
 }
 
-void mesh_bc_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c),
-                     double sums[2])
+void mesh_bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
+                   void *with)
 {
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        if (d->kind != MESH_INFLOW && d->kind != MESH_OUTFLOW && d->kind != MESH_CARRIED)
-            continue;
+        struct side_face f = {.kind = d->kind,
+                              .side = d->k,
+                              .a = d->a,
+                              .in = d->in,
+                              .flow_area = 1.0,
+                              .wall = s->m->block[d->p->block].wall[d->k]};
         SIDE_PLACES (d, 0, i, j, at, c) {
-            const double in = (d->k % 2 ? -1.0 : 1.0) * s->U[d->a][c + d->face] * share(s, c);
-            sums[0] += in;
-            sums[1] += fabs(in);
+            f.cell = c;
+            f.face = c + d->face;
+            visit(&f, with);
             (void)at;
         }
     }
