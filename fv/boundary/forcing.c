@@ -221,24 +221,24 @@ static void list_faces(const struct fv *s, struct forcing *f, int a)
     }
 }
 
-/* Vectors of closed sides of the domain behind cells of the hole: nothing flows there. */
-static void add_closed_sides(const struct fv *s, const struct forcing *f, double sum[3])
+struct closed {
+    const struct fv *s;
+    const unsigned char *forced;
+    double *sum;
+};
+
+/* Vectors, inwards, of closed sides behind cells of the hole, deep ones too: nothing flows there.
+ */
+static void add_closed(const struct side_face *f, void *with)
 {
-    const struct block *b = &s->b;
-    if (s->m)
-        mesh_bc_partners_walls(s, f->forced, sum);
-    for (int side = 0; side < 2 * f->dim && !s->m; side++) {
-        const int a = side / 2, last = side % 2 ? b->cells[a] - 1 : 0;
-        const struct scene_wall *w =
-            scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
-        if (b->periodic[a] || !w || (w->kind != WALL_SLIP && w->kind != WALL_NO_SLIP))
-            continue;
-        BLOCK_CELLS (b, i, j, k, c) {
-            const int at[3] = {b->lo[0] + i, b->lo[1] + j, b->lo[2] + k};
-            if (at[a] == last && f->forced[c] == 1)
-                sum[a] += (side % 2 ? -1.0 : 1.0) * grid_face_area(&s->grid, c, a);
-        }
-    }
+    const struct closed *x = with;
+    double S[3];
+    if ((f->kind != MESH_WALL && f->kind != MESH_SLIP) ||
+        (x->forced[f->cell] != 1 && !grid_is_given(&x->s->grid, f->cell)))
+        return;
+    grid_face_vector(&x->s->grid, f->face, f->a, S);
+    for (int e = 0; e < x->s->dim; e++)
+        x->sum[e] += (f->side % 2 ? -1.0 : 1.0) * S[e];
 }
 
 /* By whether the vectors of the outline's faces sum to zero, with those of the walls that close it
@@ -258,7 +258,7 @@ static enum net_flux net_of(const struct fv *s, const struct forcing *f)
                 }
             }
     double whole[3] = {sum[0], sum[1], sum[2]};
-    add_closed_sides(s, f, whole);
+    sides_visit(s, add_closed, &(struct closed){s, f->forced, whole});
     MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, s->comm);
     MPI_Allreduce(MPI_IN_PLACE, whole, 3, MPI_DOUBLE, MPI_SUM, s->comm);
     if (s->m)

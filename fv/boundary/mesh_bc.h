@@ -41,8 +41,6 @@ double mesh_bc_rate(const struct fv *s, double *speed);
 double mesh_bc_net_flux(const struct fv *s);
 /* The sum of the vectors of their faces, m^(dim-1). */
 void mesh_bc_vectors(const struct fv *s, double sum[3]);
-/* Adds those of this rank's walls behind cells that the partner has, inwards. */
-void mesh_bc_partners_walls(const struct fv *s, const unsigned char *forced, double sum[3]);
 /* See sides_visit. */
 void mesh_bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
                    void *with);

@@ -138,33 +138,3 @@ void mesh_bc_vectors(const struct fv *s, double sum[3])
     }
     MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, s->comm);
 }
-
-/* Whether the partner has the cell at place i, j of a side: it is forced, or deeper in its part. */
-static bool is_partners(const struct fv *s, const struct side *d, int i, int j, int64_t c,
-                        const unsigned char *forced)
-{
-    const struct mesh_block *b = s->m->block + d->p->block;
-    int at[3];
-    at[d->a] = d->first;
-    at[d->t[0]] = i;
-    at[d->t[1]] = j;
-    for (int e = 0; e < 3; e++)
-        at[e] += d->p->lo[e];
-    return forced[c] == 1 ||
-           (s->m->status[c] == CELL_HOLE && mesh_given_holds(s->m, b, mesh_cell(b, at)));
-}
-
-void mesh_bc_partners_walls(const struct fv *s, const unsigned char *forced, double sum[3])
-{
-    for (int k = 0; k < s->sides->n; k++) {
-        const struct side *d = s->sides->side + k;
-        if (d->kind != MESH_WALL && d->kind != MESH_SLIP)
-            continue;
-        SIDE_PLACES (d, 0, i, j, at, c) {
-            const double sign = is_partners(s, d, i, j, c, forced) ? (d->k % 2 ? -1.0 : 1.0) : 0.0;
-            for (int e = 0; e < s->dim; e++)
-                sum[e] += sign * s->m->S[d->a][e][c + d->face];
-            (void)at;
-        }
-    }
-}

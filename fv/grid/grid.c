@@ -102,6 +102,17 @@ int64_t grid_number(const struct grid *g, int64_t c)
     return first + cell[0] + (int64_t)n[0] * (cell[1] + (int64_t)n[1] * cell[2]);
 }
 
+bool grid_is_given(const struct grid *g, int64_t c)
+{
+    int at[3], cell[3];
+    if (!g->mesh || g->mesh->status[c] != CELL_HOLE)
+        return false;
+    const struct part *p = grid_part(g, c, at);
+    cell_of(p, at, cell);
+    const struct mesh_block *b = g->mesh->block + p->block;
+    return mesh_given_holds(g->mesh, b, mesh_cell(b, cell));
+}
+
 int grid_blocks(const struct grid *g) { return g->mesh ? g->mesh->nblocks : 1; }
 
 const int *grid_cells(const struct grid *g, int k)

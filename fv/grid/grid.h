@@ -75,6 +75,8 @@ static inline double grid_volume(const struct grid *g, int64_t c)
     return g->mesh ? g->mesh->V[c]
                    : block_volume(g->even, g->even->rows ? block_row(g->even, c) : 0);
 }
+/* Whether the cell at place c lies wholly in a box of imposed cells, so deep that it is none. */
+bool grid_is_given(const struct grid *g, int64_t c);
 /* m: its height over its lower face along a. */
 static inline double grid_height(const struct grid *g, int64_t c, int a)
 {

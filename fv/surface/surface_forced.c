@@ -89,18 +89,6 @@ static double coarsest_particles(const struct fv *s)
     return most;
 }
 
-/* Whether a cell of blocks lies so deep in a partner's part that nothing but phi is known there:
- * the distance from the surface is made of all that are around. */
-static bool is_deep(const struct fv *s, const struct part *p, int64_t c)
-{
-    int at[3];
-    const struct mesh_block *b = s->m->block + p->block;
-    part_index(p, c, at);
-    for (int a = 0; a < 3; a++)
-        at[a] += p->lo[a];
-    return s->m->status[c] == CELL_HOLE && mesh_given_holds(s->m, b, mesh_cell(b, at));
-}
-
 struct surface_forced *surface_forced_create(const struct fv *s)
 {
     const struct forcing *g = s->forcing;
@@ -108,9 +96,9 @@ struct surface_forced *surface_forced_create(const struct fv *s)
         return NULL;
     struct surface_forced *f = NEW(struct surface_forced, 1);
     f->cell = NEW(int64_t, s->size);
-    FLOW_ROWS_AT (s, part, j, at, n)
+    FLOW_ROWS (s, at, n)
         for (int64_t c = at; c < at + n; c++)
-            if (g->forced[c] == 1 || (s->m && is_deep(s, part, c)))
+            if (g->forced[c] == 1 || grid_is_given(&s->grid, c))
                 f->cell[f->n++] = c;
     f->nforced = f->n;
     f->holds = s->m ? NEW(bool, s->size) : NULL;
