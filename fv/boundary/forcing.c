@@ -411,13 +411,6 @@ void forcing_fill(const struct fv *s, const unsigned char *mask)
     mem_free(next);
 }
 
-void forcing_centre(const struct fv *s, int64_t c, double *x)
-{
-    int at[3];
-    const struct part *p = grid_part(&s->grid, c, at);
-    grid_centre(&s->grid, p, at, x);
-}
-
 void forcing_velocity(const struct fv *s, double t, double *const u[3])
 {
     const struct forcing *f = s->forcing;

@@ -117,7 +117,6 @@ void forcing_extend(const struct fv *s, int layers, double *p);
 void cell_exact(const struct fv *s, const struct part *p, const int *at, double t, double *u,
                 double *pressure, double *w);
 void forcing_average(const struct fv *s, int64_t c, double t, double *v, double *pressure);
-void forcing_centre(const struct fv *s, int64_t c, double *x);
 
 /* given_cells.c: of blocks. */
 void given_rows_create(const struct fv *s, struct forcing *f);

@@ -130,9 +130,7 @@ void levels_back(struct fv *s)
 static double at_rest(const struct fv *s, const struct outflow *o, int64_t i)
 {
     double x[3];
-    int at[3];
-    const struct part *p = grid_part(&s->grid, o->cell[i], at);
-    grid_centre(&s->grid, p, at, x);
+    grid_place(&s->grid, o->cell[i], x);
     for (int q = 0; q < s->dim; q++)
         x[q] += 0.5 * o->h[i] * o->S[q][i] / carried_area(o, i);
     return fv_still_pressure(s, x) / s->run->scene.fluid.rho;

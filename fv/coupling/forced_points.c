@@ -31,7 +31,7 @@ static int points_of(const struct fv *s, int64_t i, double h, double *x)
             n[a] = divide(length[a], h, apart + a);
     const int all = n[0] * n[1] * n[2];
     if (x && all == 1)
-        forcing_centre(s, c, x);
+        grid_place(&s->grid, c, x);
     for (int k = 0; x && all > 1 && k < all; k++) {
         const int of[3] = {k % n[0], k / n[0] % n[1], k / n[0] / n[1]};
         double xi[3];

@@ -441,7 +441,7 @@ static void find_datum(struct fv *s)
     for (int64_t i = f->npartner; i < f->npartner + f->nrim; i++) {
         if (!k->mask[i])
             continue;
-        forcing_centre(s, f->partner[i], x);
+        grid_place(&s->grid, f->partner[i], x);
         sum[0] += k->p[i] - fv_pressure(s, f->partner[i]) - fv_still_pressure(s, x);
         sum[1] += 1.0;
     }
@@ -518,7 +518,7 @@ static void count_missing(struct fv *s)
             continue;
         sum[1] += 1.0;
         if (!k->mask[i]) {
-            forcing_centre(s, c, k->where);
+            grid_place(&s->grid, c, k->where);
             sum[0] += 1.0;
         }
     }

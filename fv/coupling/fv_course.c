@@ -68,7 +68,7 @@ static void take_out_level(const struct fv *s, const struct course *c, const dou
         double one = p ? p[f->partner[m]] : 0.0;
         if (!p)
             forcing_average(s, f->partner[m], t, u, &one);
-        forcing_centre(s, f->partner[m], x);
+        grid_place(&s->grid, f->partner[m], x);
         sum[0] += one - (p ? 0.0 : fv_still_pressure(s, x));
         sum[1] += 1.0;
     }

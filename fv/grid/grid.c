@@ -25,6 +25,13 @@ void grid_centre(const struct grid *g, const struct part *p, const int *at, doub
     memcpy(x, b->centre[mesh_cell(b, cell)], 3 * sizeof *x);
 }
 
+void grid_place(const struct grid *g, int64_t c, double x[3])
+{
+    int at[3];
+    const struct part *p = grid_part(g, c, at);
+    grid_centre(g, p, at, x);
+}
+
 void grid_point(const struct grid *g, const struct part *p, const int *at, const double *xi,
                 double x[3])
 {

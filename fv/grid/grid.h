@@ -18,6 +18,8 @@ struct grid {
 /* grid.c: places of cell `at' of a part. */
 /* The one that stands for the cell: its centre, on blocks its centroid. */
 void grid_centre(const struct grid *g, const struct part *p, const int *at, double x[3]);
+/* The same of the cell at place c. */
+void grid_place(const struct grid *g, int64_t c, double x[3]);
 /* At xi (0 to 1 along each index) within it. */
 void grid_point(const struct grid *g, const struct part *p, const int *at, const double *xi,
                 double x[3]);

@@ -43,7 +43,7 @@ static void list_places(const struct fv *s, struct surface_forced *f)
     int64_t room = 0;
     f->first = NEW(int64_t, f->n + 1);
     for (int64_t i = 0; i < f->n; i++) {
-        forcing_centre(s, f->cell[i], x[0]);
+        grid_place(&s->grid, f->cell[i], x[0]);
         const int n = walls ? block_walls_images(walls, f->R, x) : images(s, f->R, x);
         require(n <= IMAGES_MOST);
         if (f->first[i] + n > room) {

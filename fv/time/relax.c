@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "../../common/scene/wave_zones.h"
-#include "../boundary/forcing.h"
 #include "../surface/levelset.h"
 #include "stages.h"
 
@@ -18,7 +17,7 @@ void relax_zones(struct fv *s, double dt)
             double x[3], u_w[3];
             if (s->surface && s->surface->layer[i] == DEEP)
                 continue;
-            forcing_centre(s, i, x);
+            grid_place(&s->grid, i, x);
             const double rate = wave_zones_rate(s->wave_zones, x, u_w);
             if (rate == 0.0)
                 continue;

@@ -180,7 +180,7 @@ static double head_of(const struct fv *s, int64_t c)
         return 0.0;
     for (int a = 0; a < s->dim; a++)
         square += s->u[a][c] * s->u[a][c];
-    forcing_centre(s, c, x);
+    grid_place(&s->grid, c, x);
     return share *
            (0.5 * square + (fv_pressure(s, c) + fv_still_pressure(s, x)) / s->run->scene.fluid.rho);
 }
@@ -204,7 +204,7 @@ static double power_of_zones(struct fv *s)
         double row = 0.0;
         for (int64_t i = c; i < c + n; i++) {
             double x[3], u_w[3], uf = 0.0;
-            forcing_centre(s, i, x);
+            grid_place(&s->grid, i, x);
             const double rate = weight[i - c] > 0.0 ? wave_zones_rate(s->wave_zones, x, u_w) : 0.0;
             for (int a = 0; a < s->dim && rate > 0.0; a++)
                 uf += rate * (u_w[a] - s->u[a][i]) * s->u[a][i];

@@ -99,7 +99,7 @@ static void an_outlet_feels_no_source(void **state)
     struct forcing *f = s->forcing = forcing_create(s, 1, &box, true);
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         double x[3];
-        forcing_centre(s, f->partner[i], x);
+        grid_place(&s->grid, f->partner[i], x);
         for (int a = 0; a < 2; a++)
             f->v[a][i] = f->v_next[a][i] = 0.5 * x[a];
     }

@@ -223,7 +223,7 @@ static double energy_of_water(const struct fv *s)
         for (int64_t i = c; i < c + n; i++) {
             const double C = s->surface->fraction->C[i], h = block_size(&s->b, 1, j);
             double x[3], n3[3] = {0.0, 1.0, 0.0}, height = 0.0;
-            forcing_centre(s, i, x);
+            grid_place(&s->grid, i, x);
             if (fraction_is_mixed(C)) {
                 fraction_normal(s, part, i, n3);
                 const double alpha = plane_alpha(2, n3, C);

@@ -105,7 +105,7 @@ static void an_outline_may_end_at_sides(void **state)
     struct forcing *f = s->forcing = forcing_create(s, 0, NULL, true);
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         double x[3];
-        forcing_centre(s, f->partner[i], x);
+        grid_place(&s->grid, f->partner[i], x);
         f->v[1][i] = f->v_next[1][i] = x[1];
     }
     forcing_fluxes(s, 0.0, s->U);

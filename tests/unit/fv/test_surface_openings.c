@@ -157,10 +157,10 @@ static double level_at(const struct fv *s, double x)
             double at[3], up[3];
             const int64_t d = part->stride[1];
             const double *phi = s->surface->phi + i;
-            forcing_centre(s, i, at);
+            grid_place(&s->grid, i, at);
             if (fabs(at[0] - x) > 0.11 || !(phi[0] < 0.0 && phi[d] >= 0.0))
                 continue;
-            forcing_centre(s, i + d, up);
+            grid_place(&s->grid, i + d, up);
             top = fmax(top, at[1] + (up[1] - at[1]) * phi[0] / (phi[0] - phi[d]));
         }
     return top;
