@@ -388,6 +388,8 @@ int main(int argc, char **argv)
         code = run(&c);
     }
     mem_free((void *)(uintptr_t)command.overrides);
+    signals_handled(); /* all is said: a launcher that stops the job for a partner's exit code adds
+                          nothing */
     MPI_Finalize();
     return code;
 }

@@ -720,6 +720,8 @@ int run_main(int argc, char **argv, const struct program *p, const struct partne
     }
     free_life(l);
     mem_free(l);
+    signals_handled(); /* all is said: a launcher that stops the job for a partner's exit code adds
+                          nothing */
     MPI_Finalize();
     return code;
 }
