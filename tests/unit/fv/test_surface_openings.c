@@ -124,9 +124,10 @@ static void levels_after_ten_transits_are_those_of_theory(void **state)
                 start(&c, grids[k].blocks, grids[k].with, 0.0, &pairs[q].in, &pairs[q].out);
             const double theory =
                 pairs[q].bore > 0.0 ? depth_behind_bore(pairs[q].bore, DEPTH) : pairs[q].level;
-            assert_true(mesh_case_run(s, 10000, 10.0 * TRANSIT));
+            assert_true(mesh_case_run(s, 10000, (SANITIZED ? 0.5 : 10.0) * TRANSIT));
             print_message("%s: %.5g m of %.5g m\n", pairs[q].name, mean_level(s), theory);
-            assert_close(mean_level(s), theory, 0.01 * theory);
+            if (!SANITIZED)
+                assert_close(mean_level(s), theory, 0.01 * theory);
             mesh_case_end(&c, &s);
         }
 }
@@ -193,8 +194,8 @@ static void current_over_a_sill_has_bernoullis_levels(void **state)
     for (int k = 1; k <= 2; k++) {
         const double volume = surface_volume(s);
         past = s->surface->volume0;
-        assert_true(mesh_case_run(s, 10000, k == 1 ? 40.0 : 50.0));
-        if (k == 2)
+        assert_true(mesh_case_run(s, 10000, (SANITIZED ? 0.02 : 1.0) * (k == 1 ? 40.0 : 50.0)));
+        if (k == 2 && !SANITIZED)
             assert_close(surface_volume(s), volume, 0.005 * volume);
     }
     const double gained = s->surface->volume0 - past; /* over the last 10 s */
@@ -202,10 +203,12 @@ static void current_over_a_sill_has_bernoullis_levels(void **state)
         "sill: crest %.5g m of %.5g m, upstream %.5g m, downstream %.5g m, %.3g m^2/s more "
         "in than out of %.3g\n",
         level_at(s, 5.0), depth + b, level_at(s, 1.0), level_at(s, 9.0), gained / 10.0, q);
-    assert_close(level_at(s, 5.0), depth + b, 0.02 * DEPTH);
-    assert_close(level_at(s, 1.0), DEPTH, 0.02 * DEPTH);
-    assert_close(level_at(s, 9.0), DEPTH, 0.02 * DEPTH);
-    assert_close(gained / 10.0, 0.0, 0.02 * q);
+    if (!SANITIZED) {
+        assert_close(level_at(s, 5.0), depth + b, 0.02 * DEPTH);
+        assert_close(level_at(s, 1.0), DEPTH, 0.02 * DEPTH);
+        assert_close(level_at(s, 9.0), DEPTH, 0.02 * DEPTH);
+        assert_close(gained / 10.0, 0.0, 0.02 * q);
+    }
     remove(path);
     mesh_case_end(&c, &s);
 }
@@ -239,7 +242,7 @@ static void wakes_leave_without_gain(void **state)
         box = blocks ? NULL : &sill;
         struct fv *s = start(&c, blocks ? around : "", with, 0.4, &in, &out);
         double fastest = 0.0, least = INFINITY, most = 0.0;
-        for (int k = 1; k <= 40; k++) {
+        for (int k = 1; k <= (SANITIZED ? 2 : 40); k++) {
             assert_true(mesh_case_run(s, 10000, 0.5 * k));
             fastest = fmax(fastest, hypot(s->umax[0], s->umax[1]));
             least = fmin(least, mean_level(s));
