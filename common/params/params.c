@@ -324,7 +324,8 @@ static const struct param_group *group_with(const struct params *p, const char *
 static void find_unknown_keys(const struct params *p, const struct param_group *g,
                               const config_setting_t *group, struct faults *f)
 {
-    char place[1300];
+    char place[1300], keys[1024];
+    hint_keys(g, keys, sizeof keys);
     for (int k = 0; k < config_setting_length(group); k++) {
         const config_setting_t *s = config_setting_get_elem(group, (unsigned)k);
         const char *key = config_setting_name(s), *near, *remark;
@@ -338,7 +339,7 @@ static void find_unknown_keys(const struct params *p, const struct param_group *
         else if (home)
             params_add_fault(f, place, "unknown key; it is known in group `%s'", home->name);
         else
-            params_add_fault(f, place, "unknown key");
+            params_add_fault(f, place, "unknown key; there are %s", keys);
     }
 }
 

@@ -95,6 +95,9 @@ static const struct hint_name names[] = {{"density", "rho", ""},
                                          {"t_end", "end", ""},
                                          {"duration", "end", ""},
                                          {"type", "kind", ""},
+                                         {"kind", "mapping", ""},
+                                         {"type", "mapping", ""},
+                                         {"r", "radius", ""},
                                          {"patch", "side", ""},
                                          {"size", "max", ""},
                                          {"box", "min", " and `max'"},
@@ -131,6 +134,13 @@ const struct hint_name *hint_name_next(const char *word, const struct hint_name 
         if (strcmp(after->word, word) == 0)
             return after;
     return NULL;
+}
+
+void hint_keys(const struct param_group *g, char *text, size_t size)
+{
+    size_t n = 0;
+    for (int k = 0; k < g->nrows && n < size; k++)
+        n += (size_t)snprintf(text + n, size - n, "%s%s", k ? ", " : "", g->rows[k].key);
 }
 
 static const char *line_at(const char *text, int line, char *copy, size_t size)

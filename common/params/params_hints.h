@@ -29,6 +29,9 @@ struct hint_name {
 /* The next of a word; after: the one before, NULL for the first. NULL: there is none. */
 const struct hint_name *hint_name_next(const char *word, const struct hint_name *after);
 
+/* The names of a group's keys, as "a, b, c". */
+void hint_keys(const struct param_group *g, char *text, size_t size);
+
 /* Line of a syntax fault (libconfig may name a later one) and a remedy by the looks of it. */
 int hint_syntax(const char *text, int line, const char *error, char *hint, size_t size);
 /* Why n bytes are no text that can be read; NULL if they may be. */

@@ -375,17 +375,60 @@ static void check_axis(const struct run *r, int a, struct faults *f)
             axes[a], lo[a], hi[a], given.dx,
             d->min[a] + given.dx * round((lo[a] - d->min[a]) / given.dx),
             d->min[a] + given.dx * floor((hi[a] - d->min[a]) / given.dx + 1e-6));
-    else if (wants_rows(r, a) && !whole(length, given.dx))
-        params_fault(r->params, f, "sph.dx",
-                     "%g m: %c from %g to %g m is no whole number of dx, which a period, two walls "
-                     "or open sides need; %.6g and %.6g m are",
-                     given.dx, axes[a], lo[a], hi[a], length / ceil(length / given.dx),
-                     length / fmax(floor(length / given.dx), 1.0));
     if (periodic[a] && length <= 2.0 * 1.15 * R)
         params_fault(
             r->params, f, "sph.dx",
             "the periodic length %g m along %c must exceed twice the reach of a particle, %g m",
             length, axes[a], 2.0 * 1.15 * R);
+}
+
+/* The number n of dx = length/n along the first of the lengths nearest to what is given, and not
+ * finer (step -1) or not coarser (1), of which all lengths are whole numbers; 0 if none within a
+ * factor of two. */
+static int fitting(int nlengths, const double *lengths, int step)
+{
+    const double given_n = lengths[0] / given.dx;
+    for (int n = (int)(step > 0 ? ceil(given_n) : floor(given_n));
+         n > 0 && n <= 2.0 * given_n && n >= 0.5 * given_n; n += step) {
+        bool all = true;
+        for (int k = 1; k < nlengths; k++)
+            all = all && whole(lengths[k], lengths[0] / n);
+        if (all)
+            return n;
+    }
+    return 0;
+}
+
+/* One spacing must fit along all axes: a remedy for one alone would be refused for the next. */
+static void check_rows(const struct run *r, struct faults *f)
+{
+    double lo[3], hi[3], lengths[3];
+    bool periodic[3];
+    char remedy[200] = "";
+    int n = 0, bad = -1;
+    if (has_box())
+        return;
+    sph_params_region(&r->scene.domain, sph_params_of(r), lo, hi, periodic);
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        if (wants_rows(r, a) && hi[a] > lo[a]) {
+            lengths[n++] = hi[a] - lo[a];
+            if (bad < 0 && !whole(hi[a] - lo[a], given.dx))
+                bad = a;
+        }
+    if (bad < 0)
+        return;
+    for (int step = 1; step >= -1; step -= 2) {
+        const int cells = fitting(n, lengths, step);
+        const size_t end = strlen(remedy);
+        if (cells) /* as an expression: it is exact */
+            snprintf(remedy + end, sizeof remedy - end, "%s dx = \"%.10g/%d\" (%.4g m)",
+                     end ? " or" : "take", lengths[0], cells, lengths[0] / cells);
+    }
+    params_fault(r->params, f, "sph.dx",
+                 "%g m: %c from %g to %g m is no whole number of dx, which a period, two walls or "
+                 "open sides need: %s",
+                 given.dx, "xyz"[bad], lo[bad], hi[bad],
+                 *remedy ? remedy : "none near it fits all axes: round the corners of the domain");
 }
 
 /* What check_axis says of a spacing in other units would be a fault an axis or two. */
@@ -400,6 +443,7 @@ static void check_spacing(const struct run *r, struct faults *f)
         }
     for (int a = 0; a < d->dim; a++)
         check_axis(r, a, f);
+    check_rows(r, f);
 }
 
 static void check_zones(const struct run *r, struct faults *f)
