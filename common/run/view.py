@@ -115,19 +115,32 @@ def shown_of(fields, cells, axes):
         shown *= np.isfinite(filled(v, axes)).all(3, keepdims=True)
     return shown
 
+def leave_out(fields, x, axes):  # boxes that are cut out hold no air: water is drawn up to their sides
+    for a in axes:
+        x = middles(x, a)
+    for low, high in BOXES:
+        within = np.ones(x.shape[:3], bool)
+        for k in range(len(axes)):
+            within &= (x[..., k] > low[k]) & (x[..., k] < high[k])
+        for name in fields:
+            if name != 'forced':
+                fields[name][within] = np.nan
+
 def at_centres(grid, k):
     n = [1, 1, 1]
     grid.GetDimensions(n)
     axes = [a for a in range(3) if n[2 - a] > 1]
     cells = [i - 1 or 1 for i in n[::-1]]
-    x = rim(vertices(grid, n), axes, middles, end_of)
+    x = vertices(grid, n)
+    fields = fields_of(grid, cells)
+    leave_out(fields, x, axes)
+    x = rim(x, axes, middles, end_of)
     if len(axes) == 2:  # later blocks are drawn over earlier ones
         x[..., 2] += LIFT * k
     to, points = vtkStructuredGrid(), vtkPoints()
     points.SetData(numpy_to_vtk(np.ascontiguousarray(x.reshape(-1, 3)), deep=True))
     to.SetDimensions(x.shape[2], x.shape[1], x.shape[0])
     to.SetPoints(points)
-    fields = fields_of(grid, cells)
     fields['shown'] = shown_of(fields, cells, axes)
     for name, v in fields.items():
         v = filled(filled(v, axes), axes)  # of one layer beyond what is shown, too
@@ -154,6 +167,26 @@ to = self.GetOutputDataObject(0)
 to.SetPoints(points)
 to.SetPolys(polygons)
 '''
+# Sides of blocks that are walls, as lines: they move with their blocks
+walled = '''
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+points, lines = vtkPoints(), vtkCellArray()
+for sides, block in zip(SIDES, leaves(self.GetInputDataObject(0, 0))):
+    n = [1, 1, 1]
+    block.GetDimensions(n)
+    n = [m for m in n if m > 1]
+    at = np.arange(n[0] * n[1]).reshape(n[1], n[0])
+    ends = {'i_min': at[:, 0], 'i_max': at[:, -1], 'j_min': at[0], 'j_max': at[-1]}
+    for side in sides:
+        lines.InsertNextCell(len(ends[side]))
+        for i in ends[side]:
+            lines.InsertCellPoint(points.InsertNextPoint(block.GetPoint(int(i))))
+to = self.GetOutputDataObject(0)
+to.SetPoints(points)
+to.SetLines(lines)
+'''
 # The pieces of a dataset
 pieces = '''
 def leaves(data):
@@ -171,7 +204,6 @@ exec(pieces)
 
 def scripted(source, kind, script):
     part = ProgrammableFilter(Input=source)
-    RenameSource('values at points' if 'level_set' in script else 'filled', part)
     known = part.GetProperty('OutputDataSetType').GetAvailable()
     part.OutputDataSetType = [k for k in known if k.lower() == kind.lower()][0]
     part.Script = pieces + script
@@ -207,8 +239,18 @@ def cut_open(source, name):  # what fills a closed space, through its bodies or 
     return part
 
 
+def boxes_of(case):  # corners of boxes that are cut out of the cells
+    found = []
+    for group in re.findall(r'^blocked: \((.*?)^\);', case, re.M | re.S):
+        ends = [re.findall(k + r' = \(([^)]*)\)', group) for k in ('min', 'max')]
+        found += [[[float(v) for v in c.split(',')] for c in pair] for pair in zip(*ends)]
+    return found
+
+
 def show_cells(source, name):
-    part = scripted(source, 'vtkMultiBlockDataSet', centres.replace('LIFT', repr(1e-5 * across)))
+    boxes = repr(boxes_of(text[name]))
+    part = scripted(source, 'vtkMultiBlockDataSet', centres.replace('LIFT', repr(1e-5 * across)).replace('BOXES', boxes))
+    RenameSource('values at points', part)
     part = cut(part, 'shown', 0.5, 0, name + ', its own cells')
     part.UpdatePipeline(last)
     if 'level_set' in part.PointData.keys():
@@ -281,13 +323,15 @@ def show_walls():
         show_solid(name, solid, dark if dim == 2 else grey, 1.0 if opaque else 0.3)
         if dim == 2:
             show_solid('bodies', Triangulate(Input=scripted(solid, 'vtkPolyData', inside)), grey)
-    number = r' = \(([^)]*)\)'
-    for case in text.values():
-        for group in re.findall(r'^blocked: \((.*?)^\);', case, re.M | re.S):
-            least, most = (re.findall(k + number, group) for k in ('min', 'max'))
-            for a, b in zip(least, most):
-                ends = [[float(v) for v in c.split(',')] for c in (a, b)]
-                show_solid('blocked', box(*ends), grey)
+    for name, case in text.items():
+        blocks = re.search(r'^blocks: \((.*?)^\);', case, re.M | re.S)
+        if blocks and dim == 2 and name in sources:
+            kinds = r'^  ([ij]_m[a-z]*) = "(?:wall|slip)"'
+            sides = [re.findall(kinds, b, re.M) for b in re.split(r'^  \{$', blocks.group(1), flags=re.M)[1:]]
+            script = walled.replace('SIDES', repr(sides))
+            show_solid(name + ', walls of blocks', scripted(sources[name], 'vtkPolyData', script), dark)
+        for least, most in boxes_of(case):
+            show_solid('blocked', box(least, most), grey)
 
 
 def values(source, field):  # all numbers at the last time; of a vector its length
@@ -361,18 +405,29 @@ def corners(found, least, most):
     return a, b
 
 
+def ticks(a, b, apart):  # whole numbers of a step of 1, 2 or 5 times a power of ten
+    step = 10.0**np.floor(np.log10(apart))
+    step *= [f for f in (1, 2, 5, 10) if f * step >= 0.999 * apart][0]
+    return list(np.arange(np.ceil(a / step - 1e-6), np.floor(b / step + 1e-6) + 1) * step + 0.0)
+
+
 def look(a, b):
     centre, wide = (a + b) / 2, b - a
     view.InteractionMode = '2D' if dim == 2 else '3D'
     if dim == 2:
         axes.UseCustomBounds = 1
         axes.CustomBounds = [a[0], b[0], a[1], b[1]] + 2 * [3e-3 * across]
+        if '--png' in sys.argv or '--movie' in sys.argv:  # a flat tank in a flat picture
+            view.ViewSize = [1200, 2 * int(np.clip(578 * wide[1] / wide[0], 200, 450))]
         shape = view.ViewSize[0] / view.ViewSize[1]
         high_enough = float(np.max([1.3 * wide[1], 1.35 * wide[0] / shape]))
         centre[0] += 0.06 * shape * high_enough  # the colours stand on the right
         view.CameraFocalPoint = [centre[0], centre[1], 0]
         view.CameraPosition = [centre[0], centre[1], 2 * across]
         view.CameraParallelScale = 0.5 * high_enough
+        pixel = high_enough / view.ViewSize[1]
+        axes.XAxisUseCustomLabels = axes.YAxisUseCustomLabels = 1
+        axes.XAxisLabels, axes.YAxisLabels = ticks(a[0], b[0], 60 * pixel), ticks(a[1], b[1], 30 * pixel)
     else:
         along = np.abs(np.cross(side, up))
         view.CameraFocalPoint = [0, 0, 0]
@@ -393,7 +448,7 @@ axes = view.AxesGrid
 axes.Visibility = 1
 if dim == 2:
     view.OrientationAxesVisibility, axes.AxesToLabel = 0, 3  # least x, least y
-axes.XTitle, axes.YTitle, axes.ZTitle = 'x (m)', 'y (m)', 'z (m)'
+axes.XTitle, axes.YTitle, axes.ZTitle = 'x (m)', 'y (m)' if dim == 3 else 'y (m)    ', 'z (m)'
 Render(view)  # the first one sets the camera
 for field in [f for f in fields if [1 for p, shown in shows if f in p.PointData.keys()]][:1]:
     look(*corners(*colour(field)))

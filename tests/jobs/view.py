@@ -82,3 +82,17 @@ speed = np.array([np.nan, np.nan, np.nan, 1.0, np.nan, 1.0, np.nan, np.nan]).res
 forced = np.array([0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]).reshape(1, 1, 8, 1)
 shown = own['shown_of']({'level_set': level, 'velocity': speed, 'forced': forced}, [1, 1, 8], [2])
 assert list(shown.ravel()) == [0, 0, 1, 1, 0, 1, 1, 0], shown.ravel()
+
+# a box that is cut out holds no air
+i, j = np.meshgrid(np.arange(5.0), np.arange(4.0))
+own['BOXES'] = [[[1, 0, 0], [3, 2, 0]]]
+fields = {'level_set': np.ones((1, 3, 4, 1)), 'forced': np.zeros((1, 3, 4, 1))}
+own['leave_out'](fields, np.stack([i, j, 0 * i], 2)[None], [1, 2])
+assert np.isnan(fields['level_set'][0, :2, 1:3]).all() and np.isfinite(fields['level_set']).sum() == 8
+assert not np.isnan(fields['forced']).any()
+
+# ticks: whole numbers of a step within the range, as far apart as asked for, no -0
+script = text[text.index('def ticks'):text.index('def look')]
+exec(script, {'np': np}, found)
+assert np.allclose(found['ticks'](-0.1, 0.8, 0.15), [0, 0.2, 0.4, 0.6, 0.8]) and found['ticks'](-0.5, 7.0, 0.6) == [0, 1, 2, 3, 4, 5, 6, 7]
+assert '-0' not in str(found['ticks'](-0.5, 0.5, 1.0)) and found['ticks'](0, 42, 7) == [0, 10, 20, 30, 40]
