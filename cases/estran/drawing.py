@@ -122,6 +122,7 @@ def frame(run, view, window, title, field, scale, width):
     """A figure of that many pixels with axes for the window and a bar of colours."""
     a, b, c, d = window
     left, right, low, top, dpi = 106, 128, 62, 46, 100
+    width = int(width * min(1.6, max(1, (b - a) / (d - c) / 5)))  # of a long channel a wide one
     wide = width - left - right
     high = wide * (d - c) / (b - a)
     if high > 560:
@@ -136,7 +137,7 @@ def frame(run, view, window, title, field, scale, width):
     axes.set_xlim(a, b)
     axes.set_ylim(c, d)
     axes.set_xlabel('x (m)', labelpad=1)
-    axes.set_ylabel('%s (m)' % 'xyz'[view.axes[1]], labelpad=1)
+    axes.set_ylabel('%s (m)' % 'xyz'[view.axes[1]], labelpad=5)
     axes.locator_params(axis='x', nbins=max(2, min(7, int(wide / 80))))
     axes.locator_params(axis='y', nbins=max(2, min(6, int(high / 55))))
     axes.set_title(title, pad=10)
@@ -168,9 +169,11 @@ def draw_particles(axes, part, field, view, mappable):
     x, v, size = x[here], v[here], size[here]
     place = axes.get_window_extent()
     point = 72 / axes.figure.dpi * min(place.width / (b - a), place.height / (d - c))  # points a metre
-    def scatter(of, factor, zorder):
-        axes.scatter(x[of, 0], x[of, 1], (factor * size[of] * point) ** 2, v[of], 'o', norm=mappable.norm, cmap=mappable.cmap,
-                     linewidths=0, zorder=zorder, rasterized=True)
+    def scatter(of, factor, zorder):  # discs of a pixel or two would let the ground through: squares
+        across = factor * size[of] * point
+        small = across.max() < 3 * 72 / axes.figure.dpi
+        axes.scatter(x[of, 0], x[of, 1], np.maximum(across, 1.5 * 72 / axes.figure.dpi) ** 2, v[of], 's' if small else 'o', norm=mappable.norm,
+                     cmap=mappable.cmap, linewidths=0, zorder=zorder, rasterized=True, antialiased=not small)
     if len(x):
         coarse = size > 1.01 * size.min()
         if coarse.any():  # beneath the finer ones they fill the half spacing that is left at the edge between two levels

@@ -35,7 +35,10 @@ def write_mp4(to, pictures, fps):
 
 def write_apng(to, pictures, fps):
     from PIL import Image
-    images = [Image.fromarray(p).quantize(128) for p in pictures]
+    images = [Image.fromarray(p) for p in pictures]
+    some = images[::-(-len(images) // 8)]  # an animated png has one palette
+    palette = Image.fromarray(np.concatenate([np.asarray(i) for i in some])).quantize(256)
+    images = [i.quantize(palette=palette, dither=0) for i in images]
     images[0].save(to, format='PNG', save_all=True, append_images=images[1:], duration=int(1000 / fps), loop=0)
 
 

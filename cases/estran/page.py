@@ -3,6 +3,8 @@ import base64
 import html
 import os
 
+import numpy as np
+
 from . import curves, drawing, reading
 
 head = '''<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>%s</title>
@@ -62,6 +64,25 @@ def verdict(run):
     return '<table><tr><th>criterion<th>measured<th>allowed<th></tr>%s</table>' % rows(to) if to else '<p>The case has no criteria.'
 
 
+def faults(run):
+    """Why a program does not accept its own run."""
+    said = {p.summary.get('not_accepted') for p in run.programs.values()} | {run.summary.get('not_accepted')}
+    return '\n'.join('<p class=missed>Not accepted: %s' % html.escape(s) for s in sorted(s for s in said if s))
+
+
+def gauges(run):
+    """The columns of the case's gauges, of all programs."""
+    names = [p['name'] for p in run.case.get('probes', []) if p.get('name')]
+    found = []
+    for name in names:
+        try:
+            if np.isfinite(np.asarray(run.column(name)[1], float)).any():
+                found.append(name)
+        except LookupError:  # of a kind that has no column of its name
+            continue
+    return found
+
+
 def price(run):
     s = run.summary
     to = [('status', s.get('status')), ('version', s.get('version')), ('ranks', s.get('ranks')),
@@ -76,7 +97,7 @@ def report(run, to=None, fields=None):
     """Writes DIR/report.html and returns its name. fields: what to draw (default: of the usual ones those there are)."""
     run = reading.read(run) if isinstance(run, (str, os.PathLike)) else run
     name = os.path.basename(os.path.abspath(run.dir))
-    page = [head % html.escape(name), '<h1>%s</h1>' % html.escape(name), verdict(run)]
+    page = [head % html.escape(name), '<h1>%s</h1>' % html.escape(name), verdict(run), faults(run)]
     if run.times:
         first = drawing.default_field(run)
         others = [f for f in ('pressure', 'vorticity') if f in run.fields and f != first]
@@ -86,8 +107,9 @@ def report(run, to=None, fields=None):
     if signals:
         page += ['<h2>Beside the references of the case</h2>', image(signals)]
     energy = [k for k in ('kinetic energy', 'max Mach', 'dt') if k in run.series]
-    if energy:
-        page += ['<h2>Over the run</h2>', image(curves.draw(run, energy, {}, os.path.join(run.dir, 'series.png'), columns=3))]
+    for title, names, file in (('Gauges', gauges(run), 'gauges.png'), ('Over the run', energy, 'history.png')):
+        if names:
+            page += ['<h2>%s</h2>' % title, image(curves.draw(run, names, {}, os.path.join(run.dir, file), columns=3))]
     page += ['<h2>Figures</h2>', price(run)]
     for p in run.programs.values():
         with open(os.path.join(run.dir, p.name + '-case.cfg')) as f:

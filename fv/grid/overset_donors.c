@@ -109,6 +109,19 @@ static bool find_donor(const struct mesh *m, struct overset *o, int k, int64_t c
     return true;
 }
 
+/* Corners of the other blocks that are boxes: one without min and max is a unit cube. */
+static void other_corners(const struct mesh *m, int k, char *text, size_t size)
+{
+    size_t n = 0;
+    *text = '\0';
+    for (int q = 0; q < m->nblocks && n < size; q++) {
+        const struct mesh_block_params *b = m->block[q].prm;
+        if (q != k && b->mapping != MAPPING_ANNULUS && b->mapping != MAPPING_FILE)
+            n += (size_t)snprintf(text + n, size - n, "; %s has min (%g, %g) and max (%g, %g)",
+                                  b->name, b->min[0], b->min[1], b->max[0], b->max[1]);
+    }
+}
+
 static bool find_donors(const struct run *r, struct faults *f, struct mesh *m, struct overset *o)
 {
     bool all = true;
@@ -124,14 +137,16 @@ static bool find_donors(const struct run *r, struct faults *f, struct mesh *m, s
         if (orphans == 0)
             continue;
         int i[3];
+        char corners[400];
         mesh_index(b, first, i);
+        other_corners(m, k, corners, sizeof corners);
         const double *x = b->centre[first];
         mesh_fault(
             r, f, b->prm, "name",
             "%lld orphan cells, the first (%d, %d, %d) at (%g, %g, %g) m: no other block has "
             "computed cells around it. Let the blocks overlap by at least 8 cells, or give "
-            "its sides a kind",
-            (long long)orphans, i[0], i[1], i[2], x[0], x[1], x[2]);
+            "its sides a kind%s",
+            (long long)orphans, i[0], i[1], i[2], x[0], x[1], x[2], corners);
         all = false;
     }
     return all;

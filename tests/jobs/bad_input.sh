@@ -211,6 +211,8 @@ with basin 's/16);/16); force = (1.0, 0.0, 0.0);/' 'fv.force: is not used' fv
 with basin 's/max = (1, 1)/max = (1, 1, 1)/' 'domain.max: .*component' fv
 with block 's/fv:      {/& cells = (16, 16);/' 'fv.cells: is not used' fv
 with block 's/16);/16); kind = "annulus";/' 'blocks.kind: unknown key; did you mean .mapping' fv
+with block 's/max = (1, 1)/max = (4, 4)/; s/^blocks.*/blocks: ( { name = "far"; cells = (16, 16); }, { mapping = "annulus"; centre = (2, 2); cells = (8, 32); i_min = "wall"; j_min = "joined"; j_max = "joined"; } );/' \
+    'orphan cells.*far has min (0, 0) and max (1, 1)' fv
 with block 's/16);/16); arc = (0, 90);/' 'blocks.\[0\].arc: is not used' fv
 with block 's/16);/16); focus = (0.5, 0.5);/' 'blocks.\[0\].focus: is not used' fv
 with block 's/16);/16); spin = (0, 0, 1);/' 'blocks.\[0\].spin: is not used' fv

@@ -1,12 +1,13 @@
 # What cases/estran reads and draws of four runs: plots.py ROOT POOL CUBE JOB TANK. SPDX-License-Identifier: BSD-3-Clause
 import os
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 
 sys.path.insert(0, os.path.join(sys.argv[1], 'cases'))
 import estran
-from estran import casefile, curves, drawing, grids
+from estran import casefile, curves, drawing, film as films, grids, page as pages
 from PIL import Image
 
 pool, cube, job, tank = (estran.read(d) for d in sys.argv[2:])
@@ -112,6 +113,12 @@ assert len(lines) == 4 and not bodies, 'a tank of cells has its four walls'
 near(max(line[:, 0].max() for line in lines), 0.5 + 0.1, 1e-9)  # where it has moved to
 film = Image.open(estran.movie(pool, 'velocity', to='film.apng'))
 assert film.n_frames == len(pool.times) == 3, film.n_frames
+film.seek(2)  # all in the colours of the first's palette
+snapshots = [pool.at(k) for k in range(3)]
+pictures = list(films.frames(pool, 'velocity', drawing.limits(pool, 'velocity', snapshots),
+                             drawing.window_of(pool, drawing.View(pool, None), snapshots), None, 800))
+off = abs(np.asarray(film.convert('RGB'), int) - pictures[2]).max(2)
+assert np.percentile(off, 99) < 16, 'colours of the film'
 for run, how in ((job, {}), (cube, {}), (cube, {'plane': 'space'})):
     for field in ('velocity', 'vorticity'):
         q = picture(estran.plot(run, field, **how))
@@ -119,7 +126,9 @@ for run, how in ((job, {}), (cube, {}), (cube, {'plane': 'space'})):
 
 # the page names the criteria; a reference in other units
 page = open(estran.report(pool)).read()
-assert 'particles_lost' in page and '>met' in page and page.count('<img') == 3
+assert 'particles_lost' in page and '>met' in page and page.count('<img') == 4 and '>Gauges<' in page and 'Not accepted' not in page
+off = SimpleNamespace(summary={'not_accepted': 'not sound'})
+assert 'Not accepted: not sound' in pages.faults(SimpleNamespace(programs={'sph': off, 'fv': pool['sph']}, summary={}))
 with open('reference.csv', 'w') as f:
     f.write('# depth\nt,p\n0,4\n1,4\n')
 pool.case['accept'] = [{'what': 'P', 'reference': 'reference.csv', 'column': 'p', 'unit': [0.1, 1000]}]
