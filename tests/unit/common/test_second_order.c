@@ -266,7 +266,7 @@ static void seas_transport_nothing(void **state)
     (void)state;
     const struct wave_spec of = sea_of(0.06, 2.0, 0.5);
     struct waves *w = waves_create(&of);
-    enum { TIMES = 1000, PARTS = 60 };
+    enum { TIMES = SANITIZED ? 10 : 1000, PARTS = 60 };
     double flux = 0.0;
     for (int i = 0; i < TIMES; i++) {
         waves_at(w, of.repeat * i / TIMES);
@@ -278,7 +278,8 @@ static void seas_transport_nothing(void **state)
         }
     }
     assert_true(w->current < 0.0);
-    near(flux, 0.0, 0.05 * fabs(w->current) * 0.5);
+    if (!SANITIZED)
+        near(flux, 0.0, 0.05 * fabs(w->current) * 0.5);
     waves_free(&w);
 }
 
