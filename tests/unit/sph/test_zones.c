@@ -79,7 +79,7 @@ static void check_moving(int dim, double u, double v, const double *box, double 
     struct sph_case c;
     struct sph *s = start_moving(&c, dim, u, v, box);
     const double mass = total_mass(s);
-    assert_true(sph_case_run(&c, steps, 100.0));
+    assert_true(sph_case_run(&c, SANITIZED ? steps / 2 : steps, 100.0));
     assert_true(max_anywhere((double)s->zones->openings->born) > 0.0);
     assert_close(error_of_velocity(s, u, v), 0.0, 1e-12);
     assert_close(total_mass(s) / mass, 1.0, 1e-11);
@@ -109,7 +109,8 @@ static void aligned_flow_keeps_the_lattice(void **state)
 {
     (void)state;
     check_flow(2, 1.0, 0.0, 1.0 - 1e-9, 60);
-    check_flow(2, 0.0, -0.7, 1.0 - 1e-9, 60);
+    if (!SANITIZED)
+        check_flow(2, 0.0, -0.7, 1.0 - 1e-9, 60);
     check_flow(3, 1.0, 0.0, 1.0 - 1e-9, 25);
 }
 
@@ -117,7 +118,8 @@ static void oblique_flow_leaves_no_clusters(void **state)
 {
     (void)state;
     check_flow(2, 0.8, 0.6, 0.5, 120);
-    check_flow(2, -0.3, 0.9, 0.5, 120);
+    if (!SANITIZED)
+        check_flow(2, -0.3, 0.9, 0.5, 120);
     check_flow(3, 0.8, 0.6, 0.45, 40);
 }
 
