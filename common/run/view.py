@@ -327,7 +327,7 @@ def show_walls():
         blocks = re.search(r'^blocks: \((.*?)^\);', case, re.M | re.S)
         if blocks and dim == 2 and name in sources:
             kinds = r'^  ([ij]_m[a-z]*) = "(?:wall|slip)"'
-            sides = [re.findall(kinds, b, re.M) for b in re.split(r'^  \{$', blocks.group(1), flags=re.M)[1:]]
+            sides = [re.findall(kinds, b, re.M) for b in re.split(r'^  (?:, )?\{$', blocks.group(1), flags=re.M)[1:]]
             script = walled.replace('SIDES', repr(sides))
             show_solid(name + ', walls of blocks', scripted(sources[name], 'vtkPolyData', script), dark)
         for least, most in boxes_of(case):

@@ -275,6 +275,17 @@ void scene_waves_check(const struct scene *s, const struct params *p, struct fau
 
 /* --- the log --- */
 
+/* waves.at of a group is a place and a time, not a point. */
+static void describe_focus(const struct scene *s, const struct waves *w)
+{
+    const double grown = s->waves.start * w->period;
+    log_say("its focus: %g m along its direction, t = %g s", w->of.at[0], w->of.at[1]);
+    if (w->of.at[1] < grown || w->of.at[1] > s->time.end)
+        log_warn("waves.at: the focus, t = %g s, is not within the run, from t = %.3g s, when the "
+                 "waves are fully grown, to %g s: give at = (place in m, time in s)",
+                 w->of.at[1], grown, s->time.end);
+}
+
 static void describe_made(const struct scene *s, const struct waves *w)
 {
     static const char *const names[] = {"regular waves", "a sea", "a focused group"};
@@ -286,6 +297,8 @@ static void describe_made(const struct scene *s, const struct waves *w)
             w->crest, w->trough, w->speed);
     if (w->of.kind == WAVE_REGULAR)
         return;
+    if (w->of.kind == WAVE_FOCUSED)
+        describe_focus(s, w);
     log_say("%d linear components, lengths %.3g to %.3g m", w->ncomponents, w->shortest,
             w->longest);
     if (w->of.spread > 0.0)

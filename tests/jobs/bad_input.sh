@@ -516,6 +516,21 @@ else
         { echo "FAIL: the scene with a plate is not drawn: $(tail -n 2 out.txt)"; failed=$((failed + 1)); }
 fi
 
+# the place and the time of a group's focus
+cat >group.cfg <<'END'
+format = 1;
+time:    { end = 10.0; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { max = (10, 1.2); };
+waves:   { kind = "focused"; height = 0.1; period = 1.4; at = (6, 8); };
+walls:   ( { side = "x_min"; kind = "wave"; }, { side = "x_max"; kind = "beach"; }, { side = "y_min"; } );
+shapes:  ( { form = "below"; level = 0.6; } );
+sph:     { dx = 0.05; };
+END
+tells group 's/^$//' 'its focus: 6 m along its direction, t = 8 s'
+grep -q 'waves.at' out.txt && bad "a focus within the run is warned of" out.txt
+tells group 's/at = (6, 8)/at = (6, 0)/' 'warning: waves.at: the focus, t = 0 s, is not within the run, from t = 2.8 s'
+
 # regions of refinement
 cat >apr.cfg <<'END'
 format = 1;
