@@ -1,0 +1,229 @@
+/* layer.c - see layer.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "layer.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../base/mem.h"
+#include "layer_solver.h"
+
+double layer_height(double k, double amplitude, double depth)
+{
+    return fmin(depth, fmax(1.0 / k, 2.5 * amplitude));
+}
+
+/* x- and y-derivatives and the Laplacian of v[cells]. */
+static void differentiate(const struct sigma_layer *l, const double *v, double *vx, double *vy,
+                          double *lap)
+{
+    const struct wave_grid *g = l->grid;
+    double *z = NEW(double, g->cells * 4), *work = NEW(double, g->cells * 4);
+    for (int i = 0; i < g->cells; i++)
+        z[4 * i] = v[i];
+    for (int i = 0; i < g->cells; i++) /* one batch of two: v_x + i v_y, lap v */
+        z[4 * i + 1] = 0.0;
+    wave_grid_to_modes(g, 2, z, work);
+    for (int i = 0; i < g->cells; i++) {
+        double *q = z + 4 * i;
+        const double re = q[0], im = q[2], kx = g->k[0][i % g->n[0]], ky = g->k[1][i / g->n[0]],
+                     k2 = g->size[i] * g->size[i];
+        q[0] = -kx * im - ky * re;
+        q[2] = kx * re - ky * im;
+        q[1] = -k2 * re;
+        q[3] = -k2 * im;
+    }
+    wave_grid_to_fields(g, 2, z, work);
+    for (int i = 0; i < g->cells; i++) {
+        vx[i] = z[4 * i];
+        vy[i] = z[4 * i + 2];
+        lap[i] = z[4 * i + 1];
+    }
+    mem_free(z);
+    mem_free(work);
+}
+
+static struct sigma_layer *make(const struct wave_grid *grid, double depth, double a, int nodes)
+{
+    struct sigma_layer *l = NEW(struct sigma_layer, 1);
+    const size_t cells = (size_t)grid->cells;
+    *l = (struct sigma_layer){.grid = grid, .nodes = nodes, .rows = (nodes + 3) / 4 * 4, .a = a};
+    l->sigma = NEW(double, l->rows);
+    l->phi = NEW(double, cells *(size_t)l->rows);
+    l->phi_s = NEW(double, cells *(size_t)l->rows);
+    double **const of[] = {&l->D, &l->eta_x[0], &l->eta_x[1], &l->eta_xx,
+                           &l->h, &l->h_x[0],   &l->h_x[1],   &l->h_xx};
+    for (int i = 0; i < 8; i++)
+        *of[i] = NEW(double, cells);
+    for (int b = 0; b < 2; b++)
+        l->phi_x[b] = NEW(double, cells *(size_t)l->rows);
+    l->solver = layer_solver_create(l, depth);
+    return l;
+}
+
+struct sigma_layer *layer_create(const struct wave_grid *grid, double depth, double a, int nodes)
+{
+    struct sigma_layer *l = make(grid, depth, a, nodes);
+    for (int i = 0; i < grid->cells; i++)
+        l->h[i] = a;
+    return l;
+}
+
+struct sigma_layer *layer_create_over(const struct wave_grid *grid, const double *h, int nodes)
+{
+    double a = 0.0;
+    for (int i = 0; i < grid->cells; i++)
+        a = fmax(a, h[i]);
+    struct sigma_layer *l = make(grid, a, a, nodes);
+    l->uneven = true;
+    memcpy(l->h, h, (size_t)grid->cells * sizeof *h);
+    differentiate(l, l->h, l->h_x[0], l->h_x[1], l->h_xx);
+    return l;
+}
+
+void layer_free(struct sigma_layer **l)
+{
+    if (!*l)
+        return;
+    struct sigma_layer *q = *l;
+    double *const of[] = {q->sigma,  q->phi,      q->phi_s,    q->phi_x[0], q->phi_x[1],
+                          q->D,      q->eta_x[0], q->eta_x[1], q->eta_xx,   q->h,
+                          q->h_x[0], q->h_x[1],   q->h_xx};
+    for (int i = 0; i < 13; i++)
+        mem_free(of[i]);
+    layer_solver_free(q, &q->solver);
+    mem_free(q);
+    *l = NULL;
+}
+
+void layer_shape(struct sigma_layer *l, const double *eta)
+{
+    differentiate(l, eta, l->eta_x[0], l->eta_x[1], l->eta_xx);
+    for (int i = 0; i < l->grid->cells; i++)
+        l->D[i] = eta[i] + l->h[i];
+}
+
+/* What sigma does at fixed places of a column: sigma_x = at[.][0] + sigma at[.][1], and so on. */
+struct sigma_column {
+    double x[2][2];     /* 1/m: along x and y */
+    double one, square; /* 1/m^2: 1/D^2; (D/a)^2 */
+};
+
+static struct sigma_column column_at(const struct sigma_layer *l, int i)
+{
+    const double D = l->D[i];
+    struct sigma_column c = {.one = 1.0 / (D * D), .square = D * D / (l->a * l->a)};
+    for (int b = 0; b < 2; b++) { /* z_x = (1 + sigma) eta_x + sigma h_x = -D sigma_x */
+        c.x[b][0] = -l->eta_x[b][i] / D;
+        c.x[b][1] = -(l->eta_x[b][i] + l->h_x[b][i]) / D;
+    }
+    return c;
+}
+
+/* lap sigma at a node: -(lap z + 2 grad sigma.grad D)/D. */
+static double bend(const struct sigma_layer *l, int i, double s, double sx, double sy)
+{
+    const double lap = (1.0 + s) * l->eta_xx[i] + s * l->h_xx[i];
+    const double Dx = l->eta_x[0][i] + l->h_x[0][i], Dy = l->eta_x[1][i] + l->h_x[1][i];
+    return -(lap + 2.0 * (sx * Dx + sy * Dy)) / l->D[i];
+}
+
+static void along_sigma(const double *D, int nodes, int rows, const double *v, double *to)
+{
+    for (int i = 0; i < nodes; i++) {
+        double sum = 0.0;
+        for (int j = 0; j < nodes; j++)
+            sum += D[i * rows + j] * v[j];
+        to[i] = sum;
+    }
+}
+
+/* The equations of a column, from f + i f_y (level) and f_x + i lap f (slopes). */
+static void column_product(const struct sigma_layer *l, int i, const double *level,
+                           const double *slopes, double *r)
+{
+    const struct layer_solver *s = l->solver;
+    const int rows = l->rows, n = l->nodes, batch = rows + 1, last = n - 1;
+    const double *f = level, *fy = level + batch, *fx = slopes, *lap = slopes + rows;
+    const bool plane = l->grid->n[1] > 1;
+    const struct sigma_column c = column_at(l, i);
+    double fs[64], fss[64], fxs[64], fys[64] = {0.0};
+    along_sigma(s->D1, n, rows, f, fs);
+    along_sigma(s->D2, n, rows, f, fss);
+    along_sigma(s->D1, n, rows, fx, fxs);
+    if (plane)
+        along_sigma(s->D1, n, rows, fy, fys);
+    for (int j = 1; j < last; j++) {
+        const double at = l->sigma[j], sx = c.x[0][0] + at * c.x[0][1],
+                     sy = c.x[1][0] + at * c.x[1][1];
+        r[j] = c.square * (lap[j] + 2.0 * (sx * fxs[j] + sy * fys[j]) +
+                           (sx * sx + sy * sy + c.one) * fss[j] + bend(l, i, at, sx, sy) * fs[j]);
+    }
+    const double sx = c.x[0][0] - c.x[0][1], sy = c.x[1][0] - c.x[1][1], D = l->D[i];
+    const double over = l->uneven ? l->h_x[0][i] * (fx[last] + sx * fs[last]) +
+                                        l->h_x[1][i] * ((plane ? fy[last] : 0.0) + sy * fs[last])
+                                  : -level[rows];
+    r[0] = f[0];
+    r[last] = (fs[last] / D + over) * D / l->a;
+    for (int j = n; j < rows; j++)
+        r[j] = 0.0;
+}
+
+void layer_product(struct sigma_layer *l, const double *y, double *r)
+{
+    const size_t rows = (size_t)l->rows;
+    layer_solver_flat(l, y);
+    for (int i = 0; i < l->grid->cells; i++)
+        column_product(l, i, l->solver->level + (size_t)i * 2 * (rows + 1),
+                       l->solver->slopes + (size_t)i * 2 * rows, r + (size_t)i * rows);
+}
+
+static void keep_solution(struct sigma_layer *l)
+{
+    const size_t rows = (size_t)l->rows;
+    layer_solver_flat(l, l->solver->start);
+    for (int i = 0; i < l->grid->cells; i++) {
+        const double *level = l->solver->level + (size_t)i * 2 * (rows + 1),
+                     *slopes = l->solver->slopes + (size_t)i * 2 * rows;
+        const size_t at = (size_t)i * rows;
+        memcpy(l->phi + at, level, rows * sizeof *level);
+        memcpy(l->phi_x[0] + at, slopes, rows * sizeof *level);
+        memcpy(l->phi_x[1] + at, level + rows + 1, rows * sizeof *level);
+        along_sigma(l->solver->D1, l->nodes, l->rows, level, l->phi_s + at);
+    }
+}
+
+int layer_solve(struct sigma_layer *l, const double *phi_s, const double *flux, double tolerance,
+                bool warm)
+{
+    const size_t cells = (size_t)l->grid->cells, rows = (size_t)l->rows;
+    double *b = NEW(double, cells *rows);
+    for (size_t i = 0; i < cells; i++) {
+        b[i * rows] = phi_s[i];
+        if (flux)
+            b[i * rows + (size_t)l->nodes - 1] = flux[i] * l->D[i] / l->a;
+    }
+    if (!warm)
+        memcpy(l->solver->start, b, cells * rows * sizeof *b);
+    const int products = layer_solver_gmres(l, b, tolerance, l->solver->start);
+    mem_free(b);
+    keep_solution(l);
+    return products;
+}
+
+double layer_rise(const struct sigma_layer *l, int cell)
+{
+    return l->phi_s[(size_t)cell * (size_t)l->rows] / l->D[cell];
+}
+
+void layer_velocity(const struct sigma_layer *l, int cell, double *x, double *up, double *y)
+{
+    const struct sigma_column c = column_at(l, cell);
+    const size_t at = (size_t)cell * (size_t)l->rows;
+    for (int j = 0; j < l->nodes; j++) {
+        const double s = l->sigma[j], fs = l->phi_s[at + (size_t)j];
+        x[j] = l->phi_x[0][at + (size_t)j] + (c.x[0][0] + s * c.x[0][1]) * fs;
+        up[j] = fs / l->D[cell];
+        if (y)
+            y[j] = l->phi_x[1][at + (size_t)j] + (c.x[1][0] + s * c.x[1][1]) * fs;
+    }
+}

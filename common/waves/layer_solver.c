@@ -1,0 +1,268 @@
+/* layer_solver.c - see layer_solver.h. GMRES is preconditioned from the right: its residual is that
+ * of the equations. SPDX-License-Identifier: BSD-3-Clause */
+#include "layer_solver.h"
+
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+#include "../base/log.h"
+#include "../base/mem.h"
+#include "layer.h"
+
+/* Trefethen's differentiation matrix on cos(pi i/N), for (y - 1)/2. */
+void layer_solver_points(int nodes, int rows, double *sigma, double *D1, double *D2)
+{
+    const int N = nodes - 1;
+    for (int i = 0; i < nodes; i++)
+        sigma[i] = 0.5 * (cos(M_PI * i / N) - 1.0);
+    for (int i = 0; i < nodes; i++) {
+        double sum = 0.0;
+        for (int j = 0; j < nodes; j++) {
+            const double c = (i % N ? 1.0 : 2.0) / (j % N ? 1.0 : 2.0) * ((i + j) % 2 ? -1.0 : 1.0);
+            if (i == j)
+                continue;
+            sum += D1[i * rows + j] = c / (sigma[i] - sigma[j]);
+        }
+        D1[i * rows + i] = -sum;
+    }
+    for (int i = 0; i < nodes; i++)
+        for (int j = 0; j < nodes; j++)
+            for (int k = 0; k < nodes; k++)
+                D2[i * rows + j] += D1[i * rows + k] * D1[k * rows + j];
+}
+
+static void invert(const struct sigma_layer *l, const struct layer_solver *s, int mode)
+{
+    const int n = l->nodes, rows = l->rows;
+    const double k = l->grid->size[mode];
+    double *A = NEW(double, n *n), *to = s->inverse + (size_t)mode * (size_t)(rows * rows);
+    lapack_int pivots[64];
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            const bool own = i == j;
+            A[i * n + j] = i == 0       ? own
+                           : i == n - 1 ? s->D1[i * rows + j] / l->a - own * s->lower[mode]
+                                        : s->D2[i * rows + j] / (l->a * l->a) - own * k * k;
+        }
+    if (LAPACKE_dgetrf(LAPACK_ROW_MAJOR, n, n, A, n, pivots) ||
+        LAPACKE_dgetri(LAPACK_ROW_MAJOR, n, A, n, pivots))
+        fail("the flat operator of a wave field cannot be inverted");
+    for (int i = 0; i < n; i++) /* transposed: products run along results */
+        for (int j = 0; j < n; j++)
+            to[j * rows + i] = A[i * n + j];
+    mem_free(A);
+}
+
+struct layer_solver *layer_solver_create(const struct sigma_layer *l, double depth)
+{
+    struct layer_solver *s = NEW(struct layer_solver, 1);
+    const size_t cells = (size_t)l->grid->cells, rows = (size_t)l->rows;
+    require(l->nodes <= 64);
+    s->D1 = NEW(double, rows *rows);
+    s->D2 = NEW(double, rows *rows);
+    s->lower = NEW(double, cells);
+    s->inverse = NEW(double, cells *rows *rows);
+    s->packed = NEW(double, cells * 2 * (rows + 1));
+    s->work = NEW(double, cells * 2 * (rows + 1));
+    s->slopes = NEW(double, cells * 2 * (rows + 1));
+    s->level = NEW(double, cells * 2 * (rows + 1));
+    s->start = NEW(double, cells *rows);
+    for (int i = 0; i <= LAYER_VECTORS; i++)
+        s->vectors[i] = NULL;
+    layer_solver_points(l->nodes, l->rows, l->sigma, s->D1, s->D2);
+    for (int m = 0; m < l->grid->cells; m++) {
+        const double k = l->grid->size[m];
+        s->lower[m] = k * tanh(fmin(k * (depth - l->a), 300.0));
+        if (l->grid->mirror[m] >= m)
+            invert(l, s, m);
+    }
+    return s;
+}
+
+void layer_solver_free(const struct sigma_layer *l, struct layer_solver **s)
+{
+    (void)l;
+    if (!*s)
+        return;
+    mem_free((*s)->D1);
+    mem_free((*s)->D2);
+    mem_free((*s)->lower);
+    mem_free((*s)->inverse);
+    mem_free((*s)->packed);
+    mem_free((*s)->work);
+    mem_free((*s)->slopes);
+    mem_free((*s)->level);
+    mem_free((*s)->start);
+    for (int i = 0; i <= LAYER_VECTORS; i++)
+        mem_free((*s)->vectors[i]);
+    mem_free(*s);
+    *s = NULL;
+}
+
+/* The modes k and -k of real fields of which rows s and s + rows/2 were transformed as one complex
+ * one: re, im [rows] of k. */
+static void unpack(const struct sigma_layer *l, int mode, double *re, double *im)
+{
+    const int half = l->rows / 2;
+    const double *z = l->solver->packed + (size_t)mode * (size_t)l->rows,
+                 *m = l->solver->packed + (size_t)l->grid->mirror[mode] * (size_t)l->rows;
+    for (int i = 0; i < half; i++) {
+        re[i] = 0.5 * (z[i] + m[i]);
+        im[i] = 0.5 * (z[half + i] - m[half + i]);
+        re[half + i] = 0.5 * (z[half + i] + m[half + i]);
+        im[half + i] = 0.5 * (m[i] - z[i]);
+    }
+}
+
+static void multiply(const double *transposed, int nodes, int rows, const double *x, double *y)
+{
+    memset(y, 0, (size_t)rows * sizeof *y);
+    for (int j = 0; j < nodes; j++)
+        for (int i = 0; i < rows; i++)
+            y[i] += transposed[j * rows + i] * x[j];
+}
+
+/* Writes a mode of f as f_x + i lap f and f + i f_y (+- k: those of -k are the complement). */
+static void spread(struct sigma_layer *l, int mode, const double *re, const double *im, double way)
+{
+    const struct wave_grid *g = l->grid;
+    const int rows = l->rows, batch = rows + 1, to = way > 0.0 ? mode : g->mirror[mode];
+    const double kx = way * g->k[0][mode % g->n[0]], ky = way * g->k[1][mode / g->n[0]],
+                 k2 = g->size[mode] * g->size[mode];
+    double *slopes = l->solver->slopes + (size_t)to * 2 * (size_t)rows,
+           *level = l->solver->level + (size_t)to * 2 * (size_t)batch;
+    for (int i = 0; i < rows; i++) {
+        const double b = way * im[i];
+        slopes[i] = -kx * b + k2 * b;
+        slopes[rows + i] = kx * re[i] - k2 * re[i];
+        level[i] = re[i] - ky * re[i];
+        level[batch + i] = b - ky * b;
+    }
+    const double K = l->solver->lower[mode];
+    level[rows] = K * re[l->nodes - 1];
+    level[batch + rows] = K * way * im[l->nodes - 1];
+}
+
+void layer_solver_flat(struct sigma_layer *l, const double *y)
+{
+    struct layer_solver *s = l->solver;
+    const int rows = l->rows;
+    double re[64] = {0.0}, im[64] = {0.0}, to_re[64], to_im[64];
+    memcpy(s->packed, y, (size_t)l->grid->cells * (size_t)rows * sizeof *y);
+    wave_grid_to_modes(l->grid, rows / 2, s->packed, s->work);
+    for (int m = 0; m < l->grid->cells; m++) {
+        if (l->grid->mirror[m] < m)
+            continue;
+        const double *inverse = s->inverse + (size_t)m * (size_t)(rows * rows);
+        unpack(l, m, re, im);
+        multiply(inverse, l->nodes, rows, re, to_re);
+        multiply(inverse, l->nodes, rows, im, to_im);
+        spread(l, m, to_re, to_im, 1.0);
+        if (l->grid->mirror[m] != m)
+            spread(l, m, to_re, to_im, -1.0);
+    }
+    wave_grid_to_fields(l->grid, rows, s->slopes, s->work);
+    wave_grid_to_fields(l->grid, rows + 1, s->level, s->work);
+}
+
+/* --- GMRES --- */
+
+static double dot(size_t n, const double *x, const double *y)
+{
+    double sum[8] = {0.0};
+    for (size_t i = 0; i + 8 <= n; i += 8) /* rows * cells is a multiple of 8 */
+        for (int k = 0; k < 8; k++)
+            sum[k] += x[i + (size_t)k] * y[i + (size_t)k];
+    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+}
+
+static void add(size_t n, double a, const double *restrict x, double *restrict y)
+{
+    for (size_t i = 0; i < n; i++)
+        y[i] += a * x[i];
+}
+
+/* Turns column j of the Hessenberg matrix by the rotations so far and one more. */
+static void rotate(double H[][LAYER_VECTORS], double turn[][2], double *g, int j)
+{
+    for (int i = 0; i < j; i++) {
+        const double a = H[i][j], b = H[i + 1][j];
+        H[i][j] = turn[i][0] * a + turn[i][1] * b;
+        H[i + 1][j] = turn[i][0] * b - turn[i][1] * a;
+    }
+    const double r = hypot(H[j][j], H[j + 1][j]);
+    turn[j][0] = r > 0.0 ? H[j][j] / r : 1.0;
+    turn[j][1] = r > 0.0 ? H[j + 1][j] / r : 0.0;
+    H[j][j] = r;
+    g[j + 1] = -turn[j][1] * g[j];
+    g[j] *= turn[j][0];
+}
+
+/* y += sum of the first m vectors with the coefficients that solve H c = g. */
+static void combine(struct layer_solver *s, size_t n, int m, double H[][LAYER_VECTORS],
+                    const double *g, double *y)
+{
+    double c[LAYER_VECTORS];
+    for (int i = m - 1; i >= 0; i--) {
+        c[i] = g[i];
+        for (int j = i + 1; j < m; j++)
+            c[i] -= H[i][j] * c[j];
+        c[i] /= H[i][i];
+    }
+    for (int i = 0; i < m; i++)
+        add(n, c[i], s->vectors[i], y);
+}
+
+static double *vector(struct layer_solver *s, size_t n, int i)
+{
+    if (!s->vectors[i])
+        s->vectors[i] = NEW(double, n);
+    return s->vectors[i];
+}
+
+/* Up to LAYER_VECTORS products; the residual that is left. */
+static double cycle(struct sigma_layer *l, const double *b, double enough, double *y, int *products)
+{
+    struct layer_solver *s = l->solver;
+    const size_t n = (size_t)l->grid->cells * (size_t)l->rows;
+    double H[LAYER_VECTORS + 1][LAYER_VECTORS], turn[LAYER_VECTORS][2], g[LAYER_VECTORS + 1];
+    double *v = vector(s, n, 0);
+    int m = 0;
+    layer_product(l, y, v);
+    for (size_t i = 0; i < n; i++)
+        v[i] = b[i] - v[i];
+    g[0] = sqrt(dot(n, v, v));
+    ++*products;
+    if (!(g[0] > enough))
+        return g[0];
+    for (size_t i = 0; i < n; i++)
+        v[i] /= g[0];
+    while (m < LAYER_VECTORS && fabs(g[m]) > enough) {
+        double *w = vector(s, n, m + 1);
+        layer_product(l, s->vectors[m], w);
+        ++*products;
+        for (int i = 0; i <= m; i++) {
+            H[i][m] = dot(n, w, s->vectors[i]);
+            add(n, -H[i][m], s->vectors[i], w);
+        }
+        const double left = sqrt(dot(n, w, w));
+        H[m + 1][m] = left;
+        for (size_t i = 0; i < n && left > 0.0; i++)
+            w[i] /= left;
+        rotate(H, turn, g, m++);
+    }
+    combine(s, n, m, H, g, y);
+    return fabs(g[m]);
+}
+
+int layer_solver_gmres(struct sigma_layer *l, const double *b, double tolerance, double *y)
+{
+    const size_t n = (size_t)l->grid->cells * (size_t)l->rows;
+    const double enough = tolerance * sqrt(dot(n, b, b));
+    int products = 0;
+    double left = INFINITY;
+    for (int k = 0; k < LAYER_RESTARTS && left > enough; k++)
+        left = cycle(l, b, enough, y, &products);
+    return left <= enough ? products : -1;
+}

@@ -1,0 +1,248 @@
+/* test_layer.c - transforms are the sums that they stand for; the potential of steep waves has
+ * their velocities from the surface to the bed, deep and shallow; over an uneven bed that of a
+ * harmonic function; along a slanted direction of a plane what it has along a line.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../../common/base/mem.h"
+#include "../../../common/waves/layer.h"
+#include "../../../common/waves/steady.h"
+
+static void below(double value, double bound, const char *what)
+{
+    print_message("%s: %.2g (at most %.2g)\n", what, value, bound);
+    assert_true(value <= bound);
+}
+
+/* Against the sums themselves, both signs, fields side by side. */
+static void transforms_are_sums(void **state)
+{
+    (void)state;
+    static const int sizes[] = {1, 2, 6, 10, 36, 60, 90};
+    enum { INNER = 2, BATCH = 3, BLOCK = INNER * 2 * BATCH };
+    double worst = 0.0;
+    assert_int_equal(fft_size(7), 8);
+    assert_int_equal(fft_size(97), 100);
+    for (int q = 0; q < 7; q++)
+        for (int sign = -1; sign < 2; sign += 2) {
+            const int n = sizes[q];
+            double *z = NEW(double, n *BLOCK), *is = NEW(double, n *BLOCK),
+                   *work = NEW(double, n *BLOCK);
+            for (int i = 0; i < n * BLOCK; i++)
+                is[i] = z[i] = sin(1.7 * i * i);
+            struct fft *f = fft_create(n);
+            fft_run(f, sign, INNER, BATCH, is, work);
+            for (int i = 0; i < n * BLOCK; i++) {
+                const int k = i / BLOCK, part = i / BATCH % 2, re = i % BLOCK - part * BATCH;
+                double sum = 0.0;
+                for (int j = 0; j < n; j++) {
+                    const double a = sign * 2.0 * M_PI * (j * k % n) / n, *x = z + j * BLOCK + re;
+                    sum += part ? cos(a) * x[BATCH] + sin(a) * x[0]
+                                : cos(a) * x[0] - sin(a) * x[BATCH];
+                }
+                worst = fmax(worst, fabs(sum - is[i]));
+            }
+            fft_free(&f);
+            mem_free(z);
+            mem_free(is);
+            mem_free(work);
+        }
+    below(worst, 1e-12, "transforms");
+}
+
+/* eta and phi_s on n points of a steady wave: d phi_s/dx = u + w eta_x, its mode 0 is none. */
+static void surface_of(const struct steady *w, const struct wave_grid *g, double *eta, double *phi)
+{
+    const int n = g->cells;
+    double *z = NEW(double, 2 * n), *work = NEW(double, 2 * n);
+    for (int i = 0; i < n; i++)
+        z[2 * i] = eta[i] = steady_eta(w, g->length[0] * (i % g->n[0]) / g->n[0], 0.0);
+    wave_grid_to_modes(g, 1, z, work);
+    for (int i = 0; i < n; i++) {
+        const double re = z[2 * i], k = g->k[0][i % g->n[0]];
+        z[2 * i] = -k * z[2 * i + 1];
+        z[2 * i + 1] = k * re;
+    }
+    wave_grid_to_fields(g, 1, z, work);
+    for (int i = 0; i < n; i++) {
+        double u[2];
+        steady_point(w, g->length[0] * (i % g->n[0]) / g->n[0], eta[i], 0.0, u, NULL);
+        z[2 * i] = u[0] + u[1] * z[2 * i];
+        z[2 * i + 1] = 0.0;
+    }
+    wave_grid_to_modes(g, 1, z, work);
+    for (int i = 0; i < n; i++) {
+        const double re = z[2 * i], k = g->k[0][i % g->n[0]];
+        z[2 * i] = k != 0.0 ? z[2 * i + 1] / k : 0.0;
+        z[2 * i + 1] = k != 0.0 ? -re / k : 0.0;
+    }
+    wave_grid_to_fields(g, 1, z, work);
+    for (int i = 0; i < n; i++)
+        phi[i] = z[2 * i];
+    mem_free(z);
+    mem_free(work);
+}
+
+struct steep {
+    double ka, kd;
+    int points;
+    double bound; /* ten times what the method's authors' discretisation leaves */
+};
+
+/* Largest error of u, w over the crest's speed; and of phi_t, which has -(g eta + |u|^2/2) on the
+ * surface and is -c u in a steady wave, over c times it. */
+static void check_steep(const struct steep *of)
+{
+    const double lambda = 2.0 * M_PI, length[2] = {lambda, lambda};
+    const int n[2] = {of->points, 1};
+    struct steady w;
+    assert_true(steady_create(&w, false, of->kd, lambda, 2.0 * of->ka, 0.0, 1.0, 1.0));
+    struct wave_grid *g = wave_grid_create(n, length);
+    struct sigma_layer *l = layer_create(g, of->kd, layer_height(1.0, of->ka, of->kd), 13);
+    double *eta = NEW(double, n[0]), *phi = NEW(double, n[0]), top[2], worst = 0.0, rate = 0.0;
+    surface_of(&w, g, eta, phi);
+    layer_shape(l, eta);
+    const int products = layer_solve(l, phi, NULL, 1e-12, false);
+    steady_point(&w, 0.0, eta[0], 0.0, top, NULL);
+    for (int i = 0; i < n[0]; i++) {
+        double u[16], up[16], v[2];
+        layer_velocity(l, i, u, up, NULL);
+        for (int j = 0; j < l->nodes; j++) {
+            steady_point(&w, lambda * i / n[0], eta[i] + l->sigma[j] * l->D[i], 0.0, v, NULL);
+            worst = fmax(worst, hypot(u[j] - v[0], up[j] - v[1]));
+        }
+        phi[i] = -(eta[i] + 0.5 * (u[0] * u[0] + up[0] * up[0]));
+    }
+    layer_solve(l, phi, NULL, 1e-12, false);
+    double mean = 0.0;
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < n[0]; i++) {
+            double v[2];
+            steady_point(&w, lambda * i / n[0], eta[i] - 0.5 * l->D[i], 0.0, v, NULL);
+            const double is = l->phi[i * l->rows + (l->nodes - 1) / 2] + w.c * v[0];
+            mean += pass ? 0.0 : is / n[0];
+            rate = fmax(rate, pass ? fabs(is - mean) : 0.0);
+        }
+    print_message("ka %g kd %g: %d products; ", of->ka, of->kd, products);
+    assert_true(products > 0);
+    below(worst / top[0], of->bound, "velocities");
+    below(rate / (w.c * top[0]), of->bound, "phi_t");
+    mem_free(eta);
+    mem_free(phi);
+    layer_free(&l);
+    wave_grid_free(&g);
+}
+
+static void steep_waves_have_their_velocities(void **state)
+{
+    (void)state;
+    static const struct steep of[] = {{0.1, 20.0, 64, 5e-9}, {0.2, 20.0, 64, 6e-9},
+                                      {0.3, 20.0, 64, 4e-8}, {0.38, 20.0, 128, 9e-5},
+                                      {0.1, 1.0, 64, 4e-8},  {0.12, 0.6, 64, 8e-8}};
+    for (int k = 0; k < 6; k++)
+        check_steep(of + k);
+}
+
+/* The bar of Beji & Battjes (Coastal Eng. 19, 1993), corners rounded over 0.2 m. */
+static void bar(const struct wave_grid *g, double *h)
+{
+    static const double corner[] = {6.0, 12.0, 14.0, 17.0}, slope[] = {-0.05, 0.05, 0.1, -0.1};
+    for (int i = 0; i < g->cells; i++) {
+        const double x = g->length[0] * i / g->n[0];
+        h[i] = 0.4;
+        for (int c = 0; c < 4; c++)
+            h[i] += slope[c] * 0.2 *
+                    (fmax((x - corner[c]) / 0.2, 0.0) + log1p(exp(-fabs(x - corner[c]) / 0.2)));
+    }
+}
+
+/* F = cos kx cosh k(z + 0.4)/cosh 0.4 k, whose flux through the bed is given. */
+static void uneven_beds_are_met(void **state)
+{
+    (void)state;
+    enum { N = 768 };
+    const int n[2] = {N, 1};
+    const double length[2] = {24.0, 24.0}, k = 2.0 * M_PI * 6.0 / 24.0;
+    struct wave_grid *g = wave_grid_create(n, length);
+    double h[N], eta[N], phi[N], flux[N], worst = 0.0;
+    bar(g, h);
+    struct sigma_layer *l = layer_create_over(g, h, 9);
+    for (int i = 0; i < N; i++)
+        eta[i] = 0.02 * cos(k * 24.0 * i / N);
+    layer_shape(l, eta);
+    for (int i = 0; i < N; i++) {
+        const double x = 24.0 * i / N, ch = cosh(k * 0.4), at = k * (0.4 - h[i]);
+        phi[i] = cos(k * x) * cosh(k * (eta[i] + 0.4)) / ch;
+        flux[i] = k / ch * (cos(k * x) * sinh(at) - l->h_x[0][i] * sin(k * x) * cosh(at));
+    }
+    const int products = layer_solve(l, phi, flux, 1e-9, false);
+    assert_true(products > 0);
+    for (int i = 0; i < N; i++) {
+        double u[16], up[16];
+        layer_velocity(l, i, u, up, NULL);
+        for (int j = 0; j < l->nodes; j++) {
+            const double x = 24.0 * i / N, z = k * (eta[i] + l->sigma[j] * l->D[i] + 0.4),
+                         ch = cosh(k * 0.4);
+            worst = fmax(worst, hypot(u[j] / k + sin(k * x) * cosh(z) / ch,
+                                      up[j] / k - cos(k * x) * sinh(z) / ch));
+        }
+    }
+    print_message("%d products; ", products);
+    below(worst, 2e-6, "bar");
+    layer_free(&l);
+    wave_grid_free(&g);
+}
+
+/* A wave along the diagonal of a plane has the velocities that it has along a line. */
+static void planes_turn_lines(void **state)
+{
+    (void)state;
+    enum { N = 24 };
+    const int n[2] = {N, N};
+    const double side = 2.0 * M_PI * sqrt(2.0), length[2] = {side, side};
+    struct steady w;
+    assert_true(steady_create(&w, false, 20.0, 2.0 * M_PI, 0.2, 0.0, 1.0, 1.0));
+    struct wave_grid *g = wave_grid_create(n, length);
+    struct sigma_layer *l = layer_create(g, 20.0, 1.0, 11);
+    double *eta = NEW(double, N *N), *phi = NEW(double, N *N), worst = 0.0, top[2];
+    const int line[2] = {N, 1};
+    const double long_[2] = {2.0 * M_PI, 1.0};
+    struct wave_grid *one = wave_grid_create(line, long_);
+    double e[N], p[N];
+    surface_of(&w, one, e, p);
+    for (int i = 0; i < N * N; i++) { /* (x + y)/sqrt 2 */
+        eta[i] = e[(i % N + i / N) % N];
+        phi[i] = p[(i % N + i / N) % N];
+    }
+    layer_shape(l, eta);
+    assert_true(layer_solve(l, phi, NULL, 1e-10, false) > 0);
+    steady_point(&w, 0.0, eta[0], 0.0, top, NULL);
+    for (int i = 0; i < N * N; i++) {
+        double u[16], up[16], v[16], is[2];
+        layer_velocity(l, i, u, up, v);
+        for (int j = 0; j < l->nodes; j++) {
+            steady_point(&w, 2.0 * M_PI * (i % N + i / N) / N, eta[i] + l->sigma[j] * l->D[i], 0.0,
+                         is, NULL);
+            const double along = sqrt(0.5) * is[0];
+            worst = fmax(worst, fabs(u[j] - along) + fabs(v[j] - along) + fabs(up[j] - is[1]));
+        }
+    }
+    below(worst / top[0], 1e-6, "plane");
+    mem_free(eta);
+    mem_free(phi);
+    layer_free(&l);
+    wave_grid_free(&g);
+    wave_grid_free(&one);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(transforms_are_sums), cmocka_unit_test(steep_waves_have_their_velocities),
+        cmocka_unit_test(uneven_beds_are_met), cmocka_unit_test(planes_turn_lines)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
