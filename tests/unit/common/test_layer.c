@@ -1,6 +1,7 @@
 /* test_layer.c - transforms are the sums that they stand for; the potential of steep waves has
  * their velocities from the surface to the bed, deep and shallow; over an uneven bed that of a
- * harmonic function; along a slanted direction of a plane what it has along a line.
+ * harmonic function; along a slanted direction of a plane what it has along a line; steady waves
+ * keep their speed, height and energy, by the layer and by orders in steepness.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
@@ -9,7 +10,7 @@
 #include <string.h>
 
 #include "../../../common/base/mem.h"
-#include "../../../common/waves/layer.h"
+#include "../../../common/waves/evolution.h"
 #include "../../../common/waves/steady.h"
 
 static void below(double value, double bound, const char *what)
@@ -239,10 +240,84 @@ static void planes_turn_lines(void **state)
     wave_grid_free(&one);
 }
 
+struct kept {
+    double ka, kd;
+    int points, modes, nodes, order, periods;
+    double speed, energy; /* bounds: ten times what these methods leave with as many points */
+};
+
+/* c, the energy and the first harmonic after some periods, 60 steps each. */
+static void check_kept(const struct kept *of)
+{
+    const double lambda = 2.0 * M_PI, length[2] = {lambda, lambda};
+    const int n[2] = {of->points, 1};
+    struct steady w;
+    assert_true(steady_create(&w, false, of->kd, lambda, 2.0 * of->ka, 0.0, 1.0, 1.0));
+    const struct evolution_spec spec = {.g = 1.0,
+                                        .depth = of->kd,
+                                        .dt = lambda / w.c / 60.0,
+                                        .highest = of->modes + 0.5,
+                                        .height = layer_height(1.0, of->ka, of->kd),
+                                        .nodes = of->nodes,
+                                        .order = of->order};
+    struct evolution *e = evolution_create(&spec, wave_grid_create(n, length));
+    double *eta = NEW(double, n[0]), *phi = NEW(double, n[0]);
+    surface_of(&w, e->grid, eta, phi);
+    evolution_start(e, eta, phi);
+    double first[2], energy = 0.0;
+    for (int k = 0; k <= 60 * of->periods; k++) {
+        const double *z = e->state + 2, *m = e->state + 2 * (n[0] - 1); /* eta's mode 1 */
+        const double now[2] = {0.5 * (z[0] + m[0]), 0.5 * (z[1] - m[1])};
+        if (k == 0)
+            memcpy(first, now, sizeof now);
+        if (k == 60 * of->periods) {
+            below(fabs(atan2(now[0] * first[1] - now[1] * first[0],
+                             now[0] * first[0] + now[1] * first[1])) /
+                      (lambda * of->periods),
+                  of->speed, "speed");
+            below(fabs(hypot(now[0], now[1]) / hypot(first[0], first[1]) - 1.0), of->energy,
+                  "height");
+        }
+        assert_true(evolution_step(e));
+        energy = k == 0 ? e->energy : energy;
+    }
+    print_message("ka %g kd %g order %d: %.1f products a stage; ", of->ka, of->kd, of->order,
+                  e->products / (240.0 * of->periods + 4.0));
+    below(fabs(e->energy / energy - 1.0), of->energy, "energy");
+    mem_free(eta);
+    mem_free(phi);
+    evolution_free(&e);
+}
+
+static void steady_waves_stay_what_they_are(void **state)
+{
+    (void)state;
+    static const struct kept of[] = {{0.2, 20.0, 32, 12, 9, 0, 4, 1e-6, 9e-6},
+                                     {0.3, 20.0, 48, 16, 9, 0, 4, 4e-6, 7e-5},
+                                     {0.35, 20.0, 64, 24, 9, 0, 4, 7e-6, 8e-5},
+                                     {0.12, 0.6, 64, 20, 9, 0, 4, 3e-6, 3e-6}};
+    for (int k = 0; k < (SANITIZED ? 1 : 4); k++)
+        check_kept(of + k);
+}
+
+static void orders_in_steepness_keep_them_too(void **state)
+{
+    (void)state;
+    static const struct kept of[] = {{0.1, 20.0, 50, 8, 9, 5, 5, 1.3e-6, 1.6e-6},
+                                     {0.2, 20.0, 50, 8, 9, 5, 5, 7.6e-5, 3.8e-5},
+                                     {0.3, 20.0, 96, 12, 9, 7, 5, 7.5e-5, 6.3e-5},
+                                     {0.1, 1.0, 96, 16, 9, 5, 5, 5e-6, 1e-5}};
+    for (int k = 0; k < (SANITIZED ? 1 : 4); k++)
+        check_kept(of + k);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(transforms_are_sums), cmocka_unit_test(steep_waves_have_their_velocities),
-        cmocka_unit_test(uneven_beds_are_met), cmocka_unit_test(planes_turn_lines)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(transforms_are_sums),
+                                       cmocka_unit_test(steep_waves_have_their_velocities),
+                                       cmocka_unit_test(uneven_beds_are_met),
+                                       cmocka_unit_test(planes_turn_lines),
+                                       cmocka_unit_test(steady_waves_stay_what_they_are),
+                                       cmocka_unit_test(orders_in_steepness_keep_them_too)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,242 @@
+/* evolution.c - see evolution.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "evolution.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../base/mem.h"
+
+enum { FIELDS = 4 }; /* eta + i phi_s, their x- and y-derivatives, linear W */
+
+static const double tolerance = 1e-7; /* of the layer's residual */
+
+struct evolution *evolution_create(const struct evolution_spec *of, struct wave_grid *grid)
+{
+    struct evolution *e = NEW(struct evolution, 1);
+    const size_t n = (size_t)grid->cells * 2;
+    *e = (struct evolution){.of = *of, .grid = grid};
+    e->layer = layer_create(grid, of->depth, of->height, of->nodes);
+    if (of->order > 0)
+        e->hos = hos_create(grid, of->depth, of->order, of->highest);
+    e->state = NEW(double, n);
+    e->eta = NEW(double, n);
+    e->phi = NEW(double, n);
+    e->fields = NEW(double, n *FIELDS);
+    for (int i = 0; i < 2; i++) {
+        e->work[i] = NEW(double, n *FIELDS);
+        e->at[i] = NEW(double, n);
+    }
+    for (int i = 0; i < EVOLUTION_STAGES; i++)
+        e->rate[i] = NEW(double, n);
+    return e;
+}
+
+void evolution_free(struct evolution **e)
+{
+    if (!*e)
+        return;
+    struct evolution *q = *e;
+    layer_free(&q->layer);
+    hos_free(&q->hos);
+    wave_grid_free(&q->grid);
+    double *const of[] = {q->state, q->eta,   q->phi,     q->fields,  q->work[0], q->work[1],
+                          q->at[0], q->at[1], q->rate[0], q->rate[1], q->rate[2], q->rate[3]};
+    for (int i = 0; i < 12; i++)
+        mem_free(of[i]);
+    mem_free(q);
+    *e = NULL;
+}
+
+static void to_state(struct evolution *e, double *z)
+{
+    wave_grid_to_modes(e->grid, 1, z, e->work[0]);
+    for (int i = 0; i < e->grid->cells; i++)
+        if (e->grid->size[i] > e->of.highest)
+            z[2 * i] = z[2 * i + 1] = 0.0;
+}
+
+void evolution_start(struct evolution *e, const double *eta, const double *phi)
+{
+    for (int i = 0; i < e->grid->cells; i++) {
+        e->state[2 * i] = eta[i];
+        e->state[2 * i + 1] = phi[i];
+    }
+    to_state(e, e->state);
+    e->step = 0;
+    e->looked = false;
+}
+
+/* eta and phi_s, their slopes and what W is of linear waves: z [cells][2][FIELDS] of modes. */
+static void expand(struct evolution *e, const double *modes)
+{
+    const struct wave_grid *g = e->grid;
+    for (int i = 0; i < g->cells; i++) {
+        const double *z = modes + 2 * i, *m = modes + 2 * g->mirror[i], k = g->size[i],
+                     kx = g->k[0][i % g->n[0]], ky = g->k[1][i / g->n[0]],
+                     rise = k * tanh(fmin(k * e->of.depth, 300.0));
+        double *q = e->fields + (size_t)i * 2 * FIELDS;
+        q[0] = z[0];
+        q[FIELDS] = z[1];
+        q[1] = -kx * z[1];
+        q[FIELDS + 1] = kx * z[0];
+        q[2] = -ky * z[1];
+        q[FIELDS + 2] = ky * z[0];
+        q[3] = 0.5 * rise * (z[1] + m[1]); /* of phi_s alone */
+        q[FIELDS + 3] = 0.5 * rise * (m[0] - z[0]);
+    }
+    wave_grid_to_fields(g, FIELDS, e->fields, e->work[0]);
+}
+
+static double slope2_of(const double *q) { return q[1] * q[1] + q[2] * q[2]; }
+
+/* (1 + |grad eta|^2) W and (1 + |grad eta|^2) W^2 of the fields into work[0], [2][cells]. solved:
+ * the layer has their potential. */
+static bool find_rise(struct evolution *e, bool solved)
+{
+    const int n = e->grid->cells;
+    double *eta = e->work[1], *phi = eta + n, *slope2 = phi + n, *rise = e->work[0],
+           *square = rise + n;
+    for (int i = 0; i < n; i++) {
+        const double *q = e->fields + (size_t)i * 2 * FIELDS;
+        eta[i] = q[0];
+        phi[i] = q[FIELDS];
+        slope2[i] = slope2_of(q);
+    }
+    if (e->hos) {
+        hos_rise(e->hos, eta, phi, slope2, rise, square);
+        return true;
+    }
+    if (!solved) {
+        layer_shape(e->layer, eta);
+        const int products = layer_solve(e->layer, phi, NULL, tolerance, true);
+        if (products < 0)
+            return false;
+        e->products += products;
+    }
+    for (int i = 0; i < n; i++) {
+        const double W = layer_rise(e->layer, i);
+        rise[i] = (1.0 + slope2[i]) * W;
+        square[i] = rise[i] * W;
+    }
+    return true;
+}
+
+/* Rates of the modes without their linear part at the time t; first: of the state that was looked
+ * at, with its energy. */
+static bool find_rates(struct evolution *e, const double *modes, double t, bool first, double *rate)
+{
+    const int n = e->grid->cells;
+    const double grown = e->of.ramp > 0.0 ? -expm1(-pow(t / e->of.ramp, 4.0)) : 1.0;
+    double energy = 0.0;
+    expand(e, modes);
+    if (!find_rise(e, first))
+        return false;
+    for (int i = 0; i < n; i++) {
+        const double *q = e->fields + (size_t)i * 2 * FIELDS, *p = q + FIELDS;
+        const double eta_t = e->work[0][i] - q[1] * p[1] - q[2] * p[2];
+        rate[2 * i] = grown * (eta_t - q[3]);
+        rate[2 * i + 1] = 0.5 * grown * (e->work[0][n + i] - p[1] * p[1] - p[2] * p[2]);
+        energy += p[0] * eta_t + e->of.g * q[0] * q[0];
+    }
+    if (first)
+        e->energy = 0.5 * energy / n;
+    to_state(e, rate);
+    return isfinite(energy);
+}
+
+/* Linear waves after dt: eta' = c eta + s (k t/w) phi, phi' = c phi - s (g/w) eta, t = tanh kh. */
+static void turn(const struct evolution *e, double *modes, double dt)
+{
+    for (int i = 0; i < e->grid->cells; i++) {
+        const int j = e->grid->mirror[i];
+        const double k = e->grid->size[i], rise = k * tanh(fmin(k * e->of.depth, 300.0)),
+                     w = sqrt(e->of.g * rise), c = cos(w * dt), s = w > 0.0 ? sin(w * dt) / w : dt;
+        double *z = modes + 2 * i, *m = modes + 2 * j;
+        if (j < i)
+            continue;
+        const double eta[2] = {0.5 * (z[0] + m[0]), 0.5 * (z[1] - m[1])},
+                     phi[2] = {0.5 * (z[1] + m[1]), 0.5 * (m[0] - z[0])};
+        double a[2], b[2];
+        for (int p = 0; p < 2; p++) {
+            a[p] = c * eta[p] + s * rise * phi[p];
+            b[p] = c * phi[p] - s * e->of.g * eta[p];
+        }
+        z[0] = a[0] - b[1];
+        z[1] = a[1] + b[0];
+        m[0] = a[0] + b[1];
+        m[1] = b[0] - a[1];
+    }
+}
+
+static void add(const struct evolution *e, double *to, double a, const double *of)
+{
+    for (int i = 0; i < 2 * e->grid->cells; i++)
+        to[i] += a * of[i];
+}
+
+/* Runge-Kutta stages of what is turned to the middle of the step. */
+static bool stages(struct evolution *e, double t)
+{
+    const double dt = e->of.dt;
+    const size_t bytes = (size_t)e->grid->cells * 2 * sizeof(double);
+    double **k = e->rate, *half = e->at[0], *z = e->at[1];
+    if (!find_rates(e, e->state, t, true, k[0]))
+        return false;
+    memcpy(half, e->state, bytes);
+    turn(e, half, 0.5 * dt);
+    turn(e, k[0], 0.5 * dt);
+    memcpy(z, half, bytes);
+    add(e, z, 0.5 * dt, k[0]);
+    if (!find_rates(e, z, t + 0.5 * dt, false, k[1]))
+        return false;
+    memcpy(z, half, bytes);
+    add(e, z, 0.5 * dt, k[1]);
+    if (!find_rates(e, z, t + 0.5 * dt, false, k[2]))
+        return false;
+    memcpy(z, half, bytes);
+    add(e, z, dt, k[2]);
+    turn(e, z, 0.5 * dt);
+    return find_rates(e, z, t + dt, false, k[3]);
+}
+
+bool evolution_look(struct evolution *e)
+{
+    const int n = e->grid->cells;
+    if (e->looked)
+        return true;
+    memcpy(e->fields, e->state, (size_t)n * 2 * sizeof *e->state);
+    wave_grid_to_fields(e->grid, 1, e->fields, e->work[0]);
+    for (int i = 0; i < n; i++) {
+        e->eta[i] = e->fields[2 * i];
+        e->phi[i] = e->fields[2 * i + 1];
+        if (!(e->eta[i] > -e->of.height))
+            return false;
+    }
+    layer_shape(e->layer, e->eta);
+    const int products = layer_solve(e->layer, e->phi, NULL, tolerance, false);
+    e->products += products > 0 ? products : 0;
+    e->looked = products > 0;
+    return e->looked;
+}
+
+bool evolution_step(struct evolution *e)
+{
+    const double dt = e->of.dt;
+    if ((!e->hos && !evolution_look(e)) || !stages(e, (double)e->step * dt))
+        return false;
+    double *z = e->at[0]; /* the state and its first rates, half a step on */
+    add(e, z, dt / 6.0, e->rate[0]);
+    add(e, z, dt / 3.0, e->rate[1]);
+    add(e, z, dt / 3.0, e->rate[2]);
+    turn(e, z, 0.5 * dt);
+    add(e, z, dt / 6.0, e->rate[3]);
+    for (int i = 0; i < e->grid->cells; i++) {
+        const double k = e->grid->size[i] / (0.9 * e->of.highest),
+                     left = e->grid->size[i] > e->of.highest ? 0.0 : exp(-pow(k, 30.0));
+        e->state[2 * i] = left * z[2 * i];
+        e->state[2 * i + 1] = left * z[2 * i + 1];
+    }
+    e->step++;
+    e->looked = false;
+    return true;
+}
