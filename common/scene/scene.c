@@ -107,6 +107,7 @@ static const struct param waves_rows[] = {
     PARAM(P, repeat,    "s", "0.0", 0, 1e9, "after which a sea repeats itself; 0: 25, 50, 100, .. periods, what the run and 10 periods need: give it if the run may go on to a later end"),
     PARAM(P, spread,    "-", "0.0", 0, 200, "3D: of a sea's directions b about the mean, as cos^2s(b/2), one of each component, at most 75 degrees: 5 to 10 for wind seas, 25 to 75 for swell; 0: all of one direction"),
     PARAM(P, order,     "-", "2", 1, 2, "of a sea or a group that zones make: 2 with the waves that each pair of components binds (higher crests, flatter troughs, long waves under groups); 1: a sum of linear waves"),
+    CHOICE(P, evolve, "no|full|hos", "no", "a sea or a group that zones make evolves nonlinearly from eight periods before the run, over a periodic line (spread: plane) in potential flow; full: for all waves that do not break; hos: by orders in steepness, several times cheaper, up to a steepness of 0.3"),
     PARAM(P, seed,      "-", "1", 0, 2000000000, "of the random phases of a sea"),
 };
 #undef P

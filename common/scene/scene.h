@@ -158,6 +158,7 @@ struct scene {
         double peak, repeat;   /* -, s */
         double spread;         /* -: s of cos^2s(b/2); 0: long crests */
         int order, seed;
+        int evolve;     /* enum wave_evolve */
         double made[2]; /* m, m/s: highest crest, fastest water, by scene_waves_resolve */
     } waves;
     struct scene_coupling {

@@ -218,7 +218,12 @@ static void check_waves(const struct scene *s, const struct params *p, struct fa
     params_unused(p, f, "waves.order", sums && scene_makes_waves(s),
                   sums ? "a paddle makes the linear waves; a side of kind wave makes bound ones"
                        : "regular waves are of steady form, exact");
-    params_unused(p, f, "waves.order", !(s->waves.spread > 0.0),
+    params_unused(p, f, "waves.evolve", sums && scene_makes_waves(s),
+                  sums ? "a paddle makes the linear waves; what a side of kind wave makes evolves"
+                       : "regular waves keep their form");
+    params_unused(p, f, "waves.order", s->waves.evolve == EVOLVE_NO,
+                  "waves that evolve (waves.evolve) bind others of all orders by themselves");
+    params_unused(p, f, "waves.order", !(s->waves.spread > 0.0) || s->waves.evolve != EVOLVE_NO,
                   "a sea of several directions (waves.spread) is a sum of linear waves");
     params_unused(p, f, "waves.spread", sea && s->domain.dim == 3 && scene_makes_waves(s),
                   !sea ? "only a sea has several directions"

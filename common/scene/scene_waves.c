@@ -9,6 +9,7 @@
 #include "../base/vec3.h"
 #include "../waves/sea.h"
 #include "../waves/second_order.h"
+#include "../waves/wave_field.h"
 #include "../waves/zone_gain.h"
 #include "scene_fluid.h"
 #include "wave_maker.h"
@@ -126,22 +127,24 @@ static double repeat_of(const struct scene *s, double period)
 struct wave_spec scene_waves_spec(const struct scene *s)
 {
     const struct scene_waves *w = &s->waves;
-    struct wave_spec of = {
-        .kind = w->kind,
-        .height = w->height,
-        .length = w->length,
-        .period = w->period,
-        .depth = scene_waves_depth(s),
-        .g = vec3_length(s->fluid.gravity),
-        .rho = s->fluid.rho,
-        .at = {w->at[0], w->at[1]},
-        .start = w->start,
-        .closed = true,
-        .peak = w->peak,
-        .seed = w->seed,
-        .spread = w->spread,
-        .order =
-            w->kind != WAVE_REGULAR && scene_makes_waves(s) && !(w->spread > 0.0) ? w->order : 1};
+    struct wave_spec of = {.kind = w->kind,
+                           .height = w->height,
+                           .length = w->length,
+                           .period = w->period,
+                           .depth = scene_waves_depth(s),
+                           .g = vec3_length(s->fluid.gravity),
+                           .rho = s->fluid.rho,
+                           .at = {w->at[0], w->at[1]},
+                           .start = w->start,
+                           .closed = true,
+                           .peak = w->peak,
+                           .seed = w->seed,
+                           .spread = w->spread,
+                           .order = 1};
+    if (w->kind != WAVE_REGULAR && scene_makes_waves(s)) {
+        of.evolve = w->evolve;
+        of.order = w->evolve != EVOLVE_NO || w->spread > 0.0 ? 1 : w->order;
+    }
     of.repeat = w->repeat > 0.0 ? w->repeat : repeat_of(s, waves_period(&of));
     window_of(s, of.window);
     return of;
@@ -286,6 +289,19 @@ static void describe_focus(const struct scene *s, const struct waves *w)
                  w->of.at[1], grown, s->time.end);
 }
 
+static void say_evolving(const struct waves *w)
+{
+    const struct evolution *e = w->field->of;
+    char wide[48] = "", how[48] = "the layer under the surface";
+    if (e->grid->n[1] > 1)
+        snprintf(wide, sizeof wide, " x %.4g m", e->grid->length[1]);
+    if (e->hos)
+        snprintf(how, sizeof how, "%d orders in steepness", e->of.order);
+    log_say("they evolve nonlinearly over a periodic %s of %.4g m%s, %d x %d points, by %s",
+            e->grid->n[1] > 1 ? "plane" : "line", e->grid->length[0], wide, e->grid->n[0],
+            e->grid->n[1], how);
+}
+
 static void describe_made(const struct scene *s, const struct waves *w)
 {
     static const char *const names[] = {"regular waves", "a sea", "a focused group"};
@@ -306,6 +322,8 @@ static void describe_made(const struct scene *s, const struct waves *w)
             "directions about the mean as cos^%g(b/2): within %.0f degrees on both sides in the "
             "mean",
             2.0 * w->of.spread, 180.0 / M_PI * sqrt(2.0 / (w->of.spread + 1.0)));
+    if (w->field)
+        say_evolving(w);
     if (w->second)
         log_say("second order: pairs of %d frequencies", second_order_frequencies(w->second));
     if (scene_makes_waves(s))

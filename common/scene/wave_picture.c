@@ -102,11 +102,25 @@ static void sample_level(struct waves *w, double (*at)[2], double crest[3])
     }
 }
 
-static void draw_level(FILE *f, struct waves *w, struct waves *linear, double crest[3])
+/* What their linear components alone are at the places or times of a level. */
+static void sample_linear(const struct waves *w, int n, const double (*level)[2], double (*at)[2])
 {
+    for (int k = 0; k < n; k++) {
+        at[k][0] = level[k][0];
+        at[k][1] = 0.0;
+        for (int c = 0; c < w->ncomponents; c++) {
+            const struct wave_component *q = w->components + c;
+            at[k][1] += q->a * cos(q->k * q->way[0] * w->of.at[0] - q->w * level[k][0] + q->phase);
+        }
+    }
+}
+
+static void draw_level(FILE *f, struct waves *w, double crest[3])
+{
+    const bool more = w->second || w->field;
     struct diagram d = {
         .f = f, .x = LEFT, .y = 2 * GAP, .width = WIDTH - LEFT - 30, .height = UPPER};
-    double at[POINTS][2], first[POINTS][2], none[3];
+    double at[POINTS][2], first[POINTS][2];
     sample_level(w, at, crest);
     d.lo[0] = at[0][0];
     d.hi[0] = at[POINTS - 1][0];
@@ -117,10 +131,10 @@ static void draw_level(FILE *f, struct waves *w, struct waves *linear, double cr
     for (int i = 0; i < 2; i++)
         *(i ? d.hi + 1 : d.lo + 1) *= 1.15;
     axes(&d, w->of.kind == WAVE_REGULAR ? "x [m]" : "t [s]",
-         w->second ? "level [m]; thin: its linear part" : "level [m]");
+         more ? "level [m]; thin: its linear part" : "level [m]");
     level_line(&d, 0.0);
-    if (w->second) {
-        sample_level(linear, first, none);
+    if (more) {
+        sample_linear(w, POINTS, (const double(*)[2])at, first);
         curve(&d, POINTS, (const double(*)[2])first, "#bbbbbb");
     }
     curve(&d, POINTS, (const double(*)[2])at, "#2171b5");
@@ -152,24 +166,53 @@ static void draw_velocity(FILE *f, double x, struct waves *w, const double crest
     curve(&d, POINTS, (const double(*)[2])at, "#238b45");
 }
 
+enum { BINS = 40 };
+
+/* Per Hz between the components of a line, which are in order; n of them. */
+static int density_of_line(const struct waves *w, bool sea, double (*at)[2])
+{
+    const struct wave_component *c = w->components;
+    const int n = w->ncomponents;
+    for (int i = 0; i < n; i++) {
+        const int lo = i > 0 ? i - 1 : 0, hi = i + 1 < n ? i + 1 : i;
+        const double df = 0.5 / M_PI * (c[hi].w - c[lo].w) / (hi - lo);
+        at[i][0] = 0.5 / M_PI * c[i].w;
+        at[i][1] = (sea ? 0.5 * c[i].a * c[i].a : c[i].a) / df;
+    }
+    return n;
+}
+
+/* Of a plane's in bands. */
+static int density_of_plane(const struct waves *w, bool sea, double (*at)[2])
+{
+    const struct wave_component *c = w->components;
+    const double low = 0.5 / M_PI * c[0].w,
+                 df = (0.5 / M_PI * c[w->ncomponents - 1].w - low) / BINS;
+    for (int k = 0; k < BINS; k++) {
+        at[k][0] = low + (k + 0.5) * df;
+        at[k][1] = 0.0;
+    }
+    for (int i = 0; i < w->ncomponents; i++) {
+        const int k = (int)fmin((0.5 / M_PI * c[i].w - low) / df, BINS - 1.0);
+        at[k][1] += (sea ? 0.5 * c[i].a * c[i].a : c[i].a) / df;
+    }
+    return BINS;
+}
+
 /* Of a sea the variance over frequency, of a group the amplitudes of its components. */
 static void draw_spectrum(FILE *f, const struct waves *w)
 {
-    const double to_hz = 0.5 / M_PI, df = 1.0 / w->of.repeat;
-    const bool sea = w->of.kind == WAVE_SEA;
-    double(*at)[2] = (double(*)[2])NEW(double, w->ncomponents * 2);
+    const bool sea = w->of.kind == WAVE_SEA, plane = w->field && w->of.spread > 0.0;
+    double(*at)[2] = (double(*)[2])NEW(double, w->ncomponents * 2 + BINS * 2);
     struct diagram d = {
         .f = f, .x = LEFT, .y = 3 * GAP + UPPER, .width = 0.5 * WIDTH - LEFT - 30, .height = LOWER};
-    for (int c = 0; c < w->ncomponents; c++) {
-        at[c][0] = w->components[c].w * to_hz;
-        const double a = w->components[c].a;
-        at[c][1] = sea ? 0.5 * a * a / df : a;
-        d.hi[0] = at[c][0];
-        d.hi[1] = fmax(d.hi[1], 1.1 * at[c][1]);
-    }
+    const int n = plane ? density_of_plane(w, sea, at) : density_of_line(w, sea, at);
+    d.hi[0] = at[n - 1][0];
+    for (int k = 0; k < n; k++)
+        d.hi[1] = fmax(d.hi[1], 1.1 * at[k][1]);
     axes(&d, "frequency [Hz]",
-         sea ? "spectrum [m\xc2\xb2/Hz]" : "amplitudes of the components [m]");
-    curve(&d, w->ncomponents, (const double(*)[2])at, "#d94801");
+         sea ? "spectrum [m\xc2\xb2/Hz]" : "amplitudes of the components [m/Hz]");
+    curve(&d, n, (const double(*)[2])at, "#d94801");
     mem_free(at);
 }
 
@@ -200,11 +243,10 @@ static void say_moments(const struct waves *w)
 }
 
 /* Without a zone, fully grown, at one place. */
-static struct waves *alone(const struct scene *s, bool linear)
+static struct waves *alone(const struct scene *s)
 {
     struct wave_spec of = scene_waves_spec(s);
     of.start = 0.0;
-    of.order = linear ? 1 : of.order;
     of.window[0][0] = of.window[0][1] = of.at[0];
     of.window[1][0] = of.window[1][1] = 0.0;
     return waves_create(&of);
@@ -216,14 +258,14 @@ void wave_picture(const char *path, const struct scene *s)
     FILE *f = fopen(path, "w");
     if (!f)
         disk_failed(path);
-    struct waves *w = alone(s, false), *linear = alone(s, true);
+    struct waves *w = alone(s);
     fprintf(f,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
             "font-family=\"sans-serif\" font-size=\"12\">\n"
             "<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
             WIDTH, 4 * GAP + UPPER + LOWER);
     headline(f, w);
-    draw_level(f, w, linear, crest);
+    draw_level(f, w, crest);
     if (w->of.kind != WAVE_REGULAR)
         draw_spectrum(f, w);
     if (w->of.kind == WAVE_SEA)
@@ -234,5 +276,4 @@ void wave_picture(const char *path, const struct scene *s)
         disk_failed(path);
     log_say("picture: %s", path);
     waves_free(&w);
-    waves_free(&linear);
 }

@@ -28,7 +28,11 @@ static struct waves *waves_of(const struct scene *s, const struct wave_zones *z,
     const double inward = z->zone[k].length > 0.0 ? 1.0 : -1.0;
     of.normal[0] = inward * z->along[z->zone[k].axis];
     of.normal[1] = inward * z->across[z->zone[k].axis];
-    return waves_create(&of);
+    struct waves *w = waves_create(&of);
+    for (int first = 0; first < k; first++)
+        if (z->zone[first].waves && !z->zone[first].waves->shares)
+            waves_share(w, z->zone[first].waves);
+    return w;
 }
 
 struct wave_zones *wave_zones_create(const struct scene *s)
@@ -65,7 +69,7 @@ void wave_zones_free(struct wave_zones **z)
 {
     if (!*z)
         return;
-    for (int k = 0; k < (*z)->n; k++)
+    for (int k = (*z)->n - 1; k >= 0; k--)
         waves_free(&(*z)->zone[k].waves);
     mem_free(*z);
     *z = NULL;

@@ -8,7 +8,7 @@
 
 enum { FIELDS = 4 }; /* eta + i phi_s, their x- and y-derivatives, linear W */
 
-static const double tolerance = 1e-7; /* of the layer's residual */
+static const double tolerance = 1e-6; /* of the layer's residual */
 
 struct evolution *evolution_create(const struct evolution_spec *of, struct wave_grid *grid)
 {
@@ -19,6 +19,12 @@ struct evolution *evolution_create(const struct evolution_spec *of, struct wave_
     if (of->order > 0)
         e->hos = hos_create(grid, of->depth, of->order, of->highest);
     e->state = NEW(double, n);
+    e->linear = NEW(double, grid->cells);
+    for (int i = 0; i < grid->cells; i++) {
+        const double k = grid->size[i];
+        e->linear[i] =
+            k * tanh(fmin(k * of->depth, 300.0)) * (e->hos ? 1.0 : layer_flat_rise(e->layer, k));
+    }
     e->eta = NEW(double, n);
     e->phi = NEW(double, n);
     e->fields = NEW(double, n *FIELDS);
@@ -41,6 +47,7 @@ void evolution_free(struct evolution **e)
     wave_grid_free(&q->grid);
     double *const of[] = {q->state, q->eta,   q->phi,     q->fields,  q->work[0], q->work[1],
                           q->at[0], q->at[1], q->rate[0], q->rate[1], q->rate[2], q->rate[3]};
+    mem_free(q->linear);
     for (int i = 0; i < 12; i++)
         mem_free(of[i]);
     mem_free(q);
@@ -66,14 +73,20 @@ void evolution_start(struct evolution *e, const double *eta, const double *phi)
     e->looked = false;
 }
 
+void evolution_restore(struct evolution *e, long step, const double *modes)
+{
+    memcpy(e->state, modes, (size_t)e->grid->cells * 2 * sizeof *modes);
+    e->step = step;
+    e->looked = false;
+}
+
 /* eta and phi_s, their slopes and what W is of linear waves: z [cells][2][FIELDS] of modes. */
 static void expand(struct evolution *e, const double *modes)
 {
     const struct wave_grid *g = e->grid;
     for (int i = 0; i < g->cells; i++) {
-        const double *z = modes + 2 * i, *m = modes + 2 * g->mirror[i], k = g->size[i],
-                     kx = g->k[0][i % g->n[0]], ky = g->k[1][i / g->n[0]],
-                     rise = k * tanh(fmin(k * e->of.depth, 300.0));
+        const double *z = modes + 2 * i, *m = modes + 2 * g->mirror[i], kx = g->k[0][i % g->n[0]],
+                     ky = g->k[1][i / g->n[0]], rise = e->linear[i];
         double *q = e->fields + (size_t)i * 2 * FIELDS;
         q[0] = z[0];
         q[FIELDS] = z[1];
@@ -121,12 +134,11 @@ static bool find_rise(struct evolution *e, bool solved)
     return true;
 }
 
-/* Rates of the modes without their linear part at the time t; first: of the state that was looked
+/* Rates of the modes without their linear part; first: of the state that was looked
  * at, with its energy. */
-static bool find_rates(struct evolution *e, const double *modes, double t, bool first, double *rate)
+static bool find_rates(struct evolution *e, const double *modes, bool first, double *rate)
 {
     const int n = e->grid->cells;
-    const double grown = e->of.ramp > 0.0 ? -expm1(-pow(t / e->of.ramp, 4.0)) : 1.0;
     double energy = 0.0;
     expand(e, modes);
     if (!find_rise(e, first))
@@ -134,8 +146,8 @@ static bool find_rates(struct evolution *e, const double *modes, double t, bool 
     for (int i = 0; i < n; i++) {
         const double *q = e->fields + (size_t)i * 2 * FIELDS, *p = q + FIELDS;
         const double eta_t = e->work[0][i] - q[1] * p[1] - q[2] * p[2];
-        rate[2 * i] = grown * (eta_t - q[3]);
-        rate[2 * i + 1] = 0.5 * grown * (e->work[0][n + i] - p[1] * p[1] - p[2] * p[2]);
+        rate[2 * i] = eta_t - q[3];
+        rate[2 * i + 1] = 0.5 * (e->work[0][n + i] - p[1] * p[1] - p[2] * p[2]);
         energy += p[0] * eta_t + e->of.g * q[0] * q[0];
     }
     if (first)
@@ -175,28 +187,28 @@ static void add(const struct evolution *e, double *to, double a, const double *o
 }
 
 /* Runge-Kutta stages of what is turned to the middle of the step. */
-static bool stages(struct evolution *e, double t)
+static bool stages(struct evolution *e)
 {
     const double dt = e->of.dt;
     const size_t bytes = (size_t)e->grid->cells * 2 * sizeof(double);
     double **k = e->rate, *half = e->at[0], *z = e->at[1];
-    if (!find_rates(e, e->state, t, true, k[0]))
+    if (!find_rates(e, e->state, true, k[0]))
         return false;
     memcpy(half, e->state, bytes);
     turn(e, half, 0.5 * dt);
     turn(e, k[0], 0.5 * dt);
     memcpy(z, half, bytes);
     add(e, z, 0.5 * dt, k[0]);
-    if (!find_rates(e, z, t + 0.5 * dt, false, k[1]))
+    if (!find_rates(e, z, false, k[1]))
         return false;
     memcpy(z, half, bytes);
     add(e, z, 0.5 * dt, k[1]);
-    if (!find_rates(e, z, t + 0.5 * dt, false, k[2]))
+    if (!find_rates(e, z, false, k[2]))
         return false;
     memcpy(z, half, bytes);
     add(e, z, dt, k[2]);
     turn(e, z, 0.5 * dt);
-    return find_rates(e, z, t + dt, false, k[3]);
+    return find_rates(e, z, false, k[3]);
 }
 
 bool evolution_look(struct evolution *e)
@@ -222,7 +234,7 @@ bool evolution_look(struct evolution *e)
 bool evolution_step(struct evolution *e)
 {
     const double dt = e->of.dt;
-    if ((!e->hos && !evolution_look(e)) || !stages(e, (double)e->step * dt))
+    if ((!e->hos && !evolution_look(e)) || !stages(e))
         return false;
     double *z = e->at[0]; /* the state and its first rates, half a step on */
     add(e, z, dt / 6.0, e->rate[0]);

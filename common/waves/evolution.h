@@ -4,9 +4,7 @@
  *   phi_s,t = -g eta - |grad phi_s|^2/2 + (1 + |grad eta|^2) W^2/2,
  * W = phi_z on the surface from layer.h, or of order M in steepness from hos.h. Classical
  * Runge-Kutta steps around the linear part, which is exact mode by mode; modes of more than
- * `highest' are left out, and those near it damped. Nonlinear terms can grow from nothing
- * (Dommermuth, Wave Motion 32, 2000), so that linear waves bind their harmonics.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * `highest' are left out, and those near it damped. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_EVOLUTION_H
 #define COMMON_EVOLUTION_H
 
@@ -23,7 +21,6 @@ struct evolution_spec {
     double highest;  /* 1/m: number of the shortest modes */
     double height;   /* m: of the layer at rest */
     int nodes;       /* of the layer */
-    double ramp;     /* s: nonlinear terms times 1 - exp(-(t/ramp)^4); 0: at once */
     int order;       /* of hos.h; 0: by the layer */
 };
 
@@ -36,6 +33,7 @@ struct evolution {
     bool looked;               /* eta, phi and layer are the state's */
     double *state;             /* [cells][2]: modes of eta + i phi_s */
     double *eta, *phi;         /* m, m^2/s, [cells]: of the state, by evolution_look */
+    double *linear;            /* 1/m, [cells]: W over phi_s of small waves, as it is found */
     double energy;             /* m^3/s^2: mean of (phi_s eta_t + g eta^2)/2, by evolution_step */
     int products;              /* with the layer's operator, since it was made */
     double *work[2], *fields, *rate[EVOLUTION_STAGES], *at[2];
@@ -46,6 +44,8 @@ struct evolution *evolution_create(const struct evolution_spec *of, struct wave_
 void evolution_free(struct evolution **e);
 /* The state of the fields eta, phi_s [cells], as step 0. */
 void evolution_start(struct evolution *e, const double *eta, const double *phi);
+/* Takes modes [cells][2] as the state after `step' steps. */
+void evolution_restore(struct evolution *e, long step, const double *modes);
 /* Finds eta, phi_s and the layer's potential of the state; false: there is none, waves break. Its
  * bits are those of the state alone. */
 bool evolution_look(struct evolution *e);

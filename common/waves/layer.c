@@ -127,31 +127,21 @@ static double bend(const struct sigma_layer *l, int i, double s, double sx, doub
     return -(lap + 2.0 * (sx * Dx + sy * Dy)) / l->D[i];
 }
 
-static void along_sigma(const double *D, int nodes, int rows, const double *v, double *to)
-{
-    for (int i = 0; i < nodes; i++) {
-        double sum = 0.0;
-        for (int j = 0; j < nodes; j++)
-            sum += D[i * rows + j] * v[j];
-        to[i] = sum;
-    }
-}
-
 /* The equations of a column, from f + i f_y (level) and f_x + i lap f (slopes). */
 static void column_product(const struct sigma_layer *l, int i, const double *level,
                            const double *slopes, double *r)
 {
     const struct layer_solver *s = l->solver;
-    const int rows = l->rows, n = l->nodes, batch = rows + 1, last = n - 1;
+    const int rows = l->rows, n = l->nodes, batch = s->batch, last = n - 1;
     const double *f = level, *fy = level + batch, *fx = slopes, *lap = slopes + rows;
     const bool plane = l->grid->n[1] > 1;
     const struct sigma_column c = column_at(l, i);
     double fs[64], fss[64], fxs[64], fys[64] = {0.0};
-    along_sigma(s->D1, n, rows, f, fs);
-    along_sigma(s->D2, n, rows, f, fss);
-    along_sigma(s->D1, n, rows, fx, fxs);
+    layer_solver_multiply(s->D1, n, rows, f, fs);
+    layer_solver_multiply(s->D2, n, rows, f, fss);
+    layer_solver_multiply(s->D1, n, rows, fx, fxs);
     if (plane)
-        along_sigma(s->D1, n, rows, fy, fys);
+        layer_solver_multiply(s->D1, n, rows, fy, fys);
     for (int j = 1; j < last; j++) {
         const double at = l->sigma[j], sx = c.x[0][0] + at * c.x[0][1],
                      sy = c.x[1][0] + at * c.x[1][1];
@@ -161,7 +151,7 @@ static void column_product(const struct sigma_layer *l, int i, const double *lev
     const double sx = c.x[0][0] - c.x[0][1], sy = c.x[1][0] - c.x[1][1], D = l->D[i];
     const double over = l->uneven ? l->h_x[0][i] * (fx[last] + sx * fs[last]) +
                                         l->h_x[1][i] * ((plane ? fy[last] : 0.0) + sy * fs[last])
-                                  : -level[rows];
+                                  : -level[s->at_lower];
     r[0] = f[0];
     r[last] = (fs[last] / D + over) * D / l->a;
     for (int j = n; j < rows; j++)
@@ -173,7 +163,7 @@ void layer_product(struct sigma_layer *l, const double *y, double *r)
     const size_t rows = (size_t)l->rows;
     layer_solver_flat(l, y);
     for (int i = 0; i < l->grid->cells; i++)
-        column_product(l, i, l->solver->level + (size_t)i * 2 * (rows + 1),
+        column_product(l, i, l->solver->level + (size_t)i * 2 * (size_t)l->solver->batch,
                        l->solver->slopes + (size_t)i * 2 * rows, r + (size_t)i * rows);
 }
 
@@ -182,13 +172,15 @@ static void keep_solution(struct sigma_layer *l)
     const size_t rows = (size_t)l->rows;
     layer_solver_flat(l, l->solver->start);
     for (int i = 0; i < l->grid->cells; i++) {
-        const double *level = l->solver->level + (size_t)i * 2 * (rows + 1),
+        const double *level = l->solver->level + (size_t)i * 2 * (size_t)l->solver->batch,
                      *slopes = l->solver->slopes + (size_t)i * 2 * rows;
         const size_t at = (size_t)i * rows;
         memcpy(l->phi + at, level, rows * sizeof *level);
         memcpy(l->phi_x[0] + at, slopes, rows * sizeof *level);
-        memcpy(l->phi_x[1] + at, level + rows + 1, rows * sizeof *level);
-        along_sigma(l->solver->D1, l->nodes, l->rows, level, l->phi_s + at);
+        memcpy(l->phi_x[1] + at, level + l->solver->batch, rows * sizeof *level);
+        if (l->grid->n[1] == 1)
+            memset(l->phi_x[1] + at, 0, rows * sizeof *level);
+        layer_solver_multiply(l->solver->D1, l->nodes, l->rows, level, l->phi_s + at);
     }
 }
 
@@ -213,6 +205,14 @@ int layer_solve(struct sigma_layer *l, const double *phi_s, const double *flux, 
 double layer_rise(const struct sigma_layer *l, int cell)
 {
     return l->phi_s[(size_t)cell * (size_t)l->rows] / l->D[cell];
+}
+
+double layer_flat_rise(const struct sigma_layer *l, double k)
+{
+    const struct layer_solver *s = l->solver;
+    const double at = fmax(k / s->kind, 1.0);
+    const int i = (int)fmin(floor(at + 1e-9), s->kinds - 2.0);
+    return s->flat[i] + (at - i) * (s->flat[i + 1] - s->flat[i]);
 }
 
 void layer_velocity(const struct sigma_layer *l, int cell, double *x, double *up, double *y)

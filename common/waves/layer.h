@@ -46,6 +46,9 @@ int layer_solve(struct sigma_layer *l, const double *phi_s, const double *flux, 
                 bool warm);
 /* m/s: w on the surface at a cell. */
 double layer_rise(const struct sigma_layer *l, int cell);
+/* -: what W of small waves of the number k is over k tanh kh: 1 but for what few nodes leave out.
+ */
+double layer_flat_rise(const struct sigma_layer *l, double k);
 /* Velocities along x, up and along y at the nodes of a cell, [nodes] each; y may be NULL. */
 void layer_velocity(const struct sigma_layer *l, int cell, double *x, double *up, double *y);
 

@@ -10,6 +10,8 @@
 #include "../base/mem.h"
 #include "layer.h"
 
+enum { PLANE_KINDS = 2049 };
+
 /* Trefethen's differentiation matrix on cos(pi i/N), for (y - 1)/2. */
 void layer_solver_points(int nodes, int rows, double *sigma, double *D1, double *D2)
 {
@@ -22,28 +24,30 @@ void layer_solver_points(int nodes, int rows, double *sigma, double *D1, double 
             const double c = (i % N ? 1.0 : 2.0) / (j % N ? 1.0 : 2.0) * ((i + j) % 2 ? -1.0 : 1.0);
             if (i == j)
                 continue;
-            sum += D1[i * rows + j] = c / (sigma[i] - sigma[j]);
+            sum += D1[j * rows + i] = c / (sigma[i] - sigma[j]);
         }
         D1[i * rows + i] = -sum;
     }
     for (int i = 0; i < nodes; i++)
         for (int j = 0; j < nodes; j++)
             for (int k = 0; k < nodes; k++)
-                D2[i * rows + j] += D1[i * rows + k] * D1[k * rows + j];
+                D2[j * rows + i] += D1[k * rows + i] * D1[j * rows + k];
 }
 
-static void invert(const struct sigma_layer *l, const struct layer_solver *s, int mode)
+/* The flat operator of modes of the size k. */
+static void invert(const struct sigma_layer *l, const struct layer_solver *s, double depth,
+                   int kind)
 {
     const int n = l->nodes, rows = l->rows;
-    const double k = l->grid->size[mode];
-    double *A = NEW(double, n *n), *to = s->inverse + (size_t)mode * (size_t)(rows * rows);
+    const double k = kind * s->kind, lower = k * tanh(fmin(k * (depth - l->a), 300.0));
+    double *A = NEW(double, n *n), *to = s->inverse + (size_t)kind * (size_t)(rows * rows);
     lapack_int pivots[64];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             const bool own = i == j;
             A[i * n + j] = i == 0       ? own
-                           : i == n - 1 ? s->D1[i * rows + j] / l->a - own * s->lower[mode]
-                                        : s->D2[i * rows + j] / (l->a * l->a) - own * k * k;
+                           : i == n - 1 ? s->D1[j * rows + i] / l->a - own * lower
+                                        : s->D2[j * rows + i] / (l->a * l->a) - own * k * k;
         }
     if (LAPACKE_dgetrf(LAPACK_ROW_MAJOR, n, n, A, n, pivots) ||
         LAPACKE_dgetri(LAPACK_ROW_MAJOR, n, A, n, pivots))
@@ -51,6 +55,8 @@ static void invert(const struct sigma_layer *l, const struct layer_solver *s, in
     for (int i = 0; i < n; i++) /* transposed: products run along results */
         for (int j = 0; j < n; j++)
             to[j * rows + i] = A[i * n + j];
+    for (int j = 0; j < n && k > 0.0; j++)
+        s->flat[kind] += s->D1[j * rows] * A[j * n] / (l->a * k * tanh(fmin(k * depth, 300.0)));
     mem_free(A);
 }
 
@@ -58,15 +64,18 @@ struct layer_solver *layer_solver_create(const struct sigma_layer *l, double dep
 {
     struct layer_solver *s = NEW(struct layer_solver, 1);
     const size_t cells = (size_t)l->grid->cells, rows = (size_t)l->rows;
+    double largest = 0.0;
     require(l->nodes <= 64);
     s->D1 = NEW(double, rows *rows);
     s->D2 = NEW(double, rows *rows);
     s->lower = NEW(double, cells);
-    s->inverse = NEW(double, cells *rows *rows);
-    s->packed = NEW(double, cells * 2 * (rows + 1));
-    s->work = NEW(double, cells * 2 * (rows + 1));
-    s->slopes = NEW(double, cells * 2 * (rows + 1));
-    s->level = NEW(double, cells * 2 * (rows + 1));
+    const bool plane = l->grid->n[1] > 1; /* along a line f_y leaves room */
+    s->batch = l->rows + plane;
+    s->at_lower = plane ? l->rows : s->batch + l->nodes - 1;
+    s->packed = NEW(double, cells * 2 * (size_t)s->batch);
+    s->work = NEW(double, cells * 2 * (size_t)s->batch);
+    s->slopes = NEW(double, cells * 2 * rows);
+    s->level = NEW(double, cells * 2 * (size_t)s->batch);
     s->start = NEW(double, cells *rows);
     for (int i = 0; i <= LAYER_VECTORS; i++)
         s->vectors[i] = NULL;
@@ -74,9 +83,14 @@ struct layer_solver *layer_solver_create(const struct sigma_layer *l, double dep
     for (int m = 0; m < l->grid->cells; m++) {
         const double k = l->grid->size[m];
         s->lower[m] = k * tanh(fmin(k * (depth - l->a), 300.0));
-        if (l->grid->mirror[m] >= m)
-            invert(l, s, m);
+        largest = fmax(largest, k);
     }
+    s->kinds = plane ? PLANE_KINDS : l->grid->n[0] / 2 + 1;
+    s->kind = largest / (s->kinds - 1);
+    s->inverse = NEW(double, (size_t)s->kinds *rows *rows);
+    s->flat = NEW(double, s->kinds);
+    for (int kind = 0; kind < s->kinds; kind++)
+        invert(l, s, depth, kind);
     return s;
 }
 
@@ -94,6 +108,7 @@ void layer_solver_free(const struct sigma_layer *l, struct layer_solver **s)
     mem_free((*s)->slopes);
     mem_free((*s)->level);
     mem_free((*s)->start);
+    mem_free((*s)->flat);
     for (int i = 0; i <= LAYER_VECTORS; i++)
         mem_free((*s)->vectors[i]);
     mem_free(*s);
@@ -115,7 +130,8 @@ static void unpack(const struct sigma_layer *l, int mode, double *re, double *im
     }
 }
 
-static void multiply(const double *transposed, int nodes, int rows, const double *x, double *y)
+void layer_solver_multiply(const double *transposed, int nodes, int rows, const double *x,
+                           double *restrict y)
 {
     memset(y, 0, (size_t)rows * sizeof *y);
     for (int j = 0; j < nodes; j++)
@@ -127,7 +143,7 @@ static void multiply(const double *transposed, int nodes, int rows, const double
 static void spread(struct sigma_layer *l, int mode, const double *re, const double *im, double way)
 {
     const struct wave_grid *g = l->grid;
-    const int rows = l->rows, batch = rows + 1, to = way > 0.0 ? mode : g->mirror[mode];
+    const int rows = l->rows, batch = l->solver->batch, to = way > 0.0 ? mode : g->mirror[mode];
     const double kx = way * g->k[0][mode % g->n[0]], ky = way * g->k[1][mode / g->n[0]],
                  k2 = g->size[mode] * g->size[mode];
     double *slopes = l->solver->slopes + (size_t)to * 2 * (size_t)rows,
@@ -140,8 +156,13 @@ static void spread(struct sigma_layer *l, int mode, const double *re, const doub
         level[batch + i] = b - ky * b;
     }
     const double K = l->solver->lower[mode];
-    level[rows] = K * re[l->nodes - 1];
-    level[batch + rows] = K * way * im[l->nodes - 1];
+    if (l->solver->at_lower < batch) {
+        level[rows] = K * re[l->nodes - 1];
+        level[batch + rows] = K * way * im[l->nodes - 1];
+    } else { /* an imaginary part: i K f */
+        level[l->nodes - 1] -= K * way * im[l->nodes - 1];
+        level[batch + l->nodes - 1] += K * re[l->nodes - 1];
+    }
 }
 
 void layer_solver_flat(struct sigma_layer *l, const double *y)
@@ -154,16 +175,17 @@ void layer_solver_flat(struct sigma_layer *l, const double *y)
     for (int m = 0; m < l->grid->cells; m++) {
         if (l->grid->mirror[m] < m)
             continue;
-        const double *inverse = s->inverse + (size_t)m * (size_t)(rows * rows);
+        const size_t kind = (size_t)(l->grid->size[m] / s->kind + 0.5);
+        const double *inverse = s->inverse + kind * (size_t)(rows * rows);
         unpack(l, m, re, im);
-        multiply(inverse, l->nodes, rows, re, to_re);
-        multiply(inverse, l->nodes, rows, im, to_im);
+        layer_solver_multiply(inverse, l->nodes, rows, re, to_re);
+        layer_solver_multiply(inverse, l->nodes, rows, im, to_im);
         spread(l, m, to_re, to_im, 1.0);
         if (l->grid->mirror[m] != m)
             spread(l, m, to_re, to_im, -1.0);
     }
     wave_grid_to_fields(l->grid, rows, s->slopes, s->work);
-    wave_grid_to_fields(l->grid, rows + 1, s->level, s->work);
+    wave_grid_to_fields(l->grid, s->batch, s->level, s->work);
 }
 
 /* --- GMRES --- */

@@ -8,8 +8,7 @@
 
 static const double lowest = 0.5, highest = 3.0; /* of the peak's frequency */
 
-/* splitmix64: the same sea on every machine. */
-static double uniform(uint64_t *state)
+double sea_uniform(uint64_t *state)
 {
     uint64_t z = (*state += 0x9e3779b97f4a7c15u);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -37,7 +36,7 @@ static void draw_directions(const struct wave_spec *of, int n, struct wave_compo
     for (int i = 0; i < DIRECTIONS; i++)
         share[i + 1] = share[i] + pow(cos(0.5 * ((i + 0.5) * gap - widest)), 2.0 * of->spread);
     for (int k = 0; k < n; k++) {
-        const double at = uniform(&state) * share[DIRECTIONS];
+        const double at = sea_uniform(&state) * share[DIRECTIONS];
         int i = 0;
         while (i + 1 < DIRECTIONS && share[i + 1] < at)
             i++;
@@ -71,7 +70,7 @@ struct wave_component *sea_components(const struct wave_spec *of, double period,
     for (int i = 0; i < *n; i++) {
         const double f = (first + i) * df, S = sea_jonswap(f / peak, of->peak);
         const double w = 2.0 * M_PI * f, k = waves_number(w, of->g, of->depth);
-        const double phase = 2.0 * M_PI * uniform(&state);
+        const double phase = 2.0 * M_PI * sea_uniform(&state);
         const bool random = of->kind == WAVE_SEA;
         c[i] = (struct wave_component){.a = random ? sqrt(2.0 * S) : S,
                                        .w = w,

@@ -3,10 +3,12 @@
 #ifndef COMMON_SEA_H
 #define COMMON_SEA_H
 
-#include <complex.h>
+#include <stdint.h>
 
 #include "waves.h"
 
+/* From 0 to 1, by splitmix64: the same sea on every machine. */
+double sea_uniform(uint64_t *state);
 /* JONSWAP's spectrum over A f_p^-5, f in units of f_p, -. */
 double sea_jonswap(double f, double gamma);
 /* m^2/Hz: of a sea at f Hz; 0 beyond its components. */
@@ -19,9 +21,6 @@ struct wave_component *sea_components(const struct wave_spec *of, double period,
 void sea_make(struct waves *w);
 /* Makes its table ready for the time t, s: linear theory, and of second order what pairs bind. */
 void sea_at(struct waves *w, double t);
-/* Factor of the velocities of one frequency, at that cosine with the side's normal, that makes up
- * for the zone. */
-double complex sea_gain(const struct wave_spec *of, double omega, double k, double cosine);
 /* s: of computing that a period of them costs, about. */
 double sea_seconds(const struct waves *w);
 /* m: as deep as a table reaches for waves of that length. */

@@ -6,86 +6,31 @@
 #include <math.h>
 #include <string.h>
 
+#include "../base/exit.h"
+#include "../base/log.h"
 #include "../base/mem.h"
+#include "sea_gains.h"
 #include "second_order.h"
-#include "zone_gain.h"
-
-enum { GAINS = 16, COSINES = 5 };
+#include "wave_field.h"
 
 /* Deep water needs no nodes down to its bottom. */
 double sea_reach(double depth, double length) { return fmin(depth, 1.2 * length); }
 
-/* --- gains --- */
-
-double complex sea_gain(const struct wave_spec *of, double omega, double k, double cosine)
-{
-    if (!(of->zone > 0.0))
-        return 1.0;
-    const struct zone_response is =
-        zone_response(omega, k, fabs(cosine), of->g, of->depth, of->zone, of->rate);
-    return cosine > 0.0 ? is.make : is.pass;
-}
-
-/* Gains of some frequencies and directions; of a long-crested sea the direction is one. */
-struct gains {
-    double low, gap;
-    int n; /* cosines of directions, from 0.2 to 1; long-crested: 1, that of the sea */
-    double complex of[COSINES][GAINS][2]; /* to the side, from it */
-};
-
-static double cosine_of(const struct gains *is, int i) { return 0.2 + 0.8 * i / (is->n - 1); }
-
-static void find_gains(const struct waves *w, struct gains *is)
-{
-    is->low = w->components[0].w;
-    is->gap = (w->components[w->ncomponents - 1].w - is->low) / (GAINS - 1);
-    is->n = w->of.spread > 0.0 ? COSINES : 1;
-    for (int c = 0; c < is->n; c++)
-        for (int i = 0; i < GAINS; i++) {
-            const double omega = is->low + i * is->gap,
-                         k = waves_number(omega, w->of.g, w->of.depth),
-                         cosine = is->n > 1 ? cosine_of(is, c) : fabs(w->of.normal[0]);
-            const struct zone_response at =
-                zone_response(omega, k, cosine, w->of.g, w->of.depth, w->of.zone, w->of.rate);
-            is->of[c][i][0] = at.pass;
-            is->of[c][i][1] = at.make;
-        }
-}
-
-/* Linear between frequencies and between cosines; below the least nothing is to be made up for. */
-static double complex gain_between(const struct gains *is, double omega, double cosine)
-{
-    const double at = (omega - is->low) / is->gap;
-    const int i = (int)fmin(fmax(floor(at), 0.0), GAINS - 2), way = cosine > 0.0;
-    double complex sum = 0.0;
-    if (is->n == 1)
-        return is->of[0][i][way] + (at - i) * (is->of[0][i + 1][way] - is->of[0][i][way]);
-    const double turn = (fabs(cosine) - 0.2) / 0.8 * (is->n - 1);
-    const int c = (int)fmin(fmax(floor(turn), 0.0), is->n - 2);
-    if (turn < 0.0)
-        return 1.0;
-    for (int k = 0; k < 2; k++) {
-        const double complex *q = &is->of[c + k][i][way];
-        sum += (k ? turn - c : 1.0 - turn + c) * (q[0] + (at - i) * (q[2] - q[0]));
-    }
-    return sum;
-}
+/* --- frames --- */
 
 static void apply_gains(struct waves *w)
 {
-    struct gains *is = NEW(struct gains, 1);
-    find_gains(w, is);
+    struct sea_gains *is =
+        sea_gains_create(&w->of, w->components[0].w, w->components[w->ncomponents - 1].w);
     for (int c = 0; c < w->ncomponents; c++) {
         struct wave_component *q = w->components + c;
         const double complex G =
-            gain_between(is, q->w, q->way[0] * w->of.normal[0] + q->way[1] * w->of.normal[1]);
+            sea_gains_at(is, q->w, q->way[0] * w->of.normal[0] + q->way[1] * w->of.normal[1]);
         q->a *= cabs(G);
         q->phase -= carg(G);
     }
-    mem_free(is);
+    sea_gains_free(&is);
 }
-
-/* --- frames --- */
 
 /* [component][2][WAVE_NODES]: cosh and sinh over sinh at the still level. */
 static double *profiles_of(const struct waves *w)
@@ -167,8 +112,16 @@ static void make_row(struct waves *w, double t, struct wave_table *to, int row)
     }
 }
 
-static void make_frame(struct waves *w, double t, struct wave_table *to)
+static void make_frame(struct waves *w, long frame, struct wave_table *to)
 {
+    const double t = (double)frame * w->dt;
+    if (w->field && !wave_field_frame(w->field, frame, w->filter, to))
+        fail_with(RUN_DIVERGED,
+                  "waves: the evolving waves break before t = %.4g s, which potential flow cannot "
+                  "follow: lower waves.height, or waves.evolve = \"no\"",
+                  t);
+    if (w->field)
+        return;
     wave_table_blend(to, 0, NULL, NULL); /* all 0 */
     for (int row = 0; row < to->rows; row++)
         make_row(w, t, to, row);
@@ -180,7 +133,7 @@ static double without_transport(const struct waves *w)
     double flux = 0.0;
     for (int c = 0; c < w->ncomponents; c++) {
         const struct wave_component *q = w->components + c;
-        flux += 0.5 * w->of.g * q->a * q->a * q->k / q->w;
+        flux += 0.5 * w->of.g * q->a * q->a * q->k / q->w * q->way[0];
     }
     return -flux / w->of.depth;
 }
@@ -222,6 +175,24 @@ static void make_second(struct waves *w)
         w->current = without_transport(w);
 }
 
+/* Frames of what evolves are its steps. */
+static void make_field(struct waves *w)
+{
+    const struct wave_spec *of = &w->of;
+    w->field = wave_field_create(of, w->period, w->length, &w->components, &w->ncomponents);
+    w->longest = 2.0 * M_PI / w->components[0].k;
+    w->shortest = 2.0 * M_PI / w->components[w->ncomponents - 1].k;
+    w->dt = wave_field_step(w->period);
+    w->filter = wave_field_filter(w->field, of, w->components, w->ncomponents);
+    w->table = wave_field_table(w->field, of, w->longest);
+    for (int f = 0; f < WAVE_FRAMES; f++) {
+        w->frames[f] = wave_field_table(w->field, of, w->longest);
+        w->frame[f] = -1000000 - f;
+    }
+    if (of->kind == WAVE_SEA && of->closed)
+        w->current = without_transport(w);
+}
+
 /* Level of a group at its focus after t s. */
 static double level_at_focus(struct waves *w, double t)
 {
@@ -239,7 +210,7 @@ static void expect_extremes(struct waves *w)
     enum { TIMES = 60 };
     const double k = 2.0 * M_PI / w->length, h = w->of.depth,
                  a = w->of.kind == WAVE_SEA ? 0.93 * w->of.height : 0.5 * w->of.height,
-                 second = w->second ? bound_wave_stokes(a, k, h) : 0.0;
+                 second = w->second || w->field ? bound_wave_stokes(a, k, h) : 0.0;
     w->crest = a * (1.0 + second);
     w->trough = -a * (1.0 - second);
     if (w->of.kind == WAVE_FOCUSED) {
@@ -249,6 +220,8 @@ static void expect_extremes(struct waves *w)
             w->crest = fmax(w->crest, eta);
             w->trough = fmin(w->trough, eta);
         }
+        w->crest *= w->field ? 1.0 + second : 1.0;
+        w->trough *= w->field ? 1.0 - second : 1.0;
     }
     w->speed = 1.3 * w->crest * 2.0 * M_PI / w->period / tanh(fmin(k * h, 300.0));
 }
@@ -259,17 +232,23 @@ void sea_make(struct waves *w)
     w->length = waves_length(of);
     w->period = waves_period(of);
     w->celerity = w->length / w->period;
-    w->components = sea_components(of, w->period, &w->ncomponents);
-    make_tables(w);
-    if (of->order > 1)
-        make_second(w);
+    if (of->evolve != EVOLVE_NO)
+        make_field(w);
+    else {
+        w->components = sea_components(of, w->period, &w->ncomponents);
+        make_tables(w);
+        if (of->order > 1)
+            make_second(w);
+    }
     expect_extremes(w);
-    if (of->zone > 0.0)
+    if (of->zone > 0.0 && !w->field)
         apply_gains(w);
 }
 
 double sea_seconds(const struct waves *w)
 {
+    if (w->field)
+        return wave_field_seconds(w->field);
     const double column = (double)w->ncomponents * WAVE_NODES * w->table.parts +
                           (w->second ? second_order_products(w->second) : 0.0);
     return 0.3e-9 * column * w->table.n * w->table.rows * w->period / w->dt;
@@ -286,7 +265,7 @@ void sea_at(struct waves *w, double t)
         const long f = m + k - 1;
         const int slot = (int)(((f % WAVE_FRAMES) + WAVE_FRAMES) % WAVE_FRAMES);
         if (w->frame[slot] != f)
-            make_frame(w, (double)f * w->dt, w->frames + slot);
+            make_frame(w, f, w->frames + slot);
         w->frame[slot] = f;
         weight[slot] = of[k];
     }

@@ -37,6 +37,12 @@ static double sigma(const struct wave_table *t, int node)
 
 double wave_table_height(const struct wave_table *t, int column, int node)
 {
+    if (t->still > 0.0 && node >= WAVE_UPPER) {
+        const double s = (double)(node - WAVE_UPPER + 1) / (WAVE_NODES - WAVE_UPPER);
+        return -t->still - (t->reach - t->still) * s * s;
+    }
+    if (t->still > 0.0)
+        return t->eta[column] - (t->eta[column] + t->still) * node / (WAVE_UPPER - 1);
     const double top = t->flat ? 0.0 : t->eta[column];
     return top + sigma(t, node) * (top + t->reach);
 }
@@ -121,9 +127,25 @@ double wave_table_eta(const struct wave_table *t, double x, double y)
     return eta_of(t, &a);
 }
 
+/* As nodes_about; four nodes are all above the level of a layered table or all below it. */
+static int layered_nodes_about(const struct wave_table *t, double top, double z, double weight[4])
+{
+    const bool upper = z > -t->still;
+    const double share = upper ? fmax(top - z, 0.0) / (top + t->still)
+                               : fmin((-t->still - z) / (t->reach - t->still), 1.0),
+                 down = upper ? share * (WAVE_UPPER - 1)
+                              : WAVE_UPPER - 1 + sqrt(share) * (WAVE_NODES - WAVE_UPPER);
+    const double first = upper ? 1.0 : WAVE_UPPER, last = (upper ? WAVE_UPPER : WAVE_NODES) - 3.0;
+    const int node = (int)fmin(fmax(floor(down), first), last);
+    wave_table_cubic(down - node, weight);
+    return node - 1;
+}
+
 /* Nodes from the surface on to z; the four about it begin with `node'. */
 static int nodes_about(const struct wave_table *t, double top, double z, double weight[4])
 {
+    if (t->still > 0.0)
+        return layered_nodes_about(t, top, z, weight);
     const double share = fmin(fmax((top - z) / (top + t->reach), 0.0), 1.0),
                  down = (t->flat ? sqrt(share) : share) * (WAVE_NODES - 1);
     const int node = (int)fmin(fmax(floor(down), 1.0), WAVE_NODES - 3.0);

@@ -8,13 +8,14 @@
 
 #include <stdbool.h>
 
-enum { WAVE_NODES = 36 };
+enum { WAVE_NODES = 36, WAVE_UPPER = 18 }; /* nodes of a column; of a layered one above the level */
 
 struct wave_table {
     int n, rows;       /* columns of a row; 1: all rows are the same */
     int parts;         /* of a velocity: along, up; of several rows: and across */
     bool periodic;     /* n columns are one length */
     bool flat;         /* nodes end at the still level */
+    double still;      /* m: depth of that level of a layered table, < reach; 0: not layered */
     double first, gap; /* m: x of the first column, distance of two, as of rows */
     double first_row;  /* m: y of the first row */
     double reach;      /* m: depth of the lowest node; the water's depth, or less in deep water */

@@ -7,13 +7,16 @@
 
 #include "../base/mem.h"
 #include "sea.h"
+#include "sea_gains.h"
 #include "second_order.h"
+#include "wave_field.h"
 
 enum { COLUMNS = 192 }; /* a length of a regular wave */
 
 static const double steepest = 0.9; /* of the limit: steady.h */
 /* Second order over first above which troughs have a crest of their own, which no wave has. */
 static const double bound = 0.25;
+static const double hos_steepest = 0.3; /* hos.h */
 
 double waves_limit(double depth, double length)
 {
@@ -117,6 +120,17 @@ bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size
                  of->height, length, of->depth, second, bound, of->height * bound / second);
         return true;
     }
+    const double steep = of->kind == WAVE_SEA ? 0.93 * of->height : 0.5 * of->height;
+    if (of->evolve == EVOLVE_HOS && 2.0 * M_PI / length * steep > hos_steepest) {
+        snprintf(
+            text, size,
+            "%g m: at a length of %.4g m the highest waves have a steepness of %.2g, and orders "
+            "in it (waves.evolve = \"hos\") reach %g: at most %.3g m, or waves.evolve = "
+            "\"full\"",
+            of->height, length, 2.0 * M_PI / length * steep, hos_steepest,
+            of->height * hos_steepest * length / (2.0 * M_PI * steep));
+        return true;
+    }
     if (of->kind != WAVE_REGULAR && of->repeat < 5.0 * waves_period(of)) {
         *key = "waves.repeat";
         snprintf(text, size, "%g s: less than 5 periods of %.4g s hold no spectrum", of->repeat,
@@ -185,9 +199,21 @@ void waves_free(struct waves **w)
     mem_free((*w)->components);
     mem_free((*w)->profile);
     mem_free((*w)->turning);
+    mem_free((*w)->filter);
+    if (!(*w)->shares)
+        wave_field_free(&(*w)->field);
     second_order_free(&(*w)->second);
     mem_free(*w);
     *w = NULL;
+}
+
+void waves_share(struct waves *w, const struct waves *owner)
+{
+    if (!w->field || w->shares)
+        return;
+    wave_field_free(&w->field);
+    w->field = owner->field;
+    w->shares = true;
 }
 
 void waves_at(struct waves *w, double t)

@@ -2,7 +2,8 @@
  * at any place and time, the same bits whoever asks when. Regular: steady.h, with no net transport
  * (closed tank) or none of its own below the troughs. Sea and focused group: sums of linear waves
  * with, of second order, what their pairs bind (second_order.h); velocities go on above the still
- * level by their slope there, of first order they are as on it. x along the direction of travel, y
+ * level by their slope there, of first order they are as on it. Or both evolve nonlinearly
+ * (wave_field.h). x along the direction of travel, y
  * across it, z up from the still level. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_WAVES_H
 #define COMMON_WAVES_H
@@ -15,6 +16,8 @@
 #include "wave_table.h"
 
 enum wave_kind { WAVE_REGULAR, WAVE_SEA, WAVE_FOCUSED };
+/* By the layer, or by orders in steepness. */
+enum wave_evolve { EVOLVE_NO, EVOLVE_FULL, EVOLVE_HOS };
 enum { WAVE_FRAMES = 4 };
 
 struct wave_spec {
@@ -29,6 +32,7 @@ struct wave_spec {
     int seed;              /* of the phases of a sea */
     double repeat;         /* s: after which a sea repeats itself */
     int order;             /* 2: sea, focused: with bound waves */
+    int evolve;            /* enum wave_evolve: sea, focused */
     double spread;         /* -: s of a sea's directions, cos^2s(b/2); 0: all one */
     double window[2][2];   /* m: least and largest x, y that will be asked for */
     /* Of the zone that velocities are for, whose shares they make up for (zone_gain.h): m, 1/s at
@@ -54,7 +58,10 @@ struct waves {
     double gain, ahead; /* factor of a regular wave's velocities, m by which they are ahead */
     struct wave_component *components;
     int ncomponents;
-    struct second_order *second; /* NULL: first order */
+    struct second_order *second; /* NULL: first order, or evolving */
+    struct wave_field *field;    /* NULL: a sum */
+    bool shares;                 /* the field is another's */
+    double complex *filter;      /* of the field's velocities: what makes up for the zone */
     double *profile;         /* [ncomponents][2][WAVE_NODES]: velocities over a w, along and up */
     double complex *turning; /* [2][ncomponents] */
     /* Regular: one table that travels. Else a blend of four frames dt apart. */
@@ -73,6 +80,8 @@ double waves_length(const struct wave_spec *of);
 /* Of a wave that is not refused; owned by the caller. */
 struct waves *waves_create(const struct wave_spec *of);
 void waves_free(struct waves **w);
+/* Evolves them with `owner', the same waves of another zone, which outlives them. */
+void waves_share(struct waves *w, const struct waves *owner);
 /* Makes ready for the time t, s, before the functions below. */
 void waves_at(struct waves *w, double t);
 /* m at x, y. */

@@ -97,6 +97,7 @@ waves.peak 2.0
 waves.repeat 50.0
 waves.seed 3
 waves.order 1
+waves.evolve hos
 waves.spread 8.0
 walls.profile "parabolic"
 walls.pressure 100.0

@@ -1,0 +1,70 @@
+/* sea_gains.c - see sea_gains.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "sea_gains.h"
+
+#include <math.h>
+
+#include "../base/mem.h"
+#include "zone_gain.h"
+
+enum { GAINS = 16, COSINES = 5 };
+
+double complex sea_gain(const struct wave_spec *of, double omega, double k, double cosine)
+{
+    if (!(of->zone > 0.0))
+        return 1.0;
+    const struct zone_response is =
+        zone_response(omega, k, fabs(cosine), of->g, of->depth, of->zone, of->rate);
+    return cosine > 0.0 ? is.make : is.pass;
+}
+
+/* Gains of some frequencies and directions; of a long-crested sea the direction is one. */
+struct sea_gains {
+    double low, gap;
+    int n; /* cosines of directions, from 0.2 to 1; long-crested: 1, that of the sea */
+    double complex of[COSINES][GAINS][2]; /* to the side, from it */
+};
+
+static double cosine_of(const struct sea_gains *is, int i) { return 0.2 + 0.8 * i / (is->n - 1); }
+
+struct sea_gains *sea_gains_create(const struct wave_spec *of, double low, double high)
+{
+    struct sea_gains *is = NEW(struct sea_gains, 1);
+    is->low = low;
+    is->gap = (high - low) / (GAINS - 1);
+    is->n = of->spread > 0.0 ? COSINES : 1;
+    for (int c = 0; c < is->n; c++)
+        for (int i = 0; i < GAINS; i++) {
+            const double omega = is->low + i * is->gap, k = waves_number(omega, of->g, of->depth),
+                         cosine = is->n > 1 ? cosine_of(is, c) : fabs(of->normal[0]);
+            const struct zone_response at =
+                zone_response(omega, k, cosine, of->g, of->depth, of->zone, of->rate);
+            is->of[c][i][0] = at.pass;
+            is->of[c][i][1] = at.make;
+        }
+    return is;
+}
+
+void sea_gains_free(struct sea_gains **is)
+{
+    mem_free(*is);
+    *is = NULL;
+}
+
+/* Linear between frequencies and between cosines; below the least nothing is to be made up for. */
+double complex sea_gains_at(const struct sea_gains *is, double omega, double cosine)
+{
+    const double at = (omega - is->low) / is->gap;
+    const int i = (int)fmin(fmax(floor(at), 0.0), GAINS - 2), way = cosine > 0.0;
+    double complex sum = 0.0;
+    if (is->n == 1)
+        return is->of[0][i][way] + (at - i) * (is->of[0][i + 1][way] - is->of[0][i][way]);
+    const double turn = (fabs(cosine) - 0.2) / 0.8 * (is->n - 1);
+    const int c = (int)fmin(fmax(floor(turn), 0.0), is->n - 2);
+    if (turn < 0.0)
+        return 1.0;
+    for (int k = 0; k < 2; k++) {
+        const double complex *q = &is->of[c + k][i][way];
+        sum += (k ? turn - c : 1.0 - turn + c) * (q[0] + (at - i) * (q[2] - q[0]));
+    }
+    return sum;
+}

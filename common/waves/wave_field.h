@@ -1,0 +1,53 @@
+/* wave_field.h - a sea or a group that evolves nonlinearly (evolution.h) over a periodic line or
+ * plane: of second order at first, eight periods of the peak before the run. Steps of a sixtieth of
+ * the peak's period, which are its frames; those asked for out of turn are computed anew and have
+ * the same bits. x along the direction of travel, y across it.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_WAVE_FIELD_H
+#define COMMON_WAVE_FIELD_H
+
+#include <complex.h>
+#include <stdbool.h>
+
+#include "evolution.h"
+#include "waves.h"
+
+enum { WAVE_FIELD_KEPT = 8 };
+
+struct wave_field {
+    struct evolution *of;   /* owned */
+    struct wave_grid *fine; /* owned: that of the tables */
+    int upper;              /* nodes of a column that move with the surface */
+    double *raise;          /* [upper][layer nodes]: values at nodes from those of the layer */
+    double *lower[2];       /* [cells][lower nodes]: u over |k| phi, w over |k| phi of a mode */
+    const struct wave_component *components; /* borrowed: n of them, which it begins with at t0 */
+    int n;
+    double t0;                  /* s */
+    bool begun;                 /* start is known */
+    double *start;              /* modes of eta + i phi_s before all steps */
+    double *z, *padded, *work;  /* modes and fields of the columns */
+    long kept[WAVE_FIELD_KEPT]; /* steps whose states are kept, to go back to; -1: none */
+    double *states[WAVE_FIELD_KEPT];
+    double energy; /* m^3/s^2: when all terms had grown; 0: not yet */
+};
+
+/* s: between frames. */
+double wave_field_step(double period);
+/* Of waves whose peak has that period and length; its components, by |k|, become the caller's, but
+ * must outlive it. */
+struct wave_field *wave_field_create(const struct wave_spec *of, double period, double length,
+                                     struct wave_component **components, int *n);
+void wave_field_free(struct wave_field **f);
+/* A table of the places that will be asked for; longest: m, of the waves. */
+struct wave_table wave_field_table(const struct wave_field *f, const struct wave_spec *of,
+                                   double longest);
+/* [modes]: factors of velocities that make up for the zone; NULL: no zone. Owned by the caller. */
+double complex *wave_field_filter(const struct wave_field *f, const struct wave_spec *of,
+                                  const struct wave_component *components, int n);
+/* The table of a frame, 0 at t = 0. false: the waves break before it. */
+bool wave_field_frame(struct wave_field *f, long frame, const double complex *filter,
+                      struct wave_table *to);
+/* s: of computing that a period of them costs, about. */
+double wave_field_seconds(const struct wave_field *f);
+
+#endif
