@@ -5,6 +5,7 @@
 
 #include "../base/mem.h"
 #include "../base/vec3.h"
+#include "../waves/wave_field_save.h"
 #include "scene_fluid.h"
 #include "scene_waves.h"
 
@@ -80,6 +81,29 @@ void wave_zones_at(struct wave_zones *z, double t)
     for (int k = 0; k < z->n; k++)
         if (z->zone[k].waves)
             waves_at(z->zone[k].waves, t);
+}
+
+/* The field that all zones share; NULL: no waves evolve. */
+static struct wave_field *field_of(const struct wave_zones *z)
+{
+    struct wave_field *field = NULL;
+    for (int k = 0; k < z->n && !field; k++)
+        field = z->zone[k].waves ? z->zone[k].waves->field : NULL;
+    return field;
+}
+
+void wave_zones_save(const struct wave_zones *z, struct h5 *f, bool writes)
+{
+    const struct wave_field *field = field_of(z);
+    if (field)
+        wave_field_save(field, f, writes);
+}
+
+void wave_zones_load(struct wave_zones *z, struct h5 *f)
+{
+    struct wave_field *field = field_of(z);
+    if (field)
+        wave_field_load(field, f);
 }
 
 bool wave_zones_drive(const struct wave_zones *z)

@@ -198,6 +198,15 @@ static void begin(struct wave_field *f)
     evolution_restore(f->of, 0, f->start);
 }
 
+void wave_field_set(struct wave_field *f, long step, const double *modes, double energy)
+{
+    if (!f->begun)
+        begin(f);
+    evolution_restore(f->of, step, modes);
+    f->energy = energy;
+    keep(f);
+}
+
 /* To the state of a step, on from where it stands or from one before. */
 static bool go_to(struct wave_field *f, long step)
 {
@@ -335,5 +344,5 @@ double wave_field_seconds(const struct wave_field *f)
 {
     const double values = (double)f->of->grid->cells * f->of->layer->rows;
     const double products = f->of->hos ? 14.0 : 40.0; /* of a step */
-    return 25e-9 * STEPS * products * values;
+    return 6e-8 * STEPS * products * values;
 }

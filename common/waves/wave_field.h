@@ -47,6 +47,8 @@ double complex *wave_field_filter(const struct wave_field *f, const struct wave_
 /* The table of a frame, 0 at t = 0. false: the waves break before it. */
 bool wave_field_frame(struct wave_field *f, long frame, const double complex *filter,
                       struct wave_table *to);
+/* Goes on from modes [cells][2] of a step. */
+void wave_field_set(struct wave_field *f, long step, const double *modes, double energy);
 /* s: of computing that a period of them costs, about. */
 double wave_field_seconds(const struct wave_field *f);
 

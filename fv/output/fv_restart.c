@@ -5,6 +5,7 @@
 
 #include "../../common/base/log.h"
 #include "../../common/files/h5.h"
+#include "../../common/scene/wave_zones.h"
 #include "../boundary/levels.h"
 #include "../boundary/outflow.h"
 #include "../coupling/fv_link.h"
@@ -169,6 +170,8 @@ void fv_checkpoint(void *state, struct h5 *f)
     save_numbers(s, f);
     watches_save(s->watches, f);
     moving_save(s, f);
+    if (s->wave_zones)
+        wave_zones_save(s->wave_zones, f, s->run->rank == 0);
     if (s->link)
         coupling_save(s, f);
 }
@@ -232,5 +235,7 @@ bool fv_restore(struct fv *s, struct h5 *f)
     }
     outflow_restore(s);
     watches_load(s->watches, f);
+    if (s->wave_zones)
+        wave_zones_load(s->wave_zones, f);
     return there(!s->link || coupling_load(s, f), "past of the coupling");
 }

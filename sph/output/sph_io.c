@@ -8,6 +8,7 @@
 #include "../../common/base/mem.h"
 #include "../../common/files/h5.h"
 #include "../../common/files/xdmf.h"
+#include "../../common/scene/wave_zones.h"
 #include "../bodies/bodies.h"
 #include "../coupling/overlap.h"
 #include "../open_boundaries/box_motion.h"
@@ -383,6 +384,8 @@ void sph_checkpoint(void *state, struct h5 *f)
         zones_save(s, f);
     if (s->zones && s->zones->watched)
         overlap_save(s->zones->watched, f);
+    if (s->wave_zones)
+        wave_zones_save(s->wave_zones, f, s->run->rank == 0);
     if (s->walls)
         forces_save(s, f);
     if (s->walls && s->walls->any_free)
@@ -503,6 +506,8 @@ static const char *missing(struct sph *s, struct h5 *f)
         return "partition";
     if (s->zones && !zones_load(s, f))
         return "open sides";
+    if (s->wave_zones)
+        wave_zones_load(s->wave_zones, f);
     if (s->walls && !forces_load(s, f))
         return "forces on walls";
     if (s->walls && !bodies_load(s, f))

@@ -161,6 +161,17 @@ static void bits_do_not_depend_on_who_asks(void **state)
     assert_memory_equal(u, v, sizeof u);
     waves_velocity(third, 0.7, 0.0, -0.1, v);
     assert_memory_equal(u, v, sizeof u);
+    /* from a state that was kept it need not evolve from its start */
+    struct waves *last = waves_create(&of);
+    int slot = 0;
+    for (int k = 0; k < WAVE_FIELD_KEPT; k++)
+        slot = one->field->kept[k] < one->field->kept[slot] ? k : slot;
+    wave_field_set(last->field, one->field->kept[slot], one->field->states[slot], 0.0);
+    waves_at(last, 0.1);
+    waves_velocity(last, 0.7, 0.0, -0.1, v);
+    assert_memory_equal(u, v, sizeof u);
+    assert_true(last->field->of->products < one->field->of->products / 10);
+    waves_free(&last);
     waves_free(&third);
     waves_free(&one);
     waves_free(&other);
