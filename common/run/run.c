@@ -19,6 +19,7 @@
 #include "../scene/scene_mesh.h"
 #include "../scene/scene_openings.h"
 #include "../scene/scene_outlines.h"
+#include "../scene/scene_wave_file.h"
 #include "../scene/scene_waves.h"
 #include "../scene/wave_maker.h"
 #include "../scene/wave_picture.h"
@@ -144,6 +145,8 @@ static int read_case(struct life *l)
     wall_histories_read(&r->scene, r->motions);
     if (l->faults.n == 0)
         scene_outlines_read(&r->scene, r->case_dir, l->params, &l->faults);
+    if (l->faults.n == 0)
+        scene_wave_file_read(&r->scene, r->case_dir, l->params, &l->faults);
     if (l->faults.n == 0)
         scene_check(&r->scene, l->params, &l->faults);
     if (l->faults.n == 0)

@@ -94,19 +94,20 @@ static const struct param probe_rows[] = {
 #undef P
 #define P struct scene_waves
 static const struct param waves_rows[] = {
-    CHOICE(P, kind, "regular|sea|focused", "regular", "of steady form; with JONSWAP's spectrum and random phases; a group of that spectrum whose crests meet"),
-    PARAM(P, height,    "m", NULL,  1e-9, 1e6, "from trough to crest; sea: significant height; focused: twice the linear crest"),
+    CHOICE(P, kind, "regular|sea|focused|file", "regular", "of steady form; with JONSWAP's spectrum and random phases; a group of that spectrum whose crests meet; those of waves.file"),
+    PARAM(P, height,    "m", "0.0", 0, 1e6, "from trough to crest; sea: significant height; focused: twice the linear crest"),
     PARAM(P, length,    "m", "0.0", 0, 1e6, "of a wave, of a sea's peak; this or period"),
     PARAM(P, period,    "s", "0.0", 0, 1e6, "of a wave, of a sea's peak; this or length"),
     PARAM(P, depth,     "m", "0.0", 0, 1e6, "of the still water where the waves are made; 0: from the shapes' level to the floor of the domain"),
     PARAM(P, direction, "-", "0.0", -360, 360, "degrees about the vertical in which they run; 0: along the first horizontal axis, +x; 90: along the second; 180: -x"),
-    PARAM(P, at,        "-", "(0.0, 0.0)", -1e9, 1e9, "(m, s): place along the direction and time of a crest of a regular wave, of the focus of a group"),
+    PARAM(P, at,        "-", "(0.0, 0.0)", -1e9, 1e9, "(m, s): place along the direction and time of a crest of a regular wave, of the focus of a group, of the beginning of a file"),
     PARAM(P, start,     "-", "2.0", 0, 100, "periods over which the waves grow from water at rest; 0: at once"),
     PARAM(P, zone,      "m", "0.0", 0, 1e9, "length of the zone before each side of kind wave or beach; 0: one wave length, 1.5 where the water is deep (kh > 2), for a sea 1.5 times its peak's"),
     PARAM(P, peak,      "-", "3.3", 1, 10, "JONSWAP's gamma: how sharp the peak of the spectrum is"),
     PARAM(P, repeat,    "s", "0.0", 0, 1e9, "after which a sea repeats itself; 0: 25, 50, 100, .. periods, what the run and 10 periods need: give it if the run may go on to a later end"),
     PARAM(P, spread,    "-", "0.0", 0, 200, "3D: of a sea's directions b about the mean, as cos^2s(b/2), one of each component, at most 75 degrees: 5 to 10 for wind seas, 25 to 75 for swell; 0: all of one direction"),
     PARAM(P, order,     "-", "2", 1, 2, "of a sea or a group that zones make: 2 with the waves that each pair of components binds (higher crests, flatter troughs, long waves under groups); 1: a sum of linear waves"),
+    PARAM(P, file,      "-", "\"\"", 0, 0, "of kind file: waves of another program in the format Spectral Wave Data (.swd, shapes 1 and 2), beside the case; they have their height, length and depth"),
     CHOICE(P, evolve, "no|full|hos", "no", "a sea or a group that zones make evolves nonlinearly from eight periods before the run, over a periodic line (spread: plane) in potential flow; full: for all waves that do not break; hos: by orders in steepness, several times cheaper, up to a steepness of 0.3"),
     PARAM(P, seed,      "-", "1", 0, 2000000000, "of the random phases of a sea"),
 };

@@ -158,7 +158,9 @@ struct scene {
         double peak, repeat;   /* -, s */
         double spread;         /* -: s of cos^2s(b/2); 0: long crests */
         int order, seed;
-        int evolve;     /* enum wave_evolve */
+        int evolve;                 /* enum wave_evolve */
+        char file[PARAM_TEXT_SIZE]; /* of kind file, beside the case */
+        char path[512];             /* to it, by scene_wave_file_read */
         double made[2]; /* m, m/s: highest crest, fastest water, by scene_waves_resolve */
     } waves;
     struct scene_coupling {

@@ -209,9 +209,26 @@ static void check_probe(const struct scene *s, const struct params *p, struct fa
               "only a discharge goes through a line");
 }
 
+/* A file has waves of its own. */
+static void check_wave_file(const struct scene *s, const struct params *p, struct faults *f)
+{
+    static const char *const own[] = {"height", "length", "period", "peak",  "repeat",
+                                      "seed",   "spread", "order",  "evolve"};
+    char key[32];
+    for (int k = 0; k < 9; k++) {
+        snprintf(key, sizeof key, "waves.%s", own[k]);
+        params_unused(p, f, key, s->waves.kind != WAVE_FILE, "waves.file tells it");
+    }
+    params_unused(p, f, "waves.file", s->waves.kind == WAVE_FILE,
+                  "only waves of kind file are read from one");
+}
+
 static void check_waves(const struct scene *s, const struct params *p, struct faults *f)
 {
     const bool sea = s->waves.kind == WAVE_SEA, sums = s->waves.kind != WAVE_REGULAR;
+    check_wave_file(s, p, f);
+    if (s->waves.kind == WAVE_FILE)
+        return;
     params_unused(p, f, "waves.at", !sea, "the phases of a sea are random");
     params_unused(p, f, "waves.peak", sums, "regular waves have no spectrum");
     params_unused(p, f, "waves.repeat", sums, "regular waves repeat themselves every period");

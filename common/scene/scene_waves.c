@@ -145,6 +145,7 @@ struct wave_spec scene_waves_spec(const struct scene *s)
         of.evolve = w->evolve;
         of.order = w->evolve != EVOLVE_NO || w->spread > 0.0 ? 1 : w->order;
     }
+    snprintf(of.file, sizeof of.file, "%s", w->path);
     of.repeat = w->repeat > 0.0 ? w->repeat : repeat_of(s, waves_period(&of));
     window_of(s, of.window);
     return of;
@@ -289,7 +290,7 @@ static void describe_focus(const struct scene *s, const struct waves *w)
                  w->of.at[1], grown, s->time.end);
 }
 
-static void say_evolving(const struct waves *w)
+static void say_field(const struct waves *w)
 {
     const struct evolution *e = w->field->of;
     char wide[48] = "", how[48] = "the layer under the surface";
@@ -297,6 +298,13 @@ static void say_evolving(const struct waves *w)
         snprintf(wide, sizeof wide, " x %.4g m", e->grid->length[1]);
     if (e->hos)
         snprintf(how, sizeof how, "%d orders in steepness", e->of.order);
+    if (w->of.kind == WAVE_FILE) {
+        const struct swd_header is = swd_header_of(w->field->file);
+        log_say("%s: %d modes over a periodic line of %.4g m, %d times %.3g s apart; velocities by "
+                "the layer under the surface",
+                w->of.file, is.n, e->grid->length[0], is.nsteps, is.dt);
+        return;
+    }
     log_say("they evolve nonlinearly over a periodic %s of %.4g m%s, %d x %d points, by %s",
             e->grid->n[1] > 1 ? "plane" : "line", e->grid->length[0], wide, e->grid->n[0],
             e->grid->n[1], how);
@@ -304,11 +312,15 @@ static void say_evolving(const struct waves *w)
 
 static void describe_made(const struct scene *s, const struct waves *w)
 {
-    static const char *const names[] = {"regular waves", "a sea", "a focused group"};
+    static const char *const names[] = {"regular waves", "a sea", "a focused group",
+                                        "waves of a file"};
     const double kh = 2.0 * M_PI * w->of.depth / w->length;
     log_say("%s: height %g m, %s%.4g m long, period %.4g s, celerity %.4g m/s over %.4g m (kh "
             "%.3g), %.0f %% of the highest; crest %.3g m, trough %.3g m, water up to %.3g m/s",
-            names[w->of.kind], w->of.height, w->of.kind == WAVE_REGULAR ? "" : "the peak's ",
+            names[w->of.kind], w->of.height,
+            w->of.kind == WAVE_REGULAR ? ""
+            : w->of.kind == WAVE_FILE  ? "in the mean "
+                                       : "the peak's ",
             w->length, w->period, w->celerity, w->of.depth, kh, 100.0 * w->of.height / w->limit,
             w->crest, w->trough, w->speed);
     if (w->of.kind == WAVE_REGULAR)
@@ -323,7 +335,7 @@ static void describe_made(const struct scene *s, const struct waves *w)
             "mean",
             2.0 * w->of.spread, 180.0 / M_PI * sqrt(2.0 / (w->of.spread + 1.0)));
     if (w->field)
-        say_evolving(w);
+        say_field(w);
     if (w->second)
         log_say("second order: pairs of %d frequencies", second_order_frequencies(w->second));
     if (scene_makes_waves(s))

@@ -8,6 +8,7 @@
 #include "../base/mem.h"
 #include "../files/disk.h"
 #include "../waves/sea.h"
+#include "../waves/wave_field.h"
 #include "scene_waves.h"
 
 enum { WIDTH = 900, LEFT = 70, GAP = 60, UPPER = 220, LOWER = 260, POINTS = 800, TICKS = 5 };
@@ -77,6 +78,15 @@ static void level_line(const struct diagram *d, double y)
 
 /* --- what is drawn --- */
 
+/* s: how long there are waves. */
+static double until(const struct waves *w)
+{
+    if (w->of.kind != WAVE_FILE)
+        return INFINITY;
+    const struct swd_header is = swd_header_of(w->field->file);
+    return (is.nsteps - 3) * is.dt + w->of.at[1];
+}
+
 /* Level of the waves over place (regular, two lengths) or time; the highest of it in crest: x, t,
  * level. */
 static void sample_level(struct waves *w, double (*at)[2], double crest[3])
@@ -84,9 +94,9 @@ static void sample_level(struct waves *w, double (*at)[2], double crest[3])
     const bool regular = w->of.kind == WAVE_REGULAR;
     const double x0 = w->of.at[0], t0 = w->of.kind == WAVE_FOCUSED ? w->of.at[1] : 0.0,
                  from = w->of.kind == WAVE_FOCUSED ? -4.0 : 0.0,
-                 range = regular                  ? 2.0 * w->length
-                         : w->of.kind == WAVE_SEA ? 25.0 * w->period
-                                                  : 8.0 * w->period;
+                 range = regular                      ? 2.0 * w->length
+                         : w->of.kind != WAVE_FOCUSED ? fmin(25.0 * w->period, until(w))
+                                                      : 8.0 * w->period;
     crest[2] = -INFINITY;
     for (int k = 0; k < POINTS; k++) {
         const double s = range * k / (POINTS - 1), x = x0 + (regular ? s - 0.5 * range : 0.0),
@@ -105,12 +115,14 @@ static void sample_level(struct waves *w, double (*at)[2], double crest[3])
 /* What their linear components alone are at the places or times of a level. */
 static void sample_linear(const struct waves *w, int n, const double (*level)[2], double (*at)[2])
 {
+    const bool file = w->of.kind == WAVE_FILE;
+    const double x = file ? 0.0 : w->of.at[0], t0 = file ? w->of.at[1] : 0.0;
     for (int k = 0; k < n; k++) {
         at[k][0] = level[k][0];
         at[k][1] = 0.0;
         for (int c = 0; c < w->ncomponents; c++) {
             const struct wave_component *q = w->components + c;
-            at[k][1] += q->a * cos(q->k * q->way[0] * w->of.at[0] - q->w * level[k][0] + q->phase);
+            at[k][1] += q->a * cos(q->k * q->way[0] * x - q->w * (level[k][0] - t0) + q->phase);
         }
     }
 }
@@ -175,7 +187,7 @@ static int density_of_line(const struct waves *w, bool sea, double (*at)[2])
     const int n = w->ncomponents;
     for (int i = 0; i < n; i++) {
         const int lo = i > 0 ? i - 1 : 0, hi = i + 1 < n ? i + 1 : i;
-        const double df = 0.5 / M_PI * (c[hi].w - c[lo].w) / (hi - lo);
+        const double df = 0.5 / M_PI * (n > 1 ? (c[hi].w - c[lo].w) / (hi - lo) : c[0].w);
         at[i][0] = 0.5 / M_PI * c[i].w;
         at[i][1] = (sea ? 0.5 * c[i].a * c[i].a : c[i].a) / df;
     }
@@ -202,7 +214,7 @@ static int density_of_plane(const struct waves *w, bool sea, double (*at)[2])
 /* Of a sea the variance over frequency, of a group the amplitudes of its components. */
 static void draw_spectrum(FILE *f, const struct waves *w)
 {
-    const bool sea = w->of.kind == WAVE_SEA, plane = w->field && w->of.spread > 0.0;
+    const bool sea = w->of.kind != WAVE_FOCUSED, plane = w->field && w->of.spread > 0.0;
     double(*at)[2] = (double(*)[2])NEW(double, w->ncomponents * 2 + BINS * 2);
     struct diagram d = {
         .f = f, .x = LEFT, .y = 3 * GAP + UPPER, .width = 0.5 * WIDTH - LEFT - 30, .height = LOWER};
@@ -218,7 +230,7 @@ static void draw_spectrum(FILE *f, const struct waves *w)
 
 static void headline(FILE *f, const struct waves *w)
 {
-    static const char *const names[] = {"Regular waves", "Sea", "Focused group"};
+    static const char *const names[] = {"Regular waves", "Sea", "Focused group", "File of waves"};
     char line[240];
     snprintf(line, sizeof line, "%s: height %g m, %.4g m long, period %.4g s, celerity %.4g m/s",
              names[w->of.kind], w->of.height, w->length, w->period, w->celerity);

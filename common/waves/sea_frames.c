@@ -178,18 +178,22 @@ static void make_second(struct waves *w)
 /* Frames of what evolves are its steps. */
 static void make_field(struct waves *w)
 {
-    const struct wave_spec *of = &w->of;
-    w->field = wave_field_create(of, w->period, w->length, &w->components, &w->ncomponents);
+    struct wave_spec *of = &w->of;
+    const bool read = of->kind == WAVE_FILE;
+    for (int k = 0; k < 2 && read; k++)
+        of->window[0][k] -= of->at[0];
+    w->field = read ? wave_field_of_file(of, w->length, &w->components, &w->ncomponents)
+                    : wave_field_create(of, w->period, w->length, &w->components, &w->ncomponents);
     w->longest = 2.0 * M_PI / w->components[0].k;
     w->shortest = 2.0 * M_PI / w->components[w->ncomponents - 1].k;
-    w->dt = wave_field_step(w->period);
+    w->dt = w->field->of->of.dt;
     w->filter = wave_field_filter(w->field, of, w->components, w->ncomponents);
     w->table = wave_field_table(w->field, of, w->longest);
     for (int f = 0; f < WAVE_FRAMES; f++) {
         w->frames[f] = wave_field_table(w->field, of, w->longest);
         w->frame[f] = -1000000 - f;
     }
-    if (of->kind == WAVE_SEA && of->closed)
+    if (of->kind != WAVE_FOCUSED && of->closed)
         w->current = without_transport(w);
 }
 
@@ -209,7 +213,7 @@ static void expect_extremes(struct waves *w)
 {
     enum { TIMES = 60 };
     const double k = 2.0 * M_PI / w->length, h = w->of.depth,
-                 a = w->of.kind == WAVE_SEA ? 0.93 * w->of.height : 0.5 * w->of.height,
+                 a = w->of.kind != WAVE_FOCUSED ? 0.93 * w->of.height : 0.5 * w->of.height,
                  second = w->second || w->field ? bound_wave_stokes(a, k, h) : 0.0;
     w->crest = a * (1.0 + second);
     w->trough = -a * (1.0 - second);
@@ -232,7 +236,7 @@ void sea_make(struct waves *w)
     w->length = waves_length(of);
     w->period = waves_period(of);
     w->celerity = w->length / w->period;
-    if (of->evolve != EVOLVE_NO)
+    if (of->evolve != EVOLVE_NO || of->kind == WAVE_FILE)
         make_field(w);
     else {
         w->components = sea_components(of, w->period, &w->ncomponents);
@@ -248,7 +252,7 @@ void sea_make(struct waves *w)
 double sea_seconds(const struct waves *w)
 {
     if (w->field)
-        return wave_field_seconds(w->field);
+        return wave_field_seconds(w->field, w->period);
     const double column = (double)w->ncomponents * WAVE_NODES * w->table.parts +
                           (w->second ? second_order_products(w->second) : 0.0);
     return 0.3e-9 * column * w->table.n * w->table.rows * w->period / w->dt;

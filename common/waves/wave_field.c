@@ -4,15 +4,18 @@
 #include <math.h>
 #include <string.h>
 
+#include "../base/log.h"
 #include "../base/mem.h"
 #include "sea.h"
 #include "sea_gains.h"
 #include "wave_field_start.h"
+#include "wave_file.h"
 
 enum {
     STEPS = 60, /* a period of the peak */
     LEAD = 8,   /* periods before t = 0 */
     NODES = 8,
+    FILE_NODES = 13,  /* of a layer whose highest modes are another's */
     LINE_POINTS = 42, /* a length of the peak; a third of them are modes */
     PLANE_POINTS = 30,
     LINE_ORDER = 5,
@@ -21,8 +24,6 @@ enum {
 
 static const double undamped = 0.6; /* of the highest mode: components are at most that */
 static const double drift = 0.05;   /* of the energy, above which it is not that of waves */
-
-double wave_field_step(double period) { return period / STEPS; }
 
 /* As long as the peak's energy travels while a sea does not repeat itself. */
 static struct wave_grid *make_grid(const struct wave_spec *of, double period, double length)
@@ -96,34 +97,20 @@ struct wave_table wave_field_table(const struct wave_field *f, const struct wave
     return t;
 }
 
-struct wave_field *wave_field_create(const struct wave_spec *of, double period, double length,
-                                     struct wave_component **components, int *n)
+/* The tables' grid, what lies below the layer, room to work in. */
+static void finish(struct wave_field *f, const struct wave_spec *of,
+                   struct wave_component *components, int n)
 {
-    struct wave_field *f = NEW(struct wave_field, 1);
-    struct wave_grid *g = make_grid(of, period, length);
+    const struct wave_grid *g = f->of->grid;
     const bool plane = g->n[1] > 1;
-    const double k = 2.0 * M_PI / length,
-                 a = of->kind == WAVE_SEA ? 0.93 * of->height : 0.5 * of->height;
-    const struct evolution_spec spec = {.g = of->g,
-                                        .depth = of->depth,
-                                        .dt = wave_field_step(period),
-                                        .highest = k * (plane ? PLANE_POINTS : LINE_POINTS) / 3.0,
-                                        .height = layer_height(k, 1.5 * a, of->depth),
-                                        .nodes = NODES,
-                                        .order = of->evolve != EVOLVE_HOS ? 0
-                                                 : k * a > 0.2            ? STEEP_ORDER
-                                                                          : LINE_ORDER};
-    f->of = evolution_create(&spec, g);
+    const double longest = 2.0 * M_PI / components[0].k, still = f->of->of.height;
+    f->components = components;
+    f->n = n;
     f->fine = wave_grid_create((int[2]){plane ? g->n[0] : 2 * g->n[0], g->n[1]}, g->length);
-    *components = wave_field_components(of, period, g, undamped * spec.highest, n);
     f->start = NEW(double, g->cells * 2);
-    f->components = *components;
-    f->n = *n;
-    f->t0 = -LEAD * period;
-    const double longest = *n > 0 ? 2.0 * M_PI / (*components)[0].k : length;
     struct wave_table t =
-        wave_table_create(4, 1, 1.0, fmax(sea_reach(of->depth, longest), spec.height), false);
-    t.still = spec.height < t.reach ? spec.height : 0.0;
+        wave_table_create(4, 1, 1.0, fmax(sea_reach(of->depth, longest), still), false);
+    t.still = still < t.reach ? still : 0.0;
     f->upper = t.still > 0.0 ? WAVE_UPPER : WAVE_NODES;
     make_raise(f);
     make_lower(f, &t);
@@ -136,6 +123,52 @@ struct wave_field *wave_field_create(const struct wave_spec *of, double period, 
         f->kept[i] = -1;
         f->states[i] = NEW(double, g->cells * 2);
     }
+}
+
+struct wave_field *wave_field_create(const struct wave_spec *of, double period, double length,
+                                     struct wave_component **components, int *n)
+{
+    struct wave_field *f = NEW(struct wave_field, 1);
+    struct wave_grid *g = make_grid(of, period, length);
+    const double k = 2.0 * M_PI / length,
+                 a = of->kind == WAVE_SEA ? 0.93 * of->height : 0.5 * of->height;
+    const struct evolution_spec spec = {.g = of->g,
+                                        .depth = of->depth,
+                                        .dt = period / STEPS,
+                                        .highest =
+                                            k * (g->n[1] > 1 ? PLANE_POINTS : LINE_POINTS) / 3.0,
+                                        .height = layer_height(k, 1.5 * a, of->depth),
+                                        .nodes = NODES,
+                                        .order = of->evolve != EVOLVE_HOS ? 0
+                                                 : k * a > 0.2            ? STEEP_ORDER
+                                                                          : LINE_ORDER};
+    f->of = evolution_create(&spec, g);
+    f->t0 = -LEAD * period;
+    *components = wave_field_components(of, period, g, undamped * spec.highest, n);
+    finish(f, of, *components, *n);
+    return f;
+}
+
+struct wave_field *wave_field_of_file(const struct wave_spec *of, double length,
+                                      struct wave_component **components, int *n)
+{
+    struct wave_field *f = NEW(struct wave_field, 1);
+    char error[600];
+    f->file = swd_open(of->file, error, sizeof error);
+    if (!f->file)
+        fail("%s", error);
+    const struct swd_header is = swd_header_of(f->file);
+    const double k = 2.0 * M_PI / length, line[2] = {2.0 * M_PI / is.dk, 1.0};
+    const struct evolution_spec spec = {.g = of->g,
+                                        .depth = of->depth,
+                                        .dt = is.dt,
+                                        .highest = is.dk * (is.n + 0.5),
+                                        .height = layer_height(k, 1.4 * of->height, of->depth),
+                                        .nodes = FILE_NODES};
+    f->of = evolution_create(&spec, wave_grid_create((int[2]){fft_size(3 * is.n), 1}, line));
+    f->modes = NEW(double, 4 * (is.n + 1));
+    *components = wave_file_components(f->file, of->g, of->depth, n);
+    finish(f, of, *components, *n);
     return f;
 }
 
@@ -144,6 +177,8 @@ void wave_field_free(struct wave_field **f)
     if (!*f)
         return;
     evolution_free(&(*f)->of);
+    swd_close(&(*f)->file);
+    mem_free((*f)->modes);
     wave_grid_free(&(*f)->fine);
     mem_free((*f)->raise);
     mem_free((*f)->lower[0]);
@@ -166,7 +201,7 @@ double complex *wave_field_filter(const struct wave_field *f, const struct wave_
     const struct wave_grid *g = f->of->grid;
     if (!(of->zone > 0.0))
         return NULL;
-    const double low = components[0].w, high = components[n - 1].w;
+    const double low = components[0].w, high = fmax(components[n - 1].w, 1.01 * low);
     struct sea_gains *gains = sea_gains_create(of, low, high);
     double complex *filter = NEW(double complex, g->cells);
     for (int m = 0; m < g->cells; m++) {
@@ -205,6 +240,19 @@ void wave_field_set(struct wave_field *f, long step, const double *modes, double
     evolution_restore(f->of, step, modes);
     f->energy = energy;
     keep(f);
+}
+
+/* A time of a file; those before its first are as that. */
+static bool read_file(struct wave_field *f, long step)
+{
+    const struct swd_header is = swd_header_of(f->file);
+    double *h = f->modes, *c = h + 2 * (is.n + 1), *eta = f->z, *phi = eta + f->of->grid->cells;
+    if (step >= is.nsteps)
+        return false;
+    swd_read(f->file, (int)step, h, c);
+    swd_fields(f->file, h, c, f->of->grid->cells, eta, phi);
+    evolution_start(f->of, eta, phi);
+    return evolution_look(f->of);
 }
 
 /* To the state of a step, on from where it stands or from one before. */
@@ -327,8 +375,8 @@ bool wave_field_frame(struct wave_field *f, long frame, const double complex *fi
                       struct wave_table *to)
 {
     const int batch = WAVE_NODES + 1;
-    const long step = frame + LEAD * STEPS;
-    if (!go_to(f, step > 0 ? step : 0))
+    const long step = f->file ? frame : frame + LEAD * STEPS, from = step > 0 ? step : 0;
+    if (!(f->file ? read_file(f, from) : go_to(f, from)))
         return false;
     for (int part = 0; part < to->parts - 1; part++) {
         fill_upper(f, part, batch);
@@ -340,9 +388,10 @@ bool wave_field_frame(struct wave_field *f, long frame, const double complex *fi
     return true;
 }
 
-double wave_field_seconds(const struct wave_field *f)
+double wave_field_seconds(const struct wave_field *f, double period)
 {
     const double values = (double)f->of->grid->cells * f->of->layer->rows;
     const double products = f->of->hos ? 14.0 : 40.0; /* of a step */
-    return 6e-8 * STEPS * products * values;
+    return f->file ? 6e-8 * period / f->of->of.dt * 15.0 * values
+                   : 6e-8 * STEPS * products * values;
 }

@@ -10,12 +10,15 @@
 #include <stdbool.h>
 
 #include "evolution.h"
+#include "swd.h"
 #include "waves.h"
 
 enum { WAVE_FIELD_KEPT = 8 };
 
 struct wave_field {
     struct evolution *of;   /* owned */
+    struct swd *file;       /* what its frames are read from; NULL: it evolves; owned */
+    double *modes;          /* of a time of the file */
     struct wave_grid *fine; /* owned: that of the tables */
     int upper;              /* nodes of a column that move with the surface */
     double *raise;          /* [upper][layer nodes]: values at nodes from those of the layer */
@@ -31,12 +34,13 @@ struct wave_field {
     double energy; /* m^3/s^2: when all terms had grown; 0: not yet */
 };
 
-/* s: between frames. */
-double wave_field_step(double period);
 /* Of waves whose peak has that period and length; its components, by |k|, become the caller's, but
  * must outlive it. */
 struct wave_field *wave_field_create(const struct wave_spec *of, double period, double length,
                                      struct wave_component **components, int *n);
+/* One whose frames are the times of the file of->file, which was found sound (wave_file.h). */
+struct wave_field *wave_field_of_file(const struct wave_spec *of, double length,
+                                      struct wave_component **components, int *n);
 void wave_field_free(struct wave_field **f);
 /* A table of the places that will be asked for; longest: m, of the waves. */
 struct wave_table wave_field_table(const struct wave_field *f, const struct wave_spec *of,
@@ -50,6 +54,6 @@ bool wave_field_frame(struct wave_field *f, long frame, const double complex *fi
 /* Goes on from modes [cells][2] of a step. */
 void wave_field_set(struct wave_field *f, long step, const double *modes, double energy);
 /* s: of computing that a period of them costs, about. */
-double wave_field_seconds(const struct wave_field *f);
+double wave_field_seconds(const struct wave_field *f, double period);
 
 #endif

@@ -89,6 +89,8 @@ double waves_period(const struct wave_spec *of)
 bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size_t size)
 {
     struct steady w;
+    if (of->kind == WAVE_FILE)
+        return false; /* wave_file.h has looked at it */
     *key = "waves.height";
     if (!(of->height > 0.0)) {
         snprintf(text, size, "the height from trough to crest must be given, m");
@@ -222,7 +224,7 @@ void waves_at(struct waves *w, double t)
         return;
     w->now = t;
     if (w->of.kind != WAVE_REGULAR)
-        sea_at(w, t);
+        sea_at(w, w->of.kind == WAVE_FILE ? t - w->of.at[1] : t);
 }
 
 /* Share of the waves that are there: none before t = 0, all after `start' periods. */
@@ -239,7 +241,8 @@ static double place(const struct waves *w, double x)
 {
     return w->of.kind == WAVE_REGULAR
                ? x - w->of.at[0] - w->celerity * (w->now - w->of.at[1]) - w->ahead
-               : x;
+           : w->of.kind == WAVE_FILE ? x - w->of.at[0]
+                                     : x;
 }
 
 double waves_eta(const struct waves *w, double x, double y)

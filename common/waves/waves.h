@@ -15,7 +15,7 @@
 #include "steady.h"
 #include "wave_table.h"
 
-enum wave_kind { WAVE_REGULAR, WAVE_SEA, WAVE_FOCUSED };
+enum wave_kind { WAVE_REGULAR, WAVE_SEA, WAVE_FOCUSED, WAVE_FILE };
 /* By the layer, or by orders in steepness. */
 enum wave_evolve { EVOLVE_NO, EVOLVE_FULL, EVOLVE_HOS };
 enum { WAVE_FRAMES = 4 };
@@ -25,7 +25,8 @@ struct wave_spec {
     double height;         /* m: crest to trough; sea: significant; focused: of the linear crest */
     double length, period; /* m, s: one of them, the other 0; sea, focused: of the peak */
     double depth, g, rho;  /* m, m/s^2, kg/m^3 */
-    double at[2];          /* m, s: of a crest (regular), of the focus */
+    double at[2];          /* m, s: of a crest (regular), of the focus, of a file's beginning */
+    char file[512];        /* of its path */
     double start;          /* periods over which the waves grow from nothing; 0: none */
     bool closed;           /* no net transport */
     double peak;           /* -: JONSWAP's gamma */

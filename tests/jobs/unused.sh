@@ -98,6 +98,7 @@ waves.repeat 50.0
 waves.seed 3
 waves.order 1
 waves.evolve hos
+waves.file nowhere.swd
 waves.spread 8.0
 walls.profile "parabolic"
 walls.pressure 100.0

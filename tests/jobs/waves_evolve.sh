@@ -50,5 +50,9 @@ refused() {
 refused 's/evolve = "hos";/& order = 1;/' 'waves.order: is not used: waves that evolve'
 refused 's/kind = "focused"; \(.*\)at = (2.0, 3.2); repeat = 8.0;/\1/' 'waves.evolve: is not used: regular waves keep their form'
 refused 's/height = 0.02/height = 0.12/; s/length = 1.0/length = 1.2/; s/0.16/0.4/; s/0.24/0.8/' 'waves.height: 0.12 m: .* orders in it .* reach 0.3'
+printf 'no waves' >bad.swd
+refused 's/kind = "focused".*zone/kind = "file"; file = "bad.swd"; zone/' 'waves.file: .*bad.swd: byte 8: the file ends before its header does'
+refused 's/kind = "focused".*zone/kind = "file"; zone/' 'waves.kind: which file'
+refused 's/repeat = 8.0;/& file = "bad.swd";/' 'waves.file: is not used: only waves of kind file'
 echo "waves_evolve: focus at $when s, $high m; $failed faults"
 [ $failed = 0 ]

@@ -1,0 +1,31 @@
+/* swd.h - wave fields in files of the open format Spectral Wave Data (version 100), shapes 1 (deep
+ * water) and 2 (of one depth): long-crested, periodic, with amplitudes at even times of
+ *   eta = sum Re(h_j e^(-i k_j x)), phi = sum Re(c_j e^(-i k_j x)) Z_j(z), k_j = j dk,
+ * Z_j = cosh k(z + d)/cosh kd, above z = 0 Taylor's series of the order that the file tells.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_SWD_H
+#define COMMON_SWD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct swd; /* an open file */
+
+struct swd_header {
+    int n, nsteps;    /* modes but for j = 0; times */
+    int order;        /* of the series; < 0: none, Z as it is */
+    double dk, depth; /* 1/m, m; INFINITY: deep */
+    double dt;        /* s */
+};
+
+/* NULL: it cannot be read; why, with the byte at fault, in error. */
+struct swd *swd_open(const char *path, char *error, size_t size);
+void swd_close(struct swd **s);
+struct swd_header swd_header_of(const struct swd *s);
+/* h and c of a time, [n + 1][2]. */
+void swd_read(struct swd *s, int step, double *h, double *c);
+/* Fields eta, phi_s on the surface at `points' even places over 2 pi/dk, of h and c. */
+void swd_fields(const struct swd *s, const double *h, const double *c, int points, double *eta,
+                double *phi);
+
+#endif
