@@ -15,6 +15,7 @@
 #include "../common/scene/scene_openings.h"
 #include "../common/scene/scene_waves.h"
 #include "../coupler/cpl_partner.h"
+#include "bodies/paddles.h"
 #include "case/sph_params.h"
 #include "case/sph_sense.h"
 #include "case/sph_state.h"
@@ -147,6 +148,7 @@ static void describe_scene(const struct run *r)
     if (!r->coupled && prm->surface == SURFACE_YES)
         openings_describe(&r->scene);
     scene_waves_describe(&r->scene);
+    paddles_describe(r, prm);
 }
 
 /* Two rows between walls have no particle that is not a wall's neighbour: a full tank of 2 dx stirs

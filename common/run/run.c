@@ -154,9 +154,9 @@ static int read_case(struct life *l)
     if (l->faults.n == 0)
         scene_orient(&r->scene);
     if (l->faults.n == 0)
-        wave_makers_resolve(&r->scene, r->motions);
-    if (l->faults.n == 0)
         read_meshes(l);
+    if (l->faults.n == 0)
+        wave_makers_resolve(&r->scene, r->motions);
     if (l->faults.n == 0)
         wave_gauges_check(&r->scene, l->params, &l->faults);
     if (l->faults.n == 0)

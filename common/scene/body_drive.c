@@ -176,6 +176,13 @@ void body_drive_at(const struct body_drive *v, double t, double d[BODY_AXES], do
     }
     for (int k = 0; k < v->nterms; k++)
         add_term(v, v->term + k, t, d, dd, ddd);
+    if (v->steer) {
+        const struct body_steer *s = v->steer;
+        const double later = t - s->at;
+        d[s->axis] += s->d + later * (s->v + 0.5 * later * s->a);
+        dd[s->axis] += s->v + later * s->a;
+        ddd[s->axis] += s->a;
+    }
 }
 
 void body_drive_motion(const struct body_drive *v, double t, struct body_motion *m)

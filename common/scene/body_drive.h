@@ -25,10 +25,18 @@ struct body_term {
     double step;        /* s: that resolves them; of two rows or more */
 };
 
+/* What a controller adds to one degree: d + v (t - at) + a (t - at)^2/2. */
+struct body_steer {
+    int axis;       /* enum body_axis */
+    double at;      /* s: of d and v */
+    double d, v, a; /* m or rad, and its rates */
+};
+
 struct body_drive {
     int dim, nterms, columns; /* of files: 4 or 7 */
     struct body_term term[MOTIONS_MAX];
-    double constant[BODY_AXES]; /* m/s, rad/s */
+    double constant[BODY_AXES];     /* m/s, rad/s */
+    const struct body_steer *steer; /* borrowed; NULL: none */
 };
 
 /* Of the terms alone; they are borrowed, and so are the rows of their files. */

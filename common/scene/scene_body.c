@@ -20,6 +20,7 @@ static const struct param motion_rows[] = {
     PARAM(P, from,      "s",   "0.0", 0, 1e9, "start of the polynomial; before, and after `until', its value there holds"),
     PARAM(P, until,     "s",   "1e9", 0, 1e9, "its end"),
     PARAM(P, ramp,      "s",   "0.0", 0, 1e9, "the term grows from zero within this time, with continuous velocity and acceleration"),
+    PARAM(P, absorb,    "-",   "false", 0, 0, "of kind waves: the paddle takes up the waves that come back to it, by a gauge of the level 2 sph.dx before its face"),
 };
 #undef P
 #define P struct scene_line

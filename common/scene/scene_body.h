@@ -22,6 +22,7 @@ struct scene_motion {
     struct param_numbers coefficients; /* m/s^k or rad/s^k */
     double from, until;                /* s: of a polynomial */
     double ramp;                       /* s in which the term grows from nothing */
+    bool absorb;                       /* of kind waves: wave_absorber.h */
     bool made;                         /* its file by wave_makers_resolve: wave_maker.h */
 };
 

@@ -139,6 +139,8 @@ void scene_check_motion(const struct scene_motions *all, const char *list, int k
         check_key(p, f, group, i, "coefficients", power, "only a polynomial has them");
         check_key(p, f, group, i, "from", power, "only a polynomial has it");
         check_key(p, f, group, i, "until", power, "only a polynomial has it");
+        check_key(p, f, group, i, "absorb", kind == MOTION_WAVES || all->of[i].made,
+                  "only what makes waves (kind = \"waves\") absorbs them");
     }
 }
 

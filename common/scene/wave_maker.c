@@ -8,6 +8,7 @@
 #include "../base/mem.h"
 #include "../base/vec3.h"
 #include "scene_fluid.h"
+#include "scene_mesh.h"
 #include "scene_waves.h"
 
 enum { COLUMNS_2D = 4, COLUMNS_3D = 7 };
@@ -56,7 +57,24 @@ static double face_of(const struct scene *s, const struct scene_body *b)
     scene_waves_direction(s, d, NULL);
     for (int i = 0; i < b->points.n; i++)
         x = fmax(x, d[0] * b->points.x[i][0] + d[1] * b->points.x[i][1]);
+    for (int i = 0; b->mesh && i < b->mesh->mesh.nvertices; i++)
+        x = fmax(x, vec3_dot(b->mesh->mesh.x[i], d));
     return isfinite(x) ? x : vec3_dot(b->centre, d);
+}
+
+/* A point in the middle of what is in the way of the waves. */
+static void middle_of(const struct scene_body *b, double middle[3])
+{
+    double lo[3] = {0.0, 0.0, 0.0}, hi[3] = {0.0, 0.0, 0.0};
+    if (b->mesh)
+        trimesh_bounds(&b->mesh->mesh, lo, hi);
+    for (int i = 0; i < b->points.n; i++)
+        for (int a = 0; a < 2; a++) {
+            lo[a] = i > 0 ? fmin(lo[a], b->points.x[i][a]) : b->points.x[i][a];
+            hi[a] = i > 0 ? fmax(hi[a], b->points.x[i][a]) : b->points.x[i][a];
+        }
+    for (int a = 0; a < 3; a++)
+        middle[a] = 0.5 * (lo[a] + hi[a]);
 }
 
 /* What moves, over the displacement along the waves at the still level: +-1, or 1 over the height
@@ -76,6 +94,14 @@ static double lever(const struct scene *s, const struct scene_body *b, const str
     vec3_cross(e, r, moves);
     const double along = vec3_dot(moves, d);
     return fabs(along) > (1.0 - 1e-9) * fabs(r[up]) && r[up] != 0.0 ? 1.0 / along : 0.0;
+}
+
+void wave_paddle_of(const struct scene *s, const struct scene_body *b, const struct scene_motion *m,
+                    struct wave_paddle *p)
+{
+    *p = (struct wave_paddle){
+        .per = lever(s, b, m), .hinge = axis_height(s, b, m), .face = face_of(s, b)};
+    middle_of(b, p->middle);
 }
 
 void wave_makers_check(const struct scene *s, const struct params *p, struct faults *f)
@@ -99,13 +125,16 @@ void wave_makers_check(const struct scene *s, const struct params *p, struct fau
         }
 }
 
+double wave_maker_grown(const struct waves *w, double t)
+{
+    const double T = w->of.start * w->period;
+    return !(T > 0.0) || t >= T ? 1.0 : t <= 0.0 ? 0.0 : 0.5 * (1.0 - cos(M_PI * t / T));
+}
+
 /* Displacement along the waves at the still level and time t; f: the paddle's face. */
 static double displacement(const struct waves *w, double face, double l, double t)
 {
-    const double h = w->of.depth, T = w->of.start * w->period,
-                 grown = !(T > 0.0) || t >= T ? 1.0
-                         : t <= 0.0           ? 0.0
-                                              : 0.5 * (1.0 - cos(M_PI * t / T));
+    const double h = w->of.depth;
     double x = 0.0;
     if (w->of.kind == WAVE_REGULAR) {
         const double k = 2.0 * M_PI / w->length, a = 0.5 * w->of.height,
@@ -117,7 +146,7 @@ static double displacement(const struct waves *w, double face, double l, double 
         const struct wave_component *c = w->components + i;
         x += c->a / wave_maker_ratio(c->k, h, l) * sin(c->w * t - c->k * face - c->phase);
     }
-    return grown * x;
+    return wave_maker_grown(w, t) * x;
 }
 
 static void resolve_one(struct scene *s, struct scene_body *b, struct scene_motion *m,

@@ -22,4 +22,17 @@ void wave_makers_check(const struct scene *s, const struct params *p, struct fau
 void wave_makers_resolve(struct scene *s, struct motion_files *files);
 void wave_makers_describe(const struct scene *s);
 
+/* What a motion of kind waves makes of its body. */
+struct wave_paddle {
+    double per;       /* what moves (m, rad) over the displacement at the still level, m, signed */
+    double hinge;     /* m: of a flap's axis over the floor; a piston < 0 */
+    double face;      /* m: along the waves, of the face that the water is at, at the start */
+    double middle[3]; /* m: a point across the waves in the middle of the face */
+};
+void wave_paddle_of(const struct scene *s, const struct scene_body *b, const struct scene_motion *m,
+                    struct wave_paddle *p);
+struct waves;
+/* Share of the waves that the paddle makes at t: they grow from nothing (waves.start). */
+double wave_maker_grown(const struct waves *w, double t);
+
 #endif

@@ -8,6 +8,7 @@
 #include "../particles/params_derived.h"
 #include "../rigid/body_impedance.h"
 #include "../walls/forces.h"
+#include "paddles.h"
 
 /* --- the start --- */
 
@@ -53,6 +54,7 @@ void bodies_create(struct sph *s)
     const double dt = sph_params_dt(&s->prm, s->nu, s->c0, NULL);
     if (!w)
         return;
+    paddles_create(s);
     for (int k = 0; k < w->nbodies; k++)
         w->forces.reference[k] = body_reference(s, k);
     for (int k = 0; k < w->nbodies; k++)
@@ -202,15 +204,16 @@ static void judge(const struct sph *s, const struct body *b, struct diagnosis *d
 
 void bodies_finish(struct sph *s, struct diagnosis *d)
 {
-    if (!s->walls || !s->walls->any_free)
-        return;
-    take_hits(s);
-    memset(s->walls->forces.hit, 0, sizeof s->walls->forces.hit);
-    for (int k = 0; k < s->walls->nbodies; k++) {
+    const bool any_free = s->walls && s->walls->any_free;
+    if (any_free) {
+        take_hits(s);
+        memset(s->walls->forces.hit, 0, sizeof s->walls->forces.hit);
+    }
+    for (int k = 0; s->walls && k < s->walls->nbodies; k++) {
         struct body *b = s->walls->bodies + k;
-        if (!b->free)
-            continue;
-        body_finish(b);
-        judge(s, b, d);
+        if (b->free)
+            body_finish(b);
+        if (b->free || b->paddle)
+            judge(s, b, d);
     }
 }

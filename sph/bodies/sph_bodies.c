@@ -16,6 +16,7 @@
 #include "../open_boundaries/zones.h"
 #include "../walls/walls.h"
 #include "body_check.h"
+#include "paddles.h"
 
 enum { VERTICES = 2000, LEAST_TIMES = 20, MOST_TIMES = 2000 };
 
@@ -448,6 +449,7 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
     double speed = 0.0;
     const int before = f->n;
     body_check(r, used, f);
+    paddles_check(r, used, f);
     if (f->n > before) {
         mem_free(now);
         return;

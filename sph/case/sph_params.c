@@ -590,16 +590,22 @@ static void check_ends(const struct run *r, struct faults *f)
                  e.at[1], 0.7 * given.R_dx * given.dx);
 }
 
-/* A body moved by the fluid and a partner of a coupled job take one step with all levels. */
+/* A body moved by the fluid, a paddle that absorbs and a partner of a coupled job take one step
+ * with all levels. */
 static void check_local_steps(const struct run *r, struct faults *f)
 {
-    bool any_free = false;
-    for (int k = 0; k < r->scene.nbodies; k++)
+    bool any_free = false, any_absorbs = false;
+    for (int k = 0; k < r->scene.nbodies; k++) {
+        const struct scene_motions *m = &r->scene.bodies[k].motion;
         any_free = any_free || r->scene.bodies[k].free;
-    if (is_coupled(r) || any_free)
+        for (int i = 0; i < m->n; i++)
+            any_absorbs = any_absorbs || m->of[i].absorb;
+    }
+    if (is_coupled(r) || any_free || any_absorbs)
         params_fault(r->params, f, "apr.local_steps", "%s: leave it out",
-                     any_free ? "bodies that the fluid moves need one step for all levels"
-                              : "levels of a coupled job step together");
+                     any_free      ? "bodies that the fluid moves need one step for all levels"
+                     : any_absorbs ? "a paddle that absorbs needs one step for all levels"
+                                   : "levels of a coupled job step together");
 }
 
 /* What levels of refinement do not go together with. */

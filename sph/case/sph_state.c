@@ -10,6 +10,7 @@
 #include "../../common/base/mem.h"
 #include "../../common/scene/wave_zones.h"
 #include "../bodies/bodies.h"
+#include "../bodies/paddles.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/openings.h"
 #include "../open_boundaries/zone_steps.h"
@@ -213,6 +214,7 @@ void sph_free(struct sph **s)
     domain_free(&(*s)->domain);
     zones_free(&(*s)->zones);
     wave_zones_free(&(*s)->wave_zones);
+    paddles_free(*s);
     walls_free(&(*s)->walls);
     sph_surface_free(&(*s)->surface);
     fit_free(&(*s)->total.signal_fit);

@@ -9,10 +9,10 @@
 #include "../bodies/bodies.h"
 #include "../pairs/kernel.h"
 #include "../particles/eos.h"
+#include "../surface/level_gauge.h"
 #include "../walls/forces.h"
 #include "../walls/walls.h"
 #include "discharge_gauge.h"
-#include "level_gauge.h"
 #include "shore.h"
 
 /* Where a surface crosses, fv reads the gauges outside of the box. */

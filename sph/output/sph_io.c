@@ -10,6 +10,7 @@
 #include "../../common/files/xdmf.h"
 #include "../../common/scene/wave_zones.h"
 #include "../bodies/bodies.h"
+#include "../bodies/paddles.h"
 #include "../coupling/overlap.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/openings.h"
@@ -390,6 +391,7 @@ void sph_checkpoint(void *state, struct h5 *f)
         forces_save(s, f);
     if (s->walls && s->walls->any_free)
         bodies_save(s, f);
+    paddles_save(s, f);
 }
 
 static bool read_particles(struct sph *s, struct h5 *f)
@@ -512,6 +514,8 @@ static const char *missing(struct sph *s, struct h5 *f)
         return "forces on walls";
     if (s->walls && !bodies_load(s, f))
         return "free bodies";
+    if (!paddles_load(s, f))
+        return "paddles";
     return NULL;
 }
 

@@ -8,6 +8,7 @@
 #include "../../common/scene/scene.h"
 
 struct run;
+struct paddle; /* of ../bodies/paddles.h */
 
 /* --- body_free.c: motion by forces --- */
 
@@ -47,6 +48,7 @@ struct body {
     struct body_drive drive;
     struct scene_contact contact;
     struct body_free *free; /* NULL: driven */
+    struct paddle *paddle;  /* NULL: it does not absorb waves */
     struct body_motion now;
 };
 

@@ -9,6 +9,7 @@
 
 #include "../../common/base/log.h"
 #include "../bodies/bodies.h"
+#include "../bodies/paddles.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/openings.h"
 #include "../open_boundaries/zone_steps.h"
@@ -188,6 +189,8 @@ static void take_stages(struct sph *s, double dt, double t_end, double most[LEVE
         const double part = c->weight[k] * dt;
         set_time(s, c->at[k] == 1.0 ? t_end : t + c->at[k] * dt);
         integrate_rates(s);
+        if (k == 0)
+            paddles_steer(s, dt);
         if (s->walls)
             forces_stage(s, part);
         bodies_stage(s, part);

@@ -154,6 +154,7 @@ bodies.motion.coefficients (1,2)
 bodies.motion.from 0.01
 bodies.motion.until 0.02
 bodies.motion.ramp 0.02
+bodies.motion.absorb true
 bodies.lines.from (0.2,0.2)
 bodies.lines.to (0.2,0.7)
 bodies.lines.body "b"
@@ -222,6 +223,7 @@ apr.regions.motion.coefficients (1,2)
 apr.regions.motion.from 0.01
 apr.regions.motion.until 0.02
 apr.regions.motion.ramp 0.02
+apr.regions.motion.absorb true
 apr.criteria.level 2
 apr.criteria.kind "pressure"
 apr.criteria.above 0.055

@@ -11,9 +11,9 @@
 
 #include "../../common/scene/scene.h"
 #include "../../common/scene/scene_fluid.h"
-#include "../surface/level_window.h"
-#include "../surface/surface.h"
 #include "../walls/walls.h"
+#include "level_window.h"
+#include "surface.h"
 
 enum { SAMPLES_2D = 16, SAMPLES_3D = 8 }; /* of a floor, along an axis */
 

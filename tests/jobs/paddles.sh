@@ -1,0 +1,61 @@
+#!/bin/sh
+# A piston that absorbs (motion of kind waves, absorb = true) before a wall that returns all: the waves that run from it are
+# those that were asked for, where those of a piston that does not absorb have become others; it stays in its place; a run
+# goes on after a restart bit for bit, and two ranks say the same; --check tells what comes back; what cannot be is refused.
+# SPDX-License-Identifier: BSD-3-Clause
+. "$(dirname "$0")/lib.sh"
+# tank NAME END HOW: 4.2 m long, 0.4 m deep, waves of 0.04 m and 1.4 s (2.4 m); 10 particles over the depth
+tank() {
+    cat >"$1.cfg" <<END
+format = 1;
+time:    { end = $2; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { min = (-0.6, 0); max = (4.2, 0.64); };
+waves:   { height = 0.04; period = 1.4; };
+walls:   ( { side = "y_min"; }, { side = "x_max"; } );
+shapes:  ( { form = "box"; box = ((0, 0), (4.2, 0.4)); } );
+bodies:  ( { name = "paddle"; points = ((-0.4, 0), (-0.4, 0.6), (0, 0.6), (0, 0)); motion = ( { kind = "waves"; axis = "x"; $3 } ); } );
+probes:  ( { name = "a"; kind = "level"; at = (1.6, 0.4); }, { name = "b"; kind = "level"; at = (1.84, 0.4); }, { name = "c"; kind = "level"; at = (2.25, 0.4); } );
+gauges:  ( { name = "tank"; probes = "a b c"; from = 11.2; } );
+sph:     { dx = 0.04; scheme = "riemann_ale"; };
+output:  { snapshots = false; series = 3; };
+END
+}
+tank active 19.6 'absorb = true;'
+tank passive 19.6 ''
+# column NAME TITLE FROM: its mean from then on
+column() { awk -F, -v p="$2" -v from="$3" 'NR == 1 { for (i = 1; i <= NF; i++) if (index($i, p) == 1) c = i; next } $1 >= from { n++; sum += $c } END { if (n) print sum/n }' "$1/series.csv"; }
+# onward NAME: amplitude of what runs away from the paddle, whichever of both is the larger
+onward() {
+    if grep -q 'm onward' "$1.log"; then number "$1" incident; else number "$1" reflected; fi
+}
+"$b/sph" active.cfg --check 2>&1 | grep -q 'paddle absorbs by a gauge 0.08 m before its face: of waves of 0.7, 1, 1.4 and 2 times' || bad "--check of a piston that absorbs"
+for name in active passive; do timeout -k 5 300 "$b/sph" $name.cfg -o $name --force >$name.log 2>&1 || bad "$name: exit code $?" $name.log; done
+active=$(onward active) passive=$(onward passive)
+close_to "$active" 0.02 0.1 || bad "from a piston that absorbs run waves of an amplitude of $active m, not of 0.02 m" active.log
+close_to "$passive" 0.02 0.3 && bad "from a piston that does not absorb run waves of $passive m, too"
+place=$(column active 'paddle x' 12.6)
+near "$place" 0 0.005 || bad "a piston of 0.05 m of stroke has drifted by $place m"
+# At 2.2 s, when something has come back, the run is written, and goes on from there.
+short='-p time.end=4.4 -p gauges.[0].from=0 -p output.snapshots=true -p output.every=2.2'
+timeout -k 5 120 "$b/sph" active.cfg -o whole $short --force >whole.log 2>&1 || bad "whole: exit code $?" whole.log
+for n in 1 2; do
+    run="$b/sph"
+    [ $n = 1 ] || run="$mpi -n 2 $b/sph"
+    # the same steps as in the whole run: to 4.4 s, ended by a signal when the restart file of 2.2 s is there
+    timeout -k 5 120 $run active.cfg -o part$n $short -p time.end=2.2 -p output.checkpoint=2.2 --force >part$n.log 2>&1 || bad "part $n: exit code $?" part$n.log
+    timeout -k 5 120 $run active.cfg -o part$n $short --restart >>part$n.log 2>&1 || bad "restart on $n: exit code $?" part$n.log
+done
+[ "$(tail -n 1 whole/series.csv)" = "$(tail -n 1 part1/series.csv)" ] || bad "the run is another one after a restart"
+close_to "$(last whole/series.csv 'paddle x')" "$(last part2/series.csv 'paddle x')" 1e-3 || bad "on two ranks the piston goes elsewhere"
+# refused CHANGE MESSAGE
+refused() {
+    sed "$1" active.cfg >faulty.cfg
+    "$b/sph" faulty.cfg --check >faulty.log 2>&1 && bad "accepted: $1"
+    grep -q "$2" faulty.log || bad "$1: not told \"$2\"" faulty.log
+}
+refused 's/kind = "waves"; axis = "x";/kind = "harmonic"; axis = "x"; amplitude = 0.01; period = 1;/; /^waves/d; /^gauges/d' 'bodies.\[0\].motion.\[0\].absorb: is not used: only what makes waves'
+refused 's/^sph:.*/sph: { dx = 0.2; };/' 'the gauge of a paddle that absorbs stands 0.4 m'
+refused 's/^output:/apr: { levels = 1; local_steps = true; regions = ( { min = (2, 0); max = (3, 0.64); } ); };\n&/' 'apr.local_steps: a paddle that absorbs needs one step'
+echo "paddles: waves of $active m (wanted 0.02), without absorption $passive m, in its place within $place m; $failed faults"
+[ $failed = 0 ]
