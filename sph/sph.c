@@ -23,6 +23,7 @@
 #include "coupling/sph_coupling.h"
 #include "coupling/windows.h"
 #include "open_boundaries/level_gap.h"
+#include "open_boundaries/wave_outside.h"
 #include "open_boundaries/zones.h"
 #include "output/sph_output.h"
 #include "pairs/vec.h"
@@ -281,7 +282,8 @@ static void *create(struct run *r, struct h5 *f)
     int n = sph_columns(r, sph_params_of(r), columns);
     for (int k = 0; k < OVERLAP_COLUMNS && r->coupled; k++)
         columns[n++] = overlap_columns[k];
-    for (int k = 0; k < LEVEL_COLUMNS && r->crossed; k++)
+    for (int k = 0; k < LEVEL_COLUMNS && (r->crossed || wave_outside_wanted(r, sph_params_of(r)));
+         k++)
         columns[n++] = level_gap_columns[k];
     sph_program.ncolumns = n;
     struct sph *s = sph_create(r, sph_params_of(r), f);

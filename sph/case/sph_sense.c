@@ -11,6 +11,7 @@
 #include "../../common/scene/scene_geometry.h"
 #include "../../common/scene/scene_mesh.h"
 #include "../../common/scene/scene_probe.h"
+#include "../open_boundaries/wave_outside.h"
 #include "../sph.h"
 #include "first_lattice.h"
 
@@ -249,6 +250,8 @@ static void check_box(const struct run *r, const struct sph_params *given,
             continue;
         if (r->crossed)
             continue; /* the partner has a surface, too */
+        if (wave_outside_wanted(r, used) && fabs(still[a]) < 0.5 * g)
+            continue; /* so has the wave */
         if (g > 0.0 && fabs(still[a]) < 0.5 * g)
             params_fault(r->params, f, key,
                          "ends at %c = %g m under a free surface, which it would have to cross "

@@ -38,7 +38,8 @@ struct level_gap *level_gap_create(const struct sph *s)
     colour_profile(s->dim, g->profile);
     g->watched = (struct watch){
         .key = "level_gap",
-        .what = "levels of sph and fv at an open side, difference in dx over ten coupling steps",
+        .what =
+            "levels of sph and outside at an open side, difference in dx over ten coupling steps",
         .likely = "waves too steep or too near to breaking at the side: move the side of sph.box; "
                   "or lower coupling.steps",
         .warn = 0.5,

@@ -18,6 +18,7 @@
 #include "openings.h"
 #include "outer_lattice.h"
 #include "sides.h"
+#include "wave_outside.h"
 #include "wet_faces.h"
 
 /* The exact solution as the flow outside; the gradient of p by central differences. */
@@ -51,6 +52,19 @@ static void eval_exact(void *ctx, double t, int n, const double *x, double *u, d
     }
 }
 
+static void use_exact(struct sph *s, struct zones *z)
+{
+    struct exact *e = NEW(struct exact, 1);
+    *e = exact_create(&s->run->scene);
+    z->ctx = e;
+    z->eval = eval_exact;
+    if (!wave_outside_wanted(s->run, &s->prm))
+        return;
+    z->eval = wave_outside_eval;
+    z->surface = wave_outside_surface;
+    z->gap = level_gap_create(s);
+}
+
 struct zones *zones_create(struct sph *s)
 {
     bool open = false;
@@ -74,12 +88,8 @@ struct zones *zones_create(struct sph *s)
     z->eos = (struct sph_eos){s->rho0, s->c0, s->gamma};
     z->gap = s->run->crossed ? level_gap_create(s) : NULL;
     zones_counted_box(s->run, &s->prm, z->way, z->counted[0], z->counted[1]);
-    if (s->prm.outer == OUTER_EXACT) {
-        struct exact *e = NEW(struct exact, 1);
-        *e = exact_create(&s->run->scene);
-        z->eval = eval_exact;
-        z->ctx = e;
-    }
+    if (s->prm.outer == OUTER_EXACT)
+        use_exact(s, z);
     if (s->prm.outer == OUTER_SIDES)
         sides_create(s, z);
     return z;
@@ -90,7 +100,7 @@ void zones_free(struct zones **z)
     if (!*z)
         return;
     openings_free(&(*z)->openings);
-    if ((*z)->eval == eval_exact)
+    if ((*z)->eval == eval_exact || (*z)->eval == wave_outside_eval)
         mem_free((*z)->ctx);
     else if ((*z)->update)
         sides_free(*z);
