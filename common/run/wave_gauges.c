@@ -72,6 +72,14 @@ static void places_of(const struct scene *s, int n, const int *probe, double *x)
         x[i] = vec3_dot(s->probes[probe[i]].at, d);
 }
 
+static bool any_moves(const struct scene *s, int n, const int *probe)
+{
+    bool any = false;
+    for (int i = 0; i < n; i++)
+        any = any || s->probes[probe[i]].body[0];
+    return any;
+}
+
 void wave_gauges_check(const struct scene *s, const struct params *p, struct faults *f)
 {
     for (int k = 0; k < s->ngauges; k++) {
@@ -86,6 +94,10 @@ void wave_gauges_check(const struct scene *s, const struct params *p, struct fau
                          wrong, GAUGE_PROBES);
         else if (n < 2)
             params_fault(p, f, key, "two gauges or more tell incident from reflected waves");
+        else if (any_moves(s, n, probe))
+            params_fault(p, f, key,
+                         "gauges that move with a body (probes.body) do not tell waves apart: "
+                         "take gauges that stand");
         else if (!(scene_waves_depth(s) > 0.0))
             params_fault(p, f, key, "no shape tells how deep the water is (waves.depth)");
         snprintf(key, sizeof key, "gauges.[%d].period", k);

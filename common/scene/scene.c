@@ -90,6 +90,7 @@ static const struct param probe_rows[] = {
     PARAM(P, at,   "m", NULL, -1e9, 1e9, "place"),
     PARAM(P, to,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "of a discharge: the other end of its line, the other corner of its rectangle"),
     PARAM(P, radius, "m", "0.0", 0, 1e9, "of a pressure gauge (sph): it reads the mean over a disc (3D: sphere) of this radius, whatever the particle size; where less than a quarter (3D: an eighth) of it is wet the reading falls in proportion; 0, or less than R of the particles: R"),
+    PARAM(P, body, "-", "", 0, 0, "name of the moving body (fv: block) that it is fixed to: pressure, velocity, or the level over its place, `at` at the start"),
 };
 #undef P
 #define P struct scene_waves

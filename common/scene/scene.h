@@ -138,6 +138,7 @@ struct scene {
         double at[3];  /* m */
         double to[3];  /* m: other end of the line of a discharge, 3D: corner of its rectangle */
         double radius; /* m: pressure: of what it reads the mean of; 0: R of the particles */
+        char body[PARAM_TEXT_SIZE]; /* with which it moves; "": none */
     } probes[PROBES_MAX];
     int nprobes;
     struct scene_gauges { /* level gauges that together tell waves apart */

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_check.h"
 #include "scene_mesh.h"
+#include "scene_probe.h"
 #include "scene_waves.h"
 
 #include <stdio.h>
@@ -209,6 +210,9 @@ static void check_probe(const struct scene *s, const struct params *p, struct fa
               "a level is that of a column of the particles' size");
     check_key(p, f, "probes", k, "to", s->probes[k].kind == PROBE_DISCHARGE,
               "only a discharge goes through a line");
+    check_key(p, f, "probes", k, "body",
+              probe_is_point(s->probes + k) || s->probes[k].kind == PROBE_LEVEL,
+              "a discharge and a shore are read at rest");
 }
 
 /* A file has waves of its own. */

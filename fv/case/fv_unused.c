@@ -240,6 +240,14 @@ static bool even(const struct run *r, int k)
 {
     return (void)r, block(k)->mapping != MAPPING_STRETCHED && block(k)->mapping != MAPPING_ANNULUS;
 }
+static bool no_block_moves(const struct run *r, int probe)
+{
+    bool any = r->coupled; /* then it is sph's */
+    for (int k = 0; k < mesh_given_count; k++)
+        any = any || (strcmp(mesh_given[k].name, r->scene.probes[probe].body) == 0 &&
+                      mesh_given[k].motion.n > 0);
+    return !any;
+}
 static bool around(const struct run *r, int k)
 {
     return is_ring(r, k) && (block(k)->stretch[1] != 0.0 || block(k)->stretch[2] != 0.0);
@@ -295,6 +303,7 @@ static const struct rule rules[] = {
     {"walls.level_file",       is_newton,         "newton has no openings of given level: give it as initial.level, which an outflow has, or rk3 or bdf2", false},
     {"walls.discharge",   dry,               "without a free surface the area of an opening is known: give the velocity", false},
     {"walls.discharge_file",   dry,               "without a free surface the area of an opening is known: give the velocity", false},
+    {"probes.body",       no_block_moves,    "no block of that name moves: bodies of fv stand still", false},
     {"probes.radius",     always,            "fv reads the pressure at the point, between its cells", true},
     {"coupling.steps",         alone, "this is no coupled job: it has no group sph", false},
     {"coupling.transition",    alone, "this is no coupled job: it has no group sph", false},

@@ -201,6 +201,8 @@ static double discharge_of(const struct fv *s, const struct scene_probe *g)
 
 bool fv_probe_mine(const struct run *r, int k)
 {
+    if (r->coupled && r->scene.probes[k].body[0])
+        return false; /* bodies that move are sph's there */
     if (r->crossed)
         return !r->gauge_inside[k];
     return probe_is_point(r->scene.probes + k) || !r->coupled;

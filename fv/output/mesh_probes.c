@@ -3,9 +3,11 @@
 #include "../fv.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "../../common/scene/scene_probe.h"
 #include "../boundary/still.h"
+#include "../grid/mesh_motion.h"
 #include "../grid/overset.h"
 #include "../surface/levelset.h"
 #include "mesh_output.h"
@@ -122,11 +124,21 @@ static double pressure_at(struct fv *s, const double *x)
     return here[1] < 0.0 ? here[0] + fv_still_pressure(s, x) + s->datum : 0.0;
 }
 
+/* The gauge where it is now: with the block that it is fixed to. */
+static struct scene_probe placed(const struct fv *s, const struct scene_probe *p)
+{
+    struct scene_probe now = *p;
+    for (int k = 0; p->body[0] && k < s->m->nblocks; k++)
+        if (s->m->block[k].motion && strcmp(s->m->block[k].prm->name, p->body) == 0)
+            mesh_motion_now(s->m->block + k, p->at, now.at);
+    return now;
+}
+
 void mesh_probes(struct fv *s, double *values)
 {
     const struct scene *scene = &s->run->scene;
     for (int k = 0; k < scene->nprobes; k++) {
-        const struct scene_probe *p = scene->probes + k;
+        const struct scene_probe g = placed(s, scene->probes + k), *p = &g;
         if (!fv_probe_mine(s->run, k))
             continue;
         if (p->kind == PROBE_VELOCITY)

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "../../common/base/log.h"
 #include "../../common/scene/exact.h"
@@ -280,6 +281,14 @@ static void check_outer(const struct run *r, const struct sph_params *used, stru
 
 /* --- the rest --- */
 
+static bool moves_by_name(const struct scene *c, const char *name)
+{
+    bool any = false;
+    for (int k = 0; k < c->nbodies; k++)
+        any = any || (strcmp(c->bodies[k].name, name) == 0 && scene_body_moves(c->bodies + k));
+    return any;
+}
+
 /* Columns of levels go along an axis; beaches are read over y. */
 static void check_gauges(const struct run *r, struct faults *f)
 {
@@ -291,6 +300,10 @@ static void check_gauges(const struct run *r, struct faults *f)
         axes += g[a] != 0.0;
     for (int k = 0; k < c->nprobes; k++) {
         char key[64];
+        snprintf(key, sizeof key, "probes.[%d].body", k);
+        if (c->probes[k].body[0] && !moves_by_name(c, c->probes[k].body))
+            params_fault(r->params, f, key, "%s: no body `%s' moves", c->probes[k].name,
+                         c->probes[k].body);
         snprintf(key, sizeof key, "probes.[%d].kind", k);
         const int kind = c->probes[k].kind;
         if ((kind == PROBE_LEVEL || kind == PROBE_SHORE) && axes > 1)

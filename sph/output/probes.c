@@ -15,8 +15,21 @@
 #include "discharge_gauge.h"
 #include "shore.h"
 
-/* Where a surface crosses, fv reads the gauges outside of the box. */
-static bool is_mine(const struct run *r, int k) { return !r->crossed || r->gauge_inside[k]; }
+/* Where a surface crosses, fv reads the gauges outside of the box that stand. */
+static bool is_mine(const struct run *r, int k)
+{
+    return !r->crossed || r->gauge_inside[k] || r->scene.probes[k].body[0];
+}
+
+/* The gauge where it is now. */
+static struct scene_probe placed(const struct sph *s, const struct scene_probe *g)
+{
+    struct scene_probe now = *g;
+    for (int k = 0; g->body[0] && k < s->run->scene.nbodies; k++)
+        if (strcmp(s->run->scene.bodies[k].name, g->body) == 0)
+            body_place(s->walls->bodies + k, g->at, now.at);
+    return now;
+}
 
 int probes_columns(const struct run *r, const char **names)
 {
@@ -139,10 +152,11 @@ void probes_row(struct sph *s, double *values)
     for (int k = 0; k < c->nprobes; k++) {
         if (!is_mine(s->run, k))
             continue;
-        if (c->probes[k].kind == PROBE_VELOCITY)
-            velocity_at(s, c->probes + k, values);
+        const struct scene_probe g = placed(s, c->probes + k);
+        if (g.kind == PROBE_VELOCITY)
+            velocity_at(s, &g, values);
         else
-            *values = value_at(s, c->probes + k);
+            *values = value_at(s, &g);
         values += probe_columns(c->probes + k, s->dim);
     }
     for (int k = 0; k < c->nbodies; k++, values += 3 * (s->dim - 1)) {

@@ -1,7 +1,8 @@
 #!/bin/sh
 # Gauges of velocity and discharge in both programs: a level channel that carries q = u h has it through any section, upright
 # or oblique, and the volume q t at the end; a section over the water has none; blocks say the same as cells, two ranks the
-# same as one; of a column that falls half goes through the middle. SPDX-License-Identifier: BSD-3-Clause
+# same as one; of a column that falls half goes through the middle; bodies take gauges along.
+# SPDX-License-Identifier: BSD-3-Clause
 . "$(dirname "$0")/lib.sh"
 # volume_of DIR GAUGE
 volume_of() { sed -n "/\"$2\": {/,/}/s/.*\"volume\": \([-+0-9.e]*\).*/\1/p" "$1/summary.json"; }
@@ -72,5 +73,58 @@ for name in even blocks; do
     v=$(volume_of $name flow)
     close_to "$v" 0.02 0.03 || bad "$name: $v m^2 of 0.04 m^2 went through the middle" $name.txt
 done
+# Gauges that a body takes with it: over a box that goes up and down in water at rest (a period of 2 s, sph) the pressure
+# follows the depth, rho g y, but for the water's inertia (w^2 A/g: 5 %), where a gauge that stands reads a tenth of it at
+# most; before a cylinder that swings (fv) the water goes with its wall
+# (0.96 of its speed there in potential flow).
+cat >lift.cfg <<'END'
+format = 1;
+time:    { end = 2; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; max = (0.8, 0.5); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "below"; level = 0.4; } );
+bodies:  ( { name = "box"; points = ((0.3, 0.16), (0.3, 0.24), (0.5, 0.24), (0.5, 0.16)); centre = (0.4, 0.2);
+             motion = ( { kind = "harmonic"; axis = "y"; amplitude = 0.05; period = 2; ramp = 0.2; } ); } );
+probes:  ( { name = "with"; at = (0.6, 0.2); body = "box"; }, { name = "stands"; at = (0.6, 0.2); },
+           { name = "level"; kind = "level"; at = (0.4, 0.24); body = "box"; } );
+sph:     { dx = 0.02; };
+output:  { snapshots = false; series = 2; };
+END
+cat >swing.cfg <<'END'
+format = 1;
+time:    { end = 2.5; };
+fluid:   { rho = 1.0; nu = 0.02; };
+domain:  { dim = 2; min = (-6, -5); max = (6, 5); };
+initial: { field = "rest"; U = 1.0; };
+walls:   ( { side = "x_min"; kind = "slip"; }, { side = "x_max"; kind = "outflow"; }, { side = "y_min"; kind = "slip"; }, { side = "y_max"; kind = "slip"; } );
+blocks:  ( { name = "outer"; mapping = "stretched"; min = (-6, -5); max = (6, 5); cells = (60, 52); focus = (0, 0); stretch = (3.5, 3.5); },
+           { name = "cylinder"; mapping = "annulus"; radius = (0.5, 1.75); stretch = (1.5, 0); cells = (20, 48); i_min = "wall"; j_min = "joined"; j_max = "joined";
+             motion = ( { kind = "harmonic"; axis = "x"; amplitude = -0.7957747; period = 5.0; } ); } );
+probes:  ( { name = "with"; kind = "velocity"; at = (0.51, 0); body = "cylinder"; } );
+fv:      { };
+output:  { snapshots = false; series = 2; };
+END
+timeout -k 5 200 "$b/sph" lift.cfg -o lift --force >lift.txt 2>&1 || bad "lift: exit code $?" lift.txt
+timeout -k 5 200 "$b/fv" swing.cfg -o swing --force >swing.txt 2>&1 || bad "swing: exit code $?" swing.txt
+# part FILE COLUMN OTHER FROM: what of OTHER is in COLUMN, least squares, from then on
+part() { awk -F, -v p="$2" -v q="$3" -v from="$4" 'NR == 1 { for (i = 1; i <= NF; i++) { if (index($i, p) == 1) a = i; if (index($i, q) == 1) c = i } next }
+    $1 >= from { n++; x += $c; y += $a; xx += $c * $c; xy += $c * $a } END { if (n) print (xy - x * y / n) / (xx - x * x / n) }' "$1/series.csv"; }
+follows=$(part lift with 'box y' 0.2) stands=$(part lift stands 'box y' 0.2)
+close_to "$follows" -9810 0.1 || bad "a gauge that a body takes with it reads $follows Pa/m of its way, not -9810" lift.txt
+near "$stands" 0 981 || bad "a gauge that stands reads $stands Pa/m of a body's way"
+near "$(last lift/series.csv level)" 0.4 0.02 || bad "the level over a body is $(last lift/series.csv level) m, not 0.4"
+wall=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if (index($i, "with u") == 1) c = i; next } { u = -cos(2 * 3.14159265 * $1 / 5); n += ($c - u)^2; d += u^2 } END { print sqrt(n/d) }' swing/series.csv)
+below "$wall" 0.15 || bad "water before a cylinder is off by $wall of its speed" swing.txt
+# not_told FILE CHANGE MESSAGE PROGRAM
+not_told() {
+    sed "$2" "$1" >faulty.cfg
+    "$b/$4" faulty.cfg --check >faulty.txt 2>&1 && bad "accepted: $2"
+    grep -q "$3" faulty.txt || bad "$2: not told \"$3\"" faulty.txt
+}
+not_told lift.cfg 's/0.2); body = "box"/0.2); body = "bax"/' "probes.\[0\].body: with: no body .bax' moves" sph
+not_told swing.cfg 's/body = "cylinder"/body = "outer"/' 'probes.\[0\].body: is not used: no block of that name moves' fv
+not_told lift.cfg 's/^sph/gauges: ( { name = "g"; probes = "level level"; period = 1; } );\n&/' 'gauges that move with a body' sph
+echo "a body takes a gauge along: $follows Pa/m (-9810), one that stands $stands; before a wall off by $wall"
 echo "$failed faults"
 [ $failed = 0 ]
