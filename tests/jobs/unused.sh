@@ -190,7 +190,7 @@ probes.kind "level"
 probes.at (0.2,-0.7)
 probes.to (0.3,-0.7)
 probes.radius 0.5
-probes.body b
+probes.body "b"
 apr.levels 3
 apr.margin 2.0
 apr.around 4
