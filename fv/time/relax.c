@@ -7,10 +7,10 @@
 #include "../surface/levelset.h"
 #include "stages.h"
 
-void relax_zones(struct fv *s, double dt)
+bool relax_zones(struct fv *s, double dt)
 {
     if (!s->wave_zones)
-        return;
+        return false;
     wave_zones_at(s->wave_zones, s->t);
     FLOW_NEAR (s, at, n)
         for (int64_t i = at; i < at + n; i++) {
@@ -30,4 +30,5 @@ void relax_zones(struct fv *s, double dt)
             }
         }
     sides_velocity(s, BC_GIVEN, s->u);
+    return true;
 }

@@ -6,7 +6,8 @@
 #include "../fv.h"
 
 /* After a step of dt to s->t: velocities, and those that the next step looks back at, relax to rest
- * or to the waves in zones; ghosts follow. The next projection makes their fluxes. */
-void relax_zones(struct fv *s, double dt);
+ * or to the waves in zones; ghosts follow. The next projection makes their fluxes. false: there are
+ * none. */
+bool relax_zones(struct fv *s, double dt);
 
 #endif

@@ -277,6 +277,13 @@ static void check_outer(const struct run *r, const struct sph_params *used, stru
         params_fault(r->params, f, "sph.outer",
                      "no exact solution is known around the particles at all times: initial.field "
                      "has none in this scene. Leave the box out, or couple with fv");
+    const double k = 2.0 * M_PI / scene_wave_length(c);
+    const double lost = 1.0 - exp(-2.0 * c->fluid.nu * k * k * c->time.end);
+    if (wave_outside_wanted(r, used) && lost > 0.01)
+        params_fault(r->params, f, "fluid.nu",
+                     "the wave around the particles knows no friction, which takes %.2g of its "
+                     "height within the run: leave it out, or couple with fv",
+                     lost);
 }
 
 /* --- the rest --- */

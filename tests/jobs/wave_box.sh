@@ -24,7 +24,6 @@ below "$pressure" 0.02 || bad "pressure is off by $pressure"
 mean=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^a \[/) c = i; next } $1 >= 1.65 { n++; sum += $c; if (n == 1 || $c > hi) hi = $c; if (n == 1 || $c < lo) lo = $c } END { print sum/n, hi - lo }' whole/series.csv)
 near "${mean% *}" 1 0.02 || bad "mean level ${mean% *}, not 1 m"
 close_to "${mean#* }" 0.2 0.1 || bad "a wave of 0.2 m is ${mean#* } m high in the box"
-below "$(number whole level_gap)" 0.5 || bad "the level parts from that of the wave by $(number whole level_gap) dx"
 for n in 1 2; do
     run="$b/sph"
     [ $n = 1 ] || run="$mpi -n 2 $b/sph"
@@ -41,6 +40,7 @@ refused() {
     grep -q "$2" faulty.log || bad "$1: not told \"$2\"" faulty.log
 }
 refused 's/field = "regular"; U = 0.3;/field = "stokes"; U = 0.3;/' 'sph.outer: no exact solution is known around the particles at all times'
+refused 's/gravity/nu = 0.01; gravity/' 'fluid.nu: the wave around the particles knows no friction'
 refused 's/(3.5, 1.5)/(3.5, 1.2)/' 'sph.box: must hold the free surface'
 # SPH round a fixed box in the waves of FV (cases/box_in_waves at half its resolution, 2 particles of draught): the force on
 # the box is that of linear potential flow (1498 and 2561 N/m a metre of amplitude), and no water gets lost.

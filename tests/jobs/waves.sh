@@ -37,6 +37,13 @@ sed '/^waves:/d; s/kind = "wave"/kind = "slip"/; s/kind = "beach"/kind = "slip"/
 [ $? = 2 ] && grep -q 'no group waves' drawn.log || bad "--check=waves of a case without" drawn.log
 for name in regular turned group; do "$b/fv" $name.cfg -o $name >$name.log 2>&1 || bad "fv $name" $name.log; done
 "$b/sph" grains.cfg -o grains >grains.log 2>&1 || bad "sph, waves" grains.log
+# a run that is stopped in its waves goes on bit for bit
+for end in 1 1.5; do
+    "$b/fv" regular.cfg -o parts -p time.end=$end -p output.checkpoint=1 -p 'gauges=()' $([ $end = 1 ] && echo --force || echo --restart) >parts.log 2>&1 ||
+        bad "fv, waves to $end s" parts.log
+done
+"$b/fv" regular.cfg -o unbroken -p time.end=1.5 -p output.checkpoint=1 -p 'gauges=()' >unbroken.log 2>&1 || bad "fv, waves to 1.5 s" unbroken.log
+[ "$(tail -n 1 parts/series.csv)" = "$(tail -n 1 unbroken/series.csv)" ] || bad "a restart gives other waves"
 height=$(swing regular a 7 10) other=$(swing regular b 7 10) turned=$(swing turned a 7 10) grains=$(swing grains a 5.5 8)
 holds "$height > 0.0285 && $height < 0.0315 && $other > 0.0285 && $other < 0.0315" || bad "fv: waves of 0.03 m are $height and $other m high"
 holds "($height - $turned)^2 < 1e-9" || bad "fv: waves of $height m are $turned m high with gravity along x"
