@@ -111,6 +111,7 @@ struct scene {
         char level_file[PARAM_TEXT_SIZE], discharge_file[PARAM_TEXT_SIZE]; /* both over time */
         bool has_level, has_discharge;                 /* by wall_histories_read, as the next */
         const struct motion_file *levels, *discharges; /* of these files; NULL: constant */
+        bool assumed; /* the case has no such wall: fv closes the air */
         /* By openings_resolve, of an outflow under a free surface that has neither: m: of the water
          * that stands in it at the start, NAN: not known; falls: none does, so water falls out. */
         double stands;

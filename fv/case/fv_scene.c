@@ -31,20 +31,19 @@ void fv_scene_complete(struct run *r)
     for (int a = 0; a < s->domain.dim && mesh_given_count == 0; a++) {
         const int up = g[a] < 0.0;
         if (g[a] != 0.0 && !s->domain.periodic[a] && !wall_on(s, a, up) && s->nwalls < WALLS_MAX)
-            s->walls[s->nwalls++] = (struct scene_wall){
-                .side = SIDE_X_MIN + 2 * a + up, .kind = WALL_SLIP, .level = LEVEL_TOP};
+            s->walls[s->nwalls++] = (struct scene_wall){.side = SIDE_X_MIN + 2 * a + up,
+                                                        .kind = WALL_SLIP,
+                                                        .level = LEVEL_TOP,
+                                                        .assumed = true};
     }
 }
 
 void fv_scene_describe(const struct run *r)
 {
-    char key[32];
-    for (int k = 0; k < r->scene.nwalls; k++) {
-        snprintf(key, sizeof key, "walls.[%d].side", k);
-        if (r->scene.walls[k].side != SIDE_NONE && !params_given(r->params, key))
+    for (int k = 0; k < r->scene.nwalls; k++)
+        if (r->scene.walls[k].assumed)
             log_say("%s, which has no wall, is closed by one that slips, above the air",
                     scene_side_names[r->scene.walls[k].side - SIDE_X_MIN]);
-    }
 }
 
 static void wall_fault(const struct run *r, struct faults *f, int k, const char *what)

@@ -354,6 +354,37 @@ static void look_for_surface(struct fv *s, int64_t step)
                  : "");
 }
 
+struct lid {
+    const struct fv *s;
+    int side; /* of the domain; -1: no water is there */
+};
+
+static void look_at_lid(const struct side_face *f, void *with)
+{
+    struct lid *lid = with;
+    if (f->wall && f->wall->assumed && lid->s->surface->layer[f->cell] == 0)
+        lid->side = f->wall->side - SIDE_X_MIN;
+}
+
+/* Once: a side that fv has closed by itself is meant to have air below it. */
+static void look_for_lid(struct fv *s, int64_t step)
+{
+    struct watches *w = s->watches;
+    struct lid lid = {s, -1};
+    bool any = false;
+    for (int k = 0; k < s->run->scene.nwalls; k++)
+        any = any || s->run->scene.walls[k].assumed;
+    if (!any || w->lidded)
+        return;
+    sides_visit(s, look_at_lid, &lid);
+    MPI_Allreduce(MPI_IN_PLACE, &lid.side, 1, MPI_INT, MPI_MAX, s->comm);
+    w->lidded = lid.side >= 0;
+    if (w->lidded)
+        log_warn("t = %.4g s, step %lld: water reaches the side %s, which the case leaves open and "
+                 "fv has closed: a higher domain, or a wall there",
+                 s->t, (long long)step, scene_side_names[lid.side]);
+}
+
 void fv_watches_look(struct fv *s, struct diagnosis *d)
 {
     struct watches *w = s->watches;
@@ -364,6 +395,8 @@ void fv_watches_look(struct fv *s, struct diagnosis *d)
         const struct flow_energy e = energy_of(s);
         watches_energy(w, &e, s->t, step, d);
     }
+    if (s->surface && watches_want_waves(w, step))
+        look_for_lid(s, step);
     if (watches_want_waves(w, step))
         look_at_waves(s, step, d);
     if (s->surface)

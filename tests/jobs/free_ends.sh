@@ -69,6 +69,10 @@ awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^volume \[/) c = i; next 
 grep -q 'walls.\[0\].*newton' newton.txt || bad 'newton: the wall is not named' newton.txt
 # The air above is closed, and said to be
 grep -q 'y_max, which has no wall, is closed by one that slips' pool_fv.txt || bad 'the lid is not told' pool_fv.txt
+# and when water comes there, that is told
+sed 's/max = (1, 0.6)/max = (1, 0.45)/; s/cells = (50, 24)/cells = (50, 18)/; s/kind = "outflow"; //' dry_fv.cfg >low.cfg
+timeout -k 5 100 "$b/fv" low.cfg -o low --force -p probes='()' >low.txt 2>&1
+grep -q '^warning: .*water reaches the side y_max, which the case leaves open' low.txt || bad 'water at the lid is not told' low.txt
 # What a run writes down of its case is that case
 for name in pool_fv dry_sph; do
     p=${name#*_}
