@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "../base/log.h"
-#include "exact.h"
 #include "scene_fluid.h"
 #include "scene_speed.h"
 
@@ -23,8 +22,8 @@ void wall_histories_read(struct scene *s, struct motion_files *files)
     }
 }
 
-/* Height of the highest place of fluid along the line from x upwards, of n places, - infinity:
- * none; exact to 1e-9 of the line where there is air above it. */
+/* Height of the highest place of fluid on the vertical through x, whose height is changed, of n
+ * places, - infinity: none; exact to 1e-9 of the line where there is air above it. */
 static double top_along(const struct scene *s, const struct exact *e, int up, double *x)
 {
     enum { PLACES = 256, HALVINGS = 24 };
@@ -48,6 +47,24 @@ static double top_along(const struct scene *s, const struct exact *e, int up, do
     return scene_height(s, x);
 }
 
+double openings_top_over(const struct scene *s, const struct exact *e, const double x[3])
+{
+    double at[3] = {x[0], x[1], x[2]};
+    return top_along(s, e, scene_still_axis(s), at);
+}
+
+bool openings_have_outside(const struct scene *s)
+{
+    return scene_still_axis(s) >= 0 && !scene_has_wave(s);
+}
+
+bool openings_are_lower(const struct scene *s, double top)
+{
+    double low, high;
+    scene_heights(s, &low, &high);
+    return top < fmin(scene_water_top(s), high) - 1e-6 * (high - low);
+}
+
 /* The same along an upright side, just inside it. */
 static double top_at(const struct scene *s, const struct exact *e, int side, int up)
 {
@@ -69,21 +86,18 @@ void openings_resolve(struct scene *s)
 {
     const struct exact e = exact_create(s);
     const int up = scene_still_axis(s);
-    double low, high;
-    scene_heights(s, &low, &high);
-    const double highest = fmin(scene_water_top(s), high) - 1e-6 * (high - low);
     for (int k = 0; k < s->nwalls; k++) {
         struct scene_wall *w = s->walls + k;
         const int side = w->side - SIDE_X_MIN;
         w->stands = NAN;
-        if (up < 0 || w->kind != WALL_OUTFLOW || w->side == SIDE_NONE || side / 2 == up ||
-            side / 2 >= s->domain.dim || s->domain.periodic[side / 2] || w->has_level ||
-            w->has_discharge || w->carried || scene_has_wave(s))
+        if (!openings_have_outside(s) || w->kind != WALL_OUTFLOW || w->side == SIDE_NONE ||
+            side / 2 == up || side / 2 >= s->domain.dim || s->domain.periodic[side / 2] ||
+            w->has_level || w->has_discharge || w->carried)
             continue;
         const double top = top_at(s, &e, side, up);
         w->falls = !isfinite(top);
         w->stands = w->falls ? NAN : top;
-        w->lower = !w->falls && top < highest;
+        w->lower = !w->falls && openings_are_lower(s, top);
     }
 }
 
@@ -182,6 +196,20 @@ static const char *discharge_text(const struct scene_wall *w, int dim, char *tex
                    text);
 }
 
+void openings_describe_outside(const char *side, double stands, bool falls)
+{
+    if (falls)
+        log_say("%s: nothing stands there at the start: water that comes falls out", side);
+    else if (isfinite(stands))
+        log_say("%s: water %g m high outside, as inside at the start, waves leave; the velocity "
+                "is that inside",
+                side, stands);
+    else
+        log_say("%s: water outside as high as at the start, waves leave; the velocity is that "
+                "inside",
+                side);
+}
+
 void openings_describe(const struct scene *s)
 {
     char text[TEXT];
@@ -201,15 +229,7 @@ void openings_describe(const struct scene *s)
             log_say("%s: a channel without end in the state of the start, waves leave", side);
         else if (in)
             log_say("%s: velocity given, the level is that inside", side);
-        else if (w->falls)
-            log_say("%s: nothing stands there at the start: water that comes falls out", side);
-        else if (isfinite(w->stands))
-            log_say("%s: water %g m high outside, as inside at the start, waves leave; the "
-                    "velocity is that inside",
-                    side, w->stands);
         else
-            log_say("%s: water outside as high as at the start, waves leave; the velocity is that "
-                    "inside",
-                    side);
+            openings_describe_outside(side, w->stands, w->falls);
     }
 }

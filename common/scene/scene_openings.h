@@ -6,6 +6,7 @@
 #ifndef COMMON_SCENE_OPENINGS_H
 #define COMMON_SCENE_OPENINGS_H
 
+#include "exact.h"
 #include "motion_files.h"
 #include "scene.h"
 
@@ -21,6 +22,15 @@ double wall_discharge(const struct scene_wall *w, double t);
 /* Finds what stands at the start in outflows under a free surface that are given no level: see
  * scene_wall. */
 void openings_resolve(struct scene *s);
+/* m, against gravity: of the highest water at the start on the vertical through x, - infinity:
+ * none; and whether it is lower than the highest of all, by a millionth of the domain's height. */
+double openings_top_over(const struct scene *s, const struct exact *e, const double x[3]);
+bool openings_are_lower(const struct scene *s, double top);
+/* Whether what stands in an outflow at the start stands outside, too: gravity has an axis, and no
+ * exact wave passes. */
+bool openings_have_outside(const struct scene *s);
+/* Says in the log what is outside an outflow that is given nothing; stands: NAN: not known. */
+void openings_describe_outside(const char *side, double stands, bool falls);
 /* Says in the log what each inlet and outlet under a free surface does. */
 void openings_describe(const struct scene *s);
 

@@ -67,6 +67,21 @@ static void set_given(struct fv *s, double t)
     }
 }
 
+/* Outside the outflows that blocks give themselves. */
+static void start_own(const struct fv *s)
+{
+    struct levels *l = s->levels;
+    struct mesh_outside of[MESH_OUTSIDES];
+    if (!s->m)
+        return;
+    mesh_outside_find(s->run, s->m, of);
+    for (int k = 0; k < LEVEL_GROUPS; k++) {
+        l->falls[k] = l->falls[k] || of[k].falls;
+        if (of[k].lower && s->run->scene.initial.level >= LEVEL_TOP)
+            l->level[k] = of[k].stands;
+    }
+}
+
 void levels_start(struct fv *s)
 {
     struct levels *l = s->levels;
@@ -86,6 +101,7 @@ void levels_start(struct fv *s)
         if (w->lower && s->run->scene.initial.level >= LEVEL_TOP)
             l->level[side] = w->stands;
     }
+    start_own(s);
     set_given(s, s->t);
     mean_velocities(s);
     for (int k = 0; k < LEVEL_GROUPS; k++)

@@ -9,8 +9,9 @@
 #define FV_LEVELS_H
 
 #include "../fv.h"
+#include "../grid/mesh_outside.h"
 
-enum { LEVEL_GROUPS = 7 }; /* sides of the domain, and those of blocks within it */
+enum { LEVEL_GROUPS = MESH_OUTSIDES };
 
 struct outflow; /* carried.h */
 struct levels {

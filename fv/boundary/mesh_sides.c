@@ -54,11 +54,9 @@ static struct outflow *list_places(struct fv *s, const struct side *d, struct ou
                                    int *count)
 {
     const struct mesh *m = s->m;
-    const struct scene_wall *wall = m->block[d->p->block].wall[d->k];
     const int64_t n = d->width * (d->n[1] + 2 * d->g[1]);
     struct outflow *o =
-        carried_add(list, count, m->dim, wall ? (int)wall->side - SIDE_X_MIN : LEVEL_GROUPS - 1,
-                    d->a, d->in, n, n);
+        carried_add(list, count, m->dim, m->block[d->p->block].on[d->k], d->a, d->in, n, n);
     SIDE_PLACES (d, 1, i, j, at, c) {
         const bool inside = i >= 0 && i < d->n[0] && j >= 0 && j < d->n[1];
         double S2 = 0.0;

@@ -8,6 +8,7 @@
 #include "../fv.h"
 #include "../grid/mesh.h"
 #include "../grid/mesh_motion.h"
+#include "../grid/mesh_outside.h"
 #include "../grid/overset.h"
 #include "../output/output.h"
 #include "../surface/levelset.h"
@@ -158,6 +159,30 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
                      "\"outflow\"",
                      in ? "inflow" : "exact side", fabs(net), m->dim,
                      net < 0.0 ? "in than out" : "out than in");
+}
+
+/* newton knows one level alone, outside all outflows. */
+static void check_outside(const struct run *r, struct faults *f, const struct mesh *m)
+{
+    struct mesh_outside of[MESH_OUTSIDES];
+    if (!surface_wanted(r) || fv_params_of(r)->integrator != INTEGRATOR_NEWTON)
+        return;
+    mesh_outside_find(r, m, of);
+    for (int k = 0; k < m->nblocks; k++)
+        for (int side = 0; side < 2 * m->dim; side++) {
+            const struct mesh_block *b = m->block + k;
+            const struct mesh_outside *o = of + b->on[side];
+            if (b->side[side] != MESH_OUTFLOW || b->wall[side])
+                continue;
+            if (o->falls)
+                mesh_fault(r, f, b->prm, sides[side],
+                           "nothing stands there at the start, so that water would fall out, which "
+                           "newton cannot do: rk3 and bdf2 can");
+            else if (o->lower && r->scene.initial.level >= LEVEL_TOP)
+                mesh_fault(r, f, b->prm, sides[side],
+                           "newton has one level outside, that of the highest water "
+                           "(initial.level), and less stands here: rk3 and bdf2 take that");
+        }
 }
 
 /* Where a block reaches furthest out of the domain, over its length; 0: nowhere. */
@@ -312,6 +337,7 @@ static void check_probes(const struct run *r, struct faults *f, const struct mes
 void mesh_scene_check(const struct run *r, struct faults *f, const struct mesh *m)
 {
     check_sides(r, f, m);
+    check_outside(r, f, m);
     check_extent(r, f, m);
     check_probes(r, f, m);
 }

@@ -50,6 +50,7 @@ struct mesh_block {
     enum mesh_side side[6];
     const struct scene_wall
         *wall[6]; /* of the scene, on whose side of the domain this one lies; NULL: none */
+    int on[6];    /* side of the domain that a side lies wholly on; 6: none */
     double opening[6][2][3]; /* m: box of the opening on that side of the domain that a side is part
                                 of: sides of blocks that touch are one */
     struct mesh_join join[6];

@@ -80,11 +80,15 @@ void mesh_take_walls(const struct run *r, struct mesh *m)
         for (int side = 0; side < 2 * m->dim; side++) {
             struct mesh_block *b = m->block + k;
             bounds_of_side(b, m->dim, side, b->opening[side]);
+            b->on[side] = 2 * m->dim;
+            while (--b->on[side] >= 0 &&
+                   !lies_on(&s->domain, (const double(*)[3])b->opening[side], b->on[side]))
+                ;
+            b->on[side] = b->on[side] < 0 ? 6 : b->on[side];
             for (int w = 0; w < s->nwalls; w++) {
                 const int of_domain = s->walls[w].side - SIDE_X_MIN;
                 if (s->walls[w].side == SIDE_NONE || b->side[side] != MESH_OVERLAP ||
-                    of_domain / 2 >= m->dim ||
-                    !lies_on(&s->domain, (const double(*)[3])b->opening[side], of_domain))
+                    of_domain != b->on[side])
                     continue;
                 b->wall[side] = s->walls + w;
                 b->side[side] = side_of_wall(s->walls + w);

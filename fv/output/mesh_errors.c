@@ -18,6 +18,7 @@
 #include "../../common/run/forecast.h"
 #include "../boundary/still.h"
 #include "../grid/mesh_motion.h"
+#include "../grid/mesh_outside.h"
 #include "../grid/overset.h"
 #include "../surface/fraction.h"
 #include "../surface/levelset.h"
@@ -359,8 +360,10 @@ void mesh_describe(const struct run *r, const struct fv_params *prm)
     }
     if (m) {
         describe_scene(r, prm, m);
-        if (prm->water)
+        if (prm->water) {
             fraction_describe(r, prm, m, least_height(m));
+            mesh_outside_describe(r, m);
+        }
         describe_step(r, prm, m);
     }
     mesh_leave(&m);
