@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../base/digits.h"
 #include "../base/mem.h"
 #include "sea.h"
 #include "sea_gains.h"
@@ -111,7 +112,7 @@ bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size
                  of->height, length, of->depth, limit,
                  of->kind == WAVE_SEA ? "a sea of steeper ones breaks: at most"
                                       : "waves of up to 0.9 of it can be made: at most",
-                 share * limit);
+                 digits_below(share * limit, 3));
         return true;
     }
     const double second = bound_wave_stokes(0.5 * of->height, 2.0 * M_PI / length, of->depth);
@@ -119,7 +120,8 @@ bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size
         snprintf(text, size,
                  "%g m: at a length of %.4g m over %.4g m of water the second order is %.2g of the "
                  "first, more than %g: at most %.3g m, or waves.order = 1",
-                 of->height, length, of->depth, second, bound, of->height * bound / second);
+                 of->height, length, of->depth, second, bound,
+                 digits_below(of->height * bound / second, 3));
         return true;
     }
     const double steep = of->kind == WAVE_SEA ? 0.93 * of->height : 0.5 * of->height;
@@ -130,7 +132,7 @@ bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size
             "in it (waves.evolve = \"hos\") reach %g: at most %.3g m, or waves.evolve = "
             "\"full\"",
             of->height, length, 2.0 * M_PI / length * steep, hos_steepest,
-            of->height * hos_steepest * length / (2.0 * M_PI * steep));
+            digits_below(of->height * hos_steepest * length / (2.0 * M_PI * steep), 3));
         return true;
     }
     if (of->kind != WAVE_REGULAR && of->repeat < 5.0 * waves_period(of)) {

@@ -5,10 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../../common/base/digits.h"
 #include "../../common/base/log.h"
 #include "../../common/base/mem.h"
 #include "../../common/base/vec3.h"
 #include "../../common/files/h5.h"
+#include "../../common/scene/scene_fluid.h"
 #include "../../common/scene/wave_absorber.h"
 #include "../surface/level_gauge.h"
 #include "../walls/walls.h"
@@ -37,6 +39,19 @@ static struct wave_absorber *absorber_of(const struct scene *c, int k, double dx
     return m ? wave_absorber_create(c, c->bodies + k, m, gauge_dx * dx) : NULL;
 }
 
+/* Whether water stands at the start where the gauge is. */
+static bool is_wet(const struct scene *c, const struct wave_absorber *a)
+{
+    const struct exact e = exact_create(c);
+    const int up = scene_still_axis(c);
+    double x[3] = {a->at[0], a->at[1], a->at[2]};
+    x[up] += 0.1 * a->depth * (c->fluid.gravity[up] < 0.0 ? -1.0 : 1.0);
+    for (int i = 0; i < c->domain.dim; i++)
+        if (!(x[i] > c->domain.min[i] && x[i] < c->domain.max[i]))
+            return false;
+    return scene_is_fluid(c, &e, x, NULL);
+}
+
 void paddles_check(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
     for (int k = 0; k < r->scene.nbodies; k++) {
@@ -53,7 +68,14 @@ void paddles_check(const struct run *r, const struct sph_params *prm, struct fau
             params_fault(r->params, f, key,
                          "the gauge of a paddle that absorbs stands %g m (2 sph.dx) before its "
                          "face, %.2g of a wave length: sph.dx = %.3g m or less",
-                         a->distance, 0.5 / M_PI * a->k * a->distance, 1.0 / (gauge_dx * a->k));
+                         a->distance, 0.5 / M_PI * a->k * a->distance,
+                         digits_below(1.0 / (gauge_dx * a->k), 3));
+        else if (!is_wet(&r->scene, a))
+            params_fault(r->params, f, key,
+                         "a paddle that absorbs reads the level %g m before its face in the "
+                         "direction of the waves (waves.direction), and no water stands there, at "
+                         "(%g, %g, %g) m: turn the direction round, or move the paddle",
+                         a->distance, a->at[0], a->at[1], a->at[2]);
         wave_absorber_free(&a);
     }
 }

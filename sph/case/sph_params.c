@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../../common/base/digits.h"
 #include "../../common/base/mem.h"
 #include "../bodies/body_check.h"
 #include "../open_boundaries/box_chase.h"
@@ -565,7 +566,8 @@ static void check_thin(const struct run *r, struct faults *f)
                      "%s are %.3g m apart at (%g, %g) with fluid on either side: particles "
                      "see each other through less than 0.7 sph.R_dx sph.dx = %.3g m and leak. Take "
                      "sph.dx = %.2g or less, or make it thicker",
-                     t.what, t.width, t.at[0], t.at[1], needed, dx * t.width / needed);
+                     t.what, t.width, t.at[0], t.at[1], needed,
+                     digits_below(dx * t.width / needed, 2));
     if (wall_thin_gap(&r->scene, dx, &t))
         params_fault(r->params, f, "sph.dx",
                      "%s are %.3g m apart at (%g, %g): a gap narrower than sph.dx holds "

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../../common/base/digits.h"
 #include "../../common/scene/scene_check.h"
 #include "../../common/scene/scene_mesh.h"
 #include "../open_boundaries/box_motion.h"
@@ -120,7 +121,8 @@ static void check_extent(const struct check *c, int a, double lo, double hi)
         params_fault(c->r->params, c->f, key_of(c, c->is->shape == REGION_BOX ? "max" : "radius"),
                      "%c from %g to %g m: guards R = %.4g m deep of level %d at %d edge%s leave "
                      "nothing to refine; at least %.4g m are needed, or a smaller level",
-                     "xyz"[a], lo, hi, R, c -> is -> level, faces, faces > 1 ? "s" : "", least);
+                     "xyz"[a], lo, hi, R, c -> is -> level, faces, faces > 1 ? "s" : "",
+                     digits_above(least, 4));
 }
 
 static void check_box_and_ball(const struct check *c)
@@ -160,7 +162,7 @@ static void check_shell(const struct check *c)
                      "%g m: guards R = %.4g m deep at the edge of level %d leave nothing to "
                      "refine; at least %.4g m are needed",
                      c->is->offset, least - 2.0 * ldexp(c->used->dx, 1 - c->is->level),
-                     c->is->level, least);
+                     c->is->level, digits_above(least, 4));
 }
 
 /* --- levels --- */

@@ -57,5 +57,22 @@ refused() {
 refused 's/kind = "waves"; axis = "x";/kind = "harmonic"; axis = "x"; amplitude = 0.01; period = 1;/; /^waves/d; /^gauges/d' 'bodies.\[0\].motion.\[0\].absorb: is not used: only what makes waves'
 refused 's/^sph:.*/sph: { dx = 0.2; };/' 'the gauge of a paddle that absorbs stands 0.4 m'
 refused 's/^output:/apr: { levels = 1; local_steps = true; regions = ( { min = (2, 0); max = (3, 0.64); } ); };\n&/' 'apr.local_steps: a paddle that absorbs needs one step'
+# The gauge stands before the face to which waves.direction points: with the water on the other side of the paddle that is
+# refused, and told how to mend; turned round, the mirrored tank is the same one.
+sed 's/min = (-0.6, 0); max = (4.2, 0.64)/min = (-4.2, 0); max = (0.6, 0.64)/; s/"x_max"/"x_min"/; s/box = ((0, 0), (4.2, 0.4))/box = ((-4.2, 0), (0, 0.4))/
+    s/points = .*0, 0))/points = ((0.4, 0), (0, 0), (0, 0.6), (0.4, 0.6))/; s/at = (/at = (-/g; s/from = 11.2/from = 0/' active.cfg >mirrored.cfg
+"$b/sph" mirrored.cfg --check >faulty.log 2>&1 && bad 'a paddle whose gauge stands behind it is accepted'
+grep -q 'bodies.\[0\].motion: .*no water stands there, at (0.48, 0.4, 0) m: turn the direction' faulty.log || bad 'a gauge without water is not told' faulty.log
+sed -i 's/period = 1.4/period = 1.4; direction = 180/' mirrored.cfg
+timeout -k 5 120 "$b/sph" mirrored.cfg -o mirrored $short --force >mirrored.log 2>&1 || bad "mirrored: exit code $?" mirrored.log
+near "$(awk -v a="$(last whole/series.csv 'paddle x')" -v m="$(last mirrored/series.csv 'paddle x')" 'BEGIN { print a + m }')" 0 1e-6 ||
+    bad "mirrored, the paddle is at $(last mirrored/series.csv 'paddle x') m, not at the mirror image of $(last whole/series.csv 'paddle x')"
+# what a message asks for is enough: 2 sph.dx before the face, as a number of three digits
+sed 's/^sph:.*/sph: { dx = 0.3; };/' active.cfg >faulty.cfg
+"$b/sph" faulty.cfg --check >faulty.log 2>&1
+enough=$(sed -n 's/.*of a paddle that absorbs stands.* sph.dx = \([0-9.]*\) m or less.*/\1/p' faulty.log)
+[ -n "$enough" ] || bad 'no sph.dx is named' faulty.log
+sed "s/^sph:.*/sph: { dx = $enough; };/" active.cfg >faulty.cfg
+"$b/sph" faulty.cfg --check 2>&1 | grep -q 'of a paddle that absorbs stands' && bad "sph.dx = $enough m is asked for, and refused"
 echo "paddles: waves of $active m (wanted 0.02), without absorption $passive m, in its place within $place m; $failed faults"
 [ $failed = 0 ]
