@@ -345,15 +345,27 @@ void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
     }
 }
 
+enum mesh_side bc_kind(const struct fv *s, int k)
+{
+    const enum mesh_side kind = s->bc ? s->bc->kind[k] : MESH_NONE;
+    if (kind != MESH_NONE)
+        return kind;
+    return s->b.periodic[k / 2] ? MESH_PERIODIC : MESH_EXACT;
+}
+
 void bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with), void *with)
 {
     const struct block *b = &s->b;
-    for (int k = 0; s->bc && k < 2 * b->dim; k++) {
-        if (s->bc->n[k] == 0)
+    for (int k = 0; k < 2 * b->dim; k++) {
+        if (!has_side(b, k))
             continue;
         const struct bc_side d = side_of(s->bc, b, k, false);
-        struct side_face f = {
-            .kind = s->bc->kind[k], .side = k, .a = d.a, .in = d.in, .wall = s->bc->wall[k]};
+        struct side_face f = {.kind = bc_kind(s, k),
+                              .part = &s->whole,
+                              .side = k,
+                              .a = d.a,
+                              .in = d.in,
+                              .wall = s->bc ? s->bc->wall[k] : NULL};
         SIDE_PLACES (b, d, i, j, m, c) {
             f.cell = c;
             f.face = k % 2 ? c + b->stride[d.a] : c;

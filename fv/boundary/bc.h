@@ -27,6 +27,8 @@ struct bc {
 /* A face of a physical side and the cell of this rank beside it. */
 struct side_face {
     enum mesh_side kind;
+    const struct part *part;
+    int body;                      /* 1 + that of the block, box; 0: of none */
     int side, a;                   /* of the domain or of the block: 2 a + (1 if upper) */
     int64_t cell, in;              /* in: step inwards */
     int64_t face;                  /* place in U[a] */
@@ -44,6 +46,8 @@ enum bc_value {
 /* NULL if no side has a kind. */
 struct bc *bc_create(struct fv *s);
 void bc_free(struct bc **b);
+/* Kind of side k: where it has none MESH_PERIODIC or MESH_EXACT. */
+enum mesh_side bc_kind(const struct fv *s, int k);
 /* Kind of the side behind which the cell `at' (local) lies along axis a; MESH_NONE if inside. */
 enum mesh_side bc_behind(const struct fv *s, const int *at, int a);
 /* Ghost averages of the fields u along all sides that have a kind; halo first. */
@@ -57,9 +61,6 @@ void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u);
 void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
 /* See sides_visit. */
 void bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with), void *with);
-/* side_power.c: what comes in through this rank's sides: energy, work of pressure and of friction,
- * over rho. */
-double bc_power(const struct fv *s);
 /* Takes note of tau grad psi along the walls, for BC_AHEAD. */
 void bc_set_slip(const struct fv *s, double tau, const double *psi);
 #endif

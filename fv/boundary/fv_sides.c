@@ -3,23 +3,15 @@
 
 #include <math.h>
 
+#include "blocked.h"
 #include "mesh_bc.h"
-
-/* Of side k of uniform cells. */
-static enum mesh_side kind_of(const struct fv *s, int k)
-{
-    const enum mesh_side kind = s->bc ? s->bc->kind[k] : MESH_NONE;
-    if (kind != MESH_NONE)
-        return kind;
-    return s->b.periodic[k / 2] ? MESH_PERIODIC : MESH_EXACT;
-}
 
 unsigned sides_kinds(const struct fv *s)
 {
     unsigned kinds = 0;
     for (int k = 0; k < grid_blocks(&s->grid); k++)
         for (int side = 0; side < 2 * s->dim; side++)
-            kinds |= 1u << (s->sides ? s->m->block[k].side[side] : kind_of(s, side));
+            kinds |= 1u << (s->sides ? s->m->block[k].side[side] : bc_kind(s, side));
     return kinds;
 }
 
@@ -68,6 +60,28 @@ void sides_visit(const struct fv *s, void (*visit)(const struct side_face *f, vo
         bc_visit(s, visit, with);
 }
 
+void sides_visit_boxes(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
+                       void *with)
+{
+    const struct blocked *w = s->blocked;
+    struct side_face f = {.part = &s->whole};
+    for (f.a = 0; f.a < s->dim; f.a++)
+        for (int64_t k = 0; k < w->nnear[f.a]; k++)
+            for (int up = 0; up < 2; up++) {
+                const struct near_box *x = w->near[f.a] + k;
+                if (!x->own || x->free[up] > 0)
+                    continue;
+                f.kind = s->prm.boxes[x->box[up]].kind == WALL_SLIP ? MESH_SLIP : MESH_WALL;
+                f.body = 1 + x->box[up];
+                f.side = 2 * f.a + up;
+                f.cell = x->cell;
+                f.in = (up ? -1 : 1) * s->b.stride[f.a];
+                f.face = up ? f.cell + s->b.stride[f.a] : f.cell;
+                f.flow_area = grid_flow_area(&s->grid, f.face, f.a);
+                visit(&f, with);
+            }
+}
+
 struct passing {
     const struct fv *s;
     double (*share)(const struct fv *s, int64_t c);
@@ -90,5 +104,3 @@ void sides_passing(const struct fv *s, double (*share)(const struct fv *s, int64
 {
     sides_visit(s, add_passing, &(struct passing){s, share, sums});
 }
-
-double sides_power(struct fv *s) { return s->sides ? mesh_bc_power(s) : bc_power(s); }

@@ -22,11 +22,12 @@ void sides_time(struct fv *s, double t);
 /* Visits the faces of this rank's physical sides, those of openings and walls alike. */
 void sides_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
                  void *with);
+/* The same of the faces of free cells on boxes that are cut out. */
+void sides_visit_boxes(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
+                       void *with);
 /* Through this rank's openings, m^dim/s: adds what comes in less what leaves, and the sum of both,
  * of each face the share of the cell inside that counts. */
 void sides_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c),
                    double sums[2]);
-/* What comes in through this rank's sides: energy, work of pressure and of friction, over rho. */
-double sides_power(struct fv *s);
 
 #endif

@@ -47,15 +47,6 @@ void mesh_bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, 
 /* Through this rank's faces whose velocity is given for good, outwards, m^dim/s. */
 double mesh_bc_given_flux(const struct fv *s);
 
-/* mesh_forces.c */
-/* Forces, N (per metre in 2D), and the moment about the block's centre, Nm: of each block on its
- * no-slip walls and on the slip sides that lie within the domain; all: the sum over all no-slip
- * walls and slip sides, NULL: not wanted. phi: level set (m) of a free surface with ghosts, water
- * where it is < 0; NULL: all is fluid. Collective. */
-void mesh_bc_force(struct fv *s, const double *phi, double (*body)[4], double all[4]);
-/* What comes in through this rank's sides: energy, work of pressure and of friction, over rho. */
-double mesh_bc_power(struct fv *s);
-
 /* mesh_exact.c: the exact solution at a place. */
 void mesh_exact_at(const struct fv *s, const double *x, double t, double *u, double *p, double *w);
 

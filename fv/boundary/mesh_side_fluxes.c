@@ -68,6 +68,8 @@ void mesh_bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, 
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
         struct side_face f = {.kind = d->kind,
+                              .part = d->p,
+                              .body = d->body ? 1 + d->p->block : 0,
                               .side = d->k,
                               .a = d->a,
                               .in = d->in,

@@ -219,4 +219,6 @@ const struct flow_ops block_ops = {.smooth_pressure = smooth_pressure,
                                    .correct_fluxes = correct_fluxes,
                                    .change_gradient = change_gradient,
                                    .dry_fluxes = dry_fluxes,
-                                   .measure = measure_blocks};
+                                   .measure = measure_blocks,
+                                   .face_force = mesh_face_force,
+                                   .face_power = mesh_face_power};

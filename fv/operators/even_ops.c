@@ -189,4 +189,6 @@ const struct flow_ops even_ops = {.smooth_pressure = smooth_pressure,
                                   .correct_fluxes = correct_fluxes,
                                   .change_gradient = change_gradient,
                                   .dry_fluxes = dry_fluxes,
-                                  .measure = measure_even};
+                                  .measure = measure_even,
+                                  .face_force = even_face_force,
+                                  .face_power = even_face_power};

@@ -5,6 +5,8 @@
 
 #include "../fv.h"
 
+struct side_face; /* boundary/bc.h */
+
 struct flow_ops {
     /* p, with its ghosts, without its odd-even mode; false: it needs none, or is as it was. */
     bool (*smooth_pressure)(struct fv *s);
@@ -35,6 +37,11 @@ struct flow_ops {
     /* s->umax, rate and what else bounds a step. push: m/s^2, of pressures on opposite sides;
      * motion: 1/s, cells that moving blocks pass. */
     void (*measure)(struct fv *s, double push, double motion);
+    /* Of a face of a wall or body, beside which p has its ghosts: adds the force on it, N (per
+     * metre in 2D), on blocks also the moment along z about the block's centre, Nm. */
+    void (*face_force)(const struct fv *s, const struct side_face *f, double sum[4]);
+    /* What comes in through one of a side: energy, work of pressure and of friction, over rho. */
+    double (*face_power)(const struct fv *s, const struct side_face *f);
 };
 
 extern const struct flow_ops even_ops, block_ops;

@@ -26,4 +26,9 @@ void mesh_to_index(const struct fv *s, double *q, double *work);
 void mesh_to_volume(struct fv *s, double *q, double *work);
 void mesh_smooth_pressure(struct fv *s);
 
+/* mesh_forces.c: see face_force and face_power in flow_ops.h. */
+struct side_face;
+void mesh_face_force(const struct fv *s, const struct side_face *d, double sum[4]);
+double mesh_face_power(const struct fv *s, const struct side_face *d);
+
 #endif

@@ -38,4 +38,9 @@ void gradient(const struct fv *s, const double *q, int a, enum continuation c, d
  * its ghosts. d, sum: scratch. */
 void smooth_odd_even(const struct fv *s, double *p, double *d, double *sum);
 
+/* even_forces.c: see face_force and face_power in flow_ops.h. */
+struct side_face;
+void even_face_force(const struct fv *s, const struct side_face *f, double sum[4]);
+double even_face_power(const struct fv *s, const struct side_face *f);
+
 #endif

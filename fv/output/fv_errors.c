@@ -1,5 +1,5 @@
 /* fv_errors.c - what the series and the summary hold on all grids: errors against exact cell
- * averages, energies, over the computed cells; what even cells alone have.
+ * averages, energies, over the computed cells.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "report.h"
 
@@ -7,10 +7,7 @@
 #include <string.h>
 
 #include "../../common/base/mem.h"
-#include "../boundary/bc.h"
-#include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
-#include "../boundary/mesh_bc.h"
 #include "../boundary/still.h"
 #include "../coupling/water_budget.h"
 #include "../grid/mesh.h"
@@ -108,51 +105,3 @@ void fv_tell(void *state, struct summary *report)
     for (int k = 0; k < (s->surface ? 5 : 4); k++)
         summary_real(report, names[k], sum[k]);
 }
-
-static int force_columns(const struct run *r, const struct fv_params *prm, const char **columns)
-{
-    static const char *const names[] = {"force x [N]", "force y [N]", "force z [N]"};
-    const bool any = r->scene.nwalls > 0 || prm->nboxes > 0;
-    int n = 0;
-    for (int a = 0; any && a < r->scene.domain.dim; a++)
-        columns[n++] = names[a];
-    return n + fv_blocked_columns(r, prm, columns + n);
-}
-
-/* On all walls and boxes, then on each box. */
-static int forces(struct fv *s, double *values)
-{
-    const int boxes = s->blocked ? s->prm.nboxes : 0, n = s->bc || boxes > 0 ? s->dim : 0;
-    double force[3] = {0.0, 0.0, 0.0};
-    if (s->bc)
-        fv_wall_force(s, force);
-    fv_blocked_forces(s, values + n);
-    for (int a = 0; a < n; a++) {
-        values[a] = force[a];
-        for (int k = 0; k < boxes; k++)
-            values[a] += values[n + k * s->dim + a];
-    }
-    return n + boxes * s->dim;
-}
-
-static void summarise_forces(struct fv *s)
-{
-    static const char *const names[] = {"force.x", "force.y", "force.z"};
-    double values[3 + 3 * BLOCKED_MAX];
-    const int n = forces(s, values);
-    for (int a = 0; n > 0 && a < s->dim; a++)
-        summary_real(s->run->summary, names[a], values[a]);
-}
-
-static void summarise(struct fv *s)
-{
-    summarise_forces(s);
-    if (s->surface) {
-        surface_summarise(s);
-        steady_summarise(s);
-    }
-    fv_summarise_blocked(s);
-}
-
-const struct report even_report = {
-    .force_columns = force_columns, .forces = forces, .probes = fv_probe, .summarise = summarise};

@@ -1,74 +1,151 @@
-/* fv_forces.c - force of the flow on the walls of the domain. SPDX-License-Identifier: BSD-3-Clause
- */
+/* fv_forces.c - forces of the flow on walls and bodies, in the series and in the summary.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-#include "../boundary/bc.h"
+#include "../../common/base/mem.h"
 #include "../boundary/blocked.h"
-#include "../boundary/still.h"
-#include "../surface/levelset.h"
+#include "../boundary/mesh_bc.h"
+#include "../operators/flow_measures.h"
 #include "output.h"
 
-/* Whether the cell holds no water; whether none stands at the wall, beyond the cell's centre. */
-static bool is_dry(const struct fv *s, int64_t c)
+/* Whether there are such columns. */
+static bool has_forces(const struct run *r, const struct fv_params *prm)
 {
-    return s->surface && s->surface->layer[c] != 0;
-}
-static bool is_dry_wall(const struct fv *s, int64_t c, int64_t in)
-{
-    return is_dry(s, c) || (s->surface && 3.0 * s->surface->phi[c] > s->surface->phi[c + in]);
+    return r->scene.nwalls > 0 || flow_bodies(prm) > 0;
 }
 
-double fv_wall_pressure(const double p[3], bool slip)
+static const char *body_name(const struct fv_params *prm, int k)
 {
-    return slip ? (7.0 * p[0] - p[1]) / 6.0 : (11.0 * p[0] - 7.0 * p[1] + 2.0 * p[2]) / 6.0;
+    return prm->blocks.n > 0 ? prm->blocks.of[k].name : prm->boxes[k].name;
 }
 
-/* Of one face of side k, beside the cell at c: the fluxes of the momentum equation, so that walls
- * take what the flow loses. A dry wall feels nothing; beside one that is wet the cell's own
- * pressure counts. */
-static void add_face(const struct fv *s, int k, const int *at, double area, double *force)
+/* Whether those on a body have columns of their own: on a box that is cut out; on a block's own
+ * where other sides are closed, too, so that the sum is not this body's. */
+static bool has_own_forces(const struct run *r, const struct fv_params *prm, int k)
 {
-    const struct block *b = &s->b;
-    const int a = k / 2;
-    const int64_t c = block_at(b, at[0], at[1], at[2]), in = k % 2 ? -b->stride[a] : b->stride[a];
-    const double out = k % 2 ? 1.0 : -1.0, mu = s->run->scene.fluid.rho * s->nu;
-    double p[3], x[3];
-    bool deep = true;
-    if (is_blocked(s, c) || is_dry_wall(s, c, in))
+    int n = 0;
+    if (prm->blocks.n == 0)
+        return true;
+    for (int w = 0; w < r->scene.nwalls; w++)
+        n += r->scene.walls[w].kind == WALL_NO_SLIP || r->scene.walls[w].kind == WALL_SLIP;
+    for (int b = 0; b < prm->blocks.n; b++)
+        n += mesh_block_has(prm->blocks.of + b, MESH_WALL) ||
+             mesh_block_has(prm->blocks.of + b, MESH_SLIP);
+    return n > 1 && mesh_block_is_body(r, prm->blocks.of + k);
+}
+
+int fv_force_columns(const struct run *r, const struct fv_params *prm, const char **columns)
+{
+    static const char *const names[] = {"force x [N]", "force y [N]", "force z [N]",
+                                        "moment z [Nm]"};
+    static char own[FLOW_BODIES_MAX][4][PARAM_TEXT_SIZE + 24];
+    const int dim = r->scene.domain.dim, moment = prm->blocks.n > 0;
+    int n = 0;
+    if (!has_forces(r, prm))
+        return 0;
+    for (int a = 0; a < dim + moment; a++)
+        columns[n++] = names[a < dim ? a : 3];
+    for (int k = 0; k < flow_bodies(prm); k++)
+        for (int a = 0; has_own_forces(r, prm, k) && a < dim + moment; a++) {
+            snprintf(own[k][a], sizeof own[k][a], "%s %s", body_name(prm, k),
+                     names[a < dim ? a : 3]);
+            columns[n++] = own[k][a];
+        }
+    return n;
+}
+
+int fv_forces(struct fv *s, double *values)
+{
+    const int dim = s->dim, moment = s->prm.blocks.n > 0;
+    double all[4], of[FLOW_BODIES_MAX][4], bodies[2] = {0.0, 0.0};
+    int n = 0;
+    if (!has_forces(s->run, &s->prm))
+        return 0;
+    flow_forces(s, of, all);
+    for (int a = 0; a < dim + moment; a++)
+        values[n++] = all[a < dim ? a : 3];
+    for (int k = 0; k < flow_bodies(&s->prm); k++) {
+        for (int a = 0; a < 2; a++)
+            bodies[a] += of[k][a];
+        for (int a = 0; has_own_forces(s->run, &s->prm, k) && a < dim + moment; a++)
+            values[n++] = of[k][a < dim ? a : 3];
+    }
+    if (!moment)
+        return n;
+    GROW(s->history, s->nhistory, s->nhistory + 1);
+    s->history[s->nhistory][0] = s->t;
+    memcpy(s->history[s->nhistory++] + 1, bodies, sizeof bodies);
+    return n;
+}
+
+/* Mean and half range of the forces on bodies and no-slip walls over the second half of the run,
+ * frequency of the one along y by the crossings of its mean. */
+static void summarise_swing(const struct fv *s)
+{
+    struct summary *to = s->run->summary;
+    double mean[2] = {0.0, 0.0}, least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
+    double first = 0.0, last = 0.0, weight = 0.0;
+    int from = 1, crossings = 0;
+    while (from < s->nhistory && s->history[from][0] < 0.5 * s->run->scene.time.end)
+        from++;
+    if (s->nhistory - from < 8)
         return;
-    for (int n = 1; n < 4; n++)
-        deep = deep && !is_dry(s, c + n * in);
-    for (int n = 0; n < 3; n++)
-        p[n] = fv_pressure(s, deep ? c + n * in : c);
-    block_centre(b, at[0], at[1], at[2], x);
-    x[a] += 0.5 * out * block_size(b, a, at[a]);
-    force[a] +=
-        out * area *
-        (fv_wall_pressure(p, s->bc->kind[k] == MESH_SLIP) + fv_still_pressure(s, x) + s->datum);
-    for (int q = 0; q < b->dim; q++) {
-        const double *u = s->u[q] + c;
-        force[q] += area * mu / (12.0 * block_size(b, a, at[a])) *
-                    (15.0 * (u[0] - u[-in]) - (u[in] - u[-2 * in]));
+    for (int k = from; k < s->nhistory; k++) {
+        const double *a = s->history[k - 1], *b = s->history[k];
+        weight += b[0] - a[0];
+        for (int q = 0; q < 2; q++) {
+            mean[q] += 0.5 * (a[1 + q] + b[1 + q]) * (b[0] - a[0]);
+            least[q] = fmin(least[q], b[1 + q]);
+            most[q] = fmax(most[q], b[1 + q]);
+        }
+    }
+    for (int q = 0; q < 2; q++)
+        mean[q] /= weight;
+    bool low = false; /* a crossing counts after the lower half of the range has been reached */
+    for (int k = from; k < s->nhistory; k++) {
+        const double *a = s->history[k - 1], *b = s->history[k];
+        low = low || b[2] < mean[1] - 0.25 * (most[1] - least[1]);
+        if (!low || b[2] < mean[1])
+            continue;
+        low = false;
+        last = a[0] + (b[0] - a[0]) * (mean[1] - a[2]) / (b[2] - a[2]);
+        first = crossings++ == 0 ? last : first;
+    }
+    const double frequency = crossings > 1 ? (crossings - 1) / (last - first) : 0.0;
+    const double found[3] = {mean[0], 0.5 * (most[1] - least[1]), frequency};
+    static const char *const names[3] = {"error.force_x", "error.force_y", "error.frequency"};
+    summary_real(to, "force.x_mean", mean[0]);
+    summary_real(to, "force.x_amplitude", 0.5 * (most[0] - least[0]));
+    summary_real(to, "force.y_mean", mean[1]);
+    summary_real(to, "force.y_amplitude", found[1]);
+    summary_real(to, "force.frequency", frequency);
+    for (int q = 0; q < 3; q++)
+        if (s->prm.force[q] != 0.0)
+            summary_real(to, names[q], fabs(found[q] / s->prm.force[q] - 1.0));
+}
+
+static void summarise_force(const struct fv *s, const char *of, const double force[4])
+{
+    static const char *const names[] = {"x", "y", "z", "moment"};
+    const int dim = s->dim, moment = s->prm.blocks.n > 0;
+    char key[PARAM_TEXT_SIZE + 24];
+    for (int a = 0; a < dim + moment; a++) {
+        snprintf(key, sizeof key, "force.%s%s%s", of, *of ? "." : "", names[a < dim ? a : 3]);
+        summary_real(s->run->summary, key, force[a < dim ? a : 3]);
     }
 }
 
-static void add_side(const struct fv *s, int k, double *force)
+void fv_summarise_forces(struct fv *s)
 {
-    const struct block *b = &s->b;
-    const int a = k / 2, t0 = a == 0 ? 1 : 0, t1 = a == 2 ? 1 : 2;
-    int at[3];
-    at[a] = k % 2 ? b->n[a] - 1 : 0;
-    for (at[t1] = 0; at[t1] < b->n[t1]; at[t1]++)
-        for (at[t0] = 0; at[t0] < b->n[t0]; at[t0]++)
-            add_face(s, k, at, block_size(b, t0, at[t0]) * block_size(b, t1, at[t1]), force);
-}
-
-void fv_wall_force(const struct fv *s, double force[3])
-{
-    block_halo(&s->b, 2, (double *const[]){s->p, s->p_before}); /* a rank may have three rows */
-    memset(force, 0, 3 * sizeof(double));
-    for (int k = 0; s->bc && k < 2 * s->b.dim; k++)
-        if (s->bc->n[k] > 0 && (s->bc->kind[k] == MESH_WALL || s->bc->kind[k] == MESH_SLIP))
-            add_side(s, k, force);
-    MPI_Allreduce(MPI_IN_PLACE, force, 3, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    double all[4], of[FLOW_BODIES_MAX][4];
+    if (s->m ? !mesh_bc_has_walls(s->m) : !has_forces(s->run, &s->prm))
+        return;
+    flow_forces(s, of, all);
+    summarise_force(s, "", all);
+    for (int k = 0; k < flow_bodies(&s->prm); k++)
+        if (has_own_forces(s->run, &s->prm, k))
+            summarise_force(s, body_name(&s->prm, k), of[k]);
+    summarise_swing(s);
 }

@@ -11,6 +11,7 @@
 #include "../boundary/blocked.h"
 #include "../boundary/still.h"
 #include "../surface/levelset.h"
+#include "mesh_output.h"
 #include "output.h"
 #include "probe_flow.h"
 
@@ -244,6 +245,10 @@ void fv_probe(struct fv *s, double *values)
         velocities = velocities || scene->probes[k].kind >= PROBE_DISCHARGE;
     if (scene->nprobes == 0)
         return;
+    if (s->m) {
+        mesh_probes(s, values);
+        return;
+    }
     block_halo(&s->b, 2, (double *const[]){s->p, s->p_before});
     if (velocities)
         block_halo(&s->b, s->dim, s->u);

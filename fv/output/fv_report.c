@@ -12,12 +12,8 @@
 #include "../surface/levelset.h"
 #include "../time/newton.h"
 #include "../watch/watches.h"
+#include "mesh_output.h"
 #include "output.h"
-
-static const struct report *report_of(const struct fv *s)
-{
-    return s->m ? &block_report : &even_report;
-}
 
 const char *report_method(const struct fv_params *prm)
 {
@@ -75,14 +71,14 @@ int fv_columns(const struct run *r, const struct fv_params *prm, const char **co
 {
     static const char *const reaches[] = {"water up to x [m]", "water up to y [m]",
                                           "water up to z [m]"};
-    const struct report *of = prm->blocks.n > 0 ? &block_report : &even_report;
     int n = 0;
     columns[n++] = "kinetic energy [J]";
     columns[n++] = "largest velocity [m/s]";
     columns[n++] = "divergence [1/s]";
     if (prm->errors)
         columns[n++] = "error velocity l2 [-]";
-    n += of->force_columns(r, prm, columns + n);
+    n += fv_force_columns(r, prm, columns + n);
+    n += mesh_place_columns(r, prm, columns + n);
     n += newton_columns(prm, columns + n);
     if (prm->water) {
         columns[n++] = "volume [m^dim]";
@@ -95,7 +91,6 @@ int fv_columns(const struct run *r, const struct fv_params *prm, const char **co
 void fv_row(void *state, double *values)
 {
     struct fv *s = state;
-    const struct report *of = report_of(s);
     double sum[2];
     int n = 3;
     fv_energies(s, sum);
@@ -108,14 +103,15 @@ void fv_row(void *state, double *values)
         fv_errors(s, norms);
         values[n++] = velocity_error(s->run, norms);
     }
-    n += of->forces(s, values + n);
+    n += fv_forces(s, values + n);
+    n += mesh_places(s, values + n);
     n += newton_values(s->newton, values + n);
     if (s->surface) {
         values[n++] = surface_volume(s);
         for (int a = 0; a < s->dim; a++)
             values[n++] = surface_reach(s, a);
     }
-    of->probes(s, values + n);
+    fv_probe(s, values + n);
     for (int k = 0; k < s->run->scene.nprobes; k++)
         n += fv_probe_mine(s->run, k) ? probe_columns(s->run->scene.probes + k, s->dim) : 0;
     watches_values(s->watches, values + n);
@@ -143,7 +139,6 @@ void fv_finish(void *state)
 {
     struct fv *s = state;
     struct run *r = s->run;
-    const struct report *of = report_of(s);
     const double cells = grid_computed(&s->grid);
     double sum[2];
     summary_int(r->summary, "cells", llround(cells));
@@ -155,7 +150,13 @@ void fv_finish(void *state)
     summary_real(r->summary, "drift.energy",
                  s->has_exact && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
     summary_real(r->summary, "divergence", flow_largest_divergence(s));
-    of->summarise(s);
+    fv_summarise_forces(s);
+    if (s->surface)
+        surface_summarise(s);
+    if (s->m)
+        mesh_summarise(s);
+    else if (s->surface)
+        steady_summarise(s);
     if (s->prm.extrema[0] != 0.0)
         fv_summarise_extrema(s);
     summary_real(r->summary, "max_cfl", s->max_cfl);

@@ -1,10 +1,8 @@
-/* mesh_errors.c - rows of the series and the summary of a flow on blocks: forces on walls, gauges.
+/* mesh_errors.c - what runs on blocks alone show: where they are, overlaps; values at a place.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/mesh_bc.h"
-#include "../coupling/water_budget.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
-#include "../operators/mesh_ops.h"
 #include "mesh_output.h"
 #include "output.h"
 #include "report.h"
@@ -14,14 +12,12 @@
 #include <string.h>
 
 #include "../../common/base/log.h"
-#include "../../common/base/mem.h"
 #include "../../common/run/forecast.h"
 #include "../boundary/still.h"
 #include "../grid/mesh_motion.h"
 #include "../grid/mesh_outside.h"
 #include "../grid/overset.h"
 #include "../surface/fraction.h"
-#include "../surface/levelset.h"
 #include "../watch/limits.h"
 
 bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, const double *x)
@@ -73,21 +69,7 @@ double mesh_value_at(const struct fv *s, const struct overset *o, const double *
     return value;
 }
 
-/* Whether the forces on a block's own body have columns of their own: where other sides are closed,
- * too, so that the sum is not this body's. */
-static bool has_own_forces(const struct run *r, const struct fv_params *prm, int k)
-{
-    int n = 0;
-    for (int w = 0; w < r->scene.nwalls; w++)
-        n += r->scene.walls[w].kind == WALL_NO_SLIP || r->scene.walls[w].kind == WALL_SLIP;
-    for (int b = 0; b < prm->blocks.n; b++)
-        n += mesh_block_has(prm->blocks.of + b, MESH_WALL) ||
-             mesh_block_has(prm->blocks.of + b, MESH_SLIP);
-    return n > 1 && mesh_block_is_body(r, prm->blocks.of + k);
-}
-
-/* Places of blocks that move: x y [z] of the centre, the angle or the rotation vector. */
-static int motion_columns(const struct run *r, const struct fv_params *prm, const char **columns)
+int mesh_place_columns(const struct run *r, const struct fv_params *prm, const char **columns)
 {
     static const char *const axes[2][6] = {
         {"x [m]", "y [m]", "angle [rad]"},
@@ -104,11 +86,11 @@ static int motion_columns(const struct run *r, const struct fv_params *prm, cons
     return n;
 }
 
-static int motion_values(const struct fv *s, double *values)
+int mesh_places(const struct fv *s, double *values)
 {
     const int dim = s->dim;
     int n = 0;
-    for (int k = 0; k < s->m->nblocks; k++) {
+    for (int k = 0; s->m && k < s->m->nblocks; k++) {
         const struct mesh_motion *v = s->m->block[k].motion;
         if (!v || v->block != k)
             continue;
@@ -120,130 +102,7 @@ static int motion_values(const struct fv *s, double *values)
     return n;
 }
 
-static int force_columns(const struct run *r, const struct fv_params *prm, const char **columns)
-{
-    static const char *const forces[] = {"force x [N]", "force y [N]", "force z [N]"};
-    static char own[MESH_BLOCKS_MAX][4][PARAM_TEXT_SIZE + 24];
-    int n = 0;
-    for (int a = 0; a < r->scene.domain.dim; a++)
-        columns[n++] = forces[a];
-    columns[n++] = "moment z [Nm]";
-    for (int k = 0; k < prm->blocks.n; k++) {
-        const char *name = prm->blocks.of[k].name;
-        if (!has_own_forces(r, prm, k))
-            continue;
-        for (int a = 0; a < r->scene.domain.dim; a++) {
-            snprintf(own[k][a], sizeof own[k][a], "%s force %c [N]", name, "xyz"[a]);
-            columns[n++] = own[k][a];
-        }
-        snprintf(own[k][3], sizeof own[k][3], "%s moment z [Nm]", name);
-        columns[n++] = own[k][3];
-    }
-    return n + motion_columns(r, prm, columns + n);
-}
-
-/* On the body of each block and on all closed sides; moments are about each block's centre. */
-static void whole_force(struct fv *s, double (*of)[4], double whole[4])
-{
-    if (s->surface)
-        surface_ghosts(s, s->surface->phi);
-    mesh_bc_force(s, s->surface ? s->surface->phi : NULL, of, whole);
-}
-
-static int forces(struct fv *s, double *values)
-{
-    double force[4], of[MESH_BLOCKS_MAX][4], bodies[2] = {0.0, 0.0};
-    int n = 0;
-    whole_force(s, of, force);
-    for (int a = 0; a < s->dim; a++)
-        values[n++] = force[a];
-    values[n++] = force[3];
-    for (int k = 0; k < s->m->nblocks; k++) {
-        for (int a = 0; a < 2; a++)
-            bodies[a] += of[k][a];
-        if (!has_own_forces(s->run, &s->prm, k))
-            continue;
-        for (int a = 0; a < s->dim; a++)
-            values[n++] = of[k][a];
-        values[n++] = of[k][3];
-    }
-    n += motion_values(s, values + n);
-    GROW(s->history, s->nhistory, s->nhistory + 1);
-    s->history[s->nhistory][0] = s->t;
-    memcpy(s->history[s->nhistory++] + 1, bodies, sizeof bodies);
-    return n;
-}
-
-/* Mean and half range of the forces on bodies and no-slip walls over the second half of the run,
- * frequency of the one along y by the crossings of its mean. */
-static void summarise_swing(const struct fv *s)
-{
-    struct summary *to = s->run->summary;
-    double mean[2] = {0.0, 0.0}, least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
-    double first = 0.0, last = 0.0, weight = 0.0;
-    int from = 1, crossings = 0;
-    while (from < s->nhistory && s->history[from][0] < 0.5 * s->run->scene.time.end)
-        from++;
-    if (s->nhistory - from < 8)
-        return;
-    for (int k = from; k < s->nhistory; k++) {
-        const double *a = s->history[k - 1], *b = s->history[k];
-        weight += b[0] - a[0];
-        for (int q = 0; q < 2; q++) {
-            mean[q] += 0.5 * (a[1 + q] + b[1 + q]) * (b[0] - a[0]);
-            least[q] = fmin(least[q], b[1 + q]);
-            most[q] = fmax(most[q], b[1 + q]);
-        }
-    }
-    for (int q = 0; q < 2; q++)
-        mean[q] /= weight;
-    bool low = false; /* a crossing counts after the lower half of the range has been reached */
-    for (int k = from; k < s->nhistory; k++) {
-        const double *a = s->history[k - 1], *b = s->history[k];
-        low = low || b[2] < mean[1] - 0.25 * (most[1] - least[1]);
-        if (!low || b[2] < mean[1])
-            continue;
-        low = false;
-        last = a[0] + (b[0] - a[0]) * (mean[1] - a[2]) / (b[2] - a[2]);
-        first = crossings++ == 0 ? last : first;
-    }
-    const double frequency = crossings > 1 ? (crossings - 1) / (last - first) : 0.0;
-    const double found[3] = {mean[0], 0.5 * (most[1] - least[1]), frequency};
-    static const char *const names[3] = {"error.force_x", "error.force_y", "error.frequency"};
-    summary_real(to, "force.x_mean", mean[0]);
-    summary_real(to, "force.x_amplitude", 0.5 * (most[0] - least[0]));
-    summary_real(to, "force.y_mean", mean[1]);
-    summary_real(to, "force.y_amplitude", found[1]);
-    summary_real(to, "force.frequency", frequency);
-    for (int q = 0; q < 3; q++)
-        if (s->prm.force[q] != 0.0)
-            summary_real(to, names[q], fabs(found[q] / s->prm.force[q] - 1.0));
-}
-
-static void summarise_forces(struct fv *s)
-{
-    static const char *const names[] = {"force.x", "force.y", "force.z"};
-    double force[4], of[MESH_BLOCKS_MAX][4];
-    char key[PARAM_TEXT_SIZE + 24];
-    whole_force(s, of, force);
-    for (int a = 0; a < s->m->dim; a++)
-        summary_real(s->run->summary, names[a], force[a]);
-    summary_real(s->run->summary, "force.moment", force[3]);
-    for (int k = 0; k < s->m->nblocks; k++) {
-        const char *name = s->m->block[k].prm->name;
-        if (!has_own_forces(s->run, &s->prm, k))
-            continue;
-        for (int a = 0; a < s->m->dim; a++) {
-            snprintf(key, sizeof key, "force.%s.%c", name, "xyz"[a]);
-            summary_real(s->run->summary, key, of[k][a]);
-        }
-        snprintf(key, sizeof key, "force.%s.moment", name);
-        summary_real(s->run->summary, key, of[k][3]);
-    }
-    summarise_swing(s);
-}
-
-static void summarise(struct fv *s)
+void mesh_summarise(struct fv *s)
 {
     struct summary *to = s->run->summary;
     summary_int(to, "fringe_cells", s->m->fringe_cells);
@@ -252,18 +111,9 @@ static void summarise(struct fv *s)
         s->defect = fabs(mesh_bc_net_flux(s));
     if (s->m->has_fringe && s->umax[0] > 0.0) /* relative to the flow, if there is one */
         summary_real(to, "overlap.net_flux", s->defect / s->umax[0]);
-    if (s->surface)
-        surface_summarise(s);
-    if (mesh_bc_has_walls(s->m))
-        summarise_forces(s);
     summary_int(to, "poisson_iterations_start", s->start_iterations);
     summary_real(to, "poisson_retries", (double)s->retries);
 }
-
-const struct report block_report = {.force_columns = force_columns,
-                                    .forces = forces,
-                                    .probes = mesh_probes,
-                                    .summarise = summarise};
 
 /* Least distance of opposite faces of a computed cell, m, about: volume over the largest face. */
 static double least_height(const struct mesh *m)

@@ -1,4 +1,4 @@
-/* mesh_output.h - errors, forces and gauges on blocks.
+/* mesh_output.h - errors and gauges on blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_MESH_OUTPUT_H
 #define FV_MESH_OUTPUT_H
@@ -15,6 +15,12 @@ void mesh_probes(struct fv *s, double *values);
 
 /* mesh_errors.c */
 void mesh_describe(const struct run *r, const struct fv_params *prm);
+/* Places of blocks that move, x y [z] of the centre, the angle or the rotation vector: number of
+ * columns and their (static) names; values, as many. */
+int mesh_place_columns(const struct run *r, const struct fv_params *prm, const char **columns);
+int mesh_places(const struct fv *s, double *values);
+/* What the summary has of blocks alone. */
+void mesh_summarise(struct fv *s);
 /* Whether a later block computes the place of a cell of `block', too. */
 bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, const double *x);
 

@@ -29,16 +29,11 @@ bool fv_probe_mine(const struct run *r, int k);
 int fv_probe_columns(const struct run *r, const char **columns);
 void fv_probe(struct fv *s, double *values);
 
-/* fv_forces.c: force of the flow on all walls, N (per metre in 2D), over all ranks. */
-void fv_wall_force(const struct fv *s, double force[3]);
-/* Pressure on a wall beside the cells p[0] to p[2], as the gradient has it: its ghosts are those of
- * the quadratic behind a no-slip wall, mirrored behind a slip wall (forcing_fixes.c). */
-double fv_wall_pressure(const double p[3], bool slip);
-
-/* fv_blocked.c: forces on boxes that are cut out; number of columns and their names (static). */
-int fv_blocked_columns(const struct run *r, const struct fv_params *prm, const char **columns);
-void fv_blocked_forces(const struct fv *s, double *values);
-void fv_summarise_blocked(const struct fv *s);
+/* fv_forces.c: forces on all walls and bodies, then on each body: number of columns and their
+ * (static) names; values, as many. */
+int fv_force_columns(const struct run *r, const struct fv_params *prm, const char **columns);
+int fv_forces(struct fv *s, double *values);
+void fv_summarise_forces(struct fv *s);
 
 /* steady_errors.c: of a regular or solitary wave into the summary. */
 void steady_summarise(struct fv *s);

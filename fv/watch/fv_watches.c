@@ -9,6 +9,7 @@
 #include "../boundary/forcing.h"
 #include "../boundary/fv_sides.h"
 #include "../boundary/still.h"
+#include "../operators/flow_measures.h"
 #include "../surface/fraction.h"
 #include "../surface/levelset.h"
 #include "../surface/mesh_view.h"
@@ -229,7 +230,7 @@ static void sum_energy(struct fv *s, double sums[6])
     if (s->surface)
         sums[5] = power_of_openings(s) + power_of_zones(s);
     else if (!s->watches->periodic)
-        sums[5] = sides_power(s);
+        sums[5] = flow_power(s);
 }
 
 static struct flow_energy energy_of(struct fv *s)

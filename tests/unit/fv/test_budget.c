@@ -4,6 +4,7 @@
 #include "../test.h"
 
 #include "../../../fv/boundary/mesh_bc.h"
+#include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/operators/mesh_ops.h"
 #include "../../../fv/time/stages.h"
 #include "fv_bc_case.h"
@@ -39,16 +40,9 @@ static void rates(struct fv *s, double sums[4])
 
 static void force_of(struct fv *s, double *force)
 {
-    double of[MESH_BLOCKS_MAX][4];
-    if (!s->m) {
-        fv_wall_force(s, force);
-        return;
-    }
-    mesh_bc_force(s, NULL, of, NULL);
-    memset(force, 0, 3 * sizeof(double));
-    for (int k = 0; k < s->m->nblocks; k++)
-        for (int a = 0; a < s->dim; a++)
-            force[a] += of[k][a];
+    double all[4];
+    flow_forces(s, NULL, all);
+    memcpy(force, all, 3 * sizeof(double));
 }
 
 /* Vortices in a duct: along it the walls take what the flow loses; in a box both ways. */

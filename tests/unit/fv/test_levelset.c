@@ -7,6 +7,7 @@
 
 #include "../../../fv/boundary/bc.h"
 #include "../../../fv/case/fv_case.h"
+#include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/output/output.h"
 #include "../../../fv/poisson/poisson.h"
 #include "../../../fv/surface/levelset.h"
@@ -326,7 +327,7 @@ static void films_run_as_theory_says(void **state)
     (void)state;
     for (int k = SANITIZED; k < 3; k++) {
         struct fv_case c;
-        double force[3];
+        double force[4];
         fv_case_set(&c, MPI_COMM_SELF,
                     (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"rest\"",
                                           "fluid.nu=0.5", "domain.periodic=(true,false)",
@@ -340,7 +341,7 @@ static void films_run_as_theory_says(void **state)
             (struct scene_shape){.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, 0.5, 0}}};
         struct fv *s = fv_case_start(&c, NULL);
         assert_true(fv_case_run(&c, 2000, 10.0));
-        fv_wall_force(s, force);
+        flow_forces(s, NULL, force);
         print_message("film: friction %.9f of its weight, %.6f m/s\n", force[0] / sqrt(0.1875),
                       s->umax[0]);
         assert_close(force[0], sqrt(0.75) * 0.5, 1e-4);
@@ -360,7 +361,7 @@ static void thin_films_rub_at_any_level(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof cells / sizeof *cells; k += SANITIZED ? 4 : 1) {
         struct fv_case c;
-        double force[3];
+        double force[4];
         fv_case_set(&c, MPI_COMM_SELF,
                     (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"rest\"",
                                           "fluid.nu=0.5", "domain.periodic=(true,false)",
@@ -374,7 +375,7 @@ static void thin_films_rub_at_any_level(void **state)
             (struct scene_shape){.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, 0.1 * cells[k], 0}}};
         struct fv *s = fv_case_start(&c, NULL);
         assert_true(fv_case_run(&c, 4000, 2.0));
-        fv_wall_force(s, force);
+        flow_forces(s, NULL, force);
         print_message("film of %g cells: friction %.6f of its weight\n", cells[k],
                       force[0] / (0.05 * cells[k]));
         assert_close(force[0] / (0.05 * cells[k]), 1.0, 1e-3);

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
+#include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/time/newton.h"
 #include "surface_case.h"
 
@@ -166,7 +167,7 @@ static void leaning_water_starts_with_its_pressure(void **state)
     const struct scene_shape below = {.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, 0.4, 0}}};
     (void)state;
     for (int k = 0; k < 3; k++) {
-        double force[2][3];
+        double force[2][4];
         struct fv_case c;
         struct fv *s = start(&c, MPI_COMM_WORLD,
                              (const char *const[]){SURFACE, kinds[k], "fluid.gravity=(0.5,-9.81)",
@@ -174,7 +175,7 @@ static void leaning_water_starts_with_its_pressure(void **state)
                                                    "fv.cells=(40,32)", NULL},
                              &below, WALL_SLIP);
         for (int n = 0; n < 2; n++) {
-            fv_wall_force(s, force[n]);
+            flow_forces(s, NULL, force[n]);
             if (n == 0)
                 assert_true(fv_case_run(&c, 1, 0.01));
         }

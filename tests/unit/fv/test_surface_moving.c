@@ -7,6 +7,7 @@
 
 #include "../../../fv/boundary/mesh_bc.h"
 #include "../../../fv/grid/overset.h"
+#include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/surface/levelset.h"
 #include "../../../fv/surface/mesh_view.h"
 
@@ -51,9 +52,8 @@ static struct fv *start(struct mesh_case *c, MPI_Comm comm, const char *blocks,
 /* Force along y on the bodies. */
 static double lift(struct fv *s)
 {
-    double force[MESH_BLOCKS_MAX][4];
-    surface_ghosts(s, s->surface->phi);
-    mesh_bc_force(s, s->surface->phi, force, NULL);
+    double force[FLOW_BODIES_MAX][4], all[4];
+    flow_forces(s, force, all);
     return force[1][1];
 }
 
@@ -183,10 +183,9 @@ static void a_cup_that_tilts_carries_its_water(void **state)
     fv_params_check(&c.run, &c.faults);
     assert_int_equal(params_report(&c.faults), 0);
     struct fv *s = fv_create(&c.run, NULL);
-    double force[MESH_BLOCKS_MAX][4];
+    double force[FLOW_BODIES_MAX][4], all[4];
     assert_true(mesh_case_run(s, 10000, 4.0));
-    surface_ghosts(s, s->surface->phi);
-    mesh_bc_force(s, s->surface->phi, force, NULL);
+    flow_forces(s, force, all);
     const double weight = s->run->scene.fluid.rho * 9.81 * 0.3;
     print_message("cup: force %.4g, %.5g of %.5g N, %.2g of the water restored\n", force[0][0],
                   force[0][1], -weight, s->surface->returned / 0.3);

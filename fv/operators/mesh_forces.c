@@ -1,43 +1,52 @@
-/* mesh_forces.c - forces on walls of blocks, and the work that comes in through sides.
- * SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh_sides.h"
-
+/* mesh_forces.c - force of the flow on a face of a wall of blocks, and the work that comes in
+ * through one of a side. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
-#include <string.h>
 
+#include "../boundary/fv_sides.h"
+#include "../boundary/still.h"
 #include "../grid/mesh_motion.h"
-#include "still.h"
+#include "../surface/levelset.h"
+#include "mesh_ops.h"
 
-/* Slopes across and along the face of a field with ghosts, at the place of the face. */
-static void face_slopes(const struct mesh *m, const struct side *d, int64_t f, const double *u,
+/* Slopes across and along the face at f of a field with ghosts, at the place of the face. */
+static void face_slopes(const struct mesh *m, const struct side_face *d, int64_t f, const double *u,
                         double *slope)
 {
-    const int64_t a = d->p->stride[d->a];
+    const int64_t a = d->part->stride[d->a];
     slope[d->a] = (15.0 * (u[f] - u[f - a]) - (u[f + a] - u[f - 2 * a])) / 12.0;
-    for (int n = 0; n < 2 && d->t[n] < m->dim; n++) {
+    for (int t = 0; t < m->dim; t++) {
+        if (t == d->a)
+            continue;
         double v[5];
-        const int64_t b = d->p->stride[d->t[n]];
+        const int64_t b = d->part->stride[t];
         for (int l = -2; l <= 2; l++) {
             const double *q = u + f + l * b;
             v[l + 2] = (7.0 * (q[-a] + q[0]) - (q[-2 * a] + q[a])) / 12.0;
         }
-        slope[d->t[n]] = (8.0 * (v[3] - v[1]) - (v[4] - v[0])) / 12.0;
+        slope[t] = (8.0 * (v[3] - v[1]) - (v[4] - v[0])) / 12.0;
     }
 }
 
+/* At xi of the tangents within the face: its place, and dx the mapping's slopes there. */
+static void place_on(const struct fv *s, const struct side_face *d, double xi[3], double x[3],
+                     double dx[3][3])
+{
+    int at[3];
+    part_index(d->part, d->cell, at);
+    for (int a = 0; a < 3; a++)
+        at[a] += d->part->lo[a];
+    xi[d->a] = d->side % 2;
+    mesh_map_point(s->m->block + d->part->block, s->m->dim, at, xi, x, dx);
+}
+
 /* Place, pressure (Pa) and velocity gradient on one face. */
-static void face_state(const struct fv *s, const struct side *d, int64_t c, int i, int j,
-                       double x[3], double *pressure, double g[3][3])
+static void face_state(const struct fv *s, const struct side_face *d, double x[3], double *pressure,
+                       double g[3][3])
 {
     const struct mesh *m = s->m;
-    const int64_t f = c + d->face, a = d->p->stride[d->a];
+    const int64_t f = d->face, a = d->part->stride[d->a];
     double dx[3][3], xi[3] = {0.5, 0.5, 0.5}, slope[3][3] = {{0.0}};
-    int at[3];
-    at[d->a] = d->p->lo[d->a] + d->first;
-    at[d->t[0]] = d->p->lo[d->t[0]] + i;
-    at[d->t[1]] = d->p->lo[d->t[1]] + j;
-    xi[d->a] = d->k % 2;
-    mesh_map_point(m->block + d->p->block, m->dim, at, xi, x, dx);
+    place_on(s, d, xi, x, dx);
     const double J = mesh_determinant(dx);
     for (int q = 0; q < m->dim; q++)
         face_slopes(m, d, f, s->u[q], slope[q]);
@@ -62,17 +71,20 @@ static double face_pressure(const struct fv *s, int64_t f, int64_t a)
            12.0;
 }
 
-/* nu <G_ab dq/dxi_b> of the face at f, as mesh_viscous has it. */
-static double viscous_flux(const struct fv *s, const struct side *d, int64_t f, const double *q)
+/* nu <G_ab dq/dxi_b> of the face, as mesh_viscous has it. */
+static double viscous_flux(const struct fv *s, const struct side_face *d, const double *q)
 {
     const struct mesh *m = s->m;
     const int a = d->a;
+    const int64_t f = d->face;
     double slope[3], up[3], down[3], F = 0.0;
     face_slopes(m, d, f, q, slope);
     for (int k = 0; k < m->dim; k++)
         F += m->G[a][k][f] * slope[k];
-    for (int n = 0; n < 2 && d->t[n] < m->dim; n++) {
-        const int64_t t = d->p->stride[d->t[n]];
+    for (int n = 0; n < m->dim; n++) {
+        const int64_t t = d->part->stride[n];
+        if (n == a)
+            continue;
         face_slopes(m, d, f + t, q, up);
         face_slopes(m, d, f - t, q, down);
         for (int k = 0; k < m->dim; k++)
@@ -82,18 +94,20 @@ static double viscous_flux(const struct fv *s, const struct side *d, int64_t f, 
 }
 
 /* Share of a face that is below the level set's 0, straight between its ends; xi: middle of that
- * share, in the face's cell. Along the second tangent at Gauss points. phi NULL: all of it. */
-static double wet_share(const struct fv *s, const struct side *d, const double *phi, int64_t c,
-                        double xi[3])
+ * share, in the face's cell. Along the second tangent at Gauss points. Without a surface all of it.
+ */
+static double wet_share(const struct fv *s, const struct side_face *d, double xi[3])
 {
     static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
-    const int n = s->m->dim == 3 ? 2 : 1;
+    const double *phi = s->surface ? s->surface->phi : NULL;
+    const int n = s->m->dim == 3 ? 2 : 1, along[2] = {d->a == 0, d->a == 2 ? 1 : 2};
+    const int64_t c = d->cell;
     double share = 0.0, at[2] = {0.0, 0.0}, slope[2] = {0.0, 0.0};
     if (!phi)
         return 1.0;
     const double middle = 0.5 * (phi[c] + phi[c - d->in]);
     for (int t = 0; t < n; t++) {
-        const int64_t b = d->p->stride[d->t[t]];
+        const int64_t b = d->part->stride[along[t]];
         slope[t] = 0.25 * (phi[c + b] + phi[c + b - d->in] - phi[c - b] - phi[c - b - d->in]);
     }
     for (int k = 0; k < n; k++) {
@@ -105,27 +119,23 @@ static double wet_share(const struct fv *s, const struct side *d, const double *
         at[1] += own / n * across;
     }
     for (int t = 0; t < n && share > 0.0; t++)
-        xi[d->t[t]] = at[t] / share;
+        xi[along[t]] = at[t] / share;
     return share;
 }
 
 /* What its pressure lacks, Pa: that of water at rest, a partner's level, in the middle of the wet
  * share of a face. */
-static double still_on_face(const struct fv *s, const struct side *d, int i, int j, double xi[3])
+static double still_on_face(const struct fv *s, const struct side_face *d, double xi[3])
 {
     double x[3], dx[3][3];
-    int at[3];
-    at[d->a] = d->p->lo[d->a] + d->first;
-    at[d->t[0]] = d->p->lo[d->t[0]] + i;
-    at[d->t[1]] = d->p->lo[d->t[1]] + j;
-    xi[d->a] = d->k % 2;
-    mesh_map_point(s->m->block + d->p->block, s->m->dim, at, xi, x, dx);
+    place_on(s, d, xi, x, dx);
     return fv_still_pressure(s, x) + s->datum;
 }
 
 /* On a slip wall no friction. */
-static void keep_normal(const struct fv *s, const struct side *d, int64_t f, double *force)
+static void keep_normal(const struct fv *s, const struct side_face *d, double *force)
 {
+    const int64_t f = d->face;
     double along = 0.0, S2 = 0.0;
     for (int q = 0; q < s->m->dim; q++) {
         along += force[q] * s->m->S[d->a][q][f];
@@ -138,24 +148,26 @@ static void keep_normal(const struct fv *s, const struct side *d, int64_t f, dou
 /* -p S + mu (grad u + grad u^T) S on one face, outwards of the fluid. p S and grad u S are the
  * fluxes of the momentum equation. Of grad u^T S the slopes across the wall are 0 by continuity;
  * those along it remain where it turns. Of a face that the surface crosses the wet share. */
-static void face_force(const struct fv *s, const struct side *d, const double *phi, int64_t c,
-                       int i, int j, double *force)
+void mesh_face_force(const struct fv *s, const struct side_face *d, double sum[4])
 {
     const struct mesh *m = s->m;
-    const double rho = s->run->scene.fluid.rho, out = d->k % 2 ? 1.0 : -1.0;
-    const int64_t f = c + d->face, a = d->p->stride[d->a];
-    double x[3], xi[3] = {0.5, 0.5, 0.5}, pf, g[3][3] = {{0.0}}, S2 = 0.0;
-    const double share = wet_share(s, d, phi, c, xi);
-    if (!(share > 0.0))
+    const double rho = s->run->scene.fluid.rho, out = d->side % 2 ? 1.0 : -1.0;
+    const int64_t f = d->face, a = d->part->stride[d->a];
+    double x[3], xi[3] = {0.5, 0.5, 0.5}, pf, g[3][3] = {{0.0}}, S2 = 0.0, force[4] = {0.0};
+    const double share = wet_share(s, d, xi);
+    if (!(s->surface ? m->status[d->cell] == CELL_COMPUTED : s->free[d->cell] > 0.0) ||
+        !(share > 0.0))
         return;
-    face_state(s, d, c, i, j, x, &pf, g);
-    pf += still_on_face(s, d, i, j, xi);
+    face_state(s, d, x, &pf, g);
+    pf += still_on_face(s, d, xi);
     for (int e = 0; e < m->dim; e++)
         S2 += m->S[d->a][e][f] * m->S[d->a][e][f];
     for (int q = 0; q < m->dim; q++) {
-        force[q] = rho * viscous_flux(s, d, f, s->u[q]) - pf * m->S[d->a][q][f];
-        for (int n = 0; n < 2 && d->t[n] < m->dim; n++) {
-            const int64_t t = d->p->stride[d->t[n]];
+        force[q] = rho * viscous_flux(s, d, s->u[q]) - pf * m->S[d->a][q][f];
+        for (int n = 0; n < m->dim; n++) {
+            const int64_t t = d->part->stride[n];
+            if (n == d->a)
+                continue;
             force[q] -= (face_pressure(s, f + t, a) - face_pressure(s, f - t, a)) *
                         (m->S[d->a][q][f + t] - m->S[d->a][q][f - t]) / 48.0;
         }
@@ -168,21 +180,24 @@ static void face_force(const struct fv *s, const struct side *d, const double *p
         force[q] *= -out * share; /* on the wall */
     }
     if (d->kind == MESH_SLIP)
-        keep_normal(s, d, f, force);
+        keep_normal(s, d, force);
     x[2] = 0.0;
     double o[3];
-    mesh_motion_now(m->block + d->p->block, m->block[d->p->block].prm->centre, o);
+    mesh_motion_now(m->block + d->part->block, m->block[d->part->block].prm->centre, o);
     force[3] = (x[0] - o[0]) * force[1] - (x[1] - o[1]) * force[0];
+    for (int q = 0; q < 4; q++)
+        sum[q] += force[q];
 }
 
-/* Energy and pressure that flow in through one face, and friction on it, over rho. */
-static double face_power(const struct fv *s, const struct side *d, int64_t c, int i, int j)
+double mesh_face_power(const struct fv *s, const struct side_face *d)
 {
     const struct mesh *m = s->m;
-    const double out = d->k % 2 ? 1.0 : -1.0;
-    const int64_t f = c + d->face, a = d->p->stride[d->a];
+    const double out = d->side % 2 ? 1.0 : -1.0;
+    const int64_t f = d->face, a = d->part->stride[d->a];
     double x[3], pf, g[3][3] = {{0.0}}, square = 0.0, friction = 0.0;
-    face_state(s, d, c, i, j, x, &pf, g);
+    if (d->kind == MESH_SLIP || !(s->free[d->cell] > 0.0))
+        return 0.0;
+    face_state(s, d, x, &pf, g);
     for (int q = 0; q < m->dim; q++) {
         const double *u = s->u[q] + f;
         const double w = (7.0 * (u[-a] + u[0]) - (u[-2 * a] + u[a])) / 12.0;
@@ -191,52 +206,4 @@ static double face_power(const struct fv *s, const struct side *d, int64_t c, in
             friction += s->nu * w * g[q][e] * m->S[d->a][e][f];
     }
     return out * (friction - s->U[d->a][f] * (0.5 * square + pf / s->run->scene.fluid.rho));
-}
-
-double mesh_bc_power(struct fv *s)
-{
-    double sum = 0.0;
-    double *both[2] = {s->p, s->p_before};
-    mesh_fill(s->m, 2, both);
-    for (int k = 0; k < 2; k++)
-        mesh_bc_pressure(s, both[k]);
-    for (int k = 0; k < s->sides->n; k++) {
-        const struct side *d = s->sides->side + k;
-        if (d->kind == MESH_SLIP)
-            continue;
-        SIDE_PLACES (d, 0, i, j, at, c) {
-            sum += s->free[c] > 0.0 ? face_power(s, d, c, i, j) : 0.0;
-            (void)at;
-        }
-    }
-    return sum;
-}
-
-void mesh_bc_force(struct fv *s, const double *phi, double (*body)[4], double all[4])
-{
-    double *both[2] = {s->p, s->p_before}, sums[MESH_BLOCKS_MAX + 1][4] = {{0.0}};
-    const int n = s->m->nblocks;
-    mesh_fill(s->m, 2, both);
-    for (int k = 0; k < 2; k++)
-        mesh_bc_pressure(s, both[k]);
-    for (int k = 0; k < s->sides->n; k++) {
-        const struct side *d = s->sides->side + k;
-        if (d->kind != MESH_WALL && d->kind != MESH_SLIP)
-            continue;
-        SIDE_PLACES (d, 0, i, j, at, c) {
-            double one[4] = {0.0, 0.0, 0.0, 0.0};
-            if (phi ? s->m->status[c] == CELL_COMPUTED : s->free[c] > 0.0)
-                face_force(s, d, phi, c, i, j, one);
-            for (int q = 0; q < 4; q++)
-                sums[d->body ? d->p->block : n][q] += one[q];
-            (void)at;
-        }
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 4 * (n + 1), MPI_DOUBLE, MPI_SUM, s->m->comm);
-    memcpy(body, sums, (size_t)n * sizeof *body);
-    for (int q = 0; all && q < 4; q++) {
-        all[q] = 0.0;
-        for (int k = 0; k <= n; k++)
-            all[q] += sums[k][q];
-    }
 }

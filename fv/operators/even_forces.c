@@ -1,0 +1,80 @@
+/* even_forces.c - force of the flow on a face of a wall or of a box that is cut out of uniform
+ * cells or layers, and the work that comes in through one of a side.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../boundary/blocked.h"
+#include "../boundary/fv_sides.h"
+#include "../boundary/still.h"
+#include "../surface/levelset.h"
+#include "operators.h"
+
+/* Whether the cell holds no water; whether none stands at the wall, beyond the cell's centre. */
+static bool is_dry(const struct fv *s, int64_t c)
+{
+    return s->surface && s->surface->layer[c] != 0;
+}
+static bool is_dry_wall(const struct fv *s, int64_t c, int64_t in)
+{
+    return is_dry(s, c) || (s->surface && 3.0 * s->surface->phi[c] > s->surface->phi[c + in]);
+}
+
+/* Pressure on a wall beside the cells p[0] to p[2], as the gradient has it: its ghosts are those of
+ * the quadratic behind a no-slip wall, mirrored behind a slip wall (forcing_fixes.c). */
+static double wall_pressure(const double p[3], bool slip)
+{
+    return slip ? (7.0 * p[0] - p[1]) / 6.0 : (11.0 * p[0] - 7.0 * p[1] + 2.0 * p[2]) / 6.0;
+}
+
+/* 12 h times the slope, outwards, of u in the cell beside a wall: ghosts stand behind sides, none
+ * behind boxes. */
+static double slope_at(const double *u, const struct side_face *f)
+{
+    const double first = f->body ? blocked_ghost(u, f->in, 1, GHOST_NO_SLIP) : u[-f->in];
+    const double second = f->body ? blocked_ghost(u, f->in, 2, GHOST_NO_SLIP) : u[-2 * f->in];
+    return 15.0 * (u[0] - first) - (u[f->in] - second);
+}
+
+/* The fluxes of the momentum equation, so that walls take what the flow loses. A dry wall feels
+ * nothing; beside one that is wet the cell's own pressure counts. */
+void even_face_force(const struct fv *s, const struct side_face *f, double sum[4])
+{
+    const struct block *b = &s->b;
+    const int64_t c = f->cell, in = f->in;
+    const double out = f->side % 2 ? 1.0 : -1.0, mu = s->run->scene.fluid.rho * s->nu;
+    const bool slip = f->kind == MESH_SLIP;
+    double p[3], x[3];
+    int at[3];
+    bool deep = true;
+    if (is_blocked(s, c) || is_dry_wall(s, c, in))
+        return;
+    part_index(f->part, c, at);
+    for (int n = 1; n < 4; n++)
+        deep = deep && !is_dry(s, c + n * in) && !(f->body && is_blocked(s, c + n * in));
+    for (int n = 0; n < 3; n++)
+        p[n] = fv_pressure(s, deep ? c + n * in : c);
+    block_centre(b, at[0], at[1], at[2], x);
+    x[f->a] += 0.5 * out * block_size(b, f->a, at[f->a]);
+    sum[f->a] += out * f->flow_area * (wall_pressure(p, slip) + fv_still_pressure(s, x) + s->datum);
+    for (int q = 0; q < b->dim && !(slip && f->body); q++)
+        sum[q] +=
+            f->flow_area * mu / (12.0 * block_size(b, f->a, at[f->a])) * slope_at(s->u[q] + c, f);
+}
+
+/* The fluxes of energy, of pressure and of friction on the face: values there by the scheme's own
+ * interpolation into the ghosts, pressure by the cubic. */
+double even_face_power(const struct fv *s, const struct side_face *f)
+{
+    const double out = f->side % 2 ? 1.0 : -1.0, rho = s->run->scene.fluid.rho;
+    const int64_t c = f->cell, in = f->in;
+    double p[4], square = 0.0, friction = 0.0;
+    for (int n = 0; n < 4; n++)
+        p[n] = fv_pressure(s, c + n * in) / rho;
+    for (int q = 0; q < s->dim; q++) {
+        const double *u = s->u[q] + c;
+        const double w = (7.0 * (u[0] + u[-in]) - (u[in] + u[-2 * in])) / 12.0;
+        const double slope = slope_at(u, f) / (12.0 * grid_height(&s->grid, c, f->a));
+        square += w * w;
+        friction -= s->nu * w * slope;
+    }
+    const double pf = (25.0 * p[0] - 23.0 * p[1] + 13.0 * p[2] - 3.0 * p[3]) / 12.0;
+    return f->flow_area * (friction - out * s->U[f->a][f->face] * (0.5 * square + pf));
+}
