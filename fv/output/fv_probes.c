@@ -1,204 +1,15 @@
-/* fv_probes.c - gauges of the case in series.csv: pressure and velocity at a point, linear between
- * the centres of cells and beyond them at a wall; level of the water; discharge.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* fv_probes.c - gauges of the case in series.csv: pressure and velocity at a point, level of the
+ * water, discharge, whatever the cells. SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../../common/scene/scene_probe.h"
-#include "../boundary/blocked.h"
 #include "../boundary/still.h"
-#include "../surface/levelset.h"
-#include "mesh_output.h"
+#include "../grid/mesh_motion.h"
 #include "output.h"
 #include "probe_flow.h"
-
-/* The same among rows of unequal height. */
-static int row_below(const struct block *b, double y, double *weight)
-{
-    const double *e = b->rows->edge;
-    int i = 0;
-    while (i < b->cells[1] - 2 && 0.5 * (e[i + 1] + e[i + 2]) <= y)
-        i++;
-    *weight = (y - 0.5 * (e[i] + e[i + 1])) / (0.5 * (e[i + 2] - e[i]));
-    return i;
-}
-
-/* Cell below x along axis a, so that it and the next one are cells of the grid; *weight of the
- * next. */
-static int base(const struct block *b, int a, double x, double *weight)
-{
-    if (a == 1 && b->rows)
-        return row_below(b, x, weight);
-    const double at = (x - b->origin[a]) / b->h[a] - 0.5;
-    int i = (int)floor(at);
-    if (!b->periodic[a])
-        i = i < 0 ? 0 : i > b->cells[a] - 2 ? b->cells[a] - 2 : i;
-    *weight = at - i;
-    return b->periodic[a] ? (i % b->cells[a] + b->cells[a]) % b->cells[a] : i;
-}
-
-/* The cell that x lies in, of those about it. */
-static void host_of(const int *i, const double *w, int host[3])
-{
-    for (int a = 0; a < 3; a++)
-        host[a] = i[a] + (w[a] > 0.5); /* no weight beyond dim */
-}
-
-static int64_t host_at(const struct fv *s, const int *i, const double *w)
-{
-    int host[3];
-    host_of(i, w, host);
-    return block_at(&s->b, host[0], host[1], host[2]);
-}
-
-/* Whether no fluid is there: in a box, behind a closed side. */
-static bool is_solid(const struct fv *s, const int *at)
-{
-    const struct block *b = &s->b;
-    for (int a = 0; a < b->dim; a++)
-        if (!b->periodic[a] && (b->lo[a] + at[a] < 0 || b->lo[a] + at[a] >= b->cells[a]))
-            return true;
-    return is_blocked(s, block_at(b, at[0], at[1], at[2]));
-}
-
-/* A gauge that lies in a box, whose faces went to those of cells, belongs to the given face that is
- * next: the first free cell there. */
-static void leave_box(const struct fv *s, const double *x, int *host)
-{
-    const int box = s->blocked->box[block_at(&s->b, host[0], host[1], host[2])] - 1;
-    double nearest = INFINITY;
-    int axis = 0, way = 1;
-    for (int a = 0; a < s->b.dim && box >= 0; a++)
-        for (int up = 0; up < 2; up++) {
-            const double *face = up ? s->prm.boxes[box].max : s->prm.boxes[box].min;
-            int to[3] = {host[0], host[1], host[2]};
-            to[a] += up ? 1 : -1;
-            if (is_solid(s, to) || !(fabs(face[a] - x[a]) < nearest))
-                continue;
-            nearest = fabs(face[a] - x[a]);
-            axis = a;
-            way = up ? 1 : -1;
-        }
-    if (nearest < INFINITY)
-        host[axis] += way;
-}
-
-/* The two cells along each axis: free ones, where a box is next beyond it two on this side. */
-static void look_past_boxes(const struct fv *s, const double *x, int *i, double *w)
-{
-    const struct block *b = &s->b;
-    int host[3];
-    host_of(i, w, host);
-    leave_box(s, x, host);
-    for (int a = 0; a < b->dim; a++) {
-        const double at = (x[a] - b->origin[a]) / b->h[a] - 0.5 - b->lo[a];
-        const bool up = at >= host[a];
-        int to[3] = {host[0], host[1], host[2]};
-        to[a] += up ? 1 : -1;
-        i[a] = host[a] - (up == is_solid(s, to));
-        w[a] = at - i[a];
-    }
-}
-
-/* A corner of the cells around may still lie in a box: the host's value there. q NULL: pressure. */
-static double corner_of(const struct fv *s, const double *q, const int *at, const int *i,
-                        const double *w)
-{
-    int64_t c = block_at(&s->b, at[0], at[1], at[2]);
-    if (is_blocked(s, c))
-        c = host_at(s, i, w);
-    return q ? q[c] : fv_pressure(s, c);
-}
-
-/* The cells about x and their weights. false: the lower one is another rank's. */
-static bool locate(const struct fv *s, const double *x, int i[3], double w[3])
-{
-    const struct block *b = &s->b;
-    for (int a = 0; a < 3; a++) {
-        i[a] = 0;
-        w[a] = 0.0;
-    }
-    for (int a = 0; a < b->dim; a++) {
-        i[a] = base(b, a, x[a], w + a) - b->lo[a];
-        if (i[a] < 0 || i[a] >= b->n[a])
-            return false;
-    }
-    return true;
-}
-
-static double linear(const struct fv *s, const double *q, const int *i, const double *w)
-{
-    double sum = 0.0;
-    for (int m = 0; m < 1 << s->b.dim; m++) {
-        double f = 1.0;
-        int at[3];
-        for (int a = 0; a < 3; a++) {
-            const int up = m >> a & 1;
-            at[a] = i[a] + up;
-            f *= up ? w[a] : 1.0 - w[a];
-        }
-        sum += f * corner_of(s, q, at, i, w);
-    }
-    return sum;
-}
-
-/* Whether water is at a place of this rank. */
-static bool find_water(const struct fv *s, const double *x, int i[3], double w[3])
-{
-    if (!locate(s, x, i, w))
-        return false;
-    if (s->blocked)
-        look_past_boxes(s, x, i, w);
-    return !s->surface || s->surface->layer[host_at(s, i, w)] == 0;
-}
-
-/* What this rank has to say: 0 unless the lower cell is its own. */
-static double pressure_at(const struct fv *s, const double *x)
-{
-    int i[3];
-    double w[3];
-    if (!find_water(s, x, i, w))
-        return 0.0;
-    return linear(s, NULL, i, w) + fv_still_pressure(s, x) + s->datum;
-}
-
-/* The same of the velocity, and 1 if water is there. */
-static void velocity_at(const struct fv *s, const double *x, double *u)
-{
-    int i[3];
-    double w[3];
-    if (!find_water(s, x, i, w))
-        return;
-    for (int a = 0; a < s->dim; a++)
-        u[a] = linear(s, s->u[a], i, w);
-    u[s->dim] = 1.0;
-}
-
-/* This rank's samples; those in boxes are dry. */
-static double discharge_of(const struct fv *s, const struct scene_probe *g)
-{
-    struct flow_samples f = flow_samples_create(s, g);
-    for (int k = 0; k < f.n; k++) {
-        int i[3];
-        double w[3], *v = f.value[k];
-        v[3] = f.step;
-        if (!locate(s, f.x[k], i, w))
-            continue;
-        if (is_blocked(s, host_at(s, i, w)))
-            continue;
-        if (s->blocked)
-            look_past_boxes(s, f.x[k], i, w);
-        for (int a = 0; a < s->dim; a++)
-            v[a] = linear(s, s->u[a], i, w);
-        v[3] = s->surface ? linear(s, s->surface->phi, i, w) : -f.step;
-    }
-    const double sum = flow_samples_sum(&f, s->dim);
-    flow_samples_free(&f);
-    return sum;
-}
 
 bool fv_probe_mine(const struct run *r, int k)
 {
@@ -223,17 +34,44 @@ int fv_probe_columns(const struct run *r, const char **columns)
     return n;
 }
 
+/* The gauge where it is now: with the block that it is fixed to. */
+static struct scene_probe placed(const struct fv *s, const struct scene_probe *p)
+{
+    struct scene_probe now = *p;
+    for (int k = 0; p->body[0] && k < s->prm.blocks.n; k++)
+        if (s->m->block[k].motion && strcmp(s->m->block[k].prm->name, p->body) == 0)
+            mesh_motion_now(s->m->block + k, p->at, now.at);
+    return now;
+}
+
 /* A gauge's share of this rank; returns how many numbers there are. */
 static int share_of(struct fv *s, const struct scene_probe *g, double *here)
 {
-    if (g->kind == PROBE_VELOCITY) {
-        velocity_at(s, g->at, here);
-        return s->dim + 1;
+    const struct probe_reader *of = s->m ? &mesh_reader : &even_reader;
+    if (probe_is_point(g)) {
+        const int nq = probe_columns(g, s->dim);
+        of->point(s, g->at, nq, g->kind == PROBE_VELOCITY ? s->u : (double *[]){NULL}, here);
+        return nq + 1;
     }
-    *here = g->kind == PROBE_LEVEL       ? surface_level(s, g->at)
-            : g->kind == PROBE_DISCHARGE ? discharge_of(s, g)
-                                         : pressure_at(s, g->at);
+    *here = g->kind == PROBE_LEVEL ? of->level(s, g->at) : of->discharge(s, g);
     return 1;
+}
+
+/* What it reads, of the sum over all ranks; returns as share_of. */
+static int read_out(const struct fv *s, const struct scene_probe *g, const double *sum,
+                    double *values)
+{
+    const int nq = probe_columns(g, s->dim);
+    if (!probe_is_point(g)) {
+        *values = *sum;
+        return 1;
+    }
+    const bool out = s->m && mesh_is_out(s, g->at), dry = out || !(sum[nq] < 0.0);
+    for (int a = 0; a < nq; a++)
+        values[a] = dry ? NAN : sum[a];
+    if (g->kind == PROBE_PRESSURE && !out)
+        *values = dry ? 0.0 : *sum + fv_still_pressure(s, g->at) + s->datum;
+    return nq + 1;
 }
 
 void fv_probe(struct fv *s, double *values)
@@ -245,25 +83,22 @@ void fv_probe(struct fv *s, double *values)
         velocities = velocities || scene->probes[k].kind >= PROBE_DISCHARGE;
     if (scene->nprobes == 0)
         return;
-    if (s->m) {
-        mesh_probes(s, values);
-        return;
-    }
-    block_halo(&s->b, 2, (double *const[]){s->p, s->p_before});
-    if (velocities)
+    if (!s->m)
+        block_halo(&s->b, 2, (double *const[]){s->p, s->p_before});
+    if (!s->m && velocities)
         block_halo(&s->b, s->dim, s->u);
     int n = 0;
-    for (int k = 0; k < scene->nprobes; k++)
-        if (fv_probe_mine(s->run, k))
-            n += share_of(s, scene->probes + k, here + n);
-    MPI_Allreduce(MPI_IN_PLACE, here, n, MPI_DOUBLE, MPI_SUM, s->b.cart);
+    for (int k = 0; k < scene->nprobes; k++) {
+        const struct scene_probe g = placed(s, scene->probes + k);
+        n += fv_probe_mine(s->run, k) ? share_of(s, &g, here + n) : 0;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, here, n, MPI_DOUBLE, MPI_SUM, s->comm);
     const double *from = here;
     for (int k = 0; k < scene->nprobes; k++) {
+        const struct scene_probe g = placed(s, scene->probes + k);
         if (!fv_probe_mine(s->run, k))
             continue;
-        const bool velocity = scene->probes[k].kind == PROBE_VELOCITY;
-        for (int a = 0; a < (velocity ? s->dim : 1); a++)
-            *values++ = velocity && from[s->dim] == 0.0 ? NAN : from[a];
-        from += velocity ? s->dim + 1 : 1;
+        from += read_out(s, &g, from, values);
+        values += probe_columns(&g, s->dim);
     }
 }

@@ -1,4 +1,4 @@
-/* mesh_output.h - errors and gauges on blocks.
+/* mesh_output.h - places and values on blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_MESH_OUTPUT_H
 #define FV_MESH_OUTPUT_H
@@ -10,8 +10,6 @@
  * pressure. width 2: linear, 4: cubic from averages, 0: that where it can, else linear. */
 double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int width,
                      const double *q);
-/* mesh_probes.c: values of the case's gauges, on all ranks. */
-void mesh_probes(struct fv *s, double *values);
 
 /* mesh_errors.c */
 void mesh_describe(const struct run *r, const struct fv_params *prm);

@@ -3,15 +3,11 @@
 #include "../fv.h"
 
 #include <math.h>
-#include <string.h>
 
-#include "../../common/scene/scene_probe.h"
 #include "../boundary/still.h"
-#include "../grid/mesh_motion.h"
 #include "../grid/overset.h"
 #include "../surface/levelset.h"
 #include "mesh_output.h"
-#include "output.h"
 #include "probe_flow.h"
 
 static bool mesh_covers(const struct fv *s, const struct overset *o, const double *x)
@@ -84,20 +80,17 @@ static void share_at(const struct fv *s, const double *x, double here[FLOW_VALUE
     here[3] = s->surface ? mesh_value_at(s, s->search, x, 2, s->surface->phi) : 0.0;
 }
 
-/* Whether a body or a partner is there, whose cells are not computed. */
-static bool is_out(const struct fv *s, const double *x)
+bool mesh_is_out(const struct fv *s, const double *x)
 {
     return (s->m->moves || s->past[0][0]) && !mesh_covers(s, s->search, x);
 }
 
-static void velocity_at(struct fv *s, const double *x, double *u)
+static void point_of(const struct fv *s, const double *x, int nq, double *const *q, double *here)
 {
-    double here[FLOW_VALUES] = {0.0};
-    share_at(s, x, here);
-    MPI_Allreduce(MPI_IN_PLACE, here, FLOW_VALUES, MPI_DOUBLE, MPI_SUM, s->comm);
-    const bool dry = is_out(s, x) || (s->surface && here[3] >= 0.0);
-    for (int a = 0; a < s->dim; a++)
-        u[a] = dry ? NAN : here[a];
+    const int width = q[0] || s->surface ? 2 : 0;
+    for (int a = 0; a < nq; a++)
+        here[a] = mesh_value_at(s, s->search, x, width, q[a]);
+    here[nq] = s->surface ? mesh_value_at(s, s->search, x, 2, s->surface->phi) : -1.0;
 }
 
 static double discharge_of(struct fv *s, const struct scene_probe *g)
@@ -110,43 +103,14 @@ static double discharge_of(struct fv *s, const struct scene_probe *g)
         f.value[k][3] = -f.step;
     const double sum = flow_samples_sum(&f, s->dim);
     flow_samples_free(&f);
-    return sum;
+    return s->m->rank == 0 ? sum : 0.0; /* all know it */
 }
 
-static double pressure_at(struct fv *s, const double *x)
+static double level_of(struct fv *s, const double *x)
 {
-    double here[2];
-    here[0] = mesh_value_at(s, s->search, x, s->surface ? 2 : 0, NULL);
-    here[1] = s->surface ? mesh_value_at(s, s->search, x, 2, s->surface->phi) : -1.0;
-    MPI_Allreduce(MPI_IN_PLACE, here, 2, MPI_DOUBLE, MPI_SUM, s->comm);
-    if (is_out(s, x))
-        return NAN;
-    return here[1] < 0.0 ? here[0] + fv_still_pressure(s, x) + s->datum : 0.0;
+    const double level = level_at(s, x);
+    return s->m->rank == 0 ? level : 0.0;
 }
 
-/* The gauge where it is now: with the block that it is fixed to. */
-static struct scene_probe placed(const struct fv *s, const struct scene_probe *p)
-{
-    struct scene_probe now = *p;
-    for (int k = 0; p->body[0] && k < s->m->nblocks; k++)
-        if (s->m->block[k].motion && strcmp(s->m->block[k].prm->name, p->body) == 0)
-            mesh_motion_now(s->m->block + k, p->at, now.at);
-    return now;
-}
-
-void mesh_probes(struct fv *s, double *values)
-{
-    const struct scene *scene = &s->run->scene;
-    for (int k = 0; k < scene->nprobes; k++) {
-        const struct scene_probe g = placed(s, scene->probes + k), *p = &g;
-        if (!fv_probe_mine(s->run, k))
-            continue;
-        if (p->kind == PROBE_VELOCITY)
-            velocity_at(s, p->at, values);
-        else
-            *values = p->kind == PROBE_LEVEL       ? level_at(s, p->at)
-                      : p->kind == PROBE_DISCHARGE ? discharge_of(s, p)
-                                                   : pressure_at(s, p->at);
-        values += probe_columns(p, s->dim);
-    }
-}
+const struct probe_reader mesh_reader = {
+    .point = point_of, .level = level_of, .discharge = discharge_of};

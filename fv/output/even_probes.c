@@ -1,0 +1,188 @@
+/* even_probes.c - what gauges read on uniform cells and layers: linear between the centres of cells
+ * and beyond them at a wall; past boxes that are cut out.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+
+#include "../boundary/blocked.h"
+#include "../boundary/still.h"
+#include "../surface/levelset.h"
+#include "probe_flow.h"
+
+/* Row below y, so that it and the next one are rows of the grid; *weight of the next. */
+static int row_below(const struct block *b, double y, double *weight)
+{
+    const double *e = b->rows->edge;
+    int i = 0;
+    while (i < b->cells[1] - 2 && 0.5 * (e[i + 1] + e[i + 2]) <= y)
+        i++;
+    *weight = (y - 0.5 * (e[i] + e[i + 1])) / (0.5 * (e[i + 2] - e[i]));
+    return i;
+}
+
+/* The same of cells along axis a. */
+static int base(const struct block *b, int a, double x, double *weight)
+{
+    if (a == 1 && b->rows)
+        return row_below(b, x, weight);
+    const double at = (x - b->origin[a]) / b->h[a] - 0.5;
+    int i = (int)floor(at);
+    if (!b->periodic[a])
+        i = i < 0 ? 0 : i > b->cells[a] - 2 ? b->cells[a] - 2 : i;
+    *weight = at - i;
+    return b->periodic[a] ? (i % b->cells[a] + b->cells[a]) % b->cells[a] : i;
+}
+
+/* The cell that x lies in, of those about it. */
+static void host_of(const int *i, const double *w, int host[3])
+{
+    for (int a = 0; a < 3; a++)
+        host[a] = i[a] + (w[a] > 0.5); /* no weight beyond dim */
+}
+
+static int64_t host_at(const struct fv *s, const int *i, const double *w)
+{
+    int host[3];
+    host_of(i, w, host);
+    return block_at(&s->b, host[0], host[1], host[2]);
+}
+
+/* Whether no fluid is there: in a box, behind a closed side. */
+static bool is_solid(const struct fv *s, const int *at)
+{
+    const struct block *b = &s->b;
+    for (int a = 0; a < b->dim; a++)
+        if (!b->periodic[a] && (b->lo[a] + at[a] < 0 || b->lo[a] + at[a] >= b->cells[a]))
+            return true;
+    return is_blocked(s, block_at(b, at[0], at[1], at[2]));
+}
+
+/* A gauge that lies in a box, whose faces went to those of cells, belongs to the given face that is
+ * next: the first free cell there. */
+static void leave_box(const struct fv *s, const double *x, int *host)
+{
+    const int box = s->blocked->box[block_at(&s->b, host[0], host[1], host[2])] - 1;
+    double nearest = INFINITY;
+    int axis = 0, way = 1;
+    for (int a = 0; a < s->b.dim && box >= 0; a++)
+        for (int up = 0; up < 2; up++) {
+            const double *face = up ? s->prm.boxes[box].max : s->prm.boxes[box].min;
+            int to[3] = {host[0], host[1], host[2]};
+            to[a] += up ? 1 : -1;
+            if (is_solid(s, to) || !(fabs(face[a] - x[a]) < nearest))
+                continue;
+            nearest = fabs(face[a] - x[a]);
+            axis = a;
+            way = up ? 1 : -1;
+        }
+    if (nearest < INFINITY)
+        host[axis] += way;
+}
+
+/* The two cells along each axis: free ones, where a box is next beyond it two on this side. */
+static void look_past_boxes(const struct fv *s, const double *x, int *i, double *w)
+{
+    const struct block *b = &s->b;
+    int host[3];
+    host_of(i, w, host);
+    leave_box(s, x, host);
+    for (int a = 0; a < b->dim; a++) {
+        const double at = (x[a] - b->origin[a]) / b->h[a] - 0.5 - b->lo[a];
+        const bool up = at >= host[a];
+        int to[3] = {host[0], host[1], host[2]};
+        to[a] += up ? 1 : -1;
+        i[a] = host[a] - (up == is_solid(s, to));
+        w[a] = at - i[a];
+    }
+}
+
+/* A corner of the cells around may still lie in a box: the host's value there. q NULL: pressure. */
+static double corner_of(const struct fv *s, const double *q, const int *at, const int *i,
+                        const double *w)
+{
+    int64_t c = block_at(&s->b, at[0], at[1], at[2]);
+    if (is_blocked(s, c))
+        c = host_at(s, i, w);
+    return q ? q[c] : fv_pressure(s, c);
+}
+
+/* The cells about x and their weights. false: the lower one is another rank's. */
+static bool locate(const struct fv *s, const double *x, int i[3], double w[3])
+{
+    const struct block *b = &s->b;
+    for (int a = 0; a < 3; a++) {
+        i[a] = 0;
+        w[a] = 0.0;
+    }
+    for (int a = 0; a < b->dim; a++) {
+        i[a] = base(b, a, x[a], w + a) - b->lo[a];
+        if (i[a] < 0 || i[a] >= b->n[a])
+            return false;
+    }
+    return true;
+}
+
+static double linear(const struct fv *s, const double *q, const int *i, const double *w)
+{
+    double sum = 0.0;
+    for (int m = 0; m < 1 << s->b.dim; m++) {
+        double f = 1.0;
+        int at[3];
+        for (int a = 0; a < 3; a++) {
+            const int up = m >> a & 1;
+            at[a] = i[a] + up;
+            f *= up ? w[a] : 1.0 - w[a];
+        }
+        sum += f * corner_of(s, q, at, i, w);
+    }
+    return sum;
+}
+
+/* Whether water is at a place of this rank. */
+static bool find_water(const struct fv *s, const double *x, int i[3], double w[3])
+{
+    if (!locate(s, x, i, w))
+        return false;
+    if (s->blocked)
+        look_past_boxes(s, x, i, w);
+    return !s->surface || s->surface->layer[host_at(s, i, w)] == 0;
+}
+
+/* 0 unless the lower cell is this rank's own. */
+static void point_of(const struct fv *s, const double *x, int nq, double *const *q, double *here)
+{
+    int i[3];
+    double w[3];
+    if (!find_water(s, x, i, w))
+        return;
+    for (int a = 0; a < nq; a++)
+        here[a] = linear(s, q[a], i, w);
+    here[nq] = -1.0;
+}
+
+/* This rank's samples; those in boxes are dry. */
+static double discharge_of(struct fv *s, const struct scene_probe *g)
+{
+    struct flow_samples f = flow_samples_create(s, g);
+    for (int k = 0; k < f.n; k++) {
+        int i[3];
+        double w[3], *v = f.value[k];
+        v[3] = f.step;
+        if (!locate(s, f.x[k], i, w))
+            continue;
+        if (is_blocked(s, host_at(s, i, w)))
+            continue;
+        if (s->blocked)
+            look_past_boxes(s, f.x[k], i, w);
+        for (int a = 0; a < s->dim; a++)
+            v[a] = linear(s, s->u[a], i, w);
+        v[3] = s->surface ? linear(s, s->surface->phi, i, w) : -f.step;
+    }
+    const double sum = flow_samples_sum(&f, s->dim);
+    flow_samples_free(&f);
+    return sum;
+}
+
+static double level_of(struct fv *s, const double *x) { return surface_level(s, x); }
+
+const struct probe_reader even_reader = {
+    .point = point_of, .level = level_of, .discharge = discharge_of};
