@@ -9,6 +9,7 @@
 
 /* Vila [2.86-2.89]; Leduc [2.96-2.99]; Antuono [2.60-2.63]; [2.47-2.50] with [2.58-2.59] */
 enum sph_scheme { SCHEME_RIEMANN_ALE, SCHEME_RIEMANN, SCHEME_DELTA, SCHEME_STANDARD, SCHEME_AUTO };
+enum sph_riemann { RIEMANN_LINEAR, RIEMANN_EXACT };
 enum sph_limiter { LIMITER_KOREN, LIMITER_MINMOD, LIMITER_NONE };
 enum sph_transport {
     TRANSPORT_TVS,
@@ -34,6 +35,7 @@ struct sph_params {
     double c0;    /* m/s; 0: ten times the speed that the scene lets expect */
     double gamma; /* Tait's exponent, 7 or 1 */
     int scheme, limiter, transport, viscosity;
+    int riemann;          /* enum sph_riemann: how the problem of each pair is solved */
     bool low_dissipation; /* bounded Riemann dissipation (Zhang, Hu & Adams 2017) */
     double dissipation;   /* its least share then */
     double damper;        /* acoustic damper beta, 0: off */

@@ -31,6 +31,7 @@ static const struct param rows[] = {
     PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the largest speed expected in the scene, and density within 1 % at rest and in slow viscous flow"),
     PARAM(P, gamma, "-", "7.0", 1.0, 7.0, "exponent of the equation of state, 7 or 1"),
     CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface but no inlet or outlet, else riemann_ale"),
+    CHOICE(P, riemann, "linear|exact", "linear", "Riemann problem of each pair of the Riemann schemes: linearised; for comparison solved exactly, by Newton's iteration, in twice the time"),
     CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles"),
     CHOICE(P, transport, "tvs|tvo|none|eulerian|xsph", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest; xsph: smoothed velocity"),
     CHOICE(P, viscosity, "morris|monaghan|auto", "auto", "form of the viscous term; auto: monaghan with a free surface, where it leaves no stress, else morris"),

@@ -9,11 +9,13 @@
 
 #include "../../common/scene/exact.h"
 #include "../../common/scene/scene_fluid.h"
+#include "../refinement/apr_params.h"
 #include "../walls/walls.h"
 
 /* What keys need. */
 enum {
     RIEMANN,        /* a Riemann scheme */
+    ONE_SIZE,       /* and pairs of particles of one size */
     BOUNDED,        /* low_dissipation of one */
     ARTIFICIAL,     /* scheme delta or standard */
     DIFFUSIVE,      /* scheme delta */
@@ -60,8 +62,10 @@ static void find_needs(const struct run *r, const struct sph_params *given,
 {
     const struct scene *c = &r->scene;
     const int field = c->initial.field;
+    const struct apr_params *apr = apr_params_of(r);
     double still[3];
     has[RIEMANN] = used->scheme == SCHEME_RIEMANN_ALE || used->scheme == SCHEME_RIEMANN;
+    has[ONE_SIZE] = has[RIEMANN] && (!apr || apr->method == APR_GUARDS);
     has[BOUNDED] = has[RIEMANN] && used->low_dissipation;
     has[ARTIFICIAL] = !has[RIEMANN];
     has[DIFFUSIVE] = used->scheme == SCHEME_DELTA;
@@ -86,6 +90,9 @@ static const struct {
     const char *why;
 } rows[] = {
     {"sph.limiter", RIEMANN, "schemes delta and standard reconstruct nothing between particles"},
+    {"sph.riemann", ONE_SIZE,
+     "only the Riemann schemes solve Riemann problems, and sets of several sizes (apr.method) the "
+     "linear ones alone"},
     {"sph.low_dissipation", RIEMANN, "schemes delta and standard solve no Riemann problem"},
     {"sph.dissipation", BOUNDED,
      "it is the floor of low_dissipation, which is off or has no Riemann "

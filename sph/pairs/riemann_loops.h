@@ -1,5 +1,5 @@
 /* riemann_loops.h - the parts of the second pass of Riemann SPH that do not ask how far a kernel
- * reaches: scheme_rates.c puts them together for particles of one size, refinement/mixed_pairs.c
+ * reaches: riemann_rows.h puts them together for particles of one size, refinement/mixed_pairs.c
  * for sets of several. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_RIEMANN_LOOPS_H
 #define SPH_RIEMANN_LOOPS_H
@@ -9,6 +9,7 @@
 #include "../sph.h"
 #include "kernel.h"
 #include "riemann.h"
+#include "riemann_exact.h"
 #include "vec.h"
 
 enum { VISCOSITY_OFF = 2, BATCH = 8 };
@@ -17,6 +18,7 @@ enum { VISCOSITY_OFF = 2, BATCH = 8 };
  * nothing measurable, and leaves 12 instances. */
 struct riemann_variant {
     int dim, scheme, viscosity;
+    bool exact; /* Riemann problems */
 };
 
 /* Numbers of the whole pass. */
@@ -53,7 +55,8 @@ struct riemann_batch {
     vec parting[BATCH];              /* (u_j - u_i).(x_j - x_i) */
     vec u[2][3][BATCH], p[2][BATCH]; /* states at the middle: i's side, j's side */
     vec Q[BATCH], m[2][BATCH], w[BATCH];
-    vec rub[BATCH]; /* times D: momentum that goes to i */
+    vec rub[BATCH];  /* times D: momentum that goes to i */
+    vec x[2][BATCH]; /* rho/rho0 of both states, for exact problems */
 };
 
 /* What the pairs give to their first particle. */
@@ -128,6 +131,10 @@ INLINE void densities(const struct riemann_constants *c, const struct riemann_ow
         t->rho[k] = 0.5 * (rho[0] + rho[1]);
         t->p[0][k] = pressure(&c->eos, rho[0], c->gamma) - i->damped;
         t->p[1][k] = pressure(&c->eos, rho[1], c->gamma);
+        if (v.exact) {
+            t->x[0][k] = rho[0] * c->eos.rho0_1;
+            t->x[1][k] = rho[1] * c->eos.rho0_1;
+        }
     }
 }
 
@@ -224,6 +231,8 @@ INLINE void solve(const struct riemann_constants *c, const struct riemann_own *i
         }
         const vec V[2] = {vec_dot(uI, d, dim), vec_dot(uJ, d, dim)};
         star(&c->dissipation, z, p, V, &vE, &pE);
+        if (v.exact)
+            add_exact(&c->eos, z, (vec[2]){t->x[0][k], t->x[1][k]}, V, c->gamma, &vE, &pE);
         vec Q = f * pE;                        /* times d: what acts along the line of centres */
         if (v.viscosity == VISCOSITY_MONAGHAN) /* [2.32] */
             Q -= c->mu * f * t->parting[k] * r2_1;

@@ -21,7 +21,9 @@ struct scheme scheme_pick(const struct sph *s);
 scheme_pass *scheme_gradients(int dim, int transport);
 /* Those of rho alone, and u0 = u. */
 scheme_pass *scheme_density_gradients(int dim);
-scheme_pass *scheme_rates(const struct sph *s);       /* riemann_ale, riemann */
+scheme_pass *scheme_rates(const struct sph *s); /* riemann_ale, riemann */
+/* The same with exact Riemann problems; viscosity: VISCOSITY_OFF without any. */
+scheme_pass *scheme_exact_rates(int dim, int scheme, int viscosity);
 scheme_pass *scheme_delta_rates(const struct sph *s); /* delta, standard */
 
 /* Adds to the rates of particle i what delta and standard take along with the shift, and no pair

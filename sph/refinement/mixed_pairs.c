@@ -1,5 +1,5 @@
 /* mixed_pairs.c - both passes over the pairs of particles of different sizes, in 2D: as
- * scheme_gradients.c and scheme_rates.c, but with the mean R of each pair and with weights of the
+ * scheme_gradients.c and riemann_rows.h, but with the mean R of each pair and with weights of the
  * sources [5.12-5.13], which lie where lines have pressure and speed of sound.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mixed.h"
@@ -247,7 +247,7 @@ INLINE void rates(struct sph *s, const struct riemann_variant v)
 #define RATES(scheme, viscosity)                                                                   \
     static void rates_##scheme##_##viscosity(struct sph *s)                                        \
     {                                                                                              \
-        rates(s, (struct riemann_variant){2, scheme, viscosity});                                  \
+        rates(s, (struct riemann_variant){2, scheme, viscosity, false});                           \
     }
 RATES(SCHEME_RIEMANN_ALE, VISCOSITY_MORRIS)
 RATES(SCHEME_RIEMANN_ALE, VISCOSITY_MONAGHAN)

@@ -47,6 +47,7 @@ sph.R_dx 3
 sph.c0 17
 sph.gamma 1
 sph.scheme standard
+sph.riemann exact
 sph.limiter minmod
 sph.transport none
 sph.viscosity monaghan

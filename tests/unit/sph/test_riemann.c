@@ -3,6 +3,7 @@
 #include "../test.h"
 
 #include "../../../sph/pairs/riemann.h"
+#include "../../../sph/pairs/riemann_exact.h"
 #include "../../../sph/particles/eos.h"
 
 static const struct dissipation full = {.factor = 0.3, .least = 1.0};
@@ -188,17 +189,119 @@ static void pressure_is_the_scalar_one(void **state)
     }
 }
 
+/* Gas of the exact problems. */
+static struct tait gas(int gamma)
+{
+    const double rho0 = 1000.0, c0 = 10.0, B = rho0 * c0 * c0 / gamma;
+    return (struct tait){.rho0_1 = 1.0 / rho0, .B = B, .at0 = B, .Z0 = rho0 * c0, .c0 = c0};
+}
+
+/* Star state between densities of[0] and of[1], velocities u[0] and u[1]; the linear one, too. */
+static void solve_exactly(int gamma, const double of[2], const double u[2], double star_state[2],
+                          double linear[2])
+{
+    const double r = 0.37;
+    const struct tait e = gas(gamma);
+    const vec rho[2] = {vec_all(of[0]), vec_all(of[1])},
+              v[2] = {vec_all(r * u[0]), vec_all(r * u[1])};
+    const vec p[2] = {pressure(&e, rho[0], gamma), pressure(&e, rho[1], gamma)};
+    const vec x[2] = {rho[0] * e.rho0_1, rho[1] * e.rho0_1};
+    const struct weights z =
+        weigh(vec_all(r), impedance(&e, rho[0], gamma), impedance(&e, rho[1], gamma));
+    vec vE, P;
+    star(&full, &z, p, v, &vE, &P);
+    linear[0] = vE[0] / r;
+    linear[1] = P[0];
+    add_exact(&e, &z, x, v, gamma, &vE, &P);
+    star_state[0] = vE[LANES - 1] / r;
+    star_state[1] = P[LANES - 1];
+}
+
+/* What of the wave between (rho, u) and the star state is not kept, over c0; the wave runs against
+ * the axis from the state left of it, along it from the right (side = 1). Shocks keep mass and
+ * momentum, rarefactions u + 2 c/(gamma - 1), or u + c log rho with gamma = 1. */
+static double lost(int gamma, int side, double rho, double u, const double star_state[2])
+{
+    const double rho0 = 1000.0, c0 = 10.0, sign = side ? -1.0 : 1.0;
+    const double end = eos_rho(star_state[1], rho0, c0, gamma), uE = star_state[0];
+    if (end <= rho && gamma == 1)
+        return (u - uE) / c0 + sign * log(rho / end);
+    if (end <= rho)
+        return (u - uE + sign / 3.0 * (eos_c(rho, rho0, c0, 7.0) - eos_c(end, rho0, c0, 7.0))) / c0;
+    const double speed = (end * uE - rho * u) / (end - rho), flux = rho * (u - speed);
+    assert_true(sign * flux > 0.0);
+    return (eos_p(rho, rho0, c0, gamma) + flux * (u - uE) - star_state[1]) / (rho0 * c0 * c0);
+}
+
+static void exact_star_state_keeps_what_waves_keep(void **state)
+{
+    (void)state;
+    for (int gamma = 1; gamma <= 7; gamma += 6)
+        for (double first = 950.0; first < 1100.0; first += 31.0)
+            for (double second = 960.0; second < 1100.0; second += 29.0)
+                for (double jump = -2.0; jump < 8.0; jump += 0.7) {
+                    const double rho[2] = {first, second}, u[2] = {1.0 + jump, 1.0};
+                    double E[2], linear[2];
+                    solve_exactly(gamma, rho, u, E, linear);
+                    assert_close(lost(gamma, 0, rho[0], u[0], E), 0.0, 1e-9);
+                    assert_close(lost(gamma, 1, rho[1], u[1], E), 0.0, 1e-9);
+                }
+}
+
+/* Both agree to first order: half the jump, a quarter of the difference. */
+static void linear_star_state_errs_to_second_order(void **state)
+{
+    (void)state;
+    for (int gamma = 1; gamma <= 7; gamma += 6) {
+        double off[3][2];
+        for (int k = 0; k < 3; k++) {
+            const double half = pow(0.5, k), rho[2] = {1000.0 + 4.0 * half, 1000.0};
+            const double u[2] = {0.3 * half, 0.0};
+            double E[2], linear[2];
+            solve_exactly(gamma, rho, u, E, linear);
+            for (int c = 0; c < 2; c++)
+                off[k][c] = fabs(E[c] - linear[c]);
+        }
+        assert_true(off[0][1] > 1.0); /* Pa */
+        for (int k = 0; k < 2; k++)
+            for (int c = 0; c < 2; c++)
+                assert_true(off[k + 1][c] <= 0.3 * off[k][c]);
+    }
+}
+
+/* In a mirror the two change places and signs of velocity; states that part faster than the gas
+ * can follow, 2 (2 c0)/(gamma - 1), leave less than a hundredth of its density and finite values.
+ */
+static void exact_star_state_has_a_mirror_and_a_vacuum(void **state)
+{
+    (void)state;
+    const double rho[2] = {1030.0, 990.0}, back[2] = {990.0, 1030.0}, u[2] = {0.7, -0.9};
+    const double turned[2] = {0.9, -0.7}, away[2] = {-7.0, 7.0};
+    double E[2], mirror[2], linear[2];
+    solve_exactly(7, rho, u, E, linear);
+    solve_exactly(7, back, turned, mirror, linear);
+    assert_close(mirror[0], -E[0], 1e-12);
+    assert_close(mirror[1], E[1], 1e-8);
+    solve_exactly(7, rho, away, E, linear);
+    assert_true(isfinite(E[0]));
+    assert_close(E[1], -1000.0 * 100.0 / 7.0, 1e-6);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(equal_states_stay),
-                                       cmocka_unit_test(symmetric_collision_is_rho_c_u),
-                                       cmocka_unit_test(star_state_lies_on_both_waves),
-                                       cmocka_unit_test(low_dissipation_is_bounded),
-                                       cmocka_unit_test(linear_fields_meet_in_the_middle),
-                                       cmocka_unit_test(limiters_are_the_printed_ones),
-                                       cmocka_unit_test(koren_is_third_order),
-                                       cmocka_unit_test(slack_keeps_extrema_smooth),
-                                       cmocka_unit_test(no_bounded_state_overshoots),
-                                       cmocka_unit_test(pressure_is_the_scalar_one)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(equal_states_stay),
+        cmocka_unit_test(symmetric_collision_is_rho_c_u),
+        cmocka_unit_test(star_state_lies_on_both_waves),
+        cmocka_unit_test(low_dissipation_is_bounded),
+        cmocka_unit_test(linear_fields_meet_in_the_middle),
+        cmocka_unit_test(limiters_are_the_printed_ones),
+        cmocka_unit_test(koren_is_third_order),
+        cmocka_unit_test(slack_keeps_extrema_smooth),
+        cmocka_unit_test(no_bounded_state_overshoots),
+        cmocka_unit_test(pressure_is_the_scalar_one),
+        cmocka_unit_test(exact_star_state_keeps_what_waves_keep),
+        cmocka_unit_test(linear_star_state_errs_to_second_order),
+        cmocka_unit_test(exact_star_state_has_a_mirror_and_a_vacuum)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
