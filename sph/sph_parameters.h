@@ -18,6 +18,7 @@ enum sph_transport {
     TRANSPORT_EULERIAN,
     TRANSPORT_XSPH
 };
+enum sph_surface_shift { SURFACE_SHIFT_ALONG, SURFACE_SHIFT_BETA };
 enum sph_viscosity {
     VISCOSITY_MORRIS,
     VISCOSITY_MONAGHAN,
@@ -35,6 +36,7 @@ struct sph_params {
     double c0;    /* m/s; 0: ten times the speed that the scene lets expect */
     double gamma; /* Tait's exponent, 7 or 1 */
     int scheme, limiter, transport, viscosity;
+    int surface_shift;    /* enum sph_surface_shift: how shifting ends at a free surface */
     int riemann;          /* enum sph_riemann: how the problem of each pair is solved */
     bool low_dissipation; /* bounded Riemann dissipation (Zhang, Hu & Adams 2017) */
     double dissipation;   /* its least share then */

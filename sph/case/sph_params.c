@@ -34,6 +34,7 @@ static const struct param rows[] = {
     CHOICE(P, riemann, "linear|exact", "linear", "Riemann problem of each pair of the Riemann schemes: linearised; for comparison solved exactly, by Newton's iteration, in twice the time"),
     CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles"),
     CHOICE(P, transport, "tvs|tvo|none|eulerian|xsph", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest; xsph: smoothed velocity"),
+    CHOICE(P, surface_shift, "along|beta", "along", "how shifting ends at a free surface: along it alone near it, nothing on it; for comparison it fades within 2 dx as the support is cut (Chiron)"),
     CHOICE(P, viscosity, "morris|monaghan|auto", "auto", "form of the viscous term; auto: monaghan with a free surface, where it leaves no stress, else morris"),
     PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)"),
     PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface and where walls support the weight of a fluid that fills its room, else 0"),
@@ -616,6 +617,8 @@ static void check_levels(const struct run *r, struct faults *f)
 {
     const struct sph_params *prm = sph_params_of(r);
     const struct apr_params *apr = apr_params_of(r);
+    params_unused(r->params, f, "apr.guards", apr->method == APR_GUARDS,
+                  "this method has particles of all sizes in one set");
     params_unused(r->params, f, "apr.local_steps", apr->method == APR_GUARDS,
                   "this method has particles of all sizes in one set");
     params_unused(r->params, f, "apr.unshifted_finest",

@@ -134,16 +134,15 @@ static void create_finer(struct sph *s)
     if (apr_params_of(s->run)->method != APR_GUARDS)
         return;
     s->refinement->local_steps = s->local_steps = local;
-    s->guards = guards_create();
-    s->guards->own_rates = local;
+    s->guards = guards_create(s->run);
     s->flows_at = refinement_flows_at;
     for (struct sph *q = s; q->level < regions_levels(g);) {
         struct sph_params prm = s->prm;
         if (apr_params_of(s->run)->unshifted_finest && q->level + 1 == regions_levels(g))
             prm.transport = TRANSPORT_NONE;
         q = create_level(s->run, &prm, q);
-        q->guards = guards_create();
-        q->guards->own_rates = q->local_steps = local;
+        q->guards = guards_create(s->run);
+        q->local_steps = local;
         q->flows_at = refinement_flows_at;
     }
 }

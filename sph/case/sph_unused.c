@@ -16,6 +16,7 @@
 enum {
     RIEMANN,        /* a Riemann scheme */
     ONE_SIZE,       /* and pairs of particles of one size */
+    SHIFT_ENDS,     /* a law of shifting that meets a free surface */
     BOUNDED,        /* low_dissipation of one */
     ARTIFICIAL,     /* scheme delta or standard */
     DIFFUSIVE,      /* scheme delta */
@@ -66,6 +67,8 @@ static void find_needs(const struct run *r, const struct sph_params *given,
     double still[3];
     has[RIEMANN] = used->scheme == SCHEME_RIEMANN_ALE || used->scheme == SCHEME_RIEMANN;
     has[ONE_SIZE] = has[RIEMANN] && (!apr || apr->method == APR_GUARDS);
+    has[SHIFT_ENDS] = used->surface == SURFACE_YES && (!apr || apr->method == APR_GUARDS) &&
+                      (used->transport == TRANSPORT_TVS || used->transport == TRANSPORT_TVO);
     has[BOUNDED] = has[RIEMANN] && used->low_dissipation;
     has[ARTIFICIAL] = !has[RIEMANN];
     has[DIFFUSIVE] = used->scheme == SCHEME_DELTA;
@@ -93,6 +96,9 @@ static const struct {
     {"sph.riemann", ONE_SIZE,
      "only the Riemann schemes solve Riemann problems, and sets of several sizes (apr.method) the "
      "linear ones alone"},
+    {"sph.surface_shift", SHIFT_ENDS,
+     "no law of shifting (sph.transport) meets a free surface, or sets of several sizes "
+     "(apr.method) have their own"},
     {"sph.low_dissipation", RIEMANN, "schemes delta and standard solve no Riemann problem"},
     {"sph.dissipation", BOUNDED,
      "it is the floor of low_dissipation, which is off or has no Riemann "

@@ -43,6 +43,7 @@ static const struct param_list criteria = {
 #define P struct apr_params
 const struct param apr_rows[APR_ROWS] = {
     CHOICE(P, method, "guards|weights|coalescence|graded", "guards", "method: levels with guard particles between them; the others are for comparison, in 2D on one rank: parents and children together, weighted (Barcarolo); splitting and merging in pairs (Vacondio); spacing that grows by 2.5 % a particle away from a box"),
+    CHOICE(P, guards, "slopes|shepard", "slopes", "fields of guards: by the slopes of what flows around them, third order; for comparison by Shepard's mean over it, which damps what turns"),
     PARAM(P, levels,    "-", "0", 0, APR_LEVELS_MAX, "levels of refinement: dx of the finest is sph.dx / 2^levels; 0: the largest level of regions and criteria, 1 if none is given"),
     PARAM(P, margin,    "-", "3.0", 1.5, 100, "a region of level 2 and more has one of each coarser level around it, made where the case gives none: distance of their edges, in R of the level outside of both"),
     PARAM(P, around,    "-", "3", 2, 20, "cells, as wide as R of the coarser level, that are refined around those where a criterion asks for it"),

@@ -11,7 +11,8 @@ enum region_shape { REGION_BOX, REGION_SPHERE, REGION_BODY, REGION_WALL };
 enum criterion_kind { CRITERION_SURFACE, CRITERION_VORTICITY, CRITERION_PRESSURE, CRITERION_JUMP };
 /* Guards: the method of refinement.h. The others are there to be compared with; mixed.h. */
 enum apr_method { APR_GUARDS, APR_WEIGHTS, APR_COALESCENCE, APR_GRADED };
-enum { REGIONS_MAX = 32, CRITERIA_MAX = 8, APR_LEVELS_MAX = 12, APR_ROWS = 9 };
+enum apr_guards { GUARDS_SLOPES, GUARDS_MEAN };
+enum { REGIONS_MAX = 32, CRITERIA_MAX = 8, APR_LEVELS_MAX = 12, APR_ROWS = 10 };
 
 struct apr_region {
     int level;                  /* 0: the finest */
@@ -36,6 +37,7 @@ struct apr_criterion {
 
 struct apr_params {
     int method;       /* enum apr_method */
+    int guards;       /* enum apr_guards: where their fields come from */
     int levels;       /* halvings of dx; 0: as regions and criteria have it */
     double margin;    /* R of the coarser level: between the edges of regions made automatically */
     int around;       /* cells of R of the coarser level around those that a criterion marks */

@@ -22,10 +22,19 @@ static const double narrow = 0.8, least = 2.4; /* of R; finer dx: supports of gu
  * at rest (excess) was measured with R. */
 static double reach_of(const struct sph *fine)
 {
-    return fine->surface ? fine->R : fmin(fine->R, fmax(narrow * fine->R, least * fine->dx));
+    return fine->surface || fine->guards->mean
+               ? fine->R
+               : fmin(fine->R, fmax(narrow * fine->R, least * fine->dx));
 }
 
-struct guards *guards_create(void) { return NEW(struct guards, 1); }
+struct guards *guards_create(const struct run *r)
+{
+    struct guards *g = NEW(struct guards, 1);
+    const struct apr_params *apr = apr_params_of(r);
+    g->mean = apr->guards == GUARDS_MEAN;
+    g->own_rates = apr->local_steps;
+    return g;
+}
 
 void guards_free(struct guards **g)
 {
@@ -225,7 +234,7 @@ struct guard_sums {
 };
 
 INLINE void add_sources(const struct sph *from, const double *x, double R_1, const int *j, int n,
-                        struct guard_sums *to, const int dim)
+                        struct guard_sums *to, const int dim, const bool slopes)
 {
     const double *prim = from->p.prim, *slope = from->p.slope;
     const ptrdiff_t width = dim == 2 ? 8 : 16;
@@ -239,7 +248,7 @@ INLINE void add_sources(const struct sph *from, const double *x, double R_1, con
             vec_columns(prim, PRIM, j, 2, f + 1, f + 2);
         }
         vec_columns(prim, PRIM, j, at_volume(dim), &w, f);
-        for (int k = 0; k < dim * (dim + 1); k += 2)
+        for (int k = 0; slopes && k < dim * (dim + 1); k += 2)
             vec_columns(slope, width, j, k, g + k, g + k + 1);
         for (int a = 0; a < dim; a++) {
             d[a] -= x[a];
@@ -251,7 +260,7 @@ INLINE void add_sources(const struct sph *from, const double *x, double R_1, con
         for (int a = 0; a < dim; a++)
             to->r[a] += W * d[a];
         for (int c = 0; c <= dim; c++) {
-            for (int a = 0; a < dim; a++) {
+            for (int a = 0; slopes && a < dim; a++) {
                 f[c] -= 0.5 * g[dim * c + a] * d[a];
                 to->grad[c][a] += W * g[dim * c + a];
             }
@@ -365,7 +374,7 @@ INLINE void take(struct sph *s, int i, struct guard_sums sum[2], const struct sp
     }
 }
 
-INLINE void update(struct sph *const *all, struct sph *s, int n, const int dim)
+INLINE void update(struct sph *const *all, struct sph *s, int n, const int dim, const bool slopes)
 {
     const struct guards *g = s->guards;
     for (int k = 0; k < n; k++) {
@@ -373,10 +382,21 @@ INLINE void update(struct sph *const *all, struct sph *s, int n, const int dim)
         const double *x = prim_line(&s->p, g->who[k]), R_1 = 1.0 / reach_of(fine);
         struct guard_sums sum[2];
         memset(sum, 0, sizeof sum);
-        add_sources(fine->coarser, x, R_1, g->j + g->first[k][0], g->count[k][0], sum, dim);
-        add_sources(fine, x, R_1, g->j + g->first[k][1], g->count[k][1], sum + 1, dim);
-        take(s, g->who[k], sum, fine, g->near[k], dim);
+        add_sources(fine->coarser, x, R_1, g->j + g->first[k][0], g->count[k][0], sum, dim, slopes);
+        add_sources(fine, x, R_1, g->j + g->first[k][1], g->count[k][1], sum + 1, dim, slopes);
+        take(s, g->who[k], sum, fine, slopes && g->near[k], dim);
     }
+}
+
+/* The first n guards of a level. */
+static void give(struct sph *const *all, struct sph *s, int n)
+{
+    if (s->guards->mean)
+        (s->dim == 2 ? update(all, s, n, 2, false) : update(all, s, n, 3, false));
+    else if (s->dim == 2)
+        update(all, s, n, 2, true);
+    else
+        update(all, s, n, 3, true);
 }
 
 /* What deep guards are given in the first stage holds for all of the step, which starts from y0. */
@@ -392,10 +412,7 @@ static void update_level(struct sph *const *all, struct sph *s)
 {
     struct guards *g = s->guards;
     const int n = g->fresh ? g->n : g->nshallow;
-    if (s->dim == 2)
-        update(all, s, n, 2);
-    else
-        update(all, s, n, 3);
+    give(all, s, n);
     if (g->fresh)
         keep_deep(s);
     g->fresh = false;
@@ -432,10 +449,7 @@ void guards_update_edge(struct sph *s)
     guards_share(s, false);
     guards_share(s, true);
     timer_start(&s->run->timers, "guards");
-    if (s->dim == 2)
-        update(all, s, s->guards->nfiner, 2);
-    else
-        update(all, s, s->guards->nfiner, 3);
+    give(all, s, s->guards->nfiner);
     timer_stop(&s->run->timers, "guards");
 }
 

@@ -35,10 +35,11 @@ struct guards {
     bool fresh;    /* deep ones have not been given the fields of this step yet */
     int nnewborn, newborn_capacity;
     struct newborn *newborn; /* [nnewborn] of this level, at the end of the step; counts.h */
+    bool mean;               /* fields by Shepard's mean [5.23-5.24] alone, for comparison */
     bool own_rates;          /* with local steps: fields of a guard go on by its own rates */
 };
 
-struct guards *guards_create(void);
+struct guards *guards_create(const struct run *r);
 void guards_free(struct guards **g);
 /* Once a step, after the lists of pairs of all levels. s: the coarsest. */
 void guards_list(struct sph *s);

@@ -20,7 +20,8 @@ struct free_surface *sph_surface_create(struct sph *s)
     if (!s->prm.surface)
         return NULL;
     struct free_surface *f = NEW(struct free_surface, 1);
-    f->reach = s->prm.transport == TRANSPORT_TVO ? 2.0 * s->dx : s->R;
+    f->fades = s->prm.surface_shift == SURFACE_SHIFT_BETA;
+    f->reach = f->fades || s->prm.transport == TRANSPORT_TVO ? 2.0 * s->dx : s->R;
     return f;
 }
 

@@ -5,6 +5,8 @@
 #ifndef SPH_SURFACE_H
 #define SPH_SURFACE_H
 
+#include <math.h>
+
 #include "../sph.h"
 
 enum surface_class { SURFACE_INNER, SURFACE_NEAR, SURFACE_ON };
@@ -18,9 +20,18 @@ struct free_surface {
     double *change; /* [n] volume_feedback.h: sum w W of the first pass, then 1/s; if `follows' */
     int change_capacity;
     bool follows;
+    bool fades;   /* shifts do, towards the surface [5.14], for comparison */
     double reach; /* m: near is within this of a particle on the surface */
     bool known;   /* detected for the present places; else the first pass fills M */
 };
+
+/* The law of transition [5.16] (exponent 4: illegible in print, the best reading), v = 1 - sum w W:
+ * the whole shift below 0.1, nothing from 0.5 on. */
+static inline double surface_beta(double v)
+{
+    const double b = 1.0 - fmax(0.0, fmin(v, 0.5) - 0.1) / 0.4;
+    return b * b * b * b;
+}
 
 /* NULL: no free surface in the scene. */
 struct free_surface *sph_surface_create(struct sph *s);

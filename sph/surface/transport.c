@@ -9,11 +9,24 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
+#include "../../common/base/mem.h"
+#include "../pairs/kernel_sums.h"
 #include "../pairs/scheme.h"
 #include "../walls/walls.h"
 #include "surface.h"
 
-/* Takes out the part of delta across the surface [5.14]: nothing may move it but the flow. */
+/* What is left of delta where it fades towards the surface [5.14], for comparison. v of [5.15] is
+ * 1/2 on the surface; within 2 dx of it 1 less the Shepard sum, beside walls over the part of the
+ * support that is not behind them. */
+static void fade(const struct sph *s, int i, double room, double *delta)
+{
+    const bool on = s->surface->is[i] == SURFACE_ON;
+    const double beta = surface_beta(on ? 0.5 : 1.0 - kernel_sum(s, i) / fmax(room, 1e-3));
+    for (int a = 0; a < s->dim; a++)
+        delta[a] *= beta;
+}
+
+/* Takes out the part of delta across the surface: nothing may move it but the flow. */
 static void along_surface(const struct free_surface *f, int i, double *delta, int dim)
 {
     const double *N = f->normal + (size_t)dim * i;
@@ -95,13 +108,16 @@ void transport_finish(struct sph *s)
     const bool bounded = !s->packing && s->walls && !s->surface && s->prm.scheme <= SCHEME_RIEMANN;
     if (!oger && s->prm.transport != TRANSPORT_TVS)
         return;
+    double *room = s->surface && s->surface->fades ? walls_rooms(s) : NULL;
     for (int i = 0; i < s->p.n; i++) {
         const double *u = prim_line(&s->p, i) + dim;
         double *u0 = slope_line(&s->p, i) + dim + dim * dim;
         double delta[3], size2 = 0.0, u2 = 0.0;
         for (int a = 0; a < dim; a++)
             delta[a] = u0[a] - u[a];
-        if (s->surface && s->surface->is[i] != SURFACE_INNER)
+        if (room && s->surface->is[i] != SURFACE_INNER)
+            fade(s, i, room[i], delta);
+        else if (s->surface && s->surface->is[i] != SURFACE_INNER)
             along_surface(s->surface, i, delta, dim);
         for (int a = 0; a < dim; a++) {
             size2 += delta[a] * delta[a];
@@ -114,6 +130,7 @@ void transport_finish(struct sph *s)
         for (int a = 0; a < dim; a++)
             u0[a] = u[a] + factor * delta[a];
     }
+    mem_free(room);
     if (s->surface && !s->packing && s->prm.scheme != SCHEME_RIEMANN_ALE)
         make_workless(s);
 }

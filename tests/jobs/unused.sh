@@ -50,6 +50,7 @@ sph.scheme standard
 sph.riemann exact
 sph.limiter minmod
 sph.transport none
+sph.surface_shift beta
 sph.viscosity monaghan
 sph.low_dissipation false
 sph.dissipation 0.4
@@ -197,6 +198,7 @@ apr.margin 2.0
 apr.around 4
 apr.particles 6000
 apr.method weights
+apr.guards shepard
 apr.local_steps true
 apr.unshifted_finest true
 apr.regions ({min=(-0.8,-0.8);max=(0.7,0.7);})

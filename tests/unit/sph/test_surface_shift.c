@@ -1,0 +1,109 @@
+/* test_surface_shift.c - shifting that fades towards a free surface [5.14-5.16].
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../sph/pairs/kernel.h"
+#include "../../../sph/surface/surface.h"
+#include "../../../sph/time/integrate.h"
+#include "sph_case.h"
+
+static void the_law_is_the_printed_one(void **state)
+{
+    (void)state;
+    assert_close(surface_beta(-0.2), 1.0, 1e-15);
+    assert_close(surface_beta(0.1), 1.0, 1e-15);
+    assert_close(surface_beta(0.3), 0.0625, 1e-15); /* half way, to the fourth */
+    assert_close(surface_beta(0.5), 0.0, 1e-15);
+    assert_close(surface_beta(0.8), 0.0, 1e-15);
+}
+
+/* A column that collapses in a corner, without weight from the test on. */
+static struct sph *collapse(struct sph_case *c)
+{
+    sph_case_set(c, 2, 32);
+    struct scene *e = &c->run.scene;
+    e->initial.field = FIELD_REST;
+    e->initial.level = LEVEL_TOP;
+    e->fluid.nu = 0.0;
+    e->fluid.rho = 1000.0;
+    e->fluid.gravity[1] = -1.0;
+    e->time.end = 10.0;
+    e->nwalls = 3;
+    for (int k = 0; k < 3; k++) {
+        e->domain.periodic[k] = false;
+        e->walls[k].side = SIDE_X_MIN + k;
+    }
+    e->nshapes = 1;
+    e->shapes[0].form = SHAPE_BOX;
+    e->shapes[0].box[1][0] = e->shapes[0].box[1][1] = 0.5;
+    c->prm.scheme = SCHEME_RIEMANN;
+    c->prm.surface = SURFACE_YES;
+    c->prm.surface_shift = SURFACE_SHIFT_BETA;
+    c->prm.dissipation = 0.1;
+    c->prm.walls = WALLS_NFM;
+    c->prm.density_limit = 0.5;
+    struct sph *s = sph_case_start(c, NULL);
+    assert_true(sph_case_run(c, SANITIZED ? 20 : 60, 10.0));
+    integrate_gradients(s);
+    s->gravity[1] = 0.0;
+    return s;
+}
+
+/* Sum of w W and the distance of the nearest particle on the surface, over all particles. */
+static double shepard(const struct sph *s, int i, double *nearest)
+{
+    const double *x = prim_line(&s->p, i);
+    double sum = 0.0;
+    *nearest = INFINITY;
+    for (int j = 0; j < s->p.n; j++) {
+        const double *y = prim_line(&s->p, j), r = hypot(x[0] - y[0], x[1] - y[1]);
+        sum += y[at_volume(2)] * kernel_w(2, r, s->R);
+        if (s->surface->is[j] == SURFACE_ON && r < *nearest)
+            *nearest = r;
+    }
+    return sum;
+}
+
+/* Shifts of a fifth of u, across it, which no bound cuts, go through the law: those on the surface
+ * stay, those beyond 2 dx of it keep all of theirs, and between beta of their own sums is left. */
+static void shifts_fade_with_the_support(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    struct sph *s = collapse(&c);
+    int on = 0, part = 0, inner = 0;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *u = prim_line(&s->p, i) + 2;
+        double *u0 = slope_line(&s->p, i) + 6;
+        u0[0] = u[0] - 0.2 * u[1];
+        u0[1] = u[1] + 0.2 * u[0];
+    }
+    transport_finish(s);
+    for (int i = 0; i < s->p.n; i++) {
+        const double *x = prim_line(&s->p, i), *u = x + 2, *u0 = slope_line(&s->p, i) + 6;
+        double nearest;
+        const double v = 1.0 - shepard(s, i, &nearest), size = hypot(u[0], u[1]);
+        const bool is_on = s->surface->is[i] == SURFACE_ON;
+        if (x[0] < s->R || x[1] < s->R || fabs(nearest - 2.0 * s->dx) < 1e-9)
+            continue; /* walls take part */
+        const double left = is_on ? 0.0 : nearest < 2.0 * s->dx ? surface_beta(v) : 1.0;
+        assert_close(u0[0] - u[0], -0.2 * left * u[1], 1e-9 * size);
+        assert_close(u0[1] - u[1], 0.2 * left * u[0], 1e-9 * size);
+        on += is_on;
+        part += left > 0.0 && left < 1.0;
+        inner += left == 1.0;
+    }
+    print_message("%d on the surface, %d near it, %d inside\n", on, part, inner);
+    assert_true(on > 5 && part > 5 && inner > 5);
+    sph_free(&c.s);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_law_is_the_printed_one),
+                                       cmocka_unit_test(shifts_fade_with_the_support)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
