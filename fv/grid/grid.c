@@ -22,6 +22,13 @@ void grid_centre(const struct grid *g, const struct part *p, const int *at, doub
     }
     const struct mesh_block *b = g->mesh->block + p->block;
     cell_of(p, at, cell);
+    for (int a = 0; a < g->dim; a++)
+        if (cell[a] < 0 || cell[a] >= b->n[a]) {
+            const double middle[3] = {0.5, 0.5, 0.5};
+            double dx[3][3];
+            mesh_map_point(b, g->dim, cell, middle, x, dx);
+            return;
+        }
     memcpy(x, b->centre[mesh_cell(b, cell)], 3 * sizeof *x);
 }
 

@@ -16,7 +16,8 @@ struct grid {
 };
 
 /* grid.c: places of cell `at' of a part. */
-/* The one that stands for the cell: its centre, on blocks its centroid. */
+/* The one that stands for the cell: its centre, on blocks its centroid, behind their sides the
+ * middle of its map. */
 void grid_centre(const struct grid *g, const struct part *p, const int *at, double x[3]);
 /* The same of the cell at place c. */
 void grid_place(const struct grid *g, int64_t c, double x[3]);
