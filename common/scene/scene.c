@@ -131,6 +131,7 @@ static const struct param coupling_rows[] = {
     PARAM(P, keep_mass,  "-", "true", 0, 0, "SPH's part without a surface: the mass gained in a coupling step leaves through the open sides in the next"),
     CHOICE(P, mapping, "shepard|mls", "mls", "from particles to imposed cells"),
     CHOICE(P, interpolation, "linear|cubic", "cubic", "from cells to particles"),
+    CHOICE(P, in_time, "trial|linear", "trial", "FV's fields within a coupling step: between now and a trial of FV; for comparison extrapolated on straight lines from the steps before (Chiron)"),
     PARAM(P, deadline,   "s", "30.0", 0.1, 1e6, "to find the other programs of the job"),
 };
 #undef P

@@ -174,6 +174,7 @@ struct scene {
         bool keep_mass;    /* what SPH's part gained goes out by the openings; without a surface */
         int mapping;       /* 0 shepard, 1 mls: particles to forced cells */
         int interpolation; /* 0 linear, 1 cubic: patch to particles */
+        int in_time;       /* 0 by a trial of FV, 1 linear extrapolation */
         double deadline;   /* s to meet the other programs */
     } coupling;
     struct scene_output {

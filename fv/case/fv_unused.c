@@ -313,6 +313,7 @@ static const struct rule rules[] = {
     {"coupling.keep_mass",     alone, "this is no coupled job: it has no group sph", false},
     {"coupling.mapping",       alone, "this is no coupled job: it has no group sph", false},
     {"coupling.interpolation", alone, "this is no coupled job: it has no group sph", false},
+    {"coupling.in_time",       alone, "this is no coupled job: it has no group sph", false},
     {"coupling.deadline",      alone, "this is no coupled job: it has no group sph", false},
     {"output.fields",     no_pictures,       "output.snapshots = false", true},
     {"fv.cells",          blocks,            "each block has cells of its own", false},

@@ -21,6 +21,7 @@ struct course *course_create(const struct fv *s, struct patch *p, int memory)
     c->dim = s->dim;
     c->width = s->dim + (s->surface ? 2 : 1);
     c->memory = memory;
+    c->linear = s->run->scene.coupling.in_time == 1;
     c->n = p->n;
     for (int m = 0; m < COURSE_LEVELS; m++)
         c->q[m] = NEW(double, c->n * c->width);
@@ -189,6 +190,8 @@ void course_start(struct fv *s, struct course *c, double before)
 void course_try(struct fv *s, struct course *c, double t1)
 {
     struct diagnosis d = {0};
+    if (c->linear)
+        return;
     kept_take(c->kept, s);
     s->predicts = true;
     while (s->t < t1 && !d.bad)
@@ -251,10 +254,22 @@ int course_velocity(struct course *c)
             for (int m = 0; m < COURSE_TERMS; m++)
                 c->term[m][i * c->dim + a] = term[m];
         }
-    return n + 1;
+    return c->linear && n > 1 ? 2 : n + 1; /* a straight line of the parabola's slope now */
 }
 
-/* A straight line: to what the trial found, or from the level before. */
+/* Of a field in time now: towards what the trial found, or from the level before; without trials
+ * that of the parabola through three levels, as BDF2 has it. */
+static double slope_of(const struct course *c, int64_t at, int n, const double **q, const double *x)
+{
+    double f[COURSE_LEVELS], term[COURSE_TERMS];
+    if (!c->linear)
+        return n > 0 ? (q[0][at] - c->q[0][at]) / x[0] : 0.0;
+    for (int j = 0; j < n; j++)
+        f[j] = q[j][at];
+    expand(c->q[0][at], n, x, f, term);
+    return term[1];
+}
+
 int course_surface(struct course *c)
 {
     const double *q[COURSE_LEVELS];
@@ -263,12 +278,12 @@ int course_surface(struct course *c)
     for (int64_t i = 0; i < c->n; i++) {
         const int64_t at = i * c->width + c->dim + 1;
         c->term[0][i] = c->q[0][at];
-        c->term[1][i] = n > 0 ? (q[0][at] - c->q[0][at]) / x[0] : 0.0;
+        c->term[1][i] = slope_of(c, at, n, q, x);
     }
     return 2;
 }
 
-/* The same; smoothed along its trend. */
+/* If it is smoothed, along its trend. */
 int course_pressure(struct course *c)
 {
     const double *q[COURSE_LEVELS];
@@ -277,7 +292,7 @@ int course_pressure(struct course *c)
     for (int64_t i = 0; i < c->n; i++) {
         const int64_t at = i * c->width + c->dim;
         c->term[0][i] = c->q[0][at];
-        c->term[1][i] = c->rate ? c->rate[i] : n > 0 ? (q[0][at] - c->q[0][at]) / x[0] : 0.0;
+        c->term[1][i] = c->rate ? c->rate[i] : slope_of(c, at, n, q, x);
     }
     return 2;
 }

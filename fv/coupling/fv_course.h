@@ -2,7 +2,8 @@
  * they go on in time. FV tries the next coupling step with imposed cells that it extrapolates,
  * samples it, and restores its state; a partner then interpolates where it would extrapolate. Where
  * the loop of the two has too much gain, the pressure of past coupling steps is smoothed and
- * extrapolated instead. SPDX-License-Identifier: BSD-3-Clause */
+ * extrapolated instead. Without trials, for comparison, all fields are extrapolated on straight
+ * lines. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_COURSE_H
 #define FV_COURSE_H
 
@@ -29,6 +30,7 @@ struct course {
     double *rate;             /* [n] Pa/s: trend of the smoothed pressure; NULL: not smoothed */
     double *scatter;          /* [n] Pa: about its trend; NULL: no surface, no impacts */
     double *term[COURSE_TERMS]; /* [n][dim] of velocity; then of what was filled in last */
+    bool linear;                /* no trial: extrapolated by the slope at the newest [6.9-6.10] */
     bool failed;                /* a trial has */
     struct kept *kept;
 };

@@ -137,6 +137,7 @@ static const struct {
     {"coupling.keep_mass", COUPLED, "the case has one program: there are no coupling steps"},
     {"coupling.mapping", COUPLED, "the case has one program: there are no imposed cells"},
     {"coupling.interpolation", COUPLED, "the case has one program: there are no cells"},
+    {"coupling.in_time", COUPLED, "the case has one program: there are no cells"},
     {"coupling.deadline", COUPLED, "the case has one program: there is no other one to find"},
 };
 

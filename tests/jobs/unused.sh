@@ -37,6 +37,7 @@ coupling.memory 3
 coupling.keep_mass false
 coupling.mapping shepard
 coupling.interpolation linear
+coupling.in_time linear
 coupling.deadline 7
 output.every 0.003
 output.snapshots true

@@ -83,6 +83,41 @@ static void velocity_follows_cubics_and_pressure_lines(void **state)
     fv_free(&k.s);
 }
 
+/* Without trials [6.9-6.10]: value and slope now, exact of parabolas whatever the steps; a trial is
+ * not made. */
+static void lines_have_the_slope_of_parabolas(void **state)
+{
+    (void)state;
+    static const double t[COURSE_LEVELS] = {0.7, 0.55, 0.3};
+    struct fv_case k;
+    struct fv *s = start(&k);
+    s->run->scene.coupling.in_time = 1;
+    struct patch of_cells;
+    assert_true(patch_create(s, 0, NULL, NULL, &of_cells, NULL));
+    struct course *c = course_create(s, &of_cells, 1);
+    course_start(s, c, 1e-3);
+    course_try(s, c, s->t + 0.01);
+    assert_true(!(c->t_tried > c->t[0]));
+    for (int m = 0; m < COURSE_LEVELS; m++) {
+        c->t[m] = t[m];
+        set_level(c, c->q[m], 2, t[m]);
+    }
+    for (int first = 0; first <= c->dim; first += c->dim) {
+        const int ncomp = first ? 1 : c->dim;
+        assert_int_equal(first ? course_pressure(c) : course_velocity(c), 2);
+        for (int64_t i = 0; i < c->n; i++)
+            for (int a = 0; a < ncomp; a++) {
+                const int64_t place = i * (c->dim + 1) + first + a;
+                const double rise = -2.0 + (double)(place % 3) * t[0]; /* of course_of */
+                assert_close(c->term[0][i * ncomp + a], course_of(2, place, t[0]), 1e-12);
+                assert_close(c->term[1][i * ncomp + a], rise, 1e-11);
+            }
+    }
+    course_free(&c);
+    s->run->scene.coupling.in_time = 0;
+    fv_free(&k.s);
+}
+
 static void forced_values_follow_parabolas(void **state)
 {
     (void)state;
@@ -154,6 +189,7 @@ static void a_trial_leaves_no_trace(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(velocity_follows_cubics_and_pressure_lines),
+                                       cmocka_unit_test(lines_have_the_slope_of_parabolas),
                                        cmocka_unit_test(forced_values_follow_parabolas),
                                        cmocka_unit_test(a_trial_leaves_no_trace)};
     MPI_Init(&argc, &argv);
