@@ -43,7 +43,7 @@ static struct sph *collapse(struct sph_case *c)
     c->prm.walls = WALLS_NFM;
     c->prm.density_limit = 0.5;
     struct sph *s = sph_case_start(c, NULL);
-    assert_true(sph_case_run(c, SANITIZED ? 20 : 60, 10.0));
+    assert_true(sph_case_run(c, 60, 10.0));
     integrate_gradients(s);
     s->gravity[1] = 0.0;
     return s;
