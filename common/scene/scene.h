@@ -48,6 +48,7 @@ enum wall_kind {
 };
 enum wall_zone { ZONE_NONE, ZONE_BEACH, ZONE_WAVE };
 enum wall_profile { PROFILE_UNIFORM, PROFILE_PARABOLIC };
+enum coupling_in_time { IN_TIME_TRIAL, IN_TIME_LINEAR };
 enum shape_form { SHAPE_BOX, SHAPE_POLYGON, SHAPE_DISC, SHAPE_BELOW, SHAPE_MESH };
 enum fluid_side { FLUID_AUTO, FLUID_INSIDE, FLUID_OUTSIDE, FLUID_SHEET };
 enum accept_measure { ACCEPT_RMS, ACCEPT_PEAK, ACCEPT_IMPULSE, ACCEPT_ARRIVAL };
@@ -115,8 +116,7 @@ struct scene {
         /* By openings_resolve, of an outflow under a free surface that has neither: m: of the water
          * that stands in it at the start, NAN: not known; falls: none does, so water falls out. */
         double stands;
-        bool falls,
-            lower; /* lower: than the highest water, by a millionth of the domain's height */
+        bool falls, lower; /* lower: openings_are_lower */
     } walls[WALLS_MAX];
     int nwalls;
     struct scene_body bodies[BODIES_MAX]; /* scene_body.h */
@@ -174,7 +174,7 @@ struct scene {
         bool keep_mass;    /* what SPH's part gained goes out by the openings; without a surface */
         int mapping;       /* 0 shepard, 1 mls: particles to forced cells */
         int interpolation; /* 0 linear, 1 cubic: patch to particles */
-        int in_time;       /* 0 by a trial of FV, 1 linear extrapolation */
+        int in_time;       /* enum coupling_in_time */
         double deadline;   /* s to meet the other programs */
     } coupling;
     struct scene_output {

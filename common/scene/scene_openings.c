@@ -61,6 +61,8 @@ bool openings_have_outside(const struct scene *s)
 bool openings_are_lower(const struct scene *s, double top)
 {
     double low, high;
+    if (s->initial.level < LEVEL_TOP)
+        return false;
     scene_heights(s, &low, &high);
     return top < fmin(scene_water_top(s), high) - 1e-6 * (high - low);
 }

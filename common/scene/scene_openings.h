@@ -23,7 +23,8 @@ double wall_discharge(const struct scene_wall *w, double t);
  * scene_wall. */
 void openings_resolve(struct scene *s);
 /* m, against gravity: of the highest water at the start on the vertical through x, - infinity:
- * none; and whether it is lower than the highest of all, by a millionth of the domain's height. */
+ * none; and whether it is lower than the highest of all, by a millionth of the domain's height,
+ * where the case does not say one level for all (initial.level). */
 double openings_top_over(const struct scene *s, const struct exact *e, const double x[3]);
 bool openings_are_lower(const struct scene *s, double top);
 /* Whether what stands in an outflow at the start stands outside, too: gravity has an axis, and no

@@ -130,8 +130,7 @@ struct wave_field *wave_field_create(const struct wave_spec *of, double period, 
 {
     struct wave_field *f = NEW(struct wave_field, 1);
     struct wave_grid *g = make_grid(of, period, length);
-    const double k = 2.0 * M_PI / length,
-                 a = of->kind == WAVE_SEA ? 0.93 * of->height : 0.5 * of->height;
+    const double k = 2.0 * M_PI / length, a = waves_amplitude(of);
     const struct evolution_spec spec = {.g = of->g,
                                         .depth = of->depth,
                                         .dt = period / STEPS,
@@ -205,7 +204,7 @@ double complex *wave_field_filter(const struct wave_field *f, const struct wave_
     struct sea_gains *gains = sea_gains_create(of, low, high);
     double complex *filter = NEW(double complex, g->cells);
     for (int m = 0; m < g->cells; m++) {
-        const double k = g->size[m], w = sqrt(of->g * k * tanh(fmin(k * of->depth, 300.0))),
+        const double k = g->size[m], w = waves_frequency(k, of->g, of->depth),
                      kx = g->k[0][m % g->n[0]], ky = g->k[1][m / g->n[0]],
                      way = kx < 0.0 ? -1.0 : 1.0;
         const double cosine = way * (kx * of->normal[0] + ky * of->normal[1]) / fmax(k, 1e-300);

@@ -69,9 +69,8 @@ struct wave_component *wave_field_components(const struct wave_spec *of, double 
         const double k = g->size[m], kx = g->k[0][m % g->n[0]], ky = g->k[1][m / g->n[0]];
         if (k < low || k > high || kx < k * cos(widest))
             continue;
-        c[(*n)++] = (struct wave_component){.k = k,
-                                            .w = sqrt(of->g * k * tanh(fmin(k * of->depth, 300.0))),
-                                            .way = {kx / k, ky / k}};
+        c[(*n)++] = (struct wave_component){
+            .k = k, .w = waves_frequency(k, of->g, of->depth), .way = {kx / k, ky / k}};
     }
     qsort(c, (size_t)*n, sizeof *c, by_number);
     set_phases(of, c, *n);

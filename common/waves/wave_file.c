@@ -22,7 +22,7 @@ struct wave_component *wave_file_components(struct swd *s, double g, double dept
         if (a > least * most)
             c[(*n)++] = (struct wave_component){.a = a,
                                                 .k = k,
-                                                .w = sqrt(g * k * tanh(fmin(k * depth, 300.0))),
+                                                .w = waves_frequency(k, g, depth),
                                                 .phase = -atan2(h[2 * j + 1], h[2 * j]),
                                                 .way = {1.0, 0.0}};
     }

@@ -26,6 +26,16 @@ double waves_limit(double depth, double length)
            (1.0 + q * (0.0788340 + q * (0.0317567 + q * 0.0093407)));
 }
 
+double waves_frequency(double k, double g, double depth)
+{
+    return sqrt(g * k * tanh(fmin(k * depth, 300.0)));
+}
+
+double waves_amplitude(const struct wave_spec *of)
+{
+    return of->kind == WAVE_SEA ? 0.93 * of->height : 0.5 * of->height;
+}
+
 double waves_number(double w, double g, double h)
 {
     double k = w * w * h / g > 1.0 ? w * w / g : w / sqrt(g * h);
@@ -83,8 +93,7 @@ double waves_length(const struct wave_spec *of)
 double waves_period(const struct wave_spec *of)
 {
     const double k = 2.0 * M_PI / waves_length(of);
-    return of->period > 0.0 ? of->period
-                            : 2.0 * M_PI / sqrt(of->g * k * tanh(fmin(k * of->depth, 300.0)));
+    return of->period > 0.0 ? of->period : 2.0 * M_PI / waves_frequency(k, of->g, of->depth);
 }
 
 bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size_t size)
@@ -124,7 +133,7 @@ bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size
                  digits_below(of->height * bound / second, 3));
         return true;
     }
-    const double steep = of->kind == WAVE_SEA ? 0.93 * of->height : 0.5 * of->height;
+    const double steep = waves_amplitude(of);
     if (of->evolve == EVOLVE_HOS && 2.0 * M_PI / length * steep > hos_steepest) {
         snprintf(
             text, size,
@@ -175,7 +184,7 @@ static void make_regular(struct waves *w)
     }
     w->speed = fmax(fabs(w->table.u[0] + w->current), fabs(w->current));
     const double complex gain =
-        sea_gain(of, sqrt(of->g * s->k * tanh(fmin(s->k * of->depth, 300.0))), s->k, of->normal[0]);
+        sea_gain(of, waves_frequency(s->k, of->g, of->depth), s->k, of->normal[0]);
     w->gain = cabs(gain);
     w->ahead = carg(gain) / s->k;
 }

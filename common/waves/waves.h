@@ -93,5 +93,9 @@ void waves_velocity(const struct waves *w, double x, double y, double z, double 
 double waves_limit(double depth, double length);
 /* 1/m: of linear waves of the angular frequency omega. */
 double waves_number(double omega, double g, double depth);
+/* 1/s: the angular frequency of linear waves of the number k. */
+double waves_frequency(double k, double g, double depth);
+/* m: amplitude of a regular wave, of a group's focus; of a sea that of its highest waves. */
+double waves_amplitude(const struct wave_spec *of);
 
 #endif

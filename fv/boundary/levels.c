@@ -77,7 +77,7 @@ static void start_own(const struct fv *s)
     mesh_outside_find(s->run, s->m, of);
     for (int k = 0; k < LEVEL_GROUPS; k++) {
         l->falls[k] = l->falls[k] || of[k].falls;
-        if (of[k].lower && s->run->scene.initial.level >= LEVEL_TOP)
+        if (of[k].lower)
             l->level[k] = of[k].stands;
     }
 }
@@ -98,7 +98,7 @@ void levels_start(struct fv *s)
             continue;
         l->inlet[side] = w->has_level && w->kind == WALL_INFLOW;
         l->falls[side] = w->falls;
-        if (w->lower && s->run->scene.initial.level >= LEVEL_TOP)
+        if (w->lower)
             l->level[side] = w->stands;
     }
     start_own(s);

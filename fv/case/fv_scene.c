@@ -237,12 +237,19 @@ static void check_shape(const struct run *r, struct faults *f, int k)
     }
 }
 
+const char *surface_newton_lacks(bool falls)
+{
+    return falls ? "nothing stands there at the start, so that water would fall out, which newton "
+                   "cannot do: rk3 and bdf2 can"
+                 : "newton has one level outside, that of the highest water (initial.level), and "
+                   "less stands here: rk3 and bdf2 take that";
+}
+
 /* Water stands at rest in an opening but for what flows through it: its pressure is that of the
  * level. */
 static void check_water_opening(const struct run *r, struct faults *f, int k)
 {
-    const struct scene *s = &r->scene;
-    const struct scene_wall *w = s->walls + k;
+    const struct scene_wall *w = r->scene.walls + k;
     if (w->side == SIDE_NONE || (w->kind != WALL_INFLOW && w->kind != WALL_OUTFLOW))
         return;
     if (w->kind == WALL_OUTFLOW && r->scene.fluid.gravity[(w->side - SIDE_X_MIN) / 2] != 0.0)
@@ -252,13 +259,8 @@ static void check_water_opening(const struct run *r, struct faults *f, int k)
         wall_fault(
             r, f, k,
             "with a free surface the pressure of an outflow is that of the level (initial.level)");
-    if (fv_params_of(r)->integrator == INTEGRATOR_NEWTON &&
-        (w->falls || (w->lower && s->initial.level >= LEVEL_TOP)))
-        wall_fault(r, f, k,
-                   w->falls ? "nothing stands there at the start, so that water would fall out, "
-                              "which newton cannot do: rk3 and bdf2 can"
-                            : "newton has one level outside, that of the highest water "
-                              "(initial.level), and less stands here: rk3 and bdf2 take that");
+    if (fv_params_of(r)->integrator == INTEGRATOR_NEWTON && (w->falls || w->lower))
+        wall_fault(r, f, k, surface_newton_lacks(w->falls));
 }
 
 /* Between columns of flat cells a sloping surface jumps by as many rows as the cells are long, and

@@ -174,14 +174,8 @@ static void check_outside(const struct run *r, struct faults *f, const struct me
             const struct mesh_outside *o = of + b->on[side];
             if (b->side[side] != MESH_OUTFLOW || b->wall[side])
                 continue;
-            if (o->falls)
-                mesh_fault(r, f, b->prm, sides[side],
-                           "nothing stands there at the start, so that water would fall out, which "
-                           "newton cannot do: rk3 and bdf2 can");
-            else if (o->lower && r->scene.initial.level >= LEVEL_TOP)
-                mesh_fault(r, f, b->prm, sides[side],
-                           "newton has one level outside, that of the highest water "
-                           "(initial.level), and less stands here: rk3 and bdf2 take that");
+            if (o->falls || o->lower)
+                mesh_fault(r, f, b->prm, sides[side], "%s", surface_newton_lacks(o->falls));
         }
 }
 

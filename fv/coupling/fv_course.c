@@ -21,7 +21,7 @@ struct course *course_create(const struct fv *s, struct patch *p, int memory)
     c->dim = s->dim;
     c->width = s->dim + (s->surface ? 2 : 1);
     c->memory = memory;
-    c->linear = s->run->scene.coupling.in_time == 1;
+    c->linear = s->run->scene.coupling.in_time == IN_TIME_LINEAR;
     c->n = p->n;
     for (int m = 0; m < COURSE_LEVELS; m++)
         c->q[m] = NEW(double, c->n * c->width);
