@@ -34,6 +34,8 @@ void body_load(const struct body *b, const double *at, const double *F, double f
 /* body_contact.c: forces between free bodies and what they touch. What is nearer at the start than
  * contact holds rests there. */
 void body_contacts_start(struct sph *s);
+/* m: how deep a contact without damping lets in what comes at v, m/s, in steps of dt, s. */
+double body_contact_depth(double v, double dt);
 void body_contacts_add(struct sph *s, double (*loads)[6]);
 
 /* body_average.c: force on body k from the pressure on its surface, at each point the kernel

@@ -73,6 +73,8 @@ static double mass_at(const struct walls *w, const struct pair *p, const struct 
     return 1.0 / yields;
 }
 
+double body_contact_depth(double v, double dt) { return v * CONTACT_STEPS * dt / M_PI; }
+
 /* 1/s */
 static double rate_of(const struct walls *w) { return M_PI / (CONTACT_STEPS * w->dt_contact); }
 

@@ -180,6 +180,42 @@ static void check_contacts(const struct run *r, const struct sph_params *used,
         }
 }
 
+/* A line acts on what stands on its left. A free body of which the nearest line that is no side of
+ * the domain shows its back to all corners stands in that line's solid: it would fall through it,
+ * and be thrown out where it comes to the other side. */
+static void check_backs(const struct run *r, const struct bound *all, int n, struct faults *f)
+{
+    for (int k = 0; k < r->scene.nbodies; k++) {
+        const struct bound *at_back = NULL;
+        bool behind = is_free(&r->scene, all + k);
+        for (int i = 0; i < all[k].line.n && behind; i++) {
+            double least = INFINITY, side = 0.0;
+            for (int m = r->scene.nbodies; m < n; m++) {
+                const double *x = all[k].line.x[i];
+                double foot[2], of = 0.0;
+                foot_of(&all[m].line, x, foot, &of);
+                const double d = hypot(x[0] - foot[0], x[1] - foot[1]);
+                if (d >= least)
+                    continue;
+                least = d;
+                side = all[m].line.x == (const double(*)[2])all[m].x ? 1.0 : of;
+                at_back = all + m;
+            }
+            behind = side < 0.0;
+        }
+        if (!behind || !at_back)
+            continue;
+        char key[64];
+        snprintf(key, sizeof key, "bodies.[%d]", k);
+        params_fault(r->params, f, key, "%s stands behind %s, %s: %s", all[k].name, at_back->name,
+                     at_back->line.closed ? "within what is solid there"
+                                          : "an open line, which acts on its left alone",
+                     at_back->line.closed ? "move it"
+                                          : "give the points of that line in reverse order, close "
+                                            "it round what is solid, or move the body");
+    }
+}
+
 /* --- meshes --- */
 
 /* A vertex of a body outside the domain; true: said. */
@@ -484,6 +520,7 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
     }
     if (f->n == before && plane)
         check_contacts(r, used, all, n, f);
+    check_backs(r, all, n, f);
     if (!plane)
         check_meshes(r, used, bodies, times, f);
     for (int k = 0; k < c->nbodies; k++)
