@@ -182,9 +182,10 @@ static void progress(void *state, char *line, int size)
 {
     const struct fv *s = state;
     const double steps = s->run->step > 0 ? (double)s->run->step : 1.0;
-    snprintf(line, (size_t)size, "dt %.3g s (%s)  CFL %.2f  pressure %.1f its  |u| %.3g m/s", s->dt,
-             limit_name(s->limit), s->rate * s->dt, (double)s->iterations / steps,
-             fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
+    snprintf(line, (size_t)size, "dt %.3g s (%s)  CFL %.2f  pressure %.1f its  |u| %.3g m/s",
+             s->step.dt, limit_name(s->step.limit), s->max.rate * s->step.dt,
+             (double)s->totals.iterations / steps,
+             fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
 }
 
 /* Steps of a free surface are long, some tens a period of the water's. A row costs 2 % (a dam

@@ -75,6 +75,43 @@ struct newton;   /* the implicit integrator; newton.h; NULL: another one */
 struct link;     /* place in a coupled job; fv_coupling.c; NULL alone */
 struct watches;  /* figures that a sound run keeps small; watches.h */
 
+/* The step under way and the last ones; time/ makes them. */
+struct fv_step {
+    double dt_now;     /* s: of the step under way */
+    double dt, dt_old; /* s: last step, 0 before the first; the one before it */
+    enum limit limit;  /* what bounded the last one */
+    double defect;     /* m^dim/s: largest net flux that an overlap makes in it */
+    bool failed;       /* the pressure solver, in it */
+    bool predicts;     /* its steps will be undone: nothing in them is to be judged or counted */
+};
+
+/* Largest of all cells and ranks, of the flow as it is; flow_ops' measure finds them. */
+struct flow_maxima {
+    double u[3]; /* m/s: |u_a|; on blocks {|u|, 0, 0} */
+    double rate; /* 1/s: sum over the axes of |u_a|/h_a of a cell */
+    double rise; /* 1/s^2: what forces add to it in a second; blocks */
+    double Re;   /* |u| h/nu of a cell; blocks */
+};
+
+/* Velocities to expect, and the one that no flow of the scene has; watch/limits.h. */
+struct fv_speeds {
+    double scene;     /* m/s: limits_reference */
+    double partner;   /* m/s: where the partner has bodies; 0: none */
+    double reference; /* m/s: limits_follow */
+    double limit;     /* m/s: beyond it the run has blown up */
+};
+
+/* What the whole run counts, for its last lines and its summary. */
+struct fv_totals {
+    int64_t iterations;         /* of the pressure solver */
+    int64_t viscous_iterations; /* of Helmholtz */
+    int64_t start_iterations;   /* of the pressure solver, before the first step */
+    int64_t retries;            /* of the pressure solver, by the safer one; blocks */
+    double defect;              /* m^dim/s: largest of fv_step's */
+    double max_cfl;             /* -: largest sum over the axes of |u_a| dt/h_a */
+    double fastest;             /* m/s: largest |u_a| in the rows of the series */
+};
+
 struct fv {
     struct run *run;
     struct fv_params prm;
@@ -91,8 +128,11 @@ struct fv {
     const struct flow_ops *ops;
     struct exact exact;
     double nu;
-    double t;
-    double fastest; /* m/s: largest |u_a| in the rows of the series */
+    double t; /* s */
+    struct fv_step step;
+    struct flow_maxima max;
+    struct fv_speeds speed;
+    struct fv_totals totals;
     bool has_exact;
     int ring; /* block whose walls make Couette flow in a ring (initial.field = couette); -1: none
                */
@@ -136,32 +176,14 @@ struct fv {
     struct newton *newton;
     struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;
-    double datum;      /* Pa: the partner's pressure over ours, to be added in output; 0 alone */
-    bool predicts;     /* its steps will be undone: nothing in them is to be judged or counted */
-    double dt_now;     /* s: of the step under way */
-    double dt, dt_old; /* s: last step, 0 before the first; the one before it */
+    double datum; /* Pa: the partner's pressure over ours, to be added in output; 0 alone */
     int npartners;
     double partner[PARTNERS_MAX][2][3]; /* m: box that each partner counts as its own */
     bool partner_moves[3];              /* one of these moves along the axis */
-    double *past[2][3];   /* m/s: then, where the last coupling step began and the one before */
-    unsigned char *born;  /* of blocks with bdf2: 1: computed since born_at, when the box moved */
-    double born_at;       /* s */
-    double partner_speed; /* m/s: to expect where it has bodies; 0: none */
-    double scene_speed;   /* m/s: limits_reference */
-    double reference;     /* m/s: limits_follow */
-    double u_limit;       /* m/s: beyond it the run has blown up */
-    double umax[3];       /* m/s: largest |u_a|; on blocks {largest |u|, 0, 0} */
-    double rate;          /* 1/s: largest sum over the axes of |u_a|/h_a of a cell */
-    double rise;          /* 1/s^2: what forces add to it in a second; blocks */
-    double Re;            /* largest |u| h/nu of a cell; blocks */
-    enum limit limit;     /* of the last step */
-    double max_cfl;
+    double *past[2][3];  /* m/s: then, where the last coupling step began and the one before */
+    unsigned char *born; /* of blocks with bdf2: 1: computed since born_at, when the box moved */
+    double born_at;      /* s */
     struct watches *watches; /* watches.h */
-    int64_t iterations;      /* of the pressure solver */
-    int64_t viscous_iterations;
-    int64_t start_iterations, retries; /* blocks: before the first step; with the safer solver */
-    bool failed;                       /* the pressure solver, in this step */
-    double defect, defect_now; /* m^dim/s: largest net flux that an overlap makes; of this step */
     int nhistory;
     double (*history)[3]; /* t, force x, force y of each row of the series */
 };

@@ -52,7 +52,7 @@ static bool accelerates(const struct fv *s, const struct side *d)
  * a stage, with backward differences in dt/c0. Its cell inside: c. */
 static double gain(const struct fv *s, const struct side *d, int64_t at, int64_t c)
 {
-    const double r = s->dt > 0.0 ? s->dt_now / s->dt : 0.0,
+    const double r = s->step.dt > 0.0 ? s->step.dt_now / s->step.dt : 0.0,
                  share = s->prm.integrator == INTEGRATOR_RK3 ? 1.0 : (1.0 + r) / (1.0 + 2.0 * r);
     double sum = 0.0;
     for (int q = 0; q < s->m->dim; q++)

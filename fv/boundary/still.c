@@ -78,7 +78,7 @@ double fv_still_in_exact(const struct fv *s, const double *x)
 double fv_pressure(const struct fv *s, int64_t c)
 {
     const bool wet = s->surface && s->m;
-    double on = s->prm.integrator == INTEGRATOR_RK3 && s->dt > 0.0 ? 1.0 / 6.0 : 0.0;
+    double on = s->prm.integrator == INTEGRATOR_RK3 && s->step.dt > 0.0 ? 1.0 / 6.0 : 0.0;
     if (wet && on > 0.0)
         on = s->p_before[c] == 0.0 ? 0.0 : 0.5;
     return s->run->scene.fluid.rho * (s->p[c] + on * (s->p[c] - s->p_before[c]));

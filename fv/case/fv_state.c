@@ -154,10 +154,10 @@ static void empty_boxes(struct fv *s)
 
 static void set_limit(struct fv *s)
 {
-    const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
-    s->scene_speed = limits_reference(s->run);
-    s->reference = fmax(most, fmax(s->scene_speed, s->partner_speed));
-    s->u_limit = 10.0 * s->reference;
+    const double most = fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2]));
+    s->speed.scene = limits_reference(s->run);
+    s->speed.reference = fmax(most, fmax(s->speed.scene, s->speed.partner));
+    s->speed.limit = 10.0 * s->speed.reference;
 }
 
 void fv_start(struct fv *s)
@@ -167,7 +167,7 @@ void fv_start(struct fv *s)
     sides_fluxes(s, BC_GIVEN, s->U);
     measure(s);
     set_limit(s);
-    if (fmax(s->umax[0], fmax(s->umax[1], s->umax[2])) > 0.0)
+    if (fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])) > 0.0)
         pressure_start(s);
 }
 
@@ -200,8 +200,8 @@ static void project_start(struct fv *s)
     if (!pushed || s->surface || s->run->coupled)
         return;
     projection(s, s->t, 0, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
-    s->start_iterations = s->iterations;
-    s->iterations = 0;
+    s->totals.start_iterations = s->totals.iterations;
+    s->totals.iterations = 0;
     memset(s->psi[0], 0, (size_t)s->size * sizeof(double));
     measure(s);
     set_limit(s);
@@ -212,7 +212,7 @@ static void project_start(struct fv *s)
 static void meet_surface(struct fv *s)
 {
     if (!s->surface || s->run->coupled || s->moving ||
-        fmax(s->umax[0], fmax(s->umax[1], s->umax[2])) > 0.0)
+        fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])) > 0.0)
         return;
     levels_keep(s);
     pressure_start(s);
@@ -313,8 +313,9 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     measure(s);
     if (!f)
         meet_surface(s);
-    s->watches->sum_before = s->umax[0] + s->umax[1] + s->umax[2];
-    s->reference = fmax(s->reference, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
+    s->watches->sum_before = s->max.u[0] + s->max.u[1] + s->max.u[2];
+    s->speed.reference =
+        fmax(s->speed.reference, fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
     return s;
 }
 

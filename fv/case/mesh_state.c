@@ -77,8 +77,8 @@ void mesh_state_start(struct fv *s)
     if (s->surface) /* the first stage makes them */
         return;
     projection(s, s->t, 2, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
-    s->start_iterations = s->iterations;
-    s->iterations = 0;
+    s->totals.start_iterations = s->totals.iterations;
+    s->totals.iterations = 0;
     memset(s->start[2], 0, (size_t)s->size * sizeof(double));
     memset(s->psi[2], 0, (size_t)s->size * sizeof(double));
     measure(s);
@@ -138,12 +138,12 @@ void mesh_state_create(struct fv *s)
     double speed = 0.0;
     mesh_bc_rate(s, &speed);
     MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    s->scene_speed = fmax(speed, limits_reference(r));
+    s->speed.scene = fmax(speed, limits_reference(r));
     for (int k = 0; k < s->m->nblocks && s->moving; k++)
         if (s->m->block[k].motion)
-            s->scene_speed = fmax(s->scene_speed, s->m->block[k].motion->speed);
-    s->reference = fmax(s->umax[0], fmax(s->scene_speed, s->partner_speed));
-    s->u_limit = 10.0 * s->reference;
+            s->speed.scene = fmax(s->speed.scene, s->m->block[k].motion->speed);
+    s->speed.reference = fmax(s->max.u[0], fmax(s->speed.scene, s->speed.partner));
+    s->speed.limit = 10.0 * s->speed.reference;
     if (s->prm.integrator == INTEGRATOR_NEWTON)
         s->newton = newton_create(s);
     s->watches = fv_watches_create(s);

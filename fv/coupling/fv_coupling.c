@@ -209,7 +209,7 @@ static void meet_giver(struct fv *s, const struct link *k, struct giver *g)
     g->pace = number[0];
     find_zone(k, g, "speed", number, number);
     if (s->run->scene.nbodies > 0)
-        s->partner_speed = fmax(s->partner_speed, number[0]);
+        s->speed.partner = fmax(s->speed.partner, number[0]);
 }
 
 void coupling_boxes(struct fv *s, double box[PARTNERS_MAX][2][3])

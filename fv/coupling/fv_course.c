@@ -193,7 +193,7 @@ void course_try(struct fv *s, struct course *c, double t1)
     if (c->linear)
         return;
     kept_take(c->kept, s);
-    s->predicts = true;
+    s->step.predicts = true;
     while (s->t < t1 && !d.bad)
         integrate(s, t1, &d);
     c->t_tried = d.bad ? -INFINITY : t1;
@@ -204,7 +204,7 @@ void course_try(struct fv *s, struct course *c, double t1)
                  "gets values extrapolated from the steps before; lower coupling.steps",
                  c->t[0], t1, d.reason);
     c->failed = c->failed || d.bad;
-    s->predicts = false;
+    s->step.predicts = false;
     kept_put_back(c->kept, s);
     sides_time(s, s->t); /* those of the start again */
 }

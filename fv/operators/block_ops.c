@@ -200,10 +200,10 @@ static void measure_blocks(struct fv *s, double push, double motion)
     most[0] = fmax(most[0], mesh_bc_rate(s, &speed));
     most[0] = fmax(most[0], motion);
     MPI_Allreduce(MPI_IN_PLACE, most, 4, MPI_DOUBLE, MPI_MAX, m->comm);
-    s->rate = most[0];
-    s->umax[0] = most[1];
-    s->rise = most[2];
-    s->Re = most[3] / fmax(s->nu, 1e-300);
+    s->max.rate = most[0];
+    s->max.u[0] = most[1];
+    s->max.rise = most[2];
+    s->max.Re = most[3] / fmax(s->nu, 1e-300);
 }
 
 const struct flow_ops block_ops = {.smooth_pressure = smooth_pressure,

@@ -174,8 +174,8 @@ static void measure_even(struct fv *s, double push, double motion)
         most[a] = INFINITY;
     MPI_Allreduce(MPI_IN_PLACE, most, 4, MPI_DOUBLE, MPI_MAX, b->cart);
     for (int a = 0; a < 3; a++)
-        s->umax[a] = a < b->dim ? most[a] : 0.0;
-    s->rate = most[3];
+        s->max.u[a] = a < b->dim ? most[a] : 0.0;
+    s->max.rate = most[3];
 }
 
 const struct flow_ops even_ops = {.smooth_pressure = smooth_pressure,

@@ -34,7 +34,7 @@ struct flow_ops {
     void (*change_gradient)(struct fv *s, double *phi, double *const g[3]);
     /* With a surface: U of faces between dry cells, from u with its ghosts. */
     void (*dry_fluxes)(struct fv *s);
-    /* s->umax, rate and what else bounds a step. push: m/s^2, of pressures on opposite sides;
+    /* s->max.u, rate and what else bounds a step. push: m/s^2, of pressures on opposite sides;
      * motion: 1/s, cells that moving blocks pass. */
     void (*measure)(struct fv *s, double push, double motion);
     /* Of a face of a wall or body, beside which p has its ghosts: adds the force on it, N (per

@@ -84,7 +84,7 @@ bool helmholtz_cg(const struct helmholtz *h, double *const delta[3], double *con
         for (int a = 0; a < s->dim; a++)
             direct(s, r[a], sums[0] / rr, p[a]);
         rr = sums[0];
-        s->viscous_iterations++;
+        s->totals.viscous_iterations++;
     }
     return false;
 }
@@ -127,7 +127,7 @@ bool helmholtz_bicgstab(const struct helmholtz *h, double *const delta[3], doubl
         }
         rr = sums[0];
         rho = sums[1];
-        s->viscous_iterations++;
+        s->totals.viscous_iterations++;
     }
     return false;
 }
@@ -141,7 +141,7 @@ void helmholtz_once(const struct helmholtz *h, double *const delta[3], double *c
     h->apply(h->s, h->c, r, Ar);
     for (int a = 0; a < h->s->dim; a++)
         helmholtz_add(h->s, -1.0, Ar[a], delta[a]);
-    h->s->viscous_iterations++;
+    h->s->totals.viscous_iterations++;
 }
 
 static struct helmholtz_course course_of(const struct helmholtz *h)
@@ -205,7 +205,7 @@ bool helmholtz_chebyshev(const struct helmholtz *h, double *const delta[3], doub
         sum = at_once(s, &k, done, x, r, y);
         if (done % 2)
             swap(x, y);
-        s->viscous_iterations += done;
+        s->totals.viscous_iterations += done;
     } else
         start(s, 2.0 / (k.most + 1.0), x, r, y);
     for (;;) {
@@ -218,7 +218,7 @@ bool helmholtz_chebyshev(const struct helmholtz *h, double *const delta[3], doub
         helmholtz_next(&k);
         sum = h->step(s, &k, x, r, y);
         swap(x, y);
-        s->viscous_iterations++;
+        s->totals.viscous_iterations++;
         done++;
     }
     for (int a = 0; a < s->dim && left <= goal; a++)

@@ -260,7 +260,7 @@ void mesh_convection(struct fv *s, double *const N[3])
                 if (s->dissipation > 0.0)
                     PART_ROWS (p, down, up, c, n)
                         add_dissipation(s->u[k] + c, U[a] + c, m->G[a][a] + c, m->V + c,
-                                        p->stride[a], n, s->dissipation, s->scene_speed,
+                                        p->stride[a], n, s->dissipation, s->speed.scene,
                                         s->flux + c);
                 add_difference(p, a, s->flux, a == 0, N[k]);
             }

@@ -95,8 +95,8 @@ void fv_row(void *state, double *values)
     int n = 3;
     fv_energies(s, sum);
     values[0] = s->run->scene.fluid.rho * sum[0];
-    values[1] = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
-    s->fastest = fmax(s->fastest, values[1]);
+    values[1] = fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2]));
+    s->totals.fastest = fmax(s->totals.fastest, values[1]);
     values[2] = flow_largest_divergence(s);
     if (s->has_exact) {
         struct norm norms[NORMS];
@@ -131,8 +131,8 @@ static void summarise_cost(const struct fv *s, double cells)
                  1e6 * (loop - timer_wall(&r->timers, "pressure")) / (cells * steps));
     if (s->newton)
         newton_summarise(s->newton, steps, r->summary);
-    summary_real(r->summary, "poisson_iterations", (double)s->iterations / steps);
-    summary_real(r->summary, "viscous_iterations", (double)s->viscous_iterations / steps);
+    summary_real(r->summary, "poisson_iterations", (double)s->totals.iterations / steps);
+    summary_real(r->summary, "viscous_iterations", (double)s->totals.viscous_iterations / steps);
 }
 
 void fv_finish(void *state)
@@ -143,7 +143,7 @@ void fv_finish(void *state)
     double sum[2];
     summary_int(r->summary, "cells", llround(cells));
     if (r->scene.initial.U > 0.0)
-        summary_real(r->summary, "max_speed_over_U", s->fastest / r->scene.initial.U);
+        summary_real(r->summary, "max_speed_over_U", s->totals.fastest / r->scene.initial.U);
     if (s->has_exact)
         summarise_errors(s);
     fv_energies(s, sum);
@@ -159,7 +159,7 @@ void fv_finish(void *state)
         steady_summarise(s);
     if (s->prm.extrema[0] != 0.0)
         fv_summarise_extrema(s);
-    summary_real(r->summary, "max_cfl", s->max_cfl);
+    summary_real(r->summary, "max_cfl", s->totals.max_cfl);
     fv_watches_end(s);
     summarise_cost(s, cells);
 }

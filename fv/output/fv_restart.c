@@ -93,7 +93,8 @@ static void add_newton(struct kept_numbers *to, struct newton *w)
 static struct kept_numbers numbers_of(struct fv *s)
 {
     struct kept_numbers all = {0};
-    const struct kept_number steps[] = {{"dt", .real = &s->dt}, {"dt_old", .real = &s->dt_old}};
+    const struct kept_number steps[] = {{"dt", .real = &s->step.dt},
+                                        {"dt_old", .real = &s->step.dt_old}};
     ADD(&all, "time step", steps);
     if (s->newton)
         add_newton(&all, s->newton);

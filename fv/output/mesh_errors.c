@@ -108,11 +108,11 @@ void mesh_summarise(struct fv *s)
     summary_int(to, "fringe_cells", s->m->fringe_cells);
     summary_int(to, "fringe_cells_linear", s->m->linear);
     if (mesh_bc_pressure_given(s))
-        s->defect = fabs(mesh_bc_net_flux(s));
-    if (s->m->has_fringe && s->umax[0] > 0.0) /* relative to the flow, if there is one */
-        summary_real(to, "overlap.net_flux", s->defect / s->umax[0]);
-    summary_int(to, "poisson_iterations_start", s->start_iterations);
-    summary_real(to, "poisson_retries", (double)s->retries);
+        s->totals.defect = fabs(mesh_bc_net_flux(s));
+    if (s->m->has_fringe && s->max.u[0] > 0.0) /* relative to the flow, if there is one */
+        summary_real(to, "overlap.net_flux", s->totals.defect / s->max.u[0]);
+    summary_int(to, "poisson_iterations_start", s->totals.start_iterations);
+    summary_real(to, "poisson_retries", (double)s->totals.retries);
 }
 
 /* Least distance of opposite faces of a computed cell, m, about: volume over the largest face. */

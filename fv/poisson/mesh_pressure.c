@@ -313,13 +313,13 @@ static double solve_safely(struct fv *s, struct mesh_pressure *p, double *b, dou
     double left;
     if (!p->safe)
         make_safe(s->m, p);
-    s->retries++;
+    s->totals.retries++;
     vector_set(&p->b, b);
     vector_set(&p->x, x);
     HYPRE(HYPRE_BiCGSTABSetTol(p->safe, tol));
     HYPRE(HYPRE_ParCSRBiCGSTABSolve(p->safe, matrix_of(p), p->b.v, p->x.v));
     HYPRE(HYPRE_BiCGSTABGetNumIterations(p->safe, &its));
-    s->iterations += its;
+    s->totals.iterations += its;
     vector_get(&p->x, x);
     gcr_solve(&p->gcr, b, x, 0.0, 0, &left);
     return left;
@@ -332,7 +332,7 @@ static bool solve_pinned(struct fv *s, struct mesh_pressure *p, double *b, doubl
     if (p->pinned >= p->first && p->pinned <= p->last)
         b[p->pinned - p->first] = 0.0;
     const double wanted = tol * gcr_norm(&p->gcr, b);
-    s->iterations += gcr_solve(&p->gcr, b, x, wanted, 60, &left);
+    s->totals.iterations += gcr_solve(&p->gcr, b, x, wanted, 60, &left);
     if (left <= 2.0 * wanted || left <= rounding(p, x))
         return true;
     return solve_safely(s, p, b, tol, x) <= 10.0 * wanted;

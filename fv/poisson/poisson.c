@@ -142,7 +142,7 @@ static bool solve_rows(struct fv *s, double tau, double *div, double tol, double
     for (int k = 0; k < p->n; k++)
         start[p->place[k]] = p->x[k];
     set_psi(s, p, p->psi, psi);
-    s->defect_now = fabs(c) * tau * p->volumes;
+    s->step.defect = fabs(c) * tau * p->volumes;
     return good;
 }
 

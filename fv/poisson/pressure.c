@@ -350,7 +350,7 @@ static bool solve(struct fv *s, double tau, double *div, double tol, double *psi
     }
     remove_mean(s, psi);
     block_halo(&s->b, 1, &psi);
-    s->iterations += n;
+    s->totals.iterations += n;
     return true; /* the watches see what is left */
 }
 

@@ -498,7 +498,7 @@ static bool solve(struct fv *s, void *of, double *b, double tol, double *x, doub
     double left;
     *c = balance(t, b);
     const double wanted = tol * gcr_norm(&t->gcr, b);
-    s->iterations += gcr_solve(&t->gcr, b, x, wanted, 60, &left);
+    s->totals.iterations += gcr_solve(&t->gcr, b, x, wanted, 60, &left);
     memcpy(psi, x, (size_t)t->gcr.n * sizeof(double));
     return left <= wanted || left <= 1e-15 * t->coupling * gcr_norm(&t->gcr, x);
 }

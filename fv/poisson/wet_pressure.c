@@ -456,7 +456,7 @@ static bool solve(struct fv *s, double tau, double *div, double tol, double *psi
         HYPRE(HYPRE_GMRESSetTol(p->gmres, wanted / size));
         HYPRE(HYPRE_ParCSRGMRESSolve(p->gmres, p->A.A, p->b.v, p->x.v));
         HYPRE(HYPRE_GMRESGetNumIterations(p->gmres, &its));
-        s->iterations += its;
+        s->totals.iterations += its;
     }
     const double left = its > 0 ? residual(s, p, b) : before;
     vector_get(&p->x, p->residual);

@@ -251,7 +251,7 @@ void surface_advance_to(struct fv *s, double t, double dt)
 
 int surface_advance(struct fv *s, double dt)
 {
-    const double cfl = (s->m ? surface_mesh_speeds(s, BAND) : s->rate) * dt;
+    const double cfl = (s->m ? surface_mesh_speeds(s, BAND) : s->max.rate) * dt;
     const int n = parts_of(cfl);
     s->surface->travelled += cfl;
     for (int k = 0; k < n; k++)

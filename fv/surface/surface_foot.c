@@ -35,7 +35,7 @@ static bool step_to_foot(const struct fv *s, const struct part *p, int64_t c, co
             along += g[a][k] * n[k];
             rate += g[a][k] * s->u[k][c];
         }
-        passed += fabs(rate) * s->dt;
+        passed += fabs(rate) * s->step.dt;
         step[a] = -phi * along / fmax(n2, 0.25);
         most = fmax(most, fabs(step[a]));
     }

@@ -78,7 +78,7 @@ static double flatness(const struct fv *s, const struct part *p, int a)
 /* -: of what is smoothed along axis a, 0: nothing. */
 static double share_of(const struct fv *s, const struct part *p, int a, double dt)
 {
-    const double calm = fmax(0.0, 1.0 - 2.0 * s->rate * dt);
+    const double calm = fmax(0.0, 1.0 - 2.0 * s->max.rate * dt);
     if (surface_leans(s, p))
         return 1.0;
     if (grid_overlaps(&s->grid))

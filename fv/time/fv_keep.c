@@ -121,17 +121,17 @@ static void carry(struct fv *s, struct kept *k, bool back)
     for (int i = 0; i < n; i++)
         copy(k->fields[i], fields[i], (size_t)s->size * sizeof(double), back);
     CARRY(k->t, s->t);
-    CARRY(k->dt, s->dt);
-    CARRY(k->dt_old, s->dt_old);
-    CARRY(k->umax, s->umax);
-    CARRY(k->rate, s->rate);
-    CARRY(k->fastest, s->fastest);
-    CARRY(k->reference, s->reference);
-    CARRY(k->u_limit, s->u_limit);
-    CARRY(k->limit, s->limit);
-    CARRY(k->max_cfl, s->max_cfl);
-    CARRY(k->iterations, s->iterations);
-    CARRY(k->viscous_iterations, s->viscous_iterations);
+    CARRY(k->dt, s->step.dt);
+    CARRY(k->dt_old, s->step.dt_old);
+    CARRY(k->umax, s->max.u);
+    CARRY(k->rate, s->max.rate);
+    CARRY(k->fastest, s->totals.fastest);
+    CARRY(k->reference, s->speed.reference);
+    CARRY(k->u_limit, s->speed.limit);
+    CARRY(k->limit, s->step.limit);
+    CARRY(k->max_cfl, s->totals.max_cfl);
+    CARRY(k->iterations, s->totals.iterations);
+    CARRY(k->viscous_iterations, s->totals.viscous_iterations);
     if (s->surface) {
         CARRY(k->volume0, s->surface->volume0);
         CARRY(k->returned, s->surface->returned);

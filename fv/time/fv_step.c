@@ -23,10 +23,10 @@
  * and done again in half the time. */
 static bool step_with_surface(struct fv *s, double *dt, struct diagnosis *d)
 {
-    const double most = 1.5 * fmax(s->prm.cfl, 0.1), rate = s->rate;
+    const double most = 1.5 * fmax(s->prm.cfl, 0.1), rate = s->max.rate;
     double before[3];
     bool good;
-    memcpy(before, s->umax, sizeof before);
+    memcpy(before, s->max.u, sizeof before);
     surface_keep_state(s);
     for (int tries = 0;; tries++) {
         timer_start(&s->run->timers, "surface");
@@ -36,7 +36,7 @@ static bool step_with_surface(struct fv *s, double *dt, struct diagnosis *d)
         if (good && s->newton)
             surface_extend(s, LAYERS);
         measure(s);
-        if (good && (s->rate * *dt <= most || tries == 8))
+        if (good && (s->max.rate * *dt <= most || tries == 8))
             return true;
         if (tries == 8) {
             if (s->newton)
@@ -44,8 +44,8 @@ static bool step_with_surface(struct fv *s, double *dt, struct diagnosis *d)
             return s->newton;
         }
         surface_back(s);
-        memcpy(s->umax, before, sizeof before);
-        s->rate = rate;
+        memcpy(s->max.u, before, sizeof before);
+        s->max.rate = rate;
         *dt *= 0.5;
     }
 }
@@ -64,7 +64,7 @@ void cell_place(const struct fv *s, int64_t c, char *text, size_t size, double x
 /* Fills d with the fastest cell, if this rank has it. */
 static void find_worst(const struct fv *s, double before, struct diagnosis *d)
 {
-    double worst = s->u_limit, x[3];
+    double worst = s->speed.limit, x[3];
     int64_t at = -1;
     char place[PARAM_TEXT_SIZE + 64];
     for (int a = 0; a < s->dim; a++)
@@ -81,17 +81,17 @@ static void find_worst(const struct fv *s, double before, struct diagnosis *d)
     d->bad = true;
     cell_place(s, at, place, sizeof place, x);
     snprintf(d->reason, sizeof d->reason, "velocity of %s is %g m/s, limit %g m/s", place,
-             worst < 1e300 ? worst : NAN, s->u_limit);
+             worst < 1e300 ? worst : NAN, s->speed.limit);
     snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, step of %g s, limited by %s", x[0], x[1],
-             x[2], s->dt, limit_name(s->limit));
-    limits_explain(&s->prm, s->limit, before, s->rate * s->dt, s->surface != NULL, d->likely,
-                   sizeof d->likely);
+             x[2], s->step.dt, limit_name(s->step.limit));
+    limits_explain(&s->prm, s->step.limit, before, s->max.rate * s->step.dt, s->surface != NULL,
+                   d->likely, sizeof d->likely);
 }
 
 static void diagnose(const struct fv *s, double dt, double before, bool good, struct diagnosis *d)
 {
-    const double most = fmax(s->umax[0], fmax(s->umax[1], s->umax[2]));
-    if (!isfinite(most) || !(most <= s->u_limit)) {
+    const double most = fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2]));
+    if (!isfinite(most) || !(most <= s->speed.limit)) {
         find_worst(s, before, d);
     } else if (*grid_trouble(&s->grid)) {
         d->bad = true;
@@ -107,7 +107,7 @@ static void diagnose(const struct fv *s, double dt, double before, bool good, st
         snprintf(d->where, sizeof d->where, "step of %g s, viscosity %g m^2/s", dt, s->nu);
         snprintf(d->likely, sizeof d->likely,
                  "a smaller step: fv.cfl below %g, or a larger fv.tol_viscous", s->prm.cfl);
-    } else if (s->failed) {
+    } else if (s->step.failed) {
         d->bad = true;
         snprintf(d->reason, sizeof d->reason,
                  "the pressure solver did not converge, nor did the safer one");
@@ -168,7 +168,7 @@ void pressure_start(struct fv *s)
         }
     }
     memcpy(s->p_before, s->p, bytes);
-    s->iterations = s->viscous_iterations = 0;
+    s->totals.iterations = s->totals.viscous_iterations = 0;
 }
 
 /* Steps to the end of a window, of which sph makes some tens. */
@@ -183,7 +183,7 @@ static bool crawls(const struct fv *s, double n, const struct step_limit *most, 
     snprintf(d->reason, sizeof d->reason,
              "the step has shrunk to %.3g s, %.3g of them to a coupling step", most->dt, n);
     snprintf(d->where, sizeof d->where, "limited by %s; largest velocity %.3g m/s",
-             limit_name(most->by), fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
+             limit_name(most->by), fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
     snprintf(d->likely, sizeof d->likely,
              "velocities given on sides or by the partner that the flow does not have");
     return true;
@@ -193,15 +193,15 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
 {
     const struct step_limit most = limits_of(s);
     /* no step passes over the start or the end of a motion */
-    const double to = fmin(t_stop, limits_next_motion(s)), left = to - s->t, before = s->rate;
+    const double to = fmin(t_stop, limits_next_motion(s)), left = to - s->t, before = s->max.rate;
     const double n = fmax(ceil(left / most.dt - 1e-9), 1.0);
     if (crawls(s, n, &most, d))
         return 0.0;
     double dt = left / n;
     bool good = true;
-    s->failed = false;
-    s->defect_now = 0.0;
-    s->limit = dt < 0.5 * most.dt ? LIMIT_OUTPUT : most.by;
+    s->step.failed = false;
+    s->step.defect = 0.0;
+    s->step.limit = dt < 0.5 * most.dt ? LIMIT_OUTPUT : most.by;
     if (s->prm.steady)
         dt = newton_pseudo_step(s, fmin(most.dt, s->run->scene.time.end), t_stop, d);
     else if (s->surface)
@@ -211,8 +211,8 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
     else
         good = projection_step(s, dt);
     s->t = dt == left ? to : s->t + dt;
-    s->dt_old = s->dt;
-    s->dt = dt;
+    s->step.dt_old = s->step.dt;
+    s->step.dt = dt;
     measure(s);
     if (s->surface) {
         timer_start(&s->run->timers, "surface");
@@ -223,11 +223,13 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
         measure(s); /* as a restart does */
     diagnose(s, dt, before * dt, good, d);
     const bool failed = run_diagnose(d, s->comm);
-    if (s->predicts)
+    if (s->step.predicts)
         return dt;
-    s->max_cfl = fmax(s->max_cfl, s->rate * (s->prm.steady ? s->newton->dtau : dt));
-    s->u_limit = limits_follow(&s->reference, fmax(s->umax[0], fmax(s->umax[1], s->umax[2])));
-    s->defect = fmax(s->defect, s->defect_now);
+    s->totals.max_cfl =
+        fmax(s->totals.max_cfl, s->max.rate * (s->prm.steady ? s->newton->dtau : dt));
+    s->speed.limit =
+        limits_follow(&s->speed.reference, fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
+    s->totals.defect = fmax(s->totals.defect, s->step.defect);
     if (!failed)
         fv_watches_look(s, d);
     return dt;

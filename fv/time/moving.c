@@ -198,7 +198,7 @@ static void fill_born(struct fv *s)
 static void fill_born_before(struct fv *s)
 {
     swap_status(s->m, s->moving);
-    mesh_motion_place(s->m, s->t - s->dt);
+    mesh_motion_place(s->m, s->t - s->step.dt);
     overset_interpolate(s->m, s->m->search, s->moving->born, s->dim, s->u_old);
     mesh_motion_place(s->m, s->t);
     swap_status(s->m, s->moving);
@@ -207,7 +207,7 @@ static void fill_born_before(struct fv *s)
 static void fill_born_all(struct fv *s)
 {
     fill_born(s);
-    if (s->newton && s->dt > 0.0)
+    if (s->newton && s->step.dt > 0.0)
         fill_born_before(s);
 }
 
@@ -256,7 +256,7 @@ static void cut_step(struct fv *s)
 {
     struct moving *v = s->moving;
     struct mesh *m = s->m;
-    v->iterations = s->iterations;
+    v->iterations = s->totals.iterations;
     v->stage = 0;
     if (!m->has_fringe)
         return;
@@ -264,7 +264,7 @@ static void cut_step(struct fv *s)
     for (int k = 0; k < m->nblocks; k++)
         memcpy(v->status[k], m->block[k].status, (size_t)count_of(m->block + k));
     memcpy(v->local, m->status, (size_t)m->size_local);
-    cut(s, s->t + 0.5 * s->dt_now);
+    cut(s, s->t + 0.5 * s->step.dt_now);
     timer_stop(&s->run->timers, "overlap");
     if (!s->surface)
         renew_matrix(s);
@@ -295,7 +295,7 @@ void moving_begin(struct fv *s)
 
 void moving_begin_surface(struct fv *s, double dt)
 {
-    s->dt_now = dt;
+    s->step.dt_now = dt;
     cut_step(s);
     surface_mesh_update(s);
     if (s->m->has_fringe) {
@@ -327,7 +327,7 @@ void moving_begin_implicit(struct fv *s, double dt)
 {
     struct moving *v = s->moving;
     struct mesh *m = s->m;
-    s->dt_now = dt;
+    s->step.dt_now = dt;
     if (!m->has_fringe)
         return;
     timer_start(&s->run->timers, "overlap");
@@ -419,7 +419,7 @@ void moving_turn_pressure(struct fv *s, double tau)
     s->moving->tau = tau;
     if (s->surface)
         return;
-    turn_gradient(s, s->t + pressure_at(s) * s->dt_now, s->step_p);
+    turn_gradient(s, s->t + pressure_at(s) * s->step.dt_now, s->step_p);
 }
 
 void moving_convection(struct fv *s, double *const N[3])
@@ -437,7 +437,7 @@ void moving_stage(struct fv *s, double t)
 {
     struct moving *v = s->moving;
     struct mesh *m = s->m;
-    const double f = pressure_at(s) * s->dt_now / (t - s->t);
+    const double f = pressure_at(s) * s->step.dt_now / (t - s->t);
     v->stage++;
     timer_start(&s->run->timers, "overlap");
     mesh_motion_place(m, t);
@@ -483,7 +483,7 @@ void moving_change(struct fv *s)
 void moving_end(struct fv *s)
 {
     struct moving *v = s->moving;
-    const double its = (double)(s->iterations - v->iterations);
+    const double its = (double)(s->totals.iterations - v->iterations);
     if (s->surface)
         return;
     if (v->fresh == 0.0)
@@ -504,7 +504,8 @@ double moving_rate(const struct fv *s)
         if (!w || w->block != k)
             continue;
         const double reach = w->turns ? w->reach : 0.0;
-        const double ahead = s->dt > 0.0 ? 2.0 * s->dt : v->least / fmax(w->speed, 1e-300);
+        const double ahead =
+            s->step.dt > 0.0 ? 2.0 * s->step.dt : v->least / fmax(w->speed, 1e-300);
         for (int e = 0; e < 5; e++) {
             body_drive_motion(&w->drive, s->t + 0.25 * e * ahead, &now);
             most = fmax(most, vec3_length(now.u) + reach * vec3_length(now.omega));

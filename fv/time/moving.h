@@ -15,7 +15,7 @@ struct moving *moving_create(struct fv *s);
 void moving_free(struct moving **v);
 /* m->status and s->free, of what the blocks' cells are. */
 void moving_set_free(struct fv *s);
-/* What the cells are in the step of s->dt_now that begins; values of new ones. */
+/* What the cells are in the step of s->step.dt_now that begins; values of new ones. */
 void moving_begin(struct fv *s);
 /* The same with a free surface, ahead of its first half step of dt. */
 void moving_begin_surface(struct fv *s, double dt);

@@ -263,8 +263,8 @@ static bool solve_step(struct fv *s, double dt)
 {
     s->newton->of.t = s->t + dt;
     stage_set_sides(s, s->t + dt, dt);
-    newton_set_step(s, dt, s->dt);
-    set_levels(s, dt, s->dt);
+    newton_set_step(s, dt, s->step.dt);
+    set_levels(s, dt, s->step.dt);
     return solve(s);
 }
 

@@ -37,7 +37,7 @@ static void set_rates(struct fv *s)
     struct newton_step *o = &w->of;
     double *u = N_VGetArrayPointer(w->uscale), *f = N_VGetArrayPointer(w->fscale);
     int64_t k = 0;
-    o->U = fmax(s->umax[0], s->scene_speed);
+    o->U = fmax(s->max.u[0], s->speed.scene);
     o->rate = 0.0;
     for (int64_t c = 0; c < s->size; c++)
         w->d[c] = 1.0 / o->c0;

@@ -233,7 +233,7 @@ static void evaluate_variation(struct fv *s)
 static void set_rates(struct fv *s)
 {
     struct newton_step *o = &s->newton->of;
-    o->U = 1e-2 * s->scene_speed;
+    o->U = 1e-2 * s->speed.scene;
     for (int a = 0; a < s->dim; a++)
         o->U = fmax(o->U, fv_speed(s, a));
     o->rate = 0.0;

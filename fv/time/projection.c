@@ -34,7 +34,7 @@ void projection(struct fv *s, double t, int stage, double tau, double tol)
     stage_predict_fluxes(s, t);
     stop(s, "operators");
     start(s, "pressure");
-    s->failed = !stage_solve_pressure(s, stage, tau, tol) || s->failed;
+    s->step.failed = !stage_solve_pressure(s, stage, tau, tol) || s->step.failed;
     stop(s, "pressure");
     start(s, "operators");
     s->ops->correct_fluxes(s, tau, psi);
@@ -101,7 +101,7 @@ static void begin_step(struct fv *s)
     if (!s->surface) /* there each projection makes the whole pressure */
         stage_pressure_gradient(s);
     outflow_begin(s);
-    levels_begin(s, s->dt_now);
+    levels_begin(s, s->step.dt_now);
     stop(s, "operators");
 }
 
@@ -141,7 +141,7 @@ static void add_mean_pressure(struct fv *s)
 static double last_tolerance(const struct fv *s)
 {
     if (s->surface)
-        return s->dt > 0.0 ? 0.01 * s->prm.tol_pressure : 1e-8;
+        return s->step.dt > 0.0 ? 0.01 * s->prm.tol_pressure : 1e-8;
     return s->prm.tol_pressure;
 }
 
@@ -149,11 +149,11 @@ static bool step_rk3(struct fv *s, double dt)
 {
     /* one cycle mostly; but a fixed number of them diverges around a hole on some grids (50 and 54
      * cells) */
-    const bool fresh = s->surface && !(s->dt > 0.0);
+    const bool fresh = s->surface && !(s->step.dt > 0.0);
     const double last = last_tolerance(s);
     const double first = fresh ? last : fmin(10.0 * last, 0.1), t = s->t;
     bool good = true;
-    double before = (rk3_alpha[2] + rk3_beta[2]) * s->dt; /* the last stage's part of a step */
+    double before = (rk3_alpha[2] + rk3_beta[2]) * s->step.dt; /* the last stage's part of a step */
     begin_step(s);
     for (int k = 0; k < 3; k++) {
         const double t_stage = t + rk3_at[k] * dt, ab = rk3_alpha[k] + rk3_beta[k];
@@ -192,8 +192,8 @@ static void add_history(struct fv *s, double weight)
  * none before. */
 static bool step_bdf2(struct fv *s, double dt)
 {
-    const bool first = !(s->dt > 0.0);
-    const double r = first ? 0.0 : dt / s->dt;
+    const bool first = !(s->step.dt > 0.0);
+    const double r = first ? 0.0 : dt / s->step.dt;
     const double c0 = first ? 1.0 : (1.0 + 2.0 * r) / (1.0 + r),
                  c2 = first ? 0.0 : r * r / (1.0 + r);
     const double tau = dt / c0;
@@ -228,7 +228,7 @@ static const struct integrator integrators[] = {{"rk3", step_rk3},
 
 bool projection_step(struct fv *s, double dt)
 {
-    s->dt_now = dt;
+    s->step.dt_now = dt;
     const bool good = integrators[s->prm.integrator].step(s, dt);
     if (s->moving)
         moving_end(s);

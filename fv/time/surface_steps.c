@@ -249,7 +249,7 @@ static void go_ahead(struct fv *s, double dt)
         surface_mesh_change_height(s, -1.0, f->half);
         surface_advance_to(s, s->t + dt, 0.5 * dt);
         moving_end_rows(s);
-    } else if (s->dt > 0.0) {
+    } else if (s->step.dt > 0.0) {
         surface_advance(s, 0.5 * dt);
     }
     f->travelled = travelled;

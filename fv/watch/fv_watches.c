@@ -66,7 +66,7 @@ struct watches *fv_watches_create(const struct fv *s)
     w->has_growth = !s->run->coupled && !moves && !s->surface && !s->newton;
     if (s->sides) { /* faces are mapped anew; walls and openings of blocks count, too */
         w->energy_every = 20;
-        w->speed = fmax(w->speed, s->reference);
+        w->speed = fmax(w->speed, s->speed.reference);
     }
     if (s->surface) /* whose steps are long beside the swing of short waves' work, and dear */
         w->energy_every = 1;
@@ -391,7 +391,7 @@ void fv_watches_look(struct fv *s, struct diagnosis *d)
     struct watches *w = s->watches;
     const int64_t step = s->run->step + 1;
     timer_start(&s->run->timers, "watches");
-    watches_growth(w, s->umax[0] + s->umax[1] + s->umax[2], s->t, step, d);
+    watches_growth(w, s->max.u[0] + s->max.u[1] + s->max.u[2], s->t, step, d);
     if (watches_want_energy(w, step)) {
         const struct flow_energy e = energy_of(s);
         watches_energy(w, &e, s->t, step, d);

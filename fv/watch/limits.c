@@ -335,8 +335,8 @@ static void lower_motion(struct step_limit *l, const struct fv *s)
 static struct step_limit limit_on_blocks(const struct fv *s)
 {
     const bool falls = s->surface && s->newton; /* such a step is taken back */
-    const double rise = falls ? 0.0 : s->rise, dt = limits_time(s->prm.cfl, s->rate, rise);
-    struct step_limit l = {dt, rise * dt > s->rate ? LIMIT_FORCES : LIMIT_FLOW};
+    const double rise = falls ? 0.0 : s->max.rise, dt = limits_time(s->prm.cfl, s->max.rate, rise);
+    struct step_limit l = {dt, rise * dt > s->max.rate ? LIMIT_FORCES : LIMIT_FLOW};
     if (s->surface) {
         const double h = s->surface->least;
         lower_surface(&l, &s->run->scene, &s->prm,
@@ -344,9 +344,9 @@ static struct step_limit limit_on_blocks(const struct fv *s)
                       (const double[]){h, h, h});
     }
     if (s->outflows && s->outflows->convects && s->prm.integrator != INTEGRATOR_NEWTON)
-        lower(&l, limits_time(fmin(s->prm.cfl, OUTFLOW_CFL), s->rate, 0.0), LIMIT_OUTFLOW);
+        lower(&l, limits_time(fmin(s->prm.cfl, OUTFLOW_CFL), s->max.rate, 0.0), LIMIT_OUTFLOW);
     if (s->prm.integrator == INTEGRATOR_BDF2)
-        lower(&l, bdf2_time(s->rate, s->Re), LIMIT_BDF2);
+        lower(&l, bdf2_time(s->max.rate, s->max.Re), LIMIT_BDF2);
     lower_start(&l, s);
     lower_motion(&l, s);
     return l;
@@ -357,8 +357,8 @@ double limits_next_motion(const struct fv *s) { return grid_motion_event(&s->gri
 double fv_speed(const struct fv *s, int a)
 {
     const bool driven = s->drive[a] != 0.0 || (s->bc && s->bc->driven);
-    return fmax(fmax(s->umax[a], s->bc ? s->bc->speed_along[a] : 0.0),
-                driven ? s->scene_speed : 0.0);
+    return fmax(fmax(s->max.u[a], s->bc ? s->bc->speed_along[a] : 0.0),
+                driven ? s->speed.scene : 0.0);
 }
 
 struct step_limit limits_of(const struct fv *s)
@@ -372,7 +372,7 @@ struct step_limit limits_of(const struct fv *s)
         Re = fmax(Re, fv_speed(s, a) * largest_size(&s->b, a) / fmax(s->nu, 1e-300));
     }
     const struct scene *scene = &s->run->scene;
-    const double rate = fmax(s->rate, imposed_rate(scene, h));
+    const double rate = fmax(s->max.rate, imposed_rate(scene, h));
     struct step_limit l = bulk_limit(scene, &s->prm, rate, s->surface != NULL, h);
     if (s->outflows && s->outflows->convects && s->prm.integrator != INTEGRATOR_NEWTON)
         lower(&l, limits_time(fmin(cfl, OUTFLOW_CFL), rate, 0.0), LIMIT_OUTFLOW);

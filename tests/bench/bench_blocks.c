@@ -56,15 +56,15 @@ static double best_time(struct fv *s, int kernel)
 /* One solve for the pressure of a rough velocity: what a cell and cycle take. */
 static void pressure(struct fv *s)
 {
-    const int64_t before = s->iterations;
+    const int64_t before = s->totals.iterations;
     for (int64_t i = 0; i < s->size; i++)
         s->U[0][i] += 1e-6 * ((double)(i * 2654435761u >> 7 & 1023) - 511.5);
     const double t = cpu_time();
     stage_solve_pressure(s, 2, 1.0, 1e-6);
     printf("  pressure by %s: %.1f ns a cell and cycle, %d cycles to 1e-6 of the step's\n",
            poisson_name(s->poisson),
-           1e9 * (cpu_time() - t) / (double)(s->iterations - before) / (N * N),
-           (int)(s->iterations - before));
+           1e9 * (cpu_time() - t) / (double)(s->totals.iterations - before) / (N * N),
+           (int)(s->totals.iterations - before));
 }
 
 static void report(const char *what, int kind, const char *shape, double peak)

@@ -36,12 +36,12 @@ static void report(int n, double peak)
                     s->rhs[a][i] = 1e-3 * (double)(i * 2654435761u >> 7 & 1023);
                     s->delta[a][i] = 0.0;
                 }
-        s->viscous_iterations = 0;
+        s->totals.viscous_iterations = 0;
         const double t = cpu_time();
         viscous_solve(s, 37.0 / 160.0 * 1.1 / n, s->delta, s->rhs, 1e-5);
         best = fmin(best, cpu_time() - t);
     }
-    const double passes = (double)s->viscous_iterations, ns = best * per,
+    const double passes = (double)s->totals.viscous_iterations, ns = best * per,
                  limit = fmax(doubles / speed, passes * flops / peak);
     printf(
         "%4d x %4d: %2.0f passes, %5.1f ns a cell and component (%.2f a pass); %.0f doubles %.1f "

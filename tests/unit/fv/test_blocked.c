@@ -87,7 +87,7 @@ static void still_water_stays(void **state)
                       &water, WALL_NO_SLIP);
             assert_true(fv_case_run(&c, 5, 10.0));
             for (int a = 0; a < dim; a++)
-                assert_close(s->umax[a], 0.0, 1e-10);
+                assert_close(s->max.u[a], 0.0, 1e-10);
             flow_forces(s, force, all);
             for (int a = 0; a < up; a++) /* as much from either side */
                 assert_close(force[1][a], 0.0, 1e-9);
@@ -344,11 +344,11 @@ static void orifice_starts(void **state)
         for (int n = 0; n < 3; n++) {
             assert_true(fv_case_run(&c, 5, 1.0));
             assert_close(discharge(s, of[k].open), of[k].u, 1e-3 * of[k].u);
-            assert_true(s->umax[0] > 0.9 * of[k].u / of[k].n &&
-                        s->umax[0] < 4.0 * of[k].u / of[k].n);
+            assert_true(s->max.u[0] > 0.9 * of[k].u / of[k].n &&
+                        s->max.u[0] < 4.0 * of[k].u / of[k].n);
         }
         print_message("orifice of %g: discharge %.8g of %g m^2/s, fastest %.3g of %g m/s\n",
-                      of[k].n, start, of[k].u, s->umax[0], of[k].u / of[k].n);
+                      of[k].n, start, of[k].u, s->max.u[0], of[k].u / of[k].n);
         end(&c);
     }
 }

@@ -159,7 +159,7 @@ static void run(struct fv_case *k, const char *integrator, bool tries)
     for (int window = 0; window < 3; window++) {
         if (tries) {
             course_try(s, c, (window + 1) * T);
-            assert_true(c->t_tried > s->t && s->t < (window + 0.5) * T && !s->predicts);
+            assert_true(c->t_tried > s->t && s->t < (window + 0.5) * T && !s->step.predicts);
         }
         assert_true(fv_case_run(k, 100, (window + 1) * T));
         course_take(s, c);
@@ -176,7 +176,8 @@ static void a_trial_leaves_no_trace(void **state)
         struct fv_case a, b;
         run(&a, integrators[m], false);
         run(&b, integrators[m], true);
-        assert_true(a.s->iterations == b.s->iterations && a.s->max_cfl == b.s->max_cfl);
+        assert_true(a.s->totals.iterations == b.s->totals.iterations &&
+                    a.s->totals.max_cfl == b.s->totals.max_cfl);
         BLOCK_ROWS (&a.s->b, 0, c, n) {
             assert_memory_equal(a.s->u[0] + c, b.s->u[0] + c, (size_t)n * sizeof(double));
             assert_memory_equal(a.s->p + c, b.s->p + c, (size_t)n * sizeof(double));

@@ -157,9 +157,9 @@ static const char *odd(const struct scene_shape *shape, int steps)
     d = (struct diagnosis){0};
     for (int k = 0; k < steps && !d.bad; k++)
         integrate(s, 10.0, &d);
-    print_message("odd water: %.3g m/s, %d wet cells %s\n", s->umax[1], (int)s->surface->wet,
+    print_message("odd water: %.3g m/s, %d wet cells %s\n", s->max.u[1], (int)s->surface->wet,
                   d.bad ? d.reason : "");
-    assert_true(d.bad || isfinite(s->umax[0] + s->umax[1]));
+    assert_true(d.bad || isfinite(s->max.u[0] + s->max.u[1]));
     fv_free(&c.s);
     return d.bad ? d.reason : NULL;
 }

@@ -139,7 +139,7 @@ static void lids_drag_alike_on_all_sides(void **state)
         c.run.scene.walls[k].velocity[1 - k / 2] = 1.0;
         struct fv *s = fv_case_start(&c, NULL);
         assert_true(fv_case_run(&c, 20, 1.0));
-        speed[k] = s->umax[1 - k / 2];
+        speed[k] = s->max.u[1 - k / 2];
         print_message("lid on side %d: %.4g m/s along it\n", k, speed[k]);
         assert_close(speed[k], speed[0], 0.02 * speed[0]);
         assert_close(speed[k] / (2.0 * sqrt(1e-4 / M_PI) * 16.0), 1.0, 0.25);
@@ -157,7 +157,7 @@ static void rest_stays_under_gravity(void **state)
         wall_add(&c, (enum scene_side)k, WALL_NO_SLIP, 0.0);
     struct fv *s = fv_case_start(&c, NULL);
     assert_true(fv_case_run(&c, 20, 1.0));
-    assert_close(s->umax[0] + s->umax[1], 0.0, 1e-300);
+    assert_close(s->max.u[0] + s->max.u[1], 0.0, 1e-300);
     assert_close(fv_still_pressure(s, (const double[]){0.5, 0.25, 0.0}), 0.75 * 9.81, 1e-12);
     double force[4];
     flow_forces(s, NULL, force);
@@ -177,7 +177,7 @@ static void rest_stays_between_equal_pressures(void **state)
         wall_add(&c, (enum scene_side)k, WALL_NO_SLIP, 0.0);
     struct fv *s = fv_case_start(&c, NULL);
     assert_true(fv_case_run(&c, 200, 100.0));
-    assert_close(fmax(s->umax[0], s->umax[1]), 0.0, 1e-9);
+    assert_close(fmax(s->max.u[0], s->max.u[1]), 0.0, 1e-9);
     fv_free(&c.s);
 }
 
@@ -288,7 +288,7 @@ static void viscous_solve_keeps_its_word(void **state)
             BLOCK_CELLS (&s->b, i, j, kk, at)
                 s->rhs[a][at] = out[a][at] = sin(1.0 + 7.3 * i * i + 3.1 * j * (a + 1) + kk);
         }
-        s->viscous_iterations = 0;
+        s->totals.viscous_iterations = 0;
         assert_true(viscous_solve(s, cc, s->delta, s->rhs, 1e-8));
         bc_ghosts(s, BC_ZERO, s->delta);
         block_halo(&s->b, 2, s->delta);
@@ -303,9 +303,9 @@ static void viscous_solve_keeps_its_word(void **state)
         }
         const double kappa = 1.0 + reach * 7.8 * (1.0 + 24.0 * 24.0 / (36.0 * 36.0));
         print_message("c nu/h^2 = %g: residual %.2g, %d passes\n", reach, sqrt(sums[0] / sums[1]),
-                      (int)s->viscous_iterations);
+                      (int)s->totals.viscous_iterations);
         assert_true(sqrt(sums[0] / sums[1]) <= 1e-8);
-        assert_true((double)s->viscous_iterations <=
+        assert_true((double)s->totals.viscous_iterations <=
                     4.0 + log(2e9) / acosh((kappa + 1.0) / (kappa - 1.0)));
         fv_free(&c.s);
     }

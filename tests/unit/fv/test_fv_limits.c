@@ -127,8 +127,9 @@ static void starts_from_rest_hold(void **state)
                 ->pressure = k == 2 && side == SIDE_X_MIN ? 1e3 : 0.0;
         struct fv *s = fv_case_start(&c, NULL);
         assert_true(fv_case_run(&c, 30, 100.0));
-        print_message("from rest: %.3g cells, growth %.3g\n", s->max_cfl, s->watches->growth.worst);
-        assert_true(s->max_cfl > 0.2 && s->max_cfl < 1.262);
+        print_message("from rest: %.3g cells, growth %.3g\n", s->totals.max_cfl,
+                      s->watches->growth.worst);
+        assert_true(s->totals.max_cfl > 0.2 && s->totals.max_cfl < 1.262);
         fv_free(&c.s);
     }
 }
@@ -147,10 +148,10 @@ static void convective_outflow_holds(void **state)
     wall_add(&c, SIDE_X_MAX, WALL_OUTFLOW, 0.0)->carried = true;
     struct fv *s = fv_case_start(&c, NULL);
     assert_true(fv_case_run(&c, 10000, 8.0));
-    print_message("outflow: %.3g, %.3g m/s, limited by %s\n", s->umax[0], s->umax[1],
-                  limit_name(s->limit));
-    assert_true(s->umax[0] < 1.05 && s->umax[1] < 0.05);
-    assert_int_equal(s->limit, LIMIT_OUTFLOW);
+    print_message("outflow: %.3g, %.3g m/s, limited by %s\n", s->max.u[0], s->max.u[1],
+                  limit_name(s->step.limit));
+    assert_true(s->max.u[0] < 1.05 && s->max.u[1] < 0.05);
+    assert_int_equal(s->step.limit, LIMIT_OUTFLOW);
     fv_free(&c.s);
 }
 
@@ -167,7 +168,7 @@ static void streams_without_residual_hold(void **state)
     wall_add(&c, SIDE_X_MIN, WALL_OUTFLOW, 0.0)->carried = true;
     struct fv *s = fv_case_start(&c, NULL);
     assert_true(fv_case_run(&c, 1000, 4.0));
-    assert_close(s->umax[0], 0.649, 1e-12);
+    assert_close(s->max.u[0], 0.649, 1e-12);
     fv_free(&c.s);
 }
 
@@ -200,9 +201,9 @@ static void viscous_surfaces_hold(void **state)
         struct fv *s = wave_or_column(&c, k == 1);
         assert_true(fv_case_run(&c, 10000, (SANITIZED ? 0.2 : 1.0) * (k ? 0.3 : 4.0)));
         const double most = k ? sqrt(2.0 * 9.81 * 0.61) : 0.01 * sqrt(0.5 * M_PI);
-        print_message("viscous: %.3g m/s, energy gain %.2g\n", fmax(s->umax[0], s->umax[1]),
+        print_message("viscous: %.3g m/s, energy gain %.2g\n", fmax(s->max.u[0], s->max.u[1]),
                       s->watches->energy.worst);
-        assert_true(fmax(s->umax[0], s->umax[1]) < most);
+        assert_true(fmax(s->max.u[0], s->max.u[1]) < most);
         assert_true(s->watches->energy.worst < s->watches->energy.warn);
         fv_free(&c.s);
     }
@@ -220,8 +221,8 @@ static void unit_of_errors_sets_no_step(void **state)
                                           k ? "initial.U=1000" : "initial.U=1e-3", NULL});
         struct fv *s = fv_case_start(&c, NULL);
         assert_true(fv_case_run(&c, 2, 100.0));
-        dt[k] = s->dt;
-        assert_close(s->u_limit, 10.0, 0.5); /* g t */
+        dt[k] = s->step.dt;
+        assert_close(s->speed.limit, 10.0, 0.5); /* g t */
         fv_free(&c.s);
     }
     assert_close(dt[0], dt[1], 0.0);

@@ -82,7 +82,7 @@ static void hole_does_not_limit_the_step(void **state)
                 (const char *const[]){"fv.hole=((0.125,0.125),(0.875,0.875))", NULL});
     fv_case_start(&c, NULL);
     assert_true(fv_case_run(&c, 100000, 1.0));
-    assert_true(c.s->umax[0] < 0.8 && c.s->umax[1] < 0.8);
+    assert_true(c.s->max.u[0] < 0.8 && c.s->max.u[1] < 0.8);
     fv_free(&c.s);
 }
 

@@ -105,7 +105,7 @@ static double turned(int n, double *lost)
     const double h = s->b.h[0], dt = 0.5 * h / M_PI;
     const int steps = (int)ceil(1.0 / dt);
     double x[3];
-    s->rate = 2.0 * M_PI / h;
+    s->max.rate = 2.0 * M_PI / h;
     near_water_free(s); /* all cells move */
     for (int j = -3; j < s->b.n[1] + 3; j++)
         for (int i = -3; i < s->b.n[0] + 3; i++) {
@@ -311,9 +311,9 @@ static void still_water_stays(void **state)
                                       dim == 2 ? "fv.cells=(24,20)" : "fv.cells=(12,10,16)", NULL},
                 &shape, WALL_NO_SLIP);
             assert_true(fv_case_run(&c, 5, 10.0));
-            print_message("still water, %dD: %.3g m/s\n", dim, s->umax[0]);
+            print_message("still water, %dD: %.3g m/s\n", dim, s->max.u[0]);
             for (int a = 0; a < dim; a++)
-                assert_close(s->umax[a], 0.0, 1e-10);
+                assert_close(s->max.u[a], 0.0, 1e-10);
             fv_free(&c.s);
         }
 }
@@ -343,10 +343,10 @@ static void films_run_as_theory_says(void **state)
         assert_true(fv_case_run(&c, 2000, 10.0));
         flow_forces(s, NULL, force);
         print_message("film: friction %.9f of its weight, %.6f m/s\n", force[0] / sqrt(0.1875),
-                      s->umax[0]);
+                      s->max.u[0]);
         assert_close(force[0], sqrt(0.75) * 0.5, 1e-4);
         assert_close(force[1], -0.25, 1e-9);
-        assert_close(s->umax[0], sqrt(0.75) * 0.25 / (2.0 * 0.5),
+        assert_close(s->max.u[0], sqrt(0.75) * 0.25 / (2.0 * 0.5),
                      0.004); /* in the middle of a cell */
         assert_close(surface_volume(s), 0.5, 1e-12);
         fv_free(&c.s);
@@ -423,9 +423,9 @@ static void still_water_stays_on_graded_rows(void **state)
         if (k == 0)
             assert_close(volume, 0.4123, 1e-3);
         assert_true(fv_case_run(&c, 5, 10.0));
-        print_message("still water on graded rows: %.3g m/s, volume %.6g\n", s->umax[0], volume);
+        print_message("still water on graded rows: %.3g m/s, volume %.6g\n", s->max.u[0], volume);
         for (int a = 0; a < 2; a++)
-            assert_close(s->umax[a], 0.0, 1e-10);
+            assert_close(s->max.u[a], 0.0, 1e-10);
         fv_free(&c.s);
     }
 }
@@ -445,7 +445,7 @@ static void disc_sinks_through_graded_rows(void **state)
               &shape, WALL_SLIP);
     const double before = surface_level_volume(s, &area), dt = 0.005;
     assert_close(before, M_PI * 0.15 * 0.15, 2e-3);
-    s->rate = 1.0 / s->b.h[1];
+    s->max.rate = 1.0 / s->b.h[1];
     near_water_free(s);            /* all cells move */
     for (int k = 0; k < 80; k++) { /* by 0.4 */
         for (int64_t i = 0; i < s->b.size; i++)
@@ -497,10 +497,10 @@ static void currents_pass_openings(void **state)
         assert_true(fv_case_run(&c, 10000, k == 1 ? 4.0 : 1.0));
         const double after = surface_volume(s), passed = s->surface->passed;
         print_message("current: %.6g m/s, volume %.6g to %.6g, passed %.4g, put back %.3g\n",
-                      s->umax[0], before, after, passed, s->surface->returned);
+                      s->max.u[0], before, after, passed, s->surface->returned);
         assert_close(before, 1.0, 1e-6);
         const double exact = k == 2 ? 1e-3 : 1e-9; /* distance is rebuilt to h^2 on graded rows */
-        assert_true(k == 1 || fabs(s->umax[0] - U) + fabs(s->umax[1]) < exact);
+        assert_true(k == 1 || fabs(s->max.u[0] - U) + fabs(s->max.u[1]) < exact);
         assert_true(k == 1 || fabs(passed - 0.5) < exact);
         assert_close(after, s->surface->volume0, 1e-6);
         assert_true(fabs(after - 1.0) < 0.05 && fabs(s->surface->returned) < 0.01 * passed);
@@ -559,7 +559,7 @@ static void sums_on(MPI_Comm comm, enum trial flow, double sums[5])
     sums[0] = good ? surface_energy(s) : NAN;
     for (int a = 0; a < 2; a++)
         sums[1 + a] = surface_reach(s, a);
-    sums[3] = s->umax[0];
+    sums[3] = s->max.u[0];
     sums[4] = s->t;
     fv_free(&c.s);
 }
@@ -713,7 +713,7 @@ static void collapse(int dim, int way, double *most)
                          &column, WALL_SLIP);
     assert_true(fv_case_run(&c, 5, 10.0));
     for (int a = 0; a < count; a++)
-        most[a] = most_of(s->umax[(a + way) % count]);
+        most[a] = most_of(s->max.u[(a + way) % count]);
     fv_free(&c.s);
 }
 

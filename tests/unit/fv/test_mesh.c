@@ -300,8 +300,8 @@ static void a_lid_drags_what_its_layer_holds(void **state)
         (const char *const[]){"initial.field=\"rest\"", "fluid.nu=1e-4",
                               "domain.periodic=(false,false)", NULL});
     assert_true(mesh_case_run(s, 100, 1.0));
-    print_message("lid: %.4g m/s\n", s->umax[0]);
-    assert_close(s->umax[0] / (2.0 * sqrt(1e-4 / M_PI) * 16.0), 1.0, 0.25);
+    print_message("lid: %.4g m/s\n", s->max.u[0]);
+    assert_close(s->max.u[0] / (2.0 * sqrt(1e-4 / M_PI) * 16.0), 1.0, 0.25);
     assert_close(s->watches->speed, 1.0, 1e-12); /* the lid's: the scene knows no sides of blocks */
     mesh_case_end(&c, &s);
 }
@@ -398,8 +398,8 @@ static void a_start_is_linear_in_the_cells(void **state)
         const int n = k ? 128 : 32;
         sized(text, sizeof text, "name = \"a\"; " PERIODIC, n, n, 1);
         struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, text, NULL);
-        its[k] = s->start_iterations;
-        retries += s->retries;
+        its[k] = s->totals.start_iterations;
+        retries += s->totals.retries;
         mesh_case_end(&c, &s);
     }
     print_message("iterations at the start: %d, %d\n", (int)its[0], (int)its[1]);

@@ -166,8 +166,8 @@ static void friction_bounds_the_step(void **state)
                               "domain.max=(1,1)", NULL});
     for (int k = 0; k < 3; k++) {
         assert_true(mesh_case_run(s, 1, 0.1));
-        assert_true(s->dt * s->stiffest < 240.0 * (1.0 + 1e-9));
-        assert_true(s->dt * s->stiffest > 60.0 * (1.0 - 0.1));
+        assert_true(s->step.dt * s->stiffest < 240.0 * (1.0 + 1e-9));
+        assert_true(s->step.dt * s->stiffest > 60.0 * (1.0 - 0.1));
     }
     mesh_case_end(&c, &s);
 }
@@ -196,7 +196,7 @@ static void steps_see_the_motion(void **state)
         for (int n = 0; n < 12 && s->t < 0.99; n++) {
             assert_true(mesh_case_run(s, 1, 1.0));
             met = met || fabs(s->t - of[k].from) < 1e-12;
-            assert_true(s->t <= of[k].from + 1e-12 || s->dt <= of[k].most * (1.0 + 1e-9));
+            assert_true(s->t <= of[k].from + 1e-12 || s->step.dt <= of[k].most * (1.0 + 1e-9));
         }
         assert_true(met);
         mesh_case_end(&c, &s);

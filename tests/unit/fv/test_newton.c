@@ -130,7 +130,7 @@ static void residual_decays_quadratically(void **state)
     struct fv *s = fv_case_start(&c, NULL);
     struct newton *w = s->newton;
     assert_true(fv_case_run(&c, 1, 10.0)); /* scales and vectors of a step */
-    newton_set_step(s, s->dt, 0.0);
+    newton_set_step(s, s->step.dt, 0.0);
     newton_pack(s, s->p, s->u, w->q1);
     N_VScale(0.5, w->q1, w->q);
     KINSetEtaForm(w->kin, KIN_ETACONSTANT);

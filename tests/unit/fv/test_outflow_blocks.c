@@ -157,7 +157,7 @@ static void each_opening_has_its_parabola(void **state)
         assert_close(w[0], places[k].u, 1e-12);
     }
     assert_true(mesh_case_run(s, 1000, 8.0)); /* 8 times H^2/(pi^2 nu) */
-    assert_close(s->umax[0], 1.0, 0.01);      /* (h/H)^2 below the crest */
+    assert_close(s->max.u[0], 1.0, 0.01);     /* (h/H)^2 below the crest */
     mesh_case_end(&c, &s);
 }
 
@@ -179,7 +179,7 @@ static double fastest(double pressure)
     assert_int_equal(params_report(&c.faults), 0);
     struct fv *s = fv_create(&c.run, NULL);
     assert_true(mesh_case_run(s, 1000, 0.3));
-    const double most = s->umax[0];
+    const double most = s->max.u[0];
     mesh_case_end(&c, &s);
     return most;
 }

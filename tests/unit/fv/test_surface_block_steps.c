@@ -66,7 +66,7 @@ static void is_still(const char *blocks, double level)
         const double volume = surface_volume(s);
         assert_true(s->surface->cuts > 0 && volume > 0.0);
         assert_true(mesh_case_run(s, 8, 100.0));
-        assert_close(s->umax[0], 0.0, 1e-10);
+        assert_close(s->max.u[0], 0.0, 1e-10);
         assert_close(surface_volume(s) / volume, 1.0, 1e-12);
         mesh_case_end(&c, &s);
     }
@@ -96,8 +96,8 @@ static void swings(const char *blocks, const char *step, const char *cfl, const 
     assert_true(SANITIZED || (summary_find(c.run.summary, "error.period", period) &&
                               summary_find(c.run.summary, "error.damping", damping)));
     print_message("wave: %s, c dt/h %.2g, nu dt/h^2 %.2g, %d steps: period %.3g, damping %.3g\n",
-                  step, 0.765 * s->dt / h, s->nu * s->dt / (h * h), (int)c.run.step, *period,
-                  *damping);
+                  step, 0.765 * s->step.dt / h, s->nu * s->step.dt / (h * h), (int)c.run.step,
+                  *period, *damping);
     assert_close(surface_volume(s) / volume, 1.0, 1e-8);
     summary_free(&c.run.summary);
     mesh_case_end(&c, &s);

@@ -53,7 +53,7 @@ static void is_still(const char *blocks, double level, int dim)
     const double volume = surface_volume(s);
     assert_true(s->surface->cuts > 0 && volume > 0.0);
     assert_true(mesh_case_run(s, 20, 100.0));
-    assert_close(s->umax[0], 0.0, 1e-10);
+    assert_close(s->max.u[0], 0.0, 1e-10);
     assert_close(surface_volume(s) / volume, 1.0, 1e-12);
     mesh_case_end(&c, &s);
 }
@@ -123,10 +123,10 @@ static void rough_water_calms(void **state)
                 s->u[a][i] = 1e-6 * sin(1e3 * (s->surface->mesh->x[0][i] + a) +
                                         1.7e3 * s->surface->mesh->x[1][i]);
         assert_true(mesh_case_run(s, 30, 100.0));
-        const double before = s->umax[0];
+        const double before = s->max.u[0];
         assert_true(mesh_case_run(s, steps[k], 100.0));
-        print_message("rough water: %.3g, then %.3g m/s\n", before, s->umax[0]);
-        assert_true(s->umax[0] <= 2.0 * before);
+        print_message("rough water: %.3g, then %.3g m/s\n", before, s->max.u[0]);
+        assert_true(s->max.u[0] <= 2.0 * before);
         mesh_case_end(&c, &s);
     }
 }

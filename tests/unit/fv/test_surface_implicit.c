@@ -25,9 +25,9 @@ static void still_water_stays(void **state)
                   (const char *const[]){SURFACE, o[0], o[1], o[2], integrators[k % 2], NULL},
                   &shape, WALL_NO_SLIP);
         assert_true(fv_case_run(&c, 5, 10.0));
-        print_message("still water: %.3g m/s\n", fmax(s->umax[0], s->umax[1]));
+        print_message("still water: %.3g m/s\n", fmax(s->max.u[0], s->max.u[1]));
         for (int a = 0; a < s->dim; a++)
-            assert_close(s->umax[a], 0.0, 1e-10);
+            assert_close(s->max.u[a], 0.0, 1e-10);
         fv_free(&c.s);
     }
 }
@@ -48,8 +48,8 @@ static void swing(const char *cells, const char *graded, const char *integrator,
     double h = s->b.h[1];
     print_message("wave, %s %s %s: c dt/h %.2g, nu dt/h^2 %.2g, %d steps: period %.3g, damping "
                   "%.3g\n",
-                  cells, integrator, graded, 4.0 / period * s->dt / h, s->nu * s->dt / (h * h),
-                  (int)c.run.step, *T, *r);
+                  cells, integrator, graded, 4.0 / period * s->step.dt / h,
+                  s->nu * s->step.dt / (h * h), (int)c.run.step, *T, *r);
     assert_close(surface_volume(s) / s->surface->volume0, 1.0, 1e-10);
     fv_free(&c.s);
 }
@@ -119,7 +119,7 @@ static void honey_creeps(void **state)
                                         k ? NEWTON : "fv.integrator=\"rk3\"", NULL},
                   &column, WALL_NO_SLIP);
         assert_true(fv_case_run(&c, 2000, SANITIZED ? 0.008 : 0.08));
-        speed[k] = fmax(s->umax[0], s->umax[1]);
+        speed[k] = fmax(s->max.u[0], s->max.u[1]);
         energy[k] = surface_energy(s);
         print_message("honey: %d steps, %.4g m/s, energy %.4g\n", (int)c.run.step, speed[k],
                       energy[k]);
@@ -152,8 +152,8 @@ static void currents_pass_openings(void **state)
         struct fv *s = fv_case_start(&c, NULL);
         assert_true(fv_case_run(&c, 10000, 1.0));
         print_message("current: %.3g m/s off, passed %.4g\n",
-                      fabs(s->umax[0] - 0.5) + fabs(s->umax[1]), s->surface->passed);
-        assert_true(fabs(s->umax[0] - 0.5) + fabs(s->umax[1]) < 1e-6);
+                      fabs(s->max.u[0] - 0.5) + fabs(s->max.u[1]), s->surface->passed);
+        assert_true(fabs(s->max.u[0] - 0.5) + fabs(s->max.u[1]) < 1e-6);
         assert_close(s->surface->passed, 0.5, 1e-6);
         fv_free(&c.s);
     }

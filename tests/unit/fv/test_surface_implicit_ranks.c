@@ -32,7 +32,7 @@ static void sums_on(MPI_Comm comm, int flow, double sums[4])
     sums[0] = good ? surface_energy(s) : NAN;
     sums[1] = surface_reach(s, 0);
     sums[2] = surface_reach(s, 1);
-    sums[3] = s->umax[0];
+    sums[3] = s->max.u[0];
     fv_free(&c.s);
 }
 

@@ -77,7 +77,7 @@ static void a_body_at_rest_has_its_buoyancy(void **state)
                              level, NULL);
         const double volume = surface_volume(s);
         assert_true(mesh_case_run(s, k == 2 || SANITIZED ? 4 : 20, 100.0));
-        assert_close(s->umax[0], 0.0, 1e-10);
+        assert_close(s->max.u[0], 0.0, 1e-10);
         assert_close(surface_volume(s) / volume, 1.0, 1e-12);
         const double buoyancy = 9.81 * segment(0.5, level) * (k == 2 ? 0.4 : 1.0);
         assert_close(lift(s) / buoyancy, 1.0, 0.01);
@@ -109,7 +109,7 @@ static void still_water_stays_where_a_block_moves(void **state)
         double worst = 0.0;
         for (int k = 0; k < (q == 0 ? 8 : 4); k++) {
             assert_true(mesh_case_run(s, 3, 100.0));
-            worst = fmax(worst, s->umax[0]);
+            worst = fmax(worst, s->max.u[0]);
             assert_close(room(s), 0.7, 1e-12);
         }
         print_message("%s: %.3g m/s, put back %.2g\n", steps[q], worst, s->surface->returned);

@@ -244,7 +244,7 @@ static void wakes_leave_without_gain(void **state)
         double fastest = 0.0, least = INFINITY, most = 0.0;
         for (int k = 1; k <= (SANITIZED ? 2 : 40); k++) {
             assert_true(mesh_case_run(s, 10000, 0.5 * k));
-            fastest = fmax(fastest, hypot(s->umax[0], s->umax[1]));
+            fastest = fmax(fastest, hypot(s->max.u[0], s->max.u[1]));
             least = fmin(least, mean_level(s));
             most = fmax(most, mean_level(s));
         }
