@@ -74,9 +74,11 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
 
 struct kept {
     double *fields[FV_RESTART_FIELDS];
-    double t, dt, dt_old, umax[3], rate, fastest, reference, u_limit, max_cfl;
-    enum limit limit;
-    int64_t iterations, viscous_iterations;
+    double t;
+    struct fv_step step;
+    struct flow_maxima max;
+    struct fv_speeds speed;
+    struct fv_totals totals;
     double volume0, returned, lost, gained, passed, entered, travelled; /* of a free surface */
     double carries, calm, first;                                        /* of its shares */
     double dtau, norm;                                                  /* of newton */
@@ -121,17 +123,10 @@ static void carry(struct fv *s, struct kept *k, bool back)
     for (int i = 0; i < n; i++)
         copy(k->fields[i], fields[i], (size_t)s->size * sizeof(double), back);
     CARRY(k->t, s->t);
-    CARRY(k->dt, s->step.dt);
-    CARRY(k->dt_old, s->step.dt_old);
-    CARRY(k->umax, s->max.u);
-    CARRY(k->rate, s->max.rate);
-    CARRY(k->fastest, s->totals.fastest);
-    CARRY(k->reference, s->speed.reference);
-    CARRY(k->u_limit, s->speed.limit);
-    CARRY(k->limit, s->step.limit);
-    CARRY(k->max_cfl, s->totals.max_cfl);
-    CARRY(k->iterations, s->totals.iterations);
-    CARRY(k->viscous_iterations, s->totals.viscous_iterations);
+    CARRY(k->step, s->step);
+    CARRY(k->max, s->max);
+    CARRY(k->speed, s->speed);
+    CARRY(k->totals, s->totals);
     if (s->surface) {
         CARRY(k->volume0, s->surface->volume0);
         CARRY(k->returned, s->surface->returned);

@@ -23,10 +23,9 @@
  * and done again in half the time. */
 static bool step_with_surface(struct fv *s, double *dt, struct diagnosis *d)
 {
-    const double most = 1.5 * fmax(s->prm.cfl, 0.1), rate = s->max.rate;
-    double before[3];
+    const double most = 1.5 * fmax(s->prm.cfl, 0.1);
+    const struct flow_maxima before = s->max;
     bool good;
-    memcpy(before, s->max.u, sizeof before);
     surface_keep_state(s);
     for (int tries = 0;; tries++) {
         timer_start(&s->run->timers, "surface");
@@ -44,8 +43,7 @@ static bool step_with_surface(struct fv *s, double *dt, struct diagnosis *d)
             return s->newton;
         }
         surface_back(s);
-        memcpy(s->max.u, before, sizeof before);
-        s->max.rate = rate;
+        s->max = before;
         *dt *= 0.5;
     }
 }
