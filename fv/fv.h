@@ -75,6 +75,13 @@ struct newton;   /* the implicit integrator; newton.h; NULL: another one */
 struct link;     /* place in a coupled job; fv_coupling.c; NULL alone */
 struct watches;  /* figures that a sound run keeps small; watches.h */
 
+/* Gravity as the equations hold it; boundary/still.h. */
+struct gravity {
+    double periodic[3];    /* m/s^2: along periodic axes, where it drives the flow */
+    double hydrostatic[3]; /* m/s^2: across closed sides, where the pressure takes it up */
+    double level;          /* m: height at which that pressure is 0 */
+};
+
 /* The step under way and the last ones; time/ makes them. */
 struct fv_step {
     double dt_now;     /* s: of the step under way */
@@ -147,11 +154,10 @@ struct fv {
     double *u_old[3];        /* bdf2, newton; else NULL */
     double *rhs[3], *delta[3], *work[3], *step_p[3]; /* scratch: right side, increment, CG; Gc p */
     double *step_work;
-    double *krylov[4][3];   /* scratch of the viscous solve with walls, else NULL */
-    double still[3], level; /* m/s^2, m: gravity across closed sides, height where it makes no p */
-    double drive[3];        /* m/s^2: gravity along periodic axes; across, the pressure takes it */
-    double *face, *flux;    /* scratch */
-    double *faces[3];       /* blocks: scratch; the first is face */
+    double *krylov[4][3]; /* scratch of the viscous solve with walls, else NULL */
+    struct gravity gravity;
+    double *face, *flux; /* scratch */
+    double *faces[3];    /* blocks: scratch; the first is face */
     struct moving *moving;
     double *jump; /* m^2/s^2: of blocks that move: psi in the fringe beyond its interpolation */
     double *change[3];  /* m/s: the same of delta */

@@ -90,7 +90,7 @@ void levels_start(struct fv *s)
     if (!l->p)
         l->p = NEW(double, s->size);
     for (int k = 0; k < LEVEL_GROUPS; k++)
-        l->level[k] = s->level;
+        l->level[k] = s->gravity.level;
     for (int k = 0; k < s->run->scene.nwalls; k++) {
         const struct scene_wall *w = s->run->scene.walls + k;
         const int side = w->side - SIDE_X_MIN;
@@ -142,7 +142,7 @@ void levels_back(struct fv *s)
         memcpy(s->levels->past, s->levels->kept, sizeof s->levels->past);
 }
 
-/* m^2/s^2: p/rho on a face of water at rest under s->level. */
+/* m^2/s^2: p/rho on a face of water at rest under s->gravity.level. */
 static double at_rest(const struct fv *s, const struct outflow *o, int64_t i)
 {
     double x[3];
@@ -157,12 +157,13 @@ static double pressure_on(const struct fv *s, const struct outflow *o, int64_t i
 {
     const struct levels *l = s->levels;
     const int k = o->side;
-    const double g = hypot(hypot(s->still[0], s->still[1]), s->still[2]);
+    const double g = hypot(hypot(s->gravity.hydrostatic[0], s->gravity.hydrostatic[1]),
+                           s->gravity.hydrostatic[2]);
     const double u = fmin(velocity_out(s, o, i), 0.0), all = fmin(l->mean[k], 0.0);
     if (l->falls[k])
         return -at_rest(s, o, i) - 0.5 * u * u;
-    return g * (l->level[k] - s->level) + l->waves[k] * (l->mean[k] - l->past[k]) - 0.5 * u * u +
-           (l->inlet[k] ? 0.5 * all * all : 0.0);
+    return g * (l->level[k] - s->gravity.level) + l->waves[k] * (l->mean[k] - l->past[k]) -
+           0.5 * u * u + (l->inlet[k] ? 0.5 * all * all : 0.0);
 }
 
 /* Flux outwards by a unit of psi on a face over that in the cell: half a cell away. */

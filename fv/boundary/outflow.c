@@ -159,7 +159,9 @@ void outflow_meet_level(struct fv *s)
 static void find_pull(const struct fv *s, int k, double mean)
 {
     struct outflows *all = s->outflows;
-    const double c = all->waves[k], g = hypot(hypot(s->still[0], s->still[1]), s->still[2]);
+    const double c = all->waves[k],
+                 g = hypot(hypot(s->gravity.hydrostatic[0], s->gravity.hydrostatic[1]),
+                           s->gravity.hydrostatic[2]);
     all->pull[k] = all->hurry[k] = 0.0;
     if (!(c > 0.0))
         return;

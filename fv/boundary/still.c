@@ -7,30 +7,34 @@
 
 #include "../../common/scene/scene_fluid.h"
 
-void still_split(const struct scene *scene, double drive[3], double still[3], double *level)
+struct gravity still_split(const struct scene *scene)
 {
+    struct gravity split = {.level = 0.0};
     double g = 0.0, top = 0.0;
     for (int a = 0; a < scene->domain.dim; a++) {
         const double ga = scene->fluid.gravity[a];
-        drive[a] = scene->domain.periodic[a] ? ga : 0.0;
-        still[a] = ga - drive[a];
-        g += still[a] * still[a];
-        top -= still[a] * (still[a] > 0.0 ? scene->domain.min[a] : scene->domain.max[a]);
+        const double across = scene->domain.periodic[a] ? 0.0 : ga;
+        split.periodic[a] = scene->domain.periodic[a] ? ga : 0.0;
+        split.hydrostatic[a] = across;
+        g += across * across;
+        top -= across * (across > 0.0 ? scene->domain.min[a] : scene->domain.max[a]);
     }
-    *level = scene->initial.level < LEVEL_TOP ? scene->initial.level
-             : g > 0.0                        ? top / sqrt(g)
-                                              : 0.0;
+    if (scene->initial.level < LEVEL_TOP)
+        split.level = scene->initial.level;
+    else if (g > 0.0)
+        split.level = top / sqrt(g);
+    return split;
 }
 
-double still_pressure(const struct scene *scene, const double still[3], double level,
-                      const double *x)
+double still_pressure(const struct scene *scene, const struct gravity *split, const double *x)
 {
+    const double *still = split->hydrostatic;
     double g = 0.0, sum = 0.0;
     for (int a = 0; a < scene->domain.dim; a++) {
         g += still[a] * still[a];
         sum += still[a] * x[a];
     }
-    return scene->fluid.rho * (sqrt(g) * level + sum);
+    return scene->fluid.rho * (sqrt(g) * split->level + sum);
 }
 
 int still_upright(const struct scene *scene)
@@ -65,7 +69,7 @@ double still_creep(const double still[3], double nu, double h)
 
 double fv_still_pressure(const struct fv *s, const double *x)
 {
-    return still_pressure(&s->run->scene, s->still, s->level, x);
+    return still_pressure(&s->run->scene, &s->gravity, x);
 }
 
 double fv_still_in_exact(const struct fv *s, const double *x)

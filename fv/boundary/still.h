@@ -13,9 +13,7 @@ double fv_still_pressure(const struct fv *s, const double *x);
 /* The part of it that the exact solution's pressure holds, too: all of it in a wave, else 0. */
 double fv_still_in_exact(const struct fv *s, const double *x);
 
-/* still.c: along a periodic axis gravity drives the flow; across closed sides the pressure takes it
- * up, 0 at the height `level'. */
-void still_split(const struct scene *scene, double drive[3], double still[3], double *level);
+struct gravity still_split(const struct scene *scene);
 /* Axis along which the gravity that the pressure takes up is strongest; without any the last. */
 int still_upright(const struct scene *scene);
 /* Whether it is neither along an axis nor across all others. */
@@ -25,7 +23,6 @@ bool still_leans(const double still[3]);
 double still_creep(const double still[3], double nu, double h);
 #define STILL_CREEPS 10.0 /* above: it creeps */
 /* That pressure at x, Pa. */
-double still_pressure(const struct scene *scene, const double still[3], double level,
-                      const double *x);
+double still_pressure(const struct scene *scene, const struct gravity *g, const double *x);
 
 #endif

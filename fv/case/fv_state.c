@@ -294,7 +294,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     s->t = r->t;
     s->exact = exact_create(&r->scene);
     s->wave_zones = wave_zones_create(&r->scene);
-    still_split(&r->scene, s->drive, s->still, &s->level);
+    s->gravity = still_split(&r->scene);
     if (blocks)
         mesh_state_create(s);
     else

@@ -136,7 +136,9 @@ static bool measure_alike(const struct fv *s, const struct part *p, double push,
     for (int a = 0; a < m->dim; a++) {
         const double S = fabs(m->S[a][a][first]);
         w[a] = S / V;
-        rise += w[a] * (fabs(s->drive[a] + (s->surface ? s->still[a] : 0.0)) + fmax(push, 0.0));
+        rise +=
+            w[a] * (fabs(s->gravity.periodic[a] + (s->surface ? s->gravity.hydrostatic[a] : 0.0)) +
+                    fmax(push, 0.0));
         least = fmin(least, S);
     }
     const double third = m->dim == 3 ? 1.0 : 0.0;
@@ -180,7 +182,9 @@ static void measure_blocks(struct fv *s, double push, double motion)
                     for (int k = 0; k < m->dim; k++) {
                         const double S = 0.5 * (m->S[a][k][i] + m->S[a][k][i + p->stride[a]]);
                         F += s->u[k][i] * S;
-                        G += (s->drive[k] + (s->surface ? s->still[k] : 0.0)) * S;
+                        G += (s->gravity.periodic[k] +
+                              (s->surface ? s->gravity.hydrostatic[k] : 0.0)) *
+                             S;
                         S2 += S * S;
                     }
                     rate += fabs(F);

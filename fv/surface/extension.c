@@ -360,10 +360,11 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
 {
     static const double origin[3] = {0.0, 0.0, 0.0};
     struct least_squares q;
-    const int dim = s->dim, order = surface_leans(s, p->part) ||
-                                            still_creep(s->still, s->nu, p->spacing) > STILL_CREEPS
-                                        ? 1
-                                        : 2;
+    const int dim = s->dim,
+              order = surface_leans(s, p->part) ||
+                              still_creep(s->gravity.hydrostatic, s->nu, p->spacing) > STILL_CREEPS
+                          ? 1
+                          : 2;
     double e[TERMS] = {0.0}, w[3][STENCIL];
     memset(grad, 0, sizeof(double) * (size_t)(dim * p->n));
     if (fit(s, p, order, false, origin, &q) == 0)
@@ -417,7 +418,7 @@ static bool keep_own(const struct fv *s, int64_t c, const struct place *p)
  * and even; and on blocks that lean rough water at rest grows faster without. */
 static bool may_slow(const struct fv *s, double h)
 {
-    return still_creep(s->still, s->nu, h) > 0.1 && !surface_any_leans(s);
+    return still_creep(s->gravity.hydrostatic, s->nu, h) > 0.1 && !surface_any_leans(s);
 }
 
 static void add_carry(struct fv *s, const struct part *part, int64_t c, int layer)

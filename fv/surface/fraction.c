@@ -30,8 +30,8 @@ static bool any_curved(const struct mesh *m)
 
 const char *fraction_obstacle(const struct run *r, const struct mesh *m, double least)
 {
-    double drive[3], still[3] = {0.0, 0.0, 0.0}, level;
-    still_split(&r->scene, drive, still, &level);
+    const struct gravity split = still_split(&r->scene);
+    const double *still = split.hydrostatic;
     if (r->crossed)
         return "a partner has part of the water";
     if (m && m->moves)
@@ -116,7 +116,7 @@ static int first_axis(const struct fv *s)
 {
     int first = 0;
     for (int a = 1; a < s->dim; a++)
-        if (fabs(s->still[a]) > fabs(s->still[first]))
+        if (fabs(s->gravity.hydrostatic[a]) > fabs(s->gravity.hydrostatic[first]))
             first = a;
     return first;
 }
@@ -235,7 +235,7 @@ static void set_plane(const struct fv *s, const struct part *p, int64_t c)
     double n[3] = {0.0, 0.0, 0.0};
     if (!fraction_normal(s, p, c, n)) /* as water lies */
         for (int a = 0; a < s->dim; a++)
-            n[a] = s->surface->g > 0.0 ? -s->still[a] : a == s->dim - 1;
+            n[a] = s->surface->g > 0.0 ? -s->gravity.hydrostatic[a] : a == s->dim - 1;
     for (int a = 0; a < s->dim; a++)
         f->n[a][c] = n[a];
     f->alpha[c] = plane_alpha(s->dim, n, f->C[c]);

@@ -149,7 +149,7 @@ static void rate_on_blocks(const struct fv *s, const double *near, const double 
 static void rate_on_moving_blocks(const struct fv *s, const double *near, const double *eta,
                                   double *rate)
 {
-    const double *g = s->still;
+    const double *g = s->gravity.hydrostatic;
     rate_on_blocks(s, near, eta, rate);
     FLOW_NEAR_AT (s, part, j, c, n) {
         const double band = BAND * surface_mesh_spacing(s, part);
@@ -461,7 +461,7 @@ struct surface *levelset_create(const struct fv *s)
         return NULL;
     struct surface *f = NEW(struct surface, 1);
     double **const fields[] = {&f->phi, &f->phi_new, &f->rate, &f->kept, &f->stress};
-    const double *g = s->still;
+    const double *g = s->gravity.hydrostatic;
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
         *fields[k] = NEW(double, s->size);
     for (int a = 0; a < s->dim; a++)

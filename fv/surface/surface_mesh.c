@@ -46,7 +46,7 @@ bool surface_any_leans(const struct fv *s)
 /* Whether some edge of the block is neither along gravity nor across it. */
 static bool is_slanting(const struct fv *s, const struct mesh_block *b)
 {
-    const double *g = s->still, g2 = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+    const double *g = s->gravity.hydrostatic, g2 = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
     int i[3];
     for (i[2] = 0; i[2] <= (s->dim == 3 ? b->n[2] : 0); i[2]++)
         for (i[1] = 0; i[1] <= b->n[1]; i[1]++)
@@ -115,7 +115,7 @@ static void set_metric(const struct fv *s, const struct part *p, struct surface_
  * lines that are steeper than 45 degrees. */
 static double across_gravity(const struct fv *s, const struct surface_mesh *w, int64_t c, int64_t d)
 {
-    const double *g = s->still, size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    const double *g = s->gravity.hydrostatic, size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     double e2 = 0.0, up = 0.0;
     for (int k = 0; k < s->dim; k++) {
         const double e = 0.5 * (w->x[k][c + d] - w->x[k][c - d]);
@@ -174,7 +174,7 @@ static void set_part_out(const struct fv *s, const struct part *p, unsigned char
 /* Heights of centres. */
 static void set_height(const struct fv *s, struct surface_mesh *w)
 {
-    const double *g = s->still, size = s->surface ? s->surface->g : 0.0;
+    const double *g = s->gravity.hydrostatic, size = s->surface ? s->surface->g : 0.0;
     for (int64_t c = 0; c < s->size && size > 0.0; c++) {
         w->height[c] = 0.0;
         for (int k = 0; k < s->dim; k++)

@@ -23,7 +23,7 @@ double surface_rise(const struct fv *s, const double *e)
     const double g = s->surface->g;
     double up = 0.0;
     for (int a = 0; a < s->dim && g > 0.0; a++)
-        up -= e[a] * s->still[a] / g;
+        up -= e[a] * s->gravity.hydrostatic[a] / g;
     return s->surface->rise * g * fmax(0.0, up) / fmax(up * up, 0.5);
 }
 

@@ -524,7 +524,7 @@ void moving_save(const struct fv *s, struct h5 *f)
     h5_attribute_real(f, "t_cut", v->t_cut);
     h5_attribute_real(f, "t_rows", v->t_rows);
     h5_attribute_real(f, "fresh", v->fresh);
-    h5_attribute_real(f, "level", s->level); /* found where blocks stood at the start */
+    h5_attribute_real(f, "level", s->gravity.level); /* found where blocks stood at the start */
 }
 
 /* The hierarchy is made of the matrix that it had, then cells and donors are those of the last
@@ -538,7 +538,7 @@ bool moving_restore(struct fv *s, struct h5 *f)
     if (!h5_read_attribute_real(f, "t_cut", &t_cut) ||
         !h5_read_attribute_real(f, "t_rows", &t_rows) ||
         !h5_read_attribute_real(f, "fresh", &fresh) ||
-        !h5_read_attribute_real(f, "level", &s->level))
+        !h5_read_attribute_real(f, "level", &s->gravity.level))
         return false;
     if (s->m->has_fringe && fresh > 0.0 && !s->surface) {
         double *zw = mesh_field(s->m);

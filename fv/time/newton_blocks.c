@@ -164,7 +164,7 @@ static void evaluate(struct fv *s)
             mesh_viscous(s, s->u[a], s->delta[a]);
         FLOW_ROWS (s, c, n)
             for (int64_t i = c; i < c + n; i++)
-                s->rhs[a][i] = s->N[a][i] + w->G[a][i] - s->delta[a][i] - s->drive[a];
+                s->rhs[a][i] = s->N[a][i] + w->G[a][i] - s->delta[a][i] - s->gravity.periodic[a];
     }
     s->ops->to_index(s);
     mesh_divergence(s, s->U, s->face);

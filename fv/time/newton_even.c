@@ -190,7 +190,7 @@ static void apply_space(struct fv *s, const struct flow *v)
     for (int q = 0; q < b->dim; q++) {
         const double *restrict G = v ? v->G[q] : s->newton->G[q];
         double *restrict out = s->rhs[q];
-        const double drive = v ? 0.0 : s->drive[q];
+        const double drive = v ? 0.0 : s->gravity.periodic[q];
         if (s->nu > 0.0)
             viscous_apply(s, v ? v->u[q] : s->u[q], out);
         else

@@ -82,7 +82,7 @@ static void stage_rhs(struct fv *s, double dt, double ab, double gamma, double z
     for (int a = 0; a < s->dim; a++) {
         double *restrict r = s->rhs[a];
         const double *restrict g = s->step_p[a], *restrict N = s->N[a], *restrict M = s->N_old[a];
-        const double drive = s->drive[a];
+        const double drive = s->gravity.periodic[a];
         if (s->nu > 0.0)
             s->ops->viscous(s, a, r);
         else

@@ -96,7 +96,7 @@ static void set_level(struct fv *s)
     MPI_Allreduce(MPI_IN_PLACE, &top, 1, MPI_DOUBLE, MPI_MAX, s->comm);
     if (s->run->scene.initial.level < LEVEL_TOP || !isfinite(top) || f->g == 0.0)
         return;
-    s->level += top / f->g;
+    s->gravity.level += top / f->g;
     rebuild(s);
 }
 

@@ -238,7 +238,8 @@ static struct flow_energy energy_of(struct fv *s)
     double sums[6] = {0.0};
     sum_energy(s, sums);
     for (int a = 0; a < s->dim; a++)
-        sums[5] += (s->drive[a] + (s->surface ? s->still[a] : 0.0)) * sums[a];
+        sums[5] +=
+            (s->gravity.periodic[a] + (s->surface ? s->gravity.hydrostatic[a] : 0.0)) * sums[a];
     MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, s->comm);
     return (struct flow_energy){.kinetic = sums[3],
                                 .momentum = {sums[0], sums[1], sums[2]},

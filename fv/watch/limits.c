@@ -195,10 +195,11 @@ static double gradient_along(const struct scene *s, const struct fv_params *p, i
 static double rise_of(const struct scene *s, const struct fv_params *p, bool surface,
                       const double *h)
 {
-    double drive[3], still[3], level, sum = 0.0;
-    still_split(s, drive, still, &level);
+    const struct gravity split = still_split(s);
+    double sum = 0.0;
     for (int a = 0; a < s->domain.dim; a++)
-        sum += (fabs(surface ? s->fluid.gravity[a] : drive[a]) + gradient_along(s, p, a)) / h[a];
+        sum += (fabs(surface ? s->fluid.gravity[a] : split.periodic[a]) + gradient_along(s, p, a)) /
+               h[a];
     return sum;
 }
 
@@ -356,7 +357,7 @@ double limits_next_motion(const struct fv *s) { return grid_motion_event(&s->gri
 
 double fv_speed(const struct fv *s, int a)
 {
-    const bool driven = s->drive[a] != 0.0 || (s->bc && s->bc->driven);
+    const bool driven = s->gravity.periodic[a] != 0.0 || (s->bc && s->bc->driven);
     return fmax(fmax(s->max.u[a], s->bc ? s->bc->speed_along[a] : 0.0),
                 driven ? s->speed.scene : 0.0);
 }

@@ -275,8 +275,7 @@ static void run_blocks(struct run *r, struct seen *seen)
             see(seen, "row", row[q]);
     }
     const double foot[3] = {0.1, 0.1, 0.1};
-    see_fields(seen, s->u, s->p, s->m->size_local,
-               still_pressure(&r->scene, s->still, s->level, foot));
+    see_fields(seen, s->u, s->p, s->m->size_local, still_pressure(&r->scene, &s->gravity, foot));
     fv_finish(s);
     fv_free(&s);
 }
