@@ -119,6 +119,18 @@ struct fv_totals {
     double fastest;             /* m/s: largest |u_a| in the rows of the series */
 };
 
+/* What a coupled job adds to the flow, all 0 alone; coupling/ fills it. */
+struct fv_partners {
+    int n;
+    double box[PARTNERS_MAX][2][3]; /* m: that each counts as its own */
+    bool moves[3];                  /* one of these moves along the axis */
+    double pressure;                /* Pa: theirs over ours, to be added in output */
+    double *past[2][3];  /* m/s: u where the last coupling step began and the one before; NULL: no
+                          * box  moves */
+    unsigned char *born; /* of blocks with bdf2: 1: computed since born_at, when the box moved */
+    double born_at;      /* s */
+};
+
 struct fv {
     struct run *run;
     struct fv_params prm;
@@ -182,13 +194,7 @@ struct fv {
     struct newton *newton;
     struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;
-    double datum; /* Pa: the partner's pressure over ours, to be added in output; 0 alone */
-    int npartners;
-    double partner[PARTNERS_MAX][2][3]; /* m: box that each partner counts as its own */
-    bool partner_moves[3];              /* one of these moves along the axis */
-    double *past[2][3];  /* m/s: then, where the last coupling step began and the one before */
-    unsigned char *born; /* of blocks with bdf2: 1: computed since born_at, when the box moved */
-    double born_at;      /* s */
+    struct fv_partners partners;
     struct watches *watches; /* watches.h */
     int nhistory;
     double (*history)[3]; /* t, force x, force y of each row of the series */

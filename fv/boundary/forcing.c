@@ -278,7 +278,7 @@ struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2]
     f->dim = s->dim;
     f->from_partner = partner;
     f->whole = partner && s->surface;
-    f->near = NEAR + (partner && s->past[0][0] ? AHEAD : 0);
+    f->near = NEAR + (partner && s->partners.past[0][0] ? AHEAD : 0);
     f->forced = NEW(unsigned char, s->size);
     f->layer = NEW(unsigned char, s->size);
     if (count_kind(s, f, n, box) == 0) {

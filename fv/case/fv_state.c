@@ -354,11 +354,8 @@ void fv_free(struct fv **sp)
             mem_free(all[k]);
         for (int k = 0; k < 4; k++)
             mem_free(s->krylov[k][a]);
-        for (int k = 0; k < 2; k++)
-            mem_free(s->past[k][a]);
     }
     mem_free(s->history);
-    mem_free(s->born);
     if (s->m)
         mesh_state_free(s);
     else

@@ -32,7 +32,8 @@ static void fill(struct fv *s)
 {
     const struct mesh *m = s->m;
     const bool at_rest = s->run->scene.initial.field == FIELD_REST || s->ring >= 0;
-    const bool all = m->moves || s->partner_moves[0] || s->partner_moves[1] || s->partner_moves[2];
+    const bool all =
+        m->moves || s->partners.moves[0] || s->partners.moves[1] || s->partners.moves[2];
     double least = INFINITY, most = 0.0;
     for (int q = 0; q < m->nparts; q++) {
         const struct part *p = m->part + q;
@@ -92,7 +93,7 @@ void mesh_state_create(struct fv *s)
     if (r->coupled)
         coupling_boxes(s, box);
     s->m = r->coupled
-               ? mesh_take(r, &s->prm.blocks, s->npartners, (const double(*)[2][3])box, &faults)
+               ? mesh_take(r, &s->prm.blocks, s->partners.n, (const double(*)[2][3])box, &faults)
                : mesh_take(r, &s->prm.blocks, fv_hole(&s->prm) != NULL, fv_hole(&s->prm), &faults);
     if (!s->m && r->coupled)
         coupling_refuse(s, faults.text);

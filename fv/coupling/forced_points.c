@@ -27,7 +27,7 @@ static int points_of(const struct fv *s, int64_t i, double h, double *x)
     const struct part *p = grid_part(&s->grid, c, at);
     grid_lengths(&s->grid, p, at, length);
     for (int a = 0; a < s->dim; a++)
-        if (s->m ? s->past[0][0] != NULL : a == 1 && s->b.rows)
+        if (s->m ? s->partners.past[0][0] != NULL : a == 1 && s->b.rows)
             n[a] = divide(length[a], h, apart + a);
     const int all = n[0] * n[1] * n[2];
     if (x && all == 1)

@@ -203,7 +203,7 @@ static void meet_giver(struct fv *s, const struct link *k, struct giver *g)
     find_zone(k, g, "moves", number, number);
     for (int a = 0; a < 3; a++) {
         g->moves = g->moves || number[a] != 0.0;
-        s->partner_moves[a] = s->partner_moves[a] || number[a] != 0.0;
+        s->partners.moves[a] = s->partners.moves[a] || number[a] != 0.0;
     }
     find_zone(k, g, "pace", number, number);
     g->pace = number[0];
@@ -222,12 +222,12 @@ void coupling_boxes(struct fv *s, double box[PARTNERS_MAX][2][3])
         strcpy(names[0], "sph");
         k->n = 1;
     }
-    s->npartners = k->n;
+    s->partners.n = k->n;
     for (int q = 0; q < k->n; q++) {
         struct giver *g = k->of + q;
         memcpy(g->name, names[q], sizeof g->name);
         meet_giver(s, k, g);
-        memcpy(s->partner[q], g->free, sizeof g->free);
+        memcpy(s->partners.box[q], g->free, sizeof g->free);
         memcpy(box[q], g->given, sizeof g->given);
     }
 }
@@ -345,12 +345,12 @@ static int longest_memory(const struct link *k)
 /* Where the next window begins. */
 static void remember(struct fv *s)
 {
-    if (s->past[0][0])
+    if (s->partners.past[0][0])
         grid_fill(&s->grid, s->dim, s->u);
-    for (int a = 0; a < s->dim && s->past[0][a]; a++) {
-        double *const oldest = s->past[1][a];
-        s->past[1][a] = s->past[0][a];
-        s->past[0][a] = oldest;
+    for (int a = 0; a < s->dim && s->partners.past[0][a]; a++) {
+        double *const oldest = s->partners.past[1][a];
+        s->partners.past[1][a] = s->partners.past[0][a];
+        s->partners.past[0][a] = oldest;
         memcpy(oldest, s->u[a], (size_t)s->size * sizeof *oldest);
     }
 }
@@ -362,13 +362,13 @@ static void start_past(struct fv *s, double before)
     double u[3];
     for (int m = 0; m < 2; m++)
         for (int a = 0; a < s->dim; a++)
-            memcpy(s->past[m][a], s->u[a], (size_t)s->size * sizeof(double));
+            memcpy(s->partners.past[m][a], s->u[a], (size_t)s->size * sizeof(double));
     for (int m = 0; m < 2 && exact; m++)
         FLOW_ROWS (s, at, n)
             for (int64_t c = at; c < at + n; c++) {
                 forcing_average(s, c, s->t - (m + 1) * before, u, NULL);
                 for (int a = 0; a < s->dim; a++)
-                    s->past[m][a][c] = u[a];
+                    s->partners.past[m][a][c] = u[a];
             }
 }
 
@@ -387,7 +387,7 @@ void fv_coupling_create(struct fv *s)
     struct link *k = s->link;
     double all[PARTNERS_MAX][2][3];
     given_boxes(k, all);
-    if (s->partner_moves[0] || s->partner_moves[1] || s->partner_moves[2])
+    if (s->partners.moves[0] || s->partners.moves[1] || s->partners.moves[2])
         moved_box_prepare(s, (const double(*)[2][3])all);
     s->forcing = forcing_create(s, k->n, (const double(*)[2][3])all, true);
     if (!s->forcing)
@@ -430,6 +430,7 @@ void fv_coupling_free(struct fv *s)
     forced_points_free(&k->points);
     mem_free(k);
     s->link = NULL;
+    moved_box_free(s);
 }
 
 /* A flow of constant density knows its pressure up to a constant: the partner has it. */
@@ -446,7 +447,7 @@ static void find_datum(struct fv *s)
         sum[1] += 1.0;
     }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm);
-    s->datum = sum[1] > 0.0 ? sum[0] / sum[1] : s->datum;
+    s->partners.pressure = sum[1] > 0.0 ? sum[0] / sum[1] : s->partners.pressure;
 }
 
 static void put(struct fv *s)
@@ -495,7 +496,7 @@ void coupling_first(void *state)
         const double before = s->exact.U > 0.0 ? 1e-3 * s->exact.L / s->exact.U : 1e-3;
         if (f)
             start_forced(s, before);
-        if (s->past[0][0])
+        if (s->partners.past[0][0])
             start_past(s, before);
         course_start(s, k->course, before);
     }
@@ -585,7 +586,7 @@ static bool stand(struct fv *s)
     for (int q = 0; q < k->n; q++)
         for (int side = 0; side < 2; side++)
             for (int a = 0; a < 3; a++)
-                s->partner[q][side][a] = k->of[q].free[side][a] + k->of[q].stands[a];
+                s->partners.box[q][side][a] = k->of[q].free[side][a] + k->of[q].stands[a];
     given_boxes(k, box);
     const bool moved = moved_box(s, k->n, (const double(*)[2][3])box, k->lost);
     if (moved && s->m && !*k->lost)
@@ -600,7 +601,7 @@ bool coupling_stand(struct fv *s, struct h5 *f)
 {
     double way[12 * PARTNERS_MAX];
     struct link *k = s->link;
-    if (!k || !s->past[0][0])
+    if (!k || !s->partners.past[0][0])
         return true;
     if (!h5_read_same(f, "partners_way", 12 * k->n, way))
         return false;
@@ -610,8 +611,8 @@ bool coupling_stand(struct fv *s, struct h5 *f)
     }
     k->has_moved = true;
     (void)stand(s);
-    for (int64_t c = 0; s->born && c < s->size; c++)
-        s->born[c] = 0;
+    for (int64_t c = 0; s->partners.born && c < s->size; c++)
+        s->partners.born[c] = 0;
     return true;
 }
 
@@ -724,8 +725,8 @@ void coupling_save(const struct fv *s, struct h5 *f)
 {
     const struct forcing *c = s->forcing;
     course_save(s, s->link->course, f);
-    h5_attribute_real(f, "datum", s->datum);
-    if (s->past[0][0])
+    h5_attribute_real(f, "datum", s->partners.pressure);
+    if (s->partners.past[0][0])
         save_ways(s->link, f);
     if (s->surface) {
         water_budget_save(&s->link->of_water, f);
@@ -738,7 +739,8 @@ void coupling_save(const struct fv *s, struct h5 *f)
 bool coupling_load(struct fv *s, struct h5 *f)
 {
     struct forcing *c = s->forcing;
-    bool good = course_load(s, s->link->course, f) && h5_read_attribute_real(f, "datum", &s->datum);
+    bool good = course_load(s, s->link->course, f) &&
+                h5_read_attribute_real(f, "datum", &s->partners.pressure);
     if (!c || !good)
         return good;
     good = forced_load(s, f);

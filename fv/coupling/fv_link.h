@@ -6,7 +6,7 @@
 #include "../fv.h"
 
 /* fv_coupling.c: the only file here that knows cpl.h. */
-/* Meets the partners (s->npartners): the boxes whose cells they give. Before the blocks are made.
+/* Meets the partners (s->partners.n): the boxes whose cells they give. Before the blocks are made.
  */
 void coupling_boxes(struct fv *s, double box[PARTNERS_MAX][2][3]);
 /* Ends the job: for want of something that this reason says. */

@@ -32,7 +32,8 @@ static void carry(const struct fv *s, struct forcing *to)
         for (int a = 0; a < s->dim; a++) {
             const double *v = m == 0 ? from->v_next[a] : m == 1 ? from->v[a] : from->v_old[a];
             double *w = m == 0 ? to->v_next[a] : m == 1 ? to->v[a] : to->v_old[a];
-            memcpy(field, m == 0 ? s->u[a] : s->past[m - 1][a], (size_t)s->size * sizeof *field);
+            memcpy(field, m == 0 ? s->u[a] : s->partners.past[m - 1][a],
+                   (size_t)s->size * sizeof *field);
             for (int64_t i = 0; i < from->npartner + from->nrim; i++)
                 field[from->partner[i]] = v[i];
             for (int64_t i = 0; i < to->npartner + to->nrim; i++)
@@ -92,8 +93,8 @@ static int past_fields(const struct fv *s, double **f)
     int n = 0;
     for (int a = 0; a < s->dim; a++) {
         f[n++] = s->u[a];
-        f[n++] = s->past[0][a];
-        f[n++] = s->past[1][a];
+        f[n++] = s->partners.past[0][a];
+        f[n++] = s->partners.past[1][a];
     }
     if (s->surface)
         f[n++] = s->surface->phi;
@@ -162,9 +163,9 @@ static struct forcing *cut_anew(struct fv *s, const double (*box)[2][3], char wh
     else
         cut(s, (const double(*)[2][3])old.box);
     *m->trouble = '\0';
-    for (int64_t c = 0; s->born && to && c < s->size; c++)
-        s->born[c] = m->status[c] == CELL_COMPUTED && local[c] != CELL_COMPUTED;
-    s->born_at = s->t;
+    for (int64_t c = 0; s->partners.born && to && c < s->size; c++)
+        s->partners.born[c] = m->status[c] == CELL_COMPUTED && local[c] != CELL_COMPUTED;
+    s->partners.born_at = s->t;
     for (int k = 0; k < m->nblocks; k++)
         mem_free(was[k]);
     mem_free(local);
@@ -185,14 +186,23 @@ void moved_box_prepare(struct fv *s, const double (*box)[2][3])
 {
     for (int m = 0; m < 2; m++)
         for (int a = 0; a < s->dim; a++)
-            s->past[m][a] = NEW(double, s->size);
+            s->partners.past[m][a] = NEW(double, s->size);
     if (!s->m)
         return;
     if (s->prm.integrator == INTEGRATOR_BDF2)
-        s->born = NEW(unsigned char, s->size);
+        s->partners.born = NEW(unsigned char, s->size);
     s->m->search = overset_search(s->run, s->m);
     s->m->given.layers += AHEAD;
     cut(s, box);
+}
+
+void moved_box_free(struct fv *s)
+{
+    for (int m = 0; m < 2; m++)
+        for (int a = 0; a < 3; a++)
+            mem_free(s->partners.past[m][a]);
+    mem_free(s->partners.born);
+    s->partners = (struct fv_partners){.n = 0};
 }
 
 /* The lists for these boxes; NULL: they are the same, or none can be. */

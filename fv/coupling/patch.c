@@ -139,7 +139,7 @@ static int finest_at(const struct fv *s, const struct overset *o, const struct p
         const double *lo = by->box[q][0], *hi = by->box[q][1];
         double from[3], to[3], here;
         for (int a = 0; a < 3; a++) {
-            const bool moves = s->m->search && s->partner_moves[a];
+            const bool moves = s->m->search && s->partners.moves[a];
             from[a] = moves ? d->min[a] : 0.5 * (lo[a] + hi[a]);
             to[a] = moves ? d->max[a] : 0.5 * (lo[a] + hi[a]);
         }
@@ -276,7 +276,7 @@ static void make_grid(const struct fv *s, int k, const double *lo, const double 
     for (int a = 0; a < 3; a++) {
         p->cells[a] = 1;
         p->h[a] = 1.0;
-        if (a < s->dim && s->partner_moves[a])
+        if (a < s->dim && s->partners.moves[a])
             set_axis(s, b, a, d->min[a], d->max[a], h, p);
         else if (a < s->dim)
             set_axis(s, b, a, lo[a], hi[a], h, p);
@@ -325,7 +325,7 @@ bool patch_create(const struct fv *s, int n, const double (*box)[2][3], const do
         return create_on_blocks(s, &by, p, where);
     of_grid(s, p);
     find_hull(&by, lo, hi);
-    if (s->b.rows && box && (s->partner_moves[1] || !in_even_rows(s, lo[1])))
+    if (s->b.rows && box && (s->partners.moves[1] || !in_even_rows(s, lo[1])))
         blend_grid(&s->b, p);
     p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
     return true;

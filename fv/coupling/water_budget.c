@@ -57,7 +57,7 @@ static double share_beyond(const struct fv *s, int n, const double (*box)[2][3],
 
 double water_budget_share(const struct fv *s, const double *x, const double *h)
 {
-    return share_beyond(s, s->npartners, s->partner, x, h);
+    return share_beyond(s, s->partners.n, s->partners.box, x, h);
 }
 
 /* The same of what partners count now. */

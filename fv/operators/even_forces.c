@@ -53,7 +53,8 @@ void even_face_force(const struct fv *s, const struct side_face *f, double sum[4
         p[n] = fv_pressure(s, deep ? c + n * in : c);
     block_centre(b, at[0], at[1], at[2], x);
     x[f->a] += 0.5 * out * block_size(b, f->a, at[f->a]);
-    sum[f->a] += out * f->flow_area * (wall_pressure(p, slip) + fv_still_pressure(s, x) + s->datum);
+    sum[f->a] += out * f->flow_area *
+                 (wall_pressure(p, slip) + fv_still_pressure(s, x) + s->partners.pressure);
     for (int q = 0; q < b->dim && !(slip && f->body); q++)
         sum[q] +=
             f->flow_area * mu / (12.0 * block_size(b, f->a, at[f->a])) * slope_at(s->u[q] + c, f);

@@ -129,7 +129,7 @@ static double still_on_face(const struct fv *s, const struct side_face *d, doubl
 {
     double x[3], dx[3][3];
     place_on(s, d, xi, x, dx);
-    return fv_still_pressure(s, x) + s->datum;
+    return fv_still_pressure(s, x) + s->partners.pressure;
 }
 
 /* On a slip wall no friction. */

@@ -41,7 +41,7 @@ static void pressure(struct fv *s, double *const q[3])
 {
     FLOW_ROWS (s, c, n)
         for (int64_t i = c; i < c + n; i++)
-            q[0][i] = fv_pressure(s, i) + s->datum;
+            q[0][i] = fv_pressure(s, i) + s->partners.pressure;
     if (!s->surface) /* p ends there: no differences */
         flow_to_volume(s, q[0]);
     for (const struct part *p = s->part; p < s->part + s->nparts; p++) {
@@ -220,7 +220,7 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
     else
         write_frame(s, f);
     if (s->run->coupled) /* Pa: what the pressures below have of the partner's level */
-        h5_attribute_real(f, "datum", s->datum);
+        h5_attribute_real(f, "datum", s->partners.pressure);
     for (int k = 0; k < grid_blocks(&s->grid); k++)
         if (in_blocks(s) || (s->dim == 2 && strcmp(file, first_snapshot) == 0))
             write_vertices(s, f, k);

@@ -70,7 +70,7 @@ static int read_out(const struct fv *s, const struct scene_probe *g, const doubl
     for (int a = 0; a < nq; a++)
         values[a] = dry ? NAN : sum[a];
     if (g->kind == PROBE_PRESSURE && !out)
-        *values = dry ? 0.0 : *sum + fv_still_pressure(s, g->at) + s->datum;
+        *values = dry ? 0.0 : *sum + fv_still_pressure(s, g->at) + s->partners.pressure;
     return nq + 1;
 }
 

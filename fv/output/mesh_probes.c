@@ -42,13 +42,13 @@ static void levels_along(struct fv *s, const double *at, int up, bool down, doub
 static bool is_known(const struct fv *s, const double *at, int up)
 {
     const struct scene_domain *d = &s->run->scene.domain;
-    for (int n = 0; n <= ALONG && s->past[0][0]; n++) {
+    for (int n = 0; n <= ALONG && s->partners.past[0][0]; n++) {
         double x[3] = {at[0], at[1], at[2]};
         x[up] = d->min[up] + n * (d->max[up] - d->min[up]) / ALONG;
         if (mesh_covers(s, s->search, x))
             return true;
     }
-    return !s->past[0][0];
+    return !s->partners.past[0][0];
 }
 
 /* Place along gravity of the highest water over x; the domain's end if there is none, NAN where
@@ -82,7 +82,7 @@ static void share_at(const struct fv *s, const double *x, double here[FLOW_VALUE
 
 bool mesh_is_out(const struct fv *s, const double *x)
 {
-    return (s->m->moves || s->past[0][0]) && !mesh_covers(s, s->search, x);
+    return (s->m->moves || s->partners.past[0][0]) && !mesh_covers(s, s->search, x);
 }
 
 static void point_of(const struct fv *s, const double *x, int nq, double *const *q, double *here)

@@ -64,8 +64,8 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
                 names[n++] = starts[k][a];
             }
         for (int k = 0; k < 2; k++)
-            if (s->past[k][a]) {
-                f[n] = s->past[k][a];
+            if (s->partners.past[k][a]) {
+                f[n] = s->partners.past[k][a];
                 names[n++] = pasts[k][a];
             }
     }

@@ -37,14 +37,14 @@ void stage_set_slip(struct fv *s, double tau, const double *psi)
 static void begin_born(struct fv *s, double *const N[3])
 {
     for (int64_t c = 0; c < s->size; c++)
-        for (int a = 0; a < s->dim && s->born[c]; a++)
+        for (int a = 0; a < s->dim && s->partners.born[c]; a++)
             s->N_old[a][c] = N[a][c];
 }
 
 void stage_convection(struct fv *s, double *const N[3])
 {
     s->ops->convection(s, N);
-    if (s->born && s->t == s->born_at)
+    if (s->partners.born && s->t == s->partners.born_at)
         begin_born(s, N);
     if (s->moving)
         moving_convection(s, N);

@@ -56,7 +56,7 @@ static void row_of(const char *text, double *row, const char **columns)
     assert_int_equal(params_report(&f), 0);
     struct fv *s = fv_create(&run, NULL);
     integrate(s, 0.1, &d);
-    s->datum = datum;
+    s->partners.pressure = datum;
     if (columns)
         fv_columns(&run, fv_params_of(&run), columns);
     fv_row(s, row);
